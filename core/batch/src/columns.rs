@@ -176,7 +176,7 @@ fn from<T>(column: *mut T, i: usize) -> *mut T {
 }
 
 #[track_caller]
-fn pointer<T>(column: &mut [T], n: usize) -> *mut T {
+pub(crate) fn pointer<T>(column: &mut [T], n: usize) -> *mut T {
     if column.is_empty() {
         return core::ptr::null_mut();
     }

@@ -3,6 +3,7 @@
 //! Columns are raw pointers, since callers in other languages pass them so, since an output may be null, and since an output may be
 //! the same memory as an input.
 
+use crate::map::{BatchMap, MOST_NUMBERS, MOST_RESULTS};
 use crate::technique::{BatchSampler, BatchTechnique};
 use crate::warp::BatchWarp;
 use crate::{ChoiceColumns, Counters, EvaluationColumns, SampleColumns};
@@ -120,12 +121,19 @@ impl Place {
                 self.store(out.uv[1], s.uv.y);
             }
         }
-        if !out.emits.is_null() {
-            let bits = s.emits.bits();
-            for lane in 0..self.count {
-                // SAFETY: the caller's column has an element for every lane below `count`
-                unsafe { out.emits.add(self.at + lane).write((bits >> lane & 1) as u8) };
-            }
+        // SAFETY: the caller's
+        unsafe { self.store_mask(out.emits, s.emits) };
+    }
+    /// Writes a column of truths, unless it is null.
+    #[inline(always)]
+    unsafe fn store_mask<M: Mask>(self, column: *mut u8, mask: M) {
+        if column.is_null() {
+            return;
+        }
+        let bits = mask.bits();
+        for lane in 0..self.count {
+            // SAFETY: the caller's column has an element for every lane below `count`
+            unsafe { column.add(self.at + lane).write((bits >> lane & 1) as u8) };
         }
     }
 }
@@ -149,12 +157,12 @@ pub(crate) unsafe extern "C" fn prepare<T: BatchTechnique>(
     out: *mut T,
 ) {
     // SAFETY: the caller's memory has room for it
-    unsafe { out.write_unaligned(T::of(T::prepare::<f32>(*light, p, normal))) };
+    unsafe { out.write_unaligned(T::prepared(*light, p, normal)) };
 }
 
 /// True where one element alone is not worth a packet: to repeat a large sampler in all lanes takes longer than to use it once.
-const fn is_for_one<T, R: Packet>(n: usize) -> bool {
-    n == 1 && R::LANES > 1 && size_of::<T>() > 512
+const fn is_for_one<T: BatchSampler, R: Packet>(n: usize) -> bool {
+    n == 1 && R::LANES > 1 && (size_of::<T>() > 512 || T::PREPARES)
 }
 
 /// Stands for [`prepare`] in tables that are not asked for it.
@@ -394,6 +402,25 @@ pub(crate) unsafe extern "C" fn warp_invert<W: BatchWarp, R: Packet>(
         if W::NUMBERS == 2 {
             place.store(out.y, u.y);
         }
+    });
+}
+
+/// The results of a map, and where they hold.
+pub(crate) unsafe extern "C" fn map<M: BatchMap, R: Packet>(
+    map: &M,
+    n: usize,
+    numbers: &[*const f32; MOST_NUMBERS],
+    out: &[*mut f32; MOST_RESULTS],
+    holds: *mut u8,
+) {
+    // SAFETY: the caller's columns have `n` elements
+    packets(n, R::LANES, |place| unsafe {
+        let x = core::array::from_fn(|k| if k < M::NUMBERS { place.load(numbers[k]) } else { R::lit(0.0) });
+        let (results, mask) = map.map::<R>(x);
+        for (&column, result) in out.iter().zip(results).take(M::RESULTS) {
+            place.store(column, result);
+        }
+        place.store_mask(holds, mask);
     });
 }
 

@@ -31,13 +31,24 @@
 
 mod columns;
 mod kernel;
+mod map;
+mod placed;
 mod table;
 mod technique;
 mod warp;
 
 pub use columns::{ChoiceColumns, Choices, Counters, EvaluationColumns, Evaluations, SampleColumns, Samples};
 pub use kernel::Views;
-pub use table::{InTable, LightFunctions, SamplerFunctions, SequenceFunctions, Table, TreeFunctions, WarpFunctions};
+pub use map::{
+    BatchMap, ConeSeenThroughPortals, DirectionOfImage, MOST_NUMBERS, MOST_RESULTS, PlaceInImage, SeenThroughPortals,
+};
+pub use placed::{
+    PictureByArea, PictureByProjectedSolidAngle, PictureBySolidAngle, PictureOnPatchByVisibleArea,
+    PictureOnSphereByVisibleArea, PortalsByRadiance,
+};
+pub use table::{
+    InTable, LightFunctions, MapFunctions, SamplerFunctions, SequenceFunctions, Table, TreeFunctions, WarpFunctions,
+};
 pub use technique::{BatchSampler, BatchTechnique};
 pub use warp::BatchWarp;
 
@@ -139,14 +150,11 @@ impl Batch {
     }
 
     /// Prepares a light for the point `p` of a surface with the unit normal `n`.
-    pub fn prepare<T>(&self, light: &T::Light<f32>, p: Vec3<f32>, n: Vec3<f32>) -> T
-    where
-        T: BatchTechnique + InTable<Functions = LightFunctions<T>>,
-    {
+    pub fn prepare<T: BatchTechnique>(&self, light: &T::Light<f32>, p: Vec3<f32>, n: Vec3<f32>) -> T {
         let mut out = core::mem::MaybeUninit::<T>::uninit();
         // SAFETY: the function writes a whole sampler
         unsafe {
-            (T::functions(self.prepare).prepare)(light, p, n, out.as_mut_ptr());
+            (T::light_functions(self.prepare).prepare)(light, p, n, out.as_mut_ptr());
             out.assume_init()
         }
     }
@@ -160,39 +168,35 @@ impl Batch {
     }
     /// Prepares a light of its own for each element, for the point `p` of a surface with the unit normal `n`, and samples it. Techniques
     /// that need no normal do not read `n`, which may be empty.
-    pub fn sample_each<T>(
+    pub fn sample_each<T: BatchTechnique>(
         &self,
         lights: T::Light<&[f32]>,
         p: Vec3<&[f32]>,
         n: Vec3<&[f32]>,
         u: Vec2<&[f32]>,
         out: Samples<'_>,
-    ) where
-        T: BatchTechnique + InTable<Functions = LightFunctions<T>>,
-    {
+    ) {
         let count = u.x.len();
         check(count, [u.y.len()]);
         let (views, out) = (views::<T>(count, lights, p, n), out.columns(count));
         // SAFETY: all columns have `count` elements, and the outputs are borrowed mutably
-        unsafe { (self.functions::<T>().sample_each)(&views, count, u.map(<[f32]>::as_ptr), &out) };
+        unsafe { (T::light_functions(self.table).sample_each)(&views, count, u.map(<[f32]>::as_ptr), &out) };
     }
     /// Prepares a light of its own for each element, as [`sample_each`](Self::sample_each) does, and evaluates it in the unit direction `w`.
     /// What is not wanted is not computed.
-    pub fn evaluate_each<T>(
+    pub fn evaluate_each<T: BatchTechnique>(
         &self,
         lights: T::Light<&[f32]>,
         p: Vec3<&[f32]>,
         n: Vec3<&[f32]>,
         w: Vec3<&[f32]>,
         out: Evaluations<'_>,
-    ) where
-        T: BatchTechnique + InTable<Functions = LightFunctions<T>>,
-    {
+    ) {
         let count = w.x.len();
         check(count, [w.y.len(), w.z.len()]);
         let (views, out) = (views::<T>(count, lights, p, n), out.columns(count));
         // SAFETY: all columns have `count` elements, and the outputs are borrowed mutably
-        unsafe { (self.functions::<T>().evaluate_each)(&views, count, w.map(<[f32]>::as_ptr), &out) };
+        unsafe { (T::light_functions(self.table).evaluate_each)(&views, count, w.map(<[f32]>::as_ptr), &out) };
     }
     /// The pdf of unit directions, per steradian (lines: see [`etendue::Line`]).
     pub fn pdf<T: BatchSampler>(&self, sampler: &T, directions: Vec3<&[f32]>, out: &mut [f32]) {
@@ -220,41 +224,45 @@ impl Batch {
 
     /// Points of a warp, at the numbers `u` in [0, 1)²: as many columns as a point has coordinates are written, and as many columns of
     /// `u` read as the warp has numbers.
-    pub fn warp<W>(&self, warp: &W, u: [&[f32]; 2], mut out: [&mut [f32]; 3])
-    where
-        W: BatchWarp + InTable<Functions = WarpFunctions<W>>,
-    {
+    pub fn warp<W: BatchWarp>(&self, warp: &W, u: [&[f32]; 2], mut out: [&mut [f32]; 3]) {
         let n = u[0].len();
         check(n, u.iter().take(W::NUMBERS).map(|column| column.len()));
         check(n, out.iter().take(W::COORDINATES).map(|column| column.len()));
         let columns = out.each_mut().map(|column| column.as_mut_ptr());
         // SAFETY: the columns that are read and written have n elements, and the outputs are borrowed mutably
-        unsafe { (self.functions::<W>().sample)(warp, n, Vec2::new(u[0].as_ptr(), u[1].as_ptr()), &columns) };
+        unsafe { (W::warp_functions(self.table).sample)(warp, n, Vec2::new(u[0].as_ptr(), u[1].as_ptr()), &columns) };
     }
     /// The pdf of a warp at points.
-    pub fn warp_pdf<W>(&self, warp: &W, points: [&[f32]; 3], out: &mut [f32])
-    where
-        W: BatchWarp + InTable<Functions = WarpFunctions<W>>,
-    {
+    pub fn warp_pdf<W: BatchWarp>(&self, warp: &W, points: [&[f32]; 3], out: &mut [f32]) {
         let n = out.len();
         check(n, points.iter().take(W::COORDINATES).map(|column| column.len()));
         // SAFETY: the columns that are read have n elements, and the output is borrowed mutably
-        unsafe { (self.functions::<W>().pdf)(warp, n, &points.map(<[f32]>::as_ptr), out.as_mut_ptr()) };
+        unsafe { (W::warp_functions(self.table).pdf)(warp, n, &points.map(<[f32]>::as_ptr), out.as_mut_ptr()) };
     }
     /// The numbers that a warp maps to points.
-    pub fn warp_invert<W>(&self, warp: &W, points: [&[f32]; 3], out: [&mut [f32]; 2])
-    where
-        W: BatchWarp + InTable<Functions = WarpFunctions<W>>,
-    {
+    pub fn warp_invert<W: BatchWarp>(&self, warp: &W, points: [&[f32]; 3], out: [&mut [f32]; 2]) {
         let n = out[0].len();
         check(n, out.iter().take(W::NUMBERS).map(|column| column.len()));
         check(n, points.iter().take(W::COORDINATES).map(|column| column.len()));
         let [x, y] = out;
         // SAFETY: the columns that are read and written have n elements, and the outputs are borrowed mutably
         unsafe {
-            let invert = self.functions::<W>().invert;
+            let invert = W::warp_functions(self.table).invert;
             invert(warp, n, &points.map(<[f32]>::as_ptr), Vec2::new(x.as_mut_ptr(), y.as_mut_ptr()));
         }
+    }
+    /// The results of a map of columns of numbers: as many columns as it has numbers and results, and 1 where they hold, else 0.
+    pub fn map<M: BatchMap>(&self, map: &M, numbers: &[&[f32]], out: &mut [&mut [f32]], holds: &mut [u8]) {
+        assert!(numbers.len() == M::NUMBERS && out.len() <= M::RESULTS, "so many columns do not belong to the map");
+        let n = numbers[0].len();
+        check(n, numbers.iter().map(|column| column.len()));
+        let inputs = core::array::from_fn(|k| numbers.get(k).map_or(core::ptr::null(), |column| column.as_ptr()));
+        let mut outputs = [core::ptr::null_mut(); MOST_RESULTS];
+        for (pointer, column) in outputs.iter_mut().zip(out) {
+            *pointer = columns::pointer(column, n);
+        }
+        // SAFETY: the columns that are read and written have n elements, and the outputs are borrowed mutably
+        unsafe { (M::map_functions(self.table).map)(map, n, &inputs, &outputs, columns::pointer(holds, n)) };
     }
     /// Pairs of a sequence: of the samples from `counters.sample` on, of one pixel and one dimension, or of those in the columns.
     pub fn pairs<S>(&self, sequence: &S, counters: Counters, out: Vec2<&mut [f32]>)
@@ -290,6 +298,24 @@ impl Batch {
     #[must_use]
     pub fn sampler<T: BatchSampler>(&self) -> SamplerFunctions<T> {
         T::sampler_functions(self.table)
+    }
+    /// The functions of a technique with a light of its own for each element, by raw pointers.
+    #[inline]
+    #[must_use]
+    pub fn technique<T: BatchTechnique>(&self) -> LightFunctions<T> {
+        T::light_functions(self.table)
+    }
+    /// The functions of a warp, by raw pointers.
+    #[inline]
+    #[must_use]
+    pub fn warp_functions<W: BatchWarp>(&self) -> WarpFunctions<W> {
+        W::warp_functions(self.table)
+    }
+    /// The function of a map, by raw pointers.
+    #[inline]
+    #[must_use]
+    pub fn map_functions<M: BatchMap>(&self) -> MapFunctions<M> {
+        M::map_functions(self.table)
     }
     /// The functions of trees, by raw pointers.
     #[inline]

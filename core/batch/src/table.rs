@@ -1,6 +1,8 @@
 //! The functions of every level, in tables of the same form.
 
 use crate::kernel::{Packet, Views};
+use crate::map::{BatchMap, MOST_NUMBERS, MOST_RESULTS, MapTable};
+use crate::placed::PlacedTable;
 use crate::technique::{BatchSampler, BatchTechnique};
 use crate::warp::BatchWarp;
 use crate::{ChoiceColumns, Counters, EvaluationColumns, SampleColumns, kernel};
@@ -37,6 +39,7 @@ impl<T: BatchSampler> SamplerFunctions<T> {
 }
 
 /// The functions of a light's technique, by raw pointers to columns.
+#[derive(Clone, Copy)]
 #[repr(C)]
 pub struct LightFunctions<T: BatchTechnique> {
     /// Prepares a light for a point of a surface with a normal.
@@ -49,7 +52,7 @@ pub struct LightFunctions<T: BatchTechnique> {
     pub sampler: SamplerFunctions<T>,
 }
 impl<T: BatchTechnique> LightFunctions<T> {
-    const fn of<R: Packet>() -> Self {
+    pub(crate) const fn of<R: Packet>() -> Self {
         Self {
             // the other levels prepare faster or as fast, with the instructions of x86-64-v3
             prepare: if cfg!(feature = "level-v4") { kernel::no_prepare::<T> } else { kernel::prepare::<T> },
@@ -61,6 +64,7 @@ impl<T: BatchTechnique> LightFunctions<T> {
 }
 
 /// The functions of a warp, by raw pointers to columns.
+#[derive(Clone, Copy)]
 #[repr(C)]
 pub struct WarpFunctions<W: BatchWarp> {
     /// See [`Batch::warp`](crate::Batch::warp).
@@ -73,6 +77,19 @@ pub struct WarpFunctions<W: BatchWarp> {
 impl<W: BatchWarp> WarpFunctions<W> {
     const fn of<R: Packet>() -> Self {
         Self { sample: kernel::warp_sample::<W, R>, pdf: kernel::warp_pdf::<W, R>, invert: kernel::warp_invert::<W, R> }
+    }
+}
+
+/// The function of a map, by raw pointers to columns.
+#[derive(Clone, Copy)]
+#[repr(C)]
+pub struct MapFunctions<M: BatchMap> {
+    /// See [`Batch::map`](crate::Batch::map): as many columns as the map has numbers and results, and whether they hold.
+    pub map: unsafe extern "C" fn(&M, usize, &[Column; MOST_NUMBERS], &[*mut f32; MOST_RESULTS], *mut u8),
+}
+impl<M: BatchMap> MapFunctions<M> {
+    pub(crate) const fn of<R: Packet>() -> Self {
+        Self { map: kernel::map::<M, R> }
     }
 }
 
@@ -133,11 +150,21 @@ macro_rules! table {
             $($field: $functions<$type>,)+
             pub(crate) tree: TreeFunctions,
             pub(crate) image: SamplerFunctions<ByRadiance<'static>>,
+            pub(crate) projected_image: WarpFunctions<ProjectedImage<'static>>,
+            pub(crate) placed: PlacedTable,
+            pub(crate) maps: MapTable,
         }
         impl Table {
             /// The functions over packets `R`, with the instructions of this compilation.
             const fn of<R: Packet>() -> Self {
-                Self { $($field: $functions::of::<R>(),)+ tree: TreeFunctions::of::<R>(), image: SamplerFunctions::of::<R>() }
+                Self {
+                    $($field: $functions::of::<R>(),)+
+                    tree: TreeFunctions::of::<R>(),
+                    image: SamplerFunctions::of::<R>(),
+                    projected_image: WarpFunctions::of::<R>(),
+                    placed: PlacedTable::of::<R>(),
+                    maps: MapTable::of::<R>(),
+                }
             }
         }
         // SAFETY: the field holds the functions of this type
@@ -177,8 +204,8 @@ pub(crate) static TABLE: Table = Table::of::<Lanes>();
 
 /// The packet of this compilation. Without fused multiply-add, a packet gains little, as its multiply-add takes many instructions.
 #[cfg(feature = "level-v4")]
-type Lanes = etendue::f32x16;
+pub(crate) type Lanes = etendue::f32x16;
 #[cfg(all(not(feature = "level-v4"), any(target_feature = "fma", target_arch = "aarch64")))]
-type Lanes = etendue::f32x8;
+pub(crate) type Lanes = etendue::f32x8;
 #[cfg(all(not(feature = "level-v4"), not(any(target_feature = "fma", target_arch = "aarch64"))))]
-type Lanes = f32;
+pub(crate) type Lanes = f32;

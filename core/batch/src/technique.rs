@@ -1,6 +1,6 @@
 //! Prepared lights over any kind of number: what a loop over packets needs to know of them.
 
-use crate::table::{InTable, SamplerFunctions, Table};
+use crate::table::{InTable, LightFunctions, SamplerFunctions, Table};
 use etendue::light::*;
 use etendue::{LightSampler, Real, Vec3};
 
@@ -8,6 +8,8 @@ use etendue::{LightSampler, Real, Vec3};
 pub trait BatchSampler: Copy {
     /// The prepared light over packets.
     type Of<R: Real>: LightSampler<R>;
+    /// True if every call prepares the light anew: then one element alone is not worth a packet.
+    const PREPARES: bool = false;
     /// The prepared light in every lane of a packet.
     fn splat<R: Real<Scalar = f32>>(&self) -> Self::Of<R>;
     /// The functions of the prepared light.
@@ -28,7 +30,7 @@ impl<'a> BatchSampler for ByRadiance<'a> {
 }
 
 /// A light prepared for a shading point by one technique, in numbers of single precision.
-pub trait BatchTechnique: BatchSampler + LightSampler<f32> + 'static {
+pub trait BatchTechnique: BatchSampler {
     /// The light over numbers, packets of numbers, or columns.
     type Light<X: Copy>: Copy;
     /// True if the preparation needs the normal of the surface.
@@ -37,8 +39,10 @@ pub trait BatchTechnique: BatchSampler + LightSampler<f32> + 'static {
     fn prepare<R: Real>(light: Self::Light<R>, p: Vec3<R>, n: Vec3<R>) -> Self::Of<R>;
     /// The light with `f` applied to each of its numbers.
     fn map<X: Copy, Y: Copy>(light: Self::Light<X>, f: impl FnMut(X) -> Y) -> Self::Light<Y>;
-    /// What was prepared in single precision.
-    fn of(sampler: Self::Of<f32>) -> Self;
+    /// One light, prepared for the point `p` of a surface with the unit normal `n`.
+    fn prepared(light: Self::Light<f32>, p: Vec3<f32>, n: Vec3<f32>) -> Self;
+    /// The functions of the technique.
+    fn light_functions(table: &'static Table) -> LightFunctions<Self>;
 }
 
 /// Whether a method takes a normal.
@@ -89,8 +93,12 @@ macro_rules! implement {
                 light.map(f)
             }
             #[inline(always)]
-            fn of(sampler: Self::Of<f32>) -> Self {
-                sampler
+            fn prepared(light: Self::Light<f32>, p: Vec3<f32>, n: Vec3<f32>) -> Self {
+                Self::prepare::<f32>(light, p, n)
+            }
+            #[inline]
+            fn light_functions(table: &'static Table) -> LightFunctions<Self> {
+                *Self::functions(table)
             }
         }
     };

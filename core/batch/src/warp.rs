@@ -1,10 +1,12 @@
 //! Warps over any kind of number: what a loop over packets needs to know of them.
 
+use crate::table::{InTable, Table, WarpFunctions};
+use etendue::light::ProjectedImage;
 use etendue::warp::*;
 use etendue::{Real, Vec2, Vec3};
 
 /// A warp in numbers of single precision.
-pub trait BatchWarp: Copy + 'static {
+pub trait BatchWarp: Copy {
     /// The warp over packets.
     type Of<R: Real>: Copy;
     /// How many random numbers it maps.
@@ -19,6 +21,8 @@ pub trait BatchWarp: Copy + 'static {
     fn pdf<R: Real>(warp: &Self::Of<R>, point: [R; 3]) -> R;
     /// The random numbers that map to a point.
     fn invert<R: Real>(warp: &Self::Of<R>, point: [R; 3]) -> Vec2<R>;
+    /// The functions of the warp.
+    fn warp_functions(table: &'static Table) -> WarpFunctions<Self>;
 }
 
 /// A point as coordinates, and back.
@@ -71,6 +75,7 @@ macro_rules! warps {
                 *self
             }
             warps!(# $($rest)+);
+            warps!(table);
         }
     };
     (@ $name:ident [R]; $($rest:tt)+) => {
@@ -81,6 +86,13 @@ macro_rules! warps {
                 $name::splat(*self)
             }
             warps!(# $($rest)+);
+            warps!(table);
+        }
+    };
+    (table) => {
+        #[inline]
+        fn warp_functions(table: &'static Table) -> WarpFunctions<Self> {
+            *Self::functions(table)
         }
     };
     (# $coordinates:literal, $numbers:literal; |$w:ident, $u:ident| $sample:expr, |$pw:ident, $pp:ident| $pdf:expr, |$iw:ident, $ip:ident| $invert:expr) => {
@@ -101,3 +113,22 @@ macro_rules! warps {
     };
 }
 etendue::warps!(warps! {});
+
+impl<'a> BatchWarp for ProjectedImage<'a> {
+    type Of<R: Real> = Self;
+    #[inline(always)]
+    fn splat<R: Real<Scalar = f32>>(&self) -> Self {
+        *self
+    }
+    warps!(# 3, 2;
+        |warp, u| Point::coordinates(Warp::sample(warp, u)),
+        |warp, point| Warp::pdf(warp, Point::from_coordinates(point)),
+        |warp, point| Warp::invert(warp, Point::from_coordinates(point)));
+    #[inline]
+    fn warp_functions(table: &'static Table) -> WarpFunctions<Self> {
+        // SAFETY: the types differ in how long the image lives, and the functions keep nothing of it
+        unsafe {
+            core::mem::transmute::<WarpFunctions<ProjectedImage<'static>>, WarpFunctions<Self>>(table.projected_image)
+        }
+    }
+}

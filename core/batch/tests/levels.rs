@@ -2,7 +2,9 @@
 
 mod every;
 
-use etendue::light::{EnvironmentMap, ImageEnvironment};
+use etendue::light::{
+    EnvironmentMap, GeneralSky, ImageEnvironment, Portal, PortalEnvironment, PortalTable, Profile, Projector, Spread,
+};
 use etendue::select::{LightBound, LightChoice, LightTree, Node8};
 use etendue::sequence::{Independent, Sequence};
 use etendue::{LightSample, LightSampler, Vec2, Vec3};
@@ -156,21 +158,57 @@ fn image_lights_have_the_bits_of_the_core() {
     }
 }
 
+/// Compares a map with itself over single numbers, which is the core.
+fn assert_map<M: BatchMap>(name: &str, map: &M) {
+    for (batch, hostile) in levels().into_iter().flat_map(|batch| [(batch, false), (batch, true)]) {
+        let input = Columns::new(hostile);
+        for n in COUNTS {
+            let numbers: Vec<_> = (0..M::NUMBERS).map(|k| input.of(k, n)).collect();
+            let mut out = vec![vec![-7.0; n]; M::RESULTS];
+            let mut holds = vec![9; n];
+            batch.map(map, &numbers, &mut out.iter_mut().map(Vec::as_mut_slice).collect::<Vec<_>>(), &mut holds);
+            for i in 0..n {
+                let one = core::array::from_fn(|k| if k < M::NUMBERS { numbers[k][i] } else { 0.0 });
+                let (expected, truth) = map.map::<f32>(one);
+                let found: Vec<u32> = out.iter().map(|column| bits(column[i])).collect();
+                assert_eq!(found, expected[..M::RESULTS].iter().map(|&x| bits(x)).collect::<Vec<_>>(), "{name}, {i}");
+                assert_eq!(holds[i], u8::from(truth), "{name}, {batch:?}, element {i} of {n}");
+            }
+        }
+    }
+}
+
+#[test]
+fn maps_have_the_bits_of_the_core() {
+    let values = [100.0, 30.0, 0.0, 80.0, 50.0, 1.0];
+    assert_map("profile", &Profile::new(&[0.0, 60.0, 90.0], &[0.0, 90.0], &values).unwrap());
+    let slide = Projector { tan_half: [1.0, 0.5] };
+    assert_map("place in image", &PlaceInImage(slide));
+    assert_map("direction of image", &DirectionOfImage(slide));
+    assert_map("sky", &GeneralSky::new(12, [0.6, 0.0, 0.8]).unwrap());
+    assert_map("spread", &Spread::<f32>::new(1.2));
+    let portals = [[2.0, -1.0, -1.0], [2.0, 1.5, 0.0]]
+        .map(|corner| Portal::new(corner, [0.0, 2.0, 0.5], [0.0, 0.0, 2.0]).unwrap());
+    let mut buffer = [0; PortalTable::buffer(2, 2)];
+    let tables = [PortalTable::build(&[1.0, 2.0, 0.0, 3.0], 2, &mut buffer).unwrap(); 2];
+    let sky = PortalEnvironment::new(&portals, &tables).unwrap();
+    assert_map("portal map", &portals[0].map());
+    assert_map("seen through portals", &SeenThroughPortals(sky));
+    assert_map("cone seen through portals", &ConeSeenThroughPortals(sky));
+}
+
 struct Equal {
     inputs: [Columns; 2],
     compared: usize,
 }
 
 impl Visitor for Equal {
-    fn technique<T>(&mut self, name: &str, light: T::Light<f32>)
-    where
-        T: BatchTechnique + InTable<Functions = LightFunctions<T>>,
-    {
+    fn technique<T: BatchTechnique>(&mut self, name: &str, light: T::Light<f32>) {
         for (batch, input) in levels().into_iter().flat_map(|batch| self.inputs.iter().map(move |input| (batch, input)))
         {
             for n in COUNTS {
                 let (p, normal) = (Vec3::new(0.1, 0.2, 0.3), Vec3::new(0.0, 1.0, 0.0));
-                let alone = T::of(T::prepare::<f32>(light, p, normal));
+                let alone = T::prepare::<f32>(light, p, normal);
                 let sampler = batch.prepare::<T>(&light, p, normal);
                 let (u, directions) = assert_sampler(batch, input, n, name, &sampler, &alone);
                 let w = Vec3::new(&directions[0][..], &directions[1][..], &directions[2][..]);
@@ -208,10 +246,7 @@ impl Visitor for Equal {
             }
         }
     }
-    fn warp<W>(&mut self, name: &str, warp: W)
-    where
-        W: BatchWarp + InTable<Functions = WarpFunctions<W>>,
-    {
+    fn warp<W: BatchWarp>(&mut self, name: &str, warp: W) {
         for (batch, input) in levels().into_iter().flat_map(|batch| self.inputs.iter().map(move |input| (batch, input)))
         {
             for n in COUNTS {

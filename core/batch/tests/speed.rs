@@ -115,10 +115,7 @@ impl Bench {
 }
 
 impl Visitor for Bench {
-    fn technique<T>(&mut self, name: &str, light: T::Light<f32>)
-    where
-        T: BatchTechnique + InTable<Functions = LightFunctions<T>>,
-    {
+    fn technique<T: BatchTechnique>(&mut self, name: &str, light: T::Light<f32>) {
         let input = &Inputs::new();
         let (p, normal) = (Vec3::new(0.1, 0.2, 0.3), Vec3::new(0.0, 1.0, 0.0));
         let sampler = Batch::new().prepare::<T>(&light, p, normal);
@@ -160,10 +157,7 @@ impl Visitor for Bench {
         self.row(&format!("{name}, hit"), |b, n, out| b.hit(&sampler, directions(n), out.samples(n)), None);
     }
 
-    fn warp<W>(&mut self, name: &str, warp: W)
-    where
-        W: BatchWarp + InTable<Functions = WarpFunctions<W>>,
-    {
+    fn warp<W: BatchWarp>(&mut self, name: &str, warp: W) {
         let input = &Inputs::new();
         let u = |n| [input.column(0, n), input.column(1, n)];
         self.row(&format!("{name}, sample"), |b, n, out| b.warp(&warp, u(n), out.three(n)), None);

@@ -38,6 +38,16 @@ typedef enum {
   ETENDUE_ENVIRONMENT_MAP_EQUIRECTANGULAR = 1,
 } EtendueEnvironmentMap;
 
+// The part of the unit square of surface coordinates that a light covers.
+typedef enum {
+  // All of it: rectangles, parallelograms, spheres and bilinear patches.
+  ETENDUE_PICTURE_REGION_SQUARE = 0,
+  // The half where u + v < 1: triangles.
+  ETENDUE_PICTURE_REGION_TRIANGLE = 1,
+  // The inscribed disk: disks.
+  ETENDUE_PICTURE_REGION_DISK = 2,
+} EtenduePictureRegion;
+
 // What a function says that could not do its work.
 typedef enum {
   // The function did its work.
@@ -621,6 +631,34 @@ typedef struct {
   float *u;
 } EtendueChoiceColumns;
 
+// The sky by CIE's standard general sky (ISO 15469:2004): how bright it is in each direction, relative to the zenith. z is up.
+//
+// What is inside does not concern callers: it may be copied, and used by any thread. An image of it is sampled in proportion to it, see
+// EtendueImageEnvironment; the sun itself is an EtendueSun.
+typedef struct {
+  double data[9];
+} EtendueGeneralSky;
+
+// A time, in the Gregorian calendar and universal time.
+typedef struct {
+  // The year.
+  int32_t year;
+  // The month, from 1.
+  uint32_t month;
+  // The day of the month, from 1.
+  uint32_t day;
+  // Hours since midnight; any number: -1 is 23 o'clock of the day before.
+  double hours;
+} EtendueMoment;
+
+// Where the sun stands as seen from a place, without refraction.
+typedef struct {
+  // Angle above the horizon in radians.
+  double elevation;
+  // Angle from north over east in radians, in [0, 2 pi).
+  double azimuth;
+} EtendueSunPosition;
+
 // Light from all around as an image tells it, in memory of the caller: directions in proportion to the image, the same for all shading
 // points. The position in the image is `uv` of a sample.
 typedef struct {
@@ -633,6 +671,221 @@ typedef struct {
   // One of EtendueEnvironmentMap.
   uint32_t map;
 } EtendueImageEnvironment;
+
+// A picture for lights, in memory of the caller: texels are drawn in proportion to their radiance times their area, solid angle or projected
+// solid angle as seen from a shading point. Columns are u, rows v, of the surface coordinates of the light; of a sphere, columns are heights
+// from -1 to 1, and rows azimuths.
+typedef struct {
+  // The table that etendue_picture_build or etendue_picture_interpolate wrote.
+  const float *table;
+  // The radiance at the centres of texels, between which the picture is interpolated; NULL for one that is constant in each texel.
+  const float *values;
+  // Number of columns of the image.
+  size_t width;
+  // Number of its rows.
+  size_t height;
+  // One of EtenduePictureRegion.
+  uint32_t region;
+} EtenduePicture;
+
+// A parallelogram with a picture: a flat light of any shape, by its surface coordinates. Those of a parallelogram are itself;
+// etendue_rectangle_coordinates, etendue_triangle_coordinates and etendue_disk_coordinates give those of others.
+typedef struct {
+  // The picture.
+  EtenduePicture picture;
+  // The light that it is on.
+  EtendueParallelogram light;
+} EtenduePicturedParallelogram;
+
+// A flat light with a picture, by radiance times area, for lights that are small for their distance: the pdf is the pmf of the texel, over
+// its area, times distance^2/|cos(theta')| per steradian, theta' at the light. 0 where the radiance is, and beyond the rim of triangles and disks.
+//
+// It has no data of its own beside the light and the point: each call prepares the light, which takes as long as few samples. The
+// fields are set by `prepare`.
+typedef struct {
+  // The light with its picture.
+  EtenduePicturedParallelogram light;
+  // The shading point.
+  float p[3];
+} EtenduePictureByArea;
+
+// Columns of lights with one picture.
+typedef struct {
+  // The picture of all of them.
+  EtenduePicture picture;
+  // The lights.
+  EtendueParallelogramColumns lights;
+} EtenduePicturedParallelogramColumns;
+
+// A flat light with a picture, by radiance times solid angle at the point: the pdf is the pmf of the texel over its solid angle, per
+// steradian. 0 where the radiance is, and beyond the rim of triangles and disks.
+//
+// It has no data of its own beside the light and the point: each call prepares the light, which takes as long as few samples. The
+// fields are set by `prepare`.
+typedef struct {
+  // The light with its picture.
+  EtenduePicturedParallelogram light;
+  // The shading point.
+  float p[3];
+} EtenduePictureBySolidAngle;
+
+// A flat light with a picture, by radiance times projected solid angle above the horizon of the unit normal n at the point: the pdf is the
+// pmf of the texel over its projected solid angle, times cos(theta), per steradian. 0 where nothing of the light is above the horizon, where
+// the radiance is 0, and beyond the rim of triangles and disks.
+//
+// It has no data of its own beside the light and the point: each call prepares the light, which takes as long as few samples. The
+// fields are set by `prepare`.
+typedef struct {
+  // The light with its picture.
+  EtenduePicturedParallelogram light;
+  // The shading point.
+  float p[3];
+  // The unit normal there.
+  float n[3];
+} EtenduePictureByProjectedSolidAngle;
+
+// A sphere with a picture.
+typedef struct {
+  // The picture.
+  EtenduePicture picture;
+  // The light that it is on.
+  EtendueSphere light;
+} EtenduePicturedSphere;
+
+// A sphere with a picture, by radiance times the area that is visible from the point, over the squared distance: the pdf is the pmf of the
+// texel, over its area, times distance^2/|cos(theta')| per steradian, theta' at the light. From inside, texels are drawn by radiance alone.
+//
+// It has no data of its own beside the light and the point: each call prepares the light, which takes as long as few samples. The
+// fields are set by `prepare`.
+typedef struct {
+  // The light with its picture.
+  EtenduePicturedSphere light;
+  // The shading point.
+  float p[3];
+} EtenduePictureOnSphereByVisibleArea;
+
+// Columns of lights with one picture.
+typedef struct {
+  // The picture of all of them.
+  EtenduePicture picture;
+  // The lights.
+  EtendueSphereColumns lights;
+} EtenduePicturedSphereColumns;
+
+// A bilinear patch with a picture.
+typedef struct {
+  // The picture.
+  EtenduePicture picture;
+  // The light that it is on.
+  EtendueBilinearPatch light;
+} EtenduePicturedPatch;
+
+// A bilinear patch with a picture, by radiance times the area that is visible from the point, over the squared distance; in a texel,
+// uniform in (s, t). The pdf is per steradian.
+//
+// It has no data of its own beside the light and the point: each call prepares the light, which takes as long as few samples. The
+// fields are set by `prepare`.
+typedef struct {
+  // The light with its picture.
+  EtenduePicturedPatch light;
+  // The shading point.
+  float p[3];
+} EtenduePictureOnPatchByVisibleArea;
+
+// Columns of lights with one picture.
+typedef struct {
+  // The picture of all of them.
+  EtenduePicture picture;
+  // The lights.
+  EtendueBilinearPatchColumns lights;
+} EtenduePicturedPatchColumns;
+
+// The sky in the coordinates of a portal, as a table of sums in memory of the caller. Portals with parallel edges may share one.
+typedef struct {
+  // The table that etendue_portal_table_build wrote.
+  const uint64_t *sums;
+  // Number of columns of the image.
+  size_t width;
+  // Number of its rows.
+  size_t height;
+} EtenduePortalTable;
+
+// A parallelogram through which the sky is seen, from the side that its normal s x t points away from.
+typedef struct {
+  // Corner, in the coordinates of the scene.
+  float corner[3];
+  // Edge along s.
+  float edge_s[3];
+  // Edge along t, not parallel to the other one.
+  float edge_t[3];
+} EtenduePortal;
+
+// The part of an image of the sky that is seen through portals; the rest of the sky is hidden by walls.
+typedef struct {
+  // The portals, at most 8.
+  const EtenduePortal *portals;
+  // The table of each portal.
+  const EtenduePortalTable *tables;
+  // Number of portals.
+  size_t count;
+} EtenduePortalEnvironment;
+
+// The sky through portals as a point sees it: from each point exactly the part is sampled that it sees, by the weights of the texels.
+//
+// The pdf is the probability of the cells over the solid angle that they cover there, per steradian, summed over portals; 0 where no portal
+// is seen, and from behind. `uv` of a sample are the numbers that etendue_octahedral_sample maps to the direction.
+//
+// It has no data of its own beside the environment and the point: each call prepares for the point, which takes as long as some samples, so
+// that batches are faster. The fields are set by `prepare`.
+typedef struct {
+  // The sky and its portals.
+  EtenduePortalEnvironment environment;
+  // The shading point.
+  float p[3];
+} EtenduePortalsByRadiance;
+
+// The radiant intensity of a light by direction: a table over two angles, between which it is bilinear, as photometry interpolates.
+//
+// Directions are those in which light travels, in the space of the profile: the polar angle is that from +z, and the azimuth that from +x
+// towards +y. IES files (LM-63) of type C have the nadir as +z; those of types A and B have their axis as z, and the polar angle is their
+// vertical angle plus 90 degrees. What is inside does not concern callers: it may be copied, and used by any thread, while the arrays that it
+// was prepared from live.
+typedef struct {
+  size_t data[8];
+} EtendueProfile;
+
+// A light that projects a rectangular image through a pinhole, as a slide projector does.
+//
+// Directions are those in which light travels, in the space of the projector: +z is the axis, +x the right and +y the upper edge of the
+// image. Positions in the image run from the upper left corner, in [0, 1]^2.
+typedef struct {
+  // Tangents of half the horizontal and vertical angle of view, greater than 0. With others, no direction is in the image.
+  float tan_half[2];
+} EtendueProjector;
+
+// What a projector emits of an image, for light tracing, in memory of the caller: a texel by its weight times its solid angle, and in the
+// texel uniform in the plane of the image. The pdf is the probability of the texel times the number of texels, over
+// 4 tx ty cos(theta)^3, per steradian, with the tangents tx and ty; 0 where the weight is 0, and outside the image.
+typedef struct {
+  // The table that etendue_projected_image_build wrote.
+  const float *table;
+  // Number of columns of the image.
+  size_t width;
+  // Number of its rows.
+  size_t height;
+  // The projector.
+  EtendueProjector projector;
+} EtendueProjectedImage;
+
+// How a flat light emits within a cone about its normal, as through a honeycomb before it: the spread of Cycles. A host multiplies the
+// radiance of the light by the attenuation, which leaves its power as it is. A point sees only a disk of the plane of the light, which the
+// functions of this struct sample.
+typedef struct {
+  // The tangent of half the angle.
+  float tan_half;
+  // 1/(tan_half - half the angle).
+  float gain;
+} EtendueSpread;
 
 // Visible normals of a GGX microsurface, prepared for a view; in the frame whose z axis is the normal of the surface.
 typedef struct {
@@ -2942,6 +3195,37 @@ EtendueStatus etendue_light_tree_pmf_batch(const EtendueLightTree *tree,
                                            const uint32_t *lights,
                                            float *out);
 
+// Prepares the sky of a type from 1 to 15 with the sun in the direction `sun`, three numbers of any length. 1 is overcast, 5 uniform, 12 clear,
+// 15 turbid with a wide corona. Returns ETENDUE_STATUS_VALUE for another type, and if there is no direction.
+EtendueStatus etendue_general_sky_prepare(uint32_t kind,
+                                          const double *sun,
+                                          EtendueGeneralSky *out);
+
+// The luminance in the unit direction `w` over that of the zenith; 0 below the horizon, where the direction is NaN, and if a pointer is NULL.
+float etendue_general_sky_luminance(const EtendueGeneralSky *sky,
+                                    const float *w);
+
+// The luminance in each unit direction over that of the zenith: three columns.
+EtendueStatus etendue_general_sky_luminance_batch(const EtendueGeneralSky *sky,
+                                                  size_t n,
+                                                  const float *const *w,
+                                                  float *out);
+
+// Illuminance of the horizontal plane over the luminance of the zenith, in steradians, without the sun's disk: within 2e-5. A sum over 512 x
+// 1024 directions. 0 for NULL.
+double etendue_general_sky_horizontal(const EtendueGeneralSky *sky);
+
+// Where the sun stands at a time, as seen from a latitude (north is positive) and longitude (east is positive) in degrees: to 0.01 degrees from
+// 1950 to 2050 (Michalsky 1988). Returns ETENDUE_STATUS_VALUE if the calendar does not have the day, if the hours are not finite, the
+// latitude is not in [-90, 90], or the longitude not in [-180, 180].
+EtendueStatus etendue_sun_position(const EtendueMoment *time,
+                                   double latitude,
+                                   double longitude,
+                                   EtendueSunPosition *out);
+
+// The unit direction to the sun, three numbers: +x is east, +y north and +z up.
+EtendueStatus etendue_sun_position_direction(const EtendueSunPosition *position, double *direction);
+
 // Number of floats in the table of an image; 0 for one without columns or rows, or with more than 2^24 of them.
 size_t etendue_image_environment_table(size_t width, size_t height);
 
@@ -2996,6 +3280,766 @@ EtendueStatus etendue_image_environment_hit_batch(const EtendueImageEnvironment 
                                                   size_t n,
                                                   const float *const *w,
                                                   const EtendueSampleColumns *out);
+
+// Number of floats in the table of a picture; 0 for a single texel, and for a picture without columns or rows, with more than 2^24 of them,
+// or with 2^31 texels or more.
+size_t etendue_picture_table(size_t width,
+                             size_t height);
+
+// Number of floats in the table of a picture that is interpolated between the centres of its texels; 0 for a picture without columns or
+// rows, with 2^24 of them or more, or with 2^31 texels or more between centres.
+size_t etendue_picture_interpolated_table(size_t width,
+                                          size_t height);
+
+// Builds the table of a picture that is constant in each texel, from the mean radiance of each texel, row by row: its luminance, or a sum of
+// its channels, in any unit. etendue_picture_means_of_bilinear gives these means where the host interpolates.
+//
+// `weights` has width x height elements, `table` has etendue_picture_table (a single texel needs none, but not NULL); the table must
+// live as long as `picture` is used, `weights` need not. `region` is one of EtenduePictureRegion. Returns ETENDUE_STATUS_COUNT for a size
+// that is not allowed, and ETENDUE_STATUS_VALUE for another `region`, if a weight is negative, infinite or NaN, and if all weights in the
+// region are 0.
+EtendueStatus etendue_picture_build(const float *weights,
+                                    size_t width,
+                                    size_t height,
+                                    uint32_t region,
+                                    float *table,
+                                    EtenduePicture *picture);
+
+// Builds the table of a picture that is interpolated bilinearly between the centres of its texels, and continued by its outermost ones: the
+// pdf is in proportion to the interpolated radiance. For lights that cover the whole unit square.
+//
+// `values` has width x height elements, the radiance at the centres, row by row; `table` has etendue_picture_interpolated_table. Both
+// must live as long as `picture` is used. Returns ETENDUE_STATUS_COUNT for a size that is not allowed, and ETENDUE_STATUS_VALUE if a value is
+// negative, infinite or NaN, and if all of them are 0.
+EtendueStatus etendue_picture_interpolate(const float *values,
+                                          size_t width,
+                                          size_t height,
+                                          float *table,
+                                          EtenduePicture *picture);
+
+// Fills `means` with the mean over each texel of an image that is interpolated bilinearly between the centres of its texels, and continued
+// by its outermost ones: 1/8, 3/4 and 1/8 of a texel and its neighbours, in both directions. Both have width x height elements, and are not
+// the same memory. Returns ETENDUE_STATUS_COUNT for an image without columns or rows, or with more than 2^24 of them.
+EtendueStatus etendue_picture_means_of_bilinear(const float *values,
+                                                size_t width,
+                                                size_t height,
+                                                float *means);
+
+// The parallelogram of a rectangle's surface coordinates, for pictures of the region ETENDUE_PICTURE_REGION_SQUARE.
+EtendueStatus etendue_rectangle_coordinates(const EtendueRectangle *light, EtendueParallelogram *out);
+
+// The parallelogram of a triangle's surface coordinates, for pictures of the region ETENDUE_PICTURE_REGION_TRIANGLE.
+EtendueStatus etendue_triangle_coordinates(const EtendueTriangle *light, EtendueParallelogram *out);
+
+// The square around a disk, for pictures of the region ETENDUE_PICTURE_REGION_DISK. A radius < 0 counts as 0.
+EtendueStatus etendue_disk_coordinates(const EtendueDisk *light, EtendueParallelogram *out);
+
+// Prepares the light for a shading point.
+EtendueStatus etendue_picture_by_area_prepare(const EtenduePicturedParallelogram *light,
+                                              const float *p,
+                                              EtenduePictureByArea *out);
+
+// Draws a direction for u.
+EtendueStatus etendue_picture_by_area_sample(const EtenduePictureByArea *sampler,
+                                             const float *u,
+                                             EtendueLightSample *out);
+
+// The pdf with which a unit direction `w` is drawn; 0 where it misses the light, and if a pointer is NULL.
+float etendue_picture_by_area_pdf(const EtenduePictureByArea *sampler, const float *w);
+
+// The random numbers `u` that are mapped to a unit direction `w`; any in [0, 1)^2 where it misses the light.
+EtendueStatus etendue_picture_by_area_invert(const EtenduePictureByArea *sampler, const float *w, float *u);
+
+// The nearest point of the light in a unit direction `w`, with the pdf of that direction; pdf 0 where it misses the light.
+EtendueStatus etendue_picture_by_area_hit(const EtenduePictureByArea *sampler,
+                                          const float *w,
+                                          EtendueLightSample *out);
+
+// Draws a direction for each u: two columns.
+EtendueStatus etendue_picture_by_area_sample_batch(const EtenduePictureByArea *sampler,
+                                                   size_t n,
+                                                   const float *const *u,
+                                                   const EtendueSampleColumns *out);
+
+// The pdf of each unit direction: three columns.
+EtendueStatus etendue_picture_by_area_pdf_batch(const EtenduePictureByArea *sampler,
+                                                size_t n,
+                                                const float *const *w,
+                                                float *out);
+
+// The random numbers of each unit direction: three columns in, two out.
+EtendueStatus etendue_picture_by_area_invert_batch(const EtenduePictureByArea *sampler,
+                                                   size_t n,
+                                                   const float *const *w,
+                                                   float *const *u);
+
+// The nearest point of the light in each unit direction: three columns.
+EtendueStatus etendue_picture_by_area_hit_batch(const EtenduePictureByArea *sampler,
+                                                size_t n,
+                                                const float *const *w,
+                                                const EtendueSampleColumns *out);
+
+// Prepares the light for a shading point and draws one direction.
+EtendueStatus etendue_picture_by_area_sample_once(const EtenduePicturedParallelogram *light,
+                                                  const float *p,
+                                                  const float *u,
+                                                  EtendueLightSample *out);
+
+// Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
+EtendueStatus etendue_picture_by_area_sample_each(const EtenduePicturedParallelogramColumns *lights,
+                                                  size_t n,
+                                                  const float *const *p,
+                                                  const float *const *u,
+                                                  const EtendueSampleColumns *out);
+
+// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_picture_by_area_pdf_each(const EtenduePicturedParallelogramColumns *lights,
+                                               size_t n,
+                                               const float *const *p,
+                                               const float *const *w,
+                                               float *out);
+
+// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_picture_by_area_invert_each(const EtenduePicturedParallelogramColumns *lights,
+                                                  size_t n,
+                                                  const float *const *p,
+                                                  const float *const *w,
+                                                  float *const *u);
+
+// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
+EtendueStatus etendue_picture_by_area_hit_each(const EtenduePicturedParallelogramColumns *lights,
+                                               size_t n,
+                                               const float *const *p,
+                                               const float *const *w,
+                                               const EtendueSampleColumns *out);
+
+// Prepares the light for a shading point.
+EtendueStatus etendue_picture_by_solid_angle_prepare(const EtenduePicturedParallelogram *light,
+                                                     const float *p,
+                                                     EtenduePictureBySolidAngle *out);
+
+// Draws a direction for u.
+EtendueStatus etendue_picture_by_solid_angle_sample(const EtenduePictureBySolidAngle *sampler,
+                                                    const float *u,
+                                                    EtendueLightSample *out);
+
+// The pdf with which a unit direction `w` is drawn; 0 where it misses the light, and if a pointer is NULL.
+float etendue_picture_by_solid_angle_pdf(const EtenduePictureBySolidAngle *sampler, const float *w);
+
+// The random numbers `u` that are mapped to a unit direction `w`; any in [0, 1)^2 where it misses the light.
+EtendueStatus etendue_picture_by_solid_angle_invert(const EtenduePictureBySolidAngle *sampler,
+                                                    const float *w,
+                                                    float *u);
+
+// The nearest point of the light in a unit direction `w`, with the pdf of that direction; pdf 0 where it misses the light.
+EtendueStatus etendue_picture_by_solid_angle_hit(const EtenduePictureBySolidAngle *sampler,
+                                                 const float *w,
+                                                 EtendueLightSample *out);
+
+// Draws a direction for each u: two columns.
+EtendueStatus etendue_picture_by_solid_angle_sample_batch(const EtenduePictureBySolidAngle *sampler,
+                                                          size_t n,
+                                                          const float *const *u,
+                                                          const EtendueSampleColumns *out);
+
+// The pdf of each unit direction: three columns.
+EtendueStatus etendue_picture_by_solid_angle_pdf_batch(const EtenduePictureBySolidAngle *sampler,
+                                                       size_t n,
+                                                       const float *const *w,
+                                                       float *out);
+
+// The random numbers of each unit direction: three columns in, two out.
+EtendueStatus etendue_picture_by_solid_angle_invert_batch(const EtenduePictureBySolidAngle *sampler,
+                                                          size_t n,
+                                                          const float *const *w,
+                                                          float *const *u);
+
+// The nearest point of the light in each unit direction: three columns.
+EtendueStatus etendue_picture_by_solid_angle_hit_batch(const EtenduePictureBySolidAngle *sampler,
+                                                       size_t n,
+                                                       const float *const *w,
+                                                       const EtendueSampleColumns *out);
+
+// Prepares the light for a shading point and draws one direction.
+EtendueStatus etendue_picture_by_solid_angle_sample_once(const EtenduePicturedParallelogram *light,
+                                                         const float *p,
+                                                         const float *u,
+                                                         EtendueLightSample *out);
+
+// Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
+EtendueStatus etendue_picture_by_solid_angle_sample_each(const EtenduePicturedParallelogramColumns *lights,
+                                                         size_t n,
+                                                         const float *const *p,
+                                                         const float *const *u,
+                                                         const EtendueSampleColumns *out);
+
+// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_picture_by_solid_angle_pdf_each(const EtenduePicturedParallelogramColumns *lights,
+                                                      size_t n,
+                                                      const float *const *p,
+                                                      const float *const *w,
+                                                      float *out);
+
+// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_picture_by_solid_angle_invert_each(const EtenduePicturedParallelogramColumns *lights,
+                                                         size_t n,
+                                                         const float *const *p,
+                                                         const float *const *w,
+                                                         float *const *u);
+
+// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
+EtendueStatus etendue_picture_by_solid_angle_hit_each(const EtenduePicturedParallelogramColumns *lights,
+                                                      size_t n,
+                                                      const float *const *p,
+                                                      const float *const *w,
+                                                      const EtendueSampleColumns *out);
+
+// Prepares the light for a shading point.
+EtendueStatus etendue_picture_by_projected_solid_angle_prepare(const EtenduePicturedParallelogram *light,
+                                                               const float *p,
+                                                               const float *n,
+                                                               EtenduePictureByProjectedSolidAngle *out);
+
+// Draws a direction for u.
+EtendueStatus etendue_picture_by_projected_solid_angle_sample(const EtenduePictureByProjectedSolidAngle *sampler,
+                                                              const float *u,
+                                                              EtendueLightSample *out);
+
+// The pdf with which a unit direction `w` is drawn; 0 where it misses the light, and if a pointer is NULL.
+float etendue_picture_by_projected_solid_angle_pdf(const EtenduePictureByProjectedSolidAngle *sampler, const float *w);
+
+// The random numbers `u` that are mapped to a unit direction `w`; any in [0, 1)^2 where it misses the light.
+EtendueStatus etendue_picture_by_projected_solid_angle_invert(const EtenduePictureByProjectedSolidAngle *sampler,
+                                                              const float *w,
+                                                              float *u);
+
+// The nearest point of the light in a unit direction `w`, with the pdf of that direction; pdf 0 where it misses the light.
+EtendueStatus etendue_picture_by_projected_solid_angle_hit(const EtenduePictureByProjectedSolidAngle *sampler,
+                                                           const float *w,
+                                                           EtendueLightSample *out);
+
+// Draws a direction for each u: two columns.
+EtendueStatus etendue_picture_by_projected_solid_angle_sample_batch(const EtenduePictureByProjectedSolidAngle *sampler,
+                                                                    size_t n,
+                                                                    const float *const *u,
+                                                                    const EtendueSampleColumns *out);
+
+// The pdf of each unit direction: three columns.
+EtendueStatus etendue_picture_by_projected_solid_angle_pdf_batch(const EtenduePictureByProjectedSolidAngle *sampler,
+                                                                 size_t n,
+                                                                 const float *const *w,
+                                                                 float *out);
+
+// The random numbers of each unit direction: three columns in, two out.
+EtendueStatus etendue_picture_by_projected_solid_angle_invert_batch(const EtenduePictureByProjectedSolidAngle *sampler,
+                                                                    size_t n,
+                                                                    const float *const *w,
+                                                                    float *const *u);
+
+// The nearest point of the light in each unit direction: three columns.
+EtendueStatus etendue_picture_by_projected_solid_angle_hit_batch(const EtenduePictureByProjectedSolidAngle *sampler,
+                                                                 size_t n,
+                                                                 const float *const *w,
+                                                                 const EtendueSampleColumns *out);
+
+// Prepares the light for a shading point and draws one direction.
+EtendueStatus etendue_picture_by_projected_solid_angle_sample_once(const EtenduePicturedParallelogram *light,
+                                                                   const float *p,
+                                                                   const float *n,
+                                                                   const float *u,
+                                                                   EtendueLightSample *out);
+
+// Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
+EtendueStatus etendue_picture_by_projected_solid_angle_sample_each(const EtenduePicturedParallelogramColumns *lights,
+                                                                   size_t n,
+                                                                   const float *const *p,
+                                                                   const float *const *normals,
+                                                                   const float *const *u,
+                                                                   const EtendueSampleColumns *out);
+
+// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_picture_by_projected_solid_angle_pdf_each(const EtenduePicturedParallelogramColumns *lights,
+                                                                size_t n,
+                                                                const float *const *p,
+                                                                const float *const *normals,
+                                                                const float *const *w,
+                                                                float *out);
+
+// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_picture_by_projected_solid_angle_invert_each(const EtenduePicturedParallelogramColumns *lights,
+                                                                   size_t n,
+                                                                   const float *const *p,
+                                                                   const float *const *normals,
+                                                                   const float *const *w,
+                                                                   float *const *u);
+
+// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
+EtendueStatus etendue_picture_by_projected_solid_angle_hit_each(const EtenduePicturedParallelogramColumns *lights,
+                                                                size_t n,
+                                                                const float *const *p,
+                                                                const float *const *normals,
+                                                                const float *const *w,
+                                                                const EtendueSampleColumns *out);
+
+// Prepares the light for a shading point.
+EtendueStatus etendue_picture_on_sphere_by_visible_area_prepare(const EtenduePicturedSphere *light,
+                                                                const float *p,
+                                                                EtenduePictureOnSphereByVisibleArea *out);
+
+// Draws a direction for u.
+EtendueStatus etendue_picture_on_sphere_by_visible_area_sample(const EtenduePictureOnSphereByVisibleArea *sampler,
+                                                               const float *u,
+                                                               EtendueLightSample *out);
+
+// The pdf with which a unit direction `w` is drawn; 0 where it misses the light, and if a pointer is NULL.
+float etendue_picture_on_sphere_by_visible_area_pdf(const EtenduePictureOnSphereByVisibleArea *sampler, const float *w);
+
+// The random numbers `u` that are mapped to a unit direction `w`; any in [0, 1)^2 where it misses the light.
+EtendueStatus etendue_picture_on_sphere_by_visible_area_invert(const EtenduePictureOnSphereByVisibleArea *sampler,
+                                                               const float *w,
+                                                               float *u);
+
+// The nearest point of the light in a unit direction `w`, with the pdf of that direction; pdf 0 where it misses the light.
+EtendueStatus etendue_picture_on_sphere_by_visible_area_hit(const EtenduePictureOnSphereByVisibleArea *sampler,
+                                                            const float *w,
+                                                            EtendueLightSample *out);
+
+// Draws a direction for each u: two columns.
+EtendueStatus etendue_picture_on_sphere_by_visible_area_sample_batch(const EtenduePictureOnSphereByVisibleArea *sampler,
+                                                                     size_t n,
+                                                                     const float *const *u,
+                                                                     const EtendueSampleColumns *out);
+
+// The pdf of each unit direction: three columns.
+EtendueStatus etendue_picture_on_sphere_by_visible_area_pdf_batch(const EtenduePictureOnSphereByVisibleArea *sampler,
+                                                                  size_t n,
+                                                                  const float *const *w,
+                                                                  float *out);
+
+// The random numbers of each unit direction: three columns in, two out.
+EtendueStatus etendue_picture_on_sphere_by_visible_area_invert_batch(const EtenduePictureOnSphereByVisibleArea *sampler,
+                                                                     size_t n,
+                                                                     const float *const *w,
+                                                                     float *const *u);
+
+// The nearest point of the light in each unit direction: three columns.
+EtendueStatus etendue_picture_on_sphere_by_visible_area_hit_batch(const EtenduePictureOnSphereByVisibleArea *sampler,
+                                                                  size_t n,
+                                                                  const float *const *w,
+                                                                  const EtendueSampleColumns *out);
+
+// Prepares the light for a shading point and draws one direction.
+EtendueStatus etendue_picture_on_sphere_by_visible_area_sample_once(const EtenduePicturedSphere *light,
+                                                                    const float *p,
+                                                                    const float *u,
+                                                                    EtendueLightSample *out);
+
+// Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
+EtendueStatus etendue_picture_on_sphere_by_visible_area_sample_each(const EtenduePicturedSphereColumns *lights,
+                                                                    size_t n,
+                                                                    const float *const *p,
+                                                                    const float *const *u,
+                                                                    const EtendueSampleColumns *out);
+
+// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_picture_on_sphere_by_visible_area_pdf_each(const EtenduePicturedSphereColumns *lights,
+                                                                 size_t n,
+                                                                 const float *const *p,
+                                                                 const float *const *w,
+                                                                 float *out);
+
+// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_picture_on_sphere_by_visible_area_invert_each(const EtenduePicturedSphereColumns *lights,
+                                                                    size_t n,
+                                                                    const float *const *p,
+                                                                    const float *const *w,
+                                                                    float *const *u);
+
+// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
+EtendueStatus etendue_picture_on_sphere_by_visible_area_hit_each(const EtenduePicturedSphereColumns *lights,
+                                                                 size_t n,
+                                                                 const float *const *p,
+                                                                 const float *const *w,
+                                                                 const EtendueSampleColumns *out);
+
+// Prepares the light for a shading point.
+EtendueStatus etendue_picture_on_patch_by_visible_area_prepare(const EtenduePicturedPatch *light,
+                                                               const float *p,
+                                                               EtenduePictureOnPatchByVisibleArea *out);
+
+// Draws a direction for u.
+EtendueStatus etendue_picture_on_patch_by_visible_area_sample(const EtenduePictureOnPatchByVisibleArea *sampler,
+                                                              const float *u,
+                                                              EtendueLightSample *out);
+
+// The pdf with which a unit direction `w` is drawn; 0 where it misses the light, and if a pointer is NULL.
+float etendue_picture_on_patch_by_visible_area_pdf(const EtenduePictureOnPatchByVisibleArea *sampler, const float *w);
+
+// The random numbers `u` that are mapped to a unit direction `w`; any in [0, 1)^2 where it misses the light.
+EtendueStatus etendue_picture_on_patch_by_visible_area_invert(const EtenduePictureOnPatchByVisibleArea *sampler,
+                                                              const float *w,
+                                                              float *u);
+
+// The nearest point of the light in a unit direction `w`, with the pdf of that direction; pdf 0 where it misses the light.
+EtendueStatus etendue_picture_on_patch_by_visible_area_hit(const EtenduePictureOnPatchByVisibleArea *sampler,
+                                                           const float *w,
+                                                           EtendueLightSample *out);
+
+// Draws a direction for each u: two columns.
+EtendueStatus etendue_picture_on_patch_by_visible_area_sample_batch(const EtenduePictureOnPatchByVisibleArea *sampler,
+                                                                    size_t n,
+                                                                    const float *const *u,
+                                                                    const EtendueSampleColumns *out);
+
+// The pdf of each unit direction: three columns.
+EtendueStatus etendue_picture_on_patch_by_visible_area_pdf_batch(const EtenduePictureOnPatchByVisibleArea *sampler,
+                                                                 size_t n,
+                                                                 const float *const *w,
+                                                                 float *out);
+
+// The random numbers of each unit direction: three columns in, two out.
+EtendueStatus etendue_picture_on_patch_by_visible_area_invert_batch(const EtenduePictureOnPatchByVisibleArea *sampler,
+                                                                    size_t n,
+                                                                    const float *const *w,
+                                                                    float *const *u);
+
+// The nearest point of the light in each unit direction: three columns.
+EtendueStatus etendue_picture_on_patch_by_visible_area_hit_batch(const EtenduePictureOnPatchByVisibleArea *sampler,
+                                                                 size_t n,
+                                                                 const float *const *w,
+                                                                 const EtendueSampleColumns *out);
+
+// Prepares the light for a shading point and draws one direction.
+EtendueStatus etendue_picture_on_patch_by_visible_area_sample_once(const EtenduePicturedPatch *light,
+                                                                   const float *p,
+                                                                   const float *u,
+                                                                   EtendueLightSample *out);
+
+// Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
+EtendueStatus etendue_picture_on_patch_by_visible_area_sample_each(const EtenduePicturedPatchColumns *lights,
+                                                                   size_t n,
+                                                                   const float *const *p,
+                                                                   const float *const *u,
+                                                                   const EtendueSampleColumns *out);
+
+// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_picture_on_patch_by_visible_area_pdf_each(const EtenduePicturedPatchColumns *lights,
+                                                                size_t n,
+                                                                const float *const *p,
+                                                                const float *const *w,
+                                                                float *out);
+
+// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_picture_on_patch_by_visible_area_invert_each(const EtenduePicturedPatchColumns *lights,
+                                                                   size_t n,
+                                                                   const float *const *p,
+                                                                   const float *const *w,
+                                                                   float *const *u);
+
+// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
+EtendueStatus etendue_picture_on_patch_by_visible_area_hit_each(const EtenduePicturedPatchColumns *lights,
+                                                                size_t n,
+                                                                const float *const *p,
+                                                                const float *const *w,
+                                                                const EtendueSampleColumns *out);
+
+// Number of 64-bit words in the table of an image in the coordinates of a portal; 0 for one without columns or rows, or with more than 4096
+// of them.
+size_t etendue_portal_table(size_t width,
+                            size_t height);
+
+// Builds the table of an image in the coordinates of a portal, from a weight for each texel, row by row: the light that comes through it, so
+// radiance times solid angle. etendue_portal_direction gives the direction of a texel, and its solid angle.
+//
+// `weights` has width x height elements, `sums` has etendue_portal_table; it must live as long as `table` is used, `weights` need not.
+// Returns ETENDUE_STATUS_COUNT for a size that is not allowed, and ETENDUE_STATUS_VALUE if a weight is negative, infinite or NaN, and if all
+// weights are 0.
+EtendueStatus etendue_portal_table_build(const float *weights,
+                                         size_t width,
+                                         size_t height,
+                                         uint64_t *sums,
+                                         EtenduePortalTable *table);
+
+// The unit direction `w` at a position in the image of a portal, and the solid angle there per unit of the image's area, in steradians.
+//
+// A direction x s + y t + z n, by the unit edges s and t and the normal n, has the position (atan(x/z)/pi + 1/2, atan(y/z)/pi + 1/2) in
+// [0, 1]^2. Only the directions of the edges count. `solid_angle` may be NULL. Returns ETENDUE_STATUS_VALUE if the edges are parallel or not
+// finite.
+EtendueStatus etendue_portal_direction(const EtenduePortal *portal,
+                                       const float *uv,
+                                       float *w,
+                                       float *solid_angle);
+
+// The unit direction and the solid angle at each position in the image of a portal: two columns in, three and one out.
+EtendueStatus etendue_portal_direction_batch(const EtenduePortal *portal,
+                                             size_t n,
+                                             const float *const *uv,
+                                             float *const *w,
+                                             float *solid_angle);
+
+// Whether a ray from each point in each unit direction passes a portal towards the sky: 1 or 0. Three columns each.
+EtendueStatus etendue_portal_environment_sees_batch(const EtenduePortalEnvironment *environment,
+                                                    size_t n,
+                                                    const float *const *p,
+                                                    const float *const *w,
+                                                    uint8_t *out);
+
+// Whether a ray from each point within so many radians of each unit direction may pass a portal towards the sky: where it is 0, none does.
+// Three columns each of points and directions, and one of radii.
+EtendueStatus etendue_portal_environment_sees_cone_batch(const EtenduePortalEnvironment *environment,
+                                                         size_t n,
+                                                         const float *const *p,
+                                                         const float *const *w,
+                                                         const float *radius,
+                                                         uint8_t *out);
+
+// Prepares the light for a shading point.
+EtendueStatus etendue_portals_by_radiance_prepare(const EtenduePortalEnvironment *light,
+                                                  const float *p,
+                                                  EtenduePortalsByRadiance *out);
+
+// Draws a direction for u.
+EtendueStatus etendue_portals_by_radiance_sample(const EtenduePortalsByRadiance *sampler,
+                                                 const float *u,
+                                                 EtendueLightSample *out);
+
+// The pdf with which a unit direction `w` is drawn; 0 where it misses the light, and if a pointer is NULL.
+float etendue_portals_by_radiance_pdf(const EtenduePortalsByRadiance *sampler, const float *w);
+
+// The random numbers `u` that are mapped to a unit direction `w`; any in [0, 1)^2 where it misses the light.
+EtendueStatus etendue_portals_by_radiance_invert(const EtenduePortalsByRadiance *sampler, const float *w, float *u);
+
+// The nearest point of the light in a unit direction `w`, with the pdf of that direction; pdf 0 where it misses the light.
+EtendueStatus etendue_portals_by_radiance_hit(const EtenduePortalsByRadiance *sampler,
+                                              const float *w,
+                                              EtendueLightSample *out);
+
+// Draws a direction for each u: two columns.
+EtendueStatus etendue_portals_by_radiance_sample_batch(const EtenduePortalsByRadiance *sampler,
+                                                       size_t n,
+                                                       const float *const *u,
+                                                       const EtendueSampleColumns *out);
+
+// The pdf of each unit direction: three columns.
+EtendueStatus etendue_portals_by_radiance_pdf_batch(const EtenduePortalsByRadiance *sampler,
+                                                    size_t n,
+                                                    const float *const *w,
+                                                    float *out);
+
+// The random numbers of each unit direction: three columns in, two out.
+EtendueStatus etendue_portals_by_radiance_invert_batch(const EtenduePortalsByRadiance *sampler,
+                                                       size_t n,
+                                                       const float *const *w,
+                                                       float *const *u);
+
+// The nearest point of the light in each unit direction: three columns.
+EtendueStatus etendue_portals_by_radiance_hit_batch(const EtenduePortalsByRadiance *sampler,
+                                                    size_t n,
+                                                    const float *const *w,
+                                                    const EtendueSampleColumns *out);
+
+// Prepares the light for a shading point and draws one direction.
+EtendueStatus etendue_portals_by_radiance_sample_once(const EtenduePortalEnvironment *light,
+                                                      const float *p,
+                                                      const float *u,
+                                                      EtendueLightSample *out);
+
+// Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
+EtendueStatus etendue_portals_by_radiance_sample_each(const EtenduePortalEnvironment *lights,
+                                                      size_t n,
+                                                      const float *const *p,
+                                                      const float *const *u,
+                                                      const EtendueSampleColumns *out);
+
+// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_portals_by_radiance_pdf_each(const EtenduePortalEnvironment *lights,
+                                                   size_t n,
+                                                   const float *const *p,
+                                                   const float *const *w,
+                                                   float *out);
+
+// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_portals_by_radiance_invert_each(const EtenduePortalEnvironment *lights,
+                                                      size_t n,
+                                                      const float *const *p,
+                                                      const float *const *w,
+                                                      float *const *u);
+
+// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
+EtendueStatus etendue_portals_by_radiance_hit_each(const EtenduePortalEnvironment *lights,
+                                                   size_t n,
+                                                   const float *const *p,
+                                                   const float *const *w,
+                                                   const EtendueSampleColumns *out);
+
+// Prepares a profile from polar angles and azimuths in degrees, and a value for each pair: all polar angles of the first azimuth come first.
+//
+// There are 2 or more polar angles that ascend in [0, 180], and azimuths that ascend from one in (-360, 0] over at most 360; a single azimuth
+// stands for all. `values` has polar_count x azimuth_count elements from 0 to 1e37, in any unit. Below the first and above the last polar
+// angle, and outside the azimuths, the light is dark. The arrays must live as long as the profile is used. Returns ETENDUE_STATUS_COUNT for
+// too few angles, and ETENDUE_STATUS_VALUE if angles do not ascend or are out of their range, and if a value is negative, NaN or too large.
+EtendueStatus etendue_profile_prepare(const float *polar,
+                                      size_t polar_count,
+                                      const float *azimuth,
+                                      size_t azimuth_count,
+                                      const float *values,
+                                      EtendueProfile *out);
+
+// The intensity in the unit direction `w` in which light travels, in the unit of the values; 0 if a pointer is NULL.
+float etendue_profile_intensity(const EtendueProfile *profile, const float *w);
+
+// The intensity in each unit direction in which light travels: three columns.
+EtendueStatus etendue_profile_intensity_batch(const EtendueProfile *profile,
+                                              size_t n,
+                                              const float *const *w,
+                                              float *out);
+
+// The integral of the intensity over all directions: the power, for intensities per steradian. Exact to some 1e-14; 0 for NULL.
+double etendue_profile_power(const EtendueProfile *profile);
+
+// Cosine of the angle from +z from which on the light is dark, at most 1: for EtendueLightBound. -1 if it may shine in all directions, and
+// for NULL.
+float etendue_profile_cos_cone(const EtendueProfile *profile);
+
+// Fills an image of width x height texels with the mean of the intensity over each texel of an equirectangular map, row by row, which is
+// greater than 0 where there is light. etendue_image_environment_build samples what the light emits with these weights. Returns
+// ETENDUE_STATUS_COUNT for an image without columns or rows.
+EtendueStatus etendue_profile_means(const EtendueProfile *profile,
+                                    size_t width,
+                                    size_t height,
+                                    float *means);
+
+// Prepares a point light whose intensity differs by direction for a shading point. `intensity` is called once, with the unit direction in
+// which light travels, in the coordinates of the scene, and with `context`, and returns the intensity there, relative to the I of the
+// estimator: of a profile, of a projected image, or of anything else. The pdf of a sample is distance^2 over it, which is no density, and 0
+// where the intensity is 0.
+EtendueStatus etendue_point_light_by_profile_prepare(const EtenduePointLight *light,
+                                                     const float *p,
+                                                     float (*intensity)(const float *w, void *context),
+                                                     void *context,
+                                                     EtenduePointLightByDelta *out);
+
+// The position `uv` in the image of the unit direction `w`, and whether it is there: where it is not, `inside` is 0, and so is the position.
+//
+// u = (1 + x/(z tx))/2, v = (1 - y/(z ty))/2, with the tangents tx and ty of half the angles of view.
+EtendueStatus etendue_projector_place(const EtendueProjector *projector,
+                                      const float *w,
+                                      float *uv,
+                                      uint8_t *inside);
+
+// The position in the image of each unit direction, and whether it is there: three columns in, two and one out.
+EtendueStatus etendue_projector_place_batch(const EtendueProjector *projector,
+                                            size_t n,
+                                            const float *const *w,
+                                            float *const *uv,
+                                            uint8_t *inside);
+
+// The unit direction `w` in which the light of a position `uv` in the image travels.
+EtendueStatus etendue_projector_direction(const EtendueProjector *projector, const float *uv, float *w);
+
+// The unit direction in which the light of each position in the image travels: two columns in, three out.
+EtendueStatus etendue_projector_direction_batch(const EtendueProjector *projector,
+                                                size_t n,
+                                                const float *const *uv,
+                                                float *const *w);
+
+// A cosine of the angle to the axis from which on the light is dark, for EtendueLightBound: that of the corners, less a rounding. -1 for NULL.
+float etendue_projector_cos_cone(const EtendueProjector *projector);
+
+// Solid angle of the texel in column `x` and row `y` of an image of width x height texels, in steradians: exact to some 1e-16. 0 for NULL, and
+// for a texel beyond the image.
+double etendue_projector_texel_solid_angle(const EtendueProjector *projector,
+                                           size_t width,
+                                           size_t height,
+                                           size_t x,
+                                           size_t y);
+
+// Number of floats in the table of an image; 0 for one without columns or rows, or with more than 2^24 of them.
+size_t etendue_projected_image_table(size_t width, size_t height);
+
+// Builds the table of an image, from a weight per steradian for each texel, row by row from the top.
+//
+// `weights` has width x height elements, `table` has etendue_projected_image_table; it must live as long as `image` is used, `weights`
+// need not. Returns ETENDUE_STATUS_COUNT for a size that is not allowed, and ETENDUE_STATUS_VALUE if a weight is negative, infinite or NaN, if
+// all weights are 0, and if a tangent of the projector is not positive and finite.
+EtendueStatus etendue_projected_image_build(const EtendueProjector *projector,
+                                            const float *weights,
+                                            size_t width,
+                                            size_t height,
+                                            float *table,
+                                            EtendueProjectedImage *image);
+
+// Maps random numbers `u` to a unit direction `w` in which light travels.
+EtendueStatus etendue_projected_image_sample(const EtendueProjectedImage *image, const float *u, float *w);
+
+// The pdf of a unit direction `w`, per steradian; 0 outside the image, and if a pointer is NULL.
+float etendue_projected_image_pdf(const EtendueProjectedImage *image, const float *w);
+
+// The random numbers that are mapped to a unit direction `w`; any in [0, 1)^2 outside the image.
+EtendueStatus etendue_projected_image_invert(const EtendueProjectedImage *image, const float *w, float *u);
+
+// A direction for each u, in columns.
+EtendueStatus etendue_projected_image_sample_batch(const EtendueProjectedImage *image,
+                                                   size_t n,
+                                                   const float *const *u,
+                                                   float *const *w);
+
+// The pdf of each unit direction, in columns.
+EtendueStatus etendue_projected_image_pdf_batch(const EtendueProjectedImage *image,
+                                                size_t n,
+                                                const float *const *w,
+                                                float *out);
+
+// The random numbers of each unit direction, in columns.
+EtendueStatus etendue_projected_image_invert_batch(const EtendueProjectedImage *image,
+                                                   size_t n,
+                                                   const float *const *w,
+                                                   float *const *u);
+
+// Prepares a spread with this full angle in radians, which is taken to be from 1e-3 to pi. Returns ETENDUE_STATUS_VALUE if it is NaN.
+EtendueStatus etendue_spread_prepare(double angle,
+                                     EtendueSpread *out);
+
+// The factor of the radiance in or against the unit direction `w` of a light with the unit normal `n`, on either side:
+// (tansigma - tantheta)/(tansigma - sigma) at the angle theta < sigma to the normal, with sigma half of the spread; 0 beyond, and if a pointer is NULL.
+float etendue_spread_attenuation(const EtendueSpread *spread,
+                                 const float *w,
+                                 const float *n);
+
+// The factor of the radiance for each unit direction and unit normal of a light: three columns each.
+EtendueStatus etendue_spread_attenuation_batch(const EtendueSpread *spread,
+                                               size_t n,
+                                               const float *const *w,
+                                               const float *const *normals,
+                                               float *out);
+
+// The part of a parallelogram with this spread that a point sees: the smallest parallelogram with edges along its own about what of its plane
+// is within the angle. It is without area where the point sees nothing, and the light itself where it sees all.
+EtendueStatus etendue_parallelogram_visible_part(const EtendueParallelogram *light,
+                                                 const float *p,
+                                                 const EtendueSpread *spread,
+                                                 EtendueParallelogram *out);
+
+// Prepares a parallelogram with this spread: uniform over the solid angle of the part that the point sees. Surface coordinates are those
+// of the whole light.
+EtendueStatus etendue_parallelogram_by_spread_prepare(const EtendueParallelogram *light,
+                                                      const float *p,
+                                                      const EtendueSpread *spread,
+                                                      EtendueParallelogramBySolidAngle *out);
+
+// Prepares a rectangle with this spread: uniform over the solid angle of the part that the point sees. Surface coordinates are those of
+// the whole light.
+EtendueStatus etendue_rectangle_by_spread_prepare(const EtendueRectangle *light,
+                                                  const float *p,
+                                                  const EtendueSpread *spread,
+                                                  EtendueRectangleBySolidAngle *out);
+
+// Prepares a disk with this spread: uniform over the solid angle of what the point sees, if that is a disk within the light; else, of the
+// whole light. Surface coordinates are those of the whole light.
+EtendueStatus etendue_disk_by_spread_prepare(const EtendueDisk *light,
+                                             const float *p,
+                                             const EtendueSpread *spread,
+                                             EtendueDiskBySolidAngle *out);
 
 // Prepares the visible normals of a GGX microsurface: the roughnesses along x and y, and the unit direction to the viewer in the frame
 // whose z axis is the normal.

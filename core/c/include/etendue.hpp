@@ -10,6 +10,7 @@
 //   to every class with such members or an operator[] that three floats initialise: T{x, y, z}. The same holds for Vec2.
 // - Lights: Sphere, Triangle, Parallelogram, Rectangle, Disk, Cylinder, BilinearPatch, Polygon, Line, Annulus, Sun, PointLight, SpotLight,
 //   DirectionalLight. Their methods by_... prepare them for a shading point. ImageEnvironment is the same at every point.
+// - Picture::on puts a picture on a light. PortalEnvironment, Spread, GeneralSky, Profile, Projector and ProjectedImage.
 // - Batches: columns of one length, from anything with data() and size(). Every length is checked: a column of another length gives
 //   ETENDUE_STATUS_COUNT. Empty columns stand for results that are not wanted.
 // - Warps, sequences and LightTree.
@@ -342,7 +343,7 @@ class LightColumns {
                                                                                                                                        \
       public:                                                                                                                          \
         NAME(const Etendue##LIGHT& light, Vec3 p PARAMETER) {                                                                          \
-            PREFIX##_prepare(&light, detail::Row<3>(p).v POINTER, &c_);                                                                \
+            if (PREFIX##_prepare(&light, detail::Row<3>(p).v POINTER, &c_) != ETENDUE_STATUS_OK) c_ = {};                              \
         }                                                                                                                              \
         const Etendue##NAME& c() const { return c_; }                                                                                  \
         ETENDUE_SAMPLER_METHODS(PREFIX)                                                                                                \
@@ -561,6 +562,287 @@ class ImageEnvironment {
     ETENDUE_SAMPLER_METHODS(etendue_image_environment)
 };
 
+// ---- pictures on lights ----
+
+using PictureRegion = EtenduePictureRegion;
+
+// Columns of lights with one picture.
+template <class P, class C>
+class PicturedColumns {
+    EtenduePicture picture_;
+    LightColumns<C> lights_;
+
+  public:
+    PicturedColumns(const EtenduePicture& picture, const LightColumns<C>& lights) : picture_(picture), lights_(lights) {}
+    bool fits(size_t n) const { return lights_.fits(n); }
+    P c() const { return {picture_, lights_.c()}; }
+};
+template <>
+class LightColumns<EtenduePicturedParallelogramColumns>
+    : public PicturedColumns<EtenduePicturedParallelogramColumns, EtendueParallelogramColumns> {
+    using PicturedColumns::PicturedColumns;
+};
+template <>
+class LightColumns<EtenduePicturedSphereColumns> : public PicturedColumns<EtenduePicturedSphereColumns, EtendueSphereColumns> {
+    using PicturedColumns::PicturedColumns;
+};
+template <>
+class LightColumns<EtenduePicturedPatchColumns> : public PicturedColumns<EtenduePicturedPatchColumns, EtendueBilinearPatchColumns> {
+    using PicturedColumns::PicturedColumns;
+};
+using PicturedParallelogramColumns = LightColumns<EtenduePicturedParallelogramColumns>;
+using PicturedSphereColumns = LightColumns<EtenduePicturedSphereColumns>;
+using PicturedPatchColumns = LightColumns<EtenduePicturedPatchColumns>;
+
+// A picture that is not built gives pdf 0.
+ETENDUE_ANYWHERE(PictureByArea, PicturedParallelogram, etendue_picture_by_area)
+ETENDUE_ANYWHERE(PictureBySolidAngle, PicturedParallelogram, etendue_picture_by_solid_angle)
+ETENDUE_ON_SURFACE(PictureByProjectedSolidAngle, PicturedParallelogram, etendue_picture_by_projected_solid_angle)
+ETENDUE_ANYWHERE(PictureOnSphereByVisibleArea, PicturedSphere, etendue_picture_on_sphere_by_visible_area)
+ETENDUE_ANYWHERE(PictureOnPatchByVisibleArea, PicturedPatch, etendue_picture_on_patch_by_visible_area)
+
+// A flat light with a picture.
+struct PicturedParallelogram : EtenduePicturedParallelogram {
+    PictureByArea by_area(Vec3 at) const { return {*this, at}; }
+    PictureBySolidAngle by_solid_angle(Vec3 at) const { return {*this, at}; }
+    PictureByProjectedSolidAngle by_projected_solid_angle(Vec3 at, Vec3 n) const { return {*this, at, n}; }
+};
+struct PicturedSphere : EtenduePicturedSphere {
+    PictureOnSphereByVisibleArea by_visible_area(Vec3 at) const { return {*this, at}; }
+};
+struct PicturedPatch : EtenduePicturedPatch {
+    PictureOnPatchByVisibleArea by_visible_area(Vec3 at) const { return {*this, at}; }
+};
+
+// A picture for lights, in a table of the caller's, which must live as long as the picture is used.
+class Picture {
+    EtenduePicture c_ = {};
+
+  public:
+    // Number of floats in the table; 0 for a size that is not allowed, and for a single texel that is constant.
+    static size_t table(size_t width, size_t height) { return etendue_picture_table(width, height); }
+    static size_t interpolated_table(size_t width, size_t height) { return etendue_picture_interpolated_table(width, height); }
+
+    // Builds the table, of table(width, height) floats, from the mean radiance of each texel, row by row.
+    Status build(Span<const float> weights, size_t width, PictureRegion region, Span<float> table) {
+        const size_t height = width == 0 ? 0 : weights.size() / width;
+        if (width * height != weights.size() || table.size() != Picture::table(width, height)) return ETENDUE_STATUS_COUNT;
+        return etendue_picture_build(weights.data(), width, height, region, table.data(), &c_);
+    }
+    // Builds the table, of interpolated_table(width, height) floats, of a picture that is interpolated between the values at the centres of
+    // its texels, which must live as long, too.
+    Status interpolate(Span<const float> values, size_t width, Span<float> table) {
+        const size_t height = width == 0 ? 0 : values.size() / width, floats = interpolated_table(width, height);
+        if (floats == 0 || width * height != values.size() || table.size() != floats) return ETENDUE_STATUS_COUNT;
+        return etendue_picture_interpolate(values.data(), width, height, table.data(), &c_);
+    }
+    const EtenduePicture& c() const { return c_; }
+
+    // The picture on a light, which must cover the region for which it was built.
+    PicturedParallelogram on(const EtendueParallelogram& light) const { return {{c_, light}}; }
+    PicturedParallelogram on(const EtendueRectangle& light) const { return on_flat(etendue_rectangle_coordinates, light); }
+    PicturedParallelogram on(const EtendueTriangle& light) const { return on_flat(etendue_triangle_coordinates, light); }
+    PicturedParallelogram on(const EtendueDisk& light) const { return on_flat(etendue_disk_coordinates, light); }
+    PicturedSphere on(const EtendueSphere& light) const { return {{c_, light}}; }
+    PicturedPatch on(const EtendueBilinearPatch& light) const { return {{c_, light}}; }
+
+  private:
+    template <class Light>
+    PicturedParallelogram on_flat(Status (*coordinates)(const Light*, EtendueParallelogram*), const Light& light) const {
+        EtendueParallelogram parallelogram = {};
+        coordinates(&light, &parallelogram);
+        return on(parallelogram);
+    }
+};
+
+// ---- the sky through portals ----
+
+// A portal, with the map of its image.
+struct Portal : EtenduePortal {
+    Portal(Vec3 corner_, Vec3 s, Vec3 t) : EtenduePortal{{corner_.x, corner_.y, corner_.z}, {s.x, s.y, s.z}, {t.x, t.y, t.z}} {}
+    // The direction at a position in the image, and the solid angle there per unit of its area.
+    Vec3 direction(Vec2 uv, float* solid_angle = nullptr) const {
+        detail::Row<3> w;
+        etendue_portal_direction(this, detail::Row<2>(uv).v, w.v, solid_angle);
+        return w.value();
+    }
+    Status direction(In<2> uv, Out<3> w, Span<float> solid_angle) const {
+        using namespace detail;
+        const size_t n = uv.size();
+        if (!fits(uv, n) || !fits_or_absent(w, n) || !fits_or_absent(solid_angle, n)) return ETENDUE_STATUS_COUNT;
+        return etendue_portal_direction_batch(this, n, Pointers<const float, 2>(uv).p, Pointers<float, 3>(w).p, pointer(solid_angle));
+    }
+};
+// The sky in the coordinates of a portal, in a table of the caller's, which must live as long as it is used.
+struct PortalTable : EtenduePortalTable {
+    PortalTable() : EtenduePortalTable{} {}
+    // Number of 64-bit words in the table of an image; 0 for a size that is not allowed.
+    static size_t table(size_t width, size_t height) { return etendue_portal_table(width, height); }
+    // Builds the table, of table(width, height) words, from the weight of each texel, row by row: radiance times solid angle.
+    Status build(Span<const float> weights, size_t width, Span<uint64_t> table) {
+        const size_t height = width == 0 ? 0 : weights.size() / width, words = PortalTable::table(width, height);
+        if (words == 0 || width * height != weights.size() || table.size() != words) return ETENDUE_STATUS_COUNT;
+        return etendue_portal_table_build(weights.data(), width, height, table.data(), this);
+    }
+};
+
+using EtenduePortalEnvironmentColumns = EtenduePortalEnvironment;
+template <>
+class LightColumns<EtenduePortalEnvironment> {
+    EtenduePortalEnvironment c_;
+
+  public:
+    LightColumns(const EtenduePortalEnvironment& environment) : c_(environment) {}
+    bool fits(size_t) const { return true; }
+    const EtenduePortalEnvironment& c() const { return c_; }
+};
+ETENDUE_ANYWHERE(PortalsByRadiance, PortalEnvironment, etendue_portals_by_radiance)
+
+// The sky through at most 8 portals, with a table for each: both must live as long as the environment is used.
+struct PortalEnvironment : EtenduePortalEnvironment {
+    PortalEnvironment(Span<const Portal> portals_, Span<const PortalTable> tables_)
+        : EtenduePortalEnvironment{portals_.data(), tables_.data(), portals_.size() == tables_.size() ? portals_.size() : 0} {
+        static_assert(sizeof(Portal) == sizeof(EtenduePortal) && sizeof(PortalTable) == sizeof(EtenduePortalTable), "no other members");
+    }
+    PortalsByRadiance by_radiance(Vec3 at) const { return {*this, at}; }
+    // Whether rays pass a portal towards the sky, and whether rays within so many radians of them may.
+    Status sees(In<3> p, In<3> w, Span<uint8_t> out) const {
+        using namespace detail;
+        const size_t n = out.size();
+        if (!fits(p, n) || !fits(w, n)) return ETENDUE_STATUS_COUNT;
+        return etendue_portal_environment_sees_batch(this, n, Pointers<const float, 3>(p).p, Pointers<const float, 3>(w).p, out.data());
+    }
+    Status sees_cone(In<3> p, In<3> w, Span<const float> radius, Span<uint8_t> out) const {
+        using namespace detail;
+        const size_t n = out.size();
+        if (!fits(p, n) || !fits(w, n) || !fits(radius, n)) return ETENDUE_STATUS_COUNT;
+        return etendue_portal_environment_sees_cone_batch(this, n, Pointers<const float, 3>(p).p, Pointers<const float, 3>(w).p,
+                                                          radius.data(), out.data());
+    }
+};
+
+// ---- spread, and daylight ----
+
+// How a flat light emits within an angle of its normal.
+struct Spread : EtendueSpread {
+    // The full angle in radians.
+    explicit Spread(double angle) : EtendueSpread{} { etendue_spread_prepare(angle, this); }
+    // The factor of the radiance in the unit direction w of a light with the unit normal n.
+    float attenuation(Vec3 w, Vec3 n) const { return etendue_spread_attenuation(this, detail::Row<3>(w).v, detail::Row<3>(n).v); }
+    Status attenuation(In<3> w, In<3> normals, Span<float> out) const {
+        using namespace detail;
+        const size_t n = out.size();
+        if (!fits(w, n) || !fits(normals, n)) return ETENDUE_STATUS_COUNT;
+        return etendue_spread_attenuation_batch(this, n, Pointers<const float, 3>(w).p, Pointers<const float, 3>(normals).p, out.data());
+    }
+    // The part of a parallelogram that a point sees.
+    EtendueParallelogram visible_part(const EtendueParallelogram& light, Vec3 p) const {
+        EtendueParallelogram part = {};
+        etendue_parallelogram_visible_part(&light, detail::Row<3>(p).v, this, &part);
+        return part;
+    }
+};
+
+// The sky by CIE's general sky, of a type from 1 to 15, relative to the zenith. z is up.
+class GeneralSky {
+    EtendueGeneralSky c_ = {};
+
+  public:
+    Status prepare(uint32_t kind, double x, double y, double z) {
+        const double sun[3] = {x, y, z};
+        return etendue_general_sky_prepare(kind, sun, &c_);
+    }
+    const EtendueGeneralSky& c() const { return c_; }
+    float luminance(Vec3 w) const { return etendue_general_sky_luminance(&c_, detail::Row<3>(w).v); }
+    Status luminance(In<3> w, Span<float> out) const {
+        if (!detail::fits(w, out.size())) return ETENDUE_STATUS_COUNT;
+        return etendue_general_sky_luminance_batch(&c_, out.size(), detail::Pointers<const float, 3>(w).p, out.data());
+    }
+    // Illuminance of the horizontal plane over the luminance of the zenith, in steradians.
+    double horizontal() const { return etendue_general_sky_horizontal(&c_); }
+};
+using Moment = EtendueMoment;
+using SunPosition = EtendueSunPosition;
+
+// ---- profiles, and projected images ----
+
+// The intensity of a light by direction, in arrays of the caller's, which must live as long as the profile is used.
+class Profile {
+    EtendueProfile c_ = {};
+    bool is_prepared_ = false;
+
+  public:
+    // Ascending polar angles and azimuths in degrees, and a value for each pair: all polar angles of the first azimuth come first.
+    Status prepare(Span<const float> polar, Span<const float> azimuth, Span<const float> values) {
+        is_prepared_ = false;
+        if (values.size() != polar.size() * azimuth.size()) return ETENDUE_STATUS_COUNT;
+        const Status status = etendue_profile_prepare(polar.data(), polar.size(), azimuth.data(), azimuth.size(), values.data(), &c_);
+        is_prepared_ = status == ETENDUE_STATUS_OK;
+        return status;
+    }
+    // NULL before it is prepared: then the functions return 0, or refuse it.
+    const EtendueProfile* c() const { return is_prepared_ ? &c_ : nullptr; }
+    // The intensity in the unit direction w in which light travels.
+    float intensity(Vec3 w) const { return etendue_profile_intensity(c(), detail::Row<3>(w).v); }
+    Status intensity(In<3> w, Span<float> out) const {
+        if (!detail::fits(w, out.size())) return ETENDUE_STATUS_COUNT;
+        return etendue_profile_intensity_batch(c(), out.size(), detail::Pointers<const float, 3>(w).p, out.data());
+    }
+    double power() const { return etendue_profile_power(c()); }
+    float cos_cone() const { return etendue_profile_cos_cone(c()); }
+    // Fills an equirectangular image with mean intensities: ImageEnvironment samples what the light emits with these weights.
+    Status means(size_t width, Span<float> means) const {
+        if (width == 0 || means.size() % width != 0) return ETENDUE_STATUS_COUNT;
+        return etendue_profile_means(c(), width, means.size() / width, means.data());
+    }
+};
+
+// A point light whose intensity differs by direction, prepared for a shading point: `intensity` takes the direction in which light travels.
+template <class Intensity>
+EtenduePointLightByDelta by_profile(const EtenduePointLight& light, Vec3 p, Intensity&& intensity) {
+    using F = std::remove_reference_t<Intensity>;
+    EtenduePointLightByDelta out = {};
+    const auto call = [](const float* w, void* context) { return float((*static_cast<F*>(context))(Vec3(w[0], w[1], w[2]))); };
+    void* const context = const_cast<void*>(static_cast<const void*>(&intensity));
+    etendue_point_light_by_profile_prepare(&light, detail::Row<3>(p).v, call, context, &out);
+    return out;
+}
+
+// A light that projects an image through a pinhole.
+struct Projector : EtendueProjector {
+    // Tangents of half the horizontal and vertical angle of view.
+    Projector(float across, float up) : EtendueProjector{{across, up}} {}
+    // The position in the image of the unit direction w, and whether it is there.
+    std::pair<Vec2, bool> place(Vec3 w) const {
+        detail::Row<2> uv;
+        uint8_t inside = 0;
+        etendue_projector_place(this, detail::Row<3>(w).v, uv.v, &inside);
+        return {uv.value(), inside != 0};
+    }
+    Status place(In<3> w, Out<2> uv, Span<uint8_t> inside) const {
+        using namespace detail;
+        const size_t n = w.size();
+        if (!fits(w, n) || !fits_or_absent(uv, n) || !fits_or_absent(inside, n)) return ETENDUE_STATUS_COUNT;
+        return etendue_projector_place_batch(this, n, Pointers<const float, 3>(w).p, Pointers<float, 2>(uv).p, pointer(inside));
+    }
+    // The direction in which the light of a position in the image travels.
+    Vec3 direction(Vec2 uv) const {
+        detail::Row<3> w;
+        etendue_projector_direction(this, detail::Row<2>(uv).v, w.v);
+        return w.value();
+    }
+    Status direction(In<2> uv, Out<3> w) const {
+        using namespace detail;
+        const size_t n = uv.size();
+        if (!fits(uv, n) || !fits_or_absent(w, n)) return ETENDUE_STATUS_COUNT;
+        return etendue_projector_direction_batch(this, n, Pointers<const float, 2>(uv).p, Pointers<float, 3>(w).p);
+    }
+    float cos_cone() const { return etendue_projector_cos_cone(this); }
+    double texel_solid_angle(size_t width, size_t height, size_t x, size_t y) const {
+        return etendue_projector_texel_solid_angle(this, width, height, x, y);
+    }
+};
+
 // ---- warps ----
 
 // One warp of U random numbers to P coordinates. SELF is its C struct, if it has one.
@@ -601,6 +883,23 @@ class ImageEnvironment {
         ETENDUE_WARP_METHODS(PREFIX, 2, P, )                                                                                           \
     };
 #define ETENDUE_WARP(PREFIX, U, P) ETENDUE_WARP_METHODS(PREFIX, U, P, this ETENDUE_COMMA)
+
+// What a projector emits of an image, in a table of the caller's, which must live as long as the image is used. Before it is built, its pdf is 0.
+class ProjectedImage {
+    EtendueProjectedImage c_ = {};
+
+  public:
+    // Number of floats in the table of an image; 0 for a size that is not allowed.
+    static size_t table(size_t width, size_t height) { return etendue_projected_image_table(width, height); }
+    // Builds the table, of table(width, height) floats, from a weight for each texel, row by row, from the top.
+    Status build(const EtendueProjector& projector, Span<const float> weights, size_t width, Span<float> table) {
+        const size_t height = width == 0 ? 0 : weights.size() / width, floats = ProjectedImage::table(width, height);
+        if (floats == 0 || width * height != weights.size() || table.size() != floats) return ETENDUE_STATUS_COUNT;
+        return etendue_projected_image_build(&projector, weights.data(), width, height, table.data(), &c_);
+    }
+    const EtendueProjectedImage& c() const { return c_; }
+    ETENDUE_WARP_METHODS(etendue_projected_image, 2, 3, &c_ ETENDUE_COMMA)
+};
 
 // Points of the unit disk, by concentric squares, and by radius and angle.
 ETENDUE_FIXED_WARP(ConcentricDisk, etendue_concentric_disk, 2)

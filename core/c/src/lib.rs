@@ -6,16 +6,31 @@
 // one rule for all functions: every pointer is null, or points to what the header says
 #![allow(clippy::missing_safety_doc)]
 
+mod sampler;
+// samples come first in the header
 mod light;
 mod sequence;
 mod tree;
 // after the lights, as in the header
+mod daylight;
 mod environment;
+mod picture;
+mod portal;
+mod profile;
+mod projector;
+mod spread;
 mod warp;
 
+pub use daylight::*;
 pub use environment::*;
 pub use light::*;
+pub use picture::*;
+pub use portal::*;
+pub use profile::*;
+pub use projector::*;
+pub use sampler::{EtendueLightSample, EtendueSampleColumns};
 pub use sequence::*;
+pub use spread::*;
 pub use tree::*;
 pub use warp::*;
 

@@ -1,6 +1,6 @@
 //! Trees of lights.
 
-use crate::light::vec3;
+use crate::sampler::vec3;
 use crate::{EtendueStatus, columns, refuse_null};
 use core::mem::{align_of, offset_of, size_of};
 use core::slice::{from_raw_parts, from_raw_parts_mut};

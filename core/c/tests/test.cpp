@@ -220,6 +220,115 @@ static void test_image() {
     CHECK(sky.pdf({a, b, c}, Span<float>(x.data(), 5)) == ETENDUE_STATUS_COUNT);
 }
 
+static void test_pictures() {
+    const std::vector<float> weights = {1, 2, 0, 4, 5, 6};
+    std::vector<float> table(Picture::table(3, 2)), other(Picture::interpolated_table(3, 2));
+    const Rectangle rectangle({-0.5f, 2, -0.5f}, {0, 0, 1}, {1, 0, 0});
+    Picture picture, smooth;
+    const auto unbuilt = picture.on(rectangle).by_area(p);
+    CHECK(unbuilt.sample(u).pdf == 0 && unbuilt.pdf(n) == 0 && unbuilt.hit(n).weight == 0); // not built
+    CHECK(picture.build(weights, 4, ETENDUE_PICTURE_REGION_SQUARE, table) == ETENDUE_STATUS_COUNT);
+    CHECK(picture.build(weights, 0, ETENDUE_PICTURE_REGION_SQUARE, table) == ETENDUE_STATUS_COUNT);
+    CHECK(picture.build(weights, 3, ETENDUE_PICTURE_REGION_SQUARE, Span<float>(table.data(), 1)) == ETENDUE_STATUS_COUNT);
+    CHECK(smooth.interpolate(weights, 3, Span<float>(other.data(), 1)) == ETENDUE_STATUS_COUNT);
+    CHECK(picture.build(weights, 3, ETENDUE_PICTURE_REGION_SQUARE, table) == ETENDUE_STATUS_OK);
+    CHECK(smooth.interpolate(weights, 3, other) == ETENDUE_STATUS_OK);
+    test(picture.on(rectangle).by_area(p));
+    test(picture.on(Parallelogram({-0.5f, 2, -0.5f}, {0, 0.1f, 1}, {1, 0, 0})).by_solid_angle(p));
+    test(smooth.on(rectangle).by_projected_solid_angle(p, n));
+    test(smooth.on(Sphere({0, 2, 0}, 0.5f)).by_visible_area(p));
+    test(picture.on(BilinearPatch({-0.5f, 2, -0.5f}, {0, 0, 1}, {1, 0, 0}, {1, 0.3f, 1})).by_visible_area(p));
+    // a texel without radiance is not drawn; seen from behind, the light has no weight
+    const LightSample s = picture.on(rectangle).by_solid_angle(p).sample(u);
+    const size_t texel = size_t(s.uv[0] * 3) + 3 * size_t(s.uv[1] * 2);
+    CHECK(weights[texel] > 0 && s.pdf > 0 && s.weight == 0);
+
+    // triangles and disks by their surface coordinates
+    CHECK(picture.build(weights, 3, ETENDUE_PICTURE_REGION_TRIANGLE, table) == ETENDUE_STATUS_OK);
+    const Triangle triangle({-0.5f, 2, -0.3f}, {0, 0, 1}, {1, 0, 0});
+    int on_it = 0;
+    for (int i = 0; i < 64; i++) {
+        const LightSample one = picture.on(triangle).by_solid_angle(p).sample(OwenSobol{3}.pair(0, i, 0));
+        CHECK(one.pdf == 0 || one.uv[0] + one.uv[1] < 1);
+        on_it += one.pdf > 0;
+    }
+    CHECK(on_it > 20);
+    CHECK(picture.on(Disk({0, 2, 0}, {0, -1, 0}, 0.5f)).light.edge_s[1] == 0);
+
+    // columns of lights with one picture
+    std::vector<float> x(20), y(20), zero(20, 0.0f), one(20, 1.0f), two(20, 2.0f), half(20, -0.5f), pdf(20), up(20, 1.0f);
+    CHECK(OwenSobol{1}.pairs({}, {x, y}) == ETENDUE_STATUS_OK);
+    CHECK(picture.build(weights, 3, ETENDUE_PICTURE_REGION_SQUARE, table) == ETENDUE_STATUS_OK);
+    const PicturedParallelogramColumns lights(picture.c(), {{half, two, half}, {zero, zero, one}, {one, zero, zero}});
+    SampleColumns out;
+    out.pdf = pdf;
+    CHECK(PictureBySolidAngle::sample_each(lights, {zero, zero, zero}, {x, y}, out) == ETENDUE_STATUS_OK);
+    for (size_t i = 0; i < 20; i++) CHECK(pdf[i] == picture.on(rectangle).by_solid_angle({0, 0, 0}).sample({x[i], y[i]}).pdf);
+    CHECK(PictureByProjectedSolidAngle::sample_each(lights, {zero, zero, zero}, {zero, up, zero}, {x, y}, out) == ETENDUE_STATUS_OK);
+    x.pop_back();
+    CHECK(PictureBySolidAngle::sample_each(lights, {zero, zero, zero}, {x, y}, out) == ETENDUE_STATUS_COUNT);
+}
+
+static void test_skies() {
+    const std::vector<float> weights = {1, 2, 0, 4, 5, 6};
+    const Portal portals[] = {{{-0.5f, 1, -0.5f}, {0, 0.25f, 1}, {1, 0, 0}}, {{0.25f, 1.5f, 0}, {0, 0.25f, 1}, {1, 0, 0}}};
+    PortalTable tables[2];
+    std::vector<uint64_t> sums(PortalTable::table(3, 2));
+    CHECK(tables[0].build(weights, 4, sums) == ETENDUE_STATUS_COUNT && tables[0].build(weights, 3, sums) == ETENDUE_STATUS_OK);
+    tables[1] = tables[0];
+    const PortalEnvironment sky(portals, tables);
+    test(sky.by_radiance(p));
+    CHECK(PortalEnvironment(portals, Span<const PortalTable>(tables, 1)).by_radiance(p).sample(u).pdf == 0);
+    float solid_angle = 0;
+    CHECK(near(portals[0].direction({0.5f, 0.5f}, &solid_angle), Vec3(0, 0.9701425f, -0.2425356f)) && std::fabs(solid_angle - 9.869604f) < 1e-4f);
+    const std::array<float, 2> px = {p.x, p.x}, py = {p.y, 9}, pz = {p.z, p.z}, radius = {0.1f, 0.1f}, zero = {0, 0}, one = {1, 1};
+    std::array<uint8_t, 2> sees, cone;
+    CHECK(sky.sees({px, py, pz}, {zero, one, zero}, sees) == ETENDUE_STATUS_OK && sees[0] == 1 && sees[1] == 0);
+    CHECK(sky.sees_cone({px, py, pz}, {zero, one, zero}, radius, cone) == ETENDUE_STATUS_OK && cone[0] == 1 && cone[1] == 0);
+    CHECK(sky.sees({px, py, pz}, {zero, one, zero}, Span<uint8_t>(sees.data(), 1)) == ETENDUE_STATUS_COUNT);
+
+    GeneralSky daylight;
+    CHECK(daylight.prepare(16, 0, 0, 1) == ETENDUE_STATUS_VALUE && daylight.prepare(5, 0, 0, 1) == ETENDUE_STATUS_OK);
+    CHECK(std::fabs(daylight.luminance({0, 0.6f, 0.8f}) - 1) < 1e-6f && std::fabs(daylight.horizontal() - 3.14159265) < 1e-4);
+    std::array<float, 2> luminance;
+    CHECK(daylight.luminance({zero, zero, one}, luminance) == ETENDUE_STATUS_OK && luminance[0] == daylight.luminance({0, 0, 1}));
+
+    const Spread spread(1.5707963267948966);
+    std::array<float, 2> factor;
+    CHECK(spread.attenuation({0, 1, 0}, {0, -1, 0}) > 4.6f && spread.attenuation({0.8f, 0.6f, 0}, {0, -1, 0}) == 0);
+    CHECK(spread.attenuation({zero, one, zero}, {zero, one, zero}, factor) == ETENDUE_STATUS_OK && factor[1] == spread.attenuation(n, n));
+    const Parallelogram panel({-9, 1, -9}, {18, 0, 0}, {0, 0, 18});
+    CHECK(std::fabs(spread.visible_part(panel, {0, 0, 0}).corner[0] + 1) < 1e-3f);
+}
+
+static void test_emission() {
+    const std::vector<float> polar = {0, 60}, azimuth = {0}, values = {100, 0}, weights = {1, 2, 0, 4, 5, 6};
+    Profile profile;
+    CHECK(profile.intensity(n) == 0 && profile.power() == 0 && profile.intensity(In<3>(), Span<float>()) == ETENDUE_STATUS_OK);
+    CHECK(profile.prepare(polar, azimuth, polar) == ETENDUE_STATUS_OK && profile.prepare(polar, azimuth, weights) == ETENDUE_STATUS_COUNT);
+    CHECK(profile.c() == nullptr && profile.prepare(polar, azimuth, values) == ETENDUE_STATUS_OK);
+    CHECK(std::fabs(profile.intensity({0.5f, 0, 0.8660254f}) - 50) < 1e-3f && profile.cos_cone() == 0.5f);
+    std::vector<float> means(16);
+    CHECK(profile.means(2, means) == ETENDUE_STATUS_OK && means[0] > means[4] && means[15] == 0 && profile.means(3, means) == ETENDUE_STATUS_COUNT);
+    // from 2 above, along the axis
+    const float distance_2 = 25;
+    EtendueLightSample s;
+    const auto lamp = by_profile(PointLight({0, 0, -2}), {0, 0, 0}, [&](Vec3 w) { return profile.intensity(w); });
+    CHECK(etendue_point_light_by_delta_sample(&lamp, detail::Row<2>(u).v, &s) == ETENDUE_STATUS_OK && std::fabs(s.weight - distance_2) < 1e-4f);
+
+    const Projector slide(1, 0.5f);
+    const Vec3 w = slide.direction({0.75f, 0.25f});
+    const auto [uv, inside] = slide.place(w);
+    CHECK(inside && near(uv, {0.75f, 0.25f}, 1e-6f) && !slide.place({0, 0, -1}).second && slide.cos_cone() > 0.66f);
+    ProjectedImage image;
+    std::vector<float> table(ProjectedImage::table(3, 2)), x(9), y(9), a(9), b(9), c(9), pdf(9);
+    CHECK(image.pdf(w) == 0 && image.build(slide, weights, 4, table) == ETENDUE_STATUS_COUNT && image.build(slide, weights, 3, table) == ETENDUE_STATUS_OK);
+    CHECK(OwenSobol{2}.pairs({}, {x, y}) == ETENDUE_STATUS_OK && image.sample({x, y}, {a, b, c}) == ETENDUE_STATUS_OK);
+    CHECK(image.pdf({a, b, c}, pdf) == ETENDUE_STATUS_OK);
+    for (size_t i = 0; i < 9; i++) CHECK(near(image.invert({a[i], b[i], c[i]}), {x[i], y[i]}, 1e-4f) && pdf[i] == image.pdf({a[i], b[i], c[i]}) && pdf[i] > 0);
+    CHECK(slide.direction({x, y}, {a, b, c}) == ETENDUE_STATUS_OK && slide.place({a, b, c}, {x, y}, Span<uint8_t>()) == ETENDUE_STATUS_OK);
+}
+
 static void test_pbrt() {
     const std::array<Point3, 3> v = {Point3{-0.5f, 2, -0.3f}, {0.7f, 2.1f, -0.1f}, {-0.4f, 2.2f, 0.8f}};
     const Point2 number = {0.3f, 0.6f};
@@ -372,6 +481,9 @@ int main() {
     test_sequences();
     test_tree();
     test_image();
+    test_pictures();
+    test_skies();
+    test_emission();
     test_pbrt();
     test_calls_of_pbrt();
     std::printf("%d checks, %d failed\n", checks, failures);

@@ -1,5 +1,6 @@
 //! numpy arrays as columns of numbers, and back.
 
+use etendue_batch::{Batch, BatchMap};
 use numpy::{Element, PyArray1, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyMemoryError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
@@ -229,6 +230,39 @@ impl<'py> Argument<'py> {
     }
 }
 
+/// The most columns or rows of an image.
+const MOST_TEXELS: usize = 1 << 24;
+
+/// An image of one number for each texel, row by row.
+pub(crate) struct Image {
+    pub(crate) weights: Vec<f32>,
+    pub(crate) width: usize,
+    pub(crate) height: usize,
+}
+
+impl Image {
+    /// An argument of the shape (height, width), of numbers that are finite and not negative.
+    pub(crate) fn new(name: &'static str, object: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let argument = Argument::new(name, FieldKind::Number, object)?;
+        let &[height, width] = &argument.shape[..] else {
+            let shape = argument.array.getattr("shape")?;
+            return Err(PyValueError::new_err(format!("{name} must have the shape (height, width), not {shape}")));
+        };
+        let sizes = 1..=MOST_TEXELS;
+        if !sizes.contains(&width) || !sizes.contains(&height) {
+            let message = format!("{name} must have 1 to {MOST_TEXELS} rows and columns, not {height} and {width}");
+            return Err(PyValueError::new_err(message));
+        }
+        let weights = argument.columns(&argument.shape)?.remove(0);
+        if let Some(at) = weights.iter().position(|&weight| !(0.0..f32::INFINITY).contains(&weight)) {
+            let place = argument.index(at, &argument.shape, None);
+            let message = format!("{place} must be finite in float32 and not negative, not {}", weights[at]);
+            return Err(PyValueError::new_err(message));
+        }
+        Ok(Self { weights, width, height })
+    }
+}
+
 /// The common shape of arguments, by numpy's rules.
 pub(crate) fn broadcast(py: Python<'_>, arguments: &[&Argument<'_>]) -> PyResult<Vec<usize>> {
     let shapes = PyTuple::new(py, arguments.iter().map(|a| PyTuple::new(py, &a.shape)).collect::<PyResult<Vec<_>>>()?)?;
@@ -269,6 +303,26 @@ pub(crate) fn zero_columns<const K: usize>(n: usize) -> PyResult<[Vec<f32>; K]> 
 /// Runs a batch of `n`, without Python's lock if it is large.
 pub(crate) fn run<R: Send>(py: Python<'_>, n: usize, batch: impl FnOnce() -> R + Send) -> R {
     if n < LARGE { batch() } else { py.detach(batch) }
+}
+
+/// The results of a map of columns of numbers, and whether they hold.
+pub(crate) fn map<M: BatchMap + Sync>(
+    py: Python<'_>,
+    map: &M,
+    columns: &[Vec<f32>],
+) -> PyResult<(Vec<Vec<f32>>, Vec<bool>)> {
+    let n = columns[0].len();
+    let mut out = Vec::new();
+    for _ in 0..M::RESULTS {
+        out.push(zeros(n)?);
+    }
+    let mut holds = zeros::<u8>(n)?;
+    let numbers: Vec<&[f32]> = columns.iter().map(Vec::as_slice).collect();
+    run(py, n, || {
+        let mut out: Vec<&mut [f32]> = out.iter_mut().map(Vec::as_mut_slice).collect();
+        Batch::new().map(map, &numbers, &mut out, &mut holds);
+    });
+    Ok((out, holds.into_iter().map(|holds| holds != 0).collect()))
 }
 
 /// A numpy array of the shape `shape`.

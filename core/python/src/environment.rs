@@ -1,6 +1,6 @@
 //! Light from all around as an image tells it.
 
-use crate::arrays::{Argument, FieldKind, run, zeros};
+use crate::arrays::{self, run, zeros};
 use crate::lights::{Prepared, Sampler};
 use etendue::light::{self, ByRadiance, EnvironmentMap};
 use etendue::{Vec2, Vec3};
@@ -8,9 +8,6 @@ use etendue_batch::{Batch, Samples};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use std::sync::Arc;
-
-/// The most columns or rows.
-const MOST: usize = 1 << 24;
 
 /// The table of an image, which samplers share.
 #[derive(Clone)]
@@ -68,26 +65,10 @@ impl ImageEnvironment {
                 return Err(PyValueError::new_err(message));
             }
         };
-        let argument = Argument::new("weights", FieldKind::Number, weights)?;
-        let &[height, width] = &argument.shape[..] else {
-            let message = format!("weights must have the shape (height, width), not {}", weights.getattr("shape")?);
-            return Err(PyValueError::new_err(message));
-        };
-        let sizes = 1..=MOST;
-        if !sizes.contains(&width) || !sizes.contains(&height) {
-            let message = format!("weights must have 1 to {MOST} rows and columns, not {height} and {width}");
-            return Err(PyValueError::new_err(message));
-        }
-        let columns = argument.columns(&argument.shape)?;
-        let weights = &columns[0];
-        if let Some(at) = weights.iter().position(|&weight| !(0.0..f32::INFINITY).contains(&weight)) {
-            let place = argument.index(at, &argument.shape, None);
-            let message = format!("{place} must be finite in float32 and not negative, not {}", weights[at]);
-            return Err(PyValueError::new_err(message));
-        }
+        let arrays::Image { weights, width, height } = arrays::Image::new("weights", weights)?;
         let mut table = zeros(light::ImageEnvironment::buffer(width, height))?;
         let built = run(py, weights.len(), || {
-            light::ImageEnvironment::build(weights, width, map, &mut table).map(|_| ()).map_err(|e| e.to_string())
+            light::ImageEnvironment::build(&weights, width, map, &mut table).map(|_| ()).map_err(|e| e.to_string())
         });
         built.map_err(PyValueError::new_err)?;
         Ok(Self { image: Image { table: Arc::new(table), width, height, map } })

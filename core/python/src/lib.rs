@@ -4,9 +4,14 @@
 #![forbid(unsafe_code)]
 
 mod arrays;
+mod daylight;
+mod emission;
 mod environment;
 mod lights;
+mod pictures;
+mod portals;
 mod sequences;
+mod spread;
 mod tree;
 mod warps;
 
@@ -40,7 +45,12 @@ fn extension(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(level, module)?)?;
     lights::add(module)?;
     environment::add(module)?;
+    pictures::add(module)?;
+    portals::add(module)?;
+    spread::add(module)?;
+    daylight::add(module)?;
     warps::add(module)?;
+    emission::add(module)?;
     sequences::add(module)?;
     tree::add(module)
 }

@@ -1,6 +1,6 @@
 //! Lights, and lights prepared for a shading point.
 
-use crate::arrays::{Argument, FieldKind, array, broadcast, rows, run, zero_columns, zeros};
+use crate::arrays::{Argument, FieldKind, array, broadcast, room, rows, run, zero_columns, zeros};
 use etendue::{Vec2, Vec3, light};
 use etendue_batch::{Batch, BatchTechnique, Evaluations, InTable, LightFunctions};
 use pyo3::exceptions::{PyAttributeError, PyTypeError, PyValueError};
@@ -29,7 +29,7 @@ impl<T: BatchTechnique + InTable<Functions = LightFunctions<T>> + Send + Sync> P
 }
 
 /// Three columns as a vector.
-fn vector(columns: &[Vec<f32>]) -> Vec3<&[f32]> {
+pub(crate) fn vector(columns: &[Vec<f32>]) -> Vec3<&[f32]> {
     Vec3::new(&columns[0], &columns[1], &columns[2])
 }
 
@@ -212,15 +212,19 @@ where
 {
     let mut vectors = [Vec3::default(); 2];
     for (&(name, object), vector) in place.iter().zip(&mut vectors) {
-        let kind = if name == "n" { FieldKind::Direction } else { FieldKind::Row(3) };
-        let columns = Argument::single(name, kind, object)?.columns(&[])?;
-        *vector = Vec3::new(columns[0][0], columns[1][0], columns[2][0]);
+        *vector = single(name, object)?;
     }
     Ok(Batch::new().prepare::<T>(light, vectors[0], vectors[1]))
 }
+/// A point p, or a normal n.
+pub(crate) fn single(name: &'static str, object: &Bound<'_, PyAny>) -> PyResult<Vec3<f32>> {
+    let kind = if name == "n" { FieldKind::Direction } else { FieldKind::Row(3) };
+    let columns = Argument::single(name, kind, object)?.columns(&[])?;
+    Ok(Vec3::new(columns[0][0], columns[1][0], columns[2][0]))
+}
 
 /// Lights and shading points of their own for each row, and the numbers u or the directions w there.
-struct Each {
+pub(crate) struct Each {
     shape: Vec<usize>,
     light: Vec<Vec<f32>>,
     p: Vec<Vec<f32>>,
@@ -230,11 +234,18 @@ struct Each {
 
 /// What is done with each row.
 #[derive(Clone, Copy)]
-enum Call {
+pub(crate) enum Call {
     Sample,
     Hit,
     Pdf,
     Invert,
+}
+
+impl Call {
+    /// What it takes, for each row: numbers u or directions w.
+    fn argument<'a, 'py>(self, at: &'a Bound<'py, PyAny>) -> (&'static str, FieldKind, &'a Bound<'py, PyAny>) {
+        if let Self::Sample = self { ("u", FieldKind::Units, at) } else { ("w", FieldKind::Direction, at) }
+    }
 }
 
 impl Each {
@@ -254,16 +265,30 @@ impl Each {
         let n = n.map(|n| n.columns(&shape)).transpose()?;
         Ok(Self { light, p: p.columns(&shape)?, n, at: at.columns(&shape)?, shape })
     }
+    /// One light, of these numbers, for all rows.
+    pub(crate) fn of_one(
+        py: Python<'_>,
+        numbers: &[f32],
+        p: &Bound<'_, PyAny>,
+        n: Option<&Bound<'_, PyAny>>,
+        call: Call,
+        at: &Bound<'_, PyAny>,
+    ) -> PyResult<Self> {
+        let mut this = Self::new(py, &[], p, n, call.argument(at))?;
+        for &number in numbers {
+            let mut column = room(this.at[0].len())?;
+            column.resize(this.at[0].len(), number);
+            this.light.push(column);
+        }
+        Ok(this)
+    }
     /// Calls a function of the technique `T` for all rows.
-    fn call<T>(
+    pub(crate) fn call<T: BatchTechnique>(
         self,
         py: Python<'_>,
         call: Call,
         build: impl for<'a> Fn(&[&'a [f32]]) -> T::Light<&'a [f32]> + Send + Sync,
-    ) -> PyResult<Py<PyAny>>
-    where
-        T: BatchTechnique + InTable<Functions = LightFunctions<T>>,
-    {
+    ) -> PyResult<Py<PyAny>> {
         let Self { shape, light, p, n, at } = self;
         if T::ON_SURFACE && n.is_none() {
             return Err(PyTypeError::new_err("this technique needs n, the normals at the shading points"));
@@ -353,14 +378,14 @@ macro_rules! lights {
         )+
         #[pyclass(module = "etendue", frozen)]
         pub(crate) struct $light {
-            numbers: Vec<f32>,
+            pub(crate) numbers: Vec<f32>,
         }
         impl $light {
             fn fields<'a, 'py, const N: usize>(values: [&'a Bound<'py, PyAny>; N]) -> [Field<'a, 'py>; N] {
                 const FIELDS: &[(&str, FieldKind, &str)] = &[$((stringify!($argument), kind!($kind), stringify!($kind))),+];
                 core::array::from_fn(|k| (FIELDS[k].0, FIELDS[k].1, FIELDS[k].2 == "vertex", values[k]))
             }
-            fn build<X: Copy>(numbers: &[X]) -> light::$light<X $(, $corners)?> {
+            pub(crate) fn build<X: Copy>(numbers: &[X]) -> light::$light<X $(, $corners)?> {
                 let mut numbers = numbers.iter().copied();
                 light::$light { $($field: next!($kind numbers)),+ }
             }
@@ -377,8 +402,7 @@ macro_rules! lights {
                 if !names.contains(&by) {
                     return Err(PyValueError::new_err(format!("by must be one of {names:?}, not {by:?}")));
                 }
-                let at = if let Call::Sample = call { ("u", FieldKind::Units, at) } else { ("w", FieldKind::Direction, at) };
-                let each = Each::new(py, fields, p, n, at)?;
+                let each = Each::new(py, fields, p, n, call.argument(at))?;
                 $(if by == &stringify!($by)[3..] {
                     return each.call::<light::$sampler<f32 $(, $n)?>>(py, call, |x| Self::build(x).into());
                 })+

@@ -5,7 +5,7 @@ use etendue_batch::{Batch, BatchWarp, InTable, WarpFunctions};
 use pyo3::prelude::*;
 
 /// A map of any kind.
-trait Mapping: Send + Sync {
+pub(crate) trait Mapping: Send + Sync {
     /// How many random numbers it maps, and to how many coordinates.
     fn sizes(&self) -> [usize; 2];
     fn sample(&self, u: [&[f32]; 2], out: [&mut [f32]; 3]);
@@ -30,7 +30,7 @@ impl<W: BatchWarp + InTable<Functions = WarpFunctions<W>> + Send + Sync> Mapping
 /// A map of random numbers to points: each of its subclasses is one.
 #[pyclass(module = "etendue", subclass, frozen)]
 pub(crate) struct Warp {
-    map: Box<dyn Mapping>,
+    pub(crate) map: Box<dyn Mapping>,
 }
 
 /// The first K columns; those that are missing are empty.

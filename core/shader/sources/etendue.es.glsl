@@ -2911,3 +2911,127 @@ float etendue_power_bsdf_weight(float bsdf_pdf_1, float pdf_2, bool emits_1) {
     float x11_17 = (b1_8 ? x10_16 : 0.0);
     return x11_17;
 }
+
+// The factor of the radiance in or against the unit direction w of a flat light with the unit normal n that emits
+// within an angle of it, on either side: (tan_half - tan theta) gain, with theta the angle to the normal, tan_half the
+// tangent of half the spread, and gain 1/(tan_half - half the spread); 0 beyond. Within 4e-7 of the factor on the
+// axis.
+float etendue_spread_attenuation(float tan_half, float gain, vec3 w_16, vec3 n) {
+    float x1_27 = abs((w_16.x * n.x + (w_16.y * n.y + (w_16.z * n.z))));
+    bool b2_2 = (0.0 < x1_27);
+    float x3_27 = -((w_16.z * n.y));
+    float x4_11 = ((w_16.y * n.z + x3_27) - (w_16.z * n.y + x3_27));
+    float x5_23 = -((w_16.x * n.z));
+    float x6_24 = ((w_16.z * n.x + x5_23) - (w_16.x * n.z + x5_23));
+    float x7_24 = -((w_16.y * n.x));
+    float x8_18 = ((w_16.x * n.y + x7_24) - (w_16.y * n.x + x7_24));
+    float x9_16 = (tan_half - (sqrt((x4_11 * x4_11 + (x6_24 * x6_24 + (x8_18 * x8_18)))) / (b2_2 ? x1_27 : 1.0)));
+    float _e60 = etendue_greater((gain * x9_16), 0.0);
+    float x10_17 = (b2_2 ? _e60 : 0.0);
+    return x10_17;
+}
+
+// The position in [0, 1)^2, from the upper left corner, of the unit direction w in an image that a light projects
+// along +z, with these tangents of half the horizontal and vertical angle of view: (1 + w.x/(w.z tan_half.x))/2 and (1
+// - w.y/(w.z tan_half.y))/2; 0 where w misses the image. Within 2e-7 over the cosine to the axis.
+vec2 etendue_projector_place(vec2 tan_half_1, vec3 w_17) {
+    vec2 result_34 = vec2(0.0);
+    float x1_28 = (tan_half_1.x * w_17.z);
+    float x2_33 = (tan_half_1.y * w_17.z);
+    bool b3_6 = ((((0.0 < x1_28) && (0.0 < x2_33)) && (-(x1_28) <= w_17.x)) && (w_17.x < x1_28));
+    bool b4_10 = ((b3_6 && (-(x2_33) < w_17.y)) && (w_17.y <= x2_33));
+    float _e36 = etendue_greater((0.5 * (w_17.x / (b4_10 ? x1_28 : 1.0)) + 0.5), 0.0);
+    float _e38 = etendue_lesser(_e36, 0.99999994);
+    float x5_24 = (b4_10 ? _e38 : 0.0);
+    float _e50 = etendue_greater((0.5 * (-(w_17.y) / (b4_10 ? x2_33 : 1.0)) + 0.5), 0.0);
+    float _e52 = etendue_lesser(_e50, 0.99999994);
+    float x6_25 = (b4_10 ? _e52 : 0.0);
+    result_34.x = x5_24;
+    result_34.y = x6_25;
+    vec2 _e57 = result_34;
+    return _e57;
+}
+
+// Whether the unit direction w is in an image that a light projects along +z, with these tangents of half the angles
+// of view; false for tangents that are not greater than 0.
+bool etendue_projector_has(vec2 tan_half_2, vec3 w_18) {
+    float x1_29 = (tan_half_2.x * w_18.z);
+    float x2_34 = (tan_half_2.y * w_18.z);
+    bool b3_7 = ((((0.0 < x1_29) && (0.0 < x2_34)) && (-(x1_29) <= w_18.x)) && (w_18.x < x1_29));
+    bool b4_11 = ((b3_7 && (-(x2_34) < w_18.y)) && (w_18.y <= x2_34));
+    return b4_11;
+}
+
+// The unit direction in which the light of a position in a projected image travels: the inverse of projector_place.
+vec3 etendue_projector_direction(vec2 tan_half_3, vec2 uv) {
+    vec3 result_35 = vec3(0.0);
+    float x1_30 = (tan_half_3.x * (uv.x * 2.0 + -1.0));
+    float x2_35 = (tan_half_3.y * -((uv.y * 2.0 + -1.0)));
+    float x3_28 = (x1_30 * x1_30 + (x2_35 * x2_35 + 1.0));
+    float x4_12 = ((0.0 < x3_28) ? (1.0 / sqrt(x3_28)) : 0.0);
+    float x5_25 = (x1_30 * x4_12);
+    float x6_26 = (x2_35 * x4_12);
+    result_35.x = x5_25;
+    result_35.y = x6_26;
+    result_35.z = x4_12;
+    vec3 _e31 = result_35;
+    return _e31;
+}
+
+// The unit direction of a position in [0, 1]^2 in the image of the sky for a portal with these unit edges and unit
+// normal edge_s x edge_t: a direction x s + y t + z n has the position (atan(x/z)/pi + 1/2, atan(y/z)/pi + 1/2). The
+// scale does not matter.
+vec3 etendue_portal_direction(vec3 edge_s, vec3 edge_t, vec3 normal, float scale, vec2 uv_1) {
+    vec3 result_36 = vec3(0.0);
+    vec2 _e10 = etendue_sin_cos_turns((0.5 * (uv_1.x - 0.5)));
+    vec2 _e16 = etendue_sin_cos_turns((0.5 * (uv_1.y - 0.5)));
+    float x3_29 = (_e10.x * _e16.y);
+    float x4_13 = (_e10.y * _e16.x);
+    float x5_26 = (_e10.y * _e16.y);
+    float x6_27 = (edge_s.x * x3_29 + (edge_t.x * x4_13 + (normal.x * x5_26)));
+    float x7_25 = (edge_s.y * x3_29 + (edge_t.y * x4_13 + (normal.y * x5_26)));
+    float x8_19 = (edge_s.z * x3_29 + (edge_t.z * x4_13 + (normal.z * x5_26)));
+    float _e46 = etendue_greater(abs(x6_27), abs(x7_25));
+    float _e48 = etendue_greater(_e46, abs(x8_19));
+    float _e49 = etendue_pow2_scale(_e48);
+    float x10_18 = (x6_27 * _e49);
+    float x11_18 = (x7_25 * _e49);
+    float x12_18 = (x8_19 * _e49);
+    float x13_16 = (x10_18 * x10_18 + (x11_18 * x11_18 + (x12_18 * x12_18)));
+    float x14_18 = ((0.0 < x13_16) ? (1.0 / sqrt(x13_16)) : 0.0);
+    float x15_16 = (x10_18 * x14_18);
+    float x16_17 = (x11_18 * x14_18);
+    float x17_10 = (x12_18 * x14_18);
+    result_36.x = x15_16;
+    result_36.y = x16_17;
+    result_36.z = x17_10;
+    vec3 _e70 = result_36;
+    return _e70;
+}
+
+// The solid angle at a position in the image of the sky for a portal, per unit of the image's area, in steradians:
+// what portal_direction stretches. scale is pi^2 times the sine of the angle between the edges.
+float etendue_portal_solid_angle(vec3 edge_s_1, vec3 edge_t_1, vec3 normal_1, float scale_1, vec2 uv_2) {
+    vec2 _e10 = etendue_sin_cos_turns((0.5 * (uv_2.x - 0.5)));
+    vec2 _e16 = etendue_sin_cos_turns((0.5 * (uv_2.y - 0.5)));
+    float x3_30 = (_e10.x * _e16.y);
+    float x4_14 = (_e10.y * _e16.x);
+    float x5_27 = (_e10.y * _e16.y);
+    float x6_28 = (edge_s_1.x * x3_30 + (edge_t_1.x * x4_14 + (normal_1.x * x5_27)));
+    float x7_26 = (edge_s_1.y * x3_30 + (edge_t_1.y * x4_14 + (normal_1.y * x5_27)));
+    float x8_20 = (edge_s_1.z * x3_30 + (edge_t_1.z * x4_14 + (normal_1.z * x5_27)));
+    float _e46 = etendue_greater(abs(x6_28), abs(x7_26));
+    float _e48 = etendue_greater(_e46, abs(x8_20));
+    float _e49 = etendue_pow2_scale(_e48);
+    float x10_19 = (x6_28 * _e49);
+    float x11_19 = (x7_26 * _e49);
+    float x12_19 = (x8_20 * _e49);
+    float x13_17 = (x10_19 * x10_19 + (x11_19 * x11_19 + (x12_19 * x12_19)));
+    float x14_19 = ((x13_17 * ((0.0 < x13_17) ? (1.0 / sqrt(x13_17)) : 0.0)) / _e49);
+    bool b15_1 = (0.0 < x14_19);
+    float x16_18 = (b15_1 ? x14_19 : 1.0);
+    float x17_11 = (((scale_1 * (_e10.y / x16_18)) * (_e16.y / x16_18)) / x14_19);
+    float _e79 = etendue_greater((b15_1 ? x17_11 : 0.0), 0.0);
+    float _e81 = etendue_lesser(_e79, 3.4028235e38);
+    return _e81;
+}

@@ -2774,4 +2774,116 @@ ETENDUE_FUNCTION float etendue_power_bsdf_weight(float bsdf_pdf, float pdf, bool
     return x11;
 }
 
+// The factor of the radiance in or against the unit direction w of a flat light with the unit normal n that emits
+// within an angle of it, on either side: (tan_half - tan theta) gain, with theta the angle to the normal, tan_half the
+// tangent of half the spread, and gain 1/(tan_half - half the spread); 0 beyond. Within 4e-7 of the factor on the
+// axis.
+ETENDUE_FUNCTION float etendue_spread_attenuation(float tan_half, float gain, EtendueVec3 w, EtendueVec3 n) {
+    const float x1 = fabsf(fmaf(w.x, n.x, fmaf(w.y, n.y, w.z * n.z)));
+    const bool b2 = 0.0f < x1;
+    const float x3 = -(w.z * n.y);
+    const float x4 = fmaf(w.y, n.z, x3) - fmaf(w.z, n.y, x3);
+    const float x5 = -(w.x * n.z);
+    const float x6 = fmaf(w.z, n.x, x5) - fmaf(w.x, n.z, x5);
+    const float x7 = -(w.y * n.x);
+    const float x8 = fmaf(w.x, n.y, x7) - fmaf(w.y, n.x, x7);
+    const float x9 = tan_half - sqrtf(fmaf(x4, x4, fmaf(x6, x6, x8 * x8))) / (b2 ? x1 : 1.0f);
+    const float x10 = b2 ? etendue_greater(gain * x9, 0.0f) : 0.0f;
+    return x10;
+}
+
+// The position in [0, 1)^2, from the upper left corner, of the unit direction w in an image that a light projects
+// along +z, with these tangents of half the horizontal and vertical angle of view: (1 + w.x/(w.z tan_half.x))/2 and (1
+// - w.y/(w.z tan_half.y))/2; 0 where w misses the image. Within 2e-7 over the cosine to the axis.
+ETENDUE_FUNCTION EtendueVec2 etendue_projector_place(EtendueVec2 tan_half, EtendueVec3 w) {
+    const float x1 = tan_half.x * w.z;
+    const float x2 = tan_half.y * w.z;
+    const bool b3 = (0.0f < x1) && (0.0f < x2) && (-x1 <= w.x) && (w.x < x1);
+    const bool b4 = b3 && (-x2 < w.y) && (w.y <= x2);
+    const float x5 = b4 ? etendue_lesser(etendue_greater(fmaf(0.5f, w.x / (b4 ? x1 : 1.0f), 0.5f), 0.0f), 0.99999994f) : 0.0f;
+    const float x6 = b4 ? etendue_lesser(etendue_greater(fmaf(0.5f, -w.y / (b4 ? x2 : 1.0f), 0.5f), 0.0f), 0.99999994f) : 0.0f;
+    EtendueVec2 result;
+    result.x = x5;
+    result.y = x6;
+    return result;
+}
+
+// Whether the unit direction w is in an image that a light projects along +z, with these tangents of half the angles
+// of view; false for tangents that are not greater than 0.
+ETENDUE_FUNCTION bool etendue_projector_has(EtendueVec2 tan_half, EtendueVec3 w) {
+    const float x1 = tan_half.x * w.z;
+    const float x2 = tan_half.y * w.z;
+    const bool b3 = (0.0f < x1) && (0.0f < x2) && (-x1 <= w.x) && (w.x < x1);
+    const bool b4 = b3 && (-x2 < w.y) && (w.y <= x2);
+    return b4;
+}
+
+// The unit direction in which the light of a position in a projected image travels: the inverse of projector_place.
+ETENDUE_FUNCTION EtendueVec3 etendue_projector_direction(EtendueVec2 tan_half, EtendueVec2 uv) {
+    const float x1 = tan_half.x * fmaf(uv.x, 2.0f, -1.0f);
+    const float x2 = tan_half.y * -fmaf(uv.y, 2.0f, -1.0f);
+    const float x3 = fmaf(x1, x1, fmaf(x2, x2, 1.0f));
+    const float x4 = (0.0f < x3) ? 1.0f / sqrtf(x3) : 0.0f;
+    const float x5 = x1 * x4;
+    const float x6 = x2 * x4;
+    EtendueVec3 result;
+    result.x = x5;
+    result.y = x6;
+    result.z = x4;
+    return result;
+}
+
+// The unit direction of a position in [0, 1]^2 in the image of the sky for a portal with these unit edges and unit
+// normal edge_s x edge_t: a direction x s + y t + z n has the position (atan(x/z)/pi + 1/2, atan(y/z)/pi + 1/2). The
+// scale does not matter.
+ETENDUE_FUNCTION EtendueVec3 etendue_portal_direction(EtendueVec3 edge_s, EtendueVec3 edge_t, EtendueVec3 normal, float scale, EtendueVec2 uv) {
+    (void)scale;
+    const EtendueVec2 v1 = etendue_sin_cos_turns(0.5f * (uv.x - 0.5f));
+    const EtendueVec2 v2 = etendue_sin_cos_turns(0.5f * (uv.y - 0.5f));
+    const float x3 = v1.x * v2.y;
+    const float x4 = v1.y * v2.x;
+    const float x5 = v1.y * v2.y;
+    const float x6 = fmaf(edge_s.x, x3, fmaf(edge_t.x, x4, normal.x * x5));
+    const float x7 = fmaf(edge_s.y, x3, fmaf(edge_t.y, x4, normal.y * x5));
+    const float x8 = fmaf(edge_s.z, x3, fmaf(edge_t.z, x4, normal.z * x5));
+    const float x9 = etendue_pow2_scale(etendue_greater(etendue_greater(fabsf(x6), fabsf(x7)), fabsf(x8)));
+    const float x10 = x6 * x9;
+    const float x11 = x7 * x9;
+    const float x12 = x8 * x9;
+    const float x13 = fmaf(x10, x10, fmaf(x11, x11, x12 * x12));
+    const float x14 = (0.0f < x13) ? 1.0f / sqrtf(x13) : 0.0f;
+    const float x15 = x10 * x14;
+    const float x16 = x11 * x14;
+    const float x17 = x12 * x14;
+    EtendueVec3 result;
+    result.x = x15;
+    result.y = x16;
+    result.z = x17;
+    return result;
+}
+
+// The solid angle at a position in the image of the sky for a portal, per unit of the image's area, in steradians:
+// what portal_direction stretches. scale is pi^2 times the sine of the angle between the edges.
+ETENDUE_FUNCTION float etendue_portal_solid_angle(EtendueVec3 edge_s, EtendueVec3 edge_t, EtendueVec3 normal, float scale, EtendueVec2 uv) {
+    const EtendueVec2 v1 = etendue_sin_cos_turns(0.5f * (uv.x - 0.5f));
+    const EtendueVec2 v2 = etendue_sin_cos_turns(0.5f * (uv.y - 0.5f));
+    const float x3 = v1.x * v2.y;
+    const float x4 = v1.y * v2.x;
+    const float x5 = v1.y * v2.y;
+    const float x6 = fmaf(edge_s.x, x3, fmaf(edge_t.x, x4, normal.x * x5));
+    const float x7 = fmaf(edge_s.y, x3, fmaf(edge_t.y, x4, normal.y * x5));
+    const float x8 = fmaf(edge_s.z, x3, fmaf(edge_t.z, x4, normal.z * x5));
+    const float x9 = etendue_pow2_scale(etendue_greater(etendue_greater(fabsf(x6), fabsf(x7)), fabsf(x8)));
+    const float x10 = x6 * x9;
+    const float x11 = x7 * x9;
+    const float x12 = x8 * x9;
+    const float x13 = fmaf(x10, x10, fmaf(x11, x11, x12 * x12));
+    const float x14 = x13 * ((0.0f < x13) ? 1.0f / sqrtf(x13) : 0.0f) / x9;
+    const bool b15 = 0.0f < x14;
+    const float x16 = b15 ? x14 : 1.0f;
+    const float x17 = scale * (v1.y / x16) * (v2.y / x16) / x14;
+    const float x18 = etendue_lesser(etendue_greater(b15 ? x17 : 0.0f, 0.0f), 3.4028235e38f);
+    return x18;
+}
+
 #endif

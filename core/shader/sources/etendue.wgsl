@@ -2702,3 +2702,114 @@ fn etendue_power_bsdf_weight(bsdf_pdf: f32, pdf: f32, emits: bool) -> f32 {
     return x11;
 }
 
+// The factor of the radiance in or against the unit direction w of a flat light with the unit normal n that emits
+// within an angle of it, on either side: (tan_half - tan theta) gain, with theta the angle to the normal, tan_half the
+// tangent of half the spread, and gain 1/(tan_half - half the spread); 0 beyond. Within 4e-7 of the factor on the
+// axis.
+fn etendue_spread_attenuation(tan_half: f32, gain: f32, w: vec3<f32>, n: vec3<f32>) -> f32 {
+    let x1 = abs(fma(w.x, n.x, fma(w.y, n.y, w.z * n.z)));
+    let b2 = 0.0f < x1;
+    let x3 = -(w.z * n.y);
+    let x4 = fma(w.y, n.z, x3) - fma(w.z, n.y, x3);
+    let x5 = -(w.x * n.z);
+    let x6 = fma(w.z, n.x, x5) - fma(w.x, n.z, x5);
+    let x7 = -(w.y * n.x);
+    let x8 = fma(w.x, n.y, x7) - fma(w.y, n.x, x7);
+    let x9 = tan_half - sqrt(fma(x4, x4, fma(x6, x6, x8 * x8))) / select(1.0f, x1, b2);
+    let x10 = select(0.0f, etendue_greater(gain * x9, 0.0f), b2);
+    return x10;
+}
+
+// The position in [0, 1)^2, from the upper left corner, of the unit direction w in an image that a light projects
+// along +z, with these tangents of half the horizontal and vertical angle of view: (1 + w.x/(w.z tan_half.x))/2 and (1
+// - w.y/(w.z tan_half.y))/2; 0 where w misses the image. Within 2e-7 over the cosine to the axis.
+fn etendue_projector_place(tan_half: vec2<f32>, w: vec3<f32>) -> vec2<f32> {
+    let x1 = tan_half.x * w.z;
+    let x2 = tan_half.y * w.z;
+    let b3 = (0.0f < x1) & (0.0f < x2) & (-x1 <= w.x) & (w.x < x1);
+    let b4 = b3 & (-x2 < w.y) & (w.y <= x2);
+    let x5 = select(0.0f, etendue_lesser(etendue_greater(fma(0.5f, w.x / select(1.0f, x1, b4), 0.5f), 0.0f), 0.99999994f), b4);
+    let x6 = select(0.0f, etendue_lesser(etendue_greater(fma(0.5f, -w.y / select(1.0f, x2, b4), 0.5f), 0.0f), 0.99999994f), b4);
+    var result: vec2<f32>;
+    result.x = x5;
+    result.y = x6;
+    return result;
+}
+
+// Whether the unit direction w is in an image that a light projects along +z, with these tangents of half the angles
+// of view; false for tangents that are not greater than 0.
+fn etendue_projector_has(tan_half: vec2<f32>, w: vec3<f32>) -> bool {
+    let x1 = tan_half.x * w.z;
+    let x2 = tan_half.y * w.z;
+    let b3 = (0.0f < x1) & (0.0f < x2) & (-x1 <= w.x) & (w.x < x1);
+    let b4 = b3 & (-x2 < w.y) & (w.y <= x2);
+    return b4;
+}
+
+// The unit direction in which the light of a position in a projected image travels: the inverse of projector_place.
+fn etendue_projector_direction(tan_half: vec2<f32>, uv: vec2<f32>) -> vec3<f32> {
+    let x1 = tan_half.x * fma(uv.x, 2.0f, -1.0f);
+    let x2 = tan_half.y * -fma(uv.y, 2.0f, -1.0f);
+    let x3 = fma(x1, x1, fma(x2, x2, 1.0f));
+    let x4 = select(0.0f, 1.0f / sqrt(x3), 0.0f < x3);
+    let x5 = x1 * x4;
+    let x6 = x2 * x4;
+    var result: vec3<f32>;
+    result.x = x5;
+    result.y = x6;
+    result.z = x4;
+    return result;
+}
+
+// The unit direction of a position in [0, 1]^2 in the image of the sky for a portal with these unit edges and unit
+// normal edge_s x edge_t: a direction x s + y t + z n has the position (atan(x/z)/pi + 1/2, atan(y/z)/pi + 1/2). The
+// scale does not matter.
+fn etendue_portal_direction(edge_s: vec3<f32>, edge_t: vec3<f32>, normal: vec3<f32>, scale: f32, uv: vec2<f32>) -> vec3<f32> {
+    let v1 = etendue_sin_cos_turns(0.5f * (uv.x - 0.5f));
+    let v2 = etendue_sin_cos_turns(0.5f * (uv.y - 0.5f));
+    let x3 = v1.x * v2.y;
+    let x4 = v1.y * v2.x;
+    let x5 = v1.y * v2.y;
+    let x6 = fma(edge_s.x, x3, fma(edge_t.x, x4, normal.x * x5));
+    let x7 = fma(edge_s.y, x3, fma(edge_t.y, x4, normal.y * x5));
+    let x8 = fma(edge_s.z, x3, fma(edge_t.z, x4, normal.z * x5));
+    let x9 = etendue_pow2_scale(etendue_greater(etendue_greater(abs(x6), abs(x7)), abs(x8)));
+    let x10 = x6 * x9;
+    let x11 = x7 * x9;
+    let x12 = x8 * x9;
+    let x13 = fma(x10, x10, fma(x11, x11, x12 * x12));
+    let x14 = select(0.0f, 1.0f / sqrt(x13), 0.0f < x13);
+    let x15 = x10 * x14;
+    let x16 = x11 * x14;
+    let x17 = x12 * x14;
+    var result: vec3<f32>;
+    result.x = x15;
+    result.y = x16;
+    result.z = x17;
+    return result;
+}
+
+// The solid angle at a position in the image of the sky for a portal, per unit of the image's area, in steradians:
+// what portal_direction stretches. scale is pi^2 times the sine of the angle between the edges.
+fn etendue_portal_solid_angle(edge_s: vec3<f32>, edge_t: vec3<f32>, normal: vec3<f32>, scale: f32, uv: vec2<f32>) -> f32 {
+    let v1 = etendue_sin_cos_turns(0.5f * (uv.x - 0.5f));
+    let v2 = etendue_sin_cos_turns(0.5f * (uv.y - 0.5f));
+    let x3 = v1.x * v2.y;
+    let x4 = v1.y * v2.x;
+    let x5 = v1.y * v2.y;
+    let x6 = fma(edge_s.x, x3, fma(edge_t.x, x4, normal.x * x5));
+    let x7 = fma(edge_s.y, x3, fma(edge_t.y, x4, normal.y * x5));
+    let x8 = fma(edge_s.z, x3, fma(edge_t.z, x4, normal.z * x5));
+    let x9 = etendue_pow2_scale(etendue_greater(etendue_greater(abs(x6), abs(x7)), abs(x8)));
+    let x10 = x6 * x9;
+    let x11 = x7 * x9;
+    let x12 = x8 * x9;
+    let x13 = fma(x10, x10, fma(x11, x11, x12 * x12));
+    let x14 = x13 * select(0.0f, 1.0f / sqrt(x13), 0.0f < x13) / x9;
+    let b15 = 0.0f < x14;
+    let x16 = select(1.0f, x14, b15);
+    let x17 = scale * (v1.y / x16) * (v2.y / x16) / x14;
+    let x18 = etendue_lesser(etendue_greater(select(0.0f, x17, b15), 0.0f), 3.4028235e38f);
+    return x18;
+}
+

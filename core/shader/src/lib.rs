@@ -40,7 +40,9 @@
 //! [`Real::iterate`](etendue::Real::iterate) is a loop. Other loops of the core have constant bounds, and are written out.
 //!
 //! What a routine asks of one lane as a number of Rust ([`Real::lane_f64`](etendue::Real::lane_f64), a comparison of scalars, the bits of a
-//! mask) is known for constants alone; anything else panics with a message. Tables, trees and visible parts do ask that, so they are not here.
+//! mask) is known for constants alone; anything else panics with a message. Tables of images, pictures, profiles and portals, trees, and
+//! what occluders leave visible do ask that, and so does the exponential function, of which [`GeneralSky`](etendue::light::GeneralSky)
+//! consists: they are not here. A host looks such a sky up in a texture.
 //!
 //! # Size
 //! We compare the operations of each function of a light with the instructions of the scalar Rust routine, compiled for x86-64-v3, where

@@ -120,7 +120,7 @@ macro_rules! techniques {
                 $light { $($field: field!(next, $kind)),+ }
             }
         })+
-        /// Calls the visitor for each light by each technique, in the order of the list.
+        /// Calls the visitor for each light by each technique, in the order of the list, and then for flat lights with a spread.
         pub fn every_technique(visitor: &mut impl TechniqueVisitor) {
             $($({
                 struct Row;
@@ -153,10 +153,81 @@ macro_rules! techniques {
                 }
                 visitor.visit::<Row>();
             })+)+
+            every_spread(visitor);
         }
     };
 }
 etendue::techniques!(techniques! {});
+
+/// Rows for flat lights that emit within an angle of their normal: a light's fields, and the tangent of half the angle.
+macro_rules! spreads {
+    ($($(#[doc = $light_doc:literal])* $name:ident: $light:ident { $($field:ident: $kind:ident $type:ty),+ }
+        $(#[doc = $doc:literal])* by_solid_angle: $sampler:ident;)+) => {
+        $($(#[doc = $light_doc])*
+        #[derive(Clone, Copy, Debug)]
+        struct $name<R> {
+            $($field: $type,)+
+            tan_half: R,
+        })+
+        /// Calls the visitor for each flat light with a spread.
+        fn every_spread(visitor: &mut impl TechniqueVisitor) {
+            $({
+                struct Row;
+                impl Technique for Row {
+                    type Light<R: Real> = $name<R>;
+                    type Sampler<R: Real> = $sampler<R>;
+                    const ENTRY: Entry = Entry {
+                        light: stringify!($name),
+                        light_doc: &[$($light_doc),*],
+                        fields: TAN_HALF,
+                        by: "by_solid_angle",
+                        doc: &[$($doc),*],
+                        at_point: true,
+                        on_surface: false,
+                        measure: Some("solid_angle"),
+                    };
+                    fn light<R: Real>(next: &mut dyn FnMut() -> R) -> $name<R> {
+                        $(let $field = field!(next, $kind);)+
+                        $name { $($field,)+ tan_half: next() }
+                    }
+                    fn prepare<R: Real>(light: &$name<R>, p: Vec3<R>, _: Vec3<R>) -> $sampler<R> {
+                        let $name { $($field,)+ tan_half } = *light;
+                        // the gain is for the radiance alone
+                        $light { $($field),+ }.by_spread(p, &Spread { tan_half, gain: R::lit(1.0) })
+                    }
+                    fn map<R: Real>(sampler: $sampler<R>, f: &mut dyn FnMut(R) -> R) -> $sampler<R> {
+                        sampler.map(f)
+                    }
+                    fn measure<R: Real>(sampler: &$sampler<R>) -> Option<R> {
+                        Some(sampler.solid_angle())
+                    }
+                }
+                visitor.visit::<Row>();
+            })+
+        }
+    };
+}
+const TAN_HALF: &[(&str, &[&str])] = &[(
+    "tan_half",
+    &["The tangent of half the angle within which the light emits; the radiance is multiplied by spread_attenuation."],
+)];
+spreads! {
+    /// A parallelogram that emits within an angle of its normal, from the side of the first edge x the second one.
+    SpreadParallelogram: Parallelogram { corner: point Vec3<R>, edge_s: edge Vec3<R>, edge_t: edge Vec3<R> }
+    /// Uniform over the solid angle of the part that the point p sees; pdf 1/solid angle per steradian. Surface coordinates are those of the
+    /// whole light.
+    by_solid_angle: ParallelogramBySolidAngle;
+    /// A rectangle that emits within an angle of its normal, from the side of the first edge x the second one.
+    SpreadRectangle: Rectangle { corner: point Vec3<R>, edge_s: edge Vec3<R>, edge_t: edge Vec3<R> }
+    /// Uniform over the solid angle of the part that the point p sees; pdf 1/solid angle per steradian. Surface coordinates are those of the
+    /// whole light.
+    by_solid_angle: RectangleBySolidAngle;
+    /// A disk that emits within an angle of its normal.
+    SpreadDisk: Disk { center: point Vec3<R>, normal: direction Vec3<R>, radius: number R }
+    /// Uniform over the solid angle of what the point p sees, if that is a disk within the light; else, of the whole light. Surface coordinates
+    /// are those of the whole light.
+    by_solid_angle: DiskBySolidAngle;
+}
 
 /// What the list says about a warp.
 #[derive(Clone, Copy, Debug)]

@@ -144,7 +144,7 @@ fn add_functions(
 }
 
 /// The inputs of parameters.
-fn inputs_of(module: &Module, parameters: &[Parameter]) -> Vec<Access> {
+pub(crate) fn inputs_of(module: &Module, parameters: &[Parameter]) -> Vec<Access> {
     let each = |(parameter, of): (usize, &Parameter)| {
         module.parts(of.of).into_iter().map(move |(field, axis)| Access { parameter, field, axis })
     };

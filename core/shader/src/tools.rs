@@ -1,9 +1,11 @@
-//! What is neither a light nor a warp: sequences of random numbers, and weights that combine techniques.
+//! What is neither a light nor a warp: sequences of random numbers, weights that combine techniques, and what lights look up.
 
-use crate::graph::{Id, Kind};
-use crate::module::{Access, Function, Leaf, Module, Parameter, Type};
+use crate::graph::Id;
+use crate::module::{Function, Leaf, Module, Parameter, Type};
 use crate::number::{Number, Truth, Word, record};
+use crate::record::inputs_of;
 use etendue::estimate::{Heuristic, technique_pdf};
+use etendue::light::{PortalMap, Projector, Spread};
 use etendue::sequence::{Independent, OwenSobol};
 use etendue::{LightSample, Mask, Real, Uint, Vec2, Vec3};
 
@@ -19,31 +21,56 @@ pub fn tools() -> &'static [&'static str] {
         "power_weights",
         "power_light_weight",
         "power_bsdf_weight",
+        "spread_attenuation",
+        "projector_place",
+        "projector_has",
+        "projector_direction",
+        "portal_direction",
+        "portal_solid_angle",
     ]
 }
 
 /// The parameters of a function, as inputs in their order.
 #[derive(Default)]
-struct Inputs(Vec<(&'static str, Kind)>);
+struct Inputs(Vec<Parameter>);
 
 impl Inputs {
-    fn add(&mut self, name: &'static str, kind: Kind) -> u32 {
-        self.0.push((name, kind));
-        self.0.len() as u32 - 1
+    /// Adds a parameter, and returns its first input.
+    fn add(&mut self, name: &str, leaf: Leaf) -> u32 {
+        let parts = |parameter: &Parameter| if let Type::Leaf(leaf) = parameter.of { leaf.parts() as u32 } else { 0 };
+        let first = self.0.iter().map(parts).sum();
+        self.0.push(Parameter { name: name.into(), of: Type::Leaf(leaf) });
+        first
     }
-    fn real(&mut self, name: &'static str) -> Number {
-        Number::input(self.add(name, Kind::Real))
+    fn real(&mut self, name: &str) -> Number {
+        Number::input(self.add(name, Leaf::Real))
     }
-    fn truth(&mut self, name: &'static str) -> Truth {
-        Truth::input(self.add(name, Kind::Truth))
+    fn truth(&mut self, name: &str) -> Truth {
+        Truth::input(self.add(name, Leaf::Truth))
     }
-    fn word(&mut self, name: &'static str) -> Word {
-        Word::input(self.add(name, Kind::Word))
+    fn word(&mut self, name: &str) -> Word {
+        Word::input(self.add(name, Leaf::Word))
+    }
+    fn vec2(&mut self, name: &str) -> Vec2<Number> {
+        let first = self.add(name, Leaf::Vec2);
+        Vec2::new(Number::input(first), Number::input(first + 1))
+    }
+    fn vec3(&mut self, name: &str) -> Vec3<Number> {
+        let first = self.add(name, Leaf::Vec3);
+        Vec3::new(Number::input(first), Number::input(first + 1), Number::input(first + 2))
     }
 }
 
 fn pair(of: Vec2<Number>) -> Vec<Id> {
     vec![of.x.id(), of.y.id()]
+}
+fn three(of: Vec3<Number>) -> Vec<Id> {
+    vec![of.x.id(), of.y.id(), of.z.id()]
+}
+/// The direction of a position in the image of a portal, and the solid angle there.
+fn portal(inputs: &mut Inputs) -> (Vec3<Number>, Number) {
+    let axes = ["edge_s", "edge_t", "normal"].map(|name| inputs.vec3(name));
+    PortalMap::direction_by(axes, inputs.real("scale"), inputs.vec2("uv"))
 }
 fn weights(heuristic: Heuristic, inputs: &mut Inputs) -> Vec<Id> {
     heuristic.weights([inputs.real("first"), inputs.real("second")]).map(Number::id).to_vec()
@@ -130,6 +157,52 @@ fn body(name: &str, inputs: &mut Inputs) -> (&'static str, Leaf, Vec<Id>) {
                 vec![weight.id()],
             )
         }
+        "spread_attenuation" => {
+            let spread = Spread { tan_half: inputs.real("tan_half"), gain: inputs.real("gain") };
+            let factor = spread.attenuation(inputs.vec3("w"), inputs.vec3("n"));
+            (
+                "The factor of the radiance in or against the unit direction w of a flat light with the unit normal n that emits within an angle of it, on either side: (tan_half - tan theta) gain, with theta the angle to the normal, tan_half the tangent of half the spread, and gain 1/(tan_half - half the spread); 0 beyond. Within 4e-7 of the factor on the axis.",
+                Leaf::Real,
+                vec![factor.id()],
+            )
+        }
+        "projector_place" => {
+            let tan_half = inputs.vec2("tan_half");
+            let (place, _) = Projector::place_by([tan_half.x, tan_half.y], inputs.vec3("w"));
+            (
+                "The position in [0, 1)^2, from the upper left corner, of the unit direction w in an image that a light projects along +z, with these tangents of half the horizontal and vertical angle of view: (1 + w.x/(w.z tan_half.x))/2 and (1 - w.y/(w.z tan_half.y))/2; 0 where w misses the image. Within 2e-7 over the cosine to the axis.",
+                Leaf::Vec2,
+                pair(place),
+            )
+        }
+        "projector_has" => {
+            let tan_half = inputs.vec2("tan_half");
+            let (_, inside) = Projector::place_by([tan_half.x, tan_half.y], inputs.vec3("w"));
+            (
+                "Whether the unit direction w is in an image that a light projects along +z, with these tangents of half the angles of view; false for tangents that are not greater than 0.",
+                Leaf::Truth,
+                vec![inside.id()],
+            )
+        }
+        "projector_direction" => {
+            let tan_half = inputs.vec2("tan_half");
+            let w = Projector::direction_by([tan_half.x, tan_half.y], inputs.vec2("uv"));
+            (
+                "The unit direction in which the light of a position in a projected image travels: the inverse of projector_place.",
+                Leaf::Vec3,
+                three(w),
+            )
+        }
+        "portal_direction" => (
+            "The unit direction of a position in [0, 1]^2 in the image of the sky for a portal with these unit edges and unit normal edge_s x edge_t: a direction x s + y t + z n has the position (atan(x/z)/pi + 1/2, atan(y/z)/pi + 1/2). The scale does not matter.",
+            Leaf::Vec3,
+            three(portal(inputs).0),
+        ),
+        "portal_solid_angle" => (
+            "The solid angle at a position in the image of the sky for a portal, per unit of the image's area, in steradians: what portal_direction stretches. scale is pi^2 times the sine of the angle between the edges.",
+            Leaf::Real,
+            vec![portal(inputs).1.id()],
+        ),
         _ => panic!("there is no function {name}"),
     }
 }
@@ -144,17 +217,11 @@ pub fn add_tool(module: &mut Module, name: &str) {
         let body = body(name, &mut inputs);
         (inputs, body)
     });
-    let leaf = |kind| match kind {
-        Kind::Truth => Leaf::Truth,
-        Kind::Word => Leaf::Word,
-        _ => Leaf::Real,
-    };
-    let parameter = |&(name, kind): &(&str, Kind)| Parameter { name: name.into(), of: Type::Leaf(leaf(kind)) };
     module.functions.push(Function {
         name: name.into(),
         doc: doc.into(),
-        parameters: inputs.0.iter().map(parameter).collect(),
-        inputs: (0..inputs.0.len()).map(|parameter| Access { parameter, field: None, axis: None }).collect(),
+        inputs: inputs_of(module, &inputs.0),
+        parameters: inputs.0,
         result: Type::Leaf(result),
         outputs,
         graph,

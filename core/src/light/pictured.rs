@@ -21,8 +21,10 @@ pub struct PictureSample<R: Real> {
 /// A light with a picture: [`Picture::on`] makes it.
 #[derive(Clone, Copy, Debug)]
 pub struct Pictured<'a, L> {
-    pub(super) picture: Picture<'a>,
-    pub(super) light: L,
+    /// The picture.
+    pub picture: Picture<'a>,
+    /// The light that it is on.
+    pub light: L,
 }
 
 impl<'a> Picture<'a> {

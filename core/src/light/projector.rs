@@ -39,8 +39,13 @@ impl Projector {
     /// Position in the image of the unit direction `w`, in [0, 1)², and whether it is there. Where it is not, the position is 0.
     #[inline(always)]
     pub fn place<R: Real>(&self, w: Vec3<R>) -> (Vec2<R>, R::Mask) {
+        Self::place_by(self.tangents(), w)
+    }
+    /// The same for tangents of half the angles of view that may differ by lane.
+    #[inline(always)]
+    pub fn place_by<R: Real>(tan_half: [R; 2], w: Vec3<R>) -> (Vec2<R>, R::Mask) {
         let (zero, one, half) = (R::lit(0.0), R::lit(1.0), R::lit(0.5));
-        let [across, up] = self.tangents::<R>().map(|t| t * w.z);
+        let [across, up] = tan_half.map(|t| t * w.z);
         // compared before it is divided: nothing overflows
         let inside = across.gt(zero) & up.gt(zero) & w.x.ge(-across) & w.x.lt(across) & w.y.gt(-up) & w.y.le(up);
         let part =
@@ -51,7 +56,12 @@ impl Projector {
     /// The unit direction in which the light of a position in the image travels.
     #[inline(always)]
     pub fn direction<R: Real>(&self, uv: Vec2<R>) -> Vec3<R> {
-        let (one, two, [across, up]) = (R::lit(1.0), R::lit(2.0), self.tangents::<R>());
+        Self::direction_by(self.tangents(), uv)
+    }
+    /// The same for tangents of half the angles of view that may differ by lane.
+    #[inline(always)]
+    pub fn direction_by<R: Real>([across, up]: [R; 2], uv: Vec2<R>) -> Vec3<R> {
+        let (one, two) = (R::lit(1.0), R::lit(2.0));
         Vec3::new(two.mul_add(uv.x, -one) * across, -two.mul_add(uv.y, -one) * up, one).normalize()
     }
     /// A cosine of the angle to the axis from which on it is dark: that of the corners, less a rounding.
@@ -124,6 +134,13 @@ impl<'a> ProjectedImage<'a> {
         let solid_angle = |x: usize, y: usize| projector.texel_solid_angle(size, [x, y]);
         let table = PiecewiseConstant2d::build_by_cells(weights, width, solid_angle, buffer)?;
         Ok(Self { projector, table })
+    }
+    /// The image whose table [`build`](Self::build) has left in the buffer, for the same projector.
+    ///
+    /// # Errors
+    /// If the length of the buffer is not that of a table with so many columns.
+    pub fn from_buffer(projector: Projector, buffer: &'a [f32], width: usize) -> Result<Self, TableError> {
+        Ok(Self { projector, table: PiecewiseConstant2d::from_buffer(buffer, width)? })
     }
 }
 

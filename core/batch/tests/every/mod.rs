@@ -4,18 +4,14 @@ use etendue::Vec3;
 use etendue::light::*;
 use etendue::sequence::*;
 use etendue::warp::*;
-use etendue_batch::*;
+use etendue_batch::{PortalsByRadiance, *};
 
 /// What is done with all of them.
 pub(crate) trait Visitor {
     /// A light by the technique `T`.
-    fn technique<T>(&mut self, name: &str, light: T::Light<f32>)
-    where
-        T: BatchTechnique + InTable<Functions = LightFunctions<T>>;
+    fn technique<T: BatchTechnique>(&mut self, name: &str, light: T::Light<f32>);
     /// A warp.
-    fn warp<W>(&mut self, name: &str, warp: W)
-    where
-        W: BatchWarp + InTable<Functions = WarpFunctions<W>>;
+    fn warp<W: BatchWarp>(&mut self, name: &str, warp: W);
     /// A sequence.
     fn sequence<S>(&mut self, name: &str, sequence: S)
     where
@@ -74,9 +70,37 @@ macro_rules! visit_techniques {
     };
 }
 
+/// Visits lights with pictures, the sky through two portals, and what a projector emits.
+fn visit_images(visitor: &mut impl Visitor) {
+    let weights: Vec<f32> = (0..15).map(|i| [0.0, 1.0, 0.3, 1e-3, 7.0][i * 7 % 5]).collect();
+    let mut buffer = [0.0; Picture::buffer(5, 3)];
+    let picture = Picture::build(&weights, 5, Region::Square, &mut buffer).unwrap();
+    visitor.technique::<PictureByArea<'_>>("picture by area", picture.on(Overhead::overhead()));
+    visitor.technique::<PictureBySolidAngle<'_>>("picture by solid angle", picture.on(Overhead::overhead()));
+    let projected = "picture by projected solid angle";
+    visitor.technique::<PictureByProjectedSolidAngle<'_>>(projected, picture.on(Overhead::overhead()));
+    let mut buffer = [0.0; Picture::buffer(6, 4)];
+    let smooth = Picture::interpolated(&weights, 5, &mut buffer).unwrap();
+    visitor.technique::<PictureBySolidAngle<'_>>("interpolated picture", smooth.on(Overhead::overhead()));
+    visitor.technique::<PictureOnSphereByVisibleArea<'_>>("picture on sphere", smooth.on(Overhead::overhead()));
+    visitor.technique::<PictureOnPatchByVisibleArea<'_>>("picture on patch", picture.on(Overhead::overhead()));
+
+    let mut buffer = [0; PortalTable::buffer(5, 3)];
+    let tables = [PortalTable::build(&weights, 5, &mut buffer).unwrap(); 2];
+    let corners = [[-0.5, 1.0, -0.5], [0.25, 1.5, 0.0]];
+    let portals = corners.map(|corner| Portal::new(corner, [0.0, 0.25, 1.0], [1.0, 0.0, 0.0]).unwrap());
+    let sky = PortalEnvironment::new(&portals, &tables).unwrap();
+    visitor.technique::<PortalsByRadiance<'_>>("portals by radiance", sky);
+
+    let mut buffer = [0.0; ProjectedImage::buffer(5, 3)];
+    let slide = ProjectedImage::build(Projector { tan_half: [1.0, 0.5] }, &weights, 5, &mut buffer).unwrap();
+    visitor.warp("projected image", slide);
+}
+
 /// Visits all of them.
 pub(crate) fn visit(visitor: &mut impl Visitor) {
     etendue::techniques!(visit_techniques! { { visitor } });
+    visit_images(visitor);
     let center = v(0.0, 1.0, 0.0);
     visitor.warp("concentric disk", ConcentricDisk);
     visitor.warp("polar disk", PolarDisk);

@@ -2,6 +2,7 @@
 
 use crate::driver::{Driver, HOSTILE, compare, slots};
 use etendue::estimate::{Heuristic, technique_pdf};
+use etendue::light::{PortalMap, Projector, Spread};
 use etendue::sequence::{Independent, OwenSobol, Sequence};
 use etendue::{LightSample, Vec2, Vec3};
 use etendue_oracle::tier::cases;
@@ -13,6 +14,9 @@ fn tool(name: &str, x: &[f32]) -> Vec<f32> {
     let word = |k: usize| x[k].to_bits();
     let truth = |k: usize| x[k] > 0.5;
     let pair = |u: Vec2<f32>| vec![u.x, u.y];
+    let three = |k: usize| Vec3::new(x[k], x[k + 1], x[k + 2]);
+    let vector = |w: Vec3<f32>| vec![w.x, w.y, w.z];
+    let portal = || PortalMap::direction_by([three(0), three(3), three(6)], x[9], Vec2::new(x[10], x[11]));
     let sample =
         |pdf: f32, emits: bool, delta: bool| LightSample { pdf, emits, delta, ..LightSample::miss(Vec3::default()) };
     match name {
@@ -30,6 +34,12 @@ fn tool(name: &str, x: &[f32]) -> Vec<f32> {
         "power_weights" => Heuristic::POWER.weights([x[0], x[1]]).to_vec(),
         "power_light_weight" => vec![Heuristic::POWER.light_weight(&sample(x[0], truth(1), truth(2)), x[3])],
         "power_bsdf_weight" => vec![Heuristic::POWER.bsdf_weight(x[0], &sample(x[1], truth(2), false))],
+        "spread_attenuation" => vec![Spread { tan_half: x[0], gain: x[1] }.attenuation(three(2), three(5))],
+        "projector_place" => pair(Projector { tan_half: [x[0], x[1]] }.place(three(2)).0),
+        "projector_has" => vec![f32::from(u8::from(Projector { tan_half: [x[0], x[1]] }.place(three(2)).1))],
+        "projector_direction" => vector(Projector { tan_half: [x[0], x[1]] }.direction(Vec2::new(x[2], x[3]))),
+        "portal_direction" => vector(portal().0),
+        "portal_solid_angle" => vec![portal().1],
         _ => panic!("the test does not know {name}"),
     }
 }
@@ -55,8 +65,9 @@ fn tools_have_the_same_bits() {
             _ if random.word().is_multiple_of(3) => HOSTILE[random.below(HOSTILE.len())],
             _ => random.magnitude(1e-6, 1e6) as f32,
         };
-        let inputs: Vec<Vec<f32>> =
-            (0..slots()).map(|_| parameters.iter().map(|parameter| argument(parameter.of)).collect()).collect();
+        let kinds: Vec<Type> =
+            parameters.iter().flat_map(|parameter| vec![parameter.of; module.parts(parameter.of).len()]).collect();
+        let inputs: Vec<Vec<f32>> = (0..slots()).map(|_| kinds.iter().map(|&of| argument(of)).collect()).collect();
         let right: Vec<_> = inputs.iter().map(|input| tool(name, input)).collect();
         let found = driver.run(&format!("tool_{name}"), cases(&["-O0"], &["-O2"]), &inputs);
         compare(name, &inputs, &right, &found);

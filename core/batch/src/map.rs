@@ -1,0 +1,120 @@
+//! Functions of a few numbers that are no densities: what lights look up, over any kind of number.
+
+use crate::kernel::Packet;
+use crate::table::{Lanes, MapFunctions, Table};
+use etendue::light::{GeneralSky, PortalEnvironment, PortalMap, Profile, Projector, Spread};
+use etendue::{Mask, Real, Vec2, Vec3};
+
+/// The most numbers that a map takes.
+pub const MOST_NUMBERS: usize = 7;
+/// The most numbers that a map returns.
+pub const MOST_RESULTS: usize = 4;
+
+/// A function of a few numbers, with what it depends on in single or double precision.
+pub trait BatchMap: Copy {
+    /// How many numbers it takes; those beyond are 0.
+    const NUMBERS: usize;
+    /// How many numbers it returns; those beyond are 0.
+    const RESULTS: usize;
+    /// Its results for numbers, and whether they hold.
+    fn map<R: Real<Scalar = f32>>(&self, x: [R; MOST_NUMBERS]) -> ([R; MOST_RESULTS], R::Mask);
+    /// The function over columns.
+    fn map_functions(table: &'static Table) -> MapFunctions<Self>;
+}
+
+/// [`Projector::place`].
+#[derive(Clone, Copy, Debug)]
+pub struct PlaceInImage(pub Projector);
+/// [`Projector::direction`].
+#[derive(Clone, Copy, Debug)]
+pub struct DirectionOfImage(pub Projector);
+/// [`PortalEnvironment::sees`].
+#[derive(Clone, Copy, Debug)]
+pub struct SeenThroughPortals<'a>(pub PortalEnvironment<'a>);
+/// [`PortalEnvironment::sees_cone`].
+#[derive(Clone, Copy, Debug)]
+pub struct ConeSeenThroughPortals<'a>(pub PortalEnvironment<'a>);
+
+macro_rules! maps {
+    ($(
+        $(#[$doc:meta])* $field:ident: $name:ident $(<$lifetime:lifetime>)? $([$number:ty])?, $numbers:literal -> $results:literal,
+        |$this:ident, $x:pat_param| $map:expr;
+    )+) => {
+        $(impl$(<$lifetime>)? BatchMap for $name $(<$lifetime>)? $(<$number>)? {
+            const NUMBERS: usize = $numbers;
+            const RESULTS: usize = $results;
+            #[inline(always)]
+            fn map<R: Real<Scalar = f32>>(&self, $x: [R; MOST_NUMBERS]) -> ([R; MOST_RESULTS], R::Mask) {
+                let $this = self;
+                $map
+            }
+            #[inline]
+            fn map_functions(table: &'static Table) -> MapFunctions<Self> {
+                maps!(@ table.maps.$field, $name $(<$lifetime>)?)
+            }
+        })+
+        /// The functions of one level of instructions.
+        #[repr(C)]
+        pub(crate) struct MapTable {
+            $($field: maps!(# $name $(<$lifetime>)? $([$number])?),)+
+        }
+        impl MapTable {
+            pub(crate) const fn of<R: Packet>() -> Self {
+                Self { $($field: MapFunctions::of::<R>(),)+ }
+            }
+        }
+    };
+    (@ $functions:expr, $name:ident) => { $functions };
+    (@ $functions:expr, $name:ident <$lifetime:lifetime>) => {
+        // SAFETY: the types differ in how long the memory that they look into lives, and the functions keep nothing of it
+        unsafe { core::mem::transmute::<MapFunctions<$name<'static>>, MapFunctions<Self>>($functions) }
+    };
+    (# $name:ident <$lifetime:lifetime>) => { MapFunctions<$name<'static>> };
+    (# $name:ident [$number:ty]) => { MapFunctions<$name<$number>> };
+    (# $name:ident) => { MapFunctions<$name> };
+}
+
+/// One result, which always holds.
+#[inline(always)]
+fn one<R: Real>(x: R) -> ([R; MOST_RESULTS], R::Mask) {
+    let zero = R::lit(0.0);
+    ([x, zero, zero, zero], R::Mask::splat(true))
+}
+/// Three or four results, which always hold.
+#[inline(always)]
+fn direction<R: Real>(w: Vec3<R>, measure: R) -> ([R; MOST_RESULTS], R::Mask) {
+    ([w.x, w.y, w.z, measure], R::Mask::splat(true))
+}
+
+maps! {
+    profile: Profile<'a>, 3 -> 1, |profile, [x, y, z, ..]| one(profile.intensity(Vec3::new(x, y, z)));
+    place_in_image: PlaceInImage, 3 -> 2, |image, [x, y, z, ..]| {
+        let (uv, inside) = image.0.place(Vec3::new(x, y, z));
+        ([uv.x, uv.y, R::lit(0.0), R::lit(0.0)], inside)
+    };
+    direction_of_image: DirectionOfImage, 2 -> 3, |image, [u, v, ..]| direction(image.0.direction(Vec2::new(u, v)), R::lit(0.0));
+    spread: Spread[f32], 6 -> 1, |spread, [x, y, z, nx, ny, nz, _]|
+        one(Spread::<R>::splat(*spread).attenuation(Vec3::new(x, y, z), Vec3::new(nx, ny, nz)));
+    portal_map: PortalMap, 2 -> 4, |map, [u, v, ..]| {
+        let (w, solid_angle) = PortalMap::direction(map, Vec2::new(u, v));
+        direction(w, solid_angle)
+    };
+    seen: SeenThroughPortals<'a>, 6 -> 0, |portals, [px, py, pz, x, y, z, _]|
+        ([R::lit(0.0); MOST_RESULTS], portals.0.sees(Vec3::new(px, py, pz), Vec3::new(x, y, z)));
+    cone_seen: ConeSeenThroughPortals<'a>, 7 -> 0, |portals, [px, py, pz, x, y, z, radius]|
+        ([R::lit(0.0); MOST_RESULTS], portals.0.sees_cone(Vec3::new(px, py, pz), Vec3::new(x, y, z), radius));
+}
+
+/// Its exponentials are those of a library that is not compiled once more for other instructions: all levels use the build's.
+impl BatchMap for GeneralSky {
+    const NUMBERS: usize = 3;
+    const RESULTS: usize = 1;
+    #[inline(always)]
+    fn map<R: Real<Scalar = f32>>(&self, [x, y, z, ..]: [R; MOST_NUMBERS]) -> ([R; MOST_RESULTS], R::Mask) {
+        one(self.luminance(Vec3::new(x, y, z)))
+    }
+    #[inline]
+    fn map_functions(_: &'static Table) -> MapFunctions<Self> {
+        MapFunctions::of::<Lanes>()
+    }
+}

@@ -1,0 +1,414 @@
+//! Samples, and what is done with prepared lights.
+
+use crate::{EtendueStatus, columns, each_mut, outputs, refuse_null};
+use core::ptr::{null, null_mut};
+use etendue::{Vec2, Vec3};
+use etendue_batch::{Batch, BatchSampler, BatchTechnique, EvaluationColumns, SampleColumns, Views};
+
+/// One sample of a light as seen from a shading point, or the point of a light that a ray hits.
+///
+/// The estimator of reflected radiance is f L cos(theta) weight, once a shadow ray along `direction` has reached `distance`.
+#[derive(Clone, Copy, Debug, Default)]
+#[repr(C)]
+pub struct EtendueLightSample {
+    /// Unit direction from the shading point to the light.
+    pub direction: [f32; 3],
+    /// Distance to the light along it, in the unit of the coordinates; FLT_MAX for lights at infinity.
+    pub distance: f32,
+    /// Probability density of the direction, per steradian (lines: per unit of their measure); 0 where there is no sample.
+    pub pdf: f32,
+    /// 1/pdf where there is a sample and the light emits towards the shading point, 0 elsewhere.
+    pub weight: f32,
+    /// Unit normal of the light at the sampled point. Not meaningful where the pdf is 0.
+    pub normal: [f32; 3],
+    /// Surface coordinates of the sampled point in [0, 1]^2, for textures: of a triangle, the barycentric coordinates of its second and
+    /// third vertex. Not meaningful where the pdf is 0.
+    pub uv: [f32; 2],
+    /// 1 where the shading point is on the side of the light that emits, which is the side of the normal, else 0.
+    pub emits: u8,
+}
+
+/// Columns of samples, each NULL or of as many elements as the batch has. The fields are those of [`EtendueLightSample`].
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+pub struct EtendueSampleColumns {
+    /// Unit direction from the shading point to the light.
+    pub direction: [*mut f32; 3],
+    /// Distance to the light along it, in the unit of the coordinates.
+    pub distance: *mut f32,
+    /// Probability density of the direction, per steradian; 0 where there is no sample.
+    pub pdf: *mut f32,
+    /// 1/pdf where there is a sample and the light emits towards the shading point, 0 elsewhere.
+    pub weight: *mut f32,
+    /// Unit normal of the light at the sampled point.
+    pub normal: [*mut f32; 3],
+    /// Surface coordinates of the sampled point.
+    pub uv: [*mut f32; 2],
+    /// 1 where the shading point is on the side of the light that emits, else 0.
+    pub emits: *mut u8,
+}
+
+impl EtendueSampleColumns {
+    pub(crate) fn columns(&self) -> SampleColumns {
+        let Self { direction, distance, pdf, weight, normal, uv, emits } = *self;
+        SampleColumns { direction, distance, pdf, weight, normal, uv, emits }
+    }
+}
+
+impl EtendueLightSample {
+    /// The fields of one sample as columns of one element.
+    pub(crate) unsafe fn columns(this: *mut Self) -> SampleColumns {
+        // SAFETY: the caller's memory has room for a sample
+        unsafe {
+            SampleColumns {
+                direction: each_mut((&raw mut (*this).direction).cast()),
+                distance: &raw mut (*this).distance,
+                pdf: &raw mut (*this).pdf,
+                weight: &raw mut (*this).weight,
+                normal: each_mut((&raw mut (*this).normal).cast()),
+                uv: each_mut((&raw mut (*this).uv).cast()),
+                emits: &raw mut (*this).emits,
+            }
+        }
+    }
+}
+
+pub(crate) fn vec3<T>([x, y, z]: [T; 3]) -> Vec3<T> {
+    Vec3::new(x, y, z)
+}
+pub(crate) fn vec2<T>([x, y]: [T; 2]) -> Vec2<T> {
+    Vec2::new(x, y)
+}
+
+/// Columns of which none is wanted.
+const NOTHING: EvaluationColumns = EvaluationColumns { pdf: null_mut(), u: [null_mut(); 2], hit: NO_SAMPLES };
+const NO_SAMPLES: SampleColumns = SampleColumns {
+    direction: [null_mut(); 3],
+    distance: null_mut(),
+    pdf: null_mut(),
+    weight: null_mut(),
+    normal: [null_mut(); 3],
+    uv: [null_mut(); 2],
+    emits: null_mut(),
+};
+
+/// A struct of this interface that holds a prepared light, or a light that is the same for all shading points.
+pub(crate) trait Sampler {
+    /// The core's sampler.
+    type Core: BatchSampler;
+    /// Calls `f` with the core's sampler, unless the pointer is null or the struct is not valid.
+    unsafe fn with(this: *const Self, f: impl FnOnce(&Self::Core)) -> EtendueStatus;
+}
+
+/// A struct of this interface that holds a light prepared for a shading point by one technique.
+pub(crate) trait Technique: Sampler<Core: BatchTechnique> {
+    /// The struct of the light.
+    type Light;
+    /// The struct of columns of lights.
+    type Columns;
+    /// Prepares a light for the point `p` of a surface with the unit normal `n`, unless the struct is not valid.
+    unsafe fn prepare(light: *const Self::Light, p: Vec3<f32>, n: Vec3<f32>, out: *mut Self) -> EtendueStatus;
+    /// Calls `f` with columns of lights, unless one is missing or the struct is not valid.
+    unsafe fn with_lights(
+        lights: *const Self::Columns,
+        f: impl FnOnce(<Self::Core as BatchTechnique>::Light<*const f32>),
+    ) -> EtendueStatus;
+}
+
+pub(crate) unsafe fn with<S: Sampler>(sampler: *const S, f: impl FnOnce(&S::Core)) -> EtendueStatus {
+    // SAFETY: the caller's
+    unsafe { S::with(sampler, f) }
+}
+
+/// What is done with a sampler.
+macro_rules! sampler_functions {
+    ($sampler:ident, $module:ident) => {
+        /// Draws a direction for u.
+        #[unsafe(export_name = concat!("etendue_", stringify!($module), "_sample"))]
+        pub unsafe extern "C" fn sample(
+            sampler: *const $sampler,
+            u: *const f32,
+            out: *mut EtendueLightSample,
+        ) -> EtendueStatus {
+            refuse_null!(u, out);
+            // SAFETY: the pointers are not null, and point to what the header says
+            unsafe {
+                let out = EtendueLightSample::columns(out);
+                with(sampler, |sampler| (Batch::new().sampler().sample)(sampler, 1, vec2(each(u)), &out))
+            }
+        }
+        /// The pdf with which a unit direction `w` is drawn; 0 where it misses the light, and if a pointer is NULL.
+        #[unsafe(export_name = concat!("etendue_", stringify!($module), "_pdf"))]
+        pub unsafe extern "C" fn pdf(sampler: *const $sampler, w: *const f32) -> f32 {
+            let mut pdf = 0.0;
+            if !w.is_null() {
+                // SAFETY: the pointers are not null, and point to what the header says
+                unsafe { with(sampler, |sampler| (Batch::new().sampler().pdf)(sampler, 1, vec3(each(w)), &mut pdf)) };
+            }
+            pdf
+        }
+        /// The random numbers `u` that are mapped to a unit direction `w`; any in [0, 1)^2 where it misses the light.
+        #[unsafe(export_name = concat!("etendue_", stringify!($module), "_invert"))]
+        pub unsafe extern "C" fn invert(sampler: *const $sampler, w: *const f32, u: *mut f32) -> EtendueStatus {
+            refuse_null!(w, u);
+            // SAFETY: the pointers are not null, and point to what the header says
+            unsafe {
+                with(sampler, |sampler| (Batch::new().sampler().invert)(sampler, 1, vec3(each(w)), vec2(each_mut(u))))
+            }
+        }
+        /// The nearest point of the light in a unit direction `w`, with the pdf of that direction; pdf 0 where it misses the light.
+        #[unsafe(export_name = concat!("etendue_", stringify!($module), "_hit"))]
+        pub unsafe extern "C" fn hit(
+            sampler: *const $sampler,
+            w: *const f32,
+            out: *mut EtendueLightSample,
+        ) -> EtendueStatus {
+            refuse_null!(w, out);
+            // SAFETY: the pointers are not null, and point to what the header says
+            unsafe {
+                let out = EtendueLightSample::columns(out);
+                with(sampler, |sampler| (Batch::new().sampler().hit)(sampler, 1, vec3(each(w)), &out))
+            }
+        }
+        /// Draws a direction for each u: two columns.
+        #[unsafe(export_name = concat!("etendue_", stringify!($module), "_sample_batch"))]
+        pub unsafe extern "C" fn sample_batch(
+            sampler: *const $sampler,
+            n: usize,
+            u: *const *const f32,
+            out: *const EtendueSampleColumns,
+        ) -> EtendueStatus {
+            if n == 0 {
+                return EtendueStatus::Ok;
+            }
+            refuse_null!(out);
+            // SAFETY: the pointers are not null, and point to what the header says
+            unsafe {
+                let Some(u) = columns(u) else { return EtendueStatus::NullPointer };
+                with(sampler, |sampler| (Batch::new().sampler().sample)(sampler, n, vec2(u), &(*out).columns()))
+            }
+        }
+        /// The pdf of each unit direction: three columns.
+        #[unsafe(export_name = concat!("etendue_", stringify!($module), "_pdf_batch"))]
+        pub unsafe extern "C" fn pdf_batch(
+            sampler: *const $sampler,
+            n: usize,
+            w: *const *const f32,
+            out: *mut f32,
+        ) -> EtendueStatus {
+            if n == 0 {
+                return EtendueStatus::Ok;
+            }
+            refuse_null!(out);
+            // SAFETY: the pointers are not null, and point to what the header says
+            unsafe {
+                let Some(w) = columns(w) else { return EtendueStatus::NullPointer };
+                with(sampler, |sampler| (Batch::new().sampler().pdf)(sampler, n, vec3(w), out))
+            }
+        }
+        /// The random numbers of each unit direction: three columns in, two out.
+        #[unsafe(export_name = concat!("etendue_", stringify!($module), "_invert_batch"))]
+        pub unsafe extern "C" fn invert_batch(
+            sampler: *const $sampler,
+            n: usize,
+            w: *const *const f32,
+            u: *const *mut f32,
+        ) -> EtendueStatus {
+            if n == 0 {
+                return EtendueStatus::Ok;
+            }
+            // SAFETY: the pointers are not null, and point to what the header says
+            unsafe {
+                let (Some(w), Some(u)) = (columns(w), outputs(u)) else { return EtendueStatus::NullPointer };
+                with(sampler, |sampler| (Batch::new().sampler().invert)(sampler, n, vec3(w), vec2(u)))
+            }
+        }
+        /// The nearest point of the light in each unit direction: three columns.
+        #[unsafe(export_name = concat!("etendue_", stringify!($module), "_hit_batch"))]
+        pub unsafe extern "C" fn hit_batch(
+            sampler: *const $sampler,
+            n: usize,
+            w: *const *const f32,
+            out: *const EtendueSampleColumns,
+        ) -> EtendueStatus {
+            if n == 0 {
+                return EtendueStatus::Ok;
+            }
+            refuse_null!(out);
+            // SAFETY: the pointers are not null, and point to what the header says
+            unsafe {
+                let Some(w) = columns(w) else { return EtendueStatus::NullPointer };
+                with(sampler, |sampler| (Batch::new().sampler().hit)(sampler, n, vec3(w), &(*out).columns()))
+            }
+        }
+    };
+}
+pub(crate) use sampler_functions;
+
+/// Calls `f` with lights, shading points and normals in columns. Techniques that need no normals do not read them.
+unsafe fn with_views<S: Technique>(
+    lights: *const S::Columns,
+    p: *const *const f32,
+    normals: *const *const f32,
+    f: impl FnOnce(&Views<S::Core>),
+) -> EtendueStatus {
+    refuse_null!(lights);
+    // SAFETY: the caller's pointers are null or point to what the header says
+    unsafe {
+        let normals = if S::Core::ON_SURFACE { columns(normals) } else { Some([null(); 3]) };
+        let (Some(points), Some(normals)) = (columns(p), normals) else { return EtendueStatus::NullPointer };
+        S::with_lights(lights, |lights| f(&Views { lights, points: vec3(points), normals: vec3(normals) }))
+    }
+}
+/// Draws a direction for each u, to a light of its own.
+pub(crate) unsafe fn sample_lights<S: Technique>(
+    lights: *const S::Columns,
+    n: usize,
+    p: *const *const f32,
+    normals: *const *const f32,
+    u: *const *const f32,
+    out: *const EtendueSampleColumns,
+) -> EtendueStatus {
+    if n == 0 {
+        return EtendueStatus::Ok;
+    }
+    refuse_null!(out);
+    // SAFETY: the caller's
+    unsafe {
+        let Some(u) = columns(u) else { return EtendueStatus::NullPointer };
+        with_views::<S>(lights, p, normals, |views| {
+            (Batch::new().technique::<S::Core>().sample_each)(views, n, vec2(u), &(*out).columns());
+        })
+    }
+}
+/// Evaluates a light of its own for each direction.
+pub(crate) unsafe fn evaluate_lights<S: Technique>(
+    lights: *const S::Columns,
+    n: usize,
+    p: *const *const f32,
+    normals: *const *const f32,
+    w: *const *const f32,
+    out: Option<EvaluationColumns>,
+) -> EtendueStatus {
+    if n == 0 {
+        return EtendueStatus::Ok;
+    }
+    // SAFETY: the caller's
+    unsafe {
+        let (Some(w), Some(out)) = (columns(w), out) else { return EtendueStatus::NullPointer };
+        with_views::<S>(lights, p, normals, |views| {
+            (Batch::new().technique::<S::Core>().evaluate_each)(views, n, vec3(w), &out);
+        })
+    }
+}
+/// Columns for the pdf alone, for the random numbers alone, and for hits alone.
+pub(crate) fn pdf_alone(pdf: *mut f32) -> Option<EvaluationColumns> {
+    (!pdf.is_null()).then_some(EvaluationColumns { pdf, ..NOTHING })
+}
+pub(crate) unsafe fn numbers_alone(u: *const *mut f32) -> Option<EvaluationColumns> {
+    // SAFETY: the caller's
+    unsafe { outputs(u).map(|u| EvaluationColumns { u, ..NOTHING }) }
+}
+pub(crate) unsafe fn hits_alone(out: *const EtendueSampleColumns) -> Option<EvaluationColumns> {
+    // SAFETY: the caller's
+    (!out.is_null()).then(|| EvaluationColumns { hit: unsafe { (*out).columns() }, ..NOTHING })
+}
+
+/// What is done with the sampler of a technique, and with lights of their own. `n` and `normals` are there if it needs the normal.
+macro_rules! technique_functions {
+    ($sampler:ident, $light:ident, $columns:ident, $module:ident, ($($n:ident: $normals:ident)?)) => {
+        /// Prepares the light for a shading point.
+        #[unsafe(export_name = concat!("etendue_", stringify!($module), "_prepare"))]
+        pub unsafe extern "C" fn prepare(
+            light: *const $light,
+            p: *const f32,
+            $($n: *const f32,)?
+            out: *mut $sampler,
+        ) -> EtendueStatus {
+            refuse_null!(light, p, $($n,)? out);
+            // SAFETY: the pointers are not null, and point to what the header says
+            unsafe {
+                let [p, normal] = [p, technique_functions!(@normal $($n)?, p)].map(|v| vec3(v.cast::<[f32; 3]>().read_unaligned()));
+                <$sampler as Technique>::prepare(light, p, normal, out)
+            }
+        }
+        sampler_functions!($sampler, $module);
+        /// Prepares the light for a shading point and draws one direction.
+        #[unsafe(export_name = concat!("etendue_", stringify!($module), "_sample_once"))]
+        pub unsafe extern "C" fn sample_once(
+            light: *const $light,
+            p: *const f32,
+            $($n: *const f32,)?
+            u: *const f32,
+            out: *mut EtendueLightSample,
+        ) -> EtendueStatus {
+            refuse_null!(light, p, $($n,)? u, out);
+            let mut sampler = core::mem::MaybeUninit::<$sampler>::uninit();
+            // SAFETY: the pointers are not null, and point to what the header says
+            unsafe {
+                match prepare(light, p, $($n,)? sampler.as_mut_ptr()) {
+                    EtendueStatus::Ok => sample(sampler.as_ptr(), u, out),
+                    status => status,
+                }
+            }
+        }
+        /// Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
+        #[unsafe(export_name = concat!("etendue_", stringify!($module), "_sample_each"))]
+        pub unsafe extern "C" fn sample_each(
+            lights: *const $columns,
+            n: usize,
+            p: *const *const f32,
+            $($normals: *const *const f32,)?
+            u: *const *const f32,
+            out: *const EtendueSampleColumns,
+        ) -> EtendueStatus {
+            // SAFETY: the pointers are null, or point to what the header says
+            unsafe { sample_lights::<$sampler>(lights, n, p, technique_functions!(@normals $($normals)?), u, out) }
+        }
+        /// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
+        #[unsafe(export_name = concat!("etendue_", stringify!($module), "_pdf_each"))]
+        pub unsafe extern "C" fn pdf_each(
+            lights: *const $columns,
+            n: usize,
+            p: *const *const f32,
+            $($normals: *const *const f32,)?
+            w: *const *const f32,
+            out: *mut f32,
+        ) -> EtendueStatus {
+            // SAFETY: the pointers are null, or point to what the header says
+            unsafe { evaluate_lights::<$sampler>(lights, n, p, technique_functions!(@normals $($normals)?), w, pdf_alone(out)) }
+        }
+        /// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
+        #[unsafe(export_name = concat!("etendue_", stringify!($module), "_invert_each"))]
+        pub unsafe extern "C" fn invert_each(
+            lights: *const $columns,
+            n: usize,
+            p: *const *const f32,
+            $($normals: *const *const f32,)?
+            w: *const *const f32,
+            u: *const *mut f32,
+        ) -> EtendueStatus {
+            // SAFETY: the pointers are null, or point to what the header says
+            unsafe { evaluate_lights::<$sampler>(lights, n, p, technique_functions!(@normals $($normals)?), w, numbers_alone(u)) }
+        }
+        /// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
+        #[unsafe(export_name = concat!("etendue_", stringify!($module), "_hit_each"))]
+        pub unsafe extern "C" fn hit_each(
+            lights: *const $columns,
+            n: usize,
+            p: *const *const f32,
+            $($normals: *const *const f32,)?
+            w: *const *const f32,
+            out: *const EtendueSampleColumns,
+        ) -> EtendueStatus {
+            // SAFETY: the pointers are null, or point to what the header says
+            unsafe { evaluate_lights::<$sampler>(lights, n, p, technique_functions!(@normals $($normals)?), w, hits_alone(out)) }
+        }
+    };
+    // of techniques without a normal, anything that can be read
+    (@normal, $p:ident) => { $p };
+    (@normal $n:ident, $p:ident) => { $n };
+    (@normals) => { core::ptr::null() };
+    (@normals $normals:ident) => { $normals };
+}
+pub(crate) use technique_functions;

@@ -1,0 +1,143 @@
+//! Flat lights that emit within an angle of their normal.
+
+use crate::light::{
+    EtendueDisk, EtendueDiskBySolidAngle, EtendueParallelogram, EtendueParallelogramBySolidAngle, EtendueRectangle,
+    EtendueRectangleBySolidAngle,
+};
+use crate::sampler::vec3;
+use crate::{EtendueStatus, columns, each, refuse_null};
+use core::mem::size_of;
+use core::ptr::null_mut;
+use etendue::light::{self, Disk, Parallelogram, Rectangle, Spread};
+use etendue_batch::Batch;
+
+/// How a flat light emits within a cone about its normal, as through a honeycomb before it: the spread of Cycles. A host multiplies the
+/// radiance of the light by the attenuation, which leaves its power as it is. A point sees only a disk of the plane of the light, which the
+/// functions of this struct sample.
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+pub struct EtendueSpread {
+    /// The tangent of half the angle.
+    pub tan_half: f32,
+    /// 1/(tan_half - half the angle).
+    pub gain: f32,
+}
+const _: () = assert!(size_of::<EtendueSpread>() == size_of::<Spread<f32>>());
+
+impl EtendueSpread {
+    fn spread(self) -> Spread<f32> {
+        Spread { tan_half: self.tan_half, gain: self.gain }
+    }
+}
+
+/// Prepares a spread with this full angle in radians, which is taken to be from 1e-3 to pi. Returns ETENDUE_STATUS_VALUE if it is NaN.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn etendue_spread_prepare(angle: f64, out: *mut EtendueSpread) -> EtendueStatus {
+    refuse_null!(out);
+    if angle.is_nan() {
+        return EtendueStatus::Value;
+    }
+    let Spread { tan_half, gain } = Spread::<f32>::new(angle);
+    // SAFETY: the pointer is not null, and points to what the header says
+    unsafe { out.write(EtendueSpread { tan_half, gain }) };
+    EtendueStatus::Ok
+}
+
+/// The factor of the radiance in or against the unit direction `w` of a light with the unit normal `n`, on either side:
+/// (tanσ - tanθ)/(tanσ - σ) at the angle θ < σ to the normal, with σ half of the spread; 0 beyond, and if a pointer is NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn etendue_spread_attenuation(spread: *const EtendueSpread, w: *const f32, n: *const f32) -> f32 {
+    let mut factor = 0.0;
+    if !spread.is_null() && !w.is_null() && !n.is_null() {
+        // SAFETY: the pointers are not null, and point to what the header says
+        unsafe { attenuations(spread, 1, each(w), each(n), &mut factor) };
+    }
+    factor
+}
+
+/// The factor of the radiance for each unit direction and unit normal of a light: three columns each.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn etendue_spread_attenuation_batch(
+    spread: *const EtendueSpread,
+    n: usize,
+    w: *const *const f32,
+    normals: *const *const f32,
+    out: *mut f32,
+) -> EtendueStatus {
+    if n == 0 {
+        return EtendueStatus::Ok;
+    }
+    refuse_null!(spread, out);
+    // SAFETY: the pointers are not null, and point to what the header says
+    unsafe {
+        let (Some(w), Some(normals)) = (columns(w), columns(normals)) else { return EtendueStatus::NullPointer };
+        attenuations(spread, n, w, normals, out);
+    }
+    EtendueStatus::Ok
+}
+
+unsafe fn attenuations(
+    spread: *const EtendueSpread,
+    n: usize,
+    [x, y, z]: [*const f32; 3],
+    [nx, ny, nz]: [*const f32; 3],
+    out: *mut f32,
+) {
+    // SAFETY: the caller's
+    unsafe {
+        let (spread, columns) = ((*spread).spread(), [out, null_mut(), null_mut(), null_mut()]);
+        (Batch::new().map_functions().map)(&spread, n, &[x, y, z, nx, ny, nz, x], &columns, null_mut());
+    }
+}
+
+/// The part of a parallelogram with this spread that a point sees: the smallest parallelogram with edges along its own about what of its plane
+/// is within the angle. It is without area where the point sees nothing, and the light itself where it sees all.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn etendue_parallelogram_visible_part(
+    light: *const EtendueParallelogram,
+    p: *const f32,
+    spread: *const EtendueSpread,
+    out: *mut EtendueParallelogram,
+) -> EtendueStatus {
+    refuse_null!(light, p, spread, out);
+    // SAFETY: the pointers are not null, and point to what the header says; the structs of the light have the same fields
+    unsafe {
+        let p = vec3(p.cast::<[f32; 3]>().read_unaligned());
+        let light = light.cast::<Parallelogram<f32>>().read();
+        out.cast::<Parallelogram<f32>>().write(light.visible_part(p, &(*spread).spread()));
+    }
+    EtendueStatus::Ok
+}
+
+/// The functions that prepare the part of a light that a point sees.
+macro_rules! by_spread {
+    ($($(#[$doc:meta])* $function:ident($light:ident = $core:ident) -> $sampler:ident = $prepared:ident;)+) => {$(
+        $(#[$doc])*
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $function(
+            light: *const $light,
+            p: *const f32,
+            spread: *const EtendueSpread,
+            out: *mut $sampler,
+        ) -> EtendueStatus {
+            refuse_null!(light, p, spread, out);
+            // SAFETY: the pointers are not null, and point to what the header says; the structs hold the core's
+            unsafe {
+                let p = vec3(p.cast::<[f32; 3]>().read_unaligned());
+                out.cast::<light::$prepared<f32>>().write(light.cast::<$core<f32>>().read().by_spread(p, &(*spread).spread()));
+            }
+            EtendueStatus::Ok
+        }
+    )+};
+}
+by_spread! {
+    /// Prepares a parallelogram with this spread: uniform over the solid angle of the part that the point sees. Surface coordinates are those
+    /// of the whole light.
+    etendue_parallelogram_by_spread_prepare(EtendueParallelogram = Parallelogram) -> EtendueParallelogramBySolidAngle = ParallelogramBySolidAngle;
+    /// Prepares a rectangle with this spread: uniform over the solid angle of the part that the point sees. Surface coordinates are those of
+    /// the whole light.
+    etendue_rectangle_by_spread_prepare(EtendueRectangle = Rectangle) -> EtendueRectangleBySolidAngle = RectangleBySolidAngle;
+    /// Prepares a disk with this spread: uniform over the solid angle of what the point sees, if that is a disk within the light; else, of the
+    /// whole light. Surface coordinates are those of the whole light.
+    etendue_disk_by_spread_prepare(EtendueDisk = Disk) -> EtendueDiskBySolidAngle = DiskBySolidAngle;
+}

@@ -1,0 +1,286 @@
+//! The functions for lights with images, and for daylight, return what the core does, bit by bit.
+
+use core::ptr::null;
+use etendue::light::*;
+use etendue::sequence::{Independent, Sequence};
+use etendue::warp::{UniformSphere, Warp};
+use etendue::{LightSampler, Vec2, Vec3};
+use etendue_c::*;
+
+const P: [f32; 3] = [0.1, 0.2, 0.3];
+const N: [f32; 3] = [0.0, 0.8, 0.6];
+const COUNT: u32 = 300;
+const WEIGHTS: [f32; 15] = [0.0, 1.0, 0.3, 1e-3, 7.0, 2.0, 0.0, 0.5, 3.0, 1.0, 4.0, 0.25, 1.0, 0.0, 6.0];
+
+fn pair(i: u32) -> Vec2<f32> {
+    Independent::new(3).pair(0, i, 0)
+}
+fn direction(i: u32) -> Vec3<f32> {
+    UniformSphere.sample(Independent::new(3).pair(1, i, 0))
+}
+fn three(v: Vec3<f32>) -> [f32; 3] {
+    [v.x, v.y, v.z]
+}
+fn bits(numbers: &[f32]) -> Vec<u32> {
+    numbers.iter().map(|x| x.to_bits()).collect()
+}
+fn of_core(s: &LightSample<f32>) -> Vec<u32> {
+    let [d, n] = [s.direction, s.normal].map(three);
+    let emits = f32::from(u8::from(s.emits));
+    bits(&[d[0], d[1], d[2], s.distance, s.pdf, s.weight(), n[0], n[1], n[2], s.uv.x, s.uv.y, emits])
+}
+fn of_c(s: &EtendueLightSample) -> Vec<u32> {
+    let EtendueLightSample { direction: d, distance, pdf, weight, normal: n, uv, emits } = *s;
+    bits(&[d[0], d[1], d[2], distance, pdf, weight, n[0], n[1], n[2], uv[0], uv[1], f32::from(emits)])
+}
+
+/// Compares all that is done with one prepared light.
+macro_rules! assert_same {
+    ($name:expr, $core:expr, $sampler:expr, $module:ident) => {{
+        let (core, sampler) = ($core, $sampler);
+        let (mut found, mut positive) = (EtendueLightSample::default(), 0);
+        for i in 0..COUNT {
+            let u = pair(i);
+            // SAFETY: all pointers are to what the header says
+            unsafe {
+                assert_eq!($module::sample(&sampler, [u.x, u.y].as_ptr(), &mut found), EtendueStatus::Ok);
+                let expected = core.sample(u);
+                assert_eq!(of_c(&found), of_core(&expected), "{}, sample {i}", $name);
+                for w in [expected.direction, direction(i)] {
+                    let (raw, mut back) = (three(w), [0.0; 2]);
+                    let pdf = core.pdf(w);
+                    positive += u32::from(pdf > 0.0);
+                    assert_eq!($module::pdf(&sampler, raw.as_ptr()).to_bits(), pdf.to_bits(), "{}, pdf {i}", $name);
+                    assert_eq!($module::hit(&sampler, raw.as_ptr(), &mut found), EtendueStatus::Ok);
+                    assert_eq!(of_c(&found), of_core(&core.hit(w)), "{}, hit {i}", $name);
+                    assert_eq!($module::invert(&sampler, raw.as_ptr(), back.as_mut_ptr()), EtendueStatus::Ok);
+                    let u = core.invert(w);
+                    assert_eq!(bits(&back), bits(&[u.x, u.y]), "{}, inverse {i}", $name);
+                }
+            }
+        }
+        assert!(positive > COUNT / 2, "{}: only {positive} directions have a pdf", $name);
+    }};
+}
+/// A sampler of C, prepared for the point and the normal.
+macro_rules! prepared {
+    ($light:expr, $module:ident::prepare($($place:expr),+)) => {{
+        let mut sampler = core::mem::MaybeUninit::uninit();
+        // SAFETY: all pointers are to what the header says
+        unsafe {
+            assert_eq!($module::prepare(&$light, $($place.as_ptr(),)+ sampler.as_mut_ptr()), EtendueStatus::Ok);
+            sampler.assume_init()
+        }
+    }};
+}
+
+/// A picture in C and in the core, over one image.
+fn assert_pictures(picture: Picture<'_>, same: EtenduePicture, name: &str) {
+    let (p, n) = (Vec3::from(P), Vec3::from(N));
+    let (corner, s, t) = ([-0.5, 2.0, -0.3], [0.1, 0.2, 1.1], [1.2, 0.1, 0.2]);
+    let light = |parallelogram| EtenduePicturedParallelogram { picture: same, light: parallelogram };
+    let mut coordinates = EtendueParallelogram { corner: [0.0; 3], edge_s: [0.0; 3], edge_t: [0.0; 3] };
+    match picture.region() {
+        Region::Square => {
+            let parallelogram = Parallelogram { corner: corner.into(), edge_s: s.into(), edge_t: t.into() };
+            let own = light(EtendueParallelogram { corner, edge_s: s, edge_t: t });
+            let on = picture.on(parallelogram);
+            assert_same!(name, on.by_area(p), prepared!(own, picture_by_area::prepare(P)), picture_by_area);
+            let sampler = prepared!(own, picture_by_solid_angle::prepare(P));
+            assert_same!(name, on.by_solid_angle(p), sampler, picture_by_solid_angle);
+            let sampler = prepared!(own, picture_by_projected_solid_angle::prepare(P, N));
+            assert_same!(name, on.by_projected_solid_angle(p, n), sampler, picture_by_projected_solid_angle);
+
+            let rectangle =
+                Rectangle { corner: corner.into(), edge_s: [0.0, 0.0, 1.0].into(), edge_t: [1.0, 0.0, 0.0].into() };
+            let raw = EtendueRectangle { corner, edge_s: [0.0, 0.0, 1.0], edge_t: [1.0, 0.0, 0.0] };
+            // SAFETY: the pointers are to a light and to room for one
+            assert_eq!(unsafe { etendue_rectangle_coordinates(&raw, &mut coordinates) }, EtendueStatus::Ok);
+            let sampler = prepared!(light(coordinates), picture_by_solid_angle::prepare(P));
+            assert_same!(name, picture.on(rectangle).by_solid_angle(p), sampler, picture_by_solid_angle);
+
+            let sphere =
+                EtenduePicturedSphere { picture: same, light: EtendueSphere { center: [0.3, 2.0, 0.1], radius: 0.5 } };
+            let sampler = prepared!(sphere, picture_on_sphere_by_visible_area::prepare(P));
+            let core = picture.on(Sphere::new(Vec3::new(0.3, 2.0, 0.1), 0.5)).by_visible_area(p);
+            assert_same!(name, core, sampler, picture_on_sphere_by_visible_area);
+
+            let patch = EtendueBilinearPatch { corner, edge_s: s, edge_t: t, diagonal: [1.3, 0.6, 1.2] };
+            let patch = EtenduePicturedPatch { picture: same, light: patch };
+            let sampler = prepared!(patch, picture_on_patch_by_visible_area::prepare(P));
+            let core = BilinearPatch {
+                corner: corner.into(),
+                edge_s: s.into(),
+                edge_t: t.into(),
+                diagonal: [1.3, 0.6, 1.2].into(),
+            };
+            assert_same!(name, picture.on(core).by_visible_area(p), sampler, picture_on_patch_by_visible_area);
+        }
+        Region::Triangle => {
+            let raw = EtendueTriangle { v0: corner, e1: s, e2: t };
+            // SAFETY: the pointers are to a light and to room for one
+            assert_eq!(unsafe { etendue_triangle_coordinates(&raw, &mut coordinates) }, EtendueStatus::Ok);
+            let core = picture.on(Triangle { v0: corner.into(), e1: s.into(), e2: t.into() });
+            let sampler = prepared!(light(coordinates), picture_by_projected_solid_angle::prepare(P, N));
+            assert_same!(name, core.by_projected_solid_angle(p, n), sampler, picture_by_projected_solid_angle);
+        }
+        Region::Disk => {
+            let raw = EtendueDisk { center: [0.3, 2.0, 0.1], normal: [0.0, -0.8, 0.6], radius: 0.5 };
+            // SAFETY: the pointers are to a light and to room for one
+            assert_eq!(unsafe { etendue_disk_coordinates(&raw, &mut coordinates) }, EtendueStatus::Ok);
+            let core =
+                picture.on(Disk { center: [0.3, 2.0, 0.1].into(), normal: [0.0, -0.8, 0.6].into(), radius: 0.5 });
+            let sampler = prepared!(light(coordinates), picture_by_solid_angle::prepare(P));
+            assert_same!(name, core.by_solid_angle(p), sampler, picture_by_solid_angle);
+        }
+    }
+}
+
+#[test]
+fn pictures() {
+    for (code, region) in [Region::Square, Region::Triangle, Region::Disk].into_iter().enumerate() {
+        let mut buffer = vec![0.0; Picture::buffer(5, 3)];
+        let mut table = vec![0.0; etendue_picture_table(5, 3)];
+        let picture = Picture::build(&WEIGHTS, 5, region, &mut buffer).unwrap();
+        let mut same = EtenduePicture { table: null(), values: null(), width: 0, height: 0, region: 0 };
+        // SAFETY: the pointers are to as many numbers as the header says
+        let built =
+            unsafe { etendue_picture_build(WEIGHTS.as_ptr(), 5, 3, code as u32, table.as_mut_ptr(), &mut same) };
+        assert_eq!(built, EtendueStatus::Ok);
+        assert_pictures(picture, same, &format!("{region:?}"));
+        drop(table);
+        drop(buffer);
+    }
+}
+
+#[test]
+fn interpolated_pictures() {
+    let mut buffer = vec![0.0; Picture::buffer(6, 4)];
+    let mut table = vec![0.0; etendue_picture_interpolated_table(5, 3)];
+    let picture = Picture::interpolated(&WEIGHTS, 5, &mut buffer).unwrap();
+    let mut same = EtenduePicture { table: null(), values: null(), width: 0, height: 0, region: 0 };
+    // SAFETY: the pointers are to as many numbers as the header says
+    let built = unsafe { etendue_picture_interpolate(WEIGHTS.as_ptr(), 5, 3, table.as_mut_ptr(), &mut same) };
+    assert_eq!(built, EtendueStatus::Ok);
+    assert_pictures(picture, same, "interpolated");
+    drop(table);
+}
+
+#[test]
+fn portals() {
+    let corners = [[-0.5, 1.0, -0.5], [0.25, 1.5, 0.0]];
+    let (s, t) = ([0.0, 0.25, 1.0], [1.0, 0.0, 0.0]);
+    let mut buffer = vec![0; PortalTable::buffer(5, 3)];
+    let tables = [PortalTable::build(&WEIGHTS, 5, &mut buffer).unwrap(); 2];
+    let portals = corners.map(|corner| Portal::new(corner, s, t).unwrap());
+    let core = PortalEnvironment::new(&portals, &tables).unwrap();
+
+    let mut sums = vec![0; etendue_portal_table(5, 3)];
+    let mut table = EtenduePortalTable { sums: null(), width: 0, height: 0 };
+    // SAFETY: the pointers are to as many numbers as the header says
+    let built = unsafe { etendue_portal_table_build(WEIGHTS.as_ptr(), 5, 3, sums.as_mut_ptr(), &mut table) };
+    assert_eq!(built, EtendueStatus::Ok);
+    let (raw, both) = (corners.map(|corner| EtenduePortal { corner, edge_s: s, edge_t: t }), [table; 2]);
+    let sky = EtenduePortalEnvironment { portals: raw.as_ptr(), tables: both.as_ptr(), count: 2 };
+    let sampler = prepared!(sky, portals_by_radiance::prepare(P));
+    assert_same!("portals", core.by_radiance(Vec3::from(P)), sampler, portals_by_radiance);
+    for i in 0..COUNT {
+        let (uv, mut w, mut angle) = (pair(i), [0.0; 3], 0.0);
+        let (direction, solid_angle) = portals[0].map().direction(uv);
+        // SAFETY: all pointers are to what the header says
+        let found = unsafe { etendue_portal_direction(&raw[0], [uv.x, uv.y].as_ptr(), w.as_mut_ptr(), &mut angle) };
+        assert_eq!(found, EtendueStatus::Ok);
+        assert_eq!((bits(&w), angle.to_bits()), (bits(&three(direction)), solid_angle.to_bits()));
+    }
+    drop(sums);
+}
+
+#[test]
+fn profiles_and_projectors() {
+    let (polar, azimuth) = ([0.0, 20.0, 90.0], [0.0, 120.0, 360.0]);
+    let values = [100.0, 30.0, 1.0, 80.0, 50.0, 0.0, 100.0, 30.0, 1.0];
+    let core = Profile::new(&polar, &azimuth, &values).unwrap();
+    let slide = Projector { tan_half: [1.0, 0.5] };
+    let mut buffer = vec![0.0; ProjectedImage::buffer(5, 3)];
+    let image = ProjectedImage::build(slide, &WEIGHTS, 5, &mut buffer).unwrap();
+    let projector = EtendueProjector { tan_half: [1.0, 0.5] };
+    let mut table = vec![0.0; etendue_projected_image_table(5, 3)];
+    let mut profile = core::mem::MaybeUninit::uninit();
+    let mut same = EtendueProjectedImage { table: null(), width: 0, height: 0, projector };
+    // SAFETY: all pointers here are to what the header says
+    unsafe {
+        let [a, b, c] = [polar.as_ptr(), azimuth.as_ptr(), values.as_ptr()];
+        assert_eq!(etendue_profile_prepare(a, 3, b, 3, c, profile.as_mut_ptr()), EtendueStatus::Ok);
+        let profile = profile.assume_init();
+        assert_eq!(etendue_profile_power(&profile).to_bits(), core.power().to_bits());
+        let built = etendue_projected_image_build(&projector, WEIGHTS.as_ptr(), 5, 3, table.as_mut_ptr(), &mut same);
+        assert_eq!(built, EtendueStatus::Ok);
+        for i in 0..COUNT {
+            let (w, u) = (direction(i), pair(i));
+            let intensity = etendue_profile_intensity(&profile, three(w).as_ptr());
+            assert_eq!(intensity.to_bits(), core.intensity(w).to_bits());
+            let (mut uv, mut inside, mut drawn, mut back) = ([0.0; 2], 0, [0.0; 3], [0.0; 2]);
+            assert_eq!(
+                etendue_projected_image_sample(&same, [u.x, u.y].as_ptr(), drawn.as_mut_ptr()),
+                EtendueStatus::Ok
+            );
+            let expected = image.sample(u);
+            assert_eq!(bits(&drawn), bits(&three(expected)));
+            assert_eq!(etendue_projected_image_pdf(&same, drawn.as_ptr()).to_bits(), image.pdf(expected).to_bits());
+            assert_eq!(etendue_projected_image_invert(&same, drawn.as_ptr(), back.as_mut_ptr()), EtendueStatus::Ok);
+            assert_eq!(bits(&back), bits(&[image.invert(expected).x, image.invert(expected).y]));
+            for w in [w, expected] {
+                let (place, there) = slide.place(w);
+                let found = etendue_projector_place(&projector, three(w).as_ptr(), uv.as_mut_ptr(), &mut inside);
+                assert_eq!((found, inside), (EtendueStatus::Ok, u8::from(there)));
+                assert_eq!(bits(&uv), bits(&[place.x, place.y]));
+            }
+        }
+    }
+    drop(table);
+}
+
+#[test]
+fn spread_and_daylight() {
+    let (spread, sun) = (Spread::<f32>::new(1.2), [0.6, 0.1, 0.8]);
+    let mut same = EtendueSpread { tan_half: 0.0, gain: 0.0 };
+    let panel = EtendueRectangle { corner: [-9.0, 1.0, -9.0], edge_s: [18.0, 0.0, 0.0], edge_t: [0.0, 0.0, 18.0] };
+    let core = Rectangle::<f32>::new([-9.0, 1.0, -9.0].into(), [18.0, 0.0, 0.0].into(), [0.0, 0.0, 18.0].into());
+    let mut sampler = core::mem::MaybeUninit::uninit();
+    // SAFETY: all pointers here are to what the header says, and the function writes the sampler
+    let sampler = unsafe {
+        assert_eq!(etendue_spread_prepare(1.2, &mut same), EtendueStatus::Ok);
+        assert_eq!(bits(&[same.tan_half, same.gain]), bits(&[spread.tan_half, spread.gain]));
+        let prepared = etendue_rectangle_by_spread_prepare(&panel, P.as_ptr(), &same, sampler.as_mut_ptr());
+        assert_eq!(prepared, EtendueStatus::Ok);
+        sampler.assume_init()
+    };
+    assert_same!("spread", core.by_spread(Vec3::from(P), &spread), sampler, rectangle_by_solid_angle);
+    // SAFETY: all pointers here are to what the header says
+    unsafe {
+        for i in 0..COUNT {
+            let (w, n) = (direction(i), direction(i + COUNT));
+            let factor = etendue_spread_attenuation(&same, three(w).as_ptr(), three(n).as_ptr());
+            assert_eq!(factor.to_bits(), spread.attenuation(w, n).to_bits());
+        }
+        for kind in 1..=15 {
+            let core = GeneralSky::new(kind, sun).unwrap();
+            let mut sky = core::mem::MaybeUninit::uninit();
+            assert_eq!(etendue_general_sky_prepare(kind, sun.as_ptr(), sky.as_mut_ptr()), EtendueStatus::Ok);
+            let sky = sky.assume_init();
+            for i in 0..COUNT {
+                let w = direction(i);
+                let luminance = etendue_general_sky_luminance(&sky, three(w).as_ptr());
+                assert_eq!(luminance.to_bits(), core.luminance(w).to_bits());
+            }
+        }
+        let time = EtendueMoment { year: 2026, month: 6, day: 21, hours: 9.5 };
+        let mut position = EtendueSunPosition { elevation: 0.0, azimuth: 0.0 };
+        let mut towards = [0.0; 3];
+        assert_eq!(etendue_sun_position(&time, 47.4, 8.5, &mut position), EtendueStatus::Ok);
+        assert_eq!(etendue_sun_position_direction(&position, towards.as_mut_ptr()), EtendueStatus::Ok);
+        let core = SunPosition::new(Moment { year: 2026, month: 6, day: 21, hours: 9.5 }, 47.4, 8.5).unwrap();
+        assert_eq!(position.azimuth.to_bits(), core.azimuth.to_bits());
+        assert_eq!(towards.map(f64::to_bits), core.direction().map(f64::to_bits));
+    }
+}

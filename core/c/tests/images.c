@@ -1,0 +1,552 @@
+// Tests of the lights with images and of daylight in etendue.h, in C99: images
+//
+// Closed forms, inverses, sums of probabilities, degenerate input, null pointers, and that batches are their elements one by one and write
+// nothing else. core/c/tests/bits.rs compares the functions with the core.
+#define _DEFAULT_SOURCE
+#include "common.h"
+
+#define WRONG ETENDUE_STATUS_VALUE
+#define COUNT ETENDUE_STATUS_COUNT
+enum { WIDTH = 5, HEIGHT = 3, TEXELS = WIDTH * HEIGHT, N = 100 };
+static const double PI = 3.14159265358979324;
+static const float p[3] = {0.1f, 0.2f, 0.3f}, n[3] = {0, 0.8f, 0.6f};
+static const float weights[TEXELS] = {0, 1, 0.3f, 1e-3f, 7, 2, 0, 0.5f, 3, 1, 4, 0.25f, 1, 0, 6};
+static float u_numbers[2][N], w_numbers[3][N], p_numbers[3][N], n_numbers[3][N];
+static const float *const u_in[2] = {u_numbers[0], u_numbers[1]};
+static const float *const w_in[3] = {w_numbers[0], w_numbers[1], w_numbers[2]};
+static const float *const p_in[3] = {p_numbers[0], p_numbers[1], p_numbers[2]};
+static const float *const n_in[3] = {n_numbers[0], n_numbers[1], n_numbers[2]};
+
+// Tests all functions of a technique. AT and EACH are the normals with a comma before them, if the technique needs them, and SAME is
+// whether the pdf of a sample is that of its direction to the bit.
+#define TECHNIQUE(NAME, LIGHT, COLUMNS_OF, PREFIX, AT, EACH, AT_I, SAME)                                                             \
+    static void PREFIX##_test(const LIGHT *light, const COLUMNS_OF *columns, const LIGHT *wrong, EtendueStatus status) {             \
+        NAME sampler, other, zero;                                                                                                   \
+        EtendueLightSample s, once, hit, again;                                                                                      \
+        float back[2];                                                                                                               \
+        current = #PREFIX;                                                                                                           \
+        memset(&zero, 0, sizeof zero);                                                                                               \
+        memset(&other, PATTERN, sizeof other);                                                                                       \
+        CHECK(PREFIX##_prepare(NULL, p AT, &other) == REFUSED && PREFIX##_prepare(light, NULL AT, &other) == REFUSED);               \
+        CHECK(PREFIX##_prepare(light, p AT, NULL) == REFUSED && PREFIX##_prepare(wrong, p AT, &other) == status);                    \
+        CHECK(is_untouched((unsigned char *)&other, sizeof other));                                                                  \
+        CHECK(PREFIX##_prepare(light, p AT, &sampler) == OK);                                                                        \
+        for (int i = 0; i < N; i += 2) {                                                                                             \
+            const float u[2] = {u_numbers[0][i], u_numbers[1][i]};                                                                   \
+            CHECK(PREFIX##_sample(&sampler, u, &s) == OK && is_finite(&s) && s.pdf >= 0);                                            \
+            CHECK(PREFIX##_sample_once(light, p AT, u, &once) == OK);                                                                \
+            CHECK(memcmp(&s, &once, offsetof(EtendueLightSample, emits) + 1) == 0);                                                  \
+            for (int c = 0; c < 3; c++) w_numbers[c][i] = s.direction[c];                                                            \
+            if (!(s.pdf > 0)) continue;                                                                                              \
+            const float pdf = PREFIX##_pdf(&sampler, s.direction);                                                                   \
+            CHECK(SAME ? same(pdf, s.pdf) : !s.emits || fabsf(pdf / s.pdf - 1) < 1e-3f);                                             \
+            CHECK(PREFIX##_hit(&sampler, s.direction, &hit) == OK && same(hit.pdf, pdf));                                            \
+            CHECK(PREFIX##_invert(&sampler, s.direction, back) == OK && back[0] >= 0 && back[0] < 1 && back[1] >= 0 && back[1] < 1); \
+            CHECK(PREFIX##_sample(&sampler, back, &again) == OK && difference(again.direction, s.direction, 3) < 1e-5f);             \
+        }                                                                                                                            \
+        Results a = results(N), b = results(N), c = results(N), d = results(N);                                                      \
+        const EtendueSampleColumns a_out = sample_columns(a.column), b_out = sample_columns(b.column);                               \
+        CHECK(PREFIX##_sample_batch(&sampler, N, u_in, &a_out) == OK && only_written(&a, 0, COLUMNS));                               \
+        CHECK(PREFIX##_hit_batch(&sampler, N, w_in, &b_out) == OK && only_written(&b, 0, COLUMNS));                                  \
+        CHECK(PREFIX##_pdf_batch(&sampler, N, w_in, c.column[0]) == OK && only_written(&c, 0, 1));                                   \
+        CHECK(PREFIX##_invert_batch(&sampler, N, w_in, c.column + 1) == OK && only_written(&c, 0, 3));                               \
+        for (size_t i = 0; i < N; i++) {                                                                                             \
+            const float u[2] = {u_numbers[0][i], u_numbers[1][i]}, w[3] = {w_numbers[0][i], w_numbers[1][i], w_numbers[2][i]};       \
+            CHECK(PREFIX##_sample(&sampler, u, &s) == OK && is_sample(a.column, i, &s));                                             \
+            CHECK(PREFIX##_hit(&sampler, w, &hit) == OK && is_sample(b.column, i, &hit));                                            \
+            CHECK(same(PREFIX##_pdf(&sampler, w), at(c.column[0], i)) && PREFIX##_invert(&sampler, w, back) == OK);                  \
+            CHECK(same(back[0], at(c.column[1], i)) && same(back[1], at(c.column[2], i)));                                           \
+        }                                                                                                                            \
+        CHECK(PREFIX##_sample_each(columns, N, p_in EACH, u_in, &a_out) == OK && only_written(&a, 0, COLUMNS));                      \
+        CHECK(PREFIX##_hit_each(columns, N, p_in EACH, w_in, &b_out) == OK && only_written(&b, 0, COLUMNS));                         \
+        CHECK(PREFIX##_pdf_each(columns, N, p_in EACH, w_in, d.column[0]) == OK && only_written(&d, 0, 1));                          \
+        CHECK(PREFIX##_invert_each(columns, N, p_in EACH, w_in, d.column + 1) == OK && only_written(&d, 0, 3));                      \
+        for (size_t i = 0; i < N; i++) {                                                                                             \
+            const float u[2] = {u_numbers[0][i], u_numbers[1][i]}, w[3] = {w_numbers[0][i], w_numbers[1][i], w_numbers[2][i]};       \
+            const float p_i[3] = {p_numbers[0][i], p_numbers[1][i], p_numbers[2][i]};                                                \
+            const float n_i[3] = {n_numbers[0][i], n_numbers[1][i], n_numbers[2][i]};                                                \
+            (void)n_i;                                                                                                               \
+            CHECK(PREFIX##_prepare(light, p_i AT_I, &other) == OK);                                                                  \
+            CHECK(PREFIX##_sample(&other, u, &s) == OK && is_sample(a.column, i, &s));                                               \
+            CHECK(PREFIX##_hit(&other, w, &hit) == OK && is_sample(b.column, i, &hit));                                              \
+            CHECK(same(PREFIX##_pdf(&other, w), at(d.column[0], i)) && PREFIX##_invert(&other, w, back) == OK);                      \
+            CHECK(same(back[0], at(d.column[1], i)) && same(back[1], at(d.column[2], i)));                                           \
+        }                                                                                                                            \
+        CHECK(PREFIX##_sample(NULL, *u_in, &s) == REFUSED && PREFIX##_sample(&sampler, NULL, &s) == REFUSED);                        \
+        CHECK(PREFIX##_sample(&sampler, *u_in, NULL) == REFUSED && PREFIX##_sample(&zero, *u_in, &s) == REFUSED);                    \
+        CHECK(PREFIX##_pdf(NULL, p) == 0 && PREFIX##_pdf(&sampler, NULL) == 0 && PREFIX##_pdf(&zero, p) == 0);                       \
+        CHECK(PREFIX##_hit(NULL, p, &s) == REFUSED && PREFIX##_invert(&sampler, p, NULL) == REFUSED);                                \
+        CHECK(PREFIX##_sample_batch(&sampler, N, NULL, &a_out) == REFUSED && PREFIX##_sample_batch(NULL, N, u_in, &a_out) == REFUSED); \
+        CHECK(PREFIX##_sample_batch(&sampler, N, u_in, NULL) == REFUSED && PREFIX##_pdf_batch(&sampler, N, w_in, NULL) == REFUSED);  \
+        CHECK(PREFIX##_invert_batch(&sampler, N, w_in, NULL) == REFUSED && PREFIX##_hit_batch(&sampler, N, NULL, &a_out) == REFUSED); \
+        CHECK(PREFIX##_sample_each(NULL, N, p_in EACH, u_in, &a_out) == REFUSED);                                                    \
+        CHECK(PREFIX##_sample_each(columns, N, NULL EACH, u_in, &a_out) == REFUSED);                                                 \
+        CHECK(PREFIX##_sample_each(columns, N, p_in EACH, NULL, &a_out) == REFUSED);                                                 \
+        CHECK(PREFIX##_sample_each(columns, N, p_in EACH, u_in, NULL) == REFUSED);                                                   \
+        CHECK(PREFIX##_pdf_each(columns, N, p_in EACH, w_in, NULL) == REFUSED);                                                      \
+        CHECK(PREFIX##_hit_each(columns, N, p_in EACH, NULL, &a_out) == REFUSED);                                                    \
+        CHECK(PREFIX##_invert_each(columns, N, p_in EACH, w_in, NULL) == REFUSED);                                                   \
+        CHECK(PREFIX##_sample_each(NULL, 0, NULL EACH, NULL, NULL) == OK && PREFIX##_sample_batch(NULL, 0, NULL, NULL) == OK);       \
+        free(a.memory), free(b.memory), free(c.memory), free(d.memory);                                                              \
+    }
+#define COMMA ,
+#define ANYWHERE(NAME, LIGHT, COLUMNS_OF, PREFIX, SAME) TECHNIQUE(NAME, LIGHT, COLUMNS_OF, PREFIX, , , , SAME)
+ANYWHERE(EtenduePictureByArea, EtenduePicturedParallelogram, EtenduePicturedParallelogramColumns, etendue_picture_by_area, 1)
+ANYWHERE(EtenduePictureBySolidAngle, EtenduePicturedParallelogram, EtenduePicturedParallelogramColumns, etendue_picture_by_solid_angle, 1)
+TECHNIQUE(EtenduePictureByProjectedSolidAngle, EtenduePicturedParallelogram, EtenduePicturedParallelogramColumns,
+          etendue_picture_by_projected_solid_angle, COMMA n, COMMA n_in, COMMA n_i, 1)
+ANYWHERE(EtenduePictureOnSphereByVisibleArea, EtenduePicturedSphere, EtenduePicturedSphereColumns, etendue_picture_on_sphere_by_visible_area, 0)
+ANYWHERE(EtenduePictureOnPatchByVisibleArea, EtenduePicturedPatch, EtenduePicturedPatchColumns, etendue_picture_on_patch_by_visible_area, 0)
+ANYWHERE(EtenduePortalsByRadiance, EtenduePortalEnvironment, EtenduePortalEnvironment, etendue_portals_by_radiance, 1)
+
+// Tables, and what cannot be built.
+static void test_tables(void) {
+    enum { FLOATS = 4 * (TEXELS + 9) + 64 };
+    float table[FLOATS + 1], wrong[TEXELS], means[TEXELS];
+    EtenduePicture picture, untouched;
+    current = "picture";
+    memset(table, PATTERN, sizeof table);
+    memset(&picture, PATTERN, sizeof picture);
+    memset(&untouched, PATTERN, sizeof untouched);
+    memcpy(wrong, weights, sizeof wrong);
+    const size_t most = (size_t)1 << 24, floats = etendue_picture_table(WIDTH, HEIGHT), smooth = etendue_picture_interpolated_table(WIDTH, HEIGHT);
+    CHECK(etendue_picture_table(8, 4) == 31 && etendue_picture_table(1, 1) == 0 && etendue_picture_table(most, 1) == most - 1);
+    CHECK(etendue_picture_table(0, 3) == 0 && etendue_picture_table(3, 0) == 0 && etendue_picture_table(most + 1, 1) == 0);
+    CHECK(etendue_picture_table(most, 127) > 0 && etendue_picture_table(most, 128) == 0 && etendue_picture_table(SIZE_MAX, SIZE_MAX) == 0);
+    CHECK(etendue_picture_interpolated_table(7, 3) == 31 && etendue_picture_interpolated_table(0, 1) == 0);
+    CHECK(etendue_picture_interpolated_table(most, 1) == 0 && etendue_picture_interpolated_table(SIZE_MAX, 1) == 0);
+    CHECK(floats > 0 && floats <= FLOATS && smooth >= floats && smooth <= FLOATS);
+    CHECK(etendue_picture_build(NULL, WIDTH, HEIGHT, 0, table, &picture) == REFUSED);
+    CHECK(etendue_picture_build(weights, WIDTH, HEIGHT, 0, NULL, &picture) == REFUSED);
+    CHECK(etendue_picture_build(weights, WIDTH, HEIGHT, 0, table, NULL) == REFUSED);
+    CHECK(etendue_picture_build(weights, 0, HEIGHT, 0, table, &picture) == COUNT);
+    CHECK(etendue_picture_build(weights, most + 1, 1, 0, table, &picture) == COUNT);
+    CHECK(etendue_picture_build(weights, WIDTH, HEIGHT, 3, table, &picture) == WRONG);
+    CHECK(etendue_picture_interpolate(NULL, WIDTH, HEIGHT, table, &picture) == REFUSED);
+    CHECK(etendue_picture_interpolate(weights, WIDTH, HEIGHT, NULL, &picture) == REFUSED);
+    CHECK(etendue_picture_interpolate(weights, WIDTH, HEIGHT, table, NULL) == REFUSED);
+    CHECK(etendue_picture_interpolate(weights, WIDTH, 0, table, &picture) == COUNT);
+    const float values[] = {-1, -1e-30f, (float)INFINITY, (float)NAN};
+    for (int k = 0; k < 4; k++) {
+        wrong[TEXELS - 1] = values[k];
+        CHECK(etendue_picture_build(wrong, WIDTH, HEIGHT, 0, table, &picture) == WRONG);
+        CHECK(etendue_picture_interpolate(wrong, WIDTH, HEIGHT, table, &picture) == WRONG);
+    }
+    const float dark[TEXELS] = {0};
+    CHECK(etendue_picture_build(dark, WIDTH, HEIGHT, 0, table, &picture) == WRONG);
+    CHECK(etendue_picture_interpolate(dark, WIDTH, HEIGHT, table, &picture) == WRONG);
+    CHECK(is_untouched((unsigned char *)table, sizeof table) && memcmp(&picture, &untouched, sizeof picture) == 0);
+    CHECK(etendue_picture_build(weights, WIDTH, HEIGHT, 0, table, &picture) == OK && picture.table == table && picture.values == NULL);
+    CHECK(is_untouched((unsigned char *)(table + floats), sizeof table - floats * sizeof *table));
+    // only the last texel has radiance, and that is beyond the diagonal
+    float corner[4] = {0, 0, 0, 1};
+    CHECK(etendue_picture_build(corner, 2, 2, ETENDUE_PICTURE_REGION_TRIANGLE, table, &picture) == WRONG);
+
+    CHECK(etendue_picture_means_of_bilinear(NULL, WIDTH, HEIGHT, means) == REFUSED);
+    CHECK(etendue_picture_means_of_bilinear(weights, WIDTH, HEIGHT, NULL) == REFUSED);
+    CHECK(etendue_picture_means_of_bilinear(weights, 0, HEIGHT, means) == COUNT);
+    CHECK(etendue_picture_means_of_bilinear(corner, 2, 2, means) == OK);
+    CHECK(means[0] == 0.015625f && means[1] == 0.109375f && means[2] == 0.109375f && means[3] == 0.765625f);
+}
+
+// A picture on a rectangle that fills a small solid angle: closed forms.
+static void test_closed_forms(void) {
+    current = "closed forms of pictures";
+    float table[64], smooth[128];
+    EtenduePicture picture;
+    CHECK(etendue_picture_build(weights, WIDTH, HEIGHT, 0, table, &picture) == OK);
+    const EtendueParallelogram panel = {{-0.5f, 3, -0.5f}, {0, 0, 1}, {1, 0, 0}};
+    const EtenduePicturedParallelogram light = {picture, panel};
+    const float origin[3] = {0, 0, 0};
+    EtenduePictureByArea by_area;
+    CHECK(etendue_picture_by_area_prepare(&light, origin, &by_area) == OK);
+    double total = 0, sum = 0;
+    for (int k = 0; k < TEXELS; k++) total += weights[k];
+    for (int k = 0; k < TEXELS; k++) {
+        const float s = (k % WIDTH + 0.5f) / WIDTH, t = (k / WIDTH + 0.5f) / HEIGHT;
+        const float v[3] = {panel.corner[0] + t, 3, panel.corner[2] + s};
+        const float length = sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+        const float w[3] = {v[0] / length, v[1] / length, v[2] / length};
+        // the pdf by area of a texel is its part of the radiance over its area
+        const double pmf = weights[k] / total, pdf = pmf * TEXELS * length * length / w[1];
+        const float found = etendue_picture_by_area_pdf(&by_area, w);
+        CHECK(weights[k] > 0 ? fabs(found / pdf - 1) < 1e-4 : found == 0);
+        sum += found * w[1] / (length * length) / TEXELS;
+        // and uv is the position
+        EtendueLightSample hit;
+        CHECK(etendue_picture_by_area_hit(&by_area, w, &hit) == OK);
+        if (weights[k] > 0) CHECK(fabsf(hit.uv[0] - s) < 1e-5f && fabsf(hit.uv[1] - t) < 1e-5f && fabsf(hit.distance - length) < 1e-5f);
+    }
+    CHECK(fabs(sum - 1) < 1e-6);
+
+    // of an interpolated picture, the pdf by area is in proportion to the interpolated radiance
+    const float ramp[2] = {1, 3};
+    CHECK(etendue_picture_interpolate(ramp, 2, 1, smooth, &picture) == OK && picture.values == ramp);
+    const EtenduePicturedParallelogram smooth_light = {picture, panel};
+    CHECK(etendue_picture_by_area_prepare(&smooth_light, origin, &by_area) == OK);
+    for (int k = 1; k < 20; k++) {
+        const float s = k / 20.0f, v[3] = {0, 3, panel.corner[2] + s}, length = sqrtf(9 + v[2] * v[2]);
+        const float w[3] = {0, v[1] / length, v[2] / length};
+        const double radiance = s < 0.25f ? 1 : s > 0.75f ? 3 : 1 + 4 * (s - 0.25), mean = 2;
+        CHECK(fabs(etendue_picture_by_area_pdf(&by_area, w) / (radiance / mean * length * length / w[1]) - 1) < 1e-4);
+    }
+
+    // triangles and disks by their surface coordinates: a picture of one texel has the pdf of the light alone
+    const float one = 1;
+    float none = 0;
+    const EtendueTriangle triangle = {{-0.5f, 3, -0.3f}, {0.1f, 0.2f, 1.1f}, {1.2f, 0.1f, 0.2f}};
+    const EtendueDisk disk = {{0.3f, 3, 0.1f}, {0, -1, 0}, 0.5f};
+    const EtendueRectangle rectangle = {{-0.5f, 3, -0.5f}, {0, 0, 1}, {1, 0, 0}};
+    EtendueTriangleByArea triangle_by_area;
+    EtendueDiskByArea disk_by_area;
+    EtenduePicturedParallelogram other;
+    CHECK(etendue_triangle_coordinates(NULL, &other.light) == REFUSED && etendue_triangle_coordinates(&triangle, NULL) == REFUSED);
+    CHECK(etendue_rectangle_coordinates(&rectangle, &other.light) == OK && memcmp(&other.light, &rectangle, sizeof rectangle) == 0);
+    CHECK(etendue_triangle_by_area_prepare(&triangle, p, &triangle_by_area) == OK && etendue_disk_by_area_prepare(&disk, p, &disk_by_area) == OK);
+    for (int shape = 0; shape < 2; shape++) {
+        const uint32_t region = shape ? ETENDUE_PICTURE_REGION_DISK : ETENDUE_PICTURE_REGION_TRIANGLE;
+        const double part = shape ? PI / 4 : 0.5;
+        CHECK(etendue_picture_build(&one, 1, 1, region, &none, &other.picture) == OK);
+        CHECK((shape ? etendue_disk_coordinates(&disk, &other.light) : etendue_triangle_coordinates(&triangle, &other.light)) == OK);
+        CHECK(etendue_picture_by_area_prepare(&other, p, &by_area) == OK);
+        int hits = 0;
+        for (int i = 0; i < N; i++) {
+            const float u[2] = {u_numbers[0][i], u_numbers[1][i]};
+            EtendueLightSample s;
+            CHECK(etendue_picture_by_area_sample(&by_area, u, &s) == OK);
+            const float alone = shape ? etendue_disk_by_area_pdf(&disk_by_area, s.direction) : etendue_triangle_by_area_pdf(&triangle_by_area, s.direction);
+            // beyond the rim, the pdf is 0
+            CHECK(s.pdf > 0 ? fabs(s.pdf / (alone * part) - 1) < 1e-4 : alone == 0);
+            hits += s.pdf > 0;
+        }
+        CHECK(hits > N / 4 && hits < N);
+    }
+}
+
+static void test_techniques(void) {
+    float table[64], smooth[128];
+    EtenduePicture picture, interpolated;
+    CHECK(etendue_picture_build(weights, WIDTH, HEIGHT, 0, table, &picture) == OK);
+    CHECK(etendue_picture_interpolate(weights, WIDTH, HEIGHT, smooth, &interpolated) == OK);
+    const EtenduePicturedParallelogram flat = {picture, {{-0.5f, 2, -0.3f}, {0.1f, 0.2f, 1.1f}, {1.2f, 0.1f, 0.2f}}};
+    const EtenduePicturedSphere sphere = {interpolated, {{0.3f, 2, 0.1f}, 0.5f}};
+    const EtenduePicturedPatch patch = {picture, {{-0.5f, 2, -0.3f}, {0.1f, 0.2f, 1.1f}, {1.2f, 0.1f, 0.2f}, {1.3f, 0.6f, 1.2f}}};
+    // the same light in all rows
+    static float numbers[12][N];
+    EtenduePicturedParallelogramColumns flats;
+    EtenduePicturedSphereColumns spheres;
+    EtenduePicturedPatchColumns patches;
+    flats.picture = patches.picture = picture;
+    spheres.picture = interpolated;
+    const float *const rows[3] = {flat.light.corner, sphere.light.center, patch.light.corner};
+    const float **const to[3] = {flats.lights.corner, spheres.lights.center, patches.lights.corner};
+    const int counts[3] = {9, 4, 12};
+    for (int which = 0; which < 3; which++) {
+        for (int k = 0; k < counts[which]; k++) {
+            for (int i = 0; i < N; i++) numbers[k][i] = rows[which][k];
+            to[which][k] = numbers[k];
+        }
+        if (which == 0) {
+            EtenduePicturedParallelogram wrong = flat;
+            wrong.picture.region = 7;
+            etendue_picture_by_area_test(&flat, &flats, &wrong, WRONG);
+            wrong.picture.region = 0;
+            wrong.picture.width = 0;
+            etendue_picture_by_solid_angle_test(&flat, &flats, &wrong, COUNT);
+            wrong.picture.table = NULL;
+            etendue_picture_by_projected_solid_angle_test(&flat, &flats, &wrong, REFUSED);
+        } else if (which == 1) {
+            EtenduePicturedSphere wrong = sphere;
+            wrong.picture.height = SIZE_MAX;
+            etendue_picture_on_sphere_by_visible_area_test(&sphere, &spheres, &wrong, COUNT);
+        } else {
+            EtenduePicturedPatch wrong = patch;
+            wrong.picture.table = NULL;
+            etendue_picture_on_patch_by_visible_area_test(&patch, &patches, &wrong, REFUSED);
+        }
+    }
+}
+
+static void test_portals(void) {
+    static uint64_t sums[(16 + 1) * (16 + 1) + 1];
+    static float image[256];
+    current = "portals";
+    const EtenduePortal portals[2] = {{{-0.5f, 1, -0.5f}, {0, 0.25f, 1}, {1, 0, 0}}, {{0.25f, 1.5f, 0}, {0, 0.25f, 1}, {1, 0, 0}}};
+    const EtenduePortal flat = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
+    CHECK(etendue_portal_table(16, 16) == sizeof sums / sizeof *sums && etendue_portal_table(0, 1) == 0 && etendue_portal_table(1, 4097) == 0);
+    // a sky of the same radiance everywhere
+    for (int k = 0; k < 256; k++) {
+        const float uv[2] = {(k % 16 + 0.5f) / 16, (k / 16 + 0.5f) / 16};
+        float w[3], solid_angle;
+        CHECK(etendue_portal_direction(portals, uv, w, &solid_angle) == OK && fabsf(w[0] * w[0] + w[1] * w[1] + w[2] * w[2] - 1) < 1e-6f);
+        CHECK(etendue_portal_direction(portals, uv, w, NULL) == OK);
+        image[k] = solid_angle;
+    }
+    // straight ahead, and 45 degrees along the first edge: pi^2 times the cosine
+    const float ahead[2] = {0.5f, 0.5f}, along[2] = {0.75f, 0.5f}, normal[3] = {0, 0.9701425f, -0.2425356f};
+    const float oblique[3] = {0, (float)((0.9701425 + 0.2425356) * sqrt(0.5)), (float)((0.9701425 - 0.2425356) * sqrt(0.5))};
+    float forward[3], ahead_angle, along_angle;
+    CHECK(etendue_portal_direction(portals, ahead, forward, &ahead_angle) == OK && difference(forward, normal, 3) < 1e-6f);
+    CHECK(etendue_portal_direction(portals, along, forward, &along_angle) == OK && difference(forward, oblique, 3) < 1e-6f);
+    CHECK(fabs(ahead_angle / (PI * PI) - 1) < 1e-6 && fabs(along_angle / (PI * PI * sqrt(0.5)) - 1) < 1e-6);
+    float direction[3];
+    CHECK(etendue_portal_direction(NULL, u_in[0], direction, NULL) == REFUSED && etendue_portal_direction(portals, NULL, direction, NULL) == REFUSED);
+    CHECK(etendue_portal_direction(&flat, u_in[0], direction, NULL) == WRONG);
+    EtenduePortalTable tables[2], table;
+    memset(&table, PATTERN, sizeof table);
+    image[3] = -1;
+    CHECK(etendue_portal_table_build(image, 16, 16, sums, &table) == WRONG);
+    image[3] = 0;
+    CHECK(etendue_portal_table_build(NULL, 16, 16, sums, &table) == REFUSED && etendue_portal_table_build(image, 16, 16, NULL, &table) == REFUSED);
+    CHECK(etendue_portal_table_build(image, 4097, 1, sums, &table) == COUNT && is_untouched((unsigned char *)&table, sizeof table));
+    CHECK(etendue_portal_table_build(image, 16, 16, sums, tables) == OK && tables->sums == sums);
+    tables[1] = tables[0];
+
+    const EtenduePortalEnvironment sky = {portals, tables, 2};
+    EtenduePortalEnvironment wrong = {&flat, tables, 1};
+    etendue_portals_by_radiance_test(&sky, &sky, &wrong, WRONG);
+    wrong.portals = portals;
+    wrong.count = 9;
+    EtenduePortalsByRadiance sampler;
+    CHECK(etendue_portals_by_radiance_prepare(&wrong, p, &sampler) == COUNT);
+    wrong.count = 0;
+    CHECK(etendue_portals_by_radiance_prepare(&wrong, p, &sampler) == COUNT);
+
+    // what is sampled is seen, and what is not seen has pdf 0; from behind, nothing is
+    Results r = results(N), d = results(N);
+    uint8_t sees[N], cone[N];
+    float radius[N];
+    for (int i = 0; i < N; i++) radius[i] = 0.01f;
+    CHECK(etendue_portals_by_radiance_pdf_each(&sky, N, p_in, w_in, r.column[0]) == OK);
+    CHECK(etendue_portal_environment_sees_batch(&sky, N, p_in, w_in, sees) == OK);
+    CHECK(etendue_portal_environment_sees_cone_batch(&sky, N, p_in, w_in, radius, cone) == OK);
+    int seen = 0;
+    for (int i = 0; i < N; i++) {
+        CHECK(sees[i] == (at(r.column[0], i) > 0) && cone[i] >= sees[i]);
+        seen += sees[i];
+    }
+    CHECK(seen > 5 && seen < N);
+    CHECK(etendue_portal_environment_sees_batch(NULL, N, p_in, w_in, sees) == REFUSED && etendue_portal_environment_sees_batch(&sky, N, NULL, w_in, sees) == REFUSED);
+    CHECK(etendue_portal_environment_sees_cone_batch(&sky, N, p_in, w_in, NULL, cone) == REFUSED && etendue_portal_environment_sees_batch(&wrong, N, p_in, w_in, sees) == COUNT);
+    CHECK(etendue_portal_direction_batch(portals, N, u_in, d.column, d.column[3]) == OK && only_written(&d, 0, 4));
+    for (size_t i = 0; i < N; i++) {
+        const float uv[2] = {u_numbers[0][i], u_numbers[1][i]};
+        float w[3], solid_angle;
+        CHECK(etendue_portal_direction(portals, uv, w, &solid_angle) == OK && same(solid_angle, at(d.column[3], i)) && same(w[1], at(d.column[1], i)));
+    }
+    const float above[3] = {0, 9, 0};
+    EtendueLightSample s;
+    CHECK(etendue_portals_by_radiance_sample_once(&sky, above, *u_in, &s) == OK && s.pdf == 0 && s.weight == 0 && is_finite(&s));
+    free(r.memory), free(d.memory);
+}
+
+static float of_profile(const float *w, void *context) { return etendue_profile_intensity(context, w); }
+
+static void test_profiles(void) {
+    current = "profile";
+    const float polar[2] = {0, 60}, azimuth[1] = {0}, values[2] = {100, 0}, falling[2] = {60, 0}, negative[2] = {-1, 2};
+    EtendueProfile profile;
+    memset(&profile, PATTERN, sizeof profile);
+    CHECK(etendue_profile_prepare(NULL, 2, azimuth, 1, values, &profile) == REFUSED && etendue_profile_prepare(polar, 2, NULL, 1, values, &profile) == REFUSED);
+    CHECK(etendue_profile_prepare(polar, 2, azimuth, 1, NULL, &profile) == REFUSED && etendue_profile_prepare(polar, 2, azimuth, 1, values, NULL) == REFUSED);
+    CHECK(etendue_profile_prepare(polar, 1, azimuth, 1, values, &profile) == COUNT && etendue_profile_prepare(polar, 2, azimuth, 0, values, &profile) == COUNT);
+    CHECK(etendue_profile_prepare(falling, 2, azimuth, 1, values, &profile) == WRONG && etendue_profile_prepare(polar, 2, azimuth, 1, negative, &profile) == WRONG);
+    CHECK(is_untouched((unsigned char *)&profile, sizeof profile));
+    CHECK(etendue_profile_prepare(polar, 2, azimuth, 1, values, &profile) == OK);
+    // linear in the angle: 50 at 30 degrees; the power is 2 pi times the integral of 100 (1 - t/(pi/3)) sin t
+    const float w[3] = {0.5f, 0, 0.8660254f}, down[3] = {0, 0, -1};
+    CHECK(fabsf(etendue_profile_intensity(&profile, w) - 50) < 1e-3f && etendue_profile_intensity(&profile, down) == 0);
+    CHECK(fabs(etendue_profile_power(&profile) / (2 * PI * 100 * (1 - sqrt(0.75) / (PI / 3))) - 1) < 1e-12);
+    CHECK(etendue_profile_cos_cone(&profile) == 0.5f && etendue_profile_power(NULL) == 0 && etendue_profile_intensity(NULL, w) == 0);
+    Results r = results(N);
+    CHECK(etendue_profile_intensity_batch(&profile, N, w_in, r.column[0]) == OK && only_written(&r, 0, 1));
+    for (size_t i = 0; i < N; i++) {
+        const float w_i[3] = {w_numbers[0][i], w_numbers[1][i], w_numbers[2][i]};
+        CHECK(same(etendue_profile_intensity(&profile, w_i), at(r.column[0], i)));
+    }
+    CHECK(etendue_profile_intensity_batch(NULL, N, w_in, r.column[0]) == REFUSED && etendue_profile_intensity_batch(&profile, N, w_in, NULL) == REFUSED);
+    free(r.memory);
+
+    // what the lamp emits: every sample is worth nearly the power
+    enum { ROWS = 256 };
+    static float means[ROWS], table[2 * ROWS];
+    EtendueImageEnvironment emission;
+    CHECK(etendue_profile_means(&profile, 0, 1, means) == COUNT && etendue_profile_means(NULL, 1, ROWS, means) == REFUSED);
+    CHECK(etendue_profile_means(&profile, 1, ROWS, means) == OK);
+    CHECK(etendue_image_environment_build(means, 1, ROWS, ETENDUE_ENVIRONMENT_MAP_EQUIRECTANGULAR, table, &emission) == OK);
+    double mean = 0;
+    for (int i = 0; i < N; i++) {
+        const float u[2] = {u_numbers[0][i], u_numbers[1][i]};
+        EtendueLightSample s;
+        CHECK(etendue_image_environment_sample(&emission, u, &s) == OK);
+        mean += etendue_profile_intensity(&profile, s.direction) * s.weight / N;
+    }
+    CHECK(fabs(mean / etendue_profile_power(&profile) - 1) < 2e-2);
+
+    // a point light with the profile, above the point: the light travels downwards, which is -z here
+    const EtenduePointLight lamp = {{0, 0, -2}};
+    const float origin[3] = {0, 0, 0};
+    EtenduePointLightByDelta by_delta;
+    EtendueLightSample s;
+    CHECK(etendue_point_light_by_profile_prepare(&lamp, origin, of_profile, &profile, &by_delta) == OK);
+    CHECK(etendue_point_light_by_delta_sample(&by_delta, *u_in, &s) == OK && fabsf(s.weight - 25) < 1e-4f && s.direction[2] == -1);
+    CHECK(etendue_point_light_by_profile_prepare(&lamp, origin, NULL, NULL, &by_delta) == REFUSED);
+}
+
+static void test_projector(void) {
+    current = "projector";
+    const EtendueProjector slide = {{1, 0.5f}}, none = {{0, 0.5f}};
+    const float w[3] = {0.43643578f, 0.21821789f, 0.87287156f}, behind[3] = {0, 0, -1};
+    float uv[2], back[3], table[TEXELS + HEIGHT];
+    uint8_t inside;
+    CHECK(etendue_projector_place(&slide, w, uv, &inside) == OK && inside == 1 && fabsf(uv[0] - 0.75f) < 1e-6f && fabsf(uv[1] - 0.25f) < 1e-6f);
+    CHECK(etendue_projector_direction(&slide, uv, back) == OK && difference(back, w, 3) < 1e-6f);
+    CHECK(etendue_projector_place(&slide, behind, uv, &inside) == OK && inside == 0 && uv[0] == 0 && uv[1] == 0);
+    CHECK(etendue_projector_place(NULL, w, uv, &inside) == REFUSED && etendue_projector_place(&slide, w, NULL, &inside) == REFUSED);
+    double sum = 0;
+    for (int k = 0; k < TEXELS; k++) sum += etendue_projector_texel_solid_angle(&slide, WIDTH, HEIGHT, (size_t)(k % WIDTH), (size_t)(k / WIDTH));
+    CHECK(fabs(sum / (4 * atan(0.5 / sqrt(1 + 1 + 0.25))) - 1) < 1e-12);
+    CHECK(etendue_projector_texel_solid_angle(NULL, 2, 2, 0, 0) == 0 && etendue_projector_texel_solid_angle(&slide, 2, 2, 2, 0) == 0);
+    CHECK(fabsf(etendue_projector_cos_cone(&slide) - 1 / sqrtf(2.25f)) < 2e-6f && etendue_projector_cos_cone(NULL) == -1);
+
+    current = "projected_image";
+    EtendueProjectedImage image, broken;
+    memset(&image, PATTERN, sizeof image);
+    CHECK(etendue_projected_image_table(WIDTH, HEIGHT) == TEXELS + HEIGHT && etendue_projected_image_table(0, 1) == 0);
+    CHECK(etendue_projected_image_build(NULL, weights, WIDTH, HEIGHT, table, &image) == REFUSED);
+    CHECK(etendue_projected_image_build(&none, weights, WIDTH, HEIGHT, table, &image) == WRONG);
+    CHECK(etendue_projected_image_build(&slide, weights, 0, HEIGHT, table, &image) == COUNT && is_untouched((unsigned char *)&image, sizeof image));
+    CHECK(etendue_projected_image_build(&slide, weights, WIDTH, HEIGHT, table, &image) == OK);
+    Results r = results(N), e = results(N);
+    CHECK(etendue_projected_image_sample_batch(&image, N, u_in, r.column) == OK && only_written(&r, 0, 3));
+    const float *const drawn[3] = {r.column[0], r.column[1], r.column[2]};
+    CHECK(etendue_projected_image_pdf_batch(&image, N, drawn, e.column[0]) == OK && etendue_projected_image_invert_batch(&image, N, drawn, e.column + 1) == OK);
+    CHECK(only_written(&e, 0, 3));
+    double total = 0;
+    for (int k = 0; k < TEXELS; k++) total += weights[k] * etendue_projector_texel_solid_angle(&slide, WIDTH, HEIGHT, (size_t)(k % WIDTH), (size_t)(k / WIDTH));
+    for (size_t i = 0; i < N; i++) {
+        const float u[2] = {u_numbers[0][i], u_numbers[1][i]};
+        float v[3], again[2];
+        CHECK(etendue_projected_image_sample(&image, u, v) == OK && same(v[0], at(r.column[0], i)) && same(v[2], at(r.column[2], i)));
+        CHECK(same(etendue_projected_image_pdf(&image, v), at(e.column[0], i)) && etendue_projected_image_invert(&image, v, again) == OK);
+        CHECK(same(again[0], at(e.column[1], i)) && same(again[1], at(e.column[2], i)) && difference(again, u, 2) < 1e-4f);
+        // the pdf is the part of the texel, over its area in the plane of the image, over the cube of the cosine
+        CHECK(etendue_projector_place(&slide, v, uv, &inside) == OK && inside);
+        const size_t x = (size_t)(uv[0] * WIDTH), y = (size_t)(uv[1] * HEIGHT);
+        const double part = weights[y * WIDTH + x] * etendue_projector_texel_solid_angle(&slide, WIDTH, HEIGHT, x, y) / total;
+        CHECK(fabs(at(e.column[0], i) / (part * TEXELS / (2 * pow(v[2], 3))) - 1) < 1e-4);
+    }
+    broken = image;
+    broken.table = NULL;
+    CHECK(etendue_projected_image_sample(&broken, *u_in, back) == REFUSED && etendue_projected_image_pdf(&broken, w) == 0);
+    broken = image;
+    broken.width = 0;
+    CHECK(etendue_projected_image_sample(&broken, *u_in, back) == COUNT && etendue_projected_image_sample(NULL, *u_in, back) == REFUSED);
+    CHECK(etendue_projector_place_batch(&slide, N, w_in, r.column, (uint8_t *)r.column[2]) == OK && etendue_projector_direction_batch(&slide, N, u_in, e.column) == OK);
+    CHECK(etendue_projector_place_batch(NULL, N, w_in, r.column, NULL) == REFUSED && etendue_projector_direction_batch(&slide, N, NULL, e.column) == REFUSED);
+    free(r.memory), free(e.memory);
+}
+
+static void test_spread(void) {
+    current = "spread";
+    EtendueSpread spread;
+    const float axis[3] = {0, -1, 0}, grazing[3] = {0.8f, 0.6f, 0}, origin[3] = {0, 0, 0};
+    CHECK(etendue_spread_prepare(1, NULL) == REFUSED && etendue_spread_prepare(NAN, &spread) == WRONG);
+    CHECK(etendue_spread_prepare(PI / 2, &spread) == OK && fabsf(spread.tan_half - 1) < 1e-6f);
+    // tan(pi/4)/(tan(pi/4) - pi/4) on the axis, 0 beyond
+    CHECK(fabs(etendue_spread_attenuation(&spread, axis, axis) / (1 / (1 - PI / 4)) - 1) < 1e-6 && etendue_spread_attenuation(&spread, grazing, axis) == 0);
+    CHECK(etendue_spread_attenuation(NULL, axis, axis) == 0);
+    Results r = results(N);
+    CHECK(etendue_spread_attenuation_batch(&spread, N, w_in, n_in, r.column[0]) == OK && only_written(&r, 0, 1));
+    for (size_t i = 0; i < N; i++) {
+        const float w[3] = {w_numbers[0][i], w_numbers[1][i], w_numbers[2][i]}, m[3] = {n_numbers[0][i], n_numbers[1][i], n_numbers[2][i]};
+        CHECK(same(etendue_spread_attenuation(&spread, w, m), at(r.column[0], i)));
+    }
+    CHECK(etendue_spread_attenuation_batch(&spread, N, NULL, n_in, r.column[0]) == REFUSED);
+    free(r.memory);
+    // of 18 x 18 at height 1, the point sees 2 x 2
+    const EtendueRectangle panel = {{-9, 1, -9}, {18, 0, 0}, {0, 0, 18}};
+    EtendueParallelogram same_panel, part;
+    EtendueRectangleBySolidAngle rectangle;
+    EtendueParallelogramBySolidAngle parallelogram;
+    EtendueDiskBySolidAngle by_disk;
+    CHECK(etendue_rectangle_coordinates(&panel, &same_panel) == OK);
+    CHECK(etendue_parallelogram_visible_part(&same_panel, origin, &spread, &part) == OK && fabsf(part.corner[0] + 1) < 1e-3f && fabsf(part.edge_t[2] - 2) < 1e-3f);
+    CHECK(etendue_rectangle_by_spread_prepare(&panel, origin, &spread, &rectangle) == OK);
+    CHECK(etendue_parallelogram_by_spread_prepare(&same_panel, origin, &spread, &parallelogram) == OK);
+    const EtendueDisk disk = {{0, 1, 0}, {0, -1, 0}, 9};
+    CHECK(etendue_disk_by_spread_prepare(&disk, origin, &spread, &by_disk) == OK);
+    for (int i = 0; i < N; i++) {
+        const float u[2] = {u_numbers[0][i], u_numbers[1][i]};
+        EtendueLightSample a, b, c;
+        CHECK(etendue_rectangle_by_solid_angle_sample(&rectangle, u, &a) == OK && etendue_parallelogram_by_solid_angle_sample(&parallelogram, u, &b) == OK);
+        // the square of 2 x 2 has 2 pi/3, the disk of radius 1 has 2 pi (1 - cos 45 degrees); the part is larger by what rounding may hide,
+        // 2^-19 of 58 units at each side here
+        CHECK(a.pdf * 2 * PI / 3 < 1 + 1e-6 && a.pdf * 2 * PI / 3 > 1 - 3e-4 && fabsf(a.direction[0]) <= 1.0002f * a.direction[1]);
+        CHECK(fabsf(b.pdf / a.pdf - 1) < 1e-5f);
+        CHECK(etendue_disk_by_solid_angle_sample(&by_disk, u, &c) == OK && fabs(c.pdf * 2 * PI * (1 - sqrt(0.5)) - 1) < 1e-4);
+        CHECK(fabsf(a.uv[0] - 0.5f) < 0.056f);
+    }
+    CHECK(etendue_rectangle_by_spread_prepare(&panel, origin, NULL, &rectangle) == REFUSED && etendue_disk_by_spread_prepare(NULL, origin, &spread, &by_disk) == REFUSED);
+}
+
+static void test_daylight(void) {
+    current = "daylight";
+    const double sun[3] = {0.6, 0, 0.8}, nowhere[3] = {0, 0, 0};
+    const float zenith[3] = {0, 0, 1}, below[3] = {0, 0.6f, -0.8f};
+    EtendueGeneralSky sky;
+    memset(&sky, PATTERN, sizeof sky);
+    CHECK(etendue_general_sky_prepare(0, sun, &sky) == WRONG && etendue_general_sky_prepare(16, sun, &sky) == WRONG);
+    CHECK(etendue_general_sky_prepare(12, nowhere, &sky) == WRONG && etendue_general_sky_prepare(12, NULL, &sky) == REFUSED);
+    CHECK(is_untouched((unsigned char *)&sky, sizeof sky));
+    for (uint32_t kind = 1; kind <= 15; kind++) {
+        CHECK(etendue_general_sky_prepare(kind, sun, &sky) == OK);
+        CHECK(fabsf(etendue_general_sky_luminance(&sky, zenith) - 1) < 2e-6f && etendue_general_sky_luminance(&sky, below) == 0);
+        Results r = results(N);
+        CHECK(etendue_general_sky_luminance_batch(&sky, N, w_in, r.column[0]) == OK && only_written(&r, 0, 1));
+        for (size_t i = 0; i < N; i++) {
+            const float w[3] = {w_numbers[0][i], w_numbers[1][i], w_numbers[2][i]};
+            CHECK(same(etendue_general_sky_luminance(&sky, w), at(r.column[0], i)));
+            // the uniform sky
+            CHECK(kind != 5 || w[2] < 0 || fabsf(at(r.column[0], i) - 1) < 1e-6f);
+        }
+        CHECK(etendue_general_sky_luminance_batch(&sky, N, w_in, NULL) == REFUSED);
+        free(r.memory);
+    }
+    CHECK(etendue_general_sky_prepare(5, sun, &sky) == OK && fabs(etendue_general_sky_horizontal(&sky) / PI - 1) < 2e-5);
+    CHECK(etendue_general_sky_horizontal(NULL) == 0 && etendue_general_sky_luminance(NULL, zenith) == 0);
+
+    // noon in Greenwich at an equinox
+    const EtendueMoment time = {2026, 3, 20, 12}, never = {2026, 2, 29, 12};
+    EtendueSunPosition position;
+    double direction[3];
+    CHECK(etendue_sun_position(&time, 51.48, 0, &position) == OK && fabs(position.elevation - 38.5 * PI / 180) < 4e-3);
+    CHECK(etendue_sun_position_direction(&position, direction) == OK && fabs(direction[2] - sin(position.elevation)) < 1e-12 && direction[1] < 0);
+    CHECK(etendue_sun_position(&never, 51.48, 0, &position) == WRONG && etendue_sun_position(&time, 91, 0, &position) == WRONG);
+    CHECK(etendue_sun_position(NULL, 0, 0, &position) == REFUSED && etendue_sun_position_direction(NULL, direction) == REFUSED);
+}
+
+int main(void) {
+    for (size_t i = 0; i < N; i++) {
+        float w[3], m[3];
+        direction(w, 1);
+        direction(m, 0);
+        for (int k = 0; k < 3; k++) {
+            p_numbers[k][i] = k == 1 ? 0.9f * uniform() : 2 * uniform() - 1;
+            n_numbers[k][i] = m[k];
+            w_numbers[k][i] = w[k];
+        }
+        u_numbers[0][i] = uniform();
+        u_numbers[1][i] = uniform();
+    }
+    test_tables();
+    test_closed_forms();
+    test_techniques();
+    test_portals();
+    test_profiles();
+    test_projector();
+    test_spread();
+    test_daylight();
+    printf("%ld checks, %d failed\n", checks, failures);
+    return failures > 0;
+}

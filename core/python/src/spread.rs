@@ -1,0 +1,88 @@
+//! Flat lights that emit within an angle of their normal.
+
+use crate::arrays::{Argument, FieldKind, array, broadcast, map};
+use crate::lights::{self, Sampler, single};
+use etendue::light::{self, FlatLight};
+use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::prelude::*;
+
+/// How a flat light emits within a cone about its normal, as through a honeycomb before it: the spread of Cycles. `angle` is the full angle in
+/// radians, taken to be from 1e-3 to π.
+///
+/// A host multiplies the radiance of the light by `attenuation`, which leaves its power as it is. A point sees only a disk of the plane of the
+/// light, which `by_spread` samples.
+#[pyclass(module = "etendue", frozen)]
+pub(crate) struct Spread {
+    spread: light::Spread<f32>,
+    angle: f64,
+}
+
+fn wrong(light: &Bound<'_, PyAny>, kinds: &str) -> PyErr {
+    match light.get_type().name() {
+        Ok(name) => PyTypeError::new_err(format!("light must be a {kinds}, not {name}")),
+        Err(e) => e,
+    }
+}
+
+#[pymethods]
+impl Spread {
+    #[new]
+    fn new(angle: f64) -> PyResult<Self> {
+        if angle.is_nan() {
+            return Err(PyValueError::new_err("angle must be a number, not NaN"));
+        }
+        Ok(Self { spread: light::Spread::new(angle), angle })
+    }
+    /// The factor of the radiance in or against unit directions w (..., 3) of lights with the unit normals n (..., 3), on either side:
+    /// (tanσ − tanθ)/(tanσ − σ) at the angle θ < σ to the normal, with σ half of the spread; 0 beyond.
+    fn attenuation<'py>(
+        &self,
+        py: Python<'py>,
+        w: &Bound<'py, PyAny>,
+        n: &Bound<'py, PyAny>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let (w, n) = (Argument::new("w", FieldKind::Direction, w)?, Argument::new("n", FieldKind::Direction, n)?);
+        let shape = broadcast(py, &[&w, &n])?;
+        let mut columns = w.columns(&shape)?;
+        columns.extend(n.columns(&shape)?);
+        array(py, &shape, map(py, &self.spread, &columns)?.0.remove(0))
+    }
+    /// The part of a Parallelogram or Rectangle with this spread that the point p (3) sees: the smallest parallelogram with edges along its own
+    /// about what of its plane is within the angle. It is without area where the point sees nothing.
+    fn visible_part(&self, light: &Bound<'_, PyAny>, p: &Bound<'_, PyAny>) -> PyResult<lights::Parallelogram> {
+        let light = if let Ok(light) = light.cast::<lights::Parallelogram>() {
+            lights::Parallelogram::build(&light.get().numbers)
+        } else if let Ok(light) = light.cast::<lights::Rectangle>() {
+            lights::Rectangle::build(&light.get().numbers).coordinates()
+        } else {
+            return Err(wrong(light, "Parallelogram or Rectangle"));
+        };
+        let part = light.visible_part(single("p", p)?, &self.spread);
+        Ok(lights::Parallelogram { numbers: [part.corner, part.edge_s, part.edge_t].map(|v| [v.x, v.y, v.z]).concat() })
+    }
+    /// Uniform over the solid angle of what the point p (3) sees of a Parallelogram, Rectangle or Disk with this spread; of a disk, of the whole
+    /// light where that is not a disk within it. Surface coordinates are those of the whole light.
+    fn by_spread(&self, light: &Bound<'_, PyAny>, p: &Bound<'_, PyAny>) -> PyResult<Sampler> {
+        let at = single("p", p)?;
+        if let Ok(light) = light.cast::<lights::Parallelogram>() {
+            let sampler = lights::Parallelogram::build(&light.get().numbers).by_spread(at, &self.spread);
+            Ok(Sampler::new(Box::new(sampler), "Parallelogram by_spread", Some(("solid_angle", sampler.solid_angle()))))
+        } else if let Ok(light) = light.cast::<lights::Rectangle>() {
+            let sampler = lights::Rectangle::build(&light.get().numbers).by_spread(at, &self.spread);
+            Ok(Sampler::new(Box::new(sampler), "Rectangle by_spread", Some(("solid_angle", sampler.solid_angle()))))
+        } else if let Ok(light) = light.cast::<lights::Disk>() {
+            let sampler = lights::Disk::build(&light.get().numbers).by_spread(at, &self.spread);
+            Ok(Sampler::new(Box::new(sampler), "Disk by_spread", Some(("solid_angle", sampler.solid_angle()))))
+        } else {
+            Err(wrong(light, "Parallelogram, Rectangle or Disk"))
+        }
+    }
+    fn __repr__(&self) -> String {
+        format!("<etendue.Spread {}>", self.angle)
+    }
+}
+
+/// Adds the spread to the module.
+pub(crate) fn add(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add_class::<Spread>()
+}
