@@ -335,8 +335,9 @@ mod tests {
     }
 
     fn picture(width: usize, height: usize, bilinear: bool, mapping: Mapping) -> LightPicture {
-        let color =
-            |i: usize| [((i * 7919) % 101) as f32, ((i * 104_729) % 37) as f32, if i % 11 == 0 { 500.0 } else { 0.0 }];
+        let color = |i: usize| {
+            [((i * 7919) % 101) as f32, ((i * 104_729) % 37) as f32, if i.is_multiple_of(11) { 500.0 } else { 0.0 }]
+        };
         let colors = Colors::Float((0..width * height).map(color).collect());
         let texels = Arc::new(Texels { width, height, colors, alpha: None });
         let picture = Picture { texels, mapping, wrap: [Wrap::Clamp; 2], bilinear };
