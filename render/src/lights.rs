@@ -1,4 +1,22 @@
 //! The lights of a scene: packets choose one per lane, and sample it.
+//!
+//! How lights that do not emit evenly are sampled, here and elsewhere: by pbrt-v4 (`diffuse`, `portal` and `goniometric` lights), Mitsuba 3.9.1,
+//! Cycles 4.2 (by its manual) and MoonRay (`RectLight`, `PortalLight`).
+//!
+//! | what emits | here | pbrt-v4 | Mitsuba 3 | Cycles | MoonRay |
+//! |---|---|---|---|---|---|
+//! | a picture on a flat light | radiance × projected solid angle, or in closed form | the shape | radiance × area | the shape | radiance × area |
+//! | a picture on a sphere | radiance × bounds of the visible area | the shape | radiance × area | the shape | radiance × area |
+//! | a spread | what the point sees, by solid angle | none | none | what the point sees, by solid angle | what the point sees, by area |
+//! | a picture and a spread | the picture | none | none | what the point sees | the picture; samples beyond the spread are lost |
+//! | an IES file | a point, a spot, or a flat light | a point, as an image | none | any light | none |
+//! | emission of a profile | in proportion to it, with pdf and inverse | in proportion to it | a point's only | none | none |
+//! | a projected image | all of it | all of it | all of it | by nodes | by a filter |
+//! | an image sky through portals | what is seen, in proportion to its radiance, up to 8, without counting twice | one | none | portals by area or solid angle | a portal by area |
+//! | a sky without a file | CIE, 15 types | none | sun and sky models | sun and sky models | none |
+//!
+//! `cargo run --release -- render render/gallery/emitters/FILE.pbrt` shows a picture (`television`, `window`), a spread (`panel`), portals, a
+//! sky without a file and its sun (`windows`), and an IES file (`washers`). `benches/peers/beside_mitsuba.py` measures each against Mitsuba.
 
 mod chosen;
 mod directed;
@@ -17,7 +35,7 @@ use crate::packet::{M8, V8, X8, equal, select};
 use crate::scene::{Emission, Scene, Shape};
 use crate::sky::Sky;
 use crate::technique::Measure;
-use chosen::{Chosen, Drawn};
+pub use chosen::{Chosen, Drawn};
 use directed::{DirectedLight, directed_lights};
 use etendue::light::Spread;
 use etendue::select::{Allocated, Choice, FEW, LightBound, LightChoice, LightsAt, SpatialLights};
