@@ -39,9 +39,7 @@ mod warp;
 
 pub use columns::{ChoiceColumns, Choices, Counters, EvaluationColumns, Evaluations, SampleColumns, Samples};
 pub use kernel::Views;
-pub use map::{
-    BatchMap, ConeSeenThroughPortals, DirectionOfImage, MOST_NUMBERS, MOST_RESULTS, PlaceInImage, SeenThroughPortals,
-};
+pub use map::{BatchMap, DirectionOfImage, MOST_NUMBERS, MOST_RESULTS, PlaceInImage, SeenThroughPortals};
 pub use placed::{
     PictureByArea, PictureByProjectedSolidAngle, PictureBySolidAngle, PictureOnPatchByVisibleArea,
     PictureOnSphereByVisibleArea, PortalsByRadiance,

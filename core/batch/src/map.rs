@@ -31,9 +31,6 @@ pub struct DirectionOfImage(pub Projector);
 /// [`PortalEnvironment::sees`].
 #[derive(Clone, Copy, Debug)]
 pub struct SeenThroughPortals<'a>(pub PortalEnvironment<'a>);
-/// [`PortalEnvironment::sees_cone`].
-#[derive(Clone, Copy, Debug)]
-pub struct ConeSeenThroughPortals<'a>(pub PortalEnvironment<'a>);
 
 macro_rules! maps {
     ($(
@@ -101,8 +98,6 @@ maps! {
     };
     seen: SeenThroughPortals<'a>, 6 -> 0, |portals, [px, py, pz, x, y, z, _]|
         ([R::lit(0.0); MOST_RESULTS], portals.0.sees(Vec3::new(px, py, pz), Vec3::new(x, y, z)));
-    cone_seen: ConeSeenThroughPortals<'a>, 7 -> 0, |portals, [px, py, pz, x, y, z, radius]|
-        ([R::lit(0.0); MOST_RESULTS], portals.0.sees_cone(Vec3::new(px, py, pz), Vec3::new(x, y, z), radius));
 }
 
 /// Its exponentials are those of a library that is not compiled once more for other instructions: all levels use the build's.

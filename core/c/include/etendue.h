@@ -3784,15 +3784,6 @@ EtendueStatus etendue_portal_environment_sees_batch(const EtenduePortalEnvironme
                                                     const float *const *w,
                                                     uint8_t *out);
 
-// Whether a ray from each point within so many radians of each unit direction may pass a portal towards the sky: where it is 0, none does.
-// Three columns each of points and directions, and one of radii.
-EtendueStatus etendue_portal_environment_sees_cone_batch(const EtenduePortalEnvironment *environment,
-                                                         size_t n,
-                                                         const float *const *p,
-                                                         const float *const *w,
-                                                         const float *radius,
-                                                         uint8_t *out);
-
 // Prepares the light for a shading point.
 EtendueStatus etendue_portals_by_radiance_prepare(const EtenduePortalEnvironment *light,
                                                   const float *p,

@@ -705,19 +705,12 @@ struct PortalEnvironment : EtenduePortalEnvironment {
         static_assert(sizeof(Portal) == sizeof(EtenduePortal) && sizeof(PortalTable) == sizeof(EtenduePortalTable), "no other members");
     }
     PortalsByRadiance by_radiance(Vec3 at) const { return {*this, at}; }
-    // Whether rays pass a portal towards the sky, and whether rays within so many radians of them may.
+    // Whether rays pass a portal towards the sky.
     Status sees(In<3> p, In<3> w, Span<uint8_t> out) const {
         using namespace detail;
         const size_t n = out.size();
         if (!fits(p, n) || !fits(w, n)) return ETENDUE_STATUS_COUNT;
         return etendue_portal_environment_sees_batch(this, n, Pointers<const float, 3>(p).p, Pointers<const float, 3>(w).p, out.data());
-    }
-    Status sees_cone(In<3> p, In<3> w, Span<const float> radius, Span<uint8_t> out) const {
-        using namespace detail;
-        const size_t n = out.size();
-        if (!fits(p, n) || !fits(w, n) || !fits(radius, n)) return ETENDUE_STATUS_COUNT;
-        return etendue_portal_environment_sees_cone_batch(this, n, Pointers<const float, 3>(p).p, Pointers<const float, 3>(w).p,
-                                                          radius.data(), out.data());
     }
 };
 

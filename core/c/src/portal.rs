@@ -6,7 +6,7 @@ use core::ptr::null_mut;
 use core::slice::{from_raw_parts, from_raw_parts_mut};
 use etendue::Vec3;
 use etendue::light::{MOST_PORTALS, Portal, PortalEnvironment, PortalMap, PortalTable};
-use etendue_batch::{Batch, BatchTechnique, ConeSeenThroughPortals, PortalsByRadiance, SeenThroughPortals};
+use etendue_batch::{Batch, BatchTechnique, PortalsByRadiance, SeenThroughPortals};
 
 /// A parallelogram through which the sky is seen, from the side that its normal s x t points away from.
 #[derive(Clone, Copy, Debug)]
@@ -208,32 +208,6 @@ pub unsafe extern "C" fn etendue_portal_environment_sees_batch(
         let numbers = [px, py, pz, x, y, z, px];
         (*environment).with(|environment| {
             let map = SeenThroughPortals(environment);
-            (Batch::new().map_functions().map)(&map, n, &numbers, &[null_mut(); 4], out);
-        })
-    }
-}
-
-/// Whether a ray from each point within so many radians of each unit direction may pass a portal towards the sky: where it is 0, none does.
-/// Three columns each of points and directions, and one of radii.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn etendue_portal_environment_sees_cone_batch(
-    environment: *const EtenduePortalEnvironment,
-    n: usize,
-    p: *const *const f32,
-    w: *const *const f32,
-    radius: *const f32,
-    out: *mut u8,
-) -> EtendueStatus {
-    if n == 0 {
-        return EtendueStatus::Ok;
-    }
-    refuse_null!(environment, radius, out);
-    // SAFETY: the pointers are not null, and point to what the header says
-    unsafe {
-        let (Some([px, py, pz]), Some([x, y, z])) = (columns(p), columns(w)) else { return EtendueStatus::NullPointer };
-        let numbers = [px, py, pz, x, y, z, radius];
-        (*environment).with(|environment| {
-            let map = ConeSeenThroughPortals(environment);
             (Batch::new().map_functions().map)(&map, n, &numbers, &[null_mut(); 4], out);
         })
     }

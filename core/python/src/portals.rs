@@ -4,7 +4,7 @@ use crate::arrays::{Argument, FieldKind, Image, array, broadcast, map, rows, run
 use crate::lights::{Call, Each, Prepared, Sampler, single};
 use etendue::light::{self, MOST_PORTALS, PortalTable};
 use etendue::{Vec2, Vec3};
-use etendue_batch::{Batch, BatchTechnique, ConeSeenThroughPortals, PortalsByRadiance, Samples, SeenThroughPortals};
+use etendue_batch::{Batch, BatchTechnique, PortalsByRadiance, Samples, SeenThroughPortals};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use std::sync::Arc;
@@ -159,28 +159,13 @@ impl PortalEnvironment {
     fn invert_each(&self, py: Python<'_>, p: &Bound<'_, PyAny>, w: &Bound<'_, PyAny>) -> PyResult<Py<PyAny>> {
         self.each(py, p, Call::Invert, w)
     }
-    /// Whether rays from points p (..., 3) in unit directions w (..., 3) pass a portal towards the sky. With a `radius` (...) in radians,
-    /// whether rays within it may: where that is False, none does.
-    #[pyo3(signature = (p, w, radius=None))]
-    fn sees<'py>(
-        &self,
-        py: Python<'py>,
-        p: &Bound<'py, PyAny>,
-        w: &Bound<'py, PyAny>,
-        radius: Option<&Bound<'py, PyAny>>,
-    ) -> PyResult<Bound<'py, PyAny>> {
+    /// Whether rays from points p (..., 3) in unit directions w (..., 3) pass a portal towards the sky.
+    fn sees<'py>(&self, py: Python<'py>, p: &Bound<'py, PyAny>, w: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         let (p, w) = (Argument::new("p", FieldKind::Row(3), p)?, Argument::new("w", FieldKind::Direction, w)?);
-        let radius = radius.map(|radius| Argument::new("radius", FieldKind::Number, radius)).transpose()?;
-        let shape = broadcast(py, &[&p, &w].into_iter().chain(&radius).collect::<Vec<_>>())?;
+        let shape = broadcast(py, &[&p, &w])?;
         let mut columns = p.columns(&shape)?;
         columns.extend(w.columns(&shape)?);
-        let (_, sees) = match radius {
-            None => self.sky.with(|sky| map(py, &SeenThroughPortals(sky), &columns))?,
-            Some(radius) => {
-                columns.extend(radius.columns(&shape)?);
-                self.sky.with(|sky| map(py, &ConeSeenThroughPortals(sky), &columns))?
-            }
-        };
+        let (_, sees) = self.sky.with(|sky| map(py, &SeenThroughPortals(sky), &columns))?;
         array(py, &shape, sees)
     }
     fn __repr__(&self) -> String {

@@ -133,7 +133,6 @@ def test_portals():
     everywhere = et.UniformSphere().sample(et.OwenSobol(3).pairs(1 << 16))
     sees = sky.sees(P, everywhere)
     assert sees.dtype == bool and np.array_equal(sees, sampler.pdf(everywhere) > 0)
-    assert (sky.sees(P, everywhere, 0.05) >= sees).all() and sky.sees(P, everywhere, 0.05).sum() > sees.sum()
     # directions through both portals have both densities: elsewhere the pdf is constant to a texel's solid angle
     assert sampler.pdf(everywhere).mean() * 4 * np.pi == pytest.approx(1, rel=0.02)
     assert (1 / s.pdf).mean() == pytest.approx(sees.mean() * 4 * np.pi, rel=0.05)
