@@ -1,9 +1,6 @@
 //! Pictures that shapes emit.
 
-mod irradiance;
 mod mean;
-
-pub use irradiance::PictureIrradiance;
 
 use crate::geometry::Geometry;
 use crate::limits::MOST_RADIANCE;

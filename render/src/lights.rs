@@ -20,6 +20,7 @@
 
 mod chosen;
 mod directed;
+mod irradiance;
 mod many;
 mod pictures;
 mod record;
@@ -29,7 +30,7 @@ pub mod tree;
 use crate::bvh::BuildError;
 use crate::bvh::NOTHING;
 use crate::geometry::Geometry;
-use crate::light_picture::{LightPicture, PictureIrradiance};
+use crate::light_picture::LightPicture;
 use crate::light_profile::LightProfile;
 use crate::packet::{M8, V8, X8, equal, select};
 use crate::scene::{Emission, Scene, Shape};
@@ -43,6 +44,7 @@ use etendue::{
     DirectionalLight, LightSample, LightSampler, Mask, Parallelogram, PointLight, Real, Sphere, SpotLight, Triangle,
     Vec2, u32x8,
 };
+pub use irradiance::PictureIrradiance;
 use many::{ManyAt, ManyLights};
 use pictures::Tables;
 use rayon::prelude::*;

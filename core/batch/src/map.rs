@@ -6,7 +6,7 @@ use etendue::light::{GeneralSky, PortalEnvironment, PortalMap, Profile, Projecto
 use etendue::{Mask, Real, Vec2, Vec3};
 
 /// The most numbers that a map takes.
-pub const MOST_NUMBERS: usize = 7;
+pub const MOST_NUMBERS: usize = 6;
 /// The most numbers that a map returns.
 pub const MOST_RESULTS: usize = 4;
 
@@ -90,13 +90,13 @@ maps! {
         ([uv.x, uv.y, R::lit(0.0), R::lit(0.0)], inside)
     };
     direction_of_image: DirectionOfImage, 2 -> 3, |image, [u, v, ..]| direction(image.0.direction(Vec2::new(u, v)), R::lit(0.0));
-    spread: Spread[f32], 6 -> 1, |spread, [x, y, z, nx, ny, nz, _]|
+    spread: Spread[f32], 6 -> 1, |spread, [x, y, z, nx, ny, nz]|
         one(Spread::<R>::splat(*spread).attenuation(Vec3::new(x, y, z), Vec3::new(nx, ny, nz)));
     portal_map: PortalMap, 2 -> 4, |map, [u, v, ..]| {
         let (w, solid_angle) = PortalMap::direction(map, Vec2::new(u, v));
         direction(w, solid_angle)
     };
-    seen: SeenThroughPortals<'a>, 6 -> 0, |portals, [px, py, pz, x, y, z, _]|
+    seen: SeenThroughPortals<'a>, 6 -> 0, |portals, [px, py, pz, x, y, z]|
         ([R::lit(0.0); MOST_RESULTS], portals.0.sees(Vec3::new(px, py, pz), Vec3::new(x, y, z)));
 }
 

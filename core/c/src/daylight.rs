@@ -74,7 +74,7 @@ unsafe fn luminances(sky: *const EtendueGeneralSky, n: usize, [x, y, z]: [*const
     // SAFETY: the caller's; `etendue_general_sky_prepare` wrote the sky
     unsafe {
         let (sky, columns) = (sky.cast::<GeneralSky>().read(), [out, null_mut(), null_mut(), null_mut()]);
-        (Batch::new().map_functions().map)(&sky, n, &[x, y, z, x, x, x, x], &columns, null_mut());
+        (Batch::new().map_functions().map)(&sky, n, &[x, y, z, x, x, x], &columns, null_mut());
     }
 }
 

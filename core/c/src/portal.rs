@@ -183,7 +183,7 @@ unsafe fn directions(
     unsafe {
         let EtenduePortal { edge_s, edge_t, .. } = portal.read();
         let Some(map) = PortalMap::new(edge_s, edge_t) else { return EtendueStatus::Value };
-        let numbers = [u, v, u, u, u, u, u];
+        let numbers = [u, v, u, u, u, u];
         (Batch::new().map_functions().map)(&map, n, &numbers, &[x, y, z, solid_angle], null_mut());
     }
     EtendueStatus::Ok
@@ -205,7 +205,7 @@ pub unsafe extern "C" fn etendue_portal_environment_sees_batch(
     // SAFETY: the pointers are not null, and point to what the header says
     unsafe {
         let (Some([px, py, pz]), Some([x, y, z])) = (columns(p), columns(w)) else { return EtendueStatus::NullPointer };
-        let numbers = [px, py, pz, x, y, z, px];
+        let numbers = [px, py, pz, x, y, z];
         (*environment).with(|environment| {
             let map = SeenThroughPortals(environment);
             (Batch::new().map_functions().map)(&map, n, &numbers, &[null_mut(); 4], out);

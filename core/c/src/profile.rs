@@ -104,7 +104,7 @@ unsafe fn intensities(profile: *const EtendueProfile, n: usize, [x, y, z]: [*con
     unsafe {
         let profile = EtendueProfile::profile(profile);
         let columns = [out, null_mut(), null_mut(), null_mut()];
-        (Batch::new().map_functions().map)(&profile, n, &[x, y, z, x, x, x, x], &columns, null_mut());
+        (Batch::new().map_functions().map)(&profile, n, &[x, y, z, x, x, x], &columns, null_mut());
     }
 }
 

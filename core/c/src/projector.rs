@@ -71,7 +71,7 @@ unsafe fn places(
     // SAFETY: the caller's
     unsafe {
         let map = PlaceInImage((*projector).projector());
-        (Batch::new().map_functions().map)(&map, n, &[x, y, z, x, x, x, x], &[u, v, null_mut(), null_mut()], inside);
+        (Batch::new().map_functions().map)(&map, n, &[x, y, z, x, x, x], &[u, v, null_mut(), null_mut()], inside);
     }
 }
 
@@ -112,7 +112,7 @@ unsafe fn directions(projector: *const EtendueProjector, n: usize, [u, v]: [*con
     // SAFETY: the caller's
     unsafe {
         let map = DirectionOfImage((*projector).projector());
-        (Batch::new().map_functions().map)(&map, n, &[u, v, u, u, u, u, u], &[x, y, z, null_mut()], null_mut());
+        (Batch::new().map_functions().map)(&map, n, &[u, v, u, u, u, u], &[x, y, z, null_mut()], null_mut());
     }
 }
 

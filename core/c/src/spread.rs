@@ -86,7 +86,7 @@ unsafe fn attenuations(
     // SAFETY: the caller's
     unsafe {
         let (spread, columns) = ((*spread).spread(), [out, null_mut(), null_mut(), null_mut()]);
-        (Batch::new().map_functions().map)(&spread, n, &[x, y, z, nx, ny, nz, x], &columns, null_mut());
+        (Batch::new().map_functions().map)(&spread, n, &[x, y, z, nx, ny, nz], &columns, null_mut());
     }
 }
 

@@ -1,7 +1,7 @@
 //! What is known of the lights without rays.
 
 use crate::certificates::Precision;
-use crate::light_picture::PictureIrradiance;
+use crate::lights::PictureIrradiance;
 use etendue::occlusion::Convex;
 use std::ops::Range;
 

@@ -5,8 +5,8 @@
 //! which is the exact integral of the picture times its Lagrange polynomial. Where the picture is too near, its halves are taken, and so on:
 //! those of a box are on the longer of its sides.
 
-use super::LightPicture;
 use crate::geometry::Geometry;
+use crate::light_picture::LightPicture;
 use crate::limits::MOST_RADIANCE;
 use crate::packet::{M8, V8, X8};
 use crate::texture::Picture;
