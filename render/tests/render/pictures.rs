@@ -203,6 +203,19 @@ fn spheres_have_the_irradiance_of_a_quadrature() {
     }
 }
 
+/// Behind a blocker that hides more of the picture's light than of its area, or less: what is visible of the area is only a guess.
+#[test]
+fn half_hidden_quads_have_the_irradiance_of_a_quadrature() {
+    // the camera's ray passes behind both
+    let (p, u, v) = ([-1.5, 2.5, -1.8], [3.0, 0.0, 0.0], [0.0, 0.0, 2.0]);
+    for (name, [from, to]) in [("left hidden", [-4.0, 0.1]), ("right hidden", [0.1, 4.0])] {
+        let blocker = mesh([from, 1.0, -3.0], [to - from, 0.0, 0.0], [0.0, 0.0, 3.2]);
+        let light = format!("{blocker} {LIGHT} \"bool twosided\" true {}", mesh(p, u, v));
+        let visible = flat(p, u, v, 900, false).filter(|([x, y, _], ..)| !(from..to).contains(&(x / y)));
+        agrees(name, &light, irradiance(visible, true));
+    }
+}
+
 /// Among plain lights and others with pictures.
 #[test]
 fn several_lights_have_the_irradiance_of_a_quadrature() {
