@@ -211,7 +211,7 @@ pub(super) trait TexelMeasure<R: Real>: Halves<R> {
 }
 
 /// Texels of more than so much of their distance are sampled as shapes of their own.
-const LARGE: f64 = 1.0 / 4.0;
+const LARGE: f64 = 1.0 / 8.0;
 
 /// The measure of [`Pictured::by_area`].
 #[derive(Clone, Copy, Debug)]
@@ -471,9 +471,13 @@ impl<R: Real> TexelMeasure<R> for Projected<R> {
     fn corners(&self, of: &Box2<R>) -> ([R; 4], R::Mask) {
         let this = &self.solid_angle;
         let squares = this.squares(of);
+        let (zero, slack) = (R::lit(0.0), R::lit(2e-6));
         // no corner above the horizon is lost to rounding
-        let height = |v: Vec3<R>| (v.dot(self.normal) + R::lit(2e-6)).greater(R::lit(0.0));
-        let heights = this.quad(of).map(height);
-        (core::array::from_fn(|k| heights[k] / (squares[k] * squares[k])), this.large(of, squares))
+        let heights = this.quad(of).map(|v| v.dot(self.normal) + slack);
+        let [a, b, c, d] = heights;
+        // what the horizon cuts is clipped
+        let is_cut = a.lesser(b).lesser(c.lesser(d)).lt(slack + slack) & a.greater(b).greater(c.greater(d)).gt(zero);
+        let measures = core::array::from_fn(|k| heights[k].greater(zero) / (squares[k] * squares[k]));
+        (measures, this.large(of, squares) | is_cut)
     }
 }
