@@ -54,7 +54,7 @@ pub struct Chosen {
     pub radiance: V8,
     pub(super) spread: Spread<X8>,
     pub(super) kind: u32x8,
-    /// Index of its shape; [`NOTHING`] for a light without one.
+    /// Index of its shape; [`NOTHING`](crate::bvh::NOTHING) for a light without one.
     pub shape: u32x8,
 }
 
