@@ -167,8 +167,8 @@ fn hashes_of_images() {
 const HASHES_OF_IMAGES: [u64; 10] = [
     0x79ce_3f1e_a05b_0b57,
     0x56c3_69f6_1121_2b9c,
-    0xb2cd_3581_eb4e_15d4,
-    0xe17d_769b_e0fb_7dc3,
+    0xc4df_81a1_c911_d536,
+    0x3f79_eb2a_6068_371a,
     0x7a43_b5c7_dc56_6098,
     0x673f_edd3_2d64_ecd2,
     0xa4b0_2c6f_94d1_2f6c,

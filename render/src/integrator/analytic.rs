@@ -403,8 +403,8 @@ impl<'a> Analytic<'a> {
     }
 
     /// Adds the reflected light that is known. Sets the lanes in which a light must be sampled, for each light and packet, and returns
-    /// whether there are any. Of a light with a picture that is sampled, a part may have been counted as if nothing hid it: then samples add
-    /// what is hidden, and what is visible, less that part.
+    /// whether there are any. Of a light with a picture behind blockers, a part is counted, the same for all of its points; samples then add what
+    /// is visible, less that part.
     pub(super) fn gather(
         &mut self,
         surfaces: &[Surface],
@@ -465,9 +465,9 @@ impl<'a> Analytic<'a> {
                 }
                 if let Closed::Picture(irradiance) = light.closed {
                     let zero = X8::lit(0.0);
-                    // what is visible of a light of constant radiance is the best guess
                     // single precision always suffices, since nothing cancels
                     let lit = lit | lit_exactly;
+                    // behind blockers, what is visible of a light of constant radiance is the best guess
                     let (mut share, mut is_part) = (select(lit, X8::lit(1.0), zero), M8::splat(false));
                     if behind.any() {
                         let all = self.occlusion.visible(surface.point, surface.normal, &light.form, &[]);

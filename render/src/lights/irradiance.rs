@@ -293,7 +293,8 @@ impl PictureIrradiance {
         }
         let factor = from.dot(V8::splat(self.normal)).abs();
         let sum = sum * factor;
-        (sum, known & (sum.x + sum.y + sum.z).lt(X8::lit(f64::INFINITY)))
+        let known = known & (sum.x + sum.y + sum.z).lt(X8::lit(f64::INFINITY));
+        (V8::blend(known, sum, V8::default()), known)
     }
 }
 

@@ -3,8 +3,8 @@
 
 use crate::figures::{Figures, Lanes, List, Routine};
 use etendue::light::{
-    EnvironmentMap, GeneralSky, ImageEnvironment, Moment, Portal, PortalEnvironment, PortalTable, Profile,
-    ProjectedImage, Projector, Spread, SunPosition, Texel,
+    EnvironmentMap, GeneralSky, ImageEnvironment, LuminousOpening, Moment, Portal, PortalEnvironment, PortalTable,
+    Profile, ProjectedImage, Projector, Spread, SunPosition, Texel,
 };
 use etendue::occlusion::{Convex, Occlusion};
 use etendue::{
@@ -270,9 +270,22 @@ impl Routine for Intensities {
         let mut means = [0.0; 32];
         profile.means(8, &mut means).expect("a whole number of rows");
         means.into_iter().for_each(|mean| figures.number(mean.into()));
+        let axis = [0.6, 0.0, 0.8];
+        let opening = LuminousOpening::<R>::new(axis.into(), false, |w: Vec3<R>| profile.intensity(w));
+        let opening = opening.expect("there is light above the plane");
+        let spot = SpotLight {
+            position: Vec3::lit([0.3, 2.0, -1.0]),
+            axis: Vec3::lit(axis),
+            cos_inner: R::lit(0.7),
+            cos_outer: R::lit(-0.2),
+        };
         figures.packets::<R>(SLOTS, |_, lanes| {
             let ws: Vec<_> = (0..R::LANES).map(|_| unit(&mut random)).collect();
-            lanes.real(profile.intensity::<R>(vectors_of(|i| ws[i])));
+            let w = vectors_of(|i| ws[i]);
+            let intensity = profile.intensity::<R>(w);
+            lanes.real(intensity);
+            lanes.real(opening.factor(w.dot(spot.axis), intensity));
+            sample(lanes, &spot.by_profile(w, |w| profile.intensity(w)).sample(squares_of(&vec![[0.5; 2]; R::LANES])));
         });
     }
 }

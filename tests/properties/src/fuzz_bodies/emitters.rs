@@ -2,8 +2,10 @@
 
 use super::Input;
 use crate::properties::{squares_of, vectors_of};
-use etendue::light::{EnvironmentMap, ImageEnvironment, Profile, ProfileError, ProjectedImage, Projector, Spread};
-use etendue::{Disk, LightSampler, Parallelogram, Rectangle, Vec3, Warp, f32x8};
+use etendue::light::{
+    EnvironmentMap, ImageEnvironment, LuminousOpening, Profile, ProfileError, ProjectedImage, Projector, Spread,
+};
+use etendue::{Disk, LightSampler, Parallelogram, Rectangle, SpotLight, Vec3, Warp, f32x8};
 
 /// One of three kinds of light, of any numbers.
 pub(super) fn emitters(input: &mut Input<'_>) {
@@ -28,6 +30,43 @@ fn angles(input: &mut Input<'_>, low: f32, high: f32) -> Vec<f32> {
         _ => {}
     }
     angles
+}
+
+/// Spot lights and flat lights with a profile: no density and no factor is infinite or below 0, in all lanes alike.
+fn lamps(input: &mut Input<'_>, profile: &Profile<'_>) {
+    let axis = input.direction();
+    let point = input.vector(&[]);
+    let cosines = [input.number(), input.number()];
+    let spot = |lane: bool| {
+        let light = SpotLight {
+            position: vectors_of::<f32x8>(|_| [0.5, -1.0, 0.25]),
+            axis: vectors_of(|_| axis),
+            cos_inner: f32x8::splat(cosines[0]),
+            cos_outer: f32x8::splat(cosines[1]),
+        };
+        let sample =
+            light.by_profile(vectors_of(|i| if lane || i == 3 { point } else { axis }), |w| profile.intensity(w));
+        sample.sample(squares_of(&[[0.5; 2]; 8])).pdf.as_array()[3]
+    };
+    let pdf = spot(true);
+    assert!(pdf >= 0.0 && pdf.is_finite(), "{pdf} along {axis:?} from {point:?}, {cosines:?}");
+    assert_eq!(pdf.to_bits(), spot(false).to_bits());
+    // a sum over many directions
+    if input.below(64) != 0 {
+        return;
+    }
+    let normal = axis.map(f64::from).into();
+    let Some(opening) = LuminousOpening::<f32>::new(normal, input.below(2) == 1, |w: Vec3<f32x8>| profile.intensity(w))
+    else {
+        return;
+    };
+    let any = input.direction();
+    let w: Vec3<f32> = vectors_of(|_| any);
+    let factor = opening.factor(w.dot(vectors_of(|_| axis)), profile.intensity(w));
+    assert!(
+        opening.gain > 0.0 && factor >= 0.0 && factor.is_finite(),
+        "{factor} by {opening:?} along {w:?} from {axis:?}"
+    );
 }
 
 /// Tables that are no profile are refused; others have finite values between those of the table, and their emission can be drawn.
@@ -58,6 +97,7 @@ fn profile(input: &mut Input<'_>) {
     let greatest = values.iter().fold(0.0_f32, |most, &x| most.max(x));
     let power = profile.power();
     assert!((0.0..=f64::from(greatest) * 12.6).contains(&power), "{power} of {greatest}");
+    lamps(input, &profile);
     let (width, mut means) = (3, [0.0; 15]);
     profile.means(width, &mut means).unwrap_or_else(|error| panic!("{error}"));
     assert!(means.iter().all(|mean| (0.0..=greatest * 1.000_001 + 2e-38).contains(mean)), "{means:?} of {greatest}");
