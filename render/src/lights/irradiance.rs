@@ -19,10 +19,8 @@ const ORDER: usize = 10;
 /// A box counts as far at so many times half its diagonal. Then the interpolation changes the irradiance by at most 1e−5 of what a surface
 /// that faces the picture would receive (5e−6 measured, by the test below).
 const FAR: f64 = 3.0;
-/// The least number of texels in a box that is not halved any more.
-const FEWEST_TEXELS: f64 = 128.0;
-/// The greatest number of times that the picture is halved.
-const MOST_HALVINGS: usize = 14;
+/// How often the picture is halved: at most 64 boxes are far at a point, which is then some 0.4 of the light's half diagonal away.
+const HALVINGS: usize = 6;
 
 /// The positions of the points along a side, from −1 to 1: zeros of a Chebyshev polynomial.
 fn places() -> [f64; ORDER] {
@@ -203,16 +201,12 @@ impl PictureIrradiance {
         let edges = [u, v].map(|edge| wide(edge) * unit);
         let mut levels = Vec::new();
         let mut boxes = [1, 1];
-        let texels_in = |boxes: [usize; 2]| (size[0] * size[1]) as f64 / (boxes[0] * boxes[1]) as f64;
-        loop {
+        for _ in 0..=HALVINGS {
             let axis = usize::from(lengths[1] / boxes[1] as f64 > lengths[0] / boxes[0] as f64);
             let half: [Vec3<f64>; 2] = std::array::from_fn(|k| edges[k] * (0.5 / boxes[k] as f64));
             let diagonals = [half[0] + half[1], half[0] - half[1]].map(|diagonal| diagonal.length_squared());
             let far = (FAR * FAR * diagonals[0].max(diagonals[1])) as f32;
             levels.push(Level { boxes, axis, edges: half.map(narrow), far, weights: Vec::new() });
-            if texels_in(boxes) < 2.0 * FEWEST_TEXELS || levels.len() > MOST_HALVINGS {
-                break;
-            }
             boxes[axis] *= 2;
         }
         let sides = |boxes: usize, i: usize| [i, i + 1].map(|i| i as f64 / boxes as f64);
@@ -259,7 +253,7 @@ impl PictureIrradiance {
         let mut sum = V8::default();
         let mut known = lanes;
         // each box leaves at most one for later
-        let mut stack = [(0_usize, [0_usize; 2], lanes); MOST_HALVINGS + 2];
+        let mut stack = [(0_usize, [0_usize; 2], lanes); HALVINGS + 2];
         let mut count = 1;
         while count > 0 {
             count -= 1;
@@ -345,21 +339,22 @@ mod tests {
         LightPicture { picture, factor: [1.0, 0.5, 0.25], axes: crate::light_picture::WORLD }
     }
 
-    /// By a rule of Gauss with 3 × 3 points in each quarter of a texel, in double precision: it knows only the picture's look-up.
+    /// By a rule of Gauss with 3 × 3 points in cells of at most half a texel, in double precision: it knows only the picture's look-up.
     fn quadrature(shown: &LightPicture, [p, u, v]: [[f32; 3]; 3], at: [f64; 3], n: [f64; 3]) -> [f64; 3] {
         let wide = |v: [f32; 3]| Vec3::<f64>::from(v.map(f64::from));
         let (p, u, v, at, n) = (wide(p), wide(u), wide(v), Vec3::from(at), Vec3::from(n));
-        let [w, h] = [shown.picture.texels.width, shown.picture.texels.height];
+        let Texels { width, height, .. } = *shown.picture.texels;
+        let [w, h] = [width, height].map(|n| 2 * n * 48_usize.div_ceil(n));
         let rule = [(-0.6_f64.sqrt(), 5.0 / 18.0), (0.0, 8.0 / 18.0), (0.6_f64.sqrt(), 5.0 / 18.0)];
         let mut sum = [0.0; 3];
-        for (i, j) in (0..2 * w).flat_map(|i| (0..2 * h).map(move |j| (i, j))) {
+        for (i, j) in (0..w).flat_map(|i| (0..h).map(move |j| (i, j))) {
             for ((x, a), (y, b)) in rule.into_iter().flat_map(|x| rule.map(|y| (x, y))) {
-                let (s, t) = ((i as f64 + 0.5 + 0.5 * x) / (2 * w) as f64, (j as f64 + 0.5 + 0.5 * y) / (2 * h) as f64);
+                let (s, t) = ((i as f64 + 0.5 + 0.5 * x) / w as f64, (j as f64 + 0.5 + 0.5 * y) / h as f64);
                 let to = p + u * s + v * t - at;
                 let kernel = to.dot(n) * to.dot(u.cross(v)).abs() / to.length_squared().powi(2);
                 let color = shown.picture.at([s as f32, t as f32]);
                 for k in 0..3 {
-                    sum[k] += a * b * kernel * f64::from(color[k] * shown.factor[k]) / (4 * w * h) as f64;
+                    sum[k] += a * b * kernel * f64::from(color[k] * shown.factor[k]) / (w * h) as f64;
                 }
             }
         }

@@ -123,9 +123,14 @@ fn agrees(name: &str, light: &str, truth: V3) {
         for (k, albedo) in [0.8, 0.5, 0.2].into_iter().enumerate() {
             let truth = truth[k] * albedo / PI;
             let error = f64::from(pixel.variance[k]).sqrt();
-            // what faces away or is below the horizon adds nothing
+            // what faces away, is hidden or is below the horizon adds nothing; behind a blocker, a guess may have to be taken back
             if truth == 0.0 {
-                assert_eq!(pixel.mean[k], 0.0, "{name}, {technique:?}, channel {k}");
+                let most = LIMIT * error;
+                assert!(
+                    f64::from(pixel.mean[k]).abs() <= most,
+                    "{name}, {technique:?}, channel {k}: {}",
+                    pixel.mean[k]
+                );
                 continue;
             }
             // by chance, few rays find a small light: the variance is that of too few
@@ -206,9 +211,9 @@ fn spheres_have_the_irradiance_of_a_quadrature() {
 /// Behind a blocker that hides more of the picture's light than of its area, or less: what is visible of the area is only a guess.
 #[test]
 fn half_hidden_quads_have_the_irradiance_of_a_quadrature() {
-    // the camera's ray passes behind both
-    let (p, u, v) = ([-1.5, 2.5, -1.8], [3.0, 0.0, 0.0], [0.0, 0.0, 2.0]);
-    for (name, [from, to]) in [("left hidden", [-4.0, 0.1]), ("right hidden", [0.1, 4.0])] {
+    // the camera's ray passes behind the blocker
+    let (p, u, v) = ([-1.5, 7.5, -1.8], [3.0, 0.0, 0.0], [0.0, 0.0, 2.0]);
+    for (name, [from, to]) in [("left hidden", [-4.0, 0.03]), ("right hidden", [0.03, 4.0])] {
         let blocker = mesh([from, 1.0, -3.0], [to - from, 0.0, 0.0], [0.0, 0.0, 3.2]);
         let light = format!("{blocker} {LIGHT} \"bool twosided\" true {}", mesh(p, u, v));
         let visible = flat(p, u, v, 900, false).filter(|([x, y, _], ..)| !(from..to).contains(&(x / y)));
