@@ -87,6 +87,7 @@ mod profiles;
 mod reader;
 mod shape_attributes;
 mod shapes;
+mod sources;
 mod spectrum;
 mod subdivision;
 #[cfg(test)]

@@ -71,6 +71,12 @@ struct Level {
 }
 
 /// The irradiance from a picture on a parallelogram.
+///
+/// - Formula: ∫ L cosθ cosθ'/d² dA = Σ wᵢ k(xᵢ), with the kernel k at 100 points of each box, and wᵢ the integral of the radiance L times the
+///   Lagrange polynomial of the point: tensor products of Chebyshev interpolation (Trefethen 2013, Approximation Theory and Approximation
+///   Practice, chapters 2 and 5).
+/// - Domain: any points; what is too near, or crosses the horizon in a box, is unknown.
+/// - Greatest error: 1e−5 of the irradiance of a surface that faces the picture.
 #[derive(Clone, Debug)]
 pub struct PictureIrradiance {
     /// Where the coordinates of the surface are 0.
@@ -399,7 +405,8 @@ mod tests {
                 }
             }
         }
-        assert!(checked > 60, "{checked}");
+        println!("{checked} of 96 points are known");
+        assert!(checked >= 84, "{checked}");
     }
 
     #[test]
@@ -416,5 +423,11 @@ mod tests {
         assert!(at([0.0, 0.0, 0.0], [0.0, 1.0, 0.0]).0 > 1.0);
         assert!(!at([0.0, 0.0, 0.0], [0.6, 0.0, 0.8]).1);
         assert!(!at([0.0, 1.99, 0.0], [0.0, 1.0, 0.0]).1);
+        for odd in [f32::MAX, -f32::MAX, f32::NAN, f32::INFINITY, 1e-40] {
+            for p in [[odd; 3], [0.0, odd, 0.0], [0.5, 2.0, odd]] {
+                let (sum, is_known) = at(p, [0.6, 0.8, 0.0]);
+                assert!(sum.is_finite(), "{p:?}: {sum}, {is_known}");
+            }
+        }
     }
 }

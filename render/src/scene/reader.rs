@@ -4,30 +4,26 @@ use super::area_lights::{self, Area, Shown};
 use super::builder::{Builder, Rest};
 use super::builtin::BUILTIN_IMAGES;
 use super::description::{CameraSettings, FilmSettings, Scene};
-use super::directed;
-use super::environment::Environment;
 use super::includes::Includes;
 pub(super) use super::includes::Origin;
 use super::lexer::{Lexer, Token, shortened};
-use super::lights::{self, DeltaLight, Files};
+use super::lights::Files;
 use super::material_parameters::{self, Context, Finish};
 use super::materials::Material;
 use super::message::{Message, Place, utf8};
 use super::named_materials::NamedMaterials;
 use super::params::{Param, Params, Resolve};
 use super::portal_sides;
-use super::profiles;
 use super::shape_attributes::ShapeAttributes;
 use super::shapes;
+use super::sources::Sources;
 use super::textures::Textures;
 use super::transform::Transform;
 use super::transform_directives;
 use super::view::{self, Window};
 use crate::files::FileError;
 use crate::image;
-use crate::intensity::Intensity;
 use crate::texture::{Mask, Texture};
-use etendue::light::Portal;
 use std::cell::RefCell;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -64,11 +60,7 @@ struct Reader<'a> {
     camera: Option<CameraSettings>,
     film: Option<(FilmSettings, Option<Window>)>,
     pixel_samples: Option<u32>,
-    delta_lights: Vec<DeltaLight>,
-    intensities: Vec<Arc<Intensity>>,
-    environment: Option<Environment>,
-    /// The portals, with what to say if one faces away.
-    portals: Vec<(Portal, Message)>,
+    sources: Sources,
     out: Builder,
     state: State,
     saved: Vec<(State, Place)>,
@@ -100,10 +92,7 @@ pub(super) fn read(text: &str, file: &str, dir: &Path, origin: Origin<'_>) -> Re
         camera: None,
         film: None,
         pixel_samples: None,
-        delta_lights: Vec::new(),
-        intensities: Vec::new(),
-        environment: None,
-        portals: Vec::new(),
+        sources: Sources::default(),
         out: Builder::default(),
         state,
         saved: Vec::new(),
@@ -140,17 +129,18 @@ pub(super) fn read(text: &str, file: &str, dir: &Path, origin: Origin<'_>) -> Re
     if let Some(window) = window {
         window.apply(&mut camera, &mut film, &mut reader.out.notes);
     }
+    let Sources { delta_lights, intensities, environment, portals } = reader.sources;
     let rest = Rest {
         camera,
         film,
         pixel_samples: reader.pixel_samples.unwrap_or(16),
-        delta_lights: reader.delta_lights,
-        intensities: reader.intensities,
-        environment: reader.environment,
+        delta_lights,
+        intensities,
+        environment,
         inputs: reader.inputs.into_inner(),
     };
     let scene = reader.out.scene(&file, rest, |text| end.message(text));
-    portal_sides::check(&scene, reader.portals)?;
+    portal_sides::check(&scene, portals)?;
     Ok(scene)
 }
 
@@ -468,54 +458,10 @@ impl Reader<'_> {
     }
 
     fn light(&mut self, kind: &str, params: &mut Params, dir: &Path) -> Result<(), Message> {
-        let Self { out, state, inputs, is_builtin, main_dir, .. } = self;
+        let Self { out, state, sources, inputs, is_builtin, main_dir, .. } = self;
         let resolve = |name: &str| resolved(main_dir, inputs, name, dir);
         let open = |name: &str| opened(*is_builtin, name, &resolve);
-        let files = Files { resolve: &resolve, open: &open };
-        if ["goniometric", "projection"].contains(&kind) {
-            let table = self.intensities.len() as u32;
-            let read = directed::read(kind, params, &state.ctm, &files, &mut out.notes, table)?;
-            if let Some((light, intensity)) = read {
-                self.delta_lights.push(light);
-                self.intensities.push(intensity.into());
-            }
-            return Ok(());
-        }
-        let profile = match if kind == "spot" { params.text("profile")? } else { None } {
-            // of its power, the falloff is only a part
-            Some(name) => Some((profiles::read(&name, params, &files, &mut out.notes)?, lights::power(params)?)),
-            None => None,
-        };
-        match lights::read(kind, params, &state.ctm, &files, &mut out.notes)? {
-            lights::Source::Delta(light) => match profile {
-                None => self.delta_lights.push(light),
-                Some((None, _)) => out.notes.warn(params.error("emits nothing")),
-                Some((Some(profile), power)) => {
-                    let table = self.intensities.len() as u32;
-                    let light = directed::spot(light, power, profile, params, &state.ctm, &mut out.notes, table)?;
-                    if let Some((light, intensity)) = light {
-                        self.delta_lights.push(light);
-                        self.intensities.push(intensity.into());
-                    }
-                }
-            },
-            lights::Source::Environment(environment) => {
-                let facing = |portal: &Portal| (*portal, portal_sides::faces_away(params));
-                self.portals.extend(environment.portals.iter().map(facing));
-                match self.environment.take() {
-                    None => self.environment = Some(environment),
-                    Some(before) => {
-                        let kept = before.clone();
-                        self.environment = before.and(environment).or_else(|| {
-                            out.notes.stand_in("second sky", || params.error("a second sky is ignored"));
-                            Some(kept)
-                        });
-                    }
-                }
-            }
-            lights::Source::Dark => {}
-        }
-        Ok(())
+        sources.read(kind, params, &state.ctm, &Files { resolve: &resolve, open: &open }, &mut out.notes)
     }
 
     fn shape(&mut self, kind: &str, params: &mut Params, dir: &Path) -> Result<(), Message> {
