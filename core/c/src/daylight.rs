@@ -1,10 +1,8 @@
 //! Daylight: the sky by CIE's formula, and where the sun is.
 
-use crate::{EtendueStatus, columns, each, refuse_null};
+use crate::{EtendueStatus, refuse_null, value, values};
 use core::mem::{align_of, size_of};
-use core::ptr::null_mut;
 use etendue::light::{GeneralSky, Moment, SunPosition};
-use etendue_batch::Batch;
 
 /// The sky by CIE's standard general sky (ISO 15469:2004): how bright it is in each direction, relative to the zenith. z is up.
 ///
@@ -42,12 +40,11 @@ pub unsafe extern "C" fn etendue_general_sky_prepare(
 /// The luminance in the unit direction `w` over that of the zenith; 0 below the horizon, where the direction is NaN, and if a pointer is NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn etendue_general_sky_luminance(sky: *const EtendueGeneralSky, w: *const f32) -> f32 {
-    let mut luminance = 0.0;
-    if !sky.is_null() && !w.is_null() {
-        // SAFETY: the pointers are not null, and point to what the header says
-        unsafe { luminances(sky, 1, each(w), &mut luminance) };
+    if sky.is_null() || w.is_null() {
+        return 0.0;
     }
-    luminance
+    // SAFETY: the pointers are not null, and `etendue_general_sky_prepare` wrote the sky
+    unsafe { value(&sky.cast::<GeneralSky>().read(), w) }
 }
 
 /// The luminance in each unit direction over that of the zenith: three columns.
@@ -62,20 +59,8 @@ pub unsafe extern "C" fn etendue_general_sky_luminance_batch(
         return EtendueStatus::Ok;
     }
     refuse_null!(sky, out);
-    // SAFETY: the pointers are not null, and point to what the header says
-    unsafe {
-        let Some(w) = columns(w) else { return EtendueStatus::NullPointer };
-        luminances(sky, n, w, out);
-    }
-    EtendueStatus::Ok
-}
-
-unsafe fn luminances(sky: *const EtendueGeneralSky, n: usize, [x, y, z]: [*const f32; 3], out: *mut f32) {
-    // SAFETY: the caller's; `etendue_general_sky_prepare` wrote the sky
-    unsafe {
-        let (sky, columns) = (sky.cast::<GeneralSky>().read(), [out, null_mut(), null_mut(), null_mut()]);
-        (Batch::new().map_functions().map)(&sky, n, &[x, y, z, x, x, x], &columns, null_mut());
-    }
+    // SAFETY: the pointers are not null, and `etendue_general_sky_prepare` wrote the sky
+    unsafe { values(&sky.cast::<GeneralSky>().read(), n, w, out) }
 }
 
 /// Illuminance of the horizontal plane over the luminance of the zenith, in steradians, without the sun's disk: within 2e-5. A sum over 512 x

@@ -2,14 +2,12 @@
 
 use crate::light::{EtenduePointLight, EtenduePointLightByDelta};
 use crate::sampler::vec3;
-use crate::{EtendueStatus, columns, each, refuse_null};
+use crate::{EtendueStatus, refuse_null, value, values};
 use core::ffi::c_void;
 use core::mem::{align_of, size_of};
-use core::ptr::null_mut;
 use core::slice::{from_raw_parts, from_raw_parts_mut};
 use etendue::Vec3;
 use etendue::light::{PointLight, PointLightByDelta, Profile, ProfileError};
-use etendue_batch::Batch;
 
 /// The radiant intensity of a light by direction: a table over two angles, between which it is bilinear, as photometry interpolates.
 ///
@@ -71,12 +69,11 @@ pub unsafe extern "C" fn etendue_profile_prepare(
 /// The intensity in the unit direction `w` in which light travels, in the unit of the values; 0 if a pointer is NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn etendue_profile_intensity(profile: *const EtendueProfile, w: *const f32) -> f32 {
-    let mut intensity = 0.0;
-    if !profile.is_null() && !w.is_null() {
-        // SAFETY: the pointers are not null, and point to what the header says
-        unsafe { intensities(profile, 1, each(w), &mut intensity) };
+    if profile.is_null() || w.is_null() {
+        return 0.0;
     }
-    intensity
+    // SAFETY: the pointers are not null, and point to what the header says
+    unsafe { value(&EtendueProfile::profile(profile), w) }
 }
 
 /// The intensity in each unit direction in which light travels: three columns.
@@ -92,20 +89,7 @@ pub unsafe extern "C" fn etendue_profile_intensity_batch(
     }
     refuse_null!(profile, out);
     // SAFETY: the pointers are not null, and point to what the header says
-    unsafe {
-        let Some(w) = columns(w) else { return EtendueStatus::NullPointer };
-        intensities(profile, n, w, out);
-    }
-    EtendueStatus::Ok
-}
-
-unsafe fn intensities(profile: *const EtendueProfile, n: usize, [x, y, z]: [*const f32; 3], out: *mut f32) {
-    // SAFETY: the caller's
-    unsafe {
-        let profile = EtendueProfile::profile(profile);
-        let columns = [out, null_mut(), null_mut(), null_mut()];
-        (Batch::new().map_functions().map)(&profile, n, &[x, y, z, x, x, x], &columns, null_mut());
-    }
+    unsafe { values(&EtendueProfile::profile(profile), n, w, out) }
 }
 
 /// The integral of the intensity over all directions: the power, for intensities per steradian. Exact to some 1e-14; 0 for NULL.
