@@ -44,6 +44,7 @@ pub mod math;
 pub mod occlusion;
 pub mod random;
 pub mod real;
+pub mod reflection;
 pub mod select;
 pub mod sequence;
 pub mod spherical;
