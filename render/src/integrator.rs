@@ -6,6 +6,7 @@ mod analytic;
 mod checks;
 mod choice;
 mod end;
+mod fitted;
 mod known;
 mod paths;
 mod prepared;

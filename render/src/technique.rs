@@ -21,9 +21,9 @@ pub enum Technique {
     MisBalance,
     /// Solid-angle and brdf, combined by the power heuristic
     MisPower,
-    /// Exact where geometry tells what occludes a light; elsewhere by solid angle, and on rough surfaces as mis-power
+    /// Exact where geometry tells what occludes a light, and nearly so on rough surfaces; the rest by solid angle, or as mis-power
     Analytic,
-    /// Mis-power with rough surfaces; else analytic with up to 32 lights that all have an area, and no lens; else solid-angle
+    /// Analytic with up to 32 lights that all have an area, and no lens; else mis-power with rough surfaces, and solid-angle without
     Auto,
 }
 

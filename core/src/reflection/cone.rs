@@ -1,31 +1,71 @@
 //! Elliptic cones, to which a linear map turns spheres as they are seen from a point.
 
-use crate::math::{polynomial, ratio, rsqrt};
+use crate::math::{double, polynomial, ratio, rsqrt};
 use crate::real::{Mask, Real};
 use crate::vector::{Frame, Vec3};
 use core::f64::consts::PI;
 
-/// Rotates rows and columns p and q of a symmetric matrix so that their common entry becomes 0, and the axes likewise (Jacobi 1846; Golub and
-/// Van Loan, 8.5.2).
-#[inline(always)]
-fn rotate<R: Real>(m: &mut [[R; 3]; 3], axes: &mut [Vec3<R>; 3], p: usize, q: usize) {
-    let (zero, one) = (R::lit(0.0), R::lit(1.0));
-    let (half, off) = ((m[q][q] - m[p][p]) * R::lit(0.5), m[p][q]);
-    let sum = half.abs() + half.mul_add(half, off * off).sqrt();
-    let tan = (off.copysign(off * half) / R::blend(sum.gt(zero), sum, one)).keep(sum.gt(zero));
-    let cos = rsqrt(tan.mul_add(tan, one));
-    let sin = tan * cos;
-    m[p][p] -= tan * off;
-    m[q][q] += tan * off;
-    let r = 3 - p - q;
-    let (a, b) = (m[p][r], m[q][r]);
-    let (a, b) = (a.mul_add(cos, -(sin * b)), a.mul_add(sin, cos * b));
-    for (i, j, value) in [(p, q, zero), (p, r, a), (q, r, b)] {
-        (m[i][j], m[j][i]) = (value, value);
+/// A symmetric matrix, by its diagonal and the entries across from it, and the axes in which it is given.
+#[derive(Clone, Copy)]
+struct Symmetric<R> {
+    diagonal: [R; 3],
+    /// Entry k is in the row and column that are not k.
+    across: [R; 3],
+    axes: [Vec3<R>; 3],
+}
+
+impl<R: Real> Symmetric<R> {
+    /// Rotates axes P and Q, where Q follows P in the cycle 0, 1, 2, so that their common entry becomes 0 (Jacobi 1846; Golub and Van Loan,
+    /// 8.5.2).
+    #[inline(always)]
+    fn rotate<const P: usize, const Q: usize>(&mut self) {
+        let (zero, one, r) = (R::lit(0.0), R::lit(1.0), 3 - P - Q);
+        let (half, off) = ((self.diagonal[Q] - self.diagonal[P]) * R::lit(0.5), self.across[r]);
+        let sum = half.abs() + half.mul_add(half, off * off).sqrt();
+        let tan = (off.negate_where(half.lt(zero)) / R::blend(sum.gt(zero), sum, one)).keep(sum.gt(zero));
+        let cos = rsqrt(tan.mul_add(tan, one));
+        let sin = tan * cos;
+        self.diagonal[P] -= tan * off;
+        self.diagonal[Q] += tan * off;
+        let (a, b) = (self.across[Q], self.across[P]);
+        self.across[Q] = a.mul_add(cos, -(sin * b));
+        self.across[P] = a.mul_add(sin, cos * b);
+        self.across[r] = zero;
+        let (a, b) = (self.axes[P], self.axes[Q]);
+        self.axes[P] = a.mul_add(cos, b * -sin);
+        self.axes[Q] = a.mul_add(sin, b * cos);
     }
-    let (a, b) = (axes[p], axes[q]);
-    axes[p] = a.mul_add(cos, b * -sin);
-    axes[q] = a.mul_add(sin, b * cos);
+    fn numbers(&self) -> [R; 15] {
+        let Self { diagonal: [a, b, c], across: [d, e, f], axes: [p, q, r] } = *self;
+        [a, b, c, d, e, f, p.x, p.y, p.z, q.x, q.y, q.z, r.x, r.y, r.z]
+    }
+    fn of([a, b, c, d, e, f, rest @ ..]: [R; 15]) -> Self {
+        let axes = [0, 3, 6].map(|i| Vec3::new(rest[i], rest[i + 1], rest[i + 2]));
+        Self { diagonal: [a, b, c], across: [d, e, f], axes }
+    }
+    /// Lanes in which an entry across from the diagonal is not negligible beside those of its row and column, however small these are.
+    #[inline(always)]
+    fn is_open(&self) -> R::Mask {
+        let least = R::lit(if double::<R>() { 1e-30 } else { 1e-14 });
+        (0..3).fold(R::Mask::splat(false), |open, k| {
+            let beside = (self.diagonal[(k + 1) % 3] * self.diagonal[(k + 2) % 3]).abs();
+            open | (self.across[k] * self.across[k]).gt(beside * least)
+        })
+    }
+    /// The eigenvalues and the unit eigenvectors.
+    #[inline(always)]
+    fn eigen(self) -> ([R; 3], [Vec3<R>; 3]) {
+        let step = |numbers: [R; 15], [open]: [R::Mask; 1]| {
+            let mut next = Self::of(numbers);
+            next.rotate::<0, 1>();
+            next.rotate::<2, 0>();
+            next.rotate::<1, 2>();
+            let rotated = next.numbers();
+            (core::array::from_fn(|k| R::blend(open, rotated[k], numbers[k])), [open & next.is_open()])
+        };
+        let Self { diagonal, axes, .. } = Self::of(R::iterate(6, self.numbers(), [self.is_open()], step));
+        (diagonal, axes)
+    }
 }
 
 /// The principal axes of a cone: unit vectors across it and along it, a right-handed frame, with the tangents of the half-angles across it.
@@ -43,33 +83,24 @@ impl<R: Real> Principal<R> {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let frame = Frame::new(center);
         let [u, v] = [u, v].map(|r| frame.to_local(r)).map(|v| [v.x, v.y, v.z]);
-        let mut m = [[zero; 3]; 3];
-        for i in 0..3 {
-            for j in 0..3 {
-                m[i][j] = u[i].mul_add(u[j], v[i] * v[j]);
-            }
-        }
-        m[2][2] -= one;
-        let mut axes = [frame.s, frame.t, frame.n];
-        for _ in 0..4 {
-            for (p, q) in [(0, 1), (0, 2), (1, 2)] {
-                rotate(&mut m, &mut axes, p, q);
-            }
-        }
+        let entry = |i: usize, j: usize| u[i].mul_add(u[j], v[i] * v[j]);
+        let diagonal = [entry(0, 0), entry(1, 1), entry(2, 2) - one];
+        let across = [entry(1, 2), entry(2, 0), entry(0, 1)];
+        let (mut m, mut axes) = Symmetric { diagonal, across, axes: [frame.s, frame.t, frame.n] }.eigen();
         // one eigenvalue is negative, that of the axis along the cone; it stays in its place unless the cone is wide
         for k in 0..2 {
-            let less = m[k][k].lt(m[2][2]);
-            (m[k][k], m[2][2]) = (R::blend(less, m[2][2], m[k][k]), R::blend(less, m[k][k], m[2][2]));
+            let less = m[k].lt(m[2]);
+            (m[k], m[2]) = (R::blend(less, m[2], m[k]), R::blend(less, m[k], m[2]));
             (axes[k], axes[2]) = (Vec3::blend(less, axes[2], axes[k]), Vec3::blend(less, axes[k], axes[2]));
         }
         // the first is the wider one
-        let less = m[0][0].lt(m[1][1]);
-        (m[0][0], m[1][1]) = (R::blend(less, m[1][1], m[0][0]), R::blend(less, m[0][0], m[1][1]));
+        let less = m[0].lt(m[1]);
+        (m[0], m[1]) = (R::blend(less, m[1], m[0]), R::blend(less, m[0], m[1]));
         (axes[0], axes[1]) = (Vec3::blend(less, axes[1], axes[0]), Vec3::blend(less, axes[0], axes[1]));
         axes[2] = axes[2] * one.copysign(axes[2].dot(center));
         axes[0] = axes[0] * one.copysign(axes[0].cross(axes[1]).dot(axes[2]));
-        let tangent = |square: R| ratio(square.greater(zero), -m[2][2]).sqrt();
-        Self { axes, tangents: [tangent(m[0][0]), tangent(m[1][1])] }
+        let tangent = |square: R| ratio(square.greater(zero), -m[2]).sqrt();
+        Self { axes, tangents: [tangent(m[0]), tangent(m[1])] }
     }
 }
 
