@@ -36,7 +36,7 @@ pub fn cosine_of_schlick(weight: X8) -> X8 {
     let weight = min(max(weight, X8::lit(1e-20)), one);
     // Newton's method for the fifth root, from the fourth one
     let mut root = weight.sqrt().sqrt();
-    for _ in 0..3 {
+    for _ in 0..5 {
         let square = root * root;
         root = X8::lit(0.8).mul_add(root, X8::lit(0.2) * weight / (square * square));
     }
