@@ -207,5 +207,7 @@ pub(crate) static TABLE: Table = Table::of::<Lanes>();
 pub(crate) type Lanes = etendue::f32x16;
 #[cfg(all(not(feature = "level-v4"), any(target_feature = "fma", target_arch = "aarch64")))]
 pub(crate) type Lanes = etendue::f32x8;
-#[cfg(all(not(feature = "level-v4"), not(any(target_feature = "fma", target_arch = "aarch64"))))]
+#[cfg(all(not(feature = "level-v4"), target_feature = "simd128"))]
+pub(crate) type Lanes = etendue::f32x4;
+#[cfg(all(not(feature = "level-v4"), not(any(target_feature = "fma", target_arch = "aarch64", target_feature = "simd128"))))]
 pub(crate) type Lanes = f32;
