@@ -134,8 +134,9 @@ const SEQUENCES = { owen_sobol: "Owen–Sobol", stratified: "stratified (jittere
 
 function drawErrors(plot, lines) {
   const all = lines.flatMap(([, , , points]) => points.map((q) => q[1])).filter((e) => Number.isFinite(e) && e > 0);
-  const low = Math.max(1e-8, 10 ** Math.floor(Math.log10(Math.min(...all, 1)))), high = 10 ** Math.ceil(Math.log10(Math.max(...all, 0.01)));
-  plot.begin({ x: { low: 1, high: MOST, log: true, base: 2 }, y: { low, high: Math.min(high, 1e4), log: true }, xLabel: "samples", yLabel: "relative error, root mean square" });
+  const decade = (e, round) => 10 ** round(Math.log10(e));
+  const low = clamp(decade(Math.min(...all, 0.1), Math.floor), 1e-8, 0.1), high = clamp(decade(Math.max(...all, 1), Math.ceil), 1, 1e4);
+  plot.begin({ x: { low: 1, high: MOST, log: true, base: 2 }, y: { low, high, log: true }, xLabel: "samples", yLabel: "relative error, root mean square" });
   for (const [, color, dash, points] of lines) plot.curve(points, color, dash, true);
   plot.legend(lines.map(([name, color, dash]) => [name, color, dash]));
 }

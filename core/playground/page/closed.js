@@ -58,7 +58,7 @@ function segment(a, edge, n) {
   else if (slope < 0) high = Math.min(high, cut);
   else if (up <= 0) return 0;
   if (!(low < high)) return 0;
-  const to = (t) => 0.5 * (up * (Math.atan2(t, h) + h * t / (h * h + t * t)) - slope * h * h / (h * h + t * t));
+  const to = (t) => 0.5 * (up * (Math.atan2(t, h) / h + t / (h * h + t * t)) - slope * h / (h * h + t * t));
   return to(high) - to(low);
 }
 /** A disk, by the integral of Lambert's edges over its rim, and where the horizon cuts it, the chord. */
@@ -98,8 +98,12 @@ function patchIrradiance(shape, p, n) {
 const BY_QUADRATURE = "by quadrature";
 const CLOSED = "in closed form";
 
-/** The irradiance by a light at the point p of a surface with the unit normal n, and how it is known. */
+/** The irradiance by a light at the point p of a surface with the normal n, and how it is known. A normal that rounding made longer or shorter counts in proportion, as it does in the values of samples. */
 function irradiance(light, p, n) {
+  const [value, known] = ofUnit(light, p, unit(n));
+  return [value * length(n), known];
+}
+function ofUnit(light, p, n) {
   const f = light.fields;
   const from = (x) => sub(x, p);
   const flatValue = (corners) => {

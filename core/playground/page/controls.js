@@ -98,7 +98,7 @@ function coordinates(app) {
 const LETTERS = "ABCDEFGHIJ";
 /** The numbers of a card: a word, their key, and what they are. */
 const ROWS = [
-  ...COUNTS.map((n) => [`error of ${n.toLocaleString("en")}`, n, `relative error of the mean of ${n} samples, root mean square`]),
+  ...COUNTS.map((n) => [`n = ${n.toLocaleString("en")}`, n, `relative error of the mean of ${n} samples, root mean square`]),
   ["estimate", "estimate", "mean of all samples"],
   ["pdf", "pdf", "density of the direction under the cursor, per steradian (lines: in their measure)"],
   ["invert", "invert", "the numbers that are mapped to the direction under the cursor"],
@@ -110,12 +110,12 @@ class Card {
     Object.assign(this, { app, ways, letter });
     const [first] = ways;
     this.parts = ways.map((way) => this.part(way));
-    const about = first.technique ? first.technique.about.split(/: |\. /)[0].replace(/\.?$/, ".") : first.source;
+    const about = first.technique ? first.technique.about.split(/: |\. | at the point| above the| as a/)[0].replace(/\.?$/, ".") : first.source;
     const buttons = this.parts.map(({ button }) => button), body = make("tbody");
     for (const [text, key, explained] of ROWS) {
       body.append(make("tr", {}, make("th", { scope: "row", textContent: text, title: explained }), ...this.parts.map(({ cells }) => (cells[key] = make("td")))));
     }
-    const heads = make("tr", {}, make("th"), ...ways.map((way) => make("th", { scope: "col", textContent: way.kind })));
+    const heads = make("tr", {}, make("th", { scope: "col", textContent: "error" }), ...ways.map((way) => make("th", { scope: "col", textContent: way.kind })));
     const [maps, others] = [this.parts[0], this.parts[1]].map((part) => make("div", { className: "maps" }, ...(part ? part.figures : [])));
     const source = make("p", { className: "source", textContent: ways.length > 1 ? `Textbook: ${ways[1].source}` : "" });
     this.element = make("article", { className: "card" }, make("h2", {}, ...buttons), make("p", { className: "source", textContent: about }), maps, make("table", {}, make("thead", {}, heads), body), source, others);
@@ -158,9 +158,9 @@ class Card {
         put(n, view.truth > 0 ? say(error, 2) : "–", view.truth > 0 && !(error < 1e3));
       }
       const mean = meanOf(way.values, MOST);
-      put("estimate", say(mean, 6), !Number.isFinite(mean));
+      put("estimate", say(mean, 5), !Number.isFinite(mean));
       put("pdf", own && own.pdf !== undefined ? say(own.pdf, 4) : "–");
-      put("invert", own && own.u ? own.u.map((x) => x.toFixed(4)).join(", ") : "–");
+      put("invert", own && own.u ? (own.pdf > 0 ? own.u.map((x) => x.toFixed(3)).join(" ") : "beside") : "–");
       const { broken, beside } = faults(way, view, MOST);
       put("faults", way.kind === "surface" ? "–" : broken + beside ? `${broken} + ${beside} beside` : "none", broken + beside > 0);
     }

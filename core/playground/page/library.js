@@ -16,13 +16,18 @@ async function startLibrary() {
   if (typeof WebAssembly !== "object" || typeof DecompressionStream !== "function") {
     throw new Unusable("This browser is too old for this page: it needs WebAssembly and DecompressionStream, which Chromium has from version 91 and Firefox from 113.");
   }
-  let module;
+  let code;
   try {
     const packed = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
-    const unpacked = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
-    module = await WebAssembly.compile(await new Response(unpacked).arrayBuffer());
+    code = await new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
+  } catch {
+    throw new Unusable(`The library in this page is damaged: it does not unpack. ${AGAIN}`);
+  }
+  let module;
+  try {
+    module = await WebAssembly.compile(code);
   } catch (error) {
-    throw new Unusable(`The library in this page is broken, or this browser lacks the vectors of WebAssembly (${error.message}). ${AGAIN}`);
+    throw new Unusable(`This browser cannot run the library in this page; it may lack the vectors of WebAssembly, which Chromium has from version 91 and Firefox from 89 (${error.message}). ${AGAIN}`);
   }
   const instance = await WebAssembly.instantiate(module, {});
   const missing = LIGHTS.flatMap((light) => light.techniques).find((t) => !instance.exports[`etendue_${t.function}_sample_batch`]);

@@ -204,6 +204,8 @@ class App {
     const work = this.times.map((t) => t.work).sort((a, b) => a - b), middleOf = work[work.length >> 1];
     tell(byId("pace"), `${MOST.toLocaleString("en")} samples by each of ${this.cards.flatMap((card) => card.ways).length} ways: ${middleOf.toFixed(1)} ms for a frame.`);
   }
+  /** The relative error of 1,024 samples by a way. */
+  errorOf(way) { return blockError(way.values, MOST, 1024, this.view.truth); }
   /** What the page shows, bit by bit: for those who compare it with the core. */
   answer() {
     const { view, state } = this, word = new Uint32Array(1), number = new Float32Array(word.buffer), double = new Float64Array(1), halves = new Uint32Array(double.buffer);

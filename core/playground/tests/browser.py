@@ -91,11 +91,13 @@ class Browser:
             raise RuntimeError(f"{expression}: {details.get('exception', {}).get('description', details['text'])}")
         return result["result"].get("value")
 
-    def open(self, url):
-        """Opens an address and waits until its scripts have said what they show."""
+    def open(self, url, ready="window.playground"):
+        """Opens an address and waits until it is loaded, and its scripts are ready."""
+        # an address that differs after the # alone would not be loaded again
         self.call("Page.navigate", url="about:blank")
+        self.wait("location.href === 'about:blank'")
         self.call("Page.navigate", url=url)
-        self.wait("document.readyState === 'complete' && (window.playground || !document.getElementById('page') || document.getElementById('failure').textContent.includes(' the ') || document.getElementById('failure').textContent.includes('lacks'))")
+        self.wait(f"location.href !== 'about:blank' && document.readyState === 'complete' && {ready}")
 
     def wait(self, condition, seconds=30):
         deadline = time.monotonic() + seconds
