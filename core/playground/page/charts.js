@@ -211,9 +211,9 @@ function drawStratification(plot, library) {
       plot.curve(points, color, dash, true);
       entries.push([`${name}, ${sequence}`, color, dash]);
       const [a, b] = [points[0], points[points.length - 1]];
-      said.push(`${name}, ${sequence}: n^${say(Math.log(b[1] / a[1]) / Math.log(b[0] / a[0]), 3)}`);
+      said.push(`${name}, ${sequence}: ${say(Math.log(b[1] / a[1]) / Math.log(b[0] / a[0]), 3)}`);
     }
   }
   plot.legend(entries);
-  return `Slopes: ${said.join("; ")}. In theory −1 for independent points; for one in each stratum −3/2 over an edge, and −2 over x.`;
+  return `Measured slopes: ${said.join("; ")}. In theory −1 for independent points; for one in each stratum −1.5 over an edge, and −2 over x.`;
 }

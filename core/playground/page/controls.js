@@ -110,7 +110,7 @@ class Card {
     Object.assign(this, { app, ways, letter });
     const [first] = ways;
     this.parts = ways.map((way) => this.part(way));
-    const about = first.technique ? first.technique.about.split(/: |\. | at the point| above the| as a/)[0].replace(/\.?$/, ".") : first.source;
+    const about = first.technique ? first.technique.about.split(/: |\. |,? at the point| above the|,? as a/)[0].replace(/[,.]*$/, ".") : first.source;
     const buttons = this.parts.map(({ button }) => button), body = make("tbody");
     for (const [text, key, explained] of ROWS) {
       body.append(make("tr", {}, make("th", { scope: "row", textContent: text, title: explained }), ...this.parts.map(({ cells }) => (cells[key] = make("td")))));
@@ -161,8 +161,10 @@ class Card {
       put("estimate", say(mean, 5), !Number.isFinite(mean));
       put("pdf", own && own.pdf !== undefined ? say(own.pdf, 4) : "–");
       put("invert", own && own.u ? (own.pdf > 0 ? own.u.map((x) => x.toFixed(3)).join(" ") : "beside") : "–");
-      const { broken, beside } = faults(way, view, MOST);
-      put("faults", way.kind === "surface" ? "–" : broken + beside ? `${broken} + ${beside} beside` : "none", broken + beside > 0);
+      if (options.draft) continue;
+      // directions of the surface may pass beside the light
+      const { broken, beside } = way.kind === "surface" ? { broken: 0, beside: 0 } : faults(way, view, MOST);
+      put("faults", broken + beside ? `${broken} + ${beside} beside` : "none", broken + beside > 0);
     }
   }
 }

@@ -40,19 +40,19 @@ const LECTURE = [
   },
   {
     figure: "quads-convergence", title: "Independent and stratified samples",
-    says: "The error of independent samples falls as n^−½. That of strata falls faster, because each sees a small and smooth part of the integrand.",
+    says: "The error of independent samples falls as n⁻⁰·⁵. That of strata falls faster, because each sees a small and smooth part of the integrand.",
     tries: "Let the horizon cut the light: the integrand by area gets an edge, and strata gain less.",
     set: { ...UP, light: "Rectangle", ways: ["by area", "by solid angle"], dots: 256, sequence: "stratified", near: false, shade: "value", way: "by area", panel: "sequences" },
   },
   {
     figure: "importance", title: "A pdf that is like the integrand, and one that is not",
     says: "Importance sampling divides by the pdf: where the integrand is large and the pdf small, the variance explodes.",
-    tries: "Drag the height of the pdf over the bump.",
+    tries: "Drag the height of the pdf over the bump, or change it by the arrow keys once the chart has the focus.",
     set: { ...UP, light: "Rectangle", ways: [], panel: "importance" },
   },
   {
     figure: "stratification", title: "How fast strata converge",
-    says: "One point in each of n strata: over a smooth function the variance falls as n⁻², over an edge as n^−3/2, and independent points only reach n⁻¹.",
+    says: "One point in each of n strata: over a smooth function the variance falls as n⁻², over an edge as n⁻¹·⁵, and independent points only reach n⁻¹.",
     tries: "Compare the points of the two sequences in the unit square.",
     set: { ...UP, light: "Rectangle", ways: [], dots: 256, sequence: "stratified", panel: "stratification" },
   },

@@ -185,6 +185,7 @@ class App {
     for (const row of this.coordinates) row.show();
     tell(byId("truth"), view.truth > 0 ? `Irradiance per unit of the light: ${say(view.truth, 7)}, ${view.known}.` : view.emits ? "The light is below the horizon: nothing arrives." : "The point is behind the light, which does not emit there.");
     tell(byId("probe"), probe ? (probe.w ? `cursor: direction ${probe.w.map((x) => x.toFixed(4)).join(", ")}` : `cursor: u = ${probe.u.map((x) => x.toFixed(4)).join(", ")}`) : "Point at a map to see the pdf and the inverse there, or at the unit square to see where a pair goes.");
+    if (document.body.dataset.panel !== (state.panel || "errors")) { document.body.dataset.panel = state.panel || "errors"; layout.age++; this.change({}); }
     byId("explore").setAttribute("aria-pressed", String(!lesson));
     byId("lecture").setAttribute("aria-pressed", String(lesson));
     if (byId("lesson").hidden === lesson) { byId("lesson").hidden = !lesson; layout.age++; }
@@ -202,7 +203,7 @@ class App {
     this.times.push({ began, work: now - began });
     if (this.times.length > 60) this.times.shift();
     const work = this.times.map((t) => t.work).sort((a, b) => a - b), middleOf = work[work.length >> 1];
-    tell(byId("pace"), `${MOST.toLocaleString("en")} samples by each of ${this.cards.flatMap((card) => card.ways).length} ways: ${middleOf.toFixed(1)} ms for a frame.`);
+    tell(byId("pace"), `A frame of ${MOST.toLocaleString("en")} samples by each of ${this.cards.flatMap((card) => card.ways).length} ways takes ${middleOf.toFixed(1)} ms.`);
   }
   /** The relative error of 1,024 samples by a way. */
   errorOf(way) { return blockError(way.values, MOST, 1024, this.view.truth); }

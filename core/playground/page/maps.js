@@ -1,7 +1,7 @@
 // Maps of samples: the unit square, all directions from the point, and the surface of the light.
 
 /** Places of the shade of a map along each side: fewer while the hand moves. */
-const GRID = 64, DRAFT = 32;
+const GRID = 64, DRAFT = 24;
 
 /** Directions as a disk of equal areas: the zenith in the middle, the horizon at radius 1, the nadir at √2. */
 const EQUAL_AREA = {
@@ -144,8 +144,8 @@ function rimsOf(view) {
     return [capRim(unit(d), Math.sqrt(sin2), Math.sqrt(1 - sin2))];
   }
   if (f.one_minus_cos !== undefined) return [capRim(unit(f.direction), Math.sqrt(f.one_minus_cos * (2 - f.one_minus_cos)), 1 - f.one_minus_cos)];
-  const outlines = [...shape.outlines, ...(shape.lines || [])];
-  return outlines.map((points) => finely(points, outlines.length > 4 ? 2 : 12).map((x) => unit(sub(x, p))));
+  const outlines = shape.rims || shape.outlines;
+  return outlines.map((points) => finely(points, points.length > 8 ? 1 : 12).map((x) => unit(sub(x, p))));
 }
 function capRim(axis, sin, cos) {
   const [a, b] = basis(axis);
@@ -200,19 +200,23 @@ class LightMap extends SampleMap {
 
 /** The unit square with its strata, the pairs of the sequence, and the numbers of the direction under the cursor. */
 class SquareMap extends SampleMap {
-  draw(u, options, marks) {
-    const { pixels } = this;
-    pixels.begin();
-    pixels.words.fill(BACK);
-    const { words, width, height } = pixels;
+  paintStrata() {
+    const { width, height } = this.pixels, words = new Uint32Array(width * height).fill(BACK);
     for (let j = 0; j < height; j++) {
       for (let i = 0; i < width; i++) {
-        const q = this.place((i + 0.5) / width, (j + 0.5) / height);
-        if (q[0] < 0 || q[1] < 0 || q[0] >= 1 || q[1] >= 1) continue;
-        const c = stratumOf(q[0], q[1]);
+        const [u, v] = this.place((i + 0.5) / width, (j + 0.5) / height);
+        if (u < 0 || v < 0 || u >= 1 || v >= 1) continue;
+        const c = stratumOf(u, v);
         words[j * width + i] = packed((c & 255) * 0.3, (c >> 8 & 255) * 0.3, (c >> 16 & 255) * 0.3);
       }
     }
+    return words;
+  }
+  draw(u, options, marks) {
+    const { pixels } = this;
+    pixels.begin();
+    if (!this.strata || this.strata.length !== pixels.words.length) this.strata = this.paintStrata();
+    pixels.words.set(this.strata);
     this.dots(options.dots, options.colors, (i, q) => { q[0] = u[0][i]; q[1] = u[1][i]; return true; });
     pixels.end();
     this.outline(SQUARE, INK.line);

@@ -62,10 +62,11 @@ const SHAPES = {
     emits: (p) => length(sub(p, center)) > radius,
   }),
   Cylinder: ({ start, axis, radius }) => {
-    const [a, b] = basis(unit(axis)), end = add(start, axis), normal = (y) => add(times(a, Math.cos(2 * Math.PI * y)), times(b, Math.sin(2 * Math.PI * y)));
+    const [a, b] = basis(unit(axis)), end = add(start, axis), ends = [circle(start, a, b, radius), circle(end, a, b, radius)];
+    const normal = (y) => add(times(a, Math.cos(2 * Math.PI * y)), times(b, Math.sin(2 * Math.PI * y)));
+    const lines = Array.from({ length: 8 }, (_, i) => [along(start, normal(i / 8), radius), along(end, normal(i / 8), radius)]);
     return {
-      outlines: [circle(start, a, b, radius), circle(end, a, b, radius)],
-      lines: Array.from({ length: 8 }, (_, i) => [along(start, normal(i / 8), radius), along(end, normal(i / 8), radius)]),
+      outlines: ends, lines, rims: [...ends, ...lines],
       mapOutline: SQUARE, uvToMap: same,
       at: (x, y) => ({ point: along(along(start, axis, x), normal(y), radius), normal: normal(y) }),
       emits: () => true,
@@ -83,7 +84,7 @@ const SHAPES = {
     };
   },
   Line: ({ start, edge }) => ({
-    outlines: [], lines: [[start, add(start, edge)]],
+    outlines: [], lines: [[start, add(start, edge)]], rims: [[start, add(start, edge)]],
     mapOutline: [[0, 0.5], [1, 0.5]], uvToMap: ([x]) => [x, 0.5],
     at: (x, y) => (Math.abs(y - 0.5) < 0.05 ? { point: along(start, edge, x), normal: null } : null),
     emits: () => true,
