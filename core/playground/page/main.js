@@ -232,6 +232,7 @@ class App {
 /** Starts the page, or says why it cannot. */
 async function start() {
   const failure = byId("failure"), page = byId("page");
+  failure.textContent = "The page unpacks its library …";
   try {
     const library = await startLibrary();
     page.hidden = false;

@@ -16,6 +16,7 @@ import urllib.parse
 import zlib
 from pathlib import Path
 
+import firefox
 from browser import Browser, find
 
 PAGE, ANSWERS = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
@@ -304,6 +305,29 @@ def pace(browser):
         print(f"{light}: {found[0]:.0f} frames a second, {found[1]:.1f} ms of script each, 4,096 samples by each of {found[2]} ways")
 
 
+def in_firefox(test):
+    """Every light in Firefox, where it is there."""
+    path = firefox.find()
+    if not path:
+        print("no Firefox here: the page is not tested in it")
+        return
+    browser = firefox.Firefox(path)
+    try:
+        browser.resize(1400, 1100)
+        browser.open(address())
+        for light in browser.evaluate("[...document.getElementById('light').options].map((o) => o.value)"):
+            browser.evaluate(f"(() => {{ const e = document.getElementById('light'); e.value = '{light}'; e.dispatchEvent(new Event('change')); }})()")
+            assert test.take(browser, "Firefox")["light"] == light
+        browser.open(address(light="Triangle", probe={"u": [0.25, 0.5]}))
+        browser.settle()
+        picture = browser.screenshot()
+        (FOLDER / "firefox.png").write_bytes(picture)
+        assert colors(picture, [0, 0, 1300, 800])[0] > 300, "the page is blank in Firefox"
+        print("Firefox shows every light")
+    finally:
+        browser.close()
+
+
 def main():
     text = PAGE.read_bytes()
     size = len(gzip.compress(text, 9))
@@ -321,6 +345,7 @@ def main():
         lecture(browser)
         looks(browser)
         assert not browser.errors(), browser.errors()
+        in_firefox(test)
         print(f"{test.compare():,} numbers of {len(test.shown)} states have the bits of the core")
         damaged(browser)
         pace(browser)
