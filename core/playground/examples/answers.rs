@@ -17,14 +17,17 @@ const SEED: u64 = 1;
 
 /// Bits of single precision as numbers.
 fn numbers(value: &Value) -> Vec<f32> {
-    let word = |x: &Value| f32::from_bits(u32::try_from(x.as_u64().expect("bits are whole numbers")).expect("of 32 bits"));
+    let word =
+        |x: &Value| f32::from_bits(u32::try_from(x.as_u64().expect("bits are whole numbers")).expect("of 32 bits"));
     value.as_array().expect("bits are in arrays").iter().map(word).collect()
 }
 fn vector(x: &[f32]) -> Vec3<f32> {
     Vec3::new(x[0], x[1], x[2])
 }
 fn double(value: &Value) -> f64 {
-    f64::from_bits(u64::from_str_radix(value.as_str().unwrap_or_default(), 16).expect("doubles are 16 hexadecimal digits"))
+    f64::from_bits(
+        u64::from_str_radix(value.as_str().unwrap_or_default(), 16).expect("doubles are 16 hexadecimal digits"),
+    )
 }
 fn hex(x: f64) -> Value {
     json!(format!("{:016x}", x.to_bits()))

@@ -101,8 +101,9 @@ const ROWS = [
   ...COUNTS.map((n) => [`n = ${n.toLocaleString("en")}`, n, `relative error of the mean of ${n} samples, root mean square`]),
   ["estimate", "estimate", "mean of all samples"],
   ["pdf", "pdf", "density of the direction under the cursor, per steradian (lines: in their measure)"],
-  ["invert", "invert", "the numbers that are mapped to the direction under the cursor"],
-  ["broken", "faults", "samples that are not finite or have no density, and directions that pass beside the light by more than a hundredth of it"],
+  ["invert u", "u", "the first of the numbers that are mapped to the direction under the cursor"],
+  ["invert v", "v", "the second of them"],
+  ["broken", "faults", "how many samples that are not finite or have no density, plus how many directions pass beside the light by more than a hundredth of it"],
 ];
 /** The card of a way, with the textbook's formula beside it if there is one: their maps and their numbers. */
 class Card {
@@ -158,13 +159,14 @@ class Card {
         put(n, view.truth > 0 ? say(error, 2) : "–", view.truth > 0 && !(error < 1e3));
       }
       const mean = meanOf(way.values, MOST);
-      put("estimate", say(mean, 5), !Number.isFinite(mean));
+      put("estimate", say(mean, 4), !Number.isFinite(mean));
       put("pdf", own && own.pdf !== undefined ? say(own.pdf, 4) : "–");
-      put("invert", own && own.u ? (own.pdf > 0 ? own.u.map((x) => x.toFixed(3)).join(" ") : "beside") : "–");
+      const numbersThere = own && own.u && (own.pdf > 0 ? own.u.map((x) => x.toFixed(5)) : ["beside", "beside"]);
+      ["u", "v"].forEach((key, k) => put(key, numbersThere ? numbersThere[k] : "–"));
       if (options.draft) continue;
       // directions of the surface may pass beside the light
       const { broken, beside } = way.kind === "surface" ? { broken: 0, beside: 0 } : faults(way, view, MOST);
-      put("faults", broken + beside ? `${broken} + ${beside} beside` : "none", broken + beside > 0);
+      put("faults", broken + beside ? `${broken} + ${beside}` : "none", broken + beside > 0);
     }
   }
 }

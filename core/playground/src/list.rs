@@ -54,7 +54,8 @@ fn text(lines: &[&str]) -> String {
 pub(crate) fn functions(lights: &Value) -> Vec<String> {
     let list = |value: &Value| value.as_array().cloned().unwrap_or_default();
     let word = |value: &Value| value.as_str().unwrap_or_default().to_owned();
-    let mut names: Vec<String> = ["owen_sobol", "independent", "stratified"].map(|s| format!("etendue_{s}_pairs")).into();
+    let mut names: Vec<String> =
+        ["owen_sobol", "independent", "stratified"].map(|s| format!("etendue_{s}_pairs")).into();
     for warp in ["uniform_hemisphere", "cosine_hemisphere"] {
         names.extend(["sample", "pdf", "invert"].map(|what| format!("etendue_{warp}_{what}_batch")));
     }

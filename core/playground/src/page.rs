@@ -26,7 +26,8 @@ const SCRIPTS: [&str; 14] = [
 /// Compressed bytes.
 pub(crate) fn gzip(bytes: &[u8]) -> Result<Vec<u8>, String> {
     let mut packed = Vec::new();
-    zopfli::compress(zopfli::Options::default(), zopfli::Format::Gzip, bytes, &mut packed).map_err(|e| e.to_string())?;
+    zopfli::compress(zopfli::Options::default(), zopfli::Format::Gzip, bytes, &mut packed)
+        .map_err(|e| e.to_string())?;
     Ok(packed)
 }
 
