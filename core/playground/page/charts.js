@@ -22,7 +22,7 @@ class Plot {
   begin({ x, y, xLabel, yLabel }) {
     fit(this.canvas);
     const { context, canvas } = this, r = ratio();
-    this.box = [58 * r, 10 * r, canvas.width - 12 * r, canvas.height - 40 * r];
+    this.box = [58 * r, 10 * r, canvas.width - 20 * r, canvas.height - 40 * r];
     Object.assign(this, { x, y });
     context.fillStyle = INK.back;
     context.fillRect(0, 0, canvas.width, canvas.height);

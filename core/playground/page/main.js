@@ -5,6 +5,32 @@ const START = {
   shade: "pdf", projection: "equal-area", near: true, textbook: true, surface: false, lesson: null, ways: null, panel: null, probe: null, inside: 4.6,
 };
 
+/** The values of selects, with their texts. */
+const CHOICES = {
+  dots: [16, 64, 256, 1024, MOST].map((n) => [n, n.toLocaleString("en")]),
+  sequence: Object.entries(SEQUENCES),
+  shade: [["pdf", "pdf"], ["value", "value of a sample, cosθ/pdf"], ["cosine", "cosθ"], ["lightCosine", "cosθ′ at the light"], ["distance", "1/r²"], ["product", "cosθ cosθ′/r²"], ["none", "none"]],
+  projection: [["equal-area", "equal solid angles"], ["nusselt", "equal projected solid angles"]],
+};
+const PANELS = [null, "variance", "sequences", "importance", "stratification"];
+
+/** True if a value is like another one: finite numbers, lists of the same length, or the same type. */
+function isLike(value, known) {
+  if (Array.isArray(known)) return Array.isArray(value) && value.length === known.length && known.every((x, i) => isLike(value[i], x));
+  return typeof value === typeof known && (typeof known !== "number" || Number.isFinite(value));
+}
+/** True if the state may have this value, which comes from outside. */
+function isAllowed(key, value) {
+  if (CHOICES[key]) return CHOICES[key].some(([choice]) => choice === value);
+  switch (key) {
+    case "panel": return PANELS.includes(value);
+    case "ways": return value === null || (Array.isArray(value) && value.every((name) => typeof name === "string"));
+    case "probe": return value === null || isLike(value.w, [0, 0, 0]) || isLike(value.u, [0, 0]);
+    case "n": return isLike(value, [0, 0, 0]) && length(value) > 0;
+    default: return key in START && isLike(value, START[key]);
+  }
+}
+
 class App {
   constructor(library) {
     this.library = library;
@@ -28,18 +54,19 @@ class App {
       requestAnimationFrame(() => { this.waiting = false; this.frame(true); });
     }
   }
-  /** Reads the state from the address. */
+  /** Reads the state from the address; one that is not of this page shows the beginning. */
   read() {
     if (location.hash.length < 2) return;
     try {
       const given = JSON.parse(decodeURIComponent(location.hash.slice(1)));
-      const known = Object.fromEntries(Object.entries(given).filter(([key]) => key in START));
-      if (typeof known.light === "string") known.light = overhead(known.light);
-      else if (known.light) known.light = { name: known.light.name, fields: { ...overhead(known.light.name).fields, ...known.light.fields } };
-      const start = Number.isInteger(known.lesson) && LECTURE[known.lesson] ? lessonState(known.lesson) : {};
-      this.state = { ...structuredClone(START), ...start, ...known };
+      const lesson = Number.isInteger(given.lesson) && LECTURE[given.lesson] ? lessonState(given.lesson) : {};
+      const state = { ...structuredClone(START), ...lesson }, { light } = given;
+      if (light) state.light = overhead(light.name || light);
+      for (const [key, value] of Object.entries(given)) if (!["light", "lesson"].includes(key) && isAllowed(key, value)) state[key] = value;
+      state.n = unit(state.n);
+      for (const [key, value] of Object.entries((light && light.fields) || {})) if (isLike(value, state.light.fields[key])) state.light.fields[key] = value;
+      this.state = state;
     } catch {
-      // an address that is not of this page shows the beginning
       this.state = structuredClone(START);
     }
   }
@@ -176,10 +203,7 @@ class App {
     const names = ["view", ...this.scene.handles.map((h) => h.name)];
     if (!names.includes(state.handle)) state.handle = "view";
     choices(byId("handle"), names.map((name) => [name, name === "view" ? "the view" : name.replaceAll("_", " ")]), state.handle);
-    choices(byId("dots"), [16, 64, 256, 1024, 4096].map((n) => [String(n), n.toLocaleString("en")]), String(state.dots));
-    choices(byId("sequence"), Object.entries(SEQUENCES), state.sequence);
-    choices(byId("shade"), [["pdf", "pdf"], ["value", "value of a sample, cosθ/pdf"], ["cosine", "cosθ"], ["lightCosine", "cosθ′ at the light"], ["distance", "1/r²"], ["product", "cosθ cosθ′/r²"], ["none", "none"]], state.shade);
-    choices(byId("projection"), [["equal-area", "equal solid angles"], ["nusselt", "equal projected solid angles"]], state.projection);
+    for (const [id, list] of Object.entries(CHOICES)) choices(byId(id), list, String(state[id]));
     for (const id of ["near", "textbook", "surface"]) byId(id).checked = state[id];
     for (const { slider, read } of this.sliders) slider.show(read());
     for (const row of this.coordinates) row.show();

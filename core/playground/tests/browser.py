@@ -40,8 +40,10 @@ class Browser:
         target = self.send("Target.getTargets")["targetInfos"]
         page = next(t for t in target if t["type"] == "page")
         self.session = self.send("Target.attachToTarget", targetId=page["targetId"], flatten=True)["sessionId"]
-        for domain in ["Page", "Runtime", "Log"]:
+        for domain in ["Page", "Runtime"]:
             self.call(f"{domain}.enable")
+        # processor time, whatever else the machine does
+        self.call("Performance.enable", timeDomain="threadTicks")
         self.resize(width, height, touch)
 
     def close(self):
@@ -152,6 +154,10 @@ class Browser:
     def screenshot(self, full=False):
         """PNG bytes of the page."""
         return base64.b64decode(self.call("Page.captureScreenshot", format="png", captureBeyondViewport=full)["data"])
+
+    def busy(self):
+        """Seconds of processor time that the page's thread has taken."""
+        return next(m["value"] for m in self.call("Performance.getMetrics")["metrics"] if m["name"] == "TaskDuration")
 
     def errors(self):
         """What the page's scripts complained of."""
