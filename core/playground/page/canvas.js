@@ -1,13 +1,20 @@
 // Canvases: pixels for many dots, and the colours of strata.
 
 /** Colours of the canvases, which are dark in both themes. */
-const INK = { back: "#12151c", line: "#5d6a80", faint: "#2b3342", text: "#dfe6f1", strong: "#ffffff", light: "#ffd98a", mark: "#ff4f7b" };
+const INK = {
+  back: "#12151c",
+  line: "#5d6a80",
+  faint: "#2b3342",
+  text: "#dfe6f1",
+  strong: "#ffffff",
+  light: "#ffd98a",
+  mark: "#ff4f7b",
+};
 /** Okabe and Ito's colours, which the colour-blind tell apart. */
 const SERIES = ["#56b4e9", "#e69f00", "#009e73", "#cc79a7", "#f0e442", "#d55e00"];
 
 const packed = (r, g, b) => (0xff000000 | (b << 16) | (g << 8) | r) >>> 0;
 const BACK = packed(0x12, 0x15, 0x1c);
-const FAULT = packed(255, 255, 255);
 /** Shades from the background to a quiet blue, on which dots remain visible. */
 const SHADES = Uint32Array.from({ length: 256 }, (_, i) => {
   const t = i / 255;
@@ -16,16 +23,29 @@ const SHADES = Uint32Array.from({ length: 256 }, (_, i) => {
 
 const STRATA = 8;
 /** Colours of the corners of the unit square: indigo, vermilion, sky blue, yellow. */
-const CORNERS = [[96, 88, 224], [238, 92, 52], [70, 196, 240], [255, 222, 92]];
+const CORNERS = [
+  [96, 88, 224],
+  [238, 92, 52],
+  [70, 196, 240],
+  [255, 222, 92],
+];
 /** The colour of a stratum: its place between the corners, every other one darker. */
 function stratum(u, v) {
-  const i = Math.min(STRATA - 1, Math.floor(u * STRATA)), j = Math.min(STRATA - 1, Math.floor(v * STRATA));
-  const x = i / (STRATA - 1), y = j / (STRATA - 1), shade = (i + j) % 2 ? 0.72 : 1;
-  const mix = (k) => shade * ((1 - y) * ((1 - x) * CORNERS[0][k] + x * CORNERS[1][k]) + y * ((1 - x) * CORNERS[2][k] + x * CORNERS[3][k]));
+  const i = Math.min(STRATA - 1, Math.floor(u * STRATA));
+  const j = Math.min(STRATA - 1, Math.floor(v * STRATA));
+  const x = i / (STRATA - 1);
+  const y = j / (STRATA - 1);
+  const shade = (i + j) % 2 ? 0.72 : 1;
+  const mix = (k) =>
+    shade *
+    ((1 - y) * ((1 - x) * CORNERS[0][k] + x * CORNERS[1][k]) + y * ((1 - x) * CORNERS[2][k] + x * CORNERS[3][k]));
   return packed(mix(0), mix(1), mix(2));
 }
-const STRATUM = Uint32Array.from({ length: STRATA * STRATA }, (_, i) => stratum((i % STRATA + 0.5) / STRATA, (Math.floor(i / STRATA) + 0.5) / STRATA));
-const stratumOf = (u, v) => STRATUM[Math.min(STRATA - 1, Math.floor(v * STRATA)) * STRATA + Math.min(STRATA - 1, Math.floor(u * STRATA))];
+const STRATUM = Uint32Array.from({ length: STRATA * STRATA }, (_, i) =>
+  stratum(((i % STRATA) + 0.5) / STRATA, (Math.floor(i / STRATA) + 0.5) / STRATA),
+);
+const stratumOf = (u, v) =>
+  STRATUM[Math.min(STRATA - 1, Math.floor(v * STRATA)) * STRATA + Math.min(STRATA - 1, Math.floor(u * STRATA))];
 /** The size of dots in CSS pixels for so many of them. */
 const dotSize = (n) => (n <= 16 ? 6 : n <= 64 ? 5 : n <= 256 ? 4 : n <= 1024 ? 2.5 : 1.6);
 
@@ -36,7 +56,8 @@ const layout = { age: 0 };
 function fit(canvas) {
   if (canvas.age === layout.age) return;
   canvas.age = layout.age;
-  const width = Math.max(1, Math.round(canvas.clientWidth * ratio())), height = Math.max(1, Math.round(canvas.clientHeight * ratio()));
+  const width = Math.max(1, Math.round(canvas.clientWidth * ratio()));
+  const height = Math.max(1, Math.round(canvas.clientHeight * ratio()));
   if (canvas.width !== width) canvas.width = width;
   if (canvas.height !== height) canvas.height = height;
 }
@@ -59,13 +80,17 @@ class Pixels {
   }
   dot(x, y, size, color) {
     const { words, width, height } = this;
-    const left = Math.round(x - size / 2), top = Math.round(y - size / 2);
-    const right = Math.min(width, left + size), bottom = Math.min(height, top + size);
+    const left = Math.round(x - size / 2);
+    const top = Math.round(y - size / 2);
+    const right = Math.min(width, left + size);
+    const bottom = Math.min(height, top + size);
     for (let j = Math.max(0, top); j < bottom; j++) {
       for (let i = Math.max(0, left); i < right; i++) words[j * width + i] = color;
     }
   }
-  end() { this.context.putImageData(this.image, 0, 0); }
+  end() {
+    this.context.putImageData(this.image, 0, 0);
+  }
 }
 
 /** Draws a polygon through points. */
@@ -75,12 +100,17 @@ function path(context, points, closed = true) {
   if (closed) context.closePath();
 }
 function cross2(context, [x, y], size) {
-  for (const [color, width] of [["#000", 4], [INK.mark, 2]]) {
+  for (const [color, width] of [
+    ["#000", 4],
+    [INK.mark, 2],
+  ]) {
     context.strokeStyle = color;
     context.lineWidth = width * ratio();
     context.beginPath();
-    context.moveTo(x - size, y); context.lineTo(x + size, y);
-    context.moveTo(x, y - size); context.lineTo(x, y + size);
+    context.moveTo(x - size, y);
+    context.lineTo(x + size, y);
+    context.moveTo(x, y - size);
+    context.lineTo(x, y + size);
     context.stroke();
   }
 }

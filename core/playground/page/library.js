@@ -14,7 +14,9 @@ async function startLibrary() {
   const text = holder ? holder.textContent.trim() : "";
   if (!text) throw new Unusable(`This page lacks the library that it shows. ${AGAIN}`);
   if (typeof WebAssembly !== "object" || typeof DecompressionStream !== "function") {
-    throw new Unusable("This browser is too old for this page: it needs WebAssembly and DecompressionStream, which Chromium has from version 91 and Firefox from 113.");
+    throw new Unusable(
+      "This browser is too old for this page: it needs WebAssembly and DecompressionStream, which Chromium has from version 91 and Firefox from 113.",
+    );
   }
   let code;
   try {
@@ -27,10 +29,14 @@ async function startLibrary() {
   try {
     module = await WebAssembly.compile(code);
   } catch (error) {
-    throw new Unusable(`This browser cannot run the library in this page; it may lack the vectors of WebAssembly, which Chromium has from version 91 and Firefox from 89 (${error.message}). ${AGAIN}`);
+    throw new Unusable(
+      `This browser cannot run the library in this page; it may lack the vectors of WebAssembly, which Chromium has from version 91 and Firefox from 89 (${error.message}). ${AGAIN}`,
+    );
   }
   const instance = await WebAssembly.instantiate(module, {});
-  const missing = LIGHTS.flatMap((light) => light.techniques).find((t) => !instance.exports[`etendue_${t.function}_sample_batch`]);
+  const missing = LIGHTS.flatMap((light) => light.techniques).find(
+    (t) => !instance.exports[`etendue_${t.function}_sample_batch`],
+  );
   if (missing) throw new Unusable(`The library in this page lacks ${missing.function}. ${AGAIN}`);
   return new Library(instance.exports);
 }
@@ -49,7 +55,11 @@ class Library {
     this.pointers = this.words(3);
     this.results = this.words(12);
     this.u = [this.floats(MOST), this.floats(MOST)];
-    this.one = { u: [this.floats(1), this.floats(1)], w: [this.floats(1), this.floats(1), this.floats(1)], samples: this.samples(1) };
+    this.one = {
+      u: [this.floats(1), this.floats(1)],
+      w: [this.floats(1), this.floats(1), this.floats(1)],
+      samples: this.samples(1),
+    };
     this.grid = { w: [this.floats(MOST), this.floats(MOST), this.floats(MOST)], pdf: this.floats(MOST) };
     this.place = this.top;
   }
@@ -60,16 +70,27 @@ class Library {
     if (this.top > this.memory.buffer.byteLength) throw new Unusable("The page ran out of the memory of its library.");
     return view;
   }
-  floats(n) { return this.take(Float32Array, n); }
-  words(n) { return this.take(Uint32Array, n); }
+  floats(n) {
+    return this.take(Float32Array, n);
+  }
+  words(n) {
+    return this.take(Uint32Array, n);
+  }
   /** Frees what was taken since the start. */
-  rewind() { this.top = this.place; }
+  rewind() {
+    this.top = this.place;
+  }
   /** Columns for samples. */
   samples(n) {
     const three = () => [this.floats(n), this.floats(n), this.floats(n)];
     return {
-      direction: three(), distance: this.floats(n), pdf: this.floats(n), weight: this.floats(n),
-      normal: three(), uv: [this.floats(n), this.floats(n)], emits: this.take(Uint8Array, n),
+      direction: three(),
+      distance: this.floats(n),
+      pdf: this.floats(n),
+      weight: this.floats(n),
+      normal: three(),
+      uv: [this.floats(n), this.floats(n)],
+      emits: this.take(Uint8Array, n),
     };
   }
   call(name, ...values) {
@@ -103,35 +124,70 @@ class Library {
     this.n.set(n);
     const normal = takesNormal(sampler.technique) ? [this.n.byteOffset] : [];
     // a sun takes the point, too, which is not used
-    this.call(`etendue_${sampler.technique.function}_prepare`, this.light.byteOffset, this.p.byteOffset, ...normal, sampler.memory.byteOffset);
+    this.call(
+      `etendue_${sampler.technique.function}_prepare`,
+      this.light.byteOffset,
+      this.p.byteOffset,
+      ...normal,
+      sampler.memory.byteOffset,
+    );
   }
   sample(sampler, n, u, samples) {
     const columns = this.columns(u);
-    this.call(`etendue_${sampler.technique.function}_sample_batch`, sampler.memory.byteOffset, n, columns, this.sampleColumns(samples));
+    this.call(
+      `etendue_${sampler.technique.function}_sample_batch`,
+      sampler.memory.byteOffset,
+      n,
+      columns,
+      this.sampleColumns(samples),
+    );
   }
   pdf(sampler, n, w, pdf) {
-    this.call(`etendue_${sampler.technique.function}_pdf_batch`, sampler.memory.byteOffset, n, this.columns(w), pdf.byteOffset);
+    this.call(
+      `etendue_${sampler.technique.function}_pdf_batch`,
+      sampler.memory.byteOffset,
+      n,
+      this.columns(w),
+      pdf.byteOffset,
+    );
   }
   /** The pdf of one direction. */
   pdfOf(sampler, w) {
-    this.one.w.forEach((column, k) => { column[0] = w[k]; });
+    this.one.w.forEach((column, k) => {
+      column[0] = w[k];
+    });
     this.pdf(sampler, 1, this.one.w, this.one.samples.pdf);
     return this.one.samples.pdf[0];
   }
   /** The numbers that are mapped to one direction. */
   invert(sampler, w) {
-    this.one.w.forEach((column, k) => { column[0] = w[k]; });
+    this.one.w.forEach((column, k) => {
+      column[0] = w[k];
+    });
     const columns = this.columns(this.one.w);
     this.results.set(this.one.u.map((view) => view.byteOffset));
-    this.call(`etendue_${sampler.technique.function}_invert_batch`, sampler.memory.byteOffset, 1, columns, this.results.byteOffset);
+    this.call(
+      `etendue_${sampler.technique.function}_invert_batch`,
+      sampler.memory.byteOffset,
+      1,
+      columns,
+      this.results.byteOffset,
+    );
     return this.one.u.map((column) => column[0]);
   }
   /** The sample for one pair of numbers. */
   sampleOf(sampler, u) {
-    this.one.u.forEach((column, k) => { column[0] = u[k]; });
+    this.one.u.forEach((column, k) => {
+      column[0] = u[k];
+    });
     const s = this.one.samples;
     this.sample(sampler, 1, this.one.u, s);
-    return { direction: s.direction.map((c) => c[0]), pdf: s.pdf[0], distance: s.distance[0], uv: s.uv.map((c) => c[0]) };
+    return {
+      direction: s.direction.map((c) => c[0]),
+      pdf: s.pdf[0],
+      distance: s.distance[0],
+      uv: s.uv.map((c) => c[0]),
+    };
   }
   /** Directions of a surface, in the frame whose third axis is the normal, and their pdf. */
   hemisphere(warp, n, u, local, pdf) {
@@ -141,7 +197,9 @@ class Library {
     this.call(`etendue_${warp}_pdf_batch`, n, this.columns(local), pdf.byteOffset);
   }
   hemisphereInverse(warp, local) {
-    this.one.w.forEach((column, k) => { column[0] = local[k]; });
+    this.one.w.forEach((column, k) => {
+      column[0] = local[k];
+    });
     const columns = this.columns(this.one.w);
     this.results.set(this.one.u.map((view) => view.byteOffset));
     this.call(`etendue_${warp}_invert_batch`, 1, columns, this.results.byteOffset);

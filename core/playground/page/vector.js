@@ -26,7 +26,8 @@ function basis(n) {
 }
 /** A vector turned by an angle about a unit axis. */
 function turn(v, axis, angle) {
-  const c = Math.cos(angle), s = Math.sin(angle);
+  const c = Math.cos(angle);
+  const s = Math.sin(angle);
   return add(add(times(v, c), times(cross(axis, v), s)), times(axis, dot(axis, v) * (1 - c)));
 }
 /** Numbers as the core takes them. */

@@ -71,6 +71,14 @@ def colors(png, box):
     return len(found), max(found.values()) / sum(found.values())
 
 
+def changed(before, after, box):
+    """The part of a box whose pixels differ between two pictures of the same size."""
+    (width, height, channels, one), (_, _, _, two) = pixels(before), pixels(after)
+    x, y, w, h = (round(v) for v in box)
+    places = [(i, j) for j in range(max(0, y), min(height, y + h)) for i in range(max(0, x), min(width, x + w))]
+    return sum(one[j][i * channels : i * channels + 3] != two[j][i * channels : i * channels + 3] for i, j in places) / len(places)
+
+
 def double(text):
     return struct.unpack(">d", bytes.fromhex(text))[0]
 
@@ -265,6 +273,17 @@ def looks(browser):
             many, commonest = colors(picture, box)
             assert many > 30 and commonest < 0.97, f"{selector} at {width} px has {many} colours, one of them on {100 * commonest:.0f} % of it"
     browser.resize(1400, 1000)
+    # the scene shows where the samples of the chosen technique go, and the light
+    browser.open(address(light="Sphere", handle="view"))
+    pictures = []
+    for change in ["{}", "{ way: 'by area' }", "{ light: moved }"]:
+        browser.evaluate(f"(() => {{ const moved = structuredClone(playground.state.light); moved.fields.radius *= 1.2; playground.change({change}); }})()")
+        browser.settle()
+        pictures.append(browser.screenshot())
+    box = browser.evaluate("(() => { const b = document.getElementById('view').getBoundingClientRect(); return [b.x, b.y, b.width, b.height]; })()")
+    for what, before, after in zip(["another technique", "a larger light"], pictures, pictures[1:]):
+        part = changed(before, after, box)
+        assert part > 0.004, f"{what} changes only {100 * part:.2f} % of the scene"
     print("1400 and 400 px wide: not blank, and no wider than the window")
 
 
