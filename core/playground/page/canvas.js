@@ -80,12 +80,17 @@ class Pixels {
   }
   dot(x, y, size, color) {
     const { words, width, height } = this;
-    const left = Math.round(x - size / 2);
-    const top = Math.round(y - size / 2);
-    const right = Math.min(width, left + size);
-    const bottom = Math.min(height, top + size);
-    for (let j = Math.max(0, top); j < bottom; j++) {
-      for (let i = Math.max(0, left); i < right; i++) words[j * width + i] = color;
+    const left = Math.floor(x - 0.5 * size + 0.5);
+    const top = Math.floor(y - 0.5 * size + 0.5);
+    if (left >= 0 && top >= 0 && left + size <= width && top + size <= height) {
+      // nearly all dots: no part of them is beyond the edge
+      for (let j = 0, start = top * width + left; j < size; j++, start += width) {
+        for (let i = 0; i < size; i++) words[start + i] = color;
+      }
+      return;
+    }
+    for (let j = Math.max(0, top); j < Math.min(height, top + size); j++) {
+      for (let i = Math.max(0, left); i < Math.min(width, left + size); i++) words[j * width + i] = color;
     }
   }
   end() {
