@@ -266,7 +266,7 @@ class Card {
         put(n, view.truth > 0 ? say(error, 2) : "–", view.truth > 0 && !(error < 1e3));
       }
       const mean = meanOf(way.values, MOST);
-      put("estimate", say(mean, 4), !Number.isFinite(mean));
+      put("estimate", say(mean, mean < 1e-3 ? 3 : 5), !Number.isFinite(mean));
       put("pdf", own && own.pdf !== undefined ? say(own.pdf, 4) : "–");
       const numbersThere = own && own.u && (own.pdf > 0 ? own.u.map((x) => x.toFixed(5)) : ["beside", "beside"]);
       ["u", "v"].forEach((key, k) => put(key, numbersThere ? numbersThere[k] : "–"));

@@ -1,7 +1,8 @@
 // The scene: the point, its hemisphere, the light and its samples, from a camera that goes round; and what the hand takes hold of.
 
-/** Distance beyond which lights are shown nearer, as large as they look. */
-const NEAR = 3;
+/** Distance beyond which lights are shown nearer, as large as they look from the point; and the greatest one that is shown. */
+const NEAR = 1.5;
+const FAR = 1.95;
 
 class Scene {
   constructor(canvas, overlay, change) {
@@ -17,7 +18,7 @@ class Scene {
     this.view = view;
     const center = middle(state.light);
     const r = center ? length(sub(center, state.p)) : 1;
-    this.scale = r > NEAR ? (NEAR * (1 + 0.12 * Math.log(r / NEAR))) / r : 1;
+    this.scale = r > NEAR ? (FAR - (FAR - NEAR) * (NEAR / r)) / r : 1;
     this.handles = handles(state.light, state.p).map((h) => ({ ...h, shown: this.shown(h.at, h.from === state.p) }));
     this.handles.push({
       name: "shading point",
