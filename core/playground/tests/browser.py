@@ -151,9 +151,16 @@ class Browser:
         )
         self.settle()
 
-    def screenshot(self, full=False):
-        """PNG bytes of the page."""
-        return base64.b64decode(self.call("Page.captureScreenshot", format="png", captureBeyondViewport=full)["data"])
+    def box(self, selector):
+        """Where an element is on the page: left, top, width and height."""
+        return self.evaluate(f"(() => {{ const b = document.querySelector({json.dumps(selector)}).getBoundingClientRect(); return [b.x + scrollX, b.y + scrollY, b.width, b.height]; }})()")
+
+    def screenshot(self, selector=None):
+        """PNG bytes of the whole page, or of an element."""
+        clip = {}
+        if selector:
+            clip["clip"] = dict(zip(["x", "y", "width", "height"], self.box(selector)), scale=1)
+        return base64.b64decode(self.call("Page.captureScreenshot", format="png", captureBeyondViewport=True, **clip)["data"])
 
     def busy(self):
         """Seconds of processor time that the page's thread has taken."""

@@ -85,6 +85,10 @@ class Firefox:
     def settle(self):
         self.evaluate("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done(1))))")
 
-    def screenshot(self):
-        """PNG bytes of the whole page."""
-        return base64.b64decode(self.call("WebDriver:TakeScreenshot", {"full": True})["value"])
+    def screenshot(self, selector=None):
+        """PNG bytes of the whole page, or of an element."""
+        what = {"full": True}
+        if selector:
+            found = self.call("WebDriver:FindElement", {"using": "css selector", "value": selector})["value"]
+            what = {"id": next(iter(found.values()))}
+        return base64.b64decode(self.call("WebDriver:TakeScreenshot", what)["value"])
