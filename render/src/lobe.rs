@@ -33,10 +33,11 @@ pub fn schlick_of_diffuse(cos: X8) -> X8 {
 #[inline]
 pub fn cosine_of_schlick(weight: X8) -> X8 {
     let one = X8::lit(1.0);
-    let weight = min(max(weight, X8::lit(1e-20)), one);
-    // Newton's method for the fifth root, from the fourth one
-    let mut root = weight.sqrt().sqrt();
-    for _ in 0..5 {
+    let weight = min(max(weight, X8::lit(1e-15)), one);
+    // Newton's method for the fifth root, from the power 3/16, which is a little above it
+    let eighth = weight.sqrt().sqrt().sqrt();
+    let mut root = eighth * eighth.sqrt();
+    for _ in 0..4 {
         let square = root * root;
         root = X8::lit(0.8).mul_add(root, X8::lit(0.2) * weight / (square * square));
     }
