@@ -396,11 +396,13 @@ impl<'a> Paths<'a> {
                     factor * if is_mixed { select(rough, weight, one) } else { weight }
                 }
             };
+            found[p] = product(color, chosen.radiance) * (factor / pdf);
+            // a sky or a profile may be dark in a direction, and a surface black
+            lit[p] = lit[p] & found[p].x.greater(found[p].y).greater(found[p].z).gt(zero);
             self.count.shadow += u64::from(lit[p].bits().count_ones());
             rays[1][p] = scene.surfaces.bvh.rays(surface.point, sample.direction).leaving(places[p].primitives);
             limit[p] = sample.distance * X8::lit(COVERED);
             target[p] = chosen.shape;
-            found[p] = product(color, chosen.radiance) * (factor / pdf);
             if is_closed && let Some(counted) = counted {
                 let part = X8::from_fn(|lane| {
                     counted.get(choice.index.as_array()[lane] as usize).map_or(0.0, |of| of[p].lane(lane))
