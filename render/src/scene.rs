@@ -80,6 +80,7 @@ mod materials;
 mod message;
 mod named_materials;
 mod params;
+mod patches;
 mod ply;
 mod portal_sides;
 mod portals;

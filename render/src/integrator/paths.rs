@@ -10,6 +10,7 @@ use super::choice::Which;
 use super::end::{End, bsdf, keep, product};
 use super::known::Survey;
 use super::prepared::PreparedScene;
+use super::radiance::Radiance;
 use super::settings::{RayCount, Settings};
 use crate::bsdf::{Evaluated, Scattered};
 use crate::bvh::{GROUP, Hits, NOTHING, Rays, SHAPE, Scratch};
@@ -26,32 +27,6 @@ use etendue::{Mask, Real, Vec2, u32x8};
 
 /// Fraction of the distance to a light that a shadow ray covers: it stops short, so that surfaces touching the light do not occlude it.
 const COVERED: f64 = 1.0 - SPARED;
-
-/// Radiance along camera rays.
-#[derive(Clone, Copy, Default)]
-pub(super) struct Radiance {
-    /// Radiance of the lights and the sky that the camera sees.
-    pub(super) seen: V8,
-    /// Radiance reflected by surfaces that is computed without samples of lights.
-    pub(super) known: V8,
-    /// Radiance reflected by surfaces, apart from that.
-    pub(super) reflected: V8,
-}
-
-impl Radiance {
-    pub(super) fn total(&self) -> V8 {
-        self.seen + self.known + self.reflected
-    }
-    /// The same radiance where the mask is true, and 0 elsewhere.
-    #[inline]
-    pub(super) fn keep(&self, mask: M8) -> Self {
-        Self { seen: keep(self.seen, mask), known: keep(self.known, mask), reflected: keep(self.reflected, mask) }
-    }
-    #[inline]
-    pub(super) fn times(&self, weight: X8) -> Self {
-        Self { seen: self.seen * weight, known: self.known * weight, reflected: self.reflected * weight }
-    }
-}
 
 /// Random numbers of each packet of a group.
 pub(super) struct Numbers {
