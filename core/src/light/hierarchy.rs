@@ -189,21 +189,20 @@ impl<'a> Hierarchy<'a> {
     pub(super) fn fill(buffer: &mut [f32], size: [u32; 2], weight: impl Fn(usize, usize) -> f64) -> Option<()> {
         let [width, height] = size.map(|n| n as usize);
         let mut boxes = buffer.chunks_exact_mut(ENTRIES);
-        for Level { log, across, part, .. } in Levels::new(size) {
+        for Level { log, across, part: side, .. } in Levels::new(size) {
             let rows = size[1].div_ceil(1 << log);
             for (row, column) in
                 (0..rows as usize).flat_map(|row| (0..across as usize).map(move |column| (row, column)))
             {
-                let weight = |y: usize, x: usize| -> f64 {
-                    // from and to which column or row, of a box that begins there
+                let part = |y: usize, x: usize| -> f64 {
                     let cells = |begin: usize, i: usize, n: usize| {
                         let end = ((begin + 1) << log).min(n);
-                        ((begin << log) + (i << part)).min(end)..((begin << log) + ((i + 1) << part)).min(end)
+                        ((begin << log) + (i << side)).min(end)..((begin << log) + ((i + 1) << side)).min(end)
                     };
                     let columns = cells(column, x, width);
                     cells(row, y, height).map(|y| columns.clone().map(|x| weight(x, y)).sum::<f64>()).sum()
                 };
-                let parts: [[f64; 4]; 4] = core::array::from_fn(|y| core::array::from_fn(|x| weight(y, x)));
+                let parts: [[f64; 4]; 4] = core::array::from_fn(|y| core::array::from_fn(|x| part(y, x)));
                 let entries = boxes.next()?;
                 entries[0..3].copy_from_slice(&shares(parts.map(|row| row.iter().sum())));
                 for (entries, row) in entries[3..].chunks_exact_mut(3).zip(parts) {

@@ -69,9 +69,8 @@ impl Region {
 /// projected solid angle as seen from a point.
 ///
 /// - Formula: a box of 2ᵏ × 2ᵏ texels is cut into four rows of boxes, and one of these rows into its four boxes, until one texel is left;
-///   once, if k is odd, into two and two.
-///   Of the part with the radiance Lᵢ and the measure mᵢ per area, the share is Lᵢmᵢ/ΣLⱼmⱼ. What is left of u₁ after the cuts between
-///   rows, and of u₀ after those between columns, is the position in the texel.
+///   once, if k is odd, into two and two. Of the part with the radiance Lᵢ and the measure mᵢ per area, the share is Lᵢmᵢ/ΣLⱼmⱼ. What is
+///   left of u₁ after the cuts between rows, and of u₀ after those between columns, is the position in the texel.
 /// - Exact probabilities: each part that has radiance keeps a step of 2⁻²⁴ of `u` for each of its columns or rows, and the other steps are
 ///   divided in proportion to the shares, rounded to whole ones. So the pmf of a texel is what is drawn, the product of two multiples of
 ///   2⁻²⁴, and no texel with radiance is lost.
