@@ -87,6 +87,7 @@ mod portals;
 mod profiles;
 mod reader;
 mod shape_attributes;
+mod shape_state;
 mod shapes;
 mod sources;
 mod spectrum;
