@@ -377,11 +377,10 @@ fn shares_at<R: Real>(entries: &[f32], first: R::Uint) -> [R; 3] {
         entries.get(first..first + 4).and_then(|four| four.try_into().ok()).unwrap_or([1.0; 4])
     };
     let scalar = |x: f32| R::Scalar::lit(f64::from(x));
-    if R::LANES % 4 != 0 {
-        let [a, b, c, _] = four(0);
-        return [a, b, c].map(|share| R::splat(scalar(share)));
-    }
     let mut shares = [[[0.0; 4]; 4]; 4];
+    if R::LANES % 4 != 0 || R::LANES > 4 * shares.len() {
+        return [0, 1, 2].map(|k| R::from_fn(|lane| scalar(four(lane)[k])));
+    }
     for (k, shares) in shares.iter_mut().enumerate().take(R::LANES / 4) {
         *shares = f32x4::transpose(core::array::from_fn(|lane| four(k * 4 + lane).into())).map(f32x4::to_array);
     }
