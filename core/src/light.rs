@@ -96,6 +96,7 @@ mod disk;
 mod distant;
 mod environment;
 mod flat;
+mod hierarchy;
 mod line;
 mod opening;
 mod patch;

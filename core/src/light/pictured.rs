@@ -1,6 +1,7 @@
 //! Lights with pictures, prepared for a shading point.
 
-use super::picture::{Box2, Drawn, Halves, Picture};
+use super::hierarchy::{Box2, Drawn, Measure};
+use super::picture::Picture;
 use super::sample::LightSample;
 use super::sampler::LightSampler;
 use super::surface::SurfaceHit;
@@ -56,7 +57,7 @@ impl<R: Real> Texel<R> {
 }
 
 /// A surface whose texels can be sampled, relative to the shading point.
-pub(super) trait TexelSurface<R: Real>: Halves<R> {
+pub(super) trait TexelSurface<R: Real>: Measure<R> {
     /// True where a direction determines the pdf, so that a sample reports that of its direction.
     const FLAT: bool;
     /// The nearest point in the unit direction `w`.
@@ -114,9 +115,9 @@ impl<R: Real, S: TexelSurface<R>> ByPicture<'_, R, S> {
     #[inline]
     pub fn draw(&self, u: Vec2<R>) -> PictureSample<R> {
         let (drawn, within) = self.picture.draw(u, &self.surface);
-        let light = self.surface.draw(&self.texel(drawn.texel), within);
+        let light = self.surface.draw(&self.texel(drawn.cell), within);
         let pdf = Self::density(&drawn, light.pdf).keep(self.picture.region().contains(light.uv));
-        PictureSample { light: LightSample { pdf, ..light }, x: drawn.texel.x.to_uint(), y: drawn.texel.y.to_uint() }
+        PictureSample { light: LightSample { pdf, ..light }, x: drawn.cell.x.to_uint(), y: drawn.cell.y.to_uint() }
     }
     #[inline(always)]
     fn texel(&self, at: Vec2<R>) -> Texel<R> {

@@ -112,7 +112,7 @@ fn artanh_over<R: Real>(mut square: R, mut rest: R) -> R {
         let part = one / (one + rest.greater(R::lit(0.0)).sqrt());
         square = square * part * part;
         rest = one - square;
-        factor = factor * (part + part);
+        factor *= part + part;
     }
     factor * polynomial(square, [1.0, 1.0 / 3.0, 1.0 / 5.0, 1.0 / 7.0, 1.0 / 9.0, 1.0 / 11.0, 1.0 / 13.0])
 }

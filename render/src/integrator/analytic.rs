@@ -4,6 +4,7 @@
 //! what a square of 4 × 4 pixels sees of it. (Certificates for single pixels save less time than they take.) A surface seen through a lens
 //! or in a mirror is certified as a whole.
 
+use super::exact::Exact;
 use super::known::{AreaLight, Closed, Fitted, Known, Survey};
 use super::prepared::PreparedScene;
 use super::settings::{Settings, TILE};
@@ -12,13 +13,12 @@ use crate::camera::{Camera, Pinhole};
 use crate::certificates::{ALLOWED, Blocker, Bodies, Certificate, Certifier, Patch, Precision, Pyramid, Viewer};
 use crate::geometry::Geometry;
 use crate::lobe::Lobe;
-use crate::packet::{M8, V8, X8, each_bit, equal, select, widen_points};
+use crate::packet::{M8, V8, X8, each_bit, equal, select};
 use crate::surfaces::{Surface, Surfaces};
 use etendue::occlusion::{Convex, Occlusion, Polyhedron};
-use etendue::{Mask, Real, Vec3, f64x4, u32x8};
+use etendue::{Mask, Real, Vec3, u32x8};
 use std::collections::HashMap;
 use std::f64::consts::FRAC_1_PI;
-use std::ops::Range;
 
 /// Sides of the squares of pixels that have certificates of their own. Each square lies within one of the side before.
 const SIDES: [u32; 2] = [TILE, 4];
@@ -63,36 +63,6 @@ impl Default for Places {
             fitted: M8::splat(false),
             pixel: None,
         }
-    }
-}
-
-/// What closed forms in double precision need.
-#[derive(Default)]
-struct Exact<'a> {
-    /// Made when it is first needed.
-    occlusion: Option<Box<Occlusion<f64x4>>>,
-    polyhedra: Vec<Polyhedron<'a, f64>>,
-    forms: Vec<Convex<f64>>,
-}
-
-impl Exact<'_> {
-    /// As of [`Occlusion::visible_past`], for four lanes at a time.
-    fn visible_past(
-        &mut self,
-        point: V8,
-        normal: V8,
-        light: &Convex<f32>,
-        forms: Range<usize>,
-        bodies: Range<usize>,
-    ) -> Option<X8> {
-        let (light, forms, bodies) = (light.map(f64::from), &self.forms[forms], &self.polyhedra[bodies]);
-        let occlusion = self.occlusion.get_or_insert_default();
-        let mut visible = [0.0; 8];
-        for (half, (point, normal)) in widen_points(point).into_iter().zip(widen_points(normal)).enumerate() {
-            let part = occlusion.visible_past(point, normal, &light, forms, bodies)?.to_array();
-            (0..4).for_each(|lane| visible[4 * half + lane] = part[lane] as f32);
-        }
-        Some(X8::from(visible))
     }
 }
 

@@ -10,6 +10,7 @@ use super::choice::Which;
 use super::end::{End, bsdf, keep, product};
 use super::known::{Fitted, Survey};
 use super::prepared::PreparedScene;
+use super::radiance::Radiance;
 use super::settings::{RayCount, Settings};
 use crate::bsdf::{Evaluated, Scattered};
 use crate::bvh::{GROUP, Hits, NOTHING, Rays, SHAPE, Scratch};
@@ -27,32 +28,6 @@ use etendue::{Mask, Real, Vec2, u32x8};
 
 /// Fraction of the distance to a light that a shadow ray covers: it stops short, so that surfaces touching the light do not occlude it.
 const COVERED: f64 = 1.0 - SPARED;
-
-/// Radiance along camera rays.
-#[derive(Clone, Copy, Default)]
-pub(super) struct Radiance {
-    /// Radiance of the lights and the sky that the camera sees.
-    pub(super) seen: V8,
-    /// Radiance reflected by surfaces that is computed without samples of lights.
-    pub(super) known: V8,
-    /// Radiance reflected by surfaces, apart from that.
-    pub(super) reflected: V8,
-}
-
-impl Radiance {
-    pub(super) fn total(&self) -> V8 {
-        self.seen + self.known + self.reflected
-    }
-    /// The same radiance where the mask is true, and 0 elsewhere.
-    #[inline]
-    pub(super) fn keep(&self, mask: M8) -> Self {
-        Self { seen: keep(self.seen, mask), known: keep(self.known, mask), reflected: keep(self.reflected, mask) }
-    }
-    #[inline]
-    pub(super) fn times(&self, weight: X8) -> Self {
-        Self { seen: self.seen * weight, known: self.known * weight, reflected: self.reflected * weight }
-    }
-}
 
 /// Random numbers of each packet of a group.
 pub(super) struct Numbers {
@@ -430,7 +405,6 @@ impl<'a> Paths<'a> {
             rays[1][p] = scene.surfaces.bvh.rays(surface.point, sample.direction).leaving(places[p].primitives);
             limit[p] = sample.distance * X8::lit(COVERED);
             target[p] = chosen.shape;
-            found[p] = product(color, chosen.radiance) * (factor / pdf);
             if is_closed && let Some(counted) = counted {
                 let part = X8::from_fn(|lane| {
                     counted.get(choice.index.as_array()[lane] as usize).map_or(0.0, |of| of[p].lane(lane))
@@ -441,6 +415,8 @@ impl<'a> Paths<'a> {
                 reflected[p] += keep(found[p], lit[p] & seen);
                 lit[p] = lit[p] & !seen;
             }
+            // a sky or a profile may be dark in a direction, and a surface black
+            lit[p] = lit[p] & found[p].max_abs().gt(zero);
             self.count.shadow += u64::from(lit[p].bits().count_ones());
         }
         self.add_unoccluded(count, &found, lit, &limit, &target, reflected);
