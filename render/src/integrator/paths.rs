@@ -402,6 +402,7 @@ impl<'a> Paths<'a> {
                     factor * if is_mixed { select(rough, weight, one) } else { weight }
                 }
             };
+            found[p] = product(color, chosen.radiance) * (factor / pdf);
             rays[1][p] = scene.surfaces.bvh.rays(surface.point, sample.direction).leaving(places[p].primitives);
             limit[p] = sample.distance * X8::lit(COVERED);
             target[p] = chosen.shape;
