@@ -84,7 +84,7 @@ pub(super) struct Analytic<'a> {
     pub(super) forms: Vec<Convex<f32>>,
     pub(super) polyhedra: Vec<Polyhedron<'a, f32>>,
     /// The same in double precision.
-    exact: Exact<'a>,
+    pub(super) exact: Exact<'a>,
     /// Whether certificates are not worth asking for in this tile.
     pub(super) hopeless: bool,
     /// Whether all lights are known at all places of the tile that were looked at.
@@ -435,7 +435,7 @@ impl<'a> Analytic<'a> {
                             let (point, normal) = (of(surface.point), of(surface.normal));
                             let form = &light.form;
                             let visible = if *precision == Precision::Double {
-                                self.exact.visible_past(point, normal, form, forms.clone(), bodies.clone())
+                                self.exact.visible_past(point, normal, None, form, forms.clone(), bodies.clone())
                             } else {
                                 let (forms, bodies) = (&self.forms[forms.clone()], &self.polyhedra[bodies.clone()]);
                                 self.occlusion.visible_past(point, normal, form, forms, bodies)
@@ -475,7 +475,7 @@ impl<'a> Analytic<'a> {
                     part += all.unwrap_or_default().keep(lit);
                 }
                 if lit_exactly.any() {
-                    let all = self.exact.visible_past(surface.point, surface.normal, &light.form, 0..0, 0..0);
+                    let all = self.exact.visible_past(surface.point, surface.normal, None, &light.form, 0..0, 0..0);
                     part += all.unwrap_or_default().keep(lit_exactly);
                 }
                 sum += V8::from(light.radiance) * part;

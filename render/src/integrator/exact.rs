@@ -1,8 +1,9 @@
 //! Closed forms in double precision, for packets of single precision.
 
 use crate::packet::{V8, X8, widen_points};
-use etendue::f64x4;
 use etendue::occlusion::{Convex, Occlusion, Polyhedron};
+use etendue::reflection::Reflection;
+use etendue::{Real, f64x4};
 use std::ops::Range;
 
 /// What closed forms in double precision need.
@@ -15,11 +16,12 @@ pub(super) struct Exact<'a> {
 }
 
 impl Exact<'_> {
-    /// As of [`Occlusion::visible_past`], for four lanes at a time.
+    /// As of [`Occlusion::visible_past`], or with a lobe of [`Occlusion::reflected`], for four lanes at a time.
     pub(super) fn visible_past(
         &mut self,
         point: V8,
         normal: V8,
+        lobe: Option<&Reflection<X8>>,
         light: &Convex<f32>,
         forms: Range<usize>,
         bodies: Range<usize>,
@@ -28,7 +30,14 @@ impl Exact<'_> {
         let occlusion = self.occlusion.get_or_insert_default();
         let mut visible = [0.0; 8];
         for (half, (point, normal)) in widen_points(point).into_iter().zip(widen_points(normal)).enumerate() {
-            let part = occlusion.visible_past(point, normal, &light, forms, bodies)?.to_array();
+            let part = match lobe {
+                Some(lobe) => {
+                    let lobe = lobe.map(|x| f64x4::from_fn(|lane| x.lane_f64(4 * half + lane)));
+                    occlusion.reflected(point, normal, &lobe, &light, forms, bodies)?
+                }
+                None => occlusion.visible_past(point, normal, &light, forms, bodies)?,
+            };
+            let part = part.to_array();
             (0..4).for_each(|lane| visible[4 * half + lane] = part[lane] as f32);
         }
         Some(X8::from(visible))

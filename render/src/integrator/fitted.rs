@@ -56,10 +56,9 @@ impl Analytic<'_> {
 
     /// What the fits in some lanes, whose certificates begin at `first`, reflect of a light, if that is known.
     fn fit(&mut self, surface: &Surface, lobe: &Lobe, lanes: M8, first: usize, light: usize) -> Option<V8> {
-        let (forms, bodies) = match &self.known[first + light] {
-            Known::Lit(_) => (0..0, 0..0),
-            // in double precision it would take longer than the samples that it saves
-            Known::Behind(forms, bodies, Precision::Single) => (forms.clone(), bodies.clone()),
+        let (forms, bodies, precision) = match &self.known[first + light] {
+            Known::Lit(_) => (0..0, 0..0, Precision::Single),
+            Known::Behind(forms, bodies, precision) => (forms.clone(), bodies.clone(), *precision),
             _ => return None,
         };
         let AreaLight { form, radiance, closed } = self.lights[light];
@@ -72,13 +71,18 @@ impl Analytic<'_> {
         let (point, normal) = (of(surface.point), of(surface.normal));
         let one = Reflection::splat(lobe.reflection.map(|x| x.lane(lane)));
         let reflection = Reflection::blend(lanes, lobe.reflection, one);
-        let (forms, bodies) = (&self.forms[forms], &self.polyhedra[bodies]);
-        let shine = self.occlusion.reflected(point, normal, &reflection, &form, forms, bodies)?;
-        let diffuse = if (lobe.coats & lanes).any() {
-            self.occlusion.visible_past(point, normal, &form, forms, bodies)?
-        } else {
-            X8::default()
+        let mut part = |lobe: Option<&Reflection<X8>>| {
+            if precision == Precision::Double {
+                return self.exact.visible_past(point, normal, lobe, &form, forms.clone(), bodies.clone());
+            }
+            let (forms, bodies) = (&self.forms[forms.clone()], &self.polyhedra[bodies.clone()]);
+            match lobe {
+                Some(lobe) => self.occlusion.reflected(point, normal, lobe, &form, forms, bodies),
+                None => self.occlusion.visible_past(point, normal, &form, forms, bodies),
+            }
         };
+        let shine = part(Some(&reflection))?;
+        let diffuse = if (lobe.coats & lanes).any() { part(None)? } else { X8::default() };
         let all = (lobe.specular * shine + lobe.diffuse * diffuse) * X8::lit(FRAC_1_PI);
         Some(product(all, V8::from(radiance)))
     }
