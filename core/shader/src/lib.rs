@@ -37,12 +37,26 @@
 //! In the core, `if mask.any()` marks a path that few calls need. A recorded mask is neither all true nor all false, as in a packet whose
 //! lanes differ, so that both sides are recorded, and the graph keeps the condition. [`plan`] then puts into an `if` whatever is used
 //! only where the condition holds. [`Real::where_any`](etendue::Real::where_any) says the same of several numbers at once, and
-//! [`Real::iterate`](etendue::Real::iterate) is a loop. Other loops of the core have constant bounds, and are written out.
+//! [`Real::iterate`](etendue::Real::iterate) is a loop, with counters
+//! [`Real::iterate_with_words`](etendue::Real::iterate_with_words). Other loops of the core have constant bounds, and are written out.
 //!
 //! What a routine asks of one lane as a number of Rust ([`Real::lane_f64`](etendue::Real::lane_f64), a comparison of scalars, the bits of a
 //! mask) is known for constants alone; anything else panics with a message. Tables of images, pictures, profiles and portals, trees, and
 //! what occluders leave visible do ask that, and so does the exponential function, of which [`GeneralSky`](etendue::light::GeneralSky)
 //! consists: they are not here. A host looks such a sky up in a texture.
+//!
+//! # Memory
+//! A routine of the core that reads tables takes them as a [`Memory`](etendue::memory::Memory); recorded, that is [`Words`]. In a source all
+//! tables are in one buffer of words of 32 bits, and a function is told at which word its table begins. An index past the end reads the last
+//! word, in every language.
+//!
+//! | language | the buffer |
+//! |---|---|
+//! | C, C++, CUDA, HIP, OpenCL C | the first parameter, `EtendueMemory`: a pointer to constant (in OpenCL, global) memory, and a count |
+//! | WGSL, SPIR-V | a storage buffer `etendue_memory`, group (set) 0, binding 0 |
+//! | GLSL | a buffer with the binding 0; `glsl-es` then is GLSL ES 3.10, since 3.00 and WebGL 2 have none |
+//! | HLSL | a `ByteAddressBuffer` at register t0 |
+//! | Metal | the last two parameters: the buffer, and its size in bytes |
 //!
 //! # Size
 //! We compare the operations of each function of a light with the instructions of the scalar Rust routine, compiled for x86-64-v3, where
@@ -78,7 +92,7 @@ pub use list::{
 };
 pub use module::{Access, Field, Function, Leaf, Module, Parameter, Struct, Type};
 pub use names::{pascal, snake};
-pub use number::{Inner, Number, Truth, Word, record};
+pub use number::{Inner, Number, Truth, Word, Words, record};
 pub use plan::{Plan, Step, plan};
 pub use print::{C, Dialect, Wgsl, function_name, print, struct_name};
 pub use record::{add_calls, add_technique, add_warp};

@@ -32,6 +32,12 @@ pub fn function_name(name: &str) -> String {
 /// A module in a language. `how` is a sentence about how the file was made.
 pub fn print(module: &Module, language: &impl Dialect, how: &str) -> String {
     let mut text = language.begin(how);
+    if module.reads_memory() {
+        text.truncate(text.trim_end().len());
+        text += "\n";
+        text += language.memory();
+        text += "\n";
+    }
     for of in &module.structs {
         text += &comment(&of.doc, "");
         text += &language.open_struct(&struct_name(&of.name));
@@ -58,12 +64,14 @@ struct Printer<'a, D> {
     /// The numbers of variables, in the order of their declarations.
     names: Vec<Option<u32>>,
     declared: u32,
+    /// How many loops are around a statement.
+    depth: usize,
 }
 
 impl<'a, D: Dialect> Printer<'a, D> {
     fn new(module: &'a Module, function: &'a Function, language: &'a D) -> Self {
         let names = vec![None; function.graph.nodes().len()];
-        Self { module, function, language, plan: plan(function), names, declared: 0 }
+        Self { module, function, language, plan: plan(function), names, declared: 0, depth: 0 }
     }
     fn type_name(&self, of: Type) -> String {
         match of {
@@ -140,6 +148,7 @@ impl<'a, D: Dialect> Printer<'a, D> {
             let all: Vec<&str> = all.iter().map(|operand| operand.text.as_str()).collect();
             Expression::atom(format!("{name}({})", all.join(", ")))
         };
+        let memory = || self.language.memory_parameter().map(|(_, name)| format!("{name}, ")).unwrap_or_default();
         let binary = |token: &str, level: Level| Expression::binary(&all[0], token, &all[1], level);
         // of truth values, parentheses tell more than precedence
         let apart = |token: &str| Expression::apart(&all[0], token, &all[1]);
@@ -160,6 +169,11 @@ impl<'a, D: Dialect> Printer<'a, D> {
             Op::WordXor => apart("^"),
             Op::WordShl(bits) => Expression::apart(&all[0], "<<", &Expression::atom(self.language.word(bits))),
             Op::WordShr(bits) => Expression::apart(&all[0], ">>", &Expression::atom(self.language.word(bits))),
+            Op::WordShrBy => {
+                let bits = Expression::apart(&all[1], "&", &Expression::atom(self.language.word(31)));
+                Expression::apart(&all[0], ">>", &bits)
+            }
+            Op::Load => Expression::atom(format!("etendue_load({}{})", memory(), all[0].text)),
             Op::WordAny => Expression::apart(&all[0], "!=", &Expression::atom(self.language.word(0))),
             Op::Select => self.language.select(&all[0], &all[1], &all[2]),
             Op::Part(k) => Expression::atom(format!("{}{}", all[0].text, [".x", ".y"][k as usize])),
@@ -245,8 +259,11 @@ impl<'a, D: Dialect> Printer<'a, D> {
                     let masks = of.variables[of.variables.len() - of.masks..].iter().map(|&mask| self.name(mask));
                     let condition = masks.collect::<Vec<_>>().join(&format!(" {} ", self.language.or()));
                     let condition = if of.masks > 1 { format!("({condition})") } else { condition };
-                    put(text, &self.language.open_loop(of.most, &condition));
+                    let counter = ["i", "j", "k"][self.depth.min(2)];
+                    put(text, &self.language.open_loop(counter, of.most, &condition));
+                    self.depth += 1;
                     self.steps(inner, indent + 1, text);
+                    self.depth -= 1;
                     for line in self.next(of) {
                         put(text, &format!("    {line}"));
                     }
@@ -258,8 +275,10 @@ impl<'a, D: Dialect> Printer<'a, D> {
     }
     fn function(mut self) -> String {
         let parameters = self.function.parameters.iter();
-        let parameters: Vec<_> =
-            parameters.map(|of| self.language.parameter(&self.type_name(of.of), &of.name)).collect();
+        let parameters = parameters.map(|of| self.language.parameter(&self.type_name(of.of), &of.name));
+        let memory = self.language.memory_parameter().filter(|_| self.function.reads_memory());
+        let memory = memory.map(|(of, name)| self.language.parameter(of, name));
+        let parameters: Vec<_> = memory.into_iter().chain(parameters).collect();
         let result = self.type_name(self.function.result);
         let name = function_name(&self.function.name);
         let mut text = self.language.open_function(&result, &name, &parameters.join(", "));

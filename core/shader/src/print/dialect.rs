@@ -64,6 +64,10 @@ pub trait Dialect {
     fn begin(&self, how: &str) -> String;
     /// The end of a file.
     fn end(&self) -> String;
+    /// What functions read words of memory by.
+    fn memory(&self) -> &'static str;
+    /// The type and the name of the parameter through which functions get the memory, unless it is the same for all.
+    fn memory_parameter(&self) -> Option<(&'static str, &'static str)>;
     /// The name of a type.
     fn leaf(&self, leaf: Leaf) -> &'static str;
     /// A constant, exactly.
@@ -94,8 +98,8 @@ pub trait Dialect {
     fn variable(&self, of: Leaf, name: &str) -> String;
     /// A variable with a first value.
     fn mutable(&self, of: Leaf, name: &str, value: &str) -> String;
-    /// The first line of a loop that repeats while a condition holds, at most so many times.
-    fn open_loop(&self, most: usize, condition: &str) -> String;
+    /// The first line of a loop that repeats while a condition holds, at most so many times; `counter` counts them.
+    fn open_loop(&self, counter: &str, most: usize, condition: &str) -> String;
     /// What tells a compiler that a parameter is not used, if it needs that.
     fn unused(&self, name: &str) -> Option<String>;
     /// The variable `result`.
