@@ -325,6 +325,11 @@ impl Graph {
                     _ => (a == b).then_some(a),
                 }
             }
+            Op::WordShl(0) | Op::WordShr(0) => Some(a),
+            Op::WordAdd | Op::WordOr | Op::WordXor if self.word(a) == Some(0) => Some(b),
+            Op::WordAdd | Op::WordSub | Op::WordOr | Op::WordXor if self.word(b) == Some(0) => Some(a),
+            Op::WordMul if self.word(a) == Some(1) => Some(b),
+            Op::WordMul if self.word(b) == Some(1) => Some(a),
             Op::Not => match self.truth(a) {
                 Some(value) => Some(self.add_truth(!value)),
                 None => (self.node(a).op == Op::Not).then(|| self.node(a).operands()[0]),

@@ -152,6 +152,7 @@ impl<'a, D: Dialect> Printer<'a, D> {
         let binary = |token: &str, level: Level| Expression::binary(&all[0], token, &all[1], level);
         // of truth values, parentheses tell more than precedence
         let apart = |token: &str| Expression::apart(&all[0], token, &all[1]);
+        let bits = |token: &str, other: &Expression| Expression::bits(&all[0], token, other);
         match graph.node(id).op {
             Op::Add | Op::WordAdd => binary("+", Level::Sum),
             Op::Sub | Op::WordSub => binary("-", Level::Sum),
@@ -164,14 +165,14 @@ impl<'a, D: Dialect> Printer<'a, D> {
             Op::And => Expression::chain(&all[0], self.language.and(), &all[1], Level::And),
             Op::Or => Expression::chain(&all[0], self.language.or(), &all[1], Level::Or),
             Op::Xor => apart("!="),
-            Op::WordAnd => apart("&"),
-            Op::WordOr => apart("|"),
-            Op::WordXor => apart("^"),
-            Op::WordShl(bits) => Expression::apart(&all[0], "<<", &Expression::atom(self.language.word(bits))),
-            Op::WordShr(bits) => Expression::apart(&all[0], ">>", &Expression::atom(self.language.word(bits))),
+            Op::WordAnd => bits("&", &all[1]),
+            Op::WordOr => bits("|", &all[1]),
+            Op::WordXor => bits("^", &all[1]),
+            Op::WordShl(count) => bits("<<", &Expression::atom(self.language.word(count))),
+            Op::WordShr(count) => bits(">>", &Expression::atom(self.language.word(count))),
             Op::WordShrBy => {
-                let bits = Expression::apart(&all[1], "&", &Expression::atom(self.language.word(31)));
-                Expression::apart(&all[0], ">>", &bits)
+                let low = Expression::atom(self.language.word(31));
+                bits(">>", &Expression::bits(&all[1], "&", &low))
             }
             Op::Load => Expression::atom(format!("etendue_load({}{})", memory(), all[0].text)),
             Op::WordAny => Expression::apart(&all[0], "!=", &Expression::atom(self.language.word(0))),
@@ -202,7 +203,7 @@ impl<'a, D: Dialect> Printer<'a, D> {
         let (&Step::Let(id) | &Step::Declare(id) | &Step::Assign(id)) = step else { panic!("{step:?} has statements") };
         // the variables that get a value, each with that
         let variables: Vec<(Id, Option<Id>)> = match self.function.graph.as_loop(id) {
-            Some(of) => of.variables.iter().copied().zip(of.first().iter().map(|&first| Some(first))).collect(),
+            Some(of) => self.varying(of).map(|k| (of.variables[k], Some(of.first()[k]))).collect(),
             None => vec![(id, None)],
         };
         let line = |(id, first): (Id, Option<Id>)| {
@@ -225,10 +226,19 @@ impl<'a, D: Dialect> Printer<'a, D> {
         };
         variables.into_iter().map(line).collect()
     }
+    /// The variables of a loop, without a mask that always holds.
+    fn varying(&self, of: &Loop) -> impl Iterator<Item = usize> + use<D> {
+        let holds = |id: Id| self.function.graph.truth(id) == Some(true);
+        let count = of.variables.len();
+        let always = of.masks == 1 && holds(of.first()[count - 1]) && holds(of.next[count - 1]);
+        0..count - usize::from(always)
+    }
     /// The next values of the variables of a loop.
     fn next(&mut self, of: &Loop) -> Vec<String> {
         let (mut copies, mut lines) = (Vec::new(), Vec::new());
-        for (&variable, &next) in of.variables.iter().zip(&of.next).filter(|(variable, next)| variable != next) {
+        let varying: Vec<usize> = self.varying(of).collect();
+        let pairs = varying.into_iter().map(|k| (of.variables[k], of.next[k]));
+        for (variable, next) in pairs.filter(|(variable, next)| variable != next) {
             let mut value = self.value(next).text;
             // one that gets its own next value before is copied
             if of.variables.contains(&next) {
@@ -256,9 +266,14 @@ impl<'a, D: Dialect> Printer<'a, D> {
                 Step::Loop(id, ref inner) => {
                     let graph = &self.function.graph;
                     let of = graph.as_loop(id).expect("a loop is one");
-                    let masks = of.variables[of.variables.len() - of.masks..].iter().map(|&mask| self.name(mask));
+                    let masks =
+                        self.varying(of).skip(of.variables.len() - of.masks).map(|k| self.name(of.variables[k]));
                     let condition = masks.collect::<Vec<_>>().join(&format!(" {} ", self.language.or()));
-                    let condition = if of.masks > 1 { format!("({condition})") } else { condition };
+                    let condition = match of.masks {
+                        _ if condition.is_empty() => condition,
+                        1 => format!(" && {condition}"),
+                        _ => format!(" && ({condition})"),
+                    };
                     let counter = ["i", "j", "k"][self.depth.min(2)];
                     put(text, &self.language.open_loop(counter, of.most, &condition));
                     self.depth += 1;

@@ -107,7 +107,7 @@ impl Dialect for C {
         format!("{} {name} = {value};", self.leaf(of))
     }
     fn open_loop(&self, counter: &str, most: usize, condition: &str) -> String {
-        format!("for (int {counter} = 0; {counter} < {most} && {condition}; ++{counter}) {{")
+        format!("for (int {counter} = 0; {counter} < {most}{condition}; ++{counter}) {{")
     }
     fn unused(&self, name: &str) -> Option<String> {
         Some(format!("(void){name};"))

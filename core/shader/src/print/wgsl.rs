@@ -98,7 +98,7 @@ impl Dialect for Wgsl {
         format!("var {name} = {value};")
     }
     fn open_loop(&self, counter: &str, most: usize, condition: &str) -> String {
-        format!("for (var {counter} = 0; {counter} < {most} && {condition}; {counter}++) {{")
+        format!("for (var {counter} = 0; {counter} < {most}{condition}; {counter}++) {{")
     }
     fn unused(&self, _: &str) -> Option<String> {
         None
