@@ -27,7 +27,7 @@
 //! # What is written
 //! For each light by each technique a struct of the light, a struct of what is prepared for a shading point, and the functions `prepare`,
 //! `sample`, `pdf`, `hit`, `invert`, and one for what the technique is uniform over; for each warp `sample`, `pdf` and `invert`.
-//! [`Wanted`] leaves functions out, and fields of samples. What only these need is not computed, and the prepared struct has no field that
+//! [`tables`] read tables in memory, and [`tools`] are what is neither. [`Wanted`] leaves functions out, and fields of samples. What only these need is not computed, and the prepared struct has no field that
 //! no function uses, none that is constant, and none twice.
 //!
 //! Equal operations appear once. A value that is used more than once is a variable, the others are parts of expressions. Constants are
@@ -41,7 +41,7 @@
 //! [`Real::iterate_with_words`](etendue::Real::iterate_with_words). Other loops of the core have constant bounds, and are written out.
 //!
 //! What a routine asks of one lane as a number of Rust ([`Real::lane_f64`](etendue::Real::lane_f64), a comparison of scalars, the bits of a
-//! mask) is known for constants alone; anything else panics with a message. Tables of images, pictures, profiles and portals, trees, and
+//! mask) is known for constants alone; anything else panics with a message. Tables of images, pictures, profiles and portals, and
 //! what occluders leave visible do ask that, and so does the exponential function, of which [`GeneralSky`](etendue::light::GeneralSky)
 //! consists: they are not here. A host looks such a sky up in a texture.
 //!
@@ -58,6 +58,10 @@
 //! | HLSL | a `ByteAddressBuffer` at register t0 |
 //! | Metal | the last two parameters: the buffer, and its size in bytes |
 //!
+//! | table | words in memory | functions |
+//! |---|---|---|
+//! | `light_tree` | [`Node8::words`](etendue::select::Node8::words) of each node of a [`LightTree`](etendue::select::LightTree), and its places | `choose`, `choose_by`, `pmf` |
+//!
 //! # Size
 //! We compare the operations of each function of a light with the instructions of the scalar Rust routine, compiled for x86-64-v3, where
 //! whatever the routine calls counts once. In 136 of 145 functions, there are at most 1.3 times as many. The others are functions of parallelograms by projected solid angle (1.64) and of polygons of eight corners (up to
@@ -71,6 +75,7 @@
 //! shading language forbids a driver to contract a product and a sum, and SPIR-V has no decoration against it here.
 mod errors;
 mod graph;
+mod inputs;
 mod language;
 mod layout;
 mod list;
@@ -81,6 +86,7 @@ mod plan;
 mod print;
 mod record;
 mod selection;
+mod tables;
 mod tools;
 mod translate;
 mod wanted;
@@ -97,6 +103,7 @@ pub use plan::{Plan, Step, plan};
 pub use print::{C, Dialect, Wgsl, function_name, print, struct_name};
 pub use record::{add_calls, add_technique, add_warp};
 pub use selection::{Selection, lights, technique_name, warps};
+pub use tables::{add_table, tables};
 pub use tools::{add_tool, tools};
 pub use translate::{Checked, Target};
 pub use wanted::{Part, SampleField, Wanted};

@@ -71,14 +71,23 @@ impl<'a> Driver<'a> {
         };
         self.module.parts(of).into_iter().map(place).collect()
     }
+    /// What each of them is.
+    fn leaves(&self, of: Type) -> Vec<Leaf> {
+        let leaf = |(field, _): (Option<usize>, Option<usize>)| match (of, field) {
+            (Type::Struct(of), Some(field)) => self.module.structs[of].fields[field].leaf,
+            (Type::Leaf(leaf), _) => leaf,
+            (Type::Struct(_), None) => panic!("a struct has fields"),
+        };
+        self.module.parts(of).into_iter().map(leaf).collect()
+    }
     /// A variable from the next inputs.
     pub(crate) fn take(&mut self, of: Type, name: &str) {
         let _ = writeln!(self.text, "    {} {name};", self.type_name(of));
-        for place in self.places(of, name) {
+        for (place, leaf) in self.places(of, name).into_iter().zip(self.leaves(of)) {
             let number = format!("in[{}]", self.inputs);
-            let value = match of {
-                Type::Leaf(Leaf::Word) => format!("etendue_bits({number})"),
-                Type::Leaf(Leaf::Truth) => format!("{number} > 0.5f"),
+            let value = match leaf {
+                Leaf::Word => format!("etendue_bits({number})"),
+                Leaf::Truth => format!("{number} > 0.5f"),
                 _ => number,
             };
             let _ = writeln!(self.text, "    {place} = {value};");
@@ -102,14 +111,16 @@ impl<'a> Driver<'a> {
     pub(crate) fn output(&mut self, name: &str, arguments: &[&str], result: &str) {
         self.call(name, arguments, result);
         let function = self.function(name).unwrap();
-        let mut places = self.places(function.result, result);
-        if function.result == Type::Leaf(Leaf::Word) {
-            // halves of words are numbers
-            places = vec![format!("({result} >> 16)"), format!("({result} & 0xffffu)")];
-        }
-        for place in places {
-            let _ = writeln!(self.text, "    out[{}] = (float){place};", self.outputs);
-            self.outputs += 1;
+        for (place, leaf) in self.places(function.result, result).into_iter().zip(self.leaves(function.result)) {
+            let numbers = match leaf {
+                // halves of words are numbers
+                Leaf::Word => vec![format!("({place} >> 16)"), format!("({place} & 0xffffu)")],
+                _ => vec![place],
+            };
+            for number in numbers {
+                let _ = writeln!(self.text, "    out[{}] = (float){number};", self.outputs);
+                self.outputs += 1;
+            }
         }
     }
     /// Compiles the source in C with a program that maps the numbers of its input to those of its output, and runs it.

@@ -5,5 +5,6 @@ mod driver;
 mod header;
 mod lights;
 mod operations;
+mod tables;
 mod tools;
 mod warps;
