@@ -89,6 +89,7 @@
 
 mod annulus;
 mod around;
+mod cells;
 mod cylinder;
 mod daylight;
 mod delta;
@@ -100,6 +101,7 @@ mod line;
 mod opening;
 mod patch;
 mod picture;
+mod picture_words;
 mod pictured;
 mod pictured_curved;
 mod pictured_flat;
@@ -115,6 +117,7 @@ mod surface;
 mod techniques;
 
 pub use annulus::{Annulus, AnnulusByArea, PlacedAnnulus};
+pub use cells::Region;
 pub use cylinder::{Cylinder, CylinderByArea, PlacedCylinder};
 pub use daylight::{GeneralSky, Moment, SunPosition};
 pub use delta::{
@@ -133,7 +136,8 @@ pub use flat::{
 pub use line::{Line, LineByAngle, LineByLength, LineByProjectedSolidAngle, PlacedLine};
 pub use opening::LuminousOpening;
 pub use patch::{BilinearPatch, PatchByArea, PlacedPatch};
-pub use picture::{Picture, Region, mean_of_bilinear};
+pub use picture::{Picture, mean_of_bilinear};
+pub use picture_words::PictureWords;
 pub use pictured::{ByPicture, PictureSample, Pictured};
 pub use pictured_curved::Curved;
 pub use pictured_flat::{Area, Flat, FlatLight, Projected, SolidAngle};

@@ -1,69 +1,9 @@
 //! Pictures on lights: which texel, in proportion to its radiance and to its measure as seen from a point.
 
-use crate::discrete::{TableError, locate};
-use crate::real::{Mask, Real, Uint, unit_interval};
+use super::cells::{Cells, Drawn, Halves, Level, Lower, Region, STEPS, Walk};
+use crate::discrete::TableError;
+use crate::real::{Real, Uint};
 use crate::vector::Vec2;
-
-/// Steps of `u` in the unit interval, and the greatest number of columns and of rows.
-const STEPS: f64 = 16_777_216.0;
-
-/// The part of the unit square of surface coordinates that a light covers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Region {
-    /// All of it: [`Rectangle`](super::Rectangle), [`Parallelogram`](super::Parallelogram).
-    Square,
-    /// The half where u + v < 1: [`Triangle`](super::Triangle).
-    Triangle,
-    /// The inscribed disk: [`Disk`](super::Disk).
-    Disk,
-}
-
-impl Region {
-    /// Part of the texel in column `x` and row `y` of w × h that the light covers, in [0, 1], to 1/64; above 0 wherever it covers any.
-    #[must_use]
-    pub fn part(self, [x, y]: [usize; 2], [w, h]: [usize; 2]) -> f64 {
-        let at = |i: usize, offset: f64, n: usize| (i as f64 + offset) / n as f64;
-        // below 0 inside, and 0 on the rim
-        let beyond = |s: f64, t: f64| match self {
-            Self::Square => -1.0,
-            Self::Triangle => s + t - 1.0,
-            Self::Disk => (s - 0.5) * (s - 0.5) + (t - 0.5) * (t - 0.5) - 0.25,
-        };
-        // the corner or the point that is nearest to the middle of the region
-        let nearest = |i: usize, n: usize| match self {
-            Self::Disk => 0.5_f64.max(at(i, 0.0, n)).min(at(i, 1.0, n)),
-            _ => at(i, 0.0, n),
-        };
-        if beyond(nearest(x, w), nearest(y, h)) >= 0.0 {
-            return 0.0;
-        }
-        let offset = |k: usize| (k as f64 + 0.5) / 8.0;
-        let points = (0..64).map(|k| {
-            let beyond = beyond(at(x, offset(k % 8), w), at(y, offset(k / 8), h));
-            if beyond < 0.0 {
-                1.0
-            } else if beyond == 0.0 {
-                0.5
-            } else {
-                0.0
-            }
-        });
-        points.sum::<f64>().max(1.0) / 64.0
-    }
-    /// Whether a point of the unit square is on the light.
-    #[inline(always)]
-    pub(super) fn contains<R: Real>(self, uv: Vec2<R>) -> R::Mask {
-        let half = R::lit(0.5);
-        match self {
-            Self::Square => R::Mask::splat(true),
-            Self::Triangle => (uv.x + uv.y).lt(R::lit(1.0)),
-            Self::Disk => {
-                let q = Vec2::new(uv.x - half, uv.y - half);
-                q.dot(q).lt(R::lit(0.25))
-            }
-        }
-    }
-}
 
 /// A picture's hierarchy, in the caller's memory: how much of the radiance of each box of texels is in its lower half.
 ///
@@ -91,9 +31,9 @@ pub struct Picture<'a> {
     values: Option<&'a [f32]>,
 }
 
-/// A level of the hierarchy.
+/// A level of the hierarchy in memory.
 #[derive(Clone, Copy)]
-struct Level {
+struct Boxes {
     /// Where its entries begin.
     offset: u32,
     /// Boxes are 2ᵏ columns wide and as many rows high.
@@ -116,14 +56,14 @@ impl Levels {
         Self { size, offset: 0, log: [log2_above(size[0]), log2_above(size[1])] }
     }
     /// The next level, while a box has more than one texel.
-    const fn advance(&mut self) -> Option<Level> {
+    const fn advance(&mut self) -> Option<Boxes> {
         let log = self.log;
         if log[0] == 0 && log[1] == 0 {
             return None;
         }
         let axis = (log[1] > log[0]) as usize;
         let stride = log2_above(self.size[0]) - log[0];
-        let level = Level { offset: self.offset, log, axis, stride };
+        let level = Boxes { offset: self.offset, log, axis, stride };
         self.offset += self.size[1].div_ceil(1 << log[1]) << stride;
         self.log[axis] -= 1;
         Some(level)
@@ -131,9 +71,9 @@ impl Levels {
 }
 
 impl Iterator for Levels {
-    type Item = Level;
+    type Item = Boxes;
     #[inline(always)]
-    fn next(&mut self) -> Option<Level> {
+    fn next(&mut self) -> Option<Boxes> {
         self.advance()
     }
 }
@@ -141,54 +81,6 @@ impl Iterator for Levels {
 /// The least k with 2ᵏ ≥ n.
 const fn log2_above(n: u32) -> u32 {
     if n > 1 { 32 - (n - 1).leading_zeros() } else { 0 }
-}
-
-/// A box of texels, from `low` to `high`, as parts of the picture's sides.
-#[derive(Clone, Copy)]
-pub(super) struct Box2<R> {
-    pub(super) low: Vec2<R>,
-    pub(super) high: Vec2<R>,
-}
-
-/// How much of the measure, per unit of the picture's area, the two halves of a box have.
-pub(super) trait Halves<R: Real> {
-    /// Two numbers ≥ 0 in proportion to it, neither of which is infinite or NaN. A half in which a sample can have a pdf has more than 0.
-    ///
-    /// Also, whether the halves of these halves can differ by more than 1 %: where not, nothing more is asked. `axis` is 0 where the halves
-    /// are beside each other along u, 1 along v.
-    fn densities(&self, axis: usize, low: &Box2<R>, high: &Box2<R>) -> ([R; 2], R::Mask);
-}
-
-/// A texel that was drawn.
-#[derive(Clone, Copy)]
-pub(super) struct Drawn<R: Real> {
-    /// Column and row.
-    pub(super) texel: Vec2<R>,
-    /// The first step of the texel in u₀ and u₁.
-    start: Vec2<R>,
-    /// Number of its steps.
-    steps: Vec2<R>,
-}
-
-impl<R: Real> Drawn<R> {
-    /// Probability of the texel.
-    #[inline(always)]
-    pub(super) fn pmf(&self) -> R {
-        let step = R::lit(1.0 / STEPS);
-        (self.steps.x * step) * (self.steps.y * step)
-    }
-    /// The `u` for a position in the texel.
-    #[inline(always)]
-    pub(super) fn invert(&self, within: Vec2<R>) -> Vec2<R> {
-        let step = R::lit(1.0 / STEPS);
-        let at = |start: R, steps: R, within: R| {
-            // the number below the next texel's first step
-            let end = start + steps;
-            within.mul_add(steps, start).lesser(end - end * step) * step
-        };
-        let Self { start, steps, .. } = self;
-        Vec2::new(at(start.x, steps.x, within.x), at(start.y, steps.y, within.y))
-    }
 }
 
 impl<'a> Picture<'a> {
@@ -231,7 +123,7 @@ impl<'a> Picture<'a> {
         let sum = |[x0, y0]: [usize; 2], [x1, y1]: [usize; 2]| -> f64 {
             (y0..y1.min(height)).map(|y| (x0..x1.min(width)).map(|x| weight(x, y)).sum::<f64>()).sum()
         };
-        for Level { offset, log: [kx, ky], axis, stride } in Levels::new(size) {
+        for Boxes { offset, log: [kx, ky], axis, stride } in Levels::new(size) {
             for (i, share) in buffer[offset as usize..].iter_mut().enumerate() {
                 let (nx, ny) = (i & ((1 << stride) - 1), i >> stride);
                 let ([x0, y0], [x1, y1]) = ([nx << kx, ny << ky], [(nx + 1) << kx, (ny + 1) << ky]);
@@ -311,67 +203,6 @@ impl<'a> Picture<'a> {
         }
         Ok(Self { values: Some(values), ..Self::from_buffer(buffer, [width + 1, height + 1], Region::Square)? })
     }
-    /// Radiance at the corners of a cell, in which it is bilinear; none where it is constant.
-    #[inline(always)]
-    pub(super) fn corners<R: Real>(&self, cell: Vec2<R>) -> Option<[R; 4]> {
-        let values = self.values?;
-        let [width, height] = self.size.map(|n| n as usize - 1);
-        let (x, y) = (cell.x.to_uint(), cell.y.to_uint());
-        let value = |right: usize, below: usize| {
-            R::from_fn(|lane| {
-                let at = |i: u32, next: usize, n: usize| (i as usize + next).saturating_sub(1).min(n - 1);
-                let index = at(y.lane(lane), below, height) * width + at(x.lane(lane), right, width);
-                R::Scalar::lit(f64::from(values.get(index).copied().unwrap_or(0.0)))
-            })
-        };
-        Some([value(0, 0), value(1, 0), value(0, 1), value(1, 1)])
-    }
-    /// One over the numbers of columns and rows that are whole, which [`edge`](Self::edge) needs.
-    #[inline(always)]
-    fn pitch<R: Real>(&self) -> Vec2<R> {
-        let (counts, one) = (self.counts::<R>(), R::lit(1.0));
-        let pitch = |count: R| match self.values {
-            None => one / count,
-            // with one cell more than texels, the first and the last one are halves
-            Some(_) => one / (count - one),
-        };
-        Vec2::new(pitch(counts.x), pitch(counts.y))
-    }
-    /// Where columns, or rows, begin in the picture, in [0, 1].
-    #[inline(always)]
-    fn edge<R: Real>(&self, at: R, pitch: R) -> R {
-        match self.values {
-            None => at * pitch,
-            Some(_) => ((at - R::lit(0.5)) * pitch).clamped(R::lit(0.0), R::lit(1.0)),
-        }
-    }
-    /// A cell as a box.
-    #[inline(always)]
-    pub(super) fn cell<R: Real>(&self, at: Vec2<R>) -> Box2<R> {
-        let (pitch, one) = (self.pitch::<R>(), R::lit(1.0));
-        let edges = |x: R, y: R| Vec2::new(self.edge(x, pitch.x), self.edge(y, pitch.y));
-        Box2 { low: edges(at.x, at.y), high: edges(at.x + one, at.y + one) }
-    }
-    /// The cell at surface coordinates, and the position in it.
-    #[inline(always)]
-    pub(super) fn locate<R: Real>(&self, uv: Vec2<R>) -> (Vec2<R>, Vec2<R>) {
-        let (counts, pitch) = (self.counts::<R>(), self.pitch::<R>());
-        let one = |x: R, n: R, pitch: R| match self.values {
-            None => {
-                let (i, within) = locate(unit_interval(x), n);
-                (R::from_uint(i), within)
-            }
-            Some(_) => {
-                let (half, one) = (R::lit(0.5), R::lit(1.0));
-                let place = unit_interval(x).mul_add(n - one, half);
-                let i = R::from_uint(place.to_uint()).lesser(n - one);
-                let (start, end) = (self.edge(i, pitch), self.edge(i + one, pitch));
-                (i, unit_interval((x - start) / (end - start)))
-            }
-        };
-        let ((x, s), (y, t)) = (one(uv.x, counts.x, pitch.x), one(uv.y, counts.y, pitch.y));
-        (Vec2::new(x, y), Vec2::new(s, t))
-    }
     /// Columns and rows.
     #[inline(always)]
     #[must_use]
@@ -384,88 +215,54 @@ impl<'a> Picture<'a> {
     pub fn region(&self) -> Region {
         self.region
     }
+}
+
+impl<R: Real> Cells<R> for Picture<'_> {
     #[inline(always)]
-    pub(super) fn counts<R: Real>(&self) -> Vec2<R> {
+    fn counts(&self) -> Vec2<R> {
         let [w, h] = self.size.map(|n| R::lit(f64::from(n)));
         Vec2::new(w, h)
     }
-    /// The position in the texel that `u` draws, and the texel.
     #[inline(always)]
-    pub(super) fn draw<R: Real>(&self, u: Vec2<R>, halves: &impl Halves<R>) -> (Drawn<R>, Vec2<R>) {
-        let (zero, steps) = (R::lit(0.0), R::lit(STEPS));
-        let least = |x: R| x.clamped(zero, R::ONE_MINUS_EPSILON) * steps;
-        let at = Vec2::new(least(u.x), least(u.y));
-        let drawn = self.walk(halves, |axis, step, _| if axis == 0 { at.x.lt(step) } else { at.y.lt(step) });
-        // the differences are exact
-        let within = |at: R, start: R, steps: R| unit_interval((at - start) / steps);
-        let Drawn { start, steps, .. } = drawn;
-        (drawn, Vec2::new(within(at.x, start.x, steps.x), within(at.y, start.y, steps.y)))
+    fn region(&self) -> Region {
+        self.region
     }
-    /// A texel, given its column and row, and how it is drawn.
     #[inline(always)]
-    pub(super) fn find<R: Real>(&self, texel: Vec2<R>, halves: &impl Halves<R>) -> Drawn<R> {
-        self.walk(halves, |axis, _, middle| if axis == 0 { texel.x.lt(middle) } else { texel.y.lt(middle) })
+    fn is_interpolated(&self) -> bool {
+        self.values.is_some()
     }
-    /// Goes down to a texel. At each box, `lower` is asked whether to go to its lower half, given the axis, and the first step and the first
-    /// column or row of the upper half.
+    #[inline(always)]
+    fn corners(&self, cell: Vec2<R>) -> Option<[R; 4]> {
+        let values = self.values?;
+        let [width, height] = self.size.map(|n| n as usize - 1);
+        let (x, y) = (cell.x.to_uint(), cell.y.to_uint());
+        let value = |right: usize, below: usize| {
+            R::from_fn(|lane| {
+                let at = |i: u32, next: usize, n: usize| (i as usize + next).saturating_sub(1).min(n - 1);
+                let index = at(y.lane(lane), below, height) * width + at(x.lane(lane), right, width);
+                R::Scalar::lit(f64::from(values.get(index).copied().unwrap_or(0.0)))
+            })
+        };
+        Some([value(0, 0), value(1, 0), value(0, 1), value(1, 1)])
+    }
     // by far the longest part: one copy for each measure
     #[inline]
-    fn walk<R: Real>(&self, halves: &impl Halves<R>, lower: impl Fn(usize, R, R) -> R::Mask) -> Drawn<R> {
-        let (zero, one) = (R::lit(0.0), R::lit(1.0));
-        let (counts, pitch) = (self.counts::<R>(), self.pitch::<R>());
-        let place = |x: R, y: R| Vec2::new(self.edge(x, pitch.x), self.edge(y, pitch.y));
-        let mut start = [zero; 2];
-        let mut steps = [R::lit(STEPS); 2];
-        let mut texel = [zero; 2];
-        let mut differ = R::Mask::splat(true);
-        for Level { offset, log, axis, stride } in Levels::new(self.size) {
+    fn walk(&self, halves: &impl Halves<R>, lower: &impl Lower<R>) -> Drawn<R> {
+        let mut walk = Walk::<R, Self>::of(self);
+        for Boxes { offset, log, axis, stride } in Levels::new(self.size) {
             let index = {
-                let [x, y] = [texel[0].to_uint().shr(log[0]), texel[1].to_uint().shr(log[1])];
+                let [x, y] = [walk.texel[0].to_uint().shr(log[0]), walk.texel[1].to_uint().shr(log[1])];
                 y.shl(stride).wrapping_add(x).wrapping_add(R::Uint::splat(offset))
             };
             let share = R::from_fn(|lane| {
                 let share = self.shares.get(index.lane(lane) as usize).copied().unwrap_or(1.0);
                 R::Scalar::lit(f64::from(share))
             });
-            let share = share.clamped(zero, one);
             let half = R::lit(f64::from(1_u32 << (log[axis] - 1)));
-            let count = if axis == 0 { counts.x } else { counts.y };
-            let middle = texel[axis] + half;
-            let end = (middle + half).lesser(count);
-            let [low, high] = {
-                let across = 1 - axis;
-                let size = R::lit(f64::from(1_u32 << log[across]));
-                let from = texel[across];
-                let to = (from + size).lesser(if axis == 0 { counts.y } else { counts.x });
-                let boxed = |start: R, end: R| {
-                    let [x0, x1, y0, y1] = if axis == 0 { [start, end, from, to] } else { [from, to, start, end] };
-                    Box2 { low: place(x0, y0), high: place(x1, y1) }
-                };
-                [boxed(texel[axis], middle), boxed(middle, end)]
-            };
-            let (mut a, mut b, mut ratio) = (share, one - share, share);
-            if differ.any() {
-                let (densities, still) = halves.densities(axis, &low, &high);
-                let (c, d) = (a * densities[0], b * densities[1]);
-                // where the measure leaves nothing, the radiance decides
-                let some = differ & (c + d).gt(zero);
-                (a, b, ratio) = (R::blend(some, c, a), R::blend(some, d, b), R::blend(some, c / (c + d), ratio));
-                differ = differ & still;
-            }
-            let all = steps[axis];
-            let cut = (all * ratio).round_ties_even().clamped(half, all - (end - middle));
-            // a box that is never drawn has no steps
-            let cut = cut.clamped(zero, all);
-            let cut = R::blend(b.gt(zero), cut, all).keep(a.gt(zero));
-            // no contents of a buffer lead past the last column or row
-            let cut = R::blend(middle.lt(count), cut, all);
-            let below = lower(axis, start[axis] + cut, middle);
-            steps[axis] = R::blend(below, cut, all - cut);
-            start[axis] = R::blend(below, start[axis], start[axis] + cut);
-            texel[axis] = R::blend(below, texel[axis], middle);
+            let size = R::lit(f64::from(1_u32 << log[1 - axis]));
+            walk.descend(&Level { axis, half, size, share }, halves, lower);
         }
-        let pair = |[x, y]: [R; 2]| Vec2::new(x, y);
-        Drawn { texel: pair(texel), start: pair(start), steps: pair(steps) }
+        walk.drawn()
     }
 }
 

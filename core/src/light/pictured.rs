@@ -1,6 +1,7 @@
 //! Lights with pictures, prepared for a shading point.
 
-use super::picture::{Box2, Drawn, Halves, Picture};
+use super::cells::{Box2, Cells, Drawn, Halves};
+use super::picture::Picture;
 use super::sample::LightSample;
 use super::sampler::LightSampler;
 use super::surface::SurfaceHit;
@@ -20,17 +21,17 @@ pub struct PictureSample<R: Real> {
 
 /// A light with a picture: [`Picture::on`] makes it.
 #[derive(Clone, Copy, Debug)]
-pub struct Pictured<'a, L> {
+pub struct Pictured<P, L> {
     /// The picture.
-    pub picture: Picture<'a>,
+    pub picture: P,
     /// The light that it is on.
     pub light: L,
 }
 
-impl<'a> Picture<'a> {
+impl Picture<'_> {
     /// The picture on a light, which must cover the [`Region`](super::Region) for which the picture was built.
     #[inline(always)]
-    pub const fn on<L>(self, light: L) -> Pictured<'a, L> {
+    pub const fn on<L>(self, light: L) -> Pictured<Self, L> {
         Pictured { picture: self, light }
     }
 }
@@ -98,14 +99,14 @@ pub(super) trait TexelSurface<R: Real>: Halves<R> {
 /// assert_eq!(sampler.pdf(etendue::Vec3::new(-0.1, 0.99, 0.1).normalize()), 0.0);
 /// ```
 #[derive(Clone, Copy, Debug)]
-pub struct ByPicture<'a, R, S> {
-    pub(super) picture: Picture<'a>,
+pub struct ByPicture<P, R, S> {
+    pub(super) picture: P,
     pub(super) origin: Vec3<R>,
     pub(super) surface: S,
 }
 
 #[allow(private_bounds, reason = "the surfaces are those of this library")]
-impl<R: Real, S: TexelSurface<R>> ByPicture<'_, R, S> {
+impl<P: Cells<R>, R: Real, S: TexelSurface<R>> ByPicture<P, R, S> {
     #[inline(always)]
     fn density(drawn: &Drawn<R>, pdf: R) -> R {
         (drawn.pmf() * pdf).lesser(R::lit(GREATEST))
@@ -133,7 +134,7 @@ impl<R: Real, S: TexelSurface<R>> ByPicture<'_, R, S> {
     }
 }
 
-impl<R: Real, S: TexelSurface<R>> LightSampler<R> for ByPicture<'_, R, S> {
+impl<P: Cells<R>, R: Real, S: TexelSurface<R>> LightSampler<R> for ByPicture<P, R, S> {
     #[inline]
     fn sample(&self, u: Vec2<R>) -> LightSample<R> {
         let drawn = self.draw(u).light;

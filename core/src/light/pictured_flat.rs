@@ -1,11 +1,11 @@
 //! Flat lights with pictures.
 
+use super::cells::{Box2, Halves};
 use super::disk::Disk;
 use super::flat::{
     Parallelogram, ParallelogramByArea, ParallelogramByProjectedSolidAngle, ParallelogramBySolidAngle, Rectangle,
     Triangle,
 };
-use super::picture::{Box2, Halves};
 use super::pictured::{ByPicture, Pictured, Texel, TexelSurface};
 use super::sample::{LightSample, direction_to, solid_angle_pdf};
 use super::sampler::LightSampler;
@@ -51,9 +51,9 @@ impl<R: Real> FlatLight<R> for Disk<R> {
     }
 }
 
-impl<'a, L> Pictured<'a, L> {
+impl<P: Copy, L> Pictured<P, L> {
     #[inline(always)]
-    fn by<R: Real, M>(&self, p: Vec3<R>, measure: M) -> ByPicture<'a, R, Flat<R, M>>
+    fn by<R: Real, M>(&self, p: Vec3<R>, measure: M) -> ByPicture<P, R, Flat<R, M>>
     where
         L: FlatLight<R>,
     {
@@ -66,7 +66,7 @@ impl<'a, L> Pictured<'a, L> {
     /// By radiance times area, seen from the point `p`: for lights that are small for their distance. The pdf is the pmf of the texel, over
     /// its area, times distance²/|cosθ'|, per steradian.
     #[inline(always)]
-    pub fn by_area<R: Real>(&self, p: Vec3<R>) -> ByPicture<'a, R, Flat<R, Area>>
+    pub fn by_area<R: Real>(&self, p: Vec3<R>) -> ByPicture<P, R, Flat<R, Area>>
     where
         L: FlatLight<R>,
     {
@@ -78,7 +78,7 @@ impl<'a, L> Pictured<'a, L> {
     /// The halves of a box are compared by their solid angles where they are large for their distance, by those of their centres where
     /// not, and by radiance alone where they are too small to differ: shares are within 1 % of the exact ones.
     #[inline(always)]
-    pub fn by_solid_angle<R: Real>(&self, p: Vec3<R>) -> ByPicture<'a, R, Flat<R, SolidAngle<R>>>
+    pub fn by_solid_angle<R: Real>(&self, p: Vec3<R>) -> ByPicture<P, R, Flat<R, SolidAngle<R>>>
     where
         L: FlatLight<R>,
     {
@@ -87,7 +87,7 @@ impl<'a, L> Pictured<'a, L> {
     /// By radiance times projected solid angle above the horizon of the unit normal `n` at the point `p`. The pdf is the pmf of the texel,
     /// over its projected solid angle, times the cosine, per steradian.
     #[inline(always)]
-    pub fn by_projected_solid_angle<R: Real>(&self, p: Vec3<R>, n: Vec3<R>) -> ByPicture<'a, R, Flat<R, Projected<R>>>
+    pub fn by_projected_solid_angle<R: Real>(&self, p: Vec3<R>, n: Vec3<R>) -> ByPicture<P, R, Flat<R, Projected<R>>>
     where
         L: FlatLight<R>,
     {
