@@ -1,7 +1,7 @@
 //! Functions of parameters that are recorded as they are asked for.
 
 use crate::graph::Id;
-use crate::module::{Function, Leaf, Module, Parameter, Type};
+use crate::module::{Field, Function, Leaf, Module, Parameter, Struct, Type};
 use crate::number::{Number, Truth, Word, record};
 use crate::record::inputs_of;
 use etendue::{Vec2, Vec3};
@@ -29,6 +29,13 @@ impl Inputs {
         assert!(fields.len() == N && fields.iter().all(|field| field.leaf == Leaf::Word));
         self.parameters.push(Parameter { name: name.into(), of: Type::Struct(of) });
         core::array::from_fn(|_| Word::input(self.next(1)))
+    }
+    /// Adds a parameter that is a struct of numbers, and returns these.
+    pub(crate) fn numbers(&mut self, module: &Module, name: &str, of: usize) -> Vec<Number> {
+        let leaves = module.structs[of].fields.iter().map(|field| field.leaf.parts());
+        let count: usize = leaves.sum();
+        self.parameters.push(Parameter { name: name.into(), of: Type::Struct(of) });
+        (0..count).map(|_| Number::input(self.next(1))).collect()
     }
     pub(crate) fn real(&mut self, name: &str) -> Number {
         Number::input(self.add(name, Leaf::Real))
@@ -70,4 +77,11 @@ pub(crate) fn add_function(
     });
     let inputs = inputs_of(module, &parameters);
     module.functions.push(Function { name: name.into(), doc, inputs, parameters, result, outputs, graph });
+}
+
+/// Adds the struct of a table: where its parts begin in memory, and how large it is.
+pub(crate) fn add_words(module: &mut Module, name: &str, doc: &str, fields: &[(&str, &str)]) -> usize {
+    let field = |(name, doc): &(&str, &str)| Field { name: (*name).into(), leaf: Leaf::Word, doc: (*doc).into() };
+    let fields = fields.iter().map(field).collect();
+    module.add_struct(Struct { name: name.into(), doc: doc.into(), fields })
 }

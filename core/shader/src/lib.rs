@@ -41,7 +41,7 @@
 //! [`Real::iterate_with_words`](etendue::Real::iterate_with_words). Other loops of the core have constant bounds, and are written out.
 //!
 //! What a routine asks of one lane as a number of Rust ([`Real::lane_f64`](etendue::Real::lane_f64), a comparison of scalars, the bits of a
-//! mask) is known for constants alone; anything else panics with a message. Tables of images, pictures, profiles and portals, and
+//! mask) is known for constants alone; anything else panics with a message. Tables of images, profiles and portals, and
 //! what occluders leave visible do ask that, and so does the exponential function, of which [`GeneralSky`](etendue::light::GeneralSky)
 //! consists: they are not here. A host looks such a sky up in a texture.
 //!
@@ -61,6 +61,12 @@
 //! | table | words in memory | functions |
 //! |---|---|---|
 //! | `light_tree` | [`Node8::words`](etendue::select::Node8::words) of each node of a [`LightTree`](etendue::select::LightTree), and its places | `choose`, `choose_by`, `pmf` |
+//! | `pictured_L_by_M`, with L `parallelogram` (or a rectangle), `triangle` or `disk` | the buffer of [`Picture::build`](etendue::light::Picture::build) | `draw`, `sample`, `pdf`, `hit`, `invert` |
+//! | `interpolated_parallelogram_by_M` | the buffer of [`Picture::interpolated`](etendue::light::Picture::interpolated), and the radiance at the centres | the same |
+//!
+//! M is `area`, `solid_angle` or `projected_solid_angle`. All of them are written in all languages. Their functions take the light and the
+//! shading point each time, as preparing is little beside the walk through the table. Texels that are large for their distance are sampled as
+//! shapes of their own, which is most of the text: by projected solid angle 7000 lines a function.
 //!
 //! # Size
 //! We compare the operations of each function of a light with the instructions of the scalar Rust routine, compiled for x86-64-v3, where
@@ -82,6 +88,7 @@ mod list;
 mod module;
 mod names;
 mod number;
+mod pictures;
 mod plan;
 mod print;
 mod record;

@@ -47,7 +47,7 @@ fn tool_names() -> Vec<&'static str> {
     std::iter::once("all").chain(tools().iter().copied()).collect()
 }
 fn table_names() -> Vec<&'static str> {
-    std::iter::once("all").chain(tables().iter().copied()).collect()
+    std::iter::once("all").chain(tables().into_iter().map(|name| &*name.leak())).collect()
 }
 fn warp_names() -> Vec<&'static str> {
     std::iter::once("all").chain(warps().into_iter().map(|name| &*name.leak())).collect()

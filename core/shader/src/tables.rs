@@ -1,22 +1,16 @@
-//! What reads tables in memory: choices among lights.
+//! What reads tables in memory: choices among lights, and lights with pictures.
 
-use crate::inputs::{Inputs, add_function};
+use crate::inputs::{Inputs, add_function, add_words};
 use crate::module::{Field, Leaf, Module, Struct, Type};
 use crate::number::{Number, Word, Words};
+use crate::pictures::{add_pictured, pictured};
 use crate::wanted::{Part, Wanted};
 use etendue::select::{Choice, LightChoice, TreeWords, TreeWordsAt};
 
 /// The names of the tables.
 #[must_use]
-pub fn tables() -> &'static [&'static str] {
-    &["light_tree"]
-}
-
-/// Adds the struct of a table: where its parts begin in memory, and how large it is.
-fn add_words(module: &mut Module, name: &str, doc: &str, fields: &[(&str, &str)]) -> usize {
-    let field = |(name, doc): &(&str, &str)| Field { name: (*name).into(), leaf: Leaf::Word, doc: (*doc).into() };
-    let fields = fields.iter().map(field).collect();
-    module.add_struct(Struct { name: name.into(), doc: doc.into(), fields })
+pub fn tables() -> Vec<String> {
+    ["light_tree".to_owned()].into_iter().chain(pictured()).collect()
 }
 
 /// The words of a tree, the shading point and its normal, as parameters.
@@ -81,6 +75,6 @@ fn add_light_tree(module: &mut Module, wanted: &Wanted) {
 pub fn add_table(module: &mut Module, name: &str, wanted: &Wanted) {
     match name {
         "light_tree" => add_light_tree(module, wanted),
-        _ => panic!("there is no table {name}"),
+        _ => add_pictured(module, name, wanted),
     }
 }

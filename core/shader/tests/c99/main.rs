@@ -5,6 +5,7 @@ mod driver;
 mod header;
 mod lights;
 mod operations;
+mod pictures;
 mod tables;
 mod tools;
 mod warps;

@@ -8,7 +8,7 @@ use etendue_properties::generators::{Random, unit_or_edge};
 use etendue_properties::light_tree::{Lamp, Regime, place};
 use etendue_shader::*;
 
-fn module(name: &str) -> Module {
+pub(crate) fn module(name: &str) -> Module {
     Selection { tables: vec![name.into()], ..Selection::default() }.module()
 }
 /// Halves of a word as numbers.
@@ -18,10 +18,10 @@ fn halves(word: u32) -> [f32; 2] {
 
 /// Words of one table after another.
 #[derive(Default)]
-struct Memory(Vec<u32>);
+pub(crate) struct Memory(pub(crate) Vec<u32>);
 impl Memory {
     /// Adds words, and returns where they begin.
-    fn add(&mut self, words: impl IntoIterator<Item = u32>) -> u32 {
+    pub(crate) fn add(&mut self, words: impl IntoIterator<Item = u32>) -> u32 {
         let first = self.0.len() as u32;
         self.0.extend(words);
         first
