@@ -138,7 +138,7 @@ pub use opening::LuminousOpening;
 pub use patch::{BilinearPatch, PatchByArea, PlacedPatch};
 pub use picture::{Picture, mean_of_bilinear};
 pub use picture_words::PictureWords;
-pub use pictured::{ByPicture, PictureSample, Pictured};
+pub use pictured::{ByPicture, PictureSample, Pictured, PicturedLight, PicturedSampler};
 pub use pictured_curved::Curved;
 pub use pictured_flat::{Area, Flat, FlatLight, Projected, SolidAngle};
 pub use polygon::{PlacedPolygon, Polygon, PolygonByArea, PolygonByProjectedSolidAngle, PolygonBySolidAngle};

@@ -3,12 +3,12 @@
 use crate::graph::Id;
 use crate::inputs::{Inputs, add_function, add_words};
 use crate::list::{Technique, TechniqueVisitor, every_technique};
-use crate::module::{Field, Leaf, Module, Struct, Type};
+use crate::module::{Leaf, Module, Struct, Type};
 use crate::names::snake;
 use crate::number::{Number, Words, record};
-use crate::record::{light_struct, sample_outputs, sample_struct};
+use crate::record::{drawn_struct, light_struct, sample_outputs, sample_struct};
 use crate::wanted::{Part, Wanted};
-use etendue::light::{PictureSample, PictureWords, Pictured, Region};
+use etendue::light::{PictureSample, PictureWords, PicturedLight, Region};
 use etendue::{Disk, LightSampler, Parallelogram, Triangle, Vec3};
 
 /// A light with a picture by a technique.
@@ -118,7 +118,7 @@ impl Given<'_> {
     }
 }
 
-type On<L> = Pictured<PictureWords<Words, crate::Word>, L>;
+type On<L> = PicturedLight<PictureWords<Words, crate::Word>, L>;
 fn vec3(x: &[Number]) -> Vec3<Number> {
     Vec3::new(x[0], x[1], x[2])
 }
@@ -145,9 +145,7 @@ macro_rules! functions {
     ($module:ident, $wanted:ident, $kind:ident, $picture:ident, $light:ident, $prepare:expr) => {{
         let name = $kind.name();
         let sample = sample_struct($wanted);
-        let word = |name: &str, doc: &str| Field { name: name.into(), leaf: Leaf::Word, doc: doc.into() };
-        let mut drawn = Struct { name: "picture_sample".into(), doc: "A sample of a light with a picture.".into(), ..sample.clone() };
-        drawn.fields.extend([word("x", "Column of the texel."), word("y", "Row of the texel.")]);
+        let drawn = drawn_struct("picture_sample", "A sample of a light with a picture.", $wanted);
         let add = |module: &mut Module, part: &str, doc: &str, result: Type, body: &dyn Fn(&mut Given<'_>) -> Vec<Id>| {
             add_function(module, &format!("{name}_{part}"), |module, inputs| {
                 let mut given = Given { kind: $kind, module, inputs, picture: $picture, light: $light };

@@ -1,7 +1,7 @@
 //! Pictures on lights from words in memory.
 
 use super::cells::{Axis, Box2, Cells, Drawn, Halves, Level, Lower, Region, Walk};
-use super::pictured::Pictured;
+use super::pictured::PicturedLight;
 use crate::memory::Memory;
 use crate::real::{Real, State, Uint};
 use crate::vector::Vec2;
@@ -41,12 +41,12 @@ pub struct PictureWords<M, U> {
 impl<M, U> PictureWords<M, U> {
     /// The picture on a light, which must cover the region.
     #[inline(always)]
-    pub const fn on<L>(self, light: L) -> Pictured<Self, L>
+    pub const fn on<L>(self, light: L) -> PicturedLight<Self, L>
     where
         M: Copy,
         U: Copy,
     {
-        Pictured { picture: self, light }
+        PicturedLight { picture: self, light }
     }
 }
 
