@@ -1,6 +1,6 @@
 //! Memory that a routine reads in each lane at an index of its own.
 
-use crate::real::{Real, Uint};
+use crate::real::{Real, State, Uint};
 
 /// A sequence of 32-bit words, each of which may be a number of single precision by its bits.
 ///
@@ -47,4 +47,21 @@ impl<R: Real> Memory<R> for &[u32] {
             R::Scalar::lit(f64::from(f32::from_bits(bits)))
         })
     }
+}
+
+/// Of `count` ascending numbers, at least one, the index of the last that is not above `x`; 0 where the first is above it. Comparisons with NaN
+/// are false.
+#[inline(always)]
+pub(crate) fn last_up_to<R: Real>(memory: &impl Memory<R>, first: R::Uint, count: R::Uint, x: R) -> R::Uint {
+    let one = R::Uint::splat(1);
+    let step = |([], [low, count]): State<R, 0, 2>, [going]: [R::Mask; 1]| {
+        let half = Uint::shr(count, 1);
+        let middle = Uint::wrapping_add(low, half);
+        let is_up_to = memory.number(first.wrapping_add(middle)).le(x);
+        let left = R::blend_uint(going, count.wrapping_sub(half), count);
+        (([], [R::blend_uint(going & is_up_to, middle, low), left]), [going & R::has_bits(one.lt(left))])
+    };
+    let going = [R::has_bits(one.lt(count))];
+    let ([], [index, _]) = R::iterate_with_words(32, ([], [R::Uint::splat(0), count]), going, step);
+    index
 }
