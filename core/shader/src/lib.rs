@@ -41,7 +41,7 @@
 //! [`Real::iterate_with_words`](etendue::Real::iterate_with_words). Other loops of the core have constant bounds, and are written out.
 //!
 //! What a routine asks of one lane as a number of Rust ([`Real::lane_f64`](etendue::Real::lane_f64), a comparison of scalars, the bits of a
-//! mask) is known for constants alone; anything else panics with a message. Tables of images, profiles and portals, and
+//! mask) is known for constants alone; anything else panics with a message. Portals, whose tables have numbers of 64 bits, and
 //! what occluders leave visible do ask that, and so does the exponential function, of which [`GeneralSky`](etendue::light::GeneralSky)
 //! consists: they are not here. A host looks such a sky up in a texture.
 //!
@@ -61,7 +61,9 @@
 //! | table | words in memory | functions |
 //! |---|---|---|
 //! | `light_tree` | [`Node8::words`](etendue::select::Node8::words) of each node of a [`LightTree`](etendue::select::LightTree), and its places | `choose`, `choose_by`, `pmf` |
-//! | `pictured_L_by_M`, with L `parallelogram` (or a rectangle), `triangle` or `disk` | the buffer of [`Picture::build`](etendue::light::Picture::build) | `draw`, `sample`, `pdf`, `hit`, `invert` |
+//! | `equirectangular_environment`, `equal_area_environment` | the buffer of [`ImageEnvironment::build`](etendue::light::ImageEnvironment::build) | `draw`, `sample`, `pdf`, `hit`, `invert` |
+//! | `profile` | [`Profile::words`](etendue::light::Profile::words) | `intensity` |
+//! | `pictured_L_by_M`, with L `parallelogram` (or a rectangle), `triangle` or `disk` | the buffer of [`Picture::build`](etendue::light::Picture::build) | the same as of environments |
 //! | `interpolated_parallelogram_by_M` | the buffer of [`Picture::interpolated`](etendue::light::Picture::interpolated), and the radiance at the centres | the same |
 //!
 //! M is `area`, `solid_angle` or `projected_solid_angle`. All of them are written in all languages. Their functions take the light and the

@@ -1,8 +1,10 @@
 //! What reads tables in memory.
 
 use crate::driver::{Driver, HOSTILE, compare, slots};
-use etendue::Vec3;
+use crate::lights::sample;
+use etendue::light::{EnvironmentMap, EnvironmentSample, ImageEnvironment, Profile};
 use etendue::select::{Choice, LightBound, LightChoice, LightTree, NO_LIGHT, Node8};
+use etendue::{LightSampler, Vec2, Vec3};
 use etendue_oracle::tier::cases;
 use etendue_properties::generators::{Random, unit_or_edge};
 use etendue_properties::light_tree::{Lamp, Regime, place};
@@ -106,4 +108,119 @@ fn choices_of_trees_have_the_same_bits() {
     let keep =
         |of: &[Vec<f32>]| of.iter().zip(&finite).filter(|(_, is)| **is).map(|(of, _)| of.clone()).collect::<Vec<_>>();
     compare("light_tree in Metal", &keep(&inputs), &keep(&right), &keep(&found));
+}
+
+fn one_of<const N: usize>(numbers: [f32; N], random: &mut Random) -> f32 {
+    numbers[random.below(N)]
+}
+/// A unit direction, or next to an axis or on it, or whatever.
+fn direction(slot: usize, random: &mut Random) -> [f32; 3] {
+    let w = random.direction().map(|x| x as f32);
+    match slot % 8 {
+        3 => w.map(|x| if x.abs() < 0.5 { 0.0 } else { x.signum() }),
+        4 => [one_of([0.0, 1e-6, -1e-20], random), one_of([0.0, -1e-7, 1e-30], random), w[2].signum()],
+        5 => [w[0], one_of([0.0, -0.0, 1e-8, -1e-8], random), w[2]],
+        7 => [HOSTILE[random.below(HOSTILE.len())], w[1], w[2]],
+        _ => w,
+    }
+}
+
+/// Skies of many sizes with dark texels and rows.
+#[test]
+fn environments_have_the_same_bits() {
+    for (name, map) in [
+        ("equirectangular_environment", EnvironmentMap::Equirectangular),
+        ("equal_area_environment", EnvironmentMap::EqualArea),
+    ] {
+        let (mut random, mut memory, wanted) = (Random::new(4400), Memory::default(), Wanted::default());
+        let skies = [[1, 1], [2, 1], [1, 4], [5, 3], [16, 8], [33, 21], [200, 101]].map(|[w, h]| {
+            let mut weight = |k: usize| match random.word() % 4 {
+                _ if k / w == 2 => 0.0,
+                0 => 0.0,
+                1 => random.magnitude(1e-6, 1e6) as f32,
+                _ => random.unit(),
+            };
+            let mut weights: Vec<f32> = (0..w * h).map(&mut weight).collect();
+            weights[w * h - 1] = 1.0;
+            let mut buffer = vec![0.0; ImageEnvironment::buffer(w, h)];
+            ImageEnvironment::build(&weights, w, map, &mut buffer).unwrap();
+            let first = memory.add(buffer.iter().map(|x| x.to_bits()));
+            (buffer, [first, w as u32, h as u32])
+        });
+        let (mut inputs, mut right) = (Vec::new(), Vec::new());
+        for slot in 0..4 * slots() {
+            let (buffer, words) = &skies[slot % skies.len()];
+            let sky = ImageEnvironment::from_buffer(buffer, words[1] as usize, map).unwrap();
+            let sampler = sky.by_radiance();
+            let [u, v] = [(); 2].map(|()| (unit_or_edge(&mut random) as f32).min(1.0 - 1.0 / 16_777_216.0));
+            let w = direction(slot, &mut random);
+            let mut all = Vec::new();
+            let EnvironmentSample { light, x, y } = sky.draw(Vec2::new(u, v));
+            sample(&light, &wanted, &mut all);
+            all.extend([halves(x), halves(y)].concat());
+            sample(&sampler.sample(Vec2::new(u, v)), &wanted, &mut all);
+            for w in [light.direction, Vec3::from(w)] {
+                let u: Vec2<f32> = sampler.invert(w);
+                all.extend([sampler.pdf(w), u.x, u.y]);
+                sample(&sampler.hit(w), &wanted, &mut all);
+            }
+            right.push(all);
+            inputs.push([&words.map(f32::from_bits)[..], &[u, v], &w].concat());
+        }
+        let module = module(name);
+        let mut driver = Driver::new(&module);
+        driver.memory = memory.0;
+        driver.take(driver.function(&format!("{name}_draw")).unwrap().parameters[0].of, "environment");
+        driver.take(Type::Leaf(Leaf::Vec2), "u");
+        driver.take(Type::Leaf(Leaf::Vec3), "w");
+        driver.output(&format!("{name}_draw"), &["environment", "u"], "drawn");
+        driver.output(&format!("{name}_sample"), &["environment", "u"], "sampled");
+        for (k, w) in ["drawn.direction", "w"].into_iter().enumerate() {
+            for part in ["pdf", "invert", "hit"] {
+                driver.output(&format!("{name}_{part}"), &["environment", w], &format!("{part}_{k}"));
+            }
+        }
+        let found = driver.run(&format!("table_{name}"), cases(&["-O1"], &["-O2"]), &inputs);
+        compare(name, &inputs, &right, &found);
+    }
+}
+
+/// Profiles of one azimuth and of many, of parts of the sphere and of all of it.
+#[test]
+fn profiles_have_the_same_bits() {
+    let (mut random, mut memory) = (Random::new(4500), Memory::default());
+    let angles = |count: usize, from: f32, to: f32| -> Vec<f32> {
+        (0..count).map(|k| from + (to - from) * k as f32 / (count - 1).max(1) as f32).collect()
+    };
+    let tables = [
+        (2, 0.0, 60.0, 1, 0.0, 0.0),
+        (37, 0.0, 180.0, 24, 0.0, 360.0),
+        (9, 90.0, 180.0, 7, -90.0, 90.0),
+        (5, 12.0, 77.0, 2, -359.0, 1.0),
+    ];
+    let tables = tables.map(|(rows, low, high, columns, from, to)| {
+        let values: Vec<f32> =
+            (0..rows * columns).map(|k| if k % 5 == 3 { 0.0 } else { 100.0 * random.unit() }).collect();
+        let (polar, azimuth) = (angles(rows, low, high), angles(columns, from, to));
+        let first = memory.add(Profile::new(&polar, &azimuth, &values).unwrap().words());
+        ((polar, azimuth, values), [first, rows as u32, columns as u32])
+    });
+    let (mut inputs, mut right, mut lit) = (Vec::new(), Vec::new(), 0);
+    for slot in 0..20 * slots() {
+        let ((polar, azimuth, values), words) = &tables[slot / 8 % tables.len()];
+        let w = direction(slot, &mut random);
+        let intensity = Profile::new(polar, azimuth, values).unwrap().intensity(Vec3::from(w));
+        lit += usize::from(intensity > 0.0);
+        right.push(vec![intensity]);
+        inputs.push([words.map(f32::from_bits), w].concat());
+    }
+    assert!(lit > inputs.len() / 4, "{lit} of {}", inputs.len());
+    let module = module("profile");
+    let mut driver = Driver::new(&module);
+    driver.memory = memory.0;
+    driver.take(driver.function("profile_intensity").unwrap().parameters[0].of, "profile");
+    driver.take(Type::Leaf(Leaf::Vec3), "w");
+    driver.output("profile_intensity", &["profile", "w"], "intensity");
+    let found = driver.run("table_profile", cases(&["-O1"], &["-O2"]), &inputs);
+    compare("profile", &inputs, &right, &found);
 }
