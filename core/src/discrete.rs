@@ -23,14 +23,16 @@
 //! Every routine takes a scalar or a packet; look-ups go lane by lane, with the same bits.
 
 mod cell;
+mod words;
 
 use crate::real::{Real, Uint, unit_interval};
 use crate::vector::Vec2;
 use crate::warp::{Warp, Warp1};
 pub use cell::{Cell, Cell2d};
-use cell::{Row, Rows, draw};
-pub(crate) use cell::{Words2d, locate, place};
+use cell::{Row, Rows, draw, rest};
+pub(crate) use cell::{locate, place};
 use core::fmt::{self, Display, Formatter};
+pub use words::{AliasWords, Words1d, Words2d};
 
 /// Steps of `u` in the unit interval, and the greatest number of cells in a table.
 const STEPS: f64 = 16_777_216.0;
@@ -435,6 +437,13 @@ impl<'a> AliasTable<'a> {
     pub fn cells(&self) -> usize {
         self.weights.len()
     }
+    /// Three words for each item: its threshold, its alias and its probability. What [`AliasWords`] reads.
+    pub fn words(&self) -> impl Iterator<Item = u32> + use<'a> {
+        let Self { weights, thresholds, aliases, inverse_total } = *self;
+        weights.iter().zip(thresholds).zip(aliases).flat_map(move |((&weight, threshold), &alias)| {
+            [threshold.to_bits(), alias, ((f64::from(weight) * inverse_total) as f32).to_bits()]
+        })
+    }
     /// Draws the item for `u`, with a fresh number in [0, 1) as its `offset`.
     #[inline(always)]
     pub fn cell<R: Real>(&self, u: R) -> Cell<R> {
@@ -446,10 +455,7 @@ impl<'a> AliasTable<'a> {
             let own = fraction.lane_f64(lane) < threshold.lane_f64(lane);
             if own { bucket } else { self.aliases[bucket as usize] }
         });
-        let one = R::lit(1.0);
-        let range = R::blend(own, threshold, one - threshold);
-        let offset = unit_interval(R::blend(own, fraction, fraction - threshold) / range.greater(R::lit(1e-30)));
-        Cell { index, offset, pmf: self.pmf(index) }
+        Cell { index, offset: rest(own, fraction, threshold), pmf: self.pmf(index) }
     }
     /// Probability of an item; 0 past the last one.
     #[inline(always)]

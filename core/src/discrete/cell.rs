@@ -1,6 +1,5 @@
 //! Cells of distributions, and how they are drawn from distribution functions in memory.
 
-use crate::memory::{Memory, last_up_to};
 use crate::real::{Real, Uint, unit_interval};
 use crate::vector::Vec2;
 
@@ -105,83 +104,10 @@ impl<'a, R: Real, F: Fn(usize) -> &'a [f32]> Row<R> for Rows<F> {
     }
 }
 
-/// `count` words of memory.
-struct WordsRow<M, U> {
-    memory: M,
-    first: U,
-    count: U,
-}
-
-impl<R: Real, M: Memory<R>> Row<R> for WordsRow<M, R::Uint> {
-    #[inline(always)]
-    fn find(&self, u: R) -> R::Uint {
-        // the last cell before which one ends up to u; there is none before the first
-        last_up_to(&self.memory, self.first.wrapping_sub(R::Uint::splat(1)), self.count, u)
-    }
-    #[inline(always)]
-    fn bounds(&self, index: R::Uint) -> (R, R) {
-        let inside = R::has_bits(index.lt(self.count));
-        let at = self.first.wrapping_add(index);
-        let end = self.memory.number(at).keep(inside);
-        let before = self.memory.number(at.wrapping_sub(R::Uint::splat(1)));
-        let start = before.keep(inside & R::has_bits(index));
-        (start, end - start)
-    }
-}
-
-/// A [`PiecewiseConstant2d`](crate::discrete::PiecewiseConstant2d) as words in [memory](crate::memory): the buffer that it was built in, from the index `first` on.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Words2d<M, U> {
-    pub(crate) memory: M,
-    pub(crate) first: U,
-    pub(crate) size: [U; 2],
-}
-
-impl<M: Copy, U: Uint> Words2d<M, U> {
-    #[inline(always)]
-    fn row(&self, y: U) -> WordsRow<M, U> {
-        let Self { memory, first, size: [width, _] } = *self;
-        WordsRow { memory, first: first.wrapping_add(y.wrapping_mul(width)), count: width }
-    }
-    #[inline(always)]
-    fn marginal(&self) -> WordsRow<M, U> {
-        let [_, height] = self.size;
-        WordsRow { count: height, ..self.row(height) }
-    }
-    /// See [`PiecewiseConstant2d::cell`](crate::discrete::PiecewiseConstant2d::cell).
-    #[inline(always)]
-    pub(crate) fn cell<R: Real<Uint = U>>(&self, u: Vec2<R>) -> Cell2d<R>
-    where
-        M: Memory<R>,
-    {
-        let row = draw(u.y, &self.marginal());
-        let column = draw(u.x, &self.row(row.index));
-        Cell2d {
-            x: column.index,
-            y: row.index,
-            offset: Vec2::new(column.offset, row.offset),
-            pmf: row.pmf * column.pmf,
-        }
-    }
-    /// See [`PiecewiseConstant2d::pmf`](crate::discrete::PiecewiseConstant2d::pmf).
-    #[inline(always)]
-    pub(crate) fn pmf<R: Real<Uint = U>>(&self, x: U, y: U) -> R
-    where
-        M: Memory<R>,
-    {
-        let ((_, row), (_, column)) = (Row::<R>::bounds(&self.marginal(), y), Row::<R>::bounds(&self.row(y), x));
-        row * column
-    }
-    /// See [`PiecewiseConstant2d::invert_cell`](crate::discrete::PiecewiseConstant2d::invert_cell).
-    #[inline(always)]
-    pub(crate) fn invert_cell<R: Real<Uint = U>>(&self, x: U, y: U, offset: Vec2<R>) -> Vec2<R>
-    where
-        M: Memory<R>,
-    {
-        let invert = |row: &WordsRow<M, U>, index: U, offset: R| {
-            let (start, width) = Row::<R>::bounds(row, index);
-            unit_interval(offset.mul_add(width, start))
-        };
-        Vec2::new(invert(&self.row(y), x, offset.x), invert(&self.marginal(), y, offset.y))
-    }
+/// What is left of the position in a bucket, given its threshold, within its own item or the other one: a fresh number.
+#[inline(always)]
+pub(super) fn rest<R: Real>(own: R::Mask, fraction: R, threshold: R) -> R {
+    let one = R::lit(1.0);
+    let range = R::blend(own, threshold, one - threshold);
+    unit_interval(R::blend(own, fraction, fraction - threshold) / range.greater(R::lit(1e-30)))
 }
