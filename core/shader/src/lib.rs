@@ -61,6 +61,8 @@
 //! | table | words in memory | functions |
 //! |---|---|---|
 //! | `light_tree` | [`Node8::words`](etendue::select::Node8::words) of each node of a [`LightTree`](etendue::select::LightTree), and its places | `choose`, `choose_by`, `pmf` |
+//! | `alias_table` | [`AliasTable::words`](etendue::discrete::AliasTable::words) | `cell`, `pmf` |
+//! | `piecewise_constant_1d`, `piecewise_constant_2d` | the buffer of [`PiecewiseConstant1d`](etendue::discrete::PiecewiseConstant1d) or [`PiecewiseConstant2d`](etendue::discrete::PiecewiseConstant2d) | `cell`, `pmf`, `invert_cell` |
 //! | `equirectangular_environment`, `equal_area_environment` | the buffer of [`ImageEnvironment::build`](etendue::light::ImageEnvironment::build) | `draw`, `sample`, `pdf`, `hit`, `invert` |
 //! | `profile` | [`Profile::words`](etendue::light::Profile::words) | `intensity` |
 //! | `pictured_L_by_M`, with L `parallelogram` (or a rectangle), `triangle` or `disk` | the buffer of [`Picture::build`](etendue::light::Picture::build) | the same as of environments |
@@ -81,6 +83,7 @@
 //! every function (with `LONG=1`; otherwise for most). The shading languages promise less: the beginning of each file says what. Read as
 //! C++ with another standard library, each operation in Metal has the same bits, but for conversions to words outside of [0, 2²⁴]. No
 //! shading language forbids a driver to contract a product and a sum, and SPIR-V has no decoration against it here.
+mod distributions;
 mod errors;
 mod graph;
 mod inputs;

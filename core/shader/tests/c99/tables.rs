@@ -14,7 +14,7 @@ pub(crate) fn module(name: &str) -> Module {
     Selection { tables: vec![name.into()], ..Selection::default() }.module()
 }
 /// Halves of a word as numbers.
-fn halves(word: u32) -> [f32; 2] {
+pub(crate) fn halves(word: u32) -> [f32; 2] {
     [(word >> 16) as f32, (word & 0xffff) as f32]
 }
 
