@@ -5,7 +5,7 @@ use crate::inputs::{Inputs, add_function, add_words};
 use crate::list::{Technique, TechniqueVisitor, every_technique};
 use crate::module::{Leaf, Module, Struct, Type};
 use crate::names::snake;
-use crate::number::{Number, Words, record};
+use crate::number::{Number, Word, Words, record};
 use crate::record::{drawn_struct, light_struct, sample_outputs, sample_struct};
 use crate::wanted::{Part, Wanted};
 use etendue::light::{PictureSample, PictureWords, PicturedLight, Region};
@@ -63,7 +63,7 @@ impl Kind {
         }
     }
     /// The picture of a parameter.
-    fn picture(self, module: &Module, inputs: &mut Inputs, of: usize) -> PictureWords<Words, crate::Word> {
+    fn picture(self, module: &Module, inputs: &mut Inputs, of: usize) -> PictureWords<Words, Word> {
         let ([shares, columns, rows], values) = if self.interpolated {
             let [shares, values, columns, rows] = inputs.words(module, "picture", of);
             ([shares, columns, rows], Some(values))
@@ -107,7 +107,7 @@ struct Given<'a> {
 }
 
 impl Given<'_> {
-    fn picture(&mut self) -> PictureWords<Words, crate::Word> {
+    fn picture(&mut self) -> PictureWords<Words, Word> {
         self.kind.picture(self.module, self.inputs, self.picture)
     }
     fn numbers(&mut self) -> Vec<Number> {
@@ -118,7 +118,7 @@ impl Given<'_> {
     }
 }
 
-type On<L> = PicturedLight<PictureWords<Words, crate::Word>, L>;
+type On<L> = PicturedLight<PictureWords<Words, Word>, L>;
 fn vec3(x: &[Number]) -> Vec3<Number> {
     Vec3::new(x[0], x[1], x[2])
 }
