@@ -45,6 +45,7 @@ pub mod memory;
 pub mod occlusion;
 pub mod random;
 pub mod real;
+pub mod reflection;
 pub mod select;
 pub mod sequence;
 pub mod spherical;

@@ -97,6 +97,7 @@ mod disk;
 mod distant;
 mod environment;
 mod flat;
+mod hierarchy;
 mod line;
 mod opening;
 mod patch;
@@ -131,9 +132,9 @@ pub use environment::{
     ByRadiance, EnvironmentMap, EnvironmentSample, EnvironmentWords, ImageEnvironment, ImageSampler, Texel,
 };
 pub use flat::{
-    Parallelogram, ParallelogramByArea, ParallelogramByProjectedSolidAngle, ParallelogramBySolidAngle, Rectangle,
-    RectangleByCosineWarp, RectangleBySolidAngle, Triangle, TriangleByArea, TriangleByCosineWarp,
-    TriangleByProjectedSolidAngle, TriangleBySolidAngle,
+    Parallelogram, ParallelogramByArea, ParallelogramByProjectedSolidAngle, ParallelogramByReflection,
+    ParallelogramBySolidAngle, Rectangle, RectangleByCosineWarp, RectangleBySolidAngle, Triangle, TriangleByArea,
+    TriangleByCosineWarp, TriangleByProjectedSolidAngle, TriangleByReflection, TriangleBySolidAngle,
 };
 pub use line::{Line, LineByAngle, LineByLength, LineByProjectedSolidAngle, PlacedLine};
 pub use opening::LuminousOpening;
@@ -143,12 +144,14 @@ pub use picture_words::PictureWords;
 pub use pictured::{ByPicture, PictureSample, Pictured, PicturedLight, PicturedSampler};
 pub use pictured_curved::Curved;
 pub use pictured_flat::{Area, Flat, FlatLight, Projected, SolidAngle};
-pub use polygon::{PlacedPolygon, Polygon, PolygonByArea, PolygonByProjectedSolidAngle, PolygonBySolidAngle};
+pub use polygon::{
+    PlacedPolygon, Polygon, PolygonByArea, PolygonByProjectedSolidAngle, PolygonByReflection, PolygonBySolidAngle,
+};
 pub use portal::{MOST_PORTALS, Portal, PortalEnvironment, PortalMap, PortalTable, PortalsByRadiance};
 pub use profile::{Profile, ProfileError, ProfileWords};
 pub use projector::{ProjectedImage, Projector};
 pub use sample::{AreaSample, FAR, LightSample};
-pub use sampler::{ByArea, ByCosineWarp, ByProjectedSolidAngle, BySolidAngle, LightSampler};
+pub use sampler::{ByArea, ByCosineWarp, ByProjectedSolidAngle, ByReflection, BySolidAngle, LightSampler};
 pub use sphere::{PlacedSphere, Sphere, SphereByArea, SphereByProjectedSolidAngle, SphereBySolidAngle};
 pub use spread::Spread;
 pub use surface::{AreaSurface, PlacedParallelogram, PlacedTriangle, Surface, SurfaceHit, SurfacePoint};

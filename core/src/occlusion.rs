@@ -51,6 +51,7 @@ mod outline;
 mod shapes;
 
 use crate::real::{Mask, Real};
+use crate::reflection::Reflection;
 use crate::spherical::ProjectedCap;
 use crate::vector::Vec3;
 use cap::Cap;
@@ -116,6 +117,8 @@ pub struct Occlusion<R: Real> {
     /// The light, and its intersections with one blocker, with two, and so on.
     stack: [Outline<R, MOST>; DEPTH + 1],
     normal: Vec3<R>,
+    /// What parts are measured by, if not by the cosine.
+    lobe: Option<Reflection<R>>,
     /// The light if it is a sphere.
     light: Option<Cap<R>>,
     /// The point of a flat light from which its outline is measured, and the reciprocal of its unit.
@@ -156,6 +159,7 @@ impl<R: Real> Occlusion<R> {
             seen: [Seen::default(); BLOCKERS],
             stack: [Outline::default(); DEPTH + 1],
             normal: Vec3::default(),
+            lobe: None,
             light: None,
             base: (Vec3::default(), R::lit(1.0)),
             front: (Vec3::default(), R::lit(0.0)),
@@ -207,6 +211,40 @@ impl<R: Real> Occlusion<R> {
         blockers: &[Convex<R::Scalar>],
         polyhedra: &[Polyhedron<'_, R::Scalar>],
     ) -> Option<R> {
+        self.lobe = None;
+        self.part(point, normal, light, blockers, polyhedra)
+    }
+
+    /// The projected solid angle in [0, π] of the visible part after the map of a reflection at each point, whose normal must be `normal`: a
+    /// surface reflects about F · [albedo](Reflection::albedo) · L/π times this of a light with the radiance L. Like
+    /// [`visible_past`](Self::visible_past) otherwise; `None` also if a sphere blocks, or is blocked.
+    ///
+    /// Parts are clipped before the map, and measured after it. Greatest error: 2e−6 times the angle around the light after the map for each
+    /// of the blockers that occlude it, and of spheres as [`Reflection::sphere`].
+    #[inline]
+    pub fn reflected(
+        &mut self,
+        point: Vec3<R>,
+        normal: Vec3<R>,
+        reflection: &Reflection<R>,
+        light: &Convex<R::Scalar>,
+        blockers: &[Convex<R::Scalar>],
+        polyhedra: &[Polyhedron<'_, R::Scalar>],
+    ) -> Option<R> {
+        self.lobe = Some(*reflection);
+        self.part(point, normal, light, blockers, polyhedra)
+    }
+
+    /// What is visible, by the cosine or the lobe.
+    #[inline]
+    fn part(
+        &mut self,
+        point: Vec3<R>,
+        normal: Vec3<R>,
+        light: &Convex<R::Scalar>,
+        blockers: &[Convex<R::Scalar>],
+        polyhedra: &[Polyhedron<'_, R::Scalar>],
+    ) -> Option<R> {
         if blockers.len() + polyhedra.len() > BLOCKERS {
             return None;
         }
@@ -226,14 +264,17 @@ impl<R: Real> Occlusion<R> {
                 if self.stack[0].clip(normal, R::lit(0.0)).is_err() || self.stack[0].is_empty() {
                     return Some(R::lit(0.0));
                 }
-                self.stack[0].projected_solid_angle(normal)
+                measure(self.lobe.as_ref(), &self.stack[0], normal)
             }
             (Convex::Sphere { center, radius }, None) => {
                 let (center, radius) = (Vec3::splat(center) - point, R::splat(radius));
                 let cap = Cap::new(center, radius);
                 self.front = (-cap.axis, -cap.tangents);
                 self.light = Some(cap);
-                let all = unoccluded(&cap, center, radius, normal);
+                let all = match &self.lobe {
+                    Some(lobe) => lobe.sphere(center, radius),
+                    None => unoccluded(&cap, center, radius, normal),
+                };
                 self.stack[0].start(Vec3::default(), &[], R::Mask::splat(true));
                 all
             }
@@ -390,7 +431,7 @@ impl<R: Real> Occlusion<R> {
     /// there is no such part in any lane. `cap` is the sphere that bounds the intersection, if there is one.
     #[inline]
     fn intersect(&mut self, depth: usize, k: usize, cap: Option<Cap<R>>) -> Result<Option<Part<R>>, TooMany> {
-        let (seen, normal) = (&self.seen[k], self.normal);
+        let (seen, normal, lobe) = (&self.seen[k], self.normal, self.lobe.as_ref());
         let (below, above) = self.stack.split_at_mut(depth + 1);
         let (from, Some(to)) = (&below[depth], above.first_mut()) else { return Err(TooMany) };
         let whole = depth == 0 && self.light.is_some();
@@ -399,6 +440,7 @@ impl<R: Real> Occlusion<R> {
             return match cap {
                 Some(cap) if cap.is_apart_from(own, lanes) => Ok(None),
                 Some(_) => Err(TooMany),
+                None if lobe.is_some() => Err(TooMany),
                 None => {
                     to.start(from.base(), from.corners(), lanes);
                     let part = own.projected_solid_angle_within(to, normal)?;
@@ -455,8 +497,9 @@ impl<R: Real> Occlusion<R> {
             return Err(TooMany);
         }
         let part = match &cap {
+            Some(_) if lobe.is_some() => return Err(TooMany),
             Some(cap) => cap.projected_solid_angle_within(to, normal)?,
-            None => to.projected_solid_angle(normal),
+            None => measure(lobe, to, normal),
         };
         Ok(Some((cap, part)))
     }
@@ -470,6 +513,15 @@ impl<R: Real> Occlusion<R> {
             }
         }
         Ok(left)
+    }
+}
+
+/// Ω⊥ of an outline above the horizon, after the map of a lobe if there is one: it keeps heights.
+#[inline(always)]
+fn measure<R: Real>(lobe: Option<&Reflection<R>>, outline: &Outline<R, MOST>, normal: Vec3<R>) -> R {
+    match lobe {
+        Some(lobe) => outline.mapped(|v| lobe.to_cosine(v)).projected_solid_angle(Vec3::lit([0.0, 0.0, 1.0])),
+        None => outline.projected_solid_angle(normal),
     }
 }
 

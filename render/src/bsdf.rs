@@ -1,8 +1,10 @@
 //! BSDFs in packets: diffuse surfaces, perfect mirrors, rough metals, and rough coats over diffuse surfaces.
 
+use crate::lobe::{Lobe, cosine_of_schlick, schlick_of_diffuse};
 use crate::packet::{M8, V8, X8, equal, max, min, select};
 use crate::scene::{Material, Roughness};
 use crate::technique::Technique;
+use etendue::reflection::Reflection;
 use etendue::warp::{CosineHemisphere, GgxVisibleNormals, UniformHemisphere};
 use etendue::{Frame, Mask, Real, Vec2, Warp, u32x8};
 
@@ -105,6 +107,28 @@ impl Metal {
     #[inline]
     fn coats(&self) -> M8 {
         equal(self.kind, u32x8::splat(COAT))
+    }
+    /// The fit of the surfaces that are rough, and equally so in all directions, for their normals, the albedos below coats, and unit vectors
+    /// towards the viewer.
+    #[inline]
+    pub fn lobe(&self, normal: V8, albedo: V8, view: V8) -> Option<Lobe> {
+        let lanes = self.rough() & self.alpha[0].le(self.alpha[1]) & self.alpha[1].le(self.alpha[0]);
+        if !lanes.any() {
+            return None;
+        }
+        let one = X8::lit(1.0);
+        let reflection = Reflection::new(self.alpha[0], normal, view);
+        let (coats, weight) = (self.coats() & lanes, reflection.schlick());
+        let mut fresnel = self.fresnel(cosine_of_schlick(weight));
+        let mut diffuse = V8::default();
+        if coats.any() {
+            fresnel = V8::blend(coats, self.eta.map(|f0| (one - f0).mul_add(weight, f0)), fresnel);
+            let through = one - schlick_of_diffuse(view.dot(normal));
+            let V8 { x, y, z } = self.eta.map(|f0| ((one - f0) * through).keep(coats));
+            diffuse = V8::new(albedo.x * x, albedo.y * y, albedo.z * z);
+        }
+        let specular = (fresnel * reflection.albedo()).map(|part| part.keep(lanes));
+        Some(Lobe { lanes, reflection, specular, diffuse, coats })
     }
     /// Reflectance of a perfect mirror at this cosine of the angle of incidence, per channel.
     #[inline]

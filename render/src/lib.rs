@@ -31,6 +31,7 @@ pub mod light_picture;
 pub mod light_profile;
 pub mod lights;
 pub mod limits;
+pub mod lobe;
 pub mod merge;
 pub mod options;
 pub mod packet;

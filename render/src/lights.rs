@@ -408,6 +408,11 @@ impl Lights {
         }
         sample.into()
     }
+    /// The light of a shape that is one.
+    #[inline]
+    pub fn of_shape(&self, shape: usize) -> usize {
+        self.shape_lights[shape] as usize
+    }
     /// Pdf per steradian, including the pmf of the choice, with which [`sample`](Self::sample) by solid angle draws the direction `w` to a
     /// shape from `p`.
     #[inline]

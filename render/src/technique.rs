@@ -21,9 +21,9 @@ pub enum Technique {
     MisBalance,
     /// Solid-angle and brdf, combined by the power heuristic
     MisPower,
-    /// Exact where geometry tells what occludes a light; elsewhere by solid angle, and on rough surfaces as mis-power
+    /// Exact where geometry tells what occludes a light, and nearly so on rough surfaces; the rest by solid angle, or as mis-power
     Analytic,
-    /// Mis-power with rough surfaces; else analytic with up to 32 lights that all have an area, and no lens; else solid-angle
+    /// Analytic with up to 32 lights that all have an area, and no lens; else mis-power with rough surfaces, and solid-angle without
     Auto,
 }
 
@@ -32,7 +32,9 @@ impl Technique {
     pub fn finds_lights(self) -> bool {
         matches!(self, Self::UniformHemisphere | Self::CosineHemisphere | Self::Brdf)
     }
-    /// Whether light is computed without samples where that can be. That requires few lights that all have an area.
+    /// Whether light is computed without samples where that can be. That requires few lights that all have an area: behind portals, what is
+    /// known of a sky would save next to nothing. (In `render/gallery/emitters/windows.pbrt`, 0.8 % of the shadow rays leave squares of 4 × 4
+    /// pixels in which none arrives, and there is no square in which all do, since the reveals of the windows hide some of the sky.)
     pub fn is_analytic(self, only_few_areas: bool) -> bool {
         self == Self::Analytic && only_few_areas
     }

@@ -31,7 +31,7 @@ impl Lanes {
     }
 }
 
-const SIZES: [[usize; 2]; 8] = [[1, 1], [2, 1], [1, 3], [5, 7], [8, 8], [16, 3], [33, 20], [64, 9]];
+const SIZES: [[usize; 2]; 8] = [[1, 1], [2, 1], [1, 3], [5, 7], [8, 8], [20, 3], [33, 20], [100, 9]];
 
 fn weights(count: usize, random: &mut Random) -> Vec<f32> {
     let mut all: Vec<f32> =

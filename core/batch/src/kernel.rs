@@ -21,6 +21,8 @@ pub(crate) unsafe trait Packet: Real<Scalar = f32> {}
 // SAFETY: a number is one lane
 unsafe impl Packet for f32 {}
 // SAFETY: `wide` has `as_array` for it
+unsafe impl Packet for etendue::f32x4 {}
+// SAFETY: as above
 unsafe impl Packet for etendue::f32x8 {}
 // SAFETY: as above
 unsafe impl Packet for etendue::f32x16 {}

@@ -57,7 +57,7 @@ use etendue::{Vec2, Vec3};
 /// The instructions that a [`Batch`] uses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Level {
-    /// Those of the build: eight lanes, in as many registers as that takes.
+    /// Those of the build: eight lanes, four on WebAssembly, and one where multiply-add takes several instructions.
     Build,
     /// x86-64-v3: eight lanes with AVX2 and fused multiply-add.
     V3,

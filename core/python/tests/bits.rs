@@ -165,11 +165,11 @@ fn hashes_of_images() {
 /// Pictures on a parallelogram by area and by solid angle, interpolated ones by projected solid angle and on a sphere, one on a patch,
 /// portals, a projected image, a profile, a sky and a spread.
 const HASHES_OF_IMAGES: [u64; 10] = [
-    0x79ce_3f1e_a05b_0b57,
-    0x56c3_69f6_1121_2b9c,
-    0xc4df_81a1_c911_d536,
-    0x3f79_eb2a_6068_371a,
-    0x7a43_b5c7_dc56_6098,
+    0xcdb8_f962_59b3_2bef,
+    0x76f4_95cd_7546_b258,
+    0xe8a8_67a7_1b88_6ecb,
+    0x532b_a930_22b4_f2d6,
+    0x7c93_03a6_fbe5_38d1,
     0x673f_edd3_2d64_ecd2,
     0xa4b0_2c6f_94d1_2f6c,
     0x25ba_46b2_2cca_6b42,

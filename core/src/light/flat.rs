@@ -1,10 +1,11 @@
 //! Triangles, parallelograms and rectangles.
 
 use super::sample::direction_to;
-use super::sampler::{ByArea, ByCosineWarp, ByProjectedSolidAngle, BySolidAngle};
+use super::sampler::{ByArea, ByCosineWarp, ByProjectedSolidAngle, ByReflection, BySolidAngle};
 use super::surface::{PlacedParallelogram, PlacedTriangle};
 use crate::lanewise::lanewise;
 use crate::real::Real;
+use crate::reflection::Reflection;
 use crate::spherical::{
     CosineWarped, ProjectedPolygon, ProjectedTriangle, SphericalParallelogram, SphericalRectangle, SphericalTriangle,
 };
@@ -76,6 +77,14 @@ impl<R: Real> Triangle<R> {
         let shape = ProjectedTriangle::with_edges(v0, v0 + self.e1, v0 + self.e2, self.e1, self.e2, n);
         ByProjectedSolidAngle { origin: p, normal: n, surface: self.placed(p), shape }
     }
+    /// In proportion to the lobe of a rough surface at the point `p`: pdf π times that of the [`Reflection`], over the projected solid angle
+    /// after its map, per steradian; 0 where nothing of the triangle is above the horizon.
+    #[inline(always)]
+    pub fn by_reflection(&self, p: Vec3<R>, reflection: &Reflection<R>) -> TriangleByReflection<R> {
+        let [v0, e1, e2] = [self.v0 - p, self.e1, self.e2].map(|v| reflection.to_cosine(v));
+        let shape = ProjectedTriangle::with_edges(v0, v0 + e1, v0 + e2, e1, e2, Vec3::lit([0.0, 0.0, 1.0]));
+        ByReflection { origin: p, reflection: *reflection, surface: self.placed(p), shape }
+    }
     /// By solid angle times a bilinear approximation of the cosine to the unit normal `n` at the point `p`, [`CosineWarped`]: for diffuse
     /// surfaces where the projected solid angle costs too much. The pdf is per steradian.
     #[inline(always)]
@@ -94,6 +103,8 @@ pub type TriangleByArea<R> = ByArea<R, PlacedTriangle<R>>;
 pub type TriangleBySolidAngle<R> = BySolidAngle<R, PlacedTriangle<R>, SphericalTriangle<R>>;
 /// A [`Triangle`] sampled by projected solid angle from a point on a surface.
 pub type TriangleByProjectedSolidAngle<R> = ByProjectedSolidAngle<R, PlacedTriangle<R>, ProjectedTriangle<R>>;
+/// A [`Triangle`] sampled by the lobe of a rough surface.
+pub type TriangleByReflection<R> = ByReflection<R, PlacedTriangle<R>, ProjectedTriangle<R>>;
 /// A [`Triangle`] sampled by the cosine warp from a point on a surface.
 pub type TriangleByCosineWarp<R> = ByCosineWarp<R, PlacedTriangle<R>, SphericalTriangle<R>>;
 
@@ -150,8 +161,17 @@ impl<R: Real> Parallelogram<R> {
         let shape = ProjectedPolygon::parallelogram(self.corner - p, self.edge_s, self.edge_t, n);
         ByProjectedSolidAngle { origin: p, normal: n, surface: self.placed(p), shape }
     }
+    /// In proportion to the lobe of a rough surface at the point `p`: as [`Triangle::by_reflection`].
+    #[inline(always)]
+    pub fn by_reflection(&self, p: Vec3<R>, reflection: &Reflection<R>) -> ParallelogramByReflection<R> {
+        let [corner, s, t] = [self.corner - p, self.edge_s, self.edge_t].map(|v| reflection.to_cosine(v));
+        let shape = ProjectedPolygon::parallelogram(corner, s, t, Vec3::lit([0.0, 0.0, 1.0]));
+        ByReflection { origin: p, reflection: *reflection, surface: self.placed(p), shape }
+    }
 }
 
+/// A [`Parallelogram`] or a [`Rectangle`] sampled by the lobe of a rough surface.
+pub type ParallelogramByReflection<R> = ByReflection<R, PlacedParallelogram<R>, ProjectedPolygon<R, 4>>;
 /// A [`Parallelogram`] or a [`Rectangle`] sampled by area from a point.
 pub type ParallelogramByArea<R> = ByArea<R, PlacedParallelogram<R>>;
 /// A [`Parallelogram`] sampled by solid angle from a point.
@@ -203,6 +223,11 @@ impl<R: Real> Rectangle<R> {
     #[inline(always)]
     pub fn by_projected_solid_angle(&self, p: Vec3<R>, n: Vec3<R>) -> ParallelogramByProjectedSolidAngle<R> {
         Parallelogram::from(*self).by_projected_solid_angle(p, n)
+    }
+    /// In proportion to the lobe of a rough surface at the point `p`, as a parallelogram: [`Triangle::by_reflection`].
+    #[inline(always)]
+    pub fn by_reflection(&self, p: Vec3<R>, reflection: &Reflection<R>) -> ParallelogramByReflection<R> {
+        Parallelogram::from(*self).by_reflection(p, reflection)
     }
     /// By solid angle times a bilinear approximation of the cosine to the unit normal `n` at the point `p`, [`CosineWarped`]: for diffuse
     /// surfaces. The pdf is per steradian.

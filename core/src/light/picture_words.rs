@@ -1,6 +1,7 @@
 //! Pictures on lights from words in memory.
 
-use super::cells::{Axis, Box2, Cells, Drawn, Halves, Level, Lower, Region, Walk};
+use super::cells::{Cells, Drawn, Level, Measure, Region, Span, Walk};
+use super::hierarchy::ENTRIES;
 use super::pictured::PicturedLight;
 use crate::memory::Memory;
 use crate::real::{Real, State, Uint};
@@ -11,7 +12,7 @@ use crate::vector::Vec2;
 /// Of single precision, samples and pdfs have the bits of the picture. On a processor the picture itself is the faster one.
 ///
 /// - Domain: the picture's; the memory has the words of the buffer that [`build`](super::Picture::build) has filled.
-/// - Degenerate: any other contents give samples with any pdf; a walk halves at most 48 boxes.
+/// - Degenerate: any other contents give samples with any pdf; a walk cuts at most 12 boxes.
 ///
 /// ```
 /// use etendue::light::{Picture, PictureWords, Region};
@@ -50,44 +51,8 @@ impl<M, U> PictureWords<M, U> {
     }
 }
 
-/// The axis of each lane: rows where the mask is true.
-#[derive(Clone, Copy)]
-struct PerLane<B>(B);
-
-impl<R: Real> Axis<R> for PerLane<R::Mask> {
-    #[inline(always)]
-    fn of(self, &[x, y]: &[R; 2]) -> R {
-        R::blend(self.0, y, x)
-    }
-    #[inline(always)]
-    fn across(self, &[x, y]: &[R; 2]) -> R {
-        R::blend(self.0, x, y)
-    }
-    #[inline(always)]
-    fn sides(self, along: [R; 2], across: [R; 2]) -> [[R; 2]; 2] {
-        let both = |a: [R; 2], b: [R; 2]| [R::blend(self.0, b[0], a[0]), R::blend(self.0, b[1], a[1])];
-        [both(along, across), both(across, along)]
-    }
-    #[inline(always)]
-    fn set(self, pair: &mut [R; 2], value: R) {
-        *pair = [R::blend(self.0, pair[0], value), R::blend(self.0, value, pair[1])];
-    }
-    #[inline(always)]
-    fn densities(self, halves: &impl Halves<R>, low: &Box2<R>, high: &Box2<R>) -> ([R; 2], R::Mask) {
-        let (zero, one) = (R::lit(0.0), R::lit(1.0));
-        let along = |axis: usize| {
-            let ([a, b], differ) = halves.densities(axis, low, high);
-            [a, b, one.keep(differ)]
-        };
-        let columns = R::where_any(!self.0, [zero; 3], || along(0));
-        let rows = R::where_any(self.0, [zero; 3], || along(1));
-        let [a, b, differ] = core::array::from_fn(|k| R::blend(self.0, rows[k], columns[k]));
-        ([a, b], differ.gt(zero))
-    }
-}
-
-/// The most halvings from 2²⁴ columns and rows to one.
-const MOST: usize = 48;
+/// The most boxes from 2²⁴ columns and rows to one.
+const MOST: usize = 12;
 
 impl<R: Real, M: Memory<R>> Cells<R> for PictureWords<M, R::Uint> {
     #[inline(always)]
@@ -116,46 +81,54 @@ impl<R: Real, M: Memory<R>> Cells<R> for PictureWords<M, R::Uint> {
         Some([value(zero, zero), value(one, zero), value(zero, one), value(one, one)])
     }
     #[inline]
-    fn walk(&self, halves: &impl Halves<R>, lower: &impl Lower<R>) -> Drawn<R> {
-        let (zero, half, one, word) = (R::lit(0.0), R::lit(0.5), R::lit(1.0), R::Uint::splat);
-        let counts: Vec2<R> = Cells::counts(self);
-        // the least power of two that is not below a number
-        let above = |n: R| {
-            let power = one / n.pow2_scale();
-            R::blend(power.lt(n), power + power, power)
+    fn walk(&self, measure: &impl Measure<R>, before: impl Fn(usize, R, R) -> R::Mask) -> Drawn<R> {
+        let (one, word) = (R::lit(1.0), R::Uint::splat);
+        let counts: Vec2<R> = self.counts();
+        // the least power of two that is not below the longer side
+        let whole = {
+            let longest = counts.x.greater(counts.y);
+            let power = one / longest.pow2_scale();
+            R::blend(power.lt(longest), power + power, power)
         };
-        let (columns, rows) = (above(counts.x), above(counts.y));
-        let step = |(numbers, [offset, differ]): State<R, 8, 2>, [going]: [R::Mask; 1]| {
-            let [x0, y0, start_x, start_y, steps_x, steps_y, width, height] = numbers;
-            let mut walk = Walk::<R, Self>::of(self);
-            (walk.texel, walk.start, walk.steps) = ([x0, y0], [start_x, start_y], [steps_x, steps_y]);
-            walk.differ = R::has_bits(differ);
-            let axis = PerLane(height.gt(width));
-            // boxes beside each other in memory, and in the picture; quotients by powers of two are exact
-            let stride = (columns / width).to_uint();
-            let index = (y0 / height).to_uint().wrapping_mul(stride).wrapping_add((x0 / width).to_uint());
-            let share = self.memory.number(self.shares.wrapping_add(offset).wrapping_add(index));
-            let sizes = [width, height];
-            let level = Level { axis, half: axis.of(&sizes) * half, size: axis.across(&sizes), share };
-            walk.descend(&level, halves, lower);
-            let whole = (counts.y / height).to_uint();
-            let some = R::blend_uint(R::from_uint(whole).lt(counts.y / height), word(1), word(0));
-            let next = offset.wrapping_add(whole.wrapping_add(some).wrapping_mul(stride));
-            let mut halved = sizes;
-            axis.set(&mut halved, level.half);
-            let Walk { texel, start, steps, .. } = walk;
-            let new = [texel[0], texel[1], start[0], start[1], steps[0], steps[1], halved[0], halved[1]];
+        let step = |(numbers, [first, differ]): State<R, 7, 2>, [going]: [R::Mask; 1]| {
+            let [x, start_x, steps_x, y, start_y, steps_y, length] = numbers;
+            let mut walk = Walk {
+                columns: Span { start: start_x, steps: steps_x, cell: x },
+                rows: Span { start: start_y, steps: steps_y, cell: y },
+                differ: R::has_bits(differ),
+            };
+            // the levels of the hierarchy: of an odd power of two, the last one or the second one has boxes of 2 × 2
+            let is_odd = R::has_bits(length.to_uint() & word(0xAAAA_AAAA));
+            let is_half = is_odd & (length.le(R::lit(2.0)) | R::has_bits(first));
+            let side = length * R::blend(is_half, R::lit(0.5), R::lit(0.25));
+            // boxes beside and above each other; quotients by powers of two are exact
+            let [across, rows] = [counts.x, counts.y].map(|count| {
+                let whole = (count / length).to_uint();
+                let is_cut = R::from_uint(whole).lt(count / length);
+                whole.wrapping_add(R::blend_uint(is_cut, word(1), word(0)))
+            });
+            let [column, row] = [x, y].map(|at| (at / length).to_uint());
+            let here = row.wrapping_mul(across).wrapping_add(column).wrapping_add(first);
+            let here = self.shares.wrapping_add(here.shl(ENTRIES.trailing_zeros()));
+            let shares = |row: Option<R::Uint>| {
+                let at = row.map_or(here, |row| here.wrapping_add(row));
+                [0, 1, 2].map(|k| self.memory.number(at.wrapping_add(word(k))))
+            };
+            walk.descend(self, &Level { length, side, cut: [true; 2] }, shares, measure, &before);
+            let Walk { columns, rows: lines, differ: still } = walk;
+            let new = [columns.cell, columns.start, columns.steps, lines.cell, lines.start, lines.steps, side];
             let numbers = core::array::from_fn(|k| R::blend(going, new[k], numbers[k]));
-            let words = [R::blend_uint(going, next, offset), R::blend_uint(walk.differ, word(1), word(0))];
-            ((numbers, words), [going & (halved[0].gt(one) | halved[1].gt(one))])
+            let next = first.wrapping_add(across.wrapping_mul(rows));
+            let words = [R::blend_uint(going, next, first), R::blend_uint(still, word(1), word(0))];
+            ((numbers, words), [going & side.gt(one)])
         };
-        let Walk { steps, .. } = Walk::<R, Self>::of(self);
-        let first = [zero, zero, zero, zero, steps[0], steps[1], columns, rows];
-        let going = columns.gt(one) | rows.gt(one);
-        let ([x, y, start_x, start_y, steps_x, steps_y, ..], _) =
-            R::iterate_with_words(MOST, (first, [word(0), word(1)]), [going], step);
-        let mut walk = Walk::<R, Self>::of(self);
-        (walk.texel, walk.start, walk.steps) = ([x, y], [start_x, start_y], [steps_x, steps_y]);
-        walk.drawn()
+        let Walk { columns: Span { start, steps, cell }, differ, .. } = Walk::<R>::new();
+        let numbers = [cell, start, steps, cell, start, steps, whole];
+        let words = [word(0), R::blend_uint(differ, word(1), word(0))];
+        let ([x, start_x, steps_x, y, start_y, steps_y, _], _) =
+            R::iterate_with_words(MOST, (numbers, words), [whole.gt(one)], step);
+        let columns = Span { start: start_x, steps: steps_x, cell: x };
+        let rows = Span { start: start_y, steps: steps_y, cell: y };
+        Walk { columns, rows, differ }.drawn()
     }
 }

@@ -1,6 +1,6 @@
 //! Lights with pictures, prepared for a shading point.
 
-use super::cells::{Box2, Cells, Drawn, Halves};
+use super::cells::{Box2, Cells, Drawn, Measure};
 use super::picture::Picture;
 use super::sample::LightSample;
 use super::sampler::LightSampler;
@@ -62,7 +62,7 @@ impl<R: Real> Texel<R> {
 }
 
 /// A surface whose texels can be sampled, relative to the shading point.
-pub(super) trait TexelSurface<R: Real>: Halves<R> {
+pub(super) trait TexelSurface<R: Real>: Measure<R> {
     /// True where a direction determines the pdf, so that a sample reports that of its direction.
     const FLAT: bool;
     /// The nearest point in the unit direction `w`.
@@ -120,9 +120,9 @@ impl<P: Cells<R>, R: Real, S: TexelSurface<R>> PicturedSampler<P, R, S> {
     #[inline]
     pub fn draw(&self, u: Vec2<R>) -> PictureSample<R> {
         let (drawn, within) = self.picture.draw(u, &self.surface);
-        let light = self.surface.draw(&self.texel(drawn.texel), within);
+        let light = self.surface.draw(&self.texel(drawn.cell), within);
         let pdf = Self::density(&drawn, light.pdf).keep(self.picture.region().contains(light.uv));
-        PictureSample { light: LightSample { pdf, ..light }, x: drawn.texel.x.to_uint(), y: drawn.texel.y.to_uint() }
+        PictureSample { light: LightSample { pdf, ..light }, x: drawn.cell.x.to_uint(), y: drawn.cell.y.to_uint() }
     }
     #[inline(always)]
     fn texel(&self, at: Vec2<R>) -> Texel<R> {

@@ -1,6 +1,6 @@
 //! Curved lights with pictures.
 
-use super::cells::{Box2, Halves};
+use super::cells::{Box2, Measure, Slabs};
 use super::patch::{BilinearPatch, PlacedPatch};
 use super::pictured::{PicturedLight, PicturedSampler, Texel, TexelSurface};
 use super::sample::{LightSample, direction_to, solid_angle_pdf};
@@ -129,11 +129,12 @@ impl<R: Real> Coordinates<R> for PlacedPatch<R> {
     }
 }
 
-impl<R: Real, S: Coordinates<R>> Halves<R> for Curved<S> {
+impl<R: Real, S: Coordinates<R>> Measure<R> for Curved<S> {
     #[inline(always)]
-    fn densities(&self, _: usize, low: &Box2<R>, high: &Box2<R>) -> ([R; 2], R::Mask) {
-        let ((a, alike), (b, other)) = (self.0.visible(low), self.0.visible(high));
-        ([a, b], !(alike & other))
+    fn densities(&self, of: &Slabs<R>) -> ([R; 4], R::Mask) {
+        let visible = of.each().map(|slab| self.0.visible(&slab));
+        let alike = visible.iter().fold(R::Mask::splat(true), |all, (_, alike)| all & *alike);
+        (visible.map(|(density, _)| density), !alike)
     }
 }
 

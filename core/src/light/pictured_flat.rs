@@ -1,6 +1,6 @@
 //! Flat lights with pictures.
 
-use super::cells::{Box2, Halves};
+use super::cells::{Box2, Measure, Slabs};
 use super::disk::Disk;
 use super::flat::{
     Parallelogram, ParallelogramByArea, ParallelogramByProjectedSolidAngle, ParallelogramBySolidAngle, Rectangle,
@@ -75,7 +75,7 @@ impl<P: Copy, L> PicturedLight<P, L> {
     /// By radiance times solid angle at the point `p`: if the radiance is constant in each texel, the samples of a light whose texels are
     /// small for their distance are worth nearly the same. The pdf is the pmf of the texel, over its solid angle, per steradian.
     ///
-    /// The halves of a box are compared by their solid angles where they are large for their distance, by those of their centres where
+    /// The parts of a box are compared by their solid angles where they are large for their distance, by those of their centres where
     /// not, and by radiance alone where they are too small to differ: shares are within 1 % of the exact ones.
     #[inline(always)]
     pub fn by_solid_angle<R: Real>(&self, p: Vec3<R>) -> PicturedSampler<P, R, Flat<R, SolidAngle<R>>>
@@ -116,10 +116,10 @@ impl<R: Real, M> Flat<R, M> {
     }
 }
 
-impl<R: Real, M: Halves<R>> Halves<R> for Flat<R, M> {
+impl<R: Real, M: Measure<R>> Measure<R> for Flat<R, M> {
     #[inline(always)]
-    fn densities(&self, axis: usize, low: &Box2<R>, high: &Box2<R>) -> ([R; 2], R::Mask) {
-        self.measure.densities(axis, low, high)
+    fn densities(&self, of: &Slabs<R>) -> ([R; 4], R::Mask) {
+        self.measure.densities(of)
     }
 }
 
@@ -203,7 +203,7 @@ impl<R: Real, M: TexelMeasure<R>> Flat<R, M> {
 }
 
 /// What a texel of a flat light is sampled by.
-pub(super) trait TexelMeasure<R: Real>: Halves<R> {
+pub(super) trait TexelMeasure<R: Real>: Measure<R> {
     type Texel: LightSampler<R>;
     /// A texel relative to the shading point.
     fn texel(&self, texel: &Parallelogram<R>) -> Self::Texel;
@@ -221,10 +221,10 @@ const LARGE: f64 = 1.0 / 8.0;
 #[derive(Clone, Copy, Debug)]
 pub struct Area;
 
-impl<R: Real> Halves<R> for Area {
+impl<R: Real> Measure<R> for Area {
     #[inline(always)]
-    fn densities(&self, _: usize, _: &Box2<R>, _: &Box2<R>) -> ([R; 2], R::Mask) {
-        ([R::lit(1.0); 2], R::Mask::splat(false))
+    fn densities(&self, _: &Slabs<R>) -> ([R; 4], R::Mask) {
+        ([R::lit(1.0); 4], R::Mask::splat(false))
     }
 }
 impl<R: Real> TexelMeasure<R> for Area {
@@ -256,10 +256,12 @@ pub struct SolidAngle<R> {
     volume: R,
 }
 
-/// Halves of at most so much of their distance are points: then the solid angle is off by less than 1 %.
+/// Slabs of which half is at most so much of their distance are points: then the solid angle is off by less than 1 %.
 const NEAR: f64 = 1.0 / 4.0;
-/// Halves of at most so much of their distance have halves that are alike.
+/// Slabs of which half is at most so much of their distance have parts that are alike.
 const ALIKE: f64 = 1.0 / 128.0;
+/// Squared distances count as at least so much, in units in which no coordinate exceeds 2.
+const LEAST: f64 = 1e-12;
 
 impl<R: Real> SolidAngle<R> {
     #[inline(always)]
@@ -292,27 +294,26 @@ impl<R: Real> SolidAngle<R> {
     /// Squared distances of the corners of a box, at least so large that their powers are numbers.
     #[inline(always)]
     fn squares(&self, of: &Box2<R>) -> [R; 4] {
-        self.quad(of).map(|v| v.length_squared().greater(R::lit(1e-12)))
+        self.quad(of).map(|v| v.length_squared().greater(R::lit(LEAST)))
     }
     /// Whether a box is large for its distance.
     #[inline(always)]
     fn large(&self, of: &Box2<R>, [a, b, c, d]: [R; 4]) -> R::Mask {
         let least = a.lesser(b).lesser(c.lesser(d));
-        self.longer(of, least * R::lit(LARGE * LARGE)) | least.le(R::lit(1e-12))
+        self.longer(of, least * R::lit(LARGE * LARGE)) | least.le(R::lit(LEAST))
     }
-    /// The six corners of two halves: three along one side, and three along the other.
+    /// Squared distances of the middles of slabs, at least so large that their powers are numbers.
     #[inline(always)]
-    fn corners(&self, axis: usize, low: &Box2<R>, high: &Box2<R>) -> [[Vec3<R>; 3]; 2] {
-        let at = |along: R, across: R| if axis == 0 { self.at(along, across) } else { self.at(across, along) };
-        let pair = |v: Vec2<R>| if axis == 0 { (v.x, v.y) } else { (v.y, v.x) };
-        let ((start, from), (middle, to), (end, _)) = (pair(low.low), pair(low.high), pair(high.high));
-        [from, to].map(|across| [start, middle, end].map(|along| at(along, across)))
+    fn middles(&self, of: &Slabs<R>) -> [R; 4] {
+        of.each().map(|slab| self.middle(&slab).length_squared().greater(R::lit(LEAST)))
     }
-    /// Solid angles of two halves, over their parts of the light: by the triangles of their corners.
+    /// Solid angles of slabs, over their parts of the light: by the triangles of their corners.
     #[inline(always)]
-    fn exact(&self, axis: usize, low: &Box2<R>, high: &Box2<R>) -> [R; 2] {
-        let [near, far] = self.corners(axis, low, high).map(|side| {
-            side.map(|v| {
+    fn exact(&self, of: &Slabs<R>) -> [R; 4] {
+        let at = |along: R, across: R| if of.axis == 0 { self.at(along, across) } else { self.at(across, along) };
+        let [near, far] = of.across.map(|across| {
+            of.along.map(|along| {
+                let v = at(along, across);
                 let squared = v.length_squared();
                 let inverse = rsqrt(squared).keep(squared.gt(R::lit(1e-30)));
                 (v * inverse, inverse)
@@ -320,9 +321,9 @@ impl<R: Real> SolidAngle<R> {
         });
         // of each diagonal, and of the side in the middle
         let one = R::lit(1.0);
-        [0, 1].map(|k| {
+        core::array::from_fn(|k| {
             let ((a, i), (b, j), (c, l), (d, m)) = (near[k], near[k + 1], far[k + 1], far[k]);
-            let part = area(if k == 0 { low } else { high });
+            let part = area(&of.slab(k));
             let volume = self.volume * part;
             // tan Ω/2 of a triangle of unit vectors is their triple product over this sum (van Oosterom and Strackee 1983)
             let ac = one + a.dot(c);
@@ -333,10 +334,10 @@ impl<R: Real> SolidAngle<R> {
             half / part.greater(R::lit(1e-30))
         })
     }
-    /// Whether a box is so large for its distance that its halves differ by more than 1 %.
+    /// Whether half the longest slab is longer than a fraction of the least of these squared distances.
     #[inline(always)]
-    fn differ(&self, of: &Box2<R>, a: R, b: R) -> R::Mask {
-        self.longer(of, a.lesser(b) * R::lit(ALIKE * ALIKE))
+    fn nearer(&self, of: &Slabs<R>, [a, b, c, d]: [R; 4], fraction: f64) -> R::Mask {
+        self.longer(&of.slab(0), a.lesser(b).lesser(c.lesser(d)) * R::lit(fraction * fraction))
     }
 }
 
@@ -346,15 +347,14 @@ fn area<R: Real>(of: &Box2<R>) -> R {
     (of.high.x - of.low.x) * (of.high.y - of.low.y)
 }
 
-impl<R: Real> Halves<R> for SolidAngle<R> {
+impl<R: Real> Measure<R> for SolidAngle<R> {
     #[inline(always)]
-    fn densities(&self, axis: usize, low: &Box2<R>, high: &Box2<R>) -> ([R; 2], R::Mask) {
-        let (a, b) = (self.middle(low).length_squared(), self.middle(high).length_squared());
-        let near = self.longer(low, a.lesser(b) * R::lit(NEAR * NEAR));
-        // 1/d³, times the cubes of both
-        let far = [b * b.sqrt(), a * a.sqrt()];
-        let [c, d] = R::where_any(near, far, || self.exact(axis, low, high));
-        ([R::blend(near, c, far[0]), R::blend(near, d, far[1])], self.differ(low, a, b))
+    fn densities(&self, of: &Slabs<R>) -> ([R; 4], R::Mask) {
+        let squares = self.middles(of);
+        let near = self.nearer(of, squares, NEAR);
+        let far = squares.map(|square| R::lit(1.0) / (square * square.sqrt()));
+        let exact = R::where_any(near, far, || self.exact(of));
+        (core::array::from_fn(|k| R::blend(near, exact[k], far[k])), self.nearer(of, squares, ALIKE))
     }
 }
 impl<R: Real> TexelMeasure<R> for SolidAngle<R> {
@@ -441,24 +441,23 @@ impl<R: Real> Projected<R> {
     }
 }
 
-impl<R: Real> Halves<R> for Projected<R> {
+impl<R: Real> Measure<R> for Projected<R> {
     #[inline(always)]
-    fn densities(&self, axis: usize, low: &Box2<R>, high: &Box2<R>) -> ([R; 2], R::Mask) {
+    fn densities(&self, of: &Slabs<R>) -> ([R; 4], R::Mask) {
         let this = &self.solid_angle;
-        let (a, b) = (this.middle(low).length_squared(), this.middle(high).length_squared());
-        let ((c, level), (d, other)) = (self.height(low), self.height(high));
-        // height/d⁴, times the fourth powers of both
-        let far = [c * b * b, d * a * a];
-        let near = this.longer(low, a.lesser(b) * R::lit(NEAR * NEAR));
-        let [e, f] = R::where_any(near, far, || {
-            let [e, f] = this.exact(axis, low, high);
+        let (slabs, squares) = (of.each(), this.middles(of));
+        let heights = slabs.map(|slab| self.height(&slab));
+        let level = heights.iter().fold(R::Mask::splat(true), |all, (_, level)| all & *level);
+        let far: [R; 4] = core::array::from_fn(|k| heights[k].0 / (squares[k] * squares[k]));
+        let near = this.nearer(of, squares, NEAR);
+        let exact = R::where_any(near, far, || {
+            let solid_angles = this.exact(of);
             // what may be visible keeps a little, whatever rounding has left of it
-            let some = |of: &Box2<R>, solid_angle: R, height: R| {
-                self.exact(of).greater(solid_angle * R::lit(1e-6)).keep(height.gt(R::lit(0.0)))
-            };
-            [some(low, e, c), some(high, f, d)]
+            core::array::from_fn(|k| {
+                self.exact(&slabs[k]).greater(solid_angles[k] * R::lit(1e-6)).keep(heights[k].0.gt(R::lit(0.0)))
+            })
         });
-        ([R::blend(near, e, far[0]), R::blend(near, f, far[1])], this.differ(low, a, b) | !(level & other))
+        (core::array::from_fn(|k| R::blend(near, exact[k], far[k])), this.nearer(of, squares, ALIKE) | !level)
     }
 }
 impl<R: Real> TexelMeasure<R> for Projected<R> {

@@ -1,10 +1,11 @@
 //! Convex polygons.
 
 use super::sample::direction_to;
-use super::sampler::{ByArea, ByProjectedSolidAngle, BySolidAngle};
+use super::sampler::{ByArea, ByProjectedSolidAngle, ByReflection, BySolidAngle};
 use super::surface::{AffinePlane, AreaSurface, Surface, SurfaceHit, SurfacePoint};
 use crate::lanewise::lanewise_by_map;
 use crate::real::{Real, unit_interval};
+use crate::reflection::Reflection;
 use crate::spherical::{ProjectedPolygon, SphericalPolygon, compensated_dot};
 use crate::vector::{Vec2, Vec3};
 use crate::warp::{AreaTriangle, Warp};
@@ -69,6 +70,13 @@ impl<R: Real, const N: usize> Polygon<R, N> {
         let shape = ProjectedPolygon::new(self.corners.map(|c| c - p), n);
         ByProjectedSolidAngle { origin: p, normal: n, surface: PlacedPolygon::new(self.corners, p), shape }
     }
+    /// In proportion to the lobe of a rough surface at the point `p`: as [`Triangle::by_reflection`](crate::Triangle::by_reflection).
+    #[inline(always)]
+    pub fn by_reflection(&self, p: Vec3<R>, reflection: &Reflection<R>) -> PolygonByReflection<R, N> {
+        let corners = self.corners.map(|c| reflection.to_cosine(c - p));
+        let shape = ProjectedPolygon::new(corners, Vec3::lit([0.0, 0.0, 1.0]));
+        ByReflection { origin: p, reflection: *reflection, surface: PlacedPolygon::new(self.corners, p), shape }
+    }
 }
 
 /// A [`Polygon`] sampled by area from a point.
@@ -78,6 +86,9 @@ pub type PolygonBySolidAngle<R, const N: usize> = BySolidAngle<R, PlacedPolygon<
 /// A [`Polygon`] sampled by projected solid angle from a point on a surface.
 pub type PolygonByProjectedSolidAngle<R, const N: usize> =
     ByProjectedSolidAngle<R, PlacedPolygon<R, N>, ProjectedPolygon<R, N>>;
+
+/// A [`Polygon`] sampled by the lobe of a rough surface.
+pub type PolygonByReflection<R, const N: usize> = ByReflection<R, PlacedPolygon<R, N>, ProjectedPolygon<R, N>>;
 
 /// A convex polygon relative to the shading point. Its surface coordinates are the parts of the edges from the first corner to the
 /// second and to the last, clamped to [0, 1].

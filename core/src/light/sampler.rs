@@ -3,10 +3,13 @@
 use super::sample::{AreaSample, LightSample, direction_to, solid_angle_pdf};
 use super::surface::{AreaSurface, Surface};
 use crate::lanewise::Lanewise;
+use crate::math::quotient;
 use crate::real::{Mask, Real};
+use crate::reflection::Reflection;
 use crate::spherical::{CosineWarped, DirectionSample, ProjectedShape, SphericalShape};
 use crate::vector::{Vec2, Vec3};
 use crate::warp::Warp;
+use core::f64::consts::PI;
 
 /// A light prepared for one shading point and one technique: what an integrator needs, whatever the light and the measure are.
 ///
@@ -255,6 +258,65 @@ impl<R: Real, S: Surface<R>, W: ProjectedShape<R>> LightSampler<R> for ByProject
     }
 }
 
+/// A light sampled in proportion to the lobe of a rough surface, above its horizon.
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+pub struct ByReflection<R, S, W> {
+    pub(super) origin: Vec3<R>,
+    pub(super) reflection: Reflection<R>,
+    pub(super) surface: S,
+    /// The light after the map of the reflection.
+    pub(super) shape: W,
+}
+
+impl<R: Real, S, W: ProjectedShape<R>> ByReflection<R, S, W> {
+    /// Projected solid angle of the light above the horizon after the map of the reflection, in [0, π]: π times the part of the lobe that the
+    /// light covers.
+    #[inline(always)]
+    pub fn projected_solid_angle(&self) -> R {
+        self.shape.projected_solid_angle()
+    }
+    #[inline(always)]
+    fn pdf_inside(&self, w: Vec3<R>) -> R {
+        self.reflection.pdf(w) * quotient(R::lit(PI), self.shape.projected_solid_angle())
+    }
+}
+
+impl<R: Real, S: AreaSurface<R>, W: ProjectedShape<R> + Warp<R, Point = Vec3<R>>> LightSampler<R>
+    for ByReflection<R, S, W>
+{
+    #[inline(always)]
+    fn sample(&self, u: Vec2<R>) -> LightSample<R> {
+        let direction = self.reflection.from_cosine(self.shape.sample(u)).unit_and_length().0;
+        let at = self.surface.at(direction);
+        LightSample {
+            direction,
+            distance: at.distance,
+            pdf: self.pdf(direction),
+            normal: at.normal,
+            uv: at.uv,
+            emits: self.shape.in_front(),
+            delta: R::Mask::splat(false),
+        }
+    }
+    #[inline(always)]
+    fn pdf(&self, w: Vec3<R>) -> R {
+        self.pdf_inside(w).keep(self.surface.contains(w))
+    }
+    #[inline(always)]
+    fn invert(&self, w: Vec3<R>) -> Vec2<R> {
+        self.shape.invert(self.reflection.to_cosine(w).unit_and_length().0)
+    }
+    #[inline(always)]
+    fn hit(&self, w: Vec3<R>) -> LightSample<R> {
+        found(w, self.pdf(w), &self.surface, Some(self.shape.in_front()))
+    }
+    #[inline(always)]
+    fn origin(&self) -> Vec3<R> {
+        self.origin
+    }
+}
+
 /// A light sampled by its solid angle times a bilinear approximation of the cosine to a surface normal: [`CosineWarped`].
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
@@ -336,5 +398,6 @@ splats! {
     ByArea<R, S> { origin, surface }
     BySolidAngle<R, S, W> { origin, surface, shape }
     ByProjectedSolidAngle<R, S, W> { origin, normal, surface, shape }
+    ByReflection<R, S, W> { origin, reflection, surface, shape }
     ByCosineWarp<R, S, W> { origin, surface, warped }
 }

@@ -96,6 +96,16 @@ impl<R: Real, const MOST: usize> Outline<R, MOST> {
         self.corners[..corners.len()].copy_from_slice(corners);
         self.some = some;
     }
+    /// The outline after a linear map.
+    #[inline]
+    pub(super) fn mapped(&self, map: impl Fn(Vec3<R>) -> Vec3<R>) -> Self {
+        let mut mapped = *self;
+        mapped.base = map(self.base);
+        for corner in &mut mapped.corners[..self.count] {
+            *corner = map(*corner);
+        }
+        mapped
+    }
     pub(super) fn is_empty(&self) -> bool {
         !self.some.any()
     }

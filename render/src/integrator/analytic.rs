@@ -4,20 +4,21 @@
 //! what a square of 4 × 4 pixels sees of it. (Certificates for single pixels save less time than they take.) A surface seen through a lens
 //! or in a mirror is certified as a whole.
 
-use super::known::{AreaLight, Closed, Known, Survey};
+use super::exact::Exact;
+use super::known::{AreaLight, Closed, Fitted, Known, Survey};
 use super::prepared::PreparedScene;
 use super::settings::{Settings, TILE};
 use crate::bvh::{GROUP, NOTHING, SHAPE};
 use crate::camera::{Camera, Pinhole};
 use crate::certificates::{ALLOWED, Blocker, Bodies, Certificate, Certifier, Patch, Precision, Pyramid, Viewer};
 use crate::geometry::Geometry;
-use crate::packet::{M8, V8, X8, each_bit, equal, select, widen_points};
+use crate::lobe::Lobe;
+use crate::packet::{M8, V8, X8, each_bit, equal, select};
 use crate::surfaces::{Surface, Surfaces};
 use etendue::occlusion::{Convex, Occlusion, Polyhedron};
-use etendue::{Mask, Real, Vec3, f64x4, u32x8};
+use etendue::{Mask, Real, Vec3, u32x8};
 use std::collections::HashMap;
 use std::f64::consts::FRAC_1_PI;
-use std::ops::Range;
 
 /// Sides of the squares of pixels that have certificates of their own. Each square lies within one of the side before.
 const SIDES: [u32; 2] = [TILE, 4];
@@ -45,45 +46,23 @@ pub(super) struct Places {
     pub(super) primitives: u32x8,
     /// Lanes that the camera sees directly.
     pub(super) direct: M8,
-    /// Lanes whose surfaces are not diffuse.
+    /// Lanes whose surfaces are neither diffuse nor have a fit.
     pub(super) glossy: M8,
+    /// Lanes of rough surfaces with a fit.
+    pub(super) fitted: M8,
     /// The pixel of a packet that belongs to a single one.
     pub(super) pixel: Option<[u32; 2]>,
 }
 
 impl Default for Places {
     fn default() -> Self {
-        Self { primitives: u32x8::splat(0), direct: M8::splat(true), glossy: M8::splat(false), pixel: None }
-    }
-}
-
-/// What closed forms in double precision need.
-#[derive(Default)]
-struct Exact<'a> {
-    /// Made when it is first needed.
-    occlusion: Option<Box<Occlusion<f64x4>>>,
-    polyhedra: Vec<Polyhedron<'a, f64>>,
-    forms: Vec<Convex<f64>>,
-}
-
-impl Exact<'_> {
-    /// As of [`Occlusion::visible_past`], for four lanes at a time.
-    fn visible_past(
-        &mut self,
-        point: V8,
-        normal: V8,
-        light: &Convex<f32>,
-        forms: Range<usize>,
-        bodies: Range<usize>,
-    ) -> Option<X8> {
-        let (light, forms, bodies) = (light.map(f64::from), &self.forms[forms], &self.polyhedra[bodies]);
-        let occlusion = self.occlusion.get_or_insert_default();
-        let mut visible = [0.0; 8];
-        for (half, (point, normal)) in widen_points(point).into_iter().zip(widen_points(normal)).enumerate() {
-            let part = occlusion.visible_past(point, normal, &light, forms, bodies)?.to_array();
-            (0..4).for_each(|lane| visible[4 * half + lane] = part[lane] as f32);
+        Self {
+            primitives: u32x8::splat(0),
+            direct: M8::splat(true),
+            glossy: M8::splat(false),
+            fitted: M8::splat(false),
+            pixel: None,
         }
-        Some(X8::from(visible))
     }
 }
 
@@ -93,7 +72,7 @@ pub(super) struct Analytic<'a> {
     bodies: &'a Bodies,
     pub(super) lights: Vec<AreaLight<'a>>,
     certifier: Certifier<'a>,
-    occlusion: Box<Occlusion<X8>>,
+    pub(super) occlusion: Box<Occlusion<X8>>,
     /// The camera, if it is a pinhole.
     pub(super) pinhole: Option<Pinhole>,
     /// The first pixel of the tile.
@@ -102,8 +81,8 @@ pub(super) struct Analytic<'a> {
     squares: [Vec<Vec<Entry>>; SIDES.len()],
     whole: HashMap<(u32, bool), usize>,
     pub(super) known: Vec<Known>,
-    forms: Vec<Convex<f32>>,
-    polyhedra: Vec<Polyhedron<'a, f32>>,
+    pub(super) forms: Vec<Convex<f32>>,
+    pub(super) polyhedra: Vec<Polyhedron<'a, f32>>,
     /// The same in double precision.
     exact: Exact<'a>,
     /// Whether certificates are not worth asking for in this tile.
@@ -229,7 +208,8 @@ impl<'a> Analytic<'a> {
             let places = Places { pixel: Some(pixels[lane]), ..*places };
             let (first, _) = self.find(surface, &places, M8::from_bits(1 << lane));
             for (open, known) in open.iter_mut().zip(&self.known[first..]) {
-                if known.is_open() {
+                // beyond its fit, a rough surface is sampled
+                if known.is_open() || places.fitted.lane(lane) && !matches!(known, Known::Dark) {
                     *open = *open | M8::from_bits(1 << lane);
                 }
             }
@@ -351,7 +331,7 @@ impl<'a> Analytic<'a> {
     /// A bound of the error of what [`Self::gather`] adds at the surface in the first lane: a fraction of what the lights that it
     /// computes would contribute if nothing hid them.
     pub(super) fn doubt(&mut self, surface: &Surface, places: &Places) -> V8 {
-        if !(surface.reflects & !places.glossy).lane(0) {
+        if !(surface.reflects & !places.glossy & !places.fitted).lane(0) {
             return V8::default();
         }
         let (first, _) = self.find(surface, places, M8::from_bits(1));
@@ -404,21 +384,28 @@ impl<'a> Analytic<'a> {
 
     /// Adds the reflected light that is known. Sets the lanes in which a light must be sampled, for each light and packet, and returns
     /// whether there are any. Of a light with a picture behind blockers, a part is counted, the same for all of its points; samples then add what
-    /// is visible, less that part.
+    /// is visible, less that part. On rough surfaces all lights are sampled, and `fitted` is what is known of them.
+    #[expect(clippy::too_many_arguments, reason = "places, and all that is found there")]
     pub(super) fn gather(
         &mut self,
         surfaces: &[Surface],
         places: &[Places; GROUP],
+        lobes: &[Option<Lobe>; GROUP],
         reflected: &mut [V8; GROUP],
         unknown: &mut [[M8; GROUP]],
         counted: &mut [[X8; GROUP]],
+        fitted: &mut [[Fitted; GROUP]],
     ) -> bool {
         let mut any = false;
         for (p, surface) in surfaces.iter().enumerate().filter(|(_, surface)| surface.reflects.any()) {
             let mut parts = [(0, M8::splat(false)); 8];
             let mut count = 0;
-            let mut sampled = surface.reflects & places[p].glossy;
-            let mut left = surface.reflects & !places[p].glossy;
+            let rough = surface.reflects & places[p].fitted;
+            let mut sampled = surface.reflects & places[p].glossy | rough;
+            let mut left = surface.reflects & !places[p].glossy & !rough;
+            if let Some(lobe) = lobes[p].as_ref().filter(|_| rough.any()) {
+                self.gather_fitted(surface, &places[p], lobe, p, &mut reflected[p], fitted);
+            }
             while left.any() {
                 let (first, lanes) = self.find(surface, &places[p], left);
                 left = left & !lanes;

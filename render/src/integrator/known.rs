@@ -1,11 +1,15 @@
 //! What is known of the lights without rays.
 
+use crate::bvh::GROUP;
 use crate::certificates::Precision;
 use crate::lights::PictureIrradiance;
+use crate::packet::M8;
 use etendue::occlusion::Convex;
+use etendue::{Mask, u32x8};
 use std::ops::Range;
 
 /// A light with an area.
+#[derive(Clone, Copy)]
 pub(super) struct AreaLight<'a> {
     pub(super) form: Convex<f32>,
     /// Radiance; its mean, if it varies.
@@ -45,6 +49,44 @@ impl Known {
     /// Whether the light must be sampled.
     pub(super) const fn is_open(&self) -> bool {
         matches!(self, Self::Crowded | Self::Nothing | Self::Never)
+    }
+}
+
+/// Lanes of rough surfaces with a fit, for one light and packet.
+#[derive(Clone, Copy)]
+pub(super) struct Fitted {
+    /// Those where the light that the fit reflects is counted: samples add what the BSDF reflects beyond the fit.
+    pub(super) counted: M8,
+    /// Those that see all of the light, so that samples need no shadow ray.
+    pub(super) lit: M8,
+    /// Those that see nothing of it.
+    pub(super) dark: M8,
+}
+
+impl Default for Fitted {
+    fn default() -> Self {
+        let none = M8::splat(false);
+        Self { counted: none, lit: none, dark: none }
+    }
+}
+
+impl Fitted {
+    /// What is known in each lane of the light with an index of its own, in a packet.
+    #[inline]
+    pub(super) fn of(all: &[[Self; GROUP]], packet: usize, index: u32x8) -> Self {
+        let mut own = Self::default();
+        for (lane, &light) in index.as_array().iter().enumerate() {
+            own.join(M8::from_bits(1 << lane), &all[light as usize][packet]);
+        }
+        own
+    }
+    /// Takes these lanes of another.
+    #[inline]
+    pub(super) fn join(&mut self, lanes: M8, other: &Self) {
+        let Self { counted, lit, dark } = self;
+        for (own, other) in [(counted, other.counted), (lit, other.lit), (dark, other.dark)] {
+            *own = *own & !lanes | other & lanes;
+        }
     }
 }
 

@@ -8,13 +8,15 @@
 use super::analytic::{Analytic, Places};
 use super::choice::Which;
 use super::end::{End, bsdf, keep, product};
-use super::known::Survey;
+use super::known::{Fitted, Survey};
 use super::prepared::PreparedScene;
+use super::radiance::Radiance;
 use super::settings::{RayCount, Settings};
 use crate::bsdf::{Evaluated, Scattered};
 use crate::bvh::{GROUP, Hits, NOTHING, Rays, SHAPE, Scratch};
 use crate::camera::Camera;
 use crate::lights::{LightPmf, Lights};
+use crate::lobe::Lobe;
 use crate::packet::{M8, V8, X8, pick, select};
 use crate::sky::SunBeside;
 use crate::surfaces::Surface;
@@ -26,32 +28,6 @@ use etendue::{Mask, Real, Vec2, u32x8};
 
 /// Fraction of the distance to a light that a shadow ray covers: it stops short, so that surfaces touching the light do not occlude it.
 const COVERED: f64 = 1.0 - SPARED;
-
-/// Radiance along camera rays.
-#[derive(Clone, Copy, Default)]
-pub(super) struct Radiance {
-    /// Radiance of the lights and the sky that the camera sees.
-    pub(super) seen: V8,
-    /// Radiance reflected by surfaces that is computed without samples of lights.
-    pub(super) known: V8,
-    /// Radiance reflected by surfaces, apart from that.
-    pub(super) reflected: V8,
-}
-
-impl Radiance {
-    pub(super) fn total(&self) -> V8 {
-        self.seen + self.known + self.reflected
-    }
-    /// The same radiance where the mask is true, and 0 elsewhere.
-    #[inline]
-    pub(super) fn keep(&self, mask: M8) -> Self {
-        Self { seen: keep(self.seen, mask), known: keep(self.known, mask), reflected: keep(self.reflected, mask) }
-    }
-    #[inline]
-    pub(super) fn times(&self, weight: X8) -> Self {
-        Self { seen: self.seen * weight, known: self.known * weight, reflected: self.reflected * weight }
-    }
-}
 
 /// Random numbers of each packet of a group.
 pub(super) struct Numbers {
@@ -83,6 +59,9 @@ pub(super) struct Paths<'a> {
     unknown: Vec<[M8; GROUP]>,
     /// The part of each light that has been counted where it must be sampled, if lights have such parts.
     counted: Option<Vec<[X8; GROUP]>>,
+    /// The fits of rough surfaces, where certificates are asked for, and what is known of each light there.
+    lobes: Box<[Option<Lobe>; GROUP]>,
+    fitted: Vec<[Fitted; GROUP]>,
     radiance: Box<[Radiance; GROUP]>,
 }
 
@@ -105,6 +84,8 @@ impl<'a> Paths<'a> {
             radiance: Box::default(),
             unknown: vec![[M8::splat(false); GROUP]; FEW],
             counted: scene.lights.has_irradiances().then(|| vec![[X8::lit(0.0); GROUP]; FEW]),
+            lobes: Box::default(),
+            fitted: vec![[Fitted::default(); GROUP]; FEW],
         }
     }
 
@@ -166,15 +147,25 @@ impl<'a> Paths<'a> {
     pub(super) fn doubt(&mut self) -> V8 {
         self.surfaces(&[M8::from_bits(1)]);
         self.note_glossy(1);
-        let Self { scene, analytic, surfaces, places, ends, .. } = self;
-        let doubt = analytic.as_mut().map_or(V8::default(), |analytic| analytic.doubt(&surfaces[0], &places[0]));
+        let Self { scene, analytic, surfaces, places, ends, lobes, .. } = self;
+        let doubt = analytic.as_mut().map_or(V8::default(), |analytic| match &lobes[0] {
+            Some(lobe) if (surfaces[0].reflects & places[0].fitted).lane(0) => {
+                analytic.doubt_fitted(&surfaces[0], &places[0], lobe)
+            }
+            _ => analytic.doubt(&surfaces[0], &places[0]),
+        });
         if scene.surfaces.is_plain { doubt } else { product(ends[0].throughput, doubt) }
     }
 
     fn note_glossy(&mut self, count: usize) {
         if !self.scene.surfaces.is_plain {
-            for (place, end) in self.places[..count].iter_mut().zip(&*self.ends) {
-                place.glossy = end.smooth | end.rough();
+            for p in 0..count {
+                let (end, surface) = (&self.ends[p], &self.surfaces[p]);
+                let lobe = end.metal.and_then(|metal| metal.lobe(surface.normal, surface.albedo, -end.direction));
+                let fitted = lobe.as_ref().map_or(M8::splat(false), |lobe| lobe.lanes & !end.smooth);
+                self.places[p].fitted = fitted;
+                self.places[p].glossy = end.smooth | end.rough() & !fitted;
+                self.lobes[p] = lobe;
             }
         }
     }
@@ -225,13 +216,18 @@ impl<'a> Paths<'a> {
             return;
         }
         let lights = self.sampled();
+        let all = lights.len();
         if self.analytic.is_some() {
             self.note_glossy(count);
         }
         if let Some(analytic) = self.analytic.as_mut().filter(|analytic| !analytic.is_hopeless()) {
             let mut unknown = std::mem::take(&mut self.unknown);
             let counted = self.counted.as_deref_mut().unwrap_or_default();
-            if analytic.gather(&self.surfaces[..count], &self.places, &mut known, &mut unknown, counted) {
+            let (surfaces, lobes, fitted) = (&self.surfaces[..count], &self.lobes, &mut self.fitted[..]);
+            if METAL {
+                fitted[..all].fill([Fitted::default(); GROUP]);
+            }
+            if analytic.gather(surfaces, &self.places, lobes, &mut known, &mut unknown, counted, fitted) {
                 let which = if allocated.is_empty() {
                     Which::Among(&unknown)
                 } else {
@@ -250,10 +246,11 @@ impl<'a> Paths<'a> {
                 self.by_sun::<METAL>(sun, count, numbers, &mut reflected);
             }
         }
+        let is_closed = self.analytic.as_ref().is_some_and(|analytic| !analytic.is_hopeless());
         if self.technique.finds_lights() {
-            self.by_surface::<METAL>(count, &numbers.light, allocated, &mut reflected);
+            self.by_surface::<METAL>(count, &numbers.light, allocated, is_closed, &mut reflected);
         } else if let Some(surface) = &numbers.surface {
-            self.by_surface::<METAL>(count, surface, allocated, &mut reflected);
+            self.by_surface::<METAL>(count, surface, allocated, is_closed, &mut reflected);
         }
         for p in 0..count {
             let through = |part: V8| if METAL { product(self.ends[p].throughput, part) } else { part };
@@ -365,7 +362,7 @@ impl<'a> Paths<'a> {
         let mut target = [u32x8::splat(NOTHING); GROUP];
         let mut found = [V8::default(); GROUP];
         let is_closed = matches!(which, Which::Among(_) | Which::Expected(..));
-        let Self { scene, surfaces, ends, rays, places, counted, .. } = self;
+        let Self { scene, surfaces, ends, rays, places, counted, lobes, fitted, .. } = self;
         for (p, surface) in surfaces[..count].iter().enumerate().filter(|(_, surface)| surface.reflects.any()) {
             let bsdf = bsdf::<METAL>(surface, &ends[p]);
             let mut u = numbers.light[p];
@@ -387,7 +384,16 @@ impl<'a> Paths<'a> {
             let cos = sample.direction.dot(surface.normal);
             let some = sample.pdf.gt(zero) & choice.pmf.gt(zero);
             lit[p] = lanes & sample.emits & some & cos.gt(zero);
-            let Evaluated { color, factor, pdf: surface_pdf } = bsdf.evaluate(sample.direction);
+            let Evaluated { mut color, factor, pdf: surface_pdf } = bsdf.evaluate(sample.direction);
+            let mut seen = M8::splat(false);
+            if METAL
+                && is_closed
+                && let Some(lobe) = lobes[p].as_ref().filter(|_| places[p].fitted.any())
+            {
+                let known = Fitted::of(fitted, p, choice.index);
+                color += keep(-lobe.evaluate(sample.direction, cos), known.counted);
+                (lit[p], seen) = (lit[p] & !known.dark, known.lit);
+            }
             let pdf = select(lit[p], sample.pdf * choice.pmf, one);
             let factor = match heuristic {
                 None => factor,
@@ -396,17 +402,23 @@ impl<'a> Paths<'a> {
                     factor * if is_mixed { select(rough, weight, one) } else { weight }
                 }
             };
-            self.count.shadow += u64::from(lit[p].bits().count_ones());
+            found[p] = product(color, chosen.radiance) * (factor / pdf);
             rays[1][p] = scene.surfaces.bvh.rays(surface.point, sample.direction).leaving(places[p].primitives);
             limit[p] = sample.distance * X8::lit(COVERED);
             target[p] = chosen.shape;
-            found[p] = product(color, chosen.radiance) * (factor / pdf);
             if is_closed && let Some(counted) = counted {
                 let part = X8::from_fn(|lane| {
                     counted.get(choice.index.as_array()[lane] as usize).map_or(0.0, |of| of[p].lane(lane))
                 });
                 reflected[p] += keep(found[p] * -part, lit[p]);
             }
+            if METAL && seen.any() {
+                reflected[p] += keep(found[p], lit[p] & seen);
+                lit[p] = lit[p] & !seen;
+            }
+            // a sky or a profile may be dark in a direction, and a surface black
+            lit[p] = lit[p] & found[p].max_abs().gt(zero);
+            self.count.shadow += u64::from(lit[p].bits().count_ones());
         }
         self.add_unoccluded(count, &found, lit, &limit, &target, reflected);
     }
@@ -417,6 +429,7 @@ impl<'a> Paths<'a> {
         count: usize,
         pairs: &[Vec2<X8>; GROUP],
         allocated: &[Allocated<'_, X8>],
+        is_closed: bool,
         reflected: &mut [V8; GROUP],
     ) {
         let (scene, world) = (self.scene, &self.scene.surfaces);
@@ -449,6 +462,8 @@ impl<'a> Paths<'a> {
             if !lit[p].any() {
                 continue;
             }
+            let lobe = self.lobes[p].as_ref().filter(|_| METAL && is_closed && self.places[p].fitted.any());
+            let mut known = Fitted::default();
             let Surface { point, normal, .. } = self.surfaces[p];
             let rays = &self.rays[1][p];
             let direction = rays.direction;
@@ -467,6 +482,9 @@ impl<'a> Paths<'a> {
                 if let Some((emitted, here)) = world.emitted(&hits[p], here, shape, outward, rays) {
                     radiance = V8::blend(here, emitted, radiance);
                     lit[p] = lit[p] | here;
+                    if lobe.is_some() {
+                        known.join(here, &self.fitted[scene.lights.of_shape(index)][p]);
+                    }
                     if let Some(pmf) = pmf.as_ref().filter(|_| here.any()) {
                         let pdf = scene.lights.shape_pdf(pmf, index, &shape.geometry, point, direction);
                         light_pdf = select(here, pdf, light_pdf);
@@ -489,10 +507,19 @@ impl<'a> Paths<'a> {
                 None => factors[p],
                 Some(by) => factors[p] * by.weights([own[p], light_pdf])[0],
             };
-            let color = found[p];
+            let mut color = found[p];
+            if let Some(lobe) = lobe {
+                let fit = lobe.evaluate(direction, direction.dot(normal));
+                color += keep(fit * (-one / own[p]), known.counted);
+                lit[p] = lit[p] & !known.dark;
+            }
             found[p] = product(color, radiance) * factor(light_pdf);
             if let Some((radiance, pdf)) = beside {
                 found[p] += product(color, keep(radiance, missed)) * factor(pdf);
+            }
+            if lobe.is_some() {
+                reflected[p] += keep(found[p], lit[p] & known.lit);
+                lit[p] = lit[p] & !known.lit;
             }
         }
         self.add_unoccluded(count, &found, lit, &limit, &target, reflected);

@@ -3,8 +3,9 @@
 use super::adaptive::{Statistics, StatisticsSum};
 use super::allocation::{Blocks, Weights};
 use super::known::Survey;
-use super::paths::{Numbers, Paths, Radiance};
+use super::paths::{Numbers, Paths};
 use super::prepared::PreparedScene;
+use super::radiance::Radiance;
 use super::settings::{RayCount, Settings, TILE};
 use crate::area::Area;
 use crate::bvh::GROUP;

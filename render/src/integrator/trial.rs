@@ -30,7 +30,7 @@ impl Analytic<'_> {
         let mut seen: Vec<Seen> = Vec::new();
         let mut all = true;
         for (p, (surface, places)) in surfaces.iter().zip(places).enumerate() {
-            all = all && !(surface.reflects & places.glossy).any();
+            all = all && !(surface.reflects & (places.glossy | places.fitted)).any();
             each_bit((surface.reflects & !places.glossy).bits(), |lane| {
                 let (place, direct) = (places.primitives.as_array()[lane], places.direct.lane(lane));
                 match seen.iter_mut().find(|seen| seen.place == place && seen.direct == direct) {

@@ -85,13 +85,12 @@ impl View<'_> {
 
     /// The technique for [`Technique::Auto`].
     ///
-    /// Rough surfaces are sampled anyway, and through a lens most of the error is that of the image's edges: closed forms then take time that
-    /// they do not save. (By `etendue render SCENE --spp 64 --size 256x256 --threads 1`, `analytic` takes twice as long on `defocus`, and 1.4
-    /// times as long on `plates`, for the same error.) Of lights with pictures, parallelograms
-    /// have one.
+    /// Through a lens most of the error is that of the image's edges: closed forms then take time that they do not save. (By `etendue render
+    /// SCENE --spp 64 --size 256x256 --threads 1`, `analytic` takes twice as long on `defocus`.) Of lights with pictures, parallelograms have
+    /// one.
     fn choose(&self) -> Technique {
         let scene = &self.world.scene;
-        let is_sampled = scene.surfaces.has_rough() || self.camera.has_lens() || scene.lights.only_sampled();
+        let is_sampled = self.camera.has_lens() || scene.lights.only_sampled();
         if scene.lights.only_few_areas() && !is_sampled {
             Technique::Analytic
         } else if scene.surfaces.has_rough() {

@@ -14,7 +14,7 @@ use super::message::{Message, Place, utf8};
 use super::named_materials::NamedMaterials;
 use super::params::{Param, Params, Resolve};
 use super::portal_sides;
-use super::shape_attributes::ShapeAttributes;
+use super::shape_state::ShapeState;
 use super::shapes;
 use super::sources::Sources;
 use super::textures::Textures;
@@ -23,7 +23,6 @@ use super::transform_directives;
 use super::view::{self, Window};
 use crate::files::FileError;
 use crate::image;
-use crate::texture::{Mask, Texture};
 use std::cell::RefCell;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -465,61 +464,15 @@ impl Reader<'_> {
     }
 
     fn shape(&mut self, kind: &str, params: &mut Params, dir: &Path) -> Result<(), Message> {
-        let det = self.state.ctm.determinant();
-        if det == 0.0 || !det.is_finite() {
-            return Err(params.error("its transform is singular"));
-        }
-        for name in ["displacement", "emissionfilename", "displacement.edgelength"] {
-            if params.given(name) {
-                self.out.notes.stand_in(name, || params.error(format!("{name:?} is ignored: surfaces are smooth")));
-            }
-        }
-        let opacity = self.textures.number("alpha", params)?;
-        params.given("shadowalpha");
-        let is_absent = |opacity: &Texture| opacity.constant().is_some_and(|[x, ..]| x <= 0.0);
-        if opacity.as_ref().is_some_and(is_absent) && self.state.area.emission.is_none() {
-            params.ignore_all();
-            return Ok(());
-        }
-        let opacity = opacity.filter(|opacity| opacity.constant().is_none_or(|[x, ..]| x < 1.0));
-        let Area { mut emission, picture, mut profile, power } = self.state.area.clone();
-        let Some(material) = self.named.of_shape(self.state.material, &mut self.out) else {
-            if emission.is_some() {
-                self.out.notes.warn(params.error("a light of material \"interface\" emits nothing, as in pbrt"));
-            }
-            params.ignore_all();
-            return Ok(());
+        let Self { out, state, named, textures, open, inputs, main_dir, is_builtin, .. } = self;
+        let given = ShapeState {
+            ctm: state.ctm,
+            reverse: state.reverse,
+            material: state.material,
+            area: state.area.clone(),
+            is_object: open.is_some(),
         };
-        if emission.is_some() && self.open.is_some() {
-            self.out
-                .notes
-                .stand_in("light in an object", || params.error("a light in an object emits nothing, as in pbrt"));
-            emission = None;
-        }
-        if let Some(emission) = emission.as_mut().filter(|emission| kind == "sphere" && emission.spread.is_some()) {
-            let what = if profile.is_some() { "profile" } else { "spread" };
-            self.out
-                .notes
-                .stand_in(what, || params.error(format!("a sphere has no {what:?}: it emits in all directions")));
-            (emission.spread, profile) = (None, None);
-        }
-        let mask = opacity.map(|opacity| Mask { opacity, least: None });
-        if mask.is_some() && emission.is_some() {
-            self.out.notes.stand_in("light with holes", || params.error("\"alpha\": a light is seen, and opaque"));
-        }
-        let surface = ShapeAttributes {
-            ctm: self.state.ctm,
-            flip: self.state.reverse != (det < 0.0),
-            material: match mask {
-                Some(mask) if emission.is_none() => self.out.masked(material, mask),
-                _ => self.out.material(material),
-            },
-            emission,
-            picture,
-            profile,
-            power,
-        };
-        let Self { out, inputs, main_dir, is_builtin, .. } = self;
+        let Some(surface) = given.attributes(kind, params, textures, named, out)? else { return Ok(()) };
         let resolve = |name: &str| resolved(main_dir, inputs, name, dir);
         shapes::read(kind, out, &surface, params, &resolve, *is_builtin)
     }

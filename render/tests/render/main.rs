@@ -4,6 +4,7 @@ mod adaptive;
 mod allocation;
 mod analytic;
 mod closed_forms;
+mod glossy;
 mod images;
 mod lens;
 mod lights;

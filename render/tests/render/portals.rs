@@ -171,6 +171,38 @@ fn portals_below_the_horizon_take_no_sample() {
     assert_eq!(floor("-1 -1 -1  1 -1 -1  1 1 -1  -1 1 -1"), without);
 }
 
+/// No ray is sent in a direction from which no light can come: through a portal to the dark half of the sky, or from a black surface.
+#[test]
+fn no_ray_to_what_is_dark() {
+    let shadow_rays = |up: f64, reflectance: f64| {
+        let text = format!(
+            "LookAt 0 0 0  0 0 {up}  0 1 0\nCamera \"perspective\" \"float fov\" 30\nWorldBegin\n\
+             LightSource \"infinite\" \"string sky\" \"cie\" \"float elevation\" 40 \"point3 portal\" [2 -1 1  2 -1 2  2 1 2  2 1 1]\n\
+             Material \"diffuse\" \"float reflectance\" {reflectance}\n\
+             Shape \"trianglemesh\" \"point3 P\" [-2 -2 {up}  2 -2 {up}  2 2 {up}  -2 2 {up}] \"integer indices\" [0 1 2  0 2 3]"
+        );
+        let world = World::new(&parse(&text, "a.pbrt", Path::new("")).unwrap()).unwrap();
+        let settings = Settings {
+            width: 24,
+            height: 18,
+            spp: 16,
+            technique: Technique::SolidAngle,
+            depth: 8,
+            sets: 0,
+            sampler: Sampler::Independent,
+            seed: 3,
+        };
+        let (film, rays) = world.render(&settings, &|_| ());
+        assert_eq!(rays.camera, 24 * 18 * 16);
+        (rays.shadow, sum(&film).0)
+    };
+    let (floor, light) = shadow_rays(-1.0, 0.5);
+    assert!(floor == 24 * 18 * 16 && light > 0.0, "{floor} rays, {light}");
+    // a ceiling sees but the ground through the portal
+    assert_eq!(shadow_rays(3.0, 0.5), (0, 0.0));
+    assert_eq!(shadow_rays(-1.0, 0.0), (0, 0.0));
+}
+
 /// As in pbrt, a ray that escapes beside the portals meets black, and from behind they show nothing.
 #[test]
 fn beside_portals_it_is_black() {

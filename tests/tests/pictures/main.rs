@@ -370,7 +370,7 @@ fn faulty_pictures() {
     assert_eq!(build(&[0.0; 4], 2, Region::Square), Some(Empty));
     assert_eq!(build(&[1.0; 4], 0, Region::Square), Some(Length));
     assert_eq!(build(&[1.0; 4], 3, Region::Square), Some(Length));
-    assert_eq!(build(&[1.0; 16], 4, Region::Square), Some(Length));
+    assert_eq!(build(&[1.0; 25], 5, Region::Square), Some(Length));
     assert_eq!(build(&[], 2, Region::Square), Some(Length));
     for wrong in [f32::NAN, f32::INFINITY, -1.0] {
         assert_eq!(build(&[1.0, wrong, 1.0, 1.0], 2, Region::Square), Some(Weight));
@@ -382,11 +382,12 @@ fn faulty_pictures() {
     assert_eq!(Picture::build(&corner, 4, Region::Triangle, &mut buffer).err(), Some(Empty));
     assert!(Picture::build(&corner, 4, Region::Square, &mut buffer).is_ok());
     assert!(Picture::from_buffer(&buffer, [4, 4], Region::Square).is_ok());
-    for size in [[4, 5], [0, 4], [1 << 25, 1]] {
+    for size in [[4, 5], [0, 4], [1, 1], [1 << 25, 1]] {
         assert_eq!(Picture::from_buffer(&buffer, size, Region::Square).err(), Some(Length));
     }
-    for [w, h] in [[1, 1], [1, 1000], [17, 5], [1024, 1024], [1025, 3]] {
+    for [w, h] in [[1, 1], [2, 1], [1, 5], [1, 1000], [17, 5], [1024, 1024], [1025, 3]] {
         let length = Picture::buffer(w, h);
-        assert!(length + 1 >= w * h && length < 4 * w * h + 64, "{w} × {h}: {length}");
+        assert!(length + 1 >= w * h && length < 13 * w * h, "{w} × {h}: {length}");
     }
+    assert_eq!(Picture::buffer(1024, 1024), 16 * (1024 * 1024 - 1) / 15);
 }

@@ -1,0 +1,87 @@
+//! What the graphics state of a scene file makes of a shape.
+
+use super::area_lights::Area;
+use super::builder::Builder;
+use super::material_parameters::Finish;
+use super::message::Message;
+use super::named_materials::NamedMaterials;
+use super::params::Params;
+use super::shape_attributes::ShapeAttributes;
+use super::textures::Textures;
+use super::transform::Transform;
+use crate::texture::{Mask, Texture};
+
+/// The part of the graphics state that applies to a shape.
+pub(super) struct ShapeState {
+    /// To world space.
+    pub(super) ctm: Transform,
+    /// Whether `ReverseOrientation` holds.
+    pub(super) reverse: bool,
+    pub(super) material: Finish,
+    pub(super) area: Area,
+    /// Whether an object is being read.
+    pub(super) is_object: bool,
+}
+
+impl ShapeState {
+    /// The attributes of a shape with these parameters; none if it is not there.
+    pub(super) fn attributes(
+        self,
+        kind: &str,
+        params: &mut Params,
+        textures: &Textures,
+        named: &mut NamedMaterials,
+        out: &mut Builder,
+    ) -> Result<Option<ShapeAttributes>, Message> {
+        let det = self.ctm.determinant();
+        if det == 0.0 || !det.is_finite() {
+            return Err(params.error("its transform is singular"));
+        }
+        for name in ["displacement", "emissionfilename", "displacement.edgelength"] {
+            if params.given(name) {
+                out.notes.stand_in(name, || params.error(format!("{name:?} is ignored: surfaces are smooth")));
+            }
+        }
+        let opacity = textures.number("alpha", params)?;
+        params.given("shadowalpha");
+        let is_absent = |opacity: &Texture| opacity.constant().is_some_and(|[x, ..]| x <= 0.0);
+        if opacity.as_ref().is_some_and(is_absent) && self.area.emission.is_none() {
+            params.ignore_all();
+            return Ok(None);
+        }
+        let opacity = opacity.filter(|opacity| opacity.constant().is_none_or(|[x, ..]| x < 1.0));
+        let Area { mut emission, picture, mut profile, power } = self.area;
+        let Some(material) = named.of_shape(self.material, out) else {
+            if emission.is_some() {
+                out.notes.warn(params.error("a light of material \"interface\" emits nothing, as in pbrt"));
+            }
+            params.ignore_all();
+            return Ok(None);
+        };
+        if emission.is_some() && self.is_object {
+            out.notes.stand_in("light in an object", || params.error("a light in an object emits nothing, as in pbrt"));
+            emission = None;
+        }
+        if let Some(emission) = emission.as_mut().filter(|emission| kind == "sphere" && emission.spread.is_some()) {
+            let what = if profile.is_some() { "profile" } else { "spread" };
+            out.notes.stand_in(what, || params.error(format!("a sphere has no {what:?}: it emits in all directions")));
+            (emission.spread, profile) = (None, None);
+        }
+        let mask = opacity.map(|opacity| Mask { opacity, least: None });
+        if mask.is_some() && emission.is_some() {
+            out.notes.stand_in("light with holes", || params.error("\"alpha\": a light is seen, and opaque"));
+        }
+        Ok(Some(ShapeAttributes {
+            ctm: self.ctm,
+            flip: self.reverse != (det < 0.0),
+            material: match mask {
+                Some(mask) if emission.is_none() => out.masked(material, mask),
+                _ => out.material(material),
+            },
+            emission,
+            picture,
+            profile,
+            power,
+        }))
+    }
+}

@@ -1,0 +1,464 @@
+//! Cosines after a linear map: against GGX, and the light of shapes against quadratures in double precision that know only the density.
+
+use core::f64::consts::{PI, TAU};
+use etendue::light::Polygon;
+use etendue::occlusion::{Convex, Occlusion};
+use etendue::reflection::Reflection;
+use etendue::{LightSampler, Parallelogram, Real, Rectangle, Triangle, Vec2, Vec3, Warp, f32x8};
+use etendue_oracle::tier::cases;
+use etendue_oracle::{V3, along, basis, cross, dot, length, narrow, sub, unit, wide};
+use etendue_properties::generators::Random;
+use etendue_properties::properties::Coordinates;
+use etendue_properties::tolerances::ULP;
+
+fn vector<R: Real>(v: V3) -> Vec3<R> {
+    Coordinates::gather(&[v])
+}
+
+/// A surface at the origin.
+#[derive(Clone, Copy, Debug)]
+struct Place {
+    alpha: f64,
+    normal: V3,
+    view: V3,
+}
+
+impl Place {
+    fn new(random: &mut Random) -> Self {
+        let normal = random.direction();
+        let (s, t) = basis(normal);
+        let cos = random.magnitude(1e-3, 1.0);
+        let turn = TAU * random.unit_f64();
+        let sine = (1.0 - cos * cos).sqrt();
+        let flat = along(s.map(|x| x * turn.cos()), t, turn.sin());
+        let view = along(normal.map(|x| x * cos), flat, sine);
+        Self { alpha: random.magnitude(1e-3, 1.0), normal, view: unit(view) }
+    }
+    fn reflection<R: Real>(&self) -> Reflection<R> {
+        Reflection::new(R::lit(self.alpha), vector(self.normal), vector(self.view))
+    }
+    /// f cosθ of GGX with correlated masking and shadowing, and a Fresnel factor of 1.
+    fn reflected(&self, w: V3) -> f64 {
+        let half = unit(along(self.view, w, 1.0));
+        let [i, o, m] = [self.view, w, half].map(|v| dot(v, self.normal));
+        if o <= 0.0 || m <= 0.0 {
+            return 0.0;
+        }
+        let square = self.alpha * self.alpha;
+        let density = square / (PI * (m * m * (square - 1.0) + 1.0).powi(2));
+        let root = |cos: f64| (square + (1.0 - square) * cos * cos).sqrt();
+        o * density / (2.0 * (o * root(i) + i * root(o)))
+    }
+}
+
+/// The density integrates to one over the hemisphere, samples have the density that the inverse says, and all is above the horizon.
+#[test]
+fn samples_have_the_density() {
+    let mut random = Random::new(1);
+    let mut worst = 0.0_f64;
+    for _ in 0..cases(300, 10_000) {
+        let place = Place::new(&mut random);
+        let (single, double) = (place.reflection::<f32>(), place.reflection::<f64>());
+        for _ in 0..20 {
+            let u = [random.unit(), random.unit()];
+            let w = single.sample(Vec2::new(u[0], u[1]));
+            assert!((length(w.at(0)) - 1.0).abs() < 3e-7 && w.dot(vector(place.normal)) > -2e-7, "{place:?}: {w:?}");
+            let back = single.invert(w);
+            let again = single.sample(back);
+            let off = length(sub(again.at(0), w.at(0)));
+            // a rounded direction after the map, as the inverse of the map stretches it
+            let ends = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
+                .map(|v| length(double.from_cosine(vector(v)).at(0)));
+            let stretch = ends.into_iter().fold(1.0, f64::max) * length(double.to_cosine(vector(w.at(0))).at(0));
+            // near the horizon, a step of u moves the direction farther
+            if (back.x - u[0]).abs().max((back.y - u[1]).abs()) <= 4.0 * ULP as f32 {
+                continue;
+            }
+            worst = worst.max(off / stretch.max(1.0));
+            assert!(
+                off < 1e-6 * stretch.max(1.0),
+                "{place:?} {u:?}: {back:?} is off by {off}, stretched {stretch} times"
+            );
+        }
+        // d(direction)/du by differences is the reciprocal of the density
+        let u = [0.05 + 0.9 * random.unit_f64(), random.unit_f64()];
+        let at = |x: f64, y: f64| double.sample(Vec2::new(x, y)).at(0);
+        let step = 1e-5;
+        let [dx, dy] =
+            [sub(at(u[0] + step, u[1]), at(u[0] - step, u[1])), sub(at(u[0], u[1] + step), at(u[0], u[1] - step))];
+        let area = length(cross(dx, dy)) / (4.0 * step * step);
+        let pdf = double.pdf(double.sample(Vec2::new(u[0], u[1])));
+        assert!((area * pdf - 1.0).abs() < 1e-3, "{place:?} at {u:?}: {area} times {pdf}");
+    }
+    println!("inverses are those of directions at most {worst:.1e} away, times the stretch of the map");
+}
+
+/// Estimates of all reflected light by samples of the fit: their mean is the albedo of the table, and their spread is what is published.
+#[test]
+fn fit_is_that_of_ggx() {
+    for (alpha, cos, most) in [
+        (0.01, 0.9, 0.04),
+        (0.05, 0.7, 0.15),
+        (0.1, 0.5, 0.32),
+        (0.2, 0.9, 0.2),
+        (0.2, 0.5, 0.35),
+        (0.4, 0.3, 0.37),
+        (0.7, 0.1, 0.25),
+        (1.0, 0.9, 0.05),
+    ] {
+        let view = [(1.0_f64 - cos * cos).sqrt(), 0.0, cos];
+        let place = Place { alpha, normal: [0.0, 0.0, 1.0], view };
+        let fit = place.reflection::<f64>();
+        let (mut sum, mut squares, mut schlick) = (0.0, 0.0, 0.0);
+        let side = 400;
+        for k in 0..side * side {
+            let u = [k / side, k % side].map(|i| (f64::from(i) + 0.5) / f64::from(side));
+            let w = fit.sample(Vec2::new(u[0], u[1]));
+            let part = place.reflected(w.at(0)) / fit.pdf(w);
+            let half = unit(along(view, w.at(0), 1.0));
+            sum += part;
+            squares += part * part;
+            schlick += part * (1.0 - dot(half, view)).powi(5);
+        }
+        let count = f64::from(side * side);
+        let (mean, schlick) = (sum / count, schlick / sum);
+        assert!((mean - fit.albedo()).abs() < 5e-3, "α {alpha}, cosθ {cos}: {mean}, not {}", fit.albedo());
+        assert!((schlick - fit.schlick()).abs() < 4e-3, "α {alpha}, cosθ {cos}: {schlick}, not {}", fit.schlick());
+        let spread = (squares / count - mean * mean).max(0.0).sqrt() / mean;
+        assert!(spread < most && spread > 0.2 * most, "α {alpha}, cosθ {cos}: {spread}, not about {most}");
+    }
+}
+
+/// π times the density, integrated over the directions within an angle of an axis.
+fn over_cap(place: &Place, axis: V3, sine: f64, steps: usize) -> f64 {
+    let lobe = place.reflection::<f64>();
+    let (s, t) = basis(axis);
+    let versine = sine * sine / (1.0 + (1.0 - sine * sine).max(0.0).sqrt());
+    let mut sum = 0.0;
+    for i in 0..steps {
+        let k = versine * (i as f64 + 0.5) / steps as f64;
+        let (z, r) = (1.0 - k, (k * (2.0 - k)).sqrt());
+        for j in 0..2 * steps {
+            let turn = TAU * (j as f64 + 0.5) / (2 * steps) as f64;
+            let w = along(along(axis.map(|x| x * z), s, r * turn.cos()), t, r * turn.sin());
+            sum += lobe.pdf(vector(w));
+        }
+    }
+    PI * sum * TAU * versine / (2 * steps * steps) as f64
+}
+
+/// π times the part of evenly spread samples of the lobe that lie inside: for large parts, whose edge may be sharp. Off by at most 4e−3.
+fn part_of_samples(place: &Place, inside: impl Fn(V3) -> bool) -> f64 {
+    let lobe = place.reflection::<f64>();
+    let steps = 500;
+    let place = |k: usize| (k as f64 + 0.5) / steps as f64;
+    let is_inside = |k: &usize| inside(lobe.sample(Vec2::new(place(k / steps), place(k % steps))).at(0));
+    PI * (0..steps * steps).filter(is_inside).count() as f64 / (steps * steps) as f64
+}
+
+/// Spheres: small, large, grazing, cut by the horizon, behind it, and around the point.
+#[test]
+fn spheres_have_their_part_of_the_lobe() {
+    let mut random = Random::new(3);
+    let (mut whole, mut cut, mut worst) = (0, 0, [0.0_f64; 2]);
+    for _ in 0..cases(200, 2_000) {
+        let place = Place { alpha: random.magnitude(0.03, 1.0), ..Place::new(&mut random) };
+        // near the lobe, or anywhere
+        let axis = if random.below(2) == 0 {
+            let near = place.reflection::<f64>().sample(Vec2::new(random.unit_f64(), random.unit_f64()));
+            near.at(0)
+        } else {
+            random.direction()
+        };
+        let sine = random.magnitude(1e-3, 0.999);
+        let height = dot(axis, place.normal);
+        let small = sine < 0.1;
+        let cos = (1.0 - sine * sine).sqrt();
+        let truth =
+            if small { over_cap(&place, axis, sine, 200) } else { part_of_samples(&place, |w| dot(w, axis) > cos) };
+        let wide = place.reflection::<f64>().sphere(vector(axis), sine);
+        let single = f64::from(place.reflection::<f32>().sphere(vector(axis), sine as f32));
+        let off = (wide - truth).abs();
+        if height > sine {
+            whole += 1;
+            let bound = if small { 2e-3 * truth + 1e-9 } else { 4e-3 };
+            assert!(off < bound, "{place:?}, {axis:?} within {sine}: {wide}, not {truth}");
+        } else if height > -sine {
+            cut += 1;
+            let bound = if small { 2e-2 * truth + 1e-6 } else { 4e-3 };
+            assert!(off < bound, "{place:?}, {axis:?} within {sine}: {wide}, not {truth}");
+        } else {
+            assert_eq!([wide, single], [0.0; 2], "{place:?}, {axis:?} within {sine}");
+        }
+        let off = (single - wide).abs();
+        let k = usize::from(height < sine);
+        worst[k] = worst[k].max(off / (1e-4 + wide));
+        assert!(off < 2e-4 * wide + 3e-7 / sine, "{place:?}, {axis:?} within {sine}: {single}, not {wide}");
+    }
+    assert!(whole > 20 && cut > 20, "{whole} whole, {cut} cut");
+    println!(
+        "greatest error in single precision {:.1e} and {:.1e} of what spheres cover, whole and cut",
+        worst[0], worst[1]
+    );
+    let place = Place { alpha: 0.3, ..Place::new(&mut random) };
+    let lobe = place.reflection::<f32>();
+    assert_eq!(lobe.sphere(vector([0.1, 0.0, 0.0]), 1.0), PI as f32);
+    for radius in [0.0, -1.0] {
+        assert_eq!(lobe.sphere(vector([0.1, 0.0, 0.0]), radius), 0.0);
+    }
+}
+
+/// π times the density over a parallelogram, or the half of it that is a triangle.
+fn over_flat(place: &Place, corner: V3, s: V3, t: V3, half: bool, steps: usize) -> f64 {
+    let lobe = place.reflection::<f64>();
+    let normal = cross(s, t);
+    let mut sum = 0.0;
+    for k in 0..steps * steps {
+        let [x, y] = [k / steps, k % steps].map(|i| (i as f64 + 0.5) / steps as f64);
+        let [x, y, weight] = if half { [x, (1.0 - x) * y, 1.0 - x] } else { [x, y, 1.0] };
+        let v = along(along(corner, s, x), t, y);
+        let distance = length(v);
+        sum += weight * lobe.pdf(vector(unit(v))) * dot(v, normal).abs() / distance.powi(3);
+    }
+    PI * sum / (steps * steps) as f64
+}
+
+struct Flat {
+    place: Place,
+    corner: V3,
+    s: V3,
+    t: V3,
+}
+
+/// A surface, and a flat light around a direction that it reflects.
+fn flat(random: &mut Random) -> Flat {
+    let place = Place { alpha: random.magnitude(0.03, 1.0), ..Place::new(random) };
+    let w = place.reflection::<f64>().sample(Vec2::new(random.unit_f64(), random.unit_f64())).at(0);
+    let distance = random.magnitude(0.5, 20.0);
+    let mut edge = || random.direction().map(|x| x * random.magnitude(0.02, 2.0));
+    let (s, t) = (edge(), edge());
+    let corner = along(along(w.map(|x| x * distance), s, -0.5), t, -0.5);
+    let [corner, s, t] = [corner, s, t].map(|v| wide(narrow(v)));
+    Flat { place, corner, s, t }
+}
+
+/// The covered part of the lobe is that of the quadrature, by the samplers and by `Occlusion::reflected`, and samples of f/g have its mean.
+#[test]
+fn flat_lights_have_their_part_of_the_lobe() {
+    let mut random = Random::new(4);
+    let (mut occlusion, mut wide_occlusion) = (Occlusion::<f32>::new(), Occlusion::<f64>::new());
+    let mut worst = 0.0_f64;
+    for _ in 0..cases(100, 1_000) {
+        let Flat { place, corner, s, t } = flat(&mut random);
+        let truth = [false, true].map(|half| {
+            let part = part_of_samples(&place, |w| {
+                let over = dot(w, cross(s, t));
+                let [x, y] = [dot(w, cross(corner, t)) / -over, dot(w, cross(corner, s)) / over].map(|x| -x);
+                let reaches = dot(corner, cross(s, t)) / over > 0.0;
+                reaches && x >= 0.0 && y >= 0.0 && if half { x + y <= 1.0 } else { x <= 1.0 && y <= 1.0 }
+            });
+            // where most of the lobe is covered, its edges count
+            if part > 0.3 { [part, 6e-3] } else { [over_flat(&place, corner, s, t, half, 300), 0.0] }
+        });
+        let near = |got: f64, [truth, bound]: [f64; 2]| {
+            let bound = bound + if bound > 0.0 { 0.0 } else { 3e-2 * truth + 1e-6 };
+            assert!((got - truth).abs() < bound, "{place:?} {corner:?} {s:?} {t:?}: {got}, not {truth}");
+        };
+        let reflection = place.reflection::<f64>();
+        let (c, u, v) = (vector::<f64>(corner), vector::<f64>(s), vector::<f64>(t));
+        let triangle = Triangle { v0: c, e1: u, e2: v }.by_reflection(Vec3::default(), &reflection);
+        let parallelogram = Parallelogram::new(c, u, v).by_reflection(Vec3::default(), &reflection);
+        let polygon = Polygon::new([c, c + u, c + u + v, c + v]).by_reflection(Vec3::default(), &reflection);
+        let got = [parallelogram, Rectangle::new(c, u, v).by_reflection(Vec3::default(), &reflection)]
+            .map(|sampler| sampler.projected_solid_angle());
+        for got in [got[0], got[1], polygon.projected_solid_angle()] {
+            near(got, truth[0]);
+        }
+        near(triangle.projected_solid_angle(), truth[1]);
+        let light = Convex::Parallelogram { corner: c, edges: [u, v] };
+        let normal = vector(place.normal);
+        let exact =
+            wide_occlusion.reflected(Vec3::default(), normal, &reflection, &light, &[], &[]).expect("one light");
+        assert!(
+            (exact - got[0]).abs() < 1e-7 + 1e-6 * exact,
+            "{place:?} {corner:?} {s:?} {t:?}: {exact}, not {}",
+            got[0]
+        );
+        let single = place.reflection::<f32>();
+        let light = light.map(|x| x as f32);
+        let closed =
+            occlusion.reflected(Vec3::default(), vector(place.normal), &single, &light, &[], &[]).expect("one light");
+        let off = (f64::from(closed) - exact).abs();
+        worst = worst.max(off / (exact + 1e-2));
+        assert!(off < 3e-5 + 1e-4 * exact, "{place:?} {corner:?} {s:?} {t:?}: {closed}, not {exact}");
+    }
+    println!("greatest error of Occlusion::reflected in single precision {worst:.1e}, of what lights cover and 0.01");
+}
+
+/// Behind a blocker, what is left of a light is the quadrature over the points that a ray reaches.
+#[test]
+fn blockers_hide_their_part_of_the_lobe() {
+    let mut random = Random::new(5);
+    let mut occlusion = Occlusion::<f64>::new();
+    let (mut part, steps) = (0, 300);
+    for _ in 0..cases(100, 1_000) {
+        let Flat { place, corner, s, t } = flat(&mut random);
+        // a square that covers some of the way to the light
+        let middle = along(along(corner, s, random.unit_f64()), t, random.unit_f64()).map(|x| 0.5 * x);
+        let (a, b) = basis(unit(middle));
+        let half = 0.25 * (length(s) + length(t)) * random.unit_f64();
+        let (a, b) = (a.map(|x| x * half), b.map(|x| x * half));
+        let from = along(along(middle, a, -1.0), b, -1.0);
+        let (lobe, normal) = (place.reflection::<f64>(), cross(s, t));
+        let mut truth = 0.0;
+        for k in 0..steps * steps {
+            let [x, y] = [k / steps, k % steps].map(|i| (f64::from(i) + 0.5) / f64::from(steps));
+            let v = along(along(corner, s, x), t, y);
+            // where the ray meets the plane of the square, if before the light
+            let reach = dot(middle, middle) / dot(v, middle);
+            let at = sub(v.map(|c| c * reach), middle);
+            let hidden = reach > 0.0 && reach < 1.0 && dot(at, a).abs() < half * half && dot(at, b).abs() < half * half;
+            if !hidden {
+                truth += lobe.pdf(vector(unit(v))) * dot(v, normal).abs() / length(v).powi(3);
+            }
+        }
+        truth *= PI / f64::from(steps * steps);
+        let light = Convex::Parallelogram { corner: vector(corner), edges: [vector(s), vector(t)] };
+        let blocker = Convex::Parallelogram { corner: vector(from), edges: [a, b].map(|e| vector(e.map(|x| 2.0 * x))) };
+        let up = vector(place.normal);
+        let all = occlusion.reflected(Vec3::default(), up, &lobe, &light, &[], &[]).expect("one light");
+        let left = occlusion.reflected(Vec3::default(), up, &lobe, &light, &[blocker], &[]).expect("one blocker");
+        part += u32::from(left > 0.02 * all && left < 0.98 * all);
+        assert!((left - truth).abs() < 2e-2 * all + 1e-6, "{place:?}: {left}, not {truth}, of {all}");
+    }
+    assert!(part > 20, "{part} are partly hidden");
+    // a sphere before a light, or as a light behind something, has no closed form
+    let place = Place::new(&mut random);
+    let lobe = place.reflection::<f64>();
+    let ball = |x: f64| Convex::Sphere { center: vector(place.normal.map(|n| n * x)), radius: 0.1 };
+    let panel = Convex::Parallelogram {
+        corner: vector(along(
+            along(place.normal.map(|x| 4.0 * x), basis(place.normal).0, -0.5),
+            basis(place.normal).1,
+            -0.5,
+        )),
+        edges: [vector(basis(place.normal).0), vector(basis(place.normal).1)],
+    };
+    let up = vector(place.normal);
+    assert!(occlusion.reflected(Vec3::default(), up, &lobe, &panel, &[ball(2.0)], &[]).is_none());
+    assert!(occlusion.visible(Vec3::default(), up, &panel, &[ball(2.0)]).is_some());
+}
+
+/// Samplers are closed: the pdf of a sample is that of its direction, samples are on the light, and inverses lead back.
+fn closed(sampler: &impl LightSampler<f32>, random: &mut Random, what: &str) -> [u32; 2] {
+    let mut count = [0; 2];
+    for _ in 0..20 {
+        let u = Vec2::new(random.unit(), random.unit());
+        let drawn = sampler.sample(u);
+        count[0] += 1;
+        assert_eq!(drawn.pdf, sampler.pdf(drawn.direction), "{what}");
+        assert!(drawn.pdf.is_finite() && drawn.pdf >= 0.0, "{what}: {}", drawn.pdf);
+        if drawn.pdf > 0.0 {
+            count[1] += 1;
+            let hit = sampler.hit(drawn.direction);
+            assert_eq!((hit.pdf, hit.distance, hit.emits), (drawn.pdf, drawn.distance, drawn.emits), "{what}");
+            let again = sampler.sample(sampler.invert(drawn.direction));
+            let off = length(sub(again.direction.at(0), drawn.direction.at(0)));
+            assert!(off < 2e-4, "{what}: {u:?} is off by {off}");
+        }
+    }
+    count
+}
+
+#[test]
+fn samplers_are_closed() {
+    let mut random = Random::new(6);
+    let mut sums = [0; 2];
+    for _ in 0..cases(400, 20_000) {
+        let Flat { place, corner, s, t } = flat(&mut random);
+        let reflection = place.reflection::<f32>();
+        let (c, u, v) = (vector::<f32>(corner), vector::<f32>(s), vector::<f32>(t));
+        let origin = Vec3::default();
+        let triangle = Triangle { v0: c, e1: u, e2: v }.by_reflection(origin, &reflection);
+        let parallelogram = Parallelogram::new(c, u, v).by_reflection(origin, &reflection);
+        let polygon = Polygon::new([c, c + u, c + u + v]).by_reflection(origin, &reflection);
+        let what = format!("{place:?} {corner:?} {s:?} {t:?}");
+        for count in [
+            closed(&triangle, &mut random, &what),
+            closed(&parallelogram, &mut random, &what),
+            closed(&polygon, &mut random, &what),
+        ] {
+            sums = [0, 1].map(|k| sums[k] + count[k]);
+        }
+    }
+    assert!(f64::from(sums[1]) > 0.99 * f64::from(sums[0]), "{} of {} samples are valid", sums[1], sums[0]);
+}
+
+/// A packet has the bits of its lanes.
+#[test]
+fn lanes_have_the_bits_of_scalars() {
+    let mut random = Random::new(7);
+    for _ in 0..cases(50, 2_000) {
+        let flats: [Flat; 8] = core::array::from_fn(|_| flat(&mut random));
+        let us: [[f32; 2]; 8] = core::array::from_fn(|_| [random.unit(), random.unit()]);
+        let of = |f: fn(&Flat) -> V3| {
+            let all = flats.each_ref().map(f).map(narrow);
+            Vec3::new(f32x8::from_fn(|i| all[i][0]), f32x8::from_fn(|i| all[i][1]), f32x8::from_fn(|i| all[i][2]))
+        };
+        let alpha = f32x8::from_fn(|i| flats[i].place.alpha as f32);
+        let reflection = Reflection::new(alpha, of(|f| f.place.normal), of(|f| f.place.view));
+        let u = Vec2::new(f32x8::from_fn(|i| us[i][0]), f32x8::from_fn(|i| us[i][1]));
+        let (corner, s, t) = (of(|f| f.corner), of(|f| f.s), of(|f| f.t));
+        let sampler = Parallelogram::new(corner, s, t).by_reflection(Vec3::default(), &reflection);
+        let drawn = sampler.sample(u);
+        let ball = reflection.sphere(corner, s.length());
+        for (i, flat) in flats.iter().enumerate() {
+            let one = flat.place.reflection::<f32>();
+            let light = Parallelogram::new(vector(flat.corner), vector(flat.s), vector(flat.t));
+            let alone = light.by_reflection(Vec3::default(), &one);
+            let sample = alone.sample(Vec2::new(us[i][0], us[i][1]));
+            assert_eq!(drawn.direction.lane(i), sample.direction);
+            assert_eq!(drawn.pdf.lane(i).to_bits(), sample.pdf.to_bits());
+            assert_eq!(
+                ball.lane(i).to_bits(),
+                one.sphere(vector(flat.corner), vector::<f32>(flat.s).length()).to_bits()
+            );
+        }
+    }
+}
+
+/// Whatever the input, nothing is infinite, and no pdf is NaN.
+#[test]
+fn degenerate_input_gives_nothing() {
+    let up = Vec3::new(0.0, 0.0, 1.0_f32);
+    let views = [[0.0, 0.0, 1.0], [0.0, 0.0, -1.0], [1.0, 0.0, 0.0], [0.6, 0.0, 0.8], [0.0; 3]];
+    for alpha in [0.0, -1.0, 1e-30, 1e-4, 1.0, 1e30, f32::NAN, f32::INFINITY] {
+        for view in views {
+            let lobe = Reflection::new(alpha, up, Vec3::from(view));
+            assert!(lobe.albedo() >= 0.0 && lobe.albedo() <= 1.0);
+            if view[2] <= 0.0 {
+                assert_eq!(lobe.albedo(), 0.0);
+            }
+            for w in [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [-0.6, 0.0, 0.8]].map(Vec3::from) {
+                let pdf = lobe.pdf(w);
+                assert!(pdf.is_finite() && pdf >= 0.0, "{alpha} {view:?} {w:?}: {pdf}");
+                let u = lobe.invert(w);
+                assert!((0.0..1.0).contains(&u.x) && (0.0..1.0).contains(&u.y));
+            }
+            for (center, radius) in
+                [([0.0; 3], 0.0), ([0.0; 3], 1.0), ([1e30, 0.0, 0.0], 1e-30), ([0.0, 0.0, 1e-30], 1e-31)]
+            {
+                let part = lobe.sphere(Vec3::from(center), radius);
+                assert!((0.0..=3.2).contains(&part), "{alpha} {view:?} {center:?}: {part}");
+            }
+            let flat = Parallelogram::new(
+                Vec3::from([1.0, 0.0, 0.0]),
+                Vec3::from([0.0, 1.0, 0.0]),
+                Vec3::from([1.0, 1.0, 0.0]),
+            );
+            let sampler = flat.by_reflection(Vec3::default(), &lobe);
+            assert_eq!(sampler.sample(Vec2::new(0.5, 0.5)).pdf, 0.0);
+            assert_eq!(sampler.projected_solid_angle(), 0.0);
+        }
+    }
+}
