@@ -97,7 +97,7 @@ impl<R: Real, M: Memory<R>> Cells<R> for PictureWords<M, R::Uint> {
                 rows: Span { start: start_y, steps: steps_y, cell: y },
                 differ: R::has_bits(differ),
             };
-            // the levels of the hierarchy: of an odd power of two, the last one or the second one has boxes of 2 × 2
+            // boxes of 2 × 2 parts come where those of the hierarchy do: second, or last
             let is_odd = R::has_bits(length.to_uint() & word(0xAAAA_AAAA));
             let is_half = is_odd & (length.le(R::lit(2.0)) | R::has_bits(first));
             let side = length * R::blend(is_half, R::lit(0.5), R::lit(0.25));
