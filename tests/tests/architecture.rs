@@ -176,8 +176,9 @@ const EXCEPTIONS: [(&str, &str, &str, &str); 2] = [
 
 /// The packages, and whether the files inside of their folders must import one way, too. In the core and the properties, the file of a
 /// folder has the traits and types that all its modules share, so they import it.
-const PACKAGES: [(&str, bool); 10] = [
+const PACKAGES: [(&str, bool); 11] = [
     ("core", false),
+    ("core/fit", true),
     ("core/playground", true),
     ("core/shader", true),
     ("render", true),
@@ -263,10 +264,11 @@ fn imports_are_found() {
 }
 
 /// Which packages of the workspace each one may use, and which more its tests, benchmarks and examples may.
-const ARROWS: [(&str, &[&str], &[&str]); 18] = [
+const ARROWS: [(&str, &[&str], &[&str]); 19] = [
     ("core", &[], &[]),
     ("core/batch", &["etendue"], &[]),
     ("core/c", &["etendue", "etendue-batch"], &[]),
+    ("core/fit", &[], &[]),
     ("core/playground", &["etendue"], &["etendue-oracle"]),
     ("core/python", &["etendue", "etendue-batch"], &[]),
     ("core/shader", &["etendue"], &["etendue-oracle", "etendue-properties"]),

@@ -9,6 +9,7 @@ mod figures;
 mod functions;
 mod lights;
 mod pictures;
+mod reflections;
 mod sequences;
 mod warps;
 
@@ -27,6 +28,7 @@ fn each(mut take: impl FnMut(Entry)) {
     warps::add(&mut list);
     lights::add(&mut list);
     pictures::add(&mut list);
+    reflections::add(&mut list);
     choices::add(&mut list);
 }
 

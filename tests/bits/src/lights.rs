@@ -17,6 +17,12 @@ use etendue_properties::techniques::{AreaLight, LightFixture};
 
 const SLOTS: usize = 50 * Figures::MOST;
 
+/// x⁴: whether `powi` rounds like this depends on how a program is compiled.
+fn uneven(x: f32) -> f32 {
+    let square = x * x;
+    square * square
+}
+
 pub(crate) fn sample<R: Real>(lanes: &mut Lanes<'_>, s: &LightSample<R>) {
     lanes.vector(s.direction);
     lanes.vector(s.normal);
@@ -125,7 +131,7 @@ impl Routine for Sky {
     fn run<R: Real>(&self, figures: &mut Figures) {
         let Self(map, width, height) = *self;
         let mut random = Random::new(700);
-        let weights: Vec<_> = (0..width * height).map(|_| random.unit().powi(4)).collect();
+        let weights: Vec<_> = (0..width * height).map(|_| uneven(random.unit())).collect();
         let mut buffer = vec![0.0; ImageEnvironment::buffer(width, height)];
         let image = ImageEnvironment::build(&weights, width, map, &mut buffer).expect("the weights are valid");
         (0..height).for_each(|y| figures.number(map.texel_solid_angle(width, height, y)));
@@ -150,7 +156,7 @@ impl Routine for Portals {
         let mut buffers = [vec![0; PortalTable::buffer(16, 12)], vec![0; PortalTable::buffer(9, 30)]];
         let tables = [16, 9].into_iter().zip(&mut buffers).map(|(width, buffer)| {
             let texels = if width == 16 { 192 } else { 270 };
-            let weights: Vec<_> = (0..texels).map(|_| random.unit().powi(4)).collect();
+            let weights: Vec<_> = (0..texels).map(|_| uneven(random.unit())).collect();
             PortalTable::build(&weights, width, buffer).expect("the weights are valid")
         });
         let tables: Vec<_> = tables.collect();
@@ -297,7 +303,7 @@ impl Routine for Slide {
     fn run<R: Real>(&self, figures: &mut Figures) {
         let mut random = Random::new(901);
         let projector = Projector { tan_half: [1.5, 0.7] };
-        let weights: Vec<_> = (0..77).map(|_| random.unit().powi(4)).collect();
+        let weights: Vec<_> = (0..77).map(|_| uneven(random.unit())).collect();
         let mut buffer = [0.0; ProjectedImage::buffer(11, 7)];
         let image = ProjectedImage::build(projector, &weights, 11, &mut buffer).expect("the weights are valid");
         figures.packets::<R>(SLOTS, |_, lanes| {

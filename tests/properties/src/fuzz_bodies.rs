@@ -10,6 +10,7 @@ mod lights;
 mod numbers;
 mod occlusion;
 mod pictures;
+mod reflections;
 mod sequences;
 mod shapes;
 mod skies;
@@ -103,6 +104,8 @@ targets! {
     light_tree: light_tree, 20;
     /// Lights behind up to 17 blockers, polygons and spheres of any size and place.
     occlusion: occlusion, 50;
+    /// Lobes of rough surfaces, and the parts of them that lights cover.
+    reflection: reflections, 200;
     /// Every sequence, at any index.
     sequence: sequences, 500;
     /// Strata and nets of each sequence, from any start.
