@@ -22,10 +22,17 @@
 //!
 //! Every routine takes a scalar or a packet; look-ups go lane by lane, with the same bits.
 
+mod cell;
+mod words;
+
 use crate::real::{Real, Uint, unit_interval};
 use crate::vector::Vec2;
 use crate::warp::{Warp, Warp1};
+pub use cell::{Cell, Cell2d};
+use cell::{Row, Rows, draw, rest};
+pub(crate) use cell::{locate, place};
 use core::fmt::{self, Display, Formatter};
+pub use words::{AliasWords, Words1d, Words2d};
 
 /// Steps of `u` in the unit interval, and the greatest number of cells in a table.
 const STEPS: f64 = 16_777_216.0;
@@ -50,61 +57,6 @@ impl Display for TableError {
     }
 }
 impl core::error::Error for TableError {}
-
-/// A cell (or item) drawn from a table.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Cell<R: Real> {
-    /// Index of the cell, in [0, n).
-    pub index: R::Uint,
-    /// Position in the cell, in [0, 1): what is left of `u`, uniform.
-    pub offset: R,
-    /// Probability of the cell, in [0, 1]; times the number of cells, it is the pdf on [0, 1).
-    pub pmf: R,
-}
-
-/// A cell of an image drawn from a table.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Cell2d<R: Real> {
-    /// Column, in [0, w).
-    pub x: R::Uint,
-    /// Row, in [0, h).
-    pub y: R::Uint,
-    /// Position in the cell, in [0, 1)².
-    pub offset: Vec2<R>,
-    /// Probability of the cell, in [0, 1]; times the number of cells, it is the pdf per unit area of the unit square.
-    pub pmf: R,
-}
-
-/// Twice the relative rounding error of one operation.
-#[inline(always)]
-fn epsilon<R: Real>() -> R {
-    R::lit(if size_of::<R::Scalar>() == 4 { f64::from(f32::EPSILON) } else { f64::EPSILON })
-}
-
-/// The number in [0, 1) for a position in cell `index` of n: (index + offset)/n, moved by an ulp where rounding left the cell.
-#[inline(always)]
-pub(crate) fn place<R: Real>(index: R::Uint, offset: R, n: R) -> R {
-    let i = R::from_uint(index);
-    let x = (i + offset) / n;
-    // xn − i, exact up to its last rounding, which keeps the sign and whether it reaches 1
-    let scaled = x * n;
-    let position = (scaled - i) + R::two_prod_error(x, n, scaled);
-    let x = R::blend(position.lt(R::lit(0.0)), x + x * epsilon(), x);
-    R::blend(position.ge(R::lit(1.0)), x - x * (epsilon::<R>() * R::lit(0.5)), x)
-}
-
-/// The inverse: cell and position of x in [0, 1). The product is not rounded before its integer part is taken.
-#[inline(always)]
-pub(crate) fn locate<R: Real>(x: R, n: R) -> (R::Uint, R) {
-    let (zero, one) = (R::lit(0.0), R::lit(1.0));
-    let scaled = x * n;
-    let i = R::from_uint(scaled.to_uint());
-    let position = (scaled - i) + R::two_prod_error(x, n, scaled);
-    let (below, above) = (position.lt(zero), position.ge(one));
-    let i = R::blend(below, i - one, R::blend(above, i + one, i));
-    let position = R::blend(below, position + one, R::blend(above, position - one, position));
-    (i.clamped(zero, n - one).to_uint(), unit_interval(position))
-}
 
 /// Sum of the weights, if all are valid, and number of those above 0.
 fn total(n: usize, weight: impl Fn(usize) -> f64) -> Result<(f64, usize), TableError> {
@@ -148,36 +100,6 @@ fn accumulate(cdf: &mut [f32], weight: impl Fn(usize) -> f64) -> Result<(), Tabl
     Ok(())
 }
 
-/// Cell, position and pmf of `u` in the distribution function that `row` picks for each lane.
-#[inline(always)]
-fn draw<'a, R: Real>(u: R, row: impl Fn(usize) -> &'a [f32]) -> Cell<R> {
-    let u = unit_interval(u);
-    // the first cell that ends above u: it has a width, since the one before it ends at or below u
-    let index = R::Uint::from_fn(|lane| {
-        let (cdf, u) = (row(lane), u.lane_f64(lane));
-        cdf.partition_point(|&end| f64::from(end) <= u).min(cdf.len() - 1) as u32
-    });
-    let (start, pmf) = bounds::<R>(index, row);
-    let some = pmf.gt(R::lit(0.0));
-    let offset = unit_interval((u - start) / R::blend(some, pmf, R::lit(1.0)));
-    Cell { index, offset, pmf }
-}
-
-/// Start and width of a cell; 0 and 0 past the last one.
-#[inline(always)]
-fn bounds<'a, R: Real>(index: R::Uint, row: impl Fn(usize) -> &'a [f32]) -> (R, R) {
-    let at = |lane: usize, back: usize| {
-        let i = index.lane(lane) as usize;
-        let cdf = row(lane);
-        let value = if i < cdf.len() && i >= back { cdf[i - back] } else { 0.0 };
-        R::Scalar::lit(f64::from(value))
-    };
-    let start =
-        R::from_fn(|lane| if (index.lane(lane) as usize) < row(lane).len() { at(lane, 1) } else { at(lane, 0) });
-    let end = R::from_fn(|lane| at(lane, 0));
-    (start, end - start)
-}
-
 /// A distribution on [0, 1) whose pdf is constant in each of n equal cells: for tables and one-dimensional images.
 ///
 /// Call `PiecewiseConstant1d::build(&weights, &mut cdf)`, then `cell` for a cell or `sample` for a point. Weights that are
@@ -217,17 +139,17 @@ impl<'a> PiecewiseConstant1d<'a> {
     /// Draws the cell for `u`.
     #[inline(always)]
     pub fn cell<R: Real>(&self, u: R) -> Cell<R> {
-        draw(u, |_| self.cdf)
+        draw(u, &Rows(|_| self.cdf))
     }
     /// Probability of a cell; 0 past the last one.
     #[inline(always)]
     pub fn pmf<R: Real>(&self, index: R::Uint) -> R {
-        bounds::<R>(index, |_| self.cdf).1
+        Row::<R>::bounds(&Rows(|_| self.cdf), index).1
     }
     /// Returns the `u` that `cell` maps to a position in a cell.
     #[inline(always)]
     pub fn invert_cell<R: Real>(&self, index: R::Uint, offset: R) -> R {
-        let (start, width) = bounds::<R>(index, |_| self.cdf);
+        let (start, width) = Row::<R>::bounds(&Rows(|_| self.cdf), index);
         unit_interval(offset.mul_add(width, start))
     }
     #[inline(always)]
@@ -376,7 +298,7 @@ impl<'a> PiecewiseConstant2d<'a> {
     #[inline(always)]
     pub fn cell<R: Real>(&self, u: Vec2<R>) -> Cell2d<R> {
         let row = self.marginal.cell(u.y);
-        let column = draw(u.x, |lane| self.row(row.index.lane(lane)));
+        let column = draw(u.x, &Rows(|lane| self.row(row.index.lane(lane))));
         Cell2d {
             x: column.index,
             y: row.index,
@@ -387,12 +309,12 @@ impl<'a> PiecewiseConstant2d<'a> {
     /// Probability of a cell; 0 outside the image.
     #[inline(always)]
     pub fn pmf<R: Real>(&self, x: R::Uint, y: R::Uint) -> R {
-        self.marginal.pmf::<R>(y) * bounds::<R>(x, |lane| self.row(y.lane(lane))).1
+        self.marginal.pmf::<R>(y) * Row::<R>::bounds(&Rows(|lane| self.row(y.lane(lane))), x).1
     }
     /// Returns the `u` that `cell` maps to a position in a cell.
     #[inline(always)]
     pub fn invert_cell<R: Real>(&self, x: R::Uint, y: R::Uint, offset: Vec2<R>) -> Vec2<R> {
-        let (start, width) = bounds::<R>(x, |lane| self.row(y.lane(lane)));
+        let (start, width) = Row::<R>::bounds(&Rows(|lane| self.row(y.lane(lane))), x);
         Vec2 { x: unit_interval(offset.x.mul_add(width, start)), y: self.marginal.invert_cell(y, offset.y) }
     }
 }
@@ -515,6 +437,13 @@ impl<'a> AliasTable<'a> {
     pub fn cells(&self) -> usize {
         self.weights.len()
     }
+    /// Three words for each item: its threshold, its alias and its probability. What [`AliasWords`] reads.
+    pub fn words(&self) -> impl Iterator<Item = u32> + use<'a> {
+        let Self { weights, thresholds, aliases, inverse_total } = *self;
+        weights.iter().zip(thresholds).zip(aliases).flat_map(move |((&weight, threshold), &alias)| {
+            [threshold.to_bits(), alias, ((f64::from(weight) * inverse_total) as f32).to_bits()]
+        })
+    }
     /// Draws the item for `u`, with a fresh number in [0, 1) as its `offset`.
     #[inline(always)]
     pub fn cell<R: Real>(&self, u: R) -> Cell<R> {
@@ -526,10 +455,7 @@ impl<'a> AliasTable<'a> {
             let own = fraction.lane_f64(lane) < threshold.lane_f64(lane);
             if own { bucket } else { self.aliases[bucket as usize] }
         });
-        let one = R::lit(1.0);
-        let range = R::blend(own, threshold, one - threshold);
-        let offset = unit_interval(R::blend(own, fraction, fraction - threshold) / range.greater(R::lit(1e-30)));
-        Cell { index, offset, pmf: self.pmf(index) }
+        Cell { index, offset: rest(own, fraction, threshold), pmf: self.pmf(index) }
     }
     /// Probability of an item; 0 past the last one.
     #[inline(always)]

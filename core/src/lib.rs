@@ -41,6 +41,7 @@ mod interop;
 mod lanewise;
 pub mod light;
 pub mod math;
+pub mod memory;
 pub mod occlusion;
 pub mod random;
 pub mod real;

@@ -89,6 +89,7 @@
 
 mod annulus;
 mod around;
+mod cells;
 mod cylinder;
 mod daylight;
 mod delta;
@@ -101,6 +102,7 @@ mod line;
 mod opening;
 mod patch;
 mod picture;
+mod picture_words;
 mod pictured;
 mod pictured_curved;
 mod pictured_flat;
@@ -116,6 +118,7 @@ mod surface;
 mod techniques;
 
 pub use annulus::{Annulus, AnnulusByArea, PlacedAnnulus};
+pub use cells::Region;
 pub use cylinder::{Cylinder, CylinderByArea, PlacedCylinder};
 pub use daylight::{GeneralSky, Moment, SunPosition};
 pub use delta::{
@@ -125,7 +128,9 @@ pub use disk::{Disk, DiskByArea, DiskBySolidAngle, PlacedDisk};
 pub use distant::{
     ConstantEnvironment, EnvironmentByProjectedSolidAngle, EnvironmentBySolidAngle, Sun, SunBySolidAngle,
 };
-pub use environment::{ByRadiance, EnvironmentMap, EnvironmentSample, ImageEnvironment, Texel};
+pub use environment::{
+    ByRadiance, EnvironmentMap, EnvironmentSample, EnvironmentWords, ImageEnvironment, ImageSampler, Texel,
+};
 pub use flat::{
     Parallelogram, ParallelogramByArea, ParallelogramByProjectedSolidAngle, ParallelogramByReflection,
     ParallelogramBySolidAngle, Rectangle, RectangleByCosineWarp, RectangleBySolidAngle, Triangle, TriangleByArea,
@@ -134,15 +139,16 @@ pub use flat::{
 pub use line::{Line, LineByAngle, LineByLength, LineByProjectedSolidAngle, PlacedLine};
 pub use opening::LuminousOpening;
 pub use patch::{BilinearPatch, PatchByArea, PlacedPatch};
-pub use picture::{Picture, Region, mean_of_bilinear};
-pub use pictured::{ByPicture, PictureSample, Pictured};
+pub use picture::{Picture, mean_of_bilinear};
+pub use picture_words::PictureWords;
+pub use pictured::{ByPicture, PictureSample, Pictured, PicturedLight, PicturedSampler};
 pub use pictured_curved::Curved;
 pub use pictured_flat::{Area, Flat, FlatLight, Projected, SolidAngle};
 pub use polygon::{
     PlacedPolygon, Polygon, PolygonByArea, PolygonByProjectedSolidAngle, PolygonByReflection, PolygonBySolidAngle,
 };
 pub use portal::{MOST_PORTALS, Portal, PortalEnvironment, PortalMap, PortalTable, PortalsByRadiance};
-pub use profile::{Profile, ProfileError};
+pub use profile::{Profile, ProfileError, ProfileWords};
 pub use projector::{ProjectedImage, Projector};
 pub use sample::{AreaSample, FAR, LightSample};
 pub use sampler::{ByArea, ByCosineWarp, ByProjectedSolidAngle, ByReflection, BySolidAngle, LightSampler};

@@ -66,7 +66,20 @@ pub trait Uint: Copy + Debug + BitAnd<Output = Self> + BitOr<Output = Self> + Bi
     fn lt(self, other: Self) -> Self;
     /// True if any bit of any lane is set.
     fn any(self) -> bool;
+    /// Shifts towards the low bits, in each lane by the five low bits of another.
+    #[inline(always)]
+    fn shr_by(self, bits: Self) -> Self {
+        Self::from_fn(|lane| self.lane(lane) >> (bits.lane(lane) & 31))
+    }
+    /// Quotient, rounded down; 0 where the divisor is.
+    #[inline(always)]
+    fn quotient(self, divisor: Self) -> Self {
+        Self::from_fn(|lane| self.lane(lane).checked_div(divisor.lane(lane)).unwrap_or(0))
+    }
 }
+
+/// The numbers and the counters of a loop: see [`Real::iterate_with_words`].
+pub type State<R, const N: usize, const W: usize> = ([R; N], [<R as Real>::Uint; W]);
 
 /// A real number or a packet of them: everything that a warp needs, and no more.
 ///
@@ -173,6 +186,12 @@ pub trait Real:
     fn from_uint(value: Self::Uint) -> Self;
     /// The integer part of reals in [0, 2²⁴].
     fn to_uint(self) -> Self::Uint;
+    /// Whether any bit of a counter is set, per lane.
+    #[inline(always)]
+    fn has_bits(value: Self::Uint) -> Self::Mask {
+        let one = Self::Uint::splat(1);
+        Self::from_uint(Self::Uint::splat(0).lt(value) & one).gt(Self::lit(0.0))
+    }
 
     /// What `some` computes if the mask is true in any lane, else `none`: a branch around a path that few calls need. Only the lanes where the
     /// mask is true count in a packet; number types that write sources choose in each lane.
@@ -201,20 +220,34 @@ pub trait Real:
     #[inline(always)]
     fn iterate<const N: usize, const M: usize>(
         most: usize,
-        mut numbers: [Self; N],
-        mut going: [Self::Mask; M],
+        numbers: [Self; N],
+        going: [Self::Mask; M],
         mut step: impl FnMut([Self; N], [Self::Mask; M]) -> ([Self; N], [Self::Mask; M]),
     ) -> [Self; N] {
+        let step = |(numbers, []): State<Self, N, 0>, going| {
+            let (numbers, going) = step(numbers, going);
+            ((numbers, []), going)
+        };
+        Self::iterate_with_words(most, (numbers, []), going, step).0
+    }
+    /// The same with counters beside the numbers.
+    #[inline(always)]
+    fn iterate_with_words<const N: usize, const W: usize, const M: usize>(
+        most: usize,
+        mut state: State<Self, N, W>,
+        mut going: [Self::Mask; M],
+        mut step: impl FnMut(State<Self, N, W>, [Self::Mask; M]) -> (State<Self, N, W>, [Self::Mask; M]),
+    ) -> State<Self, N, W> {
         if !going.into_iter().any(Mask::any) {
-            return numbers;
+            return state;
         }
         for _ in 0..most {
-            (numbers, going) = step(numbers, going);
+            (state, going) = step(state, going);
             if !going.into_iter().any(Mask::any) {
                 break;
             }
         }
-        numbers
+        state
     }
 
     /// (sin 2πu, cos 2πu) for u = `self`; see [`math`](crate::math) for the errors of this function and of those below. Provided: the

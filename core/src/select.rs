@@ -22,7 +22,7 @@ pub use allocation::{Allocated, Allocation};
 pub use bound::LightBound;
 pub use power::PowerLights;
 pub use spatial::{LightsAt, SpatialLights};
-pub use tree::{Join, LightTree, NO_LIGHT, Node8, Sequential, TreeAt, TreeChild};
+pub use tree::{Join, LightTree, NO_LIGHT, Node8, Sequential, TreeAt, TreeChild, TreeWords, TreeWordsAt};
 
 use crate::real::{Real, Uint, unit_interval};
 

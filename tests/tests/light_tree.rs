@@ -1,8 +1,8 @@
 //! Trees of lights: exact sums, the pmf of choices, frequencies, and that no light is lost.
 
 use etendue::discrete::TableError;
-use etendue::select::{Join, LightBound, LightChoice, LightTree, NO_LIGHT, Node8};
-use etendue::{Real, f32x8, u32x8};
+use etendue::select::{Choice, Join, LightBound, LightChoice, LightTree, NO_LIGHT, Node8, TreeWords};
+use etendue::{Real, Uint, Vec3, f32x8, u32x8};
 use etendue_oracle::tier::cases;
 use etendue_properties::generators::{EDGES, NASTY, Random};
 use etendue_properties::light_tree::{Grove, Lamp, Place, Reached, Regime, figures, place};
@@ -11,7 +11,7 @@ use etendue_properties::tolerances::SIGNIFICANCE;
 
 const COUNTS: [usize; 9] = [1, 2, 7, 8, 9, 63, 64, 65, 1000];
 
-fn words(random: &mut Random) -> [u32; 2] {
+fn words_of(random: &mut Random) -> [u32; 2] {
     let word = random.word();
     [word as u32, (word >> 32) as u32]
 }
@@ -49,6 +49,67 @@ fn probabilities_sum_to_one_exactly_in_all_regimes() {
             }
         }
         println!("{regime:?}: {levels} levels; none has up to {dark:.4} where some light has more");
+    }
+}
+
+/// From words in memory, at every width, choices and pmfs have the bits of the tree.
+#[test]
+fn words_have_the_bits_of_the_tree() {
+    let of = |choice: Choice<f32>| (choice.index, choice.pmf.to_bits(), choice.u.to_bits());
+    for (seed, regime) in (0..).zip(Regime::ALL) {
+        let mut random = Random::new(700 + seed);
+        let (mut chosen, mut levels) = (0, 0);
+        for count in COUNTS {
+            let lamps = regime.lamps(count, &mut random);
+            let bounds: Vec<LightBound> = lamps.iter().map(Lamp::bound).collect();
+            let (mut nodes, mut places) = (vec![Node8::default(); LightTree::nodes_for(count)], vec![0; count]);
+            LightTree::build(&bounds, &mut nodes, &mut places).unwrap();
+            let tree = LightTree::from_buffers(&nodes, &places);
+            // nodes in the middle of other words
+            let before = random.below(9);
+            let mut words = vec![0; before];
+            words.extend(nodes.iter().flat_map(Node8::words));
+            let places_at = words.len() as u32;
+            words.extend(&places);
+            let in_words =
+                TreeWords { memory: &words[..], nodes: before as u32, places: places_at, count: count as u32 };
+            let all = u32x8::splat;
+            let wide = TreeWords {
+                memory: &words[..],
+                nodes: all(before as u32),
+                places: all(places_at),
+                count: all(count as u32),
+            };
+            for _ in 0..cases(12, 200) {
+                let (at, aim) = place(regime, &lamps, &mut random);
+                let [p, n] = [at.0, at.1].map(Vec3::<f32>::from);
+                let (one, other) = (tree.at(p, n), in_words.at(p, n));
+                let eight = wide.at(Vec3::<f32x8>::splat(p), Vec3::splat(n));
+                let bits: [[u32; 2]; 8] = core::array::from_fn(|_| words_of(&mut random));
+                let choices = eight.choose_by([0, 1].map(|k| u32x8::from(bits.map(|bits| bits[k]))));
+                for (lane, bits) in bits.into_iter().enumerate() {
+                    let choice = one.choose_by(bits);
+                    assert_eq!(of(choice), of(other.choose_by(bits)), "{regime:?}, {count} lights");
+                    assert_eq!(
+                        of(choice),
+                        (choices.index.lane(lane), choices.pmf.lane(lane).to_bits(), choices.u.lane(lane).to_bits())
+                    );
+                    let light = if choice.index == NO_LIGHT { aim as u32 } else { choice.index };
+                    assert_eq!(one.pmf(light).to_bits(), other.pmf(light).to_bits(), "{regime:?}, {count} lights");
+                    chosen += u32::from(choice.index != NO_LIGHT);
+                    levels = levels.max(if choice.pmf > 0.0 { -choice.pmf.log2() as u32 } else { 0 });
+                }
+                let u = random.unit();
+                assert_eq!(of(one.choose(u)), of(other.choose(u)));
+                let lights = u32x8::from(core::array::from_fn(|lane| (lane as u32).wrapping_mul(0x1000_0081)));
+                let pmfs = eight.pmf(lights);
+                for lane in 0..8 {
+                    assert_eq!(one.pmf(lights.lane(lane)).to_bits(), pmfs.lane(lane).to_bits());
+                }
+            }
+        }
+        println!("{regime:?}: {chosen} lights were chosen, the rarest once in 2^{levels}");
+        assert!(chosen > 100);
     }
 }
 
@@ -134,7 +195,7 @@ fn choices_have_their_pmf_in_every_lane() {
             let grove = Grove::of(&lamps[..count]);
             for _ in 0..100 {
                 let places = core::array::from_fn(|_| place(regime, &lamps, &mut random).0);
-                let words = core::array::from_fn(|_| words(&mut random));
+                let words = core::array::from_fn(|_| words_of(&mut random));
                 grove.choices(&places, &words, &core::array::from_fn(|_| square(&mut random)[0]));
             }
         }
@@ -161,7 +222,7 @@ fn frequencies_are_the_pmf() {
             let mut pairs = Vec::new();
             let at = grove.at(place);
             for _ in 0..draws {
-                let choice = at.choose_by(words(&mut random));
+                let choice = at.choose_by(words_of(&mut random));
                 counts[(choice.index as usize).min(lamps.len())] += 1;
                 if choice.index != NO_LIGHT {
                     left[(choice.u * 64.0) as usize] += 1;
@@ -198,7 +259,7 @@ fn strata_survive() {
             let errors = [true, false].map(|strata| {
                 let mut counts = vec![0.0; lamps.len()];
                 for i in 0..draws {
-                    let [word, more] = words(&mut random);
+                    let [word, more] = words_of(&mut random);
                     let first = if strata { i << 20 | word >> 12 } else { word };
                     let choice = grove.at(place).choose_by([first, more]);
                     if let Some(count) = counts.get_mut(choice.index as usize) {
@@ -232,7 +293,7 @@ fn lengths_have_no_unit() {
             // far points are as far as single precision allows
             let near = |place: &Place| place.0.iter().all(|x| x.abs() < 1e15);
             let places: Vec<Place> = (0..60).map(|_| place(regime, &lamps, &mut random).0).filter(near).collect();
-            let words: Vec<_> = places.iter().map(|_| words(&mut random)).collect();
+            let words: Vec<_> = places.iter().map(|_| words_of(&mut random)).collect();
             for exponent in [-60, -21, -1, 1, 20, 60] {
                 grove.scale(&places, &words, exponent);
             }
@@ -411,7 +472,7 @@ fn malformed_use_does_not_panic() {
         };
         let [p, n] = [[number(), number(), number()], [number(), number(), number()]];
         let at = trees[i % trees.len()].at::<f32>(p.into(), n.into());
-        let choice = at.choose_by(words(&mut random));
+        let choice = at.choose_by(words_of(&mut random));
         assert!((0.0..=1.0).contains(&choice.pmf) && (0.0..1.0).contains(&choice.u), "{p:?} {n:?}: {choice:?}");
         for index in [0, 1, 2, 3, 299, 300, NO_LIGHT, choice.index] {
             assert!((0.0..=1.0).contains(&at.pmf(index)));

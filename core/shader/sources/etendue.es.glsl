@@ -220,6 +220,10 @@ uint etendue_word_less(uint a_2, uint b_2) {
     return ((a_2 < b_2) ? 4294967295u : 0u);
 }
 
+uint etendue_word_quotient(uint a_3, uint b_3) {
+    return ((b_3 == 0u) ? 0u : (a_3 / b_3));
+}
+
 // (sin 2 pix, cos 2 pix) within 8.5e-8, for |x| < 2^126.
 vec2 etendue_sin_cos_turns(float x_4) {
     vec2 result = vec2(0.0);

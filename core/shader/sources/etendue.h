@@ -96,6 +96,8 @@ ETENDUE_FUNCTION float etendue_inverse_cbrt_estimate(float x) {
 ETENDUE_FUNCTION float etendue_unit(etendue_word k) { return (float)(k >> 8) * 5.9604645e-8f; }
 // All ones where a < b, else 0.
 ETENDUE_FUNCTION etendue_word etendue_word_less(etendue_word a, etendue_word b) { return a < b ? 0xffffffffu : 0u; }
+// The quotient, rounded down; 0 where the divisor is.
+ETENDUE_FUNCTION etendue_word etendue_word_quotient(etendue_word a, etendue_word b) { return b == 0u ? 0u : a / b; }
 // Bit k becomes bit 31 - k.
 ETENDUE_FUNCTION etendue_word etendue_reverse_bits(etendue_word k) {
     k = (k >> 1 & 0x55555555u) | (k & 0x55555555u) << 1;
@@ -2678,18 +2680,18 @@ ETENDUE_FUNCTION EtendueVec2 etendue_owen_sobol_pair(etendue_word pixel, etendue
     const etendue_word k10 = k7 + k8 * k9;
     const etendue_word k11 = k8 + k9 * k10;
     const etendue_word k12 = (k9 + etendue_reverse_bits(sample_index)) * ((k9 >> 16u) | 1u);
-    const etendue_word k13 = k12 ^ k12 * 89287766u;
-    const etendue_word k14 = etendue_reverse_bits(k13 ^ k13 * 1403136100u);
+    const etendue_word k13 = k12 ^ (k12 * 89287766u);
+    const etendue_word k14 = etendue_reverse_bits(k13 ^ (k13 * 1403136100u));
     const etendue_word k15 = k14 ^ ((k14 >> 16u) & 65535u);
     const etendue_word k16 = k15 ^ ((k15 >> 8u) & 16711935u);
     const etendue_word k17 = k16 ^ ((k16 >> 4u) & 252645135u);
     const etendue_word k18 = k17 ^ ((k17 >> 2u) & 858993459u);
     const etendue_word k19 = (k10 + k14) * (1u | (k10 >> 16u));
-    const etendue_word k20 = k19 ^ 89287766u * k19;
-    const float x21 = etendue_unit(etendue_reverse_bits(k20 ^ 1403136100u * k20));
+    const etendue_word k20 = k19 ^ (89287766u * k19);
+    const float x21 = etendue_unit(etendue_reverse_bits(k20 ^ (1403136100u * k20)));
     const etendue_word k22 = (k11 + (k18 ^ ((k18 >> 1u) & 1431655765u))) * (1u | (k11 >> 16u));
-    const etendue_word k23 = k22 ^ 89287766u * k22;
-    const float x24 = etendue_unit(etendue_reverse_bits(k23 ^ 1403136100u * k23));
+    const etendue_word k23 = k22 ^ (89287766u * k22);
+    const float x24 = etendue_unit(etendue_reverse_bits(k23 ^ (1403136100u * k23)));
     EtendueVec2 result;
     result.x = x21;
     result.y = x24;

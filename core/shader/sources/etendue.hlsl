@@ -312,6 +312,15 @@ uint etendue_word_less(uint a_2, uint b_2)
     return ((a_2 < b_2) ? 4294967295u : 0u);
 }
 
+uint naga_div(uint lhs, uint rhs) {
+    return lhs / (rhs == 0u ? 1u : rhs);
+}
+
+uint etendue_word_quotient(uint a_3, uint b_3)
+{
+    return ((b_3 == 0u) ? 0u : naga_div(a_3, b_3));
+}
+
 // (sin 2 pix, cos 2 pix) within 8.5e-8, for |x| < 2^126.
 float2 etendue_sin_cos_turns(float x_4)
 {

@@ -262,6 +262,17 @@ uint etendue_word_less(
     return (a_2 < b_2) ? 4294967295u : 0u;
 }
 
+uint naga_div(uint lhs, uint rhs) {
+    return lhs / metal::select(rhs, 1u, rhs == 0u);
+}
+
+uint etendue_word_quotient(
+    uint a_3,
+    uint b_3
+) {
+    return (b_3 == 0u) ? 0u : naga_div(a_3, b_3);
+}
+
 // (sin 2 pix, cos 2 pix) within 8.5e-8, for |x| < 2^126.
 metal::float2 etendue_sin_cos_turns(
     float x_4

@@ -45,6 +45,10 @@ fn etendue_unit(k: u32) -> f32 {
 fn etendue_word_less(a: u32, b: u32) -> u32 {
     return select(0u, 0xffffffffu, a < b);
 }
+// The quotient, rounded down; 0 where the divisor is.
+fn etendue_word_quotient(a: u32, b: u32) -> u32 {
+    return select(a / b, 0u, b == 0u);
+}
 
 // Visible normals of a GGX microsurface, per steradian.
 struct EtendueGgxVisibleNormals {
@@ -2606,18 +2610,18 @@ fn etendue_owen_sobol_pair(pixel: u32, sample_index: u32, dimension: u32, key: u
     let k10 = k7 + k8 * k9;
     let k11 = k8 + k9 * k10;
     let k12 = (k9 + reverseBits(sample_index)) * ((k9 >> 16u) | 1u);
-    let k13 = k12 ^ k12 * 89287766u;
-    let k14 = reverseBits(k13 ^ k13 * 1403136100u);
+    let k13 = k12 ^ (k12 * 89287766u);
+    let k14 = reverseBits(k13 ^ (k13 * 1403136100u));
     let k15 = k14 ^ ((k14 >> 16u) & 65535u);
     let k16 = k15 ^ ((k15 >> 8u) & 16711935u);
     let k17 = k16 ^ ((k16 >> 4u) & 252645135u);
     let k18 = k17 ^ ((k17 >> 2u) & 858993459u);
     let k19 = (k10 + k14) * (1u | (k10 >> 16u));
-    let k20 = k19 ^ 89287766u * k19;
-    let x21 = etendue_unit(reverseBits(k20 ^ 1403136100u * k20));
+    let k20 = k19 ^ (89287766u * k19);
+    let x21 = etendue_unit(reverseBits(k20 ^ (1403136100u * k20)));
     let k22 = (k11 + (k18 ^ ((k18 >> 1u) & 1431655765u))) * (1u | (k11 >> 16u));
-    let k23 = k22 ^ 89287766u * k22;
-    let x24 = etendue_unit(reverseBits(k23 ^ 1403136100u * k23));
+    let k23 = k22 ^ (89287766u * k22);
+    let x24 = etendue_unit(reverseBits(k23 ^ (1403136100u * k23)));
     var result: vec2<f32>;
     result.x = x21;
     result.y = x24;

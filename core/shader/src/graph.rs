@@ -4,7 +4,7 @@ mod node;
 
 pub use node::{Call, Condition, Id, Kind, Loop, Node, Op};
 
-use etendue::Real;
+use etendue::{Real, Uint};
 use std::collections::{BTreeSet, HashMap, HashSet};
 
 /// Operations in an order in which each follows its operands, and what the routine asked of its masks.
@@ -15,8 +15,10 @@ pub struct Graph {
     places: HashMap<Node, Id>,
     tested: HashSet<Condition>,
     loops: Vec<Loop>,
-    /// The first node that may be in the body of the loop that is being recorded.
-    open: Option<usize>,
+    /// How many loops have begun.
+    begun: u32,
+    /// The first node that may be in the body of each loop that is being recorded, outer ones first.
+    open: Vec<usize>,
 }
 
 /// The node of the constant 0 of every graph.
@@ -32,7 +34,8 @@ impl Default for Graph {
             places: HashMap::new(),
             tested: HashSet::new(),
             loops: Vec::new(),
-            open: None,
+            begun: 0,
+            open: Vec::new(),
         };
         assert_eq!([0.0, f32::ONE_MINUS_EPSILON].map(|x| this.real(x)), [ZERO, ONE_MINUS_EPSILON]);
         this
@@ -64,26 +67,21 @@ impl Graph {
     pub fn as_loop(&self, id: Id) -> Option<&Loop> {
         if let Op::Loop(index) = self.node(id).op { Some(&self.loops[index as usize]) } else { None }
     }
-    /// Begins to record a loop, and returns its variables: numbers, then masks.
-    ///
-    /// # Panics
-    /// Inside of another loop.
-    pub fn begin_loop(&mut self, numbers: usize, masks: usize) -> Vec<Id> {
-        assert!(self.open.is_none(), "a loop inside of a loop cannot be recorded");
-        self.open = Some(self.nodes.len());
-        let kind = |k| if k < numbers { Kind::Real } else { Kind::Truth };
-        let index = self.loops.len() as u32;
-        (0..numbers + masks)
-            .map(|k| self.place(Node::new(Op::LoopVariable(kind(k), index, k as u32), &[]), kind(k)))
-            .collect()
+    /// Begins to record a loop, and returns its variables.
+    pub fn begin_loop(&mut self, kinds: impl IntoIterator<Item = Kind>) -> Vec<Id> {
+        self.open.push(self.nodes.len());
+        let index = self.begun;
+        self.begun += 1;
+        let kinds = (0..).zip(kinds);
+        kinds.map(|(k, kind)| self.place(Node::new(Op::LoopVariable(kind, index, k), &[]), kind)).collect()
     }
-    /// Ends the loop that was begun, which repeats at most `most` times while any of its masks is true. Returns what its variables are after
+    /// Ends the loop that was begun last, which repeats at most `most` times while any of its masks is true. Returns what its variables are after
     /// it, given their first and next values.
     ///
     /// # Panics
     /// Outside of a loop.
     pub fn end_loop(&mut self, most: usize, variables: Vec<Id>, masks: usize, first: &[Id], next: Vec<Id>) -> Vec<Id> {
-        let begin = self.open.take().expect("a loop ends that has begun");
+        let begin = self.open.pop().expect("a loop ends that has begun");
         let mut varies: HashSet<Id> = variables.iter().copied().collect();
         for id in begin as Id..self.nodes.len() as Id {
             if self.operands(id).iter().any(|operand| varies.contains(operand)) {
@@ -193,6 +191,7 @@ impl Graph {
             Op::Less | Op::LessEqual | Op::And | Op::Or | Op::Xor | Op::Not | Op::WordAny => Kind::Truth,
             Op::ToWord | Op::WordAdd | Op::WordSub | Op::WordMul | Op::WordAnd | Op::WordOr | Op::WordXor => Kind::Word,
             Op::WordShl(_) | Op::WordShr(_) | Op::WordReverse | Op::WordLess => Kind::Word,
+            Op::WordShrBy | Op::WordQuotient | Op::Load => Kind::Word,
             Op::Select => self.kind(operands[1]),
             Op::Call(call) if call.returns_pair() => Kind::Pair,
             _ => Kind::Real,
@@ -240,6 +239,8 @@ impl Graph {
             Op::Unit => return Some(self.real(<f32 as Real>::unit(x[0]))),
             Op::FromWord => return Some(self.real(<f32 as Real>::from_uint(x[0]))),
             Op::WordAny => return Some(self.add_truth(x[0] != 0)),
+            Op::FromBits if f32::from_bits(x[0]).is_nan() => return None,
+            Op::FromBits => return Some(self.real(f32::from_bits(x[0]))),
             Op::WordAdd => x[0].wrapping_add(x[1]),
             Op::WordSub => x[0].wrapping_sub(x[1]),
             Op::WordMul => x[0].wrapping_mul(x[1]),
@@ -249,7 +250,9 @@ impl Graph {
             Op::WordShl(bits) => x[0] << bits,
             Op::WordShr(bits) => x[0] >> bits,
             Op::WordReverse => x[0].reverse_bits(),
-            Op::WordLess => etendue::Uint::lt(x[0], x[1]),
+            Op::WordLess => Uint::lt(x[0], x[1]),
+            Op::WordShrBy => x[0].shr_by(x[1]),
+            Op::WordQuotient => x[0].quotient(x[1]),
             _ => return None,
         };
         Some(self.add_word(value))
@@ -322,6 +325,11 @@ impl Graph {
                     _ => (a == b).then_some(a),
                 }
             }
+            Op::WordShl(0) | Op::WordShr(0) => Some(a),
+            Op::WordAdd | Op::WordOr | Op::WordXor if self.word(a) == Some(0) => Some(b),
+            Op::WordAdd | Op::WordSub | Op::WordOr | Op::WordXor if self.word(b) == Some(0) => Some(a),
+            Op::WordMul if self.word(a) == Some(1) => Some(b),
+            Op::WordMul if self.word(b) == Some(1) => Some(a),
             Op::Not => match self.truth(a) {
                 Some(value) => Some(self.add_truth(!value)),
                 None => (self.node(a).op == Op::Not).then(|| self.node(a).operands()[0]),

@@ -20,7 +20,7 @@ pub enum Language {
     Wgsl,
     /// GLSL 4.50.
     Glsl,
-    /// GLSL ES 3.00.
+    /// GLSL ES 3.00, or 3.10 where functions read memory.
     GlslEs,
     /// HLSL.
     Hlsl,
@@ -84,11 +84,12 @@ impl Language {
             return Ok(bytes);
         }
         let text = String::from_utf8(bytes).map_err(|error| error.to_string())?;
-        Ok((self.preface(how) + &commented(module, &text)).into_bytes())
+        Ok((self.preface(how, module.reads_memory()) + &commented(module, &text)).into_bytes())
     }
-    fn preface(self, how: &str) -> String {
+    fn preface(self, how: &str, reads_memory: bool) -> String {
         let name = match self {
             Self::Glsl => "GLSL 4.50",
+            Self::GlslEs if reads_memory => "GLSL ES 3.10, for float and int of high precision",
             Self::GlslEs => "GLSL ES 3.00, for float and int of high precision",
             Self::Hlsl => "HLSL",
             _ => "the Metal shading language",
@@ -101,9 +102,20 @@ impl Language {
             }
             _ => " Turn fast math off: it would reorder operations.",
         };
+        let memory = match self {
+            _ if !reads_memory => "",
+            Self::Msl => {
+                " All tables are in one buffer of words, one after another, some of which are numbers by their bits: functions that read it \
+                 take it and its size in bytes as their last parameters, and are told at which word a table begins."
+            }
+            _ => {
+                " All tables are in one buffer of words, one after another, some of which are numbers by their bits: etendue_memory, with the \
+                 binding 0, which a host may change. Functions are told at which word a table begins."
+            }
+        };
         let text = format!(
             "Results have the bits of the Rust library `etendue` as far as the device rounds each operation correctly, and \
-             keeps subnormal numbers, infinities and NaN.{fused}"
+             keeps subnormal numbers, infinities and NaN.{fused}{memory}"
         );
         format!(
             "// Light sampling for renderers, in {name}. MIT or Apache-2.0.\n// {how}\n//\n{}\n",

@@ -27,7 +27,7 @@
 //! # What is written
 //! For each light by each technique a struct of the light, a struct of what is prepared for a shading point, and the functions `prepare`,
 //! `sample`, `pdf`, `hit`, `invert`, and one for what the technique is uniform over; for each warp `sample`, `pdf` and `invert`.
-//! [`Wanted`] leaves functions out, and fields of samples. What only these need is not computed, and the prepared struct has no field that
+//! [`tables`] read tables in memory, and [`tools`] are what is neither. [`Wanted`] leaves functions out, and fields of samples. What only these need is not computed, and the prepared struct has no field that
 //! no function uses, none that is constant, and none twice.
 //!
 //! Equal operations appear once. A value that is used more than once is a variable, the others are parts of expressions. Constants are
@@ -37,12 +37,40 @@
 //! In the core, `if mask.any()` marks a path that few calls need. A recorded mask is neither all true nor all false, as in a packet whose
 //! lanes differ, so that both sides are recorded, and the graph keeps the condition. [`plan`] then puts into an `if` whatever is used
 //! only where the condition holds. [`Real::where_any`](etendue::Real::where_any) says the same of several numbers at once, and
-//! [`Real::iterate`](etendue::Real::iterate) is a loop. Other loops of the core have constant bounds, and are written out.
+//! [`Real::iterate`](etendue::Real::iterate) is a loop, with counters
+//! [`Real::iterate_with_words`](etendue::Real::iterate_with_words). Other loops of the core have constant bounds, and are written out.
 //!
 //! What a routine asks of one lane as a number of Rust ([`Real::lane_f64`](etendue::Real::lane_f64), a comparison of scalars, the bits of a
-//! mask) is known for constants alone; anything else panics with a message. Tables of images, pictures, profiles and portals, trees, and
+//! mask) is known for constants alone; anything else panics with a message. Portals, whose tables have numbers of 64 bits, and
 //! what occluders leave visible do ask that, and so does the exponential function, of which [`GeneralSky`](etendue::light::GeneralSky)
 //! consists: they are not here. A host looks such a sky up in a texture.
+//!
+//! # Memory
+//! A routine of the core that reads tables takes them as a [`Memory`](etendue::memory::Memory); recorded, that is [`Words`]. In a source all
+//! tables are in one buffer of words of 32 bits, and a function is told at which word its table begins. An index past the end reads the last
+//! word, in every language.
+//!
+//! | language | the buffer |
+//! |---|---|
+//! | C, C++, CUDA, HIP, OpenCL C | the first parameter, `EtendueMemory`: a pointer to constant (in OpenCL, global) memory, and a count |
+//! | WGSL, SPIR-V | a storage buffer `etendue_memory`, group (set) 0, binding 0 |
+//! | GLSL | a buffer with the binding 0; `glsl-es` then is GLSL ES 3.10, since 3.00 and WebGL 2 have none |
+//! | HLSL | a `ByteAddressBuffer` at register t0 |
+//! | Metal | the last two parameters: the buffer, and its size in bytes |
+//!
+//! | table | words in memory | functions |
+//! |---|---|---|
+//! | `light_tree` | [`Node8::words`](etendue::select::Node8::words) of each node of a [`LightTree`](etendue::select::LightTree), and its places | `choose`, `choose_by`, `pmf` |
+//! | `alias_table` | [`AliasTable::words`](etendue::discrete::AliasTable::words) | `cell`, `pmf` |
+//! | `piecewise_constant_1d`, `piecewise_constant_2d` | the buffer of [`PiecewiseConstant1d`](etendue::discrete::PiecewiseConstant1d) or [`PiecewiseConstant2d`](etendue::discrete::PiecewiseConstant2d) | `cell`, `pmf`, `invert_cell` |
+//! | `equirectangular_environment`, `equal_area_environment` | the buffer of [`ImageEnvironment::build`](etendue::light::ImageEnvironment::build) | `draw`, `sample`, `pdf`, `hit`, `invert` |
+//! | `profile` | [`Profile::words`](etendue::light::Profile::words) | `intensity` |
+//! | `pictured_L_by_M`, with L `parallelogram` (or a rectangle), `triangle` or `disk` | the buffer of [`Picture::build`](etendue::light::Picture::build) | the same as of environments |
+//! | `interpolated_parallelogram_by_M` | the buffer of [`Picture::interpolated`](etendue::light::Picture::interpolated), and the radiance at the centres | the same |
+//!
+//! M is `area`, `solid_angle` or `projected_solid_angle`. All of them are written in all languages. Their functions take the light and the
+//! shading point each time, as preparing is little beside the walk through the table. Texels that are large for their distance are sampled as
+//! shapes of their own, which is most of the text: by projected solid angle 8000 lines a function.
 //!
 //! # Size
 //! We compare the operations of each function of a light with the instructions of the scalar Rust routine, compiled for x86-64-v3, where
@@ -55,18 +83,22 @@
 //! every function (with `LONG=1`; otherwise for most). The shading languages promise less: the beginning of each file says what. Read as
 //! C++ with another standard library, each operation in Metal has the same bits, but for conversions to words outside of [0, 2²⁴]. No
 //! shading language forbids a driver to contract a product and a sum, and SPIR-V has no decoration against it here.
+mod distributions;
 mod errors;
 mod graph;
+mod inputs;
 mod language;
 mod layout;
 mod list;
 mod module;
 mod names;
 mod number;
+mod pictures;
 mod plan;
 mod print;
 mod record;
 mod selection;
+mod tables;
 mod tools;
 mod translate;
 mod wanted;
@@ -78,11 +110,12 @@ pub use list::{
 };
 pub use module::{Access, Field, Function, Leaf, Module, Parameter, Struct, Type};
 pub use names::{pascal, snake};
-pub use number::{Inner, Number, Truth, Word, record};
+pub use number::{Inner, Number, Truth, Word, Words, record};
 pub use plan::{Plan, Step, plan};
 pub use print::{C, Dialect, Wgsl, function_name, print, struct_name};
 pub use record::{add_calls, add_technique, add_warp};
 pub use selection::{Selection, lights, technique_name, warps};
+pub use tables::{add_table, tables};
 pub use tools::{add_tool, tools};
 pub use translate::{Checked, Target};
 pub use wanted::{Part, SampleField, Wanted};

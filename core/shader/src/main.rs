@@ -2,7 +2,7 @@
 
 use clap::builder::PossibleValuesParser;
 use clap::{ArgGroup, Parser};
-use etendue_shader::{Language, Part, SampleField, Selection, Wanted, lights, tools, warps};
+use etendue_shader::{Language, Part, SampleField, Selection, Wanted, lights, tables, tools, warps};
 use std::fs;
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -24,7 +24,10 @@ struct Options {
     /// Sequences of random numbers and weights of combined techniques, with commas between
     #[arg(long, group = "what", value_delimiter = ',', value_parser = PossibleValuesParser::new(tool_names()))]
     tools: Vec<String>,
-    /// Functions of each light and warp, besides the preparation [default: all]
+    /// What reads tables in memory, with commas between
+    #[arg(long, group = "what", value_delimiter = ',', value_parser = PossibleValuesParser::new(table_names()))]
+    tables: Vec<String>,
+    /// Functions of each light, warp and table, besides the preparation [default: all]
     #[arg(long, value_delimiter = ',', value_parser = PossibleValuesParser::new(Part::ALL.iter().map(|part| part.name())))]
     functions: Vec<String>,
     /// Fields of the samples of lights [default: all]
@@ -42,6 +45,9 @@ fn light_names() -> Vec<&'static str> {
 }
 fn tool_names() -> Vec<&'static str> {
     std::iter::once("all").chain(tools().iter().copied()).collect()
+}
+fn table_names() -> Vec<&'static str> {
+    std::iter::once("all").chain(tables().into_iter().map(|name| &*name.leak())).collect()
 }
 fn warp_names() -> Vec<&'static str> {
     std::iter::once("all").chain(warps().into_iter().map(|name| &*name.leak())).collect()
@@ -65,6 +71,7 @@ impl Options {
             ("lights", &self.lights),
             ("warps", &self.warps),
             ("tools", &self.tools),
+            ("tables", &self.tables),
             ("functions", &self.functions),
             ("fields", &self.fields),
         ] {
@@ -77,8 +84,9 @@ impl Options {
     fn run(&self) -> Result<(), String> {
         let language = Language::ALL.into_iter().find(|language| language.name() == self.language);
         let language = language.expect("clap has refused all others");
-        let (lights, warps, tools) = (self.lights.clone(), self.warps.clone(), self.tools.clone());
-        let selection = Selection { lights, warps, tools, wanted: self.wanted() };
+        let (lights, warps) = (self.lights.clone(), self.warps.clone());
+        let (tools, tables) = (self.tools.clone(), self.tables.clone());
+        let selection = Selection { lights, warps, tools, tables, wanted: self.wanted() };
         let bytes = language.write(&selection.module(), &format!("Written by `{}`.", self.command()))?;
         match &self.output {
             Some(path) => fs::write(path, bytes).map_err(|error| format!("{}: {error}", path.display())),

@@ -134,6 +134,11 @@ impl Function {
         let used = self.graph.nodes().iter().zip(live).filter(|(_, live)| *live);
         used.filter_map(|(node, _)| if let Op::Input(_, index) = node.op { Some(index) } else { None }).collect()
     }
+    /// Whether an output depends on words of memory.
+    #[must_use]
+    pub fn reads_memory(&self) -> bool {
+        self.graph.nodes().iter().zip(self.live()).any(|(node, live)| live && node.op == Op::Load)
+    }
     /// How many operations an output depends on.
     #[must_use]
     pub fn operations(&self) -> usize {
@@ -177,6 +182,11 @@ impl Module {
                 fields.flat_map(|(k, field)| axes(field.leaf, Some(k))).collect()
             }
         }
+    }
+    /// Whether a function reads memory.
+    #[must_use]
+    pub fn reads_memory(&self) -> bool {
+        self.functions.iter().any(Function::reads_memory)
     }
     /// The functions of the core that the functions call.
     #[must_use]

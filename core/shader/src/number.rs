@@ -8,6 +8,8 @@ use crate::graph::{Call, Graph, Id, Kind, ONE_MINUS_EPSILON, Op, ZERO};
 use core::cmp::Ordering;
 use core::fmt;
 use core::ops::{Add, AddAssign, BitAnd, BitOr, BitXor, Div, Mul, MulAssign, Neg, Not, Sub, SubAssign};
+use etendue::memory::Memory;
+use etendue::real::State;
 use etendue::{Mask, Real, Uint};
 use std::cell::RefCell;
 
@@ -147,6 +149,25 @@ impl Uint for Word {
     }
     fn any(self) -> bool {
         Truth(add(Op::WordAny, &[self.0])).any()
+    }
+    fn shr_by(self, bits: Self) -> Self {
+        Self(add(Op::WordShrBy, &[self.0, bits.0]))
+    }
+    fn quotient(self, divisor: Self) -> Self {
+        Self(add(Op::WordQuotient, &[self.0, divisor.0]))
+    }
+}
+
+/// The memory of a source: all tables are in one sequence of words, of which a routine is told where its tables begin.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Words;
+
+impl Memory<Number> for Words {
+    fn word(&self, index: Word) -> Word {
+        Word(add(Op::Load, &[index.0]))
+    }
+    fn number(&self, index: Word) -> Number {
+        Number(add(Op::FromBits, &[add(Op::Load, &[index.0])]))
     }
 }
 
@@ -291,23 +312,31 @@ macro_rules! real {
                 let some = some();
                 core::array::from_fn(|k| Self::blend(mask, some[k], none[k]))
             }
-            fn iterate<const N: usize, const M: usize>(
+            fn has_bits(value: Word) -> Truth {
+                Truth(add(Op::WordAny, &[value.0]))
+            }
+            fn iterate_with_words<const N: usize, const W: usize, const M: usize>(
                 most: usize,
-                numbers: [Self; N],
+                (numbers, words): State<Self, N, W>,
                 going: [Truth; M],
-                mut step: impl FnMut([Self; N], [Truth; M]) -> ([Self; N], [Truth; M]),
-            ) -> [Self; N] {
-                let variables = with(|graph| graph.begin_loop(N, M));
-                // one mask is true wherever the loop goes on
-                let inside = |k: usize| if M == 1 { Truth::splat(true) } else { Truth(variables[N + k]) };
-                let (next, next_going) =
-                    step(core::array::from_fn(|k| Self(variables[k])), core::array::from_fn(inside));
-                let ids = |numbers: [Self; N], masks: [Truth; M]| -> Vec<Id> {
-                    numbers.map(Self::id).into_iter().chain(masks.map(Truth::id)).collect()
+                mut step: impl FnMut(State<Self, N, W>, [Truth; M]) -> (State<Self, N, W>, [Truth; M]),
+            ) -> State<Self, N, W> {
+                let kinds = [(Kind::Real, N), (Kind::Word, W), (Kind::Truth, M)];
+                let kinds = kinds.into_iter().flat_map(|(kind, count)| core::iter::repeat_n(kind, count));
+                let variables = with(|graph| graph.begin_loop(kinds));
+                let state = |ids: &[Id]| -> State<Self, N, W> {
+                    (core::array::from_fn(|k| Self(ids[k])), core::array::from_fn(|k| Word(ids[N + k])))
                 };
-                let (first, next) = (ids(numbers, going), ids(next, next_going));
-                let results = with(|graph| graph.end_loop(most, variables, M, &first, next));
-                core::array::from_fn(|k| Self(results[k]))
+                // one mask is true wherever the loop goes on
+                let inside = |k: usize| if M == 1 { Truth::splat(true) } else { Truth(variables[N + W + k]) };
+                let ids = |(numbers, words): State<Self, N, W>, masks: [Truth; M]| -> Vec<Id> {
+                    let (words, masks) = (words.map(Word::id), masks.map(Truth::id));
+                    numbers.map(Self::id).into_iter().chain(words).chain(masks).collect()
+                };
+                let first = ids((numbers, words), going);
+                let (next, next_going) = step(state(&variables), core::array::from_fn(inside));
+                let next = ids(next, next_going);
+                state(&with(|graph| graph.end_loop(most, variables, M, &first, next)))
             }
             $($functions)*
         }

@@ -32,6 +32,12 @@ pub fn function_name(name: &str) -> String {
 /// A module in a language. `how` is a sentence about how the file was made.
 pub fn print(module: &Module, language: &impl Dialect, how: &str) -> String {
     let mut text = language.begin(how);
+    if module.reads_memory() {
+        text.truncate(text.trim_end().len());
+        text += "\n";
+        text += language.memory();
+        text += "\n";
+    }
     for of in &module.structs {
         text += &comment(&of.doc, "");
         text += &language.open_struct(&struct_name(&of.name));
@@ -58,12 +64,14 @@ struct Printer<'a, D> {
     /// The numbers of variables, in the order of their declarations.
     names: Vec<Option<u32>>,
     declared: u32,
+    /// How many loops are around a statement.
+    depth: usize,
 }
 
 impl<'a, D: Dialect> Printer<'a, D> {
     fn new(module: &'a Module, function: &'a Function, language: &'a D) -> Self {
         let names = vec![None; function.graph.nodes().len()];
-        Self { module, function, language, plan: plan(function), names, declared: 0 }
+        Self { module, function, language, plan: plan(function), names, declared: 0, depth: 0 }
     }
     fn type_name(&self, of: Type) -> String {
         match of {
@@ -140,9 +148,11 @@ impl<'a, D: Dialect> Printer<'a, D> {
             let all: Vec<&str> = all.iter().map(|operand| operand.text.as_str()).collect();
             Expression::atom(format!("{name}({})", all.join(", ")))
         };
+        let memory = || self.language.memory_parameter().map(|(_, name)| format!("{name}, ")).unwrap_or_default();
         let binary = |token: &str, level: Level| Expression::binary(&all[0], token, &all[1], level);
         // of truth values, parentheses tell more than precedence
         let apart = |token: &str| Expression::apart(&all[0], token, &all[1]);
+        let bits = |token: &str, other: &Expression| Expression::bits(&all[0], token, other);
         match graph.node(id).op {
             Op::Add | Op::WordAdd => binary("+", Level::Sum),
             Op::Sub | Op::WordSub => binary("-", Level::Sum),
@@ -155,11 +165,16 @@ impl<'a, D: Dialect> Printer<'a, D> {
             Op::And => Expression::chain(&all[0], self.language.and(), &all[1], Level::And),
             Op::Or => Expression::chain(&all[0], self.language.or(), &all[1], Level::Or),
             Op::Xor => apart("!="),
-            Op::WordAnd => apart("&"),
-            Op::WordOr => apart("|"),
-            Op::WordXor => apart("^"),
-            Op::WordShl(bits) => Expression::apart(&all[0], "<<", &Expression::atom(self.language.word(bits))),
-            Op::WordShr(bits) => Expression::apart(&all[0], ">>", &Expression::atom(self.language.word(bits))),
+            Op::WordAnd => bits("&", &all[1]),
+            Op::WordOr => bits("|", &all[1]),
+            Op::WordXor => bits("^", &all[1]),
+            Op::WordShl(count) => bits("<<", &Expression::atom(self.language.word(count))),
+            Op::WordShr(count) => bits(">>", &Expression::atom(self.language.word(count))),
+            Op::WordShrBy => {
+                let low = Expression::atom(self.language.word(31));
+                bits(">>", &Expression::bits(&all[1], "&", &low))
+            }
+            Op::Load => Expression::atom(format!("etendue_load({}{})", memory(), all[0].text)),
             Op::WordAny => Expression::apart(&all[0], "!=", &Expression::atom(self.language.word(0))),
             Op::Select => self.language.select(&all[0], &all[1], &all[2]),
             Op::Part(k) => Expression::atom(format!("{}{}", all[0].text, [".x", ".y"][k as usize])),
@@ -188,7 +203,7 @@ impl<'a, D: Dialect> Printer<'a, D> {
         let (&Step::Let(id) | &Step::Declare(id) | &Step::Assign(id)) = step else { panic!("{step:?} has statements") };
         // the variables that get a value, each with that
         let variables: Vec<(Id, Option<Id>)> = match self.function.graph.as_loop(id) {
-            Some(of) => of.variables.iter().copied().zip(of.first().iter().map(|&first| Some(first))).collect(),
+            Some(of) => self.varying(of).map(|k| (of.variables[k], Some(of.first()[k]))).collect(),
             None => vec![(id, None)],
         };
         let line = |(id, first): (Id, Option<Id>)| {
@@ -211,10 +226,19 @@ impl<'a, D: Dialect> Printer<'a, D> {
         };
         variables.into_iter().map(line).collect()
     }
+    /// The variables of a loop, without a mask that always holds.
+    fn varying(&self, of: &Loop) -> impl Iterator<Item = usize> + use<D> {
+        let holds = |id: Id| self.function.graph.truth(id) == Some(true);
+        let count = of.variables.len();
+        let always = of.masks == 1 && holds(of.first()[count - 1]) && holds(of.next[count - 1]);
+        0..count - usize::from(always)
+    }
     /// The next values of the variables of a loop.
     fn next(&mut self, of: &Loop) -> Vec<String> {
         let (mut copies, mut lines) = (Vec::new(), Vec::new());
-        for (&variable, &next) in of.variables.iter().zip(&of.next).filter(|(variable, next)| variable != next) {
+        let varying: Vec<usize> = self.varying(of).collect();
+        let pairs = varying.into_iter().map(|k| (of.variables[k], of.next[k]));
+        for (variable, next) in pairs.filter(|(variable, next)| variable != next) {
             let mut value = self.value(next).text;
             // one that gets its own next value before is copied
             if of.variables.contains(&next) {
@@ -242,11 +266,19 @@ impl<'a, D: Dialect> Printer<'a, D> {
                 Step::Loop(id, ref inner) => {
                     let graph = &self.function.graph;
                     let of = graph.as_loop(id).expect("a loop is one");
-                    let masks = of.variables[of.variables.len() - of.masks..].iter().map(|&mask| self.name(mask));
+                    let masks =
+                        self.varying(of).skip(of.variables.len() - of.masks).map(|k| self.name(of.variables[k]));
                     let condition = masks.collect::<Vec<_>>().join(&format!(" {} ", self.language.or()));
-                    let condition = if of.masks > 1 { format!("({condition})") } else { condition };
-                    put(text, &self.language.open_loop(of.most, &condition));
+                    let condition = match of.masks {
+                        _ if condition.is_empty() => condition,
+                        1 => format!(" && {condition}"),
+                        _ => format!(" && ({condition})"),
+                    };
+                    let counter = ["i", "j", "k"][self.depth.min(2)];
+                    put(text, &self.language.open_loop(counter, of.most, &condition));
+                    self.depth += 1;
                     self.steps(inner, indent + 1, text);
+                    self.depth -= 1;
                     for line in self.next(of) {
                         put(text, &format!("    {line}"));
                     }
@@ -258,8 +290,10 @@ impl<'a, D: Dialect> Printer<'a, D> {
     }
     fn function(mut self) -> String {
         let parameters = self.function.parameters.iter();
-        let parameters: Vec<_> =
-            parameters.map(|of| self.language.parameter(&self.type_name(of.of), &of.name)).collect();
+        let parameters = parameters.map(|of| self.language.parameter(&self.type_name(of.of), &of.name));
+        let memory = self.language.memory_parameter().filter(|_| self.function.reads_memory());
+        let memory = memory.map(|(of, name)| self.language.parameter(of, name));
+        let parameters: Vec<_> = memory.into_iter().chain(parameters).collect();
         let result = self.type_name(self.function.result);
         let name = function_name(&self.function.name);
         let mut text = self.language.open_function(&result, &name, &parameters.join(", "));

@@ -152,7 +152,7 @@ pub(crate) fn inputs_of(module: &Module, parameters: &[Parameter]) -> Vec<Access
 }
 
 /// The values of a sample in the order of its fields.
-fn sample_outputs(s: &LightSample<Number>, wanted: &Wanted) -> Vec<Id> {
+pub(crate) fn sample_outputs(s: &LightSample<Number>, wanted: &Wanted) -> Vec<Id> {
     let vec3 = |v: Vec3<Number>| vec![v.x.id(), v.y.id(), v.z.id()];
     let truth = |mask: Truth| vec![mask.id()];
     let of = |field: &SampleField| match field {
@@ -166,6 +166,37 @@ fn sample_outputs(s: &LightSample<Number>, wanted: &Wanted) -> Vec<Id> {
         SampleField::Delta => truth(s.delta),
     };
     wanted.fields.iter().flat_map(of).collect()
+}
+
+/// The struct of a sample.
+pub(crate) fn sample_struct(wanted: &Wanted) -> Struct {
+    let field = |f: &SampleField| Field { name: f.name().into(), leaf: f.leaf(), doc: f.doc().into() };
+    Struct {
+        name: "light_sample".into(),
+        doc: "A sample of a light as seen from a shading point, or the point of a light that a ray hits.".into(),
+        fields: wanted.fields.iter().map(field).collect(),
+    }
+}
+/// The struct of a sample with its texel.
+pub(crate) fn drawn_struct(name: &str, doc: &str, wanted: &Wanted) -> Struct {
+    let mut fields = sample_struct(wanted).fields;
+    let word = |name: &str, doc: &str| Field { name: name.into(), leaf: Leaf::Word, doc: doc.into() };
+    fields.extend([word("x", "Column of the texel."), word("y", "Row of the texel.")]);
+    Struct { name: name.into(), doc: doc.into(), fields }
+}
+/// The struct of a light.
+pub(crate) fn light_struct<T: Technique>(light: &T::Light<Number>) -> Struct {
+    let entry = T::ENTRY;
+    let field = |slot: Slot| {
+        let named = |(field, _): &&(&str, _)| slot.name == *field || slot.name.starts_with(&format!("{field}_"));
+        let doc = entry.fields.iter().find(named).map(|(_, doc)| text(doc)).unwrap_or_default();
+        Field { name: slot.name.clone(), leaf: Leaf::of_numbers(slot.parts.len()), doc }
+    };
+    Struct {
+        name: snake(entry.light),
+        doc: text(entry.light_doc),
+        fields: slots(light).into_iter().map(field).collect(),
+    }
 }
 
 /// Adds a light by a technique.
@@ -182,13 +213,7 @@ pub fn add_technique<T: Technique>(module: &mut Module, wanted: &Wanted) {
         (light, T::prepare(&light, p, n))
     });
 
-    let sample_fields = wanted.fields.iter();
-    let sample_fields = sample_fields.map(|f| Field { name: f.name().into(), leaf: f.leaf(), doc: f.doc().into() });
-    let sample = Struct {
-        name: "light_sample".into(),
-        doc: "A sample of a light as seen from a shading point, or the point of a light that a ray hits.".into(),
-        fields: sample_fields.collect(),
-    };
+    let sample = sample_struct(wanted);
     let technique_doc = text(entry.doc);
     let returned = format!("{}{}", entry.light, pascal(entry.by));
     let error = greatest_error(core::any::type_name::<T::Sampler<f32>>(), &returned).unwrap_or_default();
@@ -233,19 +258,12 @@ pub fn add_technique<T: Technique>(module: &mut Module, wanted: &Wanted) {
             }
         });
     }
-    let light_doc = text(entry.light_doc);
     let prepared_doc = format!("A {} prepared for a shading point. {technique_doc}", light_name.replace('_', " "));
     let prepared_at = module.functions.len();
     let (prepared, outputs) = add_functions(module, &name, prepared_doc, &slots(&sampler), functions);
     let Some(prepared) = prepared else { return };
 
-    let field = |slot: Slot| {
-        let named = |(field, _): &&(&str, _)| slot.name == *field || slot.name.starts_with(&format!("{field}_"));
-        let doc = entry.fields.iter().find(named).map(|(_, doc)| text(doc)).unwrap_or_default();
-        Field { name: slot.name.clone(), leaf: Leaf::of_numbers(slot.parts.len()), doc }
-    };
-    let light_fields = slots(&light).into_iter().map(field).collect();
-    let light = module.add_struct(Struct { name: light_name, doc: light_doc, fields: light_fields });
+    let light = module.add_struct(light_struct::<T>(&light));
     let mut parameters = vec![Parameter { name: "light".into(), of: Type::Struct(light) }];
     let mut doc = "Prepares a light".to_owned();
     if entry.at_point {

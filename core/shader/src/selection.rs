@@ -4,6 +4,7 @@ use crate::list::{Technique, TechniqueVisitor, WarpTechnique, WarpVisitor, every
 use crate::module::Module;
 use crate::names::snake;
 use crate::record::{add_calls, add_technique, add_warp};
+use crate::tables::{add_table, tables};
 use crate::tools::{add_tool, tools};
 use crate::wanted::Wanted;
 
@@ -55,6 +56,8 @@ pub struct Selection {
     pub warps: Vec<String>,
     /// Other functions, or `all`: see [`tools`].
     pub tools: Vec<String>,
+    /// What reads tables in memory, or `all`: see [`tables`].
+    pub tables: Vec<String>,
     /// The functions and fields of lights and warps.
     pub wanted: Wanted,
 }
@@ -85,6 +88,9 @@ impl Selection {
         let mut module = visitor.1;
         for tool in tools().iter().filter(|tool| self.tools.iter().any(|name| name == *tool || name == "all")) {
             add_tool(&mut module, tool);
+        }
+        for table in tables().iter().filter(|table| self.tables.iter().any(|name| name == *table || name == "all")) {
+            add_table(&mut module, table, &self.wanted);
         }
         add_calls(&mut module);
         module

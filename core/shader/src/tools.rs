@@ -1,9 +1,9 @@
 //! What is neither a light nor a warp: sequences of random numbers, weights that combine techniques, and what lights look up.
 
 use crate::graph::Id;
-use crate::module::{Function, Leaf, Module, Parameter, Type};
-use crate::number::{Number, Truth, Word, record};
-use crate::record::inputs_of;
+use crate::inputs::{Inputs, add_function, pair, three};
+use crate::module::{Leaf, Module, Type};
+use crate::number::{Number, Truth, Word};
 use etendue::estimate::{Heuristic, technique_pdf};
 use etendue::light::{PortalMap, Projector, Spread};
 use etendue::sequence::{Independent, OwenSobol};
@@ -30,43 +30,6 @@ pub fn tools() -> &'static [&'static str] {
     ]
 }
 
-/// The parameters of a function, as inputs in their order.
-#[derive(Default)]
-struct Inputs(Vec<Parameter>);
-
-impl Inputs {
-    /// Adds a parameter, and returns its first input.
-    fn add(&mut self, name: &str, leaf: Leaf) -> u32 {
-        let parts = |parameter: &Parameter| if let Type::Leaf(leaf) = parameter.of { leaf.parts() as u32 } else { 0 };
-        let first = self.0.iter().map(parts).sum();
-        self.0.push(Parameter { name: name.into(), of: Type::Leaf(leaf) });
-        first
-    }
-    fn real(&mut self, name: &str) -> Number {
-        Number::input(self.add(name, Leaf::Real))
-    }
-    fn truth(&mut self, name: &str) -> Truth {
-        Truth::input(self.add(name, Leaf::Truth))
-    }
-    fn word(&mut self, name: &str) -> Word {
-        Word::input(self.add(name, Leaf::Word))
-    }
-    fn vec2(&mut self, name: &str) -> Vec2<Number> {
-        let first = self.add(name, Leaf::Vec2);
-        Vec2::new(Number::input(first), Number::input(first + 1))
-    }
-    fn vec3(&mut self, name: &str) -> Vec3<Number> {
-        let first = self.add(name, Leaf::Vec3);
-        Vec3::new(Number::input(first), Number::input(first + 1), Number::input(first + 2))
-    }
-}
-
-fn pair(of: Vec2<Number>) -> Vec<Id> {
-    vec![of.x.id(), of.y.id()]
-}
-fn three(of: Vec3<Number>) -> Vec<Id> {
-    vec![of.x.id(), of.y.id(), of.z.id()]
-}
 /// The direction of a position in the image of a portal, and the solid angle there.
 fn portal(inputs: &mut Inputs) -> (Vec3<Number>, Number) {
     let axes = ["edge_s", "edge_t", "normal"].map(|name| inputs.vec3(name));
@@ -212,18 +175,8 @@ fn body(name: &str, inputs: &mut Inputs) -> (&'static str, Leaf, Vec<Id>) {
 /// # Panics
 /// If it is none of them.
 pub fn add_tool(module: &mut Module, name: &str) {
-    let ((inputs, (doc, result, outputs)), graph) = record(|| {
-        let mut inputs = Inputs::default();
-        let body = body(name, &mut inputs);
-        (inputs, body)
-    });
-    module.functions.push(Function {
-        name: name.into(),
-        doc: doc.into(),
-        inputs: inputs_of(module, &inputs.0),
-        parameters: inputs.0,
-        result: Type::Leaf(result),
-        outputs,
-        graph,
+    add_function(module, name, |_, inputs| {
+        let (doc, result, outputs) = body(name, inputs);
+        (doc.into(), Type::Leaf(result), outputs)
     });
 }

@@ -2,14 +2,14 @@
 
 use naga::back::{glsl, hlsl, msl, spv};
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
-use naga::{Module, ShaderStage};
+use naga::{Module, ResourceBinding, ShaderStage};
 
 /// A language into which WGSL is translated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Target {
     /// GLSL 4.50, for OpenGL and Vulkan.
     Glsl,
-    /// GLSL ES 3.00, for WebGL 2.
+    /// GLSL ES 3.00, for WebGL 2; of modules that read memory GLSL ES 3.10, since the other has none.
     GlslEs,
     /// HLSL, shader model 5.1 and later.
     Hlsl,
@@ -48,6 +48,7 @@ impl<'a> Checked<'a> {
     pub fn translate(&self, target: Target) -> Result<Vec<u8>, String> {
         match target {
             Target::Glsl => self.glsl(glsl::Version::Desktop(450)),
+            Target::GlslEs if self.has_memory() => self.glsl(glsl::Version::Embedded { version: 310, is_webgl: false }),
             Target::GlslEs => self.glsl(glsl::Version::Embedded { version: 300, is_webgl: true }),
             Target::Hlsl => self.hlsl(),
             Target::Msl => {
@@ -67,6 +68,11 @@ impl<'a> Checked<'a> {
             }
         }
     }
+    /// Whether it reads memory.
+    #[must_use]
+    pub fn has_memory(&self) -> bool {
+        !self.module.global_variables.is_empty()
+    }
     fn hlsl(&self) -> Result<Vec<u8>, String> {
         let options = hlsl::Options { force_loop_bounding: BOUNDS_LOOPS, ..hlsl::Options::default() };
         let pipeline = hlsl::PipelineOptions::default();
@@ -75,21 +81,24 @@ impl<'a> Checked<'a> {
         writer.write(&self.module, &self.info, None).map_err(|error| error.to_string())?;
         Ok(text.into_bytes())
     }
-    /// GLSL is translated for an entry point alone: an empty one, which is then left out with the line of the version, so that the text can
-    /// stand in any shader.
+    /// GLSL is translated for an entry point alone: one that does nothing but read memory, if others do. It is then left out with the line of
+    /// the version, so that the text can stand in any shader.
     fn glsl(&self, version: glsl::Version) -> Result<Vec<u8>, String> {
-        let wgsl = format!("{}@fragment fn main() {{}}\n", self.wgsl);
+        let read = if self.has_memory() { "_ = etendue_load(0u);" } else { "" };
+        let wgsl = format!("{}@fragment fn main() {{{read}}}\n", self.wgsl);
         let Checked { module, info, .. } = &Checked::new(&wgsl)?;
-        let options = glsl::Options { version, ..glsl::Options::default() };
+        let place = ResourceBinding { group: 0, binding: 0 };
+        let options = glsl::Options { version, binding_map: [(place, 0)].into(), ..glsl::Options::default() };
         let entry_point = "main".into();
         let pipeline = glsl::PipelineOptions { shader_stage: ShaderStage::Fragment, entry_point, multiview: None };
         let mut text = String::new();
         let bounds = naga::proc::BoundsCheckPolicies::default();
         let writer = glsl::Writer::new(&mut text, module, info, &options, &pipeline, bounds);
         writer.and_then(|mut writer| writer.write()).map_err(|error| error.to_string())?;
-        let functions = text.trim_end().strip_suffix("void main() {\n    return;\n}");
-        let functions = functions.and_then(|text| text.strip_prefix("#version")?.split_once('\n'));
+        let functions = text.rsplit_once("void main() {");
+        let functions = functions.and_then(|(text, _)| text.strip_prefix("#version")?.split_once('\n'));
         let (_, functions) = functions.ok_or("the translator puts the version and the entry point elsewhere")?;
-        Ok(functions.trim().to_owned().into_bytes())
+        // the name that it has in the other languages
+        Ok(functions.trim().replace("_group_0_binding_0_fs", "etendue_memory").into_bytes())
     }
 }

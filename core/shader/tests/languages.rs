@@ -9,6 +9,7 @@ fn everything() -> Selection {
         lights: vec!["all".into()],
         warps: vec!["all".into()],
         tools: vec!["all".into()],
+        tables: vec!["all".into()],
         wanted: Wanted::default(),
     }
 }
@@ -26,7 +27,10 @@ fn translated() -> Selection {
         kind += 1;
         long || kind % 3 == 1 && !is_large(name)
     };
-    Selection { lights: techniques.filter(is_here).collect(), ..everything() }
+    // of pictures, those with the least text
+    let is_short = |name: &String| !name.ends_with("solid_angle");
+    let tables = tables().into_iter().filter(|name| long || is_short(name)).collect();
+    Selection { lights: techniques.filter(is_here).collect(), tables, ..everything() }
 }
 
 /// `naga` accepts the WGSL with all checks, and writes all other languages; each has every function, with its comment.
@@ -63,6 +67,63 @@ fn all_languages_have_all_functions() {
     }
 }
 
+/// Sources without tables have no buffer, and those with tables are of a version that has buffers.
+#[test]
+fn tables_are_in_a_buffer() {
+    let write = |language: Language, selection: &Selection| {
+        String::from_utf8(language.write(&selection.module(), "Written by a test.").unwrap()).unwrap()
+    };
+    let without = Selection { tools: vec!["balance_weights".into()], ..Selection::default() };
+    let with = Selection { tables: vec!["light_tree".into()], ..without.clone() };
+    for (language, buffer, version) in [
+        (Language::C, "etendue_load(EtendueMemory memory, etendue_word k)", "C99"),
+        (Language::Wgsl, "@group(0) @binding(0) var<storage, read> etendue_memory: array<u32>;", "in WGSL"),
+        (Language::Glsl, "layout(std430, binding = 0) readonly buffer", "GLSL 4.50"),
+        (Language::GlslEs, "layout(std430, binding = 0) readonly buffer", "GLSL ES 3.10"),
+        (Language::Hlsl, "ByteAddressBuffer etendue_memory : register(t0);", "in HLSL"),
+        (Language::Msl, "device type_", "last parameters"),
+    ] {
+        let (without, with) = (write(language, &without), write(language, &with));
+        assert!(!without.contains(buffer), "{}", language.name());
+        let preface = with.lines().take(9).collect::<Vec<_>>().join(" ");
+        assert!(with.contains(buffer) && preface.contains(version), "{}: {preface}", language.name());
+        assert!(!with.contains("_group_0_binding_0"), "{}", language.name());
+    }
+    assert!(write(Language::GlslEs, &without).contains("GLSL ES 3.00"));
+}
+
+/// Bits and shifts have operands in parentheses: the grammar of WGSL mixes them with no other operators, which `naga` does not check.
+#[test]
+fn operands_of_bits_have_parentheses_in_wgsl() {
+    let selection = Selection { tables: vec!["light_tree".into()], tools: vec!["all".into()], ..Selection::default() };
+    let module = selection.module();
+    let text = print(&module, &Wgsl, "Written by a test.");
+    let (mut bits, mut shifts) = (0, 0);
+    for line in text.lines().filter(|line| !line.trim_start().starts_with("//")) {
+        // the operators at each depth of parentheses
+        let mut open: Vec<Vec<&str>> = vec![Vec::new()];
+        for word in line.split_inclusive(['(', ')', ' ', ',']) {
+            let (token, end) = word.split_at(word.len() - usize::from(word.ends_with(['(', ')', ' ', ','])));
+            let all = open.last_mut().unwrap();
+            if matches!(token, "+" | "-" | "*" | "/" | "^" | "<<" | ">>" | "&" | "|") {
+                all.push(token);
+            }
+            let bitwise = all.iter().filter(|token| matches!(**token, "^" | "<<" | ">>" | "&" | "|")).count();
+            let chain = all.windows(2).all(|pair| pair[0] == pair[1]) && !all.iter().any(|token| token.len() == 2);
+            assert!(bitwise == 0 || all.len() == 1 || chain, "{line}");
+            match end {
+                "(" => open.push(Vec::new()),
+                ")" => drop(open.pop()),
+                "," => all.clear(),
+                _ => {}
+            }
+        }
+        bits += line.matches(" ^ ").count();
+        shifts += line.matches(" >> ").count();
+    }
+    assert!(bits > 50 && shifts > 50, "{bits} and {shifts}");
+}
+
 /// What is not WGSL is an error with its place.
 #[test]
 fn broken_sources_are_found() {
@@ -84,7 +145,7 @@ fn broken_sources_are_found() {
 /// solid angle.
 #[test]
 fn comments_tell_the_greatest_error() {
-    let module = everything().module();
+    let module = Selection { tables: Vec::new(), ..everything() }.module();
     let tells = |function: &Function| function.doc.contains("Greatest error");
     let samples = module.functions.iter().filter(|function| function.name.ends_with("_sample"));
     let (with, without): (Vec<_>, Vec<_>) = samples.partition(|function| tells(function));

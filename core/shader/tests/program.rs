@@ -24,12 +24,14 @@ fn unknown_names_are_errors_with_the_list() {
     assert!(text.contains("'cube'") && text.contains("triangle_by_cosine_warp") && text.contains("sun"), "{text}");
     let text = message(&program(&["--language", "c", "--warps", "cone,cylinder"]));
     assert!(text.contains("'cylinder'") && text.contains("ggx_visible_normals"), "{text}");
+    let text = message(&program(&["--language", "c", "--tables", "forest"]));
+    assert!(text.contains("'forest'") && text.contains("light_tree"), "{text}");
     let text = message(&program(&["--language", "c", "--lights", "sun", "--functions", "draw"]));
     assert!(text.contains("'draw'") && text.contains("sample, pdf, hit, invert, measure"), "{text}");
     let text = message(&program(&["--language", "c", "--lights", "sun", "--fields", "color"]));
     assert!(text.contains("'color'") && text.contains("direction, distance, pdf"), "{text}");
     let text = message(&program(&["--language", "c"]));
-    assert!(text.contains("--lights") && text.contains("--warps"), "{text}");
+    assert!(["--lights", "--warps", "--tools", "--tables"].iter().all(|option| text.contains(option)), "{text}");
 }
 
 #[test]

@@ -3,9 +3,10 @@
 use super::distant::{distant, met};
 use super::sample::LightSample;
 use super::sampler::LightSampler;
-use crate::discrete::{PiecewiseConstant2d, TableError, locate, place};
+use crate::discrete::{Cell2d, PiecewiseConstant2d, TableError, Words2d, locate, place};
 use crate::math::atan2_turns;
-use crate::real::{GREATEST, Real, unit_interval};
+use crate::memory::Memory;
+use crate::real::{GREATEST, Real, Uint, unit_interval};
 use crate::vector::{Vec2, Vec3};
 use crate::warp::{Octahedral, Warp};
 
@@ -133,41 +134,77 @@ impl<'a> ImageEnvironment<'a> {
     pub fn size(&self) -> [usize; 2] {
         self.table.size()
     }
-    #[inline(always)]
-    fn counts<R: Real>(&self) -> [R; 2] {
-        self.table.size().map(|n| R::lit(n as f64))
-    }
 
     /// A direction in proportion to the weights, with its texel.
     #[inline(always)]
     pub fn draw<R: Real>(&self, u: Vec2<R>) -> EnvironmentSample<R> {
-        let cell = self.table.cell(u);
-        let texel = Texel { x: cell.x, y: cell.y, offset: cell.offset };
-        let pdf = self.texel_pdf(cell.pmf, cell.y);
-        let uv = self.place(&texel);
-        EnvironmentSample { light: distant(self.direction(&texel), pdf, uv), x: cell.x, y: cell.y }
+        self.drawn(u)
     }
     /// Directions in proportion to the weights, as a [`LightSampler`].
     #[inline(always)]
     #[must_use]
-    pub const fn by_radiance(&self) -> ByRadiance<'a> {
-        ByRadiance { environment: *self }
+    pub const fn by_radiance(&self) -> ImageSampler<Self> {
+        ImageSampler { environment: *self }
     }
+    /// The direction of a position in a texel.
+    #[inline(always)]
+    pub fn direction<R: Real>(&self, texel: &Texel<R>) -> Vec3<R> {
+        self.direction_of(texel)
+    }
+    /// The texel of a direction.
+    #[inline(always)]
+    pub fn texel<R: Real>(&self, direction: Vec3<R>) -> Texel<R> {
+        self.texel_of(direction)
+    }
+}
 
+/// An image of the sphere of directions in memory.
+trait Image<R: Real> {
+    /// Columns and rows.
+    fn counts(&self) -> [R; 2];
+    /// The row in the middle; of two, the upper one.
+    fn middle_row(&self) -> R;
+    fn map(&self) -> EnvironmentMap;
+    /// The cell of `u`.
+    fn cell(&self, u: Vec2<R>) -> Cell2d<R>;
+    /// Probability of a cell.
+    fn pmf(&self, x: R::Uint, y: R::Uint) -> R;
+    /// The `u` of a position in a cell.
+    fn invert_cell(&self, texel: &Texel<R>) -> Vec2<R>;
+
+    #[inline(always)]
+    fn drawn(&self, u: Vec2<R>) -> EnvironmentSample<R> {
+        let cell = self.cell(u);
+        let texel = Texel { x: cell.x, y: cell.y, offset: cell.offset };
+        let pdf = self.texel_pdf(cell.pmf, cell.y);
+        let uv = self.place(&texel);
+        EnvironmentSample { light: distant(self.direction_of(&texel), pdf, uv), x: cell.x, y: cell.y }
+    }
+    /// The pdf of a direction.
+    #[inline(always)]
+    fn pdf_of(&self, direction: Vec3<R>) -> R {
+        let texel = self.texel_of(direction);
+        self.texel_pdf(self.pmf(texel.x, texel.y), texel.y)
+    }
+    /// The `u` of a direction.
+    #[inline(always)]
+    fn inverse(&self, direction: Vec3<R>) -> Vec2<R> {
+        self.invert_cell(&self.texel_of(direction))
+    }
     /// Position of a texel in the image, in [0, 1]².
     #[inline(always)]
-    fn place<R: Real>(&self, texel: &Texel<R>) -> Vec2<R> {
+    fn place(&self, texel: &Texel<R>) -> Vec2<R> {
         let [w, h] = self.counts();
         Vec2::new(place(texel.x, texel.offset.x, w), place(texel.y, texel.offset.y, h))
     }
     /// The direction of a position in a texel.
     #[inline(always)]
-    pub fn direction<R: Real>(&self, texel: &Texel<R>) -> Vec3<R> {
-        match self.map {
+    fn direction_of(&self, texel: &Texel<R>) -> Vec3<R> {
+        match self.map() {
             EnvironmentMap::EqualArea => Octahedral.sample(self.place(texel)),
             EnvironmentMap::Equirectangular => {
                 let (one, two, [w, _]) = (R::lit(1.0), R::lit(2.0), self.counts());
-                let ring = self.ring::<R>(texel.y);
+                let ring = self.ring(texel.y);
                 let within = R::blend(ring.lower, one - texel.offset.y, texel.offset.y);
                 let k = within.mul_add(ring.height, ring.start).lesser(two);
                 let sin = (k * (two - k)).sqrt();
@@ -178,9 +215,9 @@ impl<'a> ImageEnvironment<'a> {
     }
     /// The texel of a direction.
     #[inline(always)]
-    pub fn texel<R: Real>(&self, direction: Vec3<R>) -> Texel<R> {
+    fn texel_of(&self, direction: Vec3<R>) -> Texel<R> {
         let [w, h] = self.counts();
-        match self.map {
+        match self.map() {
             EnvironmentMap::EqualArea => {
                 let square = Octahedral.invert(direction);
                 let ((x, column), (y, row)) = (locate(square.x, w), locate(square.y, h));
@@ -193,10 +230,9 @@ impl<'a> ImageEnvironment<'a> {
                 let below = z.lt(zero);
                 // the angle to the nearer pole, in rows
                 let rows = square.sqrt().atan2(z.abs()) * R::lit(1.0 / PI) * h;
-                let last = R::lit(((self.table.size()[1] - 1) / 2) as f64);
-                let near = R::from_uint(rows.clamped(zero, last).to_uint());
+                let near = R::from_uint(rows.clamped(zero, self.middle_row()).to_uint());
                 let row = R::blend(below, h - one - near, near).to_uint();
-                let ring = self.ring::<R>(row);
+                let ring = self.ring(row);
                 // a middle row belongs to the upper pole as a whole: then 1 − z exceeds 1
                 let tall = R::blend(below & !ring.lower, one - z, square / (one + z.abs()));
                 let within = unit_interval((tall - ring.start) / ring.height);
@@ -209,13 +245,13 @@ impl<'a> ImageEnvironment<'a> {
 
     /// Heights of a row of an equirectangular image: 2sin²(πr/2h) and 2sin(π(2r+1)/2h)sin(π/2h).
     #[inline(always)]
-    fn ring<R: Real>(&self, y: R::Uint) -> Ring<R> {
-        let rows = self.table.size()[1] as f64;
+    fn ring(&self, y: R::Uint) -> Ring<R> {
+        let [_, rows] = self.counts();
         let y = R::from_uint(y);
-        let mirrored = R::lit(rows - 1.0) - y;
+        let mirrored = (rows - R::lit(1.0)) - y;
         let lower = mirrored.lt(y);
         let near = y.lesser(mirrored);
-        let quarter = R::lit(0.25) / R::lit(rows);
+        let quarter = R::lit(0.25) / rows;
         let (s, _) = (near * quarter).sin_cos_turns();
         let (middle, _) = ((near + near + R::lit(1.0)) * quarter).sin_cos_turns();
         let (step, _) = quarter.sin_cos_turns();
@@ -223,13 +259,119 @@ impl<'a> ImageEnvironment<'a> {
     }
     /// Probability over solid angle.
     #[inline(always)]
-    fn texel_pdf<R: Real>(&self, pmf: R, y: R::Uint) -> R {
-        let [w, h] = self.counts::<R>();
-        let per_steradian = match self.map {
+    fn texel_pdf(&self, pmf: R, y: R::Uint) -> R {
+        let [w, h] = self.counts();
+        let per_steradian = match self.map() {
             EnvironmentMap::EqualArea => w * h * R::lit(0.25 / PI),
-            EnvironmentMap::Equirectangular => w * R::lit(0.5 / PI) / self.ring::<R>(y).height,
+            EnvironmentMap::Equirectangular => w * R::lit(0.5 / PI) / self.ring(y).height,
         };
         (pmf * per_steradian).lesser(R::lit(GREATEST))
+    }
+}
+
+impl<R: Real> Image<R> for ImageEnvironment<'_> {
+    #[inline(always)]
+    fn counts(&self) -> [R; 2] {
+        self.table.size().map(|n| R::lit(n as f64))
+    }
+    #[inline(always)]
+    fn middle_row(&self) -> R {
+        R::lit(((self.table.size()[1] - 1) / 2) as f64)
+    }
+    #[inline(always)]
+    fn map(&self) -> EnvironmentMap {
+        self.map
+    }
+    #[inline(always)]
+    fn cell(&self, u: Vec2<R>) -> Cell2d<R> {
+        self.table.cell(u)
+    }
+    #[inline(always)]
+    fn pmf(&self, x: R::Uint, y: R::Uint) -> R {
+        self.table.pmf(x, y)
+    }
+    #[inline(always)]
+    fn invert_cell(&self, texel: &Texel<R>) -> Vec2<R> {
+        self.table.invert_cell(texel.x, texel.y, texel.offset)
+    }
+}
+
+/// An [`ImageEnvironment`] as words in [memory](crate::memory): what is read where number types write sources.
+///
+/// Of single precision, samples and pdfs have the bits of the environment. On a processor the environment itself is the faster one.
+///
+/// - Domain: the environment's; the memory has the words of the buffer that [`build`](ImageEnvironment::build) has filled.
+/// - Degenerate: any other contents give directions with any pdf.
+///
+/// ```
+/// use etendue::light::{EnvironmentMap, EnvironmentWords, ImageEnvironment};
+/// use etendue::{LightSampler, Vec2};
+/// let mut buffer = [0.0; ImageEnvironment::buffer(4, 2)];
+/// let map = EnvironmentMap::Equirectangular;
+/// let sky = ImageEnvironment::build(&[3.0, 0.0, 1.0, 1.0, 2.0, 0.5, 0.0, 9.0], 4, map, &mut buffer).unwrap();
+/// let here = sky.by_radiance().sample(Vec2::new(0.3_f32, 0.6));
+/// let words = EnvironmentWords { memory: &buffer[..], first: 0_u32, size: [4, 2], map };
+/// let there = words.by_radiance().sample(Vec2::new(0.3_f32, 0.6));
+/// assert_eq!((here.direction, here.pdf), (there.direction, there.pdf));
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct EnvironmentWords<M, U> {
+    /// The memory.
+    pub memory: M,
+    /// Index of the first word of the buffer.
+    pub first: U,
+    /// Columns and rows, between 1 and 2²⁴.
+    pub size: [U; 2],
+    /// How the image covers the sphere.
+    pub map: EnvironmentMap,
+}
+
+impl<M: Copy, U: Copy> EnvironmentWords<M, U> {
+    /// Directions in proportion to the weights, as a [`LightSampler`].
+    #[inline(always)]
+    #[must_use]
+    pub const fn by_radiance(&self) -> ImageSampler<Self> {
+        ImageSampler { environment: *self }
+    }
+    /// A direction in proportion to the weights, with its texel.
+    #[inline]
+    pub fn draw<R: Real<Uint = U>>(&self, u: Vec2<R>) -> EnvironmentSample<R>
+    where
+        M: Memory<R>,
+    {
+        self.drawn(u)
+    }
+    #[inline(always)]
+    fn table(&self) -> Words2d<M, U> {
+        let Self { memory, first, size, .. } = *self;
+        Words2d { memory, first, size }
+    }
+}
+
+impl<R: Real, M: Memory<R>> Image<R> for EnvironmentWords<M, R::Uint> {
+    #[inline(always)]
+    fn counts(&self) -> [R; 2] {
+        self.size.map(R::from_uint)
+    }
+    #[inline(always)]
+    fn middle_row(&self) -> R {
+        R::from_uint(self.size[1].wrapping_sub(R::Uint::splat(1)).shr(1))
+    }
+    #[inline(always)]
+    fn map(&self) -> EnvironmentMap {
+        self.map
+    }
+    #[inline(always)]
+    fn cell(&self, u: Vec2<R>) -> Cell2d<R> {
+        self.table().cell(u)
+    }
+    #[inline(always)]
+    fn pmf(&self, x: R::Uint, y: R::Uint) -> R {
+        self.table().pmf(x, y)
+    }
+    #[inline(always)]
+    fn invert_cell(&self, texel: &Texel<R>) -> Vec2<R> {
+        self.table().invert_cell(texel.x, texel.y, texel.offset)
     }
 }
 
@@ -238,45 +380,47 @@ impl<R: Real> Warp<R> for ImageEnvironment<'_> {
     type Point = Vec3<R>;
     #[inline(always)]
     fn sample(&self, u: Vec2<R>) -> Vec3<R> {
-        self.draw(u).light.direction
+        self.drawn(u).light.direction
     }
     #[inline(always)]
     fn pdf(&self, direction: Vec3<R>) -> R {
-        let texel = self.texel(direction);
-        self.texel_pdf(self.table.pmf(texel.x, texel.y), texel.y)
+        self.pdf_of(direction)
     }
     #[inline(always)]
     fn invert(&self, direction: Vec3<R>) -> Vec2<R> {
-        let texel = self.texel(direction);
-        self.table.invert_cell(texel.x, texel.y, texel.offset)
+        self.inverse(direction)
     }
 }
+
+/// An [`ImageEnvironment`] in the caller's memory as a [`LightSampler`].
+pub type ByRadiance<'a> = ImageSampler<ImageEnvironment<'a>>;
 
 /// An [`ImageEnvironment`] as a [`LightSampler`], the same for all shading points. Surface coordinates: the position in the image.
 ///
 /// Its samples report the pdf of the texel in which their direction lies, which may be the neighbour of the texel that was drawn for the
 /// 6e−7 of the directions next to an edge. [`ImageEnvironment::draw`] returns the drawn texel and its pdf instead.
 #[derive(Clone, Copy, Debug)]
-pub struct ByRadiance<'a> {
-    environment: ImageEnvironment<'a>,
+pub struct ImageSampler<E> {
+    environment: E,
 }
 
-impl<R: Real> LightSampler<R> for ByRadiance<'_> {
+#[allow(private_bounds, reason = "the images are those above")]
+impl<R: Real, E: Image<R>> LightSampler<R> for ImageSampler<E> {
     #[inline(always)]
     fn sample(&self, u: Vec2<R>) -> LightSample<R> {
-        self.hit(self.environment.sample(u))
+        self.hit(self.environment.drawn(u).light.direction)
     }
     #[inline(always)]
     fn pdf(&self, w: Vec3<R>) -> R {
-        self.environment.pdf(w)
+        self.environment.pdf_of(w)
     }
     #[inline(always)]
     fn invert(&self, w: Vec3<R>) -> Vec2<R> {
-        self.environment.invert(w)
+        self.environment.inverse(w)
     }
     #[inline(always)]
     fn hit(&self, w: Vec3<R>) -> LightSample<R> {
-        met(w, self.pdf(w), self.environment.place(&self.environment.texel(w)))
+        met(w, self.pdf(w), self.environment.place(&self.environment.texel_of(w)))
     }
     #[inline(always)]
     fn origin(&self) -> Vec3<R> {

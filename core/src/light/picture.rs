@@ -1,67 +1,10 @@
 //! Pictures on lights: which texel, in proportion to its radiance and to its measure as seen from a point.
 
-use super::hierarchy::{Box2, Drawn, Grid, Hierarchy, Measure, STEPS};
-use crate::discrete::{TableError, locate};
-use crate::real::{Mask, Real, Uint, unit_interval};
+use super::cells::{Cells, Drawn, Measure, Region, STEPS};
+use super::hierarchy::Hierarchy;
+use crate::discrete::TableError;
+use crate::real::{Real, Uint};
 use crate::vector::Vec2;
-
-/// The part of the unit square of surface coordinates that a light covers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Region {
-    /// All of it: [`Rectangle`](super::Rectangle), [`Parallelogram`](super::Parallelogram).
-    Square,
-    /// The half where u + v < 1: [`Triangle`](super::Triangle).
-    Triangle,
-    /// The inscribed disk: [`Disk`](super::Disk).
-    Disk,
-}
-
-impl Region {
-    /// Part of the texel in column `x` and row `y` of w × h that the light covers, in [0, 1], to 1/64; above 0 wherever it covers any.
-    #[must_use]
-    pub fn part(self, [x, y]: [usize; 2], [w, h]: [usize; 2]) -> f64 {
-        let at = |i: usize, offset: f64, n: usize| (i as f64 + offset) / n as f64;
-        // below 0 inside, and 0 on the rim
-        let beyond = |s: f64, t: f64| match self {
-            Self::Square => -1.0,
-            Self::Triangle => s + t - 1.0,
-            Self::Disk => (s - 0.5) * (s - 0.5) + (t - 0.5) * (t - 0.5) - 0.25,
-        };
-        // the corner or the point that is nearest to the middle of the region
-        let nearest = |i: usize, n: usize| match self {
-            Self::Disk => 0.5_f64.max(at(i, 0.0, n)).min(at(i, 1.0, n)),
-            _ => at(i, 0.0, n),
-        };
-        if beyond(nearest(x, w), nearest(y, h)) >= 0.0 {
-            return 0.0;
-        }
-        let offset = |k: usize| (k as f64 + 0.5) / 8.0;
-        let points = (0..64).map(|k| {
-            let beyond = beyond(at(x, offset(k % 8), w), at(y, offset(k / 8), h));
-            if beyond < 0.0 {
-                1.0
-            } else if beyond == 0.0 {
-                0.5
-            } else {
-                0.0
-            }
-        });
-        points.sum::<f64>().max(1.0) / 64.0
-    }
-    /// Whether a point of the unit square is on the light.
-    #[inline(always)]
-    pub(super) fn contains<R: Real>(self, uv: Vec2<R>) -> R::Mask {
-        let half = R::lit(0.5);
-        match self {
-            Self::Square => R::Mask::splat(true),
-            Self::Triangle => (uv.x + uv.y).lt(R::lit(1.0)),
-            Self::Disk => {
-                let q = Vec2::new(uv.x - half, uv.y - half);
-                q.dot(q).lt(R::lit(0.25))
-            }
-        }
-    }
-}
 
 /// A picture's hierarchy, in the caller's memory: how the radiance of each box of texels is divided among its parts.
 ///
@@ -117,7 +60,7 @@ impl<'a> Picture<'a> {
         };
         let size = [width as u32, height as u32];
         Hierarchy::fill(buffer, size, weight).ok_or(TableError::Empty)?;
-        Ok(Self { hierarchy: Hierarchy::new(buffer, Grid { size, halved: false }), region, values: None })
+        Ok(Self { hierarchy: Hierarchy::new(buffer, size), region, values: None })
     }
     /// The picture that [`build`](Self::build) has left in the buffer. The contents are not checked: with others, the pmf is still what is
     /// drawn.
@@ -130,8 +73,8 @@ impl<'a> Picture<'a> {
         if !fits || buffer.len() != Self::buffer(width, height) {
             return Err(TableError::Length);
         }
-        let grid = Grid { size: [width as u32, height as u32], halved: false };
-        Ok(Self { hierarchy: Hierarchy::new(buffer, grid), region, values: None })
+        let size = [width as u32, height as u32];
+        Ok(Self { hierarchy: Hierarchy::new(buffer, size), region, values: None })
     }
     /// Builds the hierarchy of a picture that is interpolated bilinearly between the centres of its texels, and continued by its outermost
     /// ones: what pbrt-v4 does with pictures on lights, and Mitsuba 3 with textures that are clamped. The pdf is then in proportion to the
@@ -163,8 +106,7 @@ impl<'a> Picture<'a> {
         };
         let size = [columns, rows].map(|n| n as u32);
         Hierarchy::fill(buffer, size, weight).ok_or(TableError::Empty)?;
-        let hierarchy = Hierarchy::new(buffer, Grid { size, halved: true });
-        Ok(Self { hierarchy, region: Region::Square, values: Some(values) })
+        Ok(Self { hierarchy: Hierarchy::new(buffer, size), region: Region::Square, values: Some(values) })
     }
     /// The interpolated picture that [`interpolated`](Self::interpolated) has built in the buffer.
     ///
@@ -175,13 +117,38 @@ impl<'a> Picture<'a> {
         if height == 0 || values.len() != width * height {
             return Err(TableError::Length);
         }
-        let mut picture = Self::from_buffer(buffer, [width + 1, height + 1], Region::Square)?;
-        picture.hierarchy.grid.halved = true;
-        Ok(Self { values: Some(values), ..picture })
+        Ok(Self { values: Some(values), ..Self::from_buffer(buffer, [width + 1, height + 1], Region::Square)? })
     }
-    /// Radiance at the corners of a cell, in which it is bilinear; none where it is constant.
+    /// Columns and rows.
     #[inline(always)]
-    pub(super) fn corners<R: Real>(&self, cell: Vec2<R>) -> Option<[R; 4]> {
+    #[must_use]
+    pub fn size(&self) -> [usize; 2] {
+        self.hierarchy.size().map(|n| n as usize)
+    }
+    /// The part of the surface coordinates that its light covers.
+    #[inline(always)]
+    #[must_use]
+    pub fn region(&self) -> Region {
+        self.region
+    }
+}
+
+impl<R: Real> Cells<R> for Picture<'_> {
+    #[inline(always)]
+    fn counts(&self) -> Vec2<R> {
+        let [w, h] = self.hierarchy.size().map(|n| R::lit(f64::from(n)));
+        Vec2::new(w, h)
+    }
+    #[inline(always)]
+    fn region(&self) -> Region {
+        self.region
+    }
+    #[inline(always)]
+    fn is_interpolated(&self) -> bool {
+        self.values.is_some()
+    }
+    #[inline(always)]
+    fn corners(&self, cell: Vec2<R>) -> Option<[R; 4]> {
         let values = self.values?;
         let [width, height] = self.size().map(|n| n - 1);
         let (x, y) = (cell.x.to_uint(), cell.y.to_uint());
@@ -194,56 +161,9 @@ impl<'a> Picture<'a> {
         };
         Some([value(0, 0), value(1, 0), value(0, 1), value(1, 1)])
     }
-    /// A cell as a box.
     #[inline(always)]
-    pub(super) fn cell<R: Real>(&self, at: Vec2<R>) -> Box2<R> {
-        let grid = &self.hierarchy.grid;
-        let (pitch, one) = (grid.pitch::<R>(), R::lit(1.0));
-        let edges = |x: R, y: R| Vec2::new(grid.edge(x, pitch.x), grid.edge(y, pitch.y));
-        Box2 { low: edges(at.x, at.y), high: edges(at.x + one, at.y + one) }
-    }
-    /// The cell at surface coordinates, and the position in it.
-    #[inline(always)]
-    pub(super) fn locate<R: Real>(&self, uv: Vec2<R>) -> (Vec2<R>, Vec2<R>) {
-        let grid = &self.hierarchy.grid;
-        let (counts, pitch) = (grid.counts::<R>(), grid.pitch::<R>());
-        let one = |x: R, n: R, pitch: R| match self.values {
-            None => {
-                let (i, within) = locate(unit_interval(x), n);
-                (R::from_uint(i), within)
-            }
-            Some(_) => {
-                let (half, one) = (R::lit(0.5), R::lit(1.0));
-                let place = unit_interval(x).mul_add(n - one, half);
-                let i = R::from_uint(place.to_uint()).lesser(n - one);
-                let (start, end) = (grid.edge(i, pitch), grid.edge(i + one, pitch));
-                (i, unit_interval((x - start) / (end - start)))
-            }
-        };
-        let ((x, s), (y, t)) = (one(uv.x, counts.x, pitch.x), one(uv.y, counts.y, pitch.y));
-        (Vec2::new(x, y), Vec2::new(s, t))
-    }
-    /// Columns and rows.
-    #[inline(always)]
-    #[must_use]
-    pub fn size(&self) -> [usize; 2] {
-        self.hierarchy.grid.size.map(|n| n as usize)
-    }
-    /// The part of the surface coordinates that its light covers.
-    #[inline(always)]
-    #[must_use]
-    pub fn region(&self) -> Region {
-        self.region
-    }
-    /// The position in the texel that `u` draws, and the texel.
-    #[inline(always)]
-    pub(super) fn draw<R: Real>(&self, u: Vec2<R>, measure: &impl Measure<R>) -> (Drawn<R>, Vec2<R>) {
-        self.hierarchy.draw(u, measure)
-    }
-    /// A texel, given its column and row, and how it is drawn.
-    #[inline(always)]
-    pub(super) fn find<R: Real>(&self, texel: Vec2<R>, measure: &impl Measure<R>) -> Drawn<R> {
-        self.hierarchy.find(texel, measure)
+    fn walk(&self, measure: &impl Measure<R>, before: impl Fn(usize, R, R) -> R::Mask) -> Drawn<R> {
+        self.hierarchy.walk(self, measure, before)
     }
 }
 

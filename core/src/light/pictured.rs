@@ -1,6 +1,6 @@
 //! Lights with pictures, prepared for a shading point.
 
-use super::hierarchy::{Box2, Drawn, Measure};
+use super::cells::{Box2, Cells, Drawn, Measure};
 use super::picture::Picture;
 use super::sample::LightSample;
 use super::sampler::LightSampler;
@@ -19,20 +19,25 @@ pub struct PictureSample<R: Real> {
     pub y: R::Uint,
 }
 
+/// A light with a picture in the caller's memory.
+pub type Pictured<'a, L> = PicturedLight<Picture<'a>, L>;
+/// A light with a picture in the caller's memory, prepared for a shading point.
+pub type ByPicture<'a, R, S> = PicturedSampler<Picture<'a>, R, S>;
+
 /// A light with a picture: [`Picture::on`] makes it.
 #[derive(Clone, Copy, Debug)]
-pub struct Pictured<'a, L> {
+pub struct PicturedLight<P, L> {
     /// The picture.
-    pub picture: Picture<'a>,
+    pub picture: P,
     /// The light that it is on.
     pub light: L,
 }
 
-impl<'a> Picture<'a> {
+impl Picture<'_> {
     /// The picture on a light, which must cover the [`Region`](super::Region) for which the picture was built.
     #[inline(always)]
-    pub const fn on<L>(self, light: L) -> Pictured<'a, L> {
-        Pictured { picture: self, light }
+    pub const fn on<L>(self, light: L) -> PicturedLight<Self, L> {
+        PicturedLight { picture: self, light }
     }
 }
 
@@ -99,14 +104,14 @@ pub(super) trait TexelSurface<R: Real>: Measure<R> {
 /// assert_eq!(sampler.pdf(etendue::Vec3::new(-0.1, 0.99, 0.1).normalize()), 0.0);
 /// ```
 #[derive(Clone, Copy, Debug)]
-pub struct ByPicture<'a, R, S> {
-    pub(super) picture: Picture<'a>,
+pub struct PicturedSampler<P, R, S> {
+    pub(super) picture: P,
     pub(super) origin: Vec3<R>,
     pub(super) surface: S,
 }
 
 #[allow(private_bounds, reason = "the surfaces are those of this library")]
-impl<R: Real, S: TexelSurface<R>> ByPicture<'_, R, S> {
+impl<P: Cells<R>, R: Real, S: TexelSurface<R>> PicturedSampler<P, R, S> {
     #[inline(always)]
     fn density(drawn: &Drawn<R>, pdf: R) -> R {
         (drawn.pmf() * pdf).lesser(R::lit(GREATEST))
@@ -134,7 +139,7 @@ impl<R: Real, S: TexelSurface<R>> ByPicture<'_, R, S> {
     }
 }
 
-impl<R: Real, S: TexelSurface<R>> LightSampler<R> for ByPicture<'_, R, S> {
+impl<P: Cells<R>, R: Real, S: TexelSurface<R>> LightSampler<R> for PicturedSampler<P, R, S> {
     #[inline]
     fn sample(&self, u: Vec2<R>) -> LightSample<R> {
         let drawn = self.draw(u).light;

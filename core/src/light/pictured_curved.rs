@@ -1,8 +1,8 @@
 //! Curved lights with pictures.
 
-use super::hierarchy::{Box2, Measure, Slabs};
+use super::cells::{Box2, Measure, Slabs};
 use super::patch::{BilinearPatch, PlacedPatch};
-use super::pictured::{ByPicture, Pictured, Texel, TexelSurface};
+use super::pictured::{PicturedLight, PicturedSampler, Texel, TexelSurface};
 use super::sample::{LightSample, direction_to, solid_angle_pdf};
 use super::sphere::{PlacedSphere, Sphere};
 use super::surface::{AreaSurface, SurfaceHit, SurfacePoint};
@@ -13,24 +13,24 @@ use crate::vector::{Vec2, Vec3};
 use crate::warp::{Bilinear, UniformSphere, Warp};
 use core::f64::consts::PI;
 
-impl<'a, R: Real> Pictured<'a, Sphere<R>> {
+impl<P: Copy, R: Real> PicturedLight<P, Sphere<R>> {
     /// By radiance times the area that is visible from the point `p`, over the squared distance; in a texel, by area. What faces away is not
     /// drawn, but for parts of the texels at the rim. The pdf is the pmf of the texel, over its area, times distance²/|cosθ'|, per steradian.
     ///
     /// Columns are heights from −1 to 1, and rows azimuths, as [`UniformSphere`] maps them. From inside, texels are drawn by radiance alone.
     #[inline(always)]
-    pub fn by_visible_area(&self, p: Vec3<R>) -> ByPicture<'a, R, Curved<PlacedSphere<R>>> {
+    pub fn by_visible_area(&self, p: Vec3<R>) -> PicturedSampler<P, R, Curved<PlacedSphere<R>>> {
         let Sphere { center, radius } = self.light;
-        ByPicture { picture: self.picture, origin: p, surface: Curved(PlacedSphere::new(center - p, radius)) }
+        PicturedSampler { picture: self.picture, origin: p, surface: Curved(PlacedSphere::new(center - p, radius)) }
     }
 }
 
-impl<'a, R: Real> Pictured<'a, BilinearPatch<R>> {
+impl<P: Copy, R: Real> PicturedLight<P, BilinearPatch<R>> {
     /// By radiance times the area that is visible from the point `p`, over the squared distance; in a texel, uniform in (s, t). The pdf is the
     /// pmf of the texel, over |∂s×∂t| and the number of texels, times distance²/|cosθ'|, per steradian.
     #[inline(always)]
-    pub fn by_visible_area(&self, p: Vec3<R>) -> ByPicture<'a, R, Curved<PlacedPatch<R>>> {
-        ByPicture { picture: self.picture, origin: p, surface: Curved(self.light.placed(p)) }
+    pub fn by_visible_area(&self, p: Vec3<R>) -> PicturedSampler<P, R, Curved<PlacedPatch<R>>> {
+        PicturedSampler { picture: self.picture, origin: p, surface: Curved(self.light.placed(p)) }
     }
 }
 

@@ -1,12 +1,12 @@
 //! Flat lights with pictures.
 
+use super::cells::{Box2, Measure, Slabs};
 use super::disk::Disk;
 use super::flat::{
     Parallelogram, ParallelogramByArea, ParallelogramByProjectedSolidAngle, ParallelogramBySolidAngle, Rectangle,
     Triangle,
 };
-use super::hierarchy::{Box2, Measure, Slabs};
-use super::pictured::{ByPicture, Pictured, Texel, TexelSurface};
+use super::pictured::{PicturedLight, PicturedSampler, Texel, TexelSurface};
 use super::sample::{LightSample, direction_to, solid_angle_pdf};
 use super::sampler::LightSampler;
 use super::surface::{AreaSurface, PlacedParallelogram, Surface, SurfaceHit};
@@ -51,9 +51,9 @@ impl<R: Real> FlatLight<R> for Disk<R> {
     }
 }
 
-impl<'a, L> Pictured<'a, L> {
+impl<P: Copy, L> PicturedLight<P, L> {
     #[inline(always)]
-    fn by<R: Real, M>(&self, p: Vec3<R>, measure: M) -> ByPicture<'a, R, Flat<R, M>>
+    fn by<R: Real, M>(&self, p: Vec3<R>, measure: M) -> PicturedSampler<P, R, Flat<R, M>>
     where
         L: FlatLight<R>,
     {
@@ -61,12 +61,12 @@ impl<'a, L> Pictured<'a, L> {
         let corner = corner - p;
         let surface = PlacedParallelogram::new(corner, edge_s, edge_t);
         let surface = Flat { frame: Parallelogram { corner, edge_s, edge_t }, surface, measure };
-        ByPicture { picture: self.picture, origin: p, surface }
+        PicturedSampler { picture: self.picture, origin: p, surface }
     }
     /// By radiance times area, seen from the point `p`: for lights that are small for their distance. The pdf is the pmf of the texel, over
     /// its area, times distance²/|cosθ'|, per steradian.
     #[inline(always)]
-    pub fn by_area<R: Real>(&self, p: Vec3<R>) -> ByPicture<'a, R, Flat<R, Area>>
+    pub fn by_area<R: Real>(&self, p: Vec3<R>) -> PicturedSampler<P, R, Flat<R, Area>>
     where
         L: FlatLight<R>,
     {
@@ -78,7 +78,7 @@ impl<'a, L> Pictured<'a, L> {
     /// The parts of a box are compared by their solid angles where they are large for their distance, by those of their centres where
     /// not, and by radiance alone where they are too small to differ: shares are within 1 % of the exact ones.
     #[inline(always)]
-    pub fn by_solid_angle<R: Real>(&self, p: Vec3<R>) -> ByPicture<'a, R, Flat<R, SolidAngle<R>>>
+    pub fn by_solid_angle<R: Real>(&self, p: Vec3<R>) -> PicturedSampler<P, R, Flat<R, SolidAngle<R>>>
     where
         L: FlatLight<R>,
     {
@@ -87,7 +87,11 @@ impl<'a, L> Pictured<'a, L> {
     /// By radiance times projected solid angle above the horizon of the unit normal `n` at the point `p`. The pdf is the pmf of the texel,
     /// over its projected solid angle, times the cosine, per steradian.
     #[inline(always)]
-    pub fn by_projected_solid_angle<R: Real>(&self, p: Vec3<R>, n: Vec3<R>) -> ByPicture<'a, R, Flat<R, Projected<R>>>
+    pub fn by_projected_solid_angle<R: Real>(
+        &self,
+        p: Vec3<R>,
+        n: Vec3<R>,
+    ) -> PicturedSampler<P, R, Flat<R, Projected<R>>>
     where
         L: FlatLight<R>,
     {
@@ -213,7 +217,7 @@ pub(super) trait TexelMeasure<R: Real>: Measure<R> {
 /// Texels of more than so much of their distance are sampled as shapes of their own.
 const LARGE: f64 = 1.0 / 8.0;
 
-/// The measure of [`Pictured::by_area`].
+/// The measure of [`PicturedLight::by_area`].
 #[derive(Clone, Copy, Debug)]
 pub struct Area;
 
@@ -240,7 +244,7 @@ impl<R: Real> TexelMeasure<R> for Area {
     }
 }
 
-/// The measure of [`Pictured::by_solid_angle`]: a light in units in which no coordinate exceeds 2.
+/// The measure of [`PicturedLight::by_solid_angle`]: a light in units in which no coordinate exceeds 2.
 #[derive(Clone, Copy, Debug)]
 pub struct SolidAngle<R> {
     corner: Vec3<R>,
@@ -370,7 +374,7 @@ impl<R: Real> TexelMeasure<R> for SolidAngle<R> {
     }
 }
 
-/// The measure of [`Pictured::by_projected_solid_angle`].
+/// The measure of [`PicturedLight::by_projected_solid_angle`].
 #[derive(Clone, Copy, Debug)]
 pub struct Projected<R> {
     solid_angle: SolidAngle<R>,

@@ -2,6 +2,7 @@
 
 use super::environment::EnvironmentMap;
 use crate::math::atan2_turns;
+use crate::memory::{Memory, last_up_to};
 use crate::real::{Real, Uint};
 use crate::vector::Vec3;
 use core::fmt::{self, Display, Formatter};
@@ -82,6 +83,14 @@ fn ascend(angles: &[f32]) -> bool {
     angles.windows(2).all(|pair| pair[0] < pair[1])
 }
 
+/// The position of x between two numbers, from 0 to 1.
+#[inline(always)]
+fn position<R: Real>(x: R, [start, end]: [R; 2]) -> R {
+    let width = end - start;
+    let t = (x - start) / R::blend(width.gt(R::lit(0.0)), width, R::lit(1.0));
+    t.clamped(R::lit(0.0), R::lit(1.0))
+}
+
 /// Index of the interval of ascending numbers in which x lies, and the position in it, from 0 to 1.
 #[inline(always)]
 fn interval<R: Real>(angles: &[f32], x: R) -> (R::Uint, R) {
@@ -96,10 +105,162 @@ fn interval<R: Real>(angles: &[f32], x: R) -> (R::Uint, R) {
             R::Scalar::lit(f64::from(angles[i]))
         })
     };
-    let (start, end) = (at(0), at(1));
-    let width = end - start;
-    let t = (x - start) / R::blend(width.gt(R::lit(0.0)), width, R::lit(1.0));
-    (index, t.clamped(R::lit(0.0), R::lit(1.0)))
+    (index, position(x, [at(0), at(1)]))
+}
+
+/// A table of intensities in memory.
+trait Table<R: Real> {
+    /// Cosines of the polar angles from which and up to which there is light.
+    fn ends(&self) -> [R; 2];
+    /// The first azimuth.
+    fn first(&self) -> R;
+    /// The mask, where an azimuth is not beyond the last one.
+    fn up_to_last(&self, mask: R::Mask, azimuth: R) -> R::Mask;
+    /// The intervals of a polar angle and an azimuth, and the positions in them.
+    fn intervals(&self, polar: R, azimuth: R) -> [(R::Uint, R); 2];
+    /// The values where intervals begin and end: for the first azimuth and the second one, at both polar angles.
+    fn values(&self, interval: [R::Uint; 2]) -> [[R; 2]; 2];
+
+    /// Intensity in the unit direction `w`.
+    #[inline(always)]
+    fn intensity_of(&self, w: Vec3<R>) -> R {
+        let (one, [from, to]) = (R::lit(1.0), self.ends());
+        let inside = w.z.lt(from) & w.z.gt(to);
+        let degrees = R::lit(180.0 / core::f64::consts::PI);
+        let polar = w.x.mul_add(w.x, w.y * w.y).sqrt().atan2(w.z) * degrees;
+        let turn = atan2_turns(w.y, w.x) * R::lit(360.0);
+        // the least of the equal azimuths that is not below the first
+        let before = turn - R::lit(360.0);
+        let azimuth = R::blend(before.ge(self.first()), before, turn);
+        let inside = self.up_to_last(inside, azimuth);
+        let [(row, t), (column, s)] = self.intervals(polar, azimuth);
+        let [left, right] = self.values([row, column]).map(|[a, b]| a * (one - t) + b * t);
+        (left * (one - s) + right * s).keep(inside)
+    }
+}
+
+impl<R: Real> Table<R> for Profile<'_> {
+    #[inline(always)]
+    fn ends(&self) -> [R; 2] {
+        self.cos.map(|x| R::lit(f64::from(x)))
+    }
+    #[inline(always)]
+    fn first(&self) -> R {
+        R::lit(f64::from(self.azimuth[0]))
+    }
+    #[inline(always)]
+    fn up_to_last(&self, mask: R::Mask, azimuth: R) -> R::Mask {
+        let last = R::lit(f64::from(self.azimuth[self.azimuth.len() - 1]));
+        if self.azimuth.len() == 1 { mask } else { mask & azimuth.le(last) }
+    }
+    #[inline(always)]
+    fn intervals(&self, polar: R, azimuth: R) -> [(R::Uint, R); 2] {
+        [interval(self.polar, polar), interval(self.azimuth, azimuth)]
+    }
+    #[inline(always)]
+    fn values(&self, [row, column]: [R::Uint; 2]) -> [[R; 2]; 2] {
+        // a single azimuth stands for all
+        let next = if self.azimuth.len() == 1 { 0 } else { self.polar.len() };
+        let value = |offset: usize| {
+            R::from_fn(|lane| {
+                let (row, column) = (row.lane(lane) as usize, column.lane(lane) as usize);
+                R::Scalar::lit(f64::from(self.values[column * self.polar.len() + row + offset]))
+            })
+        };
+        [[value(0), value(1)], [value(next), value(next + 1)]]
+    }
+}
+
+/// A [`Profile`] as words in [memory](crate::memory): what is read where number types write sources.
+///
+/// Of single precision, intensities have the bits of the profile.
+///
+/// - Domain: the memory has what [`Profile::words`] returns.
+/// - Degenerate: any other contents give any intensity.
+///
+/// ```
+/// use etendue::Vec3;
+/// use etendue::light::{Profile, ProfileWords};
+/// let lamp = Profile::new(&[0.0, 60.0], &[0.0], &[100.0, 0.0])?;
+/// let words: Vec<u32> = lamp.words().collect();
+/// let same = ProfileWords { memory: &words[..], first: 0, angles: [2, 1] };
+/// let w = Vec3::new(0.5_f32, 0.0, 0.75_f32.sqrt());
+/// assert_eq!(same.intensity(w), lamp.intensity(w));
+/// # Ok::<(), etendue::light::ProfileError>(())
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct ProfileWords<M, U> {
+    /// The memory.
+    pub memory: M,
+    /// Index of the first word of the profile.
+    pub first: U,
+    /// Numbers of polar angles, at least 2, and of azimuths, at least 1.
+    pub angles: [U; 2],
+}
+
+impl<M, U: Uint> ProfileWords<M, U> {
+    /// Intensity in the unit direction `w`, in which light travels.
+    #[inline]
+    pub fn intensity<R: Real<Uint = U>>(&self, w: Vec3<R>) -> R
+    where
+        M: Memory<R>,
+    {
+        self.intensity_of(w)
+    }
+    /// Index of a word of the profile.
+    #[inline(always)]
+    fn at(&self, k: U) -> U {
+        self.first.wrapping_add(k)
+    }
+    /// Index of the first azimuth.
+    #[inline(always)]
+    fn azimuths(&self) -> U {
+        self.at(U::splat(2)).wrapping_add(self.angles[0])
+    }
+    /// Whether there are several azimuths.
+    #[inline(always)]
+    fn are_several<R: Real<Uint = U>>(&self) -> R::Mask {
+        R::has_bits(U::splat(1).lt(self.angles[1]))
+    }
+}
+
+impl<R: Real, M: Memory<R>> Table<R> for ProfileWords<M, R::Uint> {
+    #[inline(always)]
+    fn ends(&self) -> [R; 2] {
+        [0, 1].map(|k| self.memory.number(self.at(R::Uint::splat(k))))
+    }
+    #[inline(always)]
+    fn first(&self) -> R {
+        self.memory.number(self.azimuths())
+    }
+    #[inline(always)]
+    fn up_to_last(&self, mask: R::Mask, azimuth: R) -> R::Mask {
+        let last = self.azimuths().wrapping_add(self.angles[1]).wrapping_sub(R::Uint::splat(1));
+        mask & (!self.are_several::<R>() | azimuth.le(self.memory.number(last)))
+    }
+    #[inline(always)]
+    fn intervals(&self, polar: R, azimuth: R) -> [(R::Uint, R); 2] {
+        let one = R::Uint::splat(1);
+        let interval = |first: R::Uint, count: R::Uint, x: R| {
+            // of one number, none
+            let several = R::has_bits(one.lt(count));
+            let intervals = R::blend_uint(several, count.wrapping_sub(one), one);
+            let index = last_up_to(&self.memory, first, intervals, x);
+            let start = first.wrapping_add(index);
+            let end = R::blend_uint(several, start.wrapping_add(one), start);
+            (index, position(x, [self.memory.number(start), self.memory.number(end)]))
+        };
+        let polar = interval(self.at(R::Uint::splat(2)), self.angles[0], polar);
+        [polar, interval(self.azimuths(), self.angles[1], azimuth)]
+    }
+    #[inline(always)]
+    fn values(&self, [row, column]: [R::Uint; 2]) -> [[R; 2]; 2] {
+        let (one, [rows, columns]) = (R::Uint::splat(1), self.angles);
+        let next = R::blend_uint(self.are_several::<R>(), rows, R::Uint::splat(0));
+        let left = self.azimuths().wrapping_add(columns).wrapping_add(column.wrapping_mul(rows)).wrapping_add(row);
+        let pair = |at: R::Uint| [self.memory.number(at), self.memory.number(at.wrapping_add(one))];
+        [pair(left), pair(left.wrapping_add(next))]
+    }
 }
 
 impl<'a> Profile<'a> {
@@ -156,28 +317,13 @@ impl<'a> Profile<'a> {
     /// Intensity in the unit direction `w`, in which light travels.
     #[inline(always)]
     pub fn intensity<R: Real>(&self, w: Vec3<R>) -> R {
-        let lit = |x: f32| R::lit(f64::from(x));
-        let one = R::lit(1.0);
-        let inside = w.z.lt(lit(self.cos[0])) & w.z.gt(lit(self.cos[1]));
-        let degrees = R::lit(180.0 / core::f64::consts::PI);
-        let polar = w.x.mul_add(w.x, w.y * w.y).sqrt().atan2(w.z) * degrees;
-        let (row, t) = interval(self.polar, polar);
-        let turn = atan2_turns(w.y, w.x) * R::lit(360.0);
-        // the least of the equal azimuths that is not below the first
-        let before = turn - R::lit(360.0);
-        let azimuth = R::blend(before.ge(lit(self.azimuth[0])), before, turn);
-        let around = self.azimuth.len() == 1;
-        let inside = if around { inside } else { inside & azimuth.le(lit(self.azimuth[self.azimuth.len() - 1])) };
-        let (column, s) = interval(self.azimuth, azimuth);
-        let next = if around { 0 } else { self.polar.len() };
-        let value = |offset: usize| {
-            R::from_fn(|lane| {
-                let (row, column) = (row.lane(lane) as usize, column.lane(lane) as usize);
-                R::Scalar::lit(f64::from(self.values[column * self.polar.len() + row + offset]))
-            })
-        };
-        let along = |offset: usize| value(offset) * (one - t) + value(offset + 1) * t;
-        (along(0) * (one - s) + along(next) * s).keep(inside)
+        self.intensity_of(w)
+    }
+    /// The profile as words: the [`ends`](Self::ends), the polar angles, the azimuths, and the values, each by its bits. What other devices
+    /// read.
+    pub fn words(&self) -> impl Iterator<Item = u32> + use<'a> {
+        let Self { polar, azimuth, values, cos } = *self;
+        cos.into_iter().chain([polar, azimuth, values].into_iter().flatten().copied()).map(f32::to_bits)
     }
 
     /// Cosine of the angle from +z from which on the light is dark, at most 1; −1 if it may shine in all directions.

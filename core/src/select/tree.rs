@@ -3,22 +3,22 @@
 mod build;
 mod node;
 mod part;
+mod words;
 
 use super::{Choice, LightBound, LightChoice};
 use crate::discrete::TableError;
-use crate::real::{Real, Uint, unit_interval};
+use crate::real::{Real, Uint};
 use crate::vector::Vec3;
 use build::{Build, nodes_for};
 pub use build::{Join, Sequential};
 pub use node::Node8;
 use node::{LIGHT, NONE, Place, Shares, WHOLE};
 use part::{Part, Units};
+pub use words::{TreeWords, TreeWordsAt};
 
 /// The index of a [`Choice`] of a [`LightTree`] where no light can contribute.
 pub const NO_LIGHT: u32 = u32::MAX;
 
-/// Points farther away than this, relative to the extent of the lights, count as this far.
-const FARTHEST: f64 = (1_u64 << 30) as f64;
 /// The greatest number of lanes of a packet.
 const MOST_LANES: usize = 16;
 /// More than the number of levels of 2²⁷ lights: seven splits, each of which leaves at most 15/16, leave a child at most 0.64 of a node.
@@ -177,9 +177,7 @@ impl<'a> LightTree<'a> {
     #[must_use]
     pub fn at<R: Real>(&self, p: Vec3<R>, n: Vec3<R>) -> TreeAt<'a, R> {
         let scale = self.nodes.first().map_or(1.0, |root| f32::from_bits(root.link));
-        // a point that is farther than this keeps its direction; at the origin, the quotient is infinite
-        let p = p * (R::lit(FARTHEST) / p.max_abs()).lesser(R::lit(f64::from(scale)));
-        TreeAt { tree: *self, p, n }
+        TreeAt { tree: *self, p: node::scaled(p, R::lit(f64::from(scale))), n }
     }
 }
 
@@ -191,18 +189,9 @@ pub struct TreeAt<'a, R: Real> {
     n: Vec3<R>,
 }
 
-/// The next sixteen random bits of a lane.
-#[inline(always)]
-fn sixteen(state: &mut u32) -> u32 {
-    // a linear congruential generator, and the output function of PCG (O'Neill 2014)
-    *state = state.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
-    let word = (*state >> ((*state >> 28) + 4) ^ *state).wrapping_mul(277_803_737);
-    (word >> 22 ^ word) >> 16 ^ word & 0xffff
-}
-
 impl<'a, R: Real> TreeAt<'a, R> {
     #[inline(always)]
-    fn place(&self, lane: usize) -> Place {
+    fn place(&self, lane: usize) -> Place<f32> {
         let [p, n] = [self.p, self.n].map(|v| {
             let [x, y, z] = [v.x, v.y, v.z].map(|x| x.lane_f64(lane) as f32);
             Vec3::new(x, y, z)
@@ -268,7 +257,7 @@ impl<'a, R: Real> TreeAt<'a, R> {
 
 /// A lane on its way from the root to a light.
 struct Descent {
-    place: Place,
+    place: Place<f32>,
     word: u32,
     more: u32,
     /// [`NONE`] at the end.
@@ -287,9 +276,9 @@ impl Descent {
             self.node = NONE;
             return;
         }
-        // the position within the share, stretched to all of 32 bits with sixteen new ones: exactly uniform
-        let within = u64::from(self.word - (start << 16)) << 16 | u64::from(sixteen(&mut self.more));
-        self.word = (within / u64::from(share)) as u32;
+        let (more, sixteen) = node::sixteen(self.more);
+        self.more = more;
+        self.word = node::stretched(self.word - (start << 16), sixteen, share);
         self.pmf *= share as f32 * (1.0 / WHOLE as f32);
         let child = node.child[slot];
         if child & LIGHT == 0 {
@@ -314,7 +303,7 @@ pub enum TreeChild {
 impl LightTree<'_> {
     /// The pmf of a light, by the same products.
     #[inline]
-    fn pmf(&self, at: &Place, light: u32) -> f32 {
+    fn pmf(&self, at: &Place<f32>, light: u32) -> f32 {
         let Some(&place) = self.places.get(light as usize) else { return 0.0 };
         let (mut path, mut levels, mut link) = ([0; DEEPEST], 0, place);
         while levels < DEEPEST {
@@ -342,9 +331,7 @@ impl<R: Real> LightChoice<R> for TreeAt<'_, R> {
     /// Chooses by the 24 bits of `u`, and a hash of them for the digits below.
     #[inline]
     fn choose(&self, u: R) -> Choice<R> {
-        let bits = (unit_interval(u) * R::lit(16_777_216.0)).to_uint();
-        let more = bits.wrapping_mul(R::Uint::splat(0x9e37_79b9)) ^ R::Uint::splat(0x5bd1_e995);
-        self.choose_by([bits.shl(8) | more.shr(24), more])
+        self.choose_by(node::bits_of(u))
     }
     #[inline]
     fn pmf(&self, index: R::Uint) -> R {

@@ -151,6 +151,14 @@ pub enum Op {
     WordLess,
     /// `a != 0` of a word
     WordAny,
+    /// See [`etendue::Uint::shr_by`].
+    WordShrBy,
+    /// See [`etendue::Uint::quotient`].
+    WordQuotient,
+    /// The word at an index in memory: see [`etendue::memory::Memory`].
+    Load,
+    /// The number with the bits of a word.
+    FromBits,
     /// A call of a function.
     Call(Call),
     /// One number of a pair, 0 or 1.

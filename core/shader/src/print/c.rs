@@ -20,6 +20,12 @@ impl Dialect for C {
     fn end(&self) -> String {
         "#endif\n".into()
     }
+    fn memory(&self) -> &'static str {
+        include_str!("memory.h")
+    }
+    fn memory_parameter(&self) -> Option<(&'static str, &'static str)> {
+        Some(("EtendueMemory", "memory"))
+    }
     fn leaf(&self, leaf: Leaf) -> &'static str {
         match leaf {
             Leaf::Real => "float",
@@ -58,6 +64,8 @@ impl Dialect for C {
             Op::ToWord => "etendue_to_word",
             Op::WordReverse => "etendue_reverse_bits",
             Op::WordLess => "etendue_word_less",
+            Op::WordQuotient => "etendue_word_quotient",
+            Op::FromBits => "etendue_from_bits",
             _ => panic!("{op:?} is an operator and not a function"),
         }
     }
@@ -98,8 +106,8 @@ impl Dialect for C {
     fn mutable(&self, of: Leaf, name: &str, value: &str) -> String {
         format!("{} {name} = {value};", self.leaf(of))
     }
-    fn open_loop(&self, most: usize, condition: &str) -> String {
-        format!("for (int i = 0; i < {most} && {condition}; ++i) {{")
+    fn open_loop(&self, counter: &str, most: usize, condition: &str) -> String {
+        format!("for (int {counter} = 0; {counter} < {most}{condition}; ++{counter}) {{")
     }
     fn unused(&self, name: &str) -> Option<String> {
         Some(format!("(void){name};"))

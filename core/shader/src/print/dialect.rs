@@ -51,6 +51,10 @@ impl Expression {
     pub(super) fn apart(a: &Self, token: &str, b: &Self) -> Self {
         Self { text: format!("{} {token} {}", a.at(Level::Sum), b.at(Level::Sum)), level: Level::Loose }
     }
+    /// Bits and shifts, whose operands WGSL wants in parentheses.
+    pub(super) fn bits(a: &Self, token: &str, b: &Self) -> Self {
+        Self { text: format!("{} {token} {}", a.at(Level::Prefix), b.at(Level::Prefix)), level: Level::Loose }
+    }
     /// `a && b` or `a || b`.
     pub(super) fn chain(a: &Self, token: &str, b: &Self, level: Level) -> Self {
         let side = |of: &Self| if of.level == level { of.text.clone() } else { of.at(Level::Prefix) };
@@ -64,6 +68,10 @@ pub trait Dialect {
     fn begin(&self, how: &str) -> String;
     /// The end of a file.
     fn end(&self) -> String;
+    /// What functions read words of memory by.
+    fn memory(&self) -> &'static str;
+    /// The type and the name of the parameter through which functions get the memory, unless it is the same for all.
+    fn memory_parameter(&self) -> Option<(&'static str, &'static str)>;
     /// The name of a type.
     fn leaf(&self, leaf: Leaf) -> &'static str;
     /// A constant, exactly.
@@ -94,8 +102,8 @@ pub trait Dialect {
     fn variable(&self, of: Leaf, name: &str) -> String;
     /// A variable with a first value.
     fn mutable(&self, of: Leaf, name: &str, value: &str) -> String;
-    /// The first line of a loop that repeats while a condition holds, at most so many times.
-    fn open_loop(&self, most: usize, condition: &str) -> String;
+    /// The first line of a loop that repeats at most so many times, which `counter` counts; a condition, if there is one, begins with `&&`.
+    fn open_loop(&self, counter: &str, most: usize, condition: &str) -> String;
     /// What tells a compiler that a parameter is not used, if it needs that.
     fn unused(&self, name: &str) -> Option<String>;
     /// The variable `result`.

@@ -17,6 +17,12 @@ impl Dialect for Wgsl {
     fn end(&self) -> String {
         String::new()
     }
+    fn memory(&self) -> &'static str {
+        include_str!("memory.wgsl")
+    }
+    fn memory_parameter(&self) -> Option<(&'static str, &'static str)> {
+        None
+    }
     fn leaf(&self, leaf: Leaf) -> &'static str {
         match leaf {
             Leaf::Real => "f32",
@@ -58,6 +64,8 @@ impl Dialect for Wgsl {
             Op::ToWord => "etendue_to_word",
             Op::WordReverse => "reverseBits",
             Op::WordLess => "etendue_word_less",
+            Op::WordQuotient => "etendue_word_quotient",
+            Op::FromBits => "etendue_from_bits",
             _ => panic!("{op:?} is an operator and not a function"),
         }
     }
@@ -89,8 +97,8 @@ impl Dialect for Wgsl {
     fn mutable(&self, _: Leaf, name: &str, value: &str) -> String {
         format!("var {name} = {value};")
     }
-    fn open_loop(&self, most: usize, condition: &str) -> String {
-        format!("for (var i = 0; i < {most} && {condition}; i++) {{")
+    fn open_loop(&self, counter: &str, most: usize, condition: &str) -> String {
+        format!("for (var {counter} = 0; {counter} < {most}{condition}; {counter}++) {{")
     }
     fn unused(&self, _: &str) -> Option<String> {
         None

@@ -46,11 +46,13 @@ pub(crate) struct Driver<'a> {
     pub(crate) text: String,
     pub(crate) inputs: usize,
     outputs: usize,
+    /// The words that functions read.
+    pub(crate) memory: Vec<u32>,
 }
 
 impl<'a> Driver<'a> {
     pub(crate) fn new(module: &'a Module) -> Self {
-        Self { module, text: String::new(), inputs: 0, outputs: 0 }
+        Self { module, text: String::new(), inputs: 0, outputs: 0, memory: Vec::new() }
     }
     fn type_name(&self, of: Type) -> String {
         match of {
@@ -69,14 +71,23 @@ impl<'a> Driver<'a> {
         };
         self.module.parts(of).into_iter().map(place).collect()
     }
+    /// What each of them is.
+    fn leaves(&self, of: Type) -> Vec<Leaf> {
+        let leaf = |(field, _): (Option<usize>, Option<usize>)| match (of, field) {
+            (Type::Struct(of), Some(field)) => self.module.structs[of].fields[field].leaf,
+            (Type::Leaf(leaf), _) => leaf,
+            (Type::Struct(_), None) => panic!("a struct has fields"),
+        };
+        self.module.parts(of).into_iter().map(leaf).collect()
+    }
     /// A variable from the next inputs.
     pub(crate) fn take(&mut self, of: Type, name: &str) {
         let _ = writeln!(self.text, "    {} {name};", self.type_name(of));
-        for place in self.places(of, name) {
+        for (place, leaf) in self.places(of, name).into_iter().zip(self.leaves(of)) {
             let number = format!("in[{}]", self.inputs);
-            let value = match of {
-                Type::Leaf(Leaf::Word) => format!("etendue_bits({number})"),
-                Type::Leaf(Leaf::Truth) => format!("{number} > 0.5f"),
+            let value = match leaf {
+                Leaf::Word => format!("etendue_bits({number})"),
+                Leaf::Truth => format!("{number} > 0.5f"),
                 _ => number,
             };
             let _ = writeln!(self.text, "    {place} = {value};");
@@ -91,6 +102,8 @@ impl<'a> Driver<'a> {
     pub(crate) fn call(&mut self, name: &str, arguments: &[&str], result: &str) {
         let function = self.function(name).unwrap_or_else(|| panic!("there is no {name}"));
         let arguments = &arguments[arguments.len() - function.parameters.len()..];
+        let arguments: Vec<&str> =
+            function.reads_memory().then_some("memory").into_iter().chain(arguments.iter().copied()).collect();
         let of = self.type_name(function.result);
         let _ = writeln!(self.text, "    {of} {result} = {}({});", function_name(name), arguments.join(", "));
     }
@@ -98,21 +111,28 @@ impl<'a> Driver<'a> {
     pub(crate) fn output(&mut self, name: &str, arguments: &[&str], result: &str) {
         self.call(name, arguments, result);
         let function = self.function(name).unwrap();
-        let mut places = self.places(function.result, result);
-        if function.result == Type::Leaf(Leaf::Word) {
-            // halves of words are numbers
-            places = vec![format!("({result} >> 16)"), format!("({result} & 0xffffu)")];
-        }
-        for place in places {
-            let _ = writeln!(self.text, "    out[{}] = (float){place};", self.outputs);
-            self.outputs += 1;
+        for (place, leaf) in self.places(function.result, result).into_iter().zip(self.leaves(function.result)) {
+            let numbers = match leaf {
+                // halves of words are numbers
+                Leaf::Word => vec![format!("({place} >> 16)"), format!("({place} & 0xffffu)")],
+                _ => vec![place],
+            };
+            for number in numbers {
+                let _ = writeln!(self.text, "    out[{}] = (float){number};", self.outputs);
+                self.outputs += 1;
+            }
         }
     }
     /// Compiles the source in C with a program that maps the numbers of its input to those of its output, and runs it.
     pub(crate) fn run(&self, name: &str, flags: &[&str], inputs: &[Vec<f32>]) -> Vec<Vec<f32>> {
         let mut compile = Command::new(std::env::var("CC").unwrap_or_else(|_| "cc".into()));
         compile.args(["-std=c99", "-Wall", "-Wextra", "-Werror"]).args(flags);
-        self.run_source(name, "c", &print(self.module, &C, "Made by a test."), compile, inputs)
+        let mut source = print(self.module, &C, "Made by a test.");
+        if self.module.reads_memory() {
+            source += &self.words("etendue_word");
+            source += "static const EtendueMemory memory = {words, sizeof words / 4};\n";
+        }
+        self.run_source(name, "c", &source, &self.text, compile, inputs)
     }
     /// The same of the source in the Metal shading language, which is C++ with another standard library.
     pub(crate) fn run_metal(&self, name: &str, inputs: &[Vec<f32>]) -> Vec<Vec<f32>> {
@@ -121,29 +141,41 @@ impl<'a> Driver<'a> {
         assert!(text.contains(includes), "{name}: other includes");
         let mut compile = Command::new(std::env::var("CXX").unwrap_or_else(|_| "c++".into()));
         compile.args(["-std=c++14", "-O1"]);
-        self.run_source(
-            name,
-            "cpp",
-            &with_single_constants(&text.replace(includes, include_str!("metal.hpp"))),
-            compile,
-            inputs,
-        )
+        let mut source = with_single_constants(&text.replace(includes, include_str!("metal.hpp")));
+        let mut calls = self.text.clone();
+        if self.module.reads_memory() {
+            // an array of unknown length is one of length 1 there, and the last two parameters are what functions get in C at first
+            let of_words = |line: &str| line.starts_with("typedef uint type_") && line.ends_with("[1];");
+            let longer = |line: &str| line.replace("[1];", &format!("[{}];", self.memory.len()));
+            source = lines(&source, of_words, longer);
+            source += &self.words("metal::uint");
+            source += "static const _mslBufferSizes sizes = {sizeof words};\n";
+            let last = |line: &str| line.replace("(memory, ", "(").replace(");", ", words, sizes);");
+            calls = lines(&calls, |line| line.contains("(memory, "), last);
+        }
+        self.run_source(name, "cpp", &source, &calls, compile, inputs)
+    }
+    /// The memory as an array.
+    fn words(&self, word: &str) -> String {
+        let words: Vec<String> = self.memory.iter().map(|word| format!("{word}u")).collect();
+        format!("static const {word} words[] = {{{}}};\n", words.join(", "))
     }
     fn run_source(
         &self,
         name: &str,
         ending: &str,
-        text: &str,
+        source: &str,
+        calls: &str,
         mut compile: Command,
         inputs: &[Vec<f32>],
     ) -> Vec<Vec<f32>> {
         let folder = folder(name);
-        fs::write(folder.join("etendue.h"), text).unwrap();
+        fs::write(folder.join("etendue.h"), source).unwrap();
         let program = format!(
             "#include \"etendue.h\"\n#include <stdio.h>\nstatic void run(const float *in, float *out) {{\n{}}}\nint main(void) {{\n    \
              static float in[{}], out[{}];\n    while (fread(in, sizeof in, 1, stdin) == 1) {{\n        run(in, out);\n        \
              fwrite(out, sizeof out, 1, stdout);\n    }}\n    return 0;\n}}\n",
-            self.text, self.inputs, self.outputs
+            calls, self.inputs, self.outputs
         );
         let [source, binary] = [&format!("main.{ending}"), "main"].map(|file| folder.join(file));
         fs::write(&source, program).unwrap();
@@ -162,6 +194,11 @@ impl<'a> Driver<'a> {
             output.stdout.chunks_exact(4).map(|word| f32::from_ne_bytes(word.try_into().unwrap())).collect();
         numbers.chunks_exact(self.outputs).map(<[f32]>::to_vec).collect()
     }
+}
+
+/// Text with each line replaced for which `is` holds.
+fn lines(text: &str, is: impl Fn(&str) -> bool, by: impl Fn(&str) -> String) -> String {
+    text.lines().map(|line| if is(line) { by(line) } else { line.to_owned() } + "\n").collect()
 }
 
 /// Text of Metal with `f` after each constant: what is a number of single precision there is one of double precision in C++.

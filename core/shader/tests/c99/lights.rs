@@ -7,10 +7,10 @@ use etendue_properties::generators::{Random, nasty, unit_or_edge};
 use etendue_properties::techniques::{AreaLight, LightShape};
 use etendue_shader::*;
 
-fn vec3(x: &[f32]) -> Vec3<f32> {
+pub(crate) fn vec3(x: &[f32]) -> Vec3<f32> {
     Vec3::new(x[0], x[1], x[2])
 }
-fn sample(s: &LightSample<f32>, wanted: &Wanted, all: &mut Vec<f32>) {
+pub(crate) fn sample(s: &LightSample<f32>, wanted: &Wanted, all: &mut Vec<f32>) {
     let truth = |value: bool| f32::from(u8::from(value));
     for field in &wanted.fields {
         match field {

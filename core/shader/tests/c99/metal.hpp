@@ -3,6 +3,10 @@
 #include <cstdint>
 #include <cstring>
 
+// where variables are
+#define device
+#define constant const
+
 namespace metal {
 using uint = std::uint32_t;
 struct float2 {
@@ -16,6 +20,8 @@ inline float sqrt(float x) { return std::sqrt(x); }
 inline float rint(float x) { return std::rint(x); }
 inline float fma(float a, float b, float c) { return std::fma(a, b, c); }
 inline float clamp(float x, float least, float most) { return std::fmin(std::fmax(x, least), most); }
+inline uint select(uint no, uint yes, bool mask) { return mask ? yes : no; }
+inline uint min(uint a, uint b) { return a < b ? a : b; }
 inline uint reverse_bits(uint k) {
     uint reversed = 0;
     for (int bit = 0; bit < 32; ++bit) {

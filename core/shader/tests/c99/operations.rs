@@ -1,25 +1,32 @@
 //! Each operation by itself: its bits in C, and in Metal, which is made of WGSL; and how WGSL writes it.
 
 use crate::driver::{Driver, HOSTILE, compare};
+use etendue::memory::Memory;
+use etendue::real::State;
 use etendue::{Mask, Real, Uint};
 use etendue_properties::generators::Random;
 use etendue_shader::*;
 
-/// What functions take: numbers, words and truth values.
-struct Arguments<R: Real> {
+/// The memory that functions read. A slice reads 0 past the end, and a source the last word: here they are the same.
+const WORDS: [u32; 6] = [0x3f80_0000, 0xc049_0fdb, 4_000_000_000, 0x0000_0001, 0x7f80_0000, 0];
+
+/// What functions take: numbers, words and truth values; and the memory.
+struct Arguments<R: Real, M> {
     x: [R; 3],
     k: [R::Uint; 2],
     p: [R::Mask; 2],
+    memory: M,
 }
-impl Arguments<f32> {
+impl Arguments<f32, &'static [u32]> {
     fn of(x: &[f32]) -> Self {
         let [truth, word] = [|x: f32| u32::from(x > 0.5), f32::to_bits];
-        Self { x: [x[0], x[1], x[2]], k: [word(x[3]), word(x[4])], p: [truth(x[5]) == 1, truth(x[6]) == 1] }
+        let (k, p) = ([word(x[3]), word(x[4])], [truth(x[5]) == 1, truth(x[6]) == 1]);
+        Self { x: [x[0], x[1], x[2]], k, p, memory: &WORDS }
     }
 }
-impl Arguments<Number> {
+impl Arguments<Number, Words> {
     fn inputs() -> Self {
-        Self { x: [0, 1, 2].map(Number::input), k: [3, 4].map(Word::input), p: [5, 6].map(Truth::input) }
+        Self { x: [0, 1, 2].map(Number::input), k: [3, 4].map(Word::input), p: [5, 6].map(Truth::input), memory: Words }
     }
 }
 const NAMES: [(&str, Leaf); 7] = [
@@ -63,7 +70,7 @@ impl Value<f32> {
 }
 
 /// Adds one odd number after another, so that no step is like another, and returns the sum and the next one.
-fn squares<R: Real>(of: &Arguments<R>, count: usize) -> [R; 2] {
+fn squares<R: Real, M>(of: &Arguments<R, M>, count: usize) -> [R; 2] {
     let step = |[sum, odd]: [R; 2], [p, q]: [R::Mask; 2]| {
         let going = p | q;
         let next = [sum + odd, odd + R::lit(2.0)];
@@ -72,8 +79,30 @@ fn squares<R: Real>(of: &Arguments<R>, count: usize) -> [R; 2] {
     R::iterate(count, [of.x[0], R::lit(1.0)], of.p, step)
 }
 
+/// The sum of the numbers of a table with the weights 1, ½, ⅓, …, each of which a loop inside of the loop makes: until the first word that
+/// is 0, or one that is negative if `p` holds. Also, the number of steps, and a sum of words.
+fn table_sums<R: Real, M: Memory<R>>(of: &Arguments<R, M>) -> [R; 3] {
+    let (one, next) = (R::lit(1.0), R::Uint::splat(1));
+    let step = |([sum, all], [index, words]): State<R, 2, 2>, [going]: [R::Mask; 1]| {
+        let (word, number) = (of.memory.word(index), of.memory.number(index));
+        let going = going & R::has_bits(word) & !(of.p[0] & number.lt(R::lit(0.0)));
+        let weigh = |[weight, k]: [R; 2], [more]: [R::Mask; 1]| {
+            let here = more & going;
+            let after = k + one;
+            ([R::blend(here, one / after, weight), R::blend(here, after, k)], [here & after.le(R::from_uint(index))])
+        };
+        let [weight, count] = R::iterate(5, [one, R::lit(0.0)], [going], weigh);
+        let sums = [R::blend(going, number.mul_add(weight, sum), sum), R::blend(going, all + count, all)];
+        let words = R::blend_uint(going, words ^ word.shr_by(index), words);
+        ((sums, [R::blend_uint(going, index.wrapping_add(next), index), words]), [going])
+    };
+    let start = ([of.x[0], R::lit(0.0)], [R::Uint::splat(0), of.k[0]]);
+    let ([sum, all], [_, words]) = R::iterate_with_words(9, start, [R::Mask::splat(true)], step);
+    [sum, all, R::unit(words)]
+}
+
 /// An operation on the arguments, and how WGSL writes it. The match has no other arm, so that a new operation needs its line here.
-fn operation<R: Real>(op: Op, of: &Arguments<R>) -> (Value<R>, &'static str) {
+fn operation<R: Real, M: Memory<R>>(op: Op, of: &Arguments<R, M>) -> (Value<R>, &'static str) {
     let ([a, b, c], [k, m], [p, q]) = (of.x, of.k, of.p);
     let (real, truth, word) = (Value::Real, Value::Truth, Value::Word);
     match op {
@@ -115,11 +144,11 @@ fn operation<R: Real>(op: Op, of: &Arguments<R>) -> (Value<R>, &'static str) {
         Op::WordShr(bits) => (word(k.shr(bits)), "k >> 7u"),
         Op::WordReverse => (word(k.reverse_bits()), "reverseBits(k)"),
         Op::WordLess => (word(Uint::lt(k, m)), "etendue_word_less(k, m)"),
-        // asks for a branch alone: both sides are recorded, and no value depends on it
-        Op::WordAny => {
-            let _ = (k & m).any();
-            (real(a), "a")
-        }
+        Op::WordShrBy => (word(k.shr_by(m)), "k >> (m & 31u)"),
+        Op::WordQuotient => (word(k.quotient(m)), "etendue_word_quotient(k, m)"),
+        Op::Load => (word(of.memory.word(k)), "etendue_load(k)"),
+        Op::FromBits => (real(of.memory.number(k)), "etendue_from_bits(etendue_load(k))"),
+        Op::WordAny => (truth(R::has_bits(k & m)), "(k & m) != 0u"),
         Op::Call(Call::SinCosTurns) | Op::Part(0) => (real(a.sin_cos_turns().0), "v1.x"),
         Op::Call(Call::SinCosQuarters) | Op::Part(_) => (real(a.sin_cos_quarters().1), "v1.y"),
         Op::Call(Call::Acos) => (real(a.acos()), "etendue_acos(a)"),
@@ -138,13 +167,14 @@ fn operations() -> Vec<Op> {
     let choices = [Op::Lesser, Op::Greater, Op::Less, Op::LessEqual, Op::And, Op::Or, Op::Xor, Op::Not, Op::Select];
     let bits = [Op::Pow2Scale, Op::InverseCbrtEstimate, Op::Unit, Op::FromWord, Op::ToWord, Op::WordReverse];
     let words = [Op::WordAdd, Op::WordSub, Op::WordMul, Op::WordAnd, Op::WordOr, Op::WordXor, Op::WordLess];
+    let memory = [Op::WordShrBy, Op::WordQuotient, Op::Load, Op::FromBits];
     let others = [Op::WordShl(7), Op::WordShr(7), Op::WordAny, Op::Loop(0)];
-    [&constants[..], &sums, &choices, &bits, &words, &others, &calls.map(Op::Call)].concat()
+    [&constants[..], &sums, &choices, &bits, &words, &memory, &others, &calls.map(Op::Call)].concat()
 }
 
 /// Numbers that one function returns together: operations that are alike but not the same, what a simplification must keep, and
 /// expressions inside of expressions.
-fn together<R: Real>(of: &Arguments<R>) -> Vec<Vec<R>> {
+fn together<R: Real, M: Memory<R>>(of: &Arguments<R, M>) -> Vec<Vec<R>> {
     let ([a, b, c], [k, m], [p, q]) = (of.x, of.k, of.p);
     let (zero, one, same) = (R::lit(0.0), R::lit(1.0), a);
     let truth = |mask: R::Mask| R::blend(mask, one, zero);
@@ -202,6 +232,7 @@ fn together<R: Real>(of: &Arguments<R>) -> Vec<Vec<R>> {
         }],
         R::where_any(p & q, [a, b], || [(a * b).sqrt() + c, (a * b).sqrt() - c]).to_vec(),
         squares(of, 1).to_vec(),
+        table_sums(of).to_vec(),
     ];
     // constants with many digits, and the largest and smallest
     let constants = [1.0 / 3.0, 16_777_215.0, 1.000_000_1, 8.589_973e9, 1e-45, 1.175_494_2e-38, 3.402_823_3e38, -0.1];
@@ -212,7 +243,7 @@ fn together<R: Real>(of: &Arguments<R>) -> Vec<Vec<R>> {
 /// The functions of a module with their results: each operation, and what stands together.
 fn module() -> Module {
     let parameters = || NAMES.map(|(name, leaf)| Parameter { name: name.into(), of: Type::Leaf(leaf) }).to_vec();
-    let function = |name: String, value: &dyn Fn(&Arguments<Number>) -> Value<Number>| {
+    let function = |name: String, value: &dyn Fn(&Arguments<Number, Words>) -> Value<Number>| {
         let ((result, outputs), graph) = record(|| value(&Arguments::inputs()).ids());
         let inputs = (0..NAMES.len()).map(|parameter| Access { parameter, field: None, axis: None }).collect();
         let (doc, parameters, result) = ("A function of a test.".into(), parameters(), Type::Leaf(result));
@@ -234,6 +265,7 @@ fn module() -> Module {
 /// Programs that call each function of the module, the arguments, and the right numbers.
 fn prepared(module: &Module) -> (Driver<'_>, Vec<Vec<f32>>, Vec<Vec<f32>>) {
     let mut driver = Driver::new(module);
+    driver.memory = WORDS.to_vec();
     for (name, leaf) in NAMES {
         driver.take(Type::Leaf(leaf), name);
     }
@@ -253,7 +285,7 @@ fn prepared(module: &Module) -> (Driver<'_>, Vec<Vec<f32>>, Vec<Vec<f32>>) {
     };
     let inputs: Vec<Vec<f32>> = (0..3000).map(|_| NAMES.iter().map(|(_, leaf)| number(*leaf)).collect()).collect();
     let right = inputs.iter().map(|input| {
-        let of = Arguments::<f32>::of(input);
+        let of = Arguments::of(input);
         let each = operations().into_iter().flat_map(|op| operation(op, &of).0.numbers());
         each.chain(together(&of).into_iter().flatten()).collect()
     });
@@ -277,7 +309,7 @@ fn operations_have_the_same_bits_in_metal() {
     let mut found = driver.run_metal("operations_metal", &inputs);
     let converts = |op: &Op| matches!(op, Op::ToWord | Op::InverseCbrtEstimate | Op::Call(Call::Cbrt));
     let defined = operations().into_iter().flat_map(|op| {
-        let count = operation(op, &Arguments::<f32>::of(&[0.0; 7])).0.numbers().len();
+        let count = operation(op, &Arguments::of(&[0.0; 7])).0.numbers().len();
         vec![!converts(&op); count]
     });
     let defined: Vec<bool> = defined.collect();
@@ -298,7 +330,7 @@ fn operations_are_written_in_wgsl() {
     for (k, op) in operations().into_iter().enumerate() {
         let (_, body) = text.split_once(&format!("fn etendue_operation_{k}_of(")).unwrap();
         let (body, _) = body.split_once("\n}\n").unwrap();
-        let (_, right) = operation(op, &Arguments::<f32>::of(&[0.0; 7]));
+        let (_, right) = operation(op, &Arguments::of(&[0.0; 7]));
         let wanted = [format!(" = {right};"), format!("return {right};"), format!("    {right}")];
         let found = body.lines().any(|line| wanted.iter().any(|wanted| line.ends_with(wanted)));
         assert!(found, "{op:?} is not {right}:{body}");

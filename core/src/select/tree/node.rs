@@ -1,7 +1,8 @@
 //! Nodes of eight children: how they are packed, and what share of the samples each child receives.
 
 use super::part::{Part, SMALL, WEAK};
-use crate::real::{Mask, Real, Uint};
+use crate::memory::Memory;
+use crate::real::{Mask, Real, Uint, unit_interval};
 use crate::vector::Vec3;
 use wide::{f32x8, u32x8};
 
@@ -19,13 +20,14 @@ const SMOOTH: f64 = core::f64::consts::FRAC_2_PI;
 /// Cosines below which a bound is negative in spite of all rounding.
 const MARGIN: f64 = 1.0 / 16_384.0;
 /// Sums of weights below this have no reciprocal that can be multiplied by [`WHOLE`].
-const LEAST: f32 = 1e-33;
+pub(super) const LEAST: f32 = 1e-33;
 /// The least mean of squared distances, relative to the sum of squared distance and variance.
 const NEAR: f64 = 0.25;
 /// In place of the cosine of a cone, this byte says that the lights emit from both sides.
 const TWO_SIDED: u32 = 255;
 
-/// A node of a [`LightTree`](super::LightTree): eight lights or sets of lights. Its contents are private; what is needed is the memory.
+/// A node of a [`LightTree`](super::LightTree): eight lights or sets of lights. Its contents are private; what is needed is the memory, which
+/// consists of the [`words`](Self::words).
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct Node8 {
@@ -43,31 +45,126 @@ pub struct Node8 {
     /// Covariances of the normals, xx, yy, zz, xy and xz, yz.
     turns: [[u32; 8]; 2],
     pub(super) child: [u32; 8],
-    /// Whether no child is a spot light or emits from both sides.
-    plain: bool,
+    /// 1 where no child is a spot light or emits from both sides, else 0.
+    plain: u32,
     /// 8 · parent + slot; for the root, the bits of the scale.
     pub(super) link: u32,
 }
 
-/// A point of a surface.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Place {
-    p: Vec3<f32>,
-    n: Vec3<f32>,
-    /// |n| and n², component by component.
-    slope: Vec3<f32>,
-    squares: Vec3<f32>,
+/// Places of the children and of the link among the words of a node. What is stored of each child are eight words.
+pub(super) const CHILD: u32 = 80;
+pub(super) const LINK: u32 = 89;
+
+/// Children of nodes, one in each lane.
+pub(super) struct Children<C: Real> {
+    center: Vec3<C>,
+    reach: C,
+    power: C,
+    bounds: C::Uint,
+    normals: C::Uint,
+    deviations: C::Uint,
+    turns: [C::Uint; 2],
 }
 
-impl Place {
+impl<C: Real> Children<C> {
+    /// Reads them from words, given the index of the first word of the child.
     #[inline(always)]
-    pub(super) fn new(p: Vec3<f32>, n: Vec3<f32>) -> Self {
+    pub(super) fn read(memory: &impl Memory<C>, first: C::Uint) -> Self {
+        let at = |k: u32| first.wrapping_add(C::Uint::splat(8 * k));
+        Self {
+            center: Vec3::new(memory.number(at(0)), memory.number(at(1)), memory.number(at(2))),
+            reach: memory.number(at(3)),
+            power: memory.number(at(4)),
+            bounds: memory.word(at(5)),
+            normals: memory.word(at(6)),
+            deviations: memory.word(at(7)),
+            turns: [memory.word(at(8)), memory.word(at(9))],
+        }
+    }
+    /// Their weights at a point of a surface, and whether they can contribute. `plain` says that none is a spot light or emits from both
+    /// sides.
+    #[inline(always)]
+    pub(super) fn weigh(&self, plain: bool, at: &Place<C>) -> (C, C::Mask) {
+        let lit = C::lit;
+        let zero = lit(0.0);
+        let Place { p, n, slope, squares } = *at;
+        let v = self.center - p;
+        let three = |word: C::Uint| Vec3::new(byte(word, 0), byte(word, 1), byte(word, 2));
+        let Self { bounds, normals, deviations, turns, power, .. } = *self;
+        let unit = self.reach * lit(1.0 / 255.0);
+        // variances of the positions along the axes are these times `scale`
+        let (half, varied, scale) = (three(bounds), three(deviations), unit * unit);
+        let varied = Vec3::new(varied.x * varied.x, varied.y * varied.y, varied.z * varied.z);
+        let variance = (varied.x + varied.y + varied.z) * scale;
+        let square = Vec3::new(v.x * v.x, v.y * v.y, v.z * v.z);
+        let squared = square.x + square.y + square.z + lit(SMALL * SMALL);
+        // what 1/d² is on average, to the second order of the extent
+        let along = varied.dot(square) * scale;
+        let mean = (squared + variance) - lit(4.0) * along / fused(variance, lit(0.01), squared);
+        let mean = mean.greater((squared + variance) * lit(NEAR));
+        let squared = fused(variance, lit(1.0 / 3.0), squared);
+        let distance = squared.sqrt();
+        // all cosines are multiplied by the distance, so that the square roots do not wait for each other
+        let above = v.dot(n);
+        let estimate = above + fused(above, above, varied.dot(squares) * (scale * lit(SMOOTH))).sqrt();
+        let bound = fused(lit(MARGIN), distance, fused(half.dot(slope), unit, above)).lesser(distance);
+        let bias = lit(-128.0 / 127.0);
+        let normal = three(normals).mul_add(lit(1.0 / 127.0), Vec3::new(bias, bias, bias));
+        let ahead = -v.dot(normal);
+        let [xy, xz, yz] = [byte(turns[0], 3), byte(turns[1], 0), byte(turns[1], 1)].map(|x: C| x - lit(128.0));
+        let mixed = xy * (v.x * v.y) + xz * (v.x * v.z) + yz * (v.y * v.z);
+        let turned = three(turns[0]).dot(square) * lit(SMOOTH / 255.0) + mixed * lit(2.0 * SMOOTH / 254.0);
+        let turned = fused(variance, lit(SMOOTH / 3.0), turned.greater(zero));
+        let spread = fused(byte(normals, 3), lit(1.0 / 127.5), lit(MARGIN));
+        let mut front = fused(spread, distance, fused(byte::<C>(bounds, 3) + byte(bounds, 3), unit, ahead));
+        let facing = if plain {
+            ahead + fused(ahead, ahead, turned).sqrt()
+        } else {
+            let top: C = byte(deviations, 3);
+            let both = top.gt(lit(254.0));
+            let cone = (top * lit(1.0 / 254.0)).keep(!both);
+            // no position is nearer than this
+            let near = distance - lit(3.5 * 255.0) * unit;
+            front = fused(-near, cone, front);
+            let y = ahead - cone * distance;
+            let root = fused(y, y, turned).sqrt();
+            C::blend(both, root + root, y + root)
+        };
+        let front = front.lesser(distance);
+        let bright = bound.gt(zero) & front.gt(zero) & power.gt(zero);
+        let cosines = fused(bound * front, lit(4.0 * BOUND), estimate * facing);
+        ((power * cosines / (mean * squared)).keep(bright), bright)
+    }
+}
+
+/// A point of a surface.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place<R> {
+    p: Vec3<R>,
+    n: Vec3<R>,
+    /// |n| and n², component by component.
+    slope: Vec3<R>,
+    squares: Vec3<R>,
+}
+
+impl<R: Real> Place<R> {
+    #[inline(always)]
+    pub(super) fn new(p: Vec3<R>, n: Vec3<R>) -> Self {
         Self {
             p,
             n,
             slope: Vec3::new(n.x.abs(), n.y.abs(), n.z.abs()),
             squares: Vec3::new(n.x * n.x, n.y * n.y, n.z * n.z),
         }
+    }
+}
+
+impl Place<f32> {
+    /// The same in every lane.
+    #[inline(always)]
+    fn splat(&self) -> Place<f32x8> {
+        let [p, n, slope, squares] = [self.p, self.n, self.slope, self.squares].map(Vec3::<f32x8>::splat);
+        Place { p, n, slope, squares }
     }
 }
 
@@ -82,7 +179,7 @@ impl Default for Node8 {
             deviation: [0; 8],
             turns: [[0; 8]; 2],
             child: [NONE; 8],
-            plain: true,
+            plain: 1,
             link: 0,
         }
     }
@@ -90,8 +187,8 @@ impl Default for Node8 {
 
 /// Byte `k` of each word.
 #[inline(always)]
-fn byte(word: u32x8, k: u32) -> f32x8 {
-    f32x8::from_uint(word.shr(8 * k) & u32x8::splat(255))
+fn byte<C: Real>(word: C::Uint, k: u32) -> C {
+    C::from_uint(word.shr(8 * k) & C::Uint::splat(255))
 }
 
 /// The smallest integer that is not less, from 0 to `most`.
@@ -101,9 +198,11 @@ fn ceiling(x: f64, most: f64) -> u32 {
 }
 
 impl Node8 {
+    /// Number of its words.
+    pub const WORDS: usize = LINK as usize + 1;
     /// To be called before all children are stored again.
     pub(super) fn forget_kinds(&mut self) {
-        self.plain = true;
+        self.plain = 1;
     }
     /// Stores a child.
     pub(super) fn set(&mut self, slot: usize, child: u32, part: &Part) {
@@ -135,7 +234,7 @@ impl Node8 {
         self.deviation[slot] = x | y << 8 | z << 16 | cone << 24;
         self.turns[0][slot] = xx | yy << 8 | zz << 16 | xy << 24;
         self.turns[1][slot] = xz | yz << 8;
-        self.plain &= part.power <= 0.0 || cone == 0;
+        self.plain &= u32::from(part.power <= 0.0 || cone == 0);
         self.center.iter_mut().zip(center).for_each(|(to, x)| to[slot] = x);
         self.reach[slot] = reach as f32;
         let cone = if part.two_sided { 0.0 } else { f64::from(cone) / 254.0 };
@@ -179,67 +278,36 @@ impl Node8 {
         Part::union(&core::array::from_fn::<_, 8, _>(|slot| self.part(slot)))
     }
 
-    /// The weight of each child at a point of a surface, and the lanes of those that can contribute.
+    /// All children.
     #[inline(always)]
-    fn weigh(&self, at: &Place) -> (f32x8, u32) {
-        let lit = f32x8::lit;
-        let zero = lit(0.0);
-        let [p, n, slope, squares] = [at.p, at.n, at.slope, at.squares].map(Vec3::<f32x8>::splat);
+    fn children(&self) -> Children<f32x8> {
         let [x, y, z] = self.center.map(f32x8::from);
-        let v = Vec3::new(x, y, z) - p;
-        let three = |word: u32x8| Vec3::new(byte(word, 0), byte(word, 1), byte(word, 2));
-        let (bounds, normals) = (u32x8::from(self.bounds), u32x8::from(self.normal));
-        let (deviations, turns) = (u32x8::from(self.deviation), self.turns.map(u32x8::from));
-        let unit = f32x8::from(self.reach) * lit(1.0 / 255.0);
-        // variances of the positions along the axes are these times `scale`
-        let (half, varied, scale) = (three(bounds), three(deviations), unit * unit);
-        let varied = Vec3::new(varied.x * varied.x, varied.y * varied.y, varied.z * varied.z);
-        let variance = (varied.x + varied.y + varied.z) * scale;
-        let square = Vec3::new(v.x * v.x, v.y * v.y, v.z * v.z);
-        let squared = square.x + square.y + square.z + lit(SMALL * SMALL);
-        // what 1/d² is on average, to the second order of the extent
-        let along = varied.dot(square) * scale;
-        let mean = (squared + variance) - lit(4.0) * along / fused(variance, lit(0.01), squared);
-        let mean = mean.greater((squared + variance) * lit(NEAR));
-        let squared = fused(variance, lit(1.0 / 3.0), squared);
-        let distance = squared.sqrt();
-        // all cosines are multiplied by the distance, so that the square roots do not wait for each other
-        let above = v.dot(n);
-        let estimate = above + fused(above, above, varied.dot(squares) * (scale * lit(SMOOTH))).sqrt();
-        let bound = fused(lit(MARGIN), distance, fused(half.dot(slope), unit, above)).lesser(distance);
-        let bias = lit(-128.0 / 127.0);
-        let normal = three(normals).mul_add(lit(1.0 / 127.0), Vec3::new(bias, bias, bias));
-        let ahead = -v.dot(normal);
-        let [xy, xz, yz] = [byte(turns[0], 3), byte(turns[1], 0), byte(turns[1], 1)].map(|x| x - lit(128.0));
-        let mixed = xy * (v.x * v.y) + xz * (v.x * v.z) + yz * (v.y * v.z);
-        let turned = three(turns[0]).dot(square) * lit(SMOOTH / 255.0) + mixed * lit(2.0 * SMOOTH / 254.0);
-        let turned = fused(variance, lit(SMOOTH / 3.0), turned.greater(zero));
-        let spread = fused(byte(normals, 3), lit(1.0 / 127.5), lit(MARGIN));
-        let mut front = fused(spread, distance, fused(byte(bounds, 3) + byte(bounds, 3), unit, ahead));
-        let facing = if self.plain {
-            ahead + fused(ahead, ahead, turned).sqrt()
-        } else {
-            let top = byte(deviations, 3);
-            let both = top.gt(lit(254.0));
-            let cone = (top * lit(1.0 / 254.0)).keep(!both);
-            // no position is nearer than this
-            let near = distance - lit(3.5 * 255.0) * unit;
-            front = fused(-near, cone, front);
-            let y = ahead - cone * distance;
-            let root = fused(y, y, turned).sqrt();
-            <f32x8 as Real>::blend(both, root + root, y + root)
-        };
-        let front = front.lesser(distance);
-        let power = f32x8::from(self.power);
-        let bright = bound.gt(zero) & front.gt(zero) & power.gt(zero);
-        let cosines = fused(bound * front, lit(4.0 * BOUND), estimate * facing);
-        ((power * cosines / (mean * squared)).keep(bright), bright.bits())
+        Children {
+            center: Vec3::new(x, y, z),
+            reach: f32x8::from(self.reach),
+            power: f32x8::from(self.power),
+            bounds: u32x8::from(self.bounds),
+            normals: u32x8::from(self.normal),
+            deviations: u32x8::from(self.deviation),
+            turns: self.turns.map(u32x8::from),
+        }
+    }
+    /// The node as words, in the order in which they are in memory: what other devices read.
+    #[must_use]
+    pub fn words(&self) -> [u32; Self::WORDS] {
+        let numbers = self.center.iter().flatten().chain(&self.reach).chain(&self.power).map(|x| x.to_bits());
+        let packed = self.bounds.iter().chain(&self.normal).chain(&self.deviation).chain(self.turns.iter().flatten());
+        let mut words = [0; Self::WORDS];
+        let all = numbers.chain(packed.chain(&self.child).copied()).chain([self.plain, self.link]);
+        words.iter_mut().zip(all).for_each(|(to, word)| *to = word);
+        words
     }
 
     /// The children's shares at a point of a surface.
     #[inline(always)]
-    pub(super) fn shares(&self, at: &Place) -> Shares {
-        let (weight, bright) = self.weigh(at);
+    pub(super) fn shares(&self, at: &Place<f32>) -> Shares {
+        let (weight, bright) = self.children().weigh(self.plain != 0, &at.splat());
+        let bright = bright.bits();
         let sum = |w: [f32; 8]| ((w[0] + w[1]) + (w[2] + w[3])) + ((w[4] + w[5]) + (w[6] + w[7]));
         let lanes = <f32x8 as Real>::Mask::from_bits(bright);
         let (mut weight, mut total) = (weight, sum(weight.to_array()));
@@ -282,6 +350,43 @@ impl Shares {
         let before: u32 = self.units.iter().take(slot).sum();
         self.units[slot & 7].min(WHOLE.wrapping_sub(before))
     }
+}
+
+/// Points farther away than this, relative to the extent of the lights, count as this far.
+const FARTHEST: f64 = (1_u64 << 30) as f64;
+
+/// A point in the units of a tree. One that is too far keeps its direction; at the origin, the quotient is infinite.
+#[inline(always)]
+pub(super) fn scaled<R: Real>(p: Vec3<R>, scale: R) -> Vec3<R> {
+    p * (R::lit(FARTHEST) / p.max_abs()).lesser(scale)
+}
+
+/// The bits of a choice by `u`: its 24 bits, and a hash of them for the digits below.
+#[inline(always)]
+pub(super) fn bits_of<R: Real>(u: R) -> [R::Uint; 2] {
+    let bits = (unit_interval(u) * R::lit(16_777_216.0)).to_uint();
+    let more = bits.wrapping_mul(R::Uint::splat(0x9e37_79b9)) ^ R::Uint::splat(0x5bd1_e995);
+    [bits.shl(8) | more.shr(24), more]
+}
+
+/// The next state of a generator of random bits, and the sixteen bits that come with it.
+#[inline(always)]
+pub(super) fn sixteen<U: Uint>(state: U) -> (U, U) {
+    // a linear congruential generator, and the output function of PCG (O'Neill 2014)
+    let state = state.wrapping_mul(U::splat(747_796_405)).wrapping_add(U::splat(2_891_336_453));
+    let word = state.shr_by(state.shr(28).wrapping_add(U::splat(4))) ^ state;
+    let word = word.wrapping_mul(U::splat(277_803_737));
+    (state, (word.shr(22) ^ word).shr(16) ^ (word & U::splat(0xffff)))
+}
+
+/// The position within a share, which is less than 2¹⁶ times the share, stretched to all of 32 bits with sixteen new ones: exactly uniform.
+/// The share is at most 2¹⁶.
+#[inline(always)]
+pub(super) fn stretched<U: Uint>(within: U, sixteen: U, share: U) -> U {
+    // long division of 48 bits
+    let high = within.quotient(share);
+    let rest = within.wrapping_sub(high.wrapping_mul(share));
+    high.shl(16) | (rest.shl(16) | sixteen).quotient(share)
 }
 
 /// `a·b + c`, rounded once: the packet's own method of that name rounds twice where the target has no such instruction.

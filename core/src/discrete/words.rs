@@ -1,0 +1,159 @@
+//! Tables as words in memory.
+
+use super::cell::{Cell, Cell2d, Row, draw, locate, rest};
+use crate::memory::{Memory, last_up_to};
+use crate::real::{Real, Uint, unit_interval};
+use crate::vector::Vec2;
+
+/// A [`PiecewiseConstant1d`](crate::discrete::PiecewiseConstant1d) as words in [memory](crate::memory): what is read where number types write
+/// sources. Of single precision, cells have the bits of the table.
+#[derive(Clone, Copy, Debug)]
+pub struct Words1d<M, U> {
+    /// The memory.
+    pub memory: M,
+    /// Index of the first word of the distribution function.
+    pub first: U,
+    /// Number of cells, between 1 and 2²⁴.
+    pub count: U,
+}
+
+impl<R: Real, M: Memory<R>> Row<R> for Words1d<M, R::Uint> {
+    #[inline(always)]
+    fn find(&self, u: R) -> R::Uint {
+        // the last cell before which one ends up to u; there is none before the first
+        last_up_to(&self.memory, self.first.wrapping_sub(R::Uint::splat(1)), self.count, u)
+    }
+    #[inline(always)]
+    fn bounds(&self, index: R::Uint) -> (R, R) {
+        let inside = R::has_bits(index.lt(self.count));
+        let at = self.first.wrapping_add(index);
+        let end = self.memory.number(at).keep(inside);
+        let before = self.memory.number(at.wrapping_sub(R::Uint::splat(1)));
+        let start = before.keep(inside & R::has_bits(index));
+        (start, end - start)
+    }
+}
+
+impl<M, U: Uint> Words1d<M, U> {
+    /// Draws the cell for `u`.
+    #[inline(always)]
+    pub fn cell<R: Real<Uint = U>>(&self, u: R) -> Cell<R>
+    where
+        M: Memory<R>,
+    {
+        draw(u, self)
+    }
+    /// Probability of a cell; 0 past the last one.
+    #[inline(always)]
+    pub fn pmf<R: Real<Uint = U>>(&self, index: U) -> R
+    where
+        M: Memory<R>,
+    {
+        Row::<R>::bounds(self, index).1
+    }
+    /// Returns the `u` that `cell` maps to a position in a cell.
+    #[inline(always)]
+    pub fn invert_cell<R: Real<Uint = U>>(&self, index: U, offset: R) -> R
+    where
+        M: Memory<R>,
+    {
+        let (start, width) = Row::<R>::bounds(self, index);
+        unit_interval(offset.mul_add(width, start))
+    }
+}
+
+/// A [`PiecewiseConstant2d`](crate::discrete::PiecewiseConstant2d) as words in [memory](crate::memory): what is read where number types write
+/// sources. Of single precision, cells have the bits of the table.
+#[derive(Clone, Copy, Debug)]
+pub struct Words2d<M, U> {
+    /// The memory.
+    pub memory: M,
+    /// Index of the first word of the buffer that the table was built in.
+    pub first: U,
+    /// Width and height in cells, between 1 and 2²⁴.
+    pub size: [U; 2],
+}
+
+impl<M: Copy, U: Uint> Words2d<M, U> {
+    #[inline(always)]
+    fn row(&self, y: U) -> Words1d<M, U> {
+        let Self { memory, first, size: [width, _] } = *self;
+        Words1d { memory, first: first.wrapping_add(y.wrapping_mul(width)), count: width }
+    }
+    #[inline(always)]
+    fn marginal(&self) -> Words1d<M, U> {
+        let [_, height] = self.size;
+        Words1d { count: height, ..self.row(height) }
+    }
+    /// Draws the cell for `u`.
+    #[inline(always)]
+    pub fn cell<R: Real<Uint = U>>(&self, u: Vec2<R>) -> Cell2d<R>
+    where
+        M: Memory<R>,
+    {
+        let row = draw(u.y, &self.marginal());
+        let column = draw(u.x, &self.row(row.index));
+        Cell2d {
+            x: column.index,
+            y: row.index,
+            offset: Vec2::new(column.offset, row.offset),
+            pmf: row.pmf * column.pmf,
+        }
+    }
+    /// Probability of a cell; 0 outside the image.
+    #[inline(always)]
+    pub fn pmf<R: Real<Uint = U>>(&self, x: U, y: U) -> R
+    where
+        M: Memory<R>,
+    {
+        self.marginal().pmf::<R>(y) * self.row(y).pmf::<R>(x)
+    }
+    /// Returns the `u` that `cell` maps to a position in a cell.
+    #[inline(always)]
+    pub fn invert_cell<R: Real<Uint = U>>(&self, x: U, y: U, offset: Vec2<R>) -> Vec2<R>
+    where
+        M: Memory<R>,
+    {
+        Vec2::new(self.row(y).invert_cell(x, offset.x), self.marginal().invert_cell(y, offset.y))
+    }
+}
+
+/// An [`AliasTable`](crate::discrete::AliasTable) as words in [memory](crate::memory), as its method `words` returns them: what is read where
+/// number types write sources. Of single precision, items have the bits of the table.
+#[derive(Clone, Copy, Debug)]
+pub struct AliasWords<M, U> {
+    /// The memory.
+    pub memory: M,
+    /// Index of the first word.
+    pub first: U,
+    /// Number of items, between 1 and 2²⁴.
+    pub count: U,
+}
+
+impl<M, U: Uint> AliasWords<M, U> {
+    /// Index of a word of an item: 0 is the threshold, 1 the alias, and 2 the probability.
+    #[inline(always)]
+    fn at(&self, index: U, word: u32) -> U {
+        self.first.wrapping_add(index.wrapping_mul(U::splat(3))).wrapping_add(U::splat(word))
+    }
+    /// Draws the item for `u`, with a fresh number in [0, 1) as its `offset`.
+    #[inline(always)]
+    pub fn cell<R: Real<Uint = U>>(&self, u: R) -> Cell<R>
+    where
+        M: Memory<R>,
+    {
+        let (bucket, fraction) = locate(unit_interval(u), R::from_uint(self.count));
+        let threshold = self.memory.number(self.at(bucket, 0));
+        let own = fraction.lt(threshold);
+        let index = R::blend_uint(own, bucket, self.memory.word(self.at(bucket, 1)));
+        Cell { index, offset: rest(own, fraction, threshold), pmf: self.pmf(index) }
+    }
+    /// Probability of an item; 0 past the last one.
+    #[inline(always)]
+    pub fn pmf<R: Real<Uint = U>>(&self, index: U) -> R
+    where
+        M: Memory<R>,
+    {
+        self.memory.number(self.at(index, 2)).keep(R::has_bits(index.lt(self.count)))
+    }
+}

@@ -1,0 +1,67 @@
+//! Memory that a routine reads in each lane at an index of its own.
+
+use crate::real::{Real, State, Uint};
+
+/// A sequence of 32-bit words, each of which may be a number of single precision by its bits.
+///
+/// Slices are memory. The trait is open, so that number types that write sources read what a device has in a buffer.
+///
+/// ```
+/// use etendue::{f32x4, memory::Memory, u32x4};
+/// let table = [2.0_f32, 3.0, 5.0, 7.0];
+/// let numbers: f32x4 = (&table[..]).number(u32x4::from([3, 0, 0, 1]));
+/// assert_eq!(numbers.to_array(), [7.0, 2.0, 2.0, 3.0]);
+/// let past: f32 = (&table[..]).number(4);
+/// assert_eq!(past, 0.0);
+/// ```
+pub trait Memory<R: Real>: Copy {
+    /// The word at an index in each lane. Past the end it is any word, which for slices is 0.
+    fn word(&self, index: R::Uint) -> R::Uint;
+    /// The number at an index in each lane. Past the end it is any number, which for slices is 0.
+    fn number(&self, index: R::Uint) -> R;
+}
+
+impl<R: Real> Memory<R> for &[f32] {
+    #[inline(always)]
+    fn word(&self, index: R::Uint) -> R::Uint {
+        R::Uint::from_fn(|lane| self.get(index.lane(lane) as usize).map_or(0, |number| number.to_bits()))
+    }
+    #[inline(always)]
+    fn number(&self, index: R::Uint) -> R {
+        R::from_fn(|lane| {
+            let number = self.get(index.lane(lane) as usize).copied().unwrap_or(0.0);
+            R::Scalar::lit(f64::from(number))
+        })
+    }
+}
+
+impl<R: Real> Memory<R> for &[u32] {
+    #[inline(always)]
+    fn word(&self, index: R::Uint) -> R::Uint {
+        R::Uint::from_fn(|lane| self.get(index.lane(lane) as usize).copied().unwrap_or(0))
+    }
+    #[inline(always)]
+    fn number(&self, index: R::Uint) -> R {
+        R::from_fn(|lane| {
+            let bits = self.get(index.lane(lane) as usize).copied().unwrap_or(0);
+            R::Scalar::lit(f64::from(f32::from_bits(bits)))
+        })
+    }
+}
+
+/// Of `count` ascending numbers, at least one, the index of the last that is not above `x`; 0 where the first is above it. Comparisons with NaN
+/// are false.
+#[inline(always)]
+pub(crate) fn last_up_to<R: Real>(memory: &impl Memory<R>, first: R::Uint, count: R::Uint, x: R) -> R::Uint {
+    let one = R::Uint::splat(1);
+    let step = |([], [low, count]): State<R, 0, 2>, [going]: [R::Mask; 1]| {
+        let half = Uint::shr(count, 1);
+        let middle = Uint::wrapping_add(low, half);
+        let is_up_to = memory.number(first.wrapping_add(middle)).le(x);
+        let left = R::blend_uint(going, count.wrapping_sub(half), count);
+        (([], [R::blend_uint(going & is_up_to, middle, low), left]), [going & R::has_bits(one.lt(left))])
+    };
+    let going = [R::has_bits(one.lt(count))];
+    let ([], [index, _]) = R::iterate_with_words(32, ([], [R::Uint::splat(0), count]), going, step);
+    index
+}
