@@ -10,7 +10,7 @@
 //! ```
 //! use etendue::{LightSampler, Parallelogram, Vec2, Vec3, reflection::Reflection};
 //! // a panel that a floor of roughness 0.2 reflects to a viewer at 45°
-//! let panel = Parallelogram::new([-2.0, 1.0, -1.0].into(), [0.0, 0.0, 2.0].into(), [0.0, 2.0, 0.0_f32].into());
+//! let panel = Parallelogram::new([-2.0, 1.0, -1.0].into(), [0.0, 2.0, 0.0].into(), [0.0, 0.0, 2.0_f32].into());
 //! let (p, up) = (Vec3::default(), Vec3::new(0.0, 1.0, 0.0));
 //! let floor = Reflection::new(0.2_f32, up, Vec3::new(0.5_f32.sqrt(), 0.5_f32.sqrt(), 0.0));
 //! let sampler = panel.by_reflection(p, &floor);
