@@ -57,7 +57,7 @@ lanewise! {
     ///   views of smooth surfaces, up to 9. As f/g stays finite, estimates by samples stay unbiased. `cargo run --release -p etendue-fit`
     ///   prints it for all cells.
     /// - Degenerate input: a view below the horizon counts as one on the horizon, and has albedo 0.
-    /// - Greatest error: the inverse is within 4 steps of 2⁻²⁴ of u, or that of a direction 1e−6 away times what the inverse of the map
+    /// - Greatest error: the inverse is within 8 steps of 2⁻²⁴ of u, or that of a direction 2e−6 away times what the inverse of the map
     ///   stretches there, which is much for grazing views alone.
     /// - Source: Heitz, Dupuy, Hill and Neubelt, "Real-Time Polygonal-Light Shading with Linearly Transformed Cosines", ACM TOG 35(4), 2016,
     ///   sections 3 and 4, with a map that keeps heights; for GGX, Heitz 2014, equations 72 and 99.

@@ -71,24 +71,24 @@ fn samples_have_the_density() {
                 .map(|v| length(double.from_cosine(vector(v)).at(0)));
             let stretch = ends.into_iter().fold(1.0, f64::max) * length(double.to_cosine(vector(w.at(0))).at(0));
             // near the horizon, a step of u moves the direction farther
-            if (back.x - u[0]).abs().max((back.y - u[1]).abs()) <= 4.0 * ULP as f32 {
+            if (back.x - u[0]).abs().max((back.y - u[1]).abs()) <= 8.0 * ULP as f32 {
                 continue;
             }
             worst = worst.max(off / stretch.max(1.0));
             assert!(
-                off < 1e-6 * stretch.max(1.0),
+                off < 2e-6 * stretch.max(1.0),
                 "{place:?} {u:?}: {back:?} is off by {off}, stretched {stretch} times"
             );
         }
         // d(direction)/du by differences is the reciprocal of the density
-        let u = [0.05 + 0.9 * random.unit_f64(), random.unit_f64()];
+        let u = [(); 2].map(|()| 0.05 + 0.9 * random.unit_f64());
         let at = |x: f64, y: f64| double.sample(Vec2::new(x, y)).at(0);
         let step = 1e-5;
         let [dx, dy] =
             [sub(at(u[0] + step, u[1]), at(u[0] - step, u[1])), sub(at(u[0], u[1] + step), at(u[0], u[1] - step))];
         let area = length(cross(dx, dy)) / (4.0 * step * step);
         let pdf = double.pdf(double.sample(Vec2::new(u[0], u[1])));
-        assert!((area * pdf - 1.0).abs() < 1e-3, "{place:?} at {u:?}: {area} times {pdf}");
+        assert!((area * pdf - 1.0).abs() < 3e-3, "{place:?} at {u:?}: {area} times {pdf}");
     }
     println!("inverses are those of directions at most {worst:.1e} away, times the stretch of the map");
 }
@@ -253,7 +253,7 @@ fn flat_lights_have_their_part_of_the_lobe() {
         let truth = [false, true].map(|half| {
             let part = part_of_samples(&place, |w| {
                 let over = dot(w, cross(s, t));
-                let [x, y] = [dot(w, cross(corner, t)) / -over, dot(w, cross(corner, s)) / over].map(|x| -x);
+                let [x, y] = [dot(w, cross(corner, t)) / -over, dot(w, cross(corner, s)) / over];
                 let reaches = dot(corner, cross(s, t)) / over > 0.0;
                 reaches && x >= 0.0 && y >= 0.0 && if half { x + y <= 1.0 } else { x <= 1.0 && y <= 1.0 }
             });
