@@ -219,8 +219,8 @@ impl<R: Real> Occlusion<R> {
     /// surface reflects about F · [albedo](Reflection::albedo) · L/π times this of a light with the radiance L. Like
     /// [`visible_past`](Self::visible_past) otherwise; `None` also if a sphere blocks, or is blocked.
     ///
-    /// Parts are clipped before the map, and measured after it. Greatest error: 2e−6 times the angle around the light after the map for each
-    /// of the blockers that occlude it, and of spheres as [`Reflection::sphere`].
+    /// Parts are clipped before the map, and measured after it. Greatest error of a light without blockers in single precision: 3e−5 of the
+    /// result plus 0.01 (measured by `cargo test -p etendue-tests --test reflection -- --nocapture`); of spheres as [`Reflection::sphere`].
     #[inline]
     pub fn reflected(
         &mut self,

@@ -6,7 +6,7 @@ use std::process::Command;
 const TARGET: &str = "wasm32-unknown-unknown";
 /// The flags of the compiler. Cargo's own file of them is for other processors.
 const FLAGS: &str = "-Ctarget-feature=+simd128";
-/// Settings without which the functions that nobody calls cannot be told apart from the others.
+/// Settings that let the linker drop the functions that the page never calls.
 const PROFILE: [&str; 4] = ["panic='abort'", "lto='fat'", "codegen-units=1", "debug=false"];
 /// Bytes for the stack: prepared lights in every lane of a packet take tens of thousands.
 const STACK: usize = 1 << 20;

@@ -106,11 +106,11 @@ impl Language {
             _ if !reads_memory => "",
             Self::Msl => {
                 " All tables are in one buffer of words, one after another, some of which are numbers by their bits: functions that read it \
-                 take it and its size in bytes as their last parameters, and are told at which word a table begins."
+                 take it and its size in bytes as their last parameters, and one parameter is the word at which a table begins."
             }
             _ => {
                 " All tables are in one buffer of words, one after another, some of which are numbers by their bits: etendue_memory, with the \
-                 binding 0, which a host may change. Functions are told at which word a table begins."
+                 binding 0, which a host may change. A parameter of each function is the word at which a table begins."
             }
         };
         let text = format!(

@@ -47,7 +47,7 @@
 //!
 //! # Memory
 //! A routine of the core that reads tables takes them as a [`Memory`](etendue::memory::Memory); recorded, that is [`Words`]. In a source all
-//! tables are in one buffer of words of 32 bits, and a function is told at which word its table begins. An index past the end reads the last
+//! tables are in one buffer of words of 32 bits, and a parameter of a function is the word at which its table begins. An index past the end reads the last
 //! word, in every language.
 //!
 //! | language | the buffer |

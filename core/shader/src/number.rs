@@ -158,7 +158,7 @@ impl Uint for Word {
     }
 }
 
-/// The memory of a source: all tables are in one sequence of words, of which a routine is told where its tables begin.
+/// The memory of a source: one sequence of words with all tables. A parameter of a routine is the word at which its table begins.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Words;
 

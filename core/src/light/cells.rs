@@ -227,8 +227,9 @@ pub(super) struct Level<R> {
 /// A walk to a cell.
 #[derive(Clone, Copy)]
 pub(super) struct Walk<R: Real> {
-    /// Of the box to which it has gone.
+    /// Columns of the box that the walk has reached.
     pub(super) columns: Span<R>,
+    /// Its rows.
     pub(super) rows: Span<R>,
     /// Whether parts of it can differ in their measure.
     pub(super) differ: R::Mask,

@@ -78,7 +78,7 @@ impl<'a> Hierarchy<'a> {
         while levels.advance().is_some() {}
         levels.boxes as usize * ENTRIES
     }
-    /// Of a buffer of this length.
+    /// The hierarchy in a buffer of this [`length`](Self::length).
     pub(super) const fn new(buffer: &'a [f32], size: [u32; 2]) -> Self {
         Self { entries: buffer, size }
     }

@@ -141,6 +141,27 @@ fn area_sample<R: Real>(point: Vec3<R>, normal: Vec3<R>, pdf: R, uv: Vec2<R>) ->
     AreaSample { point, normal, pdf: pdf.keep(pdf.lt(R::lit(1e37))), uv }
 }
 
+/// A sample of a surface in a direction, at the distance that the surface has there unless it is given.
+#[inline(always)]
+fn drawn<R: Real>(
+    direction: Vec3<R>,
+    distance: Option<R>,
+    pdf: R,
+    surface: &impl Surface<R>,
+    emits: R::Mask,
+) -> LightSample<R> {
+    let at = surface.at(direction);
+    LightSample {
+        direction,
+        distance: distance.unwrap_or(at.distance),
+        pdf,
+        normal: at.normal,
+        uv: at.uv,
+        emits,
+        delta: R::Mask::splat(false),
+    }
+}
+
 /// A hit where the pdf is positive, a miss elsewhere.
 #[inline(always)]
 fn found<R: Real>(w: Vec3<R>, pdf: R, surface: &impl Surface<R>, front: Option<R::Mask>) -> LightSample<R> {
@@ -178,16 +199,7 @@ impl<R: Real, S: Surface<R>, W: SphericalShape<R>> LightSampler<R> for BySolidAn
     #[inline(always)]
     fn sample(&self, u: Vec2<R>) -> LightSample<R> {
         let DirectionSample { direction, distance } = self.shape.sample_direction(u);
-        let at = self.surface.at(direction);
-        LightSample {
-            direction,
-            distance,
-            pdf: self.shape.uniform_pdf(),
-            normal: at.normal,
-            uv: at.uv,
-            emits: self.shape.in_front(),
-            delta: R::Mask::splat(false),
-        }
+        drawn(direction, Some(distance), self.shape.uniform_pdf(), &self.surface, self.shape.in_front())
     }
     #[inline(always)]
     fn pdf(&self, w: Vec3<R>) -> R {
@@ -229,16 +241,13 @@ impl<R: Real, S: Surface<R>, W: ProjectedShape<R>> LightSampler<R> for ByProject
     #[inline(always)]
     fn sample(&self, u: Vec2<R>) -> LightSample<R> {
         let DirectionSample { direction, distance } = self.shape.sample_direction(u);
-        let at = self.surface.at(direction);
-        LightSample {
+        drawn(
             direction,
-            distance,
-            pdf: self.shape.pdf_at_cosine(direction.dot(self.normal)),
-            normal: at.normal,
-            uv: at.uv,
-            emits: self.shape.in_front(),
-            delta: R::Mask::splat(false),
-        }
+            Some(distance),
+            self.shape.pdf_at_cosine(direction.dot(self.normal)),
+            &self.surface,
+            self.shape.in_front(),
+        )
     }
     #[inline(always)]
     fn pdf(&self, w: Vec3<R>) -> R {
@@ -276,10 +285,6 @@ impl<R: Real, S, W: ProjectedShape<R>> ByReflection<R, S, W> {
     pub fn projected_solid_angle(&self) -> R {
         self.shape.projected_solid_angle()
     }
-    #[inline(always)]
-    fn pdf_inside(&self, w: Vec3<R>) -> R {
-        self.reflection.pdf(w) * quotient(R::lit(PI), self.shape.projected_solid_angle())
-    }
 }
 
 impl<R: Real, S: AreaSurface<R>, W: ProjectedShape<R> + Warp<R, Point = Vec3<R>>> LightSampler<R>
@@ -288,20 +293,12 @@ impl<R: Real, S: AreaSurface<R>, W: ProjectedShape<R> + Warp<R, Point = Vec3<R>>
     #[inline(always)]
     fn sample(&self, u: Vec2<R>) -> LightSample<R> {
         let direction = self.reflection.from_cosine(self.shape.sample(u)).unit_and_length().0;
-        let at = self.surface.at(direction);
-        LightSample {
-            direction,
-            distance: at.distance,
-            pdf: self.pdf(direction),
-            normal: at.normal,
-            uv: at.uv,
-            emits: self.shape.in_front(),
-            delta: R::Mask::splat(false),
-        }
+        drawn(direction, None, self.pdf(direction), &self.surface, self.shape.in_front())
     }
     #[inline(always)]
     fn pdf(&self, w: Vec3<R>) -> R {
-        self.pdf_inside(w).keep(self.surface.contains(w))
+        let pdf = self.reflection.pdf(w) * quotient(R::lit(PI), self.shape.projected_solid_angle());
+        pdf.keep(self.surface.contains(w))
     }
     #[inline(always)]
     fn invert(&self, w: Vec3<R>) -> Vec2<R> {
@@ -339,16 +336,7 @@ impl<R: Real, S: Surface<R>, W: SphericalShape<R>> LightSampler<R> for ByCosineW
     fn sample(&self, u: Vec2<R>) -> LightSample<R> {
         let shape = &self.warped.shape;
         let DirectionSample { direction, distance } = shape.sample_direction(self.warped.weights.sample(u));
-        let at = self.surface.at(direction);
-        LightSample {
-            direction,
-            distance,
-            pdf: self.pdf(direction),
-            normal: at.normal,
-            uv: at.uv,
-            emits: shape.in_front(),
-            delta: R::Mask::splat(false),
-        }
+        drawn(direction, Some(distance), self.pdf(direction), &self.surface, shape.in_front())
     }
     #[inline(always)]
     fn pdf(&self, w: Vec3<R>) -> R {

@@ -55,11 +55,11 @@ impl Known {
 /// Lanes of rough surfaces with a fit, for one light and packet.
 #[derive(Clone, Copy)]
 pub(super) struct Fitted {
-    /// Those where the light that the fit reflects is counted: samples add what the BSDF reflects beyond the fit.
+    /// Lanes where the closed form of the fit has been added: samples add what the BSDF reflects beyond the fit.
     pub(super) counted: M8,
-    /// Those that see all of the light, so that samples need no shadow ray.
+    /// Lanes that see all of the light, so that samples need no shadow ray.
     pub(super) lit: M8,
-    /// Those that see nothing of it.
+    /// Lanes that see nothing of the light.
     pub(super) dark: M8,
 }
 

@@ -9,6 +9,11 @@ use std::time::Instant;
 
 const LIMIT: f64 = 4.5;
 
+fn by_solid_angle(width: u32, height: u32) -> Settings {
+    let (technique, sampler) = (Technique::SolidAngle, Sampler::Independent);
+    Settings { width, height, spp: 16, technique, depth: 8, sets: 0, sampler, seed: 3 }
+}
+
 /// A wall of the room 4 × 4 × 3 about (0, 0, 1.5), in the plane x = 2, with windows between these y and z.
 fn wall(windows: &[[f64; 4]]) -> String {
     let mut all = String::new();
@@ -182,16 +187,7 @@ fn no_ray_to_what_is_dark() {
              Shape \"trianglemesh\" \"point3 P\" [-2 -2 {up}  2 -2 {up}  2 2 {up}  -2 2 {up}] \"integer indices\" [0 1 2  0 2 3]"
         );
         let world = World::new(&parse(&text, "a.pbrt", Path::new("")).unwrap()).unwrap();
-        let settings = Settings {
-            width: 24,
-            height: 18,
-            spp: 16,
-            technique: Technique::SolidAngle,
-            depth: 8,
-            sets: 0,
-            sampler: Sampler::Independent,
-            seed: 3,
-        };
+        let settings = by_solid_angle(24, 18);
         let (film, rays) = world.render(&settings, &|_| ());
         assert_eq!(rays.camera, 24 * 18 * 16);
         (rays.shadow, sum(&film).0)
@@ -214,16 +210,7 @@ fn beside_portals_it_is_black() {
         let scene = parse(&text, "a.pbrt", Path::new("")).unwrap();
         assert!(scene.environment.as_ref().is_some_and(|environment: &Environment| environment.portals.len() == 1));
         let world = World::new(&scene).unwrap();
-        let settings = Settings {
-            width: 1,
-            height: 1,
-            spp: 16,
-            technique: Technique::SolidAngle,
-            depth: 8,
-            sets: 0,
-            sampler: Sampler::Independent,
-            seed: 3,
-        };
+        let settings = by_solid_angle(1, 1);
         world.render(&settings, &|_| ()).0.pixels[0].mean
     };
     assert_eq!(view("0 0 0", "2 0.5 1.5"), [3.0, 2.0, 1.0]);
