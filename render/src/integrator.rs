@@ -3,6 +3,7 @@
 mod adaptive;
 mod allocation;
 mod analytic;
+mod by_surface;
 mod checks;
 mod choice;
 mod end;

@@ -12,10 +12,10 @@ use super::known::{Fitted, Survey};
 use super::prepared::PreparedScene;
 use super::radiance::Radiance;
 use super::settings::{RayCount, Settings};
-use crate::bsdf::{Evaluated, Scattered};
-use crate::bvh::{GROUP, Hits, NOTHING, Rays, SHAPE, Scratch};
+use crate::bsdf::Evaluated;
+use crate::bvh::{GROUP, Hits, NOTHING, Rays, Scratch};
 use crate::camera::Camera;
-use crate::lights::{LightPmf, Lights};
+use crate::lights::Lights;
 use crate::lobe::Lobe;
 use crate::packet::{M8, V8, X8, pick, select};
 use crate::sky::SunBeside;
@@ -27,7 +27,7 @@ use etendue::select::{Allocated, FEW};
 use etendue::{Mask, Real, Vec2, u32x8};
 
 /// Fraction of the distance to a light that a shadow ray covers: it stops short, so that surfaces touching the light do not occlude it.
-const COVERED: f64 = 1.0 - SPARED;
+pub(super) const COVERED: f64 = 1.0 - SPARED;
 
 /// Random numbers of each packet of a group.
 pub(super) struct Numbers {
@@ -41,17 +41,17 @@ pub(super) struct Numbers {
 
 /// The paths of a group of packets, and their scratch memory.
 pub(super) struct Paths<'a> {
-    scene: &'a PreparedScene,
-    technique: Technique,
+    pub(super) scene: &'a PreparedScene,
+    pub(super) technique: Technique,
     depth: u32,
     /// Rays traced so far.
     pub(super) count: RayCount,
-    scratch: Scratch,
+    pub(super) scratch: Scratch,
     /// Camera rays and shadow rays.
-    rays: Box<[[Rays; GROUP]; 2]>,
+    pub(super) rays: Box<[[Rays; GROUP]; 2]>,
     /// The reflecting surfaces at the ends of the paths.
-    surfaces: Box<[Surface; GROUP]>,
-    ends: Box<[End; GROUP]>,
+    pub(super) surfaces: Box<[Surface; GROUP]>,
+    pub(super) ends: Box<[End; GROUP]>,
     /// Where the paths end. The pixels are set from outside.
     pub(super) places: Box<[Places; GROUP]>,
     pub(super) analytic: Option<Analytic<'a>>,
@@ -60,8 +60,8 @@ pub(super) struct Paths<'a> {
     /// The part of each light that has been counted where it must be sampled, if lights have such parts.
     counted: Option<Vec<[X8; GROUP]>>,
     /// The fits of rough surfaces, where certificates are asked for, and what is known of each light there.
-    lobes: Box<[Option<Lobe>; GROUP]>,
-    fitted: Vec<[Fitted; GROUP]>,
+    pub(super) lobes: Box<[Option<Lobe>; GROUP]>,
+    pub(super) fitted: Vec<[Fitted; GROUP]>,
     radiance: Box<[Radiance; GROUP]>,
 }
 
@@ -176,7 +176,7 @@ impl<'a> Paths<'a> {
     }
 
     /// How samples of a light and of the BSDF are combined, if they are anywhere.
-    fn heuristic(&self) -> Option<Heuristic> {
+    pub(super) fn heuristic(&self) -> Option<Heuristic> {
         if self.is_mixed() { Some(Heuristic::POWER) } else { self.technique.heuristic() }
     }
 
@@ -423,111 +423,9 @@ impl<'a> Paths<'a> {
         self.add_unoccluded(count, &found, lit, &limit, &target, reflected);
     }
 
-    /// Adds the light reflected by sampling the BSDF or the hemisphere, with its MIS weight if the technique combines two.
-    fn by_surface<const METAL: bool>(
-        &mut self,
-        count: usize,
-        pairs: &[Vec2<X8>; GROUP],
-        allocated: &[Allocated<'_, X8>],
-        is_closed: bool,
-        reflected: &mut [V8; GROUP],
-    ) {
-        let (scene, world) = (self.scene, &self.scene.surfaces);
-        let (heuristic, is_mixed) = (self.heuristic(), self.is_mixed());
-        let (zero, one, infinite) = (X8::lit(0.0), X8::lit(1.0), X8::lit(f64::INFINITY));
-        let mut lit = [M8::splat(false); GROUP];
-        let mut hits = [Hits::none(infinite); GROUP];
-        let mut found = [V8::default(); GROUP];
-        let mut factors = [zero; GROUP];
-        let mut own = [one; GROUP];
-        let Self { surfaces, ends, rays, places, .. } = self;
-        for (p, surface) in surfaces[..count].iter().enumerate().filter(|(_, surface)| surface.reflects.any()) {
-            let bsdf = bsdf::<METAL>(surface, &ends[p]);
-            let Scattered { direction, color, factor, pdf } = bsdf.sample(self.technique, pairs[p]);
-            let some = pdf.gt(zero);
-            own[p] = select(some, pdf, one);
-            (found[p], factors[p]) = (color, factor);
-            lit[p] = surface.reflects & some;
-            if is_mixed {
-                lit[p] = lit[p] & ends[p].rough();
-            }
-            self.count.shadow += u64::from(lit[p].bits().count_ones());
-            rays[1][p] = world.bvh.rays(surface.point, direction).leaving(places[p].primitives);
-        }
-        // finding the hit light is cheap; only rays that hit one need an occlusion test
-        world.bvh.closest_shape(&self.rays[1][..count], &lit[..count], &mut hits[..count], &mut self.scratch);
-        let mut target = [u32x8::splat(NOTHING); GROUP];
-        let mut limit = [infinite; GROUP];
-        for p in 0..count {
-            if !lit[p].any() {
-                continue;
-            }
-            let lobe = self.lobes[p].as_ref().filter(|_| METAL && is_closed && self.places[p].fitted.any());
-            let mut known = Fitted::default();
-            let Surface { point, normal, .. } = self.surfaces[p];
-            let rays = &self.rays[1][p];
-            let direction = rays.direction;
-            let sent = lit[p];
-            let met = sent & hits[p].any();
-            let missed = sent & !hits[p].any();
-            let mut radiance = V8::default();
-            let mut light_pdf = zero;
-            let weighted = heuristic.is_some() && (met.any() || scene.sky.is_some());
-            let pmf = weighted.then(|| match allocated.get(p) {
-                Some(allocated) => LightPmf::Allocated(allocated),
-                None => scene.lights.pmf(point, normal),
-            });
-            lit[p] = M8::splat(false);
-            world.each_shape(&hits[p], met, rays, |index, here, shape, outward| {
-                if let Some((emitted, here)) = world.emitted(&hits[p], here, shape, outward, rays) {
-                    radiance = V8::blend(here, emitted, radiance);
-                    lit[p] = lit[p] | here;
-                    if lobe.is_some() {
-                        known.join(here, &self.fitted[scene.lights.of_shape(index)][p]);
-                    }
-                    if let Some(pmf) = pmf.as_ref().filter(|_| here.any()) {
-                        let pdf = scene.lights.shape_pdf(pmf, index, &shape.geometry, point, direction);
-                        light_pdf = select(here, pdf, light_pdf);
-                    }
-                }
-            });
-            target[p] = pick(lit[p], hits[p].place ^ u32x8::splat(SHAPE), u32x8::splat(NOTHING));
-            limit[p] = hits[p].distance * X8::lit(COVERED);
-            let mut beside = None;
-            if let Some(sky) = scene.sky.as_ref().filter(|_| missed.any()) {
-                let (seen, shown) = sky.sampled_radiance(point, direction);
-                beside = sky.sun_beside().map(|sun| sun.radiance_and_pdf(point, direction));
-                radiance = V8::blend(missed, seen, radiance);
-                lit[p] = lit[p] | missed & shown;
-                if let Some(pmf) = pmf.as_ref().filter(|_| (missed & shown).any()) {
-                    light_pdf = select(missed, scene.lights.sky_pdf(pmf, point, normal, direction), light_pdf);
-                }
-            }
-            let factor = |light_pdf: X8| match heuristic {
-                None => factors[p],
-                Some(by) => factors[p] * by.weights([own[p], light_pdf])[0],
-            };
-            let mut color = found[p];
-            if let Some(lobe) = lobe {
-                let fit = lobe.evaluate(direction, direction.dot(normal));
-                color += keep(fit * (-one / own[p]), known.counted);
-                lit[p] = lit[p] & !known.dark;
-            }
-            found[p] = product(color, radiance) * factor(light_pdf);
-            if let Some((radiance, pdf)) = beside {
-                found[p] += product(color, keep(radiance, missed)) * factor(pdf);
-            }
-            if lobe.is_some() {
-                reflected[p] += keep(found[p], lit[p] & known.lit);
-                lit[p] = lit[p] & !known.lit;
-            }
-        }
-        self.add_unoccluded(count, &found, lit, &limit, &target, reflected);
-    }
-
     /// Adds what arrives along the shadow rays that are not occluded.
     #[inline(always)]
-    fn add_unoccluded(
+    pub(super) fn add_unoccluded(
         &mut self,
         count: usize,
         found: &[V8; GROUP],
