@@ -394,6 +394,48 @@ fn samplers_are_closed() {
     assert!(f64::from(sums[1]) > 0.99 * f64::from(sums[0]), "{} of {} samples are valid", sums[1], sums[0]);
 }
 
+/// The mean of 1/pdf over evenly spread samples is the solid angle of the light, and directions beside it have pdf 0.
+#[test]
+fn samplers_have_the_solid_angle() {
+    let mut random = Random::new(8);
+    let (mut count, side) = (0, 200);
+    for _ in 0..cases(200, 2_000) {
+        let Flat { place, corner, s, t } = flat(&mut random);
+        // a sharp lobe has few samples in most of a large light
+        let place = Place { alpha: place.alpha.max(0.5), ..place };
+        let reflection = place.reflection::<f64>();
+        let [c, u, v] = [corner, s, t].map(vector::<f64>);
+        // what the horizon hides is not sampled; seen edge-on, a light has samples in a sliver
+        let low = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]]
+            .map(|[x, y]| dot(unit(along(along(corner, s, x), t, y)), place.normal))
+            .into_iter()
+            .fold(1.0, f64::min);
+        let facing = dot(unit(cross(s, t)), unit(corner)).abs();
+        if low < 0.1 || facing < 0.1 || dot(place.view, place.normal) < 0.1 {
+            continue;
+        }
+        count += 1;
+        let triangle = Triangle { v0: c, e1: u, e2: v };
+        let parallelogram = Parallelogram::new(c, u, v);
+        let origin = Vec3::default();
+        let samplers: [(&dyn LightSampler<f64>, f64); 2] = [
+            (&triangle.by_reflection(origin, &reflection), triangle.by_solid_angle(origin).solid_angle()),
+            (&parallelogram.by_reflection(origin, &reflection), parallelogram.by_solid_angle(origin).solid_angle()),
+        ];
+        for (sampler, truth) in samplers {
+            let at = |k: usize| (k as f64 + 0.5) / f64::from(side);
+            let places = (0..(side * side) as usize).map(|k| Vec2::new(at(k / side as usize), at(k % side as usize)));
+            let mean = places.map(|u| 1.0 / sampler.sample(u).pdf).sum::<f64>() / f64::from(side * side);
+            assert!((mean / truth - 1.0).abs() < 5e-3, "{place:?} {corner:?} {s:?} {t:?}: {mean}, not {truth}");
+            for [x, y] in [[-0.01, 0.3], [0.3, -0.01], [1.01, 0.3], [0.7, 1.01]] {
+                let beside = vector(unit(along(along(corner, s, x), t, y)));
+                assert_eq!((sampler.pdf(beside), sampler.hit(beside).pdf), (0.0, 0.0));
+            }
+        }
+    }
+    assert!(count > 20, "{count} lights");
+}
+
 /// A packet has the bits of its lanes.
 #[test]
 fn lanes_have_the_bits_of_scalars() {
