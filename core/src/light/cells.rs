@@ -7,6 +7,9 @@ use crate::vector::Vec2;
 /// Steps of `u` in the unit interval, and the greatest number of columns and of rows.
 pub(super) const STEPS: f64 = 16_777_216.0;
 
+/// The least sum of shares times densities by which steps are divided.
+const LEAST_SUM: f64 = 1e-30;
+
 /// The part of the unit square of surface coordinates that a light covers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Region {
@@ -350,8 +353,8 @@ impl<R: Real> Span<R> {
             let first = seen[0] + seen[1];
             let second = first + seen[2];
             let sum = second + seen[3];
-            // where the measure leaves nothing, the weight decides
-            let some = differ & sum.gt(zero);
+            // where the measure leaves nothing, or so little that the quotient below overflows, the weight decides
+            let some = differ & sum.gt(R::lit(LEAST_SUM));
             lit = core::array::from_fn(|k| lit[k] & (!some | seen[k].gt(zero)));
             before = [R::blend(some, seen[0], a), R::blend(some, first, b), R::blend(some, second, c)];
             whole = R::blend(some, sum, one);
