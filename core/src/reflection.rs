@@ -137,6 +137,17 @@ impl<R: Real> Reflection<R> {
     pub fn schlick(&self) -> R {
         self.schlick
     }
+    /// The rows of the matrix of [`to_cosine`](Self::to_cosine).
+    #[inline(always)]
+    pub(crate) fn rows(&self) -> [Vec3<R>; 3] {
+        let Frame { s, t, n } = self.frame;
+        [n.mul_add(self.b, s) * self.a, t * self.c, n]
+    }
+    /// The determinant of the map, and the tangent of the angle from the normal to the direction that it takes there.
+    #[inline(always)]
+    pub(crate) fn shape(&self) -> [R; 2] {
+        [self.a * self.c, self.b]
+    }
     /// The linear map, from the space of the vectors given to the one where the lobe is a cosine about z. Lengths change.
     #[inline(always)]
     pub fn to_cosine(&self, v: Vec3<R>) -> Vec3<R> {

@@ -8,18 +8,24 @@
 //! | [`LightTree`] | by the expected cosines and distances of sets of lights, per shading point | 0.2 µs a lane for 10³ lights, 0.4 for 10⁵ | more than 32 lights, of all kinds |
 //! | [`Allocation`] | the light's share of the samples of a pixel | none per sample | the same, where a set of samples is planned in advance |
 //!
+//! `at_glossy` of [`SpatialLights`] and of [`LightTree`] chooses in view of a [`Gloss`]: of what a rough surface reflects towards the viewer.
+//! Above a floor of roughness α = 0.1, seen at 60° from its normal, that divides the variance of a choice among 4,096 lamps by 5
+//! (`cargo test -p etendue-tests --test gloss -- --nocapture`).
+//!
 //! All of them implement [`LightChoice`]. The estimator divides by the `pmf` of the choice times the pdf of the sample on the light. The
 //! method [`pmf`](LightChoice::pmf) returns the same bits, for multiple importance sampling: a light that another technique hits has a
 //! probability too. Every light that can contribute has a positive pmf.
 
 mod allocation;
 mod bound;
+mod gloss;
 mod power;
 mod spatial;
 mod tree;
 
 pub use allocation::{Allocated, Allocation};
 pub use bound::LightBound;
+pub use gloss::Gloss;
 pub use power::PowerLights;
 pub use spatial::{LightsAt, SpatialLights};
 pub use tree::{Join, LightTree, NO_LIGHT, Node8, Sequential, TreeAt, TreeChild, TreeWords, TreeWordsAt};

@@ -1,6 +1,6 @@
 //! Choice of lights by what they can contribute to a point.
 
-use super::{Choice, FEW, LightBound, LightChoice};
+use super::{Choice, FEW, Gloss, LightBound, LightChoice};
 use crate::discrete::TableError;
 use crate::real::{Real, Uint, unit_interval};
 use crate::vector::Vec3;
@@ -41,6 +41,10 @@ pub struct SpatialLights {
 const FARTHEST: f64 = (1_u64 << 30) as f64;
 /// The least radius relative to the extent of the lights, and the least power relative to the strongest.
 const SMALL: f32 = 1.0 / (1_u64 << 50) as f32;
+/// The variance of the points of a light along an axis, relative to its squared radius: between that of a ball and that of a square.
+const VARIANCE: f64 = 1.0 / 6.0;
+/// The greatest weight of a light on a glossy surface, so that the sum is finite.
+const GREATEST: f64 = 1e35;
 /// The least weight of a light that can contribute, if all weights are smaller.
 const LEAST: f64 = 1.0 / (1_u128 << 100) as f64;
 
@@ -89,6 +93,15 @@ impl SpatialLights {
     /// The choice for points `p` of surfaces with unit normals `n`, on the side of `n`.
     #[inline(always)]
     pub fn at<R: Real>(&self, p: Vec3<R>, n: Vec3<R>) -> LightsAt<R> {
+        self.weigh(p, n, None)
+    }
+    /// The same for glossy surfaces, by what they reflect towards the viewer.
+    #[inline]
+    pub fn at_glossy<R: Real>(&self, p: Vec3<R>, n: Vec3<R>, gloss: &Gloss<R>) -> LightsAt<R> {
+        self.weigh(p, n, Some(gloss))
+    }
+    #[inline(always)]
+    fn weigh<R: Real>(&self, p: Vec3<R>, n: Vec3<R>, gloss: Option<&Gloss<R>>) -> LightsAt<R> {
         let lit = |x: f32| R::lit(f64::from(x));
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         // a point that is farther than this keeps its direction; at the origin, the quotient is infinite
@@ -109,6 +122,11 @@ impl SpatialLights {
                 if light.two_sided { facing.abs() } else { facing.greater(zero) }
             };
             *weight = cos * facing * (lit(light.power) * inverse * inverse);
+            if let Some(gloss) = gloss {
+                let variance = radius * radius * R::lit(VARIANCE);
+                *weight =
+                    (*weight * gloss.factor(to, Vec3::new(variance, variance, variance))).lesser(R::lit(GREATEST));
+            }
             sum += *weight;
         }
         let least = (sum * R::lit(1.0 / 262_144.0)).greater(R::lit(LEAST));

@@ -5,7 +5,7 @@ mod node;
 mod part;
 mod words;
 
-use super::{Choice, LightBound, LightChoice};
+use super::{Choice, Gloss, LightBound, LightChoice};
 use crate::discrete::TableError;
 use crate::real::{Real, Uint};
 use crate::vector::Vec3;
@@ -177,7 +177,13 @@ impl<'a> LightTree<'a> {
     #[must_use]
     pub fn at<R: Real>(&self, p: Vec3<R>, n: Vec3<R>) -> TreeAt<'a, R> {
         let scale = self.nodes.first().map_or(1.0, |root| f32::from_bits(root.link));
-        TreeAt { tree: *self, p: node::scaled(p, R::lit(f64::from(scale))), n }
+        TreeAt { tree: *self, p: node::scaled(p, R::lit(f64::from(scale))), n, gloss: None }
+    }
+    /// The same for glossy surfaces, by what they reflect towards the viewer.
+    #[inline]
+    #[must_use]
+    pub fn at_glossy<R: Real>(&self, p: Vec3<R>, n: Vec3<R>, gloss: &Gloss<R>) -> TreeAt<'a, R> {
+        TreeAt { gloss: Some(*gloss), ..self.at(p, n) }
     }
 }
 
@@ -187,9 +193,14 @@ pub struct TreeAt<'a, R: Real> {
     tree: LightTree<'a>,
     p: Vec3<R>,
     n: Vec3<R>,
+    gloss: Option<Gloss<R>>,
 }
 
 impl<'a, R: Real> TreeAt<'a, R> {
+    #[inline(always)]
+    fn gloss(&self, lane: usize) -> Option<Gloss<f32>> {
+        self.gloss.map(|gloss| gloss.map(|x| x.lane_f64(lane) as f32))
+    }
     #[inline(always)]
     fn place(&self, lane: usize) -> Place<f32> {
         let [p, n] = [self.p, self.n].map(|v| {
@@ -217,9 +228,9 @@ impl<'a, R: Real> TreeAt<'a, R> {
         for _ in 0..DEEPEST {
             let mut shares = [Shares::default(); MOST_LANES];
             let mut more = false;
-            for (shares, lane) in shares.iter_mut().zip(&lanes[..R::LANES]) {
+            for (index, (shares, lane)) in shares.iter_mut().zip(&lanes[..R::LANES]).enumerate() {
                 if let Some(node) = self.tree.nodes.get(lane.node as usize) {
-                    *shares = node.shares(&lane.place);
+                    *shares = node.shares(&lane.place, self.gloss(index).as_ref());
                     more = true;
                 }
             }
@@ -243,7 +254,7 @@ impl<'a, R: Real> TreeAt<'a, R> {
     pub fn shares(&self, lane: usize, node: u32) -> [(u32, TreeChild); 8] {
         let place = self.place(lane);
         let Some(node) = self.tree.nodes.get(node as usize) else { return [(0, TreeChild::Nothing); 8] };
-        let shares = node.shares(&place);
+        let shares = node.shares(&place, self.gloss(lane).as_ref());
         core::array::from_fn(|slot| {
             let child = match node.child[slot] {
                 NONE => TreeChild::Nothing,
@@ -303,7 +314,7 @@ pub enum TreeChild {
 impl LightTree<'_> {
     /// The pmf of a light, by the same products.
     #[inline]
-    fn pmf(&self, at: &Place<f32>, light: u32) -> f32 {
+    fn pmf(&self, at: &Place<f32>, gloss: Option<&Gloss<f32>>, light: u32) -> f32 {
         let Some(&place) = self.places.get(light as usize) else { return 0.0 };
         let (mut path, mut levels, mut link) = ([0; DEEPEST], 0, place);
         while levels < DEEPEST {
@@ -317,7 +328,7 @@ impl LightTree<'_> {
         let mut pmf = 1.0_f32;
         for &link in path[..levels].iter().rev() {
             let Some(node) = self.nodes.get((link >> 3) as usize) else { return 0.0 };
-            let share = node.shares(at).of((link & 7) as usize);
+            let share = node.shares(at, gloss).of((link & 7) as usize);
             if share == 0 {
                 return 0.0;
             }
@@ -335,6 +346,7 @@ impl<R: Real> LightChoice<R> for TreeAt<'_, R> {
     }
     #[inline]
     fn pmf(&self, index: R::Uint) -> R {
-        R::from_fn(|lane| R::Scalar::lit(f64::from(self.tree.pmf(&self.place(lane), index.lane(lane)))))
+        let pmf = |lane: usize| self.tree.pmf(&self.place(lane), self.gloss(lane).as_ref(), index.lane(lane));
+        R::from_fn(|lane| R::Scalar::lit(f64::from(pmf(lane))))
     }
 }

@@ -2,8 +2,10 @@
 
 use crate::figures::{Figures, Lanes, List, Routine};
 use etendue::discrete::{AliasTable, PiecewiseConstant1d, PiecewiseConstant2d};
+use etendue::reflection::Reflection;
 use etendue::select::{
-    Allocation, Choice, FEW, LightBound, LightChoice, LightTree, Node8, PowerLights, SpatialLights, UniformLights,
+    Allocation, Choice, FEW, Gloss, LightBound, LightChoice, LightTree, Node8, PowerLights, SpatialLights,
+    UniformLights,
 };
 use etendue::{Mask, Real, Uint, Warp, Warp1};
 use etendue_properties::generators::{self, Random};
@@ -42,6 +44,9 @@ fn sets(count: usize, slots: usize) -> Vec<Set> {
     Regime::ALL.into_iter().enumerate().map(set).collect()
 }
 
+/// Directions to viewers.
+const VIEWS: [[f32; 3]; 4] = [[0.6, 0.0, 0.8], [0.0, -0.28, 0.96], [0.8, -0.6, 0.0], [-0.36, 0.48, -0.8]];
+
 /// The choices of one kind.
 #[derive(Clone, Copy)]
 enum ChoiceKind {
@@ -49,6 +54,8 @@ enum ChoiceKind {
     Power,
     Spatial,
     Tree,
+    /// In a tree, and among few lights, in view of what glossy surfaces reflect.
+    Glossy,
 }
 struct Choices(ChoiceKind, Vec<Set>);
 
@@ -84,6 +91,13 @@ impl Routine for Choices {
                         let at = tree.at(p, n);
                         chosen(lanes, &at, &us, &lights);
                         choice(lanes, &at.choose_by([0, 1].map(|k| R::Uint::from_fn(|i| slots[i].3[k]))));
+                    }
+                    ChoiceKind::Glossy => {
+                        let some = |shift: u32| lanes_of::<R>(|i| f64::from(slots[i].3[0] >> shift & 255) / 255.0);
+                        let views = vectors_of::<R>(|i| VIEWS[slots[i].3[1] as usize % VIEWS.len()]);
+                        let gloss = Gloss::new(some(0), some(8), &Reflection::new(some(16), n, views));
+                        chosen(lanes, &tree.at_glossy(p, n, &gloss), &us, &lights);
+                        chosen(lanes, &spatial.at_glossy(p, n, &gloss), &us, &lights);
                     }
                 }
             });
@@ -169,6 +183,7 @@ pub(crate) fn add(list: &mut List<'_>) {
     list.add("choice/PowerLights", &Choices(ChoiceKind::Power, sets(50, 4 * Figures::MOST)));
     list.add("choice/SpatialLights", &Choices(ChoiceKind::Spatial, sets(12, 8 * Figures::MOST)));
     list.add("choice/LightTree", &Choices(ChoiceKind::Tree, sets(200, 8 * Figures::MOST)));
+    list.add("choice/glossy", &Choices(ChoiceKind::Glossy, sets(200, 4 * Figures::MOST)));
     list.add("choice/Allocation", &Allocations);
     list.add("tables", &Tables);
 }

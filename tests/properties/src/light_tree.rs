@@ -5,7 +5,7 @@ mod regimes;
 
 use crate::properties::{lanes_of, twice, vectors_of};
 use etendue::select::{
-    Choice, Join, LightBound, LightChoice, LightTree, NO_LIGHT, Node8, Sequential, TreeAt, TreeChild,
+    Choice, Gloss, Join, LightBound, LightChoice, LightTree, NO_LIGHT, Node8, Sequential, TreeAt, TreeChild,
 };
 use etendue::{Real, Uint, f32x4, f32x8, f32x16, u32x4, u32x8, u32x16};
 pub use lamp::{Lamp, LampKind};
@@ -217,6 +217,24 @@ impl Grove {
         assert!((0.0..1.0).contains(&u) && (0.0..=1.0).contains(&pmf), "{choice:?} at {place:?}");
         assert_eq!(pmf == 0.0, index == NO_LIGHT, "{choice:?} at {place:?}");
         assert!(index == NO_LIGHT || (index as usize) < self.bounds.len(), "{choice:?} at {place:?}");
+    }
+
+    /// **Gloss loses no light**: with it, the same lights have a pmf as without, and the pmf of a choice is the one that is evaluated.
+    ///
+    /// # Panics
+    /// If that is not so.
+    pub fn glossy(&self, place: Place, gloss: &Gloss<f32>, u: f32) {
+        let (matt, glossy) = (self.at(place), self.tree().at_glossy(place.0.into(), place.1.into(), gloss));
+        let count = self.bounds.len() as u32;
+        for light in (0..count).step_by(1 + self.bounds.len() / 100) {
+            let (without, with) = (matt.pmf(light), glossy.pmf(light));
+            assert_eq!(without > 0.0, with > 0.0, "light {light} at {place:?}: {without:e}, {with:e} with {gloss:?}");
+        }
+        let choice = glossy.choose(u);
+        let Choice { index, pmf, u } = choice;
+        assert_eq!(glossy.pmf(index).to_bits(), pmf.to_bits(), "two pmfs: {choice:?} at {place:?} with {gloss:?}");
+        assert!((0.0..1.0).contains(&u) && (0.0..=1.0).contains(&pmf), "{choice:?} at {place:?} with {gloss:?}");
+        assert_eq!(pmf == 0.0, index == NO_LIGHT, "{choice:?} at {place:?} with {gloss:?}");
     }
 
     /// **No light is lost**: a light with a sample that contributes has a pmf. Returns whether this one has.

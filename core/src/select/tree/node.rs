@@ -3,6 +3,7 @@
 use super::part::{Part, SMALL, WEAK};
 use crate::memory::Memory;
 use crate::real::{Mask, Real, Uint, unit_interval};
+use crate::select::Gloss;
 use crate::vector::Vec3;
 use wide::{f32x8, u32x8};
 
@@ -82,9 +83,9 @@ impl<C: Real> Children<C> {
         }
     }
     /// Their weights at a point of a surface, and whether they can contribute. `plain` says that none is a spot light or emits from both
-    /// sides.
+    /// sides. On glossy surfaces, the weights are by what these reflect.
     #[inline(always)]
-    pub(super) fn weigh(&self, plain: bool, at: &Place<C>) -> (C, C::Mask) {
+    pub(super) fn weigh(&self, plain: bool, at: &Place<C>, gloss: Option<&Gloss<C>>) -> (C, C::Mask) {
         let lit = C::lit;
         let zero = lit(0.0);
         let Place { p, n, slope, squares } = *at;
@@ -132,7 +133,10 @@ impl<C: Real> Children<C> {
         };
         let front = front.lesser(distance);
         let bright = bound.gt(zero) & front.gt(zero) & power.gt(zero);
-        let cosines = fused(bound * front, lit(4.0 * BOUND), estimate * facing);
+        let mut cosines = fused(bound * front, lit(4.0 * BOUND), estimate * facing);
+        if let Some(gloss) = gloss {
+            cosines = cosines * gloss.factor(v, varied * scale);
+        }
         ((power * cosines / (mean * squared)).keep(bright), bright)
     }
 }
@@ -305,8 +309,9 @@ impl Node8 {
 
     /// The children's shares at a point of a surface.
     #[inline(always)]
-    pub(super) fn shares(&self, at: &Place<f32>) -> Shares {
-        let (weight, bright) = self.children().weigh(self.plain != 0, &at.splat());
+    pub(super) fn shares(&self, at: &Place<f32>, gloss: Option<&Gloss<f32>>) -> Shares {
+        let gloss = gloss.map(|gloss| Gloss::splat(*gloss));
+        let (weight, bright) = self.children().weigh(self.plain != 0, &at.splat(), gloss.as_ref());
         let bright = bright.bits();
         let sum = |w: [f32; 8]| ((w[0] + w[1]) + (w[2] + w[3])) + ((w[4] + w[5]) + (w[6] + w[7]));
         let lanes = <f32x8 as Real>::Mask::from_bits(bright);

@@ -81,7 +81,7 @@ impl<R: Real, M: Memory<R>> TreeWordsAt<R, M> {
         let step = |(weights, [slot, bit, bright]): State<R, 8, 3>, going: [R::Mask; 1]| {
             let child = Children::read(&self.tree.memory, first.wrapping_add(slot));
             // what a node of plain lights leaves out changes no bit
-            let (weight, contributes) = child.weigh(false, &self.place);
+            let (weight, contributes) = child.weigh(false, &self.place, None);
             let weights = core::array::from_fn(|k| {
                 let is_other = R::has_bits(slot ^ word(k as u32));
                 R::blend(is_other, weights[k], weight)

@@ -4,6 +4,8 @@ use super::Input;
 use crate::generators::Random;
 use crate::light_tree::{Grove, Lamp, LampKind, Regime, place};
 use crate::techniques::LightShape;
+use etendue::reflection::Reflection;
+use etendue::select::Gloss;
 
 const KINDS: [LampKind; 6] = [
     LampKind::Area(LightShape::Triangle),
@@ -74,5 +76,11 @@ pub(super) fn light_tree(input: &mut Input<'_>) {
         for light in lights {
             grove.law(place, light, &lamps[light], input.square());
         }
+    }
+    for &place in &places {
+        // rows of the table and beyond it, seen from above and from below
+        let (alpha, view) = (input.number(), input.direction());
+        let gloss = Gloss::new(input.unit(), input.unit(), &Reflection::new(alpha, place.1.into(), view.into()));
+        grove.glossy(place, &gloss, input.unit());
     }
 }
