@@ -39,7 +39,7 @@ use crate::technique::Measure;
 pub use chosen::{Chosen, Drawn};
 use directed::{DirectedLight, directed_lights};
 use etendue::light::Spread;
-use etendue::select::{Allocated, Choice, FEW, LightBound, LightChoice, LightsAt, SpatialLights};
+use etendue::select::{Allocated, Choice, FEW, Gloss, LightBound, LightChoice, LightsAt, SpatialLights};
 use etendue::{
     DirectionalLight, LightSample, LightSampler, Mask, Parallelogram, PointLight, Real, Sphere, SpotLight, Triangle,
     Vec2, u32x8,
@@ -231,22 +231,25 @@ impl Lights {
     pub fn contributions(&self, p: V8, normal: V8) -> Option<LightsAt<X8>> {
         self.spatial.as_ref().map(|lights| lights.at(p, normal))
     }
-    /// Chooses a light for each of these points of surfaces by what it can contribute. The second number is for the tree of many lights.
+    /// Chooses a light for each of these points of surfaces by what it can contribute, in view of what glossy ones reflect. The second number
+    /// is for the tree of many lights.
     #[inline(always)]
-    pub fn choose(&self, p: V8, normal: V8, [u, second]: [X8; 2]) -> Choice<X8> {
-        match &self.spatial {
-            Some(lights) => lights.at(p, normal).choose(u),
-            None if self.len() == 1 => Choice { index: u32x8::splat(0), pmf: X8::lit(1.0), u },
-            None => self.many.at(p, normal).choose(u, second),
+    pub fn choose(&self, p: V8, normal: V8, gloss: Option<&Gloss<X8>>, [u, second]: [X8; 2]) -> Choice<X8> {
+        match (&self.spatial, gloss) {
+            (Some(lights), None) => lights.at(p, normal).choose(u),
+            (Some(lights), Some(gloss)) => lights.at_glossy(p, normal, gloss).choose(u),
+            _ if self.len() == 1 => Choice { index: u32x8::splat(0), pmf: X8::lit(1.0), u },
+            _ => self.many.at(p, normal, gloss).choose(u, second),
         }
     }
     /// The probabilities with which [`choose`](Self::choose) chooses at these points.
     #[inline(always)]
-    pub fn pmf(&self, p: V8, normal: V8) -> LightPmf<'_> {
-        match &self.spatial {
-            Some(lights) => LightPmf::Near(lights.at(p, normal)),
-            None if self.len() == 1 => LightPmf::One,
-            None => LightPmf::Many(self.many.at(p, normal)),
+    pub fn pmf(&self, p: V8, normal: V8, gloss: Option<&Gloss<X8>>) -> LightPmf<'_> {
+        match (&self.spatial, gloss) {
+            (Some(lights), None) => LightPmf::Near(lights.at(p, normal)),
+            (Some(lights), Some(gloss)) => LightPmf::Near(lights.at_glossy(p, normal, gloss)),
+            _ if self.len() == 1 => LightPmf::One,
+            _ => LightPmf::Many(self.many.at(p, normal, gloss)),
         }
     }
     /// Lights with these indices.

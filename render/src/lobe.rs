@@ -1,7 +1,8 @@
 //! What is nearly the light that rough surfaces reflect, with closed forms: the fit of a metal's or a coat's BSDF.
 
-use crate::packet::{M8, V8, X8, max, min};
+use crate::packet::{M8, V8, X8, max, min, select};
 use etendue::reflection::Reflection;
+use etendue::select::Gloss;
 use etendue::{Real, Warp};
 use std::f64::consts::FRAC_1_PI;
 
@@ -44,7 +45,17 @@ pub fn cosine_of_schlick(weight: X8) -> X8 {
     min(max(one - root, X8::lit(0.0)), one)
 }
 
+/// The least albedo of the diffuse part in a choice of lights, which makes up for what the fit lacks far from the lobe.
+const LEAST_DIFFUSE: f64 = 1e-3;
+
 impl Lobe {
+    /// What the choice of lights depends on; other lanes than those with a fit are diffuse.
+    #[inline]
+    pub fn gloss(&self) -> Gloss<X8> {
+        let most = |v: V8| max(max(v.x, v.y), v.z);
+        let diffuse = max(most(self.diffuse), X8::lit(LEAST_DIFFUSE));
+        Gloss::new(select(self.lanes, diffuse, X8::lit(1.0)), most(self.specular).keep(self.lanes), &self.reflection)
+    }
     /// The fit of f cosθ in the unit direction `w`, per steradian, below the cosine `cos` to the normal.
     #[inline]
     pub fn evaluate(&self, w: V8, cos: X8) -> V8 {

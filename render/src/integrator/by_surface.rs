@@ -6,6 +6,7 @@ use super::paths::{COVERED, Paths};
 use crate::bsdf::Scattered;
 use crate::bvh::{GROUP, Hits, NOTHING, SHAPE};
 use crate::lights::LightPmf;
+use crate::lobe::Lobe;
 use crate::packet::{M8, V8, X8, pick, select};
 use crate::surfaces::Surface;
 use etendue::select::Allocated;
@@ -64,7 +65,10 @@ impl Paths<'_> {
             let weighted = heuristic.is_some() && (met.any() || scene.sky.is_some());
             let pmf = weighted.then(|| match allocated.get(p) {
                 Some(allocated) => LightPmf::Allocated(allocated),
-                None => scene.lights.pmf(point, normal),
+                None => {
+                    let gloss = self.lobes[p].as_ref().filter(|_| METAL && !is_closed).map(Lobe::gloss);
+                    scene.lights.pmf(point, normal, gloss.as_ref())
+                }
             });
             lit[p] = M8::splat(false);
             world.each_shape(&hits[p], met, rays, |index, here, shape, outward| {

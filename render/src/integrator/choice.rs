@@ -5,7 +5,7 @@ use crate::lights::Lights;
 use crate::packet::{M8, X8, equal, pick, select};
 use crate::sky::SunBeside;
 use crate::surfaces::Surface;
-use etendue::select::{Allocated, Choice, LightChoice};
+use etendue::select::{Allocated, Choice, Gloss, LightChoice};
 use etendue::{Mask, Real, u32x8};
 
 /// Which light is sampled.
@@ -24,13 +24,14 @@ pub(super) enum Which<'a> {
 
 impl Which<'_> {
     /// Chooses a light for each lane of a packet by random numbers, of which the second is for many lights. Returns the lanes that sample
-    /// it, too. On `rough` surfaces, all lights are sampled, and their pmf is that of the allocation.
+    /// it, too. On `rough` surfaces, all lights are sampled, and their pmf is that of the allocation. A light that is neither given nor
+    /// allocated is chosen in view of the gloss.
     #[inline(always)]
     pub(super) fn choose(
         &self,
         lights: &Lights,
         surface: &Surface,
-        rough: M8,
+        (rough, gloss): (M8, Option<&Gloss<X8>>),
         packet: usize,
         [number, second]: [X8; 2],
     ) -> (Choice<X8>, M8) {
@@ -42,7 +43,7 @@ impl Which<'_> {
             }
             Self::Chosen(allocated) => match allocated.get(packet) {
                 Some(allocated) => (allocated.choose(number), all),
-                None => (lights.choose(surface.point, surface.normal, [number, second]), all),
+                None => (lights.choose(surface.point, surface.normal, gloss, [number, second]), all),
             },
             Self::Among(open) => among(lights, surface, all, packet, number, open),
             Self::Expected(allocated, expected, open) => {

@@ -217,7 +217,7 @@ impl<'a> Paths<'a> {
         }
         let lights = self.sampled();
         let all = lights.len();
-        if self.analytic.is_some() {
+        if self.analytic.is_some() || METAL && lights.len() > 1 {
             self.note_glossy(count);
         }
         if let Some(analytic) = self.analytic.as_mut().filter(|analytic| !analytic.is_hopeless()) {
@@ -368,7 +368,8 @@ impl<'a> Paths<'a> {
             let mut u = numbers.light[p];
             let [number, second] = numbers.choice.map_or([u.x, zero], |choice| [choice[p].x, choice[p].y]);
             let rough = if METAL { ends[p].rough() } else { M8::splat(false) };
-            let (choice, lanes) = which.choose(lights, surface, rough, p, [number, second]);
+            let gloss = lobes[p].as_ref().filter(|_| METAL && !is_closed).map(Lobe::gloss);
+            let (choice, lanes) = which.choose(lights, surface, (rough, gloss.as_ref()), p, [number, second]);
             if numbers.choice.is_none() {
                 u.x = choice.u;
             }

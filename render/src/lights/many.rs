@@ -3,7 +3,7 @@
 use super::tree::{OwnedTree, Threads};
 use crate::bvh::BuildError;
 use crate::packet::{V8, X8, equal, pick, select};
-use etendue::select::{Choice, LightBound, LightChoice, PowerLights, TreeAt};
+use etendue::select::{Choice, Gloss, LightBound, LightChoice, PowerLights, TreeAt};
 use etendue::{Real, u32x8};
 
 /// Tables of any number of lights.
@@ -43,8 +43,10 @@ impl ManyLights {
     }
     /// The choice for points of surfaces.
     #[inline]
-    pub(super) fn at(&self, p: V8, normal: V8) -> ManyAt<'_> {
-        ManyAt { lights: self, tree: self.tree.get().at(p, normal) }
+    pub(super) fn at(&self, p: V8, normal: V8, gloss: Option<&Gloss<X8>>) -> ManyAt<'_> {
+        let tree = self.tree.get();
+        let tree = gloss.map_or_else(|| tree.at(p, normal), |gloss| tree.at_glossy(p, normal, gloss));
+        ManyAt { lights: self, tree }
     }
 }
 
@@ -116,7 +118,7 @@ mod tests {
             };
             let bounds: Vec<_> = (0..count).map(bound).collect();
             let lights = ManyLights::new(&bounds, &powers, is_distant).unwrap();
-            let at = lights.at(V8::lit([50.0, 50.0, 0.0]), V8::lit([0.0, 0.0, 1.0]));
+            let at = lights.at(V8::lit([50.0, 50.0, 0.0]), V8::lit([0.0, 0.0, 1.0]), None);
             let pmf: Vec<f64> = (0..count as u32).map(|i| f64::from(at.pmf(i).as_array()[0])).collect();
             assert!((pmf.iter().sum::<f64>() - 1.0).abs() < 1e-5, "{count}: {}", pmf.iter().sum::<f64>());
             assert!(powers.iter().zip(&pmf).all(|(power, pmf)| (*power > 0.0) == (*pmf > 0.0)));
@@ -145,7 +147,7 @@ mod tests {
     fn below_all_lights_there_is_none() {
         let bound = |i: usize| LightBound { center: [i as f32, 0.0, 1.0], power: 1.0, ..LightBound::default() };
         let lights = ManyLights::new(&[0, 1, 2].map(bound), &[1.0; 3], |_| false).unwrap();
-        let choice = lights.at(V8::default(), V8::lit([0.0, 0.0, -1.0])).choose(X8::lit(0.3), X8::lit(0.6));
+        let choice = lights.at(V8::default(), V8::lit([0.0, 0.0, -1.0]), None).choose(X8::lit(0.3), X8::lit(0.6));
         assert_eq!((choice.pmf, choice.index), (X8::lit(0.0), u32x8::splat(0)));
     }
 }

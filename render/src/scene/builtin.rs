@@ -1,7 +1,7 @@
 //! The built-in scenes.
 
 /// Name and description of each scene.
-pub(super) const DESCRIBED: [(&str, &str); 13] = [
+pub(super) const DESCRIBED: [(&str, &str); 14] = [
     ("sphere-light", "two boxes under a sphere light outside the view"),
     ("triangle-light", "a box in front of a large, visible triangle light"),
     ("quads", "three boxes under five quadrilateral lights of very different sizes and powers"),
@@ -14,14 +14,15 @@ pub(super) const DESCRIBED: [(&str, &str); 13] = [
     ("defocus", "a row of spheres seen through a lens focused on the third"),
     ("chandelier", "a chandelier of 1,000 lights, bulbs and plates of glass, in a room"),
     ("city", "a city at night with 109,655 lights: windows, street lamps and cars"),
+    ("wet-city", "the city after rain: its streets reflect 109,655 lights"),
     ("knot", "a knot of neon tube, a mesh of 1,000,000 triangles that emit, above a floor"),
 ];
 
 /// How many of them, the last ones, have many lights.
-pub(super) const MANY_LIGHTS: usize = 3;
+pub(super) const MANY_LIGHTS: usize = 4;
 
 /// Name and text of each scene.
-pub(super) const BUILTIN: [(&str, &str); 13] = [
+pub(super) const BUILTIN: [(&str, &str); 14] = [
     (DESCRIBED[0].0, include_str!("../../scenes/sphere-light.pbrt")),
     (DESCRIBED[1].0, include_str!("../../scenes/triangle-light.pbrt")),
     (DESCRIBED[2].0, include_str!("../../scenes/quads.pbrt")),
@@ -34,7 +35,8 @@ pub(super) const BUILTIN: [(&str, &str); 13] = [
     (DESCRIBED[9].0, include_str!("../../scenes/defocus.pbrt")),
     (DESCRIBED[10].0, include_str!("../../scenes/chandelier.pbrt")),
     (DESCRIBED[11].0, include_str!("../../scenes/city.pbrt")),
-    (DESCRIBED[12].0, include_str!("../../scenes/knot.pbrt")),
+    (DESCRIBED[12].0, include_str!("../../scenes/wet-city.pbrt")),
+    (DESCRIBED[13].0, include_str!("../../scenes/knot.pbrt")),
 ];
 
 /// Images that these scenes refer to.

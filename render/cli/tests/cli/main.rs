@@ -473,6 +473,7 @@ fn list_names_everything() {
         "defocus",
         "chandelier",
         "city",
+        "wet-city",
         "knot",
         "techniques",
         "uniform-hemisphere",

@@ -29,7 +29,12 @@ fn grouped(n: usize) -> String {
 
 #[test]
 fn descriptions_state_the_number_of_lights() {
-    let expected = [("chandelier", 29_548, 1_000), ("city", 193_156, 109_655), ("knot", 28, 1_000_000)];
+    let expected = [
+        ("chandelier", 29_548, 1_000),
+        ("city", 193_156, 109_655),
+        ("wet-city", 193_156, 109_655),
+        ("knot", 28, 1_000_000),
+    ];
     let (few, many) = builtin().split_at(builtin_of_few_lights().len());
     assert_eq!(few, builtin_of_few_lights());
     for (name, _) in few {
