@@ -7,8 +7,8 @@ use crate::vector::Vec2;
 /// Steps of `u` in the unit interval, and the greatest number of columns and of rows.
 pub(super) const STEPS: f64 = 16_777_216.0;
 
-/// The least sum of shares times densities by which steps are divided.
-const LEAST_SUM: f64 = 1e-30;
+/// All steps over this, divided by the least number above 0, are finite.
+const UNIT: f64 = (1_u128 << 64) as f64;
 
 /// The part of the unit square of surface coordinates that a light covers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -353,8 +353,8 @@ impl<R: Real> Span<R> {
             let first = seen[0] + seen[1];
             let second = first + seen[2];
             let sum = second + seen[3];
-            // where the measure leaves nothing, or so little that the quotient below overflows, the weight decides
-            let some = differ & sum.gt(R::lit(LEAST_SUM));
+            // where the measure leaves nothing, the weight decides
+            let some = differ & sum.gt(zero);
             lit = core::array::from_fn(|k| lit[k] & (!some | seen[k].gt(zero)));
             before = [R::blend(some, seen[0], a), R::blend(some, first, b), R::blend(some, second, c)];
             whole = R::blend(some, sum, one);
@@ -362,9 +362,10 @@ impl<R: Real> Span<R> {
         let widths: [R; 4] = core::array::from_fn(|k| widths[k].keep(lit[k]));
         let kept = [widths[0], widths[0] + widths[1], (widths[0] + widths[1]) + widths[2]];
         let rest = all - (kept[2] + widths[3]);
-        let scale = if measured.is_some() { rest / whole } else { rest };
+        // in a unit in which no quotient overflows: slabs without weight stay dark
+        let (scale, unit) = if measured.is_some() { ((rest * R::lit(1.0 / UNIT)) / whole, UNIT) } else { (rest, 1.0) };
         core::array::from_fn(|k| {
-            let part = (before[k] * scale).round_ties_even().lesser(rest);
+            let part = (before[k] * scale * R::lit(unit)).round_ties_even().lesser(rest);
             // what reaches the whole leaves nothing
             kept[k] + R::blend(before[k].lt(whole), part, rest)
         })
