@@ -65,7 +65,7 @@ fn gloss_loses_no_light() {
             let grove = Grove::of(&lamps);
             let tree = grove.tree();
             let few = (count <= FEW).then(|| SpatialLights::new(&grove.bounds).unwrap());
-            for _ in 0..cases(1, 20) {
+            for _ in 0..cases(1, 10) {
                 let surfaces: [Surface; 8] = core::array::from_fn(|_| {
                     let (p, n) = place(regime, &lamps, &mut random).0;
                     Surface::new(wide(p), unit(wide(n)), &mut random)
@@ -156,7 +156,7 @@ fn choices_are_worth_their_gloss() {
         for alpha in [0.05, 0.1, 0.2, 0.4, 0.8] {
             for cos in [0.9, 0.5, 0.2] {
                 let mut sums = [0.0; 2];
-                let count = cases(20, 200);
+                let count = cases(10, 40);
                 for _ in 0..count {
                     let [x, y] = [(); 2].map(|()| 40.0 * random.unit_f64() - 20.0);
                     let turn = TAU * random.unit_f64();

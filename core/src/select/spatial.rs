@@ -124,8 +124,10 @@ impl SpatialLights {
             *weight = cos * facing * (lit(light.power) * inverse * inverse);
             if let Some(gloss) = gloss {
                 let variance = radius * radius * R::lit(VARIANCE);
-                *weight =
-                    (*weight * gloss.factor(to, Vec3::new(variance, variance, variance))).lesser(R::lit(GREATEST));
+                let glossy = *weight * gloss.factor(to, Vec3::new(variance, variance, variance));
+                // a light that can contribute does not vanish
+                let glossy = glossy.clamped(R::lit(f64::from(f32::MIN_POSITIVE)), R::lit(GREATEST));
+                *weight = glossy.keep(weight.gt(zero));
             }
             sum += *weight;
         }
