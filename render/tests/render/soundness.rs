@@ -10,7 +10,7 @@ use std::path::Path;
 
 /// Sides of images and of their regions in pixels.
 const SIDE: u32 = 32;
-const REGION: u32 = 8;
+const REGION: u32 = 16;
 /// Independent images.
 const SEEDS: u32 = 32;
 const REGIONS: usize = ((SIDE / REGION) * (SIDE / REGION)) as usize;
@@ -168,7 +168,7 @@ fn closed_forms_agree_with_samples_of_the_bsdf() {
     ];
     for (name, scene) in scenes.iter().take(cases(2, 6)) {
         let world = World::new(scene).unwrap();
-        let [ours, own] = moments(&world, Technique::Analytic, cases(4, 32));
+        let [ours, own] = moments(&world, Technique::Analytic, cases(4, 16));
         for (technique, spp) in [(Technique::Brdf, cases(32, 256)), (Technique::MisPower, cases(4, 32))] {
             let [means, variances] = moments(&world, technique, spp);
             let mut worst = 0.0_f64;
