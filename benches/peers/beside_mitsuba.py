@@ -1,5 +1,5 @@
-"""Compares the renderer with Mitsuba 3 on meshes with textures under ten lights and more, and under lights that show pictures, a panel
-with a spread, the sky through portals, and a luminaire of an IES file, at equal time on one core.
+"""Compares the renderer with Mitsuba 3 on meshes with textures under ten lights and more, under lights that show pictures, a panel with a
+spread, the sky through portals, and a luminaire of an IES file, and on glossy surfaces, at equal time on one core.
 
     pip install mitsuba numpy OpenEXR              # and LLVM, which DRJIT_LIBLLVM_PATH names
     cargo build --release
@@ -10,7 +10,8 @@ of independent samples, and the error and time of each. Seconds are those of ren
 over the pixels, relative to the mean, of the difference from an image of ours of many samples, less the error that this image claims.
 Mitsuba's is the best of four samplers and two integrators. Efficiency is 1/(error² × seconds). With an empty --spp, only means are compared:
 Mitsuba compiles for minutes where there are instances. What Mitsuba lacks, it gets as the nearest that it can have: the spread and the
-luminaire as emitters of `mitsuba_emitters.py`, and the whole sky for the portals.
+luminaire as emitters of `mitsuba_emitters.py`, glossy surfaces with correlated masking as those of `mitsuba_surfaces.py`, and the whole sky
+for the portals.
 """
 import argparse, json, math, os, statistics, subprocess, sys, time
 
@@ -36,6 +37,8 @@ mi.set_variant('llvm_ad_rgb')
 mi.set_log_level(mi.LogLevel.Error)
 dr.set_thread_count(1)
 import mitsuba_emitters  # registers them
+import mitsuba_surfaces
+from pbrt_reader import Reader
 
 T = mi.ScalarTransform4f
 
@@ -162,6 +165,8 @@ class Scene:
 
     def __init__(self, name, camera, target, fov):
         self.name, self.count, self.lights = name, 0, 0
+        # that our independent samples are compared by
+        self.technique = 'solid-angle'
         self.integrators = {'path, depth 2': dict(type='path', max_depth=2),
                             'direct, lights only': dict(type='direct', emitter_samples=1, bsdf_samples=0)}
         self.pbrt = ['Scale -1 1 1', f'LookAt {camera[0]} {camera[1]} {camera[2]}  {target[0]} {target[1]} {target[2]}  0 0 1',
@@ -281,6 +286,42 @@ class Scene:
         # shadow rays of other integrators stop at holes
         self.integrators = {'volpath, depth 2': dict(type='volpath', max_depth=2)}
 
+    def read(self, path):
+        """All of a file of pbrt, whose surfaces may be glossy."""
+        with open(path) as file:
+            self.pbrt = [file.read()]
+        reader = Reader(path)
+        self.mitsuba['sensor'].update(fov=reader.fov, to_world=T().look_at(origin=reader.origin, target=reader.target, up=reader.up))
+        self.triangles = 0
+        for k, shape in enumerate(reader.shapes):
+            kind, values = shape['material']
+            colour = lambda name: values.get(name, [0.5] * 3)
+            if kind == 'diffuse':
+                bsdf = dict(type='diffuse', reflectance=dict(type='rgb', value=colour('reflectance')))
+            else:
+                coated = kind == 'coateddiffuse'
+                # 0.04 is what an index of 1.5 reflects
+                red, green, blue = colour('reflectance')
+                bsdf = dict(type='glossy', alpha=values['roughness'][0], coated=coated, specular=0.04 if coated else red,
+                            red=red, green=green, blue=blue)
+            made = dict(bsdf=dict(type='twosided', bsdf=bsdf))
+            if shape['radiance']:
+                made['emitter'] = dict(type='area', radiance=dict(type='rgb', value=shape['radiance']))
+                self.lights += 1
+            if 'radius' in shape:
+                made.update(type='sphere', center=shape['center'], radius=shape['radius'])
+            else:
+                faces, points = np.array(shape['faces']), np.array(shape['points'])
+                path = os.path.join(OPTIONS.folder, f'{self.name}{k}.ply')
+                # corners of their own, since Mitsuba smooths what shares them
+                write_mesh(path, points[faces.ravel()], np.arange(faces.size).reshape(-1, 3))
+                made.update(type='ply', filename=path)
+                self.triangles += len(faces)
+            self.add(made)
+        # samples of the lights alone would miss the lobes
+        self.integrators = {'path, depth 2': dict(type='path', max_depth=2), 'direct': dict(type='direct')}
+        self.technique = 'auto'
+
     def write(self):
         path = os.path.join(OPTIONS.folder, self.name + '.pbrt')
         with open(path, 'w') as file:
@@ -388,6 +429,11 @@ def scenes():
     scene.mesh('gallery.ply', count, (0, 0, 0), 1, 0)
     scene.luminaire((1.1, 0.1, 2.9), washer())
     yield scene
+    render = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../render')
+    for file in ['scenes/plates', 'gallery/glossy/floor', 'gallery/glossy/varnish']:
+        scene = Scene(os.path.basename(file), (0, 0, 1), (0, 1, 0), 40)
+        scene.read(os.path.join(render, file + '.pbrt'))
+        yield scene
 
 
 def grove():
@@ -464,7 +510,7 @@ def main():
         reference, variance = moments([mitsuba_image(loaded['independent'], each, 'independent', direct, 100 + k)[0]
                                        for k in range(parts)])
         # another technique with independent samples, for which the standard error is plain
-        own, own_variance = moments([ours(path, each, 200 + k, 1, 'solid-angle', 'independent')[0] for k in range(parts)])
+        own, own_variance = moments([ours(path, each, 200 + k, 1, scene.technique, 'independent')[0] for k in range(parts)])
         spread = np.sqrt(variance.mean((0, 1)) + own_variance.mean((0, 1))) / SIZE
         z = (own.mean((0, 1)) - reference.mean((0, 1))) / spread
         pixels = (own - reference) / np.sqrt(variance + own_variance + 1e-20)

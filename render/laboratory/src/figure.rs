@@ -5,6 +5,7 @@ mod convergence;
 mod images;
 mod integrals;
 mod lights;
+mod lobes;
 mod shapes;
 mod sheet;
 mod studio;
@@ -71,6 +72,8 @@ pub enum Name {
     Defocus,
     /// Where geometry proves that a light is lit, dark, or behind few blockers, and where it must be sampled
     Certificates,
+    /// One light on glossy surfaces by every sampler: an atlas of lobes
+    Lobes,
     /// Variance and time of a choice among 10³ to 10⁶ lights
     Lights,
     /// A tree of lights as their number grows
@@ -98,6 +101,7 @@ impl Studio<'_> {
             Name::Vignetting => self.vignetting(),
             Name::Defocus => self.defocus(),
             Name::Certificates => self.certificates(),
+            Name::Lobes => Ok(lobes::lobes()),
             Name::Lights => self.lights(),
             Name::LightTreeScaling => Ok(self.light_tree_scaling()),
             Name::LightTreeNodes => self.light_tree_nodes(),

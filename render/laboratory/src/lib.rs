@@ -6,6 +6,7 @@
 //! - [`cost`]: time per sample, for these and for the benchmarks.
 //! - [`figure`]: figures about light sampling, with the numbers behind them.
 //! - [`interrupt`]: what ends the program from outside.
+//! - [`lobes`]: one light on glossy surfaces by every sampler, for the figure about them.
 //! - [`many_lights`]: choices among many lights, for the figures about them.
 //! - [`selftest`]: images of one scene by all techniques and samplers, which must agree.
 
@@ -16,5 +17,6 @@ pub mod cost;
 pub mod figure;
 mod hash;
 pub mod interrupt;
+pub mod lobes;
 pub mod many_lights;
 pub mod selftest;

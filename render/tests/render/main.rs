@@ -17,5 +17,6 @@ mod references;
 mod sampler;
 mod sensor;
 mod sky;
+mod soundness;
 mod variance;
 mod vignetting;
