@@ -10,6 +10,7 @@ mod environment;
 mod lights;
 mod pictures;
 mod portals;
+mod reflections;
 mod sequences;
 mod spread;
 mod tree;
@@ -50,6 +51,7 @@ fn extension(module: &Bound<'_, PyModule>) -> PyResult<()> {
     spread::add(module)?;
     daylight::add(module)?;
     warps::add(module)?;
+    reflections::add(module)?;
     emission::add(module)?;
     sequences::add(module)?;
     tree::add(module)

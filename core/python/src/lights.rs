@@ -1,8 +1,9 @@
 //! Lights, and lights prepared for a shading point.
 
 use crate::arrays::{Argument, FieldKind, array, broadcast, room, rows, run, zero_columns, zeros};
+use crate::reflections::{self, Reflection, reflections};
 use etendue::{Vec2, Vec3, light};
-use etendue_batch::{Batch, BatchTechnique, Evaluations, InTable, LightFunctions};
+use etendue_batch::{Batch, BatchTechnique, Evaluations, InTable, LightFunctions, Reflected};
 use pyo3::exceptions::{PyAttributeError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 
@@ -165,7 +166,7 @@ impl Sampler {
         self.measure("solid_angle")
     }
     /// Projected solid angle of the light above the horizon, in [0, π]: the irradiance per unit of radiance; of samplers by projected
-    /// solid angle, except lines.
+    /// solid angle, except lines. Of samplers by reflection, that after the map: π times the part of the lobe that the light covers.
     #[getter]
     fn projected_solid_angle(&self) -> PyResult<f32> {
         self.measure("projected_solid_angle")
@@ -254,15 +255,27 @@ impl Each {
         fields: &[Field<'_, '_>],
         p: &Bound<'_, PyAny>,
         n: Option<&Bound<'_, PyAny>>,
+        lobe: Option<[&Bound<'_, PyAny>; 2]>,
         (name, kind, at): (&'static str, FieldKind, &Bound<'_, PyAny>),
     ) -> PyResult<Self> {
         let arguments = fields.iter().map(|&(name, kind, _, object)| Argument::new(name, kind, object));
         let arguments = arguments.collect::<PyResult<Vec<_>>>()?;
+        let lobe = lobe.map(|[alpha, view]| {
+            Ok::<_, PyErr>([
+                Argument::new("alpha", FieldKind::Number, alpha)?,
+                Argument::new("view", FieldKind::Direction, view)?,
+            ])
+        });
+        let lobe = lobe.transpose()?;
         let (p, at) = (Argument::new("p", FieldKind::Row(3), p)?, Argument::new(name, kind, at)?);
         let n = n.map(|n| Argument::new("n", FieldKind::Direction, n)).transpose()?;
-        let shape = broadcast(py, &arguments.iter().chain([&p, &at]).chain(&n).collect::<Vec<_>>())?;
-        let light = numbers(fields, &arguments, &shape)?;
+        let all = arguments.iter().chain([&p, &at]).chain(&n).chain(lobe.iter().flatten());
+        let shape = broadcast(py, &all.collect::<Vec<_>>())?;
+        let mut light = numbers(fields, &arguments, &shape)?;
         let n = n.map(|n| n.columns(&shape)).transpose()?;
+        if let (Some(n), Some([alpha, view])) = (&n, lobe) {
+            light.extend(reflections(py, &alpha.columns(&shape)?[0], n, &view.columns(&shape)?)?);
+        }
         Ok(Self { light, p: p.columns(&shape)?, n, at: at.columns(&shape)?, shape })
     }
     /// One light, of these numbers, for all rows.
@@ -274,7 +287,7 @@ impl Each {
         call: Call,
         at: &Bound<'_, PyAny>,
     ) -> PyResult<Self> {
-        let mut this = Self::new(py, &[], p, n, call.argument(at))?;
+        let mut this = Self::new(py, &[], p, n, None, call.argument(at))?;
         for &number in numbers {
             let mut column = room(this.at[0].len())?;
             column.resize(this.at[0].len(), number);
@@ -357,9 +370,41 @@ macro_rules! next {
     }};
 }
 
+/// What `by` is by reflection.
+macro_rules! by_reflection {
+    ($lobe:ident) => {
+        "reflection"
+    };
+}
+
+/// Each light of the list, and what adds them to the module.
 macro_rules! lights {
     ($(
-        $(#[$light_doc:meta])* $light:ident $([$corners:literal])? = $light_c:ident, $columns_c:ident {
+        $(#[$light_doc:meta])* $light:ident $([$corners:literal])? = $light_c:ident, $columns_c:ident { $($fields:tt)* }
+        $(reflected { $($lobe:tt)* })? by $default:tt { $($techniques:tt)* }
+    )+) => {
+        $(light! {
+            $(reflected { $($lobe)* })?
+            $(#[$light_doc])* $light $([$corners])? { $($fields)* } by $default { $($techniques)* }
+        })+
+        /// Adds the lights to the module.
+        pub(crate) fn add(module: &Bound<'_, PyModule>) -> PyResult<()> {
+            module.add_class::<Samples>()?;
+            module.add_class::<Sampler>()?;
+            $(module.add_class::<$light>()?;)+
+            Ok(())
+        }
+    };
+}
+/// The class of a light. By reflection, its functions with a light of its own for each row take two arguments more.
+macro_rules! light {
+    (reflected { $($lobe:tt)* } $($light:tt)+) => {
+        light! { @ [alpha, view] [$($lobe)*] $($light)+ }
+    };
+    (@ [$($more:ident),*] [$(
+        $(#[$lobe_doc:meta])* $lobe:ident $([$lobe_n:literal])? $(= $lobe_c:ident, $lobe_name:ident[$lobe_size:literal])?;
+    )?]
+        $(#[$light_doc:meta])* $light:ident $([$corners:literal])? {
             $($(#[$field_doc:meta])* $field:ident as $argument:ident: $kind:ident,)+
         } by $default:tt {
             $(
@@ -367,8 +412,7 @@ macro_rules! lights {
                     $(= $sampler_c:ident, $technique:ident[$size:literal])?: $by:ident($($place:ident),*) $($measure:ident)?;
             )+
         }
-    )+) => {
-        $(
+    ) => {
         $(#[$light_doc])*
         ///
         /// Arguments:
@@ -394,15 +438,28 @@ macro_rules! lights {
                 fields: &[Field<'_, '_>],
                 p: &Bound<'_, PyAny>,
                 n: Option<&Bound<'_, PyAny>>,
+                lobe: &[Option<&Bound<'_, PyAny>>],
                 by: &str,
                 call: Call,
                 at: &Bound<'_, PyAny>,
             ) -> PyResult<Py<PyAny>> {
-                let names = [$(&stringify!($by)[3..]),+];
+                let names = [$(&stringify!($by)[3..],)+ $(by_reflection!($lobe))?];
                 if !names.contains(&by) {
                     return Err(PyValueError::new_err(format!("by must be one of {names:?}, not {by:?}")));
                 }
-                let each = Each::new(py, fields, p, n, call.argument(at))?;
+                $(if by == by_reflection!($lobe) {
+                    let (Some(_), &[Some(alpha), Some(view)]) = (n, lobe) else {
+                        let message = "by reflection, n, alpha and view are needed: normals, roughnesses and directions to the viewer";
+                        return Err(PyTypeError::new_err(message));
+                    };
+                    let each = Each::new(py, fields, p, n, Some([alpha, view]), call.argument(at))?;
+                    return each.call::<light::$lobe<f32 $(, $lobe_n)?>>(py, call, |x| {
+                        let (light, numbers) = x.split_at(x.len() - reflections::NUMBERS);
+                        Reflected { light: Self::build(light).into(), reflection: reflections::build(numbers) }
+                    });
+                })?
+                let _ = lobe;
+                let each = Each::new(py, fields, p, n, None, call.argument(at))?;
                 $(if by == &stringify!($by)[3..] {
                     return each.call::<light::$sampler<f32 $(, $n)?>>(py, call, |x| Self::build(x).into());
                 })+
@@ -424,12 +481,20 @@ macro_rules! lights {
                 let technique = concat!(stringify!($light), " ", stringify!($by));
                 Ok(Sampler::new(Box::new(sampler), technique, measure))
             })+
+            $($(#[$lobe_doc])*
+            fn by_reflection(&self, p: &Bound<'_, PyAny>, reflection: &Bound<'_, Reflection>) -> PyResult<Sampler> {
+                let reflected = Reflected { light: Self::build(&self.numbers).into(), reflection: reflection.get().reflection };
+                let sampler = Batch::new().prepare::<light::$lobe<f32 $(, $lobe_n)?>>(&reflected, single("p", p)?, Vec3::default());
+                let measure = Some(("projected_solid_angle", sampler.projected_solid_angle()));
+                Ok(Sampler::new(Box::new(sampler), concat!(stringify!($light), " by_reflection"), measure))
+            })?
             /// Samples of a light of its own for each row, from a shading point of its own. All arrays are broadcast to one shape (...)
             /// beside their last axis: the constructor's arguments (..., 3) or (...), shading points p (..., 3), numbers u in [0, 1)²
             /// (..., 2), and the unit normals n (..., 3) at the shading points, for techniques that need them. `by` names the
-            /// technique: "area" for `by_area`, and so on.
+            /// technique: "area" for `by_area`, and so on. By "reflection", which flat lights have, the arguments of a `Reflection` are
+            /// needed, too: roughnesses alpha (...) and unit vectors view (..., 3) towards the viewer.
             #[staticmethod]
-            #[pyo3(signature = ($($argument),+, *, p, u, n=None, by=$default))]
+            #[pyo3(signature = ($($argument),+, *, p, u, n=None $(, $more=None)*, by=$default))]
             #[allow(clippy::too_many_arguments)]
             fn sample_each(
                 py: Python<'_>,
@@ -437,14 +502,15 @@ macro_rules! lights {
                 p: &Bound<'_, PyAny>,
                 u: &Bound<'_, PyAny>,
                 n: Option<&Bound<'_, PyAny>>,
+                $($more: Option<&Bound<'_, PyAny>>,)*
                 by: &str,
             ) -> PyResult<Py<PyAny>> {
                 let fields = Self::fields([$($argument),+]);
-                Self::each(py, &fields, p, n, by, Call::Sample, u)
+                Self::each(py, &fields, p, n, &[$($more),*], by, Call::Sample, u)
             }
             /// The points of a light of its own for each row that unit directions w (..., 3) hit, as `sample_each` takes lights and points.
             #[staticmethod]
-            #[pyo3(signature = ($($argument),+, *, p, w, n=None, by=$default))]
+            #[pyo3(signature = ($($argument),+, *, p, w, n=None $(, $more=None)*, by=$default))]
             #[allow(clippy::too_many_arguments)]
             fn hit_each(
                 py: Python<'_>,
@@ -452,14 +518,15 @@ macro_rules! lights {
                 p: &Bound<'_, PyAny>,
                 w: &Bound<'_, PyAny>,
                 n: Option<&Bound<'_, PyAny>>,
+                $($more: Option<&Bound<'_, PyAny>>,)*
                 by: &str,
             ) -> PyResult<Py<PyAny>> {
                 let fields = Self::fields([$($argument),+]);
-                Self::each(py, &fields, p, n, by, Call::Hit, w)
+                Self::each(py, &fields, p, n, &[$($more),*], by, Call::Hit, w)
             }
             /// The probability densities of unit directions w (..., 3), as `sample_each` takes lights and points.
             #[staticmethod]
-            #[pyo3(signature = ($($argument),+, *, p, w, n=None, by=$default))]
+            #[pyo3(signature = ($($argument),+, *, p, w, n=None $(, $more=None)*, by=$default))]
             #[allow(clippy::too_many_arguments)]
             fn pdf_each(
                 py: Python<'_>,
@@ -467,14 +534,15 @@ macro_rules! lights {
                 p: &Bound<'_, PyAny>,
                 w: &Bound<'_, PyAny>,
                 n: Option<&Bound<'_, PyAny>>,
+                $($more: Option<&Bound<'_, PyAny>>,)*
                 by: &str,
             ) -> PyResult<Py<PyAny>> {
                 let fields = Self::fields([$($argument),+]);
-                Self::each(py, &fields, p, n, by, Call::Pdf, w)
+                Self::each(py, &fields, p, n, &[$($more),*], by, Call::Pdf, w)
             }
             /// The numbers u in [0, 1)² that are mapped to unit directions w (..., 3), as `sample_each` takes lights and points.
             #[staticmethod]
-            #[pyo3(signature = ($($argument),+, *, p, w, n=None, by=$default))]
+            #[pyo3(signature = ($($argument),+, *, p, w, n=None $(, $more=None)*, by=$default))]
             #[allow(clippy::too_many_arguments)]
             fn invert_each(
                 py: Python<'_>,
@@ -482,22 +550,19 @@ macro_rules! lights {
                 p: &Bound<'_, PyAny>,
                 w: &Bound<'_, PyAny>,
                 n: Option<&Bound<'_, PyAny>>,
+                $($more: Option<&Bound<'_, PyAny>>,)*
                 by: &str,
             ) -> PyResult<Py<PyAny>> {
                 let fields = Self::fields([$($argument),+]);
-                Self::each(py, &fields, p, n, by, Call::Invert, w)
+                Self::each(py, &fields, p, n, &[$($more),*], by, Call::Invert, w)
             }
             fn __repr__(&self) -> String {
                 format!("<etendue.{} {:?}>", stringify!($light), self.numbers)
             }
-        })+
-        /// Adds the lights to the module.
-        pub(crate) fn add(module: &Bound<'_, PyModule>) -> PyResult<()> {
-            module.add_class::<Samples>()?;
-            module.add_class::<Sampler>()?;
-            $(module.add_class::<$light>()?;)+
-            Ok(())
         }
+    };
+    ($($light:tt)+) => {
+        light! { @ [] [] $($light)+ }
     };
 }
 etendue::techniques!(lights! {});
