@@ -76,6 +76,7 @@ lanewise! {
 }
 
 /// The numbers of the fit, row by row, as [`Reflection::with_table`] reads them.
+#[inline]
 #[must_use]
 pub fn table() -> &'static [f32] {
     TABLE.as_flattened().as_flattened()

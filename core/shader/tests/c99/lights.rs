@@ -140,7 +140,8 @@ impl TechniqueVisitor for Lights<'_> {
             let mut random = Random::new(4100 + kind as u64);
             for input in &mut inputs {
                 let [normal, view] = [(); 2].map(|()| vec3(&random.direction().map(|x| x as f32)));
-                let lobe = Reflection::new(random.unit().powi(2), normal, view);
+                let size = random.unit();
+                let lobe = Reflection::new(size * size, normal, view);
                 let mut numbers = Vec::new();
                 lobe.map(|number| numbers.push(number));
                 input.splice(own_numbers..own_numbers, numbers);

@@ -243,7 +243,8 @@ fn reflections_have_the_same_bits() {
     driver.output("reflection_sphere", &["reflection", "center", "radius"], "covered");
     let mut random = Random::new(4300);
     let slot = |round: usize| {
-        let mut all = vec![f32::from_bits(3), random.unit().powi(2)];
+        let size = random.unit();
+        let mut all = vec![f32::from_bits(3), size * size];
         all.extend([(); 3].into_iter().flat_map(|()| random.direction()).map(|x| x as f32));
         all.push(random.unit());
         if round % 4 == 1 {
