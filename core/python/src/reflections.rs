@@ -1,7 +1,7 @@
 //! The light that rough surfaces reflect.
 
 use crate::arrays::{Argument, FieldKind, array, broadcast, map, run, zeros};
-use crate::lights::{single, vector};
+use crate::samplers::{single, vector};
 use crate::warps::Warp;
 use etendue::reflection;
 use etendue_batch::{Batch, ReflectedSphere};
