@@ -37,6 +37,7 @@ __all__ = [
     "Profile",
     "ProjectedImage",
     "Projector",
+    "Reflection",
     "Sampler",
     "Samples",
     "Sequence",
@@ -160,6 +161,7 @@ class Triangle:
     def by_solid_angle(self, p: ArrayLike) -> Sampler: ...
     def by_projected_solid_angle(self, p: ArrayLike, n: ArrayLike) -> Sampler: ...
     def by_cosine_warp(self, p: ArrayLike, n: ArrayLike) -> Sampler: ...
+    def by_reflection(self, p: ArrayLike, reflection: Reflection) -> Sampler: ...
     @staticmethod
     def sample_each(
         v0: ArrayLike,
@@ -169,7 +171,9 @@ class Triangle:
         p: ArrayLike,
         u: ArrayLike,
         n: ArrayLike | None = None,
-        by: Literal["area", "solid_angle", "projected_solid_angle", "cosine_warp"] = "solid_angle",
+        alpha: ArrayLike | None = None,
+        view: ArrayLike | None = None,
+        by: Literal["area", "solid_angle", "projected_solid_angle", "cosine_warp", "reflection"] = "solid_angle",
     ) -> Samples: ...
     @staticmethod
     def hit_each(
@@ -180,7 +184,9 @@ class Triangle:
         p: ArrayLike,
         w: ArrayLike,
         n: ArrayLike | None = None,
-        by: Literal["area", "solid_angle", "projected_solid_angle", "cosine_warp"] = "solid_angle",
+        alpha: ArrayLike | None = None,
+        view: ArrayLike | None = None,
+        by: Literal["area", "solid_angle", "projected_solid_angle", "cosine_warp", "reflection"] = "solid_angle",
     ) -> Samples: ...
     @staticmethod
     def pdf_each(
@@ -191,7 +197,9 @@ class Triangle:
         p: ArrayLike,
         w: ArrayLike,
         n: ArrayLike | None = None,
-        by: Literal["area", "solid_angle", "projected_solid_angle", "cosine_warp"] = "solid_angle",
+        alpha: ArrayLike | None = None,
+        view: ArrayLike | None = None,
+        by: Literal["area", "solid_angle", "projected_solid_angle", "cosine_warp", "reflection"] = "solid_angle",
     ) -> _F32: ...
     @staticmethod
     def invert_each(
@@ -202,7 +210,9 @@ class Triangle:
         p: ArrayLike,
         w: ArrayLike,
         n: ArrayLike | None = None,
-        by: Literal["area", "solid_angle", "projected_solid_angle", "cosine_warp"] = "solid_angle",
+        alpha: ArrayLike | None = None,
+        view: ArrayLike | None = None,
+        by: Literal["area", "solid_angle", "projected_solid_angle", "cosine_warp", "reflection"] = "solid_angle",
     ) -> _F32: ...
 
 @final
@@ -211,6 +221,7 @@ class Parallelogram:
     def by_area(self, p: ArrayLike) -> Sampler: ...
     def by_solid_angle(self, p: ArrayLike) -> Sampler: ...
     def by_projected_solid_angle(self, p: ArrayLike, n: ArrayLike) -> Sampler: ...
+    def by_reflection(self, p: ArrayLike, reflection: Reflection) -> Sampler: ...
     @staticmethod
     def sample_each(
         corner: ArrayLike,
@@ -220,7 +231,9 @@ class Parallelogram:
         p: ArrayLike,
         u: ArrayLike,
         n: ArrayLike | None = None,
-        by: Literal["area", "solid_angle", "projected_solid_angle"] = "solid_angle",
+        alpha: ArrayLike | None = None,
+        view: ArrayLike | None = None,
+        by: Literal["area", "solid_angle", "projected_solid_angle", "reflection"] = "solid_angle",
     ) -> Samples: ...
     @staticmethod
     def hit_each(
@@ -231,7 +244,9 @@ class Parallelogram:
         p: ArrayLike,
         w: ArrayLike,
         n: ArrayLike | None = None,
-        by: Literal["area", "solid_angle", "projected_solid_angle"] = "solid_angle",
+        alpha: ArrayLike | None = None,
+        view: ArrayLike | None = None,
+        by: Literal["area", "solid_angle", "projected_solid_angle", "reflection"] = "solid_angle",
     ) -> Samples: ...
     @staticmethod
     def pdf_each(
@@ -242,7 +257,9 @@ class Parallelogram:
         p: ArrayLike,
         w: ArrayLike,
         n: ArrayLike | None = None,
-        by: Literal["area", "solid_angle", "projected_solid_angle"] = "solid_angle",
+        alpha: ArrayLike | None = None,
+        view: ArrayLike | None = None,
+        by: Literal["area", "solid_angle", "projected_solid_angle", "reflection"] = "solid_angle",
     ) -> _F32: ...
     @staticmethod
     def invert_each(
@@ -253,7 +270,9 @@ class Parallelogram:
         p: ArrayLike,
         w: ArrayLike,
         n: ArrayLike | None = None,
-        by: Literal["area", "solid_angle", "projected_solid_angle"] = "solid_angle",
+        alpha: ArrayLike | None = None,
+        view: ArrayLike | None = None,
+        by: Literal["area", "solid_angle", "projected_solid_angle", "reflection"] = "solid_angle",
     ) -> _F32: ...
 
 @final
@@ -263,6 +282,7 @@ class Rectangle:
     def by_solid_angle(self, p: ArrayLike) -> Sampler: ...
     def by_projected_solid_angle(self, p: ArrayLike, n: ArrayLike) -> Sampler: ...
     def by_cosine_warp(self, p: ArrayLike, n: ArrayLike) -> Sampler: ...
+    def by_reflection(self, p: ArrayLike, reflection: Reflection) -> Sampler: ...
     @staticmethod
     def sample_each(
         corner: ArrayLike,
@@ -272,7 +292,9 @@ class Rectangle:
         p: ArrayLike,
         u: ArrayLike,
         n: ArrayLike | None = None,
-        by: Literal["area", "solid_angle", "projected_solid_angle", "cosine_warp"] = "solid_angle",
+        alpha: ArrayLike | None = None,
+        view: ArrayLike | None = None,
+        by: Literal["area", "solid_angle", "projected_solid_angle", "cosine_warp", "reflection"] = "solid_angle",
     ) -> Samples: ...
     @staticmethod
     def hit_each(
@@ -283,7 +305,9 @@ class Rectangle:
         p: ArrayLike,
         w: ArrayLike,
         n: ArrayLike | None = None,
-        by: Literal["area", "solid_angle", "projected_solid_angle", "cosine_warp"] = "solid_angle",
+        alpha: ArrayLike | None = None,
+        view: ArrayLike | None = None,
+        by: Literal["area", "solid_angle", "projected_solid_angle", "cosine_warp", "reflection"] = "solid_angle",
     ) -> Samples: ...
     @staticmethod
     def pdf_each(
@@ -294,7 +318,9 @@ class Rectangle:
         p: ArrayLike,
         w: ArrayLike,
         n: ArrayLike | None = None,
-        by: Literal["area", "solid_angle", "projected_solid_angle", "cosine_warp"] = "solid_angle",
+        alpha: ArrayLike | None = None,
+        view: ArrayLike | None = None,
+        by: Literal["area", "solid_angle", "projected_solid_angle", "cosine_warp", "reflection"] = "solid_angle",
     ) -> _F32: ...
     @staticmethod
     def invert_each(
@@ -305,7 +331,9 @@ class Rectangle:
         p: ArrayLike,
         w: ArrayLike,
         n: ArrayLike | None = None,
-        by: Literal["area", "solid_angle", "projected_solid_angle", "cosine_warp"] = "solid_angle",
+        alpha: ArrayLike | None = None,
+        view: ArrayLike | None = None,
+        by: Literal["area", "solid_angle", "projected_solid_angle", "cosine_warp", "reflection"] = "solid_angle",
     ) -> _F32: ...
 
 @final
@@ -413,6 +441,7 @@ class Polygon:
     def by_area(self, p: ArrayLike) -> Sampler: ...
     def by_solid_angle(self, p: ArrayLike) -> Sampler: ...
     def by_projected_solid_angle(self, p: ArrayLike, n: ArrayLike) -> Sampler: ...
+    def by_reflection(self, p: ArrayLike, reflection: Reflection) -> Sampler: ...
     @staticmethod
     def sample_each(
         corners: ArrayLike,
@@ -420,7 +449,9 @@ class Polygon:
         p: ArrayLike,
         u: ArrayLike,
         n: ArrayLike | None = None,
-        by: Literal["area", "solid_angle", "projected_solid_angle"] = "solid_angle",
+        alpha: ArrayLike | None = None,
+        view: ArrayLike | None = None,
+        by: Literal["area", "solid_angle", "projected_solid_angle", "reflection"] = "solid_angle",
     ) -> Samples: ...
     @staticmethod
     def hit_each(
@@ -429,7 +460,9 @@ class Polygon:
         p: ArrayLike,
         w: ArrayLike,
         n: ArrayLike | None = None,
-        by: Literal["area", "solid_angle", "projected_solid_angle"] = "solid_angle",
+        alpha: ArrayLike | None = None,
+        view: ArrayLike | None = None,
+        by: Literal["area", "solid_angle", "projected_solid_angle", "reflection"] = "solid_angle",
     ) -> Samples: ...
     @staticmethod
     def pdf_each(
@@ -438,7 +471,9 @@ class Polygon:
         p: ArrayLike,
         w: ArrayLike,
         n: ArrayLike | None = None,
-        by: Literal["area", "solid_angle", "projected_solid_angle"] = "solid_angle",
+        alpha: ArrayLike | None = None,
+        view: ArrayLike | None = None,
+        by: Literal["area", "solid_angle", "projected_solid_angle", "reflection"] = "solid_angle",
     ) -> _F32: ...
     @staticmethod
     def invert_each(
@@ -447,7 +482,9 @@ class Polygon:
         p: ArrayLike,
         w: ArrayLike,
         n: ArrayLike | None = None,
-        by: Literal["area", "solid_angle", "projected_solid_angle"] = "solid_angle",
+        alpha: ArrayLike | None = None,
+        view: ArrayLike | None = None,
+        by: Literal["area", "solid_angle", "projected_solid_angle", "reflection"] = "solid_angle",
     ) -> _F32: ...
 
 @final
@@ -833,6 +870,17 @@ class Bilinear(Warp):
 @final
 class GgxVisibleNormals(Warp):
     def __new__(cls, alpha_x: ArrayLike, alpha_y: ArrayLike, wi: ArrayLike) -> GgxVisibleNormals: ...
+
+@final
+class Reflection(Warp):
+    def __new__(cls, alpha: ArrayLike, n: ArrayLike, view: ArrayLike) -> Reflection: ...
+    @property
+    def albedo(self) -> float: ...
+    @property
+    def schlick(self) -> float: ...
+    def sphere(self, center: ArrayLike, radius: ArrayLike) -> _F32: ...
+    @staticmethod
+    def albedo_and_schlick_each(alpha: ArrayLike, n: ArrayLike, view: ArrayLike) -> tuple[_F32, _F32]: ...
 
 @final
 class PatchSurface(Warp):

@@ -10,6 +10,8 @@ struct Light {
     fields: &'static [[&'static str; 3]],
     default: &'static str,
     techniques: &'static [Row],
+    /// By reflection, if it has that.
+    lobe: &'static [Row],
 }
 
 /// A technique: its sampler, its name in C, which is empty if another light has that sampler, its method, and the arguments of that.
@@ -25,15 +27,23 @@ impl Row {
     fn light(&self) -> &'static str {
         self.sampler.split("By").next().unwrap()
     }
-    fn on_surface(&self) -> bool {
-        self.place.contains(&"n")
+    /// How its functions are called beside the point: the number of the macro in the test of C, and the macro of C++.
+    fn kind(&self) -> (u8, &'static str) {
+        match self.place {
+            [_, "n"] => (1, "ON_SURFACE"),
+            [_, "reflection"] => (2, "REFLECTED"),
+            _ => (0, "ANYWHERE"),
+        }
     }
 }
 
 impl Light {
+    fn all(&self) -> impl Iterator<Item = &'static Row> {
+        self.techniques.iter().chain(self.lobe)
+    }
     /// Techniques whose samplers no other light has.
     fn own(&self) -> impl Iterator<Item = &'static Row> {
-        self.techniques.iter().filter(|technique| !technique.name.is_empty())
+        self.all().filter(|technique| !technique.name.is_empty())
     }
 }
 
@@ -41,7 +51,9 @@ macro_rules! lights {
     ($(
         $(#[$light_doc:meta])* $light:ident $([$corners:literal])? = $light_c:ident, $columns_c:ident {
             $($(#[$field_doc:meta])* $field:ident as $argument:ident: $kind:ident,)+
-        } by $default:literal {
+        } $(reflected {
+            $(#[$lobe_doc:meta])* $lobe:ident $([$lobe_n:literal])? $(= $lobe_c:ident, $lobe_name:ident[$lobe_size:literal])?;
+        })? by $default:literal {
             $(
                 $(#[$doc:meta])* $sampler:ident $([$n:literal])?
                     $(= $sampler_c:ident, $technique:ident[$size:literal])?: $by:ident($($place:ident),*) $($measure:ident)?;
@@ -58,6 +70,12 @@ macro_rules! lights {
                 by: stringify!($by),
                 place: &[$(stringify!($place)),*],
             }),+],
+            lobe: &[$(Row {
+                sampler: stringify!($lobe),
+                name: concat!($(stringify!($lobe_name))?),
+                by: "by_reflection",
+                place: &["p", "reflection"],
+            })?],
         }),+];
     };
 }
@@ -104,7 +122,7 @@ fn cpp_light(light: &Light, out: &mut String) -> std::fmt::Result {
             writeln!(out, "    static {name} from_vertices({arguments}) {{ return {{{values}}}; }}")?;
         }
     }
-    for technique in light.techniques {
+    for technique in light.all() {
         let Row { sampler, by, .. } = technique;
         // the fields of a light whose sampler is another one's are that one's
         let this = if technique.name.is_empty() {
@@ -120,7 +138,11 @@ fn cpp_light(light: &Light, out: &mut String) -> std::fmt::Result {
                 "    // The same at every point.\n    {sampler} {by}() const {{ return {{{this}, Vec3()}}; }}"
             )?,
             [_] => writeln!(out, "    {sampler} {by}(Vec3 at) const {{ return {{{this}, at}}; }}")?,
-            _ => writeln!(out, "    {sampler} {by}(Vec3 at, Vec3 n) const {{ return {{{this}, at, n}}; }}")?,
+            [_, "n"] => writeln!(out, "    {sampler} {by}(Vec3 at, Vec3 n) const {{ return {{{this}, at, n}}; }}")?,
+            _ => writeln!(
+                out,
+                "    {sampler} {by}(Vec3 at, const EtendueReflection& reflection) const {{ return {{{this}, at, reflection}}; }}"
+            )?,
         }
     }
     out.push_str("};\n");
@@ -131,7 +153,7 @@ fn cpp() -> String {
     let mut out = String::new();
     for light in LIGHTS {
         for technique in light.own() {
-            let kind = if technique.on_surface() { "ON_SURFACE" } else { "ANYWHERE" };
+            let (_, kind) = technique.kind();
             writeln!(out, "ETENDUE_{kind}({}, {}, etendue_{})", technique.sampler, light.name, technique.name).unwrap();
         }
     }
@@ -149,9 +171,8 @@ fn c() -> String {
     let mut rows = String::from("#define TECHNIQUES(T)");
     for light in LIGHTS {
         for technique in light.own() {
-            let on_surface = u8::from(technique.on_surface());
-            write!(rows, " \\\n    T({}, {}, {}, {on_surface})", technique.sampler, light.name, technique.name)
-                .unwrap();
+            let (kind, _) = technique.kind();
+            write!(rows, " \\\n    T({}, {}, {}, {kind})", technique.sampler, light.name, technique.name).unwrap();
         }
     }
     rows + "\n"
@@ -163,11 +184,12 @@ fn python_light(light: &Light, out: &mut String) -> std::fmt::Result {
     let arguments: Vec<_> = fields.iter().map(|[_, argument, _]| format!("{argument}: ArrayLike")).collect();
     writeln!(out, "@final\nclass {name}:")?;
     writeln!(out, "    def __new__(cls, {}) -> {name}: ...", arguments.join(", "))?;
-    for Row { by, place, .. } in light.techniques {
-        let place: String = place.iter().map(|name| format!(", {name}: ArrayLike")).collect();
+    for Row { by, place, .. } in light.all() {
+        let kind = |name| if name == "reflection" { "Reflection" } else { "ArrayLike" };
+        let place: String = place.iter().map(|&name| format!(", {name}: {}", kind(name))).collect();
         writeln!(out, "    def {by}(self{place}) -> Sampler: ...")?;
     }
-    let by: Vec<_> = light.techniques.iter().map(|technique| format!("\"{}\"", &technique.by[3..])).collect();
+    let by: Vec<_> = light.all().map(|technique| format!("\"{}\"", &technique.by[3..])).collect();
     let functions =
         [("sample", "u", "Samples"), ("hit", "w", "Samples"), ("pdf", "w", "_F32"), ("invert", "w", "_F32")];
     for (function, at, result) in functions {
@@ -177,6 +199,9 @@ fn python_light(light: &Light, out: &mut String) -> std::fmt::Result {
             out,
             "        *,\n        p: ArrayLike,\n        {at}: ArrayLike,\n        n: ArrayLike | None = None,"
         )?;
+        for name in if light.lobe.is_empty() { &[][..] } else { &["alpha", "view"] } {
+            writeln!(out, "        {name}: ArrayLike | None = None,")?;
+        }
         writeln!(out, "        by: Literal[{}] = \"{}\",\n    ) -> {result}: ...", by.join(", "), light.default)?;
     }
     out.push('\n');

@@ -8,7 +8,8 @@ use crate::technique::{BatchSampler, BatchTechnique};
 use crate::warp::BatchWarp;
 use crate::{ChoiceColumns, Counters, EvaluationColumns, SampleColumns};
 use core::mem::MaybeUninit;
-use core::ptr::copy_nonoverlapping;
+use core::ptr::{copy_nonoverlapping, null_mut};
+use etendue::reflection::Reflection;
 use etendue::select::{LightChoice, LightTree};
 use etendue::sequence::Sequence;
 use etendue::{LightSample, LightSampler, Mask, Real, Uint, Vec2, Vec3};
@@ -404,6 +405,26 @@ pub(crate) unsafe extern "C" fn warp_invert<W: BatchWarp, R: Packet>(
         if W::NUMBERS == 2 {
             place.store(out.y, u.y);
         }
+    });
+}
+
+/// Reflections of surfaces of their own; null columns of their numbers are not wanted.
+pub(crate) unsafe extern "C" fn reflections<R: Packet>(
+    n: usize,
+    alphas: *const f32,
+    normals: Vec3<*const f32>,
+    views: Vec3<*const f32>,
+    out: &Reflection<*mut f32>,
+) {
+    let mut columns = [null_mut(); size_of::<Reflection<f32>>() / size_of::<f32>()];
+    let mut to = columns.iter_mut();
+    out.map(|column| to.next().map(|to| *to = column));
+    // SAFETY: the caller's columns have `n` elements
+    packets(n, R::LANES, |place| unsafe {
+        let load = |column| place.load::<R>(column);
+        let reflection = Reflection::new(load(alphas), normals.map(load), views.map(load));
+        let mut columns = columns.iter();
+        reflection.map(|number| columns.next().map(|&column| place.store(column, number)));
     });
 }
 

@@ -39,17 +39,21 @@ mod warp;
 
 pub use columns::{ChoiceColumns, Choices, Counters, EvaluationColumns, Evaluations, SampleColumns, Samples};
 pub use kernel::Views;
-pub use map::{BatchMap, DirectionOfImage, MOST_NUMBERS, MOST_RESULTS, PlaceInImage, SeenThroughPortals};
+pub use map::{
+    BatchMap, DirectionOfImage, MOST_NUMBERS, MOST_RESULTS, PlaceInImage, ReflectedSphere, SeenThroughPortals,
+};
 pub use placed::{
     PictureByArea, PictureByProjectedSolidAngle, PictureBySolidAngle, PictureOnPatchByVisibleArea,
     PictureOnSphereByVisibleArea, PortalsByRadiance,
 };
 pub use table::{
-    InTable, LightFunctions, MapFunctions, SamplerFunctions, SequenceFunctions, Table, TreeFunctions, WarpFunctions,
+    InTable, LightFunctions, MapFunctions, ReflectionsFunction, SamplerFunctions, SequenceFunctions, Table,
+    TreeFunctions, WarpFunctions,
 };
-pub use technique::{BatchSampler, BatchTechnique};
+pub use technique::{BatchSampler, BatchTechnique, Reflected};
 pub use warp::BatchWarp;
 
+use etendue::reflection::Reflection;
 use etendue::select::LightTree;
 use etendue::sequence::Sequence;
 use etendue::{Vec2, Vec3};
@@ -220,6 +224,18 @@ impl Batch {
         unsafe { (self.sampler::<T>().hit)(sampler, n, directions.map(<[f32]>::as_ptr), &out) };
     }
 
+    /// Prepares a reflection for each roughness `alpha`, unit normal of a surface and unit vector towards the viewer. What it consists of
+    /// goes to columns, `Reflection::<f32>::default().map(…)` of which those of `sample_each` of lights `by_reflection` are made, too; empty
+    /// ones are not wanted.
+    pub fn reflections(&self, alpha: &[f32], normal: Vec3<&[f32]>, view: Vec3<&[f32]>, out: Reflection<&mut [f32]>) {
+        let n = alpha.len();
+        check(n, [normal, view].iter().flat_map(|v| [v.x.len(), v.y.len(), v.z.len()]));
+        let out = out.map(|column| columns::pointer(column, n));
+        let [normal, view] = [normal, view].map(|v| v.map(<[f32]>::as_ptr));
+        // SAFETY: all columns have n elements, and the outputs are borrowed mutably
+        unsafe { self.reflections_function()(n, alpha.as_ptr(), normal, view, &out) };
+    }
+
     /// Points of a warp, at the numbers `u` in [0, 1)²: as many columns as a point has coordinates are written, and as many columns of
     /// `u` read as the warp has numbers.
     pub fn warp<W: BatchWarp>(&self, warp: &W, u: [&[f32]; 2], mut out: [&mut [f32]; 3]) {
@@ -314,6 +330,12 @@ impl Batch {
     #[must_use]
     pub fn map_functions<M: BatchMap>(&self) -> MapFunctions<M> {
         M::map_functions(self.table)
+    }
+    /// The function that prepares reflections, by raw pointers.
+    #[inline]
+    #[must_use]
+    pub const fn reflections_function(&self) -> ReflectionsFunction {
+        self.table.reflections
     }
     /// The functions of trees, by raw pointers.
     #[inline]

@@ -3,6 +3,7 @@
 use crate::kernel::Packet;
 use crate::table::{Lanes, MapFunctions, Table};
 use etendue::light::{GeneralSky, PortalEnvironment, PortalMap, Profile, Projector, Spread};
+use etendue::reflection::Reflection;
 use etendue::{Mask, Real, Vec2, Vec3};
 
 /// The most numbers that a map takes.
@@ -28,6 +29,9 @@ pub struct PlaceInImage(pub Projector);
 /// [`Projector::direction`].
 #[derive(Clone, Copy, Debug)]
 pub struct DirectionOfImage(pub Projector);
+/// [`Reflection::sphere`].
+#[derive(Clone, Copy, Debug)]
+pub struct ReflectedSphere(pub Reflection<f32>);
 /// [`PortalEnvironment::sees`].
 #[derive(Clone, Copy, Debug)]
 pub struct SeenThroughPortals<'a>(pub PortalEnvironment<'a>);
@@ -92,6 +96,7 @@ maps! {
     direction_of_image: DirectionOfImage, 2 -> 3, |image, [u, v, ..]| direction(image.0.direction(Vec2::new(u, v)), R::lit(0.0));
     spread: Spread[f32], 6 -> 1, |spread, [x, y, z, nx, ny, nz]|
         one(Spread::<R>::splat(*spread).attenuation(Vec3::new(x, y, z), Vec3::new(nx, ny, nz)));
+    sphere: ReflectedSphere, 4 -> 1, |sphere, [x, y, z, radius, ..]| one(Reflection::<R>::splat(sphere.0).sphere(Vec3::new(x, y, z), radius));
     portal_map: PortalMap, 2 -> 4, |map, [u, v, ..]| {
         let (w, solid_angle) = PortalMap::direction(map, Vec2::new(u, v));
         direction(w, solid_angle)

@@ -7,6 +7,7 @@ use crate::technique::{BatchSampler, BatchTechnique};
 use crate::warp::BatchWarp;
 use crate::{ChoiceColumns, Counters, EvaluationColumns, SampleColumns, kernel};
 use etendue::light::*;
+use etendue::reflection::Reflection;
 use etendue::select::LightTree;
 use etendue::sequence::*;
 use etendue::warp::*;
@@ -80,6 +81,9 @@ impl<W: BatchWarp> WarpFunctions<W> {
     }
 }
 
+/// See [`Batch::reflections`](crate::Batch::reflections), by raw pointers: roughnesses, normals, views, and where the reflections go.
+pub type ReflectionsFunction = unsafe extern "C" fn(usize, Column, Vec3<Column>, Vec3<Column>, &Reflection<*mut f32>);
+
 /// The function of a map, by raw pointers to columns.
 #[derive(Clone, Copy)]
 #[repr(C)]
@@ -134,11 +138,13 @@ pub unsafe trait InTable: 'static {
 macro_rules! table {
     // adds the functions of all techniques
     ($({ $($row:tt)+ })+ $(
-        $(#[$light_doc:meta])* $light:ident $([$corners:literal])? = $light_c:ident, $columns_c:ident { $($fields:tt)* } by $default:literal {
+        $(#[$light_doc:meta])* $light:ident $([$corners:literal])? = $light_c:ident, $columns_c:ident { $($fields:tt)* } $(reflected {
+            $(#[$lobe_doc:meta])* $lobe:ident $([$lobe_n:literal])? $(= $lobe_c:ident, $lobe_name:ident[$lobe_size:literal])?;
+        })? by $default:literal {
             $($(#[$doc:meta])* $sampler:ident $([$n:literal])? $(= $sampler_c:ident, $name:ident[$size:literal])?: $by:ident $place:tt $($measure:ident)?;)+
         }
     )+) => {
-        table! { @ $($([$sampler<f32 $(, $n)?> $(, $name)?])+)+ $({ $($row)+ })+ }
+        table! { @ $($([$lobe<f32 $(, $lobe_n)?> $(, $lobe_name)?])? $([$sampler<f32 $(, $n)?> $(, $name)?])+)+ $({ $($row)+ })+ }
     };
     (@ $([$sampler:ty $(, $name:ident)?])+ $({ $($row:tt)+ })+) => {
         table! { $($($name: LightFunctions<$sampler>,)?)+ $($($row)+,)+ }
@@ -153,6 +159,7 @@ macro_rules! table {
             pub(crate) projected_image: WarpFunctions<ProjectedImage<'static>>,
             pub(crate) placed: PlacedTable,
             pub(crate) maps: MapTable,
+            pub(crate) reflections: ReflectionsFunction,
         }
         impl Table {
             /// The functions over packets `R`, with the instructions of this compilation.
@@ -164,6 +171,7 @@ macro_rules! table {
                     projected_image: WarpFunctions::of::<R>(),
                     placed: PlacedTable::of::<R>(),
                     maps: MapTable::of::<R>(),
+                    reflections: kernel::reflections::<R>,
                 }
             }
         }

@@ -2,6 +2,7 @@
 
 use crate::table::{InTable, Table, WarpFunctions};
 use etendue::light::ProjectedImage;
+use etendue::reflection::Reflection;
 use etendue::warp::*;
 use etendue::{Real, Vec2, Vec3};
 

@@ -5,6 +5,7 @@ mod every;
 use etendue::light::{
     EnvironmentMap, GeneralSky, ImageEnvironment, Portal, PortalEnvironment, PortalTable, Profile, Projector, Spread,
 };
+use etendue::reflection::Reflection;
 use etendue::select::{LightBound, LightChoice, LightTree, Node8};
 use etendue::sequence::{Independent, Sequence};
 use etendue::{LightSample, LightSampler, Vec2, Vec3};
@@ -44,7 +45,7 @@ impl Columns {
             let uniform = (x >> 8) as f32 / 16_777_216.0;
             if hostile && y % 4 == 0 { ODD[(y / 4 % 12) as usize] } else { uniform }
         };
-        Self((0..40).map(|k| (0..100).map(|i| number(k, i)).collect()).collect())
+        Self((0..64).map(|k| (0..100).map(|i| number(k, i)).collect()).collect())
     }
     fn of(&self, k: usize, n: usize) -> &[f32] {
         &self.0[k][..n]
@@ -186,6 +187,8 @@ fn maps_have_the_bits_of_the_core() {
     assert_map("place in image", &PlaceInImage(slide));
     assert_map("direction of image", &DirectionOfImage(slide));
     assert_map("sky", &GeneralSky::new(12, [0.6, 0.0, 0.8]).unwrap());
+    let floor = Reflection::new(0.2, Vec3::new(0.0, 1.0, 0.0), Vec3::new(-0.6, 0.8, 0.0));
+    assert_map("reflected sphere", &ReflectedSphere(floor));
     assert_map("spread", &Spread::<f32>::new(1.2));
     let portals = [[2.0, -1.0, -1.0], [2.0, 1.5, 0.0]]
         .map(|corner| Portal::new(corner, [0.0, 2.0, 0.5], [0.0, 0.0, 2.0]).unwrap());
@@ -194,6 +197,26 @@ fn maps_have_the_bits_of_the_core() {
     let sky = PortalEnvironment::new(&portals, &tables).unwrap();
     assert_map("portal map", &portals[0].map());
     assert_map("seen through portals", &SeenThroughPortals(sky));
+}
+
+#[test]
+fn reflections_have_the_bits_of_the_core() {
+    for (batch, hostile) in levels().into_iter().flat_map(|batch| [(batch, false), (batch, true)]) {
+        let input = Columns::new(hostile);
+        for n in COUNTS {
+            let (alpha, normal, view) = (input.of(0, n), input.three(1, n), input.three(4, n));
+            let mut written = vec![vec![-7.0; n]; 16];
+            let mut columns = written.iter_mut();
+            let out = Reflection::<f32>::default().map(|_| &mut columns.next().unwrap()[..]);
+            batch.reflections(alpha, normal, view, out);
+            for i in 0..n {
+                let mut found = written.iter().map(|column| bits(column[i]));
+                Reflection::new(alpha[i], at(normal, i), at(view, i)).map(|number| {
+                    assert_eq!(found.next(), Some(bits(number)), "{batch:?}, element {i} of {n}");
+                });
+            }
+        }
+    }
 }
 
 struct Equal {

@@ -189,6 +189,37 @@ typedef struct {
   float data[88];
 } EtendueTriangleByCosineWarp;
 
+// The lobe of a GGX surface of the same roughness in all directions, seen from one direction: a cosine after a linear map of directions, which
+// keeps the horizon. It is a warp from random numbers to directions above the surface, with the pdf of the fit per steradian, and lights are
+// prepared for it `by_reflection`. Of light from all directions alike it reflects albedo (F0 + (1 - F0) schlick), with the reflectance F0 at
+// normal incidence.
+typedef struct {
+  // What is inside does not concern callers.
+  float data[14];
+  // The part of light from all directions alike that the surface reflects with a Fresnel factor of 1, in [0, 1].
+  float albedo;
+  // The mean of Schlick's weight (1 - v*m)^5 over the lobe, in [0, 1].
+  float schlick;
+} EtendueReflection;
+
+// In proportion to the lobe of a rough surface at the point p: pdf pi times that of the reflection, over the projected solid
+// angle after its map, per steradian; 0 where nothing of the light is above the horizon.
+//
+// What is inside does not concern callers: it may be copied, and used by any thread.
+typedef struct {
+  float data[178];
+} EtendueTriangleByReflection;
+
+// Columns of reflections: the fields are those of EtendueReflection.
+typedef struct {
+  // What is inside does not concern callers.
+  float *data[14];
+  // The part of light from all directions alike that the surface reflects with a Fresnel factor of 1, in [0, 1].
+  float *albedo;
+  // The mean of Schlick's weight (1 - v*m)^5 over the lobe, in [0, 1].
+  float *schlick;
+} EtendueReflectionColumns;
+
 // A parallelogram, of a corner and two edges from there, that emits from the side of the first edge x the second one. Without
 // area, and from a point in its plane, the pdf is 0. uv: (s, t), the parts of the edges, in [0, 1].
 typedef struct {
@@ -231,6 +262,14 @@ typedef struct {
 typedef struct {
   float data[549];
 } EtendueParallelogramByProjectedSolidAngle;
+
+// In proportion to the lobe of a rough surface at the point p: pdf pi times that of the reflection, over the projected solid
+// angle after its map, per steradian; 0 where nothing of the light is above the horizon.
+//
+// What is inside does not concern callers: it may be copied, and used by any thread.
+typedef struct {
+  float data[562];
+} EtendueParallelogramByReflection;
 
 // A rectangle, of a corner and two perpendicular edges from there, that emits from the side of the first edge x the second one.
 // Its strata follow the edges. Without area, and from a point in its plane, the pdf is 0. uv: (s, t), the parts of the edges,
@@ -369,6 +408,14 @@ typedef struct {
 typedef struct {
   float data[1084];
 } EtenduePolygonByProjectedSolidAngle;
+
+// In proportion to the lobe of a rough surface at the point p: pdf pi times that of the reflection, over the projected solid
+// angle after its map, per steradian; 0 where nothing of the light is above the horizon.
+//
+// What is inside does not concern callers: it may be copied, and used by any thread.
+typedef struct {
+  float data[1097];
+} EtenduePolygonByReflection;
 
 // A bilinear patch, of a corner and the vectors from there to the others, that emits from the side of ds x dt. Without area the
 // pdf is 0. uv: (s, t), in [0, 1].
@@ -1518,6 +1565,93 @@ EtendueStatus etendue_triangle_by_cosine_warp_hit_each(const EtendueTriangleColu
                                                        const EtendueSampleColumns *out);
 
 // Prepares the light for a shading point.
+EtendueStatus etendue_triangle_by_reflection_prepare(const EtendueTriangle *light,
+                                                     const float *p,
+                                                     const EtendueReflection *reflection,
+                                                     EtendueTriangleByReflection *out);
+
+// Draws a direction for u.
+EtendueStatus etendue_triangle_by_reflection_sample(const EtendueTriangleByReflection *sampler,
+                                                    const float *u,
+                                                    EtendueLightSample *out);
+
+// The pdf with which a unit direction `w` is drawn; 0 where it misses the light, and if a pointer is NULL.
+float etendue_triangle_by_reflection_pdf(const EtendueTriangleByReflection *sampler, const float *w);
+
+// The random numbers `u` that are mapped to a unit direction `w`; any in [0, 1)^2 where it misses the light.
+EtendueStatus etendue_triangle_by_reflection_invert(const EtendueTriangleByReflection *sampler,
+                                                    const float *w,
+                                                    float *u);
+
+// The nearest point of the light in a unit direction `w`, with the pdf of that direction; pdf 0 where it misses the light.
+EtendueStatus etendue_triangle_by_reflection_hit(const EtendueTriangleByReflection *sampler,
+                                                 const float *w,
+                                                 EtendueLightSample *out);
+
+// Draws a direction for each u: two columns.
+EtendueStatus etendue_triangle_by_reflection_sample_batch(const EtendueTriangleByReflection *sampler,
+                                                          size_t n,
+                                                          const float *const *u,
+                                                          const EtendueSampleColumns *out);
+
+// The pdf of each unit direction: three columns.
+EtendueStatus etendue_triangle_by_reflection_pdf_batch(const EtendueTriangleByReflection *sampler,
+                                                       size_t n,
+                                                       const float *const *w,
+                                                       float *out);
+
+// The random numbers of each unit direction: three columns in, two out.
+EtendueStatus etendue_triangle_by_reflection_invert_batch(const EtendueTriangleByReflection *sampler,
+                                                          size_t n,
+                                                          const float *const *w,
+                                                          float *const *u);
+
+// The nearest point of the light in each unit direction: three columns.
+EtendueStatus etendue_triangle_by_reflection_hit_batch(const EtendueTriangleByReflection *sampler,
+                                                       size_t n,
+                                                       const float *const *w,
+                                                       const EtendueSampleColumns *out);
+
+// Prepares the light for a shading point and draws one direction.
+EtendueStatus etendue_triangle_by_reflection_sample_once(const EtendueTriangle *light,
+                                                         const float *p,
+                                                         const EtendueReflection *reflection,
+                                                         const float *u,
+                                                         EtendueLightSample *out);
+
+// Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
+EtendueStatus etendue_triangle_by_reflection_sample_each(const EtendueTriangleColumns *lights,
+                                                         size_t n,
+                                                         const float *const *p,
+                                                         const EtendueReflectionColumns *reflections,
+                                                         const float *const *u,
+                                                         const EtendueSampleColumns *out);
+
+// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_triangle_by_reflection_pdf_each(const EtendueTriangleColumns *lights,
+                                                      size_t n,
+                                                      const float *const *p,
+                                                      const EtendueReflectionColumns *reflections,
+                                                      const float *const *w,
+                                                      float *out);
+
+// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_triangle_by_reflection_invert_each(const EtendueTriangleColumns *lights,
+                                                         size_t n,
+                                                         const float *const *p,
+                                                         const EtendueReflectionColumns *reflections,
+                                                         const float *const *w,
+                                                         float *const *u);
+
+// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
+EtendueStatus etendue_triangle_by_reflection_hit_each(const EtendueTriangleColumns *lights,
+                                                      size_t n,
+                                                      const float *const *p,
+                                                      const EtendueReflectionColumns *reflections,
+                                                      const float *const *w,
+                                                      const EtendueSampleColumns *out);
+
+// Prepares the light for a shading point.
 EtendueStatus etendue_parallelogram_by_area_prepare(const EtendueParallelogram *light,
                                                     const float *p,
                                                     EtendueParallelogramByArea *out);
@@ -1764,6 +1898,93 @@ EtendueStatus etendue_parallelogram_by_projected_solid_angle_hit_each(const Eten
                                                                       const float *const *normals,
                                                                       const float *const *w,
                                                                       const EtendueSampleColumns *out);
+
+// Prepares the light for a shading point.
+EtendueStatus etendue_parallelogram_by_reflection_prepare(const EtendueParallelogram *light,
+                                                          const float *p,
+                                                          const EtendueReflection *reflection,
+                                                          EtendueParallelogramByReflection *out);
+
+// Draws a direction for u.
+EtendueStatus etendue_parallelogram_by_reflection_sample(const EtendueParallelogramByReflection *sampler,
+                                                         const float *u,
+                                                         EtendueLightSample *out);
+
+// The pdf with which a unit direction `w` is drawn; 0 where it misses the light, and if a pointer is NULL.
+float etendue_parallelogram_by_reflection_pdf(const EtendueParallelogramByReflection *sampler, const float *w);
+
+// The random numbers `u` that are mapped to a unit direction `w`; any in [0, 1)^2 where it misses the light.
+EtendueStatus etendue_parallelogram_by_reflection_invert(const EtendueParallelogramByReflection *sampler,
+                                                         const float *w,
+                                                         float *u);
+
+// The nearest point of the light in a unit direction `w`, with the pdf of that direction; pdf 0 where it misses the light.
+EtendueStatus etendue_parallelogram_by_reflection_hit(const EtendueParallelogramByReflection *sampler,
+                                                      const float *w,
+                                                      EtendueLightSample *out);
+
+// Draws a direction for each u: two columns.
+EtendueStatus etendue_parallelogram_by_reflection_sample_batch(const EtendueParallelogramByReflection *sampler,
+                                                               size_t n,
+                                                               const float *const *u,
+                                                               const EtendueSampleColumns *out);
+
+// The pdf of each unit direction: three columns.
+EtendueStatus etendue_parallelogram_by_reflection_pdf_batch(const EtendueParallelogramByReflection *sampler,
+                                                            size_t n,
+                                                            const float *const *w,
+                                                            float *out);
+
+// The random numbers of each unit direction: three columns in, two out.
+EtendueStatus etendue_parallelogram_by_reflection_invert_batch(const EtendueParallelogramByReflection *sampler,
+                                                               size_t n,
+                                                               const float *const *w,
+                                                               float *const *u);
+
+// The nearest point of the light in each unit direction: three columns.
+EtendueStatus etendue_parallelogram_by_reflection_hit_batch(const EtendueParallelogramByReflection *sampler,
+                                                            size_t n,
+                                                            const float *const *w,
+                                                            const EtendueSampleColumns *out);
+
+// Prepares the light for a shading point and draws one direction.
+EtendueStatus etendue_parallelogram_by_reflection_sample_once(const EtendueParallelogram *light,
+                                                              const float *p,
+                                                              const EtendueReflection *reflection,
+                                                              const float *u,
+                                                              EtendueLightSample *out);
+
+// Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
+EtendueStatus etendue_parallelogram_by_reflection_sample_each(const EtendueParallelogramColumns *lights,
+                                                              size_t n,
+                                                              const float *const *p,
+                                                              const EtendueReflectionColumns *reflections,
+                                                              const float *const *u,
+                                                              const EtendueSampleColumns *out);
+
+// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_parallelogram_by_reflection_pdf_each(const EtendueParallelogramColumns *lights,
+                                                           size_t n,
+                                                           const float *const *p,
+                                                           const EtendueReflectionColumns *reflections,
+                                                           const float *const *w,
+                                                           float *out);
+
+// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_parallelogram_by_reflection_invert_each(const EtendueParallelogramColumns *lights,
+                                                              size_t n,
+                                                              const float *const *p,
+                                                              const EtendueReflectionColumns *reflections,
+                                                              const float *const *w,
+                                                              float *const *u);
+
+// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
+EtendueStatus etendue_parallelogram_by_reflection_hit_each(const EtendueParallelogramColumns *lights,
+                                                           size_t n,
+                                                           const float *const *p,
+                                                           const EtendueReflectionColumns *reflections,
+                                                           const float *const *w,
+                                                           const EtendueSampleColumns *out);
 
 // Prepares the light for a shading point.
 EtendueStatus etendue_rectangle_by_solid_angle_prepare(const EtendueRectangle *light,
@@ -2410,6 +2631,91 @@ EtendueStatus etendue_polygon_by_projected_solid_angle_hit_each(const EtenduePol
                                                                 const float *const *normals,
                                                                 const float *const *w,
                                                                 const EtendueSampleColumns *out);
+
+// Prepares the light for a shading point.
+EtendueStatus etendue_polygon_by_reflection_prepare(const EtenduePolygon *light,
+                                                    const float *p,
+                                                    const EtendueReflection *reflection,
+                                                    EtenduePolygonByReflection *out);
+
+// Draws a direction for u.
+EtendueStatus etendue_polygon_by_reflection_sample(const EtenduePolygonByReflection *sampler,
+                                                   const float *u,
+                                                   EtendueLightSample *out);
+
+// The pdf with which a unit direction `w` is drawn; 0 where it misses the light, and if a pointer is NULL.
+float etendue_polygon_by_reflection_pdf(const EtenduePolygonByReflection *sampler, const float *w);
+
+// The random numbers `u` that are mapped to a unit direction `w`; any in [0, 1)^2 where it misses the light.
+EtendueStatus etendue_polygon_by_reflection_invert(const EtenduePolygonByReflection *sampler, const float *w, float *u);
+
+// The nearest point of the light in a unit direction `w`, with the pdf of that direction; pdf 0 where it misses the light.
+EtendueStatus etendue_polygon_by_reflection_hit(const EtenduePolygonByReflection *sampler,
+                                                const float *w,
+                                                EtendueLightSample *out);
+
+// Draws a direction for each u: two columns.
+EtendueStatus etendue_polygon_by_reflection_sample_batch(const EtenduePolygonByReflection *sampler,
+                                                         size_t n,
+                                                         const float *const *u,
+                                                         const EtendueSampleColumns *out);
+
+// The pdf of each unit direction: three columns.
+EtendueStatus etendue_polygon_by_reflection_pdf_batch(const EtenduePolygonByReflection *sampler,
+                                                      size_t n,
+                                                      const float *const *w,
+                                                      float *out);
+
+// The random numbers of each unit direction: three columns in, two out.
+EtendueStatus etendue_polygon_by_reflection_invert_batch(const EtenduePolygonByReflection *sampler,
+                                                         size_t n,
+                                                         const float *const *w,
+                                                         float *const *u);
+
+// The nearest point of the light in each unit direction: three columns.
+EtendueStatus etendue_polygon_by_reflection_hit_batch(const EtenduePolygonByReflection *sampler,
+                                                      size_t n,
+                                                      const float *const *w,
+                                                      const EtendueSampleColumns *out);
+
+// Prepares the light for a shading point and draws one direction.
+EtendueStatus etendue_polygon_by_reflection_sample_once(const EtenduePolygon *light,
+                                                        const float *p,
+                                                        const EtendueReflection *reflection,
+                                                        const float *u,
+                                                        EtendueLightSample *out);
+
+// Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
+EtendueStatus etendue_polygon_by_reflection_sample_each(const EtenduePolygonColumns *lights,
+                                                        size_t n,
+                                                        const float *const *p,
+                                                        const EtendueReflectionColumns *reflections,
+                                                        const float *const *u,
+                                                        const EtendueSampleColumns *out);
+
+// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_polygon_by_reflection_pdf_each(const EtenduePolygonColumns *lights,
+                                                     size_t n,
+                                                     const float *const *p,
+                                                     const EtendueReflectionColumns *reflections,
+                                                     const float *const *w,
+                                                     float *out);
+
+// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_polygon_by_reflection_invert_each(const EtenduePolygonColumns *lights,
+                                                        size_t n,
+                                                        const float *const *p,
+                                                        const EtendueReflectionColumns *reflections,
+                                                        const float *const *w,
+                                                        float *const *u);
+
+// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
+EtendueStatus etendue_polygon_by_reflection_hit_each(const EtenduePolygonColumns *lights,
+                                                     size_t n,
+                                                     const float *const *p,
+                                                     const EtendueReflectionColumns *reflections,
+                                                     const float *const *w,
+                                                     const EtendueSampleColumns *out);
 
 // Prepares the light for a shading point.
 EtendueStatus etendue_patch_by_area_prepare(const EtendueBilinearPatch *light, const float *p, EtenduePatchByArea *out);
@@ -3117,6 +3423,34 @@ EtendueStatus etendue_directional_light_by_delta_hit_each(const EtendueDirection
                                                           const float *const *p,
                                                           const float *const *w,
                                                           const EtendueSampleColumns *out);
+
+// Prepares the reflection of a surface of this roughness alpha, taken to be from 3e-4 to 1, with the unit normal n, towards the viewer in the
+// unit direction view. A view below the horizon counts as one on the horizon, and has albedo 0.
+EtendueStatus etendue_reflection_prepare(float alpha,
+                                         const float *n,
+                                         const float *view,
+                                         EtendueReflection *out);
+
+// Prepares a reflection for each roughness, unit normal and unit direction to the viewer: all in columns. Lights are prepared for all columns of
+// `out`, of which any may be NULL here.
+EtendueStatus etendue_reflection_prepare_batch(size_t n,
+                                               const float *alphas,
+                                               const float *const *normals,
+                                               const float *const *views,
+                                               const EtendueReflectionColumns *out);
+
+// The projected solid angle after the map, in [0, pi], of the part above the horizon of a sphere with this centre relative to the point: about
+// pi times the part of the lobe that the sphere covers. 0 for a radius <= 0 and if a pointer is NULL, and pi from inside.
+float etendue_reflection_sphere(const EtendueReflection *reflection,
+                                const float *center,
+                                float radius);
+
+// The projected solid angle after the map of each sphere, with centres in three columns, relative to the point, and radii in one.
+EtendueStatus etendue_reflection_sphere_batch(const EtendueReflection *reflection,
+                                              size_t n,
+                                              const float *const *centers,
+                                              const float *radii,
+                                              float *out);
 
 // Independent random numbers: a counter, hashed.
 //
@@ -4273,6 +4607,35 @@ EtendueStatus etendue_ggx_visible_normals_invert_batch(const EtendueGgxVisibleNo
                                                        size_t n,
                                                        const float *const *points,
                                                        float *const *u);
+
+// Directions in which a rough surface reflects a view, per steradian.
+//
+// Maps random numbers `u` to a point.
+EtendueStatus etendue_reflection_sample(const EtendueReflection *warp, const float *u, float *point);
+
+// The pdf at a point, in the measure of the warp; 0 outside its range, and if a pointer is NULL.
+float etendue_reflection_pdf(const EtendueReflection *warp, const float *point);
+
+// The random numbers that are mapped to a point; any in [0, 1)^2 outside the range of the warp.
+EtendueStatus etendue_reflection_invert(const EtendueReflection *warp, const float *point, float *u);
+
+// A point for each u, in columns.
+EtendueStatus etendue_reflection_sample_batch(const EtendueReflection *warp,
+                                              size_t n,
+                                              const float *const *u,
+                                              float *const *points);
+
+// The pdf at each point, in columns.
+EtendueStatus etendue_reflection_pdf_batch(const EtendueReflection *warp,
+                                           size_t n,
+                                           const float *const *points,
+                                           float *out);
+
+// The random numbers of each point, in columns.
+EtendueStatus etendue_reflection_invert_batch(const EtendueReflection *warp,
+                                              size_t n,
+                                              const float *const *points,
+                                              float *const *u);
 
 // Points of a bilinear patch: pdf nearly 1/area.
 //

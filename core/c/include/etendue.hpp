@@ -13,7 +13,7 @@
 // - Picture::on puts a picture on a light. PortalEnvironment, Spread, GeneralSky, Profile, Projector and ProjectedImage.
 // - Batches: columns of one length, from anything with data() and size(). Every length is checked: a column of another length gives
 //   ETENDUE_STATUS_COUNT. Empty columns stand for results that are not wanted.
-// - Warps, sequences and LightTree.
+// - Warps, sequences and LightTree. Reflection is a warp for which flat lights are prepared by_reflection; ReflectionColumns are many of them.
 // - At the end, functions of the names and arguments of pbrt-v4, for hosts that replace those one by one.
 #ifndef ETENDUE_HPP
 #define ETENDUE_HPP
@@ -286,6 +286,31 @@ class LightColumns {
     }
 };
 
+// Reflections in columns, in memory of the host: 16 columns of one length.
+class ReflectionColumns {
+    EtendueReflectionColumns c_ = {};
+    size_t size_ = 0;
+
+  public:
+    static constexpr size_t COLUMNS = sizeof(EtendueReflection) / sizeof(float);
+
+    // Prepares one for each roughness, unit normal and unit direction to the viewer, in memory for COLUMNS numbers of each.
+    Status prepare(Span<const float> alphas, In<3> normals, In<3> views, Span<float> memory) {
+        const size_t n = alphas.size();
+        if (!detail::fits(normals, n) || !detail::fits(views, n) || memory.size() != COLUMNS * n) return ETENDUE_STATUS_COUNT;
+        for (size_t i = 0; i < COLUMNS - 2; i++) c_.data[i] = memory.data() + i * n;
+        c_.albedo = memory.data() + (COLUMNS - 2) * n;
+        c_.schlick = memory.data() + (COLUMNS - 1) * n;
+        size_ = n;
+        return etendue_reflection_prepare_batch(n, alphas.data(), detail::Pointers<const float, 3>(normals).p,
+                                                detail::Pointers<const float, 3>(views).p, &c_);
+    }
+    Span<const float> albedo() const { return {c_.albedo, size_}; }
+    Span<const float> schlick() const { return {c_.schlick, size_}; }
+    bool fits(size_t n) const { return size_ == n; }
+    const EtendueReflectionColumns& c() const { return c_; }
+};
+
 // ---- lights ----
 
 // What is done with a sampler c_.
@@ -336,7 +361,8 @@ class LightColumns {
 
 // One technique: a light prepared for a shading point.
 //
-// NORMAL is the surface's unit normal, where the technique needs it: the arguments are (parameter, its C pointer, columns, check).
+// What it needs beside the point, a unit normal or a reflection, is in the last arguments: parameter, its C pointer, columns, their check and their
+// C pointer.
 #define ETENDUE_TECHNIQUE(NAME, LIGHT, PREFIX, PARAMETER, POINTER, COLUMNS, COLUMNS_FIT, COLUMNS_POINTER)                               \
     class NAME {                                                                                                                       \
         Etendue##NAME c_;                                                                                                              \
@@ -395,6 +421,9 @@ class LightColumns {
     ETENDUE_TECHNIQUE(NAME, LIGHT, PREFIX, ETENDUE_COMMA Vec3 normal, ETENDUE_COMMA detail::Row<3>(normal).v,                          \
                       ETENDUE_COMMA In<3> normals, || !detail::fits(normals, n),                                                       \
                       ETENDUE_COMMA detail::Pointers<const float ETENDUE_COMMA 3>(normals).p)
+#define ETENDUE_REFLECTED(NAME, LIGHT, PREFIX)                                                                                         \
+    ETENDUE_TECHNIQUE(NAME, LIGHT, PREFIX, ETENDUE_COMMA const EtendueReflection& reflection, ETENDUE_COMMA &reflection,               \
+                      ETENDUE_COMMA const ReflectionColumns& reflections, || !reflections.fits(n), ETENDUE_COMMA &reflections.c())
 
 // from the list of techniques: WRITE=1 cargo test -p etendue-tests --test bindings
 ETENDUE_ANYWHERE(SphereByArea, Sphere, etendue_sphere_by_area)
@@ -404,9 +433,11 @@ ETENDUE_ANYWHERE(TriangleByArea, Triangle, etendue_triangle_by_area)
 ETENDUE_ANYWHERE(TriangleBySolidAngle, Triangle, etendue_triangle_by_solid_angle)
 ETENDUE_ON_SURFACE(TriangleByProjectedSolidAngle, Triangle, etendue_triangle_by_projected_solid_angle)
 ETENDUE_ON_SURFACE(TriangleByCosineWarp, Triangle, etendue_triangle_by_cosine_warp)
+ETENDUE_REFLECTED(TriangleByReflection, Triangle, etendue_triangle_by_reflection)
 ETENDUE_ANYWHERE(ParallelogramByArea, Parallelogram, etendue_parallelogram_by_area)
 ETENDUE_ANYWHERE(ParallelogramBySolidAngle, Parallelogram, etendue_parallelogram_by_solid_angle)
 ETENDUE_ON_SURFACE(ParallelogramByProjectedSolidAngle, Parallelogram, etendue_parallelogram_by_projected_solid_angle)
+ETENDUE_REFLECTED(ParallelogramByReflection, Parallelogram, etendue_parallelogram_by_reflection)
 ETENDUE_ANYWHERE(RectangleBySolidAngle, Rectangle, etendue_rectangle_by_solid_angle)
 ETENDUE_ON_SURFACE(RectangleByCosineWarp, Rectangle, etendue_rectangle_by_cosine_warp)
 ETENDUE_ANYWHERE(DiskByArea, Disk, etendue_disk_by_area)
@@ -415,6 +446,7 @@ ETENDUE_ANYWHERE(CylinderByArea, Cylinder, etendue_cylinder_by_area)
 ETENDUE_ANYWHERE(PolygonByArea, Polygon, etendue_polygon_by_area)
 ETENDUE_ANYWHERE(PolygonBySolidAngle, Polygon, etendue_polygon_by_solid_angle)
 ETENDUE_ON_SURFACE(PolygonByProjectedSolidAngle, Polygon, etendue_polygon_by_projected_solid_angle)
+ETENDUE_REFLECTED(PolygonByReflection, Polygon, etendue_polygon_by_reflection)
 ETENDUE_ANYWHERE(PatchByArea, BilinearPatch, etendue_patch_by_area)
 ETENDUE_ANYWHERE(LineByLength, Line, etendue_line_by_length)
 ETENDUE_ANYWHERE(LineByAngle, Line, etendue_line_by_angle)
@@ -455,6 +487,7 @@ struct Triangle : EtendueTriangle {
     TriangleBySolidAngle by_solid_angle(Vec3 at) const { return {*this, at}; }
     TriangleByProjectedSolidAngle by_projected_solid_angle(Vec3 at, Vec3 n) const { return {*this, at, n}; }
     TriangleByCosineWarp by_cosine_warp(Vec3 at, Vec3 n) const { return {*this, at, n}; }
+    TriangleByReflection by_reflection(Vec3 at, const EtendueReflection& reflection) const { return {*this, at, reflection}; }
 };
 // EtendueParallelogram with its constructors and techniques.
 struct Parallelogram : EtendueParallelogram {
@@ -462,6 +495,7 @@ struct Parallelogram : EtendueParallelogram {
     ParallelogramByArea by_area(Vec3 at) const { return {*this, at}; }
     ParallelogramBySolidAngle by_solid_angle(Vec3 at) const { return {*this, at}; }
     ParallelogramByProjectedSolidAngle by_projected_solid_angle(Vec3 at, Vec3 n) const { return {*this, at, n}; }
+    ParallelogramByReflection by_reflection(Vec3 at, const EtendueReflection& reflection) const { return {*this, at, reflection}; }
 };
 // EtendueRectangle with its constructors and techniques.
 struct Rectangle : EtendueRectangle {
@@ -470,6 +504,7 @@ struct Rectangle : EtendueRectangle {
     RectangleBySolidAngle by_solid_angle(Vec3 at) const { return {*this, at}; }
     ParallelogramByProjectedSolidAngle by_projected_solid_angle(Vec3 at, Vec3 n) const { return {EtendueParallelogram{{corner[0], corner[1], corner[2]}, {edge_s[0], edge_s[1], edge_s[2]}, {edge_t[0], edge_t[1], edge_t[2]}}, at, n}; }
     RectangleByCosineWarp by_cosine_warp(Vec3 at, Vec3 n) const { return {*this, at, n}; }
+    ParallelogramByReflection by_reflection(Vec3 at, const EtendueReflection& reflection) const { return {EtendueParallelogram{{corner[0], corner[1], corner[2]}, {edge_s[0], edge_s[1], edge_s[2]}, {edge_t[0], edge_t[1], edge_t[2]}}, at, reflection}; }
 };
 // EtendueDisk with its constructors and techniques.
 struct Disk : EtendueDisk {
@@ -498,6 +533,7 @@ struct Polygon : EtenduePolygon {
     PolygonByArea by_area(Vec3 at) const { return {*this, at}; }
     PolygonBySolidAngle by_solid_angle(Vec3 at) const { return {*this, at}; }
     PolygonByProjectedSolidAngle by_projected_solid_angle(Vec3 at, Vec3 n) const { return {*this, at, n}; }
+    PolygonByReflection by_reflection(Vec3 at, const EtendueReflection& reflection) const { return {*this, at, reflection}; }
 };
 // EtendueBilinearPatch with its constructors and techniques.
 struct BilinearPatch : EtendueBilinearPatch {
@@ -923,6 +959,21 @@ struct GgxVisibleNormals : EtendueGgxVisibleNormals {
     }
     ETENDUE_WARP(etendue_ggx_visible_normals, 2, 3)
 };
+// The lobe of a rough surface, by its roughness, its unit normal and the unit direction to the viewer: directions that it reflects there.
+// Lights are prepared for it by_reflection. The fields albedo and schlick are those of the C struct.
+struct Reflection : EtendueReflection {
+    Reflection(float alpha, Vec3 normal, Vec3 view) : EtendueReflection{} {
+        etendue_reflection_prepare(alpha, detail::Row<3>(normal).v, detail::Row<3>(view).v, this);
+    }
+    ETENDUE_WARP(etendue_reflection, 2, 3)
+    // The projected solid angle after the map of a sphere with this centre relative to the point: pi times the part of the lobe that it covers.
+    float sphere(Vec3 center, float radius) const { return etendue_reflection_sphere(this, detail::Row<3>(center).v, radius); }
+    Status sphere(In<3> centers, Span<const float> radii, Span<float> out) const {
+        const size_t n = out.size();
+        if (!detail::fits(centers, n) || !detail::fits(radii, n)) return ETENDUE_STATUS_COUNT;
+        return etendue_reflection_sphere_batch(this, n, detail::Pointers<const float, 3>(centers).p, radii.data(), out.data());
+    }
+};
 // A bilinear patch, by area.
 struct PatchSurface : EtenduePatchSurface {
     PatchSurface(Vec3 corner, Vec3 s, Vec3 t, Vec3 opposite)
@@ -1153,6 +1204,7 @@ inline Vec2 InvertBilinearSample(Vec2 p, const float (&w)[4]) { return Bilinear(
 #undef ETENDUE_TECHNIQUE
 #undef ETENDUE_ANYWHERE
 #undef ETENDUE_ON_SURFACE
+#undef ETENDUE_REFLECTED
 #undef ETENDUE_WARP_METHODS
 #undef ETENDUE_FIXED_WARP
 #undef ETENDUE_WARP

@@ -9,6 +9,7 @@
 mod sampler;
 // samples come first in the header
 mod light;
+mod reflected;
 mod sequence;
 mod tree;
 // after the lights, as in the header
@@ -31,6 +32,7 @@ pub use picture::*;
 pub use portal::*;
 pub use profile::*;
 pub use projector::*;
+pub use reflected::*;
 pub use sampler::{EtendueLightSample, EtendueSampleColumns};
 pub use sequence::*;
 pub use spread::*;

@@ -1,5 +1,6 @@
 //! Lights.
 
+use crate::reflected::{EtendueReflection, EtendueReflectionColumns};
 use crate::sampler::*;
 use crate::{EtendueStatus, columns, each, each_mut, outputs, refuse_null};
 use core::mem::{align_of, size_of};
@@ -11,13 +12,17 @@ macro_rules! technique {
     // the sampler of another light
     ($(#[$doc:meta])* $type:ty, $light:ident, $columns:ident, $place:tt) => {};
     ($(#[$doc:meta])* $type:ty, $light:ident, $columns:ident, (p, n), $sampler:ident[$size:literal], $module:ident) => {
-        technique!(@ $(#[$doc])* $sampler[$size] = $type, $light, $columns, (n: normals), $module);
+        technique!(@ $(#[$doc])* $sampler[$size] = $type, $light, $columns, $light, $columns, (n: normals), $module);
+    };
+    ($(#[$doc:meta])* $type:ty, $light:ident, $columns:ident, (p, reflection), $sampler:ident[$size:literal], $module:ident) => {
+        technique!(@ $(#[$doc])* $sampler[$size] = $type, $light, $columns,
+            Reflected<$light, EtendueReflection>, Reflected<$columns, EtendueReflectionColumns>, (reflection => reflections), $module);
     };
     ($(#[$doc:meta])* $type:ty, $light:ident, $columns:ident, $place:tt, $sampler:ident[$size:literal], $module:ident) => {
-        technique!(@ $(#[$doc])* $sampler[$size] = $type, $light, $columns, (), $module);
+        technique!(@ $(#[$doc])* $sampler[$size] = $type, $light, $columns, $light, $columns, (), $module);
     };
-    (@ $(#[$doc:meta])* $sampler:ident[$size:literal] = $type:ty, $light:ident, $columns:ident,
-     ($($n:ident: $normals:ident)?), $module:ident) => {
+    (@ $(#[$doc:meta])* $sampler:ident[$size:literal] = $type:ty, $light:ident, $columns:ident, $of_one:ty, $of_many:ty,
+     $place:tt, $module:ident) => {
         $(#[$doc])*
         ///
         /// What is inside does not concern callers: it may be copied, and used by any thread.
@@ -39,22 +44,22 @@ macro_rules! technique {
             }
         }
         impl Technique for $sampler {
-            type Light = $light;
-            type Columns = $columns;
+            type Light = $of_one;
+            type Columns = $of_many;
             #[inline(always)]
-            unsafe fn prepare(light: *const $light, p: Vec3<f32>, n: Vec3<f32>, out: *mut Self) -> EtendueStatus {
+            unsafe fn prepare(light: *const $of_one, p: Vec3<f32>, n: Vec3<f32>, out: *mut Self) -> EtendueStatus {
                 // SAFETY: the caller's; the structs of the light have the same fields
                 unsafe { out.cast::<$type>().write(Batch::new().prepare::<$type>(&*light.cast(), p, n)) };
                 EtendueStatus::Ok
             }
             #[inline(always)]
             unsafe fn with_lights(
-                lights: *const $columns,
+                lights: *const $of_many,
                 f: impl FnOnce(<$type as BatchTechnique>::Light<*const f32>),
             ) -> EtendueStatus {
                 // SAFETY: the caller's; the structs of columns have the same fields
                 unsafe {
-                    if !(*lights).all_there() {
+                    if !all_there(&*lights) {
                         return EtendueStatus::NullPointer;
                     }
                     f(*lights.cast::<<$type as BatchTechnique>::Light<*const f32>>());
@@ -67,7 +72,7 @@ macro_rules! technique {
         pub mod $module {
             use super::*;
 
-            technique_functions!($sampler, $light, $columns, $module, ($($n: $normals)?));
+            technique_functions!($sampler, $light, $columns, $module, $place);
         }
     };
 }
@@ -90,7 +95,9 @@ macro_rules! lights {
     ($(
         $(#[$light_doc:meta])* $light:ident $([$corners:literal])? = $name:ident, $columns:ident {
             $($(#[$field_doc:meta])* $field:ident as $argument:ident: $kind:ident,)+
-        } by $default:literal {
+        } $(reflected {
+            $(#[$lobe_doc:meta])* $lobe:ident $([$lobe_n:literal])? $(= $lobe_name:ident, $lobe_module:ident[$lobe_size:literal])?;
+        })? by $default:literal {
             $(
                 $(#[$doc:meta])* $sampler:ident $([$n:literal])?
                     $(= $sampler_name:ident, $technique:ident[$size:literal])?: $by:ident $place:tt $($measure:ident)?;
@@ -109,20 +116,14 @@ macro_rules! lights {
         pub struct $columns {
             $($(#[$field_doc])* pub $field: field!($kind *const f32),)+
         }
-        impl $columns {
-            pub(crate) fn all_there(&self) -> bool {
-                // SAFETY: the struct consists of pointers
-                let pointers = unsafe {
-                    core::slice::from_raw_parts((&raw const *self).cast::<*const f32>(), size_of::<Self>() / size_of::<*const f32>())
-                };
-                !pointers.iter().any(|column| column.is_null())
-            }
-        }
         const _: () = assert!(size_of::<$name>() == size_of::<light::$light<f32 $(, $corners)?>>());
         const _: () = assert!(size_of::<$columns>() == size_of::<light::$light<*const f32 $(, $corners)?>>());
         $(technique!(
             $(#[$doc])* light::$sampler<f32 $(, $n)?>, $name, $columns, $place $(, $sampler_name[$size], $technique)?
         );)+
+        $(technique!(
+            $(#[$lobe_doc])* light::$lobe<f32 $(, $lobe_n)?>, $name, $columns, (p, reflection) $(, $lobe_name[$lobe_size], $lobe_module)?
+        );)?
     )+};
 }
 

@@ -264,7 +264,8 @@ macro_rules! pictured {
         }
         impl $columns {
             unsafe fn with(&self, f: impl FnOnce(Pictured<'static, light::$core<*const f32>>)) -> EtendueStatus {
-                if !self.lights.all_there() {
+                // SAFETY: the columns of lights consist of pointers
+                if !unsafe { all_there(&self.lights) } {
                     return EtendueStatus::NullPointer;
                 }
                 // SAFETY: the caller's; the structs of columns have the same fields

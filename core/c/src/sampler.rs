@@ -1,6 +1,7 @@
 //! Samples, and what is done with prepared lights.
 
 use crate::{EtendueStatus, columns, each_mut, outputs, refuse_null};
+use core::mem::size_of;
 use core::ptr::{null, null_mut};
 use etendue::{Vec2, Vec3};
 use etendue_batch::{Batch, BatchSampler, BatchTechnique, EvaluationColumns, SampleColumns, Views};
@@ -78,6 +79,18 @@ pub(crate) fn vec3<T>([x, y, z]: [T; 3]) -> Vec3<T> {
 }
 pub(crate) fn vec2<T>([x, y]: [T; 2]) -> Vec2<T> {
     Vec2::new(x, y)
+}
+
+/// Whether none of the pointers of which a struct of columns consists is null.
+pub(crate) unsafe fn all_there<C>(columns: &C) -> bool {
+    // SAFETY: the caller's struct consists of pointers
+    let pointers = unsafe {
+        core::slice::from_raw_parts(
+            (&raw const *columns).cast::<*const f32>(),
+            size_of::<C>() / size_of::<*const f32>(),
+        )
+    };
+    !pointers.iter().any(|column| column.is_null())
 }
 
 /// Columns of which none is wanted.
@@ -314,22 +327,49 @@ pub(crate) unsafe fn hits_alone(out: *const EtendueSampleColumns) -> Option<Eval
     (!out.is_null()).then(|| EvaluationColumns { hit: unsafe { (*out).columns() }, ..NOTHING })
 }
 
-/// What is done with the sampler of a technique, and with lights of their own. `n` and `normals` are there if it needs the normal.
+/// A light and the reflection that it is prepared for, or columns of them.
+#[derive(Clone, Copy)]
+#[repr(C)]
+pub(crate) struct Reflected<L, X> {
+    light: L,
+    reflection: X,
+}
+
+impl<L: Copy, X: Copy> Reflected<L, X> {
+    /// None if a pointer is null.
+    pub(crate) unsafe fn new(light: *const L, reflection: *const X) -> Option<Self> {
+        // SAFETY: the caller's pointers are null or point to what the header says
+        unsafe { Some(Self { light: *light.as_ref()?, reflection: *reflection.as_ref()? }) }
+    }
+}
+
+/// What is done with the sampler of a technique, and with lights of their own. `(n: normals)` is there if it needs the normal, and
+/// `(reflection => reflections)` if it needs what a surface reflects.
 macro_rules! technique_functions {
-    ($sampler:ident, $light:ident, $columns:ident, $module:ident, ($($n:ident: $normals:ident)?)) => {
+    ($sampler:ident, $light:ident, $columns:ident, $module:ident, ()) => {
+        technique_functions!(anywhere $sampler, $light, $columns, $module, ());
+    };
+    ($sampler:ident, $light:ident, $columns:ident, $module:ident, ($n:ident: $normals:ident)) => {
+        technique_functions!(surface $sampler, $light, $columns, $module, ($n: *const f32, $normals: *const *const f32));
+    };
+    ($sampler:ident, $light:ident, $columns:ident, $module:ident, ($one:ident => $many:ident)) => {
+        technique_functions!(reflected $sampler, $light, $columns, $module,
+            ($one: *const EtendueReflection, $many: *const EtendueReflectionColumns));
+    };
+    ($kind:ident $sampler:ident, $light:ident, $columns:ident, $module:ident, ($($one:ident: $of_one:ty, $many:ident: $of_many:ty)?)) => {
         /// Prepares the light for a shading point.
         #[unsafe(export_name = concat!("etendue_", stringify!($module), "_prepare"))]
         pub unsafe extern "C" fn prepare(
             light: *const $light,
             p: *const f32,
-            $($n: *const f32,)?
+            $($one: $of_one,)?
             out: *mut $sampler,
         ) -> EtendueStatus {
-            refuse_null!(light, p, $($n,)? out);
+            refuse_null!(light, p, $($one,)? out);
             // SAFETY: the pointers are not null, and point to what the header says
             unsafe {
-                let [p, normal] = [p, technique_functions!(@normal $($n)?, p)].map(|v| vec3(v.cast::<[f32; 3]>().read_unaligned()));
-                <$sampler as Technique>::prepare(light, p, normal, out)
+                let [at, normal] = [p, technique_functions!(@normal $kind p $(, $one)?)].map(|v| vec3(v.cast::<[f32; 3]>().read_unaligned()));
+                <$sampler as Technique>::prepare(technique_functions!(@lights $kind light $(, $one)?), at, normal, out)
             }
         }
         sampler_functions!($sampler, $module);
@@ -338,15 +378,15 @@ macro_rules! technique_functions {
         pub unsafe extern "C" fn sample_once(
             light: *const $light,
             p: *const f32,
-            $($n: *const f32,)?
+            $($one: $of_one,)?
             u: *const f32,
             out: *mut EtendueLightSample,
         ) -> EtendueStatus {
-            refuse_null!(light, p, $($n,)? u, out);
+            refuse_null!(light, p, $($one,)? u, out);
             let mut sampler = core::mem::MaybeUninit::<$sampler>::uninit();
             // SAFETY: the pointers are not null, and point to what the header says
             unsafe {
-                match prepare(light, p, $($n,)? sampler.as_mut_ptr()) {
+                match prepare(light, p, $($one,)? sampler.as_mut_ptr()) {
                     EtendueStatus::Ok => sample(sampler.as_ptr(), u, out),
                     status => status,
                 }
@@ -358,12 +398,12 @@ macro_rules! technique_functions {
             lights: *const $columns,
             n: usize,
             p: *const *const f32,
-            $($normals: *const *const f32,)?
+            $($many: $of_many,)?
             u: *const *const f32,
             out: *const EtendueSampleColumns,
         ) -> EtendueStatus {
             // SAFETY: the pointers are null, or point to what the header says
-            unsafe { sample_lights::<$sampler>(lights, n, p, technique_functions!(@normals $($normals)?), u, out) }
+            unsafe { sample_lights::<$sampler>(technique_functions!(@lights $kind lights $(, $many)?), n, p, technique_functions!(@normals $kind $($many)?), u, out) }
         }
         /// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
         #[unsafe(export_name = concat!("etendue_", stringify!($module), "_pdf_each"))]
@@ -371,12 +411,12 @@ macro_rules! technique_functions {
             lights: *const $columns,
             n: usize,
             p: *const *const f32,
-            $($normals: *const *const f32,)?
+            $($many: $of_many,)?
             w: *const *const f32,
             out: *mut f32,
         ) -> EtendueStatus {
             // SAFETY: the pointers are null, or point to what the header says
-            unsafe { evaluate_lights::<$sampler>(lights, n, p, technique_functions!(@normals $($normals)?), w, pdf_alone(out)) }
+            unsafe { evaluate_lights::<$sampler>(technique_functions!(@lights $kind lights $(, $many)?), n, p, technique_functions!(@normals $kind $($many)?), w, pdf_alone(out)) }
         }
         /// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
         #[unsafe(export_name = concat!("etendue_", stringify!($module), "_invert_each"))]
@@ -384,12 +424,12 @@ macro_rules! technique_functions {
             lights: *const $columns,
             n: usize,
             p: *const *const f32,
-            $($normals: *const *const f32,)?
+            $($many: $of_many,)?
             w: *const *const f32,
             u: *const *mut f32,
         ) -> EtendueStatus {
             // SAFETY: the pointers are null, or point to what the header says
-            unsafe { evaluate_lights::<$sampler>(lights, n, p, technique_functions!(@normals $($normals)?), w, numbers_alone(u)) }
+            unsafe { evaluate_lights::<$sampler>(technique_functions!(@lights $kind lights $(, $many)?), n, p, technique_functions!(@normals $kind $($many)?), w, numbers_alone(u)) }
         }
         /// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
         #[unsafe(export_name = concat!("etendue_", stringify!($module), "_hit_each"))]
@@ -397,18 +437,22 @@ macro_rules! technique_functions {
             lights: *const $columns,
             n: usize,
             p: *const *const f32,
-            $($normals: *const *const f32,)?
+            $($many: $of_many,)?
             w: *const *const f32,
             out: *const EtendueSampleColumns,
         ) -> EtendueStatus {
             // SAFETY: the pointers are null, or point to what the header says
-            unsafe { evaluate_lights::<$sampler>(lights, n, p, technique_functions!(@normals $($normals)?), w, hits_alone(out)) }
+            unsafe { evaluate_lights::<$sampler>(technique_functions!(@lights $kind lights $(, $many)?), n, p, technique_functions!(@normals $kind $($many)?), w, hits_alone(out)) }
         }
     };
     // of techniques without a normal, anything that can be read
-    (@normal, $p:ident) => { $p };
-    (@normal $n:ident, $p:ident) => { $n };
-    (@normals) => { core::ptr::null() };
-    (@normals $normals:ident) => { $normals };
+    (@normal surface $p:ident, $n:ident) => { $n };
+    (@normal $kind:ident $p:ident $(, $one:ident)?) => { $p };
+    (@normals surface $normals:ident) => { $normals };
+    (@normals $kind:ident $($many:ident)?) => { core::ptr::null() };
+    (@lights reflected $lights:ident, $reflections:ident) => {
+        Reflected::new($lights, $reflections).as_ref().map_or(core::ptr::null(), core::ptr::from_ref)
+    };
+    (@lights $kind:ident $lights:ident $(, $many:ident)?) => { $lights };
 }
 pub(crate) use technique_functions;

@@ -1,8 +1,10 @@
 //! Warps.
 
+use crate::reflected::EtendueReflection;
 use crate::{EtendueStatus, columns, each, each_mut, outputs, refuse_null};
 use core::mem::size_of;
-use etendue::warp;
+use etendue::reflection::Reflection;
+use etendue::warp::{self, *};
 use etendue::{Vec2, Vec3};
 use etendue_batch::{Batch, BatchWarp};
 
@@ -17,10 +19,10 @@ fn two<T: Copy, const N: usize>(columns: [T; N]) -> Vec2<T> {
 /// The functions of one warp, in a module of their own.
 macro_rules! warp {
     ($(#[$doc:meta])* $warp:ident, $module:ident, $numbers:literal, $coordinates:literal) => {
-        warp!(@ $(#[$doc])* warp::$warp, $module, $numbers, $coordinates, (), &warp::$warp);
+        warp!(@ $(#[$doc])* $warp, $module, $numbers, $coordinates, (), &$warp);
     };
     ($(#[$doc:meta])* $warp:ident, $module:ident, $numbers:literal, $coordinates:literal, $struct:ident) => {
-        warp!(@ $(#[$doc])* warp::$warp<f32>, $module, $numbers, $coordinates, (warp: $struct), &*warp.cast());
+        warp!(@ $(#[$doc])* $warp<f32>, $module, $numbers, $coordinates, (warp: $struct), &*warp.cast());
     };
     (@ $(#[$doc:meta])* $type:ty, $module:ident, $numbers:literal, $coordinates:literal, ($($warp:ident: $struct:ident)?), $value:expr) => {
         #[doc = concat!("The functions of a warp: their names in C begin with `etendue_", stringify!($module), "_`.")]

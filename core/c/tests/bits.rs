@@ -2,6 +2,7 @@
 
 use core::ptr::null;
 use etendue::light::*;
+use etendue::reflection::Reflection;
 use etendue::sequence::{Independent, Sequence};
 use etendue::warp::{UniformSphere, Warp};
 use etendue::{LightSampler, Vec2, Vec3};
@@ -72,6 +73,76 @@ macro_rules! prepared {
             sampler.assume_init()
         }
     }};
+}
+
+#[test]
+fn reflections() {
+    let (p, n, view) = (Vec3::from(P), Vec3::from(N), [-0.6, 0.64, 0.48]);
+    for alpha in [0.0, 0.1, 0.5, 1.0] {
+        let core = Reflection::new(alpha, n, view.into());
+        let mut same = core::mem::MaybeUninit::<EtendueReflection>::uninit();
+        // SAFETY: the pointers are to what the header says, and the function writes the reflection
+        let same = unsafe {
+            let prepared = etendue_reflection_prepare(alpha, N.as_ptr(), view.as_ptr(), same.as_mut_ptr());
+            assert_eq!(prepared, EtendueStatus::Ok);
+            same.assume_init()
+        };
+        assert_eq!(bits(&[same.albedo, same.schlick]), bits(&[core.albedo(), core.schlick()]));
+        for i in 0..COUNT {
+            let (u, center, mut drawn, mut back) = (pair(i), direction(i), [0.0; 3], [0.0; 2]);
+            // SAFETY: the pointers are to what the header says
+            unsafe {
+                assert_eq!(reflection::sample(&same, [u.x, u.y].as_ptr(), drawn.as_mut_ptr()), EtendueStatus::Ok);
+                let w = core.sample(u);
+                assert_eq!(bits(&drawn), bits(&three(w)), "{alpha}, sample {i}");
+                assert_eq!(reflection::pdf(&same, drawn.as_ptr()).to_bits(), core.pdf(w).to_bits(), "{alpha}, pdf {i}");
+                assert_eq!(reflection::invert(&same, drawn.as_ptr(), back.as_mut_ptr()), EtendueStatus::Ok);
+                assert_eq!(bits(&back), bits(&[core.invert(w).x, core.invert(w).y]), "{alpha}, inverse {i}");
+                let covered = etendue_reflection_sphere(&same, three(center).as_ptr(), u.x);
+                assert_eq!(covered.to_bits(), core.sphere(center, u.x).to_bits(), "{alpha}, sphere {i}");
+            }
+        }
+        let (corner, s, t) = ([-0.5, 2.0, -0.3], [0.1, 0.2, 1.1], [1.2, 0.1, 0.2]);
+        let prepare = |light: &EtendueParallelogram| {
+            let mut sampler = core::mem::MaybeUninit::uninit();
+            // SAFETY: the pointers are to what the header says, and the function writes the sampler
+            unsafe {
+                let prepared = parallelogram_by_reflection::prepare(light, P.as_ptr(), &same, sampler.as_mut_ptr());
+                assert_eq!(prepared, EtendueStatus::Ok);
+                sampler.assume_init()
+            }
+        };
+        let light = EtendueParallelogram { corner, edge_s: s, edge_t: t };
+        let expected = Parallelogram::new(corner.into(), s.into(), t.into()).by_reflection(p, &core);
+        assert_same!(alpha, expected, prepare(&light), parallelogram_by_reflection);
+        // the sampler of a rectangle is a parallelogram's
+        let (s, t) = ([0.0, 0.0, 1.0], [1.0, 0.0, 0.0]);
+        let light = EtendueParallelogram { corner, edge_s: s, edge_t: t };
+        let expected = Rectangle::new(corner.into(), s.into(), t.into()).by_reflection(p, &core);
+        assert_same!(alpha, expected, prepare(&light), parallelogram_by_reflection);
+        let mut sampler = core::mem::MaybeUninit::uninit();
+        let light = EtendueTriangle { v0: corner, e1: [1.2, 0.1, 0.2], e2: [0.1, 0.2, 1.1] };
+        // SAFETY: the pointers are to what the header says, and the function writes the sampler
+        let sampler = unsafe {
+            let prepared = triangle_by_reflection::prepare(&light, P.as_ptr(), &same, sampler.as_mut_ptr());
+            assert_eq!(prepared, EtendueStatus::Ok);
+            sampler.assume_init()
+        };
+        let expected = Triangle { v0: light.v0.into(), e1: light.e1.into(), e2: light.e2.into() };
+        assert_same!(alpha, expected.by_reflection(p, &core), sampler, triangle_by_reflection);
+        let mut sampler = core::mem::MaybeUninit::uninit();
+        let corners = [[-0.5, 2.0, -0.3], [0.6, 2.0, -0.4], [0.9, 2.0, 0.4], [0.2, 2.0, 0.9]];
+        let corners = core::array::from_fn(|i| corners[i.min(3)]);
+        // SAFETY: the pointers are to what the header says, and the function writes the sampler
+        let sampler = unsafe {
+            let light = EtenduePolygon { corners };
+            let prepared = polygon_by_reflection::prepare(&light, P.as_ptr(), &same, sampler.as_mut_ptr());
+            assert_eq!(prepared, EtendueStatus::Ok);
+            sampler.assume_init()
+        };
+        let expected = Polygon::new(corners.map(Vec3::from)).by_reflection(p, &core);
+        assert_same!(alpha, expected, sampler, polygon_by_reflection);
+    }
 }
 
 /// A picture in C and in the core, over one image.

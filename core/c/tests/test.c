@@ -41,7 +41,7 @@ typedef struct {
     const char *name;
     const float *light;
     size_t light_numbers, sampler_numbers;
-    // whether `n` is used; whether a sample's pdf is the pdf of its direction, which is not so for lines and for curved lights by area
+    // what it needs beside the point: 1 the normal `n`, 2 a reflection, of which `n` is the normal
     int on_surface;
     EtendueStatus (*prepare)(const float *light, const float *p, const float *n, float *sampler);
     EtendueStatus (*sample)(const float *sampler, const float *u, EtendueLightSample *out);
@@ -62,6 +62,23 @@ typedef struct {
     EtendueStatus (*invert_each)(const float *const *lights, size_t n, const float *const *p, const float *const *normals,
                                  const float *const *w, float *const *u);
 } Technique;
+
+// Reflections of floors with the normals `n`, which a viewer sees along them, as functions of normals take them.
+static const float alpha = 0.3f;
+static EtendueReflection reflection_memory;
+static const EtendueReflection *reflection(const float *n) {
+    return n && etendue_reflection_prepare(alpha, n, n, &reflection_memory) == ETENDUE_STATUS_OK ? &reflection_memory : NULL;
+}
+static float reflection_numbers[16][MOST], alphas[MOST];
+static EtendueReflectionColumns reflection_columns;
+static const EtendueReflectionColumns *reflections(size_t n, const float *const *normals) {
+    for (int k = 0; k < 14; k++) reflection_columns.data[k] = reflection_numbers[k];
+    reflection_columns.albedo = reflection_numbers[14];
+    reflection_columns.schlick = reflection_numbers[15];
+    for (size_t i = 0; i < MOST; i++) alphas[i] = alpha;
+    const int prepared = normals && etendue_reflection_prepare_batch(n, alphas, normals, normals, &reflection_columns) == ETENDUE_STATUS_OK;
+    return prepared ? &reflection_columns : NULL;
+}
 
 // The functions of a technique with all structs as arrays of numbers or pointers. N and NORMALS are the arguments for normals, if any.
 #define FUNCTIONS(NAME, LIGHT, PREFIX, N, NORMALS)                                                                                  \
@@ -120,8 +137,9 @@ typedef struct {
 #define COMMA ,
 #define FUNCTIONS_0(NAME, LIGHT, PREFIX) FUNCTIONS(NAME, LIGHT, PREFIX, , )
 #define FUNCTIONS_1(NAME, LIGHT, PREFIX) FUNCTIONS(NAME, LIGHT, PREFIX, n COMMA, normals COMMA)
+#define FUNCTIONS_2(NAME, LIGHT, PREFIX) FUNCTIONS(NAME, LIGHT, PREFIX, reflection(n) COMMA, reflections(n COMMA normals) COMMA)
 
-// name, light, functions, needs a normal
+// name, light, functions, what it needs beside the point: 1 a normal, 2 a reflection
 // from the list of techniques: WRITE=1 cargo test -p etendue-tests --test bindings
 #define TECHNIQUES(T) \
     T(SphereByArea, Sphere, sphere_by_area, 0) \
@@ -131,9 +149,11 @@ typedef struct {
     T(TriangleBySolidAngle, Triangle, triangle_by_solid_angle, 0) \
     T(TriangleByProjectedSolidAngle, Triangle, triangle_by_projected_solid_angle, 1) \
     T(TriangleByCosineWarp, Triangle, triangle_by_cosine_warp, 1) \
+    T(TriangleByReflection, Triangle, triangle_by_reflection, 2) \
     T(ParallelogramByArea, Parallelogram, parallelogram_by_area, 0) \
     T(ParallelogramBySolidAngle, Parallelogram, parallelogram_by_solid_angle, 0) \
     T(ParallelogramByProjectedSolidAngle, Parallelogram, parallelogram_by_projected_solid_angle, 1) \
+    T(ParallelogramByReflection, Parallelogram, parallelogram_by_reflection, 2) \
     T(RectangleBySolidAngle, Rectangle, rectangle_by_solid_angle, 0) \
     T(RectangleByCosineWarp, Rectangle, rectangle_by_cosine_warp, 1) \
     T(DiskByArea, Disk, disk_by_area, 0) \
@@ -142,6 +162,7 @@ typedef struct {
     T(PolygonByArea, Polygon, polygon_by_area, 0) \
     T(PolygonBySolidAngle, Polygon, polygon_by_solid_angle, 0) \
     T(PolygonByProjectedSolidAngle, Polygon, polygon_by_projected_solid_angle, 1) \
+    T(PolygonByReflection, Polygon, polygon_by_reflection, 2) \
     T(PatchByArea, BilinearPatch, patch_by_area, 0) \
     T(LineByLength, Line, line_by_length, 0) \
     T(LineByAngle, Line, line_by_angle, 0) \
@@ -460,11 +481,12 @@ typedef struct {
     W(cone, Cone, 2, 3)                               \
     W(bilinear, Bilinear, 2, 2)                       \
     W(ggx_visible_normals, GgxVisibleNormals, 2, 3)   \
+    W(reflection, Reflection, 2, 3)                   \
     W(patch_surface, PatchSurface, 2, 3)              \
     W(linear, Linear, 1, 1)                           \
     W(tent, Tent, 1, 1)
 static const float Cone[] = {0.3f}, Bilinear[] = {1, 2, 0.5f, 3};
-static float GgxVisibleNormals[12];
+static float GgxVisibleNormals[12], Reflection[16];
 static const float PatchSurface[] = {-0.5f, 2, -0.3f, 1.2f, 0.1f, 0.2f, 0.1f, 0.2f, 1.1f, 1.3f, 0.6f, 1.2f};
 static const float Linear[] = {1, 3}, Tent[] = {2};
 #define WRITE_WITHOUT(PREFIX, U, P) WARP_FUNCTIONS(PREFIX, )
@@ -537,6 +559,97 @@ static void test_warp(const Warp *w) {
     none[w->coordinates - 1] = r.column[w->coordinates - 1];
     CHECK(w->sample_batch(self, 64, u_in, none) == OK && only_written(&r, w->coordinates - 1, w->coordinates));
     CHECK(w->sample_batch(NULL, 0, NULL, NULL) == OK && w->pdf_batch(NULL, 0, NULL, NULL) == OK && w->invert_batch(NULL, 0, NULL, NULL) == OK);
+    free(r.memory);
+}
+
+// ---- reflections ----
+
+static void test_reflections(void) {
+    EtendueReflection *const lobe = (EtendueReflection *)Reflection, untouched;
+    const float view[3] = {-0.48f, 0.8f, 0.36f};
+    memset(&untouched, 0, sizeof untouched);
+    CHECK(sizeof *lobe == sizeof Reflection && memcmp(lobe, &untouched, sizeof untouched) == 0);
+    CHECK(etendue_reflection_prepare(0.2f, NULL, view, lobe) == REFUSED && etendue_reflection_prepare(0.2f, up, NULL, lobe) == REFUSED);
+    CHECK(etendue_reflection_prepare(0.2f, up, view, NULL) == REFUSED && memcmp(lobe, &untouched, sizeof untouched) == 0);
+    CHECK(etendue_reflection_prepare(0.2f, up, view, lobe) == OK);
+    CHECK(lobe->albedo > 0.9f && lobe->albedo <= 1 && lobe->schlick > 0 && lobe->schlick < 0.1f);
+    const float mirror[3] = {0.48f, 0.8f, -0.36f};
+    CHECK(etendue_reflection_pdf(lobe, mirror) > 1 && etendue_reflection_pdf(lobe, up) < etendue_reflection_pdf(lobe, mirror));
+
+    // spheres in the mirror direction cover what of the lobe is within their angle; from inside all of it
+    const float far[3] = {4.8f, 8, -3.6f}, within[3] = {0.1f, 0.2f, 0.1f};
+    CHECK(etendue_reflection_sphere(lobe, far, 0) == 0 && etendue_reflection_sphere(lobe, within, 1) == (float)3.14159265358979324);
+    CHECK(etendue_reflection_sphere(lobe, far, 1) > 0 && etendue_reflection_sphere(lobe, far, 1) < etendue_reflection_sphere(lobe, far, 9));
+    CHECK(etendue_reflection_sphere(NULL, far, 1) == 0 && etendue_reflection_sphere(lobe, NULL, 1) == 0);
+
+    for (int size = 0; size < SIZES; size++) {
+        const size_t n = sizes[size];
+        Input roughness = input(u_numbers[0], n), radii = input(u_numbers[1], n), normals[3], views[3];
+        const float *n_in[3], *v_in[3];
+        for (int k = 0; k < 3; k++) {
+            n_in[k] = (normals[k] = input(n_numbers[k], n)).column;
+            v_in[k] = (views[k] = input(w_numbers[k], n)).column;
+        }
+        // absent: none, and each column alone
+        for (int absent = -1; absent < 16; absent++) {
+            Results low = results(n), high = results(n);
+            EtendueReflectionColumns out;
+            float **const columns = (float **)(void *)&out;
+            for (int k = 0; k < 16; k++) columns[k] = k == absent ? NULL : k < 8 ? low.column[k] : high.column[k - 8];
+            CHECK(etendue_reflection_prepare_batch(n, roughness.column, n_in, v_in, &out) == OK);
+            for (size_t i = 0; i < n; i++) {
+                const float n_i[3] = {n_numbers[0][i], n_numbers[1][i], n_numbers[2][i]}, v_i[3] = {w_numbers[0][i], w_numbers[1][i], w_numbers[2][i]};
+                EtendueReflection one;
+                CHECK(etendue_reflection_prepare(u_numbers[0][i], n_i, v_i, &one) == OK);
+                for (int k = 0; k < 16; k++) {
+                    const float number = ((const float *)&one)[k];
+                    CHECK(isfinite(number) && (k == absent || same(number, at(columns[k], i))));
+                }
+            }
+            if (absent < 0) CHECK(only_written(&low, 0, 8) && only_written(&high, 0, 8));
+            if (absent >= 0 && absent < 8) CHECK(is_untouched((unsigned char *)low.column[absent], 4 * n));
+            if (absent >= 8) CHECK(is_untouched((unsigned char *)high.column[absent - 8], 4 * n));
+            free(low.memory);
+            free(high.memory);
+        }
+        Results r = results(n);
+        CHECK(etendue_reflection_sphere_batch(lobe, n, v_in, radii.column, r.column[0]) == OK && only_written(&r, 0, 1));
+        for (size_t i = 0; i < n; i++) {
+            const float v_i[3] = {w_numbers[0][i], w_numbers[1][i], w_numbers[2][i]}, one = etendue_reflection_sphere(lobe, v_i, u_numbers[1][i]);
+            CHECK(one >= 0 && one <= (float)3.14159265358979324 && same(one, at(r.column[0], i)));
+        }
+        free(r.memory);
+        release(roughness), release(radii);
+        for (int k = 0; k < 3; k++) release(normals[k]), release(views[k]);
+    }
+
+    Results r = results(64);
+    EtendueReflectionColumns out;
+    memset(&out, 0, sizeof out);
+    out.albedo = r.column[0];
+    const float *const n_in[3] = {n_numbers[0], n_numbers[1], n_numbers[2]}, *const u = u_numbers[0];
+    CHECK(etendue_reflection_prepare_batch(64, NULL, n_in, n_in, &out) == REFUSED && etendue_reflection_prepare_batch(64, u, NULL, n_in, &out) == REFUSED);
+    CHECK(etendue_reflection_prepare_batch(64, u, n_in, NULL, &out) == REFUSED && etendue_reflection_prepare_batch(64, u, n_in, n_in, NULL) == REFUSED);
+    CHECK(etendue_reflection_sphere_batch(NULL, 64, n_in, u, r.column[0]) == REFUSED && etendue_reflection_sphere_batch(lobe, 64, NULL, u, r.column[0]) == REFUSED);
+    CHECK(etendue_reflection_sphere_batch(lobe, 64, n_in, NULL, r.column[0]) == REFUSED && etendue_reflection_sphere_batch(lobe, 64, n_in, u, NULL) == REFUSED);
+    for (int k = 0; k < 3; k++) {
+        const float *less[3] = {n_in[0], n_in[1], n_in[2]};
+        less[k] = NULL;
+        CHECK(etendue_reflection_prepare_batch(64, u, less, n_in, &out) == REFUSED && etendue_reflection_prepare_batch(64, u, n_in, less, &out) == REFUSED);
+        CHECK(etendue_reflection_sphere_batch(lobe, 64, less, u, r.column[0]) == REFUSED);
+    }
+    CHECK(only_written(&r, 0, 0));
+    CHECK(etendue_reflection_prepare_batch(0, NULL, NULL, NULL, NULL) == OK && etendue_reflection_sphere_batch(NULL, 0, NULL, NULL, NULL) == OK);
+    // lights need all columns
+    const float *const u_in[2] = {u_numbers[0], u_numbers[1]}, *light_in[LIGHT_NUMBERS];
+    for (int k = 0; k < LIGHT_NUMBERS; k++) light_in[k] = u_numbers[0];
+    const EtendueSampleColumns columns = sample_columns(r.column);
+    for (int k = 0; k < 16; k++) {
+        EtendueReflectionColumns less = *reflections(64, n_in);
+        ((float **)(void *)&less)[k] = NULL;
+        CHECK(etendue_triangle_by_reflection_sample_each((const EtendueTriangleColumns *)(const void *)light_in, 64, n_in, &less, u_in, &columns) == REFUSED);
+    }
+    CHECK(only_written(&r, 0, 0));
     free(r.memory);
 }
 
@@ -901,6 +1014,8 @@ int main(int argc, char **argv) {
         CHECK(etendue_ggx_visible_normals_prepare(0.3f, 0.5f, NULL, ggx) == REFUSED && GgxVisibleNormals[0] == 0);
         CHECK(etendue_ggx_visible_normals_prepare(0.3f, 0.5f, wi, NULL) == REFUSED);
         CHECK(etendue_ggx_visible_normals_prepare(0.3f, 0.5f, wi, ggx) == OK);
+        current = "reflections";
+        test_reflections();
         for (size_t k = 0; k < sizeof warps / sizeof *warps; k++) {
             current = warps[k].name;
             test_warp(warps + k);

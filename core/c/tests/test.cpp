@@ -103,6 +103,9 @@ static void test_lights() {
     test(BilinearPatch({-0.5f, 2, -0.3f}, {1.2f, 0.1f, 0.2f}, {0.1f, 0.2f, 1.1f}, {1.3f, 0.6f, 1.2f}).by_area(p));
     const Polygon polygon({{-0.5f, 2, -0.3f}, {0.6f, 2, -0.4f}, {0.9f, 2, 0.4f}, {0.2f, 2, 0.9f}, {-0.6f, 2, 0.5f}});
     test(polygon.by_area(p)), test(polygon.by_solid_angle(p)), test(polygon.by_projected_solid_angle(p, n));
+    const Reflection lobe(0.3f, n, {0.6f, 0.8f, 0});
+    test(triangle.by_reflection(p, lobe)), test(parallelogram.by_reflection(p, lobe)), test(rectangle.by_reflection(p, lobe));
+    test(polygon.by_reflection(p, lobe));
     CHECK(Polygon(nullptr, 0).by_solid_angle(p).sample(u).pdf == 0);
     const Line line({-1, 2, 0.3f}, {2, 0.1f, 0.2f});
     test(line.by_length(p), true), test(line.by_angle(p), true), test(line.by_projected_solid_angle(p, n), true);
@@ -137,6 +140,21 @@ static void test_lights() {
     CHECK(TriangleBySolidAngle::sample_each(lights, {p0, shorter, p2}, {x, y}, out) == ETENDUE_STATUS_COUNT);
     const TriangleColumns uneven({zeros, twos, zeros}, {ones, zeros, zeros}, {zeros, zeros, shorter});
     CHECK(TriangleBySolidAngle::sample_each(uneven, {p0, zeros, p2}, {x, y}, out) == ETENDUE_STATUS_COUNT);
+    // the same reflection for each
+    std::vector<float> rough(5, 0.3f), side(5, 0.6f), height(5, 0.8f), memory(5 * ReflectionColumns::COLUMNS);
+    ReflectionColumns reflections;
+    CHECK(reflections.prepare(rough, {zeros, ones, zeros}, {side, height, zeros}, Span<float>(memory.data(), 5)) == ETENDUE_STATUS_COUNT);
+    CHECK(reflections.prepare(rough, {zeros, shorter, zeros}, {side, height, zeros}, memory) == ETENDUE_STATUS_COUNT);
+    CHECK(TriangleByReflection::sample_each(lights, {p0, zeros, p2}, reflections, {x, y}, out) == ETENDUE_STATUS_COUNT);
+    CHECK(reflections.prepare(rough, {zeros, ones, zeros}, {side, height, zeros}, memory) == ETENDUE_STATUS_OK);
+    CHECK(reflections.albedo()[3] == lobe.albedo && reflections.schlick()[4] == lobe.schlick);
+    CHECK(TriangleByReflection::sample_each(lights, {p0, zeros, p2}, reflections, {x, y}, out) == ETENDUE_STATUS_OK);
+    const auto reflected = Triangle({0, 2, 0}, {1, 0, 0}, {0, 0, 1}).by_reflection(p, lobe);
+    for (size_t i = 0; i < 5; i++) CHECK(pdf[i] > 0 && pdf[i] == reflected.sample({x[i], y[i]}).pdf);
+    CHECK(TriangleByReflection::pdf_each(lights, {p0, zeros, p2}, reflections, {zeros, ones, zeros}, pdf) == ETENDUE_STATUS_OK);
+    CHECK(pdf[2] == reflected.pdf({0, 1, 0}) && lobe.sphere({-6, 8, 0}, 2) > lobe.sphere({6, 8, 0}, 2));
+    CHECK(lobe.sphere({p0, ones, p2}, ones, pdf) == ETENDUE_STATUS_OK && pdf[1] == lobe.sphere({0.1f, 1, -0.2f}, 1));
+    CHECK(lobe.sphere({p0, ones, p2}, ones, shorter) == ETENDUE_STATUS_COUNT);
     const SphereColumns spheres({zeros, twos, zeros}, ones);
     CHECK(SphereBySolidAngle::sample_each(spheres, {p0, zeros, p2}, {x, y}, out) == ETENDUE_STATUS_OK);
     CHECK(pdf[1] == Sphere({0, 2, 0}, 1).by_solid_angle(p).sample({x[1], y[1]}).pdf);
@@ -146,6 +164,7 @@ static void test_warps() {
     test_warp(ConcentricDisk()), test_warp(PolarDisk()), test_warp(UniformHemisphere()), test_warp(UniformSphere()), test_warp(CosineHemisphere());
     test_warp(Octahedral()), test_warp(AreaTriangle()), test_warp(LowDistortionTriangle()), test_warp(Cone(0.3f));
     test_warp(Bilinear(1, 2, 0.5f, 3)), test_warp(GgxVisibleNormals(0.3f, 0.5f, {0.48f, 0.36f, 0.8f}));
+    test_warp(Reflection(0.3f, {0.6f, 0, 0.8f}, {0.48f, 0.36f, 0.8f}));
     test_warp(PatchSurface({-0.5f, 2, -0.3f}, {1.2f, 0.1f, 0.2f}, {0.1f, 0.2f, 1.1f}, {1.3f, 0.6f, 1.2f}));
     test_warp(Linear(1, 3)), test_warp(Tent(2));
 

@@ -108,7 +108,7 @@ macro_rules! answer {
     ($(
         $(#[$light_doc:meta])* $light:ident $([$corners:literal])? = $light_c:ident, $columns_c:ident {
             $($(#[$field_doc:meta])* $field:ident as $argument:ident: $kind:ident,)+
-        } by $default:literal {
+        } $(reflected { $($lobe:tt)* })? by $default:literal {
             $(
                 $(#[$doc:meta])* $sampler:ident $([$n:literal])? $(= $sampler_c:ident, $name:ident[$size:literal])?:
                     $by:ident $place:tt $($measure:ident)?;

@@ -7,7 +7,7 @@ macro_rules! list {
     ($(
         $(#[doc = $light_doc:literal])* $light:ident $([$corners:literal])? = $light_c:ident, $columns_c:ident {
             $($(#[doc = $field_doc:literal])* $field:ident as $argument:ident: $kind:ident,)+
-        } by $default:literal {
+        } $(reflected { $($lobe:tt)* })? by $default:literal {
             $(
                 $(#[doc = $doc:literal])* $sampler:ident $([$n:literal])? $(= $sampler_c:ident, $name:ident[$size:literal])?:
                     $by:ident $place:tt $($measure:ident)?;

@@ -1,7 +1,8 @@
 //! Intensity by direction: profiles, and images that a light projects.
 
 use crate::arrays::{Argument, FieldKind, Image, array, map, rows, run, zeros};
-use crate::lights::{PointLight, Sampler, single};
+use crate::lights::PointLight;
+use crate::samplers::{Sampler, single};
 use crate::warps::{Mapping, Warp};
 use etendue::light;
 use etendue_batch::{Batch, DirectionOfImage, PlaceInImage};

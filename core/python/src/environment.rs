@@ -1,7 +1,7 @@
 //! Light from all around as an image tells it.
 
 use crate::arrays::{self, run, zeros};
-use crate::lights::{Prepared, Sampler};
+use crate::samplers::{Prepared, Sampler};
 use etendue::light::{self, ByRadiance, EnvironmentMap};
 use etendue::{Vec2, Vec3};
 use etendue_batch::{Batch, Samples};

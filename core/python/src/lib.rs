@@ -5,11 +5,14 @@
 
 mod arrays;
 mod daylight;
+mod each;
 mod emission;
 mod environment;
 mod lights;
 mod pictures;
 mod portals;
+mod reflections;
+mod samplers;
 mod sequences;
 mod spread;
 mod tree;
@@ -43,6 +46,7 @@ fn level() -> &'static str {
 fn extension(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add_function(wrap_pyfunction!(level, module)?)?;
+    samplers::add(module)?;
     lights::add(module)?;
     environment::add(module)?;
     pictures::add(module)?;
@@ -50,6 +54,7 @@ fn extension(module: &Bound<'_, PyModule>) -> PyResult<()> {
     spread::add(module)?;
     daylight::add(module)?;
     warps::add(module)?;
+    reflections::add(module)?;
     emission::add(module)?;
     sequences::add(module)?;
     tree::add(module)

@@ -1,7 +1,9 @@
 //! Pictures on lights.
 
 use crate::arrays::{Image, run, zeros};
-use crate::lights::{self, Call, Each, Prepared, Sampler, single};
+use crate::each::{Call, Each};
+use crate::lights;
+use crate::samplers::{Prepared, Sampler, single};
 use etendue::light::{self, FlatLight, Region};
 use etendue::{Vec2, Vec3};
 use etendue_batch::{

@@ -1,7 +1,8 @@
 //! The sky through portals.
 
 use crate::arrays::{Argument, FieldKind, Image, array, broadcast, map, rows, run, zeros};
-use crate::lights::{Call, Each, Prepared, Sampler, single};
+use crate::each::{Call, Each};
+use crate::samplers::{Prepared, Sampler, single};
 use etendue::light::{self, MOST_PORTALS, PortalTable};
 use etendue::{Vec2, Vec3};
 use etendue_batch::{Batch, BatchTechnique, PortalsByRadiance, Samples, SeenThroughPortals};

@@ -1,7 +1,8 @@
 //! Flat lights that emit within an angle of their normal.
 
 use crate::arrays::{Argument, FieldKind, array, broadcast, map};
-use crate::lights::{self, Sampler, single};
+use crate::lights;
+use crate::samplers::{Sampler, single};
 use etendue::light::{self, FlatLight};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;

@@ -1,6 +1,7 @@
 //! What the Python package must return bit by bit, computed by the core alone.
 
 use etendue::light::*;
+use etendue::reflection::Reflection;
 use etendue::sequence::{Independent, OwenSobol, Sequence};
 use etendue::warp::{CosineHemisphere, Warp};
 use etendue::{LightSampler, Real, Vec2, Vec3};
@@ -94,6 +95,14 @@ fn hashes() {
         let w = CosineHemisphere.sample(pair(3, i, 0));
         [w.x.to_bits(), w.y.to_bits(), w.z.to_bits()]
     };
+    let lobe = Reflection::new(0.5, n, Vec3::new(0.0, 1.0, 0.0));
+    let reflected = |i: u32| {
+        let w = lobe.sample(pair(3, i, 0));
+        [w.x.to_bits(), w.y.to_bits(), w.z.to_bits()]
+    };
+    let covered = |i: u32| lobe.sphere(etendue::warp::UniformSphere.sample(pair(3, i, 0)), 0.4).to_bits();
+    let (corner, s, t) = (Vec3::new(0.0, 2.0, 0.0), Vec3::new(1.0, 0.0, 0.0), Vec3::new(0.0, 0.0, 1.0));
+    let padded: Polygon<f32, 8> = Polygon::new(core::array::from_fn(|i| polygon.corners[i.min(4)]));
     let found = [
         hash((0..1000).flat_map(sobol)),
         hash((0..1000).flat_map(cosine)),
@@ -102,13 +111,19 @@ fn hashes() {
         samples(&triangle.by_projected_solid_angle(p, n)),
         samples(&sphere.by_solid_angle(p)),
         samples(&polygon.by_solid_angle(p)),
+        hash((0..1000).flat_map(reflected)),
+        hash((0..1000).map(covered)),
+        samples(&triangle.by_reflection(p, &lobe)),
+        samples(&Parallelogram::new(corner, s, t).by_reflection(p, &lobe)),
+        samples(&Rectangle::new(corner, s, t).by_reflection(p, &lobe)),
+        samples(&padded.by_reflection(p, &lobe)),
     ];
     assert_eq!(found, HASHES, "{found:#018x?}");
 }
 
 /// Owen-Sobol pairs, the cosine hemisphere, triangles by area, by solid angle and by projected solid angle, a sphere and a polygon by solid
-/// angle.
-const HASHES: [u64; 7] = [
+/// angle, directions and spheres of a reflection, and a triangle, a parallelogram, a rectangle and a padded polygon by it.
+const HASHES: [u64; 13] = [
     0x439e_036c_2d2d_0933,
     0x49d5_0300_2e88_bf3e,
     0x816c_598b_e881_736f,
@@ -116,6 +131,12 @@ const HASHES: [u64; 7] = [
     0x97c5_a8d1_d416_3335,
     0x9f61_cb62_c759_b6ab,
     0xc320_ccb1_628b_2c80,
+    0x6072_b659_d515_b1d3,
+    0x42fd_24ad_be55_7f13,
+    0xf15d_28f8_ea13_59ca,
+    0x3d23_c8a9_a74a_db47,
+    0x3d23_c8a9_a74a_db47,
+    0xf9a6_0a5c_bd32_1b7a,
 ];
 
 /// The same hashes are in `test_images.py`.

@@ -278,10 +278,17 @@ def p_value(surface, sample, pdf, seed, numbers=2, line=False, ires=8, times=1):
     return (None if test.fail else float(np.array(test.p_value).item())), test.messages
 
 
+def glossy(n):
+    """What a surface of roughness 0.4 with the normal n reflects to a viewer 37 degrees from that."""
+    along = np.cross(n, np.eye(3)[np.abs(n).argmin()])
+    return et.Reflection(0.4, n, 0.8 * n + 0.6 * along / np.linalg.norm(along))
+
+
 def light_case(light, by, fields, surface, p, n):
     """A light from a point, as the arguments of `p_value`."""
     method = getattr(light(*fields), "by_" + by)
-    sampler = method() if light is et.Sun else method(p, n) if by in ON_SURFACE else method(p)
+    place = () if light is et.Sun else (p, n) if by in ON_SURFACE else (p, glossy(n)) if by == "reflection" else (p,)
+    sampler = method(*place)
     line = light is et.Line
     closed = light in (et.Sphere, et.Cylinder)
 
@@ -450,6 +457,10 @@ def warps():
         radius = positive(rng)
         return et.Tent(radius), Segment(-radius, radius)
 
+    def reflection(rng):
+        view = np.abs(unit(rng))
+        return et.Reflection(rng.uniform(0.3, 0.9), [0, 0, 1], view), HEMISPHERE
+
     cases = {
         "ConcentricDisk": lambda rng: (et.ConcentricDisk(), DISK),
         "PolarDisk": lambda rng: (et.PolarDisk(), DISK),
@@ -462,6 +473,7 @@ def warps():
         "Cone": cone,
         "Bilinear": lambda rng: (et.Bilinear(rng.uniform(0, 3, 4)), SQUARE),
         "GgxVisibleNormals": visible,
+        "Reflection": reflection,
         "PatchSurface": patch,
         "Linear": lambda rng: (et.Linear(*rng.uniform(0, 3, 2)), Segment(0, 1)),
         "Tent": tent,

@@ -28,7 +28,9 @@ LIGHTS = {
     et.DirectionalLight: ([0, 1, 0],),
 }
 DISTANT = (et.Sun, et.DirectionalLight)
-ON_SURFACE = {"projected_solid_angle", "cosine_warp"}
+VIEW = np.array([0.0, 1.0, 0.0])
+# what each row needs beside its point
+SURFACES = {by: {"n": N} for by in ("projected_solid_angle", "cosine_warp")} | {"reflection": {"n": N, "alpha": 0.5, "view": VIEW}}
 TECHNIQUES = [(light, name[3:]) for light in LIGHTS for name in dir(light) if name.startswith("by_")]
 # a rounded direction determines the pdf and the numbers of these only as well as it determines the point
 ROUGH = {(et.Sphere, "area"), (et.Cylinder, "area"), (et.BilinearPatch, "area")}
@@ -44,6 +46,7 @@ WARPS = [
     (et.Cone(0.3), 2, 3),
     (et.Bilinear([1, 2, 0.5, 3]), 2, 2),
     (et.GgxVisibleNormals(0.3, 0.5, [0.6, 0, 0.8]), 2, 3),
+    (et.Reflection(0.2, [0, 0, 1], [0.6, 0, 0.8]), 2, 3),
     (et.PatchSurface([0, 1, 0], [1, 0, 0], [0, 0, 1], [1, 0.3, 1]), 2, 3),
     (et.Linear(3, 1), 1, 1),
     (et.Tent(1.5), 1, 1),
@@ -63,6 +66,8 @@ FIELDS = ["direction", "distance", "pdf", "weight", "normal", "uv", "emits"]
 
 def prepare(light, by, p=P, n=N, fields=None):
     place = {"projected_solid_angle": (p, n), "cosine_warp": (p, n)}.get(by, (p,))
+    if by == "reflection":
+        place = (p, et.Reflection(0.5, n, VIEW))
     method = getattr(light(*(LIGHTS[light] if fields is None else fields)), "by_" + by)
     return method() if light is et.Sun else method(*place)
 
@@ -266,7 +271,7 @@ def test_each_is_the_same_as_one_by_one(light, by):
     move = rng.normal(size=(count, 3)).astype(np.float32) * 0.1
     p, u = (P + move).astype(np.float32), rng.random((count, 2)).astype(np.float32)
     fields = [np.broadcast_to(np.float32(f), (count, *np.shape(f))) for f in LIGHTS[light]]
-    n = {"n": N} if by in ON_SURFACE else {}
+    n = SURFACES.get(by, {})
     s = light.sample_each(*fields, p=p, u=u, by=by, **n)
     assert s.direction.shape == (count, 3)
     for i in range(count):
@@ -343,7 +348,7 @@ def test_any_numbers_at_all(light, by):
             k = 0 if light in DISTANT else 1
             fields[k] = rng.choice(np.float32([[0, 0, 1], [0, 0, 0], [np.nan, 0, 0], [0.6, 0, 0.8]]), count)
         p = rng.choice(special, (count, 3))
-        s = light.sample_each(*fields, p=p, u=rng.random((count, 2)), n=[0, 0, 1], by=by)
+        s = light.sample_each(*fields, p=p, u=rng.random((count, 2)), by=by, **({"n": [0, 0, 1]} | SURFACES.get(by, {})))
         finite = np.isfinite(p).all(axis=1)
         for f in fields:
             finite &= np.isfinite(f).reshape(count, -1).all(axis=1)
@@ -399,6 +404,12 @@ EACH = {"p": P, "u": U}
         (lambda: et.Triangle(*TRIANGLE).by_projected_solid_angle(P, [0, 0, 3]), ValueError, "n must be a unit vector"),
         (lambda: et.Triangle.sample_each(*TRIANGLE, **EACH, by="magic"), ValueError, "by must be one of .*area.*magic"),
         (lambda: et.Triangle.sample_each(*TRIANGLE, **EACH, by="cosine_warp"), TypeError, "needs n"),
+        (lambda: et.Triangle.sample_each(*TRIANGLE, **EACH, n=N, by="reflection"), TypeError, "n, alpha and view are needed"),
+        (lambda: et.Sphere.sample_each([0, 2, 0], 1, **EACH, by="reflection"), ValueError, "by must be one of .*, not .reflection"),
+        (lambda: et.Triangle(*TRIANGLE).by_reflection(P, N), TypeError, "Reflection"),
+        (lambda: et.Reflection([0.1, 0.2], N, VIEW), ValueError, r"alpha must be one number, not \(2,\)"),
+        (lambda: et.Reflection(0.1, [0, 0, 2], VIEW), ValueError, "n must be a unit vector"),
+        (lambda: et.Reflection(0.1, N, [0, 0, 2]), ValueError, "view must be a unit vector"),
         (
             lambda: et.Triangle.sample_each(*TRIANGLE, p=np.zeros((3, 3)), u=np.zeros((4, 2))),
             ValueError,
@@ -484,6 +495,38 @@ def test_directions_from_points(light, by):
     facing = np.abs(np.sum(w * s.normal, axis=1)) > 0.3
     facing &= s.emits | ((light, by) not in ROUGH)
     np.testing.assert_allclose(sampler.pdf(w)[facing], s.pdf[facing], rtol=1e-4)
+
+
+# reflections
+
+
+def test_reflections():
+    lobe = et.Reflection(0.2, [0, 0, 1], [0.6, 0, 0.8])
+    assert 0.9 < lobe.albedo < 1 and 0 < lobe.schlick < 0.1 and "albedo 0.9" in repr(lobe)
+    # the pdf integrates to 1 over the hemisphere, and is greatest near the mirror direction
+    w = et.UniformHemisphere().sample(et.OwenSobol().pairs(1 << 18))
+    pdf = lobe.pdf(w)
+    assert pdf.mean(dtype=float) * 2 * np.pi == pytest.approx(1, abs=2e-3)
+    assert w[pdf.argmax()] @ [-0.6, 0, 0.8] > 0.95 and lobe.pdf([0, 0, -1]) == 0
+    # spheres cover what of the lobe is within their angle; from inside they cover all of it
+    inside = w @ np.array([-0.6, 0, 0.8]) > 0.8
+    part = (pdf * inside).mean(dtype=float) * 2 * np.pi
+    covered = lobe.sphere([[-6, 0, 8], [0.1, 0, 0.1], [-6, 0, 8]], [6, 1, 0])
+    assert covered.dtype == np.float32 and covered[1] == np.float32(np.pi) and covered[2] == 0
+    assert covered[0] == pytest.approx(np.pi * part, rel=2e-3) and covered[0] == lobe.sphere([-6, 0, 8], 6)
+    # what samples of the light say is what its closed form says
+    panel = et.Parallelogram([-2, -1, 1], [0, 2, 0], [0, 0, 2])
+    sampler = panel.by_reflection([0, 0, 0], lobe)
+    s = sampler.sample(et.OwenSobol().pairs(4096))
+    seen = lobe.pdf(s.direction) / s.pdf
+    np.testing.assert_allclose(seen, sampler.projected_solid_angle / np.pi, rtol=1e-4)
+    # a reflection for each row
+    alpha, view = np.linspace(0, 1, 7), [[0.6, 0, 0.8], [0, 0, 1], [0, 0.8, -0.6]]
+    albedo, schlick = et.Reflection.albedo_and_schlick_each(alpha, [0, 0, 1], np.array(view)[:, None])
+    assert albedo.shape == schlick.shape == (3, 7) and not albedo[2].any()
+    for i, j in np.ndindex(3, 7):
+        one = et.Reflection(alpha[j], [0, 0, 1], view[i])
+        assert albedo[i, j] == one.albedo and schlick[i, j] == one.schlick
 
 
 # light from an image
@@ -574,6 +617,7 @@ def test_the_bits_are_those_of_the_core():
         return fnv(np.concatenate(words, axis=1))
 
     triangle = et.Triangle([0, 2, 0], [1, 2.5, 0], [0, 2, 1])
+    lobe, panel = et.Reflection(0.5, N, VIEW), ([0, 2, 0], [1, 0, 0], [0, 0, 1])
     found = [
         fnv(et.OwenSobol(1).pairs(1000, pixel=5, dimension=2).view(np.uint32)),
         fnv(et.CosineHemisphere().sample(u).view(np.uint32)),
@@ -582,6 +626,9 @@ def test_the_bits_are_those_of_the_core():
         samples(triangle.by_projected_solid_angle(P, N)),
         samples(et.Sphere([0.3, 1.5, 0.2], 0.4).by_solid_angle(P)),
         samples(et.Polygon(CORNERS).by_solid_angle(P)),
+        fnv(lobe.sample(u).view(np.uint32)),
+        fnv(lobe.sphere(et.UniformSphere().sample(u), 0.4).view(np.uint32)),
+        *(samples(light.by_reflection(P, lobe)) for light in (triangle, et.Parallelogram(*panel), et.Rectangle(*panel), et.Polygon(CORNERS))),
     ]
     assert found == [int(word.replace("_", ""), 16) for word in HASHES]
 

@@ -8,6 +8,7 @@ macro_rules! sources {
 /// The files whose types document an error.
 const SOURCES: &[&str] = sources! {
     "light/flat.rs"
+    "reflection.rs"
     "spherical/cap.rs"
     "spherical/cosine_warped.rs"
     "spherical/disk.rs"
@@ -64,7 +65,8 @@ fn plain(text: &str) -> String {
 /// method that returns the type of this name.
 pub(crate) fn greatest_error(type_name: &str, returned: &str) -> Option<String> {
     let shapes = type_name.split(['<', '>', ',', ' ']);
-    let shapes = shapes.filter(|name| name.starts_with("etendue::spherical::") || name.starts_with("etendue::warp::"));
+    let modules = ["etendue::spherical::", "etendue::warp::", "etendue::reflection::"];
+    let shapes = shapes.filter(|name| modules.iter().any(|module| name.starts_with(module)));
     // that a sampler has one of these, the name of its type does not tell
     let warped = type_name.contains("::ByCosineWarp<").then_some("CosineWarped");
     let names: Vec<&str> = warped.into_iter().chain(shapes.filter_map(|name| name.rsplit("::").next())).collect();

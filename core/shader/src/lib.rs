@@ -26,7 +26,9 @@
 //!
 //! # What is written
 //! For each light by each technique a struct of the light, a struct of what is prepared for a shading point, and the functions `prepare`,
-//! `sample`, `pdf`, `hit`, `invert`, and one for what the technique is uniform over; for each warp `sample`, `pdf` and `invert`.
+//! `sample`, `pdf`, `hit`, `invert`, and one for what the technique is uniform over; for each warp `sample`, `pdf` and `invert`. Lights
+//! `by_reflection` and the warp `reflection` take a struct `reflection`, which the table of this name prepares, or the host by
+//! [`Reflection`](etendue::reflection::Reflection).
 //! [`tables`] read tables in memory, and [`tools`] are what is neither. [`Wanted`] leaves functions out, and fields of samples. What only these need is not computed, and the prepared struct has no field that
 //! no function uses, none that is constant, and none twice.
 //!
@@ -65,6 +67,7 @@
 //! | `piecewise_constant_1d`, `piecewise_constant_2d` | the buffer of [`PiecewiseConstant1d`](etendue::discrete::PiecewiseConstant1d) or [`PiecewiseConstant2d`](etendue::discrete::PiecewiseConstant2d) | `cell`, `pmf`, `invert_cell` |
 //! | `equirectangular_environment`, `equal_area_environment` | the buffer of [`ImageEnvironment::build`](etendue::light::ImageEnvironment::build) | `draw`, `sample`, `pdf`, `hit`, `invert` |
 //! | `profile` | [`Profile::words`](etendue::light::Profile::words) | `intensity` |
+//! | `reflection` | [`reflection::table`](etendue::reflection::table) | `prepare`, `sphere` |
 //! | `pictured_L_by_M`, with L `parallelogram` (or a rectangle), `triangle` or `disk` | the buffer of [`Picture::build`](etendue::light::Picture::build) | the same as of environments |
 //! | `interpolated_parallelogram_by_M` | the buffer of [`Picture::interpolated`](etendue::light::Picture::interpolated), and the radiance at the centres | the same |
 //!

@@ -2,6 +2,7 @@
 
 use core::fmt::Debug;
 use etendue::light::*;
+use etendue::reflection::Reflection;
 use etendue::warp::*;
 use etendue::{LightSampler, Real, Vec2, Vec3};
 
@@ -22,6 +23,8 @@ pub struct Entry {
     pub at_point: bool,
     /// Whether it takes the normal there.
     pub on_surface: bool,
+    /// Whether it takes what a surface reflects there: numbers that follow those of the light.
+    pub reflected: bool,
     /// The method that returns what the technique is uniform over.
     pub measure: Option<&'static str>,
 }
@@ -48,6 +51,13 @@ pub trait Technique {
 pub trait TechniqueVisitor {
     /// Does it.
     fn visit<T: Technique>(&mut self);
+}
+
+/// A flat light, and the lobe of the surface that reflects it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Reflected<L, R> {
+    light: L,
+    reflection: Reflection<R>,
 }
 
 /// A light of the list.
@@ -105,7 +115,9 @@ macro_rules! techniques {
     ($(
         $(#[doc = $light_doc:literal])* $light:ident $([$corners:literal])? = $light_c:ident, $columns_c:ident {
             $($(#[doc = $field_doc:literal])* $field:ident as $argument:ident: $kind:ident,)+
-        } by $default:literal {
+        } $(reflected {
+            $(#[doc = $lobe_doc:literal])* $lobe:ident $([$lobe_n:literal])? $(= $lobe_c:ident, $lobe_name:ident[$lobe_size:literal])?;
+        })? by $default:literal {
             $(
                 $(#[doc = $doc:literal])* $sampler:ident $([$n:literal])?
                     $(= $sampler_c:ident, $name:ident[$size:literal])?: $by:ident $place:tt $($measure:ident)?;
@@ -135,6 +147,7 @@ macro_rules! techniques {
                         doc: &[$($doc),*],
                         at_point: takes!($place).0,
                         on_surface: takes!($place).1,
+                        reflected: false,
                         measure: measure_name!($($measure)?),
                     };
                     fn light<R: Real>(next: &mut dyn FnMut() -> R) -> Self::Light<R> {
@@ -152,7 +165,39 @@ macro_rules! techniques {
                     }
                 }
                 visitor.visit::<Row>();
-            })+)+
+            })+
+            $({
+                struct Row;
+                impl Technique for Row {
+                    type Light<R: Real> = Reflected<$light<R $(, $lobe_n)?>, R>;
+                    type Sampler<R: Real> = $lobe<R $(, $lobe_n)?>;
+                    const ENTRY: Entry = Entry {
+                        light: stringify!($light),
+                        light_doc: <$light<f32 $(, $lobe_n)?> as Listed<f32>>::DOC,
+                        fields: <$light<f32 $(, $lobe_n)?> as Listed<f32>>::FIELDS,
+                        by: "by_reflection",
+                        doc: &[$($lobe_doc),*],
+                        at_point: true,
+                        on_surface: false,
+                        reflected: true,
+                        measure: Some("projected_solid_angle"),
+                    };
+                    fn light<R: Real>(next: &mut dyn FnMut() -> R) -> Self::Light<R> {
+                        let light = Listed::listed(next);
+                        Reflected { light, reflection: Reflection::<R>::default().map(|_| next()) }
+                    }
+                    fn prepare<R: Real>(light: &Self::Light<R>, p: Vec3<R>, _: Vec3<R>) -> Self::Sampler<R> {
+                        light.light.by_reflection(p, &light.reflection)
+                    }
+                    fn map<R: Real>(sampler: Self::Sampler<R>, f: &mut dyn FnMut(R) -> R) -> Self::Sampler<R> {
+                        sampler.map(f)
+                    }
+                    fn measure<R: Real>(sampler: &Self::Sampler<R>) -> Option<R> {
+                        Some(sampler.projected_solid_angle())
+                    }
+                }
+                visitor.visit::<Row>();
+            })?)+
             every_spread(visitor);
         }
     };
@@ -184,6 +229,7 @@ macro_rules! spreads {
                         doc: &[$($doc),*],
                         at_point: true,
                         on_surface: false,
+                        reflected: false,
                         measure: Some("solid_angle"),
                     };
                     fn light<R: Real>(next: &mut dyn FnMut() -> R) -> $name<R> {
@@ -240,6 +286,8 @@ pub struct WarpEntry {
     pub numbers: usize,
     /// How many coordinates a point has.
     pub coordinates: usize,
+    /// Whether its struct has all of its numbers, as lights are prepared for it.
+    pub whole: bool,
     /// Names of the numbers that it is prepared from, if it has to be.
     pub prepared_from: &'static [(&'static str, usize)],
 }
@@ -299,6 +347,14 @@ macro_rules! made {
         $warp::<R>::default().map(|_| $next())
     };
 }
+macro_rules! whole {
+    (Reflection) => {
+        true
+    };
+    ($warp:ident) => {
+        false
+    };
+}
 macro_rules! made_of {
     (GgxVisibleNormals) => {
         &[("alpha_x", 1), ("alpha_y", 1), ("wi", 3)]
@@ -319,6 +375,7 @@ macro_rules! warps {
                         doc: &[$($doc),*],
                         numbers: $numbers,
                         coordinates: $coordinates,
+                        whole: whole!($name),
                         prepared_from: made_of!($name),
                     };
                     warps!(@type $name $([$packets])?);

@@ -3,7 +3,7 @@
 use crate::errors::greatest_error;
 use crate::graph::{Call, Graph, Id};
 use crate::layout::{Slot, slots};
-use crate::list::{Technique, WarpTechnique};
+use crate::list::{Entry, Technique, WarpTechnique, WarpVisitor, every_warp};
 use crate::module::{Access, Field, Function, Leaf, Module, Parameter, Struct, Type};
 use crate::names::{pascal, snake};
 use crate::number::{Inner, Number, Truth, record};
@@ -110,16 +110,41 @@ fn fields(slots: &[Slot], used: &BTreeSet<Id>) -> (Vec<Field>, Vec<Id>, BTreeMap
     (fields, outputs, places)
 }
 
-/// Adds the struct of what was prepared, with the fields that the functions use, and these functions. Returns the struct, if it has any
+fn all_of(slots: &[Slot]) -> BTreeSet<Id> {
+    slots.iter().flat_map(|slot| slot.parts.iter().copied()).collect()
+}
+
+/// The struct of reflections, for which lights are prepared.
+pub(crate) fn reflection_struct() -> Struct {
+    struct Of(Option<Struct>);
+    impl WarpVisitor for Of {
+        fn visit<W: WarpTechnique>(&mut self) {
+            if W::ENTRY.whole {
+                let (warp, _) = record(|| {
+                    let mut next = Next(0);
+                    W::warp(&mut || next.number())
+                });
+                let slots = slots(&warp);
+                let (fields, ..) = fields(&slots, &all_of(&slots));
+                self.0 = Some(Struct { name: W::ENTRY.name.into(), doc: text(W::ENTRY.doc), fields });
+            }
+        }
+    }
+    let mut of = Of(None);
+    every_warp(&mut of);
+    of.0.expect("the list has reflections")
+}
+
+/// Adds the struct of what was prepared, with the fields that the functions use or with all, and these functions. Returns the struct, if it has any
 /// fields, and the nodes of their values.
 fn add_functions(
     module: &mut Module,
     name: &str,
     doc: String,
-    slots: &[Slot],
+    (slots, whole): (&[Slot], bool),
     functions: Vec<Recorded>,
 ) -> (Option<usize>, Vec<Id>) {
-    let used: BTreeSet<Id> = functions.iter().flat_map(Recorded::used).collect();
+    let used = if whole { all_of(slots) } else { functions.iter().flat_map(Recorded::used).collect() };
     let (fields, outputs, places) = fields(slots, &used);
     let prepared = (!fields.is_empty()).then(|| module.add_struct(Struct { name: name.to_owned(), doc, fields }));
     for Recorded { mut function, prepared: numbers, parameter } in functions {
@@ -195,8 +220,16 @@ pub(crate) fn light_struct<T: Technique>(light: &T::Light<Number>) -> Struct {
     Struct {
         name: snake(entry.light),
         doc: text(entry.light_doc),
-        fields: slots(light).into_iter().map(field).collect(),
+        fields: own_slots(&entry, light).into_iter().map(field).collect(),
     }
+}
+/// The fields of a light alone, without those of the reflection that it is prepared for.
+fn own_slots(entry: &Entry, light: &impl core::fmt::Debug) -> Vec<Slot> {
+    let all = slots(light).into_iter();
+    if !entry.reflected {
+        return all.collect();
+    }
+    all.filter_map(|Slot { name, parts }| Some(Slot { name: name.strip_prefix("light_")?.to_owned(), parts })).collect()
 }
 
 /// Adds a light by a technique.
@@ -216,7 +249,9 @@ pub fn add_technique<T: Technique>(module: &mut Module, wanted: &Wanted) {
     let sample = sample_struct(wanted);
     let technique_doc = text(entry.doc);
     let returned = format!("{}{}", entry.light, pascal(entry.by));
-    let error = greatest_error(core::any::type_name::<T::Sampler<f32>>(), &returned).unwrap_or_default();
+    // by reflection, the error of a shape is that of the light after the map
+    let error = (!entry.reflected).then(|| greatest_error(core::any::type_name::<T::Sampler<f32>>(), &returned));
+    let error = error.flatten().unwrap_or_default();
     let mut functions = Vec::new();
     for part in &wanted.parts {
         let map = |f: &mut dyn FnMut(Number) -> Number| T::map(sampler, f);
@@ -260,12 +295,17 @@ pub fn add_technique<T: Technique>(module: &mut Module, wanted: &Wanted) {
     }
     let prepared_doc = format!("A {} prepared for a shading point. {technique_doc}", light_name.replace('_', " "));
     let prepared_at = module.functions.len();
-    let (prepared, outputs) = add_functions(module, &name, prepared_doc, &slots(&sampler), functions);
+    let (prepared, outputs) = add_functions(module, &name, prepared_doc, (&slots(&sampler), false), functions);
     let Some(prepared) = prepared else { return };
 
     let light = module.add_struct(light_struct::<T>(&light));
     let mut parameters = vec![Parameter { name: "light".into(), of: Type::Struct(light) }];
     let mut doc = "Prepares a light".to_owned();
+    if entry.reflected {
+        let reflection = module.add_struct(reflection_struct());
+        parameters.push(Parameter { name: "reflection".into(), of: Type::Struct(reflection) });
+        doc += " and what a surface reflects";
+    }
     if entry.at_point {
         parameters.push(Parameter { name: "p".into(), of: Type::Leaf(Leaf::Vec3) });
         doc += " for the shading point p";
@@ -327,7 +367,7 @@ pub fn add_warp<W: WarpTechnique>(module: &mut Module, wanted: &Wanted) {
     }
     let prepared_at = module.functions.len();
     let is_prepared = !entry.prepared_from.is_empty();
-    let (prepared, outputs) = add_functions(module, name, doc.clone(), &slots(&warp), functions);
+    let (prepared, outputs) = add_functions(module, name, doc.clone(), (&slots(&warp), entry.whole), functions);
     let (Some(prepared), true) = (prepared, is_prepared) else { return };
     let parameter =
         |&(name, count): &(&str, usize)| Parameter { name: name.into(), of: Type::Leaf(Leaf::of_numbers(count)) };

@@ -5,17 +5,18 @@ use crate::inputs::{Inputs, add_function, add_words};
 use crate::module::{Field, Leaf, Module, Struct, Type};
 use crate::number::{Number, Word, Words};
 use crate::pictures::{add_pictured, pictured};
-use crate::record::{drawn_struct, sample_outputs, sample_struct};
+use crate::record::{drawn_struct, reflection_struct, sample_outputs, sample_struct};
 use crate::wanted::{Part, Wanted};
 use etendue::LightSampler;
 use etendue::light::{EnvironmentMap, EnvironmentWords, ImageSampler, ProfileWords};
+use etendue::reflection::Reflection;
 use etendue::select::{Choice, LightChoice, TreeWords, TreeWordsAt};
 
 /// The names of the tables.
 #[must_use]
 pub fn tables() -> Vec<String> {
     let choices = ["light_tree", "alias_table", "piecewise_constant_1d", "piecewise_constant_2d"];
-    let lights = ["equirectangular_environment", "equal_area_environment", "profile"];
+    let lights = ["equirectangular_environment", "equal_area_environment", "profile", "reflection"];
     choices.into_iter().chain(lights).map(str::to_owned).chain(pictured()).collect()
 }
 
@@ -163,6 +164,28 @@ fn add_profile(module: &mut Module) {
     });
 }
 
+fn add_reflection(module: &mut Module) {
+    let of = module.add_struct(reflection_struct());
+    add_function(module, "reflection_prepare", |_, inputs| {
+        let table = inputs.word("table");
+        let (alpha, n, view) = (inputs.real("alpha"), inputs.vec3("n"), inputs.vec3("view"));
+        let mut outputs = Vec::new();
+        Reflection::with_table(&Words, table, alpha, n, view).map(|number: Number| outputs.push(number.id()));
+        let doc = "Prepares the reflection of a surface of the roughness alpha, from 3e-4 to 1, with the unit normal n, towards the viewer in the \
+                   unit direction view. The numbers of etendue::reflection::table are in memory from the word table on. A view below the \
+                   horizon counts as one on the horizon, and has albedo 0.";
+        (doc.into(), Type::Struct(of), outputs)
+    });
+    add_function(module, "reflection_sphere", |module, inputs| {
+        let mut numbers = inputs.numbers(module, "reflection", of).into_iter();
+        let reflection = Reflection::<f32>::default().map(|_| numbers.next().expect("the struct has all numbers"));
+        let covered = reflection.sphere(inputs.vec3("center"), inputs.real("radius"));
+        let doc = "The projected solid angle after the map of a sphere with this center relative to the point, in [0, pi]: about pi times the \
+                   part of the lobe that it covers. A radius <= 0 gives 0, and a point inside pi.";
+        (doc.into(), Type::Leaf(Leaf::Real), vec![covered.id()])
+    });
+}
+
 /// Adds the functions of one of the [`tables`].
 ///
 /// # Panics
@@ -173,6 +196,7 @@ pub fn add_table(module: &mut Module, name: &str, wanted: &Wanted) {
         "equirectangular_environment" => add_environment(module, name, EnvironmentMap::Equirectangular, wanted),
         "equal_area_environment" => add_environment(module, name, EnvironmentMap::EqualArea, wanted),
         "profile" => add_profile(module),
+        "reflection" => add_reflection(module),
         "alias_table" => add_alias_table(module, wanted),
         "piecewise_constant_1d" => add_line(module, wanted),
         "piecewise_constant_2d" => add_square(module, wanted),

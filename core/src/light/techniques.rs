@@ -2,13 +2,16 @@
 
 /// Expands `callback! { before… list }` for the list of all lights, each with its fields and the techniques that sample it.
 ///
-/// A light is `Light [corners] = NameInC, ColumnsInC { field as argument: kind, … } by "default" { technique; … }`. A field is a `point`,
-/// an `edge` (from one point to another), an edge to a `vertex` (hosts with constructors take the vertex, not the edge from the first one),
-/// a `direction`, a `number` or `corners`.
+/// A light is `Light [corners] = NameInC, ColumnsInC { field as argument: kind, … } reflected { lobe; } by "default" { technique; … }`. A
+/// field is a `point`, an `edge` (from one point to another), an edge to a `vertex` (hosts with constructors take the vertex, not the edge
+/// from the first one), a `direction`, a `number` or `corners`.
 ///
 /// A technique is `Sampler [corners] = NameInC, name_in_c[numbers]: method(arguments) measure;`: a prepared sampler consists of so many
 /// numbers, and the measure is its method that returns what it is uniform over, if it has one. A sampler that another light has already
 /// has no name and no numbers here; the light converts into that one.
+///
+/// The light has a lobe `Sampler [corners] = NameInC, name_in_c[numbers];` if its method `by_reflection(p, reflection)` returns this sampler, with
+/// the measure `projected_solid_angle`. It is not among the techniques, since it is prepared for what those of the other measures do not take.
 ///
 /// Hosts without Rust read the documentation of each row, where the fields have other names: it does not name them.
 #[doc(hidden)]
@@ -41,6 +44,10 @@ macro_rules! techniques {
                 e1 as v1: vertex,
                 /// Third vertex, as the edge from the first one.
                 e2 as v2: vertex,
+            } reflected {
+                /// In proportion to the lobe of a rough surface at the point p: pdf π times that of the reflection, over the projected solid
+                /// angle after its map, per steradian; 0 where nothing of the light is above the horizon.
+                TriangleByReflection = EtendueTriangleByReflection, triangle_by_reflection[178];
             } by "solid_angle" {
                 /// Uniform over the surface of area A: pdf distance²/(|cosθ'| A) per steradian, θ' at the light. For small, far and facing
                 /// triangles.
@@ -62,6 +69,10 @@ macro_rules! techniques {
                 edge_s as edge_s: edge,
                 /// Edge along t.
                 edge_t as edge_t: edge,
+            } reflected {
+                /// In proportion to the lobe of a rough surface at the point p: pdf π times that of the reflection, over the projected solid
+                /// angle after its map, per steradian; 0 where nothing of the light is above the horizon.
+                ParallelogramByReflection = EtendueParallelogramByReflection, parallelogram_by_reflection[562];
             } by "solid_angle" {
                 /// Uniform over the surface of area A: pdf distance²/(|cosθ'| A) per steradian, θ' at the light.
                 ParallelogramByArea = EtendueParallelogramByArea, parallelogram_by_area[36]: by_area(p) area;
@@ -81,6 +92,10 @@ macro_rules! techniques {
                 edge_s as edge_s: edge,
                 /// Edge along t, perpendicular to the other one.
                 edge_t as edge_t: edge,
+            } reflected {
+                /// In proportion to the lobe of a rough surface at the point p, as a parallelogram: pdf π times that of the reflection, over the
+                /// projected solid angle after its map, per steradian; 0 where nothing of the light is above the horizon.
+                ParallelogramByReflection;
             } by "solid_angle" {
                 /// Uniform over the surface of area A, as a parallelogram: pdf distance²/(|cosθ'| A) per steradian, θ' at the light.
                 ParallelogramByArea: by_area(p) area;
@@ -128,6 +143,10 @@ macro_rules! techniques {
                 /// Corners in order, in one plane, in the coordinates of the scene. A polygon with fewer than 8 corners repeats its last
                 /// one.
                 corners as corners: corners,
+            } reflected {
+                /// In proportion to the lobe of a rough surface at the point p: pdf π times that of the reflection, over the projected solid
+                /// angle after its map, per steradian; 0 where nothing of the light is above the horizon.
+                PolygonByReflection [8] = EtenduePolygonByReflection, polygon_by_reflection[1097];
             } by "solid_angle" {
                 /// Uniform over the surface of area A: pdf distance²/(|cosθ'| A) per steradian, θ' at the light.
                 PolygonByArea [8] = EtenduePolygonByArea, polygon_by_area[67]: by_area(p) area;

@@ -31,6 +31,8 @@ macro_rules! warps {
             Bilinear [R] = EtendueBilinear, bilinear: 2 -> 2;
             /// Visible normals of a GGX microsurface, per steradian.
             GgxVisibleNormals [R] = EtendueGgxVisibleNormals, ggx_visible_normals: 2 -> 3;
+            /// Directions in which a rough surface reflects a view, per steradian.
+            Reflection [R] = EtendueReflection, reflection: 2 -> 3;
             /// Points of a bilinear patch: pdf nearly 1/area.
             PatchSurface [R] = EtenduePatchSurface, patch_surface: 2 -> 3;
             /// Numbers in [0, 1), linear. `u` and `point` are one number each.

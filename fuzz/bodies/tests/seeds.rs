@@ -61,7 +61,7 @@ fn c_interface() {
     damaged("c_interface", files::c_interface, cases(100, 1000));
     // every function, whatever the seeds are
     let mut state = 1;
-    for function in 0..44 {
+    for function in 0..47 {
         for k in 0..cases(50, 500) {
             let mut bytes: Vec<u8> = (0..4 + k % 300).map(|_| next(&mut state) as u8).collect();
             bytes[1] = function;

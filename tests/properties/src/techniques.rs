@@ -280,7 +280,8 @@ macro_rules! measure {
 }
 macro_rules! techniques {
     ($(
-        $(#[$light_doc:meta])* $light:ident $([$corners:literal])? = $light_c:ident, $columns_c:ident { $($fields:tt)* } by $default:literal {
+        $(#[$light_doc:meta])* $light:ident $([$corners:literal])? = $light_c:ident, $columns_c:ident { $($fields:tt)* }
+        $(reflected { $($lobe:tt)* })? by $default:literal {
             $(
                 $(#[$doc:meta])* $sampler:ident $([$n:literal])?
                     $(= $sampler_c:ident, $name:ident[$size:literal])?: $by:ident $place:tt $($measure:ident)?;

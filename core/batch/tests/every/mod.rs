@@ -2,6 +2,7 @@
 
 use etendue::Vec3;
 use etendue::light::*;
+use etendue::reflection::Reflection;
 use etendue::sequence::*;
 use etendue::warp::*;
 use etendue_batch::{PortalsByRadiance, *};
@@ -57,17 +58,30 @@ overhead! {
 }
 macro_rules! visit_techniques {
     ({ $visitor:ident } $(
-        $(#[$light_doc:meta])* $light:ident $([$corners:literal])? = $light_c:ident, $columns_c:ident { $($fields:tt)* } by $default:literal {
+        $(#[$light_doc:meta])* $light:ident $([$corners:literal])? = $light_c:ident, $columns_c:ident { $($fields:tt)* } $(reflected {
+            $(#[$lobe_doc:meta])* $lobe:ident $([$lobe_n:literal])? $(= $lobe_c:ident, $lobe_name:ident[$lobe_size:literal])?;
+        })? by $default:literal {
             $($(#[$doc:meta])* $sampler:ident $([$n:literal])? $(= $sampler_c:ident, $name:ident[$size:literal])?: $by:ident $place:tt $($measure:ident)?;)+
         }
     )+) => {
         $($(visit_techniques!(@ $visitor, $sampler<f32 $(, $n)?> $(, $name)?);)+)+
+        $($(visit_techniques!(# $visitor, $lobe<f32 $(, $lobe_n)?> $(, $lobe_name)?);)?)+
     };
     // the sampler of another light
     (@ $visitor:ident, $sampler:ty) => {};
+    (# $visitor:ident, $sampler:ty) => {};
+    (# $visitor:ident, $sampler:ty, $name:ident) => {
+        let reflected = Reflected { light: Overhead::overhead(), reflection: glossy() };
+        $visitor.technique::<$sampler>(&stringify!($name).replace('_', " "), reflected);
+    };
     (@ $visitor:ident, $sampler:ty, $name:ident) => {
         $visitor.technique::<$sampler>(&stringify!($name).replace('_', " "), Overhead::overhead());
     };
+}
+
+/// A glossy floor, seen from the side.
+fn glossy() -> Reflection<f32> {
+    Reflection::new(0.2, v(0.0, 1.0, 0.0), v(-0.6, 0.8, 0.0))
 }
 
 /// Visits lights with pictures, the sky through two portals, and what a projector emits.
@@ -113,6 +127,7 @@ pub(crate) fn visit(visitor: &mut impl Visitor) {
     visitor.warp("cone", Cone { one_minus_cos: 0.3 });
     visitor.warp("bilinear", Bilinear { corners: [1.0, 2.0, 0.5, 3.0] });
     visitor.warp("GGX visible normals", GgxVisibleNormals::new(0.3, 0.5, v(0.6, 0.0, 0.8)));
+    visitor.warp("reflection", glossy());
     let patch =
         PatchSurface { corner: center, edge_s: v(1.0, 0.0, 0.0), edge_t: v(0.0, 0.0, 1.0), diagonal: v(0.0, 0.3, 0.0) };
     visitor.warp("patch surface", patch);

@@ -1,6 +1,7 @@
 //! Each light by each technique.
 
 use crate::driver::{Driver, HOSTILE, compare, slots};
+use etendue::reflection::Reflection;
 use etendue::{LightSample, LightSampler, Real, Vec2, Vec3};
 use etendue_oracle::tier::{cases, is_long};
 use etendue_properties::generators::{Random, nasty, unit_or_edge};
@@ -115,8 +116,10 @@ impl<'a> Lights<'a> {
 
 impl TechniqueVisitor for Lights<'_> {
     fn visit<T: Technique>(&mut self) {
-        let (entry, kind) = (T::ENTRY, self.kind);
-        self.kind += 1;
+        let entry = T::ENTRY;
+        // by reflection, the light is that of the technique before
+        self.kind += usize::from(!entry.reflected);
+        let kind = self.kind - 1;
         if !is_long() && (self.rest)(&entry, kind) {
             return;
         }
@@ -130,7 +133,20 @@ impl TechniqueVisitor for Lights<'_> {
             light_numbers += 1;
             0.0_f32
         });
-        let inputs = arguments(kind, light_numbers);
+        let lobe_numbers = if entry.reflected { 16 } else { 0 };
+        let own_numbers = light_numbers - lobe_numbers;
+        let mut inputs = arguments(kind, own_numbers);
+        if entry.reflected {
+            let mut random = Random::new(4100 + kind as u64);
+            for input in &mut inputs {
+                let [normal, view] = [(); 2].map(|()| vec3(&random.direction().map(|x| x as f32)));
+                let size = random.unit();
+                let lobe = Reflection::new(size * size, normal, view);
+                let mut numbers = Vec::new();
+                lobe.map(|number| numbers.push(number));
+                input.splice(own_numbers..own_numbers, numbers);
+            }
+        }
 
         let right = inputs.iter().map(|input| {
             let (light, rest) = input.split_at(light_numbers);
@@ -162,7 +178,12 @@ impl TechniqueVisitor for Lights<'_> {
         let mut driver = Driver::new(&module);
         let vec3 = Type::Leaf(Leaf::Vec3);
         match driver.function(&format!("{name}_prepare")) {
-            Some(prepare) => driver.take(prepare.parameters[0].of, "light"),
+            Some(prepare) => {
+                driver.take(prepare.parameters[0].of, "light");
+                if entry.reflected {
+                    driver.take(prepare.parameters[1].of, "reflection");
+                }
+            }
             None => driver.inputs += light_numbers,
         }
         driver.take(vec3, "p");
@@ -171,9 +192,10 @@ impl TechniqueVisitor for Lights<'_> {
         driver.take(vec3, "w");
         driver.text += "    (void)p, (void)n, (void)u, (void)w;\n";
         if driver.function(&format!("{name}_prepare")).is_some() {
-            let all = ["light", "p", "n"];
-            let count = 1 + usize::from(entry.at_point) + usize::from(entry.on_surface);
-            driver.call(&format!("{name}_prepare"), &all[..count], "prepared");
+            let all =
+                [("light", true), ("reflection", entry.reflected), ("p", entry.at_point), ("n", entry.on_surface)];
+            let arguments: Vec<&str> = all.into_iter().filter(|(_, takes)| *takes).map(|(name, _)| name).collect();
+            driver.call(&format!("{name}_prepare"), &arguments, "prepared");
         }
         driver.output(&format!("{name}_sample"), &["prepared", "u"], "s");
         for (k, w) in ["s.direction", "w"].into_iter().enumerate() {
@@ -207,10 +229,10 @@ impl TechniqueVisitor for Lights<'_> {
 fn lights_have_the_same_bits() {
     let is_large = |entry: &Entry, _| {
         let several = ["Parallelogram", "Rectangle"].contains(&entry.light);
-        entry.light == "Polygon" || several && entry.by == "projected_solid_angle"
+        entry.light == "Polygon" || several && ["by_projected_solid_angle", "by_reflection"].contains(&entry.by)
     };
     let lights = Lights::compare(Wanted::default(), cases(&["-O0"], &["-O2"]), "lights", is_large);
-    assert!(lights.compared >= cases(27, 32) && lights.numbers > lights.compared * 20, "{} numbers", lights.numbers);
+    assert!(lights.compared >= cases(28, 36) && lights.numbers > lights.compared * 20, "{} numbers", lights.numbers);
 }
 
 /// A sampler of which only direction and pdf are used carries no more.
@@ -219,6 +241,6 @@ fn fewer_fields_have_the_same_bits() {
     let wanted =
         Wanted { parts: [Part::Sample, Part::Pdf].into(), fields: [SampleField::Direction, SampleField::Pdf].into() };
     let lights = Lights::compare(wanted, cases(&["-O0"], &["-O1"]), "fewer", |_, kind| kind % 5 != 1);
-    assert!(lights.compared >= cases(6, 32));
+    assert!(lights.compared >= cases(6, 36));
     assert_eq!(lights.numbers, lights.compared * 6);
 }

@@ -39,9 +39,37 @@ struct Views {
     n: *const Column,
 }
 
-/// Calls a function with a normal, if the technique needs one.
+impl Views {
+    /// Reflections of surfaces with these normals, if all are there, in memory that lives as long as what is returned.
+    fn reflections(&self, n: usize) -> Option<(Vec<f32>, EtendueReflectionColumns)> {
+        let mut numbers = vec![0.0; 16 * n];
+        let mut columns = numbers.chunks_mut(n.max(1)).map(<[f32]>::as_mut_ptr);
+        let mut next = || columns.next().unwrap_or(null_mut());
+        let out = EtendueReflectionColumns { data: [(); 14].map(|()| next()), albedo: next(), schlick: next() };
+        let alphas = vec![ALPHA; n];
+        // SAFETY: the columns have n elements or are null
+        let status = unsafe { etendue_reflection_prepare_batch(n, alphas.as_ptr(), self.n, self.n, &out) };
+        (status == EtendueStatus::Ok).then_some((numbers, out))
+    }
+}
+
+/// The roughness of all surfaces, which are seen along their normals.
+const ALPHA: f32 = 0.3;
+
+/// The reflection of a surface with this normal, if that is there.
+unsafe fn reflection(normal: Column) -> Option<EtendueReflection> {
+    let mut out = EtendueReflection { data: [0.0; 14], albedo: 0.0, schlick: 0.0 };
+    // SAFETY: the caller's
+    let status = unsafe { etendue_reflection_prepare(ALPHA, normal, normal, &mut out) };
+    (status == EtendueStatus::Ok).then_some(out)
+}
+
+/// Calls a function with a normal or a reflection, if the technique needs one.
 macro_rules! call {
     (needs_normal (p, n)) => {
+        true
+    };
+    (needs_normal (p, reflection)) => {
         true
     };
     (needs_normal $place:tt) => {
@@ -50,45 +78,68 @@ macro_rules! call {
     ((p, n) $module:ident::$function:ident($($before:expr),*; $normal:expr; $($after:expr),*)) => {
         $module::$function($($before,)* $normal, $($after),*)
     };
+    ((p, reflection) $module:ident::$function:ident($($before:expr),*; $normal:expr; $($after:expr),*)) => {
+        $module::$function($($before,)* reflection($normal).as_ref().map_or(null(), std::ptr::from_ref), $($after),*)
+    };
     ($place:tt $module:ident::$function:ident($($before:expr),*; $normal:expr; $($after:expr),*)) => {{
         let _ = $normal;
         $module::$function($($before,)* $($after),*)
     }};
 }
+/// Calls a function with a light, a point, and a normal or a reflection of its own for each element.
+macro_rules! each {
+    ((p, reflection) $views:ident, $n:ident, $module:ident::$function:ident($($after:expr),*)) => {{
+        let reflections = $views.reflections($n);
+        let columns = reflections.as_ref().map_or(null(), |(_, columns)| std::ptr::from_ref(columns));
+        $module::$function($views.lights.cast(), $n, $views.p, columns, $($after),*)
+    }};
+    ($place:tt $views:ident, $n:ident, $module:ident::$function:ident($($after:expr),*)) => {
+        call!($place $module::$function($views.lights.cast(), $n, $views.p; $views.n; $($after),*))
+    };
+}
+/// The functions of a technique.
+macro_rules! functions {
+    ($light:ident, $size:literal, $name:ident, $place:tt) => {
+        // SAFETY of all: the caller's pointers are those that the functions demand
+        Functions {
+            name: stringify!($light),
+            light: size_of::<$light>() / 4,
+            sampler: $size,
+            on_surface: call!(needs_normal $place),
+            prepare: |light, p, n, out| unsafe { call!($place $name::prepare(light.cast(), p; n; out.cast())) },
+            sample: |s, u, out| unsafe { $name::sample(s.cast(), u, out) },
+            pdf: |s, w| unsafe { $name::pdf(s.cast(), w) },
+            invert: |s, w, u| unsafe { $name::invert(s.cast(), w, u) },
+            hit: |s, w, out| unsafe { $name::hit(s.cast(), w, out) },
+            once: |light, p, n, u, out| unsafe { call!($place $name::sample_once(light.cast(), p; n; u, out)) },
+            sample_batch: |s, n, u, out| unsafe { $name::sample_batch(s.cast(), n, u, out) },
+            pdf_batch: |s, n, w, out| unsafe { $name::pdf_batch(s.cast(), n, w, out) },
+            invert_batch: |s, n, w, u| unsafe { $name::invert_batch(s.cast(), n, w, u) },
+            hit_batch: |s, n, w, out| unsafe { $name::hit_batch(s.cast(), n, w, out) },
+            sample_each: |v, n, u, out| unsafe { each!($place v, n, $name::sample_each(u, out)) },
+            hit_each: |v, n, w, out| unsafe { each!($place v, n, $name::hit_each(w, out)) },
+            pdf_each: |v, n, w, out| unsafe { each!($place v, n, $name::pdf_each(w, out)) },
+            invert_each: |v, n, w, u| unsafe { each!($place v, n, $name::invert_each(w, u)) },
+        }
+    };
+}
 macro_rules! techniques {
     ($(
         $(#[$light_doc:meta])* $core:ident $([$corners:literal])? = $light:ident, $columns:ident {
             $($(#[$field_doc:meta])* $field:ident as $argument:ident: $kind:ident,)+
-        } by $default:literal {
+        } $(reflected {
+            $(#[$lobe_doc:meta])* $lobe:ident $([$lobe_n:literal])? $(= $lobe_c:ident, $lobe_name:ident[$lobe_size:literal])?;
+        })? by $default:literal {
             $(
                 $(#[$doc:meta])* $core_sampler:ident $([$n:literal])?
                     $(= $sampler:ident, $name:ident[$size:literal])?: $by:ident $place:tt $($measure:ident)?;
             )+
         }
     )+) => {
-        pub(super) const TECHNIQUES: &[Functions] = &[$($($(
-            // SAFETY of all: the caller's pointers are those that the functions demand
-            Functions {
-                name: stringify!($light),
-                light: size_of::<$light>() / 4,
-                sampler: $size,
-                on_surface: call!(needs_normal $place),
-                prepare: |light, p, n, out| unsafe { call!($place $name::prepare(light.cast(), p; n; out.cast())) },
-                sample: |s, u, out| unsafe { $name::sample(s.cast(), u, out) },
-                pdf: |s, w| unsafe { $name::pdf(s.cast(), w) },
-                invert: |s, w, u| unsafe { $name::invert(s.cast(), w, u) },
-                hit: |s, w, out| unsafe { $name::hit(s.cast(), w, out) },
-                once: |light, p, n, u, out| unsafe { call!($place $name::sample_once(light.cast(), p; n; u, out)) },
-                sample_batch: |s, n, u, out| unsafe { $name::sample_batch(s.cast(), n, u, out) },
-                pdf_batch: |s, n, w, out| unsafe { $name::pdf_batch(s.cast(), n, w, out) },
-                invert_batch: |s, n, w, u| unsafe { $name::invert_batch(s.cast(), n, w, u) },
-                hit_batch: |s, n, w, out| unsafe { $name::hit_batch(s.cast(), n, w, out) },
-                sample_each: |v, n, u, out| unsafe { call!($place $name::sample_each(v.lights.cast(), n, v.p; v.n; u, out)) },
-                hit_each: |v, n, w, out| unsafe { call!($place $name::hit_each(v.lights.cast(), n, v.p; v.n; w, out)) },
-                pdf_each: |v, n, w, out| unsafe { call!($place $name::pdf_each(v.lights.cast(), n, v.p; v.n; w, out)) },
-                invert_each: |v, n, w, u| unsafe { call!($place $name::invert_each(v.lights.cast(), n, v.p; v.n; w, u)) },
-            },
-        )?)+)+];
+        pub(super) const TECHNIQUES: &[Functions] = &[$(
+            $($(functions!($light, $size, $name, $place),)?)+
+            $($(functions!($light, $lobe_size, $lobe_name, (p, reflection)),)?)?
+        )+];
         /// The kinds of the fields of each light.
         const KINDS: &[(&str, &[&str])] = &[$((stringify!($light), &[$(stringify!($kind)),+]),)+];
     };

@@ -64,6 +64,11 @@ pub(super) fn check(input: &mut Input<'_>, index: usize) {
                 EtendueStatus::Ok
             );
         }
+        if t.name == "reflection" {
+            let [n, view] = [1, 4].map(|k| unit([parameters[k], parameters[k + 1], parameters[k + 2]]));
+            let out = parameters.as_mut_ptr().cast();
+            assert_eq!(etendue_reflection_prepare(parameters[0], n.as_ptr(), view.as_ptr(), out), EtendueStatus::Ok);
+        }
         let own = parameters.as_ptr();
         let (mut u_in, mut x_in): ([Column; 2], [Column; 3]) = (u_memory.inputs(), x_memory.inputs());
         let self_in = if null_at == 0 { null() } else { own };
