@@ -237,7 +237,7 @@ impl Point {
     /// Rays to points on lights, sampled by solid angle.
     fn to_light(&self, lights: &Lights, u: etendue::Vec2<X8>) -> Packet {
         let zero = X8::lit(0.0);
-        let choice = lights.choose(self.place, self.normal, [u.x, zero]);
+        let choice = lights.choose(self.place, self.normal, None, [u.x, zero]);
         let (mut chosen, u) = (lights.chosen(choice.index), etendue::Vec2::new(choice.u, u.y));
         let sample = lights.sample(&mut chosen, Measure::SolidAngle, self.place, self.normal, u);
         let active = self.met & sample.emits & sample.pdf.gt(zero) & sample.direction.dot(self.normal).gt(zero);

@@ -197,3 +197,44 @@ fn rough_surfaces_reflect_the_sums() {
     }
     println!("greatest deviation {worst:.1} of what is claimed");
 }
+
+/// Forty small panels, of which a coat and a rough floor each reflect a few: a tree chooses among them in view of the lobe, and both techniques
+/// that combine light and BSDF weigh by the same probabilities, so that the reflected light is that of the sum, within five of the errors that
+/// they claim.
+#[test]
+fn many_lights_are_chosen_in_view_of_the_lobe() {
+    let panel = |k: usize| {
+        let [x, z] = [k % 8, k / 8].map(|i| i as f64);
+        Light::Panel { corner: [1.1 * x - 4.0, 1.5, -1.0 - 1.1 * z], edges: [[0.5, 0.0, 0.0], [0.0, 0.0, -0.5]] }
+    };
+    let lights: Vec<_> = (0..40).map(panel).collect();
+    for (alpha, albedo) in [(0.1, [0.0; 3]), (0.3, [0.6, 0.3, 0.1])] {
+        let coat = Coat { alpha, albedo, view: unit([0.3, 1.0, 2.0]) };
+        let mut truth = [0.0; 3];
+        for (w, solid_angle) in lights.iter().flat_map(|light| light.directions(200)) {
+            let reflected = coat.reflected(w);
+            (0..3).for_each(|k| truth[k] += solid_angle * reflected[k]);
+        }
+        let [x, y, z] = coat.view;
+        let mut text =
+            format!("LookAt {x} {y} {z}  0 0 0  0.1 1 0.2 Camera \"perspective\" \"float fov\" 1e-3 WorldBegin\n");
+        text += &coat.text();
+        lights.iter().for_each(|light| text += &light.text(true));
+        let world = World::new(&scene::parse(&text, "many.pbrt", Path::new(".")).unwrap()).unwrap();
+        for technique in [Technique::SolidAngle, Technique::MisPower, Technique::MisBalance] {
+            let (film, _) = world.render(&settings(technique, cases(1 << 16, 1 << 19)), &|_| ());
+            let pixel = film.pixels[0];
+            for (k, truth) in truth.into_iter().enumerate() {
+                let claim = f64::from(pixel.variance[k]).sqrt();
+                let off = (f64::from(pixel.mean[k]) - truth).abs();
+                println!("α {alpha}, {technique:?}: {} ± {claim}, {truth}", pixel.mean[k]);
+                assert!(
+                    off < 5.0 * claim + 1e-4 * truth,
+                    "α {alpha}, {technique:?}: {} ± {claim}, {truth}",
+                    pixel.mean[k]
+                );
+                assert!(claim < 0.02 * truth, "α {alpha}, {technique:?}: ± {claim}, {truth}");
+            }
+        }
+    }
+}

@@ -41,10 +41,10 @@ fn the_pdf_of_a_direction_is_that_with_which_it_was_drawn() {
         let mut compared = 0;
         for number in 0..cases(16, 200) {
             let (p, normal, [u, second, x, y]) = packet(&scene, number);
-            let choice = lights.choose(p, normal, [u, second]);
+            let choice = lights.choose(p, normal, None, [u, second]);
             let mut chosen = lights.chosen(choice.index);
             let drawn = lights.sample(&mut chosen, Measure::SolidAngle, p, normal, Vec2::new(x, y));
-            let pmf = lights.pmf(p, normal);
+            let pmf = lights.pmf(p, normal, None);
             let sampled = choice.pmf.gt(X8::lit(0.0)) & drawn.pdf.gt(X8::lit(0.0)) & !drawn.delta;
             for lane in (0..8).filter(|&lane| sampled.lane(lane)) {
                 let index = chosen.shape.lane(lane) as usize;
@@ -86,10 +86,10 @@ fn the_pdf_of_the_sky_is_that_with_which_it_was_drawn() {
             let away = |x: X8| (x - X8::lit(0.5)) * X8::lit(10.0);
             let (p, normal) = (V8::new(away(pair(0).x), away(pair(0).y), away(pair(1).x)), V8::lit([0.0, 0.6, 0.8]));
             let (Vec2 { x: u, y: second }, Vec2 { x, y }) = (pair(2), pair(3));
-            let choice = lights.choose(p, normal, [u, second]);
+            let choice = lights.choose(p, normal, None, [u, second]);
             let mut chosen = lights.chosen(choice.index);
             let drawn = lights.sample(&mut chosen, Measure::SolidAngle, p, normal, Vec2::new(x, y));
-            let pdf = lights.sky_pdf(&lights.pmf(p, normal), p, normal, drawn.direction);
+            let pdf = lights.sky_pdf(&lights.pmf(p, normal, None), p, normal, drawn.direction);
             for lane in (0..8).filter(|&lane| choice.index.lane(lane) + 1 == lights.len() as u32) {
                 assert!(choice.pmf.lane(lane) < 1.0, "{name}: another light has a share, too");
                 let own = drawn.pdf.lane(lane) * choice.pmf.lane(lane);
@@ -115,8 +115,8 @@ fn the_pmf_of_all_lights_sums_to_one() {
         }
         for number in 0..200 {
             let (p, normal, [u, second, ..]) = packet(&scene, number);
-            let chosen = lights.choose(p, normal, [u, second]).pmf.gt(X8::lit(0.0));
-            let pmf = lights.pmf(p, normal);
+            let chosen = lights.choose(p, normal, None, [u, second]).pmf.gt(X8::lit(0.0));
+            let pmf = lights.pmf(p, normal, None);
             for lane in (0..8).filter(|&lane| chosen.lane(lane)) {
                 let sum: f64 = (0..lights.len() as u32).map(|light| pmf.of(light).lane_f64(lane)).sum();
                 assert!(sum < 1.0 + 2e-6, "{name}: {sum}");
@@ -197,7 +197,7 @@ fn lights_far_away_have_their_share_of_the_power() {
     for (near, power) in [(point, 4.0 * 7.0), (spot, (2.0 - 0.9 - 0.75) * 7.0)] {
         scene.delta_lights = vec![near, distant];
         let lights = Lights::deltas(&scene).unwrap();
-        let pmf = lights.pmf(p, V8::lit([0.0, 1.0, 0.0]));
+        let pmf = lights.pmf(p, V8::lit([0.0, 1.0, 0.0]), None);
         let far = 2.75 * squared;
         let shares = [0, 1].map(|light| pmf.of(light).lane_f64(3));
         let truth = far / (far + power);
@@ -275,7 +275,7 @@ fn directed_and_spread_lights_are_never_lost() {
         let centered = |u: X8| u * X8::lit(4.0) - X8::lit(2.0);
         let p = V8::new(centered(pairs[0].x), centered(pairs[0].y), centered(pairs[1].x));
         let normal = V8::new(centered(pairs[1].y), centered(pairs[2].x), centered(pairs[2].y)).normalize();
-        let pmf = lights.pmf(p, normal);
+        let pmf = lights.pmf(p, normal, None);
         for light in (0..all).filter(|light| (light + number).is_multiple_of(3)) {
             let mut chosen = lights.chosen(u32x8::splat(light));
             let drawn = lights.sample(&mut chosen, Measure::SolidAngle, p, normal, pairs[3]);
