@@ -248,7 +248,7 @@ fn flat_lights_have_their_part_of_the_lobe() {
     let mut random = Random::new(4);
     let (mut occlusion, mut wide_occlusion) = (Occlusion::<f32>::new(), Occlusion::<f64>::new());
     let mut worst = 0.0_f64;
-    for _ in 0..cases(100, 1_000) {
+    for _ in 0..cases(100, 400) {
         let Flat { place, corner, s, t } = flat(&mut random);
         let truth = [false, true].map(|half| {
             let part = part_of_samples(&place, |w| {

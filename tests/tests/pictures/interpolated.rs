@@ -80,7 +80,7 @@ fn interpolated_pictures() {
                         let off = (again[0] - u[0]).abs().max((again[1] - u[1]).abs());
                         assert!(off < 2e-6, "{name}: {again:?}, expected {u:?}");
                     }
-                    let (mean, m) = (sum / count, cases(360, 1440));
+                    let (mean, m) = (sum / count, cases(360, 720));
                     let spread = (squared / count / (mean * mean) - 1.0).max(0.0).sqrt();
                     let mut truth = 0.0;
                     for k in 0..m * m {

@@ -89,7 +89,7 @@ fn samples_follow_the_pdf() {
         with(&openings, |sky| {
             for &p in points.iter().step_by(cases(2, 1)) {
                 let sampler = sky.by_radiance(Vec3::<f64>::new(p[0], p[1], p[2]));
-                let (n, bins) = (cases(400, 2000), 8);
+                let (n, bins) = (cases(400, 1000), 8);
                 let mut expected = vec![0.0; openings.len() * bins * bins];
                 let first = |w: V3| {
                     openings.iter().enumerate().find_map(|(k, o)| {
