@@ -12,11 +12,8 @@ class Reader:
     """The camera of a scene, and its shapes: dictionaries with `points` and `faces`, or `center` and `radius`, with `material`, and with
     `radiance` if they shine."""
 
-    def __init__(self, path):
-        self.path = path
-        with open(path) as file:
-            self.tokens = tokens(file.read())
-        self.at = 0
+    def __init__(self, text, path):
+        self.path, self.tokens, self.at = path, tokens(text), 0
         self.shapes = []
         state = dict(material=('diffuse', {}), radiance=None, move=(0, 0, 0))
         saved = []

@@ -28,7 +28,7 @@ fn samples_have_the_moments_of_the_integrals() {
         let mut worst = [0.0_f64; METHODS.len()];
         for (k, worst) in worst.iter_mut().enumerate() {
             let (mean, deviation) = (drawn.means[k] / m.radiance, m.deviations[k]);
-            // as many samples as have found the peak: others say nothing
+            // too few samples to find the peak of the lobe say nothing
             if deviation > f64::from(side) / 16.0 {
                 continue;
             }

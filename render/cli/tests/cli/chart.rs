@@ -356,6 +356,17 @@ fn figures_say_their_numbers() {
         }
     }
 
+    if is_long() {
+        let out = folder.succeed("figure lobes");
+        let rows: Vec<Vec<f64>> =
+            out.lines().filter(|line| !line.contains('°')).map(numbers).filter(|row| row.len() >= 12).collect();
+        // by roughness, cosine, place and size
+        assert_eq!(rows.len(), 6 * 4 * 3 * 4, "{out}");
+        let off = line(&out, "The means of")[1];
+        assert!(off < 2.0, "samples are off by {off} %: {out}");
+        assert!(folder.read("figures/lobes.svg").matches("<image ").count() == 8);
+    }
+
     let out = folder.succeed("figure cap-solid-angle-vs-projected");
     assert!(line(&out, "by projected solid angle")[0] < 1e-11, "{out}");
     let irradiance = line(&out, "irradiance per radiance");
