@@ -135,7 +135,7 @@ impl<C: Real> Children<C> {
         let bright = bound.gt(zero) & front.gt(zero) & power.gt(zero);
         let mut cosines = fused(bound * front, lit(4.0 * BOUND), estimate * facing);
         if let Some(gloss) = gloss {
-            cosines = cosines * gloss.factor(v, varied * scale);
+            cosines *= gloss.factor(v, varied * scale);
         }
         ((power * cosines / (mean * squared)).keep(bright), bright)
     }
