@@ -218,6 +218,14 @@ impl<'a, R: Real> TreeAt<'a, R> {
     #[inline]
     #[must_use]
     pub fn choose_by(&self, bits: [R::Uint; 2]) -> Choice<R> {
+        // compiled twice: without gloss, nothing asks for it
+        match &self.gloss {
+            None => self.descend(bits, |_| None),
+            Some(gloss) => self.descend(bits, |lane| Some(gloss.map(|x| x.lane_f64(lane) as f32))),
+        }
+    }
+    #[inline(always)]
+    fn descend(&self, bits: [R::Uint; 2], gloss: impl Fn(usize) -> Option<Gloss<f32>>) -> Choice<R> {
         let start = |lane: usize| {
             let place = self.place(lane.min(R::LANES - 1));
             let [word, more] = bits.map(|bits| bits.lane(lane.min(R::LANES - 1)));
@@ -230,7 +238,7 @@ impl<'a, R: Real> TreeAt<'a, R> {
             let mut more = false;
             for (index, (shares, lane)) in shares.iter_mut().zip(&lanes[..R::LANES]).enumerate() {
                 if let Some(node) = self.tree.nodes.get(lane.node as usize) {
-                    *shares = node.shares(&lane.place, self.gloss(index).as_ref());
+                    *shares = node.shares(&lane.place, gloss(index).as_ref());
                     more = true;
                 }
             }
