@@ -19,9 +19,8 @@ use crate::vector::Vec2;
 ///   2⁻²⁴, and no texel with radiance is lost.
 /// - Domain: 1 to 2²⁴ columns and rows; finite weights ≥ 0, in any unit.
 /// - Cost: two steps for each factor of 4 of the longer side. Prepared for each packet of `f32x8`, a sample of 1024 × 1024 texels by solid
-///   angle takes 4.3 times as long as one of the rectangle without a picture, seen from as far as it is wide, and 2.7 times from 25 times as
-///   far; of 16 × 16 texels, 2.6 and 1.6 times. (`cargo bench -p etendue-benches --bench summary -- picture`, and `-- "rectangle by solid
-///   angle"` to compare with)
+///   angle takes 2.3 times as long as one of the rectangle without a picture, seen from as far as it is wide, and 1.5 times from 25 times as
+///   far; of 16 × 16 texels, 1.5 times and as long. (`cargo bench -p etendue-benches --bench summary -- "by solid angle"`)
 /// - Source: Clarberg, Jarosz, Akenine-Möller and Jensen 2005, "Wavelet Importance Sampling", for warping by a hierarchy; measures for its
 ///   boxes, and steps, are ours.
 #[derive(Clone, Copy, Debug)]
