@@ -5,8 +5,9 @@ use crate::real::Real;
 use crate::reflection::Reflection;
 use crate::vector::Vec3;
 
-/// The least factor, so that no light that contributes vanishes, and the greatest ratio of squared lengths.
+/// The least factor, relative to the albedos, so that no light that contributes vanishes.
 const LEAST: f64 = 1.0 / (1_u64 << 40) as f64;
+/// The greatest ratio of squared lengths, so that no factor overflows.
 const GREATEST: f64 = 1e9;
 
 lanewise! {
@@ -22,6 +23,9 @@ lanewise! {
     ///   lower, so that it reflects as much: in its peak, |v′|² is nearly |v|²/(1 + b²).
     /// - Domain: albedos from 0 to 1, not both 0.
     /// - Bounds: the factor is at least 2⁻⁴⁰ of the sum of the albedos, so that no light is lost.
+    /// - Accuracy: a factor is a weight, and the pmf of the choice stays exact. Without a variance it is that of the fit, whose error
+    ///   [`Reflection`] has.
+    /// - Source: the map after Heitz, Dupuy, Hill and Neubelt 2016, as in [`Reflection`]; the widening by the variance is derived here.
     /// - Degenerate: without a rough part, the factor is ρ, and the choice has the bits of the one without gloss if ρ is 1.
     pub struct Gloss {
         /// The rows of the map.

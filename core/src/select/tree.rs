@@ -197,6 +197,7 @@ pub struct TreeAt<'a, R: Real> {
 }
 
 impl<'a, R: Real> TreeAt<'a, R> {
+    /// The gloss of a lane, if there is any.
     #[inline(always)]
     fn gloss(&self, lane: usize) -> Option<Gloss<f32>> {
         self.gloss.map(|gloss| gloss.map(|x| x.lane_f64(lane) as f32))
@@ -221,7 +222,7 @@ impl<'a, R: Real> TreeAt<'a, R> {
         // compiled twice: without gloss, nothing asks for it
         match &self.gloss {
             None => self.descend(bits, |_| None),
-            Some(gloss) => self.descend(bits, |lane| Some(gloss.map(|x| x.lane_f64(lane) as f32))),
+            Some(_) => self.descend(bits, |lane| self.gloss(lane)),
         }
     }
     #[inline(always)]

@@ -13,7 +13,7 @@ use etendue_oracle::{V3, along};
 
 /// Names of the estimators, in the order of [`Moments::deviations`].
 pub const METHODS: [&str; 7] = ["area", "solid angle", "projected", "BSDF", "MIS", "reflection", "fit + rest"];
-/// Those that take one sample of the light.
+/// Estimators that take one sample of the light.
 pub const OF_LIGHT: [usize; 4] = [AREA, SOLID_ANGLE, PROJECTED, REFLECTION];
 /// By area.
 pub const AREA: usize = 0;
