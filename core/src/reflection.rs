@@ -163,10 +163,10 @@ impl<R: Real> Reflection<R> {
         let Frame { s, t, n } = self.frame;
         [n.mul_add(self.b, s) * self.a, t * self.c, n]
     }
-    /// The determinant of the map, and the tangent of the angle from the normal to the direction that it takes there.
+    /// The determinant of the map.
     #[inline(always)]
-    pub(crate) fn shape(&self) -> [R; 2] {
-        [self.a * self.c, self.b]
+    pub(crate) fn determinant(&self) -> R {
+        self.a * self.c
     }
     /// The linear map, from the space of the vectors given to the one where the lobe is a cosine about z. Lengths change.
     #[inline(always)]

@@ -141,7 +141,7 @@ fn variances(grove: &Grove, surface: &Surface) -> [f64; 2] {
     squares.map(|square| square / (sum * sum) - 1.0)
 }
 
-/// Lamps above a wet street and a metal floor: the variance of a choice with gloss is less than that of one without, up to twenty times.
+/// Lamps above a wet street and a metal floor: the variance of a choice with gloss is less than that of one without, up to some forty times.
 #[test]
 fn choices_are_worth_their_gloss() {
     let mut random = Random::new(9);
@@ -167,6 +167,9 @@ fn choices_are_worth_their_gloss() {
                     (0..2).for_each(|k| sums[k] += both[k] / count as f64);
                 }
                 let [matt, glossy] = sums;
+                // where the lobe is narrow, the choice without gloss fails
+                let most = if albedos[0] == 0.0 && alpha < 0.3 { 0.25 } else { 1.1 };
+                assert!(glossy < most * matt, "{albedos:?}, alpha {alpha}, cosine {cos}: {matt}, {glossy}");
                 println!(
                     "albedos {albedos:?}, alpha {alpha}, cosine {cos}: {matt:.3} {glossy:.3}, {:.1} times",
                     matt / glossy

@@ -16,11 +16,10 @@ lanewise! {
     ///
     /// [`LightTree::at_glossy`](super::LightTree::at_glossy) and [`SpatialLights::at_glossy`](super::SpatialLights::at_glossy) take it.
     ///
-    /// - Formula: the weight of a light, which is by the cosine, is multiplied by ρ + σ · ac · (N/N′)² · (N + (1 + b²)δ′)/(N + δ), with
-    ///   N = |v|² + δ and N′ = |v′|² + δ′. ρ and σ are the albedos of both parts; the map of the [`Reflection`] takes v, the vector to the
-    ///   lights' mean position, to v′, and has the determinant ac; δ is the variance of their positions, except along v, and δ′ the same
-    ///   after the map. Without a variance, ac(N/N′)² is the pdf of the reflection over cosθ/π. With one, the lobe is wider, and
-    ///   lower, so that it reflects as much: in its peak, |v′|² is nearly |v|²/(1 + b²).
+    /// - Formula: the weight of a light, which is by the cosine, is multiplied by ρ + σ · ac · (N/N′)², with N = |v|² + δ and N′ = |v′|² + δ′.
+    ///   ρ and σ are the albedos of both parts; the map of the [`Reflection`] takes v, the vector to the lights' mean position, to v′, and has
+    ///   the determinant ac; δ is the variance of their positions, except along v, and δ′ the same after the map. Without a variance,
+    ///   ac(N/N′)² is the pdf of the reflection over cosθ/π. With one, the lobe is wider.
     /// - Domain: albedos from 0 to 1, not both 0.
     /// - Bounds: the factor is at least 2⁻⁴⁰ of the sum of the albedos, so that no light is lost.
     /// - Accuracy: a factor is a weight, and the pmf of the choice stays exact. Without a variance it is that of the fit, whose error
@@ -34,8 +33,6 @@ lanewise! {
         z: Vec3<R>,
         /// The squared lengths of its columns.
         columns: Vec3<R>,
-        /// 1 + b².
-        longest: R,
         diffuse: R,
         /// The albedo of the rough part, times the determinant ac of the map.
         rough: R,
@@ -47,16 +44,15 @@ impl<R: Real> Gloss<R> {
     /// Prepares for surfaces with this albedo of their diffuse part, and a rough part with this reflection and albedo.
     #[inline(always)]
     pub fn new(diffuse: R, rough: R, reflection: &Reflection<R>) -> Self {
-        let (one, [x, y, z], [determinant, slope]) = (R::lit(1.0), reflection.rows(), reflection.shape());
+        let [x, y, z] = reflection.rows();
         let column = |x: R, y: R, z: R| x.mul_add(x, y.mul_add(y, z * z));
         Self {
             x,
             y,
             z,
             columns: Vec3::new(column(x.x, y.x, z.x), column(x.y, y.y, z.y), column(x.z, y.z, z.z)),
-            longest: slope.mul_add(slope, one),
             diffuse,
-            rough: rough * determinant,
+            rough: rough * reflection.determinant(),
             least: (diffuse + rough) * R::lit(LEAST),
         }
     }
@@ -64,7 +60,7 @@ impl<R: Real> Gloss<R> {
     #[inline(always)]
     pub(super) fn factor(&self, v: Vec3<R>, variances: Vec3<R>) -> R {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
-        let Self { x, y, z, columns, longest, .. } = *self;
+        let Self { x, y, z, columns, .. } = *self;
         let squares = |v: Vec3<R>| Vec3::new(v.x * v.x, v.y * v.y, v.z * v.z);
         let one_unless_zero = |x: R| R::blend(x.gt(zero), x, one);
         let [a, b, c] = [x.dot(v), y.dot(v), z.dot(v)];
@@ -78,9 +74,7 @@ impl<R: Real> Gloss<R> {
         let (size, below) = (length + variance, mapped + spread);
         let some = below.gt(zero) & size.gt(zero);
         let ratio = (size / R::blend(some, below, one)).lesser(R::lit(GREATEST));
-        let size = R::blend(some, size, one);
-        let lower = spread.mul_add(longest, size) / (size + variance);
-        let lobe = (ratio * ratio * lower).keep(some);
-        self.rough.mul_add(lobe.lesser(R::lit(GREATEST * GREATEST)), self.diffuse).greater(self.least)
+        let lobe = (ratio * ratio).keep(some);
+        self.rough.mul_add(lobe, self.diffuse).greater(self.least)
     }
 }
