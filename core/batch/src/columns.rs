@@ -1,5 +1,7 @@
 //! What a batch reads and writes beside directions.
 
+use crate::one::OneSample;
+
 /// Where samples go: slices of the length of the batch, or empty slices for what is not wanted. The fields are those of
 /// [`etendue::LightSample`].
 #[derive(Debug, Default)]
@@ -40,6 +42,19 @@ pub struct SampleColumns {
     pub emits: *mut u8,
 }
 
+/// The numbers of element `i`.
+pub(crate) unsafe fn numbers<const N: usize>(columns: [*const f32; N], i: usize) -> [f32; N] {
+    // SAFETY: the caller's columns have this element
+    columns.map(|column| unsafe { column.add(i).read_unaligned() })
+}
+/// Writes element `i` of a column, unless it is null.
+pub(crate) unsafe fn store(column: *mut f32, i: usize, number: f32) {
+    if !column.is_null() {
+        // SAFETY: the caller's column has this element
+        unsafe { column.add(i).write_unaligned(number) };
+    }
+}
+
 impl SampleColumns {
     /// True if the normal or the surface coordinates are wanted.
     #[inline(always)]
@@ -50,6 +65,31 @@ impl SampleColumns {
     pub(crate) fn any(&self) -> bool {
         let mut others = self.direction.iter().chain([&self.distance, &self.pdf, &self.weight]);
         self.needs_surface() || !self.emits.is_null() || !others.all(|column| column.is_null())
+    }
+    /// Writes a sample as element `i`.
+    pub(crate) unsafe fn store(&self, i: usize, s: &OneSample) {
+        let Self { direction: w, normal: n, uv, .. } = self;
+        let numbers = [
+            (w[0], s.direction.x),
+            (w[1], s.direction.y),
+            (w[2], s.direction.z),
+            (self.distance, s.distance),
+            (self.pdf, s.pdf),
+            (self.weight, s.weight),
+            (n[0], s.normal.x),
+            (n[1], s.normal.y),
+            (n[2], s.normal.z),
+            (uv[0], s.uv.x),
+            (uv[1], s.uv.y),
+        ];
+        for (column, number) in numbers {
+            // SAFETY: the caller's columns have this element
+            unsafe { store(column, i, number) };
+        }
+        if !self.emits.is_null() {
+            // SAFETY: the caller's column has this element
+            unsafe { self.emits.add(i).write(s.emits) };
+        }
     }
     /// The columns from element `i` on.
     pub(crate) fn from(&self, i: usize) -> Self {

@@ -3,7 +3,9 @@
 //! Columns are raw pointers, since callers in other languages pass them so, since an output may be null, and since an output may be
 //! the same memory as an input.
 
+use crate::columns::{numbers, store};
 use crate::map::{BatchMap, MOST_NUMBERS, MOST_RESULTS};
+use crate::one::{self, OneSample};
 use crate::technique::{BatchSampler, BatchTechnique};
 use crate::warp::BatchWarp;
 use crate::{ChoiceColumns, Counters, EvaluationColumns, SampleColumns};
@@ -152,31 +154,6 @@ fn packets(n: usize, lanes: usize, mut f: impl FnMut(Place)) {
     }
 }
 
-/// Prepares a light for one point.
-pub(crate) unsafe extern "C" fn prepare<T: BatchTechnique>(
-    light: &T::Light<f32>,
-    p: Vec3<f32>,
-    normal: Vec3<f32>,
-    out: *mut T,
-) {
-    // SAFETY: the caller's memory has room for it
-    unsafe { out.write_unaligned(T::prepared(*light, p, normal)) };
-}
-
-/// True where one element alone is not worth a packet: to repeat a large sampler in all lanes takes longer than to use it once.
-const fn is_for_one<T: BatchSampler, R: Packet>(n: usize) -> bool {
-    n == 1 && R::LANES > 1 && (size_of::<T>() > 512 || T::PREPARES)
-}
-
-/// Stands for [`prepare`] in tables that are not asked for it.
-pub(crate) unsafe extern "C" fn no_prepare<T: BatchTechnique>(
-    _: &T::Light<f32>,
-    _: Vec3<f32>,
-    _: Vec3<f32>,
-    _: *mut T,
-) {
-}
-
 /// Samples of one prepared light.
 pub(crate) unsafe extern "C" fn sample<T: BatchSampler, R: Packet>(
     sampler: &T,
@@ -184,9 +161,16 @@ pub(crate) unsafe extern "C" fn sample<T: BatchSampler, R: Packet>(
     u: Vec2<*const f32>,
     out: &SampleColumns,
 ) {
-    if is_for_one::<T, R>(n) {
-        // SAFETY: the caller's
-        return unsafe { sample::<T, f32>(sampler, n, u, out) };
+    if R::LANES == 1 {
+        for i in 0..n {
+            let mut s = OneSample::default();
+            // SAFETY: the caller's columns have `n` elements
+            unsafe {
+                one::sample(sampler, numbers([u.x, u.y], i).as_ptr(), &mut s);
+                out.store(i, &s);
+            }
+        }
+        return;
     }
     let sampler = sampler.splat::<R>();
     // SAFETY: the caller's columns have `n` elements
@@ -224,7 +208,7 @@ impl<T: BatchTechnique> Views<T> {
         unsafe {
             let number = |column: *const f32| column.add(i).read_unaligned();
             let normal = if T::ON_SURFACE { self.normals.map(number) } else { Vec3::default() };
-            prepare::<T>(&T::map(self.lights, number), self.points.map(number), normal, sampler.as_mut_ptr());
+            one::prepare::<T>(&T::map(self.lights, number), self.points.map(number), normal, sampler.as_mut_ptr());
             sampler.assume_init()
         }
     }
@@ -304,9 +288,13 @@ pub(crate) unsafe extern "C" fn pdf<T: BatchSampler, R: Packet>(
     directions: Vec3<*const f32>,
     out: *mut f32,
 ) {
-    if is_for_one::<T, R>(n) {
-        // SAFETY: the caller's
-        return unsafe { pdf::<T, f32>(sampler, n, directions, out) };
+    let Vec3 { x, y, z } = directions;
+    if R::LANES == 1 {
+        for i in 0..n {
+            // SAFETY: the caller's columns have `n` elements
+            unsafe { store(out, i, one::pdf(sampler, numbers([x, y, z], i).as_ptr())) };
+        }
+        return;
     }
     let sampler = sampler.splat::<R>();
     // SAFETY: the caller's columns have `n` elements
@@ -322,9 +310,18 @@ pub(crate) unsafe extern "C" fn invert<T: BatchSampler, R: Packet>(
     directions: Vec3<*const f32>,
     out: Vec2<*mut f32>,
 ) {
-    if is_for_one::<T, R>(n) {
-        // SAFETY: the caller's
-        return unsafe { invert::<T, f32>(sampler, n, directions, out) };
+    let Vec3 { x, y, z } = directions;
+    if R::LANES == 1 {
+        for i in 0..n {
+            let mut u = [0.0; 2];
+            // SAFETY: the caller's columns have `n` elements
+            unsafe {
+                one::invert(sampler, numbers([x, y, z], i).as_ptr(), u.as_mut_ptr());
+                store(out.x, i, u[0]);
+                store(out.y, i, u[1]);
+            }
+        }
+        return;
     }
     let sampler = sampler.splat::<R>();
     // SAFETY: the caller's columns have `n` elements
@@ -342,9 +339,17 @@ pub(crate) unsafe extern "C" fn hit<T: BatchSampler, R: Packet>(
     directions: Vec3<*const f32>,
     out: &SampleColumns,
 ) {
-    if is_for_one::<T, R>(n) {
-        // SAFETY: the caller's
-        return unsafe { hit::<T, f32>(sampler, n, directions, out) };
+    let Vec3 { x, y, z } = directions;
+    if R::LANES == 1 {
+        for i in 0..n {
+            let mut s = OneSample::default();
+            // SAFETY: the caller's columns have `n` elements
+            unsafe {
+                one::hit(sampler, numbers([x, y, z], i).as_ptr(), &mut s);
+                out.store(i, &s);
+            }
+        }
+        return;
     }
     let sampler = sampler.splat::<R>();
     // SAFETY: the caller's columns have `n` elements

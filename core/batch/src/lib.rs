@@ -25,13 +25,14 @@
 //! # Costs
 //! `cargo bench -p etendue-batch` prints nanoseconds per sample for batches of 1, 8, 64 and 4096 at every level, beside a loop over packets
 //! of the core with the instructions of that build. A call repeats the prepared light in all lanes first, so a batch of 1 takes as long
-//! as a whole packet and more: some 100 ns for a triangle by solid angle, which batches of 64 share. Building takes twice as long, since
+//! as a whole packet and more: for one element there are [`Batch::sample_one`] and others, in single numbers. Building takes twice as long, since
 //! the crate compiles itself two more times; without the default feature `dispatch` it does not, and uses the instructions of the build.
 #![cfg_attr(not(test), no_std)]
 
 mod columns;
 mod kernel;
 mod map;
+mod one;
 mod placed;
 mod table;
 mod technique;
@@ -42,6 +43,7 @@ pub use kernel::Views;
 pub use map::{
     BatchMap, DirectionOfImage, MOST_NUMBERS, MOST_RESULTS, PlaceInImage, ReflectedSphere, SeenThroughPortals,
 };
+pub use one::{OnceFunctions, OneFunctions, OneSample, OneWarpFunctions};
 pub use placed::{
     PictureByArea, PictureByProjectedSolidAngle, PictureBySolidAngle, PictureOnPatchByVisibleArea,
     PictureOnSphereByVisibleArea, PortalsByRadiance,
@@ -77,8 +79,8 @@ pub enum Level {
 pub struct Batch {
     level: Level,
     table: &'static Table,
-    /// Where preparations are.
-    prepare: &'static Table,
+    /// Where the functions of one element are.
+    one: &'static Table,
 }
 
 impl core::fmt::Debug for Batch {
@@ -115,7 +117,7 @@ impl Batch {
         Self::at(Level::V4).or_else(|| Self::at(Level::V3)).unwrap_or(Self {
             level: Level::Build,
             table: &table::TABLE,
-            prepare: &table::TABLE,
+            one: &table::TABLE,
         })
     }
     /// The routines with certain instructions, or `None` if the processor lacks them or they were not compiled.
@@ -123,16 +125,16 @@ impl Batch {
     #[must_use]
     pub fn at(level: Level) -> Option<Self> {
         match level {
-            Level::Build => Some(Self { level, table: &table::TABLE, prepare: &table::TABLE }),
+            Level::Build => Some(Self { level, table: &table::TABLE, one: &table::TABLE }),
             #[cfg(levels)]
             Level::V3 => {
                 let table = &etendue_batch_v3;
-                v3_instructions::get().then_some(Self { level, table, prepare: table })
+                v3_instructions::get().then_some(Self { level, table, one: table })
             }
             #[cfg(levels)]
             Level::V4 => {
-                let (table, prepare) = (&etendue_batch_v4, &etendue_batch_v3);
-                (v3_instructions::get() && v4_instructions::get()).then_some(Self { level, table, prepare })
+                let (table, one) = (&etendue_batch_v4, &etendue_batch_v3);
+                (v3_instructions::get() && v4_instructions::get()).then_some(Self { level, table, one })
             }
             #[allow(unreachable_patterns)]
             _ => None,
@@ -156,9 +158,67 @@ impl Batch {
         let mut out = core::mem::MaybeUninit::<T>::uninit();
         // SAFETY: the function writes a whole sampler
         unsafe {
-            (T::light_functions(self.prepare).prepare)(light, p, n, out.as_mut_ptr());
+            (self.once::<T>().prepare)(light, p, n, out.as_mut_ptr());
             out.assume_init()
         }
+    }
+    /// Draws one direction from a prepared light, for `u` in [0, 1)².
+    #[inline]
+    #[must_use]
+    pub fn sample_one<T: BatchSampler>(&self, sampler: &T, u: Vec2<f32>) -> OneSample {
+        let mut out = OneSample::default();
+        // SAFETY: the function reads two numbers, and writes its result
+        unsafe { (self.one::<T>().sample)(sampler, row(&u), &mut out) };
+        out
+    }
+    /// The pdf of one unit direction, per steradian (lines: see [`etendue::Line`]); 0 where it misses the light.
+    #[inline]
+    #[must_use]
+    pub fn pdf_one<T: BatchSampler>(&self, sampler: &T, w: Vec3<f32>) -> f32 {
+        // SAFETY: the function reads three numbers
+        unsafe { (self.one::<T>().pdf)(sampler, row(&w)) }
+    }
+    /// The numbers in [0, 1)² that the sampler maps to one unit direction.
+    #[inline]
+    #[must_use]
+    pub fn invert_one<T: BatchSampler>(&self, sampler: &T, w: Vec3<f32>) -> Vec2<f32> {
+        let mut out = Vec2::default();
+        // SAFETY: the function reads three numbers, and writes two
+        unsafe { (self.one::<T>().invert)(sampler, row(&w), (&raw mut out).cast()) };
+        out
+    }
+    /// The nearest point of the light in one unit direction, with its pdf; 0 where the direction misses it.
+    #[inline]
+    #[must_use]
+    pub fn hit_one<T: BatchSampler>(&self, sampler: &T, w: Vec3<f32>) -> OneSample {
+        let mut out = OneSample::default();
+        // SAFETY: the function reads three numbers, and writes its result
+        unsafe { (self.one::<T>().hit)(sampler, row(&w), &mut out) };
+        out
+    }
+    /// Prepares a light for the point `p` of a surface with the unit normal `n`, and draws one direction. What the sample does not need is
+    /// not prepared.
+    #[inline]
+    #[must_use]
+    pub fn sample_once<T: BatchTechnique>(
+        &self,
+        light: &T::Light<f32>,
+        p: Vec3<f32>,
+        n: Vec3<f32>,
+        u: Vec2<f32>,
+    ) -> OneSample {
+        let mut out = OneSample::default();
+        // SAFETY: the function reads vectors, and writes its result
+        unsafe { (self.once::<T>().sample)(light, row(&p), row(&n), row(&u), &mut out) };
+        out
+    }
+    /// Prepares a light for the point `p` of a surface with the unit normal `n`, and returns the pdf of one unit direction. What the pdf
+    /// does not need is not prepared.
+    #[inline]
+    #[must_use]
+    pub fn pdf_once<T: BatchTechnique>(&self, light: &T::Light<f32>, p: Vec3<f32>, n: Vec3<f32>, w: Vec3<f32>) -> f32 {
+        // SAFETY: the function reads vectors
+        unsafe { (self.once::<T>().pdf)(light, row(&p), row(&n), row(&w)) }
     }
     /// Samples one prepared light, at the numbers `u` in [0, 1)².
     pub fn sample<T: BatchSampler>(&self, sampler: &T, u: Vec2<&[f32]>, out: Samples<'_>) {
@@ -265,6 +325,31 @@ impl Batch {
             invert(warp, n, &points.map(<[f32]>::as_ptr), Vec2::new(x.as_mut_ptr(), y.as_mut_ptr()));
         }
     }
+    /// The point of a warp at one `u` in [0, 1)²; coordinates that a point does not have are 0.
+    #[inline]
+    #[must_use]
+    pub fn warp_one<W: BatchWarp>(&self, warp: &W, u: Vec2<f32>) -> [f32; 3] {
+        let mut out = [0.0; 3];
+        // SAFETY: the function reads one or two numbers, and writes at most three
+        unsafe { (self.one_warp::<W>().sample)(warp, row(&u), out.as_mut_ptr()) };
+        out
+    }
+    /// The pdf of a warp at one point.
+    #[inline]
+    #[must_use]
+    pub fn warp_pdf_one<W: BatchWarp>(&self, warp: &W, point: &[f32; 3]) -> f32 {
+        // SAFETY: the function reads at most three numbers
+        unsafe { (self.one_warp::<W>().pdf)(warp, point.as_ptr()) }
+    }
+    /// The numbers that a warp maps to one point; 0 where it has one number only.
+    #[inline]
+    #[must_use]
+    pub fn warp_invert_one<W: BatchWarp>(&self, warp: &W, point: &[f32; 3]) -> Vec2<f32> {
+        let mut out = Vec2::default();
+        // SAFETY: the function reads at most three numbers, and writes one or two
+        unsafe { (self.one_warp::<W>().invert)(warp, point.as_ptr(), (&raw mut out).cast()) };
+        out
+    }
     /// The results of a map of columns of numbers: as many columns as it has numbers and results, and 1 where they hold, else 0.
     pub fn map<M: BatchMap>(&self, map: &M, numbers: &[&[f32]], out: &mut [&mut [f32]], holds: &mut [u8]) {
         assert!(numbers.len() == M::NUMBERS && out.len() <= M::RESULTS, "so many columns do not belong to the map");
@@ -319,6 +404,24 @@ impl Batch {
     pub fn technique<T: BatchTechnique>(&self) -> LightFunctions<T> {
         T::light_functions(self.table)
     }
+    /// The functions of a prepared light for one element, by raw pointers.
+    #[inline]
+    #[must_use]
+    pub fn one<T: BatchSampler>(&self) -> OneFunctions<T> {
+        T::sampler_functions(self.one).one
+    }
+    /// The functions of a technique for one element, by raw pointers.
+    #[inline]
+    #[must_use]
+    pub fn once<T: BatchTechnique>(&self) -> OnceFunctions<T> {
+        T::light_functions(self.one).once
+    }
+    /// The functions of a warp for one element, by raw pointers.
+    #[inline]
+    #[must_use]
+    pub fn one_warp<W: BatchWarp>(&self) -> OneWarpFunctions<W> {
+        W::warp_functions(self.one).one
+    }
     /// The functions of a warp, by raw pointers.
     #[inline]
     #[must_use]
@@ -343,6 +446,11 @@ impl Batch {
     pub const fn tree(&self) -> &'static TreeFunctions {
         &self.table.tree
     }
+}
+
+/// The numbers of a vector, which are in a row.
+const fn row<V>(vector: &V) -> *const f32 {
+    core::ptr::from_ref(vector).cast()
 }
 
 /// Lights, points and normals by pointers.

@@ -46,7 +46,6 @@ macro_rules! placed {
         }
         impl<'a> BatchSampler for $name<'a> {
             type Of<$r: Real> = $of;
-            const PREPARES: bool = true;
             #[inline(always)]
             fn splat<R: Real<Scalar = f32>>(&self) -> Self::Of<R> {
                 let light = Self::map(self.light, |x| R::splat(x));

@@ -2,6 +2,7 @@
 
 use crate::kernel::{Packet, Views};
 use crate::map::{BatchMap, MOST_NUMBERS, MOST_RESULTS, MapTable};
+use crate::one::{OnceFunctions, OneFunctions, OneWarpFunctions};
 use crate::placed::PlacedTable;
 use crate::technique::{BatchSampler, BatchTechnique};
 use crate::warp::BatchWarp;
@@ -27,6 +28,8 @@ pub struct SamplerFunctions<T: BatchSampler> {
     pub invert: unsafe extern "C" fn(&T, usize, Vec3<Column>, Vec2<*mut f32>),
     /// See [`Batch::hit`](crate::Batch::hit).
     pub hit: unsafe extern "C" fn(&T, usize, Vec3<Column>, &SampleColumns),
+    /// Those of one element.
+    pub one: OneFunctions<T>,
 }
 impl<T: BatchSampler> SamplerFunctions<T> {
     const fn of<R: Packet>() -> Self {
@@ -35,6 +38,7 @@ impl<T: BatchSampler> SamplerFunctions<T> {
             pdf: kernel::pdf::<T, R>,
             invert: kernel::invert::<T, R>,
             hit: kernel::hit::<T, R>,
+            one: OneFunctions::of_this_build(),
         }
     }
 }
@@ -43,8 +47,8 @@ impl<T: BatchSampler> SamplerFunctions<T> {
 #[derive(Clone, Copy)]
 #[repr(C)]
 pub struct LightFunctions<T: BatchTechnique> {
-    /// Prepares a light for a point of a surface with a normal.
-    pub prepare: unsafe extern "C" fn(&T::Light<f32>, Vec3<f32>, Vec3<f32>, *mut T),
+    /// Those of one element.
+    pub once: OnceFunctions<T>,
     /// See [`Batch::sample_each`](crate::Batch::sample_each).
     pub sample_each: unsafe extern "C" fn(&Views<T>, usize, Vec2<Column>, &SampleColumns),
     /// See [`Batch::evaluate_each`](crate::Batch::evaluate_each).
@@ -55,8 +59,7 @@ pub struct LightFunctions<T: BatchTechnique> {
 impl<T: BatchTechnique> LightFunctions<T> {
     pub(crate) const fn of<R: Packet>() -> Self {
         Self {
-            // the other levels prepare faster or as fast, with the instructions of x86-64-v3
-            prepare: if cfg!(feature = "level-v4") { kernel::no_prepare::<T> } else { kernel::prepare::<T> },
+            once: OnceFunctions::of_this_build(),
             sample_each: kernel::sample_each::<T, R>,
             evaluate_each: kernel::evaluate_each::<T, R>,
             sampler: SamplerFunctions::of::<R>(),
@@ -74,10 +77,17 @@ pub struct WarpFunctions<W: BatchWarp> {
     pub pdf: unsafe extern "C" fn(&W, usize, &[Column; 3], *mut f32),
     /// See [`Batch::warp_invert`](crate::Batch::warp_invert).
     pub invert: unsafe extern "C" fn(&W, usize, &[Column; 3], Vec2<*mut f32>),
+    /// Those of one element.
+    pub one: OneWarpFunctions<W>,
 }
 impl<W: BatchWarp> WarpFunctions<W> {
     const fn of<R: Packet>() -> Self {
-        Self { sample: kernel::warp_sample::<W, R>, pdf: kernel::warp_pdf::<W, R>, invert: kernel::warp_invert::<W, R> }
+        Self {
+            sample: kernel::warp_sample::<W, R>,
+            pdf: kernel::warp_pdf::<W, R>,
+            invert: kernel::warp_invert::<W, R>,
+            one: OneWarpFunctions::of_this_build(),
+        }
     }
 }
 

@@ -9,8 +9,6 @@ use etendue::{LightSampler, Real, Vec3};
 pub trait BatchSampler: Copy {
     /// The prepared light over packets.
     type Of<R: Real>: LightSampler<R>;
-    /// True if every call prepares the light anew: then one element alone is not worth a packet.
-    const PREPARES: bool = false;
     /// The prepared light in every lane of a packet.
     fn splat<R: Real<Scalar = f32>>(&self) -> Self::Of<R>;
     /// The functions of the prepared light.

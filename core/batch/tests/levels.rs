@@ -65,6 +65,12 @@ fn figures(s: &LightSample<f32>) -> [u32; 12] {
     let [w, n] = [s.direction, s.normal];
     [w.x, w.y, w.z, s.distance, s.pdf, s.weight(), n.x, n.y, n.z, s.uv.x, s.uv.y, truth].map(bits)
 }
+/// The same of a sample of one element.
+fn of_one(s: &OneSample) -> [u32; 12] {
+    let [w, n] = [s.direction, s.normal];
+    let truth = f32::from(s.emits);
+    [w.x, w.y, w.z, s.distance, s.pdf, s.weight, n.x, n.y, n.z, s.uv.x, s.uv.y, truth].map(bits)
+}
 fn bits(x: f32) -> u32 {
     if x.is_nan() { f32::NAN.to_bits() } else { x.to_bits() }
 }
@@ -115,6 +121,7 @@ fn assert_sampler<'a, T: BatchSampler>(
     let drawn: Vec<_> = (0..n).map(|i| alone.sample(one(i))).collect();
     for (i, s) in drawn.iter().enumerate() {
         assert_eq!(written.figures(i), figures(s), "sample: {}", say(i));
+        assert_eq!(of_one(&batch.sample_one(sampler, one(i))), figures(s), "sample one: {}", say(i));
     }
 
     // half of the directions hit, half are any numbers
@@ -140,6 +147,10 @@ fn assert_sampler<'a, T: BatchSampler>(
         let u = alone.invert(at(w, i));
         assert_eq!([inverse[0][i], inverse[1][i]].map(bits), [u.x, u.y].map(bits), "inverse: {}", say(i));
         assert_eq!(written.figures(i), figures(&alone.hit(at(w, i))), "hit: {}", say(i));
+        assert_eq!(bits(batch.pdf_one(sampler, at(w, i))), bits(pdf[i]), "pdf of one: {}", say(i));
+        let u = batch.invert_one(sampler, at(w, i));
+        assert_eq!([u.x, u.y].map(bits), [inverse[0][i], inverse[1][i]].map(bits), "inverse of one: {}", say(i));
+        assert_eq!(of_one(&batch.hit_one(sampler, at(w, i))), written.figures(i), "hit of one: {}", say(i));
     }
     (u, directions)
 }
@@ -247,7 +258,11 @@ impl Visitor for Equal {
                 for i in 0..n {
                     let light = T::map(lights, |column| column[i]);
                     let sampler = T::prepare::<f32>(light, at(input.three(30, n), i), at(input.three(33, n), i));
-                    assert_eq!(written.figures(i), figures(&sampler.sample(one(i))), "sample each: {}", say(i));
+                    let expected = figures(&sampler.sample(one(i)));
+                    assert_eq!(written.figures(i), expected, "sample each: {}", say(i));
+                    let (p, normal) = (at(input.three(30, n), i), at(input.three(33, n), i));
+                    let once = batch.sample_once::<T>(&light, p, normal, one(i));
+                    assert_eq!(of_one(&once), expected, "sample once: {}", say(i));
                 }
                 let (mut pdf, mut x, mut y) = (vec![-7.0; n], vec![-7.0; n], vec![-7.0; n]);
                 let mut written = Written::new(n);
@@ -261,6 +276,9 @@ impl Visitor for Equal {
                     let sampler = T::prepare::<f32>(light, at(input.three(30, n), i), at(input.three(33, n), i));
                     let (expected, u) = (sampler.pdf(at(w, i)), sampler.invert(at(w, i)));
                     assert_eq!([pdf[i], only[i]].map(bits), [expected; 2].map(bits), "pdf each: {}", say(i));
+                    let (p, normal) = (at(input.three(30, n), i), at(input.three(33, n), i));
+                    let once = batch.pdf_once::<T>(&light, p, normal, at(w, i));
+                    assert_eq!(bits(once), bits(expected), "pdf once: {}", say(i));
                     assert_eq!([x[i], y[i]].map(bits), [u.x, u.y].map(bits), "invert each: {}", say(i));
                     assert_eq!(written.figures(i), figures(&sampler.hit(at(w, i))), "hit each: {}", say(i));
                 }
@@ -278,6 +296,8 @@ impl Visitor for Equal {
                 batch.warp(&warp, u, points.each_mut().map(|column| &mut column[..]));
                 for i in 0..n {
                     let expected = W::sample(&alone, Vec2::new(u[0][i], u[1][i]));
+                    let one = batch.warp_one(&warp, Vec2::new(u[0][i], u[1][i]));
+                    assert_eq!(one.map(bits), expected.map(bits), "{name}, {batch:?}, one element");
                     for k in 0..W::COORDINATES {
                         assert_eq!(bits(points[k][i]), bits(expected[k]), "{name}, {batch:?}, element {i} of {n}");
                     }
@@ -294,6 +314,9 @@ impl Visitor for Equal {
                     let expected = [u.x, if W::NUMBERS == 2 { u.y } else { 0.0 }];
                     let found = [inverse[0][i], inverse[1][i]];
                     assert_eq!(found.map(bits), expected.map(bits), "{name}, {batch:?}, element {i} of {n}");
+                    assert_eq!(bits(batch.warp_pdf_one(&warp, &point)), bits(pdf[i]), "{name}, {batch:?}, one element");
+                    let one = batch.warp_invert_one(&warp, &point);
+                    assert_eq!([one.x, one.y].map(bits), [u.x, u.y].map(bits), "{name}, {batch:?}, one element");
                 }
                 self.compared += n;
             }

@@ -1035,6 +1035,12 @@ EtendueStatus etendue_sphere_by_area_sample_once(const EtendueSphere *light,
                                                  const float *u,
                                                  EtendueLightSample *out);
 
+// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
+// and if a pointer is NULL. What the pdf does not need is not prepared.
+float etendue_sphere_by_area_pdf_once(const EtendueSphere *light,
+                                      const float *p,
+                                      const float *w);
+
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_sphere_by_area_sample_each(const EtendueSphereColumns *lights,
                                                  size_t n,
@@ -1113,6 +1119,12 @@ EtendueStatus etendue_sphere_by_solid_angle_sample_once(const EtendueSphere *lig
                                                         const float *p,
                                                         const float *u,
                                                         EtendueLightSample *out);
+
+// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
+// and if a pointer is NULL. What the pdf does not need is not prepared.
+float etendue_sphere_by_solid_angle_pdf_once(const EtendueSphere *light,
+                                             const float *p,
+                                             const float *w);
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_sphere_by_solid_angle_sample_each(const EtendueSphereColumns *lights,
@@ -1197,6 +1209,13 @@ EtendueStatus etendue_sphere_by_projected_solid_angle_sample_once(const EtendueS
                                                                   const float *u,
                                                                   EtendueLightSample *out);
 
+// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
+// and if a pointer is NULL. What the pdf does not need is not prepared.
+float etendue_sphere_by_projected_solid_angle_pdf_once(const EtendueSphere *light,
+                                                       const float *p,
+                                                       const float *n,
+                                                       const float *w);
+
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_sphere_by_projected_solid_angle_sample_each(const EtendueSphereColumns *lights,
                                                                   size_t n,
@@ -1280,6 +1299,12 @@ EtendueStatus etendue_triangle_by_area_sample_once(const EtendueTriangle *light,
                                                    const float *u,
                                                    EtendueLightSample *out);
 
+// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
+// and if a pointer is NULL. What the pdf does not need is not prepared.
+float etendue_triangle_by_area_pdf_once(const EtendueTriangle *light,
+                                        const float *p,
+                                        const float *w);
+
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_triangle_by_area_sample_each(const EtendueTriangleColumns *lights,
                                                    size_t n,
@@ -1360,6 +1385,12 @@ EtendueStatus etendue_triangle_by_solid_angle_sample_once(const EtendueTriangle 
                                                           const float *p,
                                                           const float *u,
                                                           EtendueLightSample *out);
+
+// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
+// and if a pointer is NULL. What the pdf does not need is not prepared.
+float etendue_triangle_by_solid_angle_pdf_once(const EtendueTriangle *light,
+                                               const float *p,
+                                               const float *w);
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_triangle_by_solid_angle_sample_each(const EtendueTriangleColumns *lights,
@@ -1444,6 +1475,13 @@ EtendueStatus etendue_triangle_by_projected_solid_angle_sample_once(const Etendu
                                                                     const float *n,
                                                                     const float *u,
                                                                     EtendueLightSample *out);
+
+// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
+// and if a pointer is NULL. What the pdf does not need is not prepared.
+float etendue_triangle_by_projected_solid_angle_pdf_once(const EtendueTriangle *light,
+                                                         const float *p,
+                                                         const float *n,
+                                                         const float *w);
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_triangle_by_projected_solid_angle_sample_each(const EtendueTriangleColumns *lights,
@@ -1532,6 +1570,13 @@ EtendueStatus etendue_triangle_by_cosine_warp_sample_once(const EtendueTriangle 
                                                           const float *u,
                                                           EtendueLightSample *out);
 
+// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
+// and if a pointer is NULL. What the pdf does not need is not prepared.
+float etendue_triangle_by_cosine_warp_pdf_once(const EtendueTriangle *light,
+                                               const float *p,
+                                               const float *n,
+                                               const float *w);
+
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_triangle_by_cosine_warp_sample_each(const EtendueTriangleColumns *lights,
                                                           size_t n,
@@ -1619,6 +1664,13 @@ EtendueStatus etendue_triangle_by_reflection_sample_once(const EtendueTriangle *
                                                          const float *u,
                                                          EtendueLightSample *out);
 
+// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
+// and if a pointer is NULL. What the pdf does not need is not prepared.
+float etendue_triangle_by_reflection_pdf_once(const EtendueTriangle *light,
+                                              const float *p,
+                                              const EtendueReflection *reflection,
+                                              const float *w);
+
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_triangle_by_reflection_sample_each(const EtendueTriangleColumns *lights,
                                                          size_t n,
@@ -1702,6 +1754,12 @@ EtendueStatus etendue_parallelogram_by_area_sample_once(const EtendueParallelogr
                                                         const float *u,
                                                         EtendueLightSample *out);
 
+// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
+// and if a pointer is NULL. What the pdf does not need is not prepared.
+float etendue_parallelogram_by_area_pdf_once(const EtendueParallelogram *light,
+                                             const float *p,
+                                             const float *w);
+
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_parallelogram_by_area_sample_each(const EtendueParallelogramColumns *lights,
                                                         size_t n,
@@ -1782,6 +1840,12 @@ EtendueStatus etendue_parallelogram_by_solid_angle_sample_once(const EtenduePara
                                                                const float *p,
                                                                const float *u,
                                                                EtendueLightSample *out);
+
+// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
+// and if a pointer is NULL. What the pdf does not need is not prepared.
+float etendue_parallelogram_by_solid_angle_pdf_once(const EtendueParallelogram *light,
+                                                    const float *p,
+                                                    const float *w);
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_parallelogram_by_solid_angle_sample_each(const EtendueParallelogramColumns *lights,
@@ -1866,6 +1930,13 @@ EtendueStatus etendue_parallelogram_by_projected_solid_angle_sample_once(const E
                                                                          const float *n,
                                                                          const float *u,
                                                                          EtendueLightSample *out);
+
+// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
+// and if a pointer is NULL. What the pdf does not need is not prepared.
+float etendue_parallelogram_by_projected_solid_angle_pdf_once(const EtendueParallelogram *light,
+                                                              const float *p,
+                                                              const float *n,
+                                                              const float *w);
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_parallelogram_by_projected_solid_angle_sample_each(const EtendueParallelogramColumns *lights,
@@ -1954,6 +2025,13 @@ EtendueStatus etendue_parallelogram_by_reflection_sample_once(const EtendueParal
                                                               const float *u,
                                                               EtendueLightSample *out);
 
+// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
+// and if a pointer is NULL. What the pdf does not need is not prepared.
+float etendue_parallelogram_by_reflection_pdf_once(const EtendueParallelogram *light,
+                                                   const float *p,
+                                                   const EtendueReflection *reflection,
+                                                   const float *w);
+
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_parallelogram_by_reflection_sample_each(const EtendueParallelogramColumns *lights,
                                                               size_t n,
@@ -2039,6 +2117,12 @@ EtendueStatus etendue_rectangle_by_solid_angle_sample_once(const EtendueRectangl
                                                            const float *u,
                                                            EtendueLightSample *out);
 
+// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
+// and if a pointer is NULL. What the pdf does not need is not prepared.
+float etendue_rectangle_by_solid_angle_pdf_once(const EtendueRectangle *light,
+                                                const float *p,
+                                                const float *w);
+
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_rectangle_by_solid_angle_sample_each(const EtendueRectangleColumns *lights,
                                                            size_t n,
@@ -2122,6 +2206,13 @@ EtendueStatus etendue_rectangle_by_cosine_warp_sample_once(const EtendueRectangl
                                                            const float *u,
                                                            EtendueLightSample *out);
 
+// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
+// and if a pointer is NULL. What the pdf does not need is not prepared.
+float etendue_rectangle_by_cosine_warp_pdf_once(const EtendueRectangle *light,
+                                                const float *p,
+                                                const float *n,
+                                                const float *w);
+
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_rectangle_by_cosine_warp_sample_each(const EtendueRectangleColumns *lights,
                                                            size_t n,
@@ -2200,6 +2291,12 @@ EtendueStatus etendue_disk_by_area_sample_once(const EtendueDisk *light,
                                                const float *p,
                                                const float *u,
                                                EtendueLightSample *out);
+
+// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
+// and if a pointer is NULL. What the pdf does not need is not prepared.
+float etendue_disk_by_area_pdf_once(const EtendueDisk *light,
+                                    const float *p,
+                                    const float *w);
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_disk_by_area_sample_each(const EtendueDiskColumns *lights,
@@ -2280,6 +2377,12 @@ EtendueStatus etendue_disk_by_solid_angle_sample_once(const EtendueDisk *light,
                                                       const float *u,
                                                       EtendueLightSample *out);
 
+// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
+// and if a pointer is NULL. What the pdf does not need is not prepared.
+float etendue_disk_by_solid_angle_pdf_once(const EtendueDisk *light,
+                                           const float *p,
+                                           const float *w);
+
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_disk_by_solid_angle_sample_each(const EtendueDiskColumns *lights,
                                                       size_t n,
@@ -2359,6 +2462,12 @@ EtendueStatus etendue_cylinder_by_area_sample_once(const EtendueCylinder *light,
                                                    const float *u,
                                                    EtendueLightSample *out);
 
+// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
+// and if a pointer is NULL. What the pdf does not need is not prepared.
+float etendue_cylinder_by_area_pdf_once(const EtendueCylinder *light,
+                                        const float *p,
+                                        const float *w);
+
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_cylinder_by_area_sample_each(const EtendueCylinderColumns *lights,
                                                    size_t n,
@@ -2435,6 +2544,12 @@ EtendueStatus etendue_polygon_by_area_sample_once(const EtenduePolygon *light,
                                                   const float *p,
                                                   const float *u,
                                                   EtendueLightSample *out);
+
+// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
+// and if a pointer is NULL. What the pdf does not need is not prepared.
+float etendue_polygon_by_area_pdf_once(const EtenduePolygon *light,
+                                       const float *p,
+                                       const float *w);
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_polygon_by_area_sample_each(const EtenduePolygonColumns *lights,
@@ -2516,6 +2631,12 @@ EtendueStatus etendue_polygon_by_solid_angle_sample_once(const EtenduePolygon *l
                                                          const float *p,
                                                          const float *u,
                                                          EtendueLightSample *out);
+
+// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
+// and if a pointer is NULL. What the pdf does not need is not prepared.
+float etendue_polygon_by_solid_angle_pdf_once(const EtenduePolygon *light,
+                                              const float *p,
+                                              const float *w);
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_polygon_by_solid_angle_sample_each(const EtenduePolygonColumns *lights,
@@ -2599,6 +2720,13 @@ EtendueStatus etendue_polygon_by_projected_solid_angle_sample_once(const Etendue
                                                                    const float *n,
                                                                    const float *u,
                                                                    EtendueLightSample *out);
+
+// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
+// and if a pointer is NULL. What the pdf does not need is not prepared.
+float etendue_polygon_by_projected_solid_angle_pdf_once(const EtenduePolygon *light,
+                                                        const float *p,
+                                                        const float *n,
+                                                        const float *w);
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_polygon_by_projected_solid_angle_sample_each(const EtenduePolygonColumns *lights,
@@ -2685,6 +2813,13 @@ EtendueStatus etendue_polygon_by_reflection_sample_once(const EtenduePolygon *li
                                                         const float *u,
                                                         EtendueLightSample *out);
 
+// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
+// and if a pointer is NULL. What the pdf does not need is not prepared.
+float etendue_polygon_by_reflection_pdf_once(const EtenduePolygon *light,
+                                             const float *p,
+                                             const EtendueReflection *reflection,
+                                             const float *w);
+
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_polygon_by_reflection_sample_each(const EtenduePolygonColumns *lights,
                                                         size_t n,
@@ -2764,6 +2899,12 @@ EtendueStatus etendue_patch_by_area_sample_once(const EtendueBilinearPatch *ligh
                                                 const float *u,
                                                 EtendueLightSample *out);
 
+// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
+// and if a pointer is NULL. What the pdf does not need is not prepared.
+float etendue_patch_by_area_pdf_once(const EtendueBilinearPatch *light,
+                                     const float *p,
+                                     const float *w);
+
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_patch_by_area_sample_each(const EtendueBilinearPatchColumns *lights,
                                                 size_t n,
@@ -2841,6 +2982,12 @@ EtendueStatus etendue_line_by_length_sample_once(const EtendueLine *light,
                                                  const float *u,
                                                  EtendueLightSample *out);
 
+// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
+// and if a pointer is NULL. What the pdf does not need is not prepared.
+float etendue_line_by_length_pdf_once(const EtendueLine *light,
+                                      const float *p,
+                                      const float *w);
+
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_line_by_length_sample_each(const EtendueLineColumns *lights,
                                                  size_t n,
@@ -2915,6 +3062,12 @@ EtendueStatus etendue_line_by_angle_sample_once(const EtendueLine *light,
                                                 const float *p,
                                                 const float *u,
                                                 EtendueLightSample *out);
+
+// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
+// and if a pointer is NULL. What the pdf does not need is not prepared.
+float etendue_line_by_angle_pdf_once(const EtendueLine *light,
+                                     const float *p,
+                                     const float *w);
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_line_by_angle_sample_each(const EtendueLineColumns *lights,
@@ -2999,6 +3152,13 @@ EtendueStatus etendue_line_by_projected_solid_angle_sample_once(const EtendueLin
                                                                 const float *u,
                                                                 EtendueLightSample *out);
 
+// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
+// and if a pointer is NULL. What the pdf does not need is not prepared.
+float etendue_line_by_projected_solid_angle_pdf_once(const EtendueLine *light,
+                                                     const float *p,
+                                                     const float *n,
+                                                     const float *w);
+
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_line_by_projected_solid_angle_sample_each(const EtendueLineColumns *lights,
                                                                 size_t n,
@@ -3080,6 +3240,12 @@ EtendueStatus etendue_annulus_by_area_sample_once(const EtendueAnnulus *light,
                                                   const float *u,
                                                   EtendueLightSample *out);
 
+// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
+// and if a pointer is NULL. What the pdf does not need is not prepared.
+float etendue_annulus_by_area_pdf_once(const EtendueAnnulus *light,
+                                       const float *p,
+                                       const float *w);
+
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_annulus_by_area_sample_each(const EtendueAnnulusColumns *lights,
                                                   size_t n,
@@ -3156,6 +3322,12 @@ EtendueStatus etendue_sun_by_solid_angle_sample_once(const EtendueSun *light,
                                                      const float *p,
                                                      const float *u,
                                                      EtendueLightSample *out);
+
+// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
+// and if a pointer is NULL. What the pdf does not need is not prepared.
+float etendue_sun_by_solid_angle_pdf_once(const EtendueSun *light,
+                                          const float *p,
+                                          const float *w);
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_sun_by_solid_angle_sample_each(const EtendueSunColumns *lights,
@@ -3236,6 +3408,12 @@ EtendueStatus etendue_point_light_by_delta_sample_once(const EtenduePointLight *
                                                        const float *u,
                                                        EtendueLightSample *out);
 
+// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
+// and if a pointer is NULL. What the pdf does not need is not prepared.
+float etendue_point_light_by_delta_pdf_once(const EtenduePointLight *light,
+                                            const float *p,
+                                            const float *w);
+
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_point_light_by_delta_sample_each(const EtenduePointLightColumns *lights,
                                                        size_t n,
@@ -3314,6 +3492,12 @@ EtendueStatus etendue_spot_light_by_delta_sample_once(const EtendueSpotLight *li
                                                       const float *p,
                                                       const float *u,
                                                       EtendueLightSample *out);
+
+// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
+// and if a pointer is NULL. What the pdf does not need is not prepared.
+float etendue_spot_light_by_delta_pdf_once(const EtendueSpotLight *light,
+                                           const float *p,
+                                           const float *w);
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_spot_light_by_delta_sample_each(const EtendueSpotLightColumns *lights,
@@ -3395,6 +3579,12 @@ EtendueStatus etendue_directional_light_by_delta_sample_once(const EtendueDirect
                                                              const float *p,
                                                              const float *u,
                                                              EtendueLightSample *out);
+
+// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
+// and if a pointer is NULL. What the pdf does not need is not prepared.
+float etendue_directional_light_by_delta_pdf_once(const EtendueDirectionalLight *light,
+                                                  const float *p,
+                                                  const float *w);
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_directional_light_by_delta_sample_each(const EtendueDirectionalLightColumns *lights,
@@ -3719,6 +3909,12 @@ EtendueStatus etendue_picture_by_area_sample_once(const EtenduePicturedParallelo
                                                   const float *u,
                                                   EtendueLightSample *out);
 
+// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
+// and if a pointer is NULL. What the pdf does not need is not prepared.
+float etendue_picture_by_area_pdf_once(const EtenduePicturedParallelogram *light,
+                                       const float *p,
+                                       const float *w);
+
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_picture_by_area_sample_each(const EtenduePicturedParallelogramColumns *lights,
                                                   size_t n,
@@ -3799,6 +3995,12 @@ EtendueStatus etendue_picture_by_solid_angle_sample_once(const EtenduePicturedPa
                                                          const float *p,
                                                          const float *u,
                                                          EtendueLightSample *out);
+
+// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
+// and if a pointer is NULL. What the pdf does not need is not prepared.
+float etendue_picture_by_solid_angle_pdf_once(const EtenduePicturedParallelogram *light,
+                                              const float *p,
+                                              const float *w);
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_picture_by_solid_angle_sample_each(const EtenduePicturedParallelogramColumns *lights,
@@ -3882,6 +4084,13 @@ EtendueStatus etendue_picture_by_projected_solid_angle_sample_once(const Etendue
                                                                    const float *n,
                                                                    const float *u,
                                                                    EtendueLightSample *out);
+
+// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
+// and if a pointer is NULL. What the pdf does not need is not prepared.
+float etendue_picture_by_projected_solid_angle_pdf_once(const EtenduePicturedParallelogram *light,
+                                                        const float *p,
+                                                        const float *n,
+                                                        const float *w);
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_picture_by_projected_solid_angle_sample_each(const EtenduePicturedParallelogramColumns *lights,
@@ -3968,6 +4177,12 @@ EtendueStatus etendue_picture_on_sphere_by_visible_area_sample_once(const Etendu
                                                                     const float *u,
                                                                     EtendueLightSample *out);
 
+// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
+// and if a pointer is NULL. What the pdf does not need is not prepared.
+float etendue_picture_on_sphere_by_visible_area_pdf_once(const EtenduePicturedSphere *light,
+                                                         const float *p,
+                                                         const float *w);
+
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_picture_on_sphere_by_visible_area_sample_each(const EtenduePicturedSphereColumns *lights,
                                                                     size_t n,
@@ -4048,6 +4263,12 @@ EtendueStatus etendue_picture_on_patch_by_visible_area_sample_once(const Etendue
                                                                    const float *p,
                                                                    const float *u,
                                                                    EtendueLightSample *out);
+
+// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
+// and if a pointer is NULL. What the pdf does not need is not prepared.
+float etendue_picture_on_patch_by_visible_area_pdf_once(const EtenduePicturedPatch *light,
+                                                        const float *p,
+                                                        const float *w);
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_picture_on_patch_by_visible_area_sample_each(const EtenduePicturedPatchColumns *lights,
@@ -4168,6 +4389,12 @@ EtendueStatus etendue_portals_by_radiance_sample_once(const EtenduePortalEnviron
                                                       const float *p,
                                                       const float *u,
                                                       EtendueLightSample *out);
+
+// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
+// and if a pointer is NULL. What the pdf does not need is not prepared.
+float etendue_portals_by_radiance_pdf_once(const EtenduePortalEnvironment *light,
+                                           const float *p,
+                                           const float *w);
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_portals_by_radiance_sample_each(const EtenduePortalEnvironment *lights,

@@ -1,7 +1,7 @@
 //! Light from all around as an image tells it.
 
-use crate::sampler::{EtendueLightSample, EtendueSampleColumns, Sampler, sampler_functions, vec2, vec3, with};
-use crate::{EtendueStatus, columns, each, each_mut, outputs, refuse_null};
+use crate::sampler::*;
+use crate::{EtendueStatus, columns, outputs, refuse_null};
 use core::slice::{from_raw_parts, from_raw_parts_mut};
 use etendue::light::{ByRadiance, EnvironmentMap, ImageEnvironment};
 use etendue_batch::Batch;

@@ -2,7 +2,7 @@
 
 use crate::reflected::{EtendueReflection, EtendueReflectionColumns};
 use crate::sampler::*;
-use crate::{EtendueStatus, columns, each, each_mut, outputs, refuse_null};
+use crate::{EtendueStatus, columns, outputs, refuse_null};
 use core::mem::{align_of, size_of};
 use etendue::{Vec3, light};
 use etendue_batch::{Batch, BatchTechnique};
@@ -50,6 +50,15 @@ macro_rules! technique {
             unsafe fn prepare(light: *const $of_one, p: Vec3<f32>, n: Vec3<f32>, out: *mut Self) -> EtendueStatus {
                 // SAFETY: the caller's; the structs of the light have the same fields
                 unsafe { out.cast::<$type>().write(Batch::new().prepare::<$type>(&*light.cast(), p, n)) };
+                EtendueStatus::Ok
+            }
+            #[inline(always)]
+            unsafe fn with_light(
+                light: *const $of_one,
+                f: impl FnOnce(&<$type as BatchTechnique>::Light<f32>),
+            ) -> EtendueStatus {
+                // SAFETY: the caller's; the structs of the light have the same fields
+                f(unsafe { &*light.cast() });
                 EtendueStatus::Ok
             }
             #[inline(always)]

@@ -5,7 +5,7 @@ use crate::light::{
     EtendueRectangle, EtendueSphere, EtendueSphereColumns, EtendueTriangle,
 };
 use crate::sampler::*;
-use crate::{EtendueStatus, columns, each, each_mut, outputs, refuse_null};
+use crate::{EtendueStatus, columns, outputs, refuse_null};
 use core::slice::{from_raw_parts, from_raw_parts_mut};
 use etendue::light::{self, FlatLight, Picture, Pictured, Region};
 use etendue::{Vec3, light::mean_of_bilinear};
@@ -330,6 +330,14 @@ macro_rules! techniques {
                     }
                     status
                 }
+            }
+            #[inline(always)]
+            unsafe fn with_light(
+                light: *const $light,
+                f: impl FnOnce(&<$core<'static> as BatchTechnique>::Light<f32>),
+            ) -> EtendueStatus {
+                // SAFETY: the caller's
+                unsafe { light.read().with(|light| f(&light)) }
             }
             #[inline(always)]
             unsafe fn with_lights(

@@ -264,6 +264,14 @@ impl Technique for EtenduePortalsByRadiance {
         }
     }
     #[inline(always)]
+    unsafe fn with_light(
+        environment: *const EtenduePortalEnvironment,
+        f: impl FnOnce(&PortalEnvironment<'static>),
+    ) -> EtendueStatus {
+        // SAFETY: the caller's
+        unsafe { environment.read().with(|environment| f(&environment)) }
+    }
+    #[inline(always)]
     unsafe fn with_lights(
         environment: *const EtenduePortalEnvironment,
         f: impl FnOnce(PortalEnvironment<'static>),

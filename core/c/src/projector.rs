@@ -227,10 +227,7 @@ pub unsafe extern "C" fn etendue_projected_image_sample(
 ) -> EtendueStatus {
     refuse_null!(u, w);
     // SAFETY: the pointers are not null, and point to what the header says
-    unsafe {
-        let (u, w) = (vec2(each(u)), each_mut(w));
-        EtendueProjectedImage::with(image, |image| (Batch::new().warp_functions().sample)(image, 1, u, &w))
-    }
+    unsafe { EtendueProjectedImage::with(image, |image| (Batch::new().one_warp().sample)(image, u, w)) }
 }
 
 /// The pdf of a unit direction `w`, per steradian; 0 outside the image, and if a pointer is NULL.
@@ -239,10 +236,7 @@ pub unsafe extern "C" fn etendue_projected_image_pdf(image: *const EtendueProjec
     let mut pdf = 0.0;
     if !w.is_null() {
         // SAFETY: the pointers are not null, and point to what the header says
-        unsafe {
-            let w = each(w);
-            EtendueProjectedImage::with(image, |image| (Batch::new().warp_functions().pdf)(image, 1, &w, &mut pdf))
-        };
+        unsafe { EtendueProjectedImage::with(image, |image| pdf = (Batch::new().one_warp().pdf)(image, w)) };
     }
     pdf
 }
@@ -256,10 +250,7 @@ pub unsafe extern "C" fn etendue_projected_image_invert(
 ) -> EtendueStatus {
     refuse_null!(w, u);
     // SAFETY: the pointers are not null, and point to what the header says
-    unsafe {
-        let (w, u) = (each(w), vec2(each_mut(u)));
-        EtendueProjectedImage::with(image, |image| (Batch::new().warp_functions().invert)(image, 1, &w, u))
-    }
+    unsafe { EtendueProjectedImage::with(image, |image| (Batch::new().one_warp().invert)(image, w, u)) }
 }
 
 /// A direction for each u, in columns.

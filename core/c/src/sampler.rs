@@ -1,10 +1,10 @@
 //! Samples, and what is done with prepared lights.
 
-use crate::{EtendueStatus, columns, each_mut, outputs, refuse_null};
+use crate::{EtendueStatus, columns, outputs, refuse_null};
 use core::mem::size_of;
 use core::ptr::{null, null_mut};
 use etendue::{Vec2, Vec3};
-use etendue_batch::{Batch, BatchSampler, BatchTechnique, EvaluationColumns, SampleColumns, Views};
+use etendue_batch::{Batch, BatchSampler, BatchTechnique, EvaluationColumns, OneSample, SampleColumns, Views};
 
 /// One sample of a light as seen from a shading point, or the point of a light that a ray hits.
 ///
@@ -56,29 +56,29 @@ impl EtendueSampleColumns {
     }
 }
 
-impl EtendueLightSample {
-    /// The fields of one sample as columns of one element.
-    pub(crate) unsafe fn columns(this: *mut Self) -> SampleColumns {
-        // SAFETY: the caller's memory has room for a sample
-        unsafe {
-            SampleColumns {
-                direction: each_mut((&raw mut (*this).direction).cast()),
-                distance: &raw mut (*this).distance,
-                pdf: &raw mut (*this).pdf,
-                weight: &raw mut (*this).weight,
-                normal: each_mut((&raw mut (*this).normal).cast()),
-                uv: each_mut((&raw mut (*this).uv).cast()),
-                emits: &raw mut (*this).emits,
-            }
-        }
-    }
-}
+/// The fields of both samples are at the same places.
+const _: () = {
+    use core::mem::offset_of;
+    assert!(size_of::<EtendueLightSample>() == size_of::<OneSample>());
+    assert!(offset_of!(EtendueLightSample, direction) == offset_of!(OneSample, direction));
+    assert!(offset_of!(EtendueLightSample, distance) == offset_of!(OneSample, distance));
+    assert!(offset_of!(EtendueLightSample, pdf) == offset_of!(OneSample, pdf));
+    assert!(offset_of!(EtendueLightSample, weight) == offset_of!(OneSample, weight));
+    assert!(offset_of!(EtendueLightSample, normal) == offset_of!(OneSample, normal));
+    assert!(offset_of!(EtendueLightSample, uv) == offset_of!(OneSample, uv));
+    assert!(offset_of!(EtendueLightSample, emits) == offset_of!(OneSample, emits));
+};
 
 pub(crate) fn vec3<T>([x, y, z]: [T; 3]) -> Vec3<T> {
     Vec3::new(x, y, z)
 }
 pub(crate) fn vec2<T>([x, y]: [T; 2]) -> Vec2<T> {
     Vec2::new(x, y)
+}
+/// Three numbers in a row.
+pub(crate) unsafe fn triple(numbers: *const f32) -> Vec3<f32> {
+    // SAFETY: the caller's memory has them
+    vec3(unsafe { numbers.cast::<[f32; 3]>().read_unaligned() })
 }
 
 /// Whether none of the pointers of which a struct of columns consists is null.
@@ -121,6 +121,11 @@ pub(crate) trait Technique: Sampler<Core: BatchTechnique> {
     type Columns;
     /// Prepares a light for the point `p` of a surface with the unit normal `n`, unless the struct is not valid.
     unsafe fn prepare(light: *const Self::Light, p: Vec3<f32>, n: Vec3<f32>, out: *mut Self) -> EtendueStatus;
+    /// Calls `f` with the core's light, unless the struct is not valid.
+    unsafe fn with_light(
+        light: *const Self::Light,
+        f: impl FnOnce(&<Self::Core as BatchTechnique>::Light<f32>),
+    ) -> EtendueStatus;
     /// Calls `f` with columns of lights, unless one is missing or the struct is not valid.
     unsafe fn with_lights(
         lights: *const Self::Columns,
@@ -145,10 +150,7 @@ macro_rules! sampler_functions {
         ) -> EtendueStatus {
             refuse_null!(u, out);
             // SAFETY: the pointers are not null, and point to what the header says
-            unsafe {
-                let out = EtendueLightSample::columns(out);
-                with(sampler, |sampler| (Batch::new().sampler().sample)(sampler, 1, vec2(each(u)), &out))
-            }
+            unsafe { with(sampler, |sampler| (Batch::new().one().sample)(sampler, u, out.cast())) }
         }
         /// The pdf with which a unit direction `w` is drawn; 0 where it misses the light, and if a pointer is NULL.
         #[unsafe(export_name = concat!("etendue_", stringify!($module), "_pdf"))]
@@ -156,7 +158,7 @@ macro_rules! sampler_functions {
             let mut pdf = 0.0;
             if !w.is_null() {
                 // SAFETY: the pointers are not null, and point to what the header says
-                unsafe { with(sampler, |sampler| (Batch::new().sampler().pdf)(sampler, 1, vec3(each(w)), &mut pdf)) };
+                unsafe { with(sampler, |sampler| pdf = (Batch::new().one().pdf)(sampler, w)) };
             }
             pdf
         }
@@ -165,9 +167,7 @@ macro_rules! sampler_functions {
         pub unsafe extern "C" fn invert(sampler: *const $sampler, w: *const f32, u: *mut f32) -> EtendueStatus {
             refuse_null!(w, u);
             // SAFETY: the pointers are not null, and point to what the header says
-            unsafe {
-                with(sampler, |sampler| (Batch::new().sampler().invert)(sampler, 1, vec3(each(w)), vec2(each_mut(u))))
-            }
+            unsafe { with(sampler, |sampler| (Batch::new().one().invert)(sampler, w, u)) }
         }
         /// The nearest point of the light in a unit direction `w`, with the pdf of that direction; pdf 0 where it misses the light.
         #[unsafe(export_name = concat!("etendue_", stringify!($module), "_hit"))]
@@ -178,10 +178,7 @@ macro_rules! sampler_functions {
         ) -> EtendueStatus {
             refuse_null!(w, out);
             // SAFETY: the pointers are not null, and point to what the header says
-            unsafe {
-                let out = EtendueLightSample::columns(out);
-                with(sampler, |sampler| (Batch::new().sampler().hit)(sampler, 1, vec3(each(w)), &out))
-            }
+            unsafe { with(sampler, |sampler| (Batch::new().one().hit)(sampler, w, out.cast())) }
         }
         /// Draws a direction for each u: two columns.
         #[unsafe(export_name = concat!("etendue_", stringify!($module), "_sample_batch"))]
@@ -368,8 +365,8 @@ macro_rules! technique_functions {
             refuse_null!(light, p, $($one,)? out);
             // SAFETY: the pointers are not null, and point to what the header says
             unsafe {
-                let [at, normal] = [p, technique_functions!(@normal $kind p $(, $one)?)].map(|v| vec3(v.cast::<[f32; 3]>().read_unaligned()));
-                <$sampler as Technique>::prepare(technique_functions!(@lights $kind light $(, $one)?), at, normal, out)
+                let normal = triple(technique_functions!(@normal $kind p $(, $one)?));
+                <$sampler as Technique>::prepare(technique_functions!(@lights $kind light $(, $one)?), triple(p), normal, out)
             }
         }
         sampler_functions!($sampler, $module);
@@ -383,14 +380,36 @@ macro_rules! technique_functions {
             out: *mut EtendueLightSample,
         ) -> EtendueStatus {
             refuse_null!(light, p, $($one,)? u, out);
-            let mut sampler = core::mem::MaybeUninit::<$sampler>::uninit();
             // SAFETY: the pointers are not null, and point to what the header says
             unsafe {
-                match prepare(light, p, $($one,)? sampler.as_mut_ptr()) {
-                    EtendueStatus::Ok => sample(sampler.as_ptr(), u, out),
-                    status => status,
+                let light = technique_functions!(@lights $kind light $(, $one)?);
+                let normal = technique_functions!(@normal $kind p $(, $one)?);
+                <$sampler as Technique>::with_light(light, |light| {
+                    (Batch::new().once::<<$sampler as Sampler>::Core>().sample)(light, p, normal.cast(), u, out.cast());
+                })
+            }
+        }
+        /// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
+        /// and if a pointer is NULL. What the pdf does not need is not prepared.
+        #[unsafe(export_name = concat!("etendue_", stringify!($module), "_pdf_once"))]
+        pub unsafe extern "C" fn pdf_once(
+            light: *const $light,
+            p: *const f32,
+            $($one: $of_one,)?
+            w: *const f32,
+        ) -> f32 {
+            let mut pdf = 0.0;
+            if !light.is_null() && !p.is_null() $(&& !$one.is_null())? && !w.is_null() {
+                // SAFETY: the pointers are not null, and point to what the header says
+                unsafe {
+                    let light = technique_functions!(@lights $kind light $(, $one)?);
+                    let normal = technique_functions!(@normal $kind p $(, $one)?);
+                    <$sampler as Technique>::with_light(light, |light| {
+                        pdf = (Batch::new().once::<<$sampler as Sampler>::Core>().pdf)(light, p, normal.cast(), w);
+                    });
                 }
             }
+            pdf
         }
         /// Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
         #[unsafe(export_name = concat!("etendue_", stringify!($module), "_sample_each"))]

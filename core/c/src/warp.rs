@@ -1,7 +1,7 @@
 //! Warps.
 
 use crate::reflected::EtendueReflection;
-use crate::{EtendueStatus, columns, each, each_mut, outputs, refuse_null};
+use crate::{EtendueStatus, columns, outputs, refuse_null};
 use core::mem::size_of;
 use etendue::reflection::Reflection;
 use etendue::warp::{self, *};
@@ -15,7 +15,6 @@ fn three<T: Copy, const N: usize>(columns: [T; N]) -> [T; 3] {
 fn two<T: Copy, const N: usize>(columns: [T; N]) -> Vec2<T> {
     Vec2::new(columns[0], columns[N - 1])
 }
-
 /// The functions of one warp, in a module of their own.
 macro_rules! warp {
     ($(#[$doc:meta])* $warp:ident, $module:ident, $numbers:literal, $coordinates:literal) => {
@@ -37,10 +36,7 @@ macro_rules! warp {
             pub unsafe extern "C" fn sample($($warp: *const $struct,)? u: *const f32, point: *mut f32) -> EtendueStatus {
                 refuse_null!($($warp,)? u, point);
                 // SAFETY: the pointers are not null, and point to what the header says
-                unsafe {
-                    let out = three(each_mut::<$coordinates>(point));
-                    (Batch::new().functions::<$type>().sample)($value, 1, two(each::<$numbers>(u)), &out);
-                }
+                unsafe { (Batch::new().one_warp::<$type>().sample)($value, u, point) };
                 EtendueStatus::Ok
             }
             /// The pdf at a point, in the measure of the warp; 0 outside its range, and if a pointer is NULL.
@@ -49,7 +45,7 @@ macro_rules! warp {
                 let mut pdf = 0.0;
                 if $(!$warp.is_null() &&)? !point.is_null() {
                     // SAFETY: the pointers are not null, and point to what the header says
-                    unsafe { (Batch::new().functions::<$type>().pdf)($value, 1, &three(each::<$coordinates>(point)), &mut pdf) };
+                    unsafe { pdf = (Batch::new().one_warp::<$type>().pdf)($value, point) };
                 }
                 pdf
             }
@@ -58,10 +54,7 @@ macro_rules! warp {
             pub unsafe extern "C" fn invert($($warp: *const $struct,)? point: *const f32, u: *mut f32) -> EtendueStatus {
                 refuse_null!($($warp,)? point, u);
                 // SAFETY: the pointers are not null, and point to what the header says
-                unsafe {
-                    let (point, u) = (three(each::<$coordinates>(point)), two(each_mut::<$numbers>(u)));
-                    (Batch::new().functions::<$type>().invert)($value, 1, &point, u);
-                }
+                unsafe { (Batch::new().one_warp::<$type>().invert)($value, point, u) };
                 EtendueStatus::Ok
             }
             /// A point for each u, in columns.

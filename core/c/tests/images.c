@@ -44,6 +44,7 @@ static float cosine(const EtendueLightSample *s) {
             for (int c = 0; c < 3; c++) w_numbers[c][i] = s.direction[c];                                                            \
             if (!(s.pdf > 0)) continue;                                                                                              \
             const float pdf = PREFIX##_pdf(&sampler, s.direction);                                                                   \
+            CHECK(same(PREFIX##_pdf_once(light, p AT, s.direction), pdf));                                                                   \
             CHECK(SAME ? same(pdf, s.pdf) : !s.emits || fabsf(pdf / s.pdf - 1) * cosine(&s) < 2e-5f);                                \
             CHECK(PREFIX##_hit(&sampler, s.direction, &hit) == OK && same(hit.pdf, pdf));                                            \
             CHECK(PREFIX##_invert(&sampler, s.direction, back) == OK && back[0] >= 0 && back[0] < 1 && back[1] >= 0 && back[1] < 1); \

@@ -61,6 +61,7 @@ typedef struct {
                               const float *const *w, float *out);
     EtendueStatus (*invert_each)(const float *const *lights, size_t n, const float *const *p, const float *const *normals,
                                  const float *const *w, float *const *u);
+    float (*pdf_once)(const float *light, const float *p, const float *n, const float *w);
 } Technique;
 
 // Reflections of floors with the normals `n`, which a viewer sees along them, as functions of normals take them.
@@ -133,6 +134,10 @@ static const EtendueReflectionColumns *reflections(size_t n, const float *const 
                                      const float *const *w, float *const *out) {                                                    \
         (void)normals;                                                                                                              \
         return etendue_##PREFIX##_invert_each((const Etendue##LIGHT##Columns *)(const void *)lights, n, p, NORMALS w, out);         \
+    }                                                                                                                               \
+    static float PREFIX##_15(const float *light, const float *p, const float *n, const float *w) {                                  \
+        (void)n;                                                                                                                    \
+        return etendue_##PREFIX##_pdf_once((const Etendue##LIGHT *)light, p, N w);                                                  \
     }
 #define COMMA ,
 #define FUNCTIONS_0(NAME, LIGHT, PREFIX) FUNCTIONS(NAME, LIGHT, PREFIX, , )
@@ -195,7 +200,7 @@ TECHNIQUES(WRITE_FUNCTIONS)
 #define ROW(NAME, LIGHT, PREFIX, ON_SURFACE)                                                                         \
     {#PREFIX, LIGHT, sizeof(Etendue##LIGHT) / 4, sizeof(Etendue##NAME) / 4, ON_SURFACE, PREFIX##_1, PREFIX##_2,      \
      PREFIX##_3, PREFIX##_4, PREFIX##_5, PREFIX##_6, PREFIX##_7, PREFIX##_8, PREFIX##_9, PREFIX##_10, PREFIX##_11, PREFIX##_12,      \
-     PREFIX##_13, PREFIX##_14},
+     PREFIX##_13, PREFIX##_14, PREFIX##_15},
 static const Technique techniques[] = {TECHNIQUES(ROW)};
 
 static int is_delta(const Technique *t) {
@@ -224,6 +229,7 @@ static void test_values(const Technique *t, const float *sampler) {
         CHECK(fabsf(length - 1) < 1e-6f);
         const float pdf = t->pdf(sampler, s.direction);
         if (is_closed(t)) CHECK(same(pdf, s.pdf));
+        CHECK(same(t->pdf_once(t->light, origin, up, s.direction), pdf));
         // rays do not hit lines, and delta lights have no density
         CHECK(t->hit(sampler, s.direction, &hit) == OK && is_finite(&hit) && same(hit.pdf, t->light == Line ? 0 : pdf));
         if (is_delta(t)) CHECK(pdf == 0 && s.weight > 0);
@@ -241,7 +247,7 @@ static void test_values(const Technique *t, const float *sampler) {
     const float down[3] = {0, -1, 0}, nothing[LIGHT_NUMBERS] = {0}, u[2] = {0.3f, 0.6f};
     float degenerate[SAMPLER_NUMBERS];
     EtendueLightSample s;
-    CHECK(t->pdf(sampler, down) == 0);
+    CHECK(t->pdf(sampler, down) == 0 && t->pdf_once(t->light, origin, up, down) == 0);
     CHECK(t->hit(sampler, down, &s) == OK && is_finite(&s) && s.pdf == 0 && s.weight == 0);
     CHECK(t->prepare(nothing, origin, up, degenerate) == OK);
     // a delta light has none anyway
@@ -378,6 +384,8 @@ static void test_nulls(const Technique *t, const float *sampler) {
     CHECK(!t->on_surface || t->once(t->light, origin, NULL, u, &s) == REFUSED);
     CHECK(memcmp(&s, &before, sizeof s) == 0);
     CHECK(t->pdf(NULL, w) == 0 && t->pdf(sampler, NULL) == 0);
+    CHECK(t->pdf_once(NULL, origin, up, w) == 0 && t->pdf_once(t->light, NULL, up, w) == 0 && t->pdf_once(t->light, origin, up, NULL) == 0);
+    CHECK(!t->on_surface || t->pdf_once(t->light, origin, NULL, w) == 0);
     CHECK(t->invert(NULL, w, out) == REFUSED && t->invert(sampler, NULL, out) == REFUSED && t->invert(sampler, w, NULL) == REFUSED);
 
     const float *const u_in[2] = {u_numbers[0], u_numbers[1]}, *const w_in[3] = {w_numbers[0], w_numbers[1], w_numbers[2]};
