@@ -20,7 +20,7 @@ extern const Column TEXTBOOK, LIBRARY, HEADER;
 
 #ifdef OF_TEXTBOOK
 #include "textbook.h"
-static float sum(Drawn s) { return s.point.x + s.point.y + s.point.z + s.normal.x + s.normal.y + s.normal.z + s.pdf; }
+static float sum(Drawn s) { return s.point.x + s.point.y + s.point.z + s.normal.x + s.normal.y + s.normal.z + s.pdf + s.u + s.v; }
 #define TRIANGLE(i) const V3 v[3] = {v3(i->light), v3(i->light + 3), v3(i->light + 6)}
 APART float triangle(const Input *i) { TRIANGLE(i); return sum(textbook_triangle(v, v3(i->p), i->u[0], i->u[1])); }
 APART float warped(const Input *i) { TRIANGLE(i); return sum(textbook_triangle_by_cosines(v, v3(i->p), v3(i->n), i->u[0], i->u[1])); }
@@ -41,7 +41,7 @@ const Column TEXTBOOK = {triangle, warped, NULL, triangle_pdf, NULL, sphere, sph
 
 #ifdef OF_LIBRARY
 #include "etendue.h"
-static float sum(EtendueLightSample s) { return s.direction[0] + s.direction[1] + s.direction[2] + s.distance + s.pdf + s.normal[0] + s.normal[1] + s.normal[2]; }
+static float sum(EtendueLightSample s) { return s.direction[0] + s.direction[1] + s.direction[2] + s.distance + s.pdf + s.normal[0] + s.normal[1] + s.normal[2] + s.uv[0] + s.uv[1]; }
 static EtendueTriangle a_triangle(const Input *i) {
     EtendueTriangle light;
     for (int k = 0; k < 3; k++) {
@@ -100,7 +100,7 @@ const Column LIBRARY = {triangle_by_solid_angle, triangle_by_cosine_warp, triang
 #ifdef OF_HEADER
 #include "etendue_header.h"
 static EtendueVec3 v3(const float *x) { return (EtendueVec3){x[0], x[1], x[2]}; }
-static float sum(EtendueLightSample s) { return s.direction.x + s.direction.y + s.direction.z + s.distance + s.pdf + s.normal.x + s.normal.y + s.normal.z; }
+static float sum(EtendueLightSample s) { return s.direction.x + s.direction.y + s.direction.z + s.distance + s.pdf + s.normal.x + s.normal.y + s.normal.z + s.uv.x + s.uv.y; }
 static EtendueTriangle a_triangle(const Input *i) {
     const float *a = i->light, *b = a + 3, *c = a + 6;
     return (EtendueTriangle){v3(a), {b[0] - a[0], b[1] - a[1], b[2] - a[2]}, {c[0] - a[0], c[1] - a[1], c[2] - a[2]}};

@@ -12,7 +12,7 @@ typedef struct {
 } V3;
 typedef struct {
     V3 point, normal;
-    float pdf;
+    float pdf, u, v; /* surface coordinates, for textures */
 } Drawn;
 
 static inline V3 v3(const float *x) { return (V3){x[0], x[1], x[2]}; }
@@ -50,7 +50,7 @@ static inline float textbook_triangle_pdf(const V3 v[3], V3 p) {
 
 /* A triangle, uniform in solid angle (Arvo 1995; PBR A.6.2 of the chapter on sampling). */
 static inline Drawn textbook_triangle(const V3 v[3], V3 p, float u0, float u1) {
-    Drawn none = {{0, 0, 0}, {0, 0, 0}, 0};
+    Drawn none = {{0, 0, 0}, {0, 0, 0}, 0, 0, 0};
     V3 a = unit(sub(v[0], p)), b = unit(sub(v[1], p)), c = unit(sub(v[2], p));
     V3 ab = cross(a, b), bc = cross(b, c), ca = cross(c, a);
     if (dot(ab, ab) == 0 || dot(bc, bc) == 0 || dot(ca, ca) == 0) {
@@ -83,7 +83,7 @@ static inline Drawn textbook_triangle(const V3 v[3], V3 p, float u0, float u1) {
         b1 /= b1 + b2, b2 = 1 - b1;
     }
     V3 point = add(v[0], add(mul(b1, e1), mul(b2, e2)));
-    return (Drawn){point, unit(cross(e1, e2)), 1 / area};
+    return (Drawn){point, unit(cross(e1, e2)), 1 / area, b1, b2};
 }
 
 static inline float linear(float u, float a, float b) {
@@ -139,7 +139,9 @@ static inline Drawn textbook_sphere(V3 center, float radius, V3 p, float u0, flo
     float sign = copysignf(1, z.z), a = -1 / (sign + z.z), b = z.x * z.y * a;
     V3 x = {1 + sign * z.x * z.x * a, sign * b, -sign * z.x}, y = {b, sign + z.y * z.y * a, -z.y};
     V3 normal = add(add(mul(sin_alpha * cosf(phi), x), mul(sin_alpha * sinf(phi), y)), mul(cos_alpha, z));
-    return (Drawn){add(center, mul(radius, normal)), normal, 1 / (2 * PI * one_minus_cos)};
+    float turn = atan2f(normal.y, normal.x);
+    return (Drawn){add(center, mul(radius, normal)), normal, 1 / (2 * PI * one_minus_cos), (turn < 0 ? turn + 2 * PI : turn) / (2 * PI),
+        acosf(clamp(normal.z, -1, 1)) / PI};
 }
 
 /* A rectangle, uniform in solid angle (Urena et al. 2013; PBR A.6.3). */
@@ -159,7 +161,8 @@ static inline Drawn textbook_rectangle(V3 corner, V3 ex, V3 ey, V3 p, float u0, 
     float xu = clamp(-(cu * z0) / root(1 - cu * cu), x0, x1);
     float dd = sqrtf(xu * xu + z0 * z0), h0 = y0 / sqrtf(dd * dd + y0 * y0), h1 = y1 / sqrtf(dd * dd + y1 * y1);
     float hv = h0 + u1 * (h1 - h0), hv2 = hv * hv, yv = hv2 < 1 - 1e-6f ? hv * dd / sqrtf(1 - hv2) : y1;
-    return (Drawn){add(p, add(add(mul(xu, x), mul(yv, y)), mul(z0, z))), z, area > 0 ? 1 / area : 0};
+    return (Drawn){add(p, add(add(mul(xu, x), mul(yv, y)), mul(z0, z))), z, area > 0 ? 1 / area : 0, (xu - x0) / lx,
+        (yv - y0) / ly};
 }
 
 #endif

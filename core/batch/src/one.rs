@@ -96,14 +96,28 @@ impl<W: BatchWarp> OneWarpFunctions<W> {
     }
 }
 
-// numbers are read and written one by one: a processor waits long for a pair of which the host has just written each number alone
+/// A struct of numbers, read one by one: a processor waits some 100 cycles for a pair of which the host has just written each number alone, and
+/// without `volatile` the compiler reads pairs. What holds pointers is read as it is.
+#[inline(always)]
+unsafe fn numbers<T: Copy>(from: &T) -> T {
+    if align_of::<T>() != align_of::<f32>() {
+        return *from;
+    }
+    let (from, mut to) = (core::ptr::from_ref(from).cast::<u32>(), MaybeUninit::<T>::uninit());
+    for i in 0..size_of::<T>() / size_of::<f32>() {
+        // SAFETY: the struct consists of numbers, of which each is written
+        unsafe { to.as_mut_ptr().cast::<u32>().add(i).write(from.add(i).read_volatile()) };
+    }
+    // SAFETY: as above
+    unsafe { to.assume_init() }
+}
 unsafe fn two(x: *const f32) -> Vec2<f32> {
     // SAFETY: the caller's memory has them
-    unsafe { Vec2::new(x.read_unaligned(), x.add(1).read_unaligned()) }
+    unsafe { numbers(&*x.cast::<Vec2<f32>>()) }
 }
 unsafe fn three(x: *const f32) -> Vec3<f32> {
     // SAFETY: the caller's memory has them
-    unsafe { Vec3::new(x.read_unaligned(), x.add(1).read_unaligned(), x.add(2).read_unaligned()) }
+    unsafe { numbers(&*x.cast::<Vec3<f32>>()) }
 }
 unsafe fn write<const N: usize>(to: *mut f32, numbers: [f32; N], count: usize) {
     for (i, number) in numbers.into_iter().enumerate().take(count) {
@@ -161,7 +175,7 @@ unsafe fn prepared<T: BatchTechnique>(light: &T::Light<f32>, p: *const f32, n: *
 #[inline(always)]
 unsafe fn place<T: BatchTechnique>(light: &T::Light<f32>, p: *const f32, n: *const f32) -> T::Of<f32> {
     // SAFETY: the caller's
-    unsafe { T::prepare::<f32>(*light, three(p), if T::ON_SURFACE { three(n) } else { Vec3::default() }) }
+    unsafe { T::prepare::<f32>(numbers(light), three(p), if T::ON_SURFACE { three(n) } else { Vec3::default() }) }
 }
 unsafe extern "C" fn sample_once<T: BatchTechnique>(
     light: &T::Light<f32>,
@@ -206,19 +220,19 @@ unsafe extern "C" fn warp_sample<W: BatchWarp>(warp: &W, u: *const f32, out: *mu
         unsafe {
             let x = u.read_unaligned();
             let y = if W::NUMBERS == 2 { u.add(1).read_unaligned() } else { x };
-            write(out, W::sample(&warp.splat::<f32>(), Vec2::new(x, y)), W::COORDINATES);
+            write(out, W::sample(&numbers(warp).splat::<f32>(), Vec2::new(x, y)), W::COORDINATES);
         }
     }
 }
 unsafe extern "C" fn warp_pdf<W: BatchWarp>(warp: &W, at: *const f32) -> f32 {
     // SAFETY: the caller's
-    if IS_ABSENT { 0.0 } else { unsafe { W::pdf(&warp.splat::<f32>(), point::<W>(at)) } }
+    if IS_ABSENT { 0.0 } else { unsafe { W::pdf(&numbers(warp).splat::<f32>(), point::<W>(at)) } }
 }
 unsafe extern "C" fn warp_invert<W: BatchWarp>(warp: &W, at: *const f32, out: *mut f32) {
     if !IS_ABSENT {
         // SAFETY: the caller's
         unsafe {
-            let u = W::invert(&warp.splat::<f32>(), point::<W>(at));
+            let u = W::invert(&numbers(warp).splat::<f32>(), point::<W>(at));
             write(out, [u.x, u.y], W::NUMBERS);
         }
     }
