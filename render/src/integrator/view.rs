@@ -146,20 +146,19 @@ impl View<'_> {
     }
 
     /// Renders some of the samples of an area, which must consist of [tiles](Settings::is_of_tiles); calls `progress` with the number of
-    /// pixels for which they are newly finished. All samples, and those after a pilot, return pixels.
+    /// pixels for which they are newly finished. All samples, and those after a pilot, return pixels. With [`Sampler::Adaptive`], the pixels
+    /// of the area share all samples among themselves, so that they differ from those of a larger area.
     ///
     /// # Panics
-    /// Panics if the sampler has no such samples, or if the area does not consist of tiles. All samples of [`Sampler::Adaptive`] need the
-    /// whole image.
+    /// Panics if the sampler has no such samples, or if the area does not consist of tiles.
     pub fn render(&self, area: Area, samples: Samples, progress: &(dyn Fn(u64) + Sync)) -> (Content, RayCount) {
         let (settings, camera) = (&self.settings, &self.camera);
         let is_adaptive = settings.sampler == Sampler::Adaptive;
         assert!(settings.is_of_tiles(area));
         match samples {
             Samples::All if is_adaptive => {
-                assert_eq!(area, settings.whole(), "a pilot allots samples to the whole image");
                 let (found, mut rays) = self.pilot(area, &|_| ());
-                let allotment = Allotment::new(settings, camera.has_lens(), &found);
+                let allotment = Allotment::new(settings, camera.has_lens(), area, &found);
                 let (content, more) = self.render(area, Samples::Rest(&allotment), progress);
                 rays += more;
                 (content, rays)
