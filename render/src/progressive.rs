@@ -144,6 +144,8 @@ pub struct Refined {
     weights: Vec<f64>,
     /// Number of passes so far, also of those that are no part of the image.
     index: u64,
+    /// Seconds that a sample of the last pass took.
+    pace: f64,
     known: Option<Progress>,
 }
 
@@ -158,7 +160,7 @@ impl Refined {
         let full =
             counts.iter().copied().find(|&n| plan.sampler_of(n) == plan.sampler_of(MOST_SAMPLES)).unwrap_or(counts[0]);
         let systematic = world.view(&plan.settings).systematic();
-        Ok(Self { plan: *plan, counts, full, systematic, weights: Vec::new(), index: 0, known: None })
+        Ok(Self { plan: *plan, counts, full, systematic, weights: Vec::new(), index: 0, pace: 0.0, known: None })
     }
 
     /// What is known after the last pass.
@@ -167,14 +169,14 @@ impl Refined {
         self.known.as_ref()
     }
 
-    /// The number of samples of a pass that takes about as many seconds, from the speed of the last one; the least that the sampler allows
-    /// before the first.
+    /// The number of samples of a pass of an area that takes about as many seconds, from the speed of the last one; the least that the
+    /// sampler allows before the first.
     #[must_use]
-    pub fn lasting(&self, seconds: f64) -> u32 {
+    pub fn lasting(&self, seconds: f64, area: Area) -> u32 {
         let last = self.known.as_ref().and_then(|known| known.passes.last());
         let Some(last) = last else { return self.counts[0] };
         let counts = self.following(last.spp);
-        let most = self.most_after(last.spp).min(seconds * f64::from(last.spp) / last.seconds.max(1e-9));
+        let most = self.most_after(last.spp).min(seconds / (self.pace * area::count(area) as f64));
         at_most(counts, most).unwrap_or(counts[0])
     }
 
@@ -199,6 +201,7 @@ impl Refined {
         let (content, rays) = world.view(&of_pass).render(area, Samples::All, progress);
         let Content::Pixels(pixels) = content else { unreachable!("all samples make finished pixels") };
         let seconds = began.elapsed().as_secs_f64();
+        self.pace = seconds / (f64::from(spp) * area::count(area) as f64);
         let pass = Pass { spp, sampler: of_pass.sampler, seed: of_pass.seed, seconds };
         let (own, whole) = (f64::from(spp).powf(self.plan.power()), settings.whole());
         let mean = match self.known.take() {
@@ -396,7 +399,7 @@ mod tests {
             let settings = Settings { width: 40, height: 32, spp: 16, technique, depth: 8, sampler, sets: 0, seed: 3 };
             let plan = Refinement { settings, sampler: Some(sampler), lens: false, goal: Goal::default() };
             let mut refined = Refined::new(&world, &plan).unwrap();
-            assert_eq!(refined.lasting(100.0), refined.counts[0]);
+            assert_eq!(refined.lasting(100.0, settings.whole()), refined.counts[0]);
             let first = refined.pass(&world, 16, settings.whole(), &|_| ()).clone();
             assert_eq!(first.film, world.render(&settings, &|_| ()).0);
             let area = [16, 0, 40, 16];
@@ -410,11 +413,12 @@ mod tests {
             let third = refined.pass(&world, 16, settings.whole(), &|_| ()).clone();
             assert_eq!(third.spp, 32);
             assert!(third.film.pixels.iter().zip(&second.film.pixels).all(|(a, b)| a.samples > b.samples));
-            refined.known.as_mut().unwrap().passes[2].seconds = 1.0;
-            assert_eq!([0.5, 1.0, 4.0, 1e9].map(|seconds| refined.lasting(seconds)).map(|n| n.max(8)), {
-                let least = refined.counts[refined.counts.partition_point(|&n| n < refined.full)].max(8);
-                [least, 16, 64, 128]
-            });
+            // a second for the last pass, which had 16 samples per pixel; a fifth of the pixels takes a fifth of it
+            refined.pace = 1.0 / (16.0 * 40.0 * 32.0);
+            let least = refined.counts[refined.counts.partition_point(|&n| n < refined.full)];
+            let lasting = |seconds| refined.lasting(seconds, settings.whole());
+            assert_eq!([1e-3, 1.0, 4.0, 1e9].map(lasting), [least, 16, 64, 128]);
+            assert_eq!(refined.lasting(1.0, [0, 0, 16, 16]), 64);
         }
     }
 
