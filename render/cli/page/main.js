@@ -91,7 +91,7 @@ class View {
     if (status.message || !byId("message").hidden) this.say(status.message || byId("message").querySelector("span").textContent);
     const facts = [
       ["samples", picture ? `${short(picture.spp)} per pixel` : "none yet"],
-      ["error", picture ? percent(picture.error) + (status.target ? ` of ${percent(status.target)} wanted` : "") : "not known yet"],
+      ["error", picture ? percent(picture.error) + (status.target ? `, ${percent(status.target)} wanted` : "") : "not known yet"],
       ["time", picture ? `${picture.seconds.toFixed(1)} s` : "0 s"],
       ["now", status.paused ? "paused" : picture && picture.end ? `no more samples: ${picture.end}` : "rendering"],
     ];

@@ -95,7 +95,7 @@ class Lens {
     this.centre = [width / 2, height / 2];
     this.zoom = Math.min(canvas.width / width, canvas.height / height);
     // whole numbers of pixels look sharp
-    if (this.zoom > 1) this.zoom = Math.floor(this.zoom);
+    if (this.zoom >= 2) this.zoom = Math.floor(this.zoom);
   }
   toCanvas(canvas, [x, y]) {
     return [(x - this.centre[0]) * this.zoom + canvas.width / 2, (y - this.centre[1]) * this.zoom + canvas.height / 2];
@@ -129,7 +129,7 @@ function draw(canvas, lens, first, second, wipe, crop, cursor) {
   const context = canvas.getContext("2d");
   lens.update(canvas, [first.width, first.height]);
   context.clearRect(0, 0, canvas.width, canvas.height);
-  context.imageSmoothingEnabled = lens.zoom < 1;
+  context.imageSmoothingEnabled = lens.zoom < 2 && lens.zoom !== 1;
   const [left, top] = lens.toCanvas(canvas, [0, 0]).map(Math.round);
   const place = [left, top, Math.round(first.width * lens.zoom), Math.round(first.height * lens.zoom)];
   context.drawImage(first, ...place);

@@ -43,6 +43,12 @@ fn address(text: &str) -> Result<String, String> {
 }
 
 impl DisplayOptions {
+    /// Refuses the option where it has no effect.
+    pub(crate) fn check_is_unused(&self) -> Result<(), String> {
+        let is_given = |server: &String| Err(format!("--display-server {server}: a part of an image is not shown"));
+        self.display_server.as_ref().map_or(Ok(()), is_given)
+    }
+
     /// The display that is asked for. If it cannot be reached, a warning says why, and the rendering goes on without.
     pub(crate) fn connect(&self, image: &Path) -> Display {
         let file = image.file_name().unwrap_or_default().to_string_lossy();

@@ -95,6 +95,7 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
         Some(plan) => plan.check().map_err(|what| format!("--{}: {what}", goal.option()))?,
     }
     if let Some(content) = options.part.content(&settings)? {
+        options.display.check_is_unused()?;
         return part::run(image, &content, options.output.as_deref(), scene, settings, options.json, &interrupt);
     }
     let output = Output::new(options.output.as_deref(), &scene, image.stem())?;

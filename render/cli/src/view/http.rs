@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 use std::io::{self, Read, Write};
-use std::net::TcpStream;
+use std::net::{Shutdown, TcpStream};
 use std::time::{Duration, Instant};
 
 /// Greatest size of the head of a request in bytes.
@@ -13,6 +13,9 @@ const BODY: usize = 4096;
 const ASKING: Duration = Duration::from_secs(2);
 /// How long a client may take to read its answer.
 const READING: Duration = Duration::from_secs(20);
+/// How long a client may take to send the rest of a request that is refused, and of how many bytes at most.
+const LEAVING: Duration = Duration::from_millis(500);
+const MOST_LEFT: u64 = 1 << 16;
 
 /// What the page may do, for the browser: load its own script and style, ask its own server, and nothing else; no other page may frame it
 /// or read from it.
@@ -162,6 +165,15 @@ fn parse(bytes: &[u8]) -> Result<Option<(Request, usize, usize)>, Option<Respons
         return Err(wrong("a request names one host"));
     }
     Ok(Some((request, start, length)))
+}
+
+/// Sends an answer to a request that was not read whole. What is left of it is thrown away: closing the connection before that could
+/// take the answer from the client.
+pub(crate) fn refuse(stream: &TcpStream, response: Response) -> io::Result<()> {
+    write(stream, response)?;
+    stream.shutdown(Shutdown::Write)?;
+    let mut rest = Until(stream, Instant::now() + LEAVING).take(MOST_LEFT);
+    io::copy(&mut rest, &mut io::sink()).map(|_| ())
 }
 
 /// Sends an answer.

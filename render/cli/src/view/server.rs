@@ -76,15 +76,15 @@ impl Server {
                 let (answer, guard) = (Arc::clone(&answer), Arc::clone(&guard));
                 let talk = move || {
                     let _place = place;
-                    let response = match http::read(&stream) {
-                        Ok(request) => {
-                            guard.check(&request).map_or_else(|refused| refused, |path| answer(path, &request))
-                        }
-                        Err(Some(refused)) => refused,
-                        Err(None) => return,
-                    };
                     // a client that is gone needs no answer
-                    let _ = http::write(&stream, response);
+                    let _ = match http::read(&stream) {
+                        Ok(request) => {
+                            let refused_or = guard.check(&request).map(|path| answer(path, &request));
+                            http::write(&stream, refused_or.unwrap_or_else(|refused| refused))
+                        }
+                        Err(Some(refused)) => http::refuse(&stream, refused),
+                        Err(None) => Ok(()),
+                    };
                 };
                 // without a thread the connection is closed
                 let _ = thread::Builder::new().name("client".into()).spawn(talk);
