@@ -80,7 +80,7 @@ class View {
     const picture = pictures.find((p) => nameOf(p.way) === nameOf(way));
     for (const id of ["technique", "sampler"]) if (document.activeElement !== byId(id) || !isFirst) byId(id).value = way[id];
     const about = status.techniques.find(([name]) => name === way.technique)[1];
-    byId("about").textContent = picture && picture.chosen !== way.technique ? `${about}: here ${picture.chosen}` : about;
+    byId("about").textContent = picture && picture.chosen !== way.technique ? `${about}. Here it is ${picture.chosen}.` : about;
     byId("title").textContent = `${status.scene}, ${size.join(" × ")}${status.sensor === "radiance" ? "" : `, ${status.sensor}`}`;
     document.title = `${status.scene}: a view of a render`;
     byId("pause").textContent = status.paused ? "Go on" : "Pause";
