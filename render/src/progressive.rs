@@ -192,7 +192,10 @@ impl Refined {
     }
 
     /// Renders one more pass, of `spp` samples for each pixel of an area that consists of [tiles](Settings::is_of_tiles), and returns what
-    /// is known after it. The first pass must be of the whole image. `progress` receives the number of newly finished pixels.
+    /// is known after it. `progress` receives the number of newly finished pixels.
+    ///
+    /// # Panics
+    /// Panics if the first pass is not of the whole image, or the first with the sampler of large ones.
     pub fn pass(&mut self, world: &World, spp: u32, area: Area, progress: &(dyn Fn(u64) + Sync)) -> &Progress {
         let (settings, began) = (self.plan.settings, Instant::now());
         let of_pass =

@@ -13,7 +13,6 @@ import sys
 import tempfile
 import time
 import urllib.parse
-import zlib
 from pathlib import Path
 
 import firefox

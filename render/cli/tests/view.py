@@ -119,6 +119,13 @@ def watch_to_the_end(browser):
             a, b = re.fullmatch(r"[RGB] (\S+) ± (\S+)", cell).groups()
             assert abs(float(a) - x) <= 6e-4 * x and abs(float(b) - s) <= 6e-3 * s, f"{cell} for {x} and {s}"
         assert cells[3] == f"{browser.evaluate(f'view.last.samples[{i}]'):,} samples", cells
+        # the image follows the hand
+        place = "view.lens.toCanvas(document.getElementById('image'), [80, 60])"
+        x, y = browser.evaluate(place)
+        browser.drag((left + w / 2, top + h / 2), (left + w / 2 - 40, top + h / 2 + 25))
+        assert browser.evaluate(place) == [x - 40, y + 25]
+        browser.click("#fit")
+        assert browser.evaluate(place) == [x, y]
         # exposure, zoom, and the maps
         before = browser.evaluate("view.first.key")
         browser.choose("exposure", "2")

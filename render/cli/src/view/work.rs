@@ -246,17 +246,22 @@ impl Subject {
         let plan = Refinement { settings, sampler: Some(way.sampler), lens: self.lens, goal };
         let refined = Refined::new(&self.world, &plan)?;
         kept.push(Kept { way, refined, history: Vec::new() });
-        let most = MOST_KEPT / (BYTES * area::count(settings.whole()) as u64);
-        while kept.len() > 2 && kept.len() as u64 > most {
-            let old = kept.remove(0).way;
+        for old in forgotten(kept, area::count(settings.whole()) as u64) {
+            let [technique, sampler] = [name(old.way.technique), name(old.way.sampler)];
             let mut state = shared.lock();
-            state.pictures.retain(|picture| picture.way != old);
-            let [technique, sampler] = [name(old.technique), name(old.sampler)];
+            state.pictures.retain(|picture| picture.way != old.way);
             state.message =
                 Some(format!("{technique}, {sampler} was forgotten: all images would take too much memory"));
         }
         Ok(())
     }
+}
+
+/// Takes the first of some images of so many pixels away, until the rest takes little enough memory or is only two.
+fn forgotten<T>(kept: &mut Vec<T>, pixels: u64) -> Vec<T> {
+    let most = (MOST_KEPT / (BYTES * pixels)).max(2);
+    let excess = (kept.len() as u64).saturating_sub(most) as usize;
+    kept.drain(..excess).collect()
 }
 
 impl Kept {
@@ -302,5 +307,24 @@ impl Kept {
             history: self.history.clone(),
             end,
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn old_images_are_forgotten() {
+        let of = |count: u32, pixels: u64| {
+            let mut kept: Vec<u32> = (0..count).collect();
+            let old = forgotten(&mut kept, pixels);
+            assert!((0..count).eq(old.iter().chain(&kept).copied()), "{old:?}, {kept:?}");
+            assert!(kept.len() <= 2 || kept.len() as u64 * pixels * BYTES <= MOST_KEPT);
+            old.len()
+        };
+        // 64 bytes of a pixel: 16 images of 1024 × 1024
+        assert_eq!([of(16, 1 << 20), of(17, 1 << 20), of(80, 1 << 20)], [0, 1, 64]);
+        assert_eq!([of(80, 256 * 256), of(1, MOST_PIXELS), of(2, MOST_PIXELS), of(5, MOST_PIXELS)], [0, 0, 0, 3]);
     }
 }

@@ -268,7 +268,11 @@ fn each_technique_and_sampler_keeps_its_samples() {
     // it goes on where it was
     viewer.wish("{\"technique\":\"area\",\"sampler\":\"adaptive\"}");
     let before = kept["spp"].as_f64().unwrap();
-    let more = viewer.until("it has more", |status| spp(status, "area", "adaptive") > before);
+    let more = viewer.until("it has more", |status| {
+        let now = spp(status, "area", "adaptive");
+        assert!(now >= before, "it began anew: {now} after {before} samples");
+        now > before
+    });
     assert!(more["pictures"].as_array().unwrap().len() == 2);
     let history = picture(&more, "area", "adaptive").unwrap()["history"].as_array().unwrap().clone();
     let rises = history.windows(2).all(|two| two[0][0].as_f64() < two[1][0].as_f64());
