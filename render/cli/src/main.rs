@@ -90,6 +90,8 @@ fn arguments() -> Cli {
             if takes_hyphen { argument.allow_hyphen_values(true) } else { argument }
         })
     });
+    // a view has no number of samples, and says so to whoever asks for one
+    let command = command.mut_subcommand("view", |view| view.mut_arg("spp", |spp| spp.hide(true)));
     Cli::from_arg_matches(&command.get_matches()).unwrap_or_else(|error| error.exit())
 }
 

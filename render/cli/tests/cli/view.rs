@@ -198,12 +198,12 @@ fn memory(process: u32) -> u64 {
 #[test]
 fn clients_that_say_nothing_and_read_nothing_hold_little() {
     let folder = Folder::new();
-    let viewer =
-        Viewer::with(&folder, &["view", "quads", "--size", "640x640", "--threads", "1", "--technique", "area"]);
-    viewer.until("there is an image", |status| spp(status, "area", "adaptive") > 0.0);
+    let more = ["--size", "640x640", "--threads", "1", "--technique", "area", "--sampler", "sobol"];
+    let viewer = Viewer::with(&folder, &[&["view", "quads"], &more[..]].concat());
+    viewer.until("there is an image", |status| spp(status, "area", "sobol") > 0.0);
     // an image is more than what a connection takes that nobody reads
     let (token, host) = (&viewer.token, &viewer.host);
-    let question = format!("GET /{token}/image?technique=area&sampler=adaptive HTTP/1.1\r\nHost: {host}\r\n\r\n");
+    let question = format!("GET /{token}/image?technique=area&sampler=sobol HTTP/1.1\r\nHost: {host}\r\n\r\n");
     let unread: Vec<TcpStream> = (0..4).map(|_| viewer.connect()).collect();
     for mut stream in &unread {
         stream.write_all(question.as_bytes()).unwrap();
@@ -421,4 +421,6 @@ fn bad_values_are_named() {
         let error = folder.fail(&[&["view", "quads"], arguments].concat());
         assert!(error.contains(what), "{arguments:?}: {error}");
     }
+    let help = folder.succeed(&["view", "--help"]);
+    assert!(help.contains("--port") && !help.contains("--spp"), "{help}");
 }
