@@ -169,15 +169,15 @@ impl Refined {
         self.known.as_ref()
     }
 
-    /// The number of samples of a pass of an area that takes about as many seconds, from the speed of the last one; the least that the
-    /// sampler allows before the first.
+    /// The number of samples of a pass of an area that takes about as many seconds, from the speed of the last one, but not fewer than the
+    /// sampler of large passes allows; the least number before the first pass, even if that then is a preview.
     #[must_use]
     pub fn lasting(&self, seconds: f64, area: Area) -> u32 {
         let last = self.known.as_ref().and_then(|known| known.passes.last());
         let Some(last) = last else { return self.counts[0] };
         let counts = self.following(last.spp);
         let most = self.most_after(last.spp).min(seconds / (self.pace * area::count(area) as f64));
-        at_most(counts, most).unwrap_or(counts[0])
+        at_most(counts, most.max(f64::from(self.full))).unwrap_or(counts[0])
     }
 
     /// The numbers of samples that a pass after one of so many may have.
@@ -418,11 +418,28 @@ mod tests {
             assert!(third.film.pixels.iter().zip(&second.film.pixels).all(|(a, b)| a.samples > b.samples));
             // a second for the last pass, which had 16 samples per pixel; a fifth of the pixels takes a fifth of it
             refined.pace = 1.0 / (16.0 * 40.0 * 32.0);
-            let least = refined.counts[refined.counts.partition_point(|&n| n < refined.full)];
+            let least = refined.full;
             let lasting = |seconds| refined.lasting(seconds, settings.whole());
             assert_eq!([1e-3, 1.0, 4.0, 1e9].map(lasting), [least, 16, 64, 128]);
             assert_eq!(refined.lasting(1.0, [0, 0, 16, 16]), 64);
         }
+    }
+
+    /// A preview shows the image early, and is no part of it later.
+    #[test]
+    fn a_preview_is_followed_by_passes_of_the_usual_sampler() {
+        let world = World::new(&crate::scene::load("quads").unwrap()).unwrap();
+        let (technique, sampler) = (crate::Technique::SolidAngle, Sampler::Adaptive);
+        let settings = Settings { width: 16, height: 16, spp: 16, technique, depth: 8, sampler, sets: 0, seed: 3 };
+        let plan = Refinement { settings, sampler: None, lens: false, goal: Goal::default() };
+        let mut refined = Refined::new(&world, &plan).unwrap();
+        assert_eq!(refined.lasting(1e9, settings.whole()), 2);
+        assert_eq!(refined.pass(&world, 2, settings.whole(), &|_| ()).passes[0].sampler, Sampler::Sobol);
+        assert_eq!([1e-9, 1e9].map(|seconds| refined.lasting(seconds, settings.whole())), [16, 16]);
+        let known = refined.pass(&world, 16, settings.whole(), &|_| ()).clone();
+        assert_eq!((known.spp, known.passes.len(), known.passes[0].sampler), (16, 1, Sampler::Adaptive));
+        let alone = Settings { seed: seed(3, 1), ..settings };
+        assert_eq!(known.film, world.render(&alone, &|_| ()).0);
     }
 
     #[test]

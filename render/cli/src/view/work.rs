@@ -11,6 +11,7 @@ use etendue_render::claim::why_unknown;
 use etendue_render::limits::MOST_SAMPLES;
 use etendue_render::options::{name, say};
 use etendue_render::progressive::{Goal, Progress, Refined, Refinement};
+use etendue_render::sampler::default_sampler;
 use etendue_render::scene::Scene;
 use etendue_render::{Settings, World};
 use rayon::ThreadPool;
@@ -243,7 +244,10 @@ impl Subject {
             return Ok(());
         }
         let settings = Settings { technique: way.technique, sampler: way.sampler, ..self.settings };
-        let plan = Refinement { settings, sampler: Some(way.sampler), lens: self.lens, goal };
+        // the usual sampler has a preview of few samples
+        let is_usual = default_sampler(MOST_SAMPLES, settings.sets, self.lens) == way.sampler;
+        let sampler = if is_usual { None } else { Some(way.sampler) };
+        let plan = Refinement { settings, sampler, lens: self.lens, goal };
         let refined = Refined::new(&self.world, &plan)?;
         kept.push(Kept { way, refined, history: Vec::new() });
         for old in forgotten(kept, area::count(settings.whole()) as u64) {
@@ -268,8 +272,9 @@ impl Kept {
     /// Renders one more pass.
     fn pass(&mut self, subject: &Subject, crop: Option<Area>, goal: Goal, shared: &Shared) -> &Progress {
         let whole = subject.settings.whole();
-        // the first pass shows where everything is
-        let area = crop.filter(|_| self.refined.known().is_some()).unwrap_or(whole);
+        // passes of a part join one of the whole with the same sampler
+        let has_begun = self.refined.known().is_some_and(|known| known.passes[0].sampler == self.way.sampler);
+        let area = crop.filter(|_| has_begun).unwrap_or(whole);
         let seconds = self.refined.known().map_or(0.0, |known| known.seconds);
         let left = goal.seconds.filter(|_| crop.is_none()).map_or(f64::INFINITY, |all| all - seconds);
         let spp = self.refined.lasting((0.25 * seconds).clamp(PASS[0], PASS[1]).min(left), area);
