@@ -11,6 +11,7 @@ use crate::film::{Film, Pixel};
 use crate::integrator::{Content, RayCount, Samples, Settings, World};
 use crate::limits::MOST_SAMPLES;
 use crate::sampler::{Sampler, default_sampler, mixed, reports_variance};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 /// When an image is finished: as soon as one of these is reached.
@@ -36,7 +37,7 @@ pub struct Pass {
 }
 
 /// The mean of the passes so far.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Progress {
     /// The image.
     pub film: Film,
@@ -192,16 +193,27 @@ impl Refined {
     }
 
     /// Renders one more pass, of `spp` samples for each pixel of an area that consists of [tiles](Settings::is_of_tiles), and returns what
-    /// is known after it. `progress` receives the number of newly finished pixels.
+    /// is known after it. `progress` receives the number of newly finished pixels. As soon as `stop` is true, the pass ends and is thrown
+    /// away, and nothing is returned.
     ///
     /// # Panics
     /// Panics if the first pass is not of the whole image, or the first with the sampler of large ones.
-    pub fn pass(&mut self, world: &World, spp: u32, area: Area, progress: &(dyn Fn(u64) + Sync)) -> &Progress {
+    pub fn pass(
+        &mut self,
+        world: &World,
+        spp: u32,
+        area: Area,
+        stop: &AtomicBool,
+        progress: &(dyn Fn(u64) + Sync),
+    ) -> Option<&Progress> {
         let (settings, began) = (self.plan.settings, Instant::now());
         let of_pass =
             Settings { spp, sampler: self.plan.sampler_of(spp), seed: seed(settings.seed, self.index), ..settings };
+        let (content, rays) = world.view(&of_pass).stopped_by(stop).render(area, Samples::All, progress);
+        if stop.load(Ordering::Relaxed) {
+            return None;
+        }
         self.index += 1;
-        let (content, rays) = world.view(&of_pass).render(area, Samples::All, progress);
         let Content::Pixels(pixels) = content else { unreachable!("all samples make finished pixels") };
         let seconds = began.elapsed().as_secs_f64();
         self.pace = seconds / (f64::from(spp) * area::count(area) as f64);
@@ -228,7 +240,7 @@ impl Refined {
                 Progress { film, error, spp: spp.into(), passes: vec![pass], seconds: before + seconds, rays }
             }
         };
-        self.known.insert(mean)
+        Some(self.known.insert(mean))
     }
 }
 
@@ -250,13 +262,13 @@ pub fn render(
     let (settings, goal) = (plan.settings, plan.goal);
     let pixels = f64::from(settings.width) * f64::from(settings.height);
     let mut refined = Refined::new(world, plan)?;
-    let (counts, full) = (&refined.counts, refined.full);
+    let (counts, full, never) = (&refined.counts, refined.full, AtomicBool::new(false));
     let began = Instant::now();
     // a preview only measures the time
     let mut next = at_most(counts, first(goal, pixels)).filter(|&n| n >= full).unwrap_or(counts[0]);
     loop {
         start(refined.known(), next);
-        refined.pass(world, next, settings.whole(), progress);
+        refined.pass(world, next, settings.whole(), &never, progress);
         let Some(mut mean) = refined.known.take() else { unreachable!("a pass has ended") };
         mean.seconds = began.elapsed().as_secs_f64();
         if let (Goal { error: Some(target), seconds: None }, Some(claim)) = (goal, mean.error) {
@@ -368,6 +380,8 @@ fn sum(a: RayCount, b: RayCount) -> RayCount {
 mod tests {
     use super::*;
 
+    static NEVER: AtomicBool = AtomicBool::new(false);
+
     #[test]
     fn passes_are_averaged_by_their_weights() {
         let film = |mean: f32, variance: f32, samples| Film {
@@ -403,17 +417,20 @@ mod tests {
             let plan = Refinement { settings, sampler: Some(sampler), lens: false, goal: Goal::default() };
             let mut refined = Refined::new(&world, &plan).unwrap();
             assert_eq!(refined.lasting(100.0, settings.whole()), refined.counts[0]);
-            let first = refined.pass(&world, 16, settings.whole(), &|_| ()).clone();
+            let first = refined.pass(&world, 16, settings.whole(), &NEVER, &|_| ()).unwrap().clone();
             assert_eq!(first.film, world.render(&settings, &|_| ()).0);
             let area = [16, 0, 40, 16];
-            let second = refined.pass(&world, 32, area, &|_| ()).clone();
+            // a pass that is stopped leaves no trace
+            assert_eq!(refined.pass(&world, 32, area, &AtomicBool::new(true), &|_| ()), None);
+            assert_eq!(refined.known(), Some(&first));
+            let second = refined.pass(&world, 32, area, &NEVER, &|_| ()).unwrap().clone();
             let inside = |i: usize| i % 40 >= 16 && i / 40 < 16;
             for (i, (a, b)) in first.film.pixels.iter().zip(&second.film.pixels).enumerate() {
                 assert_eq!(a == b, !inside(i), "pixel {i}");
             }
             assert!(second.error.unwrap().total() < first.error.unwrap().total(), "{sampler:?}");
             // as the whole would have it, with a weight of its own in each pixel
-            let third = refined.pass(&world, 16, settings.whole(), &|_| ()).clone();
+            let third = refined.pass(&world, 16, settings.whole(), &NEVER, &|_| ()).unwrap().clone();
             assert_eq!(third.spp, 32);
             assert!(third.film.pixels.iter().zip(&second.film.pixels).all(|(a, b)| a.samples > b.samples));
             // a second for the last pass, which had 16 samples per pixel; a fifth of the pixels takes a fifth of it
@@ -434,9 +451,12 @@ mod tests {
         let plan = Refinement { settings, sampler: None, lens: false, goal: Goal::default() };
         let mut refined = Refined::new(&world, &plan).unwrap();
         assert_eq!(refined.lasting(1e9, settings.whole()), 2);
-        assert_eq!(refined.pass(&world, 2, settings.whole(), &|_| ()).passes[0].sampler, Sampler::Sobol);
+        assert_eq!(
+            refined.pass(&world, 2, settings.whole(), &NEVER, &|_| ()).unwrap().passes[0].sampler,
+            Sampler::Sobol
+        );
         assert_eq!([1e-9, 1e9].map(|seconds| refined.lasting(seconds, settings.whole())), [16, 16]);
-        let known = refined.pass(&world, 16, settings.whole(), &|_| ()).clone();
+        let known = refined.pass(&world, 16, settings.whole(), &NEVER, &|_| ()).unwrap().clone();
         assert_eq!((known.spp, known.passes.len(), known.passes[0].sampler), (16, 1, Sampler::Adaptive));
         let alone = Settings { seed: seed(3, 1), ..settings };
         assert_eq!(known.film, world.render(&alone, &|_| ()).0);

@@ -6,7 +6,7 @@
 //! kept while another one is shown, up to 1 GiB of them (`view/work.rs`).
 //!
 //! Samples go to the image that is shown, in passes of about a quarter of the time so far and at most a second, unless the least pass of the
-//! sampler takes longer; between passes, wishes of the page come true.
+//! sampler takes longer. A wish for another image or part ends the pass, whose samples are lost.
 
 mod answer;
 mod http;

@@ -3,7 +3,7 @@
 use super::http::{Body, Request, Response};
 use super::page;
 use super::server::Place;
-use super::state::{Picture, Shared, State, Way, Wishes};
+use super::state::{Picture, Shared, State, Way};
 use clap::ValueEnum;
 use etendue_render::area::Area;
 use etendue_render::film::Film;
@@ -60,7 +60,7 @@ fn wish(shared: &Shared, body: &[u8]) -> Result<(), String> {
         }
     }
     drop(state);
-    shared.wish(|wishes: &mut Wishes| *wishes = next);
+    shared.wish(next);
     Ok(())
 }
 

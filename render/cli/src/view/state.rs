@@ -4,7 +4,7 @@ use etendue_render::area::Area;
 use etendue_render::claim::Claim;
 use etendue_render::film::Film;
 use etendue_render::{Sampler, Technique};
-use std::sync::atomic::{AtomicU64, AtomicUsize};
+use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
@@ -84,6 +84,8 @@ impl State {
 pub(crate) struct Shared {
     state: Mutex<State>,
     changed: Condvar,
+    /// Ends a pass that is not wished any more.
+    pub(crate) stop: AtomicBool,
     /// The pixels of the pass that are done, and all of them.
     pub(crate) done: AtomicU64,
     pub(crate) of: AtomicU64,
@@ -93,18 +95,32 @@ pub(crate) struct Shared {
 
 impl Shared {
     pub(crate) fn new(state: State) -> Self {
-        let (done, of, sending) = Default::default();
-        Self { state: Mutex::new(state), changed: Condvar::new(), done, of, sending }
+        let (stop, done, of, sending) = Default::default();
+        Self { state: Mutex::new(state), changed: Condvar::new(), stop, done, of, sending }
     }
 
     pub(crate) fn lock(&self) -> MutexGuard<'_, State> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Changes the wishes, and wakes the rendering thread.
-    pub(crate) fn wish(&self, change: impl FnOnce(&mut Wishes)) {
-        change(&mut self.lock().wishes);
+    /// Changes the wishes, and wakes the rendering thread. It ends its pass if another image or part is wished, but not to pause.
+    pub(crate) fn wish(&self, next: Wishes) {
+        let mut state = self.lock();
+        let before = Wishes { paused: next.paused, ..state.wishes };
+        if before != next {
+            self.stop.store(true, Ordering::Relaxed);
+            self.done.store(0, Ordering::Relaxed);
+        }
+        state.wishes = next;
+        drop(state);
         self.changed.notify_all();
+    }
+
+    /// The wishes for the next pass.
+    pub(crate) fn wishes(&self) -> Wishes {
+        let state = self.lock();
+        self.stop.store(false, Ordering::Relaxed);
+        state.wishes
     }
 
     /// Waits until there are other wishes than these, but not longer than this.

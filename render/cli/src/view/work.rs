@@ -26,7 +26,7 @@ const MOST_PIXELS: u64 = 1 << 24;
 const BYTES: u64 = 28 + 8 + 28;
 /// Greatest size of all images that are kept, except that the last two are.
 const MOST_KEPT: u64 = 1 << 30;
-/// A pass takes a quarter of the time so far, within these bounds in seconds, so that wishes wait no longer.
+/// A pass takes a quarter of the time so far, within these bounds in seconds, unless its least number of samples takes longer.
 const PASS: [f64; 2] = [0.1, 1.0];
 /// The files of the scene are looked at, and a display server is sent an image, no more often than that.
 const LOOK: Duration = Duration::from_secs(1);
@@ -129,7 +129,7 @@ impl Worker<'_> {
                 let changed = subject.watch.changed().map(|path| path.display().to_string());
                 shared.lock().changed = changed;
             }
-            let wishes = shared.lock().wishes;
+            let wishes = shared.wishes();
             if wishes.reload {
                 self.reload(&mut subject, &mut kept, shared);
                 continue;
@@ -145,7 +145,8 @@ impl Worker<'_> {
             let end = current.refined.known().and_then(|known| self.end(known, wishes.crop));
             let is_idle = wishes.paused || end.is_some();
             if !is_idle {
-                let known = self.pool.install(|| current.pass(&subject, wishes.crop, self.goal, shared));
+                let passed = self.pool.install(|| current.pass(&subject, wishes.crop, self.goal, shared));
+                let Some(known) = passed else { continue };
                 done.version += 1;
                 let end = self.end(known, wishes.crop);
                 let picture = current.picture(&subject, done.version, end);
@@ -269,8 +270,8 @@ fn forgotten<T>(kept: &mut Vec<T>, pixels: u64) -> Vec<T> {
 }
 
 impl Kept {
-    /// Renders one more pass.
-    fn pass(&mut self, subject: &Subject, crop: Option<Area>, goal: Goal, shared: &Shared) -> &Progress {
+    /// Renders one more pass, unless it is stopped.
+    fn pass(&mut self, subject: &Subject, crop: Option<Area>, goal: Goal, shared: &Shared) -> Option<&Progress> {
         let whole = subject.settings.whole();
         // passes of a part join one of the whole with the same sampler
         let has_begun = self.refined.known().is_some_and(|known| known.passes[0].sampler == self.way.sampler);
@@ -283,7 +284,7 @@ impl Kept {
         let progress = |pixels: u64| {
             shared.done.fetch_add(pixels, Ordering::Relaxed);
         };
-        let known = self.refined.pass(&subject.world, spp, area, &progress);
+        let known = self.refined.pass(&subject.world, spp, area, &shared.stop, &progress)?;
         if let Some(claim) = known.error {
             let is_near = |[last, _]: &[f64; 2], before: &[f64; 2]| *last < APART * before[0];
             if let [.., before, last] = &self.history[..]
@@ -293,7 +294,7 @@ impl Kept {
             }
             self.history.push([known.seconds, claim.total()]);
         }
-        known
+        Some(known)
     }
 
     /// What to show of it, once it has had a pass.

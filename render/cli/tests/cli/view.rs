@@ -293,6 +293,27 @@ fn each_technique_and_sampler_keeps_its_samples() {
     }
 }
 
+/// A pass that takes long does not delay what is wished next: it is thrown away.
+#[test]
+fn a_wish_ends_the_pass() {
+    let folder = Folder::new();
+    let more = ["--size", "512x512", "--threads", "1", "--technique", "area"];
+    let viewer = Viewer::with(&folder, &[&["view", "quads"], &more[..]].concat());
+    let in_second = |status: &Value| (0.01..0.6).contains(&status["pass"].as_f64().unwrap());
+    viewer.until("the second pass renders", |status| spp(status, "area", "adaptive") == 2.0 && in_second(status));
+    viewer.wish("{\"technique\":\"brdf\",\"sampler\":\"sobol\"}");
+    let other = viewer.until("there is another image", |status| spp(status, "brdf", "sobol") > 0.0);
+    assert_eq!(spp(&other, "area", "adaptive"), 2.0);
+    // to pause is no reason to lose one
+    viewer.wish("{\"technique\":\"area\",\"sampler\":\"adaptive\"}");
+    viewer.until("the second pass renders", |status| {
+        assert_eq!(spp(status, "area", "adaptive"), 2.0);
+        status["way"]["technique"] == "area" && in_second(status) && status["pass"].as_f64() > Some(0.1)
+    });
+    viewer.wish("{\"paused\":true}");
+    viewer.until("the second pass has ended", |status| spp(status, "area", "adaptive") > 2.0);
+}
+
 #[test]
 fn an_interruption_writes_the_image_that_is_shown() {
     let folder = Folder::new();
