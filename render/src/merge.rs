@@ -401,7 +401,7 @@ fn allot(frame: &Frame, pieces: Vec<Piece>) -> Result<Piece, String> {
         let Content::Pilot(pixels) = content else { return Err("a part is not what its header says".into()) };
         paste(&mut pilot, whole, area, pixels);
     }
-    Ok(Piece { area: whole, content: Content::Allotment(Allotment::new(&frame.settings, frame.lens, &pilot)) })
+    Ok(Piece { area: whole, content: Content::Allotment(Allotment::new(&frame.settings, frame.lens, whole, &pilot)) })
 }
 
 fn join(

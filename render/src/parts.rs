@@ -2,6 +2,10 @@
 //!
 //! A part has pieces, which are of a rectangle of tiles each. A piece holds the finished pixels, or the sums of a range of the samples of
 //! each pixel. With the adaptive sampler, it holds what the pilot found, or how many samples the pixels receive after it.
+//!
+//! Its file is an OpenEXR file. In its header, `etendue.frame` identifies the image, and `etendue.part` says what the part holds, with
+//! checksums. A range has the sum of each block of samples in double precision, `sum.FIRST-END.R` and so on, as two integer channels: the
+//! upper and the lower half of the bits.
 
 use crate::area;
 use crate::area::Area;

@@ -5,11 +5,13 @@
 //! never on the samples. The number of samples of a pass, and the decision to stop, depend on the time, or on the error of the whole
 //! image so far; to that a pixel contributes no more than its share in the sum over all pixels.
 
+use crate::area::{self, Area};
 use crate::claim::{Claim, why_unknown};
-use crate::film::Film;
-use crate::integrator::{RayCount, Settings, World};
+use crate::film::{Film, Pixel};
+use crate::integrator::{Content, RayCount, Samples, Settings, World};
 use crate::limits::MOST_SAMPLES;
 use crate::sampler::{Sampler, default_sampler, mixed, reports_variance};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 /// When an image is finished: as soon as one of these is reached.
@@ -35,13 +37,13 @@ pub struct Pass {
 }
 
 /// The mean of the passes so far.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Progress {
     /// The image.
     pub film: Film,
     /// Its estimated error; `None` if it is not known.
     pub error: Option<Claim>,
-    /// Samples per pixel of the image.
+    /// Samples per pixel of the image, without those of passes of a part.
     pub spp: u64,
     /// The passes of the image, in order.
     pub passes: Vec<Pass>,
@@ -127,12 +129,125 @@ impl Refinement {
     }
 }
 
+/// An image that is refined pass by pass, each of the whole or of a part.
+///
+/// Passes that are too small for the sampler of larger ones are a preview: they are no part of the image as soon as there is a larger one,
+/// since their error is too large for their weight.
+#[derive(Clone, Debug)]
+pub struct Refined {
+    plan: Refinement,
+    counts: Vec<u32>,
+    /// The least number of samples with the sampler of large passes.
+    full: u32,
+    /// The error of closed forms, see [`View::systematic`](crate::View::systematic).
+    systematic: f64,
+    /// The sum of the weights of all passes: of all pixels, or of each as soon as one pass was of a part.
+    weights: Vec<f64>,
+    /// Number of passes so far, also of those that are no part of the image.
+    index: u64,
+    /// Seconds that a sample of the last pass took.
+    pace: f64,
+    known: Option<Progress>,
+}
+
+impl Refined {
+    /// An image without samples.
+    ///
+    /// # Errors
+    /// Fails if no number of samples has a variance, but the goal is an error.
+    pub fn new(world: &World, plan: &Refinement) -> Result<Self, String> {
+        let counts = plan.counts()?;
+        // smaller passes have another sampler
+        let full =
+            counts.iter().copied().find(|&n| plan.sampler_of(n) == plan.sampler_of(MOST_SAMPLES)).unwrap_or(counts[0]);
+        let systematic = world.view(&plan.settings).systematic();
+        Ok(Self { plan: *plan, counts, full, systematic, weights: Vec::new(), index: 0, pace: 0.0, known: None })
+    }
+
+    /// What is known after the last pass.
+    #[must_use]
+    pub const fn known(&self) -> Option<&Progress> {
+        self.known.as_ref()
+    }
+
+    /// The number of samples of a pass of an area that takes about as many seconds, from the speed of the last one, but not fewer than the
+    /// sampler of large passes allows; the least number before the first pass, even if that then is a preview.
+    #[must_use]
+    pub fn lasting(&self, seconds: f64, area: Area) -> u32 {
+        let last = self.known.as_ref().and_then(|known| known.passes.last());
+        let Some(last) = last else { return self.counts[0] };
+        let counts = self.following(last.spp);
+        let most = self.most_after(last.spp).min(seconds / (self.pace * area::count(area) as f64));
+        at_most(counts, most.max(f64::from(self.full))).unwrap_or(counts[0])
+    }
+
+    /// The numbers of samples that a pass after one of so many may have.
+    fn following(&self, spp: u32) -> &[u32] {
+        let full = self.counts.partition_point(|&n| n < self.full);
+        if spp < self.full { &self.counts } else { &self.counts[full..] }
+    }
+
+    /// The greatest number of samples of a pass, if the largest so far had so many.
+    fn most_after(&self, largest: u32) -> f64 {
+        f64::from(largest.saturating_mul(GROWTH).max(self.full))
+    }
+
+    /// Renders one more pass, of `spp` samples for each pixel of an area that consists of [tiles](Settings::is_of_tiles), and returns what
+    /// is known after it. `progress` receives the number of newly finished pixels. As soon as `stop` is true, the pass ends and is thrown
+    /// away, and nothing is returned.
+    ///
+    /// # Panics
+    /// Panics if the first pass is not of the whole image, or the first with the sampler of large ones.
+    pub fn pass(
+        &mut self,
+        world: &World,
+        spp: u32,
+        area: Area,
+        stop: &AtomicBool,
+        progress: &(dyn Fn(u64) + Sync),
+    ) -> Option<&Progress> {
+        let (settings, began) = (self.plan.settings, Instant::now());
+        let of_pass =
+            Settings { spp, sampler: self.plan.sampler_of(spp), seed: seed(settings.seed, self.index), ..settings };
+        let (content, rays) = world.view(&of_pass).stopped_by(stop).render(area, Samples::All, progress);
+        if stop.load(Ordering::Relaxed) {
+            return None;
+        }
+        self.index += 1;
+        let Content::Pixels(pixels) = content else { unreachable!("all samples make finished pixels") };
+        let seconds = began.elapsed().as_secs_f64();
+        self.pace = seconds / (f64::from(spp) * area::count(area) as f64);
+        let pass = Pass { spp, sampler: of_pass.sampler, seed: of_pass.seed, seconds };
+        let (own, whole) = (f64::from(spp).powf(self.plan.power()), settings.whole());
+        let mean = match self.known.take() {
+            Some(mut mean) if mean.passes[0].sampler == pass.sampler => {
+                if area != whole && self.weights.len() == 1 {
+                    self.weights = vec![self.weights[0]; area::count(whole)];
+                }
+                add(&mut mean.film, &mut self.weights, &pixels, area, own);
+                mean.error = Claim::new(&mean.film, self.systematic);
+                mean.spp += if area == whole { spp.into() } else { 0 };
+                mean.passes.push(pass);
+                Progress { seconds: mean.seconds + seconds, rays: sum(mean.rays, rays), ..mean }
+            }
+            // the first pass with the sampler of all that follow
+            earlier => {
+                assert_eq!(area, whole, "the first pass is of the whole image");
+                self.weights = vec![own];
+                let (before, rays) = earlier.map_or((0.0, rays), |mean| (mean.seconds, sum(mean.rays, rays)));
+                let film = Film { width: settings.width, height: settings.height, pixels };
+                let error = Claim::new(&film, self.systematic);
+                Progress { film, error, spp: spp.into(), passes: vec![pass], seconds: before + seconds, rays }
+            }
+        };
+        Some(self.known.insert(mean))
+    }
+}
+
 /// Renders an image in passes until its goal is reached. `progress` receives the number of newly finished pixels of a pass, `start`
 /// what is known before each pass and its number of samples, and `finish` what is known after it.
 ///
-/// The first pass always completes. After it, a pass begins only if it is predicted to end in time. Passes that are too small for the
-/// sampler of larger ones are a preview: they are no part of the image as soon as there is a larger one, since their error is too large
-/// for their weight.
+/// The first pass always completes. After it, a pass begins only if it is predicted to end in time.
 ///
 /// # Errors
 /// Fails if no number of samples has a variance, but the goal is an error; if `finish` fails; if the error of the image is
@@ -144,59 +259,32 @@ pub fn render(
     mut start: impl FnMut(Option<&Progress>, u32),
     mut finish: impl FnMut(&Progress) -> Result<(), String>,
 ) -> Result<Progress, String> {
-    let (settings, goal, power) = (plan.settings, plan.goal, plan.power());
-    let counts = plan.counts()?;
+    let (settings, goal) = (plan.settings, plan.goal);
     let pixels = f64::from(settings.width) * f64::from(settings.height);
-    // smaller passes have another sampler
-    let full =
-        counts.iter().copied().find(|&n| plan.sampler_of(n) == plan.sampler_of(MOST_SAMPLES)).unwrap_or(counts[0]);
-    let systematic = world.view(&settings).systematic();
+    let mut refined = Refined::new(world, plan)?;
+    let (counts, full, never) = (&refined.counts, refined.full, AtomicBool::new(false));
     let began = Instant::now();
     // a preview only measures the time
-    let mut next = at_most(&counts, first(goal, pixels)).filter(|&n| n >= full).unwrap_or(counts[0]);
-    let mut known: Option<Progress> = None;
-    let mut weight = 0.0;
-    for index in 0.. {
-        start(known.as_ref(), next);
-        let pass_began = Instant::now();
-        let of_pass =
-            Settings { spp: next, sampler: plan.sampler_of(next), seed: seed(settings.seed, index), ..settings };
-        let (film, rays) = world.render(&of_pass, progress);
-        let [seconds, pass_seconds] = [began, pass_began].map(|start| start.elapsed().as_secs_f64());
-        let pass = Pass { spp: next, sampler: of_pass.sampler, seed: of_pass.seed, seconds: pass_seconds };
-        let own = f64::from(next).powf(power);
-        let mean = match known.take() {
-            Some(mut mean) if mean.passes.iter().all(|p| p.sampler == pass.sampler) => {
-                weight += own;
-                add(&mut mean.film, &film, own / weight);
-                mean.error = Claim::new(&mean.film, systematic);
-                mean.spp += u64::from(next);
-                mean.passes.push(pass);
-                Progress { seconds, rays: sum(mean.rays, rays), ..mean }
-            }
-            // the first pass with the sampler of all that follow
-            earlier => {
-                weight = own;
-                let rays = earlier.map_or(rays, |mean| sum(mean.rays, rays));
-                let error = Claim::new(&film, systematic);
-                Progress { film, error, spp: next.into(), passes: vec![pass], seconds, rays }
-            }
-        };
+    let mut next = at_most(counts, first(goal, pixels)).filter(|&n| n >= full).unwrap_or(counts[0]);
+    loop {
+        start(refined.known(), next);
+        refined.pass(world, next, settings.whole(), &never, progress);
+        let Some(mut mean) = refined.known.take() else { unreachable!("a pass has ended") };
+        mean.seconds = began.elapsed().as_secs_f64();
         if let (Goal { error: Some(target), seconds: None }, Some(claim)) = (goal, mean.error) {
             claim.check(target)?;
         }
         finish(&mean)?;
-        let counts = if next < full { &counts[..] } else { &counts[counts.partition_point(|&n| n < full)..] };
-        match decide(&mean, goal, weight, power, counts, full, began.elapsed().as_secs_f64()) {
+        let (weight, counts) = (refined.weights[0], refined.following(next));
+        match decide(&mean, goal, weight, plan.power(), counts, full, began.elapsed().as_secs_f64()) {
             Some(spp) => next = spp,
             None if goal.error.is_some() && mean.error.is_none() => {
                 return Err(format!("the relative error is not known, because {}", why_unknown(&mean.film, true)));
             }
             None => return Ok(mean),
         }
-        known = Some(mean);
+        refined.known = Some(mean);
     }
-    unreachable!("passes end before their indices do")
 }
 
 /// Greatest number of samples that the first pass may have: [`FIRST`], or fewer if they might take more than a quarter of the time.
@@ -254,9 +342,21 @@ fn seed(seed: u64, pass: u64) -> u64 {
     mixed(seed.wrapping_add(pass.wrapping_mul(0x9e37_79b9_7f4a_7c15)))
 }
 
-/// Moves the mean towards a pass that has this share of all weights.
-fn add(mean: &mut Film, pass: &Film, share: f64) {
-    for (a, b) in mean.pixels.iter_mut().zip(&pass.pixels) {
+/// Moves the mean towards the pixels of an area in a pass of this weight, and adds it to the weights: one of all pixels, or one of each.
+fn add(mean: &mut Film, weights: &mut [f64], pass: &[Pixel], area: Area, own: f64) {
+    let width = mean.width;
+    if let [weight] = weights {
+        *weight += own;
+    }
+    for (b, [x, y]) in pass.iter().zip(area::pixels(area)) {
+        let index = y as usize * width as usize + x as usize;
+        let share = if let [weight] = weights {
+            own / *weight
+        } else {
+            weights[index] += own;
+            own / weights[index]
+        };
+        let a = &mut mean.pixels[index];
         for k in 0..3 {
             let [x, y] = [a.mean[k], b.mean[k]].map(f64::from);
             let [v, w] = [a.variance[k], b.variance[k]].map(f64::from);
@@ -279,7 +379,8 @@ fn sum(a: RayCount, b: RayCount) -> RayCount {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::film::Pixel;
+
+    static NEVER: AtomicBool = AtomicBool::new(false);
 
     #[test]
     fn passes_are_averaged_by_their_weights() {
@@ -288,14 +389,77 @@ mod tests {
             height: 1,
             pixels: vec![Pixel { mean: [mean; 3], variance: [variance; 3], samples }],
         };
-        let mut mean = film(1.0, 8.0, 4);
-        add(&mut mean, &film(2.0, 4.0, 8), 0.75);
-        add(&mut mean, &film(5.0, 2.0, 16), 0.5);
+        let (mut mean, mut weights) = (film(1.0, 8.0, 4), vec![1.0]);
+        add(&mut mean, &mut weights, &film(2.0, 4.0, 8).pixels, [0, 0, 1, 1], 3.0);
+        add(&mut mean, &mut weights, &film(5.0, 2.0, 16).pixels, [0, 0, 1, 1], 4.0);
         // weights 1/8, 3/8 and 1/2
         assert_eq!(mean, film(0.125 + 0.75 + 2.5, 8.0 / 64.0 + 4.0 * 9.0 / 64.0 + 0.5, 28));
+        assert_eq!(weights, [8.0]);
+        // of two pixels, a pass of the second
+        let mut pair = Film { width: 2, height: 1, pixels: vec![film(1.0, 8.0, 4).pixels[0]; 2] };
+        let mut weights = vec![1.0, 1.0];
+        add(&mut pair, &mut weights, &film(2.0, 4.0, 8).pixels, [1, 0, 2, 1], 3.0);
+        assert_eq!((pair.pixels[0], pair.pixels[1]), (film(1.0, 8.0, 4).pixels[0], film(1.75, 2.75, 12).pixels[0]));
+        assert_eq!(weights, [1.0, 4.0]);
         assert_eq!(seed(7, 0), 7);
         // the first output of SplitMix64 of the seed 0
         assert_eq!(seed(0, 1), 0xe220_a839_7b1d_cdaf);
+    }
+
+    /// Passes of a part change its pixels alone, and their number of samples follows the time of the last pass.
+    #[test]
+    fn a_part_takes_passes_of_its_own() {
+        let scene = crate::scene::load("quads").unwrap();
+        let world = World::new(&scene).unwrap();
+        for sampler in [Sampler::Adaptive, Sampler::Independent] {
+            let technique = crate::Technique::SolidAngle;
+            let settings = Settings { width: 40, height: 32, spp: 16, technique, depth: 8, sampler, sets: 0, seed: 3 };
+            let plan = Refinement { settings, sampler: Some(sampler), lens: false, goal: Goal::default() };
+            let mut refined = Refined::new(&world, &plan).unwrap();
+            assert_eq!(refined.lasting(100.0, settings.whole()), refined.counts[0]);
+            let first = refined.pass(&world, 16, settings.whole(), &NEVER, &|_| ()).unwrap().clone();
+            assert_eq!(first.film, world.render(&settings, &|_| ()).0);
+            let area = [16, 0, 40, 16];
+            // a pass that is stopped leaves no trace
+            assert_eq!(refined.pass(&world, 32, area, &AtomicBool::new(true), &|_| ()), None);
+            assert_eq!(refined.known(), Some(&first));
+            let second = refined.pass(&world, 32, area, &NEVER, &|_| ()).unwrap().clone();
+            let inside = |i: usize| i % 40 >= 16 && i / 40 < 16;
+            for (i, (a, b)) in first.film.pixels.iter().zip(&second.film.pixels).enumerate() {
+                assert_eq!(a == b, !inside(i), "pixel {i}");
+            }
+            assert!(second.error.unwrap().total() < first.error.unwrap().total(), "{sampler:?}");
+            // as the whole would have it, with a weight of its own in each pixel
+            let third = refined.pass(&world, 16, settings.whole(), &NEVER, &|_| ()).unwrap().clone();
+            assert_eq!(third.spp, 32);
+            assert!(third.film.pixels.iter().zip(&second.film.pixels).all(|(a, b)| a.samples > b.samples));
+            // a second for the last pass, which had 16 samples per pixel; a fifth of the pixels takes a fifth of it
+            refined.pace = 1.0 / (16.0 * 40.0 * 32.0);
+            let least = refined.full;
+            let lasting = |seconds| refined.lasting(seconds, settings.whole());
+            assert_eq!([1e-3, 1.0, 4.0, 1e9].map(lasting), [least, 16, 64, 128]);
+            assert_eq!(refined.lasting(1.0, [0, 0, 16, 16]), 64);
+        }
+    }
+
+    /// A preview shows the image early, and is no part of it later.
+    #[test]
+    fn a_preview_is_followed_by_passes_of_the_usual_sampler() {
+        let world = World::new(&crate::scene::load("quads").unwrap()).unwrap();
+        let (technique, sampler) = (crate::Technique::SolidAngle, Sampler::Adaptive);
+        let settings = Settings { width: 16, height: 16, spp: 16, technique, depth: 8, sampler, sets: 0, seed: 3 };
+        let plan = Refinement { settings, sampler: None, lens: false, goal: Goal::default() };
+        let mut refined = Refined::new(&world, &plan).unwrap();
+        assert_eq!(refined.lasting(1e9, settings.whole()), 2);
+        assert_eq!(
+            refined.pass(&world, 2, settings.whole(), &NEVER, &|_| ()).unwrap().passes[0].sampler,
+            Sampler::Sobol
+        );
+        assert_eq!([1e-9, 1e9].map(|seconds| refined.lasting(seconds, settings.whole())), [16, 16]);
+        let known = refined.pass(&world, 16, settings.whole(), &NEVER, &|_| ()).unwrap().clone();
+        assert_eq!((known.spp, known.passes.len(), known.passes[0].sampler), (16, 1, Sampler::Adaptive));
+        let alone = Settings { seed: seed(3, 1), ..settings };
+        assert_eq!(known.film, world.render(&alone, &|_| ()).0);
     }
 
     #[test]

@@ -3,7 +3,7 @@
 //!
 //! ```sh
 //! cargo run --release -p etendue-playground    # writes target/playground/index.html; needs rustup target add wasm32-unknown-unknown
-//! .ci/playground                               # drives it in a browser, and compares its numbers with the core bit by bit
+//! .ci/browser                                  # drives it in a browser, and compares its numbers with the core bit by bit
 //! ```
 //!
 //! The file holds everything: the core with its C interface, compiled to WebAssembly with its vectors; the list of lights and techniques,

@@ -16,7 +16,7 @@ pub(crate) struct ImageOptions {
     pub(crate) scene: OsString,
     /// Take this many samples per pixel [default: from the scene]
     #[arg(long, value_name = "N", value_parser = whole::<u32>(1..=MOST_SAMPLES.into()))]
-    spp: Option<u32>,
+    pub(crate) spp: Option<u32>,
     /// Sample the lights by this technique
     #[arg(long, value_enum, default_value = "auto")]
     technique: Technique,

@@ -8,29 +8,37 @@ use std::path::Path;
 use std::process;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// What to say when the program is interrupted.
-#[derive(Debug)]
+/// What to do and to say when the program is interrupted.
 pub(crate) struct Status {
     /// The progress bar to clear.
     pub(crate) bar: ProgressBar,
     /// Which image, if any, is on disk.
     pub(crate) text: String,
+    /// Writes an image that is newer than the one on disk, and returns which that is then.
+    pub(crate) last: Option<Last>,
 }
 
+type Last = Box<dyn FnOnce() -> Result<String, String> + Send>;
+
 /// The status, shared with the handler of signals.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub(crate) struct Interrupt(Arc<Mutex<Status>>);
 
 impl Interrupt {
     /// Installs the handler, before other threads are started.
     pub(crate) fn new() -> io::Result<Self> {
-        let status = Status { bar: ProgressBar::hidden(), text: "nothing was written".into() };
+        let status = Status { bar: ProgressBar::hidden(), text: "nothing was written".into(), last: None };
         let interrupt = Self(Arc::new(Mutex::new(status)));
         let handler = interrupt.clone();
         on_end(move |code| {
-            let status = handler.lock();
+            let mut status = handler.lock();
             status.bar.finish_and_clear();
-            say(format_args!("interrupted: {}", status.text));
+            let text = match status.last.take().map(|write| write()) {
+                Some(Ok(text)) => text,
+                Some(Err(error)) => format!("{error}; {}", status.text),
+                None => status.text.clone(),
+            };
+            say(format_args!("interrupted: {text}"));
             process::exit(code);
         })?;
         Ok(interrupt)
@@ -43,6 +51,6 @@ impl Interrupt {
     pub(crate) fn watch(&self, bar: &ProgressBar, file: &Path) {
         let state = if file.exists() { "is unchanged" } else { "does not exist" };
         let text = format!("nothing was written; {} {state}", file.display());
-        *self.lock() = Status { bar: bar.clone(), text };
+        *self.lock() = Status { bar: bar.clone(), text, last: None };
     }
 }

@@ -2,6 +2,7 @@
 
 mod attack;
 mod compare;
+mod display;
 mod image;
 mod interrupt;
 mod list;
@@ -13,6 +14,7 @@ mod processor;
 mod progress;
 mod render;
 mod selftest;
+mod view;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use etendue_laboratory::{atlas, chart, figure};
@@ -35,6 +37,8 @@ struct Cli {
 enum Command {
     /// Render a scene to an EXR file, with a PNG beside it
     Render(render::Options),
+    /// Show an image in the browser while it improves
+    View(view::Options),
     /// Print the commands that render an image in parts, on any number of machines
     Plan(plan::Options),
     /// Put parts of an image together
@@ -86,6 +90,8 @@ fn arguments() -> Cli {
             if takes_hyphen { argument.allow_hyphen_values(true) } else { argument }
         })
     });
+    // a view has no number of samples, and says so to whoever asks for one
+    let command = command.mut_subcommand("view", |view| view.mut_arg("spp", |spp| spp.hide(true)));
     Cli::from_arg_matches(&command.get_matches()).unwrap_or_else(|error| error.exit())
 }
 
@@ -94,6 +100,7 @@ fn run(command: Command) -> Result<ExitCode, Box<dyn Error>> {
         Command::Selftest(options) if !selftest::run(&options)? => return Ok(ExitCode::FAILURE),
         Command::Selftest(_) => {}
         Command::Render(options) => render::run(&options)?,
+        Command::View(options) => view::run(&options)?,
         Command::Plan(options) => plan::run(&options)?,
         Command::Merge(options) => merge::run(&options)?,
         Command::Compare(options) => compare::run(&options)?,

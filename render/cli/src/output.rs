@@ -1,5 +1,7 @@
 //! The files that `render` writes: their names, the checks before rendering, and their contents.
 
+use crate::interrupt::Interrupt;
+use etendue_render::claim::Claim;
 use etendue_render::film::Film;
 use etendue_render::scene::Scene;
 use etendue_render::{files, image};
@@ -86,4 +88,37 @@ impl Output {
         };
         written.map_err(|error| format!("{error}; {} was written, but its PNG was not", self.exr.display()))
     }
+
+    /// Like [`Output::write`]; an interruption meanwhile waits, and one after it says what the files hold.
+    ///
+    /// # Errors
+    /// Fails if a file cannot be written; the message says what has been written.
+    pub(crate) fn save(
+        &self,
+        interrupt: &Interrupt,
+        film: &Film,
+        exposure: f64,
+        spp: u64,
+        error: Option<Claim>,
+    ) -> Result<(), String> {
+        let mut status = interrupt.lock();
+        self.write(film, exposure)?;
+        status.text = self.holds(spp, error);
+        status.last = None;
+        Ok(())
+    }
+
+    /// What to say of the files.
+    pub(crate) fn holds(&self, spp: u64, error: Option<Claim>) -> String {
+        let error = error.map_or_else(|| "not known".to_owned(), |claim| percent(claim.total()));
+        format!("{} holds an image of {spp} samples per pixel, estimated error {error}", self.exr.display())
+    }
+}
+
+/// A fraction as a percentage with three digits.
+pub(crate) fn percent(x: f64) -> String {
+    let x = 100.0 * x;
+    // 0 has no logarithm
+    let digits = (2.0 - x.log10().floor()).clamp(0.0, 8.0) as usize;
+    format!("{x:.digits$} %")
 }

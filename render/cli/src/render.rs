@@ -1,8 +1,9 @@
 //! `etendue render`: renders a scene with a given number of samples, or until its error or the time is what was asked for.
 
+use crate::display::{Display, DisplayOptions};
 use crate::image::ImageOptions;
 use crate::interrupt::Interrupt;
-use crate::output::Output;
+use crate::output::{Output, percent};
 use crate::part::{self, PartOptions};
 use crate::progress::bar;
 use clap::Args;
@@ -13,6 +14,7 @@ use etendue_render::progressive::{self, Goal, Pass, Progress, Refinement};
 use etendue_render::sampler::reports_variance;
 use etendue_render::{RayCount, Sampler, Sensor, Settings, Technique, World};
 use serde_json::{Value, json};
+use std::cell::RefCell;
 use std::error::Error;
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -36,19 +38,21 @@ pub(crate) struct Options {
     /// Render the same image this many times, for timing
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = whole::<u32>(1..=1_000_000), conflicts_with = "parts")]
     repeat: u32,
+    #[command(flatten)]
+    display: DisplayOptions,
     /// Print the result as one JSON object
     #[arg(long)]
     json: bool,
 }
 
 /// Parses `--time`.
-fn seconds(text: &str) -> Result<f64, String> {
+pub(crate) fn seconds(text: &str) -> Result<f64, String> {
     let valid = text.parse::<f64>().ok().filter(|s| s.is_finite() && *s > 0.0);
     valid.ok_or_else(|| "must be a number of seconds greater than 0, such as 10 or 0.5".to_owned())
 }
 
 /// Parses `--error`: a fraction or a percentage.
-fn fraction(text: &str) -> Result<f64, String> {
+pub(crate) fn fraction(text: &str) -> Result<f64, String> {
     let number = |text: &str| text.trim().parse::<f64>().ok();
     let value = text.strip_suffix('%').map_or_else(|| number(text), |percent| number(percent).map(|x| x / 100.0));
     // f32 holds the mean of a pixel to 6e-8 of itself
@@ -91,6 +95,7 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
         Some(plan) => plan.check().map_err(|what| format!("--{}: {what}", goal.option()))?,
     }
     if let Some(content) = options.part.content(&settings)? {
+        options.display.check_is_unused()?;
         return part::run(image, &content, options.output.as_deref(), scene, settings, options.json, &interrupt);
     }
     let output = Output::new(options.output.as_deref(), &scene, image.stem())?;
@@ -100,8 +105,9 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     let world = pool.install(|| World::from_scene(&mut scene))?.with_sensor(image.sensor);
     let build = start.elapsed().as_secs_f64();
 
-    let studio = Session { world: &world, settings, output: &output, interrupt: &interrupt };
-    let done = pool.install(|| match &plan {
+    let display = RefCell::new(options.display.connect(&output.exr));
+    let studio = Session { world: &world, settings, output: &output, interrupt: &interrupt, display };
+    let done = pool.install(move || match &plan {
         None => studio.once(options.repeat, lens),
         Some(plan) => studio.refine(plan),
     })?;
@@ -124,6 +130,7 @@ struct Session<'a> {
     settings: Settings,
     output: &'a Output,
     interrupt: &'a Interrupt,
+    display: RefCell<Display>,
 }
 
 impl Session<'_> {
@@ -185,22 +192,11 @@ impl Session<'_> {
     }
 
     fn write(&self, film: &Film, spp: u64, error: Option<Claim>) -> Result<(), String> {
-        let mut status = self.interrupt.lock();
         let exposure = self.world.exposure(film.width, film.height);
-        self.output.write(film, exposure.map_or(1.0, |exposure| exposure.on_axis()))?;
-        let error = error.map_or_else(|| "not known".to_owned(), |claim| percent(claim.total()));
-        status.text =
-            format!("{} holds an image of {spp} samples per pixel, estimated error {error}", self.output.exr.display());
+        self.output.save(self.interrupt, film, exposure.map_or(1.0, |exposure| exposure.on_axis()), spp, error)?;
+        self.display.borrow_mut().show(film);
         Ok(())
     }
-}
-
-/// A fraction as a percentage with three digits.
-fn percent(x: f64) -> String {
-    let x = 100.0 * x;
-    // 0 has no logarithm
-    let digits = (2.0 - x.log10().floor()).clamp(0.0, 8.0) as usize;
-    format!("{x:.digits$} %")
 }
 
 fn median(values: &[f64]) -> f64 {

@@ -95,18 +95,17 @@ pub struct Allotment {
 }
 
 impl Allotment {
-    /// From the pilot of a whole image.
+    /// From the pilot of an area, whose pixels share its samples. For the image, that is the whole.
     ///
     /// # Panics
-    /// Panics if the pilot is not one of the image's size.
+    /// Panics if the pilot is not one of the area's size.
     #[must_use]
-    pub fn new(settings: &Settings, lens: bool, pilot: &[Statistics]) -> Self {
-        let &Settings { width, height, .. } = settings;
-        assert_eq!(pilot.len(), width as usize * height as usize);
-        let (packets, weights) = allot(pilot, width, &Effort::new(settings, lens));
+    pub fn new(settings: &Settings, lens: bool, area: Area, pilot: &[Statistics]) -> Self {
+        assert_eq!(pilot.len(), area::count(area));
+        let (packets, weights) = allot(pilot, area[2] - area[0], &Effort::new(settings, lens));
         let (lights, of) = weights.unwrap_or_default();
         Self {
-            area: [0, 0, width, height],
+            area,
             packets,
             lights,
             weights: of,

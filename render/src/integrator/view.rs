@@ -16,6 +16,7 @@ use crate::sums::{Moments, Planes, Sample, Sum};
 use crate::technique::Technique;
 use rayon::prelude::*;
 use std::ops::Range;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Greatest number of tiles that are looked at to bound what closed forms leave.
 const BOUNDED: usize = 16;
@@ -52,6 +53,7 @@ pub struct View<'a> {
     world: &'a World,
     camera: Camera,
     settings: Settings,
+    stop: Option<&'a AtomicBool>,
 }
 
 impl World {
@@ -62,13 +64,21 @@ impl World {
 
     /// Like [`World::view`], with a camera other than the scene's, made for an image of this size.
     pub fn view_through(&self, camera: &Camera, settings: &Settings) -> View<'_> {
-        let view = View { world: self, camera: *camera, settings: *settings };
+        let view = View { world: self, camera: *camera, settings: *settings, stop: None };
         if settings.technique == Technique::Auto { view.by(view.choose()) } else { view }
     }
 
     /// Renders the image of the scene's camera, as [`View::image`] does.
     pub fn render(&self, settings: &Settings, progress: &(dyn Fn(u64) + Sync)) -> (Film, RayCount) {
         self.view(settings).image(progress)
+    }
+}
+
+impl<'a> View<'a> {
+    /// The same, but as soon as `stop` is true, all tiles that have not begun are left black. Not for a range of samples.
+    #[must_use]
+    pub const fn stopped_by(self, stop: &'a AtomicBool) -> Self {
+        Self { stop: Some(stop), ..self }
     }
 }
 
@@ -146,20 +156,19 @@ impl View<'_> {
     }
 
     /// Renders some of the samples of an area, which must consist of [tiles](Settings::is_of_tiles); calls `progress` with the number of
-    /// pixels for which they are newly finished. All samples, and those after a pilot, return pixels.
+    /// pixels for which they are newly finished. All samples, and those after a pilot, return pixels. With [`Sampler::Adaptive`], the pixels
+    /// of the area share all samples among themselves, so that they differ from those of a larger area.
     ///
     /// # Panics
-    /// Panics if the sampler has no such samples, or if the area does not consist of tiles. All samples of [`Sampler::Adaptive`] need the
-    /// whole image.
+    /// Panics if the sampler has no such samples, or if the area does not consist of tiles.
     pub fn render(&self, area: Area, samples: Samples, progress: &(dyn Fn(u64) + Sync)) -> (Content, RayCount) {
         let (settings, camera) = (&self.settings, &self.camera);
         let is_adaptive = settings.sampler == Sampler::Adaptive;
         assert!(settings.is_of_tiles(area));
         match samples {
             Samples::All if is_adaptive => {
-                assert_eq!(area, settings.whole(), "a pilot allots samples to the whole image");
                 let (found, mut rays) = self.pilot(area, &|_| ());
-                let allotment = Allotment::new(settings, camera.has_lens(), &found);
+                let allotment = Allotment::new(settings, camera.has_lens(), area, &found);
                 let (content, more) = self.render(area, Samples::Rest(&allotment), progress);
                 rays += more;
                 (content, rays)
@@ -284,6 +293,9 @@ impl View<'_> {
             .map_init(
                 || self.renderer(),
                 |renderer, area| {
+                    if self.stop.is_some_and(|stop| stop.load(Ordering::Relaxed)) {
+                        return (area, vec![T::default(); area::count(area)], RayCount::default());
+                    }
                     let pixels = of(renderer, area);
                     (area, pixels, renderer.take_count())
                 },

@@ -25,7 +25,7 @@ impl Folder {
         }
         assert!(self.names() == names && contents() == before, "{more:?}: {names:?}, then {:?}", self.names());
     }
-    fn spawn(&self, arguments: &[&str]) -> Child {
+    pub(super) fn spawn(&self, arguments: &[&str]) -> Child {
         let program = env!("CARGO_BIN_EXE_etendue");
         // a test that runs in the background inherits ignored signals, which the program would go on ignoring
         let first: &[&str] =

@@ -2,10 +2,12 @@
 
 mod chart;
 mod damaged;
+mod display;
 mod lost;
 mod misuse;
 mod parts;
 mod refined;
+mod view;
 
 use serde_json::Value;
 use std::path::{Path, PathBuf};

@@ -1,0 +1,175 @@
+// The pixels of an image, and the canvas that shows them.
+
+/** The image of a way as the server has it now, or null if it has none yet. */
+async function receive({ technique, sampler }) {
+  const answer = await fetch(`image?technique=${technique}&sampler=${sampler}`);
+  if (answer.status === 404 || answer.status === 503) return null;
+  if (!answer.ok) throw new Error(`${answer.status}`);
+  const buffer = await answer.arrayBuffer();
+  const [width, height, version] = new Uint32Array(buffer, 0, 3);
+  const n = width * height;
+  return {
+    width,
+    height,
+    version,
+    mean: new Float32Array(buffer, 16, 3 * n),
+    variance: new Float32Array(buffer, 16 + 12 * n, 3 * n),
+    samples: new Uint32Array(buffer, 16 + 24 * n, n),
+  };
+}
+
+/** Variance of a pixel's mean: the mean over the channels. */
+const spread = ({ variance }, i) => (variance[3 * i] + variance[3 * i + 1] + variance[3 * i + 2]) / 3;
+/** The least and greatest number of a layer, for its colours. Variances that differ by more than 10⁶ have the same colour. */
+function ends(pixels, layer) {
+  let [low, high] = [Infinity, 0];
+  const { length } = pixels.samples;
+  for (let i = 0; i < length; i++) {
+    const x = layer === "samples" ? pixels.samples[i] : spread(pixels, i);
+    if (x < low && (layer === "samples" || x > 0)) low = x;
+    if (x > high && x < Infinity) high = x;
+  }
+  if (!(high > 0)) return [0, 1];
+  return layer === "samples" ? [low, high] : [Math.max(low, high * 1e-6), high];
+}
+
+/** An image in colours, made anew only if it or its colours change. */
+class Drawn {
+  constructor() {
+    this.canvas = document.createElement("canvas");
+  }
+  update(pixels, layer, gain, range) {
+    const key = [pixels.version, layer, gain, range].join();
+    if (this.key === key && this.pixels === pixels) return;
+    Object.assign(this, { key, pixels });
+    const { width, height } = pixels;
+    if (this.canvas.width !== width || this.canvas.height !== height || !this.image) {
+      this.canvas.width = width;
+      this.canvas.height = height;
+      this.context = this.canvas.getContext("2d");
+      this.image = this.context.createImageData(width, height);
+    }
+    const words = new Uint32Array(this.image.data.buffer);
+    if (layer === "radiance") this.tones(words, pixels.mean, gain);
+    else this.map(words, pixels, layer, range);
+    this.context.putImageData(this.image, 0, 0);
+  }
+  tones(words, mean, [first, second]) {
+    for (let i = 0, k = 0; i < words.length; i++, k += 3) {
+      words[i] = tone(
+        f32(f32(mean[k] * first) * second),
+        f32(f32(mean[k + 1] * first) * second),
+        f32(f32(mean[k + 2] * first) * second),
+      );
+    }
+  }
+  map(words, pixels, layer, [low, high]) {
+    const isCount = layer === "samples";
+    const scale = isCount ? (high > low ? 1 / (high - low) : 0) : high > low ? 1 / Math.log(high / low) : 0;
+    for (let i = 0; i < words.length; i++) {
+      const x = isCount ? pixels.samples[i] : spread(pixels, i);
+      const t = scale === 0 ? 0.5 : isCount ? (x - low) * scale : Math.log(x / low) * scale;
+      words[i] = Number.isFinite(x) ? heat(t) : NONE;
+    }
+  }
+}
+
+const ratio = () => window.devicePixelRatio || 1;
+/** Gives a canvas the pixels of its place. */
+function fit(canvas) {
+  const width = Math.max(1, Math.round(canvas.clientWidth * ratio()));
+  const height = Math.max(1, Math.round(canvas.clientHeight * ratio()));
+  if (canvas.width !== width) canvas.width = width;
+  if (canvas.height !== height) canvas.height = height;
+}
+
+/** Where pixels of the image are on the canvas: `zoom` canvas pixels each, with `centre` in the middle. */
+class Lens {
+  constructor() {
+    Object.assign(this, { size: [1, 1], centre: [0.5, 0.5], zoom: 1, isFit: true });
+  }
+  /** Shows all of an image of this size, unless a hand has chosen what is shown. */
+  update(canvas, [width, height]) {
+    if (this.size[0] !== width || this.size[1] !== height) Object.assign(this, { size: [width, height], isFit: true });
+    if (!this.isFit) return;
+    this.centre = [width / 2, height / 2];
+    this.zoom = Math.min(canvas.width / width, canvas.height / height);
+    // whole numbers of pixels look sharp
+    if (this.zoom >= 2) this.zoom = Math.floor(this.zoom);
+  }
+  toCanvas(canvas, [x, y]) {
+    return [(x - this.centre[0]) * this.zoom + canvas.width / 2, (y - this.centre[1]) * this.zoom + canvas.height / 2];
+  }
+  toImage(canvas, [x, y]) {
+    return [(x - canvas.width / 2) / this.zoom + this.centre[0], (y - canvas.height / 2) / this.zoom + this.centre[1]];
+  }
+  move([dx, dy]) {
+    this.isFit = false;
+    this.centre = this.centre.map((c, k) => Math.max(0, Math.min(this.size[k], c - [dx, dy][k] / this.zoom)));
+  }
+  /** Zooms by a factor, and keeps what is at this place of the canvas where it is. */
+  scale(canvas, factor, at) {
+    const before = this.toImage(canvas, at);
+    this.zoom = Math.max(1 / 64, Math.min(256, this.zoom * factor));
+    const after = this.toCanvas(canvas, before);
+    this.move([at[0] - after[0], at[1] - after[1]]);
+  }
+  /** Shows a pixel, if it is not shown. */
+  reveal(canvas, [x, y]) {
+    const [a, b] = [this.toCanvas(canvas, [x, y]), this.toCanvas(canvas, [x + 1, y + 1])];
+    const beyond = (low, high, end) => (low < 0 ? -low : high > end ? end - high : 0);
+    const move = [beyond(a[0], b[0], canvas.width), beyond(a[1], b[1], canvas.height)];
+    if (move[0] || move[1]) this.move(move);
+  }
+}
+
+/** Draws the image, the other one right of the slider, the part that receives samples, and the pixel that is read. */
+function draw(canvas, lens, first, second, wipe, crop, cursor) {
+  fit(canvas);
+  const context = canvas.getContext("2d");
+  lens.update(canvas, [first.width, first.height]);
+  context.clearRect(0, 0, canvas.width, canvas.height);
+  context.imageSmoothingEnabled = lens.zoom < 2 && lens.zoom !== 1;
+  const [left, top] = lens.toCanvas(canvas, [0, 0]).map(Math.round);
+  const place = [left, top, Math.round(first.width * lens.zoom), Math.round(first.height * lens.zoom)];
+  context.drawImage(first, ...place);
+  if (second) {
+    const x = Math.round(wipe * canvas.width);
+    context.save();
+    context.beginPath();
+    context.rect(x, 0, canvas.width - x, canvas.height);
+    context.clip();
+    context.fillStyle = "#12151c";
+    context.fillRect(x, 0, canvas.width - x, canvas.height);
+    context.drawImage(second, ...place);
+    context.restore();
+    context.fillStyle = "#ffffff";
+    context.fillRect(x - ratio(), 0, 2 * ratio(), canvas.height);
+  }
+  if (crop) {
+    const [x0, y0] = lens.toCanvas(canvas, [crop[0], crop[1]]);
+    const [x1, y1] = lens.toCanvas(canvas, [crop[2], crop[3]]);
+    for (const [color, dash] of [
+      ["#000000", []],
+      ["#ffd98a", [6 * ratio(), 6 * ratio()]],
+    ]) {
+      context.strokeStyle = color;
+      context.lineWidth = 2 * ratio();
+      context.setLineDash(dash);
+      context.strokeRect(x0, y0, x1 - x0, y1 - y0);
+    }
+    context.setLineDash([]);
+  }
+  if (cursor) {
+    const [x, y] = lens.toCanvas(canvas, [cursor[0] + 0.5, cursor[1] + 0.5]);
+    const half = Math.max(4 * ratio(), lens.zoom / 2 + 1.5 * ratio());
+    for (const [color, width] of [
+      ["#000000", 3],
+      ["#ffffff", 1.2],
+    ]) {
+      context.strokeStyle = color;
+      context.lineWidth = width * ratio();
+      context.strokeRect(x - half, y - half, 2 * half, 2 * half);
+    }
+  }
+}

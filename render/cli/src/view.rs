@@ -1,0 +1,95 @@
+//! `etendue view`: renders a scene pass by pass, and shows the image in the browser while it improves.
+//!
+//! The page is served on the loopback address alone, and its address has a random token. Connections, the time of each, requests and images
+//! that are being sent are limited in number and size (`view/http.rs`, `view/server.rs`, `view/answer.rs`), so that memory is, too: a
+//! client that does not read holds one of four images for at most 20 seconds. Each technique and sampler has an image of its own, which is
+//! kept while another one is shown, up to 1 GiB of them (`view/work.rs`).
+//!
+//! Samples go to the image that is shown, in passes of about a quarter of the time so far and at most a second, unless the least pass of the
+//! sampler takes longer. A wish for another image or part ends the pass, whose samples are lost.
+
+mod answer;
+mod http;
+mod page;
+mod server;
+mod state;
+mod watch;
+mod work;
+
+use crate::display::DisplayOptions;
+use crate::image::ImageOptions;
+use crate::interrupt::Interrupt;
+use crate::output::Output;
+use crate::progress::bar;
+use crate::render::{fraction, seconds};
+use clap::Args;
+use etendue_render::options::{out, pool, whole};
+use etendue_render::progressive::{Goal, Refinement};
+use etendue_render::sampler::default_sampler;
+use server::Server;
+use state::{Shared, Way};
+use std::error::Error;
+use std::io::Write;
+use std::path::PathBuf;
+use std::sync::Arc;
+use work::{Reading, Worker};
+
+/// The sampler is the best one for passes of as many samples.
+const USUAL: u32 = 64;
+
+#[derive(Args)]
+pub(crate) struct Options {
+    #[command(flatten)]
+    image: ImageOptions,
+    /// Write the image that is shown to this EXR file, and a PNG beside it [default: the scene's film filename, or SCENE.exr]
+    #[arg(short, long, value_name = "OUT.exr")]
+    output: Option<PathBuf>,
+    /// Refine an image until this many seconds of rendering have passed
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    time: Option<f64>,
+    /// Refine an image until its estimated error (relative RMS) is at most this, such as 0.01 or 1%
+    #[arg(long, value_name = "TARGET", value_parser = fraction)]
+    error: Option<f64>,
+    /// Serve the page on this port of 127.0.0.1, or on the next one that is free
+    #[arg(long, value_name = "N", default_value_t = 7450, value_parser = whole::<u16>(1..=65535))]
+    port: u16,
+    #[command(flatten)]
+    display: DisplayOptions,
+}
+
+/// Serves the page and renders, until the program is interrupted.
+pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
+    let interrupt = Interrupt::new()?;
+    let image = &options.image;
+    if image.spp.is_some() {
+        return Err("--spp: `etendue view` takes samples as long as it runs; --error or --time end them".into());
+    }
+    let reading = Reading::new(image)?;
+    let (settings, lens) = (reading.settings, reading.scene.camera.lens.is_some());
+    let goal = Goal { seconds: options.time, error: options.error };
+    let sampler = image.sampler.unwrap_or_else(|| default_sampler(USUAL, settings.sets, lens));
+    let plan = Refinement { settings, sampler: Some(sampler), lens, goal };
+    plan.check().map_err(|what| format!("--{}: {what}", goal.option()))?;
+    let output = Arc::new(Output::new(options.output.as_deref(), &reading.scene, image.stem())?);
+
+    let server = Server::new(options.port)?;
+    let pool = pool(image.threads)?;
+    let shared = Arc::new(Shared::new(Worker::state(Way { technique: settings.technique, sampler })));
+    let display = options.display.connect(&output.exr);
+    interrupt.watch(&bar(0, ""), &output.exr);
+    let said = if server.port() == options.port {
+        String::new()
+    } else {
+        format!("port {} is in use, so the page is on port {}\n", options.port, server.port())
+    };
+    let text = format!("{said}{} is shown at\n{}\nCtrl-C ends it\n", reading.scene.name, server.address());
+    let asked = Arc::clone(&shared);
+    server.serve(move |path, request| answer::answer(&asked, path, request))?;
+    {
+        // not locked longer than that
+        let mut out = out();
+        out.write_all(text.as_bytes())?;
+        out.flush()?;
+    }
+    Worker { image, goal, pool: &pool, output, interrupt: &interrupt, display }.run(reading, &shared)
+}

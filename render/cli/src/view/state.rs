@@ -1,0 +1,131 @@
+//! What the rendering thread and those of the clients share: what the page wishes, and what there is to show.
+
+use etendue_render::area::Area;
+use etendue_render::claim::Claim;
+use etendue_render::film::Film;
+use etendue_render::{Sampler, Technique};
+use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+
+/// How an image is sampled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Way {
+    pub(crate) technique: Technique,
+    pub(crate) sampler: Sampler,
+}
+
+/// What the page asks for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Wishes {
+    /// The image that is shown and receives samples.
+    pub(crate) way: Way,
+    /// The pixels that receive the samples, in whole tiles; `None` for all.
+    pub(crate) crop: Option<Area>,
+    pub(crate) paused: bool,
+    /// Whether the scene is to be read again.
+    pub(crate) reload: bool,
+}
+
+/// An image as it was after its last pass.
+#[derive(Clone, Debug)]
+pub(crate) struct Picture {
+    pub(crate) way: Way,
+    /// The technique that `auto` stands for, or the same one.
+    pub(crate) chosen: Technique,
+    pub(crate) film: Arc<Film>,
+    /// Increases with every pass of any image.
+    pub(crate) version: u64,
+    /// Samples per pixel, the mean over all pixels.
+    pub(crate) spp: f64,
+    pub(crate) error: Option<Claim>,
+    /// Seconds of rendering.
+    pub(crate) seconds: f64,
+    /// The seconds after some of the passes, and the error then.
+    pub(crate) history: Vec<[f64; 2]>,
+    /// Why it receives no more samples, if it does not.
+    pub(crate) end: Option<String>,
+}
+
+/// What is known of the scene, and stays the same until it is read again.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Facts {
+    pub(crate) scene: String,
+    pub(crate) size: [u32; 2],
+    /// The value of unit radiance in the middle of the image, by which the PNG is divided.
+    pub(crate) exposure: f64,
+    pub(crate) sensor: String,
+    /// The error that is asked for.
+    pub(crate) target: Option<f64>,
+    /// Which files hold the image.
+    pub(crate) files: String,
+}
+
+#[derive(Debug)]
+pub(crate) struct State {
+    pub(crate) wishes: Wishes,
+    pub(crate) facts: Facts,
+    /// The images that are kept, the one that was rendered last at the end.
+    pub(crate) pictures: Vec<Picture>,
+    /// A file of the scene that has changed since it was read.
+    pub(crate) changed: Option<String>,
+    /// What the page should say.
+    pub(crate) message: Option<String>,
+}
+
+impl State {
+    pub(crate) fn picture(&self, way: Way) -> Option<&Picture> {
+        self.pictures.iter().find(|picture| picture.way == way)
+    }
+}
+
+/// The shared state.
+#[derive(Debug)]
+pub(crate) struct Shared {
+    state: Mutex<State>,
+    changed: Condvar,
+    /// Ends a pass that is not wished any more.
+    pub(crate) stop: AtomicBool,
+    /// The pixels of the pass that are done, and all of them.
+    pub(crate) done: AtomicU64,
+    pub(crate) of: AtomicU64,
+    /// Images that are being sent.
+    pub(crate) sending: Arc<AtomicUsize>,
+}
+
+impl Shared {
+    pub(crate) fn new(state: State) -> Self {
+        let (stop, done, of, sending) = Default::default();
+        Self { state: Mutex::new(state), changed: Condvar::new(), stop, done, of, sending }
+    }
+
+    pub(crate) fn lock(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Changes the wishes, and wakes the rendering thread. It ends its pass if another image or part is wished, but not to pause.
+    pub(crate) fn wish(&self, next: Wishes) {
+        let mut state = self.lock();
+        let before = Wishes { paused: next.paused, ..state.wishes };
+        if before != next {
+            self.stop.store(true, Ordering::Relaxed);
+            self.done.store(0, Ordering::Relaxed);
+        }
+        state.wishes = next;
+        drop(state);
+        self.changed.notify_all();
+    }
+
+    /// The wishes for the next pass.
+    pub(crate) fn wishes(&self) -> Wishes {
+        let state = self.lock();
+        self.stop.store(false, Ordering::Relaxed);
+        state.wishes
+    }
+
+    /// Waits until there are other wishes than these, but not longer than this.
+    pub(crate) fn wait(&self, wishes: &Wishes, long: Duration) {
+        let are_same = |state: &mut State| state.wishes == *wishes;
+        let _ = self.changed.wait_timeout_while(self.lock(), long, are_same).unwrap_or_else(PoisonError::into_inner);
+    }
+}

@@ -1,0 +1,336 @@
+//! Renders what the page wishes, pass by pass, and keeps the files up to date.
+
+use super::state::{Facts, Picture, Shared, State, Way, Wishes};
+use super::watch::Watch;
+use crate::display::Display;
+use crate::image::ImageOptions;
+use crate::interrupt::Interrupt;
+use crate::output::Output;
+use etendue_render::area::{self, Area};
+use etendue_render::claim::why_unknown;
+use etendue_render::limits::MOST_SAMPLES;
+use etendue_render::options::{name, say};
+use etendue_render::progressive::{Goal, Progress, Refined, Refinement};
+use etendue_render::sampler::default_sampler;
+use etendue_render::scene::Scene;
+use etendue_render::{Settings, World};
+use rayon::ThreadPool;
+use std::error::Error;
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
+use std::time::{Duration, Instant, SystemTime};
+
+/// Greatest number of pixels of an image that is viewed: a browser receives 28 bytes of each.
+const MOST_PIXELS: u64 = 1 << 24;
+/// Bytes of each pixel of an image that is kept: what is rendered, its weight, and what is shown.
+const BYTES: u64 = 28 + 8 + 28;
+/// Greatest size of all images that are kept, except that the last two are.
+const MOST_KEPT: u64 = 1 << 30;
+/// A pass takes a quarter of the time so far, within these bounds in seconds, unless its least number of samples takes longer.
+const PASS: [f64; 2] = [0.1, 1.0];
+/// The files of the scene are looked at, and a display server is sent an image, no more often than that.
+const LOOK: Duration = Duration::from_secs(1);
+const SHOW: Duration = Duration::from_millis(250);
+/// Errors are noted at times that differ by this factor, so that a longer rendering has only a few more of them.
+const APART: f64 = 1.1;
+
+/// A scene that was read, and when that began.
+pub(crate) struct Reading {
+    pub(crate) scene: Scene,
+    pub(crate) settings: Settings,
+    began: SystemTime,
+}
+
+impl Reading {
+    /// Reads the scene.
+    pub(crate) fn new(image: &ImageOptions) -> Result<Self, Box<dyn Error>> {
+        let began = SystemTime::now();
+        let (scene, settings) = image.load()?;
+        let pixels = u64::from(settings.width) * u64::from(settings.height);
+        if pixels > MOST_PIXELS {
+            let Settings { width, height, .. } = settings;
+            let what = format!("--size: an image of at most {MOST_PIXELS} pixels can be viewed, not {width}x{height}");
+            return Err(what.into());
+        }
+        Ok(Self { scene, settings, began })
+    }
+}
+
+/// A scene that is being viewed.
+struct Subject {
+    world: World,
+    settings: Settings,
+    lens: bool,
+    watch: Watch,
+    facts: Facts,
+}
+
+/// An image that is rendered, or was and is kept.
+struct Kept {
+    way: Way,
+    refined: Refined,
+    history: Vec<[f64; 2]>,
+}
+
+/// What renders.
+pub(crate) struct Worker<'a> {
+    pub(crate) image: &'a ImageOptions,
+    pub(crate) goal: Goal,
+    pub(crate) pool: &'a ThreadPool,
+    pub(crate) output: Arc<Output>,
+    pub(crate) interrupt: &'a Interrupt,
+    pub(crate) display: Display,
+}
+
+/// What has been done with the image that is shown.
+struct Done {
+    version: u64,
+    /// The versions that the files and the display server have.
+    saved: u64,
+    shown: u64,
+    /// When they get the next one.
+    save: Instant,
+    show: Instant,
+}
+
+impl Worker<'_> {
+    fn build(&self, Reading { mut scene, settings, began }: Reading) -> Result<Subject, Box<dyn Error>> {
+        let lens = scene.camera.lens.is_some();
+        let watch = Watch::new(&scene.inputs, began);
+        let world = self.pool.install(|| World::from_scene(&mut scene))?.with_sensor(self.image.sensor);
+        let exposure = world.exposure(settings.width, settings.height);
+        let facts = Facts {
+            scene: scene.name.clone(),
+            size: [settings.width, settings.height],
+            exposure: exposure.map_or(1.0, |exposure| exposure.on_axis()),
+            sensor: name(self.image.sensor),
+            target: self.goal.error,
+            files: format!("{} and {}", self.output.exr.display(), self.output.png.display()),
+        };
+        Ok(Subject { world, settings, lens, watch, facts })
+    }
+
+    /// What is shared at the beginning.
+    pub(crate) fn state(way: Way) -> State {
+        let wishes = Wishes { way, crop: None, paused: false, reload: false };
+        State { wishes, facts: Facts::default(), pictures: Vec::new(), changed: None, message: None }
+    }
+
+    /// Renders until the program is interrupted.
+    pub(crate) fn run(mut self, reading: Reading, shared: &Shared) -> Result<(), Box<dyn Error>> {
+        let mut subject = self.build(reading)?;
+        shared.lock().facts = subject.facts.clone();
+        let mut kept: Vec<Kept> = Vec::new();
+        let now = Instant::now();
+        let (mut looked, mut done) = (now, Done { version: 0, saved: 0, shown: 0, save: now, show: now });
+        loop {
+            if looked.elapsed() > LOOK {
+                looked = Instant::now();
+                let changed = subject.watch.changed().map(|path| path.display().to_string());
+                shared.lock().changed = changed;
+            }
+            let wishes = shared.wishes();
+            if wishes.reload {
+                self.reload(&mut subject, &mut kept, shared);
+                continue;
+            }
+            if let Err(what) = subject.choose(wishes.way, &mut kept, shared, self.goal) {
+                let mut state = shared.lock();
+                state.message = Some(format!("{}: {what}", name(wishes.way.sampler)));
+                let Some(last) = kept.last() else { return Err(what.into()) };
+                state.wishes.way = last.way;
+                continue;
+            }
+            let Some(current) = kept.last_mut() else { unreachable!("one was chosen") };
+            let end = current.refined.known().and_then(|known| self.end(known, wishes.crop));
+            let is_idle = wishes.paused || end.is_some();
+            if !is_idle {
+                let passed = self.pool.install(|| current.pass(&subject, wishes.crop, self.goal, shared));
+                let Some(known) = passed else { continue };
+                done.version += 1;
+                let end = self.end(known, wishes.crop);
+                let picture = current.picture(&subject, done.version, end);
+                let mut state = shared.lock();
+                state.pictures.retain(|picture| picture.way != wishes.way);
+                state.pictures.extend(picture);
+            }
+            self.keep(&mut done, wishes.way, &subject, shared, is_idle);
+            if is_idle {
+                shared.wait(&wishes, LOOK);
+            }
+        }
+    }
+
+    /// Reads the scene again, and forgets all images of the old one. If it is faulty, the page says why, and the old one stays.
+    fn reload(&self, subject: &mut Subject, kept: &mut Vec<Kept>, shared: &Shared) {
+        let read = Reading::new(self.image).and_then(|reading| {
+            Output::of(self.output.exr.clone(), &reading.scene.inputs)?;
+            self.build(reading)
+        });
+        let mut state = shared.lock();
+        state.wishes.reload = false;
+        match read {
+            Ok(read) => {
+                *subject = read;
+                kept.clear();
+                state.wishes.crop = None;
+                state.facts = subject.facts.clone();
+                (state.changed, state.message) = (None, None);
+                state.pictures.clear();
+            }
+            Err(error) => {
+                say(format_args!("warning: the scene stays as it was: {error}"));
+                state.message = Some(format!("The scene stays as it was: {error}"));
+            }
+        }
+    }
+
+    /// Why an image receives no more samples; `None` if it does.
+    fn end(&self, known: &Progress, crop: Option<Area>) -> Option<String> {
+        let samples = known.film.pixels.iter().map(|pixel| pixel.samples).max()?;
+        if samples >= MOST_SAMPLES {
+            return Some(format!("a pixel has {samples} samples, and images can have no more than {MOST_SAMPLES}"));
+        }
+        // whoever chooses a part wants samples there
+        if crop.is_some() {
+            return None;
+        }
+        if let Some(seconds) = self.goal.seconds.filter(|&seconds| known.seconds >= seconds) {
+            return Some(format!("{seconds} s are over"));
+        }
+        let target = self.goal.error?;
+        match known.error {
+            Some(claim) if claim.excess(target) <= 1.0 => Some("its error is what was asked for".to_owned()),
+            Some(claim) => claim.check(target).err(),
+            None => Some(format!("its error is not known, because {}", why_unknown(&known.film, true))),
+        }
+    }
+
+    /// Writes the files and shows the image elsewhere, if that is due. An interruption writes what they do not have yet.
+    fn keep(&mut self, done: &mut Done, way: Way, subject: &Subject, shared: &Shared, is_idle: bool) {
+        let Some(picture) = shared.lock().picture(way).cloned() else { return };
+        let Picture { film, spp, error, version, .. } = picture;
+        let (exposure, spp) = (subject.facts.exposure, spp.round() as u64);
+        let is_due = |has: u64, at: Instant| has != version && (is_idle || Instant::now() >= at);
+        if is_due(done.shown, done.show) {
+            self.display.show(&film);
+            (done.shown, done.show) = (version, Instant::now() + SHOW);
+        }
+        if is_due(done.saved, done.save) {
+            let began = Instant::now();
+            let written = self.output.save(self.interrupt, &film, exposure, spp, error);
+            // large files take no more than a tenth of the time
+            (done.saved, done.save) = (version, began + LOOK + 10 * began.elapsed());
+            if let Err(error) = written {
+                say(format_args!("warning: {error}"));
+                shared.lock().message = Some(error);
+            }
+        } else if done.saved != version {
+            let output = Arc::clone(&self.output);
+            let last = move || output.write(&film, exposure).map(|()| output.holds(spp, error));
+            self.interrupt.lock().last = Some(Box::new(last));
+        }
+    }
+}
+
+impl Subject {
+    /// Makes the image that is sampled in this way the last of those that are kept. Old ones are forgotten if all take too much memory.
+    fn choose(&self, way: Way, kept: &mut Vec<Kept>, shared: &Shared, goal: Goal) -> Result<(), String> {
+        if kept.last().is_some_and(|last| last.way == way) {
+            return Ok(());
+        }
+        if let Some(at) = kept.iter().position(|kept| kept.way == way) {
+            let found = kept.remove(at);
+            kept.push(found);
+            return Ok(());
+        }
+        let settings = Settings { technique: way.technique, sampler: way.sampler, ..self.settings };
+        // the usual sampler has a preview of few samples
+        let is_usual = default_sampler(MOST_SAMPLES, settings.sets, self.lens) == way.sampler;
+        let sampler = if is_usual { None } else { Some(way.sampler) };
+        let plan = Refinement { settings, sampler, lens: self.lens, goal };
+        let refined = Refined::new(&self.world, &plan)?;
+        kept.push(Kept { way, refined, history: Vec::new() });
+        for old in forgotten(kept, area::count(settings.whole()) as u64) {
+            let [technique, sampler] = [name(old.way.technique), name(old.way.sampler)];
+            let mut state = shared.lock();
+            state.pictures.retain(|picture| picture.way != old.way);
+            state.message =
+                Some(format!("{technique}, {sampler} was forgotten: all images would take too much memory"));
+        }
+        Ok(())
+    }
+}
+
+/// Takes the first of some images of so many pixels away, until the rest takes little enough memory or is only two.
+fn forgotten<T>(kept: &mut Vec<T>, pixels: u64) -> Vec<T> {
+    let most = (MOST_KEPT / (BYTES * pixels)).max(2);
+    let excess = (kept.len() as u64).saturating_sub(most) as usize;
+    kept.drain(..excess).collect()
+}
+
+impl Kept {
+    /// Renders one more pass, unless it is stopped.
+    fn pass(&mut self, subject: &Subject, crop: Option<Area>, goal: Goal, shared: &Shared) -> Option<&Progress> {
+        let whole = subject.settings.whole();
+        // passes of a part join one of the whole with the same sampler
+        let has_begun = self.refined.known().is_some_and(|known| known.passes[0].sampler == self.way.sampler);
+        let area = crop.filter(|_| has_begun).unwrap_or(whole);
+        let seconds = self.refined.known().map_or(0.0, |known| known.seconds);
+        let left = goal.seconds.filter(|_| crop.is_none()).map_or(f64::INFINITY, |all| all - seconds);
+        let spp = self.refined.lasting((0.25 * seconds).clamp(PASS[0], PASS[1]).min(left), area);
+        shared.done.store(0, Ordering::Relaxed);
+        shared.of.store(area::count(area) as u64, Ordering::Relaxed);
+        let progress = |pixels: u64| {
+            shared.done.fetch_add(pixels, Ordering::Relaxed);
+        };
+        let known = self.refined.pass(&subject.world, spp, area, &shared.stop, &progress)?;
+        if let Some(claim) = known.error {
+            let is_near = |[last, _]: &[f64; 2], before: &[f64; 2]| *last < APART * before[0];
+            if let [.., before, last] = &self.history[..]
+                && is_near(last, before)
+            {
+                self.history.pop();
+            }
+            self.history.push([known.seconds, claim.total()]);
+        }
+        Some(known)
+    }
+
+    /// What to show of it, once it has had a pass.
+    fn picture(&self, subject: &Subject, version: u64, end: Option<String>) -> Option<Picture> {
+        let Progress { film, error, seconds, .. } = self.refined.known()?;
+        let settings = Settings { technique: self.way.technique, ..subject.settings };
+        let samples: f64 = film.pixels.iter().map(|pixel| f64::from(pixel.samples)).sum();
+        Some(Picture {
+            way: self.way,
+            chosen: subject.world.view(&settings).technique(),
+            film: Arc::new(film.clone()),
+            version,
+            spp: samples / film.pixels.len() as f64,
+            error: *error,
+            seconds: *seconds,
+            history: self.history.clone(),
+            end,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn old_images_are_forgotten() {
+        let of = |count: u32, pixels: u64| {
+            let mut kept: Vec<u32> = (0..count).collect();
+            let old = forgotten(&mut kept, pixels);
+            assert!((0..count).eq(old.iter().chain(&kept).copied()), "{old:?}, {kept:?}");
+            assert!(kept.len() <= 2 || kept.len() as u64 * pixels * BYTES <= MOST_KEPT);
+            old.len()
+        };
+        // 64 bytes of a pixel: 16 images of 1024 × 1024
+        assert_eq!([of(16, 1 << 20), of(17, 1 << 20), of(80, 1 << 20)], [0, 1, 64]);
+        assert_eq!([of(80, 256 * 256), of(1, MOST_PIXELS), of(2, MOST_PIXELS), of(5, MOST_PIXELS)], [0, 0, 0, 3]);
+    }
+}

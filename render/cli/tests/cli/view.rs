@@ -1,0 +1,447 @@
+//! `etendue view`: what its server answers, to whom, and what it renders meanwhile.
+
+use super::{Folder, display, scene};
+use serde_json::{Value, json};
+use std::fs;
+use std::io::{BufRead, BufReader, Read, Write};
+use std::net::TcpStream;
+use std::process::{Child, Command};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+/// A program that serves a page, ended with the test.
+struct Viewer {
+    child: Child,
+    /// What it said at the start.
+    said: String,
+    host: String,
+    token: String,
+}
+
+impl Drop for Viewer {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+/// An answer: its code, its head and its body.
+struct Answer {
+    code: u32,
+    head: String,
+    body: Vec<u8>,
+}
+
+impl Answer {
+    fn text(&self) -> String {
+        String::from_utf8(self.body.clone()).unwrap()
+    }
+}
+
+impl Viewer {
+    fn new(folder: &Folder, more: &[&str]) -> Self {
+        let common = ["--size", "32x32", "--threads", "1", "-o", "a.exr"];
+        Self::with(folder, &[&["view"], more, &common].concat())
+    }
+    fn with(folder: &Folder, arguments: &[&str]) -> Self {
+        let mut child = folder.spawn(arguments);
+        let mut out = BufReader::new(child.stdout.take().unwrap());
+        let mut said = String::new();
+        while !said.ends_with("Ctrl-C ends it\n") {
+            if out.read_line(&mut said).unwrap() == 0 {
+                let mut error = String::new();
+                child.stderr.take().unwrap().read_to_string(&mut error).unwrap();
+                panic!("{arguments:?}: {said}{error}");
+            }
+        }
+        let address = said.lines().find_map(|line| line.strip_prefix("http://")).unwrap();
+        let (host, token) = address.trim_end_matches('/').split_once('/').unwrap();
+        let (host, token) = (host.to_owned(), token.to_owned());
+        assert!(host.starts_with("127.0.0.1:") && token.len() == 32, "{said}");
+        Self { child, said, host, token }
+    }
+    fn connect(&self) -> TcpStream {
+        let stream = TcpStream::connect(&self.host).unwrap();
+        stream.set_read_timeout(Some(Duration::from_secs(10))).unwrap();
+        stream
+    }
+    /// Sends this text, and returns what is answered until the connection ends.
+    fn send(&self, text: &str) -> Answer {
+        let mut stream = self.connect();
+        // the server may answer, and end the connection, before it has all
+        let _ = stream.write_all(text.as_bytes());
+        let mut bytes = Vec::new();
+        let _ = stream.read_to_end(&mut bytes);
+        let end = bytes.windows(4).position(|four| four == b"\r\n\r\n").unwrap_or_else(|| panic!("{bytes:?}")) + 4;
+        let head = String::from_utf8(bytes[..end].to_vec()).unwrap();
+        let code = head.strip_prefix("HTTP/1.1 ").unwrap()[..3].parse().unwrap();
+        Answer { code, head, body: bytes[end..].to_vec() }
+    }
+    fn ask(&self, path: &str, headers: &str) -> Answer {
+        self.send(&format!("GET /{}/{path} HTTP/1.1\r\nHost: {}\r\n{headers}\r\n", self.token, self.host))
+    }
+    fn wish(&self, body: &str) -> Answer {
+        let (token, host, length) = (&self.token, &self.host, body.len());
+        self.send(&format!("POST /{token}/wish HTTP/1.1\r\nHost: {host}\r\nContent-Length: {length}\r\n\r\n{body}"))
+    }
+    fn status(&self) -> Value {
+        let answer = self.ask("status", "");
+        assert_eq!(answer.code, 200);
+        serde_json::from_slice(&answer.body).unwrap()
+    }
+    /// Waits until the status is like this, and returns it.
+    fn until(&self, what: &str, is_so: impl Fn(&Value) -> bool) -> Value {
+        let start = Instant::now();
+        loop {
+            let status = self.status();
+            if is_so(&status) {
+                return status;
+            }
+            assert!(start.elapsed() < Duration::from_secs(30), "not so that {what}: {status}");
+            sleep(Duration::from_millis(20));
+        }
+    }
+    /// The radiance and the number of samples of each pixel.
+    fn image(&self, technique: &str, sampler: &str) -> (Vec<f32>, Vec<u32>) {
+        let answer = self.ask(&format!("image?technique={technique}&sampler={sampler}"), "");
+        assert_eq!(answer.code, 200, "{}", answer.text());
+        let word = |i: usize| answer.body[4 * i..][..4].try_into().unwrap();
+        let n = (u32::from_le_bytes(word(0)) * u32::from_le_bytes(word(1))) as usize;
+        assert_eq!(answer.body.len(), 16 + 28 * n);
+        let radiance = (4..4 + 3 * n).map(|i| f32::from_le_bytes(word(i))).collect();
+        (radiance, (4 + 6 * n..4 + 7 * n).map(|i| u32::from_le_bytes(word(i))).collect())
+    }
+}
+
+fn picture<'a>(status: &'a Value, technique: &str, sampler: &str) -> Option<&'a Value> {
+    let way = json!({ "technique": technique, "sampler": sampler });
+    status["pictures"].as_array().unwrap().iter().find(|picture| picture["way"] == way)
+}
+
+fn spp(status: &Value, technique: &str, sampler: &str) -> f64 {
+    picture(status, technique, sampler).map_or(0.0, |picture| picture["spp"].as_f64().unwrap())
+}
+
+#[test]
+fn the_page_is_for_those_who_know_its_address() {
+    let folder = Folder::new();
+    let viewer = Viewer::new(&folder, &["quads"]);
+    for (path, kind, part) in
+        [("", "text/html", "view.js"), ("view.css", "text/css", "#image"), ("view.js", "text/javascript", "fetch")]
+    {
+        let answer = viewer.ask(path, "");
+        assert!(answer.code == 200 && answer.head.contains(&format!("Content-Type: {kind}; ")), "{}", answer.head);
+        assert!(answer.text().contains(part), "{path}");
+        for header in ["Content-Security-Policy: default-src 'none'", "X-Content-Type-Options: nosniff", "no-store"] {
+            assert!(answer.head.contains(header), "{}", answer.head);
+        }
+        assert!(!answer.head.to_lowercase().contains("access-control"), "{}", answer.head);
+    }
+    let (host, token) = (&viewer.host, &viewer.token);
+    let port = host.split_once(':').unwrap().1;
+    let code = |text: &str| viewer.send(text).code;
+    let other = token.replace(|c: char| c.is_ascii_digit(), "x");
+    for path in ["/", "/status", "/view.js", &format!("/{token}"), &format!("/{other}/"), &format!("/{}/", &token[1..])]
+    {
+        assert_eq!(code(&format!("GET {path} HTTP/1.1\r\nHost: {host}\r\n\r\n")), 404, "{path}");
+    }
+    assert_eq!(viewer.ask("none", "").code, 404);
+    let of_host = |host: &str| code(&format!("GET /{token}/status HTTP/1.1\r\nHost: {host}\r\n\r\n"));
+    assert_eq!(of_host(&format!("localhost:{port}")), 200);
+    for wrong in
+        ["localhost", "127.0.0.1", "127.0.0.1:1", &format!("example.com:{port}"), &format!("{host}.example.com")]
+    {
+        assert_eq!(of_host(wrong), 403, "{wrong}");
+    }
+    assert_eq!(code(&format!("GET /{token}/status HTTP/1.1\r\n\r\n")), 400);
+    assert_eq!(viewer.ask("status", &format!("Origin: http://{host}\r\n")).code, 200);
+    for origin in ["null", "http://example.com", &format!("https://{host}"), &format!("http://localhost:{port}")] {
+        assert_eq!(viewer.ask("status", &format!("Origin: {origin}\r\n")).code, 403, "{origin}");
+    }
+    // requests that are not the page's
+    let head = format!("/{token}/status HTTP/1.1\r\nHost: {host}\r\n");
+    assert_eq!(code(&format!("POST {head}\r\n")), 405);
+    assert_eq!(code(&format!("GET {}\r\n", head.replace("status", "wish"))), 405);
+    assert_eq!(code(&format!("GET {head}X: {}\r\n\r\n", "x".repeat(20_000))), 431);
+    assert_eq!(viewer.wish(&" ".repeat(5000)).code, 413);
+    assert_eq!(code("nonsense\r\n\r\n"), 400);
+    assert_eq!(viewer.until("it goes on", |_| true)["scene"], "quads");
+    // the token is another one each time
+    let second = Viewer::new(&folder, &["quads"]);
+    assert_ne!(token, &second.token);
+}
+
+#[test]
+fn a_busy_port_is_passed_over() {
+    let folder = Folder::new();
+    let first = Viewer::new(&folder, &["quads"]);
+    let port = first.host.split_once(':').unwrap().1;
+    let second = Viewer::new(&folder, &["quads", "--port", port]);
+    assert_ne!(first.host, second.host);
+    let other = second.host.split_once(':').unwrap().1;
+    let line = format!("port {port} is in use, so the page is on port {other}\n");
+    assert!(second.said.starts_with(&line), "{}", second.said);
+    // the last port has none after it; it does not matter who uses it
+    let _last = std::net::TcpListener::bind("127.0.0.1:65535");
+    let error = folder.fail(&["view", "quads", "--port", "65535"]);
+    assert!(error.contains("--port 65535: the ports 65535 to 65535 of 127.0.0.1 are all in use"), "{error}");
+}
+
+/// Kilobytes of memory that a process has at most had.
+#[cfg(target_os = "linux")]
+fn memory(process: u32) -> u64 {
+    let status = fs::read_to_string(format!("/proc/{process}/status")).unwrap();
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:")).unwrap();
+    line.trim().trim_end_matches(" kB").parse().unwrap()
+}
+
+#[test]
+fn clients_that_say_nothing_and_read_nothing_hold_little() {
+    let folder = Folder::new();
+    let more = ["--size", "640x640", "--threads", "1", "--technique", "area", "--sampler", "sobol"];
+    let viewer = Viewer::with(&folder, &[&["view", "quads"], &more[..]].concat());
+    viewer.until("there is an image", |status| spp(status, "area", "sobol") > 0.0);
+    // an image is more than what a connection takes that nobody reads
+    let (token, host) = (&viewer.token, &viewer.host);
+    let question = format!("GET /{token}/image?technique=area&sampler=sobol HTTP/1.1\r\nHost: {host}\r\n\r\n");
+    let unread: Vec<TcpStream> = (0..4).map(|_| viewer.connect()).collect();
+    for mut stream in &unread {
+        stream.write_all(question.as_bytes()).unwrap();
+    }
+    sleep(Duration::from_millis(300));
+    let refused = viewer.send(&question);
+    assert!(refused.code == 503 && refused.text().contains("images"), "{}", refused.head);
+    let paused = viewer.wish("{\"paused\":true}");
+    assert_eq!(paused.code, 200);
+    #[cfg(target_os = "linux")]
+    let before = memory(viewer.child.id());
+    // connections that say nothing, or begin to
+    let silent: Vec<TcpStream> = (0..40).map(|_| viewer.connect()).collect();
+    for mut stream in silent.iter().step_by(2) {
+        let _ = stream.write_all(b"GET /");
+    }
+    let refused = viewer.send(&question);
+    assert!(refused.code == 503 && refused.text().contains("connections"), "{}", refused.head);
+    #[cfg(target_os = "linux")]
+    {
+        let more = memory(viewer.child.id()) - before;
+        assert!(more < 10_000, "{more} kB for connections");
+    }
+    // they are given up, and there is place for others
+    let start = Instant::now();
+    let answered = loop {
+        let mut stream = viewer.connect();
+        let _ = stream.write_all(format!("GET /{token}/status HTTP/1.1\r\nHost: {host}\r\n\r\n").as_bytes());
+        let mut text = String::new();
+        let _ = stream.read_to_string(&mut text);
+        if text.starts_with("HTTP/1.1 200") || start.elapsed() > Duration::from_secs(10) {
+            break text.starts_with("HTTP/1.1 200");
+        }
+        sleep(Duration::from_millis(100));
+    };
+    assert!(answered);
+    // one that goes away makes room for another image
+    drop(unread);
+    let start = Instant::now();
+    while viewer.send(&question).code != 200 {
+        assert!(start.elapsed() < Duration::from_secs(10));
+        sleep(Duration::from_millis(50));
+    }
+}
+
+#[test]
+fn each_technique_and_sampler_keeps_its_samples() {
+    let folder = Folder::new();
+    let viewer = Viewer::new(&folder, &["quads", "--technique", "area"]);
+    viewer.until("there is an image", |status| spp(status, "area", "adaptive") > 100.0);
+    assert_eq!(viewer.wish("{\"technique\":\"brdf\",\"sampler\":\"independent\"}").code, 200);
+    let then = viewer.until("there is another", |status| spp(status, "brdf", "independent") > 0.0);
+    let kept = picture(&then, "area", "adaptive").unwrap().clone();
+    let later = viewer.until("it goes on", |status| spp(status, "brdf", "independent") > 200.0);
+    assert_eq!(picture(&later, "area", "adaptive"), Some(&kept));
+    let (radiance, samples) = viewer.image("area", "adaptive");
+    let sum: f64 = samples.iter().map(|n| f64::from(*n)).sum();
+    assert_eq!(sum / 1024.0, kept["spp"].as_f64().unwrap());
+    assert!(radiance.iter().all(|x| x.is_finite()) && radiance.iter().any(|x| *x > 0.1));
+    assert_ne!(viewer.image("brdf", "independent").0, radiance);
+    assert_eq!(viewer.ask("image?technique=area&sampler=sobol", "").code, 404);
+    // it goes on where it was
+    viewer.wish("{\"technique\":\"area\",\"sampler\":\"adaptive\"}");
+    let before = kept["spp"].as_f64().unwrap();
+    let more = viewer.until("it has more", |status| {
+        let now = spp(status, "area", "adaptive");
+        assert!(now >= before, "it began anew: {now} after {before} samples");
+        now > before
+    });
+    assert!(more["pictures"].as_array().unwrap().len() == 2);
+    let history = picture(&more, "area", "adaptive").unwrap()["history"].as_array().unwrap().clone();
+    let rises = history.windows(2).all(|two| two[0][0].as_f64() < two[1][0].as_f64());
+    assert!(rises && history.last().unwrap()[1].as_f64() < history[0][1].as_f64(), "{history:?}");
+    // a part of the image: whole tiles, and no others
+    viewer.wish("{\"paused\":true}");
+    let seen = viewer.until("it pauses", |status| status["paused"] == true);
+    sleep(Duration::from_millis(1500));
+    let [before, still] = [spp(&seen, "area", "adaptive"), spp(&viewer.status(), "area", "adaptive")];
+    assert!(still - before < 1e4, "{before}, then {still}");
+    let (_, before) = viewer.image("area", "adaptive");
+    assert_eq!(viewer.wish("{\"paused\":false,\"crop\":[20,3,21,4]}").code, 200);
+    let cropped = viewer.until("the part has more", |status| spp(status, "area", "adaptive") > still);
+    assert_eq!(cropped["crop"], json!([16, 0, 32, 16]));
+    let (_, after) = viewer.image("area", "adaptive");
+    for (i, (a, b)) in before.iter().zip(&after).enumerate() {
+        assert_eq!(a < b, i % 32 >= 16 && i / 32 < 16, "pixel {i}: {a}, then {b}");
+    }
+}
+
+/// A pass that takes long does not delay what is wished next: it is thrown away.
+#[test]
+fn a_wish_ends_the_pass() {
+    let folder = Folder::new();
+    let more = ["--size", "512x512", "--threads", "1", "--technique", "area"];
+    let viewer = Viewer::with(&folder, &[&["view", "quads"], &more[..]].concat());
+    let in_second = |status: &Value| (0.01..0.6).contains(&status["pass"].as_f64().unwrap());
+    viewer.until("the second pass renders", |status| spp(status, "area", "adaptive") == 2.0 && in_second(status));
+    viewer.wish("{\"technique\":\"brdf\",\"sampler\":\"sobol\"}");
+    let other = viewer.until("there is another image", |status| spp(status, "brdf", "sobol") > 0.0);
+    assert_eq!(spp(&other, "area", "adaptive"), 2.0);
+    // to pause is no reason to lose one
+    viewer.wish("{\"technique\":\"area\",\"sampler\":\"adaptive\"}");
+    viewer.until("the second pass renders", |status| {
+        assert_eq!(spp(status, "area", "adaptive"), 2.0);
+        status["way"]["technique"] == "area" && in_second(status) && status["pass"].as_f64() > Some(0.1)
+    });
+    viewer.wish("{\"paused\":true}");
+    viewer.until("the second pass has ended", |status| spp(status, "area", "adaptive") > 2.0);
+}
+
+#[test]
+fn an_interruption_writes_the_image_that_is_shown() {
+    let folder = Folder::new();
+    let (address, shown) = display::server();
+    let arguments = ["quads", "--technique", "area", "--display-server", &address];
+    let mut viewer = Viewer::new(&folder, &arguments);
+    viewer.until("there are some images", |status| {
+        picture(status, "area", "adaptive").is_some_and(|picture| picture["version"].as_u64() > Some(5))
+    });
+    let id = viewer.child.id().to_string();
+    assert!(Command::new("kill").args(["-INT", &id]).status().unwrap().success());
+    assert_eq!(viewer.child.wait().unwrap().code(), Some(130));
+    let mut error = String::new();
+    viewer.child.stderr.take().unwrap().read_to_string(&mut error).unwrap();
+    assert!(error.starts_with("interrupted: a.exr holds an image of ") && error.lines().count() == 1, "{error}");
+    let said: f64 = error.split(' ').nth(6).unwrap().parse().unwrap();
+    assert!(said >= 6.0 * 16.0 * 0.8, "{error}");
+    assert_eq!(folder.names(), ["a.exr", "a.png"]);
+    folder.succeed(&[
+        "render",
+        "quads",
+        "--technique",
+        "area",
+        "--size",
+        "32x32",
+        "--spp",
+        "64",
+        "--seed",
+        "7",
+        "-o",
+        "b.exr",
+    ]);
+    let text = folder.succeed(&["compare", "b.exr", "a.exr", "--json"]);
+    assert_eq!(super::json(&text)["verdict"], "agree", "{text}");
+    let shown = shown.join().unwrap();
+    assert!(shown.size == [32, 32] && shown.updates >= 3 && shown.name.starts_with("a.exr ("), "{shown:?}");
+}
+
+#[test]
+fn goals_end_the_rendering_and_not_the_page() {
+    let folder = Folder::new();
+    let viewer = Viewer::new(&folder, &["quads", "--technique", "area", "--error", "2%"]);
+    let ended = viewer.until("it ends", |status| {
+        picture(status, "area", "adaptive").is_some_and(|picture| !picture["end"].is_null())
+    });
+    let of = picture(&ended, "area", "adaptive").unwrap();
+    assert!(of["error"].as_f64().unwrap() <= 0.02 && of["end"] == "its error is what was asked for", "{ended}");
+    assert_eq!(ended["target"], 0.02);
+    // the files have it soon
+    sleep(Duration::from_millis(500));
+    let (radiance, _) = viewer.image("area", "adaptive");
+    let image = etendue_render::image::read_exr(&folder.path("a.exr")).unwrap();
+    assert_eq!(image.radiance.as_flattened(), radiance);
+    assert_eq!(picture(&viewer.status(), "area", "adaptive").unwrap()["version"], of["version"]);
+    let viewer = Viewer::new(&folder, &["quads", "--technique", "area", "--time", "0.3"]);
+    let ended = viewer.until("it ends", |status| {
+        picture(status, "area", "adaptive").is_some_and(|picture| picture["end"] == "0.3 s are over")
+    });
+    assert!(picture(&ended, "area", "adaptive").unwrap()["seconds"].as_f64() >= Some(0.3));
+}
+
+#[test]
+fn a_scene_that_changes_is_reported_and_read_again() {
+    let folder = Folder::new();
+    folder.write("a.pbrt", scene("Include \"part.pbrt\""));
+    folder.write("part.pbrt", "");
+    let viewer = Viewer::with(&folder, &["view", "a.pbrt", "--technique", "area", "--threads", "1"]);
+    let first = viewer.until("there is an image", |status| spp(status, "area", "adaptive") > 0.0);
+    assert_eq!((&first["size"], &first["changed"]), (&json!([8, 8]), &Value::Null));
+    sleep(Duration::from_millis(1500));
+    assert_eq!(viewer.status()["changed"], Value::Null);
+    // an included file: nothing is read until the page asks for it
+    folder.write("part.pbrt", "Shape \"sphere\" \"float radius\" one");
+    let changed = viewer.until("it is reported", |status| !status["changed"].is_null());
+    assert!(changed["changed"].as_str().unwrap().ends_with("part.pbrt"), "{changed}");
+    viewer.wish("{\"reload\":true}");
+    let faulty = viewer.until("it is faulty", |status| !status["message"].is_null());
+    let message = faulty["message"].as_str().unwrap();
+    assert!(message.contains("part.pbrt:1: ") && message.contains("found one"), "{message}");
+    assert!(spp(&faulty, "area", "adaptive") > 0.0, "the old image stays");
+    folder.write("a.pbrt", scene("").replace("\"integer xresolution\" 8", "\"integer xresolution\" 24"));
+    viewer.wish("{\"reload\":true}");
+    let read = viewer.until("it is read", |status| status["size"] == json!([24, 8]));
+    assert_eq!((&read["message"], &read["changed"]), (&Value::Null, &Value::Null));
+    viewer.until("there is an image", |status| spp(status, "area", "adaptive") > 0.0);
+    assert_eq!(viewer.image("area", "adaptive").1.len(), 24 * 8);
+}
+
+#[test]
+fn bad_values_are_named() {
+    let folder = Folder::new();
+    let viewer = Viewer::new(&folder, &["quads"]);
+    for (body, what) in [
+        ("", "not JSON"),
+        ("[]", "not an object"),
+        ("{\"technique\":\"areas\"}", "technique: \"areas\" is not one of those that `etendue list` prints"),
+        ("{\"sampler\":3}", "sampler: 3 is not a name"),
+        ("{\"crop\":[0,0,33,8]}", "crop: [0,0,33,8] is not a part of the image"),
+        ("{\"paused\":1}", "paused: 1 is not true or false"),
+        ("{\"speed\":1}", "speed: there is no such wish"),
+        ("{\"sampler\":\"sobol\",\"crop\":7}", "crop: 7 is not a part"),
+    ] {
+        let answer = viewer.wish(body);
+        assert!(answer.code == 400 && answer.text().contains(what), "{body}: {}", answer.text());
+    }
+    assert_eq!(viewer.status()["way"], json!({ "technique": "auto", "sampler": "adaptive" }), "no part of a bad wish");
+    for (query, what) in [
+        ("", "technique: it is missing"),
+        ("?technique=area", "sampler: it is missing"),
+        ("?technique=area&sampler=x", "sampler: \"x\" is not one"),
+    ] {
+        let answer = viewer.ask(&format!("image{query}"), "");
+        assert!(answer.code == 400 && answer.text().contains(what), "{query}: {}", answer.text());
+    }
+    for (arguments, what) in [
+        (&["--port", "0"][..], "1 to 65535"),
+        (&["--port", "web"], "1 to 65535"),
+        (&["--spp", "4"], "--spp: `etendue view` takes samples as long as it runs"),
+        (&["--size", "8192x4096"], "--size: an image of at most 16777216 pixels can be viewed, not 8192x4096"),
+        (&["--error", "0"], "--error"),
+        (&["--time", "-1"], "--time"),
+        (&["--error", "1%", "--sets", "1"], "with --sets 1, a pixel has no variance"),
+        (&["-o", "a.png"], "the name must end in .exr"),
+        (&["--display-server", "tev"], "--display-server"),
+    ] {
+        let error = folder.fail(&[&["view", "quads"], arguments].concat());
+        assert!(error.contains(what), "{arguments:?}: {error}");
+    }
+    let help = folder.succeed(&["view", "--help"]);
+    assert!(help.contains("--port") && !help.contains("--spp"), "{help}");
+}
