@@ -1,6 +1,7 @@
 //! Each operation by itself: its bits in C, and in Metal, which is made of WGSL; and how WGSL writes it.
 
-use crate::driver::{Driver, HOSTILE, compare};
+use crate::driver::{HOSTILE, compare};
+use crate::program::Driver;
 use etendue::memory::Memory;
 use etendue::real::State;
 use etendue::{Mask, Real, Uint};
@@ -297,8 +298,7 @@ fn prepared(module: &Module) -> (Driver<'_>, Vec<Vec<f32>>, Vec<Vec<f32>>) {
 fn operations_have_the_same_bits() {
     let module = module();
     let (driver, inputs, right) = prepared(&module);
-    let found = driver.run("operations", &["-O1"], &inputs);
-    compare("operations", &inputs, &right, &found);
+    driver.same_bits("operations", &["-O1"], &inputs, &right);
 }
 
 /// WGSL promises the conversion to words in [0, 2²⁴] alone, so that what converts is compared for normal numbers of this range.
