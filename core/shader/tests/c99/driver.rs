@@ -41,11 +41,15 @@ pub(crate) fn folder(name: &str) -> PathBuf {
 }
 
 impl Driver<'_> {
-    /// Asserts that the C of this program returns the numbers of Rust; or, with `CASES`, writes the program for the devices of other machines.
+    /// Asserts that this program returns the numbers of Rust in C, and in OpenCL C where a device is; or, with `CASES`, writes it for other
+    /// machines.
     pub(crate) fn same_bits(&self, name: &str, flags: &[&str], inputs: &[Vec<f32>], right: &[Vec<f32>]) {
-        match std::env::var_os("CASES") {
-            Some(folder) => self.write_case(folder.as_ref(), name, inputs, right),
-            None => compare(name, inputs, right, &self.run(name, flags, inputs)),
+        if let Some(folder) = std::env::var_os("CASES") {
+            return self.write_case(folder.as_ref(), name, inputs, right);
+        }
+        compare(name, inputs, right, &self.run(name, flags, inputs));
+        if let Some(found) = self.run_opencl(name, inputs) {
+            compare(&format!("{name} in OpenCL"), inputs, right, &found);
         }
     }
     /// Compiles the source in C with a program that maps the numbers of its input to those of its output, and runs it.
@@ -109,18 +113,25 @@ impl Driver<'_> {
         compile.args(["-ffp-contract=off", "-o"]).arg(&binary).arg(&source).arg("-lm");
         let compiled = compile.output().expect("a compiler of C and C++");
         assert!(compiled.status.success(), "{name}: {}", String::from_utf8_lossy(&compiled.stderr));
-        let mut child = Command::new(&binary).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
-        let bytes: Vec<u8> = inputs.iter().flatten().flat_map(|x| x.to_ne_bytes()).collect();
         assert!(inputs.iter().all(|input| input.len() == self.inputs), "{name}: {} inputs", self.inputs);
-        let mut stdin = child.stdin.take().unwrap();
-        let writer = std::thread::spawn(move || stdin.write_all(&bytes).unwrap());
-        let output = child.wait_with_output().unwrap();
-        writer.join().unwrap();
-        assert!(output.status.success(), "{name}: {}", output.status);
-        let numbers: Vec<f32> =
-            output.stdout.chunks_exact(4).map(|word| f32::from_ne_bytes(word.try_into().unwrap())).collect();
-        numbers.chunks_exact(self.outputs.len()).map(<[f32]>::to_vec).collect()
+        numbers_of(name, Command::new(&binary), inputs, self.outputs.len())
     }
+}
+
+/// What a program writes that reads these numbers: so many for each input.
+pub(crate) fn numbers_of(name: &str, mut program: Command, inputs: &[Vec<f32>], outputs: usize) -> Vec<Vec<f32>> {
+    let mut child = program.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    let bytes: Vec<u8> = inputs.iter().flatten().flat_map(|x| x.to_ne_bytes()).collect();
+    let mut stdin = child.stdin.take().unwrap();
+    // a program that fails before it has read all says why
+    let writer = std::thread::spawn(move || stdin.write_all(&bytes));
+    let output = child.wait_with_output().unwrap();
+    let written = writer.join().unwrap();
+    assert!(output.status.success(), "{name}: {}\n{}", output.status, String::from_utf8_lossy(&output.stderr));
+    written.unwrap();
+    let numbers: Vec<f32> =
+        output.stdout.chunks_exact(4).map(|word| f32::from_ne_bytes(word.try_into().unwrap())).collect();
+    numbers.chunks_exact(outputs).map(<[f32]>::to_vec).collect()
 }
 
 /// Text with each line replaced for which `is` holds.

@@ -6,6 +6,7 @@ mod distributions;
 mod driver;
 mod header;
 mod lights;
+mod opencl;
 mod operations;
 mod pictures;
 mod program;
