@@ -1,7 +1,7 @@
 //! The C sources return the bits of the Rust routines, compiled by the C compiler of the machine. What WGSL makes of each operation has them,
 //! too: its translation into Metal is compiled as C++.
 
-mod cuda;
+mod devices;
 mod distributions;
 mod driver;
 mod header;

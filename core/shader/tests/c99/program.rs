@@ -146,4 +146,46 @@ impl<'a> Driver<'a> {
         let call = self.c_of(&self.statements[at..=at]);
         Some([self.c_of(&self.statements[..at]), format!("{call}    sum += {};\n", sum.join(" + "))])
     }
+    /// The program in WGSL: a function `program` of the numbers of the first input and the first output, which reads and writes them by
+    /// `read_bits` and `write`.
+    pub(crate) fn wgsl(&self) -> String {
+        let (mut text, mut out) = ("fn program(first_in: u32, first_out: u32) {\n".to_owned(), 0);
+        for statement in &self.statements {
+            let _ = match statement {
+                Statement::Take { name, of, first } => {
+                    for (k, (place, leaf)) in self.places(*of, name).into_iter().enumerate() {
+                        if k == 0 {
+                            let _ = writeln!(text, "    var {name}: {};", self.type_name(*of, &Wgsl));
+                        }
+                        let word = format!("read_bits(first_in + {}u)", first + k);
+                        let value = match leaf {
+                            Leaf::Word => word,
+                            Leaf::Truth => format!("bitcast<f32>({word}) > 0.5f"),
+                            _ => format!("bitcast<f32>({word})"),
+                        };
+                        let _ = writeln!(text, "    {place} = {value};");
+                    }
+                    Ok(())
+                }
+                Statement::Call { function, arguments, result } => {
+                    writeln!(text, "    let {result} = {};", self.called(*function, arguments, None))
+                }
+                Statement::Give { name, of } => {
+                    for (place, leaf) in self.places(*of, name) {
+                        let numbers = match leaf {
+                            Leaf::Word => vec![format!("f32({place} >> 16u)"), format!("f32({place} & 0xffffu)")],
+                            Leaf::Truth => vec![format!("f32({place})")],
+                            _ => vec![place],
+                        };
+                        for number in numbers {
+                            let _ = writeln!(text, "    write(first_out + {out}u, {number});");
+                            out += 1;
+                        }
+                    }
+                    Ok(())
+                }
+            };
+        }
+        text + "}\n"
+    }
 }

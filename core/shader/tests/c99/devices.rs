@@ -1,7 +1,7 @@
-//! Programs for devices of other machines: a folder with the source of each, what it is given, and what Rust returns.
+//! Programs for other devices: a folder with the source of each in CUDA and in WGSL, what it is given, and what Rust returns.
 //!
 //! `CASES=folder cargo test -p etendue-shader --test c99` writes them instead of compiling C, with `LONG=1` all of them. `folder/run` then
-//! needs nvcc and a GPU, and nothing of this library.
+//! needs nvcc and a GPU, and nothing of this library; `etendue-shader-device folder` runs WGSL.
 
 use crate::program::Driver;
 use core::fmt::Write;
@@ -24,6 +24,9 @@ impl Driver<'_> {
         fs::create_dir_all(folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
         FILES.iter().for_each(|(file, text)| write(file, text.as_bytes()));
         write(&format!("{name}.cu"), self.cuda(name).as_bytes());
+        write(&format!("{name}.wgsl"), self.wgsl_kernel().as_bytes());
+        let operations: usize = self.module.functions.iter().map(Function::operations).sum();
+        write(&format!("{name}.txt"), format!("{operations}\n{}\n", self.outputs.join("\n")).as_bytes());
         let counts = [inputs.len(), self.inputs, self.outputs.len(), self.memory.len()].map(|count| count as u32);
         let numbers = inputs.iter().chain(right).flatten().map(|x| x.to_bits());
         let words = counts.into_iter().chain(self.memory.iter().copied()).chain(numbers);
@@ -58,5 +61,11 @@ impl Driver<'_> {
         });
         let _ = writeln!(text, "static const bool known = add_case(\"{name}\", run, {});", timed.unwrap_or("0"));
         text
+    }
+    /// An entry point that runs the program for each of many inputs.
+    fn wgsl_kernel(&self) -> String {
+        let (source, program) = (print(self.module, &Wgsl, "Made by a test."), self.wgsl());
+        let (takes, gives, entry) = (self.inputs, self.outputs.len(), include_str!("devices/entry.wgsl"));
+        format!("{source}const takes = {takes}u;\nconst gives = {gives}u;\n{program}{entry}")
     }
 }
