@@ -8,13 +8,16 @@ use std::path::Path;
 pub(crate) struct Case {
     pub(crate) name: String,
     pub(crate) wgsl: String,
+    pub(crate) spirv: Vec<u32>,
+    /// The same with each `fma` written out, so that it rounds once wherever sums and products are exact.
+    pub(crate) fused: Vec<u32>,
     /// The operations of its functions.
     pub(crate) operations: usize,
     /// What each output is: the field of a result.
     places: Vec<String>,
     pub(crate) count: usize,
     pub(crate) inputs: Vec<u8>,
-    /// The words that functions read.
+    /// The words that functions read; 16 zeros if they read none, as buffers are not empty.
     pub(crate) memory: Vec<u8>,
     pub(crate) right: Vec<f32>,
 }
@@ -29,9 +32,13 @@ impl Case {
         let (operations, places) = lines.split_once('\n').ok_or_else(|| wrong(&about, "no second line"))?;
         let operations = operations.parse().map_err(|_| wrong(&about, "line 1 is no number of operations"))?;
         let places: Vec<String> = places.lines().map(str::to_owned).collect();
+        let words = |path: &Path| {
+            let bytes = fs::read(path).map_err(|error| wrong(path, &error.to_string()))?;
+            Ok::<Vec<u32>, String>(bytes.as_chunks().0.iter().map(|word| u32::from_le_bytes(*word)).collect())
+        };
+        let (spirv, fused) = (words(&path.with_extension("spv"))?, words(&path.with_extension("fused.spv"))?);
         let path = path.with_extension("bin");
-        let bytes = fs::read(&path).map_err(|error| wrong(&path, &error.to_string()))?;
-        let words: Vec<u32> = bytes.as_chunks().0.iter().map(|word| u32::from_le_bytes(*word)).collect();
+        let words = words(&path)?;
         let Some((&[count, takes, gives, memory], rest)) = words.split_first_chunk() else {
             return Err(wrong(&path, "too short").into());
         };
@@ -45,11 +52,13 @@ impl Case {
         Ok(Self {
             name: path.file_stem().unwrap_or_default().to_string_lossy().into_owned(),
             wgsl,
+            spirv,
+            fused,
             operations,
             places,
             count,
             inputs: bytes(inputs),
-            memory: bytes(memory),
+            memory: if memory.is_empty() { vec![0; 16] } else { bytes(memory) },
             right: right.iter().map(|bits| f32::from_bits(*bits)).collect(),
         })
     }

@@ -3,6 +3,13 @@
 use std::error::Error;
 use wgpu::util::DeviceExt;
 
+/// A program in one of the languages that a device takes.
+#[derive(Clone, Copy)]
+pub(crate) enum Source<'a> {
+    Wgsl(&'a str),
+    SpirV(&'a [u32]),
+}
+
 /// A device that runs programs.
 pub(crate) struct Gpu {
     device: wgpu::Device,
@@ -22,25 +29,60 @@ impl Gpu {
             return Ok(None);
         };
         let info = adapter.get_info();
-        let descriptor = wgpu::DeviceDescriptor { required_limits: adapter.limits(), ..Default::default() };
+        // SPIR-V is passed to the driver as it is
+        let descriptor = wgpu::DeviceDescriptor {
+            required_limits: adapter.limits(),
+            required_features: wgpu::Features::PASSTHROUGH_SHADERS,
+            // SAFETY: the programs are those of the tests, which read and write within their buffers
+            experimental_features: unsafe { wgpu::ExperimentalFeatures::enabled() },
+            ..Default::default()
+        };
         let (device, queue) = pollster::block_on(adapter.request_device(&descriptor))?;
         Ok(Some(Self { device, queue, name: format!("{} ({})", info.name, info.driver_info) }))
     }
-    /// Runs the entry point `run` once for each of `count` inputs, and returns what it has written: so many words.
+    /// Runs the entry point `run` once for each of `count` inputs, and returns what it has written: so many numbers.
     pub(crate) fn run(
         &self,
-        wgsl: &str,
+        source: Source,
         count: usize,
         inputs: &[u8],
         memory: &[u8],
         outputs: usize,
     ) -> Result<Vec<f32>, Box<dyn Error>> {
         let scope = self.device.push_error_scope(wgpu::ErrorFilter::Validation);
-        let source = wgpu::ShaderSource::Wgsl(wgsl.into());
-        let module = self.device.create_shader_module(wgpu::ShaderModuleDescriptor { label: None, source });
+        let module = match source {
+            Source::Wgsl(text) => {
+                let source = wgpu::ShaderSource::Wgsl(text.into());
+                self.device.create_shader_module(wgpu::ShaderModuleDescriptor { label: None, source })
+            }
+            Source::SpirV(words) => {
+                let spirv = Some(words.into());
+                let entry_points =
+                    vec![wgpu::PassthroughShaderEntryPoint { name: "run".into(), workgroup_size: (64, 1, 1) }].into();
+                let descriptor = wgpu::ShaderModuleDescriptorPassthrough { spirv, entry_points, ..Default::default() };
+                // SAFETY: the same
+                unsafe { self.device.create_shader_module_passthrough(descriptor) }
+            }
+        };
+        let entry = |binding, read_only| wgpu::BindGroupLayoutEntry {
+            binding,
+            visibility: wgpu::ShaderStages::COMPUTE,
+            ty: wgpu::BindingType::Buffer {
+                ty: wgpu::BufferBindingType::Storage { read_only },
+                has_dynamic_offset: false,
+                min_binding_size: None,
+            },
+            count: None,
+        };
+        let entries = &[entry(0, true), entry(1, true), entry(2, false)];
+        let of_group = &self.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: None, entries });
+        let bind_group_layouts = &[Some(of_group)];
+        let layout = self
+            .device
+            .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor { bind_group_layouts, ..Default::default() });
         let pipeline = self.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
             label: None,
-            layout: None,
+            layout: Some(&layout),
             module: &module,
             entry_point: Some("run"),
             compilation_options: wgpu::PipelineCompilationOptions::default(),
@@ -60,15 +102,11 @@ impl Gpu {
         let found = sized(wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC);
         let host = sized(wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST);
         let (inputs, memory) = (buffer(inputs), buffer(memory));
-        // the memory, which has the binding 0, is not there in a program that does not read it
-        let all = [&memory, &inputs, &found];
-        let entries: Vec<_> = (0..3)
-            .filter(|&k| k > 0 || wgsl.contains("var<storage, read> etendue_memory"))
-            .map(|k| wgpu::BindGroupEntry { binding: k as u32, resource: all[k].as_entire_binding() })
-            .collect();
-        let layout = &pipeline.get_bind_group_layout(0);
+        let all = [&memory, &inputs, &found].into_iter().enumerate();
+        let all = all.map(|(k, of)| wgpu::BindGroupEntry { binding: k as u32, resource: of.as_entire_binding() });
+        let entries = &all.collect::<Vec<_>>();
         let group =
-            self.device.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout, entries: &entries });
+            self.device.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout: of_group, entries });
         let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
         pass.set_pipeline(&pipeline);

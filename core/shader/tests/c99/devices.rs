@@ -24,7 +24,15 @@ impl Driver<'_> {
         fs::create_dir_all(folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
         FILES.iter().for_each(|(file, text)| write(file, text.as_bytes()));
         write(&format!("{name}.cu"), self.cuda(name).as_bytes());
-        write(&format!("{name}.wgsl"), self.wgsl_kernel().as_bytes());
+        let wgsl = self.wgsl_kernel();
+        let exact = wgsl.replace(" fma(", " fused(").replace("(fma(", "(fused(").replace("-fma(", "-fused(");
+        assert!(!exact.contains("fma("), "{name}: an fma in another place");
+        let exact = exact + include_str!("devices/fma.wgsl");
+        write(&format!("{name}.wgsl"), wgsl.as_bytes());
+        for (ending, wgsl) in [("spv", &wgsl), ("fused.spv", &exact)] {
+            let spirv = Checked::new(wgsl).and_then(|checked| checked.translate(Target::SpirV));
+            write(&format!("{name}.{ending}"), &spirv.unwrap_or_else(|error| panic!("{name}: {error}")));
+        }
         let operations: usize = self.module.functions.iter().map(Function::operations).sum();
         write(&format!("{name}.txt"), format!("{operations}\n{}\n", self.outputs.join("\n")).as_bytes());
         let counts = [inputs.len(), self.inputs, self.outputs.len(), self.memory.len()].map(|count| count as u32);
