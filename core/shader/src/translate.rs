@@ -15,7 +15,7 @@ pub enum Target {
     Hlsl,
     /// The Metal shading language, 2.1 and later.
     Msl,
-    /// SPIR-V 1.3, in binary words, with the names of functions.
+    /// SPIR-V 1.3, in binary words, with the names of functions, and `NoContraction` on all sums and products.
     SpirV,
 }
 

@@ -1,4 +1,5 @@
 //! The same sources as OpenCL C, on a device of this machine: the tests compare them where there is one, and else say that there is none.
+//! `OPENCL=no` leaves it out.
 
 use crate::driver::{folder, numbers_of};
 use crate::program::Driver;
@@ -13,6 +14,9 @@ use std::sync::OnceLock;
 fn host() -> Option<&'static PathBuf> {
     static HOST: OnceLock<Option<PathBuf>> = OnceLock::new();
     let find = || {
+        if std::env::var("OPENCL").is_ok_and(|wanted| wanted == "no") {
+            return Err("OPENCL=no".into());
+        }
         let folder = folder("opencl");
         let [source, binary] = ["main.c", "main"].map(|file| folder.join(file));
         fs::write(&source, include_str!("opencl/main.c")).unwrap();
