@@ -281,6 +281,8 @@ fn prepared(module: &Module) -> (Driver<'_>, Vec<Vec<f32>>, Vec<Vec<f32>>) {
         // numbers below 2^31, as words are that become numbers
         Leaf::Word => f32::from_bits(random.word() as u32 >> 1),
         _ if random.word().is_multiple_of(3) => HOSTILE[random.below(HOSTILE.len())],
+        // between two integers, for what rounds
+        _ if random.word().is_multiple_of(8) => random.below(24) as f32 / 2.0 - 3.0,
         _ if random.word().is_multiple_of(2) => random.range(-3.0, 9.0) as f32,
         _ => random.magnitude(1e-6, 1e6) as f32,
     };
