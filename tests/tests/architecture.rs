@@ -264,7 +264,7 @@ fn imports_are_found() {
 }
 
 /// Which packages of the workspace each one may use, and which more its tests, benchmarks and examples may.
-const ARROWS: [(&str, &[&str], &[&str]); 19] = [
+const ARROWS: [(&str, &[&str], &[&str]); 20] = [
     ("core", &[], &[]),
     ("core/batch", &["etendue"], &[]),
     ("core/c", &["etendue", "etendue-batch"], &[]),
@@ -272,6 +272,7 @@ const ARROWS: [(&str, &[&str], &[&str]); 19] = [
     ("core/playground", &["etendue"], &["etendue-oracle"]),
     ("core/python", &["etendue", "etendue-batch"], &[]),
     ("core/shader", &["etendue"], &["etendue-oracle", "etendue-properties"]),
+    ("core/shader/device", &[], &[]),
     ("render", &["etendue"], &["etendue-oracle"]),
     ("render/laboratory", &["etendue", "etendue-oracle", "etendue-render"], &["etendue-properties"]),
     ("render/cli", &["etendue-laboratory", "etendue-render"], &["etendue-oracle"]),

@@ -83,9 +83,28 @@
 //!
 //! # Which bits
 //! C99, C++ and CUDA return the bits of the scalar Rust routine, if the compiler does not contract operations; tests compare those of C for
-//! every function (with `LONG=1`; otherwise for most). The shading languages promise less: the beginning of each file says what. Read as
-//! C++ with another standard library, each operation in Metal has the same bits, but for conversions to words outside of [0, 2²⁴]. No
-//! shading language forbids a driver to contract a product and a sum, and SPIR-V has no decoration against it here.
+//! every function (with `LONG=1`; otherwise for most), and those of OpenCL C where a device is, such as pocl on the processor: the same bits,
+//! with subnormal numbers and `-cl-fp32-correctly-rounded-divide-sqrt`. The shading languages promise less: the beginning of each file says
+//! what. Read as C++ with another standard library, each operation in Metal has the same bits, but for conversions to words outside of
+//! [0, 2²⁴].
+//!
+//! No shading language that is text forbids a driver to contract or reorder products and sums; in SPIR-V, `NoContraction` does, which all of
+//! them have here. On a device whose `fma` rounds twice (Mesa 22.3's software Vulkan), for the inputs of the tests, of which three of
+//! eight are hostile, with a unit of 2⁻²⁴, relative for densities, weights and distances:
+//!
+//! | routines | WGSL, as SPIR-V without `NoContraction` | SPIR-V | SPIR-V with each `fma` written out in exact products |
+//! |---|---|---|---|
+//! | 28 lights by technique, and 8 with fewer fields: same bits | 55 to 100 % of numbers | 57 to 100 % | 99.4 to 100 % |
+//! | … of which 99 % of numbers are within 4 units | 6 | 6 | 36 |
+//! | … numbers that are NaN, and densities where Rust has 0 | 48 and 19 | 0 and 17 | 0 and 0 |
+//! | 15 warps: same bits | 66 to 100 % | 67 to 100 % | 99.8 to 100 % |
+//! | … of which 99 % of numbers are within 4 units | 12 | 12 | 15 |
+//! | 14 tools: same bits | 95 to 100 % | 95 to 100 % | 99.4 to 100 % |
+//! | 12 tables: same bits | 72 to 99.8 % | 72 to 99.8 % | 99.9 to 100 % |
+//!
+//! Lights at points and at infinity, spheres by solid angle without their `hit`, environments, trees and all warps but those of GGX normals,
+//! reflections and the surface of a patch keep their contract on such a device. The others need both, sums that are not reordered and an
+//! `fma` that rounds once or is written out; what then differs are subnormal numbers. `.ci/shader` prints the table of all routines.
 mod distributions;
 mod errors;
 mod graph;

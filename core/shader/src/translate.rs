@@ -15,12 +15,36 @@ pub enum Target {
     Hlsl,
     /// The Metal shading language, 2.1 and later.
     Msl,
-    /// SPIR-V 1.3, in binary words, with the names of functions.
+    /// SPIR-V 1.3, in binary words, with the names of functions, and `NoContraction` on all sums and products.
     SpirV,
 }
 
 /// Whether the translator adds a counter to loops that may not end: all of them end by themselves.
 const BOUNDS_LOOPS: bool = false;
+
+/// SPIR-V in which each sum, product and quotient of numbers says that it must not be combined with others, nor be reordered: the translator
+/// does not write that.
+fn without_contraction(words: &[u32]) -> Vec<u32> {
+    const HEADER: usize = 5;
+    // what comes before the types: names and decorations among others
+    let is_before_types = |opcode: u32| matches!(opcode, 3..=7 | 10 | 11 | 14..=17 | 71 | 72 | 330);
+    // calls of the library of GLSL, negations, sums, differences, products, and quotients
+    let is_arithmetic = |opcode: u32| matches!(opcode, 12 | 127 | 129 | 131 | 133 | 136);
+    let (decorate, no_contraction) = (71, 42);
+    let (mut types, mut decorations, mut at) = (None, Vec::new(), HEADER);
+    while at < words.len() {
+        let (opcode, length) = (words[at] & 0xffff, (words[at] >> 16) as usize);
+        if !is_before_types(opcode) {
+            types.get_or_insert(at);
+        }
+        if is_arithmetic(opcode) {
+            decorations.extend([3 << 16 | decorate, words[at + 2], no_contraction]);
+        }
+        at += length;
+    }
+    let (before, after) = words.split_at(types.unwrap_or(words.len()));
+    [before, &decorations, after].concat()
+}
 
 /// A module of WGSL that has been checked.
 #[derive(Debug)]
@@ -63,7 +87,7 @@ impl<'a> Checked<'a> {
                 let (lang_version, force_loop_bounding) = ((1, 3), BOUNDS_LOOPS);
                 let options = spv::Options { lang_version, flags, force_loop_bounding, ..spv::Options::default() };
                 let words = spv::write_vec(&self.module, &self.info, &options, None);
-                let words = words.map_err(|error| error.to_string())?;
+                let words = without_contraction(&words.map_err(|error| error.to_string())?);
                 Ok(words.iter().flat_map(|word| word.to_le_bytes()).collect())
             }
         }

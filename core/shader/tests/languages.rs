@@ -49,6 +49,12 @@ fn all_languages_have_all_functions() {
             let text = String::from_utf8_lossy(&bytes);
             let named = module.functions.iter().filter(|function| text.contains(&function_name(&function.name)));
             assert_eq!(named.count(), module.functions.len());
+            // decorations of sums and products, which drivers would combine otherwise
+            let words: Vec<u32> = bytes.as_chunks().0.iter().map(|word| u32::from_le_bytes(*word)).collect();
+            let (decorate, no_contraction) = (3 << 16 | 71, 42);
+            let decorated = words.windows(3).filter(|of| of[0] == decorate && of[2] == no_contraction).count();
+            let operations: usize = module.functions.iter().map(Function::operations).sum();
+            assert!(2 * decorated > operations, "{decorated} of {operations} operations");
             return;
         }
         let text = String::from_utf8(bytes).unwrap();

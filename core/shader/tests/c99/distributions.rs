@@ -1,6 +1,7 @@
 //! Discrete and piecewise constant distributions.
 
-use crate::driver::{Driver, compare, slots};
+use crate::driver::slots;
+use crate::program::Driver;
 use crate::tables::{Memory, halves, module};
 use etendue::Vec2;
 use etendue::discrete::{AliasTable, PiecewiseConstant1d, PiecewiseConstant2d};
@@ -41,8 +42,7 @@ fn same(
         let arguments = [&["table"], *arguments].concat();
         driver.output(&format!("{name}_{part}"), &arguments, &format!("{part}_{k}"));
     }
-    let found = driver.run(&format!("table_{name}"), cases(&["-O1"], &["-O2"]), inputs);
-    compare(name, inputs, right, &found);
+    driver.same_bits(&format!("table_{name}"), cases(&["-O1"], &["-O2"]), inputs, right);
 }
 const COUNTS: [usize; 7] = [1, 2, 3, 8, 21, 64, 1000];
 

@@ -1,6 +1,6 @@
-//! Programs in C that map numbers to numbers, and the comparison of what they return.
+//! Programs in C, compiled and run, and the comparison of what they return.
 
-use core::fmt::Write;
+use crate::program::Driver;
 use etendue_oracle::tier::cases;
 use etendue_shader::*;
 use std::fs;
@@ -40,87 +40,16 @@ pub(crate) fn folder(name: &str) -> PathBuf {
     folder
 }
 
-/// A C function in the making that takes numbers and returns numbers.
-pub(crate) struct Driver<'a> {
-    module: &'a Module,
-    pub(crate) text: String,
-    pub(crate) inputs: usize,
-    outputs: usize,
-    /// The words that functions read.
-    pub(crate) memory: Vec<u32>,
-}
-
-impl<'a> Driver<'a> {
-    pub(crate) fn new(module: &'a Module) -> Self {
-        Self { module, text: String::new(), inputs: 0, outputs: 0, memory: Vec::new() }
-    }
-    fn type_name(&self, of: Type) -> String {
-        match of {
-            Type::Leaf(leaf) => C.leaf(leaf).to_owned(),
-            Type::Struct(index) => struct_name(&self.module.structs[index].name),
+impl Driver<'_> {
+    /// Asserts that this program returns the numbers of Rust in C, and in OpenCL C where a device is; or, with `CASES`, writes it for other
+    /// machines.
+    pub(crate) fn same_bits(&self, name: &str, flags: &[&str], inputs: &[Vec<f32>], right: &[Vec<f32>]) {
+        if let Some(folder) = std::env::var_os("CASES") {
+            return self.write_case(folder.as_ref(), name, inputs, right);
         }
-    }
-    /// The numbers of a variable.
-    fn places(&self, of: Type, name: &str) -> Vec<String> {
-        let place = |(field, axis): (Option<usize>, Option<usize>)| {
-            let mut place = name.to_owned();
-            if let (Type::Struct(of), Some(field)) = (of, field) {
-                place = format!("{place}.{}", self.module.structs[of].fields[field].name);
-            }
-            axis.map_or(place.clone(), |axis| format!("{place}.{}", ["x", "y", "z"][axis]))
-        };
-        self.module.parts(of).into_iter().map(place).collect()
-    }
-    /// What each of them is.
-    fn leaves(&self, of: Type) -> Vec<Leaf> {
-        let leaf = |(field, _): (Option<usize>, Option<usize>)| match (of, field) {
-            (Type::Struct(of), Some(field)) => self.module.structs[of].fields[field].leaf,
-            (Type::Leaf(leaf), _) => leaf,
-            (Type::Struct(_), None) => panic!("a struct has fields"),
-        };
-        self.module.parts(of).into_iter().map(leaf).collect()
-    }
-    /// A variable from the next inputs.
-    pub(crate) fn take(&mut self, of: Type, name: &str) {
-        let _ = writeln!(self.text, "    {} {name};", self.type_name(of));
-        for (place, leaf) in self.places(of, name).into_iter().zip(self.leaves(of)) {
-            let number = format!("in[{}]", self.inputs);
-            let value = match leaf {
-                Leaf::Word => format!("etendue_bits({number})"),
-                Leaf::Truth => format!("{number} > 0.5f"),
-                _ => number,
-            };
-            let _ = writeln!(self.text, "    {place} = {value};");
-            self.inputs += 1;
-        }
-    }
-    pub(crate) fn function(&self, name: &str) -> Option<&'a Function> {
-        self.module.functions.iter().find(|function| function.name == name)
-    }
-    /// Calls a function with these arguments, of which the first is left out where it takes nothing prepared, and puts all that it returns
-    /// into a variable.
-    pub(crate) fn call(&mut self, name: &str, arguments: &[&str], result: &str) {
-        let function = self.function(name).unwrap_or_else(|| panic!("there is no {name}"));
-        let arguments = &arguments[arguments.len() - function.parameters.len()..];
-        let arguments: Vec<&str> =
-            function.reads_memory().then_some("memory").into_iter().chain(arguments.iter().copied()).collect();
-        let of = self.type_name(function.result);
-        let _ = writeln!(self.text, "    {of} {result} = {}({});", function_name(name), arguments.join(", "));
-    }
-    /// The same, and returns it.
-    pub(crate) fn output(&mut self, name: &str, arguments: &[&str], result: &str) {
-        self.call(name, arguments, result);
-        let function = self.function(name).unwrap();
-        for (place, leaf) in self.places(function.result, result).into_iter().zip(self.leaves(function.result)) {
-            let numbers = match leaf {
-                // halves of words are numbers
-                Leaf::Word => vec![format!("({place} >> 16)"), format!("({place} & 0xffffu)")],
-                _ => vec![place],
-            };
-            for number in numbers {
-                let _ = writeln!(self.text, "    out[{}] = (float){number};", self.outputs);
-                self.outputs += 1;
-            }
+        compare(name, inputs, right, &self.run(name, flags, inputs));
+        if let Some(found) = self.run_opencl(name, inputs) {
+            compare(&format!("{name} in OpenCL"), inputs, right, &found);
         }
     }
     /// Compiles the source in C with a program that maps the numbers of its input to those of its output, and runs it.
@@ -132,7 +61,7 @@ impl<'a> Driver<'a> {
             source += &self.words("etendue_word");
             source += "static const EtendueMemory memory = {words, sizeof words / 4};\n";
         }
-        self.run_source(name, "c", &source, &self.text, compile, inputs)
+        self.run_source(name, "c", &source, &self.c(), compile, inputs)
     }
     /// The same of the source in the Metal shading language, which is C++ with another standard library.
     pub(crate) fn run_metal(&self, name: &str, inputs: &[Vec<f32>]) -> Vec<Vec<f32>> {
@@ -142,7 +71,7 @@ impl<'a> Driver<'a> {
         let mut compile = Command::new(std::env::var("CXX").unwrap_or_else(|_| "c++".into()));
         compile.args(["-std=c++14", "-O1"]);
         let mut source = with_single_constants(&text.replace(includes, include_str!("metal.hpp")));
-        let mut calls = self.text.clone();
+        let mut calls = self.c();
         if self.module.reads_memory() {
             // an array of unknown length is one of length 1 there, and the last two parameters are what functions get in C at first
             let of_words = |line: &str| line.starts_with("typedef uint type_") && line.ends_with("[1];");
@@ -175,25 +104,34 @@ impl<'a> Driver<'a> {
             "#include \"etendue.h\"\n#include <stdio.h>\nstatic void run(const float *in, float *out) {{\n{}}}\nint main(void) {{\n    \
              static float in[{}], out[{}];\n    while (fread(in, sizeof in, 1, stdin) == 1) {{\n        run(in, out);\n        \
              fwrite(out, sizeof out, 1, stdout);\n    }}\n    return 0;\n}}\n",
-            calls, self.inputs, self.outputs
+            calls,
+            self.inputs,
+            self.outputs.len()
         );
         let [source, binary] = [&format!("main.{ending}"), "main"].map(|file| folder.join(file));
         fs::write(&source, program).unwrap();
         compile.args(["-ffp-contract=off", "-o"]).arg(&binary).arg(&source).arg("-lm");
         let compiled = compile.output().expect("a compiler of C and C++");
         assert!(compiled.status.success(), "{name}: {}", String::from_utf8_lossy(&compiled.stderr));
-        let mut child = Command::new(&binary).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
-        let bytes: Vec<u8> = inputs.iter().flatten().flat_map(|x| x.to_ne_bytes()).collect();
         assert!(inputs.iter().all(|input| input.len() == self.inputs), "{name}: {} inputs", self.inputs);
-        let mut stdin = child.stdin.take().unwrap();
-        let writer = std::thread::spawn(move || stdin.write_all(&bytes).unwrap());
-        let output = child.wait_with_output().unwrap();
-        writer.join().unwrap();
-        assert!(output.status.success(), "{name}: {}", output.status);
-        let numbers: Vec<f32> =
-            output.stdout.chunks_exact(4).map(|word| f32::from_ne_bytes(word.try_into().unwrap())).collect();
-        numbers.chunks_exact(self.outputs).map(<[f32]>::to_vec).collect()
+        numbers_of(name, Command::new(&binary), inputs, self.outputs.len())
     }
+}
+
+/// What a program writes that reads these numbers: so many for each input.
+pub(crate) fn numbers_of(name: &str, mut program: Command, inputs: &[Vec<f32>], outputs: usize) -> Vec<Vec<f32>> {
+    let mut child = program.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    let bytes: Vec<u8> = inputs.iter().flatten().flat_map(|x| x.to_ne_bytes()).collect();
+    let mut stdin = child.stdin.take().unwrap();
+    // a program that fails before it has read all says why
+    let writer = std::thread::spawn(move || stdin.write_all(&bytes));
+    let output = child.wait_with_output().unwrap();
+    let written = writer.join().unwrap();
+    assert!(output.status.success(), "{name}: {}\n{}", output.status, String::from_utf8_lossy(&output.stderr));
+    written.unwrap();
+    let numbers: Vec<f32> =
+        output.stdout.chunks_exact(4).map(|word| f32::from_ne_bytes(word.try_into().unwrap())).collect();
+    numbers.chunks_exact(outputs).map(<[f32]>::to_vec).collect()
 }
 
 /// Text with each line replaced for which `is` holds.

@@ -1,6 +1,7 @@
 //! Each light by each technique.
 
-use crate::driver::{Driver, HOSTILE, compare, slots};
+use crate::driver::{HOSTILE, slots};
+use crate::program::Driver;
 use etendue::reflection::Reflection;
 use etendue::{LightSample, LightSampler, Real, Vec2, Vec3};
 use etendue_oracle::tier::{cases, is_long};
@@ -190,13 +191,13 @@ impl TechniqueVisitor for Lights<'_> {
         driver.take(vec3, "n");
         driver.take(Type::Leaf(Leaf::Vec2), "u");
         driver.take(vec3, "w");
-        driver.text += "    (void)p, (void)n, (void)u, (void)w;\n";
         if driver.function(&format!("{name}_prepare")).is_some() {
             let all =
                 [("light", true), ("reflection", entry.reflected), ("p", entry.at_point), ("n", entry.on_surface)];
             let arguments: Vec<&str> = all.into_iter().filter(|(_, takes)| *takes).map(|(name, _)| name).collect();
             driver.call(&format!("{name}_prepare"), &arguments, "prepared");
         }
+        driver.time_next();
         driver.output(&format!("{name}_sample"), &["prepared", "u"], "s");
         for (k, w) in ["s.direction", "w"].into_iter().enumerate() {
             for part in &self.wanted.parts {
@@ -211,8 +212,7 @@ impl TechniqueVisitor for Lights<'_> {
                 driver.output(&format!("{name}_{part}"), &arguments, &format!("{part}_{k}"));
             }
         }
-        let found = driver.run(&format!("{}_{name}", self.test), self.flags, &inputs);
-        compare(&name, &inputs, &right, &found);
+        driver.same_bits(&format!("{}_{name}", self.test), self.flags, &inputs, &right);
         if self.wanted.fields == [SampleField::Direction, SampleField::Pdf].into() {
             // of finite numbers, however hostile, no density is negative or no number
             let finite = |input: &[f32]| input.iter().all(|x| x.is_finite());

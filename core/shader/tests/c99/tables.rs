@@ -1,7 +1,8 @@
 //! What reads tables in memory.
 
-use crate::driver::{Driver, HOSTILE, compare, slots};
+use crate::driver::{HOSTILE, compare, slots};
 use crate::lights::sample;
+use crate::program::Driver;
 use etendue::light::{EnvironmentMap, EnvironmentSample, ImageEnvironment, Profile};
 use etendue::reflection::{Reflection, table};
 use etendue::select::{Choice, LightBound, LightChoice, LightTree, NO_LIGHT, Node8};
@@ -101,8 +102,7 @@ fn choices_of_trees_have_the_same_bits() {
     driver.output("light_tree_choose_by", &["tree", "p", "n", "first", "second"], "by_bits");
     driver.output("light_tree_pmf", &["tree", "p", "n", "by_bits.index"], "pmf");
     driver.output("light_tree_pmf", &["tree", "p", "n", "light"], "other");
-    let found = driver.run("table_light_tree", cases(&["-O1"], &["-O2"]), &inputs);
-    compare("light_tree", &inputs, &right, &found);
+    driver.same_bits("table_light_tree", cases(&["-O1"], &["-O2"]), &inputs, &right);
     let found = driver.run_metal("table_light_tree_metal", &inputs);
     // what is not finite WGSL does not promise
     let finite: Vec<bool> = inputs.iter().map(|input| input[3..9].iter().all(|x| x.abs() < 1e30)).collect();
@@ -181,8 +181,7 @@ fn environments_have_the_same_bits() {
                 driver.output(&format!("{name}_{part}"), &["environment", w], &format!("{part}_{k}"));
             }
         }
-        let found = driver.run(&format!("table_{name}"), cases(&["-O1"], &["-O2"]), &inputs);
-        compare(name, &inputs, &right, &found);
+        driver.same_bits(&format!("table_{name}"), cases(&["-O1"], &["-O2"]), &inputs, &right);
     }
 }
 
@@ -222,8 +221,7 @@ fn profiles_have_the_same_bits() {
     driver.take(driver.function("profile_intensity").unwrap().parameters[0].of, "profile");
     driver.take(Type::Leaf(Leaf::Vec3), "w");
     driver.output("profile_intensity", &["profile", "w"], "intensity");
-    let found = driver.run("table_profile", cases(&["-O1"], &["-O2"]), &inputs);
-    compare("profile", &inputs, &right, &found);
+    driver.same_bits("table_profile", cases(&["-O1"], &["-O2"]), &inputs, &right);
 }
 
 /// Reflections that a source prepares from the table have the bits of the core's, as have what spheres cover of them.
@@ -262,6 +260,5 @@ fn reflections_have_the_same_bits() {
         numbers
     });
     let right: Vec<_> = right.collect();
-    let found = driver.run("reflections", cases(&["-O0"], &["-O2"]), &inputs);
-    compare("reflection", &inputs, &right, &found);
+    driver.same_bits("table_reflection", cases(&["-O0"], &["-O2"]), &inputs, &right);
 }

@@ -1,6 +1,7 @@
 //! Sequences of random numbers, and weights of combined techniques.
 
-use crate::driver::{Driver, HOSTILE, compare, slots};
+use crate::driver::{HOSTILE, slots};
+use crate::program::Driver;
 use etendue::estimate::{Heuristic, technique_pdf};
 use etendue::light::{PortalMap, Projector, Spread};
 use etendue::sequence::{Independent, OwenSobol, Sequence};
@@ -69,8 +70,7 @@ fn tools_have_the_same_bits() {
             parameters.iter().flat_map(|parameter| vec![parameter.of; module.parts(parameter.of).len()]).collect();
         let inputs: Vec<Vec<f32>> = (0..slots()).map(|_| kinds.iter().map(|&of| argument(of)).collect()).collect();
         let right: Vec<_> = inputs.iter().map(|input| tool(name, input)).collect();
-        let found = driver.run(&format!("tool_{name}"), cases(&["-O0"], &["-O2"]), &inputs);
-        compare(name, &inputs, &right, &found);
+        driver.same_bits(&format!("tool_{name}"), cases(&["-O0"], &["-O2"]), &inputs, &right);
     }
 }
 

@@ -1,6 +1,7 @@
 //! Each warp.
 
-use crate::driver::{Driver, HOSTILE, compare, slots};
+use crate::driver::{HOSTILE, slots};
+use crate::program::Driver;
 use etendue_oracle::tier::cases;
 use etendue_properties::generators::{Random, unit_or_edge};
 use etendue_shader::*;
@@ -73,8 +74,7 @@ impl WarpVisitor for Warps {
             driver.output(&format!("{name}_pdf"), &["prepared", point], &format!("{point}_pdf"));
             driver.output(&format!("{name}_invert"), &["prepared", point], &format!("{point}_invert"));
         }
-        let found = driver.run(&format!("warp_{name}"), cases(&["-O0"], &["-O2"]), &inputs);
-        compare(name, &inputs, &right, &found);
+        driver.same_bits(&format!("warp_{name}"), cases(&["-O0"], &["-O2"]), &inputs, &right);
     }
 }
 
