@@ -1,0 +1,108 @@
+// The host's page: three-gpu-pathtracer, with edits of its shader, on floors under one light. three_pathtracer.py drives it.
+import {
+  BufferGeometry, Float32BufferAttribute, Mesh, MeshPhysicalMaterial, PerspectiveCamera, RectAreaLight, Scene, Vector3, WebGLRenderer,
+} from "three";
+import { ShapedAreaLight, WebGLPathTracer } from "three-gpu-pathtracer";
+
+// the host's strata come from Math.random; a seed makes a picture repeatable, and its own seeds independent
+let state = 1n;
+const MASK = (1n << 64n) - 1n;
+Math.random = () => {
+  state = (state + 0x9e3779b97f4a7c15n) & MASK;
+  let z = state;
+  z = ((z ^ (z >> 30n)) * 0xbf58476d1ce4e5b9n) & MASK;
+  z = ((z ^ (z >> 27n)) * 0x94d049bb133111ebn) & MASK;
+  return Number((z ^ (z >> 31n)) >> 11n) / 2 ** 53;
+};
+
+const renderer = new WebGLRenderer({ antialias: false });
+document.body.append(renderer.domElement);
+const tracers = new Map();
+
+function floor(roughness, metalness, side) {
+  const geometry = new BufferGeometry();
+  geometry.setAttribute("position", new Float32BufferAttribute([-side, 0, side, side, 0, side, side, 0, -side, -side, 0, -side], 3));
+  geometry.setAttribute("normal", new Float32BufferAttribute([0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0], 3));
+  geometry.setAttribute("uv", new Float32BufferAttribute([0, 0, 1, 0, 1, 1, 0, 1], 2));
+  geometry.setIndex([0, 1, 2, 0, 2, 3]);
+  // without metal, a diffuse surface alone: no coat reflects
+  return new Mesh(geometry, new MeshPhysicalMaterial({ roughness, metalness, specularIntensity: 0, ior: 1 }));
+}
+
+function describe({ light, camera, roughness, metalness }) {
+  const scene = new Scene();
+  scene.add(floor(roughness, metalness, 50));
+  const shape = light.disk ? new ShapedAreaLight(0xffffff, 1, light.size[0], light.size[1]) : new RectAreaLight(0xffffff, 1, light.size[0], light.size[1]);
+  if (light.disk) shape.isCircular = true;
+  shape.position.set(...light.at);
+  shape.lookAt(new Vector3(...light.towards));
+  shape.updateMatrixWorld();
+  scene.add(shape);
+  const eye = new PerspectiveCamera(camera.angle, 1, 0.01, 100);
+  eye.position.set(...camera.at);
+  eye.lookAt(new Vector3(...camera.towards));
+  eye.updateMatrixWorld();
+  const corners = [shape.matrixWorld.elements.slice(0, 3), shape.matrixWorld.elements.slice(4, 7)];
+  return { scene, eye, corners };
+}
+
+window.host = {
+  /** Makes a path tracer whose shader has these edits, each a text that occurs once and what replaces it. */
+  add(name, edits) {
+    const tracer = new WebGLPathTracer(renderer);
+    Object.assign(tracer, { renderToCanvas: false, rasterizeScene: false, renderDelay: 0, minSamples: 0, bounces: 2 });
+    tracer.tiles.set(1, 1);
+    const material = tracer._pathTracer.material;
+    for (const [old, replacement] of edits) {
+      const pieces = material.fragmentShader.split(old);
+      if (pieces.length !== 2) throw new Error(`the shader of three-gpu-pathtracer has ${pieces.length - 1} times: ${old}`);
+      material.fragmentShader = pieces.join(replacement);
+    }
+    Object.assign(material.uniforms, { alone: { value: false }, repaired: { value: false } });
+    tracers.set(name, tracer);
+  },
+  /** Shows a scene to all path tracers, with the switches of their shaders; returns the light's axes of width and height. */
+  scene(scene, size, switches) {
+    renderer.setSize(size, size, false);
+    for (const tracer of tracers.values()) {
+      for (const [name, value] of Object.entries(switches)) tracer._pathTracer.material.uniforms[name].value = value;
+    }
+    const { scene: three, eye, corners } = describe(scene);
+    for (const tracer of tracers.values()) tracer.setScene(three, eye);
+    return corners;
+  },
+  /** Renders frames of one sample; returns the mean as text of base64, and milliseconds. */
+  async render(name, frames, seed) {
+    const tracer = tracers.get(name);
+    state = BigInt(seed);
+    const strata = tracer._pathTracer.material.stratifiedTexture;
+    strata.sampler = null; // or samples of one picture would avoid the strata of the one before
+    tracer.reset();
+    tracer.renderSample();
+    while (tracer.isCompiling || tracer.samples < 1) {
+      await new Promise((done) => setTimeout(done, 20));
+      tracer.renderSample();
+    }
+    const began = performance.now(), before = tracer.samples;
+    while (tracer.samples < frames) tracer.renderSample();
+    const { width, height } = tracer.target;
+    const pixels = new Float32Array(4 * width * height);
+    renderer.readRenderTargetPixels(tracer.target, 0, 0, width, height, pixels);
+    const milliseconds = (performance.now() - began) / Math.max(1, tracer.samples - before);
+    const red = pixels.filter((_, k) => k % 4 === 0);
+    const bytes = new Uint8Array(red.buffer);
+    let text = "";
+    for (let k = 0; k < bytes.length; k += 8192) text += String.fromCharCode(...bytes.subarray(k, k + 8192));
+    return { pixels: btoa(text), milliseconds, samples: tracer.samples };
+  },
+  /** The source that the device runs for a path tracer. */
+  source(name) {
+    const program = renderer.properties.get(tracers.get(name)._pathTracer.material).currentProgram;
+    return renderer.getContext().getShaderSource(program.fragmentShader);
+  },
+  device() {
+    const gl = renderer.getContext();
+    const names = gl.getExtension("WEBGL_debug_renderer_info");
+    return gl.getParameter(names ? names.UNMASKED_RENDERER_WEBGL : gl.RENDERER);
+  },
+};
