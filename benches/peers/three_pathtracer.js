@@ -5,15 +5,29 @@ import {
 import { ShapedAreaLight, WebGLPathTracer } from "three-gpu-pathtracer";
 
 // the host's strata come from Math.random; a seed makes a picture repeatable, and its own seeds independent
-let state = 1n;
-const MASK = (1n << 64n) - 1n;
+// (xoshiro128**, begun by a hash of the seed)
+const state = new Uint32Array(4);
+function begin(seed) {
+  for (let k = 0; k < 4; k++) {
+    let z = Math.imul(4 * seed + k + 1, 0x9e3779b9);
+    z = Math.imul(z ^ (z >>> 16), 0x85ebca6b);
+    z = Math.imul(z ^ (z >>> 13), 0xc2b2ae35);
+    state[k] = z ^ (z >>> 16);
+  }
+}
+const turn = (x, k) => (x << k) | (x >>> (32 - k));
 Math.random = () => {
-  state = (state + 0x9e3779b97f4a7c15n) & MASK;
-  let z = state;
-  z = ((z ^ (z >> 30n)) * 0xbf58476d1ce4e5b9n) & MASK;
-  z = ((z ^ (z >> 27n)) * 0x94d049bb133111ebn) & MASK;
-  return Number((z ^ (z >> 31n)) >> 11n) / 2 ** 53;
+  const answer = Math.imul(turn(Math.imul(state[1], 5), 7), 9) >>> 0;
+  const kept = state[1] << 9;
+  state[2] ^= state[0];
+  state[3] ^= state[1];
+  state[1] ^= state[2];
+  state[0] ^= state[3];
+  state[2] ^= kept;
+  state[3] = turn(state[3], 11);
+  return answer / 2 ** 32;
 };
+begin(0);
 
 const renderer = new WebGLRenderer({ antialias: false });
 document.body.append(renderer.domElement);
@@ -74,7 +88,7 @@ window.host = {
   /** Renders frames of one sample; returns the mean as text of base64, and milliseconds. */
   async render(name, frames, seed) {
     const tracer = tracers.get(name);
-    state = BigInt(seed);
+    begin(seed);
     const strata = tracer._pathTracer.material.stratifiedTexture;
     strata.sampler = null; // or samples of one picture would avoid the strata of the one before
     tracer.reset();
