@@ -142,12 +142,12 @@ class Browser:
         kind = "touchEnd" if not points else "touchMove"
         self.call("Input.dispatchTouchEvent", type=kind, touchPoints=[{"x": x, "y": y} for x, y in points])
 
-    def key(self, name):
+    def key(self, name, shift=False):
         for kind in ["keyDown", "keyUp"]:
             # without its text, a key presses no button; without its number, Tab moves nothing
             text = {"text": KEYS[name][1]} if kind == "keyDown" and name in KEYS and KEYS[name][1] else {}
             number = {"windowsVirtualKeyCode": KEYS[name][0]} if name in KEYS else {}
-            self.call("Input.dispatchKeyEvent", type=kind, key=name, code=name, **number, **text)
+            self.call("Input.dispatchKeyEvent", type=kind, key=name, code=name, modifiers=8 * shift, **number, **text)
         self.settle()
 
     def choose(self, identifier, value):

@@ -55,25 +55,28 @@ def fits(browser, page, width, may_scroll):
 
 
 def by_tab(browser, page):
-    """Tab reaches every control once a round, shows where it is, and scrolls it into view."""
+    """Tab reaches every control once a round, forwards and backwards, shows where it is, and scrolls it into view."""
     wanted = names(browser, "controls")
     assert wanted, f"{page.name} has no control"
     browser.evaluate("document.activeElement.blur(); scrollTo(0, 0); window.reached = []")
-    for _ in wanted:
-        browser.key("Tab")
-        fault = browser.evaluate(
-            """(() => {
-              const e = document.activeElement, style = getComputedStyle(e), box = e.getBoundingClientRect(), bar = document.querySelector('nav');
-              if (e === document.body) return 'the focus has left the page after ' + reached.length + ' controls';
-              reached.push(e);
-              const covered = bar && !bar.contains(e) && getComputedStyle(bar).position === 'sticky' ? bar.getBoundingClientRect().bottom : 0;
-              if (style.outlineStyle === 'none' || parseFloat(style.outlineWidth) < 1) return say(e) + ' does not show that it has the focus';
-              if (box.bottom < covered + 5 || box.top > innerHeight - 5) return say(e) + ' has the focus out of sight';
-            })()"""
-        )
-        assert not fault, f"{page.name}: {fault}"
-    missing = names(browser, "controls.filter((e) => !reached.includes(e))")
-    assert not missing, f"{page.name}: Tab does not reach {missing}"
+    for back in [False, True]:
+        if back:
+            browser.evaluate("reached = [document.activeElement]")
+        for _ in wanted[back:]:
+            browser.key("Tab", back)
+            fault = browser.evaluate(
+                """(() => {
+                  const e = document.activeElement, style = getComputedStyle(e), box = e.getBoundingClientRect(), bar = document.querySelector('nav');
+                  if (e === document.body) return 'the focus has left the page after ' + reached.length + ' controls';
+                  reached.push(e);
+                  const covered = bar && !bar.contains(e) && getComputedStyle(bar).position === 'sticky' ? bar.getBoundingClientRect().bottom : 0;
+                  if (style.outlineStyle === 'none' || parseFloat(style.outlineWidth) < 1) return say(e) + ' does not show that it has the focus';
+                  if (box.bottom < covered + 5 || box.top > innerHeight - 5) return say(e) + ' has the focus out of sight';
+                })()"""
+            )
+            assert not fault, f"{page.name}: {fault}"
+        missing = names(browser, "controls.filter((e) => !reached.includes(e))")
+        assert not missing, f"{page.name}: Tab does not reach {missing}"
     return len(wanted)
 
 
