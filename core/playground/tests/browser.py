@@ -11,6 +11,9 @@ import time
 
 NAMES = ["chromium", "chromium-browser", "google-chrome", "google-chrome-stable"]
 
+# numbers and texts of keys that act by themselves
+KEYS = {"Tab": (9, ""), "Enter": (13, "\r"), " ": (32, " "), "ArrowLeft": (37, ""), "ArrowUp": (38, ""), "ArrowRight": (39, ""), "ArrowDown": (40, "")}
+
 
 def find():
     """The path of Chromium, or None."""
@@ -18,9 +21,10 @@ def find():
 
 
 class Browser:
-    """One browser with one page."""
+    """One browser with one page. `options` are added to its command line; an answer takes at most `patience` seconds."""
 
-    def __init__(self, path, width=1400, height=1000, touch=False):
+    def __init__(self, path, width=1400, height=1000, touch=False, gpu=False, options=(), patience=60):
+        self.patience = patience
         self.profile = tempfile.mkdtemp()
         to_child, self.commands = os.pipe()
         self.answers, from_child = os.pipe()
@@ -31,8 +35,8 @@ class Browser:
             os.dup2(a, 3)
             os.dup2(b, 4)
 
-        arguments = ["--headless=new", "--no-sandbox", "--disable-gpu", "--no-first-run", "--disable-extensions", "--disable-background-networking"]
-        arguments += ["--hide-scrollbars", "--mute-audio", "--remote-debugging-pipe", f"--user-data-dir={self.profile}", "about:blank"]
+        arguments = ["--headless=new", "--no-sandbox", "--no-first-run", "--disable-extensions", "--disable-background-networking"]
+        arguments += ["--hide-scrollbars", "--mute-audio", "--remote-debugging-pipe", f"--user-data-dir={self.profile}", *([] if gpu else ["--disable-gpu"]), *options, "about:blank"]
         self.process = subprocess.Popen([path, *arguments], close_fds=False, preexec_fn=wire, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         os.close(to_child)
         os.close(from_child)
@@ -69,7 +73,7 @@ class Browser:
         if session:
             message["sessionId"] = session
         os.write(self.commands, json.dumps(message).encode() + b"\0")
-        deadline = time.monotonic() + 60
+        deadline = time.monotonic() + self.patience
         while True:
             answer = self.receive(deadline)
             if answer.get("id") == self.number:
@@ -138,9 +142,12 @@ class Browser:
         kind = "touchEnd" if not points else "touchMove"
         self.call("Input.dispatchTouchEvent", type=kind, touchPoints=[{"x": x, "y": y} for x, y in points])
 
-    def key(self, name):
+    def key(self, name, shift=False):
         for kind in ["keyDown", "keyUp"]:
-            self.call("Input.dispatchKeyEvent", type=kind, key=name, code=name)
+            # without its text, a key presses no button; without its number, Tab moves nothing
+            text = {"text": KEYS[name][1]} if kind == "keyDown" and name in KEYS and KEYS[name][1] else {}
+            number = {"windowsVirtualKeyCode": KEYS[name][0]} if name in KEYS else {}
+            self.call("Input.dispatchKeyEvent", type=kind, key=name, code=name, modifiers=8 * shift, **number, **text)
         self.settle()
 
     def choose(self, identifier, value):

@@ -389,7 +389,12 @@ fn html(charts: &[ErrorMap], sheets: &[(ShapeKind, Sweep, String)], quick: bool)
             let _ = writeln!(maps, r#"<h2 id="{}">{}</h2>"#, kind.name(), escape(&kind.about()));
             last = Some(*kind);
         }
-        let _ = writeln!(maps, r#"<h3>{}</h3><div class="sheet">{svg}</div>"#, escape(sweep.title));
+        // a narrow screen scrolls it, also by keyboard
+        let title = escape(sweep.title);
+        let _ = writeln!(
+            maps,
+            r#"<h3>{title}</h3><div class="sheet" tabindex="0" role="region" aria-label="maps: {title}">{svg}</div>"#
+        );
     }
     include_str!("atlas.html")
         .replace("{{DETAIL}}", if quick { "This is a quick survey with coarse axes. " } else { "" })

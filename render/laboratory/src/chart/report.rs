@@ -16,17 +16,18 @@ use std::fmt::Write;
 
 /// Formats a value with half of its interval in per cent.
 fn percent(e: &Estimate) -> String {
-    if e.half.is_finite() {
-        format!("{} ±{:.0} %", short(e.value), 100.0 * e.relative())
-    } else {
-        format!("{} ±?", short(e.value))
-    }
+    let interval = match e.relative() {
+        _ if !e.half.is_finite() => "?".to_owned(),
+        wide if wide >= 10.0 => ">999 %".to_owned(),
+        part => format!("{:.0} %", 100.0 * part),
+    };
+    format!("{} ±{interval}", short(e.value))
 }
 
 fn table(summary: &Summary) -> String {
     let base = summary.baseline.map_or_else(String::new, |b| summary.series[b].way.title());
     let mut text = format!(
-        "<div class=\"scroll\"><table><tr><th>series</th><th>slope over samples</th><th>slope over time</th><th>error at {0} spp</th>\
+        "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"series\"><table><tr><th>series</th><th>slope over samples</th><th>slope over time</th><th>error at {0} spp</th>\
          <th>seconds at {0} spp</th><th>efficiency relative to {1}</th><th>seconds to {2}</th><th>bias</th></tr>\n",
         summary.spp,
         escape(&base),
@@ -68,8 +69,8 @@ fn viewer(index: usize, panel: &Panel) -> String {
          <div class=\"stage\"><img alt=\"left image\"><img alt=\"right image\"><div class=\"edge\"></div><span class=\"left\"></span>\
          <span class=\"right\"></span></div><input type=\"range\" min=\"0\" max=\"100\" value=\"50\" \
          aria-label=\"position of the boundary between the two images\">\
-         <p><small>Drag the boundary, or click here and press <kbd>f</kbd> to flip between the two, <kbd>←</kbd> \
-         <kbd>→</kbd> to step through all. {}</small></p>\
+         <p><small><span class=\"by-hand\">Drag the boundary, or click here and press <kbd>f</kbd> to flip between the two, \
+         <kbd>←</kbd> <kbd>→</kbd> to step through all.</span> {}</small></p>\
          <div class=\"thumbs\"></div></div>\n",
         escape(&panel.caption)
     )

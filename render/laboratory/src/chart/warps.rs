@@ -273,7 +273,7 @@ pub fn figure(measured: &[Measured]) -> Figure {
 #[must_use]
 pub fn table(measured: &[Measured]) -> String {
     let mut text =
-        "<div class=\"scroll\"><table><tr><th>warp</th><th>f32</th><th>x4</th><th>x8</th><th>speed-up x8</th>\
+        "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"warps\"><table><tr><th>warp</th><th>f32</th><th>x4</th><th>x8</th><th>speed-up x8</th>\
                     <th>greatest error of point</th><th>of pdf</th></tr>\n"
             .to_owned();
     for m in measured {

@@ -89,7 +89,9 @@ impl Bars {
                     let outline = [(x0, y0), (x1, y0), (x1, y1), (x0, y1), (x0, y0)];
                     area.draw(&PathElement::new(outline, stroke(rgb(row.color), 10)))?;
                 }
-                let ends = [(at(bar.low), middle), (at(bar.high), middle)];
+                // an interval that reaches the edge leaves room for the number, too
+                let most = (left + width - 64) * UNIT;
+                let ends = [(at(bar.low), middle), (at(bar.high).min(most.max(b)), middle)];
                 area.draw(&PathElement::new(ends, stroke(INK, 10)))?;
                 let right = b.max(a).max(ends[1].0) + 5 * UNIT;
                 let known = if *sure { "" } else { " ?" };
