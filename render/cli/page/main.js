@@ -93,7 +93,7 @@ class View {
       ["samples", picture ? `${short(picture.spp)} per pixel` : "none yet"],
       ["error", picture ? percent(picture.error) + (status.target ? `, ${percent(status.target)} wanted` : "") : "not known yet"],
       ["time", picture ? `${picture.seconds.toFixed(1)} s` : "0 s"],
-      ["now", status.paused ? "paused" : !picture ? "begins after the pass of the image that is still shown" : picture.end ? `no more samples: ${picture.end}` : "rendering"],
+      ["now", status.paused ? "paused" : !picture ? "its first pass; the image before it is still shown" : picture.end ? `no more samples: ${picture.end}` : "rendering"],
     ];
     if (picture && picture.systematic > 0) facts.splice(2, 0, ["of which", `${percent(picture.systematic)} bounds that of closed forms`]);
     byId("facts").replaceChildren(...facts.flatMap(([term, text]) => [make("dt", term), make("dd", text)]));
