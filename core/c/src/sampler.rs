@@ -382,9 +382,8 @@ macro_rules! technique_functions {
             refuse_null!(light, p, $($one,)? u, out);
             // SAFETY: the pointers are not null, and point to what the header says
             unsafe {
-                let light = technique_functions!(@lights $kind light $(, $one)?);
                 let normal = technique_functions!(@normal $kind p $(, $one)?);
-                <$sampler as Technique>::with_light(light, |light| {
+                <$sampler as Technique>::with_light(technique_functions!(@lights $kind light $(, $one)?), |light| {
                     (Batch::new().once::<<$sampler as Sampler>::Core>().sample)(light, p, normal.cast(), u, out.cast());
                 })
             }
@@ -402,9 +401,8 @@ macro_rules! technique_functions {
             if !light.is_null() && !p.is_null() $(&& !$one.is_null())? && !w.is_null() {
                 // SAFETY: the pointers are not null, and point to what the header says
                 unsafe {
-                    let light = technique_functions!(@lights $kind light $(, $one)?);
-                    let normal = technique_functions!(@normal $kind p $(, $one)?);
-                    <$sampler as Technique>::with_light(light, |light| {
+                        let normal = technique_functions!(@normal $kind p $(, $one)?);
+                    <$sampler as Technique>::with_light(technique_functions!(@lights $kind light $(, $one)?), |light| {
                         pdf = (Batch::new().once::<<$sampler as Sampler>::Core>().pdf)(light, p, normal.cast(), w);
                     });
                 }
