@@ -2,8 +2,8 @@
 // Written by `etendue-shader --language wgsl --lights sphere_by_solid_angle,triangle_by_solid_angle,rectangle_by_solid_angle,disk_by_area,sun,point_light,spot_light,directional_light --warps concentric_disk,cosine_hemisphere,ggx_visible_normals --tools all --functions sample,pdf,hit`.
 //
 // WGSL promises neither that `fma` rounds once, nor correctly rounded division and square roots, nor subnormal numbers, infinities and
-// NaN. Where a device has all these, as most do, the functions return the bits of the Rust library `etendue`; elsewhere results differ in
-// their last digits.
+// NaN. Where a device has all these, the functions return the bits of the Rust library `etendue`. Elsewhere results differ: mostly in their last
+// digits, but hostile input can return NaN, or a pdf where there is none. `--exact` writes the first three out.
 
 fn etendue_from_bits(bits: u32) -> f32 {
     return bitcast<f32>(bits);

@@ -44,6 +44,11 @@ impl Language {
         Self::Msl,
         Self::SpirV,
     ];
+    /// Whether the language promises to round fused multiply-adds, quotients and square roots correctly.
+    #[must_use]
+    pub fn is_exact(self) -> bool {
+        matches!(self, Self::C | Self::Cuda | Self::Hip | Self::OpenCl)
+    }
     /// Its name on the command line.
     #[must_use]
     pub fn name(self) -> &'static str {
@@ -65,11 +70,12 @@ impl Language {
     /// # Errors
     /// If the module needs what the language does not have: what that is, in the words of the translator.
     pub fn write(self, module: &Module, how: &str) -> Result<Vec<u8>, String> {
+        let wgsl = Wgsl { exact: module.exact };
         let target = match self {
             // one dialect
             Self::C | Self::Cuda | Self::Hip | Self::OpenCl => return Ok(print(module, &C, how).into_bytes()),
             Self::Wgsl => {
-                let text = print(module, &Wgsl, how);
+                let text = print(module, &wgsl, how);
                 Checked::new(&text)?;
                 return Ok(text.into_bytes());
             }
@@ -79,7 +85,7 @@ impl Language {
             Self::Msl => Target::Msl,
             Self::SpirV => Target::SpirV,
         };
-        let bytes = Checked::new(&print(module, &Wgsl, how))?.translate(target)?;
+        let bytes = Checked::new(&print(module, &wgsl, how))?.translate(target)?;
         if self == Self::SpirV {
             return Ok(bytes);
         }

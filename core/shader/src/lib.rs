@@ -136,10 +136,12 @@
 //! `CASES=folder LONG=1 cargo test -p etendue-shader --test c99` writes a folder, and `folder/run gpu` in it does the rest, with nvcc.
 //!
 //! No shading language that is text forbids a driver to contract or reorder products and sums; in SPIR-V, `NoContraction` does, which all of
-//! them have here. On a device whose `fma` rounds twice (Mesa 22.3's software Vulkan), for the inputs of the tests, of which three of
-//! eight are hostile, with a unit of 2⁻²⁴, relative for densities, weights and distances:
+//! them have here. `--exact` writes each fused multiply-add, quotient and square root out, so that they are rounded once on any device whose
+//! sums and products are, and whose quotients and square roots are wrong by at most three units. On a device whose `fma` rounds twice (Mesa
+//! 22.3's software Vulkan), for the inputs of the tests, of which three of eight are hostile, with a unit of 2⁻²⁴, relative for
+//! densities, weights and distances:
 //!
-//! | routines | WGSL, as SPIR-V without `NoContraction` | SPIR-V | SPIR-V with each `fma` written out in exact products |
+//! | routines | WGSL, as SPIR-V without `NoContraction` | SPIR-V | SPIR-V by `--exact` |
 //! |---|---|---|---|
 //! | 28 lights by technique, and 8 with fewer fields: same bits | 55 to 100 % of numbers | 57 to 100 % | 99.4 to 100 % |
 //! | … of which 99 % of numbers are within 4 units | 6 | 6 | 36 |
@@ -149,15 +151,15 @@
 //! | 14 tools: same bits | 95 to 100 % | 95 to 100 % | 99.4 to 100 % |
 //! | 12 tables: same bits | 72 to 99.8 % | 72 to 99.8 % | 99.9 to 100 % |
 //!
-//! An H100's Vulkan driver (580.159) keeps less, and the same in all three columns, so that its `fma` rounds once: 52 to 100 % of the numbers of
-//! 60 lights, of which 8 have 99 % within 4 units (points, spots, and what is at infinity), 63 to 99 % of warps' (9 of 15), 81 to
-//! 100 % of tools' (11 of 14) and 73 to 98 % of tables' (5 of 12). Hostile input gives NaN in 0.1 % of the numbers of lights where Rust has
-//! none. SPIR-V lets a quotient be off by 2.5 units and subnormal numbers be 0; we have not found which of the two costs most. On such a
-//! device, use CUDA or OpenCL where densities must be closed.
+//! An H100's Vulkan driver (580.159) keeps less in the first two columns: 52 to 100 % of the numbers of 60 lights, of which 8 have 99 % within
+//! 4 units (points, spots, and what is at infinity), 63 to 99 % of warps' (9 of 15), 81 to 100 % of tools' (11 of 14) and 73 to 98 % of
+//! tables' (5 of 12); hostile input gives NaN in 0.1 % of the numbers of lights where Rust has none. `--exact`, as it was before it
+//! rounded correctly next to ties, kept 82 to 100 % of 34 lights, of which 10 have 99 % within 4 units, and the NaN: the driver takes
+//! subnormal numbers for 0, which no source can mend. Use CUDA or OpenCL there if densities must be closed for any input.
 //!
 //! On Mesa's device, lights at points and at infinity, spheres by solid angle without their `hit`, environments, trees and all warps but
 //! those of GGX normals, reflections and the surface of a patch keep their contract. The others need both, sums that are not reordered
-//! and an `fma` that rounds once or is written out; then at most 0.6 % of the numbers of a routine differ, most of them subnormal, and
+//! and an `fma` that rounds once or `--exact`; then at most 0.6 % of the numbers of a routine differ, most of them subnormal, and
 //! we have not found why some others do in disks and rectangles by area and the surface of a patch. `.ci/shader` prints the table of all
 //! routines.
 mod distributions;

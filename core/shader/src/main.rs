@@ -33,6 +33,9 @@ struct Options {
     /// Fields of the samples of lights [default: all]
     #[arg(long, value_delimiter = ',', value_parser = PossibleValuesParser::new(SampleField::ALL.iter().map(|field| field.name())))]
     fields: Vec<String>,
+    /// Write fused multiply-adds, quotients and square roots out, for devices that do not round them correctly: some ten operations each
+    #[arg(long)]
+    exact: bool,
     /// File to write [default: standard output]
     #[arg(short, long)]
     output: Option<PathBuf>,
@@ -67,6 +70,9 @@ impl Options {
     /// The command that writes the same file.
     fn command(&self) -> String {
         let mut command = format!("etendue-shader --language {}", self.language);
+        if self.exact {
+            command += " --exact";
+        }
         for (option, names) in [
             ("lights", &self.lights),
             ("warps", &self.warps),
@@ -84,9 +90,12 @@ impl Options {
     fn run(&self) -> Result<(), String> {
         let language = Language::ALL.into_iter().find(|language| language.name() == self.language);
         let language = language.expect("clap has refused all others");
+        if self.exact && language.is_exact() {
+            return Err(format!("--exact: {} rounds all operations correctly without it", language.name()));
+        }
         let (lights, warps) = (self.lights.clone(), self.warps.clone());
         let (tools, tables) = (self.tools.clone(), self.tables.clone());
-        let selection = Selection { lights, warps, tools, tables, wanted: self.wanted() };
+        let selection = Selection { lights, warps, tools, tables, wanted: self.wanted(), exact: self.exact };
         let bytes = language.write(&selection.module(), &format!("Written by `{}`.", self.command()))?;
         match &self.output {
             Some(path) => fs::write(path, bytes).map_err(|error| format!("{}: {error}", path.display())),

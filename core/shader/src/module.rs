@@ -153,6 +153,8 @@ pub struct Module {
     pub structs: Vec<Struct>,
     /// The functions, each after those that it calls.
     pub functions: Vec<Function>,
+    /// Whether fused multiply-adds, quotients and square roots are written out where a language does not promise to round them correctly.
+    pub exact: bool,
 }
 
 impl Module {

@@ -157,7 +157,7 @@ impl<'a, D: Dialect> Printer<'a, D> {
             Op::Add | Op::WordAdd => binary("+", Level::Sum),
             Op::Sub | Op::WordSub => binary("-", Level::Sum),
             Op::Mul | Op::WordMul => binary("*", Level::Product),
-            Op::Div => binary("/", Level::Product),
+            Op::Div => self.language.quotient().map_or_else(|| binary("/", Level::Product), call),
             Op::Neg => Expression::prefix("-", &all[0]),
             Op::Not => Expression::prefix("!", &all[0]),
             Op::Less => apart("<"),

@@ -60,6 +60,8 @@ pub struct Selection {
     pub tables: Vec<String>,
     /// The functions and fields of lights and warps.
     pub wanted: Wanted,
+    /// See [`Module::exact`].
+    pub exact: bool,
 }
 
 impl TechniqueVisitor for (&Selection, Module) {
@@ -82,7 +84,7 @@ impl Selection {
     /// Records all that is selected.
     #[must_use]
     pub fn module(&self) -> Module {
-        let mut visitor = (self, Module::default());
+        let mut visitor = (self, Module { exact: self.exact, ..Module::default() });
         every_warp(&mut visitor);
         every_technique(&mut visitor);
         let mut module = visitor.1;

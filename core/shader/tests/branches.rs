@@ -16,7 +16,7 @@ fn function(routine: impl Fn(Number) -> Number) -> Module {
         outputs: vec![output],
         graph,
     };
-    Module { structs: Vec::new(), functions: vec![function] }
+    Module { functions: vec![function], ..Module::default() }
 }
 /// Its statements in C.
 fn body(module: &Module) -> String {

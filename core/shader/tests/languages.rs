@@ -11,6 +11,7 @@ fn everything() -> Selection {
         tools: vec!["all".into()],
         tables: vec!["all".into()],
         wanted: Wanted::default(),
+        exact: false,
     }
 }
 
@@ -109,7 +110,7 @@ fn tables_are_in_a_buffer() {
 fn operands_of_bits_have_parentheses_in_wgsl() {
     let selection = Selection { tables: vec!["light_tree".into()], tools: vec!["all".into()], ..Selection::default() };
     let module = selection.module();
-    let text = print(&module, &Wgsl, "Written by a test.");
+    let text = print(&module, &Wgsl::default(), "Written by a test.");
     let (mut bits, mut shifts) = (0, 0);
     for line in text.lines().filter(|line| !line.trim_start().starts_with("//")) {
         // the operators at each depth of parentheses
@@ -140,7 +141,7 @@ fn operands_of_bits_have_parentheses_in_wgsl() {
 #[test]
 fn broken_sources_are_found() {
     let module = Selection { lights: vec!["sun".into()], ..Selection::default() }.module();
-    let text = print(&module, &Wgsl, "Written by a test.");
+    let text = print(&module, &Wgsl::default(), "Written by a test.");
     Checked::new(&text).unwrap();
     for (from, to, why) in [
         ("fn etendue_lesser(a: f32, b: f32) -> f32 {", "fn etendue_lesser(a: f32, b: f32) -> u32 {", "type"),

@@ -1,5 +1,6 @@
 //! The program: what it writes, and what it says about arguments that it cannot use.
 
+use etendue_shader::Language;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -65,6 +66,31 @@ fn what_is_asked_for_is_written() {
     ] {
         assert_eq!(text.contains(name), there, "{name}");
     }
+}
+
+/// `--exact` writes out what shading languages do not promise to round correctly, in all of them, and is refused where that is promised.
+#[test]
+fn operations_are_written_out_where_they_may_be_inexact() {
+    let arguments = |language| ["--language", language, "--warps", "cosine_hemisphere,patch_surface", "--exact"];
+    for language in Language::ALL {
+        let output = program(&arguments(language.name()));
+        if language.is_exact() {
+            let text = message(&output);
+            assert!(text.contains("--exact") && text.contains(language.name()), "{text}");
+            continue;
+        }
+        assert!(output.status.success(), "{output:?}");
+        let text = String::from_utf8_lossy(&output.stdout);
+        for name in ["etendue_exact_fma", "etendue_exact_quotient", "etendue_exact_sqrt"] {
+            assert!(text.contains(name), "{}: no {name}", language.name());
+        }
+    }
+    let [with, without] = [&arguments("wgsl")[..], &arguments("wgsl")[..4]].map(|of| program(of).stdout);
+    let [with, without] = [with, without].map(|bytes| String::from_utf8(bytes).unwrap());
+    assert!(without.contains(" / ") && without.contains("fma(") && without.contains("sqrt("));
+    // the functions of the prelude are the only ones that divide
+    let (_, body) = with.split_once("struct EtenduePatchSurface").unwrap();
+    assert!(!body.contains(" / ") && !body.contains(" fma(") && !body.contains(" sqrt("), "{body}");
 }
 
 /// Each committed file is what the command in its second line writes. `WRITE=1` writes it anew.

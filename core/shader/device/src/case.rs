@@ -10,7 +10,7 @@ pub(crate) struct Case {
     pub(crate) wgsl: String,
     pub(crate) spirv: Vec<u32>,
     /// The same with each `fma` written out, so that it rounds once wherever sums and products are exact.
-    pub(crate) fused: Vec<u32>,
+    pub(crate) exact: Vec<u32>,
     /// The operations of its functions.
     pub(crate) operations: usize,
     /// What each output is: the field of a result.
@@ -36,7 +36,7 @@ impl Case {
             let bytes = fs::read(path).map_err(|error| wrong(path, &error.to_string()))?;
             Ok::<Vec<u32>, String>(bytes.as_chunks().0.iter().map(|word| u32::from_le_bytes(*word)).collect())
         };
-        let (spirv, fused) = (words(&path.with_extension("spv"))?, words(&path.with_extension("fused.spv"))?);
+        let (spirv, exact) = (words(&path.with_extension("spv"))?, words(&path.with_extension("exact.spv"))?);
         let path = path.with_extension("bin");
         let words = words(&path)?;
         let Some((&[count, takes, gives, memory], rest)) = words.split_first_chunk() else {
@@ -53,7 +53,7 @@ impl Case {
             name: path.file_stem().unwrap_or_default().to_string_lossy().into_owned(),
             wgsl,
             spirv,
-            fused,
+            exact,
             operations,
             places,
             count,

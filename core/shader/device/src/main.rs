@@ -6,11 +6,11 @@
 //! ```
 //!
 //! The device is the first whose name has this part; without it, a software device if there is one. Each program runs three times: as WGSL,
-//! as SPIR-V, whose sums and products drivers must not combine, and as SPIR-V in which each `fma` is written out in sums and products
-//! (*fused*), since few devices that say so round it once. Programs of more than 7000 operations need `LONG=1`.
+//! as SPIR-V, whose sums and products drivers must not combine, and as SPIR-V in which each fused multiply-add, quotient and square root is
+//! written out (*exact*), since devices need not round them correctly. Programs of more than 7000 operations need `LONG=1`.
 //!
-//! It exits with 1 if a program is not valid or does not run, or if with each `fma` written out it returns NaN or a density where Rust
-//! does not, or less than 99 % of the numbers with the same bits: subnormal numbers differ on many devices.
+//! It exits with 1 if a program is not valid or does not run, or if an exact one returns NaN or a density where Rust does not, or less than
+//! 99 % of the numbers with the same bits: subnormal numbers differ on many devices.
 
 mod case;
 mod gpu;
@@ -48,7 +48,7 @@ fn run(folder: &Path, part: &str) -> Result<bool, Box<dyn Error>> {
         for (language, source) in [
             ("WGSL", Source::Wgsl(&case.wgsl)),
             ("SPIR-V", Source::SpirV(&case.spirv)),
-            ("fused", Source::SpirV(&case.fused)),
+            ("exact", Source::SpirV(&case.exact)),
         ] {
             print!("{:50} {:10} {language:6} ", case.name, case.operations);
             match gpu.run(source, case.count, &case.inputs, &case.memory, case.right.len()) {
@@ -62,7 +62,7 @@ fn run(folder: &Path, part: &str) -> Result<bool, Box<dyn Error>> {
                     );
                     let keeps = of.nan == 0 && of.pdf_for_none == 0 && same >= 99.0;
                     // single operations are asked for more than the languages promise, as conversions of large numbers
-                    if language == "fused" && !keeps && case.name != "operations" {
+                    if language == "exact" && !keeps && case.name != "operations" {
                         println!("{}: too different from Rust", case.name);
                         fine = false;
                     }

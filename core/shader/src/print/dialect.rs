@@ -84,6 +84,10 @@ pub trait Dialect {
     fn or(&self) -> &'static str;
     /// The function that does an operation.
     fn function(&self, op: Op) -> &'static str;
+    /// The function that divides, unless the operator does.
+    fn quotient(&self) -> Option<&'static str> {
+        None
+    }
     /// `mask ? yes : no`
     fn select(&self, mask: &Expression, yes: &Expression, no: &Expression) -> Expression;
     /// The first line of a struct.

@@ -1,7 +1,7 @@
 //
 // WGSL promises neither that `fma` rounds once, nor correctly rounded division and square roots, nor subnormal numbers, infinities and
-// NaN. Where a device has all these, as most do, the functions return the bits of the Rust library `etendue`; elsewhere results differ in
-// their last digits.
+// NaN. Where a device has all these, the functions return the bits of the Rust library `etendue`. Elsewhere results differ: mostly in their last
+// digits, but hostile input can return NaN, or a pdf where there is none. `--exact` writes the first three out.
 
 fn etendue_from_bits(bits: u32) -> f32 {
     return bitcast<f32>(bits);

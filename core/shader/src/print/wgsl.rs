@@ -5,14 +5,18 @@ use crate::graph::Op;
 use crate::module::Leaf;
 
 /// WGSL.
-#[derive(Clone, Copy, Debug)]
-pub struct Wgsl;
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Wgsl {
+    /// Whether fused multiply-adds, quotients and square roots are written out, as the language does not promise to round them correctly.
+    pub exact: bool,
+}
 
 const PRELUDE: &str = include_str!("prelude.wgsl");
 
 impl Dialect for Wgsl {
     fn begin(&self, how: &str) -> String {
-        format!("// Light sampling for renderers, in WGSL. MIT or Apache-2.0.\n// {how}\n{PRELUDE}\n")
+        let exact = if self.exact { include_str!("exact.wgsl") } else { "" };
+        format!("// Light sampling for renderers, in WGSL. MIT or Apache-2.0.\n// {how}\n{PRELUDE}{exact}\n")
     }
     fn end(&self) -> String {
         String::new()
@@ -50,7 +54,9 @@ impl Dialect for Wgsl {
     }
     fn function(&self, op: Op) -> &'static str {
         match op {
+            Op::MulAdd if self.exact => "etendue_exact_fma",
             Op::MulAdd => "fma",
+            Op::Sqrt if self.exact => "etendue_exact_sqrt",
             Op::Sqrt => "sqrt",
             Op::Abs => "abs",
             Op::Round => "round",
@@ -68,6 +74,9 @@ impl Dialect for Wgsl {
             Op::FromBits => "etendue_from_bits",
             _ => panic!("{op:?} is an operator and not a function"),
         }
+    }
+    fn quotient(&self) -> Option<&'static str> {
+        self.exact.then_some("etendue_exact_quotient")
     }
     fn select(&self, mask: &Expression, yes: &Expression, no: &Expression) -> Expression {
         Expression::atom(format!("select({}, {}, {})", no.text, yes.text, mask.text))

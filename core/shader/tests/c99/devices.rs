@@ -24,12 +24,9 @@ impl Driver<'_> {
         fs::create_dir_all(folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
         FILES.iter().for_each(|(file, text)| write(file, text.as_bytes()));
         write(&format!("{name}.cu"), self.cuda(name).as_bytes());
-        let wgsl = self.wgsl_kernel();
-        let exact = wgsl.replace(" fma(", " fused(").replace("(fma(", "(fused(").replace("-fma(", "-fused(");
-        assert!(!exact.contains("fma("), "{name}: an fma in another place");
-        let exact = exact + include_str!("devices/fma.wgsl");
+        let [wgsl, exact] = [false, true].map(|exact| self.wgsl_kernel(Wgsl { exact }));
         write(&format!("{name}.wgsl"), wgsl.as_bytes());
-        for (ending, wgsl) in [("spv", &wgsl), ("fused.spv", &exact)] {
+        for (ending, wgsl) in [("spv", &wgsl), ("exact.spv", &exact)] {
             let spirv = Checked::new(wgsl).and_then(|checked| checked.translate(Target::SpirV));
             write(&format!("{name}.{ending}"), &spirv.unwrap_or_else(|error| panic!("{name}: {error}")));
         }
@@ -71,8 +68,8 @@ impl Driver<'_> {
         text
     }
     /// An entry point that runs the program for each of many inputs.
-    fn wgsl_kernel(&self) -> String {
-        let (source, program) = (print(self.module, &Wgsl, "Made by a test."), self.wgsl());
+    fn wgsl_kernel(&self, language: Wgsl) -> String {
+        let (source, program) = (print(self.module, &language, "Made by a test."), self.wgsl());
         let (takes, gives, entry) = (self.inputs, self.outputs.len(), include_str!("devices/entry.wgsl"));
         format!("{source}const takes = {takes}u;\nconst gives = {gives}u;\n{program}{entry}")
     }

@@ -258,7 +258,7 @@ fn module() -> Module {
     for k in 0..count {
         functions.push(function(format!("together_{k}_of"), &|of| Value::Several(together(of).swap_remove(k))));
     }
-    let mut module = Module { structs: Vec::new(), functions };
+    let mut module = Module { functions, ..Module::default() };
     add_calls(&mut module);
     module
 }
@@ -327,7 +327,7 @@ fn operations_have_the_same_bits_in_metal() {
 
 #[test]
 fn operations_are_written_in_wgsl() {
-    let text = print(&module(), &Wgsl, "Written by a test.");
+    let text = print(&module(), &Wgsl::default(), "Written by a test.");
     Checked::new(&text).unwrap();
     for (k, op) in operations().into_iter().enumerate() {
         let (_, body) = text.split_once(&format!("fn etendue_operation_{k}_of(")).unwrap();

@@ -155,7 +155,7 @@ impl<'a> Driver<'a> {
                 Statement::Take { name, of, first } => {
                     for (k, (place, leaf)) in self.places(*of, name).into_iter().enumerate() {
                         if k == 0 {
-                            let _ = writeln!(text, "    var {name}: {};", self.type_name(*of, &Wgsl));
+                            let _ = writeln!(text, "    var {name}: {};", self.type_name(*of, &Wgsl::default()));
                         }
                         let word = format!("read_bits(first_in + {}u)", first + k);
                         let value = match leaf {
