@@ -14,7 +14,7 @@ const ASKING: Duration = Duration::from_secs(2);
 /// How long a client may take to read its answer.
 const READING: Duration = Duration::from_secs(20);
 /// How long a client may take to send the rest of a request that is refused, and of how many bytes at most.
-const LEAVING: Duration = Duration::from_millis(500);
+pub(crate) const LEAVING: Duration = Duration::from_millis(500);
 const MOST_LEFT: u64 = 1 << 16;
 
 /// What the page may do, for the browser: load its own script and style, ask its own server, and nothing else; no other page may frame it
@@ -167,12 +167,12 @@ fn parse(bytes: &[u8]) -> Result<Option<(Request, usize, usize)>, Option<Respons
     Ok(Some((request, start, length)))
 }
 
-/// Sends an answer to a request that was not read whole. What is left of it is thrown away: closing the connection before that could
-/// take the answer from the client.
-pub(crate) fn refuse(stream: &TcpStream, response: Response) -> io::Result<()> {
+/// Sends an answer to a request that was not read whole. What is left of it is thrown away, for as long as `leaving`: closing the connection
+/// before that could take the answer from the client.
+pub(crate) fn refuse(stream: &TcpStream, response: Response, leaving: Duration) -> io::Result<()> {
     write(stream, response)?;
     stream.shutdown(Shutdown::Write)?;
-    let mut rest = Until(stream, Instant::now() + LEAVING).take(MOST_LEFT);
+    let mut rest = Until(stream, Instant::now() + leaving).take(MOST_LEFT);
     io::copy(&mut rest, &mut io::sink()).map(|_| ())
 }
 

@@ -7,9 +7,12 @@ use std::net::{Ipv4Addr, TcpListener};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
+use std::time::Duration;
 
 /// Greatest number of connections at a time; others are told to come again.
 const CLIENTS: usize = 16;
+/// How long the listener waits for the request of a client that it turns away.
+const TURNED_AWAY: Duration = Duration::from_millis(20);
 /// How many ports are tried, from the first one.
 const PORTS: u16 = 16;
 
@@ -64,13 +67,13 @@ impl Server {
             loop {
                 let Ok((stream, _)) = listener.accept() else {
                     // such as too many open files
-                    thread::sleep(std::time::Duration::from_millis(100));
+                    thread::sleep(Duration::from_millis(100));
                     continue;
                 };
                 let place = Place::new(&clients);
                 if place.number > CLIENTS {
-                    // it fits into the buffer of any socket
-                    let _ = http::write(&stream, Response::text(503, "too many connections"));
+                    // it fits into the buffer of any socket, and whoever knocks next waits no longer than that
+                    let _ = http::refuse(&stream, Response::text(503, "too many connections"), TURNED_AWAY);
                     continue;
                 }
                 let (answer, guard) = (Arc::clone(&answer), Arc::clone(&guard));
@@ -82,7 +85,7 @@ impl Server {
                             let refused_or = guard.check(&request).map(|path| answer(path, &request));
                             http::write(&stream, refused_or.unwrap_or_else(|refused| refused))
                         }
-                        Err(Some(refused)) => http::refuse(&stream, refused),
+                        Err(Some(refused)) => http::refuse(&stream, refused, http::LEAVING),
                         Err(None) => Ok(()),
                     };
                 };

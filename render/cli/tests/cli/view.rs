@@ -218,6 +218,8 @@ fn clients_that_say_nothing_and_read_nothing_hold_little() {
     assert!(refused.code == 503 && refused.text().contains("images"), "{}", refused.head);
     let paused = viewer.wish("{\"paused\":true}");
     assert_eq!(paused.code, 200);
+    // the pass that is rendered takes memory until it ends, after a second at most
+    sleep(Duration::from_millis(2000));
     #[cfg(target_os = "linux")]
     let before = memory(viewer.child.id());
     // connections that say nothing, or begin to
