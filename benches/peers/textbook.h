@@ -48,7 +48,7 @@ static inline float textbook_triangle_pdf(const V3 v[3], V3 p) {
     return solid_angle > 0 ? 1 / solid_angle : 0;
 }
 
-/* A triangle, uniform in solid angle (Arvo 1995; PBR A.6.2 of the chapter on sampling). */
+/* A triangle, uniform in solid angle (Arvo 1995; PBR 6.5.4). */
 static inline Drawn textbook_triangle(const V3 v[3], V3 p, float u0, float u1) {
     Drawn none = {{0, 0, 0}, {0, 0, 0}, 0, 0, 0};
     V3 a = unit(sub(v[0], p)), b = unit(sub(v[1], p)), c = unit(sub(v[2], p));
@@ -144,7 +144,7 @@ static inline Drawn textbook_sphere(V3 center, float radius, V3 p, float u0, flo
         acosf(clamp(normal.z, -1, 1)) / PI};
 }
 
-/* A rectangle, uniform in solid angle (Urena et al. 2013; PBR A.6.3). */
+/* A rectangle, uniform in solid angle (Urena et al. 2013). */
 static inline Drawn textbook_rectangle(V3 corner, V3 ex, V3 ey, V3 p, float u0, float u1) {
     float lx = length(ex), ly = length(ey);
     V3 x = mul(1 / lx, ex), y = mul(1 / ly, ey), z = cross(x, y), d = sub(corner, p);

@@ -33,7 +33,7 @@ struct Options {
     /// Fields of the samples of lights [default: all]
     #[arg(long, value_delimiter = ',', value_parser = PossibleValuesParser::new(SampleField::ALL.iter().map(|field| field.name())))]
     fields: Vec<String>,
-    /// Write fused multiply-adds, quotients and square roots out, for devices that do not round them correctly: some ten operations each
+    /// Write fused multiply-adds, quotients and square roots out, for devices that do not round them correctly: about 50 operations for a multiply-add, 120 for the others
     #[arg(long)]
     exact: bool,
     /// File to write [default: standard output]

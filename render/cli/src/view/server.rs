@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 use std::time::Duration;
 
-/// Greatest number of connections at a time; others are told to come again.
+/// The most clients that can be connected at the same time. Others get the answer 503, and can try again.
 const CLIENTS: usize = 16;
 /// How long the listener waits for the request of a client that it turns away.
 const TURNED_AWAY: Duration = Duration::from_millis(20);
