@@ -4,7 +4,7 @@
 
 use crate::real::Real;
 use crate::vector::{Vec2, Vec3};
-use wide::{f32x4, f32x8, f32x16, f64x4};
+use wide::{f32x4, f32x8, f32x16, f64x4, f64x8};
 
 macro_rules! splats {
     ($scalar:ident, $vec2:ty, $vec3:ty, $($real:ident),+) => {
@@ -55,7 +55,7 @@ macro_rules! splats {
     };
 }
 splats!(f32, glam::Vec2, glam::Vec3, f32, f32x4, f32x8, f32x16);
-splats!(f64, glam::DVec2, glam::DVec3, f64, f64x4);
+splats!(f64, glam::DVec2, glam::DVec3, f64, f64x4, f64x8);
 
 impl From<glam::Vec3A> for Vec3<f32> {
     #[inline]

@@ -8,13 +8,13 @@ pub trait Lanewise<R>: Sized {
     fn map<S>(self, f: impl FnMut(R) -> S) -> Self::With<S>;
 }
 
-/// Implements [`Lanewise`] by the method `map` of a struct over numbers alone, or over numbers and a constant.
+/// Implements [`Lanewise`] by the method `map` of a struct over numbers alone, or over numbers and constants.
 macro_rules! lanewise_by_map {
-    ($name:ident $(, $n:ident)?) => {
-        impl<R $(, const $n: usize)?> $crate::lanewise::Lanewise<R> for $name<R $(, $n)?> {
-            type With<S> = $name<S $(, $n)?>;
+    ($name:ident $(, $n:ident)*) => {
+        impl<R $(, const $n: usize)*> $crate::lanewise::Lanewise<R> for $name<R $(, $n)*> {
+            type With<S> = $name<S $(, $n)*>;
             #[inline(always)]
-            fn map<S>(self, f: impl FnMut(R) -> S) -> $name<S $(, $n)?> {
+            fn map<S>(self, f: impl FnMut(R) -> S) -> $name<S $(, $n)*> {
                 self.map(f)
             }
         }

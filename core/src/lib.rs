@@ -3,7 +3,7 @@
 //!
 //! ```
 //! use etendue::{LightSampler, Parallelogram, Vec2, Vec3, f32x8, u32x8, sequence::{Independent, Sequence}};
-//! // eight samples of a panel overhead from the origin; the same code serves f32, f32x4, f32x8, f32x16, f64 and f64x4
+//! // eight samples of a panel overhead from the origin; the same code serves f32, f32x4, f32x8, f32x16, f64, f64x4 and f64x8
 //! let panel = Parallelogram::new(Vec3::lit([-1.0, 2.0, -1.0]), Vec3::lit([2.0, 0.0, 0.0]), Vec3::lit([0.0, 0.0, 2.0]));
 //! let sampler = panel.by_solid_angle(Vec3::lit([0.0; 3]));
 //! let u: Vec2<f32x8> = Independent::new(1).pair(u32x8::splat(0), u32x8::from([0, 1, 2, 3, 4, 5, 6, 7]), 0);
@@ -60,4 +60,4 @@ pub use light::{
 pub use real::{Mask, Real, Uint};
 pub use vector::{Frame, Vec2, Vec3};
 pub use warp::{Warp, Warp1};
-pub use wide::{f32x4, f32x8, f32x16, f64x4, u32x4, u32x8, u32x16};
+pub use wide::{f32x4, f32x8, f32x16, f64x4, f64x8, u32x4, u32x8, u32x16};

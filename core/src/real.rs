@@ -14,7 +14,7 @@ use core::fmt::Debug;
 use core::ops::{Add, AddAssign, BitAnd, BitOr, BitXor, Div, Mul, MulAssign, Neg, Not, Sub, SubAssign};
 
 pub(crate) use functions::polynomial;
-pub use mask::{MaskF64X4, MaskX4, MaskX8, MaskX16};
+pub use mask::{MaskF64X4, MaskF64X8, MaskX4, MaskX8, MaskX16};
 
 /// A truth value per lane.
 pub trait Mask:
@@ -83,8 +83,8 @@ pub type State<R, const N: usize, const W: usize> = ([R; N], [<R as Real>::Uint;
 
 /// A real number or a packet of them: everything that a warp needs, and no more.
 ///
-/// Implemented for `f32`, `f64`, [`f32x4`](wide::f32x4), [`f32x8`](wide::f32x8), [`f32x16`](wide::f32x16) and
-/// [`f64x4`](wide::f64x4). Comparisons with NaN are false, as for scalars. The trait is open, so that other number types can go through
+/// Implemented for `f32`, `f64`, [`f32x4`](wide::f32x4), [`f32x8`](wide::f32x8), [`f32x16`](wide::f32x16),
+/// [`f64x4`](wide::f64x4) and [`f64x8`](wide::f64x8). Comparisons with NaN are false, as for scalars. The trait is open, so that other number types can go through
 /// the same routines; new required methods count as breaking changes.
 pub trait Real:
     'static

@@ -48,7 +48,7 @@ pub use line::{ProjectedSegment, SphericalSegment};
 pub use parallelogram::SphericalParallelogram;
 pub use polygon::SphericalPolygon;
 pub use projected_cap::ProjectedCap;
-pub use projected_polygon::ProjectedPolygon;
+pub use projected_polygon::{ProjectedParallelogram, ProjectedPolygon};
 pub use projected_triangle::ProjectedTriangle;
 pub use rectangle::SphericalRectangle;
 pub use shape::{ProjectedShape, SphericalShape};

@@ -21,7 +21,7 @@ use crate::surfaces::Surfaces;
 pub use blockers::Blocker;
 use blockers::Candidate;
 pub use bodies::Bodies;
-use etendue::f64x4;
+use etendue::f64x8;
 use etendue::occlusion::Occlusion;
 pub use patch::{Patch, Pyramid, Viewer};
 use precision::Behind;
@@ -63,7 +63,7 @@ pub struct Certifier<'a> {
     met: Vec<(u32, bool)>,
     blockers: Vec<Blocker>,
     /// For lights without blockers.
-    occlusion: Box<Occlusion<f64x4>>,
+    occlusion: Box<Occlusion<f64x8>>,
 }
 
 impl<'a> Certifier<'a> {

@@ -1,6 +1,6 @@
 //! Packets of eight numbers, points or masks, and the functions of them that the whole renderer shares.
 
-use etendue::{Mask, Real, Vec3, f32x8, f64x4, u32x8};
+use etendue::{Mask, Real, Vec3, f32x8, f64x8, u32x8};
 
 /// Eight numbers, one per lane.
 pub type X8 = f32x8;
@@ -56,26 +56,21 @@ pub fn each_bit(bits: impl Into<u64>, mut f: impl FnMut(usize)) {
     }
 }
 
-/// The numbers in double precision: those of the first four lanes, and those of the others.
+/// The numbers in double precision.
 #[inline(always)]
-pub fn widen(x: X8) -> [f64x4; 2] {
-    let [a, b, c, d, e, f, g, h] = x.to_array();
-    [f64x4::new([a.into(), b.into(), c.into(), d.into()]), f64x4::new([e.into(), f.into(), g.into(), h.into()])]
+pub fn widen(x: X8) -> f64x8 {
+    f64x8::new(x.to_array().map(f64::from))
 }
 
-/// The points in double precision: those of the first four lanes, and those of the others.
+/// The points in double precision.
 #[inline(always)]
-pub fn widen_points(v: V8) -> [Vec3<f64x4>; 2] {
-    let (x, y, z) = (widen(v.x), widen(v.y), widen(v.z));
-    [Vec3::new(x[0], y[0], z[0]), Vec3::new(x[1], y[1], z[1])]
+pub fn widen_points(v: V8) -> Vec3<f64x8> {
+    Vec3::new(widen(v.x), widen(v.y), widen(v.z))
 }
 
 /// The points in single precision, each coordinate rounded to the nearest.
 #[inline(always)]
-pub fn narrow_points([first, second]: [Vec3<f64x4>; 2]) -> V8 {
-    let join = |a: f64x4, b: f64x4| {
-        let ([a, b, c, d], [e, f, g, h]) = (a.to_array(), b.to_array());
-        X8::from([a as f32, b as f32, c as f32, d as f32, e as f32, f as f32, g as f32, h as f32])
-    };
-    Vec3::new(join(first.x, second.x), join(first.y, second.y), join(first.z, second.z))
+pub fn narrow_points(v: Vec3<f64x8>) -> V8 {
+    let narrow = |x: f64x8| X8::from(x.to_array().map(|x| x as f32));
+    Vec3::new(narrow(v.x), narrow(v.y), narrow(v.z))
 }

@@ -7,7 +7,8 @@ use crate::lanewise::lanewise;
 use crate::real::Real;
 use crate::reflection::Reflection;
 use crate::spherical::{
-    CosineWarped, ProjectedPolygon, ProjectedTriangle, SphericalParallelogram, SphericalRectangle, SphericalTriangle,
+    CosineWarped, ProjectedParallelogram, ProjectedTriangle, SphericalParallelogram, SphericalRectangle,
+    SphericalTriangle,
 };
 use crate::vector::Vec3;
 
@@ -74,16 +75,20 @@ impl<R: Real> Triangle<R> {
     #[inline(always)]
     pub fn by_projected_solid_angle(&self, p: Vec3<R>, n: Vec3<R>) -> TriangleByProjectedSolidAngle<R> {
         let v0 = self.v0 - p;
-        let shape = ProjectedTriangle::with_edges(v0, v0 + self.e1, v0 + self.e2, self.e1, self.e2, n);
-        ByProjectedSolidAngle { origin: p, normal: n, surface: self.placed(p), shape }
+        let shape = ProjectedTriangle::default();
+        let mut sampler = ByProjectedSolidAngle { origin: p, normal: n, surface: self.placed(p), shape };
+        sampler.shape.prepare_edges([v0, v0 + self.e1, v0 + self.e2], [self.e1, self.e2], n);
+        sampler
     }
     /// In proportion to the lobe of a rough surface at the point `p`: pdf π times that of the [`Reflection`], over the projected solid angle
     /// after its map, per steradian; 0 where nothing of the triangle is above the horizon.
     #[inline(always)]
     pub fn by_reflection(&self, p: Vec3<R>, reflection: &Reflection<R>) -> TriangleByReflection<R> {
         let [v0, e1, e2] = [self.v0 - p, self.e1, self.e2].map(|v| reflection.to_cosine(v));
-        let shape = ProjectedTriangle::with_edges(v0, v0 + e1, v0 + e2, e1, e2, Vec3::lit([0.0, 0.0, 1.0]));
-        ByReflection { origin: p, reflection: *reflection, surface: self.placed(p), shape }
+        let shape = ProjectedTriangle::default();
+        let mut sampler = ByReflection { origin: p, reflection: *reflection, surface: self.placed(p), shape };
+        sampler.shape.prepare_edges([v0, v0 + e1, v0 + e2], [e1, e2], Vec3::lit([0.0, 0.0, 1.0]));
+        sampler
     }
     /// By solid angle times a bilinear approximation of the cosine to the unit normal `n` at the point `p`, [`CosineWarped`]: for diffuse
     /// surfaces where the projected solid angle costs too much. The pdf is per steradian.
@@ -153,32 +158,36 @@ impl<R: Real> Parallelogram<R> {
         let shape = SphericalParallelogram::new(self.corner - p, self.edge_s, self.edge_t);
         BySolidAngle { origin: p, surface: self.placed(p), shape }
     }
-    /// Uniform over the projected solid angle Ω⊥ above the horizon of the unit normal `n` at the point `p`, [`ProjectedPolygon`]: pdf
+    /// Uniform over the projected solid angle Ω⊥ above the horizon of the unit normal `n` at the point `p`, [`ProjectedParallelogram`]: pdf
     /// cosθ/Ω⊥ per steradian, 0 where nothing of the parallelogram is above the horizon. On an unoccluded diffuse surface every sample
     /// has the same value.
     #[inline(always)]
     pub fn by_projected_solid_angle(&self, p: Vec3<R>, n: Vec3<R>) -> ParallelogramByProjectedSolidAngle<R> {
-        let shape = ProjectedPolygon::parallelogram(self.corner - p, self.edge_s, self.edge_t, n);
-        ByProjectedSolidAngle { origin: p, normal: n, surface: self.placed(p), shape }
+        let shape = ProjectedParallelogram::default();
+        let mut sampler = ByProjectedSolidAngle { origin: p, normal: n, surface: self.placed(p), shape };
+        sampler.shape.prepare_parallelogram(self.corner - p, [self.edge_s, self.edge_t], n);
+        sampler
     }
     /// In proportion to the lobe of a rough surface at the point `p`: as [`Triangle::by_reflection`].
     #[inline(always)]
     pub fn by_reflection(&self, p: Vec3<R>, reflection: &Reflection<R>) -> ParallelogramByReflection<R> {
         let [corner, s, t] = [self.corner - p, self.edge_s, self.edge_t].map(|v| reflection.to_cosine(v));
-        let shape = ProjectedPolygon::parallelogram(corner, s, t, Vec3::lit([0.0, 0.0, 1.0]));
-        ByReflection { origin: p, reflection: *reflection, surface: self.placed(p), shape }
+        let shape = ProjectedParallelogram::default();
+        let mut sampler = ByReflection { origin: p, reflection: *reflection, surface: self.placed(p), shape };
+        sampler.shape.prepare_parallelogram(corner, [s, t], Vec3::lit([0.0, 0.0, 1.0]));
+        sampler
     }
 }
 
 /// A [`Parallelogram`] or a [`Rectangle`] sampled by the lobe of a rough surface.
-pub type ParallelogramByReflection<R> = ByReflection<R, PlacedParallelogram<R>, ProjectedPolygon<R, 4>>;
+pub type ParallelogramByReflection<R> = ByReflection<R, PlacedParallelogram<R>, ProjectedParallelogram<R>>;
 /// A [`Parallelogram`] or a [`Rectangle`] sampled by area from a point.
 pub type ParallelogramByArea<R> = ByArea<R, PlacedParallelogram<R>>;
 /// A [`Parallelogram`] sampled by solid angle from a point.
 pub type ParallelogramBySolidAngle<R> = BySolidAngle<R, PlacedParallelogram<R>, SphericalParallelogram<R>>;
 /// A [`Parallelogram`] or a [`Rectangle`] sampled by projected solid angle from a point on a surface.
 pub type ParallelogramByProjectedSolidAngle<R> =
-    ByProjectedSolidAngle<R, PlacedParallelogram<R>, ProjectedPolygon<R, 4>>;
+    ByProjectedSolidAngle<R, PlacedParallelogram<R>, ProjectedParallelogram<R>>;
 
 lanewise! {
     /// A rectangle light corner + s·edge_s + t·edge_t, s and t in [0, 1], with perpendicular edges, that emits from the side of

@@ -67,15 +67,19 @@ impl<R: Real, const N: usize> Polygon<R, N> {
     /// same value.
     #[inline(always)]
     pub fn by_projected_solid_angle(&self, p: Vec3<R>, n: Vec3<R>) -> PolygonByProjectedSolidAngle<R, N> {
-        let shape = ProjectedPolygon::new(self.corners.map(|c| c - p), n);
-        ByProjectedSolidAngle { origin: p, normal: n, surface: PlacedPolygon::new(self.corners, p), shape }
+        let (surface, shape) = (PlacedPolygon::new(self.corners, p), ProjectedPolygon::default());
+        let mut sampler = ByProjectedSolidAngle { origin: p, normal: n, surface, shape };
+        sampler.shape.prepare_corners(self.corners.map(|c| c - p), n);
+        sampler
     }
     /// In proportion to the lobe of a rough surface at the point `p`: as [`Triangle::by_reflection`](crate::Triangle::by_reflection).
     #[inline(always)]
     pub fn by_reflection(&self, p: Vec3<R>, reflection: &Reflection<R>) -> PolygonByReflection<R, N> {
         let corners = self.corners.map(|c| reflection.to_cosine(c - p));
-        let shape = ProjectedPolygon::new(corners, Vec3::lit([0.0, 0.0, 1.0]));
-        ByReflection { origin: p, reflection: *reflection, surface: PlacedPolygon::new(self.corners, p), shape }
+        let (surface, shape) = (PlacedPolygon::new(self.corners, p), ProjectedPolygon::default());
+        let mut sampler = ByReflection { origin: p, reflection: *reflection, surface, shape };
+        sampler.shape.prepare_corners(corners, Vec3::lit([0.0, 0.0, 1.0]));
+        sampler
     }
 }
 

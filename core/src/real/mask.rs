@@ -2,7 +2,7 @@
 
 use super::Mask;
 use core::ops::{BitAnd, BitOr, BitXor, Not};
-use wide::{f32x4, f32x8, f32x16, f64x4, u32x4, u32x8, u32x16};
+use wide::{f32x4, f32x8, f32x16, f64x4, f64x8, u32x4, u32x8, u32x16, u64x8};
 
 impl Mask for bool {
     #[inline(always)]
@@ -106,5 +106,12 @@ packet_mask!(
     /// The [`Mask`] of [`f64x4`].
     MaskF64X4, f64x4, |bits| {
         f64x4::new(core::array::from_fn(|i| f64::from_bits(if bits >> i & 1 == 1 { u64::MAX } else { 0 })))
+    }
+);
+packet_mask!(
+    /// The [`Mask`] of [`f64x8`].
+    MaskF64X8, f64x8, |bits| {
+        let each = u64x8::new(core::array::from_fn(|i| 1 << i));
+        f64x8::from_bits((u64x8::splat(u64::from(bits)) & each).simd_eq(each))
     }
 );

@@ -1,8 +1,8 @@
 //! Numbers of single and double precision, and packets of them.
 
 use super::uint::lanes;
-use super::{Mask, MaskF64X4, MaskX4, MaskX8, MaskX16, Real, fused};
-use wide::{f32x4, f32x8, f32x16, f64x2, f64x4, u32x4, u32x8, u32x16, u64x4};
+use super::{Mask, MaskF64X4, MaskF64X8, MaskX4, MaskX8, MaskX16, Real, fused};
+use wide::{f32x4, f32x8, f32x16, f64x2, f64x4, f64x8, u32x4, u32x8, u32x16, u64x4, u64x8};
 
 /// True where rounding to an integer is an instruction.
 const ROUNDS: bool = cfg!(any(target_feature = "sse4.1", target_feature = "simd128", target_arch = "aarch64"));
@@ -357,4 +357,19 @@ packet_real!(
     lane_by_lane,
     |x| u32x4::new(core::array::from_fn(|i| x.as_array()[i] as i32 as u32)),
     |mask| u32x4::new(core::array::from_fn(|i| if mask.lane(i) { u32::MAX } else { 0 }))
+);
+packet_real!(
+    f64x8,
+    f64,
+    u64x8,
+    MaskF64X8,
+    u32x8,
+    8,
+    0x7ff0_0000_0000_0000,
+    0x7fe0_0000_0000_0000,
+    double,
+    from_i32x8,
+    lane_by_lane,
+    |x| u32x8::new(core::array::from_fn(|i| x.as_array()[i] as i32 as u32)),
+    |mask| u32x8::new(core::array::from_fn(|i| if mask.lane(i) { u32::MAX } else { 0 }))
 );

@@ -2,9 +2,9 @@
 
 use super::direction::{DirectionSample, to_unit};
 use super::double_word::{cross_dw, dot_dw, sum_dw, unit_normal};
-use super::projected_triangle::piece::{Piece, narrowest};
+use super::projected_triangle::piece::narrowest;
 use super::projected_triangle::sector::Sector;
-use super::projected_triangle::zenith::{Found, Side, sectors, surrounds, without_narrow};
+use super::projected_triangle::zenith::{Found, Side, drop_narrow, sectors, surrounds};
 use super::projected_triangle::{
     LEAST_HEIGHT, ProjectedTriangle, ahead, area, difference, edge, lack, with_rest, within,
 };
@@ -33,11 +33,14 @@ use crate::warp::Warp;
 ///   [`SphericalPolygon`](super::SphericalPolygon), up to all of Ω⊥ may be wrong where the point is no farther from the plane
 ///   than the rounding of the corners, which then may not even be convex.
 /// - Source: as for [`ProjectedTriangle`].
+///
+/// `ROOM` is how many triangles it has memory for, at least N − 2: a prepared packet is kilobytes, and a parallelogram, the most frequent
+/// polygon, needs no more than two.
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
-pub struct ProjectedPolygon<R, const N: usize> {
-    /// The N − 2 triangles; the last two entries are unused.
-    fan: [ProjectedTriangle<R>; N],
+pub struct ProjectedPolygon<R, const N: usize, const ROOM: usize = N> {
+    /// The N − 2 triangles; further entries are unused.
+    fan: [ProjectedTriangle<R>; ROOM],
     /// Sums over the triangles: normals, V₀·normal, and Ω⊥
     plane: Vec3<R>,
     volume: R,
@@ -46,18 +49,22 @@ pub struct ProjectedPolygon<R, const N: usize> {
     central: R,
 }
 
-impl<R: Real, const N: usize> Default for ProjectedPolygon<R, N> {
+/// A parallelogram as [`ProjectedPolygon::parallelogram`] prepares it.
+pub type ProjectedParallelogram<R> = ProjectedPolygon<R, 4, 2>;
+
+impl<R: Real, const N: usize, const ROOM: usize> Default for ProjectedPolygon<R, N, ROOM> {
+    #[inline(always)]
     fn default() -> Self {
         let zero = R::lit(0.0);
-        let fan = [ProjectedTriangle::default(); N];
+        let fan = [ProjectedTriangle::default(); ROOM];
         Self { fan, plane: Vec3::default(), volume: zero, projected: zero, central: zero }
     }
 }
 
-impl<R, const N: usize> ProjectedPolygon<R, N> {
+impl<R, const N: usize, const ROOM: usize> ProjectedPolygon<R, N, ROOM> {
     /// Replaces each number x by `f(x)`.
     #[inline(always)]
-    pub fn map<S>(self, mut f: impl FnMut(R) -> S) -> ProjectedPolygon<S, N> {
+    pub fn map<S>(self, mut f: impl FnMut(R) -> S) -> ProjectedPolygon<S, N, ROOM> {
         ProjectedPolygon {
             fan: self.fan.map(|triangle| triangle.map(&mut f)),
             plane: self.plane.map(&mut f),
@@ -68,45 +75,52 @@ impl<R, const N: usize> ProjectedPolygon<R, N> {
     }
 }
 
-lanewise_by_map!(ProjectedPolygon, N);
+lanewise_by_map!(ProjectedPolygon, N, ROOM);
 
-impl<R: Real> ProjectedPolygon<R, 4> {
+impl<R: Real> ProjectedParallelogram<R> {
     /// Prepares for a parallelogram with the corner `p` relative to the point and the edges `u` and `v` (in one unit of
     /// length), on a surface with the normal `normal` (of any length). The edges give its shape, however small and far it is.
     #[inline(always)]
     pub fn parallelogram(p: Vec3<R>, u: Vec3<R>, v: Vec3<R>, normal: Vec3<R>) -> Self {
+        let mut this = Self::default();
+        this.prepare_parallelogram(p, [u, v], normal);
+        this
+    }
+    /// As `parallelogram`, in place; it must be empty before.
+    #[inline(always)]
+    pub(crate) fn prepare_parallelogram(&mut self, p: Vec3<R>, [u, v]: [Vec3<R>; 2], normal: Vec3<R>) {
         let none = Vec3::default();
         let ([p, u, v, a, b, c], scale) = to_unit([p, u, v, p + u, p + v, p + u + v]);
         let both = sum_dw([u, none], [v, none]);
         let (at_a, at_b, at_c) = (lack(a, p, [u, none]), lack(b, p, [v, none]), lack(c, p, both));
-        let mut this = Self::default();
         let sides = [[u, none], [v, none], both.map(|e| -e)];
-        this.fan[0] = ProjectedTriangle::with_sides([p, a, c], [at_a, at_c], sides, [u, v], normal, scale);
+        self.fan[0].prepare_sides([p, a, c], [at_a, at_c], sides, [u, v], normal, scale);
         let sides = [both, [-u, none], [-v, none]];
-        this.fan[1] = ProjectedTriangle::with_sides([p, c, b], [at_c, at_b], sides, [u, v], normal, scale);
+        self.fan[1].prepare_sides([p, c, b], [at_c, at_b], sides, [u, v], normal, scale);
         let of = |v: Vec3<R>, rest: Vec3<R>, e: Vec3<R>| with_rest(cross_dw(v, e), rest, e);
         let zero = Vec3::default();
         // each from the end of the edge whose rounding error is exact: not from c
         let ends = [[p, zero], [a, at_a], [b, at_b], [p, zero]];
         let [e0, e1, e2, e3] = [u, v, -u, -v];
         let products = [of(p, zero, e0), of(a, at_a, e1), of(b, at_b, e2), of(p, zero, e3)];
-        this.join(&[p, a, c, b], &[zero, at_a, at_c, at_b], &ends, &products, normal);
-        this
+        self.join(&[p, a, c, b], &[zero, at_a, at_c, at_b], &ends, &products, normal);
     }
 }
 
 impl<R: Real, const N: usize> ProjectedPolygon<R, N> {
-    const TRIANGLES: usize = {
-        assert!(N >= 3 && N <= 8, "a polygon has 3 to 8 corners");
-        N - 2
-    };
     /// Prepares for corners relative to the point (in any unit of length), on a surface with the normal `normal` (of any
     /// length).
     #[inline(always)]
     pub fn new(corners: [Vec3<R>; N], normal: Vec3<R>) -> Self {
         let mut this = Self::default();
+        this.prepare_corners(corners, normal);
+        this
+    }
+    /// As `new`, in place; it must be empty before.
+    #[inline(always)]
+    pub(crate) fn prepare_corners(&mut self, corners: [Vec3<R>; N], normal: Vec3<R>) {
         for i in 0..Self::TRIANGLES {
-            this.fan[i] = ProjectedTriangle::new(corners[0], corners[i + 1], corners[i + 2], normal);
+            self.fan[i].prepare_vertices([corners[0], corners[i + 1], corners[i + 2]], normal);
         }
         let (corners, _) = to_unit(corners);
         let products = core::array::from_fn(|i| {
@@ -115,9 +129,16 @@ impl<R: Real, const N: usize> ProjectedPolygon<R, N> {
             with_rest(cross_dw(v, e), v, d)
         });
         let none = Vec3::default();
-        this.join(&corners, &[none; N], &corners.map(|v| [v, none]), &products, normal);
-        this
+        self.join(&corners, &[none; N], &corners.map(|v| [v, none]), &products, normal);
     }
+}
+
+impl<R: Real, const N: usize, const ROOM: usize> ProjectedPolygon<R, N, ROOM> {
+    const TRIANGLES: usize = {
+        assert!(N >= 3 && N <= 8, "a polygon has 3 to 8 corners");
+        assert!(ROOM >= N - 2, "a polygon consists of two triangles less than it has corners");
+        N - 2
+    };
     /// Joins the triangles of the fan, given the corners with their rounding errors, and for each edge from a corner to the next an
     /// end with its rounding error, and the cross product of both ends.
     #[inline(always)]
@@ -197,10 +218,11 @@ impl<R: Real, const N: usize> ProjectedPolygon<R, N> {
         }
         let (whole, mut sum) = (self.projected, zero);
         for (i, triangle) in self.fan[..Self::TRIANGLES].iter_mut().enumerate() {
-            let [first, second] = without_narrow(sectors(&sides, i, unit, turn), whole);
-            let area = first.area + second.area;
-            triangle.first = Piece::blend(central, first, triangle.first);
-            triangle.second = Piece::blend(central, second, triangle.second);
+            let mut pieces = sectors(&sides, i, unit, turn);
+            drop_narrow(&mut pieces, whole);
+            let area = pieces[0].area + pieces[1].area;
+            triangle.first.replace(central, &pieces[0]);
+            triangle.second.replace(central, &pieces[1]);
             triangle.central = triangle.central.keep(!central);
             triangle.projected = R::blend(central, area, triangle.projected);
             sum += area;
@@ -231,7 +253,7 @@ impl<R: Real, const N: usize> ProjectedPolygon<R, N> {
     }
     /// Repeats one prepared polygon in every lane.
     #[inline(always)]
-    pub fn splat(s: ProjectedPolygon<R::Scalar, N>) -> Self {
+    pub fn splat(s: ProjectedPolygon<R::Scalar, N, ROOM>) -> Self {
         s.map(R::splat)
     }
     /// Projected solid angle Ω⊥ in [0, π]: irradiance per unit of radiance.
@@ -268,9 +290,8 @@ impl<R: Real, const N: usize> ProjectedPolygon<R, N> {
         let mut chosen = R::lit(0.0);
         let mut sum = self.fan[0].projected;
         for (i, triangle) in self.fan[..Self::TRIANGLES].iter().enumerate().skip(1) {
-            let some = triangle.projected.gt(zero);
-            if some.any() {
-                let later = swept.ge(sum) & some | (sum.le(zero) & some);
+            let later = triangle.projected.gt(zero) & (swept.ge(sum) | sum.le(zero));
+            if later.any() {
                 let (other, rest) = triangle.choose(swept - sum, left - behind[i]);
                 sector = Sector::blend(later, other, sector);
                 share = R::blend(later, rest, share);
@@ -300,7 +321,7 @@ impl<R: Real, const N: usize> ProjectedPolygon<R, N> {
     }
 }
 
-impl<R: Real, const N: usize> Warp<R> for ProjectedPolygon<R, N> {
+impl<R: Real, const N: usize, const ROOM: usize> Warp<R> for ProjectedPolygon<R, N, ROOM> {
     type Point = Vec3<R>;
     #[inline(always)]
     fn sample(&self, u: Vec2<R>) -> Vec3<R> {

@@ -16,7 +16,7 @@ use crate::warp::Warp;
 use horizon::{Exact, clip};
 use piece::{Corners, Piece, narrowest};
 use sector::Sector;
-use zenith::{Found, Side, sectors, surrounds, without_narrow};
+use zenith::{Found, Side, drop_narrow, sectors, surrounds};
 
 /// Heights below this, in units of the greatest coordinate, count as on the horizon.
 pub(super) const LEAST_HEIGHT: f64 = 1e-30;
@@ -156,6 +156,14 @@ impl<R: Real> ProjectedTriangle<R> {
     /// `normal` (of any length).
     #[inline]
     pub fn new(v0: Vec3<R>, v1: Vec3<R>, v2: Vec3<R>, normal: Vec3<R>) -> Self {
+        let mut this = Self::default();
+        this.prepare_vertices([v0, v1, v2], normal);
+        this
+    }
+
+    /// As `new`, in place: a prepared packet is kilobytes, and each copy of it counts. It must be empty before.
+    #[inline(always)]
+    pub(super) fn prepare_vertices(&mut self, [v0, v1, v2]: [Vec3<R>; 3], normal: Vec3<R>) {
         let ([v0, v1, v2], scale) = to_unit([v0, v1, v2]);
         let edges = [difference(v1, v0), difference(v2, v1), difference(v0, v2)];
         let product = |v: Vec3<R>, [e, d]: [Vec3<R>; 2]| with_rest(cross_dw(v, e), v, d);
@@ -164,7 +172,7 @@ impl<R: Real> ProjectedTriangle<R> {
         let [plane, rest] = cross_dw(e2, e1);
         let plane = [plane, rest + (d2.cross(e1) + e2.cross(d1))];
         let corners = Given { vertices: [v0, v1, v2], rests: None, edges: edges.map(|e| e[0]), products, plane };
-        Self::prepare(&corners, normal, scale)
+        self.prepare(&corners, normal, scale);
     }
 
     /// As `new`, with the edges `e1` = v1−v0 and `e2` = v2−v0.
@@ -173,29 +181,38 @@ impl<R: Real> ProjectedTriangle<R> {
     /// then give the shape.
     #[inline]
     pub fn with_edges(v0: Vec3<R>, v1: Vec3<R>, v2: Vec3<R>, e1: Vec3<R>, e2: Vec3<R>, normal: Vec3<R>) -> Self {
+        let mut this = Self::default();
+        this.prepare_edges([v0, v1, v2], [e1, e2], normal);
+        this
+    }
+
+    /// As `with_edges`, in place.
+    #[inline]
+    pub(crate) fn prepare_edges(&mut self, [v0, v1, v2]: [Vec3<R>; 3], [e1, e2]: [Vec3<R>; 2], normal: Vec3<R>) {
         let ([v0, v1, v2, e1, e2], scale) = to_unit([v0, v1, v2, e1, e2]);
         let none = Vec3::default();
-        Self::with_sides(
+        self.prepare_sides(
             [v0, v1, v2],
             [lack(v1, v0, [e1, none]), lack(v2, v0, [e2, none])],
             [[e1, none], difference(e2, e1), [-e2, none]],
             [e1, e2],
             normal,
             scale,
-        )
+        );
     }
 
-    /// Prepares from vertices with the rounding errors of the second and third, all three edges (from each vertex to the next,
+    /// Prepares, in place, from vertices with the rounding errors of the second and third, all three edges (from each vertex to the next,
     /// as unevaluated sums), and the plane's normal as a cross product of two factors; all lengths below 4.
     #[inline(always)]
-    pub(super) fn with_sides(
+    pub(super) fn prepare_sides(
+        &mut self,
         vertices: [Vec3<R>; 3],
         rests: [Vec3<R>; 2],
         edges: [[Vec3<R>; 2]; 3],
         factors: [Vec3<R>; 2],
         normal: Vec3<R>,
         scale: R,
-    ) -> Self {
+    ) {
         let [v0, v1, _] = vertices;
         let [e0, e1, e2] = edges;
         let [n, rest] = cross_dw(v1, e1[0]);
@@ -206,11 +223,11 @@ impl<R: Real> ProjectedTriangle<R> {
         ];
         let plane = cross_dw(factors[0], factors[1]);
         let corners = Given { vertices, rests: Some(rests), edges: edges.map(|e| e[0]), products, plane };
-        Self::prepare(&corners, normal, scale)
+        self.prepare(&corners, normal, scale);
     }
 
     #[inline]
-    fn prepare(given: &Given<R>, normal: Vec3<R>, scale: R) -> Self {
+    fn prepare(&mut self, given: &Given<R>, normal: Vec3<R>, scale: R) {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let Given { vertices: v, rests, edges: e, products, plane } = *given;
         let volume = compensated_height(v[0], plane);
@@ -253,47 +270,41 @@ impl<R: Real> ProjectedTriangle<R> {
         });
         let turn = one.negate_where(volume.lt(zero));
         let central = surrounds(&sides, turn) & volume.abs().gt(zero);
-        let (mut first, mut second, mut diagonal) = (Piece::default(), Piece::default(), Vec3::default());
         if !central.all() {
             if cut.any() {
                 let rest;
-                (corners, rest, diagonal) = clip(&corners, &exact, normal);
+                (corners, rest, self.diagonal) = clip(&corners, &exact, normal);
                 if rest.volume.abs().gt(zero).any() {
-                    second = Piece::new(&rest, normal);
+                    self.second.sweep(&rest, normal);
                 }
             }
-            first = Piece::new(&corners, normal);
+            self.first.sweep(&corners, normal);
             // if the horizon leaves next to nothing of a piece, only u = 0 falls into it
-            let least = narrowest::<R>() * (first.area + second.area);
-            for piece in [&mut first, &mut second] {
+            let least = narrowest::<R>() * (self.first.area + self.second.area);
+            for piece in [&mut self.first, &mut self.second] {
                 piece.area = piece.area.keep(piece.area.gt(least));
             }
         }
         if central.any() {
-            let pieces = sectors(&sides, 0, normal, turn);
-            let [a, b] = without_narrow(pieces, pieces[0].area + pieces[1].area);
-            (first, second) = (Piece::blend(central, a, first), Piece::blend(central, b, second));
+            let mut pieces = sectors(&sides, 0, normal, turn);
+            let whole = pieces[0].area + pieces[1].area;
+            drop_narrow(&mut pieces, whole);
+            self.first.replace(central, &pieces[0]);
+            self.second.replace(central, &pieces[1]);
         }
         let side = |i: usize| {
             // the plane of nearly opposite vertices is known only to −cos : sin of their angle; shorten the pole by that much
             let length = lengths[i];
             poles[i] * ratio(length, length.greater(-v[i].dot(v[(i + 1) % 3]))).negate_where(volume.lt(zero))
         };
-        Self {
-            normal,
-            first,
-            second,
-            diagonal,
-            pole0: side(0),
-            pole1: side(1),
-            pole2: side(2),
-            plane,
-            volume,
-            unit: scale.pow2_scale(),
-            central: one.keep(central),
-            // from the triangle's plane nothing is visible, whatever the rounded areas are
-            projected: (first.area + second.area).keep(volume.abs().gt(zero)),
-        }
+        self.normal = normal;
+        (self.pole0, self.pole1, self.pole2) = (side(0), side(1), side(2));
+        self.plane = plane;
+        self.volume = volume;
+        self.unit = scale.pow2_scale();
+        self.central = one.keep(central);
+        // from the triangle's plane nothing is visible, whatever the rounded areas are
+        self.projected = (self.first.area + self.second.area).keep(volume.abs().gt(zero));
     }
 
     /// Projected solid angle Ω⊥ in [0, π]: irradiance per unit of radiance.

@@ -65,8 +65,8 @@ spherical!(SphericalRectangle; s => Self::in_front(s));
 spherical!(SphericalPolygon, N; s => Self::in_front(s));
 
 macro_rules! projected {
-    ($name:ident $(, $n:ident)?; $this:ident => $front:expr) => {
-        impl<R: Real $(, const $n: usize)?> ProjectedShape<R> for $name<R $(, $n)?> {
+    ($name:ident $(, $n:ident)*; $this:ident => $front:expr) => {
+        impl<R: Real $(, const $n: usize)*> ProjectedShape<R> for $name<R $(, $n)*> {
             #[inline(always)]
             fn sample_direction(&self, u: Vec2<R>) -> DirectionSample<R> {
                 Self::sample_direction(self, u)
@@ -93,4 +93,4 @@ macro_rules! projected {
 }
 projected!(ProjectedCap; s => !s.inside());
 projected!(ProjectedTriangle; s => Self::in_front(s));
-projected!(ProjectedPolygon, N; s => Self::in_front(s));
+projected!(ProjectedPolygon, N, ROOM; s => Self::in_front(s));

@@ -4,7 +4,7 @@ use super::hull::{V64, edges, unit};
 use super::patch::Patch;
 use super::shaft::{Form, Lamp};
 use etendue::occlusion::{COMPACT, Convex, Occlusion};
-use etendue::{Real, Vec3, f64x4};
+use etendue::{Vec3, f64x8};
 use std::f64::consts::{PI, TAU};
 
 /// Greatest error that a closed form may have, relative to the light without blockers.
@@ -117,7 +117,7 @@ impl Precision {
         lamp: &Lamp,
         light: &Convex<f32>,
         behind: &Behind,
-        occlusion: &mut Occlusion<f64x4>,
+        occlusion: &mut Occlusion<f64x8>,
     ) -> Self {
         let is_ball = matches!(lamp.form, Form::Ball);
         let normal = |p: V64| match (patch.ground, patch.ball) {
@@ -131,16 +131,12 @@ impl Precision {
         let points: [V64; 8] = std::array::from_fn(point);
         let normals = points.map(normal);
         let light = light.map(f64::from);
-        let mut all = [0.0; 8];
-        for (half, all) in all.chunks_exact_mut(4).enumerate() {
-            let four = |of: &[V64; 8]| {
-                let axis = |k: fn(V64) -> f64| f64x4::from_fn(|lane| k(of[4 * half + lane]));
-                Vec3::new(axis(|v| v.x), axis(|v| v.y), axis(|v| v.z))
-            };
-            if let Some(visible) = occlusion.visible(four(&points), four(&normals), &light, &[]) {
-                all.copy_from_slice(&visible.to_array());
-            }
-        }
+        let packet = |of: [V64; 8]| {
+            let axis = |k: fn(V64) -> f64| f64x8::new(of.map(k));
+            Vec3::new(axis(|v| v.x), axis(|v| v.y), axis(|v| v.z))
+        };
+        let visible = occlusion.visible(packet(points), packet(normals), &light, &[]);
+        let all = visible.map_or([0.0; 8], f64x8::to_array);
         let seen: [Seen; 8] = std::array::from_fn(|lane| Seen::new(points[lane], normals[lane], all[lane], lamp));
         let most = seen.iter().fold(0.0, |most: f64, seen| most.max(seen.all));
         let least = seen.iter().fold(most, |least, seen| least.min(seen.all));

@@ -7,9 +7,9 @@
 
 use crate::bvh::Rays;
 use crate::packet::{V8, X8, narrow_points, widen, widen_points};
-use etendue::{Mask, Real, Vec3, f64x4};
+use etendue::{Mask, Real, Vec3, f64x8};
 
-type V4 = Vec3<f64x4>;
+type D8 = Vec3<f64x8>;
 
 /// The lift of a point, relative to Σ|nₖ pₖ|: 2δ.
 pub(crate) const LIFT: f64 = 1.0 / 8_388_608.0;
@@ -22,41 +22,41 @@ pub(super) struct Points {
     pub(super) normal: V8,
 }
 
-fn zero() -> f64x4 {
+fn zero() -> f64x8 {
     Real::lit(0.0)
 }
 
 /// A number that is not 0: 1 instead of what is not greater than 0 in magnitude.
 #[inline(always)]
-fn divisor(x: f64x4) -> f64x4 {
+fn divisor(x: f64x8) -> f64x8 {
     Real::blend(x.abs().gt(zero()), x, Real::lit(1.0))
 }
 
 /// The unit vector; 0 for the zero vector.
 #[inline(always)]
-fn unit(v: V4) -> V4 {
-    v * (f64x4::lit(1.0) / divisor(v.length()))
+fn unit(v: D8) -> D8 {
+    v * (f64x8::lit(1.0) / divisor(v.length()))
 }
 
 /// The normal on the side of the incoming ray.
 #[inline(always)]
-fn facing(normal: V4, direction: V4) -> V4 {
+fn facing(normal: D8, direction: D8) -> D8 {
     let away = normal.dot(direction).gt(zero());
     normal.map(|x| x.negate_where(away))
 }
 
 /// The point, lifted along the normal.
 #[inline(always)]
-fn lifted(p: V4, n: V4, reach: f32) -> V4 {
+fn lifted(p: D8, n: D8, reach: f32) -> D8 {
     let along = (p.x * n.x).abs() + (p.y * n.y).abs() + (p.z * n.z).abs();
-    n.mul_add(along.mul_add(f64x4::lit(LIFT), f64x4::lit(f64::from(reach) * LEAST)), p)
+    n.mul_add(along.mul_add(f64x8::lit(LIFT), f64x8::lit(f64::from(reach) * LEAST)), p)
 }
 
+/// The points and normals that `of` returns for the rays' origins and directions.
 #[inline(always)]
-fn both(rays: &Rays, mut of: impl FnMut(usize, V4, V4) -> [V4; 2]) -> Points {
-    let (origins, directions) = (widen_points(rays.origin), widen_points(rays.direction));
-    let (first, second) = (of(0, origins[0], directions[0]), of(1, origins[1], directions[1]));
-    Points { point: narrow_points([first[0], second[0]]), normal: narrow_points([first[1], second[1]]) }
+fn each(rays: &Rays, of: impl FnOnce(D8, D8) -> [D8; 2]) -> Points {
+    let [point, normal] = of(widen_points(rays.origin), widen_points(rays.direction));
+    Points { point: narrow_points(point), normal: narrow_points(normal) }
 }
 
 /// A triangle, prepared in double precision.
@@ -96,12 +96,12 @@ impl<R: Real> Prepared<R> {
     }
 }
 
-impl Prepared<f64x4> {
+impl Prepared<f64x8> {
     /// Where rays meet the triangles. What the rounding of a ray puts outside of a triangle is moved to its edge.
     #[inline(always)]
-    fn meet(&self, origin: V4, direction: V4, reach: f32) -> [V4; 2] {
+    fn meet(&self, origin: D8, direction: D8, reach: f32) -> [D8; 2] {
         let Self { corner, edges: [u, v], normal, duals } = *self;
-        let (one, to_corner) = (f64x4::lit(1.0), corner - origin);
+        let (one, to_corner) = (f64x8::lit(1.0), corner - origin);
         let distance = normal.dot(to_corner) / divisor(normal.dot(direction));
         let relative = direction.mul_add(distance, -to_corner);
         let (mut s, mut t) = (relative.dot(duals[0]).greater(zero()), relative.dot(duals[1]).greater(zero()));
@@ -119,21 +119,21 @@ impl Prepared<f64x4> {
 /// Where rays meet triangles, one per lane.
 #[inline(always)]
 pub(super) fn on_triangles([a, b, c]: [V8; 3], rays: &Rays, reach: f32) -> Points {
-    let (a, b, c) = (widen_points(a), widen_points(b), widen_points(c));
-    both(rays, |half, origin, direction| Prepared::new([a[half], b[half], c[half]]).meet(origin, direction, reach))
+    let triangles = Prepared::new([widen_points(a), widen_points(b), widen_points(c)]);
+    each(rays, |origin, direction| triangles.meet(origin, direction, reach))
 }
 
 /// Where rays meet the same triangle.
 #[inline(always)]
 pub(super) fn on_triangle(corners: [Vec3<f64>; 3], rays: &Rays, reach: f32) -> Points {
     let triangle = Prepared::new(corners).splat();
-    both(rays, |_, origin, direction| triangle.meet(origin, direction, reach))
+    each(rays, |origin, direction| triangle.meet(origin, direction, reach))
 }
 
 /// Where rays meet the plane of a flat shape, given by a point and the unit normal.
 pub(super) fn on_plane(point: Vec3<f64>, normal: Vec3<f64>, rays: &Rays, reach: f32) -> Points {
-    both(rays, |_, origin, direction| {
-        let (a, n) = (V4::splat(point), V4::splat(normal));
+    each(rays, |origin, direction| {
+        let (a, n) = (D8::splat(point), D8::splat(normal));
         let distance = n.dot(a - origin) / divisor(n.dot(direction));
         let normal = facing(n, direction);
         [lifted(direction.mul_add(distance, origin), normal, reach), normal]
@@ -143,15 +143,15 @@ pub(super) fn on_plane(point: Vec3<f64>, normal: Vec3<f64>, rays: &Rays, reach: 
 /// Where rays meet a sphere, at the one of both intersections that is nearer to these distances.
 pub(super) fn on_sphere(center: [f32; 3], radius: f32, distances: X8, rays: &Rays, reach: f32) -> Points {
     let distances = widen(distances);
-    both(rays, |half, origin, direction| {
-        let (c, r) = (V4::lit(center.map(f64::from)), f64x4::lit(f64::from(radius)));
+    each(rays, |origin, direction| {
+        let (c, r) = (D8::lit(center.map(f64::from)), f64x8::lit(f64::from(radius)));
         let to_center = c - origin;
         let square = direction.length_squared();
         let along = to_center.dot(direction) / square;
         // the point of the ray that is nearest to the centre, relative to it
         let foot = direction.mul_add(along, -to_center);
         let half_chord = ((r * r - foot.length_squared()).greater(zero()) / square).sqrt();
-        let is_far = distances[half].gt(along);
+        let is_far = distances.gt(along);
         let outward = unit(direction.mul_add(half_chord.negate_where(!is_far), foot));
         let normal = facing(outward, direction);
         [lifted(outward.mul_add(r, c), normal, reach), normal]

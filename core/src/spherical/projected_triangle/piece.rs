@@ -49,8 +49,9 @@ pub(in crate::spherical) struct Corners<R> {
 }
 
 impl<R: Real> Piece<R> {
+    /// Prepares two sectors in place; the third must be empty.
     #[inline(never)]
-    pub(in crate::spherical) fn new(corners: &Corners<R>, normal: Vec3<R>) -> Self {
+    pub(in crate::spherical) fn sweep(&mut self, corners: &Corners<R>, normal: Vec3<R>) {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let Corners { vertices: v, poles: pole, lengths: length, areas, heights: z, volume } = *corners;
         let squared = v.map(Vec3::length_squared);
@@ -111,22 +112,17 @@ impl<R: Real> Piece<R> {
             sector
         };
         let (no, yes) = (R::Mask::splat(false), R::Mask::splat(true));
-        let mut first = sector(0, no, a, size_a, height_a, before, after);
-        let mut second = sector(1, yes, c, size_c, height_c, after, before);
+        self.first = sector(0, no, a, size_a, height_a, before, after);
+        self.second = sector(1, yes, c, size_c, height_c, after, before);
         // beside an upright edge a sector has no width, and a direction in it would be pure rounding: only u = 0 falls into it
-        let least = narrowest::<R>() * (first.area + second.area);
-        for sector in [&mut first, &mut second] {
+        let least = narrowest::<R>() * (self.first.area + self.second.area);
+        for sector in [&mut self.first, &mut self.second] {
             sector.area = sector.area.keep(sector.area.gt(least));
         }
         // with the long edge outside, the sectors run the other way round
         let turn = one.negate_where(reversed ^ two);
-        Self {
-            first,
-            second,
-            third: Sector::default(),
-            middle: normal.cross(turned(unit, 1)) * turn,
-            area: first.area + second.area,
-        }
+        self.middle = normal.cross(turned(unit, 1)) * turn;
+        self.area = self.first.area + self.second.area;
     }
 
     /// Three sectors about the zenith; the second counts from its far end.
@@ -136,8 +132,21 @@ impl<R: Real> Piece<R> {
         Self { first, second, third, area, ..Self::default() }
     }
     #[inline(always)]
-    pub(in crate::spherical) fn sectors(&self) -> [Sector<R>; 3] {
-        [self.first, self.second, self.third]
+    pub(in crate::spherical) fn sectors(&self) -> [&Sector<R>; 3] {
+        [&self.first, &self.second, &self.third]
+    }
+    /// Drops the sectors whose area is not greater than this.
+    #[inline(always)]
+    pub(in crate::spherical) fn drop_below(&mut self, least: R) {
+        for sector in [&mut self.first, &mut self.second, &mut self.third] {
+            sector.area = sector.area.keep(sector.area.gt(least));
+        }
+        self.area = self.first.area + self.second.area + self.third.area;
+    }
+    /// Becomes another in some lanes.
+    #[inline(always)]
+    pub(in crate::spherical) fn replace(&mut self, lanes: R::Mask, other: &Self) {
+        *self = if lanes.all() { *other } else { Self::blend(lanes, *other, *self) };
     }
 
     /// The sector that has the area `swept` before it and `left` after it, and the share of the sector before the azimuth,

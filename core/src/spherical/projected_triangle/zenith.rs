@@ -182,15 +182,11 @@ pub(in crate::spherical) fn sectors<R: Real, const N: usize>(
 
 /// Drops the sectors with next to no area, so that only u = 0 falls into them.
 #[inline(always)]
-pub(in crate::spherical) fn without_narrow<R: Real>(pieces: [Piece<R>; 2], whole: R) -> [Piece<R>; 2] {
+pub(in crate::spherical) fn drop_narrow<R: Real>(pieces: &mut [Piece<R>; 2], whole: R) {
     let least = narrowest::<R>() * whole;
-    pieces.map(|piece| {
-        let [a, b, c] = piece.sectors().map(|mut sector| {
-            sector.area = sector.area.keep(sector.area.gt(least));
-            sector
-        });
-        Piece::about_zenith(a, b, c)
-    })
+    for piece in pieces {
+        piece.drop_below(least);
+    }
 }
 
 /// The sector about the zenith that contains the azimuth of a direction, as far as it has been found.
@@ -215,7 +211,7 @@ impl<R: Real> Found<R> {
     #[inline(always)]
     pub(in crate::spherical) fn look(self, piece: &Piece<R>, normal: Vec3<R>, w: Vec3<R>) -> Self {
         let mut this = self;
-        for (i, sector) in piece.sectors().iter().enumerate() {
+        for (i, sector) in piece.sectors().into_iter().enumerate() {
             let some = sector.area.gt(R::lit(0.0));
             if some.any() {
                 let miss = sector.miss(normal, w);

@@ -3,7 +3,7 @@
 
 use super::pose::{Pose, Shape, ShapeKind};
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
-use etendue::spherical::{ProjectedCap, ProjectedPolygon, ProjectedTriangle};
+use etendue::spherical::{ProjectedCap, ProjectedParallelogram, ProjectedPolygon, ProjectedTriangle};
 use etendue::warp::ConcentricDisk;
 use etendue::{Frame, Vec2, Vec3, Warp};
 use etendue_oracle::curves::{Arc, Ellipse};
@@ -22,7 +22,7 @@ enum Map {
     // the f64 instances, which tests compare with closed forms
     Lune(Box<ProjectedCap<f64>>),
     Triangle(Box<ProjectedTriangle<f64>>),
-    Quad(Box<ProjectedPolygon<f64, 4>>),
+    Quad(Box<ProjectedParallelogram<f64>>),
     Hexagon(Box<ProjectedPolygon<f64, 6>>),
 }
 
