@@ -365,8 +365,9 @@ impl<R: Real> Occlusion<R> {
             to.start(Vec3::default(), seen.outline.corners(), lanes);
             to.clip(normal, R::lit(0.0))?;
         } else {
-            let mut square = Outline::<R, MOST>::default();
+            let mut square;
             let from = if whole {
+                square = Outline::<R, MOST>::default();
                 square.start(Vec3::default(), &cap.ok_or(TooMany)?.square()?, lanes);
                 square.clip(normal, R::lit(0.0))?;
                 lanes = square.some();

@@ -9,6 +9,7 @@ mod choice;
 mod end;
 mod exact;
 mod fitted;
+mod gather;
 mod known;
 mod paths;
 mod prepared;
@@ -17,6 +18,7 @@ mod settings;
 mod tile;
 mod trial;
 mod view;
+mod visible;
 mod world;
 
 pub use adaptive::{Allotment, Statistics};

@@ -5,17 +5,17 @@
 //! or in a mirror is certified as a whole.
 
 use super::exact::Exact;
-use super::known::{AreaLight, Closed, Fitted, Known, Survey};
+use super::known::{AreaLight, Closed, Known, Survey};
 use super::prepared::PreparedScene;
 use super::settings::{Settings, TILE};
-use crate::bvh::{GROUP, NOTHING, SHAPE};
+use super::visible::Visible;
+use crate::bvh::{NOTHING, SHAPE};
 use crate::camera::{Camera, Pinhole};
 use crate::certificates::{ALLOWED, Blocker, Bodies, Certificate, Certifier, Patch, Precision, Pyramid, Viewer};
 use crate::geometry::Geometry;
-use crate::lobe::Lobe;
-use crate::packet::{M8, V8, X8, each_bit, equal, select};
+use crate::packet::{M8, V8, X8, each_bit, equal};
 use crate::surfaces::{Surface, Surfaces};
-use etendue::occlusion::{Convex, Occlusion, Polyhedron};
+use etendue::occlusion::{Convex, Polyhedron};
 use etendue::{Mask, Real, Vec3, u32x8};
 use std::collections::HashMap;
 use std::f64::consts::FRAC_1_PI;
@@ -72,7 +72,7 @@ pub(super) struct Analytic<'a> {
     bodies: &'a Bodies,
     pub(super) lights: Vec<AreaLight<'a>>,
     certifier: Certifier<'a>,
-    pub(super) occlusion: Box<Occlusion<X8>>,
+    pub(super) visible: Visible,
     /// The camera, if it is a pinhole.
     pub(super) pinhole: Option<Pinhole>,
     /// The first pixel of the tile.
@@ -128,7 +128,7 @@ impl<'a> Analytic<'a> {
             bodies,
             lights: surfaces.light_shapes().enumerate().filter_map(light).collect(),
             certifier: Certifier::new(surfaces, bodies, surfaces.light_shapes()),
-            occlusion: Box::default(),
+            visible: Visible::default(),
             pinhole: if let Camera::Pinhole(pinhole) = camera { Some(*pinhole) } else { None },
             origin: [0; 2],
             squares: SIDES.map(|side| (0..(TILE / side).pow(2)).map(|_| Vec::new()).collect()),
@@ -345,7 +345,7 @@ impl<'a> Analytic<'a> {
                     }
                     _ => surface.normal,
                 };
-                let all = self.occlusion.visible(surface.point, normal, &light.form, &[]);
+                let all = self.visible.one.visible(surface.point, normal, &light.form, &[]);
                 sum += V8::from(light.radiance) * all.unwrap_or_default();
             }
         }
@@ -380,111 +380,5 @@ impl<'a> Analytic<'a> {
         let in_front = surface.normal.dot(outwards).gt(X8::lit(0.0));
         let front = in_front.lane(lane);
         (self.all(place, front), here & if front { in_front } else { !in_front })
-    }
-
-    /// Adds the reflected light that is known. Sets the lanes in which a light must be sampled, for each light and packet, and returns
-    /// whether there are any. Of a light with a picture behind blockers, a part is counted, the same for all of its points; samples then add what
-    /// is visible, less that part. On rough surfaces all lights are sampled, and `fitted` is what is known of them.
-    #[expect(clippy::too_many_arguments, reason = "places, and all that is found there")]
-    pub(super) fn gather(
-        &mut self,
-        surfaces: &[Surface],
-        places: &[Places; GROUP],
-        lobes: &[Option<Lobe>; GROUP],
-        reflected: &mut [V8; GROUP],
-        unknown: &mut [[M8; GROUP]],
-        counted: &mut [[X8; GROUP]],
-        fitted: &mut [[Fitted; GROUP]],
-    ) -> bool {
-        let mut any = false;
-        for (p, surface) in surfaces.iter().enumerate().filter(|(_, surface)| surface.reflects.any()) {
-            let mut parts = [(0, M8::splat(false)); 8];
-            let mut count = 0;
-            let rough = surface.reflects & places[p].fitted;
-            let mut sampled = surface.reflects & places[p].glossy | rough;
-            let mut left = surface.reflects & !places[p].glossy & !rough;
-            if let Some(lobe) = lobes[p].as_ref().filter(|_| rough.any()) {
-                self.gather_fitted(surface, &places[p], lobe, p, &mut reflected[p], fitted);
-            }
-            while left.any() {
-                let (first, lanes) = self.find(surface, &places[p], left);
-                left = left & !lanes;
-                if first == 0 {
-                    sampled = sampled | lanes;
-                    continue;
-                }
-                parts[count] = (first, lanes);
-                count += 1;
-            }
-            let mut sum = V8::default();
-            for (k, light) in self.lights.iter().enumerate() {
-                let (mut lit, mut lit_exactly) = (M8::splat(false), M8::splat(false));
-                let mut open = sampled;
-                let mut behind = M8::splat(false);
-                let mut part = X8::lit(0.0);
-                for (first, lanes) in &parts[..count] {
-                    match &self.known[first + k] {
-                        Known::Lit(Precision::Double) => lit_exactly = lit_exactly | *lanes,
-                        Known::Lit(_) => lit = lit | *lanes,
-                        Known::Dark => {}
-                        Known::Crowded | Known::Nothing | Known::Never => open = open | *lanes,
-                        Known::Behind(forms, bodies, precision) => {
-                            // the other lanes repeat one of these: what is not seen from here does not matter
-                            let lane = lanes.bits().trailing_zeros() as usize & 7;
-                            let of = |v: V8| V8::blend(*lanes, v, V8::splat(v.lane(lane)));
-                            let (point, normal) = (of(surface.point), of(surface.normal));
-                            let form = &light.form;
-                            let visible = if *precision == Precision::Double {
-                                self.exact.visible_past(point, normal, None, form, forms.clone(), bodies.clone())
-                            } else {
-                                let (forms, bodies) = (&self.forms[forms.clone()], &self.polyhedra[bodies.clone()]);
-                                self.occlusion.visible_past(point, normal, form, forms, bodies)
-                            };
-                            match visible {
-                                Some(visible) => {
-                                    part += visible.keep(*lanes);
-                                    behind = behind | *lanes;
-                                }
-                                None => open = open | *lanes,
-                            }
-                        }
-                    }
-                }
-                if let Closed::Picture(irradiance) = light.closed {
-                    let zero = X8::lit(0.0);
-                    // single precision always suffices, since nothing cancels
-                    let lit = lit | lit_exactly;
-                    // behind blockers, what is visible of a light of constant radiance is the best guess
-                    let (mut share, mut is_part) = (select(lit, X8::lit(1.0), zero), M8::splat(false));
-                    if behind.any() {
-                        let all = self.occlusion.visible(surface.point, surface.normal, &light.form, &[]);
-                        let all = all.unwrap_or_default();
-                        is_part = behind & part.gt(zero) & part.lt(all);
-                        share = select(behind, (part / all).clamped(zero, X8::lit(1.0)).keep(part.gt(zero)), share);
-                    }
-                    let (all, known) = irradiance.at(surface.point, surface.normal, lit | behind);
-                    let share = share.keep(known);
-                    sum += all * share;
-                    let open = open | is_part | (lit | behind) & !known;
-                    (unknown[k][p], counted[k][p]) = (open, share.keep(is_part));
-                    any = any || open.any();
-                    continue;
-                }
-                if lit.any() {
-                    let all = self.occlusion.visible(surface.point, surface.normal, &light.form, &[]);
-                    part += all.unwrap_or_default().keep(lit);
-                }
-                if lit_exactly.any() {
-                    let all = self.exact.visible_past(surface.point, surface.normal, None, &light.form, 0..0, 0..0);
-                    part += all.unwrap_or_default().keep(lit_exactly);
-                }
-                sum += V8::from(light.radiance) * part;
-                unknown[k][p] = open;
-                any = any || open.any();
-            }
-            let V8 { x, y, z } = surface.albedo * X8::lit(FRAC_1_PI);
-            reflected[p] += V8::new(x * sum.x, y * sum.y, z * sum.z);
-        }
-        any
     }
 }

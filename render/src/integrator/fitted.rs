@@ -77,8 +77,8 @@ impl Analytic<'_> {
             }
             let (forms, bodies) = (&self.forms[forms.clone()], &self.polyhedra[bodies.clone()]);
             match lobe {
-                Some(lobe) => self.occlusion.reflected(point, normal, lobe, &form, forms, bodies),
-                None => self.occlusion.visible_past(point, normal, &form, forms, bodies),
+                Some(lobe) => self.visible.one.reflected(point, normal, lobe, &form, forms, bodies),
+                None => self.visible.one.visible_past(point, normal, &form, forms, bodies),
             }
         };
         let shine = part(Some(&reflection))?;
@@ -94,7 +94,8 @@ impl Analytic<'_> {
         for light in 0..self.lights.len() {
             if first > 0 && self.fit(surface, lobe, M8::from_bits(1), first, light).is_some() {
                 let AreaLight { form, radiance, .. } = self.lights[light];
-                let shine = self.occlusion.reflected(surface.point, surface.normal, &lobe.reflection, &form, &[], &[]);
+                let shine =
+                    self.visible.one.reflected(surface.point, surface.normal, &lobe.reflection, &form, &[], &[]);
                 let shine = shine.unwrap_or_default() + X8::lit(SLIVER);
                 sum += product(lobe.specular + lobe.diffuse, V8::from(radiance)) * shine;
             }
