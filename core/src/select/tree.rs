@@ -1,6 +1,7 @@
 //! Choice among any number of lights by a tree.
 
 mod build;
+mod eight;
 mod node;
 mod part;
 mod words;
@@ -219,10 +220,38 @@ impl<'a, R: Real> TreeAt<'a, R> {
     #[inline]
     #[must_use]
     pub fn choose_by(&self, bits: [R::Uint; 2]) -> Choice<R> {
+        if R::LANES > 1 {
+            // compiled twice: without gloss, nothing asks for it
+            return match &self.gloss {
+                None => self.choose_eights(bits, |_| None),
+                Some(gloss) => self.choose_eights(bits, |first| Some(gloss.map(|x| eight::eight(x, first).to_array()))),
+            };
+        }
         // compiled twice: without gloss, nothing asks for it
         match &self.gloss {
             None => self.descend(bits, |_| None),
             Some(_) => self.descend(bits, |lane| self.gloss(lane)),
+        }
+    }
+    #[inline(always)]
+    fn choose_eights(&self, bits: [R::Uint; 2], gloss: impl Fn(usize) -> Option<Gloss<[f32; 8]>>) -> Choice<R> {
+        let (mut light, mut pmf, mut word) = ([0; MOST_LANES], [0.0; MOST_LANES], [0; MOST_LANES]);
+        for first in (0..R::LANES).step_by(8) {
+            let gloss = gloss(first);
+            let [p, n] = [self.p, self.n].map(|v| v.map(|x| eight::eight(x, first)));
+            let places = eight::Places::new(p, n);
+            let (lanes, bits) = ((R::LANES - first).min(8), bits.map(|bits| eight::eight_words::<R>(bits, first)));
+            let weigh = |lane: usize, node: &Node8| places.weigh(lane, node, gloss.as_ref());
+            let chosen = eight::choose(self.tree.nodes, lanes, bits, weigh);
+            light[first..first + 8].copy_from_slice(&chosen.light);
+            pmf[first..first + 8].copy_from_slice(&chosen.pmf);
+            word[first..first + 8].copy_from_slice(&chosen.word);
+        }
+        let pmf = |lane: usize| if light[lane] == NO_LIGHT { 0.0 } else { pmf[lane].greater(f32::MIN_POSITIVE) };
+        Choice {
+            index: R::Uint::from_fn(|lane| light[lane]),
+            pmf: R::from_fn(|lane| R::Scalar::lit(f64::from(pmf(lane)))),
+            u: R::unit(R::Uint::from_fn(|lane| word[lane])),
         }
     }
     #[inline(always)]

@@ -163,6 +163,15 @@ impl<R: Real> Place<R> {
     }
 }
 
+impl<R> Place<R> {
+    /// Replaces each number x by `f(x)`.
+    #[inline(always)]
+    pub(super) fn map<S>(self, mut f: impl FnMut(R) -> S) -> Place<S> {
+        let Self { p, n, slope, squares } = self;
+        Place { p: p.map(&mut f), n: n.map(&mut f), slope: slope.map(&mut f), squares: squares.map(&mut f) }
+    }
+}
+
 impl Place<f32> {
     /// The same in every lane.
     #[inline(always)]
@@ -307,11 +316,22 @@ impl Node8 {
         words
     }
 
+    /// The children's weights at a point of a surface, and whether they can contribute.
+    #[inline(always)]
+    pub(super) fn weigh(&self, at: &Place<f32x8>, gloss: Option<&Gloss<f32x8>>) -> (f32x8, <f32x8 as Real>::Mask) {
+        self.children().weigh(self.plain != 0, at, gloss)
+    }
+    /// Reads a word of each line of memory, so that all lines are on their way.
+    #[inline(always)]
+    pub(super) fn touch(&self) -> u32 {
+        let [x, _, z] = &self.center;
+        (x[0].to_bits() ^ z[0].to_bits()) ^ (self.power[0].to_bits() ^ self.normal[0]) ^ (self.turns[0][0] ^ self.child[0])
+    }
     /// The children's shares at a point of a surface.
     #[inline(always)]
     pub(super) fn shares(&self, at: &Place<f32>, gloss: Option<&Gloss<f32>>) -> Shares {
         let gloss = gloss.map(|gloss| Gloss::splat(*gloss));
-        let (weight, bright) = self.children().weigh(self.plain != 0, &at.splat(), gloss.as_ref());
+        let (weight, bright) = self.weigh(&at.splat(), gloss.as_ref());
         let bright = bright.bits();
         let sum = |w: [f32; 8]| ((w[0] + w[1]) + (w[2] + w[3])) + ((w[4] + w[5]) + (w[6] + w[7]));
         let lanes = <f32x8 as Real>::Mask::from_bits(bright);
@@ -402,6 +422,6 @@ fn fused<R: Real>(a: R, b: R, c: R) -> R {
 
 /// All ones where the mask is true.
 #[inline(always)]
-fn mask_bits(lanes: <f32x8 as Real>::Mask) -> u32x8 {
+pub(super) fn mask_bits(lanes: <f32x8 as Real>::Mask) -> u32x8 {
     f32x8::blend_uint(lanes, u32x8::splat(u32::MAX), u32x8::splat(0))
 }
