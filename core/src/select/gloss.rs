@@ -78,3 +78,21 @@ impl<R: Real> Gloss<R> {
         self.rough.mul_add(lobe, self.diffuse).greater(self.least)
     }
 }
+
+impl Gloss<[f32; 8]> {
+    /// One lane, in all lanes.
+    #[inline(always)]
+    pub(super) fn only<R: Real<Scalar = f32>>(&self, lane: usize) -> Gloss<R> {
+        let Self { x, y, z, columns, diffuse, rough, least } = self;
+        let all = |row: &[f32; 8]| R::splat(row[lane & 7]);
+        Gloss {
+            x: x.only(lane),
+            y: y.only(lane),
+            z: z.only(lane),
+            columns: columns.only(lane),
+            diffuse: all(diffuse),
+            rough: all(rough),
+            least: all(least),
+        }
+    }
+}

@@ -34,8 +34,8 @@ impl Places {
     /// The weights of a node's children at the place of a lane.
     #[inline(always)]
     pub(super) fn weigh(&self, lane: usize, node: &Node8, gloss: Option<&Gloss<[f32; 8]>>) -> f32x8 {
-        let gloss = gloss.map(|gloss| gloss.map(|row: [f32; 8]| f32x8::splat(row[lane & 7])));
-        let (weight, bright) = node.weigh(&self.0.map(|row| f32x8::splat(row[lane & 7])), gloss.as_ref());
+        let gloss = gloss.map(|gloss| gloss.only(lane));
+        let (weight, bright) = node.weigh(&self.0.only(lane), gloss.as_ref());
         Real::blend(bright, weight, f32x8::splat(DARK))
     }
 }

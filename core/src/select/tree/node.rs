@@ -172,6 +172,15 @@ impl<R> Place<R> {
     }
 }
 
+impl Place<[f32; 8]> {
+    /// One lane, in all lanes.
+    #[inline(always)]
+    pub(super) fn only(&self, lane: usize) -> Place<f32x8> {
+        let all = |v: &Vec3<[f32; 8]>| v.only(lane);
+        Place { p: all(&self.p), n: all(&self.n), slope: all(&self.slope), squares: all(&self.squares) }
+    }
+}
+
 impl Place<f32> {
     /// The same in every lane.
     #[inline(always)]
