@@ -1,6 +1,6 @@
 //! Eight lanes on their way down a tree at once. What follows from the weights of the children is computed for all lanes together.
 
-use super::node::{self, LEAST, LIGHT, Node8, Place, WHOLE, mask_bits};
+use super::node::{self, LEAST, LIGHT, Node8, Place, WHOLE};
 use super::{DEEPEST, NO_LIGHT};
 use crate::real::{GREATEST, Mask, Real, Uint};
 use crate::select::Gloss;
@@ -40,11 +40,13 @@ impl Places {
     }
 }
 
-/// The shares of the children of a node, for a node in each lane: where they end, in units of 2⁻¹⁶.
-struct Ends {
-    ends: [u32x8; 8],
-    /// Where any child has a share.
-    some: MaskOf,
+/// The shares of the children of a node, for a node in each lane, but for what rounding left to the last that can contribute.
+struct Units {
+    units: [u32x8; 8],
+    /// Sums of two, of four, and of all.
+    pairs: [u32x8; 4],
+    half: u32x8,
+    all: u32x8,
 }
 
 /// A child of a node in each lane: its slot, the start of its share, and the share.
@@ -54,51 +56,57 @@ struct Found {
     share: u32x8,
 }
 
-impl Ends {
-    /// From the weights of the children of a node in each row. See [`Shares`](super::Shares), whose bits these are.
+impl Units {
+    /// From the weights of the children of a node in each row. See [`Shares`](node::Shares), whose bits these are where a lane is `going`.
     #[inline(always)]
-    fn of(rows: [f32x8; 8]) -> Self {
+    fn of(rows: [f32x8; 8], going: MaskOf) -> Self {
         let mut weights = f32x8::transpose(rows);
-        let bright = weights.map(|weight| !weight.le(f32x8::splat(DARK)));
-        for (weight, bright) in weights.iter_mut().zip(bright) {
-            *weight = weight.keep(bright);
-        }
-        let sum = |w: &[f32x8; 8]| ((w[0] + w[1]) + (w[2] + w[3])) + ((w[4] + w[5]) + (w[6] + w[7]));
-        let mut total = sum(&weights);
-        let some = bright.into_iter().fold(MaskOf::splat(false), |some, bright| some | bright);
+        let [zero, one, dark] = [0.0, 1.0, DARK].map(f32x8::splat);
+        let sum = |w: [f32x8; 8]| {
+            let w = w.map(|w| w.greater(zero));
+            ((w[0] + w[1]) + (w[2] + w[3])) + ((w[4] + w[5]) + (w[6] + w[7]))
+        };
+        let mut total = sum(weights);
         let usual = total.ge(f32x8::splat(LEAST)) & total.le(f32x8::lit(GREATEST));
-        if (some & !usual).any() {
-            for (weight, bright) in weights.iter_mut().zip(bright) {
-                *weight = Real::blend(usual, *weight, f32x8::splat(1.0).keep(bright));
+        if (going & !usual).any() {
+            let same = weights.map(|weight| Real::blend(weight.gt(dark), one, dark));
+            for (weight, same) in weights.iter_mut().zip(same) {
+                *weight = Real::blend(usual, *weight, same);
             }
-            total = Real::blend(usual, total, sum(&weights).greater(f32x8::splat(1.0)));
+            total = Real::blend(usual, total, sum(same).greater(one));
         }
         let scale = f32x8::splat((WHOLE - 8) as f32) / total;
-        let (mut units, mut later) = ([u32x8::splat(0); 8], MaskOf::splat(false));
-        for k in (0..8).rev() {
-            let unit = (weights[k] * scale).to_uint().wrapping_add(u32x8::splat(1));
-            // what rounding left goes to the last
-            units[k] = f32x8::blend_uint(later, unit, u32x8::splat(WHOLE)) & mask_bits(bright[k]);
-            later = later | bright[k];
-        }
-        let mut end = u32x8::splat(0);
-        let ends = units.map(|units| {
-            end = end.wrapping_add(units);
-            end
-        });
-        Self { ends, some }
+        // those that cannot contribute have −1 + 1
+        let units = weights.map(|weight| (weight * scale).greater(-one).to_uint().wrapping_add(u32x8::splat(1)));
+        let pairs: [u32x8; 4] = [0, 2, 4, 6].map(|k| units[k].wrapping_add(units[k + 1]));
+        let half = pairs[0].wrapping_add(pairs[1]);
+        Self { units, pairs, half, all: half.wrapping_add(pairs[2].wrapping_add(pairs[3])) }
     }
-    /// The child where it is told, by slot and end, which shares come before.
+    /// The child that a number of 16 bits belongs to. Where no child can contribute, the share is 0.
     #[inline(always)]
-    fn find(&self, is_before: impl Fn(u32, u32x8) -> u32x8) -> Found {
-        let (mut slot, mut start, mut end) = (u32x8::splat(0), u32x8::splat(0), u32x8::splat(WHOLE));
-        for (k, ends) in (0..).zip(self.ends) {
-            let before = is_before(k, ends);
-            slot = slot.wrapping_sub(before);
-            start = start.max(ends & before);
-            end = end.min(ends | before);
-        }
-        Found { slot, start, share: end.wrapping_sub(start) }
+    fn find(&self, target: u32x8) -> Found {
+        let Self { units, pairs, half, all } = *self;
+        let (zero, one) = (u32x8::splat(0), u32x8::splat(1));
+        // what rounding left belongs to the last as well
+        let target = target.min(all.wrapping_sub(one));
+        let choose = |is_late: u32x8, early: u32x8, late: u32x8| early ^ ((early ^ late) & is_late);
+        let mut within = target;
+        let late = |end: u32x8, within: &mut u32x8| {
+            let is_late = !within.lt(end);
+            *within = within.wrapping_sub(end & is_late);
+            is_late
+        };
+        let a = late(half, &mut within);
+        let b = late(choose(a, pairs[0], pairs[2]), &mut within);
+        let early = choose(b, choose(a, units[0], units[4]), choose(a, units[2], units[6]));
+        let other = choose(b, choose(a, units[1], units[5]), choose(a, units[3], units[7]));
+        let c = late(early, &mut within);
+        let unit = choose(c, early, other);
+        let slot = (a & u32x8::splat(4)) | (b & u32x8::splat(2)) | (c & one);
+        let start = target.wrapping_sub(within);
+        let is_last = !start.wrapping_add(unit).lt(all);
+        let share = choose(is_last, unit, u32x8::splat(WHOLE).wrapping_sub(start));
+        Found { slot, start, share: share & zero.lt(all) }
     }
 }
 
@@ -120,7 +128,7 @@ pub(super) fn choose(
     let [mut word, mut more] = bits;
     let mut pmf = f32x8::splat(1.0);
     let (mut light, mut at) = ([NO_LIGHT; 8], [0_u32; 8]);
-    let mut rows = [f32x8::splat(DARK); 8];
+    let mut rows = [f32x8::splat(1.0); 8];
     let mut going = 0xff_u32 >> (8 - lanes);
     for _ in 0..DEEPEST {
         for lane in Lanes(going) {
@@ -129,10 +137,9 @@ pub(super) fn choose(
                 None => f32x8::splat(DARK),
             };
         }
-        let ends = Ends::of(rows);
-        let moves = ends.some & MaskOf::from_bits(going);
-        let target = word.shr(16);
-        let Found { slot, start, share } = ends.find(|_, end| !target.lt(end));
+        let lanes = MaskOf::from_bits(going);
+        let Found { slot, start, share } = Units::of(rows, lanes).find(word.shr(16));
+        let moves = lanes & f32x8::has_bits(share);
         let (next, sixteen) = node::sixteen(more);
         let stretched = stretched(word.wrapping_sub(start.shl(16)), sixteen, share);
         let product = pmf * (f32x8::from_uint(share) * f32x8::splat(1.0 / WHOLE as f32));
@@ -147,7 +154,7 @@ pub(super) fn choose(
             light[lane] = if is_light { child & !LIGHT } else { NO_LIGHT };
             at[lane] = child;
             left |= u32::from(!is_light) << lane;
-            if let Some(node) = nodes.get(child as usize) {
+            if let Some(node) = nodes.get(if is_light { 0 } else { child as usize }) {
                 touched ^= node.touch();
             }
         }

@@ -431,6 +431,6 @@ fn fused<R: Real>(a: R, b: R, c: R) -> R {
 
 /// All ones where the mask is true.
 #[inline(always)]
-pub(super) fn mask_bits(lanes: <f32x8 as Real>::Mask) -> u32x8 {
+fn mask_bits(lanes: <f32x8 as Real>::Mask) -> u32x8 {
     f32x8::blend_uint(lanes, u32x8::splat(u32::MAX), u32x8::splat(0))
 }
