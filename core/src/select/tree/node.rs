@@ -94,21 +94,20 @@ impl<C: Real> Children<C> {
         let Self { bounds, normals, deviations, turns, power, .. } = *self;
         let unit = self.reach * lit(1.0 / 255.0);
         // variances of the positions along the axes are these times `scale`
-        let (half, varied, scale) = (three(bounds), three(deviations), unit * unit);
+        let (varied, scale) = (three(deviations), unit * unit);
         let varied = Vec3::new(varied.x * varied.x, varied.y * varied.y, varied.z * varied.z);
         let variance = (varied.x + varied.y + varied.z) * scale;
         let square = Vec3::new(v.x * v.x, v.y * v.y, v.z * v.z);
-        let squared = square.x + square.y + square.z + lit(SMALL * SMALL);
+        let near = square.x + square.y + square.z + lit(SMALL * SMALL);
+        let squared = fused(variance, lit(1.0 / 3.0), near);
+        let distance = squared.sqrt();
         // what 1/d² is on average, to the second order of the extent
         let along = varied.dot(square) * scale;
-        let mean = (squared + variance) - lit(4.0) * along / fused(variance, lit(0.01), squared);
-        let mean = mean.greater((squared + variance) * lit(NEAR));
-        let squared = fused(variance, lit(1.0 / 3.0), squared);
-        let distance = squared.sqrt();
+        let mean = (near + variance) - lit(4.0) * along / fused(variance, lit(0.01), near);
+        let mean = mean.greater((near + variance) * lit(NEAR));
         // all cosines are multiplied by the distance, so that the square roots do not wait for each other
         let above = v.dot(n);
         let estimate = above + fused(above, above, varied.dot(squares) * (scale * lit(SMOOTH))).sqrt();
-        let bound = fused(lit(MARGIN), distance, fused(half.dot(slope), unit, above)).lesser(distance);
         let bias = lit(-128.0 / 127.0);
         let normal = three(normals).mul_add(lit(1.0 / 127.0), Vec3::new(bias, bias, bias));
         let ahead = -v.dot(normal);
@@ -116,6 +115,7 @@ impl<C: Real> Children<C> {
         let mixed = xy * (v.x * v.y) + xz * (v.x * v.z) + yz * (v.y * v.z);
         let turned = three(turns[0]).dot(square) * lit(SMOOTH / 255.0) + mixed * lit(2.0 * SMOOTH / 254.0);
         let turned = fused(variance, lit(SMOOTH / 3.0), turned.greater(zero));
+        let bound = fused(lit(MARGIN), distance, fused(three(bounds).dot(slope), unit, above)).lesser(distance);
         let spread = fused(byte(normals, 3), lit(1.0 / 127.5), lit(MARGIN));
         let mut front = fused(spread, distance, fused(byte::<C>(bounds, 3) + byte(bounds, 3), unit, ahead));
         let facing = if plain {
