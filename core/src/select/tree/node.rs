@@ -82,7 +82,7 @@ impl<C: Real> Children<C> {
             turns: [memory.word(at(8)), memory.word(at(9))],
         }
     }
-    /// Their weights at a point of a surface, and whether they can contribute. `plain` says that none is a spot light or emits from both
+    /// Their weights at a point of a surface, and whether they can contribute: else the weight is any number. `plain` says that none is a spot light or emits from both
     /// sides. On glossy surfaces, the weights are by what these reflect.
     #[inline(always)]
     pub(super) fn weigh(&self, plain: bool, at: &Place<C>, gloss: Option<&Gloss<C>>) -> (C, C::Mask) {
@@ -132,12 +132,12 @@ impl<C: Real> Children<C> {
             C::blend(both, root + root, y + root)
         };
         let front = front.lesser(distance);
-        let bright = bound.gt(zero) & front.gt(zero) & power.gt(zero);
+        let bright = bound.lesser(front).lesser(power).gt(zero);
         let mut cosines = fused(bound * front, lit(4.0 * BOUND), estimate * facing);
         if let Some(gloss) = gloss {
             cosines *= gloss.factor(v, varied * scale);
         }
-        ((power * cosines / (mean * squared)).keep(bright), bright)
+        (power * cosines / (mean * squared), bright)
     }
 }
 
@@ -344,7 +344,8 @@ impl Node8 {
         let bright = bright.bits();
         let sum = |w: [f32; 8]| ((w[0] + w[1]) + (w[2] + w[3])) + ((w[4] + w[5]) + (w[6] + w[7]));
         let lanes = <f32x8 as Real>::Mask::from_bits(bright);
-        let (mut weight, mut total) = (weight, sum(weight.to_array()));
+        let mut weight = weight.keep(lanes);
+        let mut total = sum(weight.to_array());
         if !(LEAST..f32::INFINITY).contains(&total) {
             weight = f32x8::lit(1.0).keep(lanes);
             total = sum(weight.to_array()).greater(1.0);
