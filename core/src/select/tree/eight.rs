@@ -127,7 +127,7 @@ pub(super) fn choose(
 ) -> Chosen {
     let [mut word, mut more] = bits;
     let mut pmf = f32x8::splat(1.0);
-    let (mut light, mut at) = ([NO_LIGHT; 8], [0_u32; 8]);
+    let mut at = [0_u32; 8];
     let mut rows = [f32x8::splat(1.0); 8];
     let mut going = 0xff_u32 >> (8 - lanes);
     for _ in 0..DEEPEST {
@@ -150,11 +150,11 @@ pub(super) fn choose(
         for lane in Lanes(moves.bits()) {
             let Some(node) = nodes.get(at[lane] as usize) else { continue };
             let child = node.child[slots[lane] as usize & 7];
-            let is_light = child & LIGHT != 0;
-            light[lane] = if is_light { child & !LIGHT } else { NO_LIGHT };
             at[lane] = child;
-            left |= u32::from(!is_light) << lane;
-            if let Some(node) = nodes.get(if is_light { 0 } else { child as usize }) {
+            let is_node = !child >> 31;
+            left |= is_node << lane;
+            // all lines of its memory are on their way before the first is needed
+            if let Some(node) = nodes.get((child * is_node) as usize) {
                 touched ^= node.touch();
             }
         }
@@ -164,6 +164,7 @@ pub(super) fn choose(
             break;
         }
     }
+    let light = at.map(|at| if at & LIGHT == 0 { NO_LIGHT } else { at & !LIGHT });
     Chosen { light, pmf: pmf.to_array(), word: word.to_array() }
 }
 
