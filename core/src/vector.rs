@@ -1,6 +1,6 @@
 //! Points, directions and orthonormal frames over scalars or packets.
 
-use crate::lanewise::lanewise;
+use crate::lanewise::{lanewise, only};
 use crate::math::{difference_of_products, rsqrt};
 use crate::real::Real;
 use core::ops::{Add, AddAssign, Mul, Neg, Sub};
@@ -115,14 +115,7 @@ impl<R: Real> Vec2<R> {
     }
 }
 
-impl Vec3<[f32; 8]> {
-    /// One lane of vectors in memory, in all lanes: not by value, as memory broadcasts for nothing what registers do not.
-    #[inline(always)]
-    pub(crate) fn only<R: Real<Scalar = f32>>(&self, lane: usize) -> Vec3<R> {
-        let Self { x, y, z } = self;
-        Vec3::new(R::splat(x[lane & 7]), R::splat(y[lane & 7]), R::splat(z[lane & 7]))
-    }
-}
+only!(Vec3 { x: R, y: R, z: R });
 
 impl<R: Real> Vec3<R> {
     /// Inner product.

@@ -1,6 +1,6 @@
 //! What surfaces reflect, for the choice of lights.
 
-use crate::lanewise::lanewise;
+use crate::lanewise::{lanewise, only};
 use crate::real::Real;
 use crate::reflection::Reflection;
 use crate::vector::Vec3;
@@ -79,20 +79,4 @@ impl<R: Real> Gloss<R> {
     }
 }
 
-impl Gloss<[f32; 8]> {
-    /// One lane, in all lanes.
-    #[inline(always)]
-    pub(super) fn only<R: Real<Scalar = f32>>(&self, lane: usize) -> Gloss<R> {
-        let Self { x, y, z, columns, diffuse, rough, least } = self;
-        let all = |row: &[f32; 8]| R::splat(row[lane & 7]);
-        Gloss {
-            x: x.only(lane),
-            y: y.only(lane),
-            z: z.only(lane),
-            columns: columns.only(lane),
-            diffuse: all(diffuse),
-            rough: all(rough),
-            least: all(least),
-        }
-    }
-}
+only!(Gloss { x: Vec3, y: Vec3, z: Vec3, columns: Vec3, diffuse: R, rough: R, least: R });

@@ -1,43 +1,22 @@
 //! Eight lanes on their way down a tree at once. What follows from the weights of the children is computed for all lanes together.
 
-use super::node::{self, LEAST, LIGHT, Node8, Place, WHOLE};
+use super::node::{self, DARK, LEAST, LIGHT, Node8, Place, WHOLE};
 use super::{DEEPEST, NO_LIGHT};
 use crate::real::{GREATEST, Mask, Real, Uint};
 use crate::select::Gloss;
-use crate::vector::Vec3;
 use wide::{f32x8, u32x8};
 
 type MaskOf = <f32x8 as Real>::Mask;
 
-/// In place of the weight of a child that cannot contribute.
-const DARK: f32 = f32::NEG_INFINITY;
-
 /// Eight lanes from `first` on, the last one for those that do not exist.
 #[inline(always)]
-pub(super) fn eight<R: Real>(x: R, first: usize) -> f32x8 {
+pub(super) fn of<R: Real>(x: R, first: usize) -> f32x8 {
     f32x8::from_fn(|i| x.lane_f64((first + i).min(R::LANES - 1)) as f32)
 }
 /// The same of counters.
 #[inline(always)]
-pub(super) fn eight_words<R: Real>(x: R::Uint, first: usize) -> u32x8 {
+pub(super) fn words_of<R: Real>(x: R::Uint, first: usize) -> u32x8 {
     u32x8::from_fn(|i| x.lane((first + i).min(R::LANES - 1)))
-}
-
-/// The places of eight lanes, in memory: from there, one lane is as soon in all lanes of a packet.
-pub(super) struct Places(Place<[f32; 8]>);
-
-impl Places {
-    #[inline(always)]
-    pub(super) fn new(p: Vec3<f32x8>, n: Vec3<f32x8>) -> Self {
-        Self(Place::new(p, n).map(|x: f32x8| x.to_array()))
-    }
-    /// The weights of a node's children at the place of a lane.
-    #[inline(always)]
-    pub(super) fn weigh(&self, lane: usize, node: &Node8, gloss: Option<&Gloss<[f32; 8]>>) -> f32x8 {
-        let gloss = gloss.map(|gloss| gloss.only(lane));
-        let (weight, bright) = node.weigh(&self.0.only(lane), gloss.as_ref());
-        Real::blend(bright, weight, f32x8::splat(DARK))
-    }
 }
 
 /// The shares of the children of a node, for a node in each lane, but for what rounding left to the last that can contribute.
@@ -85,45 +64,54 @@ impl Units {
     /// The child that a number of 16 bits belongs to. Where no child can contribute, the share is 0.
     #[inline(always)]
     fn find(&self, target: u32x8) -> Found {
-        let Self { units, pairs, half, all } = *self;
-        let (zero, one) = (u32x8::splat(0), u32x8::splat(1));
         // what rounding left belongs to the last as well
-        let target = target.min(all.wrapping_sub(one));
+        let target = target.min(self.all.wrapping_sub(u32x8::splat(1)));
+        self.halve(|_, middle| !target.lt(middle))
+    }
+    /// The child of a slot.
+    #[inline(always)]
+    fn of_slot(&self, slot: u32x8) -> Found {
+        self.halve(|bit, _| u32x8::splat(0).lt(slot & u32x8::splat(bit)))
+    }
+    /// Goes to one of eight by halves. `is_late` is told the bit of the slot and where the first half ends.
+    #[inline(always)]
+    fn halve(&self, is_late: impl Fn(u32, u32x8) -> u32x8) -> Found {
+        let Self { units, pairs, half, all } = *self;
         let choose = |is_late: u32x8, early: u32x8, late: u32x8| early ^ ((early ^ late) & is_late);
-        let mut within = target;
-        let late = |end: u32x8, within: &mut u32x8| {
-            let is_late = !within.lt(end);
-            *within = within.wrapping_sub(end & is_late);
+        let (mut slot, mut start) = (u32x8::splat(0), u32x8::splat(0));
+        let mut go = |bit: u32, half: u32x8| {
+            let is_late = is_late(bit, start.wrapping_add(half));
+            slot = slot | (is_late & u32x8::splat(bit));
+            start = start.wrapping_add(half & is_late);
             is_late
         };
-        let a = late(half, &mut within);
-        let b = late(choose(a, pairs[0], pairs[2]), &mut within);
+        let a = go(4, half);
+        let b = go(2, choose(a, pairs[0], pairs[2]));
         let early = choose(b, choose(a, units[0], units[4]), choose(a, units[2], units[6]));
-        let other = choose(b, choose(a, units[1], units[5]), choose(a, units[3], units[7]));
-        let c = late(early, &mut within);
-        let unit = choose(c, early, other);
-        let slot = (a & u32x8::splat(4)) | (b & u32x8::splat(2)) | (c & one);
-        let start = target.wrapping_sub(within);
+        let late = choose(b, choose(a, units[1], units[5]), choose(a, units[3], units[7]));
+        let unit = choose(go(1, early), early, late);
+        // the last that can contribute
         let is_last = !start.wrapping_add(unit).lt(all);
         let share = choose(is_last, unit, u32x8::splat(WHOLE).wrapping_sub(start));
-        Found { slot, start, share: share & zero.lt(all) }
+        Found { slot, start, share: share & u32x8::splat(0).lt(unit) }
     }
 }
 
 /// What eight lanes have chosen.
+#[derive(Clone, Copy, Default)]
 pub(super) struct Chosen {
     pub(super) light: [u32; 8],
     pub(super) pmf: [f32; 8],
     pub(super) word: [u32; 8],
 }
 
-/// Chooses in the first `lanes` of eight lanes, by the weights of the children of a node for a lane.
+/// Chooses in the first `lanes` of eight lanes.
 #[inline(always)]
 pub(super) fn choose(
     nodes: &[Node8],
     lanes: usize,
     bits: [u32x8; 2],
-    weigh: impl Fn(usize, &Node8) -> f32x8,
+    (place, gloss): (&Place<[f32; 8]>, Option<&Gloss<[f32; 8]>>),
 ) -> Chosen {
     let [mut word, mut more] = bits;
     let mut pmf = f32x8::splat(1.0);
@@ -133,7 +121,7 @@ pub(super) fn choose(
     for _ in 0..DEEPEST {
         for lane in Lanes(going) {
             rows[lane] = match nodes.get(at[lane] as usize) {
-                Some(node) => weigh(lane, node),
+                Some(node) => node.weigh_at(lane, place, gloss),
                 None => f32x8::splat(DARK),
             };
         }
@@ -164,8 +152,73 @@ pub(super) fn choose(
             break;
         }
     }
-    let light = at.map(|at| if at & LIGHT == 0 { NO_LIGHT } else { at & !LIGHT });
-    Chosen { light, pmf: pmf.to_array(), word: word.to_array() }
+    let at = u32x8::from(at);
+    let some = f32x8::has_bits(at & u32x8::splat(LIGHT));
+    let light = f32x8::blend_uint(some, at & u32x8::splat(!LIGHT), u32x8::splat(NO_LIGHT)).to_array();
+    let pmf = pmf.greater(f32x8::splat(f32::MIN_POSITIVE)).keep(some).to_array();
+    Chosen { light, pmf, word: word.to_array() }
+}
+
+/// The pmfs of lights of the first `lanes` of eight lanes, by the same products.
+#[inline(always)]
+pub(super) fn pmf(
+    nodes: &[Node8],
+    places: &[u32],
+    lanes: usize,
+    lights: [u32; 8],
+    (place, gloss): (&Place<[f32; 8]>, Option<&Gloss<[f32; 8]>>),
+) -> [f32; 8] {
+    let mut paths = [[0; DEEPEST]; 8];
+    let (mut levels, mut touched) = ([0_usize; 8], 0);
+    for (lane, &light) in lights.iter().enumerate().take(lanes) {
+        if let Some(&place) = places.get(light as usize) {
+            levels[lane] = climb(nodes, place, &mut paths[lane], |node| touched ^= node.touch());
+        }
+    }
+    core::hint::black_box(touched);
+    let is_below = |level: usize| (0..8).map(|lane| u32::from(level < levels[lane]) << lane).sum();
+    let mut going: u32 = is_below(0);
+    let (mut pmf, mut rows) = (f32x8::splat(1.0).keep(MaskOf::from_bits(going)), [f32x8::splat(1.0); 8]);
+    for level in 0..DEEPEST {
+        if going == 0 {
+            break;
+        }
+        let mut slots = [0; 8];
+        for lane in Lanes(going) {
+            let link = paths[lane][(levels[lane] - 1 - level) % DEEPEST];
+            slots[lane] = link & 7;
+            rows[lane] = match nodes.get((link >> 3) as usize) {
+                Some(node) => node.weigh_at(lane, place, gloss),
+                None => f32x8::splat(DARK),
+            };
+        }
+        let lanes = MaskOf::from_bits(going);
+        let share = Units::of(rows, lanes).of_slot(u32x8::from(slots)).share;
+        let some = f32x8::has_bits(share);
+        let product = pmf * (f32x8::from_uint(share) * f32x8::splat(1.0 / WHOLE as f32));
+        pmf = Real::blend(lanes, product.greater(f32x8::splat(f32::MIN_POSITIVE)).keep(some), pmf);
+        going = (lanes & some).bits() & is_below(level + 1);
+    }
+    pmf.to_array()
+}
+
+/// Climbs from the place of a light to the root. Returns the number of nodes, and leaves the way in `path`.
+#[inline(always)]
+pub(super) fn climb(nodes: &[Node8], place: u32, path: &mut [u32; DEEPEST], mut meet: impl FnMut(&Node8)) -> usize {
+    let (mut levels, mut link) = (0, place);
+    while levels < DEEPEST {
+        path[levels] = link;
+        levels += 1;
+        let node = nodes.get((link >> 3) as usize);
+        if let Some(node) = node {
+            meet(node);
+        }
+        if link >> 3 == 0 {
+            break;
+        }
+        link = node.map_or(0, |node| node.link);
+    }
+    levels
 }
 
 /// The lanes of a mask, one after the other.

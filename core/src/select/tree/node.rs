@@ -1,6 +1,7 @@
 //! Nodes of eight children: how they are packed, and what share of the samples each child receives.
 
 use super::part::{Part, SMALL, WEAK};
+use crate::lanewise::{lanewise, only};
 use crate::memory::Memory;
 use crate::real::{Mask, Real, Uint, unit_interval};
 use crate::select::Gloss;
@@ -24,6 +25,8 @@ const MARGIN: f64 = 1.0 / 16_384.0;
 pub(super) const LEAST: f32 = 1e-33;
 /// The least mean of squared distances, relative to the sum of squared distance and variance.
 const NEAR: f64 = 0.25;
+/// In place of the weight of a child that cannot contribute.
+pub(super) const DARK: f32 = f32::NEG_INFINITY;
 /// In place of the cosine of a cone, this byte says that the lights emit from both sides.
 const TWO_SIDED: u32 = 255;
 
@@ -141,15 +144,17 @@ impl<C: Real> Children<C> {
     }
 }
 
-/// A point of a surface.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Place<R> {
-    p: Vec3<R>,
-    n: Vec3<R>,
-    /// |n| and n², component by component.
-    slope: Vec3<R>,
-    squares: Vec3<R>,
+lanewise! {
+    /// A point of a surface.
+    pub(super) struct Place {
+        p: Vec3<R>,
+        n: Vec3<R>,
+        /// |n| and n², component by component.
+        slope: Vec3<R>,
+        squares: Vec3<R>,
+    }
 }
+only!(Place { p: Vec3, n: Vec3, slope: Vec3, squares: Vec3 });
 
 impl<R: Real> Place<R> {
     #[inline(always)]
@@ -160,33 +165,6 @@ impl<R: Real> Place<R> {
             slope: Vec3::new(n.x.abs(), n.y.abs(), n.z.abs()),
             squares: Vec3::new(n.x * n.x, n.y * n.y, n.z * n.z),
         }
-    }
-}
-
-impl<R> Place<R> {
-    /// Replaces each number x by `f(x)`.
-    #[inline(always)]
-    pub(super) fn map<S>(self, mut f: impl FnMut(R) -> S) -> Place<S> {
-        let Self { p, n, slope, squares } = self;
-        Place { p: p.map(&mut f), n: n.map(&mut f), slope: slope.map(&mut f), squares: squares.map(&mut f) }
-    }
-}
-
-impl Place<[f32; 8]> {
-    /// One lane, in all lanes.
-    #[inline(always)]
-    pub(super) fn only(&self, lane: usize) -> Place<f32x8> {
-        let all = |v: &Vec3<[f32; 8]>| v.only(lane);
-        Place { p: all(&self.p), n: all(&self.n), slope: all(&self.slope), squares: all(&self.squares) }
-    }
-}
-
-impl Place<f32> {
-    /// The same in every lane.
-    #[inline(always)]
-    fn splat(&self) -> Place<f32x8> {
-        let [p, n, slope, squares] = [self.p, self.n, self.slope, self.squares].map(Vec3::<f32x8>::splat);
-        Place { p, n, slope, squares }
     }
 }
 
@@ -325,10 +303,12 @@ impl Node8 {
         words
     }
 
-    /// The children's weights at a point of a surface, and whether they can contribute.
+    /// The children's weights at the point of one of eight lanes, in negative where they cannot contribute.
     #[inline(always)]
-    pub(super) fn weigh(&self, at: &Place<f32x8>, gloss: Option<&Gloss<f32x8>>) -> (f32x8, <f32x8 as Real>::Mask) {
-        self.children().weigh(self.plain != 0, at, gloss)
+    pub(super) fn weigh_at(&self, lane: usize, at: &Place<[f32; 8]>, gloss: Option<&Gloss<[f32; 8]>>) -> f32x8 {
+        let gloss = gloss.map(|gloss| gloss.only(lane));
+        let (weight, bright) = self.children().weigh(self.plain != 0, &at.only(lane), gloss.as_ref());
+        Real::blend(bright, weight, f32x8::splat(DARK))
     }
     /// Reads a word of each line of memory, so that all lines are on their way.
     #[inline(always)]
@@ -340,7 +320,7 @@ impl Node8 {
     #[inline(always)]
     pub(super) fn shares(&self, at: &Place<f32>, gloss: Option<&Gloss<f32>>) -> Shares {
         let gloss = gloss.map(|gloss| Gloss::splat(*gloss));
-        let (weight, bright) = self.weigh(&at.splat(), gloss.as_ref());
+        let (weight, bright) = self.children().weigh(self.plain != 0, &Place::splat(*at), gloss.as_ref());
         let bright = bright.bits();
         let sum = |w: [f32; 8]| ((w[0] + w[1]) + (w[2] + w[3])) + ((w[4] + w[5]) + (w[6] + w[7]));
         let lanes = <f32x8 as Real>::Mask::from_bits(bright);
