@@ -314,7 +314,9 @@ impl Node8 {
     #[inline(always)]
     pub(super) fn touch(&self) -> u32 {
         let [x, _, z] = &self.center;
-        (x[0].to_bits() ^ z[0].to_bits()) ^ (self.power[0].to_bits() ^ self.normal[0]) ^ (self.turns[0][0] ^ self.child[0])
+        (x[0].to_bits() ^ z[0].to_bits())
+            ^ (self.power[0].to_bits() ^ self.normal[0])
+            ^ (self.turns[0][0] ^ self.child[0])
     }
     /// The children's shares at a point of a surface.
     #[inline(always)]
@@ -331,9 +333,10 @@ impl Node8 {
             total = sum(weight.to_array()).greater(1.0);
         }
         let scaled = weight * f32x8::splat((WHOLE - 8) as f32 / total);
-        let mut units = (scaled.to_uint().wrapping_add(u32x8::splat(1)) & mask_bits(lanes)).to_array();
         // what rounding left goes to the last
-        units[(bright | 1).ilog2() as usize] = if bright == 0 { 0 } else { WHOLE };
+        let last = <f32x8 as Real>::Mask::from_bits(1 << (bright | 1).ilog2());
+        let units = f32x8::blend_uint(last, u32x8::splat(WHOLE), scaled.to_uint().wrapping_add(u32x8::splat(1)));
+        let units = (units & mask_bits(lanes)).to_array();
         Shares { units }
     }
 }
