@@ -237,13 +237,51 @@ impl Iterator for Lanes {
     }
 }
 
-/// As [`node::stretched`] does. In double precision the quotient of 48 bits and 17 is far enough from all integers that it is not.
+/// As [`node::stretched`] does, for lanes where the share is not 0.
 #[inline(always)]
 fn stretched(within: u32x8, sixteen: u32x8, share: u32x8) -> u32x8 {
+    // 2⁵² and half of it: the sum with a smaller number is rounded to an integer, which is in its low bits
+    const ROUND: f64 = 6_755_399_441_055_744.0;
     let [within, sixteen, share] = [within, sixteen, share].map(u32x8::to_array);
     u32x8::from_fn(|i| {
-        let all = f64::from(within[i]) * 65_536.0 + f64::from(sixteen[i]);
-        let quotient = all / f64::from(share[i]);
-        ((quotient - (0.5 - 1.0 / 131_072.0)) + 4_503_599_627_370_496.0).to_bits() as u32
+        // 48 bits, which are exact, over at most 2¹⁶: no quotient is nearer than 2⁻¹⁶ to an integer above, and none is rounded by 2⁻²⁰
+        let quotient = (f64::from(within[i]) * 65_536.0 + f64::from(sixteen[i])) / f64::from(share[i]);
+        ((quotient - (0.5 - 1.0 / 131_072.0)) + ROUND).to_bits() as u32
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// In double precision, positions within shares have the bits of the long division.
+    #[test]
+    fn quotients_are_those_of_integers() {
+        let mut state = 1_u32;
+        let mut bits = || {
+            let (next, sixteen) = node::sixteen(state);
+            state = next;
+            sixteen
+        };
+        for round in 0..200_000 {
+            let share = match round % 4 {
+                0 => 1 + bits() % 16,
+                1 => WHOLE - bits() % 16,
+                _ => 1 + bits(),
+            };
+            let whole = u64::from(share) << 16;
+            // next to 0, to the end, and to multiples of the share
+            let within = match bits() % 4 {
+                0 => u64::from(bits() % 4),
+                1 => whole - 1 - u64::from(bits() % 4),
+                2 => (u64::from(share) * u64::from(bits()) + u64::from(bits() % 3)).saturating_sub(1),
+                _ => (u64::from(bits()) << 16 | u64::from(bits())) % whole,
+            };
+            let within = within.min(whole - 1) as u32;
+            for sixteen in [0, 1, 65_535, bits()] {
+                let found = stretched(u32x8::splat(within), u32x8::splat(sixteen), u32x8::splat(share));
+                assert_eq!(found.lane(3), node::stretched(within, sixteen, share), "{within} {sixteen} {share}");
+            }
+        }
+    }
 }
