@@ -81,7 +81,7 @@ impl Units {
         let (mut slot, mut start) = (u32x8::splat(0), u32x8::splat(0));
         let mut go = |bit: u32, half: u32x8| {
             let is_late = is_late(bit, start.wrapping_add(half));
-            slot = slot | (is_late & u32x8::splat(bit));
+            slot |= is_late & u32x8::splat(bit);
             start = start.wrapping_add(half & is_late);
             is_late
         };
