@@ -71,3 +71,28 @@ macro_rules! mapped {
     };
 }
 pub(crate) use mapped;
+
+/// Implements `only` of a struct over lanes in memory: one of them, in all lanes of a packet. It reads through a reference, because
+/// memory broadcasts for nothing what registers do not.
+macro_rules! only {
+    ($name:ident { $($field:ident: $kind:ident),+ $(,)? }) => {
+        impl $name<[f32; 8]> {
+            #[inline(always)]
+            pub(crate) fn only<R: $crate::real::Real<Scalar = f32>>(&self, lane: usize) -> $name<R> {
+                $name { $($field: $crate::lanewise::only_of!(self.$field, lane, R, $kind)),+ }
+            }
+        }
+    };
+}
+pub(crate) use only;
+
+/// The same of a field.
+macro_rules! only_of {
+    ($field:expr, $lane:ident, $packet:ident, R) => {
+        $packet::splat($field[$lane & 7])
+    };
+    ($field:expr, $lane:ident, $packet:ident, $kind:ident) => {
+        $field.only($lane)
+    };
+}
+pub(crate) use only_of;

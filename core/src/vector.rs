@@ -1,6 +1,6 @@
 //! Points, directions and orthonormal frames over scalars or packets.
 
-use crate::lanewise::lanewise;
+use crate::lanewise::{lanewise, only};
 use crate::math::{difference_of_products, rsqrt};
 use crate::real::Real;
 use core::ops::{Add, AddAssign, Mul, Neg, Sub};
@@ -114,6 +114,8 @@ impl<R: Real> Vec2<R> {
         self.x.mul_add(o.x, self.y * o.y)
     }
 }
+
+only!(Vec3 { x: R, y: R, z: R });
 
 impl<R: Real> Vec3<R> {
     /// Inner product.

@@ -1,6 +1,6 @@
 //! What surfaces reflect, for the choice of lights.
 
-use crate::lanewise::lanewise;
+use crate::lanewise::{lanewise, only};
 use crate::real::Real;
 use crate::reflection::Reflection;
 use crate::vector::Vec3;
@@ -78,3 +78,5 @@ impl<R: Real> Gloss<R> {
         self.rough.mul_add(lobe, self.diffuse).greater(self.least)
     }
 }
+
+only!(Gloss { x: Vec3, y: Vec3, z: Vec3, columns: Vec3, diffuse: R, rough: R, least: R });

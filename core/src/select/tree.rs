@@ -1,6 +1,7 @@
 //! Choice among any number of lights by a tree.
 
 mod build;
+mod eight;
 mod node;
 mod part;
 mod words;
@@ -11,6 +12,7 @@ use crate::real::{Real, Uint};
 use crate::vector::Vec3;
 use build::{Build, nodes_for};
 pub use build::{Join, Sequential};
+use eight::Chosen;
 pub use node::Node8;
 use node::{LIGHT, NONE, Place, Shares, WHOLE};
 use part::{Part, Units};
@@ -221,41 +223,60 @@ impl<'a, R: Real> TreeAt<'a, R> {
     pub fn choose_by(&self, bits: [R::Uint; 2]) -> Choice<R> {
         // compiled twice: without gloss, nothing asks for it
         match &self.gloss {
-            None => self.descend(bits, |_| None),
-            Some(_) => self.descend(bits, |lane| self.gloss(lane)),
+            None => self.descend(bits, None),
+            Some(gloss) => self.descend(bits, Some(gloss)),
         }
     }
     #[inline(always)]
-    fn descend(&self, bits: [R::Uint; 2], gloss: impl Fn(usize) -> Option<Gloss<f32>>) -> Choice<R> {
-        let start = |lane: usize| {
-            let place = self.place(lane.min(R::LANES - 1));
-            let [word, more] = bits.map(|bits| bits.lane(lane.min(R::LANES - 1)));
-            Descent { place, word, more, node: 0, pmf: 1.0, light: NO_LIGHT }
-        };
-        let mut lanes: [Descent; MOST_LANES] = core::array::from_fn(start);
-        // level by level, as the lanes do not wait for each other
-        for _ in 0..DEEPEST {
-            let mut shares = [Shares::default(); MOST_LANES];
-            let mut more = false;
-            for (index, (shares, lane)) in shares.iter_mut().zip(&lanes[..R::LANES]).enumerate() {
-                if let Some(node) = self.tree.nodes.get(lane.node as usize) {
-                    *shares = node.shares(&lane.place, gloss(index).as_ref());
-                    more = true;
-                }
+    fn descend(&self, bits: [R::Uint; 2], gloss: Option<&Gloss<R>>) -> Choice<R> {
+        let mut chosen = [Chosen::default(); MOST_LANES / 8];
+        let nodes = self.tree.nodes;
+        if R::LANES == 1 {
+            let [word, more] = bits.map(|bits| bits.lane(0));
+            let mut lane = Descent { word, more, node: 0, pmf: 1.0, light: NO_LIGHT };
+            let (place, gloss) = (self.place(0), gloss.and_then(|_| self.gloss(0)));
+            for _ in 0..DEEPEST {
+                let Some(node) = nodes.get(lane.node as usize) else { break };
+                lane.step(node, &node.shares(&place, gloss.as_ref()));
             }
-            if !more {
-                break;
-            }
-            for (shares, lane) in shares.iter().zip(&mut lanes[..R::LANES]) {
-                lane.step(self.tree.nodes, shares);
+            let pmf = if lane.light == NO_LIGHT { 0.0 } else { lane.pmf.greater(f32::MIN_POSITIVE) };
+            chosen[0] = Chosen { light: [lane.light; 8], pmf: [pmf; 8], word: [lane.word; 8] };
+        } else {
+            for (chosen, first) in chosen.iter_mut().zip((0..R::LANES).step_by(8)) {
+                let (place, gloss) = self.eight(gloss, first);
+                let (lanes, bits) = ((R::LANES - first).min(8), bits.map(|bits| eight::words_of::<R>(bits, first)));
+                *chosen = eight::choose(nodes, lanes, bits, (&place, gloss.as_ref()));
             }
         }
-        let pmf = |lane: &Descent| if lane.light == NO_LIGHT { 0.0 } else { lane.pmf.greater(f32::MIN_POSITIVE) };
+        let pmf = |lane: usize| chosen[lane / 8].pmf[lane % 8];
         Choice {
-            index: R::Uint::from_fn(|lane| lanes[lane].light),
-            pmf: R::from_fn(|lane| R::Scalar::lit(f64::from(pmf(&lanes[lane])))),
-            u: R::unit(R::Uint::from_fn(|lane| lanes[lane].word)),
+            index: R::Uint::from_fn(|lane| chosen[lane / 8].light[lane % 8]),
+            pmf: R::from_fn(|lane| R::Scalar::lit(f64::from(pmf(lane)))),
+            u: R::unit(R::Uint::from_fn(|lane| chosen[lane / 8].word[lane % 8])),
         }
+    }
+    #[inline(always)]
+    fn pmfs(&self, index: R::Uint, gloss: Option<&Gloss<R>>) -> [[f32; 8]; MOST_LANES / 8] {
+        let LightTree { nodes, places } = self.tree;
+        let mut pmfs = [[0.0; 8]; MOST_LANES / 8];
+        if R::LANES == 1 {
+            let gloss = gloss.and_then(|_| self.gloss(0));
+            pmfs[0][0] = self.tree.pmf(&self.place(0), gloss.as_ref(), index.lane(0));
+        } else {
+            for (pmfs, first) in pmfs.iter_mut().zip((0..R::LANES).step_by(8)) {
+                let (place, gloss) = self.eight(gloss, first);
+                let lights = eight::words_of::<R>(index, first).to_array();
+                *pmfs = eight::pmf(nodes, places, (R::LANES - first).min(8), lights, (&place, gloss.as_ref()));
+            }
+        }
+        pmfs
+    }
+    /// The places of eight lanes from `first` on, and what their surfaces reflect.
+    #[inline(always)]
+    fn eight(&self, gloss: Option<&Gloss<R>>, first: usize) -> (Place<[f32; 8]>, Option<Gloss<[f32; 8]>>) {
+        let of = |x: R| eight::of(x, first);
+        let place = Place::new(self.p.map(of), self.n.map(of)).map(|x| x.to_array());
+        (place, gloss.map(|gloss| gloss.map(|x| of(x).to_array())))
     }
 
     /// The share of each child of a node at the point of a lane, in units of 2⁻¹⁶, and the children. Node 0 is the root. Renderers do
@@ -277,7 +298,6 @@ impl<'a, R: Real> TreeAt<'a, R> {
 
 /// A lane on its way from the root to a light.
 struct Descent {
-    place: Place<f32>,
     word: u32,
     more: u32,
     /// [`NONE`] at the end.
@@ -289,8 +309,7 @@ struct Descent {
 impl Descent {
     /// Goes to a child of its node, or to a light.
     #[inline(always)]
-    fn step(&mut self, nodes: &[Node8], shares: &Shares) {
-        let Some(node) = nodes.get(self.node as usize) else { return };
+    fn step(&mut self, node: &Node8, shares: &Shares) {
         let (slot, start, share) = shares.find(self.word >> 16);
         if share == 0 {
             self.node = NONE;
@@ -325,15 +344,8 @@ impl LightTree<'_> {
     #[inline]
     fn pmf(&self, at: &Place<f32>, gloss: Option<&Gloss<f32>>, light: u32) -> f32 {
         let Some(&place) = self.places.get(light as usize) else { return 0.0 };
-        let (mut path, mut levels, mut link) = ([0; DEEPEST], 0, place);
-        while levels < DEEPEST {
-            path[levels] = link;
-            levels += 1;
-            if link >> 3 == 0 {
-                break;
-            }
-            link = self.nodes.get((link >> 3) as usize).map_or(0, |node| node.link);
-        }
+        let mut path = [0; DEEPEST];
+        let levels = eight::climb(self.nodes, place, &mut path, |_| ());
         let mut pmf = 1.0_f32;
         for &link in path[..levels].iter().rev() {
             let Some(node) = self.nodes.get((link >> 3) as usize) else { return 0.0 };
@@ -355,7 +367,10 @@ impl<R: Real> LightChoice<R> for TreeAt<'_, R> {
     }
     #[inline]
     fn pmf(&self, index: R::Uint) -> R {
-        let pmf = |lane: usize| self.tree.pmf(&self.place(lane), self.gloss(lane).as_ref(), index.lane(lane));
-        R::from_fn(|lane| R::Scalar::lit(f64::from(pmf(lane))))
+        let pmfs = match &self.gloss {
+            None => self.pmfs(index, None),
+            Some(gloss) => self.pmfs(index, Some(gloss)),
+        };
+        R::from_fn(|lane| R::Scalar::lit(f64::from(pmfs[lane / 8][lane % 8])))
     }
 }

@@ -1,6 +1,7 @@
 //! Nodes of eight children: how they are packed, and what share of the samples each child receives.
 
 use super::part::{Part, SMALL, WEAK};
+use crate::lanewise::{lanewise, only};
 use crate::memory::Memory;
 use crate::real::{Mask, Real, Uint, unit_interval};
 use crate::select::Gloss;
@@ -24,6 +25,8 @@ const MARGIN: f64 = 1.0 / 16_384.0;
 pub(super) const LEAST: f32 = 1e-33;
 /// The least mean of squared distances, relative to the sum of squared distance and variance.
 const NEAR: f64 = 0.25;
+/// In place of the weight of a child that cannot contribute.
+pub(super) const DARK: f32 = f32::NEG_INFINITY;
 /// In place of the cosine of a cone, this byte says that the lights emit from both sides.
 const TWO_SIDED: u32 = 255;
 
@@ -82,7 +85,7 @@ impl<C: Real> Children<C> {
             turns: [memory.word(at(8)), memory.word(at(9))],
         }
     }
-    /// Their weights at a point of a surface, and whether they can contribute. `plain` says that none is a spot light or emits from both
+    /// Their weights at a point of a surface, and whether they can contribute: else the weight is any number. `plain` says that none is a spot light or emits from both
     /// sides. On glossy surfaces, the weights are by what these reflect.
     #[inline(always)]
     pub(super) fn weigh(&self, plain: bool, at: &Place<C>, gloss: Option<&Gloss<C>>) -> (C, C::Mask) {
@@ -94,21 +97,20 @@ impl<C: Real> Children<C> {
         let Self { bounds, normals, deviations, turns, power, .. } = *self;
         let unit = self.reach * lit(1.0 / 255.0);
         // variances of the positions along the axes are these times `scale`
-        let (half, varied, scale) = (three(bounds), three(deviations), unit * unit);
+        let (varied, scale) = (three(deviations), unit * unit);
         let varied = Vec3::new(varied.x * varied.x, varied.y * varied.y, varied.z * varied.z);
         let variance = (varied.x + varied.y + varied.z) * scale;
         let square = Vec3::new(v.x * v.x, v.y * v.y, v.z * v.z);
-        let squared = square.x + square.y + square.z + lit(SMALL * SMALL);
+        let near = square.x + square.y + square.z + lit(SMALL * SMALL);
+        let squared = fused(variance, lit(1.0 / 3.0), near);
+        let distance = squared.sqrt();
         // what 1/d² is on average, to the second order of the extent
         let along = varied.dot(square) * scale;
-        let mean = (squared + variance) - lit(4.0) * along / fused(variance, lit(0.01), squared);
-        let mean = mean.greater((squared + variance) * lit(NEAR));
-        let squared = fused(variance, lit(1.0 / 3.0), squared);
-        let distance = squared.sqrt();
+        let mean = (near + variance) - lit(4.0) * along / fused(variance, lit(0.01), near);
+        let mean = mean.greater((near + variance) * lit(NEAR));
         // all cosines are multiplied by the distance, so that the square roots do not wait for each other
         let above = v.dot(n);
         let estimate = above + fused(above, above, varied.dot(squares) * (scale * lit(SMOOTH))).sqrt();
-        let bound = fused(lit(MARGIN), distance, fused(half.dot(slope), unit, above)).lesser(distance);
         let bias = lit(-128.0 / 127.0);
         let normal = three(normals).mul_add(lit(1.0 / 127.0), Vec3::new(bias, bias, bias));
         let ahead = -v.dot(normal);
@@ -116,6 +118,7 @@ impl<C: Real> Children<C> {
         let mixed = xy * (v.x * v.y) + xz * (v.x * v.z) + yz * (v.y * v.z);
         let turned = three(turns[0]).dot(square) * lit(SMOOTH / 255.0) + mixed * lit(2.0 * SMOOTH / 254.0);
         let turned = fused(variance, lit(SMOOTH / 3.0), turned.greater(zero));
+        let bound = fused(lit(MARGIN), distance, fused(three(bounds).dot(slope), unit, above)).lesser(distance);
         let spread = fused(byte(normals, 3), lit(1.0 / 127.5), lit(MARGIN));
         let mut front = fused(spread, distance, fused(byte::<C>(bounds, 3) + byte(bounds, 3), unit, ahead));
         let facing = if plain {
@@ -132,24 +135,26 @@ impl<C: Real> Children<C> {
             C::blend(both, root + root, y + root)
         };
         let front = front.lesser(distance);
-        let bright = bound.gt(zero) & front.gt(zero) & power.gt(zero);
+        let bright = bound.lesser(front).lesser(power).gt(zero);
         let mut cosines = fused(bound * front, lit(4.0 * BOUND), estimate * facing);
         if let Some(gloss) = gloss {
             cosines *= gloss.factor(v, varied * scale);
         }
-        ((power * cosines / (mean * squared)).keep(bright), bright)
+        (power * cosines / (mean * squared), bright)
     }
 }
 
-/// A point of a surface.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Place<R> {
-    p: Vec3<R>,
-    n: Vec3<R>,
-    /// |n| and n², component by component.
-    slope: Vec3<R>,
-    squares: Vec3<R>,
+lanewise! {
+    /// A point of a surface.
+    pub(super) struct Place {
+        p: Vec3<R>,
+        n: Vec3<R>,
+        /// |n| and n², component by component.
+        slope: Vec3<R>,
+        squares: Vec3<R>,
+    }
 }
+only!(Place { p: Vec3, n: Vec3, slope: Vec3, squares: Vec3 });
 
 impl<R: Real> Place<R> {
     #[inline(always)]
@@ -160,15 +165,6 @@ impl<R: Real> Place<R> {
             slope: Vec3::new(n.x.abs(), n.y.abs(), n.z.abs()),
             squares: Vec3::new(n.x * n.x, n.y * n.y, n.z * n.z),
         }
-    }
-}
-
-impl Place<f32> {
-    /// The same in every lane.
-    #[inline(always)]
-    fn splat(&self) -> Place<f32x8> {
-        let [p, n, slope, squares] = [self.p, self.n, self.slope, self.squares].map(Vec3::<f32x8>::splat);
-        Place { p, n, slope, squares }
     }
 }
 
@@ -307,23 +303,40 @@ impl Node8 {
         words
     }
 
+    /// The children's weights at the point of one of eight lanes, in negative where they cannot contribute.
+    #[inline(always)]
+    pub(super) fn weigh_at(&self, lane: usize, at: &Place<[f32; 8]>, gloss: Option<&Gloss<[f32; 8]>>) -> f32x8 {
+        let gloss = gloss.map(|gloss| gloss.only(lane));
+        let (weight, bright) = self.children().weigh(self.plain != 0, &at.only(lane), gloss.as_ref());
+        Real::blend(bright, weight, f32x8::splat(DARK))
+    }
+    /// Reads a word of each line of memory, so that all lines are on their way.
+    #[inline(always)]
+    pub(super) fn touch(&self) -> u32 {
+        let [x, _, z] = &self.center;
+        (x[0].to_bits() ^ z[0].to_bits())
+            ^ (self.power[0].to_bits() ^ self.normal[0])
+            ^ (self.turns[0][0] ^ self.child[0])
+    }
     /// The children's shares at a point of a surface.
     #[inline(always)]
     pub(super) fn shares(&self, at: &Place<f32>, gloss: Option<&Gloss<f32>>) -> Shares {
         let gloss = gloss.map(|gloss| Gloss::splat(*gloss));
-        let (weight, bright) = self.children().weigh(self.plain != 0, &at.splat(), gloss.as_ref());
+        let (weight, bright) = self.children().weigh(self.plain != 0, &Place::splat(*at), gloss.as_ref());
         let bright = bright.bits();
         let sum = |w: [f32; 8]| ((w[0] + w[1]) + (w[2] + w[3])) + ((w[4] + w[5]) + (w[6] + w[7]));
         let lanes = <f32x8 as Real>::Mask::from_bits(bright);
-        let (mut weight, mut total) = (weight, sum(weight.to_array()));
+        let mut weight = weight.keep(lanes);
+        let mut total = sum(weight.to_array());
         if !(LEAST..f32::INFINITY).contains(&total) {
             weight = f32x8::lit(1.0).keep(lanes);
             total = sum(weight.to_array()).greater(1.0);
         }
         let scaled = weight * f32x8::splat((WHOLE - 8) as f32 / total);
-        let mut units = (scaled.to_uint().wrapping_add(u32x8::splat(1)) & mask_bits(lanes)).to_array();
         // what rounding left goes to the last
-        units[(bright | 1).ilog2() as usize] = if bright == 0 { 0 } else { WHOLE };
+        let last = <f32x8 as Real>::Mask::from_bits(1 << (bright | 1).ilog2());
+        let units = f32x8::blend_uint(last, u32x8::splat(WHOLE), scaled.to_uint().wrapping_add(u32x8::splat(1)));
+        let units = (units & mask_bits(lanes)).to_array();
         Shares { units }
     }
 }

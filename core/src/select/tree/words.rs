@@ -84,7 +84,7 @@ impl<R: Real, M: Memory<R>> TreeWordsAt<R, M> {
             let (weight, contributes) = child.weigh(false, &self.place, None);
             let weights = core::array::from_fn(|k| {
                 let is_other = R::has_bits(slot ^ word(k as u32));
-                R::blend(is_other, weights[k], weight)
+                R::blend(is_other, weights[k], weight.keep(contributes))
             });
             let bright = bright | R::blend_uint(contributes, bit, word(0));
             ((weights, [slot.wrapping_add(word(1)), bit.shl(1), bright]), going)
