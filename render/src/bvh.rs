@@ -6,7 +6,7 @@
 //! hits therefore depends neither on the other rays of its group nor on the traversal, bit for bit.
 //!
 //! Files import one way, from the last of this list to the first: `double_precision`, `rays`, `node`, `build`, `parallel_build`, `tree`, then the
-//! traversals `frustum`, `single_ray`, `stream`, `region`, then the primitives `cutouts`, `triangles`, `shapes`, and `instances` of them.
+//! traversals `frustum`, `single_ray`, `interleaved`, `stream`, `region`, then the primitives `cutouts`, `triangles`, `shapes`, and `instances` of them.
 //! Each traversal is one body for closest and any hit (`ANY`). For any hit, the distances in [`Hits`] are the limits, and their places are
 //! the shapes that do not occlude.
 //!
@@ -19,6 +19,7 @@ mod cutouts;
 mod double_precision;
 mod frustum;
 mod instances;
+mod interleaved;
 mod node;
 mod parallel_build;
 mod rays;
@@ -61,8 +62,10 @@ pub enum Traversal {
     #[default]
     Choose,
     /// As a stream: the group visits each node once, with the rays that enter it. Below 5 active rays, each finishes
-    /// alone.
+    /// alone; in large trees they take turns, so that none waits for memory.
     Stream,
+    /// As a stream in which rays that are alone take turns in trees of any size.
+    Interleaved,
     /// Ray by ray.
     Single,
     /// Every leaf, regardless of other hits and without the tree above it: the oracle for the other traversals.
@@ -212,11 +215,10 @@ impl Bvh {
                 single_ray::one_by_one::<ANY>(&tree, rays, active, hits, &mut stream.single_ray)
             }
             (None, Traversal::Exhaustive) => tree.every_leaf::<ANY>(rays, active, hits),
-            (None, _) => stream::stream::<ANY>(&tree, rays, active, hits, stream),
+            (None, way) => stream::stream::<ANY>(&tree, rays, active, hits, way == Traversal::Interleaved, stream),
         }
         if let Some(instances) = &self.instances {
-            let exhaustive = self.traversal == Traversal::Exhaustive;
-            instances.trace::<ANY>(rays, active, hits, exhaustive, visits, stream);
+            instances.trace::<ANY>(rays, active, hits, self.traversal, visits, stream);
         }
     }
     /// Like [`Self::trace`], for shapes only: packet by packet if there is no frustum, as shapes are few.
