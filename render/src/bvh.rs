@@ -5,7 +5,7 @@
 //! length. A hit is strictly nearer than its limit, and of two hits at equal distance the triangle of lower index wins. What a ray
 //! hits therefore depends neither on the other rays of its group nor on the traversal, bit for bit.
 //!
-//! Files import one way, from the last of this list to the first: `double_precision`, `rays`, `node`, `build`, `parallel_build`, `tree`, then the
+//! Files import one way, from the last of this list to the first: `huge_pages`, `double_precision`, `rays`, `node`, `build`, `parallel_build`, `tree`, then the
 //! traversals `frustum`, `single_ray`, `interleaved`, `stream`, `region`, then the primitives `cutouts`, `triangles`, `shapes`, and `instances` of them.
 //! Each traversal is one body for closest and any hit (`ANY`). For any hit, the distances in [`Hits`] are the limits, and their places are
 //! the shapes that do not occlude.
@@ -18,6 +18,7 @@ mod build;
 mod cutouts;
 mod double_precision;
 mod frustum;
+mod huge_pages;
 mod instances;
 mod interleaved;
 mod node;
