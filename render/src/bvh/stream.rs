@@ -11,6 +11,8 @@ use wide::i8x32;
 
 /// With fewer rays than this, each continues alone, as sharing the traversal no longer pays.
 const FEW: u32 = 5;
+/// With fewer rays than this, they take turns, which costs less than to finish one by one.
+const FEW_IN_TURN: u32 = 13;
 
 /// The size of the nodes in bytes above which rays that are alone take turns. Those of smaller trees, with their triangles, stay in a cache.
 const LARGE: usize = 8 << 20;
@@ -122,6 +124,7 @@ fn stream_in_octant<const ANY: bool, const OCTANT: usize>(
     let stream = Stream::<OCTANT> { rays };
     let Scratch { visits, single_ray, interleaved } = scratch;
     let visits = &mut visits.0[..];
+    let few = if interleave { FEW_IN_TURN } else { FEW };
     let mut open = bits(active);
     let mut height = 1;
     visits[0] = Visit { rays: open, node: 0, slot: INNER, near: 0.0 };
@@ -134,7 +137,7 @@ fn stream_in_octant<const ANY: bool, const OCTANT: usize>(
             visit_stream_leaf::<ANY>(tree, rays, among, node, slot as usize & 7, hits);
             continue;
         }
-        if among.count_ones() < FEW {
+        if among.count_ones() < few {
             let now = if interleave { interleaved.later.add(among, place, near) } else { among };
             each_bit(now, |i| {
                 let p = i >> 3;
