@@ -198,6 +198,7 @@ impl Walk {
 
 /// Finds the nearest hits of the rays among `open` in the subtrees that wait for them, if nearer than those in `hits`. With `ANY`, returns
 /// the rays that hit something instead. No subtree waits any more.
+#[inline(never)]
 pub(super) fn interleaved<const ANY: bool>(
     tree: &View<'_, impl Leaves>,
     rays: &[Rays],

@@ -33,7 +33,8 @@ struct Visit {
 pub(super) struct Scratch {
     visits: Stack<Visit>,
     pub(super) single_ray: Stack<Child>,
-    interleaved: interleaved::Scratch,
+    /// Only for large trees, since it is larger than all else.
+    interleaved: Option<Box<interleaved::Scratch>>,
 }
 
 /// A group of rays. Bit k of `OCTANT` is set if all rays run towards − along axis k; 8 means that they disagree.
@@ -124,6 +125,7 @@ fn stream_in_octant<const ANY: bool, const OCTANT: usize>(
     let stream = Stream::<OCTANT> { rays };
     let Scratch { visits, single_ray, interleaved } = scratch;
     let visits = &mut visits.0[..];
+    let mut turns = interleave.then(|| &mut **interleaved.get_or_insert_default());
     let few = if interleave { FEW_IN_TURN } else { FEW };
     let mut open = bits(active);
     let mut height = 1;
@@ -138,7 +140,7 @@ fn stream_in_octant<const ANY: bool, const OCTANT: usize>(
             continue;
         }
         if among.count_ones() < few {
-            let now = if interleave { interleaved.later.add(among, place, near) } else { among };
+            let now = turns.as_mut().map_or(among, |turns| turns.later.add(among, place, near));
             each_bit(now, |i| {
                 let p = i >> 3;
                 let hidden = trace_lane::<ANY>(tree, place, &rays[p], i & 7, &mut hits[p], single_ray);
@@ -164,8 +166,8 @@ fn stream_in_octant<const ANY: bool, const OCTANT: usize>(
             push_in_order(visits, &mut height, floor, child, |c| c.near);
         }
     }
-    if interleave {
-        open &= !interleaved::interleaved::<ANY>(tree, rays, open, hits, interleaved);
+    if let Some(turns) = turns {
+        open &= !interleaved::interleaved::<ANY>(tree, rays, open, hits, turns);
     }
     if ANY {
         for (p, active) in active.iter_mut().enumerate() {
