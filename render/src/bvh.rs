@@ -13,8 +13,8 @@
 //! A traversal stays for what it brings end to end. Speed with it relative to without (medians of user time, alternating runs of
 //! `etendue render SCENE --spp 16 --size 256x256 --threads 1 --repeat 5 --sampler independent` on a shared machine): the frustum brings
 //! 1.18 on terrain, 1.07 on quads and 1.09 on mirror-room; the stream, instead of single rays, 1.17, 1.40 and 1.31.
-//! Turns bring nothing there: they are for rays without order through large trees. `benches/examples/trace.rs` on shuffled and bounce rays
-//! through the terrain is 2.3 to 2.8 times as fast with turns and huge pages.
+//! Turns brought nothing there: they are for rays without order through large trees. `benches/examples/trace.rs` on shuffled and bounce rays
+//! through the terrain is 1.8 to 2.2 times as fast with turns and huge pages.
 
 mod build;
 mod cutouts;
