@@ -5,20 +5,24 @@
 //! length. A hit is strictly nearer than its limit, and of two hits at equal distance the triangle of lower index wins. What a ray
 //! hits therefore depends neither on the other rays of its group nor on the traversal, bit for bit.
 //!
-//! Files import one way, from the last of this list to the first: `double_precision`, `rays`, `node`, `build`, `parallel_build`, `tree`, then the
-//! traversals `frustum`, `single_ray`, `stream`, `region`, then the primitives `cutouts`, `triangles`, `shapes`, and `instances` of them.
+//! Files import one way, from the last of this list to the first: `huge_pages`, `double_precision`, `rays`, `node`, `build`, `parallel_build`, `tree`, then the
+//! traversals `frustum`, `single_ray`, `interleaved`, `stream`, `region`, then the primitives `cutouts`, `triangles`, `shapes`, and `instances` of them.
 //! Each traversal is one body for closest and any hit (`ANY`). For any hit, the distances in [`Hits`] are the limits, and their places are
 //! the shapes that do not occlude.
 //!
 //! A traversal stays for what it brings end to end. Speed with it relative to without (medians of user time, alternating runs of
 //! `etendue render SCENE --spp 16 --size 256x256 --threads 1 --repeat 5 --sampler independent` on a shared machine): the frustum brings
 //! 1.18 on terrain, 1.07 on quads and 1.09 on mirror-room; the stream, instead of single rays, 1.17, 1.40 and 1.31.
+//! Turns brought nothing there: they are for rays without order through large trees. `benches/examples/trace.rs` on shuffled and bounce rays
+//! through the terrain is 1.8 to 2.2 times as fast with turns and huge pages.
 
 mod build;
 mod cutouts;
 mod double_precision;
 mod frustum;
+mod huge_pages;
 mod instances;
+mod interleaved;
 mod node;
 mod parallel_build;
 mod rays;
@@ -61,8 +65,10 @@ pub enum Traversal {
     #[default]
     Choose,
     /// As a stream: the group visits each node once, with the rays that enter it. Below 5 active rays, each finishes
-    /// alone.
+    /// alone; in large trees, below 13 rays take turns, so that none waits for memory.
     Stream,
+    /// As a stream in which rays that are alone take turns in trees of any size.
+    Interleaved,
     /// Ray by ray.
     Single,
     /// Every leaf, regardless of other hits and without the tree above it: the oracle for the other traversals.
@@ -212,11 +218,10 @@ impl Bvh {
                 single_ray::one_by_one::<ANY>(&tree, rays, active, hits, &mut stream.single_ray)
             }
             (None, Traversal::Exhaustive) => tree.every_leaf::<ANY>(rays, active, hits),
-            (None, _) => stream::stream::<ANY>(&tree, rays, active, hits, stream),
+            (None, way) => stream::stream::<ANY>(&tree, rays, active, hits, way == Traversal::Interleaved, stream),
         }
         if let Some(instances) = &self.instances {
-            let exhaustive = self.traversal == Traversal::Exhaustive;
-            instances.trace::<ANY>(rays, active, hits, exhaustive, visits, stream);
+            instances.trace::<ANY>(rays, active, hits, self.traversal, visits, stream);
         }
     }
     /// Like [`Self::trace`], for shapes only: packet by packet if there is no frustum, as shapes are few.

@@ -4,6 +4,7 @@
 //! rounded there, and tested like all others. What a ray hits is thus what it would hit if each instance were a copy whose corners
 //! [`Affine::point`] has moved, bit for bit.
 
+use super::Traversal;
 use super::build::Costs;
 use super::node::{BuildError, WIDTH, push_in_order, slabs};
 use super::rays::{Hits, Rays};
@@ -119,25 +120,25 @@ impl Instances {
         Found { object: &self.objects[placement.object as usize], index, to_world: &placement.to_world }
     }
     /// Finds the nearest hits of packets, if nearer than those in `hits`. With `ANY`, clears the lanes of `active` that hit something
-    /// instead. If it is `exhaustive`, every leaf of every instance is tested.
+    /// instead. If the traversal is exhaustive, every leaf of every instance is tested.
     pub(super) fn trace<const ANY: bool>(
         &self,
         rays: &[Rays],
         active: &mut [M8],
         hits: &mut [Hits],
-        exhaustive: bool,
+        traversal: Traversal,
         stack: &mut Vec<Visit>,
         scratch: &mut Scratch,
     ) {
         for ((rays, active), hits) in rays.iter().zip(active).zip(hits) {
-            if exhaustive {
+            if traversal == Traversal::Exhaustive {
                 self.placements.iter().for_each(|placement| {
                     let (own, moved) = self.enter(placement, rays);
                     let tree = self.objects[placement.object as usize].triangles.over(&moved);
                     tree.every_leaf::<ANY>(&[own], std::slice::from_mut(active), std::slice::from_mut(hits));
                 });
             } else if active.any() {
-                self.trace_packet::<ANY>(rays, active, hits, stack, scratch);
+                self.trace_packet::<ANY>(rays, active, hits, traversal == Traversal::Interleaved, stack, scratch);
             }
         }
     }
@@ -146,6 +147,7 @@ impl Instances {
         rays: &Rays,
         active: &mut M8,
         hits: &mut Hits,
+        interleave: bool,
         stack: &mut Vec<Visit>,
         scratch: &mut Scratch,
     ) {
@@ -161,7 +163,7 @@ impl Instances {
                 let (own, moved) = self.enter(placement, rays);
                 let tree = self.objects[placement.object as usize].triangles.over(&moved);
                 let (active, hits) = (std::slice::from_mut(active), std::slice::from_mut(hits));
-                stream::<ANY>(&tree, &[own], active, hits, scratch);
+                stream::<ANY>(&tree, &[own], active, hits, interleave, scratch);
                 continue;
             }
             let node = &nodes[first as usize];

@@ -10,7 +10,7 @@ pub(super) const WIDTH: usize = 8;
 /// Greatest accepted depth of a binary tree from obvhs.
 pub(super) const DEPTH: usize = 96;
 /// Stack size: each level of the tree leaves at most seven children on the stack.
-const STACK: usize = 7 * DEPTH + 8;
+pub(super) const STACK: usize = 7 * DEPTH + 8;
 
 /// In the place of a slot: a child that is an inner node.
 pub(super) const INNER: u32 = u32::MAX;
@@ -67,6 +67,19 @@ impl Node {
         (self.first[slot], self.count[slot]) = (first, count as u8);
         self.children += 1;
     }
+}
+
+/// Asks for the memory of items that will be read soon.
+#[inline(always)]
+pub(super) fn prefetch<T>(items: &[T]) {
+    #[cfg(target_arch = "x86_64")]
+    for line in (0..size_of_val(items)).step_by(64) {
+        use core::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
+        // SAFETY: prefetching is only a hint, and the address is within `items`
+        unsafe { _mm_prefetch::<_MM_HINT_T0>(items.as_ptr().cast::<i8>().add(line)) };
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    let _ = items;
 }
 
 /// Distances at which the rays enter a child's box, and the lanes that enter it before their limit.

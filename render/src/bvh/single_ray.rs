@@ -7,51 +7,64 @@ use crate::packet::{M8, V8, X8, each_bit, max, min};
 use etendue::{Mask, Real, Vec3};
 use std::ops::Range;
 
-/// One ray of a packet, in every lane, with the same numbers as in the packet, so that its hits are the same, bit for bit.
+/// One ray of a packet, with the same numbers, so that its hits are the same, bit for bit.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct SingleRay {
-    pub(super) origin: V8,
-    pub(super) direction: V8,
-    pub(super) frame: [V8; 2],
-    inverse: V8,
-    offset: [V8; 2],
+    origin: [f32; 3],
+    direction: [f32; 3],
+    frame: [[f32; 3]; 2],
+    inverse: [f32; 3],
+    offset: [[f32; 3]; 2],
     /// Bit k is set if the ray runs towards − along axis k.
     octant: usize,
     /// The primitive on which the ray begins, or [`NOTHING`](super::rays::NOTHING).
     pub(super) from: u32,
 }
 
+/// The same numbers in every lane.
+#[inline(always)]
+fn spread([x, y, z]: [f32; 3]) -> V8 {
+    Vec3::new(X8::splat(x), X8::splat(y), X8::splat(z))
+}
+
 impl SingleRay {
     #[inline(always)]
     pub(super) fn new(rays: &Rays, lane: usize) -> Self {
-        let spread = |v: &V8| {
-            let at = |x: &X8| X8::splat(x.as_array()[lane & 7]);
-            Vec3::new(at(&v.x), at(&v.y), at(&v.z))
-        };
-        let d = rays.inverse;
-        let negative = [d.x, d.y, d.z].map(|x| x.as_array()[lane & 7] < 0.0);
+        let of = |v: &V8| [&v.x, &v.y, &v.z].map(|x| x.as_array()[lane & 7]);
+        let inverse = of(&rays.inverse);
         Self {
-            origin: spread(&rays.origin),
-            direction: spread(&rays.direction),
-            frame: [spread(&rays.frame[0]), spread(&rays.frame[1])],
-            inverse: spread(&rays.inverse),
-            offset: [spread(&rays.offset[0]), spread(&rays.offset[1])],
-            octant: (0..3).fold(0, |octant, k| octant | usize::from(negative[k]) << k),
+            origin: of(&rays.origin),
+            direction: of(&rays.direction),
+            frame: [of(&rays.frame[0]), of(&rays.frame[1])],
+            inverse,
+            offset: [of(&rays.offset[0]), of(&rays.offset[1])],
+            octant: (0..3).fold(0, |octant, k| octant | usize::from(inverse[k] < 0.0) << k),
             from: rays.from.as_array()[lane & 7],
         }
     }
-
-    /// Entry distances of the children's boxes, and the children entered before the limit. `OCTANT` is the ray's.
     #[inline(always)]
-    fn enter<const OCTANT: usize>(&self, node: &Node, limit: X8) -> (X8, M8) {
-        let side = |last: bool, k: usize| usize::from((OCTANT >> k & 1 == 1) != last);
-        let plane = |last: bool, k: usize, inverse: X8| {
-            let Vec3 { x, y, z } = self.offset[side(last, k)];
-            X8::from(node.planes[side(last, k)][k]).mul_add(inverse, [x, y, z][k])
+    pub(super) fn origin(&self) -> V8 {
+        spread(self.origin)
+    }
+    #[inline(always)]
+    pub(super) fn direction(&self) -> V8 {
+        spread(self.direction)
+    }
+    #[inline(always)]
+    pub(super) fn frame(&self) -> [V8; 2] {
+        self.frame.map(spread)
+    }
+
+    /// Entry distances of the children's boxes, and the children entered before the limit. `OCTANT` is the ray's, or 8 to read it at run time.
+    #[inline(always)]
+    pub(super) fn enter<const OCTANT: usize>(&self, node: &Node, limit: X8) -> (X8, M8) {
+        let octant = if OCTANT < 8 { OCTANT } else { self.octant };
+        let plane = |last: usize, k: usize| {
+            let side = (octant >> k & 1) ^ last;
+            X8::from(node.planes[side][k]).mul_add(X8::splat(self.inverse[k]), X8::splat(self.offset[side][k]))
         };
-        let Vec3 { x, y, z } = self.inverse;
-        let near = max(max(plane(false, 0, x), plane(false, 1, y)), max(plane(false, 2, z), X8::lit(0.0)));
-        let far = min(min(plane(true, 0, x), plane(true, 1, y)), min(plane(true, 2, z), limit));
+        let near = max(max(plane(0, 0), plane(0, 1)), max(plane(0, 2), X8::lit(0.0)));
+        let far = min(min(plane(1, 0), plane(1, 1)), min(plane(1, 2), limit));
         (near, near.le(far))
     }
 }
@@ -70,6 +83,8 @@ pub(super) trait Leaves {
     /// Updates `nearest` by a nearer hit of one ray in a leaf, whose box it enters at `near`. With `ANY`, returns whether there is one
     /// instead.
     fn test_ray<const ANY: bool>(&self, leaf: Range<usize>, ray: &SingleRay, near: X8, nearest: &mut Nearest) -> bool;
+    /// Asks for the memory of a leaf.
+    fn prefetch(&self, leaf: Range<usize>);
 }
 
 /// Finds the nearest hits of all rays one by one, if nearer than those in `hits`. With `ANY`, clears the lanes of `active` that

@@ -3,7 +3,8 @@
 use super::build::Costs;
 use super::cutouts::Cutouts;
 use super::double_precision::{NEAR, to_triangle, wide};
-use super::node::{Bounded, Bounds, BuildError, greater, lesser};
+use super::huge_pages;
+use super::node::{Bounded, Bounds, BuildError, greater, lesser, prefetch};
 use super::rays::{Hits, NOTHING, Nearest, Rays, SHAPE};
 use super::region::{Placed, Region};
 use super::single_ray::{Leaves, SingleRay};
@@ -175,6 +176,7 @@ impl TriangleLeaves {
             let mut coordinates = triangles.into_flattened().into_flattened();
             // room for eight-lane loads beyond the last leaf
             coordinates.extend([0.0; 8]);
+            huge_pages::collapse(&coordinates);
             Self { coordinates, leaves, ids, near, cutouts: None }
         })
     }
@@ -384,7 +386,7 @@ impl TriangleLeaves {
         nearest: &mut Nearest,
     ) -> bool {
         let corners = self.all(&leaf).map(|corner| situation.corner(corner));
-        let projected = project(corners, ray.origin, ray.frame);
+        let projected = project(corners, ray.origin(), ray.frame());
         let first = leaf.start as u32 + situation.first();
         let own = 1_u32.checked_shl(ray.from.wrapping_sub(first)).unwrap_or(0);
         let others = ((1 << leaf.len()) - 1) & !own;
@@ -392,7 +394,7 @@ impl TriangleLeaves {
         if nearly == 0 {
             return false;
         }
-        let mut distance = projected.distance(ray.direction);
+        let mut distance = projected.distance(ray.direction());
         let limit = X8::splat(nearest.distance);
         let exponents: [u8; 8] = self.near[leaf.start..leaf.start + 8].try_into().expect("8 exponents");
         let size = X8::from(exponents.map(|exponent| from_exponent(exponent) * situation.size()));
@@ -401,7 +403,7 @@ impl TriangleLeaves {
             let triangles = std::array::from_fn(|lane| leaf.start + lane);
             let size = situation.near(self, size, M8::from_bits(unclear), triangles);
             unclear &= undecided::<ANY>(distance, size, limit).bits();
-            let ahead = self.decide(situation, unclear, triangles, ray.origin, ray.direction, &mut distance);
+            let ahead = self.decide(situation, unclear, triangles, ray.origin(), ray.direction(), &mut distance);
             inside = inside & !unclear | ahead;
         }
         let distance = max(distance, near);
@@ -410,7 +412,7 @@ impl TriangleLeaves {
             let weights = projected.weights;
             let lane = |k: usize| (leaf.start + k, first + k as u32, weights.map(|w| w.lane(k)));
             let hit = inside & (ahead & distance.le(limit)).bits();
-            inside = cutouts.opaque(hit, ray.origin, ray.direction, lane);
+            inside = cutouts.opaque(hit, ray.origin(), ray.direction(), lane);
         }
         if ANY {
             return inside & (ahead & distance.lt(limit)).bits() != 0;
@@ -446,6 +448,11 @@ impl<S: Situation> Leaves for Situated<'_, S> {
     #[inline(always)]
     fn test_ray<const ANY: bool>(&self, leaf: Range<usize>, ray: &SingleRay, near: X8, nearest: &mut Nearest) -> bool {
         self.triangles.ray::<ANY>(&self.situation, leaf, ray, near, nearest)
+    }
+    #[inline(always)]
+    fn prefetch(&self, leaf: Range<usize>) {
+        prefetch(&self.triangles.coordinates[9 * leaf.start..9 * leaf.end + 8]);
+        prefetch(&self.triangles.near[leaf.start..=leaf.start]);
     }
 }
 
