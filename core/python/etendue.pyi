@@ -113,6 +113,7 @@ class Sphere:
     def by_area(self, p: ArrayLike) -> Sampler: ...
     def by_solid_angle(self, p: ArrayLike) -> Sampler: ...
     def by_projected_solid_angle(self, p: ArrayLike, n: ArrayLike) -> Sampler: ...
+    def by_reflection(self, p: ArrayLike, reflection: Reflection) -> Sampler: ...
     @staticmethod
     def sample_each(
         center: ArrayLike,
@@ -121,7 +122,9 @@ class Sphere:
         p: ArrayLike,
         u: ArrayLike,
         n: ArrayLike | None = None,
-        by: Literal["area", "solid_angle", "projected_solid_angle"] = "solid_angle",
+        alpha: ArrayLike | None = None,
+        view: ArrayLike | None = None,
+        by: Literal["area", "solid_angle", "projected_solid_angle", "reflection"] = "solid_angle",
     ) -> Samples: ...
     @staticmethod
     def hit_each(
@@ -131,7 +134,9 @@ class Sphere:
         p: ArrayLike,
         w: ArrayLike,
         n: ArrayLike | None = None,
-        by: Literal["area", "solid_angle", "projected_solid_angle"] = "solid_angle",
+        alpha: ArrayLike | None = None,
+        view: ArrayLike | None = None,
+        by: Literal["area", "solid_angle", "projected_solid_angle", "reflection"] = "solid_angle",
     ) -> Samples: ...
     @staticmethod
     def pdf_each(
@@ -141,7 +146,9 @@ class Sphere:
         p: ArrayLike,
         w: ArrayLike,
         n: ArrayLike | None = None,
-        by: Literal["area", "solid_angle", "projected_solid_angle"] = "solid_angle",
+        alpha: ArrayLike | None = None,
+        view: ArrayLike | None = None,
+        by: Literal["area", "solid_angle", "projected_solid_angle", "reflection"] = "solid_angle",
     ) -> _F32: ...
     @staticmethod
     def invert_each(
@@ -151,7 +158,9 @@ class Sphere:
         p: ArrayLike,
         w: ArrayLike,
         n: ArrayLike | None = None,
-        by: Literal["area", "solid_angle", "projected_solid_angle"] = "solid_angle",
+        alpha: ArrayLike | None = None,
+        view: ArrayLike | None = None,
+        by: Literal["area", "solid_angle", "projected_solid_angle", "reflection"] = "solid_angle",
     ) -> _F32: ...
 
 @final

@@ -41,7 +41,7 @@ mod triangle;
 pub use cap::SphericalCap;
 pub use cosine_warped::CosineWarped;
 pub use direction::DirectionSample;
-pub(crate) use direction::to_unit;
+pub(crate) use direction::{above_horizon, to_unit};
 pub use disk::SphericalDisk;
 pub(crate) use double_word::{compensated_dot, compensated_height, cross_dw, height_dw, sum_dw};
 pub use line::{ProjectedSegment, SphericalSegment};

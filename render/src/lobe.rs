@@ -56,6 +56,11 @@ impl Lobe {
         let diffuse = max(most(self.diffuse), X8::lit(LEAST_DIFFUSE));
         Gloss::new(select(self.lanes, diffuse, X8::lit(1.0)), most(self.specular).keep(self.lanes), &self.reflection)
     }
+    /// Lanes with a rough metal, which reflects nothing but the lobe.
+    #[inline]
+    pub fn metals(&self) -> M8 {
+        self.lanes & !self.coats
+    }
     /// The fit of f cosθ in the unit direction `w`, per steradian, below the cosine `cos` to the normal.
     #[inline]
     pub fn evaluate(&self, w: V8, cos: X8) -> V8 {

@@ -3,6 +3,7 @@
 use etendue::discrete::{AliasTable, PiecewiseConstant2d};
 use etendue::light::{EnvironmentMap, ImageEnvironment, Picture, Region};
 use etendue::occlusion::{Convex, Occlusion};
+use etendue::reflection::Reflection;
 use etendue::sequence::{
     Independent, JointSobol, JointStratified, LatinHypercube, Lattice, OwenSobol, Sequence, Stratified, ZOrder,
     ZOrderIndex,
@@ -197,6 +198,8 @@ struct Room<R> {
     /// From the vertex to the last corner of a patch.
     twisted: Vec3<R>,
     radius: R,
+    /// What a rough floor reflects.
+    glossy: Reflection<R>,
 }
 /// A light of the room, and what it is called.
 trait InRoom<R> {
@@ -250,6 +253,11 @@ macro_rules! all_lights {
             let _ = p;
             etendue::prepared!(light, $by $place, p, $room.up)
         });)+
+        $(
+            let _ = stringify!($($lobe)*);
+            let glossy = $room.glossy;
+            $list.light(&named(&light, "by_reflection"), move |p| light.by_reflection(p, &glossy));
+        )?
     )+};
 }
 
@@ -383,7 +391,8 @@ pub fn without_tables<R: Real + 'static>() -> Vec<Routine> {
     let twisted = e1 + e2 + up * R::lit(0.3);
     list.warp("patch surface", PatchSurface { corner: a, edge_s: e1, edge_t: e2, diagonal: twisted });
 
-    let room = Room { a, e1, e2, corner, du, dv, up, twisted, radius };
+    let glossy = Reflection::new(R::lit(0.3), up, vector([0.6, 0.8, 0.0]));
+    let room = Room { a, e1, e2, corner, du, dv, up, twisted, radius, glossy };
     etendue::techniques!(all_lights! { { list, room } });
 
     visible_parts(&mut list);

@@ -138,6 +138,37 @@ typedef struct {
   float data[39];
 } EtendueSphereByProjectedSolidAngle;
 
+// The lobe of a GGX surface of the same roughness in all directions, seen from one direction: a cosine after a linear map of directions, which
+// keeps the horizon. It is a warp from random numbers to directions above the surface, with the pdf of the fit per steradian, and lights are
+// prepared for it `by_reflection`. Of light from all directions alike it reflects albedo (F0 + (1 - F0) schlick), with the reflectance F0 at
+// normal incidence.
+typedef struct {
+  // What is inside does not concern callers.
+  float data[14];
+  // The part of light from all directions alike that the surface reflects with a Fresnel factor of 1, in [0, 1].
+  float albedo;
+  // The mean of Schlick's weight (1 - v*m)^5 over the lobe, in [0, 1].
+  float schlick;
+} EtendueReflection;
+
+// Nearly in proportion to the lobe of a rough surface at the point p: pdf per steradian; 0 where nothing of the light is above
+// the horizon. From inside, every direction above the horizon.
+//
+// What is inside does not concern callers: it may be copied, and used by any thread.
+typedef struct {
+  float data[44];
+} EtendueSphereByReflection;
+
+// Columns of reflections: the fields are those of EtendueReflection.
+typedef struct {
+  // What is inside does not concern callers.
+  float *data[14];
+  // The part of light from all directions alike that the surface reflects with a Fresnel factor of 1, in [0, 1].
+  float *albedo;
+  // The mean of Schlick's weight (1 - v*m)^5 over the lobe, in [0, 1].
+  float *schlick;
+} EtendueReflectionColumns;
+
 // A triangle that emits from the side on which its vertices run counterclockwise. Without area, and from a point in its plane,
 // the pdf is 0. uv: the barycentric coordinates of the second and the third vertex.
 typedef struct {
@@ -189,19 +220,6 @@ typedef struct {
   float data[88];
 } EtendueTriangleByCosineWarp;
 
-// The lobe of a GGX surface of the same roughness in all directions, seen from one direction: a cosine after a linear map of directions, which
-// keeps the horizon. It is a warp from random numbers to directions above the surface, with the pdf of the fit per steradian, and lights are
-// prepared for it `by_reflection`. Of light from all directions alike it reflects albedo (F0 + (1 - F0) schlick), with the reflectance F0 at
-// normal incidence.
-typedef struct {
-  // What is inside does not concern callers.
-  float data[14];
-  // The part of light from all directions alike that the surface reflects with a Fresnel factor of 1, in [0, 1].
-  float albedo;
-  // The mean of Schlick's weight (1 - v*m)^5 over the lobe, in [0, 1].
-  float schlick;
-} EtendueReflection;
-
 // In proportion to the lobe of a rough surface at the point p: pdf pi times that of the reflection, over the projected solid
 // angle after its map, per steradian; 0 where nothing of the light is above the horizon.
 //
@@ -209,16 +227,6 @@ typedef struct {
 typedef struct {
   float data[178];
 } EtendueTriangleByReflection;
-
-// Columns of reflections: the fields are those of EtendueReflection.
-typedef struct {
-  // What is inside does not concern callers.
-  float *data[14];
-  // The part of light from all directions alike that the surface reflects with a Fresnel factor of 1, in [0, 1].
-  float *albedo;
-  // The mean of Schlick's weight (1 - v*m)^5 over the lobe, in [0, 1].
-  float *schlick;
-} EtendueReflectionColumns;
 
 // A parallelogram, of a corner and two edges from there, that emits from the side of the first edge x the second one. Without
 // area, and from a point in its plane, the pdf is 0. uv: (s, t), the parts of the edges, in [0, 1].
@@ -1247,6 +1255,98 @@ EtendueStatus etendue_sphere_by_projected_solid_angle_hit_each(const EtendueSphe
                                                                const float *const *normals,
                                                                const float *const *w,
                                                                const EtendueSampleColumns *out);
+
+// Prepares the light for a shading point.
+EtendueStatus etendue_sphere_by_reflection_prepare(const EtendueSphere *light,
+                                                   const float *p,
+                                                   const EtendueReflection *reflection,
+                                                   EtendueSphereByReflection *out);
+
+// Draws a direction for u.
+EtendueStatus etendue_sphere_by_reflection_sample(const EtendueSphereByReflection *sampler,
+                                                  const float *u,
+                                                  EtendueLightSample *out);
+
+// The pdf with which a unit direction `w` is drawn; 0 where it misses the light, and if a pointer is NULL.
+float etendue_sphere_by_reflection_pdf(const EtendueSphereByReflection *sampler, const float *w);
+
+// The random numbers `u` that are mapped to a unit direction `w`; any in [0, 1)^2 where it misses the light.
+EtendueStatus etendue_sphere_by_reflection_invert(const EtendueSphereByReflection *sampler, const float *w, float *u);
+
+// The nearest point of the light in a unit direction `w`, with the pdf of that direction; pdf 0 where it misses the light.
+EtendueStatus etendue_sphere_by_reflection_hit(const EtendueSphereByReflection *sampler,
+                                               const float *w,
+                                               EtendueLightSample *out);
+
+// Draws a direction for each u: two columns.
+EtendueStatus etendue_sphere_by_reflection_sample_batch(const EtendueSphereByReflection *sampler,
+                                                        size_t n,
+                                                        const float *const *u,
+                                                        const EtendueSampleColumns *out);
+
+// The pdf of each unit direction: three columns.
+EtendueStatus etendue_sphere_by_reflection_pdf_batch(const EtendueSphereByReflection *sampler,
+                                                     size_t n,
+                                                     const float *const *w,
+                                                     float *out);
+
+// The random numbers of each unit direction: three columns in, two out.
+EtendueStatus etendue_sphere_by_reflection_invert_batch(const EtendueSphereByReflection *sampler,
+                                                        size_t n,
+                                                        const float *const *w,
+                                                        float *const *u);
+
+// The nearest point of the light in each unit direction: three columns.
+EtendueStatus etendue_sphere_by_reflection_hit_batch(const EtendueSphereByReflection *sampler,
+                                                     size_t n,
+                                                     const float *const *w,
+                                                     const EtendueSampleColumns *out);
+
+// Prepares the light for a shading point and draws one direction.
+EtendueStatus etendue_sphere_by_reflection_sample_once(const EtendueSphere *light,
+                                                       const float *p,
+                                                       const EtendueReflection *reflection,
+                                                       const float *u,
+                                                       EtendueLightSample *out);
+
+// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
+// and if a pointer is NULL. What the pdf does not need is not prepared.
+float etendue_sphere_by_reflection_pdf_once(const EtendueSphere *light,
+                                            const float *p,
+                                            const EtendueReflection *reflection,
+                                            const float *w);
+
+// Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
+EtendueStatus etendue_sphere_by_reflection_sample_each(const EtendueSphereColumns *lights,
+                                                       size_t n,
+                                                       const float *const *p,
+                                                       const EtendueReflectionColumns *reflections,
+                                                       const float *const *u,
+                                                       const EtendueSampleColumns *out);
+
+// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_sphere_by_reflection_pdf_each(const EtendueSphereColumns *lights,
+                                                    size_t n,
+                                                    const float *const *p,
+                                                    const EtendueReflectionColumns *reflections,
+                                                    const float *const *w,
+                                                    float *out);
+
+// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_sphere_by_reflection_invert_each(const EtendueSphereColumns *lights,
+                                                       size_t n,
+                                                       const float *const *p,
+                                                       const EtendueReflectionColumns *reflections,
+                                                       const float *const *w,
+                                                       float *const *u);
+
+// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
+EtendueStatus etendue_sphere_by_reflection_hit_each(const EtendueSphereColumns *lights,
+                                                    size_t n,
+                                                    const float *const *p,
+                                                    const EtendueReflectionColumns *reflections,
+                                                    const float *const *w,
+                                                    const EtendueSampleColumns *out);
 
 // Prepares the light for a shading point.
 EtendueStatus etendue_triangle_by_area_prepare(const EtendueTriangle *light,

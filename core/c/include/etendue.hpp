@@ -429,6 +429,7 @@ class ReflectionColumns {
 ETENDUE_ANYWHERE(SphereByArea, Sphere, etendue_sphere_by_area)
 ETENDUE_ANYWHERE(SphereBySolidAngle, Sphere, etendue_sphere_by_solid_angle)
 ETENDUE_ON_SURFACE(SphereByProjectedSolidAngle, Sphere, etendue_sphere_by_projected_solid_angle)
+ETENDUE_REFLECTED(SphereByReflection, Sphere, etendue_sphere_by_reflection)
 ETENDUE_ANYWHERE(TriangleByArea, Triangle, etendue_triangle_by_area)
 ETENDUE_ANYWHERE(TriangleBySolidAngle, Triangle, etendue_triangle_by_solid_angle)
 ETENDUE_ON_SURFACE(TriangleByProjectedSolidAngle, Triangle, etendue_triangle_by_projected_solid_angle)
@@ -478,6 +479,7 @@ struct Sphere : EtendueSphere {
     SphereByArea by_area(Vec3 at) const { return {*this, at}; }
     SphereBySolidAngle by_solid_angle(Vec3 at) const { return {*this, at}; }
     SphereByProjectedSolidAngle by_projected_solid_angle(Vec3 at, Vec3 n) const { return {*this, at, n}; }
+    SphereByReflection by_reflection(Vec3 at, const EtendueReflection& reflection) const { return {*this, at, reflection}; }
 };
 // EtendueTriangle with its constructors and techniques.
 struct Triangle : EtendueTriangle {

@@ -142,6 +142,16 @@ fn reflections() {
         };
         let expected = Polygon::new(corners.map(Vec3::from)).by_reflection(p, &core);
         assert_same!(alpha, expected, sampler, polygon_by_reflection);
+        let mut sampler = core::mem::MaybeUninit::uninit();
+        let light = EtendueSphere { center: [-0.2, 2.0, 0.3], radius: 0.9 };
+        // SAFETY: the pointers are to what the header says, and the function writes the sampler
+        let sampler = unsafe {
+            let prepared = sphere_by_reflection::prepare(&light, P.as_ptr(), &same, sampler.as_mut_ptr());
+            assert_eq!(prepared, EtendueStatus::Ok);
+            sampler.assume_init()
+        };
+        let expected = Sphere::new(light.center.into(), light.radius).by_reflection(p, &core);
+        assert_same!(alpha, expected, sampler, sphere_by_reflection);
     }
 }
 

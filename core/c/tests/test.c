@@ -150,6 +150,7 @@ static const EtendueReflectionColumns *reflections(size_t n, const float *const 
     T(SphereByArea, Sphere, sphere_by_area, 0) \
     T(SphereBySolidAngle, Sphere, sphere_by_solid_angle, 0) \
     T(SphereByProjectedSolidAngle, Sphere, sphere_by_projected_solid_angle, 1) \
+    T(SphereByReflection, Sphere, sphere_by_reflection, 2) \
     T(TriangleByArea, Triangle, triangle_by_area, 0) \
     T(TriangleBySolidAngle, Triangle, triangle_by_solid_angle, 0) \
     T(TriangleByProjectedSolidAngle, Triangle, triangle_by_projected_solid_angle, 1) \

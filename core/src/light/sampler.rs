@@ -143,7 +143,7 @@ fn area_sample<R: Real>(point: Vec3<R>, normal: Vec3<R>, pdf: R, uv: Vec2<R>) ->
 
 /// A sample of a surface in a direction, at the distance that the surface has there unless it is given.
 #[inline(always)]
-fn drawn<R: Real>(
+pub(super) fn drawn<R: Real>(
     direction: Vec3<R>,
     distance: Option<R>,
     pdf: R,
@@ -164,7 +164,7 @@ fn drawn<R: Real>(
 
 /// A hit where the pdf is positive, a miss elsewhere.
 #[inline(always)]
-fn found<R: Real>(w: Vec3<R>, pdf: R, surface: &impl Surface<R>, front: Option<R::Mask>) -> LightSample<R> {
+pub(super) fn found<R: Real>(w: Vec3<R>, pdf: R, surface: &impl Surface<R>, front: Option<R::Mask>) -> LightSample<R> {
     let some = pdf.gt(R::lit(0.0));
     let at = surface.at(w);
     let front = front.unwrap_or_else(|| w.dot(at.normal).lt(R::lit(0.0)));

@@ -1,11 +1,13 @@
 //! Spheres.
 
-use super::sampler::{ByArea, ByProjectedSolidAngle, BySolidAngle};
+use super::sample::LightSample;
+use super::sampler::{ByArea, ByProjectedSolidAngle, BySolidAngle, LightSampler, drawn, found};
 use super::surface::{AreaSurface, SURFACE_SLACK, Surface, SurfaceHit, SurfacePoint};
 use crate::lanewise::lanewise;
-use crate::math::quotient;
+use crate::math::{quotient, ratio};
 use crate::real::Real;
-use crate::spherical::{ProjectedCap, SphericalCap, to_unit};
+use crate::reflection::{ReflectedCap, Reflection};
+use crate::spherical::{ProjectedCap, SphericalCap, above_horizon, to_unit};
 use crate::vector::{Vec2, Vec3};
 use crate::warp::{UniformSphere, Warp};
 use core::f64::consts::PI;
@@ -66,6 +68,13 @@ impl<R: Real> Sphere<R> {
         let shape = ProjectedCap::new(self.center - p, self.radius, n);
         ByProjectedSolidAngle { origin: p, normal: n, surface: self.placed(p), shape }
     }
+    /// Nearly in proportion to the lobe of a rough surface at the point `p`: [`SphereByReflection`]. The pdf is per steradian; 0 where nothing
+    /// of the sphere is above the horizon.
+    #[inline(always)]
+    pub fn by_reflection(&self, p: Vec3<R>, reflection: &Reflection<R>) -> SphereByReflection<R> {
+        let shape = reflection.cap(self.center - p, self.radius);
+        SphereByReflection { origin: p, reflection: *reflection, surface: self.placed(p), shape }
+    }
 }
 
 /// A [`Sphere`] sampled by area from a point.
@@ -74,6 +83,67 @@ pub type SphereByArea<R> = ByArea<R, PlacedSphere<R>>;
 pub type SphereBySolidAngle<R> = BySolidAngle<R, PlacedSphere<R>, SphericalCap<R>>;
 /// A [`Sphere`] sampled by projected solid angle from a point on a surface.
 pub type SphereByProjectedSolidAngle<R> = ByProjectedSolidAngle<R, PlacedSphere<R>, ProjectedCap<R>>;
+
+lanewise! {
+    /// A [`Sphere`] sampled by the lobe of a rough surface.
+    ///
+    /// - Formula: the map of the [`Reflection`] makes an elliptic cone of the cone of directions to the sphere. Half planes about a horizontal
+    ///   line sweep it, and directions have a latitude in them; the projected solid angle is ∫∫ sinφ cos²λ dλ dφ. The density over an
+    ///   angle φ₀ + Φ sin²θ has eight cells of equal width in θ, exact at their ends: two parabolas and lines between. The density
+    ///   over the latitude is two lines, exact at both ends and in the middle.
+    /// - Domain: u in [0, 1)²; any centre and radius, also where the horizon cuts the sphere.
+    /// - Density: the pdf, per steradian, is known exactly and integrates to 1 over the sphere above the horizon. It is nearly π times that of the
+    ///   [`Reflection`] over the projected solid angle after its map: the ratio of both has a standard deviation of 0.02 for small spheres, 0.1
+    ///   on average for those that nearly touch the point, and 0.2 from inside.
+    /// - Degenerate input: a radius ≤ 0, and a sphere below the horizon, give pdf 0; from inside, all directions above the horizon are sampled, and
+    ///   `emits` is false.
+    /// - Greatest error: a direction is rounded to 10⁻⁷, times what the inverse of the map stretches there. For spheres with an angular
+    ///   radius σ that moves the mean of weights by up to 4·10⁻⁹/σ,
+    ///   and more where the sphere is within 10⁻⁵ of the horizon.
+    /// - Source: derived here.
+    pub struct SphereByReflection {
+        origin: Vec3<R>,
+        reflection: Reflection<R>,
+        surface: PlacedSphere<R>,
+        /// The sphere after the map of the reflection.
+        shape: ReflectedCap<R>,
+    }
+}
+impl<R: Real> SphereByReflection<R> {
+    /// Projected solid angle of the sphere above the horizon after the map of the reflection, in [0, π]: π times the part of the lobe that
+    /// the sphere covers. It is computed anew, by [`Reflection::sphere`]; samples do not need it.
+    #[inline]
+    pub fn projected_solid_angle(&self) -> R {
+        self.reflection.sphere(self.surface.center, self.surface.radius)
+    }
+}
+impl<R: Real> LightSampler<R> for SphereByReflection<R> {
+    #[inline(always)]
+    fn sample(&self, u: Vec2<R>) -> LightSample<R> {
+        let direction = self.surface.inwards(self.reflection.from_cosine(self.shape.sample(u)).unit_and_length().0);
+        let direction = above_horizon(direction, self.reflection.normal());
+        drawn(direction, None, self.pdf(direction), &self.surface, self.surface.outside())
+    }
+    #[inline(always)]
+    fn pdf(&self, w: Vec3<R>) -> R {
+        let (mapped, length) = self.reflection.to_cosine(w).unit_and_length();
+        let inverse = ratio(R::lit(1.0), length);
+        let pdf = self.shape.pdf(mapped) * (self.reflection.determinant() * inverse * inverse * inverse);
+        pdf.keep(self.surface.contains(w) & mapped.z.gt(R::lit(0.0)) & pdf.lt(R::lit(1e37)))
+    }
+    #[inline(always)]
+    fn invert(&self, w: Vec3<R>) -> Vec2<R> {
+        self.shape.invert(self.reflection.to_cosine(w).unit_and_length().0)
+    }
+    #[inline(always)]
+    fn hit(&self, w: Vec3<R>) -> LightSample<R> {
+        found(w, self.pdf(w), &self.surface, Some(self.surface.outside()))
+    }
+    #[inline(always)]
+    fn origin(&self) -> Vec3<R> {
+        self.origin
+    }
+}
 
 lanewise! {
     /// A sphere relative to the shading point. Its surface coordinates are those that [`UniformSphere`] maps to the normal: height and
@@ -87,6 +157,26 @@ impl<R: Real> PlacedSphere<R> {
     #[inline(always)]
     pub(super) fn new(center: Vec3<R>, radius: R) -> Self {
         Self { center, radius }
+    }
+    /// True where the point is not strictly inside.
+    #[inline(always)]
+    fn outside(&self) -> R::Mask {
+        let ([center, Vec3 { x: radius, .. }], _) =
+            to_unit([self.center, Vec3::new(self.radius, R::lit(0.0), R::lit(0.0))]);
+        center.length_squared_minus_square(radius).ge(R::lit(0.0))
+    }
+    /// The unit vector, or the nearest one within the angular radius R/d where rounding has taken it beyond.
+    #[inline(always)]
+    fn inwards(&self, w: Vec3<R>) -> Vec3<R> {
+        let one = R::lit(1.0);
+        let (axis, distance) = self.center.unit_and_length();
+        let sine = ratio(self.radius, distance);
+        let along = w.dot(axis);
+        let across = axis.mul_add(-along, w);
+        let length = across.length();
+        let beyond = length.gt(sine) & along.gt(R::lit(0.0)) & sine.gt(R::lit(0.0));
+        let cos = ((one - sine) * (one + sine)).greater(R::lit(0.0)).sqrt();
+        Vec3::blend(beyond, across.mul_add(ratio(sine, length), axis * cos), w)
     }
 }
 impl<R: Real> Surface<R> for PlacedSphere<R> {

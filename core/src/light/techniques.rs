@@ -25,6 +25,10 @@ macro_rules! techniques {
                 center as center: point,
                 /// Radius, in the unit of the coordinates.
                 radius as radius: number,
+            } reflected {
+                /// Nearly in proportion to the lobe of a rough surface at the point p: pdf per steradian; 0 where nothing of the light is above
+                /// the horizon. From inside, every direction above the horizon.
+                SphereByReflection = EtendueSphereByReflection, sphere_by_reflection[44];
             } by "solid_angle" {
                 /// Uniform over the surface: pdf distance²/(|cosθ'| 4πR²) per steradian, θ' at the light. More than half of the samples
                 /// face away.

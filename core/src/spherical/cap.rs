@@ -71,15 +71,19 @@ impl<R: Real> SphericalCap<R> {
         self.cone.solid_angle()
     }
 
-    /// The circle in which the sphere is seen, on the unit sphere around the point: its centre and two radii at a right angle. From inside, and
-    /// without a sphere, it has no radius.
+    /// The circle in which the sphere is seen, on the unit sphere around the point: the frame of its axis, its distance from the point, and
+    /// its radius. From inside, and without a sphere, it has no radius.
+    #[inline(always)]
+    pub(crate) fn rim(&self) -> (Frame<R>, R, R) {
+        let height = self.cone.one_minus_cos;
+        let radius = (height * (R::lit(2.0) - height)).greater(R::lit(0.0)).sqrt();
+        (self.frame, R::lit(1.0) - height, radius)
+    }
+    /// The same circle by its centre and two radii at a right angle.
     #[inline(always)]
     pub(crate) fn circle(&self) -> [Vec3<R>; 3] {
-        let (one, two) = (R::lit(1.0), R::lit(2.0));
-        let height = self.cone.one_minus_cos;
-        let radius = (height * (two - height)).greater(R::lit(0.0)).sqrt();
-        let Frame { s, t, n } = self.frame;
-        [n * (one - height), s * radius, t * radius]
+        let (Frame { s, t, n }, height, radius) = self.rim();
+        [n * height, s * radius, t * radius]
     }
 
     /// The pdf per steradian of every direction that hits the sphere, 1/Ω.

@@ -53,6 +53,8 @@ impl Paths<'_> {
                 continue;
             }
             let lobe = self.lobes[p].as_ref().filter(|_| METAL && is_closed && self.places[p].fitted.any());
+            // spheres that metals reflect are sampled by the lobe alone
+            let metals = self.lobes[p].as_ref().filter(|_| METAL && heuristic.is_some()).map(Lobe::metals);
             let mut known = Fitted::default();
             let Surface { point, normal, .. } = self.surfaces[p];
             let rays = &self.rays[1][p];
@@ -72,6 +74,7 @@ impl Paths<'_> {
             });
             lit[p] = M8::splat(false);
             world.each_shape(&hits[p], met, rays, |index, here, shape, outward| {
+                let here = metals.filter(|_| shape.is_even_sphere()).map_or(here, |metals| here & !metals);
                 if let Some((emitted, here)) = world.emitted(&hits[p], here, shape, outward, rays) {
                     radiance = V8::blend(here, emitted, radiance);
                     lit[p] = lit[p] | here;

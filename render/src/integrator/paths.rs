@@ -217,7 +217,7 @@ impl<'a> Paths<'a> {
         }
         let lights = self.sampled();
         let all = lights.len();
-        if self.analytic.is_some() || METAL && lights.len() > 1 {
+        if self.analytic.is_some() || METAL {
             self.note_glossy(count);
         }
         if let Some(analytic) = self.analytic.as_mut().filter(|analytic| !analytic.is_hopeless()) {
@@ -374,7 +374,7 @@ impl<'a> Paths<'a> {
                 u.x = choice.u;
             }
             let mut chosen = lights.chosen(choice.index);
-            let sample = match which {
+            let mut sample = match which {
                 Which::Sun(sun) => {
                     let (sample, radiance) = sun.sample(surface.point, u);
                     chosen.radiance = radiance;
@@ -382,6 +382,13 @@ impl<'a> Paths<'a> {
                 }
                 _ => lights.sample(&mut chosen, measure, surface.point, surface.normal, u),
             };
+            let mut alone = M8::splat(false);
+            if METAL
+                && heuristic.is_some()
+                && let Some(lobe) = &lobes[p]
+            {
+                alone = chosen.sample_lobe(&mut sample, lobe, surface.point, u);
+            }
             let cos = sample.direction.dot(surface.normal);
             let some = sample.pdf.gt(zero) & choice.pmf.gt(zero);
             lit[p] = lanes & sample.emits & some & cos.gt(zero);
@@ -400,6 +407,7 @@ impl<'a> Paths<'a> {
                 None => factor,
                 Some(by) => {
                     let weight = by.weights([technique_pdf(one, pdf, sample.delta), surface_pdf])[0];
+                    let weight = select(alone, one, weight);
                     factor * if is_mixed { select(rough, weight, one) } else { weight }
                 }
             };

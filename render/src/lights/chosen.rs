@@ -1,10 +1,11 @@
 //! One light in each lane, and samples of those that are shapes.
 
-use super::record::{KINDS, PARALLELOGRAM, PICTURED, SPREAD};
+use super::record::{KINDS, PARALLELOGRAM, PICTURED, PROFILED, SPHERE, SPREAD, TWO_SIDED};
+use crate::lobe::Lobe;
 use crate::packet::{M8, V8, X8, equal, select};
 use crate::technique::Measure;
 use etendue::light::Spread;
-use etendue::{LightSample, LightSampler, Parallelogram, Real, Sphere, Triangle, Vec2, u32x8};
+use etendue::{LightSample, LightSampler, Mask, Parallelogram, Real, Sphere, Triangle, Vec2, u32x8};
 
 /// A direction to a light in each lane: the part of a [`LightSample`] that direct lighting needs.
 #[derive(Clone, Copy)]
@@ -115,6 +116,21 @@ impl Chosen {
             Measure::SolidAngle => light.by_solid_angle(p).sample(u).into(),
             Measure::Projected => projected(|| light.by_projected_solid_angle(p, normal).sample(u).into()),
         }
+    }
+    /// Replaces the samples of spheres that emit evenly, where rough metals reflect them, by samples of the lobe. Returns these lanes: the BSDF
+    /// need not be sampled for such a light.
+    // not inlined, so that it does not burden scenes without rough metals
+    #[inline(never)]
+    pub fn sample_lobe(&self, sample: &mut Drawn, lobe: &Lobe, p: V8, u: Vec2<X8>) -> M8 {
+        let sphere = equal(self.kind & u32x8::splat(KINDS | SPREAD | PICTURED | PROFILED), u32x8::splat(SPHERE));
+        let lanes = sphere & lobe.metals();
+        if lanes.any() {
+            let light = Sphere { center: self.place, radius: self.first.x };
+            let mut drawn = Drawn::from(light.by_reflection(p, &lobe.reflection).sample(u));
+            drawn.emits = drawn.emits | self.has(TWO_SIDED);
+            *sample = Drawn::blend(lanes, drawn, Some(*sample));
+        }
+        lanes
     }
     /// Leaves of the parallelograms with a spread what the points see, and returns the normals of all flat lights, of any length.
     #[inline(never)]

@@ -154,3 +154,12 @@ pub struct Shape {
     /// Emitted light; `None` if the shape is no light.
     pub emission: Option<Emission>,
 }
+
+impl Shape {
+    /// Whether it is a sphere that emits evenly.
+    pub fn is_even_sphere(&self) -> bool {
+        let is_even =
+            |emission: &Emission| emission.picture.is_none() && emission.profile.is_none() && emission.spread.is_none();
+        matches!(self.geometry, Geometry::Sphere { .. }) && self.emission.as_ref().is_some_and(is_even)
+    }
+}

@@ -238,3 +238,56 @@ fn many_lights_are_chosen_in_view_of_the_lobe() {
         }
     }
 }
+
+/// Spheres that rough metals reflect are sampled by the lobe alone: the light is that of rays by the BSDF, within four of the errors that both
+/// claim, in the highlight, on the horizon, behind a screen and beside a panel, and by the lobe it varies less than by solid angle.
+#[test]
+fn metals_reflect_spheres_as_by_the_bsdf() {
+    let ball = |y: f64, radius: f64| Light::Ball { center: [-0.3, y, -2.0], radius };
+    let screen = || Light::Panel { corner: [-0.1, 0.4, -1.2], edges: [[2.0, 0.0, 0.0], [0.0, 0.6, 0.0]] };
+    let panel = || Light::Panel { corner: [0.7, 1.0, -2.0], edges: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.5]] };
+    let scenes: [(&str, Vec<Light>, Option<Light>); 5] = [
+        ("a ball", vec![ball(1.5, 0.6)], None),
+        ("a ball on the horizon", vec![ball(0.1, 0.6)], None),
+        ("a great ball", vec![ball(1.9, 1.8)], None),
+        ("a ball behind a screen", vec![ball(1.5, 0.6)], Some(screen())),
+        ("balls and a panel", vec![ball(1.5, 0.4), ball(0.3, 0.5), panel()], None),
+    ];
+    let mut worst = 0.0_f64;
+    for (name, lights, blocker) in &scenes {
+        for (alpha, [x, y, z]) in [(0.1, [0.2, 2.0, 3.0]), (0.3, [0.0, 1.0, 3.0]), (0.6, [2.0, 0.4, 2.0])] {
+            let mut text =
+                format!("LookAt {x} {y} {z}  0 0 0  0.1 1 0.2 Camera \"perspective\" \"float fov\" 1e-3 WorldBegin\n");
+            writeln!(
+                text,
+                "Material \"conductor\" \"rgb reflectance\" [0.9 0.9 0.9] \"float roughness\" {alpha} \"bool remaproughness\" false\n\
+                 Shape \"bilinearmesh\" \"point3 P\" [-9 0 9  9 0 9  -9 0 -9  9 0 -9]"
+            )
+            .unwrap();
+            lights.iter().for_each(|light| text += &light.text(true));
+            blocker.iter().for_each(|blocker| text += &blocker.text(false));
+            let world = World::new(&scene::parse(&text, "metal.pbrt", Path::new(".")).unwrap()).unwrap();
+            let pixel = |technique, spp| {
+                let (film, _) = world.render(&settings(technique, spp), &|_| ());
+                [f64::from(film.pixels[0].mean[1]), f64::from(film.pixels[0].variance[1]).sqrt()]
+            };
+            let [truth, doubt] = pixel(Technique::Brdf, cases(1 << 19, 1 << 22));
+            let spp = cases(1 << 15, 1 << 18);
+            for technique in [Technique::MisPower, Technique::MisBalance, Technique::Analytic] {
+                let [mean, claim] = pixel(technique, spp);
+                let z = (mean - truth).abs() / claim.hypot(doubt);
+                worst = worst.max(z);
+                assert!(z < 4.0, "{name}, α {alpha}, {technique:?}: {mean} ± {claim}, not {truth} ± {doubt}");
+            }
+            if lights.len() == 1 && blocker.is_none() {
+                let [by_lobe, by_angle] = [Technique::MisPower, Technique::SolidAngle].map(|by| pixel(by, spp)[1]);
+                println!(
+                    "{name}, α {alpha}: {:.1} times less variance than by solid angle",
+                    (by_angle / by_lobe).powi(2)
+                );
+                assert!(by_lobe < 0.8 * by_angle, "{name}, α {alpha}: ± {by_lobe}, by solid angle ± {by_angle}");
+            }
+        }
+    }
+    println!("greatest deviation {worst:.1} of what is claimed");
+}

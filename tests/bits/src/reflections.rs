@@ -5,7 +5,7 @@ use crate::lights::sampler;
 use etendue::light::Polygon;
 use etendue::occlusion::{Convex, Occlusion};
 use etendue::reflection::Reflection;
-use etendue::{Parallelogram, Real, Triangle, Vec3, Warp};
+use etendue::{Parallelogram, Real, Sphere, Triangle, Vec3, Warp};
 use etendue_properties::generators::{self, Random};
 use etendue_properties::properties::{lanes_of, squares_of, vectors_of};
 
@@ -48,6 +48,34 @@ impl Routine for Rough {
     }
 }
 
+/// Spheres of all sizes, some of which the horizon cuts.
+struct Balls;
+
+impl Routine for Balls {
+    fn run<R: Real>(&self, figures: &mut Figures) {
+        let mut random = Random::new(961);
+        figures.packets::<R>(20 * Figures::MOST, |_, lanes| {
+            let places: Vec<_> = (0..R::LANES)
+                .map(|_| {
+                    let extreme = random.word().is_multiple_of(4);
+                    let center =
+                        if extreme { generators::nasty(&mut random) } else { random.direction().map(|x| x as f32) };
+                    let vectors = [(); 3].map(|()| random.direction().map(|x| x as f32));
+                    (center, random.magnitude(1e-6, 1.5), vectors, [random.unit(), random.unit()], random.unit())
+                })
+                .collect();
+            let vector = |k: usize| vectors_of::<R>(|i| places[i].2[k]);
+            let us: Vec<_> = places.iter().map(|place| place.3).collect();
+            let ws: Vec<_> = places.iter().map(|place| place.2[2]).collect();
+            let rough = lanes_of::<R>(|i| places[i].4.into());
+            let lobe = Reflection::new(rough * rough, vector(0), vector(1));
+            let light = Sphere::new(vectors_of(|i| places[i].0), lanes_of::<R>(|i| places[i].1));
+            sampler(lanes, &light.by_reflection(Vec3::default(), &lobe), &us, &ws);
+        });
+    }
+}
+
 pub(crate) fn add(list: &mut List<'_>) {
     list.add("reflection", &Rough);
+    list.add("reflection/sphere", &Balls);
 }

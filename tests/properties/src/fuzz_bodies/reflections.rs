@@ -5,7 +5,7 @@ use core::f32::consts::PI;
 use etendue::light::Polygon;
 use etendue::occlusion::{Convex, Occlusion};
 use etendue::reflection::Reflection;
-use etendue::{LightSampler, Parallelogram, Triangle, Vec2, Vec3, Warp, f32x8};
+use etendue::{LightSampler, Parallelogram, Sphere, Triangle, Vec2, Vec3, Warp, f32x8};
 
 fn in_square(u: Vec2<f32>) -> bool {
     (0.0..1.0).contains(&u.x) && (0.0..1.0).contains(&u.y)
@@ -49,6 +49,7 @@ pub(super) fn reflection(input: &mut Input<'_>) {
     closed(&parallelogram, u, w);
     closed(&Triangle { v0: a, e1: b, e2: c }.by_reflection(p, &lobe), u, w);
     closed(&Polygon::new([a, b, c, a + c]).by_reflection(p, &lobe), u, w);
+    closed(&Sphere::new(a, radius).by_reflection(p, &lobe), u, w);
     let mut occlusion = Occlusion::<f32x8>::new();
     let light = Convex::Parallelogram { corner: a, edges: [b, c] };
     let blocker = Convex::Polygon { corners: [b, c, Vec3::from(input.vector(&[])), a], count: 3 };

@@ -1,5 +1,7 @@
 //! Cosines after a linear map: against GGX, and the light of shapes against quadratures in double precision that know only the density.
 
+mod spheres;
+
 use core::f64::consts::{PI, TAU};
 use etendue::light::Polygon;
 use etendue::occlusion::{Convex, Occlusion};
