@@ -268,7 +268,7 @@ typedef struct {
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
-  float data[549];
+  float data[297];
 } EtendueParallelogramByProjectedSolidAngle;
 
 // In proportion to the lobe of a rough surface at the point p: pdf pi times that of the reflection, over the projected solid
@@ -276,7 +276,7 @@ typedef struct {
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
-  float data[562];
+  float data[310];
 } EtendueParallelogramByReflection;
 
 // A rectangle, of a corner and two perpendicular edges from there, that emits from the side of the first edge x the second one.

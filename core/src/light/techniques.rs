@@ -76,7 +76,7 @@ macro_rules! techniques {
             } reflected {
                 /// In proportion to the lobe of a rough surface at the point p: pdf π times that of the reflection, over the projected solid
                 /// angle after its map, per steradian; 0 where nothing of the light is above the horizon.
-                ParallelogramByReflection = EtendueParallelogramByReflection, parallelogram_by_reflection[562];
+                ParallelogramByReflection = EtendueParallelogramByReflection, parallelogram_by_reflection[310];
             } by "solid_angle" {
                 /// Uniform over the surface of area A: pdf distance²/(|cosθ'| A) per steradian, θ' at the light.
                 ParallelogramByArea = EtendueParallelogramByArea, parallelogram_by_area[36]: by_area(p) area;
@@ -84,7 +84,7 @@ macro_rules! techniques {
                 ParallelogramBySolidAngle = EtendueParallelogramBySolidAngle, parallelogram_by_solid_angle[132]: by_solid_angle(p) solid_angle;
                 /// Uniform over the projected solid angle Ω⊥ above the horizon of the unit normal n at the point p: pdf cosθ/Ω⊥ per
                 /// steradian, 0 where nothing of the light is above the horizon.
-                ParallelogramByProjectedSolidAngle = EtendueParallelogramByProjectedSolidAngle, parallelogram_by_projected_solid_angle[549]: by_projected_solid_angle(p, n) projected_solid_angle;
+                ParallelogramByProjectedSolidAngle = EtendueParallelogramByProjectedSolidAngle, parallelogram_by_projected_solid_angle[297]: by_projected_solid_angle(p, n) projected_solid_angle;
             }
             /// A rectangle, of a corner and two perpendicular edges from there, that emits from the side of the first edge × the second one.
             /// Its strata follow the edges. Without area, and from a point in its plane, the pdf is 0. uv: (s, t), the parts of the edges,
