@@ -5,8 +5,9 @@
 //! length. A hit is strictly nearer than its limit, and of two hits at equal distance the triangle of lower index wins. What a ray
 //! hits therefore depends neither on the other rays of its group nor on the traversal, bit for bit.
 //!
-//! Files import one way, from the last of this list to the first: `huge_pages`, `double_precision`, `rays`, `node`, `build`, `parallel_build`, `tree`, then the
-//! traversals `frustum`, `single_ray`, `interleaved`, `stream`, `region`, then the primitives `cutouts`, `triangles`, `shapes`, and `instances` of them.
+//! Files import one way, from the last of this list to the first: `huge_pages`, `double_precision`,
+//! `traversal`, `rays`, `node`, `build`, `parallel_build`, `tree`, then the traversals `frustum`, `single_ray`, `interleaved`, `stream`,
+//! `region`, then the primitives `cutouts`, `triangles`, `shapes`, and `instances` of them.
 //! Each traversal is one body for closest and any hit (`ANY`). For any hit, the distances in [`Hits`] are the limits, and their places are
 //! the shapes that do not occlude.
 //!
@@ -30,6 +31,7 @@ mod region;
 mod shapes;
 mod single_ray;
 mod stream;
+mod traversal;
 mod tree;
 mod triangles;
 
@@ -47,6 +49,7 @@ pub use region::Region;
 pub use shapes::ShapeSet;
 use std::ops::Range;
 use std::sync::Arc;
+pub use traversal::Traversal;
 use tree::Tree;
 use triangles::{InPlace, Situated};
 
@@ -56,23 +59,6 @@ pub struct Scratch {
     frustum: Stack<frustum::Pending>,
     stream: stream::Scratch,
     instances: Vec<instances::Visit>,
-}
-
-/// How groups of packets traverse the tree of triangles. The hits do not depend on it.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Traversal {
-    /// As one frustum if the group fits into a narrow one, otherwise as a stream.
-    #[default]
-    Choose,
-    /// As a stream: the group visits each node once, with the rays that enter it. Below 5 active rays, each finishes
-    /// alone; in large trees, below 13 rays take turns, so that none waits for memory.
-    Stream,
-    /// As a stream in which rays that are alone take turns in trees of any size.
-    Interleaved,
-    /// Ray by ray.
-    Single,
-    /// Every leaf, regardless of other hits and without the tree above it: the oracle for the other traversals.
-    Exhaustive,
 }
 
 /// Everything rays can hit: mesh triangles in a tree, and shapes that are intersected as such.

@@ -4,12 +4,12 @@
 //! rounded there, and tested like all others. What a ray hits is thus what it would hit if each instance were a copy whose corners
 //! [`Affine::point`] has moved, bit for bit.
 
-use super::Traversal;
 use super::build::Costs;
 use super::node::{BuildError, WIDTH, push_in_order, slabs};
 use super::rays::{Hits, Rays};
 use super::region::{Placed, Region, search};
 use super::stream::{Scratch, stream};
+use super::traversal::Traversal;
 use super::tree::Tree;
 use super::triangles::{Moved, Situated, TriangleLeaves};
 use crate::geometry::{Affine, Instance, bounds_of};
