@@ -38,7 +38,8 @@ fn documentation(source: &str, is: impl Fn(&str) -> bool) -> Option<Vec<&str>> {
     let above = lines[..at].iter().rev().skip_while(|line| line.starts_with("#["));
     let mut lines: Vec<&str> = above.map_while(|line| line.strip_prefix("///")).map(str::trim).collect();
     lines.reverse();
-    Some(lines)
+    // an import may look like the definition
+    (!lines.is_empty()).then_some(lines)
 }
 
 /// The item of a list that begins with these words.
