@@ -5,7 +5,7 @@
 //! | [`UniformLights`] | 1/n | least | few, similar lights |
 //! | [`PowerLights`] | power/Σpower | a binary search per lane | lights of different power at similar distances |
 //! | [`SpatialLights`] | power · cosθ cosθ'/d² at the centre, per shading point | one pass over all lights | 2 to 32 lights, near and far, with an area |
-//! | [`LightTree`] | by the expected cosines and distances of sets of lights, per shading point | 0.2 µs a lane for 10³ lights, 0.4 for 10⁵ | more than 32 lights, of all kinds |
+//! | [`LightTree`] | by the expected cosines and distances of sets of lights, per shading point | 0.1 µs a lane for 10³ lights, 0.2 for 10⁵ | more than 32 lights, of all kinds |
 //! | [`Allocation`] | the light's share of the samples of a pixel | none per sample | the same, where a set of samples is planned in advance |
 //!
 //! `at_glossy` of [`SpatialLights`] and of [`LightTree`] chooses in view of a [`Gloss`]: of what a rough surface reflects towards the viewer.

@@ -177,8 +177,8 @@ macro_rules! light {
             /// Samples of a light of its own for each row, from a shading point of its own. All arrays are broadcast to one shape (...)
             /// beside their last axis: the constructor's arguments (..., 3) or (...), shading points p (..., 3), numbers u in [0, 1)²
             /// (..., 2), and the unit normals n (..., 3) at the shading points, for techniques that need them. `by` names the
-            /// technique: "area" for `by_area`, and so on. By "reflection", which spheres and flat lights have, the arguments of a `Reflection` are
-            /// needed, too: roughnesses alpha (...) and unit vectors view (..., 3) towards the viewer.
+            /// technique: "area" for `by_area`, and so on. By "reflection", which spheres and flat lights have, the arguments of a
+            /// `Reflection` are needed, too: roughnesses alpha (...) and unit vectors view (..., 3) towards the viewer.
             #[staticmethod]
             #[pyo3(signature = ($($argument),+, *, p, u, n=None $(, $more=None)*, by=$default))]
             #[allow(clippy::too_many_arguments)]

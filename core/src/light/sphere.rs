@@ -92,14 +92,15 @@ lanewise! {
     ///   angle φ₀ + Φ sin²θ has eight cells of equal width in θ, exact at their ends: two parabolas and lines between. The density
     ///   over the latitude is two lines, exact at both ends and in the middle.
     /// - Domain: u in [0, 1)²; any centre and radius, also where the horizon cuts the sphere.
-    /// - Density: the pdf, per steradian, is known exactly and integrates to 1 over the sphere above the horizon. It is nearly π times that of the
-    ///   [`Reflection`] over the projected solid angle after its map: the ratio of both has a standard deviation of 0.02 for small spheres, 0.1
-    ///   on average for those that nearly touch the point, and 0.2 from inside.
-    /// - Degenerate input: a radius ≤ 0, and a sphere below the horizon, give pdf 0; from inside, all directions above the horizon are sampled, and
-    ///   `emits` is false.
+    /// - Density: the pdf, per steradian, is known exactly and integrates to 1 over the sphere above the horizon. It is nearly π times that of
+    ///   the [`Reflection`] over the projected solid angle after its map: the ratio of both has a standard deviation of 0.03 on average for
+    ///   small spheres, 0.09 for those that nearly touch the point, and 0.2 from inside. Measured by
+    ///   `LONG=1 cargo test -p etendue-tests --test reflection -- samples_vary_little --nocapture`.
+    /// - Degenerate input: a radius ≤ 0, and a sphere below the horizon, give pdf 0; from inside, all directions above the horizon are
+    ///   sampled, and `emits` is false.
     /// - Greatest error: a direction is rounded to 10⁻⁷, times what the inverse of the map stretches there. For spheres with an angular
-    ///   radius σ that moves the mean of weights by up to 4·10⁻⁹/σ,
-    ///   and more where the sphere is within 10⁻⁵ of the horizon.
+    ///   radius σ that moves the mean of weights by up to 4·10⁻⁹/σ, and more where the sphere is within 10⁻⁵ of the horizon: of spheres with
+    ///   σ = 10⁻⁶, samples there are rounding.
     /// - Source: derived here.
     pub struct SphereByReflection {
         origin: Vec3<R>,
