@@ -21,9 +21,11 @@ pub enum Technique {
     MisBalance,
     /// Solid-angle and brdf, combined by the power heuristic
     MisPower,
-    /// Exact where geometry tells what occludes a light, and nearly so on rough surfaces; the rest by solid angle, or as mis-power
+    /// Mis-power, but spheres that rough metals reflect are sampled by the lobe of the metal alone
+    MisLobe,
+    /// Exact where geometry tells what occludes a light, and nearly so on rough surfaces; the rest by solid angle, or as mis-lobe
     Analytic,
-    /// Analytic with up to 32 lights that all have an area, and no lens; else mis-power with rough surfaces, and solid-angle without
+    /// Analytic with up to 32 lights that all have an area, and no lens; else mis-lobe with rough surfaces, and solid-angle without
     Auto,
 }
 
@@ -42,9 +44,13 @@ impl Technique {
     pub fn heuristic(self) -> Option<Heuristic> {
         match self {
             Self::MisBalance => Some(Heuristic::Balance),
-            Self::MisPower => Some(Heuristic::POWER),
+            Self::MisPower | Self::MisLobe => Some(Heuristic::POWER),
             _ => None,
         }
+    }
+    /// Whether spheres that rough metals reflect are sampled by the lobe alone, where light and BSDF are combined otherwise.
+    pub fn samples_lobes(self) -> bool {
+        matches!(self, Self::MisLobe | Self::Analytic)
     }
     /// The measure by which it samples lights; solid angle for techniques that sample none.
     pub fn measure(self) -> Measure {

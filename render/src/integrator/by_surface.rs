@@ -54,7 +54,7 @@ impl Paths<'_> {
             }
             let lobe = self.lobes[p].as_ref().filter(|_| METAL && is_closed && self.places[p].fitted.any());
             // spheres that metals reflect are sampled by the lobe alone
-            let metals = self.lobes[p].as_ref().filter(|_| METAL && heuristic.is_some()).map(Lobe::metals);
+            let metals = self.lobes[p].as_ref().filter(|_| METAL && self.samples_lobes()).map(Lobe::metals);
             let mut known = Fitted::default();
             let Surface { point, normal, .. } = self.surfaces[p];
             let rays = &self.rays[1][p];

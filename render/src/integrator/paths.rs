@@ -180,6 +180,11 @@ impl<'a> Paths<'a> {
         if self.is_mixed() { Some(Heuristic::POWER) } else { self.technique.heuristic() }
     }
 
+    /// Whether spheres that rough metals reflect are sampled by the lobe alone.
+    pub(super) fn samples_lobes(&self) -> bool {
+        self.technique.samples_lobes() && self.heuristic().is_some()
+    }
+
     /// Radiance along the rays that have been started. `allocated` is empty, or allocates each sample to a light; a bit of `expected` is set for
     /// each light that is worth samples in a packet, then.
     pub(super) fn radiance(
@@ -356,6 +361,7 @@ impl<'a> Paths<'a> {
     ) {
         let measure = self.technique.measure();
         let (heuristic, is_mixed) = (self.heuristic(), self.is_mixed());
+        let samples_lobes = self.samples_lobes();
         let (zero, one) = (X8::lit(0.0), X8::lit(1.0));
         let mut lit = [M8::splat(false); GROUP];
         let mut limit = [zero; GROUP];
@@ -384,7 +390,7 @@ impl<'a> Paths<'a> {
             };
             let mut alone = M8::splat(false);
             if METAL
-                && heuristic.is_some()
+                && samples_lobes
                 && let Some(lobe) = &lobes[p]
             {
                 alone = chosen.sample_lobe(&mut sample, lobe, surface.point, u);

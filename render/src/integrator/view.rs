@@ -104,7 +104,7 @@ impl View<'_> {
         if scene.lights.only_few_areas() && !is_sampled {
             Technique::Analytic
         } else if scene.surfaces.has_rough() {
-            Technique::MisPower
+            Technique::MisLobe
         } else {
             Technique::SolidAngle
         }

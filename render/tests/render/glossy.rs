@@ -273,14 +273,14 @@ fn metals_reflect_spheres_as_by_the_bsdf() {
             };
             let [truth, doubt] = pixel(Technique::Brdf, cases(1 << 19, 1 << 22));
             let spp = cases(1 << 15, 1 << 18);
-            for technique in [Technique::MisPower, Technique::MisBalance, Technique::Analytic] {
+            for technique in [Technique::MisLobe, Technique::Analytic] {
                 let [mean, claim] = pixel(technique, spp);
                 let z = (mean - truth).abs() / claim.hypot(doubt);
                 worst = worst.max(z);
                 assert!(z < 4.0, "{name}, α {alpha}, {technique:?}: {mean} ± {claim}, not {truth} ± {doubt}");
             }
             if lights.len() == 1 && blocker.is_none() {
-                let [by_lobe, by_angle] = [Technique::MisPower, Technique::SolidAngle].map(|by| pixel(by, spp)[1]);
+                let [by_lobe, by_angle] = [Technique::MisLobe, Technique::SolidAngle].map(|by| pixel(by, spp)[1]);
                 println!(
                     "{name}, α {alpha}: {:.1} times less variance than by solid angle",
                     (by_angle / by_lobe).powi(2)

@@ -424,7 +424,7 @@ fn certificates_add_up() {
     assert!(share("sphere-light", sampled) < 1.0 && number(row("sphere-light")[8]) < 0.5, "{out}");
     assert!(share("terrain", lit) < 20.0 && share("terrain", sampled) > 25.0, "{out}");
     // certificates know rough surfaces; they know neither skies nor what a lens sees
-    let automatic = [("quads", "analytic"), ("plates", "analytic"), ("sky", "mis-power"), ("defocus", "solid-angle")];
+    let automatic = [("quads", "analytic"), ("plates", "analytic"), ("sky", "mis-lobe"), ("defocus", "solid-angle")];
     for (scene, technique) in automatic {
         assert_eq!(row(scene)[9], technique, "{out}");
     }

@@ -486,6 +486,7 @@ fn list_names_everything() {
         "brdf",
         "mis-balance",
         "mis-power",
+        "mis-lobe",
         "analytic",
         "auto",
         "samplers",

@@ -83,6 +83,7 @@ const fn other(technique: Technique) -> Technique {
     match technique {
         Technique::SolidAngle => Technique::ProjectedSolidAngle,
         Technique::MisPower => Technique::MisBalance,
+        Technique::MisLobe => Technique::MisPower,
         _ => Technique::SolidAngle,
     }
 }
