@@ -405,7 +405,7 @@ EACH = {"p": P, "u": U}
         (lambda: et.Triangle.sample_each(*TRIANGLE, **EACH, by="magic"), ValueError, "by must be one of .*area.*magic"),
         (lambda: et.Triangle.sample_each(*TRIANGLE, **EACH, by="cosine_warp"), TypeError, "needs n"),
         (lambda: et.Triangle.sample_each(*TRIANGLE, **EACH, n=N, by="reflection"), TypeError, "n, alpha and view are needed"),
-        (lambda: et.Sphere.sample_each([0, 2, 0], 1, **EACH, by="reflection"), ValueError, "by must be one of .*, not .reflection"),
+        (lambda: et.Disk.sample_each([0, 2, 0], [0, -1, 0], 1, **EACH, by="reflection"), ValueError, "by must be one of .*, not .reflection"),
         (lambda: et.Triangle(*TRIANGLE).by_reflection(P, N), TypeError, "Reflection"),
         (lambda: et.Reflection([0.1, 0.2], N, VIEW), ValueError, r"alpha must be one number, not \(2,\)"),
         (lambda: et.Reflection(0.1, [0, 0, 2], VIEW), ValueError, "n must be a unit vector"),
