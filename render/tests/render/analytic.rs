@@ -122,7 +122,7 @@ fn auto_chooses() {
         ("defocus", Technique::SolidAngle),
         ("delta-lights", Technique::SolidAngle),
         ("plates", Technique::Analytic),
-        ("sky", Technique::MisPower),
+        ("sky", Technique::MisLobe),
     ];
     for (name, technique) in expected {
         let world = World::from_scene(&mut scene::load(name).unwrap()).unwrap();

@@ -366,7 +366,14 @@ fn closed(sampler: &impl LightSampler<f32>, random: &mut Random, what: &str) -> 
             assert_eq!((hit.pdf, hit.distance, hit.emits), (drawn.pdf, drawn.distance, drawn.emits), "{what}");
             let again = sampler.sample(sampler.invert(drawn.direction));
             let off = length(sub(again.direction.at(0), drawn.direction.at(0)));
-            assert!(off < 2e-4, "{what}: {u:?} is off by {off}");
+            // where the density ends at 0, and the map stretches besides, a step of u is as far
+            let step = 1.0 / 16_777_216.0;
+            let moved = [Vec2::new(u.x - step, u.y), Vec2::new(u.x, u.y - step)].map(|u| {
+                let near = sampler.sample(Vec2::new(u.x.max(0.0), u.y.max(0.0)));
+                length(sub(near.direction.at(0), drawn.direction.at(0)))
+            });
+            let steps = moved[0] + moved[1];
+            assert!(off < 2e-4 || off < 3.0 * steps, "{what}: {u:?} is off by {off}, a step by {steps}");
         }
     }
     count
