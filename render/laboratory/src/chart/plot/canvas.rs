@@ -15,7 +15,7 @@ pub(super) const PALE: RGBColor = RGBColor(243, 243, 243);
 pub(super) const GUIDE: RGBColor = RGBColor(130, 130, 130);
 
 /// Colours that are distinguishable with colour blindness (Okabe and Ito), followed by others.
-pub const PALETTE: [[u8; 3]; 10] = [
+pub const PALETTE: [[u8; 3]; 11] = [
     [0, 114, 178],
     [213, 94, 0],
     [0, 158, 115],
@@ -24,6 +24,7 @@ pub const PALETTE: [[u8; 3]; 10] = [
     [86, 180, 233],
     [110, 80, 30],
     [90, 60, 150],
+    [120, 130, 140],
     [0, 0, 0],
     [150, 150, 0],
 ];
