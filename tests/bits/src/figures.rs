@@ -4,7 +4,7 @@
 use etendue::f32x16;
 use etendue::{Mask, Real, Uint, Vec2, Vec3, f32x8};
 #[cfg(feature = "all-widths")]
-use etendue::{f32x4, f64x4};
+use etendue::{f32x4, f64x4, f64x8};
 
 /// A routine with all its arguments. They are in slots, the number of which is a multiple of [`Figures::MOST`]; a packet takes as many
 /// successive slots as it has lanes.
@@ -123,7 +123,7 @@ fn widths<T: Routine>(routine: &T) -> Vec<(&'static str, Figures)> {
     all.extend([("f32", Figures::of::<f32>(routine)), ("f32x4", Figures::of::<f32x4>(routine))]);
     all.extend([("f32x8", Figures::of::<f32x8>(routine)), ("f64", Figures::of::<f64>(routine))]);
     #[cfg(feature = "all-widths")]
-    all.push(("f64x4", Figures::of::<f64x4>(routine)));
+    all.extend([("f64x4", Figures::of::<f64x4>(routine)), ("f64x8", Figures::of::<f64x8>(routine))]);
     // others have no registers of this width
     #[cfg(any(feature = "all-widths", target_feature = "avx512f"))]
     if T::MOST >= 16 {
