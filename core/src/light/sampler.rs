@@ -297,8 +297,9 @@ impl<R: Real, S: AreaSurface<R>, W: ProjectedShape<R> + Warp<R, Point = Vec3<R>>
     }
     #[inline(always)]
     fn pdf(&self, w: Vec3<R>) -> R {
+        // both factors may be large
         let pdf = self.reflection.pdf(w) * quotient(R::lit(PI), self.shape.projected_solid_angle());
-        pdf.keep(self.surface.contains(w))
+        pdf.lesser(R::lit(1e37)).keep(self.surface.contains(w))
     }
     #[inline(always)]
     fn invert(&self, w: Vec3<R>) -> Vec2<R> {
