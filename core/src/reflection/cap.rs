@@ -163,8 +163,9 @@ struct Place<R> {
 }
 
 impl<R: Real> ReflectedCap<R> {
-    /// Prepares for a sphere that is seen in a circle with its centre at this distance along a unit vector, and this radius; given after the map,
-    /// which has this determinant: the centre, and unit radii at a right angle before it. From inside only the horizon counts.
+    /// Prepares for a sphere that is seen as a circle, whose centre is `height` along a unit vector and whose radius is `spread`. The vectors
+    /// are what the map, which has this determinant, makes of `height` times that unit vector, and of two unit vectors that complete it to a
+    /// frame. From inside, only the horizon counts.
     #[inline]
     pub(super) fn new([c, u, v]: [Vec3<R>; 3], [height, spread]: [R; 2], determinant: R, inside: R::Mask) -> Self {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));

@@ -73,7 +73,8 @@ impl Units {
     fn of_slot(&self, slot: u32x8) -> Found {
         self.halve(|bit, _| u32x8::splat(0).lt(slot & u32x8::splat(bit)))
     }
-    /// Goes to one of eight by halves. `is_late` is told the bit of the slot and where the first half ends.
+    /// Halves the eight children three times. `is_late(bit, end)` returns whether the child is beyond the first half, which ends at `end`; `bit`
+    /// is the bit of the slot that tells the halves apart.
     #[inline(always)]
     fn halve(&self, is_late: impl Fn(u32, u32x8) -> u32x8) -> Found {
         let Self { units, pairs, half, all } = *self;

@@ -85,8 +85,8 @@ impl<C: Real> Children<C> {
             turns: [memory.word(at(8)), memory.word(at(9))],
         }
     }
-    /// Their weights at a point of a surface, and whether they can contribute: else the weight is any number. `plain` says that none is a spot light or emits from both
-    /// sides. On glossy surfaces, the weights are by what these reflect.
+    /// Their weights at a point of a surface, and whether they can contribute: else the weight is any number. `plain` says that none is a
+    /// spot light or emits from both sides. On glossy surfaces, the weights are by what these reflect.
     #[inline(always)]
     pub(super) fn weigh(&self, plain: bool, at: &Place<C>, gloss: Option<&Gloss<C>>) -> (C, C::Mask) {
         let lit = C::lit;
