@@ -11,6 +11,28 @@ use crate::surfaces::Surface;
 use etendue::{Mask, Real};
 use std::f64::consts::FRAC_1_PI;
 
+/// What a group of packets sees of a light past blockers.
+struct Seen {
+    /// Lanes in which the light must be sampled.
+    open: [M8; GROUP],
+    /// Lanes whose part of the light is known.
+    behind: [M8; GROUP],
+    part: [X8; GROUP],
+}
+
+impl Seen {
+    /// Takes the part of the light that some lanes of a packet see, if it is known.
+    fn take(&mut self, &Ask { packet, lanes, .. }: &Ask, part: Option<X8>) {
+        match part {
+            Some(part) => {
+                self.part[packet] += part.keep(lanes);
+                self.behind[packet] = self.behind[packet] | lanes;
+            }
+            None => self.open[packet] = self.open[packet] | lanes,
+        }
+    }
+}
+
 impl Analytic<'_> {
     /// Adds the reflected light that is known. Sets the lanes in which a light must be sampled, for each light and packet, and returns
     /// whether there are any. Of a light with a picture behind blockers, a part is counted, the same for all of its points; samples then add what
@@ -67,45 +89,34 @@ impl Analytic<'_> {
         let scenery = Scenery { forms, bodies: polyhedra };
         for (k, light) in lights.iter().enumerate() {
             let form = &light.form;
-            let (mut lit, mut lit_exactly, mut behind) = ([none; GROUP], [none; GROUP], [none; GROUP]);
-            let (mut open, mut part) = (sampled, [X8::lit(0.0); GROUP]);
+            let (mut lit, mut lit_exactly) = ([none; GROUP], [none; GROUP]);
+            let mut seen = Seen { open: sampled, behind: [none; GROUP], part: [X8::lit(0.0); GROUP] };
             for (p, surface) in reflecting() {
                 for (first, lanes) in &parts[p][..counts[p]] {
                     match &known[first + k] {
                         Known::Lit(Precision::Double) => lit_exactly[p] = lit_exactly[p] | *lanes,
                         Known::Lit(_) => lit[p] = lit[p] | *lanes,
                         Known::Dark => {}
-                        Known::Crowded | Known::Nothing | Known::Never => open[p] = open[p] | *lanes,
+                        Known::Crowded | Known::Nothing | Known::Never => seen.open[p] = seen.open[p] | *lanes,
                         Known::Behind(forms, bodies, precision) => {
                             // the other lanes repeat one of these: what is not seen from here does not matter
                             let lane = lanes.bits().trailing_zeros() as usize & 7;
                             let of = |v: V8| V8::blend(*lanes, v, V8::splat(v.lane(lane)));
                             let (point, normal) = (of(surface.point), of(surface.normal));
                             let (forms, bodies, lanes) = (forms.clone(), bodies.clone(), *lanes);
-                            let mut done = |p: usize, lanes: M8, found: Option<X8>| match found {
-                                Some(found) => {
-                                    part[p] += found.keep(lanes);
-                                    behind[p] = behind[p] | lanes;
-                                }
-                                None => open[p] = open[p] | lanes,
-                            };
+                            let ask = Ask { packet: p, lanes, point, normal, forms, bodies };
                             if *precision == Precision::Double {
-                                done(p, lanes, exact.visible_past(point, normal, None, form, forms, bodies));
+                                let (forms, bodies) = (ask.forms.clone(), ask.bodies.clone());
+                                seen.take(&ask, exact.visible_past(point, normal, None, form, forms, bodies));
                             } else {
-                                let ask = Ask { packet: p, lanes, point, normal, forms, bodies };
-                                visible.add(ask, form, scenery, |ask, found| done(ask.packet, ask.lanes, found));
+                                visible.add(ask, form, scenery, |ask, part| seen.take(ask, part));
                             }
                         }
                     }
                 }
             }
-            visible.finish(form, scenery, |ask, found| match found {
-                Some(found) => {
-                    part[ask.packet] += found.keep(ask.lanes);
-                    behind[ask.packet] = behind[ask.packet] | ask.lanes;
-                }
-                None => open[ask.packet] = open[ask.packet] | ask.lanes,
-            });
+            visible.finish(form, scenery, |ask, part| seen.take(ask, part));
+            let Seen { open, behind, part } = seen;
             // all of the light, where that is of use
             let mut all = [X8::lit(0.0); GROUP];
             let is_picture = matches!(light.closed, Closed::Picture(_));
