@@ -14,8 +14,8 @@
 //! A traversal stays for what it brings end to end. Speed with it relative to without (medians of user time, alternating runs of
 //! `etendue render SCENE --spp 16 --size 256x256 --threads 1 --repeat 5 --sampler independent` on a shared machine): the frustum brings
 //! 1.18 on terrain, 1.07 on quads and 1.09 on mirror-room; the stream, instead of single rays, 1.17, 1.40 and 1.31.
-//! Turns brought nothing there: they are for rays without order through large trees. `benches/examples/trace.rs` on shuffled and bounce rays
-//! through the terrain is 1.8 to 2.2 times as fast with turns and huge pages.
+//! Turns and huge pages are for rays without order through large trees, which these scenes do not have: `benches/examples/trace.rs` times
+//! such rays.
 
 mod build;
 mod cutouts;
