@@ -113,9 +113,13 @@ impl<R: Real> Default for Seen<R> {
 /// Computes visible parts, and holds the memory for it.
 #[derive(Clone, Debug)]
 pub struct Occlusion<R: Real> {
+    /// The flat shape that is being prepared.
+    flat: Flat<R>,
     seen: [Seen<R>; BLOCKERS],
     /// The light, and its intersections with one blocker, with two, and so on.
     stack: [Outline<R, MOST>; DEPTH + 1],
+    /// An outline that is needed for a moment.
+    spare: Outline<R, MOST>,
     normal: Vec3<R>,
     /// What parts are measured by, if not by the cosine.
     lobe: Option<Reflection<R>>,
@@ -156,8 +160,10 @@ impl<R: Real> Occlusion<R> {
     #[must_use]
     pub fn new() -> Self {
         Self {
+            flat: Flat::default(),
             seen: [Seen::default(); BLOCKERS],
             stack: [Outline::default(); DEPTH + 1],
+            spare: Outline::default(),
             normal: Vec3::default(),
             lobe: None,
             light: None,
@@ -250,8 +256,22 @@ impl<R: Real> Occlusion<R> {
         }
         self.normal = normal;
         self.terms = 0;
-        let all = match (*light, Flat::new(light, point)) {
-            (_, Some(flat)) => {
+        let all = match *light {
+            Convex::Sphere { center, radius } => {
+                let (center, radius) = (Vec3::splat(center) - point, R::splat(radius));
+                let cap = Cap::new(center, radius);
+                self.front = (-cap.axis, -cap.tangents);
+                self.light = Some(cap);
+                let all = match &self.lobe {
+                    Some(lobe) => lobe.sphere(center, radius),
+                    None => unoccluded(&cap, center, radius, normal),
+                };
+                self.stack[0].start(Vec3::default(), &[], R::Mask::splat(true));
+                all
+            }
+            _ => {
+                self.flat.take(light, point);
+                let flat = &self.flat;
                 let towards = R::lit(-1.0).copysign(-flat.height);
                 self.front = (flat.normal * towards, flat.height * towards * R::lit(1.0 - SPARED) / flat.scale);
                 self.light = None;
@@ -264,21 +284,8 @@ impl<R: Real> Occlusion<R> {
                 if self.stack[0].clip(normal, R::lit(0.0)).is_err() || self.stack[0].is_empty() {
                     return Some(R::lit(0.0));
                 }
-                measure(self.lobe.as_ref(), &self.stack[0], normal)
+                measure(self.lobe.as_ref(), &self.stack[0], normal, &mut self.spare)
             }
-            (Convex::Sphere { center, radius }, None) => {
-                let (center, radius) = (Vec3::splat(center) - point, R::splat(radius));
-                let cap = Cap::new(center, radius);
-                self.front = (-cap.axis, -cap.tangents);
-                self.light = Some(cap);
-                let all = match &self.lobe {
-                    Some(lobe) => lobe.sphere(center, radius),
-                    None => unoccluded(&cap, center, radius, normal),
-                };
-                self.stack[0].start(Vec3::default(), &[], R::Mask::splat(true));
-                all
-            }
-            (_, None) => return None,
         };
         self.beside(all.clamped(R::lit(0.0), R::lit(core::f64::consts::PI)), point, blockers, polyhedra).ok()
     }
@@ -305,11 +312,14 @@ impl<R: Real> Occlusion<R> {
             if left.covered.all() {
                 break;
             }
-            match (*blocker, Flat::new(blocker, point)) {
-                (Convex::Sphere { center, radius }, _) => {
+            match *blocker {
+                Convex::Sphere { center, radius } => {
                     self.see_sphere(left.kept, Vec3::splat(center) - point, R::splat(radius))?;
                 }
-                (_, flat) => self.see_flat(left.kept, blocker, &flat.ok_or(TooMany)?, point)?,
+                _ => {
+                    self.flat.take(blocker, point);
+                    self.see_flat(left.kept, blocker, point)?;
+                }
             }
             self.hide(&mut left)?;
         }
@@ -333,7 +343,7 @@ impl<R: Real> Occlusion<R> {
     /// there is no such part in any lane. `cap` is the sphere that bounds the intersection, if there is one.
     #[inline]
     fn intersect(&mut self, depth: usize, k: usize, cap: Option<Cap<R>>) -> Result<Option<Part<R>>, TooMany> {
-        let (seen, normal, lobe) = (&self.seen[k], self.normal, self.lobe.as_ref());
+        let (seen, normal, lobe, spare) = (&self.seen[k], self.normal, self.lobe.as_ref(), &mut self.spare);
         let (below, above) = self.stack.split_at_mut(depth + 1);
         let (from, Some(to)) = (&below[depth], above.first_mut()) else { return Err(TooMany) };
         let whole = depth == 0 && self.light.is_some();
@@ -345,7 +355,7 @@ impl<R: Real> Occlusion<R> {
                 None if lobe.is_some() => Err(TooMany),
                 None => {
                     to.start(from.base(), from.corners(), lanes);
-                    let part = own.projected_solid_angle_within(to, normal)?;
+                    let part = own.projected_solid_angle_within(to, normal, spare)?;
                     to.keep(part.gt(R::lit(0.0)));
                     self.terms += 1;
                     Ok((!to.is_empty()).then_some((Some(*own), part)))
@@ -365,13 +375,11 @@ impl<R: Real> Occlusion<R> {
             to.start(Vec3::default(), seen.outline.corners(), lanes);
             to.clip(normal, R::lit(0.0))?;
         } else {
-            let mut square;
             let from = if whole {
-                square = Outline::<R, MOST>::default();
-                square.start(Vec3::default(), &cap.ok_or(TooMany)?.square()?, lanes);
-                square.clip(normal, R::lit(0.0))?;
-                lanes = square.some();
-                &square
+                spare.start(Vec3::default(), &cap.ok_or(TooMany)?.square()?, lanes);
+                spare.clip(normal, R::lit(0.0))?;
+                lanes = spare.some();
+                &*spare
             } else {
                 from
             };
@@ -401,8 +409,8 @@ impl<R: Real> Occlusion<R> {
         }
         let part = match &cap {
             Some(_) if lobe.is_some() => return Err(TooMany),
-            Some(cap) => cap.projected_solid_angle_within(to, normal)?,
-            None => measure(lobe, to, normal),
+            Some(cap) => cap.projected_solid_angle_within(to, normal, spare)?,
+            None => measure(lobe, to, normal, spare),
         };
         Ok(Some((cap, part)))
     }
@@ -421,9 +429,17 @@ impl<R: Real> Occlusion<R> {
 
 /// Ω⊥ of an outline above the horizon, after the map of a lobe if there is one: it keeps heights.
 #[inline(always)]
-fn measure<R: Real>(lobe: Option<&Reflection<R>>, outline: &Outline<R, MOST>, normal: Vec3<R>) -> R {
+fn measure<R: Real>(
+    lobe: Option<&Reflection<R>>,
+    outline: &Outline<R, MOST>,
+    normal: Vec3<R>,
+    spare: &mut Outline<R, MOST>,
+) -> R {
     match lobe {
-        Some(lobe) => outline.mapped(|v| lobe.to_cosine(v)).projected_solid_angle(Vec3::lit([0.0, 0.0, 1.0])),
+        Some(lobe) => {
+            spare.take(outline, |v| lobe.to_cosine(v));
+            spare.projected_solid_angle(Vec3::lit([0.0, 0.0, 1.0]))
+        }
         None => outline.projected_solid_angle(normal),
     }
 }

@@ -9,16 +9,10 @@ use crate::real::{Mask, Real};
 use crate::vector::Vec3;
 
 impl<R: Real> Occlusion<R> {
-    /// Prepares a flat shape as blocker `k`.
+    /// Prepares a flat shape, which has just been taken, as blocker `k`.
     #[inline]
-    pub(super) fn see_flat(
-        &mut self,
-        k: usize,
-        shape: &Convex<R::Scalar>,
-        flat: &Flat<R>,
-        point: Vec3<R>,
-    ) -> Result<(), TooMany> {
-        let Self { seen, stack, base, light, .. } = self;
+    pub(super) fn see_flat(&mut self, k: usize, shape: &Convex<R::Scalar>, point: Vec3<R>) -> Result<(), TooMany> {
+        let Self { flat, seen, stack, base, light, .. } = self;
         let seen = &mut seen[k];
         let Flat { ref edges, scale, normal: across, height, .. } = *flat;
         let corners = flat.corners();

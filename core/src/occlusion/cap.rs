@@ -50,7 +50,7 @@ impl<R: Real> Cap<R> {
         !(lanes & self.axis.dot(other.axis).ge(both)).any()
     }
 
-    /// Ω⊥ of the part of the cap within an outline that lies above the horizon.
+    /// Ω⊥ of the part of the cap within an outline that lies above the horizon. The last argument is memory for another outline.
     ///
     /// Each edge contributes its part inside the cap. What the edge has outside is moved to the cap's circle, along great circles through
     /// the axis. ∫ (r − a cosα) × dr around the part is that of r × dr, because the curve is closed. On the circle it is sin²α a per
@@ -58,13 +58,14 @@ impl<R: Real> Cap<R> {
     #[inline]
     pub(super) fn projected_solid_angle_within<const MOST: usize>(
         &self,
-        outline: &Outline<R, MOST>,
+        within: &Outline<R, MOST>,
         normal: Vec3<R>,
+        outline: &mut Outline<R, MOST>,
     ) -> Result<R, TooMany> {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let Self { axis, sin, cos, .. } = *self;
         // the edges are seen in the hemisphere about the axis; a reserve keeps the slopes below finite
-        let mut outline = *outline;
+        outline.take(within, |v| v);
         outline.clip(axis, zero)?;
         if outline.is_empty() {
             return Ok(zero);

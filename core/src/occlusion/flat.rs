@@ -25,35 +25,53 @@ pub(super) struct Flat<R> {
     pub(super) height: R,
 }
 
+impl<R: Real> Default for Flat<R> {
+    fn default() -> Self {
+        let (none, zero) = ([Vec3::default(); 4], R::lit(0.0));
+        let [middle, normal] = [Vec3::default(); 2];
+        Self { corners: none, offsets: none, middle, edges: none, count: 0, scale: zero, normal, height: zero }
+    }
+}
+
 impl<R: Real> Flat<R> {
-    /// The shape relative to the points; `None` for a sphere.
+    /// Takes a shape relative to the points, in place, since it is large; returns false for a sphere.
     #[inline(always)]
-    pub(super) fn new(shape: &Convex<R::Scalar>, point: Vec3<R>) -> Option<Self> {
-        let (mut corners, mut offsets, mut edges, count) = match *shape {
-            Convex::Sphere { .. } => return None,
-            Convex::Polygon { corners, count } => {
-                let (corners, count) = (corners.map(Vec3::splat), count.clamp(3, 4));
-                let edges = core::array::from_fn(|i| corners[if i + 1 < count { i + 1 } else { 0 }] - corners[i]);
-                (corners.map(|corner| corner - point), corners.map(|corner| corner - corners[0]), edges, count)
+    pub(super) fn take(&mut self, shape: &Convex<R::Scalar>, point: Vec3<R>) -> bool {
+        let Self { corners, offsets, edges, .. } = self;
+        let count = match *shape {
+            Convex::Sphere { .. } => return false,
+            Convex::Polygon { corners: given, count } => {
+                let (given, count) = (given.map(Vec3::splat), count.clamp(3, 4));
+                for i in 0..4 {
+                    edges[i] = given[if i + 1 < count { i + 1 } else { 0 }] - given[i];
+                    corners[i] = given[i] - point;
+                    offsets[i] = given[i] - given[0];
+                }
+                count
             }
-            Convex::Parallelogram { corner, edges } => {
-                let (a, [u, v]) = (Vec3::splat(corner) - point, edges.map(Vec3::splat));
-                ([a, a + u, a + u + v, a + v], [Vec3::default(), u, u + v, v], [u, v, -u, -v], 4)
+            Convex::Parallelogram { corner, edges: given } => {
+                let (a, [u, v]) = (Vec3::splat(corner) - point, given.map(Vec3::splat));
+                *corners = [a, a + u, a + u + v, a + v];
+                *offsets = [Vec3::default(), u, u + v, v];
+                *edges = [u, v, -u, -v];
+                4
             }
         };
         // in units of the shape, so that it is the same in all lanes
         let share = R::lit(1.0 / count as f64);
         let middle = offsets[..count].iter().fold(Vec3::default(), |sum, &v| sum + v * share);
-        offsets = offsets.map(|offset| offset - middle);
         let scale = corners[..count].iter().fold(R::lit(0.0), |most, v| most.greater(v.max_abs())).pow2_scale();
-        corners = corners.map(|corner| corner * scale);
-        offsets = offsets.map(|offset| offset * scale);
-        edges = edges.map(|edge| edge * scale);
-        let [d, e, f, _] = edges;
+        for i in 0..4 {
+            corners[i] = corners[i] * scale;
+            offsets[i] = (offsets[i] - middle) * scale;
+            edges[i] = edges[i] * scale;
+        }
+        let [d, e, f, _] = *edges;
         let area = if count > 3 { (d + e).cross(e + f) } else { d.cross(e) };
-        let normal = area.unit_and_length().0;
-        let height = normal.dot(corners[0]);
-        Some(Self { corners, middle, offsets, edges, count, scale, normal, height })
+        (self.middle, self.count, self.scale) = (middle, count, scale);
+        self.normal = area.unit_and_length().0;
+        self.height = self.normal.dot(self.corners[0]);
+        true
     }
     #[inline(always)]
     pub(super) fn corners(&self) -> &[Vec3<R>] {

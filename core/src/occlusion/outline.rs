@@ -96,15 +96,13 @@ impl<R: Real, const MOST: usize> Outline<R, MOST> {
         self.corners[..corners.len()].copy_from_slice(corners);
         self.some = some;
     }
-    /// The outline after a linear map.
+    /// Takes another outline after a linear map.
     #[inline]
-    pub(super) fn mapped(&self, map: impl Fn(Vec3<R>) -> Vec3<R>) -> Self {
-        let mut mapped = *self;
-        mapped.base = map(self.base);
-        for corner in &mut mapped.corners[..self.count] {
-            *corner = map(*corner);
+    pub(super) fn take(&mut self, other: &Self, map: impl Fn(Vec3<R>) -> Vec3<R>) {
+        (self.base, self.count, self.some) = (map(other.base), other.count, other.some);
+        for (corner, &from) in self.corners.iter_mut().zip(other.corners()) {
+            *corner = map(from);
         }
-        mapped
     }
     pub(super) fn is_empty(&self) -> bool {
         !self.some.any()
