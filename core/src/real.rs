@@ -4,6 +4,7 @@
 //! lane 0 of a packet, which the compiler reduces to the scalar instruction. So code written once over [`Real`] gives the same
 //! bits at every width.
 
+mod arctangent;
 mod functions;
 mod fused;
 mod mask;

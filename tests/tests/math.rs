@@ -2,7 +2,8 @@
 //! `-- --nocapture` prints the figures that the second table in `core/src/math.rs` rounds up.
 
 use etendue::math::{difference_of_products, one_minus_cos};
-use etendue::{Real, f32x8};
+use etendue::{Real, f32x8, f64x4, f64x8};
+use etendue_oracle::tier::cases;
 use etendue_properties::checks::{self, MeasuredError};
 use etendue_properties::generators::Random;
 
@@ -28,6 +29,49 @@ fn sin_cos_turns() {
 #[test]
 fn atan2() {
     checks::atan2(Real::atan2);
+}
+/// Packets of double precision have the bits of `libm`, which single numbers call: among edges, and at random in all ranges.
+#[test]
+fn atan2_of_packets_is_that_of_libm() {
+    fn check<R: Real<Scalar = f64>>(y: &[f64], x: &[f64]) {
+        for (y, x) in y.chunks_exact(R::LANES).zip(x.chunks_exact(R::LANES)) {
+            let found = R::from_fn(|i| y[i]).atan2(R::from_fn(|i| x[i]));
+            for i in 0..R::LANES {
+                let (found, truth) = (found.lane(i), libm::atan2(y[i], x[i]));
+                let same = found.to_bits() == truth.to_bits() || found.is_nan() && truth.is_nan();
+                assert!(same, "atan2({:e}, {:e}) is {found:e} in a packet, {truth:e} alone", y[i], x[i]);
+            }
+        }
+    }
+    let beside = |x: f64| [x.next_down(), x, x.next_up()];
+    let steps = [0.4375, 0.6875, 1.0, 1.1875, 2.4375, 1e-300, 1e18, 2f64.powi(-60), 2f64.powi(64)];
+    let ends = [0.0, f64::from_bits(1), f64::MIN_POSITIVE, f64::MAX, f64::INFINITY, f64::NAN];
+    let positive: Vec<f64> = steps.into_iter().flat_map(beside).chain(ends).collect();
+    let edges: Vec<f64> = positive.iter().flat_map(|&x| [x, -x]).collect();
+    let (mut y, mut x) = (Vec::new(), Vec::new());
+    for &a in &edges {
+        for &b in &edges {
+            y.push(a);
+            x.push(b);
+        }
+    }
+    let mut random = Random::new(5);
+    for i in 0..cases(1_000_000, 30_000_000) {
+        let mut number = || match i % 3 {
+            0 => f64::from_bits(random.word()),
+            1 => random.range(-3.0, 3.0),
+            _ => random.range(-1.0, 1.0) * random.range(-30.0, 30.0).exp2(),
+        };
+        y.push(number());
+        x.push(number());
+        if y.len() == 1 << 16 {
+            check::<f64x4>(&y, &x);
+            check::<f64x8>(&y, &x);
+            (y.clear(), x.clear());
+        }
+    }
+    check::<f64x4>(&y, &x);
+    check::<f64x8>(&y, &x);
 }
 
 /// Of nearly equal products, and of others.

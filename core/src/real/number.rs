@@ -1,7 +1,7 @@
 //! Numbers of single and double precision, and packets of them.
 
 use super::uint::lanes;
-use super::{Mask, MaskF64X4, MaskF64X8, MaskX4, MaskX8, MaskX16, Real, fused};
+use super::{Mask, MaskF64X4, MaskF64X8, MaskX4, MaskX8, MaskX16, Real, arctangent, fused};
 use wide::{f32x4, f32x8, f32x16, f64x2, f64x4, f64x8, u32x4, u32x8, u32x16, u64x4, u64x8};
 
 /// True where rounding to an integer is an instruction.
@@ -19,8 +19,8 @@ macro_rules! polynomials {
     };
 }
 
-/// Transcendental functions of double precision: `libm`, lane by lane. This precision is the reference for the other, not the
-/// fast path.
+/// Transcendental functions of double precision: `libm`, lane by lane but for the arctangent of vectors, which closed forms need. This
+/// precision is the reference for the other, not the fast path.
 macro_rules! lane_by_lane {
     () => {
         #[inline(always)]
@@ -53,7 +53,10 @@ macro_rules! lane_by_lane {
         }
         #[inline(always)]
         fn atan2(self, other: Self) -> Self {
-            Self::from_fn(|i| libm::atan2(self.lane(i), other.lane(i)))
+            if Self::LANES == 1 {
+                return Self::lit(libm::atan2(self.lane_f64(0), other.lane_f64(0)));
+            }
+            arctangent::atan2(self, other)
         }
         #[inline(always)]
         fn cbrt(self) -> Self {
