@@ -2,7 +2,8 @@
 //!
 //! Certificates are made when a sample first needs them: for what the whole tile sees of a primitive, and, where that does not decide, for
 //! what a square of 4 × 4 pixels sees of it. (Certificates for single pixels save less time than they take.) A surface seen through a lens
-//! or in a mirror is certified as a whole.
+//! or in a mirror is certified as a whole. (Squares seen in mirrors would gain little: of the variance of `mirror-room`, the places in the
+//! pixels alone cause 97 %, by `cargo run --release -p etendue-benches --example causes -- mirror-room --seeds 8`.)
 
 use super::exact::Exact;
 use super::known::{AreaLight, Closed, Known, Survey};
