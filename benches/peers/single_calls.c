@@ -42,14 +42,13 @@ const Column TEXTBOOK = {triangle, warped, NULL, triangle_pdf, NULL, sphere, sph
 #ifdef OF_LIBRARY
 #include "etendue.h"
 static float sum(EtendueLightSample s) { return s.direction[0] + s.direction[1] + s.direction[2] + s.distance + s.pdf + s.normal[0] + s.normal[1] + s.normal[2] + s.uv[0] + s.uv[1]; }
-static EtendueTriangle a_triangle(const Input *i) {
-    EtendueTriangle light;
+/* A light is written where it is used: to copy what was just written takes the processor longer than to write it. */
+static void a_triangle(const Input *i, EtendueTriangle *light) {
     for (int k = 0; k < 3; k++) {
-        light.v0[k] = i->light[k];
-        light.e1[k] = i->light[3 + k] - i->light[k];
-        light.e2[k] = i->light[6 + k] - i->light[k];
+        light->v0[k] = i->light[k];
+        light->e1[k] = i->light[3 + k] - i->light[k];
+        light->e2[k] = i->light[6 + k] - i->light[k];
     }
-    return light;
 }
 static EtendueSphere a_sphere(const Input *i) { return (EtendueSphere){{i->light[0], i->light[1], i->light[2]}, 0.5f}; }
 static EtendueRectangle a_rectangle(const Input *i) { return (EtendueRectangle){{i->light[0], i->light[1], i->light[2]}, {1, 0, 0}, {0, 0.5f, 0.5f}}; }
@@ -66,13 +65,13 @@ static EtendueRectangle a_rectangle(const Input *i) { return (EtendueRectangle){
         return etendue_##name##_pdf_once(&l, i->p, __VA_ARGS__ i->w); \
     }
 #define NORMAL i->n,
-ONCE(triangle_by_solid_angle, EtendueTriangle l = a_triangle(i), )
-ONCE(triangle_by_cosine_warp, EtendueTriangle l = a_triangle(i), NORMAL)
-ONCE(triangle_by_projected_solid_angle, EtendueTriangle l = a_triangle(i), NORMAL)
+ONCE(triangle_by_solid_angle, EtendueTriangle l; a_triangle(i, &l), )
+ONCE(triangle_by_cosine_warp, EtendueTriangle l; a_triangle(i, &l), NORMAL)
+ONCE(triangle_by_projected_solid_angle, EtendueTriangle l; a_triangle(i, &l), NORMAL)
 ONCE(sphere_by_solid_angle, EtendueSphere l = a_sphere(i), )
 ONCE(rectangle_by_solid_angle, EtendueRectangle l = a_rectangle(i), )
-PDF(triangle_by_solid_angle, EtendueTriangle l = a_triangle(i), )
-PDF(triangle_by_projected_solid_angle, EtendueTriangle l = a_triangle(i), NORMAL)
+PDF(triangle_by_solid_angle, EtendueTriangle l; a_triangle(i, &l), )
+PDF(triangle_by_projected_solid_angle, EtendueTriangle l; a_triangle(i, &l), NORMAL)
 PDF(sphere_by_solid_angle, EtendueSphere l = a_sphere(i), )
 PDF(rectangle_by_solid_angle, EtendueRectangle l = a_rectangle(i), )
 APART float bilinear(const Input *i) {

@@ -34,13 +34,13 @@
 //!
 //! | with preparation | textbook | library | header |
 //! |---|---|---|---|
-//! | triangle by solid angle | 131 | 162 | 175 |
-//! | triangle by cosine warp | 155 | 292 | 225 |
-//! | triangle by projected solid angle | | 459 | 472 |
-//! | its pdf by solid angle, and projected | 25, – | 93, 323 | 131, 351 |
-//! | sphere by solid angle, its pdf | 53, 3.4 | 97, 28 | 65, 24 |
-//! | rectangle by solid angle, its pdf | 129, – | 195, 105 | 266, 205 |
-//! | bilinear warp | 7.2 | 23 | 17 |
+//! | triangle by solid angle | 131 | 145 | 175 |
+//! | triangle by cosine warp | 155 | 255 | 225 |
+//! | triangle by projected solid angle | | 503 | 472 |
+//! | its pdf by solid angle, and projected | 25, – | 65, 358 | 131, 351 |
+//! | sphere by solid angle, its pdf | 53, 3.4 | 97, 21 | 65, 24 |
+//! | rectangle by solid angle, its pdf | 129, – | 195, 106 | 266, 205 |
+//! | bilinear warp | 7.2 | 15 | 17 |
 //! | triangle that is prepared | | 51 | 40 |
 #![cfg_attr(not(test), no_std)]
 

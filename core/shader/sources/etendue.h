@@ -712,14 +712,21 @@ ETENDUE_FUNCTION EtendueLightSample etendue_sphere_by_solid_angle_sample(Etendue
 // (proved: 2e-6); direction 4.8e-7 (proved for all u: 1.5e-6, for R from 1e-4 of the greatest coordinate to where the
 // sphere nearly touches); distance 3.6e-7 relative, except at the limb, where its slope is infinite.
 ETENDUE_FUNCTION float etendue_sphere_by_solid_angle_pdf(EtendueSphereBySolidAngle prepared, EtendueVec3 w) {
-    const float x1 = fmaf(prepared.shape_frame_s.x, w.x, fmaf(prepared.shape_frame_s.y, w.y, prepared.shape_frame_s.z * w.z));
-    const float x2 = fmaf(prepared.shape_frame_t.x, w.x, fmaf(prepared.shape_frame_t.y, w.y, prepared.shape_frame_t.z * w.z));
-    const float x3 = fmaf(prepared.shape_frame_n.x, w.x, fmaf(prepared.shape_frame_n.y, w.y, prepared.shape_frame_n.z * w.z));
-    const float x4 = etendue_lesser(etendue_greater(prepared.shape_cone_one_minus_cos, 0.0f), 2.0f);
-    const float x5 = (0.5f < x3) ? fmaf(x1, x1, x2 * x2) / (1.0f + fabsf(x3)) : 1.0f - x3;
-    const float x6 = x4 + fmaf(5.9604645e-7f, etendue_greater(sqrtf(x4 * (2.0f - x4)), x4 - 1.0f), 1.7763568e-13f);
-    const float x7 = (x5 <= x6) ? ((1e-37f < x4) ? 0.15915494f / x4 : 0.0f) : 0.0f;
-    return x7;
+    const float x1 = fmaf(prepared.shape_frame_n.x, w.x, fmaf(prepared.shape_frame_n.y, w.y, prepared.shape_frame_n.z * w.z));
+    const float x2 = 1.0f - x1;
+    const float x3 = etendue_lesser(etendue_greater(prepared.shape_cone_one_minus_cos, 0.0f), 2.0f);
+    const float x4 = x2 - x3;
+    const bool b5 = fabsf(x4) <= 3.8146973e-6f;
+    bool b6 = false;
+    if (b5) {
+        const float x7 = fmaf(prepared.shape_frame_s.x, w.x, fmaf(prepared.shape_frame_s.y, w.y, prepared.shape_frame_s.z * w.z));
+        const float x8 = fmaf(prepared.shape_frame_t.x, w.x, fmaf(prepared.shape_frame_t.y, w.y, prepared.shape_frame_t.z * w.z));
+        const float x9 = (0.5f < x1) ? fmaf(x7, x7, x8 * x8) / (1.0f + fabsf(x1)) : x2;
+        const float x10 = x3 + fmaf(5.9604645e-7f, etendue_greater(sqrtf(x3 * (2.0f - x3)), x3 - 1.0f), 1.7763568e-13f);
+        b6 = x9 <= x10;
+    }
+    const float x11 = (((x4 < 0.0f) && !b5) || (b5 && b6)) ? ((1e-37f < x3) ? 0.15915494f / x3 : 0.0f) : 0.0f;
+    return x11;
 }
 
 // The nearest point of the light in the unit direction w, with the density of that; pdf 0 where it misses. Uniform
@@ -728,70 +735,77 @@ ETENDUE_FUNCTION float etendue_sphere_by_solid_angle_pdf(EtendueSphereBySolidAng
 // coordinate to where the sphere nearly touches); distance 3.6e-7 relative, except at the limb, where its slope is
 // infinite.
 ETENDUE_FUNCTION EtendueLightSample etendue_sphere_by_solid_angle_hit(EtendueSphereBySolidAngle prepared, EtendueVec3 w) {
-    const float x1 = fmaf(prepared.shape_frame_s.x, w.x, fmaf(prepared.shape_frame_s.y, w.y, prepared.shape_frame_s.z * w.z));
-    const float x2 = fmaf(prepared.shape_frame_t.x, w.x, fmaf(prepared.shape_frame_t.y, w.y, prepared.shape_frame_t.z * w.z));
-    const float x3 = fmaf(prepared.shape_frame_n.x, w.x, fmaf(prepared.shape_frame_n.y, w.y, prepared.shape_frame_n.z * w.z));
-    const float x4 = etendue_lesser(etendue_greater(prepared.shape_cone_one_minus_cos, 0.0f), 2.0f);
-    const float x5 = (0.5f < x3) ? fmaf(x1, x1, x2 * x2) / (1.0f + fabsf(x3)) : 1.0f - x3;
-    const float x6 = x4 + fmaf(5.9604645e-7f, etendue_greater(sqrtf(x4 * (2.0f - x4)), x4 - 1.0f), 1.7763568e-13f);
-    const float x7 = (x5 <= x6) ? ((1e-37f < x4) ? 0.15915494f / x4 : 0.0f) : 0.0f;
-    const bool b8 = 0.0f < x7;
-    const float x9 = etendue_greater(etendue_greater(0.0f, etendue_greater(etendue_greater(fabsf(prepared.surface_center.x), fabsf(prepared.surface_center.y)), fabsf(prepared.surface_center.z))), etendue_greater(etendue_greater(fabsf(prepared.surface_radius), 0.0f), 0.0f));
-    const bool b10 = x9 < INFINITY;
-    const float x11 = etendue_pow2_scale(x9);
-    const float x12 = x11 * (b10 ? prepared.surface_center.x : 0.0f);
-    const float x13 = x11 * (b10 ? prepared.surface_center.y : 0.0f);
-    const float x14 = x11 * (b10 ? prepared.surface_center.z : 0.0f);
-    const float x15 = x11 * (b10 ? prepared.surface_radius : 0.0f);
+    const float x1 = fmaf(prepared.shape_frame_n.x, w.x, fmaf(prepared.shape_frame_n.y, w.y, prepared.shape_frame_n.z * w.z));
+    const float x2 = 1.0f - x1;
+    const float x3 = etendue_lesser(etendue_greater(prepared.shape_cone_one_minus_cos, 0.0f), 2.0f);
+    const float x4 = x2 - x3;
+    const bool b5 = fabsf(x4) <= 3.8146973e-6f;
+    const float x6 = etendue_greater(etendue_greater(0.0f, etendue_greater(etendue_greater(fabsf(prepared.surface_center.x), fabsf(prepared.surface_center.y)), fabsf(prepared.surface_center.z))), etendue_greater(etendue_greater(fabsf(prepared.surface_radius), 0.0f), 0.0f));
+    const bool b7 = x6 < INFINITY;
+    const float x8 = etendue_pow2_scale(x6);
+    const float x9 = x8 * (b7 ? prepared.surface_center.x : 0.0f);
+    const float x10 = x8 * (b7 ? prepared.surface_center.y : 0.0f);
+    const float x11 = x8 * (b7 ? prepared.surface_center.z : 0.0f);
+    const float x12 = x8 * (b7 ? prepared.surface_radius : 0.0f);
+    const float x13 = x9 * x9;
+    const float x14 = x10 * x10;
+    const float x15 = x11 * x11;
     const float x16 = x12 * x12;
-    const float x17 = x13 * x13;
-    const float x18 = x14 * x14;
-    const float x19 = x15 * x15;
-    const float x20 = x16 - x19;
-    const float x21 = x20 - x16;
-    const float x22 = x17 + x20;
-    const float x23 = x22 - x20;
-    const float x24 = x18 + x22;
-    const float x25 = x24 - x22;
-    const float x26 = x16 - (x20 - x21) + (-x19 - x21) + (x20 - (x22 - x23) + (x17 - x23));
-    const float x27 = fmaf(x12, x12, -x16) - fmaf(x15, x15, -x19) + (fmaf(x13, x13, -x17) + fmaf(x14, x14, -x18));
-    const float x28 = x24 + (x22 - (x24 - x25) + (x18 - x25) + x26 + x27);
-    const float x29 = fmaf(w.x, x12, fmaf(w.y, x13, w.z * x14));
-    const float x30 = fmaf(w.x, -x29, x12);
-    const float x31 = fmaf(w.y, -x29, x13);
-    const float x32 = fmaf(w.z, -x29, x14);
-    const float x33 = sqrtf(etendue_greater(fmaf(x15, x15, -fmaf(x30, x30, fmaf(x31, x31, x32 * x32))), 0.0f));
-    const float x34 = x33 + fabsf(x29);
-    const float x35 = etendue_lesser(etendue_greater((1e-37f < fabsf(x34)) ? fabsf(x28) / x34 : 0.0f, -1e37f), 1e37f);
-    const float x36 = (!(0.0f <= x28) && (0.0f <= x29)) ? x34 : x35;
-    const float x37 = fmaf(w.x, x36, -x12);
-    const float x38 = fmaf(w.y, x36, -x13);
-    const float x39 = fmaf(w.z, x36, -x14);
-    const float x40 = fmaf(x37, x37, fmaf(x38, x38, x39 * x39));
-    const float x41 = (0.0f < x40) ? 1.0f / sqrtf(x40) : 0.0f;
-    const float x42 = x37 * x41;
-    const float x43 = x38 * x41;
-    const float x44 = x39 * x41;
-    const float x45 = (0.5f < x44) ? fmaf(x42, x42, x43 * x43) / (1.0f + fabsf(x44)) : 1.0f - x44;
-    const float x46 = etendue_lesser(etendue_greater(x45 / 2.0f, 0.0f), 0.99999994f);
-    const float x47 = 0.15915494f * etendue_angle(x43, x42);
-    const float x48 = etendue_lesser(etendue_greater((x47 < 0.0f) ? 1.0f + x47 : x47, 0.0f), 0.99999994f);
-    const float x49 = b8 ? etendue_lesser(x36 / x11, 3.4028235e38f) : 0.0f;
-    const bool b50 = !(prepared.shape_power < 0.0f) && b8;
-    const float x51 = (b50 && (1e-37f < x7)) ? 1.0f / x7 : 0.0f;
+    const float x17 = x13 - x16;
+    const float x18 = x17 - x13;
+    const float x19 = x14 + x17;
+    const float x20 = x19 - x17;
+    const float x21 = x15 + x19;
+    const float x22 = x21 - x19;
+    const float x23 = x13 - (x17 - x18) + (-x16 - x18) + (x17 - (x19 - x20) + (x14 - x20));
+    const float x24 = fmaf(x9, x9, -x13) - fmaf(x12, x12, -x16) + (fmaf(x10, x10, -x14) + fmaf(x11, x11, -x15));
+    const float x25 = x21 + (x19 - (x21 - x22) + (x15 - x22) + x23 + x24);
+    const float x26 = fmaf(w.x, x9, fmaf(w.y, x10, w.z * x11));
+    const float x27 = fmaf(w.x, -x26, x9);
+    const float x28 = fmaf(w.y, -x26, x10);
+    const float x29 = fmaf(w.z, -x26, x11);
+    const float x30 = sqrtf(etendue_greater(fmaf(x12, x12, -fmaf(x27, x27, fmaf(x28, x28, x29 * x29))), 0.0f));
+    const float x31 = x30 + fabsf(x26);
+    const float x32 = etendue_lesser(etendue_greater((1e-37f < fabsf(x31)) ? fabsf(x25) / x31 : 0.0f, -1e37f), 1e37f);
+    const float x33 = (!(0.0f <= x25) && (0.0f <= x26)) ? x31 : x32;
+    const float x34 = fmaf(w.x, x33, -x9);
+    const float x35 = fmaf(w.y, x33, -x10);
+    const float x36 = fmaf(w.z, x33, -x11);
+    const float x37 = fmaf(x34, x34, fmaf(x35, x35, x36 * x36));
+    const float x38 = (0.0f < x37) ? 1.0f / sqrtf(x37) : 0.0f;
+    const float x39 = x34 * x38;
+    const float x40 = x35 * x38;
+    const float x41 = x36 * x38;
+    const float x42 = (0.5f < x41) ? fmaf(x39, x39, x40 * x40) / (1.0f + fabsf(x41)) : 1.0f - x41;
+    const float x43 = etendue_lesser(etendue_greater(x42 / 2.0f, 0.0f), 0.99999994f);
+    const float x44 = 0.15915494f * etendue_angle(x40, x39);
+    const float x45 = etendue_lesser(etendue_greater((x44 < 0.0f) ? 1.0f + x44 : x44, 0.0f), 0.99999994f);
+    bool b46 = false;
+    if (b5) {
+        const float x47 = fmaf(prepared.shape_frame_s.x, w.x, fmaf(prepared.shape_frame_s.y, w.y, prepared.shape_frame_s.z * w.z));
+        const float x48 = fmaf(prepared.shape_frame_t.x, w.x, fmaf(prepared.shape_frame_t.y, w.y, prepared.shape_frame_t.z * w.z));
+        const float x49 = (0.5f < x1) ? fmaf(x47, x47, x48 * x48) / (1.0f + fabsf(x1)) : x2;
+        const float x50 = x3 + fmaf(5.9604645e-7f, etendue_greater(sqrtf(x3 * (2.0f - x3)), x3 - 1.0f), 1.7763568e-13f);
+        b46 = x49 <= x50;
+    }
+    const float x51 = (((x4 < 0.0f) && !b5) || (b5 && b46)) ? ((1e-37f < x3) ? 0.15915494f / x3 : 0.0f) : 0.0f;
+    const bool b52 = 0.0f < x51;
+    const float x53 = b52 ? etendue_lesser(x33 / x8, 3.4028235e38f) : 0.0f;
+    const bool b54 = !(prepared.shape_power < 0.0f) && b52;
+    const float x55 = (b54 && (1e-37f < x51)) ? 1.0f / x51 : 0.0f;
     EtendueLightSample result;
     result.direction.x = w.x;
     result.direction.y = w.y;
     result.direction.z = w.z;
-    result.distance = x49;
-    result.pdf = x7;
-    result.weight = x51;
-    result.normal.x = x42;
-    result.normal.y = x43;
-    result.normal.z = x44;
-    result.uv.x = x46;
-    result.uv.y = x48;
-    result.emits = b50;
+    result.distance = x53;
+    result.pdf = x51;
+    result.weight = x55;
+    result.normal.x = x39;
+    result.normal.y = x40;
+    result.normal.z = x41;
+    result.uv.x = x43;
+    result.uv.y = x45;
+    result.emits = b54;
     result.delta = false;
     return result;
 }
@@ -1340,12 +1354,21 @@ ETENDUE_FUNCTION EtendueLightSample etendue_triangle_by_solid_angle_sample(Etend
 // of the sweep: there u1 follows from the rounded u0, so that both lead back to the direction, and may itself be
 // another one.
 ETENDUE_FUNCTION float etendue_triangle_by_solid_angle_pdf(EtendueTriangleBySolidAngle prepared, EtendueVec3 w) {
-    const bool b1 = (-prepared.shape_slack.y <= fmaf(prepared.shape_side12.x, w.x, fmaf(prepared.shape_side12.y, w.y, prepared.shape_side12.z * w.z))) && (-prepared.shape_slack.z <= fmaf(prepared.shape_side20.x, w.x, fmaf(prepared.shape_side20.y, w.y, prepared.shape_side20.z * w.z)));
-    const float x2 = fmaf(prepared.shape_normal.x, w.x, fmaf(prepared.shape_normal.y, w.y, prepared.shape_normal.z * w.z));
-    const bool b3 = -(sqrtf(fmaf(prepared.shape_normal.x, prepared.shape_normal.x, fmaf(prepared.shape_normal.y, prepared.shape_normal.y, prepared.shape_normal.z * prepared.shape_normal.z))) * 7.1525574e-7f) <= ((prepared.shape_volume < 0.0f) ? -x2 : x2);
-    const bool b4 = b1 && (-prepared.shape_slack.x <= fmaf(prepared.shape_side01.x, w.x, fmaf(prepared.shape_side01.y, w.y, prepared.shape_side01.z * w.z))) && b3;
-    const float x5 = b4 ? etendue_lesser(etendue_greater((1e-37f < fabsf(prepared.shape_solid_angle)) ? 1.0f / prepared.shape_solid_angle : 0.0f, -1e37f), 1e37f) : 0.0f;
-    return x5;
+    const float x1 = fmaf(prepared.shape_side01.x, w.x, fmaf(prepared.shape_side01.y, w.y, prepared.shape_side01.z * w.z));
+    const float x2 = fmaf(prepared.shape_side20.x, w.x, fmaf(prepared.shape_side20.y, w.y, prepared.shape_side20.z * w.z));
+    const float x3 = fmaf(prepared.shape_normal.x, w.x, fmaf(prepared.shape_normal.y, w.y, prepared.shape_normal.z * w.z));
+    const float x4 = (prepared.shape_volume < 0.0f) ? -x3 : x3;
+    const float x5 = etendue_greater(etendue_greater(fabsf(prepared.shape_side01.x), fabsf(prepared.shape_side01.y)), fabsf(prepared.shape_side01.z)) + etendue_greater(etendue_greater(fabsf(prepared.shape_side20.x), fabsf(prepared.shape_side20.y)), fabsf(prepared.shape_side20.z));
+    const float x6 = (x5 + etendue_greater(etendue_greater(fabsf(prepared.shape_normal.x), fabsf(prepared.shape_normal.y)), fabsf(prepared.shape_normal.z))) * 1.9073486e-6f;
+    const bool b7 = (0.0f <= x1) && (0.0f <= x2) && (0.0f <= x4) && (x6 < x4 - x2 - x1);
+    bool b8 = false;
+    if (!b7) {
+        const bool b9 = (-prepared.shape_slack.y <= fmaf(prepared.shape_side12.x, w.x, fmaf(prepared.shape_side12.y, w.y, prepared.shape_side12.z * w.z))) && (-prepared.shape_slack.z <= x2);
+        const bool b10 = -(sqrtf(fmaf(prepared.shape_normal.x, prepared.shape_normal.x, fmaf(prepared.shape_normal.y, prepared.shape_normal.y, prepared.shape_normal.z * prepared.shape_normal.z))) * 7.1525574e-7f) <= x4;
+        b8 = b9 && (-prepared.shape_slack.x <= x1) && b10;
+    }
+    const float x11 = (b7 || b8) ? etendue_lesser(etendue_greater((1e-37f < fabsf(prepared.shape_solid_angle)) ? 1.0f / prepared.shape_solid_angle : 0.0f, -1e37f), 1e37f) : 0.0f;
+    return x11;
 }
 
 // The nearest point of the light in the unit direction w, with the density of that; pdf 0 where it misses. Uniform
@@ -1358,37 +1381,46 @@ ETENDUE_FUNCTION float etendue_triangle_by_solid_angle_pdf(EtendueTriangleBySoli
 // rounding of a direction near the ends of the sweep: there u1 follows from the rounded u0, so that both lead back to
 // the direction, and may itself be another one.
 ETENDUE_FUNCTION EtendueLightSample etendue_triangle_by_solid_angle_hit(EtendueTriangleBySolidAngle prepared, EtendueVec3 w) {
-    const bool b1 = (-prepared.shape_slack.y <= fmaf(prepared.shape_side12.x, w.x, fmaf(prepared.shape_side12.y, w.y, prepared.shape_side12.z * w.z))) && (-prepared.shape_slack.z <= fmaf(prepared.shape_side20.x, w.x, fmaf(prepared.shape_side20.y, w.y, prepared.shape_side20.z * w.z)));
-    const float x2 = fmaf(prepared.shape_normal.x, w.x, fmaf(prepared.shape_normal.y, w.y, prepared.shape_normal.z * w.z));
-    const bool b3 = prepared.shape_volume < 0.0f;
-    const bool b4 = -(sqrtf(fmaf(prepared.shape_normal.x, prepared.shape_normal.x, fmaf(prepared.shape_normal.y, prepared.shape_normal.y, prepared.shape_normal.z * prepared.shape_normal.z))) * 7.1525574e-7f) <= (b3 ? -x2 : x2);
-    const bool b5 = b1 && (-prepared.shape_slack.x <= fmaf(prepared.shape_side01.x, w.x, fmaf(prepared.shape_side01.y, w.y, prepared.shape_side01.z * w.z))) && b4;
-    const float x6 = b5 ? etendue_lesser(etendue_greater((1e-37f < fabsf(prepared.shape_solid_angle)) ? 1.0f / prepared.shape_solid_angle : 0.0f, -1e37f), 1e37f) : 0.0f;
-    const bool b7 = 0.0f < x6;
-    const float x8 = fmaf(prepared.surface_plane_cross.x, w.x, fmaf(prepared.surface_plane_cross.y, w.y, prepared.surface_plane_cross.z * w.z));
-    const bool b9 = 1e-37f < fabsf(x8);
-    const float x10 = etendue_greater(b9 ? -fmaf(prepared.surface_plane_along_second.x, w.x, fmaf(prepared.surface_plane_along_second.y, w.y, prepared.surface_plane_along_second.z * w.z)) / x8 : 0.0f, -1e37f);
-    const float x11 = etendue_lesser(etendue_greater(b9 ? fmaf(prepared.surface_plane_along_first.x, w.x, fmaf(prepared.surface_plane_along_first.y, w.y, prepared.surface_plane_along_first.z * w.z)) / x8 : 0.0f, -1e37f), 1e37f);
-    const float x12 = etendue_lesser(etendue_greater(etendue_lesser(x10, 1e37f), 0.0f), 1.0f);
-    const float x13 = etendue_lesser(etendue_greater(x11, 0.0f), 1.0f);
-    const float x14 = fmaf(prepared.surface_plane_normal.x, w.x, fmaf(prepared.surface_plane_normal.y, w.y, prepared.surface_plane_normal.z * w.z));
-    const float x15 = etendue_greater(etendue_lesser(etendue_greater((1e-37f < fabsf(x14)) ? prepared.surface_plane_height / x14 : 0.0f, -1e37f), 1e37f), 0.0f);
-    const float x16 = b7 ? etendue_lesser(prepared.surface_plane_unit * x15, 3.4028235e38f) : 0.0f;
-    const bool b17 = b3 && b7;
-    const float x18 = (b17 && (1e-37f < x6)) ? 1.0f / x6 : 0.0f;
+    const float x1 = fmaf(prepared.shape_side01.x, w.x, fmaf(prepared.shape_side01.y, w.y, prepared.shape_side01.z * w.z));
+    const float x2 = fmaf(prepared.shape_side20.x, w.x, fmaf(prepared.shape_side20.y, w.y, prepared.shape_side20.z * w.z));
+    const float x3 = fmaf(prepared.shape_normal.x, w.x, fmaf(prepared.shape_normal.y, w.y, prepared.shape_normal.z * w.z));
+    const bool b4 = prepared.shape_volume < 0.0f;
+    const float x5 = b4 ? -x3 : x3;
+    const float x6 = etendue_greater(etendue_greater(fabsf(prepared.shape_side01.x), fabsf(prepared.shape_side01.y)), fabsf(prepared.shape_side01.z)) + etendue_greater(etendue_greater(fabsf(prepared.shape_side20.x), fabsf(prepared.shape_side20.y)), fabsf(prepared.shape_side20.z));
+    const float x7 = (x6 + etendue_greater(etendue_greater(fabsf(prepared.shape_normal.x), fabsf(prepared.shape_normal.y)), fabsf(prepared.shape_normal.z))) * 1.9073486e-6f;
+    const bool b8 = (0.0f <= x1) && (0.0f <= x2) && (0.0f <= x5) && (x7 < x5 - x2 - x1);
+    const float x9 = fmaf(prepared.surface_plane_cross.x, w.x, fmaf(prepared.surface_plane_cross.y, w.y, prepared.surface_plane_cross.z * w.z));
+    const bool b10 = 1e-37f < fabsf(x9);
+    const float x11 = etendue_greater(b10 ? -fmaf(prepared.surface_plane_along_second.x, w.x, fmaf(prepared.surface_plane_along_second.y, w.y, prepared.surface_plane_along_second.z * w.z)) / x9 : 0.0f, -1e37f);
+    const float x12 = etendue_lesser(etendue_greater(b10 ? fmaf(prepared.surface_plane_along_first.x, w.x, fmaf(prepared.surface_plane_along_first.y, w.y, prepared.surface_plane_along_first.z * w.z)) / x9 : 0.0f, -1e37f), 1e37f);
+    const float x13 = etendue_lesser(etendue_greater(etendue_lesser(x11, 1e37f), 0.0f), 1.0f);
+    const float x14 = etendue_lesser(etendue_greater(x12, 0.0f), 1.0f);
+    const float x15 = fmaf(prepared.surface_plane_normal.x, w.x, fmaf(prepared.surface_plane_normal.y, w.y, prepared.surface_plane_normal.z * w.z));
+    const float x16 = etendue_greater(etendue_lesser(etendue_greater((1e-37f < fabsf(x15)) ? prepared.surface_plane_height / x15 : 0.0f, -1e37f), 1e37f), 0.0f);
+    bool b17 = false;
+    if (!b8) {
+        const bool b18 = (-prepared.shape_slack.y <= fmaf(prepared.shape_side12.x, w.x, fmaf(prepared.shape_side12.y, w.y, prepared.shape_side12.z * w.z))) && (-prepared.shape_slack.z <= x2);
+        const bool b19 = -(sqrtf(fmaf(prepared.shape_normal.x, prepared.shape_normal.x, fmaf(prepared.shape_normal.y, prepared.shape_normal.y, prepared.shape_normal.z * prepared.shape_normal.z))) * 7.1525574e-7f) <= x5;
+        b17 = b18 && (-prepared.shape_slack.x <= x1) && b19;
+    }
+    const float x20 = (b8 || b17) ? etendue_lesser(etendue_greater((1e-37f < fabsf(prepared.shape_solid_angle)) ? 1.0f / prepared.shape_solid_angle : 0.0f, -1e37f), 1e37f) : 0.0f;
+    const bool b21 = 0.0f < x20;
+    const float x22 = b21 ? etendue_lesser(prepared.surface_plane_unit * x16, 3.4028235e38f) : 0.0f;
+    const bool b23 = b4 && b21;
+    const float x24 = (b23 && (1e-37f < x20)) ? 1.0f / x20 : 0.0f;
     EtendueLightSample result;
     result.direction.x = w.x;
     result.direction.y = w.y;
     result.direction.z = w.z;
-    result.distance = x16;
-    result.pdf = x6;
-    result.weight = x18;
+    result.distance = x22;
+    result.pdf = x20;
+    result.weight = x24;
     result.normal.x = prepared.surface_plane_normal.x;
     result.normal.y = prepared.surface_plane_normal.y;
     result.normal.z = prepared.surface_plane_normal.z;
-    result.uv.x = x12;
-    result.uv.y = x13;
-    result.emits = b17;
+    result.uv.x = x13;
+    result.uv.y = x14;
+    result.emits = b23;
     result.delta = false;
     return result;
 }
@@ -2327,48 +2359,62 @@ ETENDUE_FUNCTION EtendueLightSample etendue_sun_by_solid_angle_sample(EtendueSun
 // The density with which the unit direction w is drawn; 0 where it misses the light. Uniform over the cone: pdf 1/(2
 // pi (1 - cos(sigma))) per steradian, 0 where the cone is empty.
 ETENDUE_FUNCTION float etendue_sun_by_solid_angle_pdf(EtendueSunBySolidAngle prepared, EtendueVec3 w) {
-    const float x1 = fmaf(prepared.frame_s.x, w.x, fmaf(prepared.frame_s.y, w.y, prepared.frame_s.z * w.z));
-    const float x2 = fmaf(prepared.frame_t.x, w.x, fmaf(prepared.frame_t.y, w.y, prepared.frame_t.z * w.z));
-    const float x3 = fmaf(prepared.frame_n.x, w.x, fmaf(prepared.frame_n.y, w.y, prepared.frame_n.z * w.z));
-    const float x4 = etendue_lesser(etendue_greater(prepared.cone_one_minus_cos, 0.0f), 2.0f);
-    const float x5 = (0.5f < x3) ? fmaf(x1, x1, x2 * x2) / (1.0f + fabsf(x3)) : 1.0f - x3;
-    const float x6 = x4 + fmaf(5.9604645e-7f, etendue_greater(sqrtf(x4 * (2.0f - x4)), x4 - 1.0f), 1.7763568e-13f);
-    const float x7 = (x5 <= x6) ? ((1e-37f < x4) ? 0.15915494f / x4 : 0.0f) : 0.0f;
-    return x7;
+    const float x1 = fmaf(prepared.frame_n.x, w.x, fmaf(prepared.frame_n.y, w.y, prepared.frame_n.z * w.z));
+    const float x2 = 1.0f - x1;
+    const float x3 = etendue_lesser(etendue_greater(prepared.cone_one_minus_cos, 0.0f), 2.0f);
+    const float x4 = x2 - x3;
+    const bool b5 = fabsf(x4) <= 3.8146973e-6f;
+    bool b6 = false;
+    if (b5) {
+        const float x7 = fmaf(prepared.frame_s.x, w.x, fmaf(prepared.frame_s.y, w.y, prepared.frame_s.z * w.z));
+        const float x8 = fmaf(prepared.frame_t.x, w.x, fmaf(prepared.frame_t.y, w.y, prepared.frame_t.z * w.z));
+        const float x9 = (0.5f < x1) ? fmaf(x7, x7, x8 * x8) / (1.0f + fabsf(x1)) : x2;
+        const float x10 = x3 + fmaf(5.9604645e-7f, etendue_greater(sqrtf(x3 * (2.0f - x3)), x3 - 1.0f), 1.7763568e-13f);
+        b6 = x9 <= x10;
+    }
+    const float x11 = (((x4 < 0.0f) && !b5) || (b5 && b6)) ? ((1e-37f < x3) ? 0.15915494f / x3 : 0.0f) : 0.0f;
+    return x11;
 }
 
 // The nearest point of the light in the unit direction w, with the density of that; pdf 0 where it misses. Uniform
 // over the cone: pdf 1/(2 pi (1 - cos(sigma))) per steradian, 0 where the cone is empty.
 ETENDUE_FUNCTION EtendueLightSample etendue_sun_by_solid_angle_hit(EtendueSunBySolidAngle prepared, EtendueVec3 w) {
-    const float x1 = fmaf(prepared.frame_s.x, w.x, fmaf(prepared.frame_s.y, w.y, prepared.frame_s.z * w.z));
-    const float x2 = fmaf(prepared.frame_t.x, w.x, fmaf(prepared.frame_t.y, w.y, prepared.frame_t.z * w.z));
-    const float x3 = fmaf(prepared.frame_n.x, w.x, fmaf(prepared.frame_n.y, w.y, prepared.frame_n.z * w.z));
-    const float x4 = etendue_lesser(etendue_greater(prepared.cone_one_minus_cos, 0.0f), 2.0f);
-    const float x5 = (0.5f < x3) ? fmaf(x1, x1, x2 * x2) / (1.0f + fabsf(x3)) : 1.0f - x3;
-    const float x6 = x4 + fmaf(5.9604645e-7f, etendue_greater(sqrtf(x4 * (2.0f - x4)), x4 - 1.0f), 1.7763568e-13f);
-    const float x7 = (x5 <= x6) ? ((1e-37f < x4) ? 0.15915494f / x4 : 0.0f) : 0.0f;
-    const float x8 = etendue_lesser(etendue_greater(x5 / ((0.0f < x4) ? x4 : 1.0f), 0.0f), 0.99999994f);
-    const float x9 = 0.15915494f * etendue_angle(x2, x1);
-    const float x10 = etendue_lesser(etendue_greater((x9 < 0.0f) ? 1.0f + x9 : x9, 0.0f), 0.99999994f);
-    const bool b11 = 0.0f < x7;
-    const float x12 = b11 ? 3.4028235e38f : 0.0f;
-    const float x13 = -w.x;
-    const float x14 = -w.y;
-    const float x15 = -w.z;
-    const float x16 = (b11 && (1e-37f < x7)) ? 1.0f / x7 : 0.0f;
+    const float x1 = fmaf(prepared.frame_n.x, w.x, fmaf(prepared.frame_n.y, w.y, prepared.frame_n.z * w.z));
+    const float x2 = 1.0f - x1;
+    const float x3 = etendue_lesser(etendue_greater(prepared.cone_one_minus_cos, 0.0f), 2.0f);
+    const float x4 = x2 - x3;
+    const bool b5 = fabsf(x4) <= 3.8146973e-6f;
+    const float x6 = fmaf(prepared.frame_s.x, w.x, fmaf(prepared.frame_s.y, w.y, prepared.frame_s.z * w.z));
+    const float x7 = fmaf(prepared.frame_t.x, w.x, fmaf(prepared.frame_t.y, w.y, prepared.frame_t.z * w.z));
+    const float x8 = (0.5f < x1) ? fmaf(x6, x6, x7 * x7) / (1.0f + fabsf(x1)) : x2;
+    const float x9 = etendue_lesser(etendue_greater(x8 / ((0.0f < x3) ? x3 : 1.0f), 0.0f), 0.99999994f);
+    const float x10 = 0.15915494f * etendue_angle(x7, x6);
+    const float x11 = etendue_lesser(etendue_greater((x10 < 0.0f) ? 1.0f + x10 : x10, 0.0f), 0.99999994f);
+    const float x12 = -w.x;
+    const float x13 = -w.y;
+    const float x14 = -w.z;
+    bool b15 = false;
+    if (b5) {
+        const float x16 = x3 + fmaf(5.9604645e-7f, etendue_greater(sqrtf(x3 * (2.0f - x3)), x3 - 1.0f), 1.7763568e-13f);
+        b15 = x8 <= x16;
+    }
+    const float x17 = (((x4 < 0.0f) && !b5) || (b5 && b15)) ? ((1e-37f < x3) ? 0.15915494f / x3 : 0.0f) : 0.0f;
+    const bool b18 = 0.0f < x17;
+    const float x19 = b18 ? 3.4028235e38f : 0.0f;
+    const float x20 = (b18 && (1e-37f < x17)) ? 1.0f / x17 : 0.0f;
     EtendueLightSample result;
     result.direction.x = w.x;
     result.direction.y = w.y;
     result.direction.z = w.z;
-    result.distance = x12;
-    result.pdf = x7;
-    result.weight = x16;
-    result.normal.x = x13;
-    result.normal.y = x14;
-    result.normal.z = x15;
-    result.uv.x = x8;
-    result.uv.y = x10;
-    result.emits = b11;
+    result.distance = x19;
+    result.pdf = x17;
+    result.weight = x20;
+    result.normal.x = x12;
+    result.normal.y = x13;
+    result.normal.z = x14;
+    result.uv.x = x9;
+    result.uv.y = x11;
+    result.emits = b18;
     result.delta = false;
     return result;
 }

@@ -655,14 +655,21 @@ fn etendue_sphere_by_solid_angle_sample(prepared: EtendueSphereBySolidAngle, u: 
 // (proved: 2e-6); direction 4.8e-7 (proved for all u: 1.5e-6, for R from 1e-4 of the greatest coordinate to where the
 // sphere nearly touches); distance 3.6e-7 relative, except at the limb, where its slope is infinite.
 fn etendue_sphere_by_solid_angle_pdf(prepared: EtendueSphereBySolidAngle, w: vec3<f32>) -> f32 {
-    let x1 = fma(prepared.shape_frame_s.x, w.x, fma(prepared.shape_frame_s.y, w.y, prepared.shape_frame_s.z * w.z));
-    let x2 = fma(prepared.shape_frame_t.x, w.x, fma(prepared.shape_frame_t.y, w.y, prepared.shape_frame_t.z * w.z));
-    let x3 = fma(prepared.shape_frame_n.x, w.x, fma(prepared.shape_frame_n.y, w.y, prepared.shape_frame_n.z * w.z));
-    let x4 = etendue_lesser(etendue_greater(prepared.shape_cone_one_minus_cos, 0.0f), 2.0f);
-    let x5 = select(1.0f - x3, fma(x1, x1, x2 * x2) / (1.0f + abs(x3)), 0.5f < x3);
-    let x6 = x4 + fma(5.9604645e-7f, etendue_greater(sqrt(x4 * (2.0f - x4)), x4 - 1.0f), 1.7763568e-13f);
-    let x7 = select(0.0f, select(0.0f, 0.15915494f / x4, 1e-37f < x4), x5 <= x6);
-    return x7;
+    let x1 = fma(prepared.shape_frame_n.x, w.x, fma(prepared.shape_frame_n.y, w.y, prepared.shape_frame_n.z * w.z));
+    let x2 = 1.0f - x1;
+    let x3 = etendue_lesser(etendue_greater(prepared.shape_cone_one_minus_cos, 0.0f), 2.0f);
+    let x4 = x2 - x3;
+    let b5 = abs(x4) <= 3.8146973e-6f;
+    var b6: bool;
+    if (b5) {
+        let x7 = fma(prepared.shape_frame_s.x, w.x, fma(prepared.shape_frame_s.y, w.y, prepared.shape_frame_s.z * w.z));
+        let x8 = fma(prepared.shape_frame_t.x, w.x, fma(prepared.shape_frame_t.y, w.y, prepared.shape_frame_t.z * w.z));
+        let x9 = select(x2, fma(x7, x7, x8 * x8) / (1.0f + abs(x1)), 0.5f < x1);
+        let x10 = x3 + fma(5.9604645e-7f, etendue_greater(sqrt(x3 * (2.0f - x3)), x3 - 1.0f), 1.7763568e-13f);
+        b6 = x9 <= x10;
+    }
+    let x11 = select(0.0f, select(0.0f, 0.15915494f / x3, 1e-37f < x3), ((x4 < 0.0f) & !b5) | (b5 & b6));
+    return x11;
 }
 
 // The nearest point of the light in the unit direction w, with the density of that; pdf 0 where it misses. Uniform
@@ -671,70 +678,77 @@ fn etendue_sphere_by_solid_angle_pdf(prepared: EtendueSphereBySolidAngle, w: vec
 // coordinate to where the sphere nearly touches); distance 3.6e-7 relative, except at the limb, where its slope is
 // infinite.
 fn etendue_sphere_by_solid_angle_hit(prepared: EtendueSphereBySolidAngle, w: vec3<f32>) -> EtendueLightSample {
-    let x1 = fma(prepared.shape_frame_s.x, w.x, fma(prepared.shape_frame_s.y, w.y, prepared.shape_frame_s.z * w.z));
-    let x2 = fma(prepared.shape_frame_t.x, w.x, fma(prepared.shape_frame_t.y, w.y, prepared.shape_frame_t.z * w.z));
-    let x3 = fma(prepared.shape_frame_n.x, w.x, fma(prepared.shape_frame_n.y, w.y, prepared.shape_frame_n.z * w.z));
-    let x4 = etendue_lesser(etendue_greater(prepared.shape_cone_one_minus_cos, 0.0f), 2.0f);
-    let x5 = select(1.0f - x3, fma(x1, x1, x2 * x2) / (1.0f + abs(x3)), 0.5f < x3);
-    let x6 = x4 + fma(5.9604645e-7f, etendue_greater(sqrt(x4 * (2.0f - x4)), x4 - 1.0f), 1.7763568e-13f);
-    let x7 = select(0.0f, select(0.0f, 0.15915494f / x4, 1e-37f < x4), x5 <= x6);
-    let b8 = 0.0f < x7;
-    let x9 = etendue_greater(etendue_greater(0.0f, etendue_greater(etendue_greater(abs(prepared.surface_center.x), abs(prepared.surface_center.y)), abs(prepared.surface_center.z))), etendue_greater(etendue_greater(abs(prepared.surface_radius), 0.0f), 0.0f));
-    let b10 = x9 < etendue_from_bits(0x7f800000u);
-    let x11 = etendue_pow2_scale(x9);
-    let x12 = x11 * select(0.0f, prepared.surface_center.x, b10);
-    let x13 = x11 * select(0.0f, prepared.surface_center.y, b10);
-    let x14 = x11 * select(0.0f, prepared.surface_center.z, b10);
-    let x15 = x11 * select(0.0f, prepared.surface_radius, b10);
+    let x1 = fma(prepared.shape_frame_n.x, w.x, fma(prepared.shape_frame_n.y, w.y, prepared.shape_frame_n.z * w.z));
+    let x2 = 1.0f - x1;
+    let x3 = etendue_lesser(etendue_greater(prepared.shape_cone_one_minus_cos, 0.0f), 2.0f);
+    let x4 = x2 - x3;
+    let b5 = abs(x4) <= 3.8146973e-6f;
+    let x6 = etendue_greater(etendue_greater(0.0f, etendue_greater(etendue_greater(abs(prepared.surface_center.x), abs(prepared.surface_center.y)), abs(prepared.surface_center.z))), etendue_greater(etendue_greater(abs(prepared.surface_radius), 0.0f), 0.0f));
+    let b7 = x6 < etendue_from_bits(0x7f800000u);
+    let x8 = etendue_pow2_scale(x6);
+    let x9 = x8 * select(0.0f, prepared.surface_center.x, b7);
+    let x10 = x8 * select(0.0f, prepared.surface_center.y, b7);
+    let x11 = x8 * select(0.0f, prepared.surface_center.z, b7);
+    let x12 = x8 * select(0.0f, prepared.surface_radius, b7);
+    let x13 = x9 * x9;
+    let x14 = x10 * x10;
+    let x15 = x11 * x11;
     let x16 = x12 * x12;
-    let x17 = x13 * x13;
-    let x18 = x14 * x14;
-    let x19 = x15 * x15;
-    let x20 = x16 - x19;
-    let x21 = x20 - x16;
-    let x22 = x17 + x20;
-    let x23 = x22 - x20;
-    let x24 = x18 + x22;
-    let x25 = x24 - x22;
-    let x26 = x16 - (x20 - x21) + (-x19 - x21) + (x20 - (x22 - x23) + (x17 - x23));
-    let x27 = fma(x12, x12, -x16) - fma(x15, x15, -x19) + (fma(x13, x13, -x17) + fma(x14, x14, -x18));
-    let x28 = x24 + (x22 - (x24 - x25) + (x18 - x25) + x26 + x27);
-    let x29 = fma(w.x, x12, fma(w.y, x13, w.z * x14));
-    let x30 = fma(w.x, -x29, x12);
-    let x31 = fma(w.y, -x29, x13);
-    let x32 = fma(w.z, -x29, x14);
-    let x33 = sqrt(etendue_greater(fma(x15, x15, -fma(x30, x30, fma(x31, x31, x32 * x32))), 0.0f));
-    let x34 = x33 + abs(x29);
-    let x35 = etendue_lesser(etendue_greater(select(0.0f, abs(x28) / x34, 1e-37f < abs(x34)), -1e37f), 1e37f);
-    let x36 = select(x35, x34, !(0.0f <= x28) & (0.0f <= x29));
-    let x37 = fma(w.x, x36, -x12);
-    let x38 = fma(w.y, x36, -x13);
-    let x39 = fma(w.z, x36, -x14);
-    let x40 = fma(x37, x37, fma(x38, x38, x39 * x39));
-    let x41 = select(0.0f, 1.0f / sqrt(x40), 0.0f < x40);
-    let x42 = x37 * x41;
-    let x43 = x38 * x41;
-    let x44 = x39 * x41;
-    let x45 = select(1.0f - x44, fma(x42, x42, x43 * x43) / (1.0f + abs(x44)), 0.5f < x44);
-    let x46 = etendue_lesser(etendue_greater(x45 / 2.0f, 0.0f), 0.99999994f);
-    let x47 = 0.15915494f * etendue_angle(x43, x42);
-    let x48 = etendue_lesser(etendue_greater(select(x47, 1.0f + x47, x47 < 0.0f), 0.0f), 0.99999994f);
-    let x49 = select(0.0f, etendue_lesser(x36 / x11, 3.4028235e38f), b8);
-    let b50 = !(prepared.shape_power < 0.0f) & b8;
-    let x51 = select(0.0f, 1.0f / x7, b50 & (1e-37f < x7));
+    let x17 = x13 - x16;
+    let x18 = x17 - x13;
+    let x19 = x14 + x17;
+    let x20 = x19 - x17;
+    let x21 = x15 + x19;
+    let x22 = x21 - x19;
+    let x23 = x13 - (x17 - x18) + (-x16 - x18) + (x17 - (x19 - x20) + (x14 - x20));
+    let x24 = fma(x9, x9, -x13) - fma(x12, x12, -x16) + (fma(x10, x10, -x14) + fma(x11, x11, -x15));
+    let x25 = x21 + (x19 - (x21 - x22) + (x15 - x22) + x23 + x24);
+    let x26 = fma(w.x, x9, fma(w.y, x10, w.z * x11));
+    let x27 = fma(w.x, -x26, x9);
+    let x28 = fma(w.y, -x26, x10);
+    let x29 = fma(w.z, -x26, x11);
+    let x30 = sqrt(etendue_greater(fma(x12, x12, -fma(x27, x27, fma(x28, x28, x29 * x29))), 0.0f));
+    let x31 = x30 + abs(x26);
+    let x32 = etendue_lesser(etendue_greater(select(0.0f, abs(x25) / x31, 1e-37f < abs(x31)), -1e37f), 1e37f);
+    let x33 = select(x32, x31, !(0.0f <= x25) & (0.0f <= x26));
+    let x34 = fma(w.x, x33, -x9);
+    let x35 = fma(w.y, x33, -x10);
+    let x36 = fma(w.z, x33, -x11);
+    let x37 = fma(x34, x34, fma(x35, x35, x36 * x36));
+    let x38 = select(0.0f, 1.0f / sqrt(x37), 0.0f < x37);
+    let x39 = x34 * x38;
+    let x40 = x35 * x38;
+    let x41 = x36 * x38;
+    let x42 = select(1.0f - x41, fma(x39, x39, x40 * x40) / (1.0f + abs(x41)), 0.5f < x41);
+    let x43 = etendue_lesser(etendue_greater(x42 / 2.0f, 0.0f), 0.99999994f);
+    let x44 = 0.15915494f * etendue_angle(x40, x39);
+    let x45 = etendue_lesser(etendue_greater(select(x44, 1.0f + x44, x44 < 0.0f), 0.0f), 0.99999994f);
+    var b46: bool;
+    if (b5) {
+        let x47 = fma(prepared.shape_frame_s.x, w.x, fma(prepared.shape_frame_s.y, w.y, prepared.shape_frame_s.z * w.z));
+        let x48 = fma(prepared.shape_frame_t.x, w.x, fma(prepared.shape_frame_t.y, w.y, prepared.shape_frame_t.z * w.z));
+        let x49 = select(x2, fma(x47, x47, x48 * x48) / (1.0f + abs(x1)), 0.5f < x1);
+        let x50 = x3 + fma(5.9604645e-7f, etendue_greater(sqrt(x3 * (2.0f - x3)), x3 - 1.0f), 1.7763568e-13f);
+        b46 = x49 <= x50;
+    }
+    let x51 = select(0.0f, select(0.0f, 0.15915494f / x3, 1e-37f < x3), ((x4 < 0.0f) & !b5) | (b5 & b46));
+    let b52 = 0.0f < x51;
+    let x53 = select(0.0f, etendue_lesser(x33 / x8, 3.4028235e38f), b52);
+    let b54 = !(prepared.shape_power < 0.0f) & b52;
+    let x55 = select(0.0f, 1.0f / x51, b54 & (1e-37f < x51));
     var result: EtendueLightSample;
     result.direction.x = w.x;
     result.direction.y = w.y;
     result.direction.z = w.z;
-    result.distance = x49;
-    result.pdf = x7;
-    result.weight = x51;
-    result.normal.x = x42;
-    result.normal.y = x43;
-    result.normal.z = x44;
-    result.uv.x = x46;
-    result.uv.y = x48;
-    result.emits = b50;
+    result.distance = x53;
+    result.pdf = x51;
+    result.weight = x55;
+    result.normal.x = x39;
+    result.normal.y = x40;
+    result.normal.z = x41;
+    result.uv.x = x43;
+    result.uv.y = x45;
+    result.emits = b54;
     result.delta = false;
     return result;
 }
@@ -1283,12 +1297,21 @@ fn etendue_triangle_by_solid_angle_sample(prepared: EtendueTriangleBySolidAngle,
 // of the sweep: there u1 follows from the rounded u0, so that both lead back to the direction, and may itself be
 // another one.
 fn etendue_triangle_by_solid_angle_pdf(prepared: EtendueTriangleBySolidAngle, w: vec3<f32>) -> f32 {
-    let b1 = (-prepared.shape_slack.y <= fma(prepared.shape_side12.x, w.x, fma(prepared.shape_side12.y, w.y, prepared.shape_side12.z * w.z))) & (-prepared.shape_slack.z <= fma(prepared.shape_side20.x, w.x, fma(prepared.shape_side20.y, w.y, prepared.shape_side20.z * w.z)));
-    let x2 = fma(prepared.shape_normal.x, w.x, fma(prepared.shape_normal.y, w.y, prepared.shape_normal.z * w.z));
-    let b3 = -(sqrt(fma(prepared.shape_normal.x, prepared.shape_normal.x, fma(prepared.shape_normal.y, prepared.shape_normal.y, prepared.shape_normal.z * prepared.shape_normal.z))) * 7.1525574e-7f) <= select(x2, -x2, prepared.shape_volume < 0.0f);
-    let b4 = b1 & (-prepared.shape_slack.x <= fma(prepared.shape_side01.x, w.x, fma(prepared.shape_side01.y, w.y, prepared.shape_side01.z * w.z))) & b3;
-    let x5 = select(0.0f, etendue_lesser(etendue_greater(select(0.0f, 1.0f / prepared.shape_solid_angle, 1e-37f < abs(prepared.shape_solid_angle)), -1e37f), 1e37f), b4);
-    return x5;
+    let x1 = fma(prepared.shape_side01.x, w.x, fma(prepared.shape_side01.y, w.y, prepared.shape_side01.z * w.z));
+    let x2 = fma(prepared.shape_side20.x, w.x, fma(prepared.shape_side20.y, w.y, prepared.shape_side20.z * w.z));
+    let x3 = fma(prepared.shape_normal.x, w.x, fma(prepared.shape_normal.y, w.y, prepared.shape_normal.z * w.z));
+    let x4 = select(x3, -x3, prepared.shape_volume < 0.0f);
+    let x5 = etendue_greater(etendue_greater(abs(prepared.shape_side01.x), abs(prepared.shape_side01.y)), abs(prepared.shape_side01.z)) + etendue_greater(etendue_greater(abs(prepared.shape_side20.x), abs(prepared.shape_side20.y)), abs(prepared.shape_side20.z));
+    let x6 = (x5 + etendue_greater(etendue_greater(abs(prepared.shape_normal.x), abs(prepared.shape_normal.y)), abs(prepared.shape_normal.z))) * 1.9073486e-6f;
+    let b7 = (0.0f <= x1) & (0.0f <= x2) & (0.0f <= x4) & (x6 < x4 - x2 - x1);
+    var b8: bool;
+    if (!b7) {
+        let b9 = (-prepared.shape_slack.y <= fma(prepared.shape_side12.x, w.x, fma(prepared.shape_side12.y, w.y, prepared.shape_side12.z * w.z))) & (-prepared.shape_slack.z <= x2);
+        let b10 = -(sqrt(fma(prepared.shape_normal.x, prepared.shape_normal.x, fma(prepared.shape_normal.y, prepared.shape_normal.y, prepared.shape_normal.z * prepared.shape_normal.z))) * 7.1525574e-7f) <= x4;
+        b8 = b9 & (-prepared.shape_slack.x <= x1) & b10;
+    }
+    let x11 = select(0.0f, etendue_lesser(etendue_greater(select(0.0f, 1.0f / prepared.shape_solid_angle, 1e-37f < abs(prepared.shape_solid_angle)), -1e37f), 1e37f), b7 | b8);
+    return x11;
 }
 
 // The nearest point of the light in the unit direction w, with the density of that; pdf 0 where it misses. Uniform
@@ -1301,37 +1324,46 @@ fn etendue_triangle_by_solid_angle_pdf(prepared: EtendueTriangleBySolidAngle, w:
 // rounding of a direction near the ends of the sweep: there u1 follows from the rounded u0, so that both lead back to
 // the direction, and may itself be another one.
 fn etendue_triangle_by_solid_angle_hit(prepared: EtendueTriangleBySolidAngle, w: vec3<f32>) -> EtendueLightSample {
-    let b1 = (-prepared.shape_slack.y <= fma(prepared.shape_side12.x, w.x, fma(prepared.shape_side12.y, w.y, prepared.shape_side12.z * w.z))) & (-prepared.shape_slack.z <= fma(prepared.shape_side20.x, w.x, fma(prepared.shape_side20.y, w.y, prepared.shape_side20.z * w.z)));
-    let x2 = fma(prepared.shape_normal.x, w.x, fma(prepared.shape_normal.y, w.y, prepared.shape_normal.z * w.z));
-    let b3 = prepared.shape_volume < 0.0f;
-    let b4 = -(sqrt(fma(prepared.shape_normal.x, prepared.shape_normal.x, fma(prepared.shape_normal.y, prepared.shape_normal.y, prepared.shape_normal.z * prepared.shape_normal.z))) * 7.1525574e-7f) <= select(x2, -x2, b3);
-    let b5 = b1 & (-prepared.shape_slack.x <= fma(prepared.shape_side01.x, w.x, fma(prepared.shape_side01.y, w.y, prepared.shape_side01.z * w.z))) & b4;
-    let x6 = select(0.0f, etendue_lesser(etendue_greater(select(0.0f, 1.0f / prepared.shape_solid_angle, 1e-37f < abs(prepared.shape_solid_angle)), -1e37f), 1e37f), b5);
-    let b7 = 0.0f < x6;
-    let x8 = fma(prepared.surface_plane_cross.x, w.x, fma(prepared.surface_plane_cross.y, w.y, prepared.surface_plane_cross.z * w.z));
-    let b9 = 1e-37f < abs(x8);
-    let x10 = etendue_greater(select(0.0f, -fma(prepared.surface_plane_along_second.x, w.x, fma(prepared.surface_plane_along_second.y, w.y, prepared.surface_plane_along_second.z * w.z)) / x8, b9), -1e37f);
-    let x11 = etendue_lesser(etendue_greater(select(0.0f, fma(prepared.surface_plane_along_first.x, w.x, fma(prepared.surface_plane_along_first.y, w.y, prepared.surface_plane_along_first.z * w.z)) / x8, b9), -1e37f), 1e37f);
-    let x12 = etendue_lesser(etendue_greater(etendue_lesser(x10, 1e37f), 0.0f), 1.0f);
-    let x13 = etendue_lesser(etendue_greater(x11, 0.0f), 1.0f);
-    let x14 = fma(prepared.surface_plane_normal.x, w.x, fma(prepared.surface_plane_normal.y, w.y, prepared.surface_plane_normal.z * w.z));
-    let x15 = etendue_greater(etendue_lesser(etendue_greater(select(0.0f, prepared.surface_plane_height / x14, 1e-37f < abs(x14)), -1e37f), 1e37f), 0.0f);
-    let x16 = select(0.0f, etendue_lesser(prepared.surface_plane_unit * x15, 3.4028235e38f), b7);
-    let b17 = b3 & b7;
-    let x18 = select(0.0f, 1.0f / x6, b17 & (1e-37f < x6));
+    let x1 = fma(prepared.shape_side01.x, w.x, fma(prepared.shape_side01.y, w.y, prepared.shape_side01.z * w.z));
+    let x2 = fma(prepared.shape_side20.x, w.x, fma(prepared.shape_side20.y, w.y, prepared.shape_side20.z * w.z));
+    let x3 = fma(prepared.shape_normal.x, w.x, fma(prepared.shape_normal.y, w.y, prepared.shape_normal.z * w.z));
+    let b4 = prepared.shape_volume < 0.0f;
+    let x5 = select(x3, -x3, b4);
+    let x6 = etendue_greater(etendue_greater(abs(prepared.shape_side01.x), abs(prepared.shape_side01.y)), abs(prepared.shape_side01.z)) + etendue_greater(etendue_greater(abs(prepared.shape_side20.x), abs(prepared.shape_side20.y)), abs(prepared.shape_side20.z));
+    let x7 = (x6 + etendue_greater(etendue_greater(abs(prepared.shape_normal.x), abs(prepared.shape_normal.y)), abs(prepared.shape_normal.z))) * 1.9073486e-6f;
+    let b8 = (0.0f <= x1) & (0.0f <= x2) & (0.0f <= x5) & (x7 < x5 - x2 - x1);
+    let x9 = fma(prepared.surface_plane_cross.x, w.x, fma(prepared.surface_plane_cross.y, w.y, prepared.surface_plane_cross.z * w.z));
+    let b10 = 1e-37f < abs(x9);
+    let x11 = etendue_greater(select(0.0f, -fma(prepared.surface_plane_along_second.x, w.x, fma(prepared.surface_plane_along_second.y, w.y, prepared.surface_plane_along_second.z * w.z)) / x9, b10), -1e37f);
+    let x12 = etendue_lesser(etendue_greater(select(0.0f, fma(prepared.surface_plane_along_first.x, w.x, fma(prepared.surface_plane_along_first.y, w.y, prepared.surface_plane_along_first.z * w.z)) / x9, b10), -1e37f), 1e37f);
+    let x13 = etendue_lesser(etendue_greater(etendue_lesser(x11, 1e37f), 0.0f), 1.0f);
+    let x14 = etendue_lesser(etendue_greater(x12, 0.0f), 1.0f);
+    let x15 = fma(prepared.surface_plane_normal.x, w.x, fma(prepared.surface_plane_normal.y, w.y, prepared.surface_plane_normal.z * w.z));
+    let x16 = etendue_greater(etendue_lesser(etendue_greater(select(0.0f, prepared.surface_plane_height / x15, 1e-37f < abs(x15)), -1e37f), 1e37f), 0.0f);
+    var b17: bool;
+    if (!b8) {
+        let b18 = (-prepared.shape_slack.y <= fma(prepared.shape_side12.x, w.x, fma(prepared.shape_side12.y, w.y, prepared.shape_side12.z * w.z))) & (-prepared.shape_slack.z <= x2);
+        let b19 = -(sqrt(fma(prepared.shape_normal.x, prepared.shape_normal.x, fma(prepared.shape_normal.y, prepared.shape_normal.y, prepared.shape_normal.z * prepared.shape_normal.z))) * 7.1525574e-7f) <= x5;
+        b17 = b18 & (-prepared.shape_slack.x <= x1) & b19;
+    }
+    let x20 = select(0.0f, etendue_lesser(etendue_greater(select(0.0f, 1.0f / prepared.shape_solid_angle, 1e-37f < abs(prepared.shape_solid_angle)), -1e37f), 1e37f), b8 | b17);
+    let b21 = 0.0f < x20;
+    let x22 = select(0.0f, etendue_lesser(prepared.surface_plane_unit * x16, 3.4028235e38f), b21);
+    let b23 = b4 & b21;
+    let x24 = select(0.0f, 1.0f / x20, b23 & (1e-37f < x20));
     var result: EtendueLightSample;
     result.direction.x = w.x;
     result.direction.y = w.y;
     result.direction.z = w.z;
-    result.distance = x16;
-    result.pdf = x6;
-    result.weight = x18;
+    result.distance = x22;
+    result.pdf = x20;
+    result.weight = x24;
     result.normal.x = prepared.surface_plane_normal.x;
     result.normal.y = prepared.surface_plane_normal.y;
     result.normal.z = prepared.surface_plane_normal.z;
-    result.uv.x = x12;
-    result.uv.y = x13;
-    result.emits = b17;
+    result.uv.x = x13;
+    result.uv.y = x14;
+    result.emits = b23;
     result.delta = false;
     return result;
 }
@@ -2270,48 +2302,62 @@ fn etendue_sun_by_solid_angle_sample(prepared: EtendueSunBySolidAngle, u: vec2<f
 // The density with which the unit direction w is drawn; 0 where it misses the light. Uniform over the cone: pdf 1/(2
 // pi (1 - cos(sigma))) per steradian, 0 where the cone is empty.
 fn etendue_sun_by_solid_angle_pdf(prepared: EtendueSunBySolidAngle, w: vec3<f32>) -> f32 {
-    let x1 = fma(prepared.frame_s.x, w.x, fma(prepared.frame_s.y, w.y, prepared.frame_s.z * w.z));
-    let x2 = fma(prepared.frame_t.x, w.x, fma(prepared.frame_t.y, w.y, prepared.frame_t.z * w.z));
-    let x3 = fma(prepared.frame_n.x, w.x, fma(prepared.frame_n.y, w.y, prepared.frame_n.z * w.z));
-    let x4 = etendue_lesser(etendue_greater(prepared.cone_one_minus_cos, 0.0f), 2.0f);
-    let x5 = select(1.0f - x3, fma(x1, x1, x2 * x2) / (1.0f + abs(x3)), 0.5f < x3);
-    let x6 = x4 + fma(5.9604645e-7f, etendue_greater(sqrt(x4 * (2.0f - x4)), x4 - 1.0f), 1.7763568e-13f);
-    let x7 = select(0.0f, select(0.0f, 0.15915494f / x4, 1e-37f < x4), x5 <= x6);
-    return x7;
+    let x1 = fma(prepared.frame_n.x, w.x, fma(prepared.frame_n.y, w.y, prepared.frame_n.z * w.z));
+    let x2 = 1.0f - x1;
+    let x3 = etendue_lesser(etendue_greater(prepared.cone_one_minus_cos, 0.0f), 2.0f);
+    let x4 = x2 - x3;
+    let b5 = abs(x4) <= 3.8146973e-6f;
+    var b6: bool;
+    if (b5) {
+        let x7 = fma(prepared.frame_s.x, w.x, fma(prepared.frame_s.y, w.y, prepared.frame_s.z * w.z));
+        let x8 = fma(prepared.frame_t.x, w.x, fma(prepared.frame_t.y, w.y, prepared.frame_t.z * w.z));
+        let x9 = select(x2, fma(x7, x7, x8 * x8) / (1.0f + abs(x1)), 0.5f < x1);
+        let x10 = x3 + fma(5.9604645e-7f, etendue_greater(sqrt(x3 * (2.0f - x3)), x3 - 1.0f), 1.7763568e-13f);
+        b6 = x9 <= x10;
+    }
+    let x11 = select(0.0f, select(0.0f, 0.15915494f / x3, 1e-37f < x3), ((x4 < 0.0f) & !b5) | (b5 & b6));
+    return x11;
 }
 
 // The nearest point of the light in the unit direction w, with the density of that; pdf 0 where it misses. Uniform
 // over the cone: pdf 1/(2 pi (1 - cos(sigma))) per steradian, 0 where the cone is empty.
 fn etendue_sun_by_solid_angle_hit(prepared: EtendueSunBySolidAngle, w: vec3<f32>) -> EtendueLightSample {
-    let x1 = fma(prepared.frame_s.x, w.x, fma(prepared.frame_s.y, w.y, prepared.frame_s.z * w.z));
-    let x2 = fma(prepared.frame_t.x, w.x, fma(prepared.frame_t.y, w.y, prepared.frame_t.z * w.z));
-    let x3 = fma(prepared.frame_n.x, w.x, fma(prepared.frame_n.y, w.y, prepared.frame_n.z * w.z));
-    let x4 = etendue_lesser(etendue_greater(prepared.cone_one_minus_cos, 0.0f), 2.0f);
-    let x5 = select(1.0f - x3, fma(x1, x1, x2 * x2) / (1.0f + abs(x3)), 0.5f < x3);
-    let x6 = x4 + fma(5.9604645e-7f, etendue_greater(sqrt(x4 * (2.0f - x4)), x4 - 1.0f), 1.7763568e-13f);
-    let x7 = select(0.0f, select(0.0f, 0.15915494f / x4, 1e-37f < x4), x5 <= x6);
-    let x8 = etendue_lesser(etendue_greater(x5 / select(1.0f, x4, 0.0f < x4), 0.0f), 0.99999994f);
-    let x9 = 0.15915494f * etendue_angle(x2, x1);
-    let x10 = etendue_lesser(etendue_greater(select(x9, 1.0f + x9, x9 < 0.0f), 0.0f), 0.99999994f);
-    let b11 = 0.0f < x7;
-    let x12 = select(0.0f, 3.4028235e38f, b11);
-    let x13 = -w.x;
-    let x14 = -w.y;
-    let x15 = -w.z;
-    let x16 = select(0.0f, 1.0f / x7, b11 & (1e-37f < x7));
+    let x1 = fma(prepared.frame_n.x, w.x, fma(prepared.frame_n.y, w.y, prepared.frame_n.z * w.z));
+    let x2 = 1.0f - x1;
+    let x3 = etendue_lesser(etendue_greater(prepared.cone_one_minus_cos, 0.0f), 2.0f);
+    let x4 = x2 - x3;
+    let b5 = abs(x4) <= 3.8146973e-6f;
+    let x6 = fma(prepared.frame_s.x, w.x, fma(prepared.frame_s.y, w.y, prepared.frame_s.z * w.z));
+    let x7 = fma(prepared.frame_t.x, w.x, fma(prepared.frame_t.y, w.y, prepared.frame_t.z * w.z));
+    let x8 = select(x2, fma(x6, x6, x7 * x7) / (1.0f + abs(x1)), 0.5f < x1);
+    let x9 = etendue_lesser(etendue_greater(x8 / select(1.0f, x3, 0.0f < x3), 0.0f), 0.99999994f);
+    let x10 = 0.15915494f * etendue_angle(x7, x6);
+    let x11 = etendue_lesser(etendue_greater(select(x10, 1.0f + x10, x10 < 0.0f), 0.0f), 0.99999994f);
+    let x12 = -w.x;
+    let x13 = -w.y;
+    let x14 = -w.z;
+    var b15: bool;
+    if (b5) {
+        let x16 = x3 + fma(5.9604645e-7f, etendue_greater(sqrt(x3 * (2.0f - x3)), x3 - 1.0f), 1.7763568e-13f);
+        b15 = x8 <= x16;
+    }
+    let x17 = select(0.0f, select(0.0f, 0.15915494f / x3, 1e-37f < x3), ((x4 < 0.0f) & !b5) | (b5 & b15));
+    let b18 = 0.0f < x17;
+    let x19 = select(0.0f, 3.4028235e38f, b18);
+    let x20 = select(0.0f, 1.0f / x17, b18 & (1e-37f < x17));
     var result: EtendueLightSample;
     result.direction.x = w.x;
     result.direction.y = w.y;
     result.direction.z = w.z;
-    result.distance = x12;
-    result.pdf = x7;
-    result.weight = x16;
-    result.normal.x = x13;
-    result.normal.y = x14;
-    result.normal.z = x15;
-    result.uv.x = x8;
-    result.uv.y = x10;
-    result.emits = b11;
+    result.distance = x19;
+    result.pdf = x17;
+    result.weight = x20;
+    result.normal.x = x12;
+    result.normal.y = x13;
+    result.normal.z = x14;
+    result.uv.x = x9;
+    result.uv.y = x11;
+    result.emits = b18;
     result.delta = false;
     return result;
 }

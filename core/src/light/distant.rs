@@ -70,7 +70,7 @@ impl<R: Real> LightSampler<R> for SunBySolidAngle<R> {
     }
     #[inline(always)]
     fn pdf(&self, w: Vec3<R>) -> R {
-        self.cone.pdf_in_frame(self.frame.to_local(w))
+        self.cone.pdf_in_frame(&self.frame, w)
     }
     #[inline(always)]
     fn invert(&self, w: Vec3<R>) -> Vec2<R> {

@@ -129,7 +129,7 @@ impl<R: Real> Warp<R> for SphericalCap<R> {
     /// The pdf per steradian; 0 for a direction that misses the sphere.
     #[inline]
     fn pdf(&self, w: Vec3<R>) -> R {
-        self.cone.pdf_in_frame(self.frame.to_local(w))
+        self.cone.pdf_in_frame(&self.frame, w)
     }
     #[inline]
     fn invert(&self, w: Vec3<R>) -> Vec2<R> {

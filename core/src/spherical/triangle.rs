@@ -13,7 +13,9 @@ use crate::warp::Warp;
 
 /// Angle by which the error of its direction may move a sample out of the triangle: 12 ulp of a component near 1.
 const BEYOND: f64 = 12.0 / 16_777_216.0;
-/// The same for samples by projected solid angle: 8 ulp.
+/// Bound of what rounding takes from the distance to the third plane that follows from the others, in units of their normals.
+const SURELY: f64 = 32.0 / 16_777_216.0;
+/// The tolerance for samples by projected solid angle: 8 ulp.
 pub(super) const TRIANGLE_SLACK: f64 = 8.0 / 16_777_216.0;
 
 lanewise! {
@@ -361,7 +363,23 @@ impl<R: Real> SphericalTriangle<R> {
     /// Tells whether a direction hits the triangle; allows for the rounding of the direction itself.
     #[inline(always)]
     pub fn contains(&self, w: Vec3<R>) -> R::Mask {
-        self.within_v1_v2(w) & self.within_v2_v0(w) & self.within_v0_v1(w) & self.ahead(w)
+        let mut inside = self.surely_contains(w);
+        // most directions are not beside an edge: prepare its plane exactly, and its tolerance, only where one is
+        if !inside.all() {
+            let exactly = self.within_v1_v2(w) & self.within_v2_v0(w) & self.within_v0_v1(w) & self.ahead(w);
+            inside = inside | exactly;
+        }
+        inside
+    }
+    /// True only for directions that the triangle contains whatever its tolerances are, since V₁×V₂ = E₁×E₂ + V₀×V₂ − V₀×V₁.
+    #[inline(always)]
+    fn surely_contains(&self, w: Vec3<R>) -> R::Mask {
+        let zero = R::lit(0.0);
+        let (start, end) = (w.dot(self.side01), w.dot(self.side20));
+        let ahead = w.dot(self.normal).negate_where(self.in_front());
+        let size = self.side01.max_abs() + self.side20.max_abs() + self.normal.max_abs();
+        let far = ahead - end - start;
+        start.ge(zero) & end.ge(zero) & ahead.ge(zero) & far.gt(size * R::lit(SURELY))
     }
     #[inline(always)]
     pub(super) fn within_v1_v2(&self, w: Vec3<R>) -> R::Mask {

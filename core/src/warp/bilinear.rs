@@ -40,21 +40,29 @@ impl<R: Real> Bilinear<R> {
     pub fn splat(b: Bilinear<R::Scalar>) -> Self {
         b.map(R::splat)
     }
-    /// The marginal of y, and the corners times a power of two, so that no sum overflows.
+    /// The marginal of y, and the corners, times a power of two where their squares would leave the range.
     #[inline(always)]
     fn marginal(&self) -> (Linear<R>, [R; 4]) {
-        let zero = R::lit(0.0);
-        let [a, b, c, d] = self.corners.map(|w| w.greater(zero));
-        let scale = a.greater(b).greater(c.greater(d)).pow2_scale();
-        let [a, b, c, d] = [a, b, c, d].map(|w| w * scale);
+        let corners = self.corners.map(|w| w.greater(R::lit(0.0)));
+        let [a, b, c, d] = corners;
+        let most = a.greater(b).greater(c.greater(d));
+        let far = most.lt(R::lit(1.0 / 65_536.0)) | most.gt(R::lit(65_536.0));
+        let [a, b, c, d] = R::where_any(far, corners, || {
+            let scale = most.pow2_scale();
+            corners.map(|w| w * scale)
+        });
         (Linear { a: a + b, b: c + d }, [a, b, c, d])
     }
-    /// The distribution of x given y.
+    /// The distribution of x given y in [0, 1].
     #[inline(always)]
     fn conditional([a, b, c, d]: [R; 4], y: R) -> Linear<R> {
-        let y = y.clamped(R::lit(0.0), R::lit(1.0));
         let rest = R::lit(1.0) - y;
-        Linear { a: a.mul_add(rest, c * y), b: b.mul_add(rest, d * y) }
+        Linear { a: a.mul_add(rest, c * y), b: b.mul_add(rest, d * y) }.scaled_if_small()
+    }
+    /// The same, of a point's y.
+    #[inline(always)]
+    fn conditional_at(corners: [R; 4], y: R) -> Linear<R> {
+        Self::conditional(corners, y.clamped(R::lit(0.0), R::lit(1.0)))
     }
 }
 
@@ -63,18 +71,18 @@ impl<R: Real> Warp<R> for Bilinear<R> {
     #[inline(always)]
     fn sample(&self, u: Vec2<R>) -> Vec2<R> {
         let (marginal, corners) = self.marginal();
-        let y = marginal.sample(u.y);
-        Vec2 { x: Self::conditional(corners, y).sample(u.x), y }
+        let y = marginal.sample_in_range(u.y);
+        Vec2 { x: Self::conditional(corners, y).sample_in_range(u.x), y }
     }
     /// The pdf per unit area of [0, 1]².
     #[inline(always)]
     fn pdf(&self, p: Vec2<R>) -> R {
         let (marginal, corners) = self.marginal();
-        marginal.pdf(p.y) * Self::conditional(corners, p.y).pdf(p.x)
+        marginal.pdf_in_range(p.y) * Self::conditional_at(corners, p.y).pdf_in_range(p.x)
     }
     #[inline(always)]
     fn invert(&self, p: Vec2<R>) -> Vec2<R> {
         let (marginal, corners) = self.marginal();
-        Vec2 { x: Self::conditional(corners, p.y).invert(p.x), y: marginal.invert(p.y) }
+        Vec2 { x: Self::conditional_at(corners, p.y).invert(p.x), y: marginal.invert(p.y) }
     }
 }

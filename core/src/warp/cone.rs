@@ -4,11 +4,13 @@ use super::Warp;
 use crate::lanewise::lanewise;
 use crate::math::atan2_turns;
 use crate::real::{Mask, Real, unit_interval};
-use crate::vector::{Vec2, Vec3};
+use crate::vector::{Frame, Vec2, Vec3};
 
 const INV_TWO_PI: f64 = 0.5 / core::f64::consts::PI;
 /// Angle by which rounding may move a direction out of its cone: 4 ulp of a component near 1.
 const CONE_SLACK: f64 = 4.0 / 16_777_216.0;
+/// Bound of what rounding, and the slack, add to 1−cosθ as the axis alone gives it.
+const BESIDE_LIMB: f64 = 64.0 / 16_777_216.0;
 
 lanewise! {
     /// Directions within an angle σ of +z, uniform in solid angle: for suns, spheres and anything else that looks like a cap.
@@ -71,8 +73,16 @@ impl<R: Real> Cone<R> {
     }
     /// The pdf per steradian of a direction that has been rotated into a frame and back.
     #[inline(always)]
-    pub(crate) fn pdf_in_frame(&self, w: Vec3<R>) -> R {
-        self.uniform_pdf().keep(self.contains_turned(one_minus_z(w)))
+    pub(crate) fn pdf_in_frame(&self, frame: &Frame<R>, w: Vec3<R>) -> R {
+        // the axis alone decides, unless the direction is beside the limb
+        let beyond = R::lit(1.0) - w.dot(frame.n) - self.height();
+        let beside = beyond.abs().le(R::lit(BESIDE_LIMB));
+        let mut inside = beyond.lt(R::lit(0.0));
+        if beside.any() {
+            let exactly = self.contains_turned(one_minus_z(frame.to_local(w)));
+            inside = (inside & !beside) | (exactly & beside);
+        }
+        self.uniform_pdf().keep(inside)
     }
 }
 

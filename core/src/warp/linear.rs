@@ -37,52 +37,68 @@ lanewise! {
 }
 
 impl<R: Real> Linear<R> {
-    /// a and b times a power of two that keeps their squares in range, a + b, and whether that sum is positive; a = b = 1 where
-    /// it is not.
+    /// a and b, ≥ 0, times a power of two that keeps their squares in range.
     #[inline(always)]
-    fn scaled(&self) -> (R, R, R, R::Mask) {
+    fn scaled(&self) -> Self {
         let zero = R::lit(0.0);
         let (a, b) = (self.a.greater(zero), self.b.greater(zero));
         let scale = a.greater(b).pow2_scale();
-        let (a, b) = (a * scale, b * scale);
-        let some = (a + b).gt(zero);
-        // degenerate: uniform, so that the point is finite
-        let one = R::lit(1.0);
-        let (a, b) = (R::blend(some, a, one), R::blend(some, b, one));
-        (a, b, a + b, some)
+        Self { a: a * scale, b: b * scale }
+    }
+    /// [`scaled`](Self::scaled) for a and b ≥ 0, of which few are so small that they need it.
+    #[inline(always)]
+    pub(super) fn scaled_if_small(self) -> Self {
+        let small = self.a.greater(self.b).lt(R::lit(1.0 / 65_536.0));
+        let [a, b] = R::where_any(small, [self.a, self.b], || {
+            let scaled = self.scaled();
+            [scaled.a, scaled.b]
+        });
+        Self { a, b }
+    }
+    /// Samples for a and b ≥ 0 whose squares are in range.
+    #[inline(always)]
+    pub(super) fn sample_in_range(self, u: R) -> R {
+        let (Self { a, b }, one) = (self, R::lit(1.0));
+        let root = (a * a).mul_add(one - u, b * b * u).sqrt();
+        // 0 for a = 0 at u = 0, and for a = b = 0, where x = u
+        let denominator = a + root;
+        let some = denominator.gt(R::lit(0.0));
+        unit_interval(R::blend(some, u * (a + b), u) / R::blend(some, denominator, one))
+    }
+    /// The pdf per unit length for a and b ≥ 0.
+    #[inline(always)]
+    pub(super) fn pdf_in_range(self, x: R) -> R {
+        let (Self { a, b }, one) = (self, R::lit(1.0));
+        let inside = x.ge(R::lit(0.0)) & x.le(one);
+        let (x, sum) = (unit(x), a + b);
+        let value = a.mul_add(one - x, b * x);
+        let some = sum.gt(R::lit(0.0));
+        ((value + value) / R::blend(some, sum, one)).keep(some & inside)
     }
 }
 
 impl<R: Real> Warp1<R> for Linear<R> {
     #[inline(always)]
     fn sample(&self, u: R) -> R {
-        let (a, b, sum, _) = self.scaled();
-        let root = (a * a).mul_add(R::lit(1.0) - u, b * b * u).greater(R::lit(0.0)).sqrt();
-        // 0 for a = 0 at u = 0
-        let denominator = a + root;
-        let some = denominator.gt(R::lit(0.0));
-        unit_interval(u * sum / R::blend(some, denominator, R::lit(1.0)))
+        self.scaled().sample_in_range(u)
     }
     /// The pdf per unit length.
     #[inline(always)]
     fn pdf(&self, x: R) -> R {
-        let (a, b, sum, some) = self.scaled();
-        let one = R::lit(1.0);
-        let inside = x.ge(R::lit(0.0)) & x.le(one);
-        let x = unit(x);
-        let value = a.mul_add(one - x, b * x);
-        ((value + value) / sum).keep(some & inside)
+        self.scaled().pdf_in_range(x)
     }
     #[inline(always)]
     fn invert(&self, x: R) -> R {
-        let (a, b, sum, _) = self.scaled();
-        let x = unit(x);
-        let rest = R::lit(1.0) - x;
+        let Self { a, b } = self.scaled();
+        let (x, sum, one) = (unit(x), a + b, R::lit(1.0));
+        let rest = one - x;
         let value = a.mul_add(rest, b * x);
+        let some = sum.gt(R::lit(0.0));
         // from the nearer end: the distance to it times the mean of the densities there and at x
         let lower = x.lt(R::lit(0.5));
-        let part = R::blend(lower, x * (a + value), rest * (b + value)) / sum;
-        unit_interval(R::blend(lower, part, R::lit(1.0) - part))
+        let part = R::blend(lower, x, rest) * R::blend(some, R::blend(lower, a, b) + value, one);
+        let part = part / R::blend(some, sum, one);
+        unit_interval(R::blend(lower, part, one - part))
     }
 }
 
