@@ -3,10 +3,10 @@
 
     benches/peers/rays.py [--core 1] [--rounds 5] [--before BINARY]
 
-The rays are those of benches/examples/trace.rs (`--make`). In "groups" ours are 64 rays at a time, Embree's the fastest of its entries for 8
-and 16 rays with either flag of coherence; "single" is one ray at a time. Programs alternate, and each figure is a median over the
+The rays are those of benches/examples/trace.rs (`--make`). In "groups" ours are 64 rays at a time, Embree's the fastest of its entries for
+8 and 16 rays with either flag of coherence; "single" is one ray at a time. Programs alternate, and each figure is a median over the
 rounds. The ratio is ours to Embree's; `--before` adds a column for another build of our trace program. Seconds of building include
-a copy of the triangles. Needs cargo, taskset, and for Embree a C++ compiler and libembree-dev (3.x).
+a copy of the triangles. Needs cargo, taskset, a C++ compiler and libembree-dev (3.x).
 """
 import argparse
 import json
