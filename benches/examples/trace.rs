@@ -2,6 +2,8 @@
 //!
 //! `cargo run --release -p etendue-benches --example trace -- TRIANGLES RAYS… [--repetitions 7] [--only obvhs,single,stream,groups] [--json FILE]`
 //!
+//! `trace --make FOLDER` writes such files for the scene `terrain`.
+//!
 //! The files hold little-endian f32: nine per triangle; eight per ray, which are the origin, the least distance (0), the unit direction and
 //! the greatest distance. One thread traces the rays 64 at a time in file order. Each line gives the median, least and greatest speed of
 //! the repetitions, the number of hits and, for closest hits, the sum of their distances. "single" traces ray by ray; "stream" traces 64
@@ -11,6 +13,8 @@ use etendue::{Mask, u32x8};
 use etendue_render::bvh::{Bvh, GROUP, Hits, NOTHING, Rays, Scratch, ShapeSet, Traversal};
 use etendue_render::packet::{M8, V8, X8};
 use etendue_routines::baseline::{self, Baseline};
+use etendue_routines::rays::Workload;
+use std::path::Path;
 use std::process::ExitCode;
 use std::time::Instant;
 
@@ -138,6 +142,9 @@ fn measure(repetitions: usize, rays: usize, mut trace: impl FnMut() -> Found) ->
     ([speeds[speeds.len() / 2], speeds[0], speeds[speeds.len() - 1]], found)
 }
 
+/// The scene that `--make` takes.
+const MADE: &str = "terrain";
+
 fn run() -> Result<(), String> {
     let mut files = Vec::new();
     let (mut repetitions, mut only, mut json) = (7, String::new(), None);
@@ -152,6 +159,10 @@ fn run() -> Result<(), String> {
                     .ok()
                     .filter(|n| *n > 0)
                     .ok_or(format!("--repetitions {text}: not a positive integer"))?;
+            }
+            "--make" => {
+                let folder = value()?;
+                return Workload::new(MADE, 4096).write(MADE, Path::new(&folder)).map_err(|e| format!("{folder}: {e}"));
             }
             "--only" => only = value()?,
             "--json" => json = Some(value()?),

@@ -8,6 +8,7 @@ use etendue_render::bvh::{Bvh, GROUP, Hits, NOTHING, Rays, Scratch, ShapeSet, Tr
 use etendue_render::camera::Pinhole;
 use etendue_render::packet::{M8, V8, X8};
 use etendue_render::{lights::Lights, scene, technique::Measure};
+use std::path::Path;
 
 /// Side of the image that pixels are taken from.
 const SIDE: u32 = 256;
@@ -145,6 +146,33 @@ impl Workload {
             (groups, rays)
         });
         Self { single, groups: bvh, baseline: Baseline::new(&scene.triangles), kinds: kinds.into() }
+    }
+
+    /// Writes the triangles of the scene and some kinds of rays to files that `benches/examples/trace.rs` reads: `triangles`, `camera`,
+    /// `shadow` and `shuffled`, and `bounce`, which are the rays into the hemisphere without a limit.
+    ///
+    /// # Errors
+    /// Fails if a file cannot be written.
+    ///
+    /// # Panics
+    /// If there is no such scene.
+    pub fn write(&self, name: &str, folder: &Path) -> std::io::Result<()> {
+        let write = |file: &str, numbers: &mut dyn Iterator<Item = f32>| {
+            std::fs::write(folder.join(file), numbers.flat_map(f32::to_le_bytes).collect::<Vec<_>>())
+        };
+        let triangles = scene::load(name).expect("a built-in scene").triangles;
+        write("triangles", &mut triangles.into_flattened().into_flattened().into_iter())?;
+        for (file, kind) in [
+            ("camera", RayKind::Camera),
+            ("shadow", RayKind::ShadowOfPixels),
+            ("shuffled", RayKind::Shuffled),
+            ("bounce", RayKind::Ambient),
+        ] {
+            let limit = |limit: f32| if kind == RayKind::Ambient { f32::INFINITY } else { limit };
+            let row = |(o, d, far): ([f32; 3], [f32; 3], f32)| [o[0], o[1], o[2], 0.0, d[0], d[1], d[2], limit(far)];
+            write(file, &mut each(&self.kinds[kind as usize].0).flat_map(row))?;
+        }
+        Ok(())
     }
 
     /// The number of rays of a kind.

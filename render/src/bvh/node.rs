@@ -37,6 +37,8 @@ pub(super) struct Node {
     pub(super) count: [u8; WIDTH],
     /// Number of children.
     pub(super) children: u32,
+    /// The set of children that are inner nodes.
+    pub(super) inner: u32,
 }
 
 impl Default for Node {
@@ -46,6 +48,7 @@ impl Default for Node {
             first: [0; WIDTH],
             count: [0; WIDTH],
             children: 0,
+            inner: 0,
         }
     }
 }
@@ -65,6 +68,7 @@ impl Node {
             }
         }
         (self.first[slot], self.count[slot]) = (first, count as u8);
+        self.inner |= u32::from(count == 0) << slot;
         self.children += 1;
     }
 }

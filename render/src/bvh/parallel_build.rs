@@ -67,6 +67,7 @@ pub(super) fn build_parts<T: Bounded>(
             let root = &parts[part].nodes[0];
             (node.first[slot], node.count[slot]) =
                 if parts[part].is_leaf() { (root.first[0], root.count[0]) } else { (starts[part] as u32, 0) };
+            node.inner |= u32::from(node.count[slot] == 0) << slot;
         }
     }
     nodes.reserve_exact(next - nodes.len());

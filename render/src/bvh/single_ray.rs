@@ -1,6 +1,6 @@
 //! Single-ray traversal: tests all children of a node at once, and all triangles of a leaf at once.
 
-use super::node::{Node, Stack, push_in_order};
+use super::node::{Node, Stack, prefetch, push_in_order};
 use super::rays::{Hits, Nearest, Rays, by_octant};
 use super::tree::View;
 use crate::packet::{M8, V8, X8, each_bit, max, min};
@@ -125,6 +125,14 @@ pub(super) fn trace_lane<const ANY: bool>(
     hidden
 }
 
+/// Takes the lowest number out of a set of slots.
+#[inline(always)]
+fn take(slots: &mut u32) -> Option<usize> {
+    let all = *slots;
+    *slots &= all.wrapping_sub(1);
+    (all != 0).then_some(all.trailing_zeros() as usize & 7)
+}
+
 fn single_ray<const ANY: bool, const OCTANT: usize>(
     tree: &View<'_, impl Leaves>,
     from: u32,
@@ -133,65 +141,82 @@ fn single_ray<const ANY: bool, const OCTANT: usize>(
     stack: &mut Stack<Child>,
 ) -> bool {
     let stack = &mut stack.0[..];
-    let mut height = 0;
-    let mut place = from;
+    let fetch = |place: u32| prefetch(&tree.nodes[place as usize..=place as usize]);
+    let (mut height, mut place) = (0, from);
     loop {
         let node = &tree.nodes[place as usize];
         let (near, mask) = ray.enter::<OCTANT>(node, X8::splat(nearest.distance));
         let near = near.to_array();
-        let child =
-            |slot: usize| Child { first: node.first[slot], count: u32::from(node.count[slot]), near: near[slot] };
-        let mut bits = mask.bits();
-        let mut take = || {
-            let slot = bits.trailing_zeros() as usize & 7;
-            let some = bits != 0;
-            bits &= bits.wrapping_sub(1);
-            some.then(|| child(slot))
+        let child = |slot: usize| {
+            let child = Child { first: node.first[slot], count: u32::from(node.count[slot]), near: near[slot] };
+            if !ANY && child.count == 0 {
+                fetch(child.first);
+            }
+            child
         };
+        let mut entered = mask.bits();
         if ANY {
-            while let Some(child) = take() {
-                if child.count == 0 {
-                    stack[height] = child;
-                    height += 1;
-                } else if test_child::<ANY>(tree, &child, ray, nearest) {
+            let (mut leaves, mut inner) = (entered & !node.inner, entered & node.inner);
+            while let Some(slot) = take(&mut leaves) {
+                if test_leaf::<ANY>(tree, &child(slot), ray, nearest) {
                     return true;
                 }
             }
-        } else if let Some(mut next) = take() {
+            if let Some(slot) = take(&mut inner) {
+                // the last child is visited next, without a way through the stack
+                place = node.first[slot];
+                while let Some(slot) = take(&mut inner) {
+                    stack[height].first = place;
+                    height += 1;
+                    place = node.first[slot];
+                    fetch(place);
+                }
+            } else if height == 0 {
+                return false;
+            } else {
+                height -= 1;
+                place = stack[height].first;
+            }
+            continue;
+        }
+        let mut next = if let Some(slot) = take(&mut entered) {
             // the nearest child is visited next; the others go to the stack, nearer ones on top
-            let floor = height;
-            while let Some(mut other) = take() {
+            let (mut next, floor) = (child(slot), height);
+            while let Some(slot) = take(&mut entered) {
+                let mut other = child(slot);
                 if other.near < next.near {
                     (next, other) = (other, next);
                 }
                 push_in_order(stack, &mut height, floor, other, |c| c.near);
             }
-            if next.count == 0 {
-                place = next.first;
-                continue;
-            }
-            test_child::<ANY>(tree, &next, ray, nearest);
-        }
-        place = loop {
-            if height == 0 {
-                return false;
-            }
+            next
+        } else if height == 0 {
+            return false;
+        } else {
             height -= 1;
-            let child = stack[height];
-            if !ANY && child.near > nearest.distance {
-                continue;
-            }
-            if ANY || child.count == 0 {
-                break child.first;
-            }
-            test_child::<ANY>(tree, &child, ray, nearest);
+            stack[height]
         };
+        while next.count != 0 {
+            test_leaf::<ANY>(tree, &next, ray, nearest);
+            loop {
+                if height == 0 {
+                    return false;
+                }
+                height -= 1;
+                next = stack[height];
+                if next.near <= nearest.distance {
+                    break;
+                }
+            }
+        }
+        place = next.first;
     }
 }
 
-/// Tests one ray against a child that is a leaf, as [`Leaves::test_ray`].
-#[inline(always)]
-fn test_child<const ANY: bool>(
+/// Tests one ray against a child that is a leaf, as [`Leaves::test_ray`]. A function of its own, so that the loop over nodes keeps its
+/// numbers in registers.
+#[inline(never)]
+fn test_leaf<const ANY: bool>(
     tree: &View<'_, impl Leaves>,
     leaf: &Child,
     ray: &SingleRay,
