@@ -67,7 +67,8 @@ fn atan2_of_packets_is_that_of_libm() {
         if y.len() == 1 << 16 {
             check::<f64x4>(&y, &x);
             check::<f64x8>(&y, &x);
-            (y.clear(), x.clear());
+            y.clear();
+            x.clear();
         }
     }
     check::<f64x4>(&y, &x);
