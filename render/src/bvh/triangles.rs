@@ -16,11 +16,11 @@ use std::ops::Range;
 
 /// Greatest number of triangles in a leaf.
 const MOST: usize = 8;
-/// Trees of so many triangles get larger leaves: they are traced by rays that are alone and by caches that are too small. In small scenes,
-/// whose rays go in packets, larger leaves cost up to 10 % of the time of an image (`sphere-light`, `mirror-room`).
+/// From this many triangles on, leaves are larger, so that there are fewer nodes to fetch from memory. In small scenes, whose rays go in
+/// packets, larger leaves make an image take up to a tenth longer (`sphere-light`, `mirror-room`).
 const LARGE: usize = 1 << 16;
 
-/// What leaves cost in a tree of so many triangles. A packet tests one triangle after another, a single ray all triangles of a leaf at once.
+/// The costs of leaves in a tree of this many triangles. A packet tests one triangle after another, a single ray all triangles of a leaf at once.
 fn costs(triangles: usize) -> Costs {
     let [leaf, primitive] = if triangles < LARGE { [0.7, 0.2] } else { [0.5, 0.05] };
     Costs { most: MOST, leaf, primitive }
