@@ -15,7 +15,7 @@
 //! `etendue render SCENE --spp 16 --size 256x256 --threads 1 --repeat 5 --sampler independent` on a shared machine): the frustum brings
 //! 1.18 on terrain, 1.07 on quads and 1.09 on mirror-room; the stream, instead of single rays, 1.17, 1.40 and 1.31.
 //! Turns and huge pages are for rays without order through large trees, which these scenes do not have: `benches/examples/trace.rs` times
-//! such rays.
+//! such rays, and `benches/peers/rays.py` compares them with Embree's.
 
 mod build;
 mod cutouts;
