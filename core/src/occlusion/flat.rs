@@ -34,12 +34,12 @@ impl<R: Real> Default for Flat<R> {
 }
 
 impl<R: Real> Flat<R> {
-    /// Takes a shape relative to the points, in place, since it is large; returns false for a sphere.
+    /// Takes a flat shape relative to the points, in place, since it is large. A sphere leaves it as it is.
     #[inline(always)]
-    pub(super) fn take(&mut self, shape: &Convex<R::Scalar>, point: Vec3<R>) -> bool {
+    pub(super) fn take(&mut self, shape: &Convex<R::Scalar>, point: Vec3<R>) {
         let Self { corners, offsets, edges, .. } = self;
         let count = match *shape {
-            Convex::Sphere { .. } => return false,
+            Convex::Sphere { .. } => return,
             Convex::Polygon { corners: given, count } => {
                 let (given, count) = (given.map(Vec3::splat), count.clamp(3, 4));
                 for i in 0..4 {
@@ -71,7 +71,6 @@ impl<R: Real> Flat<R> {
         (self.middle, self.count, self.scale) = (middle, count, scale);
         self.normal = area.unit_and_length().0;
         self.height = self.normal.dot(self.corners[0]);
-        true
     }
     #[inline(always)]
     pub(super) fn corners(&self) -> &[Vec3<R>] {

@@ -20,8 +20,8 @@ const SERIES: [f64; 11] = [
 const REST: [f64; 4] =
     [2.269_877_745_296_168_7e-17, 3.061_616_997_868_383e-17, 1.390_331_103_123_099_8e-17, 6.123_233_995_736_766e-17];
 
-/// The angle of the vector (x, y) in (−π, π], with the bits of `libm::atan2`: the same operations in the same order, after Sun's fdlibm
-/// (`e_atan2.c` and `s_atan.c`). atan q = atan c + atan((q − c)/(1 + c q)), where c is 1/2, 1, 3/2 or infinity if q is at least 7/16.
+/// The angle of the vector (x, y) in [−π, π] for any x and y, with the bits of `libm::atan2`: the same operations in the same order, after
+/// Sun's fdlibm (`e_atan2.c` and `s_atan.c`). atan q = atan c + atan((q − c)/(1 + c q)), where c is 1/2, 1, 3/2 or infinity if q is at least 7/16.
 #[inline]
 pub(super) fn atan2<R: Real<Scalar = f64>>(y: R, x: R) -> R {
     let (one, pi) = (R::lit(1.0), R::lit(core::f64::consts::PI));
