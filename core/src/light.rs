@@ -160,5 +160,7 @@ pub use sampler::{ByArea, ByCosineWarp, ByProjectedSolidAngle, ByReflection, ByS
 pub use sphere::{
     PlacedSphere, Sphere, SphereByArea, SphereByProjectedSolidAngle, SphereByReflection, SphereBySolidAngle,
 };
-pub use spread::Spread;
-pub use surface::{AreaSurface, PlacedParallelogram, PlacedTriangle, Surface, SurfaceHit, SurfacePoint};
+pub use spread::{ParallelogramBySpread, RectangleBySpread, Spread};
+pub use surface::{
+    AreaSurface, ParallelogramOfPart, PlacedParallelogram, PlacedTriangle, Surface, SurfaceHit, SurfacePoint,
+};

@@ -43,7 +43,7 @@ pub use cosine_warped::CosineWarped;
 pub use direction::DirectionSample;
 pub(crate) use direction::{above_horizon, to_unit};
 pub use disk::SphericalDisk;
-pub(crate) use double_word::{compensated_dot, compensated_height, cross_dw, height_dw, sum_dw};
+pub(crate) use double_word::{compensated_dot, height_dw, height_over, sum_dw};
 pub use line::{ProjectedSegment, SphericalSegment};
 pub use parallelogram::SphericalParallelogram;
 pub use polygon::SphericalPolygon;

@@ -1,7 +1,7 @@
 //! Lights prepared for a shading point.
 
 use super::sample::{AreaSample, LightSample, direction_to, solid_angle_pdf};
-use super::surface::{AreaSurface, Surface};
+use super::surface::{AreaSurface, Surface, SurfaceHit};
 use crate::lanewise::Lanewise;
 use crate::math::quotient;
 use crate::real::{Mask, Real};
@@ -18,8 +18,8 @@ use core::f64::consts::PI;
 /// then call as often as needed: what depends on the light and the point alone is computed by the `by_…` method that returned the sampler.
 ///
 /// `sample(u).pdf` and `pdf(sample(u).direction)` are the same bits. The exceptions are curved lights (sphere, cylinder, bilinear patch)
-/// *by area*, and lines: a rounded direction determines their pdf only as well as it determines the point, so a sample reports the pdf of
-/// the point that was drawn.
+/// *by area*, lines, and cosine warps: a rounded direction determines their pdf only as well as it determines the point, so a sample
+/// reports the pdf of the point that was drawn.
 ///
 /// Degenerate input (a light without extent, a shading point in the plane of a flat light) gives pdf 0, never NaN, infinity or a panic.
 ///
@@ -59,6 +59,12 @@ pub trait LightSampler<R: Real> {
     /// Probability density, in the measure of [`LightSample::pdf`], with which [`sample`](Self::sample) draws the unit direction `w`; 0
     /// where it misses the light.
     fn pdf(&self, w: Vec3<R>) -> R;
+    /// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not intersected
+    /// again. Where `w` misses, the result is finite, and of no meaning.
+    #[inline(always)]
+    fn pdf_of_hit(&self, w: Vec3<R>) -> R {
+        self.pdf(w)
+    }
     /// The `u` in [0, 1)² that [`sample`](Self::sample) maps to the unit direction `w`; any value in [0, 1)² where `w` misses the light.
     fn invert(&self, w: Vec3<R>) -> Vec2<R>;
     /// The nearest point of the light in the unit direction `w`, with the pdf of that direction; [`LightSample::miss`] where there is none.
@@ -108,9 +114,12 @@ impl<R: Real, S: AreaSurface<R>> LightSampler<R> for ByArea<R, S> {
     }
     #[inline(always)]
     fn pdf(&self, w: Vec3<R>) -> R {
+        self.pdf_of_hit(w).keep(self.surface.contains(w))
+    }
+    #[inline(always)]
+    fn pdf_of_hit(&self, w: Vec3<R>) -> R {
         let at = self.surface.at(w);
-        let pdf = solid_angle_pdf(at.distance, w.dot(at.normal).abs() * self.surface.inverse_pdf(at.uv));
-        pdf.keep(self.surface.contains(w))
+        solid_angle_pdf(at.distance, w.dot(at.normal).abs() * self.surface.inverse_pdf(at.uv))
     }
     #[inline(always)]
     fn invert(&self, w: Vec3<R>) -> Vec2<R> {
@@ -141,25 +150,22 @@ fn area_sample<R: Real>(point: Vec3<R>, normal: Vec3<R>, pdf: R, uv: Vec2<R>) ->
     AreaSample { point, normal, pdf: pdf.keep(pdf.lt(R::lit(1e37))), uv }
 }
 
-/// A sample of a surface in a direction, at the distance that the surface has there unless it is given.
+/// A sample of a surface in a direction.
 #[inline(always)]
-pub(super) fn drawn<R: Real>(
-    direction: Vec3<R>,
-    distance: Option<R>,
-    pdf: R,
-    surface: &impl Surface<R>,
-    emits: R::Mask,
-) -> LightSample<R> {
-    let at = surface.at(direction);
-    LightSample {
-        direction,
-        distance: distance.unwrap_or(at.distance),
-        pdf,
-        normal: at.normal,
-        uv: at.uv,
-        emits,
-        delta: R::Mask::splat(false),
-    }
+pub(super) fn drawn<R: Real>(direction: Vec3<R>, pdf: R, at: SurfaceHit<R>, emits: R::Mask) -> LightSample<R> {
+    let SurfaceHit { distance, normal, uv } = at;
+    LightSample { direction, distance, pdf, normal, uv, emits, delta: R::Mask::splat(false) }
+}
+
+/// The point of a surface that a shape has drawn.
+#[inline(always)]
+fn point_of<R: Real, S: Surface<R>>(
+    surface: &S,
+    (DirectionSample { direction, distance }, uv): (DirectionSample<R>, Option<Vec2<R>>),
+) -> (Vec3<R>, SurfaceHit<R>) {
+    let at = surface.at_distance(direction, distance);
+    let uv = if S::IS_SHAPE { uv.unwrap_or(at.uv) } else { at.uv };
+    (direction, SurfaceHit { uv, ..at })
 }
 
 /// A hit where the pdf is positive, a miss elsewhere.
@@ -198,12 +204,16 @@ impl<R: Real, S, W: SphericalShape<R>> BySolidAngle<R, S, W> {
 impl<R: Real, S: Surface<R>, W: SphericalShape<R>> LightSampler<R> for BySolidAngle<R, S, W> {
     #[inline(always)]
     fn sample(&self, u: Vec2<R>) -> LightSample<R> {
-        let DirectionSample { direction, distance } = self.shape.sample_direction(u);
-        drawn(direction, Some(distance), self.shape.uniform_pdf(), &self.surface, self.shape.in_front())
+        let (direction, at) = point_of(&self.surface, self.shape.sample_point(u));
+        drawn(direction, self.shape.uniform_pdf(), at, self.shape.in_front())
     }
     #[inline(always)]
     fn pdf(&self, w: Vec3<R>) -> R {
         self.shape.pdf(w)
+    }
+    #[inline(always)]
+    fn pdf_of_hit(&self, _: Vec3<R>) -> R {
+        self.shape.uniform_pdf()
     }
     #[inline(always)]
     fn invert(&self, w: Vec3<R>) -> Vec2<R> {
@@ -240,18 +250,16 @@ impl<R: Real, S, W: ProjectedShape<R>> ByProjectedSolidAngle<R, S, W> {
 impl<R: Real, S: Surface<R>, W: ProjectedShape<R>> LightSampler<R> for ByProjectedSolidAngle<R, S, W> {
     #[inline(always)]
     fn sample(&self, u: Vec2<R>) -> LightSample<R> {
-        let DirectionSample { direction, distance } = self.shape.sample_direction(u);
-        drawn(
-            direction,
-            Some(distance),
-            self.shape.pdf_at_cosine(direction.dot(self.normal)),
-            &self.surface,
-            self.shape.in_front(),
-        )
+        let (direction, at) = point_of(&self.surface, (self.shape.sample_direction(u), None));
+        drawn(direction, self.shape.pdf_at_cosine(direction.dot(self.normal)), at, self.shape.in_front())
     }
     #[inline(always)]
     fn pdf(&self, w: Vec3<R>) -> R {
-        self.shape.pdf_at_cosine(w.dot(self.normal)).keep(self.shape.contains(w))
+        self.pdf_of_hit(w).keep(self.shape.contains(w))
+    }
+    #[inline(always)]
+    fn pdf_of_hit(&self, w: Vec3<R>) -> R {
+        self.shape.pdf_at_cosine(w.dot(self.normal))
     }
     #[inline(always)]
     fn invert(&self, w: Vec3<R>) -> Vec2<R> {
@@ -293,13 +301,17 @@ impl<R: Real, S: AreaSurface<R>, W: ProjectedShape<R> + Warp<R, Point = Vec3<R>>
     #[inline(always)]
     fn sample(&self, u: Vec2<R>) -> LightSample<R> {
         let direction = self.reflection.from_cosine(self.shape.sample(u)).unit_and_length().0;
-        drawn(direction, None, self.pdf(direction), &self.surface, self.shape.in_front())
+        drawn(direction, self.pdf(direction), self.surface.at(direction), self.shape.in_front())
     }
     #[inline(always)]
     fn pdf(&self, w: Vec3<R>) -> R {
+        self.pdf_of_hit(w).keep(self.surface.contains(w))
+    }
+    #[inline(always)]
+    fn pdf_of_hit(&self, w: Vec3<R>) -> R {
         // both factors may be large
         let pdf = self.reflection.pdf(w) * quotient(R::lit(PI), self.shape.projected_solid_angle());
-        pdf.lesser(R::lit(1e37)).keep(self.surface.contains(w))
+        pdf.lesser(R::lit(1e37))
     }
     #[inline(always)]
     fn invert(&self, w: Vec3<R>) -> Vec2<R> {
@@ -336,12 +348,18 @@ impl<R: Real, S: Surface<R>, W: SphericalShape<R>> LightSampler<R> for ByCosineW
     #[inline(always)]
     fn sample(&self, u: Vec2<R>) -> LightSample<R> {
         let shape = &self.warped.shape;
-        let DirectionSample { direction, distance } = shape.sample_direction(self.warped.weights.sample(u));
-        drawn(direction, Some(distance), self.pdf(direction), &self.surface, shape.in_front())
+        let v = self.warped.weights.sample(u);
+        let (direction, at) = point_of(&self.surface, shape.sample_point(v));
+        drawn(direction, shape.uniform_pdf() * self.warped.weights.pdf(v), at, shape.in_front())
     }
     #[inline(always)]
     fn pdf(&self, w: Vec3<R>) -> R {
         self.warped.pdf(w)
+    }
+    #[inline(always)]
+    fn pdf_of_hit(&self, w: Vec3<R>) -> R {
+        let CosineWarped { shape, weights } = &self.warped;
+        shape.uniform_pdf() * weights.pdf(shape.invert(w))
     }
     #[inline(always)]
     fn invert(&self, w: Vec3<R>) -> Vec2<R> {

@@ -123,7 +123,7 @@ impl<R: Real> LightSampler<R> for SphereByReflection<R> {
     fn sample(&self, u: Vec2<R>) -> LightSample<R> {
         let direction = self.surface.inwards(self.reflection.from_cosine(self.shape.sample(u)).unit_and_length().0);
         let direction = above_horizon(direction, self.reflection.normal());
-        drawn(direction, None, self.pdf(direction), &self.surface, self.surface.outside())
+        drawn(direction, self.pdf(direction), self.surface.at(direction), self.surface.outside())
     }
     #[inline(always)]
     fn pdf(&self, w: Vec3<R>) -> R {
@@ -196,6 +196,13 @@ impl<R: Real> Surface<R> for PlacedSphere<R> {
         let distance = R::blend(!outside & along.ge(zero), sum, near);
         let normal = w.mul_add(distance, -center).normalize();
         let distance = (distance / scale).lesser(R::lit(f64::from(f32::MAX)));
+        SurfaceHit { distance, normal, uv: UniformSphere.invert(normal) }
+    }
+    #[inline(always)]
+    fn at_distance(&self, w: Vec3<R>, distance: R) -> SurfaceHit<R> {
+        let zero = R::lit(0.0);
+        let ([center, Vec3 { x: reach, .. }], _) = to_unit([self.center, Vec3::new(distance, zero, zero)]);
+        let normal = w.mul_add(reach, -center).normalize();
         SurfaceHit { distance, normal, uv: UniformSphere.invert(normal) }
     }
 }

@@ -3,7 +3,7 @@
 use crate::lanewise::lanewise;
 use crate::math::quotient;
 use crate::real::{Real, unit_interval};
-use crate::spherical::{compensated_height, cross_dw, to_unit};
+use crate::spherical::{height_over, to_unit};
 use crate::vector::{Vec2, Vec3};
 use crate::warp::{AreaTriangle, Warp};
 
@@ -36,8 +36,15 @@ pub struct SurfacePoint<R> {
 
 /// The surface of a light, placed relative to a shading point.
 pub trait Surface<R: Real>: Copy {
+    /// True where the shape that is sampled is the whole surface, so that both have the same surface coordinates.
+    const IS_SHAPE: bool = true;
     /// The nearest point in the unit direction `w`. Only meaningful where `w` hits the surface; finite everywhere.
     fn at(&self, w: Vec3<R>) -> SurfaceHit<R>;
+    /// The same where the distance of the point is known.
+    #[inline(always)]
+    fn at_distance(&self, w: Vec3<R>, distance: R) -> SurfaceHit<R> {
+        SurfaceHit { distance, ..self.at(w) }
+    }
 }
 
 /// A surface that can be sampled by area.
@@ -80,14 +87,18 @@ lanewise! {
 impl<R: Real> AffinePlane<R> {
     #[inline(always)]
     pub(super) fn new(origin: Vec3<R>, first: Vec3<R>, second: Vec3<R>) -> Self {
+        // each edge in a unit of its own, however different their lengths are
+        let in_own_unit = |edge: Vec3<R>| {
+            let reach = edge.max_abs();
+            let unit = reach.pow2_scale();
+            (edge.keep(reach.lt(R::lit(f64::INFINITY))) * unit, unit)
+        };
+        let ((a, unit_a), (b, unit_b)) = (in_own_unit(first), in_own_unit(second));
+        let cross = a.cross(b);
+        let (normal, sine) = cross.unit_and_length();
         let ([origin, first, second], scale) = to_unit([origin, first, second]);
-        // each edge in a unit of its own, however different their lengths are; the height over a plane that the point nearly touches is
-        // a small difference
-        let (unit_first, unit_second) = (first.max_abs().pow2_scale(), second.max_abs().pow2_scale());
-        let exact = cross_dw(first * unit_first, second * unit_second);
-        let (normal, sine) = (exact[0] + exact[1]).unit_and_length();
-        let height = quotient(compensated_height(origin, exact), sine);
-        let length = sine / unit_first / unit_second;
+        let height = quotient(height_over(origin, [a, b], cross), sine);
+        let length = sine * (scale / unit_a) * (scale / unit_b);
         let cross = normal * length;
         Self {
             origin,
@@ -162,7 +173,7 @@ impl<R: Real> AffinePlane<R> {
 }
 
 macro_rules! affine {
-    ($(#[$doc:meta])* $name:ident, $share:literal, $all:literal, $sample:expr, $invert:expr) => {
+    ($(#[$doc:meta])* $name:ident, $is_shape:literal, $share:literal, $all:literal, $sample:expr, $invert:expr) => {
         lanewise! {
             $(#[$doc])*
             pub struct $name {
@@ -179,6 +190,7 @@ macro_rules! affine {
             }
         }
         impl<R: Real> Surface<R> for $name<R> {
+            const IS_SHAPE: bool = $is_shape;
             #[inline(always)]
             fn at(&self, w: Vec3<R>) -> SurfaceHit<R> {
                 self.plane.at(w)
@@ -218,9 +230,13 @@ macro_rules! affine {
 affine!(
     /// A triangle relative to the shading point. Its surface coordinates are the barycentric coordinates of the second and the third
     /// vertex.
-    PlacedTriangle, 0.5, false, |u| AreaTriangle.sample(u), |b| AreaTriangle.invert(b)
+    PlacedTriangle, true, 0.5, false, |u| AreaTriangle.sample(u), |b| AreaTriangle.invert(b)
 );
 affine!(
     /// A parallelogram relative to the shading point. Its surface coordinates are the parts of both edges.
-    PlacedParallelogram, 1.0, true, |u| u, |st| Vec2::new(unit_interval(st.x), unit_interval(st.y))
+    PlacedParallelogram, true, 1.0, true, |u| u, |st| Vec2::new(unit_interval(st.x), unit_interval(st.y))
+);
+affine!(
+    /// A [`PlacedParallelogram`] of which a part is sampled.
+    ParallelogramOfPart, false, 1.0, true, |u| u, |st| Vec2::new(unit_interval(st.x), unit_interval(st.y))
 );

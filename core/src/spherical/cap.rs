@@ -43,8 +43,10 @@ impl<R: Real> SphericalCap<R> {
         let radius = radius.keep(finite);
         let scale = center.max_abs().greater(radius.abs()).pow2_scale();
         let (c, r) = (center * scale, radius * scale);
-        let power = c.length_squared_minus_square(r);
         let squared = c.length_squared();
+        // a small difference near the sphere, where it needs twice the working precision
+        let (plain, near) = (squared - r * r, squared.lt(R::lit(2.0) * (r * r)));
+        let [power] = R::where_any(near, [plain], || [R::blend(near, c.length_squared_minus_square(r), plain)]);
         let some = squared.gt(zero);
         let inverse = one / R::blend(some, squared, one);
         let outside = power.ge(zero) & some;

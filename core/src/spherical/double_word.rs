@@ -40,6 +40,18 @@ pub(crate) fn compensated_height<R: Real>(p: Vec3<R>, n: [Vec3<R>; 2]) -> R {
     sum + rest
 }
 
+/// p·(a×b), given the rounded product n = a×b: a sum of rounded terms to within 6e−7 of itself where they cancel by less than half, and
+/// in twice the working precision elsewhere.
+#[inline(always)]
+pub(crate) fn height_over<R: Real>(p: Vec3<R>, [a, b]: [Vec3<R>; 2], n: Vec3<R>) -> R {
+    let plain = p.dot(n);
+    let terms = p.x.abs().mul_add(n.x.abs(), p.y.abs().mul_add(n.y.abs(), (p.z * n.z).abs()));
+    let cancel = (plain + plain).abs().lt(terms);
+    let exactly = || [R::blend(cancel, compensated_height(p, cross_dw(a, b)), plain)];
+    let [height] = R::where_any(cancel, [plain], exactly);
+    height
+}
+
 /// p·n for an unevaluated sum n, not rounded.
 #[inline(always)]
 pub(crate) fn height_dw<R: Real>(p: Vec3<R>, [n, more]: [Vec3<R>; 2]) -> [R; 2] {

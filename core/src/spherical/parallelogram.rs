@@ -62,8 +62,8 @@ impl<R: Real> SphericalParallelogram<R> {
         let first = Planes { n01: -rounded(pu), n02: rounded(far_u), n12: diagonal, normal, volume, edge: u + v };
         let second = Planes { n01: -diagonal, n02: rounded(far_v), n12: rounded(pv), normal, volume, edge: v };
         Self {
-            first: SphericalTriangle::prepare([a, p, b], &first, scale),
-            second: SphericalTriangle::prepare([b, p, c], &second, scale),
+            first: SphericalTriangle::prepare([a, p, b], &first, || first.n12, scale),
+            second: SphericalTriangle::prepare([b, p, c], &second, || second.n12, scale),
         }
     }
     /// Repeats one prepared parallelogram in every lane.
@@ -87,10 +87,10 @@ impl<R: Real> SphericalParallelogram<R> {
         // both triangles run p+u → p → p+u+v, the other way round
         !self.first.in_front()
     }
-    /// The triangle for `u`, the `u` within it, and 1−u₀ there, since the difference would have few digits near the end of the
-    /// second.
+    /// The triangle for `u`, the `u` within it, 1−u₀ there, since the difference would have few digits near the end of the second, and
+    /// whether it is the first.
     #[inline(always)]
-    fn branch(&self, u: Vec2<R>) -> (SphericalTriangle<R>, Vec2<R>, R) {
+    fn branch(&self, u: Vec2<R>) -> (SphericalTriangle<R>, Vec2<R>, R, R::Mask) {
         let (one, zero) = (R::lit(1.0), R::lit(0.0));
         let (a, b) = (self.first.solid_angle(), self.second.solid_angle());
         let (swept, left) = (u.x * (a + b), (one - u.x) * (a + b));
@@ -99,13 +99,21 @@ impl<R: Real> SphericalParallelogram<R> {
         let inverse = one / R::blend(whole.gt(zero), whole, one);
         let x = unit_interval(R::blend(first, swept, b - left) * inverse);
         let rest = (R::blend(first, a - swept, left) * inverse).clamped(zero, one);
-        (SphericalTriangle::blend(first, self.first, self.second), Vec2::new(x, u.y), rest)
+        (SphericalTriangle::blend(first, self.first, self.second), Vec2::new(x, u.y), rest, first)
     }
     /// Maps `u` to a direction and the distance to the parallelogram along it.
     #[inline(always)]
     pub fn sample_direction(&self, u: Vec2<R>) -> DirectionSample<R> {
-        let (triangle, u, rest) = self.branch(u);
-        triangle.sample_direction_from(u, rest)
+        self.sample_with_coordinates(u).0
+    }
+    /// The same with the parts of `u` and `v` that lead to the point.
+    #[inline(always)]
+    pub(super) fn sample_with_coordinates(&self, u: Vec2<R>) -> (DirectionSample<R>, Vec2<R>) {
+        let (triangle, u, rest, first) = self.branch(u);
+        let (sample, [b0, _, b2]) = triangle.sample_point_from(u, rest);
+        // the corners are p+u, p, p+u+v or p+u+v, p, p+v
+        let both = (b0 + b2).lesser(R::lit(1.0));
+        (sample, Vec2::new(R::blend(first, both, b0), R::blend(first, b2, both)))
     }
 }
 
@@ -113,7 +121,7 @@ impl<R: Real> Warp<R> for SphericalParallelogram<R> {
     type Point = Vec3<R>;
     #[inline(always)]
     fn sample(&self, u: Vec2<R>) -> Vec3<R> {
-        let (triangle, u, rest) = self.branch(u);
+        let (triangle, u, rest, _) = self.branch(u);
         triangle.sample_from(u, rest)
     }
     /// The pdf per steradian; 0 for a direction that misses the parallelogram.
@@ -138,9 +146,9 @@ impl<R: Real> Warp<R> for SphericalParallelogram<R> {
         let mut y = R::blend(first, u.y, v.y);
         let steep = self.first.steep(sum) | self.second.steep(sum);
         if steep.any() {
-            let (triangle, u, rest) = self.branch(Vec2::new(x, y));
+            let (triangle, u, rest, _) = self.branch(Vec2::new(x, y));
             x = unit_interval((triangle.area_beyond(u.x, rest, w, sum) * inverse).keep(steep) + x);
-            let (triangle, u, rest) = self.branch(Vec2::new(x, y));
+            let (triangle, u, rest, _) = self.branch(Vec2::new(x, y));
             y = R::blend(steep, triangle.share_of_arc(u.x, rest, moved), y);
         }
         Vec2 { x, y }

@@ -127,7 +127,7 @@ impl<R: Real, const N: usize> SphericalPolygon<R, N> {
     #[inline(always)]
     pub fn sample_direction(&self, u: Vec2<R>) -> DirectionSample<R> {
         let (triangle, u, rest) = self.branch(u);
-        triangle.sample_direction_from(u, rest)
+        triangle.sample_point_from(u, rest).0
     }
 }
 

@@ -1,7 +1,7 @@
 //! Rectangles by solid angle.
 
 use super::direction::DirectionSample;
-use super::double_word::{compensated_height, cross_dw, dot_dw, rounded_sum, sum_dw};
+use super::double_word::{cross_dw, dot_dw, height_over, rounded_sum, sum_dw};
 use crate::lanewise::lanewise;
 use crate::math::{ratio, rsqrt};
 use crate::real::{Mask, Real, unit_interval};
@@ -111,10 +111,10 @@ const STEEP: f64 = 1.0 / 16.0;
 #[inline(always)]
 fn normal_and_height<R: Real>(p: Vec3<R>, u: Vec3<R>, v: Vec3<R>) -> (Vec3<R>, R) {
     let (u, v) = (u * u.max_abs().pow2_scale(), v * v.max_abs().pow2_scale());
-    let cross = cross_dw(u, v);
-    let (normal, length) = (cross[0] + cross[1]).unit_and_length();
+    let cross = u.cross(v);
+    let (normal, length) = cross.unit_and_length();
     let some = length.gt(R::lit(0.0));
-    (normal, (compensated_height(p, cross) / R::blend(some, length, R::lit(1.0))).keep(some))
+    (normal, (height_over(p, [u, v], cross) / R::blend(some, length, R::lit(1.0))).keep(some))
 }
 
 /// Solid angle of [near.x, far.x]×[near.y, far.y] at the height z, with |near| ≤ far and `size` = far − near.
@@ -342,9 +342,9 @@ impl<R: Real> SphericalRectangle<R> {
         (x, from_foot.mul_add(from_foot, z * z))
     }
 
-    /// The point of the rectangle for `u`.
+    /// X and Y of the point for `u`.
     #[inline(always)]
-    fn point(&self, u: Vec2<R>) -> Vec3<R> {
+    fn place(&self, u: Vec2<R>) -> Vec2<R> {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let Self { far: Vec2 { y: y1, .. }, near: Vec2 { y: y0, .. }, .. } = *self;
         let (x, d) = self.strip_end(u.x);
@@ -374,16 +374,37 @@ impl<R: Real> SphericalRectangle<R> {
         let some = denominator.gt(zero);
         let y = numerator / R::blend(some, denominator, one);
         let y = y.clamped(R::blend(anchored, -self.size.y, y0), R::blend(anchored, zero, y1));
+        Vec2::new(x, y)
+    }
+    /// The point of the rectangle at X and Y.
+    #[inline(always)]
+    fn point(&self, Vec2 { x, y }: Vec2<R>) -> Vec3<R> {
         self.side_x.mul_add(x, self.side_y.mul_add(y, self.base))
     }
     /// Maps `u` to a direction and the distance to the rectangle along it.
     #[inline(always)]
     pub fn sample_direction(&self, u: Vec2<R>) -> DirectionSample<R> {
-        let point = self.point(u);
+        self.sample_with_coordinates(u).0
+    }
+    /// The same with the parts of both edges that lead to the point.
+    #[inline(always)]
+    pub(super) fn sample_with_coordinates(&self, u: Vec2<R>) -> (DirectionSample<R>, Vec2<R>) {
+        let (zero, one) = (R::lit(0.0), R::lit(1.0));
+        let place = self.place(u);
+        let point = self.point(place);
         let squared = point.length_squared();
         let inverse = rsqrt(squared).keep(squared.gt(R::lit(1e-37)));
         let distance = squared * inverse * self.unit;
-        DirectionSample { direction: point * inverse, distance: distance.keep(self.solid_angle.gt(R::lit(0.0))) }
+        let sample = DirectionSample { direction: point * inverse, distance: distance.keep(self.solid_angle.gt(zero)) };
+        let part = |x: R, far: R, size: R, anchor: R, flip: R| {
+            let gap = R::blend(anchor.gt(zero), -x, far - x);
+            let share = ratio(gap, size).clamped(zero, one);
+            R::blend(flip.gt(zero), share, one - share)
+        };
+        let (far, size, anchor, flip) = (self.far, self.size, self.anchor, self.flip);
+        let coordinates =
+            Vec2::new(part(place.x, far.x, size.x, anchor.x, flip.x), part(place.y, far.y, size.y, anchor.y, flip.y));
+        (sample, coordinates)
     }
 }
 
@@ -391,7 +412,7 @@ impl<R: Real> Warp<R> for SphericalRectangle<R> {
     type Point = Vec3<R>;
     #[inline(always)]
     fn sample(&self, u: Vec2<R>) -> Vec3<R> {
-        let point = self.point(u);
+        let point = self.point(self.place(u));
         let squared = point.length_squared();
         point * rsqrt(squared).keep(squared.gt(R::lit(1e-37)))
     }

@@ -12,6 +12,12 @@ use crate::warp::Warp;
 pub trait SphericalShape<R: Real>: Warp<R, Point = Vec3<R>> + Copy {
     /// The direction for `u` in [0, 1)², and the distance to the shape along it.
     fn sample_direction(&self, u: Vec2<R>) -> DirectionSample<R>;
+    /// The same with the surface coordinates of the point, each in [0, 1], if the map knows them without intersecting the shape: of a
+    /// triangle, the barycentric coordinates of its second and third vertex; otherwise the parts of both edges.
+    #[inline(always)]
+    fn sample_point(&self, u: Vec2<R>) -> (DirectionSample<R>, Option<Vec2<R>>) {
+        (self.sample_direction(u), None)
+    }
     /// Solid angle in steradians.
     fn solid_angle(&self) -> R;
     /// The pdf of every direction that hits the shape, per steradian: 1/Ω, and 0 where Ω is 0.
@@ -35,12 +41,17 @@ pub trait ProjectedShape<R: Real>: Warp<R, Point = Vec3<R>> + Copy {
 }
 
 macro_rules! spherical {
-    ($name:ident $(, $n:ident)?; $this:ident => $front:expr) => {
+    ($name:ident $(, $n:ident)?; $this:ident => $front:expr $(, $point:ident)?) => {
         impl<R: Real $(, const $n: usize)?> SphericalShape<R> for $name<R $(, $n)?> {
             #[inline(always)]
             fn sample_direction(&self, u: Vec2<R>) -> DirectionSample<R> {
                 Self::sample_direction(self, u)
             }
+            $(#[inline(always)]
+            fn sample_point(&self, u: Vec2<R>) -> (DirectionSample<R>, Option<Vec2<R>>) {
+                let (sample, coordinates) = self.$point(u);
+                (sample, Some(coordinates))
+            })?
             #[inline(always)]
             fn solid_angle(&self) -> R {
                 Self::solid_angle(self)
@@ -59,9 +70,9 @@ macro_rules! spherical {
 }
 spherical!(SphericalCap; s => !s.inside());
 spherical!(SphericalDisk; s => Self::in_front(s));
-spherical!(SphericalTriangle; s => Self::in_front(s));
-spherical!(SphericalParallelogram; s => Self::in_front(s));
-spherical!(SphericalRectangle; s => Self::in_front(s));
+spherical!(SphericalTriangle; s => Self::in_front(s), sample_with_coordinates);
+spherical!(SphericalParallelogram; s => Self::in_front(s), sample_with_coordinates);
+spherical!(SphericalRectangle; s => Self::in_front(s), sample_with_coordinates);
 spherical!(SphericalPolygon, N; s => Self::in_front(s));
 
 macro_rules! projected {

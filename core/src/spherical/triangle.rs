@@ -4,7 +4,7 @@ mod arc;
 mod inverse;
 
 use super::direction::{DirectionSample, to_unit};
-use super::double_word::{compensated_height, cross_dw, sum_dw};
+use super::double_word::{compensated_height, cross_dw, height_over, sum_dw};
 use crate::lanewise::lanewise;
 use crate::math::{quotient, rsqrt};
 use crate::real::{Mask, Real, unit_interval};
@@ -166,7 +166,8 @@ impl<R: Real> SphericalTriangle<R> {
         let rest = rest + (d1.cross(e2) + e1.cross(d2));
         let volume = compensated_height(v0, [normal, rest]);
         let (n01, n02, n12) = (v0.cross(v1), v0.cross(v2), v1.cross(v2));
-        Self::prepare([v0, v1, v2], &Planes { n01, n02, n12, normal: normal + rest, volume, edge: v2 - v1 }, scale)
+        let planes = Planes { n01, n02, n12, normal: normal + rest, volume, edge: v2 - v1 };
+        Self::prepare([v0, v1, v2], &planes, || n12, scale)
     }
 
     /// As `new`, with the edges `e1` = v1−v0 and `e2` = v2−v0.
@@ -176,18 +177,29 @@ impl<R: Real> SphericalTriangle<R> {
     #[inline(always)]
     pub fn with_edges(v0: Vec3<R>, v1: Vec3<R>, v2: Vec3<R>, e1: Vec3<R>, e2: Vec3<R>) -> Self {
         let ([v0, v1, v2, e1, e2], scale) = to_unit([v0, v1, v2, e1, e2]);
-        let exact = cross_dw(e1, e2);
-        let (normal, volume) = (exact[0] + exact[1], compensated_height(v0, exact));
+        let normal = e1.cross(e2);
+        let (volume, edge) = (height_over(v0, [e1, e2], normal), e2 - e1);
+        // from the nearer vertex, the rounding of the edge moves neither by more than its own
+        let nearer = Vec3::blend(v1.length_squared().lt(v2.length_squared()), v1, v2);
+        let (n01, n02, n12) = (v0.cross(e1), v0.cross(e2), nearer.cross(edge));
         // v1×v2 = (v0+e1)×(v0+e2)
-        let [n12, rest] = sum_dw(exact, sum_dw(cross_dw(v0, e2), cross_dw(e1, v0)));
-        let (n01, n02, n12) = (v0.cross(e1), v0.cross(e2), n12 + rest);
-        Self::prepare([v0, v1, v2], &Planes { n01, n02, n12, normal, volume, edge: e2 - e1 }, scale)
+        let exact = || {
+            let [n12, rest] = sum_dw(cross_dw(e1, e2), sum_dw(cross_dw(v0, e2), cross_dw(e1, v0)));
+            n12 + rest
+        };
+        Self::prepare([v0, v1, v2], &Planes { n01, n02, n12, normal, volume, edge }, exact, scale)
     }
 
-    /// Prepares vertices scaled so that all lengths are below 4.
+    /// Prepares vertices scaled so that all lengths are below 4. Where a side is wide, the length of V₁×V₂ counts: `exact` returns it
+    /// accurate relative to itself.
     #[inline(always)]
-    pub(super) fn prepare([v0, v1, v2]: [Vec3<R>; 3], planes: &Planes<R>, scale: R) -> Self {
-        let Planes { n01, n02, n12, normal, volume, edge } = *planes;
+    pub(super) fn prepare(
+        [v0, v1, v2]: [Vec3<R>; 3],
+        planes: &Planes<R>,
+        exact: impl FnOnce() -> Vec3<R>,
+        scale: R,
+    ) -> Self {
+        let Planes { n01, n02, mut n12, normal, volume, edge } = *planes;
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         // distances lᵢ of the vertices and the cosines dᵢⱼ between their directions
         let squared = [v0, v1, v2].map(Vec3::length_squared);
@@ -223,6 +235,7 @@ impl<R: Real> SphericalTriangle<R> {
         // a side of more than 120° is rare: do the extra work only where there is one
         let wide = d01.lesser(d02).lesser(d12).lt(R::lit(-0.5));
         if wide.any() {
+            n12 = Vec3::blend(wide, exact(), n12);
             let sums = [
                 sum_of_units([v0, v1], [i0, i1], n01),
                 sum_of_units([v0, v2], [i0, i2], n02),
@@ -325,11 +338,17 @@ impl<R: Real> SphericalTriangle<R> {
     /// Maps `u` to a direction and the distance to the triangle along it.
     #[inline(always)]
     pub fn sample_direction(&self, u: Vec2<R>) -> DirectionSample<R> {
-        self.sample_direction_from(u, R::lit(1.0) - u.x)
+        self.sample_point_from(u, R::lit(1.0) - u.x).0
     }
-    /// As `sample_direction`, where 1−u₀ is known more accurately than the difference gives it.
+    /// The same with the barycentric coordinates of `v1` and `v2`.
     #[inline(always)]
-    pub(super) fn sample_direction_from(&self, u: Vec2<R>, rest: R) -> DirectionSample<R> {
+    pub(super) fn sample_with_coordinates(&self, u: Vec2<R>) -> (DirectionSample<R>, Vec2<R>) {
+        let (sample, [_, b1, b2]) = self.sample_point_from(u, R::lit(1.0) - u.x);
+        (sample, Vec2::new(b1, b2))
+    }
+    /// Direction, distance and barycentric coordinates, where 1−u₀ is known more accurately than the difference gives it.
+    #[inline(always)]
+    pub(super) fn sample_point_from(&self, u: Vec2<R>, rest: R) -> (DirectionSample<R>, [R; 3]) {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let arc = self.arc(u.x, rest);
         let (direction, z, sin_over) = self.along_arc(&arc, u.y);
@@ -349,9 +368,13 @@ impl<R: Real> SphericalTriangle<R> {
         let denominator = R::blend(behind, direction.dot(self.normal).abs(), reciprocal);
         let some = denominator.gt(zero) & self.solid_angle.gt(zero);
         // a distance that does not fit f32 becomes the largest finite number
-        let distance = (numerator / R::blend(some, denominator, one)).lesser(self.farthest);
+        let distance = (numerator / R::blend(some, denominator, one)).lesser(self.farthest).keep(some);
+        // the point is the sum of the vertices with these weights
+        let part = |weight: R| (weight * distance).lesser(one);
+        let (b0, b2) = (part(t * w0 * self.inv_l0), part(t * w2 * self.inv_l2));
+        let b1 = R::blend(behind, (one - b0 - b2).greater(zero), part(k / self.l1.greater(R::lit(1e-37))));
         let distance = (distance * self.unit).lesser(R::lit(f64::from(f32::MAX)));
-        DirectionSample { direction, distance: distance.keep(some) }
+        (DirectionSample { direction, distance }, [b0, b1, b2])
     }
 
     /// As `sample`, where 1−u₀ is known more accurately than the difference gives it.

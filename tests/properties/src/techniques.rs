@@ -78,6 +78,7 @@ fn every_figure<R: Real>(sampler: &dyn LightSampler<R>, u: Vec2<R>, i: usize) ->
     let inverse = sampler.invert(s.direction);
     let number = |x: R| x.lane_f64(i);
     all.extend([number(sampler.pdf(s.direction)), number(inverse.x), number(inverse.y)]);
+    all.push(number(sampler.pdf_of_hit(s.direction)));
     all.extend(figures(&sampler.hit(s.direction), i));
     let area = sampler.area_sample(u);
     all.extend(area.point.at(i));
@@ -86,7 +87,7 @@ fn every_figure<R: Real>(sampler: &dyn LightSampler<R>, u: Vec2<R>, i: usize) ->
 }
 
 /// **Total** and **lane-identical**: every number is finite; pdf, distance and inverse are in range; the direction is a unit vector where
-/// the pdf is not 0; every width gives the same bits.
+/// the pdf is not 0; the pdf of a hit is that of its direction; every width gives the same bits.
 pub fn any_bits<T: LightFixture>(lights: &[T; 8], us: &[[f32; 2]; 8]) {
     let (eight, sixteen) = (T::prepare::<f32x8>(lights), T::prepare::<f32x16>(&twice(lights)));
     for i in 0..8 {
@@ -97,6 +98,7 @@ pub fn any_bits<T: LightFixture>(lights: &[T; 8], us: &[[f32; 2]; 8]) {
         let [x, y, z, distance, pdf, ..] = figures(&alone, 0);
         assert!(one.iter().all(|x| x.is_finite()), "not finite: {light:?} at {u:?}: {alone:?}\n{one:?}");
         assert!(pdf >= 0.0 && distance >= 0.0 && one[12] >= 0.0, "negative: {light:?} at {u:?}: {alone:?}");
+        assert!(one[12] == 0.0 || one[15].to_bits() == one[12].to_bits(), "pdf of a hit: {light:?} at {u:?}: {one:?}");
         assert!(one[13..15].iter().all(|x| (0.0..1.0).contains(x)), "inverse: {light:?} at {u:?}: {one:?}");
         let off = (length([x, y, z]) - 1.0).abs();
         assert!(
@@ -415,9 +417,12 @@ impl LightFixture for AreaLight {
     }
     /// Lines: to the rounding of the direction, over the sine of its angle to the line. Curved lights by area: a rounded direction moves the
     /// point by 16 ulp of the distance, and the cosine there by that over the radius and the cosine. Samples that the light itself hides
-    /// have the pdf of their own point.
+    /// have the pdf of their own point. Cosine warps: to the rounding of the direction, over the least cosine.
     fn evaluated_to(&self, s: &LightSample<f32>) -> Option<f64> {
         let curved = matches!(self.shape, LightShape::Sphere | LightShape::Cylinder | LightShape::Patch);
+        if self.by == Measure::CosineWarp {
+            return Some(32.0 * ULP / 0.01);
+        }
         if self.shape != LightShape::Line && !(curved && self.by == Measure::Area) {
             return Some(0.0);
         }
