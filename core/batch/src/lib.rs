@@ -235,6 +235,20 @@ impl Batch {
         // SAFETY: the function reads vectors
         unsafe { (self.once::<T>().pdf)(light, row(&p), row(&n), row(&w)) }
     }
+    /// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it. Where `w` misses, the result
+    /// is finite, and of no meaning.
+    #[inline]
+    #[must_use]
+    pub fn pdf_of_hit_once<T: BatchTechnique>(
+        &self,
+        light: &T::Light<f32>,
+        p: Vec3<f32>,
+        n: Vec3<f32>,
+        w: Vec3<f32>,
+    ) -> f32 {
+        // SAFETY: the function reads vectors
+        unsafe { (self.once::<T>().pdf_of_hit)(light, row(&p), row(&n), row(&w)) }
+    }
     /// Samples one prepared light, at the numbers `u` in [0, 1)².
     pub fn sample<T: BatchSampler>(&self, sampler: &T, u: Vec2<&[f32]>, out: Samples<'_>) {
         let n = u.x.len();

@@ -61,6 +61,8 @@ pub struct OnceFunctions<T: BatchTechnique> {
     pub sample: unsafe extern "C" fn(&T::Light<f32>, *const f32, *const f32, *const f32, *mut OneSample),
     /// See [`Batch::pdf_once`](crate::Batch::pdf_once).
     pub pdf: unsafe extern "C" fn(&T::Light<f32>, *const f32, *const f32, *const f32) -> f32,
+    /// See [`Batch::pdf_of_hit_once`](crate::Batch::pdf_of_hit_once).
+    pub pdf_of_hit: unsafe extern "C" fn(&T::Light<f32>, *const f32, *const f32, *const f32) -> f32,
 }
 
 /// The functions of a warp for one element. They read and write as many numbers in a row as the warp has numbers and coordinates.
@@ -87,7 +89,7 @@ impl<T: BatchSampler> OneFunctions<T> {
 }
 impl<T: BatchTechnique> OnceFunctions<T> {
     pub(crate) const fn of_this_build() -> Self {
-        Self { prepare, sample: sample_once::<T>, pdf: pdf_once::<T> }
+        Self { prepare, sample: sample_once::<T>, pdf: pdf_once::<T>, pdf_of_hit: pdf_of_hit_once::<T> }
     }
 }
 impl<W: BatchWarp> OneWarpFunctions<W> {
@@ -206,6 +208,22 @@ unsafe extern "C" fn pdf_once<T: BatchTechnique>(
     } else {
         // SAFETY: the caller's
         unsafe { place::<T>(light, p, n).pdf(three(w)) }
+    }
+}
+unsafe extern "C" fn pdf_of_hit_once<T: BatchTechnique>(
+    light: &T::Light<f32>,
+    p: *const f32,
+    n: *const f32,
+    w: *const f32,
+) -> f32 {
+    if IS_LONG {
+        // SAFETY: the caller's
+        unsafe { prepared::<T>(light, p, n).splat::<f32>().pdf_of_hit(three(w)) }
+    } else if IS_ABSENT {
+        0.0
+    } else {
+        // SAFETY: the caller's
+        unsafe { place::<T>(light, p, n).pdf_of_hit(three(w)) }
     }
 }
 

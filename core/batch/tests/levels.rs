@@ -279,6 +279,8 @@ impl Visitor for Equal {
                     let (p, normal) = (at(input.three(30, n), i), at(input.three(33, n), i));
                     let once = batch.pdf_once::<T>(&light, p, normal, at(w, i));
                     assert_eq!(bits(once), bits(expected), "pdf once: {}", say(i));
+                    let of_hit = batch.pdf_of_hit_once::<T>(&light, p, normal, at(w, i));
+                    assert!(of_hit.is_finite() && (expected == 0.0 || bits(of_hit) == bits(expected)), "{}", say(i));
                     assert_eq!([x[i], y[i]].map(bits), [u.x, u.y].map(bits), "invert each: {}", say(i));
                     assert_eq!(written.figures(i), figures(&sampler.hit(at(w, i))), "hit each: {}", say(i));
                 }

@@ -340,6 +340,29 @@ impl<L: Copy, X: Copy> Reflected<L, X> {
     }
 }
 
+/// A pdf of a light that is prepared for this call alone.
+macro_rules! pdf_once {
+    ($kind:ident $light:ident, $module:ident, $name:ident, $suffix:literal, $which:ident, ($($one:ident: $of_one:ty)?), $sampler:ident,
+     $(#[$doc:meta])*) => {
+        $(#[$doc])*
+        #[unsafe(export_name = concat!("etendue_", stringify!($module), $suffix))]
+        pub unsafe extern "C" fn $name(light: *const $light, p: *const f32, $($one: $of_one,)? w: *const f32) -> f32 {
+            let mut pdf = 0.0;
+            if !light.is_null() && !p.is_null() $(&& !$one.is_null())? && !w.is_null() {
+                // SAFETY: the pointers are not null, and point to what the header says
+                unsafe {
+                    let normal = technique_functions!(@normal $kind p $(, $one)?);
+                    <$sampler as Technique>::with_light(technique_functions!(@lights $kind light $(, $one)?), |light| {
+                        pdf = (Batch::new().once::<<$sampler as Sampler>::Core>().$which)(light, p, normal.cast(), w);
+                    });
+                }
+            }
+            pdf
+        }
+    };
+}
+pub(crate) use pdf_once;
+
 /// What is done with the sampler of a technique, and with lights of their own. `(n: normals)` is there if it needs the normal, and
 /// `(reflection => reflections)` if it needs what a surface reflects.
 macro_rules! technique_functions {
@@ -388,27 +411,14 @@ macro_rules! technique_functions {
                 })
             }
         }
-        /// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
-        /// and if a pointer is NULL. What the pdf does not need is not prepared.
-        #[unsafe(export_name = concat!("etendue_", stringify!($module), "_pdf_once"))]
-        pub unsafe extern "C" fn pdf_once(
-            light: *const $light,
-            p: *const f32,
-            $($one: $of_one,)?
-            w: *const f32,
-        ) -> f32 {
-            let mut pdf = 0.0;
-            if !light.is_null() && !p.is_null() $(&& !$one.is_null())? && !w.is_null() {
-                // SAFETY: the pointers are not null, and point to what the header says
-                unsafe {
-                        let normal = technique_functions!(@normal $kind p $(, $one)?);
-                    <$sampler as Technique>::with_light(technique_functions!(@lights $kind light $(, $one)?), |light| {
-                        pdf = (Batch::new().once::<<$sampler as Sampler>::Core>().pdf)(light, p, normal.cast(), w);
-                    });
-                }
-            }
-            pdf
-        }
+        pdf_once!($kind $light, $module, pdf_once, "_pdf_once", pdf, ($($one: $of_one)?), $sampler,
+            /// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
+            /// and if a pointer is NULL. What the pdf does not need is not prepared.
+        );
+        pdf_once!($kind $light, $module, pdf_of_hit_once, "_pdf_of_hit_once", pdf_of_hit, ($($one: $of_one)?), $sampler,
+            /// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
+            /// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
+        );
         /// Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
         #[unsafe(export_name = concat!("etendue_", stringify!($module), "_sample_each"))]
         pub unsafe extern "C" fn sample_each(
