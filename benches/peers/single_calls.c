@@ -7,7 +7,7 @@
 #include <string.h>
 #include <time.h>
 
-enum { INPUTS = 1024, ROWS = 11 };
+enum { INPUTS = 1024, ROWS = 14 };
 typedef struct {
     /* numbers of a light, a point of a surface, its normal, a direction to the light, random numbers */
     float light[9], p[3], n[3], w[3], u[2];
@@ -36,7 +36,8 @@ APART float bilinear(const Input *i) {
     textbook_bilinear(weights, u);
     return u[0] + u[1];
 }
-const Column TEXTBOOK = {triangle, warped, NULL, triangle_pdf, NULL, sphere, sphere_pdf, rectangle, NULL, bilinear, NULL};
+const Column TEXTBOOK = {triangle, warped, NULL, triangle_pdf, triangle_pdf, NULL, NULL, sphere, sphere_pdf, sphere_pdf, rectangle, NULL, bilinear,
+    NULL};
 #endif
 
 #ifdef OF_LIBRARY
@@ -59,10 +60,10 @@ static EtendueRectangle a_rectangle(const Input *i) { return (EtendueRectangle){
         etendue_##name##_sample_once(&l, i->p, __VA_ARGS__ i->u, &s); \
         return sum(s); \
     }
-#define PDF(name, light, ...) \
-    APART float name##_pdf(const Input *i) { \
+#define PDF(name, what, light, ...) \
+    APART float name##_##what(const Input *i) { \
         light; \
-        return etendue_##name##_pdf_once(&l, i->p, __VA_ARGS__ i->w); \
+        return etendue_##name##_##what##_once(&l, i->p, __VA_ARGS__ i->w); \
     }
 #define NORMAL i->n,
 ONCE(triangle_by_solid_angle, EtendueTriangle l; a_triangle(i, &l), )
@@ -70,10 +71,13 @@ ONCE(triangle_by_cosine_warp, EtendueTriangle l; a_triangle(i, &l), NORMAL)
 ONCE(triangle_by_projected_solid_angle, EtendueTriangle l; a_triangle(i, &l), NORMAL)
 ONCE(sphere_by_solid_angle, EtendueSphere l = a_sphere(i), )
 ONCE(rectangle_by_solid_angle, EtendueRectangle l = a_rectangle(i), )
-PDF(triangle_by_solid_angle, EtendueTriangle l; a_triangle(i, &l), )
-PDF(triangle_by_projected_solid_angle, EtendueTriangle l; a_triangle(i, &l), NORMAL)
-PDF(sphere_by_solid_angle, EtendueSphere l = a_sphere(i), )
-PDF(rectangle_by_solid_angle, EtendueRectangle l = a_rectangle(i), )
+PDF(triangle_by_solid_angle, pdf, EtendueTriangle l; a_triangle(i, &l), )
+PDF(triangle_by_solid_angle, pdf_of_hit, EtendueTriangle l; a_triangle(i, &l), )
+PDF(triangle_by_projected_solid_angle, pdf, EtendueTriangle l; a_triangle(i, &l), NORMAL)
+PDF(triangle_by_projected_solid_angle, pdf_of_hit, EtendueTriangle l; a_triangle(i, &l), NORMAL)
+PDF(sphere_by_solid_angle, pdf, EtendueSphere l = a_sphere(i), )
+PDF(sphere_by_solid_angle, pdf_of_hit, EtendueSphere l = a_sphere(i), )
+PDF(rectangle_by_solid_angle, pdf, EtendueRectangle l = a_rectangle(i), )
 APART float bilinear(const Input *i) {
     EtendueBilinear warp = {{i->w[0] + 1, i->w[1] + 1, i->w[2] + 1, 1}};
     float point[2];
@@ -92,8 +96,8 @@ __attribute__((constructor)) static void prepare(void) {
     etendue_triangle_by_solid_angle_prepare(&light, p, &kept);
 }
 const Column LIBRARY = {triangle_by_solid_angle, triangle_by_cosine_warp, triangle_by_projected_solid_angle, triangle_by_solid_angle_pdf,
-    triangle_by_projected_solid_angle_pdf, sphere_by_solid_angle, sphere_by_solid_angle_pdf, rectangle_by_solid_angle,
-    rectangle_by_solid_angle_pdf, bilinear, prepared};
+    triangle_by_solid_angle_pdf_of_hit, triangle_by_projected_solid_angle_pdf, triangle_by_projected_solid_angle_pdf_of_hit, sphere_by_solid_angle,
+    sphere_by_solid_angle_pdf, sphere_by_solid_angle_pdf_of_hit, rectangle_by_solid_angle, rectangle_by_solid_angle_pdf, bilinear, prepared};
 #endif
 
 #ifdef OF_HEADER
@@ -130,15 +134,15 @@ __attribute__((constructor)) static void prepare(void) {
     EtendueVec3 p = {0, 0, 0};
     kept = etendue_triangle_by_solid_angle_prepare(light, p);
 }
-const Column HEADER = {triangle_by_solid_angle, triangle_by_cosine_warp, triangle_by_projected_solid_angle, triangle_by_solid_angle_pdf,
-    triangle_by_projected_solid_angle_pdf, sphere_by_solid_angle, sphere_by_solid_angle_pdf, rectangle_by_solid_angle,
+const Column HEADER = {triangle_by_solid_angle, triangle_by_cosine_warp, triangle_by_projected_solid_angle, triangle_by_solid_angle_pdf, NULL,
+    triangle_by_projected_solid_angle_pdf, NULL, sphere_by_solid_angle, sphere_by_solid_angle_pdf, NULL, rectangle_by_solid_angle,
     rectangle_by_solid_angle_pdf, bilinear, prepared};
 #endif
 
 #ifdef OF_PROGRAM
 static const char *const NAMES[ROWS] = {"triangle: sample", "triangle by cosine warp: sample", "triangle, projected: sample", "triangle: pdf",
-    "triangle, projected: pdf", "sphere: sample", "sphere: pdf", "rectangle: sample", "rectangle: pdf", "bilinear warp: sample",
-    "triangle, prepared: sample"};
+    "triangle: pdf of a hit", "triangle, projected: pdf", "triangle, projected: pdf of a hit", "sphere: sample", "sphere: pdf",
+    "sphere: pdf of a hit", "rectangle: sample", "rectangle: pdf", "bilinear warp: sample", "triangle, prepared: sample"};
 static Input inputs[INPUTS];
 static unsigned state = 1;
 static float next(void) {

@@ -160,7 +160,5 @@ pub use sampler::{ByArea, ByCosineWarp, ByProjectedSolidAngle, ByReflection, ByS
 pub use sphere::{
     PlacedSphere, Sphere, SphereByArea, SphereByProjectedSolidAngle, SphereByReflection, SphereBySolidAngle,
 };
-pub use spread::{ParallelogramBySpread, RectangleBySpread, Spread};
-pub use surface::{
-    AreaSurface, ParallelogramOfPart, PlacedParallelogram, PlacedTriangle, Surface, SurfaceHit, SurfacePoint,
-};
+pub use spread::Spread;
+pub use surface::{AreaSurface, PlacedParallelogram, PlacedTriangle, Surface, SurfaceHit, SurfacePoint};

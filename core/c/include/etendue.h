@@ -1049,6 +1049,12 @@ float etendue_sphere_by_area_pdf_once(const EtendueSphere *light,
                                       const float *p,
                                       const float *w);
 
+// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
+// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
+float etendue_sphere_by_area_pdf_of_hit_once(const EtendueSphere *light,
+                                             const float *p,
+                                             const float *w);
+
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_sphere_by_area_sample_each(const EtendueSphereColumns *lights,
                                                  size_t n,
@@ -1133,6 +1139,12 @@ EtendueStatus etendue_sphere_by_solid_angle_sample_once(const EtendueSphere *lig
 float etendue_sphere_by_solid_angle_pdf_once(const EtendueSphere *light,
                                              const float *p,
                                              const float *w);
+
+// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
+// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
+float etendue_sphere_by_solid_angle_pdf_of_hit_once(const EtendueSphere *light,
+                                                    const float *p,
+                                                    const float *w);
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_sphere_by_solid_angle_sample_each(const EtendueSphereColumns *lights,
@@ -1223,6 +1235,13 @@ float etendue_sphere_by_projected_solid_angle_pdf_once(const EtendueSphere *ligh
                                                        const float *p,
                                                        const float *n,
                                                        const float *w);
+
+// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
+// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
+float etendue_sphere_by_projected_solid_angle_pdf_of_hit_once(const EtendueSphere *light,
+                                                              const float *p,
+                                                              const float *n,
+                                                              const float *w);
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_sphere_by_projected_solid_angle_sample_each(const EtendueSphereColumns *lights,
@@ -1316,6 +1335,13 @@ float etendue_sphere_by_reflection_pdf_once(const EtendueSphere *light,
                                             const EtendueReflection *reflection,
                                             const float *w);
 
+// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
+// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
+float etendue_sphere_by_reflection_pdf_of_hit_once(const EtendueSphere *light,
+                                                   const float *p,
+                                                   const EtendueReflection *reflection,
+                                                   const float *w);
+
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_sphere_by_reflection_sample_each(const EtendueSphereColumns *lights,
                                                        size_t n,
@@ -1405,6 +1431,12 @@ float etendue_triangle_by_area_pdf_once(const EtendueTriangle *light,
                                         const float *p,
                                         const float *w);
 
+// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
+// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
+float etendue_triangle_by_area_pdf_of_hit_once(const EtendueTriangle *light,
+                                               const float *p,
+                                               const float *w);
+
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_triangle_by_area_sample_each(const EtendueTriangleColumns *lights,
                                                    size_t n,
@@ -1491,6 +1523,12 @@ EtendueStatus etendue_triangle_by_solid_angle_sample_once(const EtendueTriangle 
 float etendue_triangle_by_solid_angle_pdf_once(const EtendueTriangle *light,
                                                const float *p,
                                                const float *w);
+
+// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
+// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
+float etendue_triangle_by_solid_angle_pdf_of_hit_once(const EtendueTriangle *light,
+                                                      const float *p,
+                                                      const float *w);
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_triangle_by_solid_angle_sample_each(const EtendueTriangleColumns *lights,
@@ -1582,6 +1620,13 @@ float etendue_triangle_by_projected_solid_angle_pdf_once(const EtendueTriangle *
                                                          const float *p,
                                                          const float *n,
                                                          const float *w);
+
+// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
+// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
+float etendue_triangle_by_projected_solid_angle_pdf_of_hit_once(const EtendueTriangle *light,
+                                                                const float *p,
+                                                                const float *n,
+                                                                const float *w);
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_triangle_by_projected_solid_angle_sample_each(const EtendueTriangleColumns *lights,
@@ -1677,6 +1722,13 @@ float etendue_triangle_by_cosine_warp_pdf_once(const EtendueTriangle *light,
                                                const float *n,
                                                const float *w);
 
+// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
+// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
+float etendue_triangle_by_cosine_warp_pdf_of_hit_once(const EtendueTriangle *light,
+                                                      const float *p,
+                                                      const float *n,
+                                                      const float *w);
+
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_triangle_by_cosine_warp_sample_each(const EtendueTriangleColumns *lights,
                                                           size_t n,
@@ -1771,6 +1823,13 @@ float etendue_triangle_by_reflection_pdf_once(const EtendueTriangle *light,
                                               const EtendueReflection *reflection,
                                               const float *w);
 
+// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
+// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
+float etendue_triangle_by_reflection_pdf_of_hit_once(const EtendueTriangle *light,
+                                                     const float *p,
+                                                     const EtendueReflection *reflection,
+                                                     const float *w);
+
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_triangle_by_reflection_sample_each(const EtendueTriangleColumns *lights,
                                                          size_t n,
@@ -1860,6 +1919,12 @@ float etendue_parallelogram_by_area_pdf_once(const EtendueParallelogram *light,
                                              const float *p,
                                              const float *w);
 
+// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
+// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
+float etendue_parallelogram_by_area_pdf_of_hit_once(const EtendueParallelogram *light,
+                                                    const float *p,
+                                                    const float *w);
+
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_parallelogram_by_area_sample_each(const EtendueParallelogramColumns *lights,
                                                         size_t n,
@@ -1946,6 +2011,12 @@ EtendueStatus etendue_parallelogram_by_solid_angle_sample_once(const EtenduePara
 float etendue_parallelogram_by_solid_angle_pdf_once(const EtendueParallelogram *light,
                                                     const float *p,
                                                     const float *w);
+
+// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
+// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
+float etendue_parallelogram_by_solid_angle_pdf_of_hit_once(const EtendueParallelogram *light,
+                                                           const float *p,
+                                                           const float *w);
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_parallelogram_by_solid_angle_sample_each(const EtendueParallelogramColumns *lights,
@@ -2037,6 +2108,13 @@ float etendue_parallelogram_by_projected_solid_angle_pdf_once(const EtendueParal
                                                               const float *p,
                                                               const float *n,
                                                               const float *w);
+
+// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
+// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
+float etendue_parallelogram_by_projected_solid_angle_pdf_of_hit_once(const EtendueParallelogram *light,
+                                                                     const float *p,
+                                                                     const float *n,
+                                                                     const float *w);
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_parallelogram_by_projected_solid_angle_sample_each(const EtendueParallelogramColumns *lights,
@@ -2132,6 +2210,13 @@ float etendue_parallelogram_by_reflection_pdf_once(const EtendueParallelogram *l
                                                    const EtendueReflection *reflection,
                                                    const float *w);
 
+// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
+// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
+float etendue_parallelogram_by_reflection_pdf_of_hit_once(const EtendueParallelogram *light,
+                                                          const float *p,
+                                                          const EtendueReflection *reflection,
+                                                          const float *w);
+
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_parallelogram_by_reflection_sample_each(const EtendueParallelogramColumns *lights,
                                                               size_t n,
@@ -2223,6 +2308,12 @@ float etendue_rectangle_by_solid_angle_pdf_once(const EtendueRectangle *light,
                                                 const float *p,
                                                 const float *w);
 
+// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
+// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
+float etendue_rectangle_by_solid_angle_pdf_of_hit_once(const EtendueRectangle *light,
+                                                       const float *p,
+                                                       const float *w);
+
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_rectangle_by_solid_angle_sample_each(const EtendueRectangleColumns *lights,
                                                            size_t n,
@@ -2313,6 +2404,13 @@ float etendue_rectangle_by_cosine_warp_pdf_once(const EtendueRectangle *light,
                                                 const float *n,
                                                 const float *w);
 
+// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
+// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
+float etendue_rectangle_by_cosine_warp_pdf_of_hit_once(const EtendueRectangle *light,
+                                                       const float *p,
+                                                       const float *n,
+                                                       const float *w);
+
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_rectangle_by_cosine_warp_sample_each(const EtendueRectangleColumns *lights,
                                                            size_t n,
@@ -2397,6 +2495,12 @@ EtendueStatus etendue_disk_by_area_sample_once(const EtendueDisk *light,
 float etendue_disk_by_area_pdf_once(const EtendueDisk *light,
                                     const float *p,
                                     const float *w);
+
+// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
+// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
+float etendue_disk_by_area_pdf_of_hit_once(const EtendueDisk *light,
+                                           const float *p,
+                                           const float *w);
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_disk_by_area_sample_each(const EtendueDiskColumns *lights,
@@ -2483,6 +2587,12 @@ float etendue_disk_by_solid_angle_pdf_once(const EtendueDisk *light,
                                            const float *p,
                                            const float *w);
 
+// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
+// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
+float etendue_disk_by_solid_angle_pdf_of_hit_once(const EtendueDisk *light,
+                                                  const float *p,
+                                                  const float *w);
+
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_disk_by_solid_angle_sample_each(const EtendueDiskColumns *lights,
                                                       size_t n,
@@ -2568,6 +2678,12 @@ float etendue_cylinder_by_area_pdf_once(const EtendueCylinder *light,
                                         const float *p,
                                         const float *w);
 
+// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
+// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
+float etendue_cylinder_by_area_pdf_of_hit_once(const EtendueCylinder *light,
+                                               const float *p,
+                                               const float *w);
+
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_cylinder_by_area_sample_each(const EtendueCylinderColumns *lights,
                                                    size_t n,
@@ -2650,6 +2766,12 @@ EtendueStatus etendue_polygon_by_area_sample_once(const EtenduePolygon *light,
 float etendue_polygon_by_area_pdf_once(const EtenduePolygon *light,
                                        const float *p,
                                        const float *w);
+
+// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
+// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
+float etendue_polygon_by_area_pdf_of_hit_once(const EtenduePolygon *light,
+                                              const float *p,
+                                              const float *w);
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_polygon_by_area_sample_each(const EtenduePolygonColumns *lights,
@@ -2737,6 +2859,12 @@ EtendueStatus etendue_polygon_by_solid_angle_sample_once(const EtenduePolygon *l
 float etendue_polygon_by_solid_angle_pdf_once(const EtenduePolygon *light,
                                               const float *p,
                                               const float *w);
+
+// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
+// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
+float etendue_polygon_by_solid_angle_pdf_of_hit_once(const EtenduePolygon *light,
+                                                     const float *p,
+                                                     const float *w);
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_polygon_by_solid_angle_sample_each(const EtenduePolygonColumns *lights,
@@ -2827,6 +2955,13 @@ float etendue_polygon_by_projected_solid_angle_pdf_once(const EtenduePolygon *li
                                                         const float *p,
                                                         const float *n,
                                                         const float *w);
+
+// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
+// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
+float etendue_polygon_by_projected_solid_angle_pdf_of_hit_once(const EtenduePolygon *light,
+                                                               const float *p,
+                                                               const float *n,
+                                                               const float *w);
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_polygon_by_projected_solid_angle_sample_each(const EtenduePolygonColumns *lights,
@@ -2920,6 +3055,13 @@ float etendue_polygon_by_reflection_pdf_once(const EtenduePolygon *light,
                                              const EtendueReflection *reflection,
                                              const float *w);
 
+// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
+// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
+float etendue_polygon_by_reflection_pdf_of_hit_once(const EtenduePolygon *light,
+                                                    const float *p,
+                                                    const EtendueReflection *reflection,
+                                                    const float *w);
+
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_polygon_by_reflection_sample_each(const EtenduePolygonColumns *lights,
                                                         size_t n,
@@ -3005,6 +3147,12 @@ float etendue_patch_by_area_pdf_once(const EtendueBilinearPatch *light,
                                      const float *p,
                                      const float *w);
 
+// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
+// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
+float etendue_patch_by_area_pdf_of_hit_once(const EtendueBilinearPatch *light,
+                                            const float *p,
+                                            const float *w);
+
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_patch_by_area_sample_each(const EtendueBilinearPatchColumns *lights,
                                                 size_t n,
@@ -3088,6 +3236,12 @@ float etendue_line_by_length_pdf_once(const EtendueLine *light,
                                       const float *p,
                                       const float *w);
 
+// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
+// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
+float etendue_line_by_length_pdf_of_hit_once(const EtendueLine *light,
+                                             const float *p,
+                                             const float *w);
+
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_line_by_length_sample_each(const EtendueLineColumns *lights,
                                                  size_t n,
@@ -3168,6 +3322,12 @@ EtendueStatus etendue_line_by_angle_sample_once(const EtendueLine *light,
 float etendue_line_by_angle_pdf_once(const EtendueLine *light,
                                      const float *p,
                                      const float *w);
+
+// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
+// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
+float etendue_line_by_angle_pdf_of_hit_once(const EtendueLine *light,
+                                            const float *p,
+                                            const float *w);
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_line_by_angle_sample_each(const EtendueLineColumns *lights,
@@ -3259,6 +3419,13 @@ float etendue_line_by_projected_solid_angle_pdf_once(const EtendueLine *light,
                                                      const float *n,
                                                      const float *w);
 
+// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
+// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
+float etendue_line_by_projected_solid_angle_pdf_of_hit_once(const EtendueLine *light,
+                                                            const float *p,
+                                                            const float *n,
+                                                            const float *w);
+
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_line_by_projected_solid_angle_sample_each(const EtendueLineColumns *lights,
                                                                 size_t n,
@@ -3346,6 +3513,12 @@ float etendue_annulus_by_area_pdf_once(const EtendueAnnulus *light,
                                        const float *p,
                                        const float *w);
 
+// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
+// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
+float etendue_annulus_by_area_pdf_of_hit_once(const EtendueAnnulus *light,
+                                              const float *p,
+                                              const float *w);
+
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_annulus_by_area_sample_each(const EtendueAnnulusColumns *lights,
                                                   size_t n,
@@ -3428,6 +3601,12 @@ EtendueStatus etendue_sun_by_solid_angle_sample_once(const EtendueSun *light,
 float etendue_sun_by_solid_angle_pdf_once(const EtendueSun *light,
                                           const float *p,
                                           const float *w);
+
+// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
+// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
+float etendue_sun_by_solid_angle_pdf_of_hit_once(const EtendueSun *light,
+                                                 const float *p,
+                                                 const float *w);
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_sun_by_solid_angle_sample_each(const EtendueSunColumns *lights,
@@ -3514,6 +3693,12 @@ float etendue_point_light_by_delta_pdf_once(const EtenduePointLight *light,
                                             const float *p,
                                             const float *w);
 
+// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
+// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
+float etendue_point_light_by_delta_pdf_of_hit_once(const EtenduePointLight *light,
+                                                   const float *p,
+                                                   const float *w);
+
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_point_light_by_delta_sample_each(const EtenduePointLightColumns *lights,
                                                        size_t n,
@@ -3598,6 +3783,12 @@ EtendueStatus etendue_spot_light_by_delta_sample_once(const EtendueSpotLight *li
 float etendue_spot_light_by_delta_pdf_once(const EtendueSpotLight *light,
                                            const float *p,
                                            const float *w);
+
+// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
+// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
+float etendue_spot_light_by_delta_pdf_of_hit_once(const EtendueSpotLight *light,
+                                                  const float *p,
+                                                  const float *w);
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_spot_light_by_delta_sample_each(const EtendueSpotLightColumns *lights,
@@ -3685,6 +3876,12 @@ EtendueStatus etendue_directional_light_by_delta_sample_once(const EtendueDirect
 float etendue_directional_light_by_delta_pdf_once(const EtendueDirectionalLight *light,
                                                   const float *p,
                                                   const float *w);
+
+// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
+// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
+float etendue_directional_light_by_delta_pdf_of_hit_once(const EtendueDirectionalLight *light,
+                                                         const float *p,
+                                                         const float *w);
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_directional_light_by_delta_sample_each(const EtendueDirectionalLightColumns *lights,
@@ -4015,6 +4212,12 @@ float etendue_picture_by_area_pdf_once(const EtenduePicturedParallelogram *light
                                        const float *p,
                                        const float *w);
 
+// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
+// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
+float etendue_picture_by_area_pdf_of_hit_once(const EtenduePicturedParallelogram *light,
+                                              const float *p,
+                                              const float *w);
+
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_picture_by_area_sample_each(const EtenduePicturedParallelogramColumns *lights,
                                                   size_t n,
@@ -4101,6 +4304,12 @@ EtendueStatus etendue_picture_by_solid_angle_sample_once(const EtenduePicturedPa
 float etendue_picture_by_solid_angle_pdf_once(const EtenduePicturedParallelogram *light,
                                               const float *p,
                                               const float *w);
+
+// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
+// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
+float etendue_picture_by_solid_angle_pdf_of_hit_once(const EtenduePicturedParallelogram *light,
+                                                     const float *p,
+                                                     const float *w);
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_picture_by_solid_angle_sample_each(const EtenduePicturedParallelogramColumns *lights,
@@ -4191,6 +4400,13 @@ float etendue_picture_by_projected_solid_angle_pdf_once(const EtenduePicturedPar
                                                         const float *p,
                                                         const float *n,
                                                         const float *w);
+
+// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
+// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
+float etendue_picture_by_projected_solid_angle_pdf_of_hit_once(const EtenduePicturedParallelogram *light,
+                                                               const float *p,
+                                                               const float *n,
+                                                               const float *w);
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_picture_by_projected_solid_angle_sample_each(const EtenduePicturedParallelogramColumns *lights,
@@ -4283,6 +4499,12 @@ float etendue_picture_on_sphere_by_visible_area_pdf_once(const EtenduePicturedSp
                                                          const float *p,
                                                          const float *w);
 
+// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
+// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
+float etendue_picture_on_sphere_by_visible_area_pdf_of_hit_once(const EtenduePicturedSphere *light,
+                                                                const float *p,
+                                                                const float *w);
+
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_picture_on_sphere_by_visible_area_sample_each(const EtenduePicturedSphereColumns *lights,
                                                                     size_t n,
@@ -4369,6 +4591,12 @@ EtendueStatus etendue_picture_on_patch_by_visible_area_sample_once(const Etendue
 float etendue_picture_on_patch_by_visible_area_pdf_once(const EtenduePicturedPatch *light,
                                                         const float *p,
                                                         const float *w);
+
+// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
+// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
+float etendue_picture_on_patch_by_visible_area_pdf_of_hit_once(const EtenduePicturedPatch *light,
+                                                               const float *p,
+                                                               const float *w);
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_picture_on_patch_by_visible_area_sample_each(const EtenduePicturedPatchColumns *lights,
@@ -4495,6 +4723,12 @@ EtendueStatus etendue_portals_by_radiance_sample_once(const EtenduePortalEnviron
 float etendue_portals_by_radiance_pdf_once(const EtenduePortalEnvironment *light,
                                            const float *p,
                                            const float *w);
+
+// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
+// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
+float etendue_portals_by_radiance_pdf_of_hit_once(const EtenduePortalEnvironment *light,
+                                                  const float *p,
+                                                  const float *w);
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_portals_by_radiance_sample_each(const EtenduePortalEnvironment *lights,

@@ -159,13 +159,16 @@ pub(super) fn drawn<R: Real>(direction: Vec3<R>, pdf: R, at: SurfaceHit<R>, emit
 
 /// The point of a surface that a shape has drawn.
 #[inline(always)]
-fn point_of<R: Real, S: Surface<R>>(
-    surface: &S,
+fn point_of<R: Real>(
+    surface: &impl Surface<R>,
     (DirectionSample { direction, distance }, uv): (DirectionSample<R>, Option<Vec2<R>>),
 ) -> (Vec3<R>, SurfaceHit<R>) {
     let at = surface.at_distance(direction, distance);
-    let uv = if S::IS_SHAPE { uv.unwrap_or(at.uv) } else { at.uv };
-    (direction, SurfaceHit { uv, ..at })
+    let Some(Vec2 { x, y }) = uv else { return (direction, at) };
+    let part = surface.is_of_part();
+    let of_whole = || [R::blend(part, at.uv.x, x), R::blend(part, at.uv.y, y)];
+    let [x, y] = R::where_any(part, [x, y], of_whole);
+    (direction, SurfaceHit { uv: Vec2::new(x, y), ..at })
 }
 
 /// A hit where the pdf is positive, a miss elsewhere.
@@ -327,7 +330,8 @@ impl<R: Real, S: AreaSurface<R>, W: ProjectedShape<R> + Warp<R, Point = Vec3<R>>
     }
 }
 
-/// A light sampled by its solid angle times a bilinear approximation of the cosine to a surface normal: [`CosineWarped`].
+/// A light sampled by its solid angle times a bilinear approximation of the cosine to a surface normal: [`CosineWarped`]. A sample has the
+/// pdf of the point of the square that it was drawn from; `pdf` finds that point by the inverse, and agrees to within 2e−4 of itself.
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct ByCosineWarp<R, S, W> {

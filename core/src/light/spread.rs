@@ -1,19 +1,14 @@
 //! Flat lights that emit within an angle of their normal.
 
 use super::disk::{Disk, DiskBySolidAngle};
-use super::flat::{Parallelogram, Rectangle};
+use super::flat::{Parallelogram, ParallelogramBySolidAngle, Rectangle, RectangleBySolidAngle};
 use super::sampler::BySolidAngle;
-use super::surface::ParallelogramOfPart;
+use super::surface::PlacedParallelogram;
 use crate::lanewise::lanewise;
 use crate::math::{quotient, ratio};
 use crate::real::Real;
 use crate::spherical::{SphericalDisk, SphericalParallelogram, SphericalRectangle};
 use crate::vector::Vec3;
-
-/// A [`Parallelogram`] of which the visible part is sampled by solid angle.
-pub type ParallelogramBySpread<R> = BySolidAngle<R, ParallelogramOfPart<R>, SphericalParallelogram<R>>;
-/// A [`Rectangle`] of which the visible part is sampled by solid angle.
-pub type RectangleBySpread<R> = BySolidAngle<R, ParallelogramOfPart<R>, SphericalRectangle<R>>;
 
 /// Rounding of the visible part, relative to the lengths that it comes from: it is enlarged by so much.
 const SLACK: f64 = 32.0 / 16_777_216.0;
@@ -131,9 +126,9 @@ impl<R: Real> Parallelogram<R> {
     /// Uniform over the solid angle of the [visible part](Self::visible_part) at the point `p` of a light with this spread. Surface
     /// coordinates are those of the whole light.
     #[inline(always)]
-    pub fn by_spread(&self, p: Vec3<R>, spread: &Spread<R>) -> ParallelogramBySpread<R> {
+    pub fn by_spread(&self, p: Vec3<R>, spread: &Spread<R>) -> ParallelogramBySolidAngle<R> {
         let (relative, reach) = self.relative(p);
-        let surface = ParallelogramOfPart::new(relative.corner, relative.edge_s, relative.edge_t);
+        let surface = PlacedParallelogram::new(relative.corner, relative.edge_s, relative.edge_t).of_part();
         let part = part(&relative, reach, spread.tan_half);
         let shape = SphericalParallelogram::new(part.corner, part.edge_s, part.edge_t);
         BySolidAngle { origin: p, surface, shape }
@@ -144,9 +139,9 @@ impl<R: Real> Rectangle<R> {
     /// Uniform over the solid angle of what the point `p` sees of a light with this spread: [`Parallelogram::visible_part`]. Surface
     /// coordinates are those of the whole light.
     #[inline(always)]
-    pub fn by_spread(&self, p: Vec3<R>, spread: &Spread<R>) -> RectangleBySpread<R> {
+    pub fn by_spread(&self, p: Vec3<R>, spread: &Spread<R>) -> RectangleBySolidAngle<R> {
         let (relative, reach) = Parallelogram::from(*self).relative(p);
-        let surface = ParallelogramOfPart::new(relative.corner, relative.edge_s, relative.edge_t);
+        let surface = PlacedParallelogram::new(relative.corner, relative.edge_s, relative.edge_t).of_part();
         let part = part(&relative, reach, spread.tan_half);
         let shape = SphericalRectangle::new(part.corner, part.edge_s, part.edge_t);
         BySolidAngle { origin: p, surface, shape }

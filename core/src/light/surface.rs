@@ -2,7 +2,7 @@
 
 use crate::lanewise::lanewise;
 use crate::math::quotient;
-use crate::real::{Real, unit_interval};
+use crate::real::{Mask, Real, unit_interval};
 use crate::spherical::{height_over, to_unit};
 use crate::vector::{Vec2, Vec3};
 use crate::warp::{AreaTriangle, Warp};
@@ -36,14 +36,17 @@ pub struct SurfacePoint<R> {
 
 /// The surface of a light, placed relative to a shading point.
 pub trait Surface<R: Real>: Copy {
-    /// True where the shape that is sampled is the whole surface, so that both have the same surface coordinates.
-    const IS_SHAPE: bool = true;
     /// The nearest point in the unit direction `w`. Only meaningful where `w` hits the surface; finite everywhere.
     fn at(&self, w: Vec3<R>) -> SurfaceHit<R>;
     /// The same where the distance of the point is known.
     #[inline(always)]
     fn at_distance(&self, w: Vec3<R>, distance: R) -> SurfaceHit<R> {
         SurfaceHit { distance, ..self.at(w) }
+    }
+    /// True where the shape that is sampled is a part of the surface, and so has surface coordinates of its own.
+    #[inline(always)]
+    fn is_of_part(&self) -> R::Mask {
+        R::Mask::splat(false)
     }
 }
 
@@ -173,7 +176,7 @@ impl<R: Real> AffinePlane<R> {
 }
 
 macro_rules! affine {
-    ($(#[$doc:meta])* $name:ident, $is_shape:literal, $share:literal, $all:literal, $sample:expr, $invert:expr) => {
+    ($(#[$doc:meta])* $name:ident, $share:literal, $all:literal, $sample:expr, $invert:expr) => {
         lanewise! {
             $(#[$doc])*
             pub struct $name {
@@ -181,19 +184,24 @@ macro_rules! affine {
                 first: Vec3<R>,
                 second: Vec3<R>,
                 plane: AffinePlane<R>,
+                /// 1 where a part of the surface is sampled, else 0.
+                of_part: R,
             }
         }
         impl<R: Real> $name<R> {
             #[inline(always)]
             pub(super) fn new(origin: Vec3<R>, first: Vec3<R>, second: Vec3<R>) -> Self {
-                Self { origin, first, second, plane: AffinePlane::new(origin, first, second) }
+                Self { origin, first, second, plane: AffinePlane::new(origin, first, second), of_part: R::lit(0.0) }
             }
         }
         impl<R: Real> Surface<R> for $name<R> {
-            const IS_SHAPE: bool = $is_shape;
             #[inline(always)]
             fn at(&self, w: Vec3<R>) -> SurfaceHit<R> {
                 self.plane.at(w)
+            }
+            #[inline(always)]
+            fn is_of_part(&self) -> R::Mask {
+                self.of_part.gt(R::lit(0.0))
             }
         }
         impl<R: Real> AreaSurface<R> for $name<R> {
@@ -230,13 +238,17 @@ macro_rules! affine {
 affine!(
     /// A triangle relative to the shading point. Its surface coordinates are the barycentric coordinates of the second and the third
     /// vertex.
-    PlacedTriangle, true, 0.5, false, |u| AreaTriangle.sample(u), |b| AreaTriangle.invert(b)
+    PlacedTriangle, 0.5, false, |u| AreaTriangle.sample(u), |b| AreaTriangle.invert(b)
 );
 affine!(
     /// A parallelogram relative to the shading point. Its surface coordinates are the parts of both edges.
-    PlacedParallelogram, true, 1.0, true, |u| u, |st| Vec2::new(unit_interval(st.x), unit_interval(st.y))
+    PlacedParallelogram, 1.0, true, |u| u, |st| Vec2::new(unit_interval(st.x), unit_interval(st.y))
 );
-affine!(
-    /// A [`PlacedParallelogram`] of which a part is sampled.
-    ParallelogramOfPart, false, 1.0, true, |u| u, |st| Vec2::new(unit_interval(st.x), unit_interval(st.y))
-);
+
+impl<R: Real> PlacedParallelogram<R> {
+    /// The same surface, of which a part is sampled.
+    #[inline(always)]
+    pub(super) fn of_part(self) -> Self {
+        Self { of_part: R::lit(1.0), ..self }
+    }
+}

@@ -27,8 +27,8 @@ lanewise! {
     /// The map is Arvo's: u₀ sweeps the great circle through the vertex `v1` from `v0` to `v2` so that the swept area is u₀Ω,
     /// and u₁ moves away from `v1` uniformly in 1−cos. Small differences come from the edges, never from unit vectors, so a
     /// triangle of 1e−9 of its distance is sampled as well as a large one. Directions come from unit vectors, never from points
-    /// of the plane, and the height over the plane is formed in twice the working precision, so the point may be arbitrarily
-    /// near the plane.
+    /// of the plane, and the height over the plane is formed in twice the working precision where its terms cancel, so the point
+    /// may be arbitrarily near the plane.
     ///
     /// - Formula: with V from the point, E₁ = v1−v0, E₂ = v2−v0, lengths l, cosines d and sums s = Vᵢ/lᵢ + Vⱼ/lⱼ between the V:
     ///   tan(Ω/2) = G₀/T, G₀ = |V₀·(E₁×E₂)|/(l₀l₁l₂), T = 1 + d₀₁ + d₀₂ + d₁₂ = sᵢₖ·sⱼₖ for any vertex k (Van Oosterom and
