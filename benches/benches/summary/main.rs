@@ -4,8 +4,8 @@
 //! `cargo bench -p etendue-benches --bench summary -- cone` selects routines by name, `-- --markdown` prints the format of the README, `--
 //! --instructions` counts instructions instead (requires Valgrind), `-- rays --json=FILE` also writes the rays to FILE (an absolute path).
 //!
-//! `-- --tables` writes the tables of costs and errors in the README and the documentation. `tests/tables.rs` fails where their rows and the
-//! routines differ.
+//! `-- --tables` writes the tables of costs and errors in the README and the documentation. `routines/tests/tables.rs` fails where their
+//! rows and the routines differ.
 //!
 //! Figures are medians of repetitions. The widths take turns, so that a change of the processor's clock affects all of them alike.
 

@@ -53,7 +53,8 @@ pub(super) fn parse(json: &[u8]) -> Result<Root, (usize, String)> {
     };
     let unsupported = |version: &str| (0, format!("glTF of version {version:?}: only 2 is supported"));
     let is_two = |version: &str| version.split('.').next() == Some("2");
-    let read = gltf_json::deserialize::from_slice::<Root>(json);
+    // not a generic function of serde_json, which would compile the whole reader a second time, in this crate
+    let read = Root::from_slice(json);
     match read.or_else(|error| lenient(json).ok_or(error)) {
         Ok(root) if is_two(&root.asset.version) => Ok(root),
         Ok(root) => Err(unsupported(&root.asset.version)),
@@ -91,5 +92,6 @@ fn lenient(json: &[u8]) -> Option<Root> {
             _ => {}
         }
     }
-    serde_json::from_value(value).ok()
+    // as text, for the same reader
+    Root::from_slice(&serde_json::to_vec(&value).ok()?).ok()
 }
