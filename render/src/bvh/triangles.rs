@@ -284,16 +284,17 @@ impl Projected {
         let (least, most, band) = (min(min(u, v), w), max(max(u, v), w), X8::lit(-BAND));
         (least.ge(most * band) | most.le(least * band)) & self.some
     }
-    /// Lanes whose distance is negative by more than its error, if the ray begins nearer than `near` to the triangle and nearly passes
-    /// through it: a ray that leaves a surface, moved off it, need not ask in double precision whether it hits that surface.
+    /// Lanes whose distance is negative by more than its error, if it is less than `near` in magnitude: a ray that leaves a surface, moved
+    /// off it, need not ask in double precision whether it hits that surface.
     ///
-    /// With the precision ε = 2⁻²⁴ and all corners within M of the origin, each weight has an error below 19 ε M², and the numerator of
-    /// the distance one below 90 ε M³. `near` is at least 1/32 of the longest edge, so M < 34 near and the error is below 0.22 near³.
-    /// The denominator is then too great to have the wrong sign. Where the bound is a subnormal number or infinite, no lane is sure.
+    /// With ε = 2⁻²⁴ and all corners within M of the origin, each weight has an error below 19 ε M², and the numerator of the distance one
+    /// below 90 ε M³. `near` is at least 1/32 of the longest edge: if one corner is within 34 near, M is at most 66 near and the error below
+    /// 1.6 near³. The denominator is then above 2 near², more than its error. Where a bound underflows or overflows, no lane is sure.
     #[inline(always)]
     fn surely_behind(&self, distance: X8, near: X8) -> M8 {
-        let bound = max(near * near * near * X8::lit(0.25), X8::lit(1e-30));
-        (distance * self.sum.abs()).lt(-bound)
+        let (square, corner) = (near * near, self.relative[0]);
+        let bound = max(square * near * X8::lit(2.0), X8::lit(1e-30));
+        corner.dot(corner).le(square * X8::lit(34.0 * 34.0)) & (distance * self.sum.abs()).lt(-bound)
     }
     /// Distances along the rays. The weights of slivers, and thus their distances, may be nothing but rounding error.
     #[inline(always)]
