@@ -151,6 +151,8 @@ fn single_ray<const ANY: bool, const OCTANT: usize>(
             let child = Child { first: node.first[slot], count: u32::from(node.count[slot]), near: near[slot] };
             if !ANY && child.count == 0 {
                 fetch(child.first);
+            } else if !ANY {
+                tree.primitives.prefetch(node.leaf(slot));
             }
             child
         };
