@@ -417,7 +417,7 @@ impl Lights {
         self.shape_lights[shape] as usize
     }
     /// Pdf per steradian, including the pmf of the choice, with which [`sample`](Self::sample) by solid angle draws the direction `w` to a
-    /// shape from `p`.
+    /// shape from `p`, which it hits.
     #[inline]
     pub fn shape_pdf(&self, pmf: &LightPmf<'_>, shape: usize, geometry: &Geometry, p: V8, w: V8) -> X8 {
         if let Some(table) = self.tables.of(shape)
@@ -428,12 +428,12 @@ impl Lights {
         }
         let pdf = match *geometry {
             Geometry::Sphere { center, radius } => {
-                Sphere::new(center.into(), X8::splat(radius)).by_solid_angle(p).pdf(w)
+                Sphere::new(center.into(), X8::splat(radius)).by_solid_angle(p).pdf_of_hit(w)
             }
             Geometry::Triangle([a, b, c]) => {
                 // the edges as the light's record has them
                 let edge = |to: [f32; 3]| V8::from(std::array::from_fn(|k| to[k] - a[k]));
-                Triangle { v0: a.into(), e1: edge(b), e2: edge(c) }.by_solid_angle(p).pdf(w)
+                Triangle { v0: a.into(), e1: edge(b), e2: edge(c) }.by_solid_angle(p).pdf_of_hit(w)
             }
             Geometry::Parallelogram { p: corner, u, v } => {
                 let mut light = Parallelogram::new(corner.into(), u.into(), v.into());
@@ -442,7 +442,7 @@ impl Lights {
                 {
                     light = light.visible_part(p, &Spread::splat(spread));
                 }
-                light.by_solid_angle(p).pdf(w)
+                light.by_solid_angle(p).pdf_of_hit(w)
             }
         };
         pdf * pmf.of(self.shape_lights[shape])

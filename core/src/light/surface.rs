@@ -176,7 +176,7 @@ impl<R: Real> AffinePlane<R> {
 }
 
 macro_rules! affine {
-    ($(#[$doc:meta])* $name:ident, $share:literal, $all:literal, $sample:expr, $invert:expr) => {
+    ($(#[$doc:meta])* $name:ident $(of $part:ident)?, $share:literal, $all:literal, $sample:expr, $invert:expr) => {
         lanewise! {
             $(#[$doc])*
             pub struct $name {
@@ -184,14 +184,16 @@ macro_rules! affine {
                 first: Vec3<R>,
                 second: Vec3<R>,
                 plane: AffinePlane<R>,
-                /// 1 where a part of the surface is sampled, else 0.
-                of_part: R,
+                $(
+                    /// 1 where a part of the surface is sampled, else 0.
+                    $part: R,
+                )?
             }
         }
         impl<R: Real> $name<R> {
             #[inline(always)]
             pub(super) fn new(origin: Vec3<R>, first: Vec3<R>, second: Vec3<R>) -> Self {
-                Self { origin, first, second, plane: AffinePlane::new(origin, first, second), of_part: R::lit(0.0) }
+                Self { origin, first, second, plane: AffinePlane::new(origin, first, second), $($part: R::lit(0.0))? }
             }
         }
         impl<R: Real> Surface<R> for $name<R> {
@@ -199,10 +201,10 @@ macro_rules! affine {
             fn at(&self, w: Vec3<R>) -> SurfaceHit<R> {
                 self.plane.at(w)
             }
-            #[inline(always)]
+            $(#[inline(always)]
             fn is_of_part(&self) -> R::Mask {
-                self.of_part.gt(R::lit(0.0))
-            }
+                self.$part.gt(R::lit(0.0))
+            })?
         }
         impl<R: Real> AreaSurface<R> for $name<R> {
             const FLAT: bool = true;
@@ -242,13 +244,13 @@ affine!(
 );
 affine!(
     /// A parallelogram relative to the shading point. Its surface coordinates are the parts of both edges.
-    PlacedParallelogram, 1.0, true, |u| u, |st| Vec2::new(unit_interval(st.x), unit_interval(st.y))
+    PlacedParallelogram of part, 1.0, true, |u| u, |st| Vec2::new(unit_interval(st.x), unit_interval(st.y))
 );
 
 impl<R: Real> PlacedParallelogram<R> {
     /// The same surface, of which a part is sampled.
     #[inline(always)]
     pub(super) fn of_part(self) -> Self {
-        Self { of_part: R::lit(1.0), ..self }
+        Self { part: R::lit(1.0), ..self }
     }
 }

@@ -51,18 +51,18 @@ macro_rules! techniques {
             } reflected {
                 /// In proportion to the lobe of a rough surface at the point p: pdf π times that of the reflection, over the projected solid
                 /// angle after its map, per steradian; 0 where nothing of the light is above the horizon.
-                TriangleByReflection = EtendueTriangleByReflection, triangle_by_reflection[179];
+                TriangleByReflection = EtendueTriangleByReflection, triangle_by_reflection[178];
             } by "solid_angle" {
                 /// Uniform over the surface of area A: pdf distance²/(|cosθ'| A) per steradian, θ' at the light. For small, far and facing
                 /// triangles.
-                TriangleByArea = EtendueTriangleByArea, triangle_by_area[37]: by_area(p) area;
+                TriangleByArea = EtendueTriangleByArea, triangle_by_area[36]: by_area(p) area;
                 /// Uniform over the solid angle Ω at the point p: pdf 1/Ω per steradian.
-                TriangleBySolidAngle = EtendueTriangleBySolidAngle, triangle_by_solid_angle[85]: by_solid_angle(p) solid_angle;
+                TriangleBySolidAngle = EtendueTriangleBySolidAngle, triangle_by_solid_angle[84]: by_solid_angle(p) solid_angle;
                 /// Uniform over the projected solid angle Ω⊥ above the horizon of the unit normal n at the point p: pdf cosθ/Ω⊥ per
                 /// steradian, 0 where nothing of the light is above the horizon. It has no variance on an unoccluded diffuse surface.
-                TriangleByProjectedSolidAngle = EtendueTriangleByProjectedSolidAngle, triangle_by_projected_solid_angle[166]: by_projected_solid_angle(p, n) projected_solid_angle;
+                TriangleByProjectedSolidAngle = EtendueTriangleByProjectedSolidAngle, triangle_by_projected_solid_angle[165]: by_projected_solid_angle(p, n) projected_solid_angle;
                 /// By solid angle times a bilinear approximation of the cosine to the unit normal n at the point p; pdf per steradian.
-                TriangleByCosineWarp = EtendueTriangleByCosineWarp, triangle_by_cosine_warp[89]: by_cosine_warp(p, n) solid_angle;
+                TriangleByCosineWarp = EtendueTriangleByCosineWarp, triangle_by_cosine_warp[88]: by_cosine_warp(p, n) solid_angle;
             }
             /// A parallelogram, of a corner and two edges from there, that emits from the side of the first edge × the second one. Without
             /// area, and from a point in its plane, the pdf is 0. uv: (s, t), the parts of the edges, in [0, 1].

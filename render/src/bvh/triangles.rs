@@ -502,3 +502,6 @@ impl Placed for TriangleLeaves {
         region.triangles(&self.all(leaf))
     }
 }
+
+#[cfg(test)]
+mod tests;
