@@ -29,19 +29,21 @@
 //! since the crate compiles itself two more times; without the default feature `dispatch` it does not, and uses the instructions of the build.
 //!
 //! Nanoseconds per call from C, of the textbook's formulas (PBR's, for this processor), of the C library, which calls this crate, and of the
-//! C header of `etendue-shader`, for this processor (AMD EPYC); `benches/peers/single_calls.py` prints them. The textbook's pdf does not ask
-//! whether the direction hits the light.
+//! C header of `etendue-shader`, for this processor (AMD EPYC); `benches/peers/single_calls.py` prints them. The textbook's pdf, like that
+//! of a hit, does not ask whether the direction hits the light.
 //!
 //! | with preparation | textbook | library | header |
 //! |---|---|---|---|
-//! | triangle by solid angle | 131 | 145 | 175 |
-//! | triangle by cosine warp | 155 | 255 | 225 |
-//! | triangle by projected solid angle | | 503 | 472 |
-//! | its pdf by solid angle, and projected | 25, – | 65, 358 | 131, 351 |
-//! | sphere by solid angle, its pdf | 53, 3.4 | 97, 21 | 65, 24 |
-//! | rectangle by solid angle, its pdf | 129, – | 195, 106 | 266, 205 |
-//! | bilinear warp | 7.2 | 15 | 17 |
-//! | triangle that is prepared | | 51 | 40 |
+//! | triangle by solid angle | 131 | 116 | 143 |
+//! | triangle by cosine warp | 155 | 175 | 136 |
+//! | triangle by projected solid angle | | 485 | 459 |
+//! | its pdf by solid angle, and projected | | 67, 350 | 105, 338 |
+//! | its pdf, of a hit | 25, – | 55, 345 | |
+//! | sphere by solid angle, its pdf | 53, – | 67, 27 | 50, 14 |
+//! | its pdf, of a hit | 3.4 | 20 | |
+//! | rectangle by solid angle, its pdf | 129, – | 167, 116 | 255, 183 |
+//! | bilinear warp | 7.2 | 15 | 9.0 |
+//! | triangle that is prepared | | 39 | 38 |
 #![cfg_attr(not(test), no_std)]
 
 mod columns;
