@@ -243,7 +243,7 @@ typedef struct {
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
-  float data[36];
+  float data[37];
 } EtendueParallelogramByArea;
 
 // Columns of lights: the fields are those of the light.
@@ -260,7 +260,7 @@ typedef struct {
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
-  float data[132];
+  float data[133];
 } EtendueParallelogramBySolidAngle;
 
 // Uniform over the projected solid angle Omega' above the horizon of the unit normal n at the point p: pdf cos(theta)/Omega' per
@@ -268,7 +268,7 @@ typedef struct {
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
-  float data[297];
+  float data[298];
 } EtendueParallelogramByProjectedSolidAngle;
 
 // In proportion to the lobe of a rough surface at the point p: pdf pi times that of the reflection, over the projected solid
@@ -276,7 +276,7 @@ typedef struct {
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
-  float data[310];
+  float data[311];
 } EtendueParallelogramByReflection;
 
 // A rectangle, of a corner and two perpendicular edges from there, that emits from the side of the first edge x the second one.
@@ -295,7 +295,7 @@ typedef struct {
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
-  float data[88];
+  float data[89];
 } EtendueRectangleBySolidAngle;
 
 // Columns of lights: the fields are those of the light.
@@ -312,7 +312,7 @@ typedef struct {
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
-  float data[92];
+  float data[93];
 } EtendueRectangleByCosineWarp;
 
 // A disk that emits from the side of its normal. A radius <= 0, and a point in its plane, give pdf 0. uv: (1 + q)/2 for the
