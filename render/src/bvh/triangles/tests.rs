@@ -19,15 +19,15 @@ fn vector(state: &mut u64) -> Vec3<f32> {
 /// is a sliver.
 fn close_call(state: &mut u64) -> ([Vec3<f32>; 3], Vec3<f32>, Vec3<f32>) {
     let (a, b) = (vector(state), vector(state));
-    let c = if *state % 4 == 0 { a + (b - a) * number(state) + vector(state) * 1e-3 } else { vector(state) };
+    let c = if (*state).is_multiple_of(4) { a + (b - a) * number(state) + vector(state) * 1e-3 } else { vector(state) };
     let normal = (b - a).cross(c - a).normalize();
     let reach = if *state % 5 < 3 { 60.0 } else { 2.5 };
     let [s, t] = [number(state), number(state)].map(|x| x * x * x * reach);
     let lift = number(state) * 10.0_f32.powf(3.5 * (number(state) - 1.0));
     let origin = a + (b - a) * s + (c - a) * t + normal * lift;
     let within = a + (b - a) * number(state).abs() * 0.5 + (c - a) * number(state).abs() * 0.5;
-    let towards = if *state % 3 == 0 { vector(state) } else { within - origin };
-    ([a, b, c], origin, (if *state % 2 == 0 { towards } else { -towards }).normalize())
+    let towards = if (*state).is_multiple_of(3) { vector(state) } else { within - origin };
+    ([a, b, c], origin, (if (*state).is_multiple_of(2) { towards } else { -towards }).normalize())
 }
 
 /// No triangle that double precision finds ahead is surely behind, however far it is and however it is seen.
