@@ -1,7 +1,7 @@
 //! Every light by every technique, as an integrator uses it: one trait, one pdf.
 
 use etendue::{LightSampler, Mask, Parallelogram, Real, Rectangle, Sphere, Triangle, Vec2, Vec3, f32x8};
-use etendue_oracle::{cross, dot, length, sub, unit, wide};
+use etendue_oracle::{V3, cross, dot, length, sub, unit, wide};
 use etendue_properties::generators::Random;
 use etendue_properties::properties::{Coordinates, squares_of};
 use etendue_properties::techniques::{self, AreaLight, LightFixture, LightShape, Measure};
@@ -235,4 +235,42 @@ fn edges_beside_the_point_belong_to_their_rectangle() {
             assert_eq!(pdf, sample.pdf, "{rectangle:?} at {number:?}: {sample:?}");
         }
     }
+}
+
+/// The surface coordinates and the normal of a sample are those of the point at its distance in its direction, in double precision.
+#[test]
+fn samples_know_their_place() {
+    let mut random = Random::new(11);
+    let v = |x: [f64; 3]| Vec3::<f32>::from(x.map(|x| x as f32));
+    for _ in 0..20_000 {
+        let (mut a, n) = (random.direction().map(|x| 3.0 * x), random.direction());
+        let (b, mut c) = (random.direction(), random.direction());
+        // right angles, for rectangles
+        let along = dot(b, c);
+        c = core::array::from_fn(|k| c[k] - along * b[k]);
+        a = a.map(|x| f64::from(x as f32));
+        let (u, o) = (Vec2::new(random.unit(), random.unit()), Vec3::default());
+        let (triangle, panel) = (Triangle { v0: v(a), e1: v(b), e2: v(c) }, Rectangle::new(v(a), v(b), v(c)));
+        let samples = [
+            triangle.by_solid_angle(o).sample(u),
+            triangle.by_cosine_warp(o, v(n)).sample(u),
+            Parallelogram::from(panel).by_solid_angle(o).sample(u),
+            panel.by_solid_angle(o).sample(u),
+            panel.by_cosine_warp(o, v(n)).sample(u),
+        ];
+        for (k, s) in samples.into_iter().enumerate() {
+            let cos = dot(s.direction.at(0), s.normal.at(0)).abs();
+            let [x, y, _] = s.uv.at(0);
+            let (there, here) = (along_edges(a, [b, c], [x, y]), s.direction.at(0).map(|w| w * f64::from(s.distance)));
+            let off = length(sub(there, here));
+            assert!(s.pdf == 0.0 || off < 1e-5 / cos.max(1e-3), "{k}: {there:?} for {here:?}, off by {off:e}: {s:?}");
+            assert!(k > 1 || x + y < 1.0 + 1e-5, "{s:?}");
+        }
+        let s = Sphere::new(v(a), 0.5).by_solid_angle(o).sample(u);
+        let normal = sub(s.direction.at(0).map(|w| w * f64::from(s.distance)), a).map(|x| 2.0 * x);
+        assert!(length(sub(normal, s.normal.at(0))) < 2e-5, "{normal:?} for {s:?}");
+    }
+}
+fn along_edges(from: V3, [b, c]: [V3; 2], [x, y]: [f64; 2]) -> V3 {
+    core::array::from_fn(|k| from[k] + x * b[k] + y * c[k])
 }
