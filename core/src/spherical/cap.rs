@@ -12,7 +12,8 @@ lanewise! {
     /// Call `SphericalCap::new(center, radius)` with the centre relative to the point, then `sample_direction`. A radius ≤ 0
     /// gives pdf 0; from inside, every direction hits the sphere.
     ///
-    /// - Formula: sin²σ = R²/d², cos²σ = (d²−R²)/d² with d²−R² in twice the working precision where d² < 2R², h = 1−cosσ = sin²σ/(1+cosσ);
+    /// - Formula: sin²σ = R²/d², cos²σ = (d²−R²)/d² with d²−R² in twice the working precision where
+    ///   d² < 2R², h = 1−cosσ = sin²σ/(1+cosσ);
     ///   then the cone's map. From inside, h = 2.
     /// - Domain: any centre and radius > 0, at any distance; from a point on the surface, the half of the directions that look
     ///   inwards.

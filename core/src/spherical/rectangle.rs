@@ -37,7 +37,8 @@ lanewise! {
     /// - Greatest error over the atlas: direction 6e−7 (4e−5 of the rectangle's size if that is 1e−6 and the point is 1e−7
     ///   above its plane), besides what 8 steps of 2⁻²⁴ in u do to it (Ω and u₀Ω are rounded; u₀ counts from the nearer end
     ///   where the rectangle lies on both sides of the foot). pdf 5e−7 relative, since coordinates, and heights
-    ///   whose terms cancel, are formed in twice the working precision. Next to the plane of a rectangle that surrounds the point, nearly all of u₀ lies within the
+    ///   whose terms cancel, are formed in twice the working precision. Next to the plane of a rectangle that surrounds the
+    ///   point, nearly all of u₀ lies within the
     ///   rounding of a direction at the ends: the inverse is then one of the `u` that lead back to the direction.
     /// - Source: Ureña, Fajardo and King 2013, "An Area-Preserving Parametrization for Spherical Rectangles"; the forms without
     ///   cancellation are derived here from w = w₁ − 2e.
