@@ -51,7 +51,7 @@ use rayon::prelude::*;
 use record::{
     DIRECTED, DISTANT, KINDS, LightRecord, ONLY_AREAS, ONLY_DELTAS, PARALLELOGRAM, PICTURED, PICTURES, POINT, PROFILED,
     PROFILES, PackedLight, Powered, SKY, SPHERE, SPOT, SPREAD, SPREADS, TRIANGLE, TWO_SIDED, UNEVEN, area_lights,
-    delta_lights, squared_radius,
+    delta_lights,
 };
 use std::sync::Arc;
 
@@ -120,9 +120,10 @@ impl Lights {
     pub fn new(scene: &Scene, sky: Option<Arc<Sky>>) -> Result<Self, BuildError> {
         let mut all = area_lights(scene);
         all.extend(delta_lights(scene));
-        if let Some(sky) = &sky {
+        if sky.is_some() {
             let record = LightRecord { kind: SKY, shape: NOTHING, ..LightRecord::default() };
-            all.push((record, sky.power(squared_radius(scene))));
+            // it is chosen by what it can contribute at each point
+            all.push((record, 0.0));
         }
         Self::of(all, scene, sky)
     }
@@ -139,19 +140,15 @@ impl Lights {
         let flags = [(SPREAD, SPREADS), (PICTURED, PICTURES), (PROFILED, PROFILES)];
         let bits = |kind: u32| flags.iter().fold(1 << (kind & KINDS), |bits, (own, bit)| bits | flag(kind, *own, *bit));
         let kinds = all.iter().fold(0, |kinds, (light, _)| kinds | bits(light.kind));
-        let greatest = all.iter().fold(f64::MIN_POSITIVE, |m, (_, power)| m.max(*power));
-        // relative to the greatest, so that all are finite
-        let bound = |(light, power): &(LightRecord, f64)| light.bound(power / greatest);
         let shape_lights = vec![NOTHING; shapes.len()];
         let mut own = Self { kinds, sky, shape_lights, directed: directed_lights(scene), ..Self::default() };
         if kinds & !ONLY_AREAS == 0 && (2..=FEW).contains(&all.len()) {
-            let bounds: Vec<_> = all.iter().map(bound).collect();
+            // relative to the greatest, so that all are finite
+            let greatest = all.iter().fold(f64::MIN_POSITIVE, |m, (_, power)| m.max(*power));
+            let bounds: Vec<_> = all.iter().map(|(light, power)| light.bound(power / greatest)).collect();
             own.spatial = Some(SpatialLights::new(&bounds).expect("few lights"));
         } else if all.len() > 1 {
-            let bounds: Vec<_> = all.par_iter().map(bound).collect();
-            let powers: Vec<f64> = all.iter().map(|(_, power)| *power).collect();
-            let is_distant = |light: usize| all[light].0.is_distant();
-            own.many = ManyLights::new(&bounds, &powers, is_distant)?;
+            own.many = ManyLights::new(&all, own.sky.as_ref())?;
         }
         for (index, (record, _)) in (0..).zip(&all) {
             if let Some(light) = own.shape_lights.get_mut(record.shape as usize) {

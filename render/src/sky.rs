@@ -1,12 +1,14 @@
 //! Light from infinitely far away, looked up and sampled in packets.
 
+mod moments;
 mod windows;
 
 use crate::packet::{M8, V8, X8, select};
 use crate::scene;
 use crate::technique::Measure;
-use etendue::light::{FAR, ImageEnvironment, SunBySolidAngle};
-use etendue::{ConstantEnvironment, LightSample, LightSampler, Mask, Real, Sun, Vec2, Vec3, Warp, u32x8};
+use etendue::light::{FAR, ImageEnvironment, SunBySolidAngle, Texel};
+use etendue::{ConstantEnvironment, LightSample, LightSampler, Mask, Real, Sun, Uint, Vec2, Vec3, Warp, u32x8};
+use moments::Moments;
 use windows::Windows;
 
 /// An environment and the table by which it is sampled.
@@ -15,6 +17,8 @@ pub struct Sky {
     /// Rows of the rotation from the world to the light.
     rows: [[f32; 3]; 3],
     kind: SkyKind,
+    /// Of the sky without its sun, summed over channels, by directions of the light.
+    moments: Moments,
     windows: Option<Windows>,
     sun: Option<SunBefore>,
 }
@@ -100,9 +104,12 @@ impl Sky {
                 SkyKind::Image { width: *width, map: *map, texels: texels.clone(), table }
             }
         };
-        let mut own = Self { rows: environment.to_light, kind, windows: None, sun: None };
+        let mut own = Self { rows: environment.to_light, kind, moments: Moments::default(), windows: None, sun: None };
         own.sun = environment.sun.map(|disk| SunBefore::new(disk, own.flux()));
         own.windows = Windows::new(&environment.portals, own.texel(), |w| own.sum(w));
+        if own.windows.is_none() {
+            own.moments = own.moments();
+        }
         own
     }
     /// Angle that a texel spans, in radians.
@@ -134,10 +141,39 @@ impl Sky {
             }
         }
     }
-    /// The power of what [`sample`](Self::sample) samples, in units of π, summed over channels: what enters a sphere of this squared
-    /// radius, or what comes through the portals.
-    pub fn power(&self, squared_radius: f64) -> f64 {
-        self.windows.as_ref().map_or_else(|| self.flux() * squared_radius, Windows::power)
+    /// The moments of the sky without its sun.
+    fn moments(&self) -> Moments {
+        match &self.kind {
+            SkyKind::Constant(_) => {
+                Moments::constant(self.flux() - self.sun.as_ref().map_or(0.0, |sun| flux_of(&sun.disk)))
+            }
+            SkyKind::Image { width, map, texels, .. } => {
+                let (image, size) = (self.image(), [*width, texels.len() / width]);
+                Moments::of_image(size, |first, y, offset| {
+                    let x = u32x8::from_fn(|lane| (first + lane).min(width - 1) as u32);
+                    let y = u32x8::splat(y as u32);
+                    let radiance = gather(texels, *width, x, y);
+                    let solid_angle = X8::lit(map.texel_solid_angle(size[0], size[1], y.lane(0) as usize));
+                    (image.direction(&Texel { x, y, offset }), (radiance.x + radiance.y + radiance.z) * solid_angle)
+                })
+            }
+        }
+    }
+    /// About the irradiance from what [`sample`](Self::sample) samples, summed over channels, at points of surfaces with these normals, as
+    /// if only walls around portals hid any of it. It is 0 where no portal shows the sky, and only there.
+    #[inline]
+    pub fn irradiance(&self, p: V8, normal: V8) -> X8 {
+        if let Some(windows) = &self.windows {
+            return windows.irradiance(p, normal);
+        }
+        let of_sky = self.moments.irradiance(self.to_light(normal));
+        match &self.sun {
+            Some(sun) => {
+                let cos = normal.dot(sun.disk.direction.into()).greater(X8::lit(0.0));
+                cos.mul_add(X8::lit(flux_of(&sun.disk)), of_sky)
+            }
+            None => of_sky,
+        }
     }
     /// The sun, if it is sampled besides the sky.
     pub fn sun_beside(&self) -> Option<SunBeside<'_>> {

@@ -111,6 +111,16 @@ impl Portal {
     pub fn area(&self) -> f64 {
         self.lengths[0] * self.lengths[1] * self.map.sin
     }
+    /// Its first corner.
+    #[must_use]
+    pub const fn corner(&self) -> [f32; 3] {
+        self.corner
+    }
+    /// Its edges `s` and `t` from there.
+    #[must_use]
+    pub fn edges(&self) -> [Vec3<f64>; 2] {
+        [0, 1].map(|k| self.map.axes[k] * self.lengths[k])
+    }
     /// Whether the portal shows the sky to a point: it is on the side that the normal points away from.
     #[inline(always)]
     pub fn faces<R: Real>(&self, p: Vec3<R>) -> R::Mask {
@@ -119,10 +129,7 @@ impl Portal {
     /// Mean of the cosines of the corners to a normal, each at least [`GRAZING`]; 0 if all of them are below the horizon.
     #[inline(always)]
     fn mean_cos<R: Real>(&self, p: Vec3<R>, normal: Vec3<R>) -> R {
-        let [s, t] = [0, 1].map(|k| {
-            let edge = self.map.axes[k] * self.lengths[k];
-            Vec3::lit([edge.x, edge.y, edge.z])
-        });
+        let [s, t] = self.edges().map(|edge| Vec3::lit([edge.x, edge.y, edge.z]));
         let first = Vec3::lit(self.corner.map(f64::from)) - p;
         let (mut sum, mut above) = (R::lit(0.0), R::Mask::splat(false));
         for corner in [first, first + s, first + t, first + s + t] {

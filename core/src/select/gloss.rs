@@ -56,6 +56,12 @@ impl<R: Real> Gloss<R> {
             least: (diffuse + rough) * R::lit(LEAST),
         }
     }
+    /// The sum of both albedos: the factor for light from all around.
+    #[must_use]
+    #[inline]
+    pub fn albedo(&self) -> R {
+        self.least * R::lit(1.0 / LEAST)
+    }
     /// The factor for lights whose mean position is at `v` from the surface, with these variances along the axes.
     #[inline(always)]
     pub(super) fn factor(&self, v: Vec3<R>, variances: Vec3<R>) -> R {

@@ -150,6 +150,18 @@ pub struct LightsAt<R: Real> {
 }
 
 impl<R: Real> LightsAt<R> {
+    /// The choice by these weights, finite and at least 0, of at most [`FEW`] lights or kinds of lights. Where all are 0, the pmf is 0.
+    #[must_use]
+    #[inline]
+    pub fn by_weights(weights: &[R]) -> Self {
+        let mut at = Self { ends: [R::lit(0.0); FEW], count: weights.len().min(FEW) };
+        let mut sum = R::lit(0.0);
+        for (end, weight) in at.ends.iter_mut().zip(weights) {
+            sum += *weight;
+            *end = sum;
+        }
+        at
+    }
     /// The weight of each light, in a unit that is the same for all points.
     #[inline]
     pub fn weights(&self) -> impl Iterator<Item = R> {

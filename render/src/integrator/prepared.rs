@@ -30,7 +30,6 @@ impl PreparedScene {
     /// Takes the triangles out of the scene.
     pub(super) fn from_scene(scene: &mut Scene) -> Result<Self, BuildError> {
         let sky = Self::sky(scene);
-        // the power of distant lights depends on the size of the scene
         let (lights, deltas) = (Lights::new(scene, sky.clone())?, Lights::deltas(scene)?);
         let surfaces = Surfaces::from_scene(scene)?;
         Ok(Self { bodies: Bodies::new(&surfaces.bvh), surfaces, lights, deltas, sky })

@@ -1,127 +1,179 @@
-//! Choice among many lights: by a tree of those that are somewhere, and by power among those that are infinitely far away.
+//! Choice among many lights: among their kinds by the irradiance that each can cause at a point, then by a tree.
 
+use super::record::{DISTANT, KINDS, LightRecord, Powered, SKY};
 use super::tree::{OwnedTree, Threads};
 use crate::bvh::BuildError;
 use crate::packet::{V8, X8, equal, pick, select};
-use etendue::select::{Choice, Gloss, LightBound, LightChoice, PowerLights, TreeAt};
-use etendue::{Real, u32x8};
+use crate::sky::Sky;
+use etendue::select::{Choice, Gloss, LightBound, LightChoice, LightsAt, TreeAt};
+use etendue::{Mask, Real, u32x8};
+use rayon::prelude::*;
+use std::f64::consts::FRAC_1_PI;
+use std::sync::Arc;
 
 /// Tables of any number of lights.
 #[derive(Debug, Default)]
 pub(super) struct ManyLights {
-    tree: OwnedTree,
-    /// Sums of powers: of all lights in the tree, then of each light that is infinitely far away. Empty if there is none.
-    sums: Vec<f32>,
-    /// The lights that are infinitely far away.
+    /// The lights that are somewhere; those that are infinitely far away have no power in it.
+    lamps: OwnedTree,
+    /// The distant lights, as points of the unit sphere around the shading point.
+    suns: OwnedTree,
+    /// The indices of the distant lights among all.
     distant: Vec<u32>,
+    /// The sky, its index among all lights, and by what to multiply its irradiance, so that it is in the unit of the others.
+    sky: Option<(Arc<Sky>, u32, f32)>,
 }
 
+// kinds of lights
+const LAMPS: u32 = 0;
+const SUNS: u32 = 1;
+const SKIES: u32 = 2;
+
 impl ManyLights {
-    /// Builds the tables from a bound and the power of each light. A light that is infinitely far away has a bound without power.
+    /// Builds the tables of lights and their powers.
     ///
     /// # Errors
     /// Fails if there are more lights than a tree can index.
-    pub(super) fn new(
-        bounds: &[LightBound],
-        powers: &[f64],
-        is_distant: impl Fn(usize) -> bool,
-    ) -> Result<Self, BuildError> {
-        let count = bounds.len();
-        let distant: Vec<u32> = (0..count as u32).filter(|&light| is_distant(light as usize)).collect();
-        let mut sums = Vec::new();
-        if !distant.is_empty() {
-            let far = distant.iter().map(|&light| powers[light as usize]);
-            let near: f64 = powers.iter().sum::<f64>() - far.clone().sum::<f64>();
-            let all: Vec<f64> = std::iter::once(near.max(0.0)).chain(far).collect();
-            let greatest = all.iter().fold(f64::MIN_POSITIVE, |m, &p| m.max(p));
-            let all: Vec<f32> = all.iter().map(|p| (p / greatest) as f32).collect();
-            sums = vec![0.0; all.len()];
-            PowerLights::new(&all, &mut sums)
-                .map_err(|_| BuildError { count: distant.len(), most: PowerLights::MOST - 1 })?;
-        }
-        Ok(Self { tree: OwnedTree::new(bounds, &Threads)?, sums, distant })
+    pub(super) fn new(all: &Powered, sky: Option<&Arc<Sky>>) -> Result<Self, BuildError> {
+        let kind = |light: &LightRecord| light.kind & KINDS;
+        let of_sky = sky.map_or(0.0, |sky| sky.flux() * FRAC_1_PI);
+        let greatest = all.iter().fold(f64::MIN_POSITIVE.max(of_sky), |most, (_, power)| most.max(*power));
+        let lamps: Vec<_> = all.par_iter().map(|(light, power)| light.bound(power / greatest)).collect();
+        let (distant, suns): (Vec<u32>, Vec<_>) = (0..)
+            .zip(all)
+            .filter(|(_, (light, _))| kind(light) == DISTANT)
+            .map(|(index, (light, power))| {
+                // a sphere of less than this power would not be in the tree
+                let power = (power / greatest).max(f64::from(f32::MIN_POSITIVE)) as f32;
+                (index, LightBound { center: light.place, power, ..LightBound::default() })
+            })
+            .unzip();
+        let index = all.iter().position(|(light, _)| kind(light) == SKY);
+        let sky = sky.zip(index).map(|(sky, index)| (Arc::clone(sky), index as u32, (FRAC_1_PI / greatest) as f32));
+        let tree = |bounds: &[LightBound]| OwnedTree::new(bounds, &Threads);
+        Ok(Self { lamps: tree(&lamps)?, suns: tree(&suns)?, distant, sky })
     }
     /// The choice for points of surfaces.
     #[inline]
     pub(super) fn at(&self, p: V8, normal: V8, gloss: Option<&Gloss<X8>>) -> ManyAt<'_> {
-        let tree = self.tree.get();
-        let tree = gloss.map_or_else(|| tree.at(p, normal), |gloss| tree.at_glossy(p, normal, gloss));
-        ManyAt { lights: self, tree }
+        let [lamps, suns] = [(&self.lamps, p), (&self.suns, V8::default())].map(|(tree, p)| {
+            let tree = tree.get();
+            gloss.map_or_else(|| tree.at(p, normal), |gloss| tree.at_glossy(p, normal, gloss))
+        });
+        let is_far = self.sky.is_some() || !self.distant.is_empty();
+        let kinds = is_far.then(|| {
+            let of_sky = self.sky.as_ref().map_or(X8::lit(0.0), |(sky, _, unit)| {
+                let factor = gloss.map_or(X8::lit(1.0), Gloss::albedo);
+                sky.irradiance(p, normal) * (factor * X8::splat(*unit))
+            });
+            among_kinds([self.lamps.irradiance(&lamps), self.suns.irradiance(&suns), of_sky])
+        });
+        ManyAt { lights: self, lamps, suns, kinds }
     }
+}
+
+/// The choice among kinds of lights with these irradiances: half of the chance is in proportion to them, and half is the same for all that can
+/// contribute, since nobody knows yet what hides one of them. So the variance is at most about twice that of the better of both choices.
+#[inline]
+fn among_kinds(irradiances: [X8; 3]) -> LightsAt<X8> {
+    let (zero, one, least) = (X8::lit(0.0), X8::lit(1.0), X8::splat(f32::MIN_POSITIVE));
+    let irradiances = irradiances.map(|e| e.greater(least).lesser(X8::lit(1e37)).keep(e.gt(zero)));
+    let [a, b, c] = irradiances;
+    let sum = (a + b + c).greater(least);
+    let count = irradiances.iter().fold(zero, |count, e| count + one.keep(e.gt(zero)));
+    LightsAt::by_weights(&irradiances.map(|e| (e / sum + one / count).keep(e.gt(zero))))
 }
 
 /// The choice for the points of a packet.
 pub struct ManyAt<'a> {
     lights: &'a ManyLights,
-    tree: TreeAt<'a, X8>,
+    lamps: TreeAt<'a, X8>,
+    suns: TreeAt<'a, X8>,
+    /// Among the kinds, if there are others than lamps.
+    kinds: Option<LightsAt<X8>>,
 }
 
 impl ManyAt<'_> {
     /// Chooses by `u`, whose strata are kept, and by the digits of `second`.
     #[inline]
     pub(super) fn choose(&self, u: X8, second: X8) -> Choice<X8> {
-        let ManyLights { sums, distant, .. } = self.lights;
-        if distant.is_empty() {
-            return self.near(u, second);
+        let Some(kinds) = &self.kinds else { return in_tree(&self.lamps, u, second) };
+        let ManyLights { distant, sky, .. } = self.lights;
+        let first = kinds.choose(u);
+        // the sky needs no more choice
+        let mut choice = Choice { index: u32x8::splat(0), ..first };
+        if let Some((_, index, _)) = sky {
+            choice.index = u32x8::splat(*index);
         }
-        let first: Choice<X8> = PowerLights::from_buffer(sums).choose(u);
-        let is_near = equal(first.index, u32x8::splat(0));
-        let near = self.near(first.u, second);
-        let far = u32x8::new(first.index.to_array().map(|k| distant[k.saturating_sub(1) as usize]));
-        Choice {
-            index: pick(is_near, near.index, far),
-            pmf: first.pmf * select(is_near, near.pmf, X8::lit(1.0)),
-            u: select(is_near, near.u, first.u),
+        for (kind, tree) in [(LAMPS, &self.lamps), (SUNS, &self.suns)] {
+            let here = equal(first.index, u32x8::splat(kind)) & first.pmf.gt(X8::lit(0.0));
+            if here.any() {
+                let own = in_tree(tree, first.u, second);
+                let index = match kind {
+                    LAMPS => own.index,
+                    _ => u32x8::new(own.index.to_array().map(|k| distant.get(k as usize).copied().unwrap_or(0))),
+                };
+                choice.index = pick(here, index, choice.index);
+                choice.pmf = select(here, first.pmf * own.pmf, choice.pmf);
+                choice.u = select(here, own.u, choice.u);
+            }
         }
-    }
-    /// Chooses in the tree.
-    #[inline]
-    fn near(&self, u: X8, second: X8) -> Choice<X8> {
-        let [high, low] = [u, second].map(|u| (u * X8::lit(16_777_216.0)).to_uint());
-        // where there is no second number, the digits below are a hash of the first
-        let low = (low ^ (high * u32x8::splat(0x9e37_79b9))) * u32x8::splat(0x85eb_ca6b);
-        let choice = self.tree.choose_by([high << 8 | low >> 24, low]);
-        // a lane without a light has the pmf 0, but its index must be one
-        Choice { index: pick(choice.pmf.gt(X8::lit(0.0)), choice.index, u32x8::splat(0)), ..choice }
+        choice
     }
     /// The pmf of a light.
     #[inline]
     pub(super) fn pmf(&self, light: u32) -> X8 {
-        let sums = PowerLights::from_buffer(&self.lights.sums);
+        let Some(kinds) = &self.kinds else { return self.lamps.pmf_of(light) };
+        if self.lights.sky.as_ref().is_some_and(|(_, index, _)| *index == light) {
+            return kinds.pmf_of(SKIES);
+        }
         match self.lights.distant.binary_search(&light) {
-            Ok(k) => LightChoice::<X8>::pmf_of(&sums, k as u32 + 1),
-            Err(_) if self.lights.distant.is_empty() => self.tree.pmf_of(light),
-            Err(_) => LightChoice::<X8>::pmf_of(&sums, 0) * self.tree.pmf_of(light),
+            Ok(k) => kinds.pmf_of(SUNS) * self.suns.pmf_of(k as u32),
+            Err(_) => kinds.pmf_of(LAMPS) * self.lamps.pmf_of(light),
         }
     }
+}
+
+/// Chooses in a tree.
+#[inline]
+fn in_tree(tree: &TreeAt<'_, X8>, u: X8, second: X8) -> Choice<X8> {
+    let [high, low] = [u, second].map(|u| (u * X8::lit(16_777_216.0)).to_uint());
+    // where there is no second number, the digits below are a hash of the first
+    let low = (low ^ (high * u32x8::splat(0x9e37_79b9))) * u32x8::splat(0x85eb_ca6b);
+    let choice = tree.choose_by([high << 8 | low >> 24, low]);
+    // a lane without a light has the pmf 0, but its index must be one
+    Choice { index: pick(choice.pmf.gt(X8::lit(0.0)), choice.index, u32x8::splat(0)), ..choice }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lights::record::POINT;
     use etendue::sequence::{Independent, Sequence};
     use etendue::{Uint, Vec2};
     use etendue_oracle::tier::cases;
 
-    /// With and without lights at infinity: the pmf sums to 1, a choice has the pmf of its light, and lights are chosen as often as their
+    fn record(kind: u32, place: [f32; 3]) -> LightRecord {
+        LightRecord { kind, place, ..LightRecord::default() }
+    }
+
+    /// With and without distant lights: the pmf sums to 1, a choice has the pmf of its light, and lights are chosen as often as their
     /// pmf says, also the weakest together.
     #[test]
     fn lights_of_any_power_are_chosen() {
         for (count, far) in [(2_usize, 1_usize), (2, 2), (7, 0), (7, 3), (4000, 0), (4000, 2)] {
             let powers: Vec<f64> = (0..count).map(|i| [1.0, 1e-3, 1e-9, 0.0, 50.0][i * 7 % 5]).collect();
-            let is_distant = |i: usize| i >= count - far;
-            let bound = |i: usize| LightBound {
-                center: [(i * 37 % 101) as f32, (i * 61 % 113) as f32, 3.0 + (i % 7) as f32],
-                radius: 0.25,
-                power: if is_distant(i) { 0.0 } else { powers[i] as f32 },
-                ..LightBound::default()
+            let place = |i: usize| [(i * 37 % 101) as f32, (i * 61 % 113) as f32, 3.0 + (i % 7) as f32];
+            let light = |i: usize| match i < count - far {
+                true => record(POINT, place(i)),
+                false => record(DISTANT, [0.6, 0.0, 0.8]),
             };
-            let bounds: Vec<_> = (0..count).map(bound).collect();
-            let lights = ManyLights::new(&bounds, &powers, is_distant).unwrap();
+            let all: Powered = (0..count).map(|i| (light(i), powers[i])).collect();
+            let lights = ManyLights::new(&all, None).unwrap();
             let at = lights.at(V8::lit([50.0, 50.0, 0.0]), V8::lit([0.0, 0.0, 1.0]), None);
             let pmf: Vec<f64> = (0..count as u32).map(|i| f64::from(at.pmf(i).as_array()[0])).collect();
             assert!((pmf.iter().sum::<f64>() - 1.0).abs() < 1e-5, "{count}: {}", pmf.iter().sum::<f64>());
-            assert!(powers.iter().zip(&pmf).all(|(power, pmf)| (*power > 0.0) == (*pmf > 0.0)));
+            assert!(pmf.iter().all(|pmf| *pmf > 0.0));
             let (mut weak, draws) = (0.0, cases(1_u32 << 14, 1 << 18));
             for i in (0..draws).step_by(8) {
                 let lanes = u32x8::from_fn(|k| i + k as u32);
@@ -142,11 +194,35 @@ mod tests {
         }
     }
 
+    /// Neither is lost whose power is far less, however large it is beside what it lights: each has at least a quarter of the samples where
+    /// it can contribute, most of them where it is the brighter one, and none below the horizon.
+    #[test]
+    fn lamps_and_suns_share_by_what_they_can_contribute() {
+        for [lamp, sun] in [[1.0, 1.0], [1e-9, 1.0], [1.0, 1e-9], [1e9, 1e-12]] {
+            // irradiances of lamp/4 and sun/4
+            let all: Powered = vec![(record(POINT, [0.0, 0.0, 1.0]), lamp), (record(DISTANT, [0.0, 0.0, 1.0]), sun)];
+            let lights = ManyLights::new(&all, None).unwrap();
+            let pmf = |normal: [f64; 3]| {
+                let at = lights.at(V8::default(), V8::lit(normal), None);
+                [0, 1].map(|light| f64::from(at.pmf(light).as_array()[0]))
+            };
+            let expected = 0.25 + 0.5 * lamp / (lamp + sun);
+            let [of_lamp, of_sun] = pmf([0.0, 0.0, 1.0]);
+            assert!((of_lamp - expected).abs() < 0.03 && (of_lamp + of_sun - 1.0).abs() < 1e-6, "{of_lamp} {expected}");
+            assert_eq!(pmf([0.0, 0.0, -1.0]), [0.0; 2]);
+        }
+        // a sun below the horizon takes nothing from a lamp above it
+        let all: Powered = vec![(record(POINT, [0.0, 0.0, 1.0]), 1e-9), (record(DISTANT, [0.0, 0.0, -1.0]), 1.0)];
+        let lights = ManyLights::new(&all, None).unwrap();
+        let at = lights.at(V8::default(), V8::lit([0.0, 0.0, 1.0]), None);
+        assert_eq!([0, 1].map(|light| at.pmf(light).as_array()[0]), [1.0, 0.0]);
+    }
+
     /// A point that no light can reach gets no light, and an index that is valid all the same.
     #[test]
     fn below_all_lights_there_is_none() {
-        let bound = |i: usize| LightBound { center: [i as f32, 0.0, 1.0], power: 1.0, ..LightBound::default() };
-        let lights = ManyLights::new(&[0, 1, 2].map(bound), &[1.0; 3], |_| false).unwrap();
+        let all: Powered = (0..3).map(|i| (record(POINT, [i as f32, 0.0, 1.0]), 1.0)).collect();
+        let lights = ManyLights::new(&all, None).unwrap();
         let choice = lights.at(V8::default(), V8::lit([0.0, 0.0, -1.0]), None).choose(X8::lit(0.3), X8::lit(0.6));
         assert_eq!((choice.pmf, choice.index), (X8::lit(0.0), u32x8::splat(0)));
     }

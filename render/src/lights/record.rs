@@ -2,7 +2,7 @@
 
 use super::spread::cos_cone;
 use crate::bvh::NOTHING;
-use crate::geometry::{Geometry, bounds_of};
+use crate::geometry::Geometry;
 use crate::scene::{DeltaLight, Scene, Shape};
 use etendue::Vec3;
 use etendue::light::Spread;
@@ -145,25 +145,6 @@ impl LightRecord {
     }
 }
 
-/// Squared radius of a sphere around all surfaces.
-pub(super) fn squared_radius(scene: &Scene) -> f64 {
-    let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-    let boxes = scene.shapes.iter().map(|shape| shape.geometry.bounds());
-    let objects: Vec<_> =
-        scene.objects.iter().map(|range| bounds_of(scene.triangles[range.clone()].as_flattened())).collect();
-    let instances = scene.instances.iter().flat_map(|instance| instance.corners(objects[instance.object as usize]));
-    let own = scene.objects.first().map_or(scene.triangles.len(), |range| range.start);
-    let points = scene.triangles[..own].as_flattened().iter().copied().chain(instances);
-    for [least, most] in points.map(|p| [p, p]).chain(boxes) {
-        for k in 0..3 {
-            low[k] = low[k].min(f64::from(least[k]));
-            high[k] = high[k].max(f64::from(most[k]));
-        }
-    }
-    let squared: f64 = (0..3).map(|k| (high[k] - low[k]).powi(2)).sum::<f64>() / 4.0;
-    if squared.is_finite() { squared } else { 1.0 }
-}
-
 pub(super) fn sum(rgb: [f32; 3]) -> f64 {
     rgb.iter().map(|&x| f64::from(x)).sum()
 }
@@ -204,7 +185,8 @@ pub(super) fn delta_lights(scene: &Scene) -> Powered {
                 (LightRecord { place, first, second, radiance, kind: DIRECTED, ..none }, power)
             }
             DeltaLight::Distant { direction: place, irradiance: radiance } => {
-                (LightRecord { place, radiance, kind: DISTANT, ..none }, sum(radiance) * squared_radius(scene))
+                // of a point at the distance 1 that causes this irradiance
+                (LightRecord { place, radiance, kind: DISTANT, ..none }, 4.0 * sum(radiance))
             }
         }
     };

@@ -1,7 +1,8 @@
 //! The memory of a light tree, and threads to build it.
 
 use crate::bvh::BuildError;
-use etendue::select::{Join, LightBound, LightTree, Node8};
+use crate::packet::X8;
+use etendue::select::{Join, LightBound, LightTree, Node8, TreeAt};
 
 /// Builds the halves of a tree on the threads of rayon.
 #[derive(Clone, Copy, Debug)]
@@ -18,6 +19,8 @@ impl Join for Threads {
 pub struct OwnedTree {
     nodes: Vec<Node8>,
     places: Vec<u32>,
+    /// The greatest finite power of a light.
+    strongest: f32,
 }
 
 impl OwnedTree {
@@ -27,7 +30,10 @@ impl OwnedTree {
     /// Fails if there are more lights than a tree can index.
     pub fn new(lights: &[LightBound], join: &impl Join) -> Result<Self, BuildError> {
         let count = lights.len();
-        let mut own = Self { nodes: vec![Node8::default(); LightTree::nodes_for(count)], places: vec![0; count] };
+        let powers = lights.iter().map(|light| light.power).filter(|power| power.is_finite());
+        let strongest = powers.fold(0.0, f32::max);
+        let nodes = vec![Node8::default(); LightTree::nodes_for(count)];
+        let mut own = Self { nodes, places: vec![0; count], strongest };
         LightTree::build_with(lights, &mut own.nodes, &mut own.places, join)
             .map_err(|_| BuildError { count, most: LightTree::MOST })?;
         Ok(own)
@@ -36,6 +42,11 @@ impl OwnedTree {
     #[inline]
     pub fn get(&self) -> LightTree<'_> {
         LightTree::from_buffers(&self.nodes, &self.places)
+    }
+    /// About the irradiance that all lights cause where a choice among them has been prepared.
+    #[inline]
+    pub fn irradiance(&self, at: &TreeAt<'_, X8>) -> X8 {
+        at.irradiance(self.strongest)
     }
     /// Size in bytes.
     pub fn bytes(&self) -> usize {

@@ -1,10 +1,12 @@
 //! The portals of a sky, with their tables.
 
 use crate::packet::{V8, X8};
-use etendue::Vec2;
 use etendue::light::{MOST_PORTALS, Portal, PortalEnvironment, PortalMap, PortalTable};
 use etendue::real::Real;
+use etendue::select::{LightBound, LightTree, Node8};
+use etendue::{Vec2, Vec3};
 use rayon::prelude::*;
+use std::f64::consts::PI;
 
 /// The portals of a sky. Parallel ones share a table.
 #[derive(Clone, Debug)]
@@ -15,8 +17,10 @@ pub(super) struct Windows {
     tables: Vec<Vec<u64>>,
     /// Columns and rows of a table.
     size: usize,
-    /// What comes through all of them.
-    power: f64,
+    /// A tree of the portals as lights, and their greatest power.
+    nodes: Vec<Node8>,
+    places: Vec<u32>,
+    strongest: f32,
 }
 
 /// Bounds of the number of columns and rows.
@@ -32,7 +36,7 @@ impl Windows {
         if portals.is_empty() {
             return None;
         }
-        let wanted = std::f64::consts::PI / texel;
+        let wanted = PI / texel;
         let size = (wanted as usize).clamp(LEAST, MOST);
         let places = ((2.0 * wanted / size as f64).ceil() as usize).clamp(2, MOST_PLACES);
         let mut maps: Vec<PortalMap> = Vec::new();
@@ -45,12 +49,19 @@ impl Windows {
         });
         let of: Vec<_> = of.collect();
         let (tables, irradiances): (_, Vec<_>) = maps.iter().map(|map| table(map, size, places, &radiance)).unzip();
-        let power = portals.iter().zip(&of).map(|(portal, of)| portal.area() * irradiances[*of]).sum::<f64>();
-        Some(Self { portals: portals.to_vec(), of, tables, size, power: power / std::f64::consts::PI })
+        let powers = portals.iter().zip(&of).map(|(portal, of)| portal.area() * irradiances[*of]);
+        let bounds: Vec<LightBound> =
+            portals.iter().zip(powers).map(|(portal, power)| bound(portal, power as f32)).collect();
+        let strongest = bounds.iter().fold(0.0, |most: f32, bound| most.max(bound.power));
+        let (mut nodes, mut places) =
+            (vec![Node8::default(); LightTree::nodes_for(bounds.len())], vec![0; bounds.len()]);
+        LightTree::build(&bounds, &mut nodes, &mut places).expect("memory for all of them");
+        Some(Self { portals: portals.to_vec(), of, tables, size, nodes, places, strongest })
     }
-    /// The power that comes through the portals, in units of π, summed over channels.
-    pub(super) fn power(&self) -> f64 {
-        self.power
+    /// About the irradiance that comes through the portals, summed over channels.
+    #[inline]
+    pub(super) fn irradiance(&self, p: V8, normal: V8) -> X8 {
+        LightTree::from_buffers(&self.nodes, &self.places).at(p, normal).irradiance(self.strongest)
     }
     /// What `run` makes of the portals.
     #[inline]
@@ -62,6 +73,23 @@ impl Windows {
         }
         let tables = &tables[..self.portals.len()];
         run(&PortalEnvironment::new(&self.portals, tables).expect("the scene reader has counted the portals"))
+    }
+}
+
+/// A portal as a light of this power.
+fn bound(portal: &Portal, power: f32) -> LightBound {
+    let ([s, t], corner) = (portal.edges(), Vec3::from(portal.corner().map(f64::from)));
+    let center = corner + (s + t) * 0.5;
+    let radius = 0.5 * (s + t).length().max((s - t).length());
+    let narrow = |v: Vec3<f64>| [v.x, v.y, v.z].map(|x| x as f32);
+    LightBound {
+        center: narrow(center),
+        // the rounding of the centre moves the sphere by less than this
+        radius: (radius * (1.0 + 1e-6)) as f32,
+        // towards those who see the sky
+        normal: narrow(t.cross(s).normalize()),
+        power: power.max(f32::MIN_POSITIVE),
+        ..LightBound::default()
     }
 }
 

@@ -318,6 +318,13 @@ impl Node8 {
             ^ (self.power[0].to_bits() ^ self.normal[0])
             ^ (self.turns[0][0] ^ self.child[0])
     }
+    /// The sum of the children's weights at a point of a surface: 0 only where none can contribute, and finite.
+    pub(super) fn sum(&self, at: &Place<f32>, gloss: Option<&Gloss<f32>>) -> f32 {
+        let gloss = gloss.map(|gloss| Gloss::splat(*gloss));
+        let (weight, bright) = self.children().weigh(self.plain != 0, &Place::splat(*at), gloss.as_ref());
+        let sum: f32 = weight.greater(f32x8::splat(f32::MIN_POSITIVE)).keep(bright).to_array().iter().sum();
+        sum.lesser(f32::MAX)
+    }
     /// The children's shares at a point of a surface.
     #[inline(always)]
     pub(super) fn shares(&self, at: &Place<f32>, gloss: Option<&Gloss<f32>>) -> Shares {
