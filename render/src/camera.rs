@@ -80,6 +80,15 @@ impl Camera {
         let [middle, across, down] = [0, 1, 2].map(|lane| direction.lane(lane).map(f64::from));
         (origin.lane(0).map(f64::from), (across - middle).cross(down - middle).length())
     }
+    /// The position in pixels from the top left at which the film shows what is at `v` from where the ray through the middle begins, if it
+    /// is in focus; `None` if it is behind the camera, or if the image is not of the scene.
+    pub fn film_of(&self, v: Vec3<f64>) -> Option<[f64; 2]> {
+        match self {
+            Self::Pinhole(pinhole) => pinhole.film_of(v),
+            Self::ThinLens(thin) | Self::Barrel(thin, _) => thin.film_of(v),
+            Self::Pupil(_) => None,
+        }
+    }
     /// Whether samples have a point on the lens.
     pub const fn has_lens(&self) -> bool {
         matches!(self, Self::ThinLens(_) | Self::Barrel(..))

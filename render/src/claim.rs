@@ -1,16 +1,66 @@
 //! What an image claims about its error.
 //!
 //! The error of samples falls with their number, and the variances of the pixels tell it. That of closed forms is the same in all samples,
-//! so that no variance tells it: [`View::systematic`](crate::View::systematic) bounds it by the scene. The claim is the root of the sum of
-//! both squares, since over random numbers the one has a mean of 0.
+//! so that no variance tells it: [`View::foreseen`](crate::View::foreseen) bounds it by the scene. The claim is the root of the sum of
+//! both squares, since over random numbers the one has a mean of 0. Where a few samples of great worth decide, variances do not tell
+//! either, as long as no sample has met what is bright: that is foreseen by the scene, too, and said.
 
 use crate::film::Film;
 
+/// What few samples meet, although the camera sees it: lights smaller than a pixel. A sample that meets one is worth its radiance, so the
+/// variance that they cause is known in advance, also while no sample has met one.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Specks {
+    /// Σ a L², over lights of the area a in pixels. L² is the sum over channels of squared radiances.
+    squares: f64,
+    /// Σ a L⁴.
+    fourths: f64,
+    /// The number of lights.
+    count: f64,
+}
+
+impl Specks {
+    /// A light of this area in pixels, and the sum over channels of its squared radiances.
+    #[must_use]
+    pub fn new(area: f64, squared: f64) -> Self {
+        Self { squares: area * squared, fourths: area * squared * squared, count: 1.0 }
+    }
+    /// These and others, each of which stands for `weight` lights.
+    #[must_use]
+    pub fn and(&self, others: &Self, weight: f64) -> Self {
+        Self {
+            squares: self.squares + weight * others.squares,
+            fourths: self.fourths + weight * others.fourths,
+            count: self.count + weight * others.count,
+        }
+    }
+    /// The sum of the variances that they cause in the pixels and channels of an image with so many samples per pixel, unless enough
+    /// samples meet them for the pixels' own variances to tell.
+    fn missed(&self, spp: f64) -> f64 {
+        // the number of samples that would tell their squares as precisely, if all were alike
+        let met = spp * self.squares.powi(2) / self.fourths;
+        if met < ENOUGH { self.squares / spp } else { 0.0 }
+    }
+}
+
+/// What a scene tells of the error of its images, whatever their samples.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Foreseen {
+    /// A bound of the RMS error that closed forms leave, over pixels and channels.
+    pub systematic: f64,
+    /// Lights that few samples meet.
+    pub specks: Specks,
+}
+
 /// The estimated RMS error of an image over pixels and channels, relative to its mean.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Claim {
     /// What more samples make smaller: √(mean variance) / mean.
     pub random: f64,
+    /// The same as far as it is due to lights in view that are smaller than a pixel, and which too few samples meet for the pixels to tell.
+    pub missed: f64,
+    /// The number of these lights; 0 if enough samples meet them.
+    pub specks: f64,
     /// A bound of what they do not: the error of closed forms. 0 if there are none.
     pub systematic: f64,
     /// In about how many pixels the random error is: (Σv)² / Σv² over their variances v.
@@ -21,10 +71,10 @@ pub struct Claim {
 const ENOUGH: f64 = 8.0;
 
 impl Claim {
-    /// The claim of an image whose closed forms have at most this error (see [`View::systematic`](crate::View::systematic)). `None` if
-    /// a variance is not known, or if the image is black.
+    /// The claim of an image with so many samples per pixel, with what was [foreseen](crate::View::foreseen). `None` if a variance is not
+    /// known, or if the image is black.
     #[must_use]
-    pub fn new(film: &Film, systematic: f64) -> Option<Self> {
+    pub fn new(film: &Film, foreseen: &Foreseen, spp: u64) -> Option<Self> {
         let count = 3.0 * film.pixels.len() as f64;
         let (mut sum, mut squares) = (0.0, 0.0);
         for variance in film.pixels.iter().map(|p| p.variance.map(f64::from).iter().sum::<f64>()) {
@@ -33,18 +83,36 @@ impl Claim {
         }
         let mean = film.mean().iter().sum::<f64>() / 3.0;
         let pixels = if squares > 0.0 { sum * sum / squares } else { film.pixels.len() as f64 };
-        let claim = Self { random: (sum / count).sqrt() / mean, systematic: systematic / mean, pixels };
+        let missed = foreseen.specks.missed(spp as f64);
+        let claim = Self {
+            random: (sum / count).sqrt() / mean,
+            missed: (missed / count).sqrt() / mean,
+            specks: if missed > 0.0 { foreseen.specks.count } else { 0.0 },
+            systematic: foreseen.systematic / mean,
+            pixels,
+        };
         (sum.is_finite() && mean > 0.0).then_some(claim)
     }
     /// The whole error.
     #[must_use]
     pub fn total(&self) -> f64 {
-        (self.random.powi(2) + self.systematic.powi(2)).sqrt()
+        self.sampled().hypot(self.systematic)
     }
-    /// Whether the random error is in too few pixels to be known from their variances, and more than the systematic one.
+    /// The part of it that more samples make smaller.
+    fn sampled(&self) -> f64 {
+        self.random.max(self.missed)
+    }
+    /// Why the whole error is uncertain: because most of it is in too few pixels to be known from their variances, or because too few samples
+    /// meet small lights in view.
     #[must_use]
-    pub fn is_vague(&self) -> bool {
-        self.pixels < ENOUGH && self.random > self.systematic
+    pub fn doubt(&self) -> Option<String> {
+        if self.sampled() <= self.systematic {
+            None
+        } else if 2.0 * self.missed > self.random {
+            Some(format!("too few samples meet {:.0} lights in view that are smaller than a pixel", self.specks.ceil()))
+        } else {
+            (self.pixels < ENOUGH).then(|| format!("it is in about {:.0} pixels", self.pixels))
+        }
     }
     /// Checks that enough samples lower the whole error to `target`.
     ///
@@ -65,7 +133,7 @@ impl Claim {
     #[must_use]
     pub fn excess(&self, target: f64) -> f64 {
         let allowed = target.powi(2) - self.systematic.powi(2);
-        if allowed > 0.0 { self.random.powi(2) / allowed } else { f64::INFINITY }
+        if allowed > 0.0 { self.sampled().powi(2) / allowed } else { f64::INFINITY }
     }
 }
 
@@ -109,28 +177,45 @@ mod tests {
         };
         let some = film([1.0, 2.0, 3.0], [0.06, 0.12, 0.06]);
         let expected = (0.24_f64 / 6.0).sqrt() / 2.0;
-        let claim = Claim::new(&some, 0.0).unwrap();
+        let new =
+            |film: &Film, systematic: f64| Claim::new(film, &Foreseen { systematic, specks: Specks::default() }, 4);
+        let claim = new(&some, 0.0).unwrap();
         assert!((claim.random - expected).abs() < 1e-7 && claim.systematic == 0.0, "{claim:?}");
         assert_eq!(claim.total(), claim.random);
-        assert!((claim.pixels - 1.0).abs() < 1e-12 && claim.is_vague(), "{claim:?}");
+        assert!((claim.pixels - 1.0).abs() < 1e-12 && claim.doubt().is_some(), "{claim:?}");
         let even = Film { pixels: vec![some.pixels[0]; 20], ..some };
-        let claim = Claim::new(&even, 0.0).unwrap();
-        assert!((claim.pixels - 20.0).abs() < 1e-9 && !claim.is_vague(), "{claim:?}");
-        let claim = Claim::new(&some, 0.15).unwrap();
+        let claim = new(&even, 0.0).unwrap();
+        assert!((claim.pixels - 20.0).abs() < 1e-9 && claim.doubt().is_none(), "{claim:?}");
+        let claim = new(&some, 0.15).unwrap();
         assert!((claim.systematic - 0.075).abs() < 1e-12, "{claim:?}");
         assert!((claim.total() - expected.hypot(0.075)).abs() < 1e-7, "{claim:?}");
-        assert_eq!(Claim::new(&film([1.0; 3], [f32::INFINITY; 3]), 0.0), None);
-        assert_eq!(Claim::new(&film([-2.0; 3], [0.0; 3]), 0.0), None);
+        assert_eq!(new(&film([1.0; 3], [f32::INFINITY; 3]), 0.0), None);
+        assert_eq!(new(&film([-2.0; 3], [0.0; 3]), 0.0), None);
     }
 
     #[test]
     fn samples_lower_the_random_part_alone() {
-        let claim = Claim { random: 4.0, systematic: 3.0, pixels: 1.0 };
+        let claim = Claim { random: 4.0, systematic: 3.0, pixels: 1.0, ..Claim::default() };
         assert_eq!(claim.total(), 5.0);
         assert!(claim.check(3.001).is_ok());
         assert!(claim.check(3.0).unwrap_err().contains("may have one of 3.0e0"));
         assert_eq!(claim.excess(5.0), 1.0);
         assert_eq!(claim.excess(3.0), f64::INFINITY);
         assert!((claim.excess(f64::sqrt(9.0 + 4.0)) - 4.0).abs() < 1e-12);
+    }
+    /// A light of a thousandth of a pixel is claimed although no sample has met it, until eight samples have.
+    #[test]
+    fn lights_that_no_sample_has_met_are_claimed() {
+        let dim = Pixel { mean: [1.0; 3], variance: [1e-6; 3], samples: 64 };
+        let film = Film { width: 10, height: 10, pixels: vec![dim; 100] };
+        let specks = Specks::new(0.001, 3.0 * 500.0_f64.powi(2));
+        let claim = |spp: u64| Claim::new(&film, &Foreseen { systematic: 0.0, specks }, spp).unwrap();
+        let expected = (0.001 * 500.0_f64.powi(2) / 64.0 / 100.0).sqrt();
+        let few = claim(64);
+        assert!((few.total() - expected).abs() < 1e-9 && few.specks == 1.0, "{few:?}");
+        assert!(few.doubt().unwrap().contains("meet 1 lights in view"));
+        assert!(few.excess(0.1) > 1.0);
+        let many = claim(8192);
+        assert!(many.doubt().is_none() && (many.total() - 1e-3).abs() < 1e-9, "{many:?}");
     }
 }

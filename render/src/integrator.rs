@@ -15,6 +15,7 @@ mod paths;
 mod prepared;
 mod radiance;
 mod settings;
+mod specks;
 mod tile;
 mod trial;
 mod view;

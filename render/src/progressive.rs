@@ -6,7 +6,7 @@
 //! image so far; to that a pixel contributes no more than its share in the sum over all pixels.
 
 use crate::area::{self, Area};
-use crate::claim::{Claim, why_unknown};
+use crate::claim::{Claim, Foreseen, why_unknown};
 use crate::film::{Film, Pixel};
 use crate::integrator::{Content, RayCount, Samples, Settings, World};
 use crate::limits::MOST_SAMPLES;
@@ -139,8 +139,8 @@ pub struct Refined {
     counts: Vec<u32>,
     /// The least number of samples with the sampler of large passes.
     full: u32,
-    /// The error of closed forms, see [`View::systematic`](crate::View::systematic).
-    systematic: f64,
+    /// See [`View::foreseen`](crate::View::foreseen).
+    foreseen: Foreseen,
     /// The sum of the weights of all passes: of all pixels, or of each as soon as one pass was of a part.
     weights: Vec<f64>,
     /// Number of passes so far, also of those that are no part of the image.
@@ -160,8 +160,8 @@ impl Refined {
         // smaller passes have another sampler
         let full =
             counts.iter().copied().find(|&n| plan.sampler_of(n) == plan.sampler_of(MOST_SAMPLES)).unwrap_or(counts[0]);
-        let systematic = world.view(&plan.settings).systematic();
-        Ok(Self { plan: *plan, counts, full, systematic, weights: Vec::new(), index: 0, pace: 0.0, known: None })
+        let foreseen = world.view(&plan.settings).foreseen();
+        Ok(Self { plan: *plan, counts, full, foreseen, weights: Vec::new(), index: 0, pace: 0.0, known: None })
     }
 
     /// What is known after the last pass.
@@ -225,8 +225,8 @@ impl Refined {
                     self.weights = vec![self.weights[0]; area::count(whole)];
                 }
                 add(&mut mean.film, &mut self.weights, &pixels, area, own);
-                mean.error = Claim::new(&mean.film, self.systematic);
                 mean.spp += if area == whole { spp.into() } else { 0 };
+                mean.error = Claim::new(&mean.film, &self.foreseen, mean.spp);
                 mean.passes.push(pass);
                 Progress { seconds: mean.seconds + seconds, rays: sum(mean.rays, rays), ..mean }
             }
@@ -236,7 +236,7 @@ impl Refined {
                 self.weights = vec![own];
                 let (before, rays) = earlier.map_or((0.0, rays), |mean| (mean.seconds, sum(mean.rays, rays)));
                 let film = Film { width: settings.width, height: settings.height, pixels };
-                let error = Claim::new(&film, self.systematic);
+                let error = Claim::new(&film, &self.foreseen, spp.into());
                 Progress { film, error, spp: spp.into(), passes: vec![pass], seconds: before + seconds, rays }
             }
         };
@@ -487,7 +487,7 @@ mod tests {
         let counts: Vec<u32> = (1..=22).map(|bits| 1 << bits).collect();
         let film = Film { width: 0, height: 0, pixels: Vec::new() };
         let pass = Pass { spp: 64, sampler: Sampler::Sobol, seed: 0, seconds: 1.0 };
-        let error = Some(Claim { random: 0.02, systematic: 0.0, pixels: 100.0 });
+        let error = Some(Claim { random: 0.02, pixels: 100.0, ..Claim::default() });
         let mean = Progress { film, error, spp: 64, passes: vec![pass], seconds: 1.0, rays: RayCount::default() };
         let weight = 64_f64.powf(1.5);
         let next = |seconds, error| decide(&mean, Goal { seconds, error }, weight, 1.5, &counts, 2, 1.0);
@@ -510,7 +510,7 @@ mod tests {
         assert_eq!(next(Some(10.0), Some(0.019)), Some(64));
         assert_eq!(next(Some(1.6), Some(1e-5)), Some(32));
         // of the error, samples lower the random part alone: by half, as above, and never to the other
-        let error = Some(Claim { random: 0.02, systematic: 0.01, pixels: 100.0 });
+        let error = Some(Claim { random: 0.02, systematic: 0.01, pixels: 100.0, ..Claim::default() });
         let mean = Progress { error, ..mean.clone() };
         let next = |seconds, error| decide(&mean, Goal { seconds, error }, weight, 1.5, &counts, 2, 1.0);
         assert_eq!(next(None, Some(f64::sqrt(2e-4))), Some(256));

@@ -175,6 +175,13 @@ impl Sky {
             None => of_sky,
         }
     }
+    /// The direction to the sun, its angular radius in radians, and its radiance.
+    pub fn sun(&self) -> Option<([f32; 3], f64, [f32; 3])> {
+        let disk = self.sun.as_ref()?.disk;
+        // 1 − cosσ = 2 sin²(σ/2)
+        let radius = 2.0 * (0.5 * f64::from(disk.one_minus_cos)).sqrt().asin();
+        Some((disk.direction, radius, disk.radiance))
+    }
     /// The sun, if it is sampled besides the sky.
     pub fn sun_beside(&self) -> Option<SunBeside<'_>> {
         Some(SunBeside { sun: self.sun.as_ref()?, windows: self.windows.as_ref()? })

@@ -150,7 +150,7 @@ impl Session<'_> {
         }
         let (film, rays) = last.unwrap_or_else(|| unreachable!("--repeat is at least 1"));
         bar.finish_and_clear();
-        let error = Claim::new(&film, self.world.view(&self.settings).systematic());
+        let error = Claim::new(&film, &self.world.view(&self.settings).foreseen(), spp.into());
         self.write(&film, spp.into(), error)?;
         let has_sets = reports_variance(sampler, spp, sets, lens);
         let sets = sampler.sets(spp, sets, lens);
@@ -236,6 +236,9 @@ fn to_json(
         "mean": image.film.mean(),
         "error": image.error.map(|claim| claim.total()),
         "systematic": image.error.map(|claim| claim.systematic),
+        "uncertain": image.error.and_then(|claim| claim.doubt()),
+        "pixels": image.error.map(|claim| claim.pixels),
+        "missed": image.error.map(|claim| claim.specks.ceil()),
         "passes": if passes.is_empty() { Value::Null } else { passes.into() },
         "output": output.exr.to_string_lossy(),
     })
@@ -278,8 +281,8 @@ fn print(
             if claim.systematic > 0.0 {
                 write!(out, ", of which {} bounds that of closed forms", percent(claim.systematic))?;
             }
-            if claim.is_vague() {
-                write!(out, "; it is uncertain, since it is in about {:.0} pixels", claim.pixels)?;
+            if let Some(doubt) = claim.doubt() {
+                write!(out, "; it is uncertain, since {doubt}")?;
             }
             writeln!(out)?;
         }

@@ -2,6 +2,7 @@
 
 use crate::packet::{V8, X8};
 use crate::scene;
+use etendue::Vec3;
 
 /// A pinhole camera for an image of a given size.
 #[derive(Clone, Copy, Debug)]
@@ -32,6 +33,14 @@ impl Pinhole {
         let (corner, across, down) = (wide(self.corner), wide(self.across), wide(self.down));
         let through = |x: f64, y: f64| std::array::from_fn(|k| corner[k] + across[k] * x + down[k] * y);
         (wide(self.origin), [through(x0, y0), through(x1, y0), through(x1, y1), through(x0, y1)])
+    }
+    /// Where the ray passes the film that leaves the pinhole along a vector of any length, in pixels from the top left; `None` behind it.
+    pub fn film_of(&self, v: Vec3<f64>) -> Option<[f64; 2]> {
+        let [corner, across, down] = [self.corner, self.across, self.down].map(|v| Vec3::<f64>::from(v.map(f64::from)));
+        // v = t (corner + x across + y down)
+        let t = v.dot(across.cross(down)) / corner.dot(across.cross(down));
+        let along = |axis: Vec3<f64>, normal: Vec3<f64>| v.dot(normal) / (axis.dot(normal) * t);
+        (t > 0.0).then(|| [along(across, down.cross(corner)), along(down, corner.cross(across))])
     }
     /// Origin and unit direction of the rays through positions in pixels from the top left.
     #[inline]

@@ -3,7 +3,7 @@
 use super::pinhole::Pinhole;
 use crate::packet::{V8, X8};
 use crate::scene::{CameraSettings, Lens};
-use etendue::{Real, Vec2};
+use etendue::{Real, Vec2, Vec3};
 
 /// A thin-lens camera for an image of a given size.
 ///
@@ -27,6 +27,10 @@ impl ThinLens {
             radii: along(lens.radius * lens.unit),
             bends: along(lens.radius / lens.focus),
         }
+    }
+    /// As [`Pinhole::film_of`], from the middle of the lens.
+    pub fn film_of(&self, v: Vec3<f64>) -> Option<[f64; 2]> {
+        self.center.film_of(v)
     }
     /// Origin and unit direction of the rays through positions in pixels from the top left and points of the lens in units of its
     /// radius.

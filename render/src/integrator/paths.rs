@@ -397,7 +397,8 @@ impl<'a> Paths<'a> {
             }
             let cos = sample.direction.dot(surface.normal);
             let some = sample.pdf.gt(zero) & choice.pmf.gt(zero);
-            lit[p] = lanes & sample.emits & some & cos.gt(zero);
+            let own = chosen.is_own(places[p].primitives, surface.point, surface.normal);
+            lit[p] = lanes & sample.emits & some & cos.gt(zero) & !own;
             let Evaluated { mut color, factor, pdf: surface_pdf } = bsdf.evaluate(sample.direction);
             let mut seen = M8::splat(false);
             if METAL

@@ -5,11 +5,13 @@ use super::allocation::Weights;
 use super::checks::Checks;
 use super::known::Survey;
 use super::settings::{RayCount, Settings, tiles};
+use super::specks::specks;
 use super::tile::TileRenderer;
 use super::world::World;
 
 use crate::area::{self, Area};
 use crate::camera::Camera;
+use crate::claim::Foreseen;
 use crate::film::{BlockSum, Film, Pixel, PixelSum};
 use crate::sampler::Sampler;
 use crate::sums::{Moments, Planes, Sample, Sum};
@@ -110,10 +112,18 @@ impl View<'_> {
         }
     }
 
+    /// What the scene tells of the error of its image, whatever the samples.
+    #[must_use]
+    pub fn foreseen(&self) -> Foreseen {
+        let Settings { width, height, .. } = self.settings;
+        let exposure = self.world.exposure(width, height).map_or(1.0, |exposure| exposure.on_axis());
+        let specks = specks(&self.world.scene, &self.camera, [width, height], exposure);
+        Foreseen { systematic: self.systematic(), specks }
+    }
+
     /// A bound of the error that closed forms leave in an image, whatever its samples: the RMS over pixels and channels. It is
     /// 1e−5 of what the lights that are computed would contribute if nothing hid them, seen from four pixels of some of the tiles.
-    #[must_use]
-    pub fn systematic(&self) -> f64 {
+    fn systematic(&self) -> f64 {
         if !self.settings.technique.is_analytic(self.world.scene.lights.only_few_areas()) {
             return 0.0;
         }

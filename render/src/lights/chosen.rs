@@ -1,6 +1,7 @@
 //! One light in each lane, and samples of those that are shapes.
 
 use super::record::{KINDS, PARALLELOGRAM, PICTURED, PROFILED, SPHERE, SPREAD, TWO_SIDED};
+use crate::bvh::SHAPE;
 use crate::lobe::Lobe;
 use crate::packet::{M8, V8, X8, equal, select};
 use crate::technique::Measure;
@@ -116,6 +117,14 @@ impl Chosen {
             Measure::SolidAngle => light.by_solid_angle(p).sample(u).into(),
             Measure::Projected => projected(|| light.by_projected_solid_angle(p, normal).sample(u).into()),
         }
+    }
+    /// Where points with these normals on these primitives, as in hits, are on the light itself. All lights are convex, so they do not see it,
+    /// except from inside of a sphere: what a sample of it finds there is due to rounding.
+    #[inline(always)]
+    pub fn is_own(&self, primitives: u32x8, p: V8, normal: V8) -> M8 {
+        let own = equal(self.shape ^ u32x8::splat(SHAPE), primitives);
+        let sphere = equal(self.kind & u32x8::splat(KINDS), u32x8::splat(SPHERE));
+        own & !(sphere & normal.dot(p - self.place).lt(X8::lit(0.0)))
     }
     /// Replaces the samples of spheres that emit evenly, where rough metals reflect them, by samples of the lobe. Returns these lanes: the BSDF
     /// need not be sampled for such a light.

@@ -156,9 +156,9 @@ fn the_error_of_closed_forms_is_bounded() {
         let (film, _) = render(&world, &SETTINGS);
         let squares = film.pixels.iter().flat_map(|p| p.mean).map(|x| f64::from(x).powi(2));
         let expected = 1e-5 * (squares.sum::<f64>() / (3 * film.pixels.len()) as f64).sqrt();
-        let bound = world.view(&SETTINGS).systematic();
+        let bound = world.view(&SETTINGS).foreseen().systematic;
         assert!(expected > 0.0 && (bound / expected - 1.0).abs() < 0.05, "{bound:e} {expected:e}");
-        assert_eq!(world.view(&Settings { technique: Technique::SolidAngle, ..SETTINGS }).systematic(), 0.0);
+        assert_eq!(world.view(&Settings { technique: Technique::SolidAngle, ..SETTINGS }).foreseen().systematic, 0.0);
     }
 }
 

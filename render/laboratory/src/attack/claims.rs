@@ -50,7 +50,7 @@ pub struct Run {
     pub pixels: f64,
     /// The true error over the claimed one.
     pub ratio: f64,
-    /// Whether the claim is mostly the bound of closed forms' error, of which the error may be much less.
+    /// Whether the claim is mostly the bound of closed forms' error, or due to small lights that few samples meet: the error may be much less.
     pub bounded: bool,
     /// Whether the reference is by another technique.
     pub other: bool,
@@ -134,12 +134,12 @@ pub fn measure(scene: &Scene, seed: u64, [side, spp]: [u32; 2]) -> Result<Tally,
     };
     let base = settings(spp, 0);
     let view = world.view(&base);
-    let (technique, systematic) = (view.technique(), view.systematic());
+    let (technique, foreseen) = (view.technique(), view.foreseen());
     let mut images: Vec<(Way, Film, Option<Claim>)> = Vec::new();
     for spp in [2, 16, spp] {
         for run in 1..=SEEDS {
             let (film, _) = world.render(&settings(spp, run), &|_| ());
-            let claim = Claim::new(&film, systematic);
+            let claim = Claim::new(&film, &foreseen, spp.into());
             images.push((Way::Samples(spp), film, claim));
         }
     }
@@ -151,7 +151,8 @@ pub fn measure(scene: &Scene, seed: u64, [side, spp]: [u32; 2]) -> Result<Tally,
     };
     refine(Way::Time, Goal { seconds: Some(0.05), error: None })?;
     let (film, _) = world.render(&settings(spp, 0), &|_| ());
-    if let Some(claim) = Claim::new(&film, systematic).filter(|claim| 0.5 * claim.random > claim.systematic) {
+    if let Some(claim) = Claim::new(&film, &foreseen, spp.into()).filter(|claim| 0.5 * claim.random > claim.systematic)
+    {
         refine(Way::Error, Goal { seconds: None, error: Some(0.5 * claim.total()) })?;
     }
     // by the technique itself only where the other is not precise enough
@@ -168,7 +169,7 @@ pub fn measure(scene: &Scene, seed: u64, [side, spp]: [u32; 2]) -> Result<Tally,
         let claimed = claim.total();
         let mean = film.mean().iter().sum::<f64>() / 3.0;
         let ratio = square.sqrt() / mean / claimed;
-        let bounded = claim.systematic > 0.5 * claim.random;
+        let bounded = claim.systematic.max(claim.missed) > 0.5 * claim.random;
         tally.runs.push(Run {
             bounded,
             way,
