@@ -160,7 +160,7 @@ impl Sky {
         }
     }
     /// About the irradiance from what [`sample`](Self::sample) samples, summed over channels, at points of surfaces with these normals, as
-    /// if only walls around portals hid any of it. It is 0 where no portal shows the sky, and only there.
+    /// if only walls around portals hid any of it. It is 0 only where no portal shows the sky.
     #[inline]
     pub fn irradiance(&self, p: V8, normal: V8) -> X8 {
         if let Some(windows) = &self.windows {

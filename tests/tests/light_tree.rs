@@ -362,6 +362,58 @@ fn light(center: [f32; 3], radius: f32, power: f32) -> LightBound {
     LightBound { center, radius, power, ..LightBound::default() }
 }
 
+/// The irradiance of lights that are far away for their extent is that of points with their power, in any unit. It is 0 only where no light has a pmf: below
+/// the horizon of the surface and behind flat lights; every width has the same bits.
+#[test]
+fn irradiance_is_that_of_all_lights_together() {
+    let mut random = Random::new(811);
+    let (mut least, mut greatest, mut dark) = (1.0_f64, 1.0_f64, 0);
+    for case in 0..cases(2000, 40_000) {
+        let count = 1 + random.below(20);
+        let unit = 2.0_f32.powi(random.below(60) as i32 - 30);
+        let units = random.magnitude(1e-12, 1e12) as f32;
+        let p = random.direction().map(|x| x * random.magnitude(25.0, 1e4));
+        let (n, flat) = (random.direction(), random.below(2) == 0);
+        let bounds: Vec<LightBound> = (0..count)
+            .map(|_| {
+                let center = [0, 1, 2].map(|_| random.range(-1.0, 1.0) as f32 * unit);
+                let normal = if flat { random.direction().map(|x| x as f32) } else { [0.0; 3] };
+                LightBound { normal, ..light(center, 0.01 * unit, units * random.unit()) }
+            })
+            .filter(|light| light.power > 0.0)
+            .collect();
+        let count = bounds.len();
+        let (mut nodes, mut places) = (vec![Node8::default(); LightTree::nodes_for(count)], vec![0; count]);
+        let tree = LightTree::build(&bounds, &mut nodes, &mut places).unwrap();
+        let at = tree.at::<f32>(Vec3::from(p.map(|x| x as f32 * unit)), Vec3::from(n.map(|x| x as f32)));
+        let strongest = bounds.iter().fold(0.0, |most: f32, light| most.max(light.power));
+        let found = at.irradiance(strongest);
+        let wide = tree
+            .at::<f32x8>(Vec3::lit(p.map(|x| f64::from(x as f32 * unit))), Vec3::lit(n.map(|x| f64::from(x as f32))));
+        assert_eq!(wide.irradiance(strongest), f32x8::splat(found), "case {case}");
+        let reached = (0..count as u32).any(|light| at.pmf(light) > 0.0);
+        assert!(found > 0.0 || !reached, "case {case}");
+        dark += u32::from(found == 0.0);
+        let (mut sum, mut grazing) = (0.0, false);
+        for light in &bounds {
+            let v: [f64; 3] = std::array::from_fn(|k| f64::from(light.center[k] / unit) - p[k]);
+            let d = v.iter().map(|x| x * x).sum::<f64>().sqrt();
+            let cos = |n: [f64; 3], sign: f64| (0..3).map(|k| sign * v[k] * n[k] / d).sum::<f64>();
+            let (here, there) = (cos(n, 1.0), if flat { cos(light.normal.map(f64::from), -1.0) } else { 0.25 });
+            grazing |= here.abs() < 0.3 || flat && (count > 1 || there.abs() < 0.3);
+            sum += f64::from(light.power) / std::f64::consts::PI * here.max(0.0) * there.max(0.0)
+                / (d * f64::from(unit)).powi(2);
+        }
+        if !grazing {
+            let ratio = if sum > 0.0 { f64::from(found) / sum } else { 1.0 + f64::from(found) };
+            (least, greatest) = (least.min(ratio), greatest.max(ratio));
+        }
+    }
+    // the part of the bound in the weights is a 32nd, of cosines of which that at the lights may be ¼
+    println!("{least:.4} to {greatest:.4} times the irradiance, and {dark} times 0");
+    assert!(least > 0.98 && greatest < 1.17 && dark > 100, "{least}, {greatest}, {dark}");
+}
+
 /// A light whose place, size or power is not finite is never chosen, and the others share as without it.
 #[test]
 fn malformed_lights_are_never_chosen() {

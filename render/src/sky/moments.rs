@@ -76,3 +76,41 @@ impl Moments {
         sum.greater(lit(self.flux / 32.0))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of a radiance that is constant, and of max(0, w·a), whose irradiance is known in closed form, in a coarse image and a fine one, whatever
+    /// the order of texels.
+    #[test]
+    fn the_irradiance_is_that_of_the_radiance() {
+        use std::f64::consts::PI;
+        let one = Moments::constant(4.0 * PI);
+        assert!((one.irradiance(V8::lit([0.0, 0.6, 0.8])).lane_f64(3) / PI - 1.0).abs() < 1e-6);
+        for [width, height] in [[1, 1], [3, 2], [64, 32], [200, 100]] {
+            let solid_angle = 4.0 * PI / (width * height) as f64;
+            // columns by azimuth, rows by height: uniform by solid angle
+            let look = |first: usize, y: usize, offset: Vec2<X8>| {
+                let lane = |lane: usize| {
+                    let x = ((first + lane) as f64 + offset.x.lane_f64(lane)) / width as f64 * 2.0 * PI;
+                    let z = 1.0 - 2.0 * (y as f64 + offset.y.lane_f64(lane)) / height as f64;
+                    let r = (1.0 - z * z).max(0.0).sqrt();
+                    [r * x.cos(), r * x.sin(), z].map(|x| x as f32)
+                };
+                let w = V8::new(X8::from_fn(|k| lane(k)[0]), X8::from_fn(|k| lane(k)[1]), X8::from_fn(|k| lane(k)[2]));
+                (w, w.z.greater(X8::lit(0.0)) * X8::lit(solid_angle))
+            };
+            let moments = Moments::of_image([width, height], look);
+            for tenth in -10..=10_i32 {
+                let cos = f64::from(tenth) / 10.0;
+                let sin = (1.0 - cos * cos).sqrt();
+                let found = moments.irradiance(V8::lit([0.6 * sin, -0.8 * sin, cos])).lane_f64(0);
+                // ∫ max(0, w·a) max(0, w·n) dω for the angle θ between a and n
+                let exact = 2.0 / 3.0 * (sin + (PI - cos.acos()) * cos);
+                let least = moments.flux / 32.0;
+                assert!((found - exact.max(least)).abs() < 0.03 * PI, "{width}: {cos}: {found} {exact}");
+            }
+        }
+    }
+}
