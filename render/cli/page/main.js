@@ -96,6 +96,7 @@ class View {
       ["now", status.paused ? "paused" : !picture ? "its first pass; the image before it is still shown" : picture.end ? `no more samples: ${picture.end}` : "rendering"],
     ];
     if (picture && picture.systematic > 0) facts.splice(2, 0, ["of which", `${percent(picture.systematic)} bounds that of closed forms`]);
+    if (picture && picture.uncertain) facts.splice(2, 0, ["uncertain", `since ${picture.uncertain}`]);
     byId("facts").replaceChildren(...facts.flatMap(([term, text]) => [make("dt", term), make("dd", text)]));
     byId("part").textContent = status.crop
       ? `columns ${status.crop[0]} to ${status.crop[2] - 1}, rows ${status.crop[1]} to ${status.crop[3] - 1}; parts are whole tiles of 16 × 16 pixels`

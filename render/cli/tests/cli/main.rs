@@ -122,8 +122,10 @@ fn json_has_the_fields_that_it_should() {
         "error",
         "height",
         "mean",
+        "missed",
         "output",
         "passes",
+        "pixels",
         "rays",
         "sampler",
         "scene",
@@ -135,6 +137,7 @@ fn json_has_the_fields_that_it_should() {
         "systematic",
         "technique",
         "threads",
+        "uncertain",
         "width",
     ];
     assert_eq!(keys(&report), expected);
