@@ -30,7 +30,9 @@ const DEEPEST: usize = 64;
 ///
 /// The tree lives in the caller's memory and needs about 58 bytes a light. [`build`](Self::build) makes it, [`refit`](Self::refit) adapts it
 /// to lights that have moved, and [`at`](Self::at) prepares a choice for the shading point of each lane. Directional lights, suns and
-/// environments have no place in it: choose between them and the tree by [`PowerLights`](super::PowerLights).
+/// environments have no place in it: choose between them and the tree by [`LightsAt::by_weights`](super::LightsAt::by_weights) and what each
+/// can contribute at the point, which for the tree is its [`irradiance`](TreeAt::irradiance). The power of a sky, which grows with the scene
+/// that it lights, would hide every lamp.
 ///
 /// - Formula: at each node, a child has the weight I · M · (cosθ cosθ' + B/32). I is the intensity along its normals, from its power. M is
 ///   the mean of 1/d² over the positions of its lights to the second order, 1/(d² + Σσₖ² − 4Σσₖ²vₖ²/d²), where v is the vector to their
