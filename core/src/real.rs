@@ -194,11 +194,14 @@ pub trait Real:
         Self::from_uint(Self::Uint::splat(0).lt(value) & one).gt(Self::lit(0.0))
     }
 
-    /// What `some` computes if the mask is true in any lane, else `none`: a branch around a path that few calls need. Only the lanes where the
-    /// mask is true count in a packet; number types that write sources choose in each lane.
+    /// What `some` computes in the lanes where the mask is true, `none` in the others: a branch around a path that few calls need.
     #[inline(always)]
     fn where_any<const N: usize>(mask: Self::Mask, none: [Self; N], some: impl FnOnce() -> [Self; N]) -> [Self; N] {
-        if mask.any() { some() } else { none }
+        if !mask.any() {
+            return none;
+        }
+        let some = some();
+        core::array::from_fn(|k| Self::blend(mask, some[k], none[k]))
     }
     /// Calls `step` while any of the masks is true in any lane, at most `most` times: it gets the numbers and the masks, and returns the next
     /// ones. Lanes that are done must keep their numbers, so that they do not depend on their neighbours. Number types that write sources

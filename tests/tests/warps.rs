@@ -106,6 +106,7 @@ fn main() {
             warp("spherical_parallelogram", || generators::parallelograms(4, 13), 200),
             warp("spherical_rectangle", || generators::rectangles(8, 14), 200),
             other("any_parameters_are_total", any_parameters_are_total),
+            other("lanes_keep_to_themselves", lanes_keep_to_themselves),
             other("contact", contact),
             other("spheres_are_hit_on_the_near_side", spheres_are_hit_on_the_near_side),
             other("no_point_is_beyond_its_shape", no_point_is_beyond_its_shape),
@@ -174,6 +175,43 @@ fn any_parameters_are_total() {
         properties::any_bits(&Tent { radius: a[0] }, u);
         properties::any_bits(&Bilinear { corners: [a[0], a[1], b[0], c[2]] }, u);
         properties::any_bits(&Cone { one_minus_cos: b[0].clamp(0.0, 2.0) }, u);
+    }
+}
+
+/// Lane-identical with any other parameters and any other `u` in each lane, subnormal ones included: a lane that takes a rare path does not
+/// take its neighbours there.
+fn lanes_keep_to_themselves() {
+    let mut random = Random::new(98);
+    for i in 0..cases(500, 20_000) {
+        let mut vectors = || -> [[[f32; 3]; 8]; 3] {
+            let of = |random: &mut Random| {
+                if i % 2 == 0 { generators::nasty(random) } else { random.direction().map(|x| x as f32) }
+            };
+            core::array::from_fn(|_| core::array::from_fn(|_| of(&mut random)))
+        };
+        let [a, b, c] = vectors();
+        let us = core::array::from_fn(|_| {
+            core::array::from_fn(|_| match random.word() % 4 {
+                0 => f32::from_bits((random.word() as u32) >> 8),
+                1 => random.unit() * 1e-30,
+                _ => random.unit(),
+            })
+        });
+        properties::lanes(&core::array::from_fn(|k| Linear { a: a[k][0], b: b[k][0] }), &us);
+        properties::lanes(&core::array::from_fn(|k| Tent { radius: a[k][0] }), &us);
+        properties::lanes(&core::array::from_fn(|k| Bilinear { corners: [a[k][0], a[k][1], b[k][0], c[k][2]] }), &us);
+        properties::lanes(&core::array::from_fn(|k| Cone { one_minus_cos: b[k][0].clamp(0.0, 2.0) }), &us);
+        properties::lanes(&core::array::from_fn(|k| GgxVisibleNormals { alpha: [a[k][0], b[k][0]], wi: c[k] }), &us);
+        properties::lanes(&core::array::from_fn(|k| Cap::new(a[k], b[k][0])), &us);
+        properties::lanes(&core::array::from_fn(|k| ProjectedCap::new(a[k], b[k][0], c[k])), &us);
+        properties::lanes(&core::array::from_fn(|k| Triangle::by_edges(a[k], b[k], c[k])), &us);
+        properties::lanes(&core::array::from_fn(|k| Parallelogram::new(a[k], b[k], c[k])), &us);
+        properties::lanes(&core::array::from_fn(|k| Segment::new(a[k], b[k])), &us);
+        properties::lanes(&core::array::from_fn(|k| ProjectedSegment::new(a[k], b[k], c[k])), &us);
+        properties::lanes(&core::array::from_fn(|k| Disk::new(a[k], b[k], c[k][0])), &us);
+        properties::lanes(&core::array::from_fn(|k| PatchSurface { p: c[k], u: a[k], v: b[k], w: a[7 - k] }), &us);
+        properties::lanes(&core::array::from_fn(|k| ProjectedTriangle::by_edges(a[k], b[k], c[k], a[7 - k])), &us);
+        properties::lanes(&core::array::from_fn(|k| ProjectedParallelogram::new(a[k], b[k], c[k], a[7 - k])), &us);
     }
 }
 

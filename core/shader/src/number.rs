@@ -301,17 +301,6 @@ macro_rules! real {
             fn inverse_cbrt_estimate(self) -> Self {
                 Self(add(Op::InverseCbrtEstimate, &[self.0]))
             }
-            fn where_any<const N: usize>(
-                mask: Truth,
-                none: [Self; N],
-                some: impl FnOnce() -> [Self; N],
-            ) -> [Self; N] {
-                if !mask.any() {
-                    return none;
-                }
-                let some = some();
-                core::array::from_fn(|k| Self::blend(mask, some[k], none[k]))
-            }
             fn has_bits(value: Word) -> Truth {
                 Truth(add(Op::WordAny, &[value.0]))
             }

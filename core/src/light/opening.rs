@@ -55,9 +55,10 @@ impl<R: Real> LuminousOpening<R> {
         let gain = sides * PI / flux;
         (flux > 0.0 && gain < GREATEST).then(|| Self { gain: R::lit(gain) })
     }
-    /// The factor of the radiance in a direction with this cosine to the normal, by the intensity there.
+    /// The factor of the radiance in a direction with this cosine to the normal, by the intensity there. It is finite, also in a beam that has
+    /// passed between the directions of which Φ is the sum.
     #[inline(always)]
     pub fn factor(&self, cos: R, intensity: R) -> R {
-        intensity * self.gain / cos.abs().greater(R::lit(LEAST_COS))
+        (intensity * self.gain / cos.abs().greater(R::lit(LEAST_COS))).lesser(R::lit(GREATEST))
     }
 }

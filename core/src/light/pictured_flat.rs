@@ -145,18 +145,8 @@ impl<R: Real, M: TexelMeasure<R>> TexelSurface<R> for Flat<R, M> {
         let Vec3 { x, y, z } = direction;
         let [x, y, z, distance, pdf, u, v] = R::where_any(near, [x, y, z, distance, pdf, uv.x, uv.y], || {
             let light = self.measure.texel(&self.texel(texel)).sample(u);
-            let (Vec3 { x, y, z }, inner) = (light.direction, texel.place(light.uv));
-            let near = |a: R, b: R| R::blend(near, a, b);
-            let far = (direction, distance, pdf, uv);
-            [
-                near(x, far.0.x),
-                near(y, far.0.y),
-                near(z, far.0.z),
-                near(light.distance, far.1),
-                near(light.pdf, far.2),
-                near(inner.x, far.3.x),
-                near(inner.y, far.3.y),
-            ]
+            let (Vec3 { x, y, z }, uv) = (light.direction, texel.place(light.uv));
+            [x, y, z, light.distance, light.pdf, uv.x, uv.y]
         });
         let direction = Vec3::new(x, y, z);
         let normal = self.surface.at(direction).normal;
@@ -168,7 +158,7 @@ impl<R: Real, M: TexelMeasure<R>> TexelSurface<R> for Flat<R, M> {
         let (corners, near) = self.weights(texel);
         let far = self.far_pdf(texel, w, corners.pdf(within));
         let [pdf] = R::where_any(near, [far], || [self.measure.pdf(&self.measure.texel(&self.texel(texel)), w)]);
-        R::blend(near, pdf, far)
+        pdf
     }
     #[inline(always)]
     fn invert(&self, texel: &Texel<R>, w: Vec3<R>, within: Vec2<R>) -> Vec2<R> {
@@ -178,7 +168,7 @@ impl<R: Real, M: TexelMeasure<R>> TexelSurface<R> for Flat<R, M> {
             let Vec2 { x, y } = self.measure.texel(&self.texel(texel)).invert(w);
             [x, y]
         });
-        Vec2::blend(near, Vec2::new(x, y), far)
+        Vec2::new(x, y)
     }
 }
 
@@ -353,8 +343,7 @@ impl<R: Real> Measure<R> for SolidAngle<R> {
         let squares = self.middles(of);
         let near = self.nearer(of, squares, NEAR);
         let far = squares.map(|square| R::lit(1.0) / (square * square.sqrt()));
-        let exact = R::where_any(near, far, || self.exact(of));
-        (core::array::from_fn(|k| R::blend(near, exact[k], far[k])), self.nearer(of, squares, ALIKE))
+        (R::where_any(near, far, || self.exact(of)), self.nearer(of, squares, ALIKE))
     }
 }
 impl<R: Real> TexelMeasure<R> for SolidAngle<R> {
@@ -450,14 +439,14 @@ impl<R: Real> Measure<R> for Projected<R> {
         let level = heights.iter().fold(R::Mask::splat(true), |all, (_, level)| all & *level);
         let far: [R; 4] = core::array::from_fn(|k| heights[k].0 / (squares[k] * squares[k]));
         let near = this.nearer(of, squares, NEAR);
-        let exact = R::where_any(near, far, || {
+        let densities = R::where_any(near, far, || {
             let solid_angles = this.exact(of);
             // what may be visible keeps a little, whatever rounding has left of it
             core::array::from_fn(|k| {
                 self.exact(&slabs[k]).greater(solid_angles[k] * R::lit(1e-6)).keep(heights[k].0.gt(R::lit(0.0)))
             })
         });
-        (core::array::from_fn(|k| R::blend(near, exact[k], far[k])), this.nearer(of, squares, ALIKE) | !level)
+        (densities, this.nearer(of, squares, ALIKE) | !level)
     }
 }
 impl<R: Real> TexelMeasure<R> for Projected<R> {

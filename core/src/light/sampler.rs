@@ -165,9 +165,7 @@ fn point_of<R: Real>(
 ) -> (Vec3<R>, SurfaceHit<R>) {
     let at = surface.at_distance(direction, distance);
     let Some(Vec2 { x, y }) = uv else { return (direction, at) };
-    let part = surface.is_of_part();
-    let of_whole = || [R::blend(part, at.uv.x, x), R::blend(part, at.uv.y, y)];
-    let [x, y] = R::where_any(part, [x, y], of_whole);
+    let [x, y] = R::where_any(surface.is_of_part(), [x, y], || [at.uv.x, at.uv.y]);
     (direction, SurfaceHit { uv: Vec2::new(x, y), ..at })
 }
 

@@ -47,7 +47,7 @@ impl<R: Real> SphericalCap<R> {
         let squared = c.length_squared();
         // a small difference near the sphere, where it needs twice the working precision
         let (plain, near) = (squared - r * r, squared.lt(R::lit(2.0) * (r * r)));
-        let [power] = R::where_any(near, [plain], || [R::blend(near, c.length_squared_minus_square(r), plain)]);
+        let [power] = R::where_any(near, [plain], || [c.length_squared_minus_square(r)]);
         let some = squared.gt(zero);
         let inverse = one / R::blend(some, squared, one);
         let outside = power.ge(zero) & some;

@@ -47,8 +47,7 @@ pub(crate) fn height_over<R: Real>(p: Vec3<R>, [a, b]: [Vec3<R>; 2], n: Vec3<R>)
     let plain = p.dot(n);
     let terms = p.x.abs().mul_add(n.x.abs(), p.y.abs().mul_add(n.y.abs(), (p.z * n.z).abs()));
     let cancel = (plain + plain).abs().lt(terms);
-    let exactly = || [R::blend(cancel, compensated_height(p, cross_dw(a, b)), plain)];
-    let [height] = R::where_any(cancel, [plain], exactly);
+    let [height] = R::where_any(cancel, [plain], || [compensated_height(p, cross_dw(a, b))]);
     height
 }
 

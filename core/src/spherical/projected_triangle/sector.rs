@@ -262,8 +262,7 @@ impl<R: Real> Sector<R> {
         let swept = self.by_tangent(narrow, *x);
         let square = *x * *x;
         let step = R::lit(2.0) * *x * ratio(target - swept.area, swept.density);
-        let moved = (square + step).clamped(square * R::lit(0.0625), most).sqrt();
-        *x = R::blend(*going, moved, *x);
+        *x = (square + step).clamped(square * R::lit(0.0625), most).sqrt();
         *going = *going & step.abs().gt(enough::<R>() * square);
     }
 
@@ -284,7 +283,7 @@ impl<R: Real> Sector<R> {
         let inside = moved.ge(*low) & moved.le(*high);
         let moved = R::blend(inside, moved, half * (*low + *high));
         let far = (moved - at).abs().gt(enough::<R>() * at);
-        *theta = R::blend(*going, moved, at);
+        *theta = moved;
         *going = *going & far;
     }
 
