@@ -24,6 +24,7 @@
 //! most π. Where the table does not say otherwise, the pdf is per steradian.
 
 mod cap;
+mod corners;
 mod cosine_warped;
 mod direction;
 mod disk;
@@ -39,6 +40,7 @@ mod shape;
 mod triangle;
 
 pub use cap::SphericalCap;
+pub(crate) use corners::PlacedCorners;
 pub use cosine_warped::CosineWarped;
 pub use direction::DirectionSample;
 pub(crate) use direction::{above_horizon, to_unit};

@@ -2,7 +2,9 @@
 
 use etendue::{LightSample, LightSampler, Mask, Parallelogram, Polygon, Real, Vec2, Vec3, f32x4, f32x8, f32x16};
 use etendue_oracle::tier::is_long;
-use etendue_oracle::{V3, along, basis, cross, dot, projected_polygon, unit};
+use etendue_oracle::{
+    V3, above_horizon, along, basis, cross, dd, dot, exact_sum, lambert, projected_polygon, triangle_solid_angle, unit,
+};
 use etendue_properties::generators::{self, Random};
 use etendue_properties::properties::{Coordinates, squares_of, twice, vectors_of};
 
@@ -118,6 +120,67 @@ fn samples_of_polygons_with_repeated_corners_hit_them() {
                     );
                 }
             }
+        }
+    }
+}
+
+/// Ω and Ω⊥ of a quad in 106 bits, from corners that are exact.
+fn exact_measures(corners: &[Vec3<f32>; 4], p: Vec3<f32>, n: Vec3<f32>) -> [f64; 2] {
+    let v = corners.map(|c| exact_sum(c.at(0), &[(-p).at(0)]));
+    let solid_angle = triangle_solid_angle([v[0], v[1], v[2]]) + triangle_solid_angle([v[0], v[2], v[3]]);
+    let (normal, length) = (dd(n.at(0)), dot(n.at(0), n.at(0)).sqrt());
+    [solid_angle, lambert(&above_horizon(&v, normal), normal) / length]
+}
+
+/// A quad in the coordinates of a scene, from 1/50 to 1/500,000 of its distance, is seen as well as the parallelogram of the same corners.
+#[test]
+fn small_polygons_keep_their_shape() {
+    let mut random = Random::new(11);
+    // steps of the coordinates, of which all corners are multiples
+    let grid = |x: f64| ((x * 2_097_152.0).round() / 2_097_152.0) as f32;
+    let mut greatest = [0.0_f64; 4];
+    for size in [0.1, 1e-2, 1e-3, 1e-4, 1e-5] {
+        for _ in 0..200 {
+            let mut vector = |scale: [f64; 3]| Vec3::from(scale.map(|s| grid(s * random.range(-1.0, 1.0))));
+            let p: Vec3<f32> = vector([1.0; 3]);
+            let c = Vec3::new(0.0, 4.0, 0.0) + vector([3.0, 0.9, 3.0]);
+            let mut edge = |x: f64, z: f64| {
+                Vec3::new(x, 0.2 * random.unit_f64(), z).map(|x: f64| grid(size * (x + 0.3 * random.unit_f64())))
+            };
+            let (e, f) = (edge(1.0, 0.0), edge(-0.3, 1.0));
+            let n = Vec3::new(0.3, 0.9, 0.2).normalize();
+            let corners = [c, c + e, c + e + f, c + f];
+            let truth = exact_measures(&corners, p, n);
+            let (polygon, same) = (Polygon::new(corners), Parallelogram::new(c, e, f));
+            let found = [
+                polygon.by_solid_angle(p).solid_angle(),
+                same.by_solid_angle(p).solid_angle(),
+                polygon.by_projected_solid_angle(p, n).projected_solid_angle(),
+                same.by_projected_solid_angle(p, n).projected_solid_angle(),
+            ];
+            for (k, found) in found.into_iter().enumerate() {
+                let off = (f64::from(found) / truth[k / 2] - 1.0).abs();
+                greatest[k] = greatest[k].max(off);
+                assert!(off < 5e-7, "size {size}: {found} for {}, {corners:?} from {p:?}", truth[k / 2]);
+            }
+        }
+    }
+    println!("relative errors of polygon and parallelogram, Ω and Ω⊥: {greatest:?}");
+}
+
+/// From next to any corner, that corner is where it is.
+#[test]
+fn polygons_have_all_their_corners_in_place() {
+    let mut random = Random::new(12);
+    for _ in 0..200 {
+        let mut vector = || Vec3::<f32>::from(random.direction().map(|x| ((x * 1024.0).round() / 1024.0) as f32));
+        let (c, e, f) = (vector(), vector(), vector());
+        let corners = [c, c + e, c + e + f, c + f];
+        for (corner, distance) in corners.into_iter().flat_map(|c| [1e-2, 1e-4, 1e-6].map(|distance| (c, distance))) {
+            let p = Vec3::from(along(corner.at(0), random.direction(), distance).map(|x| x as f32));
+            let [truth, _] = exact_measures(&corners, p, Vec3::new(0.0, 0.0, 1.0));
+            let found = f64::from(Polygon::new(corners).by_solid_angle(p).solid_angle());
+            assert!((found - truth).abs() < 2e-6, "{distance}: {found} for {truth}, {corners:?} from {p:?}");
         }
     }
 }

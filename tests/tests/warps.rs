@@ -92,6 +92,7 @@ fn main() {
             warp("cone", generators::cones, 1000),
             warp("spherical_cap", || generators::caps(3, 11), 200),
             warp("spherical_polygon", || generators::hexagons(3, 15), 60),
+            warp("spherical_polygon, sizes", || generators::hexagons_of_every_size(3, 16), 60),
             warp("spherical_disk", || generators::disks(3, 31), 100),
             warp("spherical_segment", || generators::segments(3, 21).0, 200),
             warp("projected_segment", || generators::segments(1, 22).1, 60),
@@ -102,6 +103,7 @@ fn main() {
             warp("projected_triangle", || generators::projected_triangles(3, 16), 60),
             warp("projected_parallelogram", || generators::projected_parallelograms(1, 17), 40),
             warp("projected_polygon", || generators::projected_pentagons(2, 18), 40),
+            warp("projected_polygon, sizes", || generators::projected_pentagons_of_every_size(2, 19), 40),
             warp("spherical_triangle", || generators::triangles(4, 12), 60),
             warp("spherical_parallelogram", || generators::parallelograms(4, 13), 200),
             warp("spherical_rectangle", || generators::rectangles(8, 14), 200),
@@ -266,6 +268,7 @@ fn no_point_is_beyond_its_shape() {
     check(&cases("nearly in plane").map(|(n, [v, a, b])| (n, Parallelogram::new(v, a, b))).collect::<Vec<_>>());
     check(&generators::rectangles(4, 14));
     check(&generators::hexagons(4, 15));
+    check(&generators::hexagons_of_every_size(4, 15));
 }
 /// Surfaces too smooth for a density, and views that see no normal, have pdf 0 everywhere; a little rougher, they have one.
 fn mirrors_have_no_density() {

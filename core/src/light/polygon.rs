@@ -6,7 +6,7 @@ use super::surface::{AffinePlane, AreaSurface, Surface, SurfaceHit, SurfacePoint
 use crate::lanewise::lanewise_by_map;
 use crate::real::{Real, unit_interval};
 use crate::reflection::Reflection;
-use crate::spherical::{ProjectedPolygon, SphericalPolygon, compensated_dot};
+use crate::spherical::{PlacedCorners, ProjectedPolygon, SphericalPolygon, compensated_dot};
 use crate::vector::{Vec2, Vec3};
 use crate::warp::{AreaTriangle, Warp};
 
@@ -59,7 +59,7 @@ impl<R: Real, const N: usize> Polygon<R, N> {
     /// Uniform over the solid angle Ω at the point `p`, [`SphericalPolygon`]: pdf 1/Ω per steradian.
     #[inline(always)]
     pub fn by_solid_angle(&self, p: Vec3<R>) -> PolygonBySolidAngle<R, N> {
-        let shape = SphericalPolygon::new(self.corners.map(|c| c - p));
+        let shape = SphericalPolygon::seen_from(self.corners, p);
         BySolidAngle { origin: p, surface: PlacedPolygon::new(self.corners, p), shape }
     }
     /// Uniform over the projected solid angle Ω⊥ above the horizon of the unit normal `n` at the point `p`, [`ProjectedPolygon`]: pdf
@@ -69,16 +69,18 @@ impl<R: Real, const N: usize> Polygon<R, N> {
     pub fn by_projected_solid_angle(&self, p: Vec3<R>, n: Vec3<R>) -> PolygonByProjectedSolidAngle<R, N> {
         let (surface, shape) = (PlacedPolygon::new(self.corners, p), ProjectedPolygon::default());
         let mut sampler = ByProjectedSolidAngle { origin: p, normal: n, surface, shape };
-        sampler.shape.prepare_corners(self.corners.map(|c| c - p), n);
+        sampler.shape.prepare_corners(&PlacedCorners::new(self.corners, p), n);
         sampler
     }
     /// In proportion to the lobe of a rough surface at the point `p`: as [`Triangle::by_reflection`](crate::Triangle::by_reflection).
     #[inline(always)]
     pub fn by_reflection(&self, p: Vec3<R>, reflection: &Reflection<R>) -> PolygonByReflection<R, N> {
-        let corners = self.corners.map(|c| reflection.to_cosine(c - p));
+        let placed = |v: Vec3<R>| [reflection.to_cosine(v), Vec3::default()];
+        let corners =
+            PlacedCorners::with_edges(placed(self.corners[0] - p), self.corners.map(|c| placed(c - self.corners[0])));
         let (surface, shape) = (PlacedPolygon::new(self.corners, p), ProjectedPolygon::default());
         let mut sampler = ByReflection { origin: p, reflection: *reflection, surface, shape };
-        sampler.shape.prepare_corners(corners, Vec3::lit([0.0, 0.0, 1.0]));
+        sampler.shape.prepare_corners(&corners, Vec3::lit([0.0, 0.0, 1.0]));
         sampler
     }
 }

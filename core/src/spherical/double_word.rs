@@ -70,6 +70,13 @@ pub(crate) fn cross_dw<R: Real>(u: Vec3<R>, v: Vec3<R>) -> [Vec3<R>; 2] {
     [Vec3::new(x, y, z), Vec3::new(ex, ey, ez)]
 }
 
+/// a×b for two unevaluated sums.
+#[inline(always)]
+pub(super) fn cross_sums<R: Real>([a, ra]: [Vec3<R>; 2], [b, rb]: [Vec3<R>; 2]) -> [Vec3<R>; 2] {
+    let [n, rest] = cross_dw(a, b);
+    [n, rest + (a.cross(rb) + ra.cross(b))]
+}
+
 /// a + b for two unevaluated sums; a plain vector has the rest 0.
 #[inline(always)]
 pub(crate) fn sum_dw<R: Real>([a, ra]: [Vec3<R>; 2], [b, rb]: [Vec3<R>; 2]) -> [Vec3<R>; 2] {

@@ -1,7 +1,9 @@
 //! Convex polygons by solid angle.
 
+use super::corners::PlacedCorners;
 use super::direction::DirectionSample;
-use super::triangle::SphericalTriangle;
+use super::double_word::{height_dw, sum_dw};
+use super::triangle::{Planes, SphericalTriangle};
 use crate::lanewise::lanewise_by_map;
 use crate::math::quotient;
 use crate::real::{Mask, Real, unit_interval};
@@ -10,8 +12,8 @@ use crate::warp::Warp;
 
 /// Directions from a point to a convex polygon of N corners, 3 ≤ N ≤ 8, uniform in solid angle.
 ///
-/// Call `SphericalPolygon::new(corners)` with the corners relative to the point, then `sample_direction`. A point in the
-/// polygon's plane, or zero area, gives pdf 0; other values of N do not compile.
+/// Call `SphericalPolygon::new(corners)` with the corners relative to the point (or `seen_from`, with both in other coordinates: for a small
+/// and far polygon), then `sample_direction`. A point in the polygon's plane, or zero area, gives pdf 0; other values of N do not compile.
 ///
 /// ```
 /// use etendue::spherical::SphericalPolygon;
@@ -34,7 +36,8 @@ use crate::warp::Warp;
 /// - Density: the pdf is 1/Ω per steradian inside (and within the triangle's 12 ulp beyond), 0 outside.
 /// - Degenerate input: corners may coincide or be collinear; otherwise as for the triangle.
 /// - Greatest error: as for the parallelogram, if the point is farther from the plane than the rounding of the corners. From
-///   nearer, the fan overlaps itself, and up to all of Ω may be wrong.
+///   nearer, the fan overlaps itself, and up to all of Ω may be wrong. Where the corners are given in the coordinates of a scene, that
+///   rounding is theirs, and for a small and far polygon it is what limits Ω.
 /// - Source: as for [`SphericalTriangle`].
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
@@ -62,15 +65,36 @@ impl<R: Real, const N: usize> SphericalPolygon<R, N> {
     /// Prepares for corners relative to the point, in any unit of length.
     #[inline(always)]
     pub fn new(corners: [Vec3<R>; N]) -> Self {
+        Self::seen_from(corners, Vec3::default())
+    }
+    /// Prepares for corners and the point `p`, in any common coordinates.
+    ///
+    /// Take this for a small and far polygon: corners relative to the point are rounded, and would lose its shape.
+    #[inline(always)]
+    pub fn seen_from(corners: [Vec3<R>; N], p: Vec3<R>) -> Self {
+        let placed = PlacedCorners::new(corners, p);
         let mut fan = [SphericalTriangle::default(); N];
         let mut solid_angle = R::lit(0.0);
-        let p = corners[0];
         for i in 0..Self::TRIANGLES {
-            let (a, b) = (corners[i + 1], corners[i + 2]);
-            fan[i] = SphericalTriangle::new(a, p, b);
+            fan[i] = Self::triangle(&placed, i + 1, i + 2);
             solid_angle += fan[i].solid_angle();
         }
         Self { fan, solid_angle }
+    }
+    /// The triangle of the fan that sweeps about the first corner from one corner to another.
+    #[inline(always)]
+    fn triangle(placed: &PlacedCorners<R, N>, from: usize, to: usize) -> SphericalTriangle<R> {
+        let PlacedCorners { corners, edges, spokes, scale } = placed;
+        let [[a, _], [p, rest], [b, _]] = [from, 0, to].map(|k| corners[k]);
+        let normal = placed.normal(to, from);
+        let [sum, more] = height_dw(p, normal);
+        let volume = sum + (more + rest.dot(normal[0]));
+        // with the edges e to a and f to b: (p+e)×(p+f) = p×f − p×e − f×e
+        let (n01, n12) = (spokes[from].map(|n| -n), spokes[to]);
+        let n02 = sum_dw(sum_dw(n12, n01), normal.map(|n| -n));
+        let [n01, n02, n12, normal] = [n01, n02, n12, normal].map(|[n, rest]| n + rest);
+        let planes = Planes { n01, n02, n12, normal, volume, edge: edges[to][0] };
+        SphericalTriangle::prepare([a, p, b], &planes, || n12, *scale)
     }
     /// Repeats one prepared polygon in every lane.
     #[inline(always)]

@@ -1,13 +1,12 @@
 //! Convex polygons by projected solid angle.
 
+use super::corners::PlacedCorners;
 use super::direction::{DirectionSample, to_unit};
-use super::double_word::{cross_dw, dot_dw, sum_dw, unit_normal};
+use super::double_word::{cross_dw, cross_sums, dot_dw, sum_dw, unit_normal};
 use super::projected_triangle::piece::narrowest;
 use super::projected_triangle::sector::Sector;
 use super::projected_triangle::zenith::{Found, Side, drop_narrow, sectors, surrounds};
-use super::projected_triangle::{
-    LEAST_HEIGHT, ProjectedTriangle, ahead, area, difference, edge, lack, with_rest, within,
-};
+use super::projected_triangle::{Given, LEAST_HEIGHT, ProjectedTriangle, ahead, area, edge, lack, with_rest, within};
 use crate::lanewise::lanewise_by_map;
 use crate::math::{quotient, ratio};
 use crate::real::{Mask, Real, unit_interval};
@@ -17,8 +16,8 @@ use crate::warp::Warp;
 /// Directions from a point to a convex polygon of N corners, 3 ≤ N ≤ 8, above the horizon of a surface, by projected solid
 /// angle (pdf ∝ cosine to the normal): for diffuse surfaces where a ray costs more than a sample.
 ///
-/// Call `ProjectedPolygon::new(corners, normal)` with the corners relative to the point (or `parallelogram`, from edges), then
-/// `sample_direction`. A point in the polygon's plane, zero area, or a polygon below the horizon gives pdf 0.
+/// Call `ProjectedPolygon::new(corners, normal)` with the corners relative to the point (or `seen_from`, with both in other coordinates, or
+/// `parallelogram`, from edges), then `sample_direction`. A point in the polygon's plane, zero area, or a polygon below the horizon gives pdf 0.
 ///
 /// It is a fan of N − 2 [`ProjectedTriangle`]s about the first corner, which u₀ takes in turn. Each is clipped to the horizon
 /// by itself; nothing is sorted by azimuth, whose order is noise where azimuths are close. A polygon that contains the zenith
@@ -112,24 +111,42 @@ impl<R: Real, const N: usize> ProjectedPolygon<R, N> {
     /// length).
     #[inline(always)]
     pub fn new(corners: [Vec3<R>; N], normal: Vec3<R>) -> Self {
+        Self::seen_from(corners, Vec3::default(), normal)
+    }
+    /// Prepares for corners and the point `p` (in any common coordinates), on a surface with the normal `normal` (of any length).
+    ///
+    /// Take this for a small and far polygon: corners relative to the point are rounded, and would lose its shape.
+    #[inline(always)]
+    pub fn seen_from(corners: [Vec3<R>; N], p: Vec3<R>, normal: Vec3<R>) -> Self {
         let mut this = Self::default();
-        this.prepare_corners(corners, normal);
+        this.prepare_corners(&PlacedCorners::new(corners, p), normal);
         this
     }
     /// As `new`, in place; it must be empty before.
     #[inline(always)]
-    pub(crate) fn prepare_corners(&mut self, corners: [Vec3<R>; N], normal: Vec3<R>) {
-        for i in 0..Self::TRIANGLES {
-            self.fan[i].prepare_vertices([corners[0], corners[i + 1], corners[i + 2]], normal);
-        }
-        let (corners, _) = to_unit(corners);
-        let products = core::array::from_fn(|i| {
-            let (v, next) = (corners[i], corners[(i + 1) % N]);
-            let [e, d] = difference(next, v);
-            with_rest(cross_dw(v, e), v, d)
+    pub(crate) fn prepare_corners(&mut self, placed: &PlacedCorners<R, N>, normal: Vec3<R>) {
+        let PlacedCorners { corners, edges, spokes, scale } = placed;
+        let last = N - 1;
+        let sides: [_; N] = core::array::from_fn(|i| placed.side(i, (i + 1) % N));
+        let products = core::array::from_fn(|i| match i {
+            0 => spokes[1],
+            _ if i == last => spokes[last].map(|n| -n),
+            _ => cross_sums(corners[i], sides[i]),
         });
-        let none = Vec3::default();
-        self.join(&corners, &[none; N], &corners.map(|v| [v, none]), &products, normal);
+        for i in 0..Self::TRIANGLES {
+            let (from, to) = (i + 1, i + 2);
+            let three = [corners[0], corners[from], corners[to]];
+            let given = Given {
+                vertices: three.map(|[v, _]| v),
+                rests: three.map(|[_, rest]| Some(rest)),
+                edges: [edges[from][0], sides[from][0], -edges[to][0]],
+                products: [spokes[from], products[from], spokes[to].map(|n| -n)],
+                plane: placed.normal(from, to),
+            };
+            self.fan[i].prepare(&given, normal, *scale);
+        }
+        let ends = core::array::from_fn(|i| corners[i % last]);
+        self.join(&corners.map(|[v, _]| v), &corners.map(|[_, rest]| rest), &ends, &products, normal);
     }
 }
 
@@ -227,26 +244,18 @@ impl<R: Real, const N: usize, const ROOM: usize> ProjectedPolygon<R, N, ROOM> {
             triangle.projected = R::blend(central, area, triangle.projected);
             sum += area;
         }
-        // a sector reaches beyond its triangle, which may even have no area: all take the plane of the largest, in the
-        // unit of the farthest
-        let first = self.fan[0];
-        let (mut plane, mut volume, mut scale, mut most) = (first.plane, first.volume, first.unit, zero);
-        let mut farthest = first.unit;
+        // a sector reaches beyond its triangle, which may even have no area: all take the plane of the largest
+        let (mut plane, mut volume, mut most) = (self.fan[0].plane, self.fan[0].volume, zero);
         for triangle in &self.fan[..Self::TRIANGLES] {
-            let unit = triangle.unit / first.unit;
-            let size = triangle.plane.length_squared() * (unit * unit) * (unit * unit);
+            let size = triangle.plane.length_squared();
             let larger = size.gt(most);
             plane = Vec3::blend(larger, triangle.plane, plane);
             volume = R::blend(larger, triangle.volume, volume);
-            scale = R::blend(larger, triangle.unit, scale);
             most = R::blend(larger, size, most);
-            farthest = farthest.greater(triangle.unit);
         }
-        let volume = volume * (scale / farthest);
         for triangle in &mut self.fan[..Self::TRIANGLES] {
             triangle.plane = Vec3::blend(central, plane, triangle.plane);
             triangle.volume = R::blend(central, volume, triangle.volume);
-            triangle.unit = R::blend(central, farthest, triangle.unit);
         }
         self.projected = R::blend(central, sum, self.projected);
         self.central = one.keep(central);

@@ -6,7 +6,7 @@ pub(super) mod sector;
 pub(super) mod zenith;
 
 use super::direction::{DirectionSample, to_unit};
-use super::double_word::{compensated_height, cross_dw, dot_dw, height_dw, sum_dw, unit_normal};
+use super::double_word::{cross_dw, dot_dw, height_dw, sum_dw, unit_normal};
 use super::triangle::TRIANGLE_SLACK;
 use crate::lanewise::lanewise;
 use crate::math::{quotient, ratio, rsqrt};
@@ -101,22 +101,22 @@ lanewise! {
 }
 
 /// A triangle, with its derived quantities as accurately as they are known.
-struct Given<R> {
+pub(super) struct Given<R> {
     /// relative to the point, scaled so that all lengths are below 4
-    vertices: [Vec3<R>; 3],
-    /// rounding errors of the second and third vertex, if they are rounded
-    rests: Option<[Vec3<R>; 2]>,
+    pub(super) vertices: [Vec3<R>; 3],
+    /// rounding errors of those that are rounded
+    pub(super) rests: [Option<Vec3<R>>; 3],
     /// from each vertex to the next
-    edges: [Vec3<R>; 3],
+    pub(super) edges: [Vec3<R>; 3],
     /// cross products of each vertex and the next, as unevaluated sums
-    products: [[Vec3<R>; 2]; 3],
+    pub(super) products: [[Vec3<R>; 2]; 3],
     /// (v1−v0)×(v2−v0), as an unevaluated sum
-    plane: [Vec3<R>; 2],
+    pub(super) plane: [Vec3<R>; 2],
 }
 
 /// a − b as an unevaluated sum.
 #[inline(always)]
-pub(super) fn difference<R: Real>(a: Vec3<R>, b: Vec3<R>) -> [Vec3<R>; 2] {
+fn difference<R: Real>(a: Vec3<R>, b: Vec3<R>) -> [Vec3<R>; 2] {
     sum_dw([a, Vec3::default()], [-b, Vec3::default()])
 }
 
@@ -163,7 +163,7 @@ impl<R: Real> ProjectedTriangle<R> {
 
     /// As `new`, in place: a prepared packet is kilobytes, and each copy of it counts. It must be empty before.
     #[inline(always)]
-    pub(super) fn prepare_vertices(&mut self, [v0, v1, v2]: [Vec3<R>; 3], normal: Vec3<R>) {
+    fn prepare_vertices(&mut self, [v0, v1, v2]: [Vec3<R>; 3], normal: Vec3<R>) {
         let ([v0, v1, v2], scale) = to_unit([v0, v1, v2]);
         let edges = [difference(v1, v0), difference(v2, v1), difference(v0, v2)];
         let product = |v: Vec3<R>, [e, d]: [Vec3<R>; 2]| with_rest(cross_dw(v, e), v, d);
@@ -171,7 +171,7 @@ impl<R: Real> ProjectedTriangle<R> {
         let ([e1, d1], [e2, d2]) = (edges[0], edges[2]);
         let [plane, rest] = cross_dw(e2, e1);
         let plane = [plane, rest + (d2.cross(e1) + e2.cross(d1))];
-        let corners = Given { vertices: [v0, v1, v2], rests: None, edges: edges.map(|e| e[0]), products, plane };
+        let corners = Given { vertices: [v0, v1, v2], rests: [None; 3], edges: edges.map(|e| e[0]), products, plane };
         self.prepare(&corners, normal, scale);
     }
 
@@ -222,34 +222,31 @@ impl<R: Real> ProjectedTriangle<R> {
             with_rest(cross_dw(v0, e2[0]), v0, e2[1]),
         ];
         let plane = cross_dw(factors[0], factors[1]);
-        let corners = Given { vertices, rests: Some(rests), edges: edges.map(|e| e[0]), products, plane };
+        let rests = [None, Some(rests[0]), Some(rests[1])];
+        let corners = Given { vertices, rests, edges: edges.map(|e| e[0]), products, plane };
         self.prepare(&corners, normal, scale);
     }
 
     #[inline]
-    fn prepare(&mut self, given: &Given<R>, normal: Vec3<R>, scale: R) {
+    pub(super) fn prepare(&mut self, given: &Given<R>, normal: Vec3<R>, scale: R) {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let Given { vertices: v, rests, edges: e, products, plane } = *given;
-        let volume = compensated_height(v[0], plane);
+        let [sum, more] = height_dw(v[0], plane);
+        let volume = sum + rests[0].map_or(more, |rest| more + rest.dot(plane[0]));
         let plane = plane[0] + plane[1];
         let (normal, long, shrink) = unit_normal(normal);
-        let over = |v: Vec3<R>, rest: Vec3<R>| {
-            let [z, more] = dot_dw(v, long);
-            [z, more + rest.dot(long)]
-        };
-        let heights = match rests {
-            Some([r1, r2]) => [dot_dw(v[0], long), over(v[1], r1), over(v[2], r2)],
-            None => v.map(|v| dot_dw(v, long)),
-        };
+        let heights: [[R; 2]; 3] = core::array::from_fn(|i| {
+            let [z, more] = dot_dw(v[i], long);
+            [z, rests[i].map_or(more, |rest| more + rest.dot(long))]
+        });
         // below this the errors of products are subnormal, and the horizon would cut by rounding
         let heights = heights.map(|pair| {
             let some = (pair[0] + pair[1]).abs().gt(R::lit(LEAST_HEIGHT));
             pair.map(|x| x.keep(some))
         });
         // each edge from an end whose rounding error is exact: the last from the first vertex
-        let none = Vec3::default();
-        let rest = [none, rests.map_or(none, |[rest, _]| rest), none];
-        let volumes: [[R; 2]; 3] = core::array::from_fn(|i| area(long, [v[i % 2], rest[i]], products[i]));
+        let volumes: [[R; 2]; 3] =
+            core::array::from_fn(|i| area(long, [v[i % 2], rests[i % 2].unwrap_or_default()], products[i]));
         let rounded = |[x, rest]: [R; 2]| (x + rest) * shrink;
         let (z, areas) = (heights.map(rounded), volumes.map(rounded));
         let exact = Exact { edges: e, products, heights, volumes, shrink };

@@ -212,6 +212,7 @@ pub(super) fn spherical_polygon(input: &mut Input<'_>) {
     } else {
         regime((name, s), u, input.seed());
     }
+    regime(input.case(generators::hexagons_of_every_size), u, input.seed());
 }
 
 /// Disks with a unit normal, and with any normal.
@@ -291,6 +292,7 @@ pub(super) fn projected_polygon(input: &mut Input<'_>) {
             over_horizon((name, s), u, input.seed());
         }
     }
+    over_horizon(input.case(generators::projected_pentagons_of_every_size), u, input.seed());
 }
 
 /// Shapes warped by the cosine.

@@ -212,6 +212,33 @@ pub fn hexagons(each: usize, seed: u64) -> Vec<Case<Hexagon>> {
     all
 }
 
+/// Convex hexagons of every size, in coordinates about their own centre, as the corners of a small one in a large scene have their digits.
+#[must_use]
+pub fn hexagons_of_every_size(each: usize, seed: u64) -> Vec<Case<Hexagon>> {
+    let mut random = Random::new(seed);
+    let mut all = Vec::new();
+    for _ in 0..each {
+        for (name, size, unit) in [
+            ("small 1e-2", 1e-2, 1.0),
+            ("tiny 1e-3", 1e-3, 1.0),
+            ("tiny 1e-5", 1e-5, 1.0),
+            ("tiny 1e-7", 1e-7, 1.0),
+            ("tiny 1e-9", 1e-9, 1.0),
+            ("far 1e9", 1e-9, 1e12),
+        ] {
+            let axes = frame(&mut random);
+            let corner = |i: usize, random: &mut Random| {
+                let angle = (i as f64 + random.range(-0.3, 0.3)) * core::f64::consts::TAU / 6.0;
+                narrow(combine(&axes, size * unit * cos(angle), 0.7 * size * unit * sin(angle), 0.0))
+            };
+            let corners = core::array::from_fn(|i| corner(i, &mut random));
+            let [x, y] = [(); 2].map(|()| random.range(-0.7, 0.7) * unit);
+            all.push((name, Hexagon::seen_from(corners, narrow(combine(&axes, x, y, unit)))));
+        }
+    }
+    all
+}
+
 /// Shapes with random normals, from the regimes where the cosine varies over the shape and from the extremes of size.
 fn with_normals<S, W>(shapes: Vec<Case<S>>, seed: u64, of: impl Fn(S, [f32; 3]) -> W) -> Vec<Case<W>> {
     const KEPT: [&str; 7] = ["ordinary", "ordinary, aside", "small 1e-2", "tiny 1e-5", "far 1e9", "large 6", "oblique"];

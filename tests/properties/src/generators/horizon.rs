@@ -160,3 +160,31 @@ pub fn projected_pentagons(each: usize, seed: u64) -> Vec<Case<ProjectedPentagon
     }
     all
 }
+
+/// Convex pentagons of every size relative to a horizon, in coordinates about their own centre.
+#[must_use]
+pub fn projected_pentagons_of_every_size(each: usize, seed: u64) -> Vec<Case<ProjectedPentagon>> {
+    let mut random = Random::new(seed);
+    let mut all = Vec::new();
+    for _ in 0..each {
+        for (name, size, unit, normal) in [
+            ("small 1e-2", 1e-2, 1.0, [0.3, -0.2, 0.8]),
+            ("tiny 1e-4", 1e-4, 1.0, [0.3, -0.2, 0.8]),
+            ("tiny 1e-5", 1e-5, 1.0, [0.3, -0.2, 0.8]),
+            ("tiny 1e-7", 1e-7, 1.0, [0.3, -0.2, 0.8]),
+            ("far 1e7", 1e-7, 1e12, [0.3, -0.2, 0.8]),
+            ("cut, tiny 1e-4", 1e-4, 1.0, [1.0, 0.0, -0.2]),
+        ] {
+            let axes = frame(&mut random);
+            let corner = |i: usize, random: &mut Random| {
+                let angle = (i as f64 + random.range(-0.3, 0.3)) * core::f64::consts::TAU / 5.0;
+                narrow(combine(&axes, size * unit * cos(angle), 0.7 * size * unit * sin(angle), 0.0))
+            };
+            let corners = core::array::from_fn(|i| corner(i, &mut random));
+            let normal = narrow(combine(&axes, normal[0], normal[1], normal[2]));
+            let point = narrow(combine(&axes, -0.2 * unit, -0.3 * unit, -unit));
+            all.push((name, ProjectedPentagon::seen_from(corners, point, normal)));
+        }
+    }
+    all
+}
