@@ -3,6 +3,15 @@
 /// A rectangle of pixels: its first column and row, and the column and row after its last, in pixels of the image.
 pub type Area = [u32; 4];
 
+/// Where an image is in a larger one, of which it is a part.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Place {
+    /// The column and row of its first pixel.
+    pub start: [u32; 2],
+    /// Columns and rows of the whole image.
+    pub whole: [u32; 2],
+}
+
 /// Numbers of columns and rows of an area.
 fn size([x0, y0, x1, y1]: Area) -> [usize; 2] {
     [(x1 - x0) as usize, (y1 - y0) as usize]

@@ -1,9 +1,12 @@
-//! The camera of an image: a pinhole, a thin lens, or a lens in a barrel.
+//! The camera of an image: a pinhole, a thin lens, a lens in a barrel, or parallel rays.
 
+mod linear;
+mod orthographic;
 mod pinhole;
 mod thin_lens;
 mod vignetting;
 
+pub use orthographic::Orthographic;
 pub use pinhole::Pinhole;
 pub use thin_lens::{Slopes, ThinLens};
 pub use vignetting::{Barrel, Pupil};
@@ -13,10 +16,19 @@ use crate::scene::CameraSettings;
 use etendue::warp::ConcentricDisk;
 use etendue::{Real, Vec2, Vec3, Warp, u32x8};
 
+/// Positions are counted from the first pixel of a square of so many pixels. Single precision then rounds them by at most 2⁻¹³ of a pixel,
+/// however wide the image is.
+const COUNTED: u32 = 4096;
+
+/// The first pixel of the square in which the positions of a tile are counted.
+pub fn counted_from(tile: [u32; 2]) -> [u32; 2] {
+    tile.map(|at| at / COUNTED * COUNTED)
+}
+
 /// Where eight rays pass the film and the lens. It is drawn once for each sample, and the camera and the sensor both read it.
 #[derive(Clone, Copy, Debug)]
 pub struct CameraSample {
-    /// Positions in pixels, from the top left of the image.
+    /// Positions in pixels, from the top left of the image or of the [pixel](Camera::counted_from) from which they are counted.
     pub film: Vec2<X8>,
     /// Points of the lens, in units of its radius; the centre for a pinhole.
     pub lens: Vec2<X8>,
@@ -38,6 +50,8 @@ impl CameraSample {
 pub enum Camera {
     /// All rays leave from one point.
     Pinhole(Pinhole),
+    /// All rays are parallel.
+    Orthographic(Orthographic),
     /// Rays leave from all points of a lens.
     ThinLens(ThinLens),
     /// Rays leave from the points of a lens that a barrel does not block.
@@ -50,8 +64,20 @@ impl Camera {
     /// A scene's camera, for an image of `width` × `height` pixels.
     pub fn new(camera: &CameraSettings, width: u32, height: u32) -> Self {
         match &camera.lens {
+            None if camera.is_orthographic => Self::Orthographic(Orthographic::new(camera, width, height)),
             None => Self::Pinhole(Pinhole::new(camera, width, height)),
             Some(lens) => Self::ThinLens(ThinLens::new(camera, lens, width, height)),
+        }
+    }
+    /// The same camera, for positions that are counted from this pixel.
+    #[must_use]
+    pub fn counted_from(&self, pixel: [u32; 2]) -> Self {
+        match self {
+            Self::Pinhole(pinhole) => Self::Pinhole(pinhole.counted_from(pixel)),
+            Self::Orthographic(parallel) => Self::Orthographic(parallel.counted_from(pixel)),
+            Self::ThinLens(thin) => Self::ThinLens(thin.counted_from(pixel)),
+            Self::Barrel(thin, barrel) => Self::Barrel(thin.counted_from(pixel), barrel.counted_from(pixel)),
+            Self::Pupil(pupil) => Self::Pupil(pupil.counted_from(pixel)),
         }
     }
     /// Origins and unit directions of eight rays.
@@ -59,6 +85,7 @@ impl Camera {
     pub fn rays(&self, CameraSample { film, lens }: &CameraSample) -> (V8, V8) {
         match self {
             Self::Pinhole(pinhole) => pinhole.ray(film.x, film.y),
+            Self::Orthographic(parallel) => parallel.ray(film.x, film.y),
             Self::ThinLens(thin) | Self::Barrel(thin, _) => thin.ray(film.x, film.y, *lens),
             Self::Pupil(pupil) => pupil.ray(film.x, film.y),
         }
@@ -67,18 +94,22 @@ impl Camera {
     #[inline]
     pub fn open(&self, CameraSample { film, lens }: &CameraSample) -> Option<M8> {
         match self {
-            Self::Pinhole(_) | Self::ThinLens(_) => None,
+            Self::Pinhole(_) | Self::Orthographic(_) | Self::ThinLens(_) => None,
             Self::Barrel(_, barrel) => Some(barrel.open(film.x, film.y, *lens)),
             Self::Pupil(pupil) => Some(pupil.open(film.x, film.y)),
         }
     }
-    /// Where the ray through the middle of the image begins, and the solid angle of the pixel there.
-    pub fn middle(&self, width: u32, height: u32) -> (Vec3<f64>, f64) {
+    /// Where the ray through the middle of the image begins, and the area of a pixel there: at the camera, and what it becomes more per squared
+    /// distance.
+    pub fn middle(&self, width: u32, height: u32) -> (Vec3<f64>, [f64; 2]) {
         let middle = |side: u32, more: [f32; 3]| X8::from(std::array::from_fn(|k| side as f32 / 2.0 + more[k.min(2)]));
         let film = Vec2::new(middle(width, [0.0, 1.0, 0.0]), middle(height, [0.0, 0.0, 1.0]));
         let (origin, direction) = self.rays(&CameraSample { film, lens: Vec2::default() });
-        let [middle, across, down] = [0, 1, 2].map(|lane| direction.lane(lane).map(f64::from));
-        (origin.lane(0).map(f64::from), (across - middle).cross(down - middle).length())
+        let area = |v: V8| {
+            let [middle, across, down] = [0, 1, 2].map(|lane| v.lane(lane).map(f64::from));
+            (across - middle).cross(down - middle).length()
+        };
+        (origin.lane(0).map(f64::from), [area(origin), area(direction)])
     }
     /// The position in pixels from the top left at which the film shows what is at `v` from where the ray through the middle begins, if it
     /// is in focus; `None` if it is behind the camera, or if the image is not of the scene.

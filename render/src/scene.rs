@@ -23,13 +23,15 @@
 //! | `curve` and older quadrics | left out |
 //! | `ObjectInstance` | itself, or a copy in small scenes; lights in objects emit nothing, as in pbrt |
 //! | `diffuse` with a picture | itself: texels are interpolated as in pbrt-v4, by u and v, or the angles of a whole sphere |
+//! | pictures in EXR files | their display windows: black where they have no data, and without the data outside |
 //! | `goniometric`, `projection` | themselves, with the texel of a direction; also IES files, which pbrt does not read |
 //! | `portal` | itself, in world space; a ray that escapes beside it is black, as in pbrt |
 //! | `"float spread"` of area lights, which pbrt does not have | the full angle of [`Spread`](etendue::light::Spread) in degrees, as in Cycles |
 //! | `"string profile"` of spot and area lights, which pbrt does not have | intensities by direction, as below |
 //! | media, motion | ignored; stills at the start |
-//! | `cropwindow`, `pixelbounds` | that part of the image; all of it with a lens |
-//! | `orthographic` | a far perspective camera; `realistic` and `spherical` have 50 degrees |
+//! | `cropwindow`, `pixelbounds` | that part of the image, in its place in the EXR file |
+//! | `perspective`, `orthographic` | themselves; with a lens, an orthographic camera is perspective, with the screen in its plane of focus, as in pbrt |
+//! | `realistic`, `spherical` | a perspective camera of 50 degrees |
 //!
 //! Beyond pbrt, a sky may have up to eight portals, in one list of corners or in several lights of the same sky. They may be parallelograms,
 //! and what two of them show counts once. `LightSource "infinite" "string sky" "cie"` is daylight by CIE's standard general sky
@@ -104,7 +106,7 @@ use crate::files::read_unpacked;
 pub use crate::geometry::{Affine, Geometry, Instance};
 use crate::image;
 use builtin::{BUILTIN, DESCRIBED, MANY_LIGHTS};
-pub use description::{CameraSettings, Corners, Details, FilmSettings, Lens, Scene, Shape};
+pub use description::{CameraSettings, Corners, Details, FilmSettings, Lens, Scene, Screen, Shape};
 pub use environment::{Environment, SkyRadiance, SunDisk};
 pub use lights::{Cone, DeltaLight, Emission};
 pub use materials::{Material, Roughness, Varying};

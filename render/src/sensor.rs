@@ -45,10 +45,10 @@ impl Exposure {
         diagonal: f64,
         [width, height]: [u32; 2],
     ) -> Option<Self> {
-        let [across, _] = camera.tan_half(width, height);
+        let [left, right, ..] = camera.edges(width, height);
         let [w, h] = [width, height].map(f64::from);
         let pitch = 1e-3 * diagonal / libm::hypot(w, h);
-        let distance = 0.5 * pitch * w / across;
+        let distance = pitch * w / (right - left);
         let area = match sensor {
             Sensor::Radiance => return None,
             Sensor::Irradiance => 1.0,
@@ -56,6 +56,11 @@ impl Exposure {
         };
         let ratio = camera.lens.map_or(0.0, |lens| lens.radius) / distance;
         Some(Self { ratio, slopes: Slopes::new(camera, width, height), area })
+    }
+    /// The same weights, for positions that are counted from this pixel.
+    #[must_use]
+    pub fn counted_from(&self, pixel: [u32; 2]) -> Self {
+        Self { slopes: self.slopes.counted_from(pixel), ..*self }
     }
     /// The value at the middle of the film if all radiance is 1: π sin²α with tan α = k, times the pixel's area for power.
     #[must_use]

@@ -5,7 +5,7 @@ use etendue_oracle::{V3, along, cross, dot, length, sub, unit, wide};
 use etendue_render::bvh::SHAPE;
 use etendue_render::camera::Pinhole;
 use etendue_render::certificates::{Blocker, Bodies, Certificate, Certifier, MOST, Patch, Pyramid, Viewer};
-use etendue_render::scene::{CameraSettings, Emission, FilmSettings, Geometry, Material, Scene, Shape};
+use etendue_render::scene::{CameraSettings, Emission, FilmSettings, Geometry, Material, Scene, Screen, Shape};
 use etendue_render::surfaces::Surfaces;
 
 /// Reads bytes as numbers; zeros follow the last.
@@ -108,7 +108,7 @@ fn scene(triangles: Vec<[[f32; 3]; 3]>, shapes: Vec<Shape>, camera: CameraSettin
     Scene {
         name: String::new(),
         camera,
-        film: FilmSettings { width: 16, height: 16, diagonal: 35.0, filename: None },
+        film: FilmSettings { width: 16, height: 16, diagonal: 35.0, filename: None, place: None },
         pixel_samples: 1,
         materials: vec![Material::Diffuse([0.5; 3])],
         triangle_materials: vec![0; triangles.len()],
@@ -188,7 +188,8 @@ pub fn certificates(bytes: &[u8]) {
     if length(up) == 0.0 {
         return;
     }
-    let camera = CameraSettings { origin, forward, right, up, fov: 40.0, lens: None };
+    let camera =
+        CameraSettings { origin, forward, right, up, is_orthographic: false, screen: Screen::Half(0.364), lens: None };
     let pyramid = Pyramid::new(&Pinhole::new(&camera, 16, 16), [7.0, 7.0, 9.0, 9.0]);
     let scene = scene(triangles, shapes, camera);
     let Ok(surfaces) = Surfaces::new(&scene) else { return };

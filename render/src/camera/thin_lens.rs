@@ -3,7 +3,7 @@
 use super::pinhole::Pinhole;
 use crate::packet::{V8, X8};
 use crate::scene::{CameraSettings, Lens};
-use etendue::{Real, Vec2, Vec3};
+use etendue::{Real, Vec2};
 
 /// A thin-lens camera for an image of a given size.
 ///
@@ -28,9 +28,10 @@ impl ThinLens {
             bends: along(lens.radius / lens.focus),
         }
     }
-    /// As [`Pinhole::film_of`], from the middle of the lens.
-    pub fn film_of(&self, v: Vec3<f64>) -> Option<[f64; 2]> {
-        self.center.film_of(v)
+    /// The same camera, for positions that are counted from this pixel.
+    #[must_use]
+    pub fn counted_from(&self, pixel: [u32; 2]) -> Self {
+        Self { center: self.center.counted_from(pixel), ..*self }
     }
     /// Origin and unit direction of the rays through positions in pixels from the top left and points of the lens in units of its
     /// radius.
@@ -53,9 +54,14 @@ pub struct Slopes {
 impl Slopes {
     /// The slopes for an image of `width` × `height` pixels.
     pub fn new(camera: &CameraSettings, width: u32, height: u32) -> Self {
-        let [across, down] = camera.tan_half(width, height);
-        let step = [2.0 * across / f64::from(width), -2.0 * down / f64::from(height)];
-        Self { corner: [-across, down], step }
+        let [left, right, lower, upper] = camera.edges(width, height);
+        let step = [(right - left) / f64::from(width), (lower - upper) / f64::from(height)];
+        Self { corner: [left, upper], step }
+    }
+    /// The same slopes, for positions that are counted from this pixel.
+    #[must_use]
+    pub fn counted_from(&self, pixel: [u32; 2]) -> Self {
+        Self { corner: std::array::from_fn(|k| self.corner[k] + self.step[k] * f64::from(pixel[k])), ..*self }
     }
     /// Slopes at positions in pixels from the top left.
     #[inline]

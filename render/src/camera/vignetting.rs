@@ -36,6 +36,11 @@ impl Barrel {
             slopes: Slopes::new(camera, width, height),
         }
     }
+    /// The same barrel, for positions that are counted from this pixel.
+    #[must_use]
+    pub fn counted_from(&self, pixel: [u32; 2]) -> Self {
+        Self { slopes: self.slopes.counted_from(pixel), ..*self }
+    }
     /// Lanes that the front rim does not block, for positions in pixels and lens points in units of the lens's radius.
     #[inline]
     pub fn open(&self, x: X8, y: X8, lens: Vec2<X8>) -> M8 {
@@ -74,8 +79,8 @@ pub struct Pupil {
     barrel: Option<Barrel>,
     /// Position on the film, in pixels of the image.
     film: [f64; 2],
-    /// The picture's half side, and its change of lens coordinates per pixel, in units of the lens's radius.
-    corner: f64,
+    /// Lens coordinates at the top left corner of the picture, and their change per pixel, in units of the lens's radius.
+    corner: [f64; 2],
     step: f64,
 }
 
@@ -83,12 +88,18 @@ impl Pupil {
     /// The view from `film`, a position in pixels of the camera's image. The picture has `side`² pixels and shows a square of half
     /// side `extent`, in units of the lens's radius.
     pub fn new(lens: ThinLens, barrel: Option<Barrel>, film: [f64; 2], side: u32, extent: f64) -> Self {
-        Self { lens, barrel, film, corner: extent, step: 2.0 * extent / f64::from(side) }
+        Self { lens, barrel, film, corner: [-extent, extent], step: 2.0 * extent / f64::from(side) }
+    }
+    /// The same view, for positions in the picture that are counted from this pixel.
+    #[must_use]
+    pub fn counted_from(&self, [x, y]: [u32; 2]) -> Self {
+        let [left, upper] = self.corner;
+        Self { corner: [left + self.step * f64::from(x), upper - self.step * f64::from(y)], ..*self }
     }
     #[inline]
     fn point(&self, x: X8, y: X8) -> Vec2<X8> {
-        let (corner, step) = (X8::lit(self.corner), X8::lit(self.step));
-        Vec2::new(step.mul_add(x, -corner), corner - step * y)
+        let ([left, upper], step) = (self.corner.map(X8::lit), X8::lit(self.step));
+        Vec2::new(step.mul_add(x, left), upper - step * y)
     }
     /// Origins and unit directions for positions in the picture.
     #[inline]

@@ -1,8 +1,8 @@
 //! Direct light of diffuse surfaces without rays and random numbers, where geometry tells what can occlude it.
 //!
 //! Certificates are made when a sample first needs them: for what the whole tile sees of a primitive, and, where that does not decide, for
-//! what a square of 4 × 4 pixels sees of it. (Certificates for single pixels save less time than they take.) A surface seen through a lens
-//! or in a mirror is certified as a whole. (Squares seen in mirrors would gain little: of the variance of `mirror-room`, the places in the
+//! what a square of 4 × 4 pixels sees of it. (Certificates for single pixels save less time than they take.) A surface seen through a lens,
+//! in a mirror or by parallel rays is certified as a whole. (Squares seen in mirrors would gain little: of the variance of `mirror-room`, the places in the
 //! pixels alone cause 97 %, by `cargo run --release -p etendue-benches --example causes -- mirror-room --seeds 8`.)
 
 use super::exact::Exact;
@@ -90,8 +90,8 @@ pub(super) struct Analytic<'a> {
     pub(super) hopeless: bool,
     /// Whether all lights are known at all places of the tile that were looked at.
     pub(super) all_known: bool,
-    /// Certificates are asked for on primitives with at least this area over the squared distance from the camera.
-    least: f64,
+    /// Certificates are asked for on primitives with at least this area, and this more per squared distance from the camera.
+    least: [f64; 2],
     /// The position of the camera.
     eye: Vec3<f64>,
     /// What was found for places that were looked at last.
@@ -140,7 +140,7 @@ impl<'a> Analytic<'a> {
             exact: Exact::default(),
             hopeless: false,
             all_known: false,
-            least: pixels * pixel,
+            least: pixel.map(|area| pixels * area),
             eye,
             worth: (NOTHING, false),
         }
@@ -162,7 +162,8 @@ impl<'a> Analytic<'a> {
                 let seen = if matches!(geometry, Geometry::Sphere { .. }) { 0.25 } else { 1.0 };
                 (geometry.area() * seen, (wide(low) + wide(high)) * 0.5)
             };
-            self.worth = (place, area >= self.least * (center - self.eye).length_squared());
+            let [least, more] = self.least;
+            self.worth = (place, area >= least + more * (center - self.eye).length_squared());
         }
         self.worth.1
     }
@@ -181,7 +182,7 @@ impl<'a> Analytic<'a> {
     pub(super) fn begin(&mut self, origin: [u32; 2]) {
         self.origin = origin;
         (self.hopeless, self.all_known) = (false, false);
-        // through a lens, surfaces are certified as a whole, and stay so
+        // surfaces that are certified as a whole stay so
         if self.pinhole.is_none() && (1..MOST_WHOLE).contains(&self.whole.len()) {
             return;
         }

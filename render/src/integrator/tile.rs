@@ -9,7 +9,7 @@ use super::radiance::Radiance;
 use super::settings::{RayCount, Settings, TILE};
 use crate::area::Area;
 use crate::bvh::GROUP;
-use crate::camera::{Camera, CameraSample};
+use crate::camera::{Camera, CameraSample, counted_from};
 use crate::film::Accumulator;
 use crate::packet::{M8, X8};
 use crate::sampler::{CHOICE, FILM, LENS, Packet, Redrawn, SURFACE, Source};
@@ -31,6 +31,10 @@ const FREE_IF_ASKED: usize = 4;
 pub(super) struct TileRenderer<'a> {
     scene: &'a PreparedScene,
     settings: &'a Settings,
+    /// The camera, and the weights of radiance if there are any, for positions counted from the first pixel of the image.
+    whole: (Camera, Option<Exposure>),
+    /// The pixel from which positions are counted, and the same for these.
+    start: [u32; 2],
     camera: Camera,
     exposure: Option<Exposure>,
     /// Whether samples need a point of the lens.
@@ -89,6 +93,8 @@ impl<'a> TileRenderer<'a> {
         Self {
             scene,
             settings,
+            whole: (camera, exposure),
+            start: [0; 2],
             camera,
             lens: camera.has_lens() || exposure.is_some(),
             exposure,
@@ -132,16 +138,24 @@ impl<'a> TileRenderer<'a> {
         self.samples(area, true, [0, 8 * pilot], sets.end, weights, sum, range)
     }
 
-    /// Prepares for the pixels of a tile: looks at an 8 × 8 grid of places in it, to decide where certificates are worth asking for.
+    /// Prepares for the pixels of a tile: counts positions near it, and looks at an 8 × 8 grid of places in it, to decide where certificates are
+    /// worth asking for.
     pub(super) fn begin(&mut self, [x0, y0, x1, y1]: Area) {
+        let start = counted_from([x0, y0]);
+        if start != self.start {
+            let (camera, exposure) = self.whole;
+            (self.start, self.camera) = (start, camera.counted_from(start));
+            self.exposure = exposure.map(|exposure| exposure.counted_from(start));
+        }
         let Some(analytic) = &mut self.paths.analytic else { return };
         analytic.begin([x0, y0]);
-        let place = |start: u32, end: u32, k: usize| start as f32 + (end - start) as f32 * (2 * k + 1) as f32 / 16.0;
+        let place = |first: u32, end: u32, k: usize| first as f32 + (end - first) as f32 * (2 * k + 1) as f32 / 16.0;
+        let [left, top, right, bottom] = [x0 - start[0], y0 - start[1], x1 - start[0], y1 - start[1]];
         let mut pixels = [[[0; 2]; 8]; GROUP];
         for (row, pixels) in pixels.iter_mut().enumerate() {
-            let y = place(y0, y1, row);
-            let x: [f32; 8] = std::array::from_fn(|lane| place(x0, x1, lane));
-            *pixels = x.map(|x| [(x as u32).min(x1 - 1), (y as u32).min(y1 - 1)]);
+            let y = place(top, bottom, row);
+            let x: [f32; 8] = std::array::from_fn(|lane| place(left, right, lane));
+            *pixels = x.map(|x| [start[0] + (x as u32).min(right - 1), start[1] + (y as u32).min(bottom - 1)]);
             let film = Vec2::new(X8::from(x), X8::splat(y));
             self.paths.start(row, self.camera.rays(&CameraSample { film, lens: Vec2::default() }));
         }
@@ -151,8 +165,8 @@ impl<'a> TileRenderer<'a> {
 
     /// Starts the ray through the middle of a pixel and of the lens.
     fn look(&mut self, [x, y]: [u32; 2]) -> CameraSample {
-        let middle = |at: u32| X8::splat(at as f32 + 0.5);
-        let sample = CameraSample { film: Vec2::new(middle(x), middle(y)), lens: Vec2::default() };
+        let middle = |k: usize, at: u32| X8::splat((at - self.start[k]) as f32 + 0.5);
+        let sample = CameraSample { film: Vec2::new(middle(0, x), middle(1, y)), lens: Vec2::default() };
         self.paths.start(0, self.camera.rays(&sample));
         self.paths.places[0].pixel = Some([x, y]);
         sample
@@ -322,7 +336,8 @@ impl<'a> TileRenderer<'a> {
         allocated: &[Allocated<'_, X8>],
         expected: &[u32; GROUP],
     ) -> &[Radiance] {
-        let Self { source, paths, camera, settings, .. } = self;
+        let Self { source, paths, start, camera, settings, .. } = self;
+        let start = start.map(u32x8::splat);
         let lights = paths.sampled();
         // delta lights alone need no point on the light
         let point = settings.technique.finds_lights() || !lights.only_deltas();
@@ -354,7 +369,7 @@ impl<'a> TileRenderer<'a> {
             let alike = (1..8).all(|lane| x[lane] == x[0] && y[lane] == y[0]);
             paths.places[p].pixel = alike.then_some([x[0], y[0]]);
             let lens = self.lens.then(|| source.pair(packet, LENS));
-            samples[p] = CameraSample::new(packet.x, packet.y, film, lens);
+            samples[p] = CameraSample::new(packet.x - start[0], packet.y - start[1], film, lens);
             paths.start(p, camera.rays(&samples[p]));
             active[p] = packet.active;
         }
@@ -397,7 +412,8 @@ impl<'a> TileRenderer<'a> {
             let place = |p: usize, lane: usize| (start + 8 * p + lane).min(across * down - 1);
             for p in 0..count {
                 let at = |of: &dyn Fn(usize) -> u32| X8::from(std::array::from_fn(|lane| of(place(p, lane)) as f32));
-                let (x, y) = (at(&|i| x0 + (i % across) as u32), at(&|i| y0 + (i / across) as u32));
+                let (left, top) = (x0 - self.start[0], y0 - self.start[1]);
+                let (x, y) = (at(&|i| left + (i % across) as u32), at(&|i| top + (i / across) as u32));
                 let sample = CameraSample { film: Vec2::new(x, y), lens: Vec2::default() };
                 self.paths.start(p, self.camera.rays(&sample));
             }

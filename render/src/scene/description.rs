@@ -4,6 +4,7 @@ use super::environment::Environment;
 use super::lights::{DeltaLight, Emission};
 use super::materials::{Material, Varying};
 use super::message::Message;
+use crate::area::Place;
 use crate::geometry::{Geometry, Instance};
 use crate::intensity::Intensity;
 use crate::light_picture::LightPicture;
@@ -100,16 +101,19 @@ pub struct FilmSettings {
     pub diagonal: f64,
     /// Name of the image file to write.
     pub filename: Option<String>,
+    /// Where the image is in the whole one, if it is only a part.
+    pub place: Option<Place>,
 }
 
-/// A perspective camera: a pinhole or a thin lens.
+/// A camera: a pinhole, a thin lens, or parallel rays.
 ///
-/// With `t = tan_half(width, height)`, the ray through image position (x, y) in \[0,1\]², from the top left, has direction
-/// `forward + (2x−1) t[0] right + (1−2y) t[1] up`. The three axes are orthonormal if the camera transform is a similarity;
-/// `forward` always has length 1.
+/// With `[left, right, lower, upper] = edges(width, height)`, the image position (x, y) in \[0,1\]², from the top left, stands for
+/// s = (left + x (right − left)) `right` + (upper + y (lower − upper)) `up`. A perspective camera's ray leaves from `origin` in the direction
+/// `forward` + s, that of an orthographic one from `origin` + s in the direction `forward`. The three axes are orthonormal if the camera
+/// transform is a similarity; `forward` always has length 1.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CameraSettings {
-    /// The pinhole, or the centre of the lens.
+    /// The pinhole, the centre of the lens, or where the parallel ray along the axis begins.
     pub origin: [f64; 3],
     /// Towards the middle of the image.
     pub forward: [f64; 3],
@@ -117,10 +121,21 @@ pub struct CameraSettings {
     pub right: [f64; 3],
     /// Towards the upper edge of the image.
     pub up: [f64; 3],
-    /// Full angle across the shorter side of the image in degrees, in (0, 180).
-    pub fov: f64,
+    /// Whether the rays are parallel; without a lens.
+    pub is_orthographic: bool,
+    /// What the image shows.
+    pub screen: Screen,
     /// The lens, unless its radius is 0.
     pub lens: Option<Lens>,
+}
+
+/// What an image shows, along the axes `right` and `up`: of a perspective camera at distance 1, of an orthographic one in units of world space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Screen {
+    /// Half of its shorter side. The camera's axis is in the middle, and pixels are square.
+    Half(f64),
+    /// Its left, right, lower and upper edges, whatever the shape of the image.
+    Edges([f64; 4]),
 }
 
 /// A thin lens perpendicular to the camera's axis. It images each point of the film to the point of the plane of focus on the line
@@ -136,11 +151,16 @@ pub struct Lens {
 }
 
 impl CameraSettings {
-    /// Tangents of half the horizontal and vertical angle of view, for an image of this size (both sides at least 1).
-    pub fn tan_half(&self, width: u32, height: u32) -> [f64; 2] {
-        let shorter = libm::tan(self.fov.to_radians() / 2.0);
-        let aspect = f64::from(width) / f64::from(height);
-        if aspect >= 1.0 { [shorter * aspect, shorter] } else { [shorter, shorter / aspect] }
+    /// The left, right, lower and upper edges of an image of this size (both sides at least 1), as in [`Screen`].
+    pub fn edges(&self, width: u32, height: u32) -> [f64; 4] {
+        match self.screen {
+            Screen::Half(half) => {
+                let aspect = f64::from(width) / f64::from(height);
+                let [x, y] = if aspect >= 1.0 { [half * aspect, half] } else { [half, half / aspect] };
+                [-x, x, -y, y]
+            }
+            Screen::Edges(edges) => edges,
+        }
     }
 }
 

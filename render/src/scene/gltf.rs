@@ -104,12 +104,7 @@ pub(super) fn read(bytes: &[u8], file: &str, folder: Option<&Path>) -> Result<Sc
         if let Some(described) = node.camera
             && camera.is_none()
         {
-            camera = cameras::read(&source, described, index, &transform)?;
-            if camera.is_none() {
-                out.notes.stand_in("orthographic", || {
-                    source.message(format!("node {index}: its orthographic camera is ignored"))
-                });
-            }
+            camera = Some(cameras::read(&source, described, index, &transform)?);
         }
         if let Some(light) = node.extensions.as_ref().and_then(|all| all.khr_lights_punctual.as_ref()) {
             match lights::read(&source, light.light, index, &transform)? {
@@ -131,7 +126,7 @@ pub(super) fn read(bytes: &[u8], file: &str, folder: Option<&Path>) -> Result<Sc
     }
     let (camera, film) = camera.unwrap_or_else(|| {
         let framing = cameras::framing(&out);
-        out.notes.warn(source.message("no perspective camera: one that sees all surfaces stands for it"));
+        out.notes.warn(source.message("no camera: one that sees all surfaces stands for it"));
         framing
     });
     let message = |text: &str| source.message(text);

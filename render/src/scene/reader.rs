@@ -20,7 +20,7 @@ use super::sources::Sources;
 use super::textures::Textures;
 use super::transform::Transform;
 use super::transform_directives;
-use super::view::{self, Window};
+use super::view;
 use crate::files::FileError;
 use crate::image;
 use std::cell::RefCell;
@@ -57,7 +57,7 @@ struct Reader<'a> {
     main_dir: &'a Path,
     is_builtin: bool,
     camera: Option<CameraSettings>,
-    film: Option<(FilmSettings, Option<Window>)>,
+    film: Option<FilmSettings>,
     pixel_samples: Option<u32>,
     sources: Sources,
     out: Builder,
@@ -123,11 +123,9 @@ pub(super) fn read(text: &str, file: &str, dir: &Path, origin: Origin<'_>) -> Re
     if !reader.in_world {
         return Err(end.message("the scene has no WorldBegin"));
     }
-    let whole = FilmSettings { width: 1280, height: 720, diagonal: 35.0, filename: None };
-    let (mut film, window) = reader.film.unwrap_or((whole, None));
-    if let Some(window) = window {
-        window.apply(&mut camera, &mut film, &mut reader.out.notes);
-    }
+    let whole = FilmSettings { width: 1280, height: 720, diagonal: 35.0, filename: None, place: None };
+    let film = reader.film.unwrap_or(whole);
+    view::fit(&mut camera, &film);
     let Sources { delta_lights, intensities, environment, portals } = reader.sources;
     let rest = Rest {
         camera,

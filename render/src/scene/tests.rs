@@ -67,7 +67,13 @@ fn builtin_scenes_have_the_stated_sizes_and_no_warnings() {
         assert_eq!(scene.pixel_samples, 64, "{name}");
         assert_eq!(
             scene.film,
-            FilmSettings { width: 256, height: 256, diagonal: 35.0, filename: Some(format!("{name}.exr")) }
+            FilmSettings {
+                width: 256,
+                height: 256,
+                diagonal: 35.0,
+                filename: Some(format!("{name}.exr")),
+                place: None
+            }
         );
         assert!(scene.triangle_materials.iter().all(|&m| (m as usize) < scene.materials.len()));
     }
@@ -162,14 +168,14 @@ fn builtin_cameras_are_right_handed() {
         let forward = transform::unit(transform::sub(target, origin)).unwrap();
         let right = transform::unit(transform::cross(forward, [0.0, 1.0, 0.0])).unwrap();
         let up = transform::cross(right, forward);
-        assert!(close(camera.origin, origin) && camera.fov == fov, "{name} {camera:?}");
+        assert!(close(camera.origin, origin), "{name} {camera:?}");
         assert!(
             close(camera.forward, forward) && close(camera.right, right) && close(camera.up, up),
             "{name} {camera:?}"
         );
         // The ray at (0, 0), the top left, points to the left (−x) of the target and above it.
-        let [across, down] = camera.tan_half(256, 256);
-        assert!((across - (fov / 2.0).to_radians().tan()).abs() < 1e-15 && across == down);
+        let [_, across, _, down] = camera.edges(256, 256);
+        assert!((across - (0.5_f64 * fov).to_radians().tan()).abs() < 1e-15 && across == down);
         let ray: Vec<f64> =
             (0..3).map(|k| camera.forward[k] - across * camera.right[k] + down * camera.up[k]).collect();
         assert!(ray[0] < 0.0 && ray[1] > forward[1], "{name} {ray:?}");
@@ -179,10 +185,11 @@ fn builtin_cameras_are_right_handed() {
 #[test]
 fn fov_spans_the_shorter_side() {
     let camera = read(&world(TRIANGLE)).camera;
-    assert_eq!(camera.fov, 90.0);
+    assert_eq!(camera.screen, Screen::Half(libm::tan(90_f64.to_radians() / 2.0)));
     for (width, height, expected) in [(400, 200, [2.0, 1.0]), (200, 400, [1.0, 2.0]), (1, 1, [1.0, 1.0])] {
-        let t = camera.tan_half(width, height);
-        assert!((t[0] - expected[0]).abs() < 1e-12 && (t[1] - expected[1]).abs() < 1e-12, "{t:?}");
+        let [left, right, lower, upper] = camera.edges(width, height);
+        assert!((right - expected[0]).abs() < 1e-12 && (upper - expected[1]).abs() < 1e-12, "{right} {upper}");
+        assert_eq!([left, lower], [-right, -upper]);
     }
 }
 
@@ -275,7 +282,7 @@ fn shapes_become_what_they_should() {
     assert!(matches!(scene.shapes[2].geometry, Geometry::Parallelogram { .. }));
     assert_eq!(scene.shapes[2].emission, Some(Emission { radiance: [1.0; 3], ..Emission::default() }));
     assert_eq!((scene.materials.len(), scene.pixel_samples), (1, 16));
-    assert_eq!(scene.film, FilmSettings { width: 1280, height: 720, diagonal: 35.0, filename: None });
+    assert_eq!(scene.film, FilmSettings { width: 1280, height: 720, diagonal: 35.0, filename: None, place: None });
 }
 
 #[test]
@@ -303,7 +310,8 @@ fn strings_numbers_and_sizes() {
     );
     assert_eq!(
         scene.film,
-        FilmSettings { width: 8, height: 4, diagonal: 50.0, filename: Some("a\\b \"c\".exr".into()) }
+        FilmSettings { width: 8, height: 4, diagonal: 50.0, filename: Some("a\\b \"c\".exr".into()), place: None }
     );
-    assert_eq!((scene.pixel_samples, scene.camera.fov), (15, 35.0));
+    let half = libm::tan(35_f64.to_radians() / 2.0);
+    assert_eq!((scene.pixel_samples, scene.camera.screen), (15, Screen::Half(half)));
 }

@@ -1,10 +1,10 @@
 //! Reads `Camera`, `Film` and `Sampler`.
 
-use super::description::{CameraSettings, FilmSettings, Lens};
+use super::description::{CameraSettings, FilmSettings, Lens, Screen};
 use super::message::{Message, Notes};
 use super::params::{Params, shown};
-use super::transform::{Transform, add, length, scaled};
-use crate::area::Area;
+use super::transform::{Transform, length, scaled};
+use crate::area::{Area, Place};
 use crate::limits::{MOST_SAMPLES, is_size};
 
 /// Reads a `Camera`, which looks along +z of camera space, and its transform to world space. `ctm` is the transform from world space.
@@ -14,38 +14,26 @@ pub(super) fn camera(
     ctm: &Transform,
     notes: &mut Notes,
 ) -> Result<(CameraSettings, Transform), Message> {
-    let far = match kind {
-        "perspective" => None,
-        "orthographic" => {
-            let why = "becomes a perspective one from a thousand times as far as the image is wide";
-            notes.stand_in(kind, || params.error(why));
-            Some(1000.0)
-        }
+    match kind {
+        "perspective" | "orthographic" => {}
         "realistic" | "spherical" | "environment" => {
             notes.stand_in(kind, || params.error("becomes a perspective one of 50 degrees"));
             params.ignore_all();
             params.set_float("fov", 50.0);
-            None
         }
-        _ => return Err(params.error("not supported, only \"perspective\" and stand-ins for pbrt's others")),
-    };
-    for name in ["shutteropen", "shutterclose", "hither", "yon", "halffov"] {
+        _ => return Err(params.error("not supported, only \"perspective\", \"orthographic\" and stand-ins for others")),
+    }
+    for name in ["shutteropen", "shutterclose", "hither", "yon"] {
         params.given(name);
     }
-    if params.given("frameaspectratio") {
-        let why = "\"frameaspectratio\" is ignored: pixels are square";
-        notes.stand_in("frameaspectratio", || params.error(why));
+    let frame = params.float("frameaspectratio")?;
+    if let Some(frame) = frame.filter(|frame| !(*frame > 0.0 && frame.is_finite())) {
+        return Err(params.error(format!("\"frameaspectratio\": must be greater than 0, not {}", shown(frame))));
     }
-    // half of the screen's shorter side, which is 1 for the field of view that is given
-    let screen = match params.numbers("screenwindow", "float", 4)?.as_deref() {
-        None => 1.0,
-        Some(&[left, right, bottom, top]) if left < right && bottom < top => {
-            if left + right != 0.0 || bottom + top != 0.0 {
-                let why = "\"screenwindow\" is moved to the middle of the image";
-                notes.stand_in("screenwindow", || params.error(why));
-            }
-            (right - left).min(top - bottom) / 2.0
-        }
+    // in units of the half of a shorter side
+    let window = match params.numbers("screenwindow", "float", 4)?.as_deref() {
+        None => frame.map(|frame| [-frame.max(1.0), frame.max(1.0), -(1.0 / frame).max(1.0), (1.0 / frame).max(1.0)]),
+        Some(&[left, right, lower, upper]) if left < right && lower < upper => Some([left, right, lower, upper]),
         Some(numbers) => {
             return Err(params.error(format!("\"screenwindow\": {numbers:?} is not x0 x1 y0 y1, ascending")));
         }
@@ -58,12 +46,9 @@ pub(super) fn camera(
     if focus <= 0.0 {
         return Err(params.error(format!("\"focaldistance\": must be greater than 0, not {}", shown(focus))));
     }
-    let given = params.float("fov")?.unwrap_or(90.0);
-    let fov = match far {
-        None if screen == 1.0 => given,
-        None => 2.0 * libm::atan(screen * libm::tan(given.to_radians() / 2.0)).to_degrees(),
-        Some(far) => 2.0 * libm::atan(1.0 / far).to_degrees(),
-    };
+    // as in pbrt-v3
+    let whole = params.float("halffov")?.filter(|half| *half > 0.0).map(|half| 2.0 * half);
+    let fov = whole.or(params.float("fov")?).unwrap_or(90.0);
     if !(fov > 0.0 && fov < 180.0) {
         return Err(
             params.error(format!("\"fov\": must be greater than 0 and less than 180 degrees, not {}", shown(fov)))
@@ -83,24 +68,50 @@ pub(super) fn camera(
             params.error(format!("a lens of radius {radius:e} focused at {focus:e} is out of the range of f32"))
         );
     }
-    let back = far.map_or(0.0, |far| -far * screen);
+    let half = match (kind, lens) {
+        ("orthographic", None) => unit,
+        // pbrt's rays leave from the lens towards the places of the screen in the plane of focus
+        ("orthographic", Some(_)) => 1.0 / focus,
+        _ => libm::tan(fov.to_radians() / 2.0),
+    };
     let camera = CameraSettings {
-        origin: world.point([0.0, 0.0, back]),
+        origin: world.point([0.0; 3]),
         forward: axis([0.0, 0.0, 1.0]),
         right: axis([1.0, 0.0, 0.0]),
         up: axis([0.0, 1.0, 0.0]),
-        fov,
+        is_orthographic: kind == "orthographic" && lens.is_none(),
+        screen: window.map_or(Screen::Half(half), |window| Screen::Edges(window.map(|edge| edge * half))),
         lens,
     };
-    let mut numbers = camera.forward.iter().chain(&camera.right).chain(&camera.up);
+    let edges = camera.edges(1, 1);
+    let mut numbers = camera.forward.iter().chain(&camera.right).chain(&camera.up).chain(&edges);
     if !numbers.all(|x| x.is_finite()) {
         return Err(singular());
     }
     Ok((camera, world))
 }
 
+/// Makes a camera show what its film shows.
+pub(super) fn fit(camera: &mut CameraSettings, film: &FilmSettings) {
+    let [width, height] = film.place.map_or([film.width, film.height], |place| place.whole);
+    // a screen of square pixels around the axis can have any shape
+    if let Screen::Edges([left, right, lower, upper]) = camera.screen
+        && left + right == 0.0
+        && lower + upper == 0.0
+        && (right * f64::from(height) / (upper * f64::from(width)) - 1.0).abs() < 1e-6
+    {
+        camera.screen = Screen::Half(right.min(upper));
+    }
+    if let Some(Place { start: [x, y], .. }) = film.place {
+        let [left, right, lower, upper] = camera.edges(width, height);
+        let across = |x: u32| left + (right - left) * (f64::from(x) / f64::from(width));
+        let down = |y: u32| upper + (lower - upper) * (f64::from(y) / f64::from(height));
+        camera.screen = Screen::Edges([across(x), across(x + film.width), down(y + film.height), down(y)]);
+    }
+}
+
 /// Reads a `Film`.
-pub(super) fn film(kind: &str, params: &mut Params) -> Result<(FilmSettings, Option<Window>), Message> {
+pub(super) fn film(kind: &str, params: &mut Params) -> Result<FilmSettings, Message> {
     if !["rgb", "image", "gbuffer", "spectral"].contains(&kind) {
         return Err(params.error("not supported, only \"rgb\", and \"gbuffer\" and \"spectral\" as if they were that"));
     }
@@ -117,15 +128,14 @@ pub(super) fn film(kind: &str, params: &mut Params) -> Result<(FilmSettings, Opt
         return Err(params.error(format!("\"diagonal\": must be from 1e-2 to 1e6 mm, not {diagonal:e}")));
     }
     let filename = params.text("filename")?;
-    let full = [width as u32, height as u32];
-    let Some([x0, y0, x1, y1]) = window(params, full)?.filter(|area| *area != [0, 0, full[0], full[1]]) else {
-        return Ok((FilmSettings { width: full[0], height: full[1], diagonal, filename }, None));
+    let whole = [width as u32, height as u32];
+    let Some([x0, y0, x1, y1]) = window(params, whole)?.filter(|area| *area != [0, 0, whole[0], whole[1]]) else {
+        return Ok(FilmSettings { width: whole[0], height: whole[1], diagonal, filename, place: None });
     };
-    let lens = params.error("only a part of the image is asked for, but the camera has a lens: the whole is rendered");
     let [width, height] = [x1 - x0, y1 - y0];
-    let part = f64::from(width).hypot(height.into()) / f64::from(full[0]).hypot(full[1].into());
-    let film = FilmSettings { width, height, diagonal: diagonal * part, filename };
-    Ok((film, Some(Window { full, diagonal, area: [x0, y0, x1, y1], lens })))
+    let part = f64::from(width).hypot(height.into()) / f64::from(whole[0]).hypot(whole[1].into());
+    let place = Some(Place { start: [x0, y0], whole });
+    Ok(FilmSettings { width, height, diagonal: diagonal * part, filename, place })
 }
 
 /// The pixels [x0, y0, x1, y1) of an image that are rendered, if the file gives them.
@@ -149,37 +159,6 @@ fn window(params: &mut Params, [width, height]: [u32; 2]) -> Result<Option<Area>
         return Err(params.error(format!("{name:?}: no pixel of {width} × {height} is in it")));
     }
     Ok(Some([x0, y0, x1, y1]))
-}
-
-/// The part of an image that is rendered.
-pub(super) struct Window {
-    /// Size of the whole image in pixels, and its diagonal in millimetres.
-    full: [u32; 2],
-    diagonal: f64,
-    area: Area,
-    /// The warning for cameras with a lens.
-    lens: Message,
-}
-
-impl Window {
-    /// Makes a pinhole camera see only this part of its image. For a camera with a lens, the film becomes a whole one.
-    pub(super) fn apply(self, camera: &mut CameraSettings, film: &mut FilmSettings, notes: &mut Notes) {
-        let [width, height] = self.full;
-        if camera.lens.is_some() {
-            (film.width, film.height, film.diagonal) = (width, height, self.diagonal);
-            return notes.warn(self.lens);
-        }
-        let [x0, y0, x1, y1] = self.area.map(f64::from);
-        let [kx, ky] = camera.tan_half(width, height);
-        let [w, h] = self.full.map(f64::from);
-        // towards the middle of the part, which is beside the camera's axis
-        let [across, up] = [kx * ((x0 + x1) / w - 1.0), ky * (1.0 - (y0 + y1) / h)];
-        let middle = add(camera.forward, add(scaled(camera.right, across), scaled(camera.up, up)));
-        let far = length(middle);
-        camera.forward = scaled(middle, 1.0 / far);
-        let shorter = (kx * (x1 - x0) / w).min(ky * (y1 - y0) / h);
-        camera.fov = 2.0 * libm::atan(shorter / far).to_degrees();
-    }
 }
 
 /// Reads the number of samples per pixel of a `Sampler`.

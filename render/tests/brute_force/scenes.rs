@@ -2,17 +2,24 @@
 
 use crate::meshes::{Random, Triangle, add, cube, meshes, sheet};
 use etendue_oracle::{V3, along, cross, dot, length, sub, unit, wide};
-use etendue_render::scene::{CameraSettings, Emission, FilmSettings, Geometry, Material, Scene, Shape};
+use etendue_render::scene::{CameraSettings, Emission, FilmSettings, Geometry, Material, Scene, Screen, Shape};
 use std::sync::Arc;
 
 /// A scene of triangles and shapes.
 pub(crate) fn scene(triangles: Vec<Triangle>, shapes: Vec<Shape>) -> Scene {
-    let camera =
-        CameraSettings { origin: [0.0; 3], forward: [0.0; 3], right: [0.0; 3], up: [0.0; 3], fov: 60.0, lens: None };
+    let camera = CameraSettings {
+        origin: [0.0; 3],
+        forward: [0.0; 3],
+        right: [0.0; 3],
+        up: [0.0; 3],
+        is_orthographic: false,
+        screen: Screen::Half(0.6),
+        lens: None,
+    };
     Scene {
         name: String::new(),
         camera,
-        film: FilmSettings { width: 1, height: 1, diagonal: 35.0, filename: None },
+        film: FilmSettings { width: 1, height: 1, diagonal: 35.0, filename: None, place: None },
         pixel_samples: 1,
         materials: vec![Material::Diffuse([0.5; 3]), Material::Diffuse([0.0; 3])],
         triangle_materials: vec![0; triangles.len()],

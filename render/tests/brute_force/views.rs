@@ -10,7 +10,7 @@ use etendue_render::bvh::{GROUP, Hits, NOTHING, SHAPE, Scratch};
 use etendue_render::camera::Pinhole;
 use etendue_render::certificates::{Patch, Pyramid, Viewer};
 use etendue_render::packet::M8;
-use etendue_render::scene::{CameraSettings, Geometry, Scene};
+use etendue_render::scene::{CameraSettings, Geometry, Scene, Screen};
 use etendue_render::surfaces::Surfaces;
 
 /// A scene to be tested.
@@ -100,7 +100,7 @@ impl World {
             forward,
             right,
             up,
-            fov: [60.0, 60.0, 1.0, 0.001][random.below(4)],
+            screen: Screen::Half([0.6, 0.6, 0.01, 1e-5][random.below(4)]),
             ..self.scene.camera.clone()
         };
         let size = [8, 64, 512, 4096][random.below(4)];

@@ -53,7 +53,7 @@ fn rays_meet_in_the_plane_of_focus() {
         let (width, height) = (64, 48);
         let Camera::ThinLens(lens) = Camera::new(camera, width, height) else { panic!("no lens") };
         let dot = |a: [f64; 3], b: [f64; 3]| (0..3).map(|k| a[k] * b[k]).sum::<f64>();
-        let [tx, ty] = camera.tan_half(width, height);
+        let [_, tx, _, ty] = camera.edges(width, height);
         let mut moments = [0.0; 5];
         let packets = 2000;
         for i in 0..packets {

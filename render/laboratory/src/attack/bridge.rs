@@ -161,15 +161,15 @@ fn has_area(body: &Body) -> bool {
 /// The camera of a scene for an image of this size, with its numbers rounded to f32 as the renderer keeps them.
 #[must_use]
 pub fn view(camera: &CameraSettings, width: u32, height: u32) -> View {
-    let [kx, ky] = camera.tan_half(width, height);
+    let [left, edge, lower, upper] = camera.edges(width, height);
     let vector = |f: &dyn Fn(usize) -> f64| std::array::from_fn(|k| f64::from(f(k) as f32));
     let (right, up) = (camera.right, camera.up);
     View {
         size: [width as usize, height as usize],
         origin: vector(&|k| camera.origin[k]),
-        corner: vector(&|k| camera.forward[k] - kx * right[k] + ky * up[k]),
-        across: vector(&|k| 2.0 * kx * right[k] / f64::from(width)),
-        down: vector(&|k| -2.0 * ky * up[k] / f64::from(height)),
+        corner: vector(&|k| camera.forward[k] + left * right[k] + upper * up[k]),
+        across: vector(&|k| (edge - left) * right[k] / f64::from(width)),
+        down: vector(&|k| (lower - upper) * up[k] / f64::from(height)),
         lens: camera.lens.map(|lens| {
             let along = |length: f64| [right, up].map(|axis| vector(&|k| axis[k] * length));
             Lens { radii: along(lens.radius * lens.unit), bends: along(lens.radius / lens.focus) }

@@ -1,7 +1,7 @@
-//! Reads perspective cameras, and makes one for a scene without any.
+//! Reads cameras, and makes one for a scene without any.
 
 use super::super::builder::Builder;
-use super::super::description::{CameraSettings, FilmSettings};
+use super::super::description::{CameraSettings, FilmSettings, Screen};
 use super::super::message::Message;
 use super::super::transform::{Transform, add, cross, dot, length, scaled, sub, unit};
 use super::source::Source;
@@ -20,43 +20,59 @@ const FOV: f64 = 40.0;
 
 /// An image of this size.
 fn film([width, height]: [u32; 2]) -> FilmSettings {
-    FilmSettings { width, height, diagonal: 35.0, filename: None }
+    FilmSettings { width, height, diagonal: 35.0, filename: None, place: None }
 }
 
-/// Reads the camera of a node, which looks along its −z axis with its y axis up; `None` if it is orthographic. Scales of the node do
-/// not change the image, but reflections mirror it.
+/// Reads the camera of a node, which looks along its −z axis with its y axis up. Scales of the node do not change the image, but reflections
+/// mirror it.
 pub(super) fn read(
     source: &Source<'_>,
     camera: Index<Camera>,
     node: usize,
     transform: &Transform,
-) -> Result<Option<(CameraSettings, FilmSettings)>, Message> {
+) -> Result<(CameraSettings, FilmSettings), Message> {
     let (index, camera) = source.item(&source.root.cameras, camera, "camera", &format!("node {node}"))?;
     let failed = |what: String| source.message(format!("camera {index}: {what}"));
-    match camera.type_ {
-        Checked::Valid(Type::Perspective) => {}
-        Checked::Valid(Type::Orthographic) => return Ok(None),
-        Checked::Invalid => return Err(failed("its type is not \"perspective\" or \"orthographic\"".into())),
-    }
-    let missing = || failed("a perspective camera without \"perspective\"".into());
-    let perspective = camera.perspective.as_ref().ok_or_else(missing)?;
-    let yfov = f64::from(perspective.yfov);
-    if !(yfov > 0.0 && yfov < std::f64::consts::PI) {
-        return Err(failed(format!("yfov: must be greater than 0 and less than π, not {yfov}")));
-    }
-    let size = match perspective.aspect_ratio.map(f64::from) {
-        Some(aspect) if !(aspect > 0.0 && aspect.is_finite()) => {
-            return Err(failed(format!("aspectRatio: must be finite and greater than 0, not {aspect}")));
-        }
-        Some(aspect) => {
-            let height = (f64::from(SIZE[0]) / aspect).round().clamp(1.0, f64::from(MOST_SIDE));
-            [SIZE[0], height as u32]
-        }
-        None => SIZE,
+    let sized = |aspect: f64| {
+        let height = (f64::from(SIZE[0]) / aspect).round().clamp(1.0, f64::from(MOST_SIDE));
+        [SIZE[0], height as u32]
     };
-    // across the shorter side
-    let narrowed = (f64::from(size[0]) / f64::from(size[1])).min(1.0);
-    let fov = 2.0 * libm::atan(libm::tan(yfov / 2.0) * narrowed).to_degrees();
+    let narrowed = |size: [u32; 2]| (f64::from(size[0]) / f64::from(size[1])).min(1.0);
+    // half of the shorter side, and which axes are mirrored
+    let (is_orthographic, half, size, signs) = match camera.type_ {
+        Checked::Valid(Type::Perspective) => {
+            let missing = || failed("a perspective camera without \"perspective\"".into());
+            let perspective = camera.perspective.as_ref().ok_or_else(missing)?;
+            let yfov = f64::from(perspective.yfov);
+            if !(yfov > 0.0 && yfov < std::f64::consts::PI) {
+                return Err(failed(format!("yfov: must be greater than 0 and less than π, not {yfov}")));
+            }
+            let size = match perspective.aspect_ratio.map(f64::from) {
+                Some(aspect) if !(aspect > 0.0 && aspect.is_finite()) => {
+                    return Err(failed(format!("aspectRatio: must be finite and greater than 0, not {aspect}")));
+                }
+                Some(aspect) => sized(aspect),
+                None => SIZE,
+            };
+            let half = libm::tan(yfov / 2.0) * narrowed(size);
+            if !(half > 0.0 && half < 1e15) {
+                return Err(failed(format!("yfov {yfov}: a tangent of {half} of half the shorter side of the image")));
+            }
+            (false, half, size, [1.0; 2])
+        }
+        Checked::Valid(Type::Orthographic) => {
+            let missing = || failed("an orthographic camera without \"orthographic\"".into());
+            let orthographic = camera.orthographic.as_ref().ok_or_else(missing)?;
+            let sides = [orthographic.xmag, orthographic.ymag].map(f64::from);
+            if !sides.iter().all(|side| side.is_finite() && *side != 0.0) {
+                return Err(failed(format!("xmag {} and ymag {}: must be finite and not 0", sides[0], sides[1])));
+            }
+            let [x, y] = sides.map(f64::abs);
+            let size = sized(x / y);
+            (true, y * narrowed(size), size, sides.map(f64::signum))
+        }
+        Checked::Invalid => return Err(failed("its type is not \"perspective\" or \"orthographic\"".into())),
+    };
     let axis = |v: [f64; 3], others: &[[f64; 3]]| {
         let v = unit(transform.vector(v))?;
         let rest = others.iter().fold(v, |v, other| sub(v, scaled(*other, dot(v, *other))));
@@ -64,15 +80,13 @@ pub(super) fn read(
     };
     let axes = || {
         let forward = axis([0.0, 0.0, -1.0], &[])?;
-        let right = axis([1.0, 0.0, 0.0], &[forward])?;
-        Some([forward, right, axis([0.0, 1.0, 0.0], &[forward, right])?])
+        let right = axis([signs[0], 0.0, 0.0], &[forward])?;
+        Some([forward, right, axis([0.0, signs[1], 0.0], &[forward, right])?])
     };
     let [forward, right, up] =
         axes().ok_or_else(|| source.message(format!("node {node}: the transform of its camera is singular")))?;
-    if !(fov > 0.0 && fov < 180.0) {
-        return Err(failed(format!("yfov {yfov}: {fov} degrees across the shorter side of the image")));
-    }
-    Ok(Some((CameraSettings { origin: transform.shift, forward, right, up, fov, lens: None }, film(size))))
+    let (origin, screen) = (transform.shift, Screen::Half(half));
+    Ok((CameraSettings { origin, forward, right, up, is_orthographic, screen, lens: None }, film(size)))
 }
 
 /// A camera that sees all surfaces, from above and from the side.
@@ -88,5 +102,6 @@ pub(super) fn framing(out: &Builder) -> (CameraSettings, FilmSettings) {
     let right = [cos_a, 0.0, -sin_a];
     let up = cross(right, forward);
     let origin = add(center, scaled(towards_eye, distance));
-    (CameraSettings { origin, forward, right, up, fov: FOV, lens: None }, film(SIZE))
+    let screen = Screen::Half(libm::tan(FOV.to_radians() / 2.0));
+    (CameraSettings { origin, forward, right, up, is_orthographic: false, screen, lens: None }, film(SIZE))
 }

@@ -1,23 +1,109 @@
 //! Cameras of other programs, and parts of their images.
 
 use super::*;
+use crate::area::Place;
+use crate::camera::{Camera, CameraSample, counted_from};
+use crate::packet::X8;
+use etendue::{Vec2, u32x8};
+
+fn seen_by(text: &str) -> Scene {
+    parse(&format!("{text} WorldBegin LightSource \"point\""), "a.pbrt", Path::new(".")).unwrap()
+}
 
 #[test]
 fn cameras_of_others() {
-    let camera =
-        |text: &str| parse(&format!("{text} WorldBegin LightSource \"point\""), "a.pbrt", Path::new(".")).unwrap();
-    let far = camera("LookAt 0 0 5 0 0 0 0 1 0 Camera \"orthographic\" \"float screenwindow\" [-2 2 -2 2]");
-    let CameraSettings { origin, forward, .. } = far.camera;
-    // a point two units beside the axis in front of the camera is at the edge of the image
-    let edge = far.camera.tan_half(100, 100)[0] * (origin[2] - 5.0);
-    assert!(forward[2] == -1.0 && (edge - 2.0).abs() < 1e-9 && far.stand_ins.len() == 1, "{edge}");
-    let wide = camera("Camera \"perspective\" \"float fov\" 90 \"float screenwindow\" [-.5 .5 -.5 .5]");
-    assert!((wide.camera.tan_half(1, 1)[0] - 0.5).abs() < 1e-12 && wide.stand_ins.is_empty());
-    assert_eq!(
-        camera("Camera \"realistic\" \"string lensfile\" \"x.dat\" \"float aperturediameter\" 1").stand_ins.len(),
-        1
-    );
-    assert!(camera("Film \"gbuffer\" \"float cropwindow\" [0 1 0 1] Camera \"perspective\"").warnings.is_empty());
+    let realistic = seen_by("Camera \"realistic\" \"string lensfile\" \"x.dat\" \"float aperturediameter\" 1");
+    assert_eq!(realistic.stand_ins.len(), 1);
+    let half = |text: &str| seen_by(&format!("Camera \"perspective\" {text}")).camera.screen;
+    // pbrt-v3 has it
+    assert!(matches!(half("\"float halffov\" 45"), Screen::Half(half) if (half - 1.0).abs() < 1e-12));
+    assert!(seen_by("Film \"gbuffer\" \"float cropwindow\" [0 1 0 1] Camera \"perspective\"").warnings.is_empty());
+}
+
+/// The screen is what the file says, in its shape: pixels need not be square, and the axis need not be in the middle.
+#[test]
+fn screens() {
+    let film = "Film \"rgb\" \"integer xresolution\" 200 \"integer yresolution\" 100";
+    // of a field of view of 90 degrees, the half of the shorter side is 1
+    for (kind, unit) in [("perspective", 1.0), ("orthographic", 2.0)] {
+        for (text, edges) in [
+            ("", [-2.0, 2.0, -1.0, 1.0]),
+            ("\"float screenwindow\" [-2 2 -1 1]", [-2.0, 2.0, -1.0, 1.0]),
+            ("\"float screenwindow\" [-1 1 -.5 .5]", [-1.0, 1.0, -0.5, 0.5]),
+            ("\"float screenwindow\" [-.5 .5 -.5 .5]", [-0.5, 0.5, -0.5, 0.5]),
+            ("\"float screenwindow\" [0 4 -3 1]", [0.0, 4.0, -3.0, 1.0]),
+            ("\"float frameaspectratio\" 2", [-2.0, 2.0, -1.0, 1.0]),
+            ("\"float frameaspectratio\" 4", [-4.0, 4.0, -1.0, 1.0]),
+            ("\"float frameaspectratio\" .5", [-1.0, 1.0, -2.0, 2.0]),
+            ("\"float frameaspectratio\" .5 \"float screenwindow\" [-2 2 -1 1]", [-2.0, 2.0, -1.0, 1.0]),
+        ] {
+            let scene = seen_by(&format!("Scale .5 .5 .5 {film} Camera \"{kind}\" {text}"));
+            let found = scene.camera.edges(200, 100);
+            let wanted = edges.map(|edge| edge * unit);
+            assert!(found.iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-12), "{kind} {text}: {found:?}");
+            assert_eq!(scene.camera.is_orthographic, kind == "orthographic");
+            assert!(scene.warnings.is_empty(), "{:?}", scene.warnings);
+        }
+    }
+    // square pixels around the axis stay square in images of another shape
+    let square = seen_by(&format!("{film} Camera \"perspective\" \"float screenwindow\" [-1 1 -.5 .5]"));
+    assert!(matches!(square.camera.screen, Screen::Half(half) if (half - 0.5).abs() < 1e-12));
+}
+
+/// Parallel rays begin at the camera, and have the mirrored and stretched axes of its transform.
+#[test]
+fn parallel_rays() {
+    for (transform, right, up) in [
+        ("", [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0]),
+        ("Scale -1 1 1", [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]),
+        ("Scale 1 -.5 1", [-1.0, 0.0, 0.0], [0.0, -2.0, 0.0]),
+        ("Scale .25 .25 .25", [-4.0, 0.0, 0.0], [0.0, 4.0, 0.0]),
+    ] {
+        let scene = seen_by(&format!("{transform} LookAt 0 3 5 0 3 0 0 1 0 Camera \"orthographic\""));
+        let Camera::Orthographic(camera) = Camera::new(&scene.camera, 8, 8) else { panic!() };
+        for [x, y] in [[4.0, 4.0], [8.0, 0.0], [1.0, 7.0]] {
+            let (origin, direction) = camera.ray(X8::splat(x), X8::splat(y));
+            let [a, b] = [x / 4.0 - 1.0, 1.0 - y / 4.0];
+            let wanted: [f32; 3] = std::array::from_fn(|k| [0.0, 3.0, 5.0][k] + a * right[k] + b * up[k]);
+            assert_eq!(<[f32; 3]>::from(origin.lane(0)), wanted, "{transform}");
+            assert_eq!(<[f32; 3]>::from(direction.lane(0)), [0.0, 0.0, -1.0], "{transform}");
+        }
+    }
+    // with a lens, all rays leave from it towards the screen in the plane of focus
+    let lens = "\"float lensradius\" .5 \"float focaldistance\" 4";
+    let scene = seen_by(&format!("LookAt 0 3 5 0 3 0 0 1 0 Camera \"orthographic\" {lens}"));
+    let Camera::ThinLens(camera) = Camera::new(&scene.camera, 8, 8) else { panic!() };
+    let at = Vec2::new(X8::splat(0.5), X8::splat(-0.25));
+    let (origin, direction) = camera.ray(X8::splat(8.0), X8::splat(0.0), at);
+    let [origin, direction] = [origin, direction].map(|v| <[f32; 3]>::from(v.lane(0)));
+    assert_eq!(origin, [-0.25, 2.875, 5.0]);
+    let focus: [f32; 3] = std::array::from_fn(|k| origin[k] + 4.0 * direction[k] / -direction[2]);
+    assert!(focus.iter().zip([-1.0, 4.0, 1.0]).all(|(a, b)| (a - b).abs() < 1e-5), "{focus:?}");
+}
+
+/// However wide the film, its pixels see what they should, up to the rounding of the rays themselves: of parallel ones to 2⁻¹⁰ of a pixel, of
+/// others twice as much. The position is rounded to 2⁻¹³ of a pixel, and would be to 2⁻⁹ if it were counted from the corner of the film.
+#[test]
+fn wide_films() {
+    let (side, step) = (65_536, 2_f64.powi(-10));
+    for (kind, lens, limit) in [("orthographic", 0.0, 1.13), ("perspective", 0.0, 2.2), ("perspective", 0.01, 2.2)] {
+        let view = "LookAt 0 0 0 0 0 1 0 1 0 Camera";
+        let scene = seen_by(&format!("{view} \"{kind}\" \"float lensradius\" {lens}"));
+        let (camera, [.., upper]) = (Camera::new(&scene.camera, 4096, side), scene.camera.edges(4096, side));
+        for y in [0, 1, 4095, 4096, 20_000, 40_001, 65_535] {
+            let start = counted_from([1000, y]);
+            let near = camera.counted_from(start);
+            for u in (0..1000).map(|k| (k as f32 + 0.37) / 1000.0) {
+                let pixel = [1000 - start[0], y - start[1]].map(u32x8::splat);
+                let sample = CameraSample::new(pixel[0], pixel[1], Vec2::new(X8::splat(0.5), X8::splat(u)), None);
+                let (origin, direction) = near.rays(&sample);
+                let [origin, direction] = [origin, direction].map(|v| v.lane(0).map(f64::from));
+                let up = origin.y + direction.y / direction.z;
+                let error = (1.0 - up / upper) * f64::from(side) / 2.0 - f64::from(y) - f64::from(u);
+                assert!(error.abs() < limit * step, "{kind}, row {y} + {u}: {error} of a pixel");
+            }
+        }
+    }
 }
 
 /// A part of an image shows what the whole shows there.
@@ -32,8 +118,9 @@ fn parts_of_images() {
     let whole = of("", "").unwrap();
     let through = |scene: &Scene, x: f64, y: f64| {
         let (camera, film) = (&scene.camera, &scene.film);
-        let t = camera.tan_half(film.width, film.height);
-        let [a, b] = [(2.0 * x / f64::from(film.width) - 1.0) * t[0], (1.0 - 2.0 * y / f64::from(film.height)) * t[1]];
+        let [left, right, lower, upper] = camera.edges(film.width, film.height);
+        let a = left + (right - left) * x / f64::from(film.width);
+        let b = upper + (lower - upper) * y / f64::from(film.height);
         let axis = |k: usize| camera.forward[k] + a * camera.right[k] + b * camera.up[k];
         let direction = [axis(0), axis(1), axis(2)];
         let length = direction.iter().map(|x| x * x).sum::<f64>().sqrt();
@@ -60,10 +147,11 @@ fn parts_of_images() {
             let [a, b] = [through(&part, x, y), through(&whole, f64::from(x0) + x, f64::from(y0) + y)];
             assert!(a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-12), "{film}: {a:?}, not {b:?}");
         }
-        // a lens is perpendicular to the middle of the whole
+        assert_eq!(part.film.place, Some(Place { start: [x0, y0], whole: [200, 100] }));
+        // a lens stays perpendicular to the axis of the whole
         let lens = of(film, "\"float lensradius\" .1").unwrap();
-        assert_eq!((lens.film.width, lens.film.height, lens.warnings.len()), (200, 100, 1));
-        assert_eq!(lens.film.diagonal, 35.0);
+        assert_eq!((lens.camera.screen, &lens.film), (part.camera.screen, &part.film));
+        assert_eq!((lens.camera.forward, lens.warnings.len()), (whole.camera.forward, 0));
     }
     assert!(of("\"float cropwindow\" [0 1 0 1 0 1 0 1]", "").is_err());
 }

@@ -163,6 +163,11 @@ fn errors_before_the_world() {
         ("Scale 1e-30 1e-30 1e-30\nCamera \"perspective\" \"float lensradius\" 1e9", 2, "out of the range"),
         ("Camera \"perspective\" \"float screenwindow\" [1 -1 -1 1]", 1, "is not x0 x1 y0 y1, ascending"),
         (
+            "Camera \"orthographic\" \"float frameaspectratio\" 0",
+            1,
+            "\"frameaspectratio\": must be greater than 0, not 0",
+        ),
+        (
             "Camera \"perspective\" \"float fov\" 180",
             1,
             "\"fov\": must be greater than 0 and less than 180 degrees, not 180",

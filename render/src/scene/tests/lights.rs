@@ -222,7 +222,13 @@ fn new_builtin_scenes_are_sound() {
         let file = if *name == "sky" { "sky-render" } else { name };
         assert_eq!(
             scene.film,
-            FilmSettings { width: 256, height: 256, diagonal: 35.0, filename: Some(format!("{file}.exr")) }
+            FilmSettings {
+                width: 256,
+                height: 256,
+                diagonal: 35.0,
+                filename: Some(format!("{file}.exr")),
+                place: None
+            }
         );
     }
     let cornell = load("cornell-box").unwrap();

@@ -51,7 +51,7 @@ fn descriptions_state_the_number_of_lights() {
         assert_eq!(warnings(&scene), [""; 0], "{name}");
         assert_eq!((scene.name.as_str(), scene.pixel_samples), (*name, 64));
         let filename = Some(format!("{name}.exr"));
-        assert_eq!(scene.film, FilmSettings { width: 256, height: 256, diagonal: 35.0, filename });
+        assert_eq!(scene.film, FilmSettings { width: 256, height: 256, diagonal: 35.0, filename, place: None });
         // lights reflect nothing, and each emits
         assert!(emitting.iter().all(|shape| scene.materials[shape.material as usize].is_black()), "{name}");
         let radiance = |shape: &&Shape| shape.emission.unwrap().radiance;

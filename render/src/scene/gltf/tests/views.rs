@@ -1,6 +1,6 @@
 //! Tests of cameras and lights.
 
-use super::super::super::{CameraSettings, DeltaLight, load_with_sky};
+use super::super::super::{CameraSettings, DeltaLight, Screen, load_with_sky};
 use super::*;
 use crate::packet::V8;
 use crate::sky::Sky;
@@ -12,7 +12,7 @@ fn project(camera: &CameraSettings, size: [u32; 2], point: [f64; 3]) -> [f64; 2]
     let along = |axis: [f64; 3]| axis.iter().zip(offset).map(|(a, b)| a * b).sum::<f64>();
     let depth = along(camera.forward);
     assert!(depth > 0.0, "{point:?} is behind {camera:?}");
-    let [x, y] = camera.tan_half(size[0], size[1]);
+    let [_, x, _, y] = camera.edges(size[0], size[1]);
     [(along(camera.right) / depth / x + 1.0) / 2.0, (1.0 - along(camera.up) / depth / y) / 2.0]
 }
 
@@ -40,7 +40,7 @@ fn cameras_look_along_minus_z_and_do_not_mirror() {
     let asset = with_camera(json!({"yfov": right, "znear": 0.1, "aspectRatio": 2}), json!({"translation": [0, 0, 5]}));
     let (settings, size) = camera(&asset);
     assert_eq!(size, [1280, 640]);
-    assert!((settings.fov - 90.0).abs() < 1e-4);
+    assert!(matches!(settings.screen, Screen::Half(half) if (half - 1.0).abs() < 1e-6));
     near(project(&settings, size, [0.0; 3]), [0.5, 0.5]);
     // to the right, and up
     near(project(&settings, size, [5.0, 2.5, 0.0]), [0.75, 0.25]);
@@ -61,25 +61,46 @@ fn the_vertical_angle_of_upright_images_is_kept() {
     let asset = with_camera(json!({"yfov": 1, "znear": 0.1, "aspectRatio": 0.5}), json!({}));
     let (settings, size) = camera(&asset);
     assert_eq!(size, [1280, 2560]);
-    let [_, vertical] = settings.tan_half(size[0], size[1]);
+    let [.., vertical] = settings.edges(size[0], size[1]);
     assert!((vertical - 0.5_f64.tan()).abs() < 1e-9);
     // sizes stay possible
     for (aspect, height) in [(1e-9, 65_536), (1e9, 1)] {
         let (settings, size) = camera(&with_camera(json!({"yfov": 1, "znear": 1, "aspectRatio": aspect}), json!({})));
         assert_eq!(size, [1280, height]);
-        assert!((settings.tan_half(size[0], size[1])[1] - 0.5_f64.tan()).abs() < 1e-9);
+        assert!((settings.edges(size[0], size[1])[3] - 0.5_f64.tan()).abs() < 1e-9);
     }
 }
 
 #[test]
-fn the_first_perspective_camera_counts() {
+fn the_first_camera_counts() {
     let mut asset = with_camera(json!({"yfov": 0.5, "znear": 1}), json!({}));
     asset.add("cameras", json!({"type": "perspective", "perspective": {"yfov": 1, "znear": 1}}));
-    asset
-        .add("cameras", json!({"type": "orthographic", "orthographic": {"xmag": 1, "ymag": 1, "zfar": 1, "znear": 0}}));
-    asset.json["nodes"] = json!([{"camera": 2}, {"camera": 1}, {"camera": 0}, {"camera": 2}]);
-    assert!((camera(&asset).0.fov.to_radians() - 1.0).abs() < 1e-9);
-    assert_eq!(asset.warnings(), ["a.gltf: node 0: its orthographic camera is ignored (reported once)"]);
+    asset.json["nodes"] = json!([{"mesh": 0}, {"camera": 1}, {"camera": 0}]);
+    let (first, size) = camera(&asset);
+    assert!((first.edges(size[0], size[1])[3] - 0.5_f64.tan()).abs() < 1e-9);
+}
+
+/// xmag and ymag are half of what the image shows, in units of the world; scales of nodes do not matter, and negative ones mirror.
+#[test]
+fn orthographic_cameras() {
+    let with = |xmag: f64, ymag: f64| {
+        let mut asset = Asset::of_triangle();
+        let shown = json!({"xmag": xmag, "ymag": ymag, "zfar": 10, "znear": 0.1});
+        let camera = asset.add("cameras", json!({"type": "orthographic", "orthographic": shown}));
+        let node = json!({"camera": camera, "translation": [1, 2, 5], "scale": [3, 3, 3]});
+        asset.add("nodes", node);
+        asset
+    };
+    for (xmag, ymag, height) in [(3.0, 1.5, 640), (-3.0, 1.5, 640), (2.0, -8.0, 5120)] {
+        let asset = with(xmag, ymag);
+        let (settings, size) = camera(&asset);
+        assert!(settings.is_orthographic && asset.warnings() == [""; 0]);
+        assert_eq!((size, settings.origin), ([1280, height], [1.0, 2.0, 5.0]));
+        assert_eq!(settings.edges(size[0], size[1]), [-xmag.abs(), xmag.abs(), -ymag.abs(), ymag.abs()]);
+        assert_eq!(settings.forward, [0.0, 0.0, -1.0]);
+        assert_eq!([settings.right[0], settings.up[1]], [xmag, ymag].map(f64::signum));
+    }
+    assert_eq!(with(0.0, 1.0).error(), "a.glb: camera 0: xmag 0 and ymag 1: must be finite and not 0");
 }
 
 #[test]
@@ -88,7 +109,7 @@ fn scenes_without_a_camera_are_framed() {
     asset.json["nodes"][0]["translation"] = json!([100, -3, 7]);
     asset.json["nodes"][0]["scale"] = json!([10, 20, 30]);
     let (settings, size) = camera(&asset);
-    assert_eq!((size, settings.fov), ([1280, 720], 40.0));
+    assert_eq!((size, settings.screen), ([1280, 720], Screen::Half(libm::tan(40_f64.to_radians() / 2.0))));
     let places = [[100.0, -3.0, 7.0], [110.0, -3.0, 7.0], [100.0, 17.0, 7.0]].map(|p| project(&settings, size, p));
     assert!(places.iter().flatten().all(|x| (0.0..=1.0).contains(x)), "{places:?}");
     // neither mirrored nor upside down
