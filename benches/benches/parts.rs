@@ -55,7 +55,7 @@ fn row(what: &str, frame: &Frame, count: u32, piece: impl Fn(u32) -> Piece + Syn
     };
     let merged = start.elapsed().as_secs_f64();
     let start = Instant::now();
-    image::write_exr(&folder.join("image.exr"), &film).expect("a folder for temporary files");
+    image::write_exr(&folder.join("image.exr"), &film, None).expect("a folder for temporary files");
     let saved = start.elapsed().as_secs_f64();
     let (pixels, peak) = (film.pixels.len() as f64, peak());
     let (each, size) = (bytes as f64 / f64::from(count) / 1e3, pixels / 1e6);

@@ -1,5 +1,6 @@
 //! What an image depends on, so that its parts can be recognised.
 
+use crate::area::Place;
 use crate::files::{FileError, failed, read_file};
 use crate::integrator::Settings;
 use crate::limits::{MOST_SAMPLES, MOST_SIDE, is_size};
@@ -23,6 +24,8 @@ pub struct Frame {
     pub settings: Settings,
     /// What is measured.
     pub sensor: Sensor,
+    /// Where the image is in the whole one, if it is only a part.
+    pub place: Option<Place>,
     /// Whether the camera has a lens.
     pub lens: bool,
     /// The value of unit radiance at the middle of the image, in the unit of the sensor: the PNG is exposed by it.
@@ -62,6 +65,7 @@ impl Frame {
             digest: digest(scene)?,
             settings,
             sensor,
+            place: scene.film.place,
             lens: scene.camera.lens.is_some(),
             exposure: exposure.map_or(1.0, |exposure| exposure.on_axis()),
             build: BUILD.to_owned(),
@@ -92,6 +96,7 @@ impl Frame {
             "sets": sets,
             "seed": seed,
             "sensor": name(self.sensor),
+            "place": self.place.map(|Place { start: [x, y], whole: [across, down] }| [x, y, across, down]),
             "lens": self.lens,
             "exposure": format!("{:?}", self.exposure),
             "build": self.build,
@@ -121,11 +126,23 @@ impl Frame {
             sets: small("sets", 4)?,
             seed: number("seed")?,
         };
+        let of_place = |numbers: &Vec<Value>| {
+            let numbers: Vec<u64> =
+                numbers.iter().map_while(Value::as_u64).filter(|n| *n <= MOST_SIDE.into()).collect();
+            let &[x, y, across, down] = &numbers[..] else { return Err(wrong("place")) };
+            let [right, lower] = [x + u64::from(settings.width), y + u64::from(settings.height)];
+            if !is_size(across, down) || right > across || lower > down {
+                return Err(wrong("place"));
+            }
+            Ok(Place { start: [x as u32, y as u32], whole: [across as u32, down as u32] })
+        };
+        let place = value["place"].as_array().map(of_place).transpose()?;
         let frame = Self {
             scene: text("scene")?,
             digest: text("digest")?,
             settings,
             sensor: choice::<Sensor>(&text("sensor")?, wrong("sensor"))?,
+            place,
             lens: value["lens"].as_bool().ok_or_else(|| wrong("lens"))?,
             exposure: text("exposure")?.parse().ok().filter(|x| *x > 0.0).ok_or_else(|| wrong("exposure"))?,
             build: text("build")?,
@@ -161,6 +178,26 @@ mod tests {
     use super::*;
     use crate::scene;
     use std::fs;
+
+    /// A place is read as it was written, and must be within the whole image.
+    #[test]
+    fn places_are_kept() {
+        let view = "Camera \"perspective\" WorldBegin LightSource \"point\"";
+        let film =
+            "Film \"rgb\" \"integer xresolution\" 64 \"integer yresolution\" 32 \"integer pixelbounds\" [10 20 5 9]";
+        let scene = scene::parse(&format!("{film} {view}"), "a.pbrt", std::path::Path::new("")).unwrap();
+        let (width, height) = (scene.film.width, scene.film.height);
+        let (technique, sampler) = (Technique::Area, Sampler::Sobol);
+        let settings = Settings { width, height, spp: 4, technique, depth: 8, sampler, sets: 0, seed: 0 };
+        let frame = Frame::new(&scene, settings, Sensor::Radiance).unwrap();
+        assert_eq!(frame.place, Some(Place { start: [10, 5], whole: [64, 32] }));
+        let mut json = frame.to_json();
+        assert_eq!(Frame::from_json(&json).unwrap(), frame);
+        for wrong in [json!([10, 5, 64]), json!([55, 5, 64, 32]), json!([-1, 5, 64, 32]), json!([0, 0, u64::MAX, 32])] {
+            json["place"] = wrong;
+            assert!(Frame::from_json(&json).unwrap_err().contains("\"place\" is missing or wrong"));
+        }
+    }
 
     /// A changed texture or mesh makes another scene, even if the scene file stays as it was.
     #[test]

@@ -8,10 +8,12 @@ mod texels;
 pub use exr::prelude::Compression;
 pub use texels::Encoding;
 
+use crate::area::Place;
 use crate::files::{FileError, failed, replace};
 use crate::film::{Film, Pixel};
 use crate::texture::{Colors, Texels, srgb_to_linear};
 use exr::block::chunk::CompressedBlock;
+use exr::meta::attribute::IntegerBounds;
 use exr::prelude::{ReadChannels, ReadLayers};
 use layers::{Layer, Numbers};
 use serde_json::Value;
@@ -23,16 +25,20 @@ use texels::{PNG, Rows};
 
 const CHANNELS: [&str; 3] = ["R", "G", "B"];
 
-/// Writes an EXR file with the channels R, G, B, the variance of the mean (`variance.R`, …) and the sample count (`samples.N`).
-/// Equal films give equal bytes.
+/// However short a file is, its display window can have 2²⁴ pixels, as can one of so many bytes.
+const SHORT: usize = 1 << 10;
+
+/// Writes an EXR file with the channels R, G, B, the variance of the mean (`variance.R`, …) and the sample count (`samples.N`). If the film
+/// has a place in a larger image, that image is the display window, and the place the data window. Equal films give equal bytes.
 ///
 /// # Errors
 /// Fails if the file cannot be written; an existing file then remains unchanged.
-pub fn write_exr(path: &Path, film: &Film) -> Result<(), FileError> {
-    let size = [film.width, film.height];
-    let layer = Layer { area: [0, 0, film.width, film.height], planes: planes(&film.pixels), text: Value::Null };
+pub fn write_exr(path: &Path, film: &Film, place: Option<Place>) -> Result<(), FileError> {
+    let Place { start: [x, y], whole } = place.unwrap_or(Place { start: [0; 2], whole: [film.width, film.height] });
+    let layer =
+        Layer { area: [x, y, x + film.width, y + film.height], planes: planes(&film.pixels), text: Value::Null };
     let bytes =
-        layers::encode(size, &Value::Null, vec![layer], Compression::ZIP16).map_err(|error| failed(path, error))?;
+        layers::encode(whole, &Value::Null, vec![layer], Compression::ZIP16).map_err(|error| failed(path, error))?;
     replace(path, &bytes)
 }
 
@@ -101,6 +107,8 @@ pub struct Picture {
 
 /// Reads a picture from an OpenEXR or Radiance HDR file, or from a PNG file, whose values are decoded from sRGB.
 ///
+/// The picture of an OpenEXR file is its display window. Where its data window has no pixels, it is black, and what it has outside is left out.
+///
 /// # Errors
 /// Fails if the file is missing, damaged or of another format, or has more than 2²⁸ pixels.
 pub fn read(path: &Path) -> Result<Picture, FileError> {
@@ -115,7 +123,8 @@ pub fn read(path: &Path) -> Result<Picture, FileError> {
 pub fn decode(path: &Path, bytes: &[u8]) -> Result<Picture, FileError> {
     // OpenEXR's magic number
     if bytes.starts_with(&[0x76, 0x2f, 0x31, 0x01]) {
-        return decode_exr(bytes, path);
+        return decode_windows(bytes, path)
+            .and_then(|(data, start, display)| displayed(path, bytes.len(), data, start, display));
     }
     if bytes.starts_with(PNG) {
         return decode_png(bytes, path);
@@ -173,7 +182,7 @@ impl From<&Film> for Picture {
     }
 }
 
-/// Reads the channels R, G, B and, if present, `variance.R`, `variance.G`, `variance.B`.
+/// Reads the channels R, G, B and, if present, `variance.R`, `variance.G`, `variance.B` of the data window.
 ///
 /// # Errors
 /// Fails if the file is missing or damaged, has no R, G, B, or has more than 2²⁸ pixels.
@@ -187,6 +196,44 @@ pub fn read_exr(path: &Path) -> Result<Picture, FileError> {
 /// # Errors
 /// Fails if the file is damaged, has no R, G, B, or has more than 2²⁸ pixels.
 pub fn decode_exr(bytes: &[u8], path: &Path) -> Result<Picture, FileError> {
+    decode_windows(bytes, path).map(|(data, ..)| data)
+}
+
+/// What a display window shows of the pixels of a data window whose first one is `start`, in a file of `length` bytes.
+fn displayed(
+    path: &Path,
+    length: usize,
+    data: Picture,
+    start: [i64; 2],
+    display: IntegerBounds,
+) -> Result<Picture, FileError> {
+    let first = [display.position.0, display.position.1].map(i64::from);
+    let [width, height] = [display.size.0, display.size.1];
+    if start == first && [data.width, data.height] == [width, height] {
+        return Ok(data);
+    }
+    // a small data window takes few bytes, however large the display window is
+    let size = [width as u128, height as u128];
+    believe(path, size, 1, length.max(SHORT))?;
+    let mut radiance = vec![[0.0; 3]; width * height];
+    // of a pixel of the display window, the one of the data window
+    let inside = |k: usize, at: usize, side: usize| {
+        let at = usize::try_from(first[k] + at as i64 - start[k]).ok()?;
+        (at < side).then_some(at)
+    };
+    for (y, row) in radiance.chunks_exact_mut(width).enumerate() {
+        let Some(from) = inside(1, y, data.height) else { continue };
+        for (x, pixel) in row.iter_mut().enumerate() {
+            if let Some(column) = inside(0, x, data.width) {
+                *pixel = data.radiance[from * data.width + column];
+            }
+        }
+    }
+    Ok(Picture { width, height, radiance, variance: None })
+}
+
+/// The data window of an EXR file, its first pixel, and the display window.
+fn decode_windows(bytes: &[u8], path: &Path) -> Result<(Picture, [i64; 2], IntegerBounds), FileError> {
     let not_one = |error: exr::error::Error| failed(path, format!("not a valid EXR image: {}", layers::why(&error)));
     let meta = exr::meta::MetaData::read_from_buffered(Cursor::new(bytes), false).map_err(not_one)?;
     for header in &meta.headers {
@@ -234,5 +281,7 @@ pub fn decode_exr(bytes: &[u8], path: &Path) -> Result<Picture, FileError> {
     };
     let radiance =
         three("").ok_or_else(|| failed(path, "the channels R, G and B are missing or not of full resolution"))?;
-    Ok(Picture { width, height, radiance, variance: three("variance.") })
+    let start = [layer.attributes.layer_position.0, layer.attributes.layer_position.1].map(i64::from);
+    let data = Picture { width, height, radiance, variance: three("variance.") };
+    Ok((data, start, image.attributes.display_window))
 }

@@ -57,7 +57,7 @@ fn sets(text: &str) -> Result<u32, String> {
 impl ImageOptions {
     /// Reads the scene, prints its warnings, and completes the settings.
     pub(crate) fn load(&self) -> Result<(Scene, Settings), Box<dyn Error>> {
-        let scene = match &self.environment {
+        let mut scene = match &self.environment {
             Some(sky) => scene::load_with_sky(&self.scene, sky),
             None => scene::load(&self.scene),
         }?;
@@ -68,6 +68,8 @@ impl ImageOptions {
             say(format_args!("warning: {warning}"));
         }
         let (width, height) = self.size.unwrap_or((scene.film.width, scene.film.height));
+        // an image of another size has no place in the whole one
+        scene.film.place = scene.film.place.filter(|_| (width, height) == (scene.film.width, scene.film.height));
         let lens = scene.camera.lens.is_some();
         let sets = self.sets.unwrap_or(0);
         let spp = self.spp.unwrap_or(scene.pixel_samples);

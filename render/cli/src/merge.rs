@@ -79,7 +79,7 @@ fn files_of(paths: &[PathBuf], output: &Output) -> Result<Vec<PathBuf>, String> 
 /// Merges, writes and reports.
 pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     let interrupt = Interrupt::new()?;
-    let output = Output::of(options.output.clone(), &[])?;
+    let mut output = Output::of(options.output.clone(), &[])?;
     let files = files_of(&options.parts, &output)?;
     let goal = match options {
         Options { partial: true, .. } => MergeGoal::Partial,
@@ -98,6 +98,7 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     let _status = interrupt.lock();
     match merged {
         Merged::Image(film) => {
+            output.place = frame.place;
             output.write(&film, frame.exposure)?;
             writeln!(out, "wrote {} and {} from {used} parts", output.exr.display(), output.png.display())?;
             if !gaps.is_empty() {

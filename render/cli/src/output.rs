@@ -1,6 +1,7 @@
 //! The files that `render` writes: their names, the checks before rendering, and their contents.
 
 use crate::interrupt::Interrupt;
+use etendue_render::area::Place;
 use etendue_render::claim::Claim;
 use etendue_render::film::Film;
 use etendue_render::scene::Scene;
@@ -23,6 +24,8 @@ pub(crate) struct Output {
     pub(crate) exr: PathBuf,
     /// The PNG file beside it.
     pub(crate) png: PathBuf,
+    /// Where the image is in the whole one, if it is only a part.
+    pub(crate) place: Option<Place>,
 }
 
 impl Output {
@@ -31,13 +34,14 @@ impl Output {
     /// # Errors
     /// Fails if the name does not end in `.exr`, if a file cannot be written, or if the scene has been read from it.
     pub(crate) fn new(asked: Option<&Path>, scene: &Scene, stem: &OsStr) -> Result<Self, String> {
-        match (asked, &scene.film.filename) {
+        let output = match (asked, &scene.film.filename) {
             (Some(path), _) => Self::of(path.to_owned(), &scene.inputs),
             // scenes for other renderers often ask for other formats
             (None, Some(file)) if !file.is_empty() => Self::of(Path::new(file).with_extension("exr"), &scene.inputs)
                 .map_err(|error| format!("{error}\nThe scene's film asks for {file:?}; -o chooses another file")),
             (None, _) => Self::of(named(stem, ".exr"), &scene.inputs),
-        }
+        }?;
+        Ok(Self { place: scene.film.place, ..output })
     }
 
     /// The files to write for an image at this path, which is made from files that must stay as they are.
@@ -65,7 +69,7 @@ impl Output {
                 ));
             }
         }
-        Ok(Self { exr, png })
+        Ok(Self { exr, png, place: None })
     }
 
     /// An error after both files have been written.
@@ -80,7 +84,7 @@ impl Output {
     /// # Errors
     /// Fails if a file cannot be written; the message says what has been written.
     pub(crate) fn write(&self, film: &Film, exposure: f64) -> Result<(), String> {
-        image::write_exr(&self.exr, film).map_err(|error| error.to_string())?;
+        image::write_exr(&self.exr, film, self.place).map_err(|error| error.to_string())?;
         let written = if exposure == 1.0 {
             image::write_png(&self.png, film)
         } else {

@@ -1,7 +1,13 @@
-//! The image size in a file's header is accepted only if the file is long enough for it.
+//! Images in files: their sizes, which are accepted only if the file is long enough, and their windows.
 
+use etendue_render::area::Place;
+use etendue_render::film::{Film, Pixel};
 use etendue_render::image;
-use exr::prelude::{Compression, Encoding, Image, Layer, LayerAttributes, SpecificChannels, WritableImage};
+use exr::math::Vec2;
+use exr::meta::attribute::IntegerBounds;
+use exr::prelude::{
+    Compression, Encoding, Image, ImageAttributes, Layer, LayerAttributes, MetaData, SpecificChannels, WritableImage,
+};
 use std::io::Cursor;
 use std::path::Path;
 
@@ -13,6 +19,81 @@ fn plain(side: usize, compression: Compression) -> Vec<u8> {
     let mut bytes = Cursor::new(Vec::new());
     Image::from_layer(layer).write().to_buffered(&mut bytes).unwrap();
     bytes.into_inner()
+}
+
+/// A picture of a data window of which column x and row y have the value (x, y, 1), in a display window.
+fn windows(data: [[i32; 2]; 2], display: [[i32; 2]; 2]) -> Vec<u8> {
+    let size = |[low, high]: [[i32; 2]; 2]| [0, 1].map(|k| (high[k] - low[k] + 1) as usize);
+    let ([x, y], [across, down]) = (data[0], size(data));
+    let channels =
+        SpecificChannels::rgb(move |at: Vec2<usize>| ((x + at.0 as i32) as f32, (y + at.1 as i32) as f32, 1.0_f32));
+    let attributes = LayerAttributes { layer_position: Vec2(x, y), ..LayerAttributes::default() };
+    let layer = Layer::new((across, down), attributes, Encoding::UNCOMPRESSED, channels);
+    let ([left, top], [width, height]) = (display[0], size(display));
+    let bounds = IntegerBounds { position: Vec2(left, top), size: Vec2(width, height) };
+    let mut bytes = Cursor::new(Vec::new());
+    let image = Image::new(ImageAttributes::new(bounds), layer);
+    image.write().to_buffered(&mut bytes).unwrap();
+    bytes.into_inner()
+}
+
+/// A picture is its display window: black where there are no data, and without those outside. Only what is measured of images counts their
+/// data.
+#[test]
+fn pictures_are_display_windows() {
+    for (data, display) in [
+        ([[0, 0], [4, 2]], [[0, 0], [4, 2]]),
+        // a part, one that is larger, and one that is partly outside
+        ([[2, 1], [3, 1]], [[0, 0], [4, 2]]),
+        ([[-3, -2], [9, 9]], [[0, 0], [4, 2]]),
+        ([[-3, 1], [1, 8]], [[0, 0], [4, 2]]),
+        ([[-3, 1], [1, 8]], [[-2, -1], [3, 2]]),
+        ([[7, 7], [8, 9]], [[0, 0], [4, 2]]),
+    ] {
+        let bytes = windows(data, display);
+        let picture = image::decode(Path::new("a.exr"), &bytes).unwrap();
+        let [[x0, y0], [x1, y1]] = display;
+        assert_eq!([picture.width, picture.height], [x1 - x0 + 1, y1 - y0 + 1].map(|side| side as usize));
+        let mut pixels = picture.radiance.iter();
+        for (x, y) in (y0..=y1).flat_map(|y| (x0..=x1).map(move |x| (x, y))) {
+            let is_there = (data[0][0]..=data[1][0]).contains(&x) && (data[0][1]..=data[1][1]).contains(&y);
+            let wanted = if is_there { [x as f32, y as f32, 1.0] } else { [0.0; 3] };
+            assert_eq!(pixels.next(), Some(&wanted), "{data:?} in {display:?}: ({x}, {y})");
+        }
+        let own = image::decode_exr(&bytes, Path::new("a.exr")).unwrap();
+        assert_eq!((own.radiance.len(), own.radiance[0][2]), (own.width * own.height, 1.0));
+        assert_eq!(own.radiance[0][..2], data[0].map(|at| at as f32));
+    }
+    // 16 bytes of pixels do not need 3 GB
+    let error = image::decode(Path::new("a.exr"), &windows([[0, 0], [0, 0]], [[0, 0], [16_383, 16_383]])).unwrap_err();
+    assert!(error.to_string().starts_with("a.exr: damaged: 16384 × 16384 pixels"), "{error}");
+}
+
+/// A part of an image is written in its place, from where it is read again.
+#[test]
+fn parts_have_places() {
+    let pixel = |i: u32| Pixel { mean: [i as f32, 1.0, 2.0], variance: [0.5; 3], samples: i };
+    let film = Film { width: 10, height: 4, pixels: (0..40).map(pixel).collect() };
+    let file = std::env::temp_dir().join(format!("etendue-place-{}.exr", std::process::id()));
+    for (place, start, whole) in [
+        (Some(Place { start: [10, 5], whole: [64, 32] }), [10, 5], [64, 32]),
+        (Some(Place { start: [54, 28], whole: [64, 32] }), [54, 28], [64, 32]),
+        (None, [0, 0], [10, 4]),
+    ] {
+        image::write_exr(&file, &film, place).unwrap();
+        let header = MetaData::read_from_file(&file, false).unwrap().headers[0].clone();
+        let display = header.shared_attributes.display_window;
+        assert_eq!((display.position, display.size), (Vec2(0, 0), Vec2(whole[0], whole[1])));
+        assert_eq!(header.own_attributes.layer_position, Vec2(start[0], start[1]));
+        assert_eq!(header.layer_size, Vec2(10, 4));
+        assert_eq!(image::read_exr(&file).unwrap(), image::Picture::from(&film));
+        let picture = image::read(&file).unwrap();
+        assert_eq!([picture.width, picture.height], whole);
+        let at = |x: usize, y: usize| picture.radiance[y * whole[0] + x];
+        assert_eq!(at(start[0] as usize + 3, start[1] as usize + 2), [23.0, 1.0, 2.0]);
+        assert_eq!(picture.radiance.iter().map(|rgb| rgb[1]).sum::<f32>(), 40.0);
+    }
+    std::fs::remove_file(&file).unwrap();
 }
 
 #[test]

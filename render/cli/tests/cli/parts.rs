@@ -50,6 +50,35 @@ fn a_plan_makes_the_image_of_a_single_process() {
     }
 }
 
+/// A part of an image that the scene asks for has its place in the file, also if it is rendered in parts. An image of another size has none.
+#[test]
+fn crops_have_their_windows() {
+    let folder = Folder::new();
+    let film =
+        "Film \"rgb\" \"integer xresolution\" 64 \"integer yresolution\" 32 \"integer pixelbounds\" [10 29 5 27]";
+    let view = "LookAt 0 0 .5 0 0 0 0 1 0 Camera \"perspective\" \"float fov\" 50";
+    folder.write("crop.pbrt", format!("{film} {view} WorldBegin LightSource \"infinite\" \"rgb L\" [1 2 3]"));
+    let image = ["crop.pbrt", "--spp", "16", "--sampler", "sobol"];
+    folder.succeed(&[&["render"], &image[..], &["-o", "single.exr"]].concat());
+    for stage in plan(&folder, &[&image[..], &["--tasks", "4", "-o", "whole.exr"]].concat()) {
+        stage.iter().for_each(|command| drop(run(&folder, command)));
+    }
+    folder.succeed(&[&["render"], &image[..], &["--size", "38x44", "-o", "large.exr"]].concat());
+    let read = |name: &str| fs::read(folder.path(name)).unwrap();
+    assert!(read("single.exr") == read("whole.exr"));
+    let window = |name: &str, kind: &str| -> Vec<i32> {
+        let bytes = read(name);
+        let at = bytes.windows(kind.len()).position(|found| found == kind.as_bytes()).unwrap();
+        let numbers = &bytes[at + kind.len() + "\0box2i\0".len() + 4..][..16];
+        numbers.chunks(4).map(|b| i32::from_le_bytes([b[0], b[1], b[2], b[3]])).collect()
+    };
+    assert_eq!(window("single.exr", "dataWindow"), [10, 5, 28, 26]);
+    assert_eq!(window("single.exr", "displayWindow"), [0, 0, 63, 31]);
+    assert_eq!(window("large.exr", "dataWindow"), [0, 0, 37, 43]);
+    assert_eq!(window("large.exr", "displayWindow"), [0, 0, 37, 43]);
+    assert!(folder.succeed(&["compare", "single.exr", "whole.exr"]).contains("all values are equal"));
+}
+
 /// The tasks of a plan are lit by the same sky; one that cannot be read stops all before anything is written.
 #[test]
 fn a_plan_keeps_the_sky() {
