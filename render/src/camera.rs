@@ -111,12 +111,13 @@ impl Camera {
         };
         (origin.lane(0).map(f64::from), [area(origin), area(direction)])
     }
-    /// The position in pixels from the top left at which the film shows what is at `v` from where the ray through the middle begins, if it
-    /// is in focus; `None` if it is behind the camera, or if the image is not of the scene.
-    pub fn film_of(&self, v: Vec3<f64>) -> Option<[f64; 2]> {
+    /// Where the film shows a point that is in focus, in pixels from the top left, and where the ray to it begins; `None` if it is behind the
+    /// camera, or if the image is not of the scene.
+    pub fn view_of(&self, p: Vec3<f64>) -> Option<([f64; 2], Vec3<f64>)> {
         match self {
-            Self::Pinhole(pinhole) => pinhole.film_of(v),
-            Self::ThinLens(thin) | Self::Barrel(thin, _) => thin.film_of(v),
+            Self::Pinhole(pinhole) => pinhole.view_of(p),
+            Self::Orthographic(parallel) => parallel.view_of(p),
+            Self::ThinLens(thin) | Self::Barrel(thin, _) => thin.view_of(p),
             Self::Pupil(_) => None,
         }
     }

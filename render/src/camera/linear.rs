@@ -2,6 +2,7 @@
 
 use crate::packet::{V8, X8};
 use crate::scene::CameraSettings;
+use etendue::Vec3;
 
 /// A vector at the top left corner of the image, and its change per pixel across and down.
 #[derive(Clone, Copy, Debug)]
@@ -38,6 +39,16 @@ impl Linear {
     pub(super) fn at(&self, x: X8, y: X8) -> V8 {
         let [corner, across, down] = self.rounded.map(V8::from);
         down.mul_add(y, across.mul_add(x, corner))
+    }
+    /// The vector at the top left corner.
+    pub(super) fn corner(&self) -> Vec3<f64> {
+        self.exact[0].into()
+    }
+    /// What a vector is a sum of: multiples of the changes per pixel across and down, and of a third vector.
+    pub(super) fn parts(&self, v: Vec3<f64>, third: Vec3<f64>) -> [f64; 3] {
+        let [_, across, down] = self.exact.map(Vec3::<f64>::from);
+        let part = |one: Vec3<f64>, a: Vec3<f64>, b: Vec3<f64>| v.dot(a.cross(b)) / one.dot(a.cross(b));
+        [part(across, down, third), part(down, third, across), part(third, across, down)]
     }
     /// The vector at one position, from the rounded numbers.
     pub(super) fn at_one(&self, x: f64, y: f64) -> [f64; 3] {

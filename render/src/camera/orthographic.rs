@@ -3,6 +3,7 @@
 use super::linear::Linear;
 use crate::packet::{V8, X8};
 use crate::scene::CameraSettings;
+use etendue::Vec3;
 
 /// An orthographic camera for an image of a given size: parallel rays from a plane.
 #[derive(Clone, Copy, Debug)]
@@ -20,6 +21,12 @@ impl Orthographic {
     #[must_use]
     pub fn counted_from(&self, pixel: [u32; 2]) -> Self {
         Self { origins: self.origins.counted_from(pixel), ..*self }
+    }
+    /// See [`Camera::view_of`](super::Camera::view_of).
+    pub(super) fn view_of(&self, p: Vec3<f64>) -> Option<([f64; 2], Vec3<f64>)> {
+        let direction = Vec3::from(self.direction.map(f64::from));
+        let [x, y, along] = self.origins.parts(p - self.origins.corner(), direction);
+        (along > 0.0).then(|| ([x, y], p - direction * along))
     }
     /// Origin and unit direction of the rays through positions in pixels from the top left.
     #[inline]

@@ -3,6 +3,7 @@
 use super::linear::Linear;
 use crate::packet::{V8, X8};
 use crate::scene::CameraSettings;
+use etendue::Vec3;
 
 /// A pinhole camera for an image of a given size.
 #[derive(Clone, Copy, Debug)]
@@ -25,6 +26,12 @@ impl Pinhole {
     pub fn rectangle(&self, [x0, y0, x1, y1]: [f64; 4]) -> ([f64; 3], [[f64; 3]; 4]) {
         let corners = [(x0, y0), (x1, y0), (x1, y1), (x0, y1)];
         (self.origin.map(f64::from), corners.map(|(x, y)| self.directions.at_one(x, y)))
+    }
+    /// See [`Camera::view_of`](super::Camera::view_of).
+    pub(super) fn view_of(&self, p: Vec3<f64>) -> Option<([f64; 2], Vec3<f64>)> {
+        let origin = Vec3::from(self.origin.map(f64::from));
+        let [x, y, along] = self.directions.parts(p - origin, self.directions.corner());
+        (along > 0.0).then(|| ([x / along, y / along], origin))
     }
     /// Origin and unit direction of the rays through positions in pixels from the top left.
     #[inline]

@@ -3,7 +3,7 @@
 use super::pinhole::Pinhole;
 use crate::packet::{V8, X8};
 use crate::scene::{CameraSettings, Lens};
-use etendue::{Real, Vec2};
+use etendue::{Real, Vec2, Vec3};
 
 /// A thin-lens camera for an image of a given size.
 ///
@@ -32,6 +32,10 @@ impl ThinLens {
     #[must_use]
     pub fn counted_from(&self, pixel: [u32; 2]) -> Self {
         Self { center: self.center.counted_from(pixel), ..*self }
+    }
+    /// See [`Camera::view_of`](super::Camera::view_of).
+    pub(super) fn view_of(&self, p: Vec3<f64>) -> Option<([f64; 2], Vec3<f64>)> {
+        self.center.view_of(p)
     }
     /// Origin and unit direction of the rays through positions in pixels from the top left and points of the lens in units of its
     /// radius.
