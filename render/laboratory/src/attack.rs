@@ -1,6 +1,7 @@
 //! Attacks the renderer with random scenes: renders each by several techniques and by the oracle, and shrinks those on which they differ.
 //!
-//! [`regimes`] has the scenes, [`draft`] their parts and their text, [`skin`] what varies over them, [`bridge`] what the oracle gets of them, [`judge`] the comparison,
+//! [`regimes`] has the scenes, [`draft`] their parts and their text, [`skin`] what varies over them, `meaning` what they mean, [`bridge`] what
+//! the oracle gets of them, [`judge`] the comparison,
 //! [`shrink`] the fewest parts that still differ, [`report`] what is printed, [`claims`] whether images tell their error, and [`defects`] the scenes on which the renderer was wrong once.
 
 pub mod bridge;
@@ -9,6 +10,7 @@ pub mod claims;
 pub mod defects;
 pub mod draft;
 pub mod judge;
+mod meaning;
 pub mod random;
 pub mod regimes;
 pub mod report;

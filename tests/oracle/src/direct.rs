@@ -3,7 +3,8 @@
 //! A point of a flat body is never hidden by that body, nor by one in the same plane; a sphere hides nothing from its outside, and from
 //! its inside what is outside. Flat lights emit on the side of their normal, unless they are two-sided. Lights occlude. All surfaces
 //! reflect on both of their sides. A smooth surface receives only light that is above both its flat triangle and its own normal's horizon.
-//! What has holes lets a part of each ray pass, all of which are followed to the light and to the camera. The rest is exact, up to the rounding of f64: closed forms over what blockers leave of a light, at
+//! What has holes lets a part of each ray pass, all of which are followed to the light and to the camera. Skies and lights with pictures are
+//! sampled. The rest is exact, up to the rounding of f64: closed forms over what blockers leave of a light, at
 //! points that sample the pixel and the lens.
 
 mod light;
@@ -11,12 +12,14 @@ mod metal;
 mod pattern;
 mod random;
 mod scene;
+mod source;
 
 pub use pattern::{Beyond, Pattern, Picture, Place};
 pub use scene::{Body, Detail, Emission, Finish, Form, Lens, Opacity, View};
+pub use source::{Cone, Sky, Source};
 
 use crate::vectors::{V3, along, dot, sub, unit};
-use light::{Receiver, Seen};
+use light::{Receiver, Seen, transmittance};
 use metal::{brdf, fresnel};
 use random::Random;
 use scene::{Hit, Prepared, hits};
@@ -42,6 +45,9 @@ pub struct Effort {
     pub spared: f64,
 }
 
+/// Points of a sky, relative to those of a light.
+const SKY: usize = 16;
+
 /// The least end of a way to a light that is never occluded, as a fraction of it.
 pub const SPARED: f64 = 1.0 / 1_048_576.0;
 
@@ -54,17 +60,18 @@ pub struct Block {
     pub error: f64,
     /// Radiance if nothing hid the lights from the surfaces.
     pub unoccluded: f64,
-    /// Greatest value, among the points that were sampled, of one sample of a light by solid angle or by area: far above the mean where few
-    /// points receive light, or where little of the light is above the horizon.
+    /// Greatest value, among the points that were sampled, of one sample of a light by solid angle or by area, and the radiance of lights
+    /// that may be seen: far above the mean where few points receive light, where little of the light is above the horizon, or where it is
+    /// tiny.
     pub greatest: f64,
 }
 
 /// Renders the blocks of `side` × `side` pixels of an image, row by row from the top left; the last ones of a row or column may be smaller.
 #[must_use]
-pub fn render(bodies: &[Body], view: &View, side: usize, effort: &Effort) -> Vec<Block> {
+pub fn render(bodies: &[Body], sources: &[Source], view: &View, side: usize, effort: &Effort) -> Vec<Block> {
     let bodies: Vec<Prepared> = bodies.iter().map(|body| Prepared::new(body.clone())).collect();
     let lights = (0..bodies.len()).filter(|&i| bodies[i].body.emission.is_some()).collect();
-    let tracer = Tracer { bodies, lights, effort };
+    let tracer = Tracer { bodies, lights, sources, effort };
     let [columns, rows] = view.size.map(|size| size.div_ceil(side));
     let mut blocks = vec![Block::default(); columns * rows];
     let mut counts = vec![0.0; blocks.len()];
@@ -87,6 +94,14 @@ pub fn render(bodies: &[Body], view: &View, side: usize, effort: &Effort) -> Vec
             counts[y / side * columns + x / side] += 1.0;
         }
     }
+    let emitting = tracer.lights.iter().map(|&light| &tracer.bodies[light].body);
+    for (body, [from, to]) in emitting.filter_map(|body| Some((body, view.around(&body.form)?))) {
+        // what is seen of a light may be as rare as samples of it
+        for (x, y) in (from[1]..=to[1]).flat_map(|y| (from[0]..=to[0]).map(move |x| (x, y))) {
+            let block = &mut blocks[y / side * columns + x / side];
+            block.greatest = block.greatest.max(body.emission.map_or(0.0, |emission| emission.radiance));
+        }
+    }
     for (block, count) in blocks.iter_mut().zip(counts) {
         block.mean /= count;
         block.error = block.error.sqrt() / count;
@@ -98,6 +113,7 @@ pub fn render(bodies: &[Body], view: &View, side: usize, effort: &Effort) -> Vec
 struct Tracer<'a> {
     bodies: Vec<Prepared>,
     lights: Vec<usize>,
+    sources: &'a [Source],
     effort: &'a Effort,
 }
 
@@ -122,12 +138,14 @@ impl Tracer<'_> {
     }
     /// The radiance that comes along a ray from its origin, on the body `own` if on any, after so many mirrors.
     fn radiance(&self, ray: [V3; 2], own: Option<usize>, depth: usize, random: &mut Random) -> [f64; 3] {
-        let mut sum = [0.0; 3];
+        let (mut sum, mut left) = ([0.0; 3], 1.0);
         for (hit, chance) in hits(&self.bodies, ray[0], ray[1], own, self.effort.lift) {
             let [seen, all, greatest] = self.leaving(hit, ray, depth, random);
             sum = [sum[0] + chance * seen, sum[1] + chance * all, sum[2].max(greatest)];
+            left -= chance;
         }
-        sum
+        let beyond = self.sources.iter().map(|source| source.radiance(ray[1])).sum::<f64>() * left;
+        [sum[0] + beyond, sum[1] + beyond, sum[2].max(beyond)]
     }
     /// The radiance that leaves a body against a ray.
     fn leaving(&self, hit: Hit, [origin, direction]: [V3; 2], depth: usize, random: &mut Random) -> [f64; 3] {
@@ -143,7 +161,7 @@ impl Tracer<'_> {
         };
         let front = dot(outward, direction) < 0.0;
         let emission = met.body.emission.filter(|emission| front || emission.two_sided);
-        let own = emission.map_or(0.0, |emission| emission.radiance);
+        let own = emission.map_or(0.0, |emission| emission.radiance) * met.glow(point, self.effort.lift).unwrap_or(1.0);
         let flat = if front { outward } else { outward.map(|x| -x) };
         let smooth = met.smooth(point, flat, direction);
         let normal = smooth.unwrap_or(flat);
@@ -173,28 +191,39 @@ impl Tracer<'_> {
             return sum;
         }
         let toward = direction.map(|x| -x);
+        for beam in self.sources.iter().flat_map(|source| source.beams(at.point, SKY * self.effort.points, random)) {
+            let cos = dot(unit(beam.to), at.normal);
+            if cos > 0.0 && dot(beam.to, at.flat) > 0.0 {
+                let factor = cos * brdf(finish, toward, unit(beam.to), at.normal);
+                let all = beam.irradiance * factor;
+                let left = transmittance(&self.bodies, 0..self.bodies.len(), &at, beam.to, beam.end, self.effort.lift);
+                sum = [sum[0] + all * left, sum[1] + all, sum[2].max(beam.most * factor)];
+            }
+        }
         for &light in &self.lights {
             let Some(seen) = Seen::new(&self.bodies, at, light, [self.effort.spared, self.effort.lift]) else {
                 continue;
             };
             let radiance = self.bodies[light].body.emission.map_or(0.0, |emission| emission.radiance);
             let count = self.effort.points;
+            let is_pictured = self.bodies[light].body.detail.as_ref().is_some_and(|detail| detail.glow.is_some());
             let [left, all, most] = match finish {
-                Finish::Metal { .. } | Finish::Coat { .. } => {
+                Finish::Diffuse(albedo) | Finish::Mirror(albedo) if !is_pictured => {
+                    let factor = albedo * core::f64::consts::FRAC_1_PI;
+                    let [left, all] = seen.both(count, random);
+                    [left, all, seen.most].map(|x| x * factor)
+                }
+                _ => {
                     let mut parts = [0.0; 3];
                     for point in seen.points(4 * count, random) {
-                        let reflected = brdf(finish, toward, unit(point.to), at.normal);
+                        let glow = self.bodies[light].glow(along(at.point, point.to, 1.0), self.effort.lift);
+                        let reflected = brdf(finish, toward, unit(point.to), at.normal) * glow.unwrap_or(1.0);
                         let part = point.weight * reflected;
                         parts[1] += part;
                         parts[0] += part * seen.transmittance(point.to);
                         parts[2] = parts[2].max(seen.most * reflected);
                     }
                     parts
-                }
-                Finish::Diffuse(albedo) | Finish::Mirror(albedo) => {
-                    let factor = albedo * core::f64::consts::FRAC_1_PI;
-                    let [left, all] = seen.both(count, random);
-                    [left, all, seen.most].map(|x| x * factor)
                 }
             };
             sum = [sum[0] + radiance * left, sum[1] + radiance * all, sum[2].max(radiance * most)];

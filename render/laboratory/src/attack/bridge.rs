@@ -1,8 +1,13 @@
-//! A scene as the oracle takes it: the numbers that the renderer keeps, in f64.
+//! A scene as the oracle takes it: the numbers that the renderer keeps, in f64, and what only a draft tells.
 
-use etendue_oracle::direct::{Beyond, Body, Detail, Emission, Finish, Form, Lens, Opacity, Pattern, Picture, View};
-use etendue_oracle::{V3, basis, cross, dot, sub, unit, wide};
-use etendue_render::scene::{CameraSettings, Geometry, Instance, Material, Scene, Varying};
+use super::draft::{Draft, Frame, Kind, Source};
+use super::meaning::columns;
+use etendue_oracle::direct::{
+    self, Beyond, Body, Cone, Detail, Emission, Finish, Form, Lens, Opacity, Pattern, Picture, Sky, View,
+};
+use etendue_oracle::{V3, along, basis, cross, dot, sub, unit, wide};
+use etendue_render::light_picture::LightPicture;
+use etendue_render::scene::{self, CameraSettings, Geometry, Instance, Material, Scene, Varying};
 use etendue_render::texture::{self, Colors, Mapping, Texture, Wrap};
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -124,7 +129,7 @@ pub fn bodies(scene: &Scene) -> Vec<Body> {
             let normals = known.map_or([[0.0; 3]; 3], |known| known.normals.map(wide));
             let moved = |n: V3| if n == [0.0; 3] { n } else { unit(map.map_or(n, |map| map.normal(n))) };
             let uvs = known.map_or([[0.0; 2]; 3], |known| known.uvs.map(|uv| uv.map(f64::from)));
-            Arc::new(Detail { uvs, normals: normals.map(moved), albedo, opacity })
+            Arc::new(Detail { uvs, normals: normals.map(moved), albedo, opacity, glow: None })
         });
         let form = triangle(corners.map(|p| map.map_or(p, |map| map.point(p))));
         Body { form, finish: finish(material), emission: None, detail }
@@ -136,6 +141,15 @@ pub fn bodies(scene: &Scene) -> Vec<Body> {
     });
     let meshes = (0..own).map(|index| (index, None)).chain(instances);
     let meshes = meshes.map(|(index, map)| mesh(index, map.as_ref()));
+    let glow = |emission: &scene::Emission| Some(&scene.pictures[emission.picture? as usize]);
+    // by the coordinates along the edges
+    let shown = |of: &LightPicture| Detail {
+        uvs: [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]],
+        normals: [[0.0; 3]; 3],
+        albedo: None,
+        opacity: None,
+        glow: Some(Arc::new(Pattern::Picture(pixels(&of.picture, CHANNEL)))),
+    };
     let shapes = scene.shapes.iter().map(|shape| Body {
         form: match shape.geometry {
             Geometry::Sphere { center, radius } => Form::Sphere { center: wide(center), radius: radius.into() },
@@ -145,17 +159,83 @@ pub fn bodies(scene: &Scene) -> Vec<Body> {
             }
         },
         finish: finish(shape.material),
-        emission: shape
-            .emission
-            .map(|emission| Emission { radiance: emission.radiance[CHANNEL].into(), two_sided: emission.two_sided }),
-        detail: None,
+        emission: shape.emission.map(|emission| Emission {
+            radiance: glow(&emission).map_or(emission.radiance, |of| of.factor)[CHANNEL].into(),
+            two_sided: emission.two_sided,
+        }),
+        detail: shape.emission.as_ref().and_then(glow).map(|of| Arc::new(shown(of))),
     });
     meshes.chain(shapes).filter(has_area).collect()
+}
+
+/// Gives the bodies of a draft's scene the normals that the draft has, which the scene's reader may have turned.
+pub(super) fn straighten(draft: &Draft, bodies: &mut [Body]) {
+    let mut index = 0;
+    for part in draft.parts.iter().filter(|part| part.glow.is_none() && part.copies.is_empty()) {
+        for corners in part.form.triangles() {
+            let normals = part.skin.bend.map(|bend| bend.normals(*corners));
+            if let (Some(normals), Some(detail)) = (normals, &mut bodies[index].detail) {
+                // a triangle that lacks one is flat
+                let is_flat = normals.contains(&[0.0; 3]) || detail.normals == [[0.0; 3]; 3];
+                Arc::make_mut(detail).normals = if is_flat { [[0.0; 3]; 3] } else { normals.map(unit) };
+            }
+            index += 1;
+        }
+    }
+}
+
+/// The lights without a surface, as they are meant.
+pub(super) fn sources(sources: &[Source]) -> Vec<direct::Source> {
+    let round = |v: V3| v.map(|x| f64::from(x as f32));
+    let of = |source: &Source| {
+        let intensity = f64::from(source.strength);
+        match source.kind {
+            Kind::Point(from) => direct::Source::Point { position: round(from), intensity, cone: None },
+            Kind::Spot([from, to], [angle, delta]) => {
+                let axis = unit(sub(round(to), round(from)));
+                let cone = Some(Cone { axis, angles: [angle - delta, angle].map(f64::to_radians) });
+                direct::Source::Point { position: round(from), intensity, cone }
+            }
+            Kind::Distant([from, to]) => {
+                direct::Source::Distant { towards: unit(sub(round(from), round(to))), irradiance: intensity }
+            }
+            Kind::Sky => {
+                let axes = source.map.as_ref().map_or([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], columns);
+                let (columns, texels) = match &source.picture {
+                    Some(picture) => (picture.width, picture.texels.as_slice()),
+                    None => (1, &[1.0_f32][..]),
+                };
+                let factor = source.measure.scale.filter(|_| source.picture.is_some()).map_or(intensity, f64::from);
+                let rows = texels.chunks(columns).rev().flatten();
+                let texels = rows.map(|x| factor * f64::from(*x)).collect();
+                direct::Source::Sky(Sky::new(axes.map(unit), columns, texels))
+            }
+        }
+    };
+    sources.iter().map(of).collect()
 }
 
 /// Whether a body is not a triangle that a map has flattened.
 fn has_area(body: &Body) -> bool {
     !matches!(body.form, Form::Flat { edges: [u, v], .. } if cross(u, v) == [0.0; 3])
+}
+
+/// What a film shows of a scene whose camera has all of it.
+pub(super) fn framed(frame: &Frame, camera: &CameraSettings) -> View {
+    let [width, height] = frame.size;
+    let [[x0, x1], [y0, y1]] = frame.window;
+    let all = view(camera, width, height);
+    let size = [x1 - x0, y1 - y0].map(|side| side as usize);
+    let at = |from: V3, across: V3, down: V3| along(along(from, across, x0.into()), down, y0.into());
+    let Some(half) = frame.screen else {
+        return View { size, corner: at(all.corner, all.across, all.down), ..all };
+    };
+    let pixel = 2.0 * half / f64::from(width.min(height));
+    let slides = [camera.right.map(|x| pixel * x), camera.up.map(|x| -pixel * x)];
+    let corner = along(along(all.origin, slides[0], -0.5 * f64::from(width)), slides[1], -0.5 * f64::from(height));
+    let still = [0.0; 3];
+    let origin = at(corner, slides[0], slides[1]);
+    View { size, origin, corner: camera.forward, across: still, down: still, slides, lens: None }
 }
 
 /// The camera of a scene for an image of this size, with its numbers rounded to f32 as the renderer keeps them.
@@ -170,6 +250,7 @@ pub fn view(camera: &CameraSettings, width: u32, height: u32) -> View {
         corner: vector(&|k| camera.forward[k] + left * right[k] + upper * up[k]),
         across: vector(&|k| (edge - left) * right[k] / f64::from(width)),
         down: vector(&|k| (lower - upper) * up[k] / f64::from(height)),
+        slides: [[0.0; 3]; 2],
         lens: camera.lens.map(|lens| {
             let along = |length: f64| [right, up].map(|axis| vector(&|k| axis[k] * length));
             Lens { radii: along(lens.radius * lens.unit), bends: along(lens.radius / lens.focus) }

@@ -181,6 +181,7 @@ pub(super) fn radiance(form: &Form, distance: f64) -> f32 {
         }
         Form::Sphere(_, radius) => std::f64::consts::PI * radius * radius,
         Form::Parallelogram(_, u, v) => length(cross(*u, *v)),
+        Form::Swept(_) => 1.0,
     };
     (distance * distance / area) as f32
 }
@@ -223,6 +224,7 @@ pub(super) fn look(place: V3, distance: f64, random: &mut Random) -> Look {
         up: [0.0, 1.0, 0.0],
         fov: if is_close { random.power(0.3, 1.4) } else { random.between(25.0, 50.0) },
         lens: None,
+        frame: None,
     }
 }
 
@@ -233,7 +235,7 @@ pub(super) fn stage(random: &mut Random) -> Draft {
     let size = random.between(0.3, 2.0);
     let look = look([0.0, 0.3, 0.0], random.between(3.0, 5.0), random);
     let parts = vec![floor(2.0, random), lamp(center, [0.0; 3], size, random)];
-    Draft { name: String::new(), look, parts, is_shared: false }
+    Draft::new(String::new(), look, parts)
 }
 
 /// Whether a light appears so small in the image that some images have a sample of it and others have not.
@@ -253,6 +255,7 @@ pub(super) fn has_speck(draft: &Draft) -> bool {
                 let (u, v) = (sub(b, a), sub(c, a));
                 (along(along(a, u, 0.33), v, 0.33), 0.25 * length(u).min(length(v)), Some(cross(u, v)))
             }
+            Form::Swept(_) => return false,
         };
         let to = sub(center, *eye);
         let is_seen = glow.two_sided || normal.is_none_or(|n| dot(n, to) < 0.0);

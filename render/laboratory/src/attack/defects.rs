@@ -2,7 +2,7 @@
 
 use super::build::{axes, cube, facing, level, placed, triangles};
 use super::draft::{Draft, Finish, Form, Look, Part, V3};
-use super::judge::{Effort, Verdict, confirmed, parse};
+use super::judge::{Effort, Trial, Verdict, confirmed, parse};
 use super::random::Random;
 use etendue_oracle::along;
 use etendue_render::Technique;
@@ -33,7 +33,7 @@ const TECHNIQUES: [Technique; 4] = [Technique::Auto, Technique::Analytic, Techni
 pub const EFFORT: Effort = Effort { side: 256, block: 32, spp: 64, points: 1, seed: 7 };
 
 fn from(eye: V3, target: V3, fov: f64) -> Look {
-    Look { eye: eye.map(|x| f64::from(x as f32)), target, up: [0.0, 1.0, 0.0], fov, lens: None }
+    Look { eye: eye.map(|x| f64::from(x as f32)), target, up: [0.0, 1.0, 0.0], fov, lens: None, frame: None }
 }
 
 /// A horizontal square light of this side, which faces downwards.
@@ -47,7 +47,7 @@ fn ground(half: f64) -> Part {
 }
 
 fn draft(name: &str, look: Look, parts: Vec<Part>) -> Draft {
-    Draft { name: name.to_owned(), look, parts, is_shared: false }
+    Draft::new(name.to_owned(), look, parts)
 }
 
 /// A floor in a sphere of radius 1, below a light outside of it.
@@ -155,7 +155,7 @@ pub fn all() -> Vec<Case> {
 /// # Errors
 /// Fails if the renderer cannot read the scene.
 pub fn compare(case: &Case, effort: &Effort) -> Result<Table, String> {
-    let verdict = confirmed(&parse(&case.text)?, &TECHNIQUES, effort)?;
+    let verdict = confirmed(&Trial::new(parse(&case.text)?, effort.side), &TECHNIQUES, effort)?;
     Ok(Table { letter: case.letter, about: case.about, verdict })
 }
 

@@ -1,9 +1,9 @@
-//! Compares images of a scene with the oracle's, block by block.
+//! Compares images of a scene with the oracle's, and with the sum of the images of its lights, block by block.
 
-use super::bridge::{CHANNEL, bodies, view};
-use super::draft::{Draft, Map, Part};
+use super::bridge::{CHANNEL, bodies, framed, sources, straighten, view};
+use super::draft::{Draft, Frame, Look, Map, Part};
 use etendue::occlusion::SPARED;
-use etendue_oracle::direct::{self, Block};
+use etendue_oracle::direct::{self, Block, Body, Source, View};
 use etendue_render::film::Film;
 use etendue_render::scene::{self, Affine, Instance, Scene};
 use etendue_render::{Sampler, Settings, Technique, World};
@@ -49,9 +49,33 @@ pub const ROUNDING: f64 = 1.0 / 4_194_304.0;
 /// Of fewer samples than this that see a light, or do not, an image cannot tell its own error.
 const FEW: f64 = 10.0;
 
-/// One technique against the oracle.
+/// A scene to render, and what it shows.
+#[derive(Clone, Debug)]
+pub struct Trial {
+    /// The scene, as it is written.
+    scene: Scene,
+    /// Width and height of its images in pixels.
+    size: [u32; 2],
+    /// What the oracle renders, unless that takes too long.
+    exact: Option<(Vec<Body>, Vec<Source>, View)>,
+    /// The scenes of its lights alone, as they are meant, if they are to be summed.
+    alone: Vec<Scene>,
+}
+
+/// What an image is compared with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Against {
+    /// The oracle's.
+    Oracle,
+    /// The sum of those of its lights alone.
+    Sum,
+}
+
+/// One technique against the oracle, or against a sum.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {
+    /// What it is compared with.
+    pub against: Against,
     /// How lights were sampled.
     pub technique: Technique,
     /// The technique that `auto` chose, or the same.
@@ -163,45 +187,93 @@ pub fn parse(text: &str) -> Result<Scene, String> {
 /// The techniques that are compared: what images use by default, and two that share little with it.
 pub const TECHNIQUES: [Technique; 4] = [Technique::Auto, Technique::Analytic, Technique::SolidAngle, Technique::Area];
 
+/// Those of them whose images are compared with sums.
+const SUMMED: [Technique; 2] = [Technique::Auto, Technique::SolidAngle];
+/// The oracle takes no scene in which each point of a surface asks for more bodies than this.
+const MOST: usize = 3000;
+
+impl Trial {
+    /// Images of this width and height of a scene, which is what it says.
+    #[must_use]
+    pub fn new(scene: Scene, side: u32) -> Self {
+        let exact = (bodies(&scene), Vec::new(), view(&scene.camera, side, side));
+        Self { scene, size: [side; 2], exact: Some(exact), alone: Vec::new() }
+    }
+    /// A draft, whose images have this width and height, unless it has a film of its own.
+    ///
+    /// # Errors
+    /// Fails if it cannot be read.
+    pub fn read(draft: &Draft, side: u32) -> Result<Self, String> {
+        let (scene, meant) = (read(draft)?, draft.meant());
+        let has_sphere_picture = meant
+            .parts
+            .iter()
+            .any(|part| part.skin.glow.is_some() && part.size() == 1 && part.form.triangles().is_empty());
+        let frame = draft.look.frame;
+        let size = frame.map_or([side; 2], |Frame { window, .. }| window.map(|[from, to]| to - from));
+        let plain = read(&Draft { look: Look { frame: None, ..draft.look }, ..meant.clone() })?;
+        let mut bodies = bodies(&plain);
+        straighten(&meant, &mut bodies);
+        let emitting = bodies.iter().filter(|body| body.emission.is_some()).count();
+        let is_small = (emitting + 4 * meant.sources.len()) * bodies.len() <= MOST && !has_sphere_picture;
+        let view = frame.map_or_else(|| view(&plain.camera, side, side), |frame| framed(&frame, &plain.camera));
+        let exact = is_small.then(|| (bodies, sources(&meant.sources), view));
+        let is_summed = !is_small || meant.lights() > 1;
+        let alone = if is_summed { meant.alone() } else { Vec::new() };
+        let alone = alone.iter().map(read).collect::<Result<_, _>>()?;
+        Ok(Self { scene, size, exact, alone })
+    }
+}
+
 /// Judges a scene by these techniques.
 ///
 /// # Errors
 /// Fails if the renderer cannot build the scene.
-pub fn judge(scene: &Scene, techniques: &[Technique], effort: &Effort) -> Result<Verdict, String> {
-    let &Effort { side, block, spp, seed, .. } = effort;
-    let truth = exact(scene, effort, [0.0, direct::SPARED]);
+pub fn judge(trial: &Trial, techniques: &[Technique], effort: &Effort) -> Result<Verdict, String> {
+    let &Effort { block, spp, seed, .. } = effort;
+    let [width, height] = trial.size;
+    let settings = |technique, i: u64| Settings {
+        width,
+        height,
+        spp,
+        technique,
+        depth: Settings::DEPTH,
+        sampler: Sampler::Sobol,
+        sets: 4,
+        seed: seed.wrapping_mul(64).wrapping_add(i),
+    };
+    let world = |scene: &Scene| World::new(scene).map_err(|error| error.to_string());
+    let truth = exact(trial, effort, [0.0, direct::SPARED]);
     let mut slack = vec![0.0; truth.len()];
-    let world = World::new(scene).map_err(|error| error.to_string())?;
-    let mut rows: Vec<Row> = Vec::new();
-    let mut images = Vec::new();
+    let whole = world(&trial.scene)?;
+    let mut images: Vec<([Technique; 2], Vec<[f64; 2]>)> = Vec::new();
     for (i, &technique) in (0..).zip(techniques) {
-        let seed = seed.wrapping_mul(16).wrapping_add(i);
-        let settings = Settings {
-            width: side,
-            height: side,
-            spp,
-            technique,
-            depth: Settings::DEPTH,
-            sampler: Sampler::Sobol,
-            sets: 4,
-            seed,
-        };
-        let view = world.view(&settings);
+        let view = whole.view(&settings(technique, i));
         let chosen = view.technique();
-        if technique != Technique::Auto && rows.iter().any(|row| row.chosen == technique) {
-            continue;
+        if technique == Technique::Auto || images.iter().all(|([_, other], _)| *other != technique) {
+            images.push(([technique, chosen], blocks(&view.image(&|_| ()).0, block)));
         }
-        let (film, _) = view.image(&|_| ());
-        let image = blocks(&film, block);
-        rows.push(compare([technique, chosen], &image, &truth, &slack, effort));
-        images.push(image);
     }
+    let against = |slack: &[f64]| -> Vec<Row> {
+        images.iter().map(|(by, image)| compare(*by, image, &truth, slack, effort)).collect()
+    };
+    let mut rows = if truth.is_empty() { Vec::new() } else { against(&slack) };
     if rows.iter().any(|row| row.failing().next().is_some()) {
         // the same random numbers, so that the difference has hardly any noise
-        let lifted = exact(scene, effort, [ROUNDING, SPARED]);
+        let lifted = exact(trial, effort, [ROUNDING, SPARED]);
         slack = truth.iter().zip(&lifted).map(|(a, b)| (a.mean - b.mean).abs()).collect();
-        let again = rows.iter().zip(&images);
-        rows = again.map(|(row, image)| compare([row.technique, row.chosen], image, &truth, &slack, effort)).collect();
+        rows = against(&slack);
+    }
+    if !trial.alone.is_empty() {
+        let mut sum = vec![[0.0; 2]; images.first().map_or(0, |(_, image)| image.len())];
+        for (i, scene) in (8..).zip(&trial.alone) {
+            let film = world(scene)?.render(&settings(Technique::Auto, i), &|_| ()).0;
+            for (sum, [mean, variance]) in sum.iter_mut().zip(blocks(&film, block)) {
+                *sum = [sum[0] + mean, sum[1] + variance];
+            }
+        }
+        let summed = images.iter().filter(|([technique, _], _)| SUMMED.contains(technique));
+        rows.extend(summed.map(|(by, image)| compare_sum(*by, image, &sum, &slack)));
     }
     Ok(Verdict { truth, rows })
 }
@@ -220,11 +292,12 @@ fn blocks(film: &Film, side: u32) -> Vec<[f64; 2]> {
 }
 
 /// The oracle's blocks, with its points off their surface by a fraction of their coordinates, and this end of each way to a light spared.
-fn exact(scene: &Scene, effort: &Effort, [lift, spared]: [f64; 2]) -> Vec<Block> {
-    let &Effort { side, block, points, seed, .. } = effort;
+fn exact(trial: &Trial, effort: &Effort, [lift, spared]: [f64; 2]) -> Vec<Block> {
+    let Some((bodies, sources, view)) = &trial.exact else { return Vec::new() };
+    let &Effort { block, points, seed, .. } = effort;
     let effort =
         direct::Effort { replicates: 4, side: points, points: 16, depth: Settings::DEPTH as usize, seed, lift, spared };
-    direct::render(&bodies(scene), &view(&scene.camera, side, side), block as usize, &effort)
+    direct::render(bodies, sources, view, block as usize, &effort)
 }
 
 /// The variance of the mean of so many samples that a few of them would show, if each is at most `greatest`; 0 if they are not few.
@@ -268,7 +341,24 @@ fn compare(
     } else {
         0.0
     };
-    Row { technique, chosen, z, relative, mean }
+    Row { against: Against::Oracle, technique, chosen, z, relative, mean }
+}
+
+/// Compares an image with the sum of others; what comes of points off their surfaces is known if the oracle has been asked.
+fn compare_sum([technique, chosen]: [Technique; 2], image: &[[f64; 2]], sum: &[[f64; 2]], slack: &[f64]) -> Row {
+    let all = |image: &[[f64; 2]]| image.iter().map(|[mean, _]| mean).sum::<f64>();
+    let (mut z, mut relative) = (Vec::new(), Vec::new());
+    let slack = slack.iter().copied().chain(std::iter::repeat(0.0));
+    for (([mean, variance], [expected, of_sum]), slack) in image.iter().zip(sum).zip(slack) {
+        let difference = mean - expected;
+        let scale = expected.max(1e-3 * all(sum) / sum.len() as f64).max(f64::MIN_POSITIVE);
+        let (beyond, error) = ((difference.abs() - TOLERANCE * scale - slack).max(0.0), (variance + of_sum).sqrt());
+        let score = if beyond > 0.0 { beyond / error.max(1e-9 * scale) * difference.signum() } else { 0.0 };
+        z.push(if difference.is_nan() { f64::NAN } else { score });
+        relative.push((difference.abs() - 3.0 * error).max(0.0).copysign(difference) / scale);
+    }
+    let mean = if all(sum) > 0.0 { all(image) / all(sum) - 1.0 } else { 0.0 };
+    Row { against: Against::Sum, technique, chosen, z, relative, mean }
 }
 
 /// Further judgements of what differs. A sliver of light that some technique samples, or the oracle, may be missed even by thousands of
@@ -279,18 +369,20 @@ const AGAIN: usize = 3;
 ///
 /// # Errors
 /// Fails if the scene cannot be read.
-pub fn confirmed(scene: &Scene, techniques: &[Technique], effort: &Effort) -> Result<Verdict, String> {
-    let mut first = judge(scene, techniques, effort)?;
+pub fn confirmed(trial: &Trial, techniques: &[Technique], effort: &Effort) -> Result<Verdict, String> {
+    let mut first = judge(trial, techniques, effort)?;
     let mut effort = *effort;
     for _ in 0..AGAIN {
-        let suspects: Vec<Technique> = first.failing().collect();
+        let suspects: Vec<Technique> =
+            techniques.iter().copied().filter(|by| first.failing().any(|t| t == *by)).collect();
         if suspects.is_empty() {
             break;
         }
         effort = effort.again();
-        let other = judge(scene, &suspects, &effort)?;
+        let other = judge(trial, &suspects, &effort)?;
         for row in &mut first.rows {
-            let Some(other) = other.rows.iter().find(|other| other.technique == row.technique) else { continue };
+            let same = |other: &&Row| (other.technique, other.against) == (row.technique, row.against);
+            let Some(other) = other.rows.iter().find(same) else { continue };
             let refuted: Vec<usize> =
                 row.failing().filter(|&i| !other.differs(i) || other.z[i].signum() != row.z[i].signum()).collect();
             for i in refuted {

@@ -1,7 +1,7 @@
 //! Runs regimes, and tells what has been found.
 
 use super::draft::Draft;
-use super::judge::{Effort, Row, TECHNIQUES, confirmed, read};
+use super::judge::{Against, Effort, Row, TECHNIQUES, Trial, confirmed};
 use super::regimes::Regime;
 use super::shrink::shrink;
 use etendue_render::Technique;
@@ -11,15 +11,16 @@ use std::fmt::{self, Display, Formatter};
 use std::ops::Range;
 use std::time::Instant;
 
-/// A scene on which a technique differs from the oracle.
+/// A scene on which a technique differs from the oracle, or from the sum of its lights.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Failure {
     /// Name of the regime.
     pub regime: &'static str,
     /// Seed of the scene in its regime.
     pub seed: u64,
-    /// The techniques that differ, each with its greatest |z| and its greatest difference relative to the light if nothing hid it.
-    pub techniques: Vec<(Technique, f64, f64)>,
+    /// The techniques that differ, from what, each with its greatest |z| and its greatest difference relative to the light if nothing hid
+    /// it.
+    pub techniques: Vec<(Technique, Against, f64, f64)>,
     /// Whether all techniques differ that have been compared.
     pub all: bool,
     /// Why the scene cannot be rendered, if it cannot.
@@ -59,7 +60,7 @@ pub fn run(regime: &Regime, seeds: Range<u64>, [side, spp]: [u32; 2]) -> Tally {
         .into_par_iter()
         .map(|seed| {
             let effort = Effort::new(side, spp, seed);
-            (seed, read(&regime.draft(seed)).and_then(|scene| confirmed(&scene, &TECHNIQUES, &effort)))
+            (seed, Trial::read(&regime.draft(seed), side).and_then(|trial| confirmed(&trial, &TECHNIQUES, &effort)))
         })
         .collect();
     let mut tally = Tally {
@@ -92,7 +93,7 @@ pub fn run(regime: &Regime, seeds: Range<u64>, [side, spp]: [u32; 2]) -> Tally {
         }
         tally.analytic += usize::from(verdict.rows[0].chosen == Technique::Analytic);
         if !failing.is_empty() {
-            let of = |row: &&Row| (row.technique, row.greatest_z(), row.greatest_difference());
+            let of = |row: &&Row| (row.technique, row.against, row.greatest_z(), row.greatest_difference());
             tally.failures.push(Failure {
                 regime: regime.name,
                 seed,
@@ -110,7 +111,8 @@ pub fn run(regime: &Regime, seeds: Range<u64>, [side, spp]: [u32; 2]) -> Tally {
 #[must_use]
 pub fn shrunk(draft: &Draft, technique: Technique, effort: &Effort) -> Draft {
     let fails = |candidate: &Draft| {
-        let verdict = read(candidate).and_then(|scene| confirmed(&scene, &[technique], effort));
+        let trial = Trial::read(candidate, effort.side);
+        let verdict = trial.and_then(|trial| confirmed(&trial, &[technique], effort));
         verdict.is_ok_and(|verdict| verdict.failing().next().is_some())
     };
     shrink(draft, fails)
@@ -122,8 +124,9 @@ impl Display for Failure {
         if let Some(why) = &self.broken {
             return write!(f, " cannot be rendered: {why}");
         }
-        for (technique, z, difference) in &self.techniques {
-            write!(f, " {} by {:+.2e} (|z| {z:.1})", name(*technique), difference)?;
+        for (technique, against, z, difference) in &self.techniques {
+            let sum = if *against == Against::Sum { " from the sum" } else { "" };
+            write!(f, " {}{sum} by {difference:+.2e} (|z| {z:.1})", name(*technique))?;
         }
         f.write_str(if self.all { ", all techniques" } else { "" })
     }

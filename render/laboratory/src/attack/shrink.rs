@@ -1,6 +1,6 @@
 //! Finds the fewest parts and triangles of a scene that still fail.
 
-use super::draft::{Draft, Form};
+use super::draft::{Draft, Form, Glow, Part, Source};
 use super::skin::Skin;
 
 /// Greatest number of scenes that are tried.
@@ -25,6 +25,11 @@ pub fn shrink(draft: &Draft, fails: impl Fn(&Draft) -> bool) -> Draft {
         candidate.look.lens = None;
         accept(&mut best, candidate);
     }
+    if best.look.frame.is_some() {
+        let mut candidate = best.clone();
+        candidate.look.frame = None;
+        accept(&mut best, candidate);
+    }
     if best.is_shared {
         let candidate = Draft { is_shared: false, ..best.clone() };
         accept(&mut best, candidate);
@@ -36,8 +41,44 @@ pub fn shrink(draft: &Draft, fails: impl Fn(&Draft) -> bool) -> Draft {
             candidate.parts.remove(index);
             accept(&mut best, candidate);
         }
+        for index in (0..best.sources.len()).rev() {
+            let mut candidate = best.clone();
+            candidate.sources.remove(index);
+            accept(&mut best, candidate);
+        }
+        for index in 0..best.sources.len() {
+            let bare: [fn(&mut Source); 5] = [
+                |source| source.map = None,
+                |source| source.measure.scale = None,
+                |source| source.measure.wanted = None,
+                |source| source.picture = None,
+                |source| source.strength = 1.0,
+            ];
+            for bare in bare {
+                let mut candidate = best.clone();
+                bare(&mut candidate.sources[index]);
+                accept(&mut best, candidate);
+            }
+        }
         for index in 0..best.parts.len() {
-            let bare: [fn(&mut Skin); 4] = [
+            let bare: [fn(&mut Part, &mut Glow); 5] = [
+                |part, _| part.place = None,
+                |part, _| part.place.iter_mut().for_each(|place| place.is_reversed = false),
+                |_, glow| glow.measure.scale = None,
+                |_, glow| glow.measure.wanted = None,
+                |_, glow| glow.two_sided = false,
+            ];
+            for bare in bare {
+                let mut candidate = best.clone();
+                let part = &mut candidate.parts[index];
+                if let Some(mut glow) = part.glow {
+                    bare(part, &mut glow);
+                    part.glow = Some(glow);
+                    accept(&mut best, candidate);
+                }
+            }
+            let bare: [fn(&mut Skin); 5] = [
+                |skin| skin.glow = None,
                 |skin| skin.albedo = None,
                 |skin| skin.opacity = None,
                 |skin| skin.bend = None,

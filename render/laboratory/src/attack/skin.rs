@@ -28,6 +28,10 @@ pub struct Skin {
     pub albedo: Option<Pattern>,
     /// The opacity, if there are holes.
     pub opacity: Option<Pattern>,
+    /// The picture that a light shows instead of its radiance.
+    pub glow: Option<Picture>,
+    /// If there are some, the texture coordinates of all corners in order, instead of `uv`.
+    pub own_uvs: Vec<[f64; 2]>,
 }
 
 /// Texture coordinates of a corner.
@@ -46,6 +50,21 @@ pub enum Bend {
     Ball(V3),
     /// The triangle's own, and this much of another vector at each corner.
     Bumps(f64),
+    /// Those of no surface, of this length.
+    Wild(Wild, f64),
+}
+
+/// Normals that fit no surface, each of which depends on the position of its corner.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Wild {
+    /// Any.
+    Any,
+    /// The triangle's own or the opposite.
+    Opposite,
+    /// At this angle in radians from the triangle's own, to any side.
+    Beyond(f64),
+    /// Any, and 0 at some corners.
+    Missing,
 }
 
 /// Numbers over texture coordinates.
@@ -100,10 +119,26 @@ impl Bend {
             let normal = match self {
                 Self::Ball(center) => sub(p, *center),
                 Self::Bumps(size) => along(flat, [2, 3, 4].map(|salt| noise(p, salt)), *size),
+                Self::Wild(wild, length) => return wild.normal(p, flat).map(|x| f64::from((x * length) as f32)),
             };
             let normal = unit(normal).map(|x| f64::from(x as f32));
             if normal == [0.0; 3] { flat } else { normal }
         })
+    }
+}
+
+impl Wild {
+    fn normal(self, p: V3, flat: V3) -> V3 {
+        let any = unit([2, 3, 4].map(|salt| noise(p, salt)));
+        match self {
+            Self::Any => any,
+            Self::Opposite => flat.map(|x| x * noise(p, 5).signum()),
+            Self::Beyond(angle) => {
+                let aside = unit(cross(flat, any));
+                along(flat.map(|x| x * libm::cos(angle)), aside, libm::sin(angle))
+            }
+            Self::Missing => any.map(|x| if noise(p, 5) < -0.4 { 0.0 } else { x }),
+        }
     }
 }
 
@@ -127,7 +162,16 @@ impl Picture {
 impl Skin {
     /// The pictures of its patterns.
     pub fn pictures(&self) -> impl Iterator<Item = &Picture> {
-        [&self.albedo, &self.opacity].into_iter().flatten().filter_map(|pattern| pattern.picture.as_ref().ok())
+        let patterns = [&self.albedo, &self.opacity].into_iter().flatten();
+        patterns.filter_map(|pattern| pattern.picture.as_ref().ok()).chain(&self.glow)
+    }
+    /// The texture coordinates of corners, if they have some.
+    #[must_use]
+    pub fn uvs(&self, corners: &[V3]) -> Option<Vec<[f64; 2]>> {
+        if !self.own_uvs.is_empty() {
+            return Some(self.own_uvs.clone());
+        }
+        self.uv.map(|uv| corners.iter().map(|p| uv.at(*p)).collect())
     }
 }
 

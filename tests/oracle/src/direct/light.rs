@@ -1,7 +1,7 @@
 //! The light that reaches a point: what blockers leave of a light's projected solid angle. It is exact up to the rounding of f64 where
 //! blockers are flat, or spheres that do not overlap, and otherwise a sum over points of the light.
 
-use super::random::Random;
+use super::random::{LATTICE, Random};
 use super::scene::{Form, Prepared};
 use crate::closed_forms::projected_cap;
 use crate::outline::{clipped, lambert_vector};
@@ -64,9 +64,6 @@ pub(super) struct Point {
     pub(super) to: V3,
     pub(super) weight: f64,
 }
-
-/// Steps of the lattice of points: 1/g and 1/g² with g³ = g + 1.
-const LATTICE: [f64; 2] = [0.754_877_666_246_692_8, 0.569_840_290_998_053_3];
 
 impl<'a> Seen<'a> {
     /// A light, if it emits towards the point, and is above its horizon.
@@ -267,17 +264,8 @@ impl<'a> Seen<'a> {
     }
     /// The part of a ray to a point of the light that nothing on the way stops.
     pub(super) fn transmittance(&self, to: V3) -> f64 {
-        let mut left = 1.0;
-        for (index, body) in self.bodies.iter().enumerate().filter(|(index, _)| *index != self.light) {
-            let met = body.meets(self.at.point, to, index == self.at.own).filter(|&t| t < 1.0 - self.spared);
-            if let Some(t) = met {
-                left *= 1.0 - body.opacity(along(self.at.point, to, t), self.lift);
-            }
-            if left == 0.0 {
-                break;
-            }
-        }
-        left
+        let others = (0..self.bodies.len()).filter(|index| *index != self.light);
+        transmittance(self.bodies, others, &self.at, to, 1.0 - self.spared, self.lift)
     }
     fn between(&self) -> Between {
         let mut shapes = Vec::new();
@@ -390,6 +378,27 @@ impl<'a> Seen<'a> {
             }
         }
     }
+}
+
+/// The part of a ray from a point that these bodies do not stop before `end`, in units of `to`.
+pub(super) fn transmittance(
+    bodies: &[Prepared],
+    which: impl Iterator<Item = usize>,
+    at: &Receiver,
+    to: V3,
+    end: f64,
+    lift: f64,
+) -> f64 {
+    let mut left = 1.0;
+    for index in which {
+        if let Some(t) = bodies[index].meets(at.point, to, index == at.own).filter(|&t| t < end) {
+            left *= 1.0 - bodies[index].opacity(along(at.point, to, t), lift);
+        }
+        if left == 0.0 {
+            break;
+        }
+    }
+    left
 }
 
 /// Solid angle of a polygon, with the sign of its turn.

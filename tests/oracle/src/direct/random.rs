@@ -1,5 +1,8 @@
 //! Random numbers of the oracle's own.
 
+/// Steps of a lattice of points: 1/g and 1/g² with g³ = g + 1.
+pub(super) const LATTICE: [f64; 2] = [0.754_877_666_246_692_8, 0.569_840_290_998_053_3];
+
 /// SplitMix64.
 #[derive(Clone, Debug)]
 pub(super) struct Random(pub(super) u64);

@@ -61,7 +61,7 @@ pub struct Emission {
     pub two_sided: bool,
 }
 
-/// What varies over a triangle. Its corners are that of [`Form::Flat`] and the ends of both edges.
+/// What varies over a triangle, or a parallelogram as over the triangle of its edges. Its corners are that of [`Form::Flat`] and the ends of both edges.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Detail {
     /// Texture coordinates of the corners.
@@ -74,6 +74,8 @@ pub struct Detail {
     pub albedo: Option<Arc<Pattern>>,
     /// The chance that a ray which meets the triangle is stopped, if that is less than 1 somewhere.
     pub opacity: Option<Opacity>,
+    /// What the radiance of a light is multiplied by, if it varies.
+    pub glow: Option<Arc<Pattern>>,
 }
 
 /// The opacity of a surface with holes.
@@ -94,7 +96,7 @@ pub struct Body {
     pub finish: Finish,
     /// What it emits, if it is a light.
     pub emission: Option<Emission>,
-    /// What varies, if it is a triangle over which something does.
+    /// What varies, if it is flat and something does.
     pub detail: Option<Arc<Detail>>,
 }
 
@@ -111,6 +113,8 @@ pub struct View {
     pub across: V3,
     /// Change of the direction for a pixel downwards.
     pub down: V3,
+    /// Change of the origin for a pixel to the right and downwards; 0 unless the camera is orthographic.
+    pub slides: [V3; 2],
     /// The lens, if there is one.
     pub lens: Option<Lens>,
 }
@@ -130,9 +134,40 @@ impl View {
     #[must_use]
     pub fn ray(&self, [x, y]: [f64; 2], [a, b]: [f64; 2]) -> (V3, V3) {
         let direction = along(along(self.corner, self.across, x), self.down, y);
-        let Some(Lens { radii, bends }) = &self.lens else { return (self.origin, direction) };
-        let origin = along(along(self.origin, radii[0], a), radii[1], b);
+        let origin = along(along(self.origin, self.slides[0], x), self.slides[1], y);
+        let Some(Lens { radii, bends }) = &self.lens else { return (origin, direction) };
+        let origin = along(along(origin, radii[0], a), radii[1], b);
         (origin, along(along(direction, bends[0], -a), bends[1], -b))
+    }
+}
+
+impl View {
+    /// The pixels around what the image shows of a form: the least and the greatest column and row. `None` if it shows nothing of it, if some
+    /// of it is behind the camera, and of an orthographic camera.
+    pub(super) fn around(&self, form: &Form) -> Option<[[usize; 2]; 2]> {
+        let n = cross(self.across, self.down);
+        let points = match form {
+            Form::Sphere { center, radius } => {
+                let axis = |k: usize| std::array::from_fn(|i| if i == k { *radius } else { 0.0 });
+                (0..6).map(|k| along(*center, axis(k % 3), if k < 3 { 1.0 } else { -1.0 })).collect()
+            }
+            Form::Flat { .. } => form.corners([0.0; 3]).0.to_vec(),
+        };
+        let (mut least, mut most) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+        for point in points {
+            let to = sub(point, self.origin);
+            let far = dot(to, n) / dot(self.corner, n);
+            if !(far > 0.0 && far.is_finite()) {
+                return None;
+            }
+            let place = sub(to.map(|x| x / far), self.corner);
+            let at = [cross(self.down, n), cross(n, self.across)];
+            let at = [dot(place, at[0]) / dot(self.across, at[0]), dot(place, at[1]) / dot(self.down, at[1])];
+            (least, most) = ([0, 1].map(|k| least[k].min(at[k])), [0, 1].map(|k| most[k].max(at[k])));
+        }
+        let is_seen = (0..2).all(|k| most[k] >= 0.0 && least[k] < self.size[k] as f64);
+        let pixel = |x: f64, k: usize| (x.max(0.0) as usize).min(self.size[k] - 1);
+        is_seen.then(|| [[0, 1].map(|k| pixel(least[k], k)), [0, 1].map(|k| pixel(most[k], k))])
     }
 }
 
@@ -213,6 +248,11 @@ impl Prepared {
         let Some(Opacity { chance, least }) = &detail.opacity else { return 1.0 };
         let chance = chance.at(self.uv(detail, p, lift), lift);
         least.map_or(chance.clamp(0.0, 1.0), |least| if chance >= least { 1.0 } else { 0.0 })
+    }
+    /// What the radiance that the body emits is multiplied by at a point.
+    pub(super) fn glow(&self, p: V3, lift: f64) -> Option<f64> {
+        let detail = self.body.detail.as_ref()?;
+        Some(detail.glow.as_ref()?.at(self.uv(detail, p, lift), lift).max(0.0))
     }
     /// How the body reflects at a point.
     pub(super) fn finish(&self, p: V3, lift: f64) -> Finish {

@@ -55,8 +55,9 @@ fn enclosed(shell: Part, outside: f64, random: &mut Random) -> Draft {
     let eye = [0.5 * libm::cos(angle), random.between(0.1, 0.4), 0.5 * libm::sin(angle)];
     let lens = random.one_in(3).then(|| [random.between(0.01, 0.1), random.between(0.5, 1.0)]);
     let eye = eye.map(|x| f64::from(x as f32));
-    let look = Look { eye, target: [0.0, y, 0.0], up: [0.0, 1.0, 0.0], fov: random.between(40.0, 90.0), lens };
-    Draft { name: String::new(), look, parts, is_shared: false }
+    let look =
+        Look { eye, target: [0.0, y, 0.0], up: [0.0, 1.0, 0.0], fov: random.between(40.0, 90.0), lens, frame: None };
+    Draft::new(String::new(), look, parts)
 }
 
 pub(super) fn in_sphere(random: &mut Random) -> Draft {
