@@ -1,6 +1,8 @@
-//! `etendue selftest --attack` and `--claims`: random scenes by all techniques against the oracle, and the errors that they claim.
+//! `etendue selftest --attack`, `--claims` and `--choices`: random scenes by all techniques against the oracle, the errors that they claim,
+//! and how well they choose between kinds of lights.
 
 use clap::Args;
+use etendue_laboratory::attack::choice;
 use etendue_laboratory::attack::claims::{self, SHARE, Tally, honest};
 use etendue_laboratory::attack::defects::{self, Table};
 use etendue_laboratory::attack::judge::Effort;
@@ -20,6 +22,9 @@ pub(crate) struct AttackOptions {
     /// Render this many random scenes per regime, and compare the errors that the images claim with those that they have
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1 << 32), conflicts_with = "attack")]
     claims: Option<u64>,
+    /// Measure how well this many random scenes per regime choose between lamps, skies and suns
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1 << 32), conflicts_with_all = ["attack", "claims"])]
+    choices: Option<u64>,
     /// Take random scenes of these regimes only [default: all]
     #[arg(long, value_name = "NAME", value_delimiter = ',', conflicts_with = "defects")]
     regime: Vec<String>,
@@ -27,14 +32,18 @@ pub(crate) struct AttackOptions {
     #[arg(long, value_name = "FOLDER", requires = "attack")]
     shrink: Option<PathBuf>,
     /// Compare the scenes on which the renderer was wrong once
-    #[arg(long, conflicts_with_all = ["attack", "claims"])]
+    #[arg(long, conflicts_with_all = ["attack", "claims", "choices"])]
     defects: bool,
 }
 
 impl AttackOptions {
     /// Whether anything of this is asked for.
     pub(crate) const fn is_asked(&self) -> bool {
-        self.attack.is_some() || self.claims.is_some() || self.defects || !self.regime.is_empty()
+        self.attack.is_some()
+            || self.claims.is_some()
+            || self.choices.is_some()
+            || self.defects
+            || !self.regime.is_empty()
     }
 
     /// Prints the tables, with seeds from `seed` on, and `quality` as the width of images and their samples per pixel; returns whether all images agree.
@@ -47,8 +56,8 @@ impl AttackOptions {
             tables.iter().try_for_each(|table| write!(io::stdout(), "{table}"))?;
             return Ok(tables.iter().all(Table::agrees));
         }
-        if self.attack.is_none() && self.claims.is_none() {
-            return Err("--regime needs --attack or --claims".into());
+        if self.attack.is_none() && self.claims.is_none() && self.choices.is_none() {
+            return Err("--regime needs --attack, --claims or --choices".into());
         }
         let find = |name: &String| named(name).ok_or_else(|| format!("no regime is called {name:?}: {}", known()));
         let mut regimes = self.regime.iter().map(find).collect::<Result<Vec<&Regime>, _>>()?;
@@ -57,6 +66,15 @@ impl AttackOptions {
         }
         if let Some(count) = self.claims {
             return claim(&regimes, |regime| pool.install(|| claims::run(regime, seed..seed + count, quality)));
+        }
+        if let Some(count) = self.choices {
+            let mut least = f64::INFINITY;
+            for regime in regimes {
+                let tally = pool.install(|| choice::run(regime, seed..seed + count, quality))?;
+                writeln!(out(), "{tally}")?;
+                least = tally.ratios.first().map_or(least, |(ratio, _)| least.min(*ratio));
+            }
+            return Ok(least >= choice::LEAST);
         }
         if let Some(folder) = &self.shrink {
             std::fs::create_dir_all(folder).map_err(|e| format!("{}: {e}", folder.display()))?;

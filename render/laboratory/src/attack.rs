@@ -2,10 +2,12 @@
 //!
 //! [`regimes`] has the scenes, [`draft`] their parts and their text, [`skin`] what varies over them, `meaning` what they mean, [`bridge`] what
 //! the oracle gets of them, [`judge`] the comparison,
-//! [`shrink`] the fewest parts that still differ, [`report`] what is printed, [`claims`] whether images tell their error, and [`defects`] the scenes on which the renderer was wrong once.
+//! [`shrink`] the fewest parts that still differ, [`report`] what is printed, [`claims`] whether images tell their error,
+//! [`choice`] how well kinds of lights are chosen, and [`defects`] the scenes on which the renderer was wrong once.
 
 pub mod bridge;
 mod build;
+pub mod choice;
 pub mod claims;
 pub mod defects;
 pub mod draft;

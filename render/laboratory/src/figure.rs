@@ -80,6 +80,8 @@ pub enum Name {
     LightTreeScaling,
     /// What the importance of the nodes of a tree of lights is worth
     LightTreeNodes,
+    /// Efficiency of the choice between lamps, skies and suns against the size of the floor
+    SkyAndLamp,
     /// All figures
     All,
 }
@@ -105,6 +107,7 @@ impl Studio<'_> {
             Name::Lights => self.lights(),
             Name::LightTreeScaling => Ok(self.light_tree_scaling()),
             Name::LightTreeNodes => self.light_tree_nodes(),
+            Name::SkyAndLamp => self.sky_and_lamp(),
             Name::All => Err("all is not one figure".into()),
         }
     }

@@ -364,6 +364,8 @@ fn compare_sum([technique, chosen]: [Technique; 2], image: &[[f64; 2]], sum: &[[
 /// Further judgements of what differs. A sliver of light that some technique samples, or the oracle, may be missed even by thousands of
 /// samples, and its error with it; each judgement takes four times as many as the one before.
 const AGAIN: usize = 3;
+/// Where so many blocks differ twice, it is no sliver.
+const PLAIN: usize = 5;
 
 /// Judges a scene, and again by those techniques that differ: what is left differs in the same block each time.
 ///
@@ -372,7 +374,11 @@ const AGAIN: usize = 3;
 pub fn confirmed(trial: &Trial, techniques: &[Technique], effort: &Effort) -> Result<Verdict, String> {
     let mut first = judge(trial, techniques, effort)?;
     let mut effort = *effort;
-    for _ in 0..AGAIN {
+    for round in 0..AGAIN {
+        let is_plain = |row: &Row| row.failing().next().is_none() || row.failing().count() >= PLAIN;
+        if round > 0 && first.rows.iter().all(is_plain) {
+            break;
+        }
         let suspects: Vec<Technique> =
             techniques.iter().copied().filter(|by| first.failing().any(|t| t == *by)).collect();
         if suspects.is_empty() {
@@ -391,4 +397,33 @@ pub fn confirmed(trial: &Trial, techniques: &[Technique], effort: &Effort) -> Re
         }
     }
     Ok(first)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::attack::regimes::named;
+
+    /// Neither judge passes an image with a light too many.
+    #[test]
+    fn judges_notice_a_light() {
+        let mut seen = 0;
+        for seed in 0..6 {
+            let draft = named("skies").unwrap().draft(seed);
+            let mut trial = Trial::read(&draft, 16).unwrap();
+            if trial.alone.len() < 2 {
+                continue;
+            }
+            seen += 1;
+            // which is a source, and one that matters
+            trial.alone.pop();
+            trial.exact.as_mut().unwrap().1.pop();
+            let verdict = judge(&trial, &TECHNIQUES[..1], &Effort::new(16, 64, 1)).unwrap();
+            let fails = |against: Against| {
+                verdict.rows.iter().any(|row| row.against == against && row.failing().next().is_some())
+            };
+            assert!(fails(Against::Oracle) && fails(Against::Sum), "{draft}{verdict:?}");
+        }
+        assert!(seen > 2, "{seen}");
+    }
 }

@@ -44,9 +44,51 @@ fn similarity(map: &Map) -> Option<f64> {
     (even && [(a, b), (b, c), (c, a)].iter().all(|(v, w)| dot(*v, *w).abs() < 1e-5 * factor * factor)).then_some(factor)
 }
 
-/// The mean of a picture's texels.
-fn mean(picture: &Picture) -> f64 {
-    picture.texels.iter().map(|x| f64::from(*x)).sum::<f64>() / picture.texels.len() as f64
+/// The value of a picture of a light, which is interpolated between the middles of texels and stays as it is beyond them.
+fn value(picture: &Picture, [u, v]: [f64; 2]) -> f64 {
+    let size = [picture.width, picture.texels.len() / picture.width];
+    let at = |x: f64, k: usize| {
+        let x = (x * size[k] as f64 - 0.5).clamp(0.0, size[k] as f64 - 1.0);
+        (x as usize, (x as usize + 1).min(size[k] - 1), x.fract())
+    };
+    let ((left, right, s), (low, high, t)) = (at(u, 0), at(v, 1));
+    let row = |y: usize| {
+        let [a, b] = [left, right].map(|x| f64::from(picture.texels[y * size[0] + x]));
+        a + (b - a) * s
+    };
+    row(low) + (row(high) - row(low)) * t
+}
+
+/// About how many points tell a mean.
+const POINTS: usize = 1 << 17;
+
+/// The mean of a picture over the area of these triangles.
+fn mean(picture: &Picture, pieces: &[Piece]) -> f64 {
+    let side = (POINTS / pieces.len()).isqrt().max(4);
+    let at = |i: usize| (i as f64 + 0.5) / side as f64;
+    let of = |(corners, [a, b, c]): &Piece| {
+        let point = |(i, j): (usize, usize)| {
+            // the half of the parallelogram beyond the diagonal is turned over
+            let [s, t] = if i + j < side { [at(i), at(j)] } else { [1.0 - at(i), 1.0 - at(j)] };
+            value(picture, [0, 1].map(|k| a[k] + s * (b[k] - a[k]) + t * (c[k] - a[k])))
+        };
+        let sum: f64 = (0..side).flat_map(|i| (0..side).map(move |j| (i, j))).map(point).sum();
+        [area(corners), area(corners) * sum / (side * side) as f64]
+    };
+    let [all, shown] = pieces.iter().map(of).fold([0.0; 2], |[a, b], [c, d]| [a + c, b + d]);
+    shown / all
+}
+
+/// The mean of a picture over a whole sphere.
+fn mean_of_sphere(picture: &Picture) -> f64 {
+    let side = POINTS.isqrt();
+    let at = |i: usize| (i as f64 + 0.5) / side as f64;
+    let point = |(i, j): (usize, usize)| value(picture, [at(i), 1.0 - libm::acos(2.0 * at(j) - 1.0) / PI]);
+    (0..side).flat_map(|i| (0..side).map(move |j| (i, j))).map(point).sum::<f64>() / (side * side) as f64
+}
+
+fn area([a, b, c]: &[V3; 3]) -> f64 {
+    0.5 * length(cross(sub(*b, *a), sub(*c, *a)))
 }
 
 impl Measure {
@@ -147,50 +189,46 @@ impl Part {
         let has_area = |([a, b, c], _): &Piece| cross(sub(*b, *a), sub(*c, *a)) != [0.0; 3];
         own.into_iter().map(placed).filter(has_area).collect()
     }
-    /// The parts that mean the same, whose lights have neither factors nor watts.
-    fn meant(&self) -> Vec<Self> {
-        let Some(glow) = self.glow else { return vec![self.clone()] };
+    /// The part that means the same, whose light has neither a factor nor watts.
+    fn meant(&self) -> Self {
+        let Some(glow) = self.glow else { return self.clone() };
         let map = self.place.map(|place| rounded(&place.map));
         let is_reversed = self.place.is_some_and(|place| place.is_reversed);
         let sides = if glow.two_sided { 2.0 } else { 1.0 };
-        let mean = self.skin.glow.as_ref().map_or(1.0, mean);
+        let picture = self.skin.glow.as_ref();
         // a picture has its own radiance, so that its factor is in place of one
-        let shining = |area: f64| {
-            let strength = if self.skin.glow.is_some() { 1.0 } else { glow.radiance };
+        let part = |form: Form, area: f64, mean: f64, skin: Skin| {
+            let strength = if picture.is_some() { 1.0 } else { glow.radiance };
             let radiance = glow.measure.factor(strength, PI * sides * area * mean) as f32;
-            let measure = Measure { scale: self.skin.glow.is_some().then_some(radiance), wanted: None };
-            Some(Glow { radiance, measure, ..glow })
+            let measure = Measure { scale: picture.is_some().then_some(radiance), wanted: None };
+            Self { form, glow: Some(Glow { radiance, measure, ..glow }), skin, place: None, ..self.clone() }
         };
-        let part =
-            |form: Form, area: f64, skin: Skin| Self { form, glow: shining(area), skin, place: None, ..self.clone() };
         let similar = map.map_or(Some(1.0), |map| similarity(&map));
         match (&self.form, similar) {
             (Form::Sphere(center, radius), Some(factor))
-                if (!is_reversed || glow.two_sided) && (map.is_none() || self.skin.glow.is_none()) =>
+                if (!is_reversed || glow.two_sided) && (map.is_none() || picture.is_none()) =>
             {
                 let radius = f64::from(*radius as f32) * factor;
                 let center = map.map_or(*center, |map| point(&map, round(*center)));
-                return vec![part(Form::Sphere(center, radius), 4.0 * PI * radius * radius, self.skin.clone())];
+                let mean = picture.map_or(1.0, mean_of_sphere);
+                return part(Form::Sphere(center, radius), 4.0 * PI * radius * radius, mean, self.skin.clone());
             }
-            (Form::Parallelogram(p, u, v), _) if self.skin.glow.is_none() => {
+            (Form::Parallelogram(p, u, v), _) if picture.is_none() => {
                 let moved = |v: &V3| map.map_or(*v, |map| vector(&map, round(*v)));
                 let (p, u, v) = (map.map_or(*p, |map| point(&map, round(*p))), moved(u), moved(v));
-                let (u, v) =
-                    if is_reversed != map.is_some_and(|map| determinant(&map) < 0.0) { (v, u) } else { (u, v) };
-                return vec![part(Form::Parallelogram(p, u, v), length(cross(u, v)), Skin::default())];
+                let turned = is_reversed != map.is_some_and(|map| determinant(&map) < 0.0);
+                let (u, v) = if turned { (v, u) } else { (u, v) };
+                return part(Form::Parallelogram(p, u, v), length(cross(u, v)), 1.0, Skin::default());
             }
             _ => {}
         }
-        let area = |([a, b, c], _): &Piece| 0.5 * length(cross(sub(*b, *a), sub(*c, *a)));
-        let of = |pieces: &[Piece]| {
-            let own_uvs = pieces.iter().filter(|_| self.skin.glow.is_some()).flat_map(|(_, uvs)| *uvs).collect();
-            let skin = Skin { glow: self.skin.glow.clone(), own_uvs, ..Skin::default() };
-            let mesh = Form::Mesh(pieces.iter().map(|(corners, _)| *corners).collect());
-            part(mesh, pieces.iter().map(area).sum(), skin)
-        };
         let pieces = self.pieces();
-        // each triangle of a mesh is a light of its own
-        if matches!(self.form, Form::Mesh(_)) { pieces.chunks(1).map(of).collect() } else { vec![of(&pieces)] }
+        let own_uvs = pieces.iter().filter(|_| picture.is_some()).flat_map(|(_, uvs)| *uvs).collect();
+        let skin = Skin { glow: picture.cloned(), own_uvs, ..Skin::default() };
+        let mesh = Form::Mesh(pieces.iter().map(|(corners, _)| *corners).collect());
+        let all = pieces.iter().map(|(corners, _)| area(corners)).sum();
+        let mean = picture.filter(|_| glow.measure.wanted.is_some()).map_or(1.0, |of| mean(of, &pieces));
+        part(mesh, all, mean, skin)
     }
 }
 
@@ -256,21 +294,28 @@ impl Draft {
     /// The same scene without what the reader has to work out.
     #[must_use]
     pub fn meant(&self) -> Self {
-        let parts = self.parts.iter().flat_map(Part::meant).collect();
+        let parts = self.parts.iter().map(Part::meant).collect();
         Self { parts, sources: self.sources.iter().map(Source::meant).collect(), ..self.clone() }
+    }
+    /// The same scene without light.
+    #[must_use]
+    pub fn dark(&self) -> Self {
+        let dark = |part: &Part| Part { glow: None, skin: Skin { glow: None, ..part.skin.clone() }, ..part.clone() };
+        Self { parts: self.parts.iter().map(dark).collect(), sources: Vec::new(), ..self.clone() }
     }
     /// The scenes with one of its lights each; the others are there, but dark.
     #[must_use]
     pub fn alone(&self) -> Vec<Self> {
-        let lit: Vec<usize> = (0..self.parts.len()).filter(|&i| self.parts[i].glow.is_some()).collect();
-        let dark = |part: &Part| Part { glow: None, skin: Skin { glow: None, ..part.skin.clone() }, ..part.clone() };
-        let parts = |lit: Option<usize>| {
-            let kept = |(i, part): (usize, &Part)| if Some(i) == lit { part.clone() } else { dark(part) };
-            self.parts.iter().enumerate().map(kept).collect()
+        let dark = self.dark();
+        let with = |index: usize| {
+            let mut alone = dark.clone();
+            alone.parts[index] = self.parts[index].clone();
+            alone
         };
-        let of_parts = lit.iter().map(|&i| Self { parts: parts(Some(i)), sources: Vec::new(), ..self.clone() });
-        let alone = |source: &Source| Self { parts: parts(None), sources: vec![source.clone()], ..self.clone() };
-        of_parts.chain(self.sources.iter().map(alone)).collect()
+        let of_parts = (0..self.parts.len()).filter(|&i| self.parts[i].glow.is_some()).map(with);
+        of_parts
+            .chain(self.sources.iter().map(|source| Self { sources: vec![source.clone()], ..dark.clone() }))
+            .collect()
     }
     /// Number of lights.
     #[must_use]

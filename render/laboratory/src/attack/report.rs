@@ -126,7 +126,7 @@ impl Display for Failure {
         }
         for (technique, against, z, difference) in &self.techniques {
             let sum = if *against == Against::Sum { " from the sum" } else { "" };
-            write!(f, " {}{sum} by {difference:+.2e} (|z| {z:.1})", name(*technique))?;
+            write!(f, " {}{sum} by {difference:+.2e} (|z| {:.1})", name(*technique), z.min(1e9))?;
         }
         f.write_str(if self.all { ", all techniques" } else { "" })
     }

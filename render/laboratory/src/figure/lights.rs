@@ -1,7 +1,9 @@
-//! Figures of choices among many lights: variance and time, growth with the number of lights, and what the importance of a node is worth.
+//! Figures of choices among lights: variance and time of many, growth with their number, what the importance of a node is worth, and the
+//! choice between lamps, skies and suns.
 
 use super::sheet::Svg;
 use super::studio::{Finding, Studio};
+use crate::attack::choice::{self, Choice, STAGES};
 use crate::chart::pictures::heat;
 use crate::chart::plot::{Bar, BarRow, Bars, Chart, Dot, Line, Scale};
 use crate::cost::median;
@@ -20,6 +22,8 @@ const BLOCKS: u32 = 96;
 const ROUNDS: usize = 385;
 /// Points that the camera sees, in the same figure.
 const ENTROPIES: u32 = 64;
+/// Samples per pixel in the figure of skies and lamps.
+const SPP: u32 = 256;
 /// Nodes of each scene in the figure of nodes.
 const NODES: u32 = 1500;
 
@@ -207,6 +211,47 @@ impl Studio<'_> {
             equal: false,
         };
         Finding { svg: Svg::chart(&chart.draw()).captioned(&headline[..1]), headline }
+    }
+
+    pub(super) fn sky_and_lamp(&self) -> Result<Finding, Box<dyn Error>> {
+        let mut headline = vec![format!(
+            "Lamps beside skies and suns over floors of ±1 to ±10⁵: efficiency at {SPP} samples per pixel, which is squared radiance over \
+             squared error and samples, of this choice, of an equal chance for lamps, sky and suns, and of one by power; and this choice \
+             relative to the better of those."
+        )];
+        let mut charts = Vec::new();
+        for stage in STAGES.into_iter().take_while(|_| !self.stopped()) {
+            let mut found: Vec<(f64, Choice)> = Vec::new();
+            for half in [1.0, 3.0, 10.0, 30.0, 100.0, 1e3, 1e4, 1e5] {
+                let choice = choice::measure(&choice::stage(stage, half), [16, SPP], self.seed)?;
+                found.extend(choice.map(|choice| (half, choice)));
+            }
+            let least = found.iter().map(|(_, choice)| choice.ratio()).fold(f64::INFINITY, f64::min);
+            headline.push(format!("{}: at least {least:.2} of the better pure choice", stage.0));
+            headline.extend(found.iter().map(|(half, Choice { own, equal, by_power })| {
+                let ratio = own / equal.max(*by_power);
+                format!("  ±{half:9.1} {own:11.3e} {equal:11.3e} {by_power:11.3e} {ratio:7.3}")
+            }));
+            let of = |name: &str, color: usize, y: fn(&Choice) -> f64| {
+                series(name, color, found.iter().map(|(half, choice)| (*half, y(choice))))
+            };
+            let chart = Chart {
+                title: stage.0.to_owned(),
+                x_label: "half size of the floor".to_owned(),
+                y_label: "1/(squared error × samples)".to_owned(),
+                scales: [Scale::Log, Scale::Log],
+                lines: vec![
+                    of("this choice", 0, |choice| choice.own),
+                    of("equal chances", 1, |choice| choice.equal),
+                    of("by power", 2, |choice| choice.by_power),
+                ],
+                guides: Vec::new(),
+                equal: false,
+            };
+            charts.push(Svg::chart(&chart.draw()));
+        }
+        let rows = charts.chunks(2).map(|pair| Svg::row(pair.to_vec())).collect();
+        Ok(Finding { svg: Svg::column(rows).captioned(&headline[..1]), headline })
     }
 
     pub(super) fn light_tree_nodes(&self) -> Result<Finding, Box<dyn Error>> {

@@ -89,6 +89,11 @@ impl Sky {
         }
         sky
     }
+    /// ∫L dω.
+    #[must_use]
+    pub fn flux(&self) -> f64 {
+        self.sums.last().copied().unwrap_or(0.0)
+    }
     fn is_square(&self) -> bool {
         self.size[0] == self.size[1]
     }
@@ -156,7 +161,7 @@ impl Source {
                 vec![Beam { to: *towards, end: f64::INFINITY, irradiance: *irradiance, most: *irradiance }]
             }
             Self::Sky(sky) => {
-                let all = sky.sums.last().copied().unwrap_or(0.0);
+                let all = sky.flux();
                 let (offset, shift) = (random.unit(), [random.unit(), random.unit()]);
                 let beam = |i: usize| {
                     let target = (i as f64 + offset) / count as f64 * all;
@@ -182,7 +187,7 @@ mod tests {
         for size in [[1, 1], [4, 4], [5, 5], [6, 3], [3, 7]] {
             let sky =
                 Sky::new([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], size[0], vec![1.0; size[0] * size[1]]);
-            let all = sky.sums.last().unwrap();
+            let all = sky.flux();
             assert!((all - 4.0 * PI).abs() < 1e-12, "{size:?}: {all}");
             let mut mean = [0.0; 4];
             for texel in 0..sky.texels.len() {
