@@ -737,14 +737,14 @@ class PointLight:
 
 @final
 class SpotLight:
-    def __new__(cls, position: ArrayLike, axis: ArrayLike, cos_inner: ArrayLike, cos_outer: ArrayLike) -> SpotLight: ...
+    def __new__(cls, position: ArrayLike, axis: ArrayLike, one_minus_cos_inner: ArrayLike, one_minus_cos_outer: ArrayLike) -> SpotLight: ...
     def by_delta(self, p: ArrayLike) -> Sampler: ...
     @staticmethod
     def sample_each(
         position: ArrayLike,
         axis: ArrayLike,
-        cos_inner: ArrayLike,
-        cos_outer: ArrayLike,
+        one_minus_cos_inner: ArrayLike,
+        one_minus_cos_outer: ArrayLike,
         *,
         p: ArrayLike,
         u: ArrayLike,
@@ -755,8 +755,8 @@ class SpotLight:
     def hit_each(
         position: ArrayLike,
         axis: ArrayLike,
-        cos_inner: ArrayLike,
-        cos_outer: ArrayLike,
+        one_minus_cos_inner: ArrayLike,
+        one_minus_cos_outer: ArrayLike,
         *,
         p: ArrayLike,
         w: ArrayLike,
@@ -767,8 +767,8 @@ class SpotLight:
     def pdf_each(
         position: ArrayLike,
         axis: ArrayLike,
-        cos_inner: ArrayLike,
-        cos_outer: ArrayLike,
+        one_minus_cos_inner: ArrayLike,
+        one_minus_cos_outer: ArrayLike,
         *,
         p: ArrayLike,
         w: ArrayLike,
@@ -779,8 +779,8 @@ class SpotLight:
     def invert_each(
         position: ArrayLike,
         axis: ArrayLike,
-        cos_inner: ArrayLike,
-        cos_outer: ArrayLike,
+        one_minus_cos_inner: ArrayLike,
+        one_minus_cos_outer: ArrayLike,
         *,
         p: ArrayLike,
         w: ArrayLike,

@@ -342,7 +342,8 @@ impl Lights {
                 PARALLELOGRAM => chosen.parallelogram(measure, p, normal, u),
                 POINT => PointLight::new(place).by_delta(p).sample(u).into(),
                 SPOT => {
-                    let light = SpotLight { position: place, axis: first, cos_inner: second.x, cos_outer: second.y };
+                    let [one_minus_cos_inner, one_minus_cos_outer] = [second.x, second.y];
+                    let light = SpotLight { position: place, axis: first, one_minus_cos_inner, one_minus_cos_outer };
                     light.by_delta(p).sample(u).into()
                 }
                 DISTANT => DirectionalLight::new(place).by_delta(p).sample(u).into(),

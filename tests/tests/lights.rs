@@ -8,7 +8,8 @@ use etendue::{
 };
 use etendue_oracle::tier::cases;
 use etendue_oracle::{
-    V3, along, basis, cross, dot, facing_disk, gauss_legendre, length, perpendicular_disk, projected_polygon, sub, unit,
+    V3, along, basis, cross, dot, facing_disk, gauss_legendre, length, narrow, perpendicular_disk, projected_polygon,
+    sub, unit,
 };
 use etendue_properties::generators::{self, Random};
 use etendue_properties::properties::{Coordinates, squares_of, twice, vectors_of};
@@ -356,9 +357,9 @@ fn delta_lights() {
     let s = point.by_delta(origin()).sample(Vec2::default());
     assert!(s.delta && s.emits && s.distance == 5.0 && (s.pdf - 25.0).abs() < 1e-13);
     assert_eq!(point.by_delta(point.position).sample(Vec2::default()).pdf, 0.0);
-    let (inner, outer) = (0.9, 0.7);
+    let (one_minus_cos_inner, one_minus_cos_outer) = (0.1, 0.3);
     let axis = [0.0, -0.6, -0.8];
-    let spot = SpotLight { position: point.position, axis: axis.into(), cos_inner: inner, cos_outer: outer };
+    let spot = SpotLight { position: point.position, axis: axis.into(), one_minus_cos_inner, one_minus_cos_outer };
     assert!((spot.by_delta(origin()).sample(Vec2::default()).pdf - 25.0).abs() < 1e-12);
     let (side, _) = basis(axis);
     let at = |cos: f64| {
@@ -372,6 +373,44 @@ fn delta_lights() {
     assert!(s.delta && s.emits && s.pdf == 1.0 && s.distance.is_finite());
 }
 
+/// Cones of any angle end where they should, to the rounding of a direction: 1e−7 rad beside the angle of the narrowest.
+#[test]
+fn narrow_cones_are_as_narrow_as_they_are() {
+    let mut random = Random::new(31);
+    for degrees in [1e-3_f64, 1e-2, 0.1, 0.5, 5.0, 60.0, 150.0] {
+        let outer = degrees.to_radians();
+        for _ in 0..200 {
+            let axis = random.direction();
+            let (side, _) = basis(axis);
+            let position: [f32; 3] = narrow(random.direction());
+            let one_minus_cos = |angle: f64| (2.0 * (0.5 * angle).sin().powi(2)) as f32;
+            for inner in [0.0, 0.5, 1.0] {
+                let spot = SpotLight {
+                    position: position.into(),
+                    axis: narrow(axis).into(),
+                    one_minus_cos_inner: one_minus_cos(inner * outer),
+                    one_minus_cos_outer: one_minus_cos(outer),
+                };
+                let falloff = |angle: f64| {
+                    let w = along(axis.map(|x| x * angle.cos()), side, angle.sin());
+                    f64::from(spot.falloff(narrow(w).into()))
+                };
+                let rounding = 2e-7 / outer + 1e-6;
+                assert!(falloff(outer * (1.0 + rounding)) == 0.0, "{degrees}");
+                assert!(falloff(inner * outer * (1.0 - rounding)) == 1.0 || inner == 0.0, "{degrees}");
+                let at = random.range(0.0, 1.0);
+                let t = |inner: f64| {
+                    let cosine = |part: f64| 2.0 * (0.5 * part * outer).sin().powi(2);
+                    ((cosine(1.0) - cosine(at)) / (cosine(1.0) - cosine(inner))).clamp(0.0, 1.0)
+                };
+                let truth = t(inner) * t(inner) * (3.0 - 2.0 * t(inner));
+                let found = falloff(at * outer);
+                assert!(inner == 1.0 || (found - truth).abs() < 12.0 * rounding, "{degrees}: {found} for {truth}");
+            }
+        }
+    }
+}
+
 /// All lights with the parameters a, b (b also as a unit vector) and r, from the point p.
 fn samples<R: Real>(p: Vec3<R>, a: Vec3<R>, b: Vec3<R>, r: R, u: Vec2<R>) -> [LightSample<R>; 13] {
     let n = b.normalize();
@@ -383,8 +422,8 @@ fn samples<R: Real>(p: Vec3<R>, a: Vec3<R>, b: Vec3<R>, r: R, u: Vec2<R>) -> [Li
         Line { start: a, edge: b }.by_angle(p).sample(u),
         Line { start: a, edge: b }.by_projected_solid_angle(p, n).sample(u),
         PointLight { position: a }.by_delta(p).sample(u),
-        SpotLight { position: a, axis: n, cos_inner: u.x, cos_outer: u.y }.by_delta(p).sample(u),
-        SpotLight { position: a, axis: n, cos_inner: u.x, cos_outer: u.x }.by_delta(p).sample(u),
+        SpotLight { position: a, axis: n, one_minus_cos_inner: u.x, one_minus_cos_outer: u.y }.by_delta(p).sample(u),
+        SpotLight { position: a, axis: n, one_minus_cos_inner: u.x, one_minus_cos_outer: u.x }.by_delta(p).sample(u),
         DirectionalLight { direction: n }.by_delta(p).sample(u),
         Sun { direction: n, one_minus_cos: u.x + u.y }.by_solid_angle().sample(u),
         ConstantEnvironment.by_solid_angle().sample(u),

@@ -145,7 +145,12 @@ fn spot_lights_take_profiles() {
             let axis = if kind == 1 { [0.0, 0.0, 1.0] } else { random.direction() };
             let position = [1.0, 2.0, 3.0];
             let [cos_inner, cos_outer] = [inner, outer].map(|degrees| degrees.to_radians().cos());
-            let light = SpotLight { position: vector::<f64>(position), axis: vector(axis), cos_inner, cos_outer };
+            let light = SpotLight {
+                position: vector::<f64>(position),
+                axis: vector(axis),
+                one_minus_cos_inner: 1.0 - cos_inner,
+                one_minus_cos_outer: 1.0 - cos_outer,
+            };
             let falloff = |cos: f64| {
                 if inner == outer {
                     return f64::from(u8::from(cos >= cos_inner));

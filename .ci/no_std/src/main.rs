@@ -295,7 +295,7 @@ known! {
     Sun: 0.25 * PI, Self { direction: UP.into(), one_minus_cos: lit(0.133_974_6) };
     // E = I/d²
     PointLight: 0.25, Self { position: [0.0, 2.0, 0.0].into() };
-    SpotLight: 0.25, Self { position: [0.0, 2.0, 0.0].into(), axis: [0.0, -1.0, 0.0].into(), cos_inner: lit(0.9), cos_outer: lit(0.8) };
+    SpotLight: 0.25, Self { position: [0.0, 2.0, 0.0].into(), axis: [0.0, -1.0, 0.0].into(), one_minus_cos_inner: lit(0.1), one_minus_cos_outer: lit(0.2) };
     DirectionalLight: 1.0, Self { direction: UP.into() };
 }
 fn irradiance<L: Known>(_: &L) -> f32 {

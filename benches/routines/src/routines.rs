@@ -232,7 +232,9 @@ in_room! {
     Annulus "annulus" |r| Self::new(r.a, r.up, r.radius, r.radius * half_of());
     Sun "sun" |r| Self::new(r.up, r.radius);
     PointLight "point light" |r| Self::new(r.a);
-    SpotLight "spot light" |r| Self { position: r.a, axis: -r.up, cos_inner: R::lit(0.9), cos_outer: R::lit(0.1) };
+    SpotLight "spot light" |r| {
+        Self { position: r.a, axis: -r.up, one_minus_cos_inner: R::lit(0.1), one_minus_cos_outer: R::lit(0.9) }
+    };
     DirectionalLight "directional light" |r| Self::new(r.up);
 }
 fn named<R, L: InRoom<R>>(_: &L, by: &str) -> String {

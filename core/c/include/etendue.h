@@ -582,10 +582,10 @@ typedef struct {
   float position[3];
   // Unit vector along which the light travels.
   float axis[3];
-  // Cosine of the angle to the axis up to which the intensity is I.
-  float cos_inner;
-  // Cosine of the angle from which it is 0; less than the other one.
-  float cos_outer;
+  // 1 - cos(theta) of the angle to the axis up to which the intensity is I, in [0, 2].
+  float one_minus_cos_inner;
+  // 1 - cos(theta) of the angle from which it is 0, in [0, 2]; at least the other one.
+  float one_minus_cos_outer;
 } EtendueSpotLight;
 
 // Its one direction, whatever the random numbers. The pdf of a sample is distance^2 over the part of I that is emitted
@@ -602,10 +602,10 @@ typedef struct {
   const float *position[3];
   // Unit vector along which the light travels.
   const float *axis[3];
-  // Cosine of the angle to the axis up to which the intensity is I.
-  const float *cos_inner;
-  // Cosine of the angle from which it is 0; less than the other one.
-  const float *cos_outer;
+  // 1 - cos(theta) of the angle to the axis up to which the intensity is I, in [0, 2].
+  const float *one_minus_cos_inner;
+  // 1 - cos(theta) of the angle from which it is 0, in [0, 2]; at least the other one.
+  const float *one_minus_cos_outer;
 } EtendueSpotLightColumns;
 
 // A directional light, that reaches every point from one direction with the irradiance E on a surface that faces it. The

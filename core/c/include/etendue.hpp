@@ -567,7 +567,7 @@ struct PointLight : EtenduePointLight {
 };
 // EtendueSpotLight with its constructors and techniques.
 struct SpotLight : EtendueSpotLight {
-    SpotLight(Vec3 position_, Vec3 axis_, float cos_inner_, float cos_outer_) : EtendueSpotLight{{position_.x, position_.y, position_.z}, {axis_.x, axis_.y, axis_.z}, cos_inner_, cos_outer_} {}
+    SpotLight(Vec3 position_, Vec3 axis_, float one_minus_cos_inner_, float one_minus_cos_outer_) : EtendueSpotLight{{position_.x, position_.y, position_.z}, {axis_.x, axis_.y, axis_.z}, one_minus_cos_inner_, one_minus_cos_outer_} {}
     SpotLightByDelta by_delta(Vec3 at) const { return {*this, at}; }
 };
 // EtendueDirectionalLight with its constructors and techniques.

@@ -198,7 +198,7 @@ static const float Line[] = {-1, 2, 0.3f, 2, 0.1f, 0.2f};
 static const float Annulus[] = {0.3f, 2, 0.1f, 0, -1, 0, 0.5f, 0.3f};
 static const float Sun[] = {0.36f, 0.8f, 0.48f, 1e-3f};
 static const float PointLight[] = {0.3f, 2, 0.1f};
-static const float SpotLight[] = {0.3f, 2, 0.1f, 0, -1, 0, 0.9f, 0.5f};
+static const float SpotLight[] = {0.3f, 2, 0.1f, 0, -1, 0, 0.1f, 0.5f};
 static const float DirectionalLight[] = {0.36f, 0.8f, 0.48f};
 
 #define WRITE_FUNCTIONS(NAME, LIGHT, PREFIX, ON_SURFACE) FUNCTIONS_##ON_SURFACE(NAME, LIGHT, PREFIX)

@@ -113,7 +113,7 @@ static void test_lights() {
     test(Sun({0.36f, 0.8f, 0.48f}, 1e-3f).by_solid_angle());
     // delta lights: no direction hits them
     test(PointLight({0.3f, 2, 0.1f}).by_delta(p), true);
-    test(SpotLight({0.3f, 2, 0.1f}, {0, -1, 0}, 0.9f, 0.5f).by_delta(p), true);
+    test(SpotLight({0.3f, 2, 0.1f}, {0, -1, 0}, 0.1f, 0.5f).by_delta(p), true);
     test(DirectionalLight({0.36f, 0.8f, 0.48f}).by_delta(p), true);
 
     // the same light for each point, in columns

@@ -185,8 +185,9 @@ function ofUnit(light, p, n) {
     case "SpotLight": {
       const d = from(f.position);
       const d2 = dot(d, d);
-      const cos = f.axis ? -dot(d, f.axis) / Math.sqrt(d2) : 1;
-      const t = f.axis ? clamp((cos - f.cos_outer) / (f.cos_inner - f.cos_outer), 0, 1) : 1;
+      const h = f.axis ? 1 + dot(d, f.axis) / Math.sqrt(d2) : 0;
+      const [inner, outer] = [f.one_minus_cos_inner, f.one_minus_cos_outer];
+      const t = f.axis ? clamp((outer - h) / (outer - inner), 0, 1) : 1;
       return [(Math.max(0, dot(d, n)) / (d2 * Math.sqrt(d2))) * t * t * (3 - 2 * t), CLOSED];
     }
     case "DirectionalLight":

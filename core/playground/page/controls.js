@@ -44,8 +44,8 @@ class Slider {
 /** Ranges of the fields that are numbers. */
 const RANGES = {
   one_minus_cos: { low: 1e-8, high: 1, logarithmic: true },
-  cos_inner: { low: -0.99, high: 1 },
-  cos_outer: { low: -1, high: 0.99 },
+  one_minus_cos_inner: { low: 0, high: 1.99 },
+  one_minus_cos_outer: { low: 0.01, high: 2 },
   radius: { low: 1e-4, high: 5, logarithmic: true },
   inner_radius: { low: 1e-4, high: 5, logarithmic: true },
 };
@@ -84,7 +84,7 @@ function sliders(app) {
 /** Fields in the order that their documentation asks for. */
 function limited(name, fields, changed) {
   const pair =
-    name === "Annulus" ? ["inner_radius", "radius"] : name === "SpotLight" ? ["cos_outer", "cos_inner"] : null;
+    name === "Annulus" ? ["inner_radius", "radius"] : name === "SpotLight" ? ["one_minus_cos_inner", "one_minus_cos_outer"] : null;
   if (pair && fields[pair[0]] >= fields[pair[1]]) {
     const less = (x) => (name === "Annulus" ? 0.99 * x : x - 0.01);
     if (changed === pair[0]) fields[pair[0]] = less(fields[pair[1]]);

@@ -22,7 +22,7 @@ const OVERHEAD = {
   Annulus: { center: [0.2, 1.25, 0.1], normal: [-0.2, -1, 0.1], radius: 0.7, inner_radius: 0.4 },
   Sun: { direction: [0.5, 0.8, -0.3], one_minus_cos: 0.06 },
   PointLight: { position: [0.4, 1.3, -0.2] },
-  SpotLight: { position: [0.4, 1.4, -0.2], axis: [-0.3, -1, 0.1], cos_inner: 0.95, cos_outer: 0.75 },
+  SpotLight: { position: [0.4, 1.4, -0.2], axis: [-0.3, -1, 0.1], one_minus_cos_inner: 0.05, one_minus_cos_outer: 0.25 },
   DirectionalLight: { direction: [0.5, 0.8, -0.3] },
 };
 const BY_KIND = {

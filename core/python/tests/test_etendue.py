@@ -24,7 +24,7 @@ LIGHTS = {
     et.Annulus: ([0, 1.5, 0.2], [0, -1, 0], 0.5, 0.3),
     et.Sun: ([0, 1, 0], 0.01),
     et.PointLight: ([0.2, 1.5, 0.1],),
-    et.SpotLight: ([0, 1.5, 0.2], [0, -1, 0], 0.9, 0.5),
+    et.SpotLight: ([0, 1.5, 0.2], [0, -1, 0], 0.1, 0.5),
     et.DirectionalLight: ([0, 1, 0],),
 }
 DISTANT = (et.Sun, et.DirectionalLight)
@@ -99,8 +99,8 @@ def test_delta_lights():
     np.testing.assert_allclose(point.direction, to / np.linalg.norm(to), rtol=1e-6)
     assert point.weight == pytest.approx(1 / (to @ to)) and point.distance == pytest.approx(np.linalg.norm(to))
     # full in the inner cone, half as bright where the cosine is in the middle of both, and dark outside
-    for cosines, part in (((0.9, 0.5), 1), ((1, 2 * 1.3 / np.linalg.norm([0.1, 1.3, 0.1]) - 1), 0.5), ((0.9999, 0.9998), 0)):
-        spot = et.SpotLight([0, 1.5, 0.2], [0, -1, 0], *cosines).by_delta(P).sample([0.3, 0.6])
+    for cones, part in (((0.1, 0.5), 1), ((0, 2 - 2 * 1.3 / np.linalg.norm([0.1, 1.3, 0.1])), 0.5), ((1e-4, 2e-4), 0)):
+        spot = et.SpotLight([0, 1.5, 0.2], [0, -1, 0], *cones).by_delta(P).sample([0.3, 0.6])
         assert spot.weight * 1.71 == pytest.approx(part, rel=1e-4)
     sun = et.DirectionalLight([0, 1, 0]).by_delta(P).sample([0.3, 0.6])
     assert sun.direction.tolist() == [0, 1, 0] and sun.weight == 1 and sun.distance == np.finfo(np.float32).max

@@ -123,24 +123,29 @@ lanewise! {
         pub position: Vec3<R>,
         /// Unit vector along which the light travels.
         pub axis: Vec3<R>,
-        /// Cosine of the angle up to which the intensity is full.
-        pub cos_inner: R,
-        /// Cosine of the angle from which it is 0; less than `cos_inner`.
-        pub cos_outer: R,
+        /// 1 − cosθᵢ of the angle up to which the intensity is full, in [0, 2]: of narrow cones, a cosine would have few digits.
+        pub one_minus_cos_inner: R,
+        /// 1 − cosθₒ of the angle from which it is 0, in [0, 2]; at least `one_minus_cos_inner`.
+        pub one_minus_cos_outer: R,
     }
 }
 
 impl<R: Real> SpotLight<R> {
-    /// The intensity in the direction `w` away from the light, over that on the axis: t²(3−2t) with
-    /// t = (cosθ − cosθₒ)/(cosθᵢ − cosθₒ), as in PBR 4th ed., 12.2.1; a step where the two cosines are equal.
+    /// The intensity in the unit direction `w` away from the light, over that on the axis: t²(3−2t) with
+    /// t = (cosθ − cosθₒ)/(cosθᵢ − cosθₒ), as in PBR 4th ed., 12.2.1; a step where the two angles are equal.
     #[inline(always)]
     pub fn falloff(&self, w: Vec3<R>) -> R {
+        // 1 − cosθ of two unit vectors
+        self.falloff_at((w - self.axis).length_squared() * R::lit(0.5))
+    }
+    /// The same, given 1 − cosθ.
+    #[inline(always)]
+    fn falloff_at(&self, one_minus_cos: R) -> R {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
-        let cos = w.dot(self.axis);
-        let width = self.cos_inner - self.cos_outer;
+        let width = self.one_minus_cos_outer - self.one_minus_cos_inner;
         let soft = width.gt(zero);
-        let t = ((cos - self.cos_outer) / R::blend(soft, width, one)).clamped(zero, one);
-        R::blend(soft, t * t * (R::lit(3.0) - (t + t)), one.keep(cos.ge(self.cos_inner)))
+        let t = ((self.one_minus_cos_outer - one_minus_cos) / R::blend(soft, width, one)).clamped(zero, one);
+        R::blend(soft, t * t * (R::lit(3.0) - (t + t)), one.keep(one_minus_cos.le(self.one_minus_cos_inner)))
     }
     /// Prepared for the shading point `p`. `pdf` is distance²/falloff, which is no density: it makes f·I·cosθ/pdf what arrives.
     #[inline(always)]
@@ -164,10 +169,8 @@ impl<R: Real> SpotLight<R> {
     #[must_use]
     pub fn power<S: Real>(&self, intensity: impl Fn(Vec3<S>) -> S) -> f64 {
         let light = self.map(|x| x.lane_f64(0));
-        // about an axis of its own, on which cosines are as precise as they are given
-        let upright = SpotLight { axis: Vec3::new(0.0, 0.0, 1.0), ..light };
-        let turns = Real::acos(light.cos_outer.clamped(-1.0, 1.0)) / core::f64::consts::TAU;
-        let falloff = |cos: f64| S::lit(upright.falloff(Vec3::new(0.0, 0.0, cos)));
+        let turns = Real::acos((1.0 - light.one_minus_cos_outer).clamped(-1.0, 1.0)) / core::f64::consts::TAU;
+        let falloff = |cos: f64| S::lit(light.falloff_at(1.0 - cos));
         integral(light.axis, turns, |w, cos| intensity(w) * falloff(cos))
     }
 }
@@ -191,7 +194,8 @@ impl<R: Real> DirectionalLight<R> {
     /// Prepared for the shading point `p`; all points have the same samples. `pdf` is 1.
     #[inline(always)]
     pub fn by_delta(&self, p: Vec3<R>) -> DirectionalLightByDelta<R> {
-        let (distance, pdf) = (R::lit(FAR), R::lit(1.0));
+        // nothing where the direction is no number
+        let (distance, pdf) = (R::lit(FAR), R::lit(1.0).keep(self.direction.length_squared().ge(R::lit(0.0))));
         DirectionalLightByDelta { origin: p, direction: self.direction, distance, pdf }
     }
 }

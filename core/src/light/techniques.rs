@@ -236,10 +236,10 @@ macro_rules! techniques {
                 position as position: point,
                 /// Unit vector along which the light travels.
                 axis as axis: direction,
-                /// Cosine of the angle to the axis up to which the intensity is I.
-                cos_inner as cos_inner: number,
-                /// Cosine of the angle from which it is 0; less than the other one.
-                cos_outer as cos_outer: number,
+                /// 1 − cosθ of the angle to the axis up to which the intensity is I, in [0, 2].
+                one_minus_cos_inner as one_minus_cos_inner: number,
+                /// 1 − cosθ of the angle from which it is 0, in [0, 2]; at least the other one.
+                one_minus_cos_outer as one_minus_cos_outer: number,
             } by "delta" {
                 /// Its one direction, whatever the random numbers. The pdf of a sample is distance² over the part of I that is emitted
                 /// there, which is no density, and 0 outside of the cone; that of a direction is 0.

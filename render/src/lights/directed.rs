@@ -20,11 +20,11 @@ pub(super) struct DirectedLight {
 pub(super) fn directed_lights(scene: &Scene) -> Vec<DirectedLight> {
     let light = |light: &DeltaLight| match *light {
         DeltaLight::Directed { position, to_light: rows, table, cone, .. } => {
-            let cone = cone.map(|Cone { axis, cos_inner, cos_outer, .. }| SpotLight {
+            let cone = cone.map(|Cone { axis, one_minus_cos_inner, one_minus_cos_outer, .. }| SpotLight {
                 position: position.into(),
                 axis: axis.into(),
-                cos_inner,
-                cos_outer,
+                one_minus_cos_inner,
+                one_minus_cos_outer,
             });
             Some(DirectedLight { rows, intensity: Arc::clone(&scene.intensities[table as usize]), cone })
         }

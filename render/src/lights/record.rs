@@ -3,7 +3,7 @@
 use super::spread::cos_cone;
 use crate::bvh::NOTHING;
 use crate::geometry::Geometry;
-use crate::scene::{DeltaLight, Scene, Shape};
+use crate::scene::{Cone, DeltaLight, Scene, Shape};
 use etendue::Vec3;
 use etendue::light::Spread;
 use etendue::select::LightBound;
@@ -41,8 +41,8 @@ pub(super) struct LightRecord {
     pub(super) place: [f32; 3],
     /// First edge of a triangle or parallelogram, axis of a spot or directed light; a sphere has its radius in x.
     pub(super) first: [f32; 3],
-    /// Second edge of a triangle or parallelogram; a spot light has the cosines of its inner and outer angle in x and y; a directed
-    /// light has its index among those in x, and in y the cosine of the angle from which on it is dark.
+    /// Second edge of a triangle or parallelogram; a spot light has 1 − cosθ of its inner and outer angle in x and y, a directed light its
+    /// index among those in x, and both in z a cosine of an angle from which on they are dark.
     pub(super) second: [f32; 3],
     /// Radiance, the mean of a picture; intensity of a point or spot light, the greatest of a directed light, irradiance of a distant
     /// light.
@@ -119,7 +119,7 @@ impl LightRecord {
                 (center, 0.5 * (u + v).length().max((u - v).length()), u.cross(v))
             }
             // beyond a hemisphere, a cone bounds nothing
-            SPOT | DIRECTED if self.second[1] > 0.0 => (p, 0.0, u),
+            SPOT | DIRECTED if self.second[2] > 0.0 => (p, 0.0, u),
             _ => (p, 0.0, Vec3::default()),
         };
         let length = normal.length();
@@ -131,7 +131,7 @@ impl LightRecord {
             radius: (radius * (1.0 + 1e-6)) as f32,
             normal: narrow(if length > 0.0 { normal * (1.0 / length) } else { normal }),
             cos_cone: match self.kind & KINDS {
-                SPOT | DIRECTED => self.second[1].max(0.0),
+                SPOT | DIRECTED => self.second[2].max(0.0),
                 _ if self.kind & SPREAD != 0 => cos_cone(&self.spread),
                 _ => 0.0,
             },
@@ -143,6 +143,11 @@ impl LightRecord {
             },
         }
     }
+}
+
+/// The cosine, less a rounding, of an angle given by 1 − cosθ.
+fn cosine_below(one_minus_cos: f32) -> f32 {
+    (1.0 - one_minus_cos).next_down()
 }
 
 pub(super) fn sum(rgb: [f32; 3]) -> f64 {
@@ -164,21 +169,29 @@ pub(super) fn delta_lights(scene: &Scene) -> Powered {
             DeltaLight::Point { position: place, intensity: radiance } => {
                 (LightRecord { place, radiance, kind: POINT, ..none }, 4.0 * sum(radiance))
             }
-            DeltaLight::Spot { position: place, axis: first, cos_inner, cos_outer, intensity: radiance } => {
-                let cone = 2.0 - f64::from(cos_inner) - f64::from(cos_outer);
-                let second = [cos_inner, cos_outer, 0.0];
-                // a cone too narrow for its cosine to differ from 1 still has a chance
-                (LightRecord { place, first, second, radiance, kind: SPOT, ..none }, cone.max(1e-7) * sum(radiance))
+            DeltaLight::Spot {
+                position: place,
+                axis: first,
+                one_minus_cos_inner: inner,
+                one_minus_cos_outer: outer,
+                intensity: radiance,
+            } => {
+                let cone = f64::from(inner) + f64::from(outer);
+                let second = [inner, outer, cosine_below(outer)];
+                // a cone too narrow for numbers still has a chance
+                (LightRecord { place, first, second, radiance, kind: SPOT, ..none }, cone.max(1e-30) * sum(radiance))
             }
             DeltaLight::Directed { position: place, to_light: [_, _, pole], intensity: radiance, table, cone } => {
                 let shape = &scene.intensities[table as usize];
                 // the narrower of two cones
                 let own = (pole, shape.cos_cone());
                 let (first, cos) = match cone {
-                    Some(cone) if cone.cos_outer >= own.1 => (cone.axis, cone.cos_outer),
+                    Some(Cone { axis, one_minus_cos_outer: outer, .. }) if cosine_below(outer) >= own.1 => {
+                        (axis, cosine_below(outer))
+                    }
                     _ => own,
                 };
-                let second = [f32::from_bits(directed), cos, 0.0];
+                let second = [f32::from_bits(directed), 0.0, cos];
                 directed += 1;
                 let flux = cone.map_or_else(|| shape.flux(), |cone| [cone.flux; 3]);
                 let power = (0..3).map(|k| f64::from(radiance[k]) * flux[k]).sum::<f64>() / PI;

@@ -96,11 +96,11 @@ pub(super) fn spot(
     notes: &mut Notes,
     table: u32,
 ) -> Result<Option<(DeltaLight, Intensity)>, Message> {
-    let DeltaLight::Spot { position, axis, cos_inner, cos_outer, intensity } = spot else {
+    let DeltaLight::Spot { position, axis, one_minus_cos_inner, one_minus_cos_outer, intensity } = spot else {
         unreachable!("only spot lights have cones")
     };
     let ahead = profile.aim.ahead().map(|x| x as f32);
-    let upright = SpotLight { position: [0.0; 3].into(), axis: ahead.into(), cos_inner, cos_outer };
+    let upright = SpotLight { position: [0.0; 3].into(), axis: ahead.into(), one_minus_cos_inner, one_minus_cos_outer };
     let flux = upright.power(|w: V8| profile.intensity.at(w).x);
     if flux <= 0.0 {
         notes.warn(params.error("emits nothing: its profile is dark in its cone"));
@@ -109,7 +109,7 @@ pub(super) fn spot(
     let color = intensity.map(|x| f64::from(x) * profile.greatest);
     let Some(intensity) = strength(color, power, || [flux; 3], params, notes)? else { return Ok(None) };
     let to_light = profile.aim.aimed(axis.map(f64::from), ctm);
-    let cone = Some(Cone { axis, cos_inner, cos_outer, flux });
+    let cone = Some(Cone { axis, one_minus_cos_inner, one_minus_cos_outer, flux });
     Ok(Some((DeltaLight::Directed { position, to_light, intensity, table, cone }, profile.intensity)))
 }
 

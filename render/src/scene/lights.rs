@@ -30,10 +30,10 @@ pub enum DeltaLight {
         position: [f32; 3],
         /// Unit vector along which the light travels.
         axis: [f32; 3],
-        /// Cosine of the angle up to which the intensity is constant.
-        cos_inner: f32,
-        /// Cosine of the angle from which on the intensity is 0.
-        cos_outer: f32,
+        /// 1 − cosθ of the angle up to which the intensity is constant.
+        one_minus_cos_inner: f32,
+        /// 1 − cosθ of the angle from which on the intensity is 0.
+        one_minus_cos_outer: f32,
         /// Radiant intensity on the axis, linear RGB.
         intensity: [f32; 3],
     },
@@ -64,10 +64,10 @@ pub enum DeltaLight {
 pub struct Cone {
     /// Unit vector along which the light travels.
     pub axis: [f32; 3],
-    /// Cosine of the angle up to which the falloff is 1.
-    pub cos_inner: f32,
-    /// Cosine of the angle from which on it is 0.
-    pub cos_outer: f32,
+    /// 1 − cosθ of the angle up to which the falloff is 1.
+    pub one_minus_cos_inner: f32,
+    /// 1 − cosθ of the angle from which on it is 0.
+    pub one_minus_cos_outer: f32,
     /// ∫ falloff · relative intensity dω, in steradians.
     pub flux: f64,
 }
@@ -228,8 +228,8 @@ fn spot_angle(params: &mut Params) -> Result<f64, Message> {
     let delta = params.float("conedeltaangle")?.unwrap_or(5.0);
     params.set_float("coneangle", outer);
     params.set_float("conedeltaangle", delta);
-    let [inner, outer] = [outer - delta, outer].map(|degrees| libm::cos(degrees.to_radians()));
-    Ok(2.0 * PI * ((1.0 - inner) + (inner - outer) / 2.0))
+    let [inner, outer] = [outer - delta, outer].map(|degrees| one_minus_cos(degrees.to_radians()));
+    Ok(PI * (inner + outer))
 }
 
 /// The sky, scaled so that a surface that faces the light's +z has this illuminance, as in pbrt-v4.
@@ -302,10 +302,16 @@ fn constant(
             params.error(format!("\"conedeltaangle\": must be from 0 to the cone angle {outer}, not {}", shown(delta)))
         );
     }
-    let cosine = |degrees: f64| libm::cos(degrees.to_radians()) as f32;
-    let [cos_inner, cos_outer] = [outer - delta, outer].map(cosine);
+    let [one_minus_cos_inner, one_minus_cos_outer] =
+        [outer - delta, outer].map(|degrees| one_minus_cos(degrees.to_radians()) as f32);
     let axis = axis.map(|x| x as f32);
-    Ok(Source::Delta(DeltaLight::Spot { position, axis, cos_inner, cos_outer, intensity: colour }))
+    let intensity = colour;
+    Ok(Source::Delta(DeltaLight::Spot { position, axis, one_minus_cos_inner, one_minus_cos_outer, intensity }))
+}
+
+/// 1 − cosθ of an angle in radians, without the difference.
+pub(super) fn one_minus_cos(angle: f64) -> f64 {
+    2.0 * libm::sin(0.5 * angle).powi(2)
 }
 
 /// The rotation from world space to light space.

@@ -179,9 +179,9 @@ fn lights_far_away_have_their_share_of_the_power() {
     let mut scene = scene::load("sphere-light").unwrap();
     let (intensity, axis) = ([1.0, 2.0, 4.0], [0.0, -1.0, 0.0]);
     let irradiance = [0.5, 0.25, 2.0];
-    let (cos_inner, cos_outer) = (0.9_f32, 0.75_f32);
+    let (one_minus_cos_inner, one_minus_cos_outer) = (0.1, 0.25);
     let position = [0.1, 20.0, 0.2];
-    let spot = DeltaLight::Spot { position, axis, cos_inner, cos_outer, intensity };
+    let spot = DeltaLight::Spot { position, axis, one_minus_cos_inner, one_minus_cos_outer, intensity };
     let point = DeltaLight::Point { position, intensity };
     let distant = DeltaLight::Distant { direction: [0.0, 1.0, 0.0], irradiance };
     // half the diagonal of the box about everything

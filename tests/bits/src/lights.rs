@@ -109,8 +109,8 @@ impl Routine for Distant {
             let all: Box<dyn LightSampler<R>> = match self.0 {
                 0 => Box::new(PointLight { position }.by_delta(p)),
                 1 => {
-                    let (cos_inner, cos_outer) = (cosine(0), cosine(1) * R::lit(0.5));
-                    Box::new(SpotLight { position, axis: n, cos_inner, cos_outer }.by_delta(p))
+                    let (one_minus_cos_inner, one_minus_cos_outer) = (cosine(0), R::lit(1.0) + cosine(1));
+                    Box::new(SpotLight { position, axis: n, one_minus_cos_inner, one_minus_cos_outer }.by_delta(p))
                 }
                 2 => Box::new(DirectionalLight::new(n).by_delta(p)),
                 3 => Box::new(Sun::new(n, cosine(0)).by_solid_angle()),
@@ -282,8 +282,8 @@ impl Routine for Intensities {
         let spot = SpotLight {
             position: Vec3::lit([0.3, 2.0, -1.0]),
             axis: Vec3::lit(axis),
-            cos_inner: R::lit(0.7),
-            cos_outer: R::lit(-0.2),
+            one_minus_cos_inner: R::lit(0.3),
+            one_minus_cos_outer: R::lit(1.2),
         };
         figures.packets::<R>(SLOTS, |_, lanes| {
             let ws: Vec<_> = (0..R::LANES).map(|_| unit(&mut random)).collect();

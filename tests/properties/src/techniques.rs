@@ -337,7 +337,7 @@ placed! {
     Annulus: |v, radius| Self::new(v[1], v[2], radius, radius * R::lit(0.5));
     Sun: |v, radius| Self::new(v[2], radius);
     PointLight: |v, _| Self::new(v[1]);
-    SpotLight: |v, radius| Self { position: v[1], axis: v[2], cos_inner: R::lit(1.0), cos_outer: radius };
+    SpotLight: |v, radius| Self { position: v[1], axis: v[2], one_minus_cos_inner: R::lit(0.0), one_minus_cos_outer: radius };
     DirectionalLight: |v, _| Self::new(v[2]);
 }
 

@@ -53,7 +53,7 @@ overhead! {
     Annulus: Self::new(v(0.0, 1.5, 0.2), v(0.0, -1.0, 0.0), 0.5, 0.3);
     Sun: Self::new(v(0.0, 1.0, 0.0), 1e-5);
     PointLight: Self::new(v(0.2, 1.5, 0.1));
-    SpotLight: Self { position: v(0.0, 1.5, 0.2), axis: v(0.0, -1.0, 0.0), cos_inner: 0.9, cos_outer: 0.5 };
+    SpotLight: Self { position: v(0.0, 1.5, 0.2), axis: v(0.0, -1.0, 0.0), one_minus_cos_inner: 0.1, one_minus_cos_outer: 0.5 };
     DirectionalLight: Self::new(v(0.0, 1.0, 0.0));
 }
 macro_rules! visit_techniques {

@@ -1,6 +1,6 @@
 //! Reads the lights of `KHR_lights_punctual`.
 
-use super::super::lights::DeltaLight;
+use super::super::lights::{DeltaLight, one_minus_cos};
 use super::super::message::Message;
 use super::super::params::rounded;
 use super::super::transform::{Transform, unit};
@@ -56,8 +56,9 @@ pub(super) fn read(
                     "innerConeAngle {inner} and outerConeAngle {outer}: must be from 0 to π/2, and the inner one the lesser"
                 )));
             }
-            let [cos_inner, cos_outer] = [inner, outer].map(|angle| libm::cos(f64::from(angle)) as f32);
-            DeltaLight::Spot { position, axis: axis()?, cos_inner, cos_outer, intensity: power }
+            let [one_minus_cos_inner, one_minus_cos_outer] =
+                [inner, outer].map(|angle| one_minus_cos(f64::from(angle)) as f32);
+            DeltaLight::Spot { position, axis: axis()?, one_minus_cos_inner, one_minus_cos_outer, intensity: power }
         }
     }))
 }

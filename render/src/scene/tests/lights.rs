@@ -25,18 +25,26 @@ fn points_have_the_defaults_of_pbrt() {
 
 #[test]
 fn spots_have_the_defaults_of_pbrt() {
-    let DeltaLight::Spot { position, axis, cos_inner, cos_outer, intensity } = light("LightSource \"spot\"") else {
+    let DeltaLight::Spot { position, axis, one_minus_cos_inner, one_minus_cos_outer, intensity } =
+        light("LightSource \"spot\"")
+    else {
         panic!("not a spot");
     };
     assert_eq!((position, axis, intensity), ([0.0; 3], [0.0, 0.0, 1.0], [1.0; 3]));
-    assert!((cos_inner - 25.0_f32.to_radians().cos()).abs() < 1e-7);
-    assert!((cos_outer - 30.0_f32.to_radians().cos()).abs() < 1e-7);
+    let near = |x: f32, degrees: f64| (f64::from(x) / (1.0 - degrees.to_radians().cos()) - 1.0).abs() < 1e-7;
+    assert!(near(one_minus_cos_inner, 25.0) && near(one_minus_cos_outer, 30.0));
     // rotated about x: +z becomes −y
     let text = "Rotate 90 1 0 0\nLightSource \"spot\" \"point3 from\" [0 0 -2] \"point3 to\" [0 0 3] \"float coneangle\" 60 \"float conedeltaangle\" 0";
-    let DeltaLight::Spot { position, axis, cos_inner, cos_outer, .. } = light(text) else { panic!("not a spot") };
+    let DeltaLight::Spot { position, axis, one_minus_cos_inner, one_minus_cos_outer, .. } = light(text) else {
+        panic!("not a spot");
+    };
     let near = |a: [f32; 3], b: [f32; 3]| (0..3).all(|k| (a[k] - b[k]).abs() < 1e-6);
     assert!(near(position, [0.0, 2.0, 0.0]) && near(axis, [0.0, -1.0, 0.0]), "{position:?} {axis:?}");
-    assert!(cos_inner == cos_outer && (cos_outer - 0.5).abs() < 1e-7);
+    assert!(one_minus_cos_inner == one_minus_cos_outer && (one_minus_cos_outer - 0.5).abs() < 1e-7);
+    // θ²/2 of an angle whose cosine differs from 1 by a fourth of a rounding
+    let narrow = "LightSource \"spot\" \"float coneangle\" 0.01 \"float conedeltaangle\" 0";
+    let DeltaLight::Spot { one_minus_cos_outer, .. } = light(narrow) else { panic!("not a spot") };
+    assert!((one_minus_cos_outer / 1.523_087_1e-8 - 1.0).abs() < 1e-6, "{one_minus_cos_outer}");
 }
 
 #[test]

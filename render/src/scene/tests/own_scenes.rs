@@ -349,12 +349,13 @@ fn lights_have_the_power_and_the_colour_that_is_asked_for() {
         panic!()
     };
     assert!(irradiance.iter().all(|x| (x - 3.0).abs() < 1e-5));
-    let DeltaLight::Spot { intensity, cos_outer, .. } = delta("\"spot\" \"float power\" 9 \"float coneangle\" 60")
+    let DeltaLight::Spot { intensity, one_minus_cos_outer, .. } =
+        delta("\"spot\" \"float power\" 9 \"float coneangle\" 60")
     else {
         panic!()
     };
-    let (inner, outer) = (55_f32.to_radians().cos(), cos_outer);
-    assert!((intensity[1] * 2.0 * pi * (1.0 - 0.5 * (inner + outer)) - 9.0).abs() < 1e-4);
+    let inner = 1.0 - 55_f32.to_radians().cos();
+    assert!((intensity[1] * pi * (inner + one_minus_cos_outer) - 9.0).abs() < 1e-4);
     let sky = read(&world("LightSource \"infinite\" \"float illuminance\" 6")).environment.unwrap().sky;
     let SkyRadiance::Constant([r, ..]) = sky else { panic!() };
     assert!((r * pi - 6.0).abs() < 1e-5);

@@ -36,20 +36,20 @@ fn angles(input: &mut Input<'_>, low: f32, high: f32) -> Vec<f32> {
 fn lamps(input: &mut Input<'_>, profile: &Profile<'_>) {
     let axis = input.direction();
     let point = input.vector(&[]);
-    let cosines = [input.number(), input.number()];
+    let cones = [input.number(), input.number()];
     let spot = |lane: bool| {
         let light = SpotLight {
             position: vectors_of::<f32x8>(|_| [0.5, -1.0, 0.25]),
             axis: vectors_of(|_| axis),
-            cos_inner: f32x8::splat(cosines[0]),
-            cos_outer: f32x8::splat(cosines[1]),
+            one_minus_cos_inner: f32x8::splat(cones[0]),
+            one_minus_cos_outer: f32x8::splat(cones[1]),
         };
         let sample =
             light.by_profile(vectors_of(|i| if lane || i == 3 { point } else { axis }), |w| profile.intensity(w));
         sample.sample(squares_of(&[[0.5; 2]; 8])).pdf.as_array()[3]
     };
     let pdf = spot(true);
-    assert!(pdf >= 0.0 && pdf.is_finite(), "{pdf} along {axis:?} from {point:?}, {cosines:?}");
+    assert!(pdf >= 0.0 && pdf.is_finite(), "{pdf} along {axis:?} from {point:?}, {cones:?}");
     assert_eq!(pdf.to_bits(), spot(false).to_bits());
     // a sum over many directions
     if input.below(64) != 0 {

@@ -77,8 +77,8 @@ impl LightFixture for Distant {
         match lanes[0].kind {
             0 => Box::new(PointLight { position }.by_delta(p)),
             1 => {
-                let (cos_inner, cos_outer) = (number(|d| d.x), number(|d| d.y));
-                Box::new(SpotLight { position, axis: n, cos_inner, cos_outer }.by_delta(p))
+                let (one_minus_cos_inner, one_minus_cos_outer) = (number(|d| d.x), number(|d| d.y));
+                Box::new(SpotLight { position, axis: n, one_minus_cos_inner, one_minus_cos_outer }.by_delta(p))
             }
             2 => Box::new(DirectionalLight::new(n).by_delta(p)),
             3 => Box::new(Sun::new(n, number(|d| d.x)).by_solid_angle()),

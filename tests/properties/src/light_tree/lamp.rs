@@ -94,7 +94,8 @@ impl Lamp {
         match self.kind {
             LampKind::Point => Some(PointLight { position }.by_delta(p.into()).sample(squares_of(&[u]))).filter(shines),
             LampKind::Spot => {
-                let light = SpotLight { position, axis: self.b.into(), cos_inner: self.c[0], cos_outer: self.c[1] };
+                let [one_minus_cos_inner, one_minus_cos_outer] = [self.c[0], self.c[1]].map(|cos| 1.0 - cos);
+                let light = SpotLight { position, axis: self.b.into(), one_minus_cos_inner, one_minus_cos_outer };
                 Some(light.by_delta(p.into()).sample(squares_of(&[u]))).filter(shines)
             }
             LampKind::Area(shape) => {

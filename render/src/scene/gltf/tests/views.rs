@@ -141,11 +141,18 @@ fn punctual_lights() {
     let DeltaLight::Distant { direction, irradiance } = distant[0] else { panic!("{distant:?}") };
     assert_eq!((direction, irradiance), ([0.0, 0.0, 1.0], [1.0; 3]));
     let spot = of(json!({"type": "spot", "spot": {"innerConeAngle": 0.5, "outerConeAngle": 1}}));
-    let DeltaLight::Spot { position, axis, cos_inner, cos_outer, intensity } = spot[0] else { panic!("{spot:?}") };
+    let DeltaLight::Spot { position, axis, one_minus_cos_inner, one_minus_cos_outer, intensity } = spot[0] else {
+        panic!("{spot:?}")
+    };
     assert_eq!((position, axis, intensity), ([1.0, 2.0, 3.0], [0.0, 0.0, -1.0], [1.0; 3]));
-    assert!((cos_inner - 0.5_f32.cos()).abs() < 1e-6 && (cos_outer - 1_f32.cos()).abs() < 1e-6);
-    let DeltaLight::Spot { cos_inner, cos_outer, .. } = of(json!({"type": "spot", "spot": {}}))[0] else { panic!() };
-    assert!(cos_inner == 1.0 && (cos_outer - std::f32::consts::FRAC_1_SQRT_2).abs() < 1e-6);
+    let cosines = [one_minus_cos_inner, one_minus_cos_outer].map(|x| 1.0 - x);
+    assert!((cosines[0] - 0.5_f32.cos()).abs() < 1e-6 && (cosines[1] - 1_f32.cos()).abs() < 1e-6);
+    let DeltaLight::Spot { one_minus_cos_inner, one_minus_cos_outer, .. } = of(json!({"type": "spot", "spot": {}}))[0]
+    else {
+        panic!()
+    };
+    assert!(one_minus_cos_inner == 0.0);
+    assert!((1.0 - one_minus_cos_outer - std::f32::consts::FRAC_1_SQRT_2).abs() < 1e-6);
     // only the direction of a node counts
     let half = std::f64::consts::FRAC_1_SQRT_2;
     let asset = light(json!({"type": "directional"}), json!({"rotation": [-half, 0, 0, half], "scale": [5, 5, 5]}));
