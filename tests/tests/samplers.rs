@@ -1,5 +1,6 @@
 //! Every light by every technique, as an integrator uses it: one trait, one pdf.
 
+use etendue::reflection::Reflection;
 use etendue::{LightSampler, Mask, Parallelogram, Real, Rectangle, Sphere, Triangle, Vec2, Vec3, f32x8};
 use etendue_oracle::{V3, cross, dot, length, sub, unit, wide};
 use etendue_properties::generators::Random;
@@ -273,4 +274,52 @@ fn samples_know_their_place() {
 }
 fn along_edges(from: V3, [b, c]: [V3; 2], [x, y]: [f64; 2]) -> V3 {
     core::array::from_fn(|k| from[k] + x * b[k] + y * c[k])
+}
+
+/// A number that is none in a light, in the point or in its normal leaves neither samples nor densities nor hits. A normal only guides
+/// cosine warps: whatever it is, their pdf is that of their samples.
+#[test]
+fn what_is_no_number_gives_no_light() {
+    let mut random = Random::new(77);
+    let distant = [
+        (LightShape::Sun, Measure::SolidAngle),
+        (LightShape::PointLight, Measure::Delta),
+        (LightShape::SpotLight, Measure::Delta),
+        (LightShape::DirectionalLight, Measure::Delta),
+    ];
+    let mut lost = 0;
+    for round in 0..20 {
+        for (shape, by) in AreaLight::KINDS.iter().copied().chain(distant) {
+            let kind = AreaLight::KINDS.iter().position(|kind| *kind == (shape, by)).unwrap_or(0);
+            let light = AreaLight { shape, by, ..AreaLight::any(kind, round, &mut random) };
+            let u = squares_of(&[[random.unit(), random.unit()]]);
+            let (drawn, any) = (AreaLight::prepare::<f32>(&[light]).sample(u).direction, random.direction());
+            let observe = |light: AreaLight| {
+                let sampler = AreaLight::prepare::<f32>(&[light]);
+                let s = sampler.sample(u);
+                let found = [drawn, Coordinates::gather(&[any])].map(|w| [sampler.pdf(w), sampler.hit(w).weight()]);
+                ([s.weight(), s.pdf], found)
+            };
+            let before = observe(light);
+            for field in 0..if by == Measure::CosineWarp { 12 } else { 16 } {
+                let mut broken = light;
+                let AreaLight { p, a, b, c, n, radius, .. } = &mut broken;
+                *p.iter_mut().chain(a).chain(b).chain(c).chain(n).chain([radius]).nth(field).unwrap() = f32::NAN;
+                let after = observe(broken);
+                // a number that the light does not have changes nothing
+                let nothing = after == ([0.0; 2], [[0.0; 2]; 2]);
+                assert!(nothing || after == before, "{broken:?}: {after:?}");
+                lost += u32::from(nothing && before.0[0] > 0.0);
+            }
+        }
+    }
+    assert!(lost > 1000, "{lost}");
+    for field in 0..6 {
+        let mut x = [0.3, 2.0, 0.1, 0.5, 0.2, 0.9];
+        x[field] = f32::NAN;
+        let reflection = Reflection::new(0.4, Vec3::new(0.0, x[5], 0.0).normalize(), Vec3::new(0.6, 0.8, 0.0));
+        let sphere = Sphere::new(Vec3::new(x[0], x[1], x[2]), x[3]);
+        let s = sphere.by_reflection(Vec3::new(0.0, x[4], 0.0), &reflection).sample(Vec2::new(0.3, 0.6));
+        assert_eq!((s.pdf, s.weight()), (0.0, 0.0), "{field}: {s:?}");
+    }
 }

@@ -43,7 +43,9 @@ impl<R: Real> Sun<R> {
     /// Uniform over the cone: pdf 1/(2π(1−cosσ)) per steradian, 0 where the cone is empty.
     #[inline(always)]
     pub fn by_solid_angle(&self) -> SunBySolidAngle<R> {
-        SunBySolidAngle { frame: Frame::new(self.direction), cone: Cone { one_minus_cos: self.one_minus_cos } }
+        // nothing where the direction is no number
+        let one_minus_cos = self.one_minus_cos.keep(self.direction.length_squared().ge(R::lit(0.0)));
+        SunBySolidAngle { frame: Frame::new(self.direction), cone: Cone { one_minus_cos } }
     }
 }
 

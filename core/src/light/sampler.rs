@@ -21,7 +21,8 @@ use core::f64::consts::PI;
 /// *by area*, lines, and cosine warps: a rounded direction determines their pdf only as well as it determines the point, so a sample
 /// reports the pdf of the point that was drawn.
 ///
-/// Degenerate input (a light without extent, a shading point in the plane of a flat light) gives pdf 0, never NaN, infinity or a panic.
+/// Degenerate input (a light without extent, a shading point in the plane of a flat light) gives pdf 0, never NaN, infinity or a panic. So does
+/// NaN in a light, in the shading point or, but for cosine warps, in its normal.
 ///
 /// # What a host gets wrong at first
 /// - The normal `n` of a shading point must have length 1: by projected solid angle the pdf is multiplied by its length, so that it no
@@ -54,7 +55,8 @@ use core::f64::consts::PI;
 /// assert!(reflected(&triangle.by_projected_solid_angle(p, n), n, u, u) > 0.0);
 /// ```
 pub trait LightSampler<R: Real> {
-    /// Draws a direction to the light for `u` in [0, 1)². Lights of one dimension use `u.x`, delta lights neither number.
+    /// Draws a direction to the light for `u` in [0, 1)². Lights of one dimension use `u.x`, delta lights neither number. From a `u` of NaN
+    /// follows a direction of NaN, whatever the pdf is.
     fn sample(&self, u: Vec2<R>) -> LightSample<R>;
     /// Probability density, in the measure of [`LightSample::pdf`], with which [`sample`](Self::sample) draws the unit direction `w`; 0
     /// where it misses the light.

@@ -61,7 +61,8 @@ impl<R: Real> SphericalCap<R> {
         let axis = Vec3::new(axis.x, axis.y, R::blend(somewhere, axis.z, one));
         Self {
             frame: Frame::new(axis),
-            cone: Cone { one_minus_cos: h.keep(r.gt(zero)) },
+            // nothing where the centre is no number
+            cone: Cone { one_minus_cos: h.keep(r.gt(zero) & squared.ge(zero)) },
             distance,
             power,
             unit: one / scale,

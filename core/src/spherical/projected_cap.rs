@@ -192,12 +192,14 @@ impl<R: Real> ProjectedCap<R> {
             let below = R::lit(2.0) * sin_theta * sin_theta * sin_theta * spread * lune;
             projected = R::blend(over, projected, below);
         }
-        let visible = (whole | margin.gt(zero)) & r.gt(zero);
+        // nothing where the centre is no number
+        let some_sphere = r.gt(zero) & squared.ge(zero);
+        let visible = (whole | margin.gt(zero)) & some_sphere;
         let axis = c * inverse;
         Self {
             frame,
             axis: Vec3::new(axis.x, axis.y, R::blend(some, axis.z, one)),
-            cone: Cone { one_minus_cos: pick(sin_sigma * sin_sigma / (one + cos_sigma), 2.0).keep(r.gt(zero)) },
+            cone: Cone { one_minus_cos: pick(sin_sigma * sin_sigma / (one + cos_sigma), 2.0).keep(some_sphere) },
             sin_sigma,
             cos_sigma,
             sin_omega,
