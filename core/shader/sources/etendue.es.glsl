@@ -166,11 +166,12 @@ struct EtendueSpotLightByDelta {
 struct EtendueSpotLight {
     vec3 position;
     vec3 axis;
-    float cos_inner;
-    float cos_outer;
+    float one_minus_cos_inner;
+    float one_minus_cos_outer;
 };
 struct EtendueDirectionalLightByDelta {
     vec3 direction;
+    float pdf;
 };
 struct EtendueDirectionalLight {
     vec3 direction;
@@ -510,7 +511,7 @@ EtendueSphereBySolidAngle etendue_sphere_by_solid_angle_prepare(EtendueSphere li
     float _e145 = etendue_greater(_e143, 0.0);
     float x53_ = (_e141 / (1.0 + sqrt((x20_2 * _e145))));
     float _e153 = x42_;
-    float x54_ = ((0.0 < x14_3) ? ((b19_1 && (0.0 <= _e153)) ? x53_ : 2.0) : 0.0);
+    float x54_ = (((0.0 < x14_3) && (0.0 <= x16_2)) ? ((b19_1 && (0.0 <= _e153)) ? x53_ : 2.0) : 0.0);
     result_6.surface_center.x = x1_8;
     result_6.surface_center.y = x2_8;
     result_6.surface_center.z = x3_5;
@@ -526,11 +527,11 @@ EtendueSphereBySolidAngle etendue_sphere_by_solid_angle_prepare(EtendueSphere li
     result_6.shape_frame_n.z = x31_;
     result_6.shape_cone_one_minus_cos = x54_;
     result_6.shape_distance = x21_1;
-    float _e190 = x42_;
-    result_6.shape_power = _e190;
+    float _e193 = x42_;
+    result_6.shape_power = _e193;
     result_6.shape_unit = x41_;
-    EtendueSphereBySolidAngle _e192 = result_6;
-    return _e192;
+    EtendueSphereBySolidAngle _e195 = result_6;
+    return _e195;
 }
 
 // Draws a direction to the light for u in [0, 1)^2. Uniform over the solid angle Omega at the point p: pdf 1/Omega per
@@ -2558,27 +2559,28 @@ EtendueLightSample etendue_disk_by_area_hit(EtendueDiskByArea prepared_13, vec3 
 // Prepares a light. Uniform over the cone: pdf 1/(2 pi (1 - cos(sigma))) per steradian, 0 where the cone is empty.
 EtendueSunBySolidAngle etendue_sun_by_solid_angle_prepare(EtendueSun light_4) {
     EtendueSunBySolidAngle result_18 = EtendueSunBySolidAngle(vec3(0.0), vec3(0.0), vec3(0.0), 0.0);
-    float _e4 = etendue_copysign(1.0, light_4.direction.z);
-    float x2_21 = (-1.0 / (light_4.direction.z + _e4));
-    float x3_15 = (x2_21 * (light_4.direction.x * light_4.direction.y));
-    float x4_11 = (light_4.direction.x * _e4);
-    float x5_13 = (light_4.direction.x * (x2_21 * x4_11) + 1.0);
-    float x6_15 = (_e4 * x3_15);
-    float x7_15 = -(x4_11);
-    float x8_11 = (light_4.direction.y * (light_4.direction.y * x2_21) + _e4);
-    float x9_11 = -(light_4.direction.y);
-    result_18.frame_s.x = x5_13;
-    result_18.frame_s.y = x6_15;
-    result_18.frame_s.z = x7_15;
-    result_18.frame_t.x = x3_15;
-    result_18.frame_t.y = x8_11;
-    result_18.frame_t.z = x9_11;
+    float x1_20 = ((0.0 <= (light_4.direction.x * light_4.direction.x + (light_4.direction.y * light_4.direction.y + (light_4.direction.z * light_4.direction.z)))) ? light_4.one_minus_cos : 0.0);
+    float _e24 = etendue_copysign(1.0, light_4.direction.z);
+    float x3_15 = (-1.0 / (light_4.direction.z + _e24));
+    float x4_11 = (x3_15 * (light_4.direction.x * light_4.direction.y));
+    float x5_13 = (light_4.direction.x * _e24);
+    float x6_15 = (light_4.direction.x * (x3_15 * x5_13) + 1.0);
+    float x7_15 = (_e24 * x4_11);
+    float x8_11 = -(x5_13);
+    float x9_11 = (light_4.direction.y * (light_4.direction.y * x3_15) + _e24);
+    float x10_12 = -(light_4.direction.y);
+    result_18.frame_s.x = x6_15;
+    result_18.frame_s.y = x7_15;
+    result_18.frame_s.z = x8_11;
+    result_18.frame_t.x = x4_11;
+    result_18.frame_t.y = x9_11;
+    result_18.frame_t.z = x10_12;
     result_18.frame_n.x = light_4.direction.x;
     result_18.frame_n.y = light_4.direction.y;
     result_18.frame_n.z = light_4.direction.z;
-    result_18.cone_one_minus_cos = light_4.one_minus_cos;
-    EtendueSunBySolidAngle _e62 = result_18;
-    return _e62;
+    result_18.cone_one_minus_cos = x1_20;
+    EtendueSunBySolidAngle _e81 = result_18;
+    return _e81;
 }
 
 // Draws a direction to the light for u in [0, 1)^2. Uniform over the cone: pdf 1/(2 pi (1 - cos(sigma))) per
@@ -2587,24 +2589,24 @@ EtendueLightSample etendue_sun_by_solid_angle_sample(EtendueSunBySolidAngle prep
     EtendueLightSample result_19 = EtendueLightSample(vec3(0.0), 0.0, 0.0, 0.0, vec3(0.0), vec2(0.0), false, false);
     float _e4 = etendue_greater(prepared_14.cone_one_minus_cos, 0.0);
     float _e6 = etendue_lesser(_e4, 2.0);
-    float x2_22 = (u_7.x * _e6);
-    float _e17 = etendue_greater((x2_22 * (_e6 * (1.0 - u_7.x) + (2.0 - _e6))), 0.0);
+    float x2_21 = (u_7.x * _e6);
+    float _e17 = etendue_greater((x2_21 * (_e6 * (1.0 - u_7.x) + (2.0 - _e6))), 0.0);
     float x3_16 = sqrt(_e17);
     vec2 _e20 = etendue_sin_cos_turns(u_7.y);
     float x5_14 = (x3_16 * _e20.y);
     float x6_16 = (x3_16 * _e20.x);
-    float x7_16 = (1.0 - x2_22);
+    float x7_16 = (1.0 - x2_21);
     float x8_12 = (prepared_14.frame_s.x * x5_14 + (prepared_14.frame_t.x * x6_16 + (prepared_14.frame_n.x * x7_16)));
     float x9_12 = (prepared_14.frame_s.y * x5_14 + (prepared_14.frame_t.y * x6_16 + (prepared_14.frame_n.y * x7_16)));
-    float x10_12 = (prepared_14.frame_s.z * x5_14 + (prepared_14.frame_t.z * x6_16 + (prepared_14.frame_n.z * x7_16)));
+    float x10_13 = (prepared_14.frame_s.z * x5_14 + (prepared_14.frame_t.z * x6_16 + (prepared_14.frame_n.z * x7_16)));
     float x11_15 = ((1e-37 < _e6) ? (0.15915494 / _e6) : 0.0);
     float x12_12 = -(x8_12);
     float x13_12 = -(x9_12);
-    float x14_13 = -(x10_12);
+    float x14_13 = -(x10_13);
     float x15_12 = ((1e-37 < x11_15) ? (1.0 / x11_15) : 0.0);
     result_19.direction.x = x8_12;
     result_19.direction.y = x9_12;
-    result_19.direction.z = x10_12;
+    result_19.direction.z = x10_13;
     result_19.distance_ = 3.4028235e38;
     result_19.pdf = x11_15;
     result_19.weight = x15_12;
@@ -2623,19 +2625,19 @@ EtendueLightSample etendue_sun_by_solid_angle_sample(EtendueSunBySolidAngle prep
 // pi (1 - cos(sigma))) per steradian, 0 where the cone is empty.
 float etendue_sun_by_solid_angle_pdf(EtendueSunBySolidAngle prepared_15, vec3 w_8) {
     bool b6_1 = false;
-    float x1_20 = (prepared_15.frame_n.x * w_8.x + (prepared_15.frame_n.y * w_8.y + (prepared_15.frame_n.z * w_8.z)));
-    float x2_23 = (1.0 - x1_20);
+    float x1_21 = (prepared_15.frame_n.x * w_8.x + (prepared_15.frame_n.y * w_8.y + (prepared_15.frame_n.z * w_8.z)));
+    float x2_22 = (1.0 - x1_21);
     float _e18 = etendue_greater(prepared_15.cone_one_minus_cos, 0.0);
     float _e20 = etendue_lesser(_e18, 2.0);
-    float x4_12 = (x2_23 - _e20);
+    float x4_12 = (x2_22 - _e20);
     bool b5_4 = (abs(x4_12) <= 3.8146973e-6);
     if (b5_4) {
         float x7_17 = (prepared_15.frame_s.x * w_8.x + (prepared_15.frame_s.y * w_8.y + (prepared_15.frame_s.z * w_8.z)));
         float x8_13 = (prepared_15.frame_t.x * w_8.x + (prepared_15.frame_t.y * w_8.y + (prepared_15.frame_t.z * w_8.z)));
-        float x9_13 = ((0.5 < x1_20) ? ((x7_17 * x7_17 + (x8_13 * x8_13)) / (1.0 + abs(x1_20))) : x2_23);
+        float x9_13 = ((0.5 < x1_21) ? ((x7_17 * x7_17 + (x8_13 * x8_13)) / (1.0 + abs(x1_21))) : x2_22);
         float _e66 = etendue_greater(sqrt((_e20 * (2.0 - _e20))), (_e20 - 1.0));
-        float x10_13 = (_e20 + (5.9604645e-7 * _e66 + 1.7763568e-13));
-        b6_1 = (x9_13 <= x10_13);
+        float x10_14 = (_e20 + (5.9604645e-7 * _e66 + 1.7763568e-13));
+        b6_1 = (x9_13 <= x10_14);
     }
     bool _e82 = b6_1;
     float x11_16 = ((((x4_12 < 0.0) && !(b5_4)) || (b5_4 && _e82)) ? ((1e-37 < _e20) ? (0.15915494 / _e20) : 0.0) : 0.0);
@@ -2647,20 +2649,20 @@ float etendue_sun_by_solid_angle_pdf(EtendueSunBySolidAngle prepared_15, vec3 w_
 EtendueLightSample etendue_sun_by_solid_angle_hit(EtendueSunBySolidAngle prepared_16, vec3 w_9) {
     bool b15_ = false;
     EtendueLightSample result_20 = EtendueLightSample(vec3(0.0), 0.0, 0.0, 0.0, vec3(0.0), vec2(0.0), false, false);
-    float x1_21 = (prepared_16.frame_n.x * w_9.x + (prepared_16.frame_n.y * w_9.y + (prepared_16.frame_n.z * w_9.z)));
-    float x2_24 = (1.0 - x1_21);
+    float x1_22 = (prepared_16.frame_n.x * w_9.x + (prepared_16.frame_n.y * w_9.y + (prepared_16.frame_n.z * w_9.z)));
+    float x2_23 = (1.0 - x1_22);
     float _e18 = etendue_greater(prepared_16.cone_one_minus_cos, 0.0);
     float _e20 = etendue_lesser(_e18, 2.0);
-    float x4_13 = (x2_24 - _e20);
+    float x4_13 = (x2_23 - _e20);
     bool b5_5 = (abs(x4_13) <= 3.8146973e-6);
     float x6_17 = (prepared_16.frame_s.x * w_9.x + (prepared_16.frame_s.y * w_9.y + (prepared_16.frame_s.z * w_9.z)));
     float x7_18 = (prepared_16.frame_t.x * w_9.x + (prepared_16.frame_t.y * w_9.y + (prepared_16.frame_t.z * w_9.z)));
-    float x8_14 = ((0.5 < x1_21) ? ((x6_17 * x6_17 + (x7_18 * x7_18)) / (1.0 + abs(x1_21))) : x2_24);
+    float x8_14 = ((0.5 < x1_22) ? ((x6_17 * x6_17 + (x7_18 * x7_18)) / (1.0 + abs(x1_22))) : x2_23);
     float _e64 = etendue_greater((x8_14 / ((0.0 < _e20) ? _e20 : 1.0)), 0.0);
     float _e66 = etendue_lesser(_e64, 0.99999994);
     float _e68 = etendue_angle(x7_18, x6_17);
-    float x10_14 = (0.15915494 * _e68);
-    float _e76 = etendue_greater(((x10_14 < 0.0) ? (1.0 + x10_14) : x10_14), 0.0);
+    float x10_15 = (0.15915494 * _e68);
+    float _e76 = etendue_greater(((x10_15 < 0.0) ? (1.0 + x10_15) : x10_15), 0.0);
     float _e78 = etendue_lesser(_e76, 0.99999994);
     float x12_13 = -(w_9.x);
     float x13_13 = -(w_9.y);
@@ -2696,20 +2698,20 @@ EtendueLightSample etendue_sun_by_solid_angle_hit(EtendueSunBySolidAngle prepare
 // distance^2, which is no density; that of a direction is 0.
 EtenduePointLightByDelta etendue_point_light_by_delta_prepare(EtenduePointLight light_5, vec3 p_4) {
     EtenduePointLightByDelta result_21 = EtenduePointLightByDelta(vec3(0.0), 0.0, 0.0);
-    float x1_22 = (light_5.position.x - p_4.x);
-    float x2_25 = (light_5.position.y - p_4.y);
+    float x1_23 = (light_5.position.x - p_4.x);
+    float x2_24 = (light_5.position.y - p_4.y);
     float x3_17 = (light_5.position.z - p_4.z);
-    float _e16 = etendue_greater(abs(x1_22), abs(x2_25));
+    float _e16 = etendue_greater(abs(x1_23), abs(x2_24));
     float _e18 = etendue_greater(_e16, abs(x3_17));
     float _e20 = etendue_from_bits(2139095040u);
     bool b5_6 = (_e18 < _e20);
     float _e24 = etendue_pow2_scale((b5_6 ? _e18 : 0.0));
-    float x7_19 = (_e24 * (b5_6 ? x1_22 : 0.0));
-    float x8_15 = (_e24 * (b5_6 ? x2_25 : 0.0));
+    float x7_19 = (_e24 * (b5_6 ? x1_23 : 0.0));
+    float x8_15 = (_e24 * (b5_6 ? x2_24 : 0.0));
     float x9_14 = (_e24 * (b5_6 ? x3_17 : 0.0));
-    float x10_15 = (x7_19 * x7_19 + (x8_15 * x8_15 + (x9_14 * x9_14)));
-    float x11_17 = ((0.0 < x10_15) ? (1.0 / sqrt(x10_15)) : 0.0);
-    float x12_14 = ((x10_15 * x11_17) / _e24);
+    float x10_16 = (x7_19 * x7_19 + (x8_15 * x8_15 + (x9_14 * x9_14)));
+    float x11_17 = ((0.0 < x10_16) ? (1.0 / sqrt(x10_16)) : 0.0);
+    float x12_14 = ((x10_16 * x11_17) / _e24);
     float x13_14 = (x7_19 * x11_17);
     float x14_15 = (x8_15 * x11_17);
     float x15_13 = (x9_14 * x11_17);
@@ -2731,7 +2733,7 @@ EtenduePointLightByDelta etendue_point_light_by_delta_prepare(EtenduePointLight 
 EtendueLightSample etendue_point_light_by_delta_sample(EtenduePointLightByDelta prepared_17, vec2 u_8) {
     EtendueLightSample result_22 = EtendueLightSample(vec3(0.0), 0.0, 0.0, 0.0, vec3(0.0), vec2(0.0), false, false);
     bool b1_4 = (0.0 < prepared_17.pdf);
-    float x2_26 = -(prepared_17.direction.x);
+    float x2_25 = -(prepared_17.direction.x);
     float x3_18 = -(prepared_17.direction.y);
     float x4_14 = -(prepared_17.direction.z);
     float x5_15 = ((b1_4 && (1e-37 < prepared_17.pdf)) ? (1.0 / prepared_17.pdf) : 0.0);
@@ -2741,7 +2743,7 @@ EtendueLightSample etendue_point_light_by_delta_sample(EtenduePointLightByDelta 
     result_22.distance_ = prepared_17.distance_;
     result_22.pdf = prepared_17.pdf;
     result_22.weight = x5_15;
-    result_22.normal.x = x2_26;
+    result_22.normal.x = x2_25;
     result_22.normal.y = x3_18;
     result_22.normal.z = x4_14;
     result_22.uv.x = 0.0;
@@ -2763,8 +2765,8 @@ float etendue_point_light_by_delta_pdf(EtenduePointLightByDelta prepared_18, vec
 // is 0.
 EtendueLightSample etendue_point_light_by_delta_hit(EtenduePointLightByDelta prepared_19, vec3 w_11) {
     EtendueLightSample result_23 = EtendueLightSample(vec3(0.0), 0.0, 0.0, 0.0, vec3(0.0), vec2(0.0), false, false);
-    float x1_23 = -(w_11.x);
-    float x2_27 = -(w_11.y);
+    float x1_24 = -(w_11.x);
+    float x2_26 = -(w_11.y);
     float x3_19 = -(w_11.z);
     result_23.direction.x = w_11.x;
     result_23.direction.y = w_11.y;
@@ -2772,8 +2774,8 @@ EtendueLightSample etendue_point_light_by_delta_hit(EtenduePointLightByDelta pre
     result_23.distance_ = 0.0;
     result_23.pdf = 0.0;
     result_23.weight = 0.0;
-    result_23.normal.x = x1_23;
-    result_23.normal.y = x2_27;
+    result_23.normal.x = x1_24;
+    result_23.normal.y = x2_26;
     result_23.normal.z = x3_19;
     result_23.uv.x = 0.0;
     result_23.uv.y = 0.0;
@@ -2788,42 +2790,45 @@ EtendueLightSample etendue_point_light_by_delta_hit(EtenduePointLightByDelta pre
 // direction is 0.
 EtendueSpotLightByDelta etendue_spot_light_by_delta_prepare(EtendueSpotLight light_6, vec3 p_5) {
     EtendueSpotLightByDelta result_24 = EtendueSpotLightByDelta(vec3(0.0), 0.0, 0.0);
-    float x1_24 = (light_6.position.x - p_5.x);
-    float x2_28 = (light_6.position.y - p_5.y);
+    float x1_25 = (light_6.position.x - p_5.x);
+    float x2_27 = (light_6.position.y - p_5.y);
     float x3_20 = (light_6.position.z - p_5.z);
-    float _e16 = etendue_greater(abs(x1_24), abs(x2_28));
+    float _e16 = etendue_greater(abs(x1_25), abs(x2_27));
     float _e18 = etendue_greater(_e16, abs(x3_20));
     float _e20 = etendue_from_bits(2139095040u);
     bool b5_7 = (_e18 < _e20);
     float _e24 = etendue_pow2_scale((b5_7 ? _e18 : 0.0));
-    float x7_20 = (_e24 * (b5_7 ? x1_24 : 0.0));
-    float x8_16 = (_e24 * (b5_7 ? x2_28 : 0.0));
+    float x7_20 = (_e24 * (b5_7 ? x1_25 : 0.0));
+    float x8_16 = (_e24 * (b5_7 ? x2_27 : 0.0));
     float x9_15 = (_e24 * (b5_7 ? x3_20 : 0.0));
-    float x10_16 = (x7_20 * x7_20 + (x8_16 * x8_16 + (x9_15 * x9_15)));
-    float x11_18 = ((0.0 < x10_16) ? (1.0 / sqrt(x10_16)) : 0.0);
-    float x12_15 = ((x10_16 * x11_18) / _e24);
+    float x10_17 = (x7_20 * x7_20 + (x8_16 * x8_16 + (x9_15 * x9_15)));
+    float x11_18 = ((0.0 < x10_17) ? (1.0 / sqrt(x10_17)) : 0.0);
+    float x12_15 = ((x10_17 * x11_18) / _e24);
     float x13_15 = (x7_20 * x11_18);
     float x14_16 = (x8_16 * x11_18);
     float x15_14 = (x9_15 * x11_18);
     float _e51 = etendue_from_bits(2139095040u);
     float x16_14 = ((x12_15 < _e51) ? x12_15 : 0.0);
     float x17_10 = (x16_14 * x16_14);
-    float x18_11 = (light_6.axis.x * -(x13_15) + (light_6.axis.y * -(x14_16) + (light_6.axis.z * -(x15_14))));
-    float x19_9 = (light_6.cos_inner - light_6.cos_outer);
-    bool b20_ = (0.0 < x19_9);
-    float _e78 = etendue_greater(((x18_11 - light_6.cos_outer) / (b20_ ? x19_9 : 1.0)), 0.0);
-    float _e80 = etendue_lesser(_e78, 1.0);
-    float x22_10 = (b20_ ? ((_e80 * _e80) * (3.0 - (_e80 + _e80))) : ((light_6.cos_inner <= x18_11) ? 1.0 : 0.0));
+    float x18_11 = (-(x13_15) - light_6.axis.x);
+    float x19_9 = (-(x14_16) - light_6.axis.y);
+    float x20_12 = (-(x15_14) - light_6.axis.z);
+    float x21_10 = ((x18_11 * x18_11 + (x19_9 * x19_9 + (x20_12 * x20_12))) * 0.5);
+    float x22_10 = (light_6.one_minus_cos_outer - light_6.one_minus_cos_inner);
     bool b23_2 = (0.0 < x22_10);
-    float x24_10 = (((x17_10 < 1e37) ? x17_10 : 0.0) / (b23_2 ? x22_10 : 1.0));
-    float x25_11 = ((b23_2 && (x24_10 < 1e37)) ? x24_10 : 0.0);
+    float _e83 = etendue_greater(((light_6.one_minus_cos_outer - x21_10) / (b23_2 ? x22_10 : 1.0)), 0.0);
+    float _e85 = etendue_lesser(_e83, 1.0);
+    float x25_11 = (b23_2 ? ((_e85 * _e85) * (3.0 - (_e85 + _e85))) : ((x21_10 <= light_6.one_minus_cos_inner) ? 1.0 : 0.0));
+    bool b26_ = (0.0 < x25_11);
+    float x27_8 = (((x17_10 < 1e37) ? x17_10 : 0.0) / (b26_ ? x25_11 : 1.0));
+    float x28_9 = ((b26_ && (x27_8 < 1e37)) ? x27_8 : 0.0);
     result_24.direction.x = x13_15;
     result_24.direction.y = x14_16;
     result_24.direction.z = x15_14;
     result_24.distance_ = x16_14;
-    result_24.pdf = x25_11;
-    EtendueSpotLightByDelta _e115 = result_24;
-    return _e115;
+    result_24.pdf = x28_9;
+    EtendueSpotLightByDelta _e120 = result_24;
+    return _e120;
 }
 
 // Draws a direction to the light for u in [0, 1)^2. Its one direction, whatever the random numbers. The pdf of a
@@ -2832,7 +2837,7 @@ EtendueSpotLightByDelta etendue_spot_light_by_delta_prepare(EtendueSpotLight lig
 EtendueLightSample etendue_spot_light_by_delta_sample(EtendueSpotLightByDelta prepared_20, vec2 u_9) {
     EtendueLightSample result_25 = EtendueLightSample(vec3(0.0), 0.0, 0.0, 0.0, vec3(0.0), vec2(0.0), false, false);
     bool b1_5 = (0.0 < prepared_20.pdf);
-    float x2_29 = -(prepared_20.direction.x);
+    float x2_28 = -(prepared_20.direction.x);
     float x3_21 = -(prepared_20.direction.y);
     float x4_15 = -(prepared_20.direction.z);
     float x5_16 = ((b1_5 && (1e-37 < prepared_20.pdf)) ? (1.0 / prepared_20.pdf) : 0.0);
@@ -2842,7 +2847,7 @@ EtendueLightSample etendue_spot_light_by_delta_sample(EtendueSpotLightByDelta pr
     result_25.distance_ = prepared_20.distance_;
     result_25.pdf = prepared_20.pdf;
     result_25.weight = x5_16;
-    result_25.normal.x = x2_29;
+    result_25.normal.x = x2_28;
     result_25.normal.y = x3_21;
     result_25.normal.z = x4_15;
     result_25.uv.x = 0.0;
@@ -2865,8 +2870,8 @@ float etendue_spot_light_by_delta_pdf(EtendueSpotLightByDelta prepared_21, vec3 
 // which is no density, and 0 outside of the cone; that of a direction is 0.
 EtendueLightSample etendue_spot_light_by_delta_hit(EtendueSpotLightByDelta prepared_22, vec3 w_13) {
     EtendueLightSample result_26 = EtendueLightSample(vec3(0.0), 0.0, 0.0, 0.0, vec3(0.0), vec2(0.0), false, false);
-    float x1_25 = -(w_13.x);
-    float x2_30 = -(w_13.y);
+    float x1_26 = -(w_13.x);
+    float x2_29 = -(w_13.y);
     float x3_22 = -(w_13.z);
     result_26.direction.x = w_13.x;
     result_26.direction.y = w_13.y;
@@ -2874,8 +2879,8 @@ EtendueLightSample etendue_spot_light_by_delta_hit(EtendueSpotLightByDelta prepa
     result_26.distance_ = 0.0;
     result_26.pdf = 0.0;
     result_26.weight = 0.0;
-    result_26.normal.x = x1_25;
-    result_26.normal.y = x2_30;
+    result_26.normal.x = x1_26;
+    result_26.normal.y = x2_29;
     result_26.normal.z = x3_22;
     result_26.uv.x = 0.0;
     result_26.uv.y = 0.0;
@@ -2888,36 +2893,40 @@ EtendueLightSample etendue_spot_light_by_delta_hit(EtendueSpotLightByDelta prepa
 // Prepares a light for the shading point p. Its one direction, whatever the random numbers. The pdf of a sample is 1,
 // which is no density; that of a direction is 0.
 EtendueDirectionalLightByDelta etendue_directional_light_by_delta_prepare(EtendueDirectionalLight light_7, vec3 p_6) {
-    EtendueDirectionalLightByDelta result_27 = EtendueDirectionalLightByDelta(vec3(0.0));
+    EtendueDirectionalLightByDelta result_27 = EtendueDirectionalLightByDelta(vec3(0.0), 0.0);
+    float x1_27 = ((0.0 <= (light_7.direction.x * light_7.direction.x + (light_7.direction.y * light_7.direction.y + (light_7.direction.z * light_7.direction.z)))) ? 1.0 : 0.0);
     result_27.direction.x = light_7.direction.x;
     result_27.direction.y = light_7.direction.y;
     result_27.direction.z = light_7.direction.z;
-    EtendueDirectionalLightByDelta _e15 = result_27;
-    return _e15;
+    result_27.pdf = x1_27;
+    EtendueDirectionalLightByDelta _e36 = result_27;
+    return _e36;
 }
 
 // Draws a direction to the light for u in [0, 1)^2. Its one direction, whatever the random numbers. The pdf of a
 // sample is 1, which is no density; that of a direction is 0.
 EtendueLightSample etendue_directional_light_by_delta_sample(EtendueDirectionalLightByDelta prepared_23, vec2 u_10) {
     EtendueLightSample result_28 = EtendueLightSample(vec3(0.0), 0.0, 0.0, 0.0, vec3(0.0), vec2(0.0), false, false);
-    float x1_26 = -(prepared_23.direction.x);
-    float x2_31 = -(prepared_23.direction.y);
-    float x3_23 = -(prepared_23.direction.z);
+    bool b1_6 = (0.0 < prepared_23.pdf);
+    float x2_30 = -(prepared_23.direction.x);
+    float x3_23 = -(prepared_23.direction.y);
+    float x4_16 = -(prepared_23.direction.z);
+    float x5_17 = ((b1_6 && (1e-37 < prepared_23.pdf)) ? (1.0 / prepared_23.pdf) : 0.0);
     result_28.direction.x = prepared_23.direction.x;
     result_28.direction.y = prepared_23.direction.y;
     result_28.direction.z = prepared_23.direction.z;
     result_28.distance_ = 3.4028235e38;
-    result_28.pdf = 1.0;
-    result_28.weight = 1.0;
-    result_28.normal.x = x1_26;
-    result_28.normal.y = x2_31;
-    result_28.normal.z = x3_23;
+    result_28.pdf = prepared_23.pdf;
+    result_28.weight = x5_17;
+    result_28.normal.x = x2_30;
+    result_28.normal.y = x3_23;
+    result_28.normal.z = x4_16;
     result_28.uv.x = 0.0;
     result_28.uv.y = 0.0;
-    result_28.emits = true;
+    result_28.emits = b1_6;
     result_28.delta = true;
-    EtendueLightSample _e46 = result_28;
-    return _e46;
+    EtendueLightSample _e56 = result_28;
+    return _e56;
 }
 
 // The density with which the unit direction w is drawn; 0 where it misses the light. Its one direction, whatever the
@@ -2930,8 +2939,8 @@ float etendue_directional_light_by_delta_pdf(EtendueDirectionalLightByDelta prep
 // direction, whatever the random numbers. The pdf of a sample is 1, which is no density; that of a direction is 0.
 EtendueLightSample etendue_directional_light_by_delta_hit(EtendueDirectionalLightByDelta prepared_25, vec3 w_15) {
     EtendueLightSample result_29 = EtendueLightSample(vec3(0.0), 0.0, 0.0, 0.0, vec3(0.0), vec2(0.0), false, false);
-    float x1_27 = -(w_15.x);
-    float x2_32 = -(w_15.y);
+    float x1_28 = -(w_15.x);
+    float x2_31 = -(w_15.y);
     float x3_24 = -(w_15.z);
     result_29.direction.x = w_15.x;
     result_29.direction.y = w_15.y;
@@ -2939,8 +2948,8 @@ EtendueLightSample etendue_directional_light_by_delta_hit(EtendueDirectionalLigh
     result_29.distance_ = 0.0;
     result_29.pdf = 0.0;
     result_29.weight = 0.0;
-    result_29.normal.x = x1_27;
-    result_29.normal.y = x2_32;
+    result_29.normal.x = x1_28;
+    result_29.normal.y = x2_31;
     result_29.normal.z = x3_24;
     result_29.uv.x = 0.0;
     result_29.uv.y = 0.0;
@@ -3032,8 +3041,8 @@ float etendue_technique_pdf(float samples, float pdf, bool delta) {
     float _e5 = etendue_greater((samples * pdf), 0.0);
     float _e7 = etendue_lesser(_e5, 3.4028235e38);
     float _e9 = etendue_from_bits(2139095040u);
-    float x1_28 = (delta ? _e9 : _e7);
-    return x1_28;
+    float x1_29 = (delta ? _e9 : _e7);
+    return x1_29;
 }
 
 // The weights of two techniques by the balance heuristic, given the number of samples times the density of each; their
@@ -3045,14 +3054,14 @@ vec2 etendue_balance_weights(float first, float second) {
     float _e7 = etendue_greater(0.0, _e3);
     float _e8 = etendue_greater(_e7, _e5);
     bool b4_6 = (0.0 < _e8);
-    float x5_17 = (b4_6 ? _e8 : 1.0);
-    float x6_18 = ((b4_6 && (0.0 < _e3)) ? ((_e8 <= _e3) ? 1.0 : (_e3 / x5_17)) : 0.0);
-    float x7_21 = ((b4_6 && (0.0 < _e5)) ? ((_e8 <= _e5) ? 1.0 : (_e5 / x5_17)) : 0.0);
+    float x5_18 = (b4_6 ? _e8 : 1.0);
+    float x6_18 = ((b4_6 && (0.0 < _e3)) ? ((_e8 <= _e3) ? 1.0 : (_e3 / x5_18)) : 0.0);
+    float x7_21 = ((b4_6 && (0.0 < _e5)) ? ((_e8 <= _e5) ? 1.0 : (_e5 / x5_18)) : 0.0);
     float x8_17 = (b4_6 ? (x7_21 + (0.0 + x6_18)) : 1.0);
     float x9_16 = (x6_18 / x8_17);
-    float x10_17 = (x7_21 / x8_17);
+    float x10_18 = (x7_21 / x8_17);
     result_32.x = x9_16;
-    result_32.y = x10_17;
+    result_32.y = x10_18;
     vec2 _e41 = result_32;
     return _e41;
 }
@@ -3066,14 +3075,14 @@ vec2 etendue_power_weights(float first_1, float second_1) {
     float _e7 = etendue_greater(0.0, _e3);
     float _e8 = etendue_greater(_e7, _e5);
     bool b4_7 = (0.0 < _e8);
-    float x5_18 = (b4_7 ? _e8 : 1.0);
-    float x6_19 = ((b4_7 && (0.0 < _e3)) ? ((_e8 <= _e3) ? 1.0 : (_e3 / x5_18)) : 0.0);
+    float x5_19 = (b4_7 ? _e8 : 1.0);
+    float x6_19 = ((b4_7 && (0.0 < _e3)) ? ((_e8 <= _e3) ? 1.0 : (_e3 / x5_19)) : 0.0);
     float x7_22 = (x6_19 * x6_19);
-    float x8_18 = ((b4_7 && (0.0 < _e5)) ? ((_e8 <= _e5) ? 1.0 : (_e5 / x5_18)) : 0.0);
+    float x8_18 = ((b4_7 && (0.0 < _e5)) ? ((_e8 <= _e5) ? 1.0 : (_e5 / x5_19)) : 0.0);
     float x9_17 = (x8_18 * x8_18);
-    float x10_18 = (b4_7 ? (x9_17 + (0.0 + x7_22)) : 1.0);
-    float x11_19 = (x7_22 / x10_18);
-    float x12_16 = (x9_17 / x10_18);
+    float x10_19 = (b4_7 ? (x9_17 + (0.0 + x7_22)) : 1.0);
+    float x11_19 = (x7_22 / x10_19);
+    float x12_16 = (x9_17 / x10_19);
     result_33.x = x11_19;
     result_33.y = x12_16;
     vec2 _e43 = result_33;
@@ -3091,10 +3100,10 @@ float etendue_power_light_weight(float pdf_1, bool emits, bool delta_1, float bs
     float _e16 = etendue_greater(0.0, _e12);
     float _e17 = etendue_greater(_e16, _e14);
     bool b4_8 = (0.0 < _e17);
-    float x5_19 = (b4_8 ? _e17 : 1.0);
-    float x6_20 = ((b4_8 && (0.0 < _e12)) ? ((_e17 <= _e12) ? 1.0 : (_e12 / x5_19)) : 0.0);
+    float x5_20 = (b4_8 ? _e17 : 1.0);
+    float x6_20 = ((b4_8 && (0.0 < _e12)) ? ((_e17 <= _e12) ? 1.0 : (_e12 / x5_20)) : 0.0);
     float x7_23 = (x6_20 * x6_20);
-    float x8_19 = ((b4_8 && (0.0 < _e14)) ? ((_e17 <= _e14) ? 1.0 : (_e14 / x5_19)) : 0.0);
+    float x8_19 = ((b4_8 && (0.0 < _e14)) ? ((_e17 <= _e14) ? 1.0 : (_e14 / x5_20)) : 0.0);
     float x9_18 = ((x7_23 / (b4_8 ? ((x8_19 * x8_19) + (0.0 + x7_23)) : 1.0)) * ((emits && (1e-37 < pdf_1)) ? (1.0 / pdf_1) : 0.0));
     return x9_18;
 }
@@ -3102,7 +3111,7 @@ float etendue_power_light_weight(float pdf_1, bool emits, bool delta_1, float bs
 // The weight, over its density, of a direction that the surface drew with the density bsdf_pdf, where it hits a light
 // with these fields: by the power heuristic, one sample each. 0 where the light is missed.
 float etendue_power_bsdf_weight(float bsdf_pdf_1, float pdf_2, bool emits_1) {
-    bool b1_6 = ((emits_1 && (1e-37 < bsdf_pdf_1)) && (0.0 < pdf_2));
+    bool b1_7 = ((emits_1 && (1e-37 < bsdf_pdf_1)) && (0.0 < pdf_2));
     float _e10 = etendue_greater(bsdf_pdf_1, 0.0);
     float _e12 = etendue_greater(pdf_2, 0.0);
     float _e14 = etendue_greater(0.0, _e10);
@@ -3113,8 +3122,8 @@ float etendue_power_bsdf_weight(float bsdf_pdf_1, float pdf_2, bool emits_1) {
     float x8_20 = (x7_24 * x7_24);
     float x9_19 = ((b5_8 && (0.0 < _e12)) ? ((_e15 <= _e12) ? 1.0 : (_e12 / x6_21)) : 0.0);
     float _e48 = etendue_from_bits(2139095040u);
-    float x10_19 = ((x8_20 / (b5_8 ? ((x9_19 * x9_19) + (0.0 + x8_20)) : 1.0)) / ((b1_6 && !((_e48 <= bsdf_pdf_1))) ? bsdf_pdf_1 : 1.0));
-    float x11_20 = (b1_6 ? x10_19 : 0.0);
+    float x10_20 = ((x8_20 / (b5_8 ? ((x9_19 * x9_19) + (0.0 + x8_20)) : 1.0)) / ((b1_7 && !((_e48 <= bsdf_pdf_1))) ? bsdf_pdf_1 : 1.0));
+    float x11_20 = (b1_7 ? x10_20 : 0.0);
     return x11_20;
 }
 
@@ -3123,18 +3132,18 @@ float etendue_power_bsdf_weight(float bsdf_pdf_1, float pdf_2, bool emits_1) {
 // tangent of half the spread, and gain 1/(tan_half - half the spread); 0 beyond. Within 4e-7 of the factor on the
 // axis.
 float etendue_spread_attenuation(float tan_half, float gain, vec3 w_16, vec3 n) {
-    float x1_29 = abs((w_16.x * n.x + (w_16.y * n.y + (w_16.z * n.z))));
-    bool b2_2 = (0.0 < x1_29);
+    float x1_30 = abs((w_16.x * n.x + (w_16.y * n.y + (w_16.z * n.z))));
+    bool b2_2 = (0.0 < x1_30);
     float x3_25 = -((w_16.z * n.y));
-    float x4_16 = ((w_16.y * n.z + x3_25) - (w_16.z * n.y + x3_25));
-    float x5_20 = -((w_16.x * n.z));
-    float x6_22 = ((w_16.z * n.x + x5_20) - (w_16.x * n.z + x5_20));
+    float x4_17 = ((w_16.y * n.z + x3_25) - (w_16.z * n.y + x3_25));
+    float x5_21 = -((w_16.x * n.z));
+    float x6_22 = ((w_16.z * n.x + x5_21) - (w_16.x * n.z + x5_21));
     float x7_25 = -((w_16.y * n.x));
     float x8_21 = ((w_16.x * n.y + x7_25) - (w_16.y * n.x + x7_25));
-    float x9_20 = (tan_half - (sqrt((x4_16 * x4_16 + (x6_22 * x6_22 + (x8_21 * x8_21)))) / (b2_2 ? x1_29 : 1.0)));
+    float x9_20 = (tan_half - (sqrt((x4_17 * x4_17 + (x6_22 * x6_22 + (x8_21 * x8_21)))) / (b2_2 ? x1_30 : 1.0)));
     float _e60 = etendue_greater((gain * x9_20), 0.0);
-    float x10_20 = (b2_2 ? _e60 : 0.0);
-    return x10_20;
+    float x10_21 = (b2_2 ? _e60 : 0.0);
+    return x10_21;
 }
 
 // The position in [0, 1)^2, from the upper left corner, of the unit direction w in an image that a light projects
@@ -3142,17 +3151,17 @@ float etendue_spread_attenuation(float tan_half, float gain, vec3 w_16, vec3 n) 
 // - w.y/(w.z tan_half.y))/2; 0 where w misses the image. Within 2e-7 over the cosine to the axis.
 vec2 etendue_projector_place(vec2 tan_half_1, vec3 w_17) {
     vec2 result_34 = vec2(0.0);
-    float x1_30 = (tan_half_1.x * w_17.z);
-    float x2_33 = (tan_half_1.y * w_17.z);
-    bool b3_4 = ((((0.0 < x1_30) && (0.0 < x2_33)) && (-(x1_30) <= w_17.x)) && (w_17.x < x1_30));
-    bool b4_9 = ((b3_4 && (-(x2_33) < w_17.y)) && (w_17.y <= x2_33));
-    float _e36 = etendue_greater((0.5 * (w_17.x / (b4_9 ? x1_30 : 1.0)) + 0.5), 0.0);
+    float x1_31 = (tan_half_1.x * w_17.z);
+    float x2_32 = (tan_half_1.y * w_17.z);
+    bool b3_4 = ((((0.0 < x1_31) && (0.0 < x2_32)) && (-(x1_31) <= w_17.x)) && (w_17.x < x1_31));
+    bool b4_9 = ((b3_4 && (-(x2_32) < w_17.y)) && (w_17.y <= x2_32));
+    float _e36 = etendue_greater((0.5 * (w_17.x / (b4_9 ? x1_31 : 1.0)) + 0.5), 0.0);
     float _e38 = etendue_lesser(_e36, 0.99999994);
-    float x5_21 = (b4_9 ? _e38 : 0.0);
-    float _e50 = etendue_greater((0.5 * (-(w_17.y) / (b4_9 ? x2_33 : 1.0)) + 0.5), 0.0);
+    float x5_22 = (b4_9 ? _e38 : 0.0);
+    float _e50 = etendue_greater((0.5 * (-(w_17.y) / (b4_9 ? x2_32 : 1.0)) + 0.5), 0.0);
     float _e52 = etendue_lesser(_e50, 0.99999994);
     float x6_23 = (b4_9 ? _e52 : 0.0);
-    result_34.x = x5_21;
+    result_34.x = x5_22;
     result_34.y = x6_23;
     vec2 _e57 = result_34;
     return _e57;
@@ -3161,25 +3170,25 @@ vec2 etendue_projector_place(vec2 tan_half_1, vec3 w_17) {
 // Whether the unit direction w is in an image that a light projects along +z, with these tangents of half the angles
 // of view; false for tangents that are not greater than 0.
 bool etendue_projector_has(vec2 tan_half_2, vec3 w_18) {
-    float x1_31 = (tan_half_2.x * w_18.z);
-    float x2_34 = (tan_half_2.y * w_18.z);
-    bool b3_5 = ((((0.0 < x1_31) && (0.0 < x2_34)) && (-(x1_31) <= w_18.x)) && (w_18.x < x1_31));
-    bool b4_10 = ((b3_5 && (-(x2_34) < w_18.y)) && (w_18.y <= x2_34));
+    float x1_32 = (tan_half_2.x * w_18.z);
+    float x2_33 = (tan_half_2.y * w_18.z);
+    bool b3_5 = ((((0.0 < x1_32) && (0.0 < x2_33)) && (-(x1_32) <= w_18.x)) && (w_18.x < x1_32));
+    bool b4_10 = ((b3_5 && (-(x2_33) < w_18.y)) && (w_18.y <= x2_33));
     return b4_10;
 }
 
 // The unit direction in which the light of a position in a projected image travels: the inverse of projector_place.
 vec3 etendue_projector_direction(vec2 tan_half_3, vec2 uv) {
     vec3 result_35 = vec3(0.0);
-    float x1_32 = (tan_half_3.x * (uv.x * 2.0 + -1.0));
-    float x2_35 = (tan_half_3.y * -((uv.y * 2.0 + -1.0)));
-    float x3_26 = (x1_32 * x1_32 + (x2_35 * x2_35 + 1.0));
-    float x4_17 = ((0.0 < x3_26) ? (1.0 / sqrt(x3_26)) : 0.0);
-    float x5_22 = (x1_32 * x4_17);
-    float x6_24 = (x2_35 * x4_17);
-    result_35.x = x5_22;
+    float x1_33 = (tan_half_3.x * (uv.x * 2.0 + -1.0));
+    float x2_34 = (tan_half_3.y * -((uv.y * 2.0 + -1.0)));
+    float x3_26 = (x1_33 * x1_33 + (x2_34 * x2_34 + 1.0));
+    float x4_18 = ((0.0 < x3_26) ? (1.0 / sqrt(x3_26)) : 0.0);
+    float x5_23 = (x1_33 * x4_18);
+    float x6_24 = (x2_34 * x4_18);
+    result_35.x = x5_23;
     result_35.y = x6_24;
-    result_35.z = x4_17;
+    result_35.z = x4_18;
     vec3 _e31 = result_35;
     return _e31;
 }
@@ -3192,20 +3201,20 @@ vec3 etendue_portal_direction(vec3 edge_s, vec3 edge_t, vec3 normal, float scale
     vec2 _e10 = etendue_sin_cos_turns((0.5 * (uv_1.x - 0.5)));
     vec2 _e16 = etendue_sin_cos_turns((0.5 * (uv_1.y - 0.5)));
     float x3_27 = (_e10.x * _e16.y);
-    float x4_18 = (_e10.y * _e16.x);
-    float x5_23 = (_e10.y * _e16.y);
-    float x6_25 = (edge_s.x * x3_27 + (edge_t.x * x4_18 + (normal.x * x5_23)));
-    float x7_26 = (edge_s.y * x3_27 + (edge_t.y * x4_18 + (normal.y * x5_23)));
-    float x8_22 = (edge_s.z * x3_27 + (edge_t.z * x4_18 + (normal.z * x5_23)));
+    float x4_19 = (_e10.y * _e16.x);
+    float x5_24 = (_e10.y * _e16.y);
+    float x6_25 = (edge_s.x * x3_27 + (edge_t.x * x4_19 + (normal.x * x5_24)));
+    float x7_26 = (edge_s.y * x3_27 + (edge_t.y * x4_19 + (normal.y * x5_24)));
+    float x8_22 = (edge_s.z * x3_27 + (edge_t.z * x4_19 + (normal.z * x5_24)));
     float _e46 = etendue_greater(abs(x6_25), abs(x7_26));
     float _e48 = etendue_greater(_e46, abs(x8_22));
     float _e49 = etendue_pow2_scale(_e48);
-    float x10_21 = (x6_25 * _e49);
+    float x10_22 = (x6_25 * _e49);
     float x11_21 = (x7_26 * _e49);
     float x12_17 = (x8_22 * _e49);
-    float x13_16 = (x10_21 * x10_21 + (x11_21 * x11_21 + (x12_17 * x12_17)));
+    float x13_16 = (x10_22 * x10_22 + (x11_21 * x11_21 + (x12_17 * x12_17)));
     float x14_17 = ((0.0 < x13_16) ? (1.0 / sqrt(x13_16)) : 0.0);
-    float x15_16 = (x10_21 * x14_17);
+    float x15_16 = (x10_22 * x14_17);
     float x16_16 = (x11_21 * x14_17);
     float x17_11 = (x12_17 * x14_17);
     result_36.x = x15_16;
@@ -3221,18 +3230,18 @@ float etendue_portal_solid_angle(vec3 edge_s_1, vec3 edge_t_1, vec3 normal_1, fl
     vec2 _e10 = etendue_sin_cos_turns((0.5 * (uv_2.x - 0.5)));
     vec2 _e16 = etendue_sin_cos_turns((0.5 * (uv_2.y - 0.5)));
     float x3_28 = (_e10.x * _e16.y);
-    float x4_19 = (_e10.y * _e16.x);
-    float x5_24 = (_e10.y * _e16.y);
-    float x6_26 = (edge_s_1.x * x3_28 + (edge_t_1.x * x4_19 + (normal_1.x * x5_24)));
-    float x7_27 = (edge_s_1.y * x3_28 + (edge_t_1.y * x4_19 + (normal_1.y * x5_24)));
-    float x8_23 = (edge_s_1.z * x3_28 + (edge_t_1.z * x4_19 + (normal_1.z * x5_24)));
+    float x4_20 = (_e10.y * _e16.x);
+    float x5_25 = (_e10.y * _e16.y);
+    float x6_26 = (edge_s_1.x * x3_28 + (edge_t_1.x * x4_20 + (normal_1.x * x5_25)));
+    float x7_27 = (edge_s_1.y * x3_28 + (edge_t_1.y * x4_20 + (normal_1.y * x5_25)));
+    float x8_23 = (edge_s_1.z * x3_28 + (edge_t_1.z * x4_20 + (normal_1.z * x5_25)));
     float _e46 = etendue_greater(abs(x6_26), abs(x7_27));
     float _e48 = etendue_greater(_e46, abs(x8_23));
     float _e49 = etendue_pow2_scale(_e48);
-    float x10_22 = (x6_26 * _e49);
+    float x10_23 = (x6_26 * _e49);
     float x11_22 = (x7_27 * _e49);
     float x12_18 = (x8_23 * _e49);
-    float x13_17 = (x10_22 * x10_22 + (x11_22 * x11_22 + (x12_18 * x12_18)));
+    float x13_17 = (x10_23 * x10_23 + (x11_22 * x11_22 + (x12_18 * x12_18)));
     float x14_18 = ((x13_17 * ((0.0 < x13_17) ? (1.0 / sqrt(x13_17)) : 0.0)) / _e49);
     bool b15_2 = (0.0 < x14_18);
     float x16_17 = (b15_2 ? x14_18 : 1.0);

@@ -335,16 +335,17 @@ typedef struct {
     EtendueVec3 position;
     // Unit vector along which the light travels.
     EtendueVec3 axis;
-    // Cosine of the angle to the axis up to which the intensity is I.
-    float cos_inner;
-    // Cosine of the angle from which it is 0; less than the other one.
-    float cos_outer;
+    // 1 - cos(theta) of the angle to the axis up to which the intensity is I, in [0, 2].
+    float one_minus_cos_inner;
+    // 1 - cos(theta) of the angle from which it is 0, in [0, 2]; at least the other one.
+    float one_minus_cos_outer;
 } EtendueSpotLight;
 
 // A directional light prepared for a shading point. Its one direction, whatever the random numbers. The pdf of a
 // sample is 1, which is no density; that of a direction is 0.
 typedef struct {
     EtendueVec3 direction;
+    float pdf;
 } EtendueDirectionalLightByDelta;
 
 // A directional light, that reaches every point from one direction with the irradiance E on a surface that faces it.
@@ -607,7 +608,7 @@ ETENDUE_FUNCTION EtendueSphereBySolidAngle etendue_sphere_by_solid_angle_prepare
         x42 = x49 + (x47 - (x49 - x50) + (x15 - x50) + x51 + x52);
     }
     const float x53 = etendue_lesser(x17 * x20, 1.0f) / (1.0f + sqrtf(x20 * etendue_greater(x42, 0.0f)));
-    const float x54 = (0.0f < x14) ? ((b19 && (0.0f <= x42)) ? x53 : 2.0f) : 0.0f;
+    const float x54 = ((0.0f < x14) && (0.0f <= x16)) ? ((b19 && (0.0f <= x42)) ? x53 : 2.0f) : 0.0f;
     EtendueSphereBySolidAngle result;
     result.surface_center.x = x1;
     result.surface_center.y = x2;
@@ -2354,26 +2355,27 @@ ETENDUE_FUNCTION EtendueLightSample etendue_disk_by_area_hit(EtendueDiskByArea p
 
 // Prepares a light. Uniform over the cone: pdf 1/(2 pi (1 - cos(sigma))) per steradian, 0 where the cone is empty.
 ETENDUE_FUNCTION EtendueSunBySolidAngle etendue_sun_by_solid_angle_prepare(EtendueSun light) {
-    const float x1 = etendue_copysign(1.0f, light.direction.z);
-    const float x2 = -1.0f / (light.direction.z + x1);
-    const float x3 = x2 * (light.direction.x * light.direction.y);
-    const float x4 = light.direction.x * x1;
-    const float x5 = fmaf(light.direction.x, x2 * x4, 1.0f);
-    const float x6 = x1 * x3;
-    const float x7 = -x4;
-    const float x8 = fmaf(light.direction.y, light.direction.y * x2, x1);
-    const float x9 = -light.direction.y;
+    const float x1 = (0.0f <= fmaf(light.direction.x, light.direction.x, fmaf(light.direction.y, light.direction.y, light.direction.z * light.direction.z))) ? light.one_minus_cos : 0.0f;
+    const float x2 = etendue_copysign(1.0f, light.direction.z);
+    const float x3 = -1.0f / (light.direction.z + x2);
+    const float x4 = x3 * (light.direction.x * light.direction.y);
+    const float x5 = light.direction.x * x2;
+    const float x6 = fmaf(light.direction.x, x3 * x5, 1.0f);
+    const float x7 = x2 * x4;
+    const float x8 = -x5;
+    const float x9 = fmaf(light.direction.y, light.direction.y * x3, x2);
+    const float x10 = -light.direction.y;
     EtendueSunBySolidAngle result;
-    result.frame_s.x = x5;
-    result.frame_s.y = x6;
-    result.frame_s.z = x7;
-    result.frame_t.x = x3;
-    result.frame_t.y = x8;
-    result.frame_t.z = x9;
+    result.frame_s.x = x6;
+    result.frame_s.y = x7;
+    result.frame_s.z = x8;
+    result.frame_t.x = x4;
+    result.frame_t.y = x9;
+    result.frame_t.z = x10;
     result.frame_n.x = light.direction.x;
     result.frame_n.y = light.direction.y;
     result.frame_n.z = light.direction.z;
-    result.cone_one_minus_cos = light.one_minus_cos;
+    result.cone_one_minus_cos = x1;
     return result;
 }
 
@@ -2585,20 +2587,23 @@ ETENDUE_FUNCTION EtendueSpotLightByDelta etendue_spot_light_by_delta_prepare(Ete
     const float x15 = x9 * x11;
     const float x16 = (x12 < INFINITY) ? x12 : 0.0f;
     const float x17 = x16 * x16;
-    const float x18 = fmaf(light.axis.x, -x13, fmaf(light.axis.y, -x14, light.axis.z * -x15));
-    const float x19 = light.cos_inner - light.cos_outer;
-    const bool b20 = 0.0f < x19;
-    const float x21 = etendue_lesser(etendue_greater((x18 - light.cos_outer) / (b20 ? x19 : 1.0f), 0.0f), 1.0f);
-    const float x22 = b20 ? x21 * x21 * (3.0f - (x21 + x21)) : ((light.cos_inner <= x18) ? 1.0f : 0.0f);
+    const float x18 = -x13 - light.axis.x;
+    const float x19 = -x14 - light.axis.y;
+    const float x20 = -x15 - light.axis.z;
+    const float x21 = fmaf(x18, x18, fmaf(x19, x19, x20 * x20)) * 0.5f;
+    const float x22 = light.one_minus_cos_outer - light.one_minus_cos_inner;
     const bool b23 = 0.0f < x22;
-    const float x24 = ((x17 < 1e37f) ? x17 : 0.0f) / (b23 ? x22 : 1.0f);
-    const float x25 = (b23 && (x24 < 1e37f)) ? x24 : 0.0f;
+    const float x24 = etendue_lesser(etendue_greater((light.one_minus_cos_outer - x21) / (b23 ? x22 : 1.0f), 0.0f), 1.0f);
+    const float x25 = b23 ? x24 * x24 * (3.0f - (x24 + x24)) : ((x21 <= light.one_minus_cos_inner) ? 1.0f : 0.0f);
+    const bool b26 = 0.0f < x25;
+    const float x27 = ((x17 < 1e37f) ? x17 : 0.0f) / (b26 ? x25 : 1.0f);
+    const float x28 = (b26 && (x27 < 1e37f)) ? x27 : 0.0f;
     EtendueSpotLightByDelta result;
     result.direction.x = x13;
     result.direction.y = x14;
     result.direction.z = x15;
     result.distance = x16;
-    result.pdf = x25;
+    result.pdf = x28;
     return result;
 }
 
@@ -2667,10 +2672,12 @@ ETENDUE_FUNCTION EtendueLightSample etendue_spot_light_by_delta_hit(EtendueSpotL
 // which is no density; that of a direction is 0.
 ETENDUE_FUNCTION EtendueDirectionalLightByDelta etendue_directional_light_by_delta_prepare(EtendueDirectionalLight light, EtendueVec3 p) {
     (void)p;
+    const float x1 = (0.0f <= fmaf(light.direction.x, light.direction.x, fmaf(light.direction.y, light.direction.y, light.direction.z * light.direction.z))) ? 1.0f : 0.0f;
     EtendueDirectionalLightByDelta result;
     result.direction.x = light.direction.x;
     result.direction.y = light.direction.y;
     result.direction.z = light.direction.z;
+    result.pdf = x1;
     return result;
 }
 
@@ -2678,22 +2685,24 @@ ETENDUE_FUNCTION EtendueDirectionalLightByDelta etendue_directional_light_by_del
 // sample is 1, which is no density; that of a direction is 0.
 ETENDUE_FUNCTION EtendueLightSample etendue_directional_light_by_delta_sample(EtendueDirectionalLightByDelta prepared, EtendueVec2 u) {
     (void)u;
-    const float x1 = -prepared.direction.x;
-    const float x2 = -prepared.direction.y;
-    const float x3 = -prepared.direction.z;
+    const bool b1 = 0.0f < prepared.pdf;
+    const float x2 = -prepared.direction.x;
+    const float x3 = -prepared.direction.y;
+    const float x4 = -prepared.direction.z;
+    const float x5 = (b1 && (1e-37f < prepared.pdf)) ? 1.0f / prepared.pdf : 0.0f;
     EtendueLightSample result;
     result.direction.x = prepared.direction.x;
     result.direction.y = prepared.direction.y;
     result.direction.z = prepared.direction.z;
     result.distance = 3.4028235e38f;
-    result.pdf = 1.0f;
-    result.weight = 1.0f;
-    result.normal.x = x1;
-    result.normal.y = x2;
-    result.normal.z = x3;
+    result.pdf = prepared.pdf;
+    result.weight = x5;
+    result.normal.x = x2;
+    result.normal.y = x3;
+    result.normal.z = x4;
     result.uv.x = 0.0f;
     result.uv.y = 0.0f;
-    result.emits = true;
+    result.emits = b1;
     result.delta = true;
     return result;
 }

@@ -237,8 +237,8 @@ struct EtendueSpotLight {
     float3 position;
     int _pad1_0;
     float3 axis;
-    float cos_inner;
-    float cos_outer;
+    float one_minus_cos_inner;
+    float one_minus_cos_outer;
     int _end_pad_0;
     int _end_pad_1;
     int _end_pad_2;
@@ -246,7 +246,7 @@ struct EtendueSpotLight {
 
 struct EtendueDirectionalLightByDelta {
     float3 direction;
-    int _end_pad_0;
+    float pdf;
 };
 
 struct EtendueDirectionalLight {
@@ -626,7 +626,7 @@ EtendueSphereBySolidAngle etendue_sphere_by_solid_angle_prepare(EtendueSphere li
     const float _e145 = etendue_greater(_e143, 0.0);
     float x53_ = (_e141 / (1.0 + sqrt((x20_2 * _e145))));
     float _e153 = x42_;
-    float x54_ = ((0.0 < x14_3) ? ((b19_1 & (0.0 <= _e153)) ? x53_ : 2.0) : 0.0);
+    float x54_ = (((0.0 < x14_3) & (0.0 <= x16_2)) ? ((b19_1 & (0.0 <= _e153)) ? x53_ : 2.0) : 0.0);
     result_6.surface_center.x = x1_8;
     result_6.surface_center.y = x2_8;
     result_6.surface_center.z = x3_5;
@@ -642,11 +642,11 @@ EtendueSphereBySolidAngle etendue_sphere_by_solid_angle_prepare(EtendueSphere li
     result_6.shape_frame_n.z = x31_;
     result_6.shape_cone_one_minus_cos = x54_;
     result_6.shape_distance = x21_1;
-    float _e190 = x42_;
-    result_6.shape_power = _e190;
+    float _e193 = x42_;
+    result_6.shape_power = _e193;
     result_6.shape_unit = x41_;
-    EtendueSphereBySolidAngle _e192 = result_6;
-    const EtendueSphereBySolidAngle etenduespherebysolidangle = _e192;
+    EtendueSphereBySolidAngle _e195 = result_6;
+    const EtendueSphereBySolidAngle etenduespherebysolidangle = _e195;
     return etenduespherebysolidangle;
 }
 
@@ -2716,27 +2716,28 @@ EtendueSunBySolidAngle etendue_sun_by_solid_angle_prepare(EtendueSun light_4)
 {
     EtendueSunBySolidAngle result_18 = (EtendueSunBySolidAngle)0;
 
-    const float _e4 = etendue_copysign(1.0, light_4.direction.z);
-    float x2_21 = (-1.0 / (light_4.direction.z + _e4));
-    float x3_15 = (x2_21 * (light_4.direction.x * light_4.direction.y));
-    float x4_11 = (light_4.direction.x * _e4);
-    float x5_13 = mad(light_4.direction.x, (x2_21 * x4_11), 1.0);
-    float x6_15 = (_e4 * x3_15);
-    float x7_15 = -(x4_11);
-    float x8_11 = mad(light_4.direction.y, (light_4.direction.y * x2_21), _e4);
-    float x9_11 = -(light_4.direction.y);
-    result_18.frame_s.x = x5_13;
-    result_18.frame_s.y = x6_15;
-    result_18.frame_s.z = x7_15;
-    result_18.frame_t.x = x3_15;
-    result_18.frame_t.y = x8_11;
-    result_18.frame_t.z = x9_11;
+    float x1_20 = ((0.0 <= mad(light_4.direction.x, light_4.direction.x, mad(light_4.direction.y, light_4.direction.y, (light_4.direction.z * light_4.direction.z)))) ? light_4.one_minus_cos : 0.0);
+    const float _e24 = etendue_copysign(1.0, light_4.direction.z);
+    float x3_15 = (-1.0 / (light_4.direction.z + _e24));
+    float x4_11 = (x3_15 * (light_4.direction.x * light_4.direction.y));
+    float x5_13 = (light_4.direction.x * _e24);
+    float x6_15 = mad(light_4.direction.x, (x3_15 * x5_13), 1.0);
+    float x7_15 = (_e24 * x4_11);
+    float x8_11 = -(x5_13);
+    float x9_11 = mad(light_4.direction.y, (light_4.direction.y * x3_15), _e24);
+    float x10_12 = -(light_4.direction.y);
+    result_18.frame_s.x = x6_15;
+    result_18.frame_s.y = x7_15;
+    result_18.frame_s.z = x8_11;
+    result_18.frame_t.x = x4_11;
+    result_18.frame_t.y = x9_11;
+    result_18.frame_t.z = x10_12;
     result_18.frame_n.x = light_4.direction.x;
     result_18.frame_n.y = light_4.direction.y;
     result_18.frame_n.z = light_4.direction.z;
-    result_18.cone_one_minus_cos = light_4.one_minus_cos;
-    EtendueSunBySolidAngle _e62 = result_18;
-    const EtendueSunBySolidAngle etenduesunbysolidangle = _e62;
+    result_18.cone_one_minus_cos = x1_20;
+    EtendueSunBySolidAngle _e81 = result_18;
+    const EtendueSunBySolidAngle etenduesunbysolidangle = _e81;
     return etenduesunbysolidangle;
 }
 
@@ -2748,24 +2749,24 @@ EtendueLightSample etendue_sun_by_solid_angle_sample(EtendueSunBySolidAngle prep
 
     const float _e4 = etendue_greater(prepared_14.cone_one_minus_cos, 0.0);
     const float _e6 = etendue_lesser(_e4, 2.0);
-    float x2_22 = (u_7.x * _e6);
-    const float _e17 = etendue_greater((x2_22 * mad(_e6, (1.0 - u_7.x), (2.0 - _e6))), 0.0);
+    float x2_21 = (u_7.x * _e6);
+    const float _e17 = etendue_greater((x2_21 * mad(_e6, (1.0 - u_7.x), (2.0 - _e6))), 0.0);
     float x3_16 = sqrt(_e17);
     const float2 _e20 = etendue_sin_cos_turns(u_7.y);
     float x5_14 = (x3_16 * _e20.y);
     float x6_16 = (x3_16 * _e20.x);
-    float x7_16 = (1.0 - x2_22);
+    float x7_16 = (1.0 - x2_21);
     float x8_12 = mad(prepared_14.frame_s.x, x5_14, mad(prepared_14.frame_t.x, x6_16, (prepared_14.frame_n.x * x7_16)));
     float x9_12 = mad(prepared_14.frame_s.y, x5_14, mad(prepared_14.frame_t.y, x6_16, (prepared_14.frame_n.y * x7_16)));
-    float x10_12 = mad(prepared_14.frame_s.z, x5_14, mad(prepared_14.frame_t.z, x6_16, (prepared_14.frame_n.z * x7_16)));
+    float x10_13 = mad(prepared_14.frame_s.z, x5_14, mad(prepared_14.frame_t.z, x6_16, (prepared_14.frame_n.z * x7_16)));
     float x11_15 = ((1e-37 < _e6) ? (0.15915494 / _e6) : 0.0);
     float x12_12 = -(x8_12);
     float x13_12 = -(x9_12);
-    float x14_13 = -(x10_12);
+    float x14_13 = -(x10_13);
     float x15_12 = ((1e-37 < x11_15) ? (1.0 / x11_15) : 0.0);
     result_19.direction.x = x8_12;
     result_19.direction.y = x9_12;
-    result_19.direction.z = x10_12;
+    result_19.direction.z = x10_13;
     result_19.distance_ = 3.4028235e38;
     result_19.pdf = x11_15;
     result_19.weight = x15_12;
@@ -2787,19 +2788,19 @@ float etendue_sun_by_solid_angle_pdf(EtendueSunBySolidAngle prepared_15, float3 
 {
     bool b6_1 = (bool)0;
 
-    float x1_20 = mad(prepared_15.frame_n.x, w_8.x, mad(prepared_15.frame_n.y, w_8.y, (prepared_15.frame_n.z * w_8.z)));
-    float x2_23 = (1.0 - x1_20);
+    float x1_21 = mad(prepared_15.frame_n.x, w_8.x, mad(prepared_15.frame_n.y, w_8.y, (prepared_15.frame_n.z * w_8.z)));
+    float x2_22 = (1.0 - x1_21);
     const float _e18 = etendue_greater(prepared_15.cone_one_minus_cos, 0.0);
     const float _e20 = etendue_lesser(_e18, 2.0);
-    float x4_12 = (x2_23 - _e20);
+    float x4_12 = (x2_22 - _e20);
     bool b5_4 = (abs(x4_12) <= 3.8146973e-6);
     if (b5_4) {
         float x7_17 = mad(prepared_15.frame_s.x, w_8.x, mad(prepared_15.frame_s.y, w_8.y, (prepared_15.frame_s.z * w_8.z)));
         float x8_13 = mad(prepared_15.frame_t.x, w_8.x, mad(prepared_15.frame_t.y, w_8.y, (prepared_15.frame_t.z * w_8.z)));
-        float x9_13 = ((0.5 < x1_20) ? (mad(x7_17, x7_17, (x8_13 * x8_13)) / (1.0 + abs(x1_20))) : x2_23);
+        float x9_13 = ((0.5 < x1_21) ? (mad(x7_17, x7_17, (x8_13 * x8_13)) / (1.0 + abs(x1_21))) : x2_22);
         const float _e66 = etendue_greater(sqrt((_e20 * (2.0 - _e20))), (_e20 - 1.0));
-        float x10_13 = (_e20 + mad(5.9604645e-7, _e66, 1.7763568e-13));
-        b6_1 = (x9_13 <= x10_13);
+        float x10_14 = (_e20 + mad(5.9604645e-7, _e66, 1.7763568e-13));
+        b6_1 = (x9_13 <= x10_14);
     }
     bool _e82 = b6_1;
     float x11_16 = ((((x4_12 < 0.0) & !(b5_4)) | (b5_4 & _e82)) ? ((1e-37 < _e20) ? (0.15915494 / _e20) : 0.0) : 0.0);
@@ -2813,20 +2814,20 @@ EtendueLightSample etendue_sun_by_solid_angle_hit(EtendueSunBySolidAngle prepare
     bool b15_ = (bool)0;
     EtendueLightSample result_20 = (EtendueLightSample)0;
 
-    float x1_21 = mad(prepared_16.frame_n.x, w_9.x, mad(prepared_16.frame_n.y, w_9.y, (prepared_16.frame_n.z * w_9.z)));
-    float x2_24 = (1.0 - x1_21);
+    float x1_22 = mad(prepared_16.frame_n.x, w_9.x, mad(prepared_16.frame_n.y, w_9.y, (prepared_16.frame_n.z * w_9.z)));
+    float x2_23 = (1.0 - x1_22);
     const float _e18 = etendue_greater(prepared_16.cone_one_minus_cos, 0.0);
     const float _e20 = etendue_lesser(_e18, 2.0);
-    float x4_13 = (x2_24 - _e20);
+    float x4_13 = (x2_23 - _e20);
     bool b5_5 = (abs(x4_13) <= 3.8146973e-6);
     float x6_17 = mad(prepared_16.frame_s.x, w_9.x, mad(prepared_16.frame_s.y, w_9.y, (prepared_16.frame_s.z * w_9.z)));
     float x7_18 = mad(prepared_16.frame_t.x, w_9.x, mad(prepared_16.frame_t.y, w_9.y, (prepared_16.frame_t.z * w_9.z)));
-    float x8_14 = ((0.5 < x1_21) ? (mad(x6_17, x6_17, (x7_18 * x7_18)) / (1.0 + abs(x1_21))) : x2_24);
+    float x8_14 = ((0.5 < x1_22) ? (mad(x6_17, x6_17, (x7_18 * x7_18)) / (1.0 + abs(x1_22))) : x2_23);
     const float _e64 = etendue_greater((x8_14 / ((0.0 < _e20) ? _e20 : 1.0)), 0.0);
     const float _e66 = etendue_lesser(_e64, 0.99999994);
     const float _e68 = etendue_angle(x7_18, x6_17);
-    float x10_14 = (0.15915494 * _e68);
-    const float _e76 = etendue_greater(((x10_14 < 0.0) ? (1.0 + x10_14) : x10_14), 0.0);
+    float x10_15 = (0.15915494 * _e68);
+    const float _e76 = etendue_greater(((x10_15 < 0.0) ? (1.0 + x10_15) : x10_15), 0.0);
     const float _e78 = etendue_lesser(_e76, 0.99999994);
     float x12_13 = -(w_9.x);
     float x13_13 = -(w_9.y);
@@ -2865,20 +2866,20 @@ EtenduePointLightByDelta etendue_point_light_by_delta_prepare(EtenduePointLight 
 {
     EtenduePointLightByDelta result_21 = (EtenduePointLightByDelta)0;
 
-    float x1_22 = (light_5.position.x - p_4.x);
-    float x2_25 = (light_5.position.y - p_4.y);
+    float x1_23 = (light_5.position.x - p_4.x);
+    float x2_24 = (light_5.position.y - p_4.y);
     float x3_17 = (light_5.position.z - p_4.z);
-    const float _e16 = etendue_greater(abs(x1_22), abs(x2_25));
+    const float _e16 = etendue_greater(abs(x1_23), abs(x2_24));
     const float _e18 = etendue_greater(_e16, abs(x3_17));
     const float _e20 = etendue_from_bits(2139095040u);
     bool b5_6 = (_e18 < _e20);
     const float _e24 = etendue_pow2_scale((b5_6 ? _e18 : 0.0));
-    float x7_19 = (_e24 * (b5_6 ? x1_22 : 0.0));
-    float x8_15 = (_e24 * (b5_6 ? x2_25 : 0.0));
+    float x7_19 = (_e24 * (b5_6 ? x1_23 : 0.0));
+    float x8_15 = (_e24 * (b5_6 ? x2_24 : 0.0));
     float x9_14 = (_e24 * (b5_6 ? x3_17 : 0.0));
-    float x10_15 = mad(x7_19, x7_19, mad(x8_15, x8_15, (x9_14 * x9_14)));
-    float x11_17 = ((0.0 < x10_15) ? (1.0 / sqrt(x10_15)) : 0.0);
-    float x12_14 = ((x10_15 * x11_17) / _e24);
+    float x10_16 = mad(x7_19, x7_19, mad(x8_15, x8_15, (x9_14 * x9_14)));
+    float x11_17 = ((0.0 < x10_16) ? (1.0 / sqrt(x10_16)) : 0.0);
+    float x12_14 = ((x10_16 * x11_17) / _e24);
     float x13_14 = (x7_19 * x11_17);
     float x14_15 = (x8_15 * x11_17);
     float x15_13 = (x9_14 * x11_17);
@@ -2903,7 +2904,7 @@ EtendueLightSample etendue_point_light_by_delta_sample(EtenduePointLightByDelta 
     EtendueLightSample result_22 = (EtendueLightSample)0;
 
     bool b1_4 = (0.0 < prepared_17.pdf);
-    float x2_26 = -(prepared_17.direction.x);
+    float x2_25 = -(prepared_17.direction.x);
     float x3_18 = -(prepared_17.direction.y);
     float x4_14 = -(prepared_17.direction.z);
     float x5_15 = ((b1_4 & (1e-37 < prepared_17.pdf)) ? (1.0 / prepared_17.pdf) : 0.0);
@@ -2913,7 +2914,7 @@ EtendueLightSample etendue_point_light_by_delta_sample(EtenduePointLightByDelta 
     result_22.distance_ = prepared_17.distance_;
     result_22.pdf = prepared_17.pdf;
     result_22.weight = x5_15;
-    result_22.normal.x = x2_26;
+    result_22.normal.x = x2_25;
     result_22.normal.y = x3_18;
     result_22.normal.z = x4_14;
     result_22.uv.x = 0.0;
@@ -2939,8 +2940,8 @@ EtendueLightSample etendue_point_light_by_delta_hit(EtenduePointLightByDelta pre
 {
     EtendueLightSample result_23 = (EtendueLightSample)0;
 
-    float x1_23 = -(w_11.x);
-    float x2_27 = -(w_11.y);
+    float x1_24 = -(w_11.x);
+    float x2_26 = -(w_11.y);
     float x3_19 = -(w_11.z);
     result_23.direction.x = w_11.x;
     result_23.direction.y = w_11.y;
@@ -2948,8 +2949,8 @@ EtendueLightSample etendue_point_light_by_delta_hit(EtenduePointLightByDelta pre
     result_23.distance_ = 0.0;
     result_23.pdf = 0.0;
     result_23.weight = 0.0;
-    result_23.normal.x = x1_23;
-    result_23.normal.y = x2_27;
+    result_23.normal.x = x1_24;
+    result_23.normal.y = x2_26;
     result_23.normal.z = x3_19;
     result_23.uv.x = 0.0;
     result_23.uv.y = 0.0;
@@ -2967,42 +2968,45 @@ EtendueSpotLightByDelta etendue_spot_light_by_delta_prepare(EtendueSpotLight lig
 {
     EtendueSpotLightByDelta result_24 = (EtendueSpotLightByDelta)0;
 
-    float x1_24 = (light_6.position.x - p_5.x);
-    float x2_28 = (light_6.position.y - p_5.y);
+    float x1_25 = (light_6.position.x - p_5.x);
+    float x2_27 = (light_6.position.y - p_5.y);
     float x3_20 = (light_6.position.z - p_5.z);
-    const float _e16 = etendue_greater(abs(x1_24), abs(x2_28));
+    const float _e16 = etendue_greater(abs(x1_25), abs(x2_27));
     const float _e18 = etendue_greater(_e16, abs(x3_20));
     const float _e20 = etendue_from_bits(2139095040u);
     bool b5_7 = (_e18 < _e20);
     const float _e24 = etendue_pow2_scale((b5_7 ? _e18 : 0.0));
-    float x7_20 = (_e24 * (b5_7 ? x1_24 : 0.0));
-    float x8_16 = (_e24 * (b5_7 ? x2_28 : 0.0));
+    float x7_20 = (_e24 * (b5_7 ? x1_25 : 0.0));
+    float x8_16 = (_e24 * (b5_7 ? x2_27 : 0.0));
     float x9_15 = (_e24 * (b5_7 ? x3_20 : 0.0));
-    float x10_16 = mad(x7_20, x7_20, mad(x8_16, x8_16, (x9_15 * x9_15)));
-    float x11_18 = ((0.0 < x10_16) ? (1.0 / sqrt(x10_16)) : 0.0);
-    float x12_15 = ((x10_16 * x11_18) / _e24);
+    float x10_17 = mad(x7_20, x7_20, mad(x8_16, x8_16, (x9_15 * x9_15)));
+    float x11_18 = ((0.0 < x10_17) ? (1.0 / sqrt(x10_17)) : 0.0);
+    float x12_15 = ((x10_17 * x11_18) / _e24);
     float x13_15 = (x7_20 * x11_18);
     float x14_16 = (x8_16 * x11_18);
     float x15_14 = (x9_15 * x11_18);
     const float _e51 = etendue_from_bits(2139095040u);
     float x16_14 = ((x12_15 < _e51) ? x12_15 : 0.0);
     float x17_10 = (x16_14 * x16_14);
-    float x18_11 = mad(light_6.axis.x, -(x13_15), mad(light_6.axis.y, -(x14_16), (light_6.axis.z * -(x15_14))));
-    float x19_9 = (light_6.cos_inner - light_6.cos_outer);
-    bool b20_ = (0.0 < x19_9);
-    const float _e78 = etendue_greater(((x18_11 - light_6.cos_outer) / (b20_ ? x19_9 : 1.0)), 0.0);
-    const float _e80 = etendue_lesser(_e78, 1.0);
-    float x22_10 = (b20_ ? ((_e80 * _e80) * (3.0 - (_e80 + _e80))) : ((light_6.cos_inner <= x18_11) ? 1.0 : 0.0));
+    float x18_11 = (-(x13_15) - light_6.axis.x);
+    float x19_9 = (-(x14_16) - light_6.axis.y);
+    float x20_12 = (-(x15_14) - light_6.axis.z);
+    float x21_10 = (mad(x18_11, x18_11, mad(x19_9, x19_9, (x20_12 * x20_12))) * 0.5);
+    float x22_10 = (light_6.one_minus_cos_outer - light_6.one_minus_cos_inner);
     bool b23_2 = (0.0 < x22_10);
-    float x24_10 = (((x17_10 < 1e37) ? x17_10 : 0.0) / (b23_2 ? x22_10 : 1.0));
-    float x25_11 = ((b23_2 & (x24_10 < 1e37)) ? x24_10 : 0.0);
+    const float _e83 = etendue_greater(((light_6.one_minus_cos_outer - x21_10) / (b23_2 ? x22_10 : 1.0)), 0.0);
+    const float _e85 = etendue_lesser(_e83, 1.0);
+    float x25_11 = (b23_2 ? ((_e85 * _e85) * (3.0 - (_e85 + _e85))) : ((x21_10 <= light_6.one_minus_cos_inner) ? 1.0 : 0.0));
+    bool b26_ = (0.0 < x25_11);
+    float x27_8 = (((x17_10 < 1e37) ? x17_10 : 0.0) / (b26_ ? x25_11 : 1.0));
+    float x28_9 = ((b26_ & (x27_8 < 1e37)) ? x27_8 : 0.0);
     result_24.direction.x = x13_15;
     result_24.direction.y = x14_16;
     result_24.direction.z = x15_14;
     result_24.distance_ = x16_14;
-    result_24.pdf = x25_11;
-    EtendueSpotLightByDelta _e115 = result_24;
-    const EtendueSpotLightByDelta etenduespotlightbydelta = _e115;
+    result_24.pdf = x28_9;
+    EtendueSpotLightByDelta _e120 = result_24;
+    const EtendueSpotLightByDelta etenduespotlightbydelta = _e120;
     return etenduespotlightbydelta;
 }
 
@@ -3014,7 +3018,7 @@ EtendueLightSample etendue_spot_light_by_delta_sample(EtendueSpotLightByDelta pr
     EtendueLightSample result_25 = (EtendueLightSample)0;
 
     bool b1_5 = (0.0 < prepared_20.pdf);
-    float x2_29 = -(prepared_20.direction.x);
+    float x2_28 = -(prepared_20.direction.x);
     float x3_21 = -(prepared_20.direction.y);
     float x4_15 = -(prepared_20.direction.z);
     float x5_16 = ((b1_5 & (1e-37 < prepared_20.pdf)) ? (1.0 / prepared_20.pdf) : 0.0);
@@ -3024,7 +3028,7 @@ EtendueLightSample etendue_spot_light_by_delta_sample(EtendueSpotLightByDelta pr
     result_25.distance_ = prepared_20.distance_;
     result_25.pdf = prepared_20.pdf;
     result_25.weight = x5_16;
-    result_25.normal.x = x2_29;
+    result_25.normal.x = x2_28;
     result_25.normal.y = x3_21;
     result_25.normal.z = x4_15;
     result_25.uv.x = 0.0;
@@ -3051,8 +3055,8 @@ EtendueLightSample etendue_spot_light_by_delta_hit(EtendueSpotLightByDelta prepa
 {
     EtendueLightSample result_26 = (EtendueLightSample)0;
 
-    float x1_25 = -(w_13.x);
-    float x2_30 = -(w_13.y);
+    float x1_26 = -(w_13.x);
+    float x2_29 = -(w_13.y);
     float x3_22 = -(w_13.z);
     result_26.direction.x = w_13.x;
     result_26.direction.y = w_13.y;
@@ -3060,8 +3064,8 @@ EtendueLightSample etendue_spot_light_by_delta_hit(EtendueSpotLightByDelta prepa
     result_26.distance_ = 0.0;
     result_26.pdf = 0.0;
     result_26.weight = 0.0;
-    result_26.normal.x = x1_25;
-    result_26.normal.y = x2_30;
+    result_26.normal.x = x1_26;
+    result_26.normal.y = x2_29;
     result_26.normal.z = x3_22;
     result_26.uv.x = 0.0;
     result_26.uv.y = 0.0;
@@ -3078,11 +3082,13 @@ EtendueDirectionalLightByDelta etendue_directional_light_by_delta_prepare(Etendu
 {
     EtendueDirectionalLightByDelta result_27 = (EtendueDirectionalLightByDelta)0;
 
+    float x1_27 = ((0.0 <= mad(light_7.direction.x, light_7.direction.x, mad(light_7.direction.y, light_7.direction.y, (light_7.direction.z * light_7.direction.z)))) ? 1.0 : 0.0);
     result_27.direction.x = light_7.direction.x;
     result_27.direction.y = light_7.direction.y;
     result_27.direction.z = light_7.direction.z;
-    EtendueDirectionalLightByDelta _e15 = result_27;
-    const EtendueDirectionalLightByDelta etenduedirectionallightbydelta = _e15;
+    result_27.pdf = x1_27;
+    EtendueDirectionalLightByDelta _e36 = result_27;
+    const EtendueDirectionalLightByDelta etenduedirectionallightbydelta = _e36;
     return etenduedirectionallightbydelta;
 }
 
@@ -3092,24 +3098,26 @@ EtendueLightSample etendue_directional_light_by_delta_sample(EtendueDirectionalL
 {
     EtendueLightSample result_28 = (EtendueLightSample)0;
 
-    float x1_26 = -(prepared_23.direction.x);
-    float x2_31 = -(prepared_23.direction.y);
-    float x3_23 = -(prepared_23.direction.z);
+    bool b1_6 = (0.0 < prepared_23.pdf);
+    float x2_30 = -(prepared_23.direction.x);
+    float x3_23 = -(prepared_23.direction.y);
+    float x4_16 = -(prepared_23.direction.z);
+    float x5_17 = ((b1_6 & (1e-37 < prepared_23.pdf)) ? (1.0 / prepared_23.pdf) : 0.0);
     result_28.direction.x = prepared_23.direction.x;
     result_28.direction.y = prepared_23.direction.y;
     result_28.direction.z = prepared_23.direction.z;
     result_28.distance_ = 3.4028235e38;
-    result_28.pdf = 1.0;
-    result_28.weight = 1.0;
-    result_28.normal.x = x1_26;
-    result_28.normal.y = x2_31;
-    result_28.normal.z = x3_23;
+    result_28.pdf = prepared_23.pdf;
+    result_28.weight = x5_17;
+    result_28.normal.x = x2_30;
+    result_28.normal.y = x3_23;
+    result_28.normal.z = x4_16;
     result_28.uv.x = 0.0;
     result_28.uv.y = 0.0;
-    result_28.emits = true;
+    result_28.emits = b1_6;
     result_28.delta = true;
-    EtendueLightSample _e46 = result_28;
-    const EtendueLightSample etenduelightsample_14 = _e46;
+    EtendueLightSample _e56 = result_28;
+    const EtendueLightSample etenduelightsample_14 = _e56;
     return etenduelightsample_14;
 }
 
@@ -3126,8 +3134,8 @@ EtendueLightSample etendue_directional_light_by_delta_hit(EtendueDirectionalLigh
 {
     EtendueLightSample result_29 = (EtendueLightSample)0;
 
-    float x1_27 = -(w_15.x);
-    float x2_32 = -(w_15.y);
+    float x1_28 = -(w_15.x);
+    float x2_31 = -(w_15.y);
     float x3_24 = -(w_15.z);
     result_29.direction.x = w_15.x;
     result_29.direction.y = w_15.y;
@@ -3135,8 +3143,8 @@ EtendueLightSample etendue_directional_light_by_delta_hit(EtendueDirectionalLigh
     result_29.distance_ = 0.0;
     result_29.pdf = 0.0;
     result_29.weight = 0.0;
-    result_29.normal.x = x1_27;
-    result_29.normal.y = x2_32;
+    result_29.normal.x = x1_28;
+    result_29.normal.y = x2_31;
     result_29.normal.z = x3_24;
     result_29.uv.x = 0.0;
     result_29.uv.y = 0.0;
@@ -3235,8 +3243,8 @@ float etendue_technique_pdf(float samples, float pdf, bool delta)
     const float _e5 = etendue_greater((samples * pdf), 0.0);
     const float _e7 = etendue_lesser(_e5, 3.4028235e38);
     const float _e9 = etendue_from_bits(2139095040u);
-    float x1_28 = (delta ? _e9 : _e7);
-    return x1_28;
+    float x1_29 = (delta ? _e9 : _e7);
+    return x1_29;
 }
 
 // The weights of two techniques by the balance heuristic, given the number of samples times the density of each; their
@@ -3250,14 +3258,14 @@ float2 etendue_balance_weights(float first, float second)
     const float _e7 = etendue_greater(0.0, _e3);
     const float _e8 = etendue_greater(_e7, _e5);
     bool b4_6 = (0.0 < _e8);
-    float x5_17 = (b4_6 ? _e8 : 1.0);
-    float x6_18 = ((b4_6 & (0.0 < _e3)) ? ((_e8 <= _e3) ? 1.0 : (_e3 / x5_17)) : 0.0);
-    float x7_21 = ((b4_6 & (0.0 < _e5)) ? ((_e8 <= _e5) ? 1.0 : (_e5 / x5_17)) : 0.0);
+    float x5_18 = (b4_6 ? _e8 : 1.0);
+    float x6_18 = ((b4_6 & (0.0 < _e3)) ? ((_e8 <= _e3) ? 1.0 : (_e3 / x5_18)) : 0.0);
+    float x7_21 = ((b4_6 & (0.0 < _e5)) ? ((_e8 <= _e5) ? 1.0 : (_e5 / x5_18)) : 0.0);
     float x8_17 = (b4_6 ? (x7_21 + (0.0 + x6_18)) : 1.0);
     float x9_16 = (x6_18 / x8_17);
-    float x10_17 = (x7_21 / x8_17);
+    float x10_18 = (x7_21 / x8_17);
     result_32.x = x9_16;
-    result_32.y = x10_17;
+    result_32.y = x10_18;
     float2 _e41 = result_32;
     return _e41;
 }
@@ -3273,14 +3281,14 @@ float2 etendue_power_weights(float first_1, float second_1)
     const float _e7 = etendue_greater(0.0, _e3);
     const float _e8 = etendue_greater(_e7, _e5);
     bool b4_7 = (0.0 < _e8);
-    float x5_18 = (b4_7 ? _e8 : 1.0);
-    float x6_19 = ((b4_7 & (0.0 < _e3)) ? ((_e8 <= _e3) ? 1.0 : (_e3 / x5_18)) : 0.0);
+    float x5_19 = (b4_7 ? _e8 : 1.0);
+    float x6_19 = ((b4_7 & (0.0 < _e3)) ? ((_e8 <= _e3) ? 1.0 : (_e3 / x5_19)) : 0.0);
     float x7_22 = (x6_19 * x6_19);
-    float x8_18 = ((b4_7 & (0.0 < _e5)) ? ((_e8 <= _e5) ? 1.0 : (_e5 / x5_18)) : 0.0);
+    float x8_18 = ((b4_7 & (0.0 < _e5)) ? ((_e8 <= _e5) ? 1.0 : (_e5 / x5_19)) : 0.0);
     float x9_17 = (x8_18 * x8_18);
-    float x10_18 = (b4_7 ? (x9_17 + (0.0 + x7_22)) : 1.0);
-    float x11_19 = (x7_22 / x10_18);
-    float x12_16 = (x9_17 / x10_18);
+    float x10_19 = (b4_7 ? (x9_17 + (0.0 + x7_22)) : 1.0);
+    float x11_19 = (x7_22 / x10_19);
+    float x12_16 = (x9_17 / x10_19);
     result_33.x = x11_19;
     result_33.y = x12_16;
     float2 _e43 = result_33;
@@ -3299,10 +3307,10 @@ float etendue_power_light_weight(float pdf_1, bool emits, bool delta_1, float bs
     const float _e16 = etendue_greater(0.0, _e12);
     const float _e17 = etendue_greater(_e16, _e14);
     bool b4_8 = (0.0 < _e17);
-    float x5_19 = (b4_8 ? _e17 : 1.0);
-    float x6_20 = ((b4_8 & (0.0 < _e12)) ? ((_e17 <= _e12) ? 1.0 : (_e12 / x5_19)) : 0.0);
+    float x5_20 = (b4_8 ? _e17 : 1.0);
+    float x6_20 = ((b4_8 & (0.0 < _e12)) ? ((_e17 <= _e12) ? 1.0 : (_e12 / x5_20)) : 0.0);
     float x7_23 = (x6_20 * x6_20);
-    float x8_19 = ((b4_8 & (0.0 < _e14)) ? ((_e17 <= _e14) ? 1.0 : (_e14 / x5_19)) : 0.0);
+    float x8_19 = ((b4_8 & (0.0 < _e14)) ? ((_e17 <= _e14) ? 1.0 : (_e14 / x5_20)) : 0.0);
     float x9_18 = ((x7_23 / (b4_8 ? ((x8_19 * x8_19) + (0.0 + x7_23)) : 1.0)) * ((emits & (1e-37 < pdf_1)) ? (1.0 / pdf_1) : 0.0));
     return x9_18;
 }
@@ -3311,7 +3319,7 @@ float etendue_power_light_weight(float pdf_1, bool emits, bool delta_1, float bs
 // with these fields: by the power heuristic, one sample each. 0 where the light is missed.
 float etendue_power_bsdf_weight(float bsdf_pdf_1, float pdf_2, bool emits_1)
 {
-    bool b1_6 = ((emits_1 & (1e-37 < bsdf_pdf_1)) & (0.0 < pdf_2));
+    bool b1_7 = ((emits_1 & (1e-37 < bsdf_pdf_1)) & (0.0 < pdf_2));
     const float _e10 = etendue_greater(bsdf_pdf_1, 0.0);
     const float _e12 = etendue_greater(pdf_2, 0.0);
     const float _e14 = etendue_greater(0.0, _e10);
@@ -3322,8 +3330,8 @@ float etendue_power_bsdf_weight(float bsdf_pdf_1, float pdf_2, bool emits_1)
     float x8_20 = (x7_24 * x7_24);
     float x9_19 = ((b5_8 & (0.0 < _e12)) ? ((_e15 <= _e12) ? 1.0 : (_e12 / x6_21)) : 0.0);
     const float _e48 = etendue_from_bits(2139095040u);
-    float x10_19 = ((x8_20 / (b5_8 ? ((x9_19 * x9_19) + (0.0 + x8_20)) : 1.0)) / ((b1_6 & !((_e48 <= bsdf_pdf_1))) ? bsdf_pdf_1 : 1.0));
-    float x11_20 = (b1_6 ? x10_19 : 0.0);
+    float x10_20 = ((x8_20 / (b5_8 ? ((x9_19 * x9_19) + (0.0 + x8_20)) : 1.0)) / ((b1_7 & !((_e48 <= bsdf_pdf_1))) ? bsdf_pdf_1 : 1.0));
+    float x11_20 = (b1_7 ? x10_20 : 0.0);
     return x11_20;
 }
 
@@ -3333,18 +3341,18 @@ float etendue_power_bsdf_weight(float bsdf_pdf_1, float pdf_2, bool emits_1)
 // axis.
 float etendue_spread_attenuation(float tan_half, float gain, float3 w_16, float3 n)
 {
-    float x1_29 = abs(mad(w_16.x, n.x, mad(w_16.y, n.y, (w_16.z * n.z))));
-    bool b2_2 = (0.0 < x1_29);
+    float x1_30 = abs(mad(w_16.x, n.x, mad(w_16.y, n.y, (w_16.z * n.z))));
+    bool b2_2 = (0.0 < x1_30);
     float x3_25 = -((w_16.z * n.y));
-    float x4_16 = (mad(w_16.y, n.z, x3_25) - mad(w_16.z, n.y, x3_25));
-    float x5_20 = -((w_16.x * n.z));
-    float x6_22 = (mad(w_16.z, n.x, x5_20) - mad(w_16.x, n.z, x5_20));
+    float x4_17 = (mad(w_16.y, n.z, x3_25) - mad(w_16.z, n.y, x3_25));
+    float x5_21 = -((w_16.x * n.z));
+    float x6_22 = (mad(w_16.z, n.x, x5_21) - mad(w_16.x, n.z, x5_21));
     float x7_25 = -((w_16.y * n.x));
     float x8_21 = (mad(w_16.x, n.y, x7_25) - mad(w_16.y, n.x, x7_25));
-    float x9_20 = (tan_half - (sqrt(mad(x4_16, x4_16, mad(x6_22, x6_22, (x8_21 * x8_21)))) / (b2_2 ? x1_29 : 1.0)));
+    float x9_20 = (tan_half - (sqrt(mad(x4_17, x4_17, mad(x6_22, x6_22, (x8_21 * x8_21)))) / (b2_2 ? x1_30 : 1.0)));
     const float _e60 = etendue_greater((gain * x9_20), 0.0);
-    float x10_20 = (b2_2 ? _e60 : 0.0);
-    return x10_20;
+    float x10_21 = (b2_2 ? _e60 : 0.0);
+    return x10_21;
 }
 
 // The position in [0, 1)^2, from the upper left corner, of the unit direction w in an image that a light projects
@@ -3354,17 +3362,17 @@ float2 etendue_projector_place(float2 tan_half_1, float3 w_17)
 {
     float2 result_34 = (float2)0;
 
-    float x1_30 = (tan_half_1.x * w_17.z);
-    float x2_33 = (tan_half_1.y * w_17.z);
-    bool b3_4 = ((((0.0 < x1_30) & (0.0 < x2_33)) & (-(x1_30) <= w_17.x)) & (w_17.x < x1_30));
-    bool b4_9 = ((b3_4 & (-(x2_33) < w_17.y)) & (w_17.y <= x2_33));
-    const float _e36 = etendue_greater(mad(0.5, (w_17.x / (b4_9 ? x1_30 : 1.0)), 0.5), 0.0);
+    float x1_31 = (tan_half_1.x * w_17.z);
+    float x2_32 = (tan_half_1.y * w_17.z);
+    bool b3_4 = ((((0.0 < x1_31) & (0.0 < x2_32)) & (-(x1_31) <= w_17.x)) & (w_17.x < x1_31));
+    bool b4_9 = ((b3_4 & (-(x2_32) < w_17.y)) & (w_17.y <= x2_32));
+    const float _e36 = etendue_greater(mad(0.5, (w_17.x / (b4_9 ? x1_31 : 1.0)), 0.5), 0.0);
     const float _e38 = etendue_lesser(_e36, 0.99999994);
-    float x5_21 = (b4_9 ? _e38 : 0.0);
-    const float _e50 = etendue_greater(mad(0.5, (-(w_17.y) / (b4_9 ? x2_33 : 1.0)), 0.5), 0.0);
+    float x5_22 = (b4_9 ? _e38 : 0.0);
+    const float _e50 = etendue_greater(mad(0.5, (-(w_17.y) / (b4_9 ? x2_32 : 1.0)), 0.5), 0.0);
     const float _e52 = etendue_lesser(_e50, 0.99999994);
     float x6_23 = (b4_9 ? _e52 : 0.0);
-    result_34.x = x5_21;
+    result_34.x = x5_22;
     result_34.y = x6_23;
     float2 _e57 = result_34;
     return _e57;
@@ -3374,10 +3382,10 @@ float2 etendue_projector_place(float2 tan_half_1, float3 w_17)
 // of view; false for tangents that are not greater than 0.
 bool etendue_projector_has(float2 tan_half_2, float3 w_18)
 {
-    float x1_31 = (tan_half_2.x * w_18.z);
-    float x2_34 = (tan_half_2.y * w_18.z);
-    bool b3_5 = ((((0.0 < x1_31) & (0.0 < x2_34)) & (-(x1_31) <= w_18.x)) & (w_18.x < x1_31));
-    bool b4_10 = ((b3_5 & (-(x2_34) < w_18.y)) & (w_18.y <= x2_34));
+    float x1_32 = (tan_half_2.x * w_18.z);
+    float x2_33 = (tan_half_2.y * w_18.z);
+    bool b3_5 = ((((0.0 < x1_32) & (0.0 < x2_33)) & (-(x1_32) <= w_18.x)) & (w_18.x < x1_32));
+    bool b4_10 = ((b3_5 & (-(x2_33) < w_18.y)) & (w_18.y <= x2_33));
     return b4_10;
 }
 
@@ -3386,15 +3394,15 @@ float3 etendue_projector_direction(float2 tan_half_3, float2 uv)
 {
     float3 result_35 = (float3)0;
 
-    float x1_32 = (tan_half_3.x * mad(uv.x, 2.0, -1.0));
-    float x2_35 = (tan_half_3.y * -(mad(uv.y, 2.0, -1.0)));
-    float x3_26 = mad(x1_32, x1_32, mad(x2_35, x2_35, 1.0));
-    float x4_17 = ((0.0 < x3_26) ? (1.0 / sqrt(x3_26)) : 0.0);
-    float x5_22 = (x1_32 * x4_17);
-    float x6_24 = (x2_35 * x4_17);
-    result_35.x = x5_22;
+    float x1_33 = (tan_half_3.x * mad(uv.x, 2.0, -1.0));
+    float x2_34 = (tan_half_3.y * -(mad(uv.y, 2.0, -1.0)));
+    float x3_26 = mad(x1_33, x1_33, mad(x2_34, x2_34, 1.0));
+    float x4_18 = ((0.0 < x3_26) ? (1.0 / sqrt(x3_26)) : 0.0);
+    float x5_23 = (x1_33 * x4_18);
+    float x6_24 = (x2_34 * x4_18);
+    result_35.x = x5_23;
     result_35.y = x6_24;
-    result_35.z = x4_17;
+    result_35.z = x4_18;
     float3 _e31 = result_35;
     return _e31;
 }
@@ -3409,20 +3417,20 @@ float3 etendue_portal_direction(float3 edge_s, float3 edge_t, float3 normal, flo
     const float2 _e10 = etendue_sin_cos_turns((0.5 * (uv_1.x - 0.5)));
     const float2 _e16 = etendue_sin_cos_turns((0.5 * (uv_1.y - 0.5)));
     float x3_27 = (_e10.x * _e16.y);
-    float x4_18 = (_e10.y * _e16.x);
-    float x5_23 = (_e10.y * _e16.y);
-    float x6_25 = mad(edge_s.x, x3_27, mad(edge_t.x, x4_18, (normal.x * x5_23)));
-    float x7_26 = mad(edge_s.y, x3_27, mad(edge_t.y, x4_18, (normal.y * x5_23)));
-    float x8_22 = mad(edge_s.z, x3_27, mad(edge_t.z, x4_18, (normal.z * x5_23)));
+    float x4_19 = (_e10.y * _e16.x);
+    float x5_24 = (_e10.y * _e16.y);
+    float x6_25 = mad(edge_s.x, x3_27, mad(edge_t.x, x4_19, (normal.x * x5_24)));
+    float x7_26 = mad(edge_s.y, x3_27, mad(edge_t.y, x4_19, (normal.y * x5_24)));
+    float x8_22 = mad(edge_s.z, x3_27, mad(edge_t.z, x4_19, (normal.z * x5_24)));
     const float _e46 = etendue_greater(abs(x6_25), abs(x7_26));
     const float _e48 = etendue_greater(_e46, abs(x8_22));
     const float _e49 = etendue_pow2_scale(_e48);
-    float x10_21 = (x6_25 * _e49);
+    float x10_22 = (x6_25 * _e49);
     float x11_21 = (x7_26 * _e49);
     float x12_17 = (x8_22 * _e49);
-    float x13_16 = mad(x10_21, x10_21, mad(x11_21, x11_21, (x12_17 * x12_17)));
+    float x13_16 = mad(x10_22, x10_22, mad(x11_21, x11_21, (x12_17 * x12_17)));
     float x14_17 = ((0.0 < x13_16) ? (1.0 / sqrt(x13_16)) : 0.0);
-    float x15_16 = (x10_21 * x14_17);
+    float x15_16 = (x10_22 * x14_17);
     float x16_16 = (x11_21 * x14_17);
     float x17_11 = (x12_17 * x14_17);
     result_36.x = x15_16;
@@ -3439,18 +3447,18 @@ float etendue_portal_solid_angle(float3 edge_s_1, float3 edge_t_1, float3 normal
     const float2 _e10 = etendue_sin_cos_turns((0.5 * (uv_2.x - 0.5)));
     const float2 _e16 = etendue_sin_cos_turns((0.5 * (uv_2.y - 0.5)));
     float x3_28 = (_e10.x * _e16.y);
-    float x4_19 = (_e10.y * _e16.x);
-    float x5_24 = (_e10.y * _e16.y);
-    float x6_26 = mad(edge_s_1.x, x3_28, mad(edge_t_1.x, x4_19, (normal_1.x * x5_24)));
-    float x7_27 = mad(edge_s_1.y, x3_28, mad(edge_t_1.y, x4_19, (normal_1.y * x5_24)));
-    float x8_23 = mad(edge_s_1.z, x3_28, mad(edge_t_1.z, x4_19, (normal_1.z * x5_24)));
+    float x4_20 = (_e10.y * _e16.x);
+    float x5_25 = (_e10.y * _e16.y);
+    float x6_26 = mad(edge_s_1.x, x3_28, mad(edge_t_1.x, x4_20, (normal_1.x * x5_25)));
+    float x7_27 = mad(edge_s_1.y, x3_28, mad(edge_t_1.y, x4_20, (normal_1.y * x5_25)));
+    float x8_23 = mad(edge_s_1.z, x3_28, mad(edge_t_1.z, x4_20, (normal_1.z * x5_25)));
     const float _e46 = etendue_greater(abs(x6_26), abs(x7_27));
     const float _e48 = etendue_greater(_e46, abs(x8_23));
     const float _e49 = etendue_pow2_scale(_e48);
-    float x10_22 = (x6_26 * _e49);
+    float x10_23 = (x6_26 * _e49);
     float x11_22 = (x7_27 * _e49);
     float x12_18 = (x8_23 * _e49);
-    float x13_17 = mad(x10_22, x10_22, mad(x11_22, x11_22, (x12_18 * x12_18)));
+    float x13_17 = mad(x10_23, x10_23, mad(x11_22, x11_22, (x12_18 * x12_18)));
     float x14_18 = ((x13_17 * ((0.0 < x13_17) ? (1.0 / sqrt(x13_17)) : 0.0)) / _e49);
     bool b15_2 = (0.0 < x14_18);
     float x16_17 = (b15_2 ? x14_18 : 1.0);

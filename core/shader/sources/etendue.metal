@@ -179,12 +179,13 @@ struct EtendueSpotLightByDelta {
 struct EtendueSpotLight {
     metal::float3 position;
     metal::packed_float3 axis;
-    float cos_inner;
-    float cos_outer;
+    float one_minus_cos_inner;
+    float one_minus_cos_outer;
     char _pad4[12];
 };
 struct EtendueDirectionalLightByDelta {
-    metal::float3 direction;
+    metal::packed_float3 direction;
+    float pdf;
 };
 struct EtendueDirectionalLight {
     metal::float3 direction;
@@ -587,7 +588,7 @@ EtendueSphereBySolidAngle etendue_sphere_by_solid_angle_prepare(
     float _e145 = etendue_greater(_e143, 0.0);
     float x53_ = _e141 / (1.0 + metal::sqrt(x20_2 * _e145));
     float _e153 = x42_;
-    float x54_ = (0.0 < x14_3) ? ((b19_1 & (0.0 <= _e153)) ? x53_ : 2.0) : 0.0;
+    float x54_ = ((0.0 < x14_3) & (0.0 <= x16_2)) ? ((b19_1 & (0.0 <= _e153)) ? x53_ : 2.0) : 0.0;
     result_6.surface_center[0] = x1_8;
     result_6.surface_center[1] = x2_8;
     result_6.surface_center[2] = x3_5;
@@ -603,11 +604,11 @@ EtendueSphereBySolidAngle etendue_sphere_by_solid_angle_prepare(
     result_6.shape_frame_n[2] = x31_;
     result_6.shape_cone_one_minus_cos = x54_;
     result_6.shape_distance = x21_1;
-    float _e190 = x42_;
-    result_6.shape_power = _e190;
+    float _e193 = x42_;
+    result_6.shape_power = _e193;
     result_6.shape_unit = x41_;
-    EtendueSphereBySolidAngle _e192 = result_6;
-    return _e192;
+    EtendueSphereBySolidAngle _e195 = result_6;
+    return _e195;
 }
 
 // Draws a direction to the light for u in [0, 1)^2. Uniform over the solid angle Omega at the point p: pdf 1/Omega per
@@ -2682,27 +2683,28 @@ EtendueSunBySolidAngle etendue_sun_by_solid_angle_prepare(
     EtendueSun light_4
 ) {
     EtendueSunBySolidAngle result_18 = {};
-    float _e4 = etendue_copysign(1.0, light_4.direction[2]);
-    float x2_21 = -1.0 / (light_4.direction[2] + _e4);
-    float x3_15 = x2_21 * (light_4.direction[0] * light_4.direction[1]);
-    float x4_11 = light_4.direction[0] * _e4;
-    float x5_13 = metal::fma(light_4.direction[0], x2_21 * x4_11, 1.0);
-    float x6_15 = _e4 * x3_15;
-    float x7_15 = -(x4_11);
-    float x8_11 = metal::fma(light_4.direction[1], light_4.direction[1] * x2_21, _e4);
-    float x9_11 = -(light_4.direction[1]);
-    result_18.frame_s.x = x5_13;
-    result_18.frame_s.y = x6_15;
-    result_18.frame_s.z = x7_15;
-    result_18.frame_t.x = x3_15;
-    result_18.frame_t.y = x8_11;
-    result_18.frame_t.z = x9_11;
+    float x1_20 = (0.0 <= metal::fma(light_4.direction[0], light_4.direction[0], metal::fma(light_4.direction[1], light_4.direction[1], light_4.direction[2] * light_4.direction[2]))) ? light_4.one_minus_cos : 0.0;
+    float _e24 = etendue_copysign(1.0, light_4.direction[2]);
+    float x3_15 = -1.0 / (light_4.direction[2] + _e24);
+    float x4_11 = x3_15 * (light_4.direction[0] * light_4.direction[1]);
+    float x5_13 = light_4.direction[0] * _e24;
+    float x6_15 = metal::fma(light_4.direction[0], x3_15 * x5_13, 1.0);
+    float x7_15 = _e24 * x4_11;
+    float x8_11 = -(x5_13);
+    float x9_11 = metal::fma(light_4.direction[1], light_4.direction[1] * x3_15, _e24);
+    float x10_12 = -(light_4.direction[1]);
+    result_18.frame_s.x = x6_15;
+    result_18.frame_s.y = x7_15;
+    result_18.frame_s.z = x8_11;
+    result_18.frame_t.x = x4_11;
+    result_18.frame_t.y = x9_11;
+    result_18.frame_t.z = x10_12;
     result_18.frame_n[0] = light_4.direction[0];
     result_18.frame_n[1] = light_4.direction[1];
     result_18.frame_n[2] = light_4.direction[2];
-    result_18.cone_one_minus_cos = light_4.one_minus_cos;
-    EtendueSunBySolidAngle _e62 = result_18;
-    return _e62;
+    result_18.cone_one_minus_cos = x1_20;
+    EtendueSunBySolidAngle _e81 = result_18;
+    return _e81;
 }
 
 // Draws a direction to the light for u in [0, 1)^2. Uniform over the cone: pdf 1/(2 pi (1 - cos(sigma))) per
@@ -2714,24 +2716,24 @@ EtendueLightSample etendue_sun_by_solid_angle_sample(
     EtendueLightSample result_19 = {};
     float _e4 = etendue_greater(prepared_14.cone_one_minus_cos, 0.0);
     float _e6 = etendue_lesser(_e4, 2.0);
-    float x2_22 = u_7.x * _e6;
-    float _e17 = etendue_greater(x2_22 * metal::fma(_e6, 1.0 - u_7.x, 2.0 - _e6), 0.0);
+    float x2_21 = u_7.x * _e6;
+    float _e17 = etendue_greater(x2_21 * metal::fma(_e6, 1.0 - u_7.x, 2.0 - _e6), 0.0);
     float x3_16 = metal::sqrt(_e17);
     metal::float2 _e20 = etendue_sin_cos_turns(u_7.y);
     float x5_14 = x3_16 * _e20.y;
     float x6_16 = x3_16 * _e20.x;
-    float x7_16 = 1.0 - x2_22;
+    float x7_16 = 1.0 - x2_21;
     float x8_12 = metal::fma(prepared_14.frame_s.x, x5_14, metal::fma(prepared_14.frame_t.x, x6_16, prepared_14.frame_n[0] * x7_16));
     float x9_12 = metal::fma(prepared_14.frame_s.y, x5_14, metal::fma(prepared_14.frame_t.y, x6_16, prepared_14.frame_n[1] * x7_16));
-    float x10_12 = metal::fma(prepared_14.frame_s.z, x5_14, metal::fma(prepared_14.frame_t.z, x6_16, prepared_14.frame_n[2] * x7_16));
+    float x10_13 = metal::fma(prepared_14.frame_s.z, x5_14, metal::fma(prepared_14.frame_t.z, x6_16, prepared_14.frame_n[2] * x7_16));
     float x11_15 = (0.0000000000000000000000000000000000001 < _e6) ? (0.15915494 / _e6) : 0.0;
     float x12_12 = -(x8_12);
     float x13_12 = -(x9_12);
-    float x14_13 = -(x10_12);
+    float x14_13 = -(x10_13);
     float x15_12 = (0.0000000000000000000000000000000000001 < x11_15) ? (1.0 / x11_15) : 0.0;
     result_19.direction[0] = x8_12;
     result_19.direction[1] = x9_12;
-    result_19.direction[2] = x10_12;
+    result_19.direction[2] = x10_13;
     result_19.distance = 340282350000000000000000000000000000000.0;
     result_19.pdf = x11_15;
     result_19.weight = x15_12;
@@ -2753,19 +2755,19 @@ float etendue_sun_by_solid_angle_pdf(
     metal::float3 w_8
 ) {
     bool b6_1 = {};
-    float x1_20 = metal::fma(prepared_15.frame_n[0], w_8.x, metal::fma(prepared_15.frame_n[1], w_8.y, prepared_15.frame_n[2] * w_8.z));
-    float x2_23 = 1.0 - x1_20;
+    float x1_21 = metal::fma(prepared_15.frame_n[0], w_8.x, metal::fma(prepared_15.frame_n[1], w_8.y, prepared_15.frame_n[2] * w_8.z));
+    float x2_22 = 1.0 - x1_21;
     float _e18 = etendue_greater(prepared_15.cone_one_minus_cos, 0.0);
     float _e20 = etendue_lesser(_e18, 2.0);
-    float x4_12 = x2_23 - _e20;
+    float x4_12 = x2_22 - _e20;
     bool b5_4 = metal::abs(x4_12) <= 0.0000038146973;
     if (b5_4) {
         float x7_17 = metal::fma(prepared_15.frame_s.x, w_8.x, metal::fma(prepared_15.frame_s.y, w_8.y, prepared_15.frame_s.z * w_8.z));
         float x8_13 = metal::fma(prepared_15.frame_t.x, w_8.x, metal::fma(prepared_15.frame_t.y, w_8.y, prepared_15.frame_t.z * w_8.z));
-        float x9_13 = (0.5 < x1_20) ? (metal::fma(x7_17, x7_17, x8_13 * x8_13) / (1.0 + metal::abs(x1_20))) : x2_23;
+        float x9_13 = (0.5 < x1_21) ? (metal::fma(x7_17, x7_17, x8_13 * x8_13) / (1.0 + metal::abs(x1_21))) : x2_22;
         float _e66 = etendue_greater(metal::sqrt(_e20 * (2.0 - _e20)), _e20 - 1.0);
-        float x10_13 = _e20 + metal::fma(0.00000059604645, _e66, 0.00000000000017763568);
-        b6_1 = x9_13 <= x10_13;
+        float x10_14 = _e20 + metal::fma(0.00000059604645, _e66, 0.00000000000017763568);
+        b6_1 = x9_13 <= x10_14;
     }
     bool _e82 = b6_1;
     float x11_16 = (((x4_12 < 0.0) & !(b5_4)) | (b5_4 & _e82)) ? ((0.0000000000000000000000000000000000001 < _e20) ? (0.15915494 / _e20) : 0.0) : 0.0;
@@ -2780,20 +2782,20 @@ EtendueLightSample etendue_sun_by_solid_angle_hit(
 ) {
     bool b15_ = {};
     EtendueLightSample result_20 = {};
-    float x1_21 = metal::fma(prepared_16.frame_n[0], w_9.x, metal::fma(prepared_16.frame_n[1], w_9.y, prepared_16.frame_n[2] * w_9.z));
-    float x2_24 = 1.0 - x1_21;
+    float x1_22 = metal::fma(prepared_16.frame_n[0], w_9.x, metal::fma(prepared_16.frame_n[1], w_9.y, prepared_16.frame_n[2] * w_9.z));
+    float x2_23 = 1.0 - x1_22;
     float _e18 = etendue_greater(prepared_16.cone_one_minus_cos, 0.0);
     float _e20 = etendue_lesser(_e18, 2.0);
-    float x4_13 = x2_24 - _e20;
+    float x4_13 = x2_23 - _e20;
     bool b5_5 = metal::abs(x4_13) <= 0.0000038146973;
     float x6_17 = metal::fma(prepared_16.frame_s.x, w_9.x, metal::fma(prepared_16.frame_s.y, w_9.y, prepared_16.frame_s.z * w_9.z));
     float x7_18 = metal::fma(prepared_16.frame_t.x, w_9.x, metal::fma(prepared_16.frame_t.y, w_9.y, prepared_16.frame_t.z * w_9.z));
-    float x8_14 = (0.5 < x1_21) ? (metal::fma(x6_17, x6_17, x7_18 * x7_18) / (1.0 + metal::abs(x1_21))) : x2_24;
+    float x8_14 = (0.5 < x1_22) ? (metal::fma(x6_17, x6_17, x7_18 * x7_18) / (1.0 + metal::abs(x1_22))) : x2_23;
     float _e64 = etendue_greater(x8_14 / ((0.0 < _e20) ? _e20 : 1.0), 0.0);
     float _e66 = etendue_lesser(_e64, 0.99999994);
     float _e68 = etendue_angle(x7_18, x6_17);
-    float x10_14 = 0.15915494 * _e68;
-    float _e76 = etendue_greater((x10_14 < 0.0) ? (1.0 + x10_14) : x10_14, 0.0);
+    float x10_15 = 0.15915494 * _e68;
+    float _e76 = etendue_greater((x10_15 < 0.0) ? (1.0 + x10_15) : x10_15, 0.0);
     float _e78 = etendue_lesser(_e76, 0.99999994);
     float x12_13 = -(w_9.x);
     float x13_13 = -(w_9.y);
@@ -2832,20 +2834,20 @@ EtenduePointLightByDelta etendue_point_light_by_delta_prepare(
     metal::float3 p_4
 ) {
     EtenduePointLightByDelta result_21 = {};
-    float x1_22 = light_5.position.x - p_4.x;
-    float x2_25 = light_5.position.y - p_4.y;
+    float x1_23 = light_5.position.x - p_4.x;
+    float x2_24 = light_5.position.y - p_4.y;
     float x3_17 = light_5.position.z - p_4.z;
-    float _e16 = etendue_greater(metal::abs(x1_22), metal::abs(x2_25));
+    float _e16 = etendue_greater(metal::abs(x1_23), metal::abs(x2_24));
     float _e18 = etendue_greater(_e16, metal::abs(x3_17));
     float _e20 = etendue_from_bits(2139095040u);
     bool b5_6 = _e18 < _e20;
     float _e24 = etendue_pow2_scale(b5_6 ? _e18 : 0.0);
-    float x7_19 = _e24 * (b5_6 ? x1_22 : 0.0);
-    float x8_15 = _e24 * (b5_6 ? x2_25 : 0.0);
+    float x7_19 = _e24 * (b5_6 ? x1_23 : 0.0);
+    float x8_15 = _e24 * (b5_6 ? x2_24 : 0.0);
     float x9_14 = _e24 * (b5_6 ? x3_17 : 0.0);
-    float x10_15 = metal::fma(x7_19, x7_19, metal::fma(x8_15, x8_15, x9_14 * x9_14));
-    float x11_17 = (0.0 < x10_15) ? (1.0 / metal::sqrt(x10_15)) : 0.0;
-    float x12_14 = (x10_15 * x11_17) / _e24;
+    float x10_16 = metal::fma(x7_19, x7_19, metal::fma(x8_15, x8_15, x9_14 * x9_14));
+    float x11_17 = (0.0 < x10_16) ? (1.0 / metal::sqrt(x10_16)) : 0.0;
+    float x12_14 = (x10_16 * x11_17) / _e24;
     float x13_14 = x7_19 * x11_17;
     float x14_15 = x8_15 * x11_17;
     float x15_13 = x9_14 * x11_17;
@@ -2870,7 +2872,7 @@ EtendueLightSample etendue_point_light_by_delta_sample(
 ) {
     EtendueLightSample result_22 = {};
     bool b1_4 = 0.0 < prepared_17.pdf;
-    float x2_26 = -(prepared_17.direction[0]);
+    float x2_25 = -(prepared_17.direction[0]);
     float x3_18 = -(prepared_17.direction[1]);
     float x4_14 = -(prepared_17.direction[2]);
     float x5_15 = (b1_4 & (0.0000000000000000000000000000000000001 < prepared_17.pdf)) ? (1.0 / prepared_17.pdf) : 0.0;
@@ -2880,7 +2882,7 @@ EtendueLightSample etendue_point_light_by_delta_sample(
     result_22.distance = prepared_17.distance;
     result_22.pdf = prepared_17.pdf;
     result_22.weight = x5_15;
-    result_22.normal.x = x2_26;
+    result_22.normal.x = x2_25;
     result_22.normal.y = x3_18;
     result_22.normal.z = x4_14;
     result_22.uv.x = 0.0;
@@ -2908,8 +2910,8 @@ EtendueLightSample etendue_point_light_by_delta_hit(
     metal::float3 w_11
 ) {
     EtendueLightSample result_23 = {};
-    float x1_23 = -(w_11.x);
-    float x2_27 = -(w_11.y);
+    float x1_24 = -(w_11.x);
+    float x2_26 = -(w_11.y);
     float x3_19 = -(w_11.z);
     result_23.direction[0] = w_11.x;
     result_23.direction[1] = w_11.y;
@@ -2917,8 +2919,8 @@ EtendueLightSample etendue_point_light_by_delta_hit(
     result_23.distance = 0.0;
     result_23.pdf = 0.0;
     result_23.weight = 0.0;
-    result_23.normal.x = x1_23;
-    result_23.normal.y = x2_27;
+    result_23.normal.x = x1_24;
+    result_23.normal.y = x2_26;
     result_23.normal.z = x3_19;
     result_23.uv.x = 0.0;
     result_23.uv.y = 0.0;
@@ -2936,42 +2938,45 @@ EtendueSpotLightByDelta etendue_spot_light_by_delta_prepare(
     metal::float3 p_5
 ) {
     EtendueSpotLightByDelta result_24 = {};
-    float x1_24 = light_6.position.x - p_5.x;
-    float x2_28 = light_6.position.y - p_5.y;
+    float x1_25 = light_6.position.x - p_5.x;
+    float x2_27 = light_6.position.y - p_5.y;
     float x3_20 = light_6.position.z - p_5.z;
-    float _e16 = etendue_greater(metal::abs(x1_24), metal::abs(x2_28));
+    float _e16 = etendue_greater(metal::abs(x1_25), metal::abs(x2_27));
     float _e18 = etendue_greater(_e16, metal::abs(x3_20));
     float _e20 = etendue_from_bits(2139095040u);
     bool b5_7 = _e18 < _e20;
     float _e24 = etendue_pow2_scale(b5_7 ? _e18 : 0.0);
-    float x7_20 = _e24 * (b5_7 ? x1_24 : 0.0);
-    float x8_16 = _e24 * (b5_7 ? x2_28 : 0.0);
+    float x7_20 = _e24 * (b5_7 ? x1_25 : 0.0);
+    float x8_16 = _e24 * (b5_7 ? x2_27 : 0.0);
     float x9_15 = _e24 * (b5_7 ? x3_20 : 0.0);
-    float x10_16 = metal::fma(x7_20, x7_20, metal::fma(x8_16, x8_16, x9_15 * x9_15));
-    float x11_18 = (0.0 < x10_16) ? (1.0 / metal::sqrt(x10_16)) : 0.0;
-    float x12_15 = (x10_16 * x11_18) / _e24;
+    float x10_17 = metal::fma(x7_20, x7_20, metal::fma(x8_16, x8_16, x9_15 * x9_15));
+    float x11_18 = (0.0 < x10_17) ? (1.0 / metal::sqrt(x10_17)) : 0.0;
+    float x12_15 = (x10_17 * x11_18) / _e24;
     float x13_15 = x7_20 * x11_18;
     float x14_16 = x8_16 * x11_18;
     float x15_14 = x9_15 * x11_18;
     float _e51 = etendue_from_bits(2139095040u);
     float x16_14 = (x12_15 < _e51) ? x12_15 : 0.0;
     float x17_10 = x16_14 * x16_14;
-    float x18_11 = metal::fma(light_6.axis[0], -(x13_15), metal::fma(light_6.axis[1], -(x14_16), light_6.axis[2] * -(x15_14)));
-    float x19_9 = light_6.cos_inner - light_6.cos_outer;
-    bool b20_ = 0.0 < x19_9;
-    float _e78 = etendue_greater((x18_11 - light_6.cos_outer) / (b20_ ? x19_9 : 1.0), 0.0);
-    float _e80 = etendue_lesser(_e78, 1.0);
-    float x22_10 = b20_ ? ((_e80 * _e80) * (3.0 - (_e80 + _e80))) : ((light_6.cos_inner <= x18_11) ? 1.0 : 0.0);
+    float x18_11 = -(x13_15) - light_6.axis[0];
+    float x19_9 = -(x14_16) - light_6.axis[1];
+    float x20_12 = -(x15_14) - light_6.axis[2];
+    float x21_10 = metal::fma(x18_11, x18_11, metal::fma(x19_9, x19_9, x20_12 * x20_12)) * 0.5;
+    float x22_10 = light_6.one_minus_cos_outer - light_6.one_minus_cos_inner;
     bool b23_2 = 0.0 < x22_10;
-    float x24_10 = ((x17_10 < 10000000000000000000000000000000000000.0) ? x17_10 : 0.0) / (b23_2 ? x22_10 : 1.0);
-    float x25_11 = (b23_2 & (x24_10 < 10000000000000000000000000000000000000.0)) ? x24_10 : 0.0;
+    float _e83 = etendue_greater((light_6.one_minus_cos_outer - x21_10) / (b23_2 ? x22_10 : 1.0), 0.0);
+    float _e85 = etendue_lesser(_e83, 1.0);
+    float x25_11 = b23_2 ? ((_e85 * _e85) * (3.0 - (_e85 + _e85))) : ((x21_10 <= light_6.one_minus_cos_inner) ? 1.0 : 0.0);
+    bool b26_ = 0.0 < x25_11;
+    float x27_8 = ((x17_10 < 10000000000000000000000000000000000000.0) ? x17_10 : 0.0) / (b26_ ? x25_11 : 1.0);
+    float x28_9 = (b26_ & (x27_8 < 10000000000000000000000000000000000000.0)) ? x27_8 : 0.0;
     result_24.direction[0] = x13_15;
     result_24.direction[1] = x14_16;
     result_24.direction[2] = x15_14;
     result_24.distance = x16_14;
-    result_24.pdf = x25_11;
-    EtendueSpotLightByDelta _e115 = result_24;
-    return _e115;
+    result_24.pdf = x28_9;
+    EtendueSpotLightByDelta _e120 = result_24;
+    return _e120;
 }
 
 // Draws a direction to the light for u in [0, 1)^2. Its one direction, whatever the random numbers. The pdf of a
@@ -2983,7 +2988,7 @@ EtendueLightSample etendue_spot_light_by_delta_sample(
 ) {
     EtendueLightSample result_25 = {};
     bool b1_5 = 0.0 < prepared_20.pdf;
-    float x2_29 = -(prepared_20.direction[0]);
+    float x2_28 = -(prepared_20.direction[0]);
     float x3_21 = -(prepared_20.direction[1]);
     float x4_15 = -(prepared_20.direction[2]);
     float x5_16 = (b1_5 & (0.0000000000000000000000000000000000001 < prepared_20.pdf)) ? (1.0 / prepared_20.pdf) : 0.0;
@@ -2993,7 +2998,7 @@ EtendueLightSample etendue_spot_light_by_delta_sample(
     result_25.distance = prepared_20.distance;
     result_25.pdf = prepared_20.pdf;
     result_25.weight = x5_16;
-    result_25.normal.x = x2_29;
+    result_25.normal.x = x2_28;
     result_25.normal.y = x3_21;
     result_25.normal.z = x4_15;
     result_25.uv.x = 0.0;
@@ -3022,8 +3027,8 @@ EtendueLightSample etendue_spot_light_by_delta_hit(
     metal::float3 w_13
 ) {
     EtendueLightSample result_26 = {};
-    float x1_25 = -(w_13.x);
-    float x2_30 = -(w_13.y);
+    float x1_26 = -(w_13.x);
+    float x2_29 = -(w_13.y);
     float x3_22 = -(w_13.z);
     result_26.direction[0] = w_13.x;
     result_26.direction[1] = w_13.y;
@@ -3031,8 +3036,8 @@ EtendueLightSample etendue_spot_light_by_delta_hit(
     result_26.distance = 0.0;
     result_26.pdf = 0.0;
     result_26.weight = 0.0;
-    result_26.normal.x = x1_25;
-    result_26.normal.y = x2_30;
+    result_26.normal.x = x1_26;
+    result_26.normal.y = x2_29;
     result_26.normal.z = x3_22;
     result_26.uv.x = 0.0;
     result_26.uv.y = 0.0;
@@ -3049,11 +3054,13 @@ EtendueDirectionalLightByDelta etendue_directional_light_by_delta_prepare(
     metal::float3 p_6
 ) {
     EtendueDirectionalLightByDelta result_27 = {};
-    result_27.direction.x = light_7.direction.x;
-    result_27.direction.y = light_7.direction.y;
-    result_27.direction.z = light_7.direction.z;
-    EtendueDirectionalLightByDelta _e15 = result_27;
-    return _e15;
+    float x1_27 = (0.0 <= metal::fma(light_7.direction.x, light_7.direction.x, metal::fma(light_7.direction.y, light_7.direction.y, light_7.direction.z * light_7.direction.z))) ? 1.0 : 0.0;
+    result_27.direction[0] = light_7.direction.x;
+    result_27.direction[1] = light_7.direction.y;
+    result_27.direction[2] = light_7.direction.z;
+    result_27.pdf = x1_27;
+    EtendueDirectionalLightByDelta _e36 = result_27;
+    return _e36;
 }
 
 // Draws a direction to the light for u in [0, 1)^2. Its one direction, whatever the random numbers. The pdf of a
@@ -3063,24 +3070,26 @@ EtendueLightSample etendue_directional_light_by_delta_sample(
     metal::float2 u_10
 ) {
     EtendueLightSample result_28 = {};
-    float x1_26 = -(prepared_23.direction.x);
-    float x2_31 = -(prepared_23.direction.y);
-    float x3_23 = -(prepared_23.direction.z);
-    result_28.direction[0] = prepared_23.direction.x;
-    result_28.direction[1] = prepared_23.direction.y;
-    result_28.direction[2] = prepared_23.direction.z;
+    bool b1_6 = 0.0 < prepared_23.pdf;
+    float x2_30 = -(prepared_23.direction[0]);
+    float x3_23 = -(prepared_23.direction[1]);
+    float x4_16 = -(prepared_23.direction[2]);
+    float x5_17 = (b1_6 & (0.0000000000000000000000000000000000001 < prepared_23.pdf)) ? (1.0 / prepared_23.pdf) : 0.0;
+    result_28.direction[0] = prepared_23.direction[0];
+    result_28.direction[1] = prepared_23.direction[1];
+    result_28.direction[2] = prepared_23.direction[2];
     result_28.distance = 340282350000000000000000000000000000000.0;
-    result_28.pdf = 1.0;
-    result_28.weight = 1.0;
-    result_28.normal.x = x1_26;
-    result_28.normal.y = x2_31;
-    result_28.normal.z = x3_23;
+    result_28.pdf = prepared_23.pdf;
+    result_28.weight = x5_17;
+    result_28.normal.x = x2_30;
+    result_28.normal.y = x3_23;
+    result_28.normal.z = x4_16;
     result_28.uv.x = 0.0;
     result_28.uv.y = 0.0;
-    result_28.emits = true;
+    result_28.emits = b1_6;
     result_28.delta = true;
-    EtendueLightSample _e46 = result_28;
-    return _e46;
+    EtendueLightSample _e56 = result_28;
+    return _e56;
 }
 
 // The density with which the unit direction w is drawn; 0 where it misses the light. Its one direction, whatever the
@@ -3099,8 +3108,8 @@ EtendueLightSample etendue_directional_light_by_delta_hit(
     metal::float3 w_15
 ) {
     EtendueLightSample result_29 = {};
-    float x1_27 = -(w_15.x);
-    float x2_32 = -(w_15.y);
+    float x1_28 = -(w_15.x);
+    float x2_31 = -(w_15.y);
     float x3_24 = -(w_15.z);
     result_29.direction[0] = w_15.x;
     result_29.direction[1] = w_15.y;
@@ -3108,8 +3117,8 @@ EtendueLightSample etendue_directional_light_by_delta_hit(
     result_29.distance = 0.0;
     result_29.pdf = 0.0;
     result_29.weight = 0.0;
-    result_29.normal.x = x1_27;
-    result_29.normal.y = x2_32;
+    result_29.normal.x = x1_28;
+    result_29.normal.y = x2_31;
     result_29.normal.z = x3_24;
     result_29.uv.x = 0.0;
     result_29.uv.y = 0.0;
@@ -3218,8 +3227,8 @@ float etendue_technique_pdf(
     float _e5 = etendue_greater(samples * pdf, 0.0);
     float _e7 = etendue_lesser(_e5, 340282350000000000000000000000000000000.0);
     float _e9 = etendue_from_bits(2139095040u);
-    float x1_28 = delta ? _e9 : _e7;
-    return x1_28;
+    float x1_29 = delta ? _e9 : _e7;
+    return x1_29;
 }
 
 // The weights of two techniques by the balance heuristic, given the number of samples times the density of each; their
@@ -3234,14 +3243,14 @@ metal::float2 etendue_balance_weights(
     float _e7 = etendue_greater(0.0, _e3);
     float _e8 = etendue_greater(_e7, _e5);
     bool b4_6 = 0.0 < _e8;
-    float x5_17 = b4_6 ? _e8 : 1.0;
-    float x6_18 = (b4_6 & (0.0 < _e3)) ? ((_e8 <= _e3) ? 1.0 : (_e3 / x5_17)) : 0.0;
-    float x7_21 = (b4_6 & (0.0 < _e5)) ? ((_e8 <= _e5) ? 1.0 : (_e5 / x5_17)) : 0.0;
+    float x5_18 = b4_6 ? _e8 : 1.0;
+    float x6_18 = (b4_6 & (0.0 < _e3)) ? ((_e8 <= _e3) ? 1.0 : (_e3 / x5_18)) : 0.0;
+    float x7_21 = (b4_6 & (0.0 < _e5)) ? ((_e8 <= _e5) ? 1.0 : (_e5 / x5_18)) : 0.0;
     float x8_17 = b4_6 ? (x7_21 + (0.0 + x6_18)) : 1.0;
     float x9_16 = x6_18 / x8_17;
-    float x10_17 = x7_21 / x8_17;
+    float x10_18 = x7_21 / x8_17;
     result_32.x = x9_16;
-    result_32.y = x10_17;
+    result_32.y = x10_18;
     metal::float2 _e41 = result_32;
     return _e41;
 }
@@ -3258,14 +3267,14 @@ metal::float2 etendue_power_weights(
     float _e7 = etendue_greater(0.0, _e3);
     float _e8 = etendue_greater(_e7, _e5);
     bool b4_7 = 0.0 < _e8;
-    float x5_18 = b4_7 ? _e8 : 1.0;
-    float x6_19 = (b4_7 & (0.0 < _e3)) ? ((_e8 <= _e3) ? 1.0 : (_e3 / x5_18)) : 0.0;
+    float x5_19 = b4_7 ? _e8 : 1.0;
+    float x6_19 = (b4_7 & (0.0 < _e3)) ? ((_e8 <= _e3) ? 1.0 : (_e3 / x5_19)) : 0.0;
     float x7_22 = x6_19 * x6_19;
-    float x8_18 = (b4_7 & (0.0 < _e5)) ? ((_e8 <= _e5) ? 1.0 : (_e5 / x5_18)) : 0.0;
+    float x8_18 = (b4_7 & (0.0 < _e5)) ? ((_e8 <= _e5) ? 1.0 : (_e5 / x5_19)) : 0.0;
     float x9_17 = x8_18 * x8_18;
-    float x10_18 = b4_7 ? (x9_17 + (0.0 + x7_22)) : 1.0;
-    float x11_19 = x7_22 / x10_18;
-    float x12_16 = x9_17 / x10_18;
+    float x10_19 = b4_7 ? (x9_17 + (0.0 + x7_22)) : 1.0;
+    float x11_19 = x7_22 / x10_19;
+    float x12_16 = x9_17 / x10_19;
     result_33.x = x11_19;
     result_33.y = x12_16;
     metal::float2 _e43 = result_33;
@@ -3288,10 +3297,10 @@ float etendue_power_light_weight(
     float _e16 = etendue_greater(0.0, _e12);
     float _e17 = etendue_greater(_e16, _e14);
     bool b4_8 = 0.0 < _e17;
-    float x5_19 = b4_8 ? _e17 : 1.0;
-    float x6_20 = (b4_8 & (0.0 < _e12)) ? ((_e17 <= _e12) ? 1.0 : (_e12 / x5_19)) : 0.0;
+    float x5_20 = b4_8 ? _e17 : 1.0;
+    float x6_20 = (b4_8 & (0.0 < _e12)) ? ((_e17 <= _e12) ? 1.0 : (_e12 / x5_20)) : 0.0;
     float x7_23 = x6_20 * x6_20;
-    float x8_19 = (b4_8 & (0.0 < _e14)) ? ((_e17 <= _e14) ? 1.0 : (_e14 / x5_19)) : 0.0;
+    float x8_19 = (b4_8 & (0.0 < _e14)) ? ((_e17 <= _e14) ? 1.0 : (_e14 / x5_20)) : 0.0;
     float x9_18 = (x7_23 / (b4_8 ? ((x8_19 * x8_19) + (0.0 + x7_23)) : 1.0)) * ((emits & (0.0000000000000000000000000000000000001 < pdf_1)) ? (1.0 / pdf_1) : 0.0);
     return x9_18;
 }
@@ -3303,7 +3312,7 @@ float etendue_power_bsdf_weight(
     float pdf_2,
     bool emits_1
 ) {
-    bool b1_6 = (emits_1 & (0.0000000000000000000000000000000000001 < bsdf_pdf_1)) & (0.0 < pdf_2);
+    bool b1_7 = (emits_1 & (0.0000000000000000000000000000000000001 < bsdf_pdf_1)) & (0.0 < pdf_2);
     float _e10 = etendue_greater(bsdf_pdf_1, 0.0);
     float _e12 = etendue_greater(pdf_2, 0.0);
     float _e14 = etendue_greater(0.0, _e10);
@@ -3314,8 +3323,8 @@ float etendue_power_bsdf_weight(
     float x8_20 = x7_24 * x7_24;
     float x9_19 = (b5_8 & (0.0 < _e12)) ? ((_e15 <= _e12) ? 1.0 : (_e12 / x6_21)) : 0.0;
     float _e48 = etendue_from_bits(2139095040u);
-    float x10_19 = (x8_20 / (b5_8 ? ((x9_19 * x9_19) + (0.0 + x8_20)) : 1.0)) / ((b1_6 & !((_e48 <= bsdf_pdf_1))) ? bsdf_pdf_1 : 1.0);
-    float x11_20 = b1_6 ? x10_19 : 0.0;
+    float x10_20 = (x8_20 / (b5_8 ? ((x9_19 * x9_19) + (0.0 + x8_20)) : 1.0)) / ((b1_7 & !((_e48 <= bsdf_pdf_1))) ? bsdf_pdf_1 : 1.0);
+    float x11_20 = b1_7 ? x10_20 : 0.0;
     return x11_20;
 }
 
@@ -3329,18 +3338,18 @@ float etendue_spread_attenuation(
     metal::float3 w_16,
     metal::float3 n
 ) {
-    float x1_29 = metal::abs(metal::fma(w_16.x, n.x, metal::fma(w_16.y, n.y, w_16.z * n.z)));
-    bool b2_2 = 0.0 < x1_29;
+    float x1_30 = metal::abs(metal::fma(w_16.x, n.x, metal::fma(w_16.y, n.y, w_16.z * n.z)));
+    bool b2_2 = 0.0 < x1_30;
     float x3_25 = -((w_16.z * n.y));
-    float x4_16 = metal::fma(w_16.y, n.z, x3_25) - metal::fma(w_16.z, n.y, x3_25);
-    float x5_20 = -((w_16.x * n.z));
-    float x6_22 = metal::fma(w_16.z, n.x, x5_20) - metal::fma(w_16.x, n.z, x5_20);
+    float x4_17 = metal::fma(w_16.y, n.z, x3_25) - metal::fma(w_16.z, n.y, x3_25);
+    float x5_21 = -((w_16.x * n.z));
+    float x6_22 = metal::fma(w_16.z, n.x, x5_21) - metal::fma(w_16.x, n.z, x5_21);
     float x7_25 = -((w_16.y * n.x));
     float x8_21 = metal::fma(w_16.x, n.y, x7_25) - metal::fma(w_16.y, n.x, x7_25);
-    float x9_20 = tan_half - (metal::sqrt(metal::fma(x4_16, x4_16, metal::fma(x6_22, x6_22, x8_21 * x8_21))) / (b2_2 ? x1_29 : 1.0));
+    float x9_20 = tan_half - (metal::sqrt(metal::fma(x4_17, x4_17, metal::fma(x6_22, x6_22, x8_21 * x8_21))) / (b2_2 ? x1_30 : 1.0));
     float _e60 = etendue_greater(gain * x9_20, 0.0);
-    float x10_20 = b2_2 ? _e60 : 0.0;
-    return x10_20;
+    float x10_21 = b2_2 ? _e60 : 0.0;
+    return x10_21;
 }
 
 // The position in [0, 1)^2, from the upper left corner, of the unit direction w in an image that a light projects
@@ -3351,17 +3360,17 @@ metal::float2 etendue_projector_place(
     metal::float3 w_17
 ) {
     metal::float2 result_34 = {};
-    float x1_30 = tan_half_1.x * w_17.z;
-    float x2_33 = tan_half_1.y * w_17.z;
-    bool b3_4 = (((0.0 < x1_30) & (0.0 < x2_33)) & (-(x1_30) <= w_17.x)) & (w_17.x < x1_30);
-    bool b4_9 = (b3_4 & (-(x2_33) < w_17.y)) & (w_17.y <= x2_33);
-    float _e36 = etendue_greater(metal::fma(0.5, w_17.x / (b4_9 ? x1_30 : 1.0), 0.5), 0.0);
+    float x1_31 = tan_half_1.x * w_17.z;
+    float x2_32 = tan_half_1.y * w_17.z;
+    bool b3_4 = (((0.0 < x1_31) & (0.0 < x2_32)) & (-(x1_31) <= w_17.x)) & (w_17.x < x1_31);
+    bool b4_9 = (b3_4 & (-(x2_32) < w_17.y)) & (w_17.y <= x2_32);
+    float _e36 = etendue_greater(metal::fma(0.5, w_17.x / (b4_9 ? x1_31 : 1.0), 0.5), 0.0);
     float _e38 = etendue_lesser(_e36, 0.99999994);
-    float x5_21 = b4_9 ? _e38 : 0.0;
-    float _e50 = etendue_greater(metal::fma(0.5, -(w_17.y) / (b4_9 ? x2_33 : 1.0), 0.5), 0.0);
+    float x5_22 = b4_9 ? _e38 : 0.0;
+    float _e50 = etendue_greater(metal::fma(0.5, -(w_17.y) / (b4_9 ? x2_32 : 1.0), 0.5), 0.0);
     float _e52 = etendue_lesser(_e50, 0.99999994);
     float x6_23 = b4_9 ? _e52 : 0.0;
-    result_34.x = x5_21;
+    result_34.x = x5_22;
     result_34.y = x6_23;
     metal::float2 _e57 = result_34;
     return _e57;
@@ -3373,10 +3382,10 @@ bool etendue_projector_has(
     metal::float2 tan_half_2,
     metal::float3 w_18
 ) {
-    float x1_31 = tan_half_2.x * w_18.z;
-    float x2_34 = tan_half_2.y * w_18.z;
-    bool b3_5 = (((0.0 < x1_31) & (0.0 < x2_34)) & (-(x1_31) <= w_18.x)) & (w_18.x < x1_31);
-    bool b4_10 = (b3_5 & (-(x2_34) < w_18.y)) & (w_18.y <= x2_34);
+    float x1_32 = tan_half_2.x * w_18.z;
+    float x2_33 = tan_half_2.y * w_18.z;
+    bool b3_5 = (((0.0 < x1_32) & (0.0 < x2_33)) & (-(x1_32) <= w_18.x)) & (w_18.x < x1_32);
+    bool b4_10 = (b3_5 & (-(x2_33) < w_18.y)) & (w_18.y <= x2_33);
     return b4_10;
 }
 
@@ -3386,15 +3395,15 @@ metal::float3 etendue_projector_direction(
     metal::float2 uv
 ) {
     metal::float3 result_35 = {};
-    float x1_32 = tan_half_3.x * metal::fma(uv.x, 2.0, -1.0);
-    float x2_35 = tan_half_3.y * -(metal::fma(uv.y, 2.0, -1.0));
-    float x3_26 = metal::fma(x1_32, x1_32, metal::fma(x2_35, x2_35, 1.0));
-    float x4_17 = (0.0 < x3_26) ? (1.0 / metal::sqrt(x3_26)) : 0.0;
-    float x5_22 = x1_32 * x4_17;
-    float x6_24 = x2_35 * x4_17;
-    result_35.x = x5_22;
+    float x1_33 = tan_half_3.x * metal::fma(uv.x, 2.0, -1.0);
+    float x2_34 = tan_half_3.y * -(metal::fma(uv.y, 2.0, -1.0));
+    float x3_26 = metal::fma(x1_33, x1_33, metal::fma(x2_34, x2_34, 1.0));
+    float x4_18 = (0.0 < x3_26) ? (1.0 / metal::sqrt(x3_26)) : 0.0;
+    float x5_23 = x1_33 * x4_18;
+    float x6_24 = x2_34 * x4_18;
+    result_35.x = x5_23;
     result_35.y = x6_24;
-    result_35.z = x4_17;
+    result_35.z = x4_18;
     metal::float3 _e31 = result_35;
     return _e31;
 }
@@ -3413,20 +3422,20 @@ metal::float3 etendue_portal_direction(
     metal::float2 _e10 = etendue_sin_cos_turns(0.5 * (uv_1.x - 0.5));
     metal::float2 _e16 = etendue_sin_cos_turns(0.5 * (uv_1.y - 0.5));
     float x3_27 = _e10.x * _e16.y;
-    float x4_18 = _e10.y * _e16.x;
-    float x5_23 = _e10.y * _e16.y;
-    float x6_25 = metal::fma(edge_s.x, x3_27, metal::fma(edge_t.x, x4_18, normal.x * x5_23));
-    float x7_26 = metal::fma(edge_s.y, x3_27, metal::fma(edge_t.y, x4_18, normal.y * x5_23));
-    float x8_22 = metal::fma(edge_s.z, x3_27, metal::fma(edge_t.z, x4_18, normal.z * x5_23));
+    float x4_19 = _e10.y * _e16.x;
+    float x5_24 = _e10.y * _e16.y;
+    float x6_25 = metal::fma(edge_s.x, x3_27, metal::fma(edge_t.x, x4_19, normal.x * x5_24));
+    float x7_26 = metal::fma(edge_s.y, x3_27, metal::fma(edge_t.y, x4_19, normal.y * x5_24));
+    float x8_22 = metal::fma(edge_s.z, x3_27, metal::fma(edge_t.z, x4_19, normal.z * x5_24));
     float _e46 = etendue_greater(metal::abs(x6_25), metal::abs(x7_26));
     float _e48 = etendue_greater(_e46, metal::abs(x8_22));
     float _e49 = etendue_pow2_scale(_e48);
-    float x10_21 = x6_25 * _e49;
+    float x10_22 = x6_25 * _e49;
     float x11_21 = x7_26 * _e49;
     float x12_17 = x8_22 * _e49;
-    float x13_16 = metal::fma(x10_21, x10_21, metal::fma(x11_21, x11_21, x12_17 * x12_17));
+    float x13_16 = metal::fma(x10_22, x10_22, metal::fma(x11_21, x11_21, x12_17 * x12_17));
     float x14_17 = (0.0 < x13_16) ? (1.0 / metal::sqrt(x13_16)) : 0.0;
-    float x15_16 = x10_21 * x14_17;
+    float x15_16 = x10_22 * x14_17;
     float x16_16 = x11_21 * x14_17;
     float x17_11 = x12_17 * x14_17;
     result_36.x = x15_16;
@@ -3448,18 +3457,18 @@ float etendue_portal_solid_angle(
     metal::float2 _e10 = etendue_sin_cos_turns(0.5 * (uv_2.x - 0.5));
     metal::float2 _e16 = etendue_sin_cos_turns(0.5 * (uv_2.y - 0.5));
     float x3_28 = _e10.x * _e16.y;
-    float x4_19 = _e10.y * _e16.x;
-    float x5_24 = _e10.y * _e16.y;
-    float x6_26 = metal::fma(edge_s_1.x, x3_28, metal::fma(edge_t_1.x, x4_19, normal_1.x * x5_24));
-    float x7_27 = metal::fma(edge_s_1.y, x3_28, metal::fma(edge_t_1.y, x4_19, normal_1.y * x5_24));
-    float x8_23 = metal::fma(edge_s_1.z, x3_28, metal::fma(edge_t_1.z, x4_19, normal_1.z * x5_24));
+    float x4_20 = _e10.y * _e16.x;
+    float x5_25 = _e10.y * _e16.y;
+    float x6_26 = metal::fma(edge_s_1.x, x3_28, metal::fma(edge_t_1.x, x4_20, normal_1.x * x5_25));
+    float x7_27 = metal::fma(edge_s_1.y, x3_28, metal::fma(edge_t_1.y, x4_20, normal_1.y * x5_25));
+    float x8_23 = metal::fma(edge_s_1.z, x3_28, metal::fma(edge_t_1.z, x4_20, normal_1.z * x5_25));
     float _e46 = etendue_greater(metal::abs(x6_26), metal::abs(x7_27));
     float _e48 = etendue_greater(_e46, metal::abs(x8_23));
     float _e49 = etendue_pow2_scale(_e48);
-    float x10_22 = x6_26 * _e49;
+    float x10_23 = x6_26 * _e49;
     float x11_22 = x7_27 * _e49;
     float x12_18 = x8_23 * _e49;
-    float x13_17 = metal::fma(x10_22, x10_22, metal::fma(x11_22, x11_22, x12_18 * x12_18));
+    float x13_17 = metal::fma(x10_23, x10_23, metal::fma(x11_22, x11_22, x12_18 * x12_18));
     float x14_18 = (x13_17 * ((0.0 < x13_17) ? (1.0 / metal::sqrt(x13_17)) : 0.0)) / _e49;
     bool b15_2 = 0.0 < x14_18;
     float x16_17 = b15_2 ? x14_18 : 1.0;

@@ -278,16 +278,17 @@ struct EtendueSpotLight {
     position: vec3<f32>,
     // Unit vector along which the light travels.
     axis: vec3<f32>,
-    // Cosine of the angle to the axis up to which the intensity is I.
-    cos_inner: f32,
-    // Cosine of the angle from which it is 0; less than the other one.
-    cos_outer: f32,
+    // 1 - cos(theta) of the angle to the axis up to which the intensity is I, in [0, 2].
+    one_minus_cos_inner: f32,
+    // 1 - cos(theta) of the angle from which it is 0, in [0, 2]; at least the other one.
+    one_minus_cos_outer: f32,
 }
 
 // A directional light prepared for a shading point. Its one direction, whatever the random numbers. The pdf of a
 // sample is 1, which is no density; that of a direction is 0.
 struct EtendueDirectionalLightByDelta {
     direction: vec3<f32>,
+    pdf: f32,
 }
 
 // A directional light, that reaches every point from one direction with the irradiance E on a surface that faces it.
@@ -550,7 +551,7 @@ fn etendue_sphere_by_solid_angle_prepare(light: EtendueSphere, p: vec3<f32>) -> 
         x42 = x49 + (x47 - (x49 - x50) + (x15 - x50) + x51 + x52);
     }
     let x53 = etendue_lesser(x17 * x20, 1.0f) / (1.0f + sqrt(x20 * etendue_greater(x42, 0.0f)));
-    let x54 = select(0.0f, select(2.0f, x53, b19 & (0.0f <= x42)), 0.0f < x14);
+    let x54 = select(0.0f, select(2.0f, x53, b19 & (0.0f <= x42)), (0.0f < x14) & (0.0f <= x16));
     var result: EtendueSphereBySolidAngle;
     result.surface_center.x = x1;
     result.surface_center.y = x2;
@@ -2297,26 +2298,27 @@ fn etendue_disk_by_area_hit(prepared: EtendueDiskByArea, w: vec3<f32>) -> Etendu
 
 // Prepares a light. Uniform over the cone: pdf 1/(2 pi (1 - cos(sigma))) per steradian, 0 where the cone is empty.
 fn etendue_sun_by_solid_angle_prepare(light: EtendueSun) -> EtendueSunBySolidAngle {
-    let x1 = etendue_copysign(1.0f, light.direction.z);
-    let x2 = -1.0f / (light.direction.z + x1);
-    let x3 = x2 * (light.direction.x * light.direction.y);
-    let x4 = light.direction.x * x1;
-    let x5 = fma(light.direction.x, x2 * x4, 1.0f);
-    let x6 = x1 * x3;
-    let x7 = -x4;
-    let x8 = fma(light.direction.y, light.direction.y * x2, x1);
-    let x9 = -light.direction.y;
+    let x1 = select(0.0f, light.one_minus_cos, 0.0f <= fma(light.direction.x, light.direction.x, fma(light.direction.y, light.direction.y, light.direction.z * light.direction.z)));
+    let x2 = etendue_copysign(1.0f, light.direction.z);
+    let x3 = -1.0f / (light.direction.z + x2);
+    let x4 = x3 * (light.direction.x * light.direction.y);
+    let x5 = light.direction.x * x2;
+    let x6 = fma(light.direction.x, x3 * x5, 1.0f);
+    let x7 = x2 * x4;
+    let x8 = -x5;
+    let x9 = fma(light.direction.y, light.direction.y * x3, x2);
+    let x10 = -light.direction.y;
     var result: EtendueSunBySolidAngle;
-    result.frame_s.x = x5;
-    result.frame_s.y = x6;
-    result.frame_s.z = x7;
-    result.frame_t.x = x3;
-    result.frame_t.y = x8;
-    result.frame_t.z = x9;
+    result.frame_s.x = x6;
+    result.frame_s.y = x7;
+    result.frame_s.z = x8;
+    result.frame_t.x = x4;
+    result.frame_t.y = x9;
+    result.frame_t.z = x10;
     result.frame_n.x = light.direction.x;
     result.frame_n.y = light.direction.y;
     result.frame_n.z = light.direction.z;
-    result.cone_one_minus_cos = light.one_minus_cos;
+    result.cone_one_minus_cos = x1;
     return result;
 }
 
@@ -2524,20 +2526,23 @@ fn etendue_spot_light_by_delta_prepare(light: EtendueSpotLight, p: vec3<f32>) ->
     let x15 = x9 * x11;
     let x16 = select(0.0f, x12, x12 < etendue_from_bits(0x7f800000u));
     let x17 = x16 * x16;
-    let x18 = fma(light.axis.x, -x13, fma(light.axis.y, -x14, light.axis.z * -x15));
-    let x19 = light.cos_inner - light.cos_outer;
-    let b20 = 0.0f < x19;
-    let x21 = etendue_lesser(etendue_greater((x18 - light.cos_outer) / select(1.0f, x19, b20), 0.0f), 1.0f);
-    let x22 = select(select(0.0f, 1.0f, light.cos_inner <= x18), x21 * x21 * (3.0f - (x21 + x21)), b20);
+    let x18 = -x13 - light.axis.x;
+    let x19 = -x14 - light.axis.y;
+    let x20 = -x15 - light.axis.z;
+    let x21 = fma(x18, x18, fma(x19, x19, x20 * x20)) * 0.5f;
+    let x22 = light.one_minus_cos_outer - light.one_minus_cos_inner;
     let b23 = 0.0f < x22;
-    let x24 = select(0.0f, x17, x17 < 1e37f) / select(1.0f, x22, b23);
-    let x25 = select(0.0f, x24, b23 & (x24 < 1e37f));
+    let x24 = etendue_lesser(etendue_greater((light.one_minus_cos_outer - x21) / select(1.0f, x22, b23), 0.0f), 1.0f);
+    let x25 = select(select(0.0f, 1.0f, x21 <= light.one_minus_cos_inner), x24 * x24 * (3.0f - (x24 + x24)), b23);
+    let b26 = 0.0f < x25;
+    let x27 = select(0.0f, x17, x17 < 1e37f) / select(1.0f, x25, b26);
+    let x28 = select(0.0f, x27, b26 & (x27 < 1e37f));
     var result: EtendueSpotLightByDelta;
     result.direction.x = x13;
     result.direction.y = x14;
     result.direction.z = x15;
     result.distance = x16;
-    result.pdf = x25;
+    result.pdf = x28;
     return result;
 }
 
@@ -2601,32 +2606,36 @@ fn etendue_spot_light_by_delta_hit(prepared: EtendueSpotLightByDelta, w: vec3<f3
 // Prepares a light for the shading point p. Its one direction, whatever the random numbers. The pdf of a sample is 1,
 // which is no density; that of a direction is 0.
 fn etendue_directional_light_by_delta_prepare(light: EtendueDirectionalLight, p: vec3<f32>) -> EtendueDirectionalLightByDelta {
+    let x1 = select(0.0f, 1.0f, 0.0f <= fma(light.direction.x, light.direction.x, fma(light.direction.y, light.direction.y, light.direction.z * light.direction.z)));
     var result: EtendueDirectionalLightByDelta;
     result.direction.x = light.direction.x;
     result.direction.y = light.direction.y;
     result.direction.z = light.direction.z;
+    result.pdf = x1;
     return result;
 }
 
 // Draws a direction to the light for u in [0, 1)^2. Its one direction, whatever the random numbers. The pdf of a
 // sample is 1, which is no density; that of a direction is 0.
 fn etendue_directional_light_by_delta_sample(prepared: EtendueDirectionalLightByDelta, u: vec2<f32>) -> EtendueLightSample {
-    let x1 = -prepared.direction.x;
-    let x2 = -prepared.direction.y;
-    let x3 = -prepared.direction.z;
+    let b1 = 0.0f < prepared.pdf;
+    let x2 = -prepared.direction.x;
+    let x3 = -prepared.direction.y;
+    let x4 = -prepared.direction.z;
+    let x5 = select(0.0f, 1.0f / prepared.pdf, b1 & (1e-37f < prepared.pdf));
     var result: EtendueLightSample;
     result.direction.x = prepared.direction.x;
     result.direction.y = prepared.direction.y;
     result.direction.z = prepared.direction.z;
     result.distance = 3.4028235e38f;
-    result.pdf = 1.0f;
-    result.weight = 1.0f;
-    result.normal.x = x1;
-    result.normal.y = x2;
-    result.normal.z = x3;
+    result.pdf = prepared.pdf;
+    result.weight = x5;
+    result.normal.x = x2;
+    result.normal.y = x3;
+    result.normal.z = x4;
     result.uv.x = 0.0f;
     result.uv.y = 0.0f;
-    result.emits = true;
+    result.emits = b1;
     result.delta = true;
     return result;
 }
