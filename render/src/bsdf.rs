@@ -11,8 +11,8 @@ use etendue::{Frame, Mask, Real, Vec2, Warp, u32x8};
 const INV_PI: f64 = std::f64::consts::FRAC_1_PI;
 
 /// The eight numbers of a material, so that one transposition gathers eight lanes: roughness α along, η (3), k (3), roughness α across. A
-/// mirror has its reflectance in place of η, and k = 0; a coat its reflectance at normal incidence. The three low bits of the last number
-/// are the kind, and those of the first are 0, so that a roughness that is the same in all directions stays so.
+/// mirror has its reflectance in place of η, and k = 0; a coat its reflectances at normal and at grazing incidence. The three low bits of the
+/// last number are the kind, and those of the first are 0, so that a roughness that is the same in all directions stays so.
 pub type Finish = [f32; 8];
 
 // kind 0 is diffuse
@@ -34,7 +34,7 @@ pub fn finish(material: &Material) -> Finish {
     let smooth = Roughness::from(1.0);
     match *material {
         Material::Diffuse(_) | Material::Varying(_) => PLAIN,
-        Material::Glossy { specular, roughness, .. } => of(COAT, roughness, specular, [0.0; 3]),
+        Material::Glossy { specular, grazing, roughness, .. } => of(COAT, roughness, specular, grazing),
         Material::Mirror(reflectance) => of(MIRROR, smooth, reflectance, [0.0; 3]),
         Material::Conductor { eta, k, .. } if material.is_mirror() => of(METAL, smooth, eta, k),
         Material::Conductor { eta, k, roughness } => of(ROUGH, roughness, eta, k),
@@ -122,9 +122,10 @@ impl Metal {
         let mut fresnel = self.fresnel(cosine_of_schlick(weight));
         let mut diffuse = V8::default();
         if coats.any() {
-            fresnel = V8::blend(coats, self.eta.map(|f0| (one - f0).mul_add(weight, f0)), fresnel);
-            let through = one - schlick_of_diffuse(view.dot(normal));
-            let V8 { x, y, z } = self.eta.map(|f0| ((one - f0) * through).keep(coats));
+            fresnel = V8::blend(coats, self.between(|f0, f90| (f90 - f0).mul_add(weight, f0)), fresnel);
+            let away = schlick_of_diffuse(view.dot(normal));
+            let through = |f0: X8, f90: X8| (one - f90).mul_add(away, (one - f0) * (one - away)).keep(coats);
+            let V8 { x, y, z } = self.between(through);
             diffuse = V8::new(albedo.x * x, albedo.y * y, albedo.z * z);
         }
         let specular = (fresnel * reflection.albedo()).map(|part| part.keep(lanes));
@@ -142,13 +143,17 @@ impl Metal {
         let away = one - min(max(cos, X8::lit(0.0)), one);
         let square = away * away;
         let fifth = square * square * away;
-        self.eta.map(|f0| (one - f0).mul_add(fifth, f0))
+        self.between(|f0, f90| (f90 - f0).mul_add(fifth, f0))
+    }
+    /// A function of η and k, or of a coat's reflectances at normal and at grazing incidence, per channel.
+    #[inline(always)]
+    fn between(&self, of: impl Fn(X8, X8) -> X8) -> V8 {
+        V8::new(of(self.eta.x, self.k.x), of(self.eta.y, self.k.y), of(self.eta.z, self.k.z))
     }
     /// Reflectance of a smooth conductor for unpolarised light, per channel.
     #[inline]
     pub fn fresnel(&self, cos: X8) -> V8 {
-        let of = |eta, k| fresnel(cos, eta, k);
-        V8::new(of(self.eta.x, self.k.x), of(self.eta.y, self.k.y), of(self.eta.z, self.k.z))
+        self.between(|eta, k| fresnel(cos, eta, k))
     }
 }
 
@@ -454,8 +459,15 @@ mod tests {
     /// reflects no more light than it receives.
     #[test]
     fn coats_integrate() {
-        for (alpha, f0, albedo) in [(0.1_f32, 0.04_f32, 0.5_f32), (0.4, 0.04, 1.0), (1.0, 0.3, 0.2), (0.3, 0.9, 0.0)] {
-            let coat = Material::Glossy { diffuse: [albedo; 3], specular: [f0; 3], roughness: alpha.into() };
+        for (alpha, f0, f90, albedo) in [
+            (0.1_f32, 0.04_f32, 1.0_f32, 0.5_f32),
+            (0.4, 0.04, 1.0, 1.0),
+            (0.4, 0.004, 0.1, 1.0),
+            (1.0, 0.3, 1.0, 0.2),
+            (0.3, 0.9, 1.0, 0.0),
+        ] {
+            let (specular, grazing) = ([f0; 3], [f90; 3]);
+            let coat = Material::Glossy { diffuse: [albedo; 3], specular, grazing, roughness: alpha.into() };
             let metal = Metal::new([&finish(&coat); 8]);
             for (sin, tilt) in [(0.0_f32, 0.0_f32), (0.6, 0.0), (0.6, 0.5), (0.95, 0.3)] {
                 let normal = V8::new(X8::lit(0.0), X8::lit(0.0), X8::lit(1.0));
@@ -484,7 +496,7 @@ mod tests {
                 }
                 let count = f64::from(n) * f64::from(n);
                 let [sampled, above, grid, density] = [sampled, above, grid, density].map(|x| x / count);
-                let which = format!("α {alpha}, F₀ {f0}, albedo {albedo}, sin {sin}, tilt {tilt}");
+                let which = format!("α {alpha}, F₀ {f0}, F₉₀ {f90}, albedo {albedo}, sin {sin}, tilt {tilt}");
                 assert!((sampled - grid).abs() < 5e-3, "{which}: {sampled} sampled, {grid} on a grid");
                 assert!((above - density).abs() < 5e-3, "{which}: {above} above, {density} integrated");
                 assert!(sampled > 0.05 && sampled < 1.005, "{which}: {sampled}");

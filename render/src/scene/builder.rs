@@ -32,7 +32,7 @@ pub(super) struct Builder {
     pub(super) shapes: Vec<Shape>,
     pub(super) lamps: Lamps,
     pub(super) notes: Notes,
-    material_index: HashMap<[u32; 10], u32>,
+    material_index: HashMap<[u32; 13], u32>,
     /// Materials with holes: for each the index of the one without, and the mask.
     masks: BTreeMap<u32, (u32, Mask)>,
     objects: Vec<Object>,

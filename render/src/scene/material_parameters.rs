@@ -71,7 +71,7 @@ pub(super) fn read(
             reads.coat_is_ignored(params);
             let base = reads.color(&["reflectance"], 0.5, params, out)?;
             let eta = reads.eta(&["eta"], params, out)?;
-            reads.coated(base, Texture::number(reflectance_of(eta) as f32), 0.0, params, out)?
+            reads.coated(base, Coat::of(eta), 0.0, params, out)?
         }
         "plastic" | "uber" | "substrate" | "translucent" => {
             if params.given("opacity") | (kind == "translucent") {
@@ -83,8 +83,11 @@ pub(super) fn read(
             let default = if kind == "substrate" { 0.5 } else { 0.25 };
             let (base, coat) =
                 (reads.color(&["Kd"], default, params, out)?, reads.color(&["Ks"], default, params, out)?);
-            // Ks is a factor of a dielectric's reflectance, or for a substrate this itself
-            let coat = if kind == "substrate" { coat } else { coat.times(Texture::number(0.04)) };
+            // Ks is a factor of a dielectric's reflectance, or for a substrate that at normal incidence
+            let coat = match kind {
+                "substrate" => Coat { specular: coat, grazing: Texture::number(1.0) },
+                _ => Coat { specular: coat.clone().times(Texture::number(0.04)), grazing: coat },
+            };
             reads.coated(base, coat, 0.1, params, out)?
         }
         "disney" => {
@@ -120,7 +123,7 @@ pub(super) fn read(
             stand_in(out, params, "a coat over a diffuse surface");
             let base = reads.color(&["reflectance", "Kd"], 0.5, params, out)?;
             let eta = reads.eta(&["eta"], params, out)?;
-            let made = reads.coated(base, Texture::number(reflectance_of(eta) as f32), 0.0, params, out)?;
+            let made = reads.coated(base, Coat::of(eta), 0.0, params, out)?;
             params.ignore_all();
             made
         }
@@ -163,6 +166,19 @@ pub(super) fn read(
 fn reflectance_of(eta: f64) -> f64 {
     let ratio = (eta - 1.0) / (eta + 1.0);
     ratio * ratio
+}
+
+/// The reflectances of a coat at normal and at grazing incidence.
+struct Coat {
+    specular: Texture,
+    grazing: Texture,
+}
+
+impl Coat {
+    /// That of a dielectric.
+    fn of(eta: f64) -> Self {
+        Self { specular: Texture::number(reflectance_of(eta) as f32), grazing: Texture::number(1.0) }
+    }
 }
 
 /// Reads parameters of materials.
@@ -260,7 +276,7 @@ impl Reads<'_> {
     fn coated(
         &self,
         diffuse: Texture,
-        specular: Texture,
+        Coat { specular, grazing }: Coat,
         roughness: f32,
         params: &mut Params,
         out: &mut Builder,
@@ -271,7 +287,7 @@ impl Reads<'_> {
                 params.error(format!("its smooth coat becomes one of roughness α = {}", Roughness::LEAST))
             });
         }
-        Ok(out.vary(Varying::Glossy { diffuse, specular, roughness, turn: 0.0 }))
+        Ok(out.vary(Varying::Glossy { diffuse, specular, grazing, roughness, turn: 0.0 }))
     }
     fn conductor(
         &self,
@@ -324,7 +340,8 @@ impl Reads<'_> {
     }
     /// A rough metal with this reflectance at normal incidence.
     fn metal(&self, specular: Texture, roughness: [Texture; 2], out: &mut Builder) -> Material {
-        out.vary(Varying::Glossy { diffuse: Texture::number(0.0), specular, roughness, turn: 0.0 })
+        let [diffuse, grazing] = [0.0, 1.0].map(Texture::number);
+        out.vary(Varying::Glossy { diffuse, specular, grazing, roughness, turn: 0.0 })
     }
 }
 

@@ -19,12 +19,14 @@ pub enum Material {
         roughness: Roughness,
     },
     /// A rough surface over a diffuse one: f = (1 − F) diffuse/π + F D G₂/(4 cosθᵢ cosθₒ), with the GGX distribution and Schlick's
-    /// F = F₀ + (1 − F₀)(1 − cosθₕ)⁵ (glTF 2.0, appendix B).
+    /// F = F₀ + (F₉₀ − F₀)(1 − cosθₕ)⁵ (glTF 2.0, appendix B).
     Glossy {
         /// Albedo of the diffuse part, linear RGB.
         diffuse: [f32; 3],
         /// Reflectance F₀ of the rough part at normal incidence, linear RGB.
         specular: [f32; 3],
+        /// Reflectance F₉₀ of the rough part at grazing incidence, linear RGB.
+        grazing: [f32; 3],
         /// Roughness of the GGX distribution, at least [`Roughness::LEAST`] in both directions.
         roughness: Roughness,
     },
@@ -78,6 +80,8 @@ pub enum Varying {
         diffuse: Texture,
         /// Reflectance of the rough part at normal incidence.
         specular: Texture,
+        /// Reflectance of the rough part at grazing incidence.
+        grazing: Texture,
         /// Roughness α in the direction `turn`, and at right angles to it.
         roughness: [Texture; 2],
         /// As [`Roughness::turn`], in radians.
@@ -114,9 +118,11 @@ impl Varying {
     #[must_use]
     pub fn constant(&self) -> Option<Material> {
         let textures = match self {
-            Self::Diffuse(albedo) => [albedo; 4],
-            Self::Glossy { diffuse, specular, roughness: [along, across], .. } => [diffuse, specular, along, across],
-            Self::Metallic { base, metallic, roughness } => [base, metallic, roughness, roughness],
+            Self::Diffuse(albedo) => [albedo; 5],
+            Self::Glossy { diffuse, specular, grazing, roughness: [along, across], .. } => {
+                [diffuse, specular, grazing, along, across]
+            }
+            Self::Metallic { base, metallic, roughness } => [base, metallic, roughness, roughness, roughness],
         };
         textures.iter().all(|texture| texture.constant().is_some()).then(|| self.mean())
     }
@@ -127,16 +133,18 @@ impl Varying {
         let alpha = |x: f32| share(x).max(Roughness::LEAST);
         match self {
             Self::Diffuse(albedo) => Material::Diffuse(color(albedo)),
-            Self::Glossy { diffuse, specular, roughness, turn } => {
+            Self::Glossy { diffuse, specular, grazing, roughness, turn } => {
                 let [along, across] = roughness.each_ref().map(|texture| alpha(value(texture)[0]));
                 let roughness = Roughness { along, across, turn: *turn };
-                Material::Glossy { diffuse: color(diffuse), specular: color(specular), roughness }
+                let [diffuse, specular, grazing] = [diffuse, specular, grazing].map(color);
+                Material::Glossy { diffuse, specular, grazing, roughness }
             }
             Self::Metallic { base, metallic, roughness } => {
                 let (base, metallic, roughness) = (color(base), share(value(metallic)[0]), share(value(roughness)[0]));
                 Material::Glossy {
                     diffuse: base.map(|x| x * (1.0 - metallic)),
                     specular: base.map(|x| 0.04 + (x - 0.04) * metallic),
+                    grazing: [1.0; 3],
                     roughness: alpha(roughness * roughness).into(),
                 }
             }
@@ -174,19 +182,18 @@ impl Material {
         self
     }
     /// A key for hashing: equal materials have equal words.
-    pub(super) fn words(&self) -> [u32; 10] {
-        let of = |kind: u32, a: [f32; 3], b: [f32; 3], Roughness { along, across, turn }: Roughness| {
-            let [x, y, z] = a.map(f32::to_bits);
-            let [u, v, w] = b.map(f32::to_bits);
-            [kind, x, y, z, u, v, w, along.to_bits(), across.to_bits(), turn.to_bits()]
+    pub(super) fn words(&self) -> [u32; 13] {
+        let of = |kind: u32, colors: [[f32; 3]; 3], Roughness { along, across, turn }: Roughness| {
+            let [[a, b, c], [d, e, f], [g, h, i]] = colors.map(|color| color.map(f32::to_bits));
+            [kind, a, b, c, d, e, f, g, h, i, along.to_bits(), across.to_bits(), turn.to_bits()]
         };
-        let none = Roughness::from(0.0);
+        let (black, none) = ([0.0; 3], Roughness::from(0.0));
         match *self {
-            Self::Diffuse(albedo) => of(0, albedo, [0.0; 3], none),
-            Self::Mirror(reflectance) => of(1, reflectance, [0.0; 3], none),
-            Self::Conductor { eta, k, roughness } => of(2, eta, k, roughness),
-            Self::Glossy { diffuse, specular, roughness } => of(3, diffuse, specular, roughness),
-            Self::Varying(index) => [4, index, 0, 0, 0, 0, 0, 0, 0, 0],
+            Self::Diffuse(albedo) => of(0, [albedo, black, black], none),
+            Self::Mirror(reflectance) => of(1, [reflectance, black, black], none),
+            Self::Conductor { eta, k, roughness } => of(2, [eta, k, black], roughness),
+            Self::Glossy { diffuse, specular, grazing, roughness } => of(3, [diffuse, specular, grazing], roughness),
+            Self::Varying(index) => [4, index, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0],
         }
     }
 }

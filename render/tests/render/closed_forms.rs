@@ -472,12 +472,11 @@ fn coats_have_their_formula() {
 }
 
 fn coat_has_its_formula(shape: &str, along: V3, [a, b]: [f64; 2]) {
-    let (f0, albedo) = (0.04_f64, [0.8, 0.5, 0.2]);
-    let text = format!(
-        "Material \"coateddiffuse\" \"rgb reflectance\" [.8 .5 .2] \"float uroughness\" {} \"float vroughness\" {}\n",
-        a * a,
-        b * b
-    );
+    let albedo = [0.8, 0.5, 0.2];
+    let roughness = format!("\"float uroughness\" {} \"float vroughness\" {}\n", a * a, b * b);
+    // of plastic, Ks is a factor of the whole reflectance
+    let coated = format!("Material \"coateddiffuse\" \"rgb reflectance\" [.8 .5 .2] {roughness}");
+    let plastic = format!("Material \"plastic\" \"rgb Kd\" [.8 .5 .2] \"rgb Ks\" [.1 .1 .1] {roughness}");
     let view = unit([1.0, 5.0, 2.0]);
     for to in [[-1.0, 5.0, -2.0], [0.0, 1.0, 0.0], [-4.0, 1.0, 0.0], [0.5, 1.0, 3.0]] {
         let light = unit(to);
@@ -495,17 +494,19 @@ fn coat_has_its_formula(shape: &str, along: V3, [a, b]: [f64; 2]) {
             ((1.0 + (a * a * u + b * b * v) / (w[1] * w[1])).sqrt() - 1.0) / 2.0
         };
         let shadowing = 1.0 / (1.0 + lambda(light) + lambda(view));
-        let fresnel = f0 + (1.0 - f0) * (1.0 - dot(view, half)).powi(5);
-        let rough = fresnel * distribution * shadowing / (4.0 * i * o);
-        let world = narrow("1 5 2", &format!("{}{text}{shape}", sun(to)));
-        for &technique in Technique::value_variants() {
-            let (mean, _) = pixel(&world, technique, 8);
-            for (k, albedo) in albedo.into_iter().enumerate() {
-                let truth = ((1.0 - fresnel) * albedo / PI + rough) * i;
-                assert!(
-                    (mean[k] - truth).abs() <= 3e-5 * truth,
-                    "{technique:?}, α {a} and {b}, {to:?}: {mean:?}, {truth} in channel {k}"
-                );
+        for (text, factor) in [(&coated, 1.0), (&plastic, 0.1)] {
+            let fresnel = factor * (0.04 + 0.96 * (1.0 - dot(view, half)).powi(5));
+            let rough = fresnel * distribution * shadowing / (4.0 * i * o);
+            let world = narrow("1 5 2", &format!("{}{text}{shape}", sun(to)));
+            for &technique in Technique::value_variants() {
+                let (mean, _) = pixel(&world, technique, 8);
+                for (k, albedo) in albedo.into_iter().enumerate() {
+                    let truth = ((1.0 - fresnel) * albedo / PI + rough) * i;
+                    assert!(
+                        (mean[k] - truth).abs() <= 3e-5 * truth,
+                        "{technique:?}, {text}, {to:?}: {mean:?}, {truth} in channel {k}"
+                    );
+                }
             }
         }
     }

@@ -88,7 +88,7 @@ pub fn bodies(scene: &Scene) -> Vec<Body> {
         Material::Conductor { eta, k, roughness } => {
             Finish::Metal { eta: eta[CHANNEL].into(), k: k[CHANNEL].into(), alpha: roughness.along.into() }
         }
-        Material::Glossy { diffuse, specular, roughness } => Finish::Coat {
+        Material::Glossy { diffuse, specular, roughness, .. } => Finish::Coat {
             albedo: diffuse[CHANNEL].into(),
             reflectance: specular[CHANNEL].into(),
             alpha: roughness.along.into(),

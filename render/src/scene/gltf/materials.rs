@@ -138,7 +138,8 @@ impl Reader<'_, '_> {
                 }
                 let specular = self.textured(specular, map, Encoding::Srgb)?;
                 let alpha = Texture::number((1.0 - smooth) * (1.0 - smooth));
-                Varying::Glossy { diffuse, specular, roughness: [alpha.clone(), alpha], turn: 0.0 }
+                let grazing = Texture::number(1.0);
+                Varying::Glossy { diffuse, specular, grazing, roughness: [alpha.clone(), alpha], turn: 0.0 }
             }
             None => self.metallic(material)?,
         };
@@ -218,7 +219,7 @@ impl Reader<'_, '_> {
             return Err(self.error(&format!("ior: must be 0, or finite and at least 1, not {ior}")));
         }
         let ratio = (ior - 1.0) / (ior + 1.0);
-        let mut at_normal = Texture::number(ratio * ratio);
+        let (mut at_normal, mut grazing) = (Texture::number(ratio * ratio), Texture::number(1.0));
         if let Some(specular) = specular {
             let [factor] = self.shares("specularFactor", [specular.specular_factor.0]);
             let color = specular.specular_color_factor.0.map(|x| if x > 0.0 { x.min(f32::MAX) } else { 0.0 });
@@ -229,6 +230,7 @@ impl Reader<'_, '_> {
                 return Ok(Varying::Diffuse(base));
             }
             at_normal = Texture::Constant(color.map(|x| (x * ratio * ratio).min(1.0) * factor));
+            grazing = Texture::mix(Texture::number(factor), grazing, metallic.clone());
         }
         let alpha = roughness.clone().times(roughness);
         let (strength, turn) = grain.unwrap_or((0.0, 0.0));
@@ -239,6 +241,7 @@ impl Reader<'_, '_> {
         Ok(Varying::Glossy {
             diffuse: base.clone().times(metallic.clone().inverse()),
             specular: Texture::mix(at_normal, base, metallic),
+            grazing,
             roughness: [along, alpha],
             turn,
         })

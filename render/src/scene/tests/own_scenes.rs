@@ -38,7 +38,7 @@ fn textures_are_read_and_combined() {
     assert_eq!(material(constant).0, Material::Diffuse([0.1, 0.2, 0.3]));
     let rough = "Texture \"r\" \"float\" \"checkerboard\" \"float tex1\" 0.25 \"float tex2\" 1\n\
         Material \"conductor\" \"spectrum reflectance\" [300 .5 800 .5] \"texture roughness\" \"r\"";
-    let Material::Glossy { diffuse, specular, roughness } = varied(rough, [0.5, 0.5]) else { panic!() };
+    let Material::Glossy { diffuse, specular, roughness, .. } = varied(rough, [0.5, 0.5]) else { panic!() };
     assert!(diffuse == [0.0; 3] && specular.iter().all(|x| (x - 0.5).abs() < 1e-6) && roughness == 0.5.into());
     let unknown = lit("Texture \"w\" \"float\" \"windy\" \"float x\" 1\nTexture \"v\" \"float\" \"windy\"");
     assert_eq!(warnings(&unknown).len(), 1);
@@ -270,15 +270,15 @@ fn attributes_imports_and_media() {
 #[test]
 fn materials_become_what_direct_light_shows() {
     let coat = |text: &str| match material(text).0 {
-        Material::Glossy { diffuse, specular, roughness } => (diffuse, specular, roughness),
+        Material::Glossy { diffuse, specular, grazing, roughness } => ([diffuse, grazing], specular, roughness),
         other => panic!("{text}: {other:?}"),
     };
     let near = |a: [f32; 3], b: f32| a.iter().all(|x| (x - b).abs() < 1e-6);
-    let (diffuse, specular, roughness) = coat("Material \"coateddiffuse\" \"float roughness\" 0.25");
-    assert!(near(diffuse, 0.5) && near(specular, 0.04) && roughness == 0.5.into());
+    let ([diffuse, grazing], specular, roughness) = coat("Material \"coateddiffuse\" \"float roughness\" 0.25");
+    assert!(near(diffuse, 0.5) && near(grazing, 1.0) && near(specular, 0.04) && roughness == 0.5.into());
     assert_eq!(coat("Material \"coateddiffuse\"").2, Roughness::LEAST.into());
-    let (diffuse, specular, _) = coat("Material \"plastic\" \"rgb Kd\" [.3 .3 .3] \"rgb Ks\" [.5 .5 .5]");
-    assert!(near(diffuse, 0.3) && near(specular, 0.02));
+    let ([diffuse, grazing], specular, _) = coat("Material \"plastic\" \"rgb Kd\" [.3 .3 .3] \"rgb Ks\" [.5 .5 .5]");
+    assert!(near(diffuse, 0.3) && near(grazing, 0.5) && near(specular, 0.02));
     let conductor = |text: &str| match material(text).0 {
         Material::Conductor { eta, k, roughness } => (eta, k, roughness),
         other => panic!("{text}: {other:?}"),

@@ -39,11 +39,11 @@ fn near(found: [f32; 3], wanted: [f32; 3]) {
 #[test]
 fn constant_materials() {
     // white, metallic and rough
-    let Material::Glossy { diffuse, specular, roughness } = material(&Asset::of_triangle()) else { panic!() };
+    let Material::Glossy { diffuse, specular, roughness, .. } = material(&Asset::of_triangle()) else { panic!() };
     assert_eq!((diffuse, specular, roughness), ([0.0; 3], [1.0; 3], 1.0.into()));
     let surface = json!({"baseColorFactor": [0.2, 0.4, 0.8, 1], "metallicFactor": 0, "roughnessFactor": 0.5});
     let asset = Asset::of_material(json!({"pbrMetallicRoughness": surface}));
-    let Material::Glossy { diffuse, specular, roughness } = material(&asset) else { panic!() };
+    let Material::Glossy { diffuse, specular, roughness, .. } = material(&asset) else { panic!() };
     near(diffuse, [0.2, 0.4, 0.8]);
     near(specular, [0.04; 3]);
     assert_eq!(roughness, 0.25.into());
@@ -288,11 +288,13 @@ fn indices_of_refraction_and_speculars() {
             json!({"metallicFactor": metallic, "roughnessFactor": 0.5, "baseColorFactor": [0.5, 0.5, 0.5, 1]});
         material(&Asset::of_material(json!({"pbrMetallicRoughness": surface, "extensions": extensions})))
     };
-    let Material::Glossy { diffuse, specular, roughness } = of(json!({"KHR_materials_ior": {"ior": 2.0}}), 0.0) else {
+    let Material::Glossy { diffuse, specular, grazing, roughness } =
+        of(json!({"KHR_materials_ior": {"ior": 2.0}}), 0.0)
+    else {
         panic!()
     };
     near(specular, [1.0 / 9.0; 3]);
-    assert_eq!((diffuse, roughness), ([0.5; 3], 0.25.into()));
+    assert_eq!((diffuse, grazing, roughness), ([0.5; 3], [1.0; 3], 0.25.into()));
     let Material::Glossy { diffuse, specular, .. } = of(json!({"KHR_materials_ior": {"ior": 2.0}}), 0.5) else {
         panic!()
     };
@@ -301,8 +303,13 @@ fn indices_of_refraction_and_speculars() {
     let none = json!({"KHR_materials_specular": {"specularFactor": 0}});
     assert_eq!(of(none, 0.0), Material::Diffuse([0.5; 3]));
     let tinted = json!({"KHR_materials_specular": {"specularFactor": 0.5, "specularColorFactor": [1, 0, 50]}});
-    let Material::Glossy { specular, .. } = of(tinted, 0.0) else { panic!() };
+    let Material::Glossy { specular, grazing, .. } = of(tinted.clone(), 0.0) else { panic!() };
     near(specular, [0.02, 0.0, 0.5]);
+    near(grazing, [0.5; 3]);
+    // a metal reflects all at grazing incidence
+    let Material::Glossy { specular, grazing, .. } = of(tinted, 0.75) else { panic!() };
+    near(specular, [0.38, 0.375, 0.5]);
+    near(grazing, [0.875; 3]);
     let asset = Asset::of_material(json!({"extensions": {"KHR_materials_ior": {"ior": 0.5}}}));
     assert_eq!(asset.error(), "a.glb: material 0: ior: must be 0, or finite and at least 1, not 0.5");
 }
@@ -318,7 +325,7 @@ fn anisotropic_roughness() {
     };
     let brushed = of(json!({"anisotropyStrength": 0.5, "anisotropyRotation": 0.75}));
     let scene = brushed.read();
-    let Material::Glossy { diffuse, specular, roughness } = scene.materials[scene.triangle_materials[0] as usize]
+    let Material::Glossy { diffuse, specular, roughness, .. } = scene.materials[scene.triangle_materials[0] as usize]
     else {
         panic!()
     };
@@ -343,7 +350,7 @@ fn specular_and_glossiness() {
         "diffuseFactor": [0.5, 0.5, 0.5, 1], "diffuseTexture": {"index": 0},
         "specularFactor": [0.25, 0.5, 1], "glossinessFactor": 0.5,
     }}}));
-    let Varying::Glossy { diffuse, specular, roughness: [along, across], turn: 0.0 } = varying(&asset) else {
+    let Varying::Glossy { diffuse, specular, roughness: [along, across], turn: 0.0, .. } = varying(&asset) else {
         panic!()
     };
     assert_eq!(diffuse.at([0.25, 0.25]), [0.5, 0.0, 0.0]);
