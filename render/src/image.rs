@@ -157,18 +157,23 @@ fn decode_png(bytes: &[u8], path: &Path) -> Result<Picture, FileError> {
     Ok(Picture { width, height, radiance, variance: None })
 }
 
-/// Reads a texture from the bytes of a PNG, JPEG, TGA, OpenEXR or Radiance HDR file that messages call `path`.
+/// Reads a texture from the bytes of a PNG, JPEG, TGA, OpenEXR or Radiance HDR file that messages call `path`. Negative values become 0;
+/// also returns the number of texels that have some.
 ///
 /// # Errors
-/// Fails if the bytes are damaged or of another format, or hold more than 2²⁸ pixels.
-pub fn read_texels(path: &Path, bytes: &[u8], encoding: Encoding) -> Result<Texels, FileError> {
-    texels::from_bytes(path, bytes, encoding).unwrap_or_else(|| {
-        let picture = decode(path, bytes)?;
-        // no NaN either
-        let finite = |x: f32| if x > 0.0 { x.min(f32::MAX) } else { 0.0 };
-        let colors = Colors::Float(picture.radiance.iter().map(|rgb| rgb.map(finite)).collect());
-        Ok(Texels { width: picture.width, height: picture.height, colors, alpha: None })
-    })
+/// Fails if the bytes are damaged or of another format, hold more than 2²⁸ pixels, or a texel that is not finite.
+pub fn read_texels(path: &Path, bytes: &[u8], encoding: Encoding) -> Result<(Texels, usize), FileError> {
+    if let Some(texels) = texels::from_bytes(path, bytes, encoding) {
+        return texels.map(|texels| (texels, 0));
+    }
+    let Picture { width, height, radiance, .. } = decode(path, bytes)?;
+    if let Some(i) = radiance.iter().position(|rgb| !rgb.iter().all(|x| x.is_finite())) {
+        let (x, y, texel) = (i % width, i / width, radiance[i]);
+        return Err(failed(path, format!("texel ({x}, {y}) is {texel:?}: must be finite")));
+    }
+    let negative = radiance.iter().filter(|rgb| rgb.iter().any(|&x| x < 0.0)).count();
+    let colors = Colors::Float(radiance.iter().map(|rgb| rgb.map(|x| x.max(0.0))).collect());
+    Ok((Texels { width, height, colors, alpha: None }, negative))
 }
 
 impl From<&Film> for Picture {

@@ -48,7 +48,7 @@ pub fn image(bytes: &[u8]) {
     // textures keep bytes, and may be of other formats
     for name in ["fuzz.png", "fuzz.tga"] {
         match images::read_texels(Path::new(name), bytes, Encoding::Srgb) {
-            Ok(texels) => {
+            Ok((texels, _)) => {
                 let texture = Picture {
                     texels: texels.into(),
                     mapping: Mapping::IDENTITY,

@@ -116,7 +116,8 @@ impl Textures {
         };
         let bilinear = params.text("filter")?.as_deref() != Some("point");
         let _ = (params.float("maxanisotropy")?, params.flag("trilinear")?);
-        let scale = params.float("scale")?.unwrap_or(1.0) as f32;
+        let scale = params.float("scale")?.unwrap_or(1.0);
+        let scale = finite("scale", scale, params)?;
         let invert = params.flag("invert")?.unwrap_or(false);
         // pbrt's (0, 0) is the lower left corner
         let mapping = mapping(params, notes)?.then(&Mapping([[1.0, 0.0, 0.0], [0.0, -1.0, 1.0]]));
@@ -136,7 +137,7 @@ impl Textures {
                 let failed = |why: String| params.error(format!("{}: {why}", path.display()));
                 let bytes = read_file(&path).map_err(|error| failed(format!("cannot read: {error}")))?;
                 let texels = read_texels(&path, &bytes, encoding).map_err(|error| params.error(error.to_string()))?;
-                let texels = Arc::new(texels);
+                let texels = Arc::new(sound(texels, &name, |what| notes.warn(params.error(what))));
                 self.images.insert(key, Arc::clone(&texels));
                 texels
             }
@@ -203,7 +204,8 @@ impl Textures {
     /// A texture or a constant for a number.
     pub(super) fn number(&self, name: &str, params: &mut Params) -> Result<Option<Texture>, Message> {
         if !params.is_texture(name) {
-            return Ok(params.float(name)?.map(|x| Texture::number(x as f32)));
+            let number = params.float(name)?.map(|x| finite(name, x, params)).transpose()?;
+            return Ok(number.map(Texture::number));
         }
         let Some(Color::Texture(texture)) = params.color(name, &|_| PathBuf::new())? else { return Ok(None) };
         let unknown = || params.error(format!("{name:?}: no float Texture {:?} precedes this", shortened(&texture)));
@@ -223,6 +225,20 @@ impl Textures {
     }
 }
 
+/// The texels of an image that messages call `name`, with a warning if some were negative.
+pub(super) fn sound((texels, negative): (Texels, usize), name: &str, warn: impl FnOnce(String)) -> Texels {
+    if negative > 0 {
+        warn(format!("{}: negative values in {negative} texel(s) are replaced by 0", shortened(name)));
+    }
+    texels
+}
+
+/// A number that is finite in f32.
+fn finite(name: &str, x: f64, params: &Params) -> Result<f32, Message> {
+    let wrong = || params.error(format!("{name:?}: must be finite in f32, not {}", shown(x)));
+    Some(x as f32).filter(|x| x.is_finite()).ok_or_else(wrong)
+}
+
 /// The mapping of a texture: "uv", or as if it were that.
 fn mapping(params: &mut Params, notes: &mut Notes) -> Result<Mapping, Message> {
     if let Some(kind) = params.text("mapping")?.filter(|kind| kind != "uv") {
@@ -233,12 +249,8 @@ fn mapping(params: &mut Params, notes: &mut Notes) -> Result<Mapping, Message> {
         notes.stand_in(&what, || params.error(&what));
     }
     let mut number = |name: &str, default: f64| {
-        let x = params.float(name)?.unwrap_or(default) as f32;
-        if x.is_finite() {
-            Ok(x)
-        } else {
-            Err(params.error(format!("{name:?}: must be finite in f32, not {}", shown(x.into()))))
-        }
+        let x = params.float(name)?.unwrap_or(default);
+        finite(name, x, params)
     };
     let (us, vs) = (number("uscale", 1.0)?, number("vscale", 1.0)?);
     let (ud, vd) = (number("udelta", 0.0)?, number("vdelta", 0.0)?);

@@ -6,6 +6,7 @@ use super::super::lights::Emission;
 use super::super::materials::Varying;
 use super::super::message::Message;
 use super::super::params::{MOST_RADIANCE, brightness, rounded};
+use super::super::textures::sound;
 use super::source::Source;
 use crate::image::{Encoding, read_texels};
 use crate::texture::{Mapping, Mask, Picture, Texels, Texture, Wrap};
@@ -373,7 +374,7 @@ impl Reader<'_, '_> {
             return Ok(texels.clone());
         }
         let item = format!("image {index}");
-        let texels = match (&image.uri, image.buffer_view) {
+        let read = match (&image.uri, image.buffer_view) {
             (Some(uri), _) => {
                 let (path, bytes) = source.open(uri, &item)?;
                 read_texels(&path, &bytes, encoding)
@@ -381,7 +382,8 @@ impl Reader<'_, '_> {
             (None, Some(view)) => read_texels(&PathBuf::from(&item), source.view(view, &item)?.bytes, encoding),
             (None, None) => return Err(source.message(format!("{item}: has neither a URI nor a bufferView"))),
         };
-        let texels = Arc::new(texels.map_err(|error| source.message(error.to_string()))?);
+        let read = read.map_err(|error| source.message(error.to_string()))?;
+        let texels = Arc::new(sound(read, &item, |what| self.out.notes.warn(source.message(what))));
         self.images.insert(key, texels.clone());
         Ok(texels)
     }

@@ -107,6 +107,34 @@ fn powers_are_those_of_pictures() {
     assert!((0..3).all(|k| (shown[k] - mean[k]).abs() < 1e-6), "{shown:?}, {mean:?}");
 }
 
+/// Textures of reflectance, roughness and opacity name what no surface can have, as lights do.
+#[test]
+fn faulty_textures_are_named() {
+    let folder = Scratch::new("textures");
+    for (name, x) in [("nan.exr", f32::NAN), ("infinite.exr", f32::INFINITY), ("negative.exr", -0.5)] {
+        let texel = |c: usize, r: usize| if (c, r) == (1, 0) { (x, 1.0, 0.5) } else { (0.25, 1.0, 0.5) };
+        write_rgb_file(folder.path.join(name), 2, 2, texel).unwrap();
+    }
+    for (value, user) in [
+        ("spectrum", "Material \"diffuse\" \"texture reflectance\" \"t\""),
+        ("float", "Material \"conductor\" \"texture roughness\" \"t\""),
+        ("float", "Attribute \"shape\" \"texture alpha\" \"t\""),
+    ] {
+        let read = |name: &str| {
+            let texture = format!("Texture \"t\" \"{value}\" \"imagemap\" \"string filename\" \"{name}\"");
+            parse(&world(&format!("LightSource \"point\"\n{texture}\n{user}\n{QUAD}")), "a.pbrt", &folder.path)
+        };
+        for (name, what) in [("nan.exr", "[NaN, 1.0, 0.5]"), ("infinite.exr", "[inf, 1.0, 0.5]")] {
+            let error = read(name).unwrap_err().to_string();
+            assert!(error.starts_with("a.pbrt:3: Texture \"t\": "), "{error}");
+            assert!(error.contains(&format!("{name}: texel (1, 0) is {what}: must be finite")), "{error}");
+        }
+        let found = warnings(&read("negative.exr").unwrap());
+        let wanted = "a.pbrt:3: Texture \"t\": negative.exr: negative values in 1 texel(s) are replaced by 0";
+        assert_eq!(found, [wanted], "{user}");
+    }
+}
+
 /// What shows only dark texels is an ordinary surface.
 #[test]
 fn dark_parts_are_no_lights() {
