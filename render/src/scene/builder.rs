@@ -7,7 +7,7 @@ use super::lights::{DeltaLight, Emission};
 use super::materials::{Material, Varying};
 use super::message::{Message, Notes};
 use super::shape_attributes::ShapeAttributes;
-use super::transform::{Transform, add, cross, dot, length, scaled, sub};
+use super::transform::{Transform, add, cross, dot, length, sub};
 use super::vertices::{Vertex, Vertices};
 use crate::geometry::{Affine, Geometry, Instance, bounds_of};
 use crate::intensity::Intensity;
@@ -413,9 +413,7 @@ impl Builder {
         let least = FLAT * length(flat);
         let is_smooth = has_normals && normals.iter().any(|n| dot(*n, flat).abs() < least);
         if is_smooth || self.varies(surface.material) {
-            // on the side of the first one
-            let side = |n: [f64; 3]| round(if dot(n, normals[0]) < 0.0 { scaled(n, -1.0) } else { n });
-            let smooth = [side(normals[0]), side(normals[1]), side(normals[2])];
+            let smooth = [round(normals[0]), round(normals[1]), round(normals[2])];
             let single = |[u, v]: [f64; 2]| [u as f32, v as f32];
             self.details.of_triangles.resize(self.triangles.len(), Details::NONE);
             self.details.of_triangles.push(self.details.corners.len() as u32);

@@ -429,6 +429,14 @@ fn smooth_normals_are_interpolated() {
         let cos = dot(unit(to), smooth);
         exactly(&narrow("1 5 2", &format!("{}{surface}", sun(to))), [cos; 3]);
     }
+    // more than 90° apart, as those of a smooth cube or octahedron are
+    let apart: [V3; 3] = [[-0.98, 0.196, 0.0], [0.7, 0.3, -0.6], [0.2, 0.2, 0.95]];
+    let text: Vec<_> = apart.iter().flatten().map(f64::to_string).collect();
+    let bent = surface.replace(&list.join(" "), &text.join(" "));
+    let units = apart.map(unit);
+    assert!(dot(units[0], units[1]) < -0.5 && dot(units[0], units[2]) < 0.0);
+    let mixed = unit(std::array::from_fn(|k| (0..3).map(|i| w[i] * units[i][k]).sum()));
+    exactly(&narrow("1 5 2", &format!("{}{bent}", sun([0.0, 1.0, 0.0]))), [mixed[1]; 3]);
     // whichever way the normals point in the file, and from below
     let turned: Vec<_> = normals.iter().flatten().map(|x| (-x).to_string()).collect();
     let turned = surface.replace(&list.join(" "), &turned.join(" "));

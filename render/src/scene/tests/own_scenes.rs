@@ -190,10 +190,10 @@ fn triangles_keep_what_their_materials_need() {
     assert_eq!(scene.details.of_triangles, [Details::NONE, 0, 1]);
     assert_eq!(scene.details.corners[0].uvs, [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]);
     assert_eq!(scene.details.corners[0].normals, [[0.0; 3]; 3]);
-    // pbrt's coordinates of a triangle without any; normals are of length 1, and on one side
+    // pbrt's coordinates of a triangle without any; normals are of length 1, and as they are given
     assert_eq!(scene.details.corners[1].uvs, [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]]);
     let half = std::f32::consts::FRAC_1_SQRT_2;
-    assert_eq!(scene.details.corners[1].normals, [[0.0, 0.0, 1.0], [0.0, half, half], [-half, 0.0, half]]);
+    assert_eq!(scene.details.corners[1].normals, [[0.0, 0.0, 1.0], [0.0, half, half], [half, 0.0, -half]]);
     let later = lit(&format!("{}{}", mesh(bent, ""), mesh("", "")));
     assert_eq!(later.details.of_triangles, [0, Details::NONE]);
     // normals turn as planes do, not as points
