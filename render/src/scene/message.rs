@@ -65,6 +65,11 @@ impl Place {
     pub(super) fn message(&self, text: impl Into<String>) -> Message {
         Message { file: self.file.to_string(), line: self.line, text: text.into() }
     }
+
+    /// The place as a message about a line of this file calls it.
+    pub(super) fn seen_from(&self, file: &str) -> String {
+        if *self.file == *file { format!("line {}", self.line) } else { format!("{}:{}", self.file, self.line) }
+    }
 }
 
 /// A number as a message shows it: with an exponent if it would take many digits otherwise.

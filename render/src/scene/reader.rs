@@ -223,10 +223,16 @@ impl Reader<'_> {
                 }
                 self.saved.push((self.state.clone(), place));
             }
-            "AttributeEnd" | "TransformEnd" => match self.saved.pop() {
-                Some((state, _)) => self.state = state,
-                None => return Err(place.message(format!("{word} has no matching Begin"))),
-            },
+            "AttributeEnd" | "TransformEnd" => {
+                if let Some(open) = self.open.as_ref().filter(|open| self.saved.len() == open.depth + 1) {
+                    let at = open.place.seen_from(&place.file);
+                    return Err(place.message(format!("{word}: the ObjectBegin of {at} is not closed")));
+                }
+                match self.saved.pop() {
+                    Some((state, _)) => self.state = state,
+                    None => return Err(place.message(format!("{word} has no matching Begin"))),
+                }
+            }
             "Include" => {
                 self.include(&place, lexer, dir)?;
                 // parameters of the last directive of the file, such as a medium, may go on after it
@@ -240,16 +246,19 @@ impl Reader<'_> {
             "Import" => {
                 let (state, depth) = (self.state.clone(), self.saved.len());
                 self.include(&place, lexer, dir)?;
-                if self.saved.len() != depth {
-                    return Err(place.message("Import: the file does not close what it opens"));
+                if let Some((_, opened)) = self.saved.get(depth) {
+                    return Err(opened.message("Import: the file does not close what this line opens"));
+                }
+                if self.saved.len() < depth {
+                    return Err(place.message("Import: the file closes more than it opens"));
                 }
                 self.state = state;
             }
             "ObjectBegin" => {
                 let name = lexer.text("a name")?;
                 if let Some(open) = &self.open {
-                    let at = open.place.line;
-                    return Err(place.message(format!("ObjectBegin: the one of line {at} is not closed")));
+                    let at = open.place.seen_from(&place.file);
+                    return Err(place.message(format!("ObjectBegin: the one of {at} is not closed")));
                 }
                 let before = self.out.begin_object();
                 self.open = Some(Open { name, place: place.clone(), depth: self.saved.len(), before });
@@ -259,9 +268,14 @@ impl Reader<'_> {
                 let Some(open) = self.open.take() else {
                     return Err(place.message("ObjectEnd has no matching ObjectBegin"));
                 };
-                match self.saved.pop() {
-                    Some((state, _)) if self.saved.len() == open.depth => self.state = state,
-                    _ => return Err(place.message("ObjectEnd: an AttributeBegin within the object is not closed")),
+                if let Some((_, begun)) = self.saved.get(open.depth + 1..).and_then(<[_]>::last) {
+                    let at = begun.seen_from(&place.file);
+                    return Err(
+                        place.message(format!("ObjectEnd: the AttributeBegin or TransformBegin of {at} is not closed"))
+                    );
+                }
+                if let Some((state, _)) = self.saved.pop() {
+                    self.state = state;
                 }
                 let object = self.out.end_object(open.before);
                 self.objects.insert(open.name, object);

@@ -252,7 +252,15 @@ fn attributes_imports_and_media() {
     let scene = read(&format!("Import \"in.pbrt\" {TRIANGLE}")).unwrap();
     assert_eq!([scene.triangles[0][0][0], scene.triangles[1][0][0]], [1.0, 0.0]);
     assert!(scene.materials[scene.triangle_materials[1] as usize] == Material::Diffuse([0.5; 3]));
-    assert!(read("Import \"open.pbrt\"").unwrap_err().to_string().contains("does not close what it opens"));
+    dir.write("closed.pbrt", b"AttributeEnd");
+    for (text, what) in [
+        ("Import \"open.pbrt\"", "open.pbrt:1: Import: the file does not close what this line opens"),
+        ("AttributeBegin Import \"closed.pbrt\"", "a.pbrt:2: Import: the file closes more than it opens"),
+        ("ObjectBegin \"a\" Include \"closed.pbrt\"", "AttributeEnd: the ObjectBegin of a.pbrt:2 is not closed"),
+    ] {
+        let error = read(text).unwrap_err().to_string();
+        assert!(error.contains(what), "{error}");
+    }
     let scene = lit(
         "Attribute \"shape\" \"float radius\" 3 AttributeBegin Attribute \"shape\" \"float radius\" 2 Shape \"sphere\"\n\
          Shape \"sphere\" \"float radius\" 7 AttributeEnd Shape \"sphere\" MediumInterface \"a\" \"b\" MakeNamedMedium \"a\" \"string type\" \"cloud\"\n\
