@@ -1,8 +1,9 @@
 //! Intensities of point lights that differ by direction, looked up in packets.
 
 use crate::packet::{V8, X8, select};
-use etendue::Vec3;
 use etendue::light::{EnvironmentMap, ImageEnvironment, Profile, ProfileError, Projector};
+use etendue::{Real, Vec3};
+use std::f64::consts::TAU;
 
 /// Relative radiant intensities by direction in the space of the light, whose greatest is 1. They all are finite and at least 0.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,6 +38,13 @@ pub enum Intensity {
         width: usize,
         /// Texels row by row, linear RGB.
         texels: Vec<[f32; 3]>,
+    },
+    /// A cone about +z that falls off by the square of a linear step of the cosine, as glTF suggests.
+    Cone {
+        /// 1 − cosθ of the angle θ up to which the intensity is 1.
+        inner: f32,
+        /// 1 − cosθ of the angle from which on it is 0; at least `inner`.
+        outer: f32,
     },
 }
 
@@ -78,6 +86,15 @@ impl Intensity {
                 let channel = |k: usize| select(inside, X8::from(each.map(|texel| texel[k])), X8::splat(0.0));
                 Vec3::new(channel(0), channel(1), channel(2))
             }
+            Self::Cone { inner, outer } => {
+                // 1 − cosθ, which is precise for narrow cones
+                let above = w.x.mul_add(w.x, w.y * w.y) / (X8::splat(1.0) + w.z.abs());
+                let away = select(w.z.lt(X8::splat(0.0)), X8::splat(1.0) - w.z, above);
+                // a step where both angles are equal
+                let width = X8::splat((outer - inner).max(f32::MIN_POSITIVE));
+                let t = ((X8::splat(*outer) - away) / width).clamped(X8::splat(0.0), X8::splat(1.0));
+                Vec3::new(t * t, t * t, t * t)
+            }
         }
     }
     /// ∫I dω of each channel.
@@ -102,6 +119,8 @@ impl Intensity {
                 }
                 flux
             }
+            // the mean of t² over t is a third
+            Self::Cone { inner, outer } => [TAU / 3.0 * (2.0 * f64::from(*inner) + f64::from(*outer)); 3],
         }
     }
     /// Cosine of an angle to +z from which on it is dark; −1 if it may shine in all directions.
@@ -112,6 +131,7 @@ impl Intensity {
             }
             Self::Sphere { .. } => -1.0,
             Self::Projected { projector, .. } => projector.cos_cone(),
+            Self::Cone { outer, .. } => (1.0 - outer).next_down(),
         }
     }
 }

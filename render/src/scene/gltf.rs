@@ -56,7 +56,7 @@ pub(super) fn read(bytes: &[u8], file: &str, folder: Option<&Path>) -> Result<Sc
     }
     let mut out = Builder::default();
     let mut materials = Materials::default();
-    let mut delta_lights = Vec::new();
+    let (mut delta_lights, mut intensities) = (Vec::new(), Vec::new());
     let mut camera = None;
     if !root.animations.is_empty() {
         out.notes.stand_in("animations", || source.message("animations are ignored"));
@@ -107,7 +107,7 @@ pub(super) fn read(bytes: &[u8], file: &str, folder: Option<&Path>) -> Result<Sc
             camera = Some(cameras::read(&source, described, index, &transform)?);
         }
         if let Some(light) = node.extensions.as_ref().and_then(|all| all.khr_lights_punctual.as_ref()) {
-            match lights::read(&source, light.light, index, &transform)? {
+            match lights::read(&source, light.light, index, &transform, &mut intensities)? {
                 Some(light) => delta_lights.push(light),
                 None => {
                     out.notes.warn_once("dark", || source.message(format!("node {index}: its light emits nothing")))
@@ -131,7 +131,6 @@ pub(super) fn read(bytes: &[u8], file: &str, folder: Option<&Path>) -> Result<Sc
     });
     let message = |text: &str| source.message(text);
     let inputs = source.inputs();
-    let rest =
-        Rest { camera, film, pixel_samples: 16, delta_lights, intensities: Vec::new(), environment: None, inputs };
+    let rest = Rest { camera, film, pixel_samples: 16, delta_lights, intensities, environment: None, inputs };
     Ok(out.scene(file, rest, message))
 }

@@ -281,7 +281,7 @@ fn constant(
         return Ok(Source::Delta(DeltaLight::Point { position, intensity: colour }));
     }
     let to = point("to", [0.0, 0.0, 1.0])?;
-    let axis = unit(ctm.vector(sub(to, from)));
+    let axis = ctm.direction(sub(to, from), 1e-12);
     let axis = axis.ok_or_else(|| params.error(format!("\"from\" {from:?} and \"to\" {to:?} define no direction")))?;
     if kind == "distant" {
         let direction = axis.map(|x| -x as f32);

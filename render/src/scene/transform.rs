@@ -112,6 +112,15 @@ impl Transform {
         [dot(x, v), dot(y, v), dot(z, v)]
     }
 
+    /// The unit vector along the image of a vector; `None` if that is so short, at most `least` times as long as it might be, that it may be
+    /// rounding noise.
+    pub(super) fn direction(&self, v: [f64; 3], least: f64) -> Option<[f64; 3]> {
+        let greatest = |numbers: &[f64]| numbers.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        let image = self.vector(v);
+        let most = greatest(self.linear.as_flattened()) * greatest(&v);
+        if greatest(&image) > least * most { unit(image) } else { None }
+    }
+
     /// The determinant of the linear part: negative if the map swaps handedness.
     pub(super) fn determinant(&self) -> f64 {
         dot(self.linear[0], cross(self.linear[1], self.linear[2]))

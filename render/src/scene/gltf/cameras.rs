@@ -74,7 +74,7 @@ pub(super) fn read(
         Checked::Invalid => return Err(failed("its type is not \"perspective\" or \"orthographic\"".into())),
     };
     let axis = |v: [f64; 3], others: &[[f64; 3]]| {
-        let v = unit(transform.vector(v))?;
+        let v = transform.direction(v, 1e-6)?;
         let rest = others.iter().fold(v, |v, other| sub(v, scaled(*other, dot(v, *other))));
         (length(rest) > 1e-6).then(|| unit(rest)).flatten()
     };

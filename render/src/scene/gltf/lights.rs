@@ -3,21 +3,24 @@
 use super::super::lights::{DeltaLight, one_minus_cos};
 use super::super::message::Message;
 use super::super::params::rounded;
-use super::super::transform::{Transform, unit};
+use super::super::transform::{Transform, cross, unit};
 use super::source::Source;
+use crate::intensity::Intensity;
 use gltf_json::Index;
 use gltf_json::extensions::scene::khr_lights_punctual::{Light, Type};
 use gltf_json::validation::Checked;
+use std::sync::Arc;
 
-/// Reads the light of a node, which shines along its −z axis; `None` if it emits nothing.
+/// Reads the light of a node, which shines along its −z axis; `None` if it emits nothing. A spot adds its relative intensity to those.
 ///
-/// Candelas count as radiant intensity, and lux as irradiance. Between the inner and the outer angle a spot falls off as a
-/// [`DeltaLight::Spot`] does, by a smooth step of the cosine; glTF suggests the square of a linear one.
+/// Candelas count as radiant intensity, and lux as irradiance. Spots fall off as glTF suggests, but for their least width of 0.001, which is
+/// to keep from dividing by 0.
 pub(super) fn read(
     source: &Source<'_>,
     light: Index<Light>,
     node: usize,
     transform: &Transform,
+    intensities: &mut Vec<Arc<Intensity>>,
 ) -> Result<Option<DeltaLight>, Message> {
     let root = &source.root;
     let lights = root.extensions.as_ref().and_then(|all| all.khr_lights_punctual.as_ref());
@@ -39,14 +42,14 @@ pub(super) fn read(
     if kind != Type::Directional && !position.iter().all(|x| x.is_finite()) {
         return Err(source.message(format!("node {node}: its light is at {:?}, which is not finite", transform.shift)));
     }
-    let axis = unit(transform.vector([0.0, 0.0, -1.0]));
+    // rotations in files are rounded to f32
     let axis = || {
-        let axis = axis.map(|axis| axis.map(|x| x as f32));
+        let axis = transform.direction([0.0, 0.0, -1.0], 1e-6);
         axis.ok_or_else(|| source.message(format!("node {node}: its transform leaves its light no direction")))
     };
     Ok(Some(match kind {
         Type::Point => DeltaLight::Point { position, intensity: power },
-        Type::Directional => DeltaLight::Distant { direction: axis()?.map(|x| -x), irradiance: power },
+        Type::Directional => DeltaLight::Distant { direction: axis()?.map(|x| -x as f32), irradiance: power },
         Type::Spot => {
             let spot = light.spot.as_ref().ok_or_else(|| failed("a spot light without \"spot\"".into()))?;
             let [inner, outer] = [spot.inner_cone_angle, spot.outer_cone_angle];
@@ -56,9 +59,14 @@ pub(super) fn read(
                     "innerConeAngle {inner} and outerConeAngle {outer}: must be from 0 to π/2, and the inner one the lesser"
                 )));
             }
-            let [one_minus_cos_inner, one_minus_cos_outer] =
-                [inner, outer].map(|angle| one_minus_cos(f64::from(angle)) as f32);
-            DeltaLight::Spot { position, axis: axis()?, one_minus_cos_inner, one_minus_cos_outer, intensity: power }
+            let axis = axis()?;
+            let aside = cross(axis, if axis[0].abs() < 0.5 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] });
+            let aside = unit(aside).unwrap_or_default();
+            let to_light = [aside, cross(axis, aside), axis].map(|row| row.map(|x| x as f32));
+            let [inner, outer] = [inner, outer].map(|angle| one_minus_cos(f64::from(angle)) as f32);
+            let table = intensities.len() as u32;
+            intensities.push(Intensity::Cone { inner, outer }.into());
+            DeltaLight::Directed { position, to_light, intensity: power, table, cone: None }
         }
     }))
 }

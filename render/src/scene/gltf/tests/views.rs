@@ -140,25 +140,56 @@ fn punctual_lights() {
     let distant = of(json!({"type": "directional"}));
     let DeltaLight::Distant { direction, irradiance } = distant[0] else { panic!("{distant:?}") };
     assert_eq!((direction, irradiance), ([0.0, 0.0, 1.0], [1.0; 3]));
-    let spot = of(json!({"type": "spot", "spot": {"innerConeAngle": 0.5, "outerConeAngle": 1}}));
-    let DeltaLight::Spot { position, axis, one_minus_cos_inner, one_minus_cos_outer, intensity } = spot[0] else {
-        panic!("{spot:?}")
-    };
-    assert_eq!((position, axis, intensity), ([1.0, 2.0, 3.0], [0.0, 0.0, -1.0], [1.0; 3]));
-    let cosines = [one_minus_cos_inner, one_minus_cos_outer].map(|x| 1.0 - x);
-    assert!((cosines[0] - 0.5_f32.cos()).abs() < 1e-6 && (cosines[1] - 1_f32.cos()).abs() < 1e-6);
-    let DeltaLight::Spot { one_minus_cos_inner, one_minus_cos_outer, .. } = of(json!({"type": "spot", "spot": {}}))[0]
-    else {
-        panic!()
-    };
-    assert!(one_minus_cos_inner == 0.0);
-    assert!((1.0 - one_minus_cos_outer - std::f32::consts::FRAC_1_SQRT_2).abs() < 1e-6);
     // only the direction of a node counts
     let half = std::f64::consts::FRAC_1_SQRT_2;
     let asset = light(json!({"type": "directional"}), json!({"rotation": [-half, 0, 0, half], "scale": [5, 5, 5]}));
     let DeltaLight::Distant { direction, .. } = asset.read().delta_lights[0] else { panic!() };
     assert!((direction[1] - 1.0).abs() < 1e-6, "{direction:?}");
     assert!(asset.read().warnings.iter().all(|message| !message.text.contains("black")));
+}
+
+/// Spots fall off by the square of (cosθ − cosθₒ)/(cosθᵢ − cosθₒ), however narrow they are; a step has none.
+#[test]
+fn spots_fall_off_as_suggested() {
+    let half = std::f64::consts::FRAC_1_SQRT_2;
+    let quarter = std::f64::consts::FRAC_PI_4;
+    // turned to shine along −y
+    let node = json!({"translation": [1, 2, 3], "rotation": [-half, 0, 0, half], "scale": [2, 3, 4]});
+    for (cone, inner, outer) in [
+        (json!({"innerConeAngle": 0.5, "outerConeAngle": 1}), 0.5_f64, 1.0_f64),
+        (json!({}), 0.0, quarter),
+        (json!({"outerConeAngle": 1.5}), 0.0, 1.5),
+        (json!({"innerConeAngle": 0.3, "outerConeAngle": 0.3}), 0.3, 0.3),
+        (json!({"innerConeAngle": 1e-4, "outerConeAngle": 2e-4}), 1e-4, 2e-4),
+    ] {
+        let scene = light(json!({"type": "spot", "intensity": 7, "spot": cone}), node.clone()).read();
+        let DeltaLight::Directed { position, to_light, intensity, table: 0, cone: None } = scene.delta_lights[0] else {
+            panic!("{:?}", scene.delta_lights)
+        };
+        assert_eq!((position, intensity), ([1.0, 2.0, 3.0], [7.0; 3]));
+        let shape = &scene.intensities[0];
+        let versed = |angle: f64| 2.0 * (0.5 * angle).sin().powi(2);
+        let (mut flux, steps) = (0.0, 1000);
+        for i in 0..steps {
+            let angle = outer * 1.2 * (f64::from(i) + 0.5) / f64::from(steps);
+            let (sin, cos) = angle.sin_cos();
+            let w = V8::splat([sin * 0.6, -cos, sin * 0.8].map(|x| x as f32).into());
+            let [x, y, z] = to_light.map(|row| V8::from(row).dot(w));
+            let found = f64::from(shape.at(V8::new(x, y, z)).y.to_array()[3]);
+            let t = if inner == outer {
+                f64::from(angle < outer)
+            } else {
+                ((versed(outer) - versed(angle)) / (versed(outer) - versed(inner))).clamp(0.0, 1.0)
+            };
+            assert!(
+                (found - t * t).abs() < if outer < 0.01 { 5e-3 } else { 3e-6 },
+                "{inner} {outer}: {found} at {angle}"
+            );
+            flux += t * t * std::f64::consts::TAU * sin * outer * 1.2 / f64::from(steps);
+        }
+        assert!((shape.flux()[1] / flux - 1.0).abs() < 2e-3, "{inner} {outer}: {:?}, not {flux}", shape.flux());
+        assert!(f64::from(shape.cos_cone()) <= outer.cos() && f64::from(shape.cos_cone()) > outer.cos() - 1e-6);
+    }
 }
 
 #[test]
@@ -182,6 +213,21 @@ fn lights_that_are_dark_or_wrong() {
     ];
     for (described, wanted) in cases {
         assert_eq!(of(described).error(), format!("a.glb: {wanted}"));
+    }
+    // flat along the direction of the light, but for rounding; a camera there sees nothing
+    let half = std::f64::consts::FRAC_1_SQRT_2;
+    for turn in [[-half, 0.0, 0.0, half], [-0.5, -0.5, -0.5, 0.5], [-half, 0.0, 0.0, 0.707_106_7]] {
+        for kind in ["directional", "spot"] {
+            let described = json!({"type": kind, "spot": {"outerConeAngle": 0.5}});
+            let mut flat = light(described, json!({"rotation": turn}));
+            flat.add("nodes", json!({"scale": [1, 0, 1], "children": [1]}));
+            flat.json["scenes"] = json!([{"nodes": [0, 2]}]);
+            assert_eq!(flat.error(), "a.glb: node 1: its transform leaves its light no direction", "{turn:?}");
+            let mut seen = with_camera(json!({"yfov": 1, "znear": 1}), json!({"rotation": turn}));
+            seen.add("nodes", json!({"scale": [1, 0, 1], "children": [1]}));
+            seen.json["scenes"] = json!([{"nodes": [0, 2]}]);
+            assert_eq!(seen.error(), "a.glb: node 1: the transform of its camera is singular", "{turn:?}");
+        }
     }
 }
 
