@@ -20,11 +20,16 @@ pub(super) struct ShapeAttributes {
     pub(super) picture: Option<Picture>,
     /// How a flat shape distributes what it emits.
     pub(super) profile: Option<Arc<Distribution>>,
-    /// If given, the power of each emitting triangle, sphere or parallelogram; only the colour of `emission` then counts.
+    /// If given, the power of all of the shape, in watts; only the colour of `emission` then counts.
     pub(super) power: Option<f64>,
 }
 
 impl ShapeAttributes {
+    /// Whether the file reverses the side of the normal; what a mirroring transform does to the order of vertices is no part of it.
+    pub(super) fn is_reversed(&self) -> bool {
+        self.flip != (self.ctm.determinant() < 0.0)
+    }
+
     /// Transforms points to world space; fails if one is not finite in f32.
     pub(super) fn place(&self, points: impl Iterator<Item = [f64; 3]>) -> Result<Vec<[f64; 3]>, String> {
         let place = |(i, p): (usize, [f64; 3])| {

@@ -65,7 +65,7 @@ fn sphere(out: &mut Builder, surface: &ShapeAttributes, params: &mut Params) -> 
     let [low, high] = [params.float("zmin")?.unwrap_or(-radius), params.float("zmax")?.unwrap_or(radius)];
     let sweep = params.float("phimax")?.unwrap_or(360.0);
     let similar = surface.ctm.similarity();
-    let inwards = surface.flip && surface.emission.is_some_and(|emission| !emission.two_sided);
+    let inwards = surface.is_reversed() && surface.emission.is_some_and(|emission| !emission.two_sided);
     let whole = low <= -radius && high >= radius && sweep >= 360.0;
     // what emits reflects by the means of its material
     let varies = surface.emission.is_none() && out.varies(surface.material);
@@ -155,7 +155,7 @@ fn swept(
         let point = surface.place(std::iter::once(point)).map_err(|why| params.error(why))?[0];
         let normal = surface.place_normals(std::iter::once(normal)).next().unwrap_or([0.0; 3]);
         // the grid's own order, but for a flip, tells which side is outside
-        let normal = if surface.flip == (surface.ctm.determinant() < 0.0) { normal } else { normal.map(|x| -x) };
+        let normal = if surface.is_reversed() { normal.map(|x| -x) } else { normal };
         grid.push(Vertex { point, normal, uv });
     }
     for (i, j) in (0..rows).flat_map(|j| (0..columns).map(move |i| (i, j))) {
@@ -220,8 +220,8 @@ fn placed_normals(
     surface: &ShapeAttributes,
     normals: impl Iterator<Item = [f64; 3]>,
 ) -> impl Iterator<Item = [f64; 3]> {
-    // pbrt's ReverseOrientation also reverses normals; what a mirroring transform does to them is no part of it
-    let reversed = surface.flip != (surface.ctm.determinant() < 0.0);
+    // pbrt's ReverseOrientation also reverses normals
+    let reversed = surface.is_reversed();
     surface.place_normals(normals).map(move |n| if reversed { n.map(|x| -x) } else { n })
 }
 
