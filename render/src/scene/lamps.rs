@@ -1,5 +1,6 @@
 //! What shapes emit, each with its own part of a picture.
 
+use super::description::Shape;
 use super::lights::Emission;
 use super::params::MOST_RADIANCE;
 use super::shape_attributes::ShapeAttributes;
@@ -39,17 +40,8 @@ impl Lamps {
     ) -> Option<Emission> {
         let Emission { radiance, two_sided, spread, .. } = surface.emission?;
         let profile = self.profile(surface, geometry);
-        let powered = |color: [f32; 3], mean: [f32; 3]| match surface.power {
-            Some(power) => {
-                // a Lambertian emitter of mean radiance L has the power πAL on each side that emits
-                let sides = if two_sided { 2.0 } else { 1.0 };
-                let y = luminance(mean.map(f64::from)) * PI * sides * geometry.area();
-                color.map(|x| (f64::from(x) * power / y).min(MOST_RADIANCE.into()) as f32)
-            }
-            None => color,
-        };
         let Some(picture) = &surface.picture else {
-            return Some(Emission { radiance: powered(radiance, radiance), two_sided, picture: None, spread, profile });
+            return Some(Emission { radiance, two_sided, picture: None, spread, profile });
         };
         let picture = Picture { mapping: mapping().then(&picture.mapping), ..picture.clone() };
         let axes = if matches!(geometry, Geometry::Sphere { .. }) { surface.ctm.axes()? } else { WORLD };
@@ -61,8 +53,33 @@ impl Lamps {
             return None;
         }
         let index = self.pictures.len() as u32;
-        self.pictures.push(LightPicture { factor: powered(radiance, mean), ..shown });
-        Some(Emission { radiance: powered(mean, mean), two_sided, picture: Some(index), spread, profile })
+        self.pictures.push(shown);
+        Some(Emission { radiance: mean, two_sided, picture: Some(index), spread, profile })
+    }
+
+    /// Gives the parts of one shape this power in all, in watts, and keeps what they emit in proportion. Fails if one becomes too bright.
+    pub(super) fn share(&mut self, power: f64, parts: &mut [Shape]) -> Result<(), String> {
+        // a Lambertian emitter of mean radiance L has the power πAL on each side that emits
+        let emitted = |Shape { geometry, emission, .. }: &Shape| {
+            let Emission { radiance, two_sided, .. } = emission.unwrap_or_default();
+            luminance(radiance.map(f64::from)) * PI * if two_sided { 2.0 } else { 1.0 } * geometry.area()
+        };
+        let factor = power / parts.iter().map(emitted).sum::<f64>();
+        for emission in parts.iter_mut().filter_map(|part| part.emission.as_mut()) {
+            let radiance = emission.radiance.map(|x| f64::from(x) * factor);
+            if radiance.iter().any(|&x| x > MOST_RADIANCE.into()) {
+                return Err(format!(
+                    "its power makes the radiance {radiance:?}: at most {MOST_RADIANCE:e} is supported"
+                ));
+            }
+            // what emits at all has a chance, however dim it is
+            emission.radiance = radiance.map(|x| if x > 0.0 { (x as f32).max(f32::MIN_POSITIVE) } else { 0.0 });
+            if let Some(picture) = emission.picture {
+                let shown = &mut self.pictures[picture as usize].factor;
+                *shown = shown.map(|x| (f64::from(x) * factor).min(MOST_RADIANCE.into()) as f32);
+            }
+        }
+        Ok(())
     }
 
     /// The index of the profile of a flat shape, if it has one: that of the last one for shapes that follow each other in a plane.

@@ -24,6 +24,7 @@ pub(super) fn read(
     resolve: Resolve<'_>,
     is_builtin: bool,
 ) -> Result<(), Message> {
+    let first = out.shapes.len();
     match kind {
         "sphere" => sphere(out, surface, params),
         "trianglemesh" => triangle_mesh(out, surface, params),
@@ -48,7 +49,9 @@ pub(super) fn read(
         _ => Err(params.error(
             "shape not supported, only sphere, trianglemesh, bilinearmesh, plymesh, loopsubdiv, disk and cylinder",
         )),
-    }
+    }?;
+    let shared = surface.power.map_or(Ok(()), |power| out.lamps.share(power, &mut out.shapes[first..]));
+    shared.map_err(|why| params.error(why))
 }
 
 /// Warns of the triangles of a shape that were left out.
