@@ -4,6 +4,7 @@ use super::lights::{Emission, Files, power, radiances, scale};
 use super::message::{Message, Notes};
 use super::params::{MOST_RADIANCE, Params, brightness, rounded, shown};
 use super::profiles::{self, Aim, Profile};
+use super::spectrum::luminance;
 use crate::image::Picture;
 use crate::intensity::Intensity;
 use crate::packet::V8;
@@ -24,7 +25,7 @@ pub(super) struct Area {
     pub(super) picture: Option<texture::Picture>,
     /// How flat shapes distribute what they emit.
     pub(super) profile: Option<Arc<Distribution>>,
-    /// The power of each light, if the scene gives it.
+    /// The power of each shape in watts, if the scene gives it.
     pub(super) power: Option<f64>,
 }
 
@@ -62,12 +63,14 @@ pub(super) fn read(
     let radiance = params.light("L", files.resolve)?.unwrap_or([1.0; 3]);
     let power = power(params)?;
     let scale = scale(params)?;
+    let scaled = std::array::from_fn(|k| radiance[k] * scale[k]);
+    let power = power.map(|power| power * luminance(scaled) / luminance(radiance));
     let two_sided = params.flag("twosided")?.unwrap_or(false);
     let (of_tilt, profile) = match params.text("profile")? {
         Some(name) => distribution(&name, two_sided, params, files, notes)?,
         None => (1.0, None),
     };
-    let radiance: [f64; 3] = std::array::from_fn(|k| radiance[k] * scale[k] * of_tilt);
+    let radiance = scaled.map(|x| x * of_tilt);
     let greatest = texels.as_ref().map_or([1.0; 3], |texels| texels.greatest().map(f64::from));
     let brightest: [f64; 3] = std::array::from_fn(|k| radiance[k] * greatest[k]);
     let spread = spread(params)?;

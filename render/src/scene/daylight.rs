@@ -23,12 +23,13 @@ const WITHOUT_SUN: [i64; 3] = [1, 3, 5];
 /// A sky and its sun.
 pub(super) type Daylight = (SkyRadiance, Option<SunDisk>);
 
-/// Reads the sky of this kind; `colour` is the radiance of its zenith, unless the horizontal plane has the wanted illuminance. The rows of
-/// `to_light` turn the world to the light's space.
+/// Reads the sky of this kind; `colour` is the radiance of its zenith, unless the horizontal plane has the wanted illuminance, and `scale` a
+/// factor of either. The rows of `to_light` turn the world to the light's space.
 pub(super) fn read(
     kind: &str,
     params: &mut Params,
     colour: [f64; 3],
+    scale: [f64; 3],
     wanted: Option<f64>,
     to_light: &[[f32; 3]; 3],
 ) -> Result<Option<Daylight>, Message> {
@@ -48,7 +49,7 @@ pub(super) fn read(
         Some(wanted) if brightness > 0.0 => wanted / (brightness * sky.horizontal()),
         _ => 1.0,
     };
-    let zenith = colour.map(|x| x * factor);
+    let zenith: [f64; 3] = std::array::from_fn(|k| colour[k] * scale[k] * factor);
     let too_large = |rgb: &dyn std::fmt::Debug| {
         params.error(format!("the radiance {rgb:?} of the sky or its sun: at most {MOST_RADIANCE:e} is supported"))
     };

@@ -55,15 +55,17 @@ pub(super) fn read(
         notes.warn(params.error("emits nothing"));
         return Ok(None);
     };
-    let color = std::array::from_fn(|k| tint[k] * scale[k] * greatest);
-    let Some(intensity) = strength(color, power, || shape.flux(), params, notes)? else { return Ok(None) };
+    let color = tint.map(|x| x * greatest);
+    let Some(intensity) = strength(color, scale, power, || shape.flux(), params, notes)? else { return Ok(None) };
     let to_light = axes.map(|(axis, sign)| to_light[axis].map(|x| x * sign as f32));
     Ok(Some((DeltaLight::Directed { position, to_light, intensity, table, cone: None }, shape)))
 }
 
-/// The greatest intensity of a light: this one, unless a power is given. `flux` is the power for the intensity 1. `None` if it is 0.
+/// The greatest intensity of a light: this one, unless a power is given, times the scale. `flux` is the power for the intensity 1. `None` if
+/// it is 0.
 fn strength(
     mut color: [f64; 3],
+    scale: [f64; 3],
     power: Option<f64>,
     flux: impl FnOnce() -> [f64; 3],
     params: &Params,
@@ -74,6 +76,7 @@ fn strength(
         let emitted = luminance(std::array::from_fn(|k| color[k] * flux[k]));
         color = color.map(|x| if emitted > 0.0 { x * power / emitted } else { 0.0 });
     }
+    let color = std::array::from_fn(|k| color[k] * scale[k]);
     let too_large =
         || params.error(format!("its greatest intensity is {color:?}: at most {:e} is supported", f32::MAX));
     let intensity = rounded(color).filter(|rgb| rgb.iter().all(|x| *x <= f32::MAX)).ok_or_else(too_large)?;
@@ -86,9 +89,10 @@ fn strength(
 }
 
 /// A spot light with the intensity of a profile that is aimed along its axis, times its own falloff and intensity; `None` if it emits
-/// nothing. `table` is the index that the profile will have.
+/// nothing. `scale` and `power` are those of the light. `table` is the index that the profile will have.
 pub(super) fn spot(
     spot: DeltaLight,
+    scale: [f64; 3],
     power: Option<f64>,
     profile: Profile,
     params: &Params,
@@ -107,7 +111,7 @@ pub(super) fn spot(
         return Ok(None);
     }
     let color = intensity.map(|x| f64::from(x) * profile.greatest);
-    let Some(intensity) = strength(color, power, || [flux; 3], params, notes)? else { return Ok(None) };
+    let Some(intensity) = strength(color, scale, power, || [flux; 3], params, notes)? else { return Ok(None) };
     let to_light = profile.aim.aimed(axis.map(f64::from), ctm);
     let cone = Some(Cone { axis, one_minus_cos_inner, one_minus_cos_outer, flux });
     Ok(Some((DeltaLight::Directed { position, to_light, intensity, table, cone }, profile.intensity)))

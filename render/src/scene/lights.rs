@@ -7,11 +7,10 @@ use super::message::{Message, Notes};
 use super::params::{MOST_RADIANCE, Params, Resolve, brightness, rounded, shown};
 use super::portals;
 use super::spectrum::luminance;
-use super::transform::{Transform, sub, unit};
+use super::transform::{Transform, sub};
 use crate::files::FileError;
 use crate::image::Picture;
-use etendue::Vec2;
-use etendue::light::{EnvironmentMap, ImageEnvironment, Portal, Spread, Texel};
+use etendue::light::{EnvironmentMap, Portal, Spread};
 use std::f64::consts::PI;
 
 /// A light that is seen from every point in a single direction, and that no ray can hit.
@@ -151,28 +150,37 @@ pub(super) fn read(
             );
         }
         None if formula.is_some() => {
-            let given = colour.unwrap_or([1.0; 3]);
-            let (to_light, zenith) = (turned(params, ctm)?, std::array::from_fn(|k| given[k] * scale[k]));
-            let daylight = daylight::read(&formula.unwrap_or_default(), params, zenith, wanted, &to_light)?;
+            let (to_light, given) = (turned(params, ctm)?, colour.unwrap_or([1.0; 3]));
+            let daylight = daylight::read(&formula.unwrap_or_default(), params, given, scale, wanted, &to_light)?;
             let light = |(sky, sun)| Source::Environment(Environment { to_light, sky, portals, sun });
             daylight.map_or(Source::Dark, light)
         }
         Some(file) => {
             let to_light = turned(params, ctm)?;
+            let image = (files.open)(&file).map_err(|error| params.error(error.to_string()))?;
+            let shown = |scale| sky_of(&image, &file, scale).map_err(|what| params.error(what));
             // pbrt-v3 multiplies both, and pbrt-v4 refuses them
-            let scale = colour.map_or(scale, |colour| std::array::from_fn(|k| scale[k] * colour[k]));
-            let picture = picture(params, &file, files.open, scale, notes)?.map(|sky| match wanted {
-                Some(wanted) => illuminating(sky, wanted),
-                None => sky,
-            });
-            match picture {
+            let colour = colour.unwrap_or([1.0; 3]);
+            let factor = match wanted {
+                Some(wanted) => match shown(colour)?.0.map_or(0.0, |sky| illuminance(&sky)) {
+                    0.0 => {
+                        notes.warn(params.error("\"illuminance\" is ignored: the upper half of the sky is dark"));
+                        1.0
+                    }
+                    own => wanted / own,
+                },
+                None => 1.0,
+            };
+            let (sky, warning) = shown(std::array::from_fn(|k| scale[k] * colour[k] * factor))?;
+            warning.into_iter().for_each(|what| notes.warn(params.error(what)));
+            match sky {
                 Some(sky) => Source::Environment(Environment { to_light, sky, portals, sun: None }),
                 None => Source::Dark,
             }
         }
         None => {
             let given = colour.unwrap_or([1.0; 3]);
-            let mut colour: [f64; 3] = std::array::from_fn(|k| given[k] * scale[k]);
+            let mut colour = given;
             if let Some(wanted) = wanted {
                 // what a light of the intensity or radiance 1 has
                 let per_unit = match kind {
@@ -184,6 +192,7 @@ pub(super) fn read(
                 let y = luminance(colour);
                 colour = colour.map(|x| if y > 0.0 { x * wanted / (y * per_unit) } else { 0.0 });
             }
+            let colour = std::array::from_fn(|k| colour[k] * scale[k]);
             let most = if kind == "infinite" { MOST_RADIANCE } else { f32::MAX };
             let too_large =
                 || params.error(format!("{name:?} times \"scale\" is {colour:?}: at most {most:e} is supported"));
@@ -232,24 +241,44 @@ fn spot_angle(params: &mut Params) -> Result<f64, Message> {
     Ok(PI * (inner + outer))
 }
 
-/// The sky, scaled so that a surface that faces the light's +z has this illuminance, as in pbrt-v4.
-fn illuminating(sky: SkyRadiance, wanted: f64) -> SkyRadiance {
-    let SkyRadiance::Image { width, map, texels } = sky else { return sky };
-    let height = texels.len() / width;
-    let buffer = vec![0.0; ImageEnvironment::buffer(width, height)];
-    let Ok(environment) = ImageEnvironment::from_buffer(&buffer, width, map) else {
-        return SkyRadiance::Image { width, map, texels };
-    };
-    let mut sum = 0.0;
-    for (i, texel) in texels.iter().enumerate() {
-        let (x, y) = (i % width, i / width);
-        let middle = Texel { x: x as u32, y: y as u32, offset: Vec2::new(0.5, 0.5) };
-        let cos = f64::from(environment.direction::<f32>(&middle).z.max(0.0));
-        sum += luminance(texel.map(f64::from)) * cos * map.texel_solid_angle(width, height, y);
+/// The illuminance of a surface that faces the light's +z, as in pbrt-v4.
+fn illuminance(sky: &SkyRadiance) -> f64 {
+    match sky {
+        SkyRadiance::Constant(rgb) => PI * luminance(rgb.map(f64::from)),
+        SkyRadiance::Image { width, map, texels } => {
+            let size = [*width, texels.len() / width];
+            let lit = |(i, texel): (usize, &[f32; 3])| {
+                luminance(texel.map(f64::from)) * facing(*map, size, [i % width, i / width])
+            };
+            texels.iter().enumerate().map(lit).sum()
+        }
     }
-    let factor = if sum > 0.0 { wanted / sum } else { 1.0 };
-    let texels = texels.into_iter().map(|rgb| rgb.map(|x| (f64::from(x) * factor) as f32)).collect();
-    SkyRadiance::Image { width, map, texels }
+}
+
+/// ∫max(cosθ, 0) dω over a texel, where θ is the angle to +z.
+fn facing(map: EnvironmentMap, [width, height]: [usize; 2], [x, y]: [usize; 2]) -> f64 {
+    let edges = |i: usize, n: usize| [i, i + 1].map(|i| i as f64 / n as f64);
+    let (across, down) = (edges(x, width), edges(y, height));
+    let sum = match map {
+        EnvironmentMap::Equirectangular => {
+            let [top, bottom] = down.map(|v| libm::cos(PI * v).max(0.0));
+            PI * (top * top - bottom * bottom) / width as f64
+        }
+        EnvironmentMap::EqualArea => {
+            // at (a, b) in [−1, 1]² the cosine is 1 − (|a| + |b|)², or less than 0 beyond |a| + |b| = 1, and dω = π da db
+            let twice =
+                |s: f64| if s < 1.0 { s * s * (6.0 - s * s) / 12.0 } else { 5.0 / 12.0 + 2.0 / 3.0 * (s - 1.0) };
+            // the integral from the middle to a corner
+            let corner = |a: f64, b: f64| {
+                let (p, q) = (a.abs(), b.abs());
+                (a * b).signum() * (twice(p + q) - twice(p) - twice(q))
+            };
+            let [[left, right], [top, bottom]] = [across, down].map(|edges| edges.map(|x| 2.0 * x - 1.0));
+            PI * (corner(right, bottom) - corner(left, bottom) - corner(right, top) + corner(left, top))
+        }
+    };
+    // below the horizon it is rounding noise
+    if sum > 1e-7 * map.texel_solid_angle(width, height, y) { sum } else { 0.0 }
 }
 
 fn constant(
@@ -318,20 +347,6 @@ pub(super) fn one_minus_cos(angle: f64) -> f64 {
 pub(super) fn turned(params: &Params, ctm: &Transform) -> Result<[[f32; 3]; 3], Message> {
     let stretched = || params.error("its transform may only consist of rotations, reflections and uniform scales");
     ctm.axes().ok_or_else(stretched)
-}
-
-/// The image of an environment; `None` if it is black.
-fn picture(
-    params: &Params,
-    name: &str,
-    open: &dyn Fn(&str) -> Result<Picture, FileError>,
-    scale: [f64; 3],
-    notes: &mut Notes,
-) -> Result<Option<SkyRadiance>, Message> {
-    let image = open(name).map_err(|error| params.error(error.to_string()))?;
-    let (sky, warning) = sky_of(&image, name, scale).map_err(|what| params.error(what))?;
-    warning.into_iter().for_each(|what| notes.warn(params.error(what)));
-    Ok(sky)
 }
 
 /// The sky that an image shows, unless it is black, and a warning if some of it is negative.
