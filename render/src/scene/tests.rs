@@ -9,6 +9,7 @@ mod lights;
 mod many_lights;
 mod meshes;
 mod own_scenes;
+mod photometry;
 mod pictures;
 mod portals;
 
