@@ -22,6 +22,7 @@
 //! | other patches, `disk`, `cylinder`, partial, stretched or textured spheres | triangles |
 //! | `curve` and older quadrics | left out |
 //! | `ObjectInstance` | itself, or a copy in small scenes; lights in objects emit nothing, as in pbrt |
+//! | `power` of a `diffuse` light | that of all of a shape, also of a mesh; `scale` multiplies it |
 //! | `diffuse` with a picture | itself: texels are interpolated as in pbrt-v4, by u and v, or the angles of a whole sphere |
 //! | pictures in EXR files | their display windows: black where they have no data, and without the data outside |
 //! | `goniometric`, `projection` | themselves, with the texel of a direction; also IES files, which pbrt does not read |
@@ -44,7 +45,7 @@
 //! | `float latitude`, `longitude` | place in degrees, instead of those; north and east are positive | |
 //! | `integer year`, `month`, `day`, `float hours`, `timezone` | local time there; the time zone is in hours before Greenwich | timezone 0 |
 //! | `rgb L`, `float scale` | radiance of the zenith | 1 |
-//! | `float illuminance` | illuminance of the horizontal plane by the sky, instead | |
+//! | `float illuminance` | illuminance of the horizontal plane by the sky, instead; `scale` multiplies it | |
 //! | `float sun` | illuminance of a surface that faces the sun, by its disk of 0.53° | 0: no disk |
 //!
 //! A profile is an IES file or an image, as those of `goniometric` lights. It lies so that its nadir is along the axis of a spot light, or the
@@ -55,7 +56,8 @@
 //!
 //! | in glTF files | becomes |
 //! |---|---|
-//! | metallic-roughness, specular-glossiness, index of refraction | glTF's GGX over diffuse |
+//! | metallic-roughness, specular-glossiness, index of refraction, specular | glTF's GGX over diffuse; a tinted F hides the diffuse part per channel |
+//! | spots | the falloff that `KHR_lights_punctual` suggests, also where its cosines differ by less than 0.001 |
 //! | emissive textures | themselves, on each triangle |
 //! | masks, blending | holes, as for `alpha` |
 //! | transmission | opaque |
