@@ -18,5 +18,6 @@ mod sampler;
 mod sensor;
 mod sky;
 mod soundness;
+mod values;
 mod variance;
 mod vignetting;

@@ -1,0 +1,205 @@
+//! Lights without area: of a point, a direction or a cone, and those whose intensity differs by direction.
+
+use super::place::{Place, all, similar};
+use super::row::{Row, grey, on_floor, reflected, times};
+use etendue_oracle::{V3, along, dot, length, sub, unit};
+use std::f64::consts::PI;
+
+/// Irradiance of the floor at the origin by an intensity of 1 from a point.
+fn from_point(p: V3) -> f64 {
+    p[2].max(0.0) / length(p).powi(3)
+}
+
+/// Parameters of strength, and what they make of a light of which a strength of 1 has a power (or illuminance) of `per_unit`.
+///
+/// pbrt-v4: the strength is the colour times the scale. A power or illuminance sets the strength of a white light, and the scale multiplies
+/// it.
+fn strengths(color: &str, photometric: &str, per_unit: f64) -> Vec<(String, V3)> {
+    let given = |value: f64| value / per_unit;
+    vec![
+        (String::new(), grey(1.0)),
+        (format!("\"rgb {color}\" [1 2 4]"), [1.0, 2.0, 4.0]),
+        ("\"float scale\" 3".into(), grey(3.0)),
+        (format!("\"rgb {color}\" [1 2 4] \"float scale\" .5"), [0.5, 1.0, 2.0]),
+        (format!("\"float {photometric}\" 100"), grey(given(100.0))),
+        (format!("\"float {photometric}\" 100 \"float scale\" .1"), grey(given(10.0))),
+        (format!("\"rgb {color}\" [1 1 1] \"float {photometric}\" 100 \"float scale\" 7"), grey(given(700.0))),
+    ]
+}
+
+pub(super) fn rows() -> Vec<Row> {
+    [points(), distant(), spots(), goniometric(), projections(), beside_colours()].into_iter().flatten().collect()
+}
+
+fn points() -> Vec<Row> {
+    let mut rows = Vec::new();
+    for place in all(&Place::new().translate([0.2, 0.3, 4.0])) {
+        for (text, strength) in strengths("I", "power", 4.0 * PI) {
+            let light = place.holds(&format!("LightSource \"point\" {text} \"point3 from\" [.5 -.4 .3]"));
+            let right = reflected(times(strength, from_point(place.point([0.5, -0.4, 0.3]))));
+            rows.push(Row::new(format!("point {text}, {}", place.name), on_floor(&light), right));
+        }
+    }
+    let below = on_floor("LightSource \"point\" \"point3 from\" [0 0 -1]");
+    rows.push(Row::new("point below", below, grey(0.0)));
+    let several = "LightSource \"point\" \"point3 from\" [0 0 2] LightSource \"point\" \"point3 from\" [0 0 1]";
+    rows.push(Row::new("two points", on_floor(several), reflected(grey(1.25))));
+    rows
+}
+
+fn distant() -> Vec<Row> {
+    let mut rows = Vec::new();
+    for place in all(&Place::new().translate([3.0, 2.0, -1.0])) {
+        // from a direction of the world, whatever the transform
+        for towards in [[0.0, 0.0, 1.0], [0.6, -0.3, 0.5], [0.3, 0.3, -0.5]] {
+            let local = place.inverse_vector(towards);
+            let cos = unit(towards)[2].max(0.0);
+            for (text, strength) in strengths("L", "illuminance", 1.0) {
+                let from = along([1.0, 2.0, 3.0], local, 1.0);
+                let [x, y, z] = from;
+                let light =
+                    format!("LightSource \"distant\" {text} \"point3 from\" [{x} {y} {z}] \"point3 to\" [1 2 3]");
+                let right = reflected(times(strength, cos));
+                let name = format!("distant {text}, {}, from {towards:?}", place.name);
+                rows.push(Row::new(name, on_floor(&place.holds(&light)), right));
+            }
+        }
+    }
+    // by default it shines along +z
+    rows.push(Row::new("distant by default", on_floor("LightSource \"distant\""), grey(0.0)));
+    let flipped = "AttributeBegin Scale 1 1 -1 LightSource \"distant\" AttributeEnd";
+    rows.push(Row::new("distant by default, mirrored", on_floor(flipped), reflected(grey(1.0))));
+    rows
+}
+
+/// The falloff of a spot light at this cosine.
+fn falloff(cos: f64, [inner, outer]: [f64; 2]) -> f64 {
+    let [inner, outer] = [inner, outer].map(|degrees| degrees.to_radians().cos());
+    let t = ((cos - outer) / (inner - outer)).clamp(0.0, 1.0);
+    t * t * (3.0 - 2.0 * t)
+}
+
+fn spots() -> Vec<Row> {
+    let mut rows = Vec::new();
+    let angles = [12.0_f64, 20.0];
+    let [inner, outer] = angles.map(|degrees| degrees.to_radians().cos());
+    let per_unit = 2.0 * PI * ((1.0 - inner) + (inner - outer) / 2.0);
+    let from = [0.2, -0.3, 0.4];
+    for place in similar(&Place::new().translate([0.1, 0.2, 4.0])) {
+        // the axis meets the floor within the inner cone of the origin, between both, and outside
+        for target in [[0.3, 0.2, 0.0], [1.3, 0.3, 0.0], [3.0, 0.1, 0.0]] {
+            let position = place.point(from);
+            let cos = dot(unit(sub(target, position)), unit(sub([0.0; 3], position)));
+            let [x, y, z] = place.inverse_point(target);
+            for (text, strength) in strengths("I", "power", per_unit) {
+                let cone = "\"float coneangle\" 20 \"float conedeltaangle\" 8";
+                let ends = format!("\"point3 from\" [.2 -.3 .4] \"point3 to\" [{x} {y} {z}]");
+                let light = place.holds(&format!("LightSource \"spot\" {text} {cone} {ends}"));
+                let right = reflected(times(strength, from_point(position) * falloff(cos, angles)));
+                // the cosine of single precision is off by 6e-8 of the 0.04 between those of both angles, and the falloff by more
+                let row = Row::new(format!("spot {text}, {}, at {target:?}", place.name), on_floor(&light), right);
+                rows.push(row.within(1e-4));
+            }
+        }
+    }
+    // 30 degrees, of which 5 fall off, along +z
+    for (offset, name) in [(0.4, "inside"), (0.53, "between"), (0.6, "outside")] {
+        let light = format!("AttributeBegin Translate {offset} 0 1 Scale 1 1 -1 LightSource \"spot\" AttributeEnd");
+        let position: V3 = [offset, 0.0, 1.0];
+        let value = from_point(position) * falloff(position[2] / length(position), [25.0, 30.0]);
+        rows.push(Row::new(format!("spot by default, {name}"), on_floor(&light), reflected(grey(value))).within(1e-4));
+    }
+    // narrow ones, at 0.9 and 1.1 of the radius
+    for (angle, tolerance) in [(0.5_f64, 1e-3), (0.1, 1e-3), (0.01, 1e-3)] {
+        for part in [0.9, 1.1] {
+            let x = 2.0 * (part * angle).to_radians().tan();
+            let ends = format!("\"point3 from\" [{x} 0 2] \"point3 to\" [{x} 0 0]");
+            let cone = format!("\"float coneangle\" {angle} \"float conedeltaangle\" 0");
+            let lit = if part < 1.0 { from_point([x, 0.0, 2.0]) } else { 0.0 };
+            let text = on_floor(&format!("LightSource \"spot\" {ends} {cone}"));
+            let row = Row::new(format!("spot of {angle} degrees at {part} of it"), text, reflected(grey(lit)));
+            rows.push(row.within(tolerance));
+        }
+    }
+    rows
+}
+
+/// The values of `quarters.pfm`, row by row from the top.
+const QUARTERS: [V3; 4] = [[1.0, 1.0, 1.0], [2.0, 2.0, 2.0], [3.0, 3.0, 3.0], [4.0, 4.0, 4.0]];
+
+fn goniometric() -> Vec<Row> {
+    let mut rows = Vec::new();
+    for place in similar(&Place::new().translate([0.4, 0.6, 3.0])) {
+        let position = place.point([0.0; 3]);
+        // the image's y axis is the light's z axis, and the other way round
+        let [x, _, z] = place.inverse_vector(sub([0.0; 3], position));
+        let shown = QUARTERS[usize::from(z > 0.0) * 2 + usize::from(x > 0.0)];
+        // the texels have equal solid angles
+        for (text, strength) in strengths("I", "power", 4.0 * PI * 2.5) {
+            let light = format!("LightSource \"goniometric\" \"string filename\" \"quarters.pfm\" {text}");
+            let right: V3 = std::array::from_fn(|k| shown[k] * strength[k] * from_point(position));
+            let name = format!("goniometric {text}, {}", place.name);
+            rows.push(Row::new(name, on_floor(&place.holds(&light)), reflected(right)));
+        }
+    }
+    rows
+}
+
+/// Solid angle of the rectangle [0, x] × [0, y] at distance 1.
+fn corner(x: f64, y: f64) -> f64 {
+    (x * y / (1.0 + x * x + y * y).sqrt()).atan()
+}
+
+fn projections() -> Vec<Row> {
+    let mut rows = Vec::new();
+    let half = 30_f64.to_radians().tan();
+    for base in [[0.4, 0.6, 3.0], [-0.5, 0.3, 3.0], [-0.2, -0.8, 3.0], [0.7, -0.1, 3.0], [2.5, 0.1, 3.0]] {
+        // along −z
+        for place in similar(&Place::new().translate(base).rotate(180.0, [1.0, 0.0, 0.0])) {
+            let position = place.point([0.0; 3]);
+            let [x, y, z] = place.inverse_vector(sub([0.0; 3], position));
+            let [x, y] = [x / z, y / z];
+            for (file, aspect) in [("quarters.pfm", 1.0), ("wide.pfm", 2.0), ("tall.pfm", 0.5)] {
+                let [across, up] = if aspect > 1.0 { [half * aspect, half] } else { [half, half / aspect] };
+                let inside = z > 0.0 && x.abs() < across && y.abs() < up;
+                // the first row is at the top; the wide image has two columns, and the tall one two rows
+                let (right, lower) = (usize::from(x > 0.0), usize::from(y < 0.0));
+                let texel = match file {
+                    "quarters.pfm" => QUARTERS[2 * lower + right],
+                    "wide.pfm" => QUARTERS[right],
+                    _ => QUARTERS[lower],
+                };
+                let mean = if aspect == 1.0 { 2.5 } else { 1.5 };
+                let strengths = strengths("I", "power", 4.0 * corner(across, up) * mean);
+                // where it aims elsewhere, what it has is the same
+                let some = if base[0] == 0.4 { 0..7 } else { 3..4 };
+                for (text, strength) in &strengths[some] {
+                    let light =
+                        format!("LightSource \"projection\" \"float fov\" 60 \"string filename\" \"{file}\" {text}");
+                    let shown = if inside { times(texel, from_point(position)) } else { grey(0.0) };
+                    let value = std::array::from_fn(|k| shown[k] * strength[k]);
+                    let name = format!("projection {file} {text}, {} at {base:?}", place.name);
+                    rows.push(Row::new(name, on_floor(&place.holds(&light)), reflected(value)));
+                }
+            }
+        }
+    }
+    rows
+}
+
+/// pbrt-v4 multiplies a power by the colour beside it; here the light has the power.
+fn beside_colours() -> Vec<Row> {
+    let why = "a colour beside a power is only a hue: the luminance is that of the power";
+    let y = 0.2126 * 1.0 + 0.7152 * 2.0 + 0.0722 * 4.0;
+    let color = [1.0, 2.0, 4.0];
+    let point = "LightSource \"point\" \"rgb I\" [1 2 4] \"float power\" 100 \"point3 from\" [0 0 2]";
+    let sun = "LightSource \"distant\" \"rgb L\" [1 2 4] \"float illuminance\" 100 \"point3 from\" [0 0 2] \"point3 to\" [0 0 0]";
+    let of = |name: &str, text: &str, factor: f64| {
+        let right = reflected(times(color, factor));
+        Row::new(name, on_floor(text), right).differs(times(right, 1.0 / y), why).within(1e-4)
+    };
+    vec![
+        of("point of a colour and a power", point, 100.0 / (4.0 * PI) / 4.0),
+        of("distant of a colour and an illuminance", sun, 100.0),
+    ]
+}

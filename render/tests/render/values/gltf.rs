@@ -1,0 +1,206 @@
+//! Lights, emissive surfaces and cameras of glTF files.
+
+use super::place::{Place, similar};
+use super::row::{Row, Text, grey, reflected, times};
+use etendue_oracle::{V3, along, basis, dot, length, sub, unit};
+use serde_json::{Value, json};
+
+/// A file with these cameras, lights and nodes; mesh 0 is a floor in the plane y = 0, mesh 1 a square of half side 1 that faces +z.
+fn file(camera: Value, lights: Value, nodes: Vec<Value>, emissive: Value) -> String {
+    let corners = |of: &dyn Fn(f32, f32) -> [f32; 3]| [of(-1.0, -1.0), of(1.0, -1.0), of(1.0, 1.0), of(-1.0, 1.0)];
+    let floor = corners(&|x, z| [-500.0 * x, 0.0, 500.0 * z]);
+    let square = corners(&|x, y| [x, y, 0.0]);
+    let points = [floor, square].concat();
+    let mut bytes: Vec<u8> = points.iter().flatten().flat_map(|x| x.to_le_bytes()).collect();
+    bytes.extend([0_u32, 1, 2, 0, 2, 3].iter().flat_map(|i| i.to_le_bytes()));
+    let view = |at: usize, length: usize| json!({"buffer": 0, "byteOffset": at, "byteLength": length});
+    let accessor = |view: usize, kind: u32, count: usize, name: &str| json!({"bufferView": view, "componentType": kind, "count": count, "type": name});
+    let mesh = |positions: usize, material: usize| json!({"primitives": [{"attributes": {"POSITION": positions}, "indices": 2, "material": material}]});
+    let uri = format!("data:application/octet-stream;base64,{}", base64(&bytes));
+    let matt = json!({"baseColorFactor": [0.5, 0.5, 0.5, 1], "metallicFactor": 0, "roughnessFactor": 1});
+    json!({
+        "asset": {"version": "2.0"},
+        "scene": 0,
+        "scenes": [{"nodes": (0..nodes.len()).filter(|k| nodes[*k]["is child"].is_null()).collect::<Vec<_>>()}],
+        "nodes": nodes.into_iter().map(|mut node| { node.as_object_mut().unwrap().remove("is child"); node }).collect::<Vec<_>>(),
+        "cameras": [camera],
+        "meshes": [mesh(0, 0), mesh(1, 1)],
+        "materials": [
+            {"pbrMetallicRoughness": matt, "extensions": {"KHR_materials_specular": {"specularFactor": 0}}},
+            emissive,
+        ],
+        "accessors": [accessor(0, 5126, 4, "VEC3"), accessor(1, 5126, 4, "VEC3"), accessor(2, 5125, 6, "SCALAR")],
+        "bufferViews": [view(0, 48), view(48, 48), view(96, 24)],
+        "buffers": [{"byteLength": bytes.len(), "uri": uri}],
+        "extensionsUsed": ["KHR_lights_punctual", "KHR_materials_specular", "KHR_materials_emissive_strength"],
+        "extensions": {"KHR_lights_punctual": {"lights": lights}},
+    })
+    .to_string()
+}
+
+fn base64(bytes: &[u8]) -> String {
+    const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    // whole groups of three
+    let group = |b: &[u8]| {
+        let bits = u32::from(b[0]) << 16 | u32::from(b[1]) << 8 | u32::from(b[2]);
+        [18, 12, 6, 0].map(|shift| char::from(DIGITS[(bits >> shift) as usize & 63]))
+    };
+    bytes.chunks_exact(3).flat_map(group).collect()
+}
+
+const NARROW: f64 = 1e-6;
+
+fn narrow() -> Value {
+    json!({"type": "perspective", "perspective": {"yfov": NARROW, "aspectRatio": 1, "znear": 0.001}})
+}
+
+/// A matrix of columns.
+fn matrix(place: &Place, shift: V3) -> Vec<f64> {
+    let axis = |v: V3| place.vector(v);
+    let columns = [axis([1.0, 0.0, 0.0]), axis([0.0, 1.0, 0.0]), axis([0.0, 0.0, 1.0])];
+    let mut all: Vec<f64> = columns.iter().flat_map(|c| [c[0], c[1], c[2], 0.0]).collect();
+    all.extend([shift[0], shift[1], shift[2], 1.0]);
+    all
+}
+
+/// A node whose −z axis is along `towards`.
+fn aimed(place: &Place, at: V3, towards: V3) -> Vec<f64> {
+    // in the space of the node, by columns right, up, back
+    let back = unit(place.inverse_vector(times(towards, -1.0)));
+    let (right, up) = basis(back);
+    let columns = [right, up, back].map(|v| place.vector(v));
+    let mut all: Vec<f64> = columns.iter().flat_map(|c| [c[0], c[1], c[2], 0.0]).collect();
+    all.extend([at[0], at[1], at[2], 1.0]);
+    all
+}
+
+/// The node of a camera that looks from `eye` at `target`.
+fn looking(eye: V3, target: V3) -> Value {
+    json!({"camera": 0, "matrix": aimed(&Place::new(), eye, unit(sub(target, eye)))})
+}
+
+fn row(name: String, text: String, right: V3) -> Row {
+    Row { text: Text::Gltf(text), ..Row::new(name, String::new(), right) }
+}
+
+pub(super) fn rows() -> Vec<Row> {
+    [lights(), emissive(), cameras()].into_iter().flatten().collect()
+}
+
+/// Candelas and lux of the same number as watts: pbrt-like renderers have no others. KHR_lights_punctual: a node's light shines along its −z
+/// axis, scales do not matter, and a spot falls off by the square of a linear function of the cosine.
+fn lights() -> Vec<Row> {
+    let mut rows = Vec::new();
+    let on_floor = |light: Value, matrix: Vec<f64>| {
+        let node = json!({"matrix": matrix, "extensions": {"KHR_lights_punctual": {"light": 0}}});
+        let nodes = vec![json!({"mesh": 0}), looking([0.0, 0.5, 0.0], [0.0; 3]), node];
+        file(narrow(), json!([light]), nodes, json!({}))
+    };
+    let lit = |p: V3| p[1] / length(p).powi(3);
+    for place in similar(&Place::new()) {
+        for (color, intensity) in [([1.0, 1.0, 1.0], 100.0), ([1.0, 0.5, 0.25], 3.0)] {
+            let strength = times(color, intensity);
+            let described = |kind: &str| json!({"type": kind, "color": color, "intensity": intensity});
+            let at = [0.4, 2.0, -0.3];
+            let text = on_floor(described("point"), matrix(&place, at));
+            let name = |kind: &str| format!("glTF {kind} {intensity}, {}", place.name);
+            rows.push(row(name("point"), text, reflected(times(strength, lit(at)))));
+            for towards in [[0.0, -1.0, 0.0], [0.5, -0.7, 0.3], [0.2, 0.4, 0.1]] {
+                let text = on_floor(described("directional"), aimed(&place, at, towards));
+                let right = times(strength, (-unit(towards)[1]).max(0.0));
+                rows.push(row(format!("{} {towards:?}", name("directional")), text, reflected(right)));
+            }
+            for (inner, outer) in [(0.0, 0.785), (0.2, 0.4), (0.3, 0.3001)] {
+                for target in [[0.0, 0.0, 0.0], [0.6, 0.0, 0.1], [3.0, 0.0, 0.0]] {
+                    let mut light = described("spot");
+                    light["spot"] = json!({"innerConeAngle": inner, "outerConeAngle": outer});
+                    let axis = unit(sub(target, at));
+                    let cos = dot(axis, unit(times(at, -1.0)));
+                    let [from, to] = [f64::cos(outer), f64::cos(inner)];
+                    let falloff = ((cos - from) / (to - from)).clamp(0.0, 1.0).powi(2);
+                    let text = on_floor(light, aimed(&place, at, axis));
+                    let right = times(strength, falloff * lit(at));
+                    rows.push(
+                        row(format!("{} {inner} {outer} {target:?}", name("spot")), text, reflected(right))
+                            .within(2e-4),
+                    );
+                }
+            }
+        }
+    }
+    // without specular reflection, a surface is diffuse from everywhere
+    let grazing = unit([1.0, 0.05, 0.0]);
+    let node = json!({"matrix": aimed(&Place::new(), [0.0; 3], [1.0, -0.05, 0.0]), "extensions": {"KHR_lights_punctual": {"light": 0}}});
+    let nodes = vec![json!({"mesh": 0}), looking(grazing, [0.0; 3]), node];
+    let text = file(narrow(), json!([{"type": "directional"}]), nodes, json!({}));
+    rows.push(row("glTF without specular reflection".into(), text, reflected(grey(grazing[1]))));
+    // a light within a scaled and turned node
+    let parent = json!({"translation": [0, 3, 0], "rotation": [-0.5_f64.sqrt(), 0, 0, 0.5_f64.sqrt()], "scale": [2, 2, 2], "children": [3]});
+    let child =
+        json!({"translation": [0, 0, 0.5], "is child": true, "extensions": {"KHR_lights_punctual": {"light": 0}}});
+    for (kind, right) in [("point", 1.0 / 16.0), ("directional", 1.0)] {
+        let nodes = vec![json!({"mesh": 0}), looking([0.0, 0.5, 0.0], [0.0; 3]), parent.clone(), child.clone()];
+        let text = file(narrow(), json!([{"type": kind}]), nodes, json!({}));
+        rows.push(row(format!("glTF {kind} within a node"), text, reflected(grey(right))));
+    }
+    let mut ranged = row(
+        "glTF point of a range".into(),
+        on_floor(json!({"type": "point", "range": 1.5}), matrix(&Place::new(), [0.0, 2.0, 0.0])),
+        grey(0.0),
+    );
+    ranged = ranged.differs(reflected(grey(0.25)), "a range is a hint, and no light ends there");
+    rows.push(ranged);
+    rows
+}
+
+/// A material's emissiveFactor times its emissiveStrength is the radiance of the front, and of the back if it is double-sided. A node that
+/// mirrors turns no front into a back.
+fn emissive() -> Vec<Row> {
+    let mut rows = Vec::new();
+    for place in similar(&Place::new()) {
+        for (material, radiance, double) in [
+            (json!({"emissiveFactor": [1, 0.5, 0.25]}), [1.0, 0.5, 0.25], false),
+            (json!({"emissiveFactor": [1, 0.5, 0.25], "doubleSided": true}), [1.0, 0.5, 0.25], true),
+            (
+                json!({"emissiveFactor": [1, 1, 0.5], "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 8}}}),
+                [8.0, 8.0, 4.0],
+                false,
+            ),
+        ] {
+            for side in [1.0, -1.0] {
+                let at = [0.5, 3.0, -1.0];
+                let point = along(place.vector([0.3, -0.2, 0.0]), at, 1.0);
+                let eye = along(point, along([0.02, 0.01, -0.01], place.normal([0.0, 0.0, 1.0]), side), 1.0);
+                let nodes = vec![looking(eye, point), json!({"mesh": 1, "matrix": matrix(&place, at)})];
+                let right = if side > 0.0 || double { radiance } else { grey(0.0) };
+                let name = format!("glTF {material}, {}, side {side}", place.name);
+                rows.push(row(name, file(narrow(), json!([]), nodes, material.clone()), right));
+            }
+        }
+    }
+    rows
+}
+
+/// An orthographic camera shows 2 xmag by 2 ymag around its axis, from where it is.
+fn cameras() -> Vec<Row> {
+    let mut rows = Vec::new();
+    // half of what it sees is the square of half side 1 before it
+    let camera = |xmag: f64, ymag: f64| json!({"type": "orthographic", "orthographic": {"xmag": xmag, "ymag": ymag, "zfar": 100, "znear": 0.1}});
+    for (xmag, ymag, share) in [(1.0, 1.0, 1.0), (2.0, 2.0, 0.25), (0.5, 0.5, 1.0)] {
+        let node = json!({"camera": 0, "translation": [0, 0, 5], "scale": [3, 3, 3]});
+        let nodes = vec![node, json!({"mesh": 1})];
+        let text = file(camera(xmag, ymag), json!([]), nodes, json!({"emissiveFactor": [1, 1, 1]}));
+        rows.push(row(format!("glTF orthographic {xmag} {ymag}"), text, grey(share)).samples(1 << 16));
+    }
+    // a tangent of 0.4 of half the angle, at distance 5
+    let yfov = 2.0 * 0.4_f64.atan();
+    let seen = json!({"type": "perspective", "perspective": {"yfov": yfov, "aspectRatio": 1, "znear": 0.1}});
+    let nodes = vec![json!({"camera": 0, "translation": [0, 0, 5]}), json!({"mesh": 1})];
+    let text = file(seen, json!([]), nodes, json!({"emissiveFactor": [1, 1, 1]}));
+    rows.push(row("glTF perspective".into(), text, grey(0.25)).samples(1 << 16));
+    // behind the camera
+    let nodes = vec![json!({"camera": 0, "translation": [0, 0, -1]}), json!({"mesh": 1})];
+    let text = file(camera(1.0, 1.0), json!([]), nodes, json!({"emissiveFactor": [1, 1, 1]}));
+    rows.push(row("glTF orthographic, before what it sees".into(), text, grey(0.0)));
+    rows
+}

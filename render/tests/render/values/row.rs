@@ -1,0 +1,103 @@
+//! A row of the table: a scene whose only pixel has one right value.
+
+use etendue_oracle::V3;
+use etendue_render::{Sampler, Settings, Technique, World, scene};
+use std::path::Path;
+
+/// f32 holds what a light emits, and where it is, to 6e-8 of itself; some twenty operations follow.
+pub(super) const ROUNDING: f64 = 3e-5;
+/// Standard errors that a value may be off.
+const LIMIT: f64 = 4.5;
+/// Albedo of the floor.
+const ALBEDO: f64 = 0.5;
+
+pub(super) enum Text {
+    Pbrt(String),
+    Gltf(String),
+}
+
+/// A scene and its right value.
+pub(super) struct Row {
+    pub(super) name: String,
+    pub(super) text: Text,
+    pub(super) right: V3,
+    /// How much of the right value it may be off, apart from noise.
+    pub(super) tolerance: f64,
+    pub(super) samples: u32,
+    pub(super) technique: Technique,
+    /// What the renderer shows by choice instead, and why.
+    pub(super) differs: Option<(V3, &'static str)>,
+}
+
+impl Row {
+    pub(super) fn new(name: impl Into<String>, text: String, right: V3) -> Self {
+        let (name, text) = (name.into(), Text::Pbrt(text));
+        Self { name, text, right, tolerance: ROUNDING, samples: 64, technique: Technique::Auto, differs: None }
+    }
+    pub(super) fn within(self, tolerance: f64) -> Self {
+        Self { tolerance, ..self }
+    }
+    pub(super) fn samples(self, samples: u32) -> Self {
+        Self { samples, ..self }
+    }
+    pub(super) fn by(self, technique: Technique) -> Self {
+        Self { technique, ..self }
+    }
+    pub(super) fn differs(self, shown: V3, why: &'static str) -> Self {
+        Self { differs: Some((shown, why)), ..self }
+    }
+    /// What the pixel shows; an error if that is neither right nor what differs by choice.
+    pub(super) fn check(&self, folder: &Path) -> Result<(), String> {
+        let name = &self.name;
+        let scene = match &self.text {
+            Text::Pbrt(text) => scene::parse(text, "row.pbrt", folder),
+            Text::Gltf(text) => scene::parse_gltf(text.as_bytes(), "row.gltf"),
+        };
+        let scene = scene.map_err(|error| format!("{name}: {error}"))?;
+        let world = World::new(&scene).map_err(|error| format!("{name}: {error}"))?;
+        let (technique, sampler, spp) = (self.technique, Sampler::Independent, self.samples);
+        let settings = Settings { width: 1, height: 1, spp, technique, depth: 8, sampler, sets: 0, seed: 5 };
+        let pixel = world.render(&settings, &|_| ()).0.pixels[0];
+        let (seen, errors) = (pixel.mean.map(f64::from), pixel.variance.map(|v| f64::from(v).sqrt()));
+        let (wanted, why) = self.differs.map_or((self.right, ""), |(shown, why)| (shown, why));
+        let greatest = wanted.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        for k in 0..3 {
+            if LIMIT * errors[k] > 0.04 * greatest {
+                return Err(format!("{name}: too noisy to tell: {seen:?} ± {errors:?}, right {:?}", self.right));
+            }
+            let error = (seen[k] - wanted[k]).abs();
+            // a value of 0 is exactly that
+            if error > self.tolerance * wanted[k].abs() + LIMIT * errors[k] || error.is_nan() {
+                return Err(format!("{name}: {seen:?} ± {errors:?}, right {wanted:?} {why}"));
+            }
+        }
+        Ok(())
+    }
+}
+
+pub(super) const fn grey(value: f64) -> V3 {
+    [value; 3]
+}
+
+pub(super) fn times(color: V3, factor: f64) -> V3 {
+    color.map(|x| x * factor)
+}
+
+/// Radiance of the floor, where it has this irradiance.
+pub(super) fn reflected(irradiance: V3) -> V3 {
+    times(irradiance, ALBEDO / std::f64::consts::PI)
+}
+
+/// A camera at `eye` that sees `target`, and nothing beside it.
+pub(super) fn look(eye: V3, target: V3) -> String {
+    let [a, b, c] = eye;
+    let [x, y, z] = target;
+    format!("LookAt {a} {b} {c} {x} {y} {z} .1 .7 .3 Camera \"perspective\" \"float fov\" 1e-4\nWorldBegin\n")
+}
+
+/// A camera that sees the origin on a floor, which is the plane z = 0.
+pub(super) fn on_floor(lights: &str) -> String {
+    let floor = "Shape \"bilinearmesh\" \"point3 P\" [-900 -900 0  900 -900 0  -900 900 0  900 900 0]";
+    let material = "Material \"diffuse\" \"rgb reflectance\" [.5 .5 .5]";
+    format!("{}{material}\n{floor}\n{lights}", look([0.01, 0.02, 0.5], [0.0; 3]))
+}
