@@ -89,11 +89,10 @@ fn strength(
 }
 
 /// A spot light with the intensity of a profile that is aimed along its axis, times its own falloff and intensity; `None` if it emits
-/// nothing. `scale` and `power` are those of the light. `table` is the index that the profile will have.
+/// nothing. The scale and the power are those of the light. `table` is the index that the profile will have.
 pub(super) fn spot(
     spot: DeltaLight,
-    scale: [f64; 3],
-    power: Option<f64>,
+    (scale, power): ([f64; 3], Option<f64>),
     profile: Profile,
     params: &Params,
     ctm: &Transform,

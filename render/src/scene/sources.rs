@@ -39,17 +39,17 @@ impl Sources {
         let profile = match if kind == "spot" { params.text("profile")? } else { None } {
             // of its power, the falloff is only a part
             Some(name) => {
-                let (scale, power) = (lights::scale(params)?, lights::power(params)?);
-                Some((profiles::read(&name, params, files, notes)?, scale, power))
+                let given = (lights::scale(params)?, lights::power(params)?);
+                Some((profiles::read(&name, params, files, notes)?, given))
             }
             None => None,
         };
         match lights::read(kind, params, ctm, files, notes)? {
             Source::Delta(light) => match profile {
                 None => self.delta_lights.push(light),
-                Some((None, ..)) => notes.warn(params.error("emits nothing")),
-                Some((Some(profile), scale, power)) => {
-                    self.push(directed::spot(light, scale, power, profile, params, ctm, notes, table)?);
+                Some((None, _)) => notes.warn(params.error("emits nothing")),
+                Some((Some(profile), given)) => {
+                    self.push(directed::spot(light, given, profile, params, ctm, notes, table)?);
                 }
             },
             Source::Environment(environment) => {
