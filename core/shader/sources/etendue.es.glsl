@@ -171,7 +171,6 @@ struct EtendueSpotLight {
 };
 struct EtendueDirectionalLightByDelta {
     vec3 direction;
-    float pdf;
 };
 struct EtendueDirectionalLight {
     vec3 direction;
@@ -2893,40 +2892,36 @@ EtendueLightSample etendue_spot_light_by_delta_hit(EtendueSpotLightByDelta prepa
 // Prepares a light for the shading point p. Its one direction, whatever the random numbers. The pdf of a sample is 1,
 // which is no density; that of a direction is 0.
 EtendueDirectionalLightByDelta etendue_directional_light_by_delta_prepare(EtendueDirectionalLight light_7, vec3 p_6) {
-    EtendueDirectionalLightByDelta result_27 = EtendueDirectionalLightByDelta(vec3(0.0), 0.0);
-    float x1_27 = ((0.0 <= (light_7.direction.x * light_7.direction.x + (light_7.direction.y * light_7.direction.y + (light_7.direction.z * light_7.direction.z)))) ? 1.0 : 0.0);
+    EtendueDirectionalLightByDelta result_27 = EtendueDirectionalLightByDelta(vec3(0.0));
     result_27.direction.x = light_7.direction.x;
     result_27.direction.y = light_7.direction.y;
     result_27.direction.z = light_7.direction.z;
-    result_27.pdf = x1_27;
-    EtendueDirectionalLightByDelta _e36 = result_27;
-    return _e36;
+    EtendueDirectionalLightByDelta _e15 = result_27;
+    return _e15;
 }
 
 // Draws a direction to the light for u in [0, 1)^2. Its one direction, whatever the random numbers. The pdf of a
 // sample is 1, which is no density; that of a direction is 0.
 EtendueLightSample etendue_directional_light_by_delta_sample(EtendueDirectionalLightByDelta prepared_23, vec2 u_10) {
     EtendueLightSample result_28 = EtendueLightSample(vec3(0.0), 0.0, 0.0, 0.0, vec3(0.0), vec2(0.0), false, false);
-    bool b1_6 = (0.0 < prepared_23.pdf);
-    float x2_30 = -(prepared_23.direction.x);
-    float x3_23 = -(prepared_23.direction.y);
-    float x4_16 = -(prepared_23.direction.z);
-    float x5_17 = ((b1_6 && (1e-37 < prepared_23.pdf)) ? (1.0 / prepared_23.pdf) : 0.0);
+    float x1_27 = -(prepared_23.direction.x);
+    float x2_30 = -(prepared_23.direction.y);
+    float x3_23 = -(prepared_23.direction.z);
     result_28.direction.x = prepared_23.direction.x;
     result_28.direction.y = prepared_23.direction.y;
     result_28.direction.z = prepared_23.direction.z;
     result_28.distance_ = 3.4028235e38;
-    result_28.pdf = prepared_23.pdf;
-    result_28.weight = x5_17;
-    result_28.normal.x = x2_30;
-    result_28.normal.y = x3_23;
-    result_28.normal.z = x4_16;
+    result_28.pdf = 1.0;
+    result_28.weight = 1.0;
+    result_28.normal.x = x1_27;
+    result_28.normal.y = x2_30;
+    result_28.normal.z = x3_23;
     result_28.uv.x = 0.0;
     result_28.uv.y = 0.0;
-    result_28.emits = b1_6;
+    result_28.emits = true;
     result_28.delta = true;
-    EtendueLightSample _e56 = result_28;
-    return _e56;
+    EtendueLightSample _e46 = result_28;
+    return _e46;
 }
 
 // The density with which the unit direction w is drawn; 0 where it misses the light. Its one direction, whatever the
@@ -3054,9 +3049,9 @@ vec2 etendue_balance_weights(float first, float second) {
     float _e7 = etendue_greater(0.0, _e3);
     float _e8 = etendue_greater(_e7, _e5);
     bool b4_6 = (0.0 < _e8);
-    float x5_18 = (b4_6 ? _e8 : 1.0);
-    float x6_18 = ((b4_6 && (0.0 < _e3)) ? ((_e8 <= _e3) ? 1.0 : (_e3 / x5_18)) : 0.0);
-    float x7_21 = ((b4_6 && (0.0 < _e5)) ? ((_e8 <= _e5) ? 1.0 : (_e5 / x5_18)) : 0.0);
+    float x5_17 = (b4_6 ? _e8 : 1.0);
+    float x6_18 = ((b4_6 && (0.0 < _e3)) ? ((_e8 <= _e3) ? 1.0 : (_e3 / x5_17)) : 0.0);
+    float x7_21 = ((b4_6 && (0.0 < _e5)) ? ((_e8 <= _e5) ? 1.0 : (_e5 / x5_17)) : 0.0);
     float x8_17 = (b4_6 ? (x7_21 + (0.0 + x6_18)) : 1.0);
     float x9_16 = (x6_18 / x8_17);
     float x10_18 = (x7_21 / x8_17);
@@ -3075,10 +3070,10 @@ vec2 etendue_power_weights(float first_1, float second_1) {
     float _e7 = etendue_greater(0.0, _e3);
     float _e8 = etendue_greater(_e7, _e5);
     bool b4_7 = (0.0 < _e8);
-    float x5_19 = (b4_7 ? _e8 : 1.0);
-    float x6_19 = ((b4_7 && (0.0 < _e3)) ? ((_e8 <= _e3) ? 1.0 : (_e3 / x5_19)) : 0.0);
+    float x5_18 = (b4_7 ? _e8 : 1.0);
+    float x6_19 = ((b4_7 && (0.0 < _e3)) ? ((_e8 <= _e3) ? 1.0 : (_e3 / x5_18)) : 0.0);
     float x7_22 = (x6_19 * x6_19);
-    float x8_18 = ((b4_7 && (0.0 < _e5)) ? ((_e8 <= _e5) ? 1.0 : (_e5 / x5_19)) : 0.0);
+    float x8_18 = ((b4_7 && (0.0 < _e5)) ? ((_e8 <= _e5) ? 1.0 : (_e5 / x5_18)) : 0.0);
     float x9_17 = (x8_18 * x8_18);
     float x10_19 = (b4_7 ? (x9_17 + (0.0 + x7_22)) : 1.0);
     float x11_19 = (x7_22 / x10_19);
@@ -3100,10 +3095,10 @@ float etendue_power_light_weight(float pdf_1, bool emits, bool delta_1, float bs
     float _e16 = etendue_greater(0.0, _e12);
     float _e17 = etendue_greater(_e16, _e14);
     bool b4_8 = (0.0 < _e17);
-    float x5_20 = (b4_8 ? _e17 : 1.0);
-    float x6_20 = ((b4_8 && (0.0 < _e12)) ? ((_e17 <= _e12) ? 1.0 : (_e12 / x5_20)) : 0.0);
+    float x5_19 = (b4_8 ? _e17 : 1.0);
+    float x6_20 = ((b4_8 && (0.0 < _e12)) ? ((_e17 <= _e12) ? 1.0 : (_e12 / x5_19)) : 0.0);
     float x7_23 = (x6_20 * x6_20);
-    float x8_19 = ((b4_8 && (0.0 < _e14)) ? ((_e17 <= _e14) ? 1.0 : (_e14 / x5_20)) : 0.0);
+    float x8_19 = ((b4_8 && (0.0 < _e14)) ? ((_e17 <= _e14) ? 1.0 : (_e14 / x5_19)) : 0.0);
     float x9_18 = ((x7_23 / (b4_8 ? ((x8_19 * x8_19) + (0.0 + x7_23)) : 1.0)) * ((emits && (1e-37 < pdf_1)) ? (1.0 / pdf_1) : 0.0));
     return x9_18;
 }
@@ -3111,7 +3106,7 @@ float etendue_power_light_weight(float pdf_1, bool emits, bool delta_1, float bs
 // The weight, over its density, of a direction that the surface drew with the density bsdf_pdf, where it hits a light
 // with these fields: by the power heuristic, one sample each. 0 where the light is missed.
 float etendue_power_bsdf_weight(float bsdf_pdf_1, float pdf_2, bool emits_1) {
-    bool b1_7 = ((emits_1 && (1e-37 < bsdf_pdf_1)) && (0.0 < pdf_2));
+    bool b1_6 = ((emits_1 && (1e-37 < bsdf_pdf_1)) && (0.0 < pdf_2));
     float _e10 = etendue_greater(bsdf_pdf_1, 0.0);
     float _e12 = etendue_greater(pdf_2, 0.0);
     float _e14 = etendue_greater(0.0, _e10);
@@ -3122,8 +3117,8 @@ float etendue_power_bsdf_weight(float bsdf_pdf_1, float pdf_2, bool emits_1) {
     float x8_20 = (x7_24 * x7_24);
     float x9_19 = ((b5_8 && (0.0 < _e12)) ? ((_e15 <= _e12) ? 1.0 : (_e12 / x6_21)) : 0.0);
     float _e48 = etendue_from_bits(2139095040u);
-    float x10_20 = ((x8_20 / (b5_8 ? ((x9_19 * x9_19) + (0.0 + x8_20)) : 1.0)) / ((b1_7 && !((_e48 <= bsdf_pdf_1))) ? bsdf_pdf_1 : 1.0));
-    float x11_20 = (b1_7 ? x10_20 : 0.0);
+    float x10_20 = ((x8_20 / (b5_8 ? ((x9_19 * x9_19) + (0.0 + x8_20)) : 1.0)) / ((b1_6 && !((_e48 <= bsdf_pdf_1))) ? bsdf_pdf_1 : 1.0));
+    float x11_20 = (b1_6 ? x10_20 : 0.0);
     return x11_20;
 }
 
@@ -3135,12 +3130,12 @@ float etendue_spread_attenuation(float tan_half, float gain, vec3 w_16, vec3 n) 
     float x1_30 = abs((w_16.x * n.x + (w_16.y * n.y + (w_16.z * n.z))));
     bool b2_2 = (0.0 < x1_30);
     float x3_25 = -((w_16.z * n.y));
-    float x4_17 = ((w_16.y * n.z + x3_25) - (w_16.z * n.y + x3_25));
-    float x5_21 = -((w_16.x * n.z));
-    float x6_22 = ((w_16.z * n.x + x5_21) - (w_16.x * n.z + x5_21));
+    float x4_16 = ((w_16.y * n.z + x3_25) - (w_16.z * n.y + x3_25));
+    float x5_20 = -((w_16.x * n.z));
+    float x6_22 = ((w_16.z * n.x + x5_20) - (w_16.x * n.z + x5_20));
     float x7_25 = -((w_16.y * n.x));
     float x8_21 = ((w_16.x * n.y + x7_25) - (w_16.y * n.x + x7_25));
-    float x9_20 = (tan_half - (sqrt((x4_17 * x4_17 + (x6_22 * x6_22 + (x8_21 * x8_21)))) / (b2_2 ? x1_30 : 1.0)));
+    float x9_20 = (tan_half - (sqrt((x4_16 * x4_16 + (x6_22 * x6_22 + (x8_21 * x8_21)))) / (b2_2 ? x1_30 : 1.0)));
     float _e60 = etendue_greater((gain * x9_20), 0.0);
     float x10_21 = (b2_2 ? _e60 : 0.0);
     return x10_21;
@@ -3157,11 +3152,11 @@ vec2 etendue_projector_place(vec2 tan_half_1, vec3 w_17) {
     bool b4_9 = ((b3_4 && (-(x2_32) < w_17.y)) && (w_17.y <= x2_32));
     float _e36 = etendue_greater((0.5 * (w_17.x / (b4_9 ? x1_31 : 1.0)) + 0.5), 0.0);
     float _e38 = etendue_lesser(_e36, 0.99999994);
-    float x5_22 = (b4_9 ? _e38 : 0.0);
+    float x5_21 = (b4_9 ? _e38 : 0.0);
     float _e50 = etendue_greater((0.5 * (-(w_17.y) / (b4_9 ? x2_32 : 1.0)) + 0.5), 0.0);
     float _e52 = etendue_lesser(_e50, 0.99999994);
     float x6_23 = (b4_9 ? _e52 : 0.0);
-    result_34.x = x5_22;
+    result_34.x = x5_21;
     result_34.y = x6_23;
     vec2 _e57 = result_34;
     return _e57;
@@ -3183,12 +3178,12 @@ vec3 etendue_projector_direction(vec2 tan_half_3, vec2 uv) {
     float x1_33 = (tan_half_3.x * (uv.x * 2.0 + -1.0));
     float x2_34 = (tan_half_3.y * -((uv.y * 2.0 + -1.0)));
     float x3_26 = (x1_33 * x1_33 + (x2_34 * x2_34 + 1.0));
-    float x4_18 = ((0.0 < x3_26) ? (1.0 / sqrt(x3_26)) : 0.0);
-    float x5_23 = (x1_33 * x4_18);
-    float x6_24 = (x2_34 * x4_18);
-    result_35.x = x5_23;
+    float x4_17 = ((0.0 < x3_26) ? (1.0 / sqrt(x3_26)) : 0.0);
+    float x5_22 = (x1_33 * x4_17);
+    float x6_24 = (x2_34 * x4_17);
+    result_35.x = x5_22;
     result_35.y = x6_24;
-    result_35.z = x4_18;
+    result_35.z = x4_17;
     vec3 _e31 = result_35;
     return _e31;
 }
@@ -3201,11 +3196,11 @@ vec3 etendue_portal_direction(vec3 edge_s, vec3 edge_t, vec3 normal, float scale
     vec2 _e10 = etendue_sin_cos_turns((0.5 * (uv_1.x - 0.5)));
     vec2 _e16 = etendue_sin_cos_turns((0.5 * (uv_1.y - 0.5)));
     float x3_27 = (_e10.x * _e16.y);
-    float x4_19 = (_e10.y * _e16.x);
-    float x5_24 = (_e10.y * _e16.y);
-    float x6_25 = (edge_s.x * x3_27 + (edge_t.x * x4_19 + (normal.x * x5_24)));
-    float x7_26 = (edge_s.y * x3_27 + (edge_t.y * x4_19 + (normal.y * x5_24)));
-    float x8_22 = (edge_s.z * x3_27 + (edge_t.z * x4_19 + (normal.z * x5_24)));
+    float x4_18 = (_e10.y * _e16.x);
+    float x5_23 = (_e10.y * _e16.y);
+    float x6_25 = (edge_s.x * x3_27 + (edge_t.x * x4_18 + (normal.x * x5_23)));
+    float x7_26 = (edge_s.y * x3_27 + (edge_t.y * x4_18 + (normal.y * x5_23)));
+    float x8_22 = (edge_s.z * x3_27 + (edge_t.z * x4_18 + (normal.z * x5_23)));
     float _e46 = etendue_greater(abs(x6_25), abs(x7_26));
     float _e48 = etendue_greater(_e46, abs(x8_22));
     float _e49 = etendue_pow2_scale(_e48);
@@ -3230,11 +3225,11 @@ float etendue_portal_solid_angle(vec3 edge_s_1, vec3 edge_t_1, vec3 normal_1, fl
     vec2 _e10 = etendue_sin_cos_turns((0.5 * (uv_2.x - 0.5)));
     vec2 _e16 = etendue_sin_cos_turns((0.5 * (uv_2.y - 0.5)));
     float x3_28 = (_e10.x * _e16.y);
-    float x4_20 = (_e10.y * _e16.x);
-    float x5_25 = (_e10.y * _e16.y);
-    float x6_26 = (edge_s_1.x * x3_28 + (edge_t_1.x * x4_20 + (normal_1.x * x5_25)));
-    float x7_27 = (edge_s_1.y * x3_28 + (edge_t_1.y * x4_20 + (normal_1.y * x5_25)));
-    float x8_23 = (edge_s_1.z * x3_28 + (edge_t_1.z * x4_20 + (normal_1.z * x5_25)));
+    float x4_19 = (_e10.y * _e16.x);
+    float x5_24 = (_e10.y * _e16.y);
+    float x6_26 = (edge_s_1.x * x3_28 + (edge_t_1.x * x4_19 + (normal_1.x * x5_24)));
+    float x7_27 = (edge_s_1.y * x3_28 + (edge_t_1.y * x4_19 + (normal_1.y * x5_24)));
+    float x8_23 = (edge_s_1.z * x3_28 + (edge_t_1.z * x4_19 + (normal_1.z * x5_24)));
     float _e46 = etendue_greater(abs(x6_26), abs(x7_27));
     float _e48 = etendue_greater(_e46, abs(x8_23));
     float _e49 = etendue_pow2_scale(_e48);

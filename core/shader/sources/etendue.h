@@ -345,7 +345,6 @@ typedef struct {
 // sample is 1, which is no density; that of a direction is 0.
 typedef struct {
     EtendueVec3 direction;
-    float pdf;
 } EtendueDirectionalLightByDelta;
 
 // A directional light, that reaches every point from one direction with the irradiance E on a surface that faces it.
@@ -2672,12 +2671,10 @@ ETENDUE_FUNCTION EtendueLightSample etendue_spot_light_by_delta_hit(EtendueSpotL
 // which is no density; that of a direction is 0.
 ETENDUE_FUNCTION EtendueDirectionalLightByDelta etendue_directional_light_by_delta_prepare(EtendueDirectionalLight light, EtendueVec3 p) {
     (void)p;
-    const float x1 = (0.0f <= fmaf(light.direction.x, light.direction.x, fmaf(light.direction.y, light.direction.y, light.direction.z * light.direction.z))) ? 1.0f : 0.0f;
     EtendueDirectionalLightByDelta result;
     result.direction.x = light.direction.x;
     result.direction.y = light.direction.y;
     result.direction.z = light.direction.z;
-    result.pdf = x1;
     return result;
 }
 
@@ -2685,24 +2682,22 @@ ETENDUE_FUNCTION EtendueDirectionalLightByDelta etendue_directional_light_by_del
 // sample is 1, which is no density; that of a direction is 0.
 ETENDUE_FUNCTION EtendueLightSample etendue_directional_light_by_delta_sample(EtendueDirectionalLightByDelta prepared, EtendueVec2 u) {
     (void)u;
-    const bool b1 = 0.0f < prepared.pdf;
-    const float x2 = -prepared.direction.x;
-    const float x3 = -prepared.direction.y;
-    const float x4 = -prepared.direction.z;
-    const float x5 = (b1 && (1e-37f < prepared.pdf)) ? 1.0f / prepared.pdf : 0.0f;
+    const float x1 = -prepared.direction.x;
+    const float x2 = -prepared.direction.y;
+    const float x3 = -prepared.direction.z;
     EtendueLightSample result;
     result.direction.x = prepared.direction.x;
     result.direction.y = prepared.direction.y;
     result.direction.z = prepared.direction.z;
     result.distance = 3.4028235e38f;
-    result.pdf = prepared.pdf;
-    result.weight = x5;
-    result.normal.x = x2;
-    result.normal.y = x3;
-    result.normal.z = x4;
+    result.pdf = 1.0f;
+    result.weight = 1.0f;
+    result.normal.x = x1;
+    result.normal.y = x2;
+    result.normal.z = x3;
     result.uv.x = 0.0f;
     result.uv.y = 0.0f;
-    result.emits = b1;
+    result.emits = true;
     result.delta = true;
     return result;
 }

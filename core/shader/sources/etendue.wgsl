@@ -288,7 +288,6 @@ struct EtendueSpotLight {
 // sample is 1, which is no density; that of a direction is 0.
 struct EtendueDirectionalLightByDelta {
     direction: vec3<f32>,
-    pdf: f32,
 }
 
 // A directional light, that reaches every point from one direction with the irradiance E on a surface that faces it.
@@ -2606,36 +2605,32 @@ fn etendue_spot_light_by_delta_hit(prepared: EtendueSpotLightByDelta, w: vec3<f3
 // Prepares a light for the shading point p. Its one direction, whatever the random numbers. The pdf of a sample is 1,
 // which is no density; that of a direction is 0.
 fn etendue_directional_light_by_delta_prepare(light: EtendueDirectionalLight, p: vec3<f32>) -> EtendueDirectionalLightByDelta {
-    let x1 = select(0.0f, 1.0f, 0.0f <= fma(light.direction.x, light.direction.x, fma(light.direction.y, light.direction.y, light.direction.z * light.direction.z)));
     var result: EtendueDirectionalLightByDelta;
     result.direction.x = light.direction.x;
     result.direction.y = light.direction.y;
     result.direction.z = light.direction.z;
-    result.pdf = x1;
     return result;
 }
 
 // Draws a direction to the light for u in [0, 1)^2. Its one direction, whatever the random numbers. The pdf of a
 // sample is 1, which is no density; that of a direction is 0.
 fn etendue_directional_light_by_delta_sample(prepared: EtendueDirectionalLightByDelta, u: vec2<f32>) -> EtendueLightSample {
-    let b1 = 0.0f < prepared.pdf;
-    let x2 = -prepared.direction.x;
-    let x3 = -prepared.direction.y;
-    let x4 = -prepared.direction.z;
-    let x5 = select(0.0f, 1.0f / prepared.pdf, b1 & (1e-37f < prepared.pdf));
+    let x1 = -prepared.direction.x;
+    let x2 = -prepared.direction.y;
+    let x3 = -prepared.direction.z;
     var result: EtendueLightSample;
     result.direction.x = prepared.direction.x;
     result.direction.y = prepared.direction.y;
     result.direction.z = prepared.direction.z;
     result.distance = 3.4028235e38f;
-    result.pdf = prepared.pdf;
-    result.weight = x5;
-    result.normal.x = x2;
-    result.normal.y = x3;
-    result.normal.z = x4;
+    result.pdf = 1.0f;
+    result.weight = 1.0f;
+    result.normal.x = x1;
+    result.normal.y = x2;
+    result.normal.z = x3;
     result.uv.x = 0.0f;
     result.uv.y = 0.0f;
-    result.emits = b1;
+    result.emits = true;
     result.delta = true;
     return result;
 }

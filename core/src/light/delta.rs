@@ -194,8 +194,7 @@ impl<R: Real> DirectionalLight<R> {
     /// Prepared for the shading point `p`; all points have the same samples. `pdf` is 1.
     #[inline(always)]
     pub fn by_delta(&self, p: Vec3<R>) -> DirectionalLightByDelta<R> {
-        // nothing where the direction is no number
-        let (distance, pdf) = (R::lit(FAR), R::lit(1.0).keep(self.direction.length_squared().ge(R::lit(0.0))));
+        let (distance, pdf) = (R::lit(FAR), R::lit(1.0));
         DirectionalLightByDelta { origin: p, direction: self.direction, distance, pdf }
     }
 }

@@ -22,7 +22,8 @@ use core::f64::consts::PI;
 /// reports the pdf of the point that was drawn.
 ///
 /// Degenerate input (a light without extent, a shading point in the plane of a flat light) gives pdf 0, never NaN, infinity or a panic. So does
-/// NaN in a light, in the shading point or, but for cosine warps, in its normal.
+/// NaN in a light, in the shading point or in its normal, except in the direction of a directional light and in the normal of cosine warps,
+/// whose pdf does not depend on them.
 ///
 /// # What a host gets wrong at first
 /// - The normal `n` of a shading point must have length 1: by projected solid angle the pdf is multiplied by its length, so that it no
