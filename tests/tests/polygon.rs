@@ -162,7 +162,8 @@ fn small_polygons_keep_their_shape() {
             for (k, found) in found.into_iter().enumerate() {
                 let off = (f64::from(found) / truth[k / 2] - 1.0).abs();
                 greatest[k] = greatest[k].max(off);
-                assert!(off < 5e-7, "size {size}: {found} for {}, {corners:?} from {p:?}", truth[k / 2]);
+                // Ω⊥ has the error of the height over the horizon besides
+                assert!(off < [5e-7, 1e-6][k / 2], "size {size}: {found} for {}, {corners:?} from {p:?}", truth[k / 2]);
             }
         }
     }
