@@ -232,7 +232,7 @@ pub(super) fn turned(random: &mut Random) -> Draft {
         1 => {
             // all around the scene
             let (radius, size) = (random.between(4.0, 8.0), random.between(1.0, 3.0));
-            let mut around = Part::light(Form::Sphere([0.0; 3], radius), 0.5, random.one_in(6));
+            let mut around = Part::light(Form::Sphere([0.0; 3], radius), 0.5, false);
             let factors = [0; 3].map(|_| random.of(&[-size, size]));
             let map = map(&axes(random.below(3), random), factors, [0.0; 3]);
             around.place = Some(Place { map, is_reversed: !random.one_in(4) });
@@ -332,7 +332,7 @@ pub(super) fn films(random: &mut Random) -> Draft {
     let mut draft = if random.one_in(3) { skies(random) } else { stage(random) };
     furnish(&mut draft, random);
     let long = random.power(1.0, 4.8) as u32;
-    let short = if random.one_in(3) { long } else { random.power(0.0, 1.5) as u32 };
+    let short = if random.one_in(3) { long.min(1 << 12) } else { random.power(0.0, 1.5) as u32 };
     let size = if random.one_in(2) { [long, short] } else { [short, long] };
     let window = size.map(|side| {
         let count = side.min(1 + random.below(32) as u32);
