@@ -54,6 +54,21 @@
 //! lights `L` and `power` stay what they are, and the profile distributes it: see [`LuminousOpening`](etendue::light::LuminousOpening).
 //! `"float tilt"` is the angle in degrees by which a luminaire with an IES file is tilted, for the factors that the file has for it.
 //!
+//! These differ from pbrt-v4 by choice:
+//!
+//! | what | here | pbrt-v4 |
+//! |---|---|---|
+//! | `power` of a mesh | of all of the shape, so that its triangles do not show | of each triangle or patch |
+//! | `power` with a picture | by the mean of what the shape shows | by the mean of all texels |
+//! | `rgb L` or `rgb I` beside `power` or `illuminance` | its colour counts; `scale` multiplies, as in pbrt | it multiplies, too |
+//! | `illuminance` of a picture | integrated over each texel | by the cosine in the middle of each texel |
+//! | vertex normals | normalised before they are interpolated | as they are in the file |
+//! | views from below the smooth normal | it is turned until its cosine to the viewer is 0.01 | what is below it reflects |
+//! | quadrics that a transform mirrors | emit on the side of the transformed normal | sampled there, but seen from the other side |
+//! | `L` beside `filename` | both multiply, as in pbrt-v3 | an error |
+//! | `iso`, `sensor`, exposure time | ignored: pixels are radiance | a factor, a response |
+//! | texels that are NaN or infinite | an error; negative ones are 0, with a warning | an error in lights alone |
+//!
 //! | in glTF files | becomes |
 //! |---|---|
 //! | metallic-roughness, specular-glossiness, index of refraction, specular | glTF's GGX over diffuse; a tinted F hides the diffuse part per channel |
