@@ -51,9 +51,18 @@ fn values_of_parameters() {
     write_files(&folder);
     let tables = [deltas::rows(), skies::rows(), emitters::rows(), gltf::rows(), cameras::rows()];
     let rows: Vec<Row> = tables.into_iter().flatten().collect();
-    let wrong: Vec<String> = rows.par_iter().filter_map(|row| row.check(&folder).err()).collect();
+    let seen: Vec<Result<String, String>> = rows.par_iter().map(|row| row.check(&folder)).collect();
     fs::remove_dir_all(&folder).unwrap();
+    // with `--nocapture`, the table
+    seen.iter().flatten().for_each(|line| println!("{line}"));
+    let wrong: Vec<&String> = seen.iter().filter_map(|line| line.as_ref().err()).collect();
     let by_choice = rows.iter().filter(|row| row.differs.is_some()).count();
     println!("{} rows, of which {by_choice} differ by choice, and {} are wrong", rows.len(), wrong.len());
-    assert!(wrong.is_empty(), "{} of {} rows are wrong:\n{}", wrong.len(), rows.len(), wrong.join("\n"));
+    assert!(
+        wrong.is_empty(),
+        "{} of {} rows are wrong:\n{}",
+        wrong.len(),
+        rows.len(),
+        wrong.iter().map(|line| line.as_str()).collect::<Vec<_>>().join("\n")
+    );
 }

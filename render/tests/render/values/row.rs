@@ -46,8 +46,8 @@ impl Row {
     pub(super) fn differs(self, shown: V3, why: &'static str) -> Self {
         Self { differs: Some((shown, why)), ..self }
     }
-    /// What the pixel shows; an error if that is neither right nor what differs by choice.
-    pub(super) fn check(&self, folder: &Path) -> Result<(), String> {
+    /// What the pixel shows, as a line of the table; an error if that is neither right nor what differs by choice.
+    pub(super) fn check(&self, folder: &Path) -> Result<String, String> {
         let name = &self.name;
         let scene = match &self.text {
             Text::Pbrt(text) => scene::parse(text, "row.pbrt", folder),
@@ -71,7 +71,7 @@ impl Row {
                 return Err(format!("{name}: {seen:?} ± {errors:?}, right {wanted:?} {why}"));
             }
         }
-        Ok(())
+        Ok(format!("{name}: {seen:?}, right {:?} {why}", self.right))
     }
 }
 
