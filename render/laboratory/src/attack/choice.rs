@@ -1,6 +1,5 @@
 //! How well lights of several kinds are chosen: the efficiency of the renderer's choice over that of the better of two pure ones, which are
-//! known from images of each kind alone. All have the sampler that the renderer has by default at few samples, which spreads the samples
-//! over the kinds as evenly as over each light; pure choices count as if they did so exactly.
+//! known from images of each kind alone.
 
 use super::bridge::sources;
 use super::build::{facing, floor, quad};
@@ -101,7 +100,7 @@ fn powers(draft: &Draft) -> [f64; 3] {
     powers
 }
 
-/// Measures the choice at so many samples per pixel; `None` if the lights are of one kind, or if nothing is
+/// Measures the choice at so many samples per pixel, by one sample of a light each; `None` if the lights are of one kind, or if nothing is
 /// lit.
 ///
 /// # Errors
@@ -126,24 +125,19 @@ pub fn measure(draft: &Draft, [side, spp]: [u32; 2], seed: u64) -> Result<Option
             spp,
             technique: Technique::SolidAngle,
             depth: Settings::DEPTH,
-            sampler: Sampler::Sobol,
+            sampler: Sampler::Independent,
             sets: 0,
             seed,
         };
         Ok(world.render(&settings, &|_| ()).0)
     };
     let base = seed.wrapping_mul(0x9e37_79b9) << 8;
-    // two references of each kind, and images with about as many samples as it has by equal chances
-    let fair = spp as usize / kinds.len();
-    let part: u32 = 1 << fair.ilog2();
-    let films = |&kind: &usize| -> Result<[Vec<Film>; 2], String> {
+    let pair = |&kind: &usize| -> Result<[Film; 2], String> {
         let alone = only(kind);
-        let of = |spp: u32, k: u64| image(&alone, spp, base + 16 * kind as u64 + k);
-        let references = (0..2).map(|k| of(FINER * spp, k));
-        let parts = (0..SEEDS).map(|k| of(part, 8 + k));
-        Ok([references.collect::<Result<_, _>>()?, parts.collect::<Result<_, _>>()?])
+        let of = |k: u64| image(&alone, FINER * spp, base + 2 * kind as u64 + k);
+        Ok([of(0)?, of(1)?])
     };
-    let alone: Vec<[Vec<Film>; 2]> = kinds.iter().map(films).collect::<Result<_, _>>()?;
+    let alone: Vec<[Film; 2]> = kinds.iter().map(pair).collect::<Result<_, _>>()?;
     // what the camera sees of lights is not chosen
     let mut black = draft.clone();
     black.parts.iter_mut().for_each(|part| {
@@ -159,22 +153,20 @@ pub fn measure(draft: &Draft, [side, spp]: [u32; 2], seed: u64) -> Result<Option
     let (mut errors, mut square) = ([0.0; 3], 0.0);
     for i in (0..seen.pixels.len()).filter(|&i| seen.pixels[i].mean[1] == 0.0) {
         let value = |film: &Film| f64::from(film.pixels[i].mean[1]);
-        let of = |films: &[Film], a: f64, b: f64| {
-            films.iter().map(|film| (value(film) - a) * (value(film) - b)).sum::<f64>() / SEEDS as f64
-        };
-        let [a, b] = [0, 1].map(|k| alone.iter().map(|[references, _]| value(&references[k])).sum::<f64>());
+        let [a, b] = [0, 1].map(|k| alone.iter().map(|pair| value(&pair[k])).sum::<f64>());
         square += a * b;
-        errors[0] += of(&own, a, b);
+        errors[0] += own.iter().map(|film| (value(film) - a) * (value(film) - b)).sum::<f64>() / SEEDS as f64;
         for (error, chances) in errors[1..].iter_mut().zip(&chances) {
-            for ([references, parts], chance) in alone.iter().zip(chances) {
-                // with its samples, the squared error becomes that many times less
-                let less = chance * f64::from(spp) / f64::from(part);
-                *error += of(parts, value(&references[0]), value(&references[1])) / less;
-            }
+            // the second moment of one sample, over the chance to take it
+            let moment =
+                |film: &Film| f64::from(film.pixels[i].variance[1]) * f64::from(FINER * spp) + value(film).powi(2);
+            let moments = alone.iter().map(|[a, b]| 0.5 * (moment(a) + moment(b)));
+            *error +=
+                (moments.zip(chances).map(|(moment, chance)| moment / chance).sum::<f64>() - a * b) / f64::from(spp);
         }
     }
     let [own, equal, by_power] = errors.map(|error| square / (error * f64::from(spp)));
-    Ok((square > 0.0 && own > 0.0 && equal > 0.0).then_some(Choice { own, equal, by_power }))
+    Ok((square > 0.0 && own > 0.0).then_some(Choice { own, equal, by_power }))
 }
 
 /// Measures the scenes of a regime with these seeds, on the threads of the current pool.
