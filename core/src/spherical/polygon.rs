@@ -2,7 +2,7 @@
 
 use super::corners::PlacedCorners;
 use super::direction::DirectionSample;
-use super::double_word::{height_dw, sum_dw};
+use super::double_word::{cross_sums, height_dw};
 use super::triangle::{Planes, SphericalTriangle};
 use crate::lanewise::lanewise_by_map;
 use crate::math::quotient;
@@ -85,13 +85,15 @@ impl<R: Real, const N: usize> SphericalPolygon<R, N> {
     #[inline(always)]
     fn triangle(placed: &PlacedCorners<R, N>, from: usize, to: usize) -> SphericalTriangle<R> {
         let PlacedCorners { corners, edges, spokes, scale } = placed;
-        let [[a, _], [p, rest], [b, _]] = [from, 0, to].map(|k| corners[k]);
-        let normal = placed.normal(to, from);
-        let [sum, more] = height_dw(p, normal);
+        let [[a, rest], [p, _], [b, _]] = [from, 0, to].map(|k| corners[k]);
+        // about a corner between neighbours, since the shorter edges are rounded less
+        let side = placed.side(from, to);
+        let normal = cross_sums(edges[from].map(|e| -e), side);
+        let [sum, more] = height_dw(a, normal);
         let volume = sum + (more + rest.dot(normal[0]));
-        // with the edges e to a and f to b: (p+e)×(p+f) = p×f − p×e − f×e
         let (n01, n12) = (spokes[from].map(|n| -n), spokes[to]);
-        let n02 = sum_dw(sum_dw(n12, n01), normal.map(|n| -n));
+        // a×b = a×(b−a): the difference has the shape of a small polygon, and the corner the place of one that is near
+        let n02 = cross_sums(corners[from], side);
         let [n01, n02, n12, normal] = [n01, n02, n12, normal].map(|[n, rest]| n + rest);
         let planes = Planes { n01, n02, n12, normal, volume, edge: edges[to][0] };
         SphericalTriangle::prepare([a, p, b], &planes, || n12, *scale)

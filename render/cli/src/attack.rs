@@ -68,13 +68,13 @@ impl AttackOptions {
             return claim(&regimes, |regime| pool.install(|| claims::run(regime, seed..seed + count, quality)));
         }
         if let Some(count) = self.choices {
-            let mut least = f64::INFINITY;
+            let mut is_good = true;
             for regime in regimes {
                 let tally = pool.install(|| choice::run(regime, seed..seed + count, quality))?;
                 writeln!(out(), "{tally}")?;
-                least = tally.ratios.first().map_or(least, |(ratio, _)| least.min(*ratio));
+                is_good &= !tally.choices.iter().any(|(choice, _)| choice.is_poor());
             }
-            return Ok(least >= choice::LEAST);
+            return Ok(is_good);
         }
         if let Some(folder) = &self.shrink {
             std::fs::create_dir_all(folder).map_err(|e| format!("{}: {e}", folder.display()))?;

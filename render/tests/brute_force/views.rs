@@ -100,7 +100,8 @@ impl World {
             forward,
             right,
             up,
-            screen: Screen::Half([0.6, 0.6, 0.01, 1e-5][random.below(4)]),
+            // the tangents of half of 60, 1 and 0.001 degrees
+            screen: Screen::Half(libm::tan([60.0_f64, 60.0, 1.0, 0.001][random.below(4)].to_radians() / 2.0)),
             ..self.scene.camera.clone()
         };
         let size = [8, 64, 512, 4096][random.below(4)];

@@ -19,8 +19,11 @@ use std::ops::Range;
 const FINER: u32 = 16;
 /// Images of the renderer.
 const SEEDS: u64 = 4;
-/// The least efficiency that a choice should have, relative to the better of the pure ones.
+/// The least efficiency that a choice should have, relative to the better of the pure ones, …
 pub const LEAST: f64 = 0.5;
+/// … unless it has this one. Where one kind gives all the light without noise, as a sun does, its pure choice has no error. Of three kinds it
+/// has at least ⅔ of the samples, so that the choice has a relative squared error of ½ over their number.
+const ENOUGH: f64 = 1.5;
 
 /// Efficiency of choices, each 1/(squared error × samples) relative to the squared radiance.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,6 +42,11 @@ impl Choice {
     pub fn ratio(&self) -> f64 {
         self.own / self.equal.max(self.by_power)
     }
+    /// Whether it is worse than it may be.
+    #[must_use]
+    pub fn is_poor(&self) -> bool {
+        self.ratio() < LEAST && self.own < ENOUGH
+    }
 }
 
 /// What the scenes of a regime have shown.
@@ -46,8 +54,8 @@ impl Choice {
 pub struct Tally {
     /// Name of the regime.
     pub regime: &'static str,
-    /// The relative efficiency of each scene that has lights of several kinds, with its seed, in ascending order.
-    pub ratios: Vec<(f64, u64)>,
+    /// The efficiency in each scene that has lights of several kinds, with its seed, in ascending order of ratios.
+    pub choices: Vec<(Choice, u64)>,
 }
 
 /// The kinds of lights: those that are somewhere, skies, and suns.
@@ -174,23 +182,32 @@ pub fn measure(draft: &Draft, [side, spp]: [u32; 2], seed: u64) -> Result<Option
 /// # Errors
 /// Fails if a scene cannot be rendered.
 pub fn run(regime: &Regime, seeds: Range<u64>, quality: [u32; 2]) -> Result<Tally, String> {
-    let ratio = |seed: u64| Ok(measure(&regime.draft(seed), quality, seed)?.map(|choice| (choice.ratio(), seed)));
-    let found = seeds.into_par_iter().map(ratio).collect::<Result<Vec<_>, String>>()?;
-    let mut ratios: Vec<(f64, u64)> = found.into_iter().flatten().collect();
-    ratios.sort_by(|a, b| a.0.total_cmp(&b.0));
-    Ok(Tally { regime: regime.name, ratios })
+    let of = |seed: u64| Ok(measure(&regime.draft(seed), quality, seed)?.map(|choice| (choice, seed)));
+    let found = seeds.into_par_iter().map(of).collect::<Result<Vec<_>, String>>()?;
+    let mut choices: Vec<(Choice, u64)> = found.into_iter().flatten().collect();
+    choices.sort_by(|a, b| a.0.ratio().total_cmp(&b.0.ratio()));
+    Ok(Tally { regime: regime.name, choices })
 }
 
 impl Display for Tally {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        write!(f, "{:13} {:5} scenes with lights of several kinds", self.regime, self.ratios.len())?;
-        let Some((least, seed)) = self.ratios.first() else { return Ok(()) };
-        let below = self.ratios.iter().filter(|(ratio, _)| *ratio < LEAST).count();
-        let middle = self.ratios[self.ratios.len() / 2].0;
-        write!(
-            f,
-            ", efficiency over that of the better pure choice: least {least:.3} ({seed}), median {middle:.3}, {below} below {LEAST}"
-        )
+        write!(f, "{:13} {:5} scenes with lights of several kinds", self.regime, self.choices.len())?;
+        if self.choices.is_empty() {
+            return Ok(());
+        }
+        let middle = self.choices[self.choices.len() / 2].0.ratio();
+        write!(f, ", efficiency over that of the better pure choice: median {middle:.3}")?;
+        let poor = self.choices.iter().filter(|(choice, _)| choice.is_poor()).count();
+        let below = self.choices.iter().filter(|(choice, _)| choice.ratio() < LEAST).count();
+        let rest = &self.choices[below..];
+        if let Some((least, seed)) = rest.first() {
+            write!(f, ", least {:.3} ({seed})", least.ratio())?;
+        }
+        write!(f, ", {below} below {LEAST}, of which {poor} have an error")?;
+        for (choice, seed) in &self.choices[..below] {
+            write!(f, "; {seed}: {:.3} at an efficiency of {:.2}", choice.ratio(), choice.own)?;
+        }
+        Ok(())
     }
 }
 
