@@ -75,9 +75,9 @@ impl<R: Real, const N: usize> SphericalPolygon<R, N> {
         let placed = PlacedCorners::new(corners, p);
         let mut fan = [SphericalTriangle::default(); N];
         let mut solid_angle = R::lit(0.0);
-        for i in 0..Self::TRIANGLES {
-            fan[i] = Self::triangle(&placed, i + 1, i + 2);
-            solid_angle += fan[i].solid_angle();
+        for (i, triangle) in fan[..Self::TRIANGLES].iter_mut().enumerate() {
+            *triangle = Self::triangle(&placed, i + 1, i + 2);
+            solid_angle += triangle.solid_angle();
         }
         Self { fan, solid_angle }
     }

@@ -208,7 +208,7 @@ fn lights_that_few_samples_meet_are_uncertain() {
     assert!(many["mean"][0].as_f64().unwrap() > 2.0 * mean, "{many}");
     // behind a wall that shines they are not in view
     let wall = "AreaLightSource \"diffuse\" \"bool twosided\" true Shape \"bilinearmesh\" \"point3 P\" [ -5 -1 4  5 -1 4  -5 5 4  5 5 4 ]";
-    folder.write("lamps.pbrt", &format!("{text} {wall}"));
+    folder.write("lamps.pbrt", format!("{text} {wall}"));
     assert_eq!(report(&["--spp", "64"])["missed"], 0.0);
 }
 
