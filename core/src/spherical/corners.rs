@@ -1,6 +1,7 @@
 //! Corners of convex polygons relative to a point.
 
 use super::double_word::{cross_sums, sum_dw};
+use crate::math::double;
 use crate::real::Real;
 use crate::vector::Vec3;
 
@@ -27,12 +28,13 @@ impl<R: Real, const N: usize> PlacedCorners<R, N> {
         let from = |p: Vec3<R>| move |c: Vec3<R>| sum_dw([c, Vec3::default()], [-p, Vec3::default()]);
         Self::with_edges(from(p)(corners[0]), corners.map(from(corners[0])))
     }
-    /// Of the first corner relative to the point, and the edges from there to each; all are 0 where a sum has overflowed.
+    /// Of the first corner relative to the point, and the edges from there to each; all are 0 where a number is beyond half of the largest,
+    /// since rounding errors of larger sums may overflow.
     #[inline(always)]
     pub(crate) fn with_edges(first: [Vec3<R>; 2], edges: [[Vec3<R>; 2]; N]) -> Self {
         let corners = edges.map(|edge| sum_dw(first, edge));
         let reach = corners.iter().chain(&edges).fold(R::lit(0.0), |most, [v, _]| most.greater(v.max_abs()));
-        let finite = reach.lt(R::lit(f64::INFINITY));
+        let finite = reach.lt(R::lit(0.5 * if double::<R>() { f64::MAX } else { f64::from(f32::MAX) }));
         let scale = reach.pow2_scale();
         let scaled = |pair: [Vec3<R>; 2]| pair.map(|v| v.keep(finite) * scale);
         let (corners, edges) = (corners.map(|pair| rounded(scaled(pair))), edges.map(scaled));
