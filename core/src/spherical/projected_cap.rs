@@ -192,8 +192,8 @@ impl<R: Real> ProjectedCap<R> {
             let below = R::lit(2.0) * sin_theta * sin_theta * sin_theta * spread * lune;
             projected = R::blend(over, projected, below);
         }
-        // nothing where the centre is no number
-        let some_sphere = r.gt(zero) & squared.ge(zero);
+        // nothing where the centre is no number, or the normal has no direction
+        let some_sphere = r.gt(zero) & squared.ge(zero) & shrink.gt(zero);
         let visible = (whole | margin.gt(zero)) & some_sphere;
         let axis = c * inverse;
         Self {
