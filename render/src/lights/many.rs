@@ -148,7 +148,7 @@ fn in_tree(tree: &TreeAt<'_, X8>, u: X8, second: X8) -> Choice<X8> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lights::record::POINT;
+    use crate::lights::record::{POINT, SPOT};
     use etendue::sequence::{Independent, Sequence};
     use etendue::{Uint, Vec2};
     use etendue_oracle::tier::cases;
@@ -216,6 +216,20 @@ mod tests {
         let lights = ManyLights::new(&all, None).unwrap();
         let at = lights.at(V8::default(), V8::lit([0.0, 0.0, 1.0]), None);
         assert_eq!([0, 1].map(|light| at.pmf(light).as_array()[0]), [1.0, 0.0]);
+    }
+
+    /// A spot light of a hundredth of a degree leaves a lamp of the same power its samples where it does not shine, as near to its axis as a tree
+    /// cannot tell.
+    #[test]
+    fn narrow_spots_leave_lamps_their_samples() {
+        let versine = 1.5e-8_f32;
+        let (first, second) = ([0.0, 0.0, -1.0], [versine, versine, 1.0]);
+        let spot = LightRecord { first, second, ..record(SPOT, [0.0, 0.0, 2.0]) };
+        let all: Powered = vec![(spot, 1.0), (record(POINT, [1.0, 0.0, 2.0]), 1.0)];
+        let lights = ManyLights::new(&all, None).unwrap();
+        let at = lights.at(V8::lit([0.1, 0.0, 0.0]), V8::lit([0.0, 0.0, 1.0]), None);
+        let [of_spot, of_lamp] = [0, 1].map(|light| at.pmf(light).as_array()[0]);
+        assert!(of_spot > 0.0 && of_lamp > 1e-3, "{of_spot} {of_lamp}");
     }
 
     /// A point that no light can reach gets no light, and an index that is valid all the same.

@@ -34,6 +34,10 @@ pub(super) const UNEVEN: u32 = 1 << DIRECTED | SPREADS | PROFILES;
 pub(super) const ONLY_DELTAS: u32 = 1 << POINT | 1 << SPOT | 1 << DISTANT | 1 << DIRECTED;
 pub(super) const ONLY_AREAS: u32 = 1 << SPHERE | 1 << TRIANGLE | 1 << PARALLELOGRAM | SPREADS | PICTURES | PROFILES;
 
+/// The cosine of the narrowest cone that a tree tells from its axis. A narrower light counts as if it filled this cone: as bright as it is
+/// on its axis, it would take the samples of all points around its cone, which it does not light.
+const NARROWEST: f32 = 253.0 / 254.0;
+
 /// A light.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct LightRecord {
@@ -131,7 +135,7 @@ impl LightRecord {
             radius: (radius * (1.0 + 1e-6)) as f32,
             normal: narrow(if length > 0.0 { normal * (1.0 / length) } else { normal }),
             cos_cone: match self.kind & KINDS {
-                SPOT | DIRECTED => self.second[2].max(0.0),
+                SPOT | DIRECTED => self.second[2].clamp(0.0, NARROWEST),
                 _ if self.kind & SPREAD != 0 => cos_cone(&self.spread),
                 _ => 0.0,
             },
