@@ -5,7 +5,7 @@ use super::tree::{OwnedTree, Threads};
 use crate::bvh::BuildError;
 use crate::packet::{V8, X8, equal, pick, select};
 use crate::sky::Sky;
-use etendue::select::{Choice, Gloss, LightBound, LightChoice, LightsAt, TreeAt};
+use etendue::select::{Choice, FEW, Gloss, LightBound, LightChoice, LightsAt, TreeAt};
 use etendue::{Mask, Real, u32x8};
 use rayon::prelude::*;
 use std::f64::consts::FRAC_1_PI;
@@ -16,6 +16,8 @@ use std::sync::Arc;
 pub(super) struct ManyLights {
     /// The lights that are somewhere; those that are infinitely far away have no power in it.
     lamps: OwnedTree,
+    /// Their indices among all lights, if they are few; else empty.
+    few: Vec<u32>,
     /// The distant lights, as points of the unit sphere around the shading point.
     suns: OwnedTree,
     /// The indices of the distant lights among all.
@@ -23,6 +25,9 @@ pub(super) struct ManyLights {
     /// The sky, its index among all lights, and by what to multiply its irradiance, so that it is in the unit of the others.
     sky: Option<(Arc<Sky>, u32, f32)>,
 }
+
+/// The part of the chance of a few lamps that is the same for all of them.
+const EQUAL: f64 = 0.25;
 
 // kinds of lights
 const LAMPS: u32 = 0;
@@ -51,7 +56,12 @@ impl ManyLights {
         let index = all.iter().position(|(light, _)| kind(light) == SKY);
         let sky = sky.zip(index).map(|(sky, index)| (Arc::clone(sky), index as u32, (FRAC_1_PI / greatest) as f32));
         let tree = |bounds: &[LightBound]| OwnedTree::new(bounds, &Threads);
-        Ok(Self { lamps: tree(&lamps)?, suns: tree(&suns)?, distant, sky })
+        let somewhere = (0..).zip(all).filter(|(_, (light, _))| !light.is_distant()).map(|(index, _)| index);
+        let mut few: Vec<u32> = somewhere.take(FEW + 1).collect();
+        if !(2..=FEW).contains(&few.len()) {
+            few.clear();
+        }
+        Ok(Self { lamps: tree(&lamps)?, few, suns: tree(&suns)?, distant, sky })
     }
     /// The choice for points of surfaces.
     #[inline]
@@ -97,7 +107,7 @@ impl ManyAt<'_> {
     /// Chooses by `u`, whose strata are kept, and by the digits of `second`.
     #[inline]
     pub(super) fn choose(&self, u: X8, second: X8) -> Choice<X8> {
-        let Some(kinds) = &self.kinds else { return in_tree(&self.lamps, u, second) };
+        let Some(kinds) = &self.kinds else { return self.lamp(u, second) };
         let ManyLights { distant, sky, .. } = self.lights;
         let first = kinds.choose(u);
         // the sky needs no more choice
@@ -105,14 +115,17 @@ impl ManyAt<'_> {
         if let Some((_, index, _)) = sky {
             choice.index = u32x8::splat(*index);
         }
-        for (kind, tree) in [(LAMPS, &self.lamps), (SUNS, &self.suns)] {
+        for kind in [LAMPS, SUNS] {
             let here = equal(first.index, u32x8::splat(kind)) & first.pmf.gt(X8::lit(0.0));
             if here.any() {
-                let own = in_tree(tree, first.u, second);
-                let index = match kind {
-                    LAMPS => own.index,
-                    _ => u32x8::new(own.index.to_array().map(|k| distant.get(k as usize).copied().unwrap_or(0))),
-                };
+                let (own, index);
+                if kind == LAMPS {
+                    own = self.lamp(first.u, second);
+                    index = own.index;
+                } else {
+                    own = in_tree(&self.suns, first.u, second);
+                    index = u32x8::new(own.index.to_array().map(|k| distant.get(k as usize).copied().unwrap_or(0)));
+                }
                 choice.index = pick(here, index, choice.index);
                 choice.pmf = select(here, first.pmf * own.pmf, choice.pmf);
                 choice.u = select(here, own.u, choice.u);
@@ -120,16 +133,51 @@ impl ManyAt<'_> {
         }
         choice
     }
+    /// Chooses among the lamps: of a few, a quarter of the time equally among them, so that none is lost beside one that is much brighter but
+    /// hidden.
+    #[inline]
+    fn lamp(&self, u: X8, second: X8) -> Choice<X8> {
+        let few = &self.lights.few;
+        if few.is_empty() {
+            return in_tree(&self.lamps, u, second);
+        }
+        let (quarter, below_one) = (X8::lit(EQUAL), X8::lit(1.0 - 1.0 / 16_777_216.0));
+        let is_equal = u.lt(quarter);
+        let stretched = select(is_equal, u * X8::lit(1.0 / EQUAL), (u - quarter) * X8::lit(1.0 / (1.0 - EQUAL)));
+        let u = stretched.lesser(below_one);
+        let mut choice = in_tree(&self.lamps, u, second);
+        let place = u * X8::lit(few.len() as f64);
+        let k = place.to_uint();
+        let index = u32x8::new(k.to_array().map(|k| few[(k as usize).min(few.len() - 1)]));
+        choice.index = pick(is_equal, index, choice.index);
+        choice.u = select(is_equal, (place - X8::from_uint(k)).lesser(below_one), choice.u);
+        // where the tree has found none, there is none
+        let none = !is_equal & choice.pmf.le(X8::lit(0.0));
+        choice.pmf = self.shared(LightChoice::pmf(&self.lamps, choice.index)).keep(!none);
+        choice
+    }
+    /// The pmf of a lamp that has this one in the tree.
+    #[inline]
+    fn shared(&self, of_tree: X8) -> X8 {
+        match self.lights.few.len() {
+            0 => of_tree,
+            count => {
+                let (part, rest) = (X8::lit(EQUAL / count as f64), X8::lit(1.0 - EQUAL));
+                of_tree.mul_add(rest, part).keep(of_tree.gt(X8::lit(0.0)))
+            }
+        }
+    }
     /// The pmf of a light.
     #[inline]
     pub(super) fn pmf(&self, light: u32) -> X8 {
-        let Some(kinds) = &self.kinds else { return self.lamps.pmf_of(light) };
+        let of_lamp = || self.shared(self.lamps.pmf_of(light));
+        let Some(kinds) = &self.kinds else { return of_lamp() };
         if self.lights.sky.as_ref().is_some_and(|(_, index, _)| *index == light) {
             return kinds.pmf_of(SKIES);
         }
         match self.lights.distant.binary_search(&light) {
             Ok(k) => kinds.pmf_of(SUNS) * self.suns.pmf_of(k as u32),
-            Err(_) => kinds.pmf_of(LAMPS) * self.lamps.pmf_of(light),
+            Err(_) => kinds.pmf_of(LAMPS) * of_lamp(),
         }
     }
 }
@@ -216,6 +264,16 @@ mod tests {
         let lights = ManyLights::new(&all, None).unwrap();
         let at = lights.at(V8::default(), V8::lit([0.0, 0.0, 1.0]), None);
         assert_eq!([0, 1].map(|light| at.pmf(light).as_array()[0]), [1.0, 0.0]);
+    }
+
+    /// Of a few lamps, each has its part of a quarter of the chance, however bright another is that may be hidden.
+    #[test]
+    fn dim_lamps_beside_a_bright_one_are_not_lost() {
+        let all: Powered = vec![(record(POINT, [0.0, 0.0, 1.0]), 1e12), (record(POINT, [30.0, 0.0, 1.0]), 1.0)];
+        let lights = ManyLights::new(&all, None).unwrap();
+        let at = lights.at(V8::default(), V8::lit([0.0, 0.0, 1.0]), None);
+        let [bright, dim] = [0, 1].map(|light| f64::from(at.pmf(light).as_array()[0]));
+        assert!((dim - 0.125).abs() < 1e-4 && (bright + dim - 1.0).abs() < 1e-6, "{bright} {dim}");
     }
 
     /// A spot light of a hundredth of a degree leaves a lamp of the same power its samples where it does not shine, as near to its axis as a tree
