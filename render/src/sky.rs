@@ -17,7 +17,7 @@ pub struct Sky {
     /// Rows of the rotation from the world to the light.
     rows: [[f32; 3]; 3],
     kind: SkyKind,
-    /// Of the sky without its sun, summed over channels, by directions of the light.
+    /// The moments of the sky without its sun, summed over channels, in the coordinates of the light.
     moments: Moments,
     windows: Option<Windows>,
     sun: Option<SunBefore>,

@@ -22,14 +22,14 @@ pub(crate) struct PlacedCorners<R, const N: usize> {
 }
 
 impl<R: Real, const N: usize> PlacedCorners<R, N> {
-    /// Of corners and a point in common coordinates.
+    /// Takes corners and a point in common coordinates.
     #[inline(always)]
     pub(crate) fn new(corners: [Vec3<R>; N], p: Vec3<R>) -> Self {
         let from = |p: Vec3<R>| move |c: Vec3<R>| sum_dw([c, Vec3::default()], [-p, Vec3::default()]);
         Self::with_edges(from(p)(corners[0]), corners.map(from(corners[0])))
     }
-    /// Of the first corner relative to the point, and the edges from there to each; all are 0 where a number is beyond half of the largest,
-    /// since rounding errors of larger sums may overflow.
+    /// Takes the first corner relative to the point, and the edges from it to each corner. All results are 0 where a coordinate exceeds half
+    /// of the largest number, since its rounding error might overflow.
     #[inline(always)]
     pub(crate) fn with_edges(first: [Vec3<R>; 2], edges: [[Vec3<R>; 2]; N]) -> Self {
         let corners = edges.map(|edge| sum_dw(first, edge));

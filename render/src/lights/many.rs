@@ -82,8 +82,9 @@ impl ManyLights {
     }
 }
 
-/// The choice among kinds of lights with these irradiances: half of the chance is in proportion to them, and half is the same for all that can
-/// contribute, since nobody knows yet what hides one of them. So the variance is at most about twice that of the better of both choices.
+/// The choice among kinds of lights that can cause these irradiances. Half of the chance is in proportion to them, and half is the same for
+/// all kinds that can contribute, since one of them may be hidden. So each kind has at least half the samples that either choice would give
+/// it.
 #[inline]
 fn among_kinds(irradiances: [X8; 3]) -> LightsAt<X8> {
     let (zero, one, least) = (X8::lit(0.0), X8::lit(1.0), X8::splat(f32::MIN_POSITIVE));
@@ -133,8 +134,8 @@ impl ManyAt<'_> {
         }
         choice
     }
-    /// Chooses among the lamps: of a few, a quarter of the time equally among them, so that none is lost beside one that is much brighter but
-    /// hidden.
+    /// Chooses a lamp. If there are few, each has the same chance in a quarter of the choices, so that a much brighter lamp that is hidden does
+    /// not take the samples of the others.
     #[inline]
     fn lamp(&self, u: X8, second: X8) -> Choice<X8> {
         let few = &self.lights.few;
@@ -242,8 +243,8 @@ mod tests {
         }
     }
 
-    /// Neither is lost whose power is far less, however large it is beside what it lights: each has at least a quarter of the samples where
-    /// it can contribute, most of them where it is the brighter one, and none below the horizon.
+    /// A lamp and a sun each get at least a quarter of the samples where they can contribute, most of them where they are the brighter one, and
+    /// none below the horizon, whatever their powers are.
     #[test]
     fn lamps_and_suns_share_by_what_they_can_contribute() {
         for [lamp, sun] in [[1.0, 1.0], [1e-9, 1.0], [1.0, 1e-9], [1e9, 1e-12]] {
@@ -266,7 +267,7 @@ mod tests {
         assert_eq!([0, 1].map(|light| at.pmf(light).as_array()[0]), [1.0, 0.0]);
     }
 
-    /// Of a few lamps, each has its part of a quarter of the chance, however bright another is that may be hidden.
+    /// A dim lamp keeps its part of a quarter of the samples, however bright a second lamp is, since that one may be hidden.
     #[test]
     fn dim_lamps_beside_a_bright_one_are_not_lost() {
         let all: Powered = vec![(record(POINT, [0.0, 0.0, 1.0]), 1e12), (record(POINT, [30.0, 0.0, 1.0]), 1.0)];
@@ -276,8 +277,8 @@ mod tests {
         assert!((dim - 0.125).abs() < 1e-4 && (bright + dim - 1.0).abs() < 1e-6, "{bright} {dim}");
     }
 
-    /// A spot light of a hundredth of a degree leaves a lamp of the same power its samples where it does not shine, as near to its axis as a tree
-    /// cannot tell.
+    /// A spot light of a hundredth of a degree does not take the samples of a lamp of the same power at a point beside its cone, although the
+    /// tree cannot tell that point from the axis.
     #[test]
     fn narrow_spots_leave_lamps_their_samples() {
         let versine = 1.5e-8_f32;

@@ -21,8 +21,8 @@ pub(super) struct Moments {
 const ROWS: usize = 64;
 
 impl Moments {
-    /// Those of an image of this many columns and rows, by the direction and the radiance times solid angle of the texels in a column, a
-    /// row, and at a position in each: of eight columns at once, of which the last may be beyond the image.
+    /// The moments of an image of this many columns and rows. `look` returns the directions, and the radiance times the solid angle, of eight
+    /// columns of a row at once, at a position within their texels. The last of the eight columns may be beyond the image.
     pub(super) fn of_image(
         [width, height]: [usize; 2],
         look: impl Fn(usize, usize, Vec2<X8>) -> (V8, X8) + Sync,
@@ -46,7 +46,7 @@ impl Moments {
         let rows: Vec<Self> = (0..height).into_par_iter().map(row).collect();
         rows.iter().fold(Self::default(), |sum, row| sum.plus(row))
     }
-    /// Those of a constant radiance of this flux ∫L dω.
+    /// The moments of a constant radiance with this ∫L dω.
     pub(super) fn constant(flux: f64) -> Self {
         let third = flux / 3.0;
         Self { flux, squares: [third, third, third, 0.0, 0.0, 0.0], ..Self::default() }
@@ -62,7 +62,8 @@ impl Moments {
             squares: std::array::from_fn(|k| self.squares[k] + other.squares[k]),
         }
     }
-    /// About the irradiance of surfaces with this normal, and at least an eighth of that from all around.
+    /// An estimate of the irradiance of surfaces with this unit normal, in the unit of the radiance times steradian. It is at least ⅛ of the mean
+    /// over all normals, so that it stays positive.
     #[inline]
     pub(super) fn irradiance(&self, n: V8) -> X8 {
         let lit = X8::lit;
@@ -81,8 +82,8 @@ impl Moments {
 mod tests {
     use super::*;
 
-    /// Of a radiance that is constant, and of max(0, w·a), whose irradiance is known in closed form, in a coarse image and a fine one, whatever
-    /// the order of texels.
+    /// The irradiance is right for a constant radiance, and within 0.03 π for the radiance max(0, w·a), whose irradiance has a closed form. Images
+    /// of 1 to 20,000 texels agree.
     #[test]
     fn the_irradiance_is_that_of_the_radiance() {
         use std::f64::consts::PI;
