@@ -8,7 +8,7 @@ use rayon::prelude::*;
 ///
 /// They give the irradiance ∫L max(0, w·n) dω for all normals n, since max(0, t) is nearly 3/32 + t/2 + 15t²/32, which is the series of
 /// Legendre polynomials up to the second (Ramamoorthi and Hanrahan, "An Efficient Representation for Irradiance Environment Maps", SIGGRAPH
-/// 2001). The polynomial is within 1/11 of the cosine.
+/// 2001). The polynomial is within 3/32 of max(0, t) for t in [−1, 1].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Moments {
     flux: f64,
