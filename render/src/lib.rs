@@ -29,6 +29,7 @@ pub mod integrator;
 pub mod intensity;
 pub mod light_picture;
 pub mod light_profile;
+pub mod light_tree;
 pub mod lights;
 pub mod limits;
 pub mod lobe;

@@ -25,7 +25,6 @@ mod many;
 mod pictures;
 mod record;
 mod spread;
-pub mod tree;
 
 use crate::bvh::BuildError;
 use crate::bvh::NOTHING;

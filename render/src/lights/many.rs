@@ -1,8 +1,8 @@
 //! Choice among many lights: among their kinds by the irradiance that each can cause at a point, then by a tree.
 
 use super::record::{DISTANT, KINDS, LightRecord, Powered, SKY};
-use super::tree::{OwnedTree, Threads};
 use crate::bvh::BuildError;
+use crate::light_tree::{OwnedTree, Threads};
 use crate::packet::{V8, X8, equal, pick, select};
 use crate::sky::Sky;
 use etendue::select::{Choice, FEW, Gloss, LightBound, LightChoice, LightsAt, TreeAt};
@@ -109,30 +109,29 @@ impl ManyAt<'_> {
     #[inline]
     pub(super) fn choose(&self, u: X8, second: X8) -> Choice<X8> {
         let Some(kinds) = &self.kinds else { return self.lamp(u, second) };
-        let ManyLights { distant, sky, .. } = self.lights;
         let first = kinds.choose(u);
         // the sky needs no more choice
         let mut choice = Choice { index: u32x8::splat(0), ..first };
-        if let Some((_, index, _)) = sky {
+        if let Some((_, index, _)) = &self.lights.sky {
             choice.index = u32x8::splat(*index);
         }
         for kind in [LAMPS, SUNS] {
             let here = equal(first.index, u32x8::splat(kind)) & first.pmf.gt(X8::lit(0.0));
             if here.any() {
-                let (own, index);
-                if kind == LAMPS {
-                    own = self.lamp(first.u, second);
-                    index = own.index;
-                } else {
-                    own = in_tree(&self.suns, first.u, second);
-                    index = u32x8::new(own.index.to_array().map(|k| distant.get(k as usize).copied().unwrap_or(0)));
-                }
-                choice.index = pick(here, index, choice.index);
+                let own = if kind == LAMPS { self.lamp(first.u, second) } else { self.distant_light(first.u, second) };
+                choice.index = pick(here, own.index, choice.index);
                 choice.pmf = select(here, first.pmf * own.pmf, choice.pmf);
                 choice.u = select(here, own.u, choice.u);
             }
         }
         choice
+    }
+    /// Chooses a distant light.
+    #[inline]
+    fn distant_light(&self, u: X8, second: X8) -> Choice<X8> {
+        let own = in_tree(&self.suns, u, second);
+        // a lane without a light has the index 0, which is in the table, since there is a distant light
+        Choice { index: u32x8::new(own.index.to_array().map(|k| self.lights.distant[k as usize])), ..own }
     }
     /// Chooses a lamp. If there are few, each has the same chance in a quarter of the choices, so that a much brighter lamp that is hidden does
     /// not take the samples of the others.

@@ -1,9 +1,10 @@
 //! The portals of a sky, with their tables.
 
+use crate::light_tree::OwnedTree;
 use crate::packet::{V8, X8};
 use etendue::light::{MOST_PORTALS, Portal, PortalEnvironment, PortalMap, PortalTable};
 use etendue::real::Real;
-use etendue::select::{LightBound, LightTree, Node8};
+use etendue::select::{LightBound, Sequential};
 use etendue::{Vec2, Vec3};
 use rayon::prelude::*;
 use std::f64::consts::PI;
@@ -17,10 +18,8 @@ pub(super) struct Windows {
     tables: Vec<Vec<u64>>,
     /// Columns and rows of a table.
     size: usize,
-    /// A tree of the portals as lights, and their greatest power.
-    nodes: Vec<Node8>,
-    places: Vec<u32>,
-    strongest: f32,
+    /// The portals as lights.
+    tree: OwnedTree,
 }
 
 /// Bounds of the number of columns and rows.
@@ -52,16 +51,13 @@ impl Windows {
         let powers = portals.iter().zip(&of).map(|(portal, of)| portal.area() * irradiances[*of]);
         let bounds: Vec<LightBound> =
             portals.iter().zip(powers).map(|(portal, power)| bound(portal, power as f32)).collect();
-        let strongest = bounds.iter().fold(0.0, |most: f32, bound| most.max(bound.power));
-        let (mut nodes, mut places) =
-            (vec![Node8::default(); LightTree::nodes_for(bounds.len())], vec![0; bounds.len()]);
-        LightTree::build(&bounds, &mut nodes, &mut places).expect("memory for all of them");
-        Some(Self { portals: portals.to_vec(), of, tables, size, nodes, places, strongest })
+        let tree = OwnedTree::new(&bounds, &Sequential).expect("a few portals");
+        Some(Self { portals: portals.to_vec(), of, tables, size, tree })
     }
-    /// About the irradiance that comes through the portals, summed over channels.
+    /// An estimate of the irradiance that comes through the portals, summed over channels.
     #[inline]
     pub(super) fn irradiance(&self, p: V8, normal: V8) -> X8 {
-        LightTree::from_buffers(&self.nodes, &self.places).at(p, normal).irradiance(self.strongest)
+        self.tree.irradiance(&self.tree.get().at(p, normal))
     }
     /// What `run` makes of the portals.
     #[inline]

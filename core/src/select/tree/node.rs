@@ -318,18 +318,22 @@ impl Node8 {
             ^ (self.power[0].to_bits() ^ self.normal[0])
             ^ (self.turns[0][0] ^ self.child[0])
     }
+    /// The children's weights at a point of a surface, and which can contribute.
+    #[inline(always)]
+    fn weighed(&self, at: &Place<f32>, gloss: Option<&Gloss<f32>>) -> (f32x8, <f32x8 as Real>::Mask) {
+        let gloss = gloss.map(|gloss| Gloss::splat(*gloss));
+        self.children().weigh(self.plain != 0, &Place::splat(*at), gloss.as_ref())
+    }
     /// The sum of the children's weights at a point of a surface: 0 only where none can contribute, and finite.
     pub(super) fn sum(&self, at: &Place<f32>, gloss: Option<&Gloss<f32>>) -> f32 {
-        let gloss = gloss.map(|gloss| Gloss::splat(*gloss));
-        let (weight, bright) = self.children().weigh(self.plain != 0, &Place::splat(*at), gloss.as_ref());
+        let (weight, bright) = self.weighed(at, gloss);
         let sum: f32 = weight.greater(f32x8::splat(f32::MIN_POSITIVE)).keep(bright).to_array().iter().sum();
         sum.lesser(f32::MAX)
     }
     /// The children's shares at a point of a surface.
     #[inline(always)]
     pub(super) fn shares(&self, at: &Place<f32>, gloss: Option<&Gloss<f32>>) -> Shares {
-        let gloss = gloss.map(|gloss| Gloss::splat(*gloss));
-        let (weight, bright) = self.children().weigh(self.plain != 0, &Place::splat(*at), gloss.as_ref());
+        let (weight, bright) = self.weighed(at, gloss);
         let bright = bright.bits();
         let sum = |w: [f32; 8]| ((w[0] + w[1]) + (w[2] + w[3])) + ((w[4] + w[5]) + (w[6] + w[7]));
         let lanes = <f32x8 as Real>::Mask::from_bits(bright);

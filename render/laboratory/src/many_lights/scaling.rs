@@ -5,7 +5,7 @@ use crate::cost::{self, Rounds, median};
 use etendue::select::{LightBound, LightChoice, LightTree, Sequential, TreeChild};
 use etendue::sequence::{Independent, Sequence};
 use etendue::{Real, Vec2, Vec3, u32x8};
-use etendue_render::lights::tree::{OwnedTree, Threads};
+use etendue_render::light_tree::{OwnedTree, Threads};
 use etendue_render::packet::{V8, X8};
 use std::cell::{Cell, RefCell};
 use std::hint::black_box;

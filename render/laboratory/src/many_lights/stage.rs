@@ -7,7 +7,7 @@ use etendue::sequence::{Independent, Sequence};
 use etendue::{Mask, Real, Vec2, u32x8};
 use etendue_render::bvh::{Hits, Rays, Scratch};
 use etendue_render::camera::{Camera, CameraSample};
-use etendue_render::lights::tree::{OwnedTree, Threads};
+use etendue_render::light_tree::{OwnedTree, Threads};
 use etendue_render::lights::{Chosen, Drawn, Lights};
 use etendue_render::packet::{M8, V8, X8, select};
 use etendue_render::scene::{self, Scene};

@@ -15,7 +15,7 @@ impl Join for Threads {
 }
 
 /// A light tree with its memory.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct OwnedTree {
     nodes: Vec<Node8>,
     places: Vec<u32>,
@@ -43,7 +43,7 @@ impl OwnedTree {
     pub fn get(&self) -> LightTree<'_> {
         LightTree::from_buffers(&self.nodes, &self.places)
     }
-    /// About the irradiance that all lights cause where a choice among them has been prepared.
+    /// An estimate of the irradiance that all lights cause where a choice among them has been prepared, see [`TreeAt::irradiance`].
     #[inline]
     pub fn irradiance(&self, at: &TreeAt<'_, X8>) -> X8 {
         at.irradiance(self.strongest)
