@@ -24,30 +24,29 @@ fn round(s: f64, t: f64, turns: f64) -> V3 {
 
 const QUAD: &str = "\"point3 P\" [-1 -1 0 1 -1 0 1 1 0 -1 1 0] \"integer indices\" [0 1 2 0 2 3]";
 
+/// The square of side 2 about the origin in the plane z = 0, which some forms share.
+const SQUARE: Form = Form {
+    name: "",
+    text: "",
+    at: |s, t| ([2.0 * s - 1.0, 2.0 * t - 1.0, 0.0], [0.0, 0.0, 1.0]),
+    middle: [0.31, 0.57],
+    tolerance: ROUNDING,
+};
+
 const FORMS: [Form; 11] = [
     Form {
         name: "trianglemesh",
         text: "Shape \"trianglemesh\" \"point3 P\" [-1 -1 0 1 -1 0 1 1 0 -1 1 0] \"integer indices\" [0 1 2 0 2 3]",
-        at: |s, t| ([2.0 * s - 1.0, 2.0 * t - 1.0, 0.0], [0.0, 0.0, 1.0]),
-        middle: [0.31, 0.57],
-        tolerance: ROUNDING,
+        ..SQUARE
     },
     // the order of corners is clockwise, but the normals tell the side
     Form {
         name: "trianglemesh with normals",
         text: "Shape \"trianglemesh\" \"normal N\" [0 0 1 0 0 1 0 0 1 0 0 1] \
                \"point3 P\" [-1 -1 0 1 -1 0 1 1 0 -1 1 0] \"integer indices\" [0 2 1 0 3 2]",
-        at: |s, t| ([2.0 * s - 1.0, 2.0 * t - 1.0, 0.0], [0.0, 0.0, 1.0]),
-        middle: [0.31, 0.57],
-        tolerance: ROUNDING,
+        ..SQUARE
     },
-    Form {
-        name: "bilinearmesh",
-        text: "Shape \"bilinearmesh\" \"point3 P\" [-1 -1 0 1 -1 0 -1 1 0 1 1 0]",
-        at: |s, t| ([2.0 * s - 1.0, 2.0 * t - 1.0, 0.0], [0.0, 0.0, 1.0]),
-        middle: [0.31, 0.57],
-        tolerance: ROUNDING,
-    },
+    Form { name: "bilinearmesh", text: "Shape \"bilinearmesh\" \"point3 P\" [-1 -1 0 1 -1 0 -1 1 0 1 1 0]", ..SQUARE },
     // rows of it are 3/2, and the next 1 long
     Form {
         name: "bilinearmesh that is a trapezium",
@@ -56,13 +55,7 @@ const FORMS: [Form; 11] = [
         middle: [0.31, 0.57],
         tolerance: 1e-3,
     },
-    Form {
-        name: "plymesh",
-        text: "Shape \"plymesh\" \"string filename\" \"quad.ply\"",
-        at: |s, t| ([2.0 * s - 1.0, 2.0 * t - 1.0, 0.0], [0.0, 0.0, 1.0]),
-        middle: [0.31, 0.57],
-        tolerance: ROUNDING,
-    },
+    Form { name: "plymesh", text: "Shape \"plymesh\" \"string filename\" \"quad.ply\"", ..SQUARE },
     Form {
         name: "sphere",
         text: "Shape \"sphere\" \"float radius\" .8",
