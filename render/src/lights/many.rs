@@ -26,8 +26,11 @@ pub(super) struct ManyLights {
     sky: Option<(Arc<Sky>, u32, f32)>,
 }
 
-/// The part of the chance of a few lamps that is the same for all of them.
-const EQUAL: f64 = 0.25;
+/// The part of the chance that is the same for all kinds of lights that can contribute, …
+const FAIR: f64 = 0.45;
+/// … and for all lamps, if they are few. Neither is near a fraction of a power of two: where one kind gives all the light, the numbers of
+/// samples of stratified sets would be the same in nearly all sets, and their variance would not tell the error of the rare ones.
+const EQUAL: f64 = 0.225;
 
 // kinds of lights
 const LAMPS: u32 = 0;
@@ -82,9 +85,8 @@ impl ManyLights {
     }
 }
 
-/// The choice among kinds of lights that can cause these irradiances. Half of the chance is in proportion to them, and half is the same for
-/// all kinds that can contribute, since one of them may be hidden. So each kind has at least half the samples that either choice would give
-/// it.
+/// The choice among kinds of lights that can cause these irradiances. A part of the chance is the same
+/// for all kinds that can contribute, since one of them may be hidden; the rest is in proportion to them.
 #[inline]
 fn among_kinds(irradiances: [X8; 3]) -> LightsAt<X8> {
     let (zero, one, least) = (X8::lit(0.0), X8::lit(1.0), X8::splat(f32::MIN_POSITIVE));
@@ -92,7 +94,7 @@ fn among_kinds(irradiances: [X8; 3]) -> LightsAt<X8> {
     let [a, b, c] = irradiances;
     let sum = (a + b + c).greater(least);
     let count = irradiances.iter().fold(zero, |count, e| count + one.keep(e.gt(zero)));
-    LightsAt::by_weights(&irradiances.map(|e| (e / sum + one / count).keep(e.gt(zero))))
+    LightsAt::by_weights(&irradiances.map(|e| (e / sum * X8::lit(1.0 - FAIR) + X8::lit(FAIR) / count).keep(e.gt(zero))))
 }
 
 /// The choice for the points of a packet.
@@ -133,7 +135,7 @@ impl ManyAt<'_> {
         // a lane without a light has the index 0, which is in the table, since there is a distant light
         Choice { index: u32x8::new(own.index.to_array().map(|k| self.lights.distant[k as usize])), ..own }
     }
-    /// Chooses a lamp. If there are few, each has the same chance in a quarter of the choices, so that a much brighter lamp that is hidden does
+    /// Chooses a lamp. If there are few, each has the same chance in a part of the choices, so that a much brighter lamp that is hidden does
     /// not take the samples of the others.
     #[inline]
     fn lamp(&self, u: X8, second: X8) -> Choice<X8> {
@@ -141,9 +143,9 @@ impl ManyAt<'_> {
         if few.is_empty() {
             return in_tree(&self.lamps, u, second);
         }
-        let (quarter, below_one) = (X8::lit(EQUAL), X8::lit(1.0 - 1.0 / 16_777_216.0));
-        let is_equal = u.lt(quarter);
-        let stretched = select(is_equal, u * X8::lit(1.0 / EQUAL), (u - quarter) * X8::lit(1.0 / (1.0 - EQUAL)));
+        let (part, below_one) = (X8::lit(EQUAL), X8::lit(1.0 - 1.0 / 16_777_216.0));
+        let is_equal = u.lt(part);
+        let stretched = select(is_equal, u * X8::lit(1.0 / EQUAL), (u - part) * X8::lit(1.0 / (1.0 - EQUAL)));
         let u = stretched.lesser(below_one);
         let mut choice = in_tree(&self.lamps, u, second);
         let place = u * X8::lit(few.len() as f64);
@@ -242,7 +244,7 @@ mod tests {
         }
     }
 
-    /// A lamp and a sun each get at least a quarter of the samples where they can contribute, most of them where they are the brighter one, and
+    /// A lamp and a sun each get at least half of the fair part of the samples where they can contribute, most of them where they are the brighter one, and
     /// none below the horizon, whatever their powers are.
     #[test]
     fn lamps_and_suns_share_by_what_they_can_contribute() {
@@ -254,7 +256,7 @@ mod tests {
                 let at = lights.at(V8::default(), V8::lit(normal), None);
                 [0, 1].map(|light| f64::from(at.pmf(light).as_array()[0]))
             };
-            let expected = 0.25 + 0.5 * lamp / (lamp + sun);
+            let expected = 0.5 * FAIR + (1.0 - FAIR) * lamp / (lamp + sun);
             let [of_lamp, of_sun] = pmf([0.0, 0.0, 1.0]);
             assert!((of_lamp - expected).abs() < 0.03 && (of_lamp + of_sun - 1.0).abs() < 1e-6, "{of_lamp} {expected}");
             assert_eq!(pmf([0.0, 0.0, -1.0]), [0.0; 2]);
@@ -266,14 +268,14 @@ mod tests {
         assert_eq!([0, 1].map(|light| at.pmf(light).as_array()[0]), [1.0, 0.0]);
     }
 
-    /// A dim lamp keeps its part of a quarter of the samples, however bright a second lamp is, since that one may be hidden.
+    /// A dim lamp keeps its equal part of the samples, however bright a second lamp is, since that one may be hidden.
     #[test]
     fn dim_lamps_beside_a_bright_one_are_not_lost() {
         let all: Powered = vec![(record(POINT, [0.0, 0.0, 1.0]), 1e12), (record(POINT, [30.0, 0.0, 1.0]), 1.0)];
         let lights = ManyLights::new(&all, None).unwrap();
         let at = lights.at(V8::default(), V8::lit([0.0, 0.0, 1.0]), None);
         let [bright, dim] = [0, 1].map(|light| f64::from(at.pmf(light).as_array()[0]));
-        assert!((dim - 0.125).abs() < 1e-4 && (bright + dim - 1.0).abs() < 1e-6, "{bright} {dim}");
+        assert!((dim - 0.5 * EQUAL).abs() < 1e-4 && (bright + dim - 1.0).abs() < 1e-6, "{bright} {dim}");
     }
 
     /// A spot light of a hundredth of a degree does not take the samples of a lamp of the same power at a point beside its cone, although the
