@@ -5,7 +5,7 @@ use crate::bvh::BuildError;
 use crate::light_tree::{OwnedTree, Threads};
 use crate::packet::{V8, X8, equal, pick, select};
 use crate::sky::Sky;
-use etendue::select::{Choice, FEW, Gloss, LightBound, LightChoice, LightsAt, TreeAt};
+use etendue::select::{Choice, Gloss, LightBound, LightChoice, LightsAt, TreeAt};
 use etendue::{Mask, Real, u32x8};
 use rayon::prelude::*;
 use std::f64::consts::FRAC_1_PI;
@@ -31,6 +31,8 @@ const FAIR: f64 = 0.45;
 /// … and for all lamps, if they are few. Neither is near a fraction of a power of two: where one kind gives all the light, the numbers of
 /// samples of stratified sets would be the same in nearly all sets, and their variance would not tell the error of the rare ones.
 const EQUAL: f64 = 0.225;
+/// Up to so many lamps are few: with more, so small a part of each would rarely find one, and all of it would be lost to the tree's choice.
+const MOST_EQUAL: usize = 64;
 
 // kinds of lights
 const LAMPS: u32 = 0;
@@ -60,8 +62,8 @@ impl ManyLights {
         let sky = sky.zip(index).map(|(sky, index)| (Arc::clone(sky), index as u32, (FRAC_1_PI / greatest) as f32));
         let tree = |bounds: &[LightBound]| OwnedTree::new(bounds, &Threads);
         let somewhere = (0..).zip(all).filter(|(_, (light, _))| !light.is_distant()).map(|(index, _)| index);
-        let mut few: Vec<u32> = somewhere.take(FEW + 1).collect();
-        if !(2..=FEW).contains(&few.len()) {
+        let mut few: Vec<u32> = somewhere.take(MOST_EQUAL + 1).collect();
+        if !(2..=MOST_EQUAL).contains(&few.len()) {
             few.clear();
         }
         Ok(Self { lamps: tree(&lamps)?, few, suns: tree(&suns)?, distant, sky })
