@@ -60,7 +60,7 @@ fn value(picture: &Picture, [u, v]: [f64; 2]) -> f64 {
 }
 
 /// About how many points tell a mean.
-const POINTS: usize = 1 << 17;
+const POINTS: usize = 1 << 22;
 
 /// The mean of a picture over the area of these triangles.
 fn mean(picture: &Picture, pieces: &[Piece]) -> f64 {
@@ -280,7 +280,7 @@ fn illuminance(picture: &Picture) -> f64 {
         return (0..rows).flat_map(|y| (0..columns).map(move |x| (x, y))).map(|(x, y)| texel(x, y) * of(y)).sum();
     }
     // the cosine is 1 − r² where r is the sum of the distances from the middle, relative to the half side
-    let cells = 512_usize.next_multiple_of(columns);
+    let cells = 2048_usize.next_multiple_of(columns);
     let at = |i: usize| (2.0 * (i as f64 + 0.5) / cells as f64 - 1.0).abs();
     let cell = |i: usize, j: usize| {
         let r = at(i) + at(j);
