@@ -5,15 +5,15 @@
 //! threads as there are processors; "peak" is the peak memory of the process while it merges. The last lines extrapolate.
 
 use etendue_benches::memory::{peak, start_peak};
+use etendue_render::drive::{Content, Samples};
 use etendue_render::film::Pixel;
-use etendue_render::integrator::{Content, Samples};
-use etendue_render::integrator::{Settings, World};
 use etendue_render::merge::{MergeGoal, Merged, merge};
 use etendue_render::parts::{self, Piece};
 use etendue_render::sampler::Sampler;
 use etendue_render::sensor::Sensor;
 use etendue_render::technique::Technique;
 use etendue_render::{Frame, image, scene};
+use etendue_render::{Settings, World};
 use rayon::prelude::*;
 use std::fs;
 use std::path::PathBuf;

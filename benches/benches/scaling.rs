@@ -6,10 +6,10 @@
 //! the preparation on one thread takes 5 % of the time: a task of `etendue plan` should have no fewer.
 
 use etendue_benches::memory::{peak, start_peak};
-use etendue_render::integrator::{Settings, World};
 use etendue_render::sampler::Sampler;
 use etendue_render::scene::{self, Emission, Geometry, Scene, Shape};
 use etendue_render::technique::Technique;
+use etendue_render::{Settings, World};
 use std::path::Path;
 use std::time::Instant;
 

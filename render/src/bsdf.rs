@@ -186,12 +186,12 @@ fn fresnel(cos: X8, eta: X8, k: X8) -> X8 {
     X8::lit(0.5) * (across + along)
 }
 
-/// The BSDFs of eight surfaces for given outgoing directions. `METAL` compiles in the code of all that is not flat and diffuse.
+/// The BSDFs of eight surfaces for given outgoing directions. `GENERAL` compiles in the code of all that is not flat and diffuse.
 ///
 /// Where the normal is that of a smooth surface, light from below the flat surface counts for nothing, nor does light from below the
 /// smooth one: so no light leaks through (PBR 4th ed., 9.1.1 and 10.1.1).
 #[derive(Clone, Copy)]
-pub struct Bsdf<const METAL: bool> {
+pub struct Bsdf<const GENERAL: bool> {
     normal: V8,
     /// Normal of the flat surface.
     flat: V8,
@@ -240,11 +240,11 @@ pub struct Scattered {
     pub pdf: X8,
 }
 
-impl<const METAL: bool> Bsdf<METAL> {
+impl<const GENERAL: bool> Bsdf<GENERAL> {
     /// The BSDFs of surfaces with this normal and albedo for camera rays along `direction`; `flat` is the normal of the flat surface.
     #[inline(always)]
     pub fn new(normal: V8, flat: V8, albedo: V8, direction: V8, metal: Option<Metal>) -> Self {
-        let rough = metal.filter(|metal| METAL && metal.rough().any()).map(|metal| {
+        let rough = metal.filter(|metal| GENERAL && metal.rough().any()).map(|metal| {
             let frame = metal.grain.map_or_else(|| Frame::new(normal), |grain| about(normal, grain));
             let view = frame.to_local(-direction);
             let lanes = metal.coats();
@@ -260,7 +260,7 @@ impl<const METAL: bool> Bsdf<METAL> {
         let cos = w.dot(self.normal);
         let above = cos.gt(X8::lit(0.0));
         let factor = cos * X8::lit(INV_PI);
-        if !METAL {
+        if !GENERAL {
             return Evaluated { color: self.albedo, factor, pdf: factor.keep(above) };
         }
         let above = above & w.dot(self.flat).gt(X8::lit(0.0));
@@ -297,7 +297,7 @@ impl<const METAL: bool> Bsdf<METAL> {
         let uniform = technique == Technique::UniformHemisphere;
         let mut local: V8 = if uniform { UniformHemisphere.sample(u) } else { CosineHemisphere.sample(u) };
         let by_cosine = uniform || technique == Technique::CosineHemisphere;
-        if !METAL {
+        if !GENERAL {
             // f = albedo/π: the pdf cosθ/π leaves the albedo, the pdf 1/(2π) leaves 2 cosθ times the albedo
             let (factor, pdf): (X8, X8) = if uniform {
                 (local.z * X8::lit(2.0), UniformHemisphere.pdf(local))

@@ -2,12 +2,12 @@
 
 use crate::area::Place;
 use crate::files::{FileError, failed, read_file};
-use crate::integrator::Settings;
 use crate::limits::{MOST_SAMPLES, MOST_SIDE, is_size};
 use crate::options::name;
 use crate::sampler::Sampler;
 use crate::scene::Scene;
 use crate::sensor::{Exposure, Sensor};
+use crate::settings::Settings;
 use crate::technique::Technique;
 use clap::ValueEnum;
 use serde_json::{Value, json};

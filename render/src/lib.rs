@@ -8,8 +8,9 @@
 //! - [`scene`]: scene files.
 //! - [`bvh`], [`technique`], [`bsdf`], [`surfaces`]: what rays hit, and how it reflects.
 //! - [`camera`], [`sensor`], [`sampler`], [`sky`], [`lights`]: the numbers and directions of a sample.
-//! - [`certificates`]: what geometry alone tells about the light that reaches a surface.
-//! - [`integrator`], [`claim`], [`progressive`]: images of a given number of samples, or of a given error or time, and what they
+//! - `paths`, `estimate`: camera rays to shading points, and the light that these reflect.
+//! - [`certify`]: what geometry alone tells about that light, and closed forms of it.
+//! - [`drive`], [`claim`], [`progressive`]: images of a given number of samples, or of a given error or time, and what they
 //!   claim of it.
 //! - [`frame`], [`split`], [`parts`], [`merge`]: images whose parts are rendered apart.
 
@@ -17,15 +18,16 @@ pub mod area;
 pub mod bsdf;
 pub mod bvh;
 pub mod camera;
-pub mod certificates;
+pub mod certify;
 pub mod claim;
 pub mod compare;
+pub mod drive;
+mod estimate;
 pub mod files;
 pub mod film;
 pub mod frame;
 pub mod geometry;
 pub mod image;
-pub mod integrator;
 pub mod intensity;
 pub mod light_picture;
 pub mod light_profile;
@@ -37,10 +39,13 @@ pub mod merge;
 pub mod options;
 pub mod packet;
 pub mod parts;
+mod paths;
+mod prepared;
 pub mod progressive;
 pub mod sampler;
 pub mod scene;
 pub mod sensor;
+pub mod settings;
 pub mod sky;
 pub mod split;
 pub mod sums;
@@ -49,8 +54,10 @@ pub mod technique;
 pub mod texture;
 
 pub use claim::Claim;
+pub use drive::{View, World};
+pub use estimate::RayCount;
 pub use frame::Frame;
-pub use integrator::{RayCount, Settings, View, World};
 pub use sampler::Sampler;
 pub use sensor::Sensor;
+pub use settings::Settings;
 pub use technique::Technique;

@@ -1,9 +1,9 @@
 //! Puts the parts of an image together: exactly, in any order and grouping.
 
 use crate::area::{Area, count, crop, paste};
+use crate::drive::{Allotment, Content, Statistics};
 use crate::film::{Film, Pixel};
 use crate::frame::Frame;
-use crate::integrator::{Allotment, Content, Statistics};
 use crate::parts::{PartFile, Piece, PieceKind};
 use crate::sums::{Block, Moments, Planes, Sums, blocks};
 use rayon::prelude::*;

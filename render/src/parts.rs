@@ -9,12 +9,12 @@
 
 use crate::area;
 use crate::area::Area;
+use crate::drive::{APART, Allotment, Content, Statistics};
 use crate::files::{FileError, failed, make_folder, replace};
 use crate::film::Pixel;
 use crate::frame::Frame;
 use crate::image::layers::{self, Contents, Layer, LayerFile, LayerHeader, Numbers};
 use crate::image::{self, Compression};
-use crate::integrator::{APART, Allotment, Content, Statistics};
 use crate::sampler::Sampler;
 use crate::sums::{Block, Planes, blocks};
 use serde_json::{Value, json};

@@ -7,10 +7,12 @@
 
 use crate::area::{self, Area};
 use crate::claim::{Claim, Foreseen, why_unknown};
+use crate::drive::{Content, Samples, World};
+use crate::estimate::RayCount;
 use crate::film::{Film, Pixel};
-use crate::integrator::{Content, RayCount, Samples, Settings, World};
 use crate::limits::MOST_SAMPLES;
 use crate::sampler::{Sampler, default_sampler, mixed, reports_variance};
+use crate::settings::Settings;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 

@@ -78,6 +78,14 @@ pub struct Packet {
     pub active: M8,
 }
 
+impl Packet {
+    /// The pixel of all samples, if they are of one.
+    pub fn pixel(&self) -> Option<[u32; 2]> {
+        let [x, y] = [self.x, self.y].map(u32x8::to_array);
+        (1..8).all(|lane| x[lane] == x[0] && y[lane] == y[0]).then_some([x[0], y[0]])
+    }
+}
+
 /// Replicates of a pixel of `spp` samples: the fewest that give a variance, or 4 if each then has at least 8 samples.
 const fn replicates(spp: u32) -> u32 {
     if spp.is_multiple_of(4) && spp >= 32 {

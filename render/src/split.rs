@@ -1,7 +1,7 @@
 //! Splits an image into tiles and ranges of samples of about equal size.
 
 use crate::area::Area;
-use crate::integrator::Settings;
+use crate::settings::Settings;
 use std::ops::Range;
 
 /// Splits an image into at most `count` areas of whole tiles, as square as possible.

@@ -13,7 +13,7 @@ use etendue::{Mask, f32x8};
 use etendue_oracle::tier::cases;
 use etendue_render::bvh::{Bvh, Hits, NOTHING, Scratch, ShapeSet};
 use etendue_render::camera::Pinhole;
-use etendue_render::certificates::{Bodies, Certificate, Certifier, Patch, Pyramid, Viewer};
+use etendue_render::certify::{Bodies, Certificate, Certifier, Patch, Pyramid, Viewer};
 use etendue_render::packet::M8;
 use etendue_render::surfaces::Surfaces;
 use meshes::{Random, Triangle, cube, sheet};

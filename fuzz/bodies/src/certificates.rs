@@ -4,7 +4,7 @@ use etendue::occlusion::Convex;
 use etendue_oracle::{V3, along, cross, dot, length, sub, unit, wide};
 use etendue_render::bvh::SHAPE;
 use etendue_render::camera::Pinhole;
-use etendue_render::certificates::{Blocker, Bodies, Certificate, Certifier, MOST, Patch, Pyramid, Viewer};
+use etendue_render::certify::{Blocker, Bodies, Certificate, Certifier, MOST, Patch, Pyramid, Viewer};
 use etendue_render::scene::{CameraSettings, Emission, FilmSettings, Geometry, Material, Scene, Screen, Shape};
 use etendue_render::surfaces::Surfaces;
 

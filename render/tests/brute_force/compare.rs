@@ -8,7 +8,7 @@ use crate::meshes::{Random, Triangle};
 use etendue::occlusion::{Convex, Occlusion, Polyhedron};
 use etendue::{Real, Vec3, f32x8};
 use etendue_oracle::{V3, along, cross, dot, length, sub, unit, wide};
-use etendue_render::certificates::{Blocker, Bodies, Certificate, Certifier};
+use etendue_render::certify::{Blocker, Bodies, Certificate, Certifier};
 use etendue_render::scene::{Geometry, Shape};
 
 /// A light as the library takes it, and the angle around it as seen from p.

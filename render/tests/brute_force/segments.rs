@@ -3,7 +3,7 @@
 use etendue::Vec3;
 use etendue::occlusion::{Convex, Polyhedron};
 use etendue_oracle::{V3, along, cross, dot, length, sub, unit, wide};
-use etendue_render::certificates::{Blocker, Bodies};
+use etendue_render::certify::{Blocker, Bodies};
 use etendue_render::scene::Geometry;
 
 /// Whether a segment meets something, unless that is within rounding.

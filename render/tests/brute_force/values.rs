@@ -13,7 +13,7 @@ use crate::meshes::{Random, Triangle};
 use etendue::occlusion::{Convex, Occlusion, Polyhedron};
 use etendue::{Real, Vec3, f32x8, f64x4};
 use etendue_oracle::{V3, along, dot, narrow, sub, wide};
-use etendue_render::certificates::{Blocker, Bodies, Certificate, Certifier, Precision};
+use etendue_render::certify::{Blocker, Bodies, Certificate, Certifier, Precision};
 use etendue_render::surfaces::Surfaces;
 use std::fmt;
 

@@ -8,7 +8,7 @@ use etendue::{Mask, Real, Vec3, f32x8, u32x8};
 use etendue_oracle::{V3, along, cross, dot, length, sub, unit, wide};
 use etendue_render::bvh::{GROUP, Hits, NOTHING, SHAPE, Scratch};
 use etendue_render::camera::Pinhole;
-use etendue_render::certificates::{Patch, Pyramid, Viewer};
+use etendue_render::certify::{Patch, Pyramid, Viewer};
 use etendue_render::packet::M8;
 use etendue_render::scene::{CameraSettings, Geometry, Scene, Screen};
 use etendue_render::surfaces::Surfaces;

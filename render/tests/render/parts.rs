@@ -2,8 +2,8 @@
 
 use etendue_oracle::tier::cases;
 use etendue_render::area::{Area, count};
+use etendue_render::drive::{Content, Samples};
 use etendue_render::film::Film;
-use etendue_render::integrator::{Content, Samples};
 use etendue_render::merge::{MergeGoal, MergeOutcome, Merged, merge};
 use etendue_render::parts::{self, PartFile, Piece, PieceKind};
 use etendue_render::sums::{Block, Join, Moments, Planes, Sums, blocks};

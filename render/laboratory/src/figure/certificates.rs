@@ -2,7 +2,7 @@
 
 use super::sheet::Svg;
 use super::studio::{Finding, Studio};
-use etendue_render::integrator::Survey;
+use etendue_render::certify::Survey;
 use etendue_render::options::name;
 use etendue_render::{Sampler, Settings, Technique, World, image, scene};
 use std::error::Error;

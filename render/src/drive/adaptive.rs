@@ -6,10 +6,10 @@
 
 use super::allocation::{APART, Weights};
 use super::checks;
-use super::settings::Settings;
 use crate::area::{self, Area, crop};
 use crate::film::{Accumulator, Pixel, channels};
 use crate::packet::{V8, X8};
+use crate::settings::Settings;
 use crate::sums::{Adder, Moments, Sum};
 use etendue::Real;
 use etendue::estimate::Welford;

@@ -7,26 +7,15 @@
 //! A shaft is an intersection of half-spaces. Any half-space that contains patch and light contains the shaft, so that their choice
 //! affects only how narrow it is.
 
-mod blockers;
-mod bodies;
-mod hull;
-#[cfg(test)]
-mod margins;
-mod patch;
-mod precision;
-mod shaft;
-
+use super::blockers::{Blocker, Candidate};
+use super::bodies::Bodies;
+use super::patch::Patch;
+use super::precision::{Behind, Precision};
+use super::shaft::{Facing, Form, Lamp, Shaft};
 use crate::bvh::{Region, SHAPE};
 use crate::surfaces::Surfaces;
-pub use blockers::Blocker;
-use blockers::Candidate;
-pub use bodies::Bodies;
 use etendue::f64x8;
 use etendue::occlusion::Occlusion;
-pub use patch::{Patch, Pyramid, Viewer};
-use precision::Behind;
-pub use precision::{ALLOWED, Precision};
-use shaft::{Facing, Form, Lamp, Shaft};
 
 /// Greatest number of blockers in a certificate.
 pub const MOST: usize = 16;

@@ -1,7 +1,7 @@
 //! A scene with its trees and tables.
 
 use crate::bvh::BuildError;
-use crate::certificates::Bodies;
+use crate::certify::Bodies;
 use crate::lights::Lights;
 use crate::scene::Scene;
 use crate::sky::Sky;
@@ -10,25 +10,29 @@ use std::sync::Arc;
 
 /// Everything that paths need of a scene.
 #[derive(Debug)]
-pub(super) struct PreparedScene {
-    pub(super) surfaces: Surfaces,
+pub(crate) struct PreparedScene {
+    pub(crate) surfaces: Surfaces,
     /// Convex parts of the mesh.
-    pub(super) bodies: Bodies,
-    pub(super) lights: Lights,
+    pub(crate) bodies: Bodies,
+    pub(crate) lights: Lights,
     /// The delta lights among `lights`.
-    pub(super) deltas: Lights,
-    pub(super) sky: Option<Arc<Sky>>,
+    pub(crate) deltas: Lights,
+    pub(crate) sky: Option<Arc<Sky>>,
 }
 
 impl PreparedScene {
-    pub(super) fn new(scene: &Scene) -> Result<Self, BuildError> {
+    /// The lights that are sampled: rays that find lights by chance never find a delta light, so those alone, or all.
+    pub(crate) fn sampled(&self, finds_lights: bool) -> &Lights {
+        if finds_lights { &self.deltas } else { &self.lights }
+    }
+    pub(crate) fn new(scene: &Scene) -> Result<Self, BuildError> {
         let surfaces = Surfaces::new(scene)?;
         let sky = Self::sky(scene);
         let (lights, deltas) = (Lights::new(scene, sky.clone())?, Lights::deltas(scene)?);
         Ok(Self { bodies: Bodies::new(&surfaces.bvh), surfaces, lights, deltas, sky })
     }
     /// Takes the triangles out of the scene.
-    pub(super) fn from_scene(scene: &mut Scene) -> Result<Self, BuildError> {
+    pub(crate) fn from_scene(scene: &mut Scene) -> Result<Self, BuildError> {
         let sky = Self::sky(scene);
         let (lights, deltas) = (Lights::new(scene, sky.clone())?, Lights::deltas(scene)?);
         let surfaces = Surfaces::from_scene(scene)?;

@@ -2,83 +2,40 @@
 
 use super::adaptive::{Statistics, StatisticsSum};
 use super::allocation::{Blocks, Weights};
-use super::known::Survey;
-use super::paths::{Numbers, Paths};
-use super::prepared::PreparedScene;
+use super::estimator::OfTechnique;
 use super::radiance::Radiance;
-use super::settings::{RayCount, Settings, TILE};
+use super::runs::{Run, TilePiece, next_packet, z_order};
 use crate::area::Area;
 use crate::bvh::GROUP;
 use crate::camera::{Camera, CameraSample, counted_from};
+use crate::certify::Survey;
+use crate::estimate::{Group, Numbers, RayCount, Reflected, product};
 use crate::film::Accumulator;
-use crate::packet::{M8, X8};
+use crate::packet::{M8, V8, X8};
+use crate::paths::Paths;
+use crate::prepared::PreparedScene;
 use crate::sampler::{CHOICE, FILM, LENS, Packet, Redrawn, SURFACE, Source};
 use crate::sensor::Exposure;
+use crate::settings::Settings;
 use etendue::select::Allocated;
-use etendue::{Mask, Real, Vec2, u32x8};
+use etendue::{Mask, Vec2, u32x8};
 use std::ops::Range;
-
-/// The squared error of a light with contribution c falls about as c² n^−1.5. For a given Σn the sum is least with n ∝ c^0.8.
-const POWER: f32 = 0.8;
-
-/// So many lights may take all samples of a block.
-const FREE: usize = 8;
-/// The same where certificates are asked for: most of these lights are known, and their samples would be wasted. The test
-/// `known_lights_take_no_samples_from_others` prints 1.0 times the variance with 4, and 32 times with 8.
-const FREE_IF_ASKED: usize = 4;
 
 /// Renders tiles, and keeps the scratch memory for it.
 pub(super) struct TileRenderer<'a> {
-    scene: &'a PreparedScene,
-    settings: &'a Settings,
+    pub(super) scene: &'a PreparedScene,
+    pub(super) settings: &'a Settings,
     /// The camera, and the weights of radiance if there are any, for positions counted from the first pixel of the image.
     whole: (Camera, Option<Exposure>),
     /// The pixel from which positions are counted, and the same for these.
-    start: [u32; 2],
-    camera: Camera,
+    pub(super) start: [u32; 2],
+    pub(super) camera: Camera,
     exposure: Option<Exposure>,
     /// Whether samples need a point of the lens.
     lens: bool,
-    source: Source,
-    paths: Paths<'a>,
-}
-
-/// The pixels of an area [x0, y0, x1, y1) along a Z-order curve, so that successive pixels are close in the image.
-fn z_order([x0, y0, x1, y1]: Area) -> Vec<[u32; 2]> {
-    let even = |i: u32| (0..4).fold(0, |n, bit| n | (i >> (2 * bit) & 1) << bit);
-    let all = (0..TILE * TILE).map(|i| [x0 + even(i), y0 + even(i >> 1)]);
-    all.filter(|&[x, y]| x < x1 && y < y1).collect()
-}
-
-/// Successive samples of one set of a pixel.
-#[derive(Clone, Copy)]
-struct Run {
-    pixel: [u32; 2],
-    set: u32,
-    /// The next sample, and the end, counted within the set.
-    next: u32,
-    end: u32,
-    /// The samples that are kept, counted likewise.
-    kept: [u32; 2],
-    /// Whether no other set of the pixel has samples that are kept.
-    last_set: bool,
-}
-
-/// Lanes of a packet that belong to one run.
-struct TilePiece {
-    packet: usize,
-    lanes: Range<usize>,
-    /// The run from the first of these lanes on.
-    run: Run,
-}
-
-impl TilePiece {
-    /// The lanes that are kept.
-    fn kept(&self) -> Range<usize> {
-        let Run { next, kept, .. } = self.run;
-        let lane = |sample: u32| (self.lanes.start + sample.saturating_sub(next) as usize).min(self.lanes.end);
-        lane(kept[0])..lane(kept[1])
-    }
+    pub(super) source: Source,
+    pub(super) paths: Paths<'a>,
+    pub(super) estimator: OfTechnique<'a>,
 }
 
 impl<'a> TileRenderer<'a> {
@@ -99,13 +56,14 @@ impl<'a> TileRenderer<'a> {
             lens: camera.has_lens() || exposure.is_some(),
             exposure,
             source: Source::new(sampler, seed, spp, sets, camera.has_lens(), width).redrawn(redrawn),
-            paths: Paths::new(scene, settings, &camera),
+            paths: Paths::new(scene, settings.depth),
+            estimator: OfTechnique::new(scene, settings, &camera),
         }
     }
 
     /// Rays traced since the last call.
     pub(super) fn take_count(&mut self) -> RayCount {
-        std::mem::take(&mut self.paths.count)
+        std::mem::take(&mut self.paths.tracer.count)
     }
 
     /// Renders a range of the samples of the pixels of an area [x0, y0, x1, y1), row by row.
@@ -147,7 +105,7 @@ impl<'a> TileRenderer<'a> {
             (self.start, self.camera) = (start, camera.counted_from(start));
             self.exposure = exposure.map(|exposure| exposure.counted_from(start));
         }
-        let Some(analytic) = &mut self.paths.analytic else { return };
+        let Some(analytic) = self.estimator.analytic() else { return };
         analytic.begin([x0, y0]);
         let place = |first: u32, end: u32, k: usize| first as f32 + (end - first) as f32 * (2 * k + 1) as f32 / 16.0;
         let [left, top, right, bottom] = [x0 - start[0], y0 - start[1], x1 - start[0], y1 - start[1]];
@@ -157,18 +115,21 @@ impl<'a> TileRenderer<'a> {
             let x: [f32; 8] = std::array::from_fn(|lane| place(left, right, lane));
             *pixels = x.map(|x| [start[0] + (x as u32).min(right - 1), start[1] + (y as u32).min(bottom - 1)]);
             let film = Vec2::new(X8::from(x), X8::splat(y));
-            self.paths.start(row, self.camera.rays(&CameraSample { film, lens: Vec2::default() }));
+            self.paths.start(row, self.camera.rays(&CameraSample { film, lens: Vec2::default() }), None);
         }
-        self.paths.try_out(&pixels);
-        self.paths.count.corner += 64;
+        self.paths.follow(&[M8::splat(true); GROUP]);
+        self.paths.note_lobes(GROUP);
+        analytic.try_out(&self.paths.points, &pixels);
+        self.paths.tracer.count.corner += 64;
     }
 
-    /// Starts the ray through the middle of a pixel and of the lens.
+    /// Follows the ray through the middle of a pixel and of the lens.
     fn look(&mut self, [x, y]: [u32; 2]) -> CameraSample {
         let middle = |k: usize, at: u32| X8::splat((at - self.start[k]) as f32 + 0.5);
         let sample = CameraSample { film: Vec2::new(middle(0, x), middle(1, y)), lens: Vec2::default() };
-        self.paths.start(0, self.camera.rays(&sample));
-        self.paths.places[0].pixel = Some([x, y]);
+        self.paths.start(0, self.camera.rays(&sample), Some([x, y]));
+        self.paths.follow(&[M8::from_bits(1)]);
+        self.paths.note_lobes(1);
         sample
     }
 
@@ -177,16 +138,18 @@ impl<'a> TileRenderer<'a> {
         let mut surveys = Vec::with_capacity(pixels.len());
         for &pixel in pixels {
             self.look(pixel);
-            surveys.push(self.paths.survey());
+            let known = self.estimator.analytic().map(|analytic| analytic.survey(&self.paths.points));
+            surveys.push(known.unwrap_or_default());
         }
-        self.paths.count.corner += pixels.len() as u64;
+        self.paths.tracer.count.corner += pixels.len() as u64;
         surveys
     }
 
     /// A bound of the error of closed forms in the middle of a pixel of a tile, seen through the middle of the lens.
     pub(super) fn doubt(&mut self, pixel: [u32; 2]) -> [f32; 3] {
         let sample = self.look(pixel);
-        let doubt = self.paths.doubt();
+        let Some(analytic) = self.estimator.analytic() else { return [0.0; 3] };
+        let doubt = product(self.paths.points.ends[0].throughput, analytic.doubt(&self.paths.points));
         self.exposure.map_or(doubt, |exposure| doubt * exposure.weight(&sample)).lane(0).into()
     }
 
@@ -234,7 +197,7 @@ impl<'a> TileRenderer<'a> {
                 && let Some(first) = run
             {
                 let known = pieces.len();
-                let packet = Self::packet(&mut run, &mut runs, span, packets.len(), &mut pieces);
+                let packet = next_packet(&mut run, &mut runs, span, packets.len(), &mut pieces);
                 if pieces[known..].iter().all(|piece: &TilePiece| piece.kept().is_empty()) {
                     pieces.truncate(known);
                     continue;
@@ -279,81 +242,64 @@ impl<'a> TileRenderer<'a> {
         outputs
     }
 
-    /// The next eight samples of successive runs.
-    #[inline]
-    fn packet(
-        run: &mut Option<Run>,
-        runs: &mut impl Iterator<Item = Run>,
-        span: u32,
-        packet: usize,
-        pieces: &mut Vec<TilePiece>,
-    ) -> Packet {
-        let lanes = u32x8::new([0, 1, 2, 3, 4, 5, 6, 7]);
-        let first = run.unwrap_or_else(|| unreachable!("there is a run"));
-        if first.end - first.next >= 8 {
-            let next = first.next + 8;
-            pieces.push(TilePiece { packet, lanes: 0..8, run: first });
-            *run = if next == first.end { runs.next() } else { Some(Run { next, ..first }) };
-            let [x, y] = first.pixel.map(u32x8::splat);
-            let sample = u32x8::splat(first.set * span + first.next) + lanes;
-            return Packet { x, y, sample, replicate: u32x8::splat(first.set), active: M8::splat(true) };
-        }
-        let (mut x, mut y, mut sample, mut replicate) = ([0; 8], [0; 8], [0; 8], [0; 8]);
-        let mut filled = 0;
-        while filled < 8
-            && let Some(current) = *run
-        {
-            let taken = (current.end - current.next).min(8 - filled);
-            let range = filled as usize..(filled + taken) as usize;
-            for lane in range.clone() {
-                [x[lane], y[lane]] = current.pixel;
-                sample[lane] = current.set * span + current.next + lane as u32 - filled;
-                replicate[lane] = current.set;
-            }
-            filled += taken;
-            let next = current.next + taken;
-            pieces.push(TilePiece { packet, lanes: range, run: current });
-            *run = if next == current.end { runs.next() } else { Some(Run { next, ..current }) };
-        }
-        // the last packet of a tile repeats its last sample
-        for lane in filled as usize..8 {
-            let last = filled as usize - 1;
-            (x[lane], y[lane], sample[lane], replicate[lane]) = (x[last], y[last], sample[last], replicate[last]);
-        }
-        Packet {
-            x: u32x8::new(x),
-            y: u32x8::new(y),
-            sample: u32x8::new(sample),
-            replicate: u32x8::new(replicate),
-            active: M8::from_bits((1 << filled) - 1),
-        }
-    }
-
     /// Measured values of the samples of a group of packets. `allocated` is empty, or allocates each sample to a light.
     fn radiance(
         &mut self,
         packets: &[Packet],
         allocated: &[Allocated<'_, X8>],
         expected: &[u32; GROUP],
-    ) -> &[Radiance] {
-        let Self { source, paths, start, camera, settings, .. } = self;
-        let start = start.map(u32x8::splat);
-        let lights = paths.sampled();
+    ) -> [Radiance; GROUP] {
+        let (samples, numbers) = self.numbers(packets, allocated);
+        let Self { scene, camera, exposure, paths, estimator, .. } = self;
+        let count = packets.len();
+        // follow the camera rays
+        let mut active = [M8::splat(false); GROUP];
+        for (p, packet) in packets.iter().enumerate() {
+            paths.start(p, camera.rays(&samples[p]), packet.pixel());
+            active[p] = packet.active;
+            paths.tracer.count.camera += u64::from(packet.active.bits().count_ones());
+        }
+        paths.follow(&active[..count]);
+        // estimate what the surfaces there reflect
+        let mut reflected = Reflected::default();
+        if !scene.lights.is_empty() {
+            paths.note_lobes(count);
+            let group = Group { scene, points: &paths.points, count, numbers: &numbers, allocated, expected };
+            reflected = estimator.reflected(&group, &mut paths.tracer);
+        }
+        let is_plain = scene.surfaces.is_plain;
+        std::array::from_fn(|p| {
+            let through = |part: V8| if is_plain { part } else { product(paths.points.ends[p].throughput, part) };
+            let Reflected { known, sampled } = &reflected;
+            let mut radiance =
+                Radiance { seen: paths.seen[p], known: through(known[p]), reflected: through(sampled[p]) };
+            if let Some(open) = camera.open(&samples[p]) {
+                radiance = radiance.keep(open);
+            }
+            exposure.map_or(radiance, |exposure| radiance.times(exposure.weight(&samples[p])))
+        })
+    }
+
+    /// The random numbers of a group of packets: for the camera, and for lights and surfaces.
+    #[inline(always)]
+    fn numbers(&self, packets: &[Packet], allocated: &[Allocated<'_, X8>]) -> ([CameraSample; GROUP], Numbers) {
+        let Self { scene, source, start, settings, .. } = self;
+        let finds_lights = settings.technique.finds_lights();
+        let lights = scene.sampled(finds_lights);
         // delta lights alone need no point on the light
-        let point = settings.technique.finds_lights() || !lights.only_deltas();
+        let point = finds_lights || !lights.only_deltas();
         let own = |dimension: u32| {
             let mut pairs = [Vec2::default(); GROUP];
             pairs.iter_mut().zip(packets).for_each(|(pair, packet)| *pair = source.pair(packet, dimension));
             pairs
         };
-        let is_combined = settings.technique.heuristic().is_some() || paths.is_mixed();
         let mut numbers = Numbers {
             light: [Vec2::default(); GROUP],
             choice: lights.many().then(|| own(CHOICE)),
-            surface: (point && is_combined).then(|| own(SURFACE)),
+            surface: (point && self.estimator.is_combined()).then(|| own(SURFACE)),
         };
         let mut samples = [CameraSample { film: Vec2::default(), lens: Vec2::default() }; GROUP];
-        let mut active = [M8::splat(false); GROUP];
+        let start = start.map(u32x8::splat);
         for (p, packet) in packets.iter().enumerate() {
             let film = if point {
                 let [film, light] = match allocated.get(p) {
@@ -365,81 +311,9 @@ impl<'a> TileRenderer<'a> {
             } else {
                 source.pair(packet, FILM)
             };
-            let [x, y] = [packet.x, packet.y].map(|of| of.to_array());
-            let alike = (1..8).all(|lane| x[lane] == x[0] && y[lane] == y[0]);
-            paths.places[p].pixel = alike.then_some([x[0], y[0]]);
             let lens = self.lens.then(|| source.pair(packet, LENS));
             samples[p] = CameraSample::new(packet.x - start[0], packet.y - start[1], film, lens);
-            paths.start(p, camera.rays(&samples[p]));
-            active[p] = packet.active;
         }
-        let radiance = paths.radiance(&active[..packets.len()], &numbers, allocated, expected);
-        for (radiance, sample) in radiance.iter_mut().zip(&samples) {
-            if let Some(open) = camera.open(sample) {
-                *radiance = radiance.keep(open);
-            }
-            if let Some(exposure) = &self.exposure {
-                *radiance = radiance.times(exposure.weight(sample));
-            }
-        }
-        radiance
-    }
-
-    /// Whether samples can be allocated to lights in blocks of `size` samples.
-    fn allocates(&self, size: u32) -> bool {
-        let Some(lights) = self.scene.lights.few() else { return false };
-        // each light takes at least one sample, worth it or not: for many lights, these are limited to half of the samples
-        let is_asked = self.paths.analytic.as_ref().is_some_and(|analytic| !analytic.is_hopeless());
-        let free = if is_asked { FREE_IF_ASKED } else { FREE };
-        let fits = size.is_power_of_two() && size.is_multiple_of(8) && (lights <= free || size as usize >= 2 * lights);
-        fits && !self.settings.technique.finds_lights() && self.source.allocates()
-    }
-
-    /// Weights of the lights by their possible contributions at the corners of the pixels of an area, seen through the middle of the
-    /// lens; `None` if lights are chosen at random, or if there are too many for blocks of `size` samples.
-    fn weights(&mut self, area: Area, size: u32) -> Option<Weights<'static>> {
-        let lights = self.scene.lights.few()?;
-        if !self.allocates(size) || self.paths.analytic.as_ref().is_some_and(|analytic| analytic.knows_all()) {
-            return None;
-        }
-        let is_asked = self.paths.analytic.as_ref().is_some_and(|analytic| !analytic.is_hopeless());
-        let [x0, y0, x1, y1] = area;
-        let (across, down) = ((x1 - x0 + 1) as usize, (y1 - y0 + 1) as usize);
-        let mut corners = vec![0.0; across * down * lights];
-        let mut open: [Vec<M8>; GROUP] = std::array::from_fn(|_| vec![M8::splat(true); lights]);
-        for start in (0..across * down).step_by(8 * GROUP) {
-            let count = (across * down - start).div_ceil(8).min(GROUP);
-            let place = |p: usize, lane: usize| (start + 8 * p + lane).min(across * down - 1);
-            for p in 0..count {
-                let at = |of: &dyn Fn(usize) -> u32| X8::from(std::array::from_fn(|lane| of(place(p, lane)) as f32));
-                let (left, top) = (x0 - self.start[0], y0 - self.start[1]);
-                let (x, y) = (at(&|i| left + (i % across) as u32), at(&|i| top + (i / across) as u32));
-                let sample = CameraSample { film: Vec2::new(x, y), lens: Vec2::default() };
-                self.paths.start(p, self.camera.rays(&sample));
-            }
-            self.paths.surfaces(&[M8::splat(true); GROUP][..count]);
-            if is_asked {
-                let pixel = |i: usize| [(x0 + (i % across) as u32).min(x1 - 1), (y0 + (i / across) as u32).min(y1 - 1)];
-                let pixels = std::array::from_fn(|p| std::array::from_fn(|lane| pixel(place(p, lane))));
-                self.paths.open(&pixels, count, &mut open);
-            }
-            for (p, surface) in self.paths.ends(count).iter().enumerate() {
-                let Some(parts) = self.scene.lights.contributions(surface.point, surface.normal) else { continue };
-                for (k, part) in parts.weights().enumerate() {
-                    let part = part.keep(surface.reflects & open[p][k]).to_array();
-                    for (lane, part) in part.into_iter().enumerate() {
-                        corners[place(p, lane) * lights + k] = part;
-                    }
-                }
-            }
-            self.paths.count.corner += (across * down - start).min(8 * GROUP) as u64;
-        }
-        let mut of = Vec::with_capacity((TILE * TILE) as usize * lights);
-        for (y, x) in (0..down - 1).flat_map(|y| (0..across - 1).map(move |x| (y, x))) {
-            let corner = |dx: usize, dy: usize| ((y + dy) * across + x + dx) * lights;
-            let four = [corner(0, 0), corner(1, 0), corner(0, 1), corner(1, 1)];
-            of.extend((0..lights).map(|k| libm::powf(four.iter().map(|c| corners[c + k]).sum::<f32>(), POWER)));
-        }
-        Some(Weights { lights, of: of.into(), area, begun: &[] })
+        (samples, numbers)
     }
 }

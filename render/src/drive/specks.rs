@@ -1,11 +1,11 @@
 //! Lights in view that are smaller than a pixel, which few samples meet.
 
-use super::prepared::PreparedScene;
 use crate::bvh::{NOTHING, Scratch};
 use crate::camera::Camera;
 use crate::claim::Specks;
 use crate::geometry::Geometry;
 use crate::packet::{M8, V8, X8};
+use crate::prepared::PreparedScene;
 use etendue::occlusion::SPARED;
 use etendue::{Frame, Mask, Real, Vec3, u32x8};
 use rayon::prelude::*;

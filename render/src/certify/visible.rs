@@ -3,10 +3,10 @@
 //! A packet of sixteen takes less time than two of eight, with AVX2 and with AVX-512 (`cargo bench -p etendue-benches --bench warps --
 //! visible` prints both), and the successive packets of a tile mostly see the same.
 
+use super::closed_forms::{Blocking, Scenery};
 use crate::packet::{M8, V8, X8};
-use etendue::occlusion::{Convex, Occlusion, Polyhedron};
+use etendue::occlusion::{Convex, Occlusion};
 use etendue::{Vec3, f32x16};
-use std::ops::Range;
 
 /// A packet that waits for the visible part of a light.
 pub(super) struct Ask {
@@ -15,16 +15,8 @@ pub(super) struct Ask {
     pub(super) lanes: M8,
     pub(super) point: V8,
     pub(super) normal: V8,
-    /// What may occlude the light, among all that can.
-    pub(super) forms: Range<usize>,
-    pub(super) bodies: Range<usize>,
-}
-
-/// What may occlude a light.
-#[derive(Clone, Copy)]
-pub(super) struct Scenery<'a> {
-    pub(super) forms: &'a [Convex<f32>],
-    pub(super) bodies: &'a [Polyhedron<'a, f32>],
+    /// What may occlude the light.
+    pub(super) blocking: Blocking,
 }
 
 /// Computes the visible parts of a light, and holds the memory for it.
@@ -50,19 +42,19 @@ impl Visible {
         &mut self,
         ask: Ask,
         light: &Convex<f32>,
-        scenery: Scenery<'_>,
+        scenery: &Scenery<'_>,
         mut done: impl FnMut(&Ask, Option<X8>),
     ) {
         let Some(first) = self.waiting.take() else {
             self.waiting = Some(ask);
             return;
         };
-        if (&first.forms, &first.bodies) != (&ask.forms, &ask.bodies) {
+        if first.blocking != ask.blocking {
             done(&first, self.alone(&first, light, scenery));
             self.waiting = Some(ask);
             return;
         }
-        let (forms, bodies) = (&scenery.forms[first.forms.clone()], &scenery.bodies[first.bodies.clone()]);
+        let (forms, bodies) = scenery.of(&first.blocking);
         let (point, normal) = (joined(first.point, ask.point), joined(first.normal, ask.normal));
         if let Some(both) = self.two.get_or_insert_default().visible_past(point, normal, light, forms, bodies) {
             let both = both.to_array();
@@ -76,13 +68,18 @@ impl Visible {
         }
     }
     /// The visible part for the packet that waits, if one does.
-    pub(super) fn finish(&mut self, light: &Convex<f32>, scenery: Scenery<'_>, mut done: impl FnMut(&Ask, Option<X8>)) {
+    pub(super) fn finish(
+        &mut self,
+        light: &Convex<f32>,
+        scenery: &Scenery<'_>,
+        mut done: impl FnMut(&Ask, Option<X8>),
+    ) {
         if let Some(ask) = self.waiting.take() {
             done(&ask, self.alone(&ask, light, scenery));
         }
     }
-    fn alone(&mut self, ask: &Ask, light: &Convex<f32>, scenery: Scenery<'_>) -> Option<X8> {
-        let (forms, bodies) = (&scenery.forms[ask.forms.clone()], &scenery.bodies[ask.bodies.clone()]);
+    fn alone(&mut self, ask: &Ask, light: &Convex<f32>, scenery: &Scenery<'_>) -> Option<X8> {
+        let (forms, bodies) = scenery.of(&ask.blocking);
         self.one.visible_past(ask.point, ask.normal, light, forms, bodies)
     }
 }

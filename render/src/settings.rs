@@ -3,13 +3,12 @@
 use crate::area::Area;
 use crate::sampler::Sampler;
 use crate::technique::Technique;
-use std::ops::AddAssign;
 
 /// Side of the square of pixels that a thread renders at a time.
-pub(super) const TILE: u32 = 16;
+pub(crate) const TILE: u32 = 16;
 
 /// The area [x0, y0, x1, y1) of each tile of an area that consists of tiles.
-pub(super) fn tiles([left, top, right, bottom]: Area) -> impl Iterator<Item = Area> {
+pub(crate) fn tiles([left, top, right, bottom]: Area) -> impl Iterator<Item = Area> {
     let from = |start: u32, end: u32| (start..end).step_by(TILE as usize);
     from(top, bottom)
         .flat_map(move |y| from(left, right).map(move |x| [x, y, (x + TILE).min(right), (y + TILE).min(bottom)]))
@@ -56,27 +55,5 @@ impl Settings {
         let is_side = |at: u32, end: u32| at.is_multiple_of(TILE) || at == end;
         let is_range = |a: u32, b: u32, end: u32| a < b && b <= end && is_side(a, end) && is_side(b, end);
         is_range(x0, x1, self.width) && is_range(y0, y1, self.height)
-    }
-}
-
-/// Numbers of rays traced for an image.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct RayCount {
-    /// Rays from the camera.
-    pub camera: u64,
-    /// Rays reflected by mirrors.
-    pub mirror: u64,
-    /// Rays towards a light, or over the hemisphere to find one.
-    pub shadow: u64,
-    /// Rays through the corners of pixels, which find the lights that matter there.
-    pub corner: u64,
-}
-
-impl AddAssign for RayCount {
-    fn add_assign(&mut self, other: Self) {
-        self.camera += other.camera;
-        self.mirror += other.mirror;
-        self.shadow += other.shadow;
-        self.corner += other.corner;
     }
 }

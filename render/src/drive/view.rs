@@ -3,17 +3,18 @@
 use super::adaptive::{Allotment, Effort, Statistics};
 use super::allocation::Weights;
 use super::checks::Checks;
-use super::known::Survey;
-use super::settings::{RayCount, Settings, tiles};
 use super::specks::specks;
 use super::tile::TileRenderer;
 use super::world::World;
 
 use crate::area::{self, Area};
 use crate::camera::Camera;
+use crate::certify::Survey;
 use crate::claim::Foreseen;
+use crate::estimate::RayCount;
 use crate::film::{BlockSum, Film, Pixel, PixelSum};
 use crate::sampler::Sampler;
+use crate::settings::{Settings, tiles};
 use crate::sums::{Moments, Planes, Sample, Sum};
 use crate::technique::Technique;
 use rayon::prelude::*;

@@ -1,7 +1,7 @@
 //! A scene ready to be rendered.
 
-use super::prepared::PreparedScene;
 use crate::bvh::BuildError;
+use crate::prepared::PreparedScene;
 use crate::sampler::Redrawn;
 use crate::scene::{CameraSettings, Scene};
 use crate::sensor::{Exposure, Sensor};

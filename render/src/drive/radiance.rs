@@ -1,6 +1,6 @@
 //! Radiance along camera rays, by where it comes from.
 
-use super::end::keep;
+use crate::estimate::keep;
 use crate::packet::{M8, V8, X8};
 
 /// Radiance along camera rays.

@@ -1,0 +1,31 @@
+//! Light that is computed without samples, where geometry tells what can occlude it.
+//!
+//! A [`Certifier`] proves, in double precision, what may lie between a [`Patch`] of a surface and a light: nothing, something that hides it
+//! all, or a few convex blockers. [`Analytic`] asks it for what a tile of the image sees, adds the closed forms of the lights of which
+//! something is proved, and leaves the rest of the [integrand](crate::estimate::Integrand) to another estimator.
+
+mod analytic;
+mod blockers;
+mod bodies;
+mod cache;
+mod certifier;
+mod closed_forms;
+mod diffuse;
+mod hull;
+#[cfg(test)]
+mod margins;
+mod patch;
+mod precision;
+mod residual;
+mod rough;
+mod shaft;
+mod trial;
+mod visible;
+
+pub(crate) use analytic::Analytic;
+pub use blockers::Blocker;
+pub use bodies::Bodies;
+pub use cache::Survey;
+pub use certifier::{Certificate, Certifier, MOST};
+pub use patch::{Patch, Pyramid, Viewer};
+pub use precision::{ALLOWED, Precision};

@@ -1,0 +1,127 @@
+//! Closed forms as an estimator around another one.
+
+use super::cache::{Certificates, Closed, Known, Survey};
+use super::closed_forms::ClosedForms;
+use super::precision::ALLOWED;
+use super::residual::{Left, Residual};
+use crate::camera::Camera;
+use crate::estimate::{Estimator, Group, Place, Plain, Points, Reflected, Tracer};
+use crate::packet::{M8, V8, X8, each_bit};
+use crate::prepared::PreparedScene;
+use crate::settings::Settings;
+use etendue::occlusion::Convex;
+use etendue::{Mask, Real};
+use std::f64::consts::FRAC_1_PI;
+
+/// Adds the light that certificates make known, and leaves the rest to another estimator.
+pub(crate) struct Analytic<'a, E> {
+    pub(super) certificates: Certificates<'a>,
+    pub(super) forms: ClosedForms,
+    pub(super) left: Left,
+    /// Whether no certificates are asked for in this tile: all lights are sampled.
+    pub(super) is_hopeless: bool,
+    /// Whether all lights are known at all places of the tile that were looked at first.
+    pub(super) knows_all: bool,
+    inner: E,
+}
+
+impl<E> Estimator<Plain> for Analytic<'_, E>
+where
+    E: Estimator<Plain> + for<'r> Estimator<Residual<'r>>,
+{
+    fn add<const GENERAL: bool>(
+        &mut self,
+        group: &Group<'_>,
+        plain: &Plain,
+        tracer: &mut Tracer,
+        reflected: &mut Reflected,
+    ) {
+        if self.is_hopeless {
+            return self.inner.add::<GENERAL>(group, plain, tracer, reflected);
+        }
+        let remains = self.gather::<GENERAL>(group, &mut reflected.known);
+        let residual = Residual { left: &self.left, points: group.points, is_empty: !remains };
+        self.inner.add::<GENERAL>(group, &residual, tracer, reflected);
+    }
+}
+
+impl<'a, E> Analytic<'a, E> {
+    /// For a scene as a camera sees it, around this estimator. [`begin`](Self::begin) prepares for a tile.
+    pub(crate) fn new(scene: &'a PreparedScene, camera: &Camera, settings: &Settings, inner: E) -> Self {
+        Self {
+            certificates: Certificates::new(scene, camera, settings),
+            forms: ClosedForms::default(),
+            left: Left::new(scene.lights.has_irradiances()),
+            is_hopeless: false,
+            knows_all: false,
+            inner,
+        }
+    }
+    /// The estimator of what is left.
+    pub(crate) const fn inner(&self) -> &E {
+        &self.inner
+    }
+    /// Whether certificates are asked for in this tile.
+    pub(crate) const fn asks(&self) -> bool {
+        !self.is_hopeless
+    }
+    /// Whether all lights are known at all places of the tile that were looked at first.
+    pub(crate) const fn knows_all(&self) -> bool {
+        self.knows_all
+    }
+    /// Prepares for the samples of a tile, by its first pixel.
+    pub(crate) fn begin(&mut self, origin: [u32; 2]) {
+        self.certificates.begin(origin);
+        (self.is_hopeless, self.knows_all) = (false, false);
+    }
+
+    /// Sets the lanes of a packet of shading points, each of them seen in one of these pixels, in which each light must be sampled.
+    pub(crate) fn remaining(&mut self, points: &Points, packet: usize, pixels: &[[u32; 2]; 8], remaining: &mut [M8]) {
+        let (surface, place) = (&points.surfaces[packet], &points.places[packet]);
+        remaining.fill(surface.reflects & place.unfitted);
+        each_bit((surface.reflects & !place.unfitted).bits(), |lane| {
+            let alone = Place { pixel: Some(pixels[lane]), ..*place };
+            let (first, _) = self.certificates.find(surface, &alone, M8::from_bits(1 << lane));
+            for (remaining, known) in remaining.iter_mut().zip(&self.certificates.known[first..]) {
+                // beyond its fit, a rough surface is sampled
+                if known.is_open() || place.fitted.lane(lane) && !matches!(known, Known::Dark) {
+                    *remaining = *remaining | M8::from_bits(1 << lane);
+                }
+            }
+        });
+    }
+
+    /// What is known of the lights at the first shading point.
+    pub(crate) fn survey(&mut self, points: &Points) -> Survey {
+        self.certificates.survey(&points.surfaces[0], &points.places[0], 0)
+    }
+
+    /// A bound of the error of what is known at the first shading point: a fraction of what the lights that are computed would contribute if
+    /// nothing hid them.
+    pub(crate) fn doubt(&mut self, points: &Points) -> V8 {
+        let (surface, place) = (&points.surfaces[0], &points.places[0]);
+        if let Some(lobe) = points.lobes[0].as_ref().filter(|_| (surface.reflects & place.fitted).lane(0)) {
+            return self.doubt_of_fit(surface, place, lobe);
+        }
+        if !(surface.reflects & !place.unfitted & !place.fitted).lane(0) {
+            return V8::default();
+        }
+        let (first, _) = self.certificates.find(surface, place, M8::from_bits(1));
+        let mut sum = V8::default();
+        for (light, known) in self.certificates.lights.iter().zip(&self.certificates.known[first..]) {
+            if matches!(known, Known::Lit(_) | Known::Behind(..)) {
+                // the irradiance from a picture is as accurate as where a surface faces it
+                let normal = match (light.closed, &light.form) {
+                    (Closed::Picture(_), Convex::Parallelogram { corner, edges: [u, v] }) => {
+                        (V8::splat(*corner + (*u + *v) * 0.5) - surface.point).normalize()
+                    }
+                    _ => surface.normal,
+                };
+                let all = self.forms.part(surface.point, normal, None, &light.form, (&[], &[]));
+                sum += V8::from(light.radiance) * all.unwrap_or_default();
+            }
+        }
+        let V8 { x, y, z } = surface.albedo * X8::lit(FRAC_1_PI * ALLOWED);
+        V8::new(x * sum.x, y * sum.y, z * sum.z)
+    }
+}

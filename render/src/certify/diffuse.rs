@@ -1,0 +1,210 @@
+//! Direct light of a group of packets without rays: the closed forms of the lights that certificates know.
+
+use super::analytic::Analytic;
+use super::cache::{Closed, Known};
+use super::closed_forms::Blocking;
+use super::precision::Precision;
+use super::visible::Ask;
+use crate::bvh::GROUP;
+use crate::estimate::{Group, Proof, product};
+use crate::lights::PictureIrradiance;
+use crate::packet::{M8, V8, X8, select};
+use crate::surfaces::Surface;
+use etendue::{Mask, Real};
+use std::f64::consts::FRAC_1_PI;
+
+/// The certificates for a group of packets.
+struct Found {
+    /// The lanes of each packet that share certificates, and the index of the first of these.
+    parts: [[(usize, M8); 8]; GROUP],
+    counts: [usize; GROUP],
+    /// Lanes in which all lights are sampled.
+    sampled: [M8; GROUP],
+}
+
+/// What a group of packets sees of a light.
+struct Seen {
+    /// Lanes in which the light must be sampled.
+    remaining: [M8; GROUP],
+    /// Lanes that see all of it, by a closed form in single or in double precision.
+    lit: [M8; GROUP],
+    lit_exactly: [M8; GROUP],
+    /// Lanes that see the light past blockers, and what they see of it.
+    behind: [M8; GROUP],
+    part: [X8; GROUP],
+    /// What they would see without blockers, where that is of use.
+    all: [X8; GROUP],
+}
+
+impl Seen {
+    /// Takes the part of the light that some lanes of a packet see, if it is known.
+    fn take(&mut self, &Ask { packet, lanes, .. }: &Ask, part: Option<X8>) {
+        match part {
+            Some(part) => {
+                self.part[packet] += part.keep(lanes);
+                self.behind[packet] = self.behind[packet] | lanes;
+            }
+            None => self.remaining[packet] = self.remaining[packet] | lanes,
+        }
+    }
+}
+
+impl<E> Analytic<'_, E> {
+    /// Adds the reflected light that is known, and notes what is left of each light. Returns whether anything is left.
+    ///
+    /// Of a light with a picture behind blockers, a part is counted, the same for all of its points; samples then add what is visible, less
+    /// that part. On rough surfaces, the integral of their fit is counted; all lights are sampled, for what the BSDF reflects beyond it.
+    pub(super) fn gather<const GENERAL: bool>(&mut self, group: &Group<'_>, reflected: &mut [V8; GROUP]) -> bool {
+        let lights = self.certificates.lights.len();
+        if GENERAL {
+            self.left.proofs[..lights].fill([Proof::default(); GROUP]);
+        }
+        let found = self.find(group, reflected);
+        let mut remains = false;
+        let mut sums = [V8::default(); GROUP];
+        for light in 0..lights {
+            remains |= if found.counts == [0; GROUP] {
+                self.leave(light, group, &found)
+            } else {
+                self.add_light(light, group, &found, &mut sums)
+            };
+        }
+        for (p, surface) in group.reflecting() {
+            reflected[p] += product(surface.albedo * X8::lit(FRAC_1_PI), sums[p]);
+        }
+        remains
+    }
+
+    /// Finds the certificates of the diffuse surfaces of a group, and adds what the fits of rough ones reflect.
+    fn find(&mut self, group: &Group<'_>, reflected: &mut [V8; GROUP]) -> Found {
+        let none = M8::splat(false);
+        let mut found = Found { parts: [[(0, none); 8]; GROUP], counts: [0; GROUP], sampled: [none; GROUP] };
+        for (p, surface) in group.reflecting() {
+            let place = &group.points.places[p];
+            let rough = surface.reflects & place.fitted;
+            found.sampled[p] = surface.reflects & place.unfitted | rough;
+            if let Some(lobe) = group.points.lobes[p].as_ref().filter(|_| rough.any()) {
+                self.add_fits(surface, place, lobe, p, &mut reflected[p]);
+            }
+            let mut left = surface.reflects & !place.unfitted & !rough;
+            while left.any() {
+                let (first, lanes) = self.certificates.find(surface, place, left);
+                left = left & !lanes;
+                if first == 0 {
+                    found.sampled[p] = found.sampled[p] | lanes;
+                } else {
+                    found.parts[p][found.counts[p]] = (first, lanes);
+                    found.counts[p] += 1;
+                }
+            }
+        }
+        found
+    }
+
+    /// Leaves a light to be sampled by a group without certificates.
+    fn leave(&mut self, light: usize, group: &Group<'_>, found: &Found) -> bool {
+        let mut remains = false;
+        for (p, _) in group.reflecting() {
+            self.left.remaining[light][p] = found.sampled[p];
+            if let Some(parts) = &mut self.left.parts {
+                parts[light][p] = X8::lit(0.0);
+            }
+            remains |= found.sampled[p].any();
+        }
+        remains
+    }
+
+    /// Adds the irradiance from a light to the sums.
+    fn add_light(&mut self, light: usize, group: &Group<'_>, found: &Found, sums: &mut [V8; GROUP]) -> bool {
+        let seen = self.see(light, group, found);
+        let of = self.certificates.lights[light];
+        let mut remains = false;
+        for (p, surface) in group.reflecting() {
+            let mut remaining = seen.remaining[p];
+            if let Closed::Picture(irradiance) = of.closed {
+                let (irradiance, more, counted) = seen.picture(p, surface, irradiance);
+                sums[p] += irradiance;
+                remaining = remaining | more;
+                if let Some(parts) = &mut self.left.parts {
+                    parts[light][p] = counted;
+                }
+            } else {
+                let mut part = seen.part[p] + seen.all[p].keep(seen.lit[p]);
+                if seen.lit_exactly[p].any() {
+                    let scenery = (&self.certificates.scenery, &Blocking::NONE);
+                    let all = self.forms.exact_part(surface.point, surface.normal, None, &of.form, scenery);
+                    part += all.unwrap_or_default().keep(seen.lit_exactly[p]);
+                }
+                sums[p] += V8::from(of.radiance) * part;
+            }
+            self.left.remaining[light][p] = remaining;
+            remains |= remaining.any();
+        }
+        remains
+    }
+
+    /// What a group sees of a light.
+    fn see(&mut self, light: usize, group: &Group<'_>, found: &Found) -> Seen {
+        let (none, zero) = ([M8::splat(false); GROUP], [X8::lit(0.0); GROUP]);
+        let mut seen =
+            Seen { remaining: found.sampled, lit: none, lit_exactly: none, behind: none, part: zero, all: zero };
+        let (certificates, forms) = (&self.certificates, &mut self.forms);
+        let (scenery, of) = (&certificates.scenery, &certificates.lights[light]);
+        for (p, surface) in group.reflecting() {
+            for (first, lanes) in &found.parts[p][..found.counts[p]] {
+                match &certificates.known[first + light] {
+                    Known::Lit(Precision::Double) => seen.lit_exactly[p] = seen.lit_exactly[p] | *lanes,
+                    Known::Lit(_) => seen.lit[p] = seen.lit[p] | *lanes,
+                    Known::Dark => {}
+                    Known::Crowded | Known::Nothing | Known::Never => seen.remaining[p] = seen.remaining[p] | *lanes,
+                    Known::Behind(blocking, precision) => {
+                        // the other lanes repeat one of these: what is not seen from here does not matter
+                        let lane = lanes.bits().trailing_zeros() as usize & 7;
+                        let repeat = |v: V8| V8::blend(*lanes, v, V8::splat(v.lane(lane)));
+                        let (point, normal) = (repeat(surface.point), repeat(surface.normal));
+                        let ask = Ask { packet: p, lanes: *lanes, point, normal, blocking: blocking.clone() };
+                        if *precision == Precision::Double {
+                            let part = forms.exact_part(point, normal, None, &of.form, (scenery, blocking));
+                            seen.take(&ask, part);
+                        } else {
+                            forms.visible.add(ask, &of.form, scenery, |ask, part| seen.take(ask, part));
+                        }
+                    }
+                }
+            }
+        }
+        forms.visible.finish(&of.form, scenery, |ask, part| seen.take(ask, part));
+        for (p, surface) in group.reflecting() {
+            let lanes = if matches!(of.closed, Closed::Picture(_)) { seen.behind[p] } else { seen.lit[p] };
+            if lanes.any() {
+                let Surface { point, normal, .. } = *surface;
+                let ask = Ask { packet: p, lanes, point, normal, blocking: Blocking::NONE };
+                let all = &mut seen.all;
+                forms.visible.add(ask, &of.form, scenery, |ask, found| all[ask.packet] = found.unwrap_or_default());
+            }
+        }
+        let all = &mut seen.all;
+        forms.visible.finish(&of.form, scenery, |ask, found| all[ask.packet] = found.unwrap_or_default());
+        seen
+    }
+}
+
+impl Seen {
+    /// The irradiance of a packet from a picture, the lanes in which it must be sampled, and the part of it that was counted there.
+    fn picture(&self, p: usize, surface: &Surface, irradiance: &PictureIrradiance) -> (V8, M8, X8) {
+        let zero = X8::lit(0.0);
+        let behind = self.behind[p];
+        // single precision always suffices, since nothing cancels
+        let lit = self.lit[p] | self.lit_exactly[p];
+        // behind blockers, what is visible of a light of constant radiance is the best guess
+        let (mut share, mut is_part) = (select(lit, X8::lit(1.0), zero), M8::splat(false));
+        if behind.any() {
+            let (part, all) = (self.part[p], self.all[p]);
+            is_part = behind & part.gt(zero) & part.lt(all);
+            share = select(behind, (part / all).clamped(zero, X8::lit(1.0)).keep(part.gt(zero)), share);
+        }
+        let (all, known) = irradiance.at(surface.point, surface.normal, lit | behind);
+        let share = share.keep(known);
+        (all * share, is_part | (lit | behind) & !known, share.keep(is_part))
+    }
+}

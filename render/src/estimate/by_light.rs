@@ -1,0 +1,116 @@
+//! Direct light by sampling a light.
+
+use super::choice::Which;
+use super::mis::Mis;
+use super::points::{keep, product};
+use super::tracer::Unoccluded;
+use super::{Group, Integrand, Tracer};
+use crate::bsdf::Evaluated;
+use crate::bvh::GROUP;
+use crate::lights::{Chosen, Drawn, Lights};
+use crate::packet::{M8, V8, X8, select};
+use crate::sky::SunBeside;
+use crate::technique::Measure;
+use etendue::{Mask, Real, Vec2};
+
+/// Samples a light, uniformly by a measure.
+pub(super) struct ByLight {
+    pub(super) measure: Measure,
+    /// If the surface is sampled, too.
+    pub(super) mis: Option<Mis>,
+}
+
+impl ByLight {
+    /// Adds f · L · V · cosθ / pdf, for a light and a direction to it in each lane.
+    #[inline(always)]
+    pub(super) fn add<const GENERAL: bool, I: Integrand>(
+        &self,
+        lights: &Lights,
+        which: &Which<'_>,
+        group: &Group<'_>,
+        integrand: &I,
+        tracer: &mut Tracer,
+        reflected: &mut [V8; GROUP],
+    ) {
+        let (zero, one, bvh) = (X8::lit(0.0), X8::lit(1.0), &group.scene.surfaces.bvh);
+        let mut rays = Unoccluded::new();
+        for (p, surface) in group.reflecting() {
+            // choose a light, and draw a direction to it
+            let place = group.points.places[p].primitives;
+            let (choice, lanes, u) = which.choose::<GENERAL, _>(lights, group, integrand, p);
+            let mut light = lights.chosen(choice.index);
+            let (drawn, alone) = self.draw::<GENERAL>(lights, which, group, p, u, &mut light);
+            let Drawn { direction, distance, emits, delta, .. } = drawn;
+            let cos = direction.dot(surface.normal);
+            let own = light.is_own(place, surface.point, surface.normal);
+            let some = drawn.pdf.gt(zero) & choice.pmf.gt(zero);
+            let mut lit = lanes & emits & some & cos.gt(zero) & !own;
+            // evaluate f cosθ, less what is known of its integral
+            let Evaluated { mut color, factor, pdf: surface_pdf } = group.bsdf::<GENERAL>(p).evaluate(direction);
+            let proof = if GENERAL { integrand.proof(p, choice.index) } else { None };
+            if let Some(proof) = proof {
+                color += keep(-integrand.fit(p, direction, cos), proof.fitted);
+                lit = lit & !proof.dark;
+            }
+            // weigh f L cosθ / pdf
+            let pdf = select(lit, drawn.pdf * choice.pmf, one);
+            let rough = group.rough::<GENERAL>(p);
+            let factor = match &self.mis {
+                None => factor,
+                Some(mis) => factor * mis.of_light([pdf, surface_pdf], delta, alone, rough),
+            };
+            let found = product(color, light.radiance) * (factor / pdf);
+            if let Some(part) = integrand.part(p, choice.index) {
+                reflected[p] += keep(found * -part, lit);
+            }
+            if let Some(proof) = proof {
+                reflected[p] += keep(found, lit & proof.lit);
+                lit = lit & !proof.lit;
+            }
+            // trace a shadow ray, unless a sky or a profile is dark in that direction, or the surface black
+            lit = lit & found.max_abs().gt(zero);
+            (rays.found[p], rays.lanes[p]) = (found, lit);
+            rays.end_at(p, distance, light.shape);
+            tracer.shadow[p] = bvh.rays(surface.point, direction).leaving(place);
+            tracer.count.shadow += u64::from(lit.bits().count_ones());
+        }
+        rays.add(group.count, bvh, tracer, reflected);
+    }
+
+    /// The same for the sun that is sampled besides all other lights. Not inlined, so that it does not burden scenes without portals.
+    #[inline(never)]
+    pub(super) fn add_sun<const GENERAL: bool, I: Integrand>(
+        &self,
+        sun: SunBeside<'_>,
+        group: &Group<'_>,
+        integrand: &I,
+        tracer: &mut Tracer,
+        reflected: &mut [V8; GROUP],
+    ) {
+        self.add::<GENERAL, I>(&group.scene.lights, &Which::Sun(sun), group, integrand, tracer, reflected);
+    }
+
+    /// Directions to the chosen lights, and the lanes in which the light is sampled alone although the surface is sampled, too.
+    #[inline(always)]
+    fn draw<const GENERAL: bool>(
+        &self,
+        lights: &Lights,
+        which: &Which<'_>,
+        group: &Group<'_>,
+        packet: usize,
+        u: Vec2<X8>,
+        light: &mut Chosen,
+    ) -> (Drawn, M8) {
+        let surface = &group.points.surfaces[packet];
+        let mut drawn: Drawn = if let Which::Sun(sun) = which {
+            let (sample, radiance) = sun.sample(surface.point, u);
+            light.radiance = radiance;
+            sample.into()
+        } else {
+            lights.sample(light, self.measure, surface.point, surface.normal, u)
+        };
+        let lobe = group.points.lobes[packet].as_ref().filter(|_| GENERAL && self.mis.is_some_and(|mis| mis.by_lobes));
+        let alone = lobe.map(|lobe| light.sample_lobe(&mut drawn, lobe, surface.point, u));
+        (drawn, alone.unwrap_or(M8::splat(false)))
+    }
+}

@@ -1,0 +1,150 @@
+//! Direct light by sampling the surface: its BSDF, or the hemisphere above it.
+
+use super::choice::pmf;
+use super::mis::Mis;
+use super::points::{keep, product};
+use super::tracer::Unoccluded;
+use super::{Group, Integrand, Tracer};
+use crate::bsdf::Scattered;
+use crate::bvh::{GROUP, Hits, NOTHING, SHAPE};
+use crate::lights::LightPmf;
+use crate::lobe::Lobe;
+use crate::packet::{M8, V8, X8, pick, select};
+use crate::technique::Technique;
+use etendue::{Mask, Real, Vec2, u32x8};
+
+/// Samples the surface as a technique does.
+pub(super) struct BySurface {
+    pub(super) technique: Technique,
+    /// If lights are sampled, too.
+    pub(super) mis: Option<Mis>,
+}
+
+/// What the rays of a packet find.
+struct Met {
+    /// Lanes that find light.
+    lit: M8,
+    radiance: V8,
+    /// The lights, or [`NOTHING`].
+    lights: u32x8,
+    /// The pdf with which they are sampled in these directions, if that is asked for.
+    pdf: X8,
+    /// Radiance and pdf of the sun besides the sky.
+    sun: Option<(V8, X8)>,
+}
+
+impl BySurface {
+    /// Adds f · L · V · cosθ / pdf, for a direction in each lane in which rays may find a light.
+    pub(super) fn add<const GENERAL: bool, I: Integrand>(
+        &self,
+        pairs: &[Vec2<X8>; GROUP],
+        group: &Group<'_>,
+        integrand: &I,
+        tracer: &mut Tracer,
+        reflected: &mut [V8; GROUP],
+    ) {
+        let (zero, one, bvh) = (X8::lit(0.0), X8::lit(1.0), &group.scene.surfaces.bvh);
+        let mut hits = [Hits::none(X8::lit(f64::INFINITY)); GROUP];
+        let (mut factors, mut pdfs) = ([zero; GROUP], [one; GROUP]);
+        let mut rays = Unoccluded::new();
+        // draw directions: f cosθ / pdf is the product of two numbers
+        for (p, surface) in group.reflecting() {
+            let Scattered { direction, color, factor, pdf } = group.bsdf::<GENERAL>(p).sample(self.technique, pairs[p]);
+            let some = pdf.gt(zero);
+            let reflects = surface.reflects & some;
+            pdfs[p] = select(some, pdf, one);
+            (rays.found[p], factors[p]) = (color, factor);
+            rays.lanes[p] = self.mis.map_or(reflects, |mis| mis.by_surface(group.rough::<GENERAL>(p), reflects));
+            tracer.shadow[p] = bvh.rays(surface.point, direction).leaving(group.points.places[p].primitives);
+            tracer.count.shadow += u64::from(rays.lanes[p].bits().count_ones());
+        }
+        // finding the hit light is cheap; only rays that hit one need an occlusion test
+        let Tracer { shadow, scratch, .. } = tracer;
+        bvh.closest_shape(&shadow[..group.count], &rays.lanes[..group.count], &mut hits[..group.count], scratch);
+        for p in 0..group.count {
+            if !rays.lanes[p].any() {
+                continue;
+            }
+            let met = self.meet::<GENERAL, I>(group, integrand, p, &hits[p], rays.lanes[p], tracer);
+            let (direction, mut color, mut lit) = (tracer.shadow[p].direction, rays.found[p], met.lit);
+            // less what is known of the integral
+            let proof = if GENERAL { integrand.proof(p, met.lights) } else { None };
+            if let Some(proof) = proof {
+                let fit = integrand.fit(p, direction, direction.dot(group.points.surfaces[p].normal));
+                color += keep(fit * (-one / pdfs[p]), proof.fitted);
+                lit = lit & !proof.dark;
+            }
+            let weighted = |light_pdf: X8| match &self.mis {
+                None => factors[p],
+                Some(mis) => factors[p] * mis.of_surface([pdfs[p], light_pdf]),
+            };
+            let mut found = product(color, met.radiance) * weighted(met.pdf);
+            if let Some((radiance, pdf)) = met.sun {
+                found += product(color, radiance) * weighted(pdf);
+            }
+            if let Some(proof) = proof {
+                reflected[p] += keep(found, lit & proof.lit);
+                lit = lit & !proof.lit;
+            }
+            (rays.found[p], rays.lanes[p]) = (found, lit);
+            rays.end_at(
+                p,
+                hits[p].distance,
+                pick(lit & hits[p].any(), hits[p].place ^ u32x8::splat(SHAPE), u32x8::splat(NOTHING)),
+            );
+        }
+        rays.add(group.count, bvh, tracer, reflected);
+    }
+
+    /// The light that the rays of a packet find, if nothing else occludes it.
+    #[inline(always)]
+    fn meet<const GENERAL: bool, I: Integrand>(
+        &self,
+        group: &Group<'_>,
+        integrand: &I,
+        packet: usize,
+        hits: &Hits,
+        sent: M8,
+        tracer: &Tracer,
+    ) -> Met {
+        let (scene, world) = (group.scene, &group.scene.surfaces);
+        let (rays, surface) = (&tracer.shadow[packet], &group.points.surfaces[packet]);
+        let (hit, missed) = (sent & hits.any(), sent & !hits.any());
+        let is_weighted = self.mis.is_some() && (hit.any() || scene.sky.is_some());
+        let pmf: Option<LightPmf<'_>> = is_weighted.then(|| pmf::<GENERAL, I>(group, integrand, packet));
+        // spheres that metals reflect are sampled by the lobe alone
+        let by_lobes = GENERAL && self.mis.is_some_and(|mis| mis.by_lobes);
+        let metals = group.points.lobes[packet].as_ref().filter(|_| by_lobes).map(Lobe::metals);
+        let mut met = Met {
+            lit: M8::splat(false),
+            radiance: V8::default(),
+            lights: u32x8::splat(NOTHING),
+            pdf: X8::lit(0.0),
+            sun: None,
+        };
+        world.each_shape(hits, hit, rays, |index, here, shape, outward| {
+            let here = metals.filter(|_| shape.is_even_sphere()).map_or(here, |metals| here & !metals);
+            if let Some((emitted, here)) = world.emitted(hits, here, shape, outward, rays) {
+                met.radiance = V8::blend(here, emitted, met.radiance);
+                met.lit = met.lit | here;
+                met.lights = pick(here, u32x8::splat(scene.lights.of_shape(index) as u32), met.lights);
+                if let Some(pmf) = pmf.as_ref().filter(|_| here.any()) {
+                    let pdf = scene.lights.shape_pdf(pmf, index, &shape.geometry, surface.point, rays.direction);
+                    met.pdf = select(here, pdf, met.pdf);
+                }
+            }
+        });
+        if let Some(sky) = scene.sky.as_ref().filter(|_| missed.any()) {
+            let (seen, shown) = sky.sampled_radiance(surface.point, rays.direction);
+            let sun = sky.sun_beside().map(|sun| sun.radiance_and_pdf(surface.point, rays.direction));
+            met.sun = sun.map(|(radiance, pdf)| (keep(radiance, missed), pdf));
+            met.radiance = V8::blend(missed, seen, met.radiance);
+            met.lit = met.lit | missed & shown;
+            if let Some(pmf) = pmf.as_ref().filter(|_| (missed & shown).any()) {
+                let pdf = scene.lights.sky_pdf(pmf, surface.point, surface.normal, rays.direction);
+                met.pdf = select(missed, pdf, met.pdf);
+            }
+        }
+        met
+    }
+}

@@ -1,0 +1,133 @@
+//! Which light each lane of a packet samples.
+
+use super::{Group, Integrand};
+use crate::bvh::GROUP;
+use crate::lights::{LightPmf, Lights};
+use crate::lobe::Lobe;
+use crate::packet::{M8, X8, equal, pick, select};
+use crate::sky::SunBeside;
+use crate::surfaces::Surface;
+use etendue::select::{Choice, Gloss, LightChoice};
+use etendue::{Mask, Real, Vec2, u32x8};
+
+/// Which light is sampled.
+pub(super) enum Which<'a> {
+    /// This one.
+    One(u32),
+    /// The sun besides the sky, which is the last of the lights.
+    Sun(SunBeside<'a>),
+    /// The one to which the sample is allocated, or one that is chosen at random, of those that remain.
+    Chosen,
+}
+
+impl Which<'_> {
+    /// Chooses a light for each lane of a packet. Returns the lanes that sample it, and the numbers that are left for a point on it.
+    #[inline(always)]
+    pub(super) fn choose<const GENERAL: bool, I: Integrand>(
+        &self,
+        lights: &Lights,
+        group: &Group<'_>,
+        integrand: &I,
+        packet: usize,
+    ) -> (Choice<X8>, M8, Vec2<X8>) {
+        let mut u = group.numbers.light[packet];
+        let numbers = group.numbers.choice.map_or([u.x, X8::lit(0.0)], |choice| [choice[packet].x, choice[packet].y]);
+        let given = |index: u32| Choice { index: u32x8::splat(index), pmf: X8::lit(1.0), u: numbers[0] };
+        let all = group.points.surfaces[packet].reflects;
+        let (choice, lanes) = match self {
+            Self::One(light) => (given(*light), all),
+            Self::Sun(_) => (given(lights.len() as u32 - 1), all),
+            Self::Chosen => chosen::<GENERAL, I>(lights, group, integrand, packet, numbers),
+        };
+        if group.numbers.choice.is_none() {
+            u.x = choice.u;
+        }
+        (choice, lanes, u)
+    }
+}
+
+/// What the choice depends on where surfaces are glossy. Where lights are known, it is by what they give to diffuse ones.
+fn gloss<const GENERAL: bool, I: Integrand>(group: &Group<'_>, integrand: &I, packet: usize) -> Option<Gloss<X8>> {
+    let is_asked = GENERAL && integrand.remaining().is_none();
+    group.points.lobes[packet].as_ref().filter(|_| is_asked).map(Lobe::gloss)
+}
+
+/// The light to which a sample is allocated, or one chosen at random, among those that remain; and the lanes that sample it. `numbers` are
+/// random, the second for many lights.
+#[inline(always)]
+fn chosen<const GENERAL: bool, I: Integrand>(
+    lights: &Lights,
+    group: &Group<'_>,
+    integrand: &I,
+    packet: usize,
+    numbers: [X8; 2],
+) -> (Choice<X8>, M8) {
+    let surface = &group.points.surfaces[packet];
+    let all = surface.reflects;
+    let (allocated, remaining) = match (group.allocated.get(packet), integrand.remaining()) {
+        (None, None) => {
+            let gloss = gloss::<GENERAL, I>(group, integrand, packet);
+            return (lights.choose(surface.point, surface.normal, gloss.as_ref(), numbers), all);
+        }
+        (Some(allocated), None) => return (allocated.choose(numbers[0]), all),
+        (None, Some(remaining)) => return among(lights, surface, all, packet, numbers[0], remaining),
+        (Some(allocated), Some(remaining)) => (allocated, remaining),
+    };
+    // where another light than those that were expected in the packet remains, too, all lanes choose at random; on rough surfaces, all
+    // lights are expected
+    let none = M8::splat(false);
+    let unexpected = (0..lights.len()).filter(|light| group.expected[packet] >> light & 1 == 0);
+    let stray =
+        !group.rough::<GENERAL>(packet) & unexpected.fold(none, |stray, light| stray | remaining[light][packet]);
+    let choice = allocated.choose(numbers[0]);
+    let (mut lanes, mut left) = (none, all & !stray);
+    while left.any() {
+        let light = choice.index.as_array()[left.bits().trailing_zeros() as usize & 7];
+        let same = left & equal(choice.index, u32x8::splat(light));
+        lanes = lanes | same & remaining[light as usize][packet];
+        left = left & !same;
+    }
+    if !stray.any() {
+        return (choice, lanes);
+    }
+    let (other, others) = among(lights, surface, all & stray, packet, numbers[0], remaining);
+    let choice = Choice {
+        index: pick(stray, other.index, choice.index),
+        pmf: select(stray, other.pmf, choice.pmf),
+        u: select(stray, other.u, choice.u),
+    };
+    (choice, lanes | others)
+}
+
+/// Chooses one of the lights that remain in a packet, for each of these lanes.
+#[inline]
+fn among(
+    lights: &Lights,
+    surface: &Surface,
+    lanes: M8,
+    packet: usize,
+    number: X8,
+    remaining: &[[M8; GROUP]],
+) -> (Choice<X8>, M8) {
+    match lights.contributions(surface.point, surface.normal) {
+        Some(near) => (near.only(|light| remaining[light][packet]).choose(number), lanes),
+        None => (Choice { index: u32x8::splat(0), pmf: X8::lit(1.0), u: number }, lanes & remaining[0][packet]),
+    }
+}
+
+/// The probabilities with which a packet of surfaces that are sampled themselves chooses lights.
+#[inline(always)]
+pub(super) fn pmf<'a, const GENERAL: bool, I: Integrand>(
+    group: &'a Group<'_>,
+    integrand: &I,
+    packet: usize,
+) -> LightPmf<'a> {
+    let Surface { point, normal, .. } = group.points.surfaces[packet];
+    match group.allocated.get(packet) {
+        Some(allocated) => LightPmf::Allocated(allocated),
+        None => {
+            let gloss = gloss::<GENERAL, I>(group, integrand, packet);
+            group.scene.lights.pmf(point, normal, gloss.as_ref())
+        }
+    }
+}
