@@ -1,8 +1,6 @@
 //! An image of a scene through a camera: its technique, its samples, and what is known of its lights.
 
 use super::adaptive::{Allotment, Effort, Statistics};
-use super::allocation::Weights;
-use super::checks::Checks;
 use super::specks::specks;
 use super::tile::TileRenderer;
 use super::world::World;
@@ -206,9 +204,9 @@ impl View<'_> {
             }
             Samples::Rest(allotment) => {
                 assert!(is_adaptive && area == allotment.area);
-                let weights = allotment.weights();
+                let (weights, effort) = (allotment.weights(), self.effort());
                 let (pixels, rays) = self.tiles(area, &|renderer, tile| {
-                    let pixels = self.rest(renderer, tile, allotment, weights.as_ref());
+                    let pixels = allotment.rest(renderer, tile, weights.as_ref(), &effort);
                     progress(pixels.len() as u64);
                     pixels
                 });
@@ -229,33 +227,6 @@ impl View<'_> {
             progress(parts.len() as u64);
             parts
         })
-    }
-
-    /// The pixels of a tile with the samples after the pilot.
-    fn rest(
-        &self,
-        renderer: &mut TileRenderer,
-        tile: Area,
-        allotment: &Allotment,
-        weights: Option<&Weights<'_>>,
-    ) -> Vec<Pixel> {
-        let Effort { sets, pilot, checks, .. } = self.effort();
-        renderer.begin(tile);
-        let rest = renderer.parts(tile, pilot, 0..sets, weights, |pixel| [pilot, allotment.packets_at(pixel)]);
-        let mut pixels = allotment.finish(tile, &rest, sets);
-        if checks > 0.0 {
-            let by_spread = allotment.by_spread(tile, &rest, pilot);
-            let packets: Vec<u32> = area::pixels(tile).map(|pixel| allotment.packets_at(pixel)).collect();
-            let checks = Checks::new(tile, &by_spread, &packets, checks, self.settings.seed);
-            // their first samples are allocated by the pilot, too, which makes little difference
-            let weights = weights.map(Weights::anew);
-            let range = |pixel| [0, if checks.contains(pixel) { allotment.packets_at(pixel) } else { 0 }];
-            let second = renderer.parts(tile, pilot, sets..sets + 1, weights.as_ref(), range);
-            let mean = |(of, n): (&Statistics, &u32)| of.sums[0].map(|sum| sum / f64::from(8 * n));
-            let second: Vec<_> = second.iter().zip(&packets).map(mean).collect();
-            checks.judge(&mut pixels, &by_spread, &second);
-        }
-        pixels
     }
 
     /// The same number of samples for each pixel.

@@ -43,25 +43,24 @@ fn value<T: ValueEnum>(option: &str, text: &str) -> Result<T, String> {
 fn wish(shared: &Shared, body: &[u8]) -> Result<(), String> {
     let wished: Value = serde_json::from_slice(body).map_err(|error| format!("not JSON: {error}"))?;
     let Value::Object(wished) = wished else { return Err("not an object".into()) };
-    let state = shared.lock();
-    let mut next = state.wishes;
-    for (key, of) in &wished {
-        let wrong = |what: &str| format!("{key}: {of} is not {what}");
-        let text = || of.as_str().ok_or_else(|| wrong("a name"));
-        let flag = || of.as_bool().ok_or_else(|| wrong("true or false"));
-        match key.as_str() {
-            "technique" => next.way.technique = value(key, text()?)?,
-            "sampler" => next.way.sampler = value(key, text()?)?,
-            "crop" if of.is_null() => next.crop = None,
-            "crop" => next.crop = Some(crop(of, state.facts.size).ok_or_else(|| wrong("a part of the image"))?),
-            "paused" => next.paused = flag()?,
-            "reload" => next.reload = flag()?,
-            _ => return Err(format!("{key}: there is no such wish")),
+    // one wish after another, so that none is lost and a part is one of the image as it is now
+    shared.wish(|next, facts| {
+        for (key, of) in &wished {
+            let wrong = |what: &str| format!("{key}: {of} is not {what}");
+            let text = || of.as_str().ok_or_else(|| wrong("a name"));
+            let flag = || of.as_bool().ok_or_else(|| wrong("true or false"));
+            match key.as_str() {
+                "technique" => next.way.technique = value(key, text()?)?,
+                "sampler" => next.way.sampler = value(key, text()?)?,
+                "crop" if of.is_null() => next.crop = None,
+                "crop" => next.crop = Some(crop(of, facts.size).ok_or_else(|| wrong("a part of the image"))?),
+                "paused" => next.paused = flag()?,
+                "reload" => next.reload = flag()?,
+                _ => return Err(format!("{key}: there is no such wish")),
+            }
         }
-    }
-    drop(state);
-    shared.wish(next);
-    Ok(())
+        Ok(())
+    })
 }
 
 /// The tiles that a rectangle [x0, y0, x1, y1] touches; `None` if it is not one of the image's.

@@ -103,9 +103,12 @@ impl Shared {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Changes the wishes, and wakes the rendering thread. It ends its pass if another image or part is wished, but not to pause.
-    pub(crate) fn wish(&self, next: Wishes) {
+    /// Changes the wishes, unless that fails, and wakes the rendering thread. It ends its pass if another image or part is wished, but not to
+    /// pause.
+    pub(crate) fn wish(&self, change: impl FnOnce(&mut Wishes, &Facts) -> Result<(), String>) -> Result<(), String> {
         let mut state = self.lock();
+        let mut next = state.wishes;
+        change(&mut next, &state.facts)?;
         let before = Wishes { paused: next.paused, ..state.wishes };
         if before != next {
             self.stop.store(true, Ordering::Relaxed);
@@ -114,6 +117,7 @@ impl Shared {
         state.wishes = next;
         drop(state);
         self.changed.notify_all();
+        Ok(())
     }
 
     /// The wishes for the next pass.
@@ -127,5 +131,36 @@ impl Shared {
     pub(crate) fn wait(&self, wishes: &Wishes, long: Duration) {
         let are_same = |state: &mut State| state.wishes == *wishes;
         let _ = self.changed.wait_timeout_while(self.lock(), long, are_same).unwrap_or_else(PoisonError::into_inner);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Each wish changes what the wishes before it have left, whoever sends them.
+    #[test]
+    fn no_wish_is_lost() {
+        let way = Way { technique: Technique::Auto, sampler: Sampler::Sobol };
+        let wishes = Wishes { way, crop: Some([0; 4]), paused: false, reload: false };
+        let (facts, pictures) = (Facts::default(), Vec::new());
+        let shared = Shared::new(State { wishes, facts, pictures, changed: None, message: None });
+        let count = || {
+            for _ in 0..1000 {
+                let counted = shared.wish(|next, _| {
+                    next.crop = next.crop.map(|[x0, y0, x1, y1]| [x0, y0, x1 + 1, y1]);
+                    Ok(())
+                });
+                assert_eq!(counted, Ok(()));
+            }
+        };
+        std::thread::scope(|scope| (0..4).for_each(|_| drop(scope.spawn(count))));
+        assert_eq!(shared.lock().wishes.crop, Some([0, 0, 4000, 0]));
+        // what fails changes nothing
+        let failed = shared.wish(|next, _| {
+            next.paused = true;
+            Err("no".into())
+        });
+        assert_eq!((failed, shared.lock().wishes.paused), (Err("no".into()), false));
     }
 }

@@ -64,6 +64,21 @@ fn average(packets: &[u32]) -> f64 {
     packets.iter().copied().map(f64::from).sum::<f64>() / packets.len() as f64
 }
 
+/// Differences of samples that overflow do not keep the search for a scale from ending.
+#[test]
+fn infinite_variance_gets_equal_numbers() {
+    let of_light = Statistics {
+        packets: 2,
+        lights: 1,
+        spread: [f32::INFINITY; APART],
+        pairs: [8; APART],
+        ..Statistics::default()
+    };
+    for parts in [vec![of_light; WIDTH * HEIGHT], pilot(|i| if i == 40 { f64::INFINITY } else { 1.0 })] {
+        let (packets, _) = allot(&parts, WIDTH as u32, &effort(1, 2, 16.0));
+        assert!(packets.iter().all(|&packets| packets == 16));
+    }
+}
 #[test]
 fn equal_variance_gets_equal_numbers() {
     let effort = effort(1, 2, 16.0);
