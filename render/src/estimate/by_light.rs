@@ -3,8 +3,9 @@
 use super::choice::Which;
 use super::mis::Mis;
 use super::points::{keep, product};
-use super::tracer::Unoccluded;
-use super::{Group, Integrand, Tracer};
+use super::group::Group;
+use super::integrand::Integrand;
+use super::tracer::{Tracer, Unoccluded};
 use crate::bsdf::Evaluated;
 use crate::bvh::GROUP;
 use crate::lights::{Chosen, Drawn, Lights};

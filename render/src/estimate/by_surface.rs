@@ -3,8 +3,9 @@
 use super::choice::pmf;
 use super::mis::Mis;
 use super::points::{keep, product};
-use super::tracer::Unoccluded;
-use super::{Group, Integrand, Tracer};
+use super::group::Group;
+use super::integrand::Integrand;
+use super::tracer::{Tracer, Unoccluded};
 use crate::bsdf::Scattered;
 use crate::bvh::{GROUP, Hits, NOTHING, SHAPE};
 use crate::lights::LightPmf;

@@ -1,6 +1,7 @@
 //! Which light each lane of a packet samples.
 
-use super::{Group, Integrand};
+use super::group::Group;
+use super::integrand::Integrand;
 use crate::bvh::GROUP;
 use crate::lights::{LightPmf, Lights};
 use crate::lobe::Lobe;

@@ -3,7 +3,9 @@
 use super::by_light::ByLight;
 use super::by_surface::BySurface;
 use super::choice::Which;
-use super::{Estimator, Group, Integrand, Reflected, Tracer};
+use super::group::{Estimator, Group, Reflected};
+use super::integrand::Integrand;
+use super::tracer::Tracer;
 use crate::packet::{M8, X8, select};
 use crate::prepared::PreparedScene;
 use crate::technique::Technique;
