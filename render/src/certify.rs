@@ -18,6 +18,7 @@ mod patch;
 mod precision;
 mod residual;
 mod rough;
+mod scenery;
 mod shaft;
 mod trial;
 mod visible;

@@ -3,8 +3,10 @@
 mod adaptive;
 mod allocation;
 mod checks;
+mod corners;
 mod estimator;
 mod radiance;
+mod rest;
 mod runs;
 mod specks;
 mod tile;

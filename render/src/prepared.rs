@@ -1,7 +1,6 @@
 //! A scene with its trees and tables.
 
 use crate::bvh::BuildError;
-use crate::certify::Bodies;
 use crate::lights::Lights;
 use crate::scene::Scene;
 use crate::sky::Sky;
@@ -12,8 +11,6 @@ use std::sync::Arc;
 #[derive(Debug)]
 pub(crate) struct PreparedScene {
     pub(crate) surfaces: Surfaces,
-    /// Convex parts of the mesh.
-    pub(crate) bodies: Bodies,
     pub(crate) lights: Lights,
     /// The delta lights among `lights`.
     pub(crate) deltas: Lights,
@@ -29,14 +26,14 @@ impl PreparedScene {
         let surfaces = Surfaces::new(scene)?;
         let sky = Self::sky(scene);
         let (lights, deltas) = (Lights::new(scene, sky.clone())?, Lights::deltas(scene)?);
-        Ok(Self { bodies: Bodies::new(&surfaces.bvh), surfaces, lights, deltas, sky })
+        Ok(Self { surfaces, lights, deltas, sky })
     }
     /// Takes the triangles out of the scene.
     pub(crate) fn from_scene(scene: &mut Scene) -> Result<Self, BuildError> {
         let sky = Self::sky(scene);
         let (lights, deltas) = (Lights::new(scene, sky.clone())?, Lights::deltas(scene)?);
         let surfaces = Surfaces::from_scene(scene)?;
-        Ok(Self { bodies: Bodies::new(&surfaces.bvh), surfaces, lights, deltas, sky })
+        Ok(Self { surfaces, lights, deltas, sky })
     }
     fn sky(scene: &Scene) -> Option<Arc<Sky>> {
         scene.environment.as_ref().map(|environment| Arc::new(Sky::new(environment)))

@@ -232,11 +232,11 @@ fn imports_are_found() {
     for (package, level, from, to) in [
         ("core", "core", "light", "spherical"),
         ("core/shader", "core/shader", "plan", "graph"),
-        ("render", "render", "integrator", "lights"),
+        ("render", "render", "drive", "estimate"),
         ("render", "render", "scene", "image"),
         ("render", "render::bvh", "stream", "single_ray"),
         ("render", "render::bvh", "bvh", "stream"),
-        ("render", "render::integrator", "tile", "paths"),
+        ("render", "render::drive", "tile", "estimator"),
         ("render/laboratory", "render/laboratory", "figure", "chart"),
         ("render/laboratory", "render/laboratory::chart", "report", "outcome"),
         ("render/laboratory", "render/laboratory::chart", "plot", "stats"),

@@ -1,5 +1,6 @@
 //! Closed forms as an estimator around another one.
 
+use super::bodies::Bodies;
 use super::cache::{Certificates, Closed, Known, Survey};
 use super::closed_forms::ClosedForms;
 use super::precision::ALLOWED;
@@ -46,10 +47,16 @@ where
 }
 
 impl<'a, E> Analytic<'a, E> {
-    /// For a scene as a camera sees it, around this estimator. [`begin`](Self::begin) prepares for a tile.
-    pub(crate) fn new(scene: &'a PreparedScene, camera: &Camera, settings: &Settings, inner: E) -> Self {
+    /// For a scene and the bodies of its mesh as a camera sees them, around this estimator. [`begin`](Self::begin) prepares for a tile.
+    pub(crate) fn new(
+        scene: &'a PreparedScene,
+        bodies: &'a Bodies,
+        camera: &Camera,
+        settings: &Settings,
+        inner: E,
+    ) -> Self {
         Self {
-            certificates: Certificates::new(scene, camera, settings),
+            certificates: Certificates::new(scene, bodies, camera, settings),
             forms: ClosedForms::default(),
             left: Left::new(scene.lights.has_irradiances()),
             is_hopeless: false,

@@ -7,9 +7,9 @@
 use super::blockers::Blocker;
 use super::bodies::Bodies;
 use super::certifier::{Certificate, Certifier};
-use super::closed_forms::{Blocking, Scenery};
 use super::patch::{Patch, Pyramid, Viewer};
 use super::precision::Precision;
+use super::scenery::{Blocking, Scenery};
 use crate::bvh::{NOTHING, SHAPE};
 use crate::camera::{Camera, Pinhole};
 use crate::estimate::Place;
@@ -122,8 +122,8 @@ fn is_clipped(light: &Convex<f32>, blockers: &[Blocker]) -> bool {
 
 impl<'a> Certificates<'a> {
     /// For a scene as a camera sees it. [`begin`](Self::begin) prepares for a tile.
-    pub(super) fn new(scene: &'a PreparedScene, camera: &Camera, settings: &Settings) -> Self {
-        let (surfaces, bodies) = (&scene.surfaces, &scene.bodies);
+    pub(super) fn new(scene: &'a PreparedScene, bodies: &'a Bodies, camera: &Camera, settings: &Settings) -> Self {
+        let surfaces = &scene.surfaces;
         let count = surfaces.light_shapes().count();
         let pixels = SAMPLES_PER_CERTIFICATE * count as f64 / f64::from(settings.spp);
         let (eye, pixel) = camera.middle(settings.width, settings.height);

@@ -2,8 +2,8 @@
 
 use super::analytic::Analytic;
 use super::cache::{Closed, Known};
-use super::closed_forms::Blocking;
 use super::precision::Precision;
+use super::scenery::Blocking;
 use super::visible::Ask;
 use crate::bvh::GROUP;
 use crate::estimate::{Group, Proof, product};

@@ -3,8 +3,8 @@
 
 use super::analytic::Analytic;
 use super::cache::{AreaLight, Closed, Known};
-use super::closed_forms::Blocking;
 use super::precision::Precision;
+use super::scenery::Blocking;
 use crate::estimate::{Place, product};
 use crate::lobe::Lobe;
 use crate::packet::{M8, V8, X8};

@@ -3,7 +3,7 @@
 //! A packet of sixteen takes less time than two of eight, with AVX2 and with AVX-512 (`cargo bench -p etendue-benches --bench warps --
 //! visible` prints both), and the successive packets of a tile mostly see the same.
 
-use super::closed_forms::{Blocking, Scenery};
+use super::scenery::{Blocking, Scenery};
 use crate::packet::{M8, V8, X8};
 use etendue::occlusion::{Convex, Occlusion};
 use etendue::{Vec3, f32x16};

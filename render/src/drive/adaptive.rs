@@ -5,8 +5,7 @@
 //! that a pixel has in the sum over all pixels.
 
 use super::allocation::{APART, Weights};
-use super::checks::{self, Checks};
-use super::tile::TileRenderer;
+use super::checks;
 use crate::area::{self, Area, crop};
 use crate::film::{Accumulator, Pixel, channels};
 use crate::packet::{V8, X8};
@@ -41,7 +40,7 @@ pub(super) struct Effort {
     /// Mean number of packets per set over the pixels.
     packets: f64,
     /// The samples of [checks](super::checks) relative to those of the image; 0 if the sets tell the variance.
-    checks: f64,
+    pub(super) checks: f64,
 }
 
 impl Effort {
@@ -141,34 +140,8 @@ impl Allotment {
     pub(super) fn packets_at(&self, pixel: [u32; 2]) -> u32 {
         self.packets[self.index(pixel)]
     }
-    /// Renders the samples of a tile that follow the pilot, and second sets of some pixels if these tell the variances of all. Returns the
-    /// finished pixels.
-    pub(super) fn rest(
-        &self,
-        renderer: &mut TileRenderer<'_>,
-        tile: Area,
-        weights: Option<&Weights<'_>>,
-        &Effort { sets, pilot, checks, .. }: &Effort,
-    ) -> Vec<Pixel> {
-        renderer.begin(tile);
-        let rest = renderer.parts(tile, pilot, 0..sets, weights, |pixel| [pilot, self.packets_at(pixel)]);
-        let mut pixels = self.finish(tile, &rest, sets);
-        if checks > 0.0 {
-            let by_spread = self.by_spread(tile, &rest, pilot);
-            let packets: Vec<u32> = area::pixels(tile).map(|pixel| self.packets_at(pixel)).collect();
-            let checks = Checks::new(tile, &by_spread, &packets, checks, renderer.settings.seed);
-            // their first samples are allocated by the pilot, too, which makes little difference
-            let weights = weights.map(Weights::anew);
-            let range = |pixel| [0, if checks.contains(pixel) { self.packets_at(pixel) } else { 0 }];
-            let second = renderer.parts(tile, pilot, sets..sets + 1, weights.as_ref(), range);
-            let mean = |(of, n): (&Statistics, &u32)| of.sums[0].map(|sum| sum / f64::from(8 * n));
-            let second: Vec<_> = second.iter().zip(&packets).map(mean).collect();
-            checks.judge(&mut pixels, &by_spread, &second);
-        }
-        pixels
-    }
     /// The pixels of a tile, from `rest`, the samples after those of the pilot.
-    fn finish(&self, tile: Area, rest: &[Statistics], sets: u32) -> Vec<Pixel> {
+    pub(super) fn finish(&self, tile: Area, rest: &[Statistics], sets: u32) -> Vec<Pixel> {
         let of = |(pixel, rest): ([u32; 2], &Statistics)| {
             let index = self.index(pixel);
             let count = 8 * self.packets[index];
@@ -182,7 +155,7 @@ impl Allotment {
     }
     /// The variance of one set of each pixel of a tile by the spread of its samples and of those of the pixels beside it, whose edges it may
     /// have missed, but for a common factor. `rest` are the samples after those of the `pilot`, so many packets.
-    fn by_spread(&self, tile: Area, rest: &[Statistics], pilot: u32) -> Vec<f64> {
+    pub(super) fn by_spread(&self, tile: Area, rest: &[Statistics], pilot: u32) -> Vec<f64> {
         let of = |(pixel, rest): ([u32; 2], &Statistics)| {
             let [before, after] = [pilot, rest.packets].map(f64::from);
             (before * f64::from(self.squares[self.index(pixel)]) + after * rest.square()) / (before + after)

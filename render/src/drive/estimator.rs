@@ -1,9 +1,9 @@
 //! The estimator of a technique: with or without closed forms around samples.
 
+use super::world::World;
 use crate::camera::Camera;
 use crate::certify::Analytic;
 use crate::estimate::{Estimator, Group, Plain, Reflected, Sampled, Tracer};
-use crate::prepared::PreparedScene;
 use crate::settings::Settings;
 
 /// What the technique of an image does at shading points.
@@ -13,11 +13,11 @@ pub(super) enum OfTechnique<'a> {
 }
 
 impl<'a> OfTechnique<'a> {
-    pub(super) fn new(scene: &'a PreparedScene, settings: &Settings, camera: &Camera) -> Self {
+    pub(super) fn new(World { scene, bodies, .. }: &'a World, settings: &Settings, camera: &Camera) -> Self {
         let Settings { technique, .. } = *settings;
         if technique.is_analytic(scene.lights.only_few_areas()) {
             let sampled = Sampled::new(technique, scene.surfaces.has_rough());
-            Self::Analytic(Box::new(Analytic::new(scene, camera, settings, sampled)))
+            Self::Analytic(Box::new(Analytic::new(scene, bodies, camera, settings, sampled)))
         } else {
             Self::Sampled(Sampled::new(technique, false))
         }

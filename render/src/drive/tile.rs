@@ -5,6 +5,7 @@ use super::allocation::{Blocks, Weights};
 use super::estimator::OfTechnique;
 use super::radiance::Radiance;
 use super::runs::{Run, TilePiece, next_packet, z_order};
+use super::world::World;
 use crate::area::Area;
 use crate::bvh::GROUP;
 use crate::camera::{Camera, CameraSample, counted_from};
@@ -14,7 +15,7 @@ use crate::film::Accumulator;
 use crate::packet::{M8, V8, X8};
 use crate::paths::Paths;
 use crate::prepared::PreparedScene;
-use crate::sampler::{CHOICE, FILM, LENS, Packet, Redrawn, SURFACE, Source};
+use crate::sampler::{CHOICE, FILM, LENS, Packet, SURFACE, Source};
 use crate::sensor::Exposure;
 use crate::settings::Settings;
 use etendue::select::Allocated;
@@ -39,14 +40,9 @@ pub(super) struct TileRenderer<'a> {
 }
 
 impl<'a> TileRenderer<'a> {
-    pub(super) fn new(
-        scene: &'a PreparedScene,
-        settings: &'a Settings,
-        camera: Camera,
-        exposure: Option<Exposure>,
-        redrawn: Redrawn,
-    ) -> Self {
+    pub(super) fn new(world: &'a World, settings: &'a Settings, camera: Camera, exposure: Option<Exposure>) -> Self {
         let Settings { sampler, seed, spp, sets, width, .. } = *settings;
+        let scene = &world.scene;
         Self {
             scene,
             settings,
@@ -55,9 +51,9 @@ impl<'a> TileRenderer<'a> {
             camera,
             lens: camera.has_lens() || exposure.is_some(),
             exposure,
-            source: Source::new(sampler, seed, spp, sets, camera.has_lens(), width).redrawn(redrawn),
+            source: Source::new(sampler, seed, spp, sets, camera.has_lens(), width).redrawn(world.redrawn),
             paths: Paths::new(scene, settings.depth),
-            estimator: OfTechnique::new(scene, settings, &camera),
+            estimator: OfTechnique::new(world, settings, &camera),
         }
     }
 

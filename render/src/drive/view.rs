@@ -259,8 +259,7 @@ impl View<'_> {
 
     fn renderer(&self) -> TileRenderer<'_> {
         let Settings { width, height, .. } = self.settings;
-        let (World { scene, redrawn, .. }, exposure) = (self.world, self.world.exposure(width, height));
-        TileRenderer::new(scene, &self.settings, self.camera, exposure, *redrawn)
+        TileRenderer::new(self.world, &self.settings, self.camera, self.world.exposure(width, height))
     }
 
     /// Calls `of` for each tile in parallel and assembles the rows it returns to an image.

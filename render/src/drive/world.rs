@@ -1,6 +1,7 @@
 //! A scene ready to be rendered.
 
 use crate::bvh::BuildError;
+use crate::certify::Bodies;
 use crate::prepared::PreparedScene;
 use crate::sampler::Redrawn;
 use crate::scene::{CameraSettings, Scene};
@@ -10,6 +11,8 @@ use crate::sensor::{Exposure, Sensor};
 #[derive(Debug)]
 pub struct World {
     pub(super) scene: PreparedScene,
+    /// Convex parts of its mesh.
+    pub(super) bodies: Bodies,
     pub(super) camera: CameraSettings,
     /// Diagonal of the film in millimetres.
     diagonal: f64,
@@ -36,7 +39,8 @@ impl World {
 
     fn with(prepared: PreparedScene, scene: &Scene) -> Self {
         let (camera, diagonal) = (scene.camera.clone(), scene.film.diagonal);
-        Self { scene: prepared, camera, diagonal, sensor: Sensor::default(), redrawn: Redrawn::default() }
+        let bodies = Bodies::new(&prepared.surfaces.bvh);
+        Self { scene: prepared, bodies, camera, diagonal, sensor: Sensor::default(), redrawn: Redrawn::default() }
     }
 
     /// Size of the trees and their primitives in bytes.

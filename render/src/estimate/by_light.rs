@@ -1,10 +1,10 @@
 //! Direct light by sampling a light.
 
 use super::choice::Which;
-use super::mis::Mis;
-use super::points::{keep, product};
 use super::group::Group;
 use super::integrand::Integrand;
+use super::mis::Mis;
+use super::points::{keep, product};
 use super::tracer::{Tracer, Unoccluded};
 use crate::bsdf::Evaluated;
 use crate::bvh::GROUP;

@@ -1,10 +1,10 @@
 //! Direct light by sampling the surface: its BSDF, or the hemisphere above it.
 
 use super::choice::pmf;
-use super::mis::Mis;
-use super::points::{keep, product};
 use super::group::Group;
 use super::integrand::Integrand;
+use super::mis::Mis;
+use super::points::{keep, product};
 use super::tracer::{Tracer, Unoccluded};
 use crate::bsdf::Scattered;
 use crate::bvh::{GROUP, Hits, NOTHING, SHAPE};
