@@ -10,7 +10,7 @@
 
 use crate::packet::{M8, X8};
 use etendue::sequence::{
-    Independent, JointSobol, JointStratified, LatinHypercube, OwenSobol, Sequence, Stratified, ZOrder, ZOrderIndex,
+    Independent, JointSobol, JointStratified, OwenSobol, Sequence, Stratified, ZOrder, ZOrderIndex,
 };
 use etendue::{Vec2, u32x8};
 
@@ -24,8 +24,6 @@ pub enum Sampler {
     /// Jittered strata of pixel × light (× lens); takes n⁴ (n⁶) samples, or 2 or 4 times as many
     #[value(name = "stratified-4d")]
     Stratified4d,
-    /// Latin hypercube: strata of each coordinate, combined at random
-    Latin,
     /// Owen-scrambled Sobol pairs in the pixel and on the light, paired at random
     Sobol,
     /// Owen-scrambled Sobol points of pixel × light (× lens)
@@ -183,7 +181,6 @@ enum Set {
     Independent(Independent),
     Stratified(Stratified),
     Stratified4d(JointStratified),
-    Latin(LatinHypercube),
     Sobol(OwenSobol),
     Sobol4d(JointSobol),
     ZOrder(ZOrder),
@@ -233,7 +230,6 @@ impl Source {
                 let set = JointStratified::new(seed, side(span, d), d / 2);
                 (Set::Stratified4d(set), span.next_multiple_of(set.count()))
             }
-            Sampler::Latin => (Set::Latin(LatinHypercube::new(seed, span)), span),
             Sampler::Sobol | Sampler::Adaptive => (Set::Sobol(OwenSobol::new(seed)), span),
             Sampler::Sobol4d => (Set::Sobol4d(JointSobol::new(seed)), span),
             Sampler::ZOrder => {
@@ -301,7 +297,6 @@ impl Source {
             Set::Independent(set) => set.pair(pixel, packet.sample, dimension),
             Set::Stratified(set) => set.pair(pixel, packet.sample, dimension),
             Set::Stratified4d(set) => set.pair(pixel, sample(), joint(dimension)),
-            Set::Latin(set) => set.pair(pixel, packet.sample, dimension),
             Set::Sobol(set) => {
                 let (key, index) = sobol();
                 set.pair(key, index, self.numbered(dimension))

@@ -12,11 +12,10 @@ use std::f64::consts::PI;
 use std::path::Path;
 
 const LIMIT: f64 = 4.5;
-const SAMPLERS: [Sampler; 7] = [
+const SAMPLERS: [Sampler; 6] = [
     Sampler::Independent,
     Sampler::Stratified,
     Sampler::Stratified4d,
-    Sampler::Latin,
     Sampler::Sobol,
     Sampler::Sobol4d,
     Sampler::ZOrder,

@@ -148,7 +148,7 @@ const JOBS: [(&str, Technique, Sampler, u32, u32); 16] = [
     ("quads", Technique::Auto, Sampler::Sobol, 64, 0),
     ("quads", Technique::SolidAngle, Sampler::Sobol, 32, 1),
     ("quads", Technique::SolidAngle, Sampler::Independent, 21, 0),
-    ("quads", Technique::MisPower, Sampler::Latin, 36, 0),
+    ("quads", Technique::MisPower, Sampler::Stratified, 36, 0),
     ("cornell-box", Technique::Analytic, Sampler::Stratified, 20, 2),
     ("mirror-room", Technique::Analytic, Sampler::Sobol, 20, 0),
     ("mirror-room", Technique::Analytic, Sampler::Independent, 33, 0),
@@ -283,7 +283,7 @@ fn what_does_not_fit_is_refused_and_named() {
         ("quads", Settings { seed: 4, ..settings }, "its seed is 4, not 3"),
         ("quads", Settings { spp: 48, ..settings }, "its number of samples per pixel is 48, not 24"),
         ("quads", Settings { technique: Technique::Area, ..settings }, "its technique is \"area\", not \"auto\""),
-        ("quads", Settings { sampler: Sampler::Latin, ..settings }, "its sampler is"),
+        ("quads", Settings { sampler: Sampler::Stratified, ..settings }, "its sampler is"),
         ("quads", Settings { width: 64, ..settings }, "its width is 64, not 50"),
         ("cornell-box", settings, "its scene is \"cornell-box\", not \"quads\""),
     ] {

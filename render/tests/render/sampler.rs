@@ -67,7 +67,7 @@ fn joint_samplers_are_joint() {
             assert!(points.chunks(span as usize).all(|set| even(set, 2, d)), "{spp}");
         }
         // padded samplers are not joint
-        for sampler in [Sampler::Independent, Sampler::Stratified, Sampler::Latin, Sampler::Sobol, Sampler::ZOrder] {
+        for sampler in [Sampler::Independent, Sampler::Stratified, Sampler::Sobol, Sampler::ZOrder] {
             let (points, _) = points(sampler, 512, false, pixel, 1);
             assert!(!points.chunks(128).all(|set| even(set, 2, 4)), "{sampler:?}");
         }
@@ -97,9 +97,7 @@ fn every_pair_of_a_replicate_is_even() {
 /// The means of replicates, pixels and seeds are uncorrelated, except those of pixels with Z-order.
 #[test]
 fn replicates_are_independent() {
-    for sampler in
-        [Sampler::Stratified, Sampler::Stratified4d, Sampler::Latin, Sampler::Sobol, Sampler::Sobol4d, Sampler::ZOrder]
-    {
+    for sampler in [Sampler::Stratified, Sampler::Stratified4d, Sampler::Sobol, Sampler::Sobol4d, Sampler::ZOrder] {
         // 100 and 24 are not powers of two: a replicate ends within a set, and the next one starts a new set
         for spp in [32, 256, 100, 24] {
             let means = |pixel: [u32; 2], seed| -> Vec<f64> {
@@ -153,7 +151,6 @@ fn each_replicate_has_numbers_of_its_own() {
         Sampler::Independent,
         Sampler::Stratified,
         Sampler::Stratified4d,
-        Sampler::Latin,
         Sampler::Sobol,
         Sampler::Sobol4d,
         Sampler::ZOrder,

@@ -115,7 +115,7 @@ fn a_run_is_resumed_and_its_page_needs_nothing_else() {
     assert!(more.starts_with(&table) && more.lines().count() == 1 + 3 * 2 * 2, "{more}");
     // a technique that equals another one in a scene is left out, with a note
     let out =
-        folder.succeed("chart delta-lights --quick --size 16x16 --spp 4 --replicates 2 --samplers latin -o other");
+        folder.succeed("chart delta-lights --quick --size 16x16 --spp 4 --replicates 2 --samplers stratified -o other");
     assert!(out.contains("cosine-hemisphere is left out: it gives the same image as uniform-hemisphere"), "{out}");
     assert!(!folder.read("other/measurements.csv").contains("cosine-hemisphere"));
     // other settings are measured anew, and the earlier measurements are kept

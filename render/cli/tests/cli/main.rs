@@ -496,7 +496,6 @@ fn list_names_everything() {
         "independent",
         "stratified",
         "stratified-4d",
-        "latin",
         "sobol",
         "sobol-4d",
         "z-order",
