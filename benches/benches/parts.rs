@@ -1,25 +1,26 @@
 //! What it takes to write, read and merge the parts of an image, as their number and size grow.
 //!
 //! `cargo bench -p etendue-benches --bench parts -- [MOST]` omits images of more than MOST parts (10⁴). Each part has the finished pixels of
-//! a tile, or the sums of a range of 8 samples of each pixel. All are 64 × 64 pixels of the scene `quads`, repeated. Times are on as many
-//! threads as there are processors; "peak" is the peak memory of the process while it merges. The last lines extrapolate.
+//! a tile, all of which are 64 × 64 pixels of the scene `quads`, repeated. Times are on as many threads as there are processors; "peak" is
+//! the peak memory of the process while it merges. The last lines extrapolate.
 
 use etendue_benches::memory::{peak, start_peak};
+use etendue_render::drive::Content;
 use etendue_render::drive::{Content, Samples};
 use etendue_render::film::Pixel;
-use etendue_render::merge::{MergeGoal, Merged, merge};
+use etendue_render::merge::{Merged, merge};
 use etendue_render::parts::{self, Piece};
 use etendue_render::sampler::Sampler;
 use etendue_render::sensor::Sensor;
 use etendue_render::technique::Technique;
-use etendue_render::{Frame, image, scene};
+use etendue_render::{Identity, scene};
 use etendue_render::{Settings, World};
 use rayon::prelude::*;
 use std::fs;
 use std::path::PathBuf;
 use std::time::Instant;
 
-/// Side of the tiles in pixels, and samples of a range.
+/// Side of the tiles in pixels, and samples of a pixel.
 const SIDE: u32 = 64;
 const SAMPLES: u32 = 8;
 
@@ -36,13 +37,13 @@ struct Merge {
 }
 
 /// Writes the parts of an image, merges them, and prints a row.
-fn row(what: &str, frame: &Frame, count: u32, piece: impl Fn(u32) -> Piece + Sync) -> Merge {
+fn row(what: &str, identity: &Identity, count: u32, piece: impl Fn(u32) -> Piece + Sync) -> Merge {
     let folder = std::env::temp_dir().join(format!("etendue-bench-{}", std::process::id()));
     let _ = fs::remove_dir_all(&folder);
     let path = |i: u32| folder.join(format!("{i:06}.exr"));
     let start = Instant::now();
     let write = |i: u32| {
-        parts::write(&path(i), frame, vec![piece(i)]).expect("a folder for temporary files");
+        parts::write(&path(i), identity, piece(i)).expect("a folder for temporary files");
         path(i)
     };
     let files: Vec<PathBuf> = (0..count).into_par_iter().map(write).collect();
@@ -50,14 +51,13 @@ fn row(what: &str, frame: &Frame, count: u32, piece: impl Fn(u32) -> Piece + Syn
     let bytes: u64 = files.iter().map(|file| fs::metadata(file).map_or(0, |file| file.len())).sum();
     start_peak();
     let start = Instant::now();
-    let Merged::Image(film) = merge(&files, MergeGoal::Image, &|_| ()).expect("whole parts").merged else {
+    let Merged::Image(film) = merge(&files, false, &|_| ()).expect("whole parts").merged else {
         unreachable!("the goal is an image")
     };
     let merged = start.elapsed().as_secs_f64();
-    let start = Instant::now();
-    image::write_exr(&folder.join("image.exr"), &film, None).expect("a folder for temporary files");
-    let saved = start.elapsed().as_secs_f64();
-    let (pixels, peak) = (film.pixels.len() as f64, peak());
+    let (pixels, start) = (film.pixels.len() as f64, Instant::now());
+    parts::write_image(&folder.join("image.exr"), identity, film.pixels).expect("a folder for temporary files");
+    let (saved, peak) = (start.elapsed().as_secs_f64(), peak());
     let (each, size) = (bytes as f64 / f64::from(count) / 1e3, pixels / 1e6);
     println!("| {count} {what} | {size:.2} | {each:.1} | {written:.2} | {merged:.2} | {saved:.2} | {peak:.0} |");
     let _ = fs::remove_dir_all(&folder);
@@ -68,14 +68,14 @@ fn main() {
     let most = std::env::args().skip(1).find_map(|a| a.parse().ok()).unwrap_or(10_000_u32);
     let scene = scene::load("quads").expect("a built-in scene");
     let world = World::new(&scene).expect("few primitives");
-    let frame = |settings: Settings| Frame::new(&scene, settings, Sensor::Radiance).expect("a built-in scene");
+    let identity = |settings: Settings| Identity::new(&scene, settings, Sensor::Radiance).expect("a built-in scene");
     println!("| parts | image, M pixels | kB each | written in s | merged in s | image written in s | peak, MB |");
     println!("|---|---|---|---|---|---|---|");
     let pixels = world.render(&settings(SIDE, SAMPLES), &|_| ()).0.pixels;
     let tiles = |what: &str, side: u32, across: u32, pixels: &[Pixel]| {
         let tile = |i: u32| [i % across * side, i / across * side, (i % across + 1) * side, (i / across + 1) * side];
         let piece = |i: u32| Piece { area: tile(i), content: Content::Pixels(pixels.to_vec()) };
-        row(what, &frame(settings(side * across, SAMPLES)), across * across, piece)
+        row(what, &identity(settings(side * across, SAMPLES)), across * across, piece)
     };
     let mut merges = Vec::new();
     for across in [10, 32, 100].into_iter().filter(|across| across * across <= most) {
@@ -84,16 +84,6 @@ fn main() {
     // fewer pixels in as many parts, to tell the cost of a part from that of a pixel
     for across in [32, 100].into_iter().filter(|across| across * across <= most) {
         merges.push(tiles("tiles of 16²", 16, across, &pixels[..256]));
-    }
-    for count in [100, 1_000, 10_000].into_iter().filter(|count| *count <= most) {
-        let settings = settings(SIDE, SAMPLES * count);
-        let (first, _) = world.view(&settings).render(settings.whole(), Samples::Range(0..SAMPLES), &|_| ());
-        let Content::Range(_, planes) = first else { unreachable!("a range of samples") };
-        let piece = |i: u32| Piece {
-            area: settings.whole(),
-            content: Content::Range(i * SAMPLES..(i + 1) * SAMPLES, planes.clone()),
-        };
-        row("ranges of 64²", &frame(settings), count, piece);
     }
     // each of the two costs contains some of the other, so their sum is too much rather than too little
     let largest = |few: bool| {

@@ -4,7 +4,7 @@
 pub type Area = [u32; 4];
 
 /// Where an image is in a larger one, of which it is a part.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct Place {
     /// The column and row of its first pixel.
     pub start: [u32; 2],

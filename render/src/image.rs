@@ -1,6 +1,6 @@
 //! Image files: EXR with the variance of the estimate, and PNG for viewing. No other module uses the exr and image crates.
 
-pub mod layers;
+pub mod layer;
 mod pfm;
 mod size;
 mod texels;
@@ -8,15 +8,13 @@ mod texels;
 pub use exr::prelude::Compression;
 pub use texels::Encoding;
 
-use crate::area::Place;
 use crate::files::{FileError, failed, replace};
 use crate::film::{Film, Pixel};
 use crate::texture::{Colors, Texels, srgb_to_linear};
 use exr::block::chunk::CompressedBlock;
 use exr::meta::attribute::IntegerBounds;
 use exr::prelude::{ReadChannels, ReadLayers};
-use layers::{Layer, Numbers};
-use serde_json::Value;
+use layer::Numbers;
 use size::believe;
 use std::fmt;
 use std::io::{BufWriter, Cursor};
@@ -27,20 +25,6 @@ const CHANNELS: [&str; 3] = ["R", "G", "B"];
 
 /// However short a file is, its display window can have 2²⁴ pixels, as can one of so many bytes.
 const SHORT: usize = 1 << 10;
-
-/// Writes an EXR file with the channels R, G, B, the variance of the mean (`variance.R`, …) and the sample count (`samples.N`). If the film
-/// has a place in a larger image, that image is the display window, and the place the data window. Equal films give equal bytes.
-///
-/// # Errors
-/// Fails if the file cannot be written; an existing file then remains unchanged.
-pub fn write_exr(path: &Path, film: &Film, place: Option<Place>) -> Result<(), FileError> {
-    let Place { start: [x, y], whole } = place.unwrap_or(Place { start: [0; 2], whole: [film.width, film.height] });
-    let layer =
-        Layer { area: [x, y, x + film.width, y + film.height], planes: planes(&film.pixels), text: Value::Null };
-    let bytes =
-        layers::encode(whole, &Value::Null, vec![layer], Compression::ZIP16).map_err(|error| failed(path, error))?;
-    replace(path, &bytes)
-}
 
 /// The planes of an image: R, G, B, `variance.R`, `variance.G`, `variance.B` and `samples.N`.
 pub fn planes(pixels: &[Pixel]) -> Vec<(String, Numbers)> {
@@ -239,7 +223,7 @@ fn displayed(
 
 /// The data window of an EXR file, its first pixel, and the display window.
 fn decode_windows(bytes: &[u8], path: &Path) -> Result<(Picture, [i64; 2], IntegerBounds), FileError> {
-    let not_one = |error: exr::error::Error| failed(path, format!("not a valid EXR image: {}", layers::why(&error)));
+    let not_one = |error: exr::error::Error| failed(path, format!("not a valid EXR image: {}", layer::why(&error)));
     let meta = exr::meta::MetaData::read_from_buffered(Cursor::new(bytes), false).map_err(not_one)?;
     for header in &meta.headers {
         let samples = header.channels.list.iter().map(|c| c.sample_type.bytes_per_sample() as u128);

@@ -12,7 +12,7 @@
 //! - [`certify`]: what geometry alone tells about that light, and closed forms of it.
 //! - [`drive`], [`claim`], [`progressive`]: images of a given number of samples, or of a given error or time, and what they
 //!   claim of it.
-//! - [`frame`], [`split`], [`parts`], [`merge`]: images whose parts are rendered apart.
+//! - [`identity`], [`split`], [`parts`], [`merge`]: what an image depends on, and images whose parts are rendered apart.
 
 pub mod area;
 pub mod bsdf;
@@ -25,8 +25,8 @@ pub mod drive;
 mod estimate;
 pub mod files;
 pub mod film;
-pub mod frame;
 pub mod geometry;
+pub mod identity;
 pub mod image;
 pub mod intensity;
 pub mod light_picture;
@@ -56,7 +56,7 @@ pub mod texture;
 pub use claim::Claim;
 pub use drive::{View, World};
 pub use estimate::RayCount;
-pub use frame::Frame;
+pub use identity::Identity;
 pub use sampler::Sampler;
 pub use sensor::Sensor;
 pub use settings::Settings;

@@ -1,22 +1,24 @@
-//! Parts of an image, rendered apart: what is in a part, and its file.
+//! Images and their parts, and the files of both.
 //!
-//! A part has pieces, which are of a rectangle of tiles each. A piece holds the finished pixels, or the sums of a range of the samples of
-//! each pixel. With the adaptive sampler, it holds what the pilot found, or how many samples the pixels receive after it.
+//! A piece is a rectangle of tiles of an image. It holds the finished pixels; with the adaptive sampler, also what the pilot found, or how
+//! many samples the pixels receive after it. An image is a piece of all tiles.
 //!
-//! Its file is an OpenEXR file. In its header, `etendue.frame` identifies the image, and `etendue.part` says what the part holds, with
-//! checksums. A range has the sum of each block of samples in double precision, `sum.FIRST-END.R` and so on, as two integer channels: the
+//! The file of a piece is an OpenEXR file. The text `etendue` in its header has three values: `identity` tells what the image depends on,
+//! `kind` what the piece holds, and `checksums` are those of sixteen rows each. Numbers of double precision are two integer channels, of the
 //! upper and the lower half of the bits.
 
 use crate::area;
-use crate::area::Area;
+use crate::area::{Area, Place};
 use crate::drive::{APART, Allotment, Content, Statistics};
 use crate::files::{FileError, failed, make_folder, replace};
 use crate::film::Pixel;
-use crate::frame::Frame;
-use crate::image::layers::{self, Contents, Layer, LayerFile, LayerHeader, Numbers};
-use crate::image::{self, Compression};
+use crate::identity::Identity;
+use crate::image;
+use crate::image::Compression;
+use crate::image::layer::{self, Layer, LayerFile, Numbers};
 use crate::sampler::Sampler;
-use crate::sums::{Block, Planes, blocks};
+use crate::settings::Settings;
+use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 use std::collections::HashMap;
 use std::fs::File;
@@ -34,12 +36,11 @@ pub struct Piece {
 }
 
 /// What kind of content a piece has.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum PieceKind {
     /// Finished pixels.
     Pixels,
-    /// Sums of this range of samples.
-    Range(Range<u32>),
     /// What the pilot found, with samples shared among this many lights.
     Pilot(u32),
     /// How many samples follow the pilot, with samples shared among this many lights.
@@ -47,39 +48,15 @@ pub enum PieceKind {
 }
 
 impl PieceKind {
-    /// The range of the samples of each pixel that a piece of this kind knows, out of `spp`.
-    pub fn range(&self, spp: u32) -> Range<u32> {
-        match self {
-            Self::Range(range) => range.clone(),
-            Self::Pixels | Self::Pilot(_) | Self::Allotment(_) => 0..spp,
-        }
-    }
-    fn to_json(&self) -> Value {
-        match self {
-            Self::Pixels => json!({ "content": "pixels" }),
-            Self::Range(range) => json!({ "content": "range", "range": [range.start, range.end] }),
-            Self::Pilot(lights) => json!({ "content": "pilot", "lights": lights }),
-            Self::Allotment(lights) => json!({ "content": "allotment", "lights": lights }),
-        }
-    }
-    fn from_json(value: &Value) -> Option<Self> {
-        let small = |value: &Value| value.as_u64().and_then(|x| u32::try_from(x).ok());
-        let lights = || small(&value["lights"]).filter(|&lights| lights as usize <= APART);
-        Some(match value["content"].as_str()? {
-            "pixels" => Self::Pixels,
-            "range" => Self::Range(small(&value["range"][0])?..small(&value["range"][1])?),
-            "pilot" => Self::Pilot(lights()?),
-            "allotment" => Self::Allotment(lights()?),
-            _ => return None,
-        })
-    }
-    /// Whether a frame has such pieces.
-    fn fits(&self, frame: &Frame) -> bool {
-        let is_adaptive = frame.settings.sampler == Sampler::Adaptive;
+    /// Whether an image has such pieces.
+    fn fits(self, identity: &Identity) -> bool {
+        let Settings { sampler, spp, sets, .. } = identity.settings;
         match self {
             Self::Pixels => true,
-            Self::Range(range) => !is_adaptive && range.start < range.end && range.end <= frame.settings.spp,
-            Self::Pilot(_) | Self::Allotment(_) => is_adaptive,
+            Self::Pilot(lights) | Self::Allotment(lights) => {
+                let is_adaptive = sampler == Sampler::Adaptive && sampler.check(spp, sets, identity.lens).is_ok();
+                is_adaptive && lights as usize <= APART
+            }
         }
     }
 }
@@ -89,7 +66,6 @@ impl Piece {
     pub fn kind(&self) -> PieceKind {
         match &self.content {
             Content::Pixels(_) => PieceKind::Pixels,
-            Content::Range(range, _) => PieceKind::Range(range.clone()),
             Content::Pilot(pixels) => PieceKind::Pilot(pixels.first().map_or(0, |pixel| pixel.lights as u32)),
             Content::Allotment(allotment) => PieceKind::Allotment(allotment.lights as u32),
         }
@@ -106,47 +82,23 @@ fn split(planes: &mut Vec<(String, Numbers)>, name: &str, values: &dyn Fn() -> V
     planes.push((format!("{name}.low"), Numbers::U32(bits.iter().map(|bits| *bits as u32).collect())));
 }
 
-/// Names of the planes of a block of samples.
-fn block_name(block: &Block, span: u32, what: &str, channel: &str) -> String {
-    let first = block.set * span + block.first;
-    format!("{what}.{first}-{}.{channel}", first + block.count)
-}
-
-/// The layer of a piece. Its channels R, G and B are the mean of its samples, for other programs.
-fn to_layer(frame: &Frame, piece: Piece) -> Layer {
-    let (area, text) = (piece.area, piece.kind().to_json());
-    let span = frame.span();
-    let sets = frame.sets() as usize;
+/// The planes of a content. The channels R, G and B of a pilot are the mean of its samples, for other programs.
+fn to_planes(identity: &Identity, content: Content) -> Vec<(String, Numbers)> {
+    let sets = identity.sets() as usize;
     let mut planes = Vec::new();
-    let mut preview = |sum: &dyn Fn(usize, usize) -> f64, count: &dyn Fn(usize) -> u32, pixels: usize| {
-        for (k, name) in RGB.into_iter().enumerate() {
-            let mean = |i: usize| (sum(i, k) / f64::from(count(i))) as f32;
-            planes.push((name.to_owned(), Numbers::F32((0..pixels).map(mean).collect())));
-        }
-        planes.push(("samples.N".to_owned(), Numbers::U32((0..pixels).map(count).collect())));
-    };
     let lights = |names: &str, lights: usize, of: &dyn Fn(usize) -> Numbers| -> Vec<(String, Numbers)> {
         (0..lights).map(|light| (format!("{names}.{light}"), of(light))).collect()
     };
-    match piece.content {
+    match content {
         Content::Pixels(pixels) => planes = image::planes(&pixels),
-        Content::Range(range, of_blocks) => {
-            let pixels = of_blocks.first().map_or(0, |planes| planes.sums.len());
-            let total = |i: usize, k: usize| of_blocks.iter().map(|planes| planes.sums[i][k]).sum();
-            preview(&total, &|_| range.end - range.start, pixels);
-            for (block, of_block) in blocks(range, span).zip(&of_blocks) {
-                for (k, channel) in RGB.into_iter().enumerate() {
-                    let of = |values: &[[f64; 3]]| values.iter().map(|value| value[k]).collect();
-                    split(&mut planes, &block_name(&block, span, "sum", channel), &|| of(&of_block.sums));
-                    if !of_block.squares.is_empty() {
-                        split(&mut planes, &block_name(&block, span, "squares", channel), &|| of(&of_block.squares));
-                    }
-                }
-            }
-        }
         Content::Pilot(pixels) => {
-            let total = |i: usize, k: usize| pixels[i].sums.iter().map(|set| set[k]).sum();
-            preview(&total, &|i| 8 * pixels[i].packets * sets as u32, pixels.len());
+            let samples = |pixel: &Statistics| 8 * pixel.packets * sets as u32;
+            for (k, name) in RGB.into_iter().enumerate() {
+                let sum = |pixel: &Statistics| pixel.sums.iter().map(|set| set[k]).sum::<f64>();
+                let mean = |pixel: &Statistics| (sum(pixel) / f64::from(samples(pixel))) as f32;
+                planes.push((name.to_owned(), Numbers::F32(pixels.iter().map(mean).collect())));
+            }
+            planes.push(("samples.N".to_owned(), Numbers::U32(pixels.iter().map(samples).collect())));
             for (set, (k, channel)) in (0..sets).flat_map(|set| RGB.into_iter().enumerate().map(move |c| (set, c))) {
                 let of = || pixels.iter().map(|pixel| pixel.sums[set][k]).collect();
                 split(&mut planes, &format!("sum.set{set}.{channel}"), &of);
@@ -171,7 +123,7 @@ fn to_layer(frame: &Frame, piece: Piece) -> Layer {
             planes.extend(lights("taken", *count, &|k| Numbers::U32(begun.iter().map(|taken| taken[k]).collect())));
         }
     }
-    Layer { area, planes, text }
+    planes
 }
 
 /// The planes of a layer, to be taken by name.
@@ -226,13 +178,12 @@ impl Found {
     }
 }
 
-/// The piece of a layer of this kind; `None` if a plane is missing.
-fn from_layer(frame: &Frame, kind: &PieceKind, layer: Layer) -> Option<Piece> {
-    let Layer { area, planes, .. } = layer;
+/// The content of this kind of the pixels of an area; `None` if a plane is missing.
+fn from_planes(identity: &Identity, kind: PieceKind, area: Area, planes: Vec<(String, Numbers)>) -> Option<Content> {
     let count = area::count(area);
-    let sets = frame.sets() as usize;
+    let sets = identity.sets() as usize;
     let mut found = Found(planes.into_iter().collect());
-    let content = match kind {
+    Some(match kind {
         PieceKind::Pixels => {
             let [r, g, b] = RGB.map(|channel| found.f32(channel));
             let [u, v, w] = RGB.map(|channel| found.f32(&format!("variance.{channel}")));
@@ -240,22 +191,8 @@ fn from_layer(frame: &Frame, kind: &PieceKind, layer: Layer) -> Option<Piece> {
             let pixel = |i: usize| Pixel { mean: [r[i], g[i], b[i]], variance: [u[i], v[i], w[i]], samples: n[i] };
             Content::Pixels((0..count).map(pixel).collect())
         }
-        PieceKind::Range(range) => {
-            let (span, independent) = (frame.span(), !frame.settings.sampler.has_sets());
-            let planes = blocks(range.clone(), span).map(|block| {
-                Some(Planes {
-                    sums: found.colors(&|channel| block_name(&block, span, "sum", channel))?,
-                    squares: if independent {
-                        found.colors(&|channel| block_name(&block, span, "squares", channel))?
-                    } else {
-                        Vec::new()
-                    },
-                })
-            });
-            Content::Range(range.clone(), planes.collect::<Option<_>>()?)
-        }
         PieceKind::Pilot(lights) => {
-            let lights = *lights as usize;
+            let lights = lights as usize;
             let (sums, variance) = (found.sums(sets, count)?, found.f64("variance")?);
             let packets = found.packets(sets)?;
             let spread = found.lights("spread", lights, count, Found::f32)?;
@@ -273,7 +210,7 @@ fn from_layer(frame: &Frame, kind: &PieceKind, layer: Layer) -> Option<Piece> {
             Content::Pilot((0..count).map(pixel).collect())
         }
         PieceKind::Allotment(lights) => {
-            let lights = *lights as usize;
+            let lights = lights as usize;
             let weights = found.lights("weight", lights, count, Found::f32)?;
             let packets = found.packets(sets)?;
             Content::Allotment(Allotment {
@@ -286,48 +223,51 @@ fn from_layer(frame: &Frame, kind: &PieceKind, layer: Layer) -> Option<Piece> {
                 sums: found.sums(sets, count)?,
             })
         }
-    };
-    Some(Piece { area, content })
+    })
 }
 
-/// How the planes of parts are compressed.
-const COMPRESSION: Compression = Compression::Uncompressed;
-
-/// The bytes of the file of a part.
+/// The bytes of the file of a piece.
 ///
 /// # Errors
-/// Fails if a piece does not have the numbers that its area needs.
-pub fn encode(frame: &Frame, pieces: Vec<Piece>) -> Result<Vec<u8>, String> {
-    let layers = pieces.into_iter().map(|piece| to_layer(frame, piece)).collect();
-    let size = [frame.settings.width, frame.settings.height];
-    layers::encode(size, &frame.to_json(), layers, COMPRESSION).map_err(|error| error.to_string())
+/// Fails if the piece does not have the numbers that its area needs.
+pub fn encode(identity: &Identity, piece: Piece, compression: Compression) -> Result<Vec<u8>, String> {
+    let Place { start: [x, y], whole } = identity.window();
+    let text = json!({ "identity": identity, "kind": piece.kind() });
+    let [x0, y0, x1, y1] = piece.area;
+    let layer = Layer { area: [x + x0, y + y0, x + x1, y + y1], planes: to_planes(identity, piece.content) };
+    layer::encode(whole, text, layer, compression).map_err(|error| error.to_string())
 }
 
-/// Writes the file of a part. Makes its folder if there is none, since many tasks may begin at once.
+/// Writes the file of a part of an image. Makes its folder if there is none, since many tasks may begin at once.
 ///
 /// # Errors
 /// Fails if the file cannot be written; an existing file then remains unchanged.
-pub fn write(path: &Path, frame: &Frame, pieces: Vec<Piece>) -> Result<(), FileError> {
-    let bytes = encode(frame, pieces).map_err(|what| failed(path, what))?;
+pub fn write(path: &Path, identity: &Identity, piece: Piece) -> Result<(), FileError> {
+    let bytes = encode(identity, piece, Compression::Uncompressed).map_err(|what| failed(path, what))?;
     if let Some(folder) = path.parent() {
         make_folder(folder)?;
     }
     replace(path, &bytes)
 }
 
-/// A part whose headers have been read.
-pub struct PartFile<R = BufReader<File>> {
-    path: PathBuf,
-    file: LayerFile<R>,
-    /// What it is a part of.
-    pub frame: Frame,
-    /// Area, kind and checksums of each piece.
-    pub pieces: Vec<PieceHeader>,
+/// Writes an image: an EXR file with the channels R, G, B, the variance of the mean (`variance.R`, …) and the sample count (`samples.N`). If
+/// it has a place in a larger image, that image is the display window, and the place the data window. Equal images give equal bytes.
+///
+/// # Errors
+/// Fails if the file cannot be written; an existing file then remains unchanged.
+pub fn write_image(path: &Path, identity: &Identity, pixels: Vec<Pixel>) -> Result<(), FileError> {
+    let piece = Piece { area: identity.settings.whole(), content: Content::Pixels(pixels) };
+    let bytes = encode(identity, piece, Compression::ZIP16).map_err(|what| failed(path, what))?;
+    replace(path, &bytes)
 }
 
-/// What the header of a part says of a piece.
+/// What the header of a file says of its piece.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PieceHeader {
+    /// The file.
+    pub path: PathBuf,
+    /// What it is a part of.
+    pub identity: Identity,
     /// The pixels [x0, y0, x1, y1).
     pub area: Area,
     /// What is known of them.
@@ -336,54 +276,68 @@ pub struct PieceHeader {
     pub checksums: Value,
 }
 
-impl PartFile {
-    /// Opens a part and reads its headers.
+/// A file whose header has been read.
+pub struct PieceFile<R = BufReader<File>> {
+    file: LayerFile<R>,
+    /// What the header says.
+    pub header: PieceHeader,
+}
+
+impl PieceFile {
+    /// Opens a file and reads its header.
     ///
     /// # Errors
-    /// Fails if the file cannot be read, or is not a part.
+    /// Fails if the file cannot be read, or holds no piece.
     pub fn open(path: &Path) -> Result<Self, FileError> {
         Self::of(path, LayerFile::open(path)?)
     }
 }
 
-impl<R: Read + Seek> PartFile<R> {
-    /// Reads the headers from a source of `length` bytes that messages call `path`.
+impl<R: Read + Seek> PieceFile<R> {
+    /// Reads the header from a source of `length` bytes that messages call `path`.
     ///
     /// # Errors
-    /// Fails if the source is not a part.
+    /// Fails if the source holds no piece.
     pub fn new(path: &Path, source: R, length: u64) -> Result<Self, FileError> {
         Self::of(path, LayerFile::new(path, source, length)?)
     }
 
     fn of(path: &Path, file: LayerFile<R>) -> Result<Self, FileError> {
-        let Contents { text, layers } = &file.contents;
-        let frame =
-            Frame::from_json(text).map_err(|what| failed(path, format!("damaged: the frame is not valid: {what}")))?;
-        let piece = |LayerHeader { area, text, .. }: &LayerHeader| {
-            let kind = PieceKind::from_json(text).filter(|kind| kind.fits(&frame) && frame.settings.is_of_tiles(*area));
-            let kind = kind.ok_or_else(|| failed(path, format!("damaged: no piece of {area:?} can be {text}")))?;
-            Ok(PieceHeader { area: *area, kind, checksums: text["checksums"].clone() })
+        let text = &file.text;
+        let identity = Identity::from_json(&text["identity"])
+            .map_err(|what| failed(path, format!("damaged: the identity of the image is not valid: {what}")))?;
+        let start = identity.window().start;
+        let corner = |k: usize| file.area[k].checked_sub(start[k % 2]);
+        let area = (|| Some([corner(0)?, corner(1)?, corner(2)?, corner(3)?]))();
+        let area = area.filter(|area| identity.settings.is_of_tiles(*area));
+        let kind = PieceKind::deserialize(&text["kind"]).ok().filter(|kind| kind.fits(&identity));
+        let (Some(area), Some(kind)) = (area, kind) else {
+            return Err(failed(path, format!("damaged: no piece of {:?} can be {}", file.area, text["kind"])));
         };
-        let pieces = layers.iter().map(piece).collect::<Result<_, _>>()?;
-        Ok(Self { path: path.to_owned(), pieces, frame, file })
+        let header = PieceHeader { path: path.to_owned(), identity, area, kind, checksums: text["checksums"].clone() };
+        Ok(Self { file, header })
     }
 
-    /// Reads all pieces.
+    /// Reads the piece.
     ///
     /// # Errors
     /// Fails if the file is damaged.
-    pub fn read(&mut self) -> Result<Vec<Piece>, FileError> {
-        self.read_rows(&(0..self.frame.settings.height))
+    pub fn read(&mut self) -> Result<Piece, FileError> {
+        let [_, y0, _, y1] = self.header.area;
+        self.read_rows(&(y0..y1))
     }
 
-    /// Reads the tiles of all pieces that are in these rows of the image.
+    /// Reads the tiles of the piece that are in these rows of the image.
     ///
     /// # Errors
-    /// Fails if the file is damaged, or if a piece has no such tiles.
-    pub fn read_rows(&mut self, rows: &Range<u32>) -> Result<Vec<Piece>, FileError> {
-        let layers = self.file.read(0..self.pieces.len(), rows)?;
-        let piece = |(layer, header): (Layer, &PieceHeader)| from_layer(&self.frame, &header.kind, layer);
-        let pieces = layers.into_iter().zip(&self.pieces).map(piece).collect::<Option<_>>();
-        pieces.ok_or_else(|| failed(&self.path, "damaged: a channel is missing, or has impossible values"))
+    /// Fails if the file is damaged.
+    pub fn read_rows(&mut self, rows: &Range<u32>) -> Result<Piece, FileError> {
+        let PieceHeader { path, identity, area: [x0, y0, x1, _], kind, .. } = &self.header;
+        let layer = self.file.read(&(rows.start - y0..rows.end - y0))?;
+        let above = layer.area[1] - self.file.area[1] + y0;
+        let area = [*x0, above, *x1, above + layer.area[3] - layer.area[1]];
+        let content = from_planes(identity, *kind, area, layer.planes);
+        let content = content.ok_or_else(|| failed(path, "damaged: a channel is missing, or has impossible values"))?;
+        Ok(Piece { area, content })
     }
 }

@@ -15,7 +15,8 @@ use etendue::sequence::{
 use etendue::{Vec2, u32x8};
 
 /// How random numbers are spread over the samples of a pixel.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Sampler {
     /// Independent random numbers
     Independent,
@@ -23,11 +24,13 @@ pub enum Sampler {
     Stratified,
     /// Jittered strata of pixel × light (× lens); takes n⁴ (n⁶) samples, or 2 or 4 times as many
     #[value(name = "stratified-4d")]
+    #[serde(rename = "stratified-4d")]
     Stratified4d,
     /// Owen-scrambled Sobol pairs in the pixel and on the light, paired at random
     Sobol,
     /// Owen-scrambled Sobol points of pixel × light (× lens)
     #[value(name = "sobol-4d")]
+    #[serde(rename = "sobol-4d")]
     Sobol4d,
     /// Owen-scrambled Sobol pairs distributed along a Z-order curve of pixels: blue noise
     ZOrder,

@@ -10,7 +10,8 @@ use etendue::Real;
 use std::f64::consts::PI;
 
 /// The quantity that a pixel measures.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Sensor {
     /// Mean radiance over pixel and lens, W/(m² sr)
     #[default]

@@ -15,7 +15,7 @@ pub(crate) fn tiles([left, top, right, bottom]: Area) -> impl Iterator<Item = Ar
 }
 
 /// Everything an image depends on besides the scene.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct Settings {
     /// Pixels across, at least 1.
     pub width: u32,

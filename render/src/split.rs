@@ -1,8 +1,7 @@
-//! Splits an image into tiles and ranges of samples of about equal size.
+//! Splits an image into areas of tiles of about equal size.
 
 use crate::area::Area;
 use crate::settings::Settings;
-use std::ops::Range;
 
 /// Splits an image into at most `count` areas of whole tiles, as square as possible.
 #[must_use]
@@ -26,18 +25,6 @@ pub fn areas(settings: &Settings, count: u32) -> Vec<Area> {
     };
     let area = |x: u32, y: u32| [edge(0, x, across), edge(1, y, down), edge(0, x + 1, across), edge(1, y + 1, down)];
     (0..down).flat_map(|y| (0..across).map(move |x| area(x, y))).collect()
-}
-
-/// Splits the samples of a pixel into at most `count` ranges. Their ends are at multiples of a power of two, so that parts have few blocks.
-#[must_use]
-pub fn ranges(spp: u32, count: u32) -> Vec<Range<u32>> {
-    let count = count.clamp(1, spp);
-    let unit = (spp / count / 4).checked_ilog2().map_or(1_u64, |bits| 1 << bits);
-    let end = |i: u32| {
-        let end = u64::from(i) * u64::from(spp) / u64::from(count);
-        if i == count { spp } else { ((end + unit / 2) / unit * unit) as u32 }
-    };
-    (0..count).map(|i| end(i)..end(i + 1)).filter(|range| !range.is_empty()).collect()
 }
 
 #[cfg(test)]
@@ -70,19 +57,5 @@ mod tests {
         }
         assert_eq!(areas(&settings(640, 480), 64).len(), 64);
         assert_eq!(areas(&settings(256, 256), 1000).len(), 256);
-    }
-
-    #[test]
-    fn ranges_are_all_samples_in_order() {
-        for spp in [1, 2, 7, 16, 100, 1000, 4096, 1 << 22] {
-            for count in [1, 2, 3, 7, 64, 1000, u32::MAX] {
-                let ranges = ranges(spp, count);
-                assert!(ranges.len() <= count as usize && ranges[0].start == 0, "{spp} {count}");
-                assert_eq!(ranges.last().unwrap().end, spp);
-                assert!(ranges.windows(2).all(|pair| pair[0].end == pair[1].start), "{spp} {count}");
-            }
-        }
-        assert_eq!(ranges(4096, 64).len(), 64);
-        assert!(ranges(4096, 64).iter().all(|range| range.len() == 64));
     }
 }

@@ -3,7 +3,8 @@
 use etendue::estimate::Heuristic;
 
 /// How a light is sampled.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Technique {
     /// Directions uniform over the hemisphere; rays hit lights by chance
     UniformHemisphere,

@@ -1,11 +1,10 @@
 //! The files that `render` writes: their names, the checks before rendering, and their contents.
 
 use crate::interrupt::Interrupt;
-use etendue_render::area::Place;
 use etendue_render::claim::Claim;
 use etendue_render::film::Film;
 use etendue_render::scene::Scene;
-use etendue_render::{files, image};
+use etendue_render::{Identity, files, image, parts};
 use std::ffi::OsStr;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -24,8 +23,6 @@ pub(crate) struct Output {
     pub(crate) exr: PathBuf,
     /// The PNG file beside it.
     pub(crate) png: PathBuf,
-    /// Where the image is in the whole one, if it is only a part.
-    pub(crate) place: Option<Place>,
 }
 
 impl Output {
@@ -34,14 +31,13 @@ impl Output {
     /// # Errors
     /// Fails if the name does not end in `.exr`, if a file cannot be written, or if the scene has been read from it.
     pub(crate) fn new(asked: Option<&Path>, scene: &Scene, stem: &OsStr) -> Result<Self, String> {
-        let output = match (asked, &scene.film.filename) {
+        match (asked, &scene.film.filename) {
             (Some(path), _) => Self::of(path.to_owned(), &scene.inputs),
             // scenes for other renderers often ask for other formats
             (None, Some(file)) if !file.is_empty() => Self::of(Path::new(file).with_extension("exr"), &scene.inputs)
                 .map_err(|error| format!("{error}\nThe scene's film asks for {file:?}; -o chooses another file")),
             (None, _) => Self::of(named(stem, ".exr"), &scene.inputs),
-        }?;
-        Ok(Self { place: scene.film.place, ..output })
+        }
     }
 
     /// The files to write for an image at this path, which is made from files that must stay as they are.
@@ -69,7 +65,7 @@ impl Output {
                 ));
             }
         }
-        Ok(Self { exr, png, place: None })
+        Ok(Self { exr, png })
     }
 
     /// An error after both files have been written.
@@ -78,17 +74,16 @@ impl Output {
         io::Error::new(error.kind(), format!("{error}; {exr} and {png} were written"))
     }
 
-    /// Writes both files. The PNG is exposed so that its middle looks the same with every sensor: `exposure` is the value of unit radiance
-    /// there.
+    /// Writes both files. The PNG is exposed so that its middle looks the same with every sensor.
     ///
     /// # Errors
     /// Fails if a file cannot be written; the message says what has been written.
-    pub(crate) fn write(&self, film: &Film, exposure: f64) -> Result<(), String> {
-        image::write_exr(&self.exr, film, self.place).map_err(|error| error.to_string())?;
-        let written = if exposure == 1.0 {
+    pub(crate) fn write(&self, film: &Film, identity: &Identity) -> Result<(), String> {
+        parts::write_image(&self.exr, identity, film.pixels.clone()).map_err(|error| error.to_string())?;
+        let written = if identity.exposure == 1.0 {
             image::write_png(&self.png, film)
         } else {
-            image::write_png(&self.png, &film.scaled(1.0 / exposure))
+            image::write_png(&self.png, &film.scaled(1.0 / identity.exposure))
         };
         written.map_err(|error| format!("{error}; {} was written, but its PNG was not", self.exr.display()))
     }
@@ -101,19 +96,19 @@ impl Output {
         &self,
         interrupt: &Interrupt,
         film: &Film,
-        exposure: f64,
-        spp: u64,
+        identity: &Identity,
         error: Option<Claim>,
     ) -> Result<(), String> {
         let mut status = interrupt.lock();
-        self.write(film, exposure)?;
-        status.text = self.holds(spp, error);
+        self.write(film, identity)?;
+        status.text = self.holds(identity, error);
         status.last = None;
         Ok(())
     }
 
     /// What to say of the files.
-    pub(crate) fn holds(&self, spp: u64, error: Option<Claim>) -> String {
+    pub(crate) fn holds(&self, identity: &Identity, error: Option<Claim>) -> String {
+        let spp = identity.settings.spp;
         let error = error.map_or_else(|| "not known".to_owned(), |claim| percent(claim.total()));
         format!("{} holds an image of {spp} samples per pixel, estimated error {error}", self.exr.display())
     }

@@ -11,43 +11,32 @@ use etendue_render::drive::Samples;
 use etendue_render::files;
 use etendue_render::merge;
 use etendue_render::options::{out, pool, say};
-use etendue_render::parts::{self, PartFile, Piece, PieceKind};
+use etendue_render::parts::{self, Piece, PieceFile, PieceKind};
 use etendue_render::scene::Scene;
-use etendue_render::{Frame, Sampler, Settings, World};
+use etendue_render::{Identity, Sampler, Settings, World, image};
 use serde_json::json;
 use std::error::Error;
 use std::io::Write;
-use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 #[derive(Args)]
 #[group(id = "parts", multiple = true)]
 pub(crate) struct PartOptions {
-    /// Render only samples A to B-1 of each pixel, as a part of the image for `etendue merge`
-    #[arg(long, value_name = "A:B", value_parser = range)]
-    range: Option<Range<u32>>,
-    /// Render only the pixels from column X0 to X1-1 and from row Y0 to Y1-1, as a part of the image; all are multiples of 16, or the image's size
+    /// Render only the pixels from column X0 to X1-1 and from row Y0 to Y1-1, as a part of the image for `etendue merge`; all are multiples of 16, or the image's size
     #[arg(long, value_name = "X0,Y0,X1,Y1", value_parser = tile)]
     tile: Option<Tile>,
     /// Render only the first samples of the sampler adaptive, as a part of its pilot
-    #[arg(long, conflicts_with_all = ["range", "after"])]
+    #[arg(long, conflicts_with = "after")]
     pilot: bool,
     /// Render the samples of the sampler adaptive that follow this merged pilot, as a part of the image
-    #[arg(long, value_name = "PILOT.exr", conflicts_with = "range")]
+    #[arg(long, value_name = "PILOT.exr")]
     after: Option<PathBuf>,
 }
 
 /// The pixels [x0, y0, x1, y1).
 #[derive(Clone, Copy)]
 struct Tile(Area);
-
-/// Parses `--range`.
-fn range(text: &str) -> Result<Range<u32>, String> {
-    let ends = text.split_once(':').and_then(|(a, b)| Some((a.parse().ok()?, b.parse().ok()?)));
-    let valid = ends.filter(|(a, b)| a < b).map(|(a, b): (u32, u32)| a..b);
-    valid.ok_or_else(|| "must be the first sample and the one after the last, such as 0:512".to_owned())
-}
 
 /// Parses `--tile`.
 fn tile(text: &str) -> Result<Tile, String> {
@@ -63,7 +52,7 @@ pub(crate) struct PartContent {
 }
 
 enum What {
-    Samples(Range<u32>),
+    All,
     Pilot,
     After(PathBuf),
 }
@@ -71,10 +60,10 @@ enum What {
 impl PartOptions {
     /// The part that is asked for, if one is.
     pub(crate) fn content(&self, settings: &Settings) -> Result<Option<PartContent>, String> {
-        if self.range.is_none() && self.tile.is_none() && !self.pilot && self.after.is_none() {
+        if self.tile.is_none() && !self.pilot && self.after.is_none() {
             return Ok(None);
         }
-        let &Settings { width, height, spp, sampler, .. } = settings;
+        let &Settings { width, height, sampler, .. } = settings;
         let area = self.tile.map_or(settings.whole(), |tile| tile.0);
         if !settings.is_of_tiles(area) {
             let [x0, y0, x1, y1] = area;
@@ -96,42 +85,42 @@ impl PartOptions {
         let what = match (&self.after, self.pilot) {
             (Some(file), _) => What::After(file.clone()),
             (None, true) => What::Pilot,
-            (None, false) => What::Samples(self.range.clone().unwrap_or(0..spp)),
+            (None, false) => What::All,
         };
-        if let What::Samples(range) = &what
-            && range.end > spp
-        {
-            return Err(format!("--range {}:{}: there are {spp} samples per pixel", range.start, range.end));
-        }
         Ok(Some(PartContent { area, what }))
     }
 }
 
 /// The name of the file of a part: what it holds.
-pub(crate) fn file_name(area: Area, range: Option<&Range<u32>>) -> String {
-    let [x0, y0, x1, y1] = area;
-    let samples = range.map_or_else(String::new, |range| format!("-s{:05}-{:05}", range.start, range.end));
-    format!("x{x0:04}-{x1:04}-y{y0:04}-{y1:04}{samples}.exr")
+pub(crate) fn file_name([x0, y0, x1, y1]: Area) -> String {
+    format!("x{x0:04}-{x1:04}-y{y0:04}-{y1:04}.exr")
 }
 
 /// Why a file is not the part that is wanted; `None` if it is.
-fn flaw(path: &Path, frame: &Frame, area: Area, is_kind: impl Fn(&PieceKind) -> bool) -> Option<String> {
-    let mut part = match PartFile::open(path) {
+fn flaw(path: &Path, identity: &Identity, area: Area, what: &What) -> Option<String> {
+    let mut part = match PieceFile::open(path) {
         Ok(part) => part,
         Err(error) => return Some(error.to_string()),
     };
-    if let Some(difference) = frame.difference(&part.frame) {
+    if let Some(difference) = identity.difference(&part.header.identity) {
         return Some(format!("{}: a part of another image: {difference}", path.display()));
     }
-    if part.pieces.len() != 1 || part.pieces[0].area != area || !is_kind(&part.pieces[0].kind) {
+    let is_pilot = matches!(part.header.kind, PieceKind::Pilot(_));
+    if part.header.area != area || is_pilot != matches!(what, What::Pilot) {
         return Some(format!("{}: holds other pixels or samples of the image", path.display()));
     }
     part.read().err().map(|error| error.to_string())
 }
 
+/// Whether a file is an image, which is not to be replaced by a part, unlike another part or one that is damaged.
+fn is_image(path: &Path) -> bool {
+    let is_part = PieceFile::open(path).is_ok_and(|part| part.header.identity.build.is_some());
+    !is_part && image::read_exr(path).is_ok()
+}
+
 /// Renders the part and writes it, unless the file holds it already.
 pub(crate) fn run(
-    image: &ImageOptions,
+    options: &ImageOptions,
     part: &PartContent,
     output: Option<&Path>,
     mut scene: Scene,
@@ -140,10 +129,9 @@ pub(crate) fn run(
     interrupt: &Interrupt,
 ) -> Result<(), Box<dyn Error>> {
     let start = Instant::now();
-    let frame = Frame::new(&scene, settings, image.sensor)?;
+    let identity = Identity::new(&scene, settings, options.sensor)?.of_parts();
     let PartContent { area, what } = part;
-    let range = if let What::Samples(range) = what { Some(range) } else { None };
-    let name = || named(image.stem(), &format!("-{}", file_name(*area, range)));
+    let name = || named(options.stem(), &format!("-{}", file_name(*area)));
     let path = output.map_or_else(name, Path::to_owned);
     if !path.extension().is_some_and(|e| e.eq_ignore_ascii_case("exr")) {
         return Err(format!("--output {}: the name must end in .exr", path.display()).into());
@@ -157,17 +145,11 @@ pub(crate) fn run(
         let what = "the pilot is read from this file, so the part cannot be written to it: choose another name with -o";
         return Err(format!("{}: {what}", path.display()).into());
     }
-    let is_kind = |kind: &PieceKind| match (kind, what) {
-        (PieceKind::Pixels, What::Samples(range)) => *range == (0..settings.spp),
-        (PieceKind::Range(own), What::Samples(range)) => own == range,
-        (PieceKind::Pixels, What::After(_)) | (PieceKind::Pilot(_), What::Pilot) => true,
-        _ => false,
-    };
     let report = |rendered: bool| {
         let samples = match what {
-            What::Samples(range) => format!("samples {} to {}", range.start, range.end - 1),
-            What::Pilot => "the pilot".to_owned(),
-            What::After(_) => "the samples after the pilot".to_owned(),
+            What::All => "all samples",
+            What::Pilot => "the pilot",
+            What::After(_) => "the samples after the pilot",
         };
         let seconds = start.elapsed().as_secs_f64();
         let mut out = out();
@@ -182,8 +164,12 @@ pub(crate) fn run(
         writeln!(out, "{did} {}: {samples} of {pixels}, {seconds:.3} s", path.display())
     };
     if path.exists() {
-        match flaw(&path, &frame, *area, is_kind) {
+        match flaw(&path, &identity, *area, what) {
             None => return Ok(report(false)?),
+            Some(_) if is_image(&path) => {
+                let what = "this is an image, which a part must not replace: delete it, or choose another name with -o";
+                return Err(format!("{}: {what}", path.display()).into());
+            }
             Some(flaw) => say(format_args!("warning: {flaw}; it is rendered again")),
         }
     }
@@ -191,24 +177,23 @@ pub(crate) fn run(
         files::make_folder(folder)?;
     }
     files::check_replaceable(&path)?;
-    let allotment = if let What::After(file) = what { Some(merge::allotment(file, &frame, *area)?) } else { None };
+    let allotment = if let What::After(file) = what { Some(merge::allotment(file, &identity, *area)?) } else { None };
 
-    let pool = pool(image.threads)?;
-    let world = pool.install(|| World::from_scene(&mut scene))?.with_sensor(image.sensor);
+    let pool = pool(options.threads)?;
+    let world = pool.install(|| World::from_scene(&mut scene))?.with_sensor(options.sensor);
     let bar = bar(area::count(*area) as u64, "{wide_bar} {percent:>3} %  {elapsed} of {duration}");
     interrupt.watch(&bar, &path);
     let progress = |done: u64| bar.inc(done);
     let samples = match (what, &allotment) {
         (What::Pilot, _) => Samples::Pilot,
         (_, Some(allotment)) => Samples::Rest(allotment),
-        (What::Samples(range), _) if *range != (0..settings.spp) => Samples::Range(range.clone()),
         _ => Samples::All,
     };
     let (content, _) = pool.install(|| world.view(&settings).render(*area, samples, &progress));
     bar.finish_and_clear();
     {
         let _status = interrupt.lock();
-        parts::write(&path, &frame, vec![Piece { area: *area, content }])?;
+        parts::write(&path, &identity, Piece { area: *area, content })?;
     }
     Ok(report(true)?)
 }

@@ -5,13 +5,11 @@ use crate::output::Output;
 use crate::part::file_name;
 use clap::Args;
 use etendue_render::area::Area;
-use etendue_render::limits::MOST_SAMPLES;
 use etendue_render::options::{out, whole};
 use etendue_render::{Sampler, split};
 use std::error::Error;
 use std::ffi::{OsStr, OsString};
 use std::io::Write;
-use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 #[derive(Args)]
@@ -24,9 +22,6 @@ pub(crate) struct Options {
     /// Split the image into about this many parts
     #[arg(long, value_name = "N", default_value_t = 64, value_parser = whole::<u32>(1..=1_000_000))]
     tasks: u32,
-    /// Split the samples of each tile into this many of the parts; the sampler adaptive cannot
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = whole::<u32>(1..=MOST_SAMPLES.into()))]
-    ranges: u32,
     /// Write the parts into this folder [default: OUT.parts]
     #[arg(long, value_name = "DIR")]
     parts: Option<PathBuf>,
@@ -55,50 +50,33 @@ fn words<const N: usize>(words: [&dyn AsRef<OsStr>; N]) -> Vec<OsString> {
 
 /// Prints one command a line, and an empty line between the stages. The commands of a stage can run in any order.
 pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
-    let Options { image, output, tasks, ranges, parts } = options;
+    let Options { image, output, tasks, parts } = options;
     let (scene, settings) = image.load()?;
     image.check(&settings, scene.camera.lens.is_some())?;
-    let adaptive = settings.sampler == Sampler::Adaptive;
-    if adaptive && *ranges > 1 {
-        return Err("--ranges: the sampler adaptive can only be split into tiles; \
-                    choose another, such as --sampler sobol, or leave --ranges out"
-            .into());
-    }
-    if *ranges > *tasks || *ranges > settings.spp {
-        let (least, what) = (settings.spp.min(*tasks), if *tasks < settings.spp { "tasks" } else { "samples" });
-        return Err(format!("--ranges {ranges}: there are only {least} {what}").into());
-    }
     // what can be wrong with it should not be found after hours
     let output = Output::new(output.as_deref(), &scene, image.stem())?.exr;
     let folder = parts.clone().unwrap_or_else(|| output.with_extension("parts"));
     if folder.exists() && !folder.is_dir() {
         return Err(format!("--parts {}: this is a file, not a folder", folder.display()).into());
     }
-    let areas = split::areas(&settings, tasks / ranges);
-    let spp = settings.spp;
+    let areas = split::areas(&settings, *tasks);
     let program = std::env::args_os().next().unwrap_or_else(|| "etendue".into());
-    let render = |area: Area, more: &OsStr, to: &Path| {
+    let render = |area: Area, more: &[OsString], to: &Path| {
         let [x0, y0, x1, y1] = area;
         let tile = format!("--tile={x0},{y0},{x1},{y1}");
-        [words([&program, &"render"]), image.arguments(), words([&tile, &more, &"-o", &to])].concat()
+        let to = to.join(file_name(area));
+        [words([&program, &"render"]), image.arguments(), words([&tile]), more.into(), words([&"-o", &to])].concat()
     };
+    let parts = |more: &[OsString], to: &Path| -> Vec<_> { areas.iter().map(|&area| render(area, more, to)).collect() };
     let merge = |to: &Path, from: &Path| vec![words([&program, &"merge", &"-o", &to, &from])];
-    let stages = if adaptive {
+    let stages = if settings.sampler == Sampler::Adaptive {
         let [pilots, pilot, last] = ["pilot", "pilot.exr", "image"].map(|name| folder.join(name));
         let mut after = OsString::from("--after=");
         after.push(&pilot);
-        let parts = |more: &OsStr, to: &Path| -> Vec<_> {
-            areas.iter().map(|&area| render(area, more, &to.join(file_name(area, None)))).collect()
-        };
-        vec![parts("--pilot".as_ref(), &pilots), merge(&pilot, &pilots), parts(&after, &last), merge(&output, &last)]
+        let first = parts(&["--pilot".into()], &pilots);
+        vec![first, merge(&pilot, &pilots), parts(&[after], &last), merge(&output, &last)]
     } else {
-        let parts =
-            areas.iter().flat_map(|&area| split::ranges(spp, *ranges).into_iter().map(move |range| (area, range)));
-        let part = |(area, range): (Area, Range<u32>)| {
-            let more = format!("--range={}:{}", range.start, range.end);
-            render(area, more.as_ref(), &folder.join(file_name(area, Some(&range))))
-        };
-        vec![parts.map(part).collect(), merge(&output, &folder)]
+        vec![parts(&[], &folder), merge(&output, &folder)]
     };
     let mut plan: Vec<Vec<u8>> = Vec::new();
     for stage in stages {

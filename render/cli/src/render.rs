@@ -12,7 +12,7 @@ use etendue_render::film::Film;
 use etendue_render::options::{name, out, pool, whole};
 use etendue_render::progressive::{self, Goal, Pass, Progress, Refinement};
 use etendue_render::sampler::reports_variance;
-use etendue_render::{RayCount, Sampler, Sensor, Settings, Technique, World};
+use etendue_render::{Identity, RayCount, Sampler, Sensor, Settings, Technique, World};
 use serde_json::{Value, json};
 use std::cell::RefCell;
 use std::error::Error;
@@ -99,6 +99,7 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
         return part::run(image, &content, options.output.as_deref(), scene, settings, options.json, &interrupt);
     }
     let output = Output::new(options.output.as_deref(), &scene, image.stem())?;
+    let identity = Identity::new(&scene, settings, image.sensor)?;
 
     let pool = pool(image.threads)?;
     let start = Instant::now();
@@ -106,7 +107,7 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     let build = start.elapsed().as_secs_f64();
 
     let display = RefCell::new(options.display.connect(&output.exr));
-    let studio = Session { world: &world, settings, output: &output, interrupt: &interrupt, display };
+    let studio = Session { world: &world, identity, output: &output, interrupt: &interrupt, display };
     let done = pool.install(move || match &plan {
         None => studio.once(options.repeat, lens),
         Some(plan) => studio.refine(plan),
@@ -127,7 +128,7 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
 /// Everything that an image is made with.
 struct Session<'a> {
     world: &'a World,
-    settings: Settings,
+    identity: Identity,
     output: &'a Output,
     interrupt: &'a Interrupt,
     display: RefCell<Display>,
@@ -136,7 +137,7 @@ struct Session<'a> {
 impl Session<'_> {
     /// Renders the same image `repeat` times and writes it.
     fn once(&self, repeat: u32, lens: bool) -> Result<Image, String> {
-        let Settings { width, height, spp, sampler, sets, .. } = self.settings;
+        let Settings { width, height, spp, sampler, sets, .. } = self.identity.settings;
         let pixels = u64::from(width) * u64::from(height);
         let bar = bar(pixels * u64::from(repeat), "{wide_bar} {percent:>3} %  {elapsed} of {duration}");
         self.interrupt.watch(&bar, &self.output.exr);
@@ -144,14 +145,14 @@ impl Session<'_> {
         let mut last = None;
         for _ in 0..repeat {
             let start = Instant::now();
-            let view = self.world.view(&self.settings);
+            let view = self.world.view(&self.identity.settings);
             last = Some(view.image(&|done| bar.inc(done)));
             seconds.push(start.elapsed().as_secs_f64());
         }
         let (film, rays) = last.unwrap_or_else(|| unreachable!("--repeat is at least 1"));
         bar.finish_and_clear();
-        let error = Claim::new(&film, &self.world.view(&self.settings).foreseen(), spp.into());
-        self.write(&film, spp.into(), error)?;
+        let error = Claim::new(&film, &self.world.view(&self.identity.settings).foreseen(), spp.into());
+        self.write(&film, &self.identity, error)?;
         let has_sets = reports_variance(sampler, spp, sets, lens);
         let sets = sampler.sets(spp, sets, lens);
         Ok(Image { film, error, rays, spp: spp.into(), sampler, sets, has_sets, seconds, passes: Vec::new() })
@@ -159,7 +160,7 @@ impl Session<'_> {
 
     /// Renders passes and writes the image after each.
     fn refine(&self, plan: &Refinement) -> Result<Image, String> {
-        let pixels = u64::from(self.settings.width) * u64::from(self.settings.height);
+        let pixels = u64::from(plan.settings.width) * u64::from(plan.settings.height);
         let (length, template) = match plan.goal.seconds {
             Some(seconds) => ((seconds * 1000.0) as u64, format!("{{wide_bar}} {{elapsed}} of {seconds} s  {{msg}}")),
             None => (pixels, "{wide_bar} {percent:>3} % of a pass, {elapsed}  {msg}".to_owned()),
@@ -180,7 +181,11 @@ impl Session<'_> {
                 bar.set_position(0);
             }
         };
-        let finish = |known: &Progress| self.write(&known.film, known.spp, known.error);
+        let finish = |known: &Progress| {
+            let (spp, sampler) = (u32::try_from(known.spp).unwrap_or(u32::MAX), known.passes[0].sampler);
+            let settings = Settings { spp, sampler, ..plan.settings };
+            self.write(&known.film, &Identity { settings, ..self.identity.clone() }, known.error)
+        };
         let done = progressive::render(self.world, plan, &advance, start, finish);
         bar.finish_and_clear();
         let Progress { film, error, spp, passes, seconds, rays } = done?;
@@ -191,9 +196,8 @@ impl Session<'_> {
         Ok(Image { film, error, rays, spp, sampler, sets, has_sets, seconds: vec![seconds], passes })
     }
 
-    fn write(&self, film: &Film, spp: u64, error: Option<Claim>) -> Result<(), String> {
-        let exposure = self.world.exposure(film.width, film.height);
-        self.output.save(self.interrupt, film, exposure.map_or(1.0, |exposure| exposure.on_axis()), spp, error)?;
+    fn write(&self, film: &Film, identity: &Identity, error: Option<Claim>) -> Result<(), String> {
+        self.output.save(self.interrupt, film, identity, error)?;
         self.display.borrow_mut().show(film);
         Ok(())
     }

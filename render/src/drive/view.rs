@@ -10,13 +10,12 @@ use crate::camera::Camera;
 use crate::certify::Survey;
 use crate::claim::Foreseen;
 use crate::estimate::RayCount;
-use crate::film::{BlockSum, Film, Pixel, PixelSum};
+use crate::film::{Film, Pixel, PixelSum};
 use crate::sampler::Sampler;
 use crate::settings::{Settings, tiles};
-use crate::sums::{Moments, Planes, Sample, Sum};
+use crate::sums::{Moments, Sample, Sum};
 use crate::technique::Technique;
 use rayon::prelude::*;
-use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Greatest number of tiles that are looked at to bound what closed forms leave.
@@ -27,8 +26,6 @@ const BOUNDED: usize = 16;
 pub enum Samples<'a> {
     /// All of them.
     All,
-    /// Those with these indices, in the largest blocks of samples that are within the range. Not for [`Sampler::Adaptive`].
-    Range(Range<u32>),
     /// The pilot of [`Sampler::Adaptive`].
     Pilot,
     /// Those of [`Sampler::Adaptive`] that follow the pilot, for the area of the allotment.
@@ -40,8 +37,6 @@ pub enum Samples<'a> {
 pub enum Content {
     /// The finished pixels.
     Pixels(Vec<Pixel>),
-    /// The sums of the largest blocks of this range of samples, in order.
-    Range(Range<u32>, Vec<Planes>),
     /// What the pilot found.
     Pilot(Vec<Statistics>),
     /// How many samples follow the pilot.
@@ -76,7 +71,7 @@ impl World {
 }
 
 impl<'a> View<'a> {
-    /// The same, but as soon as `stop` is true, all tiles that have not begun are left black. Not for a range of samples.
+    /// The same, but as soon as `stop` is true, all tiles that have not begun are left black.
     #[must_use]
     pub const fn stopped_by(self, stop: &'a AtomicBool) -> Self {
         Self { stop: Some(stop), ..self }
@@ -189,14 +184,6 @@ impl View<'_> {
                 };
                 (Content::Pixels(pixels), rays)
             }
-            Samples::Range(range) => {
-                assert!(!is_adaptive && range.end <= settings.spp);
-                let (planes, rays) = match settings.sampler {
-                    Sampler::Independent => self.planes::<Moments>(area, &range, progress),
-                    _ => self.planes::<Sum>(area, &range, progress),
-                };
-                (Content::Range(range, planes), rays)
-            }
             Samples::Pilot => {
                 assert!(is_adaptive);
                 let (found, rays) = self.pilot(area, progress);
@@ -236,25 +223,6 @@ impl View<'_> {
             progress(pixels.len() as u64);
             pixels
         })
-    }
-
-    fn planes<V: Sample>(
-        &self,
-        area: Area,
-        range: &Range<u32>,
-        progress: &(dyn Fn(u64) + Sync),
-    ) -> (Vec<Planes>, RayCount) {
-        let (pixels, rays) = self.tiles(area, &|renderer, area| {
-            let pixels = renderer.range(area, range.clone(), BlockSum::<V>::default());
-            progress(pixels.len() as u64);
-            pixels
-        });
-        let moments = |block: usize| pixels.iter().map(move |pixel: &Vec<V>| pixel[block].moments());
-        let planes = |block: usize| Planes {
-            sums: moments(block).map(|moments| moments.sum).collect(),
-            squares: if V::INDEPENDENT { moments(block).map(|moments| moments.squares).collect() } else { Vec::new() },
-        };
-        ((0..pixels.first().map_or(0, Vec::len)).map(planes).collect(), rays)
     }
 
     fn renderer(&self) -> TileRenderer<'_> {

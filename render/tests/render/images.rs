@@ -2,7 +2,9 @@
 
 use etendue_render::area::Place;
 use etendue_render::film::{Film, Pixel};
-use etendue_render::image;
+use etendue_render::integrator::Content;
+use etendue_render::parts::{self, PieceFile};
+use etendue_render::{Identity, Sampler, Sensor, Settings, Technique, image, scene};
 use exr::math::Vec2;
 use exr::meta::attribute::IntegerBounds;
 use exr::prelude::{
@@ -74,13 +76,20 @@ fn pictures_are_display_windows() {
 fn parts_have_places() {
     let pixel = |i: u32| Pixel { mean: [i as f32, 1.0, 2.0], variance: [0.5; 3], samples: i };
     let film = Film { width: 10, height: 4, pixels: (0..40).map(pixel).collect() };
+    let (technique, sampler) = (Technique::Auto, Sampler::Sobol);
+    let settings = Settings { width: 10, height: 4, spp: 4, technique, depth: 8, sampler, sets: 0, seed: 0 };
+    let identity = Identity::new(&scene::load("quads").unwrap(), settings, Sensor::Radiance).unwrap();
     let file = std::env::temp_dir().join(format!("etendue-place-{}.exr", std::process::id()));
     for (place, start, whole) in [
         (Some(Place { start: [10, 5], whole: [64, 32] }), [10, 5], [64, 32]),
         (Some(Place { start: [54, 28], whole: [64, 32] }), [54, 28], [64, 32]),
         (None, [0, 0], [10, 4]),
     ] {
-        image::write_exr(&file, &film, place).unwrap();
+        let identity = Identity { place, ..identity.clone() };
+        parts::write_image(&file, &identity, film.pixels.clone()).unwrap();
+        let mut again = PieceFile::open(&file).unwrap();
+        assert_eq!(again.header.identity, identity);
+        assert_eq!(again.read().unwrap().content, Content::Pixels(film.pixels.clone()));
         let header = MetaData::read_from_file(&file, false).unwrap().headers[0].clone();
         let display = header.shared_attributes.display_window;
         assert_eq!((display.position, display.size), (Vec2(0, 0), Vec2(whole[0], whole[1])));

@@ -13,7 +13,7 @@ use etendue_render::options::{name, say};
 use etendue_render::progressive::{Goal, Progress, Refined, Refinement};
 use etendue_render::sampler::default_sampler;
 use etendue_render::scene::Scene;
-use etendue_render::{Settings, World};
+use etendue_render::{Identity, Settings, World};
 use rayon::ThreadPool;
 use std::error::Error;
 use std::sync::Arc;
@@ -63,6 +63,7 @@ struct Subject {
     lens: bool,
     watch: Watch,
     facts: Facts,
+    identity: Identity,
 }
 
 /// An image that is rendered, or was and is kept.
@@ -97,17 +98,17 @@ impl Worker<'_> {
     fn build(&self, Reading { mut scene, settings, began }: Reading) -> Result<Subject, Box<dyn Error>> {
         let lens = scene.camera.lens.is_some();
         let watch = Watch::new(&scene.inputs, began);
+        let identity = Identity::new(&scene, settings, self.image.sensor)?;
         let world = self.pool.install(|| World::from_scene(&mut scene))?.with_sensor(self.image.sensor);
-        let exposure = world.exposure(settings.width, settings.height);
         let facts = Facts {
             scene: scene.name.clone(),
             size: [settings.width, settings.height],
-            exposure: exposure.map_or(1.0, |exposure| exposure.on_axis()),
+            exposure: identity.exposure,
             sensor: name(self.image.sensor),
             target: self.goal.error,
             files: format!("{} and {}", self.output.exr.display(), self.output.png.display()),
         };
-        Ok(Subject { world, settings, lens, watch, facts })
+        Ok(Subject { world, settings, lens, watch, facts, identity })
     }
 
     /// What is shared at the beginning.
@@ -210,7 +211,9 @@ impl Worker<'_> {
     fn keep(&mut self, done: &mut Done, way: Way, subject: &Subject, shared: &Shared, is_idle: bool) {
         let Some(picture) = shared.lock().picture(way).cloned() else { return };
         let Picture { film, spp, error, version, .. } = picture;
-        let (exposure, spp) = (subject.facts.exposure, spp.round() as u64);
+        let Way { technique, sampler } = way;
+        let settings = Settings { technique, sampler, spp: spp.round() as u32, ..subject.settings };
+        let identity = Identity { settings, ..subject.identity.clone() };
         let is_due = |has: u64, at: Instant| has != version && (is_idle || Instant::now() >= at);
         if is_due(done.shown, done.show) {
             self.display.show(&film);
@@ -218,7 +221,7 @@ impl Worker<'_> {
         }
         if is_due(done.saved, done.save) {
             let began = Instant::now();
-            let written = self.output.save(self.interrupt, &film, exposure, spp, error);
+            let written = self.output.save(self.interrupt, &film, &identity, error);
             // large files take no more than a tenth of the time
             (done.saved, done.save) = (version, began + LOOK + 10 * began.elapsed());
             if let Err(error) = written {
@@ -227,7 +230,7 @@ impl Worker<'_> {
             }
         } else if done.saved != version {
             let output = Arc::clone(&self.output);
-            let last = move || output.write(&film, exposure).map(|()| output.holds(spp, error));
+            let last = move || output.write(&film, &identity).map(|()| output.holds(&identity, error));
             self.interrupt.lock().last = Some(Box::new(last));
         }
     }

@@ -2,7 +2,7 @@
 
 use super::Folder;
 use etendue_render::image::read_exr;
-use etendue_render::parts::PartFile;
+use etendue_render::parts::PieceFile;
 use std::fs;
 use std::path::Path;
 
@@ -34,23 +34,11 @@ fn flip(path: &Path, length: usize, read: impl Fn(&Path) -> Option<String>) {
 fn flipped_headers_are_explained() {
     let folder = Folder::new();
     folder.succeed(&["render", "quads", "--size", "9x7", "--spp", "4", "-o", "image.exr"]);
-    folder.succeed(&[
-        "render",
-        "quads",
-        "--size",
-        "16x16",
-        "--spp",
-        "8",
-        "--sampler",
-        "sobol",
-        "--range",
-        "0:4",
-        "-o",
-        "part.exr",
-    ]);
+    let tile = ["--tile", "0,0,16,16", "-o", "part.exr"];
+    folder.succeed(&[&["render", "quads", "--size", "32x16", "--spp", "8"], &tile[..]].concat());
     flip(&folder.path("image.exr"), 900, |path| read_exr(path).err().map(|error| error.to_string()));
-    flip(&folder.path("part.exr"), 1100, |path| {
-        let pieces = PartFile::open(path).and_then(|mut part| part.read());
-        pieces.err().map(|error| error.to_string())
+    flip(&folder.path("part.exr"), 1000, |path| {
+        let piece = PieceFile::open(path).and_then(|mut part| part.read());
+        piece.err().map(|error| error.to_string())
     });
 }

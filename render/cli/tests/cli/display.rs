@@ -134,7 +134,6 @@ fn without_a_display_server_the_image_is_rendered() {
         let error = folder.fail(&["render", "quads", "--display-server", address]);
         assert!(error.contains("--display-server") && error.contains(address), "{error}");
     }
-    let part =
-        ["render", "quads", "--spp", "2", "--sampler", "sobol", "--range", "0:1", "--display-server", "localhost:1"];
+    let part = ["render", "quads", "--spp", "2", "--tile", "0,0,16,16", "--display-server", "localhost:1"];
     assert!(folder.fail(&part).contains("--display-server localhost:1: a part of an image is not shown"));
 }

@@ -20,10 +20,8 @@ fn negative_numbers_are_named_with_their_option() {
         ("render", "--time", "-1", "greater than 0"),
         ("render", "--error", "-1%", "from 1e-6 to 1"),
         ("render", "--tile", "-16,0,16,16", "four numbers"),
-        ("render", "--range", "-1:4", "such as 0:512"),
         ("render", "--sampler", "-sobol", "[possible values: "),
         ("plan", "--tasks", "-1", "from 1 to 1000000"),
-        ("plan", "--ranges", "-1", "from 1 to 4194304"),
         ("selftest", "--side", "-1", "from 1 to 4096"),
         ("chart", "--spp", "-1", "from 1 to 4194304"),
         ("chart", "--replicates", "-1", "from 1 to 10000"),
@@ -229,7 +227,7 @@ fn a_full_standard_output_is_named() {
     let folder = Folder::new();
     let image = ["render", "quads", "--size", "8x8", "--spp", "4", "-o", "a.exr"];
     folder.succeed(&image);
-    folder.succeed(&["render", "quads", "--size", "16x16", "--spp", "4", "--range", "0:4", "-o", "part.exr"]);
+    folder.succeed(&["render", "quads", "--size", "16x16", "--spp", "4", "--tile", "0,0,16,16", "-o", "part.exr"]);
     let full = "standard output: cannot write: No space left on device";
     for (arguments, more) in [
         (&["list"][..], ""),

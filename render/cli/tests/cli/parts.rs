@@ -2,6 +2,7 @@
 
 use super::Folder;
 use std::fs;
+use std::path::Path;
 use std::process::{Command, Stdio};
 use std::thread::sleep;
 use std::time::Duration;
@@ -29,8 +30,7 @@ const IMAGE: [&str; 7] = ["quads", "--size", "64x48", "--spp", "64", "--seed", "
 fn a_plan_makes_the_image_of_a_single_process() {
     for (more, stages, tasks) in [
         (&["--sampler", "sobol", "--tasks", "6"][..], 2, 6),
-        (&["--sampler", "sobol", "--tasks", "12", "--ranges", "3"], 2, 12),
-        (&["--sampler", "independent", "--tasks", "5", "--ranges", "5", "--parts", "some parts"], 2, 5),
+        (&["--sampler", "independent", "--tasks", "4", "--parts", "some parts"], 2, 4),
         (&["--tasks", "6"], 4, 6),
     ] {
         let folder = Folder::new();
@@ -105,7 +105,7 @@ fn parts_that_are_killed_repeated_or_damaged_lose_nothing() {
     let folder = Folder::new();
     let arguments = [&IMAGE[..], &["--sampler", "sobol", "--threads", "1"]].concat();
     folder.succeed(&[&["render"], &arguments[..], &["-o", "single.exr"]].concat());
-    let stages = plan(&folder, &[&arguments[..], &["--tasks", "12", "--ranges", "3", "-o", "whole.exr"]].concat());
+    let stages = plan(&folder, &[&arguments[..], &["--tasks", "12", "-o", "whole.exr"]].concat());
     let [parts, merge] = [&stages[0], &stages[1]];
 
     // some are killed soon after they begin, some run twice at once
@@ -127,7 +127,7 @@ fn parts_that_are_killed_repeated_or_damaged_lose_nothing() {
     let missing = folder.path(missing);
     let _ = fs::remove_file(&missing);
     let error = folder.fail(&merge[0].iter().map(String::as_str).collect::<Vec<_>>());
-    assert!(error.contains("lacks") && error.contains("--range ") && error.contains("--tile "), "{error}");
+    assert!(error.contains("lacks") && error.contains("--tile "), "{error}");
     assert!(!folder.path("whole.exr").exists());
 
     // what is there is kept, the rest is rendered
@@ -157,20 +157,20 @@ fn parts_that_are_killed_repeated_or_damaged_lose_nothing() {
         assert!(output.status.success() && out.starts_with("wrote ") && error.contains("rendered again"), "{error}");
     }
 
-    // a copy is ignored; a part of another seed, or with samples in common, is refused
+    // a copy is ignored; a part of another seed, or with pixels in common, is refused
     fs::copy(folder.path(names[0]), folder.path(&format!("{dir}/copy.exr"))).unwrap();
     let said = folder.succeed(&merge);
     assert!(said.contains("ignored ") && read("single.exr") == read("whole.exr"), "{said}");
     let alien = format!("{dir}/alien.exr");
     let seed =
-        [&["render"], &arguments[..5], &["--sampler", "sobol", "--seed", "6"], &["--range", "0:8", "-o", &alien]];
+        [&["render"], &arguments[..5], &["--sampler", "sobol", "--seed", "6"], &["--tile", "0,0,16,16", "-o", &alien]];
     folder.succeed(&seed.concat());
     let error = folder.fail(&merge);
     assert!(error.contains("alien.exr") && error.contains("its seed is 6, not 5"), "{error}");
-    let overlap = [&["render"], &arguments[..], &["--range", "0:8", "-o", "overlap.exr"]].concat();
+    let overlap = [&["render"], &arguments[..], &["--tile", "0,0,32,16", "-o", "overlap.exr"]].concat();
     folder.succeed(&overlap);
     fs::rename(folder.path("overlap.exr"), folder.path(&alien)).unwrap();
-    assert!(folder.fail(&merge).contains("both hold --range 0:8"));
+    assert!(folder.fail(&merge).contains("both hold --tile 0,0,16,16"));
     assert!(read("single.exr") == read("whole.exr"));
 
     // an image of what is there
@@ -178,7 +178,7 @@ fn parts_that_are_killed_repeated_or_damaged_lose_nothing() {
     fs::remove_file(folder.path(&format!("{dir}/copy.exr"))).unwrap();
     fs::remove_file(&missing).unwrap();
     let partial = folder.succeed(&["merge", "--partial", "-o", "partial.exr", dir]);
-    assert!(partial.contains("1 parts are missing") && folder.path("partial.png").is_file(), "{partial}");
+    assert!(partial.contains("1 areas are missing") && folder.path("partial.png").is_file(), "{partial}");
     // no temporary file is left but those of killed processes
     let left = fs::read_dir(folder.path(dir)).unwrap().map(|file| file.unwrap().file_name().into_string().unwrap());
     assert!(left.filter(|name| !name.ends_with(".exr")).all(|name| name.starts_with(".etendue-")));
@@ -189,24 +189,17 @@ fn options_that_make_no_part_are_refused() {
     let folder = Folder::new();
     for (arguments, message) in [
         (
-            &["render", "quads", "--spp", "64", "--range", "0:8"][..],
+            &["render", "quads", "--spp", "64", "--tile", "0,0,16,16"][..],
             "the sampler adaptive takes its samples in two rounds",
         ),
-        (&["render", "quads", "--spp", "14", "--range", "8:17"], "--range 8:17: there are 14 samples per pixel"),
-        (&["render", "quads", "--spp", "14", "--range", "8:8"], "such as 0:512"),
         (&["render", "quads", "--spp", "14", "--tile", "0,0,8,16"], "multiples of 16, or the size of the image"),
         (&["render", "quads", "--spp", "14", "--tile", "0,0,16,160000"], "multiples of 16, or the size of the image"),
         (&["render", "quads", "--spp", "14", "--tile", "16,0,16,16"], "the first two less than the others"),
         (&["render", "quads", "--spp", "14", "--tile", "0,0,16"], "four numbers"),
         (&["render", "quads", "--spp", "14", "--pilot"], "only for --sampler adaptive"),
         (&["render", "quads", "--spp", "64", "--after", "no.exr"], "no.exr: cannot read"),
-        (&["render", "quads", "--time", "1", "--range", "0:8"], "cannot be used with"),
-        (&["render", "quads", "--spp", "14", "--range", "0:8", "-o", "part.png"], "must end in .exr"),
-        (
-            &["plan", "quads", "--spp", "64", "--ranges", "2", "-o", "a.exr"],
-            "the sampler adaptive can only be split into tiles",
-        ),
-        (&["plan", "quads", "--spp", "4", "--tasks", "8", "--ranges", "5", "-o", "a.exr"], "there are only 4 samples"),
+        (&["render", "quads", "--time", "1", "--tile", "0,0,16,16"], "cannot be used with"),
+        (&["render", "quads", "--spp", "14", "--tile", "0,0,16,16", "-o", "part.png"], "must end in .exr"),
         (&["plan", "quads", "--spp", "16", "--tasks", "0", "-o", "a.exr"], "from 1 to 1000000"),
         (&["plan", "quads", "--spp", "16", "-o", "a.png"], "must end in .exr"),
         (&["plan", "quads", "--spp", "16", "-o", "nowhere/a.exr"], "the folder nowhere does not exist"),
@@ -223,48 +216,58 @@ fn options_that_make_no_part_are_refused() {
             .succeed(&["plan", "quads", "--spp", "14", "--tasks", "1"])
             .ends_with(" merge -o quads.exr quads.parts\n")
     );
-    // an image is no part, and a part is not the pilot
-    folder.succeed(&["render", "quads", "--size", "16x16", "--spp", "2", "-o", "image.exr"]);
-    assert!(folder.fail(&["merge", "-o", "a.exr", "image.exr"]).contains("image.exr: not a part of an image"));
+    // a part is not the pilot
     let render = ["render", "quads", "--size", "32x16", "--spp", "64"];
     folder.succeed(&[&render[..], &["--pilot", "--tile", "0,0,16,16", "-o", "pilot.exr"]].concat());
     let error = folder.fail(&[&render[..], &["--after", "pilot.exr", "-o", "a.exr"]].concat());
-    let lacks = "pilot.exr: not the whole pilot; merge it with the parts that it lacks:\n--pilot --tile 16,0,32,16";
-    assert!(error.contains(lacks), "{error}");
-    folder.succeed(&["render", "quads", "--size", "32x16", "--spp", "14", "--range", "0:8", "-o", "range.exr"]);
-    assert!(
-        folder.fail(&[&render[..], &["--after", "range.exr", "-o", "a.exr"]].concat()).contains("of another image")
-    );
+    assert!(error.contains("pilot.exr: not the whole pilot, which `etendue merge` makes of its parts"), "{error}");
+    let error = folder.fail(&["merge", "-o", "a.exr", "pilot.exr"]);
+    assert!(error.contains("the pilot lacks 1 part(s):\n--pilot --tile 16,0,32,16"), "{error}");
+    folder.succeed(&["render", "quads", "--size", "32x16", "--spp", "14", "--tile", "0,0,16,16", "-o", "tile.exr"]);
+    assert!(folder.fail(&[&render[..], &["--after", "tile.exr", "-o", "a.exr"]].concat()).contains("of another image"));
     assert!(folder.fail(&["merge", "-o", "pilot.exr", "pilot.exr"]).contains("this file is an input"));
 }
 
-/// The whole pilot may be one part, or merged with or without `--as-part`, at once or in groups.
+/// Images of different seeds are averaged, and what must not be is refused. Neither an image that is read nor any other is replaced by a
+/// part, but a part of another image is, and one that is damaged.
 #[test]
-fn a_whole_pilot_is_taken_in_any_form() {
+fn images_are_averaged_and_kept() {
     let folder = Folder::new();
-    let image = ["quads", "--size", "48x32", "--spp", "64"];
-    let render = |more: &[&str]| folder.succeed(&[&["render"], &image[..], more].concat());
-    render(&["-o", "single.exr"]);
-    let tiles = ["0,0,16,32", "16,0,32,32", "32,0,48,32"];
-    for (i, tile) in tiles.iter().enumerate() {
-        render(&["--pilot", "--tile", tile, "-o", &format!("pilots/{i}.exr")]);
+    let image = ["render", "quads", "--size", "32x16"];
+    for (seed, spp) in [("1", "64"), ("2", "32"), ("3", "64")] {
+        let name = format!("images/{seed}.exr");
+        fs::create_dir_all(folder.path("images")).unwrap();
+        folder.succeed(&[&image[..], &["--seed", seed, "--spp", spp, "-o", &name]].concat());
     }
-    render(&["--pilot", "-o", "one.exr"]);
-    folder.succeed(&["merge", "-o", "merged.exr", "pilots"]);
-    folder.succeed(&["merge", "--as-part", "-o", "as-part.exr", "pilots"]);
-    folder.succeed(&["merge", "--as-part", "-o", "group.exr", "pilots/0.exr", "pilots/1.exr"]);
-    folder.succeed(&["merge", "-o", "groups.exr", "group.exr", "pilots/2.exr"]);
-    folder.succeed(&["merge", "-o", "again.exr", "as-part.exr"]);
-    let read = |name: &str| fs::read(folder.path(name)).unwrap();
-    for pilot in ["one.exr", "merged.exr", "as-part.exr", "groups.exr", "again.exr"] {
-        for (i, tile) in tiles.iter().enumerate() {
-            render(&["--after", pilot, "--tile", tile, "-o", &format!("{pilot}.parts/{i}.exr")]);
-        }
-        folder.succeed(&["merge", "-o", "whole.exr", &format!("{pilot}.parts")]);
-        assert!(read("whole.exr") == read("single.exr") && read("whole.png") == read("single.png"), "{pilot}");
+    assert!(folder.succeed(&["merge", "-o", "mean.exr", "images"]).contains("from 3 files"));
+    assert!(folder.path("mean.png").is_file());
+    let error = folder.fail(&["merge", "-o", "b.exr", "mean.exr", "images/2.exr"]);
+    assert!(error.contains("mean.exr and images/2.exr both have samples of seed 2"), "{error}");
+    let error = folder.fail(&["merge", "-o", "images/3.exr", "images"]);
+    assert!(error.contains("images/3.exr: this file is an input"), "{error}");
+    folder.succeed(&["render", "quads", "--size", "32x16", "--error", "5%", "--seed", "4", "-o", "refined.exr"]);
+    folder.succeed(&["merge", "-o", "more.exr", "mean.exr", "refined.exr"]);
+    folder.succeed(&[&image[..], &["--seed", "5", "--depth", "1", "-o", "other.exr"]].concat());
+    let error = folder.fail(&["merge", "-o", "b.exr", "images", "other.exr"]);
+    let says = "other.exr: not of the same image as images/1.exr: its depth is 1, not 8";
+    assert!(error.contains(says) && !folder.path("b.exr").exists(), "{error}");
+
+    // an image of another program has no text
+    let tile = ["--spp", "4", "--tile", "0,0,16,16", "-o", "a.exr"];
+    fs::copy(Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/sky.exr"), folder.path("a.exr")).unwrap();
+    let error = folder.fail(&["merge", "-o", "b.exr", "a.exr"]);
+    assert!(error.contains("a.exr: not an image of etendue, nor a part of one"), "{error}");
+    for name in ["a.exr", "other.exr"] {
+        let before = fs::read(folder.path(name)).unwrap();
+        let error = folder.fail(&[&image[..], &tile[..4], &["-o", name]].concat());
+        assert!(error.contains(&format!("{name}: this is an image, which a part must not replace")), "{error}");
+        assert!(fs::read(folder.path(name)).unwrap() == before);
     }
-    let error = folder.fail(&["merge", "-o", "more.exr", "merged.exr"]);
-    assert!(error.contains("merged.exr: is a whole pilot already, for --after"), "{error}");
+    fs::remove_file(folder.path("a.exr")).unwrap();
+    folder.succeed(&[&image[..], &["--seed", "1"], &tile].concat());
+    let before = fs::read(folder.path("a.exr")).unwrap();
+    let said = folder.run(&[&image[..], &tile].concat());
+    assert!(said.status.success() && fs::read(folder.path("a.exr")).unwrap() != before, "{said:?}");
 }
 
 /// No input of a part or a merge is written to, by whatever name it is given.
@@ -293,16 +296,16 @@ fn parts_that_are_read_are_not_overwritten() {
         assert!(error.contains("this file is an input: choose another name with -o") && kept(), "{error}");
     }
     // a part among those of a folder, and a part whose name is that of the PNG
-    let error = folder.fail(&["merge", "--as-part", "-o", "parts/pilot.exr", "parts"]);
+    let error = folder.fail(&["merge", "-o", "parts/pilot.exr", "parts"]);
     assert!(error.contains("parts/pilot.exr: this file is an input") && kept(), "{error}");
     fs::copy(&absolute, folder.path("a.png")).unwrap();
     assert!(folder.fail(&["merge", "-o", "a.exr", "a.png"]).contains("a.png: this file is an input"));
     assert!(fs::read(folder.path("a.png")).unwrap() == before);
-    // an image among its parts is no part of itself
+    // nor is an image that lies among its parts
     fs::remove_file(folder.path("a.png")).unwrap();
-    folder.succeed(&["render", "quads", "--size", "32x16", "--spp", "4", "--range", "0:4", "-o", "own/part.exr"]);
+    folder.succeed(&["render", "quads", "--size", "32x16", "--spp", "4", "--tile", "0,0,32,16", "-o", "own/part.exr"]);
     folder.succeed(&["merge", "-o", "own/image.exr", "own"]);
-    folder.succeed(&["merge", "-o", "own/image.exr", "own"]);
+    assert!(folder.fail(&["merge", "-o", "own/image.exr", "own"]).contains("own/image.exr: this file is an input"));
     // files of the scene
     let text = super::scene("Include \"more.exr\"");
     folder.write("scene.exr", text);

@@ -1,26 +1,24 @@
-//! What an image depends on, so that its parts can be recognised.
+//! What an image depends on: its parts are recognised by it, and images that may be averaged.
 
 use crate::area::Place;
 use crate::files::{FileError, failed, read_file};
-use crate::limits::{MOST_SAMPLES, MOST_SIDE, is_size};
-use crate::options::name;
-use crate::sampler::Sampler;
+use crate::limits::is_size;
 use crate::scene::Scene;
 use crate::sensor::{Exposure, Sensor};
 use crate::settings::Settings;
-use crate::technique::Technique;
-use clap::ValueEnum;
+use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 use xxhash_rust::xxh3::Xxh3;
 
-/// Everything that an image depends on. Equal frames have equal images, bit for bit.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Frame {
+/// Everything that an image depends on. Parts of equal identities make an image, and equal identities have equal images, bit for bit.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Identity {
     /// The scene's name, for messages.
     pub scene: String,
     /// Hash of the files of the scene, in hexadecimal digits; of its name if it is built in.
     pub digest: String,
-    /// The settings, with a sampler that is not left open.
+    /// The settings, with a sampler that is not left open. Of an image that is an average, these are the samples of all.
+    #[serde(flatten)]
     pub settings: Settings,
     /// What is measured.
     pub sensor: Sensor,
@@ -29,13 +27,28 @@ pub struct Frame {
     /// Whether the camera has a lens.
     pub lens: bool,
     /// The value of unit radiance at the middle of the image, in the unit of the sensor: the PNG is exposed by it.
+    #[serde(with = "exact")]
     pub exposure: f64,
-    /// The version, processor features and sources of the program.
-    pub build: String,
+    /// Seeds of other images, if this one is the average of theirs and its own.
+    pub averaged: Vec<u64>,
+    /// The version, processor features and sources of the program that made a part; `None` for images.
+    pub build: Option<String>,
 }
 
 /// The build of this program.
 pub const BUILD: &str = env!("ETENDUE_BUILD");
+
+/// Numbers as texts, which keep all of their bits.
+mod exact {
+    use serde::{Deserialize, Deserializer, Serializer, de::Error};
+
+    pub(super) fn serialize<S: Serializer>(x: &f64, to: S) -> Result<S::Ok, S::Error> {
+        to.serialize_str(&format!("{x:?}"))
+    }
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
+        String::deserialize(from)?.parse().map_err(D::Error::custom)
+    }
+}
 
 /// Hash of the files of a scene, in hexadecimal digits; of its name if it is built in.
 ///
@@ -52,8 +65,8 @@ pub fn digest(scene: &Scene) -> Result<String, FileError> {
     Ok(format!("{:032x}", hash.digest128()))
 }
 
-impl Frame {
-    /// The frame that this program renders.
+impl Identity {
+    /// The identity of the image that these settings give.
     ///
     /// # Errors
     /// Fails if a file of the scene cannot be read again.
@@ -68,96 +81,65 @@ impl Frame {
             place: scene.film.place,
             lens: scene.camera.lens.is_some(),
             exposure: exposure.map_or(1.0, |exposure| exposure.on_axis()),
-            build: BUILD.to_owned(),
+            averaged: Vec::new(),
+            build: None,
         })
     }
 
-    /// Samples in a set; 0 if each sample is independent.
-    pub fn span(&self) -> u32 {
-        if self.settings.sampler.has_sets() { self.settings.spp / self.sets() } else { 0 }
+    /// That of the parts that this program makes.
+    #[must_use]
+    pub fn of_parts(self) -> Self {
+        Self { build: Some(BUILD.to_owned()), ..self }
     }
+    /// That of the image which parts or samples make.
+    #[must_use]
+    pub fn of_image(self) -> Self {
+        Self { build: None, ..self }
+    }
+    /// What images must have in common to be averaged: all but their samples.
+    #[must_use]
+    pub fn of_average(&self) -> Self {
+        let settings = Settings { spp: 0, seed: 0, ..self.settings };
+        Self { settings, averaged: Vec::new(), ..self.clone().of_image() }
+    }
+
     /// Sets of samples of a pixel.
     pub fn sets(&self) -> u32 {
         self.settings.sampler.sets(self.settings.spp, self.settings.sets, self.lens)
     }
-
-    /// The frame as a JSON object.
-    pub fn to_json(&self) -> Value {
-        let Settings { width, height, spp, technique, depth, sampler, sets, seed } = self.settings;
-        json!({
-            "scene": self.scene,
-            "digest": self.digest,
-            "width": width,
-            "height": height,
-            "spp": spp,
-            "technique": name(technique),
-            "depth": depth,
-            "sampler": name(sampler),
-            "sets": sets,
-            "seed": seed,
-            "sensor": name(self.sensor),
-            "place": self.place.map(|Place { start: [x, y], whole: [across, down] }| [x, y, across, down]),
-            "lens": self.lens,
-            "exposure": format!("{:?}", self.exposure),
-            "build": self.build,
-        })
+    /// The seeds of its samples.
+    pub fn seeds(&self) -> impl Iterator<Item = u64> {
+        std::iter::once(self.settings.seed).chain(self.averaged.iter().copied())
+    }
+    /// Where the image is in the whole one, also if it is that.
+    pub fn window(&self) -> Place {
+        self.place.unwrap_or(Place { start: [0; 2], whole: [self.settings.width, self.settings.height] })
     }
 
-    /// Reads what [`to_json`](Self::to_json) wrote.
+    /// Reads an identity from a JSON object.
     ///
     /// # Errors
     /// Names the first value that is missing or not possible.
     pub fn from_json(value: &Value) -> Result<Self, String> {
-        let wrong = |key: &str| format!("{key:?} is missing or wrong: {}", value[key]);
-        let number = |key: &str| value[key].as_u64().ok_or_else(|| wrong(key));
-        let small =
-            |key: &str, most: u32| u32::try_from(number(key)?).ok().filter(|&n| n <= most).ok_or_else(|| wrong(key));
-        let text = |key: &str| value[key].as_str().map(str::to_owned).ok_or_else(|| wrong(key));
-        fn choice<T: ValueEnum>(text: &str, wrong: String) -> Result<T, String> {
-            T::from_str(text, false).map_err(|_| wrong)
-        }
-        let settings = Settings {
-            width: small("width", MOST_SIDE)?,
-            height: small("height", MOST_SIDE)?,
-            spp: small("spp", MOST_SAMPLES)?,
-            technique: choice::<Technique>(&text("technique")?, wrong("technique"))?,
-            depth: small("depth", u32::MAX)?,
-            sampler: choice::<Sampler>(&text("sampler")?, wrong("sampler"))?,
-            sets: small("sets", 4)?,
-            seed: number("seed")?,
-        };
-        let of_place = |numbers: &Vec<Value>| {
-            let numbers: Vec<u64> =
-                numbers.iter().map_while(Value::as_u64).filter(|n| *n <= MOST_SIDE.into()).collect();
-            let &[x, y, across, down] = &numbers[..] else { return Err(wrong("place")) };
-            let [right, lower] = [x + u64::from(settings.width), y + u64::from(settings.height)];
-            if !is_size(across, down) || right > across || lower > down {
-                return Err(wrong("place"));
-            }
-            Ok(Place { start: [x as u32, y as u32], whole: [across as u32, down as u32] })
-        };
-        let place = value["place"].as_array().map(of_place).transpose()?;
-        let frame = Self {
-            scene: text("scene")?,
-            digest: text("digest")?,
-            settings,
-            sensor: choice::<Sensor>(&text("sensor")?, wrong("sensor"))?,
-            place,
-            lens: value["lens"].as_bool().ok_or_else(|| wrong("lens"))?,
-            exposure: text("exposure")?.parse().ok().filter(|x| *x > 0.0).ok_or_else(|| wrong("exposure"))?,
-            build: text("build")?,
-        };
-        let Settings { width, height, spp, sets, sampler, .. } = settings;
-        if !is_size(width.into(), height.into()) || spp == 0 || sets == 3 {
+        let identity = Self::deserialize(value).map_err(|error| error.to_string())?;
+        let Settings { width, height, spp, sets, .. } = identity.settings;
+        if !is_size(width.into(), height.into()) || spp == 0 || ![0, 1, 2, 4].contains(&sets) {
             return Err(format!("no image has {width} × {height} pixels of {spp} samples in {sets} sets"));
         }
-        sampler.check(spp, sets, frame.lens)?;
-        Ok(frame)
+        let Place { start: [x, y], whole: [across, down] } = identity.window();
+        let fits = |start: u32, side: u32, whole: u32| start.checked_add(side).is_some_and(|end| end <= whole);
+        if !is_size(across.into(), down.into()) || !fits(x, width, across) || !fits(y, height, down) {
+            return Err(format!("no image of {across} × {down} pixels has {width} × {height} at {x}, {y}"));
+        }
+        if !(identity.exposure > 0.0 && identity.exposure.is_finite()) {
+            return Err(format!("the exposure cannot be {}", identity.exposure));
+        }
+        Ok(identity)
     }
 
-    /// How another frame differs, for a message; `None` if it does not.
+    /// How another identity differs, for a message; `None` if it does not.
     pub fn difference(&self, other: &Self) -> Option<String> {
-        let (own, other) = (self.to_json(), other.to_json());
+        let (own, other) = (json!(self), json!(other));
         // what says most comes first
         let first = ["scene", "digest", "build"].into_iter();
         let keys = first.chain(own.as_object()?.keys().map(String::as_str));
@@ -176,7 +158,7 @@ impl Frame {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene;
+    use crate::{Sampler, Technique, scene};
     use std::fs;
 
     /// A place is read as it was written, and must be within the whole image.
@@ -189,13 +171,14 @@ mod tests {
         let (width, height) = (scene.film.width, scene.film.height);
         let (technique, sampler) = (Technique::Area, Sampler::Sobol);
         let settings = Settings { width, height, spp: 4, technique, depth: 8, sampler, sets: 0, seed: 0 };
-        let frame = Frame::new(&scene, settings, Sensor::Radiance).unwrap();
-        assert_eq!(frame.place, Some(Place { start: [10, 5], whole: [64, 32] }));
-        let mut json = frame.to_json();
-        assert_eq!(Frame::from_json(&json).unwrap(), frame);
-        for wrong in [json!([10, 5, 64]), json!([55, 5, 64, 32]), json!([-1, 5, 64, 32]), json!([0, 0, u64::MAX, 32])] {
-            json["place"] = wrong;
-            assert!(Frame::from_json(&json).unwrap_err().contains("\"place\" is missing or wrong"));
+        let identity = Identity::new(&scene, settings, Sensor::Radiance).unwrap();
+        assert_eq!(identity.place, Some(Place { start: [10, 5], whole: [64, 32] }));
+        let mut json = json!(identity);
+        assert_eq!(Identity::from_json(&json).unwrap(), identity);
+        for (x, across) in [(10, 29), (55, 64), (u32::MAX, 64), (10, u32::MAX)] {
+            json["place"] = json!({ "start": [x, 5], "whole": [across, 32] });
+            let error = Identity::from_json(&json).unwrap_err();
+            assert!(error.contains(&format!("{across} × 32 pixels has 20 × 4 at {x}, 5")), "{error}");
         }
     }
 
