@@ -49,8 +49,8 @@ impl Film {
 pub trait Accumulator {
     /// What is known of a pixel in the end.
     type Output: Clone + Default + Send;
-    /// Begins successive samples of a set, with this one.
-    fn begin(&mut self, set: u32, first: u32);
+    /// Begins successive samples of the next set, with this one.
+    fn begin(&mut self, first: u32);
     /// Adds eight samples, of which the first has an index that is a multiple of eight, with the part of their radiance that the camera
     /// sees directly, and the lights to which they were allocated, if they were.
     fn push_packet(&mut self, radiance: V8, seen: V8, allocated: Option<&Allocated<'_, X8>>);
@@ -106,8 +106,8 @@ impl<V: Sample> Accumulator for PixelSum<V> {
     type Output = Pixel;
 
     #[inline]
-    fn begin(&mut self, set: u32, first: u32) {
-        self.0.begin(set, first);
+    fn begin(&mut self, first: u32) {
+        self.0.begin(first);
     }
     #[inline]
     fn push_packet(&mut self, radiance: V8, _: V8, _: Option<&Allocated<'_, X8>>) {
@@ -118,32 +118,10 @@ impl<V: Sample> Accumulator for PixelSum<V> {
         self.0.push(radiance);
     }
     fn finish(&mut self) -> Pixel {
-        let sums = self.0.sums();
-        let sets = sums.finish().iter().map(|(block, value)| (block.count, value.moments()));
-        let pixel = Pixel::of_sets(sets, V::INDEPENDENT);
-        sums.clear();
+        let sets = self.0.sets();
+        let pixel = Pixel::of_sets(sets.iter().map(|(count, value)| (*count, value.moments())), V::INDEPENDENT);
+        sets.clear();
         pixel
-    }
-}
-
-/// Accumulates the samples of a part of each pixel. The values are those of the largest blocks, in order.
-#[derive(Clone, Debug, Default)]
-pub struct BlockSum<V>(Adder<V>);
-
-impl<V: Sample> Accumulator for BlockSum<V> {
-    type Output = Vec<V>;
-
-    fn begin(&mut self, set: u32, first: u32) {
-        self.0.begin(set, first);
-    }
-    fn push_packet(&mut self, radiance: V8, _: V8, _: Option<&Allocated<'_, X8>>) {
-        self.0.push_octet(&channels(radiance));
-    }
-    fn push(&mut self, radiance: [f32; 3]) {
-        self.0.push(radiance);
-    }
-    fn finish(&mut self) -> Vec<V> {
-        std::mem::take(self.0.sums()).into_blocks().into_iter().map(|(_, value)| value).collect()
     }
 }
 

@@ -1,22 +1,17 @@
-//! Sums of samples that do not depend on how the samples are split.
+//! Sums of samples in a fixed order.
 //!
 //! Floating-point addition is not associative, so a sum depends on its order. Here the order is a binary tree over the indices of the
-//! samples of a set: a [`Block`] of 2ᵏ samples begins at a multiple of 2ᵏ, and its sum is that of its two halves. Whoever adds up the
-//! samples of any range keeps the sums of the largest blocks within it; whoever puts ranges together joins the halves of larger
-//! blocks. In the end the sums are the same, bit for bit, as if all samples had been added in one place.
+//! samples of a set: a [`Block`] of 2ᵏ samples begins at a multiple of 2ᵏ, and its sum is that of its two halves. What remains of a set
+//! whose number of samples is no power of two is added from the end.
 //!
 //! Within eight aligned samples, which the renderer takes at once, sums are rounded to f32; all others are f64.
-
-use std::ops::Range;
 
 /// Samples that the renderer takes at once: their sums are f32.
 const OCTET: u32 = 8;
 
 /// Successive samples of a set.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Block {
-    /// Index of the set in its pixel.
-    pub set: u32,
     /// Index of the first sample in its set.
     pub first: u32,
     /// Number of samples, greater than 0.
@@ -24,50 +19,18 @@ pub struct Block {
 }
 
 impl Block {
-    /// Whether the two blocks are the halves of a block of the tree.
-    fn completes(self, right: Self) -> bool {
-        let n = self.count;
-        n.is_power_of_two()
-            && right.count == n
-            && self.set == right.set
-            && self.first.is_multiple_of(2 * n)
-            && right.first == self.first + n
-    }
     /// Whether sums of both together are rounded to f32.
     fn is_within_octet(self, right: Self) -> bool {
         self.first / OCTET == (right.first + right.count - 1) / OCTET
     }
 }
 
-/// The largest blocks of the tree within a range of the samples of a pixel, in order. The samples are counted through all sets of `span`
-/// samples each; a span of 0 stands for a single set.
-pub fn blocks(range: Range<u32>, span: u32) -> impl Iterator<Item = Block> {
-    let mut next = range.start;
-    std::iter::from_fn(move || {
-        if next >= range.end {
-            return None;
-        }
-        let set = next.checked_div(span).unwrap_or(0);
-        let first = next - set * span;
-        let left = if span == 0 { range.end - next } else { (range.end - next).min(span - first) };
-        // the greatest power of two that divides the index and is not too long
-        let aligned = if first == 0 { u32::MAX } else { 1 << first.trailing_zeros() };
-        let count = 1 << left.min(aligned).ilog2();
-        next += count;
-        Some(Block { set, first, count })
-    })
-}
-
-/// What is known of a block, and can be computed from what is known of its halves.
-pub trait Join {
-    /// Adds what is known of the samples that follow. `left` and `right` are the two blocks.
-    fn join(&mut self, left: Block, other: Self, right: Block);
-}
-
 /// What is known of a block of samples of one pixel.
-pub trait Sample: Join + Copy + Default + PartialEq + Send {
+pub trait Sample: Copy + Default + Send {
     /// Whether the samples are independent, so that their squared deviations measure the error.
     const INDEPENDENT: bool;
+    /// Adds what is known of the samples that follow. `left` and `right` are the two blocks.
+    fn join(&mut self, left: Block, other: Self, right: Block);
     /// That of a single sample.
     fn one(x: [f32; 3]) -> Self;
     /// That of an aligned block of 1, 2, 4 or 8 samples.
@@ -76,7 +39,7 @@ pub trait Sample: Join + Copy + Default + PartialEq + Send {
             [sample] => return Self::one(*sample),
             _ => [&samples[..samples.len() / 2], &samples[samples.len() / 2..]],
         };
-        let block = |first, samples: &[[f32; 3]]| Block { set: 0, first, count: samples.len() as u32 };
+        let block = |first, samples: &[[f32; 3]]| Block { first, count: samples.len() as u32 };
         let mut few = Self::few(left);
         few.join(block(0, left), Self::few(right), block(left.len() as u32, right));
         few
@@ -109,6 +72,12 @@ fn pairs<const N: usize>(x: impl Fn(usize) -> f32) -> [f32; N] {
 impl Sample for Sum {
     const INDEPENDENT: bool = false;
 
+    #[inline]
+    fn join(&mut self, left: Block, other: Self, right: Block) {
+        for k in 0..3 {
+            self.0[k] = add(self.0[k], other.0[k], [left, right]);
+        }
+    }
     fn one(x: [f32; 3]) -> Self {
         Self(x.map(f64::from))
     }
@@ -140,6 +109,14 @@ impl Sample for Sum {
 impl Sample for Moments {
     const INDEPENDENT: bool = true;
 
+    #[inline]
+    fn join(&mut self, left: Block, other: Self, right: Block) {
+        let counts = [left, right].map(|block| f64::from(block.count));
+        for k in 0..3 {
+            self.squares[k] = self.squares[k] + other.squares[k] + between(self.sum[k], other.sum[k], counts);
+            self.sum[k] = add(self.sum[k], other.sum[k], [left, right]);
+        }
+    }
     fn one(x: [f32; 3]) -> Self {
         Self { sum: x.map(f64::from), squares: [0.0; 3] }
     }
@@ -177,134 +154,16 @@ fn add(left: f64, right: f64, blocks: [Block; 2]) -> f64 {
     if blocks[0].is_within_octet(blocks[1]) { f64::from(sum as f32) } else { sum }
 }
 
-impl Join for Sum {
-    #[inline]
-    fn join(&mut self, left: Block, other: Self, right: Block) {
-        for k in 0..3 {
-            self.0[k] = add(self.0[k], other.0[k], [left, right]);
-        }
-    }
-}
-
-impl Join for Moments {
-    #[inline]
-    fn join(&mut self, left: Block, other: Self, right: Block) {
-        let counts = [left, right].map(|block| f64::from(block.count));
-        for k in 0..3 {
-            self.squares[k] = self.squares[k] + other.squares[k] + between(self.sum[k], other.sum[k], counts);
-            self.sum[k] = add(self.sum[k], other.sum[k], [left, right]);
-        }
-    }
-}
-
-/// Sums of a block of samples of each of many pixels.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Planes {
-    /// Σx of each pixel.
-    pub sums: Vec<[f64; 3]>,
-    /// Σ(x − mean)² of each pixel; empty unless samples are independent.
-    pub squares: Vec<[f64; 3]>,
-}
-
-impl Join for Planes {
-    fn join(&mut self, left: Block, other: Self, right: Block) {
-        if self.squares.is_empty() {
-            for (sum, other) in self.sums.iter_mut().zip(other.sums) {
-                let mut own = Sum(*sum);
-                own.join(left, Sum(other), right);
-                *sum = own.0;
-            }
-            return;
-        }
-        let others = other.sums.into_iter().zip(other.squares).map(|(sum, squares)| Moments { sum, squares });
-        for ((sum, squares), other) in self.sums.iter_mut().zip(&mut self.squares).zip(others) {
-            let mut own = Moments { sum: *sum, squares: *squares };
-            own.join(left, other, right);
-            (*sum, *squares) = (own.sum, own.squares);
-        }
-    }
-}
-
-/// What is known of the samples of a pixel, or of many pixels alike: the largest blocks of the tree, in order.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Sums<V> {
-    blocks: Vec<(Block, V)>,
-}
-
-impl<V> Default for Sums<V> {
-    fn default() -> Self {
-        Self { blocks: Vec::new() }
-    }
-}
-
-impl<V: Join> Sums<V> {
-    /// Adds a block of the tree that has no sample in common with the others.
-    #[inline]
-    pub fn insert(&mut self, block: Block, value: V) {
-        let mut at = self.blocks.len();
-        // samples mostly arrive in order
-        if self.blocks.last().is_some_and(|(last, _)| *last > block) {
-            at = self.blocks.partition_point(|(other, _)| *other < block);
-        }
-        self.blocks.insert(at, (block, value));
-        loop {
-            let pair = |at: usize| Some((self.blocks.get(at)?.0, self.blocks.get(at + 1)?.0));
-            if at > 0 && pair(at - 1).is_some_and(|(left, right)| left.completes(right)) {
-                at -= 1;
-            } else if pair(at).is_none_or(|(left, right)| !left.completes(right)) {
-                return;
-            }
-            self.join(at);
-        }
-    }
-    /// Joins a block and the one after it.
-    #[inline]
-    fn join(&mut self, at: usize) {
-        let (right, other) = self.blocks.remove(at + 1);
-        let (left, value) = &mut self.blocks[at];
-        value.join(*left, other, right);
-        left.count += right.count;
-    }
-    /// The blocks and what is known of them, in order.
-    pub fn blocks(&self) -> &[(Block, V)] {
-        &self.blocks
-    }
-    /// The same, as a list.
-    pub fn into_blocks(self) -> Vec<(Block, V)> {
-        self.blocks
-    }
-    /// Number of samples.
-    pub fn count(&self) -> u32 {
-        self.blocks.iter().map(|(block, _)| block.count).sum()
-    }
-    /// Joins all blocks of each set, the last two first, as the tree of a set does whose number of samples is no power of two. The count of
-    /// a block in the result is the number of samples that are there, even if others between them are missing.
-    pub fn finish(&mut self) -> &[(Block, V)] {
-        let mut at = self.blocks.len();
-        while at > 1 {
-            at -= 1;
-            if self.blocks[at - 1].0.set == self.blocks[at].0.set {
-                self.join(at - 1);
-            }
-        }
-        &self.blocks
-    }
-    /// Forgets all blocks.
-    pub fn clear(&mut self) {
-        self.blocks.clear();
-    }
-}
-
-/// Adds up samples of a pixel that arrive in order, range after range.
+/// Adds up the samples of a pixel, set after set, each in order.
 #[derive(Clone, Debug)]
 pub struct Adder<V> {
-    sums: Sums<V>,
-    /// The range so far: its set, its first sample, and the sample after its last that is in `stack`.
-    set: u32,
+    /// The number of samples of each set so far, and their sum.
+    sets: Vec<(u32, V)>,
+    /// The first sample of the set that is being added up, and the one after its last that is in `stack`.
     start: u32,
     next: u32,
-    /// What is known of `blocks(start..next, 0)`.
-    stack: Vec<V>,
+    /// What is known of the largest blocks of the tree within `start..next`, in order.
+    stack: Vec<(Block, V)>,
     /// Samples since the last multiple of eight.
     waiting: [[f32; 3]; OCTET as usize],
     /// Their number.
@@ -313,17 +172,16 @@ pub struct Adder<V> {
 
 impl<V> Default for Adder<V> {
     fn default() -> Self {
-        let waiting = Default::default();
-        Self { sums: Sums::default(), set: 0, start: 0, next: 0, stack: Vec::new(), waiting, waits: 0 }
+        Self { sets: Vec::new(), start: 0, next: 0, stack: Vec::new(), waiting: Default::default(), waits: 0 }
     }
 }
 
 impl<V: Sample> Adder<V> {
-    /// Begins a range: the next sample that is pushed is sample `first` of this set.
+    /// Begins a set: the next sample that is pushed is its sample `first`.
     #[inline]
-    pub fn begin(&mut self, set: u32, first: u32) {
+    pub fn begin(&mut self, first: u32) {
         self.end();
-        (self.set, self.start, self.next) = (set, first, first);
+        (self.start, self.next) = (first, first);
     }
     /// Adds one sample.
     #[inline]
@@ -343,17 +201,18 @@ impl<V: Sample> Adder<V> {
     /// Adds a block of 1 or 8 samples.
     #[inline]
     fn add(&mut self, count: u32, mut value: V) {
+        let mut block = Block { first: self.next, count };
         self.next += count;
-        let mut n = count;
-        // as long as the block is the right half of one that begins within the range
-        while self.next.is_multiple_of(2 * n) && self.next - self.start >= 2 * n {
-            let [left, right] = [2 * n, n].map(|back| Block { set: self.set, first: self.next - back, count: n });
-            let mut sum = self.stack.pop().unwrap_or_default();
-            sum.join(left, value, right);
+        // as long as the block is the right half of one that begins within the set
+        while self.next.is_multiple_of(2 * block.count)
+            && self.next - self.start >= 2 * block.count
+            && let Some((left, mut sum)) = self.stack.pop()
+        {
+            sum.join(left, value, block);
             value = sum;
-            n *= 2;
+            block = Block { first: left.first, count: 2 * block.count };
         }
-        self.stack.push(value);
+        self.stack.push((block, value));
     }
     fn flush(&mut self) {
         if self.next.is_multiple_of(OCTET) {
@@ -366,8 +225,8 @@ impl<V: Sample> Adder<V> {
                     if count == OCTET {
                         self.add(OCTET, value);
                     } else {
+                        self.stack.push((Block { first: self.next, count }, value));
                         self.next += count;
-                        self.stack.push(value);
                     }
                 }
             }
@@ -378,25 +237,90 @@ impl<V: Sample> Adder<V> {
         }
         self.waits = 0;
     }
-    /// Ends the range.
+    /// Ends the set: joins its blocks, the last two first.
     #[inline]
     fn end(&mut self) {
         self.flush();
-        if let [value] = self.stack[..] {
-            // by far the most frequent case
-            self.sums.insert(Block { set: self.set, first: self.start, count: self.next - self.start }, value);
-            self.stack.clear();
-            return;
+        let Some((mut last, mut value)) = self.stack.pop() else { return };
+        while let Some((block, mut sum)) = self.stack.pop() {
+            sum.join(block, value, last);
+            value = sum;
+            last = Block { first: block.first, count: block.count + last.count };
         }
-        let blocks = blocks(self.start..self.next, 0);
-        for (block, value) in blocks.zip(self.stack.drain(..)) {
-            self.sums.insert(Block { set: self.set, ..block }, value);
-        }
+        self.sets.push((last.count, value));
     }
-    /// The sums of all ranges, which are to be taken or cleared before the next pixel.
+    /// The number of samples and the sum of each set, which are to be cleared before the next pixel.
     #[inline]
-    pub fn sums(&mut self) -> &mut Sums<V> {
+    pub fn sets(&mut self) -> &mut Vec<(u32, V)> {
         self.end();
-        &mut self.sums
+        &mut self.sets
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The sum of a block of the tree.
+    fn sum_of<V: Sample>(samples: &[[f32; 3]], Block { first, count }: Block) -> V {
+        if count == 1 {
+            return V::one(samples[first as usize]);
+        }
+        let [left, right] = [first, first + count / 2].map(|first| Block { first, count: count / 2 });
+        let mut sum: V = sum_of(samples, left);
+        sum.join(left, sum_of(samples, right), right);
+        sum
+    }
+
+    /// The sum of samples `first` to `end` of a set: of the largest blocks, added from the end.
+    fn tree<V: Sample>(samples: &[[f32; 3]], first: u32, end: u32) -> V {
+        let aligned = if first == 0 { u32::MAX } else { 1 << first.trailing_zeros() };
+        let block = Block { first, count: 1 << (end - first).min(aligned).ilog2() };
+        let mut sum: V = sum_of(samples, block);
+        let next = first + block.count;
+        if next < end {
+            sum.join(block, tree(samples, next, end), Block { first: next, count: end - next });
+        }
+        sum
+    }
+
+    /// However samples arrive, singly or by eight, their sums are those of the tree, and as exact as sums of f32 in octets can be.
+    #[test]
+    fn sums_are_those_of_a_tree() {
+        let samples: Vec<[f32; 3]> = (0..4097_u32)
+            .map(|i| [1, 2, 3].map(|k| ((i * k * 7919 + 13 * k) % 1009) as f32 * ((i % 23) as f32 - 12.0).exp2()))
+            .collect();
+        for (first, end) in
+            [(0, 1), (0, 2), (0, 3), (0, 7), (0, 8), (3, 9), (0, 31), (8, 64), (16, 100), (5, 1000), (0, 4097)]
+        {
+            let (mut sums, mut moments) = (Adder::<Sum>::default(), Adder::<Moments>::default());
+            sums.begin(first);
+            moments.begin(first);
+            let mut i = first;
+            while i < end {
+                if i % 16 == 8 && i + 8 <= end {
+                    let octet = [0, 1, 2].map(|k| std::array::from_fn(|lane| samples[i as usize + lane][k]));
+                    sums.push_octet(&octet);
+                    moments.push_octet(&octet);
+                    i += 8;
+                } else {
+                    sums.push(samples[i as usize]);
+                    moments.push(samples[i as usize]);
+                    i += 1;
+                }
+            }
+            let n = end - first;
+            let expected: Moments = tree(&samples, first, end);
+            assert_eq!(*sums.sets(), [(n, tree(&samples, first, end))]);
+            assert_eq!(*moments.sets(), [(n, expected)]);
+            for k in 0..3 {
+                let values = || samples[first as usize..end as usize].iter().map(|x| f64::from(x[k]));
+                let (sum, mean) = (values().sum::<f64>(), values().sum::<f64>() / f64::from(n));
+                let squares = values().map(|x| (x - mean).powi(2)).sum::<f64>();
+                // three roundings to f32 of positive numbers
+                assert!((expected.sum[k] - sum).abs() <= 3.0 * sum * 2.0_f64.powi(-24), "{n}: {expected:?} {sum}");
+                assert!((expected.squares[k] - squares).abs() <= 1e-6 * (squares + mean * mean), "{n}: {squares}");
+            }
+        }
     }
 }

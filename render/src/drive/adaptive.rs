@@ -300,8 +300,8 @@ impl StatisticsSum {
 impl Accumulator for StatisticsSum {
     type Output = Statistics;
 
-    fn begin(&mut self, set: u32, first: u32) {
-        self.adder.begin(set, first);
+    fn begin(&mut self, first: u32) {
+        self.adder.begin(first);
     }
     fn push_packet(&mut self, radiance: V8, seen: V8, allocated: Option<&Allocated<'_, X8>>) {
         self.adder.push_octet(&channels(radiance));
@@ -340,12 +340,11 @@ impl Accumulator for StatisticsSum {
     }
     fn finish(&mut self) -> Statistics {
         let mut part = self.part;
-        let all = self.adder.sums();
-        let sets = all.finish();
-        for (sum, (block, Sum(set))) in part.sums.iter_mut().zip(sets) {
-            (*sum, part.packets) = (*set, block.count / 8);
+        let all = self.adder.sets();
+        for (sum, (count, Sum(set))) in part.sums.iter_mut().zip(&*all) {
+            (*sum, part.packets) = (*set, count / 8);
         }
-        let sets = sets.len().max(1) as u32;
+        let sets = all.len().max(1) as u32;
         all.clear();
         part.variance = self.halves.iter().map(|b| b.variance()).sum();
         if self.lights > APART && part.packets > 0 {

@@ -22,9 +22,9 @@ pub(super) struct Run {
     /// The next sample, and the end, counted within the set.
     pub(super) next: u32,
     pub(super) end: u32,
-    /// The samples that are kept, counted likewise.
-    pub(super) kept: [u32; 2],
-    /// Whether no other set of the pixel has samples that are kept.
+    /// Whether no sample of the set has been taken.
+    pub(super) is_new: bool,
+    /// Whether no set of the pixel follows.
     pub(super) last_set: bool,
 }
 
@@ -34,15 +34,6 @@ pub(super) struct TilePiece {
     pub(super) lanes: Range<usize>,
     /// The run from the first of these lanes on.
     pub(super) run: Run,
-}
-
-impl TilePiece {
-    /// The lanes that are kept.
-    pub(super) fn kept(&self) -> Range<usize> {
-        let Run { next, kept, .. } = self.run;
-        let lane = |sample: u32| (self.lanes.start + sample.saturating_sub(next) as usize).min(self.lanes.end);
-        lane(kept[0])..lane(kept[1])
-    }
 }
 
 /// The next eight samples of successive runs.
@@ -59,7 +50,7 @@ pub(super) fn next_packet(
     if first.end - first.next >= 8 {
         let next = first.next + 8;
         pieces.push(TilePiece { packet, lanes: 0..8, run: first });
-        *run = if next == first.end { runs.next() } else { Some(Run { next, ..first }) };
+        *run = if next == first.end { runs.next() } else { Some(Run { next, is_new: false, ..first }) };
         let [x, y] = first.pixel.map(u32x8::splat);
         let sample = u32x8::splat(first.set * span + first.next) + lanes;
         return Packet { x, y, sample, replicate: u32x8::splat(first.set), active: M8::splat(true) };
@@ -79,7 +70,7 @@ pub(super) fn next_packet(
         filled += taken;
         let next = current.next + taken;
         pieces.push(TilePiece { packet, lanes: range, run: current });
-        *run = if next == current.end { runs.next() } else { Some(Run { next, ..current }) };
+        *run = if next == current.end { runs.next() } else { Some(Run { next, is_new: false, ..current }) };
     }
     // the last packet of a tile repeats its last sample
     for lane in filled as usize..8 {

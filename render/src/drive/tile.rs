@@ -62,15 +62,14 @@ impl<'a> TileRenderer<'a> {
         std::mem::take(&mut self.paths.tracer.count)
     }
 
-    /// Renders a range of the samples of the pixels of an area [x0, y0, x1, y1), row by row.
-    pub(super) fn range<A: Accumulator>(&mut self, area: Area, range: Range<u32>, sum: A) -> Vec<A::Output> {
+    /// Renders all samples of the pixels of a tile [x0, y0, x1, y1), row by row.
+    pub(super) fn all<A: Accumulator>(&mut self, area: Area, sum: A) -> Vec<A::Output> {
         let Settings { spp, .. } = *self.settings;
         let span = if self.source.span() == 0 { spp } else { self.source.span() };
         let whole = span.is_multiple_of(8);
         self.begin(area);
         let weights = if whole { self.weights(area, span) } else { None };
-        let of_set = |_, set: u32| [range.start, range.end].map(|at| at.saturating_sub(set * span).min(span));
-        self.samples(area, whole, [span; 2], spp / span, weights.as_ref(), sum, of_set)
+        self.samples(area, [span; 2], spp / span, weights.as_ref(), sum, |_, _| [0, span])
     }
 
     /// Renders packets `from` to `to` of each of the `sets` of pixels of a tile, row by row; `range` returns them for a pixel. Samples are
@@ -89,7 +88,7 @@ impl<'a> TileRenderer<'a> {
         let allocated = if self.allocates(8 * pilot) { self.scene.lights.few().unwrap_or(0) } else { 0 };
         let sum = StatisticsSum::new(weights.map_or(allocated, |weights| weights.lights));
         let range = |pixel, set| if sets.contains(&set) { range(pixel).map(|packet| 8 * packet) } else { [0; 2] };
-        self.samples(area, true, [0, 8 * pilot], sets.end, weights, sum, range)
+        self.samples(area, [0, 8 * pilot], sets.end, weights, sum, range)
     }
 
     /// Prepares for the pixels of a tile: counts positions near it, and looks at an 8 × 8 grid of places in it, to decide where certificates are
@@ -150,16 +149,11 @@ impl<'a> TileRenderer<'a> {
     }
 
     /// Renders a range of the samples of each set of the pixels of an area, row by row. Samples are allocated to the lights by `weights`,
-    /// if given, in blocks of which the first has `block` samples. If the sets of `span` samples consist of `whole` packets, no packet has
+    /// if given, in blocks of which the first has `block` samples. If the sets of `span` samples consist of whole packets, no packet has
     /// samples of two.
-    ///
-    /// Samples of a packet can depend on each other in the technique `analytic`, so the packets are always
-    /// those of an image of all samples: what is not in the range is left out after it has been rendered.
-    #[expect(clippy::too_many_arguments, reason = "each is a part of what is to be sampled")]
     fn samples<A: Accumulator>(
         &mut self,
         area: Area,
-        whole: bool,
         [span, block]: [u32; 2],
         sets: u32,
         weights: Option<&Weights<'_>>,
@@ -173,11 +167,10 @@ impl<'a> TileRenderer<'a> {
             let some = move |&set: &u32| range(pixel, set)[0] < range(pixel, set)[1];
             let last = (0..sets).rfind(some);
             let run = move |set: u32| {
-                let kept = range(pixel, set);
-                let [next, end] = if whole { [kept[0] / 8 * 8, kept[1].next_multiple_of(8)] } else { [0, span] };
-                Run { pixel, set, next, end, kept, last_set: last == Some(set) }
+                let [next, end] = range(pixel, set);
+                Run { pixel, set, next, end, is_new: true, last_set: last == Some(set) }
             };
-            (0..sets).filter(move |set| !whole || some(set)).map(run)
+            (0..sets).filter(some).map(run)
         });
         let mut run = runs.next();
         let mut outputs = vec![A::Output::default(); pixels.len()];
@@ -192,44 +185,30 @@ impl<'a> TileRenderer<'a> {
             while packets.len() < GROUP
                 && let Some(first) = run
             {
-                let known = pieces.len();
                 let packet = next_packet(&mut run, &mut runs, span, packets.len(), &mut pieces);
-                if pieces[known..].iter().all(|piece: &TilePiece| piece.kept().is_empty()) {
-                    pieces.truncate(known);
-                    continue;
-                }
                 if let Some(weights) = weights {
                     expected[packets.len()] = weights.expected(first.pixel);
                     places.push(blocks.find(weights, first.pixel, first.next));
                 }
                 packets.push(packet);
             }
-            if packets.is_empty() {
-                break;
-            }
             let at = |&(block, sample): &(usize, u32)| blocks.allocations()[block].samples(sample);
             let all = |first: &(usize, u32)| std::array::from_fn(|p| at(places.get(p).unwrap_or(first)));
             let allocated: Option<[Allocated<'_, X8>; GROUP]> = places.first().map(all);
             let allocated = allocated.as_ref().map_or(&[][..], |all| &all[..places.len()]);
             let radiance = self.radiance(&packets, allocated, &expected);
-            for piece in pieces.drain(..) {
-                let kept = piece.kept();
-                let TilePiece { packet, lanes, run } = piece;
-                if kept.is_empty() {
-                    continue;
+            for TilePiece { packet, lanes, run } in pieces.drain(..) {
+                let (radiance, count) = (radiance[packet], lanes.len() as u32);
+                if run.is_new {
+                    sum.begin(run.next);
                 }
-                let radiance = radiance[packet];
-                let first = run.next + (kept.start - lanes.start) as u32;
-                if first == run.kept[0] {
-                    sum.begin(run.set, first);
-                }
-                if whole && kept.len() == 8 {
+                if count == 8 && run.next.is_multiple_of(8) {
                     sum.push_packet(radiance.total(), radiance.seen + radiance.known, allocated.get(packet));
                 } else {
                     let total = radiance.total();
-                    kept.clone().for_each(|lane| sum.push(total.lane(lane).into()));
+                    lanes.for_each(|lane| sum.push(total.lane(lane).into()));
                 }
-                if run.last_set && first + kept.len() as u32 == run.kept[1] {
+                if run.last_set && run.next + count == run.end {
                     let [x, y] = run.pixel;
                     outputs[((y - y0) * (x1 - x0) + (x - x0)) as usize] = sum.finish();
                 }

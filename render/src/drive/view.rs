@@ -219,7 +219,7 @@ impl View<'_> {
     /// The same number of samples for each pixel.
     fn pixels<V: Sample>(&self, area: Area, progress: &(dyn Fn(u64) + Sync)) -> (Vec<Pixel>, RayCount) {
         self.tiles(area, &|renderer, area| {
-            let pixels = renderer.range(area, 0..self.settings.spp, PixelSum::<V>::default());
+            let pixels = renderer.all(area, PixelSum::<V>::default());
             progress(pixels.len() as u64);
             pixels
         })

@@ -150,7 +150,7 @@ fn variances_are_of_means_of_four() {
     let mut sum = StatisticsSum::new(0);
     let mut means: [Vec<f64>; 3] = Default::default();
     for set in 0..2 {
-        sum.begin(set, 0);
+        sum.begin(0);
         for n in 0..2 {
             let sample = |k: usize| [k as f32, (k * k) as f32, (set * 2 + n) as f32 * 3.0 + k as f32 % 2.0];
             sum.push_packet(packet(sample), packet(|_| [100.0; 3]), None);
@@ -171,7 +171,7 @@ fn variances_are_of_means_of_four() {
     assert_eq!((found.packets, found.lights), (2, 0));
     assert_eq!(found.sums[1], [56.0, 280.0, 8.0 * (6.0 + 9.0) + 8.0]);
     // and the next pixel begins anew
-    sum.begin(0, 0);
+    sum.begin(0);
     sum.push_packet(packet(|_| [1.0; 3]), packet(|_| [0.0; 3]), None);
     assert_eq!(sum.finish().variance, 0.0);
 }
@@ -196,8 +196,8 @@ fn spreads_are_of_pairs_of_one_light() {
     }
     assert!(expected.iter().any(|own| own[1] > 0.0) && counts.iter().all(|&n| n > 0), "{light:?}");
     let mut sum = StatisticsSum::new(2);
-    for set in 0..2 {
-        sum.begin(set, 0);
+    for _ in 0..2 {
+        sum.begin(0);
         sum.push_packet(packet(both), packet(seen), Some(&allocated));
     }
     let found = sum.finish();
@@ -210,8 +210,8 @@ fn spreads_are_of_pairs_of_one_light() {
     assert!((found.variance - 4.0 / 3.0).abs() < 1e-14, "{}", found.variance);
     // among more lights than are kept apart: the mean square of four pairs of each set, in the unit of the variance, and this
     let mut sum = StatisticsSum::new(APART + 1);
-    for set in 0..2 {
-        sum.begin(set, 0);
+    for _ in 0..2 {
+        sum.begin(0);
         sum.push_packet(packet(both), packet(seen), Some(&allocated));
     }
     let squares: f64 = [0, 2, 4, 6]
