@@ -68,7 +68,7 @@ fn main() {
     let most = std::env::args().skip(1).find_map(|a| a.parse().ok()).unwrap_or(10_000_u32);
     let scene = scene::load("quads").expect("a built-in scene");
     let world = World::new(&scene).expect("few primitives");
-    let identity = |settings: Settings| Identity::new(&scene, settings, Sensor::Radiance).expect("a built-in scene");
+    let identity = |settings: Settings| Identity::new(&scene, settings, Sensor::Radiance);
     println!("| parts | image, M pixels | kB each | written in s | merged in s | image written in s | peak, MB |");
     println!("|---|---|---|---|---|---|---|");
     let pixels = world.render(&settings(SIDE, SAMPLES), &|_| ()).0.pixels;

@@ -91,6 +91,7 @@ mod generated;
 mod gltf;
 mod ies;
 mod includes;
+mod inputs;
 mod lamps;
 mod lexer;
 mod lights;
@@ -119,12 +120,13 @@ mod transform_directives;
 mod vertices;
 mod view;
 
-use crate::files::read_unpacked;
+use crate::files::{read_file, read_unpacked};
 pub use crate::geometry::{Affine, Geometry, Instance};
 use crate::image;
 use builtin::{BUILTIN, DESCRIBED, MANY_LIGHTS};
 pub use description::{CameraSettings, Corners, Details, FilmSettings, Lens, Scene, Screen, Shape};
 pub use environment::{Environment, SkyRadiance, SunDisk};
+pub use inputs::Input;
 pub use lights::{Cone, DeltaLight, Emission};
 pub use materials::{Material, Roughness, Varying};
 pub use message::Message;
@@ -208,7 +210,8 @@ pub fn load_with_sky(name_or_path: impl AsRef<Path>, sky: impl AsRef<Path>) -> R
     let path = sky.as_ref();
     let shown = path.display().to_string();
     let message = |text: String| Message { file: shown.clone(), line: 0, text };
-    let image = image::read(path).map_err(|error| message(error.what().to_owned()))?;
+    let bytes = read_file(path).map_err(|error| message(format!("cannot read: {error}")))?;
+    let image = image::decode(path, &bytes).map_err(|error| message(error.what().to_owned()))?;
     let (sky, warning) = lights::sky_of(&image, "the sky", [1.0; 3]).map_err(message)?;
     scene.warnings.extend(warning.map(message));
     if sky.is_some() {
@@ -221,7 +224,7 @@ pub fn load_with_sky(name_or_path: impl AsRef<Path>, sky: impl AsRef<Path>) -> R
         false => [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
     };
     scene.environment = sky.map(|sky| Environment { to_light, sky, portals: Vec::new(), sun: None });
-    scene.inputs.push(path.to_owned());
+    inputs::note(&mut scene.inputs, path, &bytes);
     Ok(scene)
 }
 
@@ -241,7 +244,7 @@ fn load_any(path: &Path) -> Result<(Scene, bool), SceneError> {
     } else {
         reader::read(utf8(&bytes, &Arc::from(&*shown))?, &shown, folder, Origin::File(path))?
     };
-    scene.inputs.push(path.to_owned());
+    inputs::note(&mut scene.inputs, path, &bytes);
     Ok((scene, is_gltf))
 }
 

@@ -3,7 +3,7 @@
 use crate::interrupt::Interrupt;
 use etendue_render::claim::Claim;
 use etendue_render::film::Film;
-use etendue_render::scene::Scene;
+use etendue_render::scene::{Input, Scene};
 use etendue_render::{Identity, files, image, parts};
 use std::ffi::OsStr;
 use std::io;
@@ -44,7 +44,7 @@ impl Output {
     ///
     /// # Errors
     /// Fails if the name does not end in `.exr`, if a file cannot be written, or if it is among `inputs`.
-    pub(crate) fn of(exr: PathBuf, inputs: &[PathBuf]) -> Result<Self, String> {
+    pub(crate) fn of(exr: PathBuf, inputs: &[Input]) -> Result<Self, String> {
         let png = exr.with_extension("png");
         // what a device is matters more than how its name ends
         files::check_replaceable(&exr).map_err(|error| error.to_string())?;
@@ -56,7 +56,7 @@ impl Output {
         }
         files::check_replaceable(&png).map_err(|error| error.to_string())?;
         for file in [&exr, &png] {
-            if inputs.iter().any(|input| files::is_same(input, file)) {
+            if inputs.iter().any(|input| files::is_same(&input.path, file)) {
                 let what =
                     if *file == exr { "the image".to_owned() } else { format!("the PNG beside {}", exr.display()) };
                 let shown = file.display();

@@ -129,14 +129,14 @@ pub(crate) fn run(
     interrupt: &Interrupt,
 ) -> Result<(), Box<dyn Error>> {
     let start = Instant::now();
-    let identity = Identity::new(&scene, settings, options.sensor)?.of_parts();
+    let identity = Identity::new(&scene, settings, options.sensor).of_parts();
     let PartContent { area, what } = part;
     let name = || named(options.stem(), &format!("-{}", file_name(*area)));
     let path = output.map_or_else(name, Path::to_owned);
     if !path.extension().is_some_and(|e| e.eq_ignore_ascii_case("exr")) {
         return Err(format!("--output {}: the name must end in .exr", path.display()).into());
     }
-    if scene.inputs.iter().any(|input| files::is_same(input, &path)) {
+    if scene.inputs.iter().any(|input| files::is_same(&input.path, &path)) {
         return Err(format!("{}: the scene has been read from this file", path.display()).into());
     }
     if let What::After(pilot) = what

@@ -99,7 +99,7 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
         return part::run(image, &content, options.output.as_deref(), scene, settings, options.json, &interrupt);
     }
     let output = Output::new(options.output.as_deref(), &scene, image.stem())?;
-    let identity = Identity::new(&scene, settings, image.sensor)?;
+    let identity = Identity::new(&scene, settings, image.sensor);
 
     let pool = pool(image.threads)?;
     let start = Instant::now();

@@ -20,7 +20,7 @@ use clap::{Args, ValueEnum};
 use etendue_render::files;
 use etendue_render::limits::MOST_SAMPLES;
 use etendue_render::options::{name, out, size, threads, whole};
-use etendue_render::{Sampler, Settings, Technique, World, identity, scene};
+use etendue_render::{Sampler, Settings, Technique, World, scene};
 use indicatif::{ProgressBar, ProgressStyle};
 use measure::{ChartedScene, Key, Plan, Table, inapplicable};
 pub use outcome::Outcome;
@@ -181,7 +181,7 @@ fn prepare(options: &Options, path: &OsStr, circumstances: &str) -> Result<Prepa
     };
     let mut bytes = Vec::new();
     // what a built-in scene computes is in no file: its settings as text, its mesh as bytes
-    let files = identity::digest(&scene)?;
+    let files = scene.digest();
     write!(bytes, "{files}{:?}{:?}{:?}{circumstances}{}", scene.camera, scene.materials, scene.shapes, options.seed)?;
     bytes.extend(scene.triangles.iter().flatten().flatten().flat_map(|x| x.to_le_bytes()));
     bytes.extend(scene.triangle_materials.iter().flat_map(|x| x.to_le_bytes()));

@@ -1,6 +1,7 @@
 //! Reads `AreaLightSource`.
 
-use super::lights::{Emission, Files, power, radiances, scale};
+use super::inputs::Files;
+use super::lights::{Emission, power, radiances, scale};
 use super::message::{Message, Notes};
 use super::params::{MOST_RADIANCE, Params, brightness, rounded, shown};
 use super::profiles::{self, Aim, Profile};
@@ -60,7 +61,7 @@ pub(super) fn read(
         None => None,
     };
     // pbrt-v4 refuses a radiance beside a picture
-    let radiance = params.light("L", files.resolve)?.unwrap_or([1.0; 3]);
+    let radiance = params.light("L", files)?.unwrap_or([1.0; 3]);
     let power = power(params)?;
     let scale = scale(params)?;
     let scaled = std::array::from_fn(|k| radiance[k] * scale[k]);
@@ -137,7 +138,7 @@ fn shown_texels(
     if let Some(texels) = known.get(&key) {
         return Ok(Arc::clone(texels));
     }
-    let image = (files.open)(name).map_err(|error| params.error(error.to_string()))?;
+    let image = files.image(name).map_err(|error| params.error(error.to_string()))?;
     let (colors, warning) = radiances(&image, name, [1.0; 3]).map_err(|what| params.error(what))?;
     warning.into_iter().for_each(|what| notes.warn(params.error(what)));
     let Picture { width, height, .. } = image;

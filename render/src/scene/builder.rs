@@ -2,6 +2,7 @@
 
 use super::description::{CameraSettings, Corners, Details, FilmSettings, Scene, Shape};
 use super::environment::Environment;
+use super::inputs::Input;
 use super::lamps::Lamps;
 use super::lights::{DeltaLight, Emission};
 use super::materials::{Material, Varying};
@@ -15,7 +16,7 @@ use crate::light_picture::affine;
 use crate::texture::{Mapping, Mask, Texture};
 use std::collections::{BTreeMap, HashMap};
 use std::ops::Range;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 
 /// The least cosine between the normals of a mesh and those of its triangles for which these count as flat.
@@ -50,7 +51,7 @@ pub(super) struct Rest {
     pub(super) delta_lights: Vec<DeltaLight>,
     pub(super) intensities: Vec<Arc<Intensity>>,
     pub(super) environment: Option<Environment>,
-    pub(super) inputs: Vec<PathBuf>,
+    pub(super) inputs: Vec<Input>,
 }
 
 /// Triangles that can be added several times.

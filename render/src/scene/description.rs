@@ -1,6 +1,7 @@
 //! What a scene file describes.
 
 use super::environment::Environment;
+use super::inputs::Input;
 use super::lights::{DeltaLight, Emission};
 use super::materials::{Material, Varying};
 use super::message::Message;
@@ -11,8 +12,8 @@ use crate::light_picture::LightPicture;
 use crate::light_profile::LightProfile;
 use crate::texture::Mask;
 use std::ops::Range;
-use std::path::PathBuf;
 use std::sync::Arc;
+use xxhash_rust::xxh3::Xxh3;
 
 /// The contents of a scene file, in world space.
 #[derive(Clone, Debug)]
@@ -58,7 +59,18 @@ pub struct Scene {
     /// Those of the warnings that say that something stands for something else, which direct light on opaque surfaces cannot show.
     pub stand_ins: Vec<Message>,
     /// The files that were read: the scene file itself if [`load`](super::load) read it, included files, meshes and images.
-    pub inputs: Vec<PathBuf>,
+    pub inputs: Vec<Input>,
+}
+
+impl Scene {
+    /// Hash of the files of the scene as they were read, in hexadecimal digits; of its name if it is built in.
+    #[must_use]
+    pub fn digest(&self) -> String {
+        let mut hash = Xxh3::new();
+        hash.update(self.name.as_bytes());
+        self.inputs.iter().for_each(|input| hash.update(&input.hash.to_le_bytes()));
+        format!("{:032x}", hash.digest128())
+    }
 }
 
 /// Normals and texture coordinates of the triangles that have them.

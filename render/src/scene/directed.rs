@@ -1,7 +1,8 @@
 //! Reads point lights whose intensity differs by direction: `LightSource "goniometric"` and `"projection"`, and `"spot"` with a `profile`.
 
 use super::ies::Axis;
-use super::lights::{Cone, DeltaLight, Files, power, scale, turned};
+use super::inputs::Files;
+use super::lights::{Cone, DeltaLight, power, scale, turned};
 use super::message::{Message, Notes};
 use super::params::{Params, brightness, rounded, shown};
 use super::profiles::{self, Profile, picture};
@@ -33,7 +34,7 @@ pub(super) fn read(
         name => name,
     };
     let name = name.ok_or_else(|| params.error("needs the name of a file, as in \"string filename\" \"lamp.exr\""))?;
-    let tint = params.light("I", files.resolve)?.unwrap_or([1.0; 3]);
+    let tint = params.light("I", files)?.unwrap_or([1.0; 3]);
     let scale = scale(params)?;
     let power = power(params)?;
     let found = if kind == "projection" {

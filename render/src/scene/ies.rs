@@ -13,10 +13,10 @@
 //! | B | photometric horizontal | from the plane perpendicular to it | from the nadir to the right, with the axis up |
 //! | A | vertical | from the horizontal plane upwards | from the photometric horizontal to the right |
 
+use super::inputs::Files;
 use super::message::shown;
-use crate::files::read_file;
 use crate::intensity::Intensity;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// A signed axis of light space: x, y or z, and its sign.
 pub(super) type Axis = (usize, f64);
@@ -112,17 +112,14 @@ fn mirrored(columns: Columns, about: f32) -> Columns {
     all
 }
 
-/// Where a file is found by its name.
-pub(super) type Find<'a> = &'a dyn Fn(&str) -> PathBuf;
-
-fn text_of(name: &str, find: Find<'_>) -> Result<String, String> {
-    let bytes = read_file(&find(name)).map_err(|error| format!("cannot read {name:?}: {error}"))?;
+fn text_of(name: &str, files: &Files<'_>) -> Result<String, String> {
+    let bytes = files.read(&files.find(name)).map_err(|error| format!("cannot read {name:?}: {error}"))?;
     Ok(String::from_utf8_lossy(&bytes).into_owned())
 }
 
 /// Reads the file with this name, for a luminaire that is tilted by an angle in degrees, if that is known.
-pub(super) fn read(name: &str, tilt: Option<f64>, find: Find<'_>) -> Result<Photometry, String> {
-    parse(&text_of(name, find)?, name, tilt, find)
+pub(super) fn read(name: &str, tilt: Option<f64>, files: &Files<'_>) -> Result<Photometry, String> {
+    parse(&text_of(name, files)?, name, tilt, files)
 }
 
 /// Words of a text with the numbers of their lines, after so many lines.
@@ -156,7 +153,7 @@ fn tilted(numbers: &mut Numbers<'_>, tilt: Option<f64>) -> Result<f64, String> {
 }
 
 /// Reads the text of a file that messages call `name`.
-pub(super) fn parse(text: &str, name: &str, tilt: Option<f64>, find: Find<'_>) -> Result<Photometry, String> {
+pub(super) fn parse(text: &str, name: &str, tilt: Option<f64>, files: &Files<'_>) -> Result<Photometry, String> {
     let lines = || (1..).zip(text.lines());
     let Some((line, source)) = lines().find_map(|(line, text)| Some((line, text.trim().strip_prefix("TILT=")?.trim())))
     else {
@@ -172,7 +169,7 @@ pub(super) fn parse(text: &str, name: &str, tilt: Option<f64>, find: Find<'_>) -
         other => {
             // it is beside this one
             let other = Path::new(name).with_file_name(other).to_string_lossy().into_owned();
-            let text = text_of(&other, find).map_err(|what| format!("{name}:{line}: {what}"))?;
+            let text = text_of(&other, files).map_err(|what| format!("{name}:{line}: {what}"))?;
             tilted(&mut Numbers { name: &other, words: words(&text, 0), next: 0 }, tilt)?
         }
     };

@@ -1,7 +1,8 @@
 //! The files of a scene that are being read, each included by a line of the one before.
 
+use super::inputs::Files;
 use super::message::{Message, Place};
-use crate::files::{is_same, read_unpacked};
+use crate::files::is_same;
 use std::path::{Path, PathBuf};
 
 /// Greatest depth of nested `Include`s, and greatest number of included files.
@@ -36,7 +37,7 @@ impl Includes {
     }
 
     /// Reads the file that the line at `place` includes.
-    pub(super) fn open(&mut self, place: &Place, path: &Path) -> Result<Vec<u8>, Message> {
+    pub(super) fn open(&mut self, place: &Place, path: &Path, files: &Files<'_>) -> Result<Vec<u8>, Message> {
         let shown = path.display().to_string();
         self.open.push((place.clone(), path.to_owned()));
         self.count += 1;
@@ -53,7 +54,7 @@ impl Includes {
         if self.count > MOST {
             return Err(place.message(format!("Include {shown:?}: more than {MOST} files in all")));
         }
-        read_unpacked(path).map_err(|error| place.message(format!("Include: cannot read {shown:?}: {error}")))
+        files.read_unpacked(path).map_err(|error| place.message(format!("Include: cannot read {shown:?}: {error}")))
     }
 
     /// Ends the file that was opened last.

@@ -2,13 +2,13 @@
 
 use super::daylight;
 use super::environment::{Environment, SkyRadiance};
+use super::inputs::Files;
 use super::lexer::shortened;
 use super::message::{Message, Notes};
-use super::params::{MOST_RADIANCE, Params, Resolve, brightness, rounded, shown};
+use super::params::{MOST_RADIANCE, Params, brightness, rounded, shown};
 use super::portals;
 use super::spectrum::luminance;
 use super::transform::{Transform, sub};
-use crate::files::FileError;
 use crate::image::Picture;
 use etendue::light::{EnvironmentMap, Portal, Spread};
 use std::f64::consts::PI;
@@ -105,13 +105,6 @@ pub(super) enum Source {
 /// Greatest number of texels of an environment, or of the picture of a light.
 pub(super) const MOST_TEXELS: usize = 1 << 26;
 
-/// Where the files of a light are found.
-pub(super) struct Files<'a> {
-    pub(super) resolve: Resolve<'a>,
-    /// Reads an image file.
-    pub(super) open: &'a dyn Fn(&str) -> Result<Picture, FileError>,
-}
-
 /// Reads a `LightSource`.
 pub(super) fn read(
     kind: &str,
@@ -134,7 +127,7 @@ pub(super) fn read(
     // older files scale by a colour
     let scale = scale(params)?;
     let name = if kind == "point" || kind == "spot" { "I" } else { "L" };
-    let colour = params.light(name, files.resolve)?;
+    let colour = params.light(name, files)?;
     let wanted = match kind {
         "point" | "spot" => params.float("power")?,
         _ => params.float("illuminance")?,
@@ -157,7 +150,7 @@ pub(super) fn read(
         }
         Some(file) => {
             let to_light = turned(params, ctm)?;
-            let image = (files.open)(&file).map_err(|error| params.error(error.to_string()))?;
+            let image = files.image(&file).map_err(|error| params.error(error.to_string()))?;
             let shown = |scale| sky_of(&image, &file, scale).map_err(|what| params.error(what));
             // pbrt-v3 multiplies both, and pbrt-v4 refuses them
             let colour = colour.unwrap_or([1.0; 3]);

@@ -1,10 +1,11 @@
 //! Reads `Material` and `MakeNamedMaterial`.
 
 use super::builder::Builder;
+use super::inputs::Files;
 use super::lexer::shortened;
 use super::materials::{Material, Roughness, Varying};
 use super::message::Message;
-use super::params::{Params, Resolve, rounded, shown};
+use super::params::{Params, rounded, shown};
 use super::spectrum::{self, Named};
 use super::textures::{Textures, Value};
 use crate::texture::Texture;
@@ -24,7 +25,7 @@ pub(super) enum Finish {
 pub(super) struct Context<'a> {
     pub(super) textures: &'a Textures,
     pub(super) named: &'a dyn Fn(&str) -> Option<Finish>,
-    pub(super) resolve: Resolve<'a>,
+    pub(super) files: Files<'a>,
 }
 
 /// The types of materials, for messages.
@@ -141,7 +142,7 @@ pub(super) fn read(
             let amount = if params.is_texture("amount") {
                 context.textures.number("amount", params)?
             } else {
-                context.textures.color("amount", params, context.resolve, &mut out.notes)?
+                context.textures.color("amount", params, &context.files, &mut out.notes)?
             };
             let share = amount.map_or(0.5, |amount| amount.mean()[1]);
             let [first, second] = &names[..] else {
@@ -192,10 +193,10 @@ const MOST_REFLECTANCE: f64 = 0.9999;
 impl Reads<'_> {
     /// The colour of the first of these names that is given.
     fn color(&self, names: &[&str], default: f32, params: &mut Params, out: &mut Builder) -> Result<Texture, Message> {
-        let Context { textures, resolve, .. } = self.context;
+        let Context { textures, files, .. } = self.context;
         let mut found = None;
         for name in names {
-            found = found.or(textures.color(name, params, *resolve, &mut out.notes)?);
+            found = found.or(textures.color(name, params, files, &mut out.notes)?);
         }
         Ok(found.unwrap_or(Texture::number(default)))
     }
@@ -220,14 +221,14 @@ impl Reads<'_> {
     }
     /// An index of refraction, the same for all wavelengths.
     fn eta(&self, names: &[&str], params: &mut Params, out: &mut Builder) -> Result<f64, Message> {
-        let Context { textures, resolve, .. } = self.context;
+        let Context { textures, files, .. } = self.context;
         for name in names {
             if params.is_texture(name) {
                 let texture = textures.number(name, params)?;
                 out.notes.stand_in(name, || params.error(format!("{name:?} becomes its mean")));
                 return Ok(texture.map_or(1.5, |texture| texture.mean()[0].into()));
             }
-            if let Some(index) = Textures::index(name, params, *resolve)? {
+            if let Some(index) = Textures::index(name, params, files)? {
                 if index.iter().all(|x| (1e-3..=1e3).contains(x)) {
                     return Ok(index[1]);
                 }
@@ -296,9 +297,9 @@ impl Reads<'_> {
         params: &mut Params,
         out: &mut Builder,
     ) -> Result<Material, Message> {
-        let Context { textures, resolve, .. } = self.context;
-        let given = textures.color_or_texture(reflectance, params, *resolve, &mut out.notes)?;
-        let indices = [Textures::index(eta, params, *resolve)?, Textures::index(k, params, *resolve)?];
+        let Context { textures, files, .. } = self.context;
+        let given = textures.color_or_texture(reflectance, params, files, &mut out.notes)?;
+        let indices = [Textures::index(eta, params, files)?, Textures::index(k, params, files)?];
         let roughness = self.roughness(prefix, if prefix.is_empty() { 0.0 } else { 0.01 }, params, out)?;
         let (eta, k) = match (given, indices) {
             (Some(_), [Some(_), _] | [_, Some(_)]) => {

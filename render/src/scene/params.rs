@@ -1,10 +1,11 @@
 //! Reads the parameter lists that follow most directives: `"type name" [ values ]`.
 
+use super::inputs::Files;
 use super::lexer::{Lexer, Token, number, shortened};
 pub(super) use super::message::shown;
 use super::message::{Message, Place};
 use super::spectrum::{self, Named, Samples};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Far more than any directive has; bounds the linear look-up by name.
 const MOST_PARAMETERS: usize = 100;
@@ -16,9 +17,6 @@ enum Values {
     Flags(Vec<bool>),
     Texts(Vec<String>),
 }
-
-/// Finds the files that parameters name.
-pub(super) type Resolve<'a> = &'a dyn Fn(&str) -> PathBuf;
 
 /// A colour, which may be given in several ways.
 pub(super) enum Color {
@@ -274,8 +272,24 @@ impl Params {
         }
     }
 
+    /// The name of the texture as which a parameter is given, if it is.
+    pub(super) fn texture(&mut self, name: &str) -> Result<Option<String>, Message> {
+        if !self.is_texture(name) {
+            return Ok(None);
+        }
+        let Some(param) = self.take_any(name, &["texture"])? else { return Ok(None) };
+        match &param.values {
+            Values::Texts(texts) if texts.len() == 1 => Ok(Some(texts[0].clone())),
+            Values::Texts(texts) => Err(self.at(&param, format!("expected one texture, found {}", texts.len()))),
+            _ => Err(self.at(&param, "expected a texture")),
+        }
+    }
+
     /// A colour or spectrum, or the name of a texture.
-    pub(super) fn color(&mut self, name: &str, resolve: Resolve<'_>) -> Result<Option<Color>, Message> {
+    pub(super) fn color(&mut self, name: &str, files: &Files<'_>) -> Result<Option<Color>, Message> {
+        if let Some(texture) = self.texture(name)? {
+            return Ok(Some(Color::Texture(texture)));
+        }
         let kinds = ["rgb", "spectrum", "blackbody", "xyz", "texture", "float"];
         let Some(param) = self.take_any(name, &kinds)? else { return Ok(None) };
         let wrong = |why: String| self.at(&param, why);
@@ -300,10 +314,6 @@ impl Params {
                 let rgb = rgb.map(|x| x + 0.0);
                 Color::Rgb(if kind == "xyz" { spectrum::srgb(rgb).map(|x| x.max(0.0)) } else { rgb })
             }
-            (Values::Texts(texts), "texture") => match &texts[..] {
-                [name] => Color::Texture(name.clone()),
-                _ => return Err(wrong(format!("expected one texture, found {}", texts.len()))),
-            },
             (Values::Texts(texts), _) => {
                 let numbers: Option<Vec<f64>> = texts.iter().map(|text| text.parse().ok()).collect();
                 match (numbers, &texts[..]) {
@@ -311,7 +321,7 @@ impl Params {
                     (None, [name]) => match spectrum::named(name) {
                         Some(named) => Color::Named(named),
                         None if Path::new(name).extension().is_some() => {
-                            Color::Samples(Samples::read(&resolve(name)).map_err(wrong)?)
+                            Color::Samples(Samples::read(&files.find(name), files).map_err(wrong)?)
                         }
                         None => return Err(wrong(format!("no spectrum is called {:?}", shortened(name)))),
                     },
@@ -323,8 +333,8 @@ impl Params {
     }
 
     /// The colour of light, in the unit of the parameter; spectra have luminance 1.
-    pub(super) fn light(&mut self, name: &str, resolve: Resolve<'_>) -> Result<Option<[f64; 3]>, Message> {
-        Ok(match self.color(name, resolve)? {
+    pub(super) fn light(&mut self, name: &str, files: &Files<'_>) -> Result<Option<[f64; 3]>, Message> {
+        Ok(match self.color(name, files)? {
             None => None,
             Some(Color::Rgb(rgb)) => Some(rgb),
             Some(Color::Blackbody(kelvins)) => Some(spectrum::blackbody(kelvins)),

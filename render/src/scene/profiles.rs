@@ -1,7 +1,8 @@
 //! Reads intensities by direction from IES files and images, and aims them along the axes of lights.
 
 use super::ies::{self, Axis};
-use super::lights::{Files, MOST_TEXELS};
+use super::inputs::Files;
+use super::lights::MOST_TEXELS;
 use super::message::{Message, Notes};
 use super::params::{Params, shown};
 use super::transform::{Transform, cross, dot, scaled, sub, unit};
@@ -49,7 +50,7 @@ pub(super) fn read(
         return Err(params.error(format!("\"tilt\": must be from 0 to 180 degrees, not {}", shown(tilt))));
     }
     let ies::Photometry { intensity, greatest, of_tilt, axes, ahead, aside, warnings } =
-        ies::read(name, tilt, files.resolve).map_err(|what| params.error(what))?;
+        ies::read(name, tilt, files).map_err(|what| params.error(what))?;
     warnings.into_iter().for_each(|what| notes.warn(params.error(what)));
     let aim = Aim { axes, ahead, aside };
     Ok((greatest > 0.0).then_some(Profile { intensity, greatest, of_tilt, aim }))
@@ -57,7 +58,7 @@ pub(super) fn read(
 
 /// Reads an image without what no light can have.
 pub(super) fn picture(params: &Params, name: &str, files: &Files<'_>) -> Result<Picture, Message> {
-    let image = (files.open)(name).map_err(|error| params.error(error.to_string()))?;
+    let image = files.image(name).map_err(|error| params.error(error.to_string()))?;
     let (width, height) = (image.width, image.height);
     if width * height > MOST_TEXELS {
         return Err(params.error(format!("{name}: {width}×{height} texels: at most 2^26 are supported")));

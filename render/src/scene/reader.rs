@@ -2,17 +2,16 @@
 
 use super::area_lights::{self, Area, Shown};
 use super::builder::{Builder, Rest};
-use super::builtin::BUILTIN_IMAGES;
 use super::description::{CameraSettings, FilmSettings, Scene};
 use super::includes::Includes;
 pub(super) use super::includes::Origin;
+use super::inputs::Files;
 use super::lexer::{Lexer, Token, shortened};
-use super::lights::Files;
 use super::material_parameters::{self, Context, Finish};
 use super::materials::Material;
 use super::message::{Message, Place, utf8};
 use super::named_materials::NamedMaterials;
-use super::params::{Param, Params, Resolve};
+use super::params::{Param, Params};
 use super::portal_sides;
 use super::shape_state::ShapeState;
 use super::shapes;
@@ -21,11 +20,9 @@ use super::textures::Textures;
 use super::transform::Transform;
 use super::transform_directives;
 use super::view;
-use crate::files::FileError;
-use crate::image;
 use std::cell::RefCell;
 use std::collections::HashMap;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 
 /// Greatest depth of nested `AttributeBegin`s.
@@ -54,8 +51,7 @@ struct Open {
 }
 
 struct Reader<'a> {
-    main_dir: &'a Path,
-    is_builtin: bool,
+    files: Files<'a>,
     camera: Option<CameraSettings>,
     film: Option<FilmSettings>,
     pixel_samples: Option<u32>,
@@ -72,7 +68,6 @@ struct Reader<'a> {
     open: Option<Open>,
     in_world: bool,
     includes: Includes,
-    inputs: RefCell<Vec<PathBuf>>,
 }
 
 /// Reads a whole scene; only a built-in scene may name `builtin:` meshes.
@@ -85,9 +80,9 @@ pub(super) fn read(text: &str, file: &str, dir: &Path, origin: Origin<'_>) -> Re
         defaults: Vec::new(),
         is_end: false,
     };
+    let inputs = RefCell::default();
     let mut reader = Reader {
-        main_dir: dir,
-        is_builtin: matches!(origin, Origin::Builtin),
+        files: Files { main: dir, folder: dir, is_builtin: matches!(origin, Origin::Builtin), inputs: &inputs },
         camera: None,
         film: None,
         pixel_samples: None,
@@ -103,7 +98,6 @@ pub(super) fn read(text: &str, file: &str, dir: &Path, origin: Origin<'_>) -> Re
         open: None,
         in_world: false,
         includes: Includes::new(origin),
-        inputs: RefCell::default(),
     };
     let file: Arc<str> = Arc::from(file);
     reader.file(text, file.clone(), dir)?;
@@ -134,7 +128,7 @@ pub(super) fn read(text: &str, file: &str, dir: &Path, origin: Origin<'_>) -> Re
         delta_lights,
         intensities,
         environment,
-        inputs: reader.inputs.into_inner(),
+        inputs: inputs.take(),
     };
     let scene = reader.out.scene(&file, rest, |text| end.message(text));
     portal_sides::check(&scene, portals)?;
@@ -318,9 +312,8 @@ impl Reader<'_> {
                 let mut params = Params::read(lexer, format!("{word} {:?}", shortened(&name)), place)?;
                 self.with_defaults("texture", &mut params);
                 let Self { textures, out, .. } = self;
-                let (main, inputs) = (self.main_dir, &self.inputs);
-                let resolve = |name: &str| resolved(main, inputs, name, dir);
-                textures.define(&name, &value, &kind, &mut params, &resolve, &mut out.notes)?;
+                let files = self.files.at(dir);
+                textures.define(&name, &value, &kind, &mut params, &files, &mut out.notes)?;
                 out.notes.warnings.extend(params.finish());
             }
             "ColorSpace" => {
@@ -393,10 +386,8 @@ impl Reader<'_> {
             }
             "AreaLightSource" => {
                 self.with_defaults("light", &mut params);
-                let Self { out, state, inputs, is_builtin, main_dir, shown, .. } = self;
-                let resolve = |name: &str| resolved(main_dir, inputs, name, dir);
-                let open = |name: &str| opened(*is_builtin, name, &resolve);
-                let files = Files { resolve: &resolve, open: &open };
+                let Self { out, state, files, shown, .. } = self;
+                let files = files.at(dir);
                 state.area = area_lights::read(kind, &mut params, &files, shown, &mut out.notes)?;
             }
             "LightSource" => {
@@ -420,9 +411,8 @@ impl Reader<'_> {
     }
 
     fn material(&mut self, kind: &str, params: &mut Params, dir: &Path) -> Result<Finish, Message> {
-        let (main, inputs) = (self.main_dir, &self.inputs);
-        let resolve = |name: &str| resolved(main, inputs, name, dir);
-        let context = Context { textures: &self.textures, named: &|name| self.named.get(name), resolve: &resolve };
+        let files = self.files.at(dir);
+        let context = Context { textures: &self.textures, named: &|name| self.named.get(name), files };
         material_parameters::read(kind, params, &context, &mut self.out)
     }
 
@@ -432,18 +422,14 @@ impl Reader<'_> {
 
     fn include(&mut self, place: &Place, lexer: &mut Lexer<'_>, dir: &Path) -> Result<(), Message> {
         let name = lexer.text("a file name")?;
-        let path = self.resolve(&name, dir);
-        let bytes = self.includes.open(place, &path)?;
+        let files = self.files.at(dir);
+        let path = files.find(&name);
+        let bytes = self.includes.open(place, &path, &files)?;
         let file: Arc<str> = Arc::from(path.display().to_string());
         let text = utf8(&bytes, &file)?;
         self.file(text, file, path.parent().unwrap_or(Path::new("")))?;
         self.includes.close();
         Ok(())
-    }
-
-    /// Resolves the name of a file to be read, relative to the file that names it, else relative to the main file, as in pbrt.
-    fn resolve(&self, name: &str, dir: &Path) -> PathBuf {
-        resolved(self.main_dir, &self.inputs, name, dir)
     }
 
     fn transform(&mut self, word: &str, place: &Place, lexer: &mut Lexer<'_>) -> Result<(), Message> {
@@ -469,14 +455,13 @@ impl Reader<'_> {
     }
 
     fn light(&mut self, kind: &str, params: &mut Params, dir: &Path) -> Result<(), Message> {
-        let Self { out, state, sources, inputs, is_builtin, main_dir, .. } = self;
-        let resolve = |name: &str| resolved(main_dir, inputs, name, dir);
-        let open = |name: &str| opened(*is_builtin, name, &resolve);
-        sources.read(kind, params, &state.ctm, &Files { resolve: &resolve, open: &open }, &mut out.notes)
+        let Self { out, state, sources, files, .. } = self;
+        let files = files.at(dir);
+        sources.read(kind, params, &state.ctm, &files, &mut out.notes)
     }
 
     fn shape(&mut self, kind: &str, params: &mut Params, dir: &Path) -> Result<(), Message> {
-        let Self { out, state, named, textures, open, inputs, main_dir, is_builtin, .. } = self;
+        let Self { out, state, named, textures, open, files, .. } = self;
         let given = ShapeState {
             ctm: state.ctm,
             reverse: state.reverse,
@@ -485,23 +470,7 @@ impl Reader<'_> {
             is_object: open.is_some(),
         };
         let Some(surface) = given.attributes(kind, params, textures, named, out)? else { return Ok(()) };
-        let resolve = |name: &str| resolved(main_dir, inputs, name, dir);
-        shapes::read(kind, out, &surface, params, &resolve, *is_builtin)
+        let files = files.at(dir);
+        shapes::read(kind, out, &surface, params, &files)
     }
-}
-
-/// Reads the image of a light.
-fn opened(is_builtin: bool, name: &str, resolve: Resolve<'_>) -> Result<image::Picture, FileError> {
-    match BUILTIN_IMAGES.iter().find(|(known, _)| is_builtin && *known == name) {
-        Some((_, bytes)) => image::decode(Path::new(name), bytes),
-        None => image::read(&resolve(name)),
-    }
-}
-
-/// Resolves the name of a file to be read, relative to the file that names it, else relative to the main file, as in pbrt.
-fn resolved(main: &Path, inputs: &RefCell<Vec<PathBuf>>, name: &str, dir: &Path) -> PathBuf {
-    let (near, far) = (dir.join(name), main.join(name));
-    let path = if !near.exists() && far.exists() { far } else { near };
-    inputs.borrow_mut().push(path.clone());
-    path
 }

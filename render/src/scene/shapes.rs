@@ -2,15 +2,15 @@
 
 use super::builder::Builder;
 use super::generated;
+use super::inputs::Files;
 use super::lights::Emission;
 use super::message::Message;
-use super::params::{Params, Resolve, shown};
+use super::params::{Params, shown};
 use super::ply;
 use super::shape_attributes::ShapeAttributes;
 use super::subdivision;
 use super::transform::Transform;
 use super::vertices::{Vertex, Vertices};
-use crate::files::read_unpacked;
 use crate::geometry::Geometry;
 use crate::texture::Mapping;
 use std::path::Path;
@@ -21,8 +21,7 @@ pub(super) fn read(
     out: &mut Builder,
     surface: &ShapeAttributes,
     params: &mut Params,
-    resolve: Resolve<'_>,
-    is_builtin: bool,
+    files: &Files<'_>,
 ) -> Result<(), Message> {
     let first = out.shapes.len();
     match kind {
@@ -36,9 +35,9 @@ pub(super) fn read(
             let Some(name) = params.text("filename")? else {
                 return Err(params.error("\"string filename\" is missing"));
             };
-            match name.strip_prefix("builtin:").filter(|_| is_builtin) {
+            match name.strip_prefix("builtin:").filter(|_| files.is_builtin) {
                 Some(name) => computed(out, surface, params, name),
-                None => ply_mesh(out, surface, params, &resolve(&name)),
+                None => ply_mesh(out, surface, params, &files.find(&name), files),
             }
         }
         "curve" | "cone" | "paraboloid" | "hyperboloid" | "heightfield" | "nurbs" => {
@@ -273,9 +272,15 @@ fn loop_mesh(out: &mut Builder, surface: &ShapeAttributes, params: &mut Params) 
 }
 
 /// Reads `Shape "plymesh"` from a file.
-fn ply_mesh(out: &mut Builder, surface: &ShapeAttributes, params: &mut Params, path: &Path) -> Result<(), Message> {
+fn ply_mesh(
+    out: &mut Builder,
+    surface: &ShapeAttributes,
+    params: &mut Params,
+    path: &Path,
+    files: &Files<'_>,
+) -> Result<(), Message> {
     let shown = path.display().to_string();
-    let bytes = read_unpacked(path).map_err(|error| params.error(format!("cannot read {shown:?}: {error}")))?;
+    let bytes = files.read_unpacked(path).map_err(|error| params.error(format!("cannot read {shown:?}: {error}")))?;
     let mesh = ply::read(&shown, &bytes).map_err(|why| params.error(why))?;
     mesh.warnings.iter().for_each(|text| out.notes.warn(params.error(text)));
 

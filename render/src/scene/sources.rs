@@ -1,7 +1,8 @@
 //! What the `LightSource` directives of a scene file create.
 
 use super::environment::Environment;
-use super::lights::{self, DeltaLight, Files, Source};
+use super::inputs::Files;
+use super::lights::{self, DeltaLight, Source};
 use super::message::{Message, Notes};
 use super::params::Params;
 use super::transform::Transform;

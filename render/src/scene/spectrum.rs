@@ -4,8 +4,8 @@
 //! fits of Wyman, Sloan and Shirley (2013, "Simple Analytic Approximations to the CIE XYZ Color Matching Functions", table 1), whose
 //! error is about a hundredth.
 
+use super::inputs::Files;
 use super::message::shown;
-use crate::files::read_file;
 use std::path::Path;
 
 /// CIE 1931's functions at a wavelength in nanometres.
@@ -76,9 +76,9 @@ impl Samples {
         Ok(Self(pairs))
     }
     /// From a file of lines with a wavelength and a value; `#` begins a comment.
-    pub(super) fn read(path: &Path) -> Result<Self, String> {
+    pub(super) fn read(path: &Path, files: &Files<'_>) -> Result<Self, String> {
         let shown = path.display().to_string();
-        let bytes = read_file(path).map_err(|error| format!("cannot read {shown:?}: {error}"))?;
+        let bytes = files.read(path).map_err(|error| format!("cannot read {shown:?}: {error}"))?;
         let text = String::from_utf8_lossy(&bytes);
         let mut numbers = Vec::new();
         for (line, text) in text.lines().enumerate() {

@@ -1,10 +1,10 @@
 //! Reads `Texture`, and the parameters of materials that may be textures.
 
+use super::inputs::Files;
 use super::lexer::shortened;
 use super::message::{Message, Notes};
-use super::params::{Color, Params, Resolve, shown};
+use super::params::{Color, Params, shown};
 use super::spectrum::Named;
-use crate::files::read_file;
 use crate::image::{Encoding, read_texels};
 use crate::texture::{Mapping, Picture, Texels, Texture, Wrap};
 use std::collections::HashMap;
@@ -35,7 +35,7 @@ impl Textures {
         value: &str,
         kind: &str,
         params: &mut Params,
-        resolve: Resolve<'_>,
+        files: &Files<'_>,
         notes: &mut Notes,
     ) -> Result<(), Message> {
         let is_color = match value {
@@ -43,7 +43,7 @@ impl Textures {
             "float" => false,
             _ => return Err(params.error(format!("a texture of {:?}: only spectrum and float", shortened(value)))),
         };
-        let texture = self.read(is_color, kind, params, resolve, notes)?;
+        let texture = self.read(is_color, kind, params, files, notes)?;
         let map = if is_color { &mut self.colors } else { &mut self.numbers };
         map.insert(name.to_owned(), texture);
         Ok(())
@@ -54,11 +54,11 @@ impl Textures {
         is_color: bool,
         kind: &str,
         params: &mut Params,
-        resolve: Resolve<'_>,
+        files: &Files<'_>,
         notes: &mut Notes,
     ) -> Result<Texture, Message> {
         let mut value = |this: &Self, params: &mut Params, name: &str, default: f32| {
-            let found = if is_color { this.color(name, params, resolve, notes)? } else { this.number(name, params)? };
+            let found = if is_color { this.color(name, params, files, notes)? } else { this.number(name, params)? };
             Ok::<_, Message>(found.unwrap_or(Texture::number(default)))
         };
         Ok(match kind {
@@ -88,7 +88,7 @@ impl Textures {
                 }
             }
             "imagemap" => {
-                let texture = self.image(params, resolve, notes)?;
+                let texture = self.image(params, files, notes)?;
                 if is_color { texture } else { texture.channel(0) }
             }
             _ => {
@@ -100,7 +100,7 @@ impl Textures {
         })
     }
 
-    fn image(&mut self, params: &mut Params, resolve: Resolve<'_>, notes: &mut Notes) -> Result<Texture, Message> {
+    fn image(&mut self, params: &mut Params, files: &Files<'_>, notes: &mut Notes) -> Result<Texture, Message> {
         let Some(name) = params.text("filename")? else {
             return Err(params.error("\"string filename\" is missing"));
         };
@@ -121,7 +121,7 @@ impl Textures {
         let invert = params.flag("invert")?.unwrap_or(false);
         // pbrt's (0, 0) is the lower left corner
         let mapping = mapping(params, notes)?.then(&Mapping([[1.0, 0.0, 0.0], [0.0, -1.0, 1.0]]));
-        let path = resolve(&name);
+        let path = files.find(&name);
         let key = (path.clone(), text.clone());
         let texels = match self.images.get(&key) {
             Some(texels) => Arc::clone(texels),
@@ -135,7 +135,7 @@ impl Textures {
                     _ => return Err(params.error(format!("\"encoding\": unknown encoding {:?}", shortened(&text)))),
                 };
                 let failed = |why: String| params.error(format!("{}: {why}", path.display()));
-                let bytes = read_file(&path).map_err(|error| failed(format!("cannot read: {error}")))?;
+                let bytes = files.read(&path).map_err(|error| failed(format!("cannot read: {error}")))?;
                 let texels = read_texels(&path, &bytes, encoding).map_err(|error| params.error(error.to_string()))?;
                 let texels = Arc::new(sound(texels, &name, |what| notes.warn(params.error(what))));
                 self.images.insert(key, Arc::clone(&texels));
@@ -152,10 +152,10 @@ impl Textures {
         &self,
         name: &str,
         params: &mut Params,
-        resolve: Resolve<'_>,
+        files: &Files<'_>,
         notes: &mut Notes,
     ) -> Result<Option<Value>, Message> {
-        let rgb = match params.color(name, resolve)? {
+        let rgb = match params.color(name, files)? {
             None => return Ok(None),
             Some(Color::Texture(texture)) => {
                 let found = self.colors.get(&texture);
@@ -192,10 +192,10 @@ impl Textures {
         &self,
         name: &str,
         params: &mut Params,
-        resolve: Resolve<'_>,
+        files: &Files<'_>,
         notes: &mut Notes,
     ) -> Result<Option<Texture>, Message> {
-        Ok(self.color_or_texture(name, params, resolve, notes)?.map(|value| match value {
+        Ok(self.color_or_texture(name, params, files, notes)?.map(|value| match value {
             Value::Constant(rgb) => Texture::Constant(rgb.map(|x| x as f32)),
             Value::Varying(texture) => texture,
         }))
@@ -203,11 +203,10 @@ impl Textures {
 
     /// A texture or a constant for a number.
     pub(super) fn number(&self, name: &str, params: &mut Params) -> Result<Option<Texture>, Message> {
-        if !params.is_texture(name) {
+        let Some(texture) = params.texture(name)? else {
             let number = params.float(name)?.map(|x| finite(name, x, params)).transpose()?;
             return Ok(number.map(Texture::number));
-        }
-        let Some(Color::Texture(texture)) = params.color(name, &|_| PathBuf::new())? else { return Ok(None) };
+        };
         let unknown = || params.error(format!("{name:?}: no float Texture {:?} precedes this", shortened(&texture)));
         // older files have colours as numbers
         let color = || self.colors.get(&texture).map(|color| color.clone().channel(0));
@@ -215,8 +214,8 @@ impl Textures {
     }
 
     /// An index of refraction or an absorption coefficient, per channel.
-    pub(super) fn index(name: &str, params: &mut Params, resolve: Resolve<'_>) -> Result<Option<[f64; 3]>, Message> {
-        Ok(match params.color(name, resolve)? {
+    pub(super) fn index(name: &str, params: &mut Params, files: &Files<'_>) -> Result<Option<[f64; 3]>, Message> {
+        Ok(match params.color(name, files)? {
             None => None,
             Some(Color::Rgb(rgb) | Color::Named(Named::Index(rgb))) => Some(rgb),
             Some(Color::Samples(samples)) => Some(samples.reflectance()),

@@ -78,7 +78,7 @@ fn parts_have_places() {
     let film = Film { width: 10, height: 4, pixels: (0..40).map(pixel).collect() };
     let (technique, sampler) = (Technique::Auto, Sampler::Sobol);
     let settings = Settings { width: 10, height: 4, spp: 4, technique, depth: 8, sampler, sets: 0, seed: 0 };
-    let identity = Identity::new(&scene::load("quads").unwrap(), settings, Sensor::Radiance).unwrap();
+    let identity = Identity::new(&scene::load("quads").unwrap(), settings, Sensor::Radiance);
     let file = std::env::temp_dir().join(format!("etendue-place-{}.exr", std::process::id()));
     for (place, start, whole) in [
         (Some(Place { start: [10, 5], whole: [64, 32] }), [10, 5], [64, 32]),

@@ -78,7 +78,7 @@ struct Job {
 impl Job {
     fn new(name: &str, settings: Settings) -> Self {
         let scene = scene::load(name).unwrap();
-        let identity = Identity::new(&scene, settings, Sensor::Radiance).unwrap().of_parts();
+        let identity = Identity::new(&scene, settings, Sensor::Radiance).of_parts();
         Self { world: World::new(&scene).unwrap(), identity, folder: Folder::new(), written: 0 }
     }
     fn film(&self) -> Film {

@@ -3,7 +3,7 @@
 
 use clap::ValueEnum;
 use etendue_oracle::tier::cases;
-use etendue_render::{Sampler, Settings, Technique, World, identity, scene};
+use etendue_render::{Sampler, Settings, Technique, World, scene};
 use exr::prelude::write_rgb_file;
 use std::f64::consts::PI;
 use std::path::PathBuf;
@@ -267,7 +267,7 @@ fn cameras_see_pictures() {
 fn digests_cover_pictures() {
     let folder = Folder::new("digest");
     let text = format!("Camera \"perspective\"\nWorldBegin\n{LIGHT}\nShape \"sphere\"");
-    let digest = || identity::digest(&scene::parse(&text, "test.pbrt", &folder.0).unwrap()).unwrap();
+    let digest = || scene::parse(&text, "test.pbrt", &folder.0).unwrap().digest();
     let before = digest();
     assert_eq!(before, digest());
     write_rgb_file(folder.0.join("p.exr"), SIZE[0], SIZE[1], |_, _| (1.0, 1.0, 1.0_f32)).unwrap();

@@ -18,9 +18,9 @@ pub(crate) struct Watch(Vec<(PathBuf, Stamp)>);
 
 impl Watch {
     /// Files that were read from this time on. One that has changed since then may not be the one that was read.
-    pub(crate) fn new(files: &[PathBuf], began: SystemTime) -> Self {
-        let of = |path: &PathBuf| (path.clone(), stamp(path).filter(|(changed, _)| *changed < began));
-        Self(files.iter().map(of).collect())
+    pub(crate) fn new<'a>(files: impl Iterator<Item = &'a Path>, began: SystemTime) -> Self {
+        let of = |path: &Path| (path.to_owned(), stamp(path).filter(|(changed, _)| *changed < began));
+        Self(files.map(of).collect())
     }
 
     /// A file that has changed. One that is gone for now is often about to be written anew.
@@ -40,8 +40,8 @@ mod tests {
         let path = std::env::temp_dir().join(format!("etendue-watch-{}", std::process::id()));
         fs::write(&path, "one").unwrap();
         let long_ago = SystemTime::now() - Duration::from_secs(60);
-        assert!(Watch::new(std::slice::from_ref(&path), long_ago).changed().is_some(), "it changed while it was read");
-        let watch = Watch::new(std::slice::from_ref(&path), SystemTime::now() + Duration::from_secs(60));
+        assert!(Watch::new(std::iter::once(&*path), long_ago).changed().is_some(), "it changed while it was read");
+        let watch = Watch::new(std::iter::once(&*path), SystemTime::now() + Duration::from_secs(60));
         assert_eq!(watch.changed(), None);
         fs::write(&path, "three").unwrap();
         assert_eq!(watch.changed(), Some(path.as_path()));

@@ -97,8 +97,8 @@ struct Done {
 impl Worker<'_> {
     fn build(&self, Reading { mut scene, settings, began }: Reading) -> Result<Subject, Box<dyn Error>> {
         let lens = scene.camera.lens.is_some();
-        let watch = Watch::new(&scene.inputs, began);
-        let identity = Identity::new(&scene, settings, self.image.sensor)?;
+        let watch = Watch::new(scene.inputs.iter().map(|input| &*input.path), began);
+        let identity = Identity::new(&scene, settings, self.image.sensor);
         let world = self.pool.install(|| World::from_scene(&mut scene))?.with_sensor(self.image.sensor);
         let facts = Facts {
             scene: scene.name.clone(),

@@ -1,5 +1,6 @@
 //! The parts of a glTF file and the files that it names: buffers, views of them, and images.
 
+use super::super::inputs::{Input, note};
 use super::super::lexer::shortened;
 use super::super::message::Message;
 use super::container;
@@ -29,7 +30,7 @@ pub(super) struct Source<'a> {
     folder: Option<&'a Path>,
     binary: Option<&'a [u8]>,
     buffers: Vec<OnceCell<Cow<'a, [u8]>>>,
-    inputs: RefCell<Vec<PathBuf>>,
+    inputs: RefCell<Vec<Input>>,
 }
 
 /// A part of a buffer.
@@ -56,7 +57,7 @@ impl<'a> Source<'a> {
     }
 
     /// The other files that were read so far.
-    pub(super) fn inputs(&self) -> Vec<PathBuf> {
+    pub(super) fn inputs(&self) -> Vec<Input> {
         self.inputs.borrow().clone()
     }
 
@@ -146,10 +147,7 @@ impl<'a> Source<'a> {
         }
         let path = folder.join(&*name);
         let bytes = read_file(&path).map_err(|error| failed(format!("cannot read {:?}: {error}", path.display())))?;
-        let mut inputs = self.inputs.borrow_mut();
-        if !inputs.contains(&path) {
-            inputs.push(path.clone());
-        }
+        note(&mut self.inputs.borrow_mut(), &path, &bytes);
         Ok((path, bytes))
     }
 }

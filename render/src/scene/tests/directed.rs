@@ -3,7 +3,9 @@
 use super::*;
 use crate::intensity::Intensity;
 use crate::packet::V8;
+use crate::scene::inputs::Files;
 use exr::prelude::write_rgb_file;
+use std::cell::RefCell;
 use std::fs;
 use std::path::PathBuf;
 
@@ -118,7 +120,9 @@ fn types_b_and_a_have_other_axes() {
 fn damaged_files_are_errors() {
     let whole = file(NEW, 3, "-90 -1 0 90", "0 30 90", "8 0 8 2 1 2 3 4 5 6 7 8")
         .replace("TILT=NONE", "TILT=INCLUDE\n1 2 0 90 1 1");
-    let judge = |text: &str| match ies::parse(text, "a.ies", None, &|name| PathBuf::from(name)) {
+    let (here, inputs) = (Path::new(""), RefCell::default());
+    let files = Files { main: here, folder: here, is_builtin: false, inputs: &inputs };
+    let judge = |text: &str| match ies::parse(text, "a.ies", None, &files) {
         Ok(found) => {
             let flux = found.intensity.flux()[0];
             assert!((0.0..=12.6).contains(&flux) && found.greatest >= 0.0, "{flux}: {text}");
@@ -152,11 +156,7 @@ fn damaged_files_are_errors() {
     assert!(read > 100, "{read}");
     // once mirrored, these are the same
     let close = file(NEW, 1, "0 90", "0 1e-9 90", "8 0 8 2 1 2");
-    assert!(
-        ies::parse(&close, "a.ies", None, &|name| PathBuf::from(name))
-            .unwrap_err()
-            .contains("a.ies: angles do not ascend")
-    );
+    assert!(ies::parse(&close, "a.ies", None, &files).unwrap_err().contains("a.ies: angles do not ascend"));
 }
 
 /// The power that a scene asks for is what the light emits, summed over directions.

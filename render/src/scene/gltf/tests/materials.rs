@@ -144,7 +144,8 @@ fn images_in_buffers_and_files() {
     let path = folder.write("a.gltf", &asset.text());
     let scene = load(&path).unwrap();
     assert_eq!(colors(scene.varying[0].clone()), [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
-    assert_eq!(scene.inputs, [image, path]);
+    let inputs: Vec<_> = scene.inputs.iter().map(|input| &input.path).collect();
+    assert_eq!(inputs, [&image, &path]);
 }
 
 #[test]
