@@ -1,6 +1,7 @@
 //! What an image depends on besides the scene, and what it cost.
 
 use crate::area::Area;
+use crate::limits::{MOST_SAMPLES, is_size};
 use crate::sampler::Sampler;
 use crate::technique::Technique;
 
@@ -44,6 +45,18 @@ impl Settings {
     /// lights.
     pub const TILE: u32 = TILE;
 
+    /// Checks that there can be such an image.
+    ///
+    /// # Errors
+    /// Fails if its size, its number of samples or that of its sets is none that images have.
+    pub fn check(&self) -> Result<(), String> {
+        let Self { width, height, spp, sets, .. } = *self;
+        let is_valid = is_size(width.into(), height.into()) && (1..=MOST_SAMPLES).contains(&spp);
+        if is_valid && [0, 1, 2, 4].contains(&sets) {
+            return Ok(());
+        }
+        Err(format!("no image has {width} × {height} pixels of {spp} samples in {sets} sets"))
+    }
     /// The area [x0, y0, x1, y1) of the whole image in pixels.
     #[must_use]
     pub const fn whole(&self) -> Area {
@@ -55,5 +68,41 @@ impl Settings {
         let is_side = |at: u32, end: u32| at.is_multiple_of(TILE) || at == end;
         let is_range = |a: u32, b: u32, end: u32| a < b && b <= end && is_side(a, end) && is_side(b, end);
         is_range(x0, x1, self.width) && is_range(y0, y1, self.height)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{World, scene};
+
+    const SETTINGS: Settings = Settings {
+        width: 8,
+        height: 8,
+        spp: 4,
+        technique: Technique::Auto,
+        depth: 8,
+        sampler: Sampler::Sobol,
+        sets: 0,
+        seed: 0,
+    };
+
+    /// Settings of no image are refused before a pixel is rendered.
+    #[test]
+    fn impossible_settings_are_named() {
+        let world = World::new(&scene::load("quads").unwrap()).unwrap();
+        assert_eq!(SETTINGS.check(), Ok(()));
+        for (settings, what) in [
+            (Settings { spp: 0, ..SETTINGS }, "8 × 8 pixels of 0 samples in 0 sets"),
+            (Settings { spp: MOST_SAMPLES + 1, ..SETTINGS }, "of 4194305 samples"),
+            (Settings { sets: 3, ..SETTINGS }, "in 3 sets"),
+            (Settings { sets: 8, spp: 64, sampler: Sampler::Adaptive, ..SETTINGS }, "in 8 sets"),
+            (Settings { width: 0, ..SETTINGS }, "0 × 8 pixels"),
+            (Settings { height: 1 << 20, ..SETTINGS }, "8 × 1048576 pixels"),
+        ] {
+            let panic = std::panic::catch_unwind(|| drop(world.render(&settings, &|_| ()))).unwrap_err();
+            let found = panic.downcast_ref::<String>().unwrap();
+            assert!(found.contains(what), "{found}");
+        }
     }
 }

@@ -54,17 +54,27 @@ pub struct View<'a> {
 
 impl World {
     /// The image of the scene's camera with these settings.
+    ///
+    /// # Panics
+    /// Panics unless [`Settings::check`] allows them.
     pub fn view(&self, settings: &Settings) -> View<'_> {
         self.view_through(&Camera::new(&self.camera, settings.width, settings.height), settings)
     }
 
     /// Like [`World::view`], with a camera other than the scene's, made for an image of this size.
+    ///
+    /// # Panics
+    /// Panics unless [`Settings::check`] allows them.
     pub fn view_through(&self, camera: &Camera, settings: &Settings) -> View<'_> {
+        assert_eq!(settings.check(), Ok(()));
         let view = View { world: self, camera: *camera, settings: *settings, stop: None };
         if settings.technique == Technique::Auto { view.by(view.choose()) } else { view }
     }
 
     /// Renders the image of the scene's camera, as [`View::image`] does.
+    ///
+    /// # Panics
+    /// Panics unless [`Settings::check`] allows them.
     pub fn render(&self, settings: &Settings, progress: &(dyn Fn(u64) + Sync)) -> (Film, RayCount) {
         self.view(settings).image(progress)
     }
