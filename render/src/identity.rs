@@ -1,12 +1,15 @@
 //! What an image depends on: its parts are recognised by it, and images that may be averaged.
 
 use crate::area::Place;
-use crate::limits::is_size;
+use crate::limits::{MOST_SAMPLES, is_size};
 use crate::scene::Scene;
 use crate::sensor::{Exposure, Sensor};
 use crate::settings::Settings;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
+use std::fs;
+use std::sync::OnceLock;
+use xxhash_rust::xxh3::xxh3_64;
 
 /// Everything that an image depends on. Parts of equal identities make an image, and equal identities have equal images, bit for bit.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -29,12 +32,17 @@ pub struct Identity {
     pub exposure: f64,
     /// Seeds of other images, if this one is the average of theirs and its own.
     pub averaged: Vec<u64>,
-    /// The version, processor features and sources of the program that made a part; `None` for images.
+    /// The [build] of the program that made a part; `None` for images.
     pub build: Option<String>,
 }
 
-/// The build of this program.
-pub const BUILD: &str = env!("ETENDUE_BUILD");
+/// The build of the program that runs: its version, and a hash of its file.
+#[must_use]
+pub fn build() -> String {
+    static HASH: OnceLock<u64> = OnceLock::new();
+    let read = || std::env::current_exe().and_then(fs::read).map_or(0, |bytes| xxh3_64(&bytes));
+    format!("{} {:016x}", env!("CARGO_PKG_VERSION"), HASH.get_or_init(read))
+}
 
 /// Numbers as texts, which keep all of their bits.
 mod exact {
@@ -69,7 +77,7 @@ impl Identity {
     /// That of the parts that this program makes.
     #[must_use]
     pub fn of_parts(self) -> Self {
-        Self { build: Some(BUILD.to_owned()), ..self }
+        Self { build: Some(build()), ..self }
     }
     /// That of the image which parts or samples make.
     #[must_use]
@@ -102,10 +110,9 @@ impl Identity {
     /// Names the first value that is missing or not possible.
     pub fn from_json(value: &Value) -> Result<Self, String> {
         let identity = Self::deserialize(value).map_err(|error| error.to_string())?;
-        let Settings { width, height, spp, sets, .. } = identity.settings;
-        if !is_size(width.into(), height.into()) || spp == 0 || ![0, 1, 2, 4].contains(&sets) {
-            return Err(format!("no image has {width} × {height} pixels of {spp} samples in {sets} sets"));
-        }
+        // averages have any number of samples
+        let Settings { width, height, spp, .. } = identity.settings;
+        Settings { spp: spp.min(MOST_SAMPLES), ..identity.settings }.check()?;
         let Place { start: [x, y], whole: [across, down] } = identity.window();
         let fits = |start: u32, side: u32, whole: u32| start.checked_add(side).is_some_and(|end| end <= whole);
         if !is_size(across.into(), down.into()) || !fits(x, width, across) || !fits(y, height, down) {
