@@ -8,6 +8,7 @@ use etendue_laboratory::attack::defects::{self, Table};
 use etendue_laboratory::attack::judge::Effort;
 use etendue_laboratory::attack::regimes::{REGIMES, Regime, named};
 use etendue_laboratory::attack::report::{run, shrunk};
+use etendue_render::files;
 use etendue_render::options::{name, out, pool};
 use std::error::Error;
 use std::io::{self, Write};
@@ -77,7 +78,7 @@ impl AttackOptions {
             return Ok(is_good);
         }
         if let Some(folder) = &self.shrink {
-            std::fs::create_dir_all(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
+            files::make_folder(folder)?;
         }
         let start = Instant::now();
         let (mut scenes, mut differ, mut z) = (0, 0, 0.0_f64);
@@ -93,7 +94,7 @@ impl AttackOptions {
                 let effort = Effort::new(quality[0], quality[1], failure.seed);
                 let least = pool.install(|| shrunk(&regime.draft(failure.seed), *technique, &effort));
                 let path = folder.join(format!("{}-{}.pbrt", failure.regime, failure.seed));
-                std::fs::write(&path, least.to_string()).map_err(|e| format!("{}: {e}", path.display()))?;
+                files::replace(&path, least.to_string().as_bytes())?;
                 let shown = path.display();
                 writeln!(
                     out,

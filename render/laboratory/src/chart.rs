@@ -20,7 +20,7 @@ use clap::{Args, ValueEnum};
 use etendue_render::files;
 use etendue_render::limits::MOST_SAMPLES;
 use etendue_render::options::{name, out, size, threads, whole};
-use etendue_render::{Sampler, Settings, Technique, World, scene};
+use etendue_render::{Sampler, Settings, Technique, World, identity, scene};
 use indicatif::{ProgressBar, ProgressStyle};
 use measure::{ChartedScene, Key, Plan, Table, inapplicable};
 pub use outcome::Outcome;
@@ -91,11 +91,6 @@ pub struct Options {
     /// Measure small images with few samples, in less than three minutes
     #[arg(long)]
     pub quick: bool,
-}
-
-/// Hash of the executable: measurements of another build do not count.
-fn build() -> u64 {
-    std::env::current_exe().and_then(std::fs::read).map_or(0, |bytes| fnv1a(&bytes))
 }
 
 /// The requested values without duplicates, or all values if none is requested.
@@ -228,9 +223,9 @@ pub fn measure(options: &Options, stop: &Arc<AtomicBool>) -> Result<Outcome, Box
     }
     let pool = etendue_render::options::pool(options.threads)?;
     let facts = machine::facts(pool.current_num_threads());
-    // a new commit does not matter as long as the executable stays the same
+    // measurements of another build do not count; a new commit does not matter as long as the program stays the same
     let kept: Vec<_> = facts.iter().filter(|(name, _)| *name != "commit").collect();
-    let circumstances = format!("{kept:?}{:016x}", build());
+    let circumstances = format!("{kept:?}{}", identity::build());
     let mut notes = Vec::new();
     let mut scenes: Vec<ChartedScene> = Vec::new();
     let mut techniques = Vec::new();
@@ -321,11 +316,22 @@ fn measure_warps(folder: &Path, stop: &AtomicBool) -> Result<(charts::Figure, St
     Ok((figure, warps::table(&measured)))
 }
 
+/// Checks that a report replaces nothing but a report.
+fn check_page(page: &Path) -> Result<(), String> {
+    let is_other = |bytes: Vec<u8>| !String::from_utf8_lossy(&bytes).contains(report::TITLE);
+    if std::fs::read(page).is_ok_and(is_other) {
+        return Err(format!("{}: this is no report of a chart: choose another folder with -o", page.display()));
+    }
+    Ok(())
+}
+
 /// Measures, writes the report and prints a summary.
 ///
 /// # Errors
-/// Fails if a scene or reference cannot be read, or a file cannot be written.
+/// Fails if a scene or reference cannot be read, or a file cannot be written, or if another page has the name of the report.
 pub fn run(options: &Options, command: &str) -> Result<(), Box<dyn Error>> {
+    let page = options.output.join("report.html");
+    check_page(&page)?;
     let stop = interrupt()?;
     let outcome = measure(options, &stop)?;
     let pool = etendue_render::options::pool(options.threads)?;
@@ -350,7 +356,6 @@ pub fn run(options: &Options, command: &str) -> Result<(), Box<dyn Error>> {
         }
     }
     let warps = if options.warps { Some(measure_warps(&options.output, &stop)?) } else { None };
-    let page = options.output.join("report.html");
     files::replace(&page, report::page(&outcome, &figures, &pictures, warps.as_ref(), command).as_bytes())?;
 
     let mut out = out();

@@ -118,6 +118,12 @@ fn a_run_is_resumed_and_its_page_needs_nothing_else() {
         folder.succeed("chart delta-lights --quick --size 16x16 --spp 4 --replicates 2 --samplers stratified -o other");
     assert!(out.contains("cosine-hemisphere is left out: it gives the same image as uniform-hemisphere"), "{out}");
     assert!(!folder.read("other/measurements.csv").contains("cosine-hemisphere"));
+    // a page of somebody else stays as it is
+    fs::create_dir(folder.0.join("theirs")).unwrap();
+    fs::write(folder.0.join("theirs/report.html"), "<title>A year</title>").unwrap();
+    let error = folder.fail(&format!("{SMALL} -o theirs"));
+    assert!(error.contains("theirs/report.html: this is no report of a chart: choose another folder"), "{error}");
+    assert_eq!(folder.read("theirs/report.html"), "<title>A year</title>");
     // other settings are measured anew, and the earlier measurements are kept
     let out = folder.succeed(&format!("{SMALL} --replicates 2 --seed 9 -o out"));
     assert!(out.contains("12 measurements with other settings"), "{out}");

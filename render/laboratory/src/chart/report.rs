@@ -14,6 +14,9 @@ use etendue_render::{Sampler, Technique};
 use serde_json::json;
 use std::fmt::Write;
 
+/// What every page has, and no other file.
+pub(super) const TITLE: &str = "<title>Speed against accuracy</title>";
+
 /// Formats a value with half of its interval in per cent.
 fn percent(e: &Estimate) -> String {
     let interval = match e.relative() {
