@@ -50,7 +50,9 @@ pub struct MergeOutcome {
 /// the values that differ, and the gaps.
 pub fn merge(files: &[PathBuf], partial: bool, progress: &(dyn Fn(u64) + Sync)) -> Result<MergeOutcome, String> {
     let headers = read_headers(files)?;
-    let is_image = |file: &PieceHeader| file.kind == PieceKind::Pixels && file.area == file.identity.settings.whole();
+    let is_whole = |file: &PieceHeader| file.kind == PieceKind::Pixels && file.area == file.identity.settings.whole();
+    // a part of all tiles is none: where it lies among those of another seed, it does so by mistake
+    let is_image = |file: &PieceHeader| file.identity.build.is_none() && is_whole(file);
     if headers.len() > 1 && headers.iter().all(is_image) {
         return average(headers, progress);
     }

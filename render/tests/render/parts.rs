@@ -299,6 +299,9 @@ fn images_of_different_seeds_are_averaged() {
         assert_eq!(outcome.identity, identity);
         refused(&[files[1].clone(), group.clone()], &[&text(&files[1]), &text(&group), "samples of seed 4"]);
         refused(&[files[0].clone(), files[0].clone()], &["samples of seed 3"]);
+        // parts are not averaged, even if they hold all
+        let area = one.identity.settings.whole();
+        refused(&[one.tile(area), two.tile(area)], &["not a part of the same image", "its seed is 4, not 3"]);
 
         for (job, says) in [
             (of(Settings { seed: 9, depth: 4, ..SETTINGS }), "its depth is 4, not 8"),
