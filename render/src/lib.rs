@@ -31,7 +31,7 @@ pub mod image;
 pub mod intensity;
 pub mod light_picture;
 pub mod light_profile;
-pub mod light_tree;
+mod light_tree;
 pub mod lights;
 pub mod limits;
 pub mod lobe;

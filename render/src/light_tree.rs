@@ -6,7 +6,7 @@ use etendue::select::{Join, LightBound, LightTree, Node8, TreeAt};
 
 /// Builds the halves of a tree on the threads of rayon.
 #[derive(Clone, Copy, Debug)]
-pub struct Threads;
+pub(crate) struct Threads;
 
 impl Join for Threads {
     fn join(&self, a: impl FnOnce() + Send, b: impl FnOnce() + Send) {
@@ -16,7 +16,7 @@ impl Join for Threads {
 
 /// A light tree with its memory.
 #[derive(Clone, Debug, Default)]
-pub struct OwnedTree {
+pub(crate) struct OwnedTree {
     nodes: Vec<Node8>,
     places: Vec<u32>,
     /// The greatest finite power of a light.
@@ -28,7 +28,7 @@ impl OwnedTree {
     ///
     /// # Errors
     /// Fails if there are more lights than a tree can index.
-    pub fn new(lights: &[LightBound], join: &impl Join) -> Result<Self, BuildError> {
+    pub(crate) fn new(lights: &[LightBound], join: &impl Join) -> Result<Self, BuildError> {
         let count = lights.len();
         let powers = lights.iter().map(|light| light.power).filter(|power| power.is_finite());
         let strongest = powers.fold(0.0, f32::max);
@@ -40,16 +40,12 @@ impl OwnedTree {
     }
     /// The tree.
     #[inline]
-    pub fn get(&self) -> LightTree<'_> {
+    pub(crate) fn get(&self) -> LightTree<'_> {
         LightTree::from_buffers(&self.nodes, &self.places)
     }
     /// An estimate of the irradiance that all lights cause where a choice among them has been prepared, see [`TreeAt::irradiance`].
     #[inline]
-    pub fn irradiance(&self, at: &TreeAt<'_, X8>) -> X8 {
+    pub(crate) fn irradiance(&self, at: &TreeAt<'_, X8>) -> X8 {
         at.irradiance(self.strongest)
-    }
-    /// Size in bytes.
-    pub fn bytes(&self) -> usize {
-        size_of_val(&self.nodes[..]) + size_of_val(&self.places[..])
     }
 }

@@ -1,4 +1,4 @@
-// The lecture: the figures of “etendue figure” about one point and one light, and about integrals, in their order, each live.
+// The lecture: figures about one point and one light, and about integrals, each live.
 
 const UP = { p: [0, 0, 0], n: [0, 1, 0] };
 const LECTURE = [

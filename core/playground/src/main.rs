@@ -15,7 +15,7 @@
 //! factor of the integrand as a shade, root mean square errors of 1, 16 and 1,024 samples, and what `pdf` and `invert` return under the
 //! cursor. A link shows the same again. In the console, `playground.answer()` returns the numbers with all of their bits.
 //!
-//! The lecture goes through the figures of `etendue figure` that need no image, in their order:
+//! The lecture goes through these figures:
 //! 1. `hemisphere-vs-area`: drag the light away from 16 rays over the hemisphere, and from 16 to the light.
 //! 2. `sphere-area-vs-cone`: push the sphere far, until the textbook's cone collapses to rings.
 //! 3. `triangle-area-vs-solid-angle`: move the point under the triangle, and see which map is even.

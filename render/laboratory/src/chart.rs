@@ -15,7 +15,6 @@ pub mod warps;
 use crate::hash::fnv1a;
 use crate::interrupt::interrupt;
 use crate::selftest;
-use charts::Show;
 use clap::{Args, ValueEnum};
 use etendue_render::files;
 use etendue_render::limits::MOST_SAMPLES;
@@ -337,10 +336,9 @@ pub fn run(options: &Options, command: &str) -> Result<(), Box<dyn Error>> {
     let pool = etendue_render::options::pool(options.threads)?;
     let mut figures = Vec::new();
     for summary in &outcome.summaries {
-        let mut list =
-            vec![charts::error_over_time(summary, Show::Leaders), charts::error_over_samples(summary, Show::Leaders)];
-        list.extend(charts::efficiency(summary, Show::Leaders));
-        list.extend(charts::time_to_error(summary, Show::Leaders));
+        let mut list = vec![charts::error_over_time(summary), charts::error_over_samples(summary)];
+        list.extend(charts::efficiency(summary));
+        list.extend(charts::time_to_error(summary));
         for figure in &list {
             let file = format!("{}-{}.svg", stem(&outcome.summaries, &summary.scene), figure.file);
             files::replace(&options.output.join(file), figure.drawing.file().as_bytes())?;

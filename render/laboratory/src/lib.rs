@@ -6,8 +6,6 @@
 //! - [`cost`]: time per sample, for these and for the benchmarks.
 //! - [`figure`]: figures about light sampling, with the numbers behind them.
 //! - [`interrupt`]: what ends the program from outside.
-//! - [`lobes`]: one light on glossy surfaces by every sampler, for the figure about them.
-//! - [`many_lights`]: choices among many lights, for the figures about them.
 //! - [`selftest`]: images of one scene by all techniques and samplers, which must agree.
 
 pub mod atlas;
@@ -17,6 +15,4 @@ pub mod cost;
 pub mod figure;
 mod hash;
 pub mod interrupt;
-pub mod lobes;
-pub mod many_lights;
 pub mod selftest;

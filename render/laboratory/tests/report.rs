@@ -1,7 +1,7 @@
 //! The report of `etendue chart` is read at a glance: a line per scene, the best sampler of each technique, bars in order, notes last.
 
 use clap::ValueEnum;
-use etendue_laboratory::chart::charts::{self, Show};
+use etendue_laboratory::chart::charts;
 use etendue_laboratory::chart::measure::{ChartedScene, Key, Plan, Row, Rows};
 use etendue_laboratory::chart::reference::Reference;
 use etendue_laboratory::chart::summary::{Summary, Way};
@@ -61,9 +61,9 @@ fn outcome(names: &[&str]) -> Outcome {
 
 fn page(outcome: &Outcome) -> String {
     let figures = |s: &Summary| {
-        let mut list = vec![charts::error_over_time(s, Show::Leaders), charts::error_over_samples(s, Show::Leaders)];
-        list.extend(charts::efficiency(s, Show::Leaders));
-        list.extend(charts::time_to_error(s, Show::Leaders));
+        let mut list = vec![charts::error_over_time(s), charts::error_over_samples(s)];
+        list.extend(charts::efficiency(s));
+        list.extend(charts::time_to_error(s));
         list
     };
     let figures: Vec<_> = outcome.summaries.iter().map(figures).collect();
@@ -129,12 +129,10 @@ fn one_series_of_each_technique_is_shown_at_first() {
     }
     // the same in files, which hold nothing else
     let summary = &outcome.summaries[0];
-    for figure in [charts::error_over_time(summary, Show::Leaders), charts::efficiency(summary, Show::Leaders).unwrap()]
-    {
+    for figure in [charts::error_over_time(summary), charts::efficiency(summary).unwrap()] {
         assert_eq!(series(&figure.drawing.file()).len(), 3);
         assert!(!figure.drawing.file().contains("independent</text>"));
     }
-    assert_eq!(series(&charts::error_over_time(summary, Show::All).drawing.file()).len(), 9);
     assert!(page.contains("data-all"), "a button shows the rest");
 }
 

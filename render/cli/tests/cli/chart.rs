@@ -160,7 +160,7 @@ fn faults_are_reported() {
     says(&format!("{SMALL} -o out"), &["measurements.csv", "line 2", "\"one\"", "replicate"]);
     fs::write(folder.0.join("file"), "").unwrap();
     says(&format!("{SMALL} -o file"), &["file"]);
-    says("figure importance -o file", &["file"]);
+    says("figure vignetting -o file", &["file"]);
     // a reference whose size is not a multiple of the image's
     folder.succeed("render quads --size 9x9 --spp 4 -o a.exr");
     says("chart quads --reference a.exr --size 8x8", &["a.exr", "9x9", "8x8"]);
@@ -330,60 +330,6 @@ fn warps_are_fast_and_good() {
     let csv = chart::warps::csv(&measured);
     assert_eq!(csv.lines().count(), measured.len() + 1);
     assert!(!chart::warps::figure(&measured).drawing.file().contains("NaN"));
-}
-
-/// The numbers in a line of a figure's output.
-fn numbers(line: &str) -> Vec<f64> {
-    let line = line.replace('−', "-");
-    let words = line.split(|c: char| !(c.is_ascii_digit() || ".-e".contains(c)));
-    words.filter_map(|w| w.parse().ok()).collect()
-}
-
-#[test]
-fn figures_say_their_numbers() {
-    let folder = Folder::new();
-    let line = |out: &str, start: &str| {
-        numbers(out.lines().find_map(|l| l.trim().strip_prefix(start)).unwrap_or_else(|| panic!("{start} in {out}")))
-    };
-    let out = folder.succeed("figure importance");
-    let [gain, loss] = ["pdf 0.1 | 4.6 | 0.1: variance", "pdf 1.2 | 0.2 | 1.2: variance"].map(|s| line(&out, s)[0]);
-    assert!((gain / 6.67 - 1.0).abs() < 0.01 && (loss / 5.34 - 1.0).abs() < 0.03, "{out}");
-    assert!(line(&out, "pdf proportional to f: variance")[0] < 1e-20, "{out}");
-
-    if is_long() {
-        let out = folder.succeed("figure stratification");
-        for (name, rate) in
-            [("edge, independent", -1.0), ("edge, jittered", -1.5), ("x, independent", -1.0), ("x, jittered", -2.0)]
-        {
-            let found = line(&out, &format!("{name}: slope"));
-            let (slope, half, share, around) = (found[0], found[1], found[3], found[4]);
-            assert!((slope - rate).abs() < 2.0 * half && half < 0.03, "{out}");
-            assert!((share - 1.0).abs() < 2.0 * around && around < 0.1, "{out}");
-        }
-    }
-
-    if is_long() {
-        let out = folder.succeed("figure lobes");
-        let rows: Vec<Vec<f64>> =
-            out.lines().filter(|line| !line.contains('°')).map(numbers).filter(|row| row.len() >= 12).collect();
-        // by roughness, cosine, place and size
-        assert_eq!(rows.len(), 6 * 4 * 3 * 4, "{out}");
-        let off = line(&out, "The means of")[1];
-        assert!(off < 2.0, "samples are off by {off} %: {out}");
-        assert!(folder.read("figures/lobes.svg").matches("<image ").count() == 8);
-    }
-
-    let out = folder.succeed("figure cap-solid-angle-vs-projected");
-    assert!(line(&out, "by projected solid angle")[0] < 1e-11, "{out}");
-    let irradiance = line(&out, "irradiance per radiance");
-    assert!(irradiance[..2].iter().all(|x| (x - irradiance[2]).abs() < 2e-6), "{out}");
-    folder.succeed("figure area-factors");
-    let names = ["importance", "cap-solid-angle-vs-projected", "area-factors", "stratification"];
-    for name in names.into_iter().take(cases(3, 4)) {
-        let svg = folder.read(&format!("figures/{name}.svg"));
-        assert_eq!(svg.matches("<g").count(), svg.matches("</g>").count(), "{name}");
-        assert!(svg.starts_with("<svg") && svg.ends_with("</svg>\n") && !svg.contains("NaN"), "{name}");
-    }
 }
 
 /// Every pair of a pixel and a light has one outcome, and what is known saves rays. In the long tier alone: it renders ten scenes.

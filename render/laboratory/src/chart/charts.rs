@@ -15,26 +15,6 @@ pub struct Figure {
     pub caption: String,
 }
 
-/// Which series are shown, until the reader of a page chooses otherwise.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Show {
-    /// The best sampler of each technique.
-    Leaders,
-    /// All series.
-    All,
-}
-
-impl Show {
-    /// Indices of the series shown.
-    #[must_use]
-    pub fn of(self, summary: &Summary) -> Vec<usize> {
-        match self {
-            Self::Leaders => summary.leaders(),
-            Self::All => (0..summary.series.len()).collect(),
-        }
-    }
-}
-
 /// Formats a value ± half of its interval.
 #[must_use]
 pub fn with_interval(e: &Estimate) -> String {
@@ -53,20 +33,17 @@ pub fn id(series: &Series) -> String {
 
 fn lines(
     summary: &Summary,
-    show: Show,
     name: impl Fn(&Series) -> String,
     x: impl Fn(&Point) -> Bar,
     sure: impl Fn(&Point) -> bool,
 ) -> Vec<Line> {
-    let shown = show.of(summary);
+    let shown = summary.leaders();
     let line = |(index, series): (usize, &Series)| Line {
         id: id(series),
         name: name(series),
         color: series.way.technique as usize,
         dash: series.way.sampler as usize,
-        joined: true,
         shown: shown.contains(&index),
-        mark: 1.0,
         dots: series.points.iter().map(|p| Dot { x: x(p), y: p.mse.into(), sure: sure(p) }).collect(),
     };
     summary.series.iter().enumerate().map(line).collect()
@@ -74,15 +51,14 @@ fn lines(
 
 /// Draws error against time.
 #[must_use]
-pub fn error_over_time(summary: &Summary, show: Show) -> Figure {
+pub fn error_over_time(summary: &Summary) -> Figure {
     let chart = Chart {
         title: format!("{}: error against time", summary.scene),
         x_label: "seconds per image".to_owned(),
         y_label: "mean squared error".to_owned(),
         scales: [Scale::Log, Scale::Log],
-        lines: lines(summary, show, |s| s.way.title(), |p| p.seconds.into(), Point::is_sure),
+        lines: lines(summary, |s| s.way.title(), |p| p.seconds.into(), Point::is_sure),
         guides: vec![-1.0, -1.5],
-        equal: false,
     };
     let caption =
         "Lower and further left is better. Each point is one sample count per pixel. Bars are 95 % intervals over \
@@ -93,7 +69,7 @@ pub fn error_over_time(summary: &Summary, show: Show) -> Figure {
 
 /// Draws error against samples per pixel, with slopes.
 #[must_use]
-pub fn error_over_samples(summary: &Summary, show: Show) -> Figure {
+pub fn error_over_samples(summary: &Summary) -> Figure {
     let name = |s: &Series| match &s.slope {
         Some(slope) => format!("{} {}", s.way.title(), with_interval(slope).replace('-', "−")),
         None => format!("{} slope ?", s.way.title()),
@@ -103,9 +79,8 @@ pub fn error_over_samples(summary: &Summary, show: Show) -> Figure {
         x_label: "samples per pixel".to_owned(),
         y_label: "mean squared error".to_owned(),
         scales: [Scale::Binary, Scale::Log],
-        lines: lines(summary, show, name, |p| Bar::exact(f64::from(p.spp)), |p| p.mse.is_sure()),
+        lines: lines(summary, name, |p| Bar::exact(f64::from(p.spp)), |p| p.mse.is_sure()),
         guides: vec![-1.0, -1.5],
-        equal: false,
     };
     let caption =
         "Slopes of log error over log samples are fitted to each replicate: mean and 95 % interval.".to_owned();
@@ -129,9 +104,9 @@ fn row(summary: &Summary, index: usize, bar: Bar, sure: bool, shown: &[usize]) -
 
 /// Draws efficiency relative to the baseline, the greatest first; `None` if there is no baseline.
 #[must_use]
-pub fn efficiency(summary: &Summary, show: Show) -> Option<Figure> {
+pub fn efficiency(summary: &Summary) -> Option<Figure> {
     let baseline = &summary.series[summary.baseline?];
-    let shown = show.of(summary);
+    let shown = summary.leaders();
     let rows = summary.gains.iter().map(|g| {
         // the interval is that of a logarithm
         let factor = 1.0 + g.gain.half / g.gain.value;
@@ -155,8 +130,8 @@ pub fn efficiency(summary: &Summary, show: Show) -> Option<Figure> {
 
 /// Draws the seconds each series takes to reach the target error, the least first; `None` if no series reaches it.
 #[must_use]
-pub fn time_to_error(summary: &Summary, show: Show) -> Option<Figure> {
-    let shown = show.of(summary);
+pub fn time_to_error(summary: &Summary) -> Option<Figure> {
+    let shown = summary.leaders();
     let rows = summary.series.iter().enumerate().map(|(index, s)| {
         // unknown times come last
         let (seconds, beyond) = s.seconds_to(summary.target).unwrap_or((f64::NAN, true));

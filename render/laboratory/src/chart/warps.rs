@@ -245,9 +245,7 @@ pub fn figure(measured: &[Measured]) -> Figure {
         name: m.name.clone(),
         color: i,
         dash: i / PALETTE.len(),
-        joined: true,
         shown: true,
-        mark: 0.8,
         dots: m
             .nanoseconds
             .iter()
@@ -261,7 +259,6 @@ pub fn figure(measured: &[Measured]) -> Figure {
         scales: [Scale::Log, Scale::Log],
         lines: measured.iter().enumerate().map(line).collect(),
         guides: Vec::new(),
-        equal: false,
     };
     let caption = "Each line is one warp at three widths, which give the same bits and thus the same error. Errors are differences from \
                    the f64 instance of the same code for the same inputs, over 262,144 random points; directions have length 1."

@@ -1,17 +1,15 @@
-//! Linear and logarithmic axes.
+//! Logarithmic axes.
 
 use super::text::short;
 use crate::chart::stats::Estimate;
 use plotters::coord::ranged1d::{DefaultFormatting, KeyPointHint, Ranged};
 
-/// A scale of an axis.
+/// A logarithmic scale of an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scale {
-    /// Linear.
-    Linear,
-    /// Logarithmic, with ticks at powers of ten.
+    /// With ticks at powers of ten.
     Log,
-    /// Logarithmic, with ticks at powers of two.
+    /// With ticks at powers of two.
     Binary,
 }
 
@@ -66,42 +64,28 @@ pub(super) struct Axis {
 impl Axis {
     /// An axis that contains all values, with a margin.
     pub(super) fn new(scale: Scale, values: impl Iterator<Item = f64>) -> Self {
-        let usable = |x: &f64| x.is_finite() && (scale == Scale::Linear || *x > 0.0);
+        let usable = |x: &f64| x.is_finite() && *x > 0.0;
         let (low, high) =
             values.filter(usable).fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
         let (low, high) = if low > high { (0.5, 2.0) } else { (low, high) };
-        match scale {
-            Scale::Linear => {
-                let span = if high > low { high - low } else { high.abs().max(1.0) };
-                let (low, high) = (low - 0.05 * span, high + 0.05 * span);
-                let rough = (high - low) / 6.0;
-                let decade = 10_f64.powf(rough.log10().floor());
-                let step = [1.0, 2.0, 5.0, 10.0].map(|k| k * decade).into_iter().find(|s| *s >= rough);
-                let step = step.unwrap_or(decade);
-                let ticks = ((low / step).ceil() as i64..=(high / step).floor() as i64).map(|k| k as f64 * step);
-                Self { scale, low, high, bold: ticks.collect(), light: Vec::new() }
-            }
-            Scale::Log | Scale::Binary => {
-                let margin = (high / low).powf(0.04).max(1.3);
-                let (low, high) = (low / margin, high * margin);
-                let base: f64 = if scale == Scale::Log { 10.0 } else { 2.0 };
-                let (first, last) = (low.log(base).ceil() as i32, high.log(base).floor() as i32);
-                let every = ((last - first) / 7 + 1).max(1) as usize;
-                let mut bold: Vec<f64> = (first..=last).step_by(every).map(|e| base.powi(e)).collect();
-                let mut light: Vec<f64> = (first..=last).map(|e| base.powi(e)).collect();
-                if scale == Scale::Log && last - first < 9 {
-                    let steps = (first - 1..=last).flat_map(|e| (2..10).map(move |k| f64::from(k) * 10_f64.powi(e)));
-                    light.extend(steps.filter(|x| (low..=high).contains(x)));
-                }
-                if scale == Scale::Log && bold.len() < 2 {
-                    // fewer than two powers of ten in view: also ticks at 2 and 5 times each
-                    let more = (first - 1..=last).flat_map(|e| [2.0, 5.0].map(|k| k * 10_f64.powi(e)));
-                    bold.extend(more.filter(|x| (low..=high).contains(x)));
-                    bold.sort_by(f64::total_cmp);
-                }
-                Self { scale, low, high, bold, light }
-            }
+        let margin = (high / low).powf(0.04).max(1.3);
+        let (low, high) = (low / margin, high * margin);
+        let base: f64 = if scale == Scale::Log { 10.0 } else { 2.0 };
+        let (first, last) = (low.log(base).ceil() as i32, high.log(base).floor() as i32);
+        let every = ((last - first) / 7 + 1).max(1) as usize;
+        let mut bold: Vec<f64> = (first..=last).step_by(every).map(|e| base.powi(e)).collect();
+        let mut light: Vec<f64> = (first..=last).map(|e| base.powi(e)).collect();
+        if scale == Scale::Log && last - first < 9 {
+            let steps = (first - 1..=last).flat_map(|e| (2..10).map(move |k| f64::from(k) * 10_f64.powi(e)));
+            light.extend(steps.filter(|x| (low..=high).contains(x)));
         }
+        if scale == Scale::Log && bold.len() < 2 {
+            // fewer than two powers of ten in view: also ticks at 2 and 5 times each
+            let more = (first - 1..=last).flat_map(|e| [2.0, 5.0].map(|k| k * 10_f64.powi(e)));
+            bold.extend(more.filter(|x| (low..=high).contains(x)));
+            bold.sort_by(f64::total_cmp);
+        }
+        Self { scale, low, high, bold, light }
     }
     pub(super) fn label(&self, x: f64) -> String {
         let exponent = x.log10().round();
@@ -121,11 +105,7 @@ impl Ranged for Axis {
     type FormatOption = DefaultFormatting;
     type ValueType = f64;
     fn map(&self, value: &f64, limit: (i32, i32)) -> i32 {
-        let (low, high, x) = match self.scale {
-            Scale::Linear => (self.low, self.high, *value),
-            _ => (self.low.ln(), self.high.ln(), value.ln()),
-        };
-        let share = (x - low) / (high - low);
+        let share = (value / self.low).ln() / (self.high / self.low).ln();
         limit.0 + (share * f64::from(limit.1 - limit.0)).round() as i32
     }
     fn key_points<H: KeyPointHint>(&self, hint: H) -> Vec<f64> {

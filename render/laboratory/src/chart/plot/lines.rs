@@ -31,12 +31,8 @@ pub struct Line {
     pub color: usize,
     /// Index of the line style.
     pub dash: usize,
-    /// Whether the points are joined by lines.
-    pub joined: bool,
     /// Whether a page shows it at first; files contain only what is shown.
     pub shown: bool,
-    /// Relative size of the markers; 0 for none.
-    pub mark: f64,
     /// Points in the order in which they are joined.
     pub dots: Vec<Dot>,
 }
@@ -56,19 +52,17 @@ pub struct Chart {
     pub lines: Vec<Line>,
     /// Slopes of guide lines, in a log-log chart.
     pub guides: Vec<f64>,
-    /// Whether units have the same length on both axes.
-    pub equal: bool,
 }
 
 /// A marker, filled if `sure`, otherwise hollow.
-fn marker((x, y): (i32, i32), (n, size): (usize, f64), color: RGBColor, sure: bool) -> Polygon<(i32, i32)> {
+fn marker((x, y): (i32, i32), n: usize, color: RGBColor, sure: bool) -> Polygon<(i32, i32)> {
     let style = if sure { color.filled() } else { WHITE.filled() };
-    Polygon::new(outline(n, size).into_iter().map(|(dx, dy)| (x + dx, y + dy)).collect::<Vec<_>>(), style)
+    Polygon::new(outline(n).into_iter().map(|(dx, dy)| (x + dx, y + dy)).collect::<Vec<_>>(), style)
 }
 
 /// Corners of the n-th marker relative to its centre.
-fn outline(n: usize, size: f64) -> Vec<(i32, i32)> {
-    let r = 3.4 * size * f64::from(UNIT);
+fn outline(n: usize) -> Vec<(i32, i32)> {
+    let r = 3.4 * f64::from(UNIT);
     let regular = |count: usize, turn: f64, size: f64| {
         (0..count)
             .map(|i| {
@@ -95,13 +89,7 @@ impl Chart {
         // wide intervals do not stretch the axes
         let across = dots().map(|d| d.x.value).chain(dots().filter(sure).flat_map(|d| [d.x.low, d.x.high]));
         let upwards = dots().map(|d| d.y.value).chain(dots().filter(sure).flat_map(|d| [d.y.low, d.y.high]));
-        let mut axes = [Axis::new(self.scales[0], across), Axis::new(self.scales[1], upwards)];
-        if self.equal {
-            // the labels leave about 400 by 270 units
-            let [x, y] = &mut axes;
-            let (middle, half) = ((x.low + x.high) / 2.0, (y.high - y.low) * 400.0 / 270.0 / 2.0);
-            (x.low, x.high) = (middle - half, middle + half);
-        }
+        let axes = [Axis::new(self.scales[0], across), Axis::new(self.scales[1], upwards)];
 
         let mut frame = layer(WIDTH, HEIGHT, |area| self.frame(area, &axes));
         frame += &group("class=\"guides\"", &self.plane(&axes, |plane| self.draw_guides(plane, &axes)));
@@ -192,12 +180,9 @@ fn draw_line<'a>(
     [x, y]: &[Axis; 2],
 ) -> Drawn<'a> {
     let color = rgb(line.color);
-    let drawable = |d: &&Dot| {
-        let positive = |v: f64, scale| v.is_finite() && (scale == Scale::Linear || v > 0.0);
-        positive(d.x.value, x.scale) && positive(d.y.value, y.scale)
-    };
+    let drawable = |d: &&Dot| [d.x.value, d.y.value].iter().all(|v| v.is_finite() && *v > 0.0);
     let dots: Vec<&Dot> = line.dots.iter().filter(drawable).collect();
-    if line.joined && dots.len() > 1 {
+    if dots.len() > 1 {
         let path: Vec<_> = dots.iter().map(|d| (d.x.value, d.y.value)).collect();
         let style = stroke(color, 16);
         match dash(line.dash) {
@@ -221,14 +206,9 @@ fn draw_line<'a>(
                 plane.draw(&(EmptyElement::at(end(v)) + PathElement::new(cap, thin)))?;
             }
         }
-        if line.mark == 0.0 {
-            continue;
-        }
-        if line.joined || dot.sure {
-            plane.draw(&(EmptyElement::at(at) + marker((0, 0), (line.dash, line.mark), color, dot.sure)))?;
-        }
+        plane.draw(&(EmptyElement::at(at) + marker((0, 0), line.dash, color, dot.sure)))?;
         if !dot.sure {
-            let mut edge = outline(line.dash, line.mark);
+            let mut edge = outline(line.dash);
             edge.push(edge[0]);
             plane.draw(&(EmptyElement::at(at) + PathElement::new(edge, stroke(color, 10))))?;
         }
@@ -250,19 +230,15 @@ fn legend(lines: &[&Line], top: i32) -> (String, i32) {
             let i = i as i32;
             let (x, y) = ((12 + (i / rows) * 234) * UNIT, (top + (i % rows) * ROW + ROW / 2) * UNIT);
             let color = rgb(line.color);
-            if line.joined {
-                let ends = [(x, y), (x + 26 * UNIT, y)];
-                match dash(line.dash) {
-                    None => area.draw(&PathElement::new(ends, stroke(color, 16)))?,
-                    Some((on, off)) => {
-                        let path = DashedPathElement::new(ends, on * UNIT, off * UNIT, stroke(color, 16));
-                        area.draw(&path)?;
-                    }
+            let ends = [(x, y), (x + 26 * UNIT, y)];
+            match dash(line.dash) {
+                None => area.draw(&PathElement::new(ends, stroke(color, 16)))?,
+                Some((on, off)) => {
+                    let path = DashedPathElement::new(ends, on * UNIT, off * UNIT, stroke(color, 16));
+                    area.draw(&path)?;
                 }
             }
-            if line.mark > 0.0 {
-                area.draw(&marker((x + 13 * UNIT, y), (line.dash, line.mark), color, true))?;
-            }
+            area.draw(&marker((x + 13 * UNIT, y), line.dash, color, true))?;
             area.draw(&Text::new(line.name.clone(), (x + 32 * UNIT, y - (TEXT - 2) * UNIT / 2), font(TEXT - 2)))?;
         }
         Ok(())
