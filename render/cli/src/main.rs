@@ -1,6 +1,5 @@
 //! The renderer's command line: reads the arguments, runs a command and sets the exit code.
 
-mod attack;
 mod compare;
 mod display;
 mod image;
@@ -45,7 +44,7 @@ enum Command {
     Merge(merge::Options),
     /// Compare an image with a reference of the same size
     Compare(compare::Options),
-    /// Render scenes with every applicable technique and sampler, and check that the images agree
+    /// Render random scenes with several techniques, and check that the images agree with an exhaustive renderer
     Selftest(selftest::Options),
     /// Measure the error and time of techniques and samplers, and write a report with charts
     Chart(chart::Options),

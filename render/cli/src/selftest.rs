@@ -1,89 +1,145 @@
-//! `etendue selftest`: prints a table of images that should agree.
+//! `etendue selftest`: random scenes by all techniques against the oracle, the errors that they claim, and how well they choose between
+//! kinds of lights.
 
-use clap::{Args, ValueEnum};
-use etendue_laboratory::attack::report;
-use etendue_laboratory::selftest::{self, Effort};
+use clap::Args;
+use etendue_laboratory::attack::choice;
+use etendue_laboratory::attack::claims::{self, SHARE, Tally, honest};
+use etendue_laboratory::attack::defects::{self, Table};
+use etendue_laboratory::attack::judge::Effort;
+use etendue_laboratory::attack::regimes::{REGIMES, Regime, named};
+use etendue_laboratory::attack::report::{self, QUICK, shrunk};
+use etendue_render::files;
 use etendue_render::limits::MOST_SAMPLES;
 use etendue_render::options::{name, out, pool, threads, whole};
-use etendue_render::{Settings, Technique, World, scene};
+use rayon::ThreadPool;
 use std::error::Error;
-use std::ffi::OsString;
 use std::io::Write;
+use std::ops::Range;
+use std::path::PathBuf;
 use std::time::Instant;
 
 #[derive(Args)]
 pub(crate) struct Options {
-    /// Names of built-in scenes, or paths of pbrt-v4 or glTF files [default: all built-in scenes of few lights]
-    scenes: Vec<OsString>,
+    /// Number of random scenes of each regime
+    #[arg(default_value_t = 10, value_parser = whole::<u64>(1..=1 << 32))]
+    scenes: u64,
+    /// Compare the errors that images claim with those that they have, instead
+    #[arg(long, conflicts_with = "choices")]
+    claims: bool,
+    /// Measure how well lamps, skies and suns are chosen, instead
+    #[arg(long)]
+    choices: bool,
+    /// Compare the scenes on which the renderer was wrong once, instead
+    #[arg(long, conflicts_with_all = ["scenes", "claims", "choices", "regime", "shrink"])]
+    defects: bool,
+    /// Take random scenes of these regimes only [default: all]
+    #[arg(long, value_name = "NAME", value_delimiter = ',')]
+    regime: Vec<String>,
+    /// Write the scenes that differ to this folder, reduced to what still differs
+    #[arg(long, value_name = "FOLDER", conflicts_with_all = ["claims", "choices"])]
+    shrink: Option<PathBuf>,
     /// Take this many samples per pixel
-    #[arg(long, default_value_t = 64, value_parser = whole::<u32>(2..=MOST_SAMPLES.into()))]
+    #[arg(long, default_value_t = QUICK[1], value_parser = whole::<u32>(2..=MOST_SAMPLES.into()))]
     spp: u32,
-    /// Render images of this width and height in pixels [default: 64, or 24 with --attack]
-    #[arg(long, value_parser = whole::<u32>(1..=4096))]
-    side: Option<u32>,
-    /// Seed the random numbers with this; different seeds give independent images
-    #[arg(long, default_value_t = 0, value_parser = whole::<u64>(0..=u64::MAX))]
+    /// Render images of this width and height in pixels
+    #[arg(long, default_value_t = QUICK[0], value_parser = whole::<u32>(1..=4096))]
+    side: u32,
+    /// Seed of the first scene of each regime; the others have the next ones
+    #[arg(long, default_value_t = 0, value_parser = whole::<u64>(0..=1 << 63))]
     seed: u64,
-    /// Follow a camera ray through at most this many perfect mirrors
-    #[arg(long, default_value_t = Settings::DEPTH, value_parser = whole::<u32>(0..=1024))]
-    depth: u32,
     /// Use this many threads; 0 means one per core
     #[arg(long, default_value_t = 0, value_parser = threads)]
     threads: usize,
-    #[command(flatten)]
-    attack: crate::attack::AttackOptions,
 }
 
-/// Prints the table; returns whether all images agree.
+/// Prints the tables; returns whether all is well.
 pub(crate) fn run(options: &Options) -> Result<bool, Box<dyn Error>> {
-    if options.attack.is_asked() {
-        let quality = [options.side.unwrap_or(report::QUICK[0]), options.spp];
-        return options.attack.run(options.seed, quality, options.threads);
-    }
-    let mut names = options.scenes.clone();
-    if names.is_empty() {
-        names.extend(scene::builtin_of_few_lights().iter().map(|(name, _)| OsString::from(name)));
-    }
-    let effort =
-        Effort { side: options.side.unwrap_or(64), spp: options.spp, seed: options.seed, depth: options.depth };
     let pool = pool(options.threads)?;
-    let scenes = names.iter().map(scene::load).collect::<Result<Vec<_>, _>>()?;
+    if options.defects {
+        let compare = |case: &defects::Case| defects::compare(case, &defects::EFFORT);
+        let cases = defects::all();
+        let tables = pool.install(|| cases.iter().map(compare).collect::<Result<Vec<_>, _>>())?;
+        tables.iter().try_for_each(|table| write!(out(), "{table}"))?;
+        return Ok(tables.iter().all(Table::agrees));
+    }
+    let find = |name: &String| named(name).ok_or_else(|| format!("no regime is called {name:?}: {}", known()));
+    let mut regimes = options.regime.iter().map(find).collect::<Result<Vec<&Regime>, _>>()?;
+    if regimes.is_empty() {
+        regimes.extend(&REGIMES);
+    }
+    let (seeds, quality) = (options.seed..options.seed + options.scenes, [options.side, options.spp]);
+    if options.claims {
+        return claim(&regimes, |regime| pool.install(|| claims::run(regime, seeds.clone(), quality)));
+    }
+    if options.choices {
+        let mut is_good = true;
+        for regime in regimes {
+            let tally = pool.install(|| choice::run(regime, seeds.clone(), quality))?;
+            writeln!(out(), "{tally}")?;
+            is_good &= !tally.choices.iter().any(|(choice, _)| choice.is_poor());
+        }
+        return Ok(is_good);
+    }
+    compare(options, &regimes, &seeds, &pool)
+}
+
+/// Compares random scenes by all techniques with the oracle; returns whether all agree.
+fn compare(
+    Options { side, spp, shrink, .. }: &Options,
+    regimes: &[&Regime],
+    seeds: &Range<u64>,
+    pool: &ThreadPool,
+) -> Result<bool, Box<dyn Error>> {
+    if let Some(folder) = shrink {
+        files::make_folder(folder)?;
+    }
     let start = Instant::now();
-    let (mut worst, mut images) = (0.0_f64, 0);
-    writeln!(
-        out(),
-        "{side}x{side} pixels, {spp} samples per pixel, seed {seed}; z compares each image with all others of its scene",
-        side = effort.side,
-        spp = options.spp,
-        seed = options.seed
-    )?;
-    for scene in &scenes {
-        let world = pool.install(|| World::new(scene))?;
-        let rows = pool.install(|| selftest::rows(scene, &world, &effort));
-        let mut out = out();
-        writeln!(out, "{}", scene.name)?;
-        for row in &rows {
-            let [r, g, b] = row.mean;
-            let [x, y, z] = row.z;
-            let technique = name(row.technique);
-            let sampler = name(row.sampler);
-            let mark = if selftest::worst(std::slice::from_ref(row)) < selftest::LIMIT { "" } else { "  disagrees" };
-            writeln!(
-                out,
-                "  {technique:21} {sampler:13} {r:.6} {g:.6} {b:.6}   ± {:.1e}   z {x:+.2} {y:+.2} {z:+.2}{mark}",
-                row.error.iter().fold(0.0_f64, |m, &e| m.max(e))
-            )?;
+    let (mut scenes, mut differ, mut z) = (0, 0, 0.0_f64);
+    for regime in regimes {
+        let tally = pool.install(|| report::run(regime, seeds.clone(), [*side, *spp]));
+        writeln!(out(), "{tally}")?;
+        for failure in &tally.failures {
+            writeln!(out(), "  {failure}")?;
+            let Some((folder, (technique, ..))) = shrink.as_ref().zip(failure.techniques.first()) else {
+                continue;
+            };
+            let effort = Effort::new(*side, *spp, failure.seed);
+            let least = pool.install(|| shrunk(&regime.draft(failure.seed), *technique, &effort));
+            let path = folder.join(format!("{}-{}.pbrt", failure.regime, failure.seed));
+            files::replace(&path, least.to_string().as_bytes())?;
+            let (size, shown) = (least.size(), path.display());
+            writeln!(out(), "    {size} primitives: etendue render {shown} --technique {}", name(*technique))?;
         }
-        for &technique in Technique::value_variants() {
-            if let Some(why) = selftest::left_out(technique, scene) {
-                writeln!(out, "  {:21} not compared, because {why}", name(technique))?;
-            }
-        }
-        worst = worst.max(selftest::worst(&rows));
-        images += rows.len();
+        scenes += tally.scenes;
+        differ += tally.failures.len();
+        z = z.max(tally.z);
     }
     let seconds = start.elapsed().as_secs_f64();
-    let verdict = if worst < selftest::LIMIT { "all agree" } else { "NOT all agree" };
-    writeln!(out(), "{} scenes, {images} images, {seconds:.1} s: greatest |z| {worst:.2}, {verdict}", scenes.len())?;
-    Ok(worst < selftest::LIMIT)
+    let verdict = if differ == 0 { "all agree".to_owned() } else { format!("{differ} DIFFER") };
+    writeln!(out(), "{scenes} scenes, {seconds:.1} s: greatest |z| {z:.2}, {verdict}")?;
+    Ok(differ == 0)
+}
+
+/// Prints how the errors of images compare with those that they claim; returns whether enough are alike.
+fn claim(regimes: &[&Regime], run: impl Fn(&Regime) -> Result<Tally, String>) -> Result<bool, Box<dyn Error>> {
+    let mut all = Tally::default();
+    for regime in regimes {
+        let tally = run(regime)?;
+        writeln!(out(), "{:13} {tally}", regime.name)?;
+        all = all.and(tally);
+    }
+    let mut out = out();
+    for way in all.ways() {
+        writeln!(out, "{:13} {}", way.to_string(), all.by(way))?;
+    }
+    for (from, to) in [1.0, 8.0, 16.0, 64.0, f64::INFINITY].windows(2).map(|w| (w[0], w[1])) {
+        writeln!(out, "{:13} {}", format!("{from} to {to} px"), all.spread(from..to))?;
+    }
+    writeln!(out, "{:13} {all}", "all")?;
+    Ok(honest(&all.runs) >= SHARE)
+}
+
+/// The names of all regimes.
+fn known() -> String {
+    REGIMES.map(|regime| regime.name).join(", ")
 }

@@ -14,11 +14,11 @@ pub mod warps;
 
 use crate::hash::fnv1a;
 use crate::interrupt::interrupt;
-use crate::selftest;
 use clap::{Args, ValueEnum};
 use etendue_render::files;
 use etendue_render::limits::MOST_SAMPLES;
 use etendue_render::options::{name, out, size, threads, whole};
+use etendue_render::scene::Material;
 use etendue_render::{Sampler, Settings, Technique, World, identity, scene};
 use indicatif::{ProgressBar, ProgressStyle};
 use measure::{ChartedScene, Key, Plan, Table, inapplicable};
@@ -109,7 +109,8 @@ fn techniques(scene: &scene::Scene, subject: &ChartedScene, asked: &[Technique])
     let (mut list, mut images, mut notes) = (Vec::new(), Vec::new(), Vec::new());
     for &technique in asked {
         let mut leave = |why: &str| notes.push(format!("{}: {} is left out: {why}", subject.name, name(technique)));
-        if !selftest::applies(technique, scene) {
+        let is_blind = matches!(technique, Technique::UniformHemisphere | Technique::CosineHemisphere);
+        if is_blind && scene.materials.iter().any(Material::is_glossy) {
             leave(
                 "it finds reflections of lights in this scene's rough metals too rarely for its error to be measured",
             );

@@ -6,7 +6,6 @@
 //! - [`cost`]: time per sample, for these and for the benchmarks.
 //! - [`figure`]: figures about light sampling, with the numbers behind them.
 //! - [`interrupt`]: what ends the program from outside.
-//! - [`selftest`]: images of one scene by all techniques and samplers, which must agree.
 
 pub mod atlas;
 pub mod attack;
@@ -15,4 +14,3 @@ pub mod cost;
 pub mod figure;
 mod hash;
 pub mod interrupt;
-pub mod selftest;
