@@ -26,7 +26,6 @@ mod visible;
 pub(crate) use analytic::Analytic;
 pub use blockers::Blocker;
 pub use bodies::Bodies;
-pub use cache::Survey;
 pub use certifier::{Certificate, Certifier, MOST};
 pub use patch::{Patch, Pyramid, Viewer};
 pub use precision::{ALLOWED, Precision};

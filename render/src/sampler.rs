@@ -49,21 +49,6 @@ pub const LENS: u32 = 3;
 /// The pair for a direction sampled from the surface's BSDF, in addition to a point on the light.
 pub const SURFACE: u32 = 4;
 
-/// How many of the pairs have names.
-const PAIRS: usize = 5;
-
-/// Which pairs of each sample are replaced by others of the same distribution; see [`World::redraw`](crate::World::redraw).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Redrawn([bool; PAIRS]);
-
-impl Redrawn {
-    /// All pairs with names but these.
-    #[must_use]
-    pub fn all_but(kept: &[u32]) -> Self {
-        Self(std::array::from_fn(|pair| !kept.contains(&(pair as u32))))
-    }
-}
-
 /// Eight samples to be taken.
 #[derive(Clone, Copy, Debug)]
 pub struct Packet {
@@ -198,8 +183,6 @@ pub struct Source {
     /// Distance of the first indices of two successive replicates, less `span`.
     gap: u32x8,
     width: u32x8,
-    /// The pairs of a Sobol set that have names.
-    pairs: [u32; PAIRS],
 }
 
 /// Index of a pair in a joint point. The lens comes before the choice of a light, which few scenes need.
@@ -241,21 +224,7 @@ impl Source {
             }
         };
         let span = if sampler == Sampler::Independent { 0 } else { span };
-        let pairs = std::array::from_fn(|pair| pair as u32);
-        Self { set, span, gap: u32x8::splat(stride.saturating_sub(span)), width: u32x8::splat(width), pairs }
-    }
-    /// The same numbers, but for these pairs of [`Sampler::Sobol`] and [`Sampler::Adaptive`], which are others.
-    #[must_use]
-    pub fn redrawn(mut self, Redrawn(redrawn): Redrawn) -> Self {
-        for (pair, redrawn) in self.pairs.iter_mut().zip(redrawn) {
-            *pair += if redrawn { 0x100 } else { 0 };
-        }
-        self
-    }
-    /// The number of a pair in a Sobol set.
-    #[inline(always)]
-    fn numbered(&self, pair: u32) -> u32 {
-        self.pairs.get(pair as usize).copied().unwrap_or(pair)
+        Self { set, span, gap: u32x8::splat(stride.saturating_sub(span)), width: u32x8::splat(width) }
     }
     /// Samples in a replicate; 0 if each sample is a replicate.
     #[must_use]
@@ -282,7 +251,7 @@ impl Source {
         let pixel = packet.y * self.width + packet.x;
         let key = pixel * u32x8::splat(4) + packet.replicate + light * u32x8::splat(0x9e37_79b9);
         match &self.set {
-            Set::Sobol(set) => [self.pair(packet, FILM), set.pair(key, sample, self.numbered(LIGHT))],
+            Set::Sobol(set) => [self.pair(packet, FILM), set.pair(key, sample, LIGHT)],
             _ => self.film_and_light(packet),
         }
     }
@@ -302,7 +271,7 @@ impl Source {
             Set::Stratified4d(set) => set.pair(pixel, sample(), joint(dimension)),
             Set::Sobol(set) => {
                 let (key, index) = sobol();
-                set.pair(key, index, self.numbered(dimension))
+                set.pair(key, index, dimension)
             }
             Set::Sobol4d(set) => {
                 let (key, index) = sobol();
@@ -335,22 +304,6 @@ pub fn reports_variance(sampler: Sampler, spp: u32, sets: u32, lens: bool) -> bo
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// Pairs that are kept stay as they are, and all others with names change.
-    #[test]
-    fn pairs_are_redrawn() {
-        let (zero, lanes) = (u32x8::splat(0), u32x8::new([0, 1, 2, 3, 4, 5, 6, 7]));
-        let active = etendue::Mask::from_bits(0xff);
-        let packet = Packet { x: u32x8::splat(3), y: u32x8::splat(5), sample: lanes, replicate: zero, active };
-        let source = |redrawn| Source::new(Sampler::Adaptive, 7, 64, 0, true, 32).redrawn(redrawn);
-        let (before, after) = (source(Redrawn::default()), source(Redrawn::all_but(&[FILM, LENS])));
-        for pair in [FILM, LIGHT, CHOICE, LENS, SURFACE, 5] {
-            let is_kept = before.pair(&packet, pair).x.to_array() == after.pair(&packet, pair).x.to_array();
-            assert_eq!(is_kept, [FILM, LENS, 5].contains(&pair), "pair {pair}");
-        }
-        let [film, light] = [&before, &after].map(|source| source.film_and_light_of(&packet, zero, lanes).map(|v| v.x));
-        assert!(film[0].to_array() == light[0].to_array() && film[1].to_array() != light[1].to_array());
-    }
 
     #[test]
     fn the_default_sampler_reports_a_variance_if_any_does() {

@@ -1,6 +1,5 @@
 //! Figures about light sampling, each with the numbers it illustrates.
 
-mod certificates;
 mod sheet;
 mod sky_and_lamp;
 mod studio;
@@ -36,8 +35,6 @@ pub struct Options {
 /// The figures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Name {
-    /// Where geometry proves that a light is lit, dark, or behind few blockers, and where it must be sampled
-    Certificates,
     /// Efficiency of the choice between lamps, skies and suns against the size of the floor
     SkyAndLamp,
     /// The lens as seen from points of the film, in and out of focus, vignetted by its barrel
@@ -47,7 +44,6 @@ pub enum Name {
 impl Studio<'_> {
     fn draw(&self, name: Name) -> Result<Finding, Box<dyn Error>> {
         match name {
-            Name::Certificates => self.certificates(),
             Name::SkyAndLamp => self.sky_and_lamp(),
             Name::Vignetting => self.vignetting(),
         }

@@ -1,7 +1,7 @@
 //! Closed forms as an estimator around another one.
 
 use super::bodies::Bodies;
-use super::cache::{Certificates, Closed, Known, Survey};
+use super::cache::{Certificates, Closed, Known};
 use super::closed_forms::ClosedForms;
 use super::precision::ALLOWED;
 use super::residual::{Left, Residual};
@@ -96,11 +96,6 @@ impl<'a, E> Analytic<'a, E> {
                 }
             }
         });
-    }
-
-    /// What is known of the lights at the first shading point.
-    pub(crate) fn survey(&mut self, points: &Points) -> Survey {
-        self.certificates.survey(&points.surfaces[0], &points.places[0], 0)
     }
 
     /// A bound of the error of what is known at the first shading point: a fraction of what the lights that are computed would contribute if

@@ -24,11 +24,6 @@ pub(super) struct Blocking {
 impl Blocking {
     /// Nothing occludes the light.
     pub(super) const NONE: Self = Self { forms: 0..0, bodies: 0..0 };
-
-    /// Their number.
-    pub(super) fn count(&self) -> usize {
-        self.forms.len() + self.bodies.len()
-    }
 }
 
 impl<'a> Scenery<'a> {

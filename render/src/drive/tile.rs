@@ -9,7 +9,6 @@ use super::world::World;
 use crate::area::Area;
 use crate::bvh::GROUP;
 use crate::camera::{Camera, CameraSample, counted_from};
-use crate::certify::Survey;
 use crate::estimate::{Group, Numbers, RayCount, Reflected, product};
 use crate::film::Accumulator;
 use crate::packet::{M8, V8, X8};
@@ -51,7 +50,7 @@ impl<'a> TileRenderer<'a> {
             camera,
             lens: camera.has_lens() || exposure.is_some(),
             exposure,
-            source: Source::new(sampler, seed, spp, sets, camera.has_lens(), width).redrawn(world.redrawn),
+            source: Source::new(sampler, seed, spp, sets, camera.has_lens(), width),
             paths: Paths::new(scene, settings.depth),
             estimator: OfTechnique::new(world, settings, &camera),
         }
@@ -126,18 +125,6 @@ impl<'a> TileRenderer<'a> {
         self.paths.follow(&[M8::from_bits(1)]);
         self.paths.note_lobes(1);
         sample
-    }
-
-    /// What is known of the lights in the middle of pixels of a tile, seen through the middle of the lens.
-    pub(super) fn survey(&mut self, pixels: &[[u32; 2]]) -> Vec<Survey> {
-        let mut surveys = Vec::with_capacity(pixels.len());
-        for &pixel in pixels {
-            self.look(pixel);
-            let known = self.estimator.analytic().map(|analytic| analytic.survey(&self.paths.points));
-            surveys.push(known.unwrap_or_default());
-        }
-        self.paths.tracer.count.corner += pixels.len() as u64;
-        surveys
     }
 
     /// A bound of the error of closed forms in the middle of a pixel of a tile, seen through the middle of the lens.

@@ -7,7 +7,6 @@ use super::world::World;
 
 use crate::area::{self, Area};
 use crate::camera::Camera;
-use crate::certify::Survey;
 use crate::claim::Foreseen;
 use crate::estimate::RayCount;
 use crate::film::{Film, Pixel, PixelSum};
@@ -148,18 +147,6 @@ impl View<'_> {
         // in order, whatever the threads
         let squares: Vec<f64> = tiles.collect();
         (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
-    }
-
-    /// What [`Technique::Analytic`] knows of the lights in the middle of each pixel, row by row.
-    #[must_use]
-    pub fn survey(&self) -> Vec<Survey> {
-        let whole = self.settings.whole();
-        let (surveys, _) = self.by(Technique::Analytic).tiles(whole, &|renderer, [x0, y0, x1, y1]| {
-            let pixels: Vec<_> = (y0..y1).flat_map(|y| (x0..x1).map(move |x| [x, y])).collect();
-            renderer.begin([x0, y0, x1, y1]);
-            renderer.survey(&pixels)
-        });
-        surveys
     }
 
     /// Renders the image; calls `progress` with the number of newly finished pixels.

@@ -3,7 +3,6 @@
 use crate::bvh::BuildError;
 use crate::certify::Bodies;
 use crate::prepared::PreparedScene;
-use crate::sampler::Redrawn;
 use crate::scene::{CameraSettings, Scene};
 use crate::sensor::{Exposure, Sensor};
 
@@ -17,7 +16,6 @@ pub struct World {
     /// Diagonal of the film in millimetres.
     diagonal: f64,
     sensor: Sensor,
-    pub(super) redrawn: Redrawn,
 }
 
 impl World {
@@ -40,7 +38,7 @@ impl World {
     fn with(prepared: PreparedScene, scene: &Scene) -> Self {
         let (camera, diagonal) = (scene.camera.clone(), scene.film.diagonal);
         let bodies = Bodies::new(&prepared.surfaces.bvh);
-        Self { scene: prepared, bodies, camera, diagonal, sensor: Sensor::default(), redrawn: Redrawn::default() }
+        Self { scene: prepared, bodies, camera, diagonal, sensor: Sensor::default() }
     }
 
     /// Size of the trees and their primitives in bytes.
@@ -52,13 +50,6 @@ impl World {
     #[must_use]
     pub fn with_sensor(self, sensor: Sensor) -> Self {
         Self { sensor, ..self }
-    }
-
-    /// From now on, samples have other numbers in these pairs, and the same as before in the rest. The covariance of the images before and
-    /// after is the part of the variance that the rest alone causes. Only [`Sampler::Sobol`](crate::Sampler::Sobol) and
-    /// [`Sampler::Adaptive`](crate::Sampler::Adaptive) draw numbers anew.
-    pub fn redraw(&mut self, redrawn: Redrawn) {
-        self.redrawn = redrawn;
     }
 
     /// The weights of radiance in an image of this size; `None` if the sensor measures radiance itself.

@@ -3,7 +3,7 @@
 use etendue_laboratory::chart::measure::{Row, Rows};
 use etendue_laboratory::chart::reference::Reference;
 use etendue_laboratory::chart::{self, Options};
-use etendue_oracle::tier::{cases, is_long};
+use etendue_oracle::tier::cases;
 use etendue_render::compare::Comparison;
 use etendue_render::image::Picture;
 use etendue_render::{Sampler, Settings, Technique, World, scene};
@@ -330,58 +330,4 @@ fn warps_are_fast_and_good() {
     let csv = chart::warps::csv(&measured);
     assert_eq!(csv.lines().count(), measured.len() + 1);
     assert!(!chart::warps::figure(&measured).drawing.file().contains("NaN"));
-}
-
-/// Every pair of a pixel and a light has one outcome, and what is known saves rays. In the long tier alone: it renders ten scenes.
-#[test]
-fn certificates_add_up() {
-    if !is_long() {
-        return;
-    }
-    let folder = Folder::new();
-    let out = folder.succeed("figure certificates");
-    let row = |scene: &str| -> Vec<&str> {
-        let line = out.lines().find(|line| line.split_whitespace().next() == Some(scene));
-        line.unwrap_or_else(|| panic!("{scene} in {out}")).split_whitespace().skip(1).collect()
-    };
-    let number = |text: &str| text.parse::<f64>().unwrap_or_else(|e| panic!("{text}: {e} in {out}"));
-    for (scene, lights) in [
-        ("sphere-light", 1),
-        ("triangle-light", 1),
-        ("quads", 5),
-        ("terrain", 1),
-        ("cornell-box", 1),
-        ("mirror-room", 1),
-        ("plates", 4),
-        ("defocus", 3),
-    ] {
-        let row = row(scene);
-        let pairs: u32 = row[0].parse().unwrap();
-        assert!(pairs.is_multiple_of(lights) && (1..=256 * 256).contains(&(pairs / lights)), "{scene}: {pairs}");
-        let sum: f64 = row[1..7].iter().map(|share| number(share)).sum();
-        // six numbers, each rounded to 0.1
-        assert!((sum - 100.0).abs() < 0.31, "{scene}: {sum} %");
-        let [before, after] = [row[7], row[8]].map(number);
-        assert!(after <= before && before <= 16.0, "{scene}: {before} {after}");
-    }
-    // nothing is known of delta lights and skies, where analytic does as solid-angle
-    for scene in ["delta-lights", "sky"] {
-        let row = row(scene);
-        assert_eq!((row[0], row[7]), ("0", row[8]), "{scene}");
-        assert!(row[1..7].iter().all(|share| *share == "–"), "{row:?}");
-    }
-    let [lit, sampled] = [1, 6];
-    let share = |scene: &str, column: usize| number(row(scene)[column]);
-    assert!(share("quads", lit) > 50.0 && share("quads", sampled) < 5.0, "{out}");
-    assert!(share("sphere-light", sampled) < 1.0 && number(row("sphere-light")[8]) < 0.5, "{out}");
-    assert!(share("terrain", lit) < 20.0 && share("terrain", sampled) > 25.0, "{out}");
-    // certificates know rough surfaces; they know neither skies nor what a lens sees
-    let automatic = [("quads", "analytic"), ("plates", "analytic"), ("sky", "mis-lobe"), ("defocus", "solid-angle")];
-    for (scene, technique) in automatic {
-        assert_eq!(row(scene)[9], technique, "{out}");
-    }
-    let svg = folder.read("figures/certificates.svg");
-    assert_eq!(svg.matches("<image ").count(), 12);
-    assert_eq!(svg.matches("<g").count(), svg.matches("</g>").count());
-    assert!(!svg.contains("NaN ") && svg.contains("1 to 4 possible blockers"));
 }

@@ -36,21 +36,6 @@ impl Svg {
         );
         Self { width, height: height + 22.0, body }
     }
-    /// A line of coloured squares, each with its meaning.
-    pub(super) fn legend(entries: &[(&str, [u8; 3])]) -> Self {
-        let (mut x, mut body) = (0.0, String::new());
-        for (text, [r, g, b]) in entries {
-            let _ = writeln!(
-                body,
-                "<rect x=\"{x}\" y=\"2\" width=\"14\" height=\"14\" fill=\"rgb({r},{g},{b})\" stroke=\"#999\"/>\n\
-                 <text x=\"{}\" y=\"14\" font-size=\"13\" fill=\"#333\">{}</text>",
-                x + 20.0,
-                escape(text),
-            );
-            x += 20.0 + 7.4 * text.chars().count() as f64 + 2.0 * GAP;
-        }
-        Self { width: (x - 2.0 * GAP).max(0.0), height: 20.0, body }
-    }
     /// Arranges parts from left to right.
     pub(super) fn row(parts: Vec<Self>) -> Self {
         let height = parts.iter().map(|p| p.height).fold(0.0, f64::max);
