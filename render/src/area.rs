@@ -3,6 +3,9 @@
 /// A rectangle of pixels: its first column and row, and the column and row after its last, in pixels of the image.
 pub type Area = [u32; 4];
 
+/// Side of the squares of pixels that a thread renders at a time.
+pub const TILE: u32 = 16;
+
 /// Where an image is in a larger one, of which it is a part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct Place {

@@ -1,5 +1,6 @@
 //! The difference of two images, and whether their variance accounts for it.
 
+use crate::area;
 use crate::image::Picture;
 use serde_json::{Value, json};
 
@@ -34,6 +35,9 @@ pub struct Prediction {
     pub z_mse: f64,
     /// The same from the spread over pixels alone: right if the variance of each pixel comes from sets of its own.
     pub z_pixels: f64,
+    /// Least mean squared difference of images with these variances, whatever random numbers they share: it is that of images whose
+    /// noise differs in nothing but its size.
+    pub least: f64,
 }
 
 /// Whether two images estimate the same values.
@@ -49,18 +53,24 @@ pub enum Verdict {
     Unknown,
 }
 
-/// Images differ if a |z| is at least this. Two images of the same values do so with a probability of 3e−5: 6.8e−6 for each of the
-/// four z.
+/// What a z may be: |z| is as great with a probability of 6.8e−6. So two images of the same values, which have four z, differ with a
+/// probability of 3e−5, and a thousand numbers by chance with one of 0.7 %; who compares more of them compares again what differs.
 pub const LIMIT: f64 = 4.5;
+
+/// Whether a difference in standard deviations is too great for chance, or unknown: the one judge of images, scenes and tests.
+#[must_use]
+pub fn differs(z: f64) -> bool {
+    z.is_nan() || z.abs() >= LIMIT
+}
 
 /// Images whose values differ by at most this fraction of the peak are equal up to the rounding of f32.
 const ROUNDING: f64 = 1e-6;
 
-/// Side of the squares of pixels whose variances are known together, in images of one set per pixel: those that a thread renders at a time.
-const TILE: usize = 16;
+/// Side of the squares of pixels whose variances are known together, in images of one set per pixel.
+const TILE: usize = area::TILE as usize;
 /// About the relative standard error of the sum of these variances.
 const TOGETHER: f64 = 0.5;
-/// The part of the predicted squared difference that is too little for images of independent numbers.
+/// Images of independent numbers differ by more than this part of the predicted squared difference, unless a variance is wrong.
 const MUCH_LESS: f64 = 0.6;
 
 const CHANNELS: [&str; 3] = ["R", "G", "B"];
@@ -118,8 +128,10 @@ impl Comparison {
             let own = |i: usize, k: usize| f64::from(variance[i][k]);
             let other =
                 |i: usize, k: usize| reference_variance.as_ref().map_or(reference_error, |v| f64::from(v[i][k]));
-            let total = |k: usize| (0..variance.len()).map(|i| own(i, k) + other(i, k)).sum::<f64>();
-            let totals = [total(0), total(1), total(2)];
+            let sum = |of: &dyn Fn(usize, usize) -> f64| [0, 1, 2].map(|k| (0..variance.len()).map(|i| of(i, k)).sum());
+            let [owns, others]: [[f64; 3]; 2] = [sum(&own), sum(&other)];
+            let totals: [f64; 3] = std::array::from_fn(|k| owns[k] + others[k]);
+            let [deviation, other_deviation] = [owns, others].map(|sums| sums.iter().sum::<f64>().sqrt());
             // the channels of a pixel share their samples, and the pixels of a tile what is known of their variance
             let excess =
                 |i: usize| (0..3).map(|k| difference(i, k).powi(2) - own(i, k) - other(i, k)).sum::<f64>() / 3.0;
@@ -137,6 +149,7 @@ impl Comparison {
                 z: std::array::from_fn(|k| ratio(mean[k], totals[k].sqrt() / count)),
                 z_mse: ratio(bias, (of_pixels + of_tiles).sqrt() / count),
                 z_pixels: ratio(bias, of_pixels.sqrt() / count),
+                least: (deviation - other_deviation).powi(2) / (3.0 * count),
             }
         });
         Ok(Self {
@@ -164,10 +177,10 @@ impl Comparison {
     }
 
     /// Whether the pixels differ by so much less than the variances predict that the images seem to share their random numbers, as
-    /// images of one seed do. (Otherwise, a variance is too large.)
+    /// images of one seed do: they may, unless even then they would differ by more.
     #[must_use]
     pub fn shares_noise(&self) -> bool {
-        let is_less = |p: &Prediction| p.z_pixels <= -LIMIT && self.mse < MUCH_LESS * p.mse;
+        let is_less = |p: &Prediction| p.z_pixels <= -LIMIT && (p.least..p.mse).contains(&(self.mse / MUCH_LESS));
         self.largest.0 != 0.0 && self.predicted.as_ref().is_some_and(is_less)
     }
 
@@ -184,16 +197,20 @@ impl Comparison {
             return (Verdict::Unknown, self.unknown.into());
         };
         let (k, z) = (0..3).map(|k| (k, p.z[k])).max_by(|a, b| a.1.abs().total_cmp(&b.1.abs())).unwrap_or((0, 0.0));
-        if z.abs() >= LIMIT {
+        if differs(z) {
             let channel = CHANNELS[k];
             return (Verdict::Differ, format!("the means of {channel} are {:.1} standard deviations apart", z.abs()));
         }
-        if p.z_mse >= LIMIT {
-            let what = "the pixels differ by more than the variances predict";
-            return (Verdict::Differ, format!("{what}, by {:.1} standard deviations", p.z_mse));
-        }
         if self.shares_noise() {
-            return (Verdict::Unknown, "the images seem to share their random numbers".into());
+            return (
+                Verdict::Unknown,
+                "the images seem to share their random numbers, or a variance is too large".into(),
+            );
+        }
+        if differs(p.z_mse) {
+            let than = if p.z_mse < 0.0 { "less" } else { "more" };
+            let what = format!("the pixels differ by {than} than the variances predict");
+            return (Verdict::Differ, format!("{what}, by {:.1} standard deviations", p.z_mse.abs()));
         }
         (Verdict::Agree, format!("all |z| are less than {LIMIT}"))
     }
@@ -284,8 +301,9 @@ impl std::fmt::Display for Comparison {
 mod tests {
     use super::*;
 
-    /// A black reference, and an image of 64 tiles whose pixels have a variance of 1 and claim that times a factor of their tile.
-    fn compared(factor: impl Fn(usize) -> f32) -> (Verdict, Prediction) {
+    /// A black reference that claims a variance, and an image of 64 tiles whose pixels have a variance of 1 and claim that times a factor
+    /// of their tile.
+    fn compared(error: f64, factor: impl Fn(usize) -> f32) -> (Verdict, Prediction) {
         let side = 8 * TILE;
         let mut state = 1_u32;
         let mut sign = || {
@@ -298,17 +316,31 @@ mod tests {
         let variance = Some((0..side * side).map(|i| [factor(tile(i)); 3]).collect());
         let image = Picture { width: side, height: side, radiance, variance };
         let reference = Picture { radiance: vec![[0.0; 3]; side * side], variance: None, ..image.clone() };
-        let comparison = Comparison::new(&reference, &image, 0.0).unwrap();
+        let comparison = Comparison::new(&reference, &image, error).unwrap();
         (comparison.verdict().0, comparison.predicted.unwrap())
     }
 
     /// Tiles may err in common, whether their mean errs little or not; if all of them err alike, the images differ.
     #[test]
     fn variances_of_a_tile_have_an_error_in_common() {
-        let (verdict, prediction) = compared(|tile| if tile % 8 < 5 { 0.6 } else { 1.4 });
+        let (verdict, prediction) = compared(0.0, |tile| if tile % 8 < 5 { 0.6 } else { 1.4 });
         assert!(verdict == Verdict::Agree && prediction.z_pixels > LIMIT, "{prediction:?}");
-        assert_eq!(compared(|_| 1.0).0, Verdict::Agree);
-        assert_eq!(compared(|_| 0.5).0, Verdict::Differ);
-        assert!(compared(|_| 2.5).1.z_mse < -LIMIT);
+        assert_eq!(compared(0.0, |_| 1.0).0, Verdict::Agree);
+    }
+
+    /// Images that claim too small an error, or too large a one, do not agree: not even if it is less than twice too large, which no
+    /// shared random numbers explain. No random numbers are shared with an exact reference.
+    #[test]
+    fn variances_are_wrong_in_either_direction() {
+        for factor in [0.4, 0.65, 1.5, 2.5, 30.0] {
+            let (verdict, prediction) = compared(0.0, |_| factor);
+            assert_eq!(verdict, Verdict::Differ, "{factor}: {prediction:?}");
+            assert!(
+                differs(prediction.z_mse) && (prediction.z_mse < 0.0) == (factor > 1.0),
+                "{factor}: {prediction:?}"
+            );
+        }
+        let (verdict, prediction) = compared(1.0, |_| 1.5);
+        assert!(verdict == Verdict::Unknown && prediction.least < 0.1, "{prediction:?}");
     }
 }

@@ -1,12 +1,9 @@
 //! What an image depends on besides the scene, and what it cost.
 
-use crate::area::Area;
+use crate::area::{Area, TILE};
 use crate::limits::{MOST_SAMPLES, is_size};
 use crate::sampler::Sampler;
 use crate::technique::Technique;
-
-/// Side of the square of pixels that a thread renders at a time.
-pub(crate) const TILE: u32 = 16;
 
 /// The area [x0, y0, x1, y1) of each tile of an area that consists of tiles.
 pub(crate) fn tiles([left, top, right, bottom]: Area) -> impl Iterator<Item = Area> {

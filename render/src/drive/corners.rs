@@ -2,11 +2,10 @@
 
 use super::allocation::Weights;
 use super::tile::TileRenderer;
-use crate::area::Area;
+use crate::area::{Area, TILE};
 use crate::bvh::GROUP;
 use crate::camera::CameraSample;
 use crate::packet::{M8, X8};
-use crate::settings::TILE;
 use etendue::{Mask, Real, Vec2};
 
 /// The squared error of a light with contribution c falls about as c² n^−1.5. For a given Σn the sum is least with n ∝ c^0.8.
