@@ -40,6 +40,14 @@ pub struct Prediction {
     pub least: f64,
 }
 
+impl Prediction {
+    /// Whether the difference is what the variances predict.
+    #[must_use]
+    pub fn agrees(&self) -> bool {
+        !self.z.iter().chain([&self.z_mse]).any(|z| differs(*z))
+    }
+}
+
 /// Whether two images estimate the same values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {

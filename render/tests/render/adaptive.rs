@@ -3,7 +3,11 @@
 use etendue_oracle::tier::cases;
 use etendue_render::film::Film;
 use etendue_render::image::Picture;
-use etendue_render::{RayCount, Sampler, Settings, Technique, World, compare::Comparison, image, scene};
+use etendue_render::{
+    RayCount, Sampler, Settings, Technique, World,
+    compare::{Comparison, LIMIT},
+    image, scene,
+};
 use std::path::Path;
 
 const SETTINGS: Settings = Settings {
@@ -162,5 +166,5 @@ fn is_not_biased() {
     let mean = off.iter().sum::<f64>() / n as f64;
     let error = (off.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / (n * (n - 1)) as f64).sqrt();
     println!("bias {mean:.1e} ± {error:.1e} of {:.3}", precise.mean()[0]);
-    assert!(mean.abs() < 4.0 * error && error < 4e-5, "{mean:e} ± {error:e}");
+    assert!(mean.abs() < LIMIT * error && error < 4e-5, "{mean:e} ± {error:e}");
 }

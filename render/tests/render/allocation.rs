@@ -4,7 +4,11 @@ use crate::variance::reported_to_measured;
 use etendue_oracle::tier::cases;
 use etendue_render::film::{Film, Pixel};
 use etendue_render::image::Picture;
-use etendue_render::{Sampler, Settings, Technique, World, compare::Comparison, image, scene};
+use etendue_render::{
+    Sampler, Settings, Technique, World,
+    compare::{Comparison, LIMIT},
+    image, scene,
+};
 use std::path::Path;
 
 const SETTINGS: Settings = Settings {
@@ -78,7 +82,7 @@ fn is_not_biased() {
     let precise = world.render(&precise, &|_| ()).0;
     for (sampler, spp, sets) in [(Sampler::Sobol, 8, 1), (Sampler::Sobol, 64, 4), (Sampler::Adaptive, 64, 1)] {
         let [mean, error] = bias(&world, &precise, Settings { spp, sets, sampler, ..SETTINGS }, cases(12, 60));
-        assert!(mean.abs() < 4.0 * error && error < cases(1.5e-4, 1e-4), "{sampler:?}: {mean:e} ± {error:e}");
+        assert!(mean.abs() < LIMIT * error && error < cases(1.5e-4, 1e-4), "{sampler:?}: {mean:e} ± {error:e}");
     }
 }
 
@@ -101,7 +105,7 @@ fn is_not_biased_in_other_scenes() {
         for (sampler, spp) in [(Sampler::Sobol, 8), (Sampler::Adaptive, 64)] {
             let [mean, error] = bias(&world, &precise, Settings { spp, technique, sampler, ..SETTINGS }, cases(12, 40));
             assert!(
-                mean.abs() < 4.0 * error && error < cases(1.8e-2, 1e-2),
+                mean.abs() < LIMIT * error && error < cases(1.8e-2, 1e-2),
                 "{name}, {sampler:?}: {mean:e} ± {error:e}"
             );
         }

@@ -11,7 +11,6 @@ use etendue_render::{Sampler, Settings, Technique, World, scene};
 use std::f64::consts::PI;
 use std::path::Path;
 
-const LIMIT: f64 = 4.5;
 const SAMPLERS: [Sampler; 6] = [
     Sampler::Independent,
     Sampler::Stratified,
@@ -33,7 +32,7 @@ fn render(scene: &scene::Scene, settings: &Settings) -> Picture {
 fn agrees(reference: &Picture, image: &Picture) -> bool {
     let p = Comparison::new(reference, image, 0.0).unwrap().predicted.unwrap();
     println!("{p:?}");
-    p.z.iter().all(|z| z.abs() < LIMIT) && p.z_mse.abs() < LIMIT
+    p.agrees()
 }
 
 /// Rays from one point of the film meet the plane of focus in the same point as the ray through the lens's centre, and leave uniformly

@@ -1,11 +1,11 @@
 //! Holes and instances, against closed forms and against scenes without them.
 
+use etendue_render::compare::LIMIT;
 use etendue_render::scene::{Instance, Scene, parse};
 use etendue_render::{Sampler, Settings, Technique, World};
 use std::path::Path;
 use std::sync::Arc;
 
-const LIMIT: f64 = 4.5;
 const TECHNIQUES: [Technique; 4] =
     [Technique::SolidAngle, Technique::MisPower, Technique::Analytic, Technique::CosineHemisphere];
 

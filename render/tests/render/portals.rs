@@ -1,13 +1,12 @@
 //! The sky through portals: what they show is what windows show, whichever way it is sampled, with less noise.
 
 use etendue_oracle::tier::cases;
+use etendue_render::compare::LIMIT;
 use etendue_render::film::Film;
 use etendue_render::scene::{Environment, Scene, parse};
 use etendue_render::{Sampler, Settings, Technique, World};
 use std::path::Path;
 use std::time::Instant;
-
-const LIMIT: f64 = 4.5;
 
 fn by_solid_angle(width: u32, height: u32) -> Settings {
     let (technique, sampler) = (Technique::SolidAngle, Sampler::Independent);

@@ -7,12 +7,11 @@
 //! tier has every eleventh image.
 
 use etendue_oracle::tier::{cases, is_long};
-use etendue_render::compare::{Comparison, Prediction};
+use etendue_render::compare::{Comparison, Prediction, differs};
 use etendue_render::image::{self, Picture};
 use etendue_render::{Sampler, Settings, Technique, World, scene};
 use std::path::Path;
 
-const LIMIT: f64 = 4.5;
 const TECHNIQUES: [Technique; 4] =
     [Technique::Area, Technique::SolidAngle, Technique::CosineHemisphere, Technique::UniformHemisphere];
 /// The last five differ from the first two only in their random numbers, and are tested with one technique of each kind.
@@ -36,11 +35,7 @@ fn prediction(reference: &Picture, image: &Picture, reference_error: f64) -> Pre
 }
 
 fn mean_agrees(p: &Prediction) -> bool {
-    p.z.iter().all(|z| z.abs() < LIMIT)
-}
-
-fn agrees(p: &Prediction) -> bool {
-    mean_agrees(p) && p.z_mse.abs() < LIMIT
+    !p.z.iter().any(|z| differs(*z))
 }
 
 /// Tests all techniques and samplers on one scene. `hemisphere_spp` is greater if few directions find a light. `hemisphere_scale` is the
@@ -69,14 +64,14 @@ fn scene(name: &str, mean: f64, reference_error: f64, hemisphere_spp: u32, hemis
             let image = Picture::from(&world.render(&settings, &|_| ()).0);
             let p = prediction(&reference, &image, reference_error);
             println!("{name} {technique:?} {sampler:?} {spp} spp: {p:?}");
-            assert!(agrees(&p), "{name} {technique:?} {sampler:?}: {p:?}");
+            assert!(p.agrees(), "{name} {technique:?} {sampler:?}: {p:?}");
 
             // the same check must fail for an image that is slightly wrong
             for factor in [0.4, 2.5] {
                 let variance = image.variance.as_ref().unwrap().iter().map(|v| v.map(|x| x * factor)).collect();
                 let wrong = Picture { variance: Some(variance), ..image.clone() };
                 let p = prediction(&reference, &wrong, reference_error);
-                assert!(!agrees(&p), "{name} {technique:?} {sampler:?}: variance × {factor} passes: {p:?}");
+                assert!(!p.agrees(), "{name} {technique:?} {sampler:?}: variance × {factor} passes: {p:?}");
             }
             for factor in [scale, 1.0 / scale] {
                 let radiance = image.radiance.iter().map(|p| p.map(|x| x * factor)).collect();
@@ -210,7 +205,7 @@ fn terrain_agrees_with_itself() {
     {
         let p = prediction(&lights, &of(spp, technique), 0.0);
         println!("{technique:?}: {p:?}");
-        assert!(agrees(&p), "{technique:?}: {p:?}");
+        assert!(p.agrees(), "{technique:?}: {p:?}");
     }
     // one sample has no variance, so the spread over pixels replaces it
     let one = of(1, Technique::Area);
@@ -219,5 +214,5 @@ fn terrain_agrees_with_itself() {
     let mean = (0..n).map(difference).sum::<f64>() / n as f64;
     let variance = (0..n).map(|i| (difference(i) - mean).powi(2)).sum::<f64>() / (n as f64 - 1.0);
     let z = mean / (variance / n as f64).sqrt();
-    assert!(z.abs() < LIMIT, "z = {z}");
+    assert!(!differs(z), "z = {z}");
 }

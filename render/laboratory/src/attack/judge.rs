@@ -4,6 +4,7 @@ use super::bridge::{CHANNEL, bodies, framed, sources, straighten, view};
 use super::draft::{Draft, Frame, Look, Map, Part};
 use etendue::occlusion::SPARED;
 use etendue_oracle::direct::{self, Block, Body, Source, View};
+use etendue_render::compare::{LIMIT, differs};
 use etendue_render::film::Film;
 use etendue_render::scene::{self, Affine, Instance, Scene};
 use etendue_render::{Sampler, Settings, Technique, World};
@@ -39,12 +40,10 @@ impl Effort {
     }
 }
 
-/// A block differs if the difference is more than this many standard errors, …
-pub const LIMIT: f64 = 5.0;
-/// … and this fraction of the light that would arrive if nothing hid it, …
+/// Beside noise, a block may be off by this fraction of the light that would arrive if nothing hid it, …
 pub const TOLERANCE: f64 = 2e-5;
-/// … and what comes of points that are off their surface by this fraction of their coordinates, two units in the last place, and of the ends
-/// of ways to lights that are spared: a surface that cuts a light hides a strip less of it.
+/// … and by what it changes if points are off their surface by this fraction of their coordinates, two units in the last place, and if the
+/// ends of ways to lights are spared, so that a surface that cuts a light hides a strip less of it.
 pub const ROUNDING: f64 = 1.0 / 4_194_304.0;
 /// Of fewer samples than this that see a light, or do not, an image cannot tell its own error.
 const FEW: f64 = 10.0;
@@ -100,7 +99,7 @@ pub struct Verdict {
 impl Row {
     /// Whether a block differs.
     fn differs(&self, i: usize) -> bool {
-        self.z[i].is_nan() || self.z[i].abs() >= LIMIT
+        differs(self.z[i])
     }
     /// The blocks that differ.
     pub fn failing(&self) -> impl Iterator<Item = usize> {

@@ -1,13 +1,12 @@
 //! A row of the table: a scene whose only pixel has one right value.
 
 use etendue_oracle::V3;
+use etendue_render::compare::LIMIT;
 use etendue_render::{Sampler, Settings, Technique, World, scene};
 use std::path::Path;
 
 /// f32 holds what a light emits, and where it is, to 6e-8 of itself; some twenty operations follow.
 pub(super) const ROUNDING: f64 = 3e-5;
-/// Standard errors that a value may be off.
-const LIMIT: f64 = 4.5;
 /// Albedo of the floor.
 const ALBEDO: f64 = 0.5;
 
