@@ -7,6 +7,7 @@ use crate::output::{Output, percent};
 use crate::part::{self, PartOptions};
 use crate::progress::bar;
 use clap::Args;
+use etendue_laboratory::cost::median;
 use etendue_render::claim::{Claim, why_unknown};
 use etendue_render::film::Film;
 use etendue_render::options::{name, out, pool, whole};
@@ -201,12 +202,6 @@ impl Session<'_> {
         self.display.borrow_mut().show(film);
         Ok(())
     }
-}
-
-fn median(values: &[f64]) -> f64 {
-    let mut values = values.to_vec();
-    values.sort_by(f64::total_cmp);
-    values[values.len() / 2]
 }
 
 fn to_json(

@@ -14,7 +14,6 @@ pub mod draft;
 mod draft_text;
 pub mod judge;
 mod meaning;
-pub mod random;
 pub mod regimes;
 pub mod report;
 pub mod shrink;

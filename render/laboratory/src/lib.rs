@@ -14,3 +14,4 @@ pub mod cost;
 pub mod figure;
 mod hash;
 pub mod interrupt;
+mod random;

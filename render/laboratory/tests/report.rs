@@ -162,7 +162,9 @@ fn bars_are_sorted_and_notes_come_last() {
 }
 
 #[test]
-fn every_technique_has_a_colour_of_its_own() {
+fn every_technique_has_a_colour_and_every_sampler_a_line_of_its_own() {
+    let dashes: HashSet<_> = Sampler::value_variants().iter().map(|s| plot::dash(*s as usize)).collect();
+    assert_eq!(dashes.len(), Sampler::value_variants().len());
     let colours: HashSet<_> = Technique::value_variants().iter().map(|t| plot::color(*t as usize)).collect();
     assert_eq!(colours.len(), Technique::value_variants().len());
 }

@@ -2,6 +2,7 @@
 
 use super::pose::{ShapeKind, Sweep};
 use super::survey::{ErrorMap, Figures, LIMIT};
+use crate::chart::plot::escape;
 use etendue_oracle::Greatest;
 use etendue_render::files;
 use std::error::Error;
@@ -97,10 +98,6 @@ fn colour(measure: Measure, value: f64, cell: &Figures) -> String {
 fn decade(measure: Measure, value: f64) -> Option<i32> {
     let lowest = if measure == Measure::Efficiency { -3.0 } else { -8.0 };
     (!value.is_nan() && value.is_finite()).then(|| value.max(1e-30).log10().floor().clamp(lowest, 12.0) as i32)
-}
-
-fn escape(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 
 const PLOT: [f64; 2] = [250.0, 190.0];

@@ -1,5 +1,6 @@
 //! Poses of shapes, and the sweeps over them, with lengths that are exact in f32.
 
+use crate::random::Random;
 use clap::ValueEnum;
 use etendue_oracle::{V3, cross, length as norm, narrow, unit};
 
@@ -295,21 +296,6 @@ pub fn sweeps(kind: ShapeKind, quick: bool) -> Vec<Sweep> {
     list
 }
 
-/// The SplitMix64 generator.
-struct Random(u64);
-impl Random {
-    fn word(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ z >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ z >> 31
-    }
-    fn unit(&mut self) -> f64 {
-        (self.word() >> 11) as f64 / 9_007_199_254_740_992.0
-    }
-}
-
 /// `n` points of the unit square, many of them at its edges; coordinates are multiples of 2⁻²⁴.
 #[must_use]
 pub fn square(n: usize, seed: u64) -> Vec<[f32; 2]> {
@@ -318,7 +304,7 @@ pub fn square(n: usize, seed: u64) -> Vec<[f32; 2]> {
     (0..n)
         .map(|i| {
             let mut axis = |edge: bool| {
-                let word = random.word();
+                let word = random.bits();
                 if edge { EDGES[(word % 7) as usize] } else { (word >> 40) as f32 / 16_777_216.0 }
             };
             // a quarter of them in a corner, half of them at an edge
@@ -339,7 +325,7 @@ fn coarse(x: f64) -> f64 {
 /// Three perpendicular vectors whose products with 8-bit numbers are exact in f32: columns of the rotation by a quaternion of small
 /// integers. The third has length 1; if `upright`, it is the z axis, so that a height of 0 is exact.
 fn axes(random: &mut Random, upright: bool) -> [V3; 3] {
-    let mut pick = || (random.word() % 13) as f64 - 6.0;
+    let mut pick = || (random.bits() % 13) as f64 - 6.0;
     let (a, d) = (pick() + 0.5, pick());
     let (b, c) = if upright { (0.0, 0.0) } else { (pick(), pick()) };
     let u = [a * a + b * b - c * c - d * d, 2.0 * (b * c + a * d), 2.0 * (b * d - a * c)];

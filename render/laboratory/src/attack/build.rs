@@ -1,7 +1,7 @@
 //! Forms that scenes are built from.
 
 use super::draft::{Draft, Form, Look, Map, Part, V3};
-use super::random::Random;
+use crate::random::Random;
 use etendue_oracle::{along, basis, cross, dot, length, sub, unit};
 
 /// The corners of a triangle.

@@ -3,7 +3,7 @@
 use super::build::{axes, cube, facing, level, placed, triangles};
 use super::draft::{Draft, Finish, Form, Look, Part, V3};
 use super::judge::{Effort, Trial, Verdict, confirmed, parse};
-use super::random::Random;
+use crate::random::Random;
 use etendue_oracle::along;
 use etendue_render::Technique;
 use etendue_render::options::name;

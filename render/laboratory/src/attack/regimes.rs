@@ -8,7 +8,7 @@ mod places;
 
 use super::build::{has_area, has_speck};
 use super::draft::{Draft, Form};
-use super::random::Random;
+use crate::random::Random;
 
 /// A kind of difficulty.
 #[derive(Clone, Copy, Debug)]

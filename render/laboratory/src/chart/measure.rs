@@ -2,6 +2,7 @@
 
 use super::reference::Reference;
 use super::stats::Cost;
+use crate::cost::median;
 use crate::hash::fnv1a;
 use etendue_render::options::name;
 use etendue_render::{Sampler, Settings, Technique, World};
@@ -209,11 +210,10 @@ impl Plan {
             }
         };
         let (squared, difference) = subject.reference.difference(film.pixels.iter().map(|p| p.mean));
-        seconds.sort_by(f64::total_cmp);
         Row {
             replicate,
             seed,
-            seconds: seconds[seconds.len() / 2],
+            seconds: median(&seconds),
             repeats: seconds.len() as u32,
             squared,
             difference,

@@ -5,7 +5,7 @@ use crate::attack::build::{
     radiance, stage, triangles,
 };
 use crate::attack::draft::{Draft, Finish, Form, Part, V3};
-use crate::attack::random::Random;
+use crate::random::Random;
 use etendue_oracle::unit;
 
 /// Half sizes of a body.

@@ -5,7 +5,7 @@ use crate::attack::build::{
     albedo, axes, cube, facing, lamp, level, look, overhead, placed, radiance, stage, triangles,
 };
 use crate::attack::draft::{Draft, Form, Part, V3};
-use crate::attack::random::Random;
+use crate::random::Random;
 use etendue_oracle::{along, unit};
 
 /// Something to cast a shadow around the origin, between it and a light.

@@ -5,8 +5,8 @@ use crate::attack::build::{
     Triangle, albedo, any_solid, axes, has_area, lamp, map, overhead, placed, quad, stage, then, triangles,
 };
 use crate::attack::draft::{Draft, Finish, Form, Map, Part, V3};
-use crate::attack::random::Random;
 use crate::attack::skin::{Bend, Pattern, Picture, Uv};
+use crate::random::Random;
 use etendue_oracle::{cross, sub, unit};
 
 type Make = fn(&mut Random) -> Draft;

@@ -7,8 +7,8 @@ use crate::attack::build::{
     triangles,
 };
 use crate::attack::draft::{Draft, Finish, Form, Frame, Kind, Map, Measure, Part, Place, Source, Swept, V3};
-use crate::attack::random::Random;
 use crate::attack::skin::{Bend, Picture, Uv, Wild};
+use crate::random::Random;
 use etendue_oracle::along;
 use std::f64::consts::PI;
 

@@ -4,7 +4,7 @@ use crate::attack::build::{
     albedo, any_solid, axes, cube, facing, floor, lamp, level, overhead, placed, quad, radiance, stage, triangles,
 };
 use crate::attack::draft::{Draft, Finish, Form, Look, Part, V3};
-use crate::attack::random::Random;
+use crate::random::Random;
 use etendue_oracle::{along, unit};
 
 /// A few boxes and balls that stand on the floor or float.

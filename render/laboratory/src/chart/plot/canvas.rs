@@ -1,6 +1,7 @@
 //! The canvas: sizes, colours, and drawings made of one part per series. Only the modules of `plot` use plotters.
 
 use super::text::escape;
+use etendue_render::Sampler;
 use plotters::prelude::*;
 
 /// Units of the drawing per unit of the chart: plotters uses integer coordinates.
@@ -40,10 +41,14 @@ pub(super) fn rgb(n: usize) -> RGBColor {
     RGBColor(r, g, b)
 }
 
-/// Lengths of dash and gap of the n-th line style; the first is a solid line.
+/// Lengths of dash and gap of the line of each sampler; the first is a solid line.
+const DASHES: [Option<(i32, i32)>; Sampler::Adaptive as usize + 1] =
+    [None, Some((7, 4)), Some((2, 3)), Some((12, 3)), Some((4, 2)), Some((1, 2)), Some((9, 6)), Some((16, 4))];
+
+/// Lengths of dash and gap of the n-th line style.
 #[must_use]
 pub fn dash(n: usize) -> Option<(i32, i32)> {
-    [None, Some((7, 4)), Some((2, 3)), Some((12, 3)), Some((4, 2)), Some((1, 2)), Some((9, 6))][n % 7]
+    DASHES[n % DASHES.len()]
 }
 
 /// The part of a drawing that belongs to one series.
