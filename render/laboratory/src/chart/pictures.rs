@@ -42,8 +42,7 @@ const REPLICATES: u32 = 4;
 const SAMPLES: u32 = 16;
 
 /// Colour map from black through red to pale yellow, for t in [0, 1].
-#[must_use]
-pub fn heat(t: f64) -> [u8; 3] {
+fn heat(t: f64) -> [u8; 3] {
     const STOPS: [[f64; 3]; 6] = [
         [0.0, 0.0, 4.0],
         [66.0, 10.0, 104.0],
