@@ -2,7 +2,7 @@
 
 use etendue_render::area::Place;
 use etendue_render::film::{Film, Pixel};
-use etendue_render::integrator::Content;
+use etendue_render::drive::Content;
 use etendue_render::parts::{self, PieceFile};
 use etendue_render::{Identity, Sampler, Sensor, Settings, Technique, image, scene};
 use exr::math::Vec2;
