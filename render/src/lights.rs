@@ -31,7 +31,7 @@ use crate::bvh::NOTHING;
 use crate::geometry::Geometry;
 use crate::light_picture::LightPicture;
 use crate::light_profile::LightProfile;
-use crate::packet::{M8, V8, X8, equal, select};
+use crate::packet::{M8, V8, X8, each_group, equal, select};
 use crate::scene::{Emission, Scene, Shape};
 use crate::sky::Sky;
 use crate::technique::Measure;
@@ -315,16 +315,12 @@ impl Lights {
     }
     /// Multiplies the radiance of lights with profiles by what these have in the sampled directions.
     fn distribute(&self, chosen: &mut Chosen, direction: V8, normal: V8) {
-        let mut left = chosen.has(PROFILED);
-        while left.any() {
-            let index = chosen.shape.as_array()[left.bits().trailing_zeros() as usize & 7];
-            let lanes = left & equal(chosen.shape, u32x8::splat(index));
-            left = left & !lanes;
+        each_group(chosen.shape, chosen.has(PROFILED), |index, lanes| {
             if let Some(profile) = self.shapes[index as usize].emission.and_then(|emission| emission.profile) {
                 let factor = self.profiles[profile as usize].factor(-direction, normal);
                 chosen.radiance = chosen.radiance * select(lanes, factor, X8::splat(1.0));
             }
-        }
+        });
     }
     /// Samples every kind of light that the scene has, but for those with directions of their own, each in its lanes.
     fn mixed(&self, chosen: &mut Chosen, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> Option<Drawn> {
@@ -379,13 +375,10 @@ impl Lights {
                 _ => chosen.parallelogram(measure, p, normal, u),
             }
         };
-        let (mut sample, mut left) = (None, pictured);
-        while left.any() {
-            let index = chosen.shape.as_array()[left.bits().trailing_zeros() as usize & 7];
-            let lanes = left & equal(chosen.shape, u32x8::splat(index));
-            left = left & !lanes;
+        let mut sample = None;
+        each_group(chosen.shape, pictured, |index, lanes| {
             let shape = &self.shapes[index as usize];
-            let Some(picture) = shape.emission.and_then(|emission| emission.picture) else { continue };
+            let Some(picture) = shape.emission.and_then(|emission| emission.picture) else { return };
             let picture = &self.pictures[picture as usize];
             if let Some(table) = self.tables.of(index as usize) {
                 let drawn = table.sample((&shape.geometry, &picture.axes), measure, p, normal, u);
@@ -393,19 +386,16 @@ impl Lights {
                 let others = sample.unwrap_or_else(|| if lanes.all() { drawn } else { by_shape() });
                 sample = Some(LightSample::blend(lanes, drawn, others));
             }
-        }
+        });
         let sample = sample.unwrap_or_else(by_shape);
-        let mut left = pictured;
-        while left.any() {
-            let index = chosen.shape.as_array()[left.bits().trailing_zeros() as usize & 7];
-            let lanes = left & equal(chosen.shape, u32x8::splat(index));
-            left = left & !lanes;
+        let shapes = chosen.shape;
+        each_group(shapes, pictured, |index, lanes| {
             let shape = &self.shapes[index as usize];
             if let Some(picture) = shape.emission.and_then(|emission| emission.picture) {
                 let picture = &self.pictures[picture as usize];
                 picture.show(&shape.geometry, lanes, sample.uv, sample.normal, &mut chosen.radiance);
             }
-        }
+        });
         sample.into()
     }
     /// The light of a shape that is one.

@@ -56,6 +56,23 @@ pub fn each_bit(bits: impl Into<u64>, mut f: impl FnMut(usize)) {
     }
 }
 
+/// The first lane that is set; 0 if there is none.
+#[inline(always)]
+pub fn first_lane(lanes: M8) -> usize {
+    lanes.bits().trailing_zeros() as usize & 7
+}
+
+/// Calls `f` with each index that some of these lanes have, and the lanes that share it.
+#[inline(always)]
+pub fn each_group(index: u32x8, mut lanes: M8, mut f: impl FnMut(u32, M8)) {
+    while lanes.any() {
+        let shared = index.as_array()[first_lane(lanes)];
+        let here = lanes & equal(index, u32x8::splat(shared));
+        lanes = lanes & !here;
+        f(shared, here);
+    }
+}
+
 /// The numbers in double precision.
 #[inline(always)]
 pub fn widen(x: X8) -> f64x8 {

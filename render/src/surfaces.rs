@@ -7,7 +7,7 @@ use crate::bvh::{BuildError, Bvh, Hits, Rays, SHAPE, ShapeSet};
 use crate::geometry::Affine;
 use crate::light_picture::{LightPicture, coordinates};
 use crate::light_profile::LightProfile;
-use crate::packet::{M8, V8, X8, equal};
+use crate::packet::{M8, V8, X8, each_group, equal, first_lane};
 use crate::scene::{Corners, Details, Geometry, Material, Scene, Shape, Varying};
 use etendue::light::Spread;
 use etendue::{Mask, Real, Vec3, u32x8};
@@ -169,7 +169,7 @@ impl Surfaces {
     #[inline(always)]
     fn mesh(&self, hits: &Hits, lanes: M8, rays: &Rays, surface: &mut Surface) {
         let places = hits.place.as_array();
-        let first = places[lanes.bits().trailing_zeros() as usize & 7];
+        let first = places[first_lane(lanes)];
         let uniform = (equal(hits.place, u32x8::splat(first)) | !lanes).all();
         let reach = self.bvh.reach();
         let (points, albedo);
@@ -214,11 +214,8 @@ impl Surfaces {
 
     /// Calls `f` for each shape that some lanes have hit, with its index, the lanes, the shape and its outward normals at the hits.
     #[inline]
-    pub fn each_shape(&self, hits: &Hits, mut lanes: M8, rays: &Rays, mut f: impl FnMut(usize, M8, &Shape, V8)) {
-        while lanes.any() {
-            let lane = lanes.bits().trailing_zeros() as usize & 7;
-            let place = hits.place.as_array()[lane];
-            let here = lanes & equal(hits.place, u32x8::splat(place));
+    pub fn each_shape(&self, hits: &Hits, lanes: M8, rays: &Rays, mut f: impl FnMut(usize, M8, &Shape, V8)) {
+        each_group(hits.place, lanes, |place, here| {
             let index = (place & !SHAPE) as usize;
             let shape = &self.shapes[index];
             let outward = match shape.geometry {
@@ -228,8 +225,7 @@ impl Surfaces {
                 Geometry::Triangle(_) | Geometry::Parallelogram { .. } => V8::from(shape.geometry.normal()),
             };
             f(index, here, shape, outward);
-            lanes = lanes & !here;
-        }
+        });
     }
 
     /// Adds the spheres and emitters that eight rays hit.

@@ -3,7 +3,7 @@
 use super::node::{INNER, Node, Stack, WIDTH, greater, push_in_order, slabs};
 use super::rays::{Hits, Rays, any, common_sign};
 use super::tree::{Primitives, View};
-use crate::packet::{M8, V8, X8, max, min, select};
+use crate::packet::{M8, V8, X8, first_lane, max, min, select};
 use etendue::{Mask, Real};
 
 /// A frustum that contains all rays of a group. All rays run the same way along one axis; across it, they are bounded by their least
@@ -27,7 +27,7 @@ impl Frustum {
     /// The frustum of the active rays; `None` if they share no axis or spread too far.
     pub(super) fn new(rays: &[Rays], active: &[M8]) -> Option<Self> {
         let first = active.iter().position(|a| a.any())?;
-        let lane = active[first].bits().trailing_zeros() as usize & 7;
+        let lane = first_lane(active[first]);
         let direction = <[f32; 3]>::from(rays[first].direction.lane(lane));
         let axis = (0..3).max_by(|&a, &b| direction[a].abs().total_cmp(&direction[b].abs()))?;
         let negative = direction[axis] < 0.0;
@@ -64,7 +64,7 @@ impl Frustum {
     /// Whether this packet alone spreads too far.
     #[inline(always)]
     fn wide(slope: V8, active: M8) -> bool {
-        let lead = slope.lane(active.bits().trailing_zeros() as usize & 7);
+        let lead = slope.lane(first_lane(active));
         let apart = slope - V8::splat(lead);
         // a NaN fails the comparison, too
         let near = max(max(apart.x.abs(), apart.y.abs()), apart.z.abs()).le(X8::splat(SPREAD));
@@ -153,7 +153,7 @@ pub(super) fn packets<const ANY: bool>(
     if tree.count == 0 {
         return;
     }
-    let lead = active[0].bits().trailing_zeros() as usize & 7;
+    let lead = first_lane(active[0]);
     match common_sign(rays) {
         Some(sign) => {
             packets_with::<ANY, true>(tree, &Packets { rays, sign, frustum, lead }, active, hits, stack);

@@ -1,9 +1,9 @@
 //! Point lights whose intensity differs by direction.
 
 use crate::intensity::Intensity;
-use crate::packet::{M8, V8, X8, each_bit};
+use crate::packet::{M8, V8, X8, each_group};
 use crate::scene::{Cone, DeltaLight, Scene};
-use etendue::{LightSample, LightSampler, Mask, PointLight, Real, SpotLight, Vec2, Vec3, u32x8};
+use etendue::{LightSample, LightSampler, PointLight, Real, SpotLight, Vec2, Vec3, u32x8};
 use std::sync::Arc;
 
 /// What a light emits, and how it is turned.
@@ -39,20 +39,15 @@ pub(super) fn directed_lights(scene: &Scene) -> Vec<DirectedLight> {
 pub(super) fn sample(lights: &[DirectedLight], index: u32x8, place: V8, p: V8, here: M8) -> (LightSample<X8>, V8) {
     let mut found = V8::default();
     let look_up = |w: V8| {
-        let mut left = here.bits();
-        while left != 0 {
-            let light = index.as_array()[left.trailing_zeros() as usize & 7];
-            let mut same = 0_u32;
-            each_bit(left, |lane| same |= u32::from(index.as_array()[lane] == light) << lane);
+        each_group(index, here, |light, same| {
             let DirectedLight { rows, intensity, cone } = &lights[light as usize];
             let [x, y, z] = rows.map(|row| V8::from(row).dot(w));
             let mut own = intensity.at(Vec3::new(x, y, z));
             if let Some(cone) = cone {
                 own = own * SpotLight::splat(*cone).falloff(w);
             }
-            found = V8::blend(M8::from_bits(same), own, found);
-            left &= !same;
-        }
+            found = V8::blend(same, own, found);
+        });
         let some = (found.x + found.y + found.z).gt(X8::lit(0.0));
         X8::lit(1.0).keep(some)
     };
