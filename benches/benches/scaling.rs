@@ -82,6 +82,7 @@ fn row(make: impl Fn() -> Scene) {
         height: 256,
         spp: 16,
         technique: Technique::SolidAngle,
+        choice: Default::default(),
         depth: 0,
         sets: 0,
         sampler: Sampler::Independent,

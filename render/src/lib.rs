@@ -7,7 +7,7 @@
 //! - [`sums`], [`film`], [`files`], [`image`], [`compare`]: sums of samples, pixels, and images in files.
 //! - [`scene`]: scene files.
 //! - [`bvh`], [`technique`], [`bsdf`], [`surfaces`]: what rays hit, and how it reflects.
-//! - [`camera`], [`sensor`], [`sampler`], [`sky`], [`lights`]: the numbers and directions of a sample.
+//! - [`camera`], [`sensor`], [`sampler`], [`sky`], [`lights`], [`choose`]: the numbers and directions of a sample.
 //! - `paths`, `estimate`: camera rays to shading points, and the light that these reflect.
 //! - [`certify`]: what geometry alone tells about that light, and closed forms of it.
 //! - [`drive`], [`claim`], [`progressive`]: images of a given number of samples, or of a given error or time, and what they
@@ -19,6 +19,7 @@ pub mod bsdf;
 pub mod bvh;
 pub mod camera;
 pub mod certify;
+pub mod choose;
 pub mod claim;
 pub mod compare;
 pub mod drive;
@@ -53,6 +54,7 @@ pub mod surfaces;
 pub mod technique;
 pub mod texture;
 
+pub use choose::ChoiceBy;
 pub use claim::Claim;
 pub use drive::{View, World};
 pub use estimate::RayCount;

@@ -21,12 +21,10 @@
 mod chosen;
 mod directed;
 mod irradiance;
-mod many;
 mod pictures;
-mod record;
+pub(crate) mod record;
 mod spread;
 
-use crate::bvh::BuildError;
 use crate::bvh::NOTHING;
 use crate::geometry::Geometry;
 use crate::light_picture::LightPicture;
@@ -38,19 +36,18 @@ use crate::technique::Measure;
 pub use chosen::{Chosen, Drawn};
 use directed::{DirectedLight, directed_lights};
 use etendue::light::Spread;
-use etendue::select::{Allocated, Choice, FEW, Gloss, LightBound, LightChoice, LightsAt, SpatialLights};
+use etendue::select::{FEW, LightBound};
 use etendue::{
     DirectionalLight, LightSample, LightSampler, Mask, Parallelogram, PointLight, Real, Sphere, SpotLight, Triangle,
     Vec2, u32x8,
 };
 pub use irradiance::PictureIrradiance;
-use many::{ManyAt, ManyLights};
 use pictures::Tables;
 use rayon::prelude::*;
+pub(crate) use record::Candidate;
 use record::{
     DIRECTED, DISTANT, KINDS, LightRecord, ONLY_AREAS, ONLY_DELTAS, PARALLELOGRAM, PICTURED, PICTURES, POINT, PROFILED,
-    PROFILES, PackedLight, Powered, SKY, SPHERE, SPOT, SPREAD, SPREADS, TRIANGLE, TWO_SIDED, UNEVEN, area_lights,
-    delta_lights,
+    PROFILES, PackedLight, SKY, SPHERE, SPOT, SPREAD, SPREADS, TRIANGLE, TWO_SIDED, UNEVEN, area_lights, delta_lights,
 };
 use std::sync::Arc;
 
@@ -69,9 +66,8 @@ pub struct Lights {
     tables: Tables,
     /// By which the light of a few shapes with pictures is known without samples, in the order of the lights.
     irradiances: Vec<Option<PictureIrradiance>>,
-    /// For 2 to [`FEW`] lights that all have an area.
-    spatial: Option<SpatialLights>,
-    many: ManyLights,
+    /// The lights that are no shapes.
+    others: Vec<Candidate>,
     /// Bit k is set if there is a light of kind k, [`SPREADS`] if one has a spread, [`PICTURES`] if one shows a picture, and [`PROFILES`] if
     /// one with an area has a profile.
     kinds: u32,
@@ -81,102 +77,70 @@ pub struct Lights {
     shape_lights: Vec<u32>,
 }
 
-/// The probabilities with which the lights are chosen at the shading points of a packet.
-#[allow(clippy::large_enum_variant, reason = "it lives on the stack, for one packet")]
-pub enum LightPmf<'a> {
-    /// There is one light.
-    One,
-    /// By what each of a few lights can contribute.
-    Near(LightsAt<X8>),
-    /// By a tree.
-    Many(ManyAt<'a>),
-    /// By an allocation of the samples.
-    Allocated(&'a Allocated<'a, X8>),
-}
-
-impl LightPmf<'_> {
-    /// The pmf of a light.
-    #[inline]
-    pub fn of(&self, light: u32) -> X8 {
-        match self {
-            Self::One => X8::lit(1.0),
-            Self::Near(near) => near.pmf_of(light),
-            Self::Allocated(allocated) => allocated.pmf_of(light),
-            Self::Many(many) => many.pmf(light),
-        }
-    }
-}
-
 fn product(a: V8, b: V8) -> V8 {
     V8::new(a.x * b.x, a.y * b.y, a.z * b.z)
 }
 
 impl Lights {
     /// All lights of a scene: emitting shapes, delta lights, the sky.
-    ///
-    /// # Errors
-    /// Fails if there are more lights than a tree can index.
-    pub fn new(scene: &Scene, sky: Option<Arc<Sky>>) -> Result<Self, BuildError> {
-        let mut all = area_lights(scene);
-        all.extend(delta_lights(scene));
-        if sky.is_some() {
-            let record = LightRecord { kind: SKY, shape: NOTHING, ..LightRecord::default() };
-            // it is chosen by what it can contribute at each point
-            all.push((record, 0.0));
-        }
-        Self::of(all, scene, sky)
+    pub fn new(scene: &Scene, sky: Option<Arc<Sky>>) -> Self {
+        let mut others = delta_lights(scene);
+        others.extend(sky.as_ref().map(|sky| Candidate::sky(sky.flux())));
+        Self::of(others, scene, &scene.shapes, sky)
     }
     /// The delta lights of a scene alone.
-    ///
-    /// # Errors
-    /// Fails if there are more lights than a tree can index.
-    pub fn deltas(scene: &Scene) -> Result<Self, BuildError> {
-        Self::of(delta_lights(scene), scene, None)
+    pub fn deltas(scene: &Scene) -> Self {
+        Self::of(delta_lights(scene), scene, &Arc::default(), None)
     }
-    fn of(all: Powered, scene: &Scene, sky: Option<Arc<Sky>>) -> Result<Self, BuildError> {
-        let shapes = &scene.shapes;
+    fn of(others: Vec<Candidate>, scene: &Scene, shapes: &Arc<[Shape]>, sky: Option<Arc<Sky>>) -> Self {
+        let mut own = Self {
+            others,
+            sky,
+            shape_lights: vec![NOTHING; shapes.len()],
+            directed: directed_lights(scene),
+            shapes: Arc::clone(shapes),
+            pictures: Arc::clone(&scene.pictures),
+            profiles: Arc::clone(&scene.profiles),
+            ..Self::default()
+        };
+        let all = own.candidates();
         let flag = |kind: u32, flag: u32, bit: u32| if kind & flag == 0 { 0 } else { bit };
         let flags = [(SPREAD, SPREADS), (PICTURED, PICTURES), (PROFILED, PROFILES)];
         let bits = |kind: u32| flags.iter().fold(1 << (kind & KINDS), |bits, (own, bit)| bits | flag(kind, *own, *bit));
-        let kinds = all.iter().fold(0, |kinds, (light, _)| kinds | bits(light.kind));
-        let shape_lights = vec![NOTHING; shapes.len()];
-        let mut own = Self { kinds, sky, shape_lights, directed: directed_lights(scene), ..Self::default() };
-        if kinds & !ONLY_AREAS == 0 && (2..=FEW).contains(&all.len()) {
-            // relative to the greatest, so that all are finite
-            let greatest = all.iter().fold(f64::MIN_POSITIVE, |m, (_, power)| m.max(*power));
-            let bounds: Vec<_> = all.iter().map(|(light, power)| light.bound(power / greatest)).collect();
-            own.spatial = Some(SpatialLights::new(&bounds).expect("few lights"));
-        } else if all.len() > 1 {
-            own.many = ManyLights::new(&all, own.sky.as_ref())?;
-        }
-        for (index, (record, _)) in (0..).zip(&all) {
+        own.kinds = all.iter().fold(0, |kinds, light| kinds | bits(light.record.kind));
+        for (index, Candidate { record, .. }) in (0..).zip(&all) {
             if let Some(light) = own.shape_lights.get_mut(record.shape as usize) {
                 *light = index;
             }
         }
         let is_unpacked = |record: &&LightRecord| all.len() > FEW && record.shape != NOTHING;
-        own.unpacked =
-            all.iter().map(|(record, _)| record).take_while(is_unpacked).map(|record| record.shape).collect();
-        own.packed = all[own.unpacked.len()..].iter().map(|(record, _)| record.pack()).collect();
-        own.shapes = Arc::clone(shapes);
-        own.pictures = Arc::clone(&scene.pictures);
-        own.profiles = Arc::clone(&scene.profiles);
-        if kinds & PICTURES != 0 {
+        let records = || all.iter().map(|light| &light.record);
+        own.unpacked = records().take_while(is_unpacked).map(|record| record.shape).collect();
+        own.packed = records().skip(own.unpacked.len()).map(LightRecord::pack).collect();
+        if own.kinds & PICTURES != 0 {
             own.tables = Tables::new(shapes, &scene.pictures);
         }
-        if kinds & PICTURES != 0 && own.only_few_areas() {
-            let irradiance = |(light, _): &(LightRecord, f64)| {
-                let Shape { emission, geometry, .. } = shapes.get(light.shape as usize)?;
+        if own.kinds & PICTURES != 0 && own.only_few_areas() {
+            let irradiance = |light: &Candidate| {
+                let Shape { emission, geometry, .. } = shapes.get(light.record.shape as usize)?;
                 let emission = emission.filter(|emission| emission.spread.is_none() && emission.profile.is_none())?;
                 PictureIrradiance::new(&scene.pictures[emission.picture? as usize], geometry)
             };
             own.irradiances = all.par_iter().map(irradiance).collect();
         }
-        Ok(own)
+        own
+    }
+    /// The lights with their powers, in their order: those that are shapes come first, the sky last.
+    pub(crate) fn candidates(&self) -> Vec<Candidate> {
+        area_lights(&self.shapes).chain(self.others.iter().copied()).collect()
+    }
+    /// The sky, if it is one of the lights.
+    pub(crate) fn sky(&self) -> Option<&Arc<Sky>> {
+        self.sky.as_ref()
     }
     /// Bounds of the lights of a scene that have an area, in their order.
     pub fn bounds(scene: &Scene) -> Vec<LightBound> {
-        area_lights(scene).iter().map(|(light, power)| light.bound(*power)).collect()
+        area_lights(&scene.shapes).map(|Candidate { record, power }| record.bound(power)).collect()
     }
     /// Number of lights.
     pub fn len(&self) -> usize {
@@ -186,21 +150,9 @@ impl Lights {
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
-    /// True if the choice of a light needs random numbers of its own.
-    pub fn many(&self) -> bool {
-        self.len() > FEW
-    }
     /// True if all lights are delta lights, which need no pair for a point on the light.
     pub fn only_deltas(&self) -> bool {
         self.kinds & !ONLY_DELTAS == 0
-    }
-    /// The number of lights if they are few and all delta lights: then all are sampled, without random numbers.
-    pub fn each(&self) -> Option<u32> {
-        (self.only_deltas() && !self.many()).then(|| self.len() as u32)
-    }
-    /// The number of lights among which samples can be allocated: 2 to [`FEW`] that all have an area.
-    pub fn few(&self) -> Option<usize> {
-        self.spatial.as_ref().map(SpatialLights::len)
     }
     /// Whether there are 1 to [`FEW`] lights, and all have an area.
     pub fn only_few_areas(&self) -> bool {
@@ -221,32 +173,6 @@ impl Lights {
             && self.kinds & PICTURES != 0
             && !self.has_irradiances()
             && self.shapes.iter().all(is_sampled)
-    }
-    /// What each light can contribute to points of surfaces, where samples can be allocated.
-    #[inline]
-    pub fn contributions(&self, p: V8, normal: V8) -> Option<LightsAt<X8>> {
-        self.spatial.as_ref().map(|lights| lights.at(p, normal))
-    }
-    /// Chooses a light for each of these points of surfaces by what it can contribute, in view of what glossy ones reflect. The second number
-    /// is for the tree of many lights.
-    #[inline(always)]
-    pub fn choose(&self, p: V8, normal: V8, gloss: Option<&Gloss<X8>>, [u, second]: [X8; 2]) -> Choice<X8> {
-        match (&self.spatial, gloss) {
-            (Some(lights), None) => lights.at(p, normal).choose(u),
-            (Some(lights), Some(gloss)) => lights.at_glossy(p, normal, gloss).choose(u),
-            _ if self.len() == 1 => Choice { index: u32x8::splat(0), pmf: X8::lit(1.0), u },
-            _ => self.many.at(p, normal, gloss).choose(u, second),
-        }
-    }
-    /// The probabilities with which [`choose`](Self::choose) chooses at these points.
-    #[inline(always)]
-    pub fn pmf(&self, p: V8, normal: V8, gloss: Option<&Gloss<X8>>) -> LightPmf<'_> {
-        match (&self.spatial, gloss) {
-            (Some(lights), None) => LightPmf::Near(lights.at(p, normal)),
-            (Some(lights), Some(gloss)) => LightPmf::Near(lights.at_glossy(p, normal, gloss)),
-            _ if self.len() == 1 => LightPmf::One,
-            _ => LightPmf::Many(self.many.at(p, normal, gloss)),
-        }
     }
     /// Lights with these indices.
     #[inline(always)]
@@ -270,7 +196,7 @@ impl Lights {
     fn pack(&self, light: u32) -> PackedLight {
         let light = light as usize;
         let Some(&shape) = self.unpacked.get(light) else { return self.packed[light - self.unpacked.len()] };
-        LightRecord::of(shape, &self.shapes[shape as usize]).map(|(record, _)| record.pack()).unwrap_or_default()
+        LightRecord::of(shape, &self.shapes[shape as usize]).map(|light| light.record.pack()).unwrap_or_default()
     }
     /// Samples the chosen lights from points `p` on surfaces with this normal. `emits` allows for two-sided lights. For skies, pictures,
     /// directed lights and those with a spread, `radiance` of `chosen` becomes that of the sampled direction.
@@ -400,20 +326,25 @@ impl Lights {
     }
     /// The light of a shape that is one.
     #[inline]
-    pub fn of_shape(&self, shape: usize) -> usize {
-        self.shape_lights[shape] as usize
+    pub fn of_shape(&self, shape: usize) -> u32 {
+        self.shape_lights[shape]
     }
-    /// Pdf per steradian, including the pmf of the choice, with which [`sample`](Self::sample) by solid angle draws the direction `w` to a
+    /// The sky, which is the last of the lights.
+    #[inline]
+    pub fn of_sky(&self) -> u32 {
+        self.len() as u32 - 1
+    }
+    /// Pdf per steradian, without the choice of the light, with which [`sample`](Self::sample) by solid angle draws the direction `w` to a
     /// shape from `p`, which it hits.
     #[inline]
-    pub fn shape_pdf(&self, pmf: &LightPmf<'_>, shape: usize, geometry: &Geometry, p: V8, w: V8) -> X8 {
+    pub fn shape_pdf(&self, shape: usize, geometry: &Geometry, p: V8, w: V8) -> X8 {
         if let Some(table) = self.tables.of(shape)
             && let Some(picture) = self.shapes[shape].emission.and_then(|emission| emission.picture)
         {
             let axes = &self.pictures[picture as usize].axes;
-            return table.pdf((geometry, axes), p, w) * pmf.of(self.shape_lights[shape]);
+            return table.pdf((geometry, axes), p, w);
         }
-        let pdf = match *geometry {
+        match *geometry {
             Geometry::Sphere { center, radius } => {
                 Sphere::new(center.into(), X8::splat(radius)).by_solid_angle(p).pdf_of_hit(w)
             }
@@ -431,14 +362,13 @@ impl Lights {
                 }
                 light.by_solid_angle(p).pdf_of_hit(w)
             }
-        };
-        pdf * pmf.of(self.shape_lights[shape])
+        }
     }
-    /// The same for a direction to the sky, which is the last of the lights.
+    /// The same for a direction to the sky.
     #[inline]
-    pub fn sky_pdf(&self, pmf: &LightPmf<'_>, p: V8, normal: V8, w: V8) -> X8 {
+    pub fn sky_pdf(&self, p: V8, normal: V8, w: V8) -> X8 {
         match &self.sky {
-            Some(sky) => sky.pdf(Measure::SolidAngle, p, normal, w) * pmf.of(self.len() as u32 - 1),
+            Some(sky) => sky.pdf(Measure::SolidAngle, p, normal, w),
             None => X8::lit(0.0),
         }
     }

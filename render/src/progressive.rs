@@ -415,7 +415,17 @@ mod tests {
         let world = World::new(&scene).unwrap();
         for sampler in [Sampler::Adaptive, Sampler::Independent] {
             let technique = crate::Technique::SolidAngle;
-            let settings = Settings { width: 40, height: 32, spp: 16, technique, depth: 8, sampler, sets: 0, seed: 3 };
+            let settings = Settings {
+                width: 40,
+                height: 32,
+                spp: 16,
+                technique,
+                choice: Default::default(),
+                depth: 8,
+                sampler,
+                sets: 0,
+                seed: 3,
+            };
             let plan = Refinement { settings, sampler: Some(sampler), lens: false, goal: Goal::default() };
             let mut refined = Refined::new(&world, &plan).unwrap();
             assert_eq!(refined.lasting(100.0, settings.whole()), refined.counts[0]);
@@ -449,7 +459,17 @@ mod tests {
     fn a_preview_is_followed_by_passes_of_the_usual_sampler() {
         let world = World::new(&crate::scene::load("quads").unwrap()).unwrap();
         let (technique, sampler) = (crate::Technique::SolidAngle, Sampler::Adaptive);
-        let settings = Settings { width: 16, height: 16, spp: 16, technique, depth: 8, sampler, sets: 0, seed: 3 };
+        let settings = Settings {
+            width: 16,
+            height: 16,
+            spp: 16,
+            technique,
+            choice: Default::default(),
+            depth: 8,
+            sampler,
+            sets: 0,
+            seed: 3,
+        };
         let plan = Refinement { settings, sampler: None, lens: false, goal: Goal::default() };
         let mut refined = Refined::new(&world, &plan).unwrap();
         assert_eq!(refined.lasting(1e9, settings.whole()), 2);
@@ -468,8 +488,20 @@ mod tests {
     fn samplers_have_counts_with_a_variance() {
         let plan = |sampler, sets, lens, error| {
             let technique = crate::Technique::Area;
-            let (sampler, settings) =
-                (Some(sampler), Settings { width: 1, height: 1, spp: 1, technique, depth: 0, sampler, sets, seed: 0 });
+            let (sampler, settings) = (
+                Some(sampler),
+                Settings {
+                    width: 1,
+                    height: 1,
+                    spp: 1,
+                    technique,
+                    choice: Default::default(),
+                    depth: 0,
+                    sampler,
+                    sets,
+                    seed: 0,
+                },
+            );
             Refinement { settings, sampler, lens, goal: Goal { seconds: None, error } }.counts()
         };
         let of = |sampler, sets, lens| plan(sampler, sets, lens, Some(0.1));

@@ -1,6 +1,7 @@
 //! What an image depends on besides the scene, and what it cost.
 
 use crate::area::{Area, TILE};
+use crate::choose::ChoiceBy;
 use crate::limits::{MOST_SAMPLES, is_size};
 use crate::sampler::Sampler;
 use crate::technique::Technique;
@@ -23,6 +24,8 @@ pub struct Settings {
     pub spp: u32,
     /// How to sample the lights.
     pub technique: Technique,
+    /// How to choose one of them.
+    pub choice: ChoiceBy,
     /// Greatest number of perfect mirrors along a camera ray.
     pub depth: u32,
     /// How to generate the random numbers.

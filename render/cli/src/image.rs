@@ -5,7 +5,7 @@ use etendue_render::limits::MOST_SAMPLES;
 use etendue_render::options::{name, say, size, threads, whole};
 use etendue_render::sampler::default_sampler;
 use etendue_render::scene::{self, Scene};
-use etendue_render::{Sampler, Sensor, Settings, Technique};
+use etendue_render::{ChoiceBy, Sampler, Sensor, Settings, Technique};
 use std::error::Error;
 use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
@@ -20,6 +20,9 @@ pub(crate) struct ImageOptions {
     /// Sample the lights by this technique
     #[arg(long, value_enum, default_value = "auto")]
     technique: Technique,
+    /// Choose one of the lights in this way
+    #[arg(long, value_enum, default_value = "auto")]
+    choice: ChoiceBy,
     /// Follow a camera ray through at most this many perfect mirrors
     #[arg(long, value_name = "N", default_value_t = Settings::DEPTH, value_parser = whole::<u32>(0..=1024))]
     depth: u32,
@@ -85,6 +88,7 @@ impl ImageOptions {
             height,
             spp,
             technique: self.technique,
+            choice: self.choice,
             depth: self.depth,
             sampler: self.sampler.unwrap_or_else(|| default_sampler(spp, sets, lens)),
             sets,
@@ -111,6 +115,7 @@ impl ImageOptions {
             |option: &str, value: Option<String>| all.extend(value.map(|value| format!("--{option}={value}").into()));
         add("spp", self.spp.map(|spp| spp.to_string()));
         add("technique", (self.technique != Technique::Auto).then(|| name(self.technique)));
+        add("choice", (self.choice != ChoiceBy::Auto).then(|| name(self.choice)));
         add("depth", (self.depth != Settings::DEPTH).then(|| self.depth.to_string()));
         add("sampler", self.sampler.map(name));
         add("sensor", (self.sensor != Sensor::Radiance).then(|| name(self.sensor)));

@@ -2,10 +2,10 @@
 
 use clap::ValueEnum;
 use etendue_render::options::out;
-use etendue_render::{Sampler, Sensor, Technique, scene};
+use etendue_render::{ChoiceBy, Sampler, Sensor, Technique, scene};
 use std::io::{self, Write};
 
-/// Prints the built-in scenes, techniques, samplers and sensors, each with a description.
+/// Prints the built-in scenes, techniques, choices, samplers and sensors, each with a description.
 pub(crate) fn run() -> io::Result<()> {
     let mut out = out();
     writeln!(out, "scenes")?;
@@ -13,6 +13,7 @@ pub(crate) fn run() -> io::Result<()> {
         writeln!(out, "  {name:20} {about}")?;
     }
     values::<Technique>(&mut out, "techniques")?;
+    values::<ChoiceBy>(&mut out, "choices")?;
     values::<Sampler>(&mut out, "samplers")?;
     values::<Sensor>(&mut out, "sensors")
 }

@@ -52,7 +52,7 @@ enum Command {
     Figure(figure::Options),
     /// Map where each technique of the library loses accuracy, compared with textbook formulas
     Atlas(atlas::Options),
-    /// List the built-in scenes, techniques, samplers and sensors
+    /// List the built-in scenes, techniques, choices of a light, samplers and sensors
     List,
 }
 

@@ -181,6 +181,7 @@ pub(crate) fn run(
 
     let pool = pool(options.threads)?;
     let world = pool.install(|| World::from_scene(&mut scene))?.with_sensor(options.sensor);
+    world.check(&settings)?;
     let bar = bar(area::count(*area) as u64, "{wide_bar} {percent:>3} %  {elapsed} of {duration}");
     interrupt.watch(&bar, &path);
     let progress = |done: u64| bar.inc(done);

@@ -105,6 +105,7 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     let pool = pool(image.threads)?;
     let start = Instant::now();
     let world = pool.install(|| World::from_scene(&mut scene))?.with_sensor(image.sensor);
+    world.check(&settings)?;
     let build = start.elapsed().as_secs_f64();
 
     let display = RefCell::new(options.display.connect(&output.exr));
@@ -226,6 +227,7 @@ fn to_json(
         "sets": image.sets,
         "technique": name(settings.technique),
         "chosen": name(chosen),
+        "choice": name(settings.choice),
         "sampler": name(image.sampler),
         "sensor": name(options.image.sensor),
         "seed": settings.seed,

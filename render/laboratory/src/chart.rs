@@ -17,11 +17,11 @@ use crate::interrupt::interrupt;
 use clap::{Args, ValueEnum};
 use etendue_render::files;
 use etendue_render::limits::MOST_SAMPLES;
-use etendue_render::options::{name, out, size, threads, whole};
+use etendue_render::options::{out, size, threads, whole};
 use etendue_render::scene::Material;
-use etendue_render::{Sampler, Settings, Technique, World, identity, scene};
+use etendue_render::{ChoiceBy, Sampler, Settings, Technique, World, identity, scene};
 use indicatif::{ProgressBar, ProgressStyle};
-use measure::{ChartedScene, Key, Plan, Table, inapplicable};
+use measure::{ChartedScene, Key, Plan, Table, inapplicable, method};
 pub use outcome::Outcome;
 use reference::Reference;
 use std::error::Error;
@@ -45,6 +45,9 @@ pub struct Options {
     /// How to sample the lights [default: all techniques]
     #[arg(long, value_enum, value_delimiter = ',')]
     pub techniques: Vec<Technique>,
+    /// How to choose one of the lights
+    #[arg(long = "choice", value_name = "CHOICES", value_enum, value_delimiter = ',', default_value = "auto")]
+    pub choices: Vec<ChoiceBy>,
     /// How to generate the random numbers [default: all samplers]
     #[arg(long, value_enum, value_delimiter = ',')]
     pub samplers: Vec<Sampler>,
@@ -104,11 +107,19 @@ fn chosen<T: ValueEnum + Clone + PartialEq>(asked: &[T]) -> Vec<T> {
     list
 }
 
-/// The techniques that apply to a scene and differ from one another there, and notes on those that are left out.
-fn techniques(scene: &scene::Scene, subject: &ChartedScene, asked: &[Technique]) -> (Vec<Technique>, Vec<String>) {
-    let (mut list, mut images, mut notes) = (Vec::new(), Vec::new(), Vec::new());
-    for &technique in asked {
-        let mut leave = |why: &str| notes.push(format!("{}: {} is left out: {why}", subject.name, name(technique)));
+/// A technique, and a choice of a light.
+type Method = (Technique, ChoiceBy);
+
+/// The techniques and choices that apply to a scene and differ from one another there, and notes on those that are left out.
+fn methods(
+    scene: &scene::Scene,
+    subject: &ChartedScene,
+    asked: impl Iterator<Item = Method>,
+) -> (Vec<Method>, Vec<String>) {
+    let (mut list, mut images, mut notes) = (Vec::<Method>::new(), Vec::new(), Vec::new());
+    for (technique, choice) in asked {
+        let own = method(technique, choice);
+        let mut leave = |why: &str| notes.push(format!("{}: {own} is left out: {why}", subject.name));
         let is_blind = matches!(technique, Technique::UniformHemisphere | Technique::CosineHemisphere);
         if is_blind && scene.materials.iter().any(Material::is_glossy) {
             leave(
@@ -118,16 +129,24 @@ fn techniques(scene: &scene::Scene, subject: &ChartedScene, asked: &[Technique])
         }
         let [width, height] = subject.size.map(|side| side.min(64));
         let sampler = Sampler::Independent;
-        let settings = Settings { width, height, spp: 8, technique, depth: Settings::DEPTH, sampler, sets: 1, seed: 1 };
+        let depth = Settings::DEPTH;
+        let settings = Settings { width, height, spp: 8, technique, choice, depth, sampler, sets: 1, seed: 1 };
+        if let Err(why) = subject.world.check(&settings) {
+            leave(&why);
+            continue;
+        }
         // `auto` chooses by the whole image
         let [width, height] = subject.size;
         let chosen = subject.world.view(&Settings { width, height, ..settings }).technique();
         let settings = Settings { technique: chosen, ..settings };
         let pixels = subject.world.render(&settings, &|_| ()).0.pixels;
         match images.iter().position(|other| *other == pixels) {
-            Some(first) => leave(&format!("it gives the same image as {} in this scene", name(list[first]))),
+            Some(first) => {
+                let (technique, choice) = list[first];
+                leave(&format!("it gives the same image as {} in this scene", method(technique, choice)));
+            }
             None => {
-                list.push(technique);
+                list.push((technique, choice));
                 images.push(pixels);
             }
         }
@@ -135,10 +154,10 @@ fn techniques(scene: &scene::Scene, subject: &ChartedScene, asked: &[Technique])
     (list, notes)
 }
 
-/// A scene ready to be measured, the techniques to measure, and notes for the report.
+/// A scene ready to be measured, the methods to measure, and notes for the report.
 struct Prepared {
     subject: ChartedScene,
-    techniques: Vec<Technique>,
+    methods: Vec<Method>,
     notes: Vec<String>,
 }
 
@@ -184,9 +203,11 @@ fn prepare(options: &Options, path: &OsStr, circumstances: &str) -> Result<Prepa
     bytes.extend(reference.picture.radiance.iter().flatten().flat_map(|x| x.to_le_bytes()));
     let lens = scene.camera.lens.is_some();
     let subject = ChartedScene { name: name.to_owned(), world, size, lens, settings: fnv1a(&bytes), reference };
-    let (techniques, left_out) = techniques(&scene, &subject, &chosen(&options.techniques));
+    let (techniques, choices) = (chosen(&options.techniques), chosen(&options.choices));
+    let asked = techniques.iter().flat_map(|&technique| choices.iter().map(move |&choice| (technique, choice)));
+    let (methods, left_out) = methods(&scene, &subject, asked);
     notes.extend(left_out);
-    Ok(Prepared { subject, techniques, notes })
+    Ok(Prepared { subject, methods, notes })
 }
 
 /// A progress bar, which draws nothing unless stderr is a terminal.
@@ -228,7 +249,7 @@ pub fn measure(options: &Options, stop: &Arc<AtomicBool>) -> Result<Outcome, Box
     let circumstances = format!("{kept:?}{}", identity::build());
     let mut notes = Vec::new();
     let mut scenes: Vec<ChartedScene> = Vec::new();
-    let mut techniques = Vec::new();
+    let mut methods = Vec::new();
     for (i, scene) in options.scenes.iter().enumerate() {
         if options.scenes[..i].contains(scene) {
             continue;
@@ -236,7 +257,7 @@ pub fn measure(options: &Options, stop: &Arc<AtomicBool>) -> Result<Outcome, Box
         let prepared = pool.install(|| prepare(options, scene, &circumstances).map_err(|e| e.to_string()))?;
         notes.extend(prepared.notes);
         scenes.push(prepared.subject);
-        techniques.push(prepared.techniques);
+        methods.push(prepared.methods);
     }
     let default =
         if options.quick { (0..4).map(|k| 1 << (2 * k)).collect() } else { (0..11).map(|k| 1 << k).collect() };
@@ -244,14 +265,14 @@ pub fn measure(options: &Options, stop: &Arc<AtomicBool>) -> Result<Outcome, Box
     spps.sort_unstable();
     spps.dedup();
     let mut keys = Vec::new();
-    for (scene, techniques) in techniques.iter().enumerate() {
+    for (scene, methods) in methods.iter().enumerate() {
         for &spp in &spps {
             for &sampler in &chosen(&options.samplers) {
-                for &technique in techniques {
+                for &(technique, choice) in methods {
                     match inapplicable(sampler, spp, scenes[scene].lens) {
                         Some(reason) if !notes.contains(&reason) => notes.push(reason),
                         Some(_) => (),
-                        None => keys.push(Key { scene, technique, sampler, spp }),
+                        None => keys.push(Key { scene, technique, choice, sampler, spp }),
                     }
                 }
             }
@@ -284,7 +305,7 @@ pub fn measure(options: &Options, stop: &Arc<AtomicBool>) -> Result<Outcome, Box
     if done < all {
         notes.push(format!("stopped early: {done} of {all} measurements; run the same command again for the rest"));
     }
-    let baseline = Way { technique: options.baseline, sampler: Sampler::Independent };
+    let baseline = Way { technique: options.baseline, choice: options.choices[0], sampler: Sampler::Independent };
     let summaries = (0..plan.scenes.len())
         .map(|scene| Summary::new(&plan, &rows, scene, baseline, options.target))
         .filter(|s| !s.series.is_empty())

@@ -6,7 +6,7 @@ use etendue_laboratory::chart::measure::{ChartedScene, Key, Plan, Row, Rows};
 use etendue_laboratory::chart::reference::Reference;
 use etendue_laboratory::chart::summary::{Summary, Way};
 use etendue_laboratory::chart::{Outcome, plot, report};
-use etendue_render::{Sampler, Technique, World, scene};
+use etendue_render::{ChoiceBy, Sampler, Technique, World, scene};
 use std::collections::HashSet;
 
 const SPP: [u32; 3] = [1, 4, 16];
@@ -40,7 +40,7 @@ fn outcome(names: &[&str]) -> Outcome {
     let mut keys = Vec::new();
     for scene in 0..names.len() {
         for (technique, sampler) in TECHNIQUES.iter().flat_map(|t| SAMPLERS.map(|s| (*t, s))) {
-            keys.extend(SPP.map(|spp| Key { scene, technique, sampler, spp }));
+            keys.extend(SPP.map(|spp| Key { scene, technique, choice: ChoiceBy::Auto, sampler, spp }));
         }
     }
     let mut rows = Rows::new();
@@ -54,7 +54,7 @@ fn outcome(names: &[&str]) -> Outcome {
         rows.insert(*key, (0..3).map(row).collect());
     }
     let plan = Plan { scenes, keys, replicates: 3, seed: 0 };
-    let baseline = Way { technique: Technique::Area, sampler: Sampler::Independent };
+    let baseline = Way { technique: Technique::Area, choice: ChoiceBy::Auto, sampler: Sampler::Independent };
     let summaries = (0..names.len()).map(|scene| Summary::new(&plan, &rows, scene, baseline, None)).collect();
     Outcome { plan, rows, summaries, facts: Vec::new(), notes: vec!["a remark at the end".to_owned()] }
 }
@@ -90,7 +90,8 @@ fn the_page_begins_with_the_best_series_of_each_scene() {
         // by definition: the least error in the same time, in these data a power of the time
         let seconds = summary.seconds;
         let error = |way: &Way| {
-            let key = |spp| Key { scene: 0, technique: way.technique, sampler: way.sampler, spp };
+            let Way { technique, choice, sampler } = *way;
+            let key = |spp| Key { scene: 0, technique, choice, sampler, spp };
             let ((one, t), (many, _)) = (cost(&key(1)), cost(&key(16)));
             let slope = (many / one).ln() / 16.0_f64.ln();
             // below one sample per pixel, errors count as proportional to 1/time

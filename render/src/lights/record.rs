@@ -7,15 +7,15 @@ use crate::scene::{Cone, DeltaLight, Scene, Shape};
 use etendue::Vec3;
 use etendue::light::Spread;
 use etendue::select::LightBound;
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_1_PI, PI};
 
 // kinds of lights, and flags beside them
 pub(super) const SPHERE: u32 = 0;
 pub(super) const TRIANGLE: u32 = 1;
 pub(super) const PARALLELOGRAM: u32 = 2;
-pub(super) const POINT: u32 = 3;
-pub(super) const SPOT: u32 = 4;
-pub(super) const DISTANT: u32 = 5;
+pub(crate) const POINT: u32 = 3;
+pub(crate) const SPOT: u32 = 4;
+pub(crate) const DISTANT: u32 = 5;
 pub(super) const SKY: u32 = 6;
 pub(super) const DIRECTED: u32 = 7;
 pub(super) const KINDS: u32 = 7;
@@ -40,21 +40,21 @@ const NARROWEST: f32 = 253.0 / 254.0;
 
 /// A light.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct LightRecord {
+pub(crate) struct LightRecord {
     /// Centre of a sphere, corner of a triangle or parallelogram, position of a light without an area, direction to a distant light.
-    pub(super) place: [f32; 3],
+    pub(crate) place: [f32; 3],
     /// First edge of a triangle or parallelogram, axis of a spot or directed light; a sphere has its radius in x.
-    pub(super) first: [f32; 3],
+    pub(crate) first: [f32; 3],
     /// Second edge of a triangle or parallelogram; a spot light has 1 − cosθ of its inner and outer angle in x and y, a directed light its
     /// index among those in x, and both in z a cosine of an angle from which on they are dark.
-    pub(super) second: [f32; 3],
+    pub(crate) second: [f32; 3],
     /// Radiance, the mean of a picture; intensity of a point or spot light, the greatest of a directed light, irradiance of a distant
     /// light.
     pub(super) radiance: [f32; 3],
     /// Its spread, where [`SPREAD`] is set; with a profile, the cone beyond which that is dark.
     pub(super) spread: Spread<f32>,
     /// Its kind, [`TWO_SIDED`], [`SPREAD`], [`PICTURED`] and [`PROFILED`].
-    pub(super) kind: u32,
+    pub(crate) kind: u32,
     /// Index of its shape, or [`NOTHING`].
     pub(super) shape: u32,
 }
@@ -63,8 +63,8 @@ pub(super) struct LightRecord {
 pub(super) type PackedLight = [[f32; 8]; 2];
 
 impl LightRecord {
-    /// A shape that emits, and its power in units of π.
-    pub(super) fn of(index: u32, shape: &Shape) -> Option<(Self, f64)> {
+    /// A shape that emits.
+    pub(super) fn of(index: u32, shape: &Shape) -> Option<Candidate> {
         let emission = shape.emission?;
         let (kind, [place, first, second]) = match shape.geometry {
             Geometry::Sphere { center, radius } => (SPHERE, [center, [radius, 0.0, 0.0], [0.0; 3]]),
@@ -85,7 +85,7 @@ impl LightRecord {
         if let Some(spread) = emission.spread {
             (record.spread, record.kind) = (spread, record.kind | SPREAD);
         }
-        Some((record, power))
+        Some(Candidate { record, power })
     }
     pub(super) fn pack(&self) -> PackedLight {
         let Self { place: [a, b, c], first: [d, e, f], second: [g, h, i], radiance: [red, green, blue], .. } = *self;
@@ -103,12 +103,20 @@ impl LightRecord {
             ],
         ]
     }
+    /// Whether it is a distant light.
+    pub(crate) fn is_sun(&self) -> bool {
+        self.kind & KINDS == DISTANT
+    }
+    /// Whether it is a sky.
+    pub(crate) fn is_sky(&self) -> bool {
+        self.kind & KINDS == SKY
+    }
     /// Whether the light is infinitely far away.
-    pub(super) fn is_distant(&self) -> bool {
-        matches!(self.kind & KINDS, DISTANT | SKY)
+    pub(crate) fn is_distant(&self) -> bool {
+        self.is_sun() || self.is_sky()
     }
     /// The bound of what a light of finite extent contributes, by its power. The bound of another light has no power.
-    pub(super) fn bound(&self, power: f64) -> LightBound {
+    pub(crate) fn bound(&self, power: f64) -> LightBound {
         let wide = |v: [f32; 3]| Vec3::<f64>::from(v.map(f64::from));
         let (p, u, v) = (wide(self.place), wide(self.first), wide(self.second));
         let (center, radius, normal) = match self.kind & KINDS {
@@ -158,18 +166,33 @@ pub(super) fn sum(rgb: [f32; 3]) -> f64 {
     rgb.iter().map(|&x| f64::from(x)).sum()
 }
 
-/// Records and their powers, in units of π.
-pub(super) type Powered = Vec<(LightRecord, f64)>;
-
-pub(super) fn area_lights(scene: &Scene) -> Powered {
-    (0..).zip(scene.shapes.iter()).filter_map(|(index, shape)| LightRecord::of(index, shape)).collect()
+/// A light as a choice of lights knows it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Candidate {
+    /// The light.
+    pub(crate) record: LightRecord,
+    /// Its power in units of π; of a distant light, that of a point at the distance 1 that causes its irradiance, and of a sky, ∫L dω over
+    /// all directions.
+    pub(crate) power: f64,
 }
 
-pub(super) fn delta_lights(scene: &Scene) -> Powered {
+impl Candidate {
+    /// A sky with this ∫L dω, summed over channels.
+    pub(super) fn sky(flux: f64) -> Self {
+        let record = LightRecord { kind: SKY, shape: NOTHING, ..LightRecord::default() };
+        Self { record, power: flux * FRAC_1_PI }
+    }
+}
+
+pub(super) fn area_lights(shapes: &[Shape]) -> impl Iterator<Item = Candidate> {
+    (0..).zip(shapes).filter_map(|(index, shape)| LightRecord::of(index, shape))
+}
+
+pub(super) fn delta_lights(scene: &Scene) -> Vec<Candidate> {
     let mut directed = 0;
     let light = |light: &DeltaLight| {
         let none = LightRecord { shape: NOTHING, ..LightRecord::default() };
-        match *light {
+        let (record, power) = match *light {
             DeltaLight::Point { position: place, intensity: radiance } => {
                 (LightRecord { place, radiance, kind: POINT, ..none }, 4.0 * sum(radiance))
             }
@@ -205,7 +228,8 @@ pub(super) fn delta_lights(scene: &Scene) -> Powered {
                 // of a point at the distance 1 that causes this irradiance
                 (LightRecord { place, radiance, kind: DISTANT, ..none }, 4.0 * sum(radiance))
             }
-        }
+        };
+        Candidate { record, power }
     };
     scene.delta_lights.iter().map(light).collect()
 }

@@ -4,7 +4,7 @@ use etendue_oracle::tier::cases;
 use etendue_render::film::Film;
 use etendue_render::image::Picture;
 use etendue_render::{
-    RayCount, Sampler, Settings, Technique, World,
+    ChoiceBy, RayCount, Sampler, Settings, Technique, World,
     compare::{Comparison, LIMIT},
     image, scene,
 };
@@ -15,6 +15,7 @@ const SETTINGS: Settings = Settings {
     height: 80,
     spp: 64,
     technique: Technique::SolidAngle,
+    choice: ChoiceBy::Auto,
     depth: 8,
     sampler: Sampler::Adaptive,
     sets: 1,

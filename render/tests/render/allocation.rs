@@ -5,7 +5,7 @@ use etendue_oracle::tier::cases;
 use etendue_render::film::{Film, Pixel};
 use etendue_render::image::Picture;
 use etendue_render::{
-    Sampler, Settings, Technique, World,
+    ChoiceBy, Sampler, Settings, Technique, World,
     compare::{Comparison, LIMIT},
     image, scene,
 };
@@ -16,6 +16,7 @@ const SETTINGS: Settings = Settings {
     height: 32,
     spp: 16,
     technique: Technique::SolidAngle,
+    choice: ChoiceBy::Auto,
     depth: 8,
     sampler: Sampler::Sobol,
     sets: 1,

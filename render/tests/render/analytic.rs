@@ -4,7 +4,7 @@ use crate::variance::reported_to_measured;
 use etendue_oracle::tier::cases;
 use etendue_render::compare::differs;
 use etendue_render::film::Film;
-use etendue_render::{RayCount, Sampler, Settings, Technique, World, scene};
+use etendue_render::{ChoiceBy, RayCount, Sampler, Settings, Technique, World, scene};
 use std::path::Path;
 
 const SETTINGS: Settings = Settings {
@@ -12,6 +12,7 @@ const SETTINGS: Settings = Settings {
     height: 64,
     spp: 64,
     technique: Technique::Analytic,
+    choice: ChoiceBy::Auto,
     depth: Settings::DEPTH,
     sampler: Sampler::Sobol,
     sets: 4,

@@ -9,7 +9,17 @@ use std::fmt::Write;
 use std::path::Path;
 
 fn settings(technique: Technique, spp: u32) -> Settings {
-    Settings { width: 1, height: 1, spp, technique, depth: 2, sampler: Sampler::Independent, sets: 0, seed: 1 }
+    Settings {
+        width: 1,
+        height: 1,
+        spp,
+        technique,
+        choice: Default::default(),
+        depth: 2,
+        sampler: Sampler::Independent,
+        sets: 0,
+        seed: 1,
+    }
 }
 
 /// A light of radiance 1.

@@ -1,8 +1,10 @@
 //! Laws of the choice and the sampling of lights, which an image cannot show: a wrong weight of two percent hides in its noise.
 
+use clap::ValueEnum;
 use etendue::sequence::{Independent, Sequence};
 use etendue::{Mask, Real, Uint, Vec2, Vec3, u32x8};
 use etendue_oracle::tier::cases;
+use etendue_render::choose::{ChoiceBy, Chooser, Choosers};
 use etendue_render::geometry::Geometry;
 use etendue_render::lights::Lights;
 use etendue_render::packet::{V8, X8};
@@ -27,38 +29,48 @@ fn packet(scene: &Scene, number: u32) -> (V8, V8, [X8; 4]) {
     (p, normal, [pairs[3].x, pairs[3].y, pairs[4].x, pairs[4].y])
 }
 
-/// The pdf of a direction, with which MIS weights it, is bit for bit the product of the probability with which its light was chosen and the
-/// pdf with which the light was sampled.
+/// The ways to choose among lights that are possible.
+fn choosers<'a>(choosers: &'a Choosers, lights: &Lights) -> Vec<(ChoiceBy, &'a Chooser)> {
+    let by = |by: &ChoiceBy| Some((*by, choosers.by(lights, *by).ok()?));
+    ChoiceBy::value_variants().iter().filter_map(by).collect()
+}
+
+/// The pdf of a direction, with which MIS weights it, is bit for bit the product of the probability with which its light was chosen, in
+/// whatever way, and the pdf with which the light was sampled.
 #[test]
 fn the_pdf_of_a_direction_is_that_with_which_it_was_drawn() {
     let mut kinds = [0_u32; 3];
     for (name, _) in scene::builtin() {
         let scene = scene::load(name).unwrap();
-        let lights = Lights::new(&scene, None).unwrap();
+        let lights = Lights::new(&scene, None);
         if scene.shapes.is_empty() || lights.is_empty() || lights.only_deltas() {
             continue;
         }
+        let all = Choosers::new(&lights, 1.0).unwrap();
+        let choosers = choosers(&all, &lights);
         let mut compared = 0;
-        for number in 0..cases(16, 200) {
+        for number in 0..cases(16, 200) * choosers.len() as u32 {
+            let (by, chooser) = choosers[number as usize % choosers.len()];
             let (p, normal, [u, second, x, y]) = packet(&scene, number);
-            let choice = lights.choose(p, normal, None, [u, second]);
+            let choice = chooser.choose(p, normal, None, [u, second]);
             let mut chosen = lights.chosen(choice.index);
             let drawn = lights.sample(&mut chosen, Measure::SolidAngle, p, normal, Vec2::new(x, y));
-            let pmf = lights.pmf(p, normal, None);
+            let pmf = chooser.pmf(p, normal, None);
             let sampled = choice.pmf.gt(X8::lit(0.0)) & drawn.pdf.gt(X8::lit(0.0)) & !drawn.delta;
             for lane in (0..8).filter(|&lane| sampled.lane(lane)) {
                 let index = chosen.shape.lane(lane) as usize;
                 let geometry = &scene.shapes[index].geometry;
-                let pdf = lights.shape_pdf(&pmf, index, geometry, p, drawn.direction).lane(lane);
+                let pmf = pmf.of(lights.of_shape(index));
+                let pdf = (lights.shape_pdf(index, geometry, p, drawn.direction) * pmf).lane(lane);
                 let own = drawn.pdf.lane(lane) * choice.pmf.lane(lane);
-                assert_eq!(pdf.to_bits(), own.to_bits(), "{name}, shape {index}: {pdf} and {own}");
+                assert_eq!(pdf.to_bits(), own.to_bits(), "{name} by {by:?}, shape {index}: {pdf} and {own}");
                 compared += 1;
             }
         }
         assert!(compared > cases(8, 100), "{name}: only {compared} directions");
         kinds[if lights.len() == 1 {
             0
-        } else if lights.few().is_some() {
+        } else if choosers[0].1.few().is_some() {
             1
         } else {
             2
@@ -79,17 +91,20 @@ fn the_pdf_of_the_sky_is_that_with_which_it_was_drawn() {
         // as bright as the sky, or nearly so
         let intensity = [0.1 * sky.flux() as f32; 3];
         scene.delta_lights.push(DeltaLight::Point { position: [0.0, 3.0, 0.0], intensity });
-        let lights = Lights::new(&scene, Some(sky)).unwrap();
+        let lights = Lights::new(&scene, Some(sky));
+        let choosers = Choosers::new(&lights, 1.0).unwrap();
+        let chooser = choosers.by(&lights, ChoiceBy::Auto).unwrap();
         for number in 0..50 {
             let lanes = u32x8::from_fn(|k| number * 8 + k as u32);
             let pair = |dimension| -> Vec2<X8> { Independent::new(9).pair(u32x8::splat(0), lanes, dimension) };
             let away = |x: X8| (x - X8::lit(0.5)) * X8::lit(10.0);
             let (p, normal) = (V8::new(away(pair(0).x), away(pair(0).y), away(pair(1).x)), V8::lit([0.0, 0.6, 0.8]));
             let (Vec2 { x: u, y: second }, Vec2 { x, y }) = (pair(2), pair(3));
-            let choice = lights.choose(p, normal, None, [u, second]);
+            let choice = chooser.choose(p, normal, None, [u, second]);
             let mut chosen = lights.chosen(choice.index);
             let drawn = lights.sample(&mut chosen, Measure::SolidAngle, p, normal, Vec2::new(x, y));
-            let pdf = lights.sky_pdf(&lights.pmf(p, normal, None), p, normal, drawn.direction);
+            let pmf = chooser.pmf(p, normal, None).of(lights.of_sky());
+            let pdf = lights.sky_pdf(p, normal, drawn.direction) * pmf;
             for lane in (0..8).filter(|&lane| choice.index.lane(lane) + 1 == lights.len() as u32) {
                 let above = normal.dot(V8::lit([0.0, 3.0, 0.0]) - p).lane(lane);
                 let shared = choice.pmf.lane(lane) < 1.0;
@@ -107,32 +122,41 @@ fn the_pdf_of_the_sky_is_that_with_which_it_was_drawn() {
     assert!(compared > 50, "{compared}");
 }
 
-/// At each point that a light can reach, the probabilities of all lights sum to 1; to less where some of several lights are infinitely far
-/// away, since a choice among the others may find none.
+/// At each point that a light can reach, the probabilities of all lights sum to 1, in whatever way they are chosen; to less in a tree, which may
+/// find none.
 #[test]
 fn the_pmf_of_all_lights_sums_to_one() {
-    let mut exact = 0;
+    let mut exact = [0; 6];
     for (name, _) in scene::builtin_of_few_lights() {
         let scene = scene::load(name).unwrap();
-        let lights = Lights::new(&scene, None).unwrap();
+        let lights = Lights::new(&scene, None);
         if scene.shapes.is_empty() || lights.is_empty() {
             continue;
         }
-        for number in 0..200 {
+        let all = Choosers::new(&lights, 1.0).unwrap();
+        let choosers = choosers(&all, &lights);
+        for number in 0..200 * choosers.len() as u32 {
+            let (by, chooser) = choosers[number as usize % choosers.len()];
             let (p, normal, [u, second, ..]) = packet(&scene, number);
-            let chosen = lights.choose(p, normal, None, [u, second]).pmf.gt(X8::lit(0.0));
-            let pmf = lights.pmf(p, normal, None);
+            let chosen = chooser.choose(p, normal, None, [u, second]).pmf.gt(X8::lit(0.0));
+            let pmf = chooser.pmf(p, normal, None);
             for lane in (0..8).filter(|&lane| chosen.lane(lane)) {
                 let sum: f64 = (0..lights.len() as u32).map(|light| pmf.of(light).lane_f64(lane)).sum();
-                assert!(sum < 1.0 + 2e-6, "{name}: {sum}");
-                if lights.only_few_areas() {
-                    assert!(sum > 1.0 - 2e-6, "{name}: {sum}");
-                    exact += 1;
+                assert!(sum < 1.0 + 2e-6, "{name} by {by:?}: {sum}");
+                let is_tree = matches!(by, ChoiceBy::Tree | ChoiceBy::Kinds) || !lights.only_few_areas();
+                if !is_tree || matches!(by, ChoiceBy::Uniform | ChoiceBy::Power) {
+                    assert!(sum > 1.0 - 2e-6, "{name} by {by:?}: {sum}");
+                    exact[by as usize] += 1;
                 }
             }
         }
     }
-    assert!(exact > 1000, "{exact}");
+    assert!(
+        [ChoiceBy::Auto, ChoiceBy::Uniform, ChoiceBy::Power, ChoiceBy::Spatial]
+            .iter()
+            .all(|&by| exact[by as usize] > 1000),
+        "{exact:?}"
+    );
 }
 
 /// The bound of a light with an area is the least sphere about its centre that holds it, with the power of one side in units of π.
@@ -194,8 +218,9 @@ fn lights_far_away_have_their_share_of_the_irradiance() {
     for (near, irradiance) in [(point, 7.0), (spot, 7.0 * 0.35 / 0.5)].map(|(near, sum)| (near, sum / 19.5_f64.powi(2)))
     {
         scene.delta_lights = vec![near, distant];
-        let lights = Lights::deltas(&scene).unwrap();
-        let pmf = lights.pmf(p, V8::lit([0.0, 1.0, 0.0]), None);
+        let lights = Lights::deltas(&scene);
+        let choosers = Choosers::new(&lights, 1.0).unwrap();
+        let pmf = choosers.by(&lights, ChoiceBy::Auto).unwrap().pmf(p, V8::lit([0.0, 1.0, 0.0]), None);
         let shares = [0, 1].map(|light| pmf.of(light).lane_f64(3));
         let truth = 0.225 + 0.55 * far / (far + irradiance);
         assert!((shares[1] - truth).abs() < 2e-3, "{shares:?}, not {truth}");
@@ -261,7 +286,9 @@ fn directed_and_spread_lights_are_never_lost() {
     }
     let scene = scene::parse(&text, "test.pbrt", &folder).unwrap_or_else(|error| panic!("{error}"));
     std::fs::remove_dir_all(&folder).unwrap();
-    let lights = Lights::new(&scene, None).unwrap();
+    let lights = Lights::new(&scene, None);
+    let choosers = Choosers::new(&lights, 1.0).unwrap();
+    let chooser = choosers.by(&lights, ChoiceBy::Auto).unwrap();
     let (areas, all) = (scene.shapes.len() as u32, lights.len() as u32);
     assert!(areas == 80 && all == 180, "{areas} and {all}");
     let mut found = [0_u32; 2];
@@ -272,16 +299,15 @@ fn directed_and_spread_lights_are_never_lost() {
         let centered = |u: X8| u * X8::lit(4.0) - X8::lit(2.0);
         let p = V8::new(centered(pairs[0].x), centered(pairs[0].y), centered(pairs[1].x));
         let normal = V8::new(centered(pairs[1].y), centered(pairs[2].x), centered(pairs[2].y)).normalize();
-        let pmf = lights.pmf(p, normal, None);
+        let pmf = chooser.pmf(p, normal, None);
         for light in (0..all).filter(|light| (light + number).is_multiple_of(3)) {
             let mut chosen = lights.chosen(u32x8::splat(light));
             let drawn = lights.sample(&mut chosen, Measure::SolidAngle, p, normal, pairs[3]);
             let bright = (chosen.radiance.x + chosen.radiance.y + chosen.radiance.z).gt(X8::lit(0.0));
             let lit = drawn.emits & bright & drawn.pdf.gt(X8::lit(0.0)) & drawn.direction.dot(normal).gt(X8::lit(0.0));
-            let all = &pmf;
-            let pmf = all.of(light);
+            let pmf = pmf.of(light);
             let index = chosen.shape.lane(0) as usize;
-            let pdf = |shape: &scene::Shape| lights.shape_pdf(all, index, &shape.geometry, p, drawn.direction);
+            let pdf = |shape: &scene::Shape| lights.shape_pdf(index, &shape.geometry, p, drawn.direction) * pmf;
             let pdf = scene.shapes.get(index).map(pdf);
             for lane in (0..8).filter(|&lane| lit.lane(lane)) {
                 let own = (drawn.pdf * pmf).lane(lane);

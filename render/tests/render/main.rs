@@ -3,6 +3,7 @@
 mod adaptive;
 mod allocation;
 mod analytic;
+mod choice;
 mod closed_forms;
 mod glossy;
 mod images;

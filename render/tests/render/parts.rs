@@ -6,7 +6,7 @@ use etendue_render::drive::{Content, Samples};
 use etendue_render::film::{Film, Pixel};
 use etendue_render::merge::{MergeOutcome, Merged, merge};
 use etendue_render::parts::{self, Piece, PieceFile, PieceKind};
-use etendue_render::{Identity, Sampler, Sensor, Settings, Technique, World, scene};
+use etendue_render::{ChoiceBy, Identity, Sampler, Sensor, Settings, Technique, World, scene};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -120,6 +120,7 @@ const SETTINGS: Settings = Settings {
     height: 37,
     spp: 24,
     technique: Technique::Auto,
+    choice: ChoiceBy::Auto,
     depth: 8,
     sampler: Sampler::Sobol,
     sets: 0,

@@ -60,7 +60,17 @@ fn scene(name: &str, mean: f64, reference_error: f64, hemisphere_spp: u32, hemis
             }
             // 324 is four replicates of 3⁴ strata
             let spp = if sampler == Sampler::Stratified4d && !towards_lights { 324 } else { spp };
-            let settings = Settings { width: 256, height: 256, spp, technique, depth: 8, sets: 0, sampler, seed: 1 };
+            let settings = Settings {
+                width: 256,
+                height: 256,
+                spp,
+                technique,
+                choice: Default::default(),
+                depth: 8,
+                sets: 0,
+                sampler,
+                seed: 1,
+            };
             let image = Picture::from(&world.render(&settings, &|_| ()).0);
             let p = prediction(&reference, &image, reference_error);
             println!("{name} {technique:?} {sampler:?} {spp} spp: {p:?}");
@@ -115,7 +125,17 @@ fn threads_do_not_matter_and_seeds_do() {
     ];
     for (technique, sampler, spp) in all.into_iter().step_by(cases(4, 1)) {
         // 16 divides neither side, so some tiles are smaller
-        let settings = Settings { width: 100, height: 75, spp, technique, depth: 8, sets: 0, sampler, seed: 7 };
+        let settings = Settings {
+            width: 100,
+            height: 75,
+            spp,
+            technique,
+            choice: Default::default(),
+            depth: 8,
+            sets: 0,
+            sampler,
+            seed: 7,
+        };
         let on = |threads: usize| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
             pool.install(|| world.render(&settings, &|_| ()))
@@ -139,7 +159,17 @@ fn any_number_of_samples_and_any_size() {
     let world = World::new(&scene::load("triangle-light").unwrap()).unwrap();
     for (width, height) in [(1, 1), (17, 5), (33, 18)].into_iter().take(cases(2, 3)) {
         let of = |spp, technique, sampler, seed| {
-            let settings = Settings { width, height, spp, technique, depth: 8, sets: 0, sampler, seed };
+            let settings = Settings {
+                width,
+                height,
+                spp,
+                technique,
+                choice: Default::default(),
+                depth: 8,
+                sets: 0,
+                sampler,
+                seed,
+            };
             let (film, rays) = world.render(&settings, &|_| ());
             assert_eq!((film.width, film.height, film.pixels[0].samples), (width, height, spp));
             assert_eq!(film.pixels.len(), (width * height) as usize);
@@ -193,8 +223,17 @@ fn terrain_agrees_with_itself() {
     // techniques with the same seed share part of their noise
     let of = |spp, technique| {
         let seed = technique as u64;
-        let settings =
-            Settings { width: 64, height: 64, spp, technique, depth: 8, sets: 0, sampler: Sampler::Independent, seed };
+        let settings = Settings {
+            width: 64,
+            height: 64,
+            spp,
+            technique,
+            choice: Default::default(),
+            depth: 8,
+            sets: 0,
+            sampler: Sampler::Independent,
+            seed,
+        };
         Picture::from(&world.render(&settings, &|_| ()).0)
     };
     let lights = of(64, Technique::SolidAngle);

@@ -20,8 +20,17 @@ fn scene(lens: &str, world: &str) -> scene::Scene {
 }
 
 fn render(scene: &scene::Scene, camera: &Camera, [width, height]: [u32; 2], spp: u32, sampler: Sampler) -> Film {
-    let settings =
-        Settings { width, height, spp, technique: Technique::SolidAngle, sampler, seed: 4, depth: 1, sets: 0 };
+    let settings = Settings {
+        width,
+        height,
+        spp,
+        technique: Technique::SolidAngle,
+        choice: Default::default(),
+        sampler,
+        seed: 4,
+        depth: 1,
+        sets: 0,
+    };
     World::new(scene).unwrap().view_through(camera, &settings).image(&|_| ()).0
 }
 

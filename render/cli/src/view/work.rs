@@ -248,6 +248,7 @@ impl Subject {
             return Ok(());
         }
         let settings = Settings { technique: way.technique, sampler: way.sampler, ..self.settings };
+        self.world.check(&settings)?;
         // the usual sampler has a preview of few samples
         let is_usual = default_sampler(MOST_SAMPLES, settings.sets, self.lens) == way.sampler;
         let sampler = if is_usual { None } else { Some(way.sampler) };

@@ -6,7 +6,7 @@ use etendue_laboratory::chart::{self, Options};
 use etendue_oracle::tier::cases;
 use etendue_render::compare::{Comparison, differs};
 use etendue_render::image::Picture;
-use etendue_render::{Sampler, Settings, Technique, World, scene};
+use etendue_render::{ChoiceBy, Sampler, Settings, Technique, World, scene};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use std::sync::Arc;
@@ -210,6 +210,7 @@ fn options(output: &Path, scene: &str) -> Options {
         scenes: vec![scene.into()],
         output: output.to_owned(),
         techniques: vec![Technique::Area, Technique::SolidAngle],
+        choices: vec![ChoiceBy::Auto],
         samplers: vec![Sampler::Independent, Sampler::Stratified],
         spp: vec![4, 16, 64],
         replicates: Some(cases(4, 6)),
@@ -248,6 +249,7 @@ fn errors_are_those_of_the_images() {
             height: 64,
             spp: key.spp,
             technique: key.technique,
+            choice: key.choice,
             depth: Settings::DEPTH,
             sampler: key.sampler,
             sets: 1,
@@ -269,6 +271,7 @@ fn errors_are_those_of_the_images() {
                     height: 64,
                     spp: point.spp,
                     technique,
+                    choice: Default::default(),
                     depth: Settings::DEPTH,
                     sampler,
                     sets: 0,

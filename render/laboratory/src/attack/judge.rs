@@ -236,6 +236,7 @@ pub fn judge(trial: &Trial, techniques: &[Technique], effort: &Effort) -> Result
         height,
         spp,
         technique,
+        choice: Default::default(),
         depth: Settings::DEPTH,
         sampler: Sampler::Sobol,
         sets: 4,

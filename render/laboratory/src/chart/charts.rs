@@ -24,11 +24,7 @@ pub fn with_interval(e: &Estimate) -> String {
 /// Identifier of a series in a page: technique/sampler.
 #[must_use]
 pub fn id(series: &Series) -> String {
-    format!(
-        "{}/{}",
-        etendue_render::options::name(series.way.technique),
-        etendue_render::options::name(series.way.sampler)
-    )
+    format!("{}/{}", series.way.method(), etendue_render::options::name(series.way.sampler))
 }
 
 fn lines(
@@ -41,7 +37,7 @@ fn lines(
     let line = |(index, series): (usize, &Series)| Line {
         id: id(series),
         name: name(series),
-        color: series.way.technique as usize,
+        color: series.way.color(),
         dash: series.way.sampler as usize,
         shown: shown.contains(&index),
         dots: series.points.iter().map(|p| Dot { x: x(p), y: p.mse.into(), sure: sure(p) }).collect(),
@@ -98,7 +94,7 @@ fn sorted(mut rows: Vec<BarRow>, least_first: bool) -> Vec<BarRow> {
 
 fn row(summary: &Summary, index: usize, bar: Bar, sure: bool, shown: &[usize]) -> BarRow {
     let series = &summary.series[index];
-    let (color, shown) = (series.way.technique as usize, shown.contains(&index));
+    let (color, shown) = (series.way.color(), shown.contains(&index));
     BarRow { id: id(series), name: series.way.title(), color, bar, sure, shown }
 }
 

@@ -1,11 +1,11 @@
-//! Measures error and time of every scene × technique × sampler × sample count, in interleaved replicates.
+//! Measures error and time of every scene × technique × choice of a light × sampler × sample count, in interleaved replicates.
 
 use super::reference::Reference;
 use super::stats::Cost;
 use crate::cost::median;
 use crate::hash::fnv1a;
 use etendue_render::options::name;
-use etendue_render::{Sampler, Settings, Technique, World};
+use etendue_render::{ChoiceBy, Sampler, Settings, Technique, World};
 use std::collections::{HashMap, HashSet};
 use std::error::Error;
 use std::fs::{File, OpenOptions};
@@ -38,15 +38,26 @@ pub struct Key {
     pub scene: usize,
     /// How lights are sampled.
     pub technique: Technique,
+    /// How one of them is chosen.
+    pub choice: ChoiceBy,
     /// How random numbers are generated.
     pub sampler: Sampler,
     /// Samples per pixel.
     pub spp: u32,
 }
 
+/// A technique in words, and the choice of a light unless that is `auto`, such as `area by power`.
+#[must_use]
+pub fn method(technique: Technique, choice: ChoiceBy) -> String {
+    match choice {
+        ChoiceBy::Auto => name(technique),
+        _ => format!("{} by {}", name(technique), name(choice)),
+    }
+}
+
 impl Hash for Key {
     fn hash<H: Hasher>(&self, state: &mut H) {
-        (self.scene, self.technique as usize, self.sampler as usize, self.spp).hash(state);
+        (self.scene, self.technique as usize, self.choice, self.sampler as usize, self.spp).hash(state);
     }
 }
 
@@ -82,10 +93,11 @@ impl Row {
 /// All measurements by key, in order of replicates.
 pub type Rows = HashMap<Key, Vec<Row>>;
 
-const HEADER: [&str; 17] = [
+const HEADER: [&str; 18] = [
     "settings",
     "scene",
     "technique",
+    "choice",
     "sampler",
     "width",
     "height",
@@ -134,7 +146,8 @@ impl Plan {
     /// The seed of an image, different for each, so that all images are independent.
     fn seed(&self, key: &Key, replicate: u32) -> u64 {
         let subject = &self.scenes[key.scene].name;
-        let text = format!("{subject}/{}/{}/{}/{replicate}", name(key.technique), name(key.sampler), key.spp);
+        let method = method(key.technique, key.choice);
+        let text = format!("{subject}/{method}/{}/{}/{replicate}", name(key.sampler), key.spp);
         self.seed.wrapping_add(fnv1a(text.as_bytes()))
     }
     /// Number of samples in all images that are not yet measured.
@@ -189,6 +202,7 @@ impl Plan {
             height,
             spp: key.spp,
             technique: key.technique,
+            choice: key.choice,
             depth: Settings::DEPTH,
             sampler: key.sampler,
             sets: sets(key.sampler),
@@ -265,6 +279,7 @@ impl Table {
             format!("{:016x}", subject.settings),
             subject.name.clone(),
             name(key.technique),
+            name(key.choice),
             name(key.sampler),
             width.to_string(),
             height.to_string(),
@@ -291,13 +306,13 @@ impl Plan {
         let mut rows = Rows::new();
         let mut others = 0;
         let mut reader = csv::ReaderBuilder::new().has_headers(false).flexible(true).from_reader(text.as_bytes());
-        let keys: HashMap<[String; 5], Key> = self
+        let keys: HashMap<[String; 6], Key> = self
             .keys
             .iter()
             .map(|key| {
                 let ChartedScene { name: scene, settings, .. } = &self.scenes[key.scene];
-                let [technique, sampler] = [name(key.technique), name(key.sampler)];
-                let line = [format!("{settings:016x}"), scene.clone(), technique, sampler, key.spp.to_string()];
+                let [technique, choice, sampler] = [name(key.technique), name(key.choice), name(key.sampler)];
+                let line = [format!("{settings:016x}"), scene.clone(), technique, choice, sampler, key.spp.to_string()];
                 (line, *key)
             })
             .collect();
@@ -330,16 +345,16 @@ impl Plan {
             let hexadecimal = |column| value(&record, line, column, |s| u64::from_str_radix(s, 16).ok());
             let small = |column| value(&record, line, column, |s| s.parse::<u32>().ok());
             let row = Row {
-                replicate: small(7)?,
-                seed: hexadecimal(8)?,
-                seconds: real(9)?,
-                repeats: small(10)?,
-                squared: real(11)?,
-                difference: real(14)?,
-                camera: count(15)?,
-                shadow: count(16)?,
+                replicate: small(8)?,
+                seed: hexadecimal(9)?,
+                seconds: real(10)?,
+                repeats: small(11)?,
+                squared: real(12)?,
+                difference: real(15)?,
+                camera: count(16)?,
+                shadow: count(17)?,
             };
-            let columns = [0, 1, 2, 3, 6].map(|column| record[column].to_owned());
+            let columns = [0, 1, 2, 3, 4, 7].map(|column| record[column].to_owned());
             match keys.get(&columns) {
                 Some(key) if row.replicate < self.replicates && seen.insert((*key, row.replicate)) => {
                     rows.entry(*key).or_default().push(row);

@@ -88,11 +88,20 @@ fn spread(plan: &Plan, scene: usize, way: Way, spp: u32) -> Spread {
     let mut samples = Vec::new();
     let images: Vec<Vec<[f32; 3]>> = (0..u64::from(REPLICATES))
         .map(|k| {
-            let text = format!("{}/{}/{}/{spp}/picture/{k}", subject.name, name(way.technique), name(way.sampler));
+            let text = format!("{}/{}/{}/{spp}/picture/{k}", subject.name, way.method(), name(way.sampler));
             let seed = plan.seed.wrapping_add(fnv1a(text.as_bytes()));
-            let (technique, sampler) = (way.technique, way.sampler);
-            let settings =
-                Settings { width, height, spp, technique, depth: Settings::DEPTH, sampler, sets: sets(sampler), seed };
+            let Way { technique, choice, sampler } = way;
+            let settings = Settings {
+                width,
+                height,
+                spp,
+                technique,
+                choice,
+                depth: Settings::DEPTH,
+                sampler,
+                sets: sets(sampler),
+                seed,
+            };
             let film = subject.world.render(&settings, &|_| ()).0;
             if k == 0 {
                 samples = film.pixels.iter().map(|p| p.samples).collect();
@@ -126,12 +135,11 @@ pub fn panel(outcome: &Outcome, summary: &Summary) -> Panel {
     // every technique with the baseline's sampler, every sampler with the best technique
     let baseline = summary.baseline.map(|b| summary.series[b].way.sampler);
     let same = summary.gains.iter().filter(|g| Some(summary.series[g.series].way.sampler) == baseline);
-    let best =
-        same.max_by(|a, b| a.gain.value.total_cmp(&b.gain.value)).map(|g| summary.series[g.series].way.technique);
+    let best = same.max_by(|a, b| a.gain.value.total_cmp(&b.gain.value)).map(|g| summary.series[g.series].way.method());
     let spreads: Vec<(Way, Spread)> = summary
         .series
         .iter()
-        .filter(|s| Some(s.way.sampler) == baseline || Some(s.way.technique) == best)
+        .filter(|s| Some(s.way.sampler) == baseline || Some(s.way.method()) == best)
         .filter(|s| inapplicable(s.way.sampler, spp, subject.lens).is_none())
         .map(|s| (s.way, spread(plan, scene, s.way, spp)))
         .collect();
@@ -150,7 +158,7 @@ pub fn panel(outcome: &Outcome, summary: &Summary) -> Panel {
         png: png(size, truth.iter().map(|p| image::tone_map(*p))),
     }];
     for (way, spread) in &spreads {
-        let stem = format!("{}-{}", name(way.technique), name(way.sampler));
+        let stem = format!("{}-{}", way.method().replace(' ', "-"), name(way.sampler));
         let mut push = |kind: &'static str, png: Vec<u8>| {
             let (file, title) = (format!("{stem}-{kind}"), way.title());
             pictures.push(Picture { file, kind, title, size, png });

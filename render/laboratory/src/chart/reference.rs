@@ -62,6 +62,7 @@ impl Reference {
             height,
             spp: spp.next_multiple_of(4).max(32),
             technique,
+            choice: Default::default(),
             depth: Settings::DEPTH,
             sampler,
             sets: 0,

@@ -7,11 +7,12 @@ use super::pictures::{Panel, Picture};
 use super::plot::{color, dash, escape, short};
 use super::reference::KNOWN_TO;
 use super::stats::{Estimate, WIDEST};
-use super::summary::Summary;
+use super::summary::{Summary, Way};
 use base64::Engine;
+use etendue_render::Sampler;
 use etendue_render::options::name;
-use etendue_render::{Sampler, Technique};
 use serde_json::json;
+use std::collections::BTreeMap;
 use std::fmt::Write;
 
 /// What every page has, and no other file.
@@ -110,37 +111,30 @@ pub fn page(
             "<h2>Warps</h2>\n<div class=\"grid\"><figure>{drawing}<figcaption>{caption}</figcaption></figure></div>\n{table}"
         );
     }
-    let used = |f: &dyn Fn(&Key) -> usize| {
-        let mut list: Vec<usize> = outcome.plan.keys.iter().map(f).collect();
-        list.sort_unstable();
-        list.dedup();
-        list
-    };
     let chip = |value: &str, pressed: bool, sample: String| {
         format!(
             "<button class=\"chip\" aria-pressed=\"{pressed}\" data-value=\"{0}\">{sample}{0}</button>",
             escape(value)
         )
     };
-    let variants = <Technique as clap::ValueEnum>::value_variants();
-    let techniques: String = used(&|k| k.technique as usize)
-        .into_iter()
-        .filter_map(|n| Some((n, variants.iter().find(|t| **t as usize == n)?)))
-        .map(|(n, technique)| {
-            let [r, g, b] = color(n);
-            chip(&name(*technique), true, format!("<i style=\"background:rgb({r},{g},{b})\"></i>"))
+    let ways = || outcome.summaries.iter().flat_map(|summary| &summary.series).map(|series| series.way);
+    let methods: BTreeMap<_, Way> = ways().map(|way| ((way.technique as usize, way.choice as usize), way)).collect();
+    let techniques: String = methods
+        .values()
+        .map(|way| {
+            let [r, g, b] = color(way.color());
+            chip(&way.method(), true, format!("<i style=\"background:rgb({r},{g},{b})\"></i>"))
         })
         .collect();
-    let variants = <Sampler as clap::ValueEnum>::value_variants();
-    let samplers: String = used(&|k| k.sampler as usize)
+    let samplers: BTreeMap<usize, Sampler> = ways().map(|way| (way.sampler as usize, way.sampler)).collect();
+    let samplers: String = samplers
         .into_iter()
-        .filter_map(|n| Some((n, variants.iter().find(|s| **s as usize == n)?)))
         .map(|(n, sampler)| {
             let dashes = dash(n).map_or_else(String::new, |(on, off)| format!(" stroke-dasharray=\"{on} {off}\""));
             let sample = format!(
                 "<svg viewBox=\"0 0 26 8\"><path d=\"M0 4H26\" stroke=\"#333\" stroke-width=\"2\"{dashes}/></svg>"
             );
-            chip(&name(*sampler), false, sample)
+            chip(&name(sampler), false, sample)
         })
         .collect();
     let mut facts = vec![("command", command.to_owned())];

@@ -1,30 +1,42 @@
 //! Summarises measurements for the charts.
 
-use super::measure::{Key, Plan, Row, Rows};
+use super::measure::{Key, Plan, Row, Rows, method};
 use super::plot::short;
 use super::reference::KNOWN_TO;
 use super::stats::{self, Cost, Estimate};
 use etendue_render::options::name;
-use etendue_render::{Sampler, Technique};
+use etendue_render::{ChoiceBy, Sampler, Technique};
 
-/// A technique with a sampler.
+/// A technique with a choice of a light and a sampler.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Way {
     /// How lights are sampled.
     pub technique: Technique,
+    /// How one of them is chosen.
+    pub choice: ChoiceBy,
     /// How random numbers are generated.
     pub sampler: Sampler,
 }
 
 impl Way {
+    /// Name of the technique, with the choice of a light unless that is `auto`.
+    #[must_use]
+    pub fn method(&self) -> String {
+        method(self.technique, self.choice)
+    }
+    /// Number of the colour of the technique and choice.
+    #[must_use]
+    pub fn color(&self) -> usize {
+        self.technique as usize + self.choice as usize
+    }
     /// Technique and sampler in a sentence, such as `area with stratified`.
     fn phrase(&self) -> String {
-        format!("{} with {}", name(self.technique), name(self.sampler))
+        format!("{} with {}", self.method(), name(self.sampler))
     }
     /// Name of technique and sampler, such as `area, stratified`.
     #[must_use]
     pub fn title(&self) -> String {
-        format!("{}, {}", name(self.technique), name(self.sampler))
+        format!("{}, {}", self.method(), name(self.sampler))
     }
 }
 
@@ -152,15 +164,17 @@ impl Summary {
         let mut series: Vec<Series> = Vec::new();
         let mut ways: Vec<Way> = Vec::new();
         for key in plan.keys.iter().filter(|k| k.scene == scene) {
-            let way = Way { technique: key.technique, sampler: key.sampler };
+            let way = Way { technique: key.technique, choice: key.choice, sampler: key.sampler };
             if !ways.contains(&way) {
                 ways.push(way);
             }
         }
         // in the order of `etendue list`
-        ways.sort_by_key(|w| (w.technique as usize, w.sampler as usize));
+        ways.sort_by_key(|w| (w.technique as usize, w.choice as usize, w.sampler as usize));
         for way in ways {
-            let of_way = |k: &&Key| k.scene == scene && k.technique == way.technique && k.sampler == way.sampler;
+            let of_way = |k: &&Key| {
+                k.scene == scene && (k.technique, k.choice, k.sampler) == (way.technique, way.choice, way.sampler)
+            };
             let mut points: Vec<Point> = plan
                 .keys
                 .iter()
@@ -204,14 +218,14 @@ impl Summary {
         Self { scene, series, baseline, spp, gains, target: target.unwrap_or(middle), seconds, ranking }
     }
 
-    /// The best series of each technique, the least error first.
+    /// The best series of each technique and choice, the least error first.
     #[must_use]
     pub fn leaders(&self) -> Vec<usize> {
-        let mut techniques = Vec::new();
+        let mut methods = Vec::new();
         let first = |index: &usize| {
-            let technique = self.series[*index].way.technique;
-            let fresh = !techniques.contains(&technique);
-            techniques.push(technique);
+            let method = self.series[*index].way.method();
+            let fresh = !methods.contains(&method);
+            methods.push(method);
             fresh
         };
         self.ranking.iter().copied().filter(first).collect()

@@ -1,19 +1,21 @@
-//! Choice among many lights: among their kinds by the irradiance that each can cause at a point, then by a tree.
+//! Kinds of lights are chosen by the irradiance that each can cause at the point: lamps, which are somewhere, suns, and the sky. Then a lamp or a
+//! sun is chosen by a tree.
 
-use super::record::{DISTANT, KINDS, LightRecord, Powered, SKY};
+use super::choose_light::ChooseLight;
+use super::tree;
 use crate::bvh::BuildError;
 use crate::light_tree::{OwnedTree, Threads};
+use crate::lights::Candidate;
 use crate::packet::{V8, X8, equal, pick, select};
 use crate::sky::Sky;
 use etendue::select::{Choice, Gloss, LightBound, LightChoice, LightsAt, TreeAt};
 use etendue::{Mask, Real, u32x8};
-use rayon::prelude::*;
 use std::f64::consts::FRAC_1_PI;
 use std::sync::Arc;
 
 /// Tables of any number of lights.
 #[derive(Debug, Default)]
-pub(super) struct ManyLights {
+pub(super) struct Kinds {
     /// The lights that are somewhere; those that are infinitely far away have no power in it.
     lamps: OwnedTree,
     /// Their indices among all lights, if they are few; else empty.
@@ -39,42 +41,38 @@ const LAMPS: u32 = 0;
 const SUNS: u32 = 1;
 const SKIES: u32 = 2;
 
-impl ManyLights {
+impl Kinds {
     /// Builds the tables of lights and their powers.
     ///
     /// # Errors
     /// Fails if there are more lights than a tree can index.
-    pub(super) fn new(all: &Powered, sky: Option<&Arc<Sky>>) -> Result<Self, BuildError> {
-        let kind = |light: &LightRecord| light.kind & KINDS;
-        let of_sky = sky.map_or(0.0, |sky| sky.flux() * FRAC_1_PI);
-        let greatest = all.iter().fold(f64::MIN_POSITIVE.max(of_sky), |most, (_, power)| most.max(*power));
-        let lamps: Vec<_> = all.par_iter().map(|(light, power)| light.bound(power / greatest)).collect();
+    pub(super) fn new(all: &[Candidate], sky: Option<&Arc<Sky>>) -> Result<Self, BuildError> {
+        let greatest = all.iter().fold(f64::MIN_POSITIVE, |most, light| most.max(light.power));
         let (distant, suns): (Vec<u32>, Vec<_>) = (0..)
             .zip(all)
-            .filter(|(_, (light, _))| kind(light) == DISTANT)
-            .map(|(index, (light, power))| {
+            .filter(|(_, light)| light.record.is_sun())
+            .map(|(index, Candidate { record, power })| {
                 // a sphere of less than this power would not be in the tree
                 let power = (power / greatest).max(f64::from(f32::MIN_POSITIVE)) as f32;
-                (index, LightBound { center: light.place, power, ..LightBound::default() })
+                (index, LightBound { center: record.place, power, ..LightBound::default() })
             })
             .unzip();
-        let index = all.iter().position(|(light, _)| kind(light) == SKY);
+        let index = all.iter().position(|light| light.record.is_sky());
         let sky = sky.zip(index).map(|(sky, index)| (Arc::clone(sky), index as u32, (FRAC_1_PI / greatest) as f32));
-        let tree = |bounds: &[LightBound]| OwnedTree::new(bounds, &Threads);
-        let somewhere = (0..).zip(all).filter(|(_, (light, _))| !light.is_distant()).map(|(index, _)| index);
+        let somewhere = (0..).zip(all).filter(|(_, light)| !light.record.is_distant()).map(|(index, _)| index);
         let mut few: Vec<u32> = somewhere.take(MOST_EQUAL + 1).collect();
         if !(2..=MOST_EQUAL).contains(&few.len()) {
             few.clear();
         }
-        Ok(Self { lamps: tree(&lamps)?, few, suns: tree(&suns)?, distant, sky })
+        Ok(Self { lamps: tree::new(all)?, few, suns: OwnedTree::new(&suns, &Threads)?, distant, sky })
     }
-    /// The choice for points of surfaces.
+}
+
+impl ChooseLight for Kinds {
+    type At<'a> = KindsAt<'a>;
     #[inline]
-    pub(super) fn at(&self, p: V8, normal: V8, gloss: Option<&Gloss<X8>>) -> ManyAt<'_> {
-        let [lamps, suns] = [(&self.lamps, p), (&self.suns, V8::default())].map(|(tree, p)| {
-            let tree = tree.get();
-            gloss.map_or_else(|| tree.at(p, normal), |gloss| tree.at_glossy(p, normal, gloss))
-        });
+    fn at(&self, p: V8, normal: V8, gloss: Option<&Gloss<X8>>) -> KindsAt<'_> {
+        let [lamps, suns] = [(&self.lamps, p), (&self.suns, V8::default())].map(|(tree, p)| tree.at(p, normal, gloss));
         let is_far = self.sky.is_some() || !self.distant.is_empty();
         let kinds = is_far.then(|| {
             let of_sky = self.sky.as_ref().map_or(X8::lit(0.0), |(sky, _, unit)| {
@@ -83,7 +81,15 @@ impl ManyLights {
             });
             among_kinds([self.lamps.irradiance(&lamps), self.suns.irradiance(&suns), of_sky])
         });
-        ManyAt { lights: self, lamps, suns, kinds }
+        KindsAt { lights: self, lamps, suns, kinds }
+    }
+    #[inline]
+    fn choose(at: &KindsAt<'_>, [u, second]: [X8; 2]) -> Choice<X8> {
+        at.choose(u, second)
+    }
+    #[inline]
+    fn pmf(at: &KindsAt<'_>, light: u32) -> X8 {
+        at.pmf(light)
     }
 }
 
@@ -100,18 +106,18 @@ fn among_kinds(irradiances: [X8; 3]) -> LightsAt<X8> {
 }
 
 /// The choice for the points of a packet.
-pub struct ManyAt<'a> {
-    lights: &'a ManyLights,
+pub struct KindsAt<'a> {
+    lights: &'a Kinds,
     lamps: TreeAt<'a, X8>,
     suns: TreeAt<'a, X8>,
     /// Among the kinds, if there are others than lamps.
     kinds: Option<LightsAt<X8>>,
 }
 
-impl ManyAt<'_> {
+impl KindsAt<'_> {
     /// Chooses by `u`, whose strata are kept, and by the digits of `second`.
     #[inline]
-    pub(super) fn choose(&self, u: X8, second: X8) -> Choice<X8> {
+    fn choose(&self, u: X8, second: X8) -> Choice<X8> {
         let Some(kinds) = &self.kinds else { return self.lamp(u, second) };
         let first = kinds.choose(u);
         // the sky needs no more choice
@@ -133,7 +139,7 @@ impl ManyAt<'_> {
     /// Chooses a distant light.
     #[inline]
     fn distant_light(&self, u: X8, second: X8) -> Choice<X8> {
-        let own = in_tree(&self.suns, u, second);
+        let own = OwnedTree::choose(&self.suns, [u, second]);
         // a lane without a light has the index 0, which is in the table, since there is a distant light
         Choice { index: u32x8::new(own.index.to_array().map(|k| self.lights.distant[k as usize])), ..own }
     }
@@ -143,13 +149,13 @@ impl ManyAt<'_> {
     fn lamp(&self, u: X8, second: X8) -> Choice<X8> {
         let few = &self.lights.few;
         if few.is_empty() {
-            return in_tree(&self.lamps, u, second);
+            return OwnedTree::choose(&self.lamps, [u, second]);
         }
         let (part, below_one) = (X8::lit(EQUAL), X8::lit(1.0 - 1.0 / 16_777_216.0));
         let is_equal = u.lt(part);
         let stretched = select(is_equal, u * X8::lit(1.0 / EQUAL), (u - part) * X8::lit(1.0 / (1.0 - EQUAL)));
         let u = stretched.lesser(below_one);
-        let mut choice = in_tree(&self.lamps, u, second);
+        let mut choice = OwnedTree::choose(&self.lamps, [u, second]);
         let place = u * X8::lit(few.len() as f64);
         let k = place.to_uint();
         let index = u32x8::new(k.to_array().map(|k| few[(k as usize).min(few.len() - 1)]));
@@ -173,7 +179,7 @@ impl ManyAt<'_> {
     }
     /// The pmf of a light.
     #[inline]
-    pub(super) fn pmf(&self, light: u32) -> X8 {
+    fn pmf(&self, light: u32) -> X8 {
         let of_lamp = || self.shared(self.lamps.pmf_of(light));
         let Some(kinds) = &self.kinds else { return of_lamp() };
         if self.lights.sky.as_ref().is_some_and(|(_, index, _)| *index == light) {
@@ -186,27 +192,18 @@ impl ManyAt<'_> {
     }
 }
 
-/// Chooses in a tree.
-#[inline]
-fn in_tree(tree: &TreeAt<'_, X8>, u: X8, second: X8) -> Choice<X8> {
-    let [high, low] = [u, second].map(|u| (u * X8::lit(16_777_216.0)).to_uint());
-    // where there is no second number, the digits below are a hash of the first
-    let low = (low ^ (high * u32x8::splat(0x9e37_79b9))) * u32x8::splat(0x85eb_ca6b);
-    let choice = tree.choose_by([high << 8 | low >> 24, low]);
-    // a lane without a light has the pmf 0, but its index must be one
-    Choice { index: pick(choice.pmf.gt(X8::lit(0.0)), choice.index, u32x8::splat(0)), ..choice }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lights::record::{POINT, SPOT};
+    use crate::lights::record::{DISTANT, LightRecord, POINT, SPOT};
     use etendue::sequence::{Independent, Sequence};
     use etendue::{Uint, Vec2};
     use etendue_oracle::tier::cases;
 
-    fn record(kind: u32, place: [f32; 3]) -> LightRecord {
-        LightRecord { kind, place, ..LightRecord::default() }
+    fn light(kind: u32, place: [f32; 3], power: f64) -> Candidate {
+        let mut record = LightRecord::default();
+        (record.kind, record.place) = (kind, place);
+        Candidate { record, power }
     }
 
     /// With and without distant lights: the pmf sums to 1, a choice has the pmf of its light, and lights are chosen as often as their
@@ -216,12 +213,13 @@ mod tests {
         for (count, far) in [(2_usize, 1_usize), (2, 2), (7, 0), (7, 3), (4000, 0), (4000, 2)] {
             let powers: Vec<f64> = (0..count).map(|i| [1.0, 1e-3, 1e-9, 0.0, 50.0][i * 7 % 5]).collect();
             let place = |i: usize| [(i * 37 % 101) as f32, (i * 61 % 113) as f32, 3.0 + (i % 7) as f32];
-            let light = |i: usize| match i < count - far {
-                true => record(POINT, place(i)),
-                false => record(DISTANT, [0.6, 0.0, 0.8]),
-            };
-            let all: Powered = (0..count).map(|i| (light(i), powers[i])).collect();
-            let lights = ManyLights::new(&all, None).unwrap();
+            let all: Vec<Candidate> = (0..count)
+                .map(|i| match i < count - far {
+                    true => light(POINT, place(i), powers[i]),
+                    false => light(DISTANT, [0.6, 0.0, 0.8], powers[i]),
+                })
+                .collect();
+            let lights = Kinds::new(&all, None).unwrap();
             let at = lights.at(V8::lit([50.0, 50.0, 0.0]), V8::lit([0.0, 0.0, 1.0]), None);
             let pmf: Vec<f64> = (0..count as u32).map(|i| f64::from(at.pmf(i).as_array()[0])).collect();
             assert!((pmf.iter().sum::<f64>() - 1.0).abs() < 1e-5, "{count}: {}", pmf.iter().sum::<f64>());
@@ -252,8 +250,8 @@ mod tests {
     fn lamps_and_suns_share_by_what_they_can_contribute() {
         for [lamp, sun] in [[1.0, 1.0], [1e-9, 1.0], [1.0, 1e-9], [1e9, 1e-12]] {
             // irradiances of lamp/4 and sun/4
-            let all: Powered = vec![(record(POINT, [0.0, 0.0, 1.0]), lamp), (record(DISTANT, [0.0, 0.0, 1.0]), sun)];
-            let lights = ManyLights::new(&all, None).unwrap();
+            let all: Vec<Candidate> = vec![light(POINT, [0.0, 0.0, 1.0], lamp), light(DISTANT, [0.0, 0.0, 1.0], sun)];
+            let lights = Kinds::new(&all, None).unwrap();
             let pmf = |normal: [f64; 3]| {
                 let at = lights.at(V8::default(), V8::lit(normal), None);
                 [0, 1].map(|light| f64::from(at.pmf(light).as_array()[0]))
@@ -264,8 +262,8 @@ mod tests {
             assert_eq!(pmf([0.0, 0.0, -1.0]), [0.0; 2]);
         }
         // a sun below the horizon takes nothing from a lamp above it
-        let all: Powered = vec![(record(POINT, [0.0, 0.0, 1.0]), 1e-9), (record(DISTANT, [0.0, 0.0, -1.0]), 1.0)];
-        let lights = ManyLights::new(&all, None).unwrap();
+        let all: Vec<Candidate> = vec![light(POINT, [0.0, 0.0, 1.0], 1e-9), light(DISTANT, [0.0, 0.0, -1.0], 1.0)];
+        let lights = Kinds::new(&all, None).unwrap();
         let at = lights.at(V8::default(), V8::lit([0.0, 0.0, 1.0]), None);
         assert_eq!([0, 1].map(|light| at.pmf(light).as_array()[0]), [1.0, 0.0]);
     }
@@ -273,8 +271,8 @@ mod tests {
     /// A dim lamp keeps its equal part of the samples, however bright a second lamp is, since that one may be hidden.
     #[test]
     fn dim_lamps_beside_a_bright_one_are_not_lost() {
-        let all: Powered = vec![(record(POINT, [0.0, 0.0, 1.0]), 1e12), (record(POINT, [30.0, 0.0, 1.0]), 1.0)];
-        let lights = ManyLights::new(&all, None).unwrap();
+        let all: Vec<Candidate> = vec![light(POINT, [0.0, 0.0, 1.0], 1e12), light(POINT, [30.0, 0.0, 1.0], 1.0)];
+        let lights = Kinds::new(&all, None).unwrap();
         let at = lights.at(V8::default(), V8::lit([0.0, 0.0, 1.0]), None);
         let [bright, dim] = [0, 1].map(|light| f64::from(at.pmf(light).as_array()[0]));
         assert!((dim - 0.5 * EQUAL).abs() < 1e-4 && (bright + dim - 1.0).abs() < 1e-6, "{bright} {dim}");
@@ -286,9 +284,10 @@ mod tests {
     fn narrow_spots_leave_lamps_their_samples() {
         let versine = 1.5e-8_f32;
         let (first, second) = ([0.0, 0.0, -1.0], [versine, versine, 1.0]);
-        let spot = LightRecord { first, second, ..record(SPOT, [0.0, 0.0, 2.0]) };
-        let all: Powered = vec![(spot, 1.0), (record(POINT, [1.0, 0.0, 2.0]), 1.0)];
-        let lights = ManyLights::new(&all, None).unwrap();
+        let mut spot = light(SPOT, [0.0, 0.0, 2.0], 1.0);
+        (spot.record.first, spot.record.second) = (first, second);
+        let all: Vec<Candidate> = vec![spot, light(POINT, [1.0, 0.0, 2.0], 1.0)];
+        let lights = Kinds::new(&all, None).unwrap();
         let at = lights.at(V8::lit([0.1, 0.0, 0.0]), V8::lit([0.0, 0.0, 1.0]), None);
         let [of_spot, of_lamp] = [0, 1].map(|light| at.pmf(light).as_array()[0]);
         assert!(of_spot > 0.0 && of_lamp > 1e-3, "{of_spot} {of_lamp}");
@@ -297,8 +296,8 @@ mod tests {
     /// A point that no light can reach gets no light, and an index that is valid all the same.
     #[test]
     fn below_all_lights_there_is_none() {
-        let all: Powered = (0..3).map(|i| (record(POINT, [i as f32, 0.0, 1.0]), 1.0)).collect();
-        let lights = ManyLights::new(&all, None).unwrap();
+        let all: Vec<Candidate> = (0..3).map(|i| light(POINT, [i as f32, 0.0, 1.0], 1.0)).collect();
+        let lights = Kinds::new(&all, None).unwrap();
         let choice = lights.at(V8::default(), V8::lit([0.0, 0.0, -1.0]), None).choose(X8::lit(0.3), X8::lit(0.6));
         assert_eq!((choice.pmf, choice.index), (X8::lit(0.0), u32x8::splat(0)));
     }

@@ -1,0 +1,221 @@
+//! Which light is sampled at a shading point. Each way to choose one is a file, which implements [`ChooseLight`].
+
+mod choose_light;
+mod kinds;
+mod power;
+mod spatial;
+mod tree;
+mod uniform;
+
+use crate::bvh::BuildError;
+use crate::light_tree::OwnedTree;
+use crate::lights::Lights;
+use crate::packet::{V8, X8};
+use choose_light::ChooseLight;
+use etendue::discrete::PiecewiseConstant2d;
+use etendue::select::{Allocated, Choice, FEW, Gloss, LightChoice, LightsAt, SpatialLights, TreeAt, UniformLights};
+use etendue::{Real, u32x8};
+use kinds::{Kinds, KindsAt};
+use power::Power;
+use std::sync::OnceLock;
+
+/// How a light is chosen.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, clap::ValueEnum, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ChoiceBy {
+    /// Spatial where it applies, else kinds; a few delta lights are all sampled, and a few others share the samples of a pixel beforehand, or need none with analytic
+    #[default]
+    Auto,
+    /// Each light has the same chance
+    Uniform,
+    /// By power; that of a sun or sky passes a disk as large as the scene
+    Power,
+    /// By what each of up to 32 lights can contribute to the point; no sun or sky
+    Spatial,
+    /// By a light tree; no sun or sky
+    Tree,
+    /// Lamps, suns or sky by the irradiance that they can cause at the point, then one of them by a light tree
+    Kinds,
+}
+
+/// A chosen way, with its tables.
+#[derive(Debug)]
+#[allow(clippy::large_enum_variant, reason = "a scene has few")]
+enum Way {
+    /// There is at most one light.
+    One,
+    Uniform(UniformLights),
+    Power(Power),
+    Spatial(SpatialLights),
+    Tree(OwnedTree),
+    Kinds(Kinds),
+}
+
+/// Chooses among the lights of a scene.
+#[derive(Debug)]
+pub struct Chooser {
+    way: Way,
+    /// Whether it is [`ChoiceBy::Auto`].
+    is_auto: bool,
+    count: usize,
+    only_deltas: bool,
+}
+
+/// The probabilities with which the lights are chosen at the shading points of a packet.
+#[allow(clippy::large_enum_variant, reason = "it lives on the stack, for one packet")]
+pub enum LightPmf<'a> {
+    /// There is one light.
+    One,
+    /// The same for each.
+    Uniform(UniformLights),
+    /// By power.
+    Power(PiecewiseConstant2d<'a>),
+    /// By what each of a few lights can contribute.
+    Spatial(LightsAt<X8>),
+    /// By a tree.
+    Tree(TreeAt<'a, X8>),
+    /// By the kinds of lights, then by trees.
+    Kinds(KindsAt<'a>),
+    /// By an allocation of the samples.
+    Allocated(&'a Allocated<'a, X8>),
+}
+
+impl LightPmf<'_> {
+    /// The pmf of a light.
+    #[inline]
+    pub fn of(&self, light: u32) -> X8 {
+        match self {
+            Self::One => X8::lit(1.0),
+            Self::Uniform(at) => <UniformLights as ChooseLight>::pmf(at, light),
+            Self::Power(at) => Power::pmf(at, light),
+            Self::Spatial(at) => SpatialLights::pmf(at, light),
+            Self::Tree(at) => OwnedTree::pmf(at, light),
+            Self::Kinds(at) => Kinds::pmf(at, light),
+            Self::Allocated(allocated) => allocated.pmf_of(light),
+        }
+    }
+}
+
+/// Chooses in one way.
+#[inline(always)]
+fn choose_by<C: ChooseLight>(way: &C, p: V8, normal: V8, gloss: Option<&Gloss<X8>>, numbers: [X8; 2]) -> Choice<X8> {
+    C::choose(&way.at(p, normal, gloss), numbers)
+}
+
+impl Chooser {
+    /// The way to choose that [`ChoiceBy::Auto`] stands for.
+    fn auto(lights: &Lights) -> Result<Way, BuildError> {
+        let all = lights.candidates();
+        if lights.only_few_areas() && all.len() > 1 {
+            return Ok(Way::Spatial(spatial::new(&all).unwrap_or_else(|what| unreachable!("few lights, but {what}"))));
+        }
+        Ok(if all.len() > 1 { Way::Kinds(Kinds::new(&all, lights.sky())?) } else { Way::One })
+    }
+    /// Another way to choose, in a scene whose greatest coordinate is `reach`; or why it is none for these lights.
+    fn way(lights: &Lights, by: ChoiceBy, reach: f32) -> Result<Way, String> {
+        let all = lights.candidates();
+        let somewhere = |way: Way| match all.iter().any(|light| light.record.is_distant()) {
+            true => Err("lights that are somewhere, and the scene has a sun or a sky".to_owned()),
+            false => Ok(way),
+        };
+        let text = |error: BuildError| error.to_string();
+        match by {
+            _ if all.len() < 2 => Ok(Way::One),
+            ChoiceBy::Auto => Self::auto(lights).map_err(text),
+            ChoiceBy::Uniform => uniform::new(all.len()).map(Way::Uniform),
+            ChoiceBy::Power => Power::new(&all, reach).map(Way::Power),
+            ChoiceBy::Spatial => somewhere(Way::Spatial(spatial::new(&all)?)),
+            ChoiceBy::Tree => somewhere(Way::Tree(tree::new(&all).map_err(text)?)),
+            ChoiceBy::Kinds => Kinds::new(&all, lights.sky()).map(Way::Kinds).map_err(text),
+        }
+    }
+    fn new(lights: &Lights, way: Way, is_auto: bool) -> Self {
+        Self { way, is_auto, count: lights.len(), only_deltas: lights.only_deltas() }
+    }
+    /// True if the choice of a light needs random numbers of its own: the digits of one do not suffice, or the light needs none.
+    pub fn needs_numbers(&self) -> bool {
+        self.count > FEW || !self.is_auto && self.only_deltas && self.count > 1
+    }
+    /// The number of lights if all are sampled, without random numbers: a few delta lights, or none.
+    pub fn each(&self) -> Option<u32> {
+        let is_each = self.is_auto && self.only_deltas && self.count <= FEW;
+        (is_each || self.count == 0).then_some(self.count as u32)
+    }
+    /// The number of lights among which samples can be allocated: 2 to [`FEW`] that all have an area.
+    pub fn few(&self) -> Option<usize> {
+        let is_few = self.is_auto && matches!(self.way, Way::Spatial(_));
+        is_few.then_some(self.count)
+    }
+    /// What each light can contribute to points of surfaces, where they are chosen by that.
+    #[inline]
+    pub fn contributions(&self, p: V8, normal: V8) -> Option<LightsAt<X8>> {
+        match &self.way {
+            Way::Spatial(lights) => Some(lights.at(p, normal)),
+            _ => None,
+        }
+    }
+    /// Chooses a light for each of these points of surfaces, in view of what glossy ones reflect. The second number is for many lights.
+    #[inline(always)]
+    pub fn choose(&self, p: V8, normal: V8, gloss: Option<&Gloss<X8>>, numbers: [X8; 2]) -> Choice<X8> {
+        match &self.way {
+            Way::Spatial(way) => choose_by(way, p, normal, gloss, numbers),
+            Way::One => Choice { index: u32x8::splat(0), pmf: X8::lit(1.0), u: numbers[0] },
+            Way::Kinds(way) => choose_by(way, p, normal, gloss, numbers),
+            _ => self.choose_as_asked(p, normal, gloss, numbers),
+        }
+    }
+    // not inlined, so that it does not burden what `auto` chooses
+    #[inline(never)]
+    fn choose_as_asked(&self, p: V8, normal: V8, gloss: Option<&Gloss<X8>>, numbers: [X8; 2]) -> Choice<X8> {
+        match &self.way {
+            Way::Uniform(way) => choose_by(way, p, normal, gloss, numbers),
+            Way::Power(way) => choose_by(way, p, normal, gloss, numbers),
+            Way::Tree(way) => choose_by(way, p, normal, gloss, numbers),
+            Way::One | Way::Spatial(_) | Way::Kinds(_) => unreachable!("chosen before"),
+        }
+    }
+    /// The probabilities with which [`choose`](Self::choose) chooses at these points.
+    #[inline(always)]
+    pub fn pmf(&self, p: V8, normal: V8, gloss: Option<&Gloss<X8>>) -> LightPmf<'_> {
+        match &self.way {
+            Way::One => LightPmf::One,
+            Way::Uniform(way) => LightPmf::Uniform(ChooseLight::at(way, p, normal, gloss)),
+            Way::Power(way) => LightPmf::Power(way.at(p, normal, gloss)),
+            Way::Spatial(way) => LightPmf::Spatial(ChooseLight::at(way, p, normal, gloss)),
+            Way::Tree(way) => LightPmf::Tree(way.at(p, normal, gloss)),
+            Way::Kinds(way) => LightPmf::Kinds(way.at(p, normal, gloss)),
+        }
+    }
+}
+
+/// The ways to choose among the lights of a scene: that of `auto`, and others as soon as they are asked for.
+#[derive(Debug)]
+pub struct Choosers {
+    ways: [OnceLock<Chooser>; ChoiceBy::Kinds as usize + 1],
+    reach: f32,
+}
+
+impl Choosers {
+    /// Prepares `auto` for the lights of a scene whose greatest coordinate is `reach`.
+    ///
+    /// # Errors
+    /// Fails if there are more lights than a tree can index.
+    pub fn new(lights: &Lights, reach: f32) -> Result<Self, BuildError> {
+        let own = Self { ways: Default::default(), reach };
+        let auto = Chooser::new(lights, Chooser::auto(lights)?, true);
+        own.ways[ChoiceBy::Auto as usize].get_or_init(|| auto);
+        Ok(own)
+    }
+    /// One of the ways, for the same lights.
+    ///
+    /// # Errors
+    /// Says what it would need if it is none for these lights.
+    pub fn by(&self, lights: &Lights, by: ChoiceBy) -> Result<&Chooser, String> {
+        let own = &self.ways[by as usize];
+        if let Some(chooser) = own.get() {
+            return Ok(chooser);
+        }
+        let way = Chooser::way(lights, by, self.reach)?;
+        Ok(own.get_or_init(|| Chooser::new(lights, way, false)))
+    }
+}
