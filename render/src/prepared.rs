@@ -1,10 +1,12 @@
 //! A scene with its trees and tables.
 
 use crate::bvh::BuildError;
+use crate::choose::{ChoiceBy, Chooser, Choosers};
 use crate::lights::Lights;
 use crate::scene::Scene;
 use crate::sky::Sky;
 use crate::surfaces::Surfaces;
+use crate::technique::Technique;
 use std::sync::Arc;
 
 /// Everything that paths need of a scene.
@@ -14,28 +16,42 @@ pub(crate) struct PreparedScene {
     pub(crate) lights: Lights,
     /// The delta lights among `lights`.
     pub(crate) deltas: Lights,
+    /// How lights are chosen, and how delta lights are.
+    choosers: [Choosers; 2],
     pub(crate) sky: Option<Arc<Sky>>,
 }
 
 impl PreparedScene {
-    /// The lights that are sampled: rays that find lights by chance never find a delta light, so those alone, or all.
-    pub(crate) fn sampled(&self, finds_lights: bool) -> &Lights {
-        if finds_lights { &self.deltas } else { &self.lights }
-    }
     pub(crate) fn new(scene: &Scene) -> Result<Self, BuildError> {
         let surfaces = Surfaces::new(scene)?;
-        let sky = Self::sky(scene);
-        let (lights, deltas) = (Lights::new(scene, sky.clone())?, Lights::deltas(scene)?);
-        Ok(Self { surfaces, lights, deltas, sky })
+        Self::with(scene, surfaces)
     }
     /// Takes the triangles out of the scene.
     pub(crate) fn from_scene(scene: &mut Scene) -> Result<Self, BuildError> {
-        let sky = Self::sky(scene);
-        let (lights, deltas) = (Lights::new(scene, sky.clone())?, Lights::deltas(scene)?);
         let surfaces = Surfaces::from_scene(scene)?;
-        Ok(Self { surfaces, lights, deltas, sky })
+        Self::with(scene, surfaces)
     }
-    fn sky(scene: &Scene) -> Option<Arc<Sky>> {
-        scene.environment.as_ref().map(|environment| Arc::new(Sky::new(environment)))
+    fn with(scene: &Scene, surfaces: Surfaces) -> Result<Self, BuildError> {
+        let sky = scene.environment.as_ref().map(|environment| Arc::new(Sky::new(environment)));
+        let (lights, deltas) = (Lights::new(scene, sky.clone()), Lights::deltas(scene));
+        let reach = surfaces.bvh.reach();
+        let choosers = [Choosers::new(&lights, reach)?, Choosers::new(&deltas, reach)?];
+        Ok(Self { surfaces, lights, deltas, choosers, sky })
+    }
+    /// The lights that are sampled, and how they are chosen: a technique that finds lights by chance never hits a delta light, so it samples
+    /// those.
+    ///
+    /// # Errors
+    /// Says what the choice would need if it is none for these lights.
+    pub(crate) fn sampled(&self, technique: Technique, by: ChoiceBy) -> Result<(&Lights, &Chooser), String> {
+        let (lights, choosers) = match technique.finds_lights() {
+            true => (&self.deltas, &self.choosers[1]),
+            false => (&self.lights, &self.choosers[0]),
+        };
+        choosers.by(lights, by).map(|chooser| (lights, chooser))
+    }
+    /// Whether closed forms may be asked for: of a few lights that all have an area, unless a choice among them is to be seen.
+    pub(crate) fn has_closed_forms(&self, by: ChoiceBy) -> bool {
+        by == ChoiceBy::Auto && self.lights.only_few_areas()
     }
 }

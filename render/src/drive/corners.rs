@@ -20,7 +20,7 @@ const FREE_IF_ASKED: usize = 4;
 impl TileRenderer<'_> {
     /// Whether samples can be allocated to lights in blocks of `size` samples.
     pub(super) fn allocates(&self, size: u32) -> bool {
-        let Some(lights) = self.scene.lights.few() else { return false };
+        let Some(lights) = self.chooser.few() else { return false };
         // each light takes at least one sample, worth it or not: for many lights, these are limited to half of the samples
         let free = if self.estimator.asks() { FREE_IF_ASKED } else { FREE };
         let fits = size.is_power_of_two() && size.is_multiple_of(8) && (lights <= free || size as usize >= 2 * lights);
@@ -30,7 +30,7 @@ impl TileRenderer<'_> {
     /// Weights of the lights by their possible contributions at the corners of the pixels of an area, seen through the middle of the
     /// lens; `None` if lights are chosen at random, or if there are too many for blocks of `size` samples.
     pub(super) fn weights(&mut self, area: Area, size: u32) -> Option<Weights<'static>> {
-        let lights = self.scene.lights.few()?;
+        let lights = self.chooser.few()?;
         if !self.allocates(size) || self.estimator.knows_all() {
             return None;
         }
@@ -74,7 +74,7 @@ impl TileRenderer<'_> {
                     let pixels = std::array::from_fn(|lane| pixel(place(p, lane)));
                     analytic.remaining(points, p, &pixels, &mut remaining);
                 }
-                let Some(parts) = self.scene.lights.contributions(surface.point, surface.normal) else { continue };
+                let Some(parts) = self.chooser.contributions(surface.point, surface.normal) else { continue };
                 for (k, part) in parts.weights().enumerate() {
                     let part = part.keep(surface.reflects & remaining[k]).to_array();
                     for (lane, part) in part.into_iter().enumerate() {

@@ -15,7 +15,7 @@ pub(super) enum OfTechnique<'a> {
 impl<'a> OfTechnique<'a> {
     pub(super) fn new(World { scene, bodies, .. }: &'a World, settings: &Settings, camera: &Camera) -> Self {
         let Settings { technique, .. } = *settings;
-        if technique.is_analytic(scene.lights.only_few_areas()) {
+        if technique.is_analytic(scene.has_closed_forms(settings.choice)) {
             let sampled = Sampled::new(technique, scene.surfaces.has_rough());
             Self::Analytic(Box::new(Analytic::new(scene, bodies, camera, settings, sampled)))
         } else {

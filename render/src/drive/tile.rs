@@ -9,8 +9,10 @@ use super::world::World;
 use crate::area::Area;
 use crate::bvh::GROUP;
 use crate::camera::{Camera, CameraSample, counted_from};
+use crate::choose::Chooser;
 use crate::estimate::{Group, Numbers, RayCount, Reflected, product};
 use crate::film::Accumulator;
+use crate::lights::Lights;
 use crate::packet::{M8, V8, X8};
 use crate::paths::Paths;
 use crate::prepared::PreparedScene;
@@ -23,7 +25,10 @@ use std::ops::Range;
 
 /// Renders tiles, and keeps the scratch memory for it.
 pub(super) struct TileRenderer<'a> {
-    pub(super) scene: &'a PreparedScene,
+    scene: &'a PreparedScene,
+    /// The lights that are sampled, and how they are chosen.
+    lights: &'a Lights,
+    pub(super) chooser: &'a Chooser,
     pub(super) settings: &'a Settings,
     /// The camera, and the weights of radiance if there are any, for positions counted from the first pixel of the image.
     whole: (Camera, Option<Exposure>),
@@ -42,8 +47,12 @@ impl<'a> TileRenderer<'a> {
     pub(super) fn new(world: &'a World, settings: &'a Settings, camera: Camera, exposure: Option<Exposure>) -> Self {
         let Settings { sampler, seed, spp, sets, width, .. } = *settings;
         let scene = &world.scene;
+        let sampled = scene.sampled(settings.technique, settings.choice);
+        let (lights, chooser) = sampled.unwrap_or_else(|what| panic!("the choice of a light needs {what}"));
         Self {
             scene,
+            lights,
+            chooser,
             settings,
             whole: (camera, exposure),
             start: [0; 2],
@@ -84,7 +93,7 @@ impl<'a> TileRenderer<'a> {
         let found = if weights.is_none() { self.weights(area, 8 * pilot) } else { None };
         let weights = weights.or(found.as_ref());
         // where the lights of a tile are known, no sample is allocated
-        let allocated = if self.allocates(8 * pilot) { self.scene.lights.few().unwrap_or(0) } else { 0 };
+        let allocated = if self.allocates(8 * pilot) { self.chooser.few().unwrap_or(0) } else { 0 };
         let sum = StatisticsSum::new(weights.map_or(allocated, |weights| weights.lights));
         let range = |pixel, set| if sets.contains(&set) { range(pixel).map(|packet| 8 * packet) } else { [0; 2] };
         self.samples(area, [0, 8 * pilot], sets.end, weights, sum, range)
@@ -212,7 +221,7 @@ impl<'a> TileRenderer<'a> {
         expected: &[u32; GROUP],
     ) -> [Radiance; GROUP] {
         let (samples, numbers) = self.numbers(packets, allocated);
-        let Self { scene, camera, exposure, paths, estimator, .. } = self;
+        let Self { scene, lights, chooser, camera, exposure, paths, estimator, .. } = self;
         let count = packets.len();
         // follow the camera rays
         let mut active = [M8::splat(false); GROUP];
@@ -226,7 +235,8 @@ impl<'a> TileRenderer<'a> {
         let mut reflected = Reflected::default();
         if !scene.lights.is_empty() {
             paths.note_lobes(count);
-            let group = Group { scene, points: &paths.points, count, numbers: &numbers, allocated, expected };
+            let group =
+                Group { scene, lights, chooser, points: &paths.points, count, numbers: &numbers, allocated, expected };
             reflected = estimator.reflected(&group, &mut paths.tracer);
         }
         let is_plain = scene.surfaces.is_plain;
@@ -245,11 +255,9 @@ impl<'a> TileRenderer<'a> {
     /// The random numbers of a group of packets: for the camera, and for lights and surfaces.
     #[inline(always)]
     fn numbers(&self, packets: &[Packet], allocated: &[Allocated<'_, X8>]) -> ([CameraSample; GROUP], Numbers) {
-        let Self { scene, source, start, settings, .. } = self;
-        let finds_lights = settings.technique.finds_lights();
-        let lights = scene.sampled(finds_lights);
+        let Self { lights, chooser, source, start, settings, .. } = self;
         // delta lights alone need no point on the light
-        let point = finds_lights || !lights.only_deltas();
+        let point = settings.technique.finds_lights() || !lights.only_deltas();
         let own = |dimension: u32| {
             let mut pairs = [Vec2::default(); GROUP];
             pairs.iter_mut().zip(packets).for_each(|(pair, packet)| *pair = source.pair(packet, dimension));
@@ -257,7 +265,7 @@ impl<'a> TileRenderer<'a> {
         };
         let mut numbers = Numbers {
             light: [Vec2::default(); GROUP],
-            choice: lights.many().then(|| own(CHOICE)),
+            choice: chooser.needs_numbers().then(|| own(CHOICE)),
             surface: (point && self.estimator.is_combined()).then(|| own(SURFACE)),
         };
         let mut samples = [CameraSample { film: Vec2::default(), lens: Vec2::default() }; GROUP];

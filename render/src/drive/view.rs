@@ -43,6 +43,9 @@ pub enum Content {
 }
 
 /// A world seen through a camera, with settings whose technique is fixed. Nothing that a view returns depends on the number of threads.
+///
+/// # Panics
+/// Whatever renders panics if [`World::check`] fails.
 #[derive(Clone, Copy, Debug)]
 pub struct View<'a> {
     world: &'a World,
@@ -106,7 +109,7 @@ impl View<'_> {
     fn choose(&self) -> Technique {
         let scene = &self.world.scene;
         let is_sampled = self.camera.has_lens() || scene.lights.only_sampled();
-        if scene.lights.only_few_areas() && !is_sampled {
+        if scene.has_closed_forms(self.settings.choice) && !is_sampled {
             Technique::Analytic
         } else if scene.surfaces.has_rough() {
             Technique::MisLobe
@@ -127,7 +130,7 @@ impl View<'_> {
     /// A bound of the error that closed forms leave in an image, whatever its samples: the RMS over pixels and channels. It is
     /// 1e−5 of what the lights that are computed would contribute if nothing hid them, seen from four pixels of some of the tiles.
     fn systematic(&self) -> f64 {
-        if !self.settings.technique.is_analytic(self.world.scene.lights.only_few_areas()) {
+        if !self.settings.technique.is_analytic(self.world.scene.has_closed_forms(self.settings.choice)) {
             return 0.0;
         }
         // an odd number, so that not all are in the same columns

@@ -2,9 +2,11 @@
 
 use crate::bvh::BuildError;
 use crate::certify::Bodies;
+use crate::options::name;
 use crate::prepared::PreparedScene;
 use crate::scene::{CameraSettings, Scene};
 use crate::sensor::{Exposure, Sensor};
+use crate::settings::Settings;
 
 /// A scene ready to be rendered.
 #[derive(Debug)]
@@ -50,6 +52,15 @@ impl World {
     #[must_use]
     pub fn with_sensor(self, sensor: Sensor) -> Self {
         Self { sensor, ..self }
+    }
+
+    /// Checks that the lights of the scene can be chosen as these settings say.
+    ///
+    /// # Errors
+    /// Says what the choice would need.
+    pub fn check(&self, settings: &Settings) -> Result<(), String> {
+        let sampled = self.scene.sampled(settings.technique, settings.choice);
+        sampled.map(|_| ()).map_err(|what| format!("the choice {} needs {what}", name(settings.choice)))
     }
 
     /// The weights of radiance in an image of this size; `None` if the sensor measures radiance itself.

@@ -8,7 +8,7 @@ use super::points::{keep, product};
 use super::tracer::{Tracer, Unoccluded};
 use crate::bsdf::Evaluated;
 use crate::bvh::GROUP;
-use crate::lights::{Chosen, Drawn, Lights};
+use crate::lights::{Chosen, Drawn};
 use crate::packet::{M8, V8, X8, select};
 use crate::sky::SunBeside;
 use crate::technique::Measure;
@@ -26,7 +26,6 @@ impl ByLight {
     #[inline(always)]
     pub(super) fn add<const GENERAL: bool, I: Integrand>(
         &self,
-        lights: &Lights,
         which: &Which<'_>,
         group: &Group<'_>,
         integrand: &I,
@@ -38,9 +37,9 @@ impl ByLight {
         for (p, surface) in group.reflecting() {
             // choose a light, and draw a direction to it
             let place = group.points.places[p].primitives;
-            let (choice, lanes, u) = which.choose::<GENERAL, _>(lights, group, integrand, p);
-            let mut light = lights.chosen(choice.index);
-            let (drawn, alone) = self.draw::<GENERAL>(lights, which, group, p, u, &mut light);
+            let (choice, lanes, u) = which.choose::<GENERAL, _>(group, integrand, p);
+            let mut light = group.lights.chosen(choice.index);
+            let (drawn, alone) = self.draw::<GENERAL>(which, group, p, u, &mut light);
             let Drawn { direction, distance, emits, delta, .. } = drawn;
             let cos = direction.dot(surface.normal);
             let own = light.is_own(place, surface.point, surface.normal);
@@ -88,14 +87,13 @@ impl ByLight {
         tracer: &mut Tracer,
         reflected: &mut [V8; GROUP],
     ) {
-        self.add::<GENERAL, I>(&group.scene.lights, &Which::Sun(sun), group, integrand, tracer, reflected);
+        self.add::<GENERAL, I>(&Which::Sun(sun), group, integrand, tracer, reflected);
     }
 
     /// Directions to the chosen lights, and the lanes in which the light is sampled alone although the surface is sampled, too.
     #[inline(always)]
     fn draw<const GENERAL: bool>(
         &self,
-        lights: &Lights,
         which: &Which<'_>,
         group: &Group<'_>,
         packet: usize,
@@ -108,7 +106,7 @@ impl ByLight {
             light.radiance = radiance;
             sample.into()
         } else {
-            lights.sample(light, self.measure, surface.point, surface.normal, u)
+            group.lights.sample(light, self.measure, surface.point, surface.normal, u)
         };
         let lobe = group.points.lobes[packet].as_ref().filter(|_| GENERAL && self.mis.is_some_and(|mis| mis.by_lobes));
         let alone = lobe.map(|lobe| light.sample_lobe(&mut drawn, lobe, surface.point, u));

@@ -8,7 +8,7 @@ use super::points::{keep, product};
 use super::tracer::{Tracer, Unoccluded};
 use crate::bsdf::Scattered;
 use crate::bvh::{GROUP, Hits, NOTHING, SHAPE};
-use crate::lights::LightPmf;
+use crate::choose::LightPmf;
 use crate::lobe::Lobe;
 use crate::packet::{M8, V8, X8, pick, select};
 use crate::technique::Technique;
@@ -128,9 +128,11 @@ impl BySurface {
             if let Some((emitted, here)) = world.emitted(hits, here, shape, outward, rays) {
                 met.radiance = V8::blend(here, emitted, met.radiance);
                 met.lit = met.lit | here;
-                met.lights = pick(here, u32x8::splat(scene.lights.of_shape(index) as u32), met.lights);
+                let light = scene.lights.of_shape(index);
+                met.lights = pick(here, u32x8::splat(light), met.lights);
                 if let Some(pmf) = pmf.as_ref().filter(|_| here.any()) {
-                    let pdf = scene.lights.shape_pdf(pmf, index, &shape.geometry, surface.point, rays.direction);
+                    let pdf =
+                        scene.lights.shape_pdf(index, &shape.geometry, surface.point, rays.direction) * pmf.of(light);
                     met.pdf = select(here, pdf, met.pdf);
                 }
             }
@@ -142,7 +144,8 @@ impl BySurface {
             met.radiance = V8::blend(missed, seen, met.radiance);
             met.lit = met.lit | missed & shown;
             if let Some(pmf) = pmf.as_ref().filter(|_| (missed & shown).any()) {
-                let pdf = scene.lights.sky_pdf(pmf, surface.point, surface.normal, rays.direction);
+                let pdf = scene.lights.sky_pdf(surface.point, surface.normal, rays.direction);
+                let pdf = pdf * pmf.of(scene.lights.of_sky());
                 met.pdf = select(missed, pdf, met.pdf);
             }
         }

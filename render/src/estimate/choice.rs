@@ -3,7 +3,7 @@
 use super::group::Group;
 use super::integrand::Integrand;
 use crate::bvh::GROUP;
-use crate::lights::{LightPmf, Lights};
+use crate::choose::{Chooser, LightPmf};
 use crate::lobe::Lobe;
 use crate::packet::{M8, X8, equal, pick, select};
 use crate::sky::SunBeside;
@@ -26,7 +26,6 @@ impl Which<'_> {
     #[inline(always)]
     pub(super) fn choose<const GENERAL: bool, I: Integrand>(
         &self,
-        lights: &Lights,
         group: &Group<'_>,
         integrand: &I,
         packet: usize,
@@ -37,8 +36,8 @@ impl Which<'_> {
         let all = group.points.surfaces[packet].reflects;
         let (choice, lanes) = match self {
             Self::One(light) => (given(*light), all),
-            Self::Sun(_) => (given(lights.len() as u32 - 1), all),
-            Self::Chosen => chosen::<GENERAL, I>(lights, group, integrand, packet, numbers),
+            Self::Sun(_) => (given(group.lights.of_sky()), all),
+            Self::Chosen => chosen::<GENERAL, I>(group, integrand, packet, numbers),
         };
         if group.numbers.choice.is_none() {
             u.x = choice.u;
@@ -57,7 +56,6 @@ fn gloss<const GENERAL: bool, I: Integrand>(group: &Group<'_>, integrand: &I, pa
 /// random, the second for many lights.
 #[inline(always)]
 fn chosen<const GENERAL: bool, I: Integrand>(
-    lights: &Lights,
     group: &Group<'_>,
     integrand: &I,
     packet: usize,
@@ -68,16 +66,16 @@ fn chosen<const GENERAL: bool, I: Integrand>(
     let (allocated, remaining) = match (group.allocated.get(packet), integrand.remaining()) {
         (None, None) => {
             let gloss = gloss::<GENERAL, I>(group, integrand, packet);
-            return (lights.choose(surface.point, surface.normal, gloss.as_ref(), numbers), all);
+            return (group.chooser.choose(surface.point, surface.normal, gloss.as_ref(), numbers), all);
         }
         (Some(allocated), None) => return (allocated.choose(numbers[0]), all),
-        (None, Some(remaining)) => return among(lights, surface, all, packet, numbers[0], remaining),
+        (None, Some(remaining)) => return among(group.chooser, surface, all, packet, numbers[0], remaining),
         (Some(allocated), Some(remaining)) => (allocated, remaining),
     };
     // where another light than those that were expected in the packet remains, too, all lanes choose at random; on rough surfaces, all
     // lights are expected
     let none = M8::splat(false);
-    let unexpected = (0..lights.len()).filter(|light| group.expected[packet] >> light & 1 == 0);
+    let unexpected = (0..group.lights.len()).filter(|light| group.expected[packet] >> light & 1 == 0);
     let stray =
         !group.rough::<GENERAL>(packet) & unexpected.fold(none, |stray, light| stray | remaining[light][packet]);
     let choice = allocated.choose(numbers[0]);
@@ -91,7 +89,7 @@ fn chosen<const GENERAL: bool, I: Integrand>(
     if !stray.any() {
         return (choice, lanes);
     }
-    let (other, others) = among(lights, surface, all & stray, packet, numbers[0], remaining);
+    let (other, others) = among(group.chooser, surface, all & stray, packet, numbers[0], remaining);
     let choice = Choice {
         index: pick(stray, other.index, choice.index),
         pmf: select(stray, other.pmf, choice.pmf),
@@ -103,14 +101,14 @@ fn chosen<const GENERAL: bool, I: Integrand>(
 /// Chooses one of the lights that remain in a packet, for each of these lanes.
 #[inline]
 fn among(
-    lights: &Lights,
+    chooser: &Chooser,
     surface: &Surface,
     lanes: M8,
     packet: usize,
     number: X8,
     remaining: &[[M8; GROUP]],
 ) -> (Choice<X8>, M8) {
-    match lights.contributions(surface.point, surface.normal) {
+    match chooser.contributions(surface.point, surface.normal) {
         Some(near) => (near.only(|light| remaining[light][packet]).choose(number), lanes),
         None => (Choice { index: u32x8::splat(0), pmf: X8::lit(1.0), u: number }, lanes & remaining[0][packet]),
     }
@@ -128,7 +126,7 @@ pub(super) fn pmf<'a, const GENERAL: bool, I: Integrand>(
         Some(allocated) => LightPmf::Allocated(allocated),
         None => {
             let gloss = gloss::<GENERAL, I>(group, integrand, packet);
-            group.scene.lights.pmf(point, normal, gloss.as_ref())
+            group.chooser.pmf(point, normal, gloss.as_ref())
         }
     }
 }

@@ -4,6 +4,8 @@ use super::points::Points;
 use super::tracer::Tracer;
 use crate::bsdf::Bsdf;
 use crate::bvh::GROUP;
+use crate::choose::Chooser;
+use crate::lights::Lights;
 use crate::packet::{M8, V8, X8};
 use crate::prepared::PreparedScene;
 use crate::surfaces::Surface;
@@ -44,6 +46,9 @@ pub(crate) struct Numbers {
 /// The shading points of up to [`GROUP`] packets, and the random numbers of their samples.
 pub(crate) struct Group<'a> {
     pub(crate) scene: &'a PreparedScene,
+    /// The lights that are sampled, and how they are chosen.
+    pub(crate) lights: &'a Lights,
+    pub(crate) chooser: &'a Chooser,
     pub(crate) points: &'a Points,
     /// Number of packets.
     pub(crate) count: usize,

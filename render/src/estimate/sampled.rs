@@ -7,7 +7,6 @@ use super::group::{Estimator, Group, Reflected};
 use super::integrand::Integrand;
 use super::mis::Mis;
 use super::tracer::Tracer;
-use crate::prepared::PreparedScene;
 use crate::technique::Technique;
 use etendue::estimate::Heuristic;
 
@@ -46,15 +45,14 @@ impl<I: Integrand> Estimator<I> for Sampled {
         tracer: &mut Tracer,
         Reflected { sampled, .. }: &mut Reflected,
     ) {
-        let PreparedScene { sky, .. } = group.scene;
-        let lights = group.scene.sampled(self.finds_lights);
-        if let Some(each) = lights.each() {
+        if let Some(each) = group.chooser.each() {
             for light in 0..each {
-                self.by_light.add::<GENERAL, _>(lights, &Which::One(light), group, integrand, tracer, sampled);
+                self.by_light.add::<GENERAL, _>(&Which::One(light), group, integrand, tracer, sampled);
             }
         } else if !integrand.is_empty() {
-            self.by_light.add::<GENERAL, _>(lights, &Which::Chosen, group, integrand, tracer, sampled);
-            if let Some(sun) = sky.as_ref().filter(|_| !self.finds_lights).and_then(|sky| sky.sun_beside()) {
+            self.by_light.add::<GENERAL, _>(&Which::Chosen, group, integrand, tracer, sampled);
+            if let Some(sun) = group.scene.sky.as_ref().filter(|_| !self.finds_lights).and_then(|sky| sky.sun_beside())
+            {
                 self.by_light.add_sun::<GENERAL, _>(sun, group, integrand, tracer, sampled);
             }
         }
