@@ -114,7 +114,7 @@ impl Chooser {
     /// Another way to choose, in a scene whose greatest coordinate is `reach`; or why it is none for these lights.
     fn way(lights: &Lights, by: ChoiceBy, reach: f32) -> Result<Way, String> {
         let all = lights.candidates();
-        let somewhere = |way: Way| match all.iter().any(|light| light.record.is_distant()) {
+        let somewhere = |way: Way| match all.iter().any(|light| light.far.is_some()) {
             true => Err("lights that are somewhere, and the scene has a sun or a sky".to_owned()),
             false => Ok(way),
         };

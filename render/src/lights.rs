@@ -21,34 +21,39 @@
 mod chosen;
 mod directed;
 mod irradiance;
+mod kinds;
+mod parallelogram;
 mod pictures;
-pub(crate) mod record;
+pub(crate) mod point;
+mod record;
+mod sky;
+mod sphere;
+pub(crate) mod spot;
 mod spread;
+pub(crate) mod sun;
+mod triangle;
 
 use crate::bvh::NOTHING;
 use crate::geometry::Geometry;
 use crate::light_picture::LightPicture;
 use crate::light_profile::LightProfile;
-use crate::packet::{M8, V8, X8, each_group, equal, select};
-use crate::scene::{Emission, Scene, Shape};
+use crate::packet::{V8, X8, each_bit, each_group, select};
+use crate::scene::{Scene, Shape};
 use crate::sky::Sky;
 use crate::technique::Measure;
 pub use chosen::{Chosen, Drawn};
-use directed::{DirectedLight, directed_lights};
-use etendue::light::Spread;
+use directed::DirectedLight;
 use etendue::select::{FEW, LightBound};
-use etendue::{
-    DirectionalLight, LightSample, LightSampler, Mask, Parallelogram, PointLight, Real, Sphere, SpotLight, Triangle,
-    Vec2, u32x8,
-};
+use etendue::{Real, Vec2, u32x8};
 pub use irradiance::PictureIrradiance;
+use kinds::{
+    ONLY_AREAS, ONLY_DELTAS, PICTURES, PROFILES, SHAPES, SPREADS, UNEVEN, area_lights, delta_lights, sample_delta,
+    sample_shape,
+};
 use pictures::Tables;
 use rayon::prelude::*;
-pub(crate) use record::Candidate;
-use record::{
-    DIRECTED, DISTANT, KINDS, LightRecord, ONLY_AREAS, ONLY_DELTAS, PARALLELOGRAM, PICTURED, PICTURES, POINT, PROFILED,
-    PROFILES, PackedLight, SKY, SPHERE, SPOT, SPREAD, SPREADS, TRIANGLE, TWO_SIDED, UNEVEN, area_lights, delta_lights,
-};
+pub(crate) use record::{Candidate, Far};
+use record::{LightRecord, PROFILED, PackedLight, SPREAD, TWO_SIDED};
 use std::sync::Arc;
 
 /// The lights of a scene.
@@ -77,37 +82,30 @@ pub struct Lights {
     shape_lights: Vec<u32>,
 }
 
-fn product(a: V8, b: V8) -> V8 {
-    V8::new(a.x * b.x, a.y * b.y, a.z * b.z)
-}
-
 impl Lights {
     /// All lights of a scene: emitting shapes, delta lights, the sky.
     pub fn new(scene: &Scene, sky: Option<Arc<Sky>>) -> Self {
-        let mut others = delta_lights(scene);
-        others.extend(sky.as_ref().map(|sky| Candidate::sky(sky.flux())));
-        Self::of(others, scene, &scene.shapes, sky)
+        Self::of(scene, &scene.shapes, sky)
     }
     /// The delta lights of a scene alone.
     pub fn deltas(scene: &Scene) -> Self {
-        Self::of(delta_lights(scene), scene, &Arc::default(), None)
+        Self::of(scene, &Arc::default(), None)
     }
-    fn of(others: Vec<Candidate>, scene: &Scene, shapes: &Arc<[Shape]>, sky: Option<Arc<Sky>>) -> Self {
+    fn of(scene: &Scene, shapes: &Arc<[Shape]>, sky: Option<Arc<Sky>>) -> Self {
+        let (mut others, directed) = delta_lights(scene);
+        others.extend(sky.as_deref().map(sky::candidate));
         let mut own = Self {
             others,
             sky,
             shape_lights: vec![NOTHING; shapes.len()],
-            directed: directed_lights(scene),
+            directed,
             shapes: Arc::clone(shapes),
             pictures: Arc::clone(&scene.pictures),
             profiles: Arc::clone(&scene.profiles),
             ..Self::default()
         };
         let all = own.candidates();
-        let flag = |kind: u32, flag: u32, bit: u32| if kind & flag == 0 { 0 } else { bit };
-        let flags = [(SPREAD, SPREADS), (PICTURED, PICTURES), (PROFILED, PROFILES)];
-        let bits = |kind: u32| flags.iter().fold(1 << (kind & KINDS), |bits, (own, bit)| bits | flag(kind, *own, *bit));
-        own.kinds = all.iter().fold(0, |kinds, light| kinds | bits(light.record.kind));
+        own.kinds = all.iter().fold(0, |kinds, light| kinds | light.kinds());
         for (index, Candidate { record, .. }) in (0..).zip(&all) {
             if let Some(light) = own.shape_lights.get_mut(record.shape as usize) {
                 *light = index;
@@ -140,7 +138,7 @@ impl Lights {
     }
     /// Bounds of the lights of a scene that have an area, in their order.
     pub fn bounds(scene: &Scene) -> Vec<LightBound> {
-        area_lights(&scene.shapes).map(|Candidate { record, power }| record.bound(power)).collect()
+        area_lights(&scene.shapes).map(|light| light.bound(light.power)).collect()
     }
     /// Number of lights.
     pub fn len(&self) -> usize {
@@ -196,21 +194,19 @@ impl Lights {
     fn pack(&self, light: u32) -> PackedLight {
         let light = light as usize;
         let Some(&shape) = self.unpacked.get(light) else { return self.packed[light - self.unpacked.len()] };
-        LightRecord::of(shape, &self.shapes[shape as usize]).map(|light| light.record.pack()).unwrap_or_default()
+        kinds::of_shape(shape, &self.shapes[shape as usize]).map(|light| light.record.pack()).unwrap_or_default()
     }
     /// Samples the chosen lights from points `p` on surfaces with this normal. `emits` allows for two-sided lights. For skies, pictures,
     /// directed lights and those with a spread, `radiance` of `chosen` becomes that of the sampled direction.
     #[inline(always)]
     pub fn sample(&self, chosen: &mut Chosen, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> Drawn {
-        const ONLY_SPHERES: u32 = 1 << SPHERE;
-        const ONLY_TRIANGLES: u32 = 1 << TRIANGLE;
-        const ONLY_PARALLELOGRAMS: u32 = 1 << PARALLELOGRAM;
-        let mut sample = match self.kinds {
-            ONLY_SPHERES => chosen.sphere(measure, p, normal, u),
-            ONLY_TRIANGLES => chosen.triangle(measure, p, normal, u),
-            ONLY_PARALLELOGRAMS => chosen.parallelogram(measure, p, normal, u),
-            kinds if kinds & UNEVEN != 0 => self.uneven(chosen, measure, p, normal, u),
-            _ => self.mixed(chosen, measure, p, normal, u).unwrap_or_else(|| unreachable!("there is a light")),
+        let kinds = self.kinds;
+        let mut sample = if kinds & !SHAPES == 0 && kinds.is_power_of_two() {
+            sample_shape(kinds.trailing_zeros(), chosen, measure, p, normal, u)
+        } else if kinds & UNEVEN != 0 {
+            self.uneven(chosen, measure, p, normal, u)
+        } else {
+            self.mixed(chosen, measure, p, normal, u).unwrap_or_else(|| unreachable!("there is a light"))
         };
         sample.emits = sample.emits | chosen.has(TWO_SIDED);
         sample
@@ -221,11 +217,9 @@ impl Lights {
         // normals before the lights are narrowed
         let normal_of_light = (self.kinds & SPREADS != 0).then(|| chosen.narrow(p));
         let mut drawn = self.mixed(chosen, measure, p, normal, u);
-        if self.kinds >> DIRECTED & 1 == 1 {
-            let here = equal(chosen.kind & u32x8::splat(KINDS), u32x8::splat(DIRECTED));
-            let index = chosen.second.x.to_bits();
-            let (sample, intensity) = directed::sample(&self.directed, index, chosen.place, p, here);
-            chosen.radiance = V8::blend(here, product(chosen.radiance, intensity), chosen.radiance);
+        if self.kinds >> directed::KIND & 1 == 1 {
+            let here = chosen.is(directed::KIND);
+            let sample = directed::sample(&self.directed, chosen, p, here);
             drawn = Some(Drawn::blend(here, sample.into(), drawn));
         }
         let sample = drawn.unwrap_or_else(|| unreachable!("there is a light"));
@@ -251,78 +245,23 @@ impl Lights {
     /// Samples every kind of light that the scene has, but for those with directions of their own, each in its lanes.
     fn mixed(&self, chosen: &mut Chosen, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> Option<Drawn> {
         let mut mixed: Option<Drawn> = None;
-        for kind in (SPHERE..=SKY).filter(|kind| self.kinds >> kind & 1 == 1) {
-            let here = equal(chosen.kind & u32x8::splat(KINDS), u32x8::splat(kind));
-            let Chosen { place, first, second, .. } = *chosen;
+        each_bit(self.kinds & (SHAPES | ONLY_DELTAS | 1 << sky::KIND) & !(1 << directed::KIND), |kind| {
+            let kind = kind as u32;
+            let here = chosen.is(kind);
             let sample = match kind {
-                SPHERE | TRIANGLE | PARALLELOGRAM if self.kinds & PICTURES != 0 => {
-                    self.pictured(kind, here, chosen, measure, p, normal, u)
+                kind if SHAPES >> kind & 1 == 0 => match &self.sky {
+                    Some(sky) if kind == sky::KIND => sky::sample(sky, here, chosen, measure, p, normal, u),
+                    _ => sample_delta(kind, chosen, p, u).into(),
+                },
+                _ if self.kinds & PICTURES != 0 => {
+                    let shown = (&self.shapes[..], &self.pictures[..]);
+                    self.tables.sample(shown, kind, here, chosen, measure, p, normal, u)
                 }
-                SPHERE => chosen.sphere(measure, p, normal, u),
-                TRIANGLE => chosen.triangle(measure, p, normal, u),
-                PARALLELOGRAM => chosen.parallelogram(measure, p, normal, u),
-                POINT => PointLight::new(place).by_delta(p).sample(u).into(),
-                SPOT => {
-                    let [one_minus_cos_inner, one_minus_cos_outer] = [second.x, second.y];
-                    let light = SpotLight { position: place, axis: first, one_minus_cos_inner, one_minus_cos_outer };
-                    light.by_delta(p).sample(u).into()
-                }
-                DISTANT => DirectionalLight::new(place).by_delta(p).sample(u).into(),
-                _ => {
-                    let sky = self.sky.as_ref().unwrap_or_else(|| unreachable!("a sky among the records"));
-                    let (sample, radiance) = sky.sample(measure, p, normal, u);
-                    chosen.radiance = V8::blend(here, radiance, chosen.radiance);
-                    sample.into()
-                }
+                _ => sample_shape(kind, chosen, measure, p, normal, u),
             };
             mixed = Some(Drawn::blend(here, sample, mixed));
-        }
+        });
         mixed
-    }
-    /// Samples shapes of one kind, some of which show pictures, and puts the radiance of the sampled points into the lanes `here`.
-    // not inlined, so that it does not burden scenes without pictures
-    #[inline(never)]
-    #[allow(clippy::too_many_arguments, reason = "those of `sample`, and which lanes")]
-    fn pictured(
-        &self,
-        kind: u32,
-        here: M8,
-        chosen: &mut Chosen,
-        measure: Measure,
-        p: V8,
-        normal: V8,
-        u: Vec2<X8>,
-    ) -> Drawn {
-        let pictured = here & chosen.has(PICTURED);
-        let by_shape = || -> LightSample<X8> {
-            match kind {
-                SPHERE => chosen.sphere(measure, p, normal, u),
-                TRIANGLE => chosen.triangle(measure, p, normal, u),
-                _ => chosen.parallelogram(measure, p, normal, u),
-            }
-        };
-        let mut sample = None;
-        each_group(chosen.shape, pictured, |index, lanes| {
-            let shape = &self.shapes[index as usize];
-            let Some(picture) = shape.emission.and_then(|emission| emission.picture) else { return };
-            let picture = &self.pictures[picture as usize];
-            if let Some(table) = self.tables.of(index as usize) {
-                let drawn = table.sample((&shape.geometry, &picture.axes), measure, p, normal, u);
-                // in a packet of one light, no other map is needed
-                let others = sample.unwrap_or_else(|| if lanes.all() { drawn } else { by_shape() });
-                sample = Some(LightSample::blend(lanes, drawn, others));
-            }
-        });
-        let sample = sample.unwrap_or_else(by_shape);
-        let shapes = chosen.shape;
-        each_group(shapes, pictured, |index, lanes| {
-            let shape = &self.shapes[index as usize];
-            if let Some(picture) = shape.emission.and_then(|emission| emission.picture) {
-                let picture = &self.pictures[picture as usize];
-                picture.show(&shape.geometry, lanes, sample.uv, sample.normal, &mut chosen.radiance);
-            }
-        });
-        sample.into()
     }
     /// The light of a shape that is one.
     #[inline]
@@ -344,25 +283,9 @@ impl Lights {
             let axes = &self.pictures[picture as usize].axes;
             return table.pdf((geometry, axes), p, w);
         }
-        match *geometry {
-            Geometry::Sphere { center, radius } => {
-                Sphere::new(center.into(), X8::splat(radius)).by_solid_angle(p).pdf_of_hit(w)
-            }
-            Geometry::Triangle([a, b, c]) => {
-                // the edges as the light's record has them
-                let edge = |to: [f32; 3]| V8::from(std::array::from_fn(|k| to[k] - a[k]));
-                Triangle { v0: a.into(), e1: edge(b), e2: edge(c) }.by_solid_angle(p).pdf_of_hit(w)
-            }
-            Geometry::Parallelogram { p: corner, u, v } => {
-                let mut light = Parallelogram::new(corner.into(), u.into(), v.into());
-                if self.kinds & SPREADS != 0
-                    && let Some(Emission { spread: Some(spread), picture: None, .. }) = self.shapes[shape].emission
-                {
-                    light = light.visible_part(p, &Spread::splat(spread));
-                }
-                light.by_solid_angle(p).pdf_of_hit(w)
-            }
-        }
+        let of = |shape: &Shape| shape.emission.filter(|emission| emission.picture.is_none())?.spread;
+        let spread = if self.kinds & SPREADS != 0 { of(&self.shapes[shape]) } else { None };
+        kinds::pdf(geometry, spread, p, w)
     }
     /// The same for a direction to the sky.
     #[inline]

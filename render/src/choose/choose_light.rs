@@ -23,5 +23,5 @@ pub(super) trait ChooseLight {
 /// Bounds of lights. Their powers are relative to the greatest, so that all are finite; lights infinitely far away have none.
 pub(super) fn bounds(all: &[Candidate]) -> Vec<LightBound> {
     let greatest = all.iter().fold(f64::MIN_POSITIVE, |most, light| most.max(light.power));
-    all.par_iter().map(|Candidate { record, power }| record.bound(power / greatest)).collect()
+    all.par_iter().map(|light| light.bound(light.power / greatest)).collect()
 }

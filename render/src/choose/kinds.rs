@@ -5,7 +5,7 @@ use super::choose_light::ChooseLight;
 use super::tree;
 use crate::bvh::BuildError;
 use crate::light_tree::{OwnedTree, Threads};
-use crate::lights::Candidate;
+use crate::lights::{Candidate, Far};
 use crate::packet::{V8, X8, equal, pick, select};
 use crate::sky::Sky;
 use etendue::select::{Choice, Gloss, LightBound, LightChoice, LightsAt, TreeAt};
@@ -50,16 +50,16 @@ impl Kinds {
         let greatest = all.iter().fold(f64::MIN_POSITIVE, |most, light| most.max(light.power));
         let (distant, suns): (Vec<u32>, Vec<_>) = (0..)
             .zip(all)
-            .filter(|(_, light)| light.record.is_sun())
-            .map(|(index, Candidate { record, power })| {
+            .filter(|(_, light)| light.far == Some(Far::Sun))
+            .map(|(index, light)| {
                 // a sphere of less than this power would not be in the tree
-                let power = (power / greatest).max(f64::from(f32::MIN_POSITIVE)) as f32;
-                (index, LightBound { center: record.place, power, ..LightBound::default() })
+                let power = (light.power / greatest).max(f64::from(f32::MIN_POSITIVE)) as f32;
+                (index, LightBound { center: light.direction(), power, ..LightBound::default() })
             })
             .unzip();
-        let index = all.iter().position(|light| light.record.is_sky());
+        let index = all.iter().position(|light| light.far == Some(Far::Sky));
         let sky = sky.zip(index).map(|(sky, index)| (Arc::clone(sky), index as u32, (FRAC_1_PI / greatest) as f32));
-        let somewhere = (0..).zip(all).filter(|(_, light)| !light.record.is_distant()).map(|(index, _)| index);
+        let somewhere = (0..).zip(all).filter(|(_, light)| light.far.is_none()).map(|(index, _)| index);
         let mut few: Vec<u32> = somewhere.take(MOST_EQUAL + 1).collect();
         if !(2..=MOST_EQUAL).contains(&few.len()) {
             few.clear();
@@ -195,15 +195,20 @@ impl KindsAt<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lights::record::{DISTANT, LightRecord, POINT, SPOT};
+    use crate::lights::{point, spot, sun};
     use etendue::sequence::{Independent, Sequence};
     use etendue::{Uint, Vec2};
     use etendue_oracle::tier::cases;
 
-    fn light(kind: u32, place: [f32; 3], power: f64) -> Candidate {
-        let mut record = LightRecord::default();
-        (record.kind, record.place) = (kind, place);
-        Candidate { record, power }
+    fn of_power(mut light: Candidate, power: f64) -> Candidate {
+        light.power = power;
+        light
+    }
+    fn lamp(place: [f32; 3], power: f64) -> Candidate {
+        of_power(point::candidate(place, [1.0; 3]), power)
+    }
+    fn sun(direction: [f32; 3], power: f64) -> Candidate {
+        of_power(sun::candidate(direction, [1.0; 3]), power)
     }
 
     /// With and without distant lights: the pmf sums to 1, a choice has the pmf of its light, and lights are chosen as often as their
@@ -215,8 +220,8 @@ mod tests {
             let place = |i: usize| [(i * 37 % 101) as f32, (i * 61 % 113) as f32, 3.0 + (i % 7) as f32];
             let all: Vec<Candidate> = (0..count)
                 .map(|i| match i < count - far {
-                    true => light(POINT, place(i), powers[i]),
-                    false => light(DISTANT, [0.6, 0.0, 0.8], powers[i]),
+                    true => lamp(place(i), powers[i]),
+                    false => sun([0.6, 0.0, 0.8], powers[i]),
                 })
                 .collect();
             let lights = Kinds::new(&all, None).unwrap();
@@ -248,21 +253,21 @@ mod tests {
     /// none below the horizon, whatever their powers are.
     #[test]
     fn lamps_and_suns_share_by_what_they_can_contribute() {
-        for [lamp, sun] in [[1.0, 1.0], [1e-9, 1.0], [1.0, 1e-9], [1e9, 1e-12]] {
+        for [of_lamp, of_sun] in [[1.0, 1.0], [1e-9, 1.0], [1.0, 1e-9], [1e9, 1e-12]] {
             // irradiances of lamp/4 and sun/4
-            let all: Vec<Candidate> = vec![light(POINT, [0.0, 0.0, 1.0], lamp), light(DISTANT, [0.0, 0.0, 1.0], sun)];
+            let all: Vec<Candidate> = vec![lamp([0.0, 0.0, 1.0], of_lamp), sun([0.0, 0.0, 1.0], of_sun)];
             let lights = Kinds::new(&all, None).unwrap();
             let pmf = |normal: [f64; 3]| {
                 let at = lights.at(V8::default(), V8::lit(normal), None);
                 [0, 1].map(|light| f64::from(at.pmf(light).as_array()[0]))
             };
-            let expected = 0.5 * FAIR + (1.0 - FAIR) * lamp / (lamp + sun);
+            let expected = 0.5 * FAIR + (1.0 - FAIR) * of_lamp / (of_lamp + of_sun);
             let [of_lamp, of_sun] = pmf([0.0, 0.0, 1.0]);
             assert!((of_lamp - expected).abs() < 0.03 && (of_lamp + of_sun - 1.0).abs() < 1e-6, "{of_lamp} {expected}");
             assert_eq!(pmf([0.0, 0.0, -1.0]), [0.0; 2]);
         }
         // a sun below the horizon takes nothing from a lamp above it
-        let all: Vec<Candidate> = vec![light(POINT, [0.0, 0.0, 1.0], 1e-9), light(DISTANT, [0.0, 0.0, -1.0], 1.0)];
+        let all: Vec<Candidate> = vec![lamp([0.0, 0.0, 1.0], 1e-9), sun([0.0, 0.0, -1.0], 1.0)];
         let lights = Kinds::new(&all, None).unwrap();
         let at = lights.at(V8::default(), V8::lit([0.0, 0.0, 1.0]), None);
         assert_eq!([0, 1].map(|light| at.pmf(light).as_array()[0]), [1.0, 0.0]);
@@ -271,7 +276,7 @@ mod tests {
     /// A dim lamp keeps its equal part of the samples, however bright a second lamp is, since that one may be hidden.
     #[test]
     fn dim_lamps_beside_a_bright_one_are_not_lost() {
-        let all: Vec<Candidate> = vec![light(POINT, [0.0, 0.0, 1.0], 1e12), light(POINT, [30.0, 0.0, 1.0], 1.0)];
+        let all: Vec<Candidate> = vec![lamp([0.0, 0.0, 1.0], 1e12), lamp([30.0, 0.0, 1.0], 1.0)];
         let lights = Kinds::new(&all, None).unwrap();
         let at = lights.at(V8::default(), V8::lit([0.0, 0.0, 1.0]), None);
         let [bright, dim] = [0, 1].map(|light| f64::from(at.pmf(light).as_array()[0]));
@@ -283,10 +288,8 @@ mod tests {
     #[test]
     fn narrow_spots_leave_lamps_their_samples() {
         let versine = 1.5e-8_f32;
-        let (first, second) = ([0.0, 0.0, -1.0], [versine, versine, 1.0]);
-        let mut spot = light(SPOT, [0.0, 0.0, 2.0], 1.0);
-        (spot.record.first, spot.record.second) = (first, second);
-        let all: Vec<Candidate> = vec![spot, light(POINT, [1.0, 0.0, 2.0], 1.0)];
+        let spot = of_power(spot::candidate([0.0, 0.0, 2.0], [0.0, 0.0, -1.0], [versine; 2], [1.0; 3]), 1.0);
+        let all: Vec<Candidate> = vec![spot, lamp([1.0, 0.0, 2.0], 1.0)];
         let lights = Kinds::new(&all, None).unwrap();
         let at = lights.at(V8::lit([0.1, 0.0, 0.0]), V8::lit([0.0, 0.0, 1.0]), None);
         let [of_spot, of_lamp] = [0, 1].map(|light| at.pmf(light).as_array()[0]);
@@ -296,7 +299,7 @@ mod tests {
     /// A point that no light can reach gets no light, and an index that is valid all the same.
     #[test]
     fn below_all_lights_there_is_none() {
-        let all: Vec<Candidate> = (0..3).map(|i| light(POINT, [i as f32, 0.0, 1.0], 1.0)).collect();
+        let all: Vec<Candidate> = (0..3).map(|i| lamp([i as f32, 0.0, 1.0], 1.0)).collect();
         let lights = Kinds::new(&all, None).unwrap();
         let choice = lights.at(V8::default(), V8::lit([0.0, 0.0, -1.0]), None).choose(X8::lit(0.3), X8::lit(0.6));
         assert_eq!((choice.pmf, choice.index), (X8::lit(0.0), u32x8::splat(0)));

@@ -1,7 +1,7 @@
 //! Lights are chosen by their power. A sun or a sky has that which passes a disk whose radius is the scene's greatest coordinate.
 
 use super::choose_light::ChooseLight;
-use crate::lights::Candidate;
+use crate::lights::{Candidate, Far};
 use crate::packet::{V8, X8};
 use etendue::discrete::{Cell2d, PiecewiseConstant2d};
 use etendue::select::{Choice, Gloss};
@@ -19,11 +19,11 @@ impl Power {
     /// Prepares the choice in a scene whose greatest coordinate is `reach`.
     pub(super) fn new(all: &[Candidate], reach: f32) -> Result<Self, String> {
         let squared = f64::from(reach).powi(2);
-        let power = |light: &Candidate| match light {
+        let power = |light: &Candidate| match light.far {
             // the power of a sun is that of a point at the distance 1, 4 times its irradiance, and that of a sky its flux over π
-            Candidate { record, power } if record.is_sun() => power * 0.25 * squared,
-            Candidate { record, power } if record.is_sky() => power * PI * squared,
-            Candidate { power, .. } => *power,
+            Some(Far::Sun) => light.power * 0.25 * squared,
+            Some(Far::Sky) => light.power * PI * squared,
+            None => light.power,
         };
         let greatest = all.iter().map(power).fold(f64::MIN_POSITIVE, f64::max);
         // none is lost by rounding

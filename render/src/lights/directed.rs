@@ -1,10 +1,17 @@
-//! Point lights whose intensity differs by direction.
+//! Point lights whose intensity differs by direction: a record has the position, the axis of the narrowest cone that holds the light, its index among those,
+//! and in the last place the cosine of that cone.
 
+use super::chosen::Chosen;
+use super::record::{Candidate, LightRecord};
+use super::spot::cosine_below;
 use crate::intensity::Intensity;
 use crate::packet::{M8, V8, X8, each_group};
-use crate::scene::{Cone, DeltaLight, Scene};
-use etendue::{LightSample, LightSampler, PointLight, Real, SpotLight, Vec2, Vec3, u32x8};
+use crate::scene::Cone;
+use etendue::{LightSample, LightSampler, PointLight, Real, SpotLight, Vec2, Vec3};
+use std::f64::consts::PI;
 use std::sync::Arc;
+
+pub(super) const KIND: u32 = 12;
 
 /// What a light emits, and how it is turned.
 #[derive(Clone, Debug)]
@@ -16,27 +23,45 @@ pub(super) struct DirectedLight {
     cone: Option<SpotLight<f32>>,
 }
 
-/// Those of a scene, in the order of its delta lights.
-pub(super) fn directed_lights(scene: &Scene) -> Vec<DirectedLight> {
-    let light = |light: &DeltaLight| match *light {
-        DeltaLight::Directed { position, to_light: rows, table, cone, .. } => {
-            let cone = cone.map(|Cone { axis, one_minus_cos_inner, one_minus_cos_outer, .. }| SpotLight {
-                position: position.into(),
-                axis: axis.into(),
-                one_minus_cos_inner,
-                one_minus_cos_outer,
-            });
-            Some(DirectedLight { rows, intensity: Arc::clone(&scene.intensities[table as usize]), cone })
-        }
-        _ => None,
-    };
-    scene.delta_lights.iter().filter_map(light).collect()
+impl DirectedLight {
+    /// A light of this intensity, turned by the rows of a matrix.
+    pub(super) fn new(position: [f32; 3], rows: [[f32; 3]; 3], intensity: &Arc<Intensity>, cone: Option<Cone>) -> Self {
+        let cone = cone.map(|Cone { axis, one_minus_cos_inner, one_minus_cos_outer, .. }| SpotLight {
+            position: position.into(),
+            axis: axis.into(),
+            one_minus_cos_inner,
+            one_minus_cos_outer,
+        });
+        Self { rows, intensity: Arc::clone(intensity), cone }
+    }
+    /// The light with this greatest intensity; it is the one of this index among those of a scene.
+    pub(super) fn candidate(
+        &self,
+        position: [f32; 3],
+        radiance: [f32; 3],
+        cone: Option<Cone>,
+        index: u32,
+    ) -> Candidate {
+        // the narrower of two cones
+        let own = (self.rows[2], self.intensity.cos_cone());
+        let (first, cos) = match cone {
+            Some(Cone { axis, one_minus_cos_outer: outer, .. }) if cosine_below(outer) >= own.1 => {
+                (axis, cosine_below(outer))
+            }
+            _ => own,
+        };
+        let second = [f32::from_bits(index), 0.0, cos];
+        let flux = cone.map_or_else(|| self.intensity.flux(), |cone| [cone.flux; 3]);
+        let power = (0..3).map(|k| f64::from(radiance[k]) * flux[k]).sum::<f64>() / PI;
+        Candidate::near(LightRecord { first, second, ..LightRecord::bare(KIND, position, radiance) }, power)
+    }
 }
 
-/// Samples lights at these places from the points `p` in some lanes, and returns their relative intensities there, too. Not inlined, since
-/// it would burden scenes without such lights.
+/// Samples directed lights from the points `p` in the lanes that have some, and multiplies their intensities by what they are there. Not inlined,
+/// since it would burden scenes without such lights.
 #[inline(never)]
-pub(super) fn sample(lights: &[DirectedLight], index: u32x8, place: V8, p: V8, here: M8) -> (LightSample<X8>, V8) {
+pub(super) fn sample(lights: &[DirectedLight], chosen: &mut Chosen, p: V8, here: M8) -> LightSample<X8> {
+    let index = chosen.second.x.to_bits();
     let mut found = V8::default();
     let look_up = |w: V8| {
         each_group(index, here, |light, same| {
@@ -51,6 +76,9 @@ pub(super) fn sample(lights: &[DirectedLight], index: u32x8, place: V8, p: V8, h
         let some = (found.x + found.y + found.z).gt(X8::lit(0.0));
         X8::lit(1.0).keep(some)
     };
-    let sample = PointLight::new(place).by_profile(p, look_up).sample(Vec2::default());
-    (sample, found)
+    let sample = PointLight::new(chosen.place).by_profile(p, look_up).sample(Vec2::default());
+    let V8 { x, y, z } = chosen.radiance;
+    let intensity = V8::new(x * found.x, y * found.y, z * found.z);
+    chosen.radiance = V8::blend(here, intensity, chosen.radiance);
+    sample
 }

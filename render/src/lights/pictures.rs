@@ -1,12 +1,16 @@
 //! Shapes with pictures, sampled by their radiance.
 
+use super::chosen::{Chosen, Drawn};
+use super::kinds::sample_shape;
+use super::record::PICTURED;
+use super::{parallelogram, triangle};
 use crate::geometry::Geometry;
 use crate::light_picture::LightPicture;
-use crate::packet::{V8, X8};
+use crate::packet::{M8, V8, X8, each_group};
 use crate::scene::Shape;
 use crate::technique::Measure;
 use etendue::light::{Picture, Region};
-use etendue::{LightSample, LightSampler, Parallelogram, Real, Sphere, Triangle, Vec2, Vec3};
+use etendue::{LightSample, LightSampler, Mask, Real, Sphere, Vec2, Vec3};
 use rayon::prelude::*;
 
 /// The most cells along a side of a shape.
@@ -167,12 +171,8 @@ macro_rules! with_sampler {
             }};
         }
         match *geometry {
-            Geometry::Triangle([a, b, c]) => {
-                // the edges as the light's record has them
-                let edge = |to: [f32; 3]| V8::from(std::array::from_fn(|k| to[k] - a[k]));
-                flat!(Triangle { v0: a.into(), e1: edge(b), e2: edge(c) })
-            }
-            Geometry::Parallelogram { p, u, v } => flat!(Parallelogram::new(p.into(), u.into(), v.into())),
+            Geometry::Triangle(_) => flat!(triangle::splat(geometry)),
+            Geometry::Parallelogram { .. } => flat!(parallelogram::splat(geometry)),
             Geometry::Sphere { center, radius } => {
                 let $axes = Axes(axes.map(V8::from));
                 let sphere = Sphere::new($axes.inwards(V8::from(center) - $p), X8::splat(radius));
@@ -228,5 +228,48 @@ impl TableOf<'_> {
         with_sampler!(self, shape, p, normal, measure, |sampler| sampler.pdf(w), |axes, sampler| {
             sampler.pdf(axes.inwards(w))
         })
+    }
+}
+
+impl Tables {
+    /// Samples shapes of one kind, some of which show pictures, and puts the radiance of the sampled points into the lanes `here`.
+    // not inlined, so that it does not burden scenes without pictures
+    #[inline(never)]
+    #[allow(clippy::too_many_arguments, reason = "those of a sample, and which lanes show which pictures")]
+    pub(super) fn sample(
+        &self,
+        (shapes, pictures): (&[Shape], &[LightPicture]),
+        kind: u32,
+        here: M8,
+        chosen: &mut Chosen,
+        measure: Measure,
+        p: V8,
+        normal: V8,
+        u: Vec2<X8>,
+    ) -> Drawn {
+        let pictured = here & chosen.has(PICTURED);
+        let by_shape = || -> LightSample<X8> { sample_shape(kind, chosen, measure, p, normal, u) };
+        let mut sample = None;
+        each_group(chosen.shape, pictured, |index, lanes| {
+            let shape = &shapes[index as usize];
+            let Some(picture) = shape.emission.and_then(|emission| emission.picture) else { return };
+            let picture = &pictures[picture as usize];
+            if let Some(table) = self.of(index as usize) {
+                let drawn = table.sample((&shape.geometry, &picture.axes), measure, p, normal, u);
+                // in a packet of one light, no other map is needed
+                let others = sample.unwrap_or_else(|| if lanes.all() { drawn } else { by_shape() });
+                sample = Some(LightSample::blend(lanes, drawn, others));
+            }
+        });
+        let sample = sample.unwrap_or_else(by_shape);
+        let indices = chosen.shape;
+        each_group(indices, pictured, |index, lanes| {
+            let shape = &shapes[index as usize];
+            if let Some(picture) = shape.emission.and_then(|emission| emission.picture) {
+                let picture = &pictures[picture as usize];
+                picture.show(&shape.geometry, lanes, sample.uv, sample.normal, &mut chosen.radiance);
+            }
+        });
+        sample.into()
     }
 }

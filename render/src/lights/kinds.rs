@@ -1,0 +1,158 @@
+//! The kinds of lights: each is a file, which has all that is special about it.
+
+use super::chosen::Chosen;
+use super::directed::{self, DirectedLight};
+use super::record::{Candidate, Extent, KINDS, LightRecord, PICTURED, PROFILED, SPREAD, TWO_SIDED, sum};
+use super::{parallelogram, point, sphere, spot, spread, sun, triangle};
+use crate::geometry::Geometry;
+use crate::packet::{V8, X8};
+use crate::scene::{DeltaLight, Scene, Shape};
+use crate::technique::Measure;
+use etendue::light::Spread;
+use etendue::select::LightBound;
+use etendue::{LightSample, Vec2, Vec3};
+
+/// In a set of kinds, there is a light with a spread.
+pub(super) const SPREADS: u32 = 1 << 16;
+/// There is a light that shows a picture.
+pub(super) const PICTURES: u32 = 1 << 17;
+/// There is a light with an area and a profile.
+pub(super) const PROFILES: u32 = 1 << 18;
+/// Lights whose radiance or intensity differs by direction, but for the sky.
+pub(super) const UNEVEN: u32 = 1 << directed::KIND | SPREADS | PROFILES;
+pub(super) const ONLY_DELTAS: u32 = 1 << point::KIND | 1 << spot::KIND | 1 << sun::KIND | 1 << directed::KIND;
+pub(super) const ONLY_AREAS: u32 = SHAPES | SPREADS | PICTURES | PROFILES;
+
+/// What differs by the shape of a light: a line for each.
+macro_rules! shapes {
+    ($($form:ident: $kind:ident;)*) => {
+        /// All shapes, as a set.
+        pub(super) const SHAPES: u32 = $(1 << $kind::KIND)|*;
+
+        /// The kind of a shape, and the vectors of its record.
+        fn form(geometry: &Geometry) -> (u32, [[f32; 3]; 3]) {
+            match geometry {
+                $(Geometry::$form { .. } => ($kind::KIND, $kind::vectors(geometry)),)*
+            }
+        }
+
+        /// The extent of a light.
+        fn extent(record: &LightRecord, kind: u32) -> Extent {
+            match kind {
+                $($kind::KIND => $kind::extent(record),)*
+                spot::KIND | directed::KIND => spot::extent(record),
+                _ => Extent::point(record),
+            }
+        }
+
+        /// Samples shapes of one kind in all lanes, without regard to pictures.
+        #[inline]
+        pub(super) fn sample_shape<D: From<LightSample<X8>>>(
+            kind: u32,
+            chosen: &Chosen,
+            measure: Measure,
+            p: V8,
+            normal: V8,
+            u: Vec2<X8>,
+        ) -> D {
+            match kind {
+                $($kind::KIND => $kind::sample(chosen, measure, p, normal, u),)*
+                _ => unreachable!("no shape"),
+            }
+        }
+
+        /// Pdf per steradian with which a shape is sampled by solid angle in the direction `w`, in which it is hit from `p`.
+        #[inline]
+        pub(super) fn pdf(geometry: &Geometry, spread: Option<Spread<f32>>, p: V8, w: V8) -> X8 {
+            match geometry {
+                $(Geometry::$form { .. } => $kind::pdf(geometry, spread, p, w),)*
+            }
+        }
+    };
+}
+
+shapes! {
+    Sphere: sphere;
+    Triangle: triangle;
+    Parallelogram: parallelogram;
+}
+
+/// Samples lights of a kind without an area in all lanes.
+#[inline]
+pub(super) fn sample_delta(kind: u32, chosen: &Chosen, p: V8, u: Vec2<X8>) -> LightSample<X8> {
+    match kind {
+        point::KIND => point::sample(chosen, p, u),
+        spot::KIND => spot::sample(chosen, p, u),
+        _ => sun::sample(chosen, p, u),
+    }
+}
+
+/// A shape that emits.
+pub(super) fn of_shape(index: u32, shape: &Shape) -> Option<Candidate> {
+    let emission = shape.emission?;
+    let (kind, [place, first, second]) = form(&shape.geometry);
+    let flag = |is: bool, flag: u32| if is { flag } else { 0 };
+    let kind = kind
+        | flag(emission.two_sided, TWO_SIDED)
+        | flag(emission.spread.is_some(), SPREAD)
+        | flag(emission.picture.is_some(), PICTURED)
+        | flag(emission.profile.is_some(), PROFILED);
+    let (radiance, spread) = (emission.radiance, emission.spread.unwrap_or_default());
+    let sides = if emission.two_sided { 2.0 } else { 1.0 };
+    let power = sum(radiance) * shape.geometry.area() * sides;
+    Some(Candidate::near(LightRecord { place, first, second, radiance, spread, kind, shape: index }, power))
+}
+
+/// The shapes that emit, in the order of the scene.
+pub(super) fn area_lights(shapes: &[Shape]) -> impl Iterator<Item = Candidate> {
+    (0..).zip(shapes).filter_map(|(index, shape)| of_shape(index, shape))
+}
+
+/// The lights without an area, in the order of the scene, and those of them that are directed.
+pub(super) fn delta_lights(scene: &Scene) -> (Vec<Candidate>, Vec<DirectedLight>) {
+    let mut all_directed = Vec::new();
+    let light = |light: &DeltaLight| match *light {
+        DeltaLight::Point { position, intensity } => point::candidate(position, intensity),
+        DeltaLight::Spot { position, axis, one_minus_cos_inner, one_minus_cos_outer, intensity } => {
+            spot::candidate(position, axis, [one_minus_cos_inner, one_minus_cos_outer], intensity)
+        }
+        DeltaLight::Distant { direction, irradiance } => sun::candidate(direction, irradiance),
+        DeltaLight::Directed { position, to_light, intensity, table, cone } => {
+            let directed = DirectedLight::new(position, to_light, &scene.intensities[table as usize], cone);
+            let candidate = directed.candidate(position, intensity, cone, all_directed.len() as u32);
+            all_directed.push(directed);
+            candidate
+        }
+    };
+    (scene.delta_lights.iter().map(light).collect(), all_directed)
+}
+
+impl Candidate {
+    /// The bound of what a light contributes, for a power in any unit. A light infinitely far away has no power in it.
+    pub(crate) fn bound(&self, power: f64) -> LightBound {
+        let Self { record, far, .. } = self;
+        let Extent { center, radius, normal, cos_cone } = extent(record, record.kind & KINDS);
+        let length = normal.length();
+        let narrow = |v: Vec3<f64>| [v.x, v.y, v.z].map(|x| x as f32);
+        let two_sided = record.kind & TWO_SIDED != 0;
+        LightBound {
+            center: narrow(center),
+            // the rounding of the centre moves the sphere by less than this
+            radius: (radius * (1.0 + 1e-6)) as f32,
+            normal: narrow(if length > 0.0 { normal * (1.0 / length) } else { normal }),
+            cos_cone: if record.kind & SPREAD == 0 { cos_cone } else { spread::cos_cone(&record.spread) },
+            two_sided: two_sided && length > 0.0,
+            power: match far {
+                Some(_) => 0.0,
+                None => (power as f32 * if two_sided { 0.5 } else { 1.0 }).max(f32::MIN_POSITIVE),
+            },
+        }
+    }
+    /// The set of its kind and its flags.
+    pub(super) fn kinds(&self) -> u32 {
+        let kind = self.record.kind;
+        let flags = [(SPREAD, SPREADS), (PICTURED, PICTURES), (PROFILED, PROFILES)];
+        let set = flags.iter().filter(|(flag, _)| kind & flag != 0).fold(0, |set, (_, bit)| set | bit);
+        1 << (kind & KINDS) | set
+    }
+}

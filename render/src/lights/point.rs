@@ -1,0 +1,18 @@
+//! Point lights: a record has the position.
+
+use super::chosen::Chosen;
+use super::record::{Candidate, LightRecord, sum};
+use crate::packet::{V8, X8};
+use etendue::{LightSample, LightSampler, PointLight, Vec2};
+
+pub(super) const KIND: u32 = 8;
+
+pub(crate) fn candidate(position: [f32; 3], intensity: [f32; 3]) -> Candidate {
+    Candidate::near(LightRecord::bare(KIND, position, intensity), 4.0 * sum(intensity))
+}
+
+/// Samples point lights in all lanes.
+#[inline]
+pub(super) fn sample(chosen: &Chosen, p: V8, u: Vec2<X8>) -> LightSample<X8> {
+    PointLight::new(chosen.place).by_delta(p).sample(u)
+}
