@@ -1,8 +1,8 @@
 //! Images in files: their sizes, which are accepted only if the file is long enough, and their windows.
 
 use etendue_render::area::Place;
-use etendue_render::film::{Film, Pixel};
 use etendue_render::drive::Content;
+use etendue_render::film::{Film, Pixel};
 use etendue_render::parts::{self, PieceFile};
 use etendue_render::{Identity, Sampler, Sensor, Settings, Technique, image, scene};
 use exr::math::Vec2;

@@ -124,6 +124,17 @@ fn a_run_is_resumed_and_its_page_needs_nothing_else() {
     let error = folder.fail(&format!("{SMALL} -o theirs"));
     assert!(error.contains("theirs/report.html: this is no report of a chart: choose another folder"), "{error}");
     assert_eq!(folder.read("theirs/report.html"), "<title>A year</title>");
+    // a curve for each choice of a light
+    let out = folder.succeed(
+        "chart quads --size 16x16 --spp 4 --replicates 2 --reference-spp 32 --samplers sobol --techniques area --choice power,uniform,auto,kinds -o by",
+    );
+    assert!(
+        ["area by power, sobol", "area by uniform, sobol", "area, sobol", "area by kinds, sobol"]
+            .iter()
+            .all(|way| out.contains(way)),
+        "{out}"
+    );
+    assert_eq!(folder.read("by/quads-error-time.svg").matches("data-series=").count(), 4);
     // other settings are measured anew, and the earlier measurements are kept
     let out = folder.succeed(&format!("{SMALL} --replicates 2 --seed 9 -o out"));
     assert!(out.contains("12 measurements with other settings"), "{out}");

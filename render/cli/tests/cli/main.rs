@@ -118,6 +118,7 @@ fn json_has_the_fields_that_it_should() {
     ]);
     let report = json(&text);
     let expected = [
+        "choice",
         "chosen",
         "error",
         "height",
@@ -277,6 +278,7 @@ fn bad_arguments_are_reported() {
         ("--spp", "4294967296"),
         ("--technique", "luck"),
         ("--sampler", "dice"),
+        ("--choice", "luck"),
         ("--sensor", "irradiance"),
         ("--sensor", "power"),
         ("--sensor", "film"),
@@ -290,6 +292,8 @@ fn bad_arguments_are_reported() {
             &[option, value],
         );
     }
+    let arguments = ["render", "delta-lights", "-o", "kept.exr", "--choice", "tree"];
+    fails_untouched(&folder, &arguments, &["choice tree", "a sun or a sky"]);
     for (spp, near) in [("100", "81 and 162"), ("3", "2 and 4"), ("4194303", "4170272 and 4194304")] {
         let arguments = ["render", "quads", "-o", "kept.exr", "--sampler", "stratified-4d", "--spp", spp];
         fails_untouched(&folder, &arguments, &["--sampler", spp, "n⁴", near]);
@@ -489,6 +493,13 @@ fn list_names_everything() {
         "mis-lobe",
         "analytic",
         "auto",
+        "choices",
+        "auto",
+        "uniform",
+        "power",
+        "spatial",
+        "tree",
+        "kinds",
         "samplers",
         "independent",
         "stratified",
