@@ -156,7 +156,17 @@ mod tests {
         let scene = scene::parse(&format!("{film} {view}"), "a.pbrt", std::path::Path::new("")).unwrap();
         let (width, height) = (scene.film.width, scene.film.height);
         let (technique, sampler) = (Technique::Area, Sampler::Sobol);
-        let settings = Settings { width, height, spp: 4, technique, depth: 8, sampler, sets: 0, seed: 0 };
+        let settings = Settings {
+            width,
+            height,
+            spp: 4,
+            technique,
+            choice: Default::default(),
+            depth: 8,
+            sampler,
+            sets: 0,
+            seed: 0,
+        };
         let identity = Identity::new(&scene, settings, Sensor::Radiance);
         assert_eq!(identity.place, Some(Place { start: [10, 5], whole: [64, 32] }));
         let mut json = json!(identity);

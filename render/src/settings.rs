@@ -81,6 +81,7 @@ mod tests {
         height: 8,
         spp: 4,
         technique: Technique::Auto,
+        choice: ChoiceBy::Auto,
         depth: 8,
         sampler: Sampler::Sobol,
         sets: 0,
