@@ -20,7 +20,6 @@
 
 mod chosen;
 mod directed;
-mod irradiance;
 mod kinds;
 mod parallelogram;
 mod pictures;
@@ -45,13 +44,11 @@ pub use chosen::{Chosen, Drawn};
 use directed::DirectedLight;
 use etendue::select::{FEW, LightBound};
 use etendue::{Real, Vec2, u32x8};
-pub use irradiance::PictureIrradiance;
 use kinds::{
     ONLY_AREAS, ONLY_DELTAS, PICTURES, PROFILES, SHAPES, SPREADS, UNEVEN, area_lights, delta_lights, sample_delta,
     sample_shape,
 };
 use pictures::Tables;
-use rayon::prelude::*;
 pub(crate) use record::{Candidate, Far};
 use record::{LightRecord, PROFILED, PackedLight, SPREAD, TWO_SIDED};
 use std::sync::Arc;
@@ -69,8 +66,6 @@ pub struct Lights {
     profiles: Arc<[LightProfile]>,
     /// By which shapes with pictures are sampled.
     tables: Tables,
-    /// By which the light of a few shapes with pictures is known without samples, in the order of the lights.
-    irradiances: Vec<Option<PictureIrradiance>>,
     /// The lights that are no shapes.
     others: Vec<Candidate>,
     /// Bit k is set if there is a light of kind k, [`SPREADS`] if one has a spread, [`PICTURES`] if one shows a picture, and [`PROFILES`] if
@@ -118,14 +113,6 @@ impl Lights {
         if own.kinds & PICTURES != 0 {
             own.tables = Tables::new(shapes, &scene.pictures);
         }
-        if own.kinds & PICTURES != 0 && own.only_few_areas() {
-            let irradiance = |light: &Candidate| {
-                let Shape { emission, geometry, .. } = shapes.get(light.record.shape as usize)?;
-                let emission = emission.filter(|emission| emission.spread.is_none() && emission.profile.is_none())?;
-                PictureIrradiance::new(&scene.pictures[emission.picture? as usize], geometry)
-            };
-            own.irradiances = all.par_iter().map(irradiance).collect();
-        }
         own
     }
     /// The lights with their powers, in their order: those that are shapes come first, the sky last.
@@ -155,22 +142,6 @@ impl Lights {
     /// Whether there are 1 to [`FEW`] lights, and all have an area.
     pub fn only_few_areas(&self) -> bool {
         self.kinds & !ONLY_AREAS == 0 && (1..=FEW).contains(&self.len())
-    }
-    /// The irradiance from the picture of one of a few lights, if it shows one and has a closed form.
-    pub fn irradiance(&self, light: usize) -> Option<&PictureIrradiance> {
-        self.irradiances.get(light)?.as_ref()
-    }
-    /// Whether the pictures of any lights have closed forms.
-    pub fn has_irradiances(&self) -> bool {
-        self.irradiances.iter().any(Option::is_some)
-    }
-    /// Whether all lights are shapes that show pictures, without closed forms.
-    pub fn only_sampled(&self) -> bool {
-        let is_sampled = |shape: &Shape| shape.emission.is_none_or(|emission| emission.picture.is_some());
-        self.kinds & !ONLY_AREAS == 0
-            && self.kinds & PICTURES != 0
-            && !self.has_irradiances()
-            && self.shapes.iter().all(is_sampled)
     }
     /// Lights with these indices.
     #[inline(always)]

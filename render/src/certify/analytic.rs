@@ -1,7 +1,7 @@
 //! Closed forms as an estimator around another one.
 
-use super::bodies::Bodies;
 use super::cache::{Certificates, Closed, Known};
+use super::certifiable::Certifiable;
 use super::closed_forms::ClosedForms;
 use super::precision::ALLOWED;
 use super::residual::{Left, Residual};
@@ -47,18 +47,18 @@ where
 }
 
 impl<'a, E> Analytic<'a, E> {
-    /// For a scene and the bodies of its mesh as a camera sees them, around this estimator. [`begin`](Self::begin) prepares for a tile.
+    /// For a scene as a camera sees it, around this estimator. [`begin`](Self::begin) prepares for a tile.
     pub(crate) fn new(
         scene: &'a PreparedScene,
-        bodies: &'a Bodies,
+        certifiable: &'a Certifiable,
         camera: &Camera,
         settings: &Settings,
         inner: E,
     ) -> Self {
         Self {
-            certificates: Certificates::new(scene, bodies, camera, settings),
+            certificates: Certificates::new(scene, certifiable, camera, settings),
             forms: ClosedForms::default(),
-            left: Left::new(scene.lights.has_irradiances()),
+            left: Left::new(certifiable.has_irradiances()),
             is_hopeless: false,
             knows_all: false,
             inner,

@@ -6,8 +6,10 @@
 
 use super::blockers::Blocker;
 use super::bodies::Bodies;
+use super::certifiable::Certifiable;
 use super::certifier::{Certificate, Certifier};
 use super::patch::{Patch, Pyramid, Viewer};
+use super::picture_irradiance::PictureIrradiance;
 use super::precision::Precision;
 use super::scenery::{Blocking, Scenery};
 use crate::area::TILE;
@@ -15,8 +17,7 @@ use crate::bvh::{NOTHING, SHAPE};
 use crate::camera::{Camera, Pinhole};
 use crate::estimate::Place;
 use crate::geometry::Geometry;
-use crate::lights::PictureIrradiance;
-use crate::packet::{M8, V8, X8, equal};
+use crate::packet::{M8, V8, X8, equal, first_lane};
 use crate::prepared::PreparedScene;
 use crate::settings::Settings;
 use crate::surfaces::{Surface, Surfaces};
@@ -123,15 +124,20 @@ fn is_clipped(light: &Convex<f32>, blockers: &[Blocker]) -> bool {
 
 impl<'a> Certificates<'a> {
     /// For a scene as a camera sees it. [`begin`](Self::begin) prepares for a tile.
-    pub(super) fn new(scene: &'a PreparedScene, bodies: &'a Bodies, camera: &Camera, settings: &Settings) -> Self {
-        let surfaces = &scene.surfaces;
+    pub(super) fn new(
+        scene: &'a PreparedScene,
+        certifiable: &'a Certifiable,
+        camera: &Camera,
+        settings: &Settings,
+    ) -> Self {
+        let (surfaces, bodies) = (&scene.surfaces, &certifiable.bodies);
         let count = surfaces.light_shapes().count();
         let pixels = SAMPLES_PER_CERTIFICATE * count as f64 / f64::from(settings.spp);
         let (eye, pixel) = camera.middle(settings.width, settings.height);
         let light = |(light, index): (usize, u32)| {
             let shape = &surfaces.shapes()[index as usize];
             let emission = shape.emission?;
-            let closed = match scene.lights.irradiance(light) {
+            let closed = match certifiable.irradiances.get(light).and_then(Option::as_ref) {
                 Some(irradiance) => Closed::Picture(irradiance),
                 None if emission.is_even() => Closed::Constant,
                 None => Closed::No,
@@ -201,7 +207,7 @@ impl<'a> Certificates<'a> {
     /// Index of the certificates for the surface of the first of these lanes, and the lanes that have them. Where nothing is worth asking
     /// for, it is 0.
     pub(super) fn find(&mut self, surface: &Surface, places: &Place, lanes: M8) -> (usize, M8) {
-        let lane = lanes.bits().trailing_zeros() as usize & 7;
+        let lane = first_lane(lanes);
         let place = places.primitives.as_array()[lane];
         let here = lanes & equal(places.primitives, u32x8::splat(place));
         if !self.is_worth(place) {

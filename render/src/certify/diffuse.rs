@@ -2,13 +2,13 @@
 
 use super::analytic::Analytic;
 use super::cache::{Closed, Known};
+use super::picture_irradiance::PictureIrradiance;
 use super::precision::Precision;
 use super::scenery::Blocking;
 use super::visible::Ask;
 use crate::bvh::GROUP;
 use crate::estimate::{Group, Proof, product};
-use crate::lights::PictureIrradiance;
-use crate::packet::{M8, V8, X8, select};
+use crate::packet::{M8, V8, X8, first_lane, select};
 use crate::surfaces::Surface;
 use etendue::{Mask, Real};
 use std::f64::consts::FRAC_1_PI;
@@ -159,7 +159,7 @@ impl<E> Analytic<'_, E> {
                     Known::Crowded | Known::Nothing | Known::Never => seen.remaining[p] = seen.remaining[p] | *lanes,
                     Known::Behind(blocking, precision) => {
                         // the other lanes repeat one of these: what is not seen from here does not matter
-                        let lane = lanes.bits().trailing_zeros() as usize & 7;
+                        let lane = first_lane(*lanes);
                         let repeat = |v: V8| V8::blend(*lanes, v, V8::splat(v.lane(lane)));
                         let (point, normal) = (repeat(surface.point), repeat(surface.normal));
                         let ask = Ask { packet: p, lanes: *lanes, point, normal, blocking: blocking.clone() };

@@ -7,7 +7,7 @@ use super::precision::Precision;
 use super::scenery::Blocking;
 use crate::estimate::{Place, product};
 use crate::lobe::Lobe;
-use crate::packet::{M8, V8, X8};
+use crate::packet::{M8, V8, X8, first_lane};
 use crate::surfaces::Surface;
 use etendue::reflection::Reflection;
 use etendue::{Mask, Real};
@@ -65,7 +65,7 @@ impl<E> Analytic<'_, E> {
             return None;
         }
         // the other lanes repeat one of these: what is not seen from here does not matter
-        let lane = lanes.bits().trailing_zeros() as usize & 7;
+        let lane = first_lane(lanes);
         let of = |v: V8| V8::blend(lanes, v, V8::splat(v.lane(lane)));
         let (point, normal) = (of(surface.point), of(surface.normal));
         let one = Reflection::splat(lobe.reflection.map(|x| x.lane(lane)));

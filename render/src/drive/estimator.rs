@@ -13,11 +13,11 @@ pub(super) enum OfTechnique<'a> {
 }
 
 impl<'a> OfTechnique<'a> {
-    pub(super) fn new(World { scene, bodies, .. }: &'a World, settings: &Settings, camera: &Camera) -> Self {
+    pub(super) fn new(World { scene, certifiable, .. }: &'a World, settings: &Settings, camera: &Camera) -> Self {
         let Settings { technique, .. } = *settings;
         if technique.is_analytic(scene.has_closed_forms(settings.choice)) {
             let sampled = Sampled::new(technique, scene.surfaces.has_rough());
-            Self::Analytic(Box::new(Analytic::new(scene, bodies, camera, settings, sampled)))
+            Self::Analytic(Box::new(Analytic::new(scene, certifiable, camera, settings, sampled)))
         } else {
             Self::Sampled(Sampled::new(technique, false))
         }

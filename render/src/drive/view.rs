@@ -108,7 +108,7 @@ impl View<'_> {
     /// one.
     fn choose(&self) -> Technique {
         let scene = &self.world.scene;
-        let is_sampled = self.camera.has_lens() || scene.lights.only_sampled();
+        let is_sampled = self.camera.has_lens() || self.world.certifiable.only_sampled();
         if scene.has_closed_forms(self.settings.choice) && !is_sampled {
             Technique::Analytic
         } else if scene.surfaces.has_rough() {

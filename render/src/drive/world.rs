@@ -1,7 +1,7 @@
 //! A scene ready to be rendered.
 
 use crate::bvh::BuildError;
-use crate::certify::Bodies;
+use crate::certify::Certifiable;
 use crate::options::name;
 use crate::prepared::PreparedScene;
 use crate::scene::{CameraSettings, Scene};
@@ -12,8 +12,8 @@ use crate::settings::Settings;
 #[derive(Debug)]
 pub struct World {
     pub(super) scene: PreparedScene,
-    /// Convex parts of its mesh.
-    pub(super) bodies: Bodies,
+    /// What closed forms need.
+    pub(super) certifiable: Certifiable,
     pub(super) camera: CameraSettings,
     /// Diagonal of the film in millimetres.
     diagonal: f64,
@@ -39,8 +39,13 @@ impl World {
 
     fn with(prepared: PreparedScene, scene: &Scene) -> Self {
         let (camera, diagonal) = (scene.camera.clone(), scene.film.diagonal);
-        let bodies = Bodies::new(&prepared.surfaces.bvh);
-        Self { scene: prepared, bodies, camera, diagonal, sensor: Sensor::default() }
+        Self {
+            certifiable: Certifiable::new(scene, &prepared),
+            scene: prepared,
+            camera,
+            diagonal,
+            sensor: Sensor::default(),
+        }
     }
 
     /// Size of the trees and their primitives in bytes.

@@ -5,7 +5,7 @@ use super::integrand::Integrand;
 use crate::bvh::GROUP;
 use crate::choose::{Chooser, LightPmf};
 use crate::lobe::Lobe;
-use crate::packet::{M8, X8, equal, pick, select};
+use crate::packet::{M8, X8, each_group, pick, select};
 use crate::sky::SunBeside;
 use crate::surfaces::Surface;
 use etendue::select::{Choice, Gloss, LightChoice};
@@ -79,13 +79,8 @@ fn chosen<const GENERAL: bool, I: Integrand>(
     let stray =
         !group.rough::<GENERAL>(packet) & unexpected.fold(none, |stray, light| stray | remaining[light][packet]);
     let choice = allocated.choose(numbers[0]);
-    let (mut lanes, mut left) = (none, all & !stray);
-    while left.any() {
-        let light = choice.index.as_array()[left.bits().trailing_zeros() as usize & 7];
-        let same = left & equal(choice.index, u32x8::splat(light));
-        lanes = lanes | same & remaining[light as usize][packet];
-        left = left & !same;
-    }
+    let mut lanes = none;
+    each_group(choice.index, all & !stray, |light, same| lanes = lanes | same & remaining[light as usize][packet]);
     if !stray.any() {
         return (choice, lanes);
     }

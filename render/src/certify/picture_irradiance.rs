@@ -78,7 +78,7 @@ struct Level {
 /// - Domain: any points; what is too near, or crosses the horizon in a box, is unknown.
 /// - Greatest error: 1e−5 of the irradiance of a surface that faces the picture.
 #[derive(Clone, Debug)]
-pub struct PictureIrradiance {
+pub(super) struct PictureIrradiance {
     /// Where the coordinates of the surface are 0.
     corner: Vec3<f32>,
     edges: [Vec3<f32>; 2],
@@ -191,7 +191,7 @@ impl PictureIrradiance {
     /// `None` unless the shape is a parallelogram that shows all of a picture, upright or mirrored, and clamped at its edges if it is
     /// interpolated.
     #[must_use]
-    pub fn new(shown: &LightPicture, geometry: &Geometry) -> Option<Self> {
+    pub(super) fn new(shown: &LightPicture, geometry: &Geometry) -> Option<Self> {
         let Geometry::Parallelogram { p, u, v } = *geometry else { return None };
         let mirrored = shown.whole(geometry)?;
         let Picture { texels, bilinear, .. } = &shown.picture;
@@ -253,7 +253,7 @@ impl PictureIrradiance {
     /// Irradiance at points `p` of surfaces with the unit normal `n`, in the unit of radiance times steradian, if nothing hides the picture.
     /// Both of its sides emit. Also, the lanes in which it is known: where all of the picture is on one side of the horizon, as far as
     /// smaller and smaller boxes of texels tell, and not too near.
-    pub fn at(&self, p: V8, n: V8, lanes: M8) -> (V8, M8) {
+    pub(super) fn at(&self, p: V8, n: V8, lanes: M8) -> (V8, M8) {
         let scale = X8::splat(self.unit);
         let from = (V8::splat(self.corner) - p) * scale;
         let mut sum = V8::default();
