@@ -239,7 +239,10 @@ fn what_does_not_fit_is_refused_and_named() {
     let Content::Pixels(pixels) = &mut piece.content else { panic!("pixels") };
     pixels[7].mean[1] += 1e-6;
     let wrong = job.write(piece);
-    refused(&[&parts[..], &[wrong.clone()]].concat(), &[&text(&parts[0]), &text(&wrong), "both hold --tile 0,0,32,16"]);
+    refused(
+        &[&parts[..], std::slice::from_ref(&wrong)].concat(),
+        &[&text(&parts[0]), &text(&wrong), "both hold --tile 0,0,32,16"],
+    );
     refused(&[], &["there are no parts"]);
 
     // parts of other images
@@ -315,7 +318,7 @@ fn images_of_different_seeds_are_averaged() {
         ] {
             let mut job = job;
             let alien = job.whole();
-            refused(&[&files[..], &[alien.clone()]].concat(), &[&text(&alien), &text(&files[0]), says]);
+            refused(&[&files[..], std::slice::from_ref(&alien)].concat(), &[&text(&alien), &text(&files[0]), says]);
         }
     }
 }
