@@ -3,7 +3,6 @@
 //!
 //! `cargo bench -p etendue-benches --bench loading -- [SIDE]` reads grids of SIDE × SIDE vertices (2,000).
 
-use etendue_render::scene;
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -109,7 +108,7 @@ fn main() {
         let row = |kind: &str, path: &Path, bytes: usize| {
             let read = || {
                 let start = Instant::now();
-                let scene = scene::load(path).expect("a valid file");
+                let scene = etendue_scene::load(path).expect("a valid file");
                 assert_eq!(scene.triangles.len(), grid.count());
                 start.elapsed().as_secs_f64()
             };

@@ -13,8 +13,7 @@ use etendue_render::parts::{self, Piece};
 use etendue_render::sampler::Sampler;
 use etendue_render::sensor::Sensor;
 use etendue_render::technique::Technique;
-use etendue_render::{Identity, scene};
-use etendue_render::{Settings, World};
+use etendue_render::{Identity, Settings, World};
 use rayon::prelude::*;
 use std::fs;
 use std::path::PathBuf;
@@ -76,7 +75,7 @@ fn row(what: &str, identity: &Identity, count: u32, piece: impl Fn(u32) -> Piece
 
 fn main() {
     let most = std::env::args().skip(1).find_map(|a| a.parse().ok()).unwrap_or(10_000_u32);
-    let scene = scene::load("quads").expect("a built-in scene");
+    let scene = etendue_etendue_scene::load("quads").expect("a built-in scene");
     let world = World::new(&scene).expect("few primitives");
     let identity = |settings: Settings| Identity::new(&scene, settings, Sensor::Radiance);
     println!("| parts | image, M pixels | kB each | written in s | merged in s | image written in s | peak, MB |");

@@ -7,7 +7,7 @@
 
 use etendue_benches::memory::{peak, start_peak};
 use etendue_render::sampler::Sampler;
-use etendue_render::scene::{self, Emission, Geometry, Scene, Shape};
+use etendue_render::scene::{Emission, Geometry, Scene, Shape};
 use etendue_render::technique::Technique;
 use etendue_render::{Settings, World};
 use std::path::Path;
@@ -27,7 +27,7 @@ Shape "bilinearmesh" "point3 P" [ 1 5 -2   3 5 -2   1 5 0   3 5 0 ]
 "#;
 
 fn empty() -> Scene {
-    let mut scene = scene::parse(EMPTY, "empty.pbrt", Path::new(".")).expect("a scene");
+    let mut scene = etendue_scene::parse(EMPTY, "empty.pbrt", Path::new(".")).expect("a scene");
     // the sphere only defines its material
     scene.shapes = scene.shapes[1..].into();
     scene

@@ -7,7 +7,8 @@ pub type Area = [u32; 4];
 pub const TILE: u32 = 16;
 
 /// Where an image is in a larger one, of which it is a part.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "exr", derive(serde::Serialize, serde::Deserialize))]
 pub struct Place {
     /// The column and row of its first pixel.
     pub start: [u32; 2],

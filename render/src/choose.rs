@@ -10,6 +10,7 @@ mod uniform;
 use crate::bvh::BuildError;
 use crate::light_tree::OwnedTree;
 use crate::lights::Lights;
+use crate::named::named;
 use crate::packet::{V8, X8};
 use choose_light::ChooseLight;
 use etendue::discrete::PiecewiseConstant2d;
@@ -19,23 +20,24 @@ use kinds::{Kinds, KindsAt};
 use power::Power;
 use std::sync::OnceLock;
 
-/// How a light is chosen.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, clap::ValueEnum, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum ChoiceBy {
-    /// Spatial where it applies, else kinds; a few delta lights are all sampled, and a few others share the samples of a pixel beforehand, or need none with analytic
-    #[default]
-    Auto,
-    /// Each light has the same chance
-    Uniform,
-    /// By power; that of a sun or sky passes a disk as large as the scene
-    Power,
-    /// By what each of up to 32 lights can contribute to the point; no sun or sky
-    Spatial,
-    /// By a light tree; no sun or sky
-    Tree,
-    /// Lamps, suns or sky by the irradiance that they can cause at the point, then one of them by a light tree
-    Kinds,
+named! {
+    /// How a light is chosen.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub enum ChoiceBy {
+        /// Spatial where it applies, else kinds; a few delta lights are all sampled, and a few others share the samples of a pixel beforehand, or need none with analytic
+        #[default]
+        Auto = "auto",
+        /// Each light has the same chance
+        Uniform = "uniform",
+        /// By power; that of a sun or sky passes a disk as large as the scene
+        Power = "power",
+        /// By what each of up to 32 lights can contribute to the point; no sun or sky
+        Spatial = "spatial",
+        /// By a light tree; no sun or sky
+        Tree = "tree",
+        /// Lamps, suns or sky by the irradiance that they can cause at the point, then one of them by a light tree
+        Kinds = "kinds",
+    }
 }
 
 /// A chosen way, with its tables.

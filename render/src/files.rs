@@ -46,25 +46,6 @@ pub fn read_file(path: &Path) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// Greatest size of a file that was compressed by gzip, in bytes: a few bytes may stand for any number.
-const MOST_UNPACKED: u64 = 1 << 34;
-
-/// Like [`read_file`]; unpacks files that gzip has compressed, whatever their names.
-pub fn read_unpacked(path: &Path) -> io::Result<Vec<u8>> {
-    let bytes = read_file(path)?;
-    if !bytes.starts_with(&[0x1f, 0x8b]) {
-        return Ok(bytes);
-    }
-    let damaged = |error: io::Error| io::Error::new(error.kind(), format!("damaged by its gzip compression: {error}"));
-    let mut unpacked = Vec::new();
-    let mut reader = flate2::read::MultiGzDecoder::new(&bytes[..]).take(MOST_UNPACKED + 1);
-    reader.read_to_end(&mut unpacked).map_err(damaged)?;
-    if unpacked.len() as u64 > MOST_UNPACKED {
-        return Err(io::Error::other("more than 16 GiB when it is unpacked"));
-    }
-    Ok(unpacked)
-}
-
 /// Whether two paths lead to the same existing file, by whatever names or links.
 #[must_use]
 pub fn is_same(a: &Path, b: &Path) -> bool {

@@ -1,25 +1,19 @@
-//! Image files: EXR with the variance of the estimate, and PNG for viewing. No other module uses the exr and image crates.
+//! Image files: EXR with the variance of the estimate, and PNG for viewing. No other module uses the exr and png crates.
 
 pub mod layer;
-mod pfm;
 mod size;
-mod texels;
 
 pub use exr::prelude::Compression;
-pub use texels::Encoding;
+pub use size::check_size;
 
 use crate::files::{FileError, failed, replace};
 use crate::film::{Film, Pixel};
-use crate::texture::{Colors, Texels, srgb_to_linear};
 use exr::block::chunk::CompressedBlock;
 use exr::meta::attribute::IntegerBounds;
 use exr::prelude::{ReadChannels, ReadLayers};
 use layer::Numbers;
-use size::believe;
-use std::fmt;
 use std::io::{BufWriter, Cursor};
 use std::path::Path;
-use texels::{PNG, Rows};
 
 const CHANNELS: [&str; 3] = ["R", "G", "B"];
 
@@ -89,77 +83,6 @@ pub struct Picture {
     pub variance: Option<Vec<[f32; 3]>>,
 }
 
-/// Reads a picture from an OpenEXR or Radiance HDR file, or from a PNG file, whose values are decoded from sRGB.
-///
-/// The picture of an OpenEXR file is its display window. Where its data window has no pixels, it is black, and what it has outside is left out.
-///
-/// # Errors
-/// Fails if the file is missing, damaged or of another format, or has more than 2²⁸ pixels.
-pub fn read(path: &Path) -> Result<Picture, FileError> {
-    let bytes = crate::files::read_file(path).map_err(|error| failed(path, format!("cannot read: {error}")))?;
-    decode(path, &bytes)
-}
-
-/// Like [`read`], from the bytes of a file that messages call `path`.
-///
-/// # Errors
-/// Fails if the bytes are damaged or of another format, or hold more than 2²⁸ pixels.
-pub fn decode(path: &Path, bytes: &[u8]) -> Result<Picture, FileError> {
-    // OpenEXR's magic number
-    if bytes.starts_with(&[0x76, 0x2f, 0x31, 0x01]) {
-        return decode_windows(bytes, path)
-            .and_then(|(data, start, display)| displayed(path, bytes.len(), data, start, display));
-    }
-    if bytes.starts_with(PNG) {
-        return decode_png(bytes, path);
-    }
-    if let Some(image) = pfm::decode(path, bytes) {
-        return image.map(|(width, height, radiance)| Picture { width, height, radiance, variance: None });
-    }
-    let not_one = |error: &dyn fmt::Display| failed(path, format!("not a valid EXR, HDR, PFM or PNG image: {error}"));
-    let decoder = image_files::codecs::hdr::HdrDecoder::new(Cursor::new(bytes)).map_err(|error| not_one(&error))?;
-    let [width, height] = [decoder.metadata().width, decoder.metadata().height];
-    // a run of equal pixels takes few bytes
-    believe(path, [width.into(), height.into()], 1, bytes.len())?;
-    let image = image_files::DynamicImage::from_decoder(decoder).map_err(|error| not_one(&error))?;
-    let radiance = image.into_rgb32f().pixels().map(|p| p.0).collect();
-    Ok(Picture { width: width as usize, height: height as usize, radiance, variance: None })
-}
-
-/// Reads a PNG file of any depth and colour type; transparency is ignored.
-fn decode_png(bytes: &[u8], path: &Path) -> Result<Picture, FileError> {
-    let Rows { width, height, channels, is_wide, data } = Rows::of_png(path, bytes, png::Transformations::EXPAND)?;
-    let samples: Vec<f32> = if is_wide {
-        let pairs = data.chunks_exact(2);
-        pairs.map(|b| srgb_to_linear(f64::from(u16::from_be_bytes([b[0], b[1]])) / 65535.0)).collect()
-    } else {
-        data.iter().map(|&b| srgb_to_linear(f64::from(b) / 255.0)).collect()
-    };
-    // grey, or grey and alpha, have one colour channel
-    let color = |p: &[f32]| if channels < 3 { [p[0]; 3] } else { [p[0], p[1], p[2]] };
-    let radiance = samples.chunks_exact(channels).map(color).collect();
-    Ok(Picture { width, height, radiance, variance: None })
-}
-
-/// Reads a texture from the bytes of a PNG, JPEG, TGA, OpenEXR or Radiance HDR file that messages call `path`. Negative values become 0;
-/// also returns the number of texels that have some.
-///
-/// # Errors
-/// Fails if the bytes are damaged or of another format, hold more than 2²⁸ pixels, or a texel that is not finite.
-pub fn read_texels(path: &Path, bytes: &[u8], encoding: Encoding) -> Result<(Texels, usize), FileError> {
-    if let Some(texels) = texels::from_bytes(path, bytes, encoding) {
-        return texels.map(|texels| (texels, 0));
-    }
-    let Picture { width, height, radiance, .. } = decode(path, bytes)?;
-    if let Some(i) = radiance.iter().position(|rgb| !rgb.iter().all(|x| x.is_finite())) {
-        let (x, y, texel) = (i % width, i / width, radiance[i]);
-        return Err(failed(path, format!("texel ({x}, {y}) is {texel:?}: must be finite")));
-    }
-    let negative = radiance.iter().filter(|rgb| rgb.iter().any(|&x| x < 0.0)).count();
-    let colors = Colors::Float(radiance.iter().map(|rgb| rgb.map(|x| x.max(0.0))).collect());
-    Ok((Texels { width, height, colors, alpha: None }, negative))
-}
-
 impl From<&Film> for Picture {
     fn from(film: &Film) -> Self {
         Self {
@@ -188,6 +111,14 @@ pub fn decode_exr(bytes: &[u8], path: &Path) -> Result<Picture, FileError> {
     decode_windows(bytes, path).map(|(data, ..)| data)
 }
 
+/// Like [`decode_exr`], but of the display window: where the data window has no pixels, it is black, and what it has outside is left out.
+///
+/// # Errors
+/// Fails if the file is damaged, has no R, G, B, or has more than 2²⁸ pixels.
+pub fn decode_displayed(bytes: &[u8], path: &Path) -> Result<Picture, FileError> {
+    decode_windows(bytes, path).and_then(|(data, start, display)| displayed(path, bytes.len(), data, start, display))
+}
+
 /// What a display window shows of the pixels of a data window whose first one is `start`, in a file of `length` bytes.
 fn displayed(
     path: &Path,
@@ -203,7 +134,7 @@ fn displayed(
     }
     // a small data window takes few bytes, however large the display window is
     let size = [width as u128, height as u128];
-    believe(path, size, 1, length.max(SHORT))?;
+    check_size(path, size, 1, length.max(SHORT))?;
     let mut radiance = vec![[0.0; 3]; width * height];
     // of a pixel of the display window, the one of the data window
     let inside = |k: usize, at: usize, side: usize| {
@@ -230,7 +161,7 @@ fn decode_windows(bytes: &[u8], path: &Path) -> Result<(Picture, [i64; 2], Integ
         let size = [header.layer_size.width() as u128, header.layer_size.height() as u128];
         // other channels may be subsampled, but R, G and B must not be: a pixel takes at least four bytes
         let full = header.channels.list.iter().all(|c| c.sampling == exr::math::Vec2(1, 1));
-        believe(path, size, 8 * if full { samples.sum() } else { 4 }, bytes.len())?;
+        check_size(path, size, 8 * if full { samples.sum() } else { 4 }, bytes.len())?;
     }
     // the reader selects chunks by the offset table but stores them by their own coordinates: both must agree
     let full_size = exr::math::Vec2(0, 0);

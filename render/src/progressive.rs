@@ -381,6 +381,7 @@ fn sum(a: RayCount, b: RayCount) -> RayCount {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::{CameraSettings, Emission, Geometry, Material, Scene, Screen, Shape};
 
     static NEVER: AtomicBool = AtomicBool::new(false);
 
@@ -408,11 +409,25 @@ mod tests {
         assert_eq!(seed(0, 1), 0xe220_a839_7b1d_cdaf);
     }
 
+    /// A floor under a square light, seen from above.
+    fn lit_floor() -> World {
+        let (origin, forward, right, up) = ([0.0, 0.0, 1.0], [0.0, 0.0, -1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]);
+        let (screen, lens) = (Screen::Half(0.5), None);
+        let camera = CameraSettings { origin, forward, right, up, is_orthographic: false, screen, lens };
+        let square = Geometry::Parallelogram { p: [0.0, 0.0, 1.5], u: [0.0, 0.5, 0.0], v: [0.5, 0.0, 0.0] };
+        let emission = Some(Emission { radiance: [1.0; 3], ..Emission::default() });
+        let mut scene = Scene::new(camera, [40, 32]);
+        scene.materials.push(Material::Diffuse([0.5; 3]));
+        scene.triangles.push([[-9.0, -9.0, 0.0], [9.0, -9.0, 0.0], [0.0, 9.0, 0.0]]);
+        scene.triangle_materials.push(0);
+        scene.shapes = [Shape { geometry: square, material: 0, emission }].into();
+        World::new(&scene).unwrap()
+    }
+
     /// Passes of a part change its pixels alone, and their number of samples follows the time of the last pass.
     #[test]
     fn a_part_takes_passes_of_its_own() {
-        let scene = crate::scene::load("quads").unwrap();
-        let world = World::new(&scene).unwrap();
+        let world = lit_floor();
         for sampler in [Sampler::Adaptive, Sampler::Independent] {
             let technique = crate::Technique::SolidAngle;
             let settings = Settings {
@@ -457,7 +472,7 @@ mod tests {
     /// A preview shows the image early, and is no part of it later.
     #[test]
     fn a_preview_is_followed_by_passes_of_the_usual_sampler() {
-        let world = World::new(&crate::scene::load("quads").unwrap()).unwrap();
+        let world = lit_floor();
         let (technique, sampler) = (crate::Technique::SolidAngle, Sampler::Adaptive);
         let settings = Settings {
             width: 16,

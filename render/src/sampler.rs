@@ -8,34 +8,32 @@
 //! consists of a few independent *replicates* of the set, and its variance is that of the mean of their means. Pixels of the sampler
 //! `adaptive` can have one set, since second sets of some pixels tell the variances of all.
 
+use crate::named::named;
 use crate::packet::{M8, X8};
 use etendue::sequence::{
     Independent, JointSobol, JointStratified, OwenSobol, Sequence, Stratified, ZOrder, ZOrderIndex,
 };
 use etendue::{Vec2, u32x8};
 
-/// How random numbers are spread over the samples of a pixel.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Sampler {
-    /// Independent random numbers
-    Independent,
-    /// Jittered strata in the pixel and on the light, paired at random
-    Stratified,
-    /// Jittered strata of pixel × light (× lens); takes n⁴ (n⁶) samples, or 2 or 4 times as many
-    #[value(name = "stratified-4d")]
-    #[serde(rename = "stratified-4d")]
-    Stratified4d,
-    /// Owen-scrambled Sobol pairs in the pixel and on the light, paired at random
-    Sobol,
-    /// Owen-scrambled Sobol points of pixel × light (× lens)
-    #[value(name = "sobol-4d")]
-    #[serde(rename = "sobol-4d")]
-    Sobol4d,
-    /// Owen-scrambled Sobol pairs distributed along a Z-order curve of pixels: blue noise
-    ZOrder,
-    /// Like sobol, with more samples in pixels whose neighbours have more variance
-    Adaptive,
+named! {
+    /// How random numbers are spread over the samples of a pixel.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Sampler {
+        /// Independent random numbers
+        Independent = "independent",
+        /// Jittered strata in the pixel and on the light, paired at random
+        Stratified = "stratified",
+        /// Jittered strata of pixel × light (× lens); takes n⁴ (n⁶) samples, or 2 or 4 times as many
+        Stratified4d = "stratified-4d",
+        /// Owen-scrambled Sobol pairs in the pixel and on the light, paired at random
+        Sobol = "sobol",
+        /// Owen-scrambled Sobol points of pixel × light (× lens)
+        Sobol4d = "sobol-4d",
+        /// Owen-scrambled Sobol pairs distributed along a Z-order curve of pixels: blue noise
+        ZOrder = "z-order",
+        /// Like sobol, with more samples in pixels whose neighbours have more variance
+        Adaptive = "adaptive",
+    }
 }
 
 /// The pair for the position in the pixel.

@@ -4,22 +4,24 @@
 //! film's diagonal (35 mm by default). Camera space is in metres, as in pbrt.
 
 use crate::camera::{CameraSample, Slopes};
+use crate::named::named;
 use crate::packet::X8;
 use crate::scene;
 use etendue::Real;
 use std::f64::consts::PI;
 
-/// The quantity that a pixel measures.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Sensor {
-    /// Mean radiance over pixel and lens, W/(m² sr)
-    #[default]
-    Radiance,
-    /// Mean irradiance of the film over the pixel, W/m²
-    Irradiance,
-    /// Power incident on the pixel, W
-    Power,
+named! {
+    /// The quantity that a pixel measures.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub enum Sensor {
+        /// Mean radiance over pixel and lens, W/(m² sr)
+        #[default]
+        Radiance = "radiance",
+        /// Mean irradiance of the film over the pixel, W/m²
+        Irradiance = "irradiance",
+        /// Power incident on the pixel, W
+        Power = "power",
+    }
 }
 
 /// The weight of radiance that arrives at the film through a lens.

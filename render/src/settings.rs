@@ -14,7 +14,8 @@ pub(crate) fn tiles([left, top, right, bottom]: Area) -> impl Iterator<Item = Ar
 }
 
 /// Everything an image depends on besides the scene.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "exr", derive(serde::Serialize, serde::Deserialize))]
 pub struct Settings {
     /// Pixels across, at least 1.
     pub width: u32,
@@ -68,42 +69,5 @@ impl Settings {
         let is_side = |at: u32, end: u32| at.is_multiple_of(TILE) || at == end;
         let is_range = |a: u32, b: u32, end: u32| a < b && b <= end && is_side(a, end) && is_side(b, end);
         is_range(x0, x1, self.width) && is_range(y0, y1, self.height)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::{World, scene};
-
-    const SETTINGS: Settings = Settings {
-        width: 8,
-        height: 8,
-        spp: 4,
-        technique: Technique::Auto,
-        choice: ChoiceBy::Auto,
-        depth: 8,
-        sampler: Sampler::Sobol,
-        sets: 0,
-        seed: 0,
-    };
-
-    /// Settings of no image are refused before a pixel is rendered.
-    #[test]
-    fn impossible_settings_are_named() {
-        let world = World::new(&scene::load("quads").unwrap()).unwrap();
-        assert_eq!(SETTINGS.check(), Ok(()));
-        for (settings, what) in [
-            (Settings { spp: 0, ..SETTINGS }, "8 × 8 pixels of 0 samples in 0 sets"),
-            (Settings { spp: MOST_SAMPLES + 1, ..SETTINGS }, "of 4194305 samples"),
-            (Settings { sets: 3, ..SETTINGS }, "in 3 sets"),
-            (Settings { sets: 8, spp: 64, sampler: Sampler::Adaptive, ..SETTINGS }, "in 8 sets"),
-            (Settings { width: 0, ..SETTINGS }, "0 × 8 pixels"),
-            (Settings { height: 1 << 20, ..SETTINGS }, "8 × 1048576 pixels"),
-        ] {
-            let panic = std::panic::catch_unwind(|| drop(world.render(&settings, &|_| ()))).unwrap_err();
-            let found = panic.downcast_ref::<String>().unwrap();
-            assert!(found.contains(what), "{found}");
-        }
     }
 }

@@ -1,33 +1,35 @@
 //! How lights are sampled.
 
+use crate::named::named;
 use etendue::estimate::Heuristic;
 
-/// How a light is sampled.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Technique {
-    /// Directions uniform over the hemisphere; rays hit lights by chance
-    UniformHemisphere,
-    /// Directions in proportion to the cosine; rays hit lights by chance
-    CosineHemisphere,
-    /// Points uniform over a light's area
-    Area,
-    /// Directions uniform over the solid angle of a light
-    SolidAngle,
-    /// Directions uniform over the projected solid angle of a light
-    ProjectedSolidAngle,
-    /// Directions by the BSDF: the cosine, or the visible normals of a rough metal
-    Brdf,
-    /// Solid-angle and brdf, combined by the balance heuristic
-    MisBalance,
-    /// Solid-angle and brdf, combined by the power heuristic
-    MisPower,
-    /// Mis-power, but spheres that rough metals reflect are sampled by the lobe of the metal alone
-    MisLobe,
-    /// Exact where geometry tells what occludes a light, and nearly so on rough surfaces; the rest by solid angle, or as mis-lobe
-    Analytic,
-    /// Analytic with up to 32 lights that all have an area, and no lens; else mis-lobe with rough surfaces, and solid-angle without
-    Auto,
+named! {
+    /// How a light is sampled.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Technique {
+        /// Directions uniform over the hemisphere; rays hit lights by chance
+        UniformHemisphere = "uniform-hemisphere",
+        /// Directions in proportion to the cosine; rays hit lights by chance
+        CosineHemisphere = "cosine-hemisphere",
+        /// Points uniform over a light's area
+        Area = "area",
+        /// Directions uniform over the solid angle of a light
+        SolidAngle = "solid-angle",
+        /// Directions uniform over the projected solid angle of a light
+        ProjectedSolidAngle = "projected-solid-angle",
+        /// Directions by the BSDF: the cosine, or the visible normals of a rough metal
+        Brdf = "brdf",
+        /// Solid-angle and brdf, combined by the balance heuristic
+        MisBalance = "mis-balance",
+        /// Solid-angle and brdf, combined by the power heuristic
+        MisPower = "mis-power",
+        /// Mis-power, but spheres that rough metals reflect are sampled by the lobe of the metal alone
+        MisLobe = "mis-lobe",
+        /// Exact where geometry tells what occludes a light, and nearly so on rough surfaces; the rest by solid angle, or as mis-lobe
+        Analytic = "analytic",
+        /// Analytic with up to 32 lights that all have an area, and no lens; else mis-lobe with rough surfaces, and solid-angle without
+        Auto = "auto",
+    }
 }
 
 impl Technique {

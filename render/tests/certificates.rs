@@ -171,7 +171,7 @@ fn time_per_search() {
 fn time_per_certificate() {
     time_per_search();
     for name in ["quads", "terrain"] {
-        let scene = etendue_render::scene::load(name).unwrap();
+        let scene = etendue_scene::load(name).unwrap();
         let surfaces = Surfaces::new(&scene).unwrap();
         let bodies = Bodies::new(&surfaces.bvh);
         let mut certifier = Certifier::new(&surfaces, &bodies, surfaces.light_shapes());

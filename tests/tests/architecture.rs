@@ -176,12 +176,13 @@ const EXCEPTIONS: [(&str, &str, &str, &str); 2] = [
 
 /// The packages, and whether the files inside of their folders must import one way, too. In the core and the properties, the file of a
 /// folder has the traits and types that all its modules share, so they import it.
-const PACKAGES: [(&str, bool); 11] = [
+const PACKAGES: [(&str, bool); 12] = [
     ("core", false),
     ("core/fit", true),
     ("core/playground", true),
     ("core/shader", true),
     ("render", true),
+    ("render/scene", true),
     ("render/laboratory", true),
     ("render/cli", true),
     ("tests/bits", true),
@@ -233,7 +234,8 @@ fn imports_are_found() {
         ("core", "core", "light", "spherical"),
         ("core/shader", "core/shader", "plan", "graph"),
         ("render", "render", "drive", "estimate"),
-        ("render", "render", "scene", "image"),
+        ("render", "render", "image", "film"),
+        ("render/scene", "render/scene", "gltf", "builder"),
         ("render", "render::bvh", "stream", "single_ray"),
         ("render", "render::bvh", "bvh", "stream"),
         ("render", "render::drive", "tile", "estimator"),
@@ -264,7 +266,7 @@ fn imports_are_found() {
 }
 
 /// Which packages of the workspace each one may use, and which more its tests, benchmarks and examples may.
-const ARROWS: [(&str, &[&str], &[&str]); 20] = [
+const ARROWS: [(&str, &[&str], &[&str]); 21] = [
     ("core", &[], &[]),
     ("core/batch", &["etendue"], &[]),
     ("core/c", &["etendue", "etendue-batch"], &[]),
@@ -273,17 +275,18 @@ const ARROWS: [(&str, &[&str], &[&str]); 20] = [
     ("core/python", &["etendue", "etendue-batch"], &[]),
     ("core/shader", &["etendue"], &["etendue-oracle", "etendue-properties"]),
     ("core/shader/device", &[], &[]),
-    ("render", &["etendue"], &["etendue-oracle"]),
-    ("render/laboratory", &["etendue", "etendue-oracle", "etendue-render"], &["etendue-properties"]),
-    ("render/cli", &["etendue-laboratory", "etendue-render"], &["etendue-oracle"]),
+    ("render", &["etendue"], &["etendue-oracle", "etendue-scene"]),
+    ("render/scene", &["etendue", "etendue-render"], &["etendue-oracle"]),
+    ("render/laboratory", &["etendue", "etendue-oracle", "etendue-render", "etendue-scene"], &["etendue-properties"]),
+    ("render/cli", &["etendue-laboratory", "etendue-render", "etendue-scene"], &["etendue-oracle"]),
     ("tests/bits", &["etendue", "etendue-properties"], &[]),
     ("tests/oracle", &[], &[]),
     ("tests/proof", &["etendue", "etendue-oracle"], &[]),
     ("tests/properties", &["etendue", "etendue-oracle"], &[]),
     ("tests", &[], &["etendue", "etendue-bits", "etendue-oracle", "etendue-properties"]),
-    ("benches/routines", &["etendue", "etendue-render"], &[]),
-    ("benches", &[], &["etendue", "etendue-laboratory", "etendue-render", "etendue-routines"]),
-    ("fuzz/bodies", &["etendue", "etendue-c", "etendue-oracle", "etendue-render"], &[]),
+    ("benches/routines", &["etendue", "etendue-render", "etendue-scene"], &[]),
+    ("benches", &[], &["etendue", "etendue-laboratory", "etendue-render", "etendue-routines", "etendue-scene"]),
+    ("fuzz/bodies", &["etendue", "etendue-c", "etendue-oracle", "etendue-render", "etendue-scene"], &[]),
     ("fuzz", &["etendue-fuzz-bodies", "etendue-properties"], &[]),
 ];
 
@@ -334,11 +337,14 @@ fn packages_depend_one_way() {
         println!("{package:20} → {}", imports.iter().cloned().collect::<Vec<_>>().join(", "));
     }
     assert!(graph["etendue-cli"].contains("etendue-laboratory"), "{graph:?}");
+    // the renderer's tests read scenes
+    assert!(graph.get_mut("etendue-render").unwrap().remove("etendue-scene"));
     assert_eq!(cycle(&graph), None);
     assert!(dependencies("tests/oracle", false).is_empty(), "the oracle must depend on nothing");
-    let render: Vec<_> = [false, true].into_iter().flat_map(|dev| dependencies("render", dev)).collect();
-    assert!(render.iter().any(|name| name == "image"), "{render:?}");
-    for other in ["plotters", "csv", "statrs"] {
+    let scene = dependencies("render/scene", false);
+    assert!(scene.iter().any(|name| name == "image"), "{scene:?}");
+    let render = dependencies("render", false);
+    for other in ["clap", "csv", "etendue-scene", "image", "plotters", "statrs"] {
         assert!(!render.iter().any(|name| name == other), "the renderer must not depend on {other}");
     }
 }

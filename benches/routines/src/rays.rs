@@ -7,7 +7,7 @@ use etendue::{Frame, Mask, Real, u32x8};
 use etendue_render::bvh::{Bvh, GROUP, Hits, NOTHING, Rays, Scratch, ShapeSet, Traversal};
 use etendue_render::camera::Pinhole;
 use etendue_render::packet::{M8, V8, X8};
-use etendue_render::{lights::Lights, scene, technique::Measure};
+use etendue_render::{lights::Lights, technique::Measure};
 use std::path::Path;
 
 /// Side of the image that pixels are taken from.
@@ -97,7 +97,7 @@ impl Workload {
     /// If there is no such scene.
     #[must_use]
     pub fn new(name: &str, groups: u32) -> Self {
-        let scene = scene::load(name).expect("a built-in scene");
+        let scene = etendue_scene::load(name).expect("a built-in scene");
         let tree = |way| {
             let none = ShapeSet::new(std::iter::empty()).expect("none are few");
             Bvh::new(&scene.triangles, none).expect("as many triangles as fit").with_traversal(way)
@@ -160,7 +160,7 @@ impl Workload {
         let write = |file: &str, numbers: &mut dyn Iterator<Item = f32>| {
             std::fs::write(folder.join(file), numbers.flat_map(f32::to_le_bytes).collect::<Vec<_>>())
         };
-        let triangles = scene::load(name).expect("a built-in scene").triangles;
+        let triangles = etendue_scene::load(name).expect("a built-in scene").triangles;
         write("triangles", &mut triangles.into_flattened().into_flattened().into_iter())?;
         for (file, kind) in [
             ("camera", RayKind::Camera),

@@ -5,7 +5,7 @@ use etendue_oracle::{V3, along, cross, dot, length, sub, unit, wide};
 use etendue_render::bvh::SHAPE;
 use etendue_render::camera::Pinhole;
 use etendue_render::certify::{Blocker, Bodies, Certificate, Certifier, MOST, Patch, Pyramid, Viewer};
-use etendue_render::scene::{CameraSettings, Emission, FilmSettings, Geometry, Material, Scene, Screen, Shape};
+use etendue_render::scene::{CameraSettings, Emission, Geometry, Material, Scene, Screen, Shape};
 use etendue_render::surfaces::Surfaces;
 
 /// Reads bytes as numbers; zeros follow the last.
@@ -106,27 +106,11 @@ fn is_listed<I: Iterator<Item = [[f32; 3]; 3]>>(p: V3, y: V3, blockers: &[Blocke
 
 fn scene(triangles: Vec<[[f32; 3]; 3]>, shapes: Vec<Shape>, camera: CameraSettings) -> Scene {
     Scene {
-        name: String::new(),
-        camera,
-        film: FilmSettings { width: 16, height: 16, diagonal: 35.0, filename: None, place: None },
-        pixel_samples: 1,
         materials: vec![Material::Diffuse([0.5; 3])],
         triangle_materials: vec![0; triangles.len()],
         triangles,
-        varying: Vec::new(),
-        objects: Vec::new(),
-        instances: Vec::new(),
-        masks: Vec::new(),
-        details: Default::default(),
         shapes: shapes.into(),
-        pictures: Default::default(),
-        profiles: Default::default(),
-        delta_lights: Vec::new(),
-        intensities: Vec::new(),
-        environment: None,
-        warnings: Vec::new(),
-        stand_ins: Vec::new(),
-        inputs: Vec::new(),
+        ..Scene::new(camera, [16; 2])
     }
 }
 

@@ -7,10 +7,10 @@ mod part;
 
 pub use c_interface::c_interface;
 pub use certificates::certificates;
+use etendue_render::World;
 use etendue_render::compare::Comparison;
-use etendue_render::image::Encoding;
 use etendue_render::texture::{Mapping, Picture, Texture, Wrap};
-use etendue_render::{World, image as images, scene};
+use etendue_scene::image::{self as images, Encoding};
 pub use part::part;
 use std::path::Path;
 
@@ -19,9 +19,9 @@ pub fn scene(bytes: &[u8]) {
     let text = String::from_utf8_lossy(bytes);
     let is_gltf = bytes.starts_with(b"glTF") || text.trim_start().starts_with('{');
     let read = if is_gltf {
-        scene::parse_gltf(bytes, "fuzz.pbrt")
+        etendue_scene::parse_gltf(bytes, "fuzz.pbrt")
     } else {
-        scene::parse(&text, "fuzz.pbrt", Path::new("no such folder"))
+        etendue_scene::parse(&text, "fuzz.pbrt", Path::new("no such folder"))
     };
     match read {
         Ok(scene) => {

@@ -1,9 +1,9 @@
 //! `etendue compare`: prints the difference of two images.
 
 use clap::Args;
+use etendue_laboratory::options::{out, say};
 use etendue_render::compare::Comparison;
 use etendue_render::image;
-use etendue_render::options::{out, say};
 use std::error::Error;
 use std::io::Write;
 use std::path::PathBuf;

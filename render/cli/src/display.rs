@@ -10,8 +10,8 @@
 //! Nothing is ever read from the server.
 
 use clap::Args;
+use etendue_laboratory::options::say;
 use etendue_render::film::Film;
-use etendue_render::options::say;
 use std::io::{self, Write};
 use std::net::{TcpStream, ToSocketAddrs};
 use std::path::Path;

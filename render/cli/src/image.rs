@@ -1,10 +1,10 @@
 //! The options that say which image is rendered.
 
 use clap::Args;
+use etendue_laboratory::options::{named, say, size, threads, whole};
 use etendue_render::limits::MOST_SAMPLES;
-use etendue_render::options::{name, say, size, threads, whole};
 use etendue_render::sampler::default_sampler;
-use etendue_render::scene::{self, Scene};
+use etendue_render::scene::Scene;
 use etendue_render::{ChoiceBy, Sampler, Sensor, Settings, Technique};
 use std::error::Error;
 use std::ffi::{OsStr, OsString};
@@ -18,19 +18,19 @@ pub(crate) struct ImageOptions {
     #[arg(long, value_name = "N", value_parser = whole::<u32>(1..=MOST_SAMPLES.into()))]
     pub(crate) spp: Option<u32>,
     /// Sample the lights by this technique
-    #[arg(long, value_enum, default_value = "auto")]
+    #[arg(long, value_parser = named::<Technique>(&Technique::NAMES), default_value = "auto")]
     technique: Technique,
     /// Choose one of the lights in this way
-    #[arg(long, value_enum, default_value = "auto")]
+    #[arg(long, value_parser = named::<ChoiceBy>(&ChoiceBy::NAMES), default_value = "auto")]
     choice: ChoiceBy,
     /// Follow a camera ray through at most this many perfect mirrors
     #[arg(long, value_name = "N", default_value_t = Settings::DEPTH, value_parser = whole::<u32>(0..=1024))]
     depth: u32,
     /// Generate the random numbers by this sampler [default: adaptive from 16 samples on, else sobol, or independent for odd numbers]
-    #[arg(long, value_enum)]
+    #[arg(long, value_parser = named::<Sampler>(&Sampler::NAMES))]
     pub(crate) sampler: Option<Sampler>,
     /// Measure this quantity; irradiance and power need a camera with a lens
-    #[arg(long, value_enum, default_value = "radiance")]
+    #[arg(long, value_parser = named::<Sensor>(&Sensor::NAMES), default_value = "radiance")]
     pub(crate) sensor: Sensor,
     /// Split the samples of a pixel into this many independent sets: with 1 the error is not known [default: 2 or 4, if the number of samples allows; with adaptive one, and a second one in some pixels]
     #[arg(long, value_name = "1|2|4", value_parser = sets)]
@@ -61,8 +61,8 @@ impl ImageOptions {
     /// Reads the scene, prints its warnings, and completes the settings.
     pub(crate) fn load(&self) -> Result<(Scene, Settings), Box<dyn Error>> {
         let mut scene = match &self.environment {
-            Some(sky) => scene::load_with_sky(&self.scene, sky),
-            None => scene::load(&self.scene),
+            Some(sky) => etendue_scene::load_with_sky(&self.scene, sky),
+            None => etendue_scene::load(&self.scene),
         }?;
         if let Some(stand_in) = scene.stand_ins.first().filter(|_| self.strict) {
             return Err(format!("--strict: {stand_in}").into());
@@ -77,7 +77,7 @@ impl ImageOptions {
         let sets = self.sets.unwrap_or(0);
         let spp = self.spp.unwrap_or(scene.pixel_samples);
         if self.sensor != Sensor::Radiance && !lens {
-            let (sensor, scene) = (name(self.sensor), self.scene.display());
+            let (sensor, scene) = (self.sensor.name(), self.scene.display());
             return Err(format!(
                 "--sensor {sensor}: the camera of {scene} is a pinhole: it needs a \"lensradius\" greater than 0"
             )
@@ -114,11 +114,11 @@ impl ImageOptions {
         let mut add =
             |option: &str, value: Option<String>| all.extend(value.map(|value| format!("--{option}={value}").into()));
         add("spp", self.spp.map(|spp| spp.to_string()));
-        add("technique", (self.technique != Technique::Auto).then(|| name(self.technique)));
-        add("choice", (self.choice != ChoiceBy::Auto).then(|| name(self.choice)));
+        add("technique", (self.technique != Technique::Auto).then(|| self.technique.name().to_owned()));
+        add("choice", (self.choice != ChoiceBy::Auto).then(|| self.choice.name().to_owned()));
         add("depth", (self.depth != Settings::DEPTH).then(|| self.depth.to_string()));
-        add("sampler", self.sampler.map(name));
-        add("sensor", (self.sensor != Sensor::Radiance).then(|| name(self.sensor)));
+        add("sampler", self.sampler.map(|sampler| sampler.name().to_owned()));
+        add("sensor", (self.sensor != Sensor::Radiance).then(|| self.sensor.name().to_owned()));
         add("sets", self.sets.map(|sets| sets.to_string()));
         add("size", self.size.map(|(width, height)| format!("{width}x{height}")));
         add("seed", (self.seed != 0).then(|| self.seed.to_string()));

@@ -1,7 +1,7 @@
 //! What Ctrl-C and SIGTERM do to a rendering: they clear the progress bar, say which image is in the file, and exit with code 130 or 143.
 
 use etendue_laboratory::interrupt::on_end;
-use etendue_render::options::say;
+use etendue_laboratory::options::say;
 use indicatif::ProgressBar;
 use std::io;
 use std::path::Path;

@@ -1,28 +1,23 @@
 //! `etendue list`: prints the names that other commands take.
 
-use clap::ValueEnum;
-use etendue_render::options::out;
-use etendue_render::{ChoiceBy, Sampler, Sensor, Technique, scene};
+use etendue_laboratory::options::out;
+use etendue_render::{ChoiceBy, Sampler, Sensor, Technique};
 use std::io::{self, Write};
 
 /// Prints the built-in scenes, techniques, choices, samplers and sensors, each with a description.
 pub(crate) fn run() -> io::Result<()> {
     let mut out = out();
     writeln!(out, "scenes")?;
-    for (name, about) in scene::builtin() {
+    for (name, about) in etendue_scene::builtin() {
         writeln!(out, "  {name:20} {about}")?;
     }
-    values::<Technique>(&mut out, "techniques")?;
-    values::<ChoiceBy>(&mut out, "choices")?;
-    values::<Sampler>(&mut out, "samplers")?;
-    values::<Sensor>(&mut out, "sensors")
+    values(&mut out, "techniques", &Technique::NAMES)?;
+    values(&mut out, "choices", &ChoiceBy::NAMES)?;
+    values(&mut out, "samplers", &Sampler::NAMES)?;
+    values(&mut out, "sensors", &Sensor::NAMES)
 }
 
-fn values<T: ValueEnum>(out: &mut impl Write, title: &str) -> io::Result<()> {
+fn values(out: &mut impl Write, title: &str, names: &[[&str; 2]]) -> io::Result<()> {
     writeln!(out, "{title}")?;
-    for value in T::value_variants().iter().filter_map(ValueEnum::to_possible_value) {
-        let help = value.get_help().map(ToString::to_string).unwrap_or_default();
-        writeln!(out, "  {:20} {help}", value.get_name())?;
-    }
-    Ok(())
+    names.iter().try_for_each(|[name, about]| writeln!(out, "  {name:20} {about}"))
 }

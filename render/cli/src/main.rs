@@ -16,8 +16,8 @@ mod selftest;
 mod view;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+use etendue_laboratory::options::say;
 use etendue_laboratory::{atlas, chart, figure};
-use etendue_render::options::say;
 use std::any::TypeId;
 use std::error::Error;
 use std::io;

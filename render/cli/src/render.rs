@@ -8,9 +8,9 @@ use crate::part::{self, PartOptions};
 use crate::progress::bar;
 use clap::Args;
 use etendue_laboratory::cost::median;
+use etendue_laboratory::options::{out, pool, whole};
 use etendue_render::claim::{Claim, why_unknown};
 use etendue_render::film::Film;
-use etendue_render::options::{name, out, pool, whole};
 use etendue_render::progressive::{self, Goal, Pass, Progress, Refinement};
 use etendue_render::sampler::reports_variance;
 use etendue_render::{Identity, RayCount, Sampler, Sensor, Settings, Technique, World};
@@ -217,7 +217,7 @@ fn to_json(
     let rays = image.rays;
     let passes = image.passes.iter();
     let passes: Vec<Value> = passes
-        .map(|p| json!({ "spp": p.spp, "sampler": name(p.sampler), "seed": p.seed, "seconds": p.seconds }))
+        .map(|p| json!({ "spp": p.spp, "sampler": p.sampler.name(), "seed": p.seed, "seconds": p.seconds }))
         .collect();
     json!({
         "scene": options.image.scene.to_string_lossy(),
@@ -225,11 +225,11 @@ fn to_json(
         "height": settings.height,
         "spp": image.spp,
         "sets": image.sets,
-        "technique": name(settings.technique),
-        "chosen": name(chosen),
-        "choice": name(settings.choice),
-        "sampler": name(image.sampler),
-        "sensor": name(options.image.sensor),
+        "technique": settings.technique.name(),
+        "chosen": chosen.name(),
+        "choice": settings.choice.name(),
+        "sampler": image.sampler.name(),
+        "sensor": options.image.sensor.name(),
         "seed": settings.seed,
         "threads": threads,
         "seconds": { "load": time[0], "build": time[1], "render": image.seconds },
@@ -256,9 +256,12 @@ fn print(
 ) -> io::Result<()> {
     let mut out = out();
     let Settings { width, height, technique, .. } = settings;
-    let sampler = name(image.sampler);
-    let technique =
-        if chosen == *technique { name(chosen) } else { format!("{} ({})", name(*technique), name(chosen)) };
+    let sampler = image.sampler.name();
+    let technique = if chosen == *technique {
+        chosen.name().to_owned()
+    } else {
+        format!("{} ({})", technique.name(), chosen.name())
+    };
     writeln!(out, "{scene}: {width}x{height}, {} samples per pixel, {technique}, {sampler}", image.spp)?;
     if !image.passes.is_empty() {
         let spp: Vec<String> = image.passes.iter().map(|p| p.spp.to_string()).collect();
@@ -273,7 +276,7 @@ fn print(
     match options.image.sensor {
         Sensor::Radiance => writeln!(out, "mean radiance {r:.6} {g:.6} {b:.6}")?,
         Sensor::Irradiance | Sensor::Power => {
-            writeln!(out, "mean {} {r:.6e} {g:.6e} {b:.6e}", name(options.image.sensor))?;
+            writeln!(out, "mean {} {r:.6e} {g:.6e} {b:.6e}", options.image.sensor.name())?;
         }
     }
     match image.error {

@@ -8,9 +8,9 @@ use etendue_laboratory::attack::defects::{self, Table};
 use etendue_laboratory::attack::judge::Effort;
 use etendue_laboratory::attack::regimes::{REGIMES, Regime, named};
 use etendue_laboratory::attack::report::{self, QUICK, shrunk};
+use etendue_laboratory::options::{out, pool, threads, whole};
 use etendue_render::files;
 use etendue_render::limits::MOST_SAMPLES;
-use etendue_render::options::{name, out, pool, threads, whole};
 use rayon::ThreadPool;
 use std::error::Error;
 use std::io::Write;
@@ -108,7 +108,7 @@ fn compare(
             let path = folder.join(format!("{}-{}.pbrt", failure.regime, failure.seed));
             files::replace(&path, least.to_string().as_bytes())?;
             let (size, shown) = (least.size(), path.display());
-            writeln!(out(), "    {size} primitives: etendue render {shown} --technique {}", name(*technique))?;
+            writeln!(out(), "    {size} primitives: etendue render {shown} --technique {}", technique.name())?;
         }
         scenes += tally.scenes;
         differ += tally.failures.len();

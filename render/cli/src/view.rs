@@ -23,7 +23,7 @@ use crate::output::Output;
 use crate::progress::bar;
 use crate::render::{fraction, seconds};
 use clap::Args;
-use etendue_render::options::{out, pool, whole};
+use etendue_laboratory::options::{out, pool, whole};
 use etendue_render::progressive::{Goal, Refinement};
 use etendue_render::sampler::default_sampler;
 use server::Server;

@@ -12,9 +12,9 @@ pub mod survey;
 pub mod textbook;
 pub mod truth;
 
+use crate::options::{out, threads};
 use clap::Args;
 use etendue_render::files::make_folder;
-use etendue_render::options::{out, threads};
 use indicatif::{ProgressBar, ProgressStyle};
 use pose::ShapeKind;
 use std::error::Error;
@@ -53,7 +53,7 @@ pub fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     let folder = &options.output;
     // fail before the measurements, not after them
     make_folder(folder)?;
-    let pool = etendue_render::options::pool(options.threads)?;
+    let pool = crate::options::pool(options.threads)?;
     let detail = Detail::new(options.quick);
     let style = ProgressStyle::with_template("{wide_bar} {percent:>3} %  {elapsed}, {eta} left")?;
     let bar = ProgressBar::new(cells(&kinds, detail) as u64).with_style(style);

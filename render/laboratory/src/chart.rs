@@ -14,12 +14,12 @@ pub mod warps;
 
 use crate::hash::fnv1a;
 use crate::interrupt::interrupt;
-use clap::{Args, ValueEnum};
+use crate::options::{named, out, size, threads, whole};
+use clap::Args;
 use etendue_render::files;
 use etendue_render::limits::MOST_SAMPLES;
-use etendue_render::options::{out, size, threads, whole};
-use etendue_render::scene::Material;
-use etendue_render::{ChoiceBy, Sampler, Settings, Technique, World, identity, scene};
+use etendue_render::scene::{Material, Scene};
+use etendue_render::{ChoiceBy, Sampler, Settings, Technique, World, identity};
 use indicatif::{ProgressBar, ProgressStyle};
 use measure::{ChartedScene, Key, Plan, Table, inapplicable, method};
 pub use outcome::Outcome;
@@ -43,13 +43,13 @@ pub struct Options {
     #[arg(short, long, default_value = "chart")]
     pub output: PathBuf,
     /// How to sample the lights [default: all techniques]
-    #[arg(long, value_enum, value_delimiter = ',')]
+    #[arg(long, value_parser = named::<Technique>(&Technique::NAMES), value_delimiter = ',')]
     pub techniques: Vec<Technique>,
     /// How to choose one of the lights
-    #[arg(long = "choice", value_name = "CHOICES", value_enum, value_delimiter = ',', default_value = "auto")]
+    #[arg(long = "choice", value_name = "CHOICES", value_parser = named::<ChoiceBy>(&ChoiceBy::NAMES), value_delimiter = ',', default_value = "auto")]
     pub choices: Vec<ChoiceBy>,
     /// How to generate the random numbers [default: all samplers]
-    #[arg(long, value_enum, value_delimiter = ',')]
+    #[arg(long, value_parser = named::<Sampler>(&Sampler::NAMES), value_delimiter = ',')]
     pub samplers: Vec<Sampler>,
     /// Samples per pixel [default: 1,2,4,…,1024; with --quick 1,4,16,64]
     #[arg(long, value_delimiter = ',', value_parser = whole::<u32>(1..=MOST_SAMPLES.into()))]
@@ -79,7 +79,7 @@ pub struct Options {
     #[arg(long, default_value_t = 0, value_parser = threads)]
     pub threads: usize,
     /// The technique that all others are compared with
-    #[arg(long, value_enum, default_value = "area")]
+    #[arg(long, value_parser = named::<Technique>(&Technique::NAMES), default_value = "area")]
     pub baseline: Technique,
     /// Mean squared error to reach [default: the error of the best technique at the median sample count]
     #[arg(long, value_name = "MSE")]
@@ -96,12 +96,11 @@ pub struct Options {
 }
 
 /// The requested values without duplicates, or all values if none is requested.
-fn chosen<T: ValueEnum + Clone + PartialEq>(asked: &[T]) -> Vec<T> {
-    let all = if asked.is_empty() { T::value_variants() } else { asked };
+fn chosen<T: Copy + PartialEq>(asked: &[T], all: &[T]) -> Vec<T> {
     let mut list: Vec<T> = Vec::new();
-    for value in all {
-        if !list.contains(value) {
-            list.push(value.clone());
+    for &value in if asked.is_empty() { all } else { asked } {
+        if !list.contains(&value) {
+            list.push(value);
         }
     }
     list
@@ -111,11 +110,7 @@ fn chosen<T: ValueEnum + Clone + PartialEq>(asked: &[T]) -> Vec<T> {
 type Method = (Technique, ChoiceBy);
 
 /// The techniques and choices that apply to a scene and differ from one another there, and notes on those that are left out.
-fn methods(
-    scene: &scene::Scene,
-    subject: &ChartedScene,
-    asked: impl Iterator<Item = Method>,
-) -> (Vec<Method>, Vec<String>) {
+fn methods(scene: &Scene, subject: &ChartedScene, asked: impl Iterator<Item = Method>) -> (Vec<Method>, Vec<String>) {
     let (mut list, mut images, mut notes) = (Vec::<Method>::new(), Vec::new(), Vec::new());
     for (technique, choice) in asked {
         let own = method(technique, choice);
@@ -164,8 +159,8 @@ struct Prepared {
 /// Loads a scene and its reference.
 fn prepare(options: &Options, path: &OsStr, circumstances: &str) -> Result<Prepared, Box<dyn Error>> {
     let scene = match &options.environment {
-        Some(sky) => scene::load_with_sky(path, sky),
-        None => scene::load(path),
+        Some(sky) => etendue_scene::load_with_sky(path, sky),
+        None => etendue_scene::load(path),
     }?;
     let name = &*path.to_string_lossy();
     let mut notes: Vec<String> = scene.warnings.iter().map(|w| format!("warning: {w}")).collect();
@@ -175,7 +170,7 @@ fn prepare(options: &Options, path: &OsStr, circumstances: &str) -> Result<Prepa
     });
     let size = [width, height];
     let world = World::new(&scene)?;
-    let is_builtin = scene::builtin().iter().any(|(builtin, _)| *builtin == name);
+    let is_builtin = etendue_scene::builtin().iter().any(|(builtin, _)| *builtin == name);
     let own = if is_builtin && options.reference_spp.is_none() && options.environment.is_none() {
         Reference::builtin(name).and_then(|r| r.shrunk(size).ok())
     } else {
@@ -203,7 +198,8 @@ fn prepare(options: &Options, path: &OsStr, circumstances: &str) -> Result<Prepa
     bytes.extend(reference.picture.radiance.iter().flatten().flat_map(|x| x.to_le_bytes()));
     let lens = scene.camera.lens.is_some();
     let subject = ChartedScene { name: name.to_owned(), world, size, lens, settings: fnv1a(&bytes), reference };
-    let (techniques, choices) = (chosen(&options.techniques), chosen(&options.choices));
+    let techniques = chosen(&options.techniques, &Technique::ALL);
+    let choices = chosen(&options.choices, &ChoiceBy::ALL);
     let asked = techniques.iter().flat_map(|&technique| choices.iter().map(move |&choice| (technique, choice)));
     let (methods, left_out) = methods(&scene, &subject, asked);
     notes.extend(left_out);
@@ -242,7 +238,7 @@ pub fn measure(options: &Options, stop: &Arc<AtomicBool>) -> Result<Outcome, Box
     if options.target.is_some_and(|t| !t.is_finite() || t <= 0.0) {
         return Err("--target: must be finite and greater than 0".into());
     }
-    let pool = etendue_render::options::pool(options.threads)?;
+    let pool = crate::options::pool(options.threads)?;
     let facts = machine::facts(pool.current_num_threads());
     // measurements of another build do not count; a new commit does not matter as long as the program stays the same
     let kept: Vec<_> = facts.iter().filter(|(name, _)| *name != "commit").collect();
@@ -267,7 +263,7 @@ pub fn measure(options: &Options, stop: &Arc<AtomicBool>) -> Result<Outcome, Box
     let mut keys = Vec::new();
     for (scene, methods) in methods.iter().enumerate() {
         for &spp in &spps {
-            for &sampler in &chosen(&options.samplers) {
+            for &sampler in &chosen(&options.samplers, &Sampler::ALL) {
                 for &(technique, choice) in methods {
                     match inapplicable(sampler, spp, scenes[scene].lens) {
                         Some(reason) if !notes.contains(&reason) => notes.push(reason),
@@ -355,7 +351,7 @@ pub fn run(options: &Options, command: &str) -> Result<(), Box<dyn Error>> {
     check_page(&page)?;
     let stop = interrupt()?;
     let outcome = measure(options, &stop)?;
-    let pool = etendue_render::options::pool(options.threads)?;
+    let pool = crate::options::pool(options.threads)?;
     let mut figures = Vec::new();
     for summary in &outcome.summaries {
         let mut list = vec![charts::error_over_time(summary), charts::error_over_samples(summary)];

@@ -6,9 +6,9 @@ mod studio;
 mod vignetting;
 
 use crate::interrupt::interrupt;
+use crate::options::{out, threads, whole};
 use clap::{Args, ValueEnum};
 use etendue_render::files;
-use etendue_render::options::{out, threads, whole};
 use std::error::Error;
 use std::io::Write;
 use std::path::PathBuf;
@@ -57,9 +57,9 @@ impl Studio<'_> {
 pub fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     let stop = interrupt()?;
     files::make_folder(&options.output)?;
-    let pool = etendue_render::options::pool(options.threads)?;
+    let pool = crate::options::pool(options.threads)?;
     let studio = Studio { seed: options.seed, stop: &stop };
-    let title = etendue_render::options::name(options.name);
+    let title = options.name.to_possible_value().map_or_else(String::new, |v| v.get_name().to_owned());
     let finding = pool.install(|| studio.draw(options.name).map_err(|e| e.to_string()))?;
     if stop.load(Ordering::Relaxed) {
         return Err(format!("interrupted while drawing {title}").into());

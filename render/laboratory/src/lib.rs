@@ -6,6 +6,7 @@
 //! - [`cost`]: time per sample, for these and for the benchmarks.
 //! - [`figure`]: figures about light sampling, with the numbers behind them.
 //! - [`interrupt`]: what ends the program from outside.
+//! - [`options`]: what command lines share.
 
 pub mod atlas;
 pub mod attack;
@@ -14,4 +15,5 @@ pub mod cost;
 pub mod figure;
 mod hash;
 pub mod interrupt;
+pub mod options;
 mod random;

@@ -1,12 +1,11 @@
 //! The report of `etendue chart` is read at a glance: a line per scene, the best sampler of each technique, bars in order, notes last.
 
-use clap::ValueEnum;
 use etendue_laboratory::chart::charts;
 use etendue_laboratory::chart::measure::{ChartedScene, Key, Plan, Row, Rows};
 use etendue_laboratory::chart::reference::Reference;
 use etendue_laboratory::chart::summary::{Summary, Way};
 use etendue_laboratory::chart::{Outcome, plot, report};
-use etendue_render::{ChoiceBy, Sampler, Technique, World, scene};
+use etendue_render::{ChoiceBy, Sampler, Technique, World};
 use std::collections::HashSet;
 
 const SPP: [u32; 3] = [1, 4, 16];
@@ -30,7 +29,7 @@ fn cost(key: &Key) -> (f64, f64) {
 fn outcome(names: &[&str]) -> Outcome {
     let charted = |name: &&str| ChartedScene {
         name: (*name).to_owned(),
-        world: World::new(&scene::load("quads").unwrap()).unwrap(),
+        world: World::new(&etendue_scene::load("quads").unwrap()).unwrap(),
         size: [16, 16],
         lens: false,
         settings: 0,
@@ -164,8 +163,8 @@ fn bars_are_sorted_and_notes_come_last() {
 
 #[test]
 fn every_technique_has_a_colour_and_every_sampler_a_line_of_its_own() {
-    let dashes: HashSet<_> = Sampler::value_variants().iter().map(|s| plot::dash(*s as usize)).collect();
-    assert_eq!(dashes.len(), Sampler::value_variants().len());
-    let colours: HashSet<_> = Technique::value_variants().iter().map(|t| plot::color(*t as usize)).collect();
-    assert_eq!(colours.len(), Technique::value_variants().len());
+    let dashes: HashSet<_> = Sampler::ALL.map(|s| plot::dash(s as usize)).into_iter().collect();
+    assert_eq!(dashes.len(), Sampler::ALL.len());
+    let colours: HashSet<_> = Technique::ALL.map(|t| plot::color(t as usize)).into_iter().collect();
+    assert_eq!(colours.len(), Technique::ALL.len());
 }

@@ -1,19 +1,18 @@
 //! Collects the surfaces of a scene in world space: checks and orients them, and rounds them once to f32.
 
-use super::description::{CameraSettings, Corners, Details, FilmSettings, Scene, Shape};
-use super::environment::Environment;
-use super::inputs::Input;
-use super::lamps::Lamps;
-use super::lights::{DeltaLight, Emission};
-use super::materials::{Material, Varying};
-use super::message::{Message, Notes};
-use super::shape_attributes::ShapeAttributes;
-use super::transform::{Transform, add, cross, dot, length, sub};
-use super::vertices::{Vertex, Vertices};
-use crate::geometry::{Affine, Geometry, Instance, bounds_of};
-use crate::intensity::Intensity;
-use crate::light_picture::affine;
-use crate::texture::{Mapping, Mask, Texture};
+use crate::lamps::Lamps;
+use crate::message::Notes;
+use crate::shape_attributes::ShapeAttributes;
+use crate::transform::{Transform, add, cross, dot, length, sub};
+use crate::vertices::{Vertex, Vertices};
+use etendue_render::geometry::{Affine, Geometry, Instance, bounds_of};
+use etendue_render::intensity::Intensity;
+use etendue_render::light_picture::affine;
+use etendue_render::scene::{
+    CameraSettings, Corners, DeltaLight, Details, Emission, Environment, FilmSettings, Input, Material, Message,
+    Roughness, Scene, Shape, Varying,
+};
+use etendue_render::texture::{Mapping, Mask, Texture};
 use std::collections::{BTreeMap, HashMap};
 use std::ops::Range;
 use std::path::Path;
@@ -86,7 +85,7 @@ pub(super) fn round([x, y, z]: [f64; 3]) -> [f32; 3] {
 impl Builder {
     /// The index of the material, which is added if it is new.
     pub(super) fn material(&mut self, material: Material) -> u32 {
-        *self.material_index.entry(material.words()).or_insert_with(|| {
+        *self.material_index.entry(words(material)).or_insert_with(|| {
             self.materials.push(material);
             (self.materials.len() - 1) as u32
         })
@@ -427,5 +426,21 @@ impl Builder {
         }
         self.triangles.push(corners);
         self.triangle_materials.push(surface.material);
+    }
+}
+
+/// A key for hashing materials: equal ones have equal words.
+fn words(material: Material) -> [u32; 13] {
+    let of = |kind: u32, colors: [[f32; 3]; 3], Roughness { along, across, turn }: Roughness| {
+        let [[a, b, c], [d, e, f], [g, h, i]] = colors.map(|color| color.map(f32::to_bits));
+        [kind, a, b, c, d, e, f, g, h, i, along.to_bits(), across.to_bits(), turn.to_bits()]
+    };
+    let (black, none) = ([0.0; 3], Roughness::from(0.0));
+    match material {
+        Material::Diffuse(albedo) => of(0, [albedo, black, black], none),
+        Material::Mirror(reflectance) => of(1, [reflectance, black, black], none),
+        Material::Conductor { eta, k, roughness } => of(2, [eta, k, black], roughness),
+        Material::Glossy { diffuse, specular, grazing, roughness } => of(3, [diffuse, specular, grazing], roughness),
+        Material::Varying(index) => [4, index, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0],
     }
 }

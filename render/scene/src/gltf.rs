@@ -15,11 +15,10 @@ mod source;
 #[cfg(test)]
 mod tests;
 
-use super::builder::{Builder, Rest};
-use super::description::Scene;
-use super::lexer::shortened;
-use super::message::Message;
-use super::transform::Transform;
+use crate::builder::{Builder, Rest};
+use crate::message::shortened;
+use crate::transform::Transform;
+use etendue_render::scene::{Message, Scene};
 use materials::Materials;
 use source::Source;
 use std::collections::HashMap;

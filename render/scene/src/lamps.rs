@@ -1,14 +1,13 @@
 //! What shapes emit, each with its own part of a picture.
 
-use super::description::Shape;
-use super::lights::Emission;
-use super::params::MOST_RADIANCE;
-use super::shape_attributes::ShapeAttributes;
-use super::spectrum::luminance;
-use crate::geometry::Geometry;
-use crate::light_picture::{LightPicture, WORLD};
-use crate::light_profile::LightProfile;
-use crate::texture::{Mapping, Picture};
+use crate::radiance::luminance;
+use crate::shape_attributes::ShapeAttributes;
+use etendue_render::geometry::Geometry;
+use etendue_render::light_picture::{LightPicture, WORLD};
+use etendue_render::light_profile::LightProfile;
+use etendue_render::limits::MOST_RADIANCE;
+use etendue_render::scene::{Emission, Shape};
+use etendue_render::texture::{Mapping, Picture};
 use std::f64::consts::PI;
 use std::sync::Arc;
 

@@ -80,60 +80,30 @@
 //! | normal and occlusion maps, vertex colours, skins, morphs, animations | ignored |
 //! | points and lines | left out |
 
-mod area_lights;
-mod builder;
-mod builtin;
-mod daylight;
-mod description;
-mod directed;
-mod environment;
-mod generated;
-mod gltf;
-mod ies;
-mod includes;
-mod inputs;
-mod lamps;
-mod lexer;
-mod lights;
-mod material_parameters;
-mod materials;
-mod message;
-mod named_materials;
-mod params;
-mod patches;
-mod ply;
-mod portal_sides;
-mod portals;
-mod profiles;
-mod reader;
-mod shape_attributes;
-mod shape_state;
-mod shapes;
-mod sources;
-mod spectrum;
-mod subdivision;
-#[cfg(test)]
-mod tests;
-mod textures;
-mod transform;
-mod transform_directives;
-mod vertices;
-mod view;
+// what both formats share is more than either needs
+#![cfg_attr(not(all(feature = "gltf", feature = "pbrt")), allow(dead_code))]
 
-use crate::files::{read_file, read_unpacked};
-pub use crate::geometry::{Affine, Geometry, Instance};
-use crate::image;
-use builtin::{BUILTIN, DESCRIBED, MANY_LIGHTS};
-pub use description::{CameraSettings, Corners, Details, FilmSettings, Lens, Scene, Screen, Shape};
-pub use environment::{Environment, SkyRadiance, SunDisk};
-pub use inputs::Input;
-pub use lights::{Cone, DeltaLight, Emission};
-pub use materials::{Material, Roughness, Varying};
-pub use message::Message;
-use message::utf8;
-use reader::Origin;
+mod builder;
+mod distribution;
+mod files;
+#[cfg(feature = "gltf")]
+mod gltf;
+pub mod image;
+mod lamps;
+mod message;
+#[cfg(feature = "pbrt")]
+mod pbrt;
+mod radiance;
+mod shape_attributes;
+mod transform;
+mod vertices;
+
+use etendue_render::files::read_file;
+use etendue_render::scene::{Environment, Message, Scene};
+use files::{note, read_unpacked};
+#[cfg(feature = "pbrt")]
+pub use pbrt::{builtin, builtin_of_few_lights};
 use std::path::Path;
-use std::sync::Arc;
 use std::{fmt, io};
 
 /// Why a scene could not be read.
@@ -156,12 +126,9 @@ impl fmt::Display for SceneError {
             SceneError::At(message) => message.fmt(f),
             SceneError::Io { path, error } => {
                 write!(f, "cannot read {path:?}: {error}")?;
+                #[cfg(feature = "pbrt")]
                 if error.kind() == io::ErrorKind::NotFound {
-                    if let Some(near) = nearest(path) {
-                        write!(f, "; did you mean {near}?")?;
-                    }
-                    let names = BUILTIN.map(|(name, ..)| name).join(", ");
-                    write!(f, "; built-in scenes: {names}")?;
+                    write!(f, "{}", pbrt::known_scenes(path))?;
                 }
                 Ok(())
             }
@@ -184,17 +151,6 @@ impl From<Message> for SceneError {
     }
 }
 
-/// Name and description of each built-in scene.
-pub fn builtin() -> &'static [(&'static str, &'static str)] {
-    &DESCRIBED
-}
-
-/// The built-in scenes of at most [`FEW`](etendue::select::FEW) lights. What renders every scene many times keeps to these, so that it does
-/// not take many times longer.
-pub fn builtin_of_few_lights() -> &'static [(&'static str, &'static str)] {
-    DESCRIBED.split_at(DESCRIBED.len() - MANY_LIGHTS).0
-}
-
 /// Reads the built-in scene of this name, or else the file at this path: glTF if its name ends in `.gltf` or `.glb`, or else pbrt's format.
 pub fn load(name_or_path: impl AsRef<Path>) -> Result<Scene, SceneError> {
     load_any(name_or_path.as_ref()).map(|(scene, _)| scene)
@@ -212,7 +168,7 @@ pub fn load_with_sky(name_or_path: impl AsRef<Path>, sky: impl AsRef<Path>) -> R
     let message = |text: String| Message { file: shown.clone(), line: 0, text };
     let bytes = read_file(path).map_err(|error| message(format!("cannot read: {error}")))?;
     let image = image::decode(path, &bytes).map_err(|error| message(error.what().to_owned()))?;
-    let (sky, warning) = lights::sky_of(&image, "the sky", [1.0; 3]).map_err(message)?;
+    let (sky, warning) = radiance::sky_of(&image, "the sky", [1.0; 3]).map_err(message)?;
     scene.warnings.extend(warning.map(message));
     if sky.is_some() {
         scene.warnings.retain(|warning| !warning.text.starts_with(builder::DARK));
@@ -224,65 +180,51 @@ pub fn load_with_sky(name_or_path: impl AsRef<Path>, sky: impl AsRef<Path>) -> R
         false => [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
     };
     scene.environment = sky.map(|sky| Environment { to_light, sky, portals: Vec::new(), sun: None });
-    inputs::note(&mut scene.inputs, path, &bytes);
+    note(&mut scene.inputs, path, &bytes);
     Ok(scene)
 }
 
 /// Reads a scene, and tells whether it is a glTF file.
 fn load_any(path: &Path) -> Result<(Scene, bool), SceneError> {
-    if let Some((name, text)) = BUILTIN.iter().find(|(name, _)| path.as_os_str() == *name) {
-        let scene = reader::read(text, &format!("{name}.pbrt"), Path::new("."), Origin::Builtin)?;
-        return Ok((scene, false));
+    #[cfg(feature = "pbrt")]
+    if let Some(scene) = pbrt::read_builtin(path) {
+        return Ok((scene?, false));
     }
     let shown = path.display().to_string();
-    let failed = |error| SceneError::Io { path: shown.clone(), error };
-    let bytes = read_unpacked(path).map_err(failed)?;
-    let folder = path.parent().unwrap_or(Path::new(""));
-    let is_gltf = gltf::is_gltf(path, &bytes);
-    let mut scene = if is_gltf {
-        gltf::read(&bytes, &shown, Some(folder))?
-    } else {
-        reader::read(utf8(&bytes, &Arc::from(&*shown))?, &shown, folder, Origin::File(path))?
-    };
-    inputs::note(&mut scene.inputs, path, &bytes);
+    let bytes = read_unpacked(path).map_err(|error| SceneError::Io { path: shown.clone(), error })?;
+    let (mut scene, is_gltf) = decode(path, &bytes, &shown)?;
+    note(&mut scene.inputs, path, &bytes);
     Ok((scene, is_gltf))
 }
 
-/// The built-in scene whose name is the fewest letters away from `name`, if it is at most two letters or, as in "quads.pbrt", an
-/// extension away.
-fn nearest(name: &str) -> Option<&'static str> {
-    let name = name.strip_suffix(".pbrt").unwrap_or(name).to_lowercase();
-    let near = DESCRIBED.iter().map(|(builtin, _)| (edits(&name, builtin), *builtin)).min()?;
-    // two edits turn any name of two letters into another
-    (near.0 <= 2 && near.0 < near.1.len().min(name.len())).then_some(near.1)
-}
-
-/// The least number of letters to insert, delete or replace that turns `a` into `b` (Levenshtein 1966).
-fn edits(a: &str, b: &str) -> usize {
-    let b: Vec<char> = b.chars().collect();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, x) in a.chars().enumerate() {
-        let mut diagonal = i;
-        row[0] = i + 1;
-        for (j, y) in b.iter().enumerate() {
-            let replaced = diagonal + usize::from(x != *y);
-            diagonal = row[j + 1];
-            row[j + 1] = replaced.min(diagonal + 1).min(row[j] + 1);
-        }
+/// The scene of a file's bytes, and whether it is a glTF file. Messages call it `shown`.
+fn decode(path: &Path, bytes: &[u8], shown: &str) -> Result<(Scene, bool), Message> {
+    #[cfg(feature = "gltf")]
+    if gltf::is_gltf(path, bytes) {
+        return Ok((gltf::read(bytes, shown, path.parent())?, true));
     }
-    row[b.len()]
+    #[cfg(feature = "pbrt")]
+    return Ok((pbrt::read(path, bytes, shown)?, false));
+    #[cfg(not(feature = "pbrt"))]
+    return Err(Message {
+        file: shown.to_owned(),
+        line: 0,
+        text: "this program reads no files of this kind".to_owned(),
+    });
 }
 
 /// Reads a scene from `text`. Messages call it `file`; file names in it are relative to `dir`.
 ///
 /// Any text gives a scene or an error, with bounded recursion.
+#[cfg(feature = "pbrt")]
 pub fn parse(text: &str, file: &str, dir: &Path) -> Result<Scene, SceneError> {
-    Ok(reader::read(text, file, dir, Origin::Text)?)
+    Ok(pbrt::parse(text, file, dir)?)
 }
 
 /// Reads a glTF scene from the bytes of a text or binary file that names no other files. Messages call it `file`.
 ///
 /// Any bytes give a scene or an error, with bounded recursion.
+#[cfg(feature = "gltf")]
 pub fn parse_gltf(bytes: &[u8], file: &str) -> Result<Scene, SceneError> {
     Ok(gltf::read(bytes, file, None)?)
 }

@@ -1,28 +1,8 @@
 //! Messages about the lines of a scene file.
 
+use etendue_render::scene::Message;
 use std::collections::HashSet;
-use std::fmt;
 use std::sync::Arc;
-
-/// An error or warning about a line of a scene file, shown as `file:line: text`, or about a whole file, shown as `file: text`.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Message {
-    /// The file as the user named it, or as its parent included it.
-    pub file: String,
-    /// The line number, from 1; 0 for the whole file.
-    pub line: u32,
-    /// What is wrong with the line.
-    pub text: String,
-}
-
-impl fmt::Display for Message {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.line {
-            0 => write!(f, "{}: {}", self.file, self.text),
-            line => write!(f, "{}:{line}: {}", self.file, self.text),
-        }
-    }
-}
 
 /// What a reader has to say about a scene.
 #[derive(Debug, Default)]
@@ -92,4 +72,19 @@ pub(super) fn utf8<'a>(bytes: &'a [u8], file: &Arc<str>) -> Result<&'a str, Mess
         let byte = bytes[error.valid_up_to()];
         Place { file: file.clone(), line }.message(format!("the byte 0x{byte:02x} is not UTF-8"))
     })
+}
+
+/// At most 60 characters of `s`, so that a message stays on one line; characters that cannot be seen are escaped.
+pub(super) fn shortened(s: &str) -> String {
+    let escape = |c: char| {
+        let escaped = c.escape_debug();
+        // not those of quotes, backslashes and accents
+        let is_visible = !c.is_control() && (escaped.len() <= 2 || c.is_alphanumeric());
+        if is_visible { c.to_string() } else { escaped.to_string() }
+    };
+    let mut shown: String = s.chars().take(60).map(escape).collect();
+    if s.chars().nth(60).is_some() {
+        shown.push('…');
+    }
+    shown
 }

@@ -1,9 +1,9 @@
 //! What a scene file says of all of a shape, and how that moves it to world space.
 
-use super::area_lights::Distribution;
-use super::lights::Emission;
-use super::transform::{Transform, cross, dot, scaled, unit};
-use crate::texture::Picture;
+use crate::distribution::Distribution;
+use crate::transform::{Transform, cross, dot, scaled, unit};
+use etendue_render::scene::Emission;
+use etendue_render::texture::Picture;
 use std::sync::Arc;
 
 /// What applies to all of a shape.

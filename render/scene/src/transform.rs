@@ -48,6 +48,11 @@ pub(super) fn unit(a: [f64; 3]) -> Option<[f64; 3]> {
     b.iter().all(|x| x.is_finite()).then_some(b)
 }
 
+/// 1 − cosθ of an angle in radians, without the difference.
+pub(super) fn one_minus_cos(angle: f64) -> f64 {
+    2.0 * libm::sin(0.5 * angle).powi(2)
+}
+
 impl Transform {
     /// The identity.
     pub(super) const IDENTITY: Transform =

@@ -2,7 +2,6 @@
 
 use crate::bvh::BuildError;
 use crate::certify::Certifiable;
-use crate::options::name;
 use crate::prepared::PreparedScene;
 use crate::scene::{CameraSettings, Scene};
 use crate::sensor::{Exposure, Sensor};
@@ -65,7 +64,7 @@ impl World {
     /// Says what the choice would need.
     pub fn check(&self, settings: &Settings) -> Result<(), String> {
         let sampled = self.scene.sampled(settings.technique, settings.choice);
-        sampled.map(|_| ()).map_err(|what| format!("the choice {} needs {what}", name(settings.choice)))
+        sampled.map(|_| ()).map_err(|what| format!("the choice {} needs {what}", settings.choice.name()))
     }
 
     /// The weights of radiance in an image of this size; `None` if the sensor measures radiance itself.

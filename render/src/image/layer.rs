@@ -2,7 +2,7 @@
 //!
 //! Each file has a checksum for every sixteen rows, which are read and compressed together.
 
-use super::size::believe;
+use super::size::check_size;
 use crate::area::Area;
 use crate::files::{FileError, failed};
 use exr::block::UncompressedBlock;
@@ -180,7 +180,7 @@ impl<R: Read + Seek> LayerFile<R> {
             return Err(not_one(&"its channels are not of 32 bits for each pixel"));
         }
         let bits = 32 * header.channels.list.len() as u128;
-        believe(path, size.map(|side| side as u128), bits, length as usize)?;
+        check_size(path, size.map(|side| side as u128), bits, length as usize)?;
         let Some(AttributeValue::Text(text)) = header.own_attributes.other.get(&Text::from(TEXT)) else {
             return Err(not_one(&format!("it has no text {TEXT:?}")));
         };

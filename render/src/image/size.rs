@@ -9,12 +9,10 @@ const MOST_EXPANSION: u128 = 2048;
 
 /// Checks that an image is not empty, and that a file of this length can hold it, before memory is allocated: a header may claim any
 /// size.
-pub(super) fn believe(
-    path: &Path,
-    [width, height]: [u128; 2],
-    bits_per_pixel: u128,
-    file: usize,
-) -> Result<(), FileError> {
+///
+/// # Errors
+/// Fails if the image is empty or has more than 2²⁸ pixels, or if the file is too short for it.
+pub fn check_size(path: &Path, [width, height]: [u128; 2], bits_per_pixel: u128, file: usize) -> Result<(), FileError> {
     let pixels = width.saturating_mul(height);
     if pixels == 0 {
         return Err(failed(path, format!("the image is empty: {width} × {height} pixels")));

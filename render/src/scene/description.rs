@@ -15,7 +15,7 @@ use std::ops::Range;
 use std::sync::Arc;
 use xxhash_rust::xxh3::Xxh3;
 
-/// The contents of a scene file, in world space.
+/// Everything that an image shows, in world space.
 #[derive(Clone, Debug)]
 pub struct Scene {
     /// The name of a built-in scene, or the file's name without its extension.
@@ -58,7 +58,7 @@ pub struct Scene {
     pub warnings: Vec<Message>,
     /// Those of the warnings that say that something stands for something else, which direct light on opaque surfaces cannot show.
     pub stand_ins: Vec<Message>,
-    /// The files that were read: the scene file itself if [`load`](super::load) read it, included files, meshes and images.
+    /// The files that were read: the scene file itself, included files, meshes and images.
     pub inputs: Vec<Input>,
 }
 
@@ -70,6 +70,36 @@ impl Scene {
         hash.update(self.name.as_bytes());
         self.inputs.iter().for_each(|input| hash.update(&input.hash.to_le_bytes()));
         format!("{:032x}", hash.digest128())
+    }
+}
+
+impl Scene {
+    /// A scene without surfaces and lights, seen by a camera in an image of this width and height in pixels.
+    #[must_use]
+    pub fn new(camera: CameraSettings, [width, height]: [u32; 2]) -> Self {
+        Self {
+            name: String::new(),
+            camera,
+            film: FilmSettings { width, height, diagonal: 35.0, filename: None, place: None },
+            pixel_samples: 16,
+            materials: Vec::new(),
+            triangles: Vec::new(),
+            objects: Vec::new(),
+            instances: Vec::new(),
+            triangle_materials: Vec::new(),
+            varying: Vec::new(),
+            masks: Vec::new(),
+            details: Arc::default(),
+            shapes: Arc::default(),
+            pictures: Arc::default(),
+            profiles: Arc::default(),
+            delta_lights: Vec::new(),
+            intensities: Vec::new(),
+            environment: None,
+            warnings: Vec::new(),
+            stand_ins: Vec::new(),
+            inputs: Vec::new(),
+        }
     }
 }
 

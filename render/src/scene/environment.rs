@@ -1,7 +1,6 @@
 //! Light from infinitely far away: a sky, its portals and its sun.
 
-use super::params::MOST_RADIANCE;
-use etendue::light::{EnvironmentMap, MOST_PORTALS, Portal};
+use etendue::light::{EnvironmentMap, Portal};
 
 /// Light from infinitely far away in all directions.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,38 +40,4 @@ pub enum SkyRadiance {
         /// Texels row by row; at least one channel is greater than 0.
         texels: Vec<[f32; 3]>,
     },
-}
-
-impl Environment {
-    /// The sum of two skies, if one of them is the same in all directions, or if both are the same sky through other portals.
-    pub(super) fn and(mut self, other: Self) -> Option<Self> {
-        if !self.portals.is_empty()
-            && !other.portals.is_empty()
-            && (self.to_light, self.sun) == (other.to_light, other.sun)
-        {
-            let are_few = self.portals.len() + other.portals.len() <= MOST_PORTALS;
-            if are_few && self.sky == other.sky {
-                self.portals.extend(other.portals);
-                return Some(self);
-            }
-        }
-        if !(self.portals.is_empty() && other.portals.is_empty()) || self.sun.is_some() && other.sun.is_some() {
-            return None;
-        }
-        let sun = self.sun.or(other.sun);
-        let add = |a: [f32; 3], b: [f32; 3]| std::array::from_fn(|k| (a[k] + b[k]).min(MOST_RADIANCE));
-        let (constant, other) = match (self.sky, other.sky) {
-            (SkyRadiance::Constant(a), sky) => (a, Self { sky, ..other }),
-            (sky, SkyRadiance::Constant(b)) => (b, Self { sky, to_light: self.to_light, ..other }),
-            _ => return None,
-        };
-        let sky = match other.sky {
-            SkyRadiance::Constant(b) => SkyRadiance::Constant(add(constant, b)),
-            SkyRadiance::Image { width, map, texels } => {
-                let texels = texels.into_iter().map(|texel| add(texel, constant)).collect();
-                SkyRadiance::Image { width, map, texels }
-            }
-        };
-        Some(Self { sky, sun, ..other })
-    }
 }

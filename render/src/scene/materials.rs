@@ -181,19 +181,4 @@ impl Material {
         }
         self
     }
-    /// A key for hashing: equal materials have equal words.
-    pub(super) fn words(&self) -> [u32; 13] {
-        let of = |kind: u32, colors: [[f32; 3]; 3], Roughness { along, across, turn }: Roughness| {
-            let [[a, b, c], [d, e, f], [g, h, i]] = colors.map(|color| color.map(f32::to_bits));
-            [kind, a, b, c, d, e, f, g, h, i, along.to_bits(), across.to_bits(), turn.to_bits()]
-        };
-        let (black, none) = ([0.0; 3], Roughness::from(0.0));
-        match *self {
-            Self::Diffuse(albedo) => of(0, [albedo, black, black], none),
-            Self::Mirror(reflectance) => of(1, [reflectance, black, black], none),
-            Self::Conductor { eta, k, roughness } => of(2, [eta, k, black], roughness),
-            Self::Glossy { diffuse, specular, grazing, roughness } => of(3, [diffuse, specular, grazing], roughness),
-            Self::Varying(index) => [4, index, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0],
-        }
-    }
 }

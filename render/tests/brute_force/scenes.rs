@@ -2,8 +2,7 @@
 
 use crate::meshes::{Random, Triangle, add, cube, meshes, sheet};
 use etendue_oracle::{V3, along, cross, dot, length, sub, unit, wide};
-use etendue_render::scene::{CameraSettings, Emission, FilmSettings, Geometry, Material, Scene, Screen, Shape};
-use std::sync::Arc;
+use etendue_render::scene::{CameraSettings, Emission, Geometry, Material, Scene, Screen, Shape};
 
 /// A scene of triangles and shapes.
 pub(crate) fn scene(triangles: Vec<Triangle>, shapes: Vec<Shape>) -> Scene {
@@ -17,27 +16,11 @@ pub(crate) fn scene(triangles: Vec<Triangle>, shapes: Vec<Shape>) -> Scene {
         lens: None,
     };
     Scene {
-        name: String::new(),
-        camera,
-        film: FilmSettings { width: 1, height: 1, diagonal: 35.0, filename: None, place: None },
-        pixel_samples: 1,
         materials: vec![Material::Diffuse([0.5; 3]), Material::Diffuse([0.0; 3])],
         triangle_materials: vec![0; triangles.len()],
         triangles,
-        objects: Vec::new(),
-        instances: Vec::new(),
-        varying: Vec::new(),
-        masks: Vec::new(),
-        details: Arc::default(),
         shapes: shapes.into(),
-        pictures: Arc::default(),
-        profiles: Arc::default(),
-        delta_lights: Vec::new(),
-        intensities: Vec::new(),
-        environment: None,
-        warnings: Vec::new(),
-        stand_ins: Vec::new(),
-        inputs: Vec::new(),
+        ..Scene::new(camera, [1; 2])
     }
 }
 

@@ -6,7 +6,7 @@ use etendue_render::image::Picture;
 use etendue_render::{
     ChoiceBy, RayCount, Sampler, Settings, Technique, World,
     compare::{Comparison, LIMIT},
-    image, scene,
+    image,
 };
 use std::path::Path;
 
@@ -23,7 +23,7 @@ const SETTINGS: Settings = Settings {
 };
 
 fn world(name: &str) -> World {
-    World::new(&scene::load(name).unwrap()).unwrap()
+    World::new(&etendue_scene::load(name).unwrap()).unwrap()
 }
 
 fn render(world: &World, settings: &Settings) -> (Film, RayCount) {

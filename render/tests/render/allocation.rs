@@ -7,7 +7,7 @@ use etendue_render::image::Picture;
 use etendue_render::{
     ChoiceBy, Sampler, Settings, Technique, World,
     compare::{Comparison, LIMIT},
-    image, scene,
+    image,
 };
 use std::path::Path;
 
@@ -24,7 +24,7 @@ const SETTINGS: Settings = Settings {
 };
 
 fn world(name: &str) -> World {
-    World::new(&scene::load(name).unwrap()).unwrap()
+    World::new(&etendue_scene::load(name).unwrap()).unwrap()
 }
 
 /// Each tile of 16×16 pixels traces each corner once, and only if samples are allocated: in scenes with several lights, for samplers that

@@ -4,7 +4,7 @@ use crate::variance::reported_to_measured;
 use etendue_oracle::tier::cases;
 use etendue_render::compare::differs;
 use etendue_render::film::Film;
-use etendue_render::{ChoiceBy, RayCount, Sampler, Settings, Technique, World, scene};
+use etendue_render::{ChoiceBy, RayCount, Sampler, Settings, Technique, World};
 use std::path::Path;
 
 const SETTINGS: Settings = Settings {
@@ -32,7 +32,7 @@ fn render(world: &World, settings: &Settings) -> (Film, RayCount) {
 fn agrees_with_sampled_lights() {
     const SIDE: usize = 8;
     for name in SCENES.into_iter().take(cases(4, 7)) {
-        let world = World::new(&scene::load(name).unwrap()).unwrap();
+        let world = World::new(&etendue_scene::load(name).unwrap()).unwrap();
         let settings = Settings { spp: cases(64, 1024), ..SETTINGS };
         let technique = if name == "plates" { Technique::MisPower } else { Technique::SolidAngle };
         let (film, _) = render(&world, &settings);
@@ -64,7 +64,7 @@ fn traces_few_rays() {
     for (name, rays, variance) in
         [("sphere-light", 0.0, 0.3), ("quads", 0.06, 0.1), ("triangle-light", 0.1, 1.1), ("cornell-box", 0.12, 1.1)]
     {
-        let world = World::new(&scene::load(name).unwrap()).unwrap();
+        let world = World::new(&etendue_scene::load(name).unwrap()).unwrap();
         let (film, count) = render(&world, &SETTINGS);
         let (sampled, other) = render(&world, &Settings { technique: Technique::SolidAngle, ..SETTINGS });
         let sum = |film: &Film| film.pixels.iter().map(|p| f64::from(p.variance[1])).sum::<f64>();
@@ -90,7 +90,7 @@ fn closed_surfaces_are_dark_inside() {
                  AreaLightSource \"diffuse\" \"rgb L\" [7 7 7]
                  Shape \"trianglemesh\" \"point3 P\" [-.5 {height} -.5  .5 {height} -.5  0 {height} .5]"
             );
-            let world = World::new(&scene::parse(&text, "closed.pbrt", Path::new("")).unwrap()).unwrap();
+            let world = World::new(&etendue_scene::parse(&text, "closed.pbrt", Path::new("")).unwrap()).unwrap();
             let [ours, sampled] = [Technique::Analytic, Technique::SolidAngle]
                 .map(|technique| render(&world, &Settings { technique, spp: cases(16, 64), ..SETTINGS }).0.mean()[1]);
             println!("light at {height}: {ours:.5} {sampled:.5}");
@@ -103,7 +103,7 @@ fn closed_surfaces_are_dark_inside() {
 /// The variance that an image reports is the one that images of other seeds have, also where only the pixel is sampled.
 #[test]
 fn knows_its_variance() {
-    let world = World::new(&scene::load("quads").unwrap()).unwrap();
+    let world = World::new(&etendue_scene::load("quads").unwrap()).unwrap();
     for sampler in [Sampler::Adaptive, Sampler::Sobol].into_iter().take(cases(1, 2)) {
         let ratio = reported_to_measured(&world, &Settings { sampler, ..SETTINGS });
         assert!((ratio - 1.0).abs() < 0.1, "{sampler:?}: {ratio}");
@@ -127,7 +127,7 @@ fn auto_chooses() {
         ("sky", Technique::MisLobe),
     ];
     for (name, technique) in expected {
-        let world = World::from_scene(&mut scene::load(name).unwrap()).unwrap();
+        let world = World::from_scene(&mut etendue_scene::load(name).unwrap()).unwrap();
         assert_eq!(world.view(&settings).technique(), technique, "{name}");
         if name == "quads" {
             let small = Settings { width: 64, height: 64, ..settings };
@@ -148,7 +148,7 @@ fn the_error_of_closed_forms_is_bounded() {
             AreaLightSource \"diffuse\" \"rgb L\" [ 3 2 1 ] \"bool twosided\" true Translate 0 1 2
             Shape \"sphere\" \"float radius\" 0.25"
         );
-        World::new(&scene::parse(&text, "floor.pbrt", Path::new("")).unwrap()).unwrap()
+        World::new(&etendue_scene::parse(&text, "floor.pbrt", Path::new("")).unwrap()).unwrap()
     };
     let down = "LookAt 0 2 0  0 0 0  0 0 1";
     let up = "LookAt 0 2 0  0 9 0  0 0 1";
@@ -192,7 +192,7 @@ fn known_lights_take_no_samples_from_others() {
              Shape \"bilinearmesh\" \"point3 P\" [-3 -3 0  3 -3 0  -3 3 0  3 3 0]\n",
             light(1.0, 0.0, "30 30 30")
         );
-        World::new(&scene::parse(&text, "a.pbrt", Path::new("")).unwrap()).unwrap()
+        World::new(&etendue_scene::parse(&text, "a.pbrt", Path::new("")).unwrap()).unwrap()
     };
     let noise = |known: usize| {
         let world = world(known);

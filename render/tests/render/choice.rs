@@ -1,8 +1,7 @@
 //! Ways to choose a light: all of them give the same image in the mean.
 
-use clap::ValueEnum;
 use etendue_oracle::tier::cases;
-use etendue_render::{ChoiceBy, Sampler, Settings, Technique, World, scene};
+use etendue_render::{ChoiceBy, Sampler, Settings, Technique, World};
 
 const SETTINGS: Settings = Settings {
     width: 16,
@@ -58,8 +57,9 @@ fn mean(world: &World, settings: &Settings, images: u64) -> [f64; 2] {
 /// combined with samples of the surface.
 #[test]
 fn all_choices_have_the_same_mean() {
-    let mixed = scene::parse(MIXED, "mixed.pbrt", std::path::Path::new("")).unwrap();
-    let scenes = ["quads", "delta-lights", "plates", "chandelier"].map(|name| (name, scene::load(name).unwrap()));
+    let mixed = etendue_scene::parse(MIXED, "mixed.pbrt", std::path::Path::new("")).unwrap();
+    let scenes =
+        ["quads", "delta-lights", "plates", "chandelier"].map(|name| (name, etendue_scene::load(name).unwrap()));
     let mut compared = [0; 6];
     for (name, scene) in scenes.into_iter().chain([("mixed", mixed)]) {
         let world = World::new(&scene).unwrap();
@@ -69,7 +69,7 @@ fn all_choices_have_the_same_mean() {
                 world.check(&settings).ok().map(|()| mean(&world, &settings, cases(8, 64)))
             };
             let [auto, own] = of(ChoiceBy::Auto, 0).unwrap();
-            for &choice in ChoiceBy::value_variants() {
+            for choice in ChoiceBy::ALL {
                 let Some([other, error]) = of(choice, 1000) else { continue };
                 let z = (other - auto) / own.hypot(error);
                 println!("{name} {technique:?} {choice:?}: {other:.5} ± {error:.5}, z {z:.2}");
@@ -92,7 +92,7 @@ fn impossible_choices_are_refused() {
             "the choice tree needs lights that are somewhere, and the scene has a sun or a sky",
         ),
     ] {
-        let world = World::new(&scene::load(name).unwrap()).unwrap();
+        let world = World::new(&etendue_scene::load(name).unwrap()).unwrap();
         assert_eq!(world.check(&Settings { choice, ..SETTINGS }), Err(what.to_owned()));
         // nothing is chosen where a technique finds all lights
         let (technique, choice) = (Technique::Brdf, ChoiceBy::Spatial);

@@ -1,15 +1,14 @@
 //! Compares lights and mirrors with closed forms: point, spot and distant lights over a plane, a mirror image, a sky.
 
-use clap::ValueEnum;
 use etendue_render::compare::{Comparison, LIMIT};
 use etendue_render::image::Picture;
-use etendue_render::{Sampler, Settings, Technique, World, scene};
+use etendue_render::{Sampler, Settings, Technique, World};
 use std::f64::consts::PI;
 use std::path::Path;
 
 fn world(text: &str) -> World {
-    let scene =
-        scene::parse(text, "test.pbrt", Path::new("no such directory")).unwrap_or_else(|e| panic!("{e}\n{text}"));
+    let scene = etendue_scene::parse(text, "test.pbrt", Path::new("no such directory"))
+        .unwrap_or_else(|e| panic!("{e}\n{text}"));
     World::new(&scene).unwrap()
 }
 
@@ -44,7 +43,7 @@ fn pixel(world: &World, technique: Technique, spp: u32) -> ([f64; 3], [f64; 3]) 
 
 /// Every technique gives exactly this irradiance times albedo/π, without noise, for lights with a single direction.
 fn exactly(world: &World, irradiance: [f64; 3]) {
-    for &technique in Technique::value_variants() {
+    for technique in Technique::ALL {
         let (mean, error) = pixel(world, technique, 24);
         for (k, albedo) in [0.8, 0.5, 0.2].into_iter().enumerate() {
             let truth = irradiance[k] * albedo / PI;
@@ -94,7 +93,7 @@ fn directed_lights_over_a_plane() {
         let text = format!(
             "LookAt 1 5 2 0 0 0  0.1 1 0.2\nCamera \"perspective\" \"float fov\" 1e-3\nWorldBegin\n{PLANE}{lights}"
         );
-        World::new(&scene::parse(&text, "test.pbrt", &folder).unwrap_or_else(|e| panic!("{e}"))).unwrap()
+        World::new(&etendue_scene::parse(&text, "test.pbrt", &folder).unwrap_or_else(|e| panic!("{e}"))).unwrap()
     };
     let ies = |turn: f64| {
         format!(
@@ -154,7 +153,7 @@ fn many_delta_lights_and_mixed_ones() {
     let ball = 5.0 * PI * 0.25 / 8.0 / 2.0_f64.sqrt();
     for (scene, irradiance) in [(scene.clone(), irradiance), (format!("{scene}{sphere}"), irradiance + ball)] {
         let world = narrow("1 5 2", &scene);
-        for &technique in Technique::value_variants() {
+        for technique in Technique::ALL {
             let (mean, error) = pixel(&world, technique, 4096);
             let z = (mean[0] - irradiance * 0.8 / PI) / error[0];
             assert!(z.abs() < LIMIT && error[0] < 0.1 * mean[0], "{technique:?}: {mean:?} ± {error:?}, {irradiance}");
@@ -164,7 +163,7 @@ fn many_delta_lights_and_mixed_ones() {
 
 /// Every technique gives this irradiance in every channel, but for its noise.
 fn nearly(world: &World, irradiance: f64, spp: u32) {
-    for &technique in Technique::value_variants() {
+    for technique in Technique::ALL {
         let (mean, error) = pixel(world, technique, spp);
         let truth = irradiance * 0.8 / PI;
         let off = (mean[0] - truth).abs();
@@ -229,7 +228,7 @@ fn panels_with_a_spread() {
 fn uniform_sky() {
     let scene = format!("{PLANE}LightSource \"infinite\" \"rgb L\" [1 2 4]");
     let world = narrow("1 5 2", &scene);
-    for &technique in Technique::value_variants() {
+    for technique in Technique::ALL {
         let (mean, error) = pixel(&world, technique, 4096);
         for (k, truth) in [0.8, 1.0, 0.8].into_iter().enumerate() {
             let off = (mean[k] - truth).abs();
@@ -261,13 +260,13 @@ fn half_a_sky() {
             "LookAt {camera} 0 0 0  0.1 0.2 1\nCamera \"perspective\" \"float fov\" 1e-3\nWorldBegin\n\
              AttributeBegin {transform} LightSource \"infinite\" \"string filename\" \"half.exr\" AttributeEnd\n{rest}"
         );
-        World::new(&scene::parse(&text, "test.pbrt", &folder).unwrap_or_else(|e| panic!("{e}"))).unwrap()
+        World::new(&etendue_scene::parse(&text, "test.pbrt", &folder).unwrap_or_else(|e| panic!("{e}"))).unwrap()
     };
     let plane = "Material \"diffuse\" \"rgb reflectance\" [.8 .8 .8] Rotate 30 1 0 0\n\
                  Shape \"trianglemesh\" \"point3 P\" [-9 -9 0  9 -9 0  0 9 0]";
     // the white half covers a lune of 60° of the hemisphere about the plane's normal (0, −½, √¾): π(1 + cos120°)/2
     let world = load("0 -1 4", "", plane);
-    for &technique in Technique::value_variants() {
+    for technique in Technique::ALL {
         let (mean, error) = pixel(&world, technique, 4096);
         let truth = 0.8 * (1.0 - 0.5) / 2.0;
         assert!((mean[0] - truth).abs() < LIMIT * error[0] && error[0] < 0.02, "{technique:?}: {mean:?} ± {error:?}");
@@ -514,7 +513,7 @@ fn coat_has_its_formula(shape: &str, along: V3, [a, b]: [f64; 2]) {
             let fresnel = factor * (0.04 + 0.96 * (1.0 - dot(view, half)).powi(5));
             let rough = fresnel * distribution * shadowing / (4.0 * i * o);
             let world = narrow("1 5 2", &format!("{}{text}{shape}", sun(to)));
-            for &technique in Technique::value_variants() {
+            for technique in Technique::ALL {
                 let (mean, _) = pixel(&world, technique, 8);
                 for (k, albedo) in albedo.into_iter().enumerate() {
                     let truth = ((1.0 - fresnel) * albedo / PI + rough) * i;
@@ -574,7 +573,7 @@ fn panels_light_smooth_surfaces() {
             mesh(&format!("\"normal N\" [{normals}]"))
         );
         let (world, truth) = (narrow("1 5 2", &scene), irradiance * 0.8 / PI);
-        for &technique in Technique::value_variants() {
+        for technique in Technique::ALL {
             let (mean, error) = pixel(&world, technique, 4096);
             assert!(
                 (mean[0] - truth).abs() < LIMIT * error[0] + 1e-4 * truth,

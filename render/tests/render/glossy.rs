@@ -3,7 +3,7 @@
 use etendue_oracle::tier::cases;
 use etendue_oracle::{V3, along, basis, cross, dot, length, sub, unit};
 use etendue_render::compare::differs;
-use etendue_render::{Sampler, Settings, Technique, World, scene};
+use etendue_render::{Sampler, Settings, Technique, World};
 use std::f64::consts::{PI, TAU};
 use std::fmt::Write;
 use std::path::Path;
@@ -182,7 +182,7 @@ fn rough_surfaces_reflect_the_sums() {
             text += &coat.text();
             lights.iter().for_each(|light| text += &light.text(true));
             blocker.iter().for_each(|blocker| text += &blocker.text(false));
-            let world = World::new(&scene::parse(&text, "glossy.pbrt", Path::new(".")).unwrap()).unwrap();
+            let world = World::new(&etendue_scene::parse(&text, "glossy.pbrt", Path::new(".")).unwrap()).unwrap();
             let mut errors = [0.0; 2];
             for (error, technique) in errors.iter_mut().zip([Technique::Analytic, Technique::MisPower]) {
                 let (film, _) = world.render(&settings(technique, cases(1 << 12, 1 << 15)), &|_| ());
@@ -231,7 +231,7 @@ fn many_lights_are_chosen_in_view_of_the_lobe() {
             format!("LookAt {x} {y} {z}  0 0 0  0.1 1 0.2 Camera \"perspective\" \"float fov\" 1e-3 WorldBegin\n");
         text += &coat.text();
         lights.iter().for_each(|light| text += &light.text(true));
-        let world = World::new(&scene::parse(&text, "many.pbrt", Path::new(".")).unwrap()).unwrap();
+        let world = World::new(&etendue_scene::parse(&text, "many.pbrt", Path::new(".")).unwrap()).unwrap();
         for technique in [Technique::SolidAngle, Technique::MisPower, Technique::MisBalance] {
             let (film, _) = world.render(&settings(technique, cases(1 << 16, 1 << 19)), &|_| ());
             let pixel = film.pixels[0];
@@ -277,7 +277,7 @@ fn metals_reflect_spheres_as_by_the_bsdf() {
             .unwrap();
             lights.iter().for_each(|light| text += &light.text(true));
             blocker.iter().for_each(|blocker| text += &blocker.text(false));
-            let world = World::new(&scene::parse(&text, "metal.pbrt", Path::new(".")).unwrap()).unwrap();
+            let world = World::new(&etendue_scene::parse(&text, "metal.pbrt", Path::new(".")).unwrap()).unwrap();
             let pixel = |technique, spp| {
                 let (film, _) = world.render(&settings(technique, spp), &|_| ());
                 [f64::from(film.pixels[0].mean[1]), f64::from(film.pixels[0].variance[1]).sqrt()]

@@ -4,7 +4,7 @@ use etendue_render::area::Place;
 use etendue_render::drive::Content;
 use etendue_render::film::{Film, Pixel};
 use etendue_render::parts::{self, PieceFile};
-use etendue_render::{Identity, Sampler, Sensor, Settings, Technique, image, scene};
+use etendue_render::{Identity, Sampler, Sensor, Settings, Technique, image};
 use exr::math::Vec2;
 use exr::meta::attribute::IntegerBounds;
 use exr::prelude::{
@@ -53,7 +53,7 @@ fn pictures_are_display_windows() {
         ([[7, 7], [8, 9]], [[0, 0], [4, 2]]),
     ] {
         let bytes = windows(data, display);
-        let picture = image::decode(Path::new("a.exr"), &bytes).unwrap();
+        let picture = etendue_scene::image::decode(Path::new("a.exr"), &bytes).unwrap();
         let [[x0, y0], [x1, y1]] = display;
         assert_eq!([picture.width, picture.height], [x1 - x0 + 1, y1 - y0 + 1].map(|side| side as usize));
         let mut pixels = picture.radiance.iter();
@@ -67,7 +67,9 @@ fn pictures_are_display_windows() {
         assert_eq!(own.radiance[0][..2], data[0].map(|at| at as f32));
     }
     // 16 bytes of pixels do not need 3 GB
-    let error = image::decode(Path::new("a.exr"), &windows([[0, 0], [0, 0]], [[0, 0], [16_383, 16_383]])).unwrap_err();
+    let error =
+        etendue_scene::image::decode(Path::new("a.exr"), &windows([[0, 0], [0, 0]], [[0, 0], [16_383, 16_383]]))
+            .unwrap_err();
     assert!(error.to_string().starts_with("a.exr: damaged: 16384 × 16384 pixels"), "{error}");
 }
 
@@ -88,7 +90,7 @@ fn parts_have_places() {
         sets: 0,
         seed: 0,
     };
-    let identity = Identity::new(&scene::load("quads").unwrap(), settings, Sensor::Radiance);
+    let identity = Identity::new(&etendue_scene::load("quads").unwrap(), settings, Sensor::Radiance);
     let file = std::env::temp_dir().join(format!("etendue-place-{}.exr", std::process::id()));
     for (place, start, whole) in [
         (Some(Place { start: [10, 5], whole: [64, 32] }), [10, 5], [64, 32]),
@@ -106,7 +108,7 @@ fn parts_have_places() {
         assert_eq!(header.own_attributes.layer_position, Vec2(start[0], start[1]));
         assert_eq!(header.layer_size, Vec2(10, 4));
         assert_eq!(image::read_exr(&file).unwrap(), image::Picture::from(&film));
-        let picture = image::read(&file).unwrap();
+        let picture = etendue_scene::image::read(&file).unwrap();
         assert_eq!([picture.width, picture.height], whole);
         let at = |x: usize, y: usize| picture.radiance[y * whole[0] + x];
         assert_eq!(at(start[0] as usize + 3, start[1] as usize + 2), [23.0, 1.0, 2.0]);
@@ -126,33 +128,33 @@ fn plain_images_are_read_however_they_are_compressed() {
         Compression::PXR24,
     ] {
         let bytes = plain(1024, compression);
-        let picture = image::decode(Path::new("plain.exr"), &bytes).unwrap();
+        let picture = etendue_scene::image::decode(Path::new("plain.exr"), &bytes).unwrap();
         println!("{compression}: {:.0} to 1", (1024 * 1024 * 12) as f64 / bytes.len() as f64);
         assert_eq!((picture.width, picture.height, picture.radiance[7_000]), (1024, 1024, [0.25, 0.5, 0.75]));
     }
     let white = vec![[255; 3]; 2000 * 1000];
     let bytes = image::encode_png([2000, 1000], &white).unwrap();
-    assert_eq!(image::decode(Path::new("plain.png"), &bytes).unwrap().radiance[7], [1.0; 3]);
+    assert_eq!(etendue_scene::image::decode(Path::new("plain.png"), &bytes).unwrap().radiance[7], [1.0; 3]);
 }
 
 /// Found by fuzzing: a file of 600 bytes for which 2.7 GB were allocated.
 #[test]
 fn a_size_that_the_file_cannot_hold_is_an_error() {
     let bytes = include_bytes!("../../../fuzz/seeds/image/oversized");
-    let error = image::decode(Path::new("large.exr"), bytes).unwrap_err().to_string();
+    let error = etendue_scene::image::decode(Path::new("large.exr"), bytes).unwrap_err().to_string();
     assert_eq!(error, "large.exr: 64 × 67108802 pixels: at most 268435456 are supported");
     // changes the last coordinates of the data window of a valid file
     let mut bytes = plain(64, Compression::ZIP16);
     let window = bytes.windows(10).position(|w| w == b"dataWindow").unwrap() + 10 + 1 + 6 + 4;
     assert_eq!(bytes[window + 8..window + 16], [63, 0, 0, 0, 63, 0, 0, 0]);
     bytes[window + 9] = 0xff;
-    let error = image::decode(Path::new("wide.exr"), &bytes).unwrap_err().to_string();
+    let error = etendue_scene::image::decode(Path::new("wide.exr"), &bytes).unwrap_err().to_string();
     assert!(
         error.starts_with("wide.exr: damaged: 65344 × 64 pixels, 50184192 bytes, do not fit into a file of "),
         "{error}"
     );
     bytes[window + 9..window + 16].copy_from_slice(&[0xff, 0xff, 0, 63, 0xff, 0xff, 0]);
-    let error = image::decode(Path::new("huge.exr"), &bytes).unwrap_err().to_string();
+    let error = etendue_scene::image::decode(Path::new("huge.exr"), &bytes).unwrap_err().to_string();
     assert_eq!(error, "huge.exr: 16777024 × 16777024 pixels: at most 268435456 are supported");
 }
 
@@ -160,6 +162,6 @@ fn a_size_that_the_file_cannot_hold_is_an_error() {
 #[test]
 fn an_image_of_nothing_is_an_error() {
     let bytes = include_bytes!("../../../fuzz/seeds/image/zero-rows");
-    let error = image::decode(Path::new("flat.hdr"), bytes).unwrap_err().to_string();
+    let error = etendue_scene::image::decode(Path::new("flat.hdr"), bytes).unwrap_err().to_string();
     assert_eq!(error, "flat.hdr: the image is empty: 4 × 0 pixels");
 }

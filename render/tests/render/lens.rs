@@ -21,7 +21,7 @@ const SAMPLERS: [Sampler; 6] = [
 ];
 
 fn read(text: &str) -> scene::Scene {
-    scene::parse(text, "test.pbrt", Path::new("")).unwrap()
+    etendue_scene::parse(text, "test.pbrt", Path::new("")).unwrap()
 }
 
 fn render(scene: &scene::Scene, settings: &Settings) -> Picture {
@@ -172,7 +172,7 @@ fn edges_out_of_focus_have_their_closed_form() {
 /// Techniques and samplers agree on images through the lens.
 #[test]
 fn techniques_and_samplers_agree_through_a_lens() {
-    let scene = scene::load("defocus").unwrap();
+    let scene = etendue_scene::load("defocus").unwrap();
     let of = |technique, sampler, spp, seed| {
         render(
             &scene,

@@ -1,6 +1,5 @@
 //! Laws of the choice and the sampling of lights, which an image cannot show: a wrong weight of two percent hides in its noise.
 
-use clap::ValueEnum;
 use etendue::sequence::{Independent, Sequence};
 use etendue::{Mask, Real, Uint, Vec2, Vec3, u32x8};
 use etendue_oracle::tier::cases;
@@ -31,8 +30,8 @@ fn packet(scene: &Scene, number: u32) -> (V8, V8, [X8; 4]) {
 
 /// The ways to choose among lights that are possible.
 fn choosers<'a>(choosers: &'a Choosers, lights: &Lights) -> Vec<(ChoiceBy, &'a Chooser)> {
-    let by = |by: &ChoiceBy| Some((*by, choosers.by(lights, *by).ok()?));
-    ChoiceBy::value_variants().iter().filter_map(by).collect()
+    let by = |by| Some((by, choosers.by(lights, by).ok()?));
+    ChoiceBy::ALL.into_iter().filter_map(by).collect()
 }
 
 /// The pdf of a direction, with which MIS weights it, is bit for bit the product of the probability with which its light was chosen, in
@@ -40,8 +39,8 @@ fn choosers<'a>(choosers: &'a Choosers, lights: &Lights) -> Vec<(ChoiceBy, &'a C
 #[test]
 fn the_pdf_of_a_direction_is_that_with_which_it_was_drawn() {
     let mut kinds = [0_u32; 3];
-    for (name, _) in scene::builtin() {
-        let scene = scene::load(name).unwrap();
+    for (name, _) in etendue_scene::builtin() {
+        let scene = etendue_scene::load(name).unwrap();
         let lights = Lights::new(&scene, None);
         if scene.shapes.is_empty() || lights.is_empty() || lights.only_deltas() {
             continue;
@@ -84,8 +83,8 @@ fn the_pdf_of_a_direction_is_that_with_which_it_was_drawn() {
 #[test]
 fn the_pdf_of_the_sky_is_that_with_which_it_was_drawn() {
     let mut compared = 0;
-    for (name, _) in scene::builtin() {
-        let mut scene = scene::load(name).unwrap();
+    for (name, _) in etendue_scene::builtin() {
+        let mut scene = etendue_scene::load(name).unwrap();
         let Some(environment) = scene.environment.take() else { continue };
         let sky = Arc::new(Sky::new(&environment));
         // as bright as the sky, or nearly so
@@ -127,8 +126,8 @@ fn the_pdf_of_the_sky_is_that_with_which_it_was_drawn() {
 #[test]
 fn the_pmf_of_all_lights_sums_to_one() {
     let mut exact = [0; 6];
-    for (name, _) in scene::builtin_of_few_lights() {
-        let scene = scene::load(name).unwrap();
+    for (name, _) in etendue_scene::builtin_of_few_lights() {
+        let scene = etendue_scene::load(name).unwrap();
         let lights = Lights::new(&scene, None);
         if scene.shapes.is_empty() || lights.is_empty() {
             continue;
@@ -163,8 +162,8 @@ fn the_pmf_of_all_lights_sums_to_one() {
 #[test]
 fn bounds_are_those_of_the_shapes() {
     let mut kinds = [0; 3];
-    for (name, _) in scene::builtin() {
-        let scene = scene::load(name).unwrap();
+    for (name, _) in etendue_scene::builtin() {
+        let scene = etendue_scene::load(name).unwrap();
         let shapes = scene.shapes.iter().filter(|shape| shape.emission.is_some());
         let bounds = Lights::bounds(&scene);
         assert_eq!(bounds.len(), shapes.clone().count(), "{name}");
@@ -204,7 +203,7 @@ fn bounds_are_those_of_the_shapes() {
 /// A distant light and a lamp share a part of the chance equally, and the rest by the irradiance that each causes, however large the scene is.
 #[test]
 fn lights_far_away_have_their_share_of_the_irradiance() {
-    let mut scene = scene::load("sphere-light").unwrap();
+    let mut scene = etendue_scene::load("sphere-light").unwrap();
     let (intensity, axis) = ([1.0, 2.0, 4.0], [0.0, -1.0, 0.0]);
     let irradiance = [0.5, 0.25, 2.0];
     let (one_minus_cos_inner, one_minus_cos_outer) = (0.1, 0.25);
@@ -284,7 +283,7 @@ fn directed_and_spread_lights_are_never_lost() {
         };
         text += &format!("AttributeBegin Translate {x} {y} {z} Rotate {} {y} {z} {x} {light} AttributeEnd\n", i * 47);
     }
-    let scene = scene::parse(&text, "test.pbrt", &folder).unwrap_or_else(|error| panic!("{error}"));
+    let scene = etendue_scene::parse(&text, "test.pbrt", &folder).unwrap_or_else(|error| panic!("{error}"));
     std::fs::remove_dir_all(&folder).unwrap();
     let lights = Lights::new(&scene, None);
     let choosers = Choosers::new(&lights, 1.0).unwrap();

@@ -6,6 +6,7 @@ mod analytic;
 mod choice;
 mod closed_forms;
 mod glossy;
+mod identity;
 mod images;
 mod lens;
 mod lights;

@@ -1,8 +1,9 @@
 //! Holes and instances, against closed forms and against scenes without them.
 
 use etendue_render::compare::LIMIT;
-use etendue_render::scene::{Instance, Scene, parse};
+use etendue_render::scene::{Instance, Scene};
 use etendue_render::{Sampler, Settings, Technique, World};
+use etendue_scene::parse;
 use std::path::Path;
 use std::sync::Arc;
 

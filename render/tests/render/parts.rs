@@ -6,7 +6,7 @@ use etendue_render::drive::{Content, Samples};
 use etendue_render::film::{Film, Pixel};
 use etendue_render::merge::{MergeOutcome, Merged, merge};
 use etendue_render::parts::{self, Piece, PieceFile, PieceKind};
-use etendue_render::{ChoiceBy, Identity, Sampler, Sensor, Settings, Technique, World, scene};
+use etendue_render::{ChoiceBy, Identity, Sampler, Sensor, Settings, Technique, World};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -77,7 +77,7 @@ struct Job {
 
 impl Job {
     fn new(name: &str, settings: Settings) -> Self {
-        let scene = scene::load(name).unwrap();
+        let scene = etendue_scene::load(name).unwrap();
         let identity = Identity::new(&scene, settings, Sensor::Radiance).of_parts();
         Self { world: World::new(&scene).unwrap(), identity, folder: Folder::new(), written: 0 }
     }

@@ -1,9 +1,8 @@
 //! Lights that show pictures: against a double-precision quadrature, which shares no code with the renderer, and against each other by all
 //! techniques.
 
-use clap::ValueEnum;
 use etendue_oracle::tier::cases;
-use etendue_render::{Sampler, Settings, Technique, World, scene};
+use etendue_render::{Sampler, Settings, Technique, World};
 use exr::prelude::write_rgb_file;
 use std::f64::consts::PI;
 use std::path::PathBuf;
@@ -23,7 +22,7 @@ impl Folder {
     }
     fn world(&self, camera: &str, text: &str) -> World {
         let text = format!("{camera}\nWorldBegin\n{text}");
-        let scene = scene::parse(&text, "test.pbrt", &self.0).unwrap_or_else(|e| panic!("{e}\n{text}"));
+        let scene = etendue_scene::parse(&text, "test.pbrt", &self.0).unwrap_or_else(|e| panic!("{e}\n{text}"));
         assert!(scene.warnings.is_empty(), "{:?}", scene.warnings);
         World::new(&scene).unwrap()
     }
@@ -126,7 +125,7 @@ fn settings(technique: Technique, spp: u32, side: u32, sampler: Sampler) -> Sett
 fn agrees(name: &str, light: &str, truth: V3) {
     let folder = Folder::new(name);
     let world = folder.world(NARROW, &format!("{PLANE}{light}"));
-    for &technique in Technique::value_variants() {
+    for technique in Technique::ALL {
         let spp = cases(1 << 14, 1 << 17);
         let (film, _) = world.render(&settings(technique, spp, 1, Sampler::Independent), &|_| ());
         let pixel = film.pixels[0];
@@ -277,7 +276,7 @@ fn cameras_see_pictures() {
 fn digests_cover_pictures() {
     let folder = Folder::new("digest");
     let text = format!("Camera \"perspective\"\nWorldBegin\n{LIGHT}\nShape \"sphere\"");
-    let digest = || scene::parse(&text, "test.pbrt", &folder.0).unwrap().digest();
+    let digest = || etendue_scene::parse(&text, "test.pbrt", &folder.0).unwrap().digest();
     let before = digest();
     assert_eq!(before, digest());
     write_rgb_file(folder.0.join("p.exr"), SIZE[0], SIZE[1], |_, _| (1.0, 1.0, 1.0_f32)).unwrap();
@@ -322,7 +321,7 @@ fn techniques_agree_in_a_room() {
     };
     let reference = quarters(Technique::MisBalance, Sampler::Independent);
     let mut compared = 0;
-    let all = Technique::value_variants().iter().map(|&technique| (technique, Sampler::Independent));
+    let all = Technique::ALL.into_iter().map(|technique| (technique, Sampler::Independent));
     for (technique, sampler) in
         all.chain([(Technique::Auto, Sampler::Adaptive), (Technique::Analytic, Sampler::Adaptive)])
     {

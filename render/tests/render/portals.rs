@@ -3,8 +3,9 @@
 use etendue_oracle::tier::cases;
 use etendue_render::compare::LIMIT;
 use etendue_render::film::Film;
-use etendue_render::scene::{Environment, Scene, parse};
+use etendue_render::scene::{Environment, Scene};
 use etendue_render::{Sampler, Settings, Technique, World};
+use etendue_scene::parse;
 use std::path::Path;
 use std::time::Instant;
 

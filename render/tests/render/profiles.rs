@@ -1,7 +1,6 @@
 //! Spot and area lights with profiles, against sums in double precision.
 
-use clap::ValueEnum;
-use etendue_render::{Sampler, Settings, Technique, World, scene};
+use etendue_render::{Sampler, Settings, Technique, World};
 use exr::prelude::write_rgb_file;
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
@@ -33,7 +32,7 @@ impl Folder {
              Material \"diffuse\" \"rgb reflectance\" [0 0 0]\n{lights}"
         );
         let path: &Path = &self.0;
-        World::new(&scene::parse(&text, "test.pbrt", path).unwrap_or_else(|e| panic!("{e}\n{text}"))).unwrap()
+        World::new(&etendue_scene::parse(&text, "test.pbrt", path).unwrap_or_else(|e| panic!("{e}\n{text}"))).unwrap()
     }
 }
 impl Drop for Folder {
@@ -61,7 +60,7 @@ fn pixel(world: &World, technique: Technique, spp: u32) -> (f64, f64) {
 
 /// Every technique gives this irradiance but for its noise; those that sample no lights, by rays that hit them.
 fn nearly(world: &World, irradiance: f64, what: &str) {
-    for &technique in Technique::value_variants() {
+    for technique in Technique::ALL {
         let (mean, error) = pixel(world, technique, 1 << 14);
         let truth = irradiance * 0.8 / PI;
         let z = (mean - truth) / (error + 2e-5 * truth);
@@ -79,7 +78,7 @@ fn spots_with_profiles_over_a_plane() {
     // along the photometric horizontal of type A, brighter above than below
     folder.ies("a.ies", "NONE", 3, "-60 0 60", "-90 0 90", "30 90 60 30 90 60 30 90 60");
     let exactly = |light: &str, irradiance: f64| {
-        for &technique in Technique::value_variants() {
+        for technique in Technique::ALL {
             let (mean, error) = pixel(&folder.world(light), technique, 24);
             let truth = irradiance * 0.8 / PI;
             assert!(

@@ -9,7 +9,7 @@
 use etendue_oracle::tier::{cases, is_long};
 use etendue_render::compare::{Comparison, Prediction, differs};
 use etendue_render::image::{self, Picture};
-use etendue_render::{Sampler, Settings, Technique, World, scene};
+use etendue_render::{Sampler, Settings, Technique, World};
 use std::path::Path;
 
 const TECHNIQUES: [Technique; 4] =
@@ -47,7 +47,7 @@ fn scene(name: &str, mean: f64, reference_error: f64, hemisphere_spp: u32, hemis
     let sum: f64 = reference.radiance.iter().flatten().map(|&x| f64::from(x)).sum();
     assert!((sum / (3.0 * pixels) - mean).abs() < 1e-6, "unexpected mean of the reference: {}", sum / (3.0 * pixels));
 
-    let world = World::new(&scene::load(name).unwrap()).unwrap();
+    let world = World::new(&etendue_scene::load(name).unwrap()).unwrap();
     let mut count = 0;
     for technique in TECHNIQUES {
         let towards_lights = matches!(technique, Technique::Area | Technique::SolidAngle);
@@ -111,7 +111,7 @@ fn quads() {
 /// The film depends on the seed, not on the number of threads, which process tiles in different orders.
 #[test]
 fn threads_do_not_matter_and_seeds_do() {
-    let world = World::new(&scene::load("quads").unwrap()).unwrap();
+    let world = World::new(&etendue_scene::load("quads").unwrap()).unwrap();
     let all = [
         (Technique::SolidAngle, Sampler::Stratified, 16),
         (Technique::Area, Sampler::Independent, 5),
@@ -156,7 +156,7 @@ fn threads_do_not_matter_and_seeds_do() {
 /// Sample counts that do not fill packets or strata, and images smaller than a tile, have the mean of a precise image.
 #[test]
 fn any_number_of_samples_and_any_size() {
-    let world = World::new(&scene::load("triangle-light").unwrap()).unwrap();
+    let world = World::new(&etendue_scene::load("triangle-light").unwrap()).unwrap();
     for (width, height) in [(1, 1), (17, 5), (33, 18)].into_iter().take(cases(2, 3)) {
         let of = |spp, technique, sampler, seed| {
             let settings = Settings {
@@ -219,7 +219,7 @@ fn any_number_of_samples_and_any_size() {
 /// Two techniques that share only the scene agree on a million triangles.
 #[test]
 fn terrain_agrees_with_itself() {
-    let world = World::new(&scene::load("terrain").unwrap()).unwrap();
+    let world = World::new(&etendue_scene::load("terrain").unwrap()).unwrap();
     // techniques with the same seed share part of their noise
     let of = |spp, technique| {
         let seed = technique as u64;

@@ -19,7 +19,7 @@ fn inside(radius: f64, scale: f64) -> scene::Scene {
          AreaLightSource \"diffuse\" \"rgb L\" [1 2 4] \"bool twosided\" true Shape \"sphere\" \"float radius\" 1000",
         s = 1.0 / scale
     );
-    scene::parse(&text, "inside.pbrt", Path::new("")).unwrap()
+    etendue_scene::parse(&text, "inside.pbrt", Path::new("")).unwrap()
 }
 
 const SIZE: [u32; 2] = [40, 30];

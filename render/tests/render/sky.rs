@@ -2,7 +2,7 @@
 
 use etendue::warp::Octahedral;
 use etendue::{Vec2, Vec3, Warp};
-use etendue_render::image;
+use etendue_scene::image;
 use exr::prelude::{f16, write_rgb_file};
 use std::path::{Path, PathBuf};
 

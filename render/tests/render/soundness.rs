@@ -2,7 +2,7 @@
 
 use etendue_oracle::integrate;
 use etendue_oracle::tier::cases;
-use etendue_render::scene::{self, Scene};
+use etendue_render::scene::Scene;
 use etendue_render::{Sampler, Settings, Technique, World};
 use std::f64::consts::PI;
 use std::fmt::Write;
@@ -151,7 +151,7 @@ fn from_near(file: &str, camera: [&str; 2], fov: [&str; 2]) -> Scene {
 }
 
 fn parsed(text: &str) -> Scene {
-    scene::parse(text, "soundness.pbrt", Path::new(".")).unwrap()
+    etendue_scene::parse(text, "soundness.pbrt", Path::new(".")).unwrap()
 }
 
 /// The light of glossy scenes is that of samples of the BSDF alone, and that of combined samples, in the image and in each of its regions.

@@ -16,7 +16,7 @@ fn scene(lens: &str, world: &str) -> scene::Scene {
         "Camera \"perspective\" \"float fov\" 40 {lens} WorldBegin Material \"diffuse\" \"rgb reflectance\" [0 0 0]\n\
          AreaLightSource \"diffuse\" \"rgb L\" [1 1 1] \"bool twosided\" true {world}"
     );
-    scene::parse(&text, "test.pbrt", Path::new("")).unwrap()
+    etendue_scene::parse(&text, "test.pbrt", Path::new("")).unwrap()
 }
 
 fn render(scene: &scene::Scene, camera: &Camera, [width, height]: [u32; 2], spp: u32, sampler: Sampler) -> Film {

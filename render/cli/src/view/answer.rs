@@ -4,13 +4,12 @@ use super::http::{Body, Request, Response};
 use super::page;
 use super::server::Place;
 use super::state::{Picture, Shared, State, Way};
-use clap::ValueEnum;
 use etendue_render::area::Area;
 use etendue_render::film::Film;
-use etendue_render::options::name;
 use etendue_render::{Sampler, Settings, Technique};
 use serde_json::{Value, json};
 use std::io::{self, Write};
+use std::str::FromStr;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
@@ -35,8 +34,8 @@ pub(crate) fn answer(shared: &Shared, path: &str, request: &Request) -> Response
 }
 
 /// The value of this name among those of an option.
-fn value<T: ValueEnum>(option: &str, text: &str) -> Result<T, String> {
-    T::from_str(text, false).map_err(|_| format!("{option}: {text:?} is not one of those that `etendue list` prints"))
+fn value<T: FromStr>(option: &str, text: &str) -> Result<T, String> {
+    text.parse().map_err(|_| format!("{option}: {text:?} is not one of those that `etendue list` prints"))
 }
 
 /// Changes what is rendered: an object with any of `technique`, `sampler`, `crop` ([x0, y0, x1, y1], or null), `paused` and `reload`.
@@ -79,11 +78,11 @@ fn crop(value: &Value, [width, height]: [u32; 2]) -> Option<Area> {
 fn status(shared: &Shared) -> Response {
     let (done, of) = (shared.done.load(Ordering::Relaxed), shared.of.load(Ordering::Relaxed));
     let State { wishes, facts, pictures, changed, message } = &*shared.lock();
-    let way = |way: &Way| json!({ "technique": name(way.technique), "sampler": name(way.sampler) });
+    let way = |way: &Way| json!({ "technique": way.technique.name(), "sampler": way.sampler.name() });
     let picture = |picture: &Picture| {
         json!({
             "way": way(&picture.way),
-            "chosen": name(picture.chosen),
+            "chosen": picture.chosen.name(),
             "version": picture.version,
             "spp": picture.spp,
             "error": picture.error.map(|claim| claim.total()),
@@ -101,8 +100,8 @@ fn status(shared: &Shared) -> Response {
         "sensor": facts.sensor,
         "target": facts.target,
         "files": facts.files,
-        "techniques": values::<Technique>(),
-        "samplers": values::<Sampler>(),
+        "techniques": Technique::NAMES,
+        "samplers": Sampler::NAMES,
         "way": way(&wishes.way),
         "crop": wishes.crop,
         "paused": wishes.paused,
@@ -112,12 +111,6 @@ fn status(shared: &Shared) -> Response {
         "message": message,
     });
     Response::new(200, "application/json", object.to_string().into_bytes())
-}
-
-/// The names of the values of an option, and what they mean.
-fn values<T: ValueEnum>() -> Vec<[String; 2]> {
-    let shown = T::value_variants().iter().filter_map(ValueEnum::to_possible_value);
-    shown.map(|v| [v.get_name().to_owned(), v.get_help().map(ToString::to_string).unwrap_or_default()]).collect()
 }
 
 /// The pixels of an image: width, height and version (u32 each, and 0), the radiance of each pixel (three f32), the variance of each (three

@@ -54,7 +54,7 @@ pub(crate) struct Facts {
     pub(crate) size: [u32; 2],
     /// The value of unit radiance in the middle of the image, by which the PNG is divided.
     pub(crate) exposure: f64,
-    pub(crate) sensor: String,
+    pub(crate) sensor: &'static str,
     /// The error that is asked for.
     pub(crate) target: Option<f64>,
     /// Which files hold the image.

@@ -6,10 +6,10 @@ use crate::display::Display;
 use crate::image::ImageOptions;
 use crate::interrupt::Interrupt;
 use crate::output::Output;
+use etendue_laboratory::options::say;
 use etendue_render::area::{self, Area};
 use etendue_render::claim::why_unknown;
 use etendue_render::limits::MOST_SAMPLES;
-use etendue_render::options::{name, say};
 use etendue_render::progressive::{Goal, Progress, Refined, Refinement};
 use etendue_render::sampler::default_sampler;
 use etendue_render::scene::Scene;
@@ -104,7 +104,7 @@ impl Worker<'_> {
             scene: scene.name.clone(),
             size: [settings.width, settings.height],
             exposure: identity.exposure,
-            sensor: name(self.image.sensor),
+            sensor: self.image.sensor.name(),
             target: self.goal.error,
             files: format!("{} and {}", self.output.exr.display(), self.output.png.display()),
         };
@@ -137,7 +137,7 @@ impl Worker<'_> {
             }
             if let Err(what) = subject.choose(wishes.way, &mut kept, shared, self.goal) {
                 let mut state = shared.lock();
-                state.message = Some(format!("{}: {what}", name(wishes.way.sampler)));
+                state.message = Some(format!("{}: {what}", wishes.way.sampler.name()));
                 let Some(last) = kept.last() else { return Err(what.into()) };
                 state.wishes.way = last.way;
                 continue;
@@ -256,7 +256,7 @@ impl Subject {
         let refined = Refined::new(&self.world, &plan)?;
         kept.push(Kept { way, refined, history: Vec::new() });
         for old in forgotten(kept, area::count(settings.whole()) as u64) {
-            let [technique, sampler] = [name(old.way.technique), name(old.way.sampler)];
+            let [technique, sampler] = [old.way.technique.name(), old.way.sampler.name()];
             let mut state = shared.lock();
             state.pictures.retain(|picture| picture.way != old.way);
             state.message =

@@ -6,7 +6,7 @@ use etendue_laboratory::chart::{self, Options};
 use etendue_oracle::tier::cases;
 use etendue_render::compare::{Comparison, differs};
 use etendue_render::image::Picture;
-use etendue_render::{ChoiceBy, Sampler, Settings, Technique, World, scene};
+use etendue_render::{ChoiceBy, Sampler, Settings, Technique, World};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use std::sync::Arc;
@@ -248,7 +248,7 @@ fn all(rows: &Rows) -> impl Iterator<Item = &Row> {
 fn errors_are_those_of_the_images() {
     let folder = Folder::new();
     let outcome = chart::measure(&options(&folder.0, "quads"), &Arc::new(AtomicBool::new(false))).unwrap();
-    let world = World::new(&scene::load("quads").unwrap()).unwrap();
+    let world = World::new(&etendue_scene::load("quads").unwrap()).unwrap();
     let reference = Reference::builtin("quads").unwrap().shrunk([64, 64]).unwrap();
     let mut seeds: Vec<u64> = all(&outcome.rows).map(|r| r.seed).collect();
     seeds.sort_unstable();

@@ -3,7 +3,6 @@
 use super::judge::read;
 use super::regimes::Regime;
 use etendue_render::film::Film;
-use etendue_render::options::name;
 use etendue_render::progressive::{Goal, Progress, Refinement, render};
 use etendue_render::sampler::default_sampler;
 use etendue_render::scene::Scene;
@@ -286,7 +285,7 @@ impl Display for Tally {
         )?;
         if let Some(extremes) = self.extremes() {
             for Run { way, scene, technique, claimed, ratio, .. } in extremes {
-                write!(f, "; {ratio:.2} of {claimed:.1e}: {scene} {way} {}", name(technique))?;
+                write!(f, "; {ratio:.2} of {claimed:.1e}: {scene} {way} {}", technique.name())?;
             }
         }
         Ok(())

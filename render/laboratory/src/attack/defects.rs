@@ -6,7 +6,6 @@ use super::judge::{Effort, Trial, Verdict, confirmed, parse};
 use crate::random::Random;
 use etendue_oracle::along;
 use etendue_render::Technique;
-use etendue_render::options::name;
 use std::fmt::{self, Display, Formatter};
 
 /// A scene on which the renderer was wrong.
@@ -176,12 +175,12 @@ impl Display for Table {
         let error = truth.iter().map(|block| block.error.powi(2)).sum::<f64>().sqrt() / count;
         writeln!(f, "{} {:36} oracle       {mean:.6e} ± {error:.1e}", self.letter, self.about)?;
         for row in rows {
-            let chosen = if row.chosen == row.technique { String::new() } else { format!(" ({})", name(row.chosen)) };
+            let chosen = if row.chosen == row.technique { String::new() } else { format!(" ({})", row.chosen.name()) };
             writeln!(
                 f,
                 "  {:36} {:12} mean {:+10.3e}, worst block {:+10.3e}, |z| {:8.1}{}{chosen}",
                 "",
-                name(row.technique),
+                row.technique.name(),
                 row.mean,
                 row.greatest_difference(),
                 row.greatest_z(),

@@ -6,7 +6,7 @@ use etendue::occlusion::SPARED;
 use etendue_oracle::direct::{self, Block, Body, Source, View};
 use etendue_render::compare::{LIMIT, differs};
 use etendue_render::film::Film;
-use etendue_render::scene::{self, Affine, Instance, Scene};
+use etendue_render::scene::{Affine, Instance, Scene};
 use etendue_render::{Sampler, Settings, Technique, World};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -153,7 +153,7 @@ fn with_pictures(draft: &Draft) -> Result<Scene, String> {
     for picture in draft.pictures() {
         std::fs::write(folder.0.join(picture.name()), picture.bytes()).map_err(|error| error.to_string())?;
     }
-    scene::parse(&draft.to_string(), "attack.pbrt", &folder.0).map_err(|error| error.to_string())
+    etendue_scene::parse(&draft.to_string(), "attack.pbrt", &folder.0).map_err(|error| error.to_string())
 }
 
 /// A folder for pictures, which is removed when it is dropped.
@@ -180,7 +180,7 @@ impl Drop for Folder {
 /// # Errors
 /// Fails if it is none.
 pub fn parse(text: &str) -> Result<Scene, String> {
-    scene::parse(text, "attack.pbrt", Path::new("")).map_err(|error| error.to_string())
+    etendue_scene::parse(text, "attack.pbrt", Path::new("")).map_err(|error| error.to_string())
 }
 
 /// The techniques that are compared: what images use by default, and two that share little with it.

@@ -5,7 +5,6 @@ use super::judge::{Against, Effort, Row, TECHNIQUES, Trial, confirmed};
 use super::regimes::Regime;
 use super::shrink::shrink;
 use etendue_render::Technique;
-use etendue_render::options::name;
 use rayon::prelude::*;
 use std::fmt::{self, Display, Formatter};
 use std::ops::Range;
@@ -126,7 +125,7 @@ impl Display for Failure {
         }
         for (technique, against, z, difference) in &self.techniques {
             let sum = if *against == Against::Sum { " from the sum" } else { "" };
-            write!(f, " {}{sum} by {difference:+.2e} (|z| {:.1})", name(*technique), z.min(1e9))?;
+            write!(f, " {}{sum} by {difference:+.2e} (|z| {:.1})", technique.name(), z.min(1e9))?;
         }
         f.write_str(if self.all { ", all techniques" } else { "" })
     }

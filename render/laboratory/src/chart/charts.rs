@@ -24,7 +24,7 @@ pub fn with_interval(e: &Estimate) -> String {
 /// Identifier of a series in a page: technique/sampler.
 #[must_use]
 pub fn id(series: &Series) -> String {
-    format!("{}/{}", series.way.method(), etendue_render::options::name(series.way.sampler))
+    format!("{}/{}", series.way.method(), series.way.sampler.name())
 }
 
 fn lines(

@@ -4,7 +4,6 @@ use super::reference::Reference;
 use super::stats::Cost;
 use crate::cost::median;
 use crate::hash::fnv1a;
-use etendue_render::options::name;
 use etendue_render::{ChoiceBy, Sampler, Settings, Technique, World};
 use std::collections::{HashMap, HashSet};
 use std::error::Error;
@@ -50,8 +49,8 @@ pub struct Key {
 #[must_use]
 pub fn method(technique: Technique, choice: ChoiceBy) -> String {
     match choice {
-        ChoiceBy::Auto => name(technique),
-        _ => format!("{} by {}", name(technique), name(choice)),
+        ChoiceBy::Auto => technique.name().to_owned(),
+        _ => format!("{} by {}", technique.name(), choice.name()),
     }
 }
 
@@ -147,7 +146,7 @@ impl Plan {
     fn seed(&self, key: &Key, replicate: u32) -> u64 {
         let subject = &self.scenes[key.scene].name;
         let method = method(key.technique, key.choice);
-        let text = format!("{subject}/{method}/{}/{}/{replicate}", name(key.sampler), key.spp);
+        let text = format!("{subject}/{method}/{}/{}/{replicate}", key.sampler.name(), key.spp);
         self.seed.wrapping_add(fnv1a(text.as_bytes()))
     }
     /// Number of samples in all images that are not yet measured.
@@ -278,9 +277,9 @@ impl Table {
         self.writer.write_record([
             format!("{:016x}", subject.settings),
             subject.name.clone(),
-            name(key.technique),
-            name(key.choice),
-            name(key.sampler),
+            key.technique.name().to_owned(),
+            key.choice.name().to_owned(),
+            key.sampler.name().to_owned(),
             width.to_string(),
             height.to_string(),
             key.spp.to_string(),
@@ -311,7 +310,8 @@ impl Plan {
             .iter()
             .map(|key| {
                 let ChartedScene { name: scene, settings, .. } = &self.scenes[key.scene];
-                let [technique, choice, sampler] = [name(key.technique), name(key.choice), name(key.sampler)];
+                let names = [key.technique.name(), key.choice.name(), key.sampler.name()];
+                let [technique, choice, sampler] = names.map(str::to_owned);
                 let line = [format!("{settings:016x}"), scene.clone(), technique, choice, sampler, key.spp.to_string()];
                 (line, *key)
             })

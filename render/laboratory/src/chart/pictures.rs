@@ -5,7 +5,6 @@ use super::outcome::Outcome;
 use super::plot::short;
 use super::summary::{Summary, Way};
 use crate::hash::fnv1a;
-use etendue_render::options::name;
 use etendue_render::{Settings, image};
 
 /// A PNG with its name and title.
@@ -88,7 +87,7 @@ fn spread(plan: &Plan, scene: usize, way: Way, spp: u32) -> Spread {
     let mut samples = Vec::new();
     let images: Vec<Vec<[f32; 3]>> = (0..u64::from(REPLICATES))
         .map(|k| {
-            let text = format!("{}/{}/{}/{spp}/picture/{k}", subject.name, way.method(), name(way.sampler));
+            let text = format!("{}/{}/{}/{spp}/picture/{k}", subject.name, way.method(), way.sampler.name());
             let seed = plan.seed.wrapping_add(fnv1a(text.as_bytes()));
             let Way { technique, choice, sampler } = way;
             let settings = Settings {
@@ -158,7 +157,7 @@ pub fn panel(outcome: &Outcome, summary: &Summary) -> Panel {
         png: png(size, truth.iter().map(|p| image::tone_map(*p))),
     }];
     for (way, spread) in &spreads {
-        let stem = format!("{}-{}", way.method().replace(' ', "-"), name(way.sampler));
+        let stem = format!("{}-{}", way.method().replace(' ', "-"), way.sampler.name());
         let mut push = |kind: &'static str, png: Vec<u8>| {
             let (file, title) = (format!("{stem}-{kind}"), way.title());
             pictures.push(Picture { file, kind, title, size, png });

@@ -34,7 +34,7 @@ impl Reference {
     #[must_use]
     pub fn builtin(scene: &str) -> Option<Self> {
         let (name, error, bytes) = BUILTIN.iter().find(|(name, ..)| *name == scene)?;
-        let picture = image::decode(Path::new(name), bytes).expect("the embedded reference is valid");
+        let picture = image::decode_exr(bytes, Path::new(name)).expect("the embedded reference is valid");
         let about = "by an independent renderer, 32,768 samples per pixel".to_owned();
         Some(Self { picture, error: *error, about })
     }
@@ -148,7 +148,7 @@ mod tests {
     /// A small rendered image agrees, within its noise, with a larger image that is shrunk.
     #[test]
     fn a_pixel_is_the_mean_of_its_parts() {
-        let world = World::new(&etendue_render::scene::load("quads").unwrap()).unwrap();
+        let world = World::new(&etendue_scene::load("quads").unwrap()).unwrap();
         let reference = Reference::builtin("quads").unwrap().shrunk([32, 32]).unwrap();
         let rendered = Reference::render(&world, [32, 32], 4096, &|_| ());
         let (squared, mean) = reference.difference(rendered.picture.radiance.iter().copied());

@@ -10,7 +10,6 @@ use super::stats::{Estimate, WIDEST};
 use super::summary::{Summary, Way};
 use base64::Engine;
 use etendue_render::Sampler;
-use etendue_render::options::name;
 use serde_json::json;
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -134,7 +133,7 @@ pub fn page(
             let sample = format!(
                 "<svg viewBox=\"0 0 26 8\"><path d=\"M0 4H26\" stroke=\"#333\" stroke-width=\"2\"{dashes}/></svg>"
             );
-            chip(&name(sampler), false, sample)
+            chip(sampler.name(), false, sample)
         })
         .collect();
     let mut facts = vec![("command", command.to_owned())];

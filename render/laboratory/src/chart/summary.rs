@@ -4,7 +4,6 @@ use super::measure::{Key, Plan, Row, Rows, method};
 use super::plot::short;
 use super::reference::KNOWN_TO;
 use super::stats::{self, Cost, Estimate};
-use etendue_render::options::name;
 use etendue_render::{ChoiceBy, Sampler, Technique};
 
 /// A technique with a choice of a light and a sampler.
@@ -31,12 +30,12 @@ impl Way {
     }
     /// Technique and sampler in a sentence, such as `area with stratified`.
     fn phrase(&self) -> String {
-        format!("{} with {}", self.method(), name(self.sampler))
+        format!("{} with {}", self.method(), self.sampler.name())
     }
     /// Name of technique and sampler, such as `area, stratified`.
     #[must_use]
     pub fn title(&self) -> String {
-        format!("{}, {}", self.method(), name(self.sampler))
+        format!("{}, {}", self.method(), self.sampler.name())
     }
 }
 

@@ -40,7 +40,7 @@ fn mark(picture: &mut Film, [x, y]: [f64; 2]) {
 
 impl Studio<'_> {
     pub(super) fn vignetting(&self) -> Result<Finding, Box<dyn Error>> {
-        let mut scene = scene::load("defocus")?;
+        let mut scene = etendue_scene::load("defocus")?;
         let world = World::new(&scene)?;
         let own = scene.camera.lens.ok_or("the scene has no lens")?;
         let seen = |camera: &Camera, [width, height]: [u32; 2], sampler, spp| {

@@ -1,7 +1,7 @@
 //! Reads accessors: lists of numbers in buffers, each checked against the length of its buffer first.
 
-use super::super::message::Message;
 use super::source::{Source, View};
+use etendue_render::scene::Message;
 use gltf_json::accessor::{Accessor, ComponentType, Type};
 use gltf_json::validation::Checked;
 use gltf_json::{Index, buffer};

@@ -1,11 +1,10 @@
 //! Reads cameras, and makes one for a scene without any.
 
-use super::super::builder::Builder;
-use super::super::description::{CameraSettings, FilmSettings, Screen};
-use super::super::message::Message;
-use super::super::transform::{Transform, add, cross, dot, length, scaled, sub, unit};
 use super::source::Source;
-use crate::limits::MOST_SIDE;
+use crate::builder::Builder;
+use crate::transform::{Transform, add, cross, dot, length, scaled, sub, unit};
+use etendue_render::limits::MOST_SIDE;
+use etendue_render::scene::{CameraSettings, FilmSettings, Message, Screen};
 use gltf_json::Index;
 use gltf_json::camera::{Camera, Type};
 use gltf_json::validation::Checked;

@@ -1,11 +1,10 @@
 //! Reads the lights of `KHR_lights_punctual`.
 
-use super::super::lights::{DeltaLight, one_minus_cos};
-use super::super::message::Message;
-use super::super::params::rounded;
-use super::super::transform::{Transform, cross, unit};
 use super::source::Source;
-use crate::intensity::Intensity;
+use crate::radiance::rounded;
+use crate::transform::{Transform, cross, one_minus_cos, unit};
+use etendue_render::intensity::Intensity;
+use etendue_render::scene::{DeltaLight, Message};
 use gltf_json::Index;
 use gltf_json::extensions::scene::khr_lights_punctual::{Light, Type};
 use gltf_json::validation::Checked;

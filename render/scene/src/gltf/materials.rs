@@ -1,15 +1,13 @@
 //! Reads materials, and the textures and images that they name.
 
-use super::super::builder::Builder;
-use super::super::lexer::shortened;
-use super::super::lights::Emission;
-use super::super::materials::Varying;
-use super::super::message::Message;
-use super::super::params::{MOST_RADIANCE, brightness, rounded};
-use super::super::textures::sound;
 use super::source::Source;
-use crate::image::{Encoding, read_texels};
-use crate::texture::{Mapping, Mask, Picture, Texels, Texture, Wrap};
+use crate::builder::Builder;
+use crate::image::{Encoding, read_texels, sound};
+use crate::message::shortened;
+use crate::radiance::{brightness, rounded};
+use etendue_render::limits::MOST_RADIANCE;
+use etendue_render::scene::{Emission, Message, Varying};
+use etendue_render::texture::{Mapping, Mask, Picture, Texels, Texture, Wrap};
 use gltf_json::extensions::texture::TextureTransform;
 use gltf_json::material::AlphaMode;
 use gltf_json::texture::{Info, MagFilter, Sampler, WrappingMode};

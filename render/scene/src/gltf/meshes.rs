@@ -1,12 +1,12 @@
 //! Adds the triangles of meshes.
 
-use super::super::builder::Builder;
-use super::super::message::Message;
-use super::super::shape_attributes::ShapeAttributes;
-use super::super::transform::Transform;
-use super::super::vertices::{Vertex, Vertices};
 use super::materials::Materials;
 use super::source::Source;
+use crate::builder::Builder;
+use crate::shape_attributes::ShapeAttributes;
+use crate::transform::Transform;
+use crate::vertices::{Vertex, Vertices};
+use etendue_render::scene::Message;
 use gltf_json::mesh::{Mode, Primitive, Semantic};
 use gltf_json::validation::Checked;
 use gltf_json::{Index, mesh};

@@ -1,8 +1,8 @@
 //! Walks the node tree and composes its transforms.
 
-use super::super::message::Message;
-use super::super::transform::Transform;
 use super::source::Source;
+use crate::transform::Transform;
+use etendue_render::scene::Message;
 use gltf_json::Index;
 use gltf_json::scene::Node;
 

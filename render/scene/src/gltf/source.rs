@@ -1,12 +1,12 @@
 //! The parts of a glTF file and the files that it names: buffers, views of them, and images.
 
-use super::super::inputs::{Input, note};
-use super::super::lexer::shortened;
-use super::super::message::Message;
 use super::container;
-use crate::files::read_file;
+use crate::files::note;
+use crate::message::shortened;
 use base64::Engine;
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
+use etendue_render::files::read_file;
+use etendue_render::scene::{Input, Message};
 use gltf_json::{Index, Root, buffer};
 use percent_encoding::percent_decode_str;
 use std::borrow::Cow;

@@ -4,9 +4,10 @@ mod faulty;
 mod materials;
 mod views;
 
-use super::super::{Details, Scene, SceneError, load, parse_gltf};
-use crate::geometry::Geometry;
+use crate::{SceneError, load, parse_gltf};
 use base64::Engine;
+use etendue_render::geometry::Geometry;
+use etendue_render::scene::{Details, Scene};
 use serde_json::{Value, json};
 use std::path::PathBuf;
 

@@ -1,7 +1,7 @@
 //! Portable float maps: text that tells the size, then numbers in single precision, row by row from the bottom.
 
-use super::size::believe;
-use crate::files::{FileError, failed};
+use etendue_render::files::{FileError, failed};
+use etendue_render::image::check_size;
 use std::path::Path;
 
 /// An image: its width, its height, and its pixels, row by row from the top.
@@ -39,7 +39,7 @@ fn decode_channels(path: &Path, bytes: &[u8], channels: usize) -> Result<Image, 
     if !(factor.is_finite() && factor != 0.0) {
         return Err(wrong("scale", scale));
     }
-    believe(path, [width.into(), height.into()], 32 * channels as u128, bytes.len())?;
+    check_size(path, [width.into(), height.into()], 32 * channels as u128, bytes.len())?;
     let [width, height] = [width as usize, height as usize];
     // one space after the scale
     let data = bytes.get(at + 1..).unwrap_or_default();

@@ -1,8 +1,8 @@
 //! Images as textures: their bytes as they are in the file, which are a quarter of what floating-point numbers take.
 
-use super::size::believe;
-use crate::files::{FileError, failed};
-use crate::texture::{Colors, Texels};
+use etendue_render::files::{FileError, failed};
+use etendue_render::image::check_size;
+use etendue_render::texture::{Colors, Texels};
 use image_files::{DynamicImage, ImageDecoder, ImageReader};
 use std::io::Cursor;
 use std::path::Path;
@@ -69,7 +69,7 @@ impl Rows {
         let header = decoder.read_header_info().map_err(not_one)?;
         let [width, height] = [header.width, header.height];
         // one bit per pixel at least
-        believe(path, [width.into(), height.into()], 1, bytes.len())?;
+        check_size(path, [width.into(), height.into()], 1, bytes.len())?;
         let mut reader = decoder.read_info().map_err(not_one)?;
         let size = reader.output_buffer_size().ok_or_else(|| failed(path, "too large"))?;
         let mut data = vec![0; size];
@@ -110,7 +110,7 @@ fn other_texels(path: &Path, bytes: &[u8]) -> Result<Texels, FileError> {
     let decoder = ImageReader::with_format(Cursor::new(bytes), format).into_decoder().map_err(not_one)?;
     let (width, height) = decoder.dimensions();
     // a JPEG of one colour takes a bit for each block of 8 × 8 pixels and channel
-    believe(path, [width.into(), height.into()], 1, bytes.len())?;
+    check_size(path, [width.into(), height.into()], 1, bytes.len())?;
     let (width, height) = (width as usize, height as usize);
     Ok(match DynamicImage::from_decoder(decoder).map_err(not_one)? {
         DynamicImage::ImageLuma8(image) => from_rows(width, height, 1, image.as_raw()),

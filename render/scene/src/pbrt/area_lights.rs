@@ -1,16 +1,18 @@
 //! Reads `AreaLightSource`.
 
 use super::inputs::Files;
-use super::lights::{Emission, power, radiances, scale};
-use super::message::{Message, Notes};
-use super::params::{MOST_RADIANCE, Params, brightness, rounded, shown};
-use super::profiles::{self, Aim, Profile};
-use super::spectrum::luminance;
-use crate::image::Picture;
-use crate::intensity::Intensity;
-use crate::packet::V8;
-use crate::texture::{self, Colors, Mapping, Texels, Wrap};
+use super::lights::{power, scale};
+use super::params::{Params, shown};
+use super::profiles::{self, Profile};
+use crate::distribution::Distribution;
+use crate::message::Notes;
+use crate::radiance::{brightness, luminance, radiances, rounded};
 use etendue::light::{LuminousOpening, Spread};
+use etendue_render::image::Picture;
+use etendue_render::limits::MOST_RADIANCE;
+use etendue_render::packet::V8;
+use etendue_render::scene::{Emission, Message};
+use etendue_render::texture::{self, Colors, Mapping, Texels, Wrap};
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -28,16 +30,6 @@ pub(super) struct Area {
     pub(super) profile: Option<Arc<Distribution>>,
     /// The power of each shape in watts, if the scene gives it.
     pub(super) power: Option<f64>,
-}
-
-/// A profile of flat lights, which each has along its normal.
-#[derive(Debug)]
-pub(super) struct Distribution {
-    pub(super) intensity: Arc<Intensity>,
-    pub(super) aim: Aim,
-    pub(super) opening: LuminousOpening<f32>,
-    /// The cone about the normal beyond which it is dark.
-    cone: Spread<f32>,
 }
 
 /// The pictures of lights that were read so far, by the files that name them and their names there.

@@ -1,7 +1,10 @@
 //! The built-in scenes.
 
+use std::path::Path;
+use strsim::levenshtein;
+
 /// Name and description of each scene.
-pub(super) const DESCRIBED: [(&str, &str); 14] = [
+const DESCRIBED: [(&str, &str); 14] = [
     ("sphere-light", "two boxes under a sphere light outside the view"),
     ("triangle-light", "a box in front of a large, visible triangle light"),
     ("quads", "three boxes under five quadrilateral lights of very different sizes and powers"),
@@ -19,25 +22,56 @@ pub(super) const DESCRIBED: [(&str, &str); 14] = [
 ];
 
 /// How many of them, the last ones, have many lights.
-pub(super) const MANY_LIGHTS: usize = 4;
+const MANY_LIGHTS: usize = 4;
 
 /// Name and text of each scene.
-pub(super) const BUILTIN: [(&str, &str); 14] = [
-    (DESCRIBED[0].0, include_str!("../../scenes/sphere-light.pbrt")),
-    (DESCRIBED[1].0, include_str!("../../scenes/triangle-light.pbrt")),
-    (DESCRIBED[2].0, include_str!("../../scenes/quads.pbrt")),
-    (DESCRIBED[3].0, include_str!("../../scenes/terrain.pbrt")),
-    (DESCRIBED[4].0, include_str!("../../scenes/cornell-box.pbrt")),
-    (DESCRIBED[5].0, include_str!("../../scenes/mirror-room.pbrt")),
-    (DESCRIBED[6].0, include_str!("../../scenes/plates.pbrt")),
-    (DESCRIBED[7].0, include_str!("../../scenes/delta-lights.pbrt")),
-    (DESCRIBED[8].0, include_str!("../../scenes/sky.pbrt")),
-    (DESCRIBED[9].0, include_str!("../../scenes/defocus.pbrt")),
-    (DESCRIBED[10].0, include_str!("../../scenes/chandelier.pbrt")),
-    (DESCRIBED[11].0, include_str!("../../scenes/city.pbrt")),
-    (DESCRIBED[12].0, include_str!("../../scenes/wet-city.pbrt")),
-    (DESCRIBED[13].0, include_str!("../../scenes/knot.pbrt")),
+const BUILTIN: [(&str, &str); 14] = [
+    (DESCRIBED[0].0, include_str!("../../../scenes/sphere-light.pbrt")),
+    (DESCRIBED[1].0, include_str!("../../../scenes/triangle-light.pbrt")),
+    (DESCRIBED[2].0, include_str!("../../../scenes/quads.pbrt")),
+    (DESCRIBED[3].0, include_str!("../../../scenes/terrain.pbrt")),
+    (DESCRIBED[4].0, include_str!("../../../scenes/cornell-box.pbrt")),
+    (DESCRIBED[5].0, include_str!("../../../scenes/mirror-room.pbrt")),
+    (DESCRIBED[6].0, include_str!("../../../scenes/plates.pbrt")),
+    (DESCRIBED[7].0, include_str!("../../../scenes/delta-lights.pbrt")),
+    (DESCRIBED[8].0, include_str!("../../../scenes/sky.pbrt")),
+    (DESCRIBED[9].0, include_str!("../../../scenes/defocus.pbrt")),
+    (DESCRIBED[10].0, include_str!("../../../scenes/chandelier.pbrt")),
+    (DESCRIBED[11].0, include_str!("../../../scenes/city.pbrt")),
+    (DESCRIBED[12].0, include_str!("../../../scenes/wet-city.pbrt")),
+    (DESCRIBED[13].0, include_str!("../../../scenes/knot.pbrt")),
 ];
 
 /// Images that these scenes refer to.
-pub(super) const BUILTIN_IMAGES: [(&str, &[u8]); 1] = [("sky.exr", include_bytes!("../../scenes/sky.exr"))];
+pub(super) const BUILTIN_IMAGES: [(&str, &[u8]); 1] = [("sky.exr", include_bytes!("../../../scenes/sky.exr"))];
+
+/// Name and description of each built-in scene.
+pub fn builtin() -> &'static [(&'static str, &'static str)] {
+    &DESCRIBED
+}
+
+/// The built-in scenes of at most [`FEW`](etendue::select::FEW) lights. What renders every scene many times keeps to these, so that it does
+/// not take many times longer.
+pub fn builtin_of_few_lights() -> &'static [(&'static str, &'static str)] {
+    DESCRIBED.split_at(DESCRIBED.len() - MANY_LIGHTS).0
+}
+
+/// The text of the built-in scene of this name.
+pub(super) fn text_of(name: &Path) -> Option<(&'static str, &'static str)> {
+    BUILTIN.into_iter().find(|(known, _)| name.as_os_str() == *known)
+}
+
+/// What to say where a file is missing, whose name may be that of a built-in scene, misspelt.
+pub(crate) fn known_scenes(name: &str) -> String {
+    let near = nearest(name).map_or(String::new(), |near| format!("; did you mean {near}?"));
+    format!("{near}; built-in scenes: {}", DESCRIBED.map(|(name, _)| name).join(", "))
+}
+
+/// The built-in scene whose name is the fewest letters away from `name`, if it is at most two letters or, as in "quads.pbrt", an
+/// extension away.
+fn nearest(name: &str) -> Option<&'static str> {
+    let name = name.strip_suffix(".pbrt").unwrap_or(name).to_lowercase();
+    let near = DESCRIBED.iter().map(|(builtin, _)| (levenshtein(&name, builtin), *builtin)).min()?;
+    // two edits turn any name of two letters into another
+    (near.0 <= 2 && near.0 < near.1.len().min(name.len())).then_some(near.1)
+}

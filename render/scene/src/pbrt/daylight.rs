@@ -3,12 +3,12 @@
 //! The sky is an image of 512 × 512 texels, each
 //! of which has the mean of the formula at 16 places.
 
-use super::environment::{SkyRadiance, SunDisk};
-use super::message::Message;
-use super::params::{MOST_RADIANCE, Params, rounded, shown};
-use super::spectrum::luminance;
+use super::params::{Params, shown};
+use crate::radiance::{luminance, rounded};
 use etendue::light::{EnvironmentMap, GeneralSky, ImageEnvironment, Moment, SunPosition, Texel};
 use etendue::{Real, Vec2, f32x8, u32x8};
+use etendue_render::limits::MOST_RADIANCE;
+use etendue_render::scene::{Message, SkyRadiance, SunDisk};
 use rayon::prelude::*;
 use std::f64::consts::PI;
 

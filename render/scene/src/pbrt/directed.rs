@@ -1,18 +1,19 @@
 //! Reads point lights whose intensity differs by direction: `LightSource "goniometric"` and `"projection"`, and `"spot"` with a `profile`.
 
-use super::ies::Axis;
 use super::inputs::Files;
-use super::lights::{Cone, DeltaLight, power, scale, turned};
-use super::message::{Message, Notes};
-use super::params::{Params, brightness, rounded, shown};
+use super::lights::{power, scale, turned};
+use super::params::{Params, shown};
 use super::profiles::{self, Profile, picture};
-use super::spectrum::luminance;
-use super::transform::Transform;
-use crate::image::Picture;
-use crate::intensity::Intensity;
-use crate::packet::V8;
+use crate::distribution::Axis;
+use crate::message::Notes;
+use crate::radiance::{brightness, luminance, rounded};
+use crate::transform::Transform;
 use etendue::SpotLight;
 use etendue::light::Projector;
+use etendue_render::image::Picture;
+use etendue_render::intensity::Intensity;
+use etendue_render::packet::V8;
+use etendue_render::scene::{Cone, DeltaLight, Message};
 
 /// Axes of projected images, in light space.
 const FORWARD: [Axis; 3] = [(0, 1.0), (1, 1.0), (2, 1.0)];

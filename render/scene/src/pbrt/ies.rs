@@ -14,12 +14,10 @@
 //! | A | vertical | from the horizontal plane upwards | from the photometric horizontal to the right |
 
 use super::inputs::Files;
-use super::message::shown;
-use crate::intensity::Intensity;
+use crate::distribution::Axis;
+use crate::message::shown;
+use etendue_render::intensity::Intensity;
 use std::path::Path;
-
-/// A signed axis of light space: x, y or z, and its sign.
-pub(super) type Axis = (usize, f64);
 
 /// The intensity of a luminaire.
 #[derive(Debug)]

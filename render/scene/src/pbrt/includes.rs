@@ -1,8 +1,9 @@
 //! The files of a scene that are being read, each included by a line of the one before.
 
 use super::inputs::Files;
-use super::message::{Message, Place};
-use crate::files::is_same;
+use crate::message::Place;
+use etendue_render::files::is_same;
+use etendue_render::scene::Message;
 use std::path::{Path, PathBuf};
 
 /// Greatest depth of nested `Include`s, and greatest number of included files.

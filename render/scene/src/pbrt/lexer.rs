@@ -1,6 +1,7 @@
 //! Splits the text of a scene file into tokens with line numbers.
 
-use super::message::{Message, Place};
+use crate::message::{Place, shortened};
+use etendue_render::scene::Message;
 use std::sync::Arc;
 
 /// One token.
@@ -26,21 +27,6 @@ impl Token<'_> {
             Token::Word(s) => shortened(s),
         }
     }
-}
-
-/// At most 60 characters of `s`, so that a message stays on one line; characters that cannot be seen are escaped.
-pub(super) fn shortened(s: &str) -> String {
-    let escape = |c: char| {
-        let escaped = c.escape_debug();
-        // not those of quotes, backslashes and accents
-        let is_visible = !c.is_control() && (escaped.len() <= 2 || c.is_alphanumeric());
-        if is_visible { c.to_string() } else { escaped.to_string() }
-    };
-    let mut shown: String = s.chars().take(60).map(escape).collect();
-    if s.chars().nth(60).is_some() {
-        shown.push('…');
-    }
-    shown
 }
 
 /// The tokens of one file.

@@ -1,98 +1,16 @@
 //! Reads `LightSource`.
 
 use super::daylight;
-use super::environment::{Environment, SkyRadiance};
 use super::inputs::Files;
-use super::lexer::shortened;
-use super::message::{Message, Notes};
-use super::params::{MOST_RADIANCE, Params, brightness, rounded, shown};
+use super::params::{Params, shown};
 use super::portals;
-use super::spectrum::luminance;
-use super::transform::{Transform, sub};
-use crate::image::Picture;
-use etendue::light::{EnvironmentMap, Portal, Spread};
+use crate::message::{Notes, shortened};
+use crate::radiance::{brightness, luminance, rounded, sky_of};
+use crate::transform::{Transform, one_minus_cos, sub};
+use etendue::light::{EnvironmentMap, Portal};
+use etendue_render::limits::MOST_RADIANCE;
+use etendue_render::scene::{DeltaLight, Environment, Message, SkyRadiance};
 use std::f64::consts::PI;
-
-/// A light that is seen from every point in a single direction, and that no ray can hit.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum DeltaLight {
-    /// A point light of the same intensity in all directions.
-    Point {
-        /// World position.
-        position: [f32; 3],
-        /// Radiant intensity, linear RGB.
-        intensity: [f32; 3],
-    },
-    /// A spotlight: a cone whose intensity falls off smoothly between two angles.
-    Spot {
-        /// World position.
-        position: [f32; 3],
-        /// Unit vector along which the light travels.
-        axis: [f32; 3],
-        /// 1 − cosθ of the angle up to which the intensity is constant.
-        one_minus_cos_inner: f32,
-        /// 1 − cosθ of the angle from which on the intensity is 0.
-        one_minus_cos_outer: f32,
-        /// Radiant intensity on the axis, linear RGB.
-        intensity: [f32; 3],
-    },
-    /// A point light whose intensity differs by direction.
-    Directed {
-        /// World position.
-        position: [f32; 3],
-        /// Rows of the orthogonal matrix from world space to the space of its intensity.
-        to_light: [[f32; 3]; 3],
-        /// Greatest radiant intensity, linear RGB.
-        intensity: [f32; 3],
-        /// Index of its relative intensity in the scene.
-        table: u32,
-        /// The cone of a spot light, by whose falloff the intensity is multiplied.
-        cone: Option<Cone>,
-    },
-    /// Parallel light from infinitely far away.
-    Distant {
-        /// Unit vector towards the light.
-        direction: [f32; 3],
-        /// Irradiance of a surface that faces the light, linear RGB.
-        irradiance: [f32; 3],
-    },
-}
-
-/// The cone of a spot light whose intensity differs by direction.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Cone {
-    /// Unit vector along which the light travels.
-    pub axis: [f32; 3],
-    /// 1 − cosθ of the angle up to which the falloff is 1.
-    pub one_minus_cos_inner: f32,
-    /// 1 − cosθ of the angle from which on it is 0.
-    pub one_minus_cos_outer: f32,
-    /// ∫ falloff · relative intensity dω, in steradians.
-    pub flux: f64,
-}
-
-/// Emission of a surface.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Emission {
-    /// Radiance, linear RGB; at least one channel is greater than 0. With a picture, it is the mean over the surface.
-    pub radiance: [f32; 3],
-    /// Whether both sides emit, or only the side of the normal.
-    pub two_sided: bool,
-    /// The picture that the surface shows, if its radiance varies: an index into [`Scene::pictures`](super::Scene::pictures).
-    pub picture: Option<u32>,
-    /// The cone about the normal within which a flat light emits, unless that is all of a hemisphere. Of a light with a profile only the
-    /// angle counts.
-    pub spread: Option<Spread<f32>>,
-    /// How a flat light distributes what it emits, if not by the spread: an index into [`Scene::profiles`](super::Scene::profiles).
-    pub profile: Option<u32>,
-}
-
-impl Emission {
-    /// Whether its radiance is the same at all points and in all directions of the sides that emit.
-    pub(crate) fn is_even(&self) -> bool {
-        self.picture.is_none() && self.spread.is_none() && self.profile.is_none()
-    }
-}
 
 /// What a `LightSource` directive creates.
 pub(super) enum Source {
@@ -101,9 +19,6 @@ pub(super) enum Source {
     /// Nothing, since the light emits nothing.
     Dark,
 }
-
-/// Greatest number of texels of an environment, or of the picture of a light.
-pub(super) const MOST_TEXELS: usize = 1 << 26;
 
 /// Reads a `LightSource`.
 pub(super) fn read(
@@ -331,57 +246,8 @@ fn constant(
     Ok(Source::Delta(DeltaLight::Spot { position, axis, one_minus_cos_inner, one_minus_cos_outer, intensity }))
 }
 
-/// 1 − cosθ of an angle in radians, without the difference.
-pub(super) fn one_minus_cos(angle: f64) -> f64 {
-    2.0 * libm::sin(0.5 * angle).powi(2)
-}
-
 /// The rotation from world space to light space.
 pub(super) fn turned(params: &Params, ctm: &Transform) -> Result<[[f32; 3]; 3], Message> {
     let stretched = || params.error("its transform may only consist of rotations, reflections and uniform scales");
     ctm.axes().ok_or_else(stretched)
-}
-
-/// The sky that an image shows, unless it is black, and a warning if some of it is negative.
-pub(super) fn sky_of(
-    image: &Picture,
-    name: &str,
-    scale: [f64; 3],
-) -> Result<(Option<SkyRadiance>, Option<String>), String> {
-    // pbrt-v4's maps are square, those of others show longitude and latitude
-    let map = if image.width == image.height { EnvironmentMap::EqualArea } else { EnvironmentMap::Equirectangular };
-    let (texels, warning) = radiances(image, name, scale)?;
-    let black = texels.iter().all(|t| *t == [0.0; 3]);
-    Ok(((!black).then_some(SkyRadiance::Image { width: image.width, map, texels }), warning))
-}
-
-/// What the texels of an image emit, and a warning if some of it is negative. Fails if there are too many, or if one is not finite.
-pub(super) fn radiances(
-    image: &Picture,
-    name: &str,
-    scale: [f64; 3],
-) -> Result<(Vec<[f32; 3]>, Option<String>), String> {
-    let (width, height) = (image.width, image.height);
-    let told = |what: String| format!("{}: {what}", shortened(name));
-    if width * height > MOST_TEXELS {
-        return Err(told(format!("{width}×{height} texels: at most 2^26 are supported")));
-    }
-    let mut negative = 0;
-    let mut texels = Vec::with_capacity(image.radiance.len());
-    for (i, texel) in image.radiance.iter().enumerate() {
-        let rgb: [f32; 3] = std::array::from_fn(|k| (f64::from(texel[k]) * scale[k]) as f32);
-        // texels are sampled in proportion to the sum of their channels
-        if !(rgb.iter().sum::<f32>().is_finite() && rgb.iter().all(|&x| x <= MOST_RADIANCE)) {
-            let scaled = if scale == [1.0; 3] { String::new() } else { format!(", times {scale:?}") };
-            return Err(told(format!(
-                "texel ({}, {}) is {texel:?}{scaled}: must be finite, and at most {MOST_RADIANCE:e}",
-                i % width,
-                i / width
-            )));
-        }
-        negative += usize::from(rgb.iter().any(|&x| x < 0.0));
-        texels.push(rgb.map(|x| x.max(0.0)));
-    }
-    let warning = (negative > 0).then(|| told(format!("negative values in {negative} texel(s) are replaced by 0")));
-    Ok((texels, warning))
 }

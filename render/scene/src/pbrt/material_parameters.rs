@@ -1,14 +1,14 @@
 //! Reads `Material` and `MakeNamedMaterial`.
 
-use super::builder::Builder;
 use super::inputs::Files;
-use super::lexer::shortened;
-use super::materials::{Material, Roughness, Varying};
-use super::message::Message;
-use super::params::{Params, rounded, shown};
+use super::params::{Params, shown};
 use super::spectrum::{self, Named};
 use super::textures::{Textures, Value};
-use crate::texture::Texture;
+use crate::builder::Builder;
+use crate::message::shortened;
+use crate::radiance::rounded;
+use etendue_render::scene::{Material, Message, Roughness, Varying};
+use etendue_render::texture::Texture;
 
 /// What a surface is made of, as the state of a scene file holds it.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,10 +1,9 @@
 //! The materials that a scene names. A name may precede its definition, as in pbrt.
 
-use super::builder::Builder;
-use super::lexer::shortened;
 use super::material_parameters::Finish;
-use super::materials::Material;
-use super::message::{Message, Place};
+use crate::builder::Builder;
+use crate::message::{Place, shortened};
+use etendue_render::scene::{Material, Message};
 use std::collections::HashMap;
 
 /// A material that is named before it is defined.

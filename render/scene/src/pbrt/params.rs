@@ -1,10 +1,11 @@
 //! Reads the parameter lists that follow most directives: `"type name" [ values ]`.
 
 use super::inputs::Files;
-use super::lexer::{Lexer, Token, number, shortened};
-pub(super) use super::message::shown;
-use super::message::{Message, Place};
+use super::lexer::{Lexer, Token, number};
 use super::spectrum::{self, Named, Samples};
+pub(super) use crate::message::shown;
+use crate::message::{Place, shortened};
+use etendue_render::scene::Message;
 use std::path::Path;
 
 /// Far more than any directive has; bounds the linear look-up by name.
@@ -402,21 +403,4 @@ impl Params {
         let ignored = self.list.iter().map(|param| self.at(param, "ignored"));
         self.repeated.iter().cloned().chain(ignored).collect()
     }
-}
-
-pub(super) use crate::limits::MOST_RADIANCE;
-/// Above this, the variance of a pixel may be more than single precision holds.
-const BRIGHT: f32 = 1e18;
-
-/// What to say of a light that may be too bright for the error of the image to be known.
-pub(super) fn brightness(rgb: [f32; 3]) -> Option<String> {
-    let is_bright = rgb.iter().any(|&x| x > BRIGHT);
-    is_bright
-        .then(|| format!("{rgb:?} is so bright that variances may overflow: the error of the image may not be known"))
-}
-
-/// A colour rounded to f32; `None` if a channel overflows.
-pub(super) fn rounded(rgb: [f64; 3]) -> Option<[f32; 3]> {
-    let rgb = rgb.map(|x| x as f32);
-    rgb.iter().all(|x| x.is_finite()).then_some(rgb)
 }

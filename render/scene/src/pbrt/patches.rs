@@ -1,11 +1,11 @@
 //! Bilinear patches and quads as parallelograms and triangles.
 
-use super::builder::{Builder, round};
-use super::shape_attributes::ShapeAttributes;
-use super::transform::{add, cross, dot, length, scaled, sub, unit};
-use super::vertices::Vertex;
-use crate::geometry::Geometry;
-use crate::light_picture::affine;
+use crate::builder::{Builder, round};
+use crate::shape_attributes::ShapeAttributes;
+use crate::transform::{add, cross, dot, length, scaled, sub, unit};
+use crate::vertices::Vertex;
+use etendue_render::geometry::Geometry;
+use etendue_render::light_picture::affine;
 
 /// How far a bilinear patch may deviate from a parallelogram, and a quad of a mesh file from its plane, relative to its size:
 /// coordinates of six digits pass, a visible bend does not.

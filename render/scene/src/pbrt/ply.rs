@@ -1,6 +1,6 @@
 //! Reads the points and faces of PLY mesh files, ASCII or binary, and checks every count against the size of the file.
 
-use super::lexer::shortened;
+use crate::message::shortened;
 use ply_rs_bw::parser::{ParseError, Parser, Reader};
 use ply_rs_bw::ply::{
     ElementDef, Encoding, Header, Property, PropertyAccess, PropertyAccessResult, PropertyType, ScalarType,

@@ -1,11 +1,10 @@
 //! Whether any surface is on the side from which a portal shows the sky.
 
-use super::description::Scene;
-use super::message::Message;
 use super::params::Params;
-use crate::geometry::bounds_of;
 use etendue::light::Portal;
 use etendue::{Mask, Vec3};
+use etendue_render::geometry::bounds_of;
+use etendue_render::scene::{Message, Scene};
 
 /// What to say of a portal that no surface can see.
 pub(super) fn faces_away(params: &Params) -> Message {

@@ -4,9 +4,9 @@
 //! to. Nothing of the light is seen but through a portal: a ray that escapes elsewhere meets black. Beyond pbrt, a light may have several
 //! portals, in one list or, with the same sky, in several directives, and they may be parallelograms. What two portals show counts once.
 
-use super::message::Message;
 use super::params::{Params, shown};
 use etendue::light::{MOST_PORTALS, Portal};
+use etendue_render::scene::Message;
 
 /// How far the fourth corner may be from its place, and how narrow the outline may be, relative to its edges: pbrt's tolerance.
 const TOLERANCE: f64 = 1e-3;

@@ -1,14 +1,15 @@
 //! Reads intensities by direction from IES files and images, and aims them along the axes of lights.
 
-use super::ies::{self, Axis};
+use super::ies;
 use super::inputs::Files;
-use super::lights::MOST_TEXELS;
-use super::message::{Message, Notes};
 use super::params::{Params, shown};
-use super::transform::{Transform, cross, dot, scaled, sub, unit};
-use crate::image::Picture;
-use crate::intensity::Intensity;
+use crate::distribution::{Aim, Axis};
+use crate::message::Notes;
+use crate::radiance::MOST_TEXELS;
 use etendue::light::EnvironmentMap;
+use etendue_render::image::Picture;
+use etendue_render::intensity::Intensity;
+use etendue_render::scene::Message;
 
 /// An intensity by direction.
 #[derive(Debug)]
@@ -18,16 +19,6 @@ pub(super) struct Profile {
     pub(super) greatest: f64,
     pub(super) of_tilt: f64,
     pub(super) aim: Aim,
-}
-
-/// How a luminaire lies in light space.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Aim {
-    /// The axes of the space of its intensity.
-    pub(super) axes: [Axis; 3],
-    /// The direction in which it is aimed, and one at its side.
-    ahead: Axis,
-    aside: Axis,
 }
 
 /// Axes of the images of directions: pbrt has y up, and images have z.
@@ -87,34 +78,4 @@ fn sphere(image: &Picture) -> Result<Option<Profile>, String> {
     let aim = Aim { axes: UP, ahead: (1, -1.0), aside: (0, 1.0) };
     let profile = |intensity| Profile { intensity, greatest, of_tilt: 1.0, aim };
     Ok(Intensity::sphere(map, image.width, texels).map(profile))
-}
-
-impl Aim {
-    /// The unit direction in which the luminaire is aimed, in the space of the intensity.
-    pub(super) fn ahead(&self) -> [f64; 3] {
-        let (ahead, sign) = self.ahead;
-        self.axes.map(|(axis, own)| if axis == ahead { own * sign } else { 0.0 })
-    }
-    /// Rows of the orthogonal matrix from world space to that of the intensity, when the luminaire is aimed along the unit vector `axis`. It
-    /// is turned about that so that what is at its side stays in the plane of the axis and of where the transform of the light would put
-    /// it: photometric horizontals are at +x, and at −y where +x is along the axis.
-    pub(super) fn aimed(&self, axis: [f64; 3], ctm: &Transform) -> [[f32; 3]; 3] {
-        let (ahead, aside) = (self.ahead, self.aside);
-        let across = |(k, sign): Axis| {
-            let mut direction = [0.0; 3];
-            direction[k] = sign;
-            let v = unit(ctm.vector(direction))?;
-            let v = sub(v, scaled(axis, dot(v, axis)));
-            (dot(v, v) > 1e-6).then(|| unit(v))?
-        };
-        let third = 3 - ahead.0 - aside.0;
-        let any = || unit(cross(axis, if axis[0].abs() < 0.5 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] }));
-        let side = across(aside).or_else(|| across(ahead)).or_else(any).unwrap_or([0.0; 3]);
-        let mut axes = [[0.0; 3]; 3];
-        (axes[ahead.0], axes[aside.0]) = (scaled(axis, ahead.1), scaled(side, aside.1));
-        // as left- or right-handed as the transform
-        let sign = if ctm.determinant() < 0.0 { -1.0 } else { 1.0 };
-        axes[third] = scaled(cross(axes[(third + 1) % 3], axes[(third + 2) % 3]), sign);
-        self.axes.map(|(k, sign)| axes[k].map(|x| (x * sign) as f32))
-    }
 }

@@ -1,15 +1,11 @@
 //! Interprets the directives of a scene file and keeps the graphics state.
 
 use super::area_lights::{self, Area, Shown};
-use super::builder::{Builder, Rest};
-use super::description::{CameraSettings, FilmSettings, Scene};
 use super::includes::Includes;
 pub(super) use super::includes::Origin;
 use super::inputs::Files;
-use super::lexer::{Lexer, Token, shortened};
+use super::lexer::{Lexer, Token};
 use super::material_parameters::{self, Context, Finish};
-use super::materials::Material;
-use super::message::{Message, Place, utf8};
 use super::named_materials::NamedMaterials;
 use super::params::{Param, Params};
 use super::portal_sides;
@@ -17,9 +13,12 @@ use super::shape_state::ShapeState;
 use super::shapes;
 use super::sources::Sources;
 use super::textures::Textures;
-use super::transform::Transform;
 use super::transform_directives;
 use super::view;
+use crate::builder::{Builder, Rest};
+use crate::message::{Place, shortened, utf8};
+use crate::transform::Transform;
+use etendue_render::scene::{CameraSettings, FilmSettings, Material, Message, Scene};
 use std::cell::RefCell;
 use std::collections::HashMap;
 use std::path::Path;

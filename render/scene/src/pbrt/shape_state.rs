@@ -1,15 +1,15 @@
 //! What the graphics state of a scene file makes of a shape.
 
 use super::area_lights::Area;
-use super::builder::Builder;
 use super::material_parameters::Finish;
-use super::message::Message;
 use super::named_materials::NamedMaterials;
 use super::params::Params;
-use super::shape_attributes::ShapeAttributes;
 use super::textures::Textures;
-use super::transform::Transform;
-use crate::texture::{Mask, Texture};
+use crate::builder::Builder;
+use crate::shape_attributes::ShapeAttributes;
+use crate::transform::Transform;
+use etendue_render::scene::Message;
+use etendue_render::texture::{Mask, Texture};
 
 /// The part of the graphics state that applies to a shape.
 pub(super) struct ShapeState {

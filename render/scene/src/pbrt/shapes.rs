@@ -1,18 +1,17 @@
 //! Reads shapes: transforms them to world space in f64, and gives them to the builder.
 
-use super::builder::Builder;
 use super::generated;
 use super::inputs::Files;
-use super::lights::Emission;
-use super::message::Message;
 use super::params::{Params, shown};
 use super::ply;
-use super::shape_attributes::ShapeAttributes;
 use super::subdivision;
-use super::transform::Transform;
-use super::vertices::{Vertex, Vertices};
-use crate::geometry::Geometry;
-use crate::texture::Mapping;
+use crate::builder::Builder;
+use crate::shape_attributes::ShapeAttributes;
+use crate::transform::Transform;
+use crate::vertices::{Vertex, Vertices};
+use etendue_render::geometry::Geometry;
+use etendue_render::scene::{Emission, Message};
+use etendue_render::texture::Mapping;
 use std::path::Path;
 
 /// Reads a `Shape`; only a built-in scene may name `builtin:` meshes.

@@ -1,14 +1,15 @@
 //! What the `LightSource` directives of a scene file create.
 
-use super::environment::Environment;
 use super::inputs::Files;
-use super::lights::{self, DeltaLight, Source};
-use super::message::{Message, Notes};
+use super::lights::{self, Source};
 use super::params::Params;
-use super::transform::Transform;
 use super::{directed, portal_sides, profiles};
-use crate::intensity::Intensity;
-use etendue::light::Portal;
+use crate::message::Notes;
+use crate::transform::Transform;
+use etendue::light::{MOST_PORTALS, Portal};
+use etendue_render::intensity::Intensity;
+use etendue_render::limits::MOST_RADIANCE;
+use etendue_render::scene::{DeltaLight, Environment, Message, SkyRadiance};
 use std::sync::Arc;
 
 /// The lights that are not shapes.
@@ -60,7 +61,7 @@ impl Sources {
                     None => Some(environment),
                     Some(before) => {
                         let kept = before.clone();
-                        before.and(environment).or_else(|| {
+                        both(before, environment).or_else(|| {
                             notes.stand_in("second sky", || params.error("a second sky is ignored"));
                             Some(kept)
                         })
@@ -78,4 +79,33 @@ impl Sources {
             self.intensities.push(intensity.into());
         }
     }
+}
+
+/// The sum of two skies, if one of them is the same in all directions, or if both are the same sky through other portals.
+fn both(mut one: Environment, other: Environment) -> Option<Environment> {
+    if !one.portals.is_empty() && !other.portals.is_empty() && (one.to_light, one.sun) == (other.to_light, other.sun) {
+        let are_few = one.portals.len() + other.portals.len() <= MOST_PORTALS;
+        if are_few && one.sky == other.sky {
+            one.portals.extend(other.portals);
+            return Some(one);
+        }
+    }
+    if !(one.portals.is_empty() && other.portals.is_empty()) || one.sun.is_some() && other.sun.is_some() {
+        return None;
+    }
+    let sun = one.sun.or(other.sun);
+    let add = |a: [f32; 3], b: [f32; 3]| std::array::from_fn(|k| (a[k] + b[k]).min(MOST_RADIANCE));
+    let (constant, other) = match (one.sky, other.sky) {
+        (SkyRadiance::Constant(a), sky) => (a, Environment { sky, ..other }),
+        (sky, SkyRadiance::Constant(b)) => (b, Environment { sky, to_light: one.to_light, ..other }),
+        _ => return None,
+    };
+    let sky = match other.sky {
+        SkyRadiance::Constant(b) => SkyRadiance::Constant(add(constant, b)),
+        SkyRadiance::Image { width, map, texels } => {
+            let texels = texels.into_iter().map(|texel| add(texel, constant)).collect();
+            SkyRadiance::Image { width, map, texels }
+        }
+    };
+    Some(Environment { sky, sun, ..other })
 }

@@ -5,7 +5,8 @@
 //! error is about a hundredth.
 
 use super::inputs::Files;
-use super::message::shown;
+use crate::message::shown;
+use crate::radiance::luminance;
 use std::path::Path;
 
 /// CIE 1931's functions at a wavelength in nanometres.
@@ -28,11 +29,6 @@ pub(super) fn srgb([x, y, z]: [f64; 3]) -> [f64; 3] {
         -0.969_243_64 * x + 1.875_967_5 * y + 0.041_555_06 * z,
         0.055_630_08 * x - 0.203_976_96 * y + 1.056_971_51 * z,
     ]
-}
-
-/// Luminance of linear sRGB, as Y of CIE XYZ.
-pub(super) fn luminance([r, g, b]: [f64; 3]) -> f64 {
-    0.212_639 * r + 0.715_168_7 * g + 0.072_192_3 * b
 }
 
 /// XYZ of a spectrum by wavelength, from 360 to 830 nm in steps of 1 nm.

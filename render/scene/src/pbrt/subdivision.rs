@@ -1,6 +1,6 @@
 //! Loop's subdivision surfaces.
 
-use super::transform::{add, cross, scaled, sub, unit};
+use crate::transform::{add, cross, scaled, sub, unit};
 use std::collections::HashMap;
 
 /// Most triangles that a mesh may have in the end.
@@ -135,7 +135,7 @@ pub(super) fn smooth(mut points: Vec<[f64; 3]>, mut faces: Vec<[usize; 3]>, leve
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::transform::{dot, length};
+    use crate::transform::{dot, length};
 
     #[test]
     fn an_octahedron_becomes_round() {

@@ -1,12 +1,12 @@
 //! Reads `Texture`, and the parameters of materials that may be textures.
 
 use super::inputs::Files;
-use super::lexer::shortened;
-use super::message::{Message, Notes};
 use super::params::{Color, Params, shown};
 use super::spectrum::Named;
-use crate::image::{Encoding, read_texels};
-use crate::texture::{Mapping, Picture, Texels, Texture, Wrap};
+use crate::image::{Encoding, read_texels, sound};
+use crate::message::{Notes, shortened};
+use etendue_render::scene::Message;
+use etendue_render::texture::{Mapping, Picture, Texels, Texture, Wrap};
 use std::collections::HashMap;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -222,14 +222,6 @@ impl Textures {
             Some(_) => return Err(params.error(format!("{name:?}: this spectrum is no index of refraction"))),
         })
     }
-}
-
-/// The texels of an image that messages call `name`, with a warning if some were negative.
-pub(super) fn sound((texels, negative): (Texels, usize), name: &str, warn: impl FnOnce(String)) -> Texels {
-    if negative > 0 {
-        warn(format!("{}: negative values in {negative} texel(s) are replaced by 0", shortened(name)));
-    }
-    texels
 }
 
 /// A number that is finite in f32.

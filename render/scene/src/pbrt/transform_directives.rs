@@ -1,8 +1,9 @@
 //! Reads the directives that give a transform: `Translate`, `Scale`, `Rotate`, `LookAt`, `Transform` and `ConcatTransform`.
 
 use super::lexer::{Lexer, Token};
-use super::message::{Message, Place};
-use super::transform::Transform;
+use crate::message::Place;
+use crate::transform::Transform;
+use etendue_render::scene::Message;
 
 /// Reads the numbers of a directive.
 pub(super) fn read(word: &str, place: &Place, lexer: &mut Lexer<'_>) -> Result<Transform, Message> {

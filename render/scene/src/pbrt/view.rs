@@ -1,11 +1,11 @@
 //! Reads `Camera`, `Film` and `Sampler`.
 
-use super::description::{CameraSettings, FilmSettings, Lens, Screen};
-use super::message::{Message, Notes};
 use super::params::{Params, shown};
-use super::transform::{Transform, length, scaled};
-use crate::area::{Area, Place};
-use crate::limits::{MOST_SAMPLES, is_size};
+use crate::message::Notes;
+use crate::transform::{Transform, length, scaled};
+use etendue_render::area::{Area, Place};
+use etendue_render::limits::{MOST_SAMPLES, is_size};
+use etendue_render::scene::{CameraSettings, FilmSettings, Lens, Message, Screen};
 
 /// Reads a `Camera`, which looks along +z of camera space, and its transform to world space. `ctm` is the transform from world space.
 pub(super) fn camera(

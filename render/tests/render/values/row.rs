@@ -2,7 +2,7 @@
 
 use etendue_oracle::V3;
 use etendue_render::compare::LIMIT;
-use etendue_render::{Sampler, Settings, Technique, World, scene};
+use etendue_render::{Sampler, Settings, Technique, World};
 use std::path::Path;
 
 /// f32 holds what a light emits, and where it is, to 6e-8 of itself; some twenty operations follow.
@@ -49,8 +49,8 @@ impl Row {
     pub(super) fn check(&self, folder: &Path) -> Result<String, String> {
         let name = &self.name;
         let scene = match &self.text {
-            Text::Pbrt(text) => scene::parse(text, "row.pbrt", folder),
-            Text::Gltf(text) => scene::parse_gltf(text.as_bytes(), "row.gltf"),
+            Text::Pbrt(text) => etendue_scene::parse(text, "row.pbrt", folder),
+            Text::Gltf(text) => etendue_scene::parse_gltf(text.as_bytes(), "row.gltf"),
         };
         let scene = scene.map_err(|error| format!("{name}: {error}"))?;
         let world = World::new(&scene).map_err(|error| format!("{name}: {error}"))?;

@@ -12,7 +12,7 @@ fn full() -> Asset {
     let indices = asset.indices(&[0, 1, 2]);
     asset.json["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = json!(normals);
     asset.json["meshes"][0]["primitives"][0]["indices"] = json!(indices);
-    let png = crate::image::encode_png([1, 1], &[[255; 3]]).unwrap();
+    let png = etendue_render::image::encode_png([1, 1], &[[255; 3]]).unwrap();
     let view = asset.view(&png);
     asset.add("images", json!({"bufferView": view}));
     asset.add("samplers", json!({}));

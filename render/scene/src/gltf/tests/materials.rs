@@ -1,9 +1,9 @@
 //! Tests of materials, textures and what emits.
 
-use super::super::super::{Emission, Material, Roughness, Varying};
 use super::*;
-use crate::image::encode_png;
-use crate::texture::{Mask, Texture, Wrap};
+use etendue_render::image::encode_png;
+use etendue_render::scene::{Emission, Material, Roughness, Varying};
+use etendue_render::texture::{Mask, Texture, Wrap};
 
 /// A picture of 2 × 2 pixels as a data URI: red, green, blue, and grey of 51 (a fifth).
 fn picture() -> String {

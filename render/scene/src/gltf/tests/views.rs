@@ -1,9 +1,10 @@
 //! Tests of cameras and lights.
 
-use super::super::super::{CameraSettings, DeltaLight, Screen, load_with_sky};
 use super::*;
-use crate::packet::V8;
-use crate::sky::Sky;
+use crate::load_with_sky;
+use etendue_render::packet::V8;
+use etendue_render::scene::{CameraSettings, DeltaLight, Screen};
+use etendue_render::sky::Sky;
 use std::path::Path;
 
 /// The position of a point in an image, from the top left, by the formula of [`CameraSettings`].

@@ -1,7 +1,7 @@
 //! The built-in scene `knot`: a trefoil of neon tube, a million triangles that emit, in metres.
 
 use super::solids::{Point, Sink, round, scaled, sum};
-use crate::geometry::Geometry;
+use etendue_render::geometry::Geometry;
 use std::f64::consts::TAU;
 
 /// Quads along the tube and around it, each of two triangles.

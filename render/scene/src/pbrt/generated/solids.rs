@@ -1,6 +1,6 @@
 //! Solids of triangles, and numbers that vary.
 
-use crate::geometry::Geometry;
+use etendue_render::geometry::Geometry;
 
 /// Receives shapes, each with a radiance in relation to others.
 pub(super) type Sink<'a> = dyn FnMut(Geometry, [f64; 3]) + 'a;

@@ -1,7 +1,7 @@
 //! Mesh files in all three encodings, and malformed files.
 
-use super::super::vertices::Vertices;
 use super::*;
+use crate::vertices::Vertices;
 use std::fs;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicU32, Ordering};

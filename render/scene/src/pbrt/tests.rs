@@ -13,7 +13,13 @@ mod photometry;
 mod pictures;
 mod portals;
 
-use super::*;
+use super::{builtin, builtin_of_few_lights, ies, ply};
+use crate::{SceneError, load, parse, transform};
+use etendue_render::scene::{
+    DeltaLight, Details, Emission, Environment, FilmSettings, Geometry, Lens, Material, Message, Roughness, Scene,
+    Screen, Shape, SkyRadiance, Varying,
+};
+use std::path::Path;
 
 /// A scene of a camera and some shapes.
 fn world(shapes: &str) -> String {

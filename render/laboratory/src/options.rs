@@ -1,11 +1,12 @@
 //! What the command lines of the renderer and of its laboratory share.
 
-use crate::limits::{MOST_PIXELS, MOST_SIDE, is_size};
-use clap::ValueEnum;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use etendue_render::limits::{MOST_PIXELS, MOST_SIDE, is_size};
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 use std::fmt::Display;
 use std::io::{self, StdoutLock, Write};
 use std::ops::RangeInclusive;
+use std::str::FromStr;
 
 /// Standard output, locked. Its errors say what could not be written to.
 pub fn out() -> impl Write {
@@ -57,10 +58,13 @@ pub fn size(text: &str) -> Result<(u32, u32), String> {
     Ok((width, height))
 }
 
-/// A value's name on the command line.
-#[must_use]
-pub fn name(value: impl ValueEnum) -> String {
-    value.to_possible_value().map_or_else(String::new, |v| v.get_name().to_owned())
+/// A parser of these names, each with what it means.
+pub fn named<T>(names: &'static [[&'static str; 2]]) -> impl TypedValueParser<Value = T>
+where
+    T: FromStr<Err = String> + Clone + Send + Sync + 'static,
+{
+    let values = names.iter().map(|[name, about]| PossibleValue::new(*name).help(*about));
+    PossibleValuesParser::new(values).try_map(|name| name.parse())
 }
 
 /// Parses `--threads`.

@@ -1,9 +1,9 @@
 //! Lights with intensities of their own: IES files, images of directions, projected images, and their error messages.
 
+use super::super::inputs::Files;
 use super::*;
-use crate::intensity::Intensity;
-use crate::packet::V8;
-use crate::scene::inputs::Files;
+use etendue_render::intensity::Intensity;
+use etendue_render::packet::V8;
 use exr::prelude::write_rgb_file;
 use std::cell::RefCell;
 use std::fs;

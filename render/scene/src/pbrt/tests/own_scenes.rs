@@ -1,7 +1,7 @@
 //! What scene files of others have: textures, objects, spectra, powers, and what stands for something else.
 
 use super::*;
-use crate::texture::Texture;
+use etendue_render::texture::Texture;
 
 /// A scene with a light, so that the only warnings are those of the text.
 fn lit(text: &str) -> Scene {

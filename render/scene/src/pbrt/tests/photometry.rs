@@ -2,8 +2,8 @@
 
 use super::meshes::Scratch;
 use super::*;
-use crate::packet::V8;
-use crate::sky::Sky;
+use etendue_render::packet::V8;
+use etendue_render::sky::Sky;
 use exr::prelude::write_rgb_file;
 use std::f64::consts::PI;
 

@@ -293,7 +293,7 @@ fn includes_are_relative_bounded_and_name_their_own_lines() {
 /// Every prefix of a scene, and many scenes with a few bytes changed, give a scene or an error.
 #[test]
 fn no_text_panics() {
-    let text = include_str!("../../../scenes/quads.pbrt");
+    let text = include_str!("../../../../scenes/quads.pbrt");
     let directory = Path::new("no such directory");
     for end in (0..text.len()).filter(|&end| text.is_char_boundary(end)) {
         let _ = parse(&text[..end], "a.pbrt", directory);

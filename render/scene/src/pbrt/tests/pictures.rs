@@ -2,8 +2,8 @@
 
 use super::meshes::Scratch;
 use super::*;
-use crate::light_picture::LightPicture;
-use crate::texture::Mapping;
+use etendue_render::light_picture::LightPicture;
+use etendue_render::texture::Mapping;
 use exr::prelude::write_rgb_file;
 
 /// A folder with a picture of 3 × 2 texels, (column, row, 1) in each.

@@ -1,0 +1,95 @@
+//! Image files of any format as radiance or as textures.
+
+mod pfm;
+mod texels;
+
+pub use texels::Encoding;
+
+use crate::message::shortened;
+use etendue_render::files::{FileError, failed, read_file};
+use etendue_render::image::{Picture, check_size, decode_displayed};
+use etendue_render::texture::{Colors, Texels, srgb_to_linear};
+use image_files::DynamicImage;
+use image_files::codecs::hdr::HdrDecoder;
+use std::fmt;
+use std::io::Cursor;
+use std::path::Path;
+use texels::{PNG, Rows};
+
+/// Reads a picture from an OpenEXR or Radiance HDR file, or from a PNG file, whose values are decoded from sRGB.
+///
+/// The picture of an OpenEXR file is its display window. Where its data window has no pixels, it is black, and what it has outside is left out.
+///
+/// # Errors
+/// Fails if the file is missing, damaged or of another format, or has more than 2²⁸ pixels.
+pub fn read(path: &Path) -> Result<Picture, FileError> {
+    let bytes = read_file(path).map_err(|error| failed(path, format!("cannot read: {error}")))?;
+    decode(path, &bytes)
+}
+
+/// Like [`read`], from the bytes of a file that messages call `path`.
+///
+/// # Errors
+/// Fails if the bytes are damaged or of another format, or hold more than 2²⁸ pixels.
+pub fn decode(path: &Path, bytes: &[u8]) -> Result<Picture, FileError> {
+    // OpenEXR's magic number
+    if bytes.starts_with(&[0x76, 0x2f, 0x31, 0x01]) {
+        return decode_displayed(bytes, path);
+    }
+    if bytes.starts_with(PNG) {
+        return decode_png(bytes, path);
+    }
+    if let Some(image) = pfm::decode(path, bytes) {
+        return image.map(|(width, height, radiance)| Picture { width, height, radiance, variance: None });
+    }
+    let not_one = |error: &dyn fmt::Display| failed(path, format!("not a valid EXR, HDR, PFM or PNG image: {error}"));
+    let decoder = HdrDecoder::new(Cursor::new(bytes)).map_err(|error| not_one(&error))?;
+    let [width, height] = [decoder.metadata().width, decoder.metadata().height];
+    // a run of equal pixels takes few bytes
+    check_size(path, [width.into(), height.into()], 1, bytes.len())?;
+    let image = DynamicImage::from_decoder(decoder).map_err(|error| not_one(&error))?;
+    let radiance = image.into_rgb32f().pixels().map(|p| p.0).collect();
+    Ok(Picture { width: width as usize, height: height as usize, radiance, variance: None })
+}
+
+/// Reads a PNG file of any depth and colour type; transparency is ignored.
+fn decode_png(bytes: &[u8], path: &Path) -> Result<Picture, FileError> {
+    let Rows { width, height, channels, is_wide, data } = Rows::of_png(path, bytes, png::Transformations::EXPAND)?;
+    let samples: Vec<f32> = if is_wide {
+        let pairs = data.chunks_exact(2);
+        pairs.map(|b| srgb_to_linear(f64::from(u16::from_be_bytes([b[0], b[1]])) / 65535.0)).collect()
+    } else {
+        data.iter().map(|&b| srgb_to_linear(f64::from(b) / 255.0)).collect()
+    };
+    // grey, or grey and alpha, have one colour channel
+    let color = |p: &[f32]| if channels < 3 { [p[0]; 3] } else { [p[0], p[1], p[2]] };
+    let radiance = samples.chunks_exact(channels).map(color).collect();
+    Ok(Picture { width, height, radiance, variance: None })
+}
+
+/// Reads a texture from the bytes of a PNG, JPEG, TGA, OpenEXR or Radiance HDR file that messages call `path`. Negative values become 0;
+/// also returns the number of texels that have some.
+///
+/// # Errors
+/// Fails if the bytes are damaged or of another format, hold more than 2²⁸ pixels, or a texel that is not finite.
+pub fn read_texels(path: &Path, bytes: &[u8], encoding: Encoding) -> Result<(Texels, usize), FileError> {
+    if let Some(texels) = texels::from_bytes(path, bytes, encoding) {
+        return texels.map(|texels| (texels, 0));
+    }
+    let Picture { width, height, radiance, .. } = decode(path, bytes)?;
+    if let Some(i) = radiance.iter().position(|rgb| !rgb.iter().all(|x| x.is_finite())) {
+        let (x, y, texel) = (i % width, i / width, radiance[i]);
+        return Err(failed(path, format!("texel ({x}, {y}) is {texel:?}: must be finite")));
+    }
+    let negative = radiance.iter().filter(|rgb| rgb.iter().any(|&x| x < 0.0)).count();
+    let colors = Colors::Float(radiance.iter().map(|rgb| rgb.map(|x| x.max(0.0))).collect());
+    Ok((Texels { width, height, colors, alpha: None }, negative))
+}
+
+/// The texels of an image that messages call `name`, with a warning if some were negative.
+pub(super) fn sound((texels, negative): (Texels, usize), name: &str, warn: impl FnOnce(String)) -> Texels {
+    if negative > 0 {
+        warn(format!("{}: negative values in {negative} texel(s) are replaced by 0", shortened(name)));
+    }
+    texels
+}

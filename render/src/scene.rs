@@ -1,0 +1,16 @@
+//! What a scene is: the plain description that [`World`](crate::World) is built of. The package `etendue-scene` reads it from files.
+
+mod description;
+mod environment;
+mod inputs;
+mod lights;
+mod materials;
+mod message;
+
+pub use crate::geometry::{Affine, Geometry, Instance};
+pub use description::{CameraSettings, Corners, Details, FilmSettings, Lens, Scene, Screen, Shape};
+pub use environment::{Environment, SkyRadiance, SunDisk};
+pub use inputs::Input;
+pub use lights::{Cone, DeltaLight, Emission};
+pub use materials::{Material, Roughness, Varying};
+pub use message::Message;

@@ -1,0 +1,56 @@
+//! What an image depends on.
+
+use etendue_render::area::Place;
+use etendue_render::limits::MOST_SAMPLES;
+use etendue_render::{ChoiceBy, Identity, Sampler, Sensor, Settings, Technique, World};
+use serde_json::json;
+use std::path::Path;
+
+const SETTINGS: Settings = Settings {
+    width: 8,
+    height: 8,
+    spp: 4,
+    technique: Technique::Auto,
+    choice: ChoiceBy::Auto,
+    depth: 8,
+    sampler: Sampler::Sobol,
+    sets: 0,
+    seed: 0,
+};
+
+/// Settings of no image are refused before a pixel is rendered.
+#[test]
+fn impossible_settings_are_named() {
+    let world = World::new(&etendue_scene::load("quads").unwrap()).unwrap();
+    assert_eq!(SETTINGS.check(), Ok(()));
+    for (settings, what) in [
+        (Settings { spp: 0, ..SETTINGS }, "8 × 8 pixels of 0 samples in 0 sets"),
+        (Settings { spp: MOST_SAMPLES + 1, ..SETTINGS }, "of 4194305 samples"),
+        (Settings { sets: 3, ..SETTINGS }, "in 3 sets"),
+        (Settings { sets: 8, spp: 64, sampler: Sampler::Adaptive, ..SETTINGS }, "in 8 sets"),
+        (Settings { width: 0, ..SETTINGS }, "0 × 8 pixels"),
+        (Settings { height: 1 << 20, ..SETTINGS }, "8 × 1048576 pixels"),
+    ] {
+        let panic = std::panic::catch_unwind(|| drop(world.render(&settings, &|_| ()))).unwrap_err();
+        let found = panic.downcast_ref::<String>().unwrap();
+        assert!(found.contains(what), "{found}");
+    }
+}
+
+/// A place is read as it was written, and must be within the whole image.
+#[test]
+fn places_are_kept() {
+    let view = "Camera \"perspective\" WorldBegin LightSource \"point\"";
+    let film = "Film \"rgb\" \"integer xresolution\" 64 \"integer yresolution\" 32 \"integer pixelbounds\" [10 20 5 9]";
+    let scene = etendue_scene::parse(&format!("{film} {view}"), "a.pbrt", Path::new("")).unwrap();
+    let settings = Settings { width: scene.film.width, height: scene.film.height, ..SETTINGS };
+    let identity = Identity::new(&scene, settings, Sensor::Radiance);
+    assert_eq!(identity.place, Some(Place { start: [10, 5], whole: [64, 32] }));
+    let mut json = json!(identity);
+    assert_eq!(Identity::from_json(&json).unwrap(), identity);
+    for (x, across) in [(10, 19), (55, 64), (u32::MAX, 64), (10, u32::MAX)] {
+        json["place"] = json!({ "start": [x, 5], "whole": [across, 32] });
+        let error = Identity::from_json(&json).unwrap_err();
+        assert!(error.contains(&format!("{across} × 32 pixels has 10 × 4 at {x}, 5")), "{error}");
+    }
+}
