@@ -52,7 +52,6 @@
 //! normal of a flat light (of files of type A, the photometric horizontal is), and the photometric horizontal in the plane of that and of the
 //! light's +x (of type A, the zenith, and +y). The intensity of a spot light is `I` times candela values, or texels, times the falloff. Of flat
 //! lights `L` and `power` stay what they are, and the profile distributes it: see [`LuminousOpening`](etendue::light::LuminousOpening).
-//! `"float tilt"` is the angle in degrees by which a luminaire with an IES file is tilted, for the factors that the file has for it.
 //!
 //! These differ from pbrt-v4 by choice:
 //!

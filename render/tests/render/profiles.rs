@@ -16,11 +16,11 @@ impl Folder {
         std::fs::create_dir_all(&path).unwrap();
         Self(path)
     }
-    fn ies(&self, name: &str, tilt: &str, kind: u32, vertical: &str, horizontal: &str, values: &str) {
+    fn ies(&self, name: &str, kind: u32, vertical: &str, horizontal: &str, values: &str) {
         let count = |list: &str| list.split_whitespace().count();
         let (rows, columns) = (count(vertical), count(horizontal));
         let text =
-            format!("TILT={tilt}\n1 -1 1 {rows} {columns} {kind} 2 0 0 0\n1 1 9\n{vertical}\n{horizontal}\n{values}\n");
+            format!("TILT=NONE\n1 -1 1 {rows} {columns} {kind} 2 0 0 0\n1 1 9\n{vertical}\n{horizontal}\n{values}\n");
         std::fs::write(self.0.join(name), text).unwrap();
     }
     /// A plane of albedo 0.8, of which the camera sees the origin, from beside.
@@ -74,9 +74,9 @@ fn nearly(world: &World, irradiance: f64, what: &str) {
 fn spots_with_profiles_over_a_plane() {
     let folder = Folder::new("spots");
     // 90 cd at the nadir, 30 cd at 60 degrees and azimuth 0, nothing there at 180
-    folder.ies("c.ies", "NONE", 1, "0 60", "0 180", "90 30 90 0");
+    folder.ies("c.ies", 1, "0 60", "0 180", "90 30 90 0");
     // along the photometric horizontal of type A, brighter above than below
-    folder.ies("a.ies", "NONE", 3, "-60 0 60", "-90 0 90", "30 90 60 30 90 60 30 90 60");
+    folder.ies("a.ies", 3, "-60 0 60", "-90 0 90", "30 90 60 30 90 60 30 90 60");
     let exactly = |light: &str, irradiance: f64| {
         for technique in Technique::ALL {
             let (mean, error) = pixel(&folder.world(light), technique, 24);
@@ -124,7 +124,7 @@ fn spots_with_profiles_over_a_plane() {
 #[test]
 fn spots_with_profiles_have_the_power_that_they_are_given() {
     let folder = Folder::new("power");
-    folder.ies("c.ies", "NONE", 1, "0 60", "0", "1 0");
+    folder.ies("c.ies", 1, "0 60", "0", "1 0");
     let light = "LightSource \"spot\" \"point3 from\" [0 2 0] \"point3 to\" [0 0 0] \"float coneangle\" 40 \
                  \"float conedeltaangle\" 40 \"string profile\" \"c.ies\" \"float power\" 50 \"rgb I\" [7 7 7]";
     let n = 100_000;
@@ -206,9 +206,9 @@ type Intensity = dyn Fn(f64, f64) -> f64;
 #[test]
 fn panels_with_profiles_over_a_plane() {
     let folder = Folder::new("panels");
-    folder.ies("wide.ies", "NONE", 1, "0 90", "0", "1 3");
-    folder.ies("skew.ies", "NONE", 1, "0 90", "0 180", "2 1 2 5");
-    folder.ies("beam.ies", "NONE", 1, "0 15 30", "0", "4 1 0");
+    folder.ies("wide.ies", 1, "0 90", "0", "1 3");
+    folder.ies("skew.ies", 1, "0 90", "0 180", "2 1 2 5");
+    folder.ies("beam.ies", 1, "0 15 30", "0", "4 1 0");
     let wide = |theta: f64, _: f64| 1.0 + 2.0 * theta / 90.0;
     let skew = |theta: f64, turn: f64| {
         let around = if turn > 180.0 { 360.0 - turn } else { turn };
@@ -263,47 +263,9 @@ fn panels_with_images_and_two_sides() {
     let irradiance = panel.irradiance(|w| if w[2] > 0.0 { found / (-w[1]).max(least()) } else { 0.0 });
     nearly(&folder.world(&panel.pbrt("\"string profile\" \"half.exr\"")), irradiance, "an image");
     // three quarters of the intensity go up, to where the normal is not
-    folder.ies("both.ies", "NONE", 1, "0 89.999 90.001 180", "0", "1 1 3 3");
+    folder.ies("both.ies", 1, "0 89.999 90.001 180", "0", "1 1 3 3");
     let light = "\"string profile\" \"both.ies\" \"bool twosided\" true";
     let one = gain(|_, _| 1.0);
     let irradiance = panel.irradiance(|w| one / (-w[1]).max(least()));
     nearly(&folder.world(&panel.pbrt(light)), 0.5 * irradiance, "two sides");
-}
-
-/// The factors of TILT: those of the angle that the light has, for point, spot and area lights.
-#[test]
-fn tilt_multiplies_the_light() {
-    let folder = Folder::new("tilt");
-    folder.ies("plain.ies", "NONE", 1, "0 90", "0", "90 30");
-    let tilt = "3 3\n0 40 90\n1 .8 .3";
-    folder.ies("own.ies", &format!("INCLUDE\n{tilt}"), 1, "0 90", "0", "90 30");
-    folder.ies("beside.ies", "lamp.tlt", 1, "0 90", "0", "90 30");
-    std::fs::write(folder.0.join("lamp.tlt"), tilt).unwrap();
-    let panel = Panel { shape: "bilinearmesh", corner: [-0.4, -0.2], edges: [1.0, 0.7], height: 0.8 };
-    let lights = |name: &str, angle: &str| {
-        [
-            format!(
-                "AttributeBegin Translate 0 2 0 LightSource \"goniometric\" \"string filename\" \"{name}\" {angle} AttributeEnd"
-            ),
-            format!(
-                "LightSource \"spot\" \"point3 from\" [0 2 0] \"point3 to\" [0 0 0] \"string profile\" \"{name}\" {angle}"
-            ),
-            panel.pbrt(&format!("\"string profile\" \"{name}\" {angle}")),
-        ]
-    };
-    for (k, plain) in lights("plain.ies", "").iter().enumerate() {
-        let (whole, _) = pixel(&folder.world(plain), Technique::SolidAngle, 256);
-        for name in ["own.ies", "beside.ies"] {
-            for (angle, factor) in [
-                ("", 1.0),
-                ("\"float tilt\" 0", 1.0),
-                ("\"float tilt\" 20", 0.9),
-                ("\"float tilt\" 65", 0.55),
-                ("\"float tilt\" 90", 0.3),
-            ] {
-                let (mean, _) = pixel(&folder.world(&lights(name, angle)[k]), Technique::SolidAngle, 256);
-                assert!((mean / whole / factor - 1.0).abs() < 1e-5, "{name} {angle}: {mean} of {whole}");
-            }
-        }
-    }
 }

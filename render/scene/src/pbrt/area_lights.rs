@@ -59,11 +59,13 @@ pub(super) fn read(
     let scaled = std::array::from_fn(|k| radiance[k] * scale[k]);
     let power = power.map(|power| power * luminance(scaled) / luminance(radiance));
     let two_sided = params.flag("twosided")?.unwrap_or(false);
-    let (of_tilt, profile) = match params.text("profile")? {
-        Some(name) => distribution(&name, two_sided, params, files, notes)?,
-        None => (1.0, None),
+    let (profile, radiance) = match params.text("profile")? {
+        Some(name) => match distribution(&name, two_sided, params, files, notes)? {
+            None => (None, [0.0; 3]),
+            profile => (profile, scaled),
+        },
+        None => (None, scaled),
     };
-    let radiance = scaled.map(|x| x * of_tilt);
     let greatest = texels.as_ref().map_or([1.0; 3], |texels| texels.greatest().map(f64::from));
     let brightest: [f64; 3] = std::array::from_fn(|k| radiance[k] * greatest[k]);
     let spread = spread(params)?;
@@ -95,27 +97,27 @@ pub(super) fn read(
     Ok(Area { emission: (!dark).then_some(emission), picture, profile, power })
 }
 
-/// Reads the profile of an area light, and a factor of the radiance: that of its tilt, or 0 if the light is dark.
+/// Reads the profile of an area light; `None` if the light is dark.
 fn distribution(
     name: &str,
     two_sided: bool,
-    params: &mut Params,
+    params: &Params,
     files: &Files<'_>,
     notes: &mut Notes,
-) -> Result<(f64, Option<Distribution>), Message> {
-    let Some(Profile { intensity, of_tilt, aim, .. }) = profiles::read(name, params, files, notes)? else {
-        return Ok((0.0, None));
+) -> Result<Option<Distribution>, Message> {
+    let Some(Profile { intensity, aim, .. }) = profiles::read(name, params, files, notes)? else {
+        return Ok(None);
     };
     let ahead = aim.ahead();
     let Some(opening) = LuminousOpening::new(ahead.into(), two_sided, |w: V8| intensity.at(w).x) else {
-        return Ok((0.0, None));
+        return Ok(None);
     };
     // about another axis, or behind, the cone of the intensity tells nothing
     let cos = if ahead[2] == 1.0 && !two_sided { f64::from(intensity.cos_cone()) } else { -1.0 };
     // a little wider, since directions are rounded
     let tangent = if cos > 0.02 { libm::sqrt(1.0 - cos * cos) / cos * 1.001 + 1e-4 } else { WIDE };
     let cone = Spread { tan_half: tangent as f32, gain: 0.0 };
-    Ok((of_tilt, Some(Distribution { intensity: intensity.into(), aim, opening, cone })))
+    Ok(Some(Distribution { intensity: intensity.into(), aim, opening, cone }))
 }
 
 /// The texels of the picture of a light, which is read once.

@@ -3,9 +3,7 @@
 //! The intensity is candela value × multiplier × ballast factor, and × the ballast-lamp factor in files of before 2002; at its place, later
 //! ones have something else. In light space −y is the nadir, and the photometric horizontal is +x.
 //!
-//! Some lamps are dimmer when the luminaire is tilted from the position in which it was measured, aimed at the nadir. `TILT` lists angles
-//! of tilt and factors, between which they are linear; the number before them, of how the lamp lies in the luminaire, tells what they
-//! depend on, and changes nothing. A scene does not know where the ground is, so that the parameter `tilt` of the light gives the angle.
+//! The factors of `TILT`, by which some lamps are dimmer when the luminaire is tilted, are ignored: a scene does not know where the ground is.
 //!
 //! | type | polar axis | vertical angle | horizontal angle |
 //! |---|---|---|---|
@@ -17,7 +15,6 @@ use super::inputs::Files;
 use crate::distribution::Axis;
 use crate::message::shown;
 use etendue_render::intensity::Intensity;
-use std::path::Path;
 
 /// The intensity of a luminaire.
 #[derive(Debug)]
@@ -26,8 +23,6 @@ pub(super) struct Photometry {
     pub(super) intensity: Intensity,
     /// The greatest intensity in candela.
     pub(super) greatest: f64,
-    /// The factor of the tilt, which `greatest` has.
-    pub(super) of_tilt: f64,
     /// The axes of the profile's space, in light space.
     pub(super) axes: [Axis; 3],
     /// Where the luminaire is aimed at, in light space: the nadir, or the photometric horizontal in type A.
@@ -110,14 +105,10 @@ fn mirrored(columns: Columns, about: f32) -> Columns {
     all
 }
 
-fn text_of(name: &str, files: &Files<'_>) -> Result<String, String> {
+/// Reads the file with this name.
+pub(super) fn read(name: &str, files: &Files<'_>) -> Result<Photometry, String> {
     let bytes = files.read(&files.find(name)).map_err(|error| format!("cannot read {name:?}: {error}"))?;
-    Ok(String::from_utf8_lossy(&bytes).into_owned())
-}
-
-/// Reads the file with this name, for a luminaire that is tilted by an angle in degrees, if that is known.
-pub(super) fn read(name: &str, tilt: Option<f64>, files: &Files<'_>) -> Result<Photometry, String> {
-    parse(&text_of(name, files)?, name, tilt, files)
+    parse(&String::from_utf8_lossy(&bytes), name)
 }
 
 /// Words of a text with the numbers of their lines, after so many lines.
@@ -130,138 +121,132 @@ fn words(text: &str, after: usize) -> Vec<(usize, &str)> {
         .collect()
 }
 
-/// Reads the data of `TILT`, and returns the factor of an angle in degrees.
-fn tilted(numbers: &mut Numbers<'_>, tilt: Option<f64>) -> Result<f64, String> {
-    numbers.within("lamp-to-luminaire geometry", 1.0, 3.0)?;
-    let count = numbers.count("number of tilt angles")?;
-    let angles = numbers.angles(count, "tilt angle", 0.0, 360.0)?;
-    let line = numbers.line();
-    let factors: Result<Vec<f64>, String> = (0..count).map(|_| numbers.within("tilt factor", 0.0, f64::MAX)).collect();
-    let (Some(tilt), factors) = (tilt, factors?) else { return Ok(1.0) };
-    let [first, last] = [angles[0], angles[count - 1]].map(f64::from);
-    if !(first..=last).contains(&tilt) {
-        let what = format!("its factors of TILT are for {first} to {last} degrees, not for {}", shown(tilt));
-        return Err(numbers.error(line, what));
+/// Skips the data of `TILT`.
+fn skip_tilt(numbers: &mut Numbers<'_>) -> Result<(), String> {
+    numbers.number("lamp-to-luminaire geometry")?;
+    for _ in 0..2 * numbers.count("number of tilt angles")? {
+        numbers.number("tilt angle or factor")?;
     }
-    let next = angles.partition_point(|&angle| f64::from(angle) <= tilt).min(count - 1);
-    let [low, high] = [next.saturating_sub(1), next];
-    let [from, to] = [angles[low], angles[high]].map(f64::from);
-    let t = if to > from { (tilt - from) / (to - from) } else { 0.0 };
-    Ok(factors[low] * (1.0 - t) + factors[high] * t)
+    Ok(())
+}
+
+/// What the first lines of numbers tell of the table that follows.
+struct Header {
+    rows: usize,
+    columns: usize,
+    /// The letter of the photometric type.
+    kind: char,
+    /// What candela values are multiplied by.
+    factor: f64,
+}
+
+impl Header {
+    /// Reads it from a file of 2002 or later if `is_late`.
+    fn read(numbers: &mut Numbers<'_>, is_late: bool) -> Result<Self, String> {
+        numbers.number("number of lamps")?;
+        numbers.number("lumens per lamp")?;
+        let multiplier = numbers.within("multiplier", 0.0, f64::MAX)?;
+        let rows = numbers.count("number of vertical angles")?;
+        let columns = numbers.count("number of horizontal angles")?;
+        let kind = match numbers.within("photometric type", 1.0, 3.0)? {
+            kind if kind < 2.0 => 'C',
+            kind if kind < 3.0 => 'B',
+            _ => 'A',
+        };
+        for what in ["units", "width", "length", "height"] {
+            numbers.number(what)?;
+        }
+        let ballast = numbers.within("ballast factor", 0.0, f64::MAX)?;
+        let lamp = numbers.number("ballast-lamp factor")?;
+        numbers.number("input watts")?;
+        let factor = multiplier * ballast * if is_late { 1.0 } else { lamp };
+        if !(0.0..=f64::MAX).contains(&factor) {
+            return Err(numbers.error(numbers.line(), format!("its factors multiply to {}", shown(factor))));
+        }
+        // all angles and values must be there before memory is taken
+        let needed = rows.saturating_mul(columns).saturating_add(rows).saturating_add(columns);
+        if needed > numbers.left() {
+            let line = numbers.words.last().map_or(0, |(line, _)| *line);
+            let what = format!(
+                "{rows} vertical and {columns} horizontal angles need {needed} numbers, but {} are left",
+                numbers.left()
+            );
+            return Err(numbers.error(line, what));
+        }
+        Ok(Self { rows, columns, kind, factor })
+    }
+
+    /// The vertical angles in degrees, and the columns of all azimuths: those of the file and their mirror images.
+    fn table(&self, numbers: &mut Numbers<'_>) -> Result<(Vec<f32>, Columns), String> {
+        let is_c = self.kind == 'C';
+        let [vertical, horizontal] = if is_c { [[0.0, 180.0], [0.0, 360.0]] } else { [[-90.0, 90.0]; 2] };
+        let polar = numbers.angles(self.rows, "vertical angle", vertical[0], vertical[1])?;
+        if self.rows < 2 {
+            return Err(numbers.error(numbers.line(), "a single vertical angle: at least two are needed"));
+        }
+        let azimuth = numbers.angles(self.columns, "horizontal angle", horizontal[0], horizontal[1])?;
+        let line = numbers.line();
+        let mut columns = Columns::with_capacity(self.columns);
+        for &angle in &azimuth {
+            let column: Result<Vec<f64>, String> =
+                (0..self.rows).map(|_| numbers.within("candela value", 0.0, f64::MAX)).collect();
+            columns.push((angle, column?));
+        }
+        let ends = [azimuth[0], azimuth[self.columns - 1]];
+        let columns = match (is_c, ends) {
+            _ if self.columns == 1 => vec![(0.0, columns.swap_remove(0).1)],
+            (true, [0.0, 90.0]) => mirrored(mirrored(columns, 90.0), 180.0),
+            (true, [0.0, 180.0]) => mirrored(columns, 180.0),
+            (true, [0.0, 360.0]) => columns,
+            (true, [90.0, 270.0]) => {
+                mirrored(columns, 270.0).into_iter().map(|(angle, column)| (angle - 360.0, column)).collect()
+            }
+            (false, [0.0, 90.0]) => mirrored(columns, 0.0),
+            (false, [-90.0, 90.0]) => columns,
+            (_, [first, last]) => {
+                let may = if is_c { "0 to 90, 180 or 360, or from 90 to 270" } else { "0 or -90 to 90" };
+                let what =
+                    format!("horizontal angles from {first} to {last} in type {}: must be from {may}", self.kind);
+                return Err(numbers.error(line, what));
+            }
+        };
+        Ok((polar, columns))
+    }
 }
 
 /// Reads the text of a file that messages call `name`.
-pub(super) fn parse(text: &str, name: &str, tilt: Option<f64>, files: &Files<'_>) -> Result<Photometry, String> {
+pub(super) fn parse(text: &str, name: &str) -> Result<Photometry, String> {
     let lines = || (1..).zip(text.lines());
-    let Some((line, source)) = lines().find_map(|(line, text)| Some((line, text.trim().strip_prefix("TILT=")?.trim())))
+    let Some((line, tilt)) = lines().find_map(|(line, text)| Some((line, text.trim().strip_prefix("TILT=")?.trim())))
     else {
         return Err(format!("{name}: no line begins with TILT=, after which an IES file has its numbers"));
     };
     let mut numbers = Numbers { name, words: words(text, line), next: 0 };
     let mut warnings = Vec::new();
-    let of_tilt = match source {
-        "NONE" => 1.0,
-        "INCLUDE" => tilted(&mut numbers, tilt)?,
-        // without an angle, it need not be there
-        _ if tilt.is_none() => 1.0,
-        other => {
-            // it is beside this one
-            let other = Path::new(name).with_file_name(other).to_string_lossy().into_owned();
-            let text = text_of(&other, files).map_err(|what| format!("{name}:{line}: {what}"))?;
-            tilted(&mut Numbers { name: &other, words: words(&text, 0), next: 0 }, tilt)?
-        }
-    };
-    if source != "NONE" && tilt.is_none() {
-        warnings.push(format!(
-            "{name}:{line}: the factors of TILT are not applied: \"float tilt\" tells by how many degrees the luminaire is tilted"
-        ));
+    if tilt != "NONE" {
+        warnings.push(format!("{name}:{line}: the factors of TILT are ignored"));
     }
-    numbers.number("number of lamps")?;
-    numbers.number("lumens per lamp")?;
-    let multiplier = numbers.within("multiplier", 0.0, f64::MAX)?;
-    let rows = numbers.count("number of vertical angles")?;
-    let count = numbers.count("number of horizontal angles")?;
-    let kind = numbers.within("photometric type", 1.0, 3.0)?;
-    for what in ["units", "width", "length", "height"] {
-        numbers.number(what)?;
+    if tilt == "INCLUDE" {
+        skip_tilt(&mut numbers)?;
     }
-    let ballast = numbers.within("ballast factor", 0.0, f64::MAX)?;
-    let lamp = numbers.number("ballast-lamp factor")?;
-    numbers.number("input watts")?;
     let is_late =
         ["LM-63-2002", "LM-63-2019"].iter().any(|year| lines().next().is_some_and(|(_, text)| text.contains(year)));
-    let factor = multiplier * ballast * if is_late { 1.0 } else { lamp };
-    if !(0.0..=f64::MAX).contains(&factor) {
-        return Err(numbers.error(numbers.line(), format!("its factors multiply to {}", shown(factor))));
-    }
-    // all angles and values must be there before memory is taken
-    let needed = rows.saturating_mul(count).saturating_add(rows).saturating_add(count);
-    if needed > numbers.left() {
-        let line = numbers.words.last().map_or(0, |(line, _)| *line);
-        let what = format!(
-            "{rows} vertical and {count} horizontal angles need {needed} numbers, but {} are left",
-            numbers.left()
-        );
-        return Err(numbers.error(line, what));
-    }
-    let is_c = kind == 1.0;
-    let vertical = if is_c { [0.0, 180.0] } else { [-90.0, 90.0] };
-    let horizontal = if is_c { [0.0, 360.0] } else { [-90.0, 90.0] };
-    let polar = numbers.angles(rows, "vertical angle", vertical[0], vertical[1])?;
-    if rows < 2 {
-        return Err(numbers.error(numbers.line(), "a single vertical angle: at least two are needed"));
-    }
-    let azimuth = numbers.angles(count, "horizontal angle", horizontal[0], horizontal[1])?;
-    let line = numbers.line();
-    let mut columns = Columns::with_capacity(count);
-    for &angle in &azimuth {
-        let column: Result<Vec<f64>, String> =
-            (0..rows).map(|_| numbers.within("candela value", 0.0, f64::MAX)).collect();
-        columns.push((angle, column?));
-    }
+    let header = Header::read(&mut numbers, is_late)?;
+    let (polar, columns) = header.table(&mut numbers)?;
     if numbers.left() > 0 {
         warnings.push(format!("{name}: {} numbers after the last candela value are ignored", numbers.left()));
     }
-    let ends = [azimuth[0], azimuth[count - 1]];
-    let columns = match (is_c, ends) {
-        _ if count == 1 => vec![(0.0, columns.swap_remove(0).1)],
-        (true, [0.0, 90.0]) => mirrored(mirrored(columns, 90.0), 180.0),
-        (true, [0.0, 180.0]) => mirrored(columns, 180.0),
-        (true, [0.0, 360.0]) => columns,
-        (true, [90.0, 270.0]) => {
-            mirrored(columns, 270.0).into_iter().map(|(angle, column)| (angle - 360.0, column)).collect()
-        }
-        (false, [0.0, 90.0]) => mirrored(columns, 0.0),
-        (false, [-90.0, 90.0]) => columns,
-        (_, [first, last]) => {
-            let may = if is_c { "0 to 90, 180 or 360, or from 90 to 270" } else { "0 or -90 to 90" };
-            let what =
-                format!("horizontal angles from {first} to {last} in type {}: must be from {may}", name_of(kind));
-            return Err(numbers.error(line, what));
-        }
-    };
     let greatest = columns.iter().flat_map(|(_, column)| column).fold(0.0, |most: f64, &x| most.max(x));
     let unit = if greatest > 0.0 { greatest } else { 1.0 };
     let values: Vec<f32> = columns.iter().flat_map(|(_, column)| column.iter().map(|x| (x / unit) as f32)).collect();
     let azimuth: Vec<f32> = columns.iter().map(|(angle, _)| *angle).collect();
     let nadir = ((1, -1.0), (0, 1.0));
-    let (polar, axes, (ahead, aside)): (Vec<f32>, _, _) = match name_of(kind) {
+    let (polar, axes, (ahead, aside)): (Vec<f32>, _, _) = match header.kind {
         'C' => (polar, [(0, 1.0), (2, 1.0), (1, -1.0)], nadir),
         'B' => (polar.iter().map(|v| v + 90.0).collect(), [(1, -1.0), (2, -1.0), (0, -1.0)], nadir),
         _ => (polar.iter().map(|v| v + 90.0).collect(), [(0, 1.0), (2, -1.0), (1, -1.0)], ((0, 1.0), (1, 1.0))),
     };
     // angles that differ by too little are the same once they are mirrored
     let intensity = Intensity::angles(polar, azimuth, values).map_err(|error| format!("{name}: {error}"))?;
-    Ok(Photometry { intensity, greatest: greatest * factor * of_tilt, of_tilt, axes, ahead, aside, warnings })
-}
-
-/// The letter of a photometric type.
-fn name_of(kind: f64) -> char {
-    if kind < 2.0 {
-        'C'
-    } else if kind < 3.0 {
-        'B'
-    } else {
-        'A'
-    }
+    Ok(Photometry { intensity, greatest: greatest * header.factor, axes, ahead, aside, warnings })
 }

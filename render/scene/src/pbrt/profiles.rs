@@ -2,7 +2,7 @@
 
 use super::ies;
 use super::inputs::Files;
-use super::params::{Params, shown};
+use super::params::Params;
 use crate::distribution::{Aim, Axis};
 use crate::message::Notes;
 use crate::radiance::MOST_TEXELS;
@@ -15,20 +15,18 @@ use etendue_render::scene::Message;
 #[derive(Debug)]
 pub(super) struct Profile {
     pub(super) intensity: Intensity,
-    /// The greatest intensity, with the factor of the tilt.
+    /// The greatest intensity.
     pub(super) greatest: f64,
-    pub(super) of_tilt: f64,
     pub(super) aim: Aim,
 }
 
 /// Axes of the images of directions: pbrt has y up, and images have z.
 const UP: [Axis; 3] = [(0, 1.0), (2, 1.0), (1, 1.0)];
 
-/// Reads an IES file, or pbrt's square image of directions, or an older one of longitude and latitude; `None` if it is dark. The parameter
-/// `tilt` is that of the luminaire.
+/// Reads an IES file, or pbrt's square image of directions, or an older one of longitude and latitude; `None` if it is dark.
 pub(super) fn read(
     name: &str,
-    params: &mut Params,
+    params: &Params,
     files: &Files<'_>,
     notes: &mut Notes,
 ) -> Result<Option<Profile>, Message> {
@@ -36,15 +34,11 @@ pub(super) fn read(
         let image = picture(params, name, files)?;
         return sphere(&image).map_err(|what| params.error(format!("{name}: {what}")));
     }
-    let tilt = params.float("tilt")?;
-    if let Some(tilt) = tilt.filter(|tilt| !(0.0..=180.0).contains(tilt)) {
-        return Err(params.error(format!("\"tilt\": must be from 0 to 180 degrees, not {}", shown(tilt))));
-    }
-    let ies::Photometry { intensity, greatest, of_tilt, axes, ahead, aside, warnings } =
-        ies::read(name, tilt, files).map_err(|what| params.error(what))?;
+    let ies::Photometry { intensity, greatest, axes, ahead, aside, warnings } =
+        ies::read(name, files).map_err(|what| params.error(what))?;
     warnings.into_iter().for_each(|what| notes.warn(params.error(what)));
     let aim = Aim { axes, ahead, aside };
-    Ok((greatest > 0.0).then_some(Profile { intensity, greatest, of_tilt, aim }))
+    Ok((greatest > 0.0).then_some(Profile { intensity, greatest, aim }))
 }
 
 /// Reads an image without what no light can have.
@@ -76,6 +70,6 @@ fn sphere(image: &Picture) -> Result<Option<Profile>, String> {
     let greatest = means.iter().fold(0.0, |most: f64, &x| most.max(x));
     let texels = means.iter().map(|x| (x / greatest.max(f64::MIN_POSITIVE)) as f32).collect();
     let aim = Aim { axes: UP, ahead: (1, -1.0), aside: (0, 1.0) };
-    let profile = |intensity| Profile { intensity, greatest, of_tilt: 1.0, aim };
+    let profile = |intensity| Profile { intensity, greatest, aim };
     Ok(Intensity::sphere(map, image.width, texels).map(profile))
 }

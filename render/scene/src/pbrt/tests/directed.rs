@@ -1,11 +1,9 @@
 //! Lights with intensities of their own: IES files, images of directions, projected images, and their error messages.
 
-use super::super::inputs::Files;
 use super::*;
 use etendue_render::intensity::Intensity;
 use etendue_render::packet::V8;
 use exr::prelude::write_rgb_file;
-use std::cell::RefCell;
 use std::fs;
 use std::path::PathBuf;
 
@@ -90,7 +88,7 @@ fn type_c_has_the_nadir_as_axis() {
     // 1986: no first line
     folder.write("a.ies", "a lamp\nTILT=INCLUDE\n1 2 0 90 1 0.9\n1 1000 1 2 1 1 2 0 0 0 1 1 100 0,90\n0\n7 7");
     near(&folder.intensities(LAMP, &[DOWN]), &[7.0]);
-    assert!(folder.load(LAMP).unwrap().warnings[0].text.contains("a.ies:2: the factors of TILT are not applied"));
+    assert!(folder.load(LAMP).unwrap().warnings[0].text.contains("a.ies:2: the factors of TILT are ignored"));
 }
 
 /// Types B and A have planes about a horizontal and a vertical axis; angles to the right are positive.
@@ -120,9 +118,7 @@ fn types_b_and_a_have_other_axes() {
 fn damaged_files_are_errors() {
     let whole = file(NEW, 3, "-90 -1 0 90", "0 30 90", "8 0 8 2 1 2 3 4 5 6 7 8")
         .replace("TILT=NONE", "TILT=INCLUDE\n1 2 0 90 1 1");
-    let (here, inputs) = (Path::new(""), RefCell::default());
-    let files = Files { main: here, folder: here, is_builtin: false, inputs: &inputs };
-    let judge = |text: &str| match ies::parse(text, "a.ies", None, &files) {
+    let judge = |text: &str| match ies::parse(text, "a.ies") {
         Ok(found) => {
             let flux = found.intensity.flux()[0];
             assert!((0.0..=12.6).contains(&flux) && found.greatest >= 0.0, "{flux}: {text}");
@@ -156,7 +152,7 @@ fn damaged_files_are_errors() {
     assert!(read > 100, "{read}");
     // once mirrored, these are the same
     let close = file(NEW, 1, "0 90", "0 1e-9 90", "8 0 8 2 1 2");
-    assert!(ies::parse(&close, "a.ies", None, &files).unwrap_err().contains("a.ies: angles do not ascend"));
+    assert!(ies::parse(&close, "a.ies").unwrap_err().contains("a.ies: angles do not ascend"));
 }
 
 /// The power that a scene asks for is what the light emits, summed over directions.
@@ -252,7 +248,7 @@ fn errors_name_file_line_and_value() {
             file(NEW, 1, "0 90", "0", "8 2").replace("1000 3", "1000 -3"),
             "a.ies:4: multiplier: must be at least 0, not -3",
         ),
-        ("TILT=INCLUDE\n1 2 90 0 1 1".into(), "a.ies:2: tilt angles must ascend: 0 follows 90"),
+        ("TILT=INCLUDE\n1 2 0 90 1".into(), "a.ies:2: number of tilt angles: must be from 1 to the 3 numbers left"),
         ("TILT=NONE\n1 1000 1".into(), "a.ies:2: the file ends before number of vertical angles"),
     ];
     for (text, what) in faulty {
@@ -297,11 +293,11 @@ fn errors_name_file_line_and_value() {
     assert!(error.contains("rotations, reflections and uniform scales"), "{error}");
 }
 
-/// Profiles of spot and area lights, and factors of TILT, that are none.
+/// Profiles of spot and area lights that are none.
 #[test]
-fn faulty_profiles_and_tilts_name_what_is_wrong() {
+fn faulty_profiles_name_what_is_wrong() {
     let folder = Folder::new("profile-errors");
-    folder.write("a.ies", &file(NEW, 1, "0 90", "0", "8 2").replace("TILT=NONE", "TILT=INCLUDE\n1 2 10 90 1 0.9"));
+    folder.write("a.ies", &file(NEW, 1, "0 90", "0", "8 2"));
     folder.write("up.ies", &file(NEW, 1, "90 91 180", "0", "0 8 2"));
     folder.write("lost.ies", &file(NEW, 1, "0 90", "0", "8 2").replace("TILT=NONE", "TILT=none.tlt"));
     write_rgb_file(folder.0.join("odd.exr"), 3, 2, |_, _| (1.0, 1.0, 1.0)).unwrap();
@@ -313,33 +309,29 @@ fn faulty_profiles_and_tilts_name_what_is_wrong() {
         (spot("\"odd.exr\""), "odd.exr: 3×2 texels: must be square, or twice as wide as high"),
         (spot("\"up.ies\" \"float power\" -1"), "\"power\": must be greater than 0, not -1"),
         (spot("\"a.ies\" \"float scale\" 2e37"), "its greatest intensity is "),
-        (spot("\"a.ies\" \"float tilt\" 181"), "\"tilt\": must be from 0 to 180 degrees, not 181"),
-        (area("\"a.ies\" \"float tilt\" -1"), "\"tilt\": must be from 0 to 180 degrees, not -1"),
-        (area("\"a.ies\" \"float tilt\" 5"), "a.ies:4: its factors of TILT are for 10 to 90 degrees, not for 5"),
-        (spot("\"lost.ies\" \"float tilt\" 5"), "lost.ies:3: cannot read \"none.tlt\""),
         (area("\"a.ies\" \"float spread\" 20"), "\"spread\" and \"profile\": a light has one or the other"),
-        (area("\"a.ies\" \"float scale\" 3e37 \"float tilt\" 10"), "at most "),
+        (area("\"a.ies\" \"float scale\" 3e37"), "at most "),
     ] {
         let error = folder.load(&light).unwrap_err();
         assert!(error.starts_with("a.pbrt:2: ") && error.contains(what), "{light}\n{error}\n{what}");
     }
     let quad = "Shape \"bilinearmesh\" \"point3 P\" [0 0 0  4 0 0  0 3 0  4 3 0]";
-    // dark where the light shines; without an angle, the factors of TILT are a warning, and their file is not read
+    // dark where the light shines; the file of TILT is not read
     for (light, what) in [
         (spot("\"up.ies\""), "emits nothing: its profile is dark in its cone"),
         (area(&format!("\"up.ies\" {quad}")), "emits nothing"),
-        (spot("\"lost.ies\""), "lost.ies:3: the factors of TILT are not applied: \"float tilt\" tells"),
-        (spot("\"up.ies\" \"float coneangle\" 20 \"float tilt\" 5"), "emits nothing"),
+        (spot("\"lost.ies\""), "lost.ies:3: the factors of TILT are ignored"),
+        (spot("\"up.ies\" \"float coneangle\" 20"), "emits nothing"),
     ] {
         let scene = folder.load(&light).unwrap_or_else(|error| panic!("{error}"));
         assert!(scene.warnings[0].text.contains(what), "{light}\n{:?}", scene.warnings);
     }
-    let scene = folder.load(&area("\"a.ies\" \"float tilt\" 10 Shape \"sphere\"")).unwrap();
+    let scene = folder.load(&area("\"a.ies\" Shape \"sphere\"")).unwrap();
     let emission = scene.shapes[0].emission.unwrap();
     assert_eq!((emission.spread, emission.profile, scene.stand_ins.len()), (None, None, 1));
     // triangles in a plane share what they have
     let two = "Shape \"trianglemesh\" \"integer indices\" [0 1 2 1 3 2] \"point3 P\" [0 0 0  4 0 0  0 3 0  4 3 0]";
-    let scene = folder.load(&area(&format!("\"a.ies\" \"float tilt\" 10 {two} Rotate 90 1 0 0 {quad}"))).unwrap();
+    let scene = folder.load(&area(&format!("\"a.ies\" {two} Rotate 90 1 0 0 {quad}"))).unwrap();
     let profiles: Vec<_> = scene.shapes.iter().map(|shape| shape.emission.unwrap().profile).collect();
     assert_eq!((profiles, scene.profiles.len()), (vec![Some(0), Some(0), Some(1)], 2));
 }
