@@ -38,13 +38,13 @@
 //!
 //! - [`packet`], [`area`], [`geometry`], [`texture`], [`limits`]: packets of eight numbers, rectangles of pixels, the forms of shapes, what
 //!   varies over them, and how large images can be.
-//! - [`scene`]: what a scene is.
+//! - [`intensity`], [`light_picture`], [`light_profile`], [`scene`]: what a scene is, and what its lights show.
 //! - [`sums`], [`film`], [`files`], [`image`], [`compare`]: sums of samples, pixels, and images in files.
-//! - [`bvh`], [`technique`], [`bsdf`], [`surfaces`]: what rays hit, and how it reflects.
-//! - [`camera`], [`sensor`], [`sampler`], [`sky`], [`lights`], [`choose`]: the numbers and directions of a sample.
+//! - [`bvh`], [`technique`], [`lobe`], [`bsdf`], [`surfaces`]: what rays hit, and how it reflects.
+//! - [`camera`], [`sensor`], [`sampler`], [`sky`], `light_tree`, [`lights`], [`choose`]: the numbers and directions of a sample.
 //! - `paths`, `estimate`: camera rays to shading points, and the light that these reflect.
 //! - [`certify`]: what geometry alone tells about that light, and closed forms of it.
-//! - [`drive`], [`claim`], [`progressive`]: images of a given number of samples, or of a given error or time, and what they
+//! - [`settings`], [`drive`], [`claim`], [`progressive`]: images of a given number of samples, or of a given error or time, and what they
 //!   claim of it.
 //! - [`identity`], [`split`], [`parts`], [`merge`]: what an image depends on, and images whose parts are rendered apart.
 

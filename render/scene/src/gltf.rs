@@ -17,7 +17,6 @@ mod tests;
 
 use crate::builder::{Builder, Rest};
 use crate::message::shortened;
-use crate::transform::Transform;
 use etendue_render::scene::{Message, Scene};
 use materials::Materials;
 use source::Source;
@@ -43,16 +42,22 @@ pub(super) fn is_gltf(path: &Path, bytes: &[u8]) -> bool {
     bytes.starts_with(container::MAGIC) || named("gltf") || named("glb")
 }
 
-/// Reads a scene. Messages call it `file`; it may name files in `folder`, if there is one.
-pub(super) fn read(bytes: &[u8], file: &str, folder: Option<&Path>) -> Result<Scene, Message> {
-    let source = Source::new(bytes, file, folder)?;
-    let root = &source.root;
-    for name in &root.extensions_required {
+/// Checks that the extensions that a file requires are supported or may be ignored.
+fn check_extensions(source: &Source<'_>) -> Result<(), Message> {
+    for name in &source.root.extensions_required {
         // what is ignored where it is optional is ignored with the same warning here
         if !SUPPORTED.contains(&&**name) && !materials::is_ignored(name) && name != materials::ANISOTROPY {
             return Err(source.message(format!("requires the extension {:?}, which is not supported", shortened(name))));
         }
     }
+    Ok(())
+}
+
+/// Reads a scene. Messages call it `file`; it may name files in `folder`, if there is one.
+pub(super) fn read(bytes: &[u8], file: &str, folder: Option<&Path>) -> Result<Scene, Message> {
+    let source = Source::new(bytes, file, folder)?;
+    let root = &source.root;
+    check_extensions(&source)?;
     let mut out = Builder::default();
     let mut materials = Materials::default();
     let (mut delta_lights, mut intensities) = (Vec::new(), Vec::new());
@@ -88,15 +93,9 @@ pub(super) fn read(bytes: &[u8], file: &str, folder: Option<&Path>) -> Result<Sc
             }
             let object = match objects.get(&mesh.value()) {
                 Some(&object) => object,
-                None => {
-                    let before = out.begin_object();
-                    let added = meshes::add(&source, &mut materials, &mut out, mesh, index, &Transform::IDENTITY);
-                    let object = out.end_object(before);
-                    added?;
-                    objects.insert(mesh.value(), object);
-                    object
-                }
+                None => meshes::object(&source, &mut materials, &mut out, mesh, index)?,
             };
+            objects.insert(mesh.value(), object);
             let added = out.instance(object, &transform);
             added.map_err(|why| source.message(format!("node {index}: {why}")))?;
         }

@@ -1,4 +1,5 @@
-//! Reads scene files: glTF 2.0, and the part of the pbrt-v4 format that direct lighting needs.
+//! Reads scene files: glTF 2.0 (feature `gltf`), and the part of the pbrt-v4 format that direct lighting needs (feature `pbrt`), in which
+//! the built-in scenes are, too.
 //!
 //! Coordinates are transformed in f64 and rounded once to f32. What is invalid is an error that names file and line or item. What changes
 //! the image little, or only its noise, is a warning. What direct light on opaque surfaces cannot show becomes something else, with one
@@ -25,7 +26,7 @@
 //! | `power` of a `diffuse` light | that of all of a shape, also of a mesh; `scale` multiplies it |
 //! | `diffuse` with a picture | itself: texels are interpolated as in pbrt-v4, by u and v, or the angles of a whole sphere |
 //! | pictures in EXR files | their display windows: black where they have no data, and without the data outside |
-//! | `goniometric`, `projection` | themselves, with the texel of a direction; also IES files, which pbrt does not read |
+//! | `goniometric`, `projection` | themselves, with the texel of a direction; also IES files, which pbrt does not read, without factors of `TILT` |
 //! | `portal` | itself, in world space; a ray that escapes beside it is black, as in pbrt |
 //! | `"float spread"` of area lights, which pbrt does not have | the full angle of [`Spread`](etendue::light::Spread) in degrees, as in Cycles |
 //! | `"string profile"` of spot and area lights, which pbrt does not have | intensities by direction, as below |
@@ -80,7 +81,7 @@
 //! | points and lines | left out |
 
 // what both formats share is more than either needs
-#![cfg_attr(not(all(feature = "gltf", feature = "pbrt")), allow(dead_code))]
+#![cfg_attr(not(all(feature = "gltf", feature = "pbrt")), allow(dead_code, unused_variables))]
 
 mod builder;
 mod distribution;

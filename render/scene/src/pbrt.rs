@@ -1,6 +1,7 @@
 //! Reads scene files in the format of pbrt, and the built-in scenes, which are in it.
 
 mod area_lights;
+mod blocks;
 mod builtin;
 mod daylight;
 mod directed;

@@ -50,12 +50,35 @@ pub(super) fn add(
     Ok(())
 }
 
+/// Makes an object of a mesh, and returns its index.
+pub(super) fn object(
+    source: &Source<'_>,
+    materials: &mut Materials,
+    out: &mut Builder,
+    mesh: Index<mesh::Mesh>,
+    node: usize,
+) -> Result<u32, Message> {
+    let before = out.begin_object();
+    let added = add(source, materials, out, mesh, node, &Transform::IDENTITY);
+    let object = out.end_object(before);
+    added.map(|()| object)
+}
+
 /// Adds one primitive.
 struct Adder<'r, 's> {
     source: &'r Source<'s>,
     out: &'r mut Builder,
     item: String,
     node: usize,
+}
+
+/// The places of the corners of a triangle among the indices.
+const fn corners(mode: Mode, triangle: usize) -> [usize; 3] {
+    match mode {
+        Mode::TriangleStrip => [triangle, triangle + 1 + triangle % 2, triangle + 2 - triangle % 2],
+        Mode::TriangleFan => [triangle + 1, triangle + 2, 0],
+        _ => [3 * triangle, 3 * triangle + 1, 3 * triangle + 2],
+    }
 }
 
 impl Adder<'_, '_> {
@@ -122,6 +145,34 @@ impl Adder<'_, '_> {
         let glowing_uvs = self.coordinates(primitive, set, count)?;
         let glowing = glow.map(|glow| ShapeAttributes { emission: Some(glow.emission), picture, ..attributes.clone() });
 
+        let (indices, triangles) = self.triangles(primitive, mode, count)?;
+        self.out.reserve(&attributes, triangles);
+        let mut add = |triangle: usize| {
+            let places = corners(mode, triangle).map(|place| match &indices {
+                Some(indices) => indices[place] as usize,
+                None => place,
+            });
+            let emits = glowing.as_ref().is_some_and(|attributes| {
+                let uv = |place: usize| glowing_uvs.as_ref().map_or([0.0; 2], |uvs| uvs[place].map(f64::from));
+                // the order of the vertices tells which side emits
+                let vertex = |place: usize| Vertex { point: vertices.points[place], normal: [0.0; 3], uv: uv(place) };
+                self.out.lamp(attributes, places.map(vertex))
+            });
+            if !emits {
+                self.out.face(&attributes, &vertices, places, &[[0.0; 2]; 3]);
+            }
+        };
+        (0..triangles).for_each(&mut add);
+        Ok(())
+    }
+
+    /// The indices of a primitive, if it has some, and its number of triangles.
+    fn triangles(
+        &mut self,
+        primitive: &Primitive,
+        mode: Mode,
+        count: usize,
+    ) -> Result<(Option<Vec<u32>>, usize), Message> {
         let indices = match primitive.indices {
             Some(indices) => Some(self.source.integers(indices, &self.item)?),
             None => None,
@@ -144,30 +195,7 @@ impl Adder<'_, '_> {
             let node = self.node;
             return Err(self.error(&format!("more than 2^28 triangles, with those that node {node} adds")));
         }
-
-        self.out.reserve(&attributes, triangles);
-        let mut add = |triangle: usize| {
-            let places = match mode {
-                Mode::TriangleStrip => [triangle, triangle + 1 + triangle % 2, triangle + 2 - triangle % 2],
-                Mode::TriangleFan => [triangle + 1, triangle + 2, 0],
-                _ => [3 * triangle, 3 * triangle + 1, 3 * triangle + 2],
-            };
-            let places = match &indices {
-                Some(indices) => places.map(|place| indices[place] as usize),
-                None => places,
-            };
-            let emits = glowing.as_ref().is_some_and(|attributes| {
-                let uv = |place: usize| glowing_uvs.as_ref().map_or([0.0; 2], |uvs| uvs[place].map(f64::from));
-                // the order of the vertices tells which side emits
-                let vertex = |place: usize| Vertex { point: vertices.points[place], normal: [0.0; 3], uv: uv(place) };
-                self.out.lamp(attributes, places.map(vertex))
-            });
-            if !emits {
-                self.out.face(&attributes, &vertices, places, &[[0.0; 2]; 3]);
-            }
-        };
-        (0..triangles).for_each(&mut add);
-        Ok(())
+        Ok((indices, triangles))
     }
 
     /// The texture coordinates of a set that a material uses; those that are not finite become 0.

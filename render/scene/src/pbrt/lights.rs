@@ -51,69 +51,99 @@ pub(super) fn read(
         return Err(params.error(format!("\"power\" or \"illuminance\": must be greater than 0, not {}", shown(x))));
     }
     let formula = if is_sky { params.text("sky")? } else { None };
-    let source = match file {
-        Some(file) if formula.is_some() => {
+    let strength = Strength { colour, scale, wanted };
+    let source = match (file, formula) {
+        (Some(file), Some(_)) => {
             return Err(
                 params.error(format!("\"sky\" and \"filename\" {}: a sky has one or the other", shortened(&file)))
             );
         }
-        None if formula.is_some() => {
+        (None, Some(formula)) => {
             let (to_light, given) = (turned(params, ctm)?, colour.unwrap_or([1.0; 3]));
-            let daylight = daylight::read(&formula.unwrap_or_default(), params, given, scale, wanted, &to_light)?;
+            let daylight = daylight::read(&formula, params, given, scale, wanted, &to_light)?;
             let light = |(sky, sun)| Source::Environment(Environment { to_light, sky, portals, sun });
             daylight.map_or(Source::Dark, light)
         }
-        Some(file) => {
+        (Some(file), None) => {
             let to_light = turned(params, ctm)?;
-            let image = files.image(&file).map_err(|error| params.error(error.to_string()))?;
-            let shown = |scale| sky_of(&image, &file, scale).map_err(|what| params.error(what));
-            // pbrt-v3 multiplies both, and pbrt-v4 refuses them
-            let colour = colour.unwrap_or([1.0; 3]);
-            let factor = match wanted {
-                Some(wanted) => match shown(colour)?.0.map_or(0.0, |sky| illuminance(&sky)) {
-                    0.0 => {
-                        notes.warn(params.error("\"illuminance\" is ignored: the upper half of the sky is dark"));
-                        1.0
-                    }
-                    own => wanted / own,
-                },
-                None => 1.0,
-            };
-            let (sky, warning) = shown(std::array::from_fn(|k| scale[k] * colour[k] * factor))?;
-            warning.into_iter().for_each(|what| notes.warn(params.error(what)));
-            match sky {
+            match pictured(&file, &strength, params, files, notes)? {
                 Some(sky) => Source::Environment(Environment { to_light, sky, portals, sun: None }),
                 None => Source::Dark,
             }
         }
-        None => {
-            let given = colour.unwrap_or([1.0; 3]);
-            let mut colour = given;
-            if let Some(wanted) = wanted {
-                // what a light of the intensity or radiance 1 has
-                let per_unit = match kind {
-                    "point" => 4.0 * PI,
-                    "spot" => spot_angle(params)?,
-                    "distant" => 1.0,
-                    _ => PI,
-                };
-                let y = luminance(colour);
-                colour = colour.map(|x| if y > 0.0 { x * wanted / (y * per_unit) } else { 0.0 });
-            }
-            let colour = std::array::from_fn(|k| colour[k] * scale[k]);
-            let most = if kind == "infinite" { MOST_RADIANCE } else { f32::MAX };
-            let too_large =
-                || params.error(format!("{name:?} times \"scale\" is {colour:?}: at most {most:e} is supported"));
-            let colour = rounded(colour).filter(|rgb| rgb.iter().all(|x| *x <= most)).ok_or_else(too_large)?;
-            brightness(colour).into_iter().for_each(|text| notes.warn(params.error(text)));
-            let source = constant(kind, params, ctm, colour, portals)?;
-            if colour == [0.0; 3] { Source::Dark } else { source }
-        }
+        (None, None) => even(kind, name, &strength, params, ctm, portals, notes)?,
     };
     if matches!(source, Source::Dark) {
         notes.warn(params.error("emits nothing"));
     }
     Ok(source)
+}
+
+/// How strong a light is.
+struct Strength {
+    /// Intensity or radiance; 1 if it is not given.
+    colour: Option<[f64; 3]>,
+    scale: [f64; 3],
+    /// The power or illuminance, if that is given.
+    wanted: Option<f64>,
+}
+
+/// The sky that an image shows, unless it is black.
+fn pictured(
+    file: &str,
+    &Strength { colour, scale, wanted }: &Strength,
+    params: &Params,
+    files: &Files<'_>,
+    notes: &mut Notes,
+) -> Result<Option<SkyRadiance>, Message> {
+    let image = files.image(file).map_err(|error| params.error(error.to_string()))?;
+    let shown = |scale| sky_of(&image, file, scale).map_err(|what| params.error(what));
+    // pbrt-v3 multiplies both, and pbrt-v4 refuses them
+    let colour = colour.unwrap_or([1.0; 3]);
+    let factor = match wanted {
+        Some(wanted) => match shown(colour)?.0.map_or(0.0, |sky| illuminance(&sky)) {
+            0.0 => {
+                notes.warn(params.error("\"illuminance\" is ignored: the upper half of the sky is dark"));
+                1.0
+            }
+            own => wanted / own,
+        },
+        None => 1.0,
+    };
+    let (sky, warning) = shown(std::array::from_fn(|k| scale[k] * colour[k] * factor))?;
+    warning.into_iter().for_each(|what| notes.warn(params.error(what)));
+    Ok(sky)
+}
+
+/// A light of the same intensity or radiance, the parameter `name`, in all directions in which it shines.
+fn even(
+    kind: &str,
+    name: &str,
+    &Strength { colour, scale, wanted }: &Strength,
+    params: &mut Params,
+    ctm: &Transform,
+    portals: Vec<Portal>,
+    notes: &mut Notes,
+) -> Result<Source, Message> {
+    let mut colour = colour.unwrap_or([1.0; 3]);
+    if let Some(wanted) = wanted {
+        // what a light of the intensity or radiance 1 has
+        let per_unit = match kind {
+            "point" => 4.0 * PI,
+            "spot" => spot_angle(params)?,
+            "distant" => 1.0,
+            _ => PI,
+        };
+        let y = luminance(colour);
+        colour = colour.map(|x| if y > 0.0 { x * wanted / (y * per_unit) } else { 0.0 });
+    }
+    let colour = std::array::from_fn(|k| colour[k] * scale[k]);
+    let most = if kind == "infinite" { MOST_RADIANCE } else { f32::MAX };
+    let too_large = || params.error(format!("{name:?} times \"scale\" is {colour:?}: at most {most:e} is supported"));
+    let colour = rounded(colour).filter(|rgb| rgb.iter().all(|x| *x <= most)).ok_or_else(too_large)?;
+    brightness(colour).into_iter().for_each(|text| notes.warn(params.error(text)));
+    let source = constant(kind, params, ctm, colour, portals)?;
+    Ok(if colour == [0.0; 3] { Source::Dark } else { source })
 }
 
 /// Reads the power that a light shall have.

@@ -40,31 +40,22 @@ pub(super) fn read(
     context: &Context<'_>,
     out: &mut Builder,
 ) -> Result<Finish, Message> {
-    for name in ["displacement", "normalmap", "bumpmap"] {
-        if params.given(name) {
-            out.notes.stand_in(name, || params.error(format!("{name:?} is ignored: surfaces are smooth")));
-        }
-    }
+    note_relief(params, out);
     let reads = Reads { context };
     let stand_in = |out: &mut Builder, params: &Params, what: &str| {
         out.notes.stand_in(kind, || params.error(format!("becomes {what}")));
     };
     Ok(Finish::Of(match kind {
-        "diffuse" => {
+        "diffuse" | "matte" => {
             params.given("sigma");
-            reads.diffuse(&["reflectance"], 0.5, params, out)?
-        }
-        "matte" => {
-            params.given("sigma");
-            reads.diffuse(&["Kd"], 0.5, params, out)?
+            let name = if kind == "matte" { "Kd" } else { "reflectance" };
+            reads.diffuse(&[name], 0.5, params, out)?
         }
         "mirror" => Material::Mirror(reads.constant("Kr", 0.9, params, out)?),
         "conductor" | "metal" => reads.conductor(["eta", "k", "reflectance"], "", params, out)?,
         "coatedconductor" => {
             stand_in(out, params, "its conductor without the coat");
-            for name in ["interface.roughness", "interface.uroughness", "interface.vroughness", "interface.eta"] {
-                params.given(name);
-            }
+            params.ignore(&["interface.roughness", "interface.uroughness", "interface.vroughness", "interface.eta"]);
             reads.coat_is_ignored(params);
             reads.conductor(["conductor.eta", "conductor.k", "reflectance"], "conductor.", params, out)?
         }
@@ -78,46 +69,19 @@ pub(super) fn read(
             if params.given("opacity") | (kind == "translucent") {
                 stand_in(out, params, "opaque");
             }
-            for name in ["reflect", "transmit", "Kr", "Kt", "index", "eta"] {
-                params.given(name);
-            }
-            let default = if kind == "substrate" { 0.5 } else { 0.25 };
-            let (base, coat) =
-                (reads.color(&["Kd"], default, params, out)?, reads.color(&["Ks"], default, params, out)?);
-            // Ks is a factor of a dielectric's reflectance, or for a substrate that at normal incidence
-            let coat = match kind {
-                "substrate" => Coat { specular: coat, grazing: Texture::number(1.0) },
-                _ => Coat { specular: coat.clone().times(Texture::number(0.04)), grazing: coat },
-            };
-            reads.coated(base, coat, 0.1, params, out)?
+            reads.older_coat(kind, params, out)?
         }
         "disney" => {
             stand_in(out, params, "its base colour, metallic and roughness");
-            let base = reads.color(&["color"], 0.5, params, out)?;
-            let number = |name: &str, default: f32, params: &mut Params| {
-                Ok::<_, Message>(context.textures.number(name, params)?.unwrap_or(Texture::number(default)))
-            };
-            let (metallic, roughness) = (number("metallic", 0.0, params)?, number("roughness", 0.5, params)?);
-            params.ignore_all();
-            out.vary(Varying::Metallic { base, metallic, roughness })
+            reads.disney(params, out)?
         }
         "dielectric" | "thindielectric" | "glass" => {
             stand_in(out, params, "what it reflects: light that passes through it is lost");
-            for name in ["Kr", "Kt"] {
-                params.given(name);
-            }
-            let eta = reads.eta(&["eta", "index"], params, out)?;
-            let roughness = reads.roughness("", 0.0, params, out)?;
-            match constant(&roughness) {
-                Some(roughness) => Material::Conductor { eta: [eta as f32; 3], k: [0.0; 3], roughness },
-                None => reads.metal(Texture::number(reflectance_of(eta) as f32), roughness, out),
-            }
+            reads.dielectric(params, out)?
         }
         "diffusetransmission" => {
             stand_in(out, params, "what it reflects: light that passes through it is lost");
-            for name in ["transmittance", "scale"] {
-                params.given(name);
-            }
+            params.ignore(&["transmittance", "scale"]);
             reads.diffuse(&["reflectance"], 0.25, params, out)?
         }
         "subsurface" | "kdsubsurface" => {
@@ -135,22 +99,7 @@ pub(super) fn read(
         }
         "mix" => {
             stand_in(out, params, "the one of its materials that has the greater share");
-            let names = params.texts("materials")?;
-            let older = [params.text("namedmaterial1")?, params.text("namedmaterial2")?];
-            let names = names.unwrap_or_else(|| older.into_iter().flatten().collect());
-            // a float in pbrt-v4, a spectrum in v3
-            let amount = if params.is_texture("amount") {
-                context.textures.number("amount", params)?
-            } else {
-                context.textures.color("amount", params, &context.files, &mut out.notes)?
-            };
-            let share = amount.map_or(0.5, |amount| amount.mean()[1]);
-            let [first, second] = &names[..] else {
-                return Err(params.error(format!("needs two \"materials\", not {}", names.len())));
-            };
-            let name = if share > 0.5 { second } else { first };
-            let unknown = || params.error(format!("no MakeNamedMaterial {:?} precedes this", shortened(name)));
-            return (context.named)(name).ok_or_else(unknown);
+            return reads.greater_share(params, out);
         }
         "interface" | "none" | "" => {
             params.ignore_all();
@@ -161,6 +110,15 @@ pub(super) fn read(
             return Err(params.error(format!("material type {kind:?} is not supported, only {KINDS}")));
         }
     }))
+}
+
+/// Notes parameters that would change normals.
+fn note_relief(params: &mut Params, out: &mut Builder) {
+    for name in ["displacement", "normalmap", "bumpmap"] {
+        if params.given(name) {
+            out.notes.stand_in(name, || params.error(format!("{name:?} is ignored: surfaces are smooth")));
+        }
+    }
 }
 
 /// Reflectance at normal incidence on a smooth dielectric.
@@ -239,9 +197,7 @@ impl Reads<'_> {
     }
     /// Parameters of pbrt's coats without an effect on direct light.
     fn coat_is_ignored(&self, params: &mut Params) {
-        for name in ["thickness", "albedo", "g", "maxdepth", "nsamples", "interface.thickness"] {
-            params.given(name);
-        }
+        params.ignore(&["thickness", "albedo", "g", "maxdepth", "nsamples", "interface.thickness"]);
     }
     /// The roughness α along u and across, from up to three parameters whose names begin with `prefix`.
     fn roughness(
@@ -289,6 +245,56 @@ impl Reads<'_> {
             });
         }
         Ok(out.vary(Varying::Glossy { diffuse, specular, grazing, roughness, turn: 0.0 }))
+    }
+    /// pbrt-v3's coats, by the reflectances of both layers.
+    fn older_coat(&self, kind: &str, params: &mut Params, out: &mut Builder) -> Result<Material, Message> {
+        params.ignore(&["reflect", "transmit", "Kr", "Kt", "index", "eta"]);
+        let default = if kind == "substrate" { 0.5 } else { 0.25 };
+        let (base, coat) = (self.color(&["Kd"], default, params, out)?, self.color(&["Ks"], default, params, out)?);
+        // Ks is a factor of a dielectric's reflectance, or for a substrate that at normal incidence
+        let coat = match kind {
+            "substrate" => Coat { specular: coat, grazing: Texture::number(1.0) },
+            _ => Coat { specular: coat.clone().times(Texture::number(0.04)), grazing: coat },
+        };
+        self.coated(base, coat, 0.1, params, out)
+    }
+    fn disney(&self, params: &mut Params, out: &mut Builder) -> Result<Material, Message> {
+        let base = self.color(&["color"], 0.5, params, out)?;
+        let number = |name: &str, default: f32, params: &mut Params| {
+            Ok::<_, Message>(self.context.textures.number(name, params)?.unwrap_or(Texture::number(default)))
+        };
+        let (metallic, roughness) = (number("metallic", 0.0, params)?, number("roughness", 0.5, params)?);
+        params.ignore_all();
+        Ok(out.vary(Varying::Metallic { base, metallic, roughness }))
+    }
+    fn dielectric(&self, params: &mut Params, out: &mut Builder) -> Result<Material, Message> {
+        params.ignore(&["Kr", "Kt"]);
+        let eta = self.eta(&["eta", "index"], params, out)?;
+        let roughness = self.roughness("", 0.0, params, out)?;
+        Ok(match constant(&roughness) {
+            Some(roughness) => Material::Conductor { eta: [eta as f32; 3], k: [0.0; 3], roughness },
+            None => self.metal(Texture::number(reflectance_of(eta) as f32), roughness, out),
+        })
+    }
+    /// The one of the materials of a mix that has the greater share.
+    fn greater_share(&self, params: &mut Params, out: &mut Builder) -> Result<Finish, Message> {
+        let Context { textures, named, files } = self.context;
+        let names = params.texts("materials")?;
+        let older = [params.text("namedmaterial1")?, params.text("namedmaterial2")?];
+        let names = names.unwrap_or_else(|| older.into_iter().flatten().collect());
+        // a float in pbrt-v4, a spectrum in v3
+        let amount = if params.is_texture("amount") {
+            textures.number("amount", params)?
+        } else {
+            textures.color("amount", params, files, &mut out.notes)?
+        };
+        let share = amount.map_or(0.5, |amount| amount.mean()[1]);
+        let [first, second] = &names[..] else {
+            return Err(params.error(format!("needs two \"materials\", not {}", names.len())));
+        };
+        let name = if share > 0.5 { second } else { first };
+        let unknown = || params.error(format!("no MakeNamedMaterial {:?} precedes this", shortened(name)));
+        named(name).ok_or_else(unknown)
     }
     fn conductor(
         &self,

@@ -362,6 +362,11 @@ impl Params {
         self.list
     }
 
+    /// Removes parameters, of whatever types.
+    pub(super) fn ignore(&mut self, names: &[&str]) {
+        self.list.retain(|param| !names.contains(&&*param.name));
+    }
+
     /// Removes the parameter, of whatever type; returns whether it was given.
     pub(super) fn given(&mut self, name: &str) -> bool {
         let before = self.list.len();

@@ -1,13 +1,14 @@
 //! Interprets the directives of a scene file and keeps the graphics state.
 
-use super::area_lights::{self, Area, Shown};
+use super::area_lights::{self, Shown};
+use super::blocks::{Blocks, State};
 use super::includes::Includes;
 pub(super) use super::includes::Origin;
 use super::inputs::Files;
 use super::lexer::{Lexer, Token};
 use super::material_parameters::{self, Context, Finish};
 use super::named_materials::NamedMaterials;
-use super::params::{Param, Params};
+use super::params::Params;
 use super::portal_sides;
 use super::shape_state::ShapeState;
 use super::shapes;
@@ -18,36 +19,31 @@ use super::view;
 use crate::builder::{Builder, Rest};
 use crate::message::{Place, shortened, utf8};
 use crate::transform::Transform;
-use etendue_render::scene::{CameraSettings, FilmSettings, Material, Message, Scene};
+use etendue_render::scene::{CameraSettings, FilmSettings, Message, Scene};
 use std::cell::RefCell;
 use std::collections::HashMap;
 use std::path::Path;
 use std::sync::Arc;
 
-/// Greatest depth of nested `AttributeBegin`s.
-const DEEPEST_ATTRIBUTES: usize = 1024;
-
-/// The graphics state that `AttributeBegin` saves and `AttributeEnd` restores.
-#[derive(Clone, Debug)]
-struct State {
-    ctm: Transform,
-    reverse: bool,
-    material: Finish,
-    area: Area,
-    /// Parameters of `Attribute`, by what they are for.
-    defaults: Vec<(String, Vec<Param>)>,
-    /// Whether transforms apply only to the end of the exposure, which is not rendered.
-    is_end: bool,
-}
-
-/// The object that is being read.
-struct Open {
-    name: String,
-    place: Place,
-    /// How many states were saved before.
-    depth: usize,
-    before: Builder,
-}
+/// Directives before `WorldBegin`.
+const OPTIONS: [&str; 7] = ["Camera", "Film", "Sampler", "PixelFilter", "Integrator", "Accelerator", "Option"];
+/// Directives after it.
+const WORLD: [&str; 14] = [
+    "AttributeBegin",
+    "AttributeEnd",
+    "TransformBegin",
+    "TransformEnd",
+    "ReverseOrientation",
+    "AreaLightSource",
+    "LightSource",
+    "Material",
+    "MakeNamedMaterial",
+    "NamedMaterial",
+    "Shape",
+    "ObjectBegin",
+    "ObjectEnd",
+    "ObjectInstance",
+];
 
 struct Reader<'a> {
     files: Files<'a>,
@@ -57,28 +53,18 @@ struct Reader<'a> {
     sources: Sources,
     out: Builder,
     state: State,
-    saved: Vec<(State, Place)>,
+    blocks: Blocks,
     systems: HashMap<String, Transform>,
     named: NamedMaterials,
     textures: Textures,
     /// The pictures of lights.
     shown: Shown,
-    objects: HashMap<String, u32>,
-    open: Option<Open>,
     in_world: bool,
     includes: Includes,
 }
 
 /// Reads a whole scene; only a built-in scene may name `builtin:` meshes.
 pub(super) fn read(text: &str, file: &str, dir: &Path, origin: Origin<'_>) -> Result<Scene, Message> {
-    let state = State {
-        ctm: Transform::IDENTITY,
-        reverse: false,
-        material: Finish::Of(Material::Diffuse([0.5; 3])),
-        area: Area::default(),
-        defaults: Vec::new(),
-        is_end: false,
-    };
     let inputs = RefCell::default();
     let mut reader = Reader {
         files: Files { main: dir, folder: dir, is_builtin: matches!(origin, Origin::Builtin), inputs: &inputs },
@@ -87,14 +73,12 @@ pub(super) fn read(text: &str, file: &str, dir: &Path, origin: Origin<'_>) -> Re
         pixel_samples: None,
         sources: Sources::default(),
         out: Builder::default(),
-        state,
-        saved: Vec::new(),
+        state: State::default(),
+        blocks: Blocks::default(),
         systems: HashMap::new(),
         named: NamedMaterials::default(),
         textures: Textures::default(),
         shown: Shown::default(),
-        objects: HashMap::new(),
-        open: None,
         in_world: false,
         includes: Includes::new(origin),
     };
@@ -103,12 +87,7 @@ pub(super) fn read(text: &str, file: &str, dir: &Path, origin: Origin<'_>) -> Re
 
     let lines = u32::try_from(text.lines().count()).unwrap_or(u32::MAX);
     let end = Place { file: file.clone(), line: lines.max(1) };
-    if let Some(open) = reader.open {
-        return Err(open.place.message("this ObjectBegin is never closed"));
-    }
-    if let Some((_, place)) = reader.saved.last() {
-        return Err(place.message("this AttributeBegin or TransformBegin is never closed"));
-    }
+    reader.blocks.check_closed()?;
     reader.named.keep_promises(&mut reader.out)?;
     let Some(mut camera) = reader.camera else {
         return Err(end.message("the scene has no Camera"));
@@ -148,23 +127,6 @@ impl Reader<'_> {
     }
 
     fn directive(&mut self, word: &str, place: Place, lexer: &mut Lexer<'_>, dir: &Path) -> Result<(), Message> {
-        const OPTIONS: [&str; 7] = ["Camera", "Film", "Sampler", "PixelFilter", "Integrator", "Accelerator", "Option"];
-        const WORLD: [&str; 14] = [
-            "AttributeBegin",
-            "AttributeEnd",
-            "TransformBegin",
-            "TransformEnd",
-            "ReverseOrientation",
-            "AreaLightSource",
-            "LightSource",
-            "Material",
-            "MakeNamedMaterial",
-            "NamedMaterial",
-            "Shape",
-            "ObjectBegin",
-            "ObjectEnd",
-            "ObjectInstance",
-        ];
         if self.in_world && OPTIONS.contains(&word) {
             return Err(place.message(format!("{word} must come before WorldBegin")));
         }
@@ -172,34 +134,10 @@ impl Reader<'_> {
             return Err(place.message(format!("{word} must come after WorldBegin")));
         }
         match word {
-            "Identity" => self.state.ctm = Transform::IDENTITY,
-            "Translate" | "Scale" | "Rotate" | "LookAt" | "Transform" | "ConcatTransform" => {
-                self.transform(word, &place, lexer)?;
-            }
-            "CoordinateSystem" => {
-                self.systems.insert(lexer.text("a name")?, self.state.ctm);
-            }
-            "CoordSysTransform" => {
-                let name = lexer.text("a name")?;
-                let unknown = || place.message(format!("undefined CoordinateSystem {:?}", shortened(&name)));
-                self.state.ctm = *self.systems.get(&name).ok_or_else(unknown)?;
-            }
-            "ActiveTransform" => match lexer.expect("All, StartTime or EndTime")?.0 {
-                Token::Word(which @ ("All" | "StartTime" | "EndTime")) => {
-                    if which != "All" {
-                        let why = "motion becomes a still at its start";
-                        self.out.notes.stand_in("motion", || place.message(format!("ActiveTransform {which}: {why}")));
-                    }
-                    self.state.is_end = which == "EndTime";
-                }
-                other => {
-                    let wanted = "expected All, StartTime or EndTime";
-                    return Err(place.message(format!("ActiveTransform: {wanted}, found {}", other.show())));
-                }
-            },
-            "TransformTimes" => {
-                lexer.number(word)?;
-                lexer.number(word)?;
+            "Identity" | "Translate" | "Scale" | "Rotate" | "LookAt" | "Transform" | "ConcatTransform"
+            | "CoordinateSystem" | "CoordSysTransform" | "ActiveTransform" | "TransformTimes" => {
+                let Self { state, systems, out, .. } = self;
+                transform_directives::apply(word, &place, lexer, state, systems, &mut out.notes)?;
             }
             "ReverseOrientation" => self.state.reverse = !self.state.reverse,
             "WorldBegin" => {
@@ -210,111 +148,25 @@ impl Reader<'_> {
                 self.state.ctm = Transform::IDENTITY;
                 self.systems.insert("world".into(), Transform::IDENTITY);
             }
-            "AttributeBegin" | "TransformBegin" => {
-                if self.saved.len() == DEEPEST_ATTRIBUTES {
-                    return Err(place.message(format!("{word} is nested more than {DEEPEST_ATTRIBUTES} deep")));
-                }
-                self.saved.push((self.state.clone(), place));
-            }
-            "AttributeEnd" | "TransformEnd" => {
-                if let Some(open) = self.open.as_ref().filter(|open| self.saved.len() == open.depth + 1) {
-                    let at = open.place.seen_from(&place.file);
-                    return Err(place.message(format!("{word}: the ObjectBegin of {at} is not closed")));
-                }
-                match self.saved.pop() {
-                    Some((state, _)) => self.state = state,
-                    None => return Err(place.message(format!("{word} has no matching Begin"))),
-                }
-            }
-            "Include" => {
-                self.include(&place, lexer, dir)?;
-                // parameters of the last directive of the file, such as a medium, may go on after it
-                if let Some(Token::Text(_)) = lexer.peek()? {
-                    let params = Params::read(lexer, word.to_owned(), place)?;
-                    let message = || params.error("the parameters that follow it are ignored");
-                    self.out.notes.stand_in("parameters", message);
-                }
-            }
-            // what an imported file changes ends with it
-            "Import" => {
-                let (state, depth) = (self.state.clone(), self.saved.len());
-                self.include(&place, lexer, dir)?;
-                if let Some((_, opened)) = self.saved.get(depth) {
-                    return Err(opened.message("Import: the file does not close what this line opens"));
-                }
-                if self.saved.len() < depth {
-                    return Err(place.message("Import: the file closes more than it opens"));
-                }
-                self.state = state;
-            }
+            "AttributeBegin" | "TransformBegin" => self.blocks.begin(word, place, &self.state)?,
+            "AttributeEnd" | "TransformEnd" => self.state = self.blocks.end(word, &place)?,
             "ObjectBegin" => {
                 let name = lexer.text("a name")?;
-                if let Some(open) = &self.open {
-                    let at = open.place.seen_from(&place.file);
-                    return Err(place.message(format!("ObjectBegin: the one of {at} is not closed")));
-                }
-                let before = self.out.begin_object();
-                self.open = Some(Open { name, place: place.clone(), depth: self.saved.len(), before });
-                self.saved.push((self.state.clone(), place));
+                self.blocks.begin_object(name, place, &self.state, &mut self.out)?;
             }
             "ObjectEnd" => {
-                let Some(open) = self.open.take() else {
-                    return Err(place.message("ObjectEnd has no matching ObjectBegin"));
-                };
-                if let Some((_, begun)) = self.saved.get(open.depth + 1..).and_then(<[_]>::last) {
-                    let at = begun.seen_from(&place.file);
-                    return Err(
-                        place.message(format!("ObjectEnd: the AttributeBegin or TransformBegin of {at} is not closed"))
-                    );
-                }
-                if let Some((state, _)) = self.saved.pop() {
+                if let Some(state) = self.blocks.end_object(&place, &mut self.out)? {
                     self.state = state;
                 }
-                let object = self.out.end_object(open.before);
-                self.objects.insert(open.name, object);
             }
             "ObjectInstance" => {
                 let name = lexer.text("a name")?;
-                if self.open.is_some() {
-                    return Err(place.message("ObjectInstance: objects cannot contain instances"));
-                }
-                let unknown = || place.message(format!("no ObjectBegin {:?} precedes this", shortened(&name)));
-                let object = self.objects.get(&name).ok_or_else(unknown)?;
-                let added = self.out.instance(*object, &self.state.ctm);
-                added.map_err(|why| place.message(format!("ObjectInstance {:?}: {why}", shortened(&name))))?;
+                self.blocks.instance(&name, &place, &self.state.ctm, &mut self.out)?;
             }
-            "MediumInterface" => {
-                lexer.text("a medium")?;
-                if let Some(Token::Text(_)) = lexer.peek()? {
-                    lexer.text("a medium")?;
-                }
-                self.out.notes.stand_in("media", || place.message("MediumInterface: media are ignored"));
-            }
-            "MakeNamedMedium" => {
-                let name = lexer.text("a name")?;
-                Params::read(lexer, format!("{word} {:?}", shortened(&name)), place.clone())?;
-                self.out.notes.stand_in("media", || place.message("MakeNamedMedium: media are ignored"));
-            }
-            "Attribute" => {
-                let target = lexer.text("what the attributes are for")?;
-                const TARGETS: [&str; 5] = ["shape", "light", "material", "medium", "texture"];
-                if !TARGETS.contains(&&*target) {
-                    let found = shortened(&target);
-                    return Err(place.message(format!("Attribute {found:?}: only {}", TARGETS.join(", "))));
-                }
-                let params = Params::read(lexer, format!("{word} {target:?}"), place)?;
-                self.state.defaults.insert(0, (target, params.into_list()));
-            }
-            "Texture" => {
-                let (name, value) = (lexer.text("a name")?, lexer.text("a type of value")?);
-                let kind = lexer.text("a type")?;
-                let mut params = Params::read(lexer, format!("{word} {:?}", shortened(&name)), place)?;
-                self.with_defaults("texture", &mut params);
-                let Self { textures, out, .. } = self;
-                let files = self.files.at(dir);
-                textures.define(&name, &value, &kind, &mut params, &files, &mut out.notes)?;
-                out.notes.warnings.extend(params.finish());
-            }
+            "Include" | "Import" => self.include_or_import(word, place, lexer, dir)?,
+            "MediumInterface" | "MakeNamedMedium" => self.medium(word, &place, lexer)?,
+            "Attribute" => self.attribute(place, lexer)?,
+            "Texture" => self.texture(place, lexer, dir)?,
             "ColorSpace" => {
                 let name = lexer.text("a name")?;
                 if name != "srgb" {
@@ -332,12 +184,6 @@ impl Reader<'_> {
             }
             // pbrt-v3 has it at the end
             "WorldEnd" if self.in_world => {}
-            // pbrt-v2 has these instead of Integrator
-            "SurfaceIntegrator" | "VolumeIntegrator" | "Renderer" => {
-                lexer.text("a type")?;
-                Params::read(lexer, word.to_owned(), place.clone())?;
-                self.warn(&place, format!("{word}: only direct light is rendered"));
-            }
             "Camera" | "Film" | "Sampler" | "PixelFilter" | "Integrator" | "Accelerator" | "AreaLightSource"
             | "LightSource" | "Material" | "MakeNamedMaterial" | "Shape" => {
                 let kind = lexer.text("a type")?;
@@ -346,6 +192,71 @@ impl Reader<'_> {
             }
             _ => return Err(place.message(format!("unknown directive {}", shortened(word)))),
         }
+        Ok(())
+    }
+
+    fn include_or_import(
+        &mut self,
+        word: &str,
+        place: Place,
+        lexer: &mut Lexer<'_>,
+        dir: &Path,
+    ) -> Result<(), Message> {
+        if word == "Include" {
+            self.include(&place, lexer, dir)?;
+            // parameters of the last directive of the file, such as a medium, may go on after it
+            if let Some(Token::Text(_)) = lexer.peek()? {
+                let params = Params::read(lexer, word.to_owned(), place)?;
+                let message = || params.error("the parameters that follow it are ignored");
+                self.out.notes.stand_in("parameters", message);
+            }
+            return Ok(());
+        }
+        // what an imported file changes ends with it
+        let (state, depth) = (self.state.clone(), self.blocks.depth());
+        self.include(&place, lexer, dir)?;
+        if let Some(opened) = self.blocks.opened(depth) {
+            return Err(opened.message("Import: the file does not close what this line opens"));
+        }
+        if self.blocks.depth() < depth {
+            return Err(place.message("Import: the file closes more than it opens"));
+        }
+        self.state = state;
+        Ok(())
+    }
+
+    fn medium(&mut self, word: &str, place: &Place, lexer: &mut Lexer<'_>) -> Result<(), Message> {
+        let name = lexer.text("a medium")?;
+        if word == "MakeNamedMedium" {
+            Params::read(lexer, format!("{word} {:?}", shortened(&name)), place.clone())?;
+        } else if let Some(Token::Text(_)) = lexer.peek()? {
+            lexer.text("a medium")?;
+        }
+        self.out.notes.stand_in("media", || place.message(format!("{word}: media are ignored")));
+        Ok(())
+    }
+
+    fn attribute(&mut self, place: Place, lexer: &mut Lexer<'_>) -> Result<(), Message> {
+        const TARGETS: [&str; 5] = ["shape", "light", "material", "medium", "texture"];
+        let target = lexer.text("what the attributes are for")?;
+        if !TARGETS.contains(&&*target) {
+            let found = shortened(&target);
+            return Err(place.message(format!("Attribute {found:?}: only {}", TARGETS.join(", "))));
+        }
+        let params = Params::read(lexer, format!("Attribute {target:?}"), place)?;
+        self.state.defaults.insert(0, (target, params.into_list()));
+        Ok(())
+    }
+
+    fn texture(&mut self, place: Place, lexer: &mut Lexer<'_>, dir: &Path) -> Result<(), Message> {
+        let (name, value) = (lexer.text("a name")?, lexer.text("a type of value")?);
+        let kind = lexer.text("a type")?;
+        let mut params = Params::read(lexer, format!("Texture {:?}", shortened(&name)), place)?;
+        self.with_defaults("texture", &mut params);
+        let Self { textures, out, .. } = self;
+        let files = self.files.at(dir);
+        textures.define(&name, &value, &kind, &mut params, &files, &mut out.notes)?;
+        out.notes.warnings.extend(params.finish());
         Ok(())
     }
 
@@ -431,18 +342,6 @@ impl Reader<'_> {
         Ok(())
     }
 
-    fn transform(&mut self, word: &str, place: &Place, lexer: &mut Lexer<'_>) -> Result<(), Message> {
-        let made = transform_directives::read(word, place, lexer)?;
-        if self.state.is_end {
-            return Ok(());
-        }
-        self.state.ctm = if word == "Transform" { made } else { self.state.ctm.after(&made) };
-        if !self.state.ctm.is_finite() {
-            return Err(place.message(format!("{word}: the transform is no longer finite")));
-        }
-        Ok(())
-    }
-
     fn camera(&mut self, kind: &str, params: &mut Params) -> Result<(), Message> {
         if self.camera.is_some() {
             self.out.notes.warn(params.error("a second camera: the last one counts"));
@@ -460,13 +359,13 @@ impl Reader<'_> {
     }
 
     fn shape(&mut self, kind: &str, params: &mut Params, dir: &Path) -> Result<(), Message> {
-        let Self { out, state, named, textures, open, files, .. } = self;
+        let Self { out, state, named, textures, blocks, files, .. } = self;
         let given = ShapeState {
             ctm: state.ctm,
             reverse: state.reverse,
             material: state.material,
             area: state.area.clone(),
-            is_object: open.is_some(),
+            is_object: blocks.is_object(),
         };
         let Some(surface) = given.attributes(kind, params, textures, named, out)? else { return Ok(()) };
         let files = files.at(dir);

@@ -233,9 +233,7 @@ fn finite(name: &str, x: f64, params: &Params) -> Result<f32, Message> {
 /// The mapping of a texture: "uv", or as if it were that.
 fn mapping(params: &mut Params, notes: &mut Notes) -> Result<Mapping, Message> {
     if let Some(kind) = params.text("mapping")?.filter(|kind| kind != "uv") {
-        for name in ["v1", "v2"] {
-            params.given(name);
-        }
+        params.ignore(&["v1", "v2"]);
         let what = format!("mapping {:?} becomes that of u and v", shortened(&kind));
         notes.stand_in(&what, || params.error(&what));
     }

@@ -1,12 +1,63 @@
-//! Reads the directives that give a transform: `Translate`, `Scale`, `Rotate`, `LookAt`, `Transform` and `ConcatTransform`.
+//! Carries out the directives that change the current transform.
 
+use super::blocks::State;
 use super::lexer::{Lexer, Token};
-use crate::message::Place;
+use crate::message::{Notes, Place, shortened};
 use crate::transform::Transform;
 use etendue_render::scene::Message;
+use std::collections::HashMap;
 
-/// Reads the numbers of a directive.
-pub(super) fn read(word: &str, place: &Place, lexer: &mut Lexer<'_>) -> Result<Transform, Message> {
+/// Carries out a directive; `systems` are the named coordinate systems.
+pub(super) fn apply(
+    word: &str,
+    place: &Place,
+    lexer: &mut Lexer<'_>,
+    state: &mut State,
+    systems: &mut HashMap<String, Transform>,
+    notes: &mut Notes,
+) -> Result<(), Message> {
+    match word {
+        "Identity" => state.ctm = Transform::IDENTITY,
+        "CoordinateSystem" => {
+            systems.insert(lexer.text("a name")?, state.ctm);
+        }
+        "CoordSysTransform" => {
+            let name = lexer.text("a name")?;
+            let unknown = || place.message(format!("undefined CoordinateSystem {:?}", shortened(&name)));
+            state.ctm = *systems.get(&name).ok_or_else(unknown)?;
+        }
+        "ActiveTransform" => match lexer.expect("All, StartTime or EndTime")?.0 {
+            Token::Word(which @ ("All" | "StartTime" | "EndTime")) => {
+                if which != "All" {
+                    let why = "motion becomes a still at its start";
+                    notes.stand_in("motion", || place.message(format!("ActiveTransform {which}: {why}")));
+                }
+                state.is_end = which == "EndTime";
+            }
+            other => {
+                let wanted = "expected All, StartTime or EndTime";
+                return Err(place.message(format!("ActiveTransform: {wanted}, found {}", other.show())));
+            }
+        },
+        "TransformTimes" => {
+            lexer.number(word)?;
+            lexer.number(word)?;
+        }
+        _ => {
+            let made = read(word, place, lexer)?;
+            if !state.is_end {
+                state.ctm = if word == "Transform" { made } else { state.ctm.after(&made) };
+                if !state.ctm.is_finite() {
+                    return Err(place.message(format!("{word}: the transform is no longer finite")));
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Reads the numbers of `Translate`, `Scale`, `Rotate`, `LookAt`, `Transform` or `ConcatTransform`.
+fn read(word: &str, place: &Place, lexer: &mut Lexer<'_>) -> Result<Transform, Message> {
     let matrix = word == "Transform" || word == "ConcatTransform";
     let count = match word {
         "LookAt" => 9,

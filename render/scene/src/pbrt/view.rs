@@ -23,9 +23,7 @@ pub(super) fn camera(
         }
         _ => return Err(params.error("not supported, only \"perspective\", \"orthographic\" and stand-ins for others")),
     }
-    for name in ["shutteropen", "shutterclose", "hither", "yon"] {
-        params.given(name);
-    }
+    params.ignore(&["shutteropen", "shutterclose"]);
     let frame = params.float("frameaspectratio")?;
     if let Some(frame) = frame.filter(|frame| !(*frame > 0.0 && frame.is_finite())) {
         return Err(params.error(format!("\"frameaspectratio\": must be greater than 0, not {}", shown(frame))));
@@ -38,14 +36,7 @@ pub(super) fn camera(
             return Err(params.error(format!("\"screenwindow\": {numbers:?} is not x0 x1 y0 y1, ascending")));
         }
     };
-    let radius = params.float("lensradius")?.unwrap_or(0.0);
-    if radius < 0.0 {
-        return Err(params.error(format!("\"lensradius\": must be at least 0, not {}", shown(radius))));
-    }
-    let focus = params.float("focaldistance")?.unwrap_or(1e6);
-    if focus <= 0.0 {
-        return Err(params.error(format!("\"focaldistance\": must be greater than 0, not {}", shown(focus))));
-    }
+    let [radius, focus] = lens(params)?;
     // as in pbrt-v3
     let whole = params.float("halffov")?.filter(|half| *half > 0.0).map(|half| 2.0 * half);
     let fov = whole.or(params.float("fov")?).unwrap_or(90.0);
@@ -89,6 +80,19 @@ pub(super) fn camera(
         return Err(singular());
     }
     Ok((camera, world))
+}
+
+/// Radius of the lens, and distance of what is in focus.
+fn lens(params: &mut Params) -> Result<[f64; 2], Message> {
+    let radius = params.float("lensradius")?.unwrap_or(0.0);
+    if radius < 0.0 {
+        return Err(params.error(format!("\"lensradius\": must be at least 0, not {}", shown(radius))));
+    }
+    let focus = params.float("focaldistance")?.unwrap_or(1e6);
+    if focus <= 0.0 {
+        return Err(params.error(format!("\"focaldistance\": must be greater than 0, not {}", shown(focus))));
+    }
+    Ok([radius, focus])
 }
 
 /// Makes a camera show what its film shows.

@@ -270,3 +270,51 @@ fn a_sky_is_added() {
     let text = failed(&folder.write("nan.pfm", &image));
     assert!(text.contains("texel (0, 1)") && text.contains("NaN"), "{text}");
 }
+
+/// A node that places its mesh several times is the same as several nodes.
+#[test]
+fn nodes_that_place_their_mesh_several_times() {
+    let shifts = [[1.0, 2.0, 3.0], [-4.0, 0.5, 0.0], [0.0, 0.0, 9.0]];
+    let turns = [[0.0, 0.0, 0.6, 0.8], [0.0, 1.0, 0.0, 0.0], [0.5, 0.5, 0.5, 0.5]];
+    let scales = [[1.0, 2.0, 3.0], [0.5, 0.5, 0.5], [-1.0, 1.0, 1.0]];
+    let above = json!({"translation": [10, 0, 0], "rotation": [0.6, 0, 0, 0.8], "children": []});
+    let mut asset = Asset::of_triangle();
+    let (t, r, s) = (asset.floats(&shifts), asset.floats(&turns), asset.floats(&scales));
+    let attributes = json!({"TRANSLATION": t, "ROTATION": r, "SCALE": s});
+    let extension = |attributes: &Value| json!({"EXT_mesh_gpu_instancing": {"attributes": attributes}});
+    asset.json["nodes"] = json!([above, {"mesh": 0, "extensions": extension(&attributes)}]);
+    asset.json["nodes"][0]["children"] = json!([1]);
+    asset.json["scenes"] = json!([{"nodes": [0]}]);
+    asset.json["extensionsRequired"] = json!(["EXT_mesh_gpu_instancing"]);
+    assert!(asset.warnings().is_empty());
+    let mut apart = asset.clone();
+    let node = |k: usize| json!({"mesh": 0, "translation": shifts[k], "rotation": turns[k], "scale": scales[k]});
+    apart.json["nodes"] = json!([above, node(0), node(1), node(2)]);
+    apart.json["nodes"][0]["children"] = json!([1, 2, 3]);
+    assert_eq!(apart.read().triangles.len(), 3);
+    assert_eq!(asset.read().triangles, apart.read().triangles);
+
+    // each attribute may be absent
+    let of = |attributes: Value| {
+        let mut other = asset.clone();
+        other.json["nodes"][1]["extensions"] = extension(&attributes);
+        other
+    };
+    assert_eq!(of(json!({"SCALE": s})).read().triangles.len(), 3);
+    assert!(of(json!({})).read().triangles.is_empty());
+    let item = "a.glb: node 1, EXT_mesh_gpu_instancing";
+    // a flat copy is left out, one without a depth is not
+    let mut flat = asset.clone();
+    let scales = flat.floats(&[[0.0, 1.0, 1.0], [0.0; 3], [1.0, 1.0, 0.0]]);
+    flat.json["nodes"][1]["extensions"] = extension(&json!({"SCALE": scales}));
+    assert_eq!((flat.read().triangles.len(), flat.warnings().len()), (1, 1));
+    assert_eq!(of(json!({"ROTATION": -1})).error(), format!("{item}: \"ROTATION\" is no index of an accessor: -1"));
+    assert!(of(json!({"ROTATION": t})).error().contains("its type is Vec3, not Vec4"));
+    let mut short = of(attributes);
+    let two = short.floats(&shifts[..2]);
+    short.json["nodes"][1]["extensions"] = extension(&json!({"TRANSLATION": two, "SCALE": s}));
+    assert_eq!(short.error(), format!("{item}: its attributes are of different lengths"));
+    let wrong = short.floats(&[[0.0; 4]]);
+    short.json["nodes"][1]["extensions"] = extension(&json!({"ROTATION": wrong}));
+    assert!(short.error().starts_with(&format!("{item}, 0: its rotation")), "{}", short.error());
+}

@@ -248,7 +248,7 @@ fn errors_name_file_line_and_value() {
             file(NEW, 1, "0 90", "0", "8 2").replace("1000 3", "1000 -3"),
             "a.ies:4: multiplier: must be at least 0, not -3",
         ),
-        ("TILT=INCLUDE\n1 2 0 90 1".into(), "a.ies:2: number of tilt angles: must be from 1 to the 3 numbers left"),
+        ("TILT=INCLUDE\n1 2 0 90 1".into(), "a.ies:2: the file ends before tilt angle or factor"),
         ("TILT=NONE\n1 1000 1".into(), "a.ies:2: the file ends before number of vertical angles"),
     ];
     for (text, what) in faulty {

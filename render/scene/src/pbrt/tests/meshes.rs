@@ -296,3 +296,17 @@ fn no_file_panics() {
         }
     }
 }
+
+#[test]
+fn bent_lights_emit_on_the_side_of_their_order() {
+    let sides = |text: &str| {
+        let patch = "Shape \"bilinearmesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0 1 1 .5]";
+        let scene = read(&world(&format!("{text} {LIGHT} {patch}")));
+        assert!(scene.shapes.len() > 8, "{}", scene.shapes.len());
+        scene.shapes.iter().map(|shape| normal(&shape.geometry)[2].signum()).sum::<f32>() / scene.shapes.len() as f32
+    };
+    assert_eq!(
+        [sides(""), sides("ReverseOrientation"), sides("Scale 1 -1 1"), sides("Scale 1 1 -1")],
+        [1.0, -1.0, 1.0, -1.0]
+    );
+}

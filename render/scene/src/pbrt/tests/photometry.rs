@@ -212,3 +212,28 @@ fn along(geometry: &Geometry, corner: [f32; 3]) -> f32 {
     let n = normal(geometry);
     (n[0] * corner[0] + n[1] * corner[1] + n[2] * corner[2]).signum()
 }
+
+#[test]
+fn skies_have_the_illuminance_that_is_asked_for() {
+    let dir = Scratch::new("illuminance");
+    // longitude and latitude: 1 above the horizon, 3 below it
+    write_rgb_file(dir.path.join("s.exr"), 64, 16, |_, y| if y < 8 { (1.0, 1.0, 1.0) } else { (3.0, 3.0, 3.0_f32) })
+        .unwrap();
+    let sky = |text: &str| parse(&world(text), "a.pbrt", &dir.path).unwrap().environment.unwrap().sky;
+    let light = "LightSource \"infinite\" \"string filename\" \"s.exr\"";
+    let SkyRadiance::Image { texels, .. } = sky(&format!("{light} \"float illuminance\" 6")) else { panic!() };
+    // the illuminance of a hemisphere of radiance L is πL
+    let above = 6.0 / std::f32::consts::PI;
+    assert!(
+        (texels[0][1] / above - 1.0).abs() < 5e-3 && (texels[1000][1] / texels[0][1] - 3.0).abs() < 1e-5,
+        "{:?}",
+        texels[0]
+    );
+    for both in [
+        format!("{light} LightSource \"infinite\" \"rgb L\" [1 2 4]"),
+        format!("LightSource \"infinite\" \"rgb L\" [1 2 4] {light}"),
+    ] {
+        let SkyRadiance::Image { texels, .. } = sky(&both) else { panic!() };
+        assert_eq!([texels[0], texels[1000]], [[2.0, 3.0, 5.0], [4.0, 5.0, 7.0]]);
+    }
+}

@@ -183,3 +183,43 @@ fn faulty_pictures_are_named() {
     assert!(warnings(&scene)[0].contains("negative.exr: negative values in 1 texel(s)"), "{:?}", warnings(&scene));
     near(scene.shapes[0].emission.unwrap().radiance, [0.75, 1.0, 1.0]);
 }
+
+/// A changed texture or mesh makes another scene, even if the scene file stays as it was.
+#[test]
+fn digests_depend_on_all_files_of_a_scene() {
+    let folder = std::env::temp_dir().join(format!("etendue-digest-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let write = |name: &str, text: &str| std::fs::write(folder.join(name), text).unwrap();
+    let ply = |x: u8| {
+        format!(
+            "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n\
+             element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n{x} 0 0\n0 1 0\n3 0 1 2\n"
+        )
+    };
+    let picture = |x: f32| [&b"PF\n1 1\n-1.0\n"[..], &[x; 3].map(f32::to_le_bytes).concat()].concat();
+    write("mesh.ply", &ply(1));
+    std::fs::write(folder.join("picture.pfm"), picture(0.25)).unwrap();
+    write(
+        "scene.pbrt",
+        "Camera \"perspective\"\nWorldBegin\nLightSource \"point\"\n\
+         Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"picture.pfm\"\n\
+         Material \"diffuse\" \"texture reflectance\" \"t\"\nShape \"plymesh\" \"string filename\" \"mesh.ply\"\n",
+    );
+    let load = || crate::load(folder.join("scene.pbrt")).unwrap();
+    let found = || load().digest();
+    let first = found();
+    assert_eq!(found(), first);
+    std::fs::write(folder.join("picture.pfm"), picture(0.5)).unwrap();
+    let second = found();
+    assert_ne!(second, first);
+    write("mesh.ply", &ply(2));
+    assert_ne!(found(), second);
+    std::fs::write(folder.join("picture.pfm"), picture(0.25)).unwrap();
+    write("mesh.ply", &ply(1));
+    assert_eq!(found(), first);
+    // what counts is what was read, even if the file has changed since
+    let scene = load();
+    write("mesh.ply", &ply(2));
+    assert_eq!(scene.digest(), first);
+    std::fs::remove_dir_all(&folder).unwrap();
+}
