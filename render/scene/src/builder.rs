@@ -37,6 +37,8 @@ pub(super) struct Builder {
     masks: BTreeMap<u32, (u32, Mask)>,
     objects: Vec<Object>,
     instances: Vec<(u32, Transform)>,
+    /// Number of triangles of all instances.
+    instanced: usize,
     /// Triangles without area that were left out since the last [`Builder::left_out`].
     pub(super) left_out: usize,
     is_object: bool,
@@ -165,8 +167,7 @@ impl Builder {
 
     /// Number of triangles and shapes, those of all instances counted.
     pub(super) fn count(&self) -> usize {
-        let instances = self.objects.iter().map(|object| object.uses * object.parts.triangles.len());
-        self.triangles.len() + self.shapes.len() + instances.sum::<usize>()
+        self.triangles.len() + self.shapes.len() + self.instanced
     }
 
     /// Adds an instance of an object. Fails if there are too many triangles, or if a point is no longer finite.
@@ -179,12 +180,14 @@ impl Builder {
         if object.parts.triangles.is_empty() {
             return Ok(());
         }
-        if self.count() + object.parts.triangles.len() > MOST_TRIANGLES {
+        let added = object.parts.triangles.len();
+        if self.count() + added > MOST_TRIANGLES {
             return Err(format!("more than {MOST_TRIANGLES} triangles, those of all instances counted"));
         }
         if let Some(corner) = corners(object.bounds, ctm).iter().find(|p| !round(**p).iter().all(|x| x.is_finite())) {
             return Err(format!("a corner of its box is at {corner:?}, which is not finite in f32"));
         }
+        self.instanced += added;
         self.objects[index as usize].uses += 1;
         self.instances.push((index, *ctm));
         Ok(())
@@ -224,10 +227,12 @@ impl Builder {
                 None => self.copy(&objects[place.0 as usize].parts, &place.1),
             }
         }
+        let mut is_shared = vec![false; objects.len()];
+        instances.iter().for_each(|instance| is_shared[instance.object as usize] = true);
         let mut ranges = Vec::new();
-        for (index, Object { parts, .. }) in (0..).zip(objects) {
+        for (Object { parts, .. }, is_shared) in objects.into_iter().zip(is_shared) {
             let start = self.triangles.len();
-            if instances.iter().any(|instance| instance.object == index) {
+            if is_shared {
                 self.append(parts);
             }
             ranges.push(start..self.triangles.len());

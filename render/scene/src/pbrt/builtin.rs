@@ -56,7 +56,7 @@ pub fn builtin_of_few_lights() -> &'static [(&'static str, &'static str)] {
     DESCRIBED.split_at(DESCRIBED.len() - MANY_LIGHTS).0
 }
 
-/// The text of the built-in scene of this name.
+/// Name and text of the built-in scene of this name.
 pub(super) fn text_of(name: &Path) -> Option<(&'static str, &'static str)> {
     BUILTIN.into_iter().find(|(known, _)| name.as_os_str() == *known)
 }
