@@ -4,7 +4,7 @@
 //!
 //! ```
 //! use etendue_render::scene::{CameraSettings, Emission, Geometry, Material, Scene, Screen, Shape};
-//! use etendue_render::{Sampler, Settings, Technique, World};
+//! use etendue_render::{ChoiceBy, Sampler, Settings, Technique, World};
 //!
 //! let (origin, forward, right, up) = ([0.0, 0.0, 1.0], [0.0, 0.0, -1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]);
 //! let (screen, lens) = (Screen::Half(0.01), None);
@@ -17,8 +17,8 @@
 //! let emission = Some(Emission { radiance: [3.0; 3], ..Emission::default() });
 //! scene.shapes = [Shape { geometry: square, material: 1, emission }].into();
 //!
-//! let (technique, sampler) = (Technique::SolidAngle, Sampler::Sobol);
-//! let settings = Settings { width: 16, height: 16, spp: 64, technique, depth: 8, sampler, sets: 0, seed: 0 };
+//! let (technique, choice, sampler) = (Technique::SolidAngle, ChoiceBy::Auto, Sampler::Sobol);
+//! let settings = Settings { width: 16, height: 16, spp: 64, technique, choice, depth: 8, sampler, sets: 0, seed: 0 };
 //! let (film, _rays) = World::new(&scene)?.render(&settings, &|_| ());
 //! let mean = film.pixels.iter().map(|pixel| pixel.mean[0]).sum::<f32>() / film.pixels.len() as f32;
 //! // a surface that faces a light of radiance L reflects albedo · L times its form factor
