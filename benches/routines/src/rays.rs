@@ -7,7 +7,11 @@ use etendue::{Frame, Mask, Real, u32x8};
 use etendue_render::bvh::{Bvh, GROUP, Hits, NOTHING, Rays, Scratch, ShapeSet, Traversal};
 use etendue_render::camera::Pinhole;
 use etendue_render::packet::{M8, V8, X8};
-use etendue_render::{lights::Lights, technique::Measure};
+use etendue_render::{
+    choose::{ChoiceBy, Chooser, Choosers},
+    lights::Lights,
+    technique::Measure,
+};
 use std::path::Path;
 
 /// Side of the image that pixels are taken from.
@@ -123,7 +127,9 @@ impl Workload {
             };
             (0..groups).map(group).collect()
         };
-        let lights = Lights::new(&scene, None).expect("few lights");
+        let lights = Lights::new(&scene, None);
+        let choosers = Choosers::new(&lights, bvh.reach()).expect("few lights");
+        let chooser = choosers.by(&lights, ChoiceBy::Auto).expect("the default");
         let mut stack = Scratch::default();
         let mut from_hits = |camera: &[Group], make: &dyn Fn(&Point, etendue::Vec2<X8>) -> Packet| -> Vec<Group> {
             let group = |(group, index): (&Group, u32)| {
@@ -136,7 +142,7 @@ impl Workload {
             camera.iter().zip(0..).map(group).collect()
         };
         let (pixel, block) = (camera(false), camera(true));
-        let to_light = |point: &Point, u| point.to_light(&lights, u);
+        let to_light = |point: &Point, u| point.to_light(&lights, chooser, u);
         let of_point = from_hits(&pixel, &to_light);
         let of_pixels = from_hits(&block, &to_light);
         let ambient = from_hits(&block, &|point, u| point.hemisphere(u));
@@ -263,9 +269,9 @@ impl Point {
         Self { met, normal, place }
     }
     /// Rays to points on lights, sampled by solid angle.
-    fn to_light(&self, lights: &Lights, u: etendue::Vec2<X8>) -> Packet {
+    fn to_light(&self, lights: &Lights, chooser: &Chooser, u: etendue::Vec2<X8>) -> Packet {
         let zero = X8::lit(0.0);
-        let choice = lights.choose(self.place, self.normal, None, [u.x, zero]);
+        let choice = chooser.choose(self.place, self.normal, None, [u.x, zero]);
         let (mut chosen, u) = (lights.chosen(choice.index), etendue::Vec2::new(choice.u, u.y));
         let sample = lights.sample(&mut chosen, Measure::SolidAngle, self.place, self.normal, u);
         let active = self.met & sample.emits & sample.pdf.gt(zero) & sample.direction.dot(self.normal).gt(zero);
