@@ -5,8 +5,8 @@
 //! length. A hit is strictly nearer than its limit, and of two hits at equal distance the triangle of lower index wins. What a ray
 //! hits therefore depends neither on the other rays of its group nor on the traversal, bit for bit.
 //!
-//! Files import one way, from the last of this list to the first: `huge_pages`, `double_precision`,
-//! `traversal`, `rays`, `node`, `build`, `parallel_build`, `tree`, then the traversals `frustum`, `single_ray`, `interleaved`, `stream`,
+//! Files import one way, from the last of this list to the first: `double_precision`, `traversal`,
+//! `rays`, `node`, `build`, `parallel_build`, `tree`, then the traversals `frustum`, `single_ray`, `stream`,
 //! `region`, then the primitives `cutouts`, `triangles`, `shapes`, and `instances` of them.
 //! Each traversal is one body for closest and any hit (`ANY`). For any hit, the distances in [`Hits`] are the limits, and their places are
 //! the shapes that do not occlude.
@@ -14,16 +14,14 @@
 //! A traversal stays for what it brings end to end. Speed with it relative to without (medians of user time, alternating runs of
 //! `etendue render SCENE --spp 16 --size 256x256 --threads 1 --repeat 5 --sampler independent` on a shared machine): the frustum brings
 //! 1.18 on terrain, 1.07 on quads and 1.09 on mirror-room; the stream, instead of single rays, 1.17, 1.40 and 1.31.
-//! Turns and huge pages are for rays without order through large trees, which these scenes do not have: `benches/examples/trace.rs` times
-//! such rays, and `benches/peers/rays.py` compares them with Embree's.
+//! Rays that took turns, so that none waits for memory, brought at most 1.05 on the scenes with the largest trees, so there are none:
+//! `benches/peers/rays.py` compares rays without order with Embree's.
 
 mod build;
 mod cutouts;
 mod double_precision;
 mod frustum;
-mod huge_pages;
 mod instances;
-mod interleaved;
 mod node;
 mod parallel_build;
 mod rays;
@@ -204,7 +202,7 @@ impl Bvh {
                 single_ray::one_by_one::<ANY>(&tree, rays, active, hits, &mut stream.single_ray)
             }
             (None, Traversal::Exhaustive) => tree.every_leaf::<ANY>(rays, active, hits),
-            (None, way) => stream::stream::<ANY>(&tree, rays, active, hits, way == Traversal::Interleaved, stream),
+            (None, Traversal::Choose | Traversal::Stream) => stream::stream::<ANY>(&tree, rays, active, hits, stream),
         }
         if let Some(instances) = &self.instances {
             instances.trace::<ANY>(rays, active, hits, self.traversal, visits, stream);

@@ -105,7 +105,7 @@ fn campaign(groups: usize, seed: u32) -> [u64; 2] {
             let placed: Vec<Triangle> = mesh.iter().map(|t| t.map(place)).collect();
             let tree = |way| Bvh::new(&placed, ShapeSet::new(std::iter::empty()).unwrap()).unwrap().with_traversal(way);
             let oracle = tree(Traversal::Exhaustive);
-            let ways = [Traversal::Choose, Traversal::Stream, Traversal::Interleaved, Traversal::Single];
+            let ways = [Traversal::Choose, Traversal::Stream, Traversal::Single];
             let ways = ways.map(|way| (way, tree(way)));
             for index in 0..groups * KINDS {
                 let kind = index % KINDS;
@@ -166,7 +166,7 @@ fn closed_meshes_do_not_leak() {
     let mut stack = Scratch::default();
     for scale in [1e-6_f32, 1.0, 1e6] {
         let mesh: Vec<Triangle> = cube(7).iter().map(|t| t.map(|v| v.map(|x| x * scale))).collect();
-        for way in [Traversal::Choose, Traversal::Stream, Traversal::Interleaved, Traversal::Single] {
+        for way in [Traversal::Choose, Traversal::Stream, Traversal::Single] {
             let bvh = Bvh::new(&mesh, ShapeSet::new(std::iter::empty()).unwrap()).unwrap().with_traversal(way);
             for index in 0..300 {
                 let center = random.point().map(|x| 0.9 * x * scale);

@@ -159,7 +159,7 @@ fn instances_are_hit_as_copies() {
             Bvh::with_instances(triangles.clone(), &objects, &instances, shapes).unwrap()
         };
         let (flat, all) = (tree(&copies), build());
-        let ways = [Traversal::Stream, Traversal::Interleaved, Traversal::Single, Traversal::Exhaustive];
+        let ways = [Traversal::Stream, Traversal::Single, Traversal::Exhaustive];
         let others = ways.map(|way| build().with_traversal(way));
         for group in 0..8_u32 {
             let ray = |i: u32| {
@@ -289,7 +289,7 @@ fn trees_of_many_parts_are_whole() {
         Vec3::new(axis(0), axis(1), axis(2))
     };
     let all = [<f32x8 as Real>::Mask::splat(true); 8];
-    let ways = [Traversal::Exhaustive, Traversal::Choose, Traversal::Stream, Traversal::Interleaved, Traversal::Single];
+    let ways = [Traversal::Exhaustive, Traversal::Choose, Traversal::Stream, Traversal::Single];
     let found = ways.map(|way| {
         let bvh = tree(&triangles).with_traversal(way);
         let packets: Vec<_> = (0..8).map(|p| bvh.rays(lanes(p, &|i| rays[i].0), lanes(p, &|i| rays[i].1))).collect();

@@ -138,7 +138,7 @@ impl Instances {
                     tree.every_leaf::<ANY>(&[own], std::slice::from_mut(active), std::slice::from_mut(hits));
                 });
             } else if active.any() {
-                self.trace_packet::<ANY>(rays, active, hits, traversal == Traversal::Interleaved, stack, scratch);
+                self.trace_packet::<ANY>(rays, active, hits, stack, scratch);
             }
         }
     }
@@ -147,7 +147,6 @@ impl Instances {
         rays: &Rays,
         active: &mut M8,
         hits: &mut Hits,
-        interleave: bool,
         stack: &mut Vec<Visit>,
         scratch: &mut Scratch,
     ) {
@@ -163,7 +162,7 @@ impl Instances {
                 let (own, moved) = self.enter(placement, rays);
                 let tree = self.objects[placement.object as usize].triangles.over(&moved);
                 let (active, hits) = (std::slice::from_mut(active), std::slice::from_mut(hits));
-                stream::<ANY>(&tree, &[own], active, hits, interleave, scratch);
+                stream::<ANY>(&tree, &[own], active, hits, scratch);
                 continue;
             }
             let node = &nodes[first as usize];

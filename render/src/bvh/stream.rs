@@ -1,6 +1,5 @@
 //! Stream traversal: the rays of a group visit each node together, once, with the rays that enter it.
 
-use super::interleaved;
 use super::node::{INNER, Node, Stack, WIDTH, push_in_order, slabs};
 use super::rays::{GROUP, Hits, Rays, by_octant, octant};
 use super::single_ray::{Child, Leaves, SingleRay, trace_lane};
@@ -11,11 +10,6 @@ use wide::i8x32;
 
 /// With fewer rays than this, each continues alone, as sharing the traversal no longer pays.
 const FEW: u32 = 5;
-/// With fewer rays than this, they take turns, which costs less than to finish one by one.
-const FEW_IN_TURN: u32 = 13;
-
-/// The size of the nodes in bytes above which rays that are alone take turns. Those of smaller trees, with their triangles, stay in a cache.
-const LARGE: usize = 8 << 20;
 
 /// A child to visit, and the set of rays that enter it: bit 8·packet + lane.
 #[derive(Clone, Copy, Debug, Default)]
@@ -33,8 +27,6 @@ struct Visit {
 pub(super) struct Scratch {
     visits: Stack<Visit>,
     pub(super) single_ray: Stack<Child>,
-    /// Only for large trees, since it is larger than all else.
-    interleaved: Option<Box<interleaved::Scratch>>,
 }
 
 /// A group of rays. Bit k of `OCTANT` is set if all rays run towards − along axis k; 8 means that they disagree.
@@ -99,18 +91,16 @@ fn bits(active: &[M8]) -> u64 {
 }
 
 /// Finds the nearest hits of a group of packets, if nearer than those in `hits`. With `ANY`, clears the lanes of `active` that hit
-/// something instead. With `interleave`, rays that are alone take turns.
+/// something instead.
 pub(super) fn stream<const ANY: bool>(
     tree: &View<'_, impl Primitives + Leaves>,
     rays: &[Rays],
     active: &mut [M8],
     hits: &mut [Hits],
-    interleave: bool,
     scratch: &mut Scratch,
 ) {
     if tree.count != 0 {
-        let interleave = interleave || size_of_val(tree.nodes) > LARGE;
-        by_octant!(octant(rays), else 8, stream_in_octant::<ANY>(tree, rays, active, hits, interleave, scratch));
+        by_octant!(octant(rays), else 8, stream_in_octant::<ANY>(tree, rays, active, hits, scratch));
     }
 }
 
@@ -119,29 +109,25 @@ fn stream_in_octant<const ANY: bool, const OCTANT: usize>(
     rays: &[Rays],
     active: &mut [M8],
     hits: &mut [Hits],
-    interleave: bool,
     scratch: &mut Scratch,
 ) {
     let stream = Stream::<OCTANT> { rays };
-    let Scratch { visits, single_ray, interleaved } = scratch;
+    let Scratch { visits, single_ray } = scratch;
     let visits = &mut visits.0[..];
-    let mut turns = interleave.then(|| &mut **interleaved.get_or_insert_default());
-    let few = if interleave { FEW_IN_TURN } else { FEW };
     let mut open = bits(active);
     let mut height = 1;
     visits[0] = Visit { rays: open, node: 0, slot: INNER, near: 0.0 };
     while height > 0 && open != 0 {
         height -= 1;
-        let Visit { rays: among, node: place, slot, near } = visits[height];
+        let Visit { rays: among, node: place, slot, .. } = visits[height];
         let among = among & open;
         let node = &tree.nodes[place as usize];
         if !ANY && slot != INNER {
             visit_stream_leaf::<ANY>(tree, rays, among, node, slot as usize & 7, hits);
             continue;
         }
-        if among.count_ones() < few {
-            let now = turns.as_mut().map_or(among, |turns| turns.later.add(among, place, near));
-            each_bit(now, |i| {
+        if among.count_ones() < FEW {
+            each_bit(among, |i| {
                 let p = i >> 3;
                 let hidden = trace_lane::<ANY>(tree, place, &rays[p], i & 7, &mut hits[p], single_ray);
                 open &= !(u64::from(hidden) << i);
@@ -165,9 +151,6 @@ fn stream_in_octant<const ANY: bool, const OCTANT: usize>(
             let child = Visit { rays: entered[slot], node: to, slot: leaf, near: near[slot] };
             push_in_order(visits, &mut height, floor, child, |c| c.near);
         }
-    }
-    if let Some(turns) = turns {
-        open &= !interleaved::interleaved::<ANY>(tree, rays, open, hits, turns);
     }
     if ANY {
         for (p, active) in active.iter_mut().enumerate() {

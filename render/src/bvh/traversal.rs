@@ -7,10 +7,8 @@ pub enum Traversal {
     #[default]
     Choose,
     /// As a stream: the group visits each node once, with the rays that enter it. Below 5 active rays, each finishes
-    /// alone; in large trees, below 13 rays take turns, so that none waits for memory.
+    /// alone.
     Stream,
-    /// As a stream in which rays that are alone take turns in trees of any size.
-    Interleaved,
     /// Ray by ray.
     Single,
     /// Every leaf, regardless of other hits and without the tree above it: the oracle for the other traversals.

@@ -1,7 +1,6 @@
 //! A tree of bounding boxes with up to eight children per node.
 
 use super::build::Costs;
-use super::huge_pages;
 use super::node::{Bounded, Bounds, BuildError, Node, WIDTH, greater, lesser, slabs};
 use super::parallel_build::build_parts;
 use super::rays::{Hits, Rays};
@@ -61,7 +60,6 @@ impl<P> Tree<P> {
         }
         let mut ids: Vec<u32> = (0..count as u32).collect();
         let nodes = build_parts(&mut items, &mut ids, costs, &leaf);
-        huge_pages::collapse(&nodes);
         Ok(Self { primitives: primitives(items, ids, &nodes), nodes, count })
     }
     /// The tree's box.

@@ -3,7 +3,6 @@
 use super::build::Costs;
 use super::cutouts::Cutouts;
 use super::double_precision::{NEAR, to_triangle, wide};
-use super::huge_pages;
 use super::node::{Bounded, Bounds, BuildError, greater, lesser, prefetch};
 use super::rays::{Hits, NOTHING, Nearest, Rays, SHAPE};
 use super::region::{Placed, Region};
@@ -187,7 +186,6 @@ impl TriangleLeaves {
             let mut coordinates = triangles.into_flattened().into_flattened();
             // room for eight-lane loads beyond the last leaf
             coordinates.extend([0.0; 8]);
-            huge_pages::collapse(&coordinates);
             Self { coordinates, leaves, ids, near, cutouts: None }
         })
     }
