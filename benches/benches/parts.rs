@@ -6,7 +6,6 @@
 
 use etendue_benches::memory::{peak, start_peak};
 use etendue_render::drive::Content;
-use etendue_render::drive::{Content, Samples};
 use etendue_render::film::Pixel;
 use etendue_render::merge::{Merged, merge};
 use etendue_render::parts::{self, Piece};
@@ -75,7 +74,7 @@ fn row(what: &str, identity: &Identity, count: u32, piece: impl Fn(u32) -> Piece
 
 fn main() {
     let most = std::env::args().skip(1).find_map(|a| a.parse().ok()).unwrap_or(10_000_u32);
-    let scene = etendue_etendue_scene::load("quads").expect("a built-in scene");
+    let scene = etendue_scene::load("quads").expect("a built-in scene");
     let world = World::new(&scene).expect("few primitives");
     let identity = |settings: Settings| Identity::new(&scene, settings, Sensor::Radiance);
     println!("| parts | image, M pixels | kB each | written in s | merged in s | image written in s | peak, MB |");
