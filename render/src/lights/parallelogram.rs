@@ -62,9 +62,9 @@ impl Chosen {
     pub(super) fn narrow(&mut self, p: V8) -> V8 {
         let normal = self.first.cross(self.second);
         // a picture is on the whole of its light
-        let lanes = self.is(KIND) & self.has(SPREAD) & !self.has(PICTURED);
-        let light = self::lanes(self);
-        let part = Parallelogram::blend(lanes, light.visible_part(p, &self.spread), light);
+        let has_spread = self.is(KIND) & self.has(SPREAD) & !self.has(PICTURED);
+        let light = lanes(self);
+        let part = Parallelogram::blend(has_spread, light.visible_part(p, &self.spread), light);
         (self.place, self.first, self.second) = (part.corner, part.edge_s, part.edge_t);
         normal
     }

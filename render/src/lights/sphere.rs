@@ -61,12 +61,12 @@ impl Chosen {
     // not inlined, so that it does not burden scenes without rough metals
     #[inline(never)]
     pub fn sample_lobe(&self, sample: &mut Drawn, lobe: &Lobe, p: V8, u: Vec2<X8>) -> M8 {
-        let lanes = self.is(KIND) & !self.has(SPREAD | PICTURED | PROFILED) & lobe.metals();
-        if lanes.any() {
-            let mut drawn = Drawn::from(self::lanes(self).by_reflection(p, &lobe.reflection).sample(u));
+        let reflected = self.is(KIND) & !self.has(SPREAD | PICTURED | PROFILED) & lobe.metals();
+        if reflected.any() {
+            let mut drawn = Drawn::from(lanes(self).by_reflection(p, &lobe.reflection).sample(u));
             drawn.emits = drawn.emits | self.has(TWO_SIDED);
-            *sample = Drawn::blend(lanes, drawn, Some(*sample));
+            *sample = Drawn::blend(reflected, drawn, Some(*sample));
         }
-        lanes
+        reflected
     }
 }
