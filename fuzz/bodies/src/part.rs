@@ -45,7 +45,7 @@ fn make(bytes: &mut impl Iterator<Item = u8>) -> Option<Vec<u8>> {
     let sides = [16, 32, 20, 1].map(Value::from);
     let mut identity = json!({
         "scene": "fuzz", "digest": "0", "width": choose(&sides, next()?), "height": choose(&sides, next()?),
-        "spp": 1 + next()?, "technique": "auto", "depth": 8,
+        "spp": 1 + next()?, "technique": "auto", "choice": "auto", "depth": 8,
         "sampler": choose(&["sobol", "independent", "adaptive", "stratified"].map(Value::from), next()?),
         "sets": choose(&[0, 1, 2, 4].map(Value::from), next()?), "seed": 0, "sensor": "radiance", "lens": false,
         "exposure": "1.0", "averaged": [], "build": "fuzz", "place": null,
