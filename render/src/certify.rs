@@ -1,8 +1,8 @@
 //! Light that is computed without samples, where geometry tells what can occlude it.
 //!
 //! A [`Certifier`] proves, in double precision, what may lie between a [`Patch`] of a surface and a light: nothing, something that hides it
-//! all, or a few convex blockers. [`Analytic`] asks it for what a tile of the image sees, adds the closed forms of the lights of which
-//! something is proved, and leaves the rest of the [integrand](crate::estimate::Integrand) to another estimator.
+//! all, or a few convex blockers. `Analytic` asks it for what a tile of the image sees, adds the closed forms of the lights of which
+//! something is proved, and leaves the rest of the integrand to another estimator.
 
 mod analytic;
 mod blockers;

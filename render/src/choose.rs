@@ -1,4 +1,4 @@
-//! Which light is sampled at a shading point. Each way to choose one is a file, which implements [`ChooseLight`].
+//! Which light is sampled at a shading point. Each way to choose one is a file, which implements `ChooseLight`.
 
 mod choose_light;
 mod kinds;

@@ -1,15 +1,14 @@
-//! Kinds of lights are chosen by the irradiance that each can cause at the point: lamps, which are somewhere, suns, and the sky. Then a lamp or a
-//! sun is chosen by a tree.
+//! Kinds of lights are chosen by the irradiance that each can cause at the point: lamps, which are somewhere, beams, which are spot lights too
+//! narrow for a tree, suns, and the sky. Then a lamp or a sun is chosen by a tree.
 
-use super::choose_light::ChooseLight;
-use super::tree;
+use super::choose_light::{ChooseLight, bounds};
 use crate::bvh::BuildError;
 use crate::light_tree::{OwnedTree, Threads};
 use crate::lights::{Candidate, Far};
 use crate::packet::{V8, X8, equal, pick, select};
 use crate::sky::Sky;
-use etendue::select::{Choice, Gloss, LightBound, LightChoice, LightsAt, TreeAt};
-use etendue::{Mask, Real, u32x8};
+use etendue::select::{Choice, FEW, Gloss, LightBound, LightChoice, LightsAt, TreeAt};
+use etendue::{LightSampler, Mask, Real, SpotLight, Vec2, u32x8};
 use std::f64::consts::FRAC_1_PI;
 use std::sync::Arc;
 
@@ -20,12 +19,35 @@ pub(super) struct Kinds {
     lamps: OwnedTree,
     /// Their indices among all lights, if they are few; else empty.
     few: Vec<u32>,
+    beams: Vec<Beam>,
     /// The distant lights, as points of the unit sphere around the shading point.
     suns: OwnedTree,
     /// The indices of the distant lights among all.
     distant: Vec<u32>,
     /// The sky, its index among all lights, and by what to multiply its irradiance, so that it is in the unit of the others.
     sky: Option<(Arc<Sky>, u32, f32)>,
+}
+
+/// A spot light of which a tree cannot tell which points it lights.
+#[derive(Debug)]
+struct Beam {
+    /// Its index among all lights.
+    index: u32,
+    light: SpotLight<f32>,
+    /// The sum of the channels of its intensity, in the unit of the others.
+    intensity: f32,
+}
+
+impl Beam {
+    /// The irradiance at points of surfaces.
+    #[inline]
+    fn irradiance(&self, p: V8, normal: V8) -> X8 {
+        let sample = SpotLight::splat(self.light).by_delta(p).sample(Vec2::default());
+        let (zero, some) = (X8::lit(0.0), sample.pdf.gt(X8::lit(0.0)));
+        // of a light without an area, the pdf is the squared distance over the falloff
+        let cos = sample.direction.dot(normal).greater(zero);
+        (cos * X8::splat(self.intensity) / select(some, sample.pdf, X8::lit(1.0))).keep(some)
+    }
 }
 
 /// The part of the chance that is the same for all kinds of lights that can contribute, …
@@ -40,6 +62,7 @@ const MOST_EQUAL: usize = 64;
 const LAMPS: u32 = 0;
 const SUNS: u32 = 1;
 const SKIES: u32 = 2;
+const BEAMS: u32 = 3;
 
 impl Kinds {
     /// Builds the tables of lights and their powers.
@@ -59,12 +82,36 @@ impl Kinds {
             .unzip();
         let index = all.iter().position(|light| light.far == Some(Far::Sky));
         let sky = sky.zip(index).map(|(sky, index)| (Arc::clone(sky), index as u32, (FRAC_1_PI / greatest) as f32));
+        let mut lamps = bounds(all);
+        let beam = |(index, light): (u32, &Candidate)| {
+            let (light, intensity) = light.beam()?;
+            Some(Beam { index, light, intensity: (intensity / greatest) as f32 })
+        };
+        let mut beams: Vec<Beam> = (0..).zip(all).filter_map(beam).take(FEW + 1).collect();
+        if beams.len() > FEW {
+            beams.clear();
+        }
+        beams.iter().for_each(|beam| lamps[beam.index as usize].power = 0.0);
+        let is_beam = |index: &u32| beams.binary_search_by_key(index, |beam| beam.index).is_ok();
         let somewhere = (0..).zip(all).filter(|(_, light)| light.far.is_none()).map(|(index, _)| index);
+        let somewhere = somewhere.filter(|index| !is_beam(index));
         let mut few: Vec<u32> = somewhere.take(MOST_EQUAL + 1).collect();
         if !(2..=MOST_EQUAL).contains(&few.len()) {
             few.clear();
         }
-        Ok(Self { lamps: tree::new(all)?, few, suns: OwnedTree::new(&suns, &Threads)?, distant, sky })
+        let [lamps, suns] = [lamps, suns].map(|bounds| OwnedTree::new(&bounds, &Threads));
+        Ok(Self { lamps: lamps?, few, beams, suns: suns?, distant, sky })
+    }
+    /// The choice among beams, and the irradiance from all of them. Not inlined, so that it does not burden scenes without beams.
+    #[inline(never)]
+    fn beams_at(&self, p: V8, normal: V8) -> (LightsAt<X8>, X8) {
+        let mut irradiances = [X8::lit(0.0); FEW];
+        let mut sum = X8::lit(0.0);
+        for (irradiance, beam) in irradiances.iter_mut().zip(&self.beams) {
+            *irradiance = beam.irradiance(p, normal);
+            sum += *irradiance;
+        }
+        (LightsAt::by_weights(&irradiances[..self.beams.len()]), sum)
     }
 }
 
@@ -73,15 +120,17 @@ impl ChooseLight for Kinds {
     #[inline]
     fn at(&self, p: V8, normal: V8, gloss: Option<&Gloss<X8>>) -> KindsAt<'_> {
         let [lamps, suns] = [(&self.lamps, p), (&self.suns, V8::default())].map(|(tree, p)| tree.at(p, normal, gloss));
+        let beams = (!self.beams.is_empty()).then(|| self.beams_at(p, normal));
         let is_far = self.sky.is_some() || !self.distant.is_empty();
-        let kinds = is_far.then(|| {
+        let kinds = (is_far || beams.is_some()).then(|| {
             let of_sky = self.sky.as_ref().map_or(X8::lit(0.0), |(sky, _, unit)| {
                 let factor = gloss.map_or(X8::lit(1.0), Gloss::albedo);
                 sky.irradiance(p, normal) * (factor * X8::splat(*unit))
             });
-            among_kinds([self.lamps.irradiance(&lamps), self.suns.irradiance(&suns), of_sky])
+            let of_beams = beams.as_ref().map_or(X8::lit(0.0), |(_, irradiance)| *irradiance);
+            among_kinds([self.lamps.irradiance(&lamps), self.suns.irradiance(&suns), of_sky, of_beams])
         });
-        KindsAt { lights: self, lamps, suns, kinds }
+        KindsAt { lights: self, lamps, suns, beams: beams.map(|(choice, _)| choice), kinds }
     }
     #[inline]
     fn choose(at: &KindsAt<'_>, [u, second]: [X8; 2]) -> Choice<X8> {
@@ -96,11 +145,11 @@ impl ChooseLight for Kinds {
 /// The choice among kinds of lights that can cause these irradiances. A part of the chance is the same
 /// for all kinds that can contribute, since one of them may be hidden; the rest is in proportion to them.
 #[inline]
-fn among_kinds(irradiances: [X8; 3]) -> LightsAt<X8> {
+fn among_kinds(irradiances: [X8; 4]) -> LightsAt<X8> {
     let (zero, one, least) = (X8::lit(0.0), X8::lit(1.0), X8::splat(f32::MIN_POSITIVE));
     let irradiances = irradiances.map(|e| e.greater(least).lesser(X8::lit(1e37)).keep(e.gt(zero)));
-    let [a, b, c] = irradiances;
-    let sum = (a + b + c).greater(least);
+    let [a, b, c, d] = irradiances;
+    let sum = (a + b + c + d).greater(least);
     let count = irradiances.iter().fold(zero, |count, e| count + one.keep(e.gt(zero)));
     LightsAt::by_weights(&irradiances.map(|e| (e / sum * X8::lit(1.0 - FAIR) + X8::lit(FAIR) / count).keep(e.gt(zero))))
 }
@@ -110,6 +159,8 @@ pub struct KindsAt<'a> {
     lights: &'a Kinds,
     lamps: TreeAt<'a, X8>,
     suns: TreeAt<'a, X8>,
+    /// Among the beams, if there are any.
+    beams: Option<LightsAt<X8>>,
     /// Among the kinds, if there are others than lamps.
     kinds: Option<LightsAt<X8>>,
 }
@@ -125,10 +176,14 @@ impl KindsAt<'_> {
         if let Some((_, index, _)) = &self.lights.sky {
             choice.index = u32x8::splat(*index);
         }
-        for kind in [LAMPS, SUNS] {
+        for kind in [LAMPS, SUNS, BEAMS] {
             let here = equal(first.index, u32x8::splat(kind)) & first.pmf.gt(X8::lit(0.0));
             if here.any() {
-                let own = if kind == LAMPS { self.lamp(first.u, second) } else { self.distant_light(first.u, second) };
+                let own = match kind {
+                    LAMPS => self.lamp(first.u, second),
+                    SUNS => self.distant_light(first.u, second),
+                    _ => self.beam(first.u),
+                };
                 choice.index = pick(here, own.index, choice.index);
                 choice.pmf = select(here, first.pmf * own.pmf, choice.pmf);
                 choice.u = select(here, own.u, choice.u);
@@ -142,6 +197,12 @@ impl KindsAt<'_> {
         let own = OwnedTree::choose(&self.suns, [u, second]);
         // a lane without a light has the index 0, which is in the table, since there is a distant light
         Choice { index: u32x8::new(own.index.to_array().map(|k| self.lights.distant[k as usize])), ..own }
+    }
+    /// Chooses a beam.
+    #[inline]
+    fn beam(&self, u: X8) -> Choice<X8> {
+        let own = self.beams.as_ref().unwrap_or_else(|| unreachable!("there are beams")).choose(u);
+        Choice { index: u32x8::new(own.index.to_array().map(|k| self.lights.beams[k as usize].index)), ..own }
     }
     /// Chooses a lamp. If there are few, each has the same chance in a part of the choices, so that a much brighter lamp that is hidden does
     /// not take the samples of the others.
@@ -185,6 +246,9 @@ impl KindsAt<'_> {
         if self.lights.sky.as_ref().is_some_and(|(_, index, _)| *index == light) {
             return kinds.pmf_of(SKIES);
         }
+        if let (Some(beams), Ok(k)) = (&self.beams, self.lights.beams.binary_search_by_key(&light, |beam| beam.index)) {
+            return kinds.pmf_of(BEAMS) * beams.pmf_of(k as u32);
+        }
         match self.lights.distant.binary_search(&light) {
             Ok(k) => kinds.pmf_of(SUNS) * self.suns.pmf_of(k as u32),
             Err(_) => kinds.pmf_of(LAMPS) * of_lamp(),
@@ -196,8 +260,8 @@ impl KindsAt<'_> {
 mod tests {
     use super::*;
     use crate::lights::{point, spot, sun};
+    use etendue::Uint;
     use etendue::sequence::{Independent, Sequence};
-    use etendue::{Uint, Vec2};
     use etendue_oracle::tier::cases;
 
     fn of_power(mut light: Candidate, power: f64) -> Candidate {
@@ -283,17 +347,30 @@ mod tests {
         assert!((dim - 0.5 * EQUAL).abs() < 1e-4 && (bright + dim - 1.0).abs() < 1e-6, "{bright} {dim}");
     }
 
-    /// A spot light of a hundredth of a degree does not take the samples of a lamp of the same power at a point beside its cone, although the
-    /// tree cannot tell that point from the axis.
+    /// A spot light of a hundredth of a degree takes no samples of a lamp of the same power at a point beside its cone, although a tree cannot
+    /// tell that point from the axis; within its cone it has most of them, however many lamps there are.
     #[test]
-    fn narrow_spots_leave_lamps_their_samples() {
+    fn beams_are_chosen_where_they_are_seen() {
         let versine = 1.5e-8_f32;
-        let spot = of_power(spot::candidate([0.0, 0.0, 2.0], [0.0, 0.0, -1.0], [versine; 2], [1.0; 3]), 1.0);
-        let all: Vec<Candidate> = vec![spot, lamp([1.0, 0.0, 2.0], 1.0)];
-        let lights = Kinds::new(&all, None).unwrap();
-        let at = lights.at(V8::lit([0.1, 0.0, 0.0]), V8::lit([0.0, 0.0, 1.0]), None);
-        let [of_spot, of_lamp] = [0, 1].map(|light| at.pmf(light).as_array()[0]);
-        assert!(of_spot > 0.0 && of_lamp > 1e-3, "{of_spot} {of_lamp}");
+        for count in [1, 3000] {
+            let mut all: Vec<Candidate> = (0..count).map(|i| lamp([1.0 + i as f32, 0.0, 2.0], 1.0)).collect();
+            let intensity = [1.0 / versine; 3];
+            all.insert(1, spot::candidate([0.0, 0.0, 2.0], [0.0, 0.0, -1.0], [versine; 2], intensity));
+            let lights = Kinds::new(&all, None).unwrap();
+            let (x, mut pmfs) = (X8::new(std::array::from_fn(|lane| if lane == 0 { 0.0 } else { 0.1 })), [0.0; 2]);
+            let at = lights.at(V8::new(x, X8::default(), X8::default()), V8::lit([0.0, 0.0, 1.0]), None);
+            for light in 0..=count as u32 {
+                let pmf = at.pmf(light);
+                pmfs[0] += f64::from(pmf.lane(0));
+                pmfs[1] += f64::from(pmf.lane(1));
+            }
+            assert!(pmfs.iter().all(|sum| (sum - 1.0).abs() < 1e-4), "{pmfs:?}");
+            let own = at.pmf(1);
+            assert!(own.lane(0) > 0.7 && own.lane(1) == 0.0, "{own:?}");
+            let choice = at.choose(X8::lit(0.5), X8::lit(0.3));
+            assert_eq!((choice.index.lane(0), choice.pmf.lane(0)), (1, own.lane(0)));
+            assert_ne!(choice.index.lane(1), 1);
+        }
     }
 
     /// A point that no light can reach gets no light, and an index that is valid all the same.

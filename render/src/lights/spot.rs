@@ -1,7 +1,7 @@
 //! Spot lights: a record has the position and the axis, then 1 − cosθ of the inner and the outer angle, and a cosine from which on it is dark.
 
 use super::chosen::Chosen;
-use super::record::{Candidate, Extent, LightRecord, sum, wide};
+use super::record::{Candidate, Extent, KINDS, LightRecord, sum, wide};
 use crate::packet::{V8, X8};
 use etendue::{LightSample, LightSampler, SpotLight, Vec2};
 
@@ -35,6 +35,17 @@ pub(super) fn extent(record: &LightRecord) -> Extent {
     // beyond a hemisphere, a cone bounds nothing
     let normal = if cos > 0.0 { wide(axis) } else { Default::default() };
     Extent { normal, cos_cone: cos.clamp(0.0, NARROWEST), ..Extent::point(record) }
+}
+
+impl Candidate {
+    /// A spot light that is narrower than a tree can tell, and the sum of the channels of its intensity.
+    pub(crate) fn beam(&self) -> Option<(SpotLight<f32>, f64)> {
+        let LightRecord { kind, place, first, second, radiance, .. } = self.record;
+        let [one_minus_cos_inner, one_minus_cos_outer, cos] = second;
+        let (position, axis) = (place.into(), first.into());
+        let light = SpotLight { position, axis, one_minus_cos_inner, one_minus_cos_outer };
+        (kind & KINDS == KIND && cos > NARROWEST).then(|| (light, sum(radiance)))
+    }
 }
 
 /// Samples spot lights in all lanes.
