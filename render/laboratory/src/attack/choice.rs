@@ -22,7 +22,7 @@ const SEEDS: u64 = 4;
 /// The least efficiency that a choice should have, relative to the better of the pure ones, …
 pub const LEAST: f64 = 0.5;
 /// … unless it has this one. Where one kind gives all the light without noise, as a sun does, its pure choice has no error. Of three kinds it
-/// has at least 0.7 of the samples, so that the choice has a relative squared error of 0.43 over their number.
+/// has at least 0.6 of the samples, so that the choice has a relative squared error of 0.67 over their number.
 const ENOUGH: f64 = 1.5;
 
 /// Efficiency of choices, each 1/(squared error × samples) relative to the squared radiance.
