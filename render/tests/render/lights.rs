@@ -212,7 +212,7 @@ fn lights_far_away_have_their_share_of_the_irradiance() {
     let point = DeltaLight::Point { position, intensity };
     let distant = DeltaLight::Distant { direction: [0.0, 1.0, 0.0], irradiance };
     let p = V8::splat(Vec3::from([0.0, 0.5, 0.0]));
-    // 0.45 of the chance is equal, the rest by irradiance, which for the spot is that of a mean over its cone
+    // a third of the chance is each one's, the rest goes by irradiance, which for the spot is that of a mean over its cone
     let far = 2.75;
     for (near, irradiance) in [(point, 7.0), (spot, 7.0 * 0.35 / 0.5)].map(|(near, sum)| (near, sum / 19.5_f64.powi(2)))
     {
@@ -221,7 +221,7 @@ fn lights_far_away_have_their_share_of_the_irradiance() {
         let choosers = Choosers::new(&lights, 1.0).unwrap();
         let pmf = choosers.by(&lights, ChoiceBy::Auto).unwrap().pmf(p, V8::lit([0.0, 1.0, 0.0]), None);
         let shares = [0, 1].map(|light| pmf.of(light).lane_f64(3));
-        let truth = 0.225 + 0.55 * far / (far + irradiance);
+        let truth = (1.0 + far / (far + irradiance)) / 3.0;
         assert!((shares[1] - truth).abs() < 2e-3, "{shares:?}, not {truth}");
         assert!((shares[0] + shares[1] - 1.0).abs() < 1e-6, "{shares:?}");
     }
