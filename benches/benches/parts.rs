@@ -24,17 +24,7 @@ const SAMPLES: u32 = 8;
 
 fn settings(side: u32, spp: u32) -> Settings {
     let (technique, sampler) = (Technique::SolidAngle, Sampler::Sobol);
-    Settings {
-        width: side,
-        height: side,
-        spp,
-        technique,
-        choice: Default::default(),
-        depth: 8,
-        sampler,
-        sets: 1,
-        seed: 1,
-    }
+    Settings { width: side, height: side, spp, technique, sampler, sets: 1, seed: 1, ..Settings::DEFAULT }
 }
 
 /// Seconds of a merge, and what it made.

@@ -82,11 +82,10 @@ fn row(make: impl Fn() -> Scene) {
         height: 256,
         spp: 16,
         technique: Technique::SolidAngle,
-        choice: Default::default(),
         depth: 0,
-        sets: 0,
         sampler: Sampler::Independent,
         seed: 1,
+        ..Settings::DEFAULT
     };
     let one = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
     let start = Instant::now();

@@ -430,17 +430,8 @@ mod tests {
         let world = lit_floor();
         for sampler in [Sampler::Adaptive, Sampler::Independent] {
             let technique = crate::Technique::SolidAngle;
-            let settings = Settings {
-                width: 40,
-                height: 32,
-                spp: 16,
-                technique,
-                choice: Default::default(),
-                depth: 8,
-                sampler,
-                sets: 0,
-                seed: 3,
-            };
+            let settings =
+                Settings { width: 40, height: 32, spp: 16, technique, sampler, seed: 3, ..Settings::DEFAULT };
             let plan = Refinement { settings, sampler: Some(sampler), lens: false, goal: Goal::default() };
             let mut refined = Refined::new(&world, &plan).unwrap();
             assert_eq!(refined.lasting(100.0, settings.whole()), refined.counts[0]);
@@ -474,17 +465,7 @@ mod tests {
     fn a_preview_is_followed_by_passes_of_the_usual_sampler() {
         let world = lit_floor();
         let (technique, sampler) = (crate::Technique::SolidAngle, Sampler::Adaptive);
-        let settings = Settings {
-            width: 16,
-            height: 16,
-            spp: 16,
-            technique,
-            choice: Default::default(),
-            depth: 8,
-            sampler,
-            sets: 0,
-            seed: 3,
-        };
+        let settings = Settings { width: 16, height: 16, spp: 16, technique, sampler, seed: 3, ..Settings::DEFAULT };
         let plan = Refinement { settings, sampler: None, lens: false, goal: Goal::default() };
         let mut refined = Refined::new(&world, &plan).unwrap();
         assert_eq!(refined.lasting(1e9, settings.whole()), 2);
@@ -505,17 +486,7 @@ mod tests {
             let technique = crate::Technique::Area;
             let (sampler, settings) = (
                 Some(sampler),
-                Settings {
-                    width: 1,
-                    height: 1,
-                    spp: 1,
-                    technique,
-                    choice: Default::default(),
-                    depth: 0,
-                    sampler,
-                    sets,
-                    seed: 0,
-                },
+                Settings { width: 1, height: 1, spp: 1, technique, depth: 0, sampler, sets, ..Settings::DEFAULT },
             );
             Refinement { settings, sampler, lens, goal: Goal { seconds: None, error } }.counts()
         };

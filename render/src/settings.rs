@@ -42,6 +42,18 @@ pub struct Settings {
 impl Settings {
     /// The default depth.
     pub const DEPTH: u32 = 8;
+    /// One sample of a single pixel, by what `auto` takes. What an image does not ask for is as here.
+    pub const DEFAULT: Self = Self {
+        width: 1,
+        height: 1,
+        spp: 1,
+        technique: Technique::Auto,
+        choice: ChoiceBy::Auto,
+        depth: Self::DEPTH,
+        sampler: Sampler::Sobol,
+        sets: 0,
+        seed: 0,
+    };
     /// Side of the square tiles of an image in pixels. Parts of an image consist of whole tiles, since a tile shares what is known of its
     /// lights.
     pub const TILE: u32 = TILE;

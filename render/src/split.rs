@@ -34,7 +34,7 @@ mod tests {
 
     fn settings(width: u32, height: u32) -> Settings {
         let (technique, sampler) = (Technique::Auto, Sampler::Sobol);
-        Settings { width, height, spp: 16, technique, choice: Default::default(), depth: 8, sampler, sets: 0, seed: 0 }
+        Settings { width, height, spp: 16, technique, sampler, ..Settings::DEFAULT }
     }
 
     #[test]

@@ -52,8 +52,8 @@ impl Seen {
 impl<E> Analytic<'_, E> {
     /// Adds the reflected light that is known, and notes what is left of each light. Returns whether anything is left.
     ///
-    /// Of a light with a picture behind blockers, a part is counted, the same for all of its points; samples then add what is visible, less
-    /// that part. On rough surfaces, the integral of their fit is counted; all lights are sampled, for what the BSDF reflects beyond it.
+    /// If blockers hide some of a picture, it is counted as if all of its points were hidden by the same fraction, and samples add the
+    /// difference. On rough surfaces, the integral of their fit is counted, and samples of all lights add what the BSDF reflects beyond it.
     pub(super) fn gather<const GENERAL: bool>(&mut self, group: &Group<'_>, reflected: &mut [V8; GROUP]) -> bool {
         let lights = self.certificates.lights.len();
         if GENERAL {

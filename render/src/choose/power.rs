@@ -1,4 +1,4 @@
-//! Lights are chosen by their power. A sun or a sky has that which passes a disk whose radius is the scene's greatest coordinate.
+//! Lights are chosen by their power. The power of a sun or a sky is the flux through a disk whose radius is the greatest coordinate of the scene.
 
 use super::choose_light::ChooseLight;
 use crate::lights::{Candidate, Far};

@@ -4,7 +4,7 @@ use etendue_oracle::tier::cases;
 use etendue_render::film::Film;
 use etendue_render::image::Picture;
 use etendue_render::{
-    ChoiceBy, RayCount, Sampler, Settings, Technique, World,
+    RayCount, Sampler, Settings, Technique, World,
     compare::{Comparison, LIMIT},
     image,
 };
@@ -15,11 +15,10 @@ const SETTINGS: Settings = Settings {
     height: 80,
     spp: 64,
     technique: Technique::SolidAngle,
-    choice: ChoiceBy::Auto,
-    depth: 8,
     sampler: Sampler::Adaptive,
     sets: 1,
     seed: 1,
+    ..Settings::DEFAULT
 };
 
 fn world(name: &str) -> World {

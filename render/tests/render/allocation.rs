@@ -5,7 +5,7 @@ use etendue_oracle::tier::cases;
 use etendue_render::film::{Film, Pixel};
 use etendue_render::image::Picture;
 use etendue_render::{
-    ChoiceBy, Sampler, Settings, Technique, World,
+    Sampler, Settings, Technique, World,
     compare::{Comparison, LIMIT},
     image,
 };
@@ -16,11 +16,9 @@ const SETTINGS: Settings = Settings {
     height: 32,
     spp: 16,
     technique: Technique::SolidAngle,
-    choice: ChoiceBy::Auto,
-    depth: 8,
-    sampler: Sampler::Sobol,
     sets: 1,
     seed: 1,
+    ..Settings::DEFAULT
 };
 
 fn world(name: &str) -> World {

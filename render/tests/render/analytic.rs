@@ -4,20 +4,11 @@ use crate::variance::reported_to_measured;
 use etendue_oracle::tier::cases;
 use etendue_render::compare::differs;
 use etendue_render::film::Film;
-use etendue_render::{ChoiceBy, RayCount, Sampler, Settings, Technique, World};
+use etendue_render::{RayCount, Sampler, Settings, Technique, World};
 use std::path::Path;
 
-const SETTINGS: Settings = Settings {
-    width: 64,
-    height: 64,
-    spp: 64,
-    technique: Technique::Analytic,
-    choice: ChoiceBy::Auto,
-    depth: Settings::DEPTH,
-    sampler: Sampler::Sobol,
-    sets: 4,
-    seed: 0,
-};
+const SETTINGS: Settings =
+    Settings { width: 64, height: 64, spp: 64, technique: Technique::Analytic, sets: 4, ..Settings::DEFAULT };
 /// Scenes in which lights have an area: behind boxes, balls and meshes, through a lens and in mirrors, on diffuse surfaces and metals.
 const SCENES: [&str; 7] =
     ["quads", "mirror-room", "defocus", "plates", "cornell-box", "sphere-light", "triangle-light"];

@@ -8,11 +8,8 @@ const SETTINGS: Settings = Settings {
     height: 12,
     spp: 64,
     technique: Technique::SolidAngle,
-    choice: ChoiceBy::Auto,
-    depth: 8,
     sampler: Sampler::Independent,
-    sets: 0,
-    seed: 0,
+    ..Settings::DEFAULT
 };
 
 /// A floor with a ball under a point, a spot, a distant light, a sky and panels of different power.

@@ -21,17 +21,7 @@ const PLANE: &str = "Material \"diffuse\" \"rgb reflectance\" [.8 .5 .2]\n\
     Shape \"bilinearmesh\" \"point3 P\" [-9 0 9  9 0 9  -9 0 -9  9 0 -9]\n";
 
 fn settings(technique: Technique, sampler: Sampler, spp: u32, side: u32) -> Settings {
-    Settings {
-        width: side,
-        height: side,
-        spp,
-        technique,
-        choice: Default::default(),
-        depth: 8,
-        sets: 0,
-        sampler,
-        seed: 3,
-    }
+    Settings { width: side, height: side, spp, technique, sampler, seed: 3, ..Settings::DEFAULT }
 }
 
 /// Mean and standard error of a pixel.

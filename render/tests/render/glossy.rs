@@ -14,11 +14,10 @@ fn settings(technique: Technique, spp: u32) -> Settings {
         height: 1,
         spp,
         technique,
-        choice: Default::default(),
         depth: 2,
         sampler: Sampler::Independent,
-        sets: 0,
         seed: 1,
+        ..Settings::DEFAULT
     }
 }
 

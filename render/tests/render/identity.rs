@@ -2,21 +2,11 @@
 
 use etendue_render::area::Place;
 use etendue_render::limits::MOST_SAMPLES;
-use etendue_render::{ChoiceBy, Identity, Sampler, Sensor, Settings, Technique, World};
+use etendue_render::{Identity, Sampler, Sensor, Settings, World};
 use serde_json::json;
 use std::path::Path;
 
-const SETTINGS: Settings = Settings {
-    width: 8,
-    height: 8,
-    spp: 4,
-    technique: Technique::Auto,
-    choice: ChoiceBy::Auto,
-    depth: 8,
-    sampler: Sampler::Sobol,
-    sets: 0,
-    seed: 0,
-};
+const SETTINGS: Settings = Settings { width: 8, height: 8, spp: 4, ..Settings::DEFAULT };
 
 /// Settings of no image are refused before a pixel is rendered.
 #[test]

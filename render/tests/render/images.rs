@@ -79,17 +79,7 @@ fn parts_have_places() {
     let pixel = |i: u32| Pixel { mean: [i as f32, 1.0, 2.0], variance: [0.5; 3], samples: i };
     let film = Film { width: 10, height: 4, pixels: (0..40).map(pixel).collect() };
     let (technique, sampler) = (Technique::Auto, Sampler::Sobol);
-    let settings = Settings {
-        width: 10,
-        height: 4,
-        spp: 4,
-        technique,
-        choice: Default::default(),
-        depth: 8,
-        sampler,
-        sets: 0,
-        seed: 0,
-    };
+    let settings = Settings { width: 10, height: 4, spp: 4, technique, sampler, ..Settings::DEFAULT };
     let identity = Identity::new(&etendue_scene::load("quads").unwrap(), settings, Sensor::Radiance);
     let file = std::env::temp_dir().join(format!("etendue-place-{}.exr", std::process::id()));
     for (place, start, whole) in [

@@ -145,17 +145,7 @@ fn edges_out_of_focus_have_their_closed_form() {
                 let spp = 256;
                 let [width, height] = SIZE;
                 let technique = Technique::SolidAngle;
-                let settings = Settings {
-                    width,
-                    height,
-                    spp,
-                    technique,
-                    choice: Default::default(),
-                    sampler,
-                    seed: 5,
-                    depth: 8,
-                    sets: 0,
-                };
+                let settings = Settings { width, height, spp, technique, sampler, seed: 5, ..Settings::DEFAULT };
                 let image = render(&edge(radius, focus, mesh), &settings);
                 assert!(agrees(&reference, &image), "{sampler:?}, radius {radius}, focus {focus}, mesh {mesh}");
                 if sampler == Sampler::Sobol && focus != 2.0 {
@@ -174,20 +164,7 @@ fn edges_out_of_focus_have_their_closed_form() {
 fn techniques_and_samplers_agree_through_a_lens() {
     let scene = etendue_scene::load("defocus").unwrap();
     let of = |technique, sampler, spp, seed| {
-        render(
-            &scene,
-            &Settings {
-                width: 96,
-                height: 64,
-                spp,
-                technique,
-                choice: Default::default(),
-                sampler,
-                seed,
-                depth: 8,
-                sets: 0,
-            },
-        )
+        render(&scene, &Settings { width: 96, height: 64, spp, technique, sampler, seed, ..Settings::DEFAULT })
     };
     let reference = of(Technique::SolidAngle, Sampler::Independent, cases(256, 1024), 0);
     for sampler in SAMPLERS.into_iter().step_by(cases(2, 1)) {
@@ -211,11 +188,9 @@ fn the_unit_of_length_does_not_matter() {
         height: 32,
         spp: 16,
         technique: Technique::SolidAngle,
-        choice: Default::default(),
         sampler: Sampler::Sobol4d,
         seed: 3,
-        depth: 8,
-        sets: 0,
+        ..Settings::DEFAULT
     };
     let image = render(&read(&text), &settings);
     for scale in [1024.0, 1.0 / 4096.0] {

@@ -15,17 +15,7 @@ fn read(text: &str) -> Scene {
 }
 
 fn settings(technique: Technique, side: u32, spp: u32) -> Settings {
-    Settings {
-        width: side,
-        height: side,
-        spp,
-        technique,
-        choice: Default::default(),
-        depth: 8,
-        sets: 0,
-        sampler: Sampler::Independent,
-        seed: 5,
-    }
+    Settings { width: side, height: side, spp, technique, sampler: Sampler::Independent, seed: 5, ..Settings::DEFAULT }
 }
 
 /// Mean and standard error of the first channel of the only pixel.

@@ -6,7 +6,7 @@ use etendue_render::drive::{Content, Samples};
 use etendue_render::film::{Film, Pixel};
 use etendue_render::merge::{MergeOutcome, Merged, merge};
 use etendue_render::parts::{self, Piece, PieceFile, PieceKind};
-use etendue_render::{ChoiceBy, Identity, Sampler, Sensor, Settings, Technique, World};
+use etendue_render::{Identity, Sampler, Sensor, Settings, Technique, World};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -115,17 +115,7 @@ fn image(files: &[PathBuf]) -> Film {
     }
 }
 
-const SETTINGS: Settings = Settings {
-    width: 50,
-    height: 37,
-    spp: 24,
-    technique: Technique::Auto,
-    choice: ChoiceBy::Auto,
-    depth: 8,
-    sampler: Sampler::Sobol,
-    sets: 0,
-    seed: 3,
-};
+const SETTINGS: Settings = Settings { width: 50, height: 37, spp: 24, seed: 3, ..Settings::DEFAULT };
 
 #[test]
 fn any_tiles_in_any_order_make_the_image() {

@@ -108,17 +108,7 @@ const PLANE: &str = "Material \"diffuse\" \"rgb reflectance\" [.8 .5 .2]\n\
     Shape \"bilinearmesh\" \"point3 P\" [-9 0 9  9 0 9  -9 0 -9  9 0 -9]\n";
 
 fn settings(technique: Technique, spp: u32, side: u32, sampler: Sampler) -> Settings {
-    Settings {
-        width: side,
-        height: side,
-        spp,
-        technique,
-        choice: Default::default(),
-        depth: 8,
-        sets: 0,
-        sampler,
-        seed: 5,
-    }
+    Settings { width: side, height: side, spp, technique, sampler, seed: 5, ..Settings::DEFAULT }
 }
 
 /// The pixel of a narrow camera by each technique is the irradiance by quadrature, times albedo/π.

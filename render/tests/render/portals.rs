@@ -11,7 +11,7 @@ use std::time::Instant;
 
 fn by_solid_angle(width: u32, height: u32) -> Settings {
     let (technique, sampler) = (Technique::SolidAngle, Sampler::Independent);
-    Settings { width, height, spp: 16, technique, choice: Default::default(), depth: 8, sets: 0, sampler, seed: 3 }
+    Settings { width, height, spp: 16, technique, sampler, seed: 3, ..Settings::DEFAULT }
 }
 
 /// A wall of the room 4 × 4 × 3 about (0, 0, 1.5), in the plane x = 2, with windows between these y and z.
@@ -70,17 +70,8 @@ const SKIES: [&str; 2] = [
 ];
 
 fn render(world: &World, technique: Technique, spp: u32) -> Film {
-    let settings = Settings {
-        width: 24,
-        height: 18,
-        spp,
-        technique,
-        choice: Default::default(),
-        depth: 8,
-        sets: 0,
-        sampler: Sampler::Independent,
-        seed: 3,
-    };
+    let settings =
+        Settings { width: 24, height: 18, spp, technique, sampler: Sampler::Independent, seed: 3, ..Settings::DEFAULT };
     world.render(&settings, &|_| ()).0
 }
 

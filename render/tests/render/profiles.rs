@@ -43,17 +43,8 @@ impl Drop for Folder {
 
 /// Mean of the pixel in the red channel, and its standard error.
 fn pixel(world: &World, technique: Technique, spp: u32) -> (f64, f64) {
-    let settings = Settings {
-        width: 1,
-        height: 1,
-        spp,
-        technique,
-        choice: Default::default(),
-        depth: 8,
-        sets: 0,
-        sampler: Sampler::Independent,
-        seed: 3,
-    };
+    let settings =
+        Settings { width: 1, height: 1, spp, technique, sampler: Sampler::Independent, seed: 3, ..Settings::DEFAULT };
     let pixel = world.render(&settings, &|_| ()).0.pixels[0];
     (f64::from(pixel.mean[0]), f64::from(pixel.variance[0]).sqrt())
 }

@@ -60,17 +60,7 @@ fn scene(name: &str, mean: f64, reference_error: f64, hemisphere_spp: u32, hemis
             }
             // 324 is four replicates of 3⁴ strata
             let spp = if sampler == Sampler::Stratified4d && !towards_lights { 324 } else { spp };
-            let settings = Settings {
-                width: 256,
-                height: 256,
-                spp,
-                technique,
-                choice: Default::default(),
-                depth: 8,
-                sets: 0,
-                sampler,
-                seed: 1,
-            };
+            let settings = Settings { width: 256, height: 256, spp, technique, sampler, seed: 1, ..Settings::DEFAULT };
             let image = Picture::from(&world.render(&settings, &|_| ()).0);
             let p = prediction(&reference, &image, reference_error);
             println!("{name} {technique:?} {sampler:?} {spp} spp: {p:?}");
@@ -125,17 +115,7 @@ fn threads_do_not_matter_and_seeds_do() {
     ];
     for (technique, sampler, spp) in all.into_iter().step_by(cases(4, 1)) {
         // 16 divides neither side, so some tiles are smaller
-        let settings = Settings {
-            width: 100,
-            height: 75,
-            spp,
-            technique,
-            choice: Default::default(),
-            depth: 8,
-            sets: 0,
-            sampler,
-            seed: 7,
-        };
+        let settings = Settings { width: 100, height: 75, spp, technique, sampler, seed: 7, ..Settings::DEFAULT };
         let on = |threads: usize| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
             pool.install(|| world.render(&settings, &|_| ()))
@@ -159,17 +139,7 @@ fn any_number_of_samples_and_any_size() {
     let world = World::new(&etendue_scene::load("triangle-light").unwrap()).unwrap();
     for (width, height) in [(1, 1), (17, 5), (33, 18)].into_iter().take(cases(2, 3)) {
         let of = |spp, technique, sampler, seed| {
-            let settings = Settings {
-                width,
-                height,
-                spp,
-                technique,
-                choice: Default::default(),
-                depth: 8,
-                sets: 0,
-                sampler,
-                seed,
-            };
+            let settings = Settings { width, height, spp, technique, sampler, seed, ..Settings::DEFAULT };
             let (film, rays) = world.render(&settings, &|_| ());
             assert_eq!((film.width, film.height, film.pixels[0].samples), (width, height, spp));
             assert_eq!(film.pixels.len(), (width * height) as usize);
@@ -228,11 +198,9 @@ fn terrain_agrees_with_itself() {
             height: 64,
             spp,
             technique,
-            choice: Default::default(),
-            depth: 8,
-            sets: 0,
             sampler: Sampler::Independent,
             seed,
+            ..Settings::DEFAULT
         };
         Picture::from(&world.render(&settings, &|_| ()).0)
     };

@@ -27,17 +27,8 @@ const DISTANCE: f64 = 0.03;
 
 fn render(scene: &scene::Scene, sensor: Sensor, sampler: Sampler, spp: u32) -> Picture {
     let [width, height] = SIZE;
-    let settings = Settings {
-        width,
-        height,
-        spp,
-        technique: Technique::SolidAngle,
-        choice: Default::default(),
-        sampler,
-        seed: 11,
-        depth: 8,
-        sets: 0,
-    };
+    let settings =
+        Settings { width, height, spp, technique: Technique::SolidAngle, sampler, seed: 11, ..Settings::DEFAULT };
     let film = World::new(scene).unwrap().with_sensor(sensor).render(&settings, &|_| ()).0;
     Picture::from(&film)
 }

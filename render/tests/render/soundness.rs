@@ -112,11 +112,9 @@ fn moments(world: &World, technique: Technique, spp: u32) -> [Means; 2] {
             height: SIDE,
             spp,
             technique,
-            choice: Default::default(),
             depth: 1,
-            sampler: Sampler::Sobol,
-            sets: 0,
             seed: u64::from(seed) + 1000 * technique as u64,
+            ..Settings::DEFAULT
         };
         let (film, _) = world.render(&settings, &|_| ());
         let mut means = [[0.0; 3]; REGIONS + 1];
@@ -250,11 +248,10 @@ fn white_rooms_show_the_albedo() {
                 height: 1,
                 spp,
                 technique,
-                choice: Default::default(),
                 depth: 1,
                 sampler: Sampler::Independent,
-                sets: 0,
                 seed: 7,
+                ..Settings::DEFAULT
             };
             let pixel = world.render(&settings, &|_| ()).0.pixels[0];
             let [mean, claim] = [f64::from(pixel.mean[1]), f64::from(pixel.variance[1]).sqrt()];

@@ -25,11 +25,10 @@ fn render(scene: &scene::Scene, camera: &Camera, [width, height]: [u32; 2], spp:
         height,
         spp,
         technique: Technique::SolidAngle,
-        choice: Default::default(),
         sampler,
         seed: 4,
         depth: 1,
-        sets: 0,
+        ..Settings::DEFAULT
     };
     World::new(scene).unwrap().view_through(camera, &settings).image(&|_| ()).0
 }

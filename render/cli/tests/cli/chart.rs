@@ -277,17 +277,8 @@ fn errors_are_those_of_the_images() {
             // predicted by the images' own variances: the mean over pixels of the variance of the mean
             let of = |seed| {
                 let (technique, sampler) = (series.way.technique, series.way.sampler);
-                let settings = Settings {
-                    width: 64,
-                    height: 64,
-                    spp: point.spp,
-                    technique,
-                    choice: Default::default(),
-                    depth: Settings::DEPTH,
-                    sampler,
-                    sets: 0,
-                    seed,
-                };
+                let settings =
+                    Settings { width: 64, height: 64, spp: point.spp, technique, sampler, seed, ..Settings::DEFAULT };
                 let film = world.render(&settings, &|_| ()).0;
                 film.pixels.iter().flat_map(|p| p.variance).map(f64::from).sum::<f64>() / (3.0 * 64.0 * 64.0)
             };

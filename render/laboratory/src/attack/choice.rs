@@ -132,11 +132,9 @@ pub fn measure(draft: &Draft, [side, spp]: [u32; 2], seed: u64) -> Result<Option
             height: side,
             spp,
             technique: Technique::SolidAngle,
-            choice: Default::default(),
-            depth: Settings::DEPTH,
             sampler: Sampler::Independent,
-            sets: 0,
             seed,
+            ..Settings::DEFAULT
         };
         Ok(world.render(&settings, &|_| ()).0)
     };

@@ -125,12 +125,9 @@ pub fn measure(scene: &Scene, seed: u64, [side, spp]: [u32; 2]) -> Result<Tally,
         width: side,
         height: side,
         spp,
-        technique: Technique::Auto,
-        choice: Default::default(),
-        depth: Settings::DEPTH,
         sampler: default_sampler(spp, 0, lens),
-        sets: 0,
         seed: seed.wrapping_mul(0x9e37_79b9) ^ run << 40,
+        ..Settings::DEFAULT
     };
     let base = settings(spp, 0);
     let view = world.view(&base);

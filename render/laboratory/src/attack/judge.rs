@@ -7,7 +7,7 @@ use etendue_oracle::direct::{self, Block, Body, Source, View};
 use etendue_render::compare::{LIMIT, differs};
 use etendue_render::film::Film;
 use etendue_render::scene::{Affine, Instance, Scene};
-use etendue_render::{Sampler, Settings, Technique, World};
+use etendue_render::{Settings, Technique, World};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -236,11 +236,9 @@ pub fn judge(trial: &Trial, techniques: &[Technique], effort: &Effort) -> Result
         height,
         spp,
         technique,
-        choice: Default::default(),
-        depth: Settings::DEPTH,
-        sampler: Sampler::Sobol,
         sets: 4,
         seed: seed.wrapping_mul(64).wrapping_add(i),
+        ..Settings::DEFAULT
     };
     let world = |scene: &Scene| World::new(scene).map_err(|error| error.to_string());
     let truth = exact(trial, effort, [0.0, direct::SPARED]);

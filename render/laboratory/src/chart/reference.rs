@@ -62,11 +62,9 @@ impl Reference {
             height,
             spp: spp.next_multiple_of(4).max(32),
             technique,
-            choice: Default::default(),
-            depth: Settings::DEPTH,
             sampler,
-            sets: 0,
             seed,
+            ..Settings::DEFAULT
         };
         let picture = Picture::from(&world.render(&settings, progress).0);
         let error = picture.variance.as_ref().map_or(f64::INFINITY, |v| mean(v));

@@ -45,17 +45,7 @@ impl Studio<'_> {
         let own = scene.camera.lens.ok_or("the scene has no lens")?;
         let seen = |camera: &Camera, [width, height]: [u32; 2], sampler, spp| {
             let (technique, seed) = (Technique::SolidAngle, self.seed);
-            let settings = Settings {
-                width,
-                height,
-                spp,
-                technique,
-                choice: Default::default(),
-                sampler,
-                sets: 0,
-                seed,
-                depth: 1,
-            };
+            let settings = Settings { width, height, spp, technique, sampler, seed, depth: 1, ..Settings::DEFAULT };
             world.view_through(camera, &settings).image(&|_| ()).0
         };
         let [width, height] = IMAGE;

@@ -51,7 +51,7 @@ fn the_pilot_is_a_quarter_in_a_power_of_two() {
 }
 fn settings([width, height]: [u32; 2], spp: u32, sets: u32) -> Settings {
     let (technique, sampler) = (Technique::SolidAngle, Sampler::Adaptive);
-    Settings { width, height, spp, technique, choice: Default::default(), depth: 8, sampler, sets, seed: 5 }
+    Settings { width, height, spp, technique, sampler, sets, seed: 5, ..Settings::DEFAULT }
 }
 fn effort(sets: u32, pilot: u32, packets: f64) -> Effort {
     Effort { sets, pilot, packets, checks: 0.0 }

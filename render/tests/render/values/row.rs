@@ -55,17 +55,7 @@ impl Row {
         let scene = scene.map_err(|error| format!("{name}: {error}"))?;
         let world = World::new(&scene).map_err(|error| format!("{name}: {error}"))?;
         let (technique, sampler, spp) = (self.technique, Sampler::Independent, self.samples);
-        let settings = Settings {
-            width: 1,
-            height: 1,
-            spp,
-            technique,
-            choice: Default::default(),
-            depth: 8,
-            sampler,
-            sets: 0,
-            seed: 5,
-        };
+        let settings = Settings { width: 1, height: 1, spp, technique, sampler, seed: 5, ..Settings::DEFAULT };
         let pixel = world.render(&settings, &|_| ()).0.pixels[0];
         let (seen, errors) = (pixel.mean.map(f64::from), pixel.variance.map(|v| f64::from(v).sqrt()));
         let (wanted, why) = self.differs.map_or((self.right, ""), |(shown, why)| (shown, why));
