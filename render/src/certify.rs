@@ -7,8 +7,8 @@
 mod analytic;
 mod blockers;
 mod bodies;
-mod cache;
 mod certifiable;
+mod certificates;
 mod certifier;
 mod closed_forms;
 mod diffuse;

@@ -1,13 +1,13 @@
 //! Renders images: which samples each pixel takes, in tiles, and what is known of their error.
 
 mod adaptive;
+mod after_pilot;
 mod allocation;
-mod checks;
 mod corners;
 mod estimator;
 mod radiance;
-mod rest;
 mod runs;
+mod second_sets;
 mod specks;
 mod tile;
 mod view;

@@ -8,13 +8,13 @@
 
 mod by_light;
 mod by_surface;
-mod choice;
 mod group;
 mod integrand;
 mod mis;
 mod points;
 mod sampled;
 mod tracer;
+mod which_light;
 
 pub(crate) use group::{Estimator, Group, Numbers, Reflected};
 pub(crate) use integrand::{Integrand, Plain, Proof};

@@ -1,7 +1,7 @@
 //! Closed forms as an estimator around another one.
 
-use super::cache::{Certificates, Closed, Known};
 use super::certifiable::Certifiable;
+use super::certificates::{Certificates, Closed, Known};
 use super::closed_forms::ClosedForms;
 use super::precision::ALLOWED;
 use super::residual::{Left, Residual};

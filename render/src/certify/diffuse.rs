@@ -1,7 +1,7 @@
 //! Direct light of a group of packets without rays: the closed forms of the lights that certificates know.
 
 use super::analytic::Analytic;
-use super::cache::{Closed, Known};
+use super::certificates::{Closed, Known};
 use super::picture_irradiance::PictureIrradiance;
 use super::precision::Precision;
 use super::scenery::Blocking;

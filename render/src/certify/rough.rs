@@ -2,7 +2,7 @@
 //! reflects beyond it.
 
 use super::analytic::Analytic;
-use super::cache::{AreaLight, Closed, Known};
+use super::certificates::{AreaLight, Closed, Known};
 use super::precision::Precision;
 use super::scenery::Blocking;
 use crate::estimate::{Place, product};

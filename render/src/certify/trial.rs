@@ -1,7 +1,7 @@
 //! Decides at the start of a tile whether certificates are worth their time.
 
 use super::analytic::Analytic;
-use super::cache::Known;
+use super::certificates::Known;
 use crate::bvh::GROUP;
 use crate::estimate::{Place, Points};
 use crate::packet::{M8, each_bit};

@@ -5,7 +5,7 @@
 //! that a pixel has in the sum over all pixels.
 
 use super::allocation::{APART, Weights};
-use super::checks;
+use super::second_sets;
 use crate::area::{self, Area, crop};
 use crate::film::{Accumulator, Pixel, channels};
 use crate::packet::{V8, X8};
@@ -39,7 +39,7 @@ pub(super) struct Effort {
     pub(super) pilot: u32,
     /// Mean number of packets per set over the pixels.
     packets: f64,
-    /// The samples of [checks](super::checks) relative to those of the image; 0 if the sets tell the variance.
+    /// The samples of [checks](super::second_sets) relative to those of the image; 0 if the sets tell the variance.
     pub(super) checks: f64,
 }
 
@@ -47,7 +47,7 @@ impl Effort {
     pub(super) fn new(settings: &Settings, lens: bool) -> Self {
         let &Settings { spp, sampler, sets: asked, .. } = settings;
         let sets = sampler.sets(spp, asked, lens);
-        let checks = if sampler.checks(asked) { checks::share(settings.whole()) } else { 0.0 };
+        let checks = if sampler.checks(asked) { second_sets::share(settings.whole()) } else { 0.0 };
         let packets = f64::from(spp) / (8.0 * f64::from(sets) * (1.0 + checks));
         // the greatest power of two up to a quarter, but 2 packets if there are 4 or more: eight points miss too much
         let pilot = greatest_power(packets / 4.0).max(if packets < 4.0 { 1.0 } else { 2.0 });

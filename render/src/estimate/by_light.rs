@@ -1,11 +1,11 @@
 //! Direct light by sampling a light.
 
-use super::choice::Which;
 use super::group::Group;
 use super::integrand::Integrand;
 use super::mis::Mis;
 use super::points::{keep, product};
 use super::tracer::{Tracer, Unoccluded};
+use super::which_light::Which;
 use crate::bsdf::Evaluated;
 use crate::bvh::GROUP;
 use crate::lights::{Chosen, Drawn};

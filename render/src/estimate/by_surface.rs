@@ -1,11 +1,11 @@
 //! Direct light by sampling the surface: its BSDF, or the hemisphere above it.
 
-use super::choice::pmf;
 use super::group::Group;
 use super::integrand::Integrand;
 use super::mis::Mis;
 use super::points::{keep, product};
 use super::tracer::{Tracer, Unoccluded};
+use super::which_light::pmf;
 use crate::bsdf::Scattered;
 use crate::bvh::{GROUP, Hits, NOTHING, SHAPE};
 use crate::choose::LightPmf;

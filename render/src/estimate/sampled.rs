@@ -2,11 +2,11 @@
 
 use super::by_light::ByLight;
 use super::by_surface::BySurface;
-use super::choice::Which;
 use super::group::{Estimator, Group, Reflected};
 use super::integrand::Integrand;
 use super::mis::Mis;
 use super::tracer::Tracer;
+use super::which_light::Which;
 use crate::technique::Technique;
 use etendue::estimate::Heuristic;
 

@@ -2,7 +2,7 @@
 
 use super::adaptive::{Allotment, Effort, Statistics};
 use super::allocation::Weights;
-use super::checks::Checks;
+use super::second_sets::Checks;
 use super::tile::TileRenderer;
 use crate::area::{self, Area};
 use crate::film::Pixel;
