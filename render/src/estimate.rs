@@ -16,9 +16,14 @@ mod sampled;
 mod tracer;
 mod which_light;
 
-pub(crate) use group::{Estimator, Group, Numbers, Reflected};
+#[cfg(feature = "analytic")]
+pub(crate) use group::Estimator;
+pub(crate) use group::{Group, Numbers, Reflected, TileEstimator};
+#[cfg(feature = "analytic")]
 pub(crate) use integrand::{Integrand, Plain, Proof};
-pub(crate) use points::{Place, Points, keep, product};
+#[cfg(feature = "analytic")]
+pub(crate) use points::Place;
+pub(crate) use points::{Points, keep, product};
 pub(crate) use sampled::Sampled;
 pub use tracer::RayCount;
 pub(crate) use tracer::Tracer;

@@ -32,6 +32,7 @@
 //!
 //! | feature | what it is for |
 //! |---|---|
+//! | `analytic` (default) | closed forms of light wherever geometry tells what can hide it |
 //! | `exr` (default) | images in EXR and PNG files, comparing them, and images whose parts are rendered apart |
 //!
 //! Modules import one way, from the last line of this list to the first:
@@ -43,7 +44,7 @@
 //! - [`bvh`], [`technique`], [`lobe`], [`bsdf`], [`surfaces`]: what rays hit, and how it reflects.
 //! - [`camera`], [`sensor`], [`sampler`], [`sky`], `light_tree`, [`lights`], [`choose`]: the numbers and directions of a sample.
 //! - `paths`, `estimate`: camera rays to shading points, and the light that these reflect.
-//! - [`certify`]: what geometry alone tells about that light, and closed forms of it.
+//! - `certify`: what geometry alone tells about that light, and closed forms of it.
 //! - [`settings`], [`drive`], [`claim`], [`progressive`]: images of a given number of samples, or of a given error or time, and what they
 //!   claim of it.
 //! - [`identity`], [`split`], [`parts`], [`merge`]: what an image depends on, and images whose parts are rendered apart.
@@ -52,6 +53,7 @@ pub mod area;
 pub mod bsdf;
 pub mod bvh;
 pub mod camera;
+#[cfg(feature = "analytic")]
 pub mod certify;
 pub mod choose;
 pub mod claim;

@@ -50,8 +50,4 @@ impl PreparedScene {
         };
         choosers.by(lights, by).map(|chooser| (lights, chooser))
     }
-    /// Whether closed forms may be asked for: of a few lights that all have an area, unless a choice among them is to be seen.
-    pub(crate) fn has_closed_forms(&self, by: ChoiceBy) -> bool {
-        by == ChoiceBy::Auto && self.lights.only_few_areas()
-    }
 }

@@ -11,6 +11,7 @@ use crate::packet::{M8, V8, X8, each_group, equal, first_lane};
 use crate::scene::{Corners, Details, Geometry, Material, Scene, Shape, Varying};
 use etendue::light::Spread;
 use etendue::{Mask, Real, Vec3, u32x8};
+#[cfg(feature = "analytic")]
 pub(crate) use points::{LEAST, LIFT};
 use points::{Points, on_plane, on_sphere, on_triangle, on_triangles};
 use std::collections::HashMap;

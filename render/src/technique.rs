@@ -37,12 +37,6 @@ impl Technique {
     pub fn finds_lights(self) -> bool {
         matches!(self, Self::UniformHemisphere | Self::CosineHemisphere | Self::Brdf)
     }
-    /// Whether light is computed without samples where that can be. That requires few lights that all have an area: behind portals, what is
-    /// known of a sky would save next to nothing. (In `render/gallery/emitters/windows.pbrt`, 0.8 % of the shadow rays leave squares of 4 × 4
-    /// pixels in which none arrives, and there is no square in which all do, since the reveals of the windows hide some of the sky.)
-    pub fn is_analytic(self, has_closed_forms: bool) -> bool {
-        self == Self::Analytic && has_closed_forms
-    }
     /// How samples of a light and of the BSDF are combined, if they are.
     pub fn heuristic(self) -> Option<Heuristic> {
         match self {

@@ -5,8 +5,9 @@ use super::certificates::{Certificates, Closed, Known};
 use super::closed_forms::ClosedForms;
 use super::precision::ALLOWED;
 use super::residual::{Left, Residual};
+use crate::bvh::GROUP;
 use crate::camera::Camera;
-use crate::estimate::{Estimator, Group, Place, Plain, Points, Reflected, Tracer};
+use crate::estimate::{Estimator, Group, Place, Plain, Points, Reflected, TileEstimator, Tracer};
 use crate::packet::{M8, V8, X8, each_bit};
 use crate::prepared::PreparedScene;
 use crate::settings::Settings;
@@ -64,26 +65,33 @@ impl<'a, E> Analytic<'a, E> {
             inner,
         }
     }
-    /// The estimator of what is left.
-    pub(crate) const fn inner(&self) -> &E {
-        &self.inner
+}
+
+impl<E> TileEstimator for Analytic<'_, E>
+where
+    E: TileEstimator + Estimator<Plain> + for<'r> Estimator<Residual<'r>>,
+{
+    fn is_combined(&self) -> bool {
+        self.inner.is_combined()
     }
-    /// Whether certificates are asked for in this tile.
-    pub(crate) const fn asks(&self) -> bool {
-        !self.is_hopeless
+    fn reflected(&mut self, group: &Group<'_>, tracer: &mut Tracer) -> Reflected {
+        self.estimate(group, &Plain, tracer)
     }
-    /// Whether all lights are known at all places of the tile that were looked at first.
-    pub(crate) const fn knows_all(&self) -> bool {
-        self.knows_all
-    }
-    /// Prepares for the samples of a tile, by its first pixel.
-    pub(crate) fn begin(&mut self, origin: [u32; 2]) {
+    fn begin(&mut self, origin: [u32; 2]) -> bool {
         self.certificates.begin(origin);
         (self.is_hopeless, self.knows_all) = (false, false);
+        true
     }
-
-    /// Sets the lanes of a packet of shading points, each of them seen in one of these pixels, in which each light must be sampled.
-    pub(crate) fn remaining(&mut self, points: &Points, packet: usize, pixels: &[[u32; 2]; 8], remaining: &mut [M8]) {
+    fn look_ahead(&mut self, points: &Points, pixels: &[[[u32; 2]; 8]; GROUP]) {
+        self.try_out(points, pixels);
+    }
+    fn asks(&self) -> bool {
+        !self.is_hopeless
+    }
+    fn knows_all(&self) -> bool {
+        self.knows_all
+    }
+    fn remaining(&mut self, points: &Points, packet: usize, pixels: &[[u32; 2]; 8], remaining: &mut [M8]) {
         let (surface, place) = (&points.surfaces[packet], &points.places[packet]);
         remaining.fill(surface.reflects & place.unfitted);
         each_bit((surface.reflects & !place.unfitted).bits(), |lane| {
@@ -97,10 +105,8 @@ impl<'a, E> Analytic<'a, E> {
             }
         });
     }
-
-    /// A bound of the error of what is known at the first shading point: a fraction of what the lights that are computed would contribute if
-    /// nothing hid them.
-    pub(crate) fn doubt(&mut self, points: &Points) -> V8 {
+    /// A fraction of what the lights that are computed would contribute if nothing hid them.
+    fn doubt(&mut self, points: &Points) -> V8 {
         let (surface, place) = (&points.surfaces[0], &points.places[0]);
         if let Some(lobe) = points.lobes[0].as_ref().filter(|_| (surface.reflects & place.fitted).lane(0)) {
             return self.doubt_of_fit(surface, place, lobe);

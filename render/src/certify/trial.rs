@@ -26,7 +26,7 @@ struct Seen {
 impl<E> Analytic<'_, E> {
     /// Looks at what the rays of some packets see in the tile, each of them in a pixel of its own, and decides whether certificates are worth
     /// asking for. (The rays are the same for all samples, so that what is known does not depend on which of them a process takes.)
-    pub(crate) fn try_out(&mut self, points: &Points, pixels: &[[[u32; 2]; 8]; GROUP]) {
+    pub(super) fn try_out(&mut self, points: &Points, pixels: &[[[u32; 2]; 8]; GROUP]) {
         let Points { surfaces, places, .. } = points;
         let certificates = &mut self.certificates;
         let mut seen: Vec<Seen> = Vec::new();

@@ -70,9 +70,9 @@ impl TileRenderer<'_> {
             for p in 0..count {
                 let points = &self.paths.points;
                 let surface = &points.surfaces[p];
-                if let Some(analytic) = self.estimator.analytic().filter(|_| asks) {
+                if asks {
                     let pixels = std::array::from_fn(|lane| pixel(place(p, lane)));
-                    analytic.remaining(points, p, &pixels, &mut remaining);
+                    self.estimator.remaining(points, p, &pixels, &mut remaining);
                 }
                 let Some(parts) = self.chooser.contributions(surface.point, surface.normal) else { continue };
                 for (k, part) in parts.weights().enumerate() {

@@ -2,7 +2,7 @@
 
 use super::adaptive::{Statistics, StatisticsSum};
 use super::allocation::{Blocks, Weights};
-use super::estimator::OfTechnique;
+use super::estimator::of_technique;
 use super::radiance::Radiance;
 use super::runs::{Run, TilePiece, next_packet, z_order};
 use super::world::World;
@@ -10,7 +10,7 @@ use crate::area::Area;
 use crate::bvh::GROUP;
 use crate::camera::{Camera, CameraSample, counted_from};
 use crate::choose::Chooser;
-use crate::estimate::{Group, Numbers, RayCount, Reflected, product};
+use crate::estimate::{Group, Numbers, RayCount, Reflected, TileEstimator, product};
 use crate::film::Accumulator;
 use crate::lights::Lights;
 use crate::packet::{M8, V8, X8};
@@ -40,7 +40,7 @@ pub(super) struct TileRenderer<'a> {
     lens: bool,
     pub(super) source: Source,
     pub(super) paths: Paths<'a>,
-    pub(super) estimator: OfTechnique<'a>,
+    pub(super) estimator: Box<dyn TileEstimator + 'a>,
 }
 
 impl<'a> TileRenderer<'a> {
@@ -61,7 +61,7 @@ impl<'a> TileRenderer<'a> {
             exposure,
             source: Source::new(sampler, seed, spp, sets, camera.has_lens(), width),
             paths: Paths::new(scene, settings.depth),
-            estimator: OfTechnique::new(world, settings, &camera),
+            estimator: of_technique(world, settings, &camera),
         }
     }
 
@@ -108,8 +108,9 @@ impl<'a> TileRenderer<'a> {
             (self.start, self.camera) = (start, camera.counted_from(start));
             self.exposure = exposure.map(|exposure| exposure.counted_from(start));
         }
-        let Some(analytic) = self.estimator.analytic() else { return };
-        analytic.begin([x0, y0]);
+        if !self.estimator.begin([x0, y0]) {
+            return;
+        }
         let place = |first: u32, end: u32, k: usize| first as f32 + (end - first) as f32 * (2 * k + 1) as f32 / 16.0;
         let [left, top, right, bottom] = [x0 - start[0], y0 - start[1], x1 - start[0], y1 - start[1]];
         let mut pixels = [[[0; 2]; 8]; GROUP];
@@ -122,7 +123,7 @@ impl<'a> TileRenderer<'a> {
         }
         self.paths.follow(&[M8::splat(true); GROUP]);
         self.paths.note_lobes(GROUP);
-        analytic.try_out(&self.paths.points, &pixels);
+        self.estimator.look_ahead(&self.paths.points, &pixels);
         self.paths.tracer.count.corner += 64;
     }
 
@@ -139,8 +140,7 @@ impl<'a> TileRenderer<'a> {
     /// A bound of the error of closed forms in the middle of a pixel of a tile, seen through the middle of the lens.
     pub(super) fn doubt(&mut self, pixel: [u32; 2]) -> [f32; 3] {
         let sample = self.look(pixel);
-        let Some(analytic) = self.estimator.analytic() else { return [0.0; 3] };
-        let doubt = product(self.paths.points.ends[0].throughput, analytic.doubt(&self.paths.points));
+        let doubt = product(self.paths.points.ends[0].throughput, self.estimator.doubt(&self.paths.points));
         self.exposure.map_or(doubt, |exposure| doubt * exposure.weight(&sample)).lane(0).into()
     }
 

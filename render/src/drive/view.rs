@@ -108,8 +108,7 @@ impl View<'_> {
     /// one.
     fn choose(&self) -> Technique {
         let scene = &self.world.scene;
-        let is_sampled = self.camera.has_lens() || self.world.certifiable.only_sampled();
-        if scene.has_closed_forms(self.settings.choice) && !is_sampled {
+        if self.world.has_closed_forms(&self.settings) && !self.camera.has_lens() {
             Technique::Analytic
         } else if scene.surfaces.has_rough() {
             Technique::MisLobe
@@ -130,7 +129,7 @@ impl View<'_> {
     /// A bound of the error that closed forms leave in an image, whatever its samples: the RMS over pixels and channels. It is
     /// 1e−5 of what the lights that are computed would contribute if nothing hid them, seen from four pixels of some of the tiles.
     fn systematic(&self) -> f64 {
-        if !self.settings.technique.is_analytic(self.world.scene.has_closed_forms(self.settings.choice)) {
+        if !self.world.is_analytic(&self.settings) {
             return 0.0;
         }
         // an odd number, so that not all are in the same columns

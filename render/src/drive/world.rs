@@ -1,17 +1,21 @@
 //! A scene ready to be rendered.
 
 use crate::bvh::BuildError;
+#[cfg(feature = "analytic")]
 use crate::certify::Certifiable;
+use crate::choose::ChoiceBy;
 use crate::prepared::PreparedScene;
 use crate::scene::{CameraSettings, Scene};
 use crate::sensor::{Exposure, Sensor};
 use crate::settings::Settings;
+use crate::technique::Technique;
 
 /// A scene ready to be rendered.
 #[derive(Debug)]
 pub struct World {
     pub(super) scene: PreparedScene,
     /// What closed forms need.
+    #[cfg(feature = "analytic")]
     pub(super) certifiable: Certifiable,
     pub(super) camera: CameraSettings,
     /// Diagonal of the film in millimetres.
@@ -39,6 +43,7 @@ impl World {
     fn with(prepared: PreparedScene, scene: &Scene) -> Self {
         let (camera, diagonal) = (scene.camera.clone(), scene.film.diagonal);
         Self {
+            #[cfg(feature = "analytic")]
             certifiable: Certifiable::new(scene, &prepared),
             scene: prepared,
             camera,
@@ -58,13 +63,37 @@ impl World {
         Self { sensor, ..self }
     }
 
-    /// Checks that the lights of the scene can be chosen as these settings say.
+    /// Checks that the scene can be rendered as these settings say.
     ///
     /// # Errors
-    /// Says what the choice would need.
+    /// Says what the choice of a light would need, or that the technique needs the feature `analytic` of this package.
     pub fn check(&self, settings: &Settings) -> Result<(), String> {
+        if settings.technique == Technique::Analytic && !cfg!(feature = "analytic") {
+            return Err("the technique analytic needs the feature analytic of etendue-render".into());
+        }
         let sampled = self.scene.sampled(settings.technique, settings.choice);
         sampled.map(|_| ()).map_err(|what| format!("the choice {} needs {what}", settings.choice.name()))
+    }
+
+    /// Whether light is computed without samples where that can be. That requires few lights that all have an area, unless a choice among
+    /// them is to be seen: behind portals, what is known of a sky would save next to nothing. (In `render/gallery/emitters/windows.pbrt`,
+    /// 0.8 % of the shadow rays leave squares of 4 × 4 pixels in which none arrives, and there is no square in which all do, since the
+    /// reveals of the windows hide some of the sky.)
+    pub(super) fn is_analytic(&self, settings: &Settings) -> bool {
+        let is_asked = cfg!(feature = "analytic") && settings.technique == Technique::Analytic;
+        is_asked && settings.choice == ChoiceBy::Auto && self.scene.lights.only_few_areas()
+    }
+
+    /// Whether there is a light that closed forms can know.
+    #[cfg(feature = "analytic")]
+    pub(super) fn has_closed_forms(&self, settings: &Settings) -> bool {
+        self.is_analytic(&Settings { technique: Technique::Analytic, ..*settings }) && !self.certifiable.only_sampled()
+    }
+
+    /// Without closed forms, there is none.
+    #[cfg(not(feature = "analytic"))]
+    pub(super) fn has_closed_forms(&self, _: &Settings) -> bool {
+        false
     }
 
     /// The weights of radiance in an image of this size; `None` if the sensor measures radiance itself.

@@ -22,6 +22,45 @@ pub(crate) trait Estimator<I> {
         tracer: &mut Tracer,
         reflected: &mut Reflected,
     );
+    /// The estimate for each point. What a scene does not need is not compiled in.
+    fn estimate(&mut self, group: &Group<'_>, integrand: &I, tracer: &mut Tracer) -> Reflected {
+        let mut reflected = Reflected::default();
+        match group.scene.surfaces.is_plain {
+            true => self.add::<false>(group, integrand, tracer, &mut reflected),
+            false => self.add::<true>(group, integrand, tracer, &mut reflected),
+        }
+        reflected
+    }
+}
+
+/// An estimator of all light, as the tiles of an image use it. What only closed forms can answer has a default for all others.
+pub(crate) trait TileEstimator {
+    /// Whether a sample needs a pair of numbers for the surface besides that for the light.
+    fn is_combined(&self) -> bool;
+    /// Radiance that a group of shading points reflects towards the camera rays.
+    fn reflected(&mut self, group: &Group<'_>, tracer: &mut Tracer) -> Reflected;
+    /// Prepares for the samples of a tile, by its first pixel. Returns whether it wants to [look ahead](Self::look_ahead).
+    fn begin(&mut self, _origin: [u32; 2]) -> bool {
+        false
+    }
+    /// Looks at some points of the tile, each of them seen in a pixel of its own.
+    fn look_ahead(&mut self, _points: &Points, _pixels: &[[[u32; 2]; 8]; GROUP]) {}
+    /// Whether lights of this tile may be known without samples.
+    fn asks(&self) -> bool {
+        false
+    }
+    /// Whether all lights were known at all points that were looked at.
+    fn knows_all(&self) -> bool {
+        false
+    }
+    /// Sets the lanes of a packet of shading points, each of them seen in one of these pixels, in which each light must be sampled.
+    fn remaining(&mut self, points: &Points, packet: usize, _pixels: &[[u32; 2]; 8], remaining: &mut [M8]) {
+        remaining.fill(points.surfaces[packet].reflects);
+    }
+    /// A bound of the error of what is known without samples at the first shading point.
+    fn doubt(&mut self, _points: &Points) -> V8 {
+        V8::default()
+    }
 }
 
 /// The radiance that the points of a group reflect.

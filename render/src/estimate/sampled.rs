@@ -2,8 +2,8 @@
 
 use super::by_light::ByLight;
 use super::by_surface::BySurface;
-use super::group::{Estimator, Group, Reflected};
-use super::integrand::Integrand;
+use super::group::{Estimator, Group, Reflected, TileEstimator};
+use super::integrand::{Integrand, Plain};
 use super::mis::Mis;
 use super::tracer::Tracer;
 use super::which_light::Which;
@@ -31,9 +31,14 @@ impl Sampled {
             finds_lights: technique.finds_lights(),
         }
     }
-    /// Whether a sample needs a pair of numbers for the surface besides that for the light.
-    pub(crate) const fn is_combined(&self) -> bool {
+}
+
+impl TileEstimator for Sampled {
+    fn is_combined(&self) -> bool {
         self.mis.is_some()
+    }
+    fn reflected(&mut self, group: &Group<'_>, tracer: &mut Tracer) -> Reflected {
+        self.estimate(group, &Plain, tracer)
     }
 }
 

@@ -78,7 +78,8 @@ pub struct Emission {
 
 impl Emission {
     /// Whether its radiance is the same at all points and in all directions of the sides that emit.
-    pub(crate) fn is_even(&self) -> bool {
+    #[must_use]
+    pub fn is_even(&self) -> bool {
         self.picture.is_none() && self.spread.is_none() && self.profile.is_none()
     }
 }
