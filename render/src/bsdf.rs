@@ -13,20 +13,20 @@ const INV_PI: f64 = std::f64::consts::FRAC_1_PI;
 /// The eight numbers of a material, so that one transposition gathers eight lanes: roughness α along, η (3), k (3), roughness α across. A
 /// mirror has its reflectance in place of η, and k = 0; a coat its reflectances at normal and at grazing incidence. The three low bits of the
 /// last number are the kind, and those of the first are 0, so that a roughness that is the same in all directions stays so.
-pub type Finish = [f32; 8];
+pub type MaterialRecord = [f32; 8];
 
 // kind 0 is diffuse
 const MIRROR: u32 = 1;
-const METAL: u32 = 2;
-const ROUGH: u32 = 3;
+const SMOOTH_METAL: u32 = 2;
+const ROUGH_METAL: u32 = 3;
 const COAT: u32 = 4;
 const KIND: u32 = 7;
 
 /// The record of a diffuse surface, with an arbitrary valid roughness.
-pub const PLAIN: Finish = [1.0, 1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 1.0];
+pub const PLAIN: MaterialRecord = [1.0, 1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 1.0];
 
 /// The record of a material; of a varying one it is that of a diffuse surface, since its own depends on the place.
-pub fn finish(material: &Material) -> Finish {
+pub fn record(material: &Material) -> MaterialRecord {
     let of = |kind, Roughness { along, across, .. }, [a, b, c]: [f32; 3], [x, y, z]: [f32; 3]| {
         let [along, across] = [along, across].map(|alpha| alpha.to_bits() & !KIND);
         [f32::from_bits(along), a, b, c, x, y, z, f32::from_bits(across | kind)]
@@ -36,8 +36,8 @@ pub fn finish(material: &Material) -> Finish {
         Material::Diffuse(_) | Material::Varying(_) => PLAIN,
         Material::Glossy { specular, grazing, roughness, .. } => of(COAT, roughness, specular, grazing),
         Material::Mirror(reflectance) => of(MIRROR, smooth, reflectance, [0.0; 3]),
-        Material::Conductor { eta, k, .. } if material.is_mirror() => of(METAL, smooth, eta, k),
-        Material::Conductor { eta, k, roughness } => of(ROUGH, roughness, eta, k),
+        Material::Conductor { eta, k, .. } if material.is_mirror() => of(SMOOTH_METAL, smooth, eta, k),
+        Material::Conductor { eta, k, roughness } => of(ROUGH_METAL, roughness, eta, k),
     }
 }
 
@@ -65,7 +65,7 @@ pub struct Metal {
 impl Metal {
     /// Gathers one record per lane.
     #[inline]
-    pub fn new(rows: [&Finish; 8]) -> Self {
+    pub fn new(rows: [&MaterialRecord; 8]) -> Self {
         let r = X8::transpose(rows.map(|r| X8::from(&r[..])));
         let (last, kind) = (r[7].to_bits(), u32x8::splat(KIND));
         Self {
@@ -96,12 +96,12 @@ impl Metal {
     /// Lanes of perfect mirrors.
     #[inline]
     pub fn mirrors(&self) -> M8 {
-        equal(self.kind, u32x8::splat(MIRROR)) | equal(self.kind, u32x8::splat(METAL))
+        equal(self.kind, u32x8::splat(MIRROR)) | equal(self.kind, u32x8::splat(SMOOTH_METAL))
     }
     /// Lanes of rough metals and of coats.
     #[inline]
     pub fn rough(&self) -> M8 {
-        equal(self.kind, u32x8::splat(ROUGH)) | self.coats()
+        equal(self.kind, u32x8::splat(ROUGH_METAL)) | self.coats()
     }
     /// Lanes of coats.
     #[inline]
@@ -419,7 +419,7 @@ mod tests {
             let alpha = format!("{along} and {across}");
             let roughness = Roughness { along, across, turn: 0.0 };
             let metal = Material::Conductor { eta: [0.2, 1.0, 1.1], k: [3.9, 2.4, 2.1], roughness };
-            let metal = Metal::new([&finish(&metal); 8]).along(V8::from([0.6, 0.8, 5.0]));
+            let metal = Metal::new([&record(&metal); 8]).along(V8::from([0.6, 0.8, 5.0]));
             for sin in [0.0_f32, 0.6, 0.95] {
                 let cos = (1.0 - sin * sin).sqrt();
                 let normal = V8::new(X8::lit(0.0), X8::lit(0.0), X8::lit(1.0));
@@ -468,7 +468,7 @@ mod tests {
         ] {
             let (specular, grazing) = ([f0; 3], [f90; 3]);
             let coat = Material::Glossy { diffuse: [albedo; 3], specular, grazing, roughness: alpha.into() };
-            let metal = Metal::new([&finish(&coat); 8]);
+            let metal = Metal::new([&record(&coat); 8]);
             for (sin, tilt) in [(0.0_f32, 0.0_f32), (0.6, 0.0), (0.6, 0.5), (0.95, 0.3)] {
                 let normal = V8::new(X8::lit(0.0), X8::lit(0.0), X8::lit(1.0));
                 let flat = V8::from([0.0, -tilt, (1.0 - tilt * tilt).sqrt()]);

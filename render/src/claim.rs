@@ -105,7 +105,7 @@ impl Claim {
     /// Why the whole error is uncertain: because most of it is in too few pixels to be known from their variances, or because too few samples
     /// meet small lights in view.
     #[must_use]
-    pub fn doubt(&self) -> Option<String> {
+    pub fn uncertain(&self) -> Option<String> {
         if self.sampled() <= self.systematic {
             None
         } else if 2.0 * self.missed > self.random {
@@ -182,10 +182,10 @@ mod tests {
         let claim = new(&some, 0.0).unwrap();
         assert!((claim.random - expected).abs() < 1e-7 && claim.systematic == 0.0, "{claim:?}");
         assert_eq!(claim.total(), claim.random);
-        assert!((claim.pixels - 1.0).abs() < 1e-12 && claim.doubt().is_some(), "{claim:?}");
+        assert!((claim.pixels - 1.0).abs() < 1e-12 && claim.uncertain().is_some(), "{claim:?}");
         let even = Film { pixels: vec![some.pixels[0]; 20], ..some };
         let claim = new(&even, 0.0).unwrap();
-        assert!((claim.pixels - 20.0).abs() < 1e-9 && claim.doubt().is_none(), "{claim:?}");
+        assert!((claim.pixels - 20.0).abs() < 1e-9 && claim.uncertain().is_none(), "{claim:?}");
         let claim = new(&some, 0.15).unwrap();
         assert!((claim.systematic - 0.075).abs() < 1e-12, "{claim:?}");
         assert!((claim.total() - expected.hypot(0.075)).abs() < 1e-7, "{claim:?}");
@@ -213,9 +213,9 @@ mod tests {
         let expected = (0.001 * 500.0_f64.powi(2) / 64.0 / 100.0).sqrt();
         let few = claim(64);
         assert!((few.total() - expected).abs() < 1e-9 && few.specks == 1.0, "{few:?}");
-        assert!(few.doubt().unwrap().contains("meet 1 lights in view"));
+        assert!(few.uncertain().unwrap().contains("meet 1 lights in view"));
         assert!(few.excess(0.1) > 1.0);
         let many = claim(8192);
-        assert!(many.doubt().is_none() && (many.total() - 1e-3).abs() < 1e-9, "{many:?}");
+        assert!(many.uncertain().is_none() && (many.total() - 1e-3).abs() < 1e-9, "{many:?}");
     }
 }

@@ -1,10 +1,27 @@
 //! Renders images: which samples each pixel takes, in tiles, and what is known of their error.
+//!
+//! With the sampler `adaptive`, the pixels share the samples of an image among themselves. For example, 64 samples per pixel of an image of
+//! 1024 × 1024 pixels are 8 packets of 8 for each pixel on average:
+//!
+//! 1. *Second sets* take a twelfth of the samples of the others, so that 8 · 12/13 = 7.38 packets remain (`second_sets`).
+//! 2. The *pilot* takes 2 packets in every pixel, a quarter of them rounded to a power of two. They are part of the image, and tell its
+//!    variance (`pixel_statistics`).
+//! 3. `pixel_counts` looks at the mean variance *around* each pixel. If it is 0.01 in one half of the image and 1 in the other, the numbers
+//!    of packets are to be as 0.01^0.4 to 1, at least those of the pilot, and 7.38 on average: 2.0 and 12.7. Powers of two at random have
+//!    these means: 2 or, rarely, 4 packets in the dark half, 8 or 16 in the other one.
+//! 4. Where few lights shine, the packets of a pixel are *allocated* to them instead of choosing lights at random. For the pilot, weights are
+//!    what each light can contribute at the pixel's corners (`corners`); then, what the pilot tells of its variance around the pixel
+//!    (`light_weights`).
+//! 5. The second set of some pixels is rendered: as many samples once more, which are no part of the image. Its squared differences from the
+//!    first set tell by what factor the variance of all pixels of a tile differs from what the spread of their samples lets expect.
+//!
+//! An image of a given error or time repeats this with twice as many samples in each pass ([`progressive`](crate::progressive)).
 
-mod adaptive;
-mod after_pilot;
-mod allocation;
 mod corners;
 mod estimator;
+mod light_weights;
+mod pixel_counts;
+mod pixel_statistics;
 mod radiance;
 mod runs;
 mod second_sets;
@@ -13,7 +30,8 @@ mod tile;
 mod view;
 mod world;
 
-pub use adaptive::{Allotment, Statistics};
-pub use allocation::APART;
+pub use light_weights::APART;
+pub use pixel_counts::PixelCounts;
+pub use pixel_statistics::Statistics;
 pub use view::{Content, Samples, View};
 pub use world::World;

@@ -1,7 +1,7 @@
 //! Puts the tiles of an image together, exactly and in any order, and averages images of different seeds.
 
 use crate::area::{Area, count, paste};
-use crate::drive::{Allotment, Content, Statistics};
+use crate::drive::{Content, PixelCounts, Statistics};
 use crate::files::FileError;
 use crate::film::{Film, Pixel};
 use crate::identity::Identity;
@@ -62,7 +62,7 @@ pub fn merge(files: &[PathBuf], partial: bool, progress: &(dyn Fn(u64) + Sync)) 
         let what = match file.kind {
             PieceKind::Pixels => return None,
             PieceKind::Pilot(_) => "belongs to the pilot, others do not",
-            PieceKind::Allotment(_) => "is a whole pilot already, for --after",
+            PieceKind::Counts(_) => "is a whole pilot already, for --after",
         };
         Some(format!("{}: {what}", file.path.display()))
     };
@@ -78,8 +78,8 @@ pub fn merge(files: &[PathBuf], partial: bool, progress: &(dyn Fn(u64) + Sync)) 
     let merged = if pilots {
         let of_pilot = |content| if let Content::Pilot(pixels) = content { Some(pixels) } else { None };
         let pilot = assemble(&used, whole, Statistics::default(), of_pilot, progress)?;
-        let allotment = Allotment::new(&identity.settings, identity.lens, whole, &pilot);
-        Merged::Pilot(Piece { area: whole, content: Content::Allotment(allotment) })
+        let counts = PixelCounts::new(&identity.settings, identity.lens, whole, &pilot);
+        Merged::Pilot(Piece { area: whole, content: Content::Counts(counts) })
     } else {
         let nothing = Pixel::of_sets(std::iter::empty(), false);
         let pixels = assemble(&used, whole, nothing, finished, progress)?;
@@ -92,18 +92,18 @@ pub fn merge(files: &[PathBuf], partial: bool, progress: &(dyn Fn(u64) + Sync)) 
 ///
 /// # Errors
 /// Fails if the file is damaged, holds no whole pilot, or that of another image than `identity`.
-pub fn allotment(path: &Path, identity: &Identity, area: Area) -> Result<Allotment, String> {
+pub fn pixel_counts(path: &Path, identity: &Identity, area: Area) -> Result<PixelCounts, String> {
     let wrong = |what: &str| format!("{}: {what}", path.display());
     let mut file = PieceFile::open(path).map_err(|error| error.to_string())?;
     if let Some(difference) = identity.difference(&file.header.identity) {
         return Err(wrong(&format!("the pilot of another image: {difference}")));
     }
-    if !matches!(file.header.kind, PieceKind::Allotment(_)) || file.header.area != identity.settings.whole() {
+    if !matches!(file.header.kind, PieceKind::Counts(_)) || file.header.area != identity.settings.whole() {
         return Err(wrong("not the whole pilot, which `etendue merge` makes of its parts"));
     }
     let piece = file.read_rows(&(area[1]..area[3])).map_err(|error| error.to_string())?;
-    let Content::Allotment(allotment) = piece.content else { return Err(wrong("not what its header says")) };
-    Ok(allotment.crop(area))
+    let Content::Counts(counts) = piece.content else { return Err(wrong("not what its header says")) };
+    Ok(counts.crop(area))
 }
 
 /// The mean of images, with the numbers of their samples as weights.

@@ -9,7 +9,7 @@
 
 use crate::area;
 use crate::area::{Area, Place};
-use crate::drive::{APART, Allotment, Content, Statistics};
+use crate::drive::{APART, Content, PixelCounts, Statistics};
 use crate::files::{FileError, failed, make_folder, replace};
 use crate::film::Pixel;
 use crate::identity::Identity;
@@ -44,7 +44,7 @@ pub enum PieceKind {
     /// What the pilot found, with samples shared among this many lights.
     Pilot(u32),
     /// How many samples follow the pilot, with samples shared among this many lights.
-    Allotment(u32),
+    Counts(u32),
 }
 
 impl PieceKind {
@@ -53,7 +53,7 @@ impl PieceKind {
         let Settings { sampler, spp, sets, .. } = identity.settings;
         match self {
             Self::Pixels => true,
-            Self::Pilot(lights) | Self::Allotment(lights) => {
+            Self::Pilot(lights) | Self::Counts(lights) => {
                 let is_adaptive = sampler == Sampler::Adaptive && sampler.check(spp, sets, identity.lens).is_ok();
                 is_adaptive && lights as usize <= APART
             }
@@ -67,7 +67,7 @@ impl Piece {
         match &self.content {
             Content::Pixels(_) => PieceKind::Pixels,
             Content::Pilot(pixels) => PieceKind::Pilot(pixels.first().map_or(0, |pixel| pixel.lights as u32)),
-            Content::Allotment(allotment) => PieceKind::Allotment(allotment.lights as u32),
+            Content::Counts(counts) => PieceKind::Counts(counts.lights as u32),
         }
     }
 }
@@ -111,8 +111,8 @@ fn to_planes(identity: &Identity, content: Content) -> Vec<(String, Numbers)> {
             planes.extend(lights("pairs", count, &|k| Numbers::U32(all.clone().map(|p| p.pairs[k]).collect())));
             planes.extend(lights("taken", count, &|k| Numbers::U32(all.clone().map(|p| p.taken[k]).collect())));
         }
-        Content::Allotment(allotment) => {
-            let Allotment { packets, lights: count, weights, squares, begun, sums, .. } = &allotment;
+        Content::Counts(counts) => {
+            let PixelCounts { packets, lights: count, weights, squares, begun, sums, .. } = &counts;
             for (set, (k, channel)) in (0..sets).flat_map(|set| RGB.into_iter().enumerate().map(move |c| (set, c))) {
                 split(&mut planes, &format!("sum.set{set}.{channel}"), &|| sums.iter().map(|s| s[set][k]).collect());
             }
@@ -209,11 +209,11 @@ fn from_planes(identity: &Identity, kind: PieceKind, area: Area, planes: Vec<(St
             };
             Content::Pilot((0..count).map(pixel).collect())
         }
-        PieceKind::Allotment(lights) => {
+        PieceKind::Counts(lights) => {
             let lights = lights as usize;
             let weights = found.lights("weight", lights, count, Found::f32)?;
             let packets = found.packets(sets)?;
-            Content::Allotment(Allotment {
+            Content::Counts(PixelCounts {
                 area,
                 packets,
                 lights,

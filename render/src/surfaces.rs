@@ -2,7 +2,7 @@
 
 mod points;
 
-use crate::bsdf::{Finish, Metal, PLAIN, albedo, finish};
+use crate::bsdf::{MaterialRecord, Metal, PLAIN, albedo, record};
 use crate::bvh::{BuildError, Bvh, Hits, Rays, SHAPE, ShapeSet};
 use crate::geometry::Affine;
 use crate::light_picture::{LightPicture, coordinates};
@@ -52,7 +52,7 @@ pub struct Surfaces {
     profiles: Arc<[LightProfile]>,
     /// Albedos of the materials; white for metals and mirrors that are not black.
     albedos: Vec<[f32; 3]>,
-    finishes: Vec<Finish>,
+    records: Vec<MaterialRecord>,
     /// Material of each triangle in the order of the leaves; empty if all have the same.
     place_materials: Vec<u32>,
     /// Material of all triangles if `place_materials` is empty.
@@ -132,7 +132,7 @@ impl Surfaces {
             profiles: Arc::clone(&scene.profiles),
             bvh,
             albedos: means.iter().map(albedo).collect(),
-            finishes: means.iter().map(|material| finish(&material.isotropic())).collect(),
+            records: means.iter().map(|material| record(&material.isotropic())).collect(),
             reflect: means.iter().map(|material| !material.is_black()).collect(),
             detail: detailed.then(|| Detail { corners: Arc::clone(&scene.details), materials: means, varying }),
             place_materials,
@@ -292,11 +292,11 @@ impl Surfaces {
     #[inline(never)]
     fn detailed(&self, detail: &Detail, hits: &Hits, lanes: M8, direction: V8, surface: &mut Surface) -> (Metal, M8) {
         let (places, order) = (hits.place.as_array(), self.bvh.order());
-        let (mut finishes, mut smooth, mut grain) = ([PLAIN; 8], 0, None);
-        for (lane, own) in finishes.iter_mut().enumerate().filter(|(lane, _)| lanes.lane(*lane)) {
+        let (mut records, mut smooth, mut grain) = ([PLAIN; 8], 0, None);
+        for (lane, own) in records.iter_mut().enumerate().filter(|(lane, _)| lanes.lane(*lane)) {
             let place = places[lane];
             if place & SHAPE != 0 {
-                *own = self.finishes[self.shapes[(place & !SHAPE) as usize].material as usize];
+                *own = self.records[self.shapes[(place & !SHAPE) as usize].material as usize];
                 continue;
             }
             let material = self.mesh_material(place) as usize;
@@ -308,7 +308,7 @@ impl Surfaces {
                 _ => varying.at([0.0; 2]),
             });
             let here = varied.unwrap_or(detail.materials[material]);
-            *own = finish(&here);
+            *own = record(&here);
             if let Some(roughness) = here.roughness().filter(|roughness| !roughness.is_isotropic())
                 && let Some(corners) = corners
             {
@@ -328,7 +328,7 @@ impl Surfaces {
                 smooth |= 1 << lane;
             }
         }
-        let metal = Metal::new(finishes.each_ref());
+        let metal = Metal::new(records.each_ref());
         (grain.map_or(metal, |grain| metal.along(grain)), M8::from_bits(smooth))
     }
 
@@ -336,7 +336,7 @@ impl Surfaces {
     #[inline]
     pub fn metal(&self, hits: &Hits, lanes: M8) -> Metal {
         let places = hits.place.as_array();
-        let rows: [&Finish; 8] = std::array::from_fn(|i| {
+        let rows: [&MaterialRecord; 8] = std::array::from_fn(|i| {
             if !lanes.lane(i) {
                 return &PLAIN;
             }
@@ -346,7 +346,7 @@ impl Surfaces {
             } else {
                 self.shapes[(place & !SHAPE) as usize].material
             };
-            &self.finishes[material as usize]
+            &self.records[material as usize]
         });
         Metal::new(rows)
     }

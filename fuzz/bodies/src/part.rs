@@ -52,7 +52,7 @@ fn make(bytes: &mut impl Iterator<Item = u8>) -> Option<Vec<u8>> {
     });
     let [width, height] = ["width", "height"].map(|key| identity[key].as_u64().unwrap_or(1) as u32);
     let lights = next()? % 12;
-    let kind = choose(&[json!("pixels"), json!({ "pilot": lights }), json!({ "allotment": lights })], next()?);
+    let kind = choose(&[json!("pixels"), json!({ "pilot": lights }), json!({ "counts": lights })], next()?);
     // now and then, something else is in its place
     let key = next()? as usize;
     let odd = choose(&[json!(null), json!(-1), json!(u64::MAX), json!("x"), json!([]), json!(0)], next()?);

@@ -177,7 +177,7 @@ pub(crate) fn run(
         files::make_folder(folder)?;
     }
     files::check_replaceable(&path)?;
-    let allotment = if let What::After(file) = what { Some(merge::allotment(file, &identity, *area)?) } else { None };
+    let counts = if let What::After(file) = what { Some(merge::pixel_counts(file, &identity, *area)?) } else { None };
 
     let pool = pool(options.threads)?;
     let world = pool.install(|| World::from_scene(&mut scene))?.with_sensor(options.sensor);
@@ -185,9 +185,9 @@ pub(crate) fn run(
     let bar = bar(area::count(*area) as u64, "{wide_bar} {percent:>3} %  {elapsed} of {duration}");
     interrupt.watch(&bar, &path);
     let progress = |done: u64| bar.inc(done);
-    let samples = match (what, &allotment) {
+    let samples = match (what, &counts) {
         (What::Pilot, _) => Samples::Pilot,
-        (_, Some(allotment)) => Samples::Rest(allotment),
+        (_, Some(counts)) => Samples::Rest(counts),
         _ => Samples::All,
     };
     let (content, _) = pool.install(|| world.view(&settings).render(*area, samples, &progress));

@@ -237,7 +237,7 @@ fn to_json(
         "mean": image.film.mean(),
         "error": image.error.map(|claim| claim.total()),
         "systematic": image.error.map(|claim| claim.systematic),
-        "uncertain": image.error.and_then(|claim| claim.doubt()),
+        "uncertain": image.error.and_then(|claim| claim.uncertain()),
         "pixels": image.error.map(|claim| claim.pixels),
         "missed": image.error.map(|claim| claim.specks.ceil()),
         "passes": if passes.is_empty() { Value::Null } else { passes.into() },
@@ -285,8 +285,8 @@ fn print(
             if claim.systematic > 0.0 {
                 write!(out, ", of which {} bounds that of closed forms", percent(claim.systematic))?;
             }
-            if let Some(doubt) = claim.doubt() {
-                write!(out, "; it is uncertain, since {doubt}")?;
+            if let Some(uncertain) = claim.uncertain() {
+                write!(out, "; it is uncertain, since {uncertain}")?;
             }
             writeln!(out)?;
         }

@@ -106,10 +106,10 @@ where
         });
     }
     /// A fraction of what the lights that are computed would contribute if nothing hid them.
-    fn doubt(&mut self, points: &Points) -> V8 {
+    fn error_bound(&mut self, points: &Points) -> V8 {
         let (surface, place) = (&points.surfaces[0], &points.places[0]);
         if let Some(lobe) = points.lobes[0].as_ref().filter(|_| (surface.reflects & place.fitted).lane(0)) {
-            return self.doubt_of_fit(surface, place, lobe);
+            return self.error_bound_of_fit(surface, place, lobe);
         }
         if !(surface.reflects & !place.unfitted & !place.fitted).lane(0) {
             return V8::default();

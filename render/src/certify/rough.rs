@@ -82,7 +82,7 @@ impl<E> Analytic<'_, E> {
     }
 
     /// A bound of the error of what [`add_fits`](Self::add_fits) adds at the surface in the first lane.
-    pub(super) fn doubt_of_fit(&mut self, surface: &Surface, place: &Place, lobe: &Lobe) -> V8 {
+    pub(super) fn error_bound_of_fit(&mut self, surface: &Surface, place: &Place, lobe: &Lobe) -> V8 {
         let (first, _) = self.certificates.find(surface, place, M8::from_bits(1));
         let mut sum = V8::default();
         for light in 0..self.certificates.lights.len() {

@@ -1,6 +1,6 @@
 //! What lights can contribute to the corners of pixels: the weights by which samples are allocated to them.
 
-use super::allocation::Weights;
+use super::light_weights::LightWeights;
 use super::tile::TileRenderer;
 use crate::area::{Area, TILE};
 use crate::bvh::GROUP;
@@ -27,9 +27,9 @@ impl TileRenderer<'_> {
         fits && !self.settings.technique.finds_lights() && self.source.allocates()
     }
 
-    /// Weights of the lights by their possible contributions at the corners of the pixels of an area, seen through the middle of the
+    /// LightWeights of the lights by their possible contributions at the corners of the pixels of an area, seen through the middle of the
     /// lens; `None` if lights are chosen at random, or if there are too many for blocks of `size` samples.
-    pub(super) fn weights(&mut self, area: Area, size: u32) -> Option<Weights<'static>> {
+    pub(super) fn weights(&mut self, area: Area, size: u32) -> Option<LightWeights<'static>> {
         let lights = self.chooser.few()?;
         if !self.allocates(size) || self.estimator.knows_all() {
             return None;
@@ -43,7 +43,7 @@ impl TileRenderer<'_> {
             let four = [corner(0, 0), corner(1, 0), corner(0, 1), corner(1, 1)];
             of.extend((0..lights).map(|k| libm::powf(four.iter().map(|c| corners[c + k]).sum::<f32>(), POWER)));
         }
-        Some(Weights { lights, of: of.into(), area, begun: &[] })
+        Some(LightWeights { lights, of: of.into(), area, begun: &[] })
     }
 
     /// The possible contribution of each light to the corners of the pixels of an area, row by row, where the light must be sampled.

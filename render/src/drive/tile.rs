@@ -1,8 +1,8 @@
 //! Renders the samples of a square of pixels.
 
-use super::adaptive::{Statistics, StatisticsSum};
-use super::allocation::{Blocks, Weights};
 use super::estimator::of_technique;
+use super::light_weights::{LightBlocks, LightWeights};
+use super::pixel_statistics::{Statistics, StatisticsSum};
 use super::radiance::Radiance;
 use super::runs::{Run, TilePiece, next_packet, z_order};
 use super::world::World;
@@ -87,7 +87,7 @@ impl<'a> TileRenderer<'a> {
         area: Area,
         pilot: u32,
         sets: Range<u32>,
-        weights: Option<&Weights<'_>>,
+        weights: Option<&LightWeights<'_>>,
         range: impl Fn([u32; 2]) -> [u32; 2],
     ) -> Vec<Statistics> {
         let found = if weights.is_none() { self.weights(area, 8 * pilot) } else { None };
@@ -138,10 +138,10 @@ impl<'a> TileRenderer<'a> {
     }
 
     /// A bound of the error of closed forms in the middle of a pixel of a tile, seen through the middle of the lens.
-    pub(super) fn doubt(&mut self, pixel: [u32; 2]) -> [f32; 3] {
+    pub(super) fn error_bound(&mut self, pixel: [u32; 2]) -> [f32; 3] {
         let sample = self.look(pixel);
-        let doubt = product(self.paths.points.ends[0].throughput, self.estimator.doubt(&self.paths.points));
-        self.exposure.map_or(doubt, |exposure| doubt * exposure.weight(&sample)).lane(0).into()
+        let error_bound = product(self.paths.points.ends[0].throughput, self.estimator.error_bound(&self.paths.points));
+        self.exposure.map_or(error_bound, |exposure| error_bound * exposure.weight(&sample)).lane(0).into()
     }
 
     /// Renders a range of the samples of each set of the pixels of an area, row by row. Samples are allocated to the lights by `weights`,
@@ -152,7 +152,7 @@ impl<'a> TileRenderer<'a> {
         area: Area,
         [span, block]: [u32; 2],
         sets: u32,
-        weights: Option<&Weights<'_>>,
+        weights: Option<&LightWeights<'_>>,
         mut sum: A,
         range: impl Fn([u32; 2], u32) -> [u32; 2],
     ) -> Vec<A::Output> {
@@ -170,7 +170,7 @@ impl<'a> TileRenderer<'a> {
         });
         let mut run = runs.next();
         let mut outputs = vec![A::Output::default(); pixels.len()];
-        let mut blocks = Blocks::new(block);
+        let mut blocks = LightBlocks::new(block);
         let (mut packets, mut pieces, mut places) = (Vec::new(), Vec::new(), Vec::new());
         while run.is_some() {
             packets.clear();

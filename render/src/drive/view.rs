@@ -1,6 +1,7 @@
 //! An image of a scene through a camera: its technique, its samples, and what is known of its lights.
 
-use super::adaptive::{Allotment, Effort, Statistics};
+use super::pixel_counts::{PixelCounts, SamplePlan};
+use super::pixel_statistics::Statistics;
 use super::specks::specks;
 use super::tile::TileRenderer;
 use super::world::World;
@@ -27,8 +28,8 @@ pub enum Samples<'a> {
     All,
     /// The pilot of [`Sampler::Adaptive`].
     Pilot,
-    /// Those of [`Sampler::Adaptive`] that follow the pilot, for the area of the allotment.
-    Rest(&'a Allotment),
+    /// Those of [`Sampler::Adaptive`] that follow the pilot, for the area of the counts.
+    Rest(&'a PixelCounts),
 }
 
 /// What is known of each pixel of an area, row by row.
@@ -39,7 +40,7 @@ pub enum Content {
     /// What the pilot found.
     Pilot(Vec<Statistics>),
     /// How many samples follow the pilot.
-    Allotment(Allotment),
+    Counts(PixelCounts),
 }
 
 /// A world seen through a camera, with settings whose technique is fixed. Nothing that a view returns depends on the number of threads.
@@ -142,7 +143,7 @@ impl View<'_> {
                 let [x0, y0, x1, y1] = area;
                 let quarters = |a: u32, b: u32| [(3 * a + b) / 4, (a + 3 * b) / 4];
                 let pixels = quarters(y0, y1).into_iter().flat_map(|y| quarters(x0, x1).map(|x| [x, y]));
-                let squares = pixels.flat_map(|pixel| renderer.doubt(pixel)).map(|x| f64::from(x).powi(2));
+                let squares = pixels.flat_map(|pixel| renderer.error_bound(pixel)).map(|x| f64::from(x).powi(2));
                 squares.sum::<f64>() / 12.0
             },
         );
@@ -171,8 +172,8 @@ impl View<'_> {
         match samples {
             Samples::All if is_adaptive => {
                 let (found, mut rays) = self.pilot(area, &|_| ());
-                let allotment = Allotment::new(settings, camera.has_lens(), area, &found);
-                let (content, more) = self.render(area, Samples::Rest(&allotment), progress);
+                let counts = PixelCounts::new(settings, camera.has_lens(), area, &found);
+                let (content, more) = self.render(area, Samples::Rest(&counts), progress);
                 rays += more;
                 (content, rays)
             }
@@ -188,11 +189,11 @@ impl View<'_> {
                 let (found, rays) = self.pilot(area, progress);
                 (Content::Pilot(found), rays)
             }
-            Samples::Rest(allotment) => {
-                assert!(is_adaptive && area == allotment.area);
-                let (weights, effort) = (allotment.weights(), self.effort());
+            Samples::Rest(counts) => {
+                assert!(is_adaptive && area == counts.area);
+                let (weights, plan) = (counts.weights(), self.plan());
                 let (pixels, rays) = self.tiles(area, &|renderer, tile| {
-                    let pixels = allotment.rest(renderer, tile, weights.as_ref(), &effort);
+                    let pixels = counts.rest(renderer, tile, weights.as_ref(), &plan);
                     progress(pixels.len() as u64);
                     pixels
                 });
@@ -201,12 +202,12 @@ impl View<'_> {
         }
     }
 
-    fn effort(&self) -> Effort {
-        Effort::new(&self.settings, self.camera.has_lens())
+    fn plan(&self) -> SamplePlan {
+        SamplePlan::new(&self.settings, self.camera.has_lens())
     }
 
     fn pilot(&self, area: Area, progress: &(dyn Fn(u64) + Sync)) -> (Vec<Statistics>, RayCount) {
-        let Effort { sets, pilot, .. } = self.effort();
+        let SamplePlan { sets, pilot, .. } = self.plan();
         self.tiles(area, &|renderer, area| {
             renderer.begin(area);
             let parts = renderer.parts(area, pilot, 0..sets, None, |_| [0, pilot]);

@@ -58,7 +58,7 @@ pub(crate) trait TileEstimator {
         remaining.fill(points.surfaces[packet].reflects);
     }
     /// A bound of the error of what is known without samples at the first shading point.
-    fn doubt(&mut self, _points: &Points) -> V8 {
+    fn error_bound(&mut self, _points: &Points) -> V8 {
         V8::default()
     }
 }

@@ -182,8 +182,8 @@ fn adaptive_parts_make_the_image() {
         let mut files = Vec::new();
         for area in random.areas(&settings) {
             let piece = PieceFile::open(&pilot).unwrap().read_rows(&(area[1]..area[3])).unwrap();
-            let Content::Allotment(allotment) = &piece.content else { panic!("{name}") };
-            let piece = job.piece(area, Samples::Rest(&allotment.crop(area)));
+            let Content::Counts(counts) = &piece.content else { panic!("{name}") };
+            let piece = job.piece(area, Samples::Rest(&counts.crop(area)));
             files.push(job.write(piece));
         }
         random.shuffle(&mut files);
@@ -358,13 +358,11 @@ fn pieces_are_read_as_written() {
     let Merged::Pilot(piece) = merge(&[path], false, &|_| ()).unwrap().merged else { panic!("a pilot") };
     let whole = job.write(piece.clone());
     let mut part = PieceFile::open(&whole).unwrap();
-    assert_eq!(part.header.kind, PieceKind::Allotment(lights));
+    assert_eq!(part.header.kind, PieceKind::Counts(lights));
     assert_eq!(part.read().unwrap(), piece);
     let rows = part.read_rows(&(16..20)).unwrap();
     assert_eq!(rows.area, [0, 16, 50, 32]);
-    let (Content::Allotment(some), Content::Allotment(all)) = (&rows.content, &piece.content) else {
-        panic!("an allotment")
-    };
+    let (Content::Counts(some), Content::Counts(all)) = (&rows.content, &piece.content) else { panic!("counts") };
     assert_eq!(*some, all.crop([0, 16, 50, 32]));
     assert_eq!(some.packets.len(), count(rows.area));
 }

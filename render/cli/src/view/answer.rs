@@ -87,7 +87,7 @@ fn status(shared: &Shared) -> Response {
             "spp": picture.spp,
             "error": picture.error.map(|claim| claim.total()),
             "systematic": picture.error.map(|claim| claim.systematic),
-            "uncertain": picture.error.and_then(|claim| claim.doubt()),
+            "uncertain": picture.error.and_then(|claim| claim.uncertain()),
             "seconds": picture.seconds,
             "history": picture.history,
             "end": picture.end,

@@ -11,7 +11,7 @@ use std::borrow::Cow;
 pub const APART: usize = 8;
 
 /// The weights of the lights in the pixels of an area, row by row.
-pub(super) struct Weights<'a> {
+pub(super) struct LightWeights<'a> {
     pub(super) lights: usize,
     pub(super) of: Cow<'a, [f32]>,
     pub(super) area: Area,
@@ -19,14 +19,14 @@ pub(super) struct Weights<'a> {
     pub(super) begun: &'a [[u32; APART]],
 }
 
-impl Weights<'_> {
+impl LightWeights<'_> {
     fn index(&self, [x, y]: [u32; 2]) -> usize {
         let [x0, y0, x1, _] = self.area;
         ((y - y0) * (x1 - x0) + (x - x0)) as usize
     }
     /// The same weights for sets of which no block is done.
-    pub(super) fn anew(&self) -> Weights<'_> {
-        Weights { lights: self.lights, of: Cow::Borrowed(&self.of), area: self.area, begun: &[] }
+    pub(super) fn anew(&self) -> LightWeights<'_> {
+        LightWeights { lights: self.lights, of: Cow::Borrowed(&self.of), area: self.area, begun: &[] }
     }
     /// A bit for each light that has some weight in a pixel.
     pub(super) fn expected(&self, pixel: [u32; 2]) -> u32 {
@@ -40,14 +40,14 @@ impl Weights<'_> {
 }
 
 /// The allocations of successive pixels. The samples of a set form blocks: one of `first` samples, then each as long as all before it.
-pub(super) struct Blocks {
+pub(super) struct LightBlocks {
     first: u32,
     /// The last pixel and the first sample of the block that the last of the allocations belongs to.
     last: Option<([u32; 2], u32)>,
     allocations: Vec<Allocation>,
 }
 
-impl Blocks {
+impl LightBlocks {
     pub(super) const fn new(first: u32) -> Self {
         Self { first, last: None, allocations: Vec::new() }
     }
@@ -61,7 +61,7 @@ impl Blocks {
         &self.allocations
     }
     /// Index of the block of a set of a pixel that contains a sample, and the sample's index in the block.
-    pub(super) fn find(&mut self, weights: &Weights<'_>, pixel: [u32; 2], sample: u32) -> (usize, u32) {
+    pub(super) fn find(&mut self, weights: &LightWeights<'_>, pixel: [u32; 2], sample: u32) -> (usize, u32) {
         let start = (sample / self.first).checked_ilog2().map_or(0, |doubled| self.first << doubled);
         if self.last != Some((pixel, start)) {
             self.allocations.push(self.allocate(weights, pixel, start));
@@ -69,7 +69,7 @@ impl Blocks {
         }
         (self.allocations.len() - 1, sample - start)
     }
-    fn allocate(&self, weights: &Weights<'_>, pixel: [u32; 2], start: u32) -> Allocation {
+    fn allocate(&self, weights: &LightWeights<'_>, pixel: [u32; 2], start: u32) -> Allocation {
         let (mut from, mut before) = (0, Allocation::NONE);
         let index = weights.index(pixel);
         if let Some(begun) = weights.begun.get(index) {
@@ -98,8 +98,8 @@ mod tests {
         let of: Vec<f32> = (0..6 * lights).map(|i| (i * 7 % 11) as f32 + 0.5).collect();
         let begun: Vec<[u32; APART]> = (0..6).map(|i| [i + 1, 2, 5 - i, 0, 0, 0, 0, 0]).collect();
         for begun in [&[][..], &begun] {
-            let weights = Weights { lights, of: of.as_slice().into(), area, begun };
-            let mut blocks = Blocks::new(8);
+            let weights = LightWeights { lights, of: of.as_slice().into(), area, begun };
+            let mut blocks = LightBlocks::new(8);
             for (pixel, [x, y]) in [[5, 7], [6, 7], [7, 7], [5, 8], [6, 8], [7, 8]].into_iter().enumerate() {
                 let own = &of[pixel * lights..][..lights];
                 let mut before = Allocation::NONE;

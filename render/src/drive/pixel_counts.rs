@@ -1,19 +1,17 @@
-//! Adaptive sampling: a few pilot samples for every pixel, and the rest where the variance around a pixel is great.
+//! How many samples each pixel takes: a few of a pilot everywhere, and the rest where the variance around a pixel is great.
 //!
 //! The pilot's samples are part of the image. The number of samples of a pixel depends on the variance at its neighbours, not on its
 //! own, so that a pixel that happens to be dark is not left dark. Mean and number of samples are independent, except for the share
 //! that a pixel has in the sum over all pixels.
 
-use super::allocation::{APART, Weights};
-use super::second_sets;
+use super::light_weights::{APART, LightWeights};
+use super::pixel_statistics::{Statistics, fall};
+use super::second_sets::{self, Checks};
+use super::tile::TileRenderer;
 use crate::area::{self, Area, crop};
-use crate::film::{Accumulator, Pixel, channels};
-use crate::packet::{V8, X8};
+use crate::film::Pixel;
 use crate::settings::Settings;
-use crate::sums::{Adder, Moments, Sum};
-use etendue::Real;
-use etendue::estimate::Welford;
-use etendue::select::Allocated;
+use crate::sums::Moments;
 use libm::pow;
 
 /// The squared error falls about as N^−1.5 if a pixel's integrand is smooth except for edges. Then Σ cᵢ nᵢ^−1.5 for a given Σ nᵢ is
@@ -32,7 +30,7 @@ const BESIDE: f64 = 0.3;
 
 /// Numbers of samples per set of a pixel, in packets of eight.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Effort {
+pub(super) struct SamplePlan {
     /// Sets of a pixel.
     pub(super) sets: u32,
     /// Packets of the pilot in each set.
@@ -43,7 +41,7 @@ pub(super) struct Effort {
     pub(super) checks: f64,
 }
 
-impl Effort {
+impl SamplePlan {
     pub(super) fn new(settings: &Settings, lens: bool) -> Self {
         let &Settings { spp, sampler, sets: asked, .. } = settings;
         let sets = sampler.sets(spp, asked, lens);
@@ -55,29 +53,9 @@ impl Effort {
     }
 }
 
-/// Statistics of a range of the samples of a pixel.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Statistics {
-    /// Sum of each set.
-    pub sums: [[f64; 3]; 4],
-    /// Packets in each set.
-    pub packets: u32,
-    /// Variance of the means of four samples each, summed over the channels; for samples that are allocated to at most `APART` lights, of
-    /// what the camera sees directly.
-    pub variance: f64,
-    /// Number of lights to which the samples were allocated; 0 if they were not, or if there are more than `APART`.
-    pub lights: usize,
-    /// Σ(xᵢ−xᵢ₊₁)² over pairs of successive samples of each light, per set.
-    pub spread: [f32; APART],
-    /// Number of these pairs per set.
-    pub pairs: [u32; APART],
-    /// Number of samples of each light per set.
-    pub taken: [u32; APART],
-}
-
 /// How many samples each pixel of a rectangle receives after the pilot, and what the pilot found.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Allotment {
+pub struct PixelCounts {
     /// The pixels [x0, y0, x1, y1).
     pub area: Area,
     /// Packets of each pixel in each set, with those of the pilot.
@@ -94,7 +72,7 @@ pub struct Allotment {
     pub sums: Vec<[[f64; 3]; 4]>,
 }
 
-impl Allotment {
+impl PixelCounts {
     /// From the pilot of an area, whose pixels share its samples. For the image, that is the whole.
     ///
     /// # Panics
@@ -102,7 +80,7 @@ impl Allotment {
     #[must_use]
     pub fn new(settings: &Settings, lens: bool, area: Area, pilot: &[Statistics]) -> Self {
         assert_eq!(pilot.len(), area::count(area));
-        let (packets, weights) = allot(pilot, area[2] - area[0], &Effort::new(settings, lens));
+        let (packets, weights) = count_packets(pilot, area[2] - area[0], &SamplePlan::new(settings, lens));
         let (lights, of) = weights.unwrap_or_default();
         Self {
             area,
@@ -128,20 +106,46 @@ impl Allotment {
         }
     }
     /// The weights of the lights, if samples are shared by weight.
-    pub(super) fn weights(&self) -> Option<Weights<'_>> {
+    pub(super) fn weights(&self) -> Option<LightWeights<'_>> {
         let Self { lights, weights, area, begun, .. } = self;
-        (*lights > 0).then(|| Weights { lights: *lights, of: weights.into(), area: *area, begun })
+        (*lights > 0).then(|| LightWeights { lights: *lights, of: weights.into(), area: *area, begun })
     }
     fn index(&self, [x, y]: [u32; 2]) -> usize {
         let [left, top, right, _] = self.area;
         ((y - top) * (right - left) + (x - left)) as usize
     }
     /// Packets of a pixel in each set, with those of the pilot.
-    pub(super) fn packets_at(&self, pixel: [u32; 2]) -> u32 {
+    fn packets_at(&self, pixel: [u32; 2]) -> u32 {
         self.packets[self.index(pixel)]
     }
+    /// Renders the samples of a tile that follow the pilot, and second sets of some pixels if these tell the variances of all. Returns the
+    /// finished pixels.
+    pub(super) fn rest(
+        &self,
+        renderer: &mut TileRenderer<'_>,
+        tile: Area,
+        weights: Option<&LightWeights<'_>>,
+        &SamplePlan { sets, pilot, checks, .. }: &SamplePlan,
+    ) -> Vec<Pixel> {
+        renderer.begin(tile);
+        let rest = renderer.parts(tile, pilot, 0..sets, weights, |pixel| [pilot, self.packets_at(pixel)]);
+        let mut pixels = self.finish(tile, &rest, sets);
+        if checks > 0.0 {
+            let by_spread = self.by_spread(tile, &rest, pilot);
+            let packets: Vec<u32> = area::pixels(tile).map(|pixel| self.packets_at(pixel)).collect();
+            let checks = Checks::new(tile, &by_spread, &packets, checks, renderer.settings.seed);
+            // their first samples are allocated by the pilot, too, which makes little difference
+            let weights = weights.map(LightWeights::anew);
+            let range = |pixel| [0, if checks.contains(pixel) { self.packets_at(pixel) } else { 0 }];
+            let second = renderer.parts(tile, pilot, sets..sets + 1, weights.as_ref(), range);
+            let mean = |(of, n): (&Statistics, &u32)| of.sums[0].map(|sum| sum / f64::from(8 * n));
+            let second: Vec<_> = second.iter().zip(&packets).map(mean).collect();
+            checks.judge(&mut pixels, &by_spread, &second);
+        }
+        pixels
+    }
     /// The pixels of a tile, from `rest`, the samples after those of the pilot.
-    pub(super) fn finish(&self, tile: Area, rest: &[Statistics], sets: u32) -> Vec<Pixel> {
+    fn finish(&self, tile: Area, rest: &[Statistics], sets: u32) -> Vec<Pixel> {
         let of = |(pixel, rest): ([u32; 2], &Statistics)| {
             let index = self.index(pixel);
             let count = 8 * self.packets[index];
@@ -155,7 +159,7 @@ impl Allotment {
     }
     /// The variance of one set of each pixel of a tile by the spread of its samples and of those of the pixels beside it, whose edges it may
     /// have missed, but for a common factor. `rest` are the samples after those of the `pilot`, so many packets.
-    pub(super) fn by_spread(&self, tile: Area, rest: &[Statistics], pilot: u32) -> Vec<f64> {
+    fn by_spread(&self, tile: Area, rest: &[Statistics], pilot: u32) -> Vec<f64> {
         let of = |(pixel, rest): ([u32; 2], &Statistics)| {
             let [before, after] = [pilot, rest.packets].map(f64::from);
             (before * f64::from(self.squares[self.index(pixel)]) + after * rest.square()) / (before + after)
@@ -169,28 +173,9 @@ impl Allotment {
     }
 }
 
-impl Statistics {
-    /// The squared difference of two successive samples, or what has the same effect: a set of n samples has a variance that is about
-    /// proportional to this and to n^−1.5.
-    fn square(&self) -> f64 {
-        let samples = f64::from(8 * self.packets);
-        let of_light = |k: usize| match (self.pairs[k], self.taken[k]) {
-            (0, _) | (_, 0) => 0.0,
-            (pairs, taken) => f64::from(self.spread[k]) / f64::from(pairs) * fall(f64::from(taken) / samples),
-        };
-        // a difference of two samples has 16 times the variance of the mean of four
-        16.0 * self.variance + (0..self.lights).map(of_light).sum::<f64>()
-    }
-}
-
-/// n^−1.5
-fn fall(n: f64) -> f64 {
-    (n * n.sqrt()).recip()
-}
-
 /// Packets per set for each pixel, from the variance of the pilot; and the number of lights and their weights, if samples are allocated to
 /// at most `APART` lights.
-fn allot(parts: &[Statistics], width: u32, effort: &Effort) -> (Vec<u32>, Option<(usize, Vec<f32>)>) {
+fn count_packets(parts: &[Statistics], width: u32, plan: &SamplePlan) -> (Vec<u32>, Option<(usize, Vec<f32>)>) {
     let (columns, lights) = (width as usize, parts[0].lights);
     let mut weights = None;
     let wanted: Vec<f64> = if lights == 0 {
@@ -215,12 +200,12 @@ fn allot(parts: &[Statistics], width: u32, effort: &Effort) -> (Vec<u32>, Option
         weights = Some((lights, of));
         sums
     };
-    let (pilot, total) = (f64::from(effort.pilot), effort.packets * parts.len() as f64);
+    let (pilot, total) = (f64::from(plan.pilot), plan.packets * parts.len() as f64);
     let spent = |scale: f64| wanted.iter().map(|w| (w * scale).max(pilot)).sum::<f64>();
     let most = wanted.iter().fold(0.0_f64, |m, &w| m.max(w));
     if most <= 0.0 || !most.is_finite() {
         // no variance anywhere, or more than numbers can tell: the same number for all pixels
-        return (vec![(effort.packets.round() as u32).max(effort.pilot); parts.len()], weights);
+        return (vec![(plan.packets.round() as u32).max(plan.pilot); parts.len()], weights);
     }
     let (mut low, mut high) = (0.0, total / most);
     while spent(high) < total {
@@ -272,103 +257,6 @@ fn sums_around(values: &[f64], columns: usize, reach: usize) -> Vec<f64> {
     (0..values.len())
         .map(|i| beside[i] + other_rows(i % columns, i / columns).map(|j| across[j]).sum::<f64>())
         .collect()
-}
-
-/// Accumulates [`Statistics`].
-#[derive(Clone, Default)]
-pub(super) struct StatisticsSum {
-    /// Number of lights to which the samples are allocated; 0 if they are not.
-    lights: usize,
-    adder: Adder<Sum>,
-    part: Statistics,
-    halves: [Welford<f64>; 3],
-    /// Sum of squared differences of successive samples of the same light.
-    between: f64,
-    /// The sum of reflected light for each light, times its squared share.
-    spread: [f64; APART],
-    /// Number of pairs in these sums, and of samples, of each light.
-    pairs: [u32; APART],
-    samples: [u32; APART],
-}
-
-impl StatisticsSum {
-    pub(super) fn new(lights: usize) -> Self {
-        Self { lights, ..Self::default() }
-    }
-}
-
-impl Accumulator for StatisticsSum {
-    type Output = Statistics;
-
-    fn begin(&mut self, first: u32) {
-        self.adder.begin(first);
-    }
-    fn push_packet(&mut self, radiance: V8, seen: V8, allocated: Option<&Allocated<'_, X8>>) {
-        self.adder.push_octet(&channels(radiance));
-        // the samples of a packet that is shared among lights differ by their lights: only what does not depend on them is compared
-        for half in halves(if allocated.is_some() { seen } else { radiance }) {
-            for (spread, x) in self.halves.iter_mut().zip(half) {
-                spread.push(x);
-            }
-        }
-        let Some(allocated) = allocated else { return };
-        let (light, share) = (allocated.light.to_array(), allocated.share.to_array());
-        let square = |v: V8, k: usize| {
-            let [a, b] = [k, k + 1].map(|k| v.lane(k));
-            [a.x - b.x, a.y - b.y, a.z - b.z].into_iter().map(|d| f64::from(d).powi(2)).sum::<f64>()
-        };
-        let reflected = radiance - seen;
-        for k in [0, 2, 4, 6] {
-            if light[k] != light[k + 1] {
-                continue;
-            }
-            let square = square(reflected, k);
-            self.between += square;
-            if let Some(spread) = self.spread.get_mut(light[k] as usize) {
-                *spread += square * f64::from(share[k]).powi(2);
-                self.pairs[light[k] as usize] += 1;
-            }
-        }
-        for light in light {
-            if let Some(samples) = self.samples.get_mut(light as usize) {
-                *samples += 1;
-            }
-        }
-    }
-    fn push(&mut self, _: [f32; 3]) {
-        unreachable!("adaptive sets consist of whole packets")
-    }
-    fn finish(&mut self) -> Statistics {
-        let mut part = self.part;
-        let all = self.adder.sets();
-        for (sum, (count, Sum(set))) in part.sums.iter_mut().zip(&*all) {
-            (*sum, part.packets) = (*set, count / 8);
-        }
-        let sets = all.len().max(1) as u32;
-        all.clear();
-        part.variance = self.halves.iter().map(|b| b.variance()).sum();
-        if self.lights > APART && part.packets > 0 {
-            // a difference of two samples has 16 times the variance of the mean of four
-            part.variance += self.between / f64::from(16 * 4 * part.packets * sets);
-        }
-        if (1..=APART).contains(&self.lights) {
-            part.lights = self.lights;
-            part.spread = self.spread.map(|spread| (spread / f64::from(sets)) as f32);
-            part.pairs = self.pairs.map(|pairs| pairs / sets);
-            part.taken = self.samples.map(|samples| samples / sets);
-        }
-        let adder = std::mem::take(&mut self.adder);
-        *self = Self { adder, ..Self::new(self.lights) };
-        part
-    }
-}
-
-/// The means of the first and the last four lanes.
-fn halves(radiance: V8) -> [[f64; 3]; 2] {
-    [0, 4].map(|first| {
-        [radiance.x, radiance.y, radiance.z]
-            .map(|channel| (first..first + 4).map(|k| f64::from(channel.lane(k))).sum::<f64>() / 4.0)
-    })
 }
 
 #[cfg(test)]

@@ -1,0 +1,136 @@
+//! Numbers of samples, weights of lights and variances, by definition.
+
+use super::*;
+use crate::sampler::Sampler;
+use crate::technique::Technique;
+
+const WIDTH: usize = 17;
+const HEIGHT: usize = 15;
+
+/// Small integers, whose sums are exact.
+fn integers(step: usize) -> Vec<f64> {
+    (0..WIDTH * HEIGHT).map(|i| (i * step % 31) as f64).collect()
+}
+/// Σ over the pixels within `reach` rows and columns, excluding the pixel itself, by definition.
+fn around(values: &[f64], i: usize, reach: usize) -> f64 {
+    let near = |j: usize| (i % WIDTH).abs_diff(j % WIDTH) <= reach && (i / WIDTH).abs_diff(j / WIDTH) <= reach;
+    (0..values.len()).filter(|&j| j != i && near(j)).map(|j| values[j]).sum()
+}
+
+#[test]
+fn neighbours_are_summed() {
+    let values = integers(7);
+    for reach in [1, NEAR, OUTERMOST, 40] {
+        for (i, sum) in sums_around(&values, WIDTH, reach).into_iter().enumerate() {
+            assert_eq!(sum, around(&values, i, reach), "pixel {i}, reach {reach}");
+        }
+    }
+}
+#[test]
+fn means_weight_near_and_far_neighbours() {
+    let (sums, mut counts) = (integers(7), integers(5));
+    counts[..9].fill(0.0);
+    for (i, mean) in mean_around(&sums, &counts, WIDTH).into_iter().enumerate() {
+        let both = |values: &[f64]| around(values, i, NEAR) + WEIGHT_OUTERMOST * around(values, i, OUTERMOST);
+        let expected = both(&sums) / both(&counts);
+        assert!((mean / expected - 1.0).abs() < 1e-14, "pixel {i}: {mean} instead of {expected}");
+    }
+    assert!(mean_around(&sums, &vec![0.0; sums.len()], WIDTH).iter().all(|&mean| mean == 0.0));
+}
+#[test]
+fn the_pilot_is_a_quarter_in_a_power_of_two() {
+    for (spp, sets, pilot, packets) in
+        [(8, 1, 1, 1.0), (16, 1, 1, 2.0), (24, 1, 1, 3.0), (32, 1, 2, 4.0), (64, 1, 2, 8.0), (100, 2, 2, 6.25)]
+            .into_iter()
+            .chain([(256, 4, 2, 8.0), (504, 1, 8, 63.0), (512, 1, 16, 64.0), (520, 1, 16, 65.0)])
+    {
+        let plan = SamplePlan::new(&settings([8, 8], spp, sets), false);
+        assert_eq!((plan.pilot, plan.packets), (pilot, packets), "{spp} samples in {sets} sets");
+    }
+}
+fn settings([width, height]: [u32; 2], spp: u32, sets: u32) -> Settings {
+    let (technique, sampler) = (Technique::SolidAngle, Sampler::Adaptive);
+    Settings { width, height, spp, technique, sampler, sets, seed: 5, ..Settings::DEFAULT }
+}
+fn plan(sets: u32, pilot: u32, packets: f64) -> SamplePlan {
+    SamplePlan { sets, pilot, packets, checks: 0.0 }
+}
+
+fn pilot(variance: impl Fn(usize) -> f64) -> Vec<Statistics> {
+    (0..WIDTH * HEIGHT).map(|i| Statistics { variance: variance(i), ..Statistics::default() }).collect()
+}
+fn average(packets: &[u32]) -> f64 {
+    packets.iter().copied().map(f64::from).sum::<f64>() / packets.len() as f64
+}
+
+/// The example in the documentation of [`crate::drive`].
+#[test]
+fn two_halves_of_an_image_share_its_samples() {
+    let side = 1024;
+    let settings = settings([side, side], 64, 0);
+    let plan = SamplePlan::new(&settings, false);
+    assert!((plan.checks, plan.pilot) == (1.0 / 12.0, 2) && (plan.packets - 7.38).abs() < 0.01, "{plan:?}");
+    let variance = |i: usize| if i % 64 < 32 { 0.01 } else { 1.0 };
+    let parts: Vec<_> = (0..64 * 64).map(|i| Statistics { variance: variance(i), ..Statistics::default() }).collect();
+    let (packets, _) = count_packets(&parts, 64, &plan);
+    let [dark, bright] = [OUTERMOST..32 - OUTERMOST, 32 + OUTERMOST..64 - OUTERMOST].map(|columns| {
+        packets.iter().enumerate().filter(|(i, _)| columns.contains(&(i % 64))).map(|(_, &n)| n).collect::<Vec<_>>()
+    });
+    assert!(dark.iter().all(|n| [2, 4].contains(n)) && bright.iter().all(|n| [8, 16].contains(n)));
+    let means = [average(&dark), average(&bright)];
+    assert!((means[0] - 2.0).abs() < 0.1 && (means[1] - 12.7).abs() < 0.3, "{means:?}");
+}
+
+/// Differences of samples that overflow do not keep the search for a scale from ending.
+#[test]
+fn infinite_variance_gets_equal_numbers() {
+    let of_light = Statistics {
+        packets: 2,
+        lights: 1,
+        spread: [f32::INFINITY; APART],
+        pairs: [8; APART],
+        ..Statistics::default()
+    };
+    for parts in [vec![of_light; WIDTH * HEIGHT], pilot(|i| if i == 40 { f64::INFINITY } else { 1.0 })] {
+        let (packets, _) = count_packets(&parts, WIDTH as u32, &plan(1, 2, 16.0));
+        assert!(packets.iter().all(|&packets| packets == 16));
+    }
+}
+#[test]
+fn equal_variance_gets_equal_numbers() {
+    let plan = plan(1, 2, 16.0);
+    for variance in [0.0, 3.0] {
+        let (packets, weights) = count_packets(&pilot(|_| variance), WIDTH as u32, &plan);
+        assert!(packets.iter().all(|&n| n == 16), "{packets:?}");
+        assert!(weights.is_none());
+    }
+    // without variance, never less than the pilot
+    let (packets, _) = count_packets(&pilot(|_| 0.0), WIDTH as u32, &self::plan(1, 2, 1.3));
+    assert!(packets.iter().all(|&n| n == 2));
+}
+/// Weights of lights are the power 0.4 of the mean square of differences around, and numbers that of (Σ weight)^2.5, and what the
+/// camera sees.
+#[test]
+fn lights_are_weighted_by_their_spread() {
+    let mut spread = [0.0; APART];
+    let mut pairs = [0; APART];
+    spread[..3].copy_from_slice(&[64.0, 6.0, 0.0]);
+    pairs[..3].copy_from_slice(&[2, 6, 4]);
+    // mean squares of 32, 1 and 0: weights of 4, 1 and 0, (4 + 1)^2.5 = 55.9
+    let part = |seen: f64| Statistics { lights: 3, spread, pairs, variance: seen, ..Statistics::default() };
+    let side = 64;
+    let (sets, seen) = (2, (15.0_f64.powf(2.5) - 5.0_f64.powf(2.5)) / 16.0);
+    let parts: Vec<_> = (0..side * side).map(|i| part(if i % side < side / 2 { 0.0 } else { seen })).collect();
+    let (packets, weights) = count_packets(&parts, side as u32, &plan(sets, 2, 100.0));
+    let (lights, weights) = weights.unwrap();
+    assert_eq!(lights, 3);
+    for own in weights.chunks(3) {
+        assert!((own[0] - 4.0).abs() < 1e-5 && (own[1] - 1.0).abs() < 1e-6 && own[2] == 0.0, "{own:?}");
+    }
+    let columns = |from: usize, to: usize| -> Vec<u32> {
+        packets.chunks(side).flat_map(|row| row[from..to].iter().copied()).collect()
+    };
+    // the mean of what is seen makes 15 of 5
+    let ratio = average(&columns(39, 64)) / average(&columns(0, 25));
+    assert!((ratio / 3.0 - 1.0).abs() < 0.03, "{ratio}");
+}

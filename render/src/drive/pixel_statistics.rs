@@ -1,0 +1,250 @@
+//! What the samples of a pixel tell of its variance.
+
+use super::light_weights::APART;
+use crate::film::{Accumulator, channels};
+use crate::packet::{V8, X8};
+use crate::sums::{Adder, Sum};
+use etendue::Real;
+use etendue::estimate::Welford;
+use etendue::select::Allocated;
+
+/// Statistics of a range of the samples of a pixel.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Statistics {
+    /// Sum of each set.
+    pub sums: [[f64; 3]; 4],
+    /// Packets in each set.
+    pub packets: u32,
+    /// Variance of the means of four samples each, summed over the channels; for samples that are allocated to at most `APART` lights, of
+    /// what the camera sees directly.
+    pub variance: f64,
+    /// Number of lights to which the samples were allocated; 0 if they were not, or if there are more than `APART`.
+    pub lights: usize,
+    /// Σ(xᵢ−xᵢ₊₁)² over pairs of successive samples of each light, per set.
+    pub spread: [f32; APART],
+    /// Number of these pairs per set.
+    pub pairs: [u32; APART],
+    /// Number of samples of each light per set.
+    pub taken: [u32; APART],
+}
+
+impl Statistics {
+    /// The squared difference of two successive samples, or what has the same effect: a set of n samples has a variance that is about
+    /// proportional to this and to n^−1.5.
+    pub(super) fn square(&self) -> f64 {
+        let samples = f64::from(8 * self.packets);
+        let of_light = |k: usize| match (self.pairs[k], self.taken[k]) {
+            (0, _) | (_, 0) => 0.0,
+            (pairs, taken) => f64::from(self.spread[k]) / f64::from(pairs) * fall(f64::from(taken) / samples),
+        };
+        // a difference of two samples has 16 times the variance of the mean of four
+        16.0 * self.variance + (0..self.lights).map(of_light).sum::<f64>()
+    }
+}
+
+/// n^−1.5
+pub(super) fn fall(n: f64) -> f64 {
+    (n * n.sqrt()).recip()
+}
+
+/// Accumulates [`Statistics`].
+#[derive(Clone, Default)]
+pub(super) struct StatisticsSum {
+    /// Number of lights to which the samples are allocated; 0 if they are not.
+    lights: usize,
+    adder: Adder<Sum>,
+    part: Statistics,
+    halves: [Welford<f64>; 3],
+    /// Sum of squared differences of successive samples of the same light.
+    between: f64,
+    /// The sum of reflected light for each light, times its squared share.
+    spread: [f64; APART],
+    /// Number of pairs in these sums, and of samples, of each light.
+    pairs: [u32; APART],
+    samples: [u32; APART],
+}
+
+impl StatisticsSum {
+    pub(super) fn new(lights: usize) -> Self {
+        Self { lights, ..Self::default() }
+    }
+}
+
+impl Accumulator for StatisticsSum {
+    type Output = Statistics;
+
+    fn begin(&mut self, first: u32) {
+        self.adder.begin(first);
+    }
+    fn push_packet(&mut self, radiance: V8, seen: V8, allocated: Option<&Allocated<'_, X8>>) {
+        self.adder.push_octet(&channels(radiance));
+        // the samples of a packet that is shared among lights differ by their lights: only what does not depend on them is compared
+        for half in halves(if allocated.is_some() { seen } else { radiance }) {
+            for (spread, x) in self.halves.iter_mut().zip(half) {
+                spread.push(x);
+            }
+        }
+        let Some(allocated) = allocated else { return };
+        let (light, share) = (allocated.light.to_array(), allocated.share.to_array());
+        let square = |v: V8, k: usize| {
+            let [a, b] = [k, k + 1].map(|k| v.lane(k));
+            [a.x - b.x, a.y - b.y, a.z - b.z].into_iter().map(|d| f64::from(d).powi(2)).sum::<f64>()
+        };
+        let reflected = radiance - seen;
+        for k in [0, 2, 4, 6] {
+            if light[k] != light[k + 1] {
+                continue;
+            }
+            let square = square(reflected, k);
+            self.between += square;
+            if let Some(spread) = self.spread.get_mut(light[k] as usize) {
+                *spread += square * f64::from(share[k]).powi(2);
+                self.pairs[light[k] as usize] += 1;
+            }
+        }
+        for light in light {
+            if let Some(samples) = self.samples.get_mut(light as usize) {
+                *samples += 1;
+            }
+        }
+    }
+    fn push(&mut self, _: [f32; 3]) {
+        unreachable!("adaptive sets consist of whole packets")
+    }
+    fn finish(&mut self) -> Statistics {
+        let mut part = self.part;
+        let all = self.adder.sets();
+        for (sum, (count, Sum(set))) in part.sums.iter_mut().zip(&*all) {
+            (*sum, part.packets) = (*set, count / 8);
+        }
+        let sets = all.len().max(1) as u32;
+        all.clear();
+        part.variance = self.halves.iter().map(|b| b.variance()).sum();
+        if self.lights > APART && part.packets > 0 {
+            // a difference of two samples has 16 times the variance of the mean of four
+            part.variance += self.between / f64::from(16 * 4 * part.packets * sets);
+        }
+        if (1..=APART).contains(&self.lights) {
+            part.lights = self.lights;
+            part.spread = self.spread.map(|spread| (spread / f64::from(sets)) as f32);
+            part.pairs = self.pairs.map(|pairs| pairs / sets);
+            part.taken = self.samples.map(|samples| samples / sets);
+        }
+        let adder = std::mem::take(&mut self.adder);
+        *self = Self { adder, ..Self::new(self.lights) };
+        part
+    }
+}
+
+/// The means of the first and the last four lanes.
+fn halves(radiance: V8) -> [[f64; 3]; 2] {
+    [0, 4].map(|first| {
+        [radiance.x, radiance.y, radiance.z]
+            .map(|channel| (first..first + 4).map(|k| f64::from(channel.lane(k))).sum::<f64>() / 4.0)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use etendue::select::Allocation;
+
+    fn packet(of: impl Fn(usize) -> [f32; 3]) -> V8 {
+        let lane = |channel: usize| X8::from_fn(|k| of(k)[channel]);
+        V8::new(lane(0), lane(1), lane(2))
+    }
+
+    /// Without allocated samples, the variance is that of the means of four samples.
+    #[test]
+    fn variances_are_of_means_of_four() {
+        let mut sum = StatisticsSum::new(0);
+        let mut means: [Vec<f64>; 3] = Default::default();
+        for set in 0..2 {
+            sum.begin(0);
+            for n in 0..2 {
+                let sample = |k: usize| [k as f32, (k * k) as f32, (set * 2 + n) as f32 * 3.0 + k as f32 % 2.0];
+                sum.push_packet(packet(sample), packet(|_| [100.0; 3]), None);
+                for first in [0, 4] {
+                    for (channel, means) in means.iter_mut().enumerate() {
+                        means.push((first..first + 4).map(|k| f64::from(sample(k)[channel])).sum::<f64>() / 4.0);
+                    }
+                }
+            }
+        }
+        let variance = |x: &Vec<f64>| {
+            let mean = x.iter().sum::<f64>() / x.len() as f64;
+            x.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / (x.len() - 1) as f64
+        };
+        let expected: f64 = means.iter().map(variance).sum();
+        let found = sum.finish();
+        assert!((found.variance / expected - 1.0).abs() < 1e-14, "{} {expected}", found.variance);
+        assert_eq!((found.packets, found.lights), (2, 0));
+        assert_eq!(found.sums[1], [56.0, 280.0, 8.0 * (6.0 + 9.0) + 8.0]);
+        // and the next pixel begins anew
+        sum.begin(0);
+        sum.push_packet(packet(|_| [1.0; 3]), packet(|_| [0.0; 3]), None);
+        assert_eq!(sum.finish().variance, 0.0);
+    }
+    /// Allocated samples are compared in pairs of the same light, times its squared share, without what the camera sees.
+    #[test]
+    fn spreads_are_of_pairs_of_one_light() {
+        // five samples of the first light and three of the second: pairs 0-1, 2-3 and 6-7
+        let mut before = Allocation::NONE;
+        let allocation = Allocation::new(&[5.0, 3.0], 8, &mut before);
+        let counts = [before[0], before[1]];
+        let allocated = allocation.samples::<X8>(0);
+        let light = allocated.light.to_array();
+        let reflected = |k: usize| [(k * k) as f32, 2.0 * k as f32, 1.0];
+        let seen = |k: usize| [if k < 4 { 3.0 } else { 5.0 }, 0.0, 0.0];
+        let both = |k: usize| std::array::from_fn(|channel| reflected(k)[channel] + seen(k)[channel]);
+        let mut expected = [[0.0; 2]; 2];
+        for k in [0, 2, 4, 6].into_iter().filter(|&k| light[k] == light[k + 1]) {
+            let [a, b] = [reflected(k), reflected(k + 1)];
+            let square: f32 = (0..3).map(|channel| (a[channel] - b[channel]).powi(2)).sum();
+            let own = &mut expected[light[k] as usize];
+            *own = [own[0] + f64::from(square) * (f64::from(counts[light[k] as usize]) / 8.0).powi(2), own[1] + 1.0];
+        }
+        assert!(expected.iter().any(|own| own[1] > 0.0) && counts.iter().all(|&n| n > 0), "{light:?}");
+        let mut sum = StatisticsSum::new(2);
+        for _ in 0..2 {
+            sum.begin(0);
+            sum.push_packet(packet(both), packet(seen), Some(&allocated));
+        }
+        let found = sum.finish();
+        assert_eq!(found.lights, 2);
+        for k in 0..2 {
+            assert_eq!(f64::from(found.spread[k]), expected[k][0], "light {k}");
+            assert_eq!([found.pairs[k], found.taken[k]], [expected[k][1] as u32, counts[k]], "light {k}");
+        }
+        // four means: 3, 5, 3, 5
+        assert!((found.variance - 4.0 / 3.0).abs() < 1e-14, "{}", found.variance);
+        // among more lights than are kept apart: the mean square of four pairs of each set, in the unit of the variance, and this
+        let mut sum = StatisticsSum::new(APART + 1);
+        for _ in 0..2 {
+            sum.begin(0);
+            sum.push_packet(packet(both), packet(seen), Some(&allocated));
+        }
+        let squares: f64 = [0, 2, 4, 6]
+            .into_iter()
+            .filter(|&k| light[k] == light[k + 1])
+            .map(|k| ((k + 1) * (k + 1) - k * k).pow(2) as f64 + 4.0)
+            .sum();
+        let found = sum.finish();
+        assert_eq!(found.lights, 0);
+        let all = squares / (4.0 * 16.0) + 4.0 / 3.0;
+        assert!((found.variance / all - 1.0).abs() < 1e-14, "{} {all}", found.variance);
+    }
+
+    /// A light with a quarter of the samples has 8 times the variance of one with all of them: (1/4)^−1.5.
+    #[test]
+    fn squares_count_the_samples_of_each_light() {
+        let (mut spread, mut pairs, mut taken) = ([0.0; APART], [0; APART], [0; APART]);
+        spread[..3].copy_from_slice(&[6.0, 5.0, 7.0]);
+        pairs[..3].copy_from_slice(&[3, 1, 0]);
+        taken[..3].copy_from_slice(&[4, 11, 1]);
+        let part = Statistics { packets: 2, variance: 0.25, lights: 3, spread, pairs, taken, ..Statistics::default() };
+        let expected = 16.0 * 0.25 + 2.0 * 8.0 + 5.0 * (16.0 / 11.0_f64).powf(1.5);
+        assert!((part.square() / expected - 1.0).abs() < 1e-12, "{}", part.square());
+        assert_eq!(Statistics { packets: 2, variance: 0.5, ..Statistics::default() }.square(), 8.0);
+    }
+}
