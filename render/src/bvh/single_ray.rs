@@ -200,19 +200,23 @@ fn single_ray<const ANY: bool, const OCTANT: usize>(
         };
         while next.count != 0 {
             test_leaf::<ANY>(tree, &next, ray, nearest);
-            loop {
-                if height == 0 {
-                    return false;
-                }
-                height -= 1;
-                next = stack[height];
-                if next.near <= nearest.distance {
-                    break;
-                }
-            }
+            let Some(child) = pop_nearer(stack, &mut height, nearest.distance) else { return false };
+            next = child;
         }
         place = next.first;
     }
+}
+
+/// Takes the first child from the stack that is no farther than a distance.
+#[inline(always)]
+fn pop_nearer(stack: &[Child], height: &mut usize, distance: f32) -> Option<Child> {
+    while *height > 0 {
+        *height -= 1;
+        if stack[*height].near <= distance {
+            return Some(stack[*height]);
+        }
+    }
+    None
 }
 
 /// Tests one ray against a child that is a leaf, as [`Leaves::test_ray`]. A function of its own, so that the loop over nodes keeps its
