@@ -15,7 +15,7 @@
 //! 5. The second set of some pixels is rendered: as many samples once more, which are no part of the image. Its squared differences from the
 //!    first set tell by what factor the variance of all pixels of a tile differs from what the spread of their samples lets expect.
 //!
-//! An image of a given error or time repeats this with twice as many samples in each pass ([`progressive`](crate::progressive)).
+//! An image of a given error or time repeats this in passes, each of up to eight times as many samples ([`progressive`](crate::progressive)).
 
 mod corners;
 mod estimator;

@@ -177,7 +177,7 @@ impl Lights {
         } else if kinds & UNEVEN != 0 {
             self.uneven(chosen, measure, p, normal, u)
         } else {
-            self.mixed(chosen, measure, p, normal, u).unwrap_or_else(|| unreachable!("there is a light"))
+            self.by_kind(chosen, measure, p, normal, u).unwrap_or_else(|| unreachable!("there is a light"))
         };
         sample.emits = sample.emits | chosen.has(TWO_SIDED);
         sample
@@ -187,7 +187,7 @@ impl Lights {
     fn uneven(&self, chosen: &mut Chosen, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> Drawn {
         // normals before the lights are narrowed
         let normal_of_light = (self.kinds & SPREADS != 0).then(|| chosen.narrow(p));
-        let mut drawn = self.mixed(chosen, measure, p, normal, u);
+        let mut drawn = self.by_kind(chosen, measure, p, normal, u);
         if self.kinds >> directed::KIND & 1 == 1 {
             let here = chosen.is(directed::KIND);
             let sample = directed::sample(&self.directed, chosen, p, here);
@@ -214,8 +214,8 @@ impl Lights {
         });
     }
     /// Samples every kind of light that the scene has, but for those with directions of their own, each in its lanes.
-    fn mixed(&self, chosen: &mut Chosen, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> Option<Drawn> {
-        let mut mixed: Option<Drawn> = None;
+    fn by_kind(&self, chosen: &mut Chosen, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> Option<Drawn> {
+        let mut drawn: Option<Drawn> = None;
         each_bit(self.kinds & (SHAPES | ONLY_DELTAS | 1 << sky::KIND) & !(1 << directed::KIND), |kind| {
             let kind = kind as u32;
             let here = chosen.is(kind);
@@ -230,9 +230,9 @@ impl Lights {
                 }
                 _ => sample_shape(kind, chosen, measure, p, normal, u),
             };
-            mixed = Some(Drawn::blend(here, sample, mixed));
+            drawn = Some(Drawn::blend(here, sample, drawn));
         });
-        mixed
+        drawn
     }
     /// The light of a shape that is one.
     #[inline]

@@ -85,7 +85,7 @@ const fn replicates(spp: u32) -> u32 {
 const FEWEST: u32 = 16;
 
 /// Mixes bits: the output function of SplitMix64 (Steele, Lea and Flood 2014).
-pub(crate) const fn mixed(mut bits: u64) -> u64 {
+pub(crate) const fn hash64(mut bits: u64) -> u64 {
     bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
     bits ^ (bits >> 31)

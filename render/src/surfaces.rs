@@ -1,16 +1,17 @@
 //! The surfaces of a scene: what rays hit, with its material.
 
+mod interpolation;
 mod points;
 
 use crate::bsdf::{MaterialRecord, Metal, PLAIN, albedo, record};
 use crate::bvh::{BuildError, Bvh, Hits, Rays, SHAPE, ShapeSet};
-use crate::geometry::Affine;
 use crate::light_picture::{LightPicture, coordinates};
 use crate::light_profile::LightProfile;
 use crate::packet::{M8, V8, X8, each_group, equal, first_lane};
 use crate::scene::{Corners, Details, Geometry, Material, Scene, Shape, Varying};
 use etendue::light::Spread;
 use etendue::{Mask, Real, Vec3, u32x8};
+use interpolation::{along_u, barycentric, interpolated, lane_of, moved, set_lane, smooth_normal};
 #[cfg(feature = "analytic")]
 pub(crate) use points::{LEAST, LIFT};
 use points::{Points, on_plane, on_sphere, on_triangle, on_triangles};
@@ -304,7 +305,7 @@ impl Surfaces {
             let varying = detail.varying[material].as_ref();
             let weights = corners.map(|_| barycentric(self.bvh.corners(place), lane_of(surface.point, lane)));
             let varied = varying.map(|varying| match (corners, weights) {
-                (Some(corners), Some(weights)) => varying.at(mixed(&corners.uvs, weights)),
+                (Some(corners), Some(weights)) => varying.at(interpolated(&corners.uvs, weights)),
                 _ => varying.at([0.0; 2]),
             });
             let here = varied.unwrap_or(detail.materials[material]);
@@ -349,120 +350,5 @@ impl Surfaces {
             &self.records[material as usize]
         });
         Metal::new(rows)
-    }
-}
-
-fn lane_of(v: V8, lane: usize) -> [f32; 3] {
-    [v.x.lane(lane), v.y.lane(lane), v.z.lane(lane)]
-}
-fn set_lane(v: &mut V8, lane: usize, [x, y, z]: [f32; 3]) {
-    v.x.as_mut_array()[lane] = x;
-    v.y.as_mut_array()[lane] = y;
-    v.z.as_mut_array()[lane] = z;
-}
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-/// The weights of a triangle's corners at the point of its plane that is nearest to `p`, none of them negative.
-fn barycentric(corners: [f32; 9], p: [f32; 3]) -> [f32; 3] {
-    let corner = |i: usize| std::array::from_fn::<f64, 3, _>(|k| corners[3 * i + k].into());
-    let from_first = |q: [f64; 3]| std::array::from_fn::<f64, 3, _>(|k| q[k] - corner(0)[k]);
-    let (u, v, w) = (from_first(corner(1)), from_first(corner(2)), from_first(p.map(f64::from)));
-    let (uu, uv, vv, wu, wv) = (dot(u, u), dot(u, v), dot(v, v), dot(w, u), dot(w, v));
-    let inverse = 1.0 / (uu * vv - uv * uv);
-    let [s, t] = [(vv * wu - uv * wv) * inverse, (uu * wv - uv * wu) * inverse];
-    // the determinant of a sliver may round to 0
-    let [s, t] = [s, t].map(|x| if x > 0.0 { x.min(1.0) } else { 0.0 });
-    [(1.0 - s - t).max(0.0) as f32, s as f32, t as f32]
-}
-fn mixed<const N: usize>(of: &[[f32; N]; 3], weights: [f32; 3]) -> [f32; N] {
-    std::array::from_fn(|k| of[0][k] * weights[0] + of[1][k] * weights[1] + of[2][k] * weights[2])
-}
-
-/// The direction along which u varies and v does not on a triangle, turned by this angle in radians towards falling v; 0 where both do not
-/// vary.
-fn along_u(corners: [f32; 9], uvs: &[[f32; 2]; 3], turn: f32) -> [f32; 3] {
-    let edge = |i: usize| {
-        let p: [f64; 3] = std::array::from_fn(|k| f64::from(corners[3 * i + k]) - f64::from(corners[k]));
-        let uv: [f64; 2] = std::array::from_fn(|k| f64::from(uvs[i][k]) - f64::from(uvs[0][k]));
-        (p, uv)
-    };
-    let ((p, [a, b]), (q, [c, d])) = (edge(1), edge(2));
-    // ∂p/∂u and ∂p/∂v, but for a common factor, whose sign counts where they are combined
-    let sign = (a * d - b * c).signum();
-    let by_u: [f64; 3] = std::array::from_fn(|k| sign * (d * p[k] - b * q[k]));
-    let by_v: [f64; 3] = std::array::from_fn(|k| sign * (a * q[k] - c * p[k]));
-    let unit = |v: [f64; 3]| {
-        let length = dot(v, v).sqrt();
-        v.map(|x| if length > 0.0 { x / length } else { 0.0 })
-    };
-    let along = unit(by_u);
-    let slant = dot(by_v, along);
-    let across = unit(std::array::from_fn(|k| slant * along[k] - by_v[k]));
-    let (sin, cos) = libm::sincos(turn.into());
-    std::array::from_fn(|k| (cos * along[k] + sin * across[k]) as f32)
-}
-
-/// Normals of an instance in world space; those that the map makes 0 stay so.
-fn moved(normals: [[f32; 3]; 3], to_world: &Affine) -> [[f32; 3]; 3] {
-    let rows = to_world.cofactors();
-    normals.map(|n| {
-        let n = Vec3::from(n.map(f64::from));
-        let [x, y, z] = rows.map(|row| row.dot(n));
-        let unit = Vec3::new(x, y, z).normalize();
-        let unit = [unit.x as f32, unit.y as f32, unit.z as f32];
-        if unit.iter().all(|x| x.is_finite()) { unit } else { [0.0; 3] }
-    })
-}
-
-/// The least cosine between a smooth normal and the direction to the viewer.
-const LEAST_COS: f64 = 0.01;
-
-/// The normal of a smooth surface on the side of the flat normal, turned until its cosine to the viewer is at least [`LEAST_COS`]; `None` if
-/// the normals at the corners cancel.
-fn smooth_normal(normals: &[[f32; 3]; 3], weights: [f32; 3], flat: [f32; 3], direction: [f32; 3]) -> Option<[f32; 3]> {
-    let unit = |n: [f64; 3]| {
-        let length = dot(n, n).sqrt();
-        (length > 1e-6).then(|| n.map(|x| x / length))
-    };
-    let mut n = unit(mixed(normals, weights).map(f64::from))?;
-    let (flat, direction) = (flat.map(f64::from), direction.map(f64::from));
-    if dot(n, flat) < 0.0 {
-        n = n.map(|x| -x);
-    }
-    let cos = -dot(n, direction);
-    if cos < LEAST_COS {
-        n = unit(std::array::from_fn(|k| n[k] - (LEAST_COS - cos) * direction[k]))?;
-    }
-    Some(n.map(|x| x as f32))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// u grows to the right and v downwards, seen from the front; or to the left, as in a mirror; or along other edges.
-    #[test]
-    fn directions_follow_the_texture_coordinates() {
-        let corners = [0.0, 0.0, 0.0, 2.0, 0.0, 0.0, 0.0, -3.0, 0.0];
-        let near = |found: [f32; 3], [x, y]: [f32; 2]| {
-            assert!((found[0] - x).abs() < 1e-6 && (found[1] - y).abs() < 1e-6 && found[2] == 0.0, "{found:?}");
-        };
-        let (right, turned) = (std::f32::consts::FRAC_PI_2, std::f32::consts::FRAC_PI_6);
-        for (uvs, turn, along) in [
-            ([[0.0, 0.0], [4.0, 0.0], [0.0, 1.0]], 0.0, [1.0, 0.0]),
-            // towards falling v, whatever the length of either edge
-            ([[0.0, 0.0], [4.0, 0.0], [0.0, 1.0]], right, [0.0, 1.0]),
-            ([[0.0, 0.0], [4.0, 0.0], [0.0, 1.0]], turned, [0.75_f32.sqrt(), 0.5]),
-            ([[0.5, 0.0], [0.0, 0.0], [0.5, 1.0]], 0.0, [-1.0, 0.0]),
-            ([[0.5, 0.0], [0.0, 0.0], [0.5, 1.0]], right, [0.0, 1.0]),
-            ([[0.0, 0.0], [0.0, 1.0], [1.0, 0.0]], 0.0, [0.0, -1.0]),
-            // v alone varies
-            ([[0.0, 0.0], [0.0, 1.0], [0.0, 2.0]], 0.0, [0.8, 0.6]),
-            ([[0.3, 0.7]; 3], 0.0, [0.0, 0.0]),
-        ] {
-            near(along_u(corners, &uvs, turn), along);
-        }
     }
 }

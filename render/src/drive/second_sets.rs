@@ -10,7 +10,7 @@
 
 use crate::area::{self, Area};
 use crate::film::Pixel;
-use crate::sampler::mixed;
+use crate::sampler::hash64;
 
 /// The samples of second sets relative to all others.
 const SHARE: f64 = 1.0 / 12.0;
@@ -59,7 +59,7 @@ impl Checks {
         }
         // systematic sampling: a pixel at each step of 1 in the sum of chances
         let [x, y, ..] = area;
-        let bits = mixed(seed ^ mixed(u64::from(y) << 32 | u64::from(x)));
+        let bits = hash64(seed ^ hash64(u64::from(y) << 32 | u64::from(x)));
         let mut next = (bits >> 11) as f64 / (1_u64 << 53) as f64;
         let mut sum = 0.0;
         for chance in &mut chances {
@@ -104,7 +104,7 @@ mod tests {
 
     /// Numbers in [0, 1) by index.
     fn random(index: u64) -> f64 {
-        (mixed(index.wrapping_mul(0x9e37_79b9_7f4a_7c15)) >> 11) as f64 / (1_u64 << 53) as f64
+        (hash64(index.wrapping_mul(0x9e37_79b9_7f4a_7c15)) >> 11) as f64 / (1_u64 << 53) as f64
     }
 
     /// Second sets have their share of the samples, in any tile, and pixels of greater variance are chosen more often.

@@ -160,13 +160,13 @@ pub(super) fn over_sphere(picture: &Picture) -> [f64; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sampler::mixed;
+    use crate::sampler::hash64;
     use crate::texture::{Colors, Mapping, Texels};
     use std::sync::Arc;
 
     /// Numbers in [0, 1) by index.
     fn random(index: u64) -> f64 {
-        (mixed(index.wrapping_mul(0x9e37_79b9_7f4a_7c15)) >> 11) as f64 / (1_u64 << 53) as f64
+        (hash64(index.wrapping_mul(0x9e37_79b9_7f4a_7c15)) >> 11) as f64 / (1_u64 << 53) as f64
     }
 
     fn picture([width, height]: [usize; 2], rows: [[f32; 3]; 2], wrap: Wrap, bilinear: bool) -> Picture {
