@@ -25,8 +25,6 @@ pub struct Identity {
     pub sensor: Sensor,
     /// Where the image is in the whole one, if it is only a part.
     pub place: Option<Place>,
-    /// Whether the camera has a lens.
-    pub lens: bool,
     /// The value of unit radiance at the middle of the image, in the unit of the sensor: the PNG is exposed by it.
     #[serde(with = "exact")]
     pub exposure: f64,
@@ -67,7 +65,6 @@ impl Identity {
             settings,
             sensor,
             place: scene.film.place,
-            lens: scene.camera.lens.is_some(),
             exposure: exposure.map_or(1.0, |exposure| exposure.on_axis()),
             averaged: Vec::new(),
             build: None,
@@ -93,7 +90,7 @@ impl Identity {
 
     /// Sets of samples of a pixel.
     pub fn sets(&self) -> u32 {
-        self.settings.sampler.sets(self.settings.spp, self.settings.sets, self.lens)
+        self.settings.sampler.sets(self.settings.spp, self.settings.sets)
     }
     /// The seeds of its samples.
     pub fn seeds(&self) -> impl Iterator<Item = u64> {
@@ -134,7 +131,6 @@ impl Identity {
         let what = |key: &str| match key {
             "digest" => "scene, by the hash of its files,".to_owned(),
             "spp" => "number of samples per pixel".to_owned(),
-            "lens" => "answer to whether there is a lens".to_owned(),
             "build" => "build of etendue".to_owned(),
             other => other.to_owned(),
         };

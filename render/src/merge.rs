@@ -78,7 +78,7 @@ pub fn merge(files: &[PathBuf], partial: bool, progress: &(dyn Fn(u64) + Sync)) 
     let merged = if pilots {
         let of_pilot = |content| if let Content::Pilot(pixels) = content { Some(pixels) } else { None };
         let pilot = assemble(&used, whole, Statistics::default(), of_pilot, progress)?;
-        let counts = PixelCounts::new(&identity.settings, identity.lens, whole, &pilot);
+        let counts = PixelCounts::new(&identity.settings, whole, &pilot);
         Merged::Pilot(Piece { area: whole, content: Content::Counts(counts) })
     } else {
         let nothing = Pixel::of_sets(std::iter::empty(), false);

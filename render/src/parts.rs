@@ -54,7 +54,7 @@ impl PieceKind {
         match self {
             Self::Pixels => true,
             Self::Pilot(lights) | Self::Counts(lights) => {
-                let is_adaptive = sampler == Sampler::Adaptive && sampler.check(spp, sets, identity.lens).is_ok();
+                let is_adaptive = sampler == Sampler::Adaptive && sampler.check(spp, sets).is_ok();
                 is_adaptive && lights as usize <= APART
             }
         }

@@ -73,8 +73,6 @@ pub struct Refinement {
     pub settings: Settings,
     /// The sampler of all passes; `None` for [`default_sampler`] of each pass.
     pub sampler: Option<Sampler>,
-    /// Whether the camera has a lens.
-    pub lens: bool,
     /// When the image is finished.
     pub goal: Goal,
 }
@@ -89,7 +87,7 @@ impl Goal {
 
 impl Refinement {
     fn sampler_of(&self, spp: u32) -> Sampler {
-        self.sampler.unwrap_or_else(|| default_sampler(spp, self.settings.sets, self.lens))
+        self.sampler.unwrap_or_else(|| default_sampler(spp, self.settings.sets))
     }
     /// Checks that the goal can be judged.
     ///
@@ -98,21 +96,13 @@ impl Refinement {
     pub fn check(&self) -> Result<(), String> {
         self.counts().map(|_| ())
     }
-    /// The numbers of samples that a pass may have, in increasing order: powers of two, or the counts of a joint grid.
+    /// The numbers of samples that a pass may have, in increasing order: powers of two.
     fn counts(&self) -> Result<Vec<u32>, String> {
-        let (sets, lens) = (self.settings.sets, self.lens);
-        let all: Vec<u32> = if self.sampler == Some(Sampler::Stratified4d) {
-            let cells = |n: u32| n.checked_pow(if lens { 6 } else { 4 }).filter(|&cells| cells <= MOST_SAMPLES);
-            let replicates = || [1, 2, 4].into_iter().filter(|&r| sets == 0 || r == sets);
-            let mut all: Vec<u32> = (1..).map_while(cells).flat_map(|n| replicates().map(move |r| r * n)).collect();
-            all.sort_unstable();
-            all
-        } else {
-            (0..=MOST_SAMPLES.ilog2()).map(|bits| 1 << bits).collect()
-        };
-        let is_valid = |&n: &u32| self.sampler_of(n).check(n, sets, lens).is_ok();
-        let has_variance = |&n: &u32| reports_variance(self.sampler_of(n), n, sets, lens);
-        let valid: Vec<u32> = all.into_iter().filter(is_valid).collect();
+        let sets = self.settings.sets;
+        let all = (0..=MOST_SAMPLES.ilog2()).map(|bits| 1 << bits);
+        let is_valid = |&n: &u32| self.sampler_of(n).check(n, sets).is_ok();
+        let has_variance = |&n: &u32| reports_variance(self.sampler_of(n), n, sets);
+        let valid: Vec<u32> = all.filter(is_valid).collect();
         let judging: Vec<u32> = valid.iter().copied().filter(has_variance).collect();
         if !judging.is_empty() {
             return Ok(judging);

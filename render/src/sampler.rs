@@ -10,9 +10,7 @@
 
 use crate::named::named;
 use crate::packet::{M8, X8};
-use etendue::sequence::{
-    Independent, JointSobol, JointStratified, OwenSobol, Sequence, Stratified, ZOrder, ZOrderIndex,
-};
+use etendue::sequence::{Independent, JointSobol, OwenSobol, Sequence, Stratified, ZOrder, ZOrderIndex};
 use etendue::{Vec2, u32x8};
 
 named! {
@@ -23,8 +21,6 @@ named! {
         Independent = "independent",
         /// Jittered strata in the pixel and on the light, paired at random
         Stratified = "stratified",
-        /// Jittered strata of pixel × light (× lens); takes n⁴ (n⁶) samples, or 2 or 4 times as many
-        Stratified4d = "stratified-4d",
         /// Owen-scrambled Sobol pairs in the pixel and on the light, paired at random
         Sobol = "sobol",
         /// Owen-scrambled Sobol points of pixel × light (× lens)
@@ -91,51 +87,18 @@ pub(crate) const fn hash64(mut bits: u64) -> u64 {
     bits ^ (bits >> 31)
 }
 
-/// The side of the greatest grid of `dimensions` with at most `count` cells.
-fn side(count: u32, dimensions: u32) -> u32 {
-    (1..).take_while(|&n: &u32| n.checked_pow(dimensions).is_some_and(|cells| cells <= count)).last().unwrap_or(1)
-}
-
-/// Dimensions of a joint set: pixel, light and, with a lens, the lens.
-const fn dimensions(lens: bool) -> u32 {
-    if lens { 6 } else { 4 }
-}
-
-/// Replicates of a pixel of `spp` jittered samples of 4 or 6 dimensions: the first of 4, 2 and 1 that leaves n⁴ or n⁶ samples to
-/// each. A `sets` other than 0 allows no other number.
-fn joint_replicates(spp: u32, dimensions: u32, sets: u32) -> Option<u32> {
-    let fits = |r: u32| spp.is_multiple_of(r) && side(spp / r, dimensions).pow(dimensions) * r == spp;
-    [4, 2, 1].into_iter().filter(|r| sets == 0 || *r == sets).find(|r| fits(*r))
-}
-
 impl Sampler {
     /// Checks that this sampler supports `spp` samples per pixel in `sets` sets (see [`Settings::sets`](crate::Settings::sets)).
-    /// [`Sampler::Stratified4d`] needs n⁴, 2n⁴ or 4n⁴ samples (n⁶ with a lens).
     ///
     /// # Errors
-    /// Fails if `spp` is unsupported; the message names valid counts.
-    pub fn check(self, spp: u32, sets: u32, lens: bool) -> Result<(), String> {
+    /// Fails if `spp` is unsupported; the message says which numbers are.
+    pub fn check(self, spp: u32, sets: u32) -> Result<(), String> {
         if sets > 1 && !spp.is_multiple_of(sets) {
             return Err(format!("{spp} samples per pixel cannot be split into {sets} equal sets"));
         }
-        let d = dimensions(lens);
         match self {
             Self::Adaptive if spp < FEWEST * sets.max(1) => {
                 Err(format!("adaptive needs at least {} samples per pixel: {spp} is too few", FEWEST * sets.max(1)))
-            }
-            Self::Stratified4d if joint_replicates(spp, d, sets).is_none() => {
-                let power = if lens { "n⁶" } else { "n⁴" };
-                let powers = match sets {
-                    0 => format!("{power}, 2{power} or 4{power}"),
-                    1 => power.to_owned(),
-                    _ => format!("{sets}{power}"),
-                };
-                let fits = |n: &u32| joint_replicates(*n, d, sets).is_some();
-                let below = (1..spp).rev().find(fits).unwrap_or(sets.max(1));
-                let above = (spp + 1..).find(fits).unwrap_or(u32::MAX);
-                Err(format!(
-                    "stratified-4d needs {powers} samples per pixel, not {spp}; the nearest valid counts are {below} and {above}"
-                ))
             }
             _ => Ok(()),
         }
@@ -152,10 +115,9 @@ impl Sampler {
     }
     /// Independent sets of samples per pixel if `asked` sets are requested (0: as few as give a variance, if any number does).
     #[must_use]
-    pub fn sets(self, spp: u32, asked: u32, lens: bool) -> u32 {
+    pub fn sets(self, spp: u32, asked: u32) -> u32 {
         match self {
-            _ if asked != 0 && self != Self::Stratified4d => asked,
-            Self::Stratified4d => joint_replicates(spp, dimensions(lens), asked).unwrap_or(replicates(spp)),
+            _ if asked != 0 => asked,
             Self::Adaptive => 1,
             _ => replicates(spp),
         }
@@ -166,7 +128,6 @@ impl Sampler {
 enum Set {
     Independent(Independent),
     Stratified(Stratified),
-    Stratified4d(JointStratified),
     Sobol(OwenSobol),
     Sobol4d(JointSobol),
     ZOrder(ZOrder),
@@ -193,27 +154,20 @@ const fn joint(dimension: u32) -> u32 {
 }
 
 impl Source {
-    /// Prepares `spp` samples per pixel, in `sets` sets, for an image of this width; `lens` says whether samples have a point on a
-    /// lens.
+    /// Prepares `spp` samples per pixel, in `sets` sets, for an image of this width.
     ///
-    /// Every count is valid. [`Sampler::Stratified4d`] repeats the greatest grid that fits into a replicate, see
-    /// [`Sampler::check`]; Sobol points are best if a set is a power of two.
+    /// Every count is valid; Sobol points are best if a set is a power of two.
     #[must_use]
-    pub fn new(sampler: Sampler, seed: u64, spp: u32, sets: u32, lens: bool, width: u32) -> Self {
-        let d = dimensions(lens);
+    pub fn new(sampler: Sampler, seed: u64, spp: u32, sets: u32, width: u32) -> Self {
         let span = match sampler {
             // its replicates have no fixed length, so samples are counted within each
             Sampler::Adaptive => 0,
-            _ => spp / sampler.sets(spp, sets, lens),
+            _ => spp / sampler.sets(spp, sets),
         };
         // each replicate starts a new set
         let (set, stride) = match sampler {
             Sampler::Independent => (Set::Independent(Independent::new(seed)), span),
             Sampler::Stratified => (Set::Stratified(Stratified::new(seed, span)), span),
-            Sampler::Stratified4d => {
-                let set = JointStratified::new(seed, side(span, d), d / 2);
-                (Set::Stratified4d(set), span.next_multiple_of(set.count()))
-            }
             Sampler::Sobol | Sampler::Adaptive => (Set::Sobol(OwenSobol::new(seed)), span),
             Sampler::Sobol4d => (Set::Sobol4d(JointSobol::new(seed)), span),
             Sampler::ZOrder => {
@@ -266,7 +220,6 @@ impl Source {
         match &self.set {
             Set::Independent(set) => set.pair(pixel, packet.sample, dimension),
             Set::Stratified(set) => set.pair(pixel, packet.sample, dimension),
-            Set::Stratified4d(set) => set.pair(pixel, sample(), joint(dimension)),
             Set::Sobol(set) => {
                 let (key, index) = sobol();
                 set.pair(key, index, dimension)
@@ -284,18 +237,18 @@ impl Source {
 /// [`Settings::sets`](crate::Settings::sets)): [`Sampler::Adaptive`] from 16 samples in each set on, else [`Sampler::Sobol`] for an even number
 /// of samples, else [`Sampler::Independent`]. If one set is asked for, nobody asks for a variance.
 #[must_use]
-pub fn default_sampler(spp: u32, sets: u32, lens: bool) -> Sampler {
-    let fits = |s: &Sampler| s.check(spp, sets, lens).is_ok() && (sets == 1 || reports_variance(*s, spp, sets, lens));
+pub fn default_sampler(spp: u32, sets: u32) -> Sampler {
+    let fits = |s: &Sampler| s.check(spp, sets).is_ok() && (sets == 1 || reports_variance(*s, spp, sets));
     [Sampler::Adaptive, Sampler::Sobol].into_iter().find(fits).unwrap_or(Sampler::Independent)
 }
 
 /// Whether pixels of `spp` samples in `sets` sets (see [`Settings::sets`](crate::Settings::sets)) have a finite variance.
 #[must_use]
-pub fn reports_variance(sampler: Sampler, spp: u32, sets: u32, lens: bool) -> bool {
+pub fn reports_variance(sampler: Sampler, spp: u32, sets: u32) -> bool {
     match sampler {
         // each of its samples is a set
         Sampler::Independent => spp > 1,
-        _ => sampler.checks(sets) || sampler.sets(spp, sets, lens) > 1,
+        _ => sampler.checks(sets) || sampler.sets(spp, sets) > 1,
     }
 }
 
@@ -305,15 +258,13 @@ mod tests {
 
     #[test]
     fn the_default_sampler_reports_a_variance_if_any_does() {
-        for lens in [false, true] {
-            for spp in 2..200 {
-                assert!(reports_variance(default_sampler(spp, 0, lens), spp, 0, lens), "{spp}");
-            }
+        for spp in 2..200 {
+            assert!(reports_variance(default_sampler(spp, 0), spp, 0), "{spp}");
         }
-        let chosen = [1, 2, 3, 14, 15, 16, 33, 64].map(|spp| default_sampler(spp, 0, false));
+        let chosen = [1, 2, 3, 14, 15, 16, 33, 64].map(|spp| default_sampler(spp, 0));
         use Sampler::{Adaptive, Independent, Sobol};
         assert_eq!(chosen, [Independent, Sobol, Independent, Sobol, Independent, Adaptive, Adaptive, Adaptive]);
-        assert_eq!([8, 16].map(|spp| default_sampler(spp, 1, false)), [Sobol, Adaptive]);
-        assert_eq!(default_sampler(32, 4, false), Sobol);
+        assert_eq!([8, 16].map(|spp| default_sampler(spp, 1)), [Sobol, Adaptive]);
+        assert_eq!(default_sampler(32, 4), Sobol);
     }
 }

@@ -47,7 +47,7 @@ fn make(bytes: &mut impl Iterator<Item = u8>) -> Option<Vec<u8>> {
         "scene": "fuzz", "digest": "0", "width": choose(&sides, next()?), "height": choose(&sides, next()?),
         "spp": 1 + next()?, "technique": "auto", "choice": "auto", "depth": 8,
         "sampler": choose(&["sobol", "independent", "adaptive", "stratified"].map(Value::from), next()?),
-        "sets": choose(&[0, 1, 2, 4].map(Value::from), next()?), "seed": 0, "sensor": "radiance", "lens": false,
+        "sets": choose(&[0, 1, 2, 4].map(Value::from), next()?), "seed": 0, "sensor": "radiance",
         "exposure": "1.0", "averaged": [], "build": "fuzz", "place": null,
     });
     let [width, height] = ["width", "height"].map(|key| identity[key].as_u64().unwrap_or(1) as u32);

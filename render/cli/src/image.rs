@@ -73,10 +73,9 @@ impl ImageOptions {
         let (width, height) = self.size.unwrap_or((scene.film.width, scene.film.height));
         // an image of another size has no place in the whole one
         scene.film.place = scene.film.place.filter(|_| (width, height) == (scene.film.width, scene.film.height));
-        let lens = scene.camera.lens.is_some();
         let sets = self.sets.unwrap_or(0);
         let spp = self.spp.unwrap_or(scene.pixel_samples);
-        if self.sensor != Sensor::Radiance && !lens {
+        if self.sensor != Sensor::Radiance && scene.camera.lens.is_none() {
             let (sensor, scene) = (self.sensor.name(), self.scene.display());
             return Err(format!(
                 "--sensor {sensor}: the camera of {scene} is a pinhole: it needs a \"lensradius\" greater than 0"
@@ -90,7 +89,7 @@ impl ImageOptions {
             technique: self.technique,
             choice: self.choice,
             depth: self.depth,
-            sampler: self.sampler.unwrap_or_else(|| default_sampler(spp, sets, lens)),
+            sampler: self.sampler.unwrap_or_else(|| default_sampler(spp, sets)),
             sets,
             seed: self.seed,
         };
@@ -98,8 +97,8 @@ impl ImageOptions {
     }
 
     /// Checks that the sampler supports the number of samples.
-    pub(crate) fn check(&self, settings: &Settings, lens: bool) -> Result<(), String> {
-        let checked = settings.sampler.check(settings.spp, settings.sets, lens);
+    pub(crate) fn check(&self, settings: &Settings) -> Result<(), String> {
+        let checked = settings.sampler.check(settings.spp, settings.sets);
         checked.map_err(|what| format!("--sampler: {what}"))
     }
 

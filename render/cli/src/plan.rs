@@ -52,7 +52,7 @@ fn words<const N: usize>(words: [&dyn AsRef<OsStr>; N]) -> Vec<OsString> {
 pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     let Options { image, output, tasks, parts } = options;
     let (scene, settings) = image.load()?;
-    image.check(&settings, scene.camera.lens.is_some())?;
+    image.check(&settings)?;
     // what can be wrong with it should not be found after hours
     let output = Output::new(output.as_deref(), &scene, image.stem())?.exr;
     let folder = parts.clone().unwrap_or_else(|| output.with_extension("parts"));

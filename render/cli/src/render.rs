@@ -88,11 +88,10 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     let image = &options.image;
     let (mut scene, settings) = image.load()?;
     let load = start.elapsed().as_secs_f64();
-    let lens = scene.camera.lens.is_some();
     let goal = Goal { seconds: options.time, error: options.error };
-    let plan = (goal != Goal::default()).then_some(Refinement { settings, sampler: image.sampler, lens, goal });
+    let plan = (goal != Goal::default()).then_some(Refinement { settings, sampler: image.sampler, goal });
     match &plan {
-        None => image.check(&settings, lens)?,
+        None => image.check(&settings)?,
         Some(plan) => plan.check().map_err(|what| format!("--{}: {what}", goal.option()))?,
     }
     if let Some(content) = options.part.content(&settings)? {
@@ -111,7 +110,7 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     let display = RefCell::new(options.display.connect(&output.exr));
     let studio = Session { world: &world, identity, output: &output, interrupt: &interrupt, display };
     let done = pool.install(move || match &plan {
-        None => studio.once(options.repeat, lens),
+        None => studio.once(options.repeat),
         Some(plan) => studio.refine(plan),
     })?;
 
@@ -138,7 +137,7 @@ struct Session<'a> {
 
 impl Session<'_> {
     /// Renders the same image `repeat` times and writes it.
-    fn once(&self, repeat: u32, lens: bool) -> Result<Image, String> {
+    fn once(&self, repeat: u32) -> Result<Image, String> {
         let Settings { width, height, spp, sampler, sets, .. } = self.identity.settings;
         let pixels = u64::from(width) * u64::from(height);
         let bar = bar(pixels * u64::from(repeat), "{wide_bar} {percent:>3} %  {elapsed} of {duration}");
@@ -155,8 +154,8 @@ impl Session<'_> {
         bar.finish_and_clear();
         let error = Claim::new(&film, &self.world.view(&self.identity.settings).foreseen(), spp.into());
         self.write(&film, &self.identity, error)?;
-        let has_sets = reports_variance(sampler, spp, sets, lens);
-        let sets = sampler.sets(spp, sets, lens);
+        let has_sets = reports_variance(sampler, spp, sets);
+        let sets = sampler.sets(spp, sets);
         Ok(Image { film, error, rays, spp: spp.into(), sampler, sets, has_sets, seconds, passes: Vec::new() })
     }
 
@@ -192,9 +191,8 @@ impl Session<'_> {
         bar.finish_and_clear();
         let Progress { film, error, spp, passes, seconds, rays } = done?;
         let largest = passes.iter().max_by_key(|p| p.spp).unwrap_or_else(|| unreachable!("there is a first pass"));
-        let (sampler, sets) = (largest.sampler, largest.sampler.sets(largest.spp, plan.settings.sets, plan.lens));
-        let (own, lens) = (plan.settings.sets, plan.lens);
-        let has_sets = passes.iter().all(|p| reports_variance(p.sampler, p.spp, own, lens));
+        let (sampler, sets) = (largest.sampler, largest.sampler.sets(largest.spp, plan.settings.sets));
+        let has_sets = passes.iter().all(|p| reports_variance(p.sampler, p.spp, plan.settings.sets));
         Ok(Image { film, error, rays, spp, sampler, sets, has_sets, seconds: vec![seconds], passes })
     }
 

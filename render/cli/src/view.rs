@@ -65,10 +65,10 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
         return Err("--spp: `etendue view` takes samples as long as it runs; --error or --time end them".into());
     }
     let reading = Reading::new(image)?;
-    let (settings, lens) = (reading.settings, reading.scene.camera.lens.is_some());
+    let settings = reading.settings;
     let goal = Goal { seconds: options.time, error: options.error };
-    let sampler = image.sampler.unwrap_or_else(|| default_sampler(USUAL, settings.sets, lens));
-    let plan = Refinement { settings, sampler: Some(sampler), lens, goal };
+    let sampler = image.sampler.unwrap_or_else(|| default_sampler(USUAL, settings.sets));
+    let plan = Refinement { settings, sampler: Some(sampler), goal };
     plan.check().map_err(|what| format!("--{}: {what}", goal.option()))?;
     let output = Arc::new(Output::new(options.output.as_deref(), &reading.scene, image.stem())?);
 

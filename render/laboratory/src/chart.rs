@@ -196,8 +196,7 @@ fn prepare(options: &Options, path: &OsStr, circumstances: &str) -> Result<Prepa
     bytes.extend(scene.triangle_materials.iter().flat_map(|x| x.to_le_bytes()));
     bytes.extend(size.iter().flat_map(|x| x.to_le_bytes()));
     bytes.extend(reference.picture.radiance.iter().flatten().flat_map(|x| x.to_le_bytes()));
-    let lens = scene.camera.lens.is_some();
-    let subject = ChartedScene { name: name.to_owned(), world, size, lens, settings: fnv1a(&bytes), reference };
+    let subject = ChartedScene { name: name.to_owned(), world, size, settings: fnv1a(&bytes), reference };
     let techniques = chosen(&options.techniques, &Technique::ALL);
     let choices = chosen(&options.choices, &ChoiceBy::ALL);
     let asked = techniques.iter().flat_map(|&technique| choices.iter().map(move |&choice| (technique, choice)));
@@ -265,7 +264,7 @@ pub fn measure(options: &Options, stop: &Arc<AtomicBool>) -> Result<Outcome, Box
         for &spp in &spps {
             for &sampler in &chosen(&options.samplers, &Sampler::ALL) {
                 for &(technique, choice) in methods {
-                    match inapplicable(sampler, spp, scenes[scene].lens) {
+                    match inapplicable(sampler, spp) {
                         Some(reason) if !notes.contains(&reason) => notes.push(reason),
                         Some(_) => (),
                         None => keys.push(Key { scene, technique, choice, sampler, spp }),

@@ -31,7 +31,6 @@ fn outcome(names: &[&str]) -> Outcome {
         name: (*name).to_owned(),
         world: World::new(&etendue_scene::load("quads").unwrap()).unwrap(),
         size: [16, 16],
-        lens: false,
         settings: 0,
         reference: Reference::builtin("quads").unwrap().shrunk([16, 16]).unwrap(),
     };

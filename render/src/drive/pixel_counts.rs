@@ -42,9 +42,9 @@ pub(super) struct SamplePlan {
 }
 
 impl SamplePlan {
-    pub(super) fn new(settings: &Settings, lens: bool) -> Self {
+    pub(super) fn new(settings: &Settings) -> Self {
         let &Settings { spp, sampler, sets: asked, .. } = settings;
-        let sets = sampler.sets(spp, asked, lens);
+        let sets = sampler.sets(spp, asked);
         let checks = if sampler.checks(asked) { second_sets::share(settings.whole()) } else { 0.0 };
         let packets = f64::from(spp) / (8.0 * f64::from(sets) * (1.0 + checks));
         // the greatest power of two up to a quarter, but 2 packets if there are 4 or more: eight points miss too much
@@ -78,9 +78,9 @@ impl PixelCounts {
     /// # Panics
     /// Panics if the pilot is not one of the area's size.
     #[must_use]
-    pub fn new(settings: &Settings, lens: bool, area: Area, pilot: &[Statistics]) -> Self {
+    pub fn new(settings: &Settings, area: Area, pilot: &[Statistics]) -> Self {
         assert_eq!(pilot.len(), area::count(area));
-        let (packets, weights) = count_packets(pilot, area[2] - area[0], &SamplePlan::new(settings, lens));
+        let (packets, weights) = count_packets(pilot, area[2] - area[0], &SamplePlan::new(settings));
         let (lights, of) = weights.unwrap_or_default();
         Self {
             area,

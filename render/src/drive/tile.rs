@@ -59,7 +59,7 @@ impl<'a> TileRenderer<'a> {
             camera,
             lens: camera.has_lens() || exposure.is_some(),
             exposure,
-            source: Source::new(sampler, seed, spp, sets, camera.has_lens(), width),
+            source: Source::new(sampler, seed, spp, sets, width),
             paths: Paths::new(scene, settings.depth),
             estimator: of_technique(world, settings, &camera),
         }

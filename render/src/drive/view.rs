@@ -166,13 +166,13 @@ impl View<'_> {
     /// # Panics
     /// Panics if the sampler has no such samples, or if the area does not consist of tiles.
     pub fn render(&self, area: Area, samples: Samples, progress: &(dyn Fn(u64) + Sync)) -> (Content, RayCount) {
-        let (settings, camera) = (&self.settings, &self.camera);
+        let settings = &self.settings;
         let is_adaptive = settings.sampler == Sampler::Adaptive;
         assert!(settings.is_of_tiles(area));
         match samples {
             Samples::All if is_adaptive => {
                 let (found, mut rays) = self.pilot(area, &|_| ());
-                let counts = PixelCounts::new(settings, camera.has_lens(), area, &found);
+                let counts = PixelCounts::new(settings, area, &found);
                 let (content, more) = self.render(area, Samples::Rest(&counts), progress);
                 rays += more;
                 (content, rays)
@@ -203,7 +203,7 @@ impl View<'_> {
     }
 
     fn plan(&self) -> SamplePlan {
-        SamplePlan::new(&self.settings, self.camera.has_lens())
+        SamplePlan::new(&self.settings)
     }
 
     fn pilot(&self, area: Area, progress: &(dyn Fn(u64) + Sync)) -> (Vec<Statistics>, RayCount) {

@@ -51,7 +51,7 @@ fn a_part_takes_passes_of_its_own() {
     for sampler in [Sampler::Adaptive, Sampler::Independent] {
         let technique = crate::Technique::SolidAngle;
         let settings = Settings { width: 40, height: 32, spp: 16, technique, sampler, seed: 3, ..Settings::DEFAULT };
-        let plan = Refinement { settings, sampler: Some(sampler), lens: false, goal: Goal::default() };
+        let plan = Refinement { settings, sampler: Some(sampler), goal: Goal::default() };
         let mut refined = Refined::new(&world, &plan).unwrap();
         assert_eq!(refined.lasting(100.0, settings.whole()), refined.counts[0]);
         let first = refined.pass(&world, 16, settings.whole(), &NEVER, &|_| ()).unwrap().clone();
@@ -85,7 +85,7 @@ fn a_preview_is_followed_by_passes_of_the_usual_sampler() {
     let world = lit_floor();
     let (technique, sampler) = (crate::Technique::SolidAngle, Sampler::Adaptive);
     let settings = Settings { width: 16, height: 16, spp: 16, technique, sampler, seed: 3, ..Settings::DEFAULT };
-    let plan = Refinement { settings, sampler: None, lens: false, goal: Goal::default() };
+    let plan = Refinement { settings, sampler: None, goal: Goal::default() };
     let mut refined = Refined::new(&world, &plan).unwrap();
     assert_eq!(refined.lasting(1e9, settings.whole()), 2);
     assert_eq!(refined.pass(&world, 2, settings.whole(), &NEVER, &|_| ()).unwrap().passes[0].sampler, Sampler::Sobol);
@@ -98,24 +98,22 @@ fn a_preview_is_followed_by_passes_of_the_usual_sampler() {
 
 #[test]
 fn samplers_have_counts_with_a_variance() {
-    let plan = |sampler, sets, lens, error| {
+    let plan = |sampler, sets, error| {
         let technique = crate::Technique::Area;
         let (sampler, settings) = (
             Some(sampler),
             Settings { width: 1, height: 1, spp: 1, technique, depth: 0, sampler, sets, ..Settings::DEFAULT },
         );
-        Refinement { settings, sampler, lens, goal: Goal { seconds: None, error } }.counts()
+        Refinement { settings, sampler, goal: Goal { seconds: None, error } }.counts()
     };
-    let of = |sampler, sets, lens| plan(sampler, sets, lens, Some(0.1));
-    assert_eq!(of(Sampler::Sobol, 0, false).unwrap()[..3], [2, 4, 8]);
-    assert_eq!(of(Sampler::Sobol, 4, false).unwrap()[..2], [4, 8]);
-    assert_eq!(of(Sampler::Adaptive, 0, false).unwrap()[..2], [16, 32]);
-    assert_eq!(of(Sampler::Adaptive, 2, false).unwrap()[..2], [32, 64]);
-    assert_eq!(of(Sampler::Adaptive, 4, false).unwrap()[0], 64);
-    assert_eq!(of(Sampler::Stratified4d, 0, false).unwrap()[..6], [2, 4, 32, 64, 162, 324]);
-    assert_eq!(of(Sampler::Stratified4d, 0, true).unwrap()[..4], [2, 4, 128, 256]);
-    assert!(of(Sampler::Sobol, 1, false).unwrap_err().contains("--sets"));
-    assert_eq!(plan(Sampler::Sobol, 1, false, None).unwrap()[..2], [1, 2]);
+    let of = |sampler, sets| plan(sampler, sets, Some(0.1));
+    assert_eq!(of(Sampler::Sobol, 0).unwrap()[..3], [2, 4, 8]);
+    assert_eq!(of(Sampler::Sobol, 4).unwrap()[..2], [4, 8]);
+    assert_eq!(of(Sampler::Adaptive, 0).unwrap()[..2], [16, 32]);
+    assert_eq!(of(Sampler::Adaptive, 2).unwrap()[..2], [32, 64]);
+    assert_eq!(of(Sampler::Adaptive, 4).unwrap()[0], 64);
+    assert!(of(Sampler::Sobol, 1).unwrap_err().contains("--sets"));
+    assert_eq!(plan(Sampler::Sobol, 1, None).unwrap()[..2], [1, 2]);
 }
 
 #[test]

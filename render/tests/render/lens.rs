@@ -11,14 +11,8 @@ use etendue_render::{Sampler, Settings, Technique, World, scene};
 use std::f64::consts::PI;
 use std::path::Path;
 
-const SAMPLERS: [Sampler; 6] = [
-    Sampler::Independent,
-    Sampler::Stratified,
-    Sampler::Stratified4d,
-    Sampler::Sobol,
-    Sampler::Sobol4d,
-    Sampler::ZOrder,
-];
+const SAMPLERS: [Sampler; 5] =
+    [Sampler::Independent, Sampler::Stratified, Sampler::Sobol, Sampler::Sobol4d, Sampler::ZOrder];
 
 fn read(text: &str) -> scene::Scene {
     etendue_scene::parse(text, "test.pbrt", Path::new("")).unwrap()

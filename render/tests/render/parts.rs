@@ -126,7 +126,7 @@ fn any_tiles_in_any_order_make_the_image() {
         ("cornell-box", Technique::Analytic, Sampler::Stratified, 20, 2),
         ("mirror-room", Technique::Analytic, Sampler::Independent, 33, 0),
         ("terrain", Technique::Analytic, Sampler::ZOrder, 18, 0),
-        ("triangle-light", Technique::Analytic, Sampler::Stratified4d, 32, 0),
+        ("triangle-light", Technique::Analytic, Sampler::Sobol4d, 32, 0),
         ("defocus", Technique::Auto, Sampler::Sobol4d, 12, 1),
         ("chandelier", Technique::Auto, Sampler::Sobol, 16, 0),
         ("sky", Technique::Brdf, Sampler::Sobol, 1, 0),

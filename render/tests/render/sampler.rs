@@ -11,8 +11,8 @@ use std::collections::HashMap;
 type M8 = <X8 as Real>::Mask;
 
 /// Film, light and lens numbers of every sample of one pixel, in order.
-fn points(sampler: Sampler, spp: u32, lens: bool, pixel: [u32; 2], seed: u64) -> (Vec<[f64; 6]>, u32) {
-    let source = Source::new(sampler, seed, spp, 0, lens, 256);
+fn points(sampler: Sampler, spp: u32, pixel: [u32; 2], seed: u64) -> (Vec<[f64; 6]>, u32) {
+    let source = Source::new(sampler, seed, spp, 0, 256);
     let replicate = |i: u32| i.checked_div(source.span()).unwrap_or(0);
     let mut all = Vec::new();
     for start in (0..spp).step_by(8) {
@@ -50,26 +50,15 @@ fn even(points: &[[f64; 6]], side: usize, d: usize) -> bool {
 #[test]
 fn joint_samplers_are_joint() {
     for pixel in [[0, 0], [255, 255], [17, 3]] {
-        // (samples, side): one, two and four replicates
-        for (spp, side) in [(16, 2), (32, 2), (64, 2), (81, 3), (162, 3), (1024, 4)] {
-            let (points, span) = points(Sampler::Stratified4d, spp, false, pixel, 1);
-            assert_eq!(span as usize, side * side * side * side);
-            assert!(points.chunks(span as usize).all(|set| even(set, side, 4)), "{spp}");
-        }
-        for (spp, side) in [(64, 2), (128, 2), (256, 2), (729, 3), (2916, 3)] {
-            let (points, span) = points(Sampler::Stratified4d, spp, true, pixel, 1);
-            assert_eq!(span as usize, side * side * side * side * side * side);
-            assert!(points.chunks(span as usize).all(|set| even(set, side, 6)), "{spp}");
-        }
         // with t = 3 in four dimensions and t = 8 in six, 2⁴⁺³ and 2⁶⁺⁸ points fill halves evenly
-        for (spp, lens, d) in [(512, false, 4), (512, true, 4), (1 << 16, true, 6)] {
-            let (points, span) = points(Sampler::Sobol4d, spp, lens, pixel, 1);
+        for (spp, d) in [(512, 4), (1 << 16, 6)] {
+            let (points, span) = points(Sampler::Sobol4d, spp, pixel, 1);
             assert_eq!(span, spp / 4);
             assert!(points.chunks(span as usize).all(|set| even(set, 2, d)), "{spp}");
         }
         // padded samplers are not joint
         for sampler in [Sampler::Independent, Sampler::Stratified, Sampler::Sobol, Sampler::ZOrder] {
-            let (points, _) = points(sampler, 512, false, pixel, 1);
+            let (points, _) = points(sampler, 512, pixel, 1);
             assert!(!points.chunks(128).all(|set| even(set, 2, 4)), "{sampler:?}");
         }
     }
@@ -79,7 +68,7 @@ fn joint_samplers_are_joint() {
 fn every_pair_of_a_replicate_is_even() {
     for sampler in [Sampler::Stratified, Sampler::Sobol, Sampler::Sobol4d, Sampler::ZOrder] {
         for spp in [64, 256] {
-            let (points, span) = points(sampler, spp, true, [9, 200], 2);
+            let (points, span) = points(sampler, spp, [9, 200], 2);
             assert_eq!(span, spp / 4);
             let side = span.isqrt() as usize;
             for set in points.chunks(span as usize) {
@@ -98,11 +87,11 @@ fn every_pair_of_a_replicate_is_even() {
 /// The means of replicates, pixels and seeds are uncorrelated, except those of pixels with Z-order.
 #[test]
 fn replicates_are_independent() {
-    for sampler in [Sampler::Stratified, Sampler::Stratified4d, Sampler::Sobol, Sampler::Sobol4d, Sampler::ZOrder] {
+    for sampler in [Sampler::Stratified, Sampler::Sobol, Sampler::Sobol4d, Sampler::ZOrder] {
         // 100 and 24 are not powers of two: a replicate ends within a set, and the next one starts a new set
         for spp in [32, 256, 100, 24] {
             let means = |pixel: [u32; 2], seed| -> Vec<f64> {
-                let (points, span) = points(sampler, spp, true, pixel, seed);
+                let (points, span) = points(sampler, spp, pixel, seed);
                 let f = |p: &[f64; 6]| (p[0] + 0.3) * (p[2] + 0.1) + p[3] * p[4] + (p[1] - p[5]).powi(2);
                 points.chunks(span as usize).map(|set| set.iter().map(f).sum::<f64>() / f64::from(span)).collect()
             };
@@ -133,8 +122,8 @@ fn replicates_are_independent() {
 
 #[test]
 fn the_choice_of_a_light_has_numbers_of_its_own() {
-    for sampler in [Sampler::Independent, Sampler::Stratified4d, Sampler::Sobol, Sampler::Sobol4d, Sampler::ZOrder] {
-        let source = Source::new(sampler, 1, 64, 0, true, 8);
+    for sampler in [Sampler::Independent, Sampler::Sobol, Sampler::Sobol4d, Sampler::ZOrder] {
+        let source = Source::new(sampler, 1, 64, 0, 8);
         let zero = u32x8::splat(0);
         let sample = u32x8::from([0, 1, 2, 3, 4, 5, 6, 7]);
         let packet = Packet { x: zero, y: zero, sample, replicate: zero, active: M8::splat(true) };
@@ -148,15 +137,8 @@ fn the_choice_of_a_light_has_numbers_of_its_own() {
 /// Each pixel and replicate has numbers of its own, of whatever sampler.
 #[test]
 fn each_replicate_has_numbers_of_its_own() {
-    for sampler in [
-        Sampler::Independent,
-        Sampler::Stratified,
-        Sampler::Stratified4d,
-        Sampler::Sobol,
-        Sampler::Sobol4d,
-        Sampler::ZOrder,
-    ] {
-        let source = Source::new(sampler, 5, 64, 4, false, 16);
+    for sampler in [Sampler::Independent, Sampler::Stratified, Sampler::Sobol, Sampler::Sobol4d, Sampler::ZOrder] {
+        let source = Source::new(sampler, 5, 64, 4, 16);
         let mut seen = HashMap::new();
         for pixel in (0..256).map(|i| [i % 16, i / 16]) {
             for first in (0..64).step_by(8) {
@@ -176,7 +158,7 @@ fn each_replicate_has_numbers_of_its_own() {
 /// Samples that are counted per light: each pixel, replicate and light has numbers of its own on the light, and the pixel's own on the film.
 #[test]
 fn each_light_has_numbers_of_its_own() {
-    let source = Source::new(Sampler::Sobol, 3, 64, 4, false, 256);
+    let source = Source::new(Sampler::Sobol, 3, 64, 4, 256);
     assert!(source.allocates());
     let lanes = u32x8::from([0, 1, 2, 3, 4, 5, 6, 7]);
     let mut seen = HashMap::new();

@@ -60,7 +60,6 @@ impl Reading {
 struct Subject {
     world: World,
     settings: Settings,
-    lens: bool,
     watch: Watch,
     facts: Facts,
     identity: Identity,
@@ -96,7 +95,6 @@ struct Done {
 
 impl Worker<'_> {
     fn build(&self, Reading { mut scene, settings, began }: Reading) -> Result<Subject, Box<dyn Error>> {
-        let lens = scene.camera.lens.is_some();
         let watch = Watch::new(scene.inputs.iter().map(|input| &*input.path), began);
         let identity = Identity::new(&scene, settings, self.image.sensor);
         let world = self.pool.install(|| World::from_scene(&mut scene))?.with_sensor(self.image.sensor);
@@ -108,7 +106,7 @@ impl Worker<'_> {
             target: self.goal.error,
             files: format!("{} and {}", self.output.exr.display(), self.output.png.display()),
         };
-        Ok(Subject { world, settings, lens, watch, facts, identity })
+        Ok(Subject { world, settings, watch, facts, identity })
     }
 
     /// What is shared at the beginning.
@@ -250,9 +248,9 @@ impl Subject {
         let settings = Settings { technique: way.technique, sampler: way.sampler, ..self.settings };
         self.world.check(&settings)?;
         // the usual sampler has a preview of few samples
-        let is_usual = default_sampler(MOST_SAMPLES, settings.sets, self.lens) == way.sampler;
+        let is_usual = default_sampler(MOST_SAMPLES, settings.sets) == way.sampler;
         let sampler = if is_usual { None } else { Some(way.sampler) };
-        let plan = Refinement { settings, sampler, lens: self.lens, goal };
+        let plan = Refinement { settings, sampler, goal };
         let refined = Refined::new(&self.world, &plan)?;
         kept.push(Kept { way, refined, history: Vec::new() });
         for old in forgotten(kept, area::count(settings.whole()) as u64) {

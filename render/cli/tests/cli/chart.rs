@@ -154,7 +154,7 @@ fn faults_are_reported() {
     says("chart quads --target=-1", &["--target"]);
     says("chart quads sphere-light --reference a.exr", &["--reference"]);
     says("chart quads --reference a.exr", &["a.exr"]);
-    says("chart quads --spp 3 --samplers stratified-4d", &["nothing to measure", "stratified-4d"]);
+    says("chart quads --spp 3 --samplers adaptive", &["nothing to measure", "adaptive"]);
     says("figure luck", &["luck"]);
     // hemisphere sampling does not apply to rough metals
     says(

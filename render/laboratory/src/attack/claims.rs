@@ -91,9 +91,9 @@ const fn other(technique: Technique) -> Technique {
 struct Reference([Film; 2]);
 
 impl Reference {
-    fn new(world: &World, settings: &Settings, technique: Technique, lens: bool) -> Self {
+    fn new(world: &World, settings: &Settings, technique: Technique) -> Self {
         let spp = FINER * settings.spp;
-        let sampler = default_sampler(spp, 0, lens);
+        let sampler = default_sampler(spp, 0);
         let of = |seed| world.render(&Settings { technique, spp, sampler, seed, ..*settings }, &|_| ()).0;
         Self([of(settings.seed ^ 0x7072_6563), of(settings.seed ^ 0x6973_6521)])
     }
@@ -120,12 +120,11 @@ impl Reference {
 /// Fails if the scene cannot be rendered.
 pub fn measure(scene: &Scene, seed: u64, [side, spp]: [u32; 2]) -> Result<Tally, String> {
     let world = World::new(scene).map_err(|error| error.to_string())?;
-    let lens = scene.camera.lens.is_some();
     let settings = |spp: u32, run: u64| Settings {
         width: side,
         height: side,
         spp,
-        sampler: default_sampler(spp, 0, lens),
+        sampler: default_sampler(spp, 0),
         seed: seed.wrapping_mul(0x9e37_79b9) ^ run << 40,
         ..Settings::DEFAULT
     };
@@ -141,7 +140,7 @@ pub fn measure(scene: &Scene, seed: u64, [side, spp]: [u32; 2]) -> Result<Tally,
         }
     }
     let mut refine = |way, goal| {
-        let plan = Refinement { settings: settings(spp, SEEDS + 1), sampler: None, lens, goal };
+        let plan = Refinement { settings: settings(spp, SEEDS + 1), sampler: None, goal };
         let Progress { film, error, .. } = render(&world, &plan, &|_| (), |_, _| (), |_| Ok(()))?;
         images.push((way, film, error));
         Ok::<(), String>(())
@@ -154,8 +153,8 @@ pub fn measure(scene: &Scene, seed: u64, [side, spp]: [u32; 2]) -> Result<Tally,
     }
     // by the technique itself only where the other is not precise enough
     let (world, base) = (&world, &base);
-    let references = [other(technique), technique]
-        .map(|technique| LazyCell::new(move || Reference::new(world, base, technique, lens)));
+    let references =
+        [other(technique), technique].map(|technique| LazyCell::new(move || Reference::new(world, base, technique)));
     let mut tally = Tally::default();
     for (way, film, claim) in images {
         let found = (0..2).find_map(|i| Some((i, references[i].squared_error(&film)?)));

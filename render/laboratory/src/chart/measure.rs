@@ -22,8 +22,6 @@ pub struct ChartedScene {
     pub world: World,
     /// Pixels across and down.
     pub size: [u32; 2],
-    /// Whether the camera has a lens, which adds two dimensions.
-    pub lens: bool,
     /// The reference image.
     pub reference: Reference,
     /// Hash of everything a measurement depends on, besides the values of a [`Row`].
@@ -117,15 +115,12 @@ const HEADER: [&str; 18] = [
 const SECONDS: f64 = 0.02;
 const REPEATS: u32 = 15;
 
-/// Sets per pixel: one, which has the least error, since the error comes from replicates of the image. Stratified-4d uses as many
-/// as its few sizes need.
-pub(crate) fn sets(sampler: Sampler) -> u32 {
-    u32::from(sampler != Sampler::Stratified4d)
-}
+/// Sets per pixel: one, which has the least error, since the error comes from replicates of the image.
+pub(crate) const SETS: u32 = 1;
 
 /// Why a sampler does not support this many samples; `None` if it does.
-pub(crate) fn inapplicable(sampler: Sampler, spp: u32, lens: bool) -> Option<String> {
-    sampler.check(spp, sets(sampler), lens).err()
+pub(crate) fn inapplicable(sampler: Sampler, spp: u32) -> Option<String> {
+    sampler.check(spp, SETS).err()
 }
 
 /// The planned measurements.
@@ -204,7 +199,7 @@ impl Plan {
             choice: key.choice,
             depth: Settings::DEPTH,
             sampler: key.sampler,
-            sets: sets(key.sampler),
+            sets: SETS,
             seed,
         };
         let begin = Instant::now();

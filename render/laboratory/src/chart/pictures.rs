@@ -1,6 +1,6 @@
 //! Images for comparison: what each technique renders with few samples, its error and its variance per pixel.
 
-use super::measure::{Plan, inapplicable, sets};
+use super::measure::{Plan, SETS, inapplicable};
 use super::outcome::Outcome;
 use super::plot::short;
 use super::summary::{Summary, Way};
@@ -90,17 +90,8 @@ fn spread(plan: &Plan, scene: usize, way: Way, spp: u32) -> Spread {
             let text = format!("{}/{}/{}/{spp}/picture/{k}", subject.name, way.method(), way.sampler.name());
             let seed = plan.seed.wrapping_add(fnv1a(text.as_bytes()));
             let Way { technique, choice, sampler } = way;
-            let settings = Settings {
-                width,
-                height,
-                spp,
-                technique,
-                choice,
-                depth: Settings::DEPTH,
-                sampler,
-                sets: sets(sampler),
-                seed,
-            };
+            let settings =
+                Settings { width, height, spp, technique, choice, depth: Settings::DEPTH, sampler, sets: SETS, seed };
             let film = subject.world.render(&settings, &|_| ()).0;
             if k == 0 {
                 samples = film.pixels.iter().map(|p| p.samples).collect();
@@ -139,7 +130,7 @@ pub fn panel(outcome: &Outcome, summary: &Summary) -> Panel {
         .series
         .iter()
         .filter(|s| Some(s.way.sampler) == baseline || Some(s.way.method()) == best)
-        .filter(|s| inapplicable(s.way.sampler, spp, subject.lens).is_none())
+        .filter(|s| inapplicable(s.way.sampler, spp).is_none())
         .map(|s| (s.way, spread(plan, scene, s.way, spp)))
         .collect();
     // one scale for all techniques and samplers

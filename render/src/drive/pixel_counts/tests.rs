@@ -44,7 +44,7 @@ fn the_pilot_is_a_quarter_in_a_power_of_two() {
             .into_iter()
             .chain([(256, 4, 2, 8.0), (504, 1, 8, 63.0), (512, 1, 16, 64.0), (520, 1, 16, 65.0)])
     {
-        let plan = SamplePlan::new(&settings([8, 8], spp, sets), false);
+        let plan = SamplePlan::new(&settings([8, 8], spp, sets));
         assert_eq!((plan.pilot, plan.packets), (pilot, packets), "{spp} samples in {sets} sets");
     }
 }
@@ -68,7 +68,7 @@ fn average(packets: &[u32]) -> f64 {
 fn two_halves_of_an_image_share_its_samples() {
     let side = 1024;
     let settings = settings([side, side], 64, 0);
-    let plan = SamplePlan::new(&settings, false);
+    let plan = SamplePlan::new(&settings);
     assert!((plan.checks, plan.pilot) == (1.0 / 12.0, 2) && (plan.packets - 7.38).abs() < 0.01, "{plan:?}");
     let variance = |i: usize| if i % 64 < 32 { 0.01 } else { 1.0 };
     let parts: Vec<_> = (0..64 * 64).map(|i| Statistics { variance: variance(i), ..Statistics::default() }).collect();
