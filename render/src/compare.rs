@@ -40,7 +40,42 @@ pub struct Prediction {
     pub least: f64,
 }
 
+/// A number for each pixel, by its index, and channel.
+type ByChannel<'a> = dyn Fn(usize, usize) -> f64 + 'a;
+
 impl Prediction {
+    /// From the differences of two images of this size, their `mean` per channel, and the variances of both images.
+    fn new(
+        [width, height]: [usize; 2],
+        mean: [f64; 3],
+        difference: &ByChannel<'_>,
+        own: &ByChannel<'_>,
+        other: &ByChannel<'_>,
+    ) -> Self {
+        let (pixels, count) = (width * height, (width * height) as f64);
+        let sum = |of: &ByChannel<'_>| [0, 1, 2].map(|k| (0..pixels).map(|i| of(i, k)).sum());
+        let [owns, others]: [[f64; 3]; 2] = [sum(own), sum(other)];
+        let totals: [f64; 3] = std::array::from_fn(|k| owns[k] + others[k]);
+        let [deviation, other_deviation] = [owns, others].map(|sums| sums.iter().sum::<f64>().sqrt());
+        // the channels of a pixel share their samples, and the pixels of a tile what is known of their variance
+        let excess = |i: usize| (0..3).map(|k| difference(i, k).powi(2) - own(i, k) - other(i, k)).sum::<f64>() / 3.0;
+        let bias = (0..pixels).map(excess).sum::<f64>() / count;
+        let of_pixels = (0..pixels).map(|i| (excess(i) - bias).powi(2)).sum::<f64>();
+        let mut tiles = vec![0.0; width.div_ceil(TILE) * height.div_ceil(TILE)];
+        for i in 0..pixels {
+            let [x, y] = [i % width / TILE, i / width / TILE];
+            tiles[y * width.div_ceil(TILE) + x] += (0..3).map(|k| own(i, k)).sum::<f64>() / 3.0;
+        }
+        let of_tiles = tiles.iter().map(|sum| (TOGETHER * sum).powi(2)).sum::<f64>();
+        let of_pixels = of_pixels * count / (count - 1.0).max(1.0);
+        Self {
+            mse: totals.iter().sum::<f64>() / (3.0 * count),
+            z: std::array::from_fn(|k| ratio(mean[k], totals[k].sqrt() / count)),
+            z_mse: ratio(bias, (of_pixels + of_tiles).sqrt() / count),
+            z_pixels: ratio(bias, of_pixels.sqrt() / count),
+            least: (deviation - other_deviation).powi(2) / (3.0 * count),
+        }
+    }
     /// Whether the difference is what the variances predict.
     #[must_use]
     pub fn agrees(&self) -> bool {
@@ -81,6 +116,29 @@ const TOGETHER: f64 = 0.5;
 /// Images of independent numbers differ by more than this part of the predicted squared difference, unless a variance is wrong.
 const MUCH_LESS: f64 = 0.6;
 
+/// Checks that two images can be compared.
+fn check(reference: &Picture, image: &Picture) -> Result<(), String> {
+    if (reference.width, reference.height) != (image.width, image.height) {
+        return Err(format!(
+            "the reference is {}x{} pixels, the image {}x{}",
+            reference.width, reference.height, image.width, image.height
+        ));
+    }
+    for (name, picture) in [("reference", reference), ("image", image)] {
+        if let Some(i) = picture.radiance.iter().position(|p| p.iter().any(|x| !x.is_finite())) {
+            let (x, y, p) = (i % picture.width, i / picture.width, picture.radiance[i]);
+            return Err(format!("pixel ({x}, {y}) of the {name} is not finite: {p:?}"));
+        }
+    }
+    Ok(())
+}
+
+/// The variances of an image, if they are known for all pixels.
+fn known_variance(picture: &Picture) -> Option<&[[f32; 3]]> {
+    let is_known = |v: &&[[f32; 3]]| v.iter().flatten().all(|x| x.is_finite() && *x >= 0.0);
+    picture.variance.as_deref().filter(is_known)
+}
+
 const CHANNELS: [&str; 3] = ["R", "G", "B"];
 
 impl Comparison {
@@ -90,18 +148,7 @@ impl Comparison {
     /// # Errors
     /// Fails if the sizes differ or a radiance is not finite.
     pub fn new(reference: &Picture, image: &Picture, reference_error: f64) -> Result<Self, String> {
-        if (reference.width, reference.height) != (image.width, image.height) {
-            return Err(format!(
-                "the reference is {}x{} pixels, the image {}x{}",
-                reference.width, reference.height, image.width, image.height
-            ));
-        }
-        for (name, picture) in [("reference", reference), ("image", image)] {
-            if let Some(i) = picture.radiance.iter().position(|p| p.iter().any(|x| !x.is_finite())) {
-                let (x, y, p) = (i % picture.width, i / picture.width, picture.radiance[i]);
-                return Err(format!("pixel ({x}, {y}) of the {name} is not finite: {p:?}"));
-            }
-        }
+        check(reference, image)?;
         let count = image.radiance.len() as f64;
         let difference = |i: usize, k: usize| f64::from(image.radiance[i][k]) - f64::from(reference.radiance[i][k]);
         let mut mean = [0.0; 3];
@@ -117,16 +164,12 @@ impl Comparison {
                 }
             }
         }
-        let mse = squared / (3.0 * count);
         let at = [largest.1 % image.width, largest.1 / image.width];
         let values = || reference.radiance.iter().flatten().map(|&x| f64::from(x));
-        let finite = |picture: &Picture| {
-            picture.variance.clone().filter(|v| v.iter().flatten().all(|x| x.is_finite() && *x >= 0.0))
-        };
-        let (image_variance, reference_variance) = (finite(image), finite(reference));
+        let (image_variance, reference_variance) = (known_variance(image), known_variance(reference));
         // a reference without a layer of variance is exact, but one that does not know its variance is not
         let is_judged = reference_variance.is_some() || reference.variance.is_none() || reference_error > 0.0;
-        let unknown = match (&image_variance, is_judged) {
+        let unknown = match (image_variance, is_judged) {
             (Some(_), true) => "",
             (Some(_), false) => "the reference has no variance",
             (None, _) if reference_variance.is_some() => "the image has no variance",
@@ -134,34 +177,11 @@ impl Comparison {
         };
         let predicted = image_variance.filter(|_| is_judged).map(|variance| {
             let own = |i: usize, k: usize| f64::from(variance[i][k]);
-            let other =
-                |i: usize, k: usize| reference_variance.as_ref().map_or(reference_error, |v| f64::from(v[i][k]));
-            let sum = |of: &dyn Fn(usize, usize) -> f64| [0, 1, 2].map(|k| (0..variance.len()).map(|i| of(i, k)).sum());
-            let [owns, others]: [[f64; 3]; 2] = [sum(&own), sum(&other)];
-            let totals: [f64; 3] = std::array::from_fn(|k| owns[k] + others[k]);
-            let [deviation, other_deviation] = [owns, others].map(|sums| sums.iter().sum::<f64>().sqrt());
-            // the channels of a pixel share their samples, and the pixels of a tile what is known of their variance
-            let excess =
-                |i: usize| (0..3).map(|k| difference(i, k).powi(2) - own(i, k) - other(i, k)).sum::<f64>() / 3.0;
-            let bias = (0..variance.len()).map(excess).sum::<f64>() / count;
-            let of_pixels = (0..variance.len()).map(|i| (excess(i) - bias).powi(2)).sum::<f64>();
-            let mut tiles = vec![0.0; image.width.div_ceil(TILE) * image.height.div_ceil(TILE)];
-            for i in 0..variance.len() {
-                let [x, y] = [i % image.width / TILE, i / image.width / TILE];
-                tiles[y * image.width.div_ceil(TILE) + x] += (0..3).map(|k| own(i, k)).sum::<f64>() / 3.0;
-            }
-            let of_tiles = tiles.iter().map(|sum| (TOGETHER * sum).powi(2)).sum::<f64>();
-            let of_pixels = of_pixels * count / (count - 1.0).max(1.0);
-            Prediction {
-                mse: totals.iter().sum::<f64>() / (3.0 * count),
-                z: std::array::from_fn(|k| ratio(mean[k], totals[k].sqrt() / count)),
-                z_mse: ratio(bias, (of_pixels + of_tiles).sqrt() / count),
-                z_pixels: ratio(bias, of_pixels.sqrt() / count),
-                least: (deviation - other_deviation).powi(2) / (3.0 * count),
-            }
+            let other = |i: usize, k: usize| reference_variance.map_or(reference_error, |v| f64::from(v[i][k]));
+            Prediction::new([image.width, image.height], mean, &difference, &own, &other)
         });
         Ok(Self {
-            mse,
+            mse: squared / (3.0 * count),
             mean,
             largest: (largest.0, at, largest.2),
             reference_mean: values().sum::<f64>() / (3.0 * count),
