@@ -7,7 +7,7 @@
 //!
 //! Files import one way, from the last of this list to the first: `double_precision`, `traversal`,
 //! `rays`, `node`, `build`, `parallel_build`, `tree`, then the traversals `frustum`, `single_ray`, `stream`,
-//! `region`, then the primitives `cutouts`, `triangles`, `shapes`, and `instances` of them.
+//! `region`, then the primitives `cutouts`, `projected_triangle`, `triangles`, `shapes`, and `instances` of them.
 //! Each traversal is one body for closest and any hit (`ANY`). For any hit, the distances in [`Hits`] are the limits, and their places are
 //! the shapes that do not occlude.
 //!
@@ -24,6 +24,7 @@ mod frustum;
 mod instances;
 mod node;
 mod parallel_build;
+mod projected_triangle;
 mod rays;
 mod region;
 mod shapes;
