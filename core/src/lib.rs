@@ -19,7 +19,7 @@
 //!
 //! # The contract
 //! Every routine is *total*, *closed*, *threshold-free*, *lane-identical* and *bounded*. The README, which comes with this package, says
-//! what each word promises. *Closed* and *bounded* hold where single precision can express the answer; the list below the index names
+//! what each word promises. *Closed* and *bounded* fail only where `f32` cannot represent the result; the list below the index names
 //! the exceptions.
 //!
 //! # Conventions

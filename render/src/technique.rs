@@ -27,7 +27,7 @@ named! {
         MisLobe = "mis-lobe",
         /// Exact where geometry tells what occludes a light, and nearly so on rough surfaces; the rest by solid angle, or as mis-lobe
         Analytic = "analytic",
-        /// Analytic with up to 32 lights that all have an area, and no lens; else mis-lobe with rough surfaces, and solid-angle without
+        /// Choose for me: analytic for at most 32 area lights and a pinhole camera; otherwise mis-lobe or solid-angle
         Auto = "auto",
     }
 }

@@ -212,13 +212,13 @@ fn choice() -> Table {
     };
     let rows = vec![
         row(["`Sphere`", "`by_solid_angle`", "always; `by_projected_solid_angle` on diffuse surfaces"], "light sphere by solid angle, prepared", "light sphere by solid angle", "spherical_cap"),
-        row(["`Triangle`", "`by_solid_angle`", "unless it is small for its distance"], "light triangle by solid angle, prepared", "light triangle by solid angle", "spherical_triangle"),
+        row(["`Triangle`", "`by_solid_angle`", "the default; for tiny, distant triangles see the next row"], "light triangle by solid angle, prepared", "light triangle by solid angle", "spherical_triangle"),
         row(["", "`by_area`", "small, far and facing"], "light triangle by area, prepared", "light triangle by area", "area_triangle"),
         row(["", "`by_projected_solid_angle`", "diffuse, where a shadow ray costs more than 80 ns"], "light triangle by projected solid angle, prepared", "light triangle by projected solid angle", "projected_triangle"),
         row(["`Parallelogram`", "`by_solid_angle`", "all quads that are flat"], "light parallelogram by solid angle, prepared", "light parallelogram by solid angle", "spherical_parallelogram"),
         row(["`Rectangle`", "`by_solid_angle`", "where strata should follow the edges"], "light rectangle by solid angle, prepared", "light rectangle by solid angle", "spherical_rectangle"),
         row(["`Polygon`", "`by_solid_angle`", "three to eight corners"], "light pentagon by solid angle, prepared", "light pentagon by solid angle", "spherical_polygon"),
-        row(["`Disk`", "`by_solid_angle`", "unless it is small for its distance: `by_area`"], "light disk by solid angle, prepared", "light disk by solid angle", "spherical_disk"),
+        row(["`Disk`", "`by_solid_angle`", "the default; `by_area` for tiny, distant disks"], "light disk by solid angle, prepared", "light disk by solid angle", "spherical_disk"),
         row(["`Line`", "`by_angle`", "tubes so thin that their width does not matter"], "light line by angle, prepared", "light line by angle", "spherical_segment"),
         row(["`BilinearPatch`", "`by_area`", "twisted quads"], "light bilinear patch by area, prepared", "light bilinear patch by area", "patch_surface"),
     ];

@@ -95,7 +95,7 @@ class View {
       ["time", picture ? `${picture.seconds.toFixed(1)} s` : "0 s"],
       ["now", status.paused ? "paused" : !picture ? "its first pass; the image before it is still shown" : picture.end ? `no more samples: ${picture.end}` : "rendering"],
     ];
-    if (picture && picture.systematic > 0) facts.splice(2, 0, ["of which", `${percent(picture.systematic)} bounds that of closed forms`]);
+    if (picture && picture.systematic > 0) facts.splice(2, 0, ["of which", `at most ${percent(picture.systematic)} comes from approximations`]);
     if (picture && picture.uncertain) facts.splice(2, 0, ["uncertain", `since ${picture.uncertain}`]);
     byId("facts").replaceChildren(...facts.flatMap(([term, text]) => [make("dt", term), make("dd", text)]));
     byId("part").textContent = status.crop

@@ -47,7 +47,7 @@ pub(crate) struct ImageOptions {
     /// Light the scene by this image of a sky (EXR, HDR, PFM or PNG), instead of its own sky
     #[arg(long, value_name = "FILE")]
     environment: Option<PathBuf>,
-    /// Refuse a scene with something that direct light on opaque surfaces cannot show, instead of warning what stands for it
+    /// Fail, rather than substitute unsupported features
     #[arg(long)]
     strict: bool,
 }

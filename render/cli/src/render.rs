@@ -281,7 +281,7 @@ fn print(
         Some(claim) => {
             write!(out, "estimated error {} (relative RMS)", percent(claim.total()))?;
             if claim.systematic > 0.0 {
-                write!(out, ", of which {} bounds that of closed forms", percent(claim.systematic))?;
+                write!(out, ", including at most {} from approximations", percent(claim.systematic))?;
             }
             if let Some(uncertain) = claim.uncertain() {
                 write!(out, "; it is uncertain, since {uncertain}")?;

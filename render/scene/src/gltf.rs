@@ -124,7 +124,7 @@ pub(super) fn read(bytes: &[u8], file: &str, folder: Option<&Path>) -> Result<Sc
     }
     let (camera, film) = camera.unwrap_or_else(|| {
         let framing = cameras::framing(&out);
-        out.notes.warn(source.message("no camera: one that sees all surfaces stands for it"));
+        out.notes.warn(source.message("no camera: framing the whole scene"));
         framing
     });
     let message = |text: &str| source.message(text);

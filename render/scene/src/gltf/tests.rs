@@ -173,7 +173,7 @@ fn text_and_binary_files_are_the_same() {
     assert_eq!(
         warnings,
         [
-            "a.gltf: no camera: one that sees all surfaces stands for it",
+            "a.gltf: no camera: framing the whole scene",
             "a.gltf: nothing emits light: the image will be black; --environment FILE adds a sky"
         ]
     );
