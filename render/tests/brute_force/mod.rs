@@ -1,12 +1,9 @@
-//! Certificates against visibility by brute force in double precision.
+//! What certificates allow to compute, against the truth in double precision.
 
-pub(crate) mod counts;
 pub(crate) mod regimes;
-pub(crate) mod scenes;
-pub(crate) mod solids;
 pub(crate) mod values;
-pub(crate) mod views;
 
-mod compare;
-mod segments;
+mod scenes;
+mod solids;
 mod truth;
+mod views;

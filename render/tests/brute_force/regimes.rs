@@ -1,9 +1,8 @@
 //! Scenes of the regimes in which closed forms lose digits, and points of view from which blockers cut their lights.
 
-use super::counts::Counts;
 use super::scenes::{light, light_point, quad, scenes, shape};
 use super::solids::{Solid, block, cut, moved, solids};
-use super::views::{View, World};
+use super::views::{Fit, View, World};
 use crate::meshes::{Random, Triangle};
 use etendue_oracle::{V3, along, cross, dot, length, sub, unit, wide};
 use etendue_render::scene::{Geometry, Shape};
@@ -304,7 +303,7 @@ fn drawn(all: super::scenes::Scenes, random: &mut Random) -> Setting {
 
 impl World {
     /// A view of a place where a light is seen past the edge of something, on one of the first `floors` triangles or on a sphere.
-    pub(crate) fn look_past_edges(&self, floors: usize, random: &mut Random, c: &mut Counts) -> Option<View> {
+    pub(crate) fn look_past_edges(&self, floors: usize, random: &mut Random, fit: &mut Fit) -> Option<View> {
         let lights: Vec<u32> = self.surfaces.light_shapes().collect();
         let light = &self.scene.shapes[*lights.get(random.below(lights.len().max(1)))? as usize].geometry;
         let spheres = self.scene.shapes.iter().filter(|shape| shape.emission.is_none());
@@ -317,7 +316,7 @@ impl World {
             let target = along(wide(center), unit(wide(random.point())), f64::from(radius));
             let out = unit(along(sub(target, wide(center)), wide(random.point()), 0.5 * f64::from(radius)));
             let origin = along(target, out, f64::from(radius) * between(random, 0.1, 10.0));
-            return self.look_at(origin, target, random, c);
+            return self.look_at(origin, target, random, fit);
         }
         let [a, b, d] = self.scene.triangles[random.below(floors)].map(wide);
         let normal = unit(cross(sub(b, a), sub(d, a)));
@@ -347,6 +346,6 @@ impl World {
         let out = unit(along(up, wide(random.point()), between(random, 0.1, 10.0)));
         let out = if dot(out, up) > 0.0 { out } else { out.map(|x| -x) };
         let distance = length(sub(target, x)) * between(random, 0.02, 5.0);
-        self.look_at(along(target, out, distance), target, random, c)
+        self.look_at(along(target, out, distance), target, random, fit)
     }
 }

@@ -1,7 +1,7 @@
 //! Scenes with lights, and points on lights.
 
 use crate::meshes::{Random, Triangle, add, cube, meshes, sheet};
-use etendue_oracle::{V3, along, cross, dot, length, sub, unit, wide};
+use etendue_oracle::{V3, along, cross, length, sub, unit, wide};
 use etendue_render::scene::{CameraSettings, Emission, Geometry, Material, Scene, Screen, Shape};
 
 /// A scene of triangles and shapes.
@@ -164,19 +164,5 @@ pub(crate) fn light_point(geometry: &Geometry, p: V3, random: &mut Random) -> V3
             along(along(a, sub(b, a), s), sub(c, a), t)
         }
         Geometry::Parallelogram { p, u, v } => along(along(wide(p), wide(u), s), wide(v), t),
-    }
-}
-
-/// Does a point of a light emit towards p?
-pub(crate) fn emits(shape: &Shape, y: V3, p: V3) -> bool {
-    let two_sided = shape.emission.is_some_and(|emission| emission.two_sided);
-    let away = sub(p, y);
-    match shape.geometry {
-        Geometry::Sphere { center, .. } => dot(sub(y, wide(center)), away) > 0.0,
-        Geometry::Triangle(corners) => {
-            let [a, b, c] = corners.map(wide);
-            two_sided || dot(cross(sub(b, a), sub(c, a)), away) > 0.0
-        }
-        Geometry::Parallelogram { u, v, .. } => two_sided || dot(cross(wide(u), wide(v)), away) > 0.0,
     }
 }

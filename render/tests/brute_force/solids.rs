@@ -27,12 +27,12 @@ pub(crate) fn block() -> Solid {
     (corners, faces.map(Vec::from).into())
 }
 
-pub(crate) fn tetrahedron() -> Solid {
+fn tetrahedron() -> Solid {
     let corners = vec![[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0]];
     (corners, vec![vec![0, 1, 2], vec![0, 1, 3], vec![0, 2, 3], vec![1, 2, 3]])
 }
 
-pub(crate) fn octahedron() -> Solid {
+fn octahedron() -> Solid {
     let corner = |k: usize| {
         let mut v = [0.0; 3];
         v[k % 3] = if k < 3 { 1.0 } else { -1.0 };
@@ -99,129 +99,140 @@ fn at(random: &mut Random, y: f64) -> V3 {
     [0.8 * f64::from(random.signed()), y, 0.8 * f64::from(random.signed())]
 }
 
+/// Some of what `one` makes.
+fn some(random: &mut Random, one: impl Fn(&mut Random) -> Vec<Triangle>) -> Vec<Triangle> {
+    (0..1 + random.below(4)).flat_map(|_| one(random)).collect()
+}
+
+/// A solid anywhere.
+fn free(random: &mut Random) -> Vec<Triangle> {
+    let (solid, half, center) = (any_solid(random), half(random, 0.4), wide(random.point()));
+    let place = moved(half, center, random.below(3), random);
+    cut(&solid, place, random)
+}
+
+/// A solid on the floor, or as deep in it as this part of its half height.
+fn standing(deeper: f64, random: &mut Random) -> Vec<Triangle> {
+    let half = half(random, 0.4);
+    let center = at(random, half[1] - 1.0 - deeper * half[1]);
+    let place = moved(half, center, random.below(2), random);
+    let solid = if random.below(4) == 0 { prism(3) } else { block() };
+    cut(&solid, place, random)
+}
+
+/// Boxes side by side with flush tops, and one on top.
+fn touching(random: &mut Random) -> Vec<Triangle> {
+    let (a, b) = (half(random, 0.4), half(random, 0.4));
+    let center = at(random, a[1] - 1.0);
+    let beside = [center[0] + a[0] + b[0], a[1] - 1.0, center[2] + 0.01];
+    let above = [center[0] + 0.01, 2.0 * a[1] - 1.0 + b[1], center[2]];
+    let all = [(a, center), ([b[0], a[1], b[2]], beside), (b, above)];
+    all.into_iter().flat_map(|(half, center)| cut(&block(), moved(half, center, 0, random), random)).collect()
+}
+
+/// Boxes within each other.
+fn nested(random: &mut Random) -> Vec<Triangle> {
+    let (half, center) = (half(random, 0.6), wide(random.point()));
+    let of = |size: f64| cut(&block(), moved(half.map(|x| x * size), center, 0, random), random);
+    [1.0, 0.7, 0.3].into_iter().flat_map(of).collect()
+}
+
+/// A plate no thicker than the tolerance of closed forms.
+fn plate(random: &mut Random) -> Vec<Triangle> {
+    let mut half = half(random, 0.6);
+    half[1] = 5e-5;
+    let center = if random.below(3) == 0 { at(random, -0.9) } else { wide(random.point()) };
+    let place = moved(half, center, random.below(3), random);
+    let solid = if random.below(4) == 0 { prism(6) } else { block() };
+    cut(&solid, place, random)
+}
+
+/// Boxes that lights cross, or in which they are.
+fn around(lights: &[Shape], whole: bool, random: &mut Random) -> Vec<Triangle> {
+    let mut mesh = Vec::new();
+    for lamp in lights {
+        let (Geometry::Sphere { center: at, .. }
+        | Geometry::Triangle([at, ..])
+        | Geometry::Parallelogram { p: at, .. }) = lamp.geometry;
+        let (mut half, mut center) = (half(random, 0.3), wide(at));
+        if whole {
+            half = half.map(|x| x + 0.5 * f64::from(random.unit()));
+        } else {
+            center = along(center, wide(random.point()), 0.4);
+        }
+        let place = moved(half, center, random.below(3), random);
+        mesh.extend(cut(&block(), place, random));
+    }
+    mesh
+}
+
+/// A room with boxes in it, and lamps just inside, flush with the ceiling and above it.
+fn room(lights: &mut Vec<Shape>, random: &mut Random) -> Vec<Triangle> {
+    let mut mesh: Vec<Triangle> = cube(1).into_iter().map(|t| t.map(|v| v.map(|x| 1.9 * x))).collect();
+    mesh.extend(some(random, |random| {
+        let half = half(random, 0.3);
+        let (center, turned) = (at(random, half[1] - 1.9), random.below(2));
+        let place = moved(half, center, turned, random);
+        cut(&block(), place, random)
+    }));
+    for y in [1.899, 1.9, 1.900_01, 1.91] {
+        let p = [random.signed(), y, random.signed()];
+        let geometry = Geometry::Parallelogram { p, u: [0.3, 0.0, 0.0], v: [0.0, 0.0, 0.2] };
+        lights.push(shape(geometry, Some(y > 1.9)));
+    }
+    mesh
+}
+
+/// A solid of which a triangle is missing, twice there, or has a corner that is moved by rounding.
+fn damaged(kind: &str, random: &mut Random) -> Vec<Triangle> {
+    let mut triangles = free(random);
+    let chosen = random.below(triangles.len());
+    match kind {
+        "open" => drop(triangles.remove(chosen)),
+        "duplicate" => triangles.push(triangles[chosen]),
+        _ => {
+            let corner = triangles[chosen][0];
+            let by = (1 + random.below(8)) as i32 * [1, -1][random.below(2)];
+            let dent = |v: [f32; 3]| if v == corner { v.map(|x| ulps(x, by)) } else { v };
+            triangles.iter_mut().for_each(|t| *t = t.map(dent));
+        }
+    }
+    triangles
+}
+
+const KINDS: [&str; 12] = [
+    "free",
+    "standing",
+    "sunk",
+    "touching",
+    "nested",
+    "plates",
+    "crossing",
+    "light in box",
+    "room",
+    "open",
+    "duplicate",
+    "dented",
+];
+
 /// Scenes with solids, by name.
 pub(crate) fn solids(random: &mut Random) -> Scenes {
-    let kinds = [
-        "free",
-        "one",
-        "standing",
-        "sunk",
-        "touching",
-        "nested",
-        "plates",
-        "crossing",
-        "light in box",
-        "room",
-        "open",
-        "duplicate",
-        "dented",
-    ];
     let mut all = Vec::new();
-    for kind in kinds {
-        let mut mesh: Vec<Triangle> = Vec::new();
+    for kind in KINDS {
         let mut lights: Vec<Shape> = (0..3).map(|k| light(random, [0.5, 0.2, 0.05][k])).collect();
+        let mut mesh = match kind {
+            "free" => some(random, free),
+            "standing" => some(random, |random| standing(0.0, random)),
+            "sunk" => some(random, |random| standing([1e-6, 1e-4, 0.3][random.below(3)], random)),
+            "touching" => touching(random),
+            "nested" => nested(random),
+            "plates" => some(random, plate),
+            "crossing" | "light in box" => around(&lights, kind != "crossing", random),
+            "room" => room(&mut lights, random),
+            _ => some(random, |random| damaged(kind, random)),
+        };
         if kind != "room" {
             mesh.extend(quad([-2.0, -1.0, -2.0], [4.0, 0.0, 0.0], [0.0, 0.0, 4.0]));
-        }
-        let few = 1 + random.below(4);
-        let any = random.below(3);
-        match kind {
-            "free" | "one" => {
-                for _ in 0..if kind == "one" { 1 } else { few } {
-                    let (solid, half, center) = (any_solid(random), half(random, 0.4), wide(random.point()));
-                    let place = moved(half, center, any, random);
-                    mesh.extend(cut(&solid, place, random));
-                }
-            }
-            "standing" | "sunk" => {
-                for _ in 0..few {
-                    let half = half(random, 0.4);
-                    let deeper = if kind == "standing" { 0.0 } else { [1e-6, 1e-4, 0.3][random.below(3)] * half[1] };
-                    let center = at(random, half[1] - 1.0 - deeper);
-                    let place = moved(half, center, any.min(1), random);
-                    let solid = if random.below(4) == 0 { prism(3) } else { block() };
-                    mesh.extend(cut(&solid, place, random));
-                }
-            }
-            "touching" => {
-                // side by side with flush tops, and one on top
-                let (a, b) = (half(random, 0.4), half(random, 0.4));
-                let center = at(random, a[1] - 1.0);
-                let beside = [center[0] + a[0] + b[0], a[1] - 1.0, center[2] + 0.01];
-                let above = [center[0] + 0.01, 2.0 * a[1] - 1.0 + b[1], center[2]];
-                for (half, center) in [(a, center), ([b[0], a[1], b[2]], beside), (b, above)] {
-                    let place = moved(half, center, 0, random);
-                    mesh.extend(cut(&block(), place, random));
-                }
-            }
-            "nested" => {
-                let (half, center) = (half(random, 0.6), wide(random.point()));
-                for size in [1.0, 0.7, 0.3] {
-                    let place = moved(half.map(|x| x * size), center, 0, random);
-                    mesh.extend(cut(&block(), place, random));
-                }
-            }
-            "plates" => {
-                for k in 0..few {
-                    let mut half = half(random, 0.6);
-                    half[1] = 5e-5;
-                    let center = if k == 0 { at(random, -0.9) } else { wide(random.point()) };
-                    let place = moved(half, center, any, random);
-                    let solid = if random.below(4) == 0 { prism(6) } else { block() };
-                    mesh.extend(cut(&solid, place, random));
-                }
-            }
-            "crossing" | "light in box" => {
-                for lamp in &lights {
-                    let center = match lamp.geometry {
-                        Geometry::Sphere { center, .. } => center,
-                        Geometry::Triangle([p, ..]) | Geometry::Parallelogram { p, .. } => p,
-                    };
-                    let mut half = half(random, 0.3);
-                    let mut center = wide(center);
-                    if kind == "crossing" {
-                        center = along(center, wide(random.point()), 0.4);
-                    } else {
-                        half = half.map(|x| x + 0.5 * f64::from(random.unit()));
-                    }
-                    let place = moved(half, center, any, random);
-                    mesh.extend(cut(&block(), place, random));
-                }
-            }
-            "room" => {
-                mesh.extend(cube(1).into_iter().map(|t| t.map(|v| v.map(|x| 1.9 * x))));
-                for _ in 0..few {
-                    let half = half(random, 0.3);
-                    let (center, turned) = (at(random, half[1] - 1.9), random.below(2));
-                    let place = moved(half, center, turned, random);
-                    mesh.extend(cut(&block(), place, random));
-                }
-                // just inside, flush with the ceiling and above it
-                for y in [1.899, 1.9, 1.900_01, 1.91] {
-                    let p = [random.signed(), y, random.signed()];
-                    let geometry = Geometry::Parallelogram { p, u: [0.3, 0.0, 0.0], v: [0.0, 0.0, 0.2] };
-                    lights.push(shape(geometry, Some(y > 1.9)));
-                }
-            }
-            _ => {
-                for _ in 0..few {
-                    let (solid, half, center) = (any_solid(random), half(random, 0.4), wide(random.point()));
-                    let place = moved(half, center, any, random);
-                    let mut triangles = cut(&solid, place, random);
-                    let chosen = random.below(triangles.len());
-                    match kind {
-                        "open" => drop(triangles.remove(chosen)),
-                        "duplicate" => triangles.push(triangles[chosen]),
-                        _ => {
-                            let corner = triangles[chosen][0];
-                            let by = (1 + random.below(8)) as i32 * [1, -1][random.below(2)];
-                            let dent = |v: [f32; 3]| if v == corner { v.map(|x| ulps(x, by)) } else { v };
-                            triangles.iter_mut().for_each(|t| *t = t.map(dent));
-                        }
-                    }
-                    mesh.extend(triangles);
-                }
-            }
         }
         // balls receive light, too
         if random.below(2) == 0 {

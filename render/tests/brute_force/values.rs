@@ -3,16 +3,14 @@
 //! The error of a light at a point is allowed to be 10⁻⁵ of what the light contributes there if nothing occludes it. A point that receives
 //! less than a hundredth of what another one of the patch does counts as a point that receives that hundredth.
 
-use super::counts::Counts;
 use super::regimes::Setting;
 use super::scenes::{placed, scene};
-use super::segments::depths;
 use super::truth::Truth;
-use super::views::{View, World};
+use super::views::{Fit, View, World};
 use crate::meshes::{Random, Triangle};
 use etendue::occlusion::{Convex, Occlusion, Polyhedron};
 use etendue::{Real, Vec3, f32x8, f64x4};
-use etendue_oracle::{V3, along, dot, narrow, sub, wide};
+use etendue_oracle::{V3, along, dot, narrow, sub, unit, wide};
 use etendue_render::certify::{Blocker, Bodies, Certificate, Certifier, Precision};
 use etendue_render::surfaces::Surfaces;
 use std::fmt;
@@ -24,8 +22,6 @@ const FAINT: f64 = 1e-2;
 const CLIPPED: usize = 8;
 /// Points of a patch that are compared.
 const POINTS: usize = 4;
-/// Bins of the histogram of errors, each a power of ten, from 1e−17.
-const BINS: usize = 17;
 
 /// Greatest errors by what a certificate says.
 #[derive(Clone, Copy, Debug, Default)]
@@ -59,10 +55,10 @@ pub(crate) struct Values {
     /// Greatest error, relative to the allowed one, and where it is.
     pub(crate) worst: f64,
     pub(crate) place: String,
-    /// Numbers of points by their error relative to the angle around the light and the number of blockers, in powers of ten from 1e−17, for
-    /// polygons, before a sphere, and behind spheres, in single and double precision: whatever the certificate says.
-    errors: [[[u64; BINS]; 2]; 3],
+    /// Greatest error relative to the angle around the light and the number of blockers, for polygons, before a sphere, and behind spheres, in
+    /// single and double precision: whatever the certificate says.
     most: [[f64; 2]; 3],
+    pub(crate) fit: Fit,
 }
 
 const NAMES: [&str; 5] = ["lit", "lit in double", "dark", "blockers", "blockers in double"];
@@ -79,8 +75,8 @@ impl Values {
         self.partial += other.partial;
         for (i, j) in (0..3).flat_map(|i| [(i, 0), (i, 1)]) {
             self.most[i][j] = self.most[i][j].max(other.most[i][j]);
-            self.errors[i][j].iter_mut().zip(other.errors[i][j]).for_each(|(count, other)| *count += other);
         }
+        self.fit.add(other.fit);
         if other.worst > self.worst || other.worst.is_nan() {
             (self.worst, self.place) = (other.worst, other.place);
         }
@@ -94,13 +90,9 @@ impl fmt::Display for Values {
             write!(f, " | {name} {} ({:.3})", row.shafts, row.worst)?;
         }
         write!(f, " | imprecise {}, crowded {}, unknown {}", self.imprecise, self.crowded, self.unknown)?;
-        writeln!(f, " | points: {} in part, {} untold", self.partial, self.untold)?;
-        for (name, (errors, most)) in
-            ["polygons", "before a sphere", "behind spheres"].iter().zip(self.errors.iter().zip(self.most))
-        {
-            for (precision, (errors, most)) in ["single", "double"].iter().zip(errors.iter().zip(most)) {
-                writeln!(f, "    {name}, {precision}: at most {most:.1e} of the angle; {errors:?}")?;
-            }
+        writeln!(f, " | points: {} in part, {} untold, {:?}", self.partial, self.untold, self.fit)?;
+        for (name, [single, double]) in ["polygons", "before a sphere", "behind spheres"].iter().zip(self.most) {
+            writeln!(f, "    {name}: at most {single:.1e} of the angle in single precision, {double:.1e} in double")?;
         }
         Ok(())
     }
@@ -149,7 +141,7 @@ impl World {
         let corner = view.patch.corners().next().unwrap_or_default();
         // where a point off a flat patch is rounded, it stays above the plane
         let is_above = |p: V3| view.patch.normal().is_none_or(|n| dot(n, sub(p, corner)) >= view.patch.least_height());
-        let points = view.points.iter().map(|point| (rounded(point.p), rounded(point.normal)));
+        let points = view.points.iter().map(|&(p, normal)| (rounded(p), rounded(normal)));
         let points: Vec<(V3, V3)> = points.filter(|(p, _)| is_above(*p)).collect();
         let step = points.len().div_ceil(POINTS).max(1);
         let points: Vec<(V3, V3)> = points.into_iter().step_by(step).take(POINTS).collect();
@@ -226,8 +218,11 @@ impl World {
         for (lane, (truth, &(p, _))) in truth.iter().zip(points).enumerate() {
             // on the surface of a body, points are inside or outside by the rounding of its corners
             let on_surface = single.iter().any(|body| {
-                let (rounding, depths) = depths(p, body);
-                depths.iter().fold(f64::INFINITY, |least, x| least.min(*x)).abs() < rounding
+                let exact = |v: Vec3<f32>| wide([v.x, v.y, v.z]);
+                let reach = body.edges.iter().flat_map(|edge| edge.ends).map(exact).chain([p]).flatten();
+                let depth = |[normal, on]: &[Vec3<f32>; 2]| dot(unit(exact(*normal)), sub(exact(*on), p));
+                let least = body.faces.iter().map(depth).fold(f64::INFINITY, f64::min);
+                least.abs() < 3e-7 * reach.fold(0.0, |most: f64, x| most.max(x.abs()))
             });
             let Some(left) = truth.left.filter(|_| !on_surface) else {
                 values.untold += 1;
@@ -239,8 +234,6 @@ impl World {
                 for (precision, value) in both.iter().enumerate() {
                     let Some(value) = value else { continue };
                     let error = (value[lane] - left).abs() / (around * count);
-                    let bin = (error.max(1e-30).log10() + 17.0).floor().clamp(0.0, BINS as f64 - 1.0) as usize;
-                    values.errors[spheres][precision][bin] += 1;
                     let most = &mut values.most[spheres][precision];
                     *most = most.max(error);
                 }
@@ -273,7 +266,7 @@ impl World {
 
 /// Tests about `shafts` shafts of a regime, from a number of the generator onwards.
 pub(crate) fn campaign(name: &str, made: fn(&mut Random) -> Setting, shafts: u64, first: u32) -> Values {
-    let (mut values, mut c, mut forms) = (Values::default(), Counts::default(), Forms::default());
+    let (mut values, mut forms) = (Values::default(), Forms::default());
     let mut random = Random { index: first };
     while values.shafts < shafts {
         let begun = random.index;
@@ -288,7 +281,7 @@ pub(crate) fn campaign(name: &str, made: fn(&mut Random) -> Setting, shafts: u64
         let found = Bodies::new(&world.surfaces.bvh);
         let none = Bodies::default();
         for _ in 0..16 {
-            let Some(view) = world.look_past_edges(floors, &mut random, &mut c) else { continue };
+            let Some(view) = world.look_past_edges(floors, &mut random, &mut values.fit) else { continue };
             let bodies = if random.below(4) == 0 { &none } else { &found };
             world.values(&view, bodies, &mut forms, &mut values);
         }
