@@ -1,11 +1,10 @@
 //! Light computed from certificates, against the same light sampled.
 
-use crate::variance::reported_to_measured;
+use crate::kit::{builtin, world};
 use etendue_oracle::tier::cases;
 use etendue_render::compare::differs;
 use etendue_render::film::Film;
 use etendue_render::{RayCount, Sampler, Settings, Technique, World};
-use std::path::Path;
 
 const SETTINGS: Settings =
     Settings { width: 64, height: 64, spp: 64, technique: Technique::Analytic, sets: 4, ..Settings::DEFAULT };
@@ -23,7 +22,7 @@ fn render(world: &World, settings: &Settings) -> (Film, RayCount) {
 fn agrees_with_sampled_lights() {
     const SIDE: usize = 8;
     for name in SCENES.into_iter().take(cases(4, 7)) {
-        let world = World::new(&etendue_scene::load(name).unwrap()).unwrap();
+        let world = builtin(name);
         let settings = Settings { spp: cases(64, 1024), ..SETTINGS };
         let technique = if name == "plates" { Technique::MisPower } else { Technique::SolidAngle };
         let (film, _) = render(&world, &settings);
@@ -55,7 +54,7 @@ fn traces_few_rays() {
     for (name, rays, variance) in
         [("sphere-light", 0.0, 0.3), ("quads", 0.06, 0.1), ("triangle-light", 0.1, 1.1), ("cornell-box", 0.12, 1.1)]
     {
-        let world = World::new(&etendue_scene::load(name).unwrap()).unwrap();
+        let world = builtin(name);
         let (film, count) = render(&world, &SETTINGS);
         let (sampled, other) = render(&world, &Settings { technique: Technique::SolidAngle, ..SETTINGS });
         let sum = |film: &Film| film.pixels.iter().map(|p| f64::from(p.variance[1])).sum::<f64>();
@@ -81,23 +80,13 @@ fn closed_surfaces_are_dark_inside() {
                  AreaLightSource \"diffuse\" \"rgb L\" [7 7 7]
                  Shape \"trianglemesh\" \"point3 P\" [-.5 {height} -.5  .5 {height} -.5  0 {height} .5]"
             );
-            let world = World::new(&etendue_scene::parse(&text, "closed.pbrt", Path::new("")).unwrap()).unwrap();
+            let world = world(&text);
             let [ours, sampled] = [Technique::Analytic, Technique::SolidAngle]
                 .map(|technique| render(&world, &Settings { technique, spp: cases(16, 64), ..SETTINGS }).0.mean()[1]);
             println!("light at {height}: {ours:.5} {sampled:.5}");
             assert!((height == 9) == (ours == 0.0), "{text}: {ours}");
             assert!((ours - sampled).abs() <= 0.01 * sampled, "{text}: {ours} {sampled}");
         }
-    }
-}
-
-/// The variance that an image reports is the one that images of other seeds have, also where only the pixel is sampled.
-#[test]
-fn knows_its_variance() {
-    let world = World::new(&etendue_scene::load("quads").unwrap()).unwrap();
-    for sampler in [Sampler::Adaptive, Sampler::Sobol].into_iter().take(cases(1, 2)) {
-        let ratio = reported_to_measured(&world, &Settings { sampler, ..SETTINGS });
-        assert!((ratio - 1.0).abs() < 0.1, "{sampler:?}: {ratio}");
     }
 }
 
@@ -139,7 +128,7 @@ fn the_error_of_closed_forms_is_bounded() {
             AreaLightSource \"diffuse\" \"rgb L\" [ 3 2 1 ] \"bool twosided\" true Translate 0 1 2
             Shape \"sphere\" \"float radius\" 0.25"
         );
-        World::new(&etendue_scene::parse(&text, "floor.pbrt", Path::new("")).unwrap()).unwrap()
+        world(&text)
     };
     let down = "LookAt 0 2 0  0 0 0  0 0 1";
     let up = "LookAt 0 2 0  0 9 0  0 0 1";
@@ -183,7 +172,7 @@ fn known_lights_take_no_samples_from_others() {
              Shape \"bilinearmesh\" \"point3 P\" [-3 -3 0  3 -3 0  -3 3 0  3 3 0]\n",
             light(1.0, 0.0, "30 30 30")
         );
-        World::new(&etendue_scene::parse(&text, "a.pbrt", Path::new("")).unwrap()).unwrap()
+        world(&text)
     };
     let noise = |known: usize| {
         let world = world(known);

@@ -1,5 +1,6 @@
 //! Ways to choose a light: all of them give the same image in the mean.
 
+use crate::kit::{builtin, read};
 use etendue_oracle::tier::cases;
 use etendue_render::{ChoiceBy, Sampler, Settings, Technique, World};
 
@@ -54,7 +55,7 @@ fn mean(world: &World, settings: &Settings, images: u64) -> [f64; 2] {
 /// combined with samples of the surface.
 #[test]
 fn all_choices_have_the_same_mean() {
-    let mixed = etendue_scene::parse(MIXED, "mixed.pbrt", std::path::Path::new("")).unwrap();
+    let mixed = read(MIXED);
     let scenes =
         ["quads", "delta-lights", "plates", "chandelier"].map(|name| (name, etendue_scene::load(name).unwrap()));
     let mut compared = [0; 6];
@@ -89,7 +90,7 @@ fn impossible_choices_are_refused() {
             "the choice tree needs lights that are somewhere, and the scene has a sun or a sky",
         ),
     ] {
-        let world = World::new(&etendue_scene::load(name).unwrap()).unwrap();
+        let world = builtin(name);
         assert_eq!(world.check(&Settings { choice, ..SETTINGS }), Err(what.to_owned()));
         // nothing is chosen where a technique finds all lights
         let (technique, choice) = (Technique::Brdf, ChoiceBy::Spatial);

@@ -1,26 +1,23 @@
 //! The thin lens: geometry of its rays, and images of defocused edges compared with their closed form.
 
+use crate::kit::{film, read};
 use etendue::sequence::{Independent, Sequence};
 use etendue::warp::ConcentricDisk;
 use etendue::{Real, Vec2, Warp, f32x8, u32x8};
-use etendue_oracle::tier::{cases, is_long};
+use etendue_oracle::tier::is_long;
 use etendue_render::camera::Camera;
 use etendue_render::compare::Comparison;
 use etendue_render::image::Picture;
-use etendue_render::{Sampler, Settings, Technique, World, scene};
+use etendue_render::scene::Scene;
+use etendue_render::{Sampler, Settings, Technique, World};
 use std::f64::consts::PI;
 use std::path::Path;
 
 const SAMPLERS: [Sampler; 5] =
     [Sampler::Independent, Sampler::Stratified, Sampler::Sobol, Sampler::Sobol4d, Sampler::ZOrder];
 
-fn read(text: &str) -> scene::Scene {
-    etendue_scene::parse(text, "test.pbrt", Path::new("")).unwrap()
-}
-
-fn render(scene: &scene::Scene, settings: &Settings) -> Picture {
-    let film = World::new(scene).unwrap().render(settings, &|_| ()).0;
-    Picture::from(&film)
+fn render(scene: &Scene, settings: &Settings) -> Picture {
+    Picture::from(&film(&World::new(scene).unwrap(), settings))
 }
 
 fn agrees(reference: &Picture, image: &Picture) -> bool {
@@ -96,7 +93,7 @@ fn fraction(s: f64) -> f64 {
 const SIZE: [u32; 2] = [64, 16];
 
 /// A vertical edge at depth 2, of a light or of a black mesh in front of a light.
-fn edge(radius: f64, focus: f64, mesh: bool) -> scene::Scene {
+fn edge(radius: f64, focus: f64, mesh: bool) -> Scene {
     let light = "AreaLightSource \"diffuse\" \"rgb L\" [1 1 1] \"bool twosided\" true";
     let world = if mesh {
         format!(
@@ -150,26 +147,6 @@ fn edges_out_of_focus_have_their_closed_form() {
                 }
             }
         }
-    }
-}
-
-/// Techniques and samplers agree on images through the lens.
-#[test]
-fn techniques_and_samplers_agree_through_a_lens() {
-    let scene = etendue_scene::load("defocus").unwrap();
-    let of = |technique, sampler, spp, seed| {
-        render(&scene, &Settings { width: 96, height: 64, spp, technique, sampler, seed, ..Settings::DEFAULT })
-    };
-    let reference = of(Technique::SolidAngle, Sampler::Independent, cases(256, 1024), 0);
-    for sampler in SAMPLERS.into_iter().step_by(cases(2, 1)) {
-        assert!(agrees(&reference, &of(Technique::SolidAngle, sampler, 256, 1)), "{sampler:?}");
-    }
-    for (technique, spp) in [
-        (Technique::Area, 256),
-        (Technique::CosineHemisphere, cases(256, 1024)),
-        (Technique::UniformHemisphere, cases(256, 1024)),
-    ] {
-        assert!(agrees(&reference, &of(technique, Sampler::Independent, spp, 2)), "{technique:?}");
     }
 }
 

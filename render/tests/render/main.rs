@@ -1,25 +1,24 @@
 //! Images of scenes, against closed forms, references and each other. One program: linking the renderer takes longer than most tests.
 
-mod adaptive;
-mod allocation;
 mod analytic;
 mod choice;
-mod closed_forms;
 mod glossy;
+mod holes;
 mod identity;
 mod images;
+mod kit;
 mod lens;
 mod lights;
-mod own_scenes;
+mod panels;
 mod parts;
-mod pictures;
 mod portals;
 mod profiles;
 mod references;
 mod sampler;
+mod samples;
 mod sensor;
 mod sky;
-mod soundness;
+mod surfaces;
 mod values;
 mod variance;
 mod vignetting;

@@ -1,11 +1,12 @@
 //! Compares irradiance and power of the film under uniform radiance with the closed form.
 
+use crate::kit::{film, read};
+use etendue_oracle::facing_disk;
 use etendue_oracle::tier::cases;
 use etendue_render::compare::{Comparison, LIMIT, differs};
 use etendue_render::image::Picture;
 use etendue_render::{Sampler, Sensor, Settings, Technique, World, scene};
 use std::f64::consts::PI;
-use std::path::Path;
 
 /// A camera inside a sphere of radiance 1. With fov 2·atan(½) and a 4:3 film of 50 mm diagonal, the film is 40 × 30 mm, 30 mm behind the
 /// lens.
@@ -19,7 +20,7 @@ fn inside(radius: f64, scale: f64) -> scene::Scene {
          AreaLightSource \"diffuse\" \"rgb L\" [1 2 4] \"bool twosided\" true Shape \"sphere\" \"float radius\" 1000",
         s = 1.0 / scale
     );
-    etendue_scene::parse(&text, "inside.pbrt", Path::new("")).unwrap()
+    read(&text)
 }
 
 const SIZE: [u32; 2] = [40, 30];
@@ -29,19 +30,10 @@ fn render(scene: &scene::Scene, sensor: Sensor, sampler: Sampler, spp: u32) -> P
     let [width, height] = SIZE;
     let settings =
         Settings { width, height, spp, technique: Technique::SolidAngle, sampler, seed: 11, ..Settings::DEFAULT };
-    let film = World::new(scene).unwrap().with_sensor(sensor).render(&settings, &|_| ()).0;
-    Picture::from(&film)
+    Picture::from(&film(&World::new(scene).unwrap().with_sensor(sensor), &settings))
 }
 
-/// Irradiance from a parallel disk of radiance 1, with radius k and offset a in units of its distance: π times the form factor
-/// ½ [1 − (1 + a² − k²)/√((1 + a² + k²)² − 4 a² k²)], rearranged to avoid cancellation.
-fn facing_disk(k: f64, a: f64) -> f64 {
-    let (c, root) = (1.0 + a * a - k * k, ((1.0 + a * a + k * k).powi(2) - 4.0 * (a * k).powi(2)).sqrt());
-    // root² − c² = 4 k²
-    if c > 0.0 { 2.0 * PI * k * k / (root * (root + c)) } else { 0.5 * PI * (1.0 - c / root) }
-}
-
-/// Mean irradiance of the pixel (x, y) for radiance 1.
+/// Mean irradiance of the pixel (x, y) for radiance 1, of a disk of radius k in units of its distance: π times the form factor.
 fn expected(k: f64, x: usize, y: usize) -> f64 {
     // three Gauss points per dimension, as the field is smooth over a thirtieth of the film
     let node = [0.5 - 0.15_f64.sqrt(), 0.5, 0.5 + 0.15_f64.sqrt()];
@@ -49,29 +41,9 @@ fn expected(k: f64, x: usize, y: usize) -> f64 {
     let at = |i: usize, j: usize| {
         // millimetres from the middle, over 30 mm
         let a = [x as f64 + node[i] - 20.0, y as f64 + node[j] - 15.0].map(|mm| mm * 1e-3 / DISTANCE);
-        weight[i] * weight[j] * facing_disk(k, a[0].hypot(a[1]))
+        weight[i] * weight[j] * PI * facing_disk(k, 1.0, a[0].hypot(a[1]))
     };
     (0..9).map(|n| at(n / 3, n % 3)).sum()
-}
-
-#[test]
-fn the_closed_form_is_the_integral() {
-    for (k, a) in [(0.01, 0.0), (0.3, 0.8), (1.0, 0.5), (3.0, 0.2), (3.0, 2.9), (0.5, 0.5)] {
-        // ∫ dA'/(1 + |p' − p|²)² over the disk, in polar coordinates
-        let n = 400;
-        let ring = |i: i32| {
-            let r = k * (f64::from(i) + 0.5) / f64::from(n);
-            let angle = |j: i32| (f64::from(j) + 0.5) * 2.0 * PI / f64::from(n);
-            let sum: f64 = (0..n).map(|j| (1.0 + r * r + a * a - 2.0 * a * r * angle(j).cos()).powi(-2)).sum();
-            sum * r * (k / f64::from(n)) * 2.0 * PI / f64::from(n)
-        };
-        let sum: f64 = (0..n).map(ring).sum();
-        assert!((sum / facing_disk(k, a) - 1.0).abs() < 2e-5, "{k} {a}: {sum} {}", facing_disk(k, a));
-    }
-    // π sin²α on the axis, and cos⁴θ for a small lens
-    assert!((facing_disk(2.0, 0.0) - PI * 0.8).abs() < 1e-14);
-    let fall = facing_disk(1e-4, 0.75) / facing_disk(1e-4, 0.0);
-    assert!((fall - 0.8_f64.powi(4)).abs() < 1e-7, "{fall}");
 }
 
 /// Checks every pixel, for lenses from f/500 to wider than their distance from the film.

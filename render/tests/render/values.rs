@@ -34,6 +34,16 @@ fn write_files(folder: &Path) {
     write("wide.pfm", [2, 1], &[1.0, 2.0]);
     write("tall.pfm", [1, 2], &[1.0, 2.0]);
     write("longitudes.pfm", [4, 2], &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0]);
+    for (name, size) in
+        [("1x3.pfm", [1, 3]), ("3x3.pfm", [3, 3]), ("7x7.pfm", [7, 7]), ("6x2.pfm", [6, 2]), ("4x3.pfm", [4, 3])]
+    {
+        let texels: Vec<f32> = (0..size[0] * size[1]).map(|k| 1.0 / (1 + k % size[0] + k / size[0]) as f32).collect();
+        write(name, size, &texels);
+    }
+    // 90 cd at the nadir, 0 from 60 degrees on; and the same everywhere below
+    let head = "IESNA:LM-63-2019\nTILT=NONE\n1 -1 3 2 1 1 2 0 0 0\n1 1 9\n";
+    fs::write(folder.join("cone.ies"), format!("{head}0 60\n0\n30 0\n")).unwrap();
+    fs::write(folder.join("below.ies"), format!("{head}0 90\n0\n3 3\n")).unwrap();
     let quad = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n\
                 element face 1\nproperty list uchar int vertex_indices\nend_header\n\
                 -1 -1 0\n1 -1 0\n1 1 0\n-1 1 0\n4 0 1 2 3\n";

@@ -1,13 +1,12 @@
 //! Vignetting of a lens in a barrel, as seen from points of the film.
 
-use etendue_render::camera::{Barrel, Pupil};
-use etendue_render::camera::{Camera, ThinLens};
+use crate::kit::read;
+use etendue_render::camera::{Barrel, Camera, Pupil, ThinLens};
 use etendue_render::compare::{Comparison, LIMIT};
 use etendue_render::film::Film;
 use etendue_render::image::Picture;
 use etendue_render::{Sampler, Settings, Technique, World, scene};
 use std::f64::consts::PI;
-use std::path::Path;
 
 const SIZE: [u32; 2] = [48, 32];
 
@@ -16,7 +15,7 @@ fn scene(lens: &str, world: &str) -> scene::Scene {
         "Camera \"perspective\" \"float fov\" 40 {lens} WorldBegin Material \"diffuse\" \"rgb reflectance\" [0 0 0]\n\
          AreaLightSource \"diffuse\" \"rgb L\" [1 1 1] \"bool twosided\" true {world}"
     );
-    etendue_scene::parse(&text, "test.pbrt", Path::new("")).unwrap()
+    read(&text)
 }
 
 fn render(scene: &scene::Scene, camera: &Camera, [width, height]: [u32; 2], spp: u32, sampler: Sampler) -> Film {

@@ -28,7 +28,10 @@ fn strengths(color: &str, photometric: &str, per_unit: f64) -> Vec<(String, V3)>
 }
 
 pub(super) fn rows() -> Vec<Row> {
-    [points(), distant(), spots(), goniometric(), projections(), beside_colours()].into_iter().flatten().collect()
+    let kinds = [points(), distant(), spots(), goniometric(), lamps(), projections(), together(), beside_colours()];
+    // as light from one direction has no noise, every technique has the values of one place exactly
+    let exactly = |row: Row| if row.name.contains(Place::new().name.as_str()) { row.exactly() } else { row };
+    kinds.into_iter().flatten().map(exactly).collect()
 }
 
 fn points() -> Vec<Row> {
@@ -143,6 +146,53 @@ fn goniometric() -> Vec<Row> {
         }
     }
     rows
+}
+
+/// Lamps of IES files, whose nadir is −y.
+fn lamps() -> Vec<Row> {
+    let mut rows = Vec::new();
+    // the lamp turns about the direction from which the floor is seen, 2 above and 1 beside the origin
+    let angle = 0.5_f64.atan().to_degrees();
+    let base = || Place::new().translate([1.0, 0.0, 2.0]).rotate(90.0, [1.0, 0.0, 0.0]);
+    for turn in [0.0, -angle, 50.0] {
+        let place = base().rotate(turn, [0.0, 0.0, 1.0]);
+        let down = unit(place.inverse_vector([-1.0, 0.0, -2.0]));
+        let value = 90.0 * (1.0 - (-down[1]).acos().to_degrees() / 60.0).max(0.0);
+        let right = reflected(grey(value * from_point([1.0, 0.0, 2.0])));
+        let light = place.holds("LightSource \"goniometric\" \"string filename\" \"cone.ies\"");
+        rows.push(Row::new(format!("lamp turned by {turn}, as it is"), on_floor(&light), right).within(1e-4));
+    }
+    for (text, strength) in strengths("I", "power", 2.0 * PI) {
+        // without a power, the file has 9 cd
+        let value = if text.contains("power") { strength } else { times(strength, 9.0) };
+        let light = base().holds(&format!("LightSource \"goniometric\" \"string filename\" \"below.ies\" {text}"));
+        let right = reflected(times(value, from_point([1.0, 0.0, 2.0])));
+        rows.push(Row::new(format!("lamp {text}"), on_floor(&light), right).within(1e-4));
+    }
+    rows
+}
+
+/// Several lights at once, and what hides them, whichever technique is used.
+fn together() -> Vec<Row> {
+    let lamp = "LightSource \"point\" \"point3 from\" [.15 .1 2] \"rgb I\" [1 2 3]";
+    let lit = times([1.0, 2.0, 3.0], from_point([0.15, 0.1, 2.0]));
+    let sun = "LightSource \"distant\" \"point3 from\" [3 0 4] \"point3 to\" [0 0 0] \"rgb L\" [1 .5 2]";
+    let both = along([0.8, 0.4, 1.6], lit, 1.0);
+    let glow = "AttributeBegin Material \"diffuse\" \"rgb reflectance\" [0 0 0] AreaLightSource \"diffuse\" Translate 0 0 5 \
+                Shape \"sphere\" \"float radius\" .2 AttributeEnd";
+    let screen = "Shape \"bilinearmesh\" \"point3 P\" [-9 -9 1 9 -9 1 -9 9 1 9 9 1]";
+    let metal = "Material \"conductor\" \"rgb reflectance\" [1 1 1] \"float roughness\" .3";
+    let row = |name: &str, lights: String, right: V3| Row::new(name, on_floor(&lights), reflected(right)).exactly();
+    vec![
+        row("a point and a distant light", format!("{lamp} {sun}"), both),
+        row(
+            "a point behind a ball",
+            format!("{lamp} Translate .07 .05 1 Shape \"sphere\" \"float radius\" .2"),
+            grey(0.0),
+        ),
+        row("lights behind a mirror", format!("{lamp} {glow} Material \"mirror\" {screen}"), grey(0.0)),
+        row("lights behind a rough metal", format!("{lamp} {glow} {metal} {screen}"), grey(0.0)),
+    ]
 }
 
 /// Solid angle of the rectangle [0, x] × [0, y] at distance 1.

@@ -23,7 +23,9 @@ pub(super) struct Row {
     /// How much of the right value it may be off, apart from noise.
     pub(super) tolerance: f64,
     pub(super) samples: u32,
-    pub(super) technique: Technique,
+    pub(super) techniques: &'static [Technique],
+    /// Whether there is no noise.
+    pub(super) is_exact: bool,
     /// What the renderer shows by choice instead, and why.
     pub(super) differs: Option<(V3, &'static str)>,
 }
@@ -31,7 +33,8 @@ pub(super) struct Row {
 impl Row {
     pub(super) fn new(name: impl Into<String>, text: String, right: V3) -> Self {
         let (name, text) = (name.into(), Text::Pbrt(text));
-        Self { name, text, right, tolerance: ROUNDING, samples: 64, technique: Technique::Auto, differs: None }
+        let techniques = &[Technique::Auto];
+        Self { name, text, right, tolerance: ROUNDING, samples: 64, techniques, is_exact: false, differs: None }
     }
     pub(super) fn within(self, tolerance: f64) -> Self {
         Self { tolerance, ..self }
@@ -39,8 +42,12 @@ impl Row {
     pub(super) fn samples(self, samples: u32) -> Self {
         Self { samples, ..self }
     }
-    pub(super) fn by(self, technique: Technique) -> Self {
-        Self { technique, ..self }
+    pub(super) fn by(self, techniques: &'static [Technique]) -> Self {
+        Self { techniques, ..self }
+    }
+    /// By every technique, without noise.
+    pub(super) fn exactly(self) -> Self {
+        Self { techniques: &Technique::ALL, is_exact: true, ..self }
     }
     pub(super) fn differs(self, shown: V3, why: &'static str) -> Self {
         Self { differs: Some((shown, why)), ..self }
@@ -54,14 +61,19 @@ impl Row {
         };
         let scene = scene.map_err(|error| format!("{name}: {error}"))?;
         let world = World::new(&scene).map_err(|error| format!("{name}: {error}"))?;
-        let (technique, sampler, spp) = (self.technique, Sampler::Independent, self.samples);
+        let lines: Result<Vec<_>, _> = self.techniques.iter().map(|technique| self.seen(&world, *technique)).collect();
+        Ok(lines?.join("\n"))
+    }
+    fn seen(&self, world: &World, technique: Technique) -> Result<String, String> {
+        let name = if self.techniques.len() > 1 { format!("{}, {technique:?}", self.name) } else { self.name.clone() };
+        let (sampler, spp) = (Sampler::Independent, self.samples);
         let settings = Settings { width: 1, height: 1, spp, technique, sampler, seed: 5, ..Settings::DEFAULT };
         let pixel = world.render(&settings, &|_| ()).0.pixels[0];
         let (seen, errors) = (pixel.mean.map(f64::from), pixel.variance.map(|v| f64::from(v).sqrt()));
         let (wanted, why) = self.differs.map_or((self.right, ""), |(shown, why)| (shown, why));
         let greatest = wanted.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
         for k in 0..3 {
-            if LIMIT * errors[k] > 0.04 * greatest {
+            if LIMIT * errors[k] > if self.is_exact { 1e-4 } else { 0.04 } * greatest {
                 return Err(format!("{name}: too noisy to tell: {seen:?} ± {errors:?}, right {:?}", self.right));
             }
             let error = (seen[k] - wanted[k]).abs();

@@ -7,10 +7,10 @@ use etendue_render::Technique;
 use std::f64::consts::PI;
 
 /// A constant sky has no noise by this.
-const PROJECTED: Technique = Technique::ProjectedSolidAngle;
+const PROJECTED: &[Technique] = &[Technique::ProjectedSolidAngle];
 
 pub(super) fn rows() -> Vec<Row> {
-    [constant(), images(), windows(), portals()].into_iter().flatten().collect()
+    [constant(), images(), windows(), daylight(), portals()].into_iter().flatten().collect()
 }
 
 fn constant() -> Vec<Row> {
@@ -35,6 +35,12 @@ fn constant() -> Vec<Row> {
             ));
         }
     }
+    let colours = "LightSource \"infinite\" \"rgb L\" [1 2 4]";
+    let right = reflected([PI, 2.0 * PI, 4.0 * PI]);
+    rows.push(Row::new("sky by each technique", on_floor(colours), right).by(&Technique::ALL).samples(1 << 15));
+    // with a pdf proportional to the cosine, all samples have the same value
+    let cosines = &[Technique::CosineHemisphere, Technique::Brdf, Technique::ProjectedSolidAngle];
+    rows.push(Row { is_exact: true, ..Row::new("sky by cosines", on_floor(colours), right).by(cosines) });
     let two = "LightSource \"infinite\" \"rgb L\" [1 2 3] LightSource \"infinite\" \"rgb L\" [1 1 1]";
     rows.push(Row::new("two skies", on_floor(two), reflected([2.0 * PI, 3.0 * PI, 4.0 * PI])).by(PROJECTED));
     rows
@@ -73,10 +79,20 @@ fn images() -> Vec<Row> {
         // what it measures is what arrives
         let text = format!("LightSource \"infinite\" \"string filename\" \"{file}\" \"float illuminance\" 10");
         let row = Row::new(format!("floor below {file} of 10"), on_floor(&text), reflected(grey(10.0)));
-        rows.push(row.samples(1 << 16));
+        rows.push(row.by(&Technique::ALL).samples(1 << 15));
     }
-    let one = "LightSource \"infinite\" \"string filename\" \"one.pfm\" \"float illuminance\" 10";
-    rows.push(Row::new("floor below a sky of one texel of 10", on_floor(one), reflected(grey(10.0))).samples(1 << 16));
+    for size in ["one.pfm", "1x3.pfm", "3x3.pfm", "7x7.pfm", "6x2.pfm", "4x3.pfm"] {
+        let text = format!("LightSource \"infinite\" \"string filename\" \"{size}\" \"float illuminance\" 10");
+        let right = reflected(grey(10.0));
+        rows.push(Row::new(format!("floor below a sky of {size} of 10"), on_floor(&text), right).samples(1 << 16));
+    }
+    // beside a constant one, in either order
+    let (image, constant) =
+        ("LightSource \"infinite\" \"string filename\" \"one.pfm\"", "LightSource \"infinite\" \"rgb L\" [1 2 4]");
+    for skies in [format!("{image} {constant}"), format!("{constant} {image}")] {
+        let text = format!("{}{skies}", look([0.0; 3], [0.3, 0.4, -0.5]));
+        rows.push(Row::new("an image and a constant sky", text, [2.0, 3.0, 5.0]));
+    }
     rows
 }
 
@@ -122,6 +138,15 @@ fn polygon(corners: &[V3], normal: V3) -> f64 {
     0.5 * (0..corners.len()).map(edge).sum::<f64>().abs()
 }
 
+/// Daylight with a sun has the illuminance of both; the image of the sky has it to 2e−4.
+fn daylight() -> Vec<Row> {
+    let sky = "LightSource \"infinite\" \"string sky\" \"cie\" \"integer type\" 12 \"float elevation\" 30 \
+               \"float illuminance\" 10 \"float sun\" 8";
+    let techniques = &[Technique::SolidAngle, Technique::ProjectedSolidAngle, Technique::MisPower];
+    let row = Row::new("daylight and a sun", on_floor(sky), reflected(grey(10.0 + 8.0 * 0.5)));
+    vec![row.by(techniques).samples(1 << 16).within(2e-4)]
+}
+
 /// What comes through a portal, which is in world space whatever the transform, lights the floor as if the portal emitted it.
 fn portals() -> Vec<Row> {
     // pbrt's side is that of the cross product of the last edge and the first
@@ -142,6 +167,8 @@ fn portals() -> Vec<Row> {
     let sky = format!("LightSource \"infinite\" \"point3 portal\" [{text}]");
     let through = |p: V3| format!("{}{sky}", look([0.0, 0.0, 0.1], p));
     rows.push(Row::new("through a portal", through([0.1, 0.2, 2.0]), grey(1.0)));
+    let behind = format!("{}{sky}", look([0.0, 0.0, 4.0], [0.1, 0.2, 2.0]));
+    rows.push(Row::new("from behind a portal", behind, grey(0.0)));
     rows.push(Row::new("beside a portal", through(sub([0.1, 0.2, 2.0], [1.0, 0.0, 0.0])), grey(0.0)));
     rows
 }

@@ -1,34 +1,22 @@
 //! Holes and instances, against closed forms and against scenes without them.
 
+use crate::kit::{film, narrow, read, settings, sum, world};
 use etendue_render::compare::LIMIT;
 use etendue_render::scene::{Instance, Scene};
-use etendue_render::{Sampler, Settings, Technique, World};
-use etendue_scene::parse;
-use std::path::Path;
+use etendue_render::{Technique, World};
 use std::sync::Arc;
 
 const TECHNIQUES: [Technique; 4] =
     [Technique::SolidAngle, Technique::MisPower, Technique::Analytic, Technique::CosineHemisphere];
 
-fn read(text: &str) -> Scene {
-    parse(text, "test.pbrt", Path::new("no such directory")).unwrap_or_else(|e| panic!("{e}\n{text}"))
-}
-
-fn settings(technique: Technique, side: u32, spp: u32) -> Settings {
-    Settings { width: side, height: side, spp, technique, sampler: Sampler::Independent, seed: 5, ..Settings::DEFAULT }
-}
-
-/// Mean and standard error of the first channel of the only pixel.
+/// Mean and standard error of the green channel of the only pixel.
 fn pixel(world: &World, technique: Technique, spp: u32) -> (f64, f64) {
-    let (film, _) = world.render(&settings(technique, 1, spp), &|_| ());
-    (film.pixels[0].mean[0].into(), f64::from(film.pixels[0].variance[0]).sqrt())
+    let [mean, variance] = sum(&film(world, &settings(technique, 1, spp)));
+    (mean, variance.sqrt())
 }
 
-/// A view of the origin that is so narrow that a pixel is a point.
-fn narrow(camera: &str, scene: &str) -> World {
-    let view =
-        format!("LookAt {camera} 0 0 0  0.1 1 0.2\nCamera \"perspective\" \"float fov\" 1e-3\nWorldBegin\n{scene}");
-    World::new(&read(&view)).unwrap()
+fn seen(camera: &str, scene: &str) -> World {
+    world(&narrow(camera, scene))
 }
 
 fn square(size: f64, height: f64, parameters: &str) -> String {
@@ -47,7 +35,7 @@ const LAMP: &str = "AttributeBegin Material \"diffuse\" \"rgb reflectance\" [0 0
 fn veils_dim_what_is_behind() {
     let floor = square(9.0, 0.0, "");
     let through = |veils: &str, technique: Technique, camera: &str| {
-        pixel(&narrow(camera, &format!("{LAMP}{floor}{veils}")), technique, 1 << 14)
+        pixel(&seen(camera, &format!("{LAMP}{floor}{veils}")), technique, 1 << 14)
     };
     let (one, two) = (square(2.0, 1.0, "\"float alpha\" .3"), square(2.5, 1.5, "\"float alpha\" .25"));
     for technique in TECHNIQUES {
@@ -82,7 +70,7 @@ fn only_rough_surfaces_combine_light_and_bsdf() {
         ("\"conductor\" \"float roughness\" .5", ""),
         ("\"coateddiffuse\" \"float roughness\" .3", bent),
     ] {
-        let world = narrow("2 .6 0", &format!("{lamp}{ball}Material {material}\n{}", square(9.0, 0.0, parameters)));
+        let world = seen("2 .6 0", &format!("{lamp}{ball}Material {material}\n{}", square(9.0, 0.0, parameters)));
         let (truth, more) = pixel(&world, Technique::Brdf, 1 << 14);
         assert!(truth > 0.1, "{material}: {truth}");
         for technique in [Technique::Analytic, Technique::MisPower] {
@@ -112,7 +100,7 @@ fn boxes_with_holes_are_no_bodies() {
     let (below, above) = (mesh(holes, "0 4 5 0 5 1"), mesh(holes, "2 3 7") + &mesh("", "2 7 6"));
     let half = format!("{below}{above}{}", mesh("", upright));
     for technique in TECHNIQUES {
-        let seen = |cage: &str| pixel(&narrow("5 .5 0", &format!("{LAMP}{floor}{cage}")), technique, 1 << 14);
+        let seen = |cage: &str| pixel(&seen("5 .5 0", &format!("{LAMP}{floor}{cage}")), technique, 1 << 14);
         let (open, more) = seen("");
         for cage in &cages {
             let (mean, error) = seen(cage);
@@ -142,7 +130,7 @@ fn boards_have_holes_where_the_texture_says() {
         let scene = format!("{sun}{textures}Translate {} 0 {}\n{}{board}", -x, -z, square(9.0, 0.0, ""));
         for technique in [Technique::SolidAngle, Technique::Analytic] {
             // the shadow on the floor, seen from below the board
-            let (shadow, _) = pixel(&narrow("3 .5 0", &scene), technique, 4);
+            let (shadow, _) = pixel(&seen("3 .5 0", &scene), technique, 4);
             assert_eq!(shadow == 0.0, is_solid, "({u}, {v}): {shadow}");
         }
         *(if is_solid { &mut solid } else { &mut open }) += 1;
@@ -212,7 +200,7 @@ fn instances_look_like_copies() {
     let [world, copies] = [&scene, &copies].map(|scene| World::new(scene).unwrap());
     assert!(world.bytes() * 8 < copies.bytes(), "{} and {} bytes", world.bytes(), copies.bytes());
     for technique in [Technique::SolidAngle, Technique::MisPower, Technique::Analytic] {
-        let [one, other] = [&world, &copies].map(|world| world.render(&settings(technique, 48, 4), &|_| ()).0);
+        let [one, other] = [&world, &copies].map(|world| film(world, &settings(technique, 48, 4)));
         let lit = one.pixels.iter().filter(|pixel| pixel.mean[0] > 0.0).count();
         assert!(lit > 1000, "{technique:?}: {lit} of 2304 pixels are lit");
         let differ = one.pixels.iter().zip(&other.pixels).filter(|(a, b)| a.mean != b.mean).count();
