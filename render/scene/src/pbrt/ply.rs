@@ -1,409 +1,366 @@
 //! Reads the points and faces of PLY mesh files, ASCII or binary, and checks every count against the size of the file.
 
 use crate::message::shortened;
-use ply_rs_bw::parser::{ParseError, Parser, Reader};
-use ply_rs_bw::ply::{
-    ElementDef, Encoding, Header, Property, PropertyAccess, PropertyAccessResult, PropertyType, ScalarType,
-};
-use std::io::ErrorKind;
 
 /// The contents of a mesh file.
-#[derive(Debug)]
-pub(super) struct Mesh<'a> {
+#[derive(Debug, Default, PartialEq)]
+pub(super) struct Mesh {
     /// Vertices in the order of the file; numbers may be NaN or infinite.
-    pub(super) vertices: Vertices<'a>,
-    /// Whether the vertices have normals, of any length.
-    pub(super) has_normals: bool,
-    /// Whether the vertices have texture coordinates.
-    pub(super) has_uvs: bool,
-    /// Triangles and quads in the order of the file, with unchecked indices.
-    pub(super) faces: Faces<'a>,
+    pub(super) points: Vec<[f64; 3]>,
+    /// Normals of any length, one for each vertex or none.
+    pub(super) normals: Vec<[f64; 3]>,
+    /// Texture coordinates, one for each vertex or none.
+    pub(super) uvs: Vec<[f64; 2]>,
+    /// Triangles and quads in the order of the file.
+    pub(super) faces: Vec<Face>,
     /// Warnings about ignored parts of the file.
     pub(super) warnings: Vec<String>,
 }
 
-/// The numbers of vertices: a point, a normal and texture coordinates. Those that the file lacks are NaN.
-#[derive(Debug)]
-pub(super) enum Vertices<'a> {
-    /// Rows of a binary file, each of `size` bytes, and where in them each number is.
-    Plain { bytes: &'a [u8], size: usize, places: [Option<Place>; 8] },
-    /// Numbers that were read one by one.
-    Read(Vec<Vertex>),
+/// A triangle or a quad, by the indices of its vertices in cyclic order.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Face {
+    Triangle([u32; 3]),
+    Quad([u32; 4]),
 }
 
-/// Where a number is in a row: the bytes before it, and its type.
-type Place = (usize, ScalarType);
+#[derive(Clone, Copy, PartialEq)]
+enum Format {
+    Ascii,
+    LittleEndian,
+    BigEndian,
+}
 
-impl Vertices<'_> {
-    /// Number of vertices.
-    pub(super) fn len(&self) -> usize {
-        match self {
-            Self::Plain { bytes, size, .. } => bytes.len() / size,
-            Self::Read(vertices) => vertices.len(),
-        }
-    }
+/// The type of a number.
+#[derive(Clone, Copy, PartialEq)]
+enum Kind {
+    I8,
+    U8,
+    I16,
+    U16,
+    I32,
+    U32,
+    F32,
+    F64,
+}
 
-    /// `N` numbers of each vertex, from number `first` on.
-    pub(super) fn numbers<const N: usize>(&self, first: usize) -> impl ExactSizeIterator<Item = [f64; N]> + '_ {
-        (0..self.len()).map(move |i| match self {
-            Self::Plain { bytes, size, places } => {
-                let row = &bytes[i * size..(i + 1) * size];
-                std::array::from_fn(|k| places[first + k].as_ref().map_or(f64::NAN, |place| number(row, place)))
-            }
-            Self::Read(vertices) => std::array::from_fn(|k| vertices[i].0[first + k]),
+impl Kind {
+    fn named(word: &str) -> Option<Self> {
+        Some(match word {
+            "char" | "int8" => Self::I8,
+            "uchar" | "uint8" => Self::U8,
+            "short" | "int16" => Self::I16,
+            "ushort" | "uint16" => Self::U16,
+            "int" | "int32" => Self::I32,
+            "uint" | "uint32" => Self::U32,
+            "float" | "float32" => Self::F32,
+            "double" | "float64" => Self::F64,
+            _ => return None,
         })
     }
-}
-
-/// The little-endian number at a place in a row.
-#[inline(always)]
-fn number(row: &[u8], &(start, ref of): &Place) -> f64 {
-    macro_rules! read {
-        ($type:ty) => {
-            f64::from(<$type>::from_le_bytes(row[start..].first_chunk().copied().unwrap_or_default()))
-        };
+    fn is_integer(self) -> bool {
+        !matches!(self, Self::F32 | Self::F64)
     }
-    match of {
-        ScalarType::Float => read!(f32),
-        ScalarType::Double => read!(f64),
-        ScalarType::Char => read!(i8),
-        ScalarType::UChar => read!(u8),
-        ScalarType::Short => read!(i16),
-        ScalarType::UShort => read!(u16),
-        ScalarType::Int => read!(i32),
-        ScalarType::UInt => read!(u32),
-    }
-}
-
-/// Bytes of a number.
-fn size_of(of: &ScalarType) -> usize {
-    match of {
-        ScalarType::Char | ScalarType::UChar => 1,
-        ScalarType::Short | ScalarType::UShort => 2,
-        ScalarType::Int | ScalarType::UInt | ScalarType::Float => 4,
-        ScalarType::Double => 8,
-    }
-}
-
-/// Triangles and quads.
-#[derive(Debug)]
-pub(super) enum Faces<'a> {
-    /// This many lists of 32-bit indices in a binary file, each after its length in a byte.
-    Plain { bytes: &'a [u8], count: usize, is_signed: bool },
-    /// Faces that were read one by one.
-    Read(Vec<Face>),
-}
-
-impl Faces<'_> {
-    /// Number of faces.
-    pub(super) fn len(&self) -> usize {
-        match self {
-            Self::Plain { count, .. } => *count,
-            Self::Read(faces) => faces.len(),
+    /// Takes a number from the beginning of bytes, if they have it.
+    fn take(self, bytes: &mut &[u8], is_big: bool) -> Option<f64> {
+        macro_rules! take {
+            ($type:ty) => {{
+                let (first, rest) = bytes.split_first_chunk()?;
+                *bytes = rest;
+                let number = if is_big { <$type>::from_be_bytes(*first) } else { <$type>::from_le_bytes(*first) };
+                f64::from(number)
+            }};
         }
-    }
-
-    /// The faces, those of other than 3 or 4 corners, too.
-    fn all(&self) -> impl Iterator<Item = Face> + '_ {
-        let mut at = 0;
-        (0..self.len()).map(move |i| match self {
-            Self::Plain { bytes, is_signed, .. } => {
-                let corners = usize::from(bytes[at]);
-                let list = &bytes[at + 1..at + 1 + 4 * corners];
-                at += 1 + 4 * corners;
-                let mut indices = [-1; 4];
-                for (to, from) in indices.iter_mut().zip(list.chunks_exact(4)) {
-                    let index = u32::from_le_bytes(from.first_chunk().copied().unwrap_or_default());
-                    *to = if *is_signed { i64::from(index as i32) } else { i64::from(index) };
-                }
-                Face { indices, corners }
-            }
-            Self::Read(faces) => faces[i],
+        Some(match self {
+            Self::I8 => take!(i8),
+            Self::U8 => take!(u8),
+            Self::I16 => take!(i16),
+            Self::U16 => take!(u16),
+            Self::I32 => take!(i32),
+            Self::U32 => take!(u32),
+            Self::F32 => take!(f32),
+            Self::F64 => take!(f64),
         })
     }
-
-    /// The triangles and quads, with their places among all faces.
-    pub(super) fn iter(&self) -> impl Iterator<Item = (usize, Face)> + '_ {
-        self.all().enumerate().filter(|(_, face)| face.is_supported())
-    }
-}
-
-/// A triangle or a quad.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Face {
-    /// Vertex indices in cyclic order; a triangle leaves the last one unused.
-    pub(super) indices: [i64; 4],
-    /// Number of corners, 3 or 4.
-    pub(super) corners: usize,
-}
-
-/// The numbers of a vertex: a point, a normal and texture coordinates.
-#[derive(Debug)]
-pub(super) struct Vertex([f64; 8]);
-
-/// Names of the numbers of a vertex. Texture coordinates have several.
-const NUMBERS: [&[&str]; 8] = [
-    &["x"],
-    &["y"],
-    &["z"],
-    &["nx"],
-    &["ny"],
-    &["nz"],
-    &["u", "s", "texture_u", "texture_s"],
-    &["v", "t", "texture_v", "texture_t"],
-];
-
-struct Other;
-
-impl PropertyAccess for Vertex {
-    fn new() -> Self {
-        Vertex([f64::NAN; 8])
-    }
-
-    fn set_property(&mut self, name: &str, value: Property) -> PropertyAccessResult {
-        let Some(axis) = NUMBERS.iter().position(|names| names.contains(&name)) else {
-            return PropertyAccessResult::Ignored;
-        };
-        self.0[axis] = match value {
-            Property::Char(x) => x.into(),
-            Property::UChar(x) => x.into(),
-            Property::Short(x) => x.into(),
-            Property::UShort(x) => x.into(),
-            Property::Int(x) => x.into(),
-            Property::UInt(x) => x.into(),
-            Property::Float(x) => x.into(),
-            Property::Double(x) => x,
-            _ => return PropertyAccessResult::UnsupportedType,
-        };
-        PropertyAccessResult::Set
-    }
-}
-
-impl PropertyAccess for Face {
-    fn new() -> Self {
-        Face { indices: [-1; 4], corners: 0 }
-    }
-
-    fn set_property(&mut self, name: &str, value: Property) -> PropertyAccessResult {
-        if !is_index_list(name) {
-            return PropertyAccessResult::Ignored;
+    /// The number that a word means, if it is one of this type.
+    fn parse(self, word: &str) -> Option<f64> {
+        fn number<T: std::str::FromStr + Into<f64>>(word: &str) -> Option<f64> {
+            word.parse::<T>().ok().map(Into::into).filter(|x: &f64| !x.is_nan())
         }
-        match value {
-            Property::ListChar(list) => self.fill(&list),
-            Property::ListUChar(list) => self.fill(&list),
-            Property::ListShort(list) => self.fill(&list),
-            Property::ListUShort(list) => self.fill(&list),
-            Property::ListInt(list) => self.fill(&list),
-            Property::ListUInt(list) => self.fill(&list),
-            _ => return PropertyAccessResult::UnsupportedType,
+        match self {
+            Self::I8 => number::<i8>(word),
+            Self::U8 => number::<u8>(word),
+            Self::I16 => number::<i16>(word),
+            Self::U16 => number::<u16>(word),
+            Self::I32 => number::<i32>(word),
+            Self::U32 => number::<u32>(word),
+            Self::F32 => number::<f32>(word),
+            Self::F64 => number::<f64>(word),
         }
-        PropertyAccessResult::Set
     }
 }
 
-impl PropertyAccess for Other {
-    fn new() -> Self {
-        Other
-    }
+/// A number of each row of an element, or a list of numbers after their count.
+struct Property {
+    name: String,
+    count: Option<Kind>,
+    kind: Kind,
 }
 
-impl Face {
-    fn is_supported(&self) -> bool {
-        (3..=4).contains(&self.corners)
-    }
-
-    fn fill<T: Copy + Into<i64>>(&mut self, list: &[T]) {
-        self.corners = list.len();
-        self.indices.iter_mut().zip(list).for_each(|(to, &from)| *to = from.into());
-    }
+struct Element {
+    name: String,
+    count: usize,
+    properties: Vec<Property>,
 }
 
-fn is_index_list(name: &str) -> bool {
-    name == "vertex_indices" || name == "vertex_index"
+impl Element {
+    /// The place of the first property that has one of these names.
+    fn place(&self, names: &[&str]) -> Option<usize> {
+        self.properties.iter().position(|property| names.contains(&property.name.as_str()))
+    }
+    /// The places of numbers, if the rows have all of them.
+    fn places<const N: usize>(&self, names: [&[&str]; N]) -> Option<[usize; N]> {
+        let mut places = [0; N];
+        for (place, names) in places.iter_mut().zip(names) {
+            *place = self.place(names).filter(|&k| self.properties[k].count.is_none())?;
+        }
+        Some(places)
+    }
 }
 
 /// Reads a file that messages call `name`. An error starts with `name:line:` or `name: byte n:`.
-pub(super) fn read<'a>(name: &str, bytes: &'a [u8]) -> Result<Mesh<'a>, String> {
-    let mut reader = Reader::new(bytes);
-    let header = Parser::<Other>::new().read_header(&mut reader);
-    let header = header.map_err(|error| describe_header(name, bytes, &error))?;
-    check_header(&header, bytes, reader.get_ref().len()).map_err(|why| format!("{name}: header: {why}"))?;
+pub(super) fn read(name: &str, bytes: &[u8]) -> Result<Mesh, String> {
+    let (elements, mut body) = header(name, bytes)?;
+    let wrong = |why: String| format!("{name}: header: {why}");
+    check(&elements, body.rest.len()).map_err(wrong)?;
+    let of = |wanted: &str| elements.iter().find(|element| element.name == wanted);
+    let vertices = of("vertex").ok_or_else(|| wrong("no element \"vertex\"".into()))?;
+    for axis in ["x", "y", "z"] {
+        let missing = || wrong(format!("element \"vertex\" needs a scalar property {axis:?}"));
+        vertices.places([&[axis]]).ok_or_else(missing)?;
+    }
+    of("face").ok_or_else(|| wrong("no element \"face\"".into()))?;
 
-    let (none, no_faces) = (Vertices::Read(Vec::new()), Faces::Read(Vec::new()));
-    let mut mesh = Mesh { vertices: none, has_normals: false, has_uvs: false, faces: no_faces, warnings: Vec::new() };
-    for (element, def) in &header.elements {
-        match element.as_str() {
-            "vertex" => {
-                let has = |k: usize| NUMBERS[k].iter().any(|name| def.properties.contains_key(*name));
-                (mesh.has_normals, mesh.has_uvs) = (has(3) && has(4) && has(5), has(6) && has(7));
-                match plain_vertices(def, &header, reader.get_ref()) {
-                    Some((vertices, rest)) => (mesh.vertices, reader) = (vertices, Reader::new(rest)),
-                    None => mesh.vertices = Vertices::Read(read_element(name, bytes, &mut reader, def, &header)?),
-                }
-            }
-            "face" => match plain_faces(def, &header, reader.get_ref()) {
-                Some((faces, rest)) => (mesh.faces, reader) = (faces, Reader::new(rest)),
-                None => mesh.faces = Faces::Read(read_element(name, bytes, &mut reader, def, &header)?),
-            },
+    let mut mesh = Mesh::default();
+    for element in &elements {
+        match element.name.as_str() {
+            "vertex" => read_vertices(&mut mesh, element, &mut body)?,
+            "face" => read_faces(&mut mesh, element, vertices.count, &mut body)?,
             _ => {
-                read_element::<Other>(name, bytes, &mut reader, def, &header)?;
-                mesh.warnings.push(format!("{name}: element {element:?} ignored"));
+                (0..element.count).try_for_each(|_| body.row(element))?;
+                mesh.warnings.push(format!("{name}: element {:?} ignored", element.name));
             }
         }
     }
-    let others = || mesh.faces.all().enumerate().filter(|(_, face)| !face.is_supported());
-    if let Some((i, Face { corners, .. })) = others().next() {
-        let count = others().count();
-        mesh.warnings.push(format!(
-            "{name}: face {i} has {corners} corners: {count} face(s) of other than 3 or 4 are left out, as in pbrt"
-        ));
-    }
-    let rest = *reader.get_ref();
-    if !rest.iter().all(u8::is_ascii_whitespace) {
-        mesh.warnings.push(format!("{name}: {} bytes after the last element ignored", rest.len()));
+    if !body.rest.iter().all(u8::is_ascii_whitespace) {
+        mesh.warnings.push(format!("{name}: {} bytes after the last element ignored", body.rest.len()));
     }
     Ok(mesh)
 }
 
-/// The vertices of a binary file that have no lists, as most files have them, and the bytes after them. The reader for any layout takes
-/// several times as long.
-fn plain_vertices<'a>(def: &ElementDef, header: &Header, bytes: &'a [u8]) -> Option<(Vertices<'a>, &'a [u8])> {
-    if header.encoding != Encoding::BinaryLittleEndian {
-        return None;
+fn read_vertices(mesh: &mut Mesh, element: &Element, body: &mut Body<'_>) -> Result<(), String> {
+    let points = element.places([&["x"], &["y"], &["z"]]).unwrap_or_default();
+    let normals = element.places([&["nx"], &["ny"], &["nz"]]);
+    let uvs = element.places([&["u", "s", "texture_u", "texture_s"], &["v", "t", "texture_v", "texture_t"]]);
+    mesh.points.reserve(element.count);
+    for _ in 0..element.count {
+        body.row(element)?;
+        mesh.points.push(points.map(|k| body.number(k)));
+        mesh.normals.extend(normals.map(|places| places.map(|k| body.number(k))));
+        mesh.uvs.extend(uvs.map(|places| places.map(|k| body.number(k))));
     }
-    let (mut size, mut places) = (0, [const { None }; 8]);
-    for (name, property) in &def.properties {
-        let PropertyType::Scalar(of) = &property.data_type else { return None };
-        // a later name of the same number counts
-        if let Some(k) = NUMBERS.iter().position(|names| names.contains(&name.as_str())) {
-            places[k] = Some((size, of.clone()));
-        }
-        size += size_of(of);
-    }
-    let (bytes, rest) = bytes.split_at_checked(def.count.checked_mul(size)?)?;
-    Some((Vertices::Plain { bytes, size, places }, rest))
+    Ok(())
 }
 
-/// The faces of a binary file that consist of one list of 32-bit indices each, and the bytes after them.
-fn plain_faces<'a>(def: &ElementDef, header: &Header, bytes: &'a [u8]) -> Option<(Faces<'a>, &'a [u8])> {
-    let mut types = def.properties.values().map(|of| &of.data_type);
-    let (Some(PropertyType::List(counts, item)), None) = (types.next(), types.next()) else { return None };
-    let is_plain = *counts == ScalarType::UChar && matches!(item, ScalarType::Int | ScalarType::UInt);
-    if header.encoding != Encoding::BinaryLittleEndian || !is_plain {
-        return None;
+fn read_faces(mesh: &mut Mesh, element: &Element, vertices: usize, body: &mut Body<'_>) -> Result<(), String> {
+    let is_list = |property: &&Property| property.name == "vertex_indices" || property.name == "vertex_index";
+    let mut lists = element.properties.iter().filter(is_list);
+    let (Some(Property { name, count: Some(_), kind }), None) = (lists.next(), lists.next()) else {
+        return Err(format!("{}: header: {INDICES}", body.name));
+    };
+    if !kind.is_integer() {
+        return Err(format!("{}: header: {INDICES}", body.name));
     }
-    let mut end = 0_usize;
-    for _ in 0..def.count {
-        end += 1 + 4 * usize::from(*bytes.get(end)?);
-    }
-    let (bytes, rest) = bytes.split_at_checked(end)?;
-    Some((Faces::Plain { bytes, count: def.count, is_signed: *item == ScalarType::Int }, rest))
-}
-
-fn read_element<E: PropertyAccess>(
-    name: &str,
-    bytes: &[u8],
-    reader: &mut Reader<&[u8]>,
-    def: &ElementDef,
-    header: &Header,
-) -> Result<Vec<E>, String> {
-    let elements = Parser::<E>::new().read_payload_for_element(reader, def, header);
-    elements.map_err(|error| {
-        let byte = (header.encoding != Encoding::Ascii).then(|| bytes.len() - reader.get_ref().len());
-        let text = match error.line() {
-            Some(_) => describe(name, bytes, &error, byte, &format!("element {:?}", def.name)),
-            // the line is not UTF-8
-            None => format!("{name}:{}: {error}", reader.line()),
+    let list = element.place(&[name]).unwrap_or_default();
+    let mut others: Option<(usize, usize)> = None;
+    let mut count = 0;
+    mesh.faces.reserve(element.count);
+    for face in 0..element.count {
+        body.row(element)?;
+        let index = |x: f64| {
+            let index = if x >= 0.0 && x < vertices as f64 { Some(x as u32) } else { None };
+            let why = || format!("face {face}: index {x} is out of range: there are {vertices} vertices");
+            index.ok_or_else(|| format!("{}: {}", body.name, why()))
         };
-        shortened_lines(&text)
-    })
+        match *body.list(list) {
+            [a, b, c] => mesh.faces.push(Face::Triangle([index(a)?, index(b)?, index(c)?])),
+            [a, b, c, d] => mesh.faces.push(Face::Quad([index(a)?, index(b)?, index(c)?, index(d)?])),
+            ref other => {
+                count += 1;
+                others.get_or_insert((face, other.len()));
+            }
+        }
+    }
+    if let Some((face, corners)) = others {
+        mesh.warnings.push(format!(
+            "{}: face {face} has {corners} corners: {count} face(s) of other than 3 or 4 are left out, as in pbrt",
+            body.name
+        ));
+    }
+    Ok(())
 }
 
-/// Rejects what the crate accepts: repeated names, elements without properties, and counts that do not fit into the file.
-fn check_header(header: &Header, bytes: &[u8], body: usize) -> Result<(), String> {
-    // the crate keeps only one of two equal names, and would then read the body in the wrong layout
-    let text = &bytes[..bytes.len() - body];
-    let declared = text.split(|&b| b == b'\n').filter(|l| l.starts_with(b"element") || l.starts_with(b"property"));
-    let kept: usize = header.elements.values().map(|def| 1 + def.properties.len()).sum();
-    if declared.count() != kept {
-        return Err("an element or a property is declared twice".into());
+const INDICES: &str = "element \"face\" needs one list of integers, \"vertex_indices\"";
+
+/// What follows the header.
+struct Body<'a> {
+    name: &'a str,
+    format: Format,
+    /// Size of the file in bytes.
+    size: usize,
+    rest: &'a [u8],
+    /// Number of lines that have been read.
+    line: usize,
+    /// The numbers of the last row, and for each property the place of its first one.
+    numbers: Vec<f64>,
+    starts: Vec<usize>,
+}
+
+impl Body<'_> {
+    fn number(&self, property: usize) -> f64 {
+        self.numbers[self.starts[property]]
     }
-    for (name, def) in &header.elements {
+    fn list(&self, property: usize) -> &[f64] {
+        let end = self.starts.get(property + 1).copied().unwrap_or(self.numbers.len());
+        &self.numbers[self.starts[property]..end]
+    }
+    /// Reads a row of an element.
+    fn row(&mut self, element: &Element) -> Result<(), String> {
+        self.numbers.clear();
+        self.starts.clear();
+        if self.format == Format::Ascii {
+            return self.line_of(element);
+        }
+        let (is_big, mut rest) = (self.format == Format::BigEndian, self.rest);
+        for property in &element.properties {
+            self.starts.push(self.numbers.len());
+            let ended =
+                || format!("{}: byte {}: the file ends within element {:?}", self.name, self.size, element.name);
+            let count = property.count.map_or(Some(1.0), |kind| kind.take(&mut rest, is_big)).ok_or_else(ended)?;
+            for _ in 0..count as usize {
+                self.numbers.push(property.kind.take(&mut rest, is_big).ok_or_else(ended)?);
+            }
+        }
+        self.rest = rest;
+        Ok(())
+    }
+    /// Reads a row from a line.
+    fn line_of(&mut self, element: &Element) -> Result<(), String> {
+        let (line, rest) = split_line(self.rest);
+        (self.line, self.rest) = (self.line + 1, rest.unwrap_or_default());
+        let place = format!("{}:{}:", self.name, self.line);
+        if rest.is_none() && line.is_empty() {
+            return Err(format!("{place} the file ends within element {:?}", element.name));
+        }
+        let text = String::from_utf8_lossy(line);
+        let wrong = |why: &str| format!("{place} element {:?}: {:?}: {why}", element.name, shortened(text.trim()));
+        let mut words = text.split_ascii_whitespace();
+        let mut next = |kind: Kind| {
+            let word = words.next().ok_or_else(|| wrong("fewer numbers than declared"))?;
+            kind.parse(word).ok_or_else(|| wrong("not a number of the declared type"))
+        };
+        for property in &element.properties {
+            self.starts.push(self.numbers.len());
+            let count = property.count.map_or(Ok(1.0), &mut next)?;
+            for _ in 0..count as usize {
+                self.numbers.push(next(property.kind)?);
+            }
+        }
+        if words.next().is_some() { Err(wrong("more numbers than declared")) } else { Ok(()) }
+    }
+}
+
+/// The first line, and what follows its end if it has one.
+fn split_line(bytes: &[u8]) -> (&[u8], Option<&[u8]>) {
+    match bytes.iter().position(|&b| b == b'\n') {
+        Some(end) => (&bytes[..end], Some(&bytes[end + 1..])),
+        None => (bytes, None),
+    }
+}
+
+/// Reads the header; returns what follows it, too.
+fn header<'a>(name: &'a str, bytes: &'a [u8]) -> Result<(Vec<Element>, Body<'a>), String> {
+    let (mut format, mut elements): (_, Vec<Element>) = (None, Vec::new());
+    let (mut rest, mut number) = (bytes, 0);
+    loop {
+        let (line, after) = split_line(rest);
+        number += 1;
+        let text = String::from_utf8_lossy(&line[..line.len().min(240)]);
+        let wrong = |why: &str| Err(format!("{name}:{number}: the header: {:?}: {why}", shortened(text.trim())));
+        if number == 1 && !line.is_empty() && text.trim_end() != "ply" {
+            return wrong("a PLY file starts with the line \"ply\"");
+        }
+        let Some(after) = after else {
+            let why = "the file ends within the header: the line \"end_header\" is missing";
+            return Err(format!("{name}:{number}: {why}"));
+        };
+        rest = after;
+        let words: Vec<&str> = text.split_ascii_whitespace().collect();
+        match words[..] {
+            ["ply"] if number == 1 => {}
+            ["ply"] => return wrong("a second line \"ply\""),
+            [] | ["comment" | "obj_info", ..] => {}
+            ["format", kind, version] => {
+                let known = match (kind, version) {
+                    ("ascii", "1.0") => Some(Format::Ascii),
+                    ("binary_little_endian", "1.0") => Some(Format::LittleEndian),
+                    ("binary_big_endian", "1.0") => Some(Format::BigEndian),
+                    _ => None,
+                };
+                if format.is_some() && format != known {
+                    return wrong("contradicts an earlier line \"format\"");
+                }
+                format = known;
+            }
+            ["element", of, count] if elements.iter().all(|element| element.name != of) => match count.parse() {
+                Ok(count) => elements.push(Element { name: of.to_owned(), count, properties: Vec::new() }),
+                Err(_) => return wrong("no number of elements"),
+            },
+            ["property", "list", _, _, of] | ["property", _, of] => {
+                let Some(element) = elements.last_mut() else {
+                    return wrong("no line \"element\" precedes this property");
+                };
+                if element.place(&[of]).is_some() {
+                    return wrong("declared twice");
+                }
+                let count = (words.len() == 5).then(|| Kind::named(words[2]).filter(|kind| kind.is_integer()));
+                let (Some(kind), None | Some(Some(_))) = (Kind::named(words[words.len() - 2]), count) else {
+                    return wrong("not a type of numbers");
+                };
+                element.properties.push(Property { name: of.to_owned(), count: count.flatten(), kind });
+            }
+            ["element", ..] if words.len() == 3 => return wrong("declared twice"),
+            ["end_header"] => break,
+            _ => return wrong("not a valid line of a header, which ends with \"end_header\""),
+        }
+    }
+    let unknown = "the header has no valid line \"format\", such as \"format ascii 1.0\"";
+    let format = format.ok_or_else(|| format!("{name}: {unknown}"))?;
+    let (numbers, starts) = (Vec::new(), Vec::new());
+    Ok((elements, Body { name, format, size: bytes.len(), rest, line: number, numbers, starts }))
+}
+
+/// Rejects elements without properties, and counts that do not fit into the file.
+fn check(elements: &[Element], body: usize) -> Result<(), String> {
+    for Element { name, count, properties } in elements {
         // the fewest bytes of an element; a face needs at least three indices
-        let least = if name == "face" { 4 } else { def.properties.len() };
+        let least = if name == "face" { 4 } else { properties.len() };
         if least == 0 {
             return Err(format!("element {name:?} has no properties"));
         }
-        if def.count.checked_mul(least).is_none_or(|needed| needed > body) {
-            return Err(format!("{} elements {name:?} do not fit into the {body} bytes that follow", def.count));
+        if count.checked_mul(least).is_none_or(|needed| needed > body) {
+            return Err(format!("{count} elements {name:?} do not fit into the {body} bytes that follow"));
         }
     }
-    let vertex = header.elements.get("vertex").ok_or("no element \"vertex\"")?;
-    for axis in ["x", "y", "z"] {
-        match vertex.properties.get(axis).map(|def| &def.data_type) {
-            Some(PropertyType::Scalar(_)) => {}
-            _ => return Err(format!("element \"vertex\" needs a scalar property {axis:?}")),
-        }
-    }
-    let face = header.elements.get("face").ok_or("no element \"face\"")?;
-    let lists = face.properties.values().filter(|def| is_index_list(&def.name));
-    let mut types = lists.map(|def| &def.data_type);
-    match (types.next(), types.next()) {
-        (Some(PropertyType::List(_, item)), None) if !matches!(item, ScalarType::Float | ScalarType::Double) => Ok(()),
-        _ => Err("element \"face\" needs one list of integers, \"vertex_indices\"".into()),
-    }
-}
-
-/// Why the header cannot be read, in a one-line message that starts with the file and the line.
-fn describe_header(name: &str, bytes: &[u8], error: &ParseError) -> String {
-    let line = error.line().unwrap_or(1);
-    let text = bytes.split(|&b| b == b'\n').nth(line - 1).unwrap_or_default();
-    let is_last = bytes.iter().filter(|&&b| b == b'\n').count() < line;
-    let shown = shortened(String::from_utf8_lossy(&text[..text.len().min(240)]).trim());
-    let full = error.to_string();
-    if line == 1 && error.line().is_some() {
-        format!("{name}:1: the header: {shown:?}: a PLY file starts with the line \"ply\"")
-    } else if error.kind() == ErrorKind::InvalidData {
-        format!("{name}: the header is not UTF-8")
-    } else if error.line().is_none() && error.kind() == ErrorKind::InvalidInput {
-        // a whole header, except for one line
-        format!("{name}: the header has no valid line \"format\", such as \"format ascii 1.0\"")
-    } else if is_last || error.kind() == ErrorKind::UnexpectedEof {
-        format!("{name}:{line}: the file ends within the header: the line \"end_header\" is missing")
-    } else if let Some(what) = full.split_once("Unexpected 'ply'").map(|_| "a second line \"ply\"") {
-        format!("{name}:{line}: the header: {shown:?}: {what}")
-    } else if full.contains("contradicting") {
-        format!("{name}:{line}: the header: {shown:?}: contradicts an earlier line \"format\"")
-    } else if full.contains("without preceding") {
-        format!("{name}:{line}: the header: {shown:?}: no line \"element\" precedes this property")
-    } else {
-        format!("{name}:{line}: the header: {shown:?}: not a valid line of a header, which ends with \"end_header\"")
-    }
-}
-
-/// Why an element cannot be read, in a one-line message with the file, the line or byte, and the text of that line.
-fn describe(name: &str, bytes: &[u8], error: &ParseError, byte: Option<usize>, what: &str) -> String {
-    let full = error.to_string();
-    let reason = match full.rsplit("Error: ").next().unwrap_or(&full) {
-        // the crate shows its grammar, or "ParseFloatError { kind: Invalid }"
-        rust if rust.contains('{') || rust.starts_with("error at") => "not a number of the declared type",
-        reason => reason,
-    };
-    let line = error.line().unwrap_or(1);
-    let ended = error.kind() == ErrorKind::UnexpectedEof;
-    match byte {
-        Some(byte) if ended => format!("{name}: byte {byte}: the file ends within {what}"),
-        Some(byte) => format!("{name}: byte {byte}: {what}: {}", shortened_lines(reason)),
-        None if ended => format!("{name}:{line}: the file ends within {what}"),
-        None => {
-            let text = bytes.split(|&b| b == b'\n').nth(line - 1).unwrap_or_default();
-            let text = shortened(String::from_utf8_lossy(&text[..text.len().min(240)]).trim());
-            format!("{name}:{line}: {what}: {text:?}: {}", shortened_lines(reason))
-        }
-    }
-}
-
-/// `text` on one line and cut to 300 characters.
-fn shortened_lines(text: &str) -> String {
-    text.split_whitespace().collect::<Vec<_>>().join(" ").chars().take(300).collect()
+    Ok(())
 }

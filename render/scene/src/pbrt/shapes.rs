@@ -3,7 +3,7 @@
 use super::generated;
 use super::inputs::Files;
 use super::params::{Params, shown};
-use super::ply;
+use super::ply::{self, Face};
 use super::subdivision;
 use crate::builder::Builder;
 use crate::shape_attributes::ShapeAttributes;
@@ -283,28 +283,18 @@ fn ply_mesh(
     let mesh = ply::read(&shown, &bytes).map_err(|why| params.error(why))?;
     mesh.warnings.iter().for_each(|text| out.notes.warn(params.error(text)));
 
-    let in_file = |why: String| params.error(format!("{shown}: {why}"));
-    let points = surface.place(mesh.vertices.numbers::<3>(0)).map_err(in_file)?;
-    let count = points.len();
-    let normals = match mesh.has_normals {
-        true => placed_normals(surface, mesh.vertices.numbers::<3>(3)).collect(),
-        false => Vec::new(),
-    };
-    let uvs = if mesh.has_uvs { mesh.vertices.numbers::<2>(6).collect() } else { Vec::new() };
-    let vertices = Vertices::new(points, normals, uvs);
+    let placed = surface.place(mesh.points.into_iter());
+    let points = placed.map_err(|why| params.error(format!("{shown}: {why}")))?;
+    let vertices = Vertices::new(points, placed_normals(surface, mesh.normals.into_iter()).collect(), mesh.uvs);
     out.reserve(surface, mesh.faces.len());
-    for (i, face) in mesh.faces.iter() {
-        let index = |k: usize| {
-            let index = usize::try_from(face.indices[k]).ok().filter(|&index| index < count);
-            index.ok_or_else(|| {
-                in_file(format!("face {i}: index {} is out of range: there are {count} vertices", face.indices[k]))
-            })
-        };
-        let [a, b, c] = [index(0)?, index(1)?, index(2)?];
-        if face.corners == 3 {
-            out.face(surface, &vertices, [a, b, c], &TRIANGLE_UVS);
-        } else {
-            out.quad(surface, vertices.corners([a, b, c, index(3)?], &QUAD_UVS));
+    for face in mesh.faces {
+        match face {
+            Face::Triangle(indices) => {
+                out.face(surface, &vertices, indices.map(|index| index as usize), &TRIANGLE_UVS);
+            }
+            Face::Quad(indices) => {
+                out.quad(surface, vertices.corners(indices.map(|index| index as usize), &QUAD_UVS));
+            }
         }
     }
     note_left_out(out, params);
