@@ -95,6 +95,8 @@ mod message;
 mod pbrt;
 mod radiance;
 mod shape_attributes;
+#[cfg(test)]
+mod test_files;
 mod transform;
 mod vertices;
 

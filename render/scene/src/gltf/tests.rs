@@ -4,12 +4,11 @@ mod faulty;
 mod materials;
 mod views;
 
+use crate::test_files::{Folder, damaged};
 use crate::{SceneError, load, parse_gltf};
 use base64::Engine;
-use etendue_render::geometry::Geometry;
 use etendue_render::scene::{Details, Scene};
 use serde_json::{Value, json};
-use std::path::PathBuf;
 
 /// A file that is put together from parts. All its numbers are in one buffer.
 #[derive(Clone)]
@@ -133,28 +132,6 @@ impl Asset {
     }
 }
 
-/// A folder that is removed in the end.
-struct Folder(PathBuf);
-
-impl Folder {
-    fn new(name: &str) -> Self {
-        let path = std::env::temp_dir().join(format!("etendue-gltf-{name}-{}", std::process::id()));
-        std::fs::create_dir_all(&path).unwrap();
-        Self(path)
-    }
-    fn write(&self, name: &str, bytes: &[u8]) -> PathBuf {
-        let path = self.0.join(name);
-        std::fs::write(&path, bytes).unwrap();
-        path
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        let _ = std::fs::remove_dir_all(&self.0);
-    }
-}
-
 #[test]
 fn text_and_binary_files_are_the_same() {
     let asset = Asset::of_triangle();
@@ -181,22 +158,22 @@ fn text_and_binary_files_are_the_same() {
 
 #[test]
 fn other_files_are_read_and_listed() {
-    let folder = Folder::new("files");
+    let folder = Folder::new();
     let mut asset = Asset::of_triangle();
     folder.write("a buffer.bin", &asset.bytes);
     asset.json["buffers"] = json!([{"byteLength": asset.bytes.len(), "uri": "a%20buffer.bin"}]);
-    let path = folder.write("Scene.GLTF", &asset.text());
+    let path = folder.write("Scene.GLTF", asset.text());
     let scene = load(&path).unwrap();
     assert_eq!(scene.triangles, [TRIANGLE]);
     assert_eq!(scene.name, "Scene");
     let inputs: Vec<_> = scene.inputs.iter().map(|input| &input.path).collect();
-    assert_eq!(inputs, [&folder.0.join("a buffer.bin"), &path]);
+    assert_eq!(inputs, [&folder.path.join("a buffer.bin"), &path]);
     // the first bytes tell as well
-    let path = folder.write("scene", &Asset::of_triangle().binary());
+    let path = folder.write("scene", Asset::of_triangle().binary());
     assert_eq!(load(&path).unwrap().triangles, [TRIANGLE]);
 
     asset.json["buffers"][0]["uri"] = json!("none.bin");
-    let path = folder.write("missing.gltf", &asset.text());
+    let path = folder.write("missing.gltf", asset.text());
     let error = load(&path).unwrap_err();
     assert!(matches!(error, SceneError::At(_)));
     let shown = error.to_string();
@@ -365,27 +342,6 @@ fn the_default_scene_or_the_first_or_all_nodes() {
     assert_eq!(heights(&asset), [0.0]);
     asset.json["scene"] = json!(1);
     assert_eq!(heights(&asset), [1.0]);
-}
-
-#[test]
-fn mirrored_nodes_flip_what_emits() {
-    let normal = |node: Value| {
-        let mut asset = Asset::of_material(json!({"emissiveFactor": [1, 1, 1]}));
-        // normals do not tell which side is the front
-        let normals = asset.floats(&[[0.0, 0.0, -1.0]; 3]);
-        asset.json["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = json!(normals);
-        asset.json["nodes"][0] = node;
-        let scene = asset.read();
-        let Geometry::Triangle([a, b, c]) = scene.shapes[0].geometry else { panic!("{:?}", scene.shapes) };
-        (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
-    };
-    assert_eq!(normal(json!({"mesh": 0})), 1.0);
-    // a mirrored surface has its front on the same side
-    assert_eq!(normal(json!({"mesh": 0, "scale": [-1, 1, 1]})), 1.0);
-    assert_eq!(normal(json!({"mesh": 0, "scale": [1, 1, -1]})), -1.0);
-    assert_eq!(normal(json!({"mesh": 0, "scale": [-1, -1, 1]})), 1.0);
-    // a node of no height still has its surface
-    assert_eq!(normal(json!({"mesh": 0, "scale": [1, 1, 0]})), 1.0);
 }
 
 #[test]

@@ -1,19 +1,20 @@
-//! Tests of the built-in scenes, transforms and orientation; `faulty` has faulty input, `meshes` has mesh files, `many_lights` has the
-//! scenes of many lights, `own_scenes` what files of others have.
+//! Tests of cameras, transforms and the graphics state. `builtin` has the built-in scenes, `faulty` faulty input, `meshes` mesh files, `own_scenes`
+//! what files of others have. What lights and shapes mean is in the table of values of the renderer's tests.
 
+mod builtin;
 mod cameras;
 mod daylight;
 mod directed;
 mod faulty;
 mod lights;
-mod many_lights;
 mod meshes;
 mod own_scenes;
 mod photometry;
 mod pictures;
 mod portals;
 
-use super::{builtin, builtin_of_few_lights, ies, ply};
+use super::{builtin_of_few_lights, ies, ply};
+use crate::test_files::{Folder, damaged};
 use crate::{SceneError, load, parse, transform};
 use etendue_render::scene::{
     DeltaLight, Details, Emission, Environment, FilmSettings, Geometry, Lens, Material, Message, Roughness, Scene,
@@ -28,6 +29,14 @@ fn world(shapes: &str) -> String {
 
 fn read(text: &str) -> Scene {
     parse(text, "a.pbrt", Path::new("no such directory")).unwrap_or_else(|error| panic!("{error}\n{text}"))
+}
+
+/// The error of a text.
+fn error(text: &str) -> String {
+    match parse(text, "a.pbrt", Path::new("no such directory")) {
+        Ok(_) => panic!("read without an error:\n{text}"),
+        Err(error) => error.to_string(),
+    }
 }
 
 fn warnings(scene: &Scene) -> Vec<String> {
@@ -52,140 +61,6 @@ fn normal(geometry: &Geometry) -> [f32; 3] {
         Geometry::Triangle([a, b, c]) => cross(sub(b, a), sub(c, a)),
         Geometry::Parallelogram { u, v, .. } => cross(u, v),
         Geometry::Sphere { .. } => panic!("a sphere is not flat"),
-    }
-}
-
-#[test]
-fn builtin_scenes_have_the_stated_sizes_and_no_warnings() {
-    let expected = [("sphere-light", 26, 1), ("triangle-light", 14, 1), ("quads", 38, 5), ("terrain", 1_036_288, 1)];
-    for (name, _) in builtin() {
-        let scene = load(name).unwrap();
-        assert_eq!(scene.name, *name);
-        assert_eq!(warnings(&scene), [""; 0], "{name}");
-    }
-    for ((name, _), (wanted, triangles, lights)) in builtin().iter().zip(expected) {
-        let scene = load(name).unwrap();
-        assert_eq!((scene.name.as_str(), *name), (wanted, wanted));
-        assert_eq!(scene.triangles.len(), triangles, "{name}");
-        assert_eq!(scene.triangle_materials.len(), triangles, "{name}");
-        assert_eq!(scene.shapes.len(), lights, "{name}");
-        assert!(scene.shapes.iter().all(|shape| shape.emission.is_some_and(|e| !e.two_sided)), "{name}");
-        assert!(scene.shapes.iter().all(|shape| scene.materials[shape.material as usize].is_black()), "{name}");
-        assert_eq!(scene.pixel_samples, 64, "{name}");
-        assert_eq!(
-            scene.film,
-            FilmSettings {
-                width: 256,
-                height: 256,
-                diagonal: 35.0,
-                filename: Some(format!("{name}.exr")),
-                place: None
-            }
-        );
-        assert!(scene.triangle_materials.iter().all(|&m| (m as usize) < scene.materials.len()));
-    }
-}
-
-#[test]
-fn builtin_lights_are_where_they_should_be() {
-    let scene = load("sphere-light").unwrap();
-    assert_eq!(scene.shapes[0].geometry, Geometry::Sphere { center: [0.5, 3.5, -0.5], radius: 0.5 });
-    assert_eq!(scene.shapes[0].emission.unwrap().radiance, [50.0; 3]);
-
-    let scene = load("triangle-light").unwrap();
-    let corners = [[-2.0, 0.3, -1.5], [2.0, 0.3, -1.5], [0.0, 2.3, -0.5]];
-    assert_eq!(scene.shapes[0].geometry, Geometry::Triangle(corners));
-    let n = normal(&scene.shapes[0].geometry);
-    assert!(n[0] == 0.0 && (n[1] + 4.0).abs() < 1e-6 && (n[2] - 8.0).abs() < 1e-6, "{n:?}");
-
-    let quads: [[[f32; 3]; 4]; 5] = [
-        [[-0.8, 3.8, -1.0], [1.6, 0.0, 0.0], [0.0, 0.0, 1.0], [8.0, 8.0, 8.0]],
-        [[-4.5, 1.2, 0.3], [0.0, 0.0, -0.6], [0.0, 0.6, 0.0], [60.0, 15.0, 8.0]],
-        [[4.5, 0.85, -1.5], [0.0, 0.0, 3.0], [0.0, 0.3, 0.0], [6.0, 12.0, 40.0]],
-        [[1.1, 2.6, -4.0], [0.8, 0.0, 0.0], [0.0, 0.32, 0.24], [8.0, 40.0, 8.0]],
-        [[-1.6, 4.2, 1.4], [0.2, 0.0, 0.0], [0.0, 0.0, 0.2], [150.0, 140.0, 120.0]],
-    ];
-    let scene = load("quads").unwrap();
-    for (shape, [p, u, v, radiance]) in scene.shapes.iter().zip(quads) {
-        assert_eq!(shape.geometry, Geometry::Parallelogram { p, u, v });
-        assert_eq!(shape.emission.unwrap().radiance, radiance);
-    }
-    assert_eq!(scene.materials, [[0.5; 3], [0.7; 3], [0.6, 0.3, 0.3], [0.0; 3]].map(Material::Diffuse));
-    assert_eq!(scene.triangle_materials[..2], [0; 2]);
-    assert_eq!(scene.triangle_materials[14..26], [1; 12]);
-
-    let scene = load("terrain").unwrap();
-    let light = Geometry::Parallelogram { p: [1.0, 5.0, -2.0], u: [2.0, 0.0, 0.0], v: [0.0, 0.0, 2.0] };
-    assert_eq!(scene.shapes[0].geometry, light);
-}
-
-/// Boxes are closed and face outwards, since the signed tetrahedra add up to their volume; the ground faces up.
-#[test]
-fn boxes_of_quads_have_their_volumes() {
-    let scene = load("quads").unwrap();
-    let volumes = [0.8 * 1.2 * 0.8, 1.0 * 0.6 * 0.8, 0.5 * 0.9 * 0.5];
-    for (triangles, expected) in scene.triangles[2..].chunks(12).zip(volumes) {
-        let six: f64 = triangles
-            .iter()
-            .map(|t| {
-                let [a, b, c] = t.map(|p| p.map(f64::from));
-                transform::dot(a, transform::cross(b, c))
-            })
-            .sum();
-        assert!((six / 6.0 - expected).abs() < 1e-6, "{} {expected}", six / 6.0);
-    }
-    for triangle in &scene.triangles[..2] {
-        assert_eq!(normal(&Geometry::Triangle(*triangle)), [0.0, 400.0, 0.0]);
-    }
-}
-
-/// Compares the sum of all coordinates with one computed independently from the same formulas, which includes the light's two
-/// triangles. A few coordinates may round differently, because sines differ in their last bit.
-#[test]
-fn terrain_matches_an_independent_sum() {
-    let scene = load("terrain").unwrap();
-    let sum: f64 = scene.triangles.iter().flatten().flatten().map(|&x| f64::from(x)).sum();
-    let light = [1.0 + 3.0 + 3.0, 5.0 * 3.0, -2.0 - 2.0 + 0.0, 1.0 + 3.0 + 1.0, 5.0 * 3.0, -2.0 + 0.0 + 0.0];
-    let expected = 1_385_121.984_778_002_6 - light.iter().sum::<f64>();
-    assert!((sum - expected).abs() < 1e-4, "{sum} {expected}");
-    assert_eq!(
-        scene.triangles[0].map(|p| [p[0], p[2]]),
-        [[-12.0, -12.0], [-12.0, -11.953125], [-11.953125, -11.953125]]
-    );
-    let degenerate = scene.triangles.iter().filter(|t| normal(&Geometry::Triangle(**t)) == [0.0; 3]).count();
-    assert_eq!(degenerate, 0);
-}
-
-fn close(a: [f64; 3], b: [f64; 3]) -> bool {
-    a.iter().zip(b).all(|(x, y)| (x - y).abs() < 1e-14)
-}
-
-/// f = normalize(target − origin), r = normalize(f × up), v = r × f.
-#[test]
-fn builtin_cameras_are_right_handed() {
-    let views = [
-        ("sphere-light", [0.0, 5.0, 6.0], [0.0, 0.2, 0.0], 35.0),
-        ("triangle-light", [0.0, 4.0, 6.0], [0.0, 0.2, 0.3], 35.0),
-        ("quads", [0.0, 6.0, 7.0], [0.0, 0.0, 0.0], 40.0),
-        ("terrain", [0.0, 6.0, 7.5], [0.0, 0.0, -0.2], 40.0),
-        ("defocus", [0.0, 0.12, 0.5], [0.02, 0.03, 0.0], 28.0),
-    ];
-    for (name, origin, target, fov) in views {
-        let camera = load(name).unwrap().camera;
-        let forward = transform::unit(transform::sub(target, origin)).unwrap();
-        let right = transform::unit(transform::cross(forward, [0.0, 1.0, 0.0])).unwrap();
-        let up = transform::cross(right, forward);
-        assert!(close(camera.origin, origin), "{name} {camera:?}");
-        assert!(
-            close(camera.forward, forward) && close(camera.right, right) && close(camera.up, up),
-            "{name} {camera:?}"
-        );
-        // The ray at (0, 0), the top left, points to the left (−x) of the target and above it.
-        let [_, across, _, down] = camera.edges(256, 256);
-        assert!((across - (0.5_f64 * fov).to_radians().tan()).abs() < 1e-15 && across == down);
-        let ray: Vec<f64> =
-            (0..3).map(|k| camera.forward[k] - across * camera.right[k] + down * camera.up[k]).collect();
-        assert!(ray[0] < 0.0 && ray[1] > forward[1], "{name} {ray:?}");
     }
 }
 
@@ -239,26 +114,6 @@ fn transforms_compose_as_in_pbrt() {
 fn vertices_are_rounded_once() {
     let scene = read(&world(&format!("Translate 1e8 0 0 Translate -1e8 0 0 Translate 0.1 0 0 {TRIANGLE}")));
     assert_eq!(scene.triangles[0][0][0], 0.1_f32 + 0.0);
-}
-
-#[test]
-fn orientation_flips_once_for_each_cause() {
-    let up = |text: &str| normal(&read(&world(&format!("{LIGHT}{text}"))).shapes[0].geometry)[2] > 0.0;
-    for shape in [TRIANGLE, PATCH] {
-        assert!(up(shape));
-        assert!(!up(&format!("ReverseOrientation {shape}")));
-        // a reflection in x leaves the normal along +z
-        assert!(up(&format!("Scale -1 1 1 {shape}")));
-        assert!(!up(&format!("Scale -1 1 1 ReverseOrientation {shape}")));
-        assert!(!up(&format!("Scale 1 1 -1 {shape}")));
-        assert!(up(&format!("ReverseOrientation ReverseOrientation {shape}")));
-        assert!(up(&format!("AttributeBegin ReverseOrientation AttributeEnd {shape}")));
-    }
-    let flipped = read(&world(&format!("ReverseOrientation {TRIANGLE}"))).triangles[0];
-    assert_eq!(normal(&Geometry::Triangle(flipped)), [0.0, 0.0, -1.0]);
-    // orientation does not matter for spheres that emit on both sides or not at all
-    read(&world("ReverseOrientation AreaLightSource \"diffuse\" \"bool twosided\" true Shape \"sphere\""));
-    read(&world("Scale 1 1 -1 Shape \"sphere\""));
 }
 
 #[test]

@@ -335,22 +335,11 @@ fn images_that_are_damaged() {
 
 #[test]
 fn damaged_copies_never_panic() {
-    let [text, binary] = [full().text(), full().binary()];
-    for (file, mut state) in [(text, 1_u64), (binary, 2)] {
-        let mut next = |most: usize| {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            (state >> 33) as usize % most
-        };
-        for _ in 0..1000 {
-            let mut damaged = file.clone();
-            for _ in 0..1 + next(3) {
-                let at = next(damaged.len());
-                // digits for digits reach further than other characters
-                damaged[at] = if damaged[at].is_ascii_digit() { b'0' + next(10) as u8 } else { next(256) as u8 };
-            }
-            if let Err(error) = parse_gltf(&damaged, "a.gltf") {
+    for file in [full().text(), full().binary()] {
+        damaged(&file, &["0", "[", "{", "-", "null,"], 1000, |bytes| {
+            if let Err(error) = parse_gltf(bytes, "a.gltf") {
                 assert!(error.to_string().starts_with("a.gltf:"), "{error}");
             }
-        }
+        });
     }
 }

@@ -2,167 +2,199 @@
 
 use super::*;
 
-fn error(text: &str) -> String {
-    match parse(text, "a.pbrt", Path::new("no such directory")) {
-        Ok(_) => panic!("read without an error:\n{text}"),
-        Err(error) => error.to_string(),
-    }
-}
+/// Texts that follow a valid first line, the line of their fault, and a part of the message.
+const FAULTS: &[(&str, u32, &str)] = &[
+    // words and tokens
+    ("Flim \"rgb\"", 2, "unknown directive Flim"),
+    ("# comment\r\nFlim", 3, "unknown directive Flim"),
+    ("#\u{e9}\nAttributeBegin\u{e9}", 3, "unknown directive AttributeBegin\u{e9}"),
+    ("\n\"Shape\"", 3, "expected a directive, found \"Shape\""),
+    ("Shape \"sphere", 2, "the string \"sphere\" is not closed"),
+    ("Shape \"sph\\qere\"", 2, "unknown escape \\q"),
+    ("Shape sphere", 2, "expected a type in quotes, found sphere"),
+    ("Shape", 2, "the file ends where a type is expected"),
+    ("Translate 1 2", 2, "the file ends where Translate is expected"),
+    ("Translate 1\n2 x3", 3, "expected a number, found x3"),
+    ("Translate 1 2 nan", 2, "the number nan is not finite"),
+    ("Translate 1 2 1e999", 2, "the number 1e999 is not finite"),
+    ("Translate [1 2 3]", 2, "expected a number, found ["),
+    // parameters
+    ("Shape \"sphere\" \"radius\" 1", 2, "expected a parameter's type and name, found \"radius\""),
+    ("Shape \"sphere\" \"real radius\" 1", 2, "unknown type \"real\""),
+    ("Shape \"sphere\"\n\"integer radius\" 1", 3, "\"radius\": type integer is not supported, only float"),
+    ("Shape \"sphere\" \"float radius\" [1\n2z]", 3, "\"radius\": expected a number, found 2z"),
+    ("Shape \"sphere\" \"float radius\" [1 2]", 2, "expected one value, found 2"),
+    ("Shape \"sphere\" \"float radius\" []", 2, "expected one value, found none"),
+    ("Shape \"sphere\" \"float radius\" [1", 2, "the file ends where the ] of \"radius\""),
+    ("Shape \"sphere\" \"float radius\" 1 2", 2, "unknown directive 2"),
+    ("Shape \"trianglemesh\" \"integer indices\" [0 1.5 2]", 2, "expected an integer, found 1.5"),
+    ("Shape \"trianglemesh\" \"integer indices\" [9999999999]", 2, "expected an integer, found 9999999999"),
+    ("AreaLightSource \"diffuse\" \"bool twosided\" 1", 2, "expected true or false, found 1"),
+    // state
+    ("AttributeBegin\n\n", 2, "this AttributeBegin or TransformBegin is never closed"),
+    ("AttributeEnd", 2, "AttributeEnd has no matching Begin"),
+    ("WorldBegin", 2, "a second WorldBegin"),
+    ("Film \"rgb\"", 2, "Film must come before WorldBegin"),
+    ("CoordSysTransform \"x\"", 2, "undefined CoordinateSystem \"x\""),
+    ("NamedMaterial \"x\"\nShape \"sphere\"", 2, "no MakeNamedMaterial defines \"x\""),
+    ("Rotate 30 0 0 0", 2, "the axis must not be zero"),
+    ("LookAt 0 0 0 0 1 0 0 1 0", 2, "do not define a view"),
+    ("Transform [1 0 0 1 0 1 0 0 0 0 1 0 0 0 0 1]", 2, "not affine"),
+    ("Transform 1 0 0 0", 2, "expected [, found 1"),
+    ("Scale 1e300 1 1 Scale 1e300 1 1", 2, "no longer finite"),
+    ("Scale 1 0 1\nShape \"sphere\"", 3, "its transform is singular"),
+    // not supported
+    ("Texture \"a\" \"point\" \"constant\"", 2, "a texture of \"point\": only spectrum and float"),
+    ("Texture \"a\" \"float\" \"imagemap\"", 2, "\"string filename\" is missing"),
+    ("Texture \"a\" \"float\" \"imagemap\" \"string filename\" \"x.png\"", 2, "x.png: cannot read: "),
+    (
+        "Texture \"a\" \"float\" \"imagemap\" \"string filename\" \"x\" \"string wrap\" \"round\"",
+        2,
+        "\"wrap\": unknown mode \"round\"",
+    ),
+    ("Texture \"a\" \"float\" \"scale\" \"texture tex\" \"b\"", 2, "\"tex\": no float Texture \"b\" precedes this"),
+    ("Texture \"a\" \"float\" \"checkerboard\" \"float uscale\" 1e39", 2, "\"uscale\": must be finite in f32"),
+    ("Texture \"a\" \"float\" \"constant\" \"float value\" 1e39", 2, "\"value\": must be finite in f32, not 1e39"),
+    (
+        "Texture \"a\" \"float\" \"imagemap\" \"string filename\" \"x\" \"float scale\" 1e39",
+        2,
+        "\"scale\": must be finite in f32, not 1e39",
+    ),
+    (
+        "Scale 1 0 1 Rotate 20 1 0 0 Rotate -20 1 0 0\nLightSource \"distant\" \"point3 to\" [0 1 0]",
+        3,
+        "define no direction",
+    ),
+    ("\nObjectBegin \"a\"", 3, "this ObjectBegin is never closed"),
+    ("ObjectEnd", 2, "ObjectEnd has no matching ObjectBegin"),
+    ("ObjectBegin \"a\"\nObjectBegin \"b\"", 3, "the one of line 2 is not closed"),
+    (
+        "ObjectBegin \"a\"\nAttributeBegin\nObjectEnd",
+        4,
+        "ObjectEnd: the AttributeBegin or TransformBegin of line 3 is not closed",
+    ),
+    (
+        "AttributeBegin\nObjectBegin \"a\"\nAttributeEnd\nObjectEnd",
+        4,
+        "AttributeEnd: the ObjectBegin of line 3 is not closed",
+    ),
+    ("ObjectBegin \"a\"\nTransformEnd", 3, "TransformEnd: the ObjectBegin of line 2 is not closed"),
+    ("ObjectBegin \"a\" ObjectEnd Scale 1 0 1\nObjectInstance \"a\"", 3, "its transform is singular"),
+    ("ObjectInstance \"a\"", 2, "no ObjectBegin \"a\" precedes this"),
+    ("ObjectBegin \"a\"\nObjectInstance \"a\"", 3, "objects cannot contain instances"),
+    ("ActiveTransform Later", 2, "expected All, StartTime or EndTime, found Later"),
+    ("Attribute \"camera\" \"float x\" 1", 2, "only shape, light, material, medium, texture"),
+    ("Import \"a.pbrt\"", 2, "cannot read"),
+    ("Include \"none.pbrt\"", 2, "cannot read"),
+    ("Shape \"cube\"", 2, "Shape \"cube\": shape not supported"),
+    ("Shape \"sphere\" \"texture alpha\" \"a\"", 2, "\"alpha\": no float Texture \"a\" precedes this"),
+    ("Material \"cloth\"", 2, "material type \"cloth\" is not supported"),
+    ("Material \"dielectric\" \"float eta\" 0", 2, "\"eta\": must be from 1e-3 to 1e3, not 0"),
+    ("Material \"mix\" \"string materials\" \"a\"", 2, "needs two \"materials\", not 1"),
+    ("Material \"mix\" \"string materials\" [\"a\" \"b\"]", 2, "no MakeNamedMaterial \"a\" precedes this"),
+    ("Material \"diffuse\" \"texture reflectance\" \"t\"", 2, "no spectrum Texture \"t\" precedes this"),
+    ("Material \"diffuse\" \"blackbody reflectance\" 3000", 2, "a light's spectrum is no reflectance"),
+    ("Material \"diffuse\" \"spectrum reflectance\" [400 1 300 1]", 2, "wavelengths must ascend: 300 follows 400"),
+    ("Material \"diffuse\" \"spectrum reflectance\" \"x.spd\"", 2, "cannot read"),
+    ("Material \"diffuse\" \"spectrum reflectance\" \"brass\"", 2, "no spectrum is called \"brass\""),
+    ("MakeNamedMaterial \"m\"", 2, "\"string type\" is missing"),
+    ("AreaLightSource \"spot\"", 2, "AreaLightSource \"spot\": not supported"),
+    ("AreaLightSource \"diffuse\" \"blackbody L\" 30", 2, "expected a temperature from 200 to 1e6 K, found [30.0]"),
+    ("AreaLightSource \"diffuse\" \"spectrum L\" \"metal-Cu-k\"", 2, "this spectrum is no light"),
+    ("AreaLightSource \"diffuse\" \"float power\" -3", 2, "\"power\": must be greater than 0, not -3"),
+    // values
+    ("Material \"diffuse\" \"rgb reflectance\" [.1 .2]", 2, "expected three numbers, found 2"),
+    ("Material \"diffuse\" \"rgb reflectance\" [.1 .2 -.5]", 2, "\"reflectance\": must be at least 0, not -0.5"),
+    ("AreaLightSource \"diffuse\" \"rgb L\" [1 -2 3]", 2, "\"L\": must be at least 0, not -2"),
+    ("AreaLightSource \"diffuse\" \"rgb L\" [1e39 1 1]", 2, "at most 4e37 is supported"),
+    ("AreaLightSource \"diffuse\" \"float scale\" -1", 2, "\"scale\": must be at least 0, not -1"),
+    // spheres
+    ("Shape \"sphere\" \"float radius\" 0", 2, "\"radius\": must be greater than 0 and finite, not 0 "),
+    ("Shape \"sphere\" \"float radius\" -3", 2, "\"radius\": must be greater than 0 and finite, not -3 "),
+    ("Translate 1e39 0 0\nShape \"sphere\"", 3, "[1e39, 0.0, 0.0], which is not finite in f32"),
+    ("Shape \"disk\" \"float radius\" 0", 2, "\"radius\": must be greater than 0 and finite, not 0"),
+    ("Shape \"cylinder\" \"float radius\" -2", 2, "\"radius\": must be greater than 0 and finite, not -2"),
+    // meshes
+    ("Shape \"trianglemesh\"", 2, "\"point3 P\" is missing"),
+    ("Shape \"trianglemesh\" \"point3 P\" [0 0 0 1]", 2, "expected a multiple of 3 numbers, found 4"),
+    ("Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0]", 2, "\"indices\" is missing"),
+    ("Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 1e39 1 0]", 2, "vertex 2 is at [1e39, 1.0, 0.0]"),
+    ("Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 inf 1 0]", 2, "the number inf is not finite"),
+    (
+        "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"integer indices\" [0 1 3]",
+        2,
+        "index 3 is out of range: there are 3",
+    ),
+    (
+        "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"integer indices\" [0 -1 2]",
+        2,
+        "index -1 is out of range",
+    ),
+    (
+        "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"integer indices\" [0 1 2 0]",
+        2,
+        "expected a multiple of 3 numbers, found 4",
+    ),
+    (
+        "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"normal N\" [0 0 1]",
+        2,
+        "\"N\" has 1 values for 3 points",
+    ),
+    ("Shape \"loopsubdiv\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"integer indices\" [0 0 1]", 2, "the same vertex twice"),
+    (
+        "Shape \"bilinearmesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0 1 1 0] \"integer indices\" [0 1 2]",
+        2,
+        "expected a multiple of 4 numbers, found 3",
+    ),
+    ("Shape \"plymesh\"", 2, "\"string filename\" is missing"),
+    ("Shape \"plymesh\" \"string filename\" \"builtin:terrain\"", 2, "cannot read"),
+    // numbers are shown as short as they can be
+    ("Shape \"sphere\" \"float radius\" 1e-300", 2, "not 1e-300 ("),
+    ("AreaLightSource \"diffuse\" \"float scale\" -1e300", 2, "not -1e300"),
+    ("Material \"diffuse\" \"rgb reflectance\" [0 -1e-200 0]", 2, "not -1e-200"),
+];
 
-/// Each text follows a valid first line.
+/// The same of lights and metals.
+const FAULTS_OF_LIGHTS: &[(&str, u32, &str)] = &[
+    ("LightSource \"laser\"", 2, "not supported, only \"point\""),
+    ("LightSource \"point\" \"float power\" 0", 2, "must be greater than 0, not 0"),
+    ("LightSource \"distant\" \"float illuminance\" -3", 2, "must be greater than 0, not -3"),
+    ("AreaLightSource \"diffuse\" \"float spread\" 0", 2, "\"spread\": must be from 0.1 to 180 degrees, not 0"),
+    ("AreaLightSource \"diffuse\" \"float spread\" 181", 2, "must be from 0.1 to 180 degrees, not 181"),
+    ("AreaLightSource \"diffuse\" \"float spread\" 0.1 \"float scale\" 4e36", 2, "at most 1.0"),
+    ("LightSource \"point\" \"float scale\" -2", 2, "\"scale\": must be at least 0, not -2"),
+    ("LightSource \"point\" \"rgb I\" [1 -3 1]", 2, "\"I\": must be at least 0, not -3"),
+    ("LightSource \"point\" \"texture I\" \"a\"", 2, "a light cannot have a texture"),
+    ("LightSource \"point\" \"rgb I\" [1e30 0 0] \"float scale\" 1e30", 2, "at most 3.4028235e38 is supported"),
+    ("LightSource \"point\" \"point3 from\" [1e39 0 0]", 2, "not finite in f32"),
+    ("LightSource \"point\" \"point3 from\" [1 2 3 4 5 6]", 2, "\"from\": expected three numbers, found 6"),
+    ("LightSource \"distant\" \"point3 from\" [1 2 3] \"point3 to\" [1 2 3]", 2, "define no direction"),
+    (
+        "LightSource \"spot\" \"float coneangle\" 200",
+        2,
+        "\"coneangle\": must be greater than 0 and at most 180 degrees, not 200",
+    ),
+    (
+        "LightSource \"spot\" \"float coneangle\" 20 \"float conedeltaangle\" 21",
+        2,
+        "\"conedeltaangle\": must be from 0 to the cone angle 20, not 21",
+    ),
+    ("Scale 1 2 1 LightSource \"spot\"", 2, "stretches its cone"),
+    ("Scale 1 2 1 LightSource \"infinite\"", 2, "rotations, reflections and uniform scales"),
+    ("Material \"conductor\" \"spectrum eta\" \"metal-Xx-eta\"", 2, "no spectrum is called \"metal-Xx-eta\""),
+    ("Material \"conductor\" \"rgb eta\" [1 1 1] \"rgb k\" [1e20 1 1]", 2, "\"k\": [1e20, 1.0, 1.0] is too large"),
+    ("Material \"conductor\" \"rgb reflectance\" [1 1 1.5]", 2, "\"reflectance\": must be at most 1, not 1.5"),
+    ("Material \"conductor\" \"rgb reflectance\" [1 1 1] \"rgb k\" [1 1 1]", 2, "\"reflectance\" cannot be combined"),
+    (
+        "Material \"conductor\" \"rgb reflectance\" [1 1 1] \"float roughness\" -.5",
+        2,
+        "\"roughness\": must be from 0 to 1, not -0.5",
+    ),
+];
+
 #[test]
 fn errors_name_line_and_value() {
-    let cases: &[(&str, u32, &str)] = &[
-        // words and tokens
-        ("Flim \"rgb\"", 2, "unknown directive Flim"),
-        ("# comment\r\nFlim", 3, "unknown directive Flim"),
-        ("#\u{e9}\nAttributeBegin\u{e9}", 3, "unknown directive AttributeBegin\u{e9}"),
-        ("\n\"Shape\"", 3, "expected a directive, found \"Shape\""),
-        ("Shape \"sphere", 2, "the string \"sphere\" is not closed"),
-        ("Shape \"sph\\qere\"", 2, "unknown escape \\q"),
-        ("Shape sphere", 2, "expected a type in quotes, found sphere"),
-        ("Shape", 2, "the file ends where a type is expected"),
-        ("Translate 1 2", 2, "the file ends where Translate is expected"),
-        ("Translate 1\n2 x3", 3, "expected a number, found x3"),
-        ("Translate 1 2 nan", 2, "the number nan is not finite"),
-        ("Translate 1 2 1e999", 2, "the number 1e999 is not finite"),
-        ("Translate [1 2 3]", 2, "expected a number, found ["),
-        // parameters
-        ("Shape \"sphere\" \"radius\" 1", 2, "expected a parameter's type and name, found \"radius\""),
-        ("Shape \"sphere\" \"real radius\" 1", 2, "unknown type \"real\""),
-        ("Shape \"sphere\"\n\"integer radius\" 1", 3, "\"radius\": type integer is not supported, only float"),
-        ("Shape \"sphere\" \"float radius\" [1\n2z]", 3, "\"radius\": expected a number, found 2z"),
-        ("Shape \"sphere\" \"float radius\" [1 2]", 2, "expected one value, found 2"),
-        ("Shape \"sphere\" \"float radius\" []", 2, "expected one value, found none"),
-        ("Shape \"sphere\" \"float radius\" [1", 2, "the file ends where the ] of \"radius\""),
-        ("Shape \"sphere\" \"float radius\" 1 2", 2, "unknown directive 2"),
-        ("Shape \"trianglemesh\" \"integer indices\" [0 1.5 2]", 2, "expected an integer, found 1.5"),
-        ("Shape \"trianglemesh\" \"integer indices\" [9999999999]", 2, "expected an integer, found 9999999999"),
-        ("AreaLightSource \"diffuse\" \"bool twosided\" 1", 2, "expected true or false, found 1"),
-        // state
-        ("AttributeBegin\n\n", 2, "this AttributeBegin or TransformBegin is never closed"),
-        ("AttributeEnd", 2, "AttributeEnd has no matching Begin"),
-        ("WorldBegin", 2, "a second WorldBegin"),
-        ("Film \"rgb\"", 2, "Film must come before WorldBegin"),
-        ("CoordSysTransform \"x\"", 2, "undefined CoordinateSystem \"x\""),
-        ("NamedMaterial \"x\"\nShape \"sphere\"", 2, "no MakeNamedMaterial defines \"x\""),
-        ("Rotate 30 0 0 0", 2, "the axis must not be zero"),
-        ("LookAt 0 0 0 0 1 0 0 1 0", 2, "do not define a view"),
-        ("Transform [1 0 0 1 0 1 0 0 0 0 1 0 0 0 0 1]", 2, "not affine"),
-        ("Transform 1 0 0 0", 2, "expected [, found 1"),
-        ("Scale 1e300 1 1 Scale 1e300 1 1", 2, "no longer finite"),
-        ("Scale 1 0 1\nShape \"sphere\"", 3, "its transform is singular"),
-        // not supported
-        ("Texture \"a\" \"point\" \"constant\"", 2, "a texture of \"point\": only spectrum and float"),
-        ("Texture \"a\" \"float\" \"imagemap\"", 2, "\"string filename\" is missing"),
-        ("Texture \"a\" \"float\" \"imagemap\" \"string filename\" \"x.png\"", 2, "x.png: cannot read: "),
-        (
-            "Texture \"a\" \"float\" \"imagemap\" \"string filename\" \"x\" \"string wrap\" \"round\"",
-            2,
-            "\"wrap\": unknown mode \"round\"",
-        ),
-        ("Texture \"a\" \"float\" \"scale\" \"texture tex\" \"b\"", 2, "\"tex\": no float Texture \"b\" precedes this"),
-        ("Texture \"a\" \"float\" \"checkerboard\" \"float uscale\" 1e39", 2, "\"uscale\": must be finite in f32"),
-        ("Texture \"a\" \"float\" \"constant\" \"float value\" 1e39", 2, "\"value\": must be finite in f32, not 1e39"),
-        (
-            "Texture \"a\" \"float\" \"imagemap\" \"string filename\" \"x\" \"float scale\" 1e39",
-            2,
-            "\"scale\": must be finite in f32, not 1e39",
-        ),
-        (
-            "Scale 1 0 1 Rotate 20 1 0 0 Rotate -20 1 0 0\nLightSource \"distant\" \"point3 to\" [0 1 0]",
-            3,
-            "define no direction",
-        ),
-        ("\nObjectBegin \"a\"", 3, "this ObjectBegin is never closed"),
-        ("ObjectEnd", 2, "ObjectEnd has no matching ObjectBegin"),
-        ("ObjectBegin \"a\"\nObjectBegin \"b\"", 3, "the one of line 2 is not closed"),
-        (
-            "ObjectBegin \"a\"\nAttributeBegin\nObjectEnd",
-            4,
-            "ObjectEnd: the AttributeBegin or TransformBegin of line 3 is not closed",
-        ),
-        (
-            "AttributeBegin\nObjectBegin \"a\"\nAttributeEnd\nObjectEnd",
-            4,
-            "AttributeEnd: the ObjectBegin of line 3 is not closed",
-        ),
-        ("ObjectBegin \"a\"\nTransformEnd", 3, "TransformEnd: the ObjectBegin of line 2 is not closed"),
-        ("ObjectBegin \"a\" ObjectEnd Scale 1 0 1\nObjectInstance \"a\"", 3, "its transform is singular"),
-        ("ObjectInstance \"a\"", 2, "no ObjectBegin \"a\" precedes this"),
-        ("ObjectBegin \"a\"\nObjectInstance \"a\"", 3, "objects cannot contain instances"),
-        ("ActiveTransform Later", 2, "expected All, StartTime or EndTime, found Later"),
-        ("Attribute \"camera\" \"float x\" 1", 2, "only shape, light, material, medium, texture"),
-        ("Import \"a.pbrt\"", 2, "cannot read"),
-        ("Include \"none.pbrt\"", 2, "cannot read"),
-        ("Shape \"cube\"", 2, "Shape \"cube\": shape not supported"),
-        ("Shape \"sphere\" \"texture alpha\" \"a\"", 2, "\"alpha\": no float Texture \"a\" precedes this"),
-        ("Material \"cloth\"", 2, "material type \"cloth\" is not supported"),
-        ("Material \"dielectric\" \"float eta\" 0", 2, "\"eta\": must be from 1e-3 to 1e3, not 0"),
-        ("Material \"mix\" \"string materials\" \"a\"", 2, "needs two \"materials\", not 1"),
-        ("Material \"mix\" \"string materials\" [\"a\" \"b\"]", 2, "no MakeNamedMaterial \"a\" precedes this"),
-        ("Material \"diffuse\" \"texture reflectance\" \"t\"", 2, "no spectrum Texture \"t\" precedes this"),
-        ("Material \"diffuse\" \"blackbody reflectance\" 3000", 2, "a light's spectrum is no reflectance"),
-        ("Material \"diffuse\" \"spectrum reflectance\" [400 1 300 1]", 2, "wavelengths must ascend: 300 follows 400"),
-        ("Material \"diffuse\" \"spectrum reflectance\" \"x.spd\"", 2, "cannot read"),
-        ("Material \"diffuse\" \"spectrum reflectance\" \"brass\"", 2, "no spectrum is called \"brass\""),
-        ("MakeNamedMaterial \"m\"", 2, "\"string type\" is missing"),
-        ("AreaLightSource \"spot\"", 2, "AreaLightSource \"spot\": not supported"),
-        ("AreaLightSource \"diffuse\" \"blackbody L\" 30", 2, "expected a temperature from 200 to 1e6 K, found [30.0]"),
-        ("AreaLightSource \"diffuse\" \"spectrum L\" \"metal-Cu-k\"", 2, "this spectrum is no light"),
-        ("AreaLightSource \"diffuse\" \"float power\" -3", 2, "\"power\": must be greater than 0, not -3"),
-        // values
-        ("Material \"diffuse\" \"rgb reflectance\" [.1 .2]", 2, "expected three numbers, found 2"),
-        ("Material \"diffuse\" \"rgb reflectance\" [.1 .2 -.5]", 2, "\"reflectance\": must be at least 0, not -0.5"),
-        ("AreaLightSource \"diffuse\" \"rgb L\" [1 -2 3]", 2, "\"L\": must be at least 0, not -2"),
-        ("AreaLightSource \"diffuse\" \"rgb L\" [1e39 1 1]", 2, "at most 4e37 is supported"),
-        ("AreaLightSource \"diffuse\" \"float scale\" -1", 2, "\"scale\": must be at least 0, not -1"),
-        // spheres
-        ("Shape \"sphere\" \"float radius\" 0", 2, "\"radius\": must be greater than 0 and finite, not 0 "),
-        ("Shape \"sphere\" \"float radius\" -3", 2, "\"radius\": must be greater than 0 and finite, not -3 "),
-        ("Translate 1e39 0 0\nShape \"sphere\"", 3, "[1e39, 0.0, 0.0], which is not finite in f32"),
-        ("Shape \"disk\" \"float radius\" 0", 2, "\"radius\": must be greater than 0 and finite, not 0"),
-        ("Shape \"cylinder\" \"float radius\" -2", 2, "\"radius\": must be greater than 0 and finite, not -2"),
-        // meshes
-        ("Shape \"trianglemesh\"", 2, "\"point3 P\" is missing"),
-        ("Shape \"trianglemesh\" \"point3 P\" [0 0 0 1]", 2, "expected a multiple of 3 numbers, found 4"),
-        ("Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0]", 2, "\"indices\" is missing"),
-        ("Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 1e39 1 0]", 2, "vertex 2 is at [1e39, 1.0, 0.0]"),
-        ("Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 inf 1 0]", 2, "the number inf is not finite"),
-        (
-            "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"integer indices\" [0 1 3]",
-            2,
-            "index 3 is out of range: there are 3",
-        ),
-        (
-            "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"integer indices\" [0 -1 2]",
-            2,
-            "index -1 is out of range",
-        ),
-        (
-            "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"integer indices\" [0 1 2 0]",
-            2,
-            "expected a multiple of 3 numbers, found 4",
-        ),
-        (
-            "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"normal N\" [0 0 1]",
-            2,
-            "\"N\" has 1 values for 3 points",
-        ),
-        (
-            "Shape \"loopsubdiv\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"integer indices\" [0 0 1]",
-            2,
-            "the same vertex twice",
-        ),
-        (
-            "Shape \"bilinearmesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0 1 1 0] \"integer indices\" [0 1 2]",
-            2,
-            "expected a multiple of 4 numbers, found 3",
-        ),
-        ("Shape \"plymesh\"", 2, "\"string filename\" is missing"),
-        ("Shape \"plymesh\" \"string filename\" \"builtin:terrain\"", 2, "cannot read"),
-    ];
-    for (text, line, part) in cases {
+    for (text, line, part) in FAULTS.iter().chain(FAULTS_OF_LIGHTS) {
         let message = error(&world(text));
         assert!(message.starts_with(&format!("a.pbrt:{line}: ")), "{message}\n{text}");
         assert!(message.contains(part), "{message}\n{text}");
@@ -176,6 +208,7 @@ fn errors_before_the_world() {
         ("WorldBegin\n\n", 2, "no Camera"),
         ("Camera \"perspective\"\n", 1, "no WorldBegin"),
         ("Shape \"sphere\"", 1, "Shape must come after WorldBegin"),
+        ("LightSource \"point\"", 1, "LightSource must come after WorldBegin"),
         ("Camera \"fisheye\"", 1, "Camera \"fisheye\": not supported"),
         ("WorldEnd", 1, "unknown directive WorldEnd"),
         ("Camera \"perspective\" \"float lensradius\" -.1", 1, "\"lensradius\": must be at least 0, not -0.1"),
@@ -264,67 +297,61 @@ fn nesting_is_bounded() {
 
 #[test]
 fn includes_are_relative_bounded_and_name_their_own_lines() {
-    let dir = meshes::Scratch::new("include");
-    dir.write("sub/shape.pbrt", format!("\n{TRIANGLE}").as_bytes());
-    dir.write("sub/both.pbrt", b"Include \"shape.pbrt\"\nInclude \"shape.pbrt\"");
-    dir.write("sub/faulty.pbrt", b"\n\nShape \"cube\"");
-    dir.write("sub/self.pbrt", b"Include \"self.pbrt\"");
-    dir.write("sub/main.pbrt", b"Include \"sub/shape.pbrt\""); // relative to the main file
+    let dir = Folder::new();
+    dir.write("sub/shape.pbrt", format!("\u{feff}\n{TRIANGLE}"));
+    dir.write("sub/both.pbrt", "Include \"shape.pbrt\"\nInclude \"shape.pbrt\"");
+    dir.write("sub/faulty.pbrt", "\n\nShape \"cube\"");
+    dir.write("sub/self.pbrt", "Include \"self.pbrt\"");
+    dir.write("sub/b.pbrt", "\nInclude \"c.pbrt\"");
+    dir.write("sub/c.pbrt", "Include \"./b.pbrt\"");
+    dir.write("sub/main.pbrt", "Include \"sub/shape.pbrt\""); // relative to the main file
     dir.write("bytes.pbrt", b"\n\xff\n");
+    dir.write("mark.pbrt", "\n \u{feff}Shape");
+    dir.write("wide.pbrt", b"\xff\xfeS\0h\0");
+    dir.write("bare.pbrt", b"S\0h\0a\0p\0");
     let read = |text: &str| parse(&world(text), "a.pbrt", &dir.path);
     assert_eq!(read("Include \"sub/both.pbrt\"").unwrap().triangles.len(), 2);
     assert_eq!(read("Include \"sub/main.pbrt\"").unwrap().triangles.len(), 1);
     let message = |text: &str| read(text).unwrap_err().to_string();
-    let faulty = message("Include \"sub/faulty.pbrt\"");
-    assert!(faulty.contains("faulty.pbrt:3: Shape \"cube\": shape not supported, only sphere, "), "{faulty}");
-    let own = message("Include \"sub/self.pbrt\"");
-    assert!(own.contains("self.pbrt:1: ") && own.contains("includes itself"), "{own}");
-    assert!(message("Include \"bytes.pbrt\"").contains("bytes.pbrt:2: the byte 0xff is not UTF-8"));
-    assert!(message("Include \"sub\"").contains("not a regular file"));
     // a chain of files that exceeds the depth limit, and one file included too often
     for i in 0..40 {
-        dir.write(&format!("{i}.pbrt"), format!("Include \"{}.pbrt\"", i + 1).as_bytes());
+        dir.write(&format!("{i}.pbrt"), format!("Include \"{}.pbrt\"", i + 1));
     }
-    assert!(message("Include \"0.pbrt\"").contains("more than 32 files deep"));
-    dir.write("empty.pbrt", b"");
+    dir.write("empty.pbrt", "");
     assert!(message(&"Include \"empty.pbrt\"\n".repeat(4097)).starts_with("a.pbrt:4098: "));
+    for (name, wanted) in [
+        ("sub/faulty", "faulty.pbrt:3: Shape \"cube\": shape not supported, only sphere, "),
+        ("sub/self", "self.pbrt\": the file includes itself: "),
+        ("sub/b", "b.pbrt\": the file includes itself: "),
+        ("sub/b", "c.pbrt:1 includes \""),
+        ("bytes", "bytes.pbrt:2: the byte 0xff is not UTF-8"),
+        // a byte order mark in the middle, as in files that were joined, and those of UTF-16
+        ("mark", "mark.pbrt:2: unknown directive \\u{feff}Shape"),
+        ("wide", "wide.pbrt:1: the file begins with the byte order mark of UTF-16: save it as UTF-8"),
+        ("bare", "as UTF-16 does: save it as UTF-8"),
+        ("0", "more than 32 files deep"),
+    ] {
+        let found = message(&format!("Include \"{name}.pbrt\""));
+        assert!(found.contains(wanted), "{found}\n{wanted}");
+    }
+    assert!(message("Include \"sub\"").contains("not a regular file"));
 }
 
-/// Every prefix of a scene, and many scenes with a few bytes changed, give a scene or an error.
+/// Every beginning of a scene, and many scenes with a few bytes changed, give a scene or an error.
 #[test]
 fn no_text_panics() {
     let text = include_str!("../../../../scenes/quads.pbrt");
-    let directory = Path::new("no such directory");
-    for end in (0..text.len()).filter(|&end| text.is_char_boundary(end)) {
-        let _ = parse(&text[..end], "a.pbrt", directory);
-    }
-    // Knuth's MMIX generator
-    let mut state = 1_u64;
-    let mut next = |n: usize| {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (state >> 33) as usize % n
-    };
     let pieces =
-        ["\"", "[", "]", "-", "1e308", "nan", "é", "\0", "#", "\\", "Include ", "AttributeBegin ", "\"float x\" ", "0"];
+        ["\"", "[", "]", "-", "1e308", "nan", "é", "\0", "#", "\\", "Include ", "AttributeBegin ", "\"float x\" "];
     let (mut sound, mut faulty) = (0, 0);
-    for _ in 0..4000 {
-        let mut bytes = text.as_bytes().to_vec();
-        for _ in 0..1 + next(6) {
-            let at = next(bytes.len());
-            match next(4) {
-                0 => bytes[at] = next(256) as u8,
-                1 => drop(bytes.drain(at..(at + next(20)).min(bytes.len()))),
-                2 => drop(bytes.splice(at..at, pieces[next(pieces.len())].bytes())),
-                _ => bytes.swap(at, at / 2),
-            }
-        }
-        match parse(&String::from_utf8_lossy(&bytes), "a.pbrt", directory) {
+    damaged(text.as_bytes(), &pieces, 4000, |bytes| {
+        match parse(&String::from_utf8_lossy(bytes), "a.pbrt", Path::new("no such directory")) {
             Ok(scene) => {
                 sound += 1;
                 assert!(scene.triangles.iter().flatten().flatten().all(|x| x.is_finite()));
             }
             Err(_) => faulty += 1,
         }
-    }
+    });
     assert!(sound > 100 && faulty > 1000, "{sound} {faulty}");
 }

@@ -1,62 +1,7 @@
-//! Reading of delta lights, environments and materials, and their error messages.
+//! Reading of skies, spreads, metals and mirrors.
 
 use super::*;
 use etendue::light::EnvironmentMap;
-use exr::prelude::write_rgb_file;
-use std::fs;
-
-fn light(text: &str) -> DeltaLight {
-    let scene = read(&world(text));
-    assert_eq!(warnings(&scene), [""; 0]);
-    assert_eq!(scene.delta_lights.len(), 1);
-    scene.delta_lights[0]
-}
-
-fn error(text: &str) -> String {
-    parse(&world(text), "a.pbrt", Path::new("no such directory")).map(|_| ()).unwrap_err().to_string()
-}
-
-#[test]
-fn points_have_the_defaults_of_pbrt() {
-    assert_eq!(light("LightSource \"point\""), DeltaLight::Point { position: [0.0; 3], intensity: [1.0; 3] });
-    let text = "Translate 1 2 3 Scale 2 2 2\nLightSource \"point\" \"point3 from\" [1 0 -1] \"rgb I\" [1 2 3] \"float scale\" 2";
-    assert_eq!(light(text), DeltaLight::Point { position: [3.0, 2.0, 1.0], intensity: [2.0, 4.0, 6.0] });
-}
-
-#[test]
-fn spots_have_the_defaults_of_pbrt() {
-    let DeltaLight::Spot { position, axis, one_minus_cos_inner, one_minus_cos_outer, intensity } =
-        light("LightSource \"spot\"")
-    else {
-        panic!("not a spot");
-    };
-    assert_eq!((position, axis, intensity), ([0.0; 3], [0.0, 0.0, 1.0], [1.0; 3]));
-    let near = |x: f32, degrees: f64| (f64::from(x) / (1.0 - degrees.to_radians().cos()) - 1.0).abs() < 1e-7;
-    assert!(near(one_minus_cos_inner, 25.0) && near(one_minus_cos_outer, 30.0));
-    // rotated about x: +z becomes −y
-    let text = "Rotate 90 1 0 0\nLightSource \"spot\" \"point3 from\" [0 0 -2] \"point3 to\" [0 0 3] \"float coneangle\" 60 \"float conedeltaangle\" 0";
-    let DeltaLight::Spot { position, axis, one_minus_cos_inner, one_minus_cos_outer, .. } = light(text) else {
-        panic!("not a spot");
-    };
-    let near = |a: [f32; 3], b: [f32; 3]| (0..3).all(|k| (a[k] - b[k]).abs() < 1e-6);
-    assert!(near(position, [0.0, 2.0, 0.0]) && near(axis, [0.0, -1.0, 0.0]), "{position:?} {axis:?}");
-    assert!(one_minus_cos_inner == one_minus_cos_outer && (one_minus_cos_outer - 0.5).abs() < 1e-7);
-    // θ²/2 of an angle whose cosine differs from 1 by a fourth of a rounding
-    let narrow = "LightSource \"spot\" \"float coneangle\" 0.01 \"float conedeltaangle\" 0";
-    let DeltaLight::Spot { one_minus_cos_outer, .. } = light(narrow) else { panic!("not a spot") };
-    assert!((one_minus_cos_outer / 1.523_087_1e-8 - 1.0).abs() < 1e-6, "{one_minus_cos_outer}");
-}
-
-#[test]
-fn distant_lights_shine_from_from_to_to() {
-    let from = |text| match light(text) {
-        DeltaLight::Distant { direction, irradiance } => (direction, irradiance),
-        other => panic!("{other:?}"),
-    };
-    assert_eq!(from("LightSource \"distant\""), ([0.0, 0.0, -1.0], [1.0; 3]));
-    let text = "Scale 1 -1 1\nLightSource \"distant\" \"point3 from\" [0 7 0] \"point3 to\" [0 3 0] \"rgb L\" [0 0 5]";
-    assert_eq!(from(text), ([0.0, -1.0, 0.0], [0.0, 0.0, 5.0]));
-}
 
 #[test]
 fn infinite_lights_turn_with_their_transform() {
@@ -67,8 +12,6 @@ fn infinite_lights_turn_with_their_transform() {
     // up in world space is z in light space
     let up: [f32; 3] = environment.to_light.map(|row| row[1]);
     assert!(up[0].abs() < 1e-6 && up[1].abs() < 1e-6 && (up[2] - 1.0).abs() < 1e-6, "{up:?}");
-    let two = read(&world("LightSource \"infinite\"\nLightSource \"infinite\" \"rgb L\" [1 2 3]"));
-    assert_eq!(two.environment.unwrap().sky, SkyRadiance::Constant([2.0, 3.0, 4.0]));
     let dark = read(&world("LightSource \"infinite\" \"rgb L\" [0 0 0]"));
     assert!(dark.environment.is_none());
     assert_eq!(warnings(&dark).len(), 2, "{:?}", warnings(&dark));
@@ -77,30 +20,27 @@ fn infinite_lights_turn_with_their_transform() {
 /// Reads EXR, HDR and PNG images, square and 2:1, and rejects values that no light can have.
 #[test]
 fn images_of_the_sky() {
-    let folder = std::env::temp_dir().join(format!("etendue-sky-{}", std::process::id()));
-    fs::create_dir_all(&folder).unwrap();
-    let write = |name: &str, w: usize, h: usize, odd: f32| {
-        let pixel = |x: usize, y: usize| if (x, y) == (1, 0) { (odd, 2.0, 3.0) } else { (x as f32, y as f32, 1.0) };
-        write_rgb_file(folder.join(name), w, h, pixel).unwrap();
+    let folder = Folder::new();
+    let write = |name: &str, size: [usize; 2], odd: f32| {
+        folder.picture(name, size, |x, y| if (x, y) == (1, 0) { [odd, 2.0, 3.0] } else { [x as f32, y as f32, 1.0] });
     };
-    write("square.exr", 4, 4, 1.0);
-    write("wide.exr", 4, 2, 1.0);
-    write("odd.exr", 4, 3, 1.0);
-    write("nan.exr", 4, 2, f32::NAN);
-    write("negative.exr", 4, 2, -5.0);
-    fs::write(folder.join("text.exr"), "not an image").unwrap();
+    write("square.exr", [4, 4], 1.0);
+    write("wide.exr", [4, 2], 1.0);
+    write("nan.exr", [4, 2], f32::NAN);
+    write("negative.exr", [4, 2], -5.0);
+    folder.write("text.exr", "not an image");
     // one RGBE texel: mantissas 128, 64, 0 with exponent 129 are 1, ½ and 0
     let hdr = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\x80\x40\x00\x81";
-    fs::write(folder.join("one.hdr"), hdr).unwrap();
+    folder.write("one.hdr", hdr);
     let mut png = Vec::new();
     let mut encoder = png::Encoder::new(&mut png, 1, 1);
     encoder.set_color(png::ColorType::Rgb);
     encoder.write_header().unwrap().write_image_data(&[255, 188, 0]).unwrap();
-    fs::write(folder.join("one.png"), png).unwrap();
+    folder.write("one.png", png);
 
     let load = |name: &str| {
         let text = world(&format!("LightSource \"infinite\" \"string filename\" \"{name}\" \"float scale\" 2"));
-        parse(&text, "a.pbrt", &folder)
+        parse(&text, "a.pbrt", &folder.path)
     };
     let texels = |name: &str| match load(name).unwrap_or_else(|e| panic!("{e}")).environment.unwrap().sky {
         SkyRadiance::Image { width, map, texels } => (width, map, texels),
@@ -126,7 +66,6 @@ fn images_of_the_sky() {
         assert!(message.starts_with("a.pbrt:2: LightSource \"infinite\": ") && message.contains(what), "{message}");
         assert!(message.contains(name), "{message}");
     }
-    fs::remove_dir_all(&folder).unwrap();
 }
 
 /// The spread is the full angle in degrees, as in Cycles; a sphere has none.
@@ -176,78 +115,4 @@ fn metals_and_mirrors() {
     );
     let named = "MakeNamedMaterial \"m\" \"string type\" \"mirror\" \"rgb Kr\" [.5 .5 .5]\nNamedMaterial \"m\"";
     assert_eq!(material(named), Material::Mirror([0.5; 3]));
-}
-
-#[test]
-fn errors_name_line_and_value() {
-    for (text, what) in [
-        ("LightSource \"laser\"", "not supported, only \"point\""),
-        ("LightSource \"point\" \"float power\" 0", "must be greater than 0, not 0"),
-        ("LightSource \"distant\" \"float illuminance\" -3", "must be greater than 0, not -3"),
-        ("AreaLightSource \"diffuse\" \"float spread\" 0", "\"spread\": must be from 0.1 to 180 degrees, not 0"),
-        ("AreaLightSource \"diffuse\" \"float spread\" 181", "must be from 0.1 to 180 degrees, not 181"),
-        ("AreaLightSource \"diffuse\" \"float spread\" 0.1 \"float scale\" 4e36", "at most 1.0"),
-        ("LightSource \"point\" \"float scale\" -2", "\"scale\": must be at least 0, not -2"),
-        ("LightSource \"point\" \"rgb I\" [1 -3 1]", "\"I\": must be at least 0, not -3"),
-        ("LightSource \"point\" \"texture I\" \"a\"", "a light cannot have a texture"),
-        ("LightSource \"point\" \"rgb I\" [1e30 0 0] \"float scale\" 1e30", "at most 3.4028235e38 is supported"),
-        ("LightSource \"point\" \"point3 from\" [1e39 0 0]", "not finite in f32"),
-        ("LightSource \"point\" \"point3 from\" [1 2 3 4 5 6]", "\"from\": expected three numbers, found 6"),
-        ("LightSource \"distant\" \"point3 from\" [1 2 3] \"point3 to\" [1 2 3]", "define no direction"),
-        (
-            "LightSource \"spot\" \"float coneangle\" 200",
-            "\"coneangle\": must be greater than 0 and at most 180 degrees, not 200",
-        ),
-        (
-            "LightSource \"spot\" \"float coneangle\" 20 \"float conedeltaangle\" 21",
-            "\"conedeltaangle\": must be from 0 to the cone angle 20, not 21",
-        ),
-        ("Scale 1 2 1 LightSource \"spot\"", "stretches its cone"),
-        ("Scale 1 2 1 LightSource \"infinite\"", "rotations, reflections and uniform scales"),
-        ("Material \"conductor\" \"spectrum eta\" \"metal-Xx-eta\"", "no spectrum is called \"metal-Xx-eta\""),
-        ("Material \"conductor\" \"rgb eta\" [1 1 1] \"rgb k\" [1e20 1 1]", "\"k\": [1e20, 1.0, 1.0] is too large"),
-        ("Material \"conductor\" \"rgb reflectance\" [1 1 1.5]", "\"reflectance\": must be at most 1, not 1.5"),
-        ("Material \"conductor\" \"rgb reflectance\" [1 1 1] \"rgb k\" [1 1 1]", "\"reflectance\" cannot be combined"),
-        (
-            "Material \"conductor\" \"rgb reflectance\" [1 1 1] \"float roughness\" -.5",
-            "\"roughness\": must be from 0 to 1, not -0.5",
-        ),
-    ] {
-        let message = error(text);
-        assert!(message.starts_with("a.pbrt:2: ") && message.contains(what), "{text}\n{message}");
-    }
-    let before = parse("LightSource \"point\"", "a.pbrt", Path::new(".")).unwrap_err().to_string();
-    assert!(before.contains("LightSource must come after WorldBegin"), "{before}");
-}
-
-#[test]
-fn new_builtin_scenes_are_sound() {
-    for (name, _) in &builtin()[4..9] {
-        let scene = load(name).unwrap();
-        assert_eq!(warnings(&scene), [""; 0], "{name}");
-        assert_eq!((scene.name.as_str(), scene.pixel_samples), (*name, 64));
-        // sky.exr is its map
-        let file = if *name == "sky" { "sky-render" } else { name };
-        assert_eq!(
-            scene.film,
-            FilmSettings {
-                width: 256,
-                height: 256,
-                diagonal: 35.0,
-                filename: Some(format!("{file}.exr")),
-                place: None
-            }
-        );
-    }
-    let cornell = load("cornell-box").unwrap();
-    assert_eq!((cornell.triangles.len(), cornell.shapes.len()), (30, 1));
-    // the light faces down
-    assert!(normal(&cornell.shapes[0].geometry)[1] < 0.0);
-    assert_eq!(load("delta-lights").unwrap().delta_lights.len(), 3);
-    assert!(load("sky").unwrap().environment.is_some());
-    assert_eq!(load("plates").unwrap().materials.iter().filter(|m| m.is_glossy()).count(), 4);
-    assert_eq!(load("mirror-room").unwrap().materials.iter().filter(|m| m.is_mirror()).count(), 3);
-    // only the built-in scene may refer to its image
-    let text = world("LightSource \"infinite\" \"string filename\" \"sky.exr\"");
-    assert!(parse(&text, "a.pbrt", Path::new("no such directory")).is_err());
 }

@@ -1,22 +1,20 @@
 //! Reading of pictures that shapes emit.
 
-use super::meshes::Scratch;
 use super::*;
 use etendue_render::light_picture::LightPicture;
 use etendue_render::texture::Mapping;
-use exr::prelude::write_rgb_file;
 
 /// A folder with a picture of 3 × 2 texels, (column, row, 1) in each.
-fn folder(name: &str) -> Scratch {
-    let folder = Scratch::new(name);
-    write_rgb_file(folder.path.join("p.exr"), 3, 2, |x, y| (x as f32, y as f32, 1.0_f32)).unwrap();
+fn folder() -> Folder {
+    let folder = Folder::new();
+    folder.picture("p.exr", [3, 2], |x, y| [x as f32, y as f32, 1.0]);
     folder
 }
 
 const LIGHT: &str = "AreaLightSource \"diffuse\" \"string filename\" \"p.exr\"";
 const QUAD: &str = "Shape \"bilinearmesh\" \"point3 P\" [0 0 0  4 0 0  0 3 0  4 3 0]";
 
-fn load(folder: &Scratch, text: &str) -> Scene {
+fn load(folder: &Folder, text: &str) -> Scene {
     parse(&world(text), "a.pbrt", &folder.path).unwrap_or_else(|e| panic!("{e}\n{text}"))
 }
 
@@ -35,7 +33,7 @@ fn near(found: [f32; 3], wanted: [f32; 3]) {
 /// The first row of the image is at v = 1, as in pbrt.
 #[test]
 fn quads_show_pictures_upright() {
-    let folder = folder("quads");
+    let folder = folder();
     let scene = load(&folder, &format!("{LIGHT} \"float scale\" 2 {QUAD}"));
     assert_eq!((warnings(&scene), scene.shapes.len()), (Vec::new(), 1));
     near(scene.shapes[0].emission.unwrap().radiance, [2.0, 1.0, 2.0]);
@@ -57,7 +55,7 @@ fn quads_show_pictures_upright() {
 
 #[test]
 fn triangles_and_given_coordinates() {
-    let folder = folder("triangles");
+    let folder = folder();
     let mesh = "\"point3 P\" [0 0 0  1 0 0  0 1 0]";
     let plain = load(&folder, &format!("{LIGHT} Shape \"trianglemesh\" {mesh}"));
     // pbrt's default coordinates are (0, 0), (1, 0), (1, 1)
@@ -79,7 +77,7 @@ fn triangles_and_given_coordinates() {
 
 #[test]
 fn spheres_show_pictures_by_their_own_axes() {
-    let folder = folder("spheres");
+    let folder = folder();
     let scene = load(&folder, &format!("Rotate 90 0 1 0 Scale 2 2 2 {LIGHT} Shape \"sphere\" \"float radius\" 3"));
     assert_eq!((warnings(&scene), scene.shapes.len()), (Vec::new(), 1));
     let LightPicture { axes, picture, .. } = &scene.pictures[0];
@@ -94,26 +92,12 @@ fn spheres_show_pictures_by_their_own_axes() {
     assert!(part.shapes.len() > 1000 && (power / std::f64::consts::TAU - 1.0).abs() < 5e-3, "{power}");
 }
 
-/// The power of a light is that of its mean luminance.
-#[test]
-fn powers_are_those_of_pictures() {
-    let folder = folder("powers");
-    let scene = load(&folder, &format!("{LIGHT} \"float power\" 10 \"bool twosided\" true {QUAD}"));
-    let luminance = |rgb: [f32; 3]| 0.212_639 * rgb[0] + 0.715_169 * rgb[1] + 0.072_192 * rgb[2];
-    let mean = scene.shapes[0].emission.unwrap().radiance;
-    let power = luminance(mean) * 2.0 * 12.0 * std::f32::consts::PI;
-    assert!((power - 10.0).abs() < 1e-4, "{power}");
-    let shown = at(&scene, 0, [0.5, 0.5]);
-    assert!((0..3).all(|k| (shown[k] - mean[k]).abs() < 1e-6), "{shown:?}, {mean:?}");
-}
-
 /// Textures of reflectance, roughness and opacity name what no surface can have, as lights do.
 #[test]
 fn faulty_textures_are_named() {
-    let folder = Scratch::new("textures");
+    let folder = Folder::new();
     for (name, x) in [("nan.exr", f32::NAN), ("infinite.exr", f32::INFINITY), ("negative.exr", -0.5)] {
-        let texel = |c: usize, r: usize| if (c, r) == (1, 0) { (x, 1.0, 0.5) } else { (0.25, 1.0, 0.5) };
-        write_rgb_file(folder.path.join(name), 2, 2, texel).unwrap();
+        folder.picture(name, [2, 2], |c, r| [if (c, r) == (1, 0) { x } else { 0.25 }, 1.0, 0.5]);
     }
     for (value, user) in [
         ("spectrum", "Material \"diffuse\" \"texture reflectance\" \"t\""),
@@ -138,33 +122,29 @@ fn faulty_textures_are_named() {
 /// What shows only dark texels is an ordinary surface.
 #[test]
 fn dark_parts_are_no_lights() {
-    let folder = folder("dark");
-    write_rgb_file(folder.path.join("p.exr"), 8, 1, |x, _| (0.0, if x == 7 { 1e-44_f32 } else { 0.0 }, 0.0)).unwrap();
+    let folder = folder();
+    folder.picture("p.exr", [8, 1], |x, _| [0.0, if x == 7 { 1e-44 } else { 0.0 }, 0.0]);
     let dark = "\"point2 uv\" [0 0  .5 0  0 1  .5 1]";
     let scene = load(&folder, &format!("{LIGHT} {QUAD} {dark} Translate 0 0 1 {QUAD}"));
     assert_eq!((scene.shapes.len(), scene.triangles.len(), scene.pictures.len()), (1, 2, 1));
     let radiance = scene.shapes[0].emission.unwrap().radiance;
     assert_eq!(radiance, [0.0, f32::MIN_POSITIVE, 0.0]);
-    write_rgb_file(folder.path.join("p.exr"), 2, 2, |_, _| (0.0, 0.0, 0.0_f32)).unwrap();
+    folder.picture("p.exr", [2, 2], |_, _| [0.0; 3]);
     let scene = load(&folder, &format!("{LIGHT}\n{QUAD}"));
     assert!(scene.shapes.is_empty() && warnings(&scene)[0].contains("emits nothing"), "{:?}", warnings(&scene));
 }
 
 #[test]
 fn faulty_pictures_are_named() {
-    let folder = folder("faulty");
-    let write =
-        |name: &str, x: f32| {
-            write_rgb_file(folder.path.join(name), 2, 2, |c, r| {
-                if (c, r) == (1, 0) { (x, 1.0, 1.0) } else { (1.0, 1.0, 1.0) }
-            })
-            .unwrap();
-        };
+    let folder = folder();
+    let write = |name: &str, x: f32| {
+        folder.picture(name, [2, 2], |c, r| [if (c, r) == (1, 0) { x } else { 1.0 }, 1.0, 1.0]);
+    };
     write("nan.exr", f32::NAN);
     write("infinite.exr", f32::INFINITY);
     write("bright.exr", 3e37);
     write("negative.exr", -1.0);
-    std::fs::write(folder.path.join("text.png"), "text").unwrap();
+    folder.write("text.png", "text");
     let light = |name: &str, more: &str| {
         let text = format!("AreaLightSource \"diffuse\" \"string filename\" \"{name}\" {more}\n{QUAD}");
         parse(&world(&text), "a.pbrt", &folder.path)
@@ -187,9 +167,7 @@ fn faulty_pictures_are_named() {
 /// A changed texture or mesh makes another scene, even if the scene file stays as it was.
 #[test]
 fn digests_depend_on_all_files_of_a_scene() {
-    let folder = std::env::temp_dir().join(format!("etendue-digest-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).unwrap();
-    let write = |name: &str, text: &str| std::fs::write(folder.join(name), text).unwrap();
+    let folder = Folder::new();
     let ply = |x: u8| {
         format!(
             "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n\
@@ -197,29 +175,28 @@ fn digests_depend_on_all_files_of_a_scene() {
         )
     };
     let picture = |x: f32| [&b"PF\n1 1\n-1.0\n"[..], &[x; 3].map(f32::to_le_bytes).concat()].concat();
-    write("mesh.ply", &ply(1));
-    std::fs::write(folder.join("picture.pfm"), picture(0.25)).unwrap();
-    write(
+    folder.write("mesh.ply", ply(1));
+    folder.write("picture.pfm", picture(0.25));
+    folder.write(
         "scene.pbrt",
         "Camera \"perspective\"\nWorldBegin\nLightSource \"point\"\n\
          Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"picture.pfm\"\n\
          Material \"diffuse\" \"texture reflectance\" \"t\"\nShape \"plymesh\" \"string filename\" \"mesh.ply\"\n",
     );
-    let load = || crate::load(folder.join("scene.pbrt")).unwrap();
+    let load = || crate::load(folder.path.join("scene.pbrt")).unwrap();
     let found = || load().digest();
     let first = found();
     assert_eq!(found(), first);
-    std::fs::write(folder.join("picture.pfm"), picture(0.5)).unwrap();
+    folder.write("picture.pfm", picture(0.5));
     let second = found();
     assert_ne!(second, first);
-    write("mesh.ply", &ply(2));
+    folder.write("mesh.ply", ply(2));
     assert_ne!(found(), second);
-    std::fs::write(folder.join("picture.pfm"), picture(0.25)).unwrap();
-    write("mesh.ply", &ply(1));
+    folder.write("picture.pfm", picture(0.25));
+    folder.write("mesh.ply", ply(1));
     assert_eq!(found(), first);
     // what counts is what was read, even if the file has changed since
     let scene = load();
-    write("mesh.ply", &ply(2));
+    folder.write("mesh.ply", ply(2));
     assert_eq!(scene.digest(), first);
-    std::fs::remove_dir_all(&folder).unwrap();
 }

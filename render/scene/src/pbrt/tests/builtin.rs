@@ -1,4 +1,4 @@
-//! The built-in scenes of many lights.
+//! The built-in scenes. (The images of `sphere-light`, `triangle-light` and `quads` are compared with those of an independent renderer.)
 
 use super::*;
 use std::collections::HashMap;
@@ -27,41 +27,73 @@ fn grouped(n: usize) -> String {
     groups.join(",")
 }
 
+/// Numbers of triangles, of shapes that emit, of lights without an area, of mirrors and of rough materials.
+const SIZES: [(&str, [usize; 5]); 14] = [
+    ("sphere-light", [26, 1, 0, 0, 0]),
+    ("triangle-light", [14, 1, 0, 0, 0]),
+    ("quads", [38, 5, 0, 0, 0]),
+    ("terrain", [1_036_288, 1, 0, 0, 0]),
+    ("cornell-box", [30, 1, 0, 0, 0]),
+    ("mirror-room", [24, 1, 0, 3, 0]),
+    ("plates", [12, 4, 0, 0, 4]),
+    ("delta-lights", [26, 0, 3, 0, 0]),
+    ("sky", [2, 0, 0, 1, 1]),
+    ("defocus", [2, 3, 0, 0, 0]),
+    ("chandelier", [29_548, 1_000, 0, 0, 0]),
+    ("city", [193_156, 109_655, 0, 0, 0]),
+    ("wet-city", [193_156, 109_655, 0, 0, 2]),
+    ("knot", [28, 1_000_000, 0, 0, 0]),
+];
+
 #[test]
-fn descriptions_state_the_number_of_lights() {
-    let expected = [
-        ("chandelier", 29_548, 1_000),
-        ("city", 193_156, 109_655),
-        ("wet-city", 193_156, 109_655),
-        ("knot", 28, 1_000_000),
-    ];
-    let (few, many) = builtin().split_at(builtin_of_few_lights().len());
+fn builtin_scenes_have_the_stated_sizes_and_no_warnings() {
+    let (few, many) = crate::builtin().split_at(builtin_of_few_lights().len());
     assert_eq!(few, builtin_of_few_lights());
-    for (name, _) in few {
-        let scene = load(name).unwrap();
-        let lights = scene.shapes.iter().filter(|shape| shape.emission.is_some()).count() + scene.delta_lights.len();
-        assert!(lights <= etendue::select::FEW, "{name}: {lights}");
-    }
     let mut found = Vec::new();
-    for (name, about) in many {
+    for (name, about) in crate::builtin() {
         let scene = load(name).unwrap();
+        assert_eq!((warnings(&scene), scene.name.as_str()), (Vec::new(), *name));
+        // sky.exr is its map
+        let filename = Some(format!("{}.exr", if *name == "sky" { "sky-render" } else { name }));
+        let (width, samples) = if *name == "defocus" { (384, 256) } else { (256, 64) };
+        let film = FilmSettings { width, height: 256, diagonal: 35.0, filename, place: None };
+        assert_eq!((&scene.film, scene.pixel_samples), (&film, samples));
         let emitting: Vec<_> = scene.shapes.iter().filter(|shape| shape.emission.is_some()).collect();
-        found.push((*name, scene.triangles.len(), emitting.len()));
-        assert!(about.contains(&grouped(emitting.len())), "{name}: {about}");
-        assert_eq!(warnings(&scene), [""; 0], "{name}");
-        assert_eq!((scene.name.as_str(), scene.pixel_samples), (*name, 64));
-        let filename = Some(format!("{name}.exr"));
-        assert_eq!(scene.film, FilmSettings { width: 256, height: 256, diagonal: 35.0, filename, place: None });
+        let count = |is: fn(&Material) -> bool| scene.materials.iter().filter(|material| is(material)).count();
+        let [mirrors, rough] = [count(|material| material.is_mirror()), count(|material| material.is_glossy())];
+        found.push((*name, [scene.triangles.len(), emitting.len(), scene.delta_lights.len(), mirrors, rough]));
+        let lights = emitting.len() + scene.delta_lights.len();
+        match many.iter().any(|(other, _)| other == name) {
+            true => assert!(about.contains(&grouped(lights)), "{name}: {about}"),
+            false => assert!(lights <= etendue::select::FEW, "{name}: {lights}"),
+        }
         // lights reflect nothing, and each emits
         assert!(emitting.iter().all(|shape| scene.materials[shape.material as usize].is_black()), "{name}");
         let radiance = |shape: &&Shape| shape.emission.unwrap().radiance;
         assert!(emitting.iter().map(radiance).all(|r| r.iter().all(|x| x.is_finite() && *x > 0.0)), "{name}");
         assert!(scene.shapes.iter().all(|shape| shape.geometry.area() > 0.0), "{name}");
-        let has_area = |t: &[[f32; 3]; 3]| Geometry::Triangle(*t).area() > 0.0;
-        assert!(scene.triangles.iter().all(has_area), "{name}");
+        assert!(scene.triangles.iter().all(|t| Geometry::Triangle(*t).area() > 0.0), "{name}");
         assert_eq!(scene.triangle_materials.len(), scene.triangles.len());
     }
-    assert_eq!(found, expected);
+    assert_eq!(found, SIZES);
+    // only the built-in scene may refer to its image
+    let text = world("LightSource \"infinite\" \"string filename\" \"sky.exr\"");
+    assert!(parse(&text, "a.pbrt", Path::new("no such directory")).is_err());
+}
+
+/// Compares the sum of all coordinates with one computed independently from the same formulas, which includes the light's two
+/// triangles. A few coordinates may round differently, because sines differ in their last bit.
+#[test]
+fn terrain_matches_an_independent_sum() {
+    let scene = load("terrain").unwrap();
+    let sum: f64 = scene.triangles.iter().flatten().flatten().map(|&x| f64::from(x)).sum();
+    let light = [1.0 + 3.0 + 3.0, 5.0 * 3.0, -2.0 - 2.0 + 0.0, 1.0 + 3.0 + 1.0, 5.0 * 3.0, -2.0 + 0.0 + 0.0];
+    let expected = 1_385_121.984_778_002_6 - light.iter().sum::<f64>();
+    assert!((sum - expected).abs() < 1e-4, "{sum} {expected}");
+    assert_eq!(
+        scene.triangles[0].map(|p| [p[0], p[2]]),
+        [[-12.0, -12.0], [-12.0, -11.953125], [-11.953125, -11.953125]]
+    );
 }
 
 /// Two thirds of the chandelier's plates hang below others: all hang freely, and no bulb is within another.
