@@ -6,13 +6,9 @@ mod meshes;
 
 use brute_force::regimes::REGIMES;
 use brute_force::values;
-use etendue::{Mask, f32x8};
 use etendue_oracle::tier::cases;
-use etendue_render::bvh::{Bvh, Hits, NOTHING, Scratch, ShapeSet};
-use etendue_render::camera::Pinhole;
-use etendue_render::certify::{Bodies, Certificate, Certifier, Patch, Pyramid, Viewer};
-use etendue_render::packet::M8;
-use etendue_render::surfaces::Surfaces;
+use etendue_render::bvh::{Bvh, ShapeSet};
+use etendue_render::certify::Bodies;
 use meshes::{Triangle, cube, sheet};
 
 /// Patches and lights of each regime whose values are compared, and how many times as many are of chamfered boxes: a plane through rounded
@@ -79,6 +75,8 @@ fn values_agree_with_the_truth_at_length() {
 }
 
 /// Median times of the search for bodies in the largest meshes that are searched: a sheet, and boxes side by side.
+#[test]
+#[ignore = "measures time"]
 fn time_per_search() {
     let boxes = |k: usize| cube(1).into_iter().map(move |t| t.map(|[x, y, z]| [x + 4.0 * k as f32, y, z]));
     let boxes: Vec<Triangle> = (0..65_536 / 12).flat_map(boxes).collect();
@@ -92,64 +90,5 @@ fn time_per_search() {
         times.sort_by(|a, b| a.1.total_cmp(&b.1));
         let (found, milliseconds) = times[4];
         println!("{name}: {found} bodies among {} triangles, {milliseconds:.1} ms", triangles.len());
-    }
-}
-
-/// Median times of certificates, by outcome, and of the search for bodies.
-#[test]
-#[ignore = "measures time"]
-fn time_per_certificate() {
-    time_per_search();
-    for name in ["quads", "terrain"] {
-        let scene = etendue_scene::load(name).unwrap();
-        let surfaces = Surfaces::new(&scene).unwrap();
-        let bodies = Bodies::new(&surfaces.bvh);
-        let mut certifier = Certifier::new(&surfaces, &bodies, surfaces.light_shapes());
-        let lights = surfaces.light_shapes().count();
-        for (size, wideness) in [(256_u32, 1_u32), (1024, 16)] {
-            let pinhole = Pinhole::new(&scene.camera, size, size);
-            let (mut places, mut scratch) = (Vec::new(), Scratch::default());
-            for y in (0..size).step_by(wideness as usize) {
-                for x in (0..size).step_by(wideness as usize) {
-                    let middle = [x, y].map(|x| f32x8::splat(x as f32 + 0.5 * wideness as f32));
-                    let (origin, direction) = pinhole.ray(middle[0], middle[1]);
-                    let mut hits = [Hits::none(f32x8::splat(f32::INFINITY))];
-                    let ray = surfaces.bvh.rays(origin, direction);
-                    surfaces.bvh.closest(&[ray], &[M8::splat(true)], &mut hits, &mut scratch);
-                    let place = hits[0].place.to_array()[0];
-                    if place != NOTHING {
-                        let area = [x, y, x + wideness, y + wideness].map(f64::from);
-                        places.push((place, Pyramid::new(&pinhole, area)));
-                    }
-                }
-            }
-            let start = std::time::Instant::now();
-            let patch = |(place, pyramid): &(u32, Pyramid)| Patch::of(&surfaces, *place, Viewer::Pixels(pyramid));
-            let patches: Vec<Patch> = places.iter().filter_map(patch).collect();
-            let nanoseconds = start.elapsed().as_secs_f64() * 1e9 / places.len() as f64;
-            println!(
-                "{name} at {size}, {wideness}: {} patches of {}, {nanoseconds:.0} ns each",
-                patches.len(),
-                places.len()
-            );
-            let mut outcomes = [const { Vec::new() }; 4];
-            for light in 0..lights {
-                for patch in &patches {
-                    let start = std::time::Instant::now();
-                    let outcome = match certifier.certify(patch, light) {
-                        Certificate::Lit(_) => 0,
-                        Certificate::Dark => 1,
-                        Certificate::Blockers(..) => 2,
-                        Certificate::Unknown => 3,
-                    };
-                    outcomes[outcome].push(start.elapsed().as_secs_f64() * 1e6);
-                }
-            }
-            for (outcome, mut times) in ["lit", "dark", "blockers", "unknown"].iter().zip(outcomes) {
-                times.sort_by(f64::total_cmp);
-                let at = |share: f64| times.get((times.len() as f64 * share) as usize).unwrap_or(&0.0);
-                println!("    {outcome:8} {:7}, {:.2} µs, 90 % below {:.2} µs", times.len(), at(0.5), at(0.9));
-            }
-        }
     }
 }

@@ -2,23 +2,12 @@
 
 use etendue::sequence::{Independent, Sequence};
 use etendue::{Mask, Real, Vec2, Vec3, f32x8, u32x8};
+use etendue_oracle::{V3, cross, dot, sub};
 use etendue_render::bvh::{Bvh, Hits, NOTHING, Scratch, ShapeSet, Traversal};
 use etendue_render::scene::{Affine, Instance};
 
-type V = [f64; 3];
-
-fn sub(a: V, b: V) -> V {
-    std::array::from_fn(|k| a[k] - b[k])
-}
-fn dot(a: V, b: V) -> f64 {
-    (0..3).map(|k| a[k] * b[k]).sum()
-}
-fn cross(a: V, b: V) -> V {
-    std::array::from_fn(|k| a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3])
-}
-
 /// Distance and least barycentric coordinate (Möller and Trumbore), if the ray hits the plane.
-fn meet(t: &[[f32; 3]; 3], o: V, d: V) -> Option<(f64, f64)> {
+fn meet(t: &[[f32; 3]; 3], o: V3, d: V3) -> Option<(f64, f64)> {
     let [a, b, c] = t.map(|v| v.map(f64::from));
     let (e1, e2, s) = (sub(b, a), sub(c, a), sub(o, a));
     let p = cross(d, e2);

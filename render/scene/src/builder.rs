@@ -339,16 +339,15 @@ impl Builder {
 
     /// Adds a triangle that emits, unless it has no area or is dark; returns whether it did. Normals tell which side emits.
     pub(super) fn lamp(&mut self, surface: &ShapeAttributes, corners: [Vertex; 3]) -> bool {
-        let [first, second, third] = corners;
-        let corners = if surface.flip { [first, third, second] } else { corners };
+        let turned = |[first, second, third]: [Vertex; 3]| [first, third, second];
+        let corners = if surface.flip { turned(corners) } else { corners };
         let [a, b, c] = corners.map(|vertex| round(vertex.point).map(f64::from));
         let flat = cross(sub(b, a), sub(c, a));
         if flat == [0.0; 3] {
             return false;
         }
         let given = corners.iter().fold([0.0; 3], |sum, vertex| add(sum, vertex.normal));
-        let [first, second, third] = corners;
-        let corners = if dot(flat, given) < 0.0 { [first, third, second] } else { corners };
+        let corners = if dot(flat, given) < 0.0 { turned(corners) } else { corners };
         let geometry = Geometry::Triangle(corners.map(|vertex| round(vertex.point)));
         let emission = self.lamps.emission(surface, &geometry, || affine(corners.map(|vertex| vertex.uv)));
         if emission.is_some() {

@@ -83,6 +83,15 @@ impl Values {
     }
 }
 
+impl Values {
+    /// Notes the errors of values in single and in double precision, relative to an angle, whatever a certificate says.
+    fn note_errors(&mut self, spheres: usize, both: [Option<f64>; 2], truth: f64, angle: f64) {
+        for (most, value) in self.most[spheres].iter_mut().zip(both) {
+            *most = value.map_or(*most, |value| most.max((value - truth).abs() / angle));
+        }
+    }
+}
+
 impl fmt::Display for Values {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{:9} shafts", self.shafts)?;
@@ -98,6 +107,40 @@ impl fmt::Display for Values {
     }
 }
 
+/// What a certificate lists, as closed forms take it.
+#[derive(Default)]
+struct Listed<'a> {
+    forms: Vec<Convex<f32>>,
+    single: Vec<Polyhedron<'a, f32>>,
+    double: Vec<Polyhedron<'a, f64>>,
+}
+
+impl<'a> Listed<'a> {
+    fn new(blockers: &[Blocker], bodies: &'a Bodies) -> Self {
+        let mut all = Self::default();
+        for blocker in blockers {
+            match *blocker {
+                Blocker::Convex { form, .. } => all.forms.push(form),
+                Blocker::Body(body) => {
+                    all.single.push(bodies.polyhedron(body));
+                    all.double.push(bodies.exact_polyhedron(body));
+                }
+            }
+        }
+        all
+    }
+    /// On the surface of a body, points are inside or outside by the rounding of its corners.
+    fn has_on_surface(&self, p: V3) -> bool {
+        self.single.iter().any(|body| {
+            let exact = |v: Vec3<f32>| wide([v.x, v.y, v.z]);
+            let reach = body.edges.iter().flat_map(|edge| edge.ends).map(exact).chain([p]).flatten();
+            let depth = |[normal, on]: &[Vec3<f32>; 2]| dot(unit(exact(*normal)), sub(exact(*on), p));
+            let least = body.faces.iter().map(depth).fold(f64::INFINITY, f64::min);
+            least.abs() < 3e-7 * reach.fold(0.0, |most: f64, x| most.max(x.abs()))
+        })
+    }
+}
+
 /// Closed forms in both precisions, as the renderer computes them.
 #[derive(Default)]
 struct Forms {
@@ -107,13 +150,7 @@ struct Forms {
 
 impl Forms {
     /// What closed forms in single precision and in double precision give at the points.
-    fn visible(
-        &mut self,
-        points: &[(V3, V3)],
-        light: &Convex<f32>,
-        forms: &[Convex<f32>],
-        bodies: (&[Polyhedron<'_, f32>], &[Polyhedron<'_, f64>]),
-    ) -> [Option<[f64; POINTS]>; 2] {
+    fn visible(&mut self, points: &[(V3, V3)], light: &Convex<f32>, listed: &Listed<'_>) -> [Option<[f64; POINTS]>; 2] {
         let at = |lane: usize, of: fn(&(V3, V3)) -> V3, k: usize| of(&points[lane % points.len()])[k];
         let single = |of: fn(&(V3, V3)) -> V3| {
             let axis = |k: usize| f32x8::from_fn(|lane| at(lane, of, k) as f32);
@@ -124,10 +161,10 @@ impl Forms {
             Vec3::new(axis(0), axis(1), axis(2))
         };
         let (p, n) = (single(|point| point.0), single(|point| point.1));
-        let narrow = self.single.visible_past(p, n, light, forms, bodies.0);
+        let narrow = self.single.visible_past(p, n, light, &listed.forms, &listed.single);
         let (p, n) = (double(|point| point.0), double(|point| point.1));
-        let forms: Vec<Convex<f64>> = forms.iter().map(|form| form.map(f64::from)).collect();
-        let wide = self.double.visible_past(p, n, &light.map(f64::from), &forms, bodies.1);
+        let forms: Vec<Convex<f64>> = listed.forms.iter().map(|form| form.map(f64::from)).collect();
+        let wide = self.double.visible_past(p, n, &light.map(f64::from), &forms, &listed.double);
         // the renderer goes on in single precision
         let narrow = narrow.map(|x| std::array::from_fn(|lane| f64::from(x.as_array()[lane])));
         [narrow, wide.map(|x| x.to_array())]
@@ -155,6 +192,14 @@ impl World {
             self.compare_values(&certificate, bodies, view, &points, light, forms, values);
         }
     }
+    /// The greatest light of the corners and the centre of a flat patch.
+    fn brightest(&self, view: &View, light: u32) -> f64 {
+        let Some(normal) = view.patch.normal() else { return 0.0 };
+        let corners: Vec<V3> = view.patch.corners().collect();
+        let center = corners.iter().fold([0.0; 3], |sum, &p| along(sum, p, 1.0 / corners.len() as f64));
+        let all = corners.into_iter().chain([center]);
+        all.map(|p| self.truth(p, normal, view.receiver, light).all).fold(0.0, f64::max)
+    }
     #[expect(clippy::too_many_arguments, reason = "what a certificate is about")]
     fn compare_values(
         &self,
@@ -168,7 +213,7 @@ impl World {
     ) {
         let form = self.scene.shapes[light as usize].geometry.convex();
         let is_ball = |form: &Convex<f32>| matches!(form, Convex::Sphere { .. });
-        let (mut listed, mut single, mut double) = (Vec::new(), Vec::new(), Vec::new());
+        let mut listed = Listed::default();
         let (row, precision) = match certificate {
             Certificate::Unknown => {
                 values.unknown += 1;
@@ -177,24 +222,15 @@ impl World {
             Certificate::Dark => (2, Precision::Single),
             Certificate::Lit(precision) => (usize::from(*precision == Precision::Double), *precision),
             Certificate::Blockers(blockers, precision) => {
-                for blocker in *blockers {
-                    match *blocker {
-                        Blocker::Convex { form, .. } => listed.push(form),
-                        Blocker::Body(body) => {
-                            single.push(bodies.polyhedron(body));
-                            double.push(bodies.exact_polyhedron(body));
-                        }
-                    }
-                }
-                if blockers.len() > CLIPPED || is_ball(&form) && listed.iter().any(is_ball) {
+                listed = Listed::new(blockers, bodies);
+                if blockers.len() > CLIPPED || is_ball(&form) && listed.forms.iter().any(is_ball) {
                     values.crowded += 1;
                     return;
                 }
                 (3 + usize::from(*precision == Precision::Double), *precision)
             }
         };
-        let both =
-            if row == 2 { [Some([0.0; POINTS]); 2] } else { forms.visible(points, &form, &listed, (&single, &double)) };
+        let both = if row == 2 { [Some([0.0; POINTS]); 2] } else { forms.visible(points, &form, &listed) };
         let chosen = both[usize::from(precision == Precision::Double)];
         let Some(chosen) = chosen else {
             values.crowded += 1;
@@ -202,41 +238,22 @@ impl World {
         };
         let truth = points.iter().map(|&(p, n)| self.truth(p, n, view.receiver, light));
         let truth: Vec<Truth> = truth.collect();
-        // of what is compared, and of the corners and the centre of the patch
-        let corners: Vec<V3> = view.patch.corners().collect();
-        let center = corners.iter().fold([0.0; 3], |sum, &p| along(sum, p, 1.0 / corners.len() as f64));
-        let corners = view.patch.normal().map(|n| corners.into_iter().chain([center]).map(move |p| (p, n)));
-        let corners = corners.into_iter().flatten().map(|(p, n)| self.truth(p, n, view.receiver, light).all);
-        let most = truth.iter().map(|truth| truth.all).chain(corners).fold(0.0_f64, f64::max);
-        let count = (listed.len() + single.len()).max(1) as f64;
-        let spheres = if listed.iter().any(is_ball) { 2 } else { usize::from(is_ball(&form)) };
+        let most = truth.iter().fold(self.brightest(view, light), |most, truth| most.max(truth.all));
+        let count = (listed.forms.len() + listed.single.len()).max(1) as f64;
+        let spheres = if listed.forms.iter().any(is_ball) { 2 } else { usize::from(is_ball(&form)) };
         if precision == Precision::Neither {
             values.imprecise += 1;
         } else {
             values.known[row].shafts += 1;
         }
         for (lane, (truth, &(p, _))) in truth.iter().zip(points).enumerate() {
-            // on the surface of a body, points are inside or outside by the rounding of its corners
-            let on_surface = single.iter().any(|body| {
-                let exact = |v: Vec3<f32>| wide([v.x, v.y, v.z]);
-                let reach = body.edges.iter().flat_map(|edge| edge.ends).map(exact).chain([p]).flatten();
-                let depth = |[normal, on]: &[Vec3<f32>; 2]| dot(unit(exact(*normal)), sub(exact(*on), p));
-                let least = body.faces.iter().map(depth).fold(f64::INFINITY, f64::min);
-                least.abs() < 3e-7 * reach.fold(0.0, |most: f64, x| most.max(x.abs()))
-            });
-            let Some(left) = truth.left.filter(|_| !on_surface) else {
+            let Some(left) = truth.left.filter(|_| !listed.has_on_surface(p)) else {
                 values.untold += 1;
                 continue;
             };
             values.partial += u64::from(left > 0.01 * truth.all && left < 0.99 * truth.all);
             if row >= 3 {
-                let around = self.around(light, p);
-                for (precision, value) in both.iter().enumerate() {
-                    let Some(value) = value else { continue };
-                    let error = (value[lane] - left).abs() / (around * count);
-                    let most = &mut values.most[spheres][precision];
-                    *most = most.max(error);
-                }
+                values.note_errors(spheres, both.map(|v| v.map(|v| v[lane])), left, self.around(light, p) * count);
             }
             if precision == Precision::Neither {
                 continue;

@@ -50,37 +50,6 @@ fn screens() {
     assert!(matches!(square.camera.screen, Screen::Half(half) if (half - 0.5).abs() < 1e-12));
 }
 
-/// Parallel rays begin at the camera, and have the mirrored and stretched axes of its transform.
-#[test]
-fn parallel_rays() {
-    for (transform, right, up) in [
-        ("", [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0]),
-        ("Scale -1 1 1", [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]),
-        ("Scale 1 -.5 1", [-1.0, 0.0, 0.0], [0.0, -2.0, 0.0]),
-        ("Scale .25 .25 .25", [-4.0, 0.0, 0.0], [0.0, 4.0, 0.0]),
-    ] {
-        let scene = seen_by(&format!("{transform} LookAt 0 3 5 0 3 0 0 1 0 Camera \"orthographic\""));
-        let Camera::Orthographic(camera) = Camera::new(&scene.camera, 8, 8) else { panic!() };
-        for [x, y] in [[4.0, 4.0], [8.0, 0.0], [1.0, 7.0]] {
-            let (origin, direction) = camera.ray(X8::splat(x), X8::splat(y));
-            let [a, b] = [x / 4.0 - 1.0, 1.0 - y / 4.0];
-            let wanted: [f32; 3] = std::array::from_fn(|k| [0.0, 3.0, 5.0][k] + a * right[k] + b * up[k]);
-            assert_eq!(<[f32; 3]>::from(origin.lane(0)), wanted, "{transform}");
-            assert_eq!(<[f32; 3]>::from(direction.lane(0)), [0.0, 0.0, -1.0], "{transform}");
-        }
-    }
-    // with a lens, all rays leave from it towards the screen in the plane of focus
-    let lens = "\"float lensradius\" .5 \"float focaldistance\" 4";
-    let scene = seen_by(&format!("LookAt 0 3 5 0 3 0 0 1 0 Camera \"orthographic\" {lens}"));
-    let Camera::ThinLens(camera) = Camera::new(&scene.camera, 8, 8) else { panic!() };
-    let at = Vec2::new(X8::splat(0.5), X8::splat(-0.25));
-    let (origin, direction) = camera.ray(X8::splat(8.0), X8::splat(0.0), at);
-    let [origin, direction] = [origin, direction].map(|v| <[f32; 3]>::from(v.lane(0)));
-    assert_eq!(origin, [-0.25, 2.875, 5.0]);
-    let focus: [f32; 3] = std::array::from_fn(|k| origin[k] + 4.0 * direction[k] / -direction[2]);
-    assert!(focus.iter().zip([-1.0, 4.0, 1.0]).all(|(a, b)| (a - b).abs() < 1e-5), "{focus:?}");
-}
-
 /// However wide the film, its pixels see what they should, up to the rounding of the rays themselves: of parallel ones to 2⁻¹⁰ of a pixel, of
 /// others twice as much. The position is rounded to 2⁻¹³ of a pixel, and would be to 2⁻⁹ if it were counted from the corner of the film.
 #[test]

@@ -48,14 +48,7 @@ fn daylight_is_that_of_the_formula() {
     }
     assert_eq!(read.sun, None);
 
-    let bright = environment("\"float illuminance\" 20 \"float elevation\" 50 \"float sun\" 7");
-    let mut sum = 0.0;
-    for (i, texel) in texels(&bright).iter().enumerate() {
-        let [x, y] = [i % 512, i / 512].map(|k| k as u32);
-        let middle = etendue::light::Texel { x, y, offset: etendue::Vec2::new(0.5_f32, 0.5) };
-        sum += f64::from(texel[1] * map.direction(&middle).z.max(0.0)) * 4.0 * std::f64::consts::PI / (512.0 * 512.0);
-    }
-    assert!((sum / 20.0 - 1.0).abs() < 1e-3, "{sum}");
+    let bright = environment("\"float elevation\" 50 \"float sun\" 7");
     let sun = bright.sun.unwrap();
     let elevation = 50.0_f64.to_radians();
     let direction = [0.0, -elevation.cos(), elevation.sin()];

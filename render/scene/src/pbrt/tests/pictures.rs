@@ -2,7 +2,6 @@
 
 use super::*;
 use etendue_render::light_picture::LightPicture;
-use etendue_render::texture::Mapping;
 
 /// A folder with a picture of 3 × 2 texels, (column, row, 1) in each.
 fn folder() -> Folder {
@@ -73,23 +72,6 @@ fn triangles_and_given_coordinates() {
     let area = |shape: &Shape| shape.geometry.area();
     let mean = bent.shapes.iter().map(|s| area(s) * f64::from(s.emission.unwrap().radiance[2])).sum::<f64>() / 12.0;
     assert!((mean - 1.0).abs() < 1e-5, "{mean}");
-}
-
-#[test]
-fn spheres_show_pictures_by_their_own_axes() {
-    let folder = folder();
-    let scene = load(&folder, &format!("Rotate 90 0 1 0 Scale 2 2 2 {LIGHT} Shape \"sphere\" \"float radius\" 3"));
-    assert_eq!((warnings(&scene), scene.shapes.len()), (Vec::new(), 1));
-    let LightPicture { axes, picture, .. } = &scene.pictures[0];
-    // its +z is +x of the world, and its +x is −z
-    let near = |a: [f32; 3], b: [f32; 3]| (0..3).all(|k| (a[k] - b[k]).abs() < 1e-6);
-    assert!(near(axes[2], [1.0, 0.0, 0.0]) && near(axes[0], [0.0, 0.0, -1.0]), "{axes:?}");
-    assert_eq!(picture.mapping, Mapping([[1.0, 0.0, 0.0], [0.0, -1.0, 1.0]]));
-    assert!(near(scene.shapes[0].emission.unwrap().radiance, [1.0, 0.5, 1.0]));
-    // a part of a sphere becomes triangles, with as much light
-    let part = load(&folder, &format!("{LIGHT} Shape \"sphere\" \"float zmin\" 0"));
-    let power = part.shapes.iter().map(|s| s.geometry.area() * f64::from(s.emission.unwrap().radiance[2])).sum::<f64>();
-    assert!(part.shapes.len() > 1000 && (power / std::f64::consts::TAU - 1.0).abs() < 5e-3, "{power}");
 }
 
 /// Textures of reflectance, roughness and opacity name what no surface can have, as lights do.
