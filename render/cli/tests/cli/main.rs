@@ -1,7 +1,6 @@
 //! Runs the program as a user would, and checks output, messages and exit codes.
 
 mod chart;
-mod damaged;
 mod display;
 mod lost;
 mod misuse;
@@ -95,53 +94,11 @@ fn scene(last: &str) -> String {
 #[test]
 fn json_has_the_fields_that_it_should() {
     let folder = Folder::new();
-    let text = folder.succeed(&[
-        "render",
-        "quads",
-        "--json",
-        "--size",
-        "40x24",
-        "--spp",
-        "6",
-        "--technique",
-        "area",
-        "--sampler",
-        "independent",
-        "--seed",
-        "3",
-        "--threads",
-        "2",
-        "--repeat",
-        "3",
-        "-o",
-        "a.exr",
-    ]);
-    let report = json(&text);
-    let expected = [
-        "choice",
-        "chosen",
-        "error",
-        "height",
-        "mean",
-        "missed",
-        "output",
-        "passes",
-        "pixels",
-        "rays",
-        "sampler",
-        "scene",
-        "seconds",
-        "seed",
-        "sensor",
-        "sets",
-        "spp",
-        "systematic",
-        "technique",
-        "threads",
-        "uncertain",
-        "width",
-    ];
-    assert_eq!(keys(&report), expected);
+    let words = "render quads --json --size 40x24 --spp 6 --technique area --sampler independent --seed 3 --threads 2 --repeat 3";
+    let report = json(&folder.succeed(&[&words.split(' ').collect::<Vec<_>>()[..], &["-o", "a.exr"]].concat()));
+    let expected = "choice chosen error height mean missed output passes pixels rays sampler scene seconds seed sensor sets spp \
+                    systematic technique threads uncertain width";
+    assert_eq!(keys(&report).join(" "), expected);
     assert_eq!(keys(&report["seconds"]), ["build", "load", "render"]);
     assert_eq!(keys(&report["rays"]), ["camera", "corner", "mirror", "shadow"]);
     assert_eq!((&report["scene"], &report["output"]), (&Value::from("quads"), &Value::from("a.exr")));
@@ -223,28 +180,16 @@ fn fails_untouched(folder: &Folder, arguments: &[&str], message: &[&str]) {
 #[test]
 fn bad_scenes_are_reported_with_file_and_line() {
     let folder = Folder::new();
-    let cases = [
-        ("Sahpe \"sphere\"", "5: ", "unknown directive Sahpe"),
-        ("Shape \"sphere\" \"float radius\" 1.2.3", "5: ", "expected a number, found 1.2.3"),
-        ("Shape \"sphere\"\n\"float radius\" [\n1x]", "7: ", "expected a number, found 1x"),
-        ("Shape \"trianglemesh\"\n\"point3 P\" [0 0 0 nan 0 0 0 1 0]", "6: ", "nan"),
-        ("Shape \"trianglemesh\" \"point3 P\" [0 0 0 inf 0 0 0 1 0]", "5: ", "inf"),
-        ("Shape \"trianglemesh\" \"point3 P\" [0 0 0 1e39 0 0 0 1 0]", "5: ", ""),
-        ("Shape \"sphere\" \"float radius\" -1", "5: ", "radius"),
-        ("Shape \"plymesh\" \"string filename\" \"none.ply\"", "5: ", "none.ply"),
-        ("Include \"none.pbrt\"", "5: ", "none.pbrt"),
-        ("Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"integer indices\" [0 1 3]", "5: ", "3"),
-        ("AttributeBegin", "5: ", "AttributeBegin"),
-        ("LightSource \"laser\"", "5: ", "not supported"),
-        ("Texture \"a\" \"spectrum\" \"imagemap\" \"string filename\" \"none.png\"", "5: ", "none.png: cannot read"),
-    ];
-    for (last, line, what) in cases {
-        faulty(&folder, "bad.pbrt", scene(last), &[&format!("etendue: bad.pbrt:{line}"), what]);
-    }
-    for film in ["0 \"integer yresolution\" 8", "8 \"integer yresolution\" 0", "-8 \"integer yresolution\" 8"] {
-        let text = scene("").replace("8 \"integer yresolution\" 8", film);
-        faulty(&folder, "film.pbrt", text, &["etendue: film.pbrt:1: ", "each side must be 1 to 65536"]);
-    }
+    // the reader's tests have all messages
+    faulty(
+        &folder,
+        "bad.pbrt",
+        scene("Shape \"sphere\"\n\"float radius\" [\n1x]"),
+        &["etendue: bad.pbrt:7: ", "expected a number, found 1x"],
+    );
+    folder.write("mesh.ply", "ply\nformat ascii 1.0\nelement ver");
+    let mesh = scene("Shape \"plymesh\" \"string filename\" \"mesh.ply\"");
+    faulty(&folder, "bad.pbrt", mesh, &["bad.pbrt:5: ", "mesh.ply:3: the file ends within the header"]);
     // what stands for something else is a warning, and an error only where that is asked for
     folder.write("glass.pbrt", scene("Material \"dielectric\""));
     let strict = ["render", "glass.pbrt", "--strict", "-o", "kept.exr"];
@@ -266,30 +211,17 @@ fn bad_scenes_are_reported_with_file_and_line() {
 #[test]
 fn bad_arguments_are_reported() {
     let folder = Folder::new();
-    fails_untouched(&folder, &["render", "none.pbrt", "-o", "kept.exr"], &["none.pbrt", "quads"]);
+    let unknown = ["render", "qads", "-o", "kept.exr"];
+    fails_untouched(&folder, &unknown, &["\"qads\"", "did you mean quads?", "mirror-room"]);
     fails_untouched(&folder, &["render", ".", "-o", "kept.exr"], &["\".\""]);
     for size in ["0x5", "5x0", "5", "5x", "x", "-1x5", "5x5x5", "65537x1", "65536x65536", "4.5x4"] {
         fails_untouched(&folder, &["render", "quads", "-o", "kept.exr", &format!("--size={size}")], &["--size", size]);
     }
-    for (option, value) in [
-        ("--spp", "0"),
-        ("--spp", "-1"),
-        ("--spp", "many"),
-        ("--spp", "4294967296"),
-        ("--technique", "luck"),
-        ("--sampler", "dice"),
-        ("--choice", "luck"),
-        ("--sensor", "irradiance"),
-        ("--sensor", "power"),
-        ("--sensor", "film"),
-        ("--seed", "x"),
-        ("--threads", "-1"),
-        ("--repeat", "0"),
-    ] {
+    for option in ["--sensor=irradiance", "--sensor=power"] {
         fails_untouched(
             &folder,
-            &["render", "quads", "-o", "kept.exr", &format!("{option}={value}")],
-            &[option, value],
+            &["render", "quads", "-o", "kept.exr", option],
+            &[option.trim_start_matches("--sensor=")],
         );
     }
     let arguments = ["render", "delta-lights", "-o", "kept.exr", "--choice", "tree"];
@@ -312,44 +244,18 @@ fn compare_tells_images_apart() {
     render("a.exr", "32x32", "64", "0");
     render("b.exr", "32x32", "64", "1");
     render("one.exr", "32x32", "1", "0");
-    render("small.exr", "31x32", "4", "0");
 
-    let expected = [
-        "largest",
-        "mean_difference",
-        "mse",
-        "mse_over_predicted",
-        "peak",
-        "predicted_mse",
-        "psnr",
-        "reason",
-        "relative_rms",
-        "verdict",
-        "z",
-        "z_mse",
-    ];
+    let expected =
+        "largest mean_difference mse mse_over_predicted peak predicted_mse psnr reason relative_rms verdict z z_mse";
     let same = json(&folder.succeed(&["compare", "a.exr", "a.exr", "--json"]));
-    assert_eq!(keys(&same), expected);
+    assert_eq!(keys(&same).join(" "), expected);
     assert_eq!(same["mse"], 0.0);
     assert_eq!(same["z"], serde_json::json!([0.0, 0.0, 0.0]));
     assert_eq!(same["largest"]["difference"], 0.0);
     assert_eq!((&same["verdict"], &same["psnr"]), (&Value::from("identical"), &Value::Null));
 
     let two = json(&folder.succeed(&["compare", "a.exr", "b.exr", "--json"]));
-    assert!(two["mse"].as_f64().unwrap() > 0.0);
-    assert!(two["z"].as_array().unwrap().iter().all(|z| z.as_f64().unwrap().abs() < 4.5), "{two}");
-    assert!(two["z_mse"].as_f64().unwrap().abs() < 4.5, "{two}");
-    let pixel = two["largest"]["pixel"].as_array().unwrap();
-    assert!(pixel.iter().all(|x| x.as_u64().unwrap() < 32), "{two}");
-    assert_eq!(two["verdict"], "agree");
-    let number = |key: &str| two[key].as_f64().unwrap();
-    let a = etendue_render::image::read_exr(&folder.path("a.exr")).unwrap();
-    let values: Vec<f64> = a.radiance.iter().flatten().map(|&x| f64::from(x)).collect();
-    let mean = values.iter().sum::<f64>() / values.len() as f64;
-    let peak = values.iter().copied().fold(0.0, f64::max);
-    assert!((number("relative_rms") / (number("mse").sqrt() / mean) - 1.0).abs() < 1e-9, "{two}");
-    assert_eq!(number("peak"), peak);
-    assert!((number("psnr") - 10.0 * (peak * peak / number("mse")).log10()).abs() < 1e-9, "{two}");
+    assert!(two["verdict"] == "agree" && two["mse"].as_f64().unwrap() > 0.0, "{two}");
     let text = folder.succeed(&["compare", "a.exr", "b.exr"]);
     for part in ["z of the mean", "relative RMS error ", "PSNR ", "verdict            agree: all |z| are less than 4.5"]
     {
@@ -364,67 +270,47 @@ fn compare_tells_images_apart() {
     assert_eq!(differ["verdict"], "differ", "{differ}");
 
     // an image with one sample has no variance, and no z, on whichever side it is
-    for (reference, image, why) in [
-        ("a.exr", "one.exr", "the image has no variance"),
-        ("one.exr", "a.exr", "the reference has no variance"),
-        ("one.exr", "other-one.exr", "neither image has a variance"),
-    ] {
-        render("other-one.exr", "32x32", "1", "9");
+    for (reference, image, why) in
+        [("a.exr", "one.exr", "the image has no variance"), ("one.exr", "a.exr", "the reference has no variance")]
+    {
         let blind = json(&folder.succeed(&["compare", reference, image, "--json"]));
-        assert_eq!(keys(&blind), expected);
         assert_eq!(["z", "z_mse", "predicted_mse"].map(|key| &blind[key]), [&Value::Null; 3]);
         assert_eq!((&blind["verdict"], &blind["reason"]), (&"not known".into(), &why.into()));
         let text = folder.succeed(&["compare", reference, image]);
         assert!(text.contains(&format!("z                  not known, because {why}")), "{text}");
-        assert!(!text.contains("0.00 ") && text.contains(&format!("verdict            not known: {why}")), "{text}");
     }
     let mse = json(&folder.succeed(&["compare", "one.exr", "a.exr", "--json"]))["mse"].to_string();
     let told = json(&folder.succeed(&["compare", "one.exr", "a.exr", "--reference-error", &mse, "--json"]));
     assert!(told["z"].is_array() && told["verdict"] == "agree", "{told}");
+}
 
+#[test]
+fn compare_warns_and_refuses() {
+    let folder = Folder::new();
+    let render = |name: &str, size: &str, spp: &str| {
+        folder.succeed(&["render", "quads", "-o", name, "--size", size, "--spp", spp, "--sampler", "independent"]);
+    };
     // images of one seed share their noise
-    let shared = ["32x32", "--sampler", "independent", "--seed", "0"];
-    for (name, spp) in [("few.exr", "32"), ("many.exr", "64")] {
-        folder.succeed(&[&["render", "quads", "-o", name, "--spp", spp, "--size"], &shared[..]].concat());
-    }
+    render("few.exr", "32x32", "32");
+    render("many.exr", "32x32", "64");
+    render("small.exr", "31x32", "4");
     let output = folder.run(&["compare", "many.exr", "few.exr"]);
     let [out, error] = [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).unwrap());
     assert!(output.status.success() && error.contains("warning: ") && error.contains("same seed?"), "{error}");
     assert!(out.contains("not known: the images seem to share their random numbers"), "{out}");
 
-    // invalid input
-    let error = folder.fail(&["compare", "a.exr", "small.exr"]);
+    let error = folder.fail(&["compare", "few.exr", "small.exr"]);
     assert!(error.contains("32x32") && error.contains("31x32"), "{error}");
-    let error = folder.fail(&["compare", "none.exr", "a.exr"]);
+    let error = folder.fail(&["compare", "none.exr", "few.exr"]);
     assert!(error.contains("none.exr"), "{error}");
-    let bytes = fs::read(folder.path("a.exr")).unwrap();
+    let bytes = fs::read(folder.path("few.exr")).unwrap();
     for length in [0, 3, 100, bytes.len() / 2, bytes.len() - 1] {
         folder.write("cut.exr", &bytes[..length]);
-        let error = folder.fail(&["compare", "a.exr", "cut.exr"]);
+        let error = folder.fail(&["compare", "few.exr", "cut.exr"]);
         assert!(error.contains("cut.exr"), "{length} of {} bytes: {error}", bytes.len());
     }
-    let error = folder.fail(&["compare", "a.exr", "a.png"]);
-    assert!(error.contains("a.png"), "{error}");
-}
-
-/// With any bytes changed, an image is read or rejected, but nothing crashes.
-#[test]
-fn damaged_images_never_crash() {
-    let folder = Folder::new();
-    folder.succeed(&["render", "quads", "--size", "9x7", "--spp", "4", "-o", "a.exr"]);
-    let bytes = fs::read(folder.path("a.exr")).unwrap();
-    let mut state = 1_u32;
-    for _ in 0..300 {
-        let mut damaged = bytes.clone();
-        for _ in 0..3 {
-            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-            let at = (state >> 8) as usize % damaged.len();
-            damaged[at] = (state >> 3) as u8;
-        }
-        let path = folder.write("damaged.exr", &damaged);
-        // in this process, since 300 starts of the program would be slow
-        let _ = etendue_render::image::read_exr(Path::new(&path));
-    }
+    let error = folder.fail(&["compare", "few.exr", "few.png"]);
+    assert!(error.contains("few.png"), "{error}");
 }
 
 #[test]
@@ -463,54 +349,11 @@ fn the_pupil_is_drawn_by_one_command() {
 fn list_names_everything() {
     let text = Folder::new().succeed(&["list"]);
     let names: Vec<_> = text.lines().filter_map(|line| line.split_whitespace().next()).collect();
-    let expected = [
-        "scenes",
-        "sphere-light",
-        "triangle-light",
-        "quads",
-        "terrain",
-        "cornell-box",
-        "mirror-room",
-        "plates",
-        "delta-lights",
-        "sky",
-        "defocus",
-        "chandelier",
-        "city",
-        "wet-city",
-        "knot",
-        "techniques",
-        "uniform-hemisphere",
-        "cosine-hemisphere",
-        "area",
-        "solid-angle",
-        "projected-solid-angle",
-        "brdf",
-        "mis-balance",
-        "mis-power",
-        "mis-lobe",
-        "analytic",
-        "auto",
-        "choices",
-        "auto",
-        "uniform",
-        "power",
-        "spatial",
-        "tree",
-        "kinds",
-        "samplers",
-        "independent",
-        "stratified",
-        "sobol",
-        "sobol-4d",
-        "z-order",
-        "adaptive",
-        "sensors",
-        "radiance",
-        "irradiance",
-        "power",
-    ];
-    assert_eq!(names, expected);
+    let expected = "scenes sphere-light triangle-light quads terrain cornell-box mirror-room plates delta-lights sky defocus chandelier \
+                    city wet-city knot techniques uniform-hemisphere cosine-hemisphere area solid-angle projected-solid-angle brdf \
+                    mis-balance mis-power mis-lobe analytic auto choices auto uniform power spatial tree kinds samplers independent \
+                    stratified sobol sobol-4d z-order adaptive sensors radiance irradiance power";
+    assert_eq!(names.join(" "), expected);
 }
 
 #[test]

@@ -2,7 +2,6 @@
 
 use super::{Folder, display, scene};
 use serde_json::{Value, json};
-use std::fs;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
 use std::process::{Child, Command};
@@ -187,16 +186,8 @@ fn a_busy_port_is_passed_over() {
     assert!(error.contains("--port 65535: the ports 65535 to 65535 of 127.0.0.1 are all in use"), "{error}");
 }
 
-/// Kilobytes of memory that a process has at most had.
-#[cfg(target_os = "linux")]
-fn memory(process: u32) -> u64 {
-    let status = fs::read_to_string(format!("/proc/{process}/status")).unwrap();
-    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:")).unwrap();
-    line.trim().trim_end_matches(" kB").parse().unwrap()
-}
-
 #[test]
-fn clients_that_say_nothing_and_read_nothing_hold_little() {
+fn clients_that_say_nothing_and_read_nothing_are_few() {
     let folder = Folder::new();
     let more = ["--size", "640x640", "--threads", "1", "--technique", "area", "--sampler", "sobol"];
     let viewer = Viewer::with(&folder, &[&["view", "quads"], &more[..]].concat());
@@ -216,12 +207,6 @@ fn clients_that_say_nothing_and_read_nothing_hold_little() {
     }
     let refused = viewer.send(&question);
     assert!(refused.code == 503 && refused.text().contains("images"), "{}", refused.head);
-    let paused = viewer.wish("{\"paused\":true}");
-    assert_eq!(paused.code, 200);
-    // the pass that is rendered takes memory until it ends, after a second at most
-    sleep(Duration::from_millis(2000));
-    #[cfg(target_os = "linux")]
-    let before = memory(viewer.child.id());
     // connections that say nothing, or begin to
     let silent: Vec<TcpStream> = (0..40).map(|_| viewer.connect()).collect();
     for mut stream in silent.iter().step_by(2) {
@@ -229,11 +214,6 @@ fn clients_that_say_nothing_and_read_nothing_hold_little() {
     }
     let refused = viewer.send(&question);
     assert!(refused.code == 503 && refused.text().contains("connections"), "{}", refused.head);
-    #[cfg(target_os = "linux")]
-    {
-        let more = memory(viewer.child.id()) - before;
-        assert!(more < 10_000, "{more} kB for connections");
-    }
     // they are given up, and there is place for others
     let start = Instant::now();
     let answered = loop {
@@ -440,10 +420,7 @@ fn bad_values_are_named() {
         (&["--port", "web"], "1 to 65535"),
         (&["--spp", "4"], "--spp: `etendue view` takes samples as long as it runs"),
         (&["--size", "8192x4096"], "--size: an image of at most 16777216 pixels can be viewed, not 8192x4096"),
-        (&["--error", "0"], "--error"),
-        (&["--time", "-1"], "--time"),
         (&["--error", "1%", "--sets", "1"], "with --sets 1, a pixel has no variance"),
-        (&["-o", "a.png"], "the name must end in .exr"),
         (&["--display-server", "tev"], "--display-server"),
     ] {
         let error = folder.fail(&[&["view", "quads"], arguments].concat());
