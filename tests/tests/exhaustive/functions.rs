@@ -209,7 +209,7 @@ fn roots(all: &mut String, extent: Extent) {
         if normal(x) {
             found.error(0, (f64::from(y) * root - 1.0).abs(), at);
         } else {
-            found.outside("unspecified", true, at);
+            found.unspecified();
         }
     });
 
@@ -278,7 +278,7 @@ fn exact(
         truth,
         |x, [y], [], at, found| match is(x, y) {
             Some(holds) => found.demand("the definition", holds, at),
-            None => found.outside("unspecified", true, at),
+            None => found.unspecified(),
         },
     );
 }

@@ -56,6 +56,10 @@ impl<const M: usize> Found<M> {
         self.outside += 1;
         self.demand(what, holds, at);
     }
+    /// An input for which nothing is promised.
+    pub(crate) fn unspecified(&mut self) {
+        self.outside += 1;
+    }
     /// The union of two parts. Of equal errors it keeps the one with the least input, so that the result does not depend on threads.
     fn merge(&mut self, other: &Self) {
         for (k, theirs) in other.errors.iter().enumerate() {
