@@ -79,7 +79,7 @@ fn images() -> Vec<Row> {
         // what it measures is what arrives
         let text = format!("LightSource \"infinite\" \"string filename\" \"{file}\" \"float illuminance\" 10");
         let row = Row::new(format!("floor below {file} of 10"), on_floor(&text), reflected(grey(10.0)));
-        rows.push(row.by(&Technique::ALL).samples(1 << 15));
+        rows.push(row.by(&Technique::ALL).samples(1 << 16));
     }
     for size in ["one.pfm", "1x3.pfm", "3x3.pfm", "7x7.pfm", "6x2.pfm", "4x3.pfm"] {
         let text = format!("LightSource \"infinite\" \"string filename\" \"{size}\" \"float illuminance\" 10");
