@@ -1,4 +1,4 @@
-//! Every light by every technique: samples, pdfs, inverses, hits and points by area; environment images, profiles, projected
+//! Every light by every technique: samples, pdfs, inverses and hits; environment images, profiles, projected
 //! images, spreads, and visible parts.
 
 use crate::figures::{Figures, Lanes, List, Routine};
@@ -38,9 +38,6 @@ pub(crate) fn sampler<R: Real>(lanes: &mut Lanes<'_>, sampler: &dyn LightSampler
     lanes.real(sampler.pdf(s.direction));
     lanes.pair(sampler.invert(s.direction));
     sample(lanes, &sampler.hit(s.direction));
-    let area = sampler.area_sample(u);
-    lanes.vector(area.point);
-    lanes.real(area.pdf);
     let w = vectors_of(|i| ws[i]);
     lanes.pair(sampler.invert(w));
     sample(lanes, &sampler.hit(w));

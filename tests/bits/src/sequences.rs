@@ -1,12 +1,11 @@
 //! Every sequence: pairs of pixels, samples and dimensions, and the words of the generator.
 
 use crate::figures::{Figures, List, Routine};
-use etendue::random::DrawExt;
 use etendue::sequence::{
     CounterRng, Independent, JointSobol, JointStratified, LatinHypercube, Lattice, OwenSobol, Sequence, Stratified,
     ZOrder,
 };
-use etendue::{Real, Uint, Vec2};
+use etendue::{Real, Uint};
 use etendue_properties::generators::{AlongCurve, Random};
 use rand_core::{Rng, SeedableRng};
 
@@ -40,7 +39,7 @@ impl<S: Sequence, F: Fn(u32) -> S> Routine for Drawn<S, F> {
     }
 }
 
-/// The generator of random numbers, and what it draws.
+/// The generator of random numbers.
 struct Generator;
 
 impl Routine for Generator {
@@ -48,11 +47,6 @@ impl Routine for Generator {
         let mut generator = CounterRng::seed_from_u64(7);
         (0..100).for_each(|_| figures.number(f64::from(generator.next_u32())));
         (0..100).for_each(|_| figures.number((generator.next_u64() >> 11) as f64));
-        for _ in 0..100 {
-            let pair: Vec2<R::Scalar> = generator.pair();
-            figures.number(pair.x.lane_f64(0));
-            figures.number(pair.y.lane_f64(0));
-        }
     }
 }
 
