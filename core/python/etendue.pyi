@@ -20,8 +20,6 @@ __all__ = [
     "ImageEnvironment",
     "Independent",
     "JointSobol",
-    "LatinHypercube",
-    "Lattice",
     "LightTree",
     "Linear",
     "LowDistortionTriangle",
@@ -57,11 +55,9 @@ __all__ = [
     "Parallelogram",
     "Rectangle",
     "Disk",
-    "Cylinder",
     "Polygon",
     "BilinearPatch",
     "Line",
-    "Annulus",
     "Sun",
     "PointLight",
     "SpotLight",
@@ -396,55 +392,6 @@ class Disk:
     ) -> _F32: ...
 
 @final
-class Cylinder:
-    def __new__(cls, start: ArrayLike, axis: ArrayLike, radius: ArrayLike) -> Cylinder: ...
-    def by_area(self, p: ArrayLike) -> Sampler: ...
-    @staticmethod
-    def sample_each(
-        start: ArrayLike,
-        axis: ArrayLike,
-        radius: ArrayLike,
-        *,
-        p: ArrayLike,
-        u: ArrayLike,
-        n: ArrayLike | None = None,
-        by: Literal["area"] = "area",
-    ) -> Samples: ...
-    @staticmethod
-    def hit_each(
-        start: ArrayLike,
-        axis: ArrayLike,
-        radius: ArrayLike,
-        *,
-        p: ArrayLike,
-        w: ArrayLike,
-        n: ArrayLike | None = None,
-        by: Literal["area"] = "area",
-    ) -> Samples: ...
-    @staticmethod
-    def pdf_each(
-        start: ArrayLike,
-        axis: ArrayLike,
-        radius: ArrayLike,
-        *,
-        p: ArrayLike,
-        w: ArrayLike,
-        n: ArrayLike | None = None,
-        by: Literal["area"] = "area",
-    ) -> _F32: ...
-    @staticmethod
-    def invert_each(
-        start: ArrayLike,
-        axis: ArrayLike,
-        radius: ArrayLike,
-        *,
-        p: ArrayLike,
-        w: ArrayLike,
-        n: ArrayLike | None = None,
-        by: Literal["area"] = "area",
-    ) -> _F32: ...
-
-@final
 class Polygon:
     def __new__(cls, corners: ArrayLike) -> Polygon: ...
     def by_area(self, p: ArrayLike) -> Sampler: ...
@@ -597,59 +544,6 @@ class Line:
     ) -> _F32: ...
 
 @final
-class Annulus:
-    def __new__(cls, center: ArrayLike, normal: ArrayLike, radius: ArrayLike, inner_radius: ArrayLike) -> Annulus: ...
-    def by_area(self, p: ArrayLike) -> Sampler: ...
-    @staticmethod
-    def sample_each(
-        center: ArrayLike,
-        normal: ArrayLike,
-        radius: ArrayLike,
-        inner_radius: ArrayLike,
-        *,
-        p: ArrayLike,
-        u: ArrayLike,
-        n: ArrayLike | None = None,
-        by: Literal["area"] = "area",
-    ) -> Samples: ...
-    @staticmethod
-    def hit_each(
-        center: ArrayLike,
-        normal: ArrayLike,
-        radius: ArrayLike,
-        inner_radius: ArrayLike,
-        *,
-        p: ArrayLike,
-        w: ArrayLike,
-        n: ArrayLike | None = None,
-        by: Literal["area"] = "area",
-    ) -> Samples: ...
-    @staticmethod
-    def pdf_each(
-        center: ArrayLike,
-        normal: ArrayLike,
-        radius: ArrayLike,
-        inner_radius: ArrayLike,
-        *,
-        p: ArrayLike,
-        w: ArrayLike,
-        n: ArrayLike | None = None,
-        by: Literal["area"] = "area",
-    ) -> _F32: ...
-    @staticmethod
-    def invert_each(
-        center: ArrayLike,
-        normal: ArrayLike,
-        radius: ArrayLike,
-        inner_radius: ArrayLike,
-        *,
-        p: ArrayLike,
-        w: ArrayLike,
-        n: ArrayLike | None = None,
-        by: Literal["area"] = "area",
-    ) -> _F32: ...
-
-@final
 class Sun:
     def __new__(cls, direction: ArrayLike, one_minus_cos: ArrayLike) -> Sun: ...
     def by_solid_angle(self) -> Sampler: ...
@@ -791,7 +685,7 @@ class SpotLight:
 @final
 class DirectionalLight:
     def __new__(cls, direction: ArrayLike) -> DirectionalLight: ...
-    def by_delta(self, p: ArrayLike) -> Sampler: ...
+    def by_delta(self) -> Sampler: ...
     @staticmethod
     def sample_each(
         direction: ArrayLike,
@@ -921,14 +815,6 @@ class JointSobol(Sequence):
 @final
 class Stratified(Sequence):
     def __new__(cls, seed: int, count: int) -> Stratified: ...
-
-@final
-class LatinHypercube(Sequence):
-    def __new__(cls, seed: int, count: int) -> LatinHypercube: ...
-
-@final
-class Lattice(Sequence):
-    def __new__(cls, seed: int = 0, count: int | None = None) -> Lattice: ...
 
 @final
 class ImageEnvironment:

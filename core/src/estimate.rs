@@ -1,17 +1,13 @@
-//! Combines samples: mergeable mean and variance, weights of several techniques, choice from a stream.
+//! Combines samples: mergeable mean and variance, weights of several techniques.
 //!
 //! | | purpose |
 //! |---|---|
 //! | [`Welford`] | mean and variance of a stream |
 //! | [`Heuristic`], [`technique_pdf`] | multiple importance sampling |
-//! | [`Measured`], [`log_variance_error`] | efficiency: variance against cost |
-//! | [`Reservoir`] | draws one item of a stream in proportion to weights: choice among lights, resampling |
 
 mod mis;
-mod reservoir;
 
-pub use mis::{Heuristic, Measured, log_variance_error, technique_pdf};
-pub use reservoir::Reservoir;
+pub use mis::{Heuristic, technique_pdf};
 
 use crate::real::Real;
 

@@ -1,11 +1,18 @@
 //! Structs whose fields are lanes.
 
+use crate::real::Real;
+
 /// A struct over numbers `R`, which may be numbers, packets of numbers, or columns.
 pub trait Lanewise<R>: Sized {
     /// The same struct over other numbers.
     type With<S>: Lanewise<S>;
     /// Replaces each number x by `f(x)`.
     fn map<S>(self, f: impl FnMut(R) -> S) -> Self::With<S>;
+    /// Repeats one scalar value in every lane of a packet: a sampler that was prepared for one point draws packets of samples.
+    #[inline(always)]
+    fn splat<P: Real<Scalar = R>>(self) -> Self::With<P> {
+        self.map(P::splat)
+    }
 }
 
 /// Implements [`Lanewise`] by the method `map` of a struct over numbers alone, or over numbers and constants.

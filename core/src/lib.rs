@@ -43,7 +43,6 @@ pub mod light;
 pub mod math;
 pub mod memory;
 pub mod occlusion;
-pub mod random;
 pub mod real;
 pub mod reflection;
 pub mod select;
@@ -54,8 +53,8 @@ pub mod warp;
 
 pub use lanewise::Lanewise;
 pub use light::{
-    Annulus, BilinearPatch, ConstantEnvironment, Cylinder, DirectionalLight, Disk, LightSample, LightSampler, Line,
-    Parallelogram, PointLight, Polygon, Rectangle, Sphere, SpotLight, Sun, Triangle,
+    BilinearPatch, ConstantEnvironment, DirectionalLight, Disk, LightSample, LightSampler, Line, Parallelogram,
+    PointLight, Polygon, Rectangle, Sphere, SpotLight, Sun, Triangle,
 };
 pub use real::{Mask, Real, Uint};
 pub use vector::{Frame, Vec2, Vec3};

@@ -24,9 +24,7 @@
 //! | [`Rectangle`] | [`by_area`](Rectangle::by_area) | [`by_solid_angle`](Rectangle::by_solid_angle) | [`by_projected_solid_angle`](Rectangle::by_projected_solid_angle), or [`by_cosine_warp`](Rectangle::by_cosine_warp) |
 //! | [`Polygon`], 3 to 8 corners | [`by_area`](Polygon::by_area) | [`by_solid_angle`](Polygon::by_solid_angle) | [`by_projected_solid_angle`](Polygon::by_projected_solid_angle) |
 //! | [`BilinearPatch`] | [`by_area`](BilinearPatch::by_area) | | |
-//! | [`Annulus`] | [`by_area`](Annulus::by_area) | | |
 //! | [`Disk`] | [`by_area`](Disk::by_area) | [`by_solid_angle`](Disk::by_solid_angle) | |
-//! | [`Cylinder`] | [`by_area`](Cylinder::by_area): more than half of it faces away | | |
 //! | [`Line`] | [`by_length`](Line::by_length) | [`by_angle`](Line::by_angle) | [`by_projected_solid_angle`](Line::by_projected_solid_angle) |
 //! | [`Sun`] | | [`by_solid_angle`](Sun::by_solid_angle) | |
 //! | [`ConstantEnvironment`] | | [`by_solid_angle`](ConstantEnvironment::by_solid_angle) | [`by_projected_solid_angle`](ConstantEnvironment::by_projected_solid_angle) |
@@ -40,8 +38,8 @@
 //! Some lights emit only within an angle of their normal, a [`Spread`]. Their method `by_spread` samples the part that a point sees:
 //! [`Parallelogram`], [`Rectangle`] and [`Disk`] have it. A [`LuminousOpening`] gives flat lights the intensities of a [`Profile`].
 //!
-//! Cells are empty where no map is here that keeps the contract at every size: for the solid angles of cylinders, annuli and bilinear
-//! patches, and the projected solid angle of disks. A sun and a constant environment have no area.
+//! Cells are empty where no map is here that keeps the contract at every size: for the solid angle of bilinear patches, and the projected
+//! solid angle of disks. A sun and a constant environment have no area.
 //!
 //! # Costs
 //! Nanoseconds per sample on one core, of the call that a renderer makes: direction, distance, pdf, `emits` and `delta`, with the
@@ -77,8 +75,6 @@
 //! |  | reflection | 1308.1 | 376.6 | 191.2 | 36.6 | 1.07 | 38.4 | 377.9 |
 //! | disk | area | 19.9 | 2.63 | 18.0 | 2.36 | 0.54 | 2.96 | 2.69 |
 //! |  | solid angle | 214.1 | 27.6 | 95.9 | 11.9 | 2.31 | 6.48 | 30.6 |
-//! | annulus | area | 19.2 | 2.35 | 18.1 | 2.17 | 0.64 | 2.34 | 2.44 |
-//! | cylinder | area | 15.0 | 1.77 | 14.2 | 1.76 | 2.74 | 2.51 | 1.83 |
 //! | bilinear patch | area | 46.2 | 5.28 | 40.2 | 5.28 | 10.3 | 7.40 | 5.33 |
 //! | line | length | 31.6 | 2.56 | 8.04 | 1.02 | 0.36 | 0.53 | 3.57 |
 //! |  | angle | 104.6 | 8.57 | 13.1 | 1.58 | 0.34 | 1.55 | 9.44 |
@@ -92,10 +88,8 @@
 //! Without compiler flags a packet of 8 is two registers, and software computes each fused multiply-add, with the same bits;
 //! `CARGO_ENCODED_RUSTFLAGS= cargo bench -p etendue-benches --bench summary -- light` prints what that costs.
 
-mod annulus;
 mod around;
 mod cells;
-mod cylinder;
 mod daylight;
 mod delta;
 mod disk;
@@ -122,9 +116,7 @@ mod spread;
 mod surface;
 mod techniques;
 
-pub use annulus::{Annulus, AnnulusByArea, PlacedAnnulus};
 pub use cells::Region;
-pub use cylinder::{Cylinder, CylinderByArea, PlacedCylinder};
 pub use daylight::{GeneralSky, Moment, SunPosition};
 pub use delta::{
     DirectionalLight, DirectionalLightByDelta, PointLight, PointLightByDelta, SpotLight, SpotLightByDelta,
@@ -155,7 +147,7 @@ pub use polygon::{
 pub use portal::{MOST_PORTALS, Portal, PortalEnvironment, PortalMap, PortalTable, PortalsByRadiance};
 pub use profile::{Profile, ProfileError, ProfileWords};
 pub use projector::{ProjectedImage, Projector};
-pub use sample::{AreaSample, FAR, LightSample};
+pub use sample::{FAR, LightSample};
 pub use sampler::{ByArea, ByCosineWarp, ByProjectedSolidAngle, ByReflection, BySolidAngle, LightSampler};
 pub use sphere::{
     PlacedSphere, Sphere, SphereByArea, SphereByProjectedSolidAngle, SphereByReflection, SphereBySolidAngle,

@@ -12,10 +12,7 @@
 //! | sequence | variance: smooth, edge | gain at 16 | gain at 64 | f32 | f32x4 | f32x8 | when |
 //! |---|---|---|---|---|---|---|---|
 //! | [`Independent`] | N⁻¹ | 1 | 1 | 2.66 | 0.85 | 0.42 | the baseline; the spread of samples gives the variance |
-//! | [`LatinHypercube`] | N⁻¹, less parts in x or y alone | 22, 3.5 | 25, 3.7 | 49.9 | 15.1 | 7.53 | any count, nearly additive integrands |
 //! | [`Stratified`] | N⁻², N^(−3/2) | 14, 4.2 | 56, 8.5 | 43.3 | 12.4 | 6.28 | any count |
-//! | [`Lattice::r2`] | about N^(−1.8), N^(−1.6) | 2.5, 3.1 | 7.4, 7.1 | 2.86 | 0.80 | 0.40 | a count not known in advance; cheap |
-//! | [`Lattice::fibonacci`] | about N^(−1.7), N^(−1.6) | 9.6, 5.6 | 27, 12.6 | 2.86 | 0.80 | 0.40 | a Fibonacci count; edges |
 //! | [`OwenSobol`] | about N^(−2.9), N^(−3/2) | 125, 6.0 | 1630, 12.0 | 4.76 | 2.06 | 1.03 | the choice wherever the count is a power of two |
 //! | [`JointSobol`] | pair 0 as [`OwenSobol`] |  |  | 4.86 | 2.06 | 1.05 | integrands that depend on two or more pairs together |
 //! | [`JointStratified`] | √N strata in each pair |  |  | 31.4 | 11.0 | 5.51 | as [`JointSobol`], at n⁴ samples |
@@ -28,15 +25,11 @@
 
 mod independent;
 mod joint;
-mod latin;
-mod lattice;
 mod owen_sobol;
 mod stratified;
 
 pub use independent::{CounterRng, Independent};
 pub use joint::{JointSobol, JointStratified};
-pub use latin::LatinHypercube;
-pub use lattice::Lattice;
 pub use owen_sobol::{OwenSobol, ZOrder, ZOrderIndex};
 pub use stratified::Stratified;
 

@@ -1,6 +1,6 @@
-//! Estimators: MIS weights, efficiency, reservoirs: sums, limits, and expectations by enumeration.
+//! Estimators: MIS weights and running variances: sums, limits, and expectations by enumeration.
 
-use etendue::estimate::{Heuristic, Measured, Reservoir, Welford, log_variance_error, technique_pdf};
+use etendue::estimate::{Heuristic, Welford, technique_pdf};
 use etendue::sequence::{Independent, Sequence};
 use etendue::{LightSample, LightSampler, PointLight, Real, Sphere, Triangle, Uint, Vec2, Vec3, f32x4, f32x8, f32x16};
 use etendue_properties::checks::{self, EXTREMES, HEURISTICS};
@@ -226,92 +226,4 @@ fn importance_sampling_example() {
         println!("gain {gain} ± {}", gain * relative);
         assert!((gain - ratio).abs() < 5.0 * gain * relative + half_unit && relative < 0.03, "{gain} is not {ratio}");
     }
-}
-
-#[test]
-fn efficiency() {
-    let (a, b) = (Measured { variance: 2.0, cost: 3.0 }, Measured { variance: 1.0, cost: 1.5 });
-    assert_eq!((a.efficiency(), b.gain_over(a), a.gain_over(b)), (1.0 / 6.0, 4.0, 0.25));
-    let exact = Measured { variance: 0.0, cost: 1.0 };
-    assert_eq!((exact.gain_over(a), a.gain_over(exact), exact.gain_over(exact)), (f64::INFINITY, 0.0, 1.0));
-    assert_eq!(log_variance_error(1), f64::INFINITY);
-    // variances of 65 normal deviates: the spread of their logarithms
-    let logs: Vec<f64> = (0..4000)
-        .map(|k| {
-            let values: Vec<f64> = (0..65)
-                .map(|i| {
-                    let u: Vec2<f64> = Independent::new(6).pair(k, i, 0);
-                    (-2.0 * (1.0 - u.x).ln()).sqrt() * (u.y * std::f64::consts::TAU).cos()
-                })
-                .collect();
-            stats::mean_variance(&values).1.ln()
-        })
-        .collect();
-    let spread = stats::mean_variance(&logs).1.sqrt();
-    assert!((spread / log_variance_error(65) - 1.0).abs() < 0.06, "{spread}");
-}
-
-#[test]
-fn reservoir_holds_in_proportion_and_leaves_a_uniform_number() {
-    let steps = 1 << 16;
-    for weights in [&[1.0_f32, 2.0, 0.0, 5.0][..], &[0.0, 0.0, 1e-20, 3e-20], &[1e30, 1e28, 2e30], &[7.0]] {
-        let total: f64 = weights.iter().copied().map(f64::from).sum();
-        let mut left = vec![Vec::new(); weights.len()];
-        for i in 0..steps {
-            let mut reservoir = Reservoir::<f32>::default();
-            let mut u = (i as f32 + 0.5) / steps as f32;
-            for (k, &weight) in weights.iter().enumerate() {
-                u = reservoir.push(k as u32, weight, u);
-            }
-            assert!((0.0..1.0).contains(&u));
-            let held = reservoir.held as usize;
-            let expected = f64::from(weights[held]) / total;
-            assert!((f64::from(reservoir.pmf()) - expected).abs() < 2e-7 * expected);
-            left[held].push(u);
-        }
-        for (k, left) in left.iter_mut().enumerate() {
-            let expected = f64::from(weights[k]) / total * f64::from(steps);
-            assert!((left.len() as f64 - expected).abs() <= weights.len() as f64, "{weights:?}: {k} {}", left.len());
-            left.sort_by(f32::total_cmp);
-            for (i, &u) in left.iter().enumerate() {
-                let off = f64::from(u) - (i as f64 + 0.5) / left.len() as f64;
-                assert!(off.abs() < 3.0 / left.len() as f64 + 1e-5, "{weights:?}: {k} {off}");
-            }
-        }
-    }
-    let mut none = Reservoir::<f32x8>::default();
-    for weight in [0.0, f32::NAN, -1.0, f32::INFINITY] {
-        none.push(etendue::u32x8::splat(3), f32x8::splat(weight), f32x8::splat(0.0));
-    }
-    assert_eq!(none.pmf(), f32x8::splat(0.0));
-    assert_eq!(none.contribution(f32x8::splat(0.0)), f32x8::splat(0.0));
-    assert_eq!(none.held.lane(5), 0);
-}
-
-/// Resampling from M candidates, every outcome by its pmf: E f(y)·contribution = Σf.
-#[test]
-fn resampling_is_unbiased() {
-    let p = [0.1, 0.2, 0.3, 0.4];
-    let target = [0.0, 4.0, 0.5, 1.0];
-    let f = [0.0, 2.0, 1.0, 5.0];
-    let mut expectation = 0.0;
-    for first in 0..4 {
-        for second in 0..4 {
-            let weights = [first, second].map(|x| target[x] / p[x] / 2.0);
-            let sum = weights[0] + weights[1];
-            for (k, x) in [first, second].into_iter().enumerate() {
-                if weights[k] > 0.0 {
-                    let mut reservoir = Reservoir::<f64>::default();
-                    reservoir.push(first as u32, weights[0], 0.5);
-                    // below the chance of the second, or above
-                    reservoir.push(second as u32, weights[1], if k == 1 { 0.0 } else { 1.0 - 1e-9 });
-                    assert_eq!(reservoir.held as usize, x);
-                    assert!((reservoir.pmf() - weights[k] / sum).abs() < 1e-15);
-                    let worth = f[x] * reservoir.contribution(target[x]);
-                    expectation += p[first] * p[second] * weights[k] / sum * worth;
-                }
-            }
-        }
-    }
-    assert!((expectation - 8.0).abs() < 1e-12, "{expectation}");
 }

@@ -1,10 +1,6 @@
 //! Lights that are mostly below the horizon, by projected solid angle: no sample is lost below it.
 
-use etendue::light::{
-    LineByProjectedSolidAngle, ParallelogramByProjectedSolidAngle, PolygonByProjectedSolidAngle,
-    SphereByProjectedSolidAngle, TriangleByProjectedSolidAngle,
-};
-use etendue::{LightSampler, Line, Parallelogram, Polygon, Real, Sphere, Triangle, Vec3, f32x8};
+use etendue::{Lanewise, LightSampler, Line, Parallelogram, Polygon, Real, Sphere, Triangle, Vec3, f32x8};
 use etendue_oracle::{along, basis, narrow};
 use etendue_properties::generators::Random;
 use etendue_properties::properties::squares_of;
@@ -56,15 +52,11 @@ fn every_sample_is_above_the_horizon() {
                 }
             }
         };
-        check(0, &SphereByProjectedSolidAngle::splat(ball), ball.projected_solid_angle() > 0.0);
-        check(1, &TriangleByProjectedSolidAngle::splat(triangle), triangle.projected_solid_angle() > 0.0);
-        check(
-            2,
-            &ParallelogramByProjectedSolidAngle::splat(parallelogram),
-            parallelogram.projected_solid_angle() > 0.0,
-        );
-        check(3, &PolygonByProjectedSolidAngle::splat(polygon), polygon.projected_solid_angle() > 0.0);
-        check(4, &LineByProjectedSolidAngle::splat(line), line.sample(squares_of(&half)).pdf > 0.0);
+        check(0, &ball.splat::<f32x8>(), ball.projected_solid_angle() > 0.0);
+        check(1, &triangle.splat::<f32x8>(), triangle.projected_solid_angle() > 0.0);
+        check(2, &parallelogram.splat::<f32x8>(), parallelogram.projected_solid_angle() > 0.0);
+        check(3, &polygon.splat::<f32x8>(), polygon.projected_solid_angle() > 0.0);
+        check(4, &line.splat::<f32x8>(), line.sample(squares_of(&half)).pdf > 0.0);
     }
     println!("{samples:?}, {low} of them on the horizon");
     assert!(samples.iter().all(|&n| n > 200_000) && low > 1000, "{samples:?}, {low}");

@@ -1,6 +1,6 @@
 //! What a host gets wrong at first, as the documentation of `LightSampler` says it.
 
-use etendue::{Cylinder, Disk, LightSampler, Parallelogram, Polygon, Rectangle, Sphere, Triangle, Vec2, Vec3};
+use etendue::{Disk, LightSampler, Parallelogram, Polygon, Rectangle, Sphere, Triangle, Vec2, Vec3};
 use etendue_oracle::{length, sub, unit};
 use etendue_properties::generators::Random;
 use etendue_properties::properties::Coordinates;
@@ -85,11 +85,9 @@ fn on_emitters() -> Vec<(&'static str, bool, Box<dyn LightSampler<f32>>)> {
         all.push(("sphere by area", false, Box::new(Sphere::new(o, 0.7).by_area(p))));
         all.push(("sphere by solid angle", false, Box::new(Sphere::new(o, 0.7).by_solid_angle(p))));
         all.push(("sphere", false, Box::new(Sphere::new(o, 0.7).by_projected_solid_angle(p, way))));
-        let across = way.cross(a).normalize();
-        all.push(("cylinder", false, Box::new(Cylinder::new(o - a, a * 2.0, 0.7).by_area(o + across * 0.7))));
         let patch = etendue::BilinearPatch::new(o, a, b, a + b + v(0.1, 0.4, 0.0));
-        let on = patch.by_area(V::default()).area_sample(Vec2::new(random.unit(), random.unit())).point;
-        all.push(("patch", false, Box::new(patch.by_area(on))));
+        let on = patch.by_area(V::default()).sample(Vec2::new(random.unit(), random.unit()));
+        all.push(("patch", false, Box::new(patch.by_area(on.direction * on.distance))));
     }
     all
 }
@@ -122,7 +120,7 @@ fn directions_from_points_have_the_pdf_to_rounding() {
         let sampler = lamp().by_solid_angle(p);
         let (x, y) = (random.unit(), random.unit());
         let s = sampler.sample(Vec2::new(x, y));
-        let point = sampler.area_sample(Vec2::new(x, y)).point;
+        let point = s.direction.mul_add(s.distance, p);
         let w = V::from(unit(sub(point.at(0), p.at(0))).map(|x| x as f32));
         if s.pdf == 0.0 || s.direction.dot(s.normal).abs() < 0.1 {
             continue;

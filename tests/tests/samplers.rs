@@ -11,7 +11,7 @@ use etendue_properties::techniques::{self, AreaLight, LightFixture, LightShape, 
 fn clear(light: &AreaLight) -> bool {
     let (v, b, c) = (wide(light.a), wide(light.b), wide(light.c));
     let normal = if light.shape.has_normal() { b } else { cross(b, c) };
-    let flat = !matches!(light.shape, LightShape::Sphere | LightShape::Cylinder | LightShape::Line | LightShape::Patch);
+    let flat = !matches!(light.shape, LightShape::Sphere | LightShape::Line | LightShape::Patch);
     let slim = length(cross(b, c)) < 0.05 * length(b) * length(c);
     let low = dot(v, normal).abs() < 1e-2 * length(v) * length(normal);
     !(flat && (low || slim && !light.shape.has_normal()))
@@ -76,7 +76,7 @@ fn inverse_of_a_sample_is_its_number() {
             // one of the two maps of a cut cap has a square root at its ends
             (LightShape::Sphere, Measure::ProjectedSolidAngle) => 1e-5,
             // the edges are perpendicular, and the normal has length 1, to the rounding of single precision
-            (LightShape::Rectangle | LightShape::Disk | LightShape::Annulus, _) => 1e-5,
+            (LightShape::Rectangle | LightShape::Disk, _) => 1e-5,
             _ => 1e-7,
         };
         assert!(worst < limit, "{:?}: {worst:e}", AreaLight::KINDS[kind]);
@@ -118,15 +118,6 @@ fn a_hit_is_the_point_that_was_sampled() {
             let [du, dv] = [hit.uv.x - s.uv.x, hit.uv.y - s.uv.y].map(f64::abs);
             let near = |d: f64| d.min(1.0 - d) < 1e-5 / cos;
             assert!(near(du) && near(dv), "{shape:?} {by:?}: {hit:?} for {s:?}");
-            // the point by area has the same normal, and a pdf that is less by distance²/cosθ'
-            let u = sampler.invert(s.direction);
-            let area = sampler.area_sample(u);
-            let again = sampler.sample(u);
-            let point: [f64; 3] = core::array::from_fn(|k| again.direction.at(0)[k] * again.distance);
-            assert!(length(sub(area.point.at(0), point)) < 1e-6 * again.distance, "{shape:?} {by:?}: {area:?}");
-            let cos = dot(again.direction.at(0), again.normal.at(0)).abs();
-            let expected = again.pdf * cos / (again.distance * again.distance);
-            assert!((area.pdf / expected - 1.0).abs() < 1e-6, "{shape:?} {by:?}: {area:?} for {expected}");
         }
         assert!(seen > 50 && hidden < seen / 10, "{shape:?} {by:?}: {seen}, and {hidden} hidden");
     }

@@ -1,6 +1,6 @@
-//! Point sets: they are the nets, strata and lattices that they claim to be, at every width, and reduce the variance as expected.
+//! Point sets: they are the nets and strata that they claim to be, at every width, and reduce the variance as expected.
 
-use etendue::sequence::{Independent, LatinHypercube, Lattice, OwenSobol, Sequence, Stratified, ZOrder, ZOrderIndex};
+use etendue::sequence::{Independent, OwenSobol, Sequence, Stratified, ZOrder, ZOrderIndex};
 use etendue::{Real, Uint, Vec2, f32x4, f32x8, f32x16, f64x4, u32x4};
 use etendue_oracle::tier::cases;
 use etendue_properties::generators::AlongCurve;
@@ -52,7 +52,6 @@ fn net_check_can_fail() {
     for (name, points) in [
         ("independent", (0..16).map(|i| point(&Independent::new(1), 0, i, 0)).collect::<Vec<_>>()),
         ("jitter", (0..16).map(|i| point(&Stratified::new(1, 16), 0, i, 0)).collect()),
-        ("latin", (0..16).map(|i| point(&LatinHypercube::new(1, 16), 0, i, 0)).collect()),
         ("unaligned", (2..18).map(|i| point(&OwenSobol::new(1), 0, i, 0)).collect()),
         ("two pixels", (0..16).map(|i| point(&OwenSobol::new(1), i / 8, i, 0)).collect()),
     ] {
@@ -193,64 +192,6 @@ fn z_order_leaves_blue_noise() {
     }
 }
 
-#[test]
-fn latin_hypercube_is_latin() {
-    for count in [1, 2, 3, 7, 16, 60, 1000, 4096] {
-        let latin = LatinHypercube::new(3, count);
-        for (pixel, replicate, dimension) in [(0, 0, 0), (7, 5, 3), (u32::MAX, 1000, 9)] {
-            for axis in 0..2 {
-                let mut seen = vec![false; count as usize];
-                for i in 0..count {
-                    let u = point(&latin, pixel, replicate * count + i, dimension)[axis];
-                    seen[(u * f64::from(count) + 1e-9) as usize] = true;
-                }
-                assert!(!seen.contains(&false), "{count} in pixel {pixel}");
-            }
-        }
-    }
-    // the axes have different permutations
-    let points: Vec<_> =
-        (0..4096).map(|i| point(&LatinHypercube::new(3, 4096), 2, i, 0)).map(|[x, y]| (x, y)).collect();
-    assert!(stats::correlation(&points).abs() < 5.0 / 64.0);
-}
-
-#[test]
-fn lattice_is_exact_far_out() {
-    let unit = 1.0 / 16_777_216.0;
-    for lattice in [Lattice::r2(2), Lattice::fibonacci(2, 89)] {
-        let at = |i| point(&lattice, 9, i, 0);
-        let steps = [0, 1].map(|axis| at(1)[axis] - at(0)[axis]);
-        for i in [1, 65_535, 65_536, 1 << 24, 0x7fff_ffff, 0xffff_fff0] {
-            for (axis, step) in steps.iter().enumerate() {
-                let off = at(i + 1)[axis] - at(i)[axis] - step;
-                assert!((off - off.round()).abs() <= unit, "sample {i}: {off}");
-            }
-        }
-    }
-    // the 89-point Fibonacci lattice: neighbours on the torus are at least 0.93/√89 apart
-    let points: Vec<_> = (0..89).map(|i| point(&Lattice::fibonacci(2, 89), 3, i, 0)).collect();
-    let mut least = f64::INFINITY;
-    for (i, a) in points.iter().enumerate() {
-        for b in &points[..i] {
-            let along = |k: usize| (a[k] - b[k]) - (a[k] - b[k]).round();
-            least = least.min(along(0).hypot(along(1)));
-        }
-    }
-    assert!(least * 89_f64.sqrt() > 0.93, "{}", least * 89_f64.sqrt());
-    // R2: the same measure is at least ½ at every count
-    let points: Vec<_> = (0..2000).map(|i| point(&Lattice::r2(2), 3, i, 0)).collect();
-    for count in [10_usize, 50, 89, 500, 2000] {
-        let mut least = f64::INFINITY;
-        for (i, a) in points[..count].iter().enumerate() {
-            for b in &points[..i] {
-                let along = |k: usize| (a[k] - b[k]) - (a[k] - b[k]).round();
-                least = least.min(along(0).hypot(along(1)));
-            }
-        }
-        assert!(least * (count as f64).sqrt() > 0.5, "{count}: {}", least * (count as f64).sqrt());
-    }
-}
-
 /// One sample of each of many pixels, seeds or dimensions: they are uniform and mutually independent.
 fn uniform_over(name: &str, sequence: impl Fn(u32) -> [f64; 2]) {
     const SIDE: usize = 32;
@@ -278,16 +219,12 @@ fn uniform_over(name: &str, sequence: impl Fn(u32) -> [f64; 2]) {
 
 #[test]
 fn each_point_is_uniform_over_pixels_dimensions_and_seeds() {
-    let (sobol, latin, r2) = (OwenSobol::new(1), LatinHypercube::new(1, 48), Lattice::r2(1));
+    let sobol = OwenSobol::new(1);
     for sample in [0, 1, 5, 70_000] {
         uniform_over("sobol, pixels", |i| point(&sobol, i, sample, 0));
         uniform_over("sobol, dimensions", |i| point(&sobol, 3, sample, i));
         uniform_over("sobol, seeds", |i| point(&OwenSobol::new(u64::from(i)), 3, sample, 1));
     }
-    uniform_over("latin, pixels", |i| point(&latin, i, 5, 0));
-    uniform_over("latin, dimensions", |i| point(&latin, 3, 5, i));
-    uniform_over("lattice, pixels", |i| point(&r2, i, 5, 0));
-    uniform_over("lattice, dimensions", |i| point(&r2, 3, 5, i));
     uniform_over("z-order, seeds", |i| point(&AlongCurve(ZOrder::new(u64::from(i), 4)), 1000, 3, 1));
     uniform_over("z-order, dimensions", |i| point(&AlongCurve(ZOrder::new(1, 4)), 1000, 3, i));
     uniform_over("z-order, tiles", |i| point(&AlongCurve(ZOrder::new(1, 1 << 31)), 2 * i, 3, 0));
@@ -318,8 +255,8 @@ fn dimensions_are_padded_at_random() {
         }
         counts
     }
-    let latin = orders(&LatinHypercube::new(1, 4));
-    assert!(stats::uniform(&latin) > SIGNIFICANCE, "{latin:?}");
+    let strata = orders(&Stratified::new(1, 4));
+    assert!(stats::uniform(&strata) > SIGNIFICANCE, "{strata:?}");
     let sobol = orders(&OwenSobol::new(1));
     // a nested shuffle keeps (0, 1) and (2, 3) together, the order along x keeps (0, 2) and (1, 3): any of 8 permutations, then any of 8
     // others
@@ -327,10 +264,6 @@ fn dimensions_are_padded_at_random() {
     let expected: Vec<f64> = (0..24).map(|rank| if kept.contains(&rank) { 3750.0 } else { 1875.0 }).collect();
     let p = stats::chi_square(&sobol, &expected);
     assert!(p > SIGNIFICANCE, "p = {p}: {sobol:?}");
-    assert!(
-        stats::uniform(&orders(&Lattice::r2(1))) < SIGNIFICANCE,
-        "the 24 orders of a four-point lattice are not equally frequent"
-    );
 }
 
 /// Owen scrambling by definition, with a random bit for each prefix, applied to Sobol points from the generator matrices.
@@ -433,18 +366,13 @@ fn variance_against_independent_samples() {
         [
             gains(&Independent::new(1), n),
             gains(&Stratified::new(1, n), n),
-            gains(&LatinHypercube::new(1, n), n),
-            gains(&Lattice::r2(1), n),
-            gains(&Lattice::fibonacci(1, n), n),
             gains(&OwenSobol::new(1), n),
             gains(&TrueOwen { seed: 1 }, n),
             gains(&AlongCurve(ZOrder::new(1, n)), n),
         ]
     });
     for (n, row) in [16, 64].iter().zip(&table) {
-        for (name, gain) in
-            ["independent", "jitter", "latin", "r2", "fibonacci", "owen sobol", "true owen", "z-order"].iter().zip(row)
-        {
+        for (name, gain) in ["independent", "jitter", "owen sobol", "true owen", "z-order"].iter().zip(row) {
             println!("{n} {name:12} smooth {:.4?} edge {:.4?}", gain[0], gain[1]);
         }
     }
@@ -453,7 +381,7 @@ fn variance_against_independent_samples() {
         gain_is(row[0][0], 1.0, 0.0);
         gain_is(row[0][1], 1.0, 0.0);
         // the hash scrambles as well as an independent random bit for each prefix
-        for (hashed, exact) in row[5].iter().zip(row[6]) {
+        for (hashed, exact) in row[2].iter().zip(row[3]) {
             gain_is([hashed[0], hashed[1].hypot(exact[1])], exact[0], 0.0);
         }
     }
@@ -461,10 +389,10 @@ fn variance_against_independent_samples() {
     gain_is(sixty_four[1][0], 56.0, 0.5);
     gain_is(sixteen[1][1], 4.3, 0.05);
     gain_is(sixty_four[1][1], 8.7, 0.05);
-    gain_is(sixteen[5][1], 6.1, 0.05);
-    gain_is(sixty_four[5][1], 12.3, 0.05);
-    gain_is(sixteen[5][0], 126.0, 0.5);
-    gain_is(sixty_four[5][0], 1630.0, 5.0);
+    gain_is(sixteen[2][1], 6.1, 0.05);
+    gain_is(sixty_four[2][1], 12.3, 0.05);
+    gain_is(sixteen[2][0], 126.0, 0.5);
+    gain_is(sixty_four[2][0], 1630.0, 5.0);
 }
 
 #[test]
@@ -494,11 +422,9 @@ fn packets_are_scalars() {
         }
     }
     check("owen sobol", &OwenSobol::new(3));
-    check("lattice", &Lattice::r2(3));
     for count in [0, 1, 2, 7, 64, 100, 4096, u32::MAX] {
-        check("latin", &LatinHypercube::new(3, count));
+        check("jitter", &Stratified::new(3, count));
         check("z-order", &AlongCurve(ZOrder::new(3, count)));
-        check("fibonacci", &Lattice::fibonacci(3, count));
     }
 }
 

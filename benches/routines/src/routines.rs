@@ -5,8 +5,7 @@ use etendue::light::{EnvironmentMap, ImageEnvironment, Picture, Region};
 use etendue::occlusion::{Convex, Occlusion};
 use etendue::reflection::Reflection;
 use etendue::sequence::{
-    Independent, JointSobol, JointStratified, LatinHypercube, Lattice, OwenSobol, Sequence, Stratified, ZOrder,
-    ZOrderIndex,
+    Independent, JointSobol, JointStratified, OwenSobol, Sequence, Stratified, ZOrder, ZOrderIndex,
 };
 use etendue::spherical::{
     CosineWarped, ProjectedCap, ProjectedPolygon, ProjectedSegment, ProjectedTriangle, SphericalCap, SphericalDisk,
@@ -17,8 +16,8 @@ use etendue::warp::{
     Octahedral, PatchSurface, PolarDisk, Tent, UniformHemisphere, UniformSphere, Warp, Warp1,
 };
 use etendue::{
-    Annulus, BilinearPatch, Cylinder, DirectionalLight, Disk, LightSample, LightSampler, Line, Parallelogram,
-    PointLight, Polygon, Real, Rectangle, Sphere, SpotLight, Sun, Triangle, Uint, Vec2, Vec3,
+    BilinearPatch, DirectionalLight, Disk, LightSample, LightSampler, Line, Parallelogram, PointLight, Polygon, Real,
+    Rectangle, Sphere, SpotLight, Sun, Triangle, Uint, Vec2, Vec3,
 };
 use std::hint::black_box;
 
@@ -222,14 +221,12 @@ in_room! {
     Parallelogram "parallelogram" |r| Self::new(r.a, r.e1, r.e2);
     Rectangle "rectangle" |r| Self::new(r.corner, r.du, r.dv);
     Disk "disk" |r| Self { center: r.a, normal: r.up, radius: r.radius };
-    Cylinder "cylinder" |r| Self::new(r.a, r.e1, r.radius);
     Polygon<5> "pentagon" |r| {
         let Room { a, e1, e2, .. } = *r;
         Self { corners: [a, a + e1, a + e1 + e2 * half_of(), a + e1 * half_of() + e2, a + e2] }
     };
     BilinearPatch "bilinear patch" |r| Self::new(r.a, r.e1, r.e2, r.twisted);
     Line "line" |r| Self::new(r.a, r.e1);
-    Annulus "annulus" |r| Self::new(r.a, r.up, r.radius, r.radius * half_of());
     Sun "sun" |r| Self::new(r.up, r.radius);
     PointLight "point light" |r| Self::new(r.a);
     SpotLight "spot light" |r| {
@@ -401,7 +398,6 @@ pub fn without_tables<R: Real + 'static>() -> Vec<Routine> {
 
     list.sequence("independent", Independent::new(1));
     list.sequence("stratified", Stratified::new(1, 64));
-    list.sequence("latin hypercube", LatinHypercube::new(1, 64));
     list.sequence("owen sobol", OwenSobol::new(1));
     list.sequence("joint sobol", JointSobol::new(1));
     list.sequence("joint strata", JointStratified::new(1, 4, 2));
@@ -413,6 +409,5 @@ pub fn without_tables<R: Real + 'static>() -> Vec<Routine> {
     list.push("sequence z-order pair, pixels", z_order, indices, |s, i| {
         s.pair::<R>(ZOrderIndex::from_position(i), R::Uint::splat(7), 1)
     });
-    list.sequence("lattice", Lattice::r2(1));
     list.routines
 }

@@ -170,8 +170,6 @@ fn lights() -> Vec<Vec<Cell>> {
         "", "reflection", "pentagon by reflection";
         "disk", "area", "disk by area";
         "", "solid angle", "disk by solid angle";
-        "annulus", "area", "annulus by area";
-        "cylinder", "area", "cylinder by area";
         "bilinear patch", "area", "bilinear patch by area";
         "line", "length", "line by length";
         "", "angle", "line by angle";
@@ -191,10 +189,7 @@ fn sequences() -> Table {
     };
     let rows = vec![
         row(["[`Independent`]", "N⁻¹", "1", "1", "the baseline; the spread of samples gives the variance"], "sequence independent pair"),
-        row(["[`LatinHypercube`]", "N⁻¹, less parts in x or y alone", "22, 3.5", "25, 3.7", "any count, nearly additive integrands"], "sequence latin hypercube pair"),
         row(["[`Stratified`]", "N⁻², N^(−3/2)", "14, 4.2", "56, 8.5", "any count"], "sequence stratified pair"),
-        row(["[`Lattice::r2`]", "about N^(−1.8), N^(−1.6)", "2.5, 3.1", "7.4, 7.1", "a count not known in advance; cheap"], "sequence lattice pair"),
-        row(["[`Lattice::fibonacci`]", "about N^(−1.7), N^(−1.6)", "9.6, 5.6", "27, 12.6", "a Fibonacci count; edges"], "sequence lattice pair"),
         row(["[`OwenSobol`]", "about N^(−2.9), N^(−3/2)", "125, 6.0", "1630, 12.0", "the choice wherever the count is a power of two"], "sequence owen sobol pair"),
         row(["[`JointSobol`]", "pair 0 as [`OwenSobol`]", "", "", "integrands that depend on two or more pairs together"], "sequence joint sobol pair"),
         row(["[`JointStratified`]", "√N strata in each pair", "", "", "as [`JointSobol`], at n⁴ samples"], "sequence joint strata pair"),

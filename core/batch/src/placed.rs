@@ -94,19 +94,19 @@ macro_rules! placed {
 placed! {
     /// A flat light with a picture, by radiance times area: [`Pictured::by_area`] of the parallelogram of its surface coordinates.
     PictureByArea, by_area: pictured Pictured<'a, Parallelogram<f32>>, [X] Pictured<'a, Parallelogram<X>>,
-    by_area(p) -> [R] ByPicture<'a, R, Flat<R, Area>>;
+    by_area(p) -> [R] ByPicture<'a, Flat<R, Area>>;
     /// A flat light with a picture, by radiance times solid angle: [`Pictured::by_solid_angle`] of that parallelogram.
     PictureBySolidAngle, by_solid_angle: pictured Pictured<'a, Parallelogram<f32>>, [X] Pictured<'a, Parallelogram<X>>,
-    by_solid_angle(p) -> [R] ByPicture<'a, R, Flat<R, SolidAngle<R>>>;
+    by_solid_angle(p) -> [R] ByPicture<'a, Flat<R, SolidAngle<R>>>;
     /// A flat light with a picture, by radiance times projected solid angle: [`Pictured::by_projected_solid_angle`] of that parallelogram.
     PictureByProjectedSolidAngle, by_projected_solid_angle: pictured Pictured<'a, Parallelogram<f32>>, [X] Pictured<'a, Parallelogram<X>>,
-    by_projected_solid_angle(p, n) -> [R] ByPicture<'a, R, Flat<R, Projected<R>>>;
+    by_projected_solid_angle(p, n) -> [R] ByPicture<'a, Flat<R, Projected<R>>>;
     /// A sphere with a picture, by radiance times visible area: [`Pictured::by_visible_area`].
     PictureOnSphereByVisibleArea, sphere: pictured Pictured<'a, Sphere<f32>>, [X] Pictured<'a, Sphere<X>>,
-    by_visible_area(p) -> [R] ByPicture<'a, R, Curved<PlacedSphere<R>>>;
+    by_visible_area(p) -> [R] ByPicture<'a, Curved<PlacedSphere<R>>>;
     /// A bilinear patch with a picture, by radiance times visible area: [`Pictured::by_visible_area`].
     PictureOnPatchByVisibleArea, patch: pictured Pictured<'a, BilinearPatch<f32>>, [X] Pictured<'a, BilinearPatch<X>>,
-    by_visible_area(p) -> [R] ByPicture<'a, R, Curved<PlacedPatch<R>>>;
+    by_visible_area(p) -> [R] ByPicture<'a, Curved<PlacedPatch<R>>>;
     /// The sky through portals: [`PortalEnvironment::by_radiance`].
     PortalsByRadiance, portals: portals PortalEnvironment<'a>, [X] PortalEnvironment<'a>,
     by_radiance(p) -> [R] light::PortalsByRadiance<'a, R>;

@@ -206,8 +206,6 @@ macro_rules! with_warps {
             { owen_sobol: SequenceFunctions<OwenSobol> }
             { joint_sobol: SequenceFunctions<JointSobol> }
             { stratified: SequenceFunctions<Stratified> }
-            { latin_hypercube: SequenceFunctions<LatinHypercube> }
-            { lattice: SequenceFunctions<Lattice> }
         });
     };
     (# $warp:ident) => { $warp };

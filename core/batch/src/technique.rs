@@ -3,7 +3,7 @@
 use crate::table::{InTable, LightFunctions, SamplerFunctions, Table};
 use etendue::light::*;
 use etendue::reflection::Reflection;
-use etendue::{LightSampler, Real, Vec3};
+use etendue::{Lanewise, LightSampler, Real, Vec3};
 
 /// A light prepared for a shading point, or the same for all of them, in numbers of single precision.
 pub trait BatchSampler: Copy {
@@ -119,7 +119,7 @@ macro_rules! implement {
             type Of<R: Real> = $sampler<R $(, $n)?>;
             #[inline(always)]
             fn splat<R: Real<Scalar = f32>>(&self) -> Self::Of<R> {
-                Self::Of::<R>::splat(*self)
+                Lanewise::splat(*self)
             }
             #[inline]
             fn sampler_functions(table: &'static Table) -> SamplerFunctions<Self> {

@@ -73,7 +73,7 @@ typedef struct {
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
-  float data[7];
+  float data[4];
 } EtendueSphereByArea;
 
 // One sample of a light as seen from a shading point, or the point of a light that a ray hits.
@@ -127,7 +127,7 @@ typedef struct {
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
-  float data[20];
+  float data[17];
 } EtendueSphereBySolidAngle;
 
 // Uniform over the projected solid angle Omega' above the horizon of the unit normal n at the point p: pdf cos(theta)/Omega' per
@@ -135,7 +135,7 @@ typedef struct {
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
-  float data[39];
+  float data[36];
 } EtendueSphereByProjectedSolidAngle;
 
 // The lobe of a GGX surface of the same roughness in all directions, seen from one direction: a cosine after a linear map of directions, which
@@ -156,7 +156,7 @@ typedef struct {
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
-  float data[44];
+  float data[41];
 } EtendueSphereByReflection;
 
 // Columns of reflections: the fields are those of EtendueReflection.
@@ -185,7 +185,7 @@ typedef struct {
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
-  float data[36];
+  float data[33];
 } EtendueTriangleByArea;
 
 // Columns of lights: the fields are those of the light.
@@ -202,7 +202,7 @@ typedef struct {
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
-  float data[84];
+  float data[81];
 } EtendueTriangleBySolidAngle;
 
 // Uniform over the projected solid angle Omega' above the horizon of the unit normal n at the point p: pdf cos(theta)/Omega' per
@@ -210,14 +210,14 @@ typedef struct {
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
-  float data[165];
+  float data[162];
 } EtendueTriangleByProjectedSolidAngle;
 
 // By solid angle times a bilinear approximation of the cosine to the unit normal n at the point p; pdf per steradian.
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
-  float data[88];
+  float data[85];
 } EtendueTriangleByCosineWarp;
 
 // In proportion to the lobe of a rough surface at the point p: pdf pi times that of the reflection, over the projected solid
@@ -225,7 +225,7 @@ typedef struct {
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
-  float data[178];
+  float data[175];
 } EtendueTriangleByReflection;
 
 // A parallelogram, of a corner and two edges from there, that emits from the side of the first edge x the second one. Without
@@ -243,7 +243,7 @@ typedef struct {
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
-  float data[37];
+  float data[34];
 } EtendueParallelogramByArea;
 
 // Columns of lights: the fields are those of the light.
@@ -260,7 +260,7 @@ typedef struct {
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
-  float data[133];
+  float data[130];
 } EtendueParallelogramBySolidAngle;
 
 // Uniform over the projected solid angle Omega' above the horizon of the unit normal n at the point p: pdf cos(theta)/Omega' per
@@ -268,7 +268,7 @@ typedef struct {
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
-  float data[298];
+  float data[295];
 } EtendueParallelogramByProjectedSolidAngle;
 
 // In proportion to the lobe of a rough surface at the point p: pdf pi times that of the reflection, over the projected solid
@@ -276,7 +276,7 @@ typedef struct {
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
-  float data[311];
+  float data[308];
 } EtendueParallelogramByReflection;
 
 // A rectangle, of a corner and two perpendicular edges from there, that emits from the side of the first edge x the second one.
@@ -295,7 +295,7 @@ typedef struct {
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
-  float data[89];
+  float data[86];
 } EtendueRectangleBySolidAngle;
 
 // Columns of lights: the fields are those of the light.
@@ -312,7 +312,7 @@ typedef struct {
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
-  float data[93];
+  float data[90];
 } EtendueRectangleByCosineWarp;
 
 // A disk that emits from the side of its normal. A radius <= 0, and a point in its plane, give pdf 0. uv: (1 + q)/2 for the
@@ -330,7 +330,7 @@ typedef struct {
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
-  float data[17];
+  float data[14];
 } EtendueDiskByArea;
 
 // Columns of lights: the fields are those of the light.
@@ -347,37 +347,8 @@ typedef struct {
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
-  float data[42];
+  float data[39];
 } EtendueDiskBySolidAngle;
-
-// The side of a cylinder, that emits outwards. A radius <= 0 or an axis of length 0 gives pdf 0. uv: height along the axis, and
-// azimuth in turns.
-typedef struct {
-  // Centre of one end, in the coordinates of the scene.
-  float start[3];
-  // From there to the centre of the other end.
-  float axis[3];
-  // Radius, in the unit of the coordinates.
-  float radius;
-} EtendueCylinder;
-
-// Uniform over the side of area A: pdf distance^2/(|cos(theta')| A) per steradian, theta' at the light. More than half of the
-// samples face away.
-//
-// What is inside does not concern callers: it may be copied, and used by any thread.
-typedef struct {
-  float data[20];
-} EtendueCylinderByArea;
-
-// Columns of lights: the fields are those of the light.
-typedef struct {
-  // Centre of one end, in the coordinates of the scene.
-  const float *start[3];
-  // From there to the centre of the other end.
-  const float *axis[3];
-  // Radius, in the unit of the coordinates.
-  const float *radius;
-} EtendueCylinderColumns;
 
 // A flat convex polygon of 3 to 8 corners that emits from the side on which they run counterclockwise. Without area, and from a
 // point in its plane, the pdf is 0. uv: the parts of the edges from the first corner to the second and to the last, clamped to
@@ -392,7 +363,7 @@ typedef struct {
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
-  float data[67];
+  float data[64];
 } EtenduePolygonByArea;
 
 // Columns of lights: the fields are those of the light.
@@ -406,7 +377,7 @@ typedef struct {
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
-  float data[452];
+  float data[449];
 } EtenduePolygonBySolidAngle;
 
 // Uniform over the projected solid angle Omega' above the horizon of the unit normal n at the point p: pdf cos(theta)/Omega' per
@@ -414,7 +385,7 @@ typedef struct {
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
-  float data[1084];
+  float data[1081];
 } EtenduePolygonByProjectedSolidAngle;
 
 // In proportion to the lobe of a rough surface at the point p: pdf pi times that of the reflection, over the projected solid
@@ -422,7 +393,7 @@ typedef struct {
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
-  float data[1097];
+  float data[1094];
 } EtenduePolygonByReflection;
 
 // A bilinear patch, of a corner and the vectors from there to the others, that emits from the side of ds x dt. Without area the
@@ -442,7 +413,7 @@ typedef struct {
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
-  float data[28];
+  float data[25];
 } EtenduePatchByArea;
 
 // Columns of lights: the fields are those of the light.
@@ -472,7 +443,7 @@ typedef struct {
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
-  float data[14];
+  float data[11];
 } EtendueLineByLength;
 
 // Columns of lights: the fields are those of the light.
@@ -487,7 +458,7 @@ typedef struct {
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
-  float data[31];
+  float data[28];
 } EtendueLineByAngle;
 
 // By projected solid angle above the horizon of the unit normal n at the point p; pdf 0 where nothing of the line is above
@@ -495,40 +466,8 @@ typedef struct {
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
-  float data[46];
+  float data[43];
 } EtendueLineByProjectedSolidAngle;
-
-// An annulus, a disk without its middle, that emits from the side of its normal. No width, and a point in its plane, give pdf 0.
-// uv: (1 + q)/2 for the position q on the unit disk.
-typedef struct {
-  // Centre, in the coordinates of the scene.
-  float center[3];
-  // Unit normal.
-  float normal[3];
-  // Radius, in the unit of the coordinates.
-  float radius;
-  // Radius of the hole, in the unit of the coordinates.
-  float inner_radius;
-} EtendueAnnulus;
-
-// Uniform over the surface of area A: pdf distance^2/(|cos(theta')| A) per steradian, theta' at the light.
-//
-// What is inside does not concern callers: it may be copied, and used by any thread.
-typedef struct {
-  float data[18];
-} EtendueAnnulusByArea;
-
-// Columns of lights: the fields are those of the light.
-typedef struct {
-  // Centre, in the coordinates of the scene.
-  const float *center[3];
-  // Unit normal.
-  const float *normal[3];
-  // Radius, in the unit of the coordinates.
-  const float *radius;
-  // Radius of the hole, in the unit of the coordinates.
-  const float *inner_radius;
-} EtendueAnnulusColumns;
 
 // A sun: the same radiance from all directions within an angle sigma of one direction, at every point. The distance is the
 // largest number of single precision.
@@ -566,7 +505,7 @@ typedef struct {
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
-  float data[8];
+  float data[5];
 } EtenduePointLightByDelta;
 
 // Columns of lights: the fields are those of the light.
@@ -593,7 +532,7 @@ typedef struct {
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
-  float data[8];
+  float data[5];
 } EtendueSpotLightByDelta;
 
 // Columns of lights: the fields are those of the light.
@@ -619,7 +558,7 @@ typedef struct {
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
-  float data[8];
+  float data[5];
 } EtendueDirectionalLightByDelta;
 
 // Columns of lights: the fields are those of the light.
@@ -2622,97 +2561,6 @@ EtendueStatus etendue_disk_by_solid_angle_hit_each(const EtendueDiskColumns *lig
                                                    const EtendueSampleColumns *out);
 
 // Prepares the light for a shading point.
-EtendueStatus etendue_cylinder_by_area_prepare(const EtendueCylinder *light,
-                                               const float *p,
-                                               EtendueCylinderByArea *out);
-
-// Draws a direction for u.
-EtendueStatus etendue_cylinder_by_area_sample(const EtendueCylinderByArea *sampler,
-                                              const float *u,
-                                              EtendueLightSample *out);
-
-// The pdf with which a unit direction `w` is drawn; 0 where it misses the light, and if a pointer is NULL.
-float etendue_cylinder_by_area_pdf(const EtendueCylinderByArea *sampler, const float *w);
-
-// The random numbers `u` that are mapped to a unit direction `w`; any in [0, 1)^2 where it misses the light.
-EtendueStatus etendue_cylinder_by_area_invert(const EtendueCylinderByArea *sampler, const float *w, float *u);
-
-// The nearest point of the light in a unit direction `w`, with the pdf of that direction; pdf 0 where it misses the light.
-EtendueStatus etendue_cylinder_by_area_hit(const EtendueCylinderByArea *sampler,
-                                           const float *w,
-                                           EtendueLightSample *out);
-
-// Draws a direction for each u: two columns.
-EtendueStatus etendue_cylinder_by_area_sample_batch(const EtendueCylinderByArea *sampler,
-                                                    size_t n,
-                                                    const float *const *u,
-                                                    const EtendueSampleColumns *out);
-
-// The pdf of each unit direction: three columns.
-EtendueStatus etendue_cylinder_by_area_pdf_batch(const EtendueCylinderByArea *sampler,
-                                                 size_t n,
-                                                 const float *const *w,
-                                                 float *out);
-
-// The random numbers of each unit direction: three columns in, two out.
-EtendueStatus etendue_cylinder_by_area_invert_batch(const EtendueCylinderByArea *sampler,
-                                                    size_t n,
-                                                    const float *const *w,
-                                                    float *const *u);
-
-// The nearest point of the light in each unit direction: three columns.
-EtendueStatus etendue_cylinder_by_area_hit_batch(const EtendueCylinderByArea *sampler,
-                                                 size_t n,
-                                                 const float *const *w,
-                                                 const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_cylinder_by_area_sample_once(const EtendueCylinder *light,
-                                                   const float *p,
-                                                   const float *u,
-                                                   EtendueLightSample *out);
-
-// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
-// and if a pointer is NULL. What the pdf does not need is not prepared.
-float etendue_cylinder_by_area_pdf_once(const EtendueCylinder *light,
-                                        const float *p,
-                                        const float *w);
-
-// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
-// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
-float etendue_cylinder_by_area_pdf_of_hit_once(const EtendueCylinder *light,
-                                               const float *p,
-                                               const float *w);
-
-// Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
-EtendueStatus etendue_cylinder_by_area_sample_each(const EtendueCylinderColumns *lights,
-                                                   size_t n,
-                                                   const float *const *p,
-                                                   const float *const *u,
-                                                   const EtendueSampleColumns *out);
-
-// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_cylinder_by_area_pdf_each(const EtendueCylinderColumns *lights,
-                                                size_t n,
-                                                const float *const *p,
-                                                const float *const *w,
-                                                float *out);
-
-// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_cylinder_by_area_invert_each(const EtendueCylinderColumns *lights,
-                                                   size_t n,
-                                                   const float *const *p,
-                                                   const float *const *w,
-                                                   float *const *u);
-
-// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
-EtendueStatus etendue_cylinder_by_area_hit_each(const EtendueCylinderColumns *lights,
-                                                size_t n,
-                                                const float *const *p,
-                                                const float *const *w,
-                                                const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point.
 EtendueStatus etendue_polygon_by_area_prepare(const EtenduePolygon *light, const float *p, EtenduePolygonByArea *out);
 
 // Draws a direction for u.
@@ -3459,95 +3307,6 @@ EtendueStatus etendue_line_by_projected_solid_angle_hit_each(const EtendueLineCo
                                                              const EtendueSampleColumns *out);
 
 // Prepares the light for a shading point.
-EtendueStatus etendue_annulus_by_area_prepare(const EtendueAnnulus *light, const float *p, EtendueAnnulusByArea *out);
-
-// Draws a direction for u.
-EtendueStatus etendue_annulus_by_area_sample(const EtendueAnnulusByArea *sampler,
-                                             const float *u,
-                                             EtendueLightSample *out);
-
-// The pdf with which a unit direction `w` is drawn; 0 where it misses the light, and if a pointer is NULL.
-float etendue_annulus_by_area_pdf(const EtendueAnnulusByArea *sampler, const float *w);
-
-// The random numbers `u` that are mapped to a unit direction `w`; any in [0, 1)^2 where it misses the light.
-EtendueStatus etendue_annulus_by_area_invert(const EtendueAnnulusByArea *sampler, const float *w, float *u);
-
-// The nearest point of the light in a unit direction `w`, with the pdf of that direction; pdf 0 where it misses the light.
-EtendueStatus etendue_annulus_by_area_hit(const EtendueAnnulusByArea *sampler,
-                                          const float *w,
-                                          EtendueLightSample *out);
-
-// Draws a direction for each u: two columns.
-EtendueStatus etendue_annulus_by_area_sample_batch(const EtendueAnnulusByArea *sampler,
-                                                   size_t n,
-                                                   const float *const *u,
-                                                   const EtendueSampleColumns *out);
-
-// The pdf of each unit direction: three columns.
-EtendueStatus etendue_annulus_by_area_pdf_batch(const EtendueAnnulusByArea *sampler,
-                                                size_t n,
-                                                const float *const *w,
-                                                float *out);
-
-// The random numbers of each unit direction: three columns in, two out.
-EtendueStatus etendue_annulus_by_area_invert_batch(const EtendueAnnulusByArea *sampler,
-                                                   size_t n,
-                                                   const float *const *w,
-                                                   float *const *u);
-
-// The nearest point of the light in each unit direction: three columns.
-EtendueStatus etendue_annulus_by_area_hit_batch(const EtendueAnnulusByArea *sampler,
-                                                size_t n,
-                                                const float *const *w,
-                                                const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_annulus_by_area_sample_once(const EtendueAnnulus *light,
-                                                  const float *p,
-                                                  const float *u,
-                                                  EtendueLightSample *out);
-
-// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
-// and if a pointer is NULL. What the pdf does not need is not prepared.
-float etendue_annulus_by_area_pdf_once(const EtendueAnnulus *light,
-                                       const float *p,
-                                       const float *w);
-
-// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
-// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
-float etendue_annulus_by_area_pdf_of_hit_once(const EtendueAnnulus *light,
-                                              const float *p,
-                                              const float *w);
-
-// Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
-EtendueStatus etendue_annulus_by_area_sample_each(const EtendueAnnulusColumns *lights,
-                                                  size_t n,
-                                                  const float *const *p,
-                                                  const float *const *u,
-                                                  const EtendueSampleColumns *out);
-
-// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_annulus_by_area_pdf_each(const EtendueAnnulusColumns *lights,
-                                               size_t n,
-                                               const float *const *p,
-                                               const float *const *w,
-                                               float *out);
-
-// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_annulus_by_area_invert_each(const EtendueAnnulusColumns *lights,
-                                                  size_t n,
-                                                  const float *const *p,
-                                                  const float *const *w,
-                                                  float *const *u);
-
-// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
-EtendueStatus etendue_annulus_by_area_hit_each(const EtendueAnnulusColumns *lights,
-                                               size_t n,
-                                               const float *const *p,
-                                               const float *const *w,
-                                               const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point.
 EtendueStatus etendue_sun_by_solid_angle_prepare(const EtendueSun *light, const float *p, EtendueSunBySolidAngle *out);
 
 // Draws a direction for u.
@@ -3962,29 +3721,6 @@ EtendueStatus etendue_stratified_pairs(uint64_t seed,
                                        const EtendueCounters *counters,
                                        size_t n,
                                        float *const *u);
-
-// Latin hypercube pairs, of `count` samples a pixel.
-//
-// Writes the pairs, in [0, 1)^2, to two columns.
-EtendueStatus etendue_latin_hypercube_pairs(uint64_t seed,
-                                            uint32_t count,
-                                            const EtendueCounters *counters,
-                                            size_t n,
-                                            float *const *u);
-
-// The R2 sequence, rotated at random in each pixel and dimension.
-//
-// Writes the pairs, in [0, 1)^2, to two columns.
-EtendueStatus etendue_r2_pairs(uint64_t seed, const EtendueCounters *counters, size_t n, float *const *u);
-
-// A Fibonacci lattice of `count` samples a pixel, rotated at random in each pixel and dimension.
-//
-// Writes the pairs, in [0, 1)^2, to two columns.
-EtendueStatus etendue_fibonacci_pairs(uint64_t seed,
-                                      uint32_t count,
-                                      const EtendueCounters *counters,
-                                      size_t n,
-                                      float *const *u);
 
 // Number of nodes that a tree of `light_count` lights needs.
 size_t etendue_light_tree_nodes(size_t light_count);

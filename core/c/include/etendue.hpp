@@ -8,7 +8,7 @@
 //
 // - Numbers: Vec3, Vec2. A vector class of the host that has members x, y, z, or an array of three floats, converts to Vec3. Vec3 converts
 //   to every class with such members or an operator[] that three floats initialise: T{x, y, z}. The same holds for Vec2.
-// - Lights: Sphere, Triangle, Parallelogram, Rectangle, Disk, Cylinder, BilinearPatch, Polygon, Line, Annulus, Sun, PointLight, SpotLight,
+// - Lights: Sphere, Triangle, Parallelogram, Rectangle, Disk, BilinearPatch, Polygon, Line, Sun, PointLight, SpotLight,
 //   DirectionalLight. Their methods by_... prepare them for a shading point. ImageEnvironment is the same at every point.
 // - Picture::on puts a picture on a light. PortalEnvironment, Spread, GeneralSky, Profile, Projector and ProjectedImage.
 // - Batches: columns of one length, from anything with data() and size(). Every length is checked: a column of another length gives
@@ -257,7 +257,7 @@ class LightColumns {
     // spheres and suns
     template <size_t N = COUNT, class = std::enable_if_t<N == 4>>
     LightColumns(In<3> a, Span<const float> b) { add(a), add(b); }
-    // disks and cylinders
+    // disks
     template <size_t N = COUNT, class = std::enable_if_t<N == 7>>
     LightColumns(In<3> a, In<3> b, Span<const float> c) { add(a), add(b), add(c); }
     // lines
@@ -443,7 +443,6 @@ ETENDUE_ANYWHERE(RectangleBySolidAngle, Rectangle, etendue_rectangle_by_solid_an
 ETENDUE_ON_SURFACE(RectangleByCosineWarp, Rectangle, etendue_rectangle_by_cosine_warp)
 ETENDUE_ANYWHERE(DiskByArea, Disk, etendue_disk_by_area)
 ETENDUE_ANYWHERE(DiskBySolidAngle, Disk, etendue_disk_by_solid_angle)
-ETENDUE_ANYWHERE(CylinderByArea, Cylinder, etendue_cylinder_by_area)
 ETENDUE_ANYWHERE(PolygonByArea, Polygon, etendue_polygon_by_area)
 ETENDUE_ANYWHERE(PolygonBySolidAngle, Polygon, etendue_polygon_by_solid_angle)
 ETENDUE_ON_SURFACE(PolygonByProjectedSolidAngle, Polygon, etendue_polygon_by_projected_solid_angle)
@@ -452,7 +451,6 @@ ETENDUE_ANYWHERE(PatchByArea, BilinearPatch, etendue_patch_by_area)
 ETENDUE_ANYWHERE(LineByLength, Line, etendue_line_by_length)
 ETENDUE_ANYWHERE(LineByAngle, Line, etendue_line_by_angle)
 ETENDUE_ON_SURFACE(LineByProjectedSolidAngle, Line, etendue_line_by_projected_solid_angle)
-ETENDUE_ANYWHERE(AnnulusByArea, Annulus, etendue_annulus_by_area)
 ETENDUE_ANYWHERE(SunBySolidAngle, Sun, etendue_sun_by_solid_angle)
 ETENDUE_ANYWHERE(PointLightByDelta, PointLight, etendue_point_light_by_delta)
 ETENDUE_ANYWHERE(SpotLightByDelta, SpotLight, etendue_spot_light_by_delta)
@@ -463,11 +461,9 @@ using TriangleColumns = LightColumns<EtendueTriangleColumns>;
 using ParallelogramColumns = LightColumns<EtendueParallelogramColumns>;
 using RectangleColumns = LightColumns<EtendueRectangleColumns>;
 using DiskColumns = LightColumns<EtendueDiskColumns>;
-using CylinderColumns = LightColumns<EtendueCylinderColumns>;
 using PolygonColumns = LightColumns<EtenduePolygonColumns>;
 using BilinearPatchColumns = LightColumns<EtendueBilinearPatchColumns>;
 using LineColumns = LightColumns<EtendueLineColumns>;
-using AnnulusColumns = LightColumns<EtendueAnnulusColumns>;
 using SunColumns = LightColumns<EtendueSunColumns>;
 using PointLightColumns = LightColumns<EtenduePointLightColumns>;
 using SpotLightColumns = LightColumns<EtendueSpotLightColumns>;
@@ -514,11 +510,6 @@ struct Disk : EtendueDisk {
     DiskByArea by_area(Vec3 at) const { return {*this, at}; }
     DiskBySolidAngle by_solid_angle(Vec3 at) const { return {*this, at}; }
 };
-// EtendueCylinder with its constructors and techniques.
-struct Cylinder : EtendueCylinder {
-    Cylinder(Vec3 start_, Vec3 axis_, float radius_) : EtendueCylinder{{start_.x, start_.y, start_.z}, {axis_.x, axis_.y, axis_.z}, radius_} {}
-    CylinderByArea by_area(Vec3 at) const { return {*this, at}; }
-};
 // EtenduePolygon with its constructors and techniques.
 struct Polygon : EtenduePolygon {
     // Corners beyond the eighth are left out; without corners it is a point, whose pdf is 0.
@@ -549,11 +540,6 @@ struct Line : EtendueLine {
     LineByAngle by_angle(Vec3 at) const { return {*this, at}; }
     LineByProjectedSolidAngle by_projected_solid_angle(Vec3 at, Vec3 n) const { return {*this, at, n}; }
 };
-// EtendueAnnulus with its constructors and techniques.
-struct Annulus : EtendueAnnulus {
-    Annulus(Vec3 center_, Vec3 normal_, float radius_, float inner_radius_) : EtendueAnnulus{{center_.x, center_.y, center_.z}, {normal_.x, normal_.y, normal_.z}, radius_, inner_radius_} {}
-    AnnulusByArea by_area(Vec3 at) const { return {*this, at}; }
-};
 // EtendueSun with its constructors and techniques.
 struct Sun : EtendueSun {
     Sun(Vec3 direction_, float one_minus_cos_) : EtendueSun{{direction_.x, direction_.y, direction_.z}, one_minus_cos_} {}
@@ -573,7 +559,8 @@ struct SpotLight : EtendueSpotLight {
 // EtendueDirectionalLight with its constructors and techniques.
 struct DirectionalLight : EtendueDirectionalLight {
     DirectionalLight(Vec3 direction_) : EtendueDirectionalLight{{direction_.x, direction_.y, direction_.z}} {}
-    DirectionalLightByDelta by_delta(Vec3 at) const { return {*this, at}; }
+    // The same at every point.
+    DirectionalLightByDelta by_delta() const { return {*this, Vec3()}; }
 };
 // end of what is from the list
 
@@ -1027,11 +1014,8 @@ struct Counters {
 ETENDUE_SEEDED(Independent, etendue_independent_pairs)
 ETENDUE_SEEDED(OwenSobol, etendue_owen_sobol_pairs)
 ETENDUE_SEEDED(JointSobol, etendue_joint_sobol_pairs)
-ETENDUE_SEEDED(R2, etendue_r2_pairs)
 // `count` is the number of samples of a pixel
 ETENDUE_COUNTED(Stratified, etendue_stratified_pairs)
-ETENDUE_COUNTED(LatinHypercube, etendue_latin_hypercube_pairs)
-ETENDUE_COUNTED(Fibonacci, etendue_fibonacci_pairs)
 
 // ---- trees of lights ----
 

@@ -62,15 +62,3 @@ sequence!(
     /// Stratified pairs, of `count` samples a pixel.
     sequence::Stratified, (seed: u64, count: u32), sequence::Stratified::new(seed, count), etendue_stratified_pairs
 );
-sequence!(
-    /// Latin hypercube pairs, of `count` samples a pixel.
-    sequence::LatinHypercube, (seed: u64, count: u32), sequence::LatinHypercube::new(seed, count), etendue_latin_hypercube_pairs
-);
-sequence!(
-    /// The R2 sequence, rotated at random in each pixel and dimension.
-    sequence::Lattice, (seed: u64), sequence::Lattice::r2(seed), etendue_r2_pairs
-);
-sequence!(
-    /// A Fibonacci lattice of `count` samples a pixel, rotated at random in each pixel and dimension.
-    sequence::Lattice, (seed: u64, count: u32), sequence::Lattice::fibonacci(seed, count), etendue_fibonacci_pairs
-);

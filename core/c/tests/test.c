@@ -169,7 +169,6 @@ static const EtendueReflectionColumns *reflections(size_t n, const float *const 
     T(RectangleByCosineWarp, Rectangle, rectangle_by_cosine_warp, 1) \
     T(DiskByArea, Disk, disk_by_area, 0) \
     T(DiskBySolidAngle, Disk, disk_by_solid_angle, 0) \
-    T(CylinderByArea, Cylinder, cylinder_by_area, 0) \
     T(PolygonByArea, Polygon, polygon_by_area, 0) \
     T(PolygonBySolidAngle, Polygon, polygon_by_solid_angle, 0) \
     T(PolygonByProjectedSolidAngle, Polygon, polygon_by_projected_solid_angle, 1) \
@@ -178,7 +177,6 @@ static const EtendueReflectionColumns *reflections(size_t n, const float *const 
     T(LineByLength, Line, line_by_length, 0) \
     T(LineByAngle, Line, line_by_angle, 0) \
     T(LineByProjectedSolidAngle, Line, line_by_projected_solid_angle, 1) \
-    T(AnnulusByArea, Annulus, annulus_by_area, 0) \
     T(SunBySolidAngle, Sun, sun_by_solid_angle, 0) \
     T(PointLightByDelta, PointLight, point_light_by_delta, 0) \
     T(SpotLightByDelta, SpotLight, spot_light_by_delta, 0) \
@@ -190,12 +188,10 @@ static const float Triangle[] = {-0.5f, 2, -0.3f, 1.2f, 0.1f, 0.2f, 0.1f, 0.2f, 
 static const float Parallelogram[] = {-0.5f, 2, -0.3f, 1.2f, 0.1f, 0.2f, 0.1f, 0.2f, 1.1f};
 static const float Rectangle[] = {-0.5f, 2, -0.3f, 1.2f, 0, 0, 0, 0.3f, 0.9f};
 static const float Disk[] = {0.3f, 2, 0.1f, 0, -1, 0, 0.5f};
-static const float Cylinder[] = {-1, 2, 0.3f, 2, 0.1f, 0.2f, 0.3f};
 static const float BilinearPatch[] = {-0.5f, 2, -0.3f, 1.2f, 0.1f, 0.2f, 0.1f, 0.2f, 1.1f, 1.3f, 0.6f, 1.2f};
 static const float Polygon[] = {-0.5f, 2, -0.3f, 0.6f, 2, -0.4f, 0.9f, 2, 0.4f, 0.2f, 2, 0.9f, -0.6f, 2, 0.5f,
                                 -0.6f, 2, 0.5f, -0.6f, 2, 0.5f, -0.6f, 2, 0.5f};
 static const float Line[] = {-1, 2, 0.3f, 2, 0.1f, 0.2f};
-static const float Annulus[] = {0.3f, 2, 0.1f, 0, -1, 0, 0.5f, 0.3f};
 static const float Sun[] = {0.36f, 0.8f, 0.48f, 1e-3f};
 static const float PointLight[] = {0.3f, 2, 0.1f};
 static const float SpotLight[] = {0.3f, 2, 0.1f, 0, -1, 0, 0.1f, 0.5f};
@@ -214,7 +210,7 @@ static int is_delta(const Technique *t) {
 }
 // Whether the pdf of a sample is that of its direction, bit for bit: not of a point of a curved light, nor of a line or a delta light.
 static int is_closed(const Technique *t) {
-    const int is_curved = t->light == Sphere || t->light == Cylinder || t->light == BilinearPatch;
+    const int is_curved = t->light == Sphere || t->light == BilinearPatch;
     return t->light != Line && !is_delta(t) && !(is_curved && strstr(t->name, "by_area")) && !strstr(t->name, "by_cosine_warp");
 }
 
@@ -675,7 +671,7 @@ typedef struct {
     const char *name;
     EtendueStatus (*pairs)(uint64_t seed, uint32_t count, const EtendueCounters *counters, size_t n, float *const *u);
 } Sequence;
-#define SEQUENCES(S) S(independent, ) S(owen_sobol, ) S(joint_sobol, ) S(r2, ) S(stratified, count COMMA) S(latin_hypercube, count COMMA) S(fibonacci, count COMMA)
+#define SEQUENCES(S) S(independent, ) S(owen_sobol, ) S(joint_sobol, ) S(stratified, count COMMA)
 #define WRITE_SEQUENCE(NAME, COUNT)                                                                                                   \
     static EtendueStatus NAME##_1(uint64_t seed, uint32_t count, const EtendueCounters *counters, size_t n, float *const *u) {        \
         (void)count;                                                                                                                  \
@@ -970,10 +966,10 @@ static void test_huge(void) {
     float *const u[2] = {column, NULL};
     float x;
     float *const one[2] = {&x, NULL};
-    CHECK(etendue_r2_pairs(1, &from, n, u) == OK && etendue_r2_pairs(1, &last, 1, one) == OK && same(x, column[n - 1]));
+    CHECK(etendue_owen_sobol_pairs(1, &from, n, u) == OK && etendue_owen_sobol_pairs(1, &last, 1, one) == OK && same(x, column[n - 1]));
     // beyond the end is what the last window but one left
     last.sample = (uint32_t)(n - window / 4);
-    CHECK(etendue_r2_pairs(1, &last, 1, one) == OK && same(x, column[n]));
+    CHECK(etendue_owen_sobol_pairs(1, &last, 1, one) == OK && same(x, column[n]));
 
     const float *const u_in[2] = {zeros, zeros};
     EtendueSphereBySolidAngle sampler;

@@ -99,7 +99,6 @@ static void test_lights() {
     test(rectangle.by_solid_angle(p)), test(rectangle.by_cosine_warp(p, n));
     const Disk disk({0.3f, 2, 0.1f}, {0, -1, 0}, 0.5f);
     test(disk.by_area(p)), test(disk.by_solid_angle(p));
-    test(Cylinder({-1, 2, 0.3f}, {2, 0.1f, 0.2f}, 0.3f).by_area(p));
     test(BilinearPatch({-0.5f, 2, -0.3f}, {1.2f, 0.1f, 0.2f}, {0.1f, 0.2f, 1.1f}, {1.3f, 0.6f, 1.2f}).by_area(p));
     const Polygon polygon({{-0.5f, 2, -0.3f}, {0.6f, 2, -0.4f}, {0.9f, 2, 0.4f}, {0.2f, 2, 0.9f}, {-0.6f, 2, 0.5f}});
     test(polygon.by_area(p)), test(polygon.by_solid_angle(p)), test(polygon.by_projected_solid_angle(p, n));
@@ -109,12 +108,11 @@ static void test_lights() {
     CHECK(Polygon(nullptr, 0).by_solid_angle(p).sample(u).pdf == 0);
     const Line line({-1, 2, 0.3f}, {2, 0.1f, 0.2f});
     test(line.by_length(p), true), test(line.by_angle(p), true), test(line.by_projected_solid_angle(p, n), true);
-    test(Annulus({0.3f, 2, 0.1f}, {0, -1, 0}, 0.5f, 0.3f).by_area(p));
     test(Sun({0.36f, 0.8f, 0.48f}, 1e-3f).by_solid_angle());
     // delta lights: no direction hits them
     test(PointLight({0.3f, 2, 0.1f}).by_delta(p), true);
     test(SpotLight({0.3f, 2, 0.1f}, {0, -1, 0}, 0.1f, 0.5f).by_delta(p), true);
-    test(DirectionalLight({0.36f, 0.8f, 0.48f}).by_delta(p), true);
+    test(DirectionalLight({0.36f, 0.8f, 0.48f}).by_delta(), true);
 
     // the same light for each point, in columns
     std::vector<float> zeros(5), ones(5, 1), twos(5, 2), x(5), y(5), pdf(5), shorter(4), p0(5, 0.1f), p2(5, -0.2f);
@@ -184,8 +182,7 @@ static void test_sequences() {
         CHECK(sequence.pairs({5, 3, 1}, {x, y}) == ETENDUE_STATUS_OK);
         for (uint32_t i = 0; i < 9; i++) CHECK(x[i] == sequence.pair(5, 3 + i, 1).x && y[i] == sequence.pair(5, 3 + i, 1).y);
     };
-    test(Independent{1}), test(OwenSobol{1}), test(JointSobol{1}), test(R2{1});
-    test(Stratified{1, 16}), test(LatinHypercube{1, 16}), test(Fibonacci{1, 21});
+    test(Independent{1}), test(OwenSobol{1}), test(JointSobol{1}), test(Stratified{1, 16});
     const uint32_t samples[9] = {8, 7, 6, 5, 4, 3, 2, 1, 0};
     CHECK(OwenSobol{1}.pairs({5, 0, 1, {}, samples}, {x, y}) == ETENDUE_STATUS_OK && x[2] == OwenSobol{1}.pair(5, 6, 1).x);
     CHECK(OwenSobol{1}.pairs({5, 0, 1, {}, Span<const uint32_t>(samples, 8)}, {x, y}) == ETENDUE_STATUS_COUNT);

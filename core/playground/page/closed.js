@@ -90,23 +90,6 @@ function diskIrradiance(center, normal, radius, n) {
   const [low, high] = [phase - half, phase + half];
   return Math.abs(integral(term, low, high, 48) + edgeTerm(at(high), at(low), n));
 }
-/** The side of a cylinder: lines in closed form, over the angles from which the side is seen. */
-function cylinderIrradiance(start, axis, radius, n) {
-  const e = unit(axis);
-  const across = along(times(start, -1), e, dot(start, e));
-  const distance = length(across);
-  if (!(distance > radius)) return 0;
-  const x = times(across, 1 / distance);
-  const y = cross(e, x);
-  const most = Math.acos(radius / distance);
-  const strip = (phi) => {
-    const normal = add(times(x, Math.cos(phi)), times(y, Math.sin(phi)));
-    const from = along(start, normal, radius);
-    const height = length(along(from, e, -dot(from, e)));
-    return (radius * -dot(normal, from) * segment(from, axis, n)) / height;
-  };
-  return integral(strip, -most, most, 24);
-}
 function patchIrradiance(shape, p, n) {
   const value = (x, y, weight) => {
     const { point, normal } = shape.at(x, y);
@@ -161,12 +144,6 @@ function ofUnit(light, p, n) {
       return flatValue(f.corners);
     case "Disk":
       return [facing(f.center, f.normal) ? diskIrradiance(from(f.center), f.normal, f.radius, n) : 0, BY_QUADRATURE];
-    case "Annulus": {
-      const ring = (r) => (r > 0 ? diskIrradiance(from(f.center), f.normal, r, n) : 0);
-      return [facing(f.center, f.normal) ? ring(f.radius) - ring(f.inner_radius) : 0, BY_QUADRATURE];
-    }
-    case "Cylinder":
-      return [cylinderIrradiance(from(f.start), f.axis, f.radius, n), BY_QUADRATURE];
     case "Line":
       return [segment(from(f.start), f.edge, n), CLOSED];
     case "BilinearPatch": {

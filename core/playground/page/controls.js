@@ -70,7 +70,7 @@ function sliders(app) {
       app.change({
         light: {
           name: app.state.light.name,
-          fields: limited(app.state.light.name, { ...app.state.light.fields, [name]: to }, name),
+          fields: limited(app.state.light.name, { ...app.state.light.fields, [name]: to }),
         },
       });
     list.push({
@@ -82,13 +82,9 @@ function sliders(app) {
   return list;
 }
 /** Fields in the order that their documentation asks for. */
-function limited(name, fields, changed) {
-  const pair =
-    name === "Annulus" ? ["inner_radius", "radius"] : name === "SpotLight" ? ["one_minus_cos_inner", "one_minus_cos_outer"] : null;
-  if (pair && fields[pair[0]] >= fields[pair[1]]) {
-    const less = (x) => (name === "Annulus" ? 0.99 * x : x - 0.01);
-    if (changed === pair[0]) fields[pair[0]] = less(fields[pair[1]]);
-    else fields[pair[0]] = less(fields[pair[1]]);
+function limited(name, fields) {
+  if (name === "SpotLight" && fields.one_minus_cos_inner >= fields.one_minus_cos_outer) {
+    fields.one_minus_cos_inner = fields.one_minus_cos_outer - 0.01;
   }
   return fields;
 }

@@ -7,7 +7,6 @@ const OVERHEAD = {
   Parallelogram: { corner: [-0.7, 1.1, -0.6], edge_s: [1.3, 0.1, 0], edge_t: [0.3, 0.15, 1.1] },
   Rectangle: { corner: [-0.7, 1.2, -0.5], edge_s: [1.4, 0, 0], edge_t: [0, 0.3, 0.9] },
   Disk: { center: [0.2, 1.25, 0.1], normal: [-0.2, -1, 0.1], radius: 0.6 },
-  Cylinder: { start: [-0.8, 1.1, -0.1], axis: [1.5, 0.2, 0.3], radius: 0.16 },
   Polygon: {
     corners: [
       [-0.5, 1.2, -0.7],
@@ -19,7 +18,6 @@ const OVERHEAD = {
   },
   BilinearPatch: { corner: [-0.7, 1.0, -0.6], edge_s: [1.4, 0.4, 0], edge_t: [0, 0.4, 1.2], diagonal: [1.4, 0, 1.2] },
   Line: { start: [-0.8, 1.1, -0.2], edge: [1.6, 0.2, 0.4] },
-  Annulus: { center: [0.2, 1.25, 0.1], normal: [-0.2, -1, 0.1], radius: 0.7, inner_radius: 0.4 },
   Sun: { direction: [0.5, 0.8, -0.3], one_minus_cos: 0.06 },
   PointLight: { position: [0.4, 1.3, -0.2] },
   SpotLight: { position: [0.4, 1.4, -0.2], axis: [-0.3, -1, 0.1], one_minus_cos_inner: 0.05, one_minus_cos_outer: 0.25 },

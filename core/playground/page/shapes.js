@@ -81,8 +81,7 @@ const SHAPES = {
     // its surface coordinates are clamped, so that they do not tell the place
     return { ...flat(corners[0], s, t, parts, matrix, (a, b) => turns(a, b).every((x) => x >= 0)), uvToMap: null };
   },
-  Disk: ({ center, normal, radius }) => round(center, normal, radius, 0),
-  Annulus: ({ center, normal, radius, inner_radius: inner }) => round(center, normal, radius, inner / radius),
+  Disk: ({ center, normal, radius }) => round(center, normal, radius),
   Sphere: ({ center, radius }) => ({
     sphere: { center, radius },
     outlines: [],
@@ -103,25 +102,6 @@ const SHAPES = {
     },
     emits: (p) => length(sub(p, center)) > radius,
   }),
-  Cylinder: ({ start, axis, radius }) => {
-    const [a, b] = basis(unit(axis));
-    const end = add(start, axis);
-    const ends = [circle(start, a, b, radius), circle(end, a, b, radius)];
-    const normal = (y) => add(times(a, Math.cos(2 * Math.PI * y)), times(b, Math.sin(2 * Math.PI * y)));
-    const lines = Array.from({ length: 8 }, (_, i) => [
-      along(start, normal(i / 8), radius),
-      along(end, normal(i / 8), radius),
-    ]);
-    return {
-      outlines: ends,
-      lines,
-      rims: [...ends, ...lines],
-      mapOutline: SQUARE,
-      uvToMap: same,
-      at: (x, y) => ({ point: along(along(start, axis, x), normal(y), radius), normal: normal(y) }),
-      emits: () => true,
-    };
-  },
   BilinearPatch: ({ corner, edge_s: s, edge_t: t, diagonal }) => {
     const twist = sub(sub(diagonal, s), t);
     const place = (x, y) => add(corner, add(add(times(s, x), times(t, y)), times(twist, x * y)));
@@ -148,24 +128,21 @@ const SHAPES = {
     emits: () => true,
   }),
 };
-function round(center, direction, radius, ratio) {
+function round(center, direction, radius) {
   const normal = unit(direction);
   const [a, b] = basis(normal);
-  const s = times(a, radius);
-  const t = times(b, radius);
   const shape = flat(
     center,
-    s,
-    t,
+    times(a, radius),
+    times(b, radius),
     ROUND,
     [
       [0.5, 0, 0.5],
       [0, 0.5, 0.5],
     ],
-    (x, y) => x * x + y * y <= 1 && x * x + y * y >= ratio * ratio,
+    (x, y) => x * x + y * y <= 1,
   );
-  const hole = ratio > 0 ? [ROUND.map(([c, d]) => along(along(center, s, c * ratio), t, d * ratio))] : [];
-  return { ...shape, outlines: [...shape.outlines, ...hole], uvToMap: same, normal };
+  return { ...shape, uvToMap: same, normal };
 }
 /** The shape of a light; lights without a surface are points. */
 function shapeOf(light) {

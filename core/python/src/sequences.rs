@@ -107,11 +107,4 @@ sequences! {
     JointSobol(seed: i128) (seed=0) etendue::sequence::JointSobol::new(unsigned("seed", seed)?);
     /// Jittered strata: `count` samples, at most 2²², have one in each cell of a grid.
     Stratified(seed: i128, count: i128) (seed, count) etendue::sequence::Stratified::new(unsigned("seed", seed)?, strata(count)?);
-    /// A Latin hypercube: `count` samples, at most 2²², have one in each column and each row of width 1/count.
-    LatinHypercube(seed: i128, count: i128) (seed, count) etendue::sequence::LatinHypercube::new(unsigned("seed", seed)?, strata(count)?);
-    /// A shifted lattice: Roberts's R2 for any number of samples or, with `count`, at most 2²², a Fibonacci lattice of so many.
-    Lattice(seed: i128, count: Option<i128>) (seed=0, count=None) match count {
-        None => etendue::sequence::Lattice::r2(unsigned("seed", seed)?),
-        Some(count) => etendue::sequence::Lattice::fibonacci(unsigned("seed", seed)?, strata(count)?),
-    };
 }

@@ -119,21 +119,6 @@ class Round:
         return np.stack([turns(y, x), (x * x + y * y) / self.radius**2], axis=1)
 
 
-class Ring:
-    """An annulus: s is the azimuth, t the part of the area that is nearer to the centre."""
-
-    def __init__(self, center, normal, radius, inner):
-        self.disk, self.hole = Round(center, normal, radius), (inner / radius) ** 2
-
-    def at(self, x):
-        points, normals = self.disk.at(np.stack([x[:, 0], self.hole + x[:, 1] * (1 - self.hole)], axis=1))
-        return points, normals * (1 - self.hole)
-
-    def of(self, points):
-        s, t = self.disk.of(points).T
-        return np.stack([s, (t - self.hole) / (1 - self.hole)], axis=1)
-
-
 class Ball:
     """The part of a sphere that is visible from p, or all of it: s is the azimuth, t the height about the axis towards p."""
 
@@ -156,30 +141,6 @@ class Ball:
         q = points - self.center
         z = q @ self.z / np.linalg.norm(q, axis=1)
         return np.stack([turns(q @ self.y, q @ self.x), (z - self.low) / (1 - self.low)], axis=1)
-
-
-class Tube:
-    """The part of the side of a cylinder that is visible from p, or all of it: s is the azimuth about the axis, t the part of its length."""
-
-    def __init__(self, start, axis, radius, p=None):
-        self.start, self.axis, self.radius = np.asarray(start), np.asarray(axis), radius
-        z = self.axis / np.linalg.norm(self.axis)
-        to = frame(z)[0] if p is None else p - self.start - z * ((p - self.start) @ z)
-        distance = np.linalg.norm(to)
-        self.x = to / distance
-        self.y = np.cross(z, self.x)
-        self.half = np.pi if p is None else np.arccos(radius / distance) * 0.97
-
-    def at(self, x):
-        angle = self.half * (2 * x[:, 0] - 1)
-        normal = np.cos(angle)[:, None] * self.x + np.sin(angle)[:, None] * self.y
-        points = self.start + x[:, 1:] * self.axis + self.radius * normal
-        return points, normal * (2 * self.half * self.radius * np.linalg.norm(self.axis))
-
-    def of(self, points):
-        q = points - self.start
-        angle = np.arctan2(q @ self.y, q @ self.x)
-        return np.stack([(angle / self.half + 1) / 2, q @ self.axis / (self.axis @ self.axis)], axis=1)
 
 
 class Patch:
@@ -290,7 +251,7 @@ def light_case(light, by, fields, surface, p, n):
     place = () if light is et.Sun else (p, n) if by in ON_SURFACE else (p, glossy(n)) if by == "reflection" else (p,)
     sampler = method(*place)
     line = light is et.Line
-    closed = light in (et.Sphere, et.Cylinder)
+    closed = light is et.Sphere
 
     def sample(u):
         s = sampler.sample(u)
@@ -360,9 +321,6 @@ def pose(light, rng):
         elif light is et.Disk:
             normal = single(z)
             fields, surface = (place, normal, radius), Round(place, normal, radius)
-        elif light is et.Annulus:
-            normal, inner = single(z), float(single(radius * rng.uniform(0.1, 0.9)))
-            fields, surface = (place, normal, radius, inner), Ring(place, normal, radius, inner)
         elif light is et.Line:
             fields, surface = (place, u), Edge(place, u)
         elif light is et.Sun:
@@ -371,12 +329,10 @@ def pose(light, rng):
         grid = np.stack(np.meshgrid(*[np.linspace(0, 1, 9)] * 2), axis=-1).reshape(-1, 2)
         way = rng.normal(size=3)
         away = size * 10 ** rng.uniform(-1, 1)
-        if light in (et.Sphere, et.Cylinder):
+        if light is et.Sphere:
             p = single(place + way / np.linalg.norm(way) * (radius + away))
-            fields = (place, radius) if light is et.Sphere else (place, u, radius)
-            if light is et.Cylinder and np.linalg.norm(np.cross(p - place, u)) < 1.1 * radius * np.linalg.norm(u):
-                continue
-            surface = (Ball if light is et.Sphere else Tube)(*fields, p)
+            fields = (place, radius)
+            surface = Ball(*fields, p)
         elif light is et.Sun:
             p = np.zeros(3)
         else:
@@ -390,7 +346,7 @@ def pose(light, rng):
             # from one side, and not from its own plane
             facing = dot(to, normals) / np.linalg.norm(normals, axis=1)
             if not (np.all(facing > 0.08 * size) or np.all(facing < -0.08 * size)):
-                if light not in (et.Sphere, et.Cylinder):
+                if light is not et.Sphere:
                     continue
         n = rng.normal(size=3)
         n = single(n / np.linalg.norm(n))
@@ -400,7 +356,7 @@ def pose(light, rng):
 
 
 def lights():
-    for light in (et.Sphere, et.Triangle, et.Parallelogram, et.Rectangle, et.Disk, et.Annulus, et.Cylinder, et.BilinearPatch, et.Polygon, et.Line, et.Sun):
+    for light in (et.Sphere, et.Triangle, et.Parallelogram, et.Rectangle, et.Disk, et.BilinearPatch, et.Polygon, et.Line, et.Sun):
         for by in (name[3:] for name in dir(light) if name.startswith("by_")):
 
             def case(rng, light=light, by=by):

@@ -4,7 +4,7 @@ use core::fmt::Debug;
 use etendue::light::*;
 use etendue::reflection::Reflection;
 use etendue::warp::*;
-use etendue::{LightSampler, Real, Vec2, Vec3};
+use etendue::{Lanewise, LightSampler, Real, Vec2, Vec3};
 
 /// What the list says about a light by a technique.
 #[derive(Clone, Copy, Debug)]

@@ -20,7 +20,7 @@ use crate::real::Real;
 ///
 /// | heuristic | when |
 /// |---|---|
-/// | [`Balance`](Heuristic::Balance) | never far from the best; the choice for sums over many similar techniques, and for reservoirs |
+/// | [`Balance`](Heuristic::Balance) | never far from the best; the choice for sums over many similar techniques |
 /// | [`POWER`](Heuristic::POWER) | where one technique is nearly perfect: a small light, a glossy surface |
 /// | [`Power(β)`](Heuristic::Power) | between it and the maximum |
 /// | [`Maximum`](Heuristic::Maximum) | discontinuous weights; for comparison |
@@ -104,42 +104,4 @@ impl Heuristic {
 pub fn technique_pdf<R: Real>(samples: R, pdf: R, delta: R::Mask) -> R {
     let product = (samples * pdf).clamped(R::lit(0.0), R::lit(f64::from(f32::MAX)));
     R::blend(delta, R::lit(f64::INFINITY), product)
-}
-
-/// Variance and cost of a technique, as measured.
-///
-/// ```
-/// use etendue::estimate::Measured;
-/// let (area, solid_angle) = (Measured { variance: 16.0, cost: 1.0 }, Measured { variance: 1.0, cost: 2.0 });
-/// assert_eq!(solid_angle.gain_over(area), 8.0);
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Measured {
-    /// Variance of the estimate; of stratified or low-discrepancy samples from independent replicates.
-    pub variance: f64,
-    /// What it took, in any unit: seconds, rays, samples.
-    pub cost: f64,
-}
-
-impl Measured {
-    /// 1/(variance·cost), which more samples do not change; ∞ for an exact estimate or a free one.
-    #[must_use]
-    pub fn efficiency(self) -> f64 {
-        1.0 / (self.variance * self.cost)
-    }
-    /// How many times less this costs for the same variance: the ratio of the efficiencies; 1 if both are exact or free.
-    #[must_use]
-    pub fn gain_over(self, other: Self) -> f64 {
-        let (own, others) = (self.variance * self.cost, other.variance * other.cost);
-        if own == others { 1.0 } else { others / own }
-    }
-}
-
-/// Standard error of the logarithm of a variance, from `n` independent samples that are nearly normal (means are):
-/// √(2/(n − 1)). The interval of a ratio of variances is the ratio times exp(±z √(a² + b²)) of their two errors.
-///
-/// Infinite for fewer than two.
-#[must_use]
-pub fn log_variance_error(n: u32) -> f64 {
-    if n < 2 { f64::INFINITY } else { Real::sqrt(2.0 / (f64::from(n) - 1.0)) }
 }

@@ -32,7 +32,6 @@ macro_rules! by_delta {
             /// Every `u` gives the same sample, and no other technique hits the light: its weight in multiple importance sampling is 1. Its
             /// density is a delta distribution, so that [`pdf`](LightSampler::pdf) returns 0.
             pub struct $name {
-                origin: Vec3<R>,
                 direction: Vec3<R>,
                 distance: R,
                 pdf: R,
@@ -57,10 +56,6 @@ macro_rules! by_delta {
             #[inline(always)]
             fn hit(&self, w: Vec3<R>) -> LightSample<R> {
                 LightSample::miss(w)
-            }
-            #[inline(always)]
-            fn origin(&self) -> Vec3<R> {
-                self.origin
             }
         }
     };
@@ -100,7 +95,7 @@ impl<R: Real> PointLight<R> {
     #[inline(always)]
     pub fn by_delta(&self, p: Vec3<R>) -> PointLightByDelta<R> {
         let DirectionSample { direction, distance } = direction_to(self.position - p);
-        PointLightByDelta { origin: p, direction, distance, pdf: inverse_square(distance) }
+        PointLightByDelta { direction, distance, pdf: inverse_square(distance) }
     }
     /// A light at this position whose intensity differs by direction, prepared for the shading point `p`. `intensity` returns that in the
     /// unit direction in which light travels, relative to the I of the estimator: of a [`Profile`](super::Profile), a
@@ -110,7 +105,7 @@ impl<R: Real> PointLight<R> {
     pub fn by_profile(&self, p: Vec3<R>, intensity: impl FnOnce(Vec3<R>) -> R) -> PointLightByDelta<R> {
         let DirectionSample { direction, distance } = direction_to(self.position - p);
         let pdf = attenuated(inverse_square(distance), intensity(-direction));
-        PointLightByDelta { origin: p, direction, distance, pdf }
+        PointLightByDelta { direction, distance, pdf }
     }
 }
 
@@ -152,7 +147,7 @@ impl<R: Real> SpotLight<R> {
     pub fn by_delta(&self, p: Vec3<R>) -> SpotLightByDelta<R> {
         let DirectionSample { direction, distance } = direction_to(self.position - p);
         let pdf = attenuated(inverse_square(distance), self.falloff(-direction));
-        SpotLightByDelta { origin: p, direction, distance, pdf }
+        SpotLightByDelta { direction, distance, pdf }
     }
     /// A spot light whose intensity differs by direction within its cone, prepared for the shading point `p`: that of
     /// [`PointLight::by_profile`] times the falloff. `pdf` is distance²/(falloff · intensity), which is no density; where either is 0, so is
@@ -161,7 +156,7 @@ impl<R: Real> SpotLight<R> {
     pub fn by_profile(&self, p: Vec3<R>, intensity: impl FnOnce(Vec3<R>) -> R) -> SpotLightByDelta<R> {
         let DirectionSample { direction, distance } = direction_to(self.position - p);
         let strength = self.falloff(-direction) * intensity(-direction);
-        SpotLightByDelta { origin: p, direction, distance, pdf: attenuated(inverse_square(distance), strength) }
+        SpotLightByDelta { direction, distance, pdf: attenuated(inverse_square(distance), strength) }
     }
     /// ∫ falloff · I dω of such a light in the first lane: its power, for intensities per steradian. It is a sum over 6,912
     /// directions or more in the cone: to 1e−5 for tables whose polar axis is that of the light, by half degrees from it and by 2.5° around
@@ -191,10 +186,10 @@ impl<R: Real> DirectionalLight<R> {
     pub fn new(direction: Vec3<R>) -> Self {
         Self { direction }
     }
-    /// Prepared for the shading point `p`; all points have the same samples. `pdf` is 1.
+    /// Prepared for any shading point: all have the same samples. `pdf` is 1.
     #[inline(always)]
-    pub fn by_delta(&self, p: Vec3<R>) -> DirectionalLightByDelta<R> {
+    pub fn by_delta(&self) -> DirectionalLightByDelta<R> {
         let (distance, pdf) = (R::lit(FAR), R::lit(1.0));
-        DirectionalLightByDelta { origin: p, direction: self.direction, distance, pdf }
+        DirectionalLightByDelta { direction: self.direction, distance, pdf }
     }
 }

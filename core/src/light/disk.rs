@@ -44,20 +44,20 @@ impl<R: Real> Disk<R> {
     /// - Degenerate: a radius of 0, a point in the plane: pdf 0.
     #[inline(always)]
     pub fn by_area(&self, p: Vec3<R>) -> DiskByArea<R> {
-        ByArea { origin: p, surface: self.placed(p) }
+        ByArea { surface: self.placed(p) }
     }
     /// Uniform over the solid angle Ω at the point `p`, [`SphericalDisk`]: pdf 1/Ω per steradian.
     #[inline(always)]
     pub fn by_solid_angle(&self, p: Vec3<R>) -> DiskBySolidAngle<R> {
         let shape = SphericalDisk::new(self.center - p, self.normal, self.radius);
-        BySolidAngle { origin: p, surface: self.placed(p), shape }
+        BySolidAngle { surface: self.placed(p), shape }
     }
 }
 
 /// A [`Disk`] sampled by area from a point.
-pub type DiskByArea<R> = ByArea<R, PlacedDisk<R>>;
+pub type DiskByArea<R> = ByArea<PlacedDisk<R>>;
 /// A [`Disk`] sampled by solid angle from a point.
-pub type DiskBySolidAngle<R> = BySolidAngle<R, PlacedDisk<R>, SphericalDisk<R>>;
+pub type DiskBySolidAngle<R> = BySolidAngle<PlacedDisk<R>, SphericalDisk<R>>;
 
 lanewise! {
     /// A disk relative to the shading point. Its surface coordinates are (1 + q)/2 for the position q on the unit disk, along the axes of

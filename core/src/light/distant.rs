@@ -82,10 +82,6 @@ impl<R: Real> LightSampler<R> for SunBySolidAngle<R> {
     fn hit(&self, w: Vec3<R>) -> LightSample<R> {
         met(w, self.pdf(w), self.invert(w))
     }
-    #[inline(always)]
-    fn origin(&self) -> Vec3<R> {
-        Vec3::lit([0.0; 3])
-    }
 }
 
 /// A sky with the same radiance in every direction. Surface coordinates: those of [`UniformSphere`].
@@ -128,10 +124,6 @@ impl<R: Real> LightSampler<R> for EnvironmentBySolidAngle {
     fn hit(&self, w: Vec3<R>) -> LightSample<R> {
         met(w, UniformSphere.pdf(w), UniformSphere.invert(w))
     }
-    #[inline(always)]
-    fn origin(&self) -> Vec3<R> {
-        Vec3::lit([0.0; 3])
-    }
 }
 
 lanewise! {
@@ -159,9 +151,5 @@ impl<R: Real> LightSampler<R> for EnvironmentByProjectedSolidAngle<R> {
     #[inline(always)]
     fn hit(&self, w: Vec3<R>) -> LightSample<R> {
         met(w, self.pdf(w), UniformSphere.invert(w))
-    }
-    #[inline(always)]
-    fn origin(&self) -> Vec3<R> {
-        Vec3::lit([0.0; 3])
     }
 }

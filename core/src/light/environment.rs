@@ -422,8 +422,4 @@ impl<R: Real, E: Image<R>> LightSampler<R> for ImageSampler<E> {
     fn hit(&self, w: Vec3<R>) -> LightSample<R> {
         met(w, self.pdf(w), self.environment.place(&self.environment.texel_of(w)))
     }
-    #[inline(always)]
-    fn origin(&self) -> Vec3<R> {
-        Vec3::lit([0.0; 3])
-    }
 }

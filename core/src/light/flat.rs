@@ -62,12 +62,12 @@ impl<R: Real> Triangle<R> {
     ///   between the edges.
     #[inline(always)]
     pub fn by_area(&self, p: Vec3<R>) -> TriangleByArea<R> {
-        ByArea { origin: p, surface: self.placed(p) }
+        ByArea { surface: self.placed(p) }
     }
     /// Uniform over the solid angle Ω at the point `p`, [`SphericalTriangle`]: pdf 1/Ω per steradian.
     #[inline(always)]
     pub fn by_solid_angle(&self, p: Vec3<R>) -> TriangleBySolidAngle<R> {
-        BySolidAngle { origin: p, surface: self.placed(p), shape: self.spherical(p) }
+        BySolidAngle { surface: self.placed(p), shape: self.spherical(p) }
     }
     /// Uniform over the projected solid angle Ω⊥ above the horizon of the unit normal `n` at the point `p`, [`ProjectedTriangle`]: pdf
     /// cosθ/Ω⊥ per steradian, 0 where nothing of the triangle is above the horizon. On an unoccluded diffuse surface every sample has the
@@ -76,7 +76,7 @@ impl<R: Real> Triangle<R> {
     pub fn by_projected_solid_angle(&self, p: Vec3<R>, n: Vec3<R>) -> TriangleByProjectedSolidAngle<R> {
         let v0 = self.v0 - p;
         let shape = ProjectedTriangle::default();
-        let mut sampler = ByProjectedSolidAngle { origin: p, normal: n, surface: self.placed(p), shape };
+        let mut sampler = ByProjectedSolidAngle { normal: n, surface: self.placed(p), shape };
         sampler.shape.prepare_edges([v0, v0 + self.e1, v0 + self.e2], [self.e1, self.e2], n);
         sampler
     }
@@ -86,7 +86,7 @@ impl<R: Real> Triangle<R> {
     pub fn by_reflection(&self, p: Vec3<R>, reflection: &Reflection<R>) -> TriangleByReflection<R> {
         let [v0, e1, e2] = [self.v0 - p, self.e1, self.e2].map(|v| reflection.to_cosine(v));
         let shape = ProjectedTriangle::default();
-        let mut sampler = ByReflection { origin: p, reflection: *reflection, surface: self.placed(p), shape };
+        let mut sampler = ByReflection { reflection: *reflection, surface: self.placed(p), shape };
         sampler.shape.prepare_edges([v0, v0 + e1, v0 + e2], [e1, e2], Vec3::lit([0.0, 0.0, 1.0]));
         sampler
     }
@@ -98,14 +98,14 @@ impl<R: Real> Triangle<R> {
         let [a, b, c] = [v0, v0 + self.e1, v0 + self.e2].map(|v| direction_to(v).direction.dot(n));
         // the map sweeps about v1, from v0 to v2
         let warped = CosineWarped::with_cosines(self.spherical(p), [b, b, a, c]);
-        ByCosineWarp { origin: p, surface: self.placed(p), warped }
+        ByCosineWarp { surface: self.placed(p), warped }
     }
 }
 
 /// A [`Triangle`] sampled by area from a point.
-pub type TriangleByArea<R> = ByArea<R, PlacedTriangle<R>>;
+pub type TriangleByArea<R> = ByArea<PlacedTriangle<R>>;
 /// A [`Triangle`] sampled by solid angle from a point.
-pub type TriangleBySolidAngle<R> = BySolidAngle<R, PlacedTriangle<R>, SphericalTriangle<R>>;
+pub type TriangleBySolidAngle<R> = BySolidAngle<PlacedTriangle<R>, SphericalTriangle<R>>;
 /// A [`Triangle`] sampled by projected solid angle from a point on a surface.
 pub type TriangleByProjectedSolidAngle<R> = ByProjectedSolidAngle<R, PlacedTriangle<R>, ProjectedTriangle<R>>;
 /// A [`Triangle`] sampled by the lobe of a rough surface.
@@ -150,13 +150,13 @@ impl<R: Real> Parallelogram<R> {
     /// [`Triangle::by_area`].
     #[inline(always)]
     pub fn by_area(&self, p: Vec3<R>) -> ParallelogramByArea<R> {
-        ByArea { origin: p, surface: self.placed(p) }
+        ByArea { surface: self.placed(p) }
     }
     /// Uniform over the solid angle Ω at the point `p`, [`SphericalParallelogram`]: pdf 1/Ω per steradian.
     #[inline(always)]
     pub fn by_solid_angle(&self, p: Vec3<R>) -> ParallelogramBySolidAngle<R> {
         let shape = SphericalParallelogram::new(self.corner - p, self.edge_s, self.edge_t);
-        BySolidAngle { origin: p, surface: self.placed(p), shape }
+        BySolidAngle { surface: self.placed(p), shape }
     }
     /// Uniform over the projected solid angle Ω⊥ above the horizon of the unit normal `n` at the point `p`, [`ProjectedParallelogram`]: pdf
     /// cosθ/Ω⊥ per steradian, 0 where nothing of the parallelogram is above the horizon. On an unoccluded diffuse surface every sample
@@ -164,7 +164,7 @@ impl<R: Real> Parallelogram<R> {
     #[inline(always)]
     pub fn by_projected_solid_angle(&self, p: Vec3<R>, n: Vec3<R>) -> ParallelogramByProjectedSolidAngle<R> {
         let shape = ProjectedParallelogram::default();
-        let mut sampler = ByProjectedSolidAngle { origin: p, normal: n, surface: self.placed(p), shape };
+        let mut sampler = ByProjectedSolidAngle { normal: n, surface: self.placed(p), shape };
         sampler.shape.prepare_parallelogram(self.corner - p, [self.edge_s, self.edge_t], n);
         sampler
     }
@@ -173,7 +173,7 @@ impl<R: Real> Parallelogram<R> {
     pub fn by_reflection(&self, p: Vec3<R>, reflection: &Reflection<R>) -> ParallelogramByReflection<R> {
         let [corner, s, t] = [self.corner - p, self.edge_s, self.edge_t].map(|v| reflection.to_cosine(v));
         let shape = ProjectedParallelogram::default();
-        let mut sampler = ByReflection { origin: p, reflection: *reflection, surface: self.placed(p), shape };
+        let mut sampler = ByReflection { reflection: *reflection, surface: self.placed(p), shape };
         sampler.shape.prepare_parallelogram(corner, [s, t], Vec3::lit([0.0, 0.0, 1.0]));
         sampler
     }
@@ -182,9 +182,9 @@ impl<R: Real> Parallelogram<R> {
 /// A [`Parallelogram`] or a [`Rectangle`] sampled by the lobe of a rough surface.
 pub type ParallelogramByReflection<R> = ByReflection<R, PlacedParallelogram<R>, ProjectedParallelogram<R>>;
 /// A [`Parallelogram`] or a [`Rectangle`] sampled by area from a point.
-pub type ParallelogramByArea<R> = ByArea<R, PlacedParallelogram<R>>;
+pub type ParallelogramByArea<R> = ByArea<PlacedParallelogram<R>>;
 /// A [`Parallelogram`] sampled by solid angle from a point.
-pub type ParallelogramBySolidAngle<R> = BySolidAngle<R, PlacedParallelogram<R>, SphericalParallelogram<R>>;
+pub type ParallelogramBySolidAngle<R> = BySolidAngle<PlacedParallelogram<R>, SphericalParallelogram<R>>;
 /// A [`Parallelogram`] or a [`Rectangle`] sampled by projected solid angle from a point on a surface.
 pub type ParallelogramByProjectedSolidAngle<R> =
     ByProjectedSolidAngle<R, PlacedParallelogram<R>, ProjectedParallelogram<R>>;
@@ -219,13 +219,13 @@ impl<R: Real> Rectangle<R> {
     /// [`Triangle::by_area`].
     #[inline(always)]
     pub fn by_area(&self, p: Vec3<R>) -> ParallelogramByArea<R> {
-        ByArea { origin: p, surface: self.placed(p) }
+        ByArea { surface: self.placed(p) }
     }
     /// Uniform over the solid angle Ω at the point `p`, [`SphericalRectangle`]: pdf 1/Ω per steradian.
     #[inline(always)]
     pub fn by_solid_angle(&self, p: Vec3<R>) -> RectangleBySolidAngle<R> {
         let shape = SphericalRectangle::new(self.corner - p, self.edge_s, self.edge_t);
-        BySolidAngle { origin: p, surface: self.placed(p), shape }
+        BySolidAngle { surface: self.placed(p), shape }
     }
     /// Uniform over the projected solid angle Ω⊥ above the horizon of the unit normal `n` at the point `p`, as a parallelogram:
     /// [`Parallelogram::by_projected_solid_angle`].
@@ -246,7 +246,7 @@ impl<R: Real> Rectangle<R> {
         let corners = [corner, corner + self.edge_s, corner + self.edge_t, corner + self.edge_s + self.edge_t];
         let shape = SphericalRectangle::new(corner, self.edge_s, self.edge_t);
         let warped = CosineWarped::with_cosines(shape, corners.map(|v| direction_to(v).direction.dot(n)));
-        ByCosineWarp { origin: p, surface: self.placed(p), warped }
+        ByCosineWarp { surface: self.placed(p), warped }
     }
 }
 
@@ -258,6 +258,6 @@ impl<R> From<Rectangle<R>> for Parallelogram<R> {
 }
 
 /// A [`Rectangle`] sampled by solid angle from a point.
-pub type RectangleBySolidAngle<R> = BySolidAngle<R, PlacedParallelogram<R>, SphericalRectangle<R>>;
+pub type RectangleBySolidAngle<R> = BySolidAngle<PlacedParallelogram<R>, SphericalRectangle<R>>;
 /// A [`Rectangle`] sampled by the cosine warp from a point on a surface.
 pub type RectangleByCosineWarp<R> = ByCosineWarp<R, PlacedParallelogram<R>, SphericalRectangle<R>>;

@@ -35,14 +35,14 @@ impl<R: Real> Line<R> {
     /// Uniform over the length, seen from the point `p`: density 1/length per unit of length, pdf r²/(length · sinγ).
     #[inline(always)]
     pub fn by_length(&self, p: Vec3<R>) -> LineByLength<R> {
-        LineByLength { line: PlacedLine::new(p, self.start - p, self.edge) }
+        LineByLength { line: PlacedLine::new(self.start - p, self.edge) }
     }
     /// Uniform over the angle α that the line subtends at the point `p`, [`SphericalSegment`]: better than by length wherever the point is
     /// near. Density 1/α per radian, pdf r/α.
     #[inline(always)]
     pub fn by_angle(&self, p: Vec3<R>) -> LineByAngle<R> {
         LineByAngle {
-            line: PlacedLine::new(p, self.start - p, self.edge),
+            line: PlacedLine::new(self.start - p, self.edge),
             arc: SphericalSegment::new(self.start - p, self.edge),
         }
     }
@@ -51,14 +51,13 @@ impl<R: Real> Line<R> {
     #[inline(always)]
     pub fn by_projected_solid_angle(&self, p: Vec3<R>, n: Vec3<R>) -> LineByProjectedSolidAngle<R> {
         let arc = ProjectedSegment::new(self.start - p, self.edge, n);
-        LineByProjectedSolidAngle { line: PlacedLine::new(p, self.start - p, self.edge), arc }
+        LineByProjectedSolidAngle { line: PlacedLine::new(self.start - p, self.edge), arc }
     }
 }
 
 lanewise! {
     /// A line relative to the shading point.
     pub struct PlacedLine {
-        origin: Vec3<R>,
         end: Vec3<R>,
         edge: Vec3<R>,
         /// Unit vector at right angles from the shading point to the line, and the distance along it.
@@ -70,12 +69,12 @@ lanewise! {
 
 impl<R: Real> PlacedLine<R> {
     #[inline(always)]
-    fn new(origin: Vec3<R>, end: Vec3<R>, edge: Vec3<R>) -> Self {
+    fn new(end: Vec3<R>, edge: Vec3<R>) -> Self {
         let ([a, e], scale) = to_unit([end, edge]);
         let (along, length) = e.unit_and_length();
         let (across, area) = a.cross(e).unit_and_length();
         let height = quotient(area, length) / scale;
-        Self { origin, end, edge, foot: along.cross(across), height, length: length / scale }
+        Self { end, edge, foot: along.cross(across), height, length: length / scale }
     }
     /// Distance to the line in a direction of the plane through it.
     #[inline(always)]
@@ -138,10 +137,6 @@ macro_rules! line_sampler {
             #[inline(always)]
             fn hit(&self, w: Vec3<R>) -> LightSample<R> {
                 LightSample::miss(w)
-            }
-            #[inline(always)]
-            fn origin(&self) -> Vec3<R> {
-                self.line.origin
             }
         }
     };

@@ -36,7 +36,7 @@ impl<R: Real> BilinearPatch<R> {
     /// times distance²/|cosθ'|. The pdf of a direction is that of the nearest point in it.
     #[inline(always)]
     pub fn by_area(&self, p: Vec3<R>) -> PatchByArea<R> {
-        ByArea { origin: p, surface: self.placed(p) }
+        ByArea { surface: self.placed(p) }
     }
     #[inline(always)]
     pub(super) fn placed(&self, p: Vec3<R>) -> PlacedPatch<R> {
@@ -46,7 +46,7 @@ impl<R: Real> BilinearPatch<R> {
 }
 
 /// A [`BilinearPatch`] sampled by area from a point.
-pub type PatchByArea<R> = ByArea<R, PlacedPatch<R>>;
+pub type PatchByArea<R> = ByArea<PlacedPatch<R>>;
 
 lanewise! {
     /// A bilinear patch relative to the shading point. Its surface coordinates are (s, t).

@@ -22,7 +22,7 @@ pub struct PictureSample<R: Real> {
 /// A light with a picture in the caller's memory.
 pub type Pictured<'a, L> = PicturedLight<Picture<'a>, L>;
 /// A light with a picture in the caller's memory, prepared for a shading point.
-pub type ByPicture<'a, R, S> = PicturedSampler<Picture<'a>, R, S>;
+pub type ByPicture<'a, S> = PicturedSampler<Picture<'a>, S>;
 
 /// A light with a picture: [`Picture::on`] makes it.
 #[derive(Clone, Copy, Debug)]
@@ -104,42 +104,48 @@ pub(super) trait TexelSurface<R: Real>: Measure<R> {
 /// assert_eq!(sampler.pdf(etendue::Vec3::new(-0.1, 0.99, 0.1).normalize()), 0.0);
 /// ```
 #[derive(Clone, Copy, Debug)]
-pub struct PicturedSampler<P, R, S> {
+pub struct PicturedSampler<P, S> {
     pub(super) picture: P,
-    pub(super) origin: Vec3<R>,
     pub(super) surface: S,
 }
 
-#[allow(private_bounds, reason = "the surfaces are those of this library")]
-impl<P: Cells<R>, R: Real, S: TexelSurface<R>> PicturedSampler<P, R, S> {
-    #[inline(always)]
-    fn density(drawn: &Drawn<R>, pdf: R) -> R {
-        (drawn.pmf() * pdf).lesser(R::lit(GREATEST))
-    }
+/// The texel of a picture at a cell.
+#[inline(always)]
+fn texel<R: Real>(picture: &impl Cells<R>, at: Vec2<R>) -> Texel<R> {
+    let Box2 { low, high } = picture.cell(at);
+    Texel { low, size: high - low, corners: picture.corners(at) }
+}
+
+#[inline(always)]
+fn density<R: Real>(drawn: &Drawn<R>, pdf: R) -> R {
+    (drawn.pmf() * pdf).lesser(R::lit(GREATEST))
+}
+
+#[inline]
+fn pdf_at<R: Real>(picture: &impl Cells<R>, surface: &impl TexelSurface<R>, w: Vec3<R>, at: &SurfaceHit<R>) -> R {
+    let (cell, within) = picture.locate(at.uv);
+    let drawn = picture.find(cell, surface);
+    let hit = surface.contains(w) & picture.region().contains(at.uv);
+    density(&drawn, surface.pdf(&texel(picture, cell), w, at, within)).keep(hit)
+}
+
+impl<P, S> PicturedSampler<P, S> {
     /// A direction in proportion to radiance and measure, with its texel.
+    #[allow(private_bounds, reason = "the surfaces are those of this library")]
     #[inline]
-    pub fn draw(&self, u: Vec2<R>) -> PictureSample<R> {
+    pub fn draw<R: Real>(&self, u: Vec2<R>) -> PictureSample<R>
+    where
+        P: Cells<R>,
+        S: TexelSurface<R>,
+    {
         let (drawn, within) = self.picture.draw(u, &self.surface);
-        let light = self.surface.draw(&self.texel(drawn.cell), within);
-        let pdf = Self::density(&drawn, light.pdf).keep(self.picture.region().contains(light.uv));
+        let light = self.surface.draw(&texel(&self.picture, drawn.cell), within);
+        let pdf = density(&drawn, light.pdf).keep(self.picture.region().contains(light.uv));
         PictureSample { light: LightSample { pdf, ..light }, x: drawn.cell.x.to_uint(), y: drawn.cell.y.to_uint() }
-    }
-    #[inline(always)]
-    fn texel(&self, at: Vec2<R>) -> Texel<R> {
-        let Box2 { low, high } = self.picture.cell(at);
-        Texel { low, size: high - low, corners: self.picture.corners(at) }
-    }
-    #[inline]
-    fn pdf_at(&self, w: Vec3<R>, at: &SurfaceHit<R>) -> R {
-        let (cell, within) = self.picture.locate(at.uv);
-        let drawn = self.picture.find(cell, &self.surface);
-        let texel = self.texel(cell);
-        let hit = self.surface.contains(w) & self.picture.region().contains(at.uv);
-        Self::density(&drawn, self.surface.pdf(&texel, w, at, within)).keep(hit)
     }
 }
 
-impl<P: Cells<R>, R: Real, S: TexelSurface<R>> LightSampler<R> for PicturedSampler<P, R, S> {
+impl<P: Cells<R>, R: Real, S: TexelSurface<R>> LightSampler<R> for PicturedSampler<P, S> {
     #[inline]
     fn sample(&self, u: Vec2<R>) -> LightSample<R> {
         let drawn = self.draw(u).light;
@@ -151,18 +157,18 @@ impl<P: Cells<R>, R: Real, S: TexelSurface<R>> LightSampler<R> for PicturedSampl
     }
     #[inline]
     fn pdf(&self, w: Vec3<R>) -> R {
-        self.pdf_at(w, &self.surface.at(w))
+        pdf_at(&self.picture, &self.surface, w, &self.surface.at(w))
     }
     #[inline]
     fn invert(&self, w: Vec3<R>) -> Vec2<R> {
         let (cell, within) = self.picture.locate(self.surface.at(w).uv);
         let drawn = self.picture.find(cell, &self.surface);
-        drawn.invert(self.surface.invert(&self.texel(cell), w, within))
+        drawn.invert(self.surface.invert(&texel(&self.picture, cell), w, within))
     }
     #[inline]
     fn hit(&self, w: Vec3<R>) -> LightSample<R> {
         let at = self.surface.at(w);
-        let pdf = self.pdf_at(w, &at);
+        let pdf = pdf_at(&self.picture, &self.surface, w, &at);
         let some = pdf.gt(R::lit(0.0));
         LightSample {
             distance: at.distance.keep(some),
@@ -172,9 +178,5 @@ impl<P: Cells<R>, R: Real, S: TexelSurface<R>> LightSampler<R> for PicturedSampl
             emits: w.dot(at.normal).lt(R::lit(0.0)) & some,
             ..LightSample::miss(w)
         }
-    }
-    #[inline(always)]
-    fn origin(&self) -> Vec3<R> {
-        self.origin
     }
 }

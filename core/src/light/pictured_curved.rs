@@ -19,9 +19,9 @@ impl<P: Copy, R: Real> PicturedLight<P, Sphere<R>> {
     ///
     /// Columns are heights from −1 to 1, and rows azimuths, as [`UniformSphere`] maps them. From inside, texels are drawn by radiance alone.
     #[inline(always)]
-    pub fn by_visible_area(&self, p: Vec3<R>) -> PicturedSampler<P, R, Curved<PlacedSphere<R>>> {
+    pub fn by_visible_area(&self, p: Vec3<R>) -> PicturedSampler<P, Curved<PlacedSphere<R>>> {
         let Sphere { center, radius } = self.light;
-        PicturedSampler { picture: self.picture, origin: p, surface: Curved(PlacedSphere::new(center - p, radius)) }
+        PicturedSampler { picture: self.picture, surface: Curved(PlacedSphere::new(center - p, radius)) }
     }
 }
 
@@ -29,8 +29,8 @@ impl<P: Copy, R: Real> PicturedLight<P, BilinearPatch<R>> {
     /// By radiance times the area that is visible from the point `p`, over the squared distance; in a texel, uniform in (s, t). The pdf is the
     /// pmf of the texel, over |∂s×∂t| and the number of texels, times distance²/|cosθ'|, per steradian.
     #[inline(always)]
-    pub fn by_visible_area(&self, p: Vec3<R>) -> PicturedSampler<P, R, Curved<PlacedPatch<R>>> {
-        PicturedSampler { picture: self.picture, origin: p, surface: Curved(self.light.placed(p)) }
+    pub fn by_visible_area(&self, p: Vec3<R>) -> PicturedSampler<P, Curved<PlacedPatch<R>>> {
+        PicturedSampler { picture: self.picture, surface: Curved(self.light.placed(p)) }
     }
 }
 

@@ -54,13 +54,13 @@ impl<R: Real, const N: usize> Polygon<R, N> {
     /// the rounded corners.
     #[inline(always)]
     pub fn by_area(&self, p: Vec3<R>) -> PolygonByArea<R, N> {
-        ByArea { origin: p, surface: PlacedPolygon::new(self.corners, p) }
+        ByArea { surface: PlacedPolygon::new(self.corners, p) }
     }
     /// Uniform over the solid angle Ω at the point `p`, [`SphericalPolygon`]: pdf 1/Ω per steradian.
     #[inline(always)]
     pub fn by_solid_angle(&self, p: Vec3<R>) -> PolygonBySolidAngle<R, N> {
         let shape = SphericalPolygon::seen_from(self.corners, p);
-        BySolidAngle { origin: p, surface: PlacedPolygon::new(self.corners, p), shape }
+        BySolidAngle { surface: PlacedPolygon::new(self.corners, p), shape }
     }
     /// Uniform over the projected solid angle Ω⊥ above the horizon of the unit normal `n` at the point `p`, [`ProjectedPolygon`]: pdf
     /// cosθ/Ω⊥ per steradian, 0 where nothing of the polygon is above the horizon. On an unoccluded diffuse surface every sample has the
@@ -68,7 +68,7 @@ impl<R: Real, const N: usize> Polygon<R, N> {
     #[inline(always)]
     pub fn by_projected_solid_angle(&self, p: Vec3<R>, n: Vec3<R>) -> PolygonByProjectedSolidAngle<R, N> {
         let (surface, shape) = (PlacedPolygon::new(self.corners, p), ProjectedPolygon::default());
-        let mut sampler = ByProjectedSolidAngle { origin: p, normal: n, surface, shape };
+        let mut sampler = ByProjectedSolidAngle { normal: n, surface, shape };
         sampler.shape.prepare_corners(&PlacedCorners::new(self.corners, p), n);
         sampler
     }
@@ -79,16 +79,16 @@ impl<R: Real, const N: usize> Polygon<R, N> {
         let corners =
             PlacedCorners::with_edges(placed(self.corners[0] - p), self.corners.map(|c| placed(c - self.corners[0])));
         let (surface, shape) = (PlacedPolygon::new(self.corners, p), ProjectedPolygon::default());
-        let mut sampler = ByReflection { origin: p, reflection: *reflection, surface, shape };
+        let mut sampler = ByReflection { reflection: *reflection, surface, shape };
         sampler.shape.prepare_corners(&corners, Vec3::lit([0.0, 0.0, 1.0]));
         sampler
     }
 }
 
 /// A [`Polygon`] sampled by area from a point.
-pub type PolygonByArea<R, const N: usize> = ByArea<R, PlacedPolygon<R, N>>;
+pub type PolygonByArea<R, const N: usize> = ByArea<PlacedPolygon<R, N>>;
 /// A [`Polygon`] sampled by solid angle from a point.
-pub type PolygonBySolidAngle<R, const N: usize> = BySolidAngle<R, PlacedPolygon<R, N>, SphericalPolygon<R, N>>;
+pub type PolygonBySolidAngle<R, const N: usize> = BySolidAngle<PlacedPolygon<R, N>, SphericalPolygon<R, N>>;
 /// A [`Polygon`] sampled by projected solid angle from a point on a surface.
 pub type PolygonByProjectedSolidAngle<R, const N: usize> =
     ByProjectedSolidAngle<R, PlacedPolygon<R, N>, ProjectedPolygon<R, N>>;

@@ -256,7 +256,7 @@ impl<'a> PortalEnvironment<'a> {
             }
             *window = Window { sides, weight };
         }
-        PortalsByRadiance { portals: self.portals, tables: self.tables, origin: p, windows, cells, weights }
+        PortalsByRadiance { portals: self.portals, tables: self.tables, windows, cells, weights }
     }
 }
 
@@ -287,7 +287,6 @@ struct Window<R> {
 pub struct PortalsByRadiance<'a, R: Real> {
     portals: &'a [Portal],
     tables: &'a [PortalTable<'a>],
-    origin: Vec3<R>,
     windows: [Window<R>; MOST_PORTALS],
     /// Number of columns that are seen in a lane, and their weight, over all portals.
     cells: [u32; MOST_LANES],
@@ -453,9 +452,5 @@ impl<R: Real> LightSampler<R> for PortalsByRadiance<'_, R> {
     #[inline(always)]
     fn hit(&self, w: Vec3<R>) -> LightSample<R> {
         met(w, self.pdf(w), Octahedral.invert(w))
-    }
-    #[inline(always)]
-    fn origin(&self) -> Vec3<R> {
-        self.origin
     }
 }

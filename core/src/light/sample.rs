@@ -92,34 +92,6 @@ impl<R: Real> LightSample<R> {
     }
 }
 
-/// A sample of a light as a point with a pdf per unit area, the form that many renderers expect.
-#[derive(Clone, Copy, Debug)]
-pub struct AreaSample<R: Real> {
-    /// The point on the light, in the coordinates of the scene.
-    pub point: Vec3<R>,
-    /// Unit normal of the light there.
-    pub normal: Vec3<R>,
-    /// Probability density of the point per unit area ([`Line`](super::Line): per unit length); 0 in lanes that hold no sample, and for
-    /// lights without a surface.
-    pub pdf: R,
-    /// Surface coordinates in [0, 1]², as in [`LightSample`].
-    pub uv: Vec2<R>,
-}
-
-impl<R: Real> AreaSample<R> {
-    /// True where there is a sample.
-    #[inline(always)]
-    pub fn valid(&self) -> R::Mask {
-        self.pdf.gt(R::lit(LEAST_PDF))
-    }
-    /// 1/pdf, an area, where the sample is [`valid`](Self::valid); 0 elsewhere. Always finite.
-    #[inline(always)]
-    pub fn weight(&self) -> R {
-        let valid = self.valid();
-        (R::lit(1.0) / R::blend(valid, self.pdf, R::lit(1.0))).keep(valid)
-    }
-}
-
 /// Pdf per steradian of a point that is uniform by area: distance²/(|cosθ'| area), given `along` = |cosθ'| area; 0 where that is not finite.
 #[inline(always)]
 pub(super) fn solid_angle_pdf<R: Real>(distance: R, along: R) -> R {

@@ -1,6 +1,6 @@
 //! Lights prepared for a shading point.
 
-use super::sample::{AreaSample, LightSample, direction_to, solid_angle_pdf};
+use super::sample::{LightSample, direction_to, solid_angle_pdf};
 use super::surface::{AreaSurface, Surface, SurfaceHit};
 use crate::lanewise::Lanewise;
 use crate::math::quotient;
@@ -17,7 +17,7 @@ use core::f64::consts::PI;
 /// [`hit`](Self::hit) also finds the point of the light there, and [`invert`](Self::invert) recovers the random numbers. Prepare once,
 /// then call as often as needed: what depends on the light and the point alone is computed by the `by_…` method that returned the sampler.
 ///
-/// `sample(u).pdf` and `pdf(sample(u).direction)` are the same bits. The exceptions are curved lights (sphere, cylinder, bilinear patch)
+/// `sample(u).pdf` and `pdf(sample(u).direction)` are the same bits. The exceptions are curved lights (sphere, bilinear patch)
 /// *by area*, lines, and cosine warps: a rounded direction determines their pdf only as well as it determines the point, so a sample
 /// reports the pdf of the point that was drawn.
 ///
@@ -73,37 +73,27 @@ pub trait LightSampler<R: Real> {
     /// The nearest point of the light in the unit direction `w`, with the pdf of that direction; [`LightSample::miss`] where there is none.
     /// Delta lights and lines cannot be hit.
     fn hit(&self, w: Vec3<R>) -> LightSample<R>;
-    /// The shading point.
-    fn origin(&self) -> Vec3<R>;
-    /// Draws a point of the light for `u` in [0, 1)², with its pdf per unit area: distance² / |cosθ'| times less than per steradian. Test
-    /// [`AreaSample::valid`] or multiply by [`AreaSample::weight`]: where the pdf is 0, the point may be the shading point itself.
-    #[inline(always)]
-    fn area_sample(&self, u: Vec2<R>) -> AreaSample<R> {
-        let LightSample { direction, distance, pdf, normal, uv, .. } = self.sample(u);
-        let some = pdf.gt(R::lit(0.0)) & distance.lt(R::lit(super::FAR));
-        let positive = R::blend(some, distance, R::lit(1.0));
-        let pdf = (pdf / positive * direction.dot(normal).abs() / positive).keep(some);
-        area_sample(direction.mul_add(distance, self.origin()), normal, pdf, uv)
-    }
 }
 
 /// A light sampled uniformly by its surface area.
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
-pub struct ByArea<R, S> {
-    pub(super) origin: Vec3<R>,
+pub struct ByArea<S> {
     pub(super) surface: S,
 }
 
-impl<R: Real, S: AreaSurface<R>> ByArea<R, S> {
+impl<S> ByArea<S> {
     /// Surface area, in the square of the unit of the coordinates.
     #[inline(always)]
-    pub fn area(&self) -> R {
+    pub fn area<R: Real>(&self) -> R
+    where
+        S: AreaSurface<R>,
+    {
         self.surface.area()
     }
 }
 
-impl<R: Real, S: AreaSurface<R>> LightSampler<R> for ByArea<R, S> {
+impl<R: Real, S: AreaSurface<R>> LightSampler<R> for ByArea<S> {
     #[inline(always)]
     fn sample(&self, u: Vec2<R>) -> LightSample<R> {
         let point = self.surface.draw(u);
@@ -132,25 +122,6 @@ impl<R: Real, S: AreaSurface<R>> LightSampler<R> for ByArea<R, S> {
     fn hit(&self, w: Vec3<R>) -> LightSample<R> {
         found(w, self.pdf(w), &self.surface, None)
     }
-    #[inline(always)]
-    fn origin(&self) -> Vec3<R> {
-        self.origin
-    }
-    #[inline(always)]
-    fn area_sample(&self, u: Vec2<R>) -> AreaSample<R> {
-        let point = self.surface.draw(u);
-        let some = point.inverse_pdf.gt(R::lit(0.0));
-        let pdf = (R::lit(1.0) / R::blend(some, point.inverse_pdf, R::lit(1.0))).keep(some);
-        area_sample(point.position + self.origin, point.normal, pdf, point.uv)
-    }
-}
-
-/// Coordinates end at the largest number, and a pdf that is not finite counts as none.
-#[inline(always)]
-fn area_sample<R: Real>(point: Vec3<R>, normal: Vec3<R>, pdf: R, uv: Vec2<R>) -> AreaSample<R> {
-    let most = R::lit(super::FAR);
-    let point = Vec3::new(point.x.clamped(-most, most), point.y.clamped(-most, most), point.z.clamped(-most, most));
-    AreaSample { point, normal, pdf: pdf.keep(pdf.lt(R::lit(1e37))), uv }
 }
 
 /// A sample of a surface in a direction.
@@ -191,21 +162,23 @@ pub(super) fn found<R: Real>(w: Vec3<R>, pdf: R, surface: &impl Surface<R>, fron
 /// A light sampled uniformly by the solid angle it subtends at the shading point.
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
-pub struct BySolidAngle<R, S, W> {
-    pub(super) origin: Vec3<R>,
+pub struct BySolidAngle<S, W> {
     pub(super) surface: S,
     pub(super) shape: W,
 }
 
-impl<R: Real, S, W: SphericalShape<R>> BySolidAngle<R, S, W> {
+impl<S, W> BySolidAngle<S, W> {
     /// Solid angle of the light in steradians, in [0, 4π].
     #[inline(always)]
-    pub fn solid_angle(&self) -> R {
+    pub fn solid_angle<R: Real>(&self) -> R
+    where
+        W: SphericalShape<R>,
+    {
         self.shape.solid_angle()
     }
 }
 
-impl<R: Real, S: Surface<R>, W: SphericalShape<R>> LightSampler<R> for BySolidAngle<R, S, W> {
+impl<R: Real, S: Surface<R>, W: SphericalShape<R>> LightSampler<R> for BySolidAngle<S, W> {
     #[inline(always)]
     fn sample(&self, u: Vec2<R>) -> LightSample<R> {
         let (direction, at) = point_of(&self.surface, self.shape.sample_point(u));
@@ -227,17 +200,12 @@ impl<R: Real, S: Surface<R>, W: SphericalShape<R>> LightSampler<R> for BySolidAn
     fn hit(&self, w: Vec3<R>) -> LightSample<R> {
         found(w, self.pdf(w), &self.surface, Some(self.shape.in_front()))
     }
-    #[inline(always)]
-    fn origin(&self) -> Vec3<R> {
-        self.origin
-    }
 }
 
 /// A light sampled uniformly by the projected solid angle above the horizon of a surface: with a pdf proportional to cosθ.
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct ByProjectedSolidAngle<R, S, W> {
-    pub(super) origin: Vec3<R>,
     pub(super) normal: Vec3<R>,
     pub(super) surface: S,
     pub(super) shape: W,
@@ -273,17 +241,12 @@ impl<R: Real, S: Surface<R>, W: ProjectedShape<R>> LightSampler<R> for ByProject
     fn hit(&self, w: Vec3<R>) -> LightSample<R> {
         found(w, self.pdf(w), &self.surface, Some(self.shape.in_front()))
     }
-    #[inline(always)]
-    fn origin(&self) -> Vec3<R> {
-        self.origin
-    }
 }
 
 /// A light sampled in proportion to the lobe of a rough surface, above its horizon.
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct ByReflection<R, S, W> {
-    pub(super) origin: Vec3<R>,
     pub(super) reflection: Reflection<R>,
     pub(super) surface: S,
     /// The light after the map of the reflection.
@@ -325,10 +288,6 @@ impl<R: Real, S: AreaSurface<R>, W: ProjectedShape<R> + Warp<R, Point = Vec3<R>>
     fn hit(&self, w: Vec3<R>) -> LightSample<R> {
         found(w, self.pdf(w), &self.surface, Some(self.shape.in_front()))
     }
-    #[inline(always)]
-    fn origin(&self) -> Vec3<R> {
-        self.origin
-    }
 }
 
 /// A light sampled by its solid angle times a bilinear approximation of the cosine to a surface normal: [`CosineWarped`]. A sample has the
@@ -336,7 +295,6 @@ impl<R: Real, S: AreaSurface<R>, W: ProjectedShape<R> + Warp<R, Point = Vec3<R>>
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct ByCosineWarp<R, S, W> {
-    pub(super) origin: Vec3<R>,
     pub(super) surface: S,
     pub(super) warped: CosineWarped<W, R>,
 }
@@ -374,42 +332,24 @@ impl<R: Real, S: Surface<R>, W: SphericalShape<R>> LightSampler<R> for ByCosineW
     fn hit(&self, w: Vec3<R>) -> LightSample<R> {
         found(w, self.pdf(w), &self.surface, Some(self.warped.shape.in_front()))
     }
-    #[inline(always)]
-    fn origin(&self) -> Vec3<R> {
-        self.origin
-    }
 }
 
-/// `map` and `splat`: prepared in scalars, a sampler draws packets of samples for one point.
-macro_rules! splats {
-    ($($name:ident<R, S $(, $shape:ident)?> { $($field:ident),+ })+) => {$(
-        impl<R, S: Lanewise<R> $(, $shape: Lanewise<R>)?> $name<R, S $(, $shape)?> {
-            /// Replaces each number x by `f(x)`.
+/// Prepared in scalars and splat, a sampler draws packets of samples for one point.
+macro_rules! lanewise_samplers {
+    ($($name:ident<$($number:ident,)? ($($part:ident),+)> => $with:ty { $($field:ident),+ })+) => {$(
+        impl<R, $($part: Lanewise<R>),+> Lanewise<R> for $name<$($number,)? $($part),+> {
+            type With<T> = $with;
             #[inline(always)]
-            pub fn map<T>(self, mut f: impl FnMut(R) -> T) -> $name<T, S::With<T> $(, $shape::With<T>)?> {
+            fn map<T>(self, mut f: impl FnMut(R) -> T) -> Self::With<T> {
                 $name { $($field: self.$field.map(&mut f)),+ }
-            }
-        }
-        impl<R, S: Lanewise<R> $(, $shape: Lanewise<R>)?> Lanewise<R> for $name<R, S $(, $shape)?> {
-            type With<T> = $name<T, S::With<T> $(, $shape::With<T>)?>;
-            #[inline(always)]
-            fn map<T>(self, f: impl FnMut(R) -> T) -> Self::With<T> {
-                self.map(f)
-            }
-        }
-        impl<R: Real, S: Lanewise<R> $(, $shape: Lanewise<R>)?> $name<R, S $(, $shape)?> {
-            /// Repeats one sampler in every lane: prepared for one point, it draws packets of samples.
-            #[inline(always)]
-            pub fn splat<T: Lanewise<R::Scalar, With<R> = Self>>(s: T) -> Self {
-                s.map(R::splat)
             }
         }
     )+};
 }
-splats! {
-    ByArea<R, S> { origin, surface }
-    BySolidAngle<R, S, W> { origin, surface, shape }
-    ByProjectedSolidAngle<R, S, W> { origin, normal, surface, shape }
-    ByReflection<R, S, W> { origin, reflection, surface, shape }
-    ByCosineWarp<R, S, W> { origin, surface, warped }
+lanewise_samplers! {
+    ByArea<(S)> => ByArea<S::With<T>> { surface }
+    BySolidAngle<(S, W)> => BySolidAngle<S::With<T>, W::With<T>> { surface, shape }
+    ByProjectedSolidAngle<R, (S, W)> => ByProjectedSolidAngle<T, S::With<T>, W::With<T>> { normal, surface, shape }
+    ByReflection<R, (S, W)> => ByReflection<T, S::With<T>, W::With<T>> { reflection, surface, shape }
+    ByCosineWarp<R, (S, W)> => ByCosineWarp<T, S::With<T>, W::With<T>> { surface, warped }
 }

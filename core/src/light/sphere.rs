@@ -52,13 +52,13 @@ impl<R: Real> Sphere<R> {
     ///   determines the point.
     #[inline(always)]
     pub fn by_area(&self, p: Vec3<R>) -> SphereByArea<R> {
-        ByArea { origin: p, surface: self.placed(p) }
+        ByArea { surface: self.placed(p) }
     }
     /// Uniform over the cone of directions Ω at the point `p`, [`SphericalCap`]: every sample hits the near side; pdf 1/Ω per steradian.
     #[inline(always)]
     pub fn by_solid_angle(&self, p: Vec3<R>) -> SphereBySolidAngle<R> {
         let shape = SphericalCap::new(self.center - p, self.radius);
-        BySolidAngle { origin: p, surface: self.placed(p), shape }
+        BySolidAngle { surface: self.placed(p), shape }
     }
     /// Uniform over the projected solid angle Ω⊥ above the horizon of the unit normal `n` at the point `p`, [`ProjectedCap`]: pdf cosθ/Ω⊥
     /// per steradian, 0 where nothing of the sphere is above the horizon. On an unoccluded diffuse surface every sample has the same
@@ -66,21 +66,21 @@ impl<R: Real> Sphere<R> {
     #[inline(always)]
     pub fn by_projected_solid_angle(&self, p: Vec3<R>, n: Vec3<R>) -> SphereByProjectedSolidAngle<R> {
         let shape = ProjectedCap::new(self.center - p, self.radius, n);
-        ByProjectedSolidAngle { origin: p, normal: n, surface: self.placed(p), shape }
+        ByProjectedSolidAngle { normal: n, surface: self.placed(p), shape }
     }
     /// Nearly in proportion to the lobe of a rough surface at the point `p`: [`SphereByReflection`]. The pdf is per steradian; 0 where nothing
     /// of the sphere is above the horizon.
     #[inline(always)]
     pub fn by_reflection(&self, p: Vec3<R>, reflection: &Reflection<R>) -> SphereByReflection<R> {
         let shape = reflection.cap(self.center - p, self.radius);
-        SphereByReflection { origin: p, reflection: *reflection, surface: self.placed(p), shape }
+        SphereByReflection { reflection: *reflection, surface: self.placed(p), shape }
     }
 }
 
 /// A [`Sphere`] sampled by area from a point.
-pub type SphereByArea<R> = ByArea<R, PlacedSphere<R>>;
+pub type SphereByArea<R> = ByArea<PlacedSphere<R>>;
 /// A [`Sphere`] sampled by solid angle from a point.
-pub type SphereBySolidAngle<R> = BySolidAngle<R, PlacedSphere<R>, SphericalCap<R>>;
+pub type SphereBySolidAngle<R> = BySolidAngle<PlacedSphere<R>, SphericalCap<R>>;
 /// A [`Sphere`] sampled by projected solid angle from a point on a surface.
 pub type SphereByProjectedSolidAngle<R> = ByProjectedSolidAngle<R, PlacedSphere<R>, ProjectedCap<R>>;
 
@@ -103,7 +103,6 @@ lanewise! {
     ///   σ = 10⁻⁶, samples there are rounding.
     /// - Source: derived here.
     pub struct SphereByReflection {
-        origin: Vec3<R>,
         reflection: Reflection<R>,
         surface: PlacedSphere<R>,
         /// The sphere after the map of the reflection.
@@ -139,10 +138,6 @@ impl<R: Real> LightSampler<R> for SphereByReflection<R> {
     #[inline(always)]
     fn hit(&self, w: Vec3<R>) -> LightSample<R> {
         found(w, self.pdf(w), &self.surface, Some(self.surface.outside()))
-    }
-    #[inline(always)]
-    fn origin(&self) -> Vec3<R> {
-        self.origin
     }
 }
 

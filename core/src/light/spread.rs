@@ -131,7 +131,7 @@ impl<R: Real> Parallelogram<R> {
         let surface = PlacedParallelogram::new(relative.corner, relative.edge_s, relative.edge_t).of_part();
         let part = part(&relative, reach, spread.tan_half);
         let shape = SphericalParallelogram::new(part.corner, part.edge_s, part.edge_t);
-        BySolidAngle { origin: p, surface, shape }
+        BySolidAngle { surface, shape }
     }
 }
 
@@ -144,7 +144,7 @@ impl<R: Real> Rectangle<R> {
         let surface = PlacedParallelogram::new(relative.corner, relative.edge_s, relative.edge_t).of_part();
         let part = part(&relative, reach, spread.tan_half);
         let shape = SphericalRectangle::new(part.corner, part.edge_s, part.edge_t);
-        BySolidAngle { origin: p, surface, shape }
+        BySolidAngle { surface, shape }
     }
 }
 

@@ -28,16 +28,16 @@ macro_rules! techniques {
             } reflected {
                 /// Nearly in proportion to the lobe of a rough surface at the point p: pdf per steradian; 0 where nothing of the light is above
                 /// the horizon. From inside, every direction above the horizon.
-                SphereByReflection = EtendueSphereByReflection, sphere_by_reflection[44];
+                SphereByReflection = EtendueSphereByReflection, sphere_by_reflection[41];
             } by "solid_angle" {
                 /// Uniform over the surface: pdf distance²/(|cosθ'| 4πR²) per steradian, θ' at the light. More than half of the samples
                 /// face away.
-                SphereByArea = EtendueSphereByArea, sphere_by_area[7]: by_area(p) area;
+                SphereByArea = EtendueSphereByArea, sphere_by_area[4]: by_area(p) area;
                 /// Uniform over the solid angle Ω at the point p: pdf 1/Ω per steradian. From inside, every direction.
-                SphereBySolidAngle = EtendueSphereBySolidAngle, sphere_by_solid_angle[20]: by_solid_angle(p) solid_angle;
+                SphereBySolidAngle = EtendueSphereBySolidAngle, sphere_by_solid_angle[17]: by_solid_angle(p) solid_angle;
                 /// Uniform over the projected solid angle Ω⊥ above the horizon of the unit normal n at the point p: pdf cosθ/Ω⊥ per
                 /// steradian, 0 where nothing of the light is above the horizon.
-                SphereByProjectedSolidAngle = EtendueSphereByProjectedSolidAngle, sphere_by_projected_solid_angle[39]: by_projected_solid_angle(p, n) projected_solid_angle;
+                SphereByProjectedSolidAngle = EtendueSphereByProjectedSolidAngle, sphere_by_projected_solid_angle[36]: by_projected_solid_angle(p, n) projected_solid_angle;
             }
             /// A triangle that emits from the side on which its vertices run counterclockwise. Without area, and from a point in its plane,
             /// the pdf is 0. uv: the barycentric coordinates of the second and the third vertex.
@@ -51,18 +51,18 @@ macro_rules! techniques {
             } reflected {
                 /// In proportion to the lobe of a rough surface at the point p: pdf π times that of the reflection, over the projected solid
                 /// angle after its map, per steradian; 0 where nothing of the light is above the horizon.
-                TriangleByReflection = EtendueTriangleByReflection, triangle_by_reflection[178];
+                TriangleByReflection = EtendueTriangleByReflection, triangle_by_reflection[175];
             } by "solid_angle" {
                 /// Uniform over the surface of area A: pdf distance²/(|cosθ'| A) per steradian, θ' at the light. For small, far and facing
                 /// triangles.
-                TriangleByArea = EtendueTriangleByArea, triangle_by_area[36]: by_area(p) area;
+                TriangleByArea = EtendueTriangleByArea, triangle_by_area[33]: by_area(p) area;
                 /// Uniform over the solid angle Ω at the point p: pdf 1/Ω per steradian.
-                TriangleBySolidAngle = EtendueTriangleBySolidAngle, triangle_by_solid_angle[84]: by_solid_angle(p) solid_angle;
+                TriangleBySolidAngle = EtendueTriangleBySolidAngle, triangle_by_solid_angle[81]: by_solid_angle(p) solid_angle;
                 /// Uniform over the projected solid angle Ω⊥ above the horizon of the unit normal n at the point p: pdf cosθ/Ω⊥ per
                 /// steradian, 0 where nothing of the light is above the horizon. It has no variance on an unoccluded diffuse surface.
-                TriangleByProjectedSolidAngle = EtendueTriangleByProjectedSolidAngle, triangle_by_projected_solid_angle[165]: by_projected_solid_angle(p, n) projected_solid_angle;
+                TriangleByProjectedSolidAngle = EtendueTriangleByProjectedSolidAngle, triangle_by_projected_solid_angle[162]: by_projected_solid_angle(p, n) projected_solid_angle;
                 /// By solid angle times a bilinear approximation of the cosine to the unit normal n at the point p; pdf per steradian.
-                TriangleByCosineWarp = EtendueTriangleByCosineWarp, triangle_by_cosine_warp[88]: by_cosine_warp(p, n) solid_angle;
+                TriangleByCosineWarp = EtendueTriangleByCosineWarp, triangle_by_cosine_warp[85]: by_cosine_warp(p, n) solid_angle;
             }
             /// A parallelogram, of a corner and two edges from there, that emits from the side of the first edge × the second one. Without
             /// area, and from a point in its plane, the pdf is 0. uv: (s, t), the parts of the edges, in [0, 1].
@@ -76,15 +76,15 @@ macro_rules! techniques {
             } reflected {
                 /// In proportion to the lobe of a rough surface at the point p: pdf π times that of the reflection, over the projected solid
                 /// angle after its map, per steradian; 0 where nothing of the light is above the horizon.
-                ParallelogramByReflection = EtendueParallelogramByReflection, parallelogram_by_reflection[311];
+                ParallelogramByReflection = EtendueParallelogramByReflection, parallelogram_by_reflection[308];
             } by "solid_angle" {
                 /// Uniform over the surface of area A: pdf distance²/(|cosθ'| A) per steradian, θ' at the light.
-                ParallelogramByArea = EtendueParallelogramByArea, parallelogram_by_area[37]: by_area(p) area;
+                ParallelogramByArea = EtendueParallelogramByArea, parallelogram_by_area[34]: by_area(p) area;
                 /// Uniform over the solid angle Ω at the point p: pdf 1/Ω per steradian.
-                ParallelogramBySolidAngle = EtendueParallelogramBySolidAngle, parallelogram_by_solid_angle[133]: by_solid_angle(p) solid_angle;
+                ParallelogramBySolidAngle = EtendueParallelogramBySolidAngle, parallelogram_by_solid_angle[130]: by_solid_angle(p) solid_angle;
                 /// Uniform over the projected solid angle Ω⊥ above the horizon of the unit normal n at the point p: pdf cosθ/Ω⊥ per
                 /// steradian, 0 where nothing of the light is above the horizon.
-                ParallelogramByProjectedSolidAngle = EtendueParallelogramByProjectedSolidAngle, parallelogram_by_projected_solid_angle[298]: by_projected_solid_angle(p, n) projected_solid_angle;
+                ParallelogramByProjectedSolidAngle = EtendueParallelogramByProjectedSolidAngle, parallelogram_by_projected_solid_angle[295]: by_projected_solid_angle(p, n) projected_solid_angle;
             }
             /// A rectangle, of a corner and two perpendicular edges from there, that emits from the side of the first edge × the second one.
             /// Its strata follow the edges. Without area, and from a point in its plane, the pdf is 0. uv: (s, t), the parts of the edges,
@@ -104,12 +104,12 @@ macro_rules! techniques {
                 /// Uniform over the surface of area A, as a parallelogram: pdf distance²/(|cosθ'| A) per steradian, θ' at the light.
                 ParallelogramByArea: by_area(p) area;
                 /// Uniform over the solid angle Ω at the point p: pdf 1/Ω per steradian.
-                RectangleBySolidAngle = EtendueRectangleBySolidAngle, rectangle_by_solid_angle[89]: by_solid_angle(p) solid_angle;
+                RectangleBySolidAngle = EtendueRectangleBySolidAngle, rectangle_by_solid_angle[86]: by_solid_angle(p) solid_angle;
                 /// Uniform over the projected solid angle Ω⊥ above the horizon of the unit normal n at the point p, as a parallelogram: pdf
                 /// cosθ/Ω⊥ per steradian, 0 where nothing of the light is above the horizon.
                 ParallelogramByProjectedSolidAngle: by_projected_solid_angle(p, n) projected_solid_angle;
                 /// By solid angle times a bilinear approximation of the cosine to the unit normal n at the point p; pdf per steradian.
-                RectangleByCosineWarp = EtendueRectangleByCosineWarp, rectangle_by_cosine_warp[93]: by_cosine_warp(p, n) solid_angle;
+                RectangleByCosineWarp = EtendueRectangleByCosineWarp, rectangle_by_cosine_warp[90]: by_cosine_warp(p, n) solid_angle;
             }
             /// A disk that emits from the side of its normal. A radius ≤ 0, and a point in its plane, give pdf 0. uv: (1 + q)/2 for the
             /// position q on the unit disk.
@@ -122,23 +122,9 @@ macro_rules! techniques {
                 radius as radius: number,
             } by "solid_angle" {
                 /// Uniform over the surface of area A: pdf distance²/(|cosθ'| A) per steradian, θ' at the light.
-                DiskByArea = EtendueDiskByArea, disk_by_area[17]: by_area(p) area;
+                DiskByArea = EtendueDiskByArea, disk_by_area[14]: by_area(p) area;
                 /// Uniform over the solid angle Ω at the point p: pdf 1/Ω per steradian.
-                DiskBySolidAngle = EtendueDiskBySolidAngle, disk_by_solid_angle[42]: by_solid_angle(p) solid_angle;
-            }
-            /// The side of a cylinder, that emits outwards. A radius ≤ 0 or an axis of length 0 gives pdf 0. uv: height along the axis, and
-            /// azimuth in turns.
-            Cylinder = EtendueCylinder, EtendueCylinderColumns {
-                /// Centre of one end, in the coordinates of the scene.
-                start as start: point,
-                /// From there to the centre of the other end.
-                axis as axis: edge,
-                /// Radius, in the unit of the coordinates.
-                radius as radius: number,
-            } by "area" {
-                /// Uniform over the side of area A: pdf distance²/(|cosθ'| A) per steradian, θ' at the light. More than half of the
-                /// samples face away.
-                CylinderByArea = EtendueCylinderByArea, cylinder_by_area[20]: by_area(p) area;
+                DiskBySolidAngle = EtendueDiskBySolidAngle, disk_by_solid_angle[39]: by_solid_angle(p) solid_angle;
             }
             /// A flat convex polygon of 3 to 8 corners that emits from the side on which they run counterclockwise. Without area, and from a
             /// point in its plane, the pdf is 0. uv: the parts of the edges from the first corner to the second and to the last, clamped to
@@ -150,15 +136,15 @@ macro_rules! techniques {
             } reflected {
                 /// In proportion to the lobe of a rough surface at the point p: pdf π times that of the reflection, over the projected solid
                 /// angle after its map, per steradian; 0 where nothing of the light is above the horizon.
-                PolygonByReflection [8] = EtenduePolygonByReflection, polygon_by_reflection[1097];
+                PolygonByReflection [8] = EtenduePolygonByReflection, polygon_by_reflection[1094];
             } by "solid_angle" {
                 /// Uniform over the surface of area A: pdf distance²/(|cosθ'| A) per steradian, θ' at the light.
-                PolygonByArea [8] = EtenduePolygonByArea, polygon_by_area[67]: by_area(p) area;
+                PolygonByArea [8] = EtenduePolygonByArea, polygon_by_area[64]: by_area(p) area;
                 /// Uniform over the solid angle Ω at the point p: pdf 1/Ω per steradian.
-                PolygonBySolidAngle [8] = EtenduePolygonBySolidAngle, polygon_by_solid_angle[452]: by_solid_angle(p) solid_angle;
+                PolygonBySolidAngle [8] = EtenduePolygonBySolidAngle, polygon_by_solid_angle[449]: by_solid_angle(p) solid_angle;
                 /// Uniform over the projected solid angle Ω⊥ above the horizon of the unit normal n at the point p: pdf cosθ/Ω⊥ per
                 /// steradian, 0 where nothing of the light is above the horizon.
-                PolygonByProjectedSolidAngle [8] = EtenduePolygonByProjectedSolidAngle, polygon_by_projected_solid_angle[1084]: by_projected_solid_angle(p, n) projected_solid_angle;
+                PolygonByProjectedSolidAngle [8] = EtenduePolygonByProjectedSolidAngle, polygon_by_projected_solid_angle[1081]: by_projected_solid_angle(p, n) projected_solid_angle;
             }
             /// A bilinear patch, of a corner and the vectors from there to the others, that emits from the side of ∂s × ∂t. Without area the
             /// pdf is 0. uv: (s, t), in [0, 1].
@@ -173,7 +159,7 @@ macro_rules! techniques {
                 diagonal as diagonal: edge,
             } by "area" {
                 /// Nearly uniform over the surface: the pdf per unit area, times distance²/|cosθ'|, is exact for the map.
-                PatchByArea = EtenduePatchByArea, patch_by_area[28]: by_area(p) area;
+                PatchByArea = EtenduePatchByArea, patch_by_area[25]: by_area(p) area;
             }
             /// A line: a cylinder so thin that only its width times its radiance counts, which emits in all directions. Samplers use the
             /// first random number alone. The pdf is in the measure sinγ ds/r² (γ from the line, s along it), so that the estimator is
@@ -186,27 +172,12 @@ macro_rules! techniques {
                 edge as edge: edge,
             } by "angle" {
                 /// Uniform over the length: pdf r²/(length · sinγ).
-                LineByLength = EtendueLineByLength, line_by_length[14]: by_length(p);
+                LineByLength = EtendueLineByLength, line_by_length[11]: by_length(p);
                 /// Uniform over the angle α that the line subtends at the point p: pdf r/α, with r its least distance.
-                LineByAngle = EtendueLineByAngle, line_by_angle[31]: by_angle(p) angle;
+                LineByAngle = EtendueLineByAngle, line_by_angle[28]: by_angle(p) angle;
                 /// By projected solid angle above the horizon of the unit normal n at the point p; pdf 0 where nothing of the line is above
                 /// it.
-                LineByProjectedSolidAngle = EtendueLineByProjectedSolidAngle, line_by_projected_solid_angle[46]: by_projected_solid_angle(p, n);
-            }
-            /// An annulus, a disk without its middle, that emits from the side of its normal. No width, and a point in its plane, give pdf 0.
-            /// uv: (1 + q)/2 for the position q on the unit disk.
-            Annulus = EtendueAnnulus, EtendueAnnulusColumns {
-                /// Centre, in the coordinates of the scene.
-                center as center: point,
-                /// Unit normal.
-                normal as normal: direction,
-                /// Radius, in the unit of the coordinates.
-                radius as radius: number,
-                /// Radius of the hole, in the unit of the coordinates.
-                inner_radius as inner_radius: number,
-            } by "area" {
-                /// Uniform over the surface of area A: pdf distance²/(|cosθ'| A) per steradian, θ' at the light.
-                AnnulusByArea = EtendueAnnulusByArea, annulus_by_area[18]: by_area(p) area;
+                LineByProjectedSolidAngle = EtendueLineByProjectedSolidAngle, line_by_projected_solid_angle[43]: by_projected_solid_angle(p, n);
             }
             /// A sun: the same radiance from all directions within an angle σ of one direction, at every point. The distance is the
             /// largest number of single precision.
@@ -227,7 +198,7 @@ macro_rules! techniques {
             } by "delta" {
                 /// Its one direction, whatever the random numbers. The pdf of a sample is distance², which is no density; that of a
                 /// direction is 0.
-                PointLightByDelta = EtenduePointLightByDelta, point_light_by_delta[8]: by_delta(p);
+                PointLightByDelta = EtenduePointLightByDelta, point_light_by_delta[5]: by_delta(p);
             }
             /// A spot light: a point light that emits into a cone, with the intensity I on its axis. The estimator is f · I · cosθ · weight.
             /// No direction hits it: its weight in multiple importance sampling is 1.
@@ -243,7 +214,7 @@ macro_rules! techniques {
             } by "delta" {
                 /// Its one direction, whatever the random numbers. The pdf of a sample is distance² over the part of I that is emitted
                 /// there, which is no density, and 0 outside of the cone; that of a direction is 0.
-                SpotLightByDelta = EtendueSpotLightByDelta, spot_light_by_delta[8]: by_delta(p);
+                SpotLightByDelta = EtendueSpotLightByDelta, spot_light_by_delta[5]: by_delta(p);
             }
             /// A directional light, that reaches every point from one direction with the irradiance E on a surface that faces it. The
             /// estimator is f · E · cosθ · weight. No direction hits it: its weight in multiple importance sampling is 1.
@@ -252,7 +223,7 @@ macro_rules! techniques {
                 direction as direction: direction,
             } by "delta" {
                 /// Its one direction, whatever the random numbers. The pdf of a sample is 1, which is no density; that of a direction is 0.
-                DirectionalLightByDelta = EtendueDirectionalLightByDelta, directional_light_by_delta[8]: by_delta(p);
+                DirectionalLightByDelta = EtendueDirectionalLightByDelta, directional_light_by_delta[5]: by_delta();
             }
         }
     };

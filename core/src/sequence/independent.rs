@@ -88,16 +88,14 @@ impl Sequence for Independent {
 
 /// The counter hash as a random generator: `rand_core`'s `Rng`, seedable, with a period of 2⁶⁴ words.
 ///
-/// Call `CounterRng::seed_from_u64(seed)`, then `next_u32`, or [`DrawExt::pair`](crate::random::DrawExt::pair) for a point. It never fails.
+/// Call `CounterRng::seed_from_u64(seed)`, then `next_u32`. It never fails.
 ///
 /// ```
-/// use etendue::{Vec2, random::DrawExt, sequence::CounterRng};
+/// use etendue::{Real, sequence::CounterRng};
 /// use rand_core::{Rng, SeedableRng};
 /// let mut rng = CounterRng::seed_from_u64(1);
-/// let word = rng.next_u32();
-/// let u: Vec2<f32> = rng.pair();
-/// assert!(u.x >= 0.0 && u.x < 1.0);
-/// # let _ = word;
+/// let u: f32 = Real::unit(rng.next_u32());
+/// assert!(u >= 0.0 && u < 1.0);
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CounterRng {

@@ -83,7 +83,7 @@ pub(super) fn sample_delta(kind: u32, chosen: &Chosen, p: V8, u: Vec2<X8>) -> Li
     match kind {
         point::KIND => point::sample(chosen, p, u),
         spot::KIND => spot::sample(chosen, p, u),
-        _ => sun::sample(chosen, p, u),
+        _ => sun::sample(chosen, u),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::chosen::Chosen;
 use super::record::{Candidate, Far, LightRecord, sum};
-use crate::packet::{V8, X8};
+use crate::packet::X8;
 use etendue::{DirectionalLight, LightSample, LightSampler, Vec2};
 
 pub(super) const KIND: u32 = 10;
@@ -15,6 +15,6 @@ pub(crate) fn candidate(direction: [f32; 3], irradiance: [f32; 3]) -> Candidate 
 
 /// Samples distant lights in all lanes.
 #[inline]
-pub(super) fn sample(chosen: &Chosen, p: V8, u: Vec2<X8>) -> LightSample<X8> {
-    DirectionalLight::new(chosen.place).by_delta(p).sample(u)
+pub(super) fn sample(chosen: &Chosen, u: Vec2<X8>) -> LightSample<X8> {
+    DirectionalLight::new(chosen.place).by_delta().sample(u)
 }

@@ -1,7 +1,7 @@
 //! Operations and elementary functions, and what estimators compute of them.
 
 use crate::figures::{Figures, Lanes, List, Routine};
-use etendue::estimate::{Heuristic, Reservoir, Welford, technique_pdf};
+use etendue::estimate::{Heuristic, Welford, technique_pdf};
 use etendue::math::{atan2_turns, difference_of_products, one_minus_cos, rsqrt};
 use etendue::{Frame, Real, Uint, Vec3};
 use etendue_properties::generators::{NASTY, Random};
@@ -146,14 +146,6 @@ pub(crate) fn add(list: &mut List<'_>) {
             [c, d, e].into_iter().for_each(|x| other.push(x));
             let both = one.merge(other);
             lanes.reals([both.mean(), both.m2(), both.variance(), both.count()]);
-        };
-        "Reservoir", Unit, |[a, b, c, d, e], lanes: R| {
-            let mut reservoir = Reservoir::<R>::default();
-            let u = [(1, a), (2, b), (3, c), (4, R::lit(0.0))]
-                .into_iter()
-                .fold(d, |u, (k, weight)| reservoir.push(R::Uint::splat(k), weight, u));
-            lanes.words(reservoir.held);
-            lanes.reals([u, reservoir.pmf(), reservoir.contribution(e)]);
         };
     }
 }

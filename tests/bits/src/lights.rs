@@ -109,7 +109,7 @@ impl Routine for Distant {
                     let (one_minus_cos_inner, one_minus_cos_outer) = (cosine(0), R::lit(1.0) + cosine(1));
                     Box::new(SpotLight { position, axis: n, one_minus_cos_inner, one_minus_cos_outer }.by_delta(p))
                 }
-                2 => Box::new(DirectionalLight::new(n).by_delta(p)),
+                2 => Box::new(DirectionalLight::new(n).by_delta()),
                 3 => Box::new(Sun::new(n, cosine(0)).by_solid_angle()),
                 4 => Box::new(ConstantEnvironment.by_solid_angle()),
                 _ => Box::new(ConstantEnvironment.by_projected_solid_angle(n)),

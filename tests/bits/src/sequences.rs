@@ -2,8 +2,7 @@
 
 use crate::figures::{Figures, List, Routine};
 use etendue::sequence::{
-    CounterRng, Independent, JointSobol, JointStratified, LatinHypercube, Lattice, OwenSobol, Sequence, Stratified,
-    ZOrder,
+    CounterRng, Independent, JointSobol, JointStratified, OwenSobol, Sequence, Stratified, ZOrder,
 };
 use etendue::{Real, Uint};
 use etendue_properties::generators::{AlongCurve, Random};
@@ -53,9 +52,6 @@ impl Routine for Generator {
 pub(crate) fn add(list: &mut List<'_>) {
     list.add("sequence/Independent", &Drawn(|count| Independent::new(u64::from(count) << 30), 4));
     list.add("sequence/Stratified", &Drawn(|count| Stratified::new(3, count), 4));
-    list.add("sequence/LatinHypercube", &Drawn(|count| LatinHypercube::new(3, count), 4));
-    list.add("sequence/Lattice/r2", &Drawn(|count| Lattice::r2(u64::from(count)), 4));
-    list.add("sequence/Lattice/fibonacci", &Drawn(|count| Lattice::fibonacci(3, count), 4));
     list.add("sequence/OwenSobol", &Drawn(|count| OwenSobol::new(u64::from(count)), 4));
     list.add("sequence/ZOrder", &Drawn(|count| AlongCurve(ZOrder::new(3, count)), 4));
     list.add("sequence/JointSobol", &Drawn(|count| JointSobol::new(u64::from(count)), 8));

@@ -112,7 +112,7 @@ targets! {
     strata: sequences, 100;
     /// Elementary functions.
     math: numbers, 600;
-    /// MIS weights, reservoirs and running variances.
+    /// MIS weights and running variances.
     estimate: numbers, 600;
     /// Masks and counters.
     bits: numbers, 600;

@@ -6,8 +6,8 @@ use crate::tolerances::ULP;
 use core::f64::consts::{PI, TAU};
 use core::fmt::Debug;
 use etendue::{
-    Annulus, BilinearPatch, Cylinder, DirectionalLight, Disk, LightSample, LightSampler, Line, Mask, Parallelogram,
-    PointLight, Polygon, Real, Rectangle, Sphere, SpotLight, Sun, Triangle, Vec2, Vec3, f32x8, f32x16,
+    BilinearPatch, DirectionalLight, Disk, LightSample, LightSampler, Line, Mask, Parallelogram, PointLight, Polygon,
+    Real, Rectangle, Sphere, SpotLight, Sun, Triangle, Vec2, Vec3, f32x8, f32x16,
 };
 use etendue_oracle::{V3, along, cross, dot, length, sub, wide};
 
@@ -71,7 +71,7 @@ fn figures<R: Real>(s: &LightSample<R>, i: usize) -> [f64; 12] {
     ]
 }
 
-/// All numbers that a sampler returns in one lane: a sample, the pdf, inverse and hit of its direction, and the area form.
+/// All numbers that a sampler returns in one lane: a sample, and the pdf, inverse and hit of its direction.
 fn every_figure<R: Real>(sampler: &dyn LightSampler<R>, u: Vec2<R>, i: usize) -> Vec<f64> {
     let s = sampler.sample(u);
     let mut all = figures(&s, i).to_vec();
@@ -80,9 +80,6 @@ fn every_figure<R: Real>(sampler: &dyn LightSampler<R>, u: Vec2<R>, i: usize) ->
     all.extend([number(sampler.pdf(s.direction)), number(inverse.x), number(inverse.y)]);
     all.push(number(sampler.pdf_of_hit(s.direction)));
     all.extend(figures(&sampler.hit(s.direction), i));
-    let area = sampler.area_sample(u);
-    all.extend(area.point.at(i));
-    all.push(number(area.pdf));
     all
 }
 
@@ -185,16 +182,12 @@ pub enum LightShape {
     Rectangle,
     /// About `a`, with normal `b`, of the radius.
     Disk,
-    /// From `a` along `b`, of the radius.
-    Cylinder,
     /// `a`, `a` + `b`, `a` + `b` + `c`, `a` + `c`.
     Polygon,
     /// `a`, and from there `b`, `c` and, to the opposite corner, `n`.
     Patch,
     /// From `a` along `b`.
     Line,
-    /// About `a`, with normal `b`, of the radius, with a hole of half of that.
-    Annulus,
     /// Towards `b`, with the radius as 1 − cos of its angle.
     Sun,
     /// At `a`.
@@ -208,7 +201,7 @@ impl LightShape {
     /// Whether `b` is a unit normal.
     #[must_use]
     pub fn has_normal(self) -> bool {
-        matches!(self, Self::Disk | Self::Annulus)
+        self == Self::Disk
     }
 }
 /// How.
@@ -330,11 +323,9 @@ placed! {
     Parallelogram: |v, _| Self::new(v[1], v[2], v[3]);
     Rectangle: |v, _| Self::new(v[1], v[2], v[3]);
     Disk: |v, radius| Self::new(v[1], v[2], radius);
-    Cylinder: |v, radius| Self::new(v[1], v[2], radius);
     Polygon<4>: |v, _| Self::new([v[1], v[1] + v[2], v[1] + v[2] + v[3], v[1] + v[3]]);
     BilinearPatch: |v, _| Self::new(v[1], v[2], v[3], v[4]);
     Line: |v, _| Self::new(v[1], v[2]);
-    Annulus: |v, radius| Self::new(v[1], v[2], radius, radius * R::lit(0.5));
     Sun: |v, radius| Self::new(v[2], radius);
     PointLight: |v, _| Self::new(v[1]);
     SpotLight: |v, radius| Self { position: v[1], axis: v[2], one_minus_cos_inner: R::lit(0.0), one_minus_cos_outer: radius };
@@ -419,7 +410,7 @@ impl LightFixture for AreaLight {
     /// point by 16 ulp of the distance, and the cosine there by that over the radius and the cosine. Samples that the light itself hides
     /// have the pdf of their own point. Cosine warps: to the rounding of the direction, over the least cosine.
     fn evaluated_to(&self, s: &LightSample<f32>) -> Option<f64> {
-        let curved = matches!(self.shape, LightShape::Sphere | LightShape::Cylinder | LightShape::Patch);
+        let curved = matches!(self.shape, LightShape::Sphere | LightShape::Patch);
         if self.by == Measure::CosineWarp {
             return Some(32.0 * ULP / 0.01);
         }
@@ -464,12 +455,6 @@ impl LightFixture for AreaLight {
             LightShape::Triangle => (cross(b, c), 0.5 * length(cross(b, c)), 0.0),
             LightShape::Parallelogram | LightShape::Rectangle => (cross(b, c), length(cross(b, c)), 0.0),
             LightShape::Disk => (b, PI * r * r, 0.0),
-            LightShape::Annulus => (b, 0.75 * PI * r * r, 0.0),
-            LightShape::Cylinder => {
-                let x = from(a);
-                let along = dot(x, b) / dot(b, b);
-                (core::array::from_fn(|k| x[k] - b[k] * along), TAU * r.abs() * length(b), distance / r.abs())
-            }
             // what is across the direction
             LightShape::Line => (cross(b, cross(w, b)), length(b), 0.0),
             LightShape::Polygon

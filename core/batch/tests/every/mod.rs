@@ -43,14 +43,12 @@ overhead! {
     Parallelogram: Self::new(v(0.0, 1.0, 0.0), v(1.0, 0.2, 0.0), v(0.0, 0.0, 1.0));
     Rectangle: Self::new(v(0.0, 1.0, 0.0), v(1.0, 0.0, 0.0), v(0.0, 0.0, 1.0));
     Disk: Self::new(v(0.0, 1.5, 0.2), v(0.0, -1.0, 0.0), 0.5);
-    Cylinder: Self::new(v(0.0, 1.5, 0.2), v(1.0, 0.2, 0.0), 0.1);
     BilinearPatch: Self::new(v(0.0, 1.0, 0.0), v(1.0, 0.0, 0.0), v(0.0, 0.0, 1.0), v(0.0, 0.3, 0.0));
     Polygon<8>: {
         let corners = [[0.0, 0.0], [1.0, 0.0], [1.5, 1.0], [1.0, 2.0], [0.0, 2.0]];
         Self::new(core::array::from_fn(|i| v(corners[i.min(4)][0], 1.0, corners[i.min(4)][1])))
     };
     Line: Self::new(v(0.0, 1.5, 0.2), v(1.0, 0.2, 0.0));
-    Annulus: Self::new(v(0.0, 1.5, 0.2), v(0.0, -1.0, 0.0), 0.5, 0.3);
     Sun: Self::new(v(0.0, 1.0, 0.0), 1e-5);
     PointLight: Self::new(v(0.2, 1.5, 0.1));
     SpotLight: Self { position: v(0.0, 1.5, 0.2), axis: v(0.0, -1.0, 0.0), one_minus_cos_inner: 0.1, one_minus_cos_outer: 0.5 };
@@ -137,6 +135,4 @@ pub(crate) fn visit(visitor: &mut impl Visitor) {
     visitor.sequence("Owen-Sobol", OwenSobol::new(1));
     visitor.sequence("joint Sobol", JointSobol::new(1));
     visitor.sequence("stratified", Stratified::new(1, 4096));
-    visitor.sequence("Latin hypercube", LatinHypercube::new(1, 4096));
-    visitor.sequence("lattice R2", Lattice::r2(1));
 }

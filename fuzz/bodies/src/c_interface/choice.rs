@@ -9,7 +9,7 @@ use std::ptr::{null, null_mut};
 
 /// Calls the functions of sequences.
 pub(super) fn sequence(input: &mut Input<'_>) {
-    let kind = input.below(7);
+    let kind = input.below(4);
     let n = COUNTS[input.below(COUNTS.len())];
     let null_at = input.below(8);
     let (seed, count) = (u64::from(input.word()), input.word());
@@ -36,10 +36,7 @@ pub(super) fn sequence(input: &mut Input<'_>) {
             0 => etendue_independent_pairs(seed, counters, n, u),
             1 => etendue_owen_sobol_pairs(seed, counters, n, u),
             2 => etendue_joint_sobol_pairs(seed, counters, n, u),
-            3 => etendue_r2_pairs(seed, counters, n, u),
-            4 => etendue_stratified_pairs(seed, count, counters, n, u),
-            5 => etendue_latin_hypercube_pairs(seed, count, counters, n, u),
-            _ => etendue_fibonacci_pairs(seed, count, counters, n, u),
+            _ => etendue_stratified_pairs(seed, count, counters, n, u),
         }
     };
     let mut outputs: [Output; 2] = memory.outputs();

@@ -80,7 +80,7 @@ impl LightFixture for Distant {
                 let (one_minus_cos_inner, one_minus_cos_outer) = (number(|d| d.x), number(|d| d.y));
                 Box::new(SpotLight { position, axis: n, one_minus_cos_inner, one_minus_cos_outer }.by_delta(p))
             }
-            2 => Box::new(DirectionalLight::new(n).by_delta(p)),
+            2 => Box::new(DirectionalLight::new(n).by_delta()),
             3 => Box::new(Sun::new(n, number(|d| d.x)).by_solid_angle()),
             4 => Box::new(ConstantEnvironment.by_solid_angle()),
             _ => Box::new(ConstantEnvironment.by_projected_solid_angle(n)),

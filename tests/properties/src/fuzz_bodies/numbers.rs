@@ -2,14 +2,14 @@
 
 use super::Input;
 use crate::checks;
-use crate::properties::{lanes_of, squares_of, twice, vectors_of};
+use crate::properties::{squares_of, twice, vectors_of};
 use core::f64::consts::PI;
 use etendue::discrete::{AliasTable, PiecewiseConstant1d, PiecewiseConstant2d, TableError};
-use etendue::estimate::{Heuristic, Reservoir, Welford};
+use etendue::estimate::{Heuristic, Welford};
 use etendue::light::{EnvironmentMap, ImageEnvironment};
 use etendue::math::{difference_of_products, one_minus_cos, rsqrt};
 use etendue::select::{Allocation, Choice, LightBound, LightChoice, PowerLights, SpatialLights, UniformLights};
-use etendue::{Mask, Real, Uint, Vec2, Vec3, Warp, Warp1, f32x4, f32x8, f32x16, u32x8};
+use etendue::{Mask, Real, Uint, Vec2, Vec3, Warp, Warp1, f32x4, f32x8, f32x16};
 use etendue_oracle::{dot, length, sub};
 
 /// Weights, some of them 0 and rarely one invalid, with the error that an invalid one must give.
@@ -305,7 +305,7 @@ pub(super) fn math(input: &mut Input<'_>) {
     }
 }
 
-/// MIS weights, reservoirs and running variances of any numbers.
+/// MIS weights and running variances of any numbers.
 pub(super) fn estimate(input: &mut Input<'_>) {
     let heuristic = match input.below(4) {
         0 => Heuristic::Balance,
@@ -323,22 +323,6 @@ pub(super) fn estimate(input: &mut Input<'_>) {
     assert!((sum - f64::from(u8::from(some))).abs() < 4.8e-7, "{heuristic:?} {four:?}: {weights:?}");
     let eight = heuristic.weights(four.map(f32x8::splat));
     assert_eq!(eight.map(|w| w.lane(2).to_bits()), weights.map(f32::to_bits), "{heuristic:?} {four:?}");
-
-    let candidates = input.weights(20);
-    let (mut one, mut packet) = (Reservoir::<f32>::default(), Reservoir::<f32x8>::default());
-    let mut u = input.unit();
-    let mut wide: f32x8 = lanes_of(|_| f64::from(u));
-    for (k, &weight) in candidates.iter().enumerate() {
-        u = one.push(k as u32, weight, u);
-        wide = packet.push(u32x8::splat(k as u32), f32x8::splat(weight), wide);
-        assert!((0.0..1.0).contains(&u), "{candidates:?}: {u}");
-        assert_eq!((packet.held.lane(1), wide.lane(1)), (one.held, u), "{candidates:?}");
-    }
-    let some = candidates.iter().any(|w| *w > 0.0);
-    let p = one.pmf();
-    assert!(some == (p > 0.0) && p <= 1.0, "{candidates:?}: {one:?}");
-    assert!(!some || candidates[one.held as usize] > 0.0, "{candidates:?}: {one:?}");
-    assert!(one.contribution(p) >= 0.0);
 
     let samples: Vec<f32> = (0..input.below(20)).map(|_| input.ordinary()).collect();
     let mut welford = Welford::<f64>::default();

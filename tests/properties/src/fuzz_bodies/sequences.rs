@@ -2,9 +2,7 @@
 
 use super::Input;
 use crate::generators::AlongCurve;
-use etendue::sequence::{
-    Independent, JointSobol, JointStratified, LatinHypercube, Lattice, OwenSobol, Sequence, Stratified, ZOrder,
-};
+use etendue::sequence::{Independent, JointSobol, JointStratified, OwenSobol, Sequence, Stratified, ZOrder};
 use etendue::{Real, Uint, Vec2, f32x8, f32x16};
 
 /// Every sequence at any index: points are in [0, 1)², and the same in packets and when evaluated again.
@@ -29,17 +27,14 @@ pub(super) fn sequence(input: &mut Input<'_>) {
             assert!(inside, "{sequence:?}: {one:?}: pixel {pixel}, sample {sample}, {dimension}");
         }
     }
-    let (seed, kind) = (input.seed(), input.below(9));
+    let (seed, kind) = (input.seed(), input.below(6));
     let [pixel, sample, dimension, count] = counters(input);
     match kind {
         0 => check(&Independent::new(seed), pixel, sample, dimension),
         1 => check(&Stratified::new(seed, count), pixel, sample, dimension),
-        2 => check(&LatinHypercube::new(seed, count), pixel, sample, dimension),
-        3 => check(&Lattice::r2(seed), pixel, sample, dimension),
-        4 => check(&Lattice::fibonacci(seed, count), pixel, sample, dimension),
-        5 => check(&OwenSobol::new(seed), pixel, sample, dimension),
-        6 => check(&AlongCurve(ZOrder::new(seed, count)), pixel, sample, dimension),
-        7 => check(&JointSobol::new(seed), pixel, sample, dimension % 8),
+        2 => check(&OwenSobol::new(seed), pixel, sample, dimension),
+        3 => check(&AlongCurve(ZOrder::new(seed, count)), pixel, sample, dimension),
+        4 => check(&JointSobol::new(seed), pixel, sample, dimension % 8),
         _ => check(&JointStratified::new(seed, count, pixel % 6), pixel, sample, dimension % 8),
     }
 }
@@ -77,7 +72,7 @@ fn once(cells: impl Iterator<Item = Option<usize>>, count: usize, what: impl cor
 
 /// Each replicate has one sample in every stratum and each box of a net the same number, from any start.
 pub(super) fn strata(input: &mut Input<'_>) {
-    let (seed, kind) = (input.seed(), input.below(6));
+    let (seed, kind) = (input.seed(), input.below(5));
     let [pixel, start] = counters(input);
     let draw = |sequence: &Stratified, sample, dimension| -> Vec2<f32> { sequence.pair(pixel, sample, dimension) };
     match kind {
@@ -91,17 +86,6 @@ pub(super) fn strata(input: &mut Input<'_>) {
             once((0..count).map(|i| of(draw(&strata, first + i, dimension))), count as usize, (strata, pixel, first));
         }
         1 => {
-            let latin = LatinHypercube::new(seed, 1 << input.below(9));
-            let count = latin.count();
-            let first = start % (1 << 31) / count * count;
-            let dimension = input.word();
-            let all: Vec<Vec2<f32>> = (0..count).map(|i| latin.pair(pixel, first + i, dimension)).collect();
-            let along =
-                |pick: fn(&Vec2<f32>) -> f32| all.iter().map(move |u| inside(Vec2::new(pick(u), 0.5_f32), count, 1));
-            once(along(|u| u.x), count as usize, (latin, pixel, first));
-            once(along(|u| u.y), count as usize, (latin, pixel, first));
-        }
-        2 => {
             let (side, pairs) = (1 << input.below(3), u32::from(2 + input.below(2)));
             let strata = JointStratified::new(seed, side, pairs);
             let count = strata.count();
@@ -115,7 +99,7 @@ pub(super) fn strata(input: &mut Input<'_>) {
             };
             once((0..count).map(of), count as usize, (strata, pixel, first));
         }
-        3 => {
+        2 => {
             // one sample in each interval of a coordinate, and equal numbers in the boxes of one pair
             let (owen, bits) = (OwenSobol::new(seed), u32::from(1 + input.below(8)));
             let (count, dimension) = (1_u32 << bits, input.word());

@@ -56,7 +56,6 @@ impl Lamp {
                 (center, far.into_iter().fold(0.0, f64::max), cross(b, c))
             }
             LampKind::Area(LightShape::Disk) => (a, r, b),
-            LampKind::Area(LightShape::Cylinder) => (along(a, b, 0.5), libm::hypot(0.5 * length(b), r), ZERO),
             LampKind::Area(LightShape::Line) => (along(a, b, 0.5), 0.5 * length(b), ZERO),
             LampKind::Area(_) => {
                 let diagonals = [1.0, -1.0].map(|sign| length(along(b, c, sign)));

@@ -58,14 +58,13 @@ impl Regime {
         Self::SmallAndFar,
         Self::Spreads,
     ];
-    const SHAPES: [LampKind; 8] = [
+    const SHAPES: [LampKind; 7] = [
         LampKind::Area(LightShape::Triangle),
         LampKind::Area(LightShape::Parallelogram),
         LampKind::Area(LightShape::Disk),
         LampKind::Area(LightShape::Sphere),
         LampKind::Point,
         LampKind::Spot,
-        LampKind::Area(LightShape::Cylinder),
         LampKind::Area(LightShape::Line),
     ];
 
@@ -86,7 +85,7 @@ impl Regime {
             Self::Spheres => 3..4,
             Self::Points => 4..5,
             Self::Spots | Self::NarrowSpots => 5..6,
-            _ => 0..8,
+            _ => 0..Self::SHAPES.len(),
         };
         Self::SHAPES[among.start + random.below(among.len())]
     }
@@ -170,7 +169,7 @@ fn shape(kind: LampKind, [center, normal]: [V3; 2], size: f64, slim: f64, cosine
     let (a, b, c) = match kind {
         LampKind::Area(LightShape::Triangle) => (third, e, f),
         LampKind::Area(LightShape::Parallelogram) => (corner, e, f),
-        LampKind::Area(LightShape::Line | LightShape::Cylinder) => (along(center, e, -0.5), e, f),
+        LampKind::Area(LightShape::Line) => (along(center, e, -0.5), e, f),
         LampKind::Spot => (center, normal, [cosine + (1.0 - cosine) * random.unit_f64(), cosine, 0.0]),
         _ => (center, normal, f),
     };

@@ -45,7 +45,7 @@ struct Warped<R, const WRONG: bool> {
 impl<R: Real, const WRONG: bool> LightSampler<R> for Warped<R, WRONG> {
     fn sample(&self, u: Vec2<R>) -> LightSample<R> {
         let v = self.warp.sample(u);
-        let sample = self.light.by_solid_angle(self.origin()).sample(v);
+        let sample = self.light.by_solid_angle(Vec3::lit([0.0; 3])).sample(v);
         LightSample { pdf: sample.pdf * self.warp.pdf(v), ..sample }
     }
     fn pdf(&self, w: Vec3<R>) -> R {
@@ -56,10 +56,7 @@ impl<R: Real, const WRONG: bool> LightSampler<R> for Warped<R, WRONG> {
         self.warp.invert(self.seen.invert(w))
     }
     fn hit(&self, w: Vec3<R>) -> LightSample<R> {
-        LightSample { pdf: self.pdf(w), ..self.light.by_solid_angle(self.origin()).hit(w) }
-    }
-    fn origin(&self) -> Vec3<R> {
-        Vec3::lit([0.0; 3])
+        LightSample { pdf: self.pdf(w), ..self.light.by_solid_angle(Vec3::lit([0.0; 3])).hit(w) }
     }
 }
 
