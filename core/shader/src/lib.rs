@@ -12,8 +12,7 @@
 //! assert!(source.contains("EtendueLightSample etendue_sphere_by_solid_angle_sample("));
 //! ```
 //!
-//! The program does the same: `etendue-shader --language cuda --lights triangle,sphere -o etendue.cuh`. Files for the most common lights are
-//! in the folder `sources`. In C, a sample takes two calls:
+//! The program does the same: `etendue-shader --language cuda --lights triangle,sphere -o etendue.cuh`. In C, a sample takes two calls:
 //!
 //! ```c
 //! EtendueTriangle lamp = {{0, 2, 0}, {1, 0, 0}, {0, 0, 1}};
