@@ -1,6 +1,6 @@
 //! Lights: means against closed forms, points on the shape, lanes, scale, arguments of any bits.
 
-use core::f64::consts::{PI, TAU};
+use core::f64::consts::PI;
 use etendue::{
     BilinearPatch, ConstantEnvironment, DirectionalLight, Disk, LightSample, LightSampler, Line, Mask, Parallelogram,
     PointLight, Polygon, Real, Rectangle, Sphere, SpotLight, Sun, Triangle, Vec2, Vec3, f32x4, f32x8, f32x16,
