@@ -51,6 +51,7 @@ mod kernel;
 mod map;
 mod one;
 mod placed;
+mod sealed;
 mod table;
 mod technique;
 mod warp;

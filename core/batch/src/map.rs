@@ -1,6 +1,7 @@
 //! Functions of a few numbers that are no densities: what lights look up, over any kind of number.
 
 use crate::kernel::Packet;
+use crate::sealed::Sealed;
 use crate::table::{Lanes, MapFunctions, Table};
 use etendue::light::{GeneralSky, PortalEnvironment, PortalMap, Profile, Projector, Spread};
 use etendue::reflection::Reflection;
@@ -12,7 +13,7 @@ pub const MOST_NUMBERS: usize = 6;
 pub const MOST_RESULTS: usize = 4;
 
 /// A function of a few numbers, with what it depends on in single or double precision.
-pub trait BatchMap: Copy {
+pub trait BatchMap: Copy + Sealed {
     /// How many numbers it takes; those beyond are 0.
     const NUMBERS: usize;
     /// How many numbers it returns; those beyond are 0.
@@ -41,7 +42,8 @@ macro_rules! maps {
         $(#[$doc:meta])* $field:ident: $name:ident $(<$lifetime:lifetime>)? $([$number:ty])?, $numbers:literal -> $results:literal,
         |$this:ident, $x:pat_param| $map:expr;
     )+) => {
-        $(impl$(<$lifetime>)? BatchMap for $name $(<$lifetime>)? $(<$number>)? {
+        $(impl$(<$lifetime>)? Sealed for $name $(<$lifetime>)? $(<$number>)? {}
+        impl$(<$lifetime>)? BatchMap for $name $(<$lifetime>)? $(<$number>)? {
             const NUMBERS: usize = $numbers;
             const RESULTS: usize = $results;
             #[inline(always)]
@@ -105,6 +107,7 @@ maps! {
         ([R::lit(0.0); MOST_RESULTS], portals.0.sees(Vec3::new(px, py, pz), Vec3::new(x, y, z)));
 }
 
+impl Sealed for GeneralSky {}
 /// Its exponentials are those of a library that is not compiled once more for other instructions: all levels use the build's.
 impl BatchMap for GeneralSky {
     const NUMBERS: usize = 3;

@@ -4,6 +4,7 @@
 //! each call prepares anew: that takes as long as few samples.
 
 use crate::kernel::Packet;
+use crate::sealed::Sealed;
 use crate::table::{LightFunctions, SamplerFunctions, Table};
 use crate::technique::{BatchSampler, BatchTechnique};
 use etendue::light::{
@@ -44,6 +45,7 @@ macro_rules! placed {
             p: Vec3<f32>,
             n: Vec3<f32>,
         }
+        impl Sealed for $name<'_> {}
         impl<'a> BatchSampler for $name<'a> {
             type Of<$r: Real> = $of;
             #[inline(always)]

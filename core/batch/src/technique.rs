@@ -1,12 +1,13 @@
 //! Prepared lights over any kind of number: what a loop over packets needs to know of them.
 
+use crate::sealed::Sealed;
 use crate::table::{InTable, LightFunctions, SamplerFunctions, Table};
 use etendue::light::*;
 use etendue::reflection::Reflection;
 use etendue::{Lanewise, LightSampler, Real, Vec3};
 
 /// A light prepared for a shading point, or the same for all of them, in numbers of single precision.
-pub trait BatchSampler: Copy {
+pub trait BatchSampler: Copy + Sealed {
     /// The prepared light over packets.
     type Of<R: Real>: LightSampler<R>;
     /// The prepared light in every lane of a packet.
@@ -15,6 +16,7 @@ pub trait BatchSampler: Copy {
     fn sampler_functions(table: &'static Table) -> SamplerFunctions<Self>;
 }
 
+impl Sealed for ByRadiance<'_> {}
 impl<'a> BatchSampler for ByRadiance<'a> {
     type Of<R: Real> = Self;
     #[inline(always)]
@@ -115,6 +117,7 @@ macro_rules! implement {
         }
     };
     (sampler $sampler:ident $([$n:literal])?) => {
+        impl Sealed for $sampler<f32 $(, $n)?> {}
         impl BatchSampler for $sampler<f32 $(, $n)?> {
             type Of<R: Real> = $sampler<R $(, $n)?>;
             #[inline(always)]

@@ -1,5 +1,6 @@
 //! Warps over any kind of number: what a loop over packets needs to know of them.
 
+use crate::sealed::Sealed;
 use crate::table::{InTable, Table, WarpFunctions};
 use etendue::light::ProjectedImage;
 use etendue::reflection::Reflection;
@@ -7,7 +8,7 @@ use etendue::warp::*;
 use etendue::{Real, Vec2, Vec3};
 
 /// A warp in numbers of single precision.
-pub trait BatchWarp: Copy {
+pub trait BatchWarp: Copy + Sealed {
     /// The warp over packets.
     type Of<R: Real>: Copy;
     /// How many random numbers it maps.
@@ -69,6 +70,7 @@ macro_rules! warps {
             |warp, point| Vec2::new(Warp1::invert(warp, point[0]), R::lit(0.0)));
     };
     (@ $name:ident; $($rest:tt)+) => {
+        impl Sealed for $name {}
         impl BatchWarp for $name {
             type Of<R: Real> = $name;
             #[inline(always)]
@@ -80,6 +82,7 @@ macro_rules! warps {
         }
     };
     (@ $name:ident [R]; $($rest:tt)+) => {
+        impl Sealed for $name<f32> {}
         impl BatchWarp for $name<f32> {
             type Of<R: Real> = $name<R>;
             #[inline(always)]
@@ -115,6 +118,7 @@ macro_rules! warps {
 }
 etendue::warps!(warps! {});
 
+impl Sealed for ProjectedImage<'_> {}
 impl<'a> BatchWarp for ProjectedImage<'a> {
     type Of<R: Real> = Self;
     #[inline(always)]
