@@ -75,12 +75,6 @@ pub(crate) fn quotient_if_any<R: Real>(a: R, b: R) -> (R, R::Mask) {
     ((a / R::blend(some, b, R::lit(1.0))).keep(some).clamped(-most, most), some)
 }
 
-/// True in double precision, where series are longer and iterations take more steps.
-#[inline(always)]
-pub(crate) fn double<R: Real>() -> bool {
-    size_of::<R::Scalar>() > 4
-}
-
 /// Angle of (x, y) in turns, in [0, 1): the inverse of [`Real::sin_cos_turns`]. 0 at the origin.
 #[inline(always)]
 pub fn atan2_turns<R: Real>(y: R, x: R) -> R {

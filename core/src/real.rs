@@ -1,4 +1,4 @@
-//! Scalars and packets under one trait. Only this module and its children name `wide` and `libm`.
+//! Scalars and packets under one trait. Only this module and its children name `libm`, and do arithmetic on packets of `wide`.
 //!
 //! A scalar operation that might round differently from its packet counterpart (`mul_add`, `sqrt`, rounding) is computed as
 //! lane 0 of a packet, which the compiler reduces to the scalar instruction. So code written once over [`Real`] gives the same
@@ -79,6 +79,9 @@ pub trait Uint: Copy + Debug + BitAnd<Output = Self> + BitOr<Output = Self> + Bi
     }
 }
 
+/// The greatest number of lanes of a packet: some routines keep a word for each lane, and do not compile for more.
+pub const MOST_LANES: usize = 16;
+
 /// The numbers and the counters of a loop: see [`Real::iterate_with_words`].
 pub type State<R, const N: usize, const W: usize> = ([R; N], [<R as Real>::Uint; W]);
 
@@ -108,8 +111,10 @@ pub trait Real:
     type Mask: Mask;
     /// A 32-bit counter per lane.
     type Uint: Uint;
-    /// Number of lanes.
+    /// Number of lanes, at most [`MOST_LANES`].
     const LANES: usize;
+    /// True in double precision, where series are longer and iterations take more steps.
+    const DOUBLE: bool;
     /// The largest number below 1 on the grid of [`unit`](Real::unit): 1 − 2⁻²⁴ at every precision.
     const ONE_MINUS_EPSILON: Self;
 

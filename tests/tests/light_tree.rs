@@ -490,6 +490,10 @@ fn memory_of_the_wrong_size_is_refused() {
     assert_eq!(LightTree::refit(&lights[1..], &mut nodes, &places[1..]), Err(TableError::Length));
     let more: Vec<_> = lights.iter().chain(&lights[..1]).copied().collect();
     assert_eq!(LightTree::refit(&more, &mut nodes, &places), Err(TableError::Length));
+    // in memory of a larger tree, whose nodes beyond those of the smaller one name lights past its end
+    let (few, mut places) = (&lights[..9], vec![0; 9]);
+    LightTree::build(few, &mut nodes, &mut places).unwrap();
+    assert_eq!(LightTree::refit(few, &mut nodes, &places), Ok(()));
     let none = Grove::new(Vec::new());
     assert!(none.tree().is_empty());
     let choice = none.at(([0.0; 3], [0.0, 0.0, 1.0])).choose_by([1 << 31, 0]);

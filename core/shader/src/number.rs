@@ -231,6 +231,7 @@ macro_rules! real {
             type Mask = Truth;
             type Uint = Word;
             const LANES: usize = 1;
+            const DOUBLE: bool = false;
             const ONE_MINUS_EPSILON: Self = Self(ONE_MINUS_EPSILON);
             fn splat(value: Self) -> Self {
                 value

@@ -30,7 +30,7 @@ pub struct Cell2d<R: Real> {
 /// Twice the relative rounding error of one operation.
 #[inline(always)]
 fn epsilon<R: Real>() -> R {
-    R::lit(if size_of::<R::Scalar>() == 4 { f64::from(f32::EPSILON) } else { f64::EPSILON })
+    R::lit(if R::DOUBLE { f64::EPSILON } else { f64::from(f32::EPSILON) })
 }
 
 /// The number in [0, 1) for a position in cell `index` of n: (index + offset)/n, moved by an ulp where rounding left the cell.

@@ -7,7 +7,7 @@ use super::distant::met;
 use super::sample::LightSample;
 use super::sampler::LightSampler;
 use crate::discrete::TableError;
-use crate::real::{GREATEST, Mask, Real, unit_interval};
+use crate::real::{GREATEST, MOST_LANES, Mask, Real, unit_interval};
 use crate::vector::{Vec2, Vec3};
 use crate::warp::{Octahedral, Warp};
 use core::f64::consts::PI;
@@ -77,7 +77,7 @@ impl PortalMap {
     /// small step by the inverse of the sine.
     #[inline(always)]
     fn slack<R: Real>(&self) -> R {
-        R::lit(if size_of::<R::Scalar>() == 4 { 3e-7 } else { 1e-15 } / self.sin)
+        R::lit(if R::DOUBLE { 1e-15 } else { 3e-7 } / self.sin)
     }
     #[inline(always)]
     fn local<R: Real>(self, v: Vec3<R>) -> [R; 3] {
@@ -238,6 +238,7 @@ impl<'a> PortalEnvironment<'a> {
     #[inline(always)]
     fn prepared<R: Real>(&self, p: Vec3<R>, worth: impl Fn(&Portal) -> R) -> PortalsByRadiance<'a, R> {
         let mut windows = [Window::default(); MOST_PORTALS];
+        const { assert!(R::LANES <= MOST_LANES) };
         let mut cells = [0; MOST_LANES];
         let mut weights = [0.0; MOST_LANES];
         for ((portal, table), window) in self.portals.iter().zip(self.tables).zip(&mut windows) {
@@ -260,7 +261,6 @@ impl<'a> PortalEnvironment<'a> {
     }
 }
 
-const MOST_LANES: usize = 16;
 /// The least cosine that a corner of a portal counts with; so much below the horizon, rounding does not matter.
 const GRAZING: f64 = 1e-3;
 /// Weights are at least this: less has no reciprocal in single precision.

@@ -3,7 +3,6 @@
 use super::MOST;
 use super::flat::two_words;
 use super::outline::Outline;
-use crate::math::double;
 use crate::real::{Mask, Real};
 use crate::spherical::{height_dw, sum_dw};
 use crate::vector::Vec3;
@@ -35,7 +34,7 @@ impl<R: Real> Line<R> {
         // more than the rounding of the normal, which is small for a point near the line
         let reserve = self.reach * R::lit(1e-5);
         let crosses = light.crosses(plane, height, reserve);
-        if double::<R>() || !crosses.any() {
+        if R::DOUBLE || !crosses.any() {
             return height;
         }
         let ahead = base - self.from;

@@ -1,7 +1,7 @@
 //! Convex polygons as seen from a point, and what planes leave of them.
 
 use super::{COMPACT, TooMany};
-use crate::math::{double, polynomial, rsqrt};
+use crate::math::{polynomial, rsqrt};
 use crate::real::{Mask, Real};
 use crate::vector::Vec3;
 
@@ -43,9 +43,9 @@ const EXCESS: [f64; 10] = [
 fn excess<R: Real>(z: R) -> R {
     let (half, one) = (R::lit(0.5), R::lit(1.0));
     // the terms left out are less than 2e−8 z up to this limit, and 1e−16 z in double precision
-    let limit = R::lit(if double::<R>() { 0.06 } else { 0.2 });
+    let limit = R::lit(if R::DOUBLE { 0.06 } else { 0.2 });
     let near = |z: R| {
-        z * if double::<R>() { polynomial(z, EXCESS) } else { polynomial(z, [0, 1, 2, 3, 4, 5, 6].map(|i| EXCESS[i])) }
+        z * if R::DOUBLE { polynomial(z, EXCESS) } else { polynomial(z, [0, 1, 2, 3, 4, 5, 6].map(|i| EXCESS[i])) }
     };
     let is_near = z.lt(limit);
     if is_near.all() {
@@ -57,7 +57,7 @@ fn excess<R: Real>(z: R) -> R {
         (half * z / (one + cos), one / cos)
     };
     let (first, over_first) = halved(z);
-    let far = if double::<R>() {
+    let far = if R::DOUBLE {
         let (second, over_second) = halved(first);
         (near(second) + second) * over_second
     } else {

@@ -77,6 +77,7 @@ macro_rules! scalar_real {
             type Mask = bool;
             type Uint = u32;
             const LANES: usize = 1;
+            const DOUBLE: bool = size_of::<$scalar>() > 4;
             const ONE_MINUS_EPSILON: Self = 1.0 - 1.0 / 16_777_216.0;
             #[inline(always)]
             fn splat(value: $scalar) -> Self {
@@ -190,6 +191,7 @@ macro_rules! packet_real {
             type Mask = $mask;
             type Uint = $uint;
             const LANES: usize = $lanes;
+            const DOUBLE: bool = size_of::<$scalar>() > 4;
             const ONE_MINUS_EPSILON: Self = $packet::splat(1.0 - 1.0 / 16_777_216.0);
             #[inline(always)]
             fn splat(value: $scalar) -> Self {

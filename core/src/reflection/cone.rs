@@ -1,6 +1,6 @@
 //! Elliptic cones, to which a linear map turns spheres as they are seen from a point.
 
-use crate::math::{double, polynomial, ratio, rsqrt};
+use crate::math::{polynomial, ratio, rsqrt};
 use crate::real::{Mask, Real};
 use crate::vector::{Frame, Vec3};
 use core::f64::consts::PI;
@@ -46,7 +46,7 @@ impl<R: Real> Symmetric<R> {
     /// Lanes in which an entry across from the diagonal is not negligible beside those of its row and column, however small these are.
     #[inline(always)]
     fn is_open(&self) -> R::Mask {
-        let least = R::lit(if double::<R>() { 1e-30 } else { 1e-14 });
+        let least = R::lit(if R::DOUBLE { 1e-30 } else { 1e-14 });
         (0..3).fold(R::Mask::splat(false), |open, k| {
             let beside = (self.diagonal[(k + 1) % 3] * self.diagonal[(k + 2) % 3]).abs();
             open | (self.across[k] * self.across[k]).gt(beside * least)

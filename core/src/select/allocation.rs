@@ -1,13 +1,10 @@
 //! Allocation of the samples of a set to a few lights.
 
 use super::{Choice, FEW, LightChoice};
-use crate::real::{Real, Uint, unit_interval};
+use crate::real::{MOST_LANES, Real, Uint, unit_interval};
 
 /// What is added to each weight, as a fraction of the sum: a pixel may differ from the points that the weights belong to.
 const LEAST: f32 = 0.02;
-
-/// The greatest number of lanes of a packet.
-const MOST_LANES: usize = 16;
 
 /// Allocates a block of samples to a few lights in advance, instead of choosing a light at random for each sample.
 ///
@@ -122,6 +119,7 @@ impl Allocation {
             };
         }
         // each light has a sample, so successive lanes belong to the same light or to successive ones
+        const { assert!(R::LANES <= MOST_LANES) };
         let mut places = [begin; MOST_LANES];
         let mut k = begin;
         for (place, j) in places.iter_mut().zip(first..first.saturating_add(lanes)) {

@@ -8,7 +8,7 @@ mod words;
 
 use super::{Choice, Gloss, LightBound, LightChoice};
 use crate::discrete::TableError;
-use crate::real::{Real, Uint};
+use crate::real::{MOST_LANES, Real, Uint};
 use crate::vector::Vec3;
 use build::{Build, nodes_for};
 pub use build::{Join, Sequential};
@@ -21,8 +21,6 @@ pub use words::{TreeWords, TreeWordsAt};
 /// The index of a [`Choice`] of a [`LightTree`] where no light can contribute.
 pub const NO_LIGHT: u32 = u32::MAX;
 
-/// The greatest number of lanes of a packet.
-const MOST_LANES: usize = 16;
 /// More than the number of levels of 2²⁷ lights: seven splits, each of which leaves at most 15/16, leave a child at most 0.64 of a node.
 const DEEPEST: usize = 64;
 
@@ -143,6 +141,8 @@ impl<'a> LightTree<'a> {
         if lights.len() != places.len() || nodes.len() < nodes_for(lights.len()) {
             return Err(TableError::Length);
         }
+        // what is beyond may be left of a larger tree
+        let nodes = &mut nodes[..nodes_for(lights.len())];
         let units = Units::of(lights);
         for index in (0..nodes.len()).rev() {
             nodes[index].forget_kinds();
@@ -231,6 +231,7 @@ impl<'a, R: Real> TreeAt<'a, R> {
     }
     #[inline(always)]
     fn descend(&self, bits: [R::Uint; 2], gloss: Option<&Gloss<R>>) -> Choice<R> {
+        const { assert!(R::LANES <= MOST_LANES) };
         let mut chosen = [Chosen::default(); MOST_LANES / 8];
         let nodes = self.tree.nodes;
         if R::LANES == 1 {
@@ -260,6 +261,7 @@ impl<'a, R: Real> TreeAt<'a, R> {
     #[inline(always)]
     fn pmfs(&self, index: R::Uint, gloss: Option<&Gloss<R>>) -> [[f32; 8]; MOST_LANES / 8] {
         let LightTree { nodes, places } = self.tree;
+        const { assert!(R::LANES <= MOST_LANES) };
         let mut pmfs = [[0.0; 8]; MOST_LANES / 8];
         if R::LANES == 1 {
             let gloss = gloss.and_then(|_| self.gloss(0));

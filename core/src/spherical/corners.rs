@@ -1,7 +1,6 @@
 //! Corners of convex polygons relative to a point.
 
 use super::double_word::{cross_sums, sum_dw};
-use crate::math::double;
 use crate::real::Real;
 use crate::vector::Vec3;
 
@@ -34,7 +33,7 @@ impl<R: Real, const N: usize> PlacedCorners<R, N> {
     pub(crate) fn with_edges(first: [Vec3<R>; 2], edges: [[Vec3<R>; 2]; N]) -> Self {
         let corners = edges.map(|edge| sum_dw(first, edge));
         let reach = corners.iter().chain(&edges).fold(R::lit(0.0), |most, [v, _]| most.greater(v.max_abs()));
-        let finite = reach.lt(R::lit(0.5 * if double::<R>() { f64::MAX } else { f64::from(f32::MAX) }));
+        let finite = reach.lt(R::lit(0.5 * if R::DOUBLE { f64::MAX } else { f64::from(f32::MAX) }));
         let scale = reach.pow2_scale();
         let scaled = |pair: [Vec3<R>; 2]| pair.map(|v| v.keep(finite) * scale);
         let (corners, edges) = (corners.map(|pair| rounded(scaled(pair))), edges.map(scaled));

@@ -1,6 +1,5 @@
 //! Directions and distances of points, and vectors in units in which they neither over- nor underflow.
 
-use crate::math::double;
 use crate::real::Real;
 use crate::vector::Vec3;
 
@@ -19,7 +18,7 @@ pub struct DirectionSample<R> {
 /// proportional to the cosine, so an estimate of irradiance does not change where the direction does.
 #[inline(always)]
 pub(crate) fn above_horizon<R: Real>(w: Vec3<R>, normal: Vec3<R>) -> Vec3<R> {
-    let least = R::lit(if double::<R>() { 3.0 / 9_007_199_254_740_992.0 } else { 3.0 / 16_777_216.0 });
+    let least = R::lit(if R::DOUBLE { 3.0 / 9_007_199_254_740_992.0 } else { 3.0 / 16_777_216.0 });
     let cos = w.dot(normal);
     // what a degenerate shape returns may be 0, or far below
     let low = cos.abs().lt(least) & w.max_abs().gt(R::lit(0.5));
@@ -33,6 +32,5 @@ pub(crate) fn to_unit<R: Real, const N: usize>(vectors: [Vec3<R>; N]) -> ([Vec3<
     let reach = vectors.iter().fold(R::lit(0.0), |most, v| most.greater(v.max_abs()));
     let finite = reach.lt(R::lit(f64::INFINITY));
     let scale = reach.pow2_scale();
-    let scaled = |v: Vec3<R>| Vec3::new(v.x.keep(finite), v.y.keep(finite), v.z.keep(finite)) * scale;
-    (vectors.map(scaled), scale)
+    (vectors.map(|v| v.keep(finite) * scale), scale)
 }

@@ -2,9 +2,8 @@
 
 use super::direction::DirectionSample;
 use super::double_word::compensated_dot;
-use super::line::finite_or_zero;
 use crate::lanewise::lanewise;
-use crate::math::{double, quotient, ratio, rsqrt};
+use crate::math::{quotient, ratio, rsqrt};
 use crate::real::{Real, unit_interval};
 use crate::vector::{Frame, Vec2, Vec3};
 use crate::warp::{Linear, Warp, Warp1};
@@ -124,7 +123,7 @@ impl<R: Real> SphericalDisk<R> {
         let reach = center.max_abs().greater(radius.abs());
         let finite = reach.lt(R::lit(f64::INFINITY));
         let scale = reach.keep(finite).pow2_scale();
-        let (c, r) = (finite_or_zero(center, finite) * scale, radius.greater(zero).keep(finite) * scale);
+        let (c, r) = (center.keep(finite) * scale, radius.greater(zero).keep(finite) * scale);
         let normal = normal * normal.max_abs().pow2_scale();
         let squared = normal.length_squared();
         let some = squared.gt(zero);
@@ -204,7 +203,7 @@ impl<R: Real> SphericalDisk<R> {
     #[inline(always)]
     fn panel(&self, low: R, high: R) -> R {
         let width = high - low;
-        let nodes: &[(f64, f64)] = if double::<R>() { &WIDE } else { &NARROW };
+        let nodes: &[(f64, f64)] = if R::DOUBLE { &WIDE } else { &NARROW };
         let mut sum = R::lit(0.0);
         for &(x, weight) in nodes {
             let s = width.mul_add(R::lit(x), low);
@@ -234,7 +233,7 @@ impl<R: Real> SphericalDisk<R> {
         let share = part - before;
         let guess = Linear { a: self.integrand(first * first), b: self.integrand(last * last) };
         let mut t = (last - first).mul_add(guess.sample(unit_interval(ratio(share, whole))), first);
-        let steps = if double::<R>() { 4 } else { 2 };
+        let steps = if R::DOUBLE { 4 } else { 2 };
         for _ in 0..steps {
             let off = self.panel(low, t.sqrt().sqrt()) - share;
             t = (t - off / self.integrand(t * t)).clamped(first, last);
@@ -358,7 +357,7 @@ impl<R: Real> SphericalDisk<R> {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let Vec3 { x, y, z } = self.frame.to_local(w);
         // a disk may be thinner than the resolution of a direction: move back to it across, not towards the centre
-        let rounding = R::lit(if double::<R>() { 8.0 / 9_007_199_254_740_992.0 } else { 8.0 / 16_777_216.0 });
+        let rounding = R::lit(if R::DOUBLE { 8.0 / 9_007_199_254_740_992.0 } else { 8.0 / 16_777_216.0 });
         let high = ratio(y.abs(), self.sin_major).lesser(one);
         let wide = self.sin_minor * ((one - high) * (one + high)).sqrt();
         let x = R::blend((x.abs() - wide).le(rounding), x.clamped(-wide, wide), x);

@@ -4,7 +4,7 @@ use super::direction::{DirectionSample, above_horizon};
 use super::double_word::{dot_dw, rounded_sum, unit_normal};
 use super::projected_cap::segment;
 use crate::lanewise::lanewise;
-use crate::math::{double, ratio};
+use crate::math::ratio;
 use crate::real::{Real, unit_interval};
 use crate::vector::Vec3;
 use crate::warp::{Linear, Warp1};
@@ -20,11 +20,7 @@ fn common_scale<R: Real>(a: Vec3<R>, edge: Vec3<R>) -> (Vec3<R>, Vec3<R>, R) {
     let reach = a.max_abs().greater(edge.max_abs());
     let finite = reach.lt(R::lit(f64::INFINITY));
     let scale = reach.keep(finite).pow2_scale();
-    (finite_or_zero(a, finite) * scale, finite_or_zero(edge, finite) * scale, scale)
-}
-#[inline(always)]
-pub(super) fn finite_or_zero<R: Real>(v: Vec3<R>, finite: R::Mask) -> Vec3<R> {
-    Vec3::new(v.x.keep(finite), v.y.keep(finite), v.z.keep(finite))
+    (a.keep(finite) * scale, edge.keep(finite) * scale, scale)
 }
 
 lanewise! {
@@ -196,7 +192,7 @@ impl<R: Real> End<R> {
         let zero = R::lit(0.0);
         let (_, middle, _) = self.irradiance(most);
         let mut x = Linear { a: self.density, b: middle }.sample(unit_interval(ratio(part, self.half))) * most;
-        let steps = if double::<R>() { 4 } else { 3 };
+        let steps = if R::DOUBLE { 4 } else { 3 };
         for _ in 0..steps {
             let (sum, value, slope) = self.irradiance(x);
             let off = sum - part;

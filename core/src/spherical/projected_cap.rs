@@ -6,7 +6,7 @@ mod segment;
 use super::direction::{DirectionSample, above_horizon};
 use super::double_word::dot_dw;
 use crate::lanewise::lanewise;
-use crate::math::{difference_of_products, double, ratio, rsqrt};
+use crate::math::{ratio, rsqrt};
 use crate::real::{Mask, Real, unit_interval};
 use crate::vector::{Frame, Vec2, Vec3};
 use crate::warp::{Cone, Warp, concentric, invert_concentric};
@@ -114,13 +114,6 @@ fn tangent_distance<R: Real>(r: R, n: Vec3<R>, [height, rest]: [R; 2]) -> (R, R)
     (shrink.mul_add(off, shrink), distance)
 }
 
-/// a×b, each component rounded once or twice: that of nearly parallel vectors keeps its digits.
-#[inline(always)]
-fn cross<R: Real>(a: Vec3<R>, b: Vec3<R>) -> Vec3<R> {
-    let of = difference_of_products;
-    Vec3::new(of(a.y, b.z, a.z, b.y), of(a.z, b.x, a.x, b.z), of(a.x, b.y, a.y, b.x))
-}
-
 impl<R: Real> ProjectedCap<R> {
     /// Prepares for a sphere with its centre at `center` relative to the point (both lengths in one unit), on a surface with
     /// the normal `normal` (of any length).
@@ -144,13 +137,13 @@ impl<R: Real> ProjectedCap<R> {
         let (shrink, margin) = tangent_distance(r, normal, [height, rest]);
         let (along_z, margin) = (height * shrink, margin * shrink);
         // y axis: horizontal, perpendicular to the plane of normal and axis, before the normal is rounded
-        let across = cross(normal, c);
+        let across = normal.cross(c);
         let normal = normal * shrink;
         let width_squared = across.length_squared();
         let oblique = width_squared.gt(R::lit(1e-36));
         let inverse_width = rsqrt(R::blend(oblique, width_squared, one));
         let t = Vec3::blend(oblique, across * inverse_width, Frame::new(normal).t);
-        let side = cross(t, normal);
+        let side = t.cross(normal);
         let s = side.mul_add(R::lit(0.5) * (one - side.length_squared()), side);
         let frame = Frame { s, t, n: normal };
         let along_x = (width_squared * inverse_width * shrink).keep(oblique);
@@ -351,7 +344,7 @@ impl<R: Real> ProjectedCap<R> {
         let along = w.x.mul_add(self.along_x, w.z * self.along_z);
         let root = (along * along - self.power).greater(zero).sqrt();
         let far = R::blend(along.lt(zero), ratio(-self.power, root - along), root + along);
-        let most = R::lit(if double::<R>() { f64::MAX } else { f64::from(f32::MAX) });
+        let most = R::lit(f64::from(f32::MAX));
         let distance = (R::blend(self.inside(), far, near) * self.unit).lesser(most);
         DirectionSample { direction: above_horizon(self.frame.to_world(w), self.frame.n), distance }
     }

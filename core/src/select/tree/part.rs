@@ -11,7 +11,7 @@ pub(super) const WEAK: f64 = 1.0 / (1_u64 << 40) as f64;
 /// The places of a symmetric matrix.
 pub(super) const PLACES: [[usize; 2]; 6] = [[0, 0], [1, 1], [2, 2], [0, 1], [0, 2], [1, 2]];
 
-/// The mean cosine that the importance has for lights without a direction; see `F` in [`Node8::weigh`](super::node::Node8).
+/// The mean cosine that the importance has for lights without a direction.
 const ISOTROPIC: f64 = 0.230_329_433;
 
 /// A light, or a set of lights, in scaled units.

@@ -4,7 +4,7 @@
 
 use super::ProjectedCap;
 use super::segment::{segment_difference, segment_ratio};
-use crate::math::{double, ratio};
+use crate::math::ratio;
 use crate::real::{Mask, Real};
 use crate::vector::{Vec2, Vec3};
 
@@ -140,7 +140,7 @@ impl<R: Real> ProjectedCap<R> {
     /// Where single precision would leave few digits of the area beyond t: a share of less than 1/64 of the half.
     #[inline(always)]
     fn ends(share: R) -> R::Mask {
-        share.lt(R::lit(if double::<R>() { -1.0 } else { 1.0 / 64.0 }))
+        share.lt(R::lit(if R::DOUBLE { -1.0 } else { 1.0 / 64.0 }))
     }
     /// 1 − t for the t in [0, 1] beyond which lies the share `left` of the half-lune.
     #[inline]
@@ -166,7 +166,7 @@ impl<R: Real> ProjectedCap<R> {
         // the thickest lune has 0.88 root² near its ends
         let rest = (root * series).greater(half * root * root).lesser(one);
         // a step cubes the error, so one below `enough` of the rest is the last
-        let (steps, enough) = if double::<R>() { (7, 0.0) } else { (4, 1.0 / 128.0) };
+        let (steps, enough) = if R::DOUBLE { (7, 0.0) } else { (4, 1.0 / 128.0) };
         let step = |[rest]: [R; 1], [open]: [R::Mask; 1]| {
             let slice = self.slice(rest);
             let mut off = slice.area - target;

@@ -1,6 +1,6 @@
 //! The area of a circular segment, and its inverse.
 
-use crate::math::{double, polynomial, ratio};
+use crate::math::{polynomial, ratio};
 use crate::real::Real;
 use core::f64::consts::{FRAC_1_PI, FRAC_PI_2};
 
@@ -18,7 +18,7 @@ pub(in crate::spherical) fn segment<R: Real>(phi: R) -> R {
         c
     }
     let square = phi * phi;
-    let series = if double::<R>() {
+    let series = if R::DOUBLE {
         polynomial(square, const { coefficients::<16>() })
     } else {
         polynomial(square, const { coefficients::<9>() })
@@ -72,7 +72,7 @@ pub(super) fn segment_ratio<R: Real>(cos: R) -> R {
         3.062_672_009_183_607_135e-4,
     ];
     let versine = R::lit(1.0) - cos;
-    if double::<R>() { polynomial(versine, DOUBLE) } else { polynomial(versine, SINGLE) }
+    if R::DOUBLE { polynomial(versine, DOUBLE) } else { polynomial(versine, SINGLE) }
 }
 
 /// (x ρ(x) − y ρ(y))/(x − y) for x and y in [0, 1], from 0.27 to 1.6, within 1e−8 (single precision): a difference of segments
@@ -133,7 +133,7 @@ pub(super) fn segment_difference<R: Real>(x: R, y: R) -> R {
         difference
     }
     let (x, y) = (R::lit(1.0) - x, R::lit(1.0) - y);
-    if double::<R>() { divided(x, y, &DOUBLE) } else { divided(x, y, &SINGLE) }
+    if R::DOUBLE { divided(x, y, &DOUBLE) } else { divided(x, y, &SINGLE) }
 }
 
 /// S(φ) from the sine and the cosine of φ in [0, π/2].
@@ -182,7 +182,7 @@ pub(super) fn invert_segment<R: Real>(area: R) -> (R, R) {
         ],
     );
     let (s, c) = (s.lesser(one), c.clamped(zero, one));
-    if !double::<R>() {
+    if !R::DOUBLE {
         return (s, c);
     }
     let turns = R::lit(0.5 * FRAC_1_PI);

@@ -3,7 +3,7 @@
 
 use super::sector::{Corner, Sector};
 use crate::lanewise::lanewise;
-use crate::math::{double, ratio, rsqrt};
+use crate::math::{ratio, rsqrt};
 use crate::real::{Mask, Real, unit_interval};
 use crate::vector::{Vec2, Vec3};
 
@@ -13,7 +13,7 @@ const NARROWEST_F64: f64 = 1e-16;
 
 #[inline(always)]
 pub(in crate::spherical) fn narrowest<R: Real>() -> R {
-    R::lit(if double::<R>() { NARROWEST_F64 } else { NARROWEST })
+    R::lit(if R::DOUBLE { NARROWEST_F64 } else { NARROWEST })
 }
 
 lanewise! {

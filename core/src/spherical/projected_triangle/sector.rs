@@ -3,7 +3,7 @@
 
 use super::super::direction::above_horizon;
 use crate::lanewise::lanewise;
-use crate::math::{double, ratio, rsqrt};
+use crate::math::{ratio, rsqrt};
 use crate::real::{Mask, Real, unit_interval};
 use crate::vector::{Vec2, Vec3};
 
@@ -65,7 +65,7 @@ pub(in crate::spherical) struct Corner<R> {
 
 /// Newton step, relative to its variable, below which `R` counts as converged: the next error is its square.
 fn enough<R: Real>() -> R {
-    R::lit(if double::<R>() { 1e-9 } else { 3e-4 })
+    R::lit(if R::DOUBLE { 1e-9 } else { 3e-4 })
 }
 
 /// ∫₀¹ t²/((1+at²)(1+bt²)) dt for a, b in [0, ½], given a+b and ab, by Gauss's rule for the weight t².
@@ -97,7 +97,7 @@ fn mean_fall<R: Real>(sum: R, product: R) -> R {
         let ((a, p), (b, q)) = (pair(&[nodes[0], nodes[1]]), pair(&[nodes[2], nodes[3]]));
         a.mul_add(q, b * p) / (p * q)
     };
-    if double::<R>() { four(&MANY[..4]) + four(&MANY[4..]) } else { four(&FEW) }
+    if R::DOUBLE { four(&MANY[..4]) + four(&MANY[4..]) } else { four(&FEW) }
 }
 
 /// An area and its derivative.

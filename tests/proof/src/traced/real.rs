@@ -13,6 +13,7 @@ impl Real for Traced {
     type Mask = bool;
     type Uint = u32;
     const LANES: usize = 1;
+    const DOUBLE: bool = false;
     const ONE_MINUS_EPSILON: Self = {
         let point = Interval::point(1.0 - 1.0 / 16_777_216.0);
         Self {
