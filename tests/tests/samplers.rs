@@ -1,7 +1,7 @@
 //! Every light by every technique, as an integrator uses it: one trait, one pdf.
 
 use etendue::reflection::Reflection;
-use etendue::{LightSampler, Mask, Parallelogram, Real, Rectangle, Sphere, Triangle, Vec2, Vec3, f32x8};
+use etendue::{Lanewise, LightSampler, Mask, Parallelogram, Real, Rectangle, Sphere, Triangle, Vec2, Vec3, f32x8};
 use etendue_oracle::{V3, cross, dot, length, sub, unit, wide};
 use etendue_properties::generators::Random;
 use etendue_properties::properties::{Coordinates, squares_of};
@@ -154,8 +154,8 @@ fn splat_is_the_same_sampler() {
     let wide = Triangle::<f32x8>::splat(triangle);
     let (pw, nw) = (Vec3::splat(p), Vec3::splat(n));
     macro_rules! same {
-        ($($by:ident($($point:expr),+; $($packet:expr),+) as $alias:ident),+) => {$(
-            let one = etendue::light::$alias::<f32x8>::splat(triangle.$by($($point),+)).sample(us);
+        ($($by:ident($($point:expr),+; $($packet:expr),+)),+) => {$(
+            let one = triangle.$by($($point),+).splat::<f32x8>().sample(us);
             let other = wide.$by($($packet),+).sample(us);
             assert_eq!(one.direction, other.direction);
             assert_eq!(one.pdf, other.pdf);
@@ -164,10 +164,10 @@ fn splat_is_the_same_sampler() {
         )+};
     }
     same!(
-        by_area(p; pw) as TriangleByArea,
-        by_solid_angle(p; pw) as TriangleBySolidAngle,
-        by_projected_solid_angle(p, n; pw, nw) as TriangleByProjectedSolidAngle,
-        by_cosine_warp(p, n; pw, nw) as TriangleByCosineWarp
+        by_area(p; pw),
+        by_solid_angle(p; pw),
+        by_projected_solid_angle(p, n; pw, nw),
+        by_cosine_warp(p, n; pw, nw)
     );
 }
 
