@@ -47,7 +47,6 @@ pub mod real;
 pub mod reflection;
 pub mod select;
 pub mod sequence;
-pub mod spherical;
 pub mod vector;
 pub mod warp;
 

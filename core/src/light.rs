@@ -90,67 +90,74 @@
 
 mod around;
 mod cells;
+mod cosine_warped;
 mod daylight;
 mod delta;
+mod direction;
 mod disk;
 mod distant;
 mod environment;
-mod flat;
 mod hierarchy;
 mod line;
 mod opening;
+mod parallelogram;
 mod patch;
 mod picture;
 mod picture_words;
 mod pictured;
 mod pictured_curved;
 mod pictured_flat;
+mod plane;
 mod polygon;
 mod portal;
 mod profile;
 mod projector;
+mod rectangle;
 mod sample;
 mod sampler;
+mod shape;
+#[doc(hidden)]
+pub mod shapes;
 mod sphere;
 mod spread;
 mod surface;
 mod techniques;
+mod triangle;
 
 pub use cells::Region;
 pub use daylight::{GeneralSky, Moment, SunPosition};
 pub use delta::{
     DirectionalLight, DirectionalLightByDelta, PointLight, PointLightByDelta, SpotLight, SpotLightByDelta,
 };
-pub use disk::{Disk, DiskByArea, DiskBySolidAngle, PlacedDisk};
+pub use disk::{Disk, DiskByArea, DiskBySolidAngle};
 pub use distant::{
     ConstantEnvironment, EnvironmentByProjectedSolidAngle, EnvironmentBySolidAngle, Sun, SunBySolidAngle,
 };
 pub use environment::{
     ByRadiance, EnvironmentMap, EnvironmentSample, EnvironmentWords, ImageEnvironment, ImageSampler, Texel,
 };
-pub use flat::{
-    Parallelogram, ParallelogramByArea, ParallelogramByProjectedSolidAngle, ParallelogramByReflection,
-    ParallelogramBySolidAngle, Rectangle, RectangleByCosineWarp, RectangleBySolidAngle, Triangle, TriangleByArea,
-    TriangleByCosineWarp, TriangleByProjectedSolidAngle, TriangleByReflection, TriangleBySolidAngle,
-};
-pub use line::{Line, LineByAngle, LineByLength, LineByProjectedSolidAngle, PlacedLine};
+pub use line::{Line, LineByAngle, LineByLength, LineByProjectedSolidAngle};
 pub use opening::LuminousOpening;
-pub use patch::{BilinearPatch, PatchByArea, PlacedPatch};
+pub use parallelogram::{
+    Parallelogram, ParallelogramByArea, ParallelogramByProjectedSolidAngle, ParallelogramByReflection,
+    ParallelogramBySolidAngle,
+};
+pub use patch::{BilinearPatch, PatchByArea};
 pub use picture::{Picture, mean_of_bilinear};
 pub use picture_words::PictureWords;
 pub use pictured::{ByPicture, PictureSample, Pictured, PicturedLight, PicturedSampler};
 pub use pictured_curved::Curved;
 pub use pictured_flat::{Area, Flat, FlatLight, Projected, SolidAngle};
-pub use polygon::{
-    PlacedPolygon, Polygon, PolygonByArea, PolygonByProjectedSolidAngle, PolygonByReflection, PolygonBySolidAngle,
-};
+pub use polygon::{Polygon, PolygonByArea, PolygonByProjectedSolidAngle, PolygonByReflection, PolygonBySolidAngle};
 pub use portal::{MOST_PORTALS, Portal, PortalEnvironment, PortalMap, PortalTable, PortalsByRadiance};
 pub use profile::{Profile, ProfileError, ProfileWords};
 pub use projector::{ProjectedImage, Projector};
+pub use rectangle::{Rectangle, RectangleByCosineWarp, RectangleBySolidAngle};
 pub use sample::{FAR, LightSample};
 pub use sampler::{ByArea, ByCosineWarp, ByProjectedSolidAngle, ByReflection, BySolidAngle, LightSampler};
-pub use sphere::{
-    PlacedSphere, Sphere, SphereByArea, SphereByProjectedSolidAngle, SphereByReflection, SphereBySolidAngle,
-};
+pub use sphere::{Sphere, SphereByArea, SphereByProjectedSolidAngle, SphereByReflection, SphereBySolidAngle};
 pub use spread::Spread;
-pub use surface::{AreaSurface, PlacedParallelogram, PlacedTriangle, Surface, SurfaceHit, SurfacePoint};
+pub use triangle::{
+    Triangle, TriangleByArea, TriangleByCosineWarp, TriangleByProjectedSolidAngle, TriangleByReflection,
+    TriangleBySolidAngle,
+};

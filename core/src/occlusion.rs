@@ -51,9 +51,9 @@ mod line;
 mod outline;
 mod shapes;
 
+use crate::light::shapes::ProjectedCap;
 use crate::real::{Mask, Real};
 use crate::reflection::Reflection;
-use crate::spherical::ProjectedCap;
 use crate::vector::Vec3;
 use cap::Cap;
 use flat::{Flat, corner, exactly};

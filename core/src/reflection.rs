@@ -26,18 +26,14 @@
 //! assert!(sampler.sample(Vec2::new(0.3, 0.6)).valid());
 //! ```
 
-mod cap;
-mod cone;
 mod table;
 
 use crate::lanewise::lanewise;
 use crate::memory::Memory;
 use crate::real::{Real, Uint};
-use crate::spherical::SphericalCap;
 use crate::vector::{Frame, Vec2, Vec3};
 use crate::warp::{CosineHemisphere, Warp};
-pub(crate) use cap::ReflectedCap;
-use core::f64::consts::{FRAC_1_PI, PI};
+use core::f64::consts::FRAC_1_PI;
 use table::{SIDE, TABLE};
 
 /// Heights of a view below this, as a cosine, count as this.
@@ -186,27 +182,6 @@ impl<R: Real> Reflection<R> {
     pub fn from_cosine(&self, v: Vec3<R>) -> Vec3<R> {
         let x = v.x.mul_add(self.inverse_a, -(self.b * v.z));
         self.frame.to_world(Vec3::new(x, v.y * self.inverse_c, v.z))
-    }
-    /// The directions to a sphere with this centre relative to the point, after the map.
-    #[inline(always)]
-    pub(crate) fn cap(&self, center: Vec3<R>, radius: R) -> ReflectedCap<R> {
-        let cap = SphericalCap::new(center, radius);
-        let (Frame { s, t, n }, height, spread) = cap.rim();
-        let axes = [n * height, s, t].map(|v| self.to_cosine(v));
-        ReflectedCap::new(axes, [height, spread], self.determinant(), cap.inside() & radius.gt(R::lit(0.0)))
-    }
-    /// The projected solid angle after the map, in [0, π], of the part above the horizon of a sphere with this centre relative to the point:
-    /// about π times the part of the lobe that the sphere covers. A radius ≤ 0 gives 0, and a point inside π.
-    ///
-    /// Greatest error in single precision: 4e−5 of the result plus 1e−4, and 5e−4 of it where the horizon cuts the sphere (measured by
-    /// `LONG=1 cargo test -p etendue-tests --test reflection -- --nocapture` down to angular radii of 1e−3).
-    #[inline]
-    pub fn sphere(&self, center: Vec3<R>, radius: R) -> R {
-        let (zero, pi) = (R::lit(0.0), R::lit(PI));
-        let cap = SphericalCap::new(center, radius);
-        let [middle, u, v] = cap.circle().map(|v| self.to_cosine(v));
-        let covered = cone::projected_solid_angle(middle, u, v).clamped(zero, pi);
-        R::blend(cap.inside(), pi, covered).keep(radius.gt(zero))
     }
 }
 

@@ -1,5 +1,7 @@
 //! Points, directions and orthonormal frames over scalars or packets.
 
+pub(crate) mod double_word;
+
 use crate::lanewise::{lanewise, only};
 use crate::math::{difference_of_products, rsqrt};
 use crate::real::Real;

@@ -231,7 +231,7 @@ fn modules_import_one_way() {
 #[test]
 fn imports_are_found() {
     for (package, level, from, to) in [
-        ("core", "core", "light", "spherical"),
+        ("core", "core", "light", "reflection"),
         ("core/shader", "core/shader", "plan", "graph"),
         ("render", "render", "drive", "estimate"),
         ("render", "render", "image", "film"),

@@ -5,8 +5,8 @@
 
 use core::f64::consts::PI;
 use etendue::light::Disk;
+use etendue::light::shapes::SphericalCap;
 use etendue::sequence::{Independent, Sequence};
-use etendue::spherical::SphericalCap;
 use etendue::warp::{UniformHemisphere, Warp};
 use etendue::{LightSample, LightSampler, Real, Sphere, Vec2, Vec3, f32x8, u32x8};
 use etendue_properties::stats;

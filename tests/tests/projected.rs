@@ -2,7 +2,7 @@
 //! closed form.
 
 use core::f64::consts::PI;
-use etendue::spherical::{ProjectedCap, ProjectedSegment, ProjectedTriangle};
+use etendue::light::shapes::{ProjectedCap, ProjectedSegment, ProjectedTriangle};
 use etendue::{LightSample, LightSampler, Mask, Parallelogram, Real, Sphere, Triangle, Vec2, Vec3, Warp, f32x8};
 use etendue_oracle::{
     V3, above_horizon, along, basis, cross, dd, dot, exact_sum, lambert, length, narrow, projected_cap, unit, wide,

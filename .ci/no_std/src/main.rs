@@ -17,7 +17,7 @@ use etendue::select::{
 use etendue::sequence::{
     CounterRng, Independent, JointSobol, JointStratified, OwenSobol, Sequence, Stratified, ZOrder, ZOrderIndex,
 };
-use etendue::spherical::{
+use etendue::light::shapes::{
     CosineWarped, ProjectedCap, ProjectedPolygon, ProjectedSegment, ProjectedTriangle, SphericalCap, SphericalDisk,
     SphericalParallelogram, SphericalPolygon, SphericalRectangle, SphericalSegment, SphericalTriangle,
 };

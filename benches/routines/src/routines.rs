@@ -1,15 +1,15 @@
 //! Samples, densities and inverses.
 
 use etendue::discrete::{AliasTable, PiecewiseConstant2d};
+use etendue::light::shapes::{
+    CosineWarped, ProjectedCap, ProjectedPolygon, ProjectedSegment, ProjectedTriangle, SphericalCap, SphericalDisk,
+    SphericalParallelogram, SphericalRectangle, SphericalSegment, SphericalTriangle,
+};
 use etendue::light::{EnvironmentMap, ImageEnvironment, Picture, Region};
 use etendue::occlusion::{Convex, Occlusion};
 use etendue::reflection::Reflection;
 use etendue::sequence::{
     Independent, JointSobol, JointStratified, OwenSobol, Sequence, Stratified, ZOrder, ZOrderIndex,
-};
-use etendue::spherical::{
-    CosineWarped, ProjectedCap, ProjectedPolygon, ProjectedSegment, ProjectedTriangle, SphericalCap, SphericalDisk,
-    SphericalParallelogram, SphericalRectangle, SphericalSegment, SphericalTriangle,
 };
 use etendue::warp::{
     AreaTriangle, Bilinear, ConcentricDisk, Cone, CosineHemisphere, GgxVisibleNormals, Linear, LowDistortionTriangle,

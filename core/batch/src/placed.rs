@@ -7,9 +7,10 @@ use crate::kernel::Packet;
 use crate::sealed::Sealed;
 use crate::table::{LightFunctions, SamplerFunctions, Table};
 use crate::technique::{BatchSampler, BatchTechnique};
+use etendue::light::shapes::{PlacedPatch, PlacedSphere};
 use etendue::light::{
-    self, Area, BilinearPatch, ByPicture, Curved, Flat, Parallelogram, Pictured, PlacedPatch, PlacedSphere,
-    PortalEnvironment, Projected, SolidAngle, Sphere,
+    self, Area, BilinearPatch, ByPicture, Curved, Flat, Parallelogram, Pictured, PortalEnvironment, Projected,
+    SolidAngle, Sphere,
 };
 use etendue::{Real, Vec3};
 

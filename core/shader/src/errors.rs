@@ -7,19 +7,26 @@ macro_rules! sources {
 }
 /// The files whose types document an error.
 const SOURCES: &[&str] = sources! {
-    "light/flat.rs"
+    "light/cosine_warped.rs"
+    "light/disk.rs"
+    "light/disk/solid_angle.rs"
+    "light/line.rs"
+    "light/line/angle.rs"
+    "light/line/projected.rs"
+    "light/parallelogram.rs"
+    "light/parallelogram/solid_angle.rs"
+    "light/polygon.rs"
+    "light/polygon/projected.rs"
+    "light/polygon/solid_angle.rs"
+    "light/rectangle.rs"
+    "light/rectangle/solid_angle.rs"
+    "light/sphere.rs"
+    "light/sphere/projected.rs"
+    "light/sphere/solid_angle.rs"
+    "light/triangle.rs"
+    "light/triangle/projected.rs"
+    "light/triangle/solid_angle.rs"
     "reflection.rs"
-    "spherical/cap.rs"
-    "spherical/cosine_warped.rs"
-    "spherical/disk.rs"
-    "spherical/line.rs"
-    "spherical/parallelogram.rs"
-    "spherical/polygon.rs"
-    "spherical/projected_cap.rs"
-    "spherical/projected_polygon.rs"
-    "spherical/projected_triangle.rs"
-    "spherical/rectangle.rs"
-    "spherical/triangle.rs"
     "warp/bilinear.rs"
     "warp/cone.rs"
     "warp/disk.rs"
@@ -62,11 +69,20 @@ fn plain(text: &str) -> String {
     all + rest
 }
 
+/// The item of the method of a light that the documentation of a prepared shape names.
+fn of_named_method(lines: &[&str]) -> Option<String> {
+    let (light, method) = lines.last()?.strip_prefix("[`")?.split_once("`]")?.0.split_once("::")?;
+    let source = SOURCES.iter().find(|source| {
+        source.contains(&format!("pub struct {light} {{")) || source.contains(&format!("pub struct {light}<"))
+    })?;
+    item(&documentation(source, |line| line.starts_with(&format!("pub fn {method}(")))?, "Greatest error")
+}
+
 /// What the core documents about the greatest error of a type and of those that it consists of, given its name with its path; or else of a
 /// method that returns the type of this name.
 pub(crate) fn greatest_error(type_name: &str, returned: &str) -> Option<String> {
     let shapes = type_name.split(['<', '>', ',', ' ']);
-    let modules = ["etendue::spherical::", "etendue::warp::", "etendue::reflection::"];
+    let modules = ["etendue::light::shapes::", "etendue::warp::", "etendue::reflection::"];
     let shapes = shapes.filter(|name| modules.iter().any(|module| name.starts_with(module)));
     // that a sampler has one of these, the name of its type does not tell
     let warped = type_name.contains("::ByCosineWarp<").then_some("CosineWarped");
@@ -75,11 +91,13 @@ pub(crate) fn greatest_error(type_name: &str, returned: &str) -> Option<String> 
         let rest = line.strip_prefix("pub struct ").and_then(|line| line.strip_prefix(name));
         rest.is_some_and(|rest| rest.starts_with(['<', ' ', ';'])) || line == format!("{name},")
     };
-    let of_struct = |name: &&str| SOURCES.iter().find_map(|source| documentation(source, |line| is_struct(line, name)));
+    let of_struct = |name: &&str| {
+        let lines = SOURCES.iter().find_map(|source| documentation(source, |line| is_struct(line, name)))?;
+        item(&lines, "Greatest error").or_else(|| of_named_method(&lines))
+    };
     let is_method = |line: &str| line.starts_with("pub fn ") && line.contains(&format!("-> {returned}<"));
     let of_method = || SOURCES.iter().find_map(|source| documentation(source, is_method));
-    let all = names.iter().filter_map(of_struct).filter_map(|lines| item(&lines, "Greatest error"));
-    let mut all: Vec<String> = all.map(|text| plain(&text)).collect();
+    let mut all: Vec<String> = names.iter().filter_map(of_struct).map(|text| plain(&text)).collect();
     if all.is_empty() {
         all.extend(of_method().and_then(|lines| item(&lines, "Greatest error")).map(|text| plain(&text)));
     }

@@ -176,7 +176,9 @@ fn comments_tell_the_greatest_error() {
     // a number of the core's documentation, and links as plain text
     let of = |name: &str| module.functions.iter().find(|function| function.name == name).unwrap();
     assert!(of("sphere_by_solid_angle_pdf").doc.contains("Greatest error: pdf 3.0e−7 relative (proved: 2e−6)"));
-    assert!(of("polygon_by_projected_solid_angle_sample").doc.contains("As with SphericalPolygon, up to all of"));
+    assert!(
+        of("polygon_by_projected_solid_angle_sample").doc.contains("As with Polygon::by_solid_angle, up to all of")
+    );
     let cosine = &of("triangle_by_cosine_warp_sample").doc;
     assert!(cosine.contains("the pdf adds 8 ulp") && cosine.contains("direction 5.4e−7"), "{cosine}");
 }

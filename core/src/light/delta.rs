@@ -1,11 +1,11 @@
 //! Lights that reach a point from one direction only.
 
 use super::around::integral;
+use super::direction::DirectionSample;
 use super::sample::{FAR, LightSample, direction_to};
 use super::sampler::LightSampler;
 use crate::lanewise::lanewise;
 use crate::real::{Mask, Real};
-use crate::spherical::DirectionSample;
 use crate::vector::{Vec2, Vec3};
 
 /// distance², where that is finite and not 0.

@@ -1,14 +1,14 @@
 //! Disks.
 
+pub(super) mod area;
+pub(super) mod solid_angle;
+
 use super::sampler::{ByArea, BySolidAngle};
-use super::surface::{AreaSurface, SURFACE_SLACK, Surface, SurfaceHit, SurfacePoint};
 use crate::lanewise::lanewise;
-use crate::math::quotient;
 use crate::real::Real;
-use crate::spherical::{SphericalDisk, compensated_dot};
-use crate::vector::{Frame, Vec2, Vec3};
-use crate::warp::{ConcentricDisk, Warp};
-use core::f64::consts::PI;
+use crate::vector::Vec3;
+use area::PlacedDisk;
+use solid_angle::SphericalDisk;
 
 lanewise! {
     /// A disk light that emits from the side of its normal.
@@ -46,7 +46,28 @@ impl<R: Real> Disk<R> {
     pub fn by_area(&self, p: Vec3<R>) -> DiskByArea<R> {
         ByArea { surface: self.placed(p) }
     }
-    /// Uniform over the solid angle Ω at the point `p`, [`SphericalDisk`]: pdf 1/Ω per steradian.
+    /// Uniform over the solid angle Ω at the point `p`: pdf 1/Ω per steradian.
+    ///
+    /// Along the axis of its cone, the boundary projects to an ellipse with the semi-axes sinβ and sinα, at the height D over
+    /// the plane of the viewpoint. In terms of its eccentric angle χ from the major axis, dΩ = sinα sinβ dχ/(1+D), which varies
+    /// by less than a factor of 2 for every disk. u₀ takes χ through the four quadrants; u₁ goes from the axis outwards,
+    /// uniformly in 1−cosθ.
+    ///
+    /// - Formula: z is the height of the point over the disk's plane, T = d²−R² for the distance d of the centre (both in twice
+    ///   the working precision), H = √(T²+4R²z²); cos 2α = T/H, sin 2α = 2Rz/H, tan²β = R²/(H cos²α), axis c − sin²β (c − z n).
+    ///   D² = cos²β cos²χ + cos²α sin²χ; with t = tan(χ/2), ∫dχ/(1+D) = ∫ 2 dt/(1+t²+√(cos²β(1−t²)² + 4cos²α t²)), by
+    ///   Gauss–Legendre quadrature in t^¼, four panels of 5 nodes (relative error 1e−8 for every disk; in double precision 20
+    ///   nodes, 4e−14). Two steps of Newton's method (four in double precision) invert the integral within its panel. 1−cosθ =
+    ///   u₁(1−D).
+    /// - Domain: u in [0, 1)²; any disk, from either side, with a normal of any length.
+    /// - Density: the pdf is 1/Ω per steradian inside (and within 6 to 9 ulp beyond, 17 at the ends of the major axis), 0
+    ///   outside. Ω = 4 sinα sinβ ∫₀¹.
+    /// - Degenerate input: the point in the disk's plane (on the disk and its rim too), a radius ≤ 0, or Ω < 1e−37 gives pdf 0.
+    /// - Greatest error: Ω 4.5e−7 relative; direction 1.8e−7, besides 4 steps of 2⁻²⁴ in u; distance 2e−7 relative, over the
+    ///   cosine to the disk's normal.
+    /// - Source: Guillén, Ureña, King, Fajardo, Georgiev, López-Moreno and Jarabo, "Area-Preserving Parameterizations for
+    ///   Spherical Ellipses", CGF 36(4), 2017, for the polar map; the integral by the eccentric angle and its inverse are
+    ///   derived here.
     #[inline(always)]
     pub fn by_solid_angle(&self, p: Vec3<R>) -> DiskBySolidAngle<R> {
         let shape = SphericalDisk::new(self.center - p, self.normal, self.radius);
@@ -58,86 +79,3 @@ impl<R: Real> Disk<R> {
 pub type DiskByArea<R> = ByArea<PlacedDisk<R>>;
 /// A [`Disk`] sampled by solid angle from a point.
 pub type DiskBySolidAngle<R> = BySolidAngle<PlacedDisk<R>, SphericalDisk<R>>;
-
-lanewise! {
-    /// A disk relative to the shading point. Its surface coordinates are (1 + q)/2 for the position q on the unit disk, along the axes of
-    /// the [`Frame`] of its normal.
-    pub struct PlacedDisk {
-        center: Vec3<R>,
-        frame: Frame<R>,
-        radius: R,
-        height: R,
-    }
-}
-impl<R: Real> PlacedDisk<R> {
-    #[inline(always)]
-    pub(super) fn new(center: Vec3<R>, normal: Vec3<R>, radius: R) -> Self {
-        let finite = center.max_abs().lt(R::lit(f64::INFINITY));
-        let (center, radius) = (center.keep(finite), radius.keep(finite));
-        Self { center, frame: Frame::new(normal), radius, height: compensated_dot(center, normal) }
-    }
-    /// Position on the unit disk in the direction `w`; beyond it too, but finite.
-    #[inline(always)]
-    pub(super) fn position(&self, w: Vec3<R>) -> Vec2<R> {
-        let distance = quotient(self.height, w.dot(self.frame.n));
-        let offset = w.mul_add(distance, -self.center);
-        let most = R::lit(1e15);
-        let part = |x: R| quotient(x, self.radius).clamped(-most, most);
-        Vec2::new(part(offset.dot(self.frame.s)), part(offset.dot(self.frame.t)))
-    }
-    /// The point at the position q on the unit disk.
-    #[inline(always)]
-    pub(super) fn point(&self, q: Vec2<R>, inverse_pdf: R) -> SurfacePoint<R> {
-        let offset = self.frame.s * (q.x * self.radius) + self.frame.t * (q.y * self.radius);
-        SurfacePoint { position: self.center + offset, normal: self.frame.n, uv: Self::to_uv(q), inverse_pdf }
-    }
-    /// Where the unit direction `w` hits the disk; by how much it misses the centre within the plane, times the cosine, so that nothing is
-    /// divided by it; the radius times the cosine; and the rounding of both.
-    #[inline(always)]
-    pub(super) fn within(&self, w: Vec3<R>) -> (R::Mask, R, R, R) {
-        let zero = R::lit(0.0);
-        let scale = self.center.max_abs().greater(self.radius.abs()).pow2_scale();
-        let (center, height, radius) = (self.center * scale, self.height * scale, self.radius * scale);
-        let cos = w.dot(self.frame.n);
-        let off = (w * height - center * cos).length();
-        let slack = (center.length() + radius) * R::lit(SURFACE_SLACK);
-        let hit = off.le(radius.mul_add(cos.abs(), slack)) & (cos * height).gt(zero) & radius.gt(zero);
-        (hit, off, radius * cos.abs(), slack)
-    }
-    #[inline(always)]
-    fn to_uv(q: Vec2<R>) -> Vec2<R> {
-        let half = |x: R| x.mul_add(R::lit(0.5), R::lit(0.5)).clamped(R::lit(0.0), R::lit(1.0));
-        Vec2::new(half(q.x), half(q.y))
-    }
-}
-impl<R: Real> Surface<R> for PlacedDisk<R> {
-    #[inline(always)]
-    fn at(&self, w: Vec3<R>) -> SurfaceHit<R> {
-        let distance = quotient(self.height, w.dot(self.frame.n)).greater(R::lit(0.0));
-        SurfaceHit { distance, normal: self.frame.n, uv: Self::to_uv(self.position(w)) }
-    }
-}
-impl<R: Real> AreaSurface<R> for PlacedDisk<R> {
-    const FLAT: bool = true;
-    #[inline(always)]
-    fn draw(&self, u: Vec2<R>) -> SurfacePoint<R> {
-        self.point(ConcentricDisk.sample(u), self.area())
-    }
-    #[inline(always)]
-    fn inverse_pdf(&self, _: Vec2<R>) -> R {
-        self.area()
-    }
-    #[inline(always)]
-    fn contains(&self, w: Vec3<R>) -> R::Mask {
-        self.within(w).0
-    }
-    #[inline(always)]
-    fn invert(&self, w: Vec3<R>) -> Vec2<R> {
-        let q = self.position(w);
-        ConcentricDisk.invert(q * (R::lit(1.0) / q.length().greater(R::lit(1.0))))
-    }
-    #[inline(always)]
-    fn area(&self) -> R {
-        self.radius * self.radius * R::lit(PI)
-    }
-}

@@ -1,12 +1,17 @@
 //! Line lights.
 
+pub(super) mod angle;
+pub(super) mod projected;
+
+use super::direction::{DirectionSample, to_unit};
 use super::sample::{LightSample, direction_to, solid_angle_pdf};
 use super::sampler::LightSampler;
 use crate::lanewise::lanewise;
 use crate::math::quotient;
 use crate::real::{Mask, Real, unit_interval};
-use crate::spherical::{DirectionSample, ProjectedSegment, SphericalSegment, to_unit};
 use crate::vector::{Vec2, Vec3};
+use angle::SphericalSegment;
+use projected::ProjectedSegment;
 
 lanewise! {
     /// A line light: a cylinder so thin that only its width times its radiance counts, which emits in all directions.
@@ -37,8 +42,21 @@ impl<R: Real> Line<R> {
     pub fn by_length(&self, p: Vec3<R>) -> LineByLength<R> {
         LineByLength { line: PlacedLine::new(self.start - p, self.edge) }
     }
-    /// Uniform over the angle α that the line subtends at the point `p`, [`SphericalSegment`]: better than by length wherever the point is
+    /// Uniform over the angle α that the line subtends at the point `p`: better than by length wherever the point is
     /// near. Density 1/α per radian, pdf r/α.
+    ///
+    /// - Formula: θ = uα from the first end, where α = atan2(|a×e|, a·(a+e)) is the angle that the segment subtends; the
+    ///   direction is a/|a| cosθ + t sinθ, t = (a×e)/|a×e| × a/|a|; the distance is |a×b|/(|a| sinθ + |b| sin(α−θ)), where
+    ///   nothing cancels.
+    /// - Domain: u in [0, 1); any segment.
+    /// - Density: the pdf is 1/α per radian, in the plane of point and segment, between the ends (and within 4 ulp beyond), 0
+    ///   elsewhere. A direction off that plane counts as its projection onto it. Per unit of length, at the distance r, the pdf
+    ///   is sinγ/r times that, with γ the angle between direction and segment.
+    /// - Degenerate input: the point on the line of the segment (|a×e| < 1e−30 of the squared greatest coordinate), a length of
+    ///   0, or α < 1e−30 gives pdf 0.
+    /// - Greatest error: direction 3e−7; pdf 3.1e−7 relative; distance 4e−7 relative, over sinγ.
+    /// - Source: Kulla and Fajardo, "Importance Sampling Techniques for Path Tracing in Participating Media", EGSR 2012, 4.1,
+    ///   by angles at the ends instead of the foot of the perpendicular.
     #[inline(always)]
     pub fn by_angle(&self, p: Vec3<R>) -> LineByAngle<R> {
         LineByAngle {
@@ -46,8 +64,27 @@ impl<R: Real> Line<R> {
             arc: SphericalSegment::new(self.start - p, self.edge),
         }
     }
-    /// By projected solid angle above the horizon of the unit normal `n` at the point `p`, [`ProjectedSegment`]: on an unoccluded diffuse
+    /// By projected solid angle above the horizon of the unit normal `n` at the point `p`: on an unoccluded diffuse
     /// surface every sample has the same value. pdf 0 where nothing of the line is above the horizon.
+    ///
+    /// A thin cylinder of constant radiance gives the irradiance cosθ sinγ ds/r² per unit of its width, with θ from the
+    /// surface's normal and γ from the line. In terms of the angle x at the point, that is sinγ cosθ dx over the distance of
+    /// the point from the line: a product of two sines.
+    ///
+    /// - Formula: from the first end, p(x) = sinγ cosθ = p₀ + ½p₀' sin 2x − c sin²x; ∫p = p₀x + ½p₀' sin²x − ½c(x − sinx cosx),
+    ///   with p₀ = sinγ₀ cosθ₀ and c = p₀ + cosγ₀ ∂cosθ/∂x. Each half counts from its own end. Three steps of Laguerre's method
+    ///   for cubic polynomials (four in double precision) solve ∫p = u(A+B), where A and B are the integrals over the two
+    ///   halves; they leave 7e−10 of α.
+    /// - Domain: u in [0, 1); any segment, with a normal of any length. The segment is first clipped to the horizon, where its
+    ///   end follows from the normals of both planes.
+    /// - Density: the pdf is sinγ cosθ/∫p per radian, in the plane of point and segment, between the ends and above the horizon
+    ///   (and within 4 ulp beyond), 0 elsewhere. A direction off that plane counts as its projection onto it.
+    /// - Degenerate input: the point on the line of the segment, the whole segment at or below the horizon, or a length of 0
+    ///   gives pdf 0.
+    /// - Greatest error: direction 4e−7, besides 4 steps of 2⁻²⁴ in u; ∫p 1.1e−6 relative, over the lesser sine of the angles
+    ///   between the line and the directions of its ends, and 2e−14 over the sine of the higher end's elevation.
+    /// - Source: Peters, "BRDF Importance Sampling for Linear Lights", HPG 2021, for the density; the integral from an end and
+    ///   its inverse are derived here.
     #[inline(always)]
     pub fn by_projected_solid_angle(&self, p: Vec3<R>, n: Vec3<R>) -> LineByProjectedSolidAngle<R> {
         let arc = ProjectedSegment::new(self.start - p, self.edge, n);
@@ -57,7 +94,7 @@ impl<R: Real> Line<R> {
 
 lanewise! {
     /// A line relative to the shading point.
-    pub struct PlacedLine {
+    struct PlacedLine {
         end: Vec3<R>,
         edge: Vec3<R>,
         /// Unit vector at right angles from the shading point to the line, and the distance along it.

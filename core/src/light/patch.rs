@@ -1,11 +1,11 @@
 //! Bilinear patches.
 
+use super::direction::to_unit;
 use super::sampler::ByArea;
 use super::surface::{AreaSurface, SURFACE_SLACK, Surface, SurfaceHit, SurfacePoint};
 use crate::lanewise::lanewise;
 use crate::math::{quotient, quotient_if_any};
 use crate::real::Real;
-use crate::spherical::to_unit;
 use crate::vector::{Vec2, Vec3};
 use crate::warp::{PatchSurface, Warp};
 

@@ -1,14 +1,14 @@
 //! Curved lights with pictures.
 
 use super::cells::{Box2, Measure, Slabs};
+use super::direction::DirectionSample;
 use super::patch::{BilinearPatch, PlacedPatch};
 use super::pictured::{PicturedLight, PicturedSampler, Texel, TexelSurface};
 use super::sample::{LightSample, direction_to, solid_angle_pdf};
-use super::sphere::{PlacedSphere, Sphere};
+use super::sphere::{Sphere, area::PlacedSphere};
 use super::surface::{AreaSurface, SurfaceHit, SurfacePoint};
 use crate::math::{quotient, ratio};
 use crate::real::{Mask, Real};
-use crate::spherical::DirectionSample;
 use crate::vector::{Vec2, Vec3};
 use crate::warp::{Bilinear, UniformSphere, Warp};
 use core::f64::consts::PI;

@@ -1,18 +1,20 @@
 //! Flat lights with pictures.
 
 use super::cells::{Box2, Measure, Slabs};
+use super::direction::{DirectionSample, to_unit};
 use super::disk::Disk;
-use super::flat::{
-    Parallelogram, ParallelogramByArea, ParallelogramByProjectedSolidAngle, ParallelogramBySolidAngle, Rectangle,
-    Triangle,
+use super::parallelogram::area::PlacedParallelogram;
+use super::parallelogram::{
+    Parallelogram, ParallelogramByArea, ParallelogramByProjectedSolidAngle, ParallelogramBySolidAngle,
 };
 use super::pictured::{PicturedLight, PicturedSampler, Texel, TexelSurface};
+use super::rectangle::Rectangle;
 use super::sample::{LightSample, direction_to, solid_angle_pdf};
 use super::sampler::LightSampler;
-use super::surface::{AreaSurface, PlacedParallelogram, Surface, SurfaceHit};
+use super::surface::{AreaSurface, Surface, SurfaceHit};
+use super::triangle::Triangle;
 use crate::math::{quotient, rsqrt};
 use crate::real::{Mask, Real};
-use crate::spherical::{DirectionSample, to_unit};
 use crate::vector::{Frame, Vec2, Vec3};
 use crate::warp::{Bilinear, Warp};
 

@@ -1,8 +1,8 @@
 //! What a light sampler returns.
 
+use super::direction::DirectionSample;
 use crate::math::rsqrt;
 use crate::real::{Mask, Real};
-use crate::spherical::DirectionSample;
 use crate::vector::{Vec2, Vec3};
 
 /// The distance to a light that is infinitely far away: the largest single-precision number.

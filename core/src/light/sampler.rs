@@ -1,12 +1,14 @@
 //! Lights prepared for a shading point.
 
+use super::cosine_warped::CosineWarped;
+use super::direction::DirectionSample;
 use super::sample::{LightSample, direction_to, solid_angle_pdf};
+use super::shape::{ProjectedShape, SphericalShape};
 use super::surface::{AreaSurface, Surface, SurfaceHit};
 use crate::lanewise::Lanewise;
 use crate::math::quotient;
 use crate::real::{Mask, Real};
 use crate::reflection::Reflection;
-use crate::spherical::{CosineWarped, DirectionSample, ProjectedShape, SphericalShape};
 use crate::vector::{Vec2, Vec3};
 use crate::warp::Warp;
 use core::f64::consts::PI;
@@ -290,7 +292,7 @@ impl<R: Real, S: AreaSurface<R>, W: ProjectedShape<R> + Warp<R, Point = Vec3<R>>
     }
 }
 
-/// A light sampled by its solid angle times a bilinear approximation of the cosine to a surface normal: [`CosineWarped`]. A sample has the
+/// A light sampled by its solid angle times a bilinear approximation of the cosine to a surface normal: [`Triangle::by_cosine_warp`](crate::Triangle::by_cosine_warp). A sample has the
 /// pdf of the point of the square that it was drawn from; `pdf` finds that point by the inverse, and agrees to within 2e−4 of itself.
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]

@@ -1,13 +1,16 @@
 //! Flat lights that emit within an angle of their normal.
 
+use super::disk::solid_angle::SphericalDisk;
 use super::disk::{Disk, DiskBySolidAngle};
-use super::flat::{Parallelogram, ParallelogramBySolidAngle, Rectangle, RectangleBySolidAngle};
+use super::parallelogram::area::PlacedParallelogram;
+use super::parallelogram::solid_angle::SphericalParallelogram;
+use super::parallelogram::{Parallelogram, ParallelogramBySolidAngle};
+use super::rectangle::solid_angle::SphericalRectangle;
+use super::rectangle::{Rectangle, RectangleBySolidAngle};
 use super::sampler::BySolidAngle;
-use super::surface::PlacedParallelogram;
 use crate::lanewise::lanewise;
 use crate::math::{quotient, ratio};
 use crate::real::Real;
-use crate::spherical::{SphericalDisk, SphericalParallelogram, SphericalRectangle};
 use crate::vector::Vec3;
 
 /// Rounding of the visible part, relative to the lengths that it comes from: it is enlarged by so much.

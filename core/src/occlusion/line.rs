@@ -4,8 +4,8 @@ use super::MOST;
 use super::flat::two_words;
 use super::outline::Outline;
 use crate::real::{Mask, Real};
-use crate::spherical::{height_dw, sum_dw};
 use crate::vector::Vec3;
+use crate::vector::double_word::{height_dw, sum_dw};
 
 /// The line of an edge of a blocker. The plane through it and the point has the normal (p₀ − x) × e, where p₀ is on the line and e along it.
 pub(super) struct Line<R> {

@@ -1,7 +1,7 @@
 //! Every warp in every regime: points, pdfs, inverses, directions and distances.
 
 use crate::figures::{Figures, List, Routine};
-use etendue::spherical::DirectionSample;
+use etendue::light::shapes::DirectionSample;
 use etendue::{Real, Vec2, Warp};
 use etendue_properties::fixtures::{
     AreaTriangle, ConcentricDisk, CosineHemisphere, LowDistortionTriangle, Octahedral, PolarDisk, UniformHemisphere,

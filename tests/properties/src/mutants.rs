@@ -17,7 +17,7 @@ use crate::properties::Fixture;
 use crate::tolerances::Tolerance;
 use core::fmt::Debug;
 use core::marker::PhantomData;
-use etendue::spherical::DirectionSample;
+use etendue::light::shapes::DirectionSample;
 use etendue::{Real, Vec2, Warp};
 use etendue_oracle::V3;
 

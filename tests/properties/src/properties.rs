@@ -7,7 +7,7 @@ use crate::stats;
 use crate::tolerances::SIGNIFICANCE;
 use crate::tolerances::{self, Tolerance, ULP, ULP_F64};
 use core::fmt::Debug;
-use etendue::spherical::DirectionSample;
+use etendue::light::shapes::DirectionSample;
 use etendue::{Real, Vec2, Vec3, Warp, f32x4, f32x8};
 #[cfg(feature = "checks")]
 use etendue_oracle::tier::cases;

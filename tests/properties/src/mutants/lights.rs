@@ -2,7 +2,7 @@
 
 use crate::properties::vectors_of;
 use crate::techniques::LightFixture;
-use etendue::spherical::SphericalRectangle;
+use etendue::light::shapes::SphericalRectangle;
 use etendue::warp::Bilinear;
 use etendue::{Disk, LightSample, LightSampler, Mask, Real, Rectangle, Vec2, Vec3, Warp};
 

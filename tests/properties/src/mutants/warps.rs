@@ -4,7 +4,7 @@ use super::{Data, Defect};
 use crate::fixtures::{Cap, ConcentricDisk, Cone, CosineHemisphere, Triangle};
 use crate::properties::lanes_of;
 use core::f64::consts::{FRAC_1_PI, PI, TAU};
-use etendue::spherical::{DirectionSample, SphericalCap, SphericalTriangle};
+use etendue::light::shapes::{DirectionSample, SphericalCap, SphericalTriangle};
 use etendue::{Mask, Real, Vec2, Vec3, Warp, warp};
 
 fn one<R: Real>() -> R {

@@ -1,0 +1,354 @@
+//! Convex polygons by projected solid angle.
+
+use super::corners::PlacedCorners;
+use crate::lanewise::lanewise_by_map;
+use crate::light::direction::{DirectionSample, to_unit};
+use crate::light::triangle::projected::piece::narrowest;
+use crate::light::triangle::projected::sector::Sector;
+use crate::light::triangle::projected::zenith::{Found, Side, drop_narrow, sectors, surrounds};
+use crate::light::triangle::projected::{
+    Given, LEAST_HEIGHT, ProjectedTriangle, ahead, area, edge, lack, with_rest, within,
+};
+use crate::math::{quotient, ratio};
+use crate::real::{Mask, Real, unit_interval};
+use crate::vector::double_word::{cross_dw, cross_sums, dot_dw, sum_dw, unit_normal};
+use crate::vector::{Vec2, Vec3};
+use crate::warp::Warp;
+
+/// Directions from a point to a convex polygon of N corners, 3 ≤ N ≤ 8, above the horizon of a surface, by projected solid
+/// angle (pdf ∝ cosine to the normal): for diffuse surfaces where a ray costs more than a sample.
+///
+/// [`Polygon::by_projected_solid_angle`](crate::Polygon::by_projected_solid_angle) says how.
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+pub struct ProjectedPolygon<R, const N: usize, const ROOM: usize = N> {
+    /// The N − 2 triangles; further entries are unused.
+    fan: [ProjectedTriangle<R>; ROOM],
+    /// Sums over the triangles: normals, V₀·normal, and Ω⊥
+    plane: Vec3<R>,
+    volume: R,
+    projected: R,
+    /// 1 if the polygon contains the zenith and its triangles have the sectors about it, else 0
+    central: R,
+}
+
+/// A parallelogram as [`ProjectedPolygon::parallelogram`] prepares it.
+pub type ProjectedParallelogram<R> = ProjectedPolygon<R, 4, 2>;
+
+impl<R: Real, const N: usize, const ROOM: usize> Default for ProjectedPolygon<R, N, ROOM> {
+    #[inline(always)]
+    fn default() -> Self {
+        let zero = R::lit(0.0);
+        let fan = [ProjectedTriangle::default(); ROOM];
+        Self { fan, plane: Vec3::default(), volume: zero, projected: zero, central: zero }
+    }
+}
+
+impl<R, const N: usize, const ROOM: usize> ProjectedPolygon<R, N, ROOM> {
+    /// Replaces each number x by `f(x)`.
+    #[inline(always)]
+    pub fn map<S>(self, mut f: impl FnMut(R) -> S) -> ProjectedPolygon<S, N, ROOM> {
+        ProjectedPolygon {
+            fan: self.fan.map(|triangle| triangle.map(&mut f)),
+            plane: self.plane.map(&mut f),
+            volume: f(self.volume),
+            projected: f(self.projected),
+            central: f(self.central),
+        }
+    }
+}
+
+lanewise_by_map!(ProjectedPolygon, N, ROOM);
+
+impl<R: Real> ProjectedParallelogram<R> {
+    /// Prepares for a parallelogram with the corner `p` relative to the point and the edges `u` and `v` (in one unit of
+    /// length), on a surface with the normal `normal` (of any length). The edges give its shape, however small and far it is.
+    #[inline(always)]
+    pub fn parallelogram(p: Vec3<R>, u: Vec3<R>, v: Vec3<R>, normal: Vec3<R>) -> Self {
+        let mut this = Self::default();
+        this.prepare_parallelogram(p, [u, v], normal);
+        this
+    }
+    /// As `parallelogram`, in place; it must be empty before.
+    #[inline(always)]
+    pub(in crate::light) fn prepare_parallelogram(&mut self, p: Vec3<R>, [u, v]: [Vec3<R>; 2], normal: Vec3<R>) {
+        let none = Vec3::default();
+        let ([p, u, v, a, b, c], scale) = to_unit([p, u, v, p + u, p + v, p + u + v]);
+        let both = sum_dw([u, none], [v, none]);
+        let (at_a, at_b, at_c) = (lack(a, p, [u, none]), lack(b, p, [v, none]), lack(c, p, both));
+        let sides = [[u, none], [v, none], both.map(|e| -e)];
+        self.fan[0].prepare_sides([p, a, c], [at_a, at_c], sides, [u, v], normal, scale);
+        let sides = [both, [-u, none], [-v, none]];
+        self.fan[1].prepare_sides([p, c, b], [at_c, at_b], sides, [u, v], normal, scale);
+        let of = |v: Vec3<R>, rest: Vec3<R>, e: Vec3<R>| with_rest(cross_dw(v, e), rest, e);
+        let zero = Vec3::default();
+        // each from the end of the edge whose rounding error is exact: not from c
+        let ends = [[p, zero], [a, at_a], [b, at_b], [p, zero]];
+        let [e0, e1, e2, e3] = [u, v, -u, -v];
+        let products = [of(p, zero, e0), of(a, at_a, e1), of(b, at_b, e2), of(p, zero, e3)];
+        self.join(&[p, a, c, b], &[zero, at_a, at_c, at_b], &ends, &products, normal);
+    }
+}
+
+impl<R: Real, const N: usize> ProjectedPolygon<R, N> {
+    /// Prepares for corners relative to the point (in any unit of length), on a surface with the normal `normal` (of any
+    /// length).
+    #[inline(always)]
+    pub fn new(corners: [Vec3<R>; N], normal: Vec3<R>) -> Self {
+        Self::seen_from(corners, Vec3::default(), normal)
+    }
+    /// Prepares for corners and the point `p` (in any common coordinates), on a surface with the normal `normal` (of any length).
+    ///
+    /// Take this for a small and far polygon: corners relative to the point are rounded, and would lose its shape.
+    #[inline(always)]
+    pub fn seen_from(corners: [Vec3<R>; N], p: Vec3<R>, normal: Vec3<R>) -> Self {
+        let mut this = Self::default();
+        this.prepare_corners(&PlacedCorners::new(corners, p), normal);
+        this
+    }
+    /// As `new`, in place; it must be empty before.
+    #[inline(always)]
+    pub(in crate::light) fn prepare_corners(&mut self, placed: &PlacedCorners<R, N>, normal: Vec3<R>) {
+        let PlacedCorners { corners, edges, spokes, scale } = placed;
+        let last = N - 1;
+        let sides: [_; N] = core::array::from_fn(|i| placed.side(i, (i + 1) % N));
+        let products = core::array::from_fn(|i| match i {
+            0 => spokes[1],
+            _ if i == last => spokes[last].map(|n| -n),
+            _ => cross_sums(corners[i], sides[i]),
+        });
+        for i in 0..Self::TRIANGLES {
+            let (from, to) = (i + 1, i + 2);
+            let three = [corners[0], corners[from], corners[to]];
+            let given = Given {
+                vertices: three.map(|[v, _]| v),
+                rests: three.map(|[_, rest]| Some(rest)),
+                edges: [edges[from][0], sides[from][0], -edges[to][0]],
+                products: [spokes[from], products[from], spokes[to].map(|n| -n)],
+                plane: placed.normal(from, to),
+            };
+            self.fan[i].prepare(&given, normal, *scale);
+        }
+        let ends = core::array::from_fn(|i| corners[i % last]);
+        self.join(&corners.map(|[v, _]| v), &corners.map(|[_, rest]| rest), &ends, &products, normal);
+    }
+}
+
+impl<R: Real, const N: usize, const ROOM: usize> ProjectedPolygon<R, N, ROOM> {
+    const TRIANGLES: usize = {
+        assert!(N >= 3 && N <= 8, "a polygon has 3 to 8 corners");
+        assert!(ROOM >= N - 2, "a polygon consists of two triangles less than it has corners");
+        N - 2
+    };
+    /// Joins the triangles of the fan, given the corners with their rounding errors, and for each edge from a corner to the next an
+    /// end with its rounding error, and the cross product of both ends.
+    #[inline(always)]
+    fn join(
+        &mut self,
+        corners: &[Vec3<R>; N],
+        rests: &[Vec3<R>; N],
+        ends: &[[Vec3<R>; 2]; N],
+        products: &[[Vec3<R>; 2]; N],
+        normal: Vec3<R>,
+    ) {
+        for triangle in &self.fan[..Self::TRIANGLES] {
+            self.plane += triangle.plane;
+            self.volume += triangle.volume;
+            self.projected += triangle.projected;
+        }
+        // rounding decides the side of a triangle with collinear corners
+        let front = self.in_front();
+        for triangle in &mut self.fan[..Self::TRIANGLES] {
+            triangle.face(front);
+        }
+        self.about_zenith(corners, rests, ends, products, normal);
+        let least = narrowest::<R>() * self.projected;
+        for triangle in &mut self.fan[..Self::TRIANGLES] {
+            triangle.projected = triangle.projected.keep(triangle.projected.gt(least));
+        }
+    }
+    /// Where the polygon contains the zenith, replaces the sectors of the fan by sectors about the zenith: an edge between two triangles
+    /// that passes the zenith closely would bound two slivers in which rounding decides.
+    #[inline(always)]
+    fn about_zenith(
+        &mut self,
+        corners: &[Vec3<R>; N],
+        rests: &[Vec3<R>; N],
+        ends: &[[Vec3<R>; 2]; N],
+        products: &[[Vec3<R>; 2]; N],
+        normal: Vec3<R>,
+    ) {
+        let (zero, one) = (R::lit(0.0), R::lit(1.0));
+        let (unit, long, shrink) = unit_normal(normal);
+        let turn = one.negate_where(self.volume.lt(zero));
+        // a quick look, with rounded normals: most polygons do not contain the zenith
+        let mut near = R::Mask::splat(true);
+        for (i, triangle) in self.fan[..Self::TRIANGLES].iter().enumerate() {
+            let inside = |pole: Vec3<R>| within(unit.dot(pole));
+            near = near & inside(triangle.pole1);
+            if i == 0 {
+                near = near & inside(triangle.pole0);
+            }
+            if i + 1 == Self::TRIANGLES {
+                near = near & inside(triangle.pole2);
+            }
+        }
+        if !near.any() {
+            return;
+        }
+        let rounded = |[x, rest]: [R; 2]| (x + rest) * shrink;
+        let areas: [R; N] = core::array::from_fn(|i| rounded(area(long, ends[i], products[i])));
+        let heights: [R; N] = core::array::from_fn(|i| {
+            let [z, more] = dot_dw(corners[i], long);
+            let z = rounded([z, more + rests[i].dot(long)]);
+            z.keep(z.abs().gt(R::lit(LEAST_HEIGHT)))
+        });
+        let sides: [Side<R>; N] = core::array::from_fn(|i| {
+            let next = (i + 1) % N;
+            Side {
+                a: corners[i],
+                b: corners[next],
+                product: products[i][0] + products[i][1],
+                area: areas[i],
+                heights: [heights[i], heights[next]],
+            }
+        });
+        let central = near & surrounds(&sides, turn) & self.volume.abs().gt(zero);
+        if !central.any() {
+            return;
+        }
+        let (whole, mut sum) = (self.projected, zero);
+        for (i, triangle) in self.fan[..Self::TRIANGLES].iter_mut().enumerate() {
+            let mut pieces = sectors(&sides, i, unit, turn);
+            drop_narrow(&mut pieces, whole);
+            let area = pieces[0].area + pieces[1].area;
+            triangle.first.replace(central, &pieces[0]);
+            triangle.second.replace(central, &pieces[1]);
+            triangle.central = triangle.central.keep(!central);
+            triangle.projected = R::blend(central, area, triangle.projected);
+            sum += area;
+        }
+        // a sector reaches beyond its triangle, which may even have no area: all take the plane of the largest
+        let (mut plane, mut volume, mut most) = (self.fan[0].plane, self.fan[0].volume, zero);
+        for triangle in &self.fan[..Self::TRIANGLES] {
+            let size = triangle.plane.length_squared();
+            let larger = size.gt(most);
+            plane = Vec3::blend(larger, triangle.plane, plane);
+            volume = R::blend(larger, triangle.volume, volume);
+            most = R::blend(larger, size, most);
+        }
+        for triangle in &mut self.fan[..Self::TRIANGLES] {
+            triangle.plane = Vec3::blend(central, plane, triangle.plane);
+            triangle.volume = R::blend(central, volume, triangle.volume);
+        }
+        self.projected = R::blend(central, sum, self.projected);
+        self.central = one.keep(central);
+    }
+    /// Repeats one prepared polygon in every lane.
+    #[inline(always)]
+    pub fn splat(s: ProjectedPolygon<R::Scalar, N, ROOM>) -> Self {
+        s.map(R::splat)
+    }
+    /// Projected solid angle Ω⊥ in [0, π]: irradiance per unit of radiance.
+    #[inline(always)]
+    pub fn projected_solid_angle(&self) -> R {
+        self.projected
+    }
+    /// The pdf per steradian of a direction that is known to hit the polygon and has the cosine `cos` to the normal: cosθ/Ω⊥.
+    #[inline(always)]
+    pub fn pdf_at_cosine(&self, cos: R) -> R {
+        cos.greater(R::lit(0.0)) * quotient(R::lit(1.0), self.projected)
+    }
+    /// True where the point is on the side from which the corners run counterclockwise.
+    #[inline(always)]
+    pub fn in_front(&self) -> R::Mask {
+        self.volume.lt(R::lit(0.0))
+    }
+    /// Maps `u` to a direction and the distance to the polygon along it.
+    #[inline(always)]
+    pub fn sample_direction(&self, u: Vec2<R>) -> DirectionSample<R> {
+        let (direction, distance) = self.draw(u, true);
+        DirectionSample { direction, distance }
+    }
+    #[inline]
+    fn draw(&self, u: Vec2<R>, far: bool) -> (Vec3<R>, R) {
+        let zero = R::lit(0.0);
+        let (swept, left) = (u.x * self.projected, (R::lit(1.0) - u.x) * self.projected);
+        // areas of all later triangles
+        let mut behind = [zero; N];
+        for i in (1..Self::TRIANGLES).rev() {
+            behind[i - 1] = behind[i] + self.fan[i].projected;
+        }
+        let (mut sector, mut share) = self.fan[0].choose(swept, left - behind[0]);
+        let mut chosen = R::lit(0.0);
+        let mut sum = self.fan[0].projected;
+        for (i, triangle) in self.fan[..Self::TRIANGLES].iter().enumerate().skip(1) {
+            let later = triangle.projected.gt(zero) & (swept.ge(sum) | sum.le(zero));
+            if later.any() {
+                let (other, rest) = triangle.choose(swept - sum, left - behind[i]);
+                sector = Sector::blend(later, other, sector);
+                share = R::blend(later, rest, share);
+                chosen = R::blend(later, R::lit(i as f64), chosen);
+            }
+            sum += triangle.projected;
+        }
+        let w = sector.direction(self.fan[0].normal, sector.sweep(share), u.y);
+        let mut distance = zero;
+        if far {
+            for (i, triangle) in self.fan[..Self::TRIANGLES].iter().enumerate() {
+                let here = chosen.ge(R::lit(i as f64 - 0.5)) & chosen.lt(R::lit(i as f64 + 0.5));
+                distance = R::blend(here, triangle.distance(w), distance);
+            }
+        }
+        (w, distance)
+    }
+    /// True where a direction hits the polygon, to within the rounding of the direction. The horizon is not tested.
+    #[inline(always)]
+    pub fn contains(&self, w: Vec3<R>) -> R::Mask {
+        // only the outer sides: those between triangles meet in sharper corners than the polygon has, and allow more beside each
+        let mut least = w.dot(self.fan[0].pole0).lesser(w.dot(self.fan[Self::TRIANGLES - 1].pole2));
+        for triangle in &self.fan[..Self::TRIANGLES] {
+            least = least.lesser(w.dot(triangle.pole1));
+        }
+        within(least) & ahead(w, self.plane, self.in_front())
+    }
+}
+
+impl<R: Real, const N: usize, const ROOM: usize> Warp<R> for ProjectedPolygon<R, N, ROOM> {
+    type Point = Vec3<R>;
+    #[inline(always)]
+    fn sample(&self, u: Vec2<R>) -> Vec3<R> {
+        self.draw(u, false).0
+    }
+    /// The pdf per steradian; 0 for a direction that misses the polygon or lies below the horizon.
+    #[inline(always)]
+    fn pdf(&self, w: Vec3<R>) -> R {
+        self.pdf_at_cosine(w.dot(self.fan[0].normal)).keep(self.contains(w))
+    }
+    #[inline(always)]
+    fn invert(&self, w: Vec3<R>) -> Vec2<R> {
+        let zero = R::lit(0.0);
+        let edge = edge(self.projected);
+        let mut found = self.fan[0].locate(w, edge);
+        let mut sum = self.fan[0].projected;
+        for triangle in &self.fan[1..Self::TRIANGLES] {
+            let some = triangle.projected.gt(zero);
+            // on the far side of the edge with which this triangle begins
+            let later = some & (w.dot(triangle.pole0).ge(zero) | sum.le(zero));
+            let other = triangle.locate(w, edge);
+            let before = found.x.lesser(R::blend(some, sum - edge, found.x));
+            found.x = R::blend(later, sum + other.x.greater(edge), before.greater(zero));
+            found.y = R::blend(later, other.y, found.y);
+            sum += triangle.projected;
+        }
+        let central = self.central.gt(zero);
+        if central.any() {
+            let mut there = Found::nothing();
+            for triangle in &self.fan[..Self::TRIANGLES] {
+                there = triangle.look(there, w);
+            }
+            found = Vec2::blend(central, there.place(self.fan[0].normal, w), found);
+        }
+        Vec2 { x: unit_interval(ratio(found.x, self.projected)), y: found.y }
+    }
+}

@@ -1,0 +1,463 @@
+//! Rectangles by solid angle.
+
+use crate::lanewise::lanewise;
+use crate::light::direction::DirectionSample;
+use crate::math::{ratio, rsqrt};
+use crate::real::{Mask, Real, unit_interval};
+use crate::vector::double_word::{cross_dw, dot_dw, height_over, rounded_sum, sum_dw};
+use crate::vector::{Vec2, Vec3};
+use crate::warp::Warp;
+
+/// Angle by which the rounding of its direction may move a sample out of the rectangle: 8 ulp of a component near 1.
+const RECTANGLE_SLACK: f64 = 8.0 / 16_777_216.0;
+const INV_FOUR_PI: f64 = 0.25 / core::f64::consts::PI;
+
+lanewise! {
+    /// Directions from a point to a rectangle, uniform in solid angle: take it where strata shall follow the edges, and the
+    /// cheaper [`Parallelogram::by_solid_angle`](crate::Parallelogram::by_solid_angle) elsewhere.
+    ///
+    /// [`Rectangle::by_solid_angle`](crate::Rectangle::by_solid_angle) says how.
+    pub struct SphericalRectangle {
+        /// the point X = Y = 0: the foot, or on the far edge where `anchor` is 1; P = base + X·side_x + Y·side_y
+        base: Vec3<R>,
+        /// unit vector of x, towards the far end x₁
+        side_x: Vec3<R>,
+        /// unit vector of y, towards the far end y₁
+        side_y: Vec3<R>,
+        /// unit normal of the plane through the viewpoint and the side at x₀, pointing inwards
+        near_x: Vec3<R>,
+        /// the same at x₁
+        far_x: Vec3<R>,
+        /// the same at y₀
+        near_y: Vec3<R>,
+        /// the same at y₁
+        far_y: Vec3<R>,
+        /// tolerances of the planes at x₀ and y₀: w is inside if w·plane ≥ −slack
+        slack: Vec2<R>,
+        /// the same at x₁ and y₁
+        slack_far: Vec2<R>,
+        /// unit normal of the rectangle's plane, away from the viewpoint
+        normal: Vec3<R>,
+        /// (x₀, y₀), with |x₀| ≤ x₁ and |y₀| ≤ y₁
+        near: Vec2<R>,
+        /// (x₁, y₁)
+        far: Vec2<R>,
+        /// (x₁−x₀, y₁−y₀)
+        size: Vec2<R>,
+        /// z, the distance to the plane
+        height: R,
+        /// 1 where X or Y is measured from the far edge, 0 where from the foot
+        anchor: Vec2<R>,
+        /// 1 where `side_x` or `side_y` points against the edge
+        flip: Vec2<R>,
+        /// sinw₁, w₁ the solid angle of the strip from the foot to x₁
+        sin_w1: R,
+        /// cosw₁
+        cos_w1: R,
+        /// 1/sinw₁
+        inv_sin_w1: R,
+        /// A = cosw₁ − p
+        above_p: R,
+        /// B = cosw₁ + s
+        above_s: R,
+        /// sinw₁ of the strip from the foot to x₀ if x₀ < 0, else 0
+        near_sin: R,
+        /// cosw₁ of that strip
+        near_cos: R,
+        /// A of that strip
+        near_above_p: R,
+        /// B of that strip
+        near_above_s: R,
+        /// where more than this share of the area lies towards x₁, the map counts from x₀: ½ if x₀ < 0, else 2 (never)
+        half: R,
+        /// Ω in steradians
+        solid_angle: R,
+        /// −1 where the point is on the side to which u×v points, else 1
+        side: R,
+        /// unit of the lengths above, a power of two
+        unit: R,
+    }
+}
+
+/// Height over the plane in units of the far end, and share of the area, below which a change of the strips counts as steep.
+const STEEP: f64 = 1.0 / 16.0;
+
+/// Unit normal of the plane through `p` along `u` and `v`, and p·normal. From a far corner that height is a small difference,
+/// so it is formed in twice the working precision.
+#[inline(always)]
+fn normal_and_height<R: Real>(p: Vec3<R>, u: Vec3<R>, v: Vec3<R>) -> (Vec3<R>, R) {
+    let (u, v) = (u * u.max_abs().pow2_scale(), v * v.max_abs().pow2_scale());
+    let cross = u.cross(v);
+    let (normal, length) = cross.unit_and_length();
+    let some = length.gt(R::lit(0.0));
+    (normal, (height_over(p, [u, v], cross) / R::blend(some, length, R::lit(1.0))).keep(some))
+}
+
+/// Solid angle of [near.x, far.x]×[near.y, far.y] at the height z, with |near| ≤ far and `size` = far − near.
+///
+/// A window in one quadrant is two triangles: tan(Ω/2) = zΔxΔy/(…), where all terms are positive. Elsewhere it is the two
+/// strips on either side of the foot: tan w = az(b₁r₀−b₀r₁)/(a²b₀b₁ + z²r₀r₁).
+#[inline(always)]
+fn window<R: Real>(near: Vec2<R>, far: Vec2<R>, size: Vec2<R>, z: R) -> R {
+    let (zero, one) = (R::lit(0.0), R::lit(1.0));
+    let (across_x, across_y) = (near.x.lt(zero), near.y.lt(zero));
+    let straddles = across_x | across_y;
+    // the strips run along the axis that crosses the foot
+    let swap = across_y & !across_x;
+    let (a0, b0) = (R::blend(swap, near.y, near.x), R::blend(swap, near.x, near.y));
+    let (a1, b1) = (R::blend(swap, far.y, far.x), R::blend(swap, far.x, far.y));
+    let db = R::blend(swap, size.x, size.y);
+    let zz = z * z;
+    let (d0, d1) = (a0.mul_add(a0, zz), a1.mul_add(a1, zz));
+    let length = |d: R, b: R| b.mul_add(b, d).sqrt();
+    let (r00, r01, r10, r11) = (length(d0, b0), length(d0, b1), length(d1, b0), length(d1, b1));
+    let bb = b0 * b1;
+    let one_sided = b0.ge(zero);
+    let strip = |a: R, d: R, r0: R, r1: R| {
+        // b₁r₀ − b₀r₁
+        let sum = b1.mul_add(r0, b0.abs() * r1);
+        let cross = R::blend(one_sided, ratio(db * (b1 + b0) * d, sum), sum);
+        (a.abs() * z * cross, (a * a).mul_add(bb, zz * (r0 * r1)))
+    };
+    let (s1, c1) = strip(a1, d1, r10, r11);
+    let (s0, c0) = strip(a0, d0, r00, r01);
+    let volume = z * size.x * size.y;
+    let aa = a0 * a1;
+    // inner products of corners
+    let (b0b0, b1b1) = (b0.mul_add(b0, zz), b1.mul_add(b1, zz));
+    let diagonal = aa + bb + zz;
+    let t1 = (r00 * r10).mul_add(r11, (aa + b0b0).mul_add(r11, diagonal.mul_add(r10, (d1 + bb) * r00)));
+    let t0 = (r00 * r01).mul_add(r11, (aa + b1b1).mul_add(r00, diagonal.mul_add(r01, (d0 + bb) * r11)));
+    let first = R::blend(straddles, s1, volume).atan2(R::blend(straddles, c1, t1));
+    let second = R::blend(straddles, s0, volume).atan2(R::blend(straddles, c0, t0));
+    (first + second) * R::blend(straddles, one, R::lit(2.0))
+}
+
+impl<R: Real> SphericalRectangle<R> {
+    /// Prepares for the corners p, p+u, p+u+v, p+v, with p relative to the point and u perpendicular to v; all in one unit of
+    /// length.
+    #[inline(always)]
+    pub fn new(p: Vec3<R>, u: Vec3<R>, v: Vec3<R>) -> Self {
+        let (zero, one) = (R::lit(0.0), R::lit(1.0));
+        // the unit of length is a power of two near the largest length; every point of the rectangle must have a finite distance
+        let reach = p.max_abs().greater(u.max_abs()).greater(v.max_abs());
+        let sum = p.max_abs() + u.max_abs() + v.max_abs();
+        let finite = (sum + sum).lt(R::lit(f64::INFINITY));
+        let scale = reach.pow2_scale();
+        let scaled = |v: Vec3<R>| Vec3::new(v.x.keep(finite), v.y.keep(finite), v.z.keep(finite)) * scale;
+        let (p, u, v) = (scaled(p), scaled(u), scaled(v));
+        // axes and sizes, and the height z of the point over the plane
+        let ((x_axis, dx), (y_axis, dy)) = (u.unit_and_length(), v.unit_and_length());
+        let (z_axis, signed) = normal_and_height(p, u, v);
+        let corners = [p, p + u, p + u + v, p + v];
+        let (z, side) = (signed.abs(), one.copysign(signed));
+
+        // the ends (x₀, y₀) and (x₁, y₁): both axes point to the far end; coordinates of far corners are small differences
+        let ends = |size: R, edge: Vec3<R>| {
+            let unit = edge * edge.max_abs().pow2_scale();
+            let squared = unit.length_squared();
+            let inverse = rsqrt(squared).keep(squared.gt(zero));
+            let (from, reach) = (dot_dw(p, unit), dot_dw(edge, unit));
+            let (low, high) = ((from[0] + from[1]) * inverse, rounded_sum(from, reach) * inverse);
+            // rounding may lose a tiny size in both ends; the near end is the one of smaller magnitude
+            let flip = (low + high).lt(zero);
+            let near = R::blend(flip, -high, low).greater(R::lit(-0.5) * size);
+            (flip, near, near + size)
+        };
+        let (flip_x, x0, x1) = ends(dx, u);
+        let (flip_y, y0, y1) = ends(dy, v);
+        let turn = |v: Vec3<R>, m: R::Mask| Vec3::new(v.x.negate_where(m), v.y.negate_where(m), v.z.negate_where(m));
+        let (side_x, side_y) = (turn(x_axis, flip_x), turn(y_axis, flip_y));
+        let (anchored_x, anchored_y) = ((x0 + x0).ge(x1), (y0 + y0).ge(y1));
+        let far_corner = Vec3::blend(
+            flip_x,
+            Vec3::blend(flip_y, corners[0], corners[3]),
+            Vec3::blend(flip_y, corners[1], corners[2]),
+        );
+        // the origin of X and Y, from the far corner or from the foot, whichever is nearer to it
+        let (there_x, there_y) = (x1.keep(anchored_x), y1.keep(anchored_y));
+        let (gone_x, gone_y) = (x1 - there_x, y1 - there_y);
+        let from_corner = far_corner - side_x * gone_x - side_y * gone_y;
+        let from_foot = side_x.mul_add(there_x, side_y.mul_add(there_y, z_axis * signed));
+        let gone = gone_x.greater(gone_y);
+        let base = Vec3::blend(gone.le(there_x.greater(there_y).greater(z)), from_corner, from_foot);
+
+        // the strips from the foot to x₁ and, if the foot is inside, to x₀
+        let (zz, yy) = (z * z, y0 * y1);
+        let (mm0, mm1) = (y0.mul_add(y0, zz), y1.mul_add(y1, zz));
+        let im = ratio(one, (mm0 * mm1).sqrt());
+        let across = y0.lt(zero);
+        // sine and cosine of w for the strip from the foot to x, cosw − p and cosw + s
+        let strip = |x: R| {
+            let xx = x * x;
+            let d = xx + zz;
+            let (r0, r1) = (y0.mul_add(y0, d).sqrt(), y1.mul_add(y1, d).sqrt());
+            let rr = r0 * r1;
+            let id = ratio(one, d);
+            let sum = y1.mul_add(r0, y0.abs() * r1);
+            let cross = R::blend(across, sum * id, ratio(dy * (y1 + y0), sum));
+            // rr ∓ |y₀y₁|, the smaller one over d
+            let (plus, minus) = (rr + yy.abs(), ratio(y0.mul_add(y0, y1.mul_add(y1, d)), rr + yy.abs()));
+            (
+                x * z * cross * im,
+                xx.mul_add(yy, zz * rr) * id * im,
+                ratio(zz * dy * dy * im, R::blend(across, d * (minus + one), plus + d)),
+                zz * im * R::blend(across, (plus + d) * id, minus + one),
+            )
+        };
+        let (sin_w1, cos_w1, above_p, above_s) = strip(x1);
+        let straddles = x0.lt(zero);
+        let (near_sin, near_cos, near_above_p, near_above_s) =
+            if straddles.any() { strip(-x0) } else { (zero, zero, zero, zero) };
+        // Ω, and whether the rectangle can be sampled
+        let solid_angle = window(Vec2::new(x0, y0), Vec2::new(x1, y1), Vec2::new(dx, dy), z);
+        let some = finite
+            & solid_angle.gt(R::lit(1e-36))
+            & solid_angle.lt(R::lit(7.0))
+            & sin_w1.gt(zero)
+            & z.gt(R::lit(1e-18));
+
+        // planes through the viewpoint and the sides, from p, u and v, since the other corners are rounded sums
+        let (pu, pv, uv) = (cross_dw(p, u), cross_dw(p, v), cross_dw(u, v));
+        let minus = |n: [Vec3<R>; 2]| n.map(|n| -n);
+        let plane = |n: [Vec3<R>; 2], a: Vec3<R>, b: Vec3<R>| {
+            let (unit, length) = (n[0] + n[1]).unit_and_length();
+            (
+                turn(unit, side.lt(zero)),
+                ratio(-a.dot(b), length).greater(one).lesser(R::lit(1e18)) * R::lit(RECTANGLE_SLACK),
+            )
+        };
+        let (low_x, slack_low_x) = plane(minus(pv), corners[0], corners[3]);
+        let (high_x, slack_high_x) = plane(sum_dw(pv, uv), corners[1], corners[2]);
+        let (low_y, slack_low_y) = plane(pu, corners[0], corners[1]);
+        let (high_y, slack_high_y) = plane(sum_dw(uv, minus(pu)), corners[3], corners[2]);
+        Self {
+            base,
+            side_x,
+            side_y,
+            near_x: Vec3::blend(flip_x, high_x, low_x),
+            far_x: Vec3::blend(flip_x, low_x, high_x),
+            near_y: Vec3::blend(flip_y, high_y, low_y),
+            far_y: Vec3::blend(flip_y, low_y, high_y),
+            slack: Vec2::new(R::blend(flip_x, slack_high_x, slack_low_x), R::blend(flip_y, slack_high_y, slack_low_y)),
+            slack_far: Vec2::new(
+                R::blend(flip_x, slack_low_x, slack_high_x),
+                R::blend(flip_y, slack_low_y, slack_high_y),
+            ),
+            normal: z_axis * side,
+            near: Vec2::new(x0, y0),
+            far: Vec2::new(x1, y1),
+            size: Vec2::new(dx, dy),
+            height: z,
+            anchor: Vec2::new(one.keep(anchored_x), one.keep(anchored_y)),
+            flip: Vec2::new(one.keep(flip_x), one.keep(flip_y)),
+            sin_w1,
+            cos_w1,
+            inv_sin_w1: ratio(one, sin_w1),
+            above_p,
+            above_s,
+            near_sin,
+            near_cos,
+            near_above_p,
+            near_above_s,
+            half: R::blend(straddles, R::lit(0.5), R::lit(2.0)),
+            solid_angle: solid_angle.keep(some),
+            side,
+            unit: one / scale,
+        }
+    }
+
+    /// Solid angle in steradians, in [0, 2π].
+    #[inline(always)]
+    pub fn solid_angle(&self) -> R {
+        self.solid_angle
+    }
+    /// The pdf per steradian of every direction that hits the rectangle, 1/Ω; 0 where Ω is 0.
+    #[inline(always)]
+    pub fn uniform_pdf(&self) -> R {
+        ratio(R::lit(1.0), self.solid_angle)
+    }
+    /// True where the point is on the side to which the normal u×v points.
+    #[inline(always)]
+    pub fn in_front(&self) -> R::Mask {
+        self.side.lt(R::lit(0.0))
+    }
+
+    /// X and x² + z² for u₀.
+    #[inline(always)]
+    fn strip_end(&self, u: R) -> (R, R) {
+        let (zero, one) = (R::lit(0.0), R::lit(1.0));
+        let Self { far: Vec2 { x: x1, .. }, near: Vec2 { x: x0, .. }, height: z, .. } = *self;
+        let turned = |u: R| R::blend(self.flip.x.gt(zero), u, one - u);
+        let (left, swept) = (turned(u), turned(one - u));
+        // from k = cosw − cosw₁, counted from the nearer end on either side of the foot
+        let near = left.gt(self.half);
+        let part = R::blend(near, swept, left);
+        let (sin_w1, cos_w1) = (R::blend(near, self.near_sin, self.sin_w1), R::blend(near, self.near_cos, self.cos_w1));
+        let (sin_e, cos_e) = (part * (self.solid_angle * R::lit(INV_FOUR_PI))).sin_cos_turns();
+        let sin_d = sin_w1.mul_add(cos_e, -(cos_w1 * sin_e)).greater(-one.keep(near));
+        let cos_d = cos_w1.mul_add(cos_e, sin_w1 * sin_e);
+        let sin_w = sin_d.mul_add(cos_e, -(cos_d * sin_e));
+        let k = (sin_d + sin_d) * sin_e;
+        let above_p = k + R::blend(near, self.near_above_p, self.above_p);
+        let above_s = k + R::blend(near, self.near_above_s, self.above_s);
+        let root = (above_p * above_s).greater(zero).sqrt();
+        // where cosw₁ < 0, the difference still leaves at least half of the first term
+        let (far_p, far_s) = (self.above_p, self.above_s);
+        let square = self.sin_w1 * self.sin_w1;
+        let q = square.mul_add(far_p + far_s + k, (self.cos_w1 + self.cos_w1 + k) * (far_p * far_s));
+        let from_far = (sin_d + sin_d) * self.inv_sin_w1 * (sin_e * self.inv_sin_w1) * q * x1 * x1;
+        let foot = (z * sin_w).negate_where(near);
+        let anchored = self.anchor.x.gt(zero);
+        let numerator = R::blend(anchored, -from_far, foot);
+        let denominator = root * R::blend(anchored, x1.mul_add(root, foot), one);
+        let some = denominator.gt(zero);
+        let x = numerator / R::blend(some, denominator, one);
+        let x = x.clamped(R::blend(anchored, -self.size.x, x0), R::blend(anchored, zero, x1));
+        let from_foot = x + x1.keep(anchored);
+        (x, from_foot.mul_add(from_foot, z * z))
+    }
+
+    /// X and Y of the point for `u`.
+    #[inline(always)]
+    fn place(&self, u: Vec2<R>) -> Vec2<R> {
+        let (zero, one) = (R::lit(0.0), R::lit(1.0));
+        let Self { far: Vec2 { y: y1, .. }, near: Vec2 { y: y0, .. }, .. } = *self;
+        let (x, d) = self.strip_end(u.x);
+        let turned = |u: R| R::blend(self.flip.y.gt(zero), u, one - u);
+        let (v, rest) = (turned(u.y), turned(one - u.y));
+        // y: from h₁ − h
+        let (r0, r1) = (y0.mul_add(y0, d).sqrt(), y1.mul_add(y1, d).sqrt());
+        let sum = y1.mul_add(r0, y0.abs() * r1);
+        let product = r0 * r1 * sum;
+        let inverse = (one / R::blend(product.gt(zero), product, one)).keep(product.gt(zero));
+        let inverse_r = inverse * sum;
+        let inverse_r1 = r0 * inverse_r;
+        let h1 = y1 * inverse_r1;
+        let range = R::blend(y0.ge(zero), self.size.y * (y1 + y0) * d * inverse, sum * inverse_r);
+        // before the foot, count from the near edge, so that both ends keep 1−h²
+        let (h0, down, up) = (y0 * r1 * inverse_r, v * range, rest * range);
+        let before = h0 + up;
+        let below = before.lt(zero);
+        let h = R::blend(below, before, h1 - down);
+        let rise = R::blend(below, -up, down) * (h + R::blend(below, h0, h1));
+        let inverse_end = inverse_r * R::blend(below, r1, r0);
+        // √(x²+z²)·√(1−h²)
+        let root = (d * (d * inverse_end).mul_add(inverse_end, rise)).greater(zero).sqrt();
+        let anchored = self.anchor.y.gt(zero);
+        let numerator = d * R::blend(anchored, -(r1 * rise), h);
+        let denominator = root * R::blend(anchored, h1.mul_add(root, h * d * inverse_r1), one);
+        let some = denominator.gt(zero);
+        let y = numerator / R::blend(some, denominator, one);
+        let y = y.clamped(R::blend(anchored, -self.size.y, y0), R::blend(anchored, zero, y1));
+        Vec2::new(x, y)
+    }
+    /// The point of the rectangle at X and Y.
+    #[inline(always)]
+    fn point(&self, Vec2 { x, y }: Vec2<R>) -> Vec3<R> {
+        self.side_x.mul_add(x, self.side_y.mul_add(y, self.base))
+    }
+    /// Maps `u` to a direction and the distance to the rectangle along it.
+    #[inline(always)]
+    pub fn sample_direction(&self, u: Vec2<R>) -> DirectionSample<R> {
+        self.sample_with_coordinates(u).0
+    }
+    /// The same with the parts of both edges that lead to the point.
+    #[inline(always)]
+    pub(in crate::light) fn sample_with_coordinates(&self, u: Vec2<R>) -> (DirectionSample<R>, Vec2<R>) {
+        let (zero, one) = (R::lit(0.0), R::lit(1.0));
+        let place = self.place(u);
+        let point = self.point(place);
+        let squared = point.length_squared();
+        let inverse = rsqrt(squared).keep(squared.gt(R::lit(1e-37)));
+        let distance = squared * inverse * self.unit;
+        let sample = DirectionSample { direction: point * inverse, distance: distance.keep(self.solid_angle.gt(zero)) };
+        let part = |x: R, far: R, size: R, anchor: R, flip: R| {
+            let gap = R::blend(anchor.gt(zero), -x, far - x);
+            let share = ratio(gap, size).clamped(zero, one);
+            R::blend(flip.gt(zero), share, one - share)
+        };
+        let (far, size, anchor, flip) = (self.far, self.size, self.anchor, self.flip);
+        let coordinates =
+            Vec2::new(part(place.x, far.x, size.x, anchor.x, flip.x), part(place.y, far.y, size.y, anchor.y, flip.y));
+        (sample, coordinates)
+    }
+}
+
+impl<R: Real> Warp<R> for SphericalRectangle<R> {
+    type Point = Vec3<R>;
+    #[inline(always)]
+    fn sample(&self, u: Vec2<R>) -> Vec3<R> {
+        let point = self.point(self.place(u));
+        let squared = point.length_squared();
+        point * rsqrt(squared).keep(squared.gt(R::lit(1e-37)))
+    }
+    /// The pdf per steradian; 0 for a direction that misses the rectangle.
+    #[inline(always)]
+    fn pdf(&self, w: Vec3<R>) -> R {
+        let inside = w.dot(self.near_x).ge(-self.slack.x)
+            & w.dot(self.far_x).ge(-self.slack_far.x)
+            & w.dot(self.near_y).ge(-self.slack.y)
+            & w.dot(self.far_y).ge(-self.slack_far.y)
+            & w.dot(self.normal).ge(R::lit(-RECTANGLE_SLACK));
+        self.uniform_pdf().keep(inside)
+    }
+    #[inline(always)]
+    fn invert(&self, w: Vec3<R>) -> Vec2<R> {
+        let (zero, one) = (R::lit(0.0), R::lit(1.0));
+        let Self { far: Vec2 { x: x1, y: y1 }, near: Vec2 { x: x0, y: y0 }, height: z, .. } = *self;
+        let elevation = w.dot(self.normal).greater(R::lit(1e-18));
+        // as in the map: from the far edge, where (x₁−x)/D₁ is the sine of the angle to the edge's plane over that to the
+        // rectangle's; or from the foot, where a wrong elevation moves the point along the direction
+        let number = |side: Vec3<R>, plane: Vec3<R>, far: R, anchor: R| {
+            let anchored = anchor.gt(zero);
+            let distance = far.mul_add(far, z * z).sqrt();
+            R::blend(anchored, distance, z) * w.dot(Vec3::blend(anchored, plane, side)) / elevation
+        };
+        let along_x = number(self.side_x, self.far_x, x1, self.anchor.x);
+        let along_y = number(self.side_y, self.far_y, y1, self.anchor.y);
+        // a point beyond an edge by more than its own rounding has a wrong elevation: take the point of the direction on the
+        // edge
+        let known = (one - R::ONE_MINUS_EPSILON) * R::lit(4.0) * z / elevation;
+        let within = |number: R, near: R, far: R, anchor: R| {
+            let bound = R::blend(number.lt(zero), near, far).abs();
+            let least = number.abs() - known;
+            R::blend(least.gt(bound) & anchor.le(zero), bound / least, one)
+        };
+        let scale = within(along_x, x0, x1, self.anchor.x).lesser(within(along_y, y0, y1, self.anchor.y));
+        let place = |number: R, near: R, far: R, size: R, anchor: R| {
+            let anchored = anchor.gt(zero);
+            let number = R::blend(anchored, number, number * scale);
+            let gap = R::blend(anchored, number, far - number.greater(near)).clamped(zero, size);
+            (R::blend(anchored, far - gap, number).clamped(near, far), gap)
+        };
+        let (x, dx) = place(along_x, x0, x1, self.size.x, self.anchor.x);
+        let (y, dy) = place(along_y, y0, y1, self.size.y, self.anchor.y);
+        // the strip from x to the nearer end: before the foot, mirrored
+        let before = x.lt(zero);
+        let ends = [R::blend(before, -x, x), R::blend(before, -x0, x1), R::blend(before, x - x0, dx)];
+        let strip = window(Vec2::new(ends[0], y0), Vec2::new(ends[1], y1), Vec2::new(ends[2], self.size.y), z);
+        let share = ratio(strip, self.solid_angle);
+        let from_far = self.flip.x.gt(zero) ^ before;
+        let u = unit_interval(R::blend(from_far, share, one - share));
+        let d = x.mul_add(x, z * z);
+        let fall = |low: R, gap: R, d: R| {
+            // h(y₁) − h(low), times r₁
+            let (r0, r1) = (low.mul_add(low, d).sqrt(), y1.mul_add(y1, d).sqrt());
+            let sum = y1.mul_add(r0, low.abs() * r1);
+            (ratio(R::blend(low.ge(zero), ratio(gap * (y1 + low) * d, sum), sum), r0), r1)
+        };
+        let (fallen, r1) = fall(y, dy, d);
+        let mut v = ratio(fallen, fall(y0, self.size.y, d).0);
+        // next to u₀ = 1 and near the plane, the strip ends elsewhere within the rounding of u₀, and the pair must lead back to h
+        let steep = z.lt(R::lit(STEEP) * x1) & share.lt(R::lit(STEEP)) & !from_far;
+        if steep.any() {
+            let (end, rounded) = self.strip_end(u);
+            let end = end + x1.keep(self.anchor.x.gt(zero));
+            let (all, r) = fall(y0, self.size.y, rounded);
+            let moved = y1 * ratio((x - end) * (x + end), r1 + r);
+            v = R::blend(steep, ratio(fallen.mul_add(r, moved), r1 * all), v);
+        }
+        Vec2 { x: u, y: unit_interval(R::blend(self.flip.y.gt(zero), v, one - v)) }
+    }
+}

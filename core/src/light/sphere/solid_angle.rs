@@ -1,0 +1,129 @@
+//! Spheres by solid angle.
+
+use crate::lanewise::lanewise;
+use crate::light::direction::DirectionSample;
+use crate::real::Real;
+use crate::vector::{Frame, Vec2, Vec3};
+use crate::warp::{Cone, Warp};
+
+lanewise! {
+    /// Directions from a point to a sphere, uniform in solid angle: a [`Cone`] about the direction to its centre.
+    ///
+    /// [`Sphere::by_solid_angle`](crate::Sphere::by_solid_angle) says how.
+    pub struct SphericalCap {
+        frame: Frame<R>,
+        cone: Cone<R>,
+        /// d and d²−R² in units of `unit`, the power of two by which the lengths were divided
+        distance: R,
+        power: R,
+        unit: R,
+    }
+}
+
+impl<R: Real> SphericalCap<R> {
+    /// Prepares for a sphere with its centre at `center` relative to the point; both lengths in one unit.
+    #[inline]
+    pub fn new(center: Vec3<R>, radius: R) -> Self {
+        let (zero, one) = (R::lit(0.0), R::lit(1.0));
+        // a difference has overflowed: nothing is visible
+        let finite = center.max_abs().lt(R::lit(f64::INFINITY));
+        let center = Vec3::new(center.x.keep(finite), center.y.keep(finite), center.z.keep(finite));
+        let radius = radius.keep(finite);
+        let scale = center.max_abs().greater(radius.abs()).pow2_scale();
+        let (c, r) = (center * scale, radius * scale);
+        let squared = c.length_squared();
+        // a small difference near the sphere, where it needs twice the working precision
+        let (plain, near) = (squared - r * r, squared.lt(R::lit(2.0) * (r * r)));
+        let [power] = R::where_any(near, [plain], || [c.length_squared_minus_square(r)]);
+        let some = squared.gt(zero);
+        let inverse = one / R::blend(some, squared, one);
+        let outside = power.ge(zero) & some;
+        let sin_squared = (r * r * inverse).lesser(one);
+        let cos = (power.greater(zero) * inverse).sqrt();
+        let h = R::blend(outside, sin_squared / (one + cos), R::lit(2.0));
+        let distance = squared.sqrt();
+        // scaled by itself: the centre may be arbitrarily near a point inside a large sphere
+        let axis = (center * center.max_abs().pow2_scale()).normalize();
+        let somewhere = axis.max_abs().gt(zero);
+        let axis = Vec3::new(axis.x, axis.y, R::blend(somewhere, axis.z, one));
+        Self {
+            frame: Frame::new(axis),
+            // nothing where the centre is no number
+            cone: Cone { one_minus_cos: h.keep(r.gt(zero) & squared.ge(zero)) },
+            distance,
+            power,
+            unit: one / scale,
+        }
+    }
+
+    /// Solid angle in steradians; 4π from inside.
+    #[inline]
+    pub fn solid_angle(&self) -> R {
+        self.cone.solid_angle()
+    }
+
+    /// The circle in which the sphere is seen, on the unit sphere around the point: the frame of its axis, its distance from the point, and
+    /// its radius. From inside, and without a sphere, it has no radius.
+    #[inline(always)]
+    pub(in crate::light) fn rim(&self) -> (Frame<R>, R, R) {
+        let height = self.cone.one_minus_cos;
+        let radius = (height * (R::lit(2.0) - height)).greater(R::lit(0.0)).sqrt();
+        (self.frame, R::lit(1.0) - height, radius)
+    }
+    /// The same circle by its centre and two radii at a right angle.
+    #[inline(always)]
+    pub(in crate::light) fn circle(&self) -> [Vec3<R>; 3] {
+        let (Frame { s, t, n }, height, radius) = self.rim();
+        [n * height, s * radius, t * radius]
+    }
+
+    /// The pdf per steradian of every direction that hits the sphere, 1/Ω.
+    #[inline]
+    pub fn uniform_pdf(&self) -> R {
+        self.cone.uniform_pdf()
+    }
+
+    /// True where the point lies strictly inside the sphere and so sees its inner side.
+    #[inline]
+    pub fn inside(&self) -> R::Mask {
+        self.power.lt(R::lit(0.0))
+    }
+
+    /// Maps `u` to a direction and the distance to the sphere along it, without cancellation at grazing or near contact.
+    ///
+    /// With k = 1−cosθ, from outside, R²−d²sin²θ = d²(h−k)(2−h−k), and the near root is (d²−R²)/(d cosθ + √·).
+    #[inline]
+    pub fn sample_direction(&self, u: Vec2<R>) -> DirectionSample<R> {
+        let (zero, one, two) = (R::lit(0.0), R::lit(1.0), R::lit(2.0));
+        let h = self.cone.one_minus_cos;
+        let k = u.x * h;
+        let along = self.distance * (one - k);
+        let across = (h * (one - u.x)) * (two - h * (one + u.x));
+        let outside = self.power.ge(zero);
+        let square = R::blend(outside, self.distance * self.distance * across, along.mul_add(along, -self.power));
+        let sum = square.greater(zero).sqrt() + along.abs();
+        let quotient = self.power.abs() / R::blend(sum.gt(zero), sum, one);
+        let far = !outside & along.ge(zero);
+        DirectionSample {
+            direction: self.sample(u),
+            distance: (R::blend(far, sum, quotient) * self.unit).lesser(R::lit(f64::from(f32::MAX))),
+        }
+    }
+}
+
+impl<R: Real> Warp<R> for SphericalCap<R> {
+    type Point = Vec3<R>;
+    #[inline]
+    fn sample(&self, u: Vec2<R>) -> Vec3<R> {
+        self.frame.to_world(self.cone.sample(u))
+    }
+    /// The pdf per steradian; 0 for a direction that misses the sphere.
+    #[inline]
+    fn pdf(&self, w: Vec3<R>) -> R {
+        self.cone.pdf_in_frame(&self.frame, w)
+    }
+    #[inline]
+    fn invert(&self, w: Vec3<R>) -> Vec2<R> {
+        self.cone.invert(self.frame.to_local(w))
+    }
+}

@@ -1,0 +1,388 @@
+//! Triangles by projected solid angle.
+
+mod horizon;
+pub(in crate::light) mod piece;
+pub(in crate::light) mod sector;
+pub(in crate::light) mod zenith;
+
+use crate::lanewise::lanewise;
+use crate::light::direction::{DirectionSample, to_unit};
+use crate::light::triangle::solid_angle::TRIANGLE_SLACK;
+use crate::math::{quotient, ratio, rsqrt};
+use crate::real::{Mask, Real, unit_interval};
+use crate::vector::double_word::{cross_dw, dot_dw, height_dw, sum_dw, unit_normal};
+use crate::vector::{Vec2, Vec3};
+use crate::warp::Warp;
+use horizon::{Exact, clip};
+use piece::{Corners, Piece, narrowest};
+use sector::Sector;
+use zenith::{Found, Side, drop_narrow, sectors, surrounds};
+
+/// Heights below this, in units of the greatest coordinate, count as on the horizon.
+pub(in crate::light) const LEAST_HEIGHT: f64 = 1e-30;
+
+lanewise! {
+    /// Directions from a point to a triangle above the horizon of a surface, by projected solid angle (pdf ∝ cosine to the
+    /// normal): for diffuse surfaces where a ray costs more than a sample.
+    ///
+    /// [`Triangle::by_projected_solid_angle`](crate::Triangle::by_projected_solid_angle) says how.
+    pub struct ProjectedTriangle {
+        /// unit normal of the surface
+        pub(in crate::light) normal: Vec3<R>,
+        /// the part above the horizon, or the first of two
+        pub(in crate::light) first: Piece<R>,
+        /// the second part, beyond `diagonal`; empty if there is one
+        pub(in crate::light) second: Piece<R>,
+        /// unit normal of the plane between the parts, towards the second
+        pub(in crate::light) diagonal: Vec3<R>,
+        /// normal of the plane through the viewpoint, v0 and v1, pointing inwards; shorter where the plane is less well known
+        pub(in crate::light) pole0: Vec3<R>,
+        /// the same for v1 and v2
+        pub(in crate::light) pole1: Vec3<R>,
+        /// the same for v2 and v0
+        pub(in crate::light) pole2: Vec3<R>,
+        /// (v1−v0)×(v2−v0)
+        pub(in crate::light) plane: Vec3<R>,
+        /// V₀·plane
+        pub(in crate::light) volume: R,
+        /// unit of the lengths above, a power of two
+        pub(in crate::light) unit: R,
+        /// 1 if the triangle contains the zenith and has sectors about it, else 0
+        pub(in crate::light) central: R,
+        /// Ω⊥ in steradians
+        pub(in crate::light) projected: R,
+    }
+}
+
+/// A triangle, with its derived quantities as accurately as they are known.
+pub(in crate::light) struct Given<R> {
+    /// relative to the point, scaled so that all lengths are below 4
+    pub(in crate::light) vertices: [Vec3<R>; 3],
+    /// rounding errors of those that are rounded
+    pub(in crate::light) rests: [Option<Vec3<R>>; 3],
+    /// from each vertex to the next
+    pub(in crate::light) edges: [Vec3<R>; 3],
+    /// cross products of each vertex and the next, as unevaluated sums
+    pub(in crate::light) products: [[Vec3<R>; 2]; 3],
+    /// (v1−v0)×(v2−v0), as an unevaluated sum
+    pub(in crate::light) plane: [Vec3<R>; 2],
+}
+
+/// a − b as an unevaluated sum.
+#[inline(always)]
+fn difference<R: Real>(a: Vec3<R>, b: Vec3<R>) -> [Vec3<R>; 2] {
+    sum_dw([a, Vec3::default()], [-b, Vec3::default()])
+}
+
+/// The rounding error p + e − v of the vertex v ≈ p + e.
+#[inline(always)]
+pub(in crate::light) fn lack<R: Real>(v: Vec3<R>, p: Vec3<R>, e: [Vec3<R>; 2]) -> Vec3<R> {
+    let [sum, rest] = sum_dw([p, Vec3::default()], e);
+    (sum - v) + rest
+}
+
+/// n + a×b for an unevaluated sum n and a small a×b.
+#[inline(always)]
+pub(in crate::light) fn with_rest<R: Real>([n, rest]: [Vec3<R>; 2], a: Vec3<R>, b: Vec3<R>) -> [Vec3<R>; 2] {
+    [n, rest + a.cross(b)]
+}
+
+/// The product of the normal and the cross product `n` of the ends of an edge, one of which is `v` with the rounding error `rest`.
+///
+/// Only the part of the normal across v counts. Overhead it is a small difference: formed first, it leaves as many digits as the normal
+/// has.
+#[inline(always)]
+pub(in crate::light) fn area<R: Real>(normal: Vec3<R>, [v, rest]: [Vec3<R>; 2], n: [Vec3<R>; 2]) -> [R; 2] {
+    let along = ratio(R::lit(1.0), v.length_squared()).lesser(R::lit(1e36)) * v.dot(normal);
+    let across = |normal: R, v: R, rest: R| {
+        let p = along * v;
+        let (sum, error) = normal.two_sum(-p);
+        sum.two_sum(error - along.mul_add(rest, R::two_prod_error(along, v, p)))
+    };
+    let ((x, ex), (y, ey), (z, ez)) =
+        (across(normal.x, v.x, rest.x), across(normal.y, v.y, rest.y), across(normal.z, v.z, rest.z));
+    let [sum, more] = height_dw(Vec3::new(x, y, z), n);
+    [sum, more + Vec3::new(ex, ey, ez).dot(n[0])]
+}
+
+impl<R: Real> ProjectedTriangle<R> {
+    /// Prepares for the vertices `v0`, `v1`, `v2` relative to the point (in any unit of length), on a surface with the normal
+    /// `normal` (of any length).
+    #[inline]
+    pub fn new(v0: Vec3<R>, v1: Vec3<R>, v2: Vec3<R>, normal: Vec3<R>) -> Self {
+        let mut this = Self::default();
+        this.prepare_vertices([v0, v1, v2], normal);
+        this
+    }
+
+    /// As `new`, in place: a prepared packet is kilobytes, and each copy of it counts. It must be empty before.
+    #[inline(always)]
+    fn prepare_vertices(&mut self, [v0, v1, v2]: [Vec3<R>; 3], normal: Vec3<R>) {
+        let ([v0, v1, v2], scale) = to_unit([v0, v1, v2]);
+        let edges = [difference(v1, v0), difference(v2, v1), difference(v0, v2)];
+        let product = |v: Vec3<R>, [e, d]: [Vec3<R>; 2]| with_rest(cross_dw(v, e), v, d);
+        let products = [product(v0, edges[0]), product(v1, edges[1]), product(v2, edges[2])];
+        let ([e1, d1], [e2, d2]) = (edges[0], edges[2]);
+        let [plane, rest] = cross_dw(e2, e1);
+        let plane = [plane, rest + (d2.cross(e1) + e2.cross(d1))];
+        let corners = Given { vertices: [v0, v1, v2], rests: [None; 3], edges: edges.map(|e| e[0]), products, plane };
+        self.prepare(&corners, normal, scale);
+    }
+
+    /// As `new`, with the edges `e1` = v1−v0 and `e2` = v2−v0.
+    ///
+    /// Take this for a small and far triangle if you know the edges more accurately than the difference of the vertices: they
+    /// then give the shape.
+    #[inline]
+    pub fn with_edges(v0: Vec3<R>, v1: Vec3<R>, v2: Vec3<R>, e1: Vec3<R>, e2: Vec3<R>, normal: Vec3<R>) -> Self {
+        let mut this = Self::default();
+        this.prepare_edges([v0, v1, v2], [e1, e2], normal);
+        this
+    }
+
+    /// As `with_edges`, in place.
+    #[inline]
+    pub(in crate::light) fn prepare_edges(
+        &mut self,
+        [v0, v1, v2]: [Vec3<R>; 3],
+        [e1, e2]: [Vec3<R>; 2],
+        normal: Vec3<R>,
+    ) {
+        let ([v0, v1, v2, e1, e2], scale) = to_unit([v0, v1, v2, e1, e2]);
+        let none = Vec3::default();
+        self.prepare_sides(
+            [v0, v1, v2],
+            [lack(v1, v0, [e1, none]), lack(v2, v0, [e2, none])],
+            [[e1, none], difference(e2, e1), [-e2, none]],
+            [e1, e2],
+            normal,
+            scale,
+        );
+    }
+
+    /// Prepares, in place, from vertices with the rounding errors of the second and third, all three edges (from each vertex to the next,
+    /// as unevaluated sums), and the plane's normal as a cross product of two factors; all lengths below 4.
+    #[inline(always)]
+    pub(in crate::light) fn prepare_sides(
+        &mut self,
+        vertices: [Vec3<R>; 3],
+        rests: [Vec3<R>; 2],
+        edges: [[Vec3<R>; 2]; 3],
+        factors: [Vec3<R>; 2],
+        normal: Vec3<R>,
+        scale: R,
+    ) {
+        let [v0, v1, _] = vertices;
+        let [e0, e1, e2] = edges;
+        let [n, rest] = cross_dw(v1, e1[0]);
+        let products = [
+            with_rest(cross_dw(v0, e0[0]), v0, e0[1]),
+            [n, rest + (v1.cross(e1[1]) + rests[0].cross(e1[0]))],
+            with_rest(cross_dw(v0, e2[0]), v0, e2[1]),
+        ];
+        let plane = cross_dw(factors[0], factors[1]);
+        let rests = [None, Some(rests[0]), Some(rests[1])];
+        let corners = Given { vertices, rests, edges: edges.map(|e| e[0]), products, plane };
+        self.prepare(&corners, normal, scale);
+    }
+
+    #[inline]
+    pub(in crate::light) fn prepare(&mut self, given: &Given<R>, normal: Vec3<R>, scale: R) {
+        let (zero, one) = (R::lit(0.0), R::lit(1.0));
+        let Given { vertices: v, rests, edges: e, products, plane } = *given;
+        let [sum, more] = height_dw(v[0], plane);
+        let volume = sum + rests[0].map_or(more, |rest| more + rest.dot(plane[0]));
+        let plane = plane[0] + plane[1];
+        let (normal, long, shrink) = unit_normal(normal);
+        let heights: [[R; 2]; 3] = core::array::from_fn(|i| {
+            let [z, more] = dot_dw(v[i], long);
+            [z, rests[i].map_or(more, |rest| more + rest.dot(long))]
+        });
+        // below this the errors of products are subnormal, and the horizon would cut by rounding
+        let heights = heights.map(|pair| {
+            let some = (pair[0] + pair[1]).abs().gt(R::lit(LEAST_HEIGHT));
+            pair.map(|x| x.keep(some))
+        });
+        // each edge from an end whose rounding error is exact: the last from the first vertex
+        let volumes: [[R; 2]; 3] =
+            core::array::from_fn(|i| area(long, [v[i % 2], rests[i % 2].unwrap_or_default()], products[i]));
+        let rounded = |[x, rest]: [R; 2]| (x + rest) * shrink;
+        let (z, areas) = (heights.map(rounded), volumes.map(rounded));
+        let exact = Exact { edges: e, products, heights, volumes, shrink };
+        let products = products.map(|[n, rest]| n + rest);
+        let m_squared = products.map(Vec3::length_squared);
+        let inverses = m_squared.map(|s| rsqrt(s).keep(s.gt(R::lit(1e-36))));
+        let lengths: [R; 3] = core::array::from_fn(|i| m_squared[i] * inverses[i]);
+        let poles: [Vec3<R>; 3] = core::array::from_fn(|i| products[i] * inverses[i]);
+        let below = z.map(|z| z.lt(zero));
+        let cut = below[0] | below[1] | below[2];
+        let mut corners = Corners { vertices: v, poles, lengths, areas, heights: z, volume };
+        let sides: [Side<R>; 3] = core::array::from_fn(|i| Side {
+            a: v[i],
+            b: v[(i + 1) % 3],
+            product: products[i],
+            area: areas[i],
+            heights: [z[i], z[(i + 1) % 3]],
+        });
+        let turn = one.negate_where(volume.lt(zero));
+        let central = surrounds(&sides, turn) & volume.abs().gt(zero);
+        if !central.all() {
+            if cut.any() {
+                let rest;
+                (corners, rest, self.diagonal) = clip(&corners, &exact, normal);
+                if rest.volume.abs().gt(zero).any() {
+                    self.second.sweep(&rest, normal);
+                }
+            }
+            self.first.sweep(&corners, normal);
+            // if the horizon leaves next to nothing of a piece, only u = 0 falls into it
+            let least = narrowest::<R>() * (self.first.area + self.second.area);
+            for piece in [&mut self.first, &mut self.second] {
+                piece.area = piece.area.keep(piece.area.gt(least));
+            }
+        }
+        if central.any() {
+            let mut pieces = sectors(&sides, 0, normal, turn);
+            let whole = pieces[0].area + pieces[1].area;
+            drop_narrow(&mut pieces, whole);
+            self.first.replace(central, &pieces[0]);
+            self.second.replace(central, &pieces[1]);
+        }
+        let side = |i: usize| {
+            // the plane of nearly opposite vertices is known only to −cos : sin of their angle; shorten the pole by that much
+            let length = lengths[i];
+            poles[i] * ratio(length, length.greater(-v[i].dot(v[(i + 1) % 3]))).negate_where(volume.lt(zero))
+        };
+        self.normal = normal;
+        (self.pole0, self.pole1, self.pole2) = (side(0), side(1), side(2));
+        self.plane = plane;
+        self.volume = volume;
+        self.unit = scale.pow2_scale();
+        self.central = one.keep(central);
+        // from the triangle's plane nothing is visible, whatever the rounded areas are
+        self.projected = (self.first.area + self.second.area).keep(volume.abs().gt(zero));
+    }
+
+    /// Projected solid angle Ω⊥ in [0, π]: irradiance per unit of radiance.
+    #[inline(always)]
+    pub fn projected_solid_angle(&self) -> R {
+        self.projected
+    }
+    /// The pdf per steradian of a direction that is known to hit the triangle and has the cosine `cos` to the normal: cosθ/Ω⊥.
+    #[inline(always)]
+    pub fn pdf_at_cosine(&self, cos: R) -> R {
+        cos.greater(R::lit(0.0)) * quotient(R::lit(1.0), self.projected)
+    }
+    /// True where the point is on the side to which the normal (v1−v0)×(v2−v0) points.
+    #[inline(always)]
+    pub fn in_front(&self) -> R::Mask {
+        self.volume.lt(R::lit(0.0))
+    }
+
+    /// The sector that has the area `swept` before it and `left` after it, and the share of the sector before the azimuth,
+    /// counted from its apex.
+    #[inline(always)]
+    pub(in crate::light) fn choose(&self, swept: R, left: R) -> (Sector<R>, R) {
+        let (mut sector, mut share) = self.first.choose(swept, left - self.second.area);
+        let some = self.second.area.gt(R::lit(0.0));
+        if some.any() {
+            let later = some & swept.ge(self.first.area);
+            let (other, rest) = self.second.choose(swept - self.first.area, left);
+            sector = Sector::blend(later, other, sector);
+            share = R::blend(later, rest, share);
+        }
+        (sector, share)
+    }
+    /// The distance to the plane along a direction; 0 where there is none.
+    #[inline(always)]
+    pub(in crate::light) fn distance(&self, w: Vec3<R>) -> R {
+        let (zero, one) = (R::lit(0.0), R::lit(1.0));
+        let along = w.dot(self.plane).abs();
+        let some = along.gt(zero) & self.projected.gt(zero);
+        // a point of the triangle is within 4 units; a distance that does not fit f32 becomes the largest finite number
+        let distance = (self.volume.abs() / R::blend(some, along, one)).lesser(R::lit(4.0)) * self.unit;
+        distance.lesser(R::lit(f64::from(f32::MAX))).keep(some)
+    }
+    /// Maps `u` to a direction and the distance to the triangle along it.
+    #[inline(always)]
+    pub fn sample_direction(&self, u: Vec2<R>) -> DirectionSample<R> {
+        let direction = self.sample(u);
+        DirectionSample { direction, distance: self.distance(direction) }
+    }
+    /// True where a direction hits the triangle, to within the rounding of the direction. The horizon is not tested.
+    #[inline(always)]
+    pub fn contains(&self, w: Vec3<R>) -> R::Mask {
+        let least = w.dot(self.pole0).lesser(w.dot(self.pole1)).lesser(w.dot(self.pole2));
+        within(least) & ahead(w, self.plane, self.in_front())
+    }
+    /// Turns the poles inwards as for a triangle seen from the front (`front`) or from the back.
+    #[inline(always)]
+    pub(in crate::light) fn face(&mut self, front: R::Mask) {
+        let turn = R::lit(1.0).negate_where(front ^ self.in_front());
+        for pole in [&mut self.pole0, &mut self.pole1, &mut self.pole2] {
+            *pole = *pole * turn;
+        }
+    }
+    /// The area before a direction of the triangle, and u₁; areas are kept `edge` away from a jump of the map.
+    #[inline(always)]
+    pub(in crate::light) fn locate(&self, w: Vec3<R>, edge: R) -> Vec2<R> {
+        let zero = R::lit(0.0);
+        let mut found = self.first.locate(self.normal, w);
+        let some = self.second.area.gt(zero);
+        if some.any() {
+            let later = some & (w.dot(self.diagonal).gt(zero) | self.first.area.le(zero));
+            let other = self.second.locate(self.normal, w);
+            let before = found.x.lesser(R::blend(some, self.first.area - edge, self.first.area)).greater(zero);
+            found.x = R::blend(later, self.first.area + other.x.greater(edge), before);
+            found.y = R::blend(later, other.y, found.y);
+        }
+        let central = self.central.gt(zero);
+        if central.any() {
+            found = Vec2::blend(central, self.look(Found::nothing(), w).place(self.normal, w), found);
+        }
+        found
+    }
+    /// Looks for the azimuth of a direction in the sectors about the zenith.
+    #[inline(always)]
+    pub(in crate::light) fn look(&self, found: Found<R>, w: Vec3<R>) -> Found<R> {
+        found.look(&self.first, self.normal, w).look(&self.second, self.normal, w)
+    }
+}
+
+/// Tells whether a direction is inside all sides, given the least sine over them; allows for the rounding of the direction
+/// itself.
+#[inline(always)]
+pub(in crate::light) fn within<R: Real>(least: R) -> R::Mask {
+    least.ge(R::lit(-TRIANGLE_SLACK))
+}
+/// Tells whether a direction leads towards the plane with that normal, with the same allowance.
+#[inline(always)]
+pub(in crate::light) fn ahead<R: Real>(w: Vec3<R>, plane: Vec3<R>, front: R::Mask) -> R::Mask {
+    w.dot(plane).negate_where(front).ge(-(plane.length() * R::lit(TRIANGLE_SLACK)))
+}
+
+/// Two steps of u₀, in units of area: between two parts the map may jump, and u₀Ω⊥ is known only to this accuracy.
+#[inline(always)]
+pub(in crate::light) fn edge<R: Real>(whole: R) -> R {
+    let step = R::lit(1.0) - R::ONE_MINUS_EPSILON;
+    whole * (step + step)
+}
+
+impl<R: Real> Warp<R> for ProjectedTriangle<R> {
+    type Point = Vec3<R>;
+    #[inline(always)]
+    fn sample(&self, u: Vec2<R>) -> Vec3<R> {
+        let (sector, share) = self.choose(u.x * self.projected, (R::lit(1.0) - u.x) * self.projected);
+        sector.direction(self.normal, sector.sweep(share), u.y)
+    }
+    /// The pdf per steradian; 0 for a direction that misses the triangle or lies below the horizon.
+    #[inline(always)]
+    fn pdf(&self, w: Vec3<R>) -> R {
+        self.pdf_at_cosine(w.dot(self.normal)).keep(self.contains(w))
+    }
+    #[inline(always)]
+    fn invert(&self, w: Vec3<R>) -> Vec2<R> {
+        let found = self.locate(w, edge(self.projected));
+        Vec2 { x: unit_interval(ratio(found.x, self.projected)), y: found.y }
+    }
+}

@@ -1,0 +1,424 @@
+//! Triangles by solid angle.
+
+mod arc;
+mod inverse;
+
+use crate::lanewise::lanewise;
+use crate::light::direction::{DirectionSample, to_unit};
+use crate::math::{quotient, rsqrt};
+use crate::real::{Mask, Real, unit_interval};
+use crate::vector::double_word::{compensated_height, cross_dw, height_over, sum_dw};
+use crate::vector::{Vec2, Vec3};
+use crate::warp::Warp;
+
+/// Angle by which the error of its direction may move a sample out of the triangle: 12 ulp of a component near 1.
+const BEYOND: f64 = 12.0 / 16_777_216.0;
+/// Bound of what rounding takes from the distance to the third plane that follows from the others, in units of their normals.
+const SURELY: f64 = 32.0 / 16_777_216.0;
+/// The tolerance for samples by projected solid angle: 8 ulp.
+pub(in crate::light) const TRIANGLE_SLACK: f64 = 8.0 / 16_777_216.0;
+
+lanewise! {
+    /// Directions from a point to a triangle, uniform in solid angle: for every triangle that is not far.
+    ///
+    /// [`Triangle::by_solid_angle`](crate::Triangle::by_solid_angle) says how.
+    pub struct SphericalTriangle {
+        /// normal of the plane through the viewpoint, v0 and v1, pointing inwards
+        side01: Vec3<R>,
+        /// the same for v1 and v2
+        side12: Vec3<R>,
+        /// the same for v2 and v0
+        side20: Vec3<R>,
+        /// tolerances of these planes: w is inside one if w·side ≥ −slack
+        slack: Vec3<R>,
+        /// E₁×E₂
+        normal: Vec3<R>,
+        /// l₁, in units of `unit`
+        l1: R,
+        /// max(l₀, l₁, l₂), an upper bound of every distance
+        farthest: R,
+        /// V₁/l₁
+        apex: Vec3<R>,
+        /// unit tangent at v1 towards v0
+        along: Vec3<R>,
+        /// unit tangent at v1 perpendicular to `along`, towards v2
+        across: Vec3<R>,
+        /// cotα, α the angle at v0
+        cot_alpha: R,
+        /// 2/sin c, c the side v0 v1
+        stretch: R,
+        /// k = tan(c/2)
+        tan_half: R,
+        /// (sinH, cosH), H = Ω/2
+        half: Vec2<R>,
+        /// (sin(α−H), cos(α−H))/sinα
+        turned: Vec2<R>,
+        /// sin c
+        sin_side: R,
+        /// 1/l₀
+        inv_l0: R,
+        /// 1/l₂
+        inv_l2: R,
+        /// T/G₀ = (G₁+G₂)/G₀ = cotH, with G₁ = d₀₂+d₁₂
+        cot_half: R,
+        /// 1/sinH
+        inv_half_sin: R,
+        /// G₂ = 1+d₀₁
+        g2: R,
+        /// G₂/G₀
+        g2_over_g0: R,
+        /// 1+d₀₂
+        one_plus_d02: R,
+        /// 1−d₀₂², the squared sine of the side v0 v2
+        sin02_squared: R,
+        /// V₂/l₂ along `along`
+        x2: R,
+        /// V₂/l₂ along `across`
+        y2: R,
+        /// G₁ = T − G₂
+        g1: R,
+        /// V₀·(E₁×E₂): negative where the point is on the side to which E₁×E₂ points
+        volume: R,
+        /// Ω in steradians
+        solid_angle: R,
+        /// unit of the lengths above, a power of two
+        unit: R,
+    }
+}
+
+/// Quantities that callers know more accurately than the rounded vertices give them.
+pub(in crate::light) struct Planes<R> {
+    /// V₀×V₁
+    pub(in crate::light) n01: Vec3<R>,
+    /// V₀×V₂
+    pub(in crate::light) n02: Vec3<R>,
+    /// V₁×V₂
+    pub(in crate::light) n12: Vec3<R>,
+    /// E₁×E₂
+    pub(in crate::light) normal: Vec3<R>,
+    /// V·(E₁×E₂), the same for every vertex V
+    pub(in crate::light) volume: R,
+    /// v2−v1
+    pub(in crate::light) edge: Vec3<R>,
+}
+
+/// Va/lₐ + Vb/l_b for a and b more than 90° apart, given n = Va×Vb: accurate relative to its own size, from the foot of the
+/// perpendicular on the line through both.
+#[inline]
+fn sum_of_units<R: Real>([a, b]: [Vec3<R>; 2], [ia, ib]: [R; 2], n: Vec3<R>) -> Vec3<R> {
+    let (zero, one) = (R::lit(0.0), R::lit(1.0));
+    let plain = a * ia + b * ib;
+    let opposite = a.dot(b).lt(zero);
+    let edge = b - a;
+    let squared = edge.length_squared();
+    let some = squared.gt(R::lit(1e-36));
+    let inverse = rsqrt(R::blend(some, squared, one));
+    let by = inverse * inverse;
+    let foot = edge.cross(n) * by;
+    let height = n.length_squared() * by;
+    let along = edge * inverse;
+    // 1 − |a·along|/lₐ
+    let lack = |v: Vec3<R>, i: R| height * i * i / (one + v.dot(along).abs() * i);
+    let sum = foot.mul_add(ia + ib, along * (lack(a, ia) - lack(b, ib)));
+    Vec3::blend(opposite & some, sum, plain)
+}
+
+impl<R: Real> SphericalTriangle<R> {
+    /// Prepares for the vertices `v0`, `v1`, `v2` relative to the point, in any unit of length.
+    #[inline(always)]
+    pub fn new(v0: Vec3<R>, v1: Vec3<R>, v2: Vec3<R>) -> Self {
+        let ([v0, v1, v2], scale) = to_unit([v0, v1, v2]);
+        let none = Vec3::default();
+        let ([e1, d1], [e2, d2]) = (sum_dw([v1, none], [-v0, none]), sum_dw([v2, none], [-v0, none]));
+        let [normal, rest] = cross_dw(e1, e2);
+        let rest = rest + (d1.cross(e2) + e1.cross(d2));
+        let volume = compensated_height(v0, [normal, rest]);
+        let (n01, n02, n12) = (v0.cross(v1), v0.cross(v2), v1.cross(v2));
+        let planes = Planes { n01, n02, n12, normal: normal + rest, volume, edge: v2 - v1 };
+        Self::prepare([v0, v1, v2], &planes, || n12, scale)
+    }
+
+    /// As `new`, with the edges `e1` = v1−v0 and `e2` = v2−v0.
+    ///
+    /// Take this for a small and far triangle if you know the edges more accurately than the difference of the vertices: they
+    /// then give the shape, and the planes through the point are those of `v0` and the edges.
+    #[inline(always)]
+    pub fn with_edges(v0: Vec3<R>, v1: Vec3<R>, v2: Vec3<R>, e1: Vec3<R>, e2: Vec3<R>) -> Self {
+        let ([v0, v1, v2, e1, e2], scale) = to_unit([v0, v1, v2, e1, e2]);
+        let normal = e1.cross(e2);
+        let (volume, edge) = (height_over(v0, [e1, e2], normal), e2 - e1);
+        // from the nearer vertex, the rounding of the edge moves neither by more than its own
+        let nearer = Vec3::blend(v1.length_squared().lt(v2.length_squared()), v1, v2);
+        let (n01, n02, n12) = (v0.cross(e1), v0.cross(e2), nearer.cross(edge));
+        // v1×v2 = (v0+e1)×(v0+e2)
+        let exact = || {
+            let [n12, rest] = sum_dw(cross_dw(e1, e2), sum_dw(cross_dw(v0, e2), cross_dw(e1, v0)));
+            n12 + rest
+        };
+        Self::prepare([v0, v1, v2], &Planes { n01, n02, n12, normal, volume, edge }, exact, scale)
+    }
+
+    /// Prepares vertices scaled so that all lengths are below 4. Where a side is wide, the length of V₁×V₂ counts: `exact` returns it
+    /// accurate relative to itself.
+    #[inline(always)]
+    pub(in crate::light) fn prepare(
+        [v0, v1, v2]: [Vec3<R>; 3],
+        planes: &Planes<R>,
+        exact: impl FnOnce() -> Vec3<R>,
+        scale: R,
+    ) -> Self {
+        let Planes { n01, n02, mut n12, normal, volume, edge } = *planes;
+        let (zero, one) = (R::lit(0.0), R::lit(1.0));
+        // distances lᵢ of the vertices and the cosines dᵢⱼ between their directions
+        let squared = [v0, v1, v2].map(Vec3::length_squared);
+        let [i0, i1, i2] = squared.map(|s| rsqrt(s).keep(s.gt(R::lit(1e-36))));
+        let (d01, d02) = (v0.dot(v1) * i0 * i1, v0.dot(v2) * i0 * i2);
+        let inverse = |n: Vec3<R>| {
+            let squared = n.length_squared();
+            rsqrt(squared).keep(squared.gt(R::lit(1e-37)))
+        };
+        let i01 = inverse(n01);
+        let (l0, l1, l2) = (squared[0] * i0, squared[1] * i1, squared[2] * i2);
+        // the side c from v0 to v1: its sine, 1−d₀₁ and 1+d₀₁, the smaller one from the sine, and tan(c/2)
+        let sin_side = n01.length_squared() * i01 * i0 * i1;
+        let inv_sin_side = i01 * l0 * l1;
+        let stretch = R::lit(2.0) * inv_sin_side;
+        let small = sin_side * sin_side / (one + d01.abs());
+        let obtuse = d01.lt(zero);
+        let (minus, g2) = (R::blend(obtuse, one - d01, small), R::blend(obtuse, small, one + d01));
+        let tan_half = minus * inv_sin_side;
+        // tanH = G₀/T for H = Ω/2, T as (V₀/l₀ + V₁/l₁)·V₂/l₂, so that opposite unit vectors cancel first
+        let g0 = volume.abs() * i0 * i1 * i2;
+        let apex = v1 * i1;
+        let mut total = (v0 * i0 + apex).dot(v2).mul_add(i2, g2);
+        // the frame at v1
+        let towards = volume.lt(zero);
+        let pole = n01 * i01;
+        let along = apex.cross(pole);
+        // V₂/l₂ along the tangents at v1, and 1+d₁₂
+        let d12 = apex.dot(v2) * i2;
+        let (mut x2, y2) = (along.dot(edge) * i2, volume.abs() * i01 * i2);
+        let (mut one_plus_d12, mut one_plus_d02) = (one + d12, one + d02);
+        let sin02_squared = n02.length_squared() * (i0 * i2) * (i0 * i2);
+        // a side of more than 120° is rare: do the extra work only where there is one
+        let wide = d01.lesser(d02).lesser(d12).lt(R::lit(-0.5));
+        if wide.any() {
+            n12 = Vec3::blend(wide, exact(), n12);
+            let sums = [
+                sum_of_units([v0, v1], [i0, i1], n01),
+                sum_of_units([v0, v2], [i0, i2], n02),
+                sum_of_units([v1, v2], [i1, i2], n12),
+            ];
+            // T at the vertex to which the others are least opposite
+            let at0 = sums[0].dot(sums[1]);
+            let at1 = sums[0].dot(sums[2]);
+            let at2 = sums[1].dot(sums[2]);
+            let sum = R::blend(d01.gt(d02.greater(d12)), at2, R::blend(d02.gt(d12), at1, at0));
+            total = R::blend(wide, sum, total);
+            x2 = R::blend(wide, -(n01.dot(n12) * i01 * i1 * i2), x2);
+            let behind = x2.mul_add(x2, y2 * y2) / (one + d12.abs());
+            one_plus_d12 = R::blend(wide & d12.lt(zero), behind, one_plus_d12);
+            one_plus_d02 = R::blend(wide & d02.lt(zero), sin02_squared / (one + d02.abs()), one_plus_d02);
+        }
+        let across = Vec3::blend(towards, -pole, pole);
+        // sinα : cosα = |volume| l₀ : n₀₁·n₀₂
+        let opposite = volume.abs() * l0;
+        let angle = opposite.gt(R::lit(1e-37));
+        let cot_alpha = (n01.dot(n02) / R::blend(angle, opposite, one)).keep(angle);
+        // Ω, and H; at a vertex everything is 0, and so is Ω
+        let somewhere = i0.gt(zero) & i1.gt(zero) & i2.gt(zero) & g0.gt(zero);
+        let solid_angle = (R::lit(2.0) * g0.atan2(total)).keep(somewhere);
+        let inv_g0 = one / R::blend(g0.gt(R::lit(1e-37)), g0, one);
+        // (sin, cos)(α−H)/sinα from v2, where the sweep ends: P there has the coordinates (X, Y) = tan(δ₂/2) (cosψ, sinψ)
+        let squared = g0.mul_add(g0, total * total).greater(R::lit(1e-36));
+        let over = rsqrt(squared);
+        let half = Vec2::new(g0 * over, total * over);
+        let inv_half_sin = inv_g0 * squared * over;
+        let by_plus = one / one_plus_d12.greater(R::lit(1e-30));
+        // sin c / (2 sinH)
+        let by_swept = R::lit(0.5) * sin_side * inv_half_sin;
+        let some = by_swept.lt(R::lit(1e30));
+        let most = R::lit(1e18);
+        let turned = Vec2::new(
+            (y2 * by_plus * by_swept).lesser(most).keep(some),
+            (x2.mul_add(-by_plus, tan_half) * by_swept).clamped(-most, most).keep(some),
+        );
+        // the map starts from the great circles through v0 and v1; those, and any through nearly opposite vertices, are known
+        // only to −cos : sin of their angle. The map reaches the one through v1 and v2 along the one from v0 to v2
+        let start = -d01 / R::blend(sin_side.gt(zero), sin_side, one);
+        let inwards = |n: Vec3<R>| Vec3::blend(towards, -n, n);
+        let start = start.greater(one).lesser(R::lit(1e18));
+        let far = start.greater(-d02 * rsqrt(sin02_squared.greater(R::lit(1e-7))));
+        let slack =
+            |n: Vec3<R>, a: Vec3<R>, b: Vec3<R>, known: R| (n.length() * known).greater(-a.dot(b)) * R::lit(BEYOND);
+        Self {
+            side01: inwards(n01),
+            side12: inwards(n12),
+            side20: inwards(-n02),
+            slack: Vec3::new(slack(n01, v0, v1, start), slack(n12, v1, v2, far), slack(n02, v2, v0, start)),
+            normal,
+            l1,
+            farthest: l0.greater(l1).greater(l2),
+            apex,
+            along,
+            across,
+            cot_alpha,
+            stretch,
+            tan_half,
+            half,
+            turned,
+            sin_side,
+            inv_l0: i0,
+            inv_l2: i2,
+            cot_half: total * inv_g0,
+            inv_half_sin,
+            g2,
+            g2_over_g0: g2 * inv_g0,
+            one_plus_d02,
+            sin02_squared,
+            x2,
+            y2,
+            g1: total - g2,
+            volume,
+            solid_angle,
+            unit: scale.pow2_scale(),
+        }
+    }
+
+    /// Solid angle in steradians, in [0, 2π].
+    #[inline(always)]
+    pub fn solid_angle(&self) -> R {
+        self.solid_angle
+    }
+
+    /// The pdf per steradian of every direction that hits the triangle, 1/Ω; 0 where Ω is 0.
+    #[inline(always)]
+    pub fn uniform_pdf(&self) -> R {
+        quotient(R::lit(1.0), self.solid_angle)
+    }
+
+    /// True where the point is on the side to which the normal (v1−v0)×(v2−v0) points.
+    #[inline(always)]
+    pub fn in_front(&self) -> R::Mask {
+        self.volume.lt(R::lit(0.0))
+    }
+
+    /// Maps `u` to a direction and the distance to the triangle along it.
+    #[inline(always)]
+    pub fn sample_direction(&self, u: Vec2<R>) -> DirectionSample<R> {
+        self.sample_point_from(u, R::lit(1.0) - u.x).0
+    }
+    /// The same with the barycentric coordinates of `v1` and `v2`.
+    #[inline(always)]
+    pub(in crate::light) fn sample_with_coordinates(&self, u: Vec2<R>) -> (DirectionSample<R>, Vec2<R>) {
+        let (sample, [_, b1, b2]) = self.sample_point_from(u, R::lit(1.0) - u.x);
+        (sample, Vec2::new(b1, b2))
+    }
+    /// Direction, distance and barycentric coordinates, where 1−u₀ is known more accurately than the difference gives it.
+    #[inline(always)]
+    pub(in crate::light) fn sample_point_from(&self, u: Vec2<R>, rest: R) -> (DirectionSample<R>, [R; 3]) {
+        let (zero, one) = (R::lit(0.0), R::lit(1.0));
+        let arc = self.arc(u.x, rest);
+        let (direction, z, sin_over) = self.along_arc(&arc, u.y);
+        let [w0, w2] = self.weights(arc.swept);
+        let inv_p = w0.mul_add(self.inv_l0, w2 * self.inv_l2);
+        // direction = kV₁/l₁ + tP/|P| with t = sin/sin∠(V₁,P), k = z − t cos; so l₁/distance = k + tl₁/|P|, also at grazing;
+        // sin∠(V₁,P) = 2√M/(1+M)
+        let t = sin_over * R::lit(0.5) * (one + arc.m);
+        let behind = arc.m.gt(one);
+        let cos_abs = (one - arc.m).abs() / (one + arc.m);
+        // k = (z² − t²c²)/(z + tc) = (1−u₁)(z+c)/((1+c)(z+tc))
+        let denominator = (one + cos_abs) * t.mul_add(cos_abs, z);
+        let k = (one - u.y) * (z + cos_abs) / R::blend(denominator.gt(zero), denominator, one);
+        let reciprocal = t.mul_add(inv_p * self.l1, k);
+        // where P lies behind v1 the sum cancels, but then the triangle is large, and its plane will do
+        let numerator = R::blend(behind, self.volume.abs(), self.l1);
+        let denominator = R::blend(behind, direction.dot(self.normal).abs(), reciprocal);
+        let some = denominator.gt(zero) & self.solid_angle.gt(zero);
+        // a distance that does not fit f32 becomes the largest finite number
+        let distance = (numerator / R::blend(some, denominator, one)).lesser(self.farthest).keep(some);
+        // the point is the sum of the vertices with these weights
+        let part = |weight: R| (weight * distance).lesser(one);
+        let (b0, b2) = (part(t * w0 * self.inv_l0), part(t * w2 * self.inv_l2));
+        let b1 = R::blend(behind, (one - b0 - b2).greater(zero), part(k / self.l1.greater(R::lit(1e-37))));
+        let distance = (distance * self.unit).lesser(R::lit(f64::from(f32::MAX)));
+        (DirectionSample { direction, distance }, [b0, b1, b2])
+    }
+
+    /// As `sample`, where 1−u₀ is known more accurately than the difference gives it.
+    #[inline(always)]
+    pub(in crate::light) fn sample_from(&self, u: Vec2<R>, rest: R) -> Vec3<R> {
+        self.along_arc(&self.arc(u.x, rest), u.y).0
+    }
+
+    /// Tells whether a direction hits the triangle; allows for the rounding of the direction itself.
+    #[inline(always)]
+    pub fn contains(&self, w: Vec3<R>) -> R::Mask {
+        let mut inside = self.surely_contains(w);
+        // most directions are not beside an edge: prepare its plane exactly, and its tolerance, only where one is
+        if !inside.all() {
+            let exactly = self.within_v1_v2(w) & self.within_v2_v0(w) & self.within_v0_v1(w) & self.ahead(w);
+            inside = inside | exactly;
+        }
+        inside
+    }
+    /// True only for directions that the triangle contains whatever its tolerances are, since V₁×V₂ = E₁×E₂ + V₀×V₂ − V₀×V₁.
+    #[inline(always)]
+    fn surely_contains(&self, w: Vec3<R>) -> R::Mask {
+        let zero = R::lit(0.0);
+        let (start, end) = (w.dot(self.side01), w.dot(self.side20));
+        let ahead = w.dot(self.normal).negate_where(self.in_front());
+        let size = self.side01.max_abs() + self.side20.max_abs() + self.normal.max_abs();
+        let far = ahead - end - start;
+        start.ge(zero) & end.ge(zero) & ahead.ge(zero) & far.gt(size * R::lit(SURELY))
+    }
+    #[inline(always)]
+    pub(in crate::light) fn within_v1_v2(&self, w: Vec3<R>) -> R::Mask {
+        w.dot(self.side12).ge(-self.slack.y)
+    }
+    #[inline(always)]
+    pub(in crate::light) fn within_v2_v0(&self, w: Vec3<R>) -> R::Mask {
+        w.dot(self.side20).ge(-self.slack.z)
+    }
+    #[inline(always)]
+    pub(in crate::light) fn within_v0_v1(&self, w: Vec3<R>) -> R::Mask {
+        w.dot(self.side01).ge(-self.slack.x)
+    }
+    /// Tells whether the direction leads towards the triangle's plane.
+    #[inline(always)]
+    pub(in crate::light) fn ahead(&self, w: Vec3<R>) -> R::Mask {
+        let slack = self.normal.length() * R::lit(BEYOND);
+        w.dot(self.normal).negate_where(self.in_front()).ge(-slack)
+    }
+    /// Tells whether v2 and the direction lie on opposite sides of the plane through the viewpoint, v0 and v1.
+    #[inline(always)]
+    pub(in crate::light) fn beyond_v0_v1(&self, w: Vec3<R>) -> R::Mask {
+        w.dot(self.across).lt(R::lit(0.0))
+    }
+}
+
+impl<R: Real> Warp<R> for SphericalTriangle<R> {
+    type Point = Vec3<R>;
+    #[inline(always)]
+    fn sample(&self, u: Vec2<R>) -> Vec3<R> {
+        self.sample_from(u, R::lit(1.0) - u.x)
+    }
+    /// The pdf per steradian; 0 for a direction that misses the triangle.
+    #[inline(always)]
+    fn pdf(&self, w: Vec3<R>) -> R {
+        self.uniform_pdf().keep(self.contains(w))
+    }
+    #[inline(always)]
+    fn invert(&self, w: Vec3<R>) -> Vec2<R> {
+        let (u, moved) = self.locate(w);
+        let whole = self.solid_angle;
+        let steep = self.steep(whole);
+        if !steep.any() {
+            return u;
+        }
+        let one = R::lit(1.0);
+        let off = self.area_beyond(u.x, one - u.x, w, whole) / whole.greater(R::lit(1e-37));
+        let x = unit_interval(u.x + off.keep(steep));
+        Vec2 { x, y: R::blend(steep, self.share_of_arc(x, one - x, moved), u.y) }
+    }
+}
