@@ -4,7 +4,7 @@ use super::pose::{Pose, Shape, ShapeKind};
 use super::sample::{Draw, Sample};
 use super::textbook::{self, Excess, add};
 use etendue::light::Polygon;
-use etendue::spherical::{
+use etendue::light::shapes::{
     DirectionSample, ProjectedCap, ProjectedPolygon, ProjectedSegment, ProjectedTriangle, SphericalCap, SphericalDisk,
     SphericalParallelogram, SphericalPolygon, SphericalRectangle, SphericalSegment, SphericalTriangle,
 };

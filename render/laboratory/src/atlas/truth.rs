@@ -3,7 +3,7 @@
 
 use super::pose::{Pose, Shape, ShapeKind};
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
-use etendue::spherical::{ProjectedCap, ProjectedParallelogram, ProjectedPolygon, ProjectedTriangle};
+use etendue::light::shapes::{ProjectedCap, ProjectedParallelogram, ProjectedPolygon, ProjectedTriangle};
 use etendue::warp::ConcentricDisk;
 use etendue::{Frame, Vec2, Vec3, Warp};
 use etendue_oracle::curves::{Arc, Ellipse};

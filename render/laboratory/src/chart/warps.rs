@@ -4,8 +4,10 @@ use super::charts::Figure;
 use super::plot::{Bar, Chart, Dot, Line, PALETTE, Scale, escape, short};
 use super::stats::Estimate;
 use crate::cost::{self, Rounds};
+use etendue::light::shapes::{
+    ProjectedCap, SphericalCap, SphericalParallelogram, SphericalRectangle, SphericalTriangle,
+};
 use etendue::sequence::{Independent, Sequence};
-use etendue::spherical::{ProjectedCap, SphericalCap, SphericalParallelogram, SphericalRectangle, SphericalTriangle};
 use etendue::warp::{
     AreaTriangle, Bilinear, ConcentricDisk, Cone, CosineHemisphere, GgxVisibleNormals, LowDistortionTriangle,
     PolarDisk, UniformHemisphere, UniformSphere, Warp,
