@@ -15,7 +15,6 @@
 //! | [`Stratified`] | N⁻², N^(−3/2) | 14, 4.2 | 56, 8.5 | 43.3 | 12.4 | 6.28 | any count |
 //! | [`OwenSobol`] | about N^(−2.9), N^(−3/2) | 125, 6.0 | 1630, 12.0 | 4.76 | 2.06 | 1.03 | the choice wherever the count is a power of two |
 //! | [`JointSobol`] | pair 0 as [`OwenSobol`] |  |  | 4.86 | 2.06 | 1.05 | integrands that depend on two or more pairs together |
-//! | [`JointStratified`] | √N strata in each pair |  |  | 31.4 | 11.0 | 5.51 | as [`JointSobol`], at n⁴ samples |
 //! | [`ZOrder`] | within a pixel as [`OwenSobol`] |  |  | 27.4 | 5.02 | 3.52 | few samples per pixel, images for human viewers: blue noise |
 //! <!-- end of table -->
 //!
@@ -29,7 +28,7 @@ mod owen_sobol;
 mod stratified;
 
 pub use independent::{CounterRng, Independent};
-pub use joint::{JointSobol, JointStratified};
+pub use joint::JointSobol;
 pub use owen_sobol::{OwenSobol, ZOrder, ZOrderIndex};
 pub use stratified::Stratified;
 

@@ -1,6 +1,6 @@
 //! Sequences of several pairs at once: they are the nets and the strata that they claim to be.
 
-use etendue::sequence::{Independent, JointSobol, JointStratified, OwenSobol, Sequence};
+use etendue::sequence::{Independent, JointSobol, OwenSobol, Sequence};
 use etendue::{Uint, Vec2, f32x4, f32x8, f32x16, f64x4, u32x4};
 use etendue_properties::stats;
 use etendue_properties::tolerances::SIGNIFICANCE;
@@ -85,34 +85,12 @@ fn net_check_can_fail() {
     let worst = |f: &dyn Fn(u32) -> [f64; 8]| quality(&(0..1024).map(f).collect::<Vec<_>>(), &[0, 1, 2, 3]);
     assert!(worst(&|i| point(&Independent::new(1), 0, i)) > 3);
     assert!(worst(&|i| point(&OwenSobol::new(1), 0, i)) > 3, "padded pairs together are no net");
-    assert!(worst(&|i| point(&JointStratified::new(1, 5, 2), 0, i)) > 3);
     assert!(worst(&|i| point(&JointSobol::new(1), 0, i + 512)) > 3, "unaligned points are no net");
     assert!(worst(&|i| point(&JointSobol::new(1), i / 512, i % 512)) > 3, "points of two pixels are no net");
     assert!(worst(&|i| point(&JointSobol::new(1), 0, i)) <= 3);
 }
 
-#[test]
-fn every_cell_has_one_sample() {
-    for (side, pairs) in [(1, 2), (2, 2), (3, 2), (4, 2), (7, 2), (2, 3), (3, 3), (5, 3), (2, 4), (3, 4)] {
-        let strata = JointStratified::new(5, side, pairs);
-        let axes = 2 * pairs as usize;
-        assert_eq!(strata.count(), side.pow(2 * pairs));
-        for (pixel, replicate) in [(0, 0), (7, 0), (7, 1000), (u32::MAX, 3)] {
-            let mut seen = vec![0_u32; strata.count() as usize];
-            for i in 0..strata.count() {
-                // in f64, the jitter of a sample does not round across a boundary
-                let p = point(&strata, pixel, replicate * strata.count() + i);
-                seen[p[..axes].iter().fold(0, |cell, u| cell * side as usize + (u * f64::from(side)) as usize)] += 1;
-            }
-            assert!(seen.iter().all(|&n| n == 1), "{side} per side, {pairs} pairs: {seen:?}");
-        }
-    }
-    // parameters out of range are clamped: no more than 2²² cells
-    let counts = [(0, 0), (46, 2), (13, 3), (7, 4), (u32::MAX, u32::MAX)].map(|(s, p)| JointStratified::new(1, s, p));
-    assert_eq!(counts.map(|s| s.count()), [1, 45_u32.pow(4), 12_u32.pow(6), 6_u32.pow(8), 6_u32.pow(8)]);
-}
-
-/// Any single sample is uniform over pixels and over sets, in all pairs of coordinates.
+/// Any single sample is uniform over pixels and over seeds, in all pairs of coordinates.
 #[test]
 fn each_point_is_uniform() {
     fn check(name: &str, point: impl Fn(u32) -> [f64; 8]) {
@@ -129,11 +107,6 @@ fn each_point_is_uniform() {
     for sample in [0, 1, 77] {
         check("sobol, pixels", |i| point(&JointSobol::new(1), i, sample));
         check("sobol, seeds", |i| point(&JointSobol::new(u64::from(i)), 9, sample));
-        for (side, pairs) in [(3, 2), (7, 2), (2, 3), (2, 4)] {
-            let strata = JointStratified::new(1, side, pairs);
-            check("strata, pixels", |i| point(&strata, i, sample));
-            check("strata, sets", |i| point(&strata, 9, i * strata.count() + sample % strata.count()));
-        }
     }
 }
 
@@ -164,9 +137,6 @@ fn packets_are_scalars() {
         }
     }
     check("sobol", &JointSobol::new(3));
-    for (side, pairs) in [(1, 2), (2, 3), (45, 2), (6, 4)] {
-        check("strata", &JointStratified::new(3, side, pairs));
-    }
     // padded pairs follow the joint ones
     let padded: Vec2<f32> = OwenSobol::new(3).pair(5, 6, 4);
     assert_eq!(JointSobol::new(3).pair::<f32>(5, 6, 4), padded);

@@ -28,7 +28,7 @@
 //! alone. Digit k of g has the variance ¾·4⁻ᵏ.
 
 use etendue::Vec2;
-use etendue::sequence::{Independent, JointSobol, JointStratified, OwenSobol, Sequence, Stratified};
+use etendue::sequence::{Independent, JointSobol, OwenSobol, Sequence, Stratified};
 use etendue_oracle::tier::cases;
 
 /// An integrand of mean 0 and variance 1.
@@ -115,18 +115,6 @@ fn padded_strata() {
 }
 
 #[test]
-fn joint_strata() {
-    for (side, pairs) in [(2_u32, 2), (3, 2), (4, 2), (2, 3)] {
-        let strata = JointStratified::new(1, side, pairs);
-        let n = f64::from(strata.count());
-        let kept = 1.0 - f64::from(side).powi(-2);
-        let of = |pairs: i32| (1.0 - kept.powi(pairs)) / n;
-        let three = (pairs == 3).then(|| of(3));
-        check("joint strata", &strata, strata.count(), Theory { one: of(1), two: of(2), three });
-    }
-}
-
-#[test]
 fn padded_sobol() {
     for m in [2, 4, 6, 8] {
         let n = f64::from(1_u32 << m);
@@ -194,13 +182,12 @@ fn padding_wins_on_sums_joint_points_on_products() {
     let of = |f: fn([f64; 2]) -> f64| {
         [
             measured(&Stratified::new(1, n), n, f)[0],
-            measured(&JointStratified::new(1, 4, 2), n, f)[0],
             measured(&OwenSobol::new(1), n, f)[0],
             measured(&JointSobol::new(1), n, f)[0],
         ]
     };
-    let [padded, joint, padded_sobol, joint_sobol] = of(sum);
-    assert!(joint > 10.0 * padded && padded > 100.0 * padded_sobol && joint_sobol < 1.1 * padded_sobol);
-    let [padded, joint, padded_sobol, joint_sobol] = of(product);
-    assert!(padded > 8.0 * joint && padded_sobol > 1.5 * padded && joint > 10.0 * joint_sobol);
+    let [padded, padded_sobol, joint_sobol] = of(sum);
+    assert!(padded > 100.0 * padded_sobol && joint_sobol < 1.1 * padded_sobol);
+    let [padded, padded_sobol, joint_sobol] = of(product);
+    assert!(padded_sobol > 1.5 * padded && padded > 80.0 * joint_sobol);
 }

@@ -7,6 +7,10 @@ use core::arch::{asm, global_asm};
 use core::f32::consts::PI;
 use etendue::discrete::{AliasTable, PiecewiseConstant1d, PiecewiseConstant2d};
 use etendue::estimate::{Heuristic, Welford};
+use etendue::light::shapes::{
+    CosineWarped, ProjectedCap, ProjectedPolygon, ProjectedSegment, ProjectedTriangle, SphericalCap, SphericalDisk,
+    SphericalParallelogram, SphericalPolygon, SphericalRectangle, SphericalSegment, SphericalTriangle,
+};
 use etendue::light::{
     BilinearPatch, ConstantEnvironment, DirectionalLight, Disk, EnvironmentMap, ImageEnvironment, Line, PointLight,
     Polygon, SpotLight, Sun,
@@ -14,13 +18,7 @@ use etendue::light::{
 use etendue::select::{
     Allocation, LightBound, LightChoice, LightTree, Node8, PowerLights, SpatialLights, UniformLights,
 };
-use etendue::sequence::{
-    CounterRng, Independent, JointSobol, JointStratified, OwenSobol, Sequence, Stratified, ZOrder, ZOrderIndex,
-};
-use etendue::light::shapes::{
-    CosineWarped, ProjectedCap, ProjectedPolygon, ProjectedSegment, ProjectedTriangle, SphericalCap, SphericalDisk,
-    SphericalParallelogram, SphericalPolygon, SphericalRectangle, SphericalSegment, SphericalTriangle,
-};
+use etendue::sequence::{CounterRng, Independent, JointSobol, OwenSobol, Sequence, Stratified, ZOrder, ZOrderIndex};
 use etendue::warp::{
     AreaTriangle, Bilinear, ConcentricDisk, Cone, CosineHemisphere, GgxVisibleNormals, Linear, LowDistortionTriangle,
     Octahedral, PatchSurface, PolarDisk, Tent, UniformHemisphere, UniformSphere,
@@ -328,7 +326,6 @@ fn sequences(count: &mut Count) {
     count.sequence(Stratified::new(1, SAMPLES));
     count.sequence(OwenSobol::new(1));
     count.sequence(JointSobol::new(1));
-    count.sequence(JointStratified::new(1, 2, 2));
     let z_order = ZOrder::new(1, SAMPLES);
     count.pairs(|index| z_order.pair(ZOrderIndex::new(u32x8::splat(3), u32x8::splat(5)), index, 1));
     let mut rng = CounterRng::seed_from_u64(7);

@@ -8,9 +8,7 @@ use etendue::light::shapes::{
 use etendue::light::{EnvironmentMap, ImageEnvironment, Picture, Region};
 use etendue::occlusion::{Convex, Occlusion};
 use etendue::reflection::Reflection;
-use etendue::sequence::{
-    Independent, JointSobol, JointStratified, OwenSobol, Sequence, Stratified, ZOrder, ZOrderIndex,
-};
+use etendue::sequence::{Independent, JointSobol, OwenSobol, Sequence, Stratified, ZOrder, ZOrderIndex};
 use etendue::warp::{
     AreaTriangle, Bilinear, ConcentricDisk, Cone, CosineHemisphere, GgxVisibleNormals, Linear, LowDistortionTriangle,
     Octahedral, PatchSurface, PolarDisk, Tent, UniformHemisphere, UniformSphere, Warp, Warp1,
@@ -400,7 +398,6 @@ pub fn without_tables<R: Real + 'static>() -> Vec<Routine> {
     list.sequence("stratified", Stratified::new(1, 64));
     list.sequence("owen sobol", OwenSobol::new(1));
     list.sequence("joint sobol", JointSobol::new(1));
-    list.sequence("joint strata", JointStratified::new(1, 4, 2));
     let z_order = ZOrder::new(1, 64);
     let indices: Vec<_> = (0..SAMPLES / R::LANES).map(index::<R>).collect();
     list.push("sequence z-order pair", z_order, indices.clone(), |s, i| {

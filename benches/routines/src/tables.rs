@@ -192,7 +192,6 @@ fn sequences() -> Table {
         row(["[`Stratified`]", "N⁻², N^(−3/2)", "14, 4.2", "56, 8.5", "any count"], "sequence stratified pair"),
         row(["[`OwenSobol`]", "about N^(−2.9), N^(−3/2)", "125, 6.0", "1630, 12.0", "the choice wherever the count is a power of two"], "sequence owen sobol pair"),
         row(["[`JointSobol`]", "pair 0 as [`OwenSobol`]", "", "", "integrands that depend on two or more pairs together"], "sequence joint sobol pair"),
-        row(["[`JointStratified`]", "√N strata in each pair", "", "", "as [`JointSobol`], at n⁴ samples"], "sequence joint strata pair"),
         row(["[`ZOrder`]", "within a pixel as [`OwenSobol`]", "", "", "few samples per pixel, images for human viewers: blue noise"], "sequence z-order pair"),
     ];
     let header = &["sequence", "variance: smooth, edge", "gain at 16", "gain at 64", "f32", "f32x4", "f32x8", "when"];

@@ -1,9 +1,8 @@
 //! Sequences whose pairs of dimensions are stratified together.
 
 use super::owen_sobol::{pascal, scramble};
-use super::stratified::{divide, replicate};
 use super::{Independent, OwenSobol, Sequence};
-use crate::real::{Real, Uint, unit_interval};
+use crate::real::{Real, Uint};
 use crate::vector::Vec2;
 
 /// Number of pairs that [`JointSobol`] takes from one point.
@@ -121,81 +120,5 @@ impl Sequence for JointSobol {
             point
         };
         Vec2::new(R::unit(scramble(x, first).reverse_bits()), R::unit(scramble(y, second).reverse_bits()))
-    }
-}
-
-/// Jittered strata in all dimensions of two to four pairs at once: side⁴, side⁶ or side⁸ cells, with one sample in each. Take
-/// it for integrands that couple the pairs, at high counts. One pair alone has only side² strata for its side⁴ samples, where
-/// [`Stratified`](super::Stratified) has side⁴.
-///
-/// Call `JointStratified::new(seed, side, pairs)`, then [`pair`](Sequence::pair). Arguments are clamped to their domain.
-///
-/// ```
-/// use etendue::{Vec2, sequence::{JointStratified, Sequence}};
-/// let strata = JointStratified::new(7, 2, 2);
-/// let mut cells = [0; 16];
-/// for sample in 0..strata.count() {
-///     let [a, b]: [Vec2<f32>; 2] = [0, 1].map(|dimension| strata.pair(41, sample, dimension));
-///     cells[[a.x, a.y, b.x, b.y].iter().fold(0, |cell, u| 2 * cell + (u * 2.0) as usize)] += 1;
-/// }
-/// assert_eq!(cells, [1; 16]);
-/// ```
-///
-/// - Formula: the digits of the sample's index in base `side`, each rotated by a random number of its own, give the cell; u =
-///   (cell + jitter)/side.
-/// - Property: samples [k·count, (k+1)·count) of a pixel have exactly one point in each cell. Any part of them is unbiased.
-/// - Domain: side ≥ 1 with at most 2²² cells; any sample. Samples from 2³¹ on repeat the cells of the first 2³¹, at fresh
-///   places. Pairs beyond the joined ones are [`Independent`].
-/// - Replicates: indices [k·count, (k+1)·count) are independent copies; see [`Stratified`](super::Stratified).
-/// - Source: Cook, Porter and Carpenter 1984; Mitchell, "Consequences of Stratified Sampling in Graphics", SIGGRAPH 1996.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct JointStratified {
-    random: Independent,
-    side: u32,
-    pairs: u32,
-    count: u32,
-}
-
-impl JointStratified {
-    /// A set with `side` cells along each dimension of the first `pairs` pairs; both are clamped to their domain.
-    #[must_use]
-    pub fn new(seed: u64, side: u32, pairs: u32) -> Self {
-        let pairs = pairs.clamp(2, PAIRS);
-        // the greatest sides whose powers 4, 6 and 8 are at most 2²²
-        let side = side.clamp(1, [45, 12, 6][pairs as usize - 2]);
-        Self { random: Independent::new(seed), side, pairs, count: side.pow(2 * pairs) }
-    }
-    /// Samples in each replicate: side to the power of 2·pairs.
-    #[must_use]
-    pub const fn count(&self) -> u32 {
-        self.count
-    }
-}
-
-impl Sequence for JointStratified {
-    #[inline]
-    fn pair<R: Real>(&self, pixel: R::Uint, sample: R::Uint, dimension: u32) -> Vec2<R> {
-        let jitter: Vec2<R> = self.random.pair(pixel, sample, dimension);
-        if dimension >= self.pairs {
-            return jitter;
-        }
-        let side = R::Uint::splat(self.side);
-        let split = |v, by| {
-            let quotient = divide::<R>(v, by);
-            (quotient, v.wrapping_sub(quotient.wrapping_mul(R::Uint::splat(by))))
-        };
-        let (set, index) = replicate::<R>(sample, self.count);
-        let (quotient, first) = split(divide::<R>(index, self.side.pow(2 * dimension)), self.side);
-        let (_, second) = split(quotient, self.side);
-        let turns = self.random.words(pixel, set, !dimension);
-        let place = |digit: R::Uint, turn: R::Uint, jitter: R| {
-            // less than `side`, which has at most six bits
-            let turn = turn.shr(6).wrapping_mul(side).shr(26);
-            let cell = digit.wrapping_add(turn);
-            let below = cell.lt(side);
-            let cell = cell.wrapping_sub(side ^ (side & below));
-            unit_interval((R::from_uint(cell) + jitter) * R::lit(1.0 / f64::from(self.side)))
-        };
-        Vec2::new(place(first, turns[0], jitter.x), place(second, turns[1], jitter.y))
     }
 }

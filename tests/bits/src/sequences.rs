@@ -1,9 +1,7 @@
 //! Every sequence: pairs of pixels, samples and dimensions, and the words of the generator.
 
 use crate::figures::{Figures, List, Routine};
-use etendue::sequence::{
-    CounterRng, Independent, JointSobol, JointStratified, OwenSobol, Sequence, Stratified, ZOrder,
-};
+use etendue::sequence::{CounterRng, Independent, JointSobol, OwenSobol, Sequence, Stratified, ZOrder};
 use etendue::{Real, Uint};
 use etendue_properties::generators::{AlongCurve, Random};
 use rand_core::{Rng, SeedableRng};
@@ -55,6 +53,5 @@ pub(crate) fn add(list: &mut List<'_>) {
     list.add("sequence/OwenSobol", &Drawn(|count| OwenSobol::new(u64::from(count)), 4));
     list.add("sequence/ZOrder", &Drawn(|count| AlongCurve(ZOrder::new(3, count)), 4));
     list.add("sequence/JointSobol", &Drawn(|count| JointSobol::new(u64::from(count)), 8));
-    list.add("sequence/JointStratified", &Drawn(|count| JointStratified::new(3, count, count % 6), 8));
     list.add("sequence/CounterRng", &Generator);
 }

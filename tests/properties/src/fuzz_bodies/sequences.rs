@@ -2,7 +2,7 @@
 
 use super::Input;
 use crate::generators::AlongCurve;
-use etendue::sequence::{Independent, JointSobol, JointStratified, OwenSobol, Sequence, Stratified, ZOrder};
+use etendue::sequence::{Independent, JointSobol, OwenSobol, Sequence, Stratified, ZOrder};
 use etendue::{Real, Uint, Vec2, f32x8, f32x16};
 
 /// Every sequence at any index: points are in [0, 1)², and the same in packets and when evaluated again.
@@ -27,15 +27,14 @@ pub(super) fn sequence(input: &mut Input<'_>) {
             assert!(inside, "{sequence:?}: {one:?}: pixel {pixel}, sample {sample}, {dimension}");
         }
     }
-    let (seed, kind) = (input.seed(), input.below(6));
+    let (seed, kind) = (input.seed(), input.below(5));
     let [pixel, sample, dimension, count] = counters(input);
     match kind {
         0 => check(&Independent::new(seed), pixel, sample, dimension),
         1 => check(&Stratified::new(seed, count), pixel, sample, dimension),
         2 => check(&OwenSobol::new(seed), pixel, sample, dimension),
         3 => check(&AlongCurve(ZOrder::new(seed, count)), pixel, sample, dimension),
-        4 => check(&JointSobol::new(seed), pixel, sample, dimension % 8),
-        _ => check(&JointStratified::new(seed, count, pixel % 6), pixel, sample, dimension % 8),
+        _ => check(&JointSobol::new(seed), pixel, sample, dimension % 8),
     }
 }
 /// Counters: small ones, powers of two, the largest ones, and any.
@@ -72,7 +71,7 @@ fn once(cells: impl Iterator<Item = Option<usize>>, count: usize, what: impl cor
 
 /// Each replicate has one sample in every stratum and each box of a net the same number, from any start.
 pub(super) fn strata(input: &mut Input<'_>) {
-    let (seed, kind) = (input.seed(), input.below(5));
+    let (seed, kind) = (input.seed(), input.below(4));
     let [pixel, start] = counters(input);
     let draw = |sequence: &Stratified, sample, dimension| -> Vec2<f32> { sequence.pair(pixel, sample, dimension) };
     match kind {
@@ -86,20 +85,6 @@ pub(super) fn strata(input: &mut Input<'_>) {
             once((0..count).map(|i| of(draw(&strata, first + i, dimension))), count as usize, (strata, pixel, first));
         }
         1 => {
-            let (side, pairs) = (1 << input.below(3), u32::from(2 + input.below(2)));
-            let strata = JointStratified::new(seed, side, pairs);
-            let count = strata.count();
-            assert_eq!(count, side.pow(2 * pairs));
-            let first = start % (1 << 31) / count * count;
-            let of = |i: u32| {
-                (0..pairs).try_fold(0, |sum, dimension| {
-                    let u: Vec2<f32> = strata.pair(pixel, first + i, dimension);
-                    inside(u, side, side).map(|cell| sum * (side * side) as usize + cell)
-                })
-            };
-            once((0..count).map(of), count as usize, (strata, pixel, first));
-        }
-        2 => {
             // one sample in each interval of a coordinate, and equal numbers in the boxes of one pair
             let (owen, bits) = (OwenSobol::new(seed), u32::from(1 + input.below(8)));
             let (count, dimension) = (1_u32 << bits, input.word());
