@@ -7,7 +7,7 @@
 
 use etendue_benches::memory::{peak, start_peak};
 use etendue_render::sampler::Sampler;
-use etendue_render::scene::{Emission, Geometry, Scene, Shape};
+use etendue_render::scene::{Emission, Geometry, Parallelogram, Scene, Shape};
 use etendue_render::technique::Technique;
 use etendue_render::{Settings, World};
 use std::path::Path;
@@ -59,11 +59,11 @@ fn panels(scene: &mut Scene, count: usize) {
         .map(|e| Emission { radiance: e.radiance.map(|x| x / (4.0 * (count as f32) / (n * n) as f32)), ..e });
     scene.shapes = (0..count)
         .map(|k| Shape {
-            geometry: Geometry::Parallelogram {
+            geometry: Geometry::Parallelogram(Parallelogram {
                 p: [-4.0 + pitch * (k / n) as f32, 5.0, -4.0 + pitch * (k % n) as f32],
                 u: [side, 0.0, 0.0],
                 v: [0.0, 0.0, side],
-            },
+            }),
             emission,
             ..model.clone()
         })

@@ -3,7 +3,7 @@
 //! A floor under a square light, seen from above:
 //!
 //! ```
-//! use etendue_render::scene::{CameraSettings, Emission, Geometry, Material, Scene, Screen, Shape};
+//! use etendue_render::scene::{CameraSettings, Emission, Geometry, Material, Parallelogram, Scene, Screen, Shape};
 //! use etendue_render::{ChoiceBy, Sampler, Settings, Technique, World};
 //!
 //! let (origin, forward, right, up) = ([0.0, 0.0, 1.0], [0.0, 0.0, -1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]);
@@ -13,7 +13,7 @@
 //! scene.materials = vec![Material::Diffuse([0.5; 3]), Material::Diffuse([0.0; 3])];
 //! scene.triangles = vec![[[-9.0, -9.0, 0.0], [9.0, -9.0, 0.0], [0.0, 9.0, 0.0]]];
 //! scene.triangle_materials = vec![0];
-//! let square = Geometry::Parallelogram { p: [-1.0, -1.0, 2.0], u: [0.0, 2.0, 0.0], v: [2.0, 0.0, 0.0] };
+//! let square = Geometry::Parallelogram(Parallelogram { p: [-1.0, -1.0, 2.0], u: [0.0, 2.0, 0.0], v: [2.0, 0.0, 0.0] });
 //! let emission = Some(Emission { radiance: [3.0; 3], ..Emission::default() });
 //! scene.shapes = [Shape { geometry: square, material: 1, emission }].into();
 //!

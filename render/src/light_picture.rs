@@ -2,11 +2,11 @@
 
 mod mean;
 
-use crate::geometry::Geometry;
+use crate::geometry::{Chart, Geometry};
 use crate::limits::MOST_RADIANCE;
 use crate::packet::{M8, V8, X8, each_bit};
 use crate::texture::{Mapping, Picture, Wrap};
-use etendue::{Mask, Real, Vec2, Vec3};
+use etendue::{Mask, Real, Vec2};
 use std::f32::consts::{FRAC_1_PI, PI};
 
 /// A picture that a shape emits.
@@ -34,34 +34,32 @@ impl LightPicture {
     /// The mean radiance over a shape, linear RGB: that of the interpolated picture over the shape's area, but for rounding. It is 0 only
     /// where all of the shape is dark.
     ///
-    /// `most` is the greatest number of cells between texels to look at, and what remains of it afterwards. If the shape has more, the mean
-    /// of the whole picture stands for its own.
+    /// `most` is the greatest number of cells between texels to look at, and what remains of it afterwards. If the shape has more, or shows
+    /// no pictures, the mean of the whole picture stands for its own.
     pub fn mean_over(&self, geometry: &Geometry, most: &mut u64) -> [f64; 3] {
-        let corners: &[[f64; 2]] = match geometry {
-            Geometry::Triangle(_) => &[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]],
-            Geometry::Parallelogram { .. } => &[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]],
-            Geometry::Sphere { .. } => &[],
+        let mut over = |corners: &[[f64; 2]]| mean::over_polygon(&self.picture, corners, most);
+        let mean = match geometry.chart() {
+            Some(Chart::Triangle) => over(&[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]),
+            Some(Chart::Parallelogram) => over(&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]),
+            Some(Chart::Sphere) => Some(mean::over_sphere(&self.picture)),
+            None => None,
         };
-        let mean = if corners.is_empty() {
-            mean::over_sphere(&self.picture)
-        } else {
-            mean::over_polygon(&self.picture, corners, most).unwrap_or_else(|| self.picture.texels.average())
-        };
+        let mean = mean.unwrap_or_else(|| self.picture.texels.average());
         std::array::from_fn(|k| mean[k] * f64::from(self.factor[k]))
     }
 
     /// The mean of the sum of the channels over a cell of a shape, from `s[0]` to `s[1]` and from `t[0]` to `t[1]` in its coordinates: of a flat
     /// shape (s, t), of a sphere (1 − z)/2 and φ/2π about its axes. Of a cell of a sphere it is the mean over angles. `None` if the picture
     /// is repeated too often.
-    pub fn mean_of_cell(&self, geometry: &Geometry, s: [f64; 2], t: [f64; 2]) -> Option<f64> {
+    pub fn mean_of_cell(&self, chart: Chart, s: [f64; 2], t: [f64; 2]) -> Option<f64> {
         /// The most cells between texels.
         const MOST: u64 = 1 << 14;
-        let [s, t] = match geometry {
-            Geometry::Sphere { .. } => {
+        let [s, t] = match chart {
+            Chart::Sphere => {
                 let row = |s: f64| 1.0 - libm::acos(1.0 - 2.0 * s) * std::f64::consts::FRAC_1_PI;
                 [t, [row(s[1]), row(s[0])]]
             }
-            _ => [s, t],
+            Chart::Triangle | Chart::Parallelogram => [s, t],
         };
         let corners = [[s[0], t[0]], [s[1], t[0]], [s[1], t[1]], [s[0], t[1]]];
         let mean = mean::over_polygon(&self.picture, &corners, &mut { MOST })?;
@@ -74,7 +72,7 @@ impl LightPicture {
     pub fn whole(&self, geometry: &Geometry) -> Option<[bool; 2]> {
         let Picture { wrap, bilinear, mapping: Mapping([[a, b, c], [d, e, f]]), .. } = self.picture;
         let is_clamped = !bilinear || wrap == [Wrap::Clamp; 2];
-        if !matches!(geometry, Geometry::Parallelogram { .. }) || !is_clamped || [b, d] != [0.0; 2] {
+        if geometry.chart() != Some(Chart::Parallelogram) || !is_clamped || [b, d] != [0.0; 2] {
             return None;
         }
         let mirrored = |scale: f32, start: f32| match [scale, start] {
@@ -112,32 +110,15 @@ impl LightPicture {
 
     /// Puts the radiance of points on a shape into these lanes: of a flat one by their coordinates, of a sphere by its outward normals.
     #[inline]
-    pub fn show(&self, geometry: &Geometry, lanes: M8, st: Vec2<X8>, outward: V8, radiance: &mut V8) {
+    pub fn show(&self, chart: Chart, lanes: M8, st: Vec2<X8>, outward: V8, radiance: &mut V8) {
         each_bit(lanes.bits(), |lane| {
-            let [r, g, b] = match geometry {
-                Geometry::Sphere { .. } => self.on_sphere([outward.x, outward.y, outward.z].map(|x| x.lane(lane))),
-                _ => self.on_flat([st.x.lane(lane), st.y.lane(lane)]),
+            let [r, g, b] = match chart {
+                Chart::Sphere => self.on_sphere([outward.x, outward.y, outward.z].map(|x| x.lane(lane))),
+                Chart::Triangle | Chart::Parallelogram => self.on_flat([st.x.lane(lane), st.y.lane(lane)]),
             };
             radiance.x.as_mut_array()[lane] = r;
             radiance.y.as_mut_array()[lane] = g;
             radiance.z.as_mut_array()[lane] = b;
         });
     }
-}
-
-/// The coordinates (s, t) of points on a flat shape; 0 for a sphere.
-#[inline]
-pub fn coordinates(geometry: &Geometry, point: V8) -> Vec2<X8> {
-    let wide = |v: [f32; 3]| Vec3::<f64>::from(v.map(f64::from));
-    let (corner, u, v) = match *geometry {
-        Geometry::Sphere { .. } => return Vec2::new(X8::lit(0.0), X8::lit(0.0)),
-        Geometry::Triangle([a, b, c]) => (a, wide(b) - wide(a), wide(c) - wide(a)),
-        Geometry::Parallelogram { p, u, v } => (p, wide(u), wide(v)),
-    };
-    let normal = u.cross(v);
-    let inverse = 1.0 / normal.length_squared();
-    let along = |dual: Vec3<f64>| V8::from([dual.x, dual.y, dual.z].map(|x| (x * inverse) as f32));
-    let from_corner = point - V8::from(corner);
-    let inside = |x: X8| x.clamped(X8::lit(0.0), X8::lit(1.0));
-    Vec2::new(inside(from_corner.dot(along(v.cross(normal)))), inside(from_corner.dot(along(normal.cross(u)))))
 }

@@ -21,19 +21,16 @@
 mod chosen;
 mod directed;
 mod kinds;
-mod parallelogram;
 mod pictures;
 pub(crate) mod point;
 mod record;
 mod sky;
-mod sphere;
 pub(crate) mod spot;
 mod spread;
 pub(crate) mod sun;
-mod triangle;
 
 use crate::bvh::NOTHING;
-use crate::geometry::Geometry;
+use crate::geometry::{self, Geometry};
 use crate::light_picture::LightPicture;
 use crate::light_profile::LightProfile;
 use crate::packet::{V8, X8, each_bit, each_group, select};
@@ -46,7 +43,6 @@ use etendue::select::{FEW, LightBound};
 use etendue::{Real, Vec2, u32x8};
 use kinds::{
     ONLY_AREAS, ONLY_DELTAS, PICTURES, PROFILES, SHAPES, SPREADS, UNEVEN, area_lights, delta_lights, sample_delta,
-    sample_shape,
 };
 use pictures::Tables;
 pub(crate) use record::{Candidate, Far};
@@ -173,7 +169,7 @@ impl Lights {
     pub fn sample(&self, chosen: &mut Chosen, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> Drawn {
         let kinds = self.kinds;
         let mut sample = if kinds & !SHAPES == 0 && kinds.is_power_of_two() {
-            sample_shape(kinds.trailing_zeros(), chosen, measure, p, normal, u)
+            geometry::sample(kinds.trailing_zeros(), chosen.vectors(), measure, p, normal, u)
         } else if kinds & UNEVEN != 0 {
             self.uneven(chosen, measure, p, normal, u)
         } else {
@@ -186,7 +182,7 @@ impl Lights {
     #[inline(never)]
     fn uneven(&self, chosen: &mut Chosen, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> Drawn {
         // normals before the lights are narrowed
-        let normal_of_light = (self.kinds & SPREADS != 0).then(|| chosen.narrow(p));
+        let normal_of_light = (self.kinds & SPREADS != 0).then(|| chosen.narrow(self.kinds & SHAPES, p));
         let mut drawn = self.by_kind(chosen, measure, p, normal, u);
         if self.kinds >> directed::KIND & 1 == 1 {
             let here = chosen.is(directed::KIND);
@@ -228,7 +224,7 @@ impl Lights {
                     let shown = (&self.shapes[..], &self.pictures[..]);
                     self.tables.sample(shown, kind, here, chosen, measure, p, normal, u)
                 }
-                _ => sample_shape(kind, chosen, measure, p, normal, u),
+                _ => geometry::sample(kind, chosen.vectors(), measure, p, normal, u),
             };
             drawn = Some(Drawn::blend(here, sample, drawn));
         });
@@ -256,7 +252,7 @@ impl Lights {
         }
         let of = |shape: &Shape| shape.emission.filter(|emission| emission.picture.is_none())?.spread;
         let spread = if self.kinds & SPREADS != 0 { of(&self.shapes[shape]) } else { None };
-        kinds::pdf(geometry, spread, p, w)
+        geometry.pdf(spread, p, w)
     }
     /// The same for a direction to the sky.
     #[inline]

@@ -1,20 +1,17 @@
 //! The surfaces of a scene: what rays hit, with its material.
 
 mod interpolation;
-mod points;
 
 use crate::bsdf::{MaterialRecord, Metal, PLAIN, albedo, record};
 use crate::bvh::{BuildError, Bvh, Hits, Rays, SHAPE, ShapeSet};
-use crate::light_picture::{LightPicture, coordinates};
+use crate::geometry::{Points, on_triangle, on_triangles};
+use crate::light_picture::LightPicture;
 use crate::light_profile::LightProfile;
 use crate::packet::{M8, V8, X8, each_group, equal, first_lane};
-use crate::scene::{Corners, Details, Geometry, Material, Scene, Shape, Varying};
+use crate::scene::{Corners, Details, Material, Scene, Shape, Varying};
 use etendue::light::Spread;
 use etendue::{Mask, Real, Vec3, u32x8};
 use interpolation::{along_u, barycentric, interpolated, lane_of, moved, set_lane, smooth_normal};
-#[cfg(feature = "analytic")]
-pub(crate) use points::{LEAST, LIFT};
-use points::{Points, on_plane, on_sphere, on_triangle, on_triangles};
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -178,7 +175,7 @@ impl Surfaces {
         if uniform {
             let c = self.bvh.corners(first).map(f64::from);
             let corners = [[c[0], c[1], c[2]], [c[3], c[4], c[5]], [c[6], c[7], c[8]]];
-            points = on_triangle(corners.map(Vec3::from), rays, reach);
+            points = on_triangle(corners.map(Vec3::from), [rays.origin, rays.direction], reach);
             albedo = V8::from(self.albedo(first));
         } else {
             let rows: [[f32; 9]; 8] =
@@ -186,7 +183,7 @@ impl Surfaces {
             let c = X8::transpose(rows.map(|r| X8::from(&r[..8])));
             let last = X8::from(rows.map(|r| r[8]));
             let corners = [V8::new(c[0], c[1], c[2]), V8::new(c[3], c[4], c[5]), V8::new(c[6], c[7], last)];
-            points = on_triangles(corners, rays, reach);
+            points = on_triangles(corners, [rays.origin, rays.direction], reach);
             albedo = if self.place_materials.is_empty() {
                 V8::from(self.albedo(0))
             } else {
@@ -220,12 +217,7 @@ impl Surfaces {
         each_group(hits.place, lanes, |place, here| {
             let index = (place & !SHAPE) as usize;
             let shape = &self.shapes[index];
-            let outward = match shape.geometry {
-                Geometry::Sphere { center, .. } => {
-                    rays.direction.mul_add(hits.distance, rays.origin - V8::from(center)).normalize()
-                }
-                Geometry::Triangle(_) | Geometry::Parallelogram { .. } => V8::from(shape.geometry.normal()),
-            };
+            let outward = shape.geometry.outward_at([rays.origin, rays.direction], hits.distance);
             f(index, here, shape, outward);
         });
     }
@@ -238,14 +230,8 @@ impl Surfaces {
             }
             if self.reflect[shape.material as usize] {
                 let albedo = self.albedos[shape.material as usize];
-                let reach = self.bvh.reach();
-                let Points { point, normal } = match (&shape.geometry, shape.geometry.plane()) {
-                    (_, Some([corner, normal])) => on_plane(corner, normal, rays, reach),
-                    (Geometry::Sphere { center, radius }, None) => {
-                        on_sphere(*center, *radius, hits.distance, rays, reach)
-                    }
-                    (_, None) => unreachable!("only spheres lack a plane"),
-                };
+                let Points { point, normal } =
+                    shape.geometry.points([rays.origin, rays.direction], hits.distance, self.bvh.reach());
                 surface.point = V8::blend(here, point, surface.point);
                 surface.normal = V8::blend(here, normal, surface.normal);
                 surface.albedo = V8::blend(here, albedo.into(), surface.albedo);
@@ -271,12 +257,14 @@ impl Surfaces {
         }
         Some((radiance, lit))
     }
-    /// Radiance of the points of a shape with a picture that rays have hit.
+    /// Radiance of the points of a shape with a picture that rays have hit; its mean if the form shows no pictures.
     #[inline(never)]
     fn shown(&self, picture: u32, hits: &Hits, lanes: M8, shape: &Shape, outward: V8, rays: &Rays) -> V8 {
-        let mut radiance = V8::default();
-        let st = coordinates(&shape.geometry, rays.direction.mul_add(hits.distance, rays.origin));
-        self.pictures[picture as usize].show(&shape.geometry, lanes, st, outward, &mut radiance);
+        let mut radiance = shape.emission.map_or_else(V8::default, |emission| emission.radiance.into());
+        if let Some(chart) = shape.geometry.chart() {
+            let st = shape.geometry.coordinates(rays.direction.mul_add(hits.distance, rays.origin));
+            self.pictures[picture as usize].show(chart, lanes, st, outward, &mut radiance);
+        }
         radiance
     }
 

@@ -5,7 +5,9 @@ use etendue_oracle::{V3, along, cross, dot, length, sub, unit, wide};
 use etendue_render::bvh::SHAPE;
 use etendue_render::camera::Pinhole;
 use etendue_render::certify::{Blocker, Bodies, Certificate, Certifier, MOST, Patch, Pyramid, Viewer};
-use etendue_render::scene::{CameraSettings, Emission, Geometry, Material, Scene, Screen, Shape};
+use etendue_render::scene::{
+    CameraSettings, Emission, Geometry, Material, Parallelogram, Scene, Screen, Shape, Sphere,
+};
 use etendue_render::surfaces::Surfaces;
 
 /// Reads bytes as numbers; zeros follow the last.
@@ -37,9 +39,9 @@ impl Input<'_> {
     }
     fn light(&mut self) -> Geometry {
         match self.below(3) {
-            0 => Geometry::Sphere { center: self.point(), radius: self.radius() },
+            0 => Geometry::Sphere(Sphere { center: self.point(), radius: self.radius() }),
             1 => Geometry::Triangle(self.triangle()),
-            _ => Geometry::Parallelogram { p: self.point(), u: self.vector(), v: self.vector() },
+            _ => Geometry::Parallelogram(Parallelogram { p: self.point(), u: self.vector(), v: self.vector() }),
         }
     }
 }
@@ -81,9 +83,10 @@ fn parallelogram(p: [f32; 3], u: [f32; 3], v: [f32; 3]) -> [V3; 4] {
 
 fn meets(p: V3, y: V3, geometry: &Geometry) -> [bool; 2] {
     match *geometry {
-        Geometry::Sphere { center, radius } => meets_sphere(p, y, wide(center), f64::from(radius)),
+        Geometry::Sphere(Sphere { center, radius }) => meets_sphere(p, y, wide(center), f64::from(radius)),
         Geometry::Triangle(corners) => meets_triangle(p, y, corners.map(wide)),
-        Geometry::Parallelogram { p: corner, u, v } => meets_polygon(p, y, &parallelogram(corner, u, v)),
+        Geometry::Parallelogram(Parallelogram { p: corner, u, v }) => meets_polygon(p, y, &parallelogram(corner, u, v)),
+        ref other => unreachable!("no scene has {other:?}"),
     }
 }
 
@@ -136,7 +139,7 @@ pub fn certificates(bytes: &[u8]) {
     for _ in 0..input.below(24) {
         match input.below(8) {
             0 => {
-                let geometry = Geometry::Sphere { center: input.point(), radius: input.radius() };
+                let geometry = Geometry::Sphere(Sphere { center: input.point(), radius: input.radius() });
                 shapes.push(Shape { geometry, material: 0, emission: None });
             }
             // two triangles of a quadrilateral
@@ -179,7 +182,7 @@ pub fn certificates(bytes: &[u8]) {
     let Ok(surfaces) = Surfaces::new(&scene) else { return };
     let viewer = [Viewer::Pixels(&pyramid), Viewer::Pixels(&pyramid), Viewer::Front, Viewer::Back][view];
     let last = scene.shapes.len() - 1;
-    let is_ball = matches!(scene.shapes[last].geometry, Geometry::Sphere { .. }) && last > 0 && view == 2;
+    let is_ball = matches!(scene.shapes[last].geometry, Geometry::Sphere(_)) && last > 0 && view == 2;
     let place = if is_ball {
         last as u32 | SHAPE
     } else {
@@ -208,7 +211,7 @@ pub fn certificates(bytes: &[u8]) {
                 let edge = along(at(k), sub(at(k + 1), at(k)), s);
                 (along(along(edge, sub(at(k + 2), edge), t), normal, patch.margin() / 4.0), normal)
             }
-            (None, Geometry::Sphere { center, radius }) => {
+            (None, Geometry::Sphere(Sphere { center, radius })) => {
                 let normal = unit(along([mix(), mix(), mix()], [0.5; 3], -1.0));
                 (along(wide(*center), normal, f64::from(*radius) + patch.margin() / 8.0), normal)
             }
@@ -216,7 +219,7 @@ pub fn certificates(bytes: &[u8]) {
         };
         let (s, t) = ([0.0, 1.0, 0.5, 0.3][input.below(4)], [0.0, 1.0, 0.5, 0.3][input.below(4)]);
         let y = match light.geometry {
-            Geometry::Sphere { center, radius } => {
+            Geometry::Sphere(Sphere { center, radius }) => {
                 let axis = unit(sub(p, wide(center)));
                 let across = unit(cross(axis, wide(input.vector())));
                 if across == [0.0; 3] {
@@ -231,18 +234,20 @@ pub fn certificates(bytes: &[u8]) {
                 let [a, b, c] = corners.map(wide);
                 along(along(a, sub(b, a), s * (1.0 - t)), sub(c, a), t)
             }
-            Geometry::Parallelogram { p, u, v } => along(along(wide(p), wide(u), s), wide(v), t),
+            Geometry::Parallelogram(Parallelogram { p, u, v }) => along(along(wide(p), wide(u), s), wide(v), t),
+            ref other => unreachable!("no scene has {other:?}"),
         };
         let away = sub(p, y);
         let outward = match light.geometry {
-            Geometry::Sphere { center, .. } => sub(y, wide(center)),
+            Geometry::Sphere(Sphere { center, .. }) => sub(y, wide(center)),
             Geometry::Triangle(corners) => {
                 let [a, b, c] = corners.map(wide);
                 cross(sub(b, a), sub(c, a))
             }
-            Geometry::Parallelogram { u, v, .. } => cross(wide(u), wide(v)),
+            Geometry::Parallelogram(Parallelogram { u, v, .. }) => cross(wide(u), wide(v)),
+            ref other => unreachable!("no scene has {other:?}"),
         };
-        let is_sphere = matches!(light.geometry, Geometry::Sphere { .. });
+        let is_sphere = matches!(light.geometry, Geometry::Sphere(_));
         if !(dot(normal, away) < 0.0 && (dot(outward, away) > 0.0 || two_sided && !is_sphere)) {
             continue;
         }

@@ -6,7 +6,7 @@ use etendue_laboratory::attack::shrink::shrink;
 use etendue_laboratory::attack::{bridge, choice, claims, defects, judge, report};
 use etendue_oracle::tier::cases;
 use etendue_oracle::{along, direct};
-use etendue_render::scene::Geometry;
+use etendue_render::scene::{Geometry, Parallelogram, Sphere};
 
 fn attack(count: u64) {
     let mut failures = Vec::new();
@@ -115,12 +115,16 @@ fn text_is_exact() {
                     assert!(triangles.iter().all(|t| shapes.next().unwrap().geometry == expected(t)), "{draft}");
                 }
                 Form::Sphere(center, radius) => {
-                    let expected = Geometry::Sphere { center: round(*center), radius: *radius as f32 };
+                    let expected = Geometry::Sphere(Sphere { center: round(*center), radius: *radius as f32 });
                     assert_eq!(shapes.next().unwrap().geometry, expected, "{draft}");
                 }
                 Form::Parallelogram(p, u, v) => {
                     let [p, u, v] = [*p, *u, *v].map(round);
-                    assert_eq!(shapes.next().unwrap().geometry, Geometry::Parallelogram { p, u, v }, "{draft}");
+                    assert_eq!(
+                        shapes.next().unwrap().geometry,
+                        Geometry::Parallelogram(Parallelogram { p, u, v }),
+                        "{draft}"
+                    );
                 }
                 Form::Swept(_) => unreachable!("it has a place"),
             }

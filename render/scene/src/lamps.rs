@@ -2,7 +2,7 @@
 
 use crate::radiance::luminance;
 use crate::shape_attributes::ShapeAttributes;
-use etendue_render::geometry::Geometry;
+use etendue_render::geometry::{Chart, Geometry};
 use etendue_render::light_picture::{LightPicture, WORLD};
 use etendue_render::light_profile::LightProfile;
 use etendue_render::limits::MOST_RADIANCE;
@@ -43,7 +43,7 @@ impl Lamps {
             return Some(Emission { radiance, two_sided, picture: None, spread, profile });
         };
         let picture = Picture { mapping: mapping().then(&picture.mapping), ..picture.clone() };
-        let axes = if matches!(geometry, Geometry::Sphere { .. }) { surface.ctm.axes()? } else { WORLD };
+        let axes = if geometry.chart() == Some(Chart::Sphere) { surface.ctm.axes()? } else { WORLD };
         let shown = LightPicture { picture, factor: radiance, axes };
         let mean = shown.mean_over(geometry, &mut self.cells);
         // what emits at all has a chance, however dim it is

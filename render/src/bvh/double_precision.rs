@@ -7,10 +7,6 @@ use etendue::Vec3;
 
 type V64 = Vec3<f64>;
 
-/// Hits nearer to the origin or to the limit of a ray than this fraction of a primitive's size are computed in double precision. The
-/// error in single precision is some 2⁻²¹ of the size, and thus at most 2⁻¹⁶ of the other distances.
-pub(super) const NEAR: f64 = 1.0 / 32.0;
-
 /// The exact values of a point or direction in single precision.
 pub(super) fn wide(v: Vec3<f32>) -> V64 {
     v.map(f64::from)
@@ -31,22 +27,6 @@ pub(super) fn to_triangle([a, b, c]: [V64; 3], origin: V64, direction: V64) -> O
     let margin = distance.abs() / 32_768.0;
     let inside = |from: V64, to: V64| from.cross(to).dot(direction) * slope.signum() >= -margin * (to - from).length();
     (distance.is_finite() && inside(p, q) && inside(q, r) && inside(r, p)).then_some(distance)
-}
-
-/// The first positive distance along a ray to a sphere; `None` if there is none. If the ray begins on the sphere, only the other
-/// intersection counts, and only if the ray runs through the inside.
-pub(super) fn to_sphere(center: V64, radius: f64, origin: V64, direction: V64, begins_here: bool) -> Option<f64> {
-    let to_center = center - origin;
-    let square = direction.length_squared();
-    let along = to_center.dot(direction) / square;
-    let foot = to_center - direction * along;
-    let half = (radius * radius - foot.length_squared()) / square;
-    if half.is_nan() || half < 0.0 || (begins_here && along <= 0.0) {
-        return None;
-    }
-    let half = half.sqrt();
-    let distance = if begins_here || along <= half { along + half } else { along - half };
-    (distance > 0.0).then_some(distance)
 }
 
 #[cfg(test)]
@@ -75,21 +55,5 @@ mod tests {
             to_triangle(corners, corner(0.0, -far - off) + V64::new(0.0, 1.0, 0.0), V64::new(0.0, -1.0, 0.0))
         };
         assert!(beside(1e-5).is_some() && beside(1e-3).is_none());
-    }
-
-    #[test]
-    fn spheres_hide_only_what_is_behind_their_far_side_from_their_own_points() {
-        let (center, radius) = (V64::new(1.0, 2.0, 3.0), 2.0);
-        let top = V64::new(1.0, 4.0, 3.0);
-        let (up, down) = (V64::new(0.0, 1.0, 0.0), V64::new(0.0, -1.0, 0.0));
-        assert_eq!(to_sphere(center, radius, top, up, true), None);
-        assert_eq!(to_sphere(center, radius, top, down, true), Some(4.0));
-        let aside = V64::new(0.6, -0.8, 0.0);
-        let chord = to_sphere(center, radius, top, aside, true).unwrap();
-        assert!((chord - 3.2).abs() < 1e-15, "{chord}");
-        assert_eq!(to_sphere(center, radius, top + up, down, false), Some(1.0));
-        assert_eq!(to_sphere(center, radius, top + up, up, false), None);
-        assert_eq!(to_sphere(center, radius, center, up, false), Some(2.0));
-        assert_eq!(to_sphere(center, radius, top + V64::new(3.0, 0.0, 0.0), down, false), None);
     }
 }

@@ -2,14 +2,14 @@
 
 use super::build::Costs;
 use super::cutouts::Cutouts;
-use super::double_precision::{NEAR, to_triangle, wide};
+use super::double_precision::{to_triangle, wide};
 use super::node::{Bounded, Bounds, BuildError, greater, lesser, prefetch};
 use super::projected_triangle::{project, undecided};
 use super::rays::{Hits, NOTHING, Nearest, Rays, SHAPE};
 use super::region::{Placed, Region};
 use super::single_ray::{Leaves, SingleRay};
 use super::tree::{Primitives, Tree};
-use crate::geometry::Affine;
+use crate::geometry::{Affine, NEAR};
 use crate::packet::{M8, V8, X8, each_bit, equal, max, pick, select};
 use etendue::{Mask, Real, Vec3, u32x8};
 use std::ops::Range;

@@ -3,7 +3,7 @@
 use super::hull::{Hull, V64, edges, magnitude, unit, wide};
 use super::shaft::Shaft;
 use crate::bvh::SHAPE;
-use crate::scene::Geometry;
+use crate::geometry::{Geometry, Outline};
 use crate::surfaces::Surfaces;
 use etendue::Vec3;
 use etendue::occlusion::{Convex, SPARED};
@@ -37,21 +37,23 @@ pub(super) enum Candidate {
 }
 
 impl Candidate {
-    /// The primitive at a place.
-    pub(super) fn new(surfaces: &Surfaces, place: u32) -> Self {
+    /// What the primitive at a place is, or is within.
+    pub(super) fn outline(surfaces: &Surfaces, place: u32) -> Outline {
         if place & SHAPE == 0 {
             let c = surfaces.bvh.corners(place);
-            return Self::of(&Geometry::Triangle([[c[0], c[1], c[2]], [c[3], c[4], c[5]], [c[6], c[7], c[8]]]));
+            return Geometry::Triangle([[c[0], c[1], c[2]], [c[3], c[4], c[5]], [c[6], c[7], c[8]]]).outline();
         }
-        Self::of(&surfaces.shapes()[(place & !SHAPE) as usize].geometry)
+        surfaces.shapes()[(place & !SHAPE) as usize].geometry.outline()
     }
-    pub(super) fn of(geometry: &Geometry) -> Self {
-        match *geometry {
-            Geometry::Sphere { center, radius } => Self::Ball(center, radius),
-            Geometry::Triangle([a, b, c]) => Self::Flat(geometry.convex(), [a, b, c, c].map(wide), 3, 0.0),
-            Geometry::Parallelogram { p, u, v } => {
-                let (a, u, v) = (wide(p), wide(u), wide(v));
-                Self::Flat(geometry.convex(), [a, a + u, a + u + v, a + v], 4, 0.0)
+    pub(super) fn of(form: Convex<f32>) -> Self {
+        match form {
+            Convex::Sphere { center, radius } => Self::Ball([center.x, center.y, center.z], radius),
+            Convex::Polygon { corners, count } => {
+                Self::Flat(form, corners.map(|corner| corner.map(f64::from)), count, 0.0)
+            }
+            Convex::Parallelogram { corner, edges } => {
+                let (a, [u, v]) = (corner.map(f64::from), edges.map(|edge| edge.map(f64::from)));
+                Self::Flat(form, [a, a + u, a + u + v, a + v], 4, 0.0)
             }
         }
     }
@@ -72,14 +74,14 @@ impl Candidate {
         let farthest = hull.corners().iter().map(|&p| (p - center).length()).fold(0.0, f64::max);
         farthest + hull.radius < radius * (1.0 - 1e-9) - epsilon
     }
-    /// Is the primitive known not to meet any segment of the shaft?
-    pub(super) fn misses(&self, shaft: &Shaft) -> bool {
+    /// Is the primitive known not to meet any segment of the shaft? It is either the candidate itself, or within it.
+    pub(super) fn misses(&self, shaft: &Shaft, is_exact: bool) -> bool {
         match self {
             Self::Ball(center, radius) => {
                 let (center, radius) = (wide(*center), f64::from(*radius));
-                // no segment that begins and ends inside leaves
+                // no segment that begins and ends inside meets the surface
                 let inside = |hull: &Hull| Self::contains(center, radius, hull, shaft.epsilon);
-                shaft.misses(&[center], radius) || inside(&shaft.patch) && inside(&shaft.light)
+                shaft.misses(&[center], radius) || is_exact && inside(&shaft.patch) && inside(&shaft.light)
             }
             Self::Flat(_, corners, count, _) => {
                 let corners = &corners[..*count];
@@ -314,7 +316,7 @@ mod tests {
     use super::*;
 
     fn triangle(corners: [[f32; 3]; 3]) -> Candidate {
-        Candidate::of(&Geometry::Triangle(corners))
+        Candidate::of(Geometry::Triangle(corners).outline().convex())
     }
 
     /// Two triangles of a convex quadrilateral are merged in any order of their corners; nothing else is.

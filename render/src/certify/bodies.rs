@@ -393,7 +393,8 @@ mod tests {
         for (size, triangles) in cuts.into_iter().chain(sheets) {
             let found = bodies(&triangles);
             for body in 0..found.len() as u32 {
-                let exact: Vec<_> = triangles.iter().map(|&t| Geometry::Triangle(t).convex().map(f64::from)).collect();
+                let exact: Vec<_> =
+                    triangles.iter().map(|&t| Geometry::Triangle(t).outline().convex().map(f64::from)).collect();
                 for k in 0..400 {
                     let point = Vec3::<f32>::new((k % 20) as f32 * 0.4 - 3.9, 0.0, (k / 20) as f32 * 0.4 - 4.1);
                     let middle = Hull::new(&[point.map(f64::from)], 0.0);

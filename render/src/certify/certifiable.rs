@@ -13,7 +13,7 @@ pub(crate) struct Certifiable {
     pub(super) bodies: Bodies,
     /// By which the light of a few shapes with pictures is known, in the order of the lights; empty if none is.
     pub(super) irradiances: Vec<Option<PictureIrradiance>>,
-    /// Whether all lights show pictures that have no closed form.
+    /// Whether all lights show pictures that have no closed form, or have none themselves.
     only_sampled: bool,
 }
 
@@ -29,7 +29,8 @@ impl Certifiable {
         if prepared.lights.only_few_areas() && emitting.iter().any(shows_picture) {
             irradiances = emitting.par_iter().map(irradiance).collect();
         }
-        let only_sampled = emitting.iter().all(shows_picture) && !irradiances.iter().any(Option::is_some);
+        let has_none = |shape: &&Shape| shows_picture(shape) || !shape.geometry.outline().is_exact();
+        let only_sampled = emitting.iter().all(has_none) && !irradiances.iter().any(Option::is_some);
         Self { bodies: Bodies::new(&prepared.surfaces.bvh), irradiances, only_sampled }
     }
     /// Whether closed forms know no light, whatever is in its way.

@@ -16,7 +16,6 @@ use crate::area::TILE;
 use crate::bvh::{NOTHING, SHAPE};
 use crate::camera::{Camera, Pinhole};
 use crate::estimate::Place;
-use crate::geometry::Geometry;
 use crate::packet::{M8, V8, X8, equal, first_lane};
 use crate::prepared::PreparedScene;
 use crate::settings::Settings;
@@ -54,7 +53,7 @@ pub(super) enum Closed<'a> {
     /// The light shows a picture. Behind blockers, the part of it that is visible is computed as if the radiance was constant, and samples
     /// correct that.
     Picture(&'a PictureIrradiance),
-    /// The radiance varies by point or direction, and no closed form has its integral. The light is sampled unless it is dark.
+    /// The radiance varies by point or direction, or the shape is only within the form, and no closed form has its integral. The light is sampled unless it is dark.
     No,
 }
 
@@ -137,12 +136,13 @@ impl<'a> Certificates<'a> {
         let light = |(light, index): (usize, u32)| {
             let shape = &surfaces.shapes()[index as usize];
             let emission = shape.emission?;
+            let outline = shape.geometry.outline();
             let closed = match certifiable.irradiances.get(light).and_then(Option::as_ref) {
                 Some(irradiance) => Closed::Picture(irradiance),
-                None if emission.is_even() => Closed::Constant,
+                None if emission.is_even() && outline.is_exact() => Closed::Constant,
                 None => Closed::No,
             };
-            Some(AreaLight { form: shape.geometry.convex(), radiance: emission.radiance, closed })
+            Some(AreaLight { form: outline.convex(), radiance: emission.radiance, closed })
         };
         Self {
             surfaces,
@@ -187,9 +187,7 @@ impl<'a> Certificates<'a> {
             } else {
                 let geometry = &self.surfaces.shapes()[(place & !SHAPE) as usize].geometry;
                 let [low, high] = geometry.bounds();
-                // as a camera sees it: a disk, or all of a flat one
-                let seen = if matches!(geometry, Geometry::Sphere { .. }) { 0.25 } else { 1.0 };
-                (geometry.area() * seen, (wide(low) + wide(high)) * 0.5)
+                (geometry.silhouette(), (wide(low) + wide(high)) * 0.5)
             };
             let [least, more] = self.least;
             self.worth = (place, area >= least + more * (center - self.eye).length_squared());
@@ -219,10 +217,7 @@ impl<'a> Certificates<'a> {
         }
         let here = if self.pinhole.is_some() { here & !places.direct } else { here };
         let outwards = if place & SHAPE != 0 {
-            match self.surfaces.shapes()[(place & !SHAPE) as usize].geometry {
-                Geometry::Sphere { center, .. } => surface.point - V8::from(center),
-                ref flat => flat.normal().into(),
-            }
+            self.surfaces.shapes()[(place & !SHAPE) as usize].geometry.outwards(surface.point)
         } else {
             let c = self.surfaces.bvh.corners(place);
             let corner = |k: usize| Vec3::<f32>::new(c[k], c[k + 1], c[k + 2]);

@@ -87,18 +87,19 @@ impl<'a> Certifier<'a> {
         }
         candidates.clear();
         met.clear();
-        let mut has_holes = false;
+        let mut has_gaps = false;
         let complete = surfaces.bvh.search(region, stack, NODES, |place| {
             if place == patch.place || place == lamp.shape | SHAPE {
                 return true;
             }
-            let candidate = Candidate::new(surfaces, place);
-            if candidate.misses(shaft) {
+            let outline = Candidate::outline(surfaces, place);
+            let candidate = Candidate::of(outline.convex());
+            if candidate.misses(shaft, outline.is_exact()) {
                 return true;
             }
-            // what has holes may hide the light, or not
-            if place & SHAPE == 0 && surfaces.bvh.is_cut_out(place) {
-                has_holes = true;
+            // what has holes, or is not all of its outline, may hide the light, or not
+            if !outline.is_exact() || place & SHAPE == 0 && surfaces.bvh.is_cut_out(place) {
+                has_gaps = true;
                 return true;
             }
             if let Some(body) = bodies.of(place) {
@@ -114,10 +115,10 @@ impl<'a> Certifier<'a> {
             candidates.push(candidate);
             candidates.len() < CANDIDATES
         });
-        let complete = complete && !has_holes;
+        let complete = complete && !has_gaps;
         met.retain(|met| met.1);
         let mut precision = |behind: &Behind| {
-            let form = surfaces.shapes()[lamp.shape as usize].geometry.convex();
+            let form = surfaces.shapes()[lamp.shape as usize].geometry.outline().convex();
             Precision::of(patch, lamp, &form, behind, occlusion)
         };
         if complete && candidates.is_empty() && met.is_empty() {

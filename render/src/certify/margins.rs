@@ -6,7 +6,7 @@ use super::hull::{Hull, V64};
 use super::patch::{Ground, Patch};
 use super::shaft::{Facing, Lamp, Shaft};
 use crate::bvh::{Bvh, NOTHING, Region, ShapeSet};
-use crate::scene::{Emission, Geometry, Shape};
+use crate::scene::{Emission, Geometry, Parallelogram, Shape, Sphere};
 
 const EPSILON: f64 = 0.01;
 
@@ -30,12 +30,13 @@ fn begins_at(times: f64, claim: impl Fn(f64) -> bool) {
 }
 
 fn ball() -> Candidate {
-    Candidate::of(&Geometry::Sphere { center: [0.0; 3], radius: 1.0 })
+    Candidate::of(Geometry::Sphere(Sphere { center: [0.0; 3], radius: 1.0 }).outline().convex())
 }
 
 /// A triangle around the y axis, with an edge at z = −1.
 fn triangle() -> Candidate {
-    Candidate::of(&Geometry::Triangle([[-1.0, 0.0, -1.0], [1.0, 0.0, -1.0], [0.0, 0.0, 2.0]]))
+    let corners = [[-1.0, 0.0, -1.0], [1.0, 0.0, -1.0], [0.0, 0.0, 2.0]];
+    Candidate::of(Geometry::Triangle(corners).outline().convex())
 }
 
 #[test]
@@ -49,15 +50,17 @@ fn balls_cover_what_they_do_not_touch() {
 
 #[test]
 fn balls_miss_what_is_inside() {
-    begins_at(1.0, |gap| ball().misses(&shaft([0.0, 1.0 - gap, 0.0], [0.0; 3])));
-    begins_at(1.0, |gap| ball().misses(&shaft([0.0; 3], [0.0, gap - 1.0, 0.0])));
+    begins_at(1.0, |gap| ball().misses(&shaft([0.0, 1.0 - gap, 0.0], [0.0; 3]), true));
+    begins_at(1.0, |gap| ball().misses(&shaft([0.0; 3], [0.0, gap - 1.0, 0.0]), true));
+    // what is itself within the ball may be met
+    assert!(!ball().misses(&shaft([0.0, 0.5, 0.0], [0.0; 3]), false));
 }
 
 #[test]
 fn planes_separate_what_is_beyond_both() {
     for up in [1.0, -1.0] {
-        begins_at(2.0, |gap| triangle().misses(&shaft([5.0, up * gap, 0.0], [-5.0, up, 0.0])));
-        begins_at(2.0, |gap| triangle().misses(&shaft([5.0, up, 0.0], [-5.0, up * gap, 0.0])));
+        begins_at(2.0, |gap| triangle().misses(&shaft([5.0, up * gap, 0.0], [-5.0, up, 0.0]), true));
+        begins_at(2.0, |gap| triangle().misses(&shaft([5.0, up, 0.0], [-5.0, up * gap, 0.0]), true));
     }
 }
 
@@ -136,12 +139,12 @@ fn level() -> Patch {
 }
 
 fn sphere(y: f64) -> Geometry {
-    Geometry::Sphere { center: [0.0, y as f32, 0.0], radius: 1.0 }
+    Geometry::Sphere(Sphere { center: [0.0, y as f32, 0.0], radius: 1.0 })
 }
 
 #[test]
 fn patches_near_the_plane_of_a_light_are_on_no_side() {
-    let panel = Geometry::Parallelogram { p: [-1.0, 0.0, -1.0], u: [0.0, 0.0, 2.0], v: [2.0, 0.0, 0.0] };
+    let panel = Geometry::Parallelogram(Parallelogram { p: [-1.0, 0.0, -1.0], u: [0.0, 0.0, 2.0], v: [2.0, 0.0, 0.0] });
     for (y, expected) in [(-1.5, 'A'), (-0.9, 'U'), (-0.1, 'U'), (0.1, 'U'), (0.9, 'U'), (1.5, 'T')] {
         let found = match set(&loose(y * ROUNDING), panel.clone()).0 {
             Facing::Away => 'A',
@@ -162,7 +165,7 @@ fn patches_near_a_ball_are_on_no_side() {
         let facing = set(&level(), sphere(1.0 + gap * ROUNDING)).0;
         assert_eq!(matches!(facing, Facing::Towards), is_apart, "{gap} above");
         // below the horizon, at a distance
-        let aside = Geometry::Sphere { center: [10.0, (-1.0 - gap * ROUNDING) as f32, 0.0], radius: 1.0 };
+        let aside = Geometry::Sphere(Sphere { center: [10.0, (-1.0 - gap * ROUNDING) as f32, 0.0], radius: 1.0 });
         let facing = set(&level(), aside).0;
         assert_eq!(matches!(facing, Facing::Away), is_apart, "{gap} below");
     }

@@ -3,8 +3,9 @@
 use super::hull::{CORNERS, Hull, V64, magnitude, unit, wide};
 use crate::bvh::SHAPE;
 use crate::camera::Pinhole;
-use crate::scene::Geometry;
-use crate::surfaces::{LEAST, LIFT, Surfaces};
+use crate::geometry::{LEAST, LIFT, Outline};
+use crate::surfaces::Surfaces;
+use etendue::occlusion::Convex;
 
 /// How far shading points can be from the ideal patch, relative to their greatest coordinate: a lift of less than 1.8 · 2⁻²³, and a rounding of
 /// less than 1.8 · 2⁻²⁴.
@@ -135,13 +136,8 @@ impl Patch {
             return Self::of_triangle(surfaces.bvh.corners(place), f64::from(surfaces.bvh.reach()), place, viewer);
         }
         let shape = &surfaces.shapes()[(place & !SHAPE) as usize];
-        match shape.geometry {
-            Geometry::Sphere { center, radius } => {
-                let reach = f64::from(surfaces.bvh.reach());
-                Self::of_sphere(wide(center), f64::from(radius), reach, place, viewer)
-            }
-            Geometry::Triangle(_) | Geometry::Parallelogram { .. } => None,
-        }
+        let Outline::Exact(Convex::Sphere { center, radius }) = shape.geometry.outline() else { return None };
+        Self::of_sphere(center.map(f64::from), f64::from(radius), f64::from(surfaces.bvh.reach()), place, viewer)
     }
     fn of_triangle(c: [f32; 9], reach: f64, place: u32, viewer: Viewer<'_>) -> Option<Self> {
         let corners = [wide([c[0], c[1], c[2]]), wide([c[3], c[4], c[5]]), wide([c[6], c[7], c[8]])];

@@ -5,11 +5,12 @@
 //! which is the exact integral of the picture times its Lagrange polynomial. Where the picture is too near, its halves are taken, and so on:
 //! those of a box are on the longer of its sides.
 
-use crate::geometry::Geometry;
+use crate::geometry::{Geometry, Outline};
 use crate::light_picture::LightPicture;
 use crate::limits::MOST_RADIANCE;
 use crate::packet::{M8, V8, X8};
 use crate::texture::Picture;
+use etendue::occlusion::Convex;
 use etendue::{Mask, Real, Vec3};
 use std::f64::consts::PI;
 use std::sync::LazyLock;
@@ -192,7 +193,7 @@ impl PictureIrradiance {
     /// interpolated.
     #[must_use]
     pub(super) fn new(shown: &LightPicture, geometry: &Geometry) -> Option<Self> {
-        let Geometry::Parallelogram { p, u, v } = *geometry else { return None };
+        let Outline::Exact(Convex::Parallelogram { corner, edges: [u, v] }) = geometry.outline() else { return None };
         let mirrored = shown.whole(geometry)?;
         let Picture { texels, bilinear, .. } = &shown.picture;
         let size = [texels.width, texels.height];
@@ -200,7 +201,7 @@ impl PictureIrradiance {
         if most.flatten().any(|x| !(0.0..=MOST_RADIANCE).contains(&x)) {
             return None;
         }
-        let wide = |v: [f32; 3]| Vec3::<f64>::from(v.map(f64::from));
+        let wide = |v: Vec3<f32>| v.map(f64::from);
         let lengths = [u, v].map(|edge| wide(edge).length());
         let unit = 1.0 / lengths[0].max(lengths[1]);
         let narrow = |v: Vec3<f64>| Vec3::<f32>::from([v.x, v.y, v.z].map(|x| x as f32));
@@ -245,7 +246,6 @@ impl PictureIrradiance {
                 .map(|i| joined(&weights, boxes, axis, [i % boxes[0], i / boxes[0]], &halves))
                 .collect();
         }
-        let corner = narrow(wide(p));
         let normal = narrow(edges[0].cross(edges[1]));
         Some(Self { corner, edges: edges.map(narrow), normal, unit: unit as f32, levels })
     }
@@ -301,6 +301,7 @@ impl PictureIrradiance {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::Parallelogram;
     use crate::texture::{Colors, Mapping, Texels, Wrap};
     use std::sync::Arc;
 
@@ -384,7 +385,7 @@ mod tests {
         ] {
             let shown = picture(size[0], size[1], bilinear, mapping);
             for shape @ [p, u, v] in shapes {
-                let geometry = Geometry::Parallelogram { p, u, v };
+                let geometry = Geometry::Parallelogram(Parallelogram { p, u, v });
                 let irradiance = PictureIrradiance::new(&shown, &geometry).expect("a whole picture");
                 let size = (Vec3::<f32>::from(u) + Vec3::from(v)).length();
                 let middle: [f32; 3] = std::array::from_fn(|k| p[k] + 0.5 * (u[k] + v[k]));
@@ -412,7 +413,8 @@ mod tests {
     #[test]
     fn what_is_below_the_horizon_is_dark_and_what_crosses_it_is_unknown() {
         let shown = picture(32, 32, true, Mapping::IDENTITY);
-        let geometry = Geometry::Parallelogram { p: [-1.0, 2.0, -1.0], u: [2.0, 0.0, 0.0], v: [0.0, 0.0, 2.0] };
+        let geometry =
+            Geometry::Parallelogram(Parallelogram { p: [-1.0, 2.0, -1.0], u: [2.0, 0.0, 0.0], v: [0.0, 0.0, 2.0] });
         let irradiance = PictureIrradiance::new(&shown, &geometry).expect("a whole picture");
         let at = |p: [f32; 3], n: [f32; 3]| {
             let (sum, known) = irradiance.at(p.into(), n.into(), M8::splat(true));

@@ -1,17 +1,17 @@
 //! Half-spaces around all segments from a patch to a light.
 
-use super::hull::{Hull, V64, magnitude, unit, wide};
+use super::hull::{Hull, V64, magnitude, unit};
 use super::patch::{Patch, TILT};
 use crate::bvh::Region;
-use crate::scene::{Geometry, Shape};
-use etendue::occlusion::SPARED;
+use crate::scene::Shape;
+use etendue::occlusion::{Convex, SPARED};
 
 /// Rounding of points on lights and of directions to them, relative to the greatest coordinate.
 const ROUNDED: f64 = 1.0 / 524_288.0;
 /// Rounding in double precision, relative to the greatest coordinate: 32 ulp.
 const EPSILON: f64 = 1.0 / (1_u64 << 48) as f64;
 
-/// The geometry of a light.
+/// The outline of a light.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Lamp {
     /// Index of its shape.
@@ -38,18 +38,15 @@ impl Lamp {
             let offset = normal.dot(corners[0]);
             offset.is_finite().then(|| (Hull::new(corners, 0.0), Form::Flat(normal, offset)))
         };
-        let (hull, form) = match shape.geometry {
-            Geometry::Sphere { center, radius } => {
+        let (hull, form) = match shape.geometry.outline().convex().map(f64::from) {
+            Convex::Sphere { center, radius } => {
                 if !(radius > 0.0 && radius.is_finite()) {
                     return None;
                 }
-                (Hull::new(&[wide(center)], f64::from(radius)), Form::Ball)
+                (Hull::new(&[center], radius), Form::Ball)
             }
-            Geometry::Triangle(corners) => flat(&corners.map(wide))?,
-            Geometry::Parallelogram { p, u, v } => {
-                let (p, u, v) = (wide(p), wide(u), wide(v));
-                flat(&[p, p + u, p + u + v, p + v])?
-            }
+            Convex::Polygon { corners, count } => flat(&corners[..count])?,
+            Convex::Parallelogram { corner: p, edges: [u, v] } => flat(&[p, p + u, p + u + v, p + v])?,
         };
         Some(Self { shape: index, hull, form, two_sided })
     }

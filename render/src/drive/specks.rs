@@ -3,11 +3,11 @@
 use crate::bvh::{NOTHING, Scratch};
 use crate::camera::Camera;
 use crate::claim::Specks;
-use crate::geometry::Geometry;
+use crate::geometry::across;
 use crate::packet::{M8, V8, X8};
 use crate::prepared::PreparedScene;
 use etendue::occlusion::SPARED;
-use etendue::{Frame, Mask, Real, Vec3, u32x8};
+use etendue::{Mask, Real, Vec3, u32x8};
 use rayon::prelude::*;
 use std::f64::consts::PI;
 
@@ -49,12 +49,6 @@ fn squared(radiance: [f32; 3]) -> f64 {
     radiance.iter().map(|&x| f64::from(x).powi(2)).sum()
 }
 
-/// Two vectors of this length across another.
-fn across(v: Vec3<f64>, length: f64) -> [Vec3<f64>; 2] {
-    let frame = Frame::new(v.normalize());
-    [frame.s * length, frame.t * length]
-}
-
 /// The sun, as a disk at the distance 1.
 fn of_sun(scene: &PreparedScene, camera: &Camera, size: [u32; 2]) -> Option<Speck> {
     let (direction, radius, radiance) = scene.sky.as_ref()?.sun()?;
@@ -68,23 +62,12 @@ fn of_sun(scene: &PreparedScene, camera: &Camera, size: [u32; 2]) -> Option<Spec
 fn of_shape(scene: &PreparedScene, camera: &Camera, index: u32) -> Option<Speck> {
     let shape = &scene.surfaces.shapes()[index as usize];
     let emission = shape.emission?;
-    let wide = |v: [f32; 3]| Vec3::<f64>::from(v.map(f64::from));
-    let (middle, [u, v], area) = match shape.geometry {
-        Geometry::Sphere { center, .. } => (wide(center), [Vec3::default(); 2], PI),
-        Geometry::Triangle([a, b, c]) => {
-            let (a, b, c) = (wide(a), wide(b), wide(c));
-            ((a + b + c) * (1.0 / 3.0), [(b - a) * 0.5, (c - a) * 0.5], 2.0)
-        }
-        Geometry::Parallelogram { p, u, v } => {
-            let (u, v) = (wide(u) * 0.5, wide(v) * 0.5);
-            (wide(p) + u + v, [u, v], 4.0)
-        }
-    };
+    let middle = shape.geometry.middle();
     let to = middle - camera.view_of(middle)?.1;
-    let (halves, emits) = match shape.geometry {
-        Geometry::Sphere { radius, .. } => (across(to, f64::from(radius)), true),
-        ref flat => ([u, v], emission.two_sided || to.dot(wide(flat.normal())) < 0.0),
-    };
+    let (halves, area) = shape.geometry.halves(to);
+    // a curved light emits to all sides
+    let faces = to.dot(Vec3::from(shape.geometry.normal().map(f64::from))) < 0.0;
+    let emits = emission.two_sided || shape.geometry.plane().is_none() || faces;
     let squared = squared(emission.radiance);
     (emits && squared > 0.0).then_some(Speck { middle, halves, area, squared, shape: index })
 }

@@ -1,10 +1,12 @@
 //! One light in each lane, and what is sampled of it.
 
-use super::record::KINDS;
+use super::record::{KINDS, PICTURED, PROFILED, SPREAD, TWO_SIDED};
 use crate::bvh::SHAPE;
-use crate::packet::{M8, V8, X8, equal, select};
+use crate::geometry::{self, Kind, Parallelogram, Sphere};
+use crate::lobe::Lobe;
+use crate::packet::{M8, V8, X8, each_bit, equal, select};
 use etendue::light::Spread;
-use etendue::{LightSample, u32x8};
+use etendue::{LightSample, LightSampler, Mask, Real, Vec2, u32x8};
 
 /// A direction to a light in each lane: the part of a [`LightSample`] that direct lighting needs.
 #[derive(Clone, Copy)]
@@ -58,12 +60,6 @@ pub struct Chosen {
     pub shape: u32x8,
 }
 
-/// Not inlined, so that its registers do not burden the cheaper measures.
-#[inline(never)]
-pub(super) fn projected<D>(sample: impl Fn() -> D) -> D {
-    sample()
-}
-
 impl Chosen {
     /// From the two halves of the records, one light per lane.
     #[inline(always)]
@@ -78,11 +74,51 @@ impl Chosen {
             shape: b[5].to_bits(),
         }
     }
+    /// The three vectors of their records.
+    #[inline(always)]
+    pub(super) fn vectors(&self) -> [V8; 3] {
+        [self.place, self.first, self.second]
+    }
     /// Where points with these normals on these primitives, as in hits, are on the light itself. All lights are convex, so they do not see it,
     /// except from inside of a sphere: what a sample of it finds there is due to rounding.
     #[inline(always)]
     pub fn is_own(&self, primitives: u32x8, p: V8, normal: V8) -> M8 {
         equal(self.shape ^ u32x8::splat(SHAPE), primitives) & !self.surrounds(p, normal)
+    }
+    /// Lanes of spheres that points on them, with these normals, see: from inside.
+    #[inline(always)]
+    fn surrounds(&self, p: V8, normal: V8) -> M8 {
+        self.is(Kind::Sphere as u32) & normal.dot(p - self.place).lt(X8::lit(0.0))
+    }
+    /// Replaces the samples of spheres that emit evenly, where rough metals reflect them, by samples of the lobe. Returns these lanes: the BSDF
+    /// need not be sampled for such a light.
+    // not inlined, so that it does not burden scenes without rough metals
+    #[inline(never)]
+    pub fn sample_lobe(&self, sample: &mut Drawn, lobe: &Lobe, p: V8, u: Vec2<X8>) -> M8 {
+        let reflected = self.is(Kind::Sphere as u32) & !self.has(SPREAD | PICTURED | PROFILED) & lobe.metals();
+        if reflected.any() {
+            let light = Sphere::light(self.vectors());
+            let mut drawn = Drawn::from(light.by_reflection(p, &lobe.reflection).sample(u));
+            drawn.emits = drawn.emits | self.has(TWO_SIDED);
+            *sample = Drawn::blend(reflected, drawn, Some(*sample));
+        }
+        reflected
+    }
+    /// The normals of the lights that are shapes of these kinds, of any length; 0 for curved ones. Leaves of the parallelograms with a spread
+    /// what the points see.
+    #[inline(never)]
+    pub(super) fn narrow(&mut self, kinds: u32, p: V8) -> V8 {
+        let mut normal = V8::default();
+        each_bit(kinds, |kind| {
+            let of_kind = geometry::normals(kind as u32, self.vectors());
+            normal = V8::blend(self.is(kind as u32), of_kind, normal);
+        });
+        // a picture is on the whole of its light
+        let has_spread = self.is(Kind::Parallelogram as u32) & self.has(SPREAD) & !self.has(PICTURED);
+        let light = Parallelogram::light(self.vectors());
+        let part = etendue::Parallelogram::blend(has_spread, light.visible_part(p, &self.spread), light);
+        (self.place, self.first, self.second) = (part.corner, part.edge_s, part.edge_t);
+        normal
     }
     /// Lanes of this kind of light.
     #[inline]

@@ -1,14 +1,13 @@
-//! The kinds of lights: each is a file, which has all that is special about it.
+//! The kinds of lights: each is a file, which has all that is special about it. Those of lights that are shapes are in
+//! [`geometry`].
 
 use super::chosen::Chosen;
 use super::directed::{self, DirectedLight};
-use super::record::{Candidate, Extent, KINDS, LightRecord, PICTURED, PROFILED, SPREAD, TWO_SIDED, sum};
-use super::{parallelogram, point, sphere, spot, spread, sun, triangle};
-use crate::geometry::Geometry;
+use super::record::{Candidate, KINDS, LightRecord, PICTURED, PROFILED, SPREAD, TWO_SIDED, sum, wide};
+use super::{point, spot, spread, sun};
+use crate::geometry::{self, Extent};
 use crate::packet::{V8, X8};
 use crate::scene::{DeltaLight, Scene, Shape};
-use crate::technique::Measure;
-use etendue::light::Spread;
 use etendue::select::LightBound;
 use etendue::{LightSample, Vec2, Vec3};
 
@@ -23,58 +22,17 @@ pub(super) const UNEVEN: u32 = 1 << directed::KIND | SPREADS | PROFILES;
 pub(super) const ONLY_DELTAS: u32 = 1 << point::KIND | 1 << spot::KIND | 1 << sun::KIND | 1 << directed::KIND;
 pub(super) const ONLY_AREAS: u32 = SHAPES | SPREADS | PICTURES | PROFILES;
 
-/// What differs by the shape of a light: a line for each.
-macro_rules! shapes {
-    ($($form:ident: $kind:ident;)*) => {
-        /// All shapes, as a set.
-        pub(super) const SHAPES: u32 = $(1 << $kind::KIND)|*;
+/// All shapes, as a set.
+pub(super) const SHAPES: u32 = geometry::KINDS;
+const _: () = assert!(SHAPES >> point::KIND == 0, "shapes are the first kinds");
 
-        /// The kind of a shape, and the vectors of its record.
-        fn form(geometry: &Geometry) -> (u32, [[f32; 3]; 3]) {
-            match geometry {
-                $(Geometry::$form { .. } => ($kind::KIND, $kind::vectors(geometry)),)*
-            }
-        }
-
-        /// The extent of a light.
-        fn extent(record: &LightRecord, kind: u32) -> Extent {
-            match kind {
-                $($kind::KIND => $kind::extent(record),)*
-                spot::KIND | directed::KIND => spot::extent(record),
-                _ => Extent::point(record),
-            }
-        }
-
-        /// Samples shapes of one kind in all lanes, without regard to pictures.
-        #[inline]
-        pub(super) fn sample_shape<D: From<LightSample<X8>>>(
-            kind: u32,
-            chosen: &Chosen,
-            measure: Measure,
-            p: V8,
-            normal: V8,
-            u: Vec2<X8>,
-        ) -> D {
-            match kind {
-                $($kind::KIND => $kind::sample(chosen, measure, p, normal, u),)*
-                _ => unreachable!("no shape"),
-            }
-        }
-
-        /// Pdf per steradian with which a shape is sampled by solid angle in the direction `w`, in which it is hit from `p`.
-        #[inline]
-        pub(super) fn pdf(geometry: &Geometry, spread: Option<Spread<f32>>, p: V8, w: V8) -> X8 {
-            match geometry {
-                $(Geometry::$form { .. } => $kind::pdf(geometry, spread, p, w),)*
-            }
-        }
-    };
-}
-
-shapes! {
-    Sphere: sphere;
-    Triangle: triangle;
-    Parallelogram: parallelogram;
+/// The extent of a light, and the cosine to its normal or axis from which on it is dark.
+fn extent(record: &LightRecord, kind: u32) -> (Extent, f32) {
+    let of_shape = geometry::extent(kind, record.vectors().map(wide)).map(|extent| (extent, 0.0));
+    of_shape.unwrap_or_else(|| match kind {
+        spot::KIND | directed::KIND => spot::extent(record),
+        _ => (record.point(), 0.0),
+    })
 }
 
 /// Samples lights of a kind without an area in all lanes.
@@ -90,9 +48,9 @@ pub(super) fn sample_delta(kind: u32, chosen: &Chosen, p: V8, u: Vec2<X8>) -> Li
 /// A shape that emits.
 pub(super) fn of_shape(index: u32, shape: &Shape) -> Option<Candidate> {
     let emission = shape.emission?;
-    let (kind, [place, first, second]) = form(&shape.geometry);
+    let [place, first, second] = shape.geometry.vectors();
     let flag = |is: bool, flag: u32| if is { flag } else { 0 };
-    let kind = kind
+    let kind = shape.geometry.kind()
         | flag(emission.two_sided, TWO_SIDED)
         | flag(emission.spread.is_some(), SPREAD)
         | flag(emission.picture.is_some(), PICTURED)
@@ -131,7 +89,7 @@ impl Candidate {
     /// The bound of what a light contributes, for a power in any unit. A light infinitely far away has no power in it.
     pub(crate) fn bound(&self, power: f64) -> LightBound {
         let Self { record, far, .. } = self;
-        let Extent { center, radius, normal, cos_cone } = extent(record, record.kind & KINDS);
+        let (Extent { center, radius, normal }, cos_cone) = extent(record, record.kind & KINDS);
         let length = normal.length();
         let narrow = |v: Vec3<f64>| [v.x, v.y, v.z].map(|x| x as f32);
         let two_sided = record.kind & TWO_SIDED != 0;

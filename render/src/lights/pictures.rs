@@ -1,16 +1,14 @@
 //! Shapes with pictures, sampled by their radiance.
 
 use super::chosen::{Chosen, Drawn};
-use super::kinds::sample_shape;
 use super::record::PICTURED;
-use super::{parallelogram, triangle};
-use crate::geometry::Geometry;
+use crate::geometry::{self, Chart, Geometry};
 use crate::light_picture::LightPicture;
 use crate::packet::{M8, V8, X8, each_group};
 use crate::scene::Shape;
 use crate::technique::Measure;
 use etendue::light::{Picture, Region};
-use etendue::{LightSample, LightSampler, Mask, Real, Sphere, Vec2, Vec3};
+use etendue::{LightSample, Mask, Vec2};
 use rayon::prelude::*;
 
 /// The most cells along a side of a shape.
@@ -28,6 +26,7 @@ struct Table {
     buffer: Vec<f32>,
     /// Cells along both coordinates; of an interpolated picture, texels.
     size: [usize; 2],
+    region: Region,
     /// What is interpolated, if the shape shows all of a picture and its coordinates are those of the surface.
     values: Option<Vec<f32>>,
 }
@@ -43,18 +42,18 @@ pub(super) struct Tables {
 const NO_TABLE: u32 = u32::MAX;
 
 /// Cells along both coordinates of a shape's surface: as many as there are texels, but not too many.
-fn size(picture: &LightPicture, geometry: &Geometry, share: usize) -> [usize; 2] {
+fn size(picture: &LightPicture, chart: Chart, share: usize) -> [usize; 2] {
     let texels = &picture.picture.texels;
     let (w, h) = (texels.width as f32, texels.height as f32);
     let most = (share as f64).sqrt().min(MOST_ALONG as f64) as usize;
     let cells = |texels: f32| (texels.ceil() as usize).clamp(1, most.max(1));
     let rows = picture.picture.mapping.0;
     let along = |k: usize| cells((rows[0][k] * w).abs().max((rows[1][k] * h).abs()));
-    match geometry {
+    match chart {
         // heights, and azimuths
-        Geometry::Sphere { .. } => [cells(h), cells(w)],
-        Geometry::Triangle(_) => [along(0).max(along(1)); 2],
-        Geometry::Parallelogram { .. } => [along(0), along(1)],
+        Chart::Sphere => [cells(h), cells(w)],
+        Chart::Triangle => [along(0).max(along(1)); 2],
+        Chart::Parallelogram => [along(0), along(1)],
     }
 }
 
@@ -64,32 +63,34 @@ impl Table {
         if let Some(values) = interpolated(picture, geometry).filter(|values| values.len() <= share) {
             return Self::of_values(values, picture.picture.texels.width);
         }
-        let [w, h] = size(picture, geometry, share);
-        if matches!(geometry, Geometry::Triangle(_)) && w < FEWEST_OF_TRIANGLE {
+        let chart = geometry.chart()?;
+        let [w, h] = size(picture, chart, share);
+        if chart == Chart::Triangle && w < FEWEST_OF_TRIANGLE {
             return None;
         }
         let cell = |i: usize| {
             let [s, t] = [(i % w, w), (i / w, h)].map(|(i, n)| [i, i + 1].map(|i| i as f64 / n as f64));
-            picture.mean_of_cell(geometry, s, t)
+            picture.mean_of_cell(chart, s, t)
         };
         let weights: Option<Vec<f64>> = (0..w * h).into_par_iter().map(cell).collect();
         let weights = weights?;
         let weights = relative(&weights)?;
         let mut buffer = vec![0.0; Picture::buffer(w, h)];
-        Picture::build(&weights, w, region(geometry), &mut buffer).ok()?;
-        Some(Self { buffer, size: [w, h], values: None })
+        let region = if chart == Chart::Triangle { Region::Triangle } else { Region::Square };
+        Picture::build(&weights, w, region, &mut buffer).ok()?;
+        Some(Self { buffer, size: [w, h], region, values: None })
     }
     fn of_values(values: Vec<f64>, width: usize) -> Option<Self> {
         let values = relative(&values)?;
         let height = values.len() / width;
         let mut buffer = vec![0.0; Picture::buffer(width + 1, height + 1)];
         Picture::interpolated(&values, width, &mut buffer).ok()?;
-        Some(Self { buffer, size: [width, height], values: Some(values) })
+        Some(Self { buffer, size: [width, height], region: Region::Square, values: Some(values) })
     }
     #[inline]
-    fn picture(&self, geometry: &Geometry) -> Picture<'_> {
+    fn picture(&self) -> Picture<'_> {
         let picture = match &self.values {
-            None => Picture::from_buffer(&self.buffer, self.size, region(geometry)),
+            None => Picture::from_buffer(&self.buffer, self.size, self.region),
             Some(values) => Picture::interpolated_from_buffer(values, self.size[0], &self.buffer),
         };
         picture.expect("a table of its own size")
@@ -110,10 +111,6 @@ fn interpolated(shown: &LightPicture, geometry: &Geometry) -> Option<Vec<f64>> {
     let (w, h) = (shown.picture.texels.width, shown.picture.texels.height);
     let sum = |i: usize| shown.whole_texel(mirrored, [i % w, i / w]).map(f64::from).iter().sum();
     Some((0..w * h).map(sum).collect())
-}
-
-fn region(geometry: &Geometry) -> Region {
-    if matches!(geometry, Geometry::Triangle(_)) { Region::Triangle } else { Region::Square }
 }
 
 impl Tables {
@@ -146,88 +143,20 @@ impl Tables {
 #[derive(Clone, Copy)]
 pub(super) struct TableOf<'a>(&'a Table);
 
-/// Calls a method of the sampler of a shape with a picture by a measure. A sphere is sampled in the axes of its picture.
-macro_rules! with_sampler {
-    ($self:ident, $shape:ident, $p:ident, $normal:ident, $measure:ident, |$sampler:ident| $flat:expr, |$axes:ident, $round:ident| $of_sphere:expr) => {{
-        let (geometry, axes) = $shape;
-        let picture = $self.0.picture(geometry);
-        macro_rules! flat {
-            ($light:expr) => {{
-                let light = picture.on($light);
-                match $measure {
-                    Measure::Area => {
-                        let $sampler = light.by_area($p);
-                        $flat
-                    }
-                    Measure::SolidAngle => {
-                        let $sampler = light.by_solid_angle($p);
-                        $flat
-                    }
-                    Measure::Projected => {
-                        let $sampler = light.by_projected_solid_angle($p, $normal);
-                        $flat
-                    }
-                }
-            }};
-        }
-        match *geometry {
-            Geometry::Triangle(_) => flat!(triangle::splat(geometry)),
-            Geometry::Parallelogram { .. } => flat!(parallelogram::splat(geometry)),
-            Geometry::Sphere { center, radius } => {
-                let $axes = Axes(axes.map(V8::from));
-                let sphere = Sphere::new($axes.inwards(V8::from(center) - $p), X8::splat(radius));
-                let $round = picture.on(sphere).by_visible_area(Vec3::default());
-                $of_sphere
-            }
-        }
-    }};
-}
-
-/// Rows of a rotation.
-struct Axes([V8; 3]);
-
-impl Axes {
-    #[inline]
-    fn inwards(&self, v: V8) -> V8 {
-        let [x, y, z] = self.0.map(|row| row.dot(v));
-        Vec3::new(x, y, z)
-    }
-    #[inline]
-    fn outwards(&self, v: V8) -> V8 {
-        let [x, y, z] = self.0;
-        x.mul_add(v.x, y.mul_add(v.y, z * v.z))
-    }
-}
-
 impl TableOf<'_> {
-    /// Samples the shape in proportion to its radiance, from points `p` on surfaces with this normal. From outside, the far side of a sphere
-    /// is behind the near one.
+    /// Samples the shape in proportion to its radiance, from points `p` on surfaces with this normal.
     pub(super) fn sample(
         self,
-        shape: (&Geometry, &[[f32; 3]; 3]),
+        (shape, axes): (&Geometry, &[[f32; 3]; 3]),
         measure: Measure,
-        p: V8,
-        normal: V8,
+        place: [V8; 2],
         u: Vec2<X8>,
     ) -> LightSample<X8> {
-        with_sampler!(self, shape, p, normal, measure, |sampler| sampler.draw(u).light, |axes, sampler| {
-            let drawn = sampler.draw(u).light;
-            let Geometry::Sphere { center, radius } = *shape.0 else { unreachable!("a sphere") };
-            let inside = (V8::from(center) - p).length_squared().lt(X8::splat(radius * radius));
-            LightSample {
-                direction: axes.outwards(drawn.direction),
-                normal: axes.outwards(drawn.normal),
-                pdf: drawn.pdf.keep(drawn.emits | inside),
-                ..drawn
-            }
-        })
+        shape.sample_picture(&self.0.picture(), axes, measure, place, u)
     }
     /// Pdf per steradian with which [`sample`](Self::sample) by solid angle draws the direction `w`.
-    pub(super) fn pdf(self, shape: (&Geometry, &[[f32; 3]; 3]), p: V8, w: V8) -> X8 {
-        let (measure, normal) = (Measure::SolidAngle, w);
-        with_sampler!(self, shape, p, normal, measure, |sampler| sampler.pdf(w), |axes, sampler| {
-            sampler.pdf(axes.inwards(w))
-        })
+    pub(super) fn pdf(self, (shape, axes): (&Geometry, &[[f32; 3]; 3]), p: V8, w: V8) -> X8 {
+        shape.pdf_of_picture(&self.0.picture(), axes, p, w)
     }
 }
 
@@ -248,14 +177,14 @@ impl Tables {
         u: Vec2<X8>,
     ) -> Drawn {
         let pictured = here & chosen.has(PICTURED);
-        let by_shape = || -> LightSample<X8> { sample_shape(kind, chosen, measure, p, normal, u) };
+        let by_shape = || -> LightSample<X8> { geometry::sample(kind, chosen.vectors(), measure, p, normal, u) };
         let mut sample = None;
         each_group(chosen.shape, pictured, |index, lanes| {
             let shape = &shapes[index as usize];
             let Some(picture) = shape.emission.and_then(|emission| emission.picture) else { return };
             let picture = &pictures[picture as usize];
             if let Some(table) = self.of(index as usize) {
-                let drawn = table.sample((&shape.geometry, &picture.axes), measure, p, normal, u);
+                let drawn = table.sample((&shape.geometry, &picture.axes), measure, [p, normal], u);
                 // in a packet of one light, no other map is needed
                 let others = sample.unwrap_or_else(|| if lanes.all() { drawn } else { by_shape() });
                 sample = Some(LightSample::blend(lanes, drawn, others));
@@ -265,9 +194,10 @@ impl Tables {
         let indices = chosen.shape;
         each_group(indices, pictured, |index, lanes| {
             let shape = &shapes[index as usize];
-            if let Some(picture) = shape.emission.and_then(|emission| emission.picture) {
+            let shown = shape.emission.and_then(|emission| emission.picture).zip(shape.geometry.chart());
+            if let Some((picture, chart)) = shown {
                 let picture = &pictures[picture as usize];
-                picture.show(&shape.geometry, lanes, sample.uv, sample.normal, &mut chosen.radiance);
+                picture.show(chart, lanes, sample.uv, sample.normal, &mut chosen.radiance);
             }
         });
         sample.into()

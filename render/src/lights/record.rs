@@ -1,6 +1,7 @@
 //! A light as it is kept in memory, and what a choice of lights knows of it.
 
 use crate::bvh::NOTHING;
+use crate::geometry::Extent;
 use etendue::Vec3;
 use etendue::light::Spread;
 
@@ -11,7 +12,7 @@ pub(super) const SPREAD: u32 = 32;
 pub(super) const PICTURED: u32 = 64;
 pub(super) const PROFILED: u32 = 128;
 
-/// A light. The file of its kind says what the three vectors are.
+/// A light. The file of its kind, or of its form, says what the three vectors are.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct LightRecord {
     pub(super) place: [f32; 3],
@@ -35,6 +36,14 @@ impl LightRecord {
     /// A light that is no shape.
     pub(super) fn bare(kind: u32, place: [f32; 3], radiance: [f32; 3]) -> Self {
         Self { kind, place, radiance, shape: NOTHING, ..Self::default() }
+    }
+    /// Its three vectors.
+    pub(super) const fn vectors(&self) -> [[f32; 3]; 3] {
+        [self.place, self.first, self.second]
+    }
+    /// The extent of a light without an area that shines in all directions.
+    pub(super) fn point(&self) -> Extent {
+        Extent { center: wide(self.place), radius: 0.0, normal: Vec3::default() }
     }
     pub(super) fn pack(&self) -> PackedLight {
         let Self { place: [a, b, c], first: [d, e, f], second: [g, h, i], radiance: [red, green, blue], .. } = *self;
@@ -69,22 +78,6 @@ impl Candidate {
     /// The direction to a sun.
     pub(crate) fn direction(&self) -> [f32; 3] {
         self.record.place
-    }
-}
-
-/// The extent of a light: a sphere around it, the normal of a flat light or the axis of a cone, of any length, and the cosine from which on that
-/// is dark.
-pub(super) struct Extent {
-    pub(super) center: Vec3<f64>,
-    pub(super) radius: f64,
-    pub(super) normal: Vec3<f64>,
-    pub(super) cos_cone: f32,
-}
-
-impl Extent {
-    /// That of a light without an area that shines in all directions.
-    pub(super) fn point(record: &LightRecord) -> Self {
-        Self { center: wide(record.place), radius: 0.0, normal: Vec3::default(), cos_cone: 0.0 }
     }
 }
 

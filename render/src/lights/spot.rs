@@ -1,7 +1,8 @@
 //! Spot lights: a record has the position and the axis, then 1 − cosθ of the inner and the outer angle, and a cosine from which on it is dark.
 
 use super::chosen::Chosen;
-use super::record::{Candidate, Extent, KINDS, LightRecord, sum, wide};
+use super::record::{Candidate, KINDS, LightRecord, sum, wide};
+use crate::geometry::Extent;
 use crate::packet::{V8, X8};
 use etendue::{LightSample, LightSampler, SpotLight, Vec2};
 
@@ -29,12 +30,12 @@ pub(crate) fn candidate(
     Candidate::near(LightRecord { first, second, ..LightRecord::bare(KIND, position, intensity) }, power)
 }
 
-/// The extent of a light whose record has an axis and a cosine as that of a spot light.
-pub(super) fn extent(record: &LightRecord) -> Extent {
+/// The extent of a light whose record has an axis and a cosine as that of a spot light, and that cosine.
+pub(super) fn extent(record: &LightRecord) -> (Extent, f32) {
     let (axis, cos) = (record.first, record.second[2]);
     // beyond a hemisphere, a cone bounds nothing
     let normal = if cos > 0.0 { wide(axis) } else { Default::default() };
-    Extent { normal, cos_cone: cos.clamp(0.0, NARROWEST), ..Extent::point(record) }
+    (Extent { normal, ..record.point() }, cos.clamp(0.0, NARROWEST))
 }
 
 impl Candidate {

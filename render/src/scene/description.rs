@@ -222,6 +222,6 @@ impl Shape {
     pub fn is_even_sphere(&self) -> bool {
         let is_even =
             |emission: &Emission| emission.picture.is_none() && emission.profile.is_none() && emission.spread.is_none();
-        matches!(self.geometry, Geometry::Sphere { .. }) && self.emission.as_ref().is_some_and(is_even)
+        matches!(self.geometry, Geometry::Sphere(_)) && self.emission.as_ref().is_some_and(is_even)
     }
 }

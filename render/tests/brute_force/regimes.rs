@@ -5,7 +5,7 @@ use super::solids::{Solid, block, cut, moved, solids};
 use super::views::{Fit, View, World};
 use crate::meshes::{Random, Triangle};
 use etendue_oracle::{V3, along, cross, dot, length, sub, unit, wide};
-use etendue_render::scene::{Geometry, Shape};
+use etendue_render::scene::{Geometry, Parallelogram, Shape, Sphere};
 
 /// A scene, and how many of its first triangles receive light in most of the views.
 pub(crate) struct Setting {
@@ -53,10 +53,14 @@ fn above(random: &mut Random, distance: f64) -> V3 {
 fn lamp(random: &mut Random, center: V3, size: f64) -> Shape {
     let turned = [0; 2].map(|_| narrow(anywhere(random, size)));
     let geometry = match random.below(4) {
-        0 => Geometry::Sphere { center: narrow(center), radius: size as f32 },
+        0 => Geometry::Sphere(Sphere { center: narrow(center), radius: size as f32 }),
         1 => Geometry::Triangle([0; 3].map(|_| narrow(along(center, wide(random.point()), size)))),
-        2 => Geometry::Parallelogram { p: narrow(center), u: turned[0], v: turned[1] },
-        _ => Geometry::Parallelogram { p: narrow(center), u: [size as f32, 0.0, 0.0], v: [0.0, 0.0, size as f32] },
+        2 => Geometry::Parallelogram(Parallelogram { p: narrow(center), u: turned[0], v: turned[1] }),
+        _ => Geometry::Parallelogram(Parallelogram {
+            p: narrow(center),
+            u: [size as f32, 0.0, 0.0],
+            v: [0.0, 0.0, size as f32],
+        }),
     };
     shape(geometry, Some(true))
 }
@@ -154,7 +158,7 @@ fn inside(random: &mut Random) -> Setting {
     for _ in 0..1 + random.below(2) {
         let radius = between(random, 0.5, 4.0);
         let center = along([0.0; 3], wide(random.point()), 0.6 * radius);
-        shapes.push(shape(Geometry::Sphere { center: narrow(center), radius: radius as f32 }, None));
+        shapes.push(shape(Geometry::Sphere(Sphere { center: narrow(center), radius: radius as f32 }), None));
     }
     for _ in 0..2 {
         let distance = between(random, 0.3, 8.0);
@@ -168,7 +172,7 @@ fn inside(random: &mut Random) -> Setting {
         triangles.extend(cut(&block(), moved(half, center, 2, random), random));
     }
     if random.below(2) == 0 {
-        shapes.push(shape(Geometry::Sphere { center: narrow(above(random, 0.2)), radius: 0.05 }, None));
+        shapes.push(shape(Geometry::Sphere(Sphere { center: narrow(above(random, 0.2)), radius: 0.05 }), None));
     }
     Setting { triangles, shapes, floors: 2 }
 }
@@ -191,7 +195,7 @@ fn touching(random: &mut Random) -> Setting {
                 [at[0], height, at[2]]
             }
         };
-        shapes.push(shape(Geometry::Sphere { center: narrow(center), radius: radius as f32 }, None));
+        shapes.push(shape(Geometry::Sphere(Sphere { center: narrow(center), radius: radius as f32 }), None));
         last = Some((center, radius));
     }
     for _ in 0..2 {
@@ -220,7 +224,10 @@ fn far_lights(random: &mut Random) -> Setting {
         }
         _ => {
             let radius = between(random, 0.05, 0.9) * height;
-            shapes.push(shape(Geometry::Sphere { center: narrow(above(random, height)), radius: radius as f32 }, None));
+            shapes.push(shape(
+                Geometry::Sphere(Sphere { center: narrow(above(random, height)), radius: radius as f32 }),
+                None,
+            ));
         }
     }
     for _ in 0..2 {
@@ -253,15 +260,16 @@ fn far_out(random: &mut Random) -> Setting {
         match random.below(3) {
             0 => triangles.push([0; 3].map(|_| narrow(along(center, wide(random.point()), 0.1)))),
             1 => triangles.extend(cut(&block(), moved([0.05, 0.01, 0.03], center, 2, random), random)),
-            _ => shapes.push(shape(Geometry::Sphere { center: narrow(center), radius: 0.05 }, None)),
+            _ => shapes.push(shape(Geometry::Sphere(Sphere { center: narrow(center), radius: 0.05 }), None)),
         }
     }
     let triangles = triangles.iter().map(|t| t.map(|v| std::array::from_fn(|k| v[k] + shift[k]))).collect();
     for shape in &mut shapes {
         let moved = match &mut shape.geometry {
-            Geometry::Sphere { center, .. } => std::slice::from_mut(center),
+            Geometry::Sphere(Sphere { center, .. }) => std::slice::from_mut(center),
             Geometry::Triangle(corners) => &mut corners[..],
-            Geometry::Parallelogram { p, .. } => std::slice::from_mut(p),
+            Geometry::Parallelogram(Parallelogram { p, .. }) => std::slice::from_mut(p),
+            other => panic!("no shape is {other:?}"),
         };
         moved.iter_mut().for_each(|v| (0..3).for_each(|k| v[k] += shift[k]));
     }
@@ -310,7 +318,7 @@ impl World {
         let spheres: Vec<_> = spheres.collect();
         let y = light_point(light, wide(random.point()), random);
         if !spheres.is_empty() && random.below(8) == 0 {
-            let Geometry::Sphere { center, radius } = spheres[random.below(spheres.len())].geometry else {
+            let Geometry::Sphere(Sphere { center, radius }) = spheres[random.below(spheres.len())].geometry else {
                 return None;
             };
             let target = along(wide(center), unit(wide(random.point())), f64::from(radius));
@@ -327,7 +335,9 @@ impl World {
             let k = random.below(3);
             along(triangle[k], sub(triangle[(k + 1) % 3], triangle[k]), f64::from(random.unit()))
         } else {
-            let Geometry::Sphere { center, radius } = spheres[choice - blockers.len()].geometry else { return None };
+            let Geometry::Sphere(Sphere { center, radius }) = spheres[choice - blockers.len()].geometry else {
+                return None;
+            };
             let out = unit(cross(sub(wide(center), y), wide(random.point())));
             along(wide(center), out, f64::from(radius))
         };

@@ -4,7 +4,7 @@ use super::views::World;
 use etendue_oracle::visible::{Shape as Form, visible};
 use etendue_oracle::{V3, along, cross, dot, sub, unit, wide};
 use etendue_render::bvh::{NOTHING, SHAPE};
-use etendue_render::scene::{Geometry, Shape};
+use etendue_render::scene::{Geometry, Parallelogram, Shape, Sphere};
 use std::f64::consts::TAU;
 
 /// The end of a way to a light, as a fraction of it, in which nothing occludes: part of the definition of what a light contributes.
@@ -60,12 +60,13 @@ impl Cone {
 /// A shape relative to a point.
 fn relative(geometry: &Geometry, p: V3) -> Form {
     match *geometry {
-        Geometry::Sphere { center, radius } => Form::Sphere(sub(wide(center), p), f64::from(radius)),
+        Geometry::Sphere(Sphere { center, radius }) => Form::Sphere(sub(wide(center), p), f64::from(radius)),
         Geometry::Triangle(corners) => Form::Polygon(corners.map(|v| sub(wide(v), p)).into()),
-        Geometry::Parallelogram { p: corner, u, v } => {
+        Geometry::Parallelogram(Parallelogram { p: corner, u, v }) => {
             let (a, u, v) = (sub(wide(corner), p), wide(u), wide(v));
             Form::Polygon(vec![a, along(a, u, 1.0), along(along(a, u, 1.0), v, 1.0), along(a, v, 1.0)])
         }
+        ref other => panic!("no closed form of {other:?} is tested"),
     }
 }
 

@@ -211,7 +211,7 @@ impl World {
         forms: &mut Forms,
         values: &mut Values,
     ) {
-        let form = self.scene.shapes[light as usize].geometry.convex();
+        let form = self.scene.shapes[light as usize].geometry.outline().convex();
         let is_ball = |form: &Convex<f32>| matches!(form, Convex::Sphere { .. });
         let mut listed = Listed::default();
         let (row, precision) = match certificate {

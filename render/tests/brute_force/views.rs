@@ -7,7 +7,7 @@ use etendue_render::bvh::{GROUP, Hits, NOTHING, SHAPE, Scratch};
 use etendue_render::camera::Pinhole;
 use etendue_render::certify::{Patch, Pyramid, Viewer};
 use etendue_render::packet::M8;
-use etendue_render::scene::{CameraSettings, Geometry, Scene, Screen};
+use etendue_render::scene::{CameraSettings, Geometry, Scene, Screen, Sphere};
 use etendue_render::surfaces::Surfaces;
 
 /// A scene to be tested.
@@ -76,7 +76,7 @@ impl World {
     /// The normal on the side of a viewer.
     fn normal(&self, place: u32, p: V3, viewer: V3) -> V3 {
         if place & SHAPE != 0 {
-            let Geometry::Sphere { center, .. } = self.scene.shapes[(place & !SHAPE) as usize].geometry else {
+            let Geometry::Sphere(Sphere { center, .. }) = self.scene.shapes[(place & !SHAPE) as usize].geometry else {
                 unreachable!("flat shapes are no receivers")
             };
             return unit(sub(p, wide(center)));

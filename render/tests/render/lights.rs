@@ -5,7 +5,7 @@ use etendue::sequence::{Independent, Sequence};
 use etendue::{Mask, Real, Uint, Vec2, Vec3, u32x8};
 use etendue_oracle::tier::cases;
 use etendue_render::choose::{ChoiceBy, Chooser, Choosers};
-use etendue_render::geometry::Geometry;
+use etendue_render::geometry::{Geometry, Parallelogram, Sphere};
 use etendue_render::lights::Lights;
 use etendue_render::packet::{V8, X8};
 use etendue_render::scene::{self, DeltaLight, Scene};
@@ -172,19 +172,20 @@ fn bounds_are_those_of_the_shapes() {
             let emission = shape.emission.unwrap();
             let wide = |v: [f32; 3]| Vec3::<f64>::from(v.map(f64::from));
             let (corners, center, normal) = match shape.geometry {
-                Geometry::Sphere { center, .. } => (vec![], wide(center), Vec3::default()),
+                Geometry::Sphere(Sphere { center, .. }) => (vec![], wide(center), Vec3::default()),
                 Geometry::Triangle(corners) => {
                     let [a, b, c] = corners.map(wide);
                     (vec![a, b, c], (a + b + c) * (1.0 / 3.0), (b - a).cross(c - a))
                 }
-                Geometry::Parallelogram { p, u, v } => {
+                Geometry::Parallelogram(Parallelogram { p, u, v }) => {
                     let [p, u, v] = [p, u, v].map(wide);
                     (vec![p, p + u, p + v, p + u + v], p + (u + v) * 0.5, u.cross(v))
                 }
+                ref other => panic!("{name}: no built-in scene has {other:?}"),
             };
             kinds[[0, 3, 4].iter().position(|&n| n == corners.len()).unwrap()] += 1;
             let radius = match shape.geometry {
-                Geometry::Sphere { radius, .. } => f64::from(radius),
+                Geometry::Sphere(Sphere { radius, .. }) => f64::from(radius),
                 _ => corners.iter().map(|&corner| (corner - center).length()).fold(0.0, f64::max),
             };
             let reach = wide(bound.center).length() + radius;

@@ -7,7 +7,9 @@ use etendue_oracle::direct::{
 };
 use etendue_oracle::{V3, along, basis, cross, dot, sub, unit, wide};
 use etendue_render::light_picture::LightPicture;
-use etendue_render::scene::{self, CameraSettings, Geometry, Instance, Material, Scene, Varying};
+use etendue_render::scene::{
+    self, CameraSettings, Geometry, Instance, Material, Parallelogram, Scene, Sphere, Varying,
+};
 use etendue_render::texture::{self, Colors, Mapping, Texture, Wrap};
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -152,11 +154,12 @@ pub fn bodies(scene: &Scene) -> Vec<Body> {
     };
     let shapes = scene.shapes.iter().map(|shape| Body {
         form: match shape.geometry {
-            Geometry::Sphere { center, radius } => Form::Sphere { center: wide(center), radius: radius.into() },
+            Geometry::Sphere(Sphere { center, radius }) => Form::Sphere { center: wide(center), radius: radius.into() },
             Geometry::Triangle(corners) => triangle(corners.map(wide)),
-            Geometry::Parallelogram { p, u, v } => {
+            Geometry::Parallelogram(Parallelogram { p, u, v }) => {
                 Form::Flat { corner: wide(p), edges: [wide(u), wide(v)], is_triangle: false }
             }
+            ref other => unreachable!("no draft as it is meant has {other:?}"),
         },
         finish: finish(shape.material),
         emission: shape.emission.map(|emission| Emission {

@@ -4,7 +4,7 @@ use crate::builder::{Builder, round};
 use crate::shape_attributes::ShapeAttributes;
 use crate::transform::{add, cross, dot, length, scaled, sub, unit};
 use crate::vertices::Vertex;
-use etendue_render::geometry::Geometry;
+use etendue_render::geometry::{Geometry, Parallelogram};
 use etendue_render::light_picture::affine;
 
 /// How far a bilinear patch may deviate from a parallelogram, and a quad of a mesh file from its plane, relative to its size:
@@ -48,7 +48,7 @@ impl Builder {
                 self.left_out += 1;
                 return;
             }
-            let geometry = Geometry::Parallelogram { p, u, v };
+            let geometry = Geometry::Parallelogram(Parallelogram { p, u, v });
             let emission = self.lamps.emission(surface, &geometry, || affine([a.uv, b.uv, c.uv]));
             if emission.is_some() {
                 return self.push(surface.material, emission, geometry);

@@ -9,7 +9,7 @@ use crate::builder::Builder;
 use crate::shape_attributes::ShapeAttributes;
 use crate::transform::Transform;
 use crate::vertices::{Vertex, Vertices};
-use etendue_render::geometry::Geometry;
+use etendue_render::geometry::{Geometry, Sphere};
 use etendue_render::scene::{Emission, Message};
 use etendue_render::texture::Mapping;
 use std::path::Path;
@@ -80,7 +80,7 @@ fn sphere(out: &mut Builder, surface: &ShapeAttributes, params: &mut Params) -> 
             )));
         }
         let center = center[0].map(|x| x as f32);
-        out.add(surface, Geometry::Sphere { center, radius: world_radius }, || Mapping::IDENTITY);
+        out.add(surface, Geometry::Sphere(Sphere { center, radius: world_radius }), || Mapping::IDENTITY);
         return Ok(());
     }
     check_radius(radius, params)?;

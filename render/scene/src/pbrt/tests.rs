@@ -17,8 +17,8 @@ use super::{builtin_of_few_lights, ies, ply};
 use crate::test_files::{Folder, damaged};
 use crate::{SceneError, load, parse, transform};
 use etendue_render::scene::{
-    DeltaLight, Details, Emission, Environment, FilmSettings, Geometry, Lens, Material, Message, Roughness, Scene,
-    Screen, Shape, SkyRadiance, Varying,
+    DeltaLight, Details, Emission, Environment, FilmSettings, Geometry, Lens, Material, Message, Parallelogram,
+    Roughness, Scene, Screen, Shape, SkyRadiance, Sphere, Varying,
 };
 use std::path::Path;
 
@@ -59,8 +59,8 @@ fn cross(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
 fn normal(geometry: &Geometry) -> [f32; 3] {
     match *geometry {
         Geometry::Triangle([a, b, c]) => cross(sub(b, a), sub(c, a)),
-        Geometry::Parallelogram { u, v, .. } => cross(u, v),
-        Geometry::Sphere { .. } => panic!("a sphere is not flat"),
+        Geometry::Parallelogram(Parallelogram { u, v, .. }) => cross(u, v),
+        ref other => panic!("no normal is tested of {other:?}"),
     }
 }
 
@@ -92,7 +92,7 @@ fn transforms_compose_as_in_pbrt() {
     let at = |transform: &str| {
         let scene = read(&world(&format!("{transform} Shape \"sphere\" \"float radius\" 1")));
         match scene.shapes[0].geometry {
-            Geometry::Sphere { center, radius } => (center, radius),
+            Geometry::Sphere(Sphere { center, radius }) => (center, radius),
             _ => unreachable!(),
         }
     };
@@ -138,10 +138,10 @@ fn shapes_become_what_they_should() {
     assert_eq!(scene.triangles.len(), 3);
     assert_eq!(scene.triangles[1], [[0.0; 3], [2.0, 0.0, 0.0], [2.0, 1.0, 0.0]]);
     assert_eq!(scene.triangles[2], [[0.0; 3], [2.0, 1.0, 0.0], [0.0, 1.0, 0.0]]);
-    assert_eq!(scene.shapes[0].geometry, Geometry::Sphere { center: [0.0; 3], radius: 1.0 });
+    assert_eq!(scene.shapes[0].geometry, Geometry::Sphere(Sphere { center: [0.0; 3], radius: 1.0 }));
     assert!(scene.shapes[0].emission.is_none());
     assert!(matches!(scene.shapes[1].geometry, Geometry::Triangle(_)));
-    assert!(matches!(scene.shapes[2].geometry, Geometry::Parallelogram { .. }));
+    assert!(matches!(scene.shapes[2].geometry, Geometry::Parallelogram(_)));
     assert_eq!(scene.shapes[2].emission, Some(Emission { radiance: [1.0; 3], ..Emission::default() }));
     assert_eq!((scene.materials.len(), scene.pixel_samples), (1, 16));
     assert_eq!(scene.film, FilmSettings { width: 1280, height: 720, diagonal: 35.0, filename: None, place: None });

@@ -1,6 +1,6 @@
 //! Solids of triangles, and numbers that vary.
 
-use etendue_render::geometry::Geometry;
+use etendue_render::geometry::{Geometry, Parallelogram, Sphere};
 
 /// Receives shapes, each with a radiance in relation to others.
 pub(super) type Sink<'a> = dyn FnMut(Geometry, [f64; 3]) + 'a;
@@ -43,11 +43,11 @@ pub(super) fn quad([a, b, c, d]: [Point; 4], sink: &mut Sink) {
 }
 
 pub(super) fn parallelogram(p: Point, u: Point, v: Point, radiance: [f64; 3], sink: &mut Sink) {
-    sink(Geometry::Parallelogram { p: round(p), u: round(u), v: round(v) }, radiance);
+    sink(Geometry::Parallelogram(Parallelogram { p: round(p), u: round(u), v: round(v) }), radiance);
 }
 
 pub(super) fn sphere(center: Point, radius: f64, radiance: [f64; 3], sink: &mut Sink) {
-    sink(Geometry::Sphere { center: round(center), radius: radius as f32 }, radiance);
+    sink(Geometry::Sphere(Sphere { center: round(center), radius: radius as f32 }), radiance);
 }
 
 /// A closed box, given by its least and greatest corner.

@@ -105,7 +105,7 @@ fn bulbs_and_plates_are_apart() {
         let meets = |other: &[[f32; 3]; 2]| (0..3).all(|k| other[0][k] <= high[k] && other[1][k] >= low[k]);
         assert!(!bounds[..i].iter().any(meets), "light {i}: {:?}", scene.shapes[i]);
     }
-    let spheres = scene.shapes.iter().filter(|shape| matches!(shape.geometry, Geometry::Sphere { .. })).count();
+    let spheres = scene.shapes.iter().filter(|shape| matches!(shape.geometry, Geometry::Sphere(_))).count();
     let two_sided = scene.shapes.iter().filter(|shape| shape.emission.unwrap().two_sided).count();
     assert_eq!((spheres, two_sided), (160, 840));
 }
@@ -134,7 +134,7 @@ fn lights_of_the_city_face_away_from_what_they_are_mounted_on() {
     };
     let mut windows = 0;
     for shape in scene.shapes.iter() {
-        let Geometry::Parallelogram { p, u, v } = shape.geometry else { continue };
+        let Geometry::Parallelogram(Parallelogram { p, u, v }) = shape.geometry else { continue };
         assert!(!shape.emission.unwrap().two_sided);
         windows += 1;
         let n = wide(shape.geometry.normal());

@@ -57,7 +57,7 @@ fn all_encodings_give_the_same_triangles() {
         // as a light, the quad is one shape
         let scene = load_mesh(&bytes, LIGHT).unwrap();
         assert!(scene.triangles.is_empty() && scene.warnings.is_empty());
-        let quad = Geometry::Parallelogram { p: p[0], u: [2.0, 0.0, 0.0], v: [0.0, 1.0, 0.0] };
+        let quad = Geometry::Parallelogram(Parallelogram { p: p[0], u: [2.0, 0.0, 0.0], v: [0.0, 1.0, 0.0] });
         assert_eq!((scene.shapes.len(), &scene.shapes[0].geometry), (2, &quad));
         assert_eq!(scene.shapes[1].geometry, Geometry::Triangle(expected[2]));
     }

@@ -80,7 +80,7 @@ fn pictures_are_read_once_and_turned_upright() {
 #[test]
 fn odd_and_older_files() {
     let twice = lit("Shape \"sphere\" \"float radius\" 1\n\"float radius\" 2 WorldEnd");
-    assert!(matches!(twice.shapes[0].geometry, Geometry::Sphere { radius: 2.0, .. }));
+    assert!(matches!(twice.shapes[0].geometry, Geometry::Sphere(Sphere { radius: 2.0, .. })));
     assert!(
         warnings(&twice)[0].contains(":4: Shape \"sphere\": \"radius\": given twice: this one counts"),
         "{:?}",
@@ -247,7 +247,7 @@ fn attributes_imports_and_media() {
          TransformTimes 0 1 ActiveTransform EndTime Translate 9 9 9 ActiveTransform All Shape \"sphere\"",
     );
     let radii = scene.shapes.iter().map(|shape| match shape.geometry {
-        Geometry::Sphere { radius, center } => [radius, center[0]],
+        Geometry::Sphere(Sphere { radius, center }) => [radius, center[0]],
         _ => panic!(),
     });
     let radii = radii.collect::<Vec<_>>();

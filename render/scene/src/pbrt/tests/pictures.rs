@@ -42,7 +42,7 @@ fn quads_show_pictures_upright() {
     near(at(&scene, 0, [0.9, 0.5]), [4.0, 1.0, 2.0]);
     // a shape that is turned around keeps the picture in its place
     let turned = load(&folder, &format!("{LIGHT} ReverseOrientation {QUAD}"));
-    let Geometry::Parallelogram { u, v, .. } = turned.shapes[0].geometry else { panic!() };
+    let Geometry::Parallelogram(Parallelogram { u, v, .. }) = turned.shapes[0].geometry else { panic!() };
     assert_eq!((u, v), ([0.0, 3.0, 0.0], [4.0, 0.0, 0.0]));
     near(at(&turned, 0, [0.0, 1.0]), [2.0, 1.0, 1.0]);
     // the file is read once

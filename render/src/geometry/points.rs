@@ -5,11 +5,10 @@
 //! between δ and 3δ above its surface, whatever the size of the primitive, of the scene or of a light. To that comes 2⁻⁴⁴ of the greatest
 //! coordinate of the scene, which is more than the error of tests in double precision.
 
-use crate::bvh::Rays;
-use crate::packet::{V8, X8, narrow_points, widen, widen_points};
+use crate::packet::{V8, narrow_points, widen_points};
 use etendue::{Mask, Real, Vec3, f64x8};
 
-type D8 = Vec3<f64x8>;
+pub(super) type D8 = Vec3<f64x8>;
 
 /// The lift of a point, relative to Σ|nₖ pₖ|: 2δ.
 pub(crate) const LIFT: f64 = 1.0 / 8_388_608.0;
@@ -17,12 +16,12 @@ pub(crate) const LIFT: f64 = 1.0 / 8_388_608.0;
 pub(crate) const LEAST: f64 = 1.0 / (1_u64 << 44) as f64;
 
 /// Lifted shading points, and unit normals on the side of the ray.
-pub(super) struct Points {
-    pub(super) point: V8,
-    pub(super) normal: V8,
+pub(crate) struct Points {
+    pub(crate) point: V8,
+    pub(crate) normal: V8,
 }
 
-fn zero() -> f64x8 {
+pub(super) fn zero() -> f64x8 {
     Real::lit(0.0)
 }
 
@@ -34,28 +33,28 @@ fn divisor(x: f64x8) -> f64x8 {
 
 /// The unit vector; 0 for the zero vector.
 #[inline(always)]
-fn unit(v: D8) -> D8 {
+pub(super) fn unit(v: D8) -> D8 {
     v * (f64x8::lit(1.0) / divisor(v.length()))
 }
 
 /// The normal on the side of the incoming ray.
 #[inline(always)]
-fn facing(normal: D8, direction: D8) -> D8 {
+pub(super) fn facing(normal: D8, direction: D8) -> D8 {
     let away = normal.dot(direction).gt(zero());
     normal.map(|x| x.negate_where(away))
 }
 
 /// The point, lifted along the normal.
 #[inline(always)]
-fn lifted(p: D8, n: D8, reach: f32) -> D8 {
+pub(super) fn lifted(p: D8, n: D8, reach: f32) -> D8 {
     let along = (p.x * n.x).abs() + (p.y * n.y).abs() + (p.z * n.z).abs();
     n.mul_add(along.mul_add(f64x8::lit(LIFT), f64x8::lit(f64::from(reach) * LEAST)), p)
 }
 
 /// The points and normals that `of` returns for the rays' origins and directions.
 #[inline(always)]
-fn each(rays: &Rays, of: impl FnOnce(D8, D8) -> [D8; 2]) -> Points {
-    let [point, normal] = of(widen_points(rays.origin), widen_points(rays.direction));
+pub(super) fn each([origin, direction]: [V8; 2], of: impl FnOnce(D8, D8) -> [D8; 2]) -> Points {
+    let [point, normal] = of(widen_points(origin), widen_points(direction));
     Points { point: narrow_points(point), normal: narrow_points(normal) }
 }
 
@@ -118,42 +117,24 @@ impl Prepared<f64x8> {
 
 /// Where rays meet triangles, one per lane.
 #[inline(always)]
-pub(super) fn on_triangles([a, b, c]: [V8; 3], rays: &Rays, reach: f32) -> Points {
+pub(crate) fn on_triangles([a, b, c]: [V8; 3], [origin, direction]: [V8; 2], reach: f32) -> Points {
     let triangles = Prepared::new([widen_points(a), widen_points(b), widen_points(c)]);
-    each(rays, |origin, direction| triangles.meet(origin, direction, reach))
+    each([origin, direction], |origin, direction| triangles.meet(origin, direction, reach))
 }
 
 /// Where rays meet the same triangle.
 #[inline(always)]
-pub(super) fn on_triangle(corners: [Vec3<f64>; 3], rays: &Rays, reach: f32) -> Points {
+pub(crate) fn on_triangle(corners: [Vec3<f64>; 3], [origin, direction]: [V8; 2], reach: f32) -> Points {
     let triangle = Prepared::new(corners).splat();
-    each(rays, |origin, direction| triangle.meet(origin, direction, reach))
+    each([origin, direction], |origin, direction| triangle.meet(origin, direction, reach))
 }
 
 /// Where rays meet the plane of a flat shape, given by a point and the unit normal.
-pub(super) fn on_plane(point: Vec3<f64>, normal: Vec3<f64>, rays: &Rays, reach: f32) -> Points {
-    each(rays, |origin, direction| {
+pub(super) fn on_plane([point, normal]: [Vec3<f64>; 2], [origin, direction]: [V8; 2], reach: f32) -> Points {
+    each([origin, direction], |origin, direction| {
         let (a, n) = (D8::splat(point), D8::splat(normal));
         let distance = n.dot(a - origin) / divisor(n.dot(direction));
         let normal = facing(n, direction);
         [lifted(direction.mul_add(distance, origin), normal, reach), normal]
-    })
-}
-
-/// Where rays meet a sphere, at the one of both intersections that is nearer to these distances.
-pub(super) fn on_sphere(center: [f32; 3], radius: f32, distances: X8, rays: &Rays, reach: f32) -> Points {
-    let distances = widen(distances);
-    each(rays, |origin, direction| {
-        let (c, r) = (D8::lit(center.map(f64::from)), f64x8::lit(f64::from(radius)));
-        let to_center = c - origin;
-        let square = direction.length_squared();
-        let along = to_center.dot(direction) / square;
-        // the point of the ray that is nearest to the centre, relative to it
-        let foot = direction.mul_add(along, -to_center);
-        let half_chord = ((r * r - foot.length_squared()).greater(zero()) / square).sqrt();
-        let is_far = distances.gt(along);
-        let outward = unit(direction.mul_add(half_chord.negate_where(!is_far), foot));
-        let normal = facing(outward, direction);
-        [lifted(outward.mul_add(r, c), normal, reach), normal]
     })
 }

@@ -1,0 +1,188 @@
+//! What the renderer asks of the form of a shape. Each form is a file, which answers all of it.
+
+use super::points::Points;
+use crate::packet::{M8, V8, X8};
+use crate::technique::Measure;
+use etendue::light::{Picture, Spread};
+use etendue::occlusion::Convex;
+use etendue::{LightSample, Mask, Real, Vec2, Vec3};
+
+/// The form of a shape: where it is, how rays meet it, how it is sampled as a light, and what stands for it in closed forms.
+///
+/// A light is kept as three vectors, whose meaning each form chooses, so that the lanes of a packet hold lights of any form.
+pub(crate) trait Form: Sized {
+    /// The form, prepared for rays.
+    type Solid: Solid;
+    /// How its points are found in a picture that it shows; `None` if it shows none, and emits the mean of a picture everywhere.
+    const CHART: Option<Chart> = None;
+    /// Its greatest area as seen from far away, as a part of the area of its surface.
+    const SILHOUETTE: f64 = 1.0;
+    /// That area, in units of the product of its [halves](Self::halves).
+    const SHARE: f64;
+
+    /// Least and greatest corner of the bounding box.
+    fn bounds(&self) -> [[f32; 3]; 2];
+    /// Area of the surface, in squared scene units.
+    fn area(&self) -> f64;
+    /// A point of a flat form and its unit normal; `None` for a curved one.
+    fn plane(&self) -> Option<[Vec3<f64>; 2]>;
+    /// The middle of the form.
+    fn middle(&self) -> Vec3<f64>;
+    /// Half edges or radii of the form, as it is seen in this direction.
+    fn halves(&self, direction: Vec3<f64>) -> [Vec3<f64>; 2];
+
+    /// Prepares the form for rays.
+    fn solid(&self) -> Self::Solid;
+    /// The outward normals at points of the surface, of any length.
+    #[inline(always)]
+    fn outwards(&self, _points: V8) -> V8 {
+        V8::from(self.normal())
+    }
+    /// The outward unit normals where rays, given by their origins and directions, hit it, at these distances.
+    #[inline(always)]
+    fn outward_at(&self, _rays: [V8; 2], _distance: X8) -> V8 {
+        V8::from(self.normal())
+    }
+    /// Where these rays hit it, at the intersections that are nearest to these distances: shading points.
+    fn points(&self, rays: [V8; 2], distance: X8, reach: f32) -> Points;
+
+    /// The vectors of a light.
+    fn vectors(&self) -> [[f32; 3]; 3];
+    /// The extent of a light with these vectors.
+    fn extent(vectors: [Vec3<f64>; 3]) -> Extent;
+    /// The normals of lights with these vectors, of any length; 0 for curved ones.
+    #[inline(always)]
+    fn normals([_, first, second]: [V8; 3]) -> V8 {
+        first.cross(second)
+    }
+    /// Samples lights with these vectors from the points `p` on surfaces with this normal.
+    fn sample<D: From<LightSample<X8>>>(vectors: [V8; 3], measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> D;
+    /// Pdf per steradian with which the form, or what the points see of one with a spread, is sampled by solid angle in the direction
+    /// `w`, in which it is hit from `p`.
+    fn pdf(&self, spread: Option<Spread<f32>>, p: V8, w: V8) -> X8;
+
+    /// The coordinates (s, t) of points on a flat form; 0 for a sphere.
+    #[inline]
+    fn coordinates(&self, _point: V8) -> Vec2<X8> {
+        Vec2::new(X8::lit(0.0), X8::lit(0.0))
+    }
+    /// Samples the form in proportion to the picture that it shows. `axes` are the rows of a matrix from world space to the axes of the
+    /// picture on a curved form.
+    fn sample_picture(
+        &self,
+        _picture: &Picture<'_>,
+        _axes: &[[f32; 3]; 3],
+        measure: Measure,
+        [p, normal]: [V8; 2],
+        u: Vec2<X8>,
+    ) -> LightSample<X8> {
+        Self::sample(self.vectors().map(V8::from), measure, p, normal, u)
+    }
+    /// Pdf per steradian with which [`sample_picture`](Self::sample_picture) by solid angle draws the direction `w`.
+    fn pdf_of_picture(&self, _picture: &Picture<'_>, _axes: &[[f32; 3]; 3], p: V8, w: V8) -> X8 {
+        self.pdf(None, p, w)
+    }
+
+    /// What closed forms take it for. By default nothing is known but a ball around the form.
+    fn outline(&self) -> Outline {
+        let [low, high] = self.bounds().map(|corner| Vec3::<f64>::from(corner.map(f64::from)));
+        // wider than the rounding of its centre and radius
+        let (center, radius) = ((low + high) * 0.5, (high - low).length() * 0.5);
+        let radius = (radius + center.max_abs() * 1e-6) * (1.0 + 1e-6);
+        Outline::Within(Convex::Sphere { center: center.map(|x| x as f32), radius: radius as f32 })
+    }
+
+    /// The unit normal of a flat form; 0 for a curved one.
+    #[inline]
+    fn normal(&self) -> [f32; 3] {
+        self.plane().map_or([0.0; 3], |[_, normal]| [normal.x as f32, normal.y as f32, normal.z as f32])
+    }
+}
+
+/// What closed forms take a shape for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Outline {
+    /// The shape is this one.
+    Exact(Convex<f32>),
+    /// The shape is somewhere within this one, so its light is only sampled; but where that is dark or hidden, so is the shape.
+    Within(Convex<f32>),
+}
+
+impl Outline {
+    /// The shape, or what it is within.
+    pub const fn convex(self) -> Convex<f32> {
+        match self {
+            Self::Exact(convex) | Self::Within(convex) => convex,
+        }
+    }
+    /// Whether this is all of the shape, and nothing else.
+    pub const fn is_exact(self) -> bool {
+        matches!(self, Self::Exact(_))
+    }
+}
+
+/// How a picture lies on a surface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Chart {
+    /// By the coordinates (s, t) of the point p + s u + t v of a parallelogram with these edges.
+    Parallelogram,
+    /// By the same of a triangle.
+    Triangle,
+    /// By azimuth and height about the axes of a sphere.
+    Sphere,
+}
+
+/// A sphere around a light, and the normal of a flat light, of any length.
+pub(crate) struct Extent {
+    pub(crate) center: Vec3<f64>,
+    pub(crate) radius: f64,
+    pub(crate) normal: Vec3<f64>,
+}
+
+/// Hits nearer to the origin or to the limit of a ray than this fraction of a primitive's size are computed in double precision. The
+/// error in single precision is some 2⁻²¹ of the size, and thus at most 2⁻¹⁶ of the other distances.
+pub(crate) const NEAR: f64 = 1.0 / 32.0;
+
+/// Eight rays, as a shape meets them.
+pub(crate) struct Approach {
+    pub(crate) origin: V8,
+    /// Unit directions.
+    pub(crate) direction: V8,
+    /// Lanes of rays that begin on the shape.
+    pub(crate) own: M8,
+    /// Distances beyond which nothing counts.
+    pub(crate) limit: X8,
+}
+
+/// A form, prepared for rays.
+pub(crate) trait Solid {
+    /// Distances at which the rays hit it, and the lanes where these are positive and less than the limit. With `ANY`, hits near the limit
+    /// are decided in double precision, too.
+    fn meet<const ANY: bool>(&self, rays: &Approach) -> (X8, M8);
+}
+
+impl Approach {
+    /// Lanes whose distance is so near to the limit, for a form of which all that is nearer than `near` is computed in double precision, that
+    /// single precision does not tell on which side it is.
+    #[inline(always)]
+    pub(crate) fn near_limit<const ANY: bool>(&self, distance: X8, near: f32) -> M8 {
+        let unclear = (distance - self.limit).abs().lt(X8::splat(near / 4096.0));
+        if ANY { unclear } else { M8::splat(false) }
+    }
+    /// Origin and direction of one ray, in double precision.
+    #[inline]
+    pub(crate) fn lane(&self, lane: usize) -> [Vec3<f64>; 2] {
+        [self.origin, self.direction].map(|v| v.lane(lane).map(f64::from))
+    }
+}
+
+/// Not inlined, so that its registers do not burden the cheaper measures.
+#[inline(never)]
+pub(crate) fn projected<D>(sample: impl Fn() -> D) -> D {
+    sample()
+}
+
+/// A point or direction in double precision.
+pub(crate) fn wide(v: [f32; 3]) -> Vec3<f64> {
+    v.map(f64::from).into()
+}
