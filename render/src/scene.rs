@@ -7,7 +7,7 @@ mod lights;
 mod materials;
 mod message;
 
-pub use crate::geometry::{Affine, Geometry, Instance, Parallelogram, Sphere};
+pub use crate::geometry::*;
 pub use description::{CameraSettings, Corners, Details, FilmSettings, Lens, Scene, Screen, Shape};
 pub use environment::{Environment, SkyRadiance, SunDisk};
 pub use inputs::Input;

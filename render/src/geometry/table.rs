@@ -14,7 +14,7 @@ use etendue::{LightSample, Vec2, Vec3};
 macro_rules! forms {
     ($dollar:tt $($(#[$doc:meta])* $name:ident($form:ty),)*) => {
         /// The form of a shape.
-        #[derive(Clone, Copy, Debug, PartialEq)]
+        #[derive(Clone, Debug, PartialEq)]
         #[non_exhaustive]
         pub enum Geometry {
             $($(#[$doc])* $name($form),)*

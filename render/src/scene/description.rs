@@ -42,7 +42,7 @@ pub struct Scene {
     pub masks: Vec<(u32, Mask)>,
     /// Normals and texture coordinates of triangles that have them.
     pub details: Arc<Details>,
-    /// All spheres, and the triangles and parallelograms that emit. What renders the scene shares them.
+    /// All shapes that emit, and those that do not but are no triangles. What renders the scene shares them.
     pub shapes: Arc<[Shape]>,
     /// The pictures that shapes emit. What renders the scene shares them.
     pub pictures: Arc<[LightPicture]>,

@@ -60,27 +60,33 @@ fn note_left_out(out: &mut Builder, params: &Params) {
     }
 }
 
+/// The factor by which its transform enlarges a shape that is kept as it is: unless it is stretched, textured or in an object.
+fn kept(out: &Builder, surface: &ShapeAttributes) -> Option<f64> {
+    // what emits reflects by the means of its material
+    let varies = surface.emission.is_none() && out.varies(surface.material);
+    surface.ctm.similarity().filter(|_| !varies && !out.is_object())
+}
+
+/// A radius in world space, after a transform that enlarges it by a factor.
+fn in_world(radius: f64, factor: f64, params: &Params) -> Result<f32, Message> {
+    let world = (radius * factor) as f32;
+    (world > 0.0 && world.is_finite()).then_some(world).ok_or_else(|| {
+        let shown = shown(radius);
+        params.error(format!("\"radius\": must be greater than 0 and finite, not {shown} ({world:e} in world space)"))
+    })
+}
+
 /// Reads `Shape "sphere"`.
 fn sphere(out: &mut Builder, surface: &ShapeAttributes, params: &mut Params) -> Result<(), Message> {
     let radius = params.float("radius")?.unwrap_or(1.0);
     let [low, high] = [params.float("zmin")?.unwrap_or(-radius), params.float("zmax")?.unwrap_or(radius)];
     let sweep = params.float("phimax")?.unwrap_or(360.0);
-    let similar = surface.ctm.similarity();
     let inwards = surface.is_reversed() && surface.emission.is_some_and(|emission| !emission.two_sided);
     let whole = low <= -radius && high >= radius && sweep >= 360.0;
-    // what emits reflects by the means of its material
-    let varies = surface.emission.is_none() && out.varies(surface.material);
-    if let Some(factor) = similar.filter(|_| whole && !inwards && !varies && !out.is_object()) {
+    if let Some(factor) = kept(out, surface).filter(|_| whole && !inwards) {
         let center = surface.place(std::iter::once([0.0; 3])).map_err(|why| params.error(why))?;
-        let world_radius = (radius * factor) as f32;
-        if !(world_radius > 0.0 && world_radius.is_finite()) {
-            return Err(params.error(format!(
-                "\"radius\": must be greater than 0 and finite, not {} ({world_radius:e} in world space)",
-                shown(radius)
-            )));
-        }
-        let center = center[0].map(|x| x as f32);
-        out.add(surface, Geometry::Sphere(Sphere { center, radius: world_radius }), || Mapping::IDENTITY);
+        let (center, radius) = (center[0].map(|x| x as f32), in_world(radius, factor, params)?);
+        out.add(surface, Geometry::Sphere(Sphere { center, radius }), || Mapping::IDENTITY);
         return Ok(());
     }
     check_radius(radius, params)?;
