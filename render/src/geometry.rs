@@ -4,6 +4,7 @@
 
 mod affine;
 mod bounds;
+mod disk;
 mod flat;
 mod form;
 mod parallelogram;
@@ -14,6 +15,7 @@ mod triangle;
 
 pub use affine::{Affine, Instance};
 pub use bounds::bounds_of;
+pub use disk::Disk;
 pub(crate) use form::{Approach, Extent, NEAR, Solid};
 pub use form::{Chart, Outline};
 pub use parallelogram::Parallelogram;

@@ -4,7 +4,7 @@ use etendue::sequence::{Independent, Sequence};
 use etendue::{Mask, Real, Vec2, Vec3, f32x8, u32x8};
 use etendue_oracle::{V3, cross, dot, sub};
 use etendue_render::bvh::{Bvh, Hits, NOTHING, Scratch, ShapeSet, Traversal};
-use etendue_render::scene::{Affine, Instance};
+use etendue_render::scene::{Affine, Disk, Geometry, Instance};
 
 /// Distance and least barycentric coordinate (Möller and Trumbore), if the ray hits the plane.
 fn meet(t: &[[f32; 3]; 3], o: V3, d: V3) -> Option<(f64, f64)> {
@@ -100,6 +100,54 @@ fn packets_find_what_is_there() {
 }
 
 /// A rotation about a random axis, after a scale of each axis, one of them mirrored or not, and before a shift.
+/// Rays meet disks where they meet their planes within the radius, and nowhere else; both sides are hit.
+#[test]
+fn disks_are_round() {
+    let disk = |i: u32| {
+        let ([x, y], [z, a], [b, c]) = (random(i, 0), random(i, 1), random(i, 2));
+        let length = (a * a + b * b + c * c).sqrt();
+        let normal = [a, b, c].map(|x| x / length);
+        Disk { center: [x, y, z], normal, radius: [0.3, 0.05, 0.01][i as usize % 3] }
+    };
+    let disks: Vec<Disk> = (0..60).map(disk).collect();
+    let shapes: Vec<Geometry> = disks.iter().map(|&disk| Geometry::Disk(disk)).collect();
+    let bvh = Bvh::new(&[], ShapeSet::new(shapes.iter()).unwrap()).unwrap();
+    let (mut hits, mut stack, mut counts) = ([Hits::none(f32x8::splat(f32::INFINITY))], Scratch::default(), [0; 2]);
+    for packet in 0..500 {
+        let lanes = |f: &dyn Fn(u32) -> [f32; 3]| {
+            let axis = |k: usize| f32x8::from_fn(|lane| f(1000 + 8 * packet + lane as u32)[k]);
+            Vec3::new(axis(0), axis(1), axis(2))
+        };
+        let origin = lanes(&|i| [random(i, 3)[0], random(i, 3)[1], random(i, 4)[0]].map(|x| 3.0 * x));
+        let to = lanes(&|i| disks[i as usize % disks.len()].center);
+        let off = lanes(&|i| [random(i, 5)[0], random(i, 5)[1], random(i, 6)[0]].map(|x| 0.2 * x));
+        let direction = (to + off - origin).normalize();
+        hits[0] = Hits::none(f32x8::splat(f32::INFINITY));
+        bvh.closest(&[bvh.rays(origin, direction)], &[Mask::splat(true)], &mut hits, &mut stack);
+        for lane in 0..8 {
+            let exact = |v: Vec3<f32x8>| [v.x, v.y, v.z].map(|x| f64::from(x.lane(lane)));
+            let (o, d) = (exact(origin), exact(direction));
+            // the distance to the plane, and how far within the rim that is
+            let met = disks.iter().map(|disk| {
+                let [center, normal] = [disk.center, disk.normal].map(|v| v.map(f64::from));
+                let t = dot(normal, sub(center, o)) / dot(normal, d);
+                let place = sub(std::array::from_fn(|k| o[k] + t * d[k]), center);
+                (t, f64::from(disk.radius) - dot(place, place).sqrt(), dot(normal, d).abs())
+            });
+            let met: Vec<_> = met.filter(|met| met.0 > 0.0).collect();
+            let nearest = |least: f64| {
+                let within = met.iter().filter(|(_, inside, slope)| *inside > least / slope);
+                within.map(|met| met.0).fold(f64::INFINITY, f64::min)
+            };
+            let (surely, perhaps) = (nearest(2e-6), nearest(-2e-6));
+            let found = f64::from(hits[0].distance.lane(lane));
+            assert!(found <= surely * (1.0 + 1e-4) && found >= perhaps * (1.0 - 1e-4), "{found}: {surely}, {perhaps}");
+            counts[usize::from(found < f64::INFINITY)] += 1;
+        }
+    }
+    assert!(counts.iter().all(|&count| count > 400), "misses and hits: {counts:?}");
+}
+
 fn affine(i: u32, stretch: f64, far: f64) -> Affine {
     let number = |k: u32| f64::from(random(i, k)[0]);
     let axis = [number(1), number(2), number(3) + 1e-3];

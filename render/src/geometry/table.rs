@@ -1,5 +1,6 @@
 //! The table of all forms of shapes, and what hosts may ask of any of them.
 
+use super::disk::Disk;
 use super::form::{Approach, Chart, Extent, Form, Outline, Solid};
 use super::parallelogram::Parallelogram;
 use super::points::Points;
@@ -129,6 +130,8 @@ forms! { $
     Triangle(Triangle),
     /// A parallelogram; the normal is u × v.
     Parallelogram(Parallelogram),
+    /// A disk.
+    Disk(Disk),
 }
 
 impl Geometry {

@@ -100,15 +100,15 @@ impl Measure {
 }
 
 impl Swept {
-    /// Point and normal at (s, t).
-    fn at(&self, [s, t]: [f64; 2]) -> [V3; 2] {
+    /// Point and normal at (s, t), with so many pieces about the axis.
+    fn at(&self, columns: usize, [s, t]: [f64; 2]) -> [V3; 2] {
         let turn = |sweep: f64| (libm::cos(sweep.to_radians() * s), libm::sin(sweep.to_radians() * s));
         // of the same area as what it stands for
         let grown = |half: f64| half / libm::sin(half);
         match *self {
             Self::Disk { radii: [outer, inner], height, sweep } => {
                 let (x, y) = turn(sweep);
-                let r = (outer + (inner - outer) * t) * libm::sqrt(grown(sweep.to_radians() / 64.0));
+                let r = (outer + (inner - outer) * t) * libm::sqrt(grown(sweep.to_radians() / columns as f64));
                 [[r * x, r * y, height], [0.0, 0.0, 1.0]]
             }
             Self::Cylinder { radius, z: [low, high], sweep } => {
@@ -130,9 +130,10 @@ impl Swept {
             }
         }
     }
-    /// Its triangles, with their normals on its own side. A patch is as good as curved.
-    fn pieces(&self) -> Vec<Piece> {
+    /// Its triangles, with their normals on its own side. A patch is as good as curved, and so is a whole disk if it is a disk.
+    fn pieces(&self, is_disk: bool) -> Vec<Piece> {
         let [columns, rows] = match self {
+            Self::Disk { radii: [_, 0.0], sweep: 360.0, .. } if is_disk => [512, 1],
             Self::Disk { .. } | Self::Cylinder { .. } => [64, 1],
             Self::Sphere { .. } => [64, 32],
             Self::Patch(_) => [16, 16],
@@ -143,7 +144,7 @@ impl Swept {
         let triangles = quads.flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]]);
         let side = |uvs: [[f64; 2]; 3]| {
             let middle = [0, 1].map(|k| (uvs[0][k] + uvs[1][k] + uvs[2][k]) / 3.0);
-            ordered((uvs.map(|uv| self.at(uv)[0]), uvs), self.at(middle)[1])
+            ordered((uvs.map(|uv| self.at(columns, uv)[0]), uvs), self.at(columns, middle)[1])
         };
         triangles.map(side).collect()
     }
@@ -159,6 +160,7 @@ fn ordered((corners, uvs): Piece, normal: V3) -> Piece {
 impl Part {
     /// The triangles of a light in world space: their normals are images of its own, unless they are turned over.
     fn pieces(&self) -> Vec<Piece> {
+        let map = self.place.map(|place| rounded(&place.map));
         let own: Vec<Piece> = match &self.form {
             Form::Mesh(triangles) => {
                 let uvs = self.skin.uvs(triangles.as_flattened());
@@ -175,11 +177,16 @@ impl Part {
             Form::Sphere(center, radius) => {
                 let radius = f64::from(*radius as f32);
                 let moved = |(corners, uvs): Piece| (corners.map(|p| along(p, round(*center), 1.0)), uvs);
-                Swept::Sphere { radius, z: [-radius, radius], sweep: 360.0 }.pieces().into_iter().map(moved).collect()
+                Swept::Sphere { radius, z: [-radius, radius], sweep: 360.0 }
+                    .pieces(false)
+                    .into_iter()
+                    .map(moved)
+                    .collect()
             }
-            Form::Swept(swept) => swept.pieces(),
+            Form::Swept(swept) => {
+                swept.pieces(self.skin.glow.is_none() && map.is_none_or(|map| similarity(&map).is_some()))
+            }
         };
-        let map = self.place.map(|place| rounded(&place.map));
         let mirrors = map.is_some_and(|map| determinant(&map) < 0.0);
         let turned = self.place.is_some_and(|place| place.is_reversed) != mirrors;
         let placed = |(corners, uvs): Piece| {

@@ -5,11 +5,11 @@ use super::inputs::Files;
 use super::params::{Params, shown};
 use super::ply::{self, Face};
 use super::subdivision;
-use crate::builder::Builder;
+use crate::builder::{Builder, round};
 use crate::shape_attributes::ShapeAttributes;
 use crate::transform::Transform;
 use crate::vertices::{Vertex, Vertices};
-use etendue_render::geometry::{Geometry, Sphere};
+use etendue_render::geometry::{Disk, Geometry, Sphere};
 use etendue_render::scene::{Emission, Message};
 use etendue_render::texture::Mapping;
 use std::path::Path;
@@ -102,13 +102,22 @@ fn sphere(out: &mut Builder, surface: &ShapeAttributes, params: &mut Params) -> 
     })
 }
 
-/// Reads `Shape "disk"`: a regular polygon of 64 sides and the same area, with a hole if it has one.
+/// Reads `Shape "disk"`. In place of a part of one, it is a regular polygon of 64 sides and the same area, with a hole if it has one.
 fn disk(out: &mut Builder, surface: &ShapeAttributes, params: &mut Params) -> Result<(), Message> {
     let (height, radius) = (params.float("height")?.unwrap_or(0.0), params.float("radius")?.unwrap_or(1.0));
     let inner = params.float("innerradius")?.unwrap_or(0.0);
-    let sweep = params.float("phimax")?.unwrap_or(360.0).clamp(0.0, 360.0).to_radians();
+    let degrees = params.float("phimax")?.unwrap_or(360.0).clamp(0.0, 360.0);
     check_radius(radius, params)?;
-    tessellated(out, params, "a disk");
+    let is_whole = inner == 0.0 && degrees >= 360.0 && surface.picture.is_none();
+    if let Some(factor) = kept(out, surface).filter(|_| is_whole) {
+        let center = surface.place(std::iter::once([0.0, 0.0, height])).map_err(|why| params.error(why))?;
+        let normal = placed_normals(surface, std::iter::once([0.0, 0.0, 1.0])).next().unwrap_or_default();
+        let (center, normal, radius) = (round(center[0]), round(normal), in_world(radius, factor, params)?);
+        out.add(surface, Geometry::Disk(Disk { center, normal, radius }), || Mapping::IDENTITY);
+        return Ok(());
+    }
+    tessellated(out, params, "a disk that is partial, stretched, textured, in an object or shows a picture");
+    let sweep = degrees.to_radians();
     let grown = 1.0 / polygon_share(sweep / 64.0);
     swept(out, surface, params, [64, 1], |s, t| {
         let (sin, cos) = libm::sincos(sweep * s);

@@ -17,7 +17,7 @@ use super::{builtin_of_few_lights, ies, ply};
 use crate::test_files::{Folder, damaged};
 use crate::{SceneError, load, parse, transform};
 use etendue_render::scene::{
-    DeltaLight, Details, Emission, Environment, FilmSettings, Geometry, Lens, Material, Message, Parallelogram,
+    DeltaLight, Details, Disk, Emission, Environment, FilmSettings, Geometry, Lens, Material, Message, Parallelogram,
     Roughness, Scene, Screen, Shape, SkyRadiance, Sphere, Varying,
 };
 use std::path::Path;

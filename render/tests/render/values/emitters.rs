@@ -3,6 +3,7 @@
 use super::place::{Place, all};
 use super::row::{ROUNDING, Row, grey, look, on_floor, reflected, times};
 use etendue_oracle::{V3, along, cross, dot, length, sub, unit};
+use etendue_render::Technique;
 use std::f64::consts::PI;
 
 /// A shape: its text, and its surface in double precision.
@@ -154,7 +155,7 @@ const STRENGTHS: [Strength; 7] = [
 ];
 
 pub(super) fn rows() -> Vec<Row> {
-    [seen(), lit(), pictures(), others()].into_iter().flatten().collect()
+    [seen(), lit(), pictures(), disks(), others()].into_iter().flatten().collect()
 }
 
 /// What a camera sees of a lamp is what it emits, without what it reflects of its other parts.
@@ -188,6 +189,24 @@ fn seen() -> Vec<Row> {
             }
         }
     }
+    rows
+}
+
+/// By each technique, and before a sky, of which it hides as much: a disk of radiance L that is seen under the angle θ from its axis causes the
+/// irradiance πL sin²θ.
+fn disks() -> Vec<Row> {
+    let disk = |text: &str| {
+        format!(
+            "AreaLightSource \"diffuse\" {text} Translate 0 0 2 ReverseOrientation Shape \"disk\" \"float radius\" 2"
+        )
+    };
+    let before_sky = format!("LightSource \"infinite\" \"rgb L\" [1 1 1] {}", disk("\"rgb L\" [5 5 5]"));
+    let by = |technique: Technique| {
+        let name = format!("a disk by {}", technique.name());
+        Row::new(name, on_floor(&disk("")), reflected(grey(0.5 * PI))).by(technique).samples(1 << 16)
+    };
+    let mut rows: Vec<_> = Technique::ALL.into_iter().map(by).collect();
+    rows.push(Row::new("a disk before a sky", on_floor(&before_sky), reflected(grey(3.0 * PI))).samples(1 << 16));
     rows
 }
 
@@ -309,8 +328,7 @@ fn others() -> Vec<Row> {
             reflected(grey(9.0 / (4.0 * PI) * square(1.0, 3.0))),
         ),
         Row::new("a disk of watts", on_floor(disk), reflected(grey(100.0 / (PI * 4.0 * PI) * PI * 4.0 / 40.0)))
-            .within(1e-3)
-            .samples(4096),
+            .samples(1 << 16),
         // the square hides what it hides of the sky
         Row::new("a square before a sky", on_floor(&sky), reflected(grey(PI + 4.0 * square(0.5, 2.0))))
             .samples(1 << 16),

@@ -313,9 +313,37 @@ fn materials_become_what_direct_light_shows() {
     assert_eq!(lit(&format!("{brushed}AreaLightSource \"diffuse\" Shape \"sphere\"")).shapes.len(), 1);
 }
 
+/// Whole disks are disks, whether they emit or not, unless they are stretched, textured or in an object.
+#[test]
+fn whole_disks_are_kept() {
+    let place = "Translate 1 2 3 Rotate 90 1 0 0 Scale 2 2 -2";
+    for (reverse, y) in [("", 1.0), ("ReverseOrientation", -1.0)] {
+        for light in ["", LIGHT] {
+            let scene =
+                lit(&format!("{light} {place} {reverse} Shape \"disk\" \"float radius\" 3 \"float height\" .5"));
+            let [shape] = &scene.shapes[..] else { panic!("{:?}", scene.shapes) };
+            let Geometry::Disk(Disk { center, normal, radius }) = shape.geometry else { panic!("{shape:?}") };
+            let near = |a: [f32; 3], b: [f32; 3]| sub(a, b).iter().all(|x| x.abs() < 1e-6);
+            assert!(near(center, [1.0, 3.0, 3.0]) && near(normal, [0.0, y, 0.0]) && radius == 6.0, "{shape:?}");
+            assert!(scene.triangles.is_empty() && scene.stand_ins.is_empty());
+            assert_eq!(shape.emission.is_some(), !light.is_empty());
+        }
+    }
+    let checks = "Texture \"t\" \"spectrum\" \"checkerboard\" Material \"diffuse\" \"texture reflectance\" \"t\"";
+    for text in [
+        "Scale 1 1 2 Shape \"disk\"",
+        &format!("{checks} Shape \"disk\""),
+        "ObjectBegin \"o\" Shape \"disk\" ObjectEnd ObjectInstance \"o\"",
+    ] {
+        let scene = lit(text);
+        assert!(scene.shapes.is_empty() && scene.triangles.len() >= 64 && scene.stand_ins.len() == 1, "{text}");
+    }
+    assert!(matches!(lit(&format!("{LIGHT} {checks} Shape \"disk\"")).shapes[0].geometry, Geometry::Disk(_)));
+}
+
 #[test]
 fn other_shapes_become_triangles() {
-    for text in ["disk\"", "cylinder\"", "sphere\" \"float zmin\" 0"] {
+    for text in ["disk\" \"float phimax\" 359", "cylinder\"", "sphere\" \"float zmin\" 0"] {
         let scene = lit(&format!("Shape \"{text}"));
         assert!(scene.triangles.len() >= 64 && scene.shapes.is_empty() && scene.stand_ins.len() == 1, "{text}");
     }
