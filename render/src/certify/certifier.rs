@@ -144,16 +144,21 @@ impl<'a> Certifier<'a> {
         blockers.clear();
         blockers.extend(met.iter().map(|met| Blocker::Body(met.0)));
         blockers.extend(candidates.iter().map(|candidate| candidate.blocker(shaft)));
-        let behind = Behind {
-            blockers: blockers.len(),
-            spheres: candidates.iter().filter(|candidate| matches!(candidate, Candidate::Ball(..))).count(),
-            displacement: met.iter().map(|met| bodies.displacement(met.0, &patch.hull)).sum::<f64>()
-                + candidates.iter().map(|candidate| candidate.displacement(&patch.hull)).sum::<f64>(),
-            stretch: met.iter().map(|met| bodies.stretch(met.0, &patch.hull) - 1.0).sum::<f64>()
-                + candidates.iter().map(|candidate| candidate.stretch(&patch.hull) - 1.0).sum::<f64>(),
-            flush: candidates.iter().any(|candidate| candidate.is_flush(&patch.hull)),
-        };
+        let behind = behind(candidates, met, bodies, patch);
         Certificate::Blockers(blockers, precision(&behind))
+    }
+}
+
+/// What matters of these blockers for the precision of a closed form.
+fn behind(candidates: &[Candidate], met: &[(u32, bool)], bodies: &Bodies, patch: &Patch) -> Behind {
+    Behind {
+        blockers: candidates.len() + met.len(),
+        spheres: candidates.iter().filter(|candidate| matches!(candidate, Candidate::Ball(..))).count(),
+        displacement: met.iter().map(|met| bodies.displacement(met.0, &patch.hull)).sum::<f64>()
+            + candidates.iter().map(|candidate| candidate.displacement(&patch.hull)).sum::<f64>(),
+        stretch: met.iter().map(|met| bodies.stretch(met.0, &patch.hull) - 1.0).sum::<f64>()
+            + candidates.iter().map(|candidate| candidate.stretch(&patch.hull) - 1.0).sum::<f64>(),
+        flush: candidates.iter().any(|candidate| candidate.is_flush(&patch.hull)),
     }
 }
 

@@ -53,7 +53,7 @@ macro_rules! forms {
                     $(Self::$name(_) => Kind::$name as u32,)*
                 }
             }
-            /// As of [`Form::CHART`].
+            /// How a picture lies on it; `None` if it shows none, and emits the mean of a picture everywhere.
             pub fn chart(&self) -> Option<Chart> {
                 match self {
                     $(Self::$name(_) => <$form>::CHART,)*
