@@ -17,7 +17,7 @@ mod view;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use etendue_laboratory::options::say;
-use etendue_laboratory::{atlas, chart, figure};
+use etendue_laboratory::{atlas, chart};
 use std::any::TypeId;
 use std::error::Error;
 use std::io;
@@ -48,8 +48,6 @@ enum Command {
     Selftest(selftest::Options),
     /// Measure the error and time of techniques and samplers, and write a report with charts
     Chart(chart::Options),
-    /// Draw a figure about light sampling and print the numbers behind it
-    Figure(figure::Options),
     /// Map where each technique of the library loses accuracy, compared with textbook formulas
     Atlas(atlas::Options),
     /// List the built-in scenes, techniques, choices of a light, samplers and sensors
@@ -104,7 +102,6 @@ fn run(command: Command) -> Result<ExitCode, Box<dyn Error>> {
         Command::Merge(options) => merge::run(&options)?,
         Command::Compare(options) => compare::run(&options)?,
         Command::Chart(options) => chart::run(&options, &command_line())?,
-        Command::Figure(options) => figure::run(&options)?,
         Command::Atlas(options) => atlas::run(&options)?,
         Command::List => list::run()?,
     }

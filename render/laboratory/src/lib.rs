@@ -4,7 +4,6 @@
 //! - [`attack`]: random scenes by all techniques, which must agree with the oracle's images.
 //! - [`atlas`]: greatest errors of every shape over size, elevation, distance and aspect ratio, beside textbook formulas.
 //! - [`cost`]: time per sample, for these and for the benchmarks.
-//! - [`figure`]: figures about light sampling, with the numbers behind them.
 //! - [`interrupt`]: what ends the program from outside.
 //! - [`options`]: what command lines share.
 
@@ -12,7 +11,6 @@ pub mod atlas;
 pub mod attack;
 pub mod chart;
 pub mod cost;
-pub mod figure;
 mod hash;
 pub mod interrupt;
 pub mod options;

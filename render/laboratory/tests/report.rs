@@ -1,11 +1,11 @@
 //! The report of `etendue chart` is read at a glance: a line per scene, the best sampler of each technique, bars in order, notes last.
 
-use etendue_laboratory::chart::charts;
+use etendue_laboratory::chart::charts::{self, Against, Measure};
 use etendue_laboratory::chart::measure::{ChartedScene, Key, Plan, Row, Rows};
-use etendue_laboratory::chart::reference::Reference;
-use etendue_laboratory::chart::summary::{Summary, Way};
+use etendue_laboratory::chart::reference::{Difference, Reference};
+use etendue_laboratory::chart::summary::{Summary, Time, Way};
 use etendue_laboratory::chart::{Outcome, plot, report};
-use etendue_render::{ChoiceBy, Sampler, Technique, World};
+use etendue_render::{ChoiceBy, RayCount, Sampler, Technique, World};
 use std::collections::HashSet;
 
 const SPP: [u32; 3] = [1, 4, 16];
@@ -47,7 +47,9 @@ fn outcome(names: &[&str]) -> Outcome {
         let row = |replicate: u32| {
             let noise = 1.0 + 0.01 * f64::from(replicate);
             let squared = error * noise + scenes[key.scene].reference.error;
-            Row { replicate, seed: 0, seconds, repeats: 1, squared, difference: 0.0, camera: 1, shadow: 1 }
+            let difference = Difference { squared, relative: 9.0 * squared, mean: 0.0 };
+            let rays = RayCount { camera: 256 * u64::from(key.spp), ..RayCount::default() };
+            Row { replicate, seed: 0, seconds, cpu: Some(2.0 * seconds), repeats: 1, difference, rays }
         };
         rows.insert(*key, (0..3).map(row).collect());
     }
@@ -58,14 +60,8 @@ fn outcome(names: &[&str]) -> Outcome {
 }
 
 fn page(outcome: &Outcome) -> String {
-    let figures = |s: &Summary| {
-        let mut list = vec![charts::error_over_time(s), charts::error_over_samples(s)];
-        list.extend(charts::efficiency(s));
-        list.extend(charts::time_to_error(s));
-        list
-    };
-    let figures: Vec<_> = outcome.summaries.iter().map(figures).collect();
-    report::page(outcome, &figures, &[], None, "etendue chart")
+    let figures: Vec<_> = outcome.summaries.iter().map(charts::all).collect();
+    report::page(outcome, &figures, &[], "etendue chart")
 }
 
 /// The identifiers of the series in a chart, and whether each is hidden at first.
@@ -99,14 +95,18 @@ fn the_page_begins_with_the_best_series_of_each_scene() {
         let best = ways.iter().min_by(|a, b| error(a).total_cmp(&error(b))).unwrap();
         assert_eq!((best.technique, best.sampler), (Technique::SolidAngle, Sampler::Stratified));
         assert_eq!(summary.series[summary.ranking[0]].way, *best);
-        let plain = Way { sampler: Sampler::Independent, ..*best };
-        let factor = error(&plain) / error(best);
-        let start = format!(
-            "{} — best: solid-angle with stratified, which reaches the same error in 1/{factor:.2} of the time of solid-angle with \
-             independent",
+        // the best of the others, and points uniform over the area with independent numbers
+        let others = ways.iter().filter(|w| w.technique != best.technique);
+        let other = others.min_by(|a, b| error(a).total_cmp(&error(b))).unwrap();
+        assert_eq!((other.technique, other.sampler), (Technique::MisPower, Sampler::Sobol));
+        let plain = ways.iter().find(|w| (w.technique, w.sampler) == (Technique::Area, Sampler::Independent)).unwrap();
+        let [factor, of_plain] = [other, plain].map(|way| error(way) / error(best));
+        let expected = format!(
+            "{} — best: solid-angle with stratified; its error after 0.16 s is 1/{factor:.2} of that of mis-power with sobol, the best \
+             other technique, and 1/{of_plain:.1} of that of plain area sampling",
             summary.scene
         );
-        assert!(line.starts_with(&start), "{line}\n{start}");
+        assert!(line.starts_with(&expected), "{line}\n{expected}");
     }
     assert_eq!(head.matches("<li>").count(), 2);
     assert!(!head.contains("a remark"), "notes come last");
@@ -116,9 +116,12 @@ fn the_page_begins_with_the_best_series_of_each_scene() {
 fn one_series_of_each_technique_is_shown_at_first() {
     let outcome = outcome(&["quads"]);
     let page = page(&outcome);
-    let parts: Vec<&str> = page.split("<figure>").skip(1).collect();
-    assert_eq!(parts.len(), 4);
-    let table = parts[3].split_once("<table>").unwrap().1;
+    let parts: Vec<&str> = page.split("<figure").skip(1).collect();
+    // two errors against four costs, efficiency and time
+    assert_eq!(parts.len(), 10);
+    let at_first = |part: &&&str| !part.starts_with(" class=\"off\"");
+    assert_eq!(parts.iter().filter(at_first).count(), 4);
+    let table = parts[9].split_once("<table>").unwrap().1;
     for part in parts.iter().map(|p| p.split("</figure>").next().unwrap()).chain([table]) {
         let all = series(part);
         assert_eq!(all.len(), 9, "{all:?}");
@@ -128,7 +131,8 @@ fn one_series_of_each_technique_is_shown_at_first() {
     }
     // the same in files, which hold nothing else
     let summary = &outcome.summaries[0];
-    for figure in [charts::error_over_time(summary), charts::efficiency(summary).unwrap()] {
+    let error = charts::error(summary, Against::Time, Measure::Mse);
+    for figure in [error.unwrap(), charts::efficiency(summary).unwrap()] {
         assert_eq!(series(&figure.drawing.file()).len(), 3);
         assert!(!figure.drawing.file().contains("independent</text>"));
     }
@@ -141,7 +145,7 @@ fn bars_are_sorted_and_notes_come_last() {
     let page = page(&outcome);
     let summary = &outcome.summaries[0];
     let part = |title: &str| {
-        let figure = page.split("<figure>").find(|p| p.contains(title)).unwrap();
+        let figure = page.split("<figure").find(|p| p.contains(title)).unwrap();
         figure.split("</figure>").next().unwrap()
     };
     let value =
@@ -149,9 +153,11 @@ fn bars_are_sorted_and_notes_come_last() {
     let gain = |i: usize| summary.gains.iter().find(|g| g.series == i).unwrap().gain.value;
     let efficiency = series(part(": efficiency at")).iter().map(|s| value(s.0, &gain)).collect::<Vec<_>>();
     assert!(efficiency.len() == 9 && efficiency.is_sorted_by(|a, b| a >= b), "{efficiency:?}");
-    let seconds = |i: usize| summary.series[i].seconds_to(summary.target).unwrap().0;
-    let times = series(part(": time to a mean")).iter().map(|s| value(s.0, &seconds)).collect::<Vec<_>>();
-    assert!(times.len() == 9 && times.is_sorted(), "{times:?}");
+    // what even the fewest samples reach comes first
+    let order = |i: usize| summary.series[i].seconds_to(summary.target).unwrap().order();
+    let index = |id: &str| summary.series.iter().position(|s| charts::id(s) == id).unwrap();
+    let times = series(part(": time to a mean")).iter().map(|s| order(index(s.0))).collect::<Vec<_>>();
+    assert!(times.len() == 9 && times.is_sorted() && times[0] != times[8], "{times:?}");
     // rows are stacked from the top without gaps, hidden ones aside
     let rows: Vec<&str> = part(": efficiency at").split("translate(0 ").skip(1).collect();
     let places: Vec<i32> = rows.iter().map(|r| r[..r.find(')').unwrap()].parse().unwrap()).collect();
@@ -166,4 +172,67 @@ fn every_technique_has_a_colour_and_every_sampler_a_line_of_its_own() {
     assert_eq!(dashes.len(), Sampler::ALL.len());
     let colours: HashSet<_> = Technique::ALL.map(|t| plot::color(t as usize)).into_iter().collect();
     assert_eq!(colours.len(), Technique::ALL.len());
+}
+
+#[test]
+fn a_target_that_the_fewest_samples_reach_takes_less_than_their_time() {
+    let mut outcome = outcome(&["quads"]);
+    let summary = &mut outcome.summaries[0];
+    // reached by solid-angle at one sample per pixel, and by area at four
+    summary.target = 0.025;
+    let time = |technique: Technique| {
+        let way = Way { technique, choice: ChoiceBy::Auto, sampler: Sampler::Independent };
+        summary.series.iter().find(|s| s.way == way).unwrap().seconds_to(0.025).unwrap()
+    };
+    assert_eq!(
+        (time(Technique::SolidAngle), time(Technique::SolidAngle).text()),
+        (Time::Less(0.01), "< 0.01 s".to_owned())
+    );
+    assert!((time(Technique::Area).seconds() / 0.04 - 1.0).abs() < 0.02, "{:?}", time(Technique::Area));
+    assert!(page(&outcome).contains("<td>&lt; 0.01 s</td>"));
+}
+
+/// Differences of three replicates from the reference that no chance explains are named, and chance is not.
+#[test]
+fn a_bias_is_named_where_there_is_one() {
+    let mut outcome = outcome(&["quads"]);
+    let reference = outcome.plan.scenes[0].reference.mean();
+    for (key, rows) in &mut outcome.rows {
+        let is_biased = key.technique == Technique::Area && key.sampler == Sampler::Sobol && key.spp == 4;
+        for row in rows {
+            let noise = 1e-3 * (f64::from(row.replicate) - 1.0);
+            row.difference.mean = reference * noise * if is_biased { 0.1 } else { 1.0 };
+            row.difference.mean += if is_biased { 0.05 * reference } else { 1e-3 * reference };
+        }
+    }
+    let baseline = Way { technique: Technique::Area, choice: ChoiceBy::Auto, sampler: Sampler::Independent };
+    let summary = Summary::new(&outcome.plan, &outcome.rows, 0, baseline, None);
+    // t of three values beyond which chance comes once in 20 × 27 times
+    assert!((summary.bias_limit / 32.83 - 1.0).abs() < 0.01, "{}", summary.bias_limit);
+    for series in &summary.series {
+        let is_biased = series.way.technique == Technique::Area && series.way.sampler == Sampler::Sobol;
+        let found = series.bias(summary.bias_limit);
+        let expected = if is_biased { "+5.00 % at 4 spp" } else { "none found" };
+        assert!(found.starts_with(expected) && !found.contains(','), "{}: {found}", series.way.title());
+    }
+}
+
+#[test]
+fn charts_of_choices_name_the_choices() {
+    let mut outcome = outcome(&["quads"]);
+    let choices = [ChoiceBy::Uniform, ChoiceBy::Power, ChoiceBy::Tree];
+    let rename = |key: &Key| Key {
+        technique: Technique::SolidAngle,
+        choice: choices[TECHNIQUES.iter().position(|t| *t == key.technique).unwrap()],
+        ..*key
+    };
+    outcome.rows = outcome.rows.iter().map(|(key, rows)| (rename(key), rows.clone())).collect();
+    outcome.plan.keys.iter_mut().for_each(|key| *key = rename(key));
+    let baseline = Way { technique: Technique::Area, choice: ChoiceBy::Uniform, sampler: Sampler::Independent };
+    let summary = Summary::new(&outcome.plan, &outcome.rows, 0, baseline, None);
+    let drawing = charts::error(&summary, Against::Rays, Measure::RelativeMse).unwrap().drawing.file();
+    for name in ["by uniform, sobol", "by power, stratified", "by tree, sobol", "rays, solid-angle", "rays per image"] {
+        assert!(drawing.contains(name), "{name}");
+    }
+    assert!(summary.headline().contains("the best other choice"), "{}", summary.headline());
 }

@@ -1,4 +1,4 @@
-//! Runs `etendue chart` and `etendue figure` as a user would, and checks their measurements.
+//! Runs `etendue chart` as a user would, and checks their measurements.
 
 use etendue_laboratory::chart::measure::{Row, Rows};
 use etendue_laboratory::chart::reference::Reference;
@@ -97,7 +97,9 @@ fn a_run_is_resumed_and_its_page_needs_nothing_else() {
     }
     let open = |tag: &str| page.matches(&format!("<{tag}")).count() - page.matches(&format!("</{tag}>")).count();
     assert_eq!(["svg", "figure", "table", "div"].map(open), [0; 4]);
-    for name in ["error-time", "error-samples", "efficiency"] {
+    let errors = ["time", "cpu", "rays", "samples"].map(|x| [format!("error-{x}"), format!("relative-error-{x}")]);
+    let has_cpu = |name: &String| cfg!(unix) || !name.ends_with("cpu");
+    for name in errors.into_iter().flatten().filter(has_cpu).chain(["efficiency".to_owned()]) {
         let svg = folder.read(&format!("out/triangle-light-{name}.svg"));
         assert!(svg.starts_with("<svg") && svg.ends_with("</svg>\n") && svg.contains("solid-angle"), "{name}");
         assert!(!svg.contains("NaN") && !svg.contains("inf"), "{name}");
@@ -124,17 +126,18 @@ fn a_run_is_resumed_and_its_page_needs_nothing_else() {
     let error = folder.fail(&format!("{SMALL} -o theirs"));
     assert!(error.contains("theirs/report.html: this is no report of a chart: choose another folder"), "{error}");
     assert_eq!(folder.read("theirs/report.html"), "<title>A year</title>");
-    // a curve for each choice of a light
+    // one chart with a curve for each choice of a light, by its name
     let out = folder.succeed(
-        "chart quads --size 16x16 --spp 4 --replicates 2 --reference-spp 32 --samplers sobol --techniques area --choice power,uniform,auto,kinds -o by",
+        "chart quads --size 16x16 --spp 4 --replicates 2 --reference-spp 32 --samplers sobol --choice uniform,power,spatial,tree,kinds -o by",
     );
-    assert!(
-        ["area by power, sobol", "area by uniform, sobol", "area, sobol", "area by kinds, sobol"]
-            .iter()
-            .all(|way| out.contains(way)),
-        "{out}"
-    );
-    assert_eq!(folder.read("by/quads-error-time.svg").matches("data-series=").count(), 4);
+    let chart = folder.read("by/quads-error-time.svg");
+    for choice in ["uniform", "power", "spatial", "tree", "kinds"] {
+        assert!(
+            out.contains(&format!("solid-angle by {choice}, sobol")) && chart.contains(&format!("by {choice}\n")),
+            "{choice}: {out}"
+        );
+    }
+    assert_eq!(chart.matches("data-series=").count(), 5);
     // other settings are measured anew, and the earlier measurements are kept
     let out = folder.succeed(&format!("{SMALL} --replicates 2 --seed 9 -o out"));
     assert!(out.contains("12 measurements with other settings"), "{out}");
@@ -155,7 +158,6 @@ fn faults_are_reported() {
     says("chart quads sphere-light --reference a.exr", &["--reference"]);
     says("chart quads --reference a.exr", &["a.exr"]);
     says("chart quads --spp 3 --samplers adaptive", &["nothing to measure", "adaptive"]);
-    says("figure luck", &["luck"]);
     // hemisphere sampling does not apply to rough metals
     says(
         "chart plates --techniques uniform-hemisphere --reference-spp 32 --size 8x8",
@@ -171,7 +173,6 @@ fn faults_are_reported() {
     says(&format!("{SMALL} -o out"), &["measurements.csv", "line 2", "\"one\"", "replicate"]);
     fs::write(folder.0.join("file"), "").unwrap();
     says(&format!("{SMALL} -o file"), &["file"]);
-    says("figure vignetting -o file", &["file"]);
     // a reference whose size is not a multiple of the image's
     folder.succeed("render quads --size 9x9 --spp 4 -o a.exr");
     says("chart quads --reference a.exr --size 8x8", &["a.exr", "9x9", "8x8"]);
@@ -234,8 +235,8 @@ fn options(output: &Path, scene: &str) -> Options {
         baseline: Technique::Area,
         target: None,
         time_limit: None,
-        warps: false,
         quick: false,
+        long: false,
     }
 }
 
@@ -268,8 +269,15 @@ fn errors_are_those_of_the_images() {
         };
         let image = Picture::from(&world.render(&settings, &|_| ()).0);
         let comparison = Comparison::new(&reference.picture, &image, reference.error).unwrap();
-        assert!((rows[0].squared / comparison.mse - 1.0).abs() < 1e-12, "{key:?}");
-        assert!(rows[0].seconds > 0.0 && rows[0].camera == 64 * 64 * u64::from(key.spp));
+        assert!((rows[0].difference.squared / comparison.mse - 1.0).abs() < 1e-12, "{key:?}");
+        assert!(rows[0].seconds > 0.0 && rows[0].rays.camera == 64 * 64 * u64::from(key.spp));
+        // by definition: over the squared reference, and a little more where that is dark
+        let truth = || reference.picture.radiance.iter().flatten().map(|x| f64::from(*x));
+        let floor = (0.1 * truth().sum::<f64>() / truth().count() as f64).powi(2);
+        let both = truth().zip(image.radiance.iter().flatten());
+        let relative =
+            both.map(|(r, x)| (f64::from(*x) - r).powi(2) / (r * r + floor)).sum::<f64>() / truth().count() as f64;
+        assert!((rows[0].difference.relative / relative - 1.0).abs() < 1e-12, "{key:?}");
     }
     let summary = &outcome.summaries[0];
     for series in &summary.series {
@@ -319,20 +327,19 @@ fn the_references_own_error_is_taken_off() {
     assert!((rough.value / precise.value - 1.0).abs() < 0.05, "{rough:?} {precise:?}");
 }
 
-/// Every warp has a time at each width, takes longer with one lane than with eight, and has an error of rounding only.
+/// What is not asked for shrinks to the time, which is said before anything is measured, and kept.
 #[test]
-fn warps_are_fast_and_good() {
-    let measured = chart::warps::measure(&AtomicBool::new(false), |_, _| ());
-    assert!(measured.len() > 20);
-    for m in &measured {
-        let [one, _, eight] = m.nanoseconds.each_ref().map(|t| t.value);
-        println!("{:50} {one:8.2} {eight:8.2} ns, {:.1e} {:.1e}", m.name, m.point.error(), m.density.error());
-        assert!(eight > 0.0 && one > eight, "{}: {one} {eight}", m.name);
-        // the map of visible normals is infinitely steep for normals on the horizon
-        let limit = if m.name.starts_with("GGX") { 1e-2 } else { 4e-6 };
-        assert!((1e-9..limit).contains(&m.point.error()) && (0.0..1e-5).contains(&m.density.error()), "{m:?}");
-    }
-    let csv = chart::warps::csv(&measured);
-    assert_eq!(csv.lines().count(), measured.len() + 1);
-    assert!(!chart::warps::figure(&measured).drawing.file().contains("NaN"));
+fn a_chart_says_how_long_it_takes_and_keeps_to_it() {
+    let folder = Folder::new();
+    let start = Instant::now();
+    let output = folder.command("chart quads --techniques area,solid-angle --time-limit 12 -o out").output().unwrap();
+    let took = start.elapsed();
+    let (out, error) = text(&output, 0);
+    assert!(
+        error.contains("quads (256x256)") && error.contains("about ") && error.contains(", and at most 12 s"),
+        "{error}"
+    );
+    assert!(out.starts_with("quads — best: "), "{out}");
+    // and the images that were begun, on a machine that does something else
+    assert!(took < Duration::from_secs(30), "{took:?}");
 }

@@ -335,17 +335,6 @@ fn selftest_compares_random_scenes() {
 }
 
 #[test]
-fn the_pupil_is_drawn_by_one_command() {
-    let folder = Folder::new();
-    let text = folder.succeed(&["figure", "vignetting", "-o", "here"]);
-    assert_eq!(text.lines().filter(|line| line.contains("% of the lens is open")).count(), 6, "{text}");
-    assert_eq!(folder.names(), ["here"]);
-    let drawing = fs::read_to_string(folder.path("here").join("vignetting.svg")).unwrap();
-    // an image and three views, twice
-    assert_eq!(drawing.matches("<image ").count(), 8);
-}
-
-#[test]
 fn list_names_everything() {
     let text = Folder::new().succeed(&["list"]);
     let names: Vec<_> = text.lines().filter_map(|line| line.split_whitespace().next()).collect();

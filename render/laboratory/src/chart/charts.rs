@@ -2,13 +2,15 @@
 
 use super::plot::{Bar, BarRow, Bars, Chart, Dot, Drawing, Line, Scale, short};
 use super::stats::Estimate;
-use super::summary::{Point, Series, Summary};
+use super::summary::{Point, Series, Summary, Time};
 
 /// A chart with a file name and a caption.
 #[derive(Clone, Debug)]
 pub struct Figure {
     /// Name of the chart in file names.
-    pub file: &'static str,
+    pub file: String,
+    /// What a page must ask for to show the chart; `None` if it always does.
+    pub shown_for: Option<(Against, Measure)>,
     /// The drawing.
     pub drawing: Drawing,
     /// Caption for a page.
@@ -27,127 +29,196 @@ pub fn id(series: &Series) -> String {
     format!("{}/{}", series.way.method(), series.way.sampler.name())
 }
 
-fn lines(
-    summary: &Summary,
-    name: impl Fn(&Series) -> String,
-    x: impl Fn(&Point) -> Bar,
-    sure: impl Fn(&Point) -> bool,
-) -> Vec<Line> {
+/// What errors are drawn against.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Against {
+    /// Wall time.
+    Time,
+    /// Time of all threads together.
+    Cpu,
+    /// Rays of all kinds.
+    Rays,
+    /// Samples per pixel.
+    Samples,
+}
+
+/// Which error is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Measure {
+    /// Mean squared error.
+    Mse,
+    /// Mean squared error relative to the square of the reference.
+    RelativeMse,
+}
+
+impl Against {
+    /// All of them, in the order of a page.
+    pub const ALL: [Self; 4] = [Self::Time, Self::Cpu, Self::Rays, Self::Samples];
+    /// Name in file names and pages.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        ["time", "cpu", "rays", "samples"][self as usize]
+    }
+    /// Whether a page shows errors against it at first.
+    #[must_use]
+    pub const fn is_shown(self) -> bool {
+        matches!(self, Self::Time | Self::Samples)
+    }
+    const fn label(self) -> &'static str {
+        ["seconds per image", "seconds of all threads together per image", "rays per image", "samples per pixel"]
+            [self as usize]
+    }
+    /// Where a point is; `None` where the system does not tell.
+    fn at(self, point: &Point) -> Option<Bar> {
+        match self {
+            Self::Time => Some(point.seconds.into()),
+            Self::Cpu => point.cpu.map(Bar::from),
+            Self::Rays => Some(Bar::exact(point.rays)),
+            Self::Samples => Some(Bar::exact(f64::from(point.spp))),
+        }
+    }
+}
+
+impl Measure {
+    /// All of them, in the order of a page.
+    pub const ALL: [Self; 2] = [Self::Mse, Self::RelativeMse];
+    /// Name in pages.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        ["MSE", "relMSE"][self as usize]
+    }
+    fn of(self, point: &Point) -> Estimate {
+        if self == Self::Mse { point.mse } else { point.relative }
+    }
+}
+
+/// Draws an error; `None` if no point has a place.
+#[must_use]
+pub fn error(summary: &Summary, against: Against, measure: Measure) -> Option<Figure> {
     let shown = summary.leaders();
+    let is_samples = against == Against::Samples;
+    let name = |s: &Series| match &s.slope {
+        _ if !is_samples || measure != Measure::Mse => summary.name(&s.way),
+        Some(slope) => format!("{} {}", summary.name(&s.way), with_interval(slope).replace('-', "−")),
+        None => format!("{} slope ?", summary.name(&s.way)),
+    };
+    let dot = |p: &Point| {
+        let (x, y) = (against.at(p)?, measure.of(p));
+        let sure = y.is_sure() && (against != Against::Time || p.seconds.is_sure());
+        Some(Dot { x, y: y.into(), sure })
+    };
     let line = |(index, series): (usize, &Series)| Line {
         id: id(series),
         name: name(series),
         color: series.way.color(),
         dash: series.way.sampler as usize,
         shown: shown.contains(&index),
-        dots: series.points.iter().map(|p| Dot { x: x(p), y: p.mse.into(), sure: sure(p) }).collect(),
+        dots: series.points.iter().filter_map(dot).collect(),
     };
-    summary.series.iter().enumerate().map(line).collect()
-}
-
-/// Draws error against time.
-#[must_use]
-pub fn error_over_time(summary: &Summary) -> Figure {
-    let chart = Chart {
-        title: format!("{}: error against time", summary.scene),
-        x_label: "seconds per image".to_owned(),
-        y_label: "mean squared error".to_owned(),
-        scales: [Scale::Log, Scale::Log],
-        lines: lines(summary, |s| s.way.title(), |p| p.seconds.into(), Point::is_sure),
-        guides: vec![-1.0, -1.5],
-    };
-    let caption =
-        "Lower and further left is better. Each point is one sample count per pixel. Bars are 95 % intervals over \
-                   replicates. Hollow points have an interval too wide to support a claim."
-            .to_owned();
-    Figure { file: "error-time", drawing: chart.draw(), caption }
-}
-
-/// Draws error against samples per pixel, with slopes.
-#[must_use]
-pub fn error_over_samples(summary: &Summary) -> Figure {
-    let name = |s: &Series| match &s.slope {
-        Some(slope) => format!("{} {}", s.way.title(), with_interval(slope).replace('-', "−")),
-        None => format!("{} slope ?", s.way.title()),
-    };
-    let chart = Chart {
-        title: format!("{}: error against samples", summary.scene),
-        x_label: "samples per pixel".to_owned(),
-        y_label: "mean squared error".to_owned(),
-        scales: [Scale::Binary, Scale::Log],
-        lines: lines(summary, name, |p| Bar::exact(f64::from(p.spp)), |p| p.mse.is_sure()),
-        guides: vec![-1.0, -1.5],
-    };
-    let caption =
-        "Slopes of log error over log samples are fitted to each replicate: mean and 95 % interval.".to_owned();
-    Figure { file: "error-samples", drawing: chart.draw(), caption }
-}
-
-/// A row for each series with its value, the best first: the greatest, or if `least_first` the least.
-fn sorted(mut rows: Vec<BarRow>, least_first: bool) -> Vec<BarRow> {
-    rows.sort_by(|a, b| b.bar.value.total_cmp(&a.bar.value));
-    if least_first {
-        rows.reverse();
+    let lines: Vec<Line> = summary.series.iter().enumerate().map(line).collect();
+    if lines.iter().all(|line| line.dots.is_empty()) {
+        return None;
     }
-    rows
+    let [title, y_label] = match measure {
+        Measure::Mse => ["error", "mean squared error"],
+        Measure::RelativeMse => ["relative error", "mean of squared error / squared reference"],
+    };
+    let chart = Chart {
+        title: format!("{}: {title} against {}{}", summary.scene, against.name(), summary.common()),
+        x_label: against.label().to_owned(),
+        y_label: y_label.to_owned(),
+        scales: [if is_samples { Scale::Binary } else { Scale::Log }, Scale::Log],
+        lines,
+        guides: vec![-1.0, -1.5],
+    };
+    let mut caption =
+        "Lower and further left is better. Each point is one sample count per pixel. Bars are 95 % intervals over \
+                       replicates. Hollow points have an interval too wide to support a claim."
+            .to_owned();
+    if is_samples {
+        caption += " Slopes of log error over log samples are fitted to each replicate: mean and 95 % interval; ? is one of fewer than two \
+                    points.";
+    }
+    let file = format!("{}error-{}", if measure == Measure::Mse { "" } else { "relative-" }, against.name());
+    Some(Figure { file, shown_for: Some((against, measure)), drawing: chart.draw(), caption })
 }
 
-fn row(summary: &Summary, index: usize, bar: Bar, sure: bool, shown: &[usize]) -> BarRow {
+/// All charts of a scene, in the order of a page.
+#[must_use]
+pub fn all(summary: &Summary) -> Vec<Figure> {
+    let errors = Measure::ALL.iter().flat_map(|m| Against::ALL.map(|a| error(summary, a, *m)));
+    errors.chain([efficiency(summary), time_to_error(summary)]).flatten().collect()
+}
+
+/// A bar of a series, and what sorts it.
+type Sorted = ((bool, f64), BarRow);
+
+/// The bars, the least first.
+fn sorted(mut rows: Vec<Sorted>) -> Vec<BarRow> {
+    rows.sort_by(|(a, _), (b, _)| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    rows.into_iter().map(|(_, row)| row).collect()
+}
+
+fn row(summary: &Summary, index: usize, bar: Bar, text: String, sure: bool) -> BarRow {
     let series = &summary.series[index];
-    let (color, shown) = (series.way.color(), shown.contains(&index));
-    BarRow { id: id(series), name: series.way.title(), color, bar, sure, shown }
+    let shown = summary.leaders().contains(&index);
+    BarRow { id: id(series), name: summary.name(&series.way), color: series.way.color(), bar, text, sure, shown }
 }
 
 /// Draws efficiency relative to the baseline, the greatest first; `None` if there is no baseline.
 #[must_use]
 pub fn efficiency(summary: &Summary) -> Option<Figure> {
     let baseline = &summary.series[summary.baseline?];
-    let shown = summary.leaders();
     let rows = summary.gains.iter().map(|g| {
         // the interval is that of a logarithm
         let factor = 1.0 + g.gain.half / g.gain.value;
         let bar = Bar { value: g.gain.value, low: g.gain.value / factor, high: g.gain.value * factor };
-        let sure = g.gain.is_sure() || g.series == summary.baseline.unwrap_or(usize::MAX);
-        row(summary, g.series, bar, sure, &shown)
+        let sure = g.gain.is_sure() || Some(g.series) == summary.baseline;
+        let text = format!("{}×{}", short(g.gain.value), if sure { "" } else { " ?" });
+        ((false, -g.gain.value), row(summary, g.series, bar, text, sure))
     });
     let bars = Bars {
-        title: format!("{}: efficiency at {} samples per pixel", summary.scene, summary.spp),
+        title: format!("{}: efficiency at {} samples per pixel{}", summary.scene, summary.spp, summary.common()),
         label: format!("1/(error × time), relative to {}", baseline.way.title()),
-        rows: sorted(rows.collect(), false),
+        rows: sorted(rows.collect()),
         origin: 1.0,
-        unit: "×".to_owned(),
     };
     let caption =
         "Further right is better: 10 means the same error in a tenth of the time, as long as error falls as 1/time. \
-                   Ratios compare replicates rendered in the same round."
+                   Ratios compare replicates rendered in the same round. Hollow bars with ? have an interval too wide to support a claim."
             .to_owned();
-    Some(Figure { file: "efficiency", drawing: bars.draw(), caption })
+    Some(Figure { file: "efficiency".to_owned(), shown_for: None, drawing: bars.draw(), caption })
 }
 
 /// Draws the seconds each series takes to reach the target error, the least first; `None` if no series reaches it.
 #[must_use]
 pub fn time_to_error(summary: &Summary) -> Option<Figure> {
-    let shown = summary.leaders();
-    let rows = summary.series.iter().enumerate().map(|(index, s)| {
-        // unknown times come last
-        let (seconds, beyond) = s.seconds_to(summary.target).unwrap_or((f64::NAN, true));
-        row(summary, index, Bar::exact(seconds), !beyond, &shown)
-    });
-    let rows = sorted(rows.collect(), true);
-    let least = rows.first()?.bar.value;
+    let times: Vec<Option<Time>> = summary.series.iter().map(|s| s.seconds_to(summary.target)).collect();
+    let seconds = times.iter().flatten().map(|t| t.seconds());
+    let least = seconds.fold(f64::INFINITY, f64::min);
     if !least.is_finite() || summary.target <= 0.0 {
         return None;
     }
+    let rows = times.iter().enumerate().map(|(index, time)| {
+        // unknown times come last
+        let (order, value) = time.map_or(((true, f64::INFINITY), f64::NAN), |t| (t.order(), t.seconds()));
+        let text = time.map_or_else(|| "unknown".to_owned(), Time::text);
+        (order, row(summary, index, Bar::exact(value), text, matches!(time, Some(Time::Sure(_)))))
+    });
     let bars = Bars {
-        title: format!("{}: time to a mean squared error of {}", summary.scene, short(summary.target)),
+        title: format!(
+            "{}: time to a mean squared error of {}{}",
+            summary.scene,
+            short(summary.target),
+            summary.common()
+        ),
         label: "seconds".to_owned(),
-        rows,
+        rows: sorted(rows.collect()),
         origin: least * 0.7,
-        unit: " s".to_owned(),
     };
     let caption =
-        "Shorter is better. Hollow bars are extrapolated by the slope of the nearest two points, or rest on times with wide \
-                   intervals."
+        "Shorter is better. Where even the fewest samples suffice, < is before their time, and the bar is hollow as those with ≈: they \
+                   are extrapolated by the slope of the last two points, or rest on times with wide intervals."
             .to_owned();
-    Some(Figure { file: "time-to-error", drawing: bars.draw(), caption })
+    Some(Figure { file: "time-to-error".to_owned(), shown_for: None, drawing: bars.draw(), caption })
 }

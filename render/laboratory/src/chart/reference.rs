@@ -11,6 +11,10 @@ pub struct Reference {
     pub picture: Picture,
     /// Mean squared standard error of the image.
     pub error: f64,
+    /// The same, each squared error relative to [`Reference::scale`].
+    pub relative_error: f64,
+    /// What is added to the square of a radiance before a squared error is divided by it.
+    floor: f64,
     /// Origin of the image.
     pub about: String,
 }
@@ -22,6 +26,9 @@ const BUILTIN: [(&str, f64, &[u8]); 3] = [
     ("triangle-light", 2.6e-8, include_bytes!("../../../tests/references/triangle-light.exr")),
     ("quads", 1.9e-8, include_bytes!("../../../tests/references/quads.exr")),
 ];
+
+/// Radiance as a part of the mean below which relative errors count less: its square is the 0.01 that is usual in relMSE, for a mean of 1.
+const FLOOR: f64 = 0.1;
 
 /// Relative uncertainty of a reference's error.
 pub const KNOWN_TO: f64 = 0.05;
@@ -36,7 +43,7 @@ impl Reference {
         let (name, error, bytes) = BUILTIN.iter().find(|(name, ..)| *name == scene)?;
         let picture = image::decode_exr(bytes, Path::new(name)).expect("the embedded reference is valid");
         let about = "by an independent renderer, 32,768 samples per pixel".to_owned();
-        Some(Self { picture, error: *error, about })
+        Some(Self::new(picture, *error, about))
     }
 
     /// Reads a reference from a file. Its error is that of the file's variance, or `error` if the file has none.
@@ -50,26 +57,44 @@ impl Reference {
             return Err(format!("{}: pixel ({x}, {y}) of the reference is not finite: {p:?}", path.display()).into());
         }
         let own = picture.variance.as_ref().map(|v| mean(v)).filter(|v| v.is_finite());
-        Ok(Self { picture, error: own.unwrap_or(error), about: format!("the file {}", path.display()) })
+        Ok(Self::new(picture, own.unwrap_or(error), format!("the file {}", path.display())))
     }
 
-    /// Renders a reference with multiple importance sampling and stratified samples.
-    pub fn render(world: &World, [width, height]: [u32; 2], spp: u32, progress: &(dyn Fn(u64) + Sync)) -> Self {
+    /// The settings with which a reference is rendered: multiple importance sampling and stratified samples.
+    #[must_use]
+    pub fn settings([width, height]: [u32; 2], spp: u32) -> Settings {
         // a seed that no measurement uses
         let (technique, sampler, seed) = (Technique::MisPower, Sampler::Stratified, 0x5eed_0f7e_fe7e_ce00);
-        let settings = Settings {
-            width,
-            height,
-            spp: spp.next_multiple_of(4).max(32),
-            technique,
-            sampler,
-            seed,
-            ..Settings::DEFAULT
-        };
+        let spp = spp.next_multiple_of(4).max(32);
+        Settings { width, height, spp, technique, sampler, seed, ..Settings::DEFAULT }
+    }
+
+    /// Renders a reference.
+    pub fn render(world: &World, size: [u32; 2], spp: u32, progress: &(dyn Fn(u64) + Sync)) -> Self {
+        let settings = Self::settings(size, spp);
         let picture = Picture::from(&world.render(&settings, progress).0);
         let error = picture.variance.as_ref().map_or(f64::INFINITY, |v| mean(v));
         let about = format!("rendered by this program, mis-power, stratified, {} samples per pixel", settings.spp);
-        Self { picture, error, about }
+        Self::new(picture, error, about)
+    }
+
+    fn new(picture: Picture, error: f64, about: String) -> Self {
+        let floor = (FLOOR * mean(&picture.radiance)).powi(2);
+        let mut one = Self { picture, error, relative_error: 0.0, floor, about };
+        let squared = |i: usize, k: usize| match &one.picture.variance {
+            Some(variance) => f64::from(variance[i][k]),
+            None => error,
+        };
+        let n = one.picture.radiance.len();
+        let sum: f64 =
+            (0..n).flat_map(|i| (0..3).map(move |k| (i, k))).map(|(i, k)| squared(i, k) / one.scale(i, k)).sum();
+        one.relative_error = sum / (3.0 * n as f64);
+        one
+    }
+
+    /// What relates a squared error to a channel of a pixel: the square of the reference, and a little more where that is dark.
+    fn scale(&self, pixel: usize, channel: usize) -> f64 {
+        f64::from(self.picture.radiance[pixel][channel]).powi(2) + self.floor
     }
 
     /// Shrinks the reference: each pixel becomes the mean of a square of pixels.
@@ -100,23 +125,41 @@ impl Reference {
             .collect();
         let picture = Picture { width: w, height: h, radiance, variance: None };
         let about = format!("{}, averaged over {factor}×{factor} pixels", self.about);
-        Ok(Self { picture, error: self.error / count, about })
+        Ok(Self::new(picture, self.error / count, about))
     }
 
-    /// Mean squared difference and mean difference of an image from the reference.
+    /// How an image differs from the reference.
     #[must_use]
-    pub fn difference(&self, radiance: impl ExactSizeIterator<Item = [f32; 3]>) -> (f64, f64) {
+    pub fn difference(&self, radiance: impl ExactSizeIterator<Item = [f32; 3]>) -> Difference {
         let count = 3.0 * radiance.len() as f64;
-        let (mut squared, mut sum) = (0.0, 0.0);
-        for (a, b) in radiance.zip(&self.picture.radiance) {
+        let mut sum = Difference::default();
+        for (i, (a, b)) in radiance.zip(&self.picture.radiance).enumerate() {
             for k in 0..3 {
                 let d = f64::from(a[k]) - f64::from(b[k]);
-                squared += d * d;
-                sum += d;
+                sum.squared += d * d / count;
+                sum.relative += d * d / (self.scale(i, k) * count);
+                sum.mean += d / count;
             }
         }
-        (squared / count, sum / count)
+        sum
     }
+
+    /// Mean of the reference over pixels and channels.
+    #[must_use]
+    pub fn mean(&self) -> f64 {
+        mean(&self.picture.radiance)
+    }
+}
+
+/// Means over pixels and channels of the difference image − reference.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Difference {
+    /// Of its square.
+    pub squared: f64,
+    /// Of its square over that of the reference plus (a tenth of the reference's mean)².
+    pub relative: f64,
+    /// Of itself.
+    pub mean: f64,
 }
 
 fn mean(values: &[[f32; 3]]) -> f64 {
@@ -149,10 +192,12 @@ mod tests {
         let world = World::new(&etendue_scene::load("quads").unwrap()).unwrap();
         let reference = Reference::builtin("quads").unwrap().shrunk([32, 32]).unwrap();
         let rendered = Reference::render(&world, [32, 32], 4096, &|_| ());
-        let (squared, mean) = reference.difference(rendered.picture.radiance.iter().copied());
+        let Difference { squared, relative, mean } = reference.difference(rendered.picture.radiance.iter().copied());
         let expected = reference.error + rendered.error;
         // with 1024 pixels of different variances, the mean square is accurate to some per cent
         assert!((squared / expected - 1.0).abs() < 0.5, "{squared:e} {expected:e}");
+        let expected_relative = reference.relative_error + rendered.relative_error;
+        assert!((relative / expected_relative - 1.0).abs() < 0.5, "{relative:e} {expected_relative:e}");
         assert!(mean.abs() < 5.0 * (expected / 1024.0).sqrt(), "{mean:e} {expected:e}");
     }
 }

@@ -1,17 +1,16 @@
 //! Writes the report: a self-contained page of charts, tables and images, with a description of the machine.
 
-use super::charts::{Figure, id, with_interval};
-use super::measure::Key;
+use super::charts::{Against, Figure, Measure, id, with_interval};
 use super::outcome::Outcome;
 use super::pictures::{Panel, Picture};
 use super::plot::{color, dash, escape, short};
 use super::reference::KNOWN_TO;
 use super::stats::{Estimate, WIDEST};
-use super::summary::{Summary, Way};
+use super::summary::{Summary, Time, Way};
 use base64::Engine;
 use etendue_render::Sampler;
 use serde_json::json;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
 /// What every page has, and no other file.
@@ -43,11 +42,7 @@ fn table(summary: &Summary) -> String {
         let slope = |s: &Option<Estimate>| s.as_ref().map_or_else(unknown, |s| with_interval(s).replace('-', "−"));
         let point = series.at(summary.spp);
         let gain = summary.gains.iter().find(|g| g.series == index).map_or_else(unknown, |g| percent(&g.gain));
-        let seconds = series
-            .seconds_to(summary.target)
-            .map_or_else(unknown, |(s, beyond)| format!("{}{} s", if beyond { "≈ " } else { "" }, short(s)));
-        let bias =
-            series.points.iter().map(|p| p.bias).filter(|b| !b.is_nan()).max_by(|a, b| a.abs().total_cmp(&b.abs()));
+        let seconds = series.seconds_to(summary.target).map_or_else(unknown, Time::text);
         let _ = writeln!(
             text,
             "<tr data-series=\"{}\"{}><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{gain}</td><td>{seconds}</td>\
@@ -59,7 +54,7 @@ fn table(summary: &Summary) -> String {
             slope(&series.slope_in_time),
             point.map_or_else(unknown, |p| percent(&p.mse)),
             point.map_or_else(unknown, |p| percent(&p.seconds)),
-            bias.map_or_else(unknown, |b| format!("{b:+.1}").replace('-', "−")),
+            series.bias(summary.bias_limit),
         );
     }
     text + "</table></div>\n"
@@ -79,109 +74,102 @@ fn viewer(index: usize, panel: &Panel) -> String {
     )
 }
 
-/// The whole page; `warps` is a figure and an HTML table.
-#[must_use]
-pub fn page(
-    outcome: &Outcome,
-    figures: &[Vec<Figure>],
-    panels: &[Panel],
-    warps: Option<&(Figure, String)>,
-    command: &str,
-) -> String {
-    let mut scenes = String::new();
+/// A section for each scene: charts, a table and pictures.
+fn sections(outcome: &Outcome, figures: &[Vec<Figure>], panels: &[Panel]) -> String {
+    let mut text = String::new();
     for (index, summary) in outcome.summaries.iter().enumerate() {
-        let _ =
-            writeln!(scenes, "<section class=\"scene\">\n<h2>{}</h2>\n<div class=\"grid\">", escape(&summary.scene));
+        let _ = writeln!(text, "<section class=\"scene\">\n<h2>{}</h2>\n<div class=\"grid\">", escape(&summary.scene));
         for figure in &figures[index] {
+            let shown_for = figure.shown_for.map_or_else(String::new, |(against, measure)| {
+                let is_shown = against.is_shown() && measure == Measure::Mse;
+                let class = if is_shown { "" } else { " class=\"off\"" };
+                format!("{class} data-against=\"{}\" data-measure=\"{}\"", against.name(), measure.name())
+            });
             let caption = escape(&figure.caption);
-            let _ = writeln!(scenes, "<figure>{}<figcaption>{caption}</figcaption></figure>", figure.drawing.inline());
+            let drawing = figure.drawing.inline();
+            let _ = writeln!(text, "<figure{shown_for}>{drawing}<figcaption>{caption}</figcaption></figure>");
         }
-        scenes += "</div>\n";
-        scenes += &table(summary);
+        text += "</div>\n";
+        text += &table(summary);
         if let Some(panel) = panels.iter().find(|p| p.scene == summary.scene) {
-            scenes += &viewer(index, panel);
+            text += &viewer(index, panel);
         }
-        scenes += "</section>\n";
+        text += "</section>\n";
     }
-    if let Some((figure, table)) = warps {
-        let (drawing, caption) = (figure.drawing.file(), escape(&figure.caption));
-        let _ = writeln!(
-            scenes,
-            "<h2>Warps</h2>\n<div class=\"grid\"><figure>{drawing}<figcaption>{caption}</figcaption></figure></div>\n{table}"
-        );
-    }
-    let chip = |value: &str, pressed: bool, sample: String| {
-        format!(
-            "<button class=\"chip\" aria-pressed=\"{pressed}\" data-value=\"{0}\">{sample}{0}</button>",
-            escape(value)
-        )
-    };
+    text
+}
+
+/// A button that shows or hides what has this value; `sample` shows its colour or line.
+fn chip(value: &str, is_pressed: bool, sample: &str) -> String {
+    let value = escape(value);
+    format!("<button class=\"chip\" aria-pressed=\"{is_pressed}\" data-value=\"{value}\">{sample}{value}</button>")
+}
+
+/// Buttons for the techniques, the samplers, what errors are drawn against and which errors are drawn.
+fn chips(outcome: &Outcome) -> [String; 4] {
     let ways = || outcome.summaries.iter().flat_map(|summary| &summary.series).map(|series| series.way);
     let methods: BTreeMap<_, Way> = ways().map(|way| ((way.technique as usize, way.choice as usize), way)).collect();
-    let techniques: String = methods
-        .values()
-        .map(|way| {
-            let [r, g, b] = color(way.color());
-            chip(&way.method(), true, format!("<i style=\"background:rgb({r},{g},{b})\"></i>"))
-        })
-        .collect();
-    let samplers: BTreeMap<usize, Sampler> = ways().map(|way| (way.sampler as usize, way.sampler)).collect();
-    let samplers: String = samplers
-        .into_iter()
-        .map(|(n, sampler)| {
-            let dashes = dash(n).map_or_else(String::new, |(on, off)| format!(" stroke-dasharray=\"{on} {off}\""));
-            let sample = format!(
-                "<svg viewBox=\"0 0 26 8\"><path d=\"M0 4H26\" stroke=\"#333\" stroke-width=\"2\"{dashes}/></svg>"
-            );
-            chip(sampler.name(), false, sample)
-        })
-        .collect();
-    let mut facts = vec![("command", command.to_owned())];
-    facts.extend(outcome.facts.iter().map(|(k, v)| (*k, v.clone())));
-    let list = |f: &dyn Fn(&Key) -> u32| {
-        let mut list: Vec<u32> = outcome.plan.keys.iter().map(f).collect();
-        list.sort_unstable();
-        list.dedup();
-        list.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
+    let technique = |way: &Way| {
+        let [r, g, b] = color(way.color());
+        chip(&way.method(), true, &format!("<i style=\"background:rgb({r},{g},{b})\"></i>"))
     };
-    facts.push(("samples per pixel", list(&|k| k.spp)));
-    let seed = outcome.plan.seed;
-    facts.push((
-        "seeds",
-        format!(
-            "{seed}, from which the seed of each image derives (column seed of measurements.csv); {} replicates",
-            outcome.plan.replicates
-        ),
-    ));
-    let mut rows = String::new();
-    for (key, value) in &facts {
-        let _ = writeln!(rows, "<tr><td>{key}</td><td>{}</td></tr>", escape(value));
-    }
-    for subject in &outcome.plan.scenes {
-        let [w, h] = subject.size;
-        let _ = writeln!(
-            rows,
-            "<tr><td>{}</td><td>{w}×{h}; reference {}, mean squared standard error {}; settings {:016x}</td></tr>",
-            escape(&subject.name),
-            escape(&subject.reference.about),
-            short(subject.reference.error),
-            subject.settings
-        );
-    }
-    let data: Vec<_> = outcome
-        .summaries
-        .iter()
-        .map(|s| {
-            let pictures = panels.iter().find(|p| p.scene == s.scene).map_or(&[][..], |p| &p.pictures);
-            let one = |p: &Picture| {
-                let uri = format!("data:image/png;base64,{}", base64::engine::general_purpose::STANDARD.encode(&p.png));
-                json!({ "kind": p.kind, "title": p.title, "uri": uri })
-            };
-            pictures.iter().map(one).collect::<Vec<_>>()
-        })
-        .collect();
+    let sampler = |sampler: &Sampler| {
+        let dashes =
+            dash(*sampler as usize).map_or_else(String::new, |(on, off)| format!(" stroke-dasharray=\"{on} {off}\""));
+        let line = format!("<path d=\"M0 4H26\" stroke=\"#333\" stroke-width=\"2\"{dashes}/>");
+        chip(sampler.name(), false, &format!("<svg viewBox=\"0 0 26 8\">{line}</svg>"))
+    };
+    let measured = |sampler: &&Sampler| ways().any(|way| way.sampler == **sampler);
+    [
+        methods.values().map(technique).collect(),
+        Sampler::ALL.iter().filter(measured).map(sampler).collect(),
+        Against::ALL.map(|against| chip(against.name(), against.is_shown(), "")).concat(),
+        Measure::ALL.map(|measure| chip(measure.name(), measure == Measure::Mse, "")).concat(),
+    ]
+}
+
+/// Rows of a table: how and on what this was measured.
+fn facts(outcome: &Outcome, command: &str) -> String {
+    let plan = &outcome.plan;
+    let spps: BTreeSet<u32> = plan.keys.iter().map(|key| key.spp).collect();
+    let spps: Vec<String> = spps.iter().map(ToString::to_string).collect();
+    let seeds = format!(
+        "{}, from which the seed of each image derives (column seed of measurements.csv); {} replicates",
+        plan.seed, plan.replicates
+    );
+    let mut facts = vec![("command", command.to_owned())];
+    facts.extend(outcome.facts.iter().cloned());
+    facts.extend([("samples per pixel", spps.join(", ")), ("seeds", seeds)]);
+    let scenes = plan.scenes.iter().map(|subject| {
+        let ([w, h], reference) = (subject.size, &subject.reference);
+        let (about, error, settings) = (&reference.about, short(reference.error), subject.settings);
+        let text = format!("{w}×{h}; reference {about}, mean squared standard error {error}; settings {settings:016x}");
+        (&*subject.name, text)
+    });
+    let row =
+        |(name, value): (&str, String)| format!("<tr><td>{}</td><td>{}</td></tr>\n", escape(name), escape(&value));
+    facts.into_iter().chain(scenes).map(row).collect()
+}
+
+/// The pictures of each scene, as JSON.
+fn pictures(outcome: &Outcome, panels: &[Panel]) -> String {
+    let one = |p: &Picture| {
+        let uri = format!("data:image/png;base64,{}", base64::engine::general_purpose::STANDARD.encode(&p.png));
+        json!({ "kind": p.kind, "title": p.title, "uri": uri })
+    };
+    let of_scene = |s: &Summary| {
+        let pictures = panels.iter().find(|p| p.scene == s.scene).map_or(&[][..], |p| &p.pictures);
+        pictures.iter().map(one).collect::<Vec<_>>()
+    };
+    let all: Vec<_> = outcome.summaries.iter().map(of_scene).collect();
     // "</" could end the script
-    let data = json!(data).to_string().replace("</", "<\\/");
+    json!(all).to_string().replace("</", "<\\/")
+}
+
+/// The whole page.
+#[must_use]
+pub fn page(outcome: &Outcome, figures: &[Vec<Figure>], panels: &[Panel], command: &str) -> String {
+    let [techniques, samplers, against, measures] = chips(outcome);
     let best: String = outcome.summaries.iter().map(|s| format!("<li>{}</li>\n", escape(&s.headline()))).collect();
     let notes: String = outcome.notes.iter().map(|n| format!("<p>{}</p>\n", escape(n))).collect();
     // the data last, so that placeholders are not searched for in it
@@ -192,7 +180,9 @@ pub fn page(
         .replace("{{notes}}", &notes)
         .replace("{{techniques}}", &techniques)
         .replace("{{samplers}}", &samplers)
-        .replace("{{facts}}", &rows)
-        .replace("{{scenes}}", &scenes)
-        .replace("{{data}}", &data)
+        .replace("{{against}}", &against)
+        .replace("{{measures}}", &measures)
+        .replace("{{facts}}", &facts(outcome, command))
+        .replace("{{scenes}}", &sections(outcome, figures, panels))
+        .replace("{{data}}", &pictures(outcome, panels))
 }

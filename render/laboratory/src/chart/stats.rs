@@ -1,6 +1,6 @@
 //! Means, ratios and slopes over replicates, with 95 % confidence intervals.
 
-use statrs::distribution::{ContinuousCDF, StudentsT};
+use std::f64::consts::FRAC_2_PI;
 
 /// A value and half of its 95 % interval, which is infinite if the spread is unknown.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,12 +14,37 @@ pub struct Estimate {
 /// An estimate whose half interval exceeds this fraction of the value does not support a claim.
 pub const WIDEST: f64 = 0.3;
 
-/// Factor from the standard error of the mean of `n` values to half of its 95 % interval.
-fn student(n: usize) -> f64 {
+/// Probability that the magnitude of Student's t exceeds `t`, by the finite sums for whole `freedom` (Abramowitz and Stegun, 26.7.3 and
+/// 26.7.4).
+fn tails(t: f64, freedom: usize) -> f64 {
+    let theta = (t / (freedom as f64).sqrt()).atan();
+    let (sin, cos) = theta.sin_cos();
+    let odd = freedom % 2;
+    let (mut term, mut sum) = (if odd == 1 { cos } else { 1.0 }, 0.0);
+    for k in 0..freedom / 2 {
+        sum += term;
+        let next = (2 * k + 1 + odd) as f64;
+        term *= cos * cos * next / (next + 1.0);
+    }
+    1.0 - if odd == 1 { (theta + sin * sum) * FRAC_2_PI } else { sin * sum }
+}
+
+/// The t of `n` values whose magnitude chance exceeds with this probability; infinite for fewer than two values.
+#[must_use]
+pub fn student(n: usize, probability: f64) -> f64 {
     if n < 2 {
         return f64::INFINITY;
     }
-    StudentsT::new(0.0, 1.0, (n - 1) as f64).map_or(f64::INFINITY, |t| t.inverse_cdf(0.975))
+    let exceeds = |t: f64| tails(t, n - 1) > probability;
+    let (mut low, mut high) = (0.0, 1.0);
+    while exceeds(high) {
+        (low, high) = (high, 2.0 * high);
+    }
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        *(if exceeds(middle) { &mut low } else { &mut high }) = middle;
+    }
+    high
 }
 
 /// Mean and standard deviation (n − 1) in two passes; the deviation of fewer than two values is 0.
@@ -37,7 +62,7 @@ impl Estimate {
         let (value, deviation) = moments(values);
         let half = match values.len() {
             0 | 1 => f64::INFINITY,
-            n => student(n) * deviation / (n as f64).sqrt(),
+            n => student(n, 0.05) * deviation / (n as f64).sqrt(),
         };
         Self { value, half }
     }
@@ -66,8 +91,10 @@ impl Estimate {
 /// Error and time of one replicate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cost {
-    /// Mean squared error.
+    /// Mean squared error without that of the reference.
     pub mse: f64,
+    /// The same of relative errors.
+    pub relative: f64,
     /// Rendering time in seconds.
     pub seconds: f64,
 }
@@ -108,22 +135,36 @@ pub fn slope(x: &[f64], replicates: &[Vec<f64>]) -> Option<Estimate> {
     Some(Estimate::of(&replicates.iter().map(one).collect::<Vec<_>>()))
 }
 
-/// The x at which a polyline through points (x, y), in order of x, falls to `y`, in logarithms. The flag is true if the line had to be
-/// extrapolated by its first or last segment.
+/// Where a line falls to a level.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Reach {
+    /// At this x.
+    At(f64),
+    /// Before its first point, which is at this x.
+    Before(f64),
+    /// At this x, if it goes on like its last segment.
+    Beyond(f64),
+}
+
+/// The x at which a polyline through points (x, y), in order of x, falls to `y`, in logarithms.
 #[must_use]
-pub fn reach(points: &[(f64, f64)], y: f64) -> Option<(f64, bool)> {
+pub fn reach(points: &[(f64, f64)], y: f64) -> Option<Reach> {
     let cross = |a: (f64, f64), b: (f64, f64)| {
         let share = (y / a.1).ln() / (b.1 / a.1).ln();
         (share.is_finite() && b.1 < a.1).then(|| a.0 * ((b.0 / a.0).ln() * share).exp())
     };
-    if points.iter().any(|p| p.0 <= 0.0 || p.1 <= 0.0) || points.len() < 2 {
+    let first = points.first()?;
+    if points.iter().any(|p| p.0 <= 0.0 || p.1 <= 0.0) {
         return None;
     }
-    if let Some(pair) = points.windows(2).find(|p| p[0].1 >= y && p[1].1 <= y) {
-        return cross(pair[0], pair[1]).map(|x| (x, false));
+    if first.1 <= y {
+        return Some(Reach::Before(first.0));
     }
-    let end = if points[0].1 < y { &points[..2] } else { &points[points.len() - 2..] };
-    cross(end[0], end[1]).map(|x| (x, true))
+    if let Some(pair) = points.windows(2).find(|p| p[0].1 >= y && p[1].1 <= y) {
+        return cross(pair[0], pair[1]).map(Reach::At);
+    }
+    let [a, b] = points.last_chunk()?;
+    cross(*a, *b).map(Reach::Beyond)
 }
 
 /// The y at `x` of a polyline through points (x, y), in logarithms. Beyond its ends, y falls as 1/x. `None` without a positive point.
@@ -177,6 +218,7 @@ mod tests {
                     let slow = 1.0 + random(s);
                     let mut one = |mse: f64, seconds: f64| Cost {
                         mse: mse * (1.0 + 0.03 * normal(s)),
+                        relative: 1.0,
                         seconds: seconds * slow * (1.0 + 0.02 * normal(s)),
                     };
                     a.push(one(1.0, 2.0));
@@ -201,7 +243,7 @@ mod tests {
         assert_eq!(Estimate::of(&[2.0]), Estimate { value: 2.0, half: f64::INFINITY });
         assert!(!Estimate::of(&[2.0]).is_sure() && !Estimate { value: -1.0, half: 0.0 }.is_sure());
         assert!(Estimate { value: 1.0, half: 0.29 }.is_sure() && !Estimate { value: 1.0, half: 0.31 }.is_sure());
-        let cost = |mse| Cost { mse, seconds: 1.0 };
+        let cost = |mse| Cost { mse, relative: mse, seconds: 1.0 };
         assert_eq!(gain(&[cost(-1.0), cost(0.5)], &[cost(1.0), cost(1.0)]), None);
         assert_eq!(gain(&[], &[cost(1.0)]), None);
         assert_eq!(slope(&[1.0, 2.0], &[vec![1.0, -1.0]]), None);
@@ -209,16 +251,34 @@ mod tests {
     }
 
     #[test]
+    fn students_quantiles_are_those_of_the_tables() {
+        // of distributions with 1, 2, 4, 9 and 30 degrees of freedom
+        for (n, probability, t) in [
+            (2, 0.05, 12.706_204_7),
+            (3, 0.05, 4.302_652_7),
+            (5, 0.05, 2.776_445_1),
+            (10, 0.05, 2.262_157_2),
+            (31, 0.05, 2.042_272_5),
+            (5, 0.001, 8.610_301_6),
+            (10, 0.001, 4.780_912_6),
+        ] {
+            assert!((student(n, probability) / t - 1.0).abs() < 1e-7, "{n} {probability}: {}", student(n, probability));
+        }
+        assert_eq!(student(1, 0.05), f64::INFINITY);
+    }
+
+    #[test]
     fn a_line_reaches_a_level_within_and_beyond() {
         let line = [(1.0, 1.0), (2.0, 0.5), (8.0, 0.25)];
-        let close = |found: Option<(f64, bool)>, x: f64, beyond: bool| {
-            let (value, flag) = found.unwrap();
-            assert!((value / x - 1.0).abs() < 1e-12 && flag == beyond, "{value} {flag}");
+        let close = |y: f64, make: fn(f64) -> Reach, x: f64| {
+            let (Reach::At(value) | Reach::Before(value) | Reach::Beyond(value)) = reach(&line, y).unwrap();
+            assert!((value / x - 1.0).abs() < 1e-12 && make(value) == reach(&line, y).unwrap(), "{value}");
         };
-        close(reach(&line, 0.5), 2.0, false);
-        close(reach(&line, 0.5_f64.powf(1.5)), 4.0, false);
-        close(reach(&line, 2.0), 0.5, true);
-        close(reach(&line, 0.125), 32.0, true);
+        close(0.5, Reach::At, 2.0);
+        close(0.5_f64.powf(1.5), Reach::At, 4.0);
+        close(2.0, Reach::Before, 1.0);
+        close(1.0, Reach::Before, 1.0);
+        close(0.125, Reach::Beyond, 32.0);
         assert_eq!(reach(&line[..1], 0.5), None);
         assert_eq!(reach(&[(1.0, 1.0), (2.0, 1.0)], 0.5), None);
         assert_eq!(reach(&[(1.0, 1.0), (2.0, -1.0)], 0.5), None);

@@ -3,7 +3,7 @@
 use super::measure::{Key, Plan, Row, Rows, method};
 use super::plot::short;
 use super::reference::KNOWN_TO;
-use super::stats::{self, Cost, Estimate};
+use super::stats::{self, Cost, Estimate, Reach};
 use etendue_render::{ChoiceBy, Sampler, Technique};
 
 /// A technique with a choice of a light and a sampler.
@@ -46,9 +46,17 @@ pub struct Point {
     pub spp: u32,
     /// Mean squared error minus that of the reference; the interval includes the uncertainty of the latter.
     pub mse: Estimate,
+    /// Mean squared error relative to the square of the reference, see [`super::reference::Difference::relative`], likewise.
+    pub relative: Estimate,
     /// Rendering time of an image in seconds.
     pub seconds: Estimate,
-    /// Mean difference from the reference, in standard errors; far from 0 it indicates a bias. NaN for one replicate.
+    /// Seconds that all threads together ran for an image, where the system tells.
+    pub cpu: Option<Estimate>,
+    /// Mean number of rays of an image.
+    pub rays: f64,
+    /// Mean difference from the reference, as a part of the reference's mean.
+    pub offset: f64,
+    /// The same in standard errors; far from 0 it indicates a bias. NaN for one replicate.
     pub bias: f64,
     /// Costs of the replicates, in order.
     pub costs: Vec<Cost>,
@@ -58,20 +66,62 @@ impl Point {
     fn new(spp: u32, rows: &[Row], plan: &Plan, key: &Key) -> Self {
         let reference = &plan.scenes[key.scene].reference;
         let costs: Vec<Cost> = rows.iter().map(|r| r.cost(reference)).collect();
-        let mut mse = Estimate::of(&costs.iter().map(|c| c.mse).collect::<Vec<_>>());
-        mse.half += KNOWN_TO * reference.error;
+        // the errors of the reference were taken off, and are known to some per cent
+        let less_reference = |of: fn(&Cost) -> f64, error: f64| {
+            let estimate = Estimate::of(&costs.iter().map(of).collect::<Vec<_>>());
+            Estimate { half: estimate.half + KNOWN_TO * error, ..estimate }
+        };
+        let mse = less_reference(|c| c.mse, reference.error);
+        let relative = less_reference(|c| c.relative, reference.relative_error);
         let seconds = Estimate::of(&costs.iter().map(|c| c.seconds).collect::<Vec<_>>());
+        let cpu = rows.iter().map(|r| r.cpu).collect::<Option<Vec<_>>>().map(|cpu| Estimate::of(&cpu));
+        let n = rows.len() as f64;
+        let rays = rows.iter().map(|r| r.all_rays() as f64).sum::<f64>() / n;
         // channels share their samples, so the reference's error of a pixel counts once
         let own = reference.error / reference.picture.radiance.len() as f64;
-        let (mean, deviation) = stats::moments(&rows.iter().map(|r| r.difference).collect::<Vec<_>>());
-        let n = rows.len() as f64;
+        let (mean, deviation) = stats::moments(&rows.iter().map(|r| r.difference.mean).collect::<Vec<_>>());
         let bias = if rows.len() < 2 { f64::NAN } else { mean / (deviation * deviation / n + own).sqrt() };
-        Self { spp, mse, seconds, bias, costs }
+        Self { spp, mse, relative, seconds, cpu, rays, offset: mean / reference.mean(), bias, costs }
     }
     /// Whether the intervals of both error and time are narrow enough to support a claim.
     #[must_use]
     pub fn is_sure(&self) -> bool {
         self.mse.is_sure() && self.seconds.is_sure()
+    }
+}
+
+/// Seconds that something takes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Time {
+    /// Less than these: even the image with the fewest samples does.
+    Less(f64),
+    /// These.
+    Sure(f64),
+    /// About these: extrapolated, or from times with wide intervals.
+    About(f64),
+}
+
+impl Time {
+    /// The number of seconds.
+    #[must_use]
+    pub fn seconds(self) -> f64 {
+        let (Self::Less(seconds) | Self::Sure(seconds) | Self::About(seconds)) = self;
+        seconds
+    }
+    /// The time in words, such as `< 0.19 s`.
+    #[must_use]
+    pub fn text(self) -> String {
+        let sign = match self {
+            Self::Less(_) => "< ",
+            Self::Sure(_) => "",
+            Self::About(_) => "≈ ",
+        };
+        format!("{sign}{} s", short(self.seconds()))
+    }
+    /// What sorts times: those that are less than some come first.
+    #[must_use]
+    pub fn order(self) -> (bool, f64) {
+        (!matches!(self, Self::Less(_)), self.seconds())
     }
 }
 
@@ -101,13 +151,17 @@ impl Series {
         let slope_in_time = of(Point::is_sure, |p| p.seconds.value);
         Self { way, points, slope, slope_in_time }
     }
-    /// Seconds to reach a squared error. The flag is true if that is extrapolated, or if a time has a wide interval.
+    /// Seconds to reach a squared error.
     #[must_use]
-    pub fn seconds_to(&self, mse: f64) -> Option<(f64, bool)> {
+    pub fn seconds_to(&self, mse: f64) -> Option<Time> {
         let known = || self.points.iter().filter(|p| p.mse.is_sure());
         let points: Vec<_> = known().map(|p| (p.seconds.value, p.mse.value)).collect();
-        let (seconds, beyond) = stats::reach(&points, mse)?;
-        Some((seconds, beyond || known().any(|p| !p.seconds.is_sure())))
+        let sure = known().all(|p| p.seconds.is_sure());
+        Some(match stats::reach(&points, mse)? {
+            Reach::Before(seconds) => Time::Less(seconds),
+            Reach::At(seconds) if sure => Time::Sure(seconds),
+            Reach::At(seconds) | Reach::Beyond(seconds) => Time::About(seconds),
+        })
     }
     /// Squared error that an image of this many seconds has, from the points with narrow intervals or, if there are none, from all.
     #[must_use]
@@ -117,6 +171,18 @@ impl Series {
             stats::level(&points.iter().map(|p| (p.seconds.value, p.mse.value)).collect::<Vec<_>>(), seconds)
         };
         of(true).or_else(|| of(false))
+    }
+    /// What is found of a bias: the points whose mean differs from the reference by more than `limit` standard errors, or that there are none.
+    #[must_use]
+    pub fn bias(&self, limit: f64) -> String {
+        if self.points.iter().all(|p| p.bias.is_nan()) {
+            return "?".to_owned();
+        }
+        let found = self.points.iter().filter(|p| p.bias.abs() > limit);
+        let list: Vec<String> = found
+            .map(|p| format!("{:+.2} % at {} spp ({:.1} σ)", 100.0 * p.offset, p.spp, p.bias.abs()).replace('-', "−"))
+            .collect();
+        if list.is_empty() { "none found".to_owned() } else { list.join(", ") }
     }
     /// The point at this number of samples per pixel.
     #[must_use]
@@ -151,6 +217,8 @@ pub struct Summary {
     pub target: f64,
     /// Seconds per image at which errors are compared: the shortest time of a series at `spp`.
     pub seconds: f64,
+    /// The number of standard errors beyond which chance brings a difference from the reference in one of twenty charts.
+    pub bias_limit: f64,
     /// Indices of the series by their error after `seconds`, the least first; series without a positive error come last.
     pub ranking: Vec<usize>,
 }
@@ -160,38 +228,10 @@ impl Summary {
     /// the error of the best technique, with the baseline's sampler, at the median sample count.
     #[must_use]
     pub fn new(plan: &Plan, rows: &Rows, scene: usize, baseline: Way, target: Option<f64>) -> Self {
-        let mut series: Vec<Series> = Vec::new();
-        let mut ways: Vec<Way> = Vec::new();
-        for key in plan.keys.iter().filter(|k| k.scene == scene) {
-            let way = Way { technique: key.technique, choice: key.choice, sampler: key.sampler };
-            if !ways.contains(&way) {
-                ways.push(way);
-            }
-        }
-        // in the order of `etendue list`
-        ways.sort_by_key(|w| (w.technique as usize, w.choice as usize, w.sampler as usize));
-        for way in ways {
-            let of_way = |k: &&Key| {
-                k.scene == scene && (k.technique, k.choice, k.sampler) == (way.technique, way.choice, way.sampler)
-            };
-            let mut points: Vec<Point> = plan
-                .keys
-                .iter()
-                .filter(of_way)
-                .filter_map(|key| Some(Point::new(key.spp, rows.get(key)?, plan, key)))
-                .collect();
-            points.sort_by_key(|p| p.spp);
-            if !points.is_empty() {
-                series.push(Series::new(way, points));
-            }
-        }
+        let series = lines(plan, rows, scene);
         let found = series.iter().position(|s| s.way == baseline);
         let baseline = found.or(if series.is_empty() { None } else { Some(0) });
-        let measured = |spp: u32| series.iter().filter(|s| s.at(spp).is_some_and(|p| p.costs.len() > 1)).count();
-        // the largest sample count among those that most series have
-        let all: Vec<u32> = series.iter().flat_map(|s| s.points.iter().map(|p| p.spp)).collect();
-        let in_baseline = |spp: &u32| baseline.is_none_or(|b| series[b].at(*spp).is_some());
-        let spp = all.iter().copied().filter(in_baseline).max_by_key(|&n| (measured(n), n)).unwrap_or(0);
+        let spp = common_spp(&series, baseline);
         let mut gains = Vec::new();
         if let Some(base) = baseline.and_then(|b| series[b].at(spp)) {
             for (index, one) in series.iter().enumerate() {
@@ -200,21 +240,18 @@ impl Summary {
                 }
             }
         }
-        let middle = baseline.map_or(0.0, |b| {
-            let sampler = series[b].way.sampler;
-            let spps: Vec<u32> = series[b].points.iter().map(|p| p.spp).collect();
-            let spp = spps[spps.len() / 2];
-            let of_sampler = series.iter().filter(|s| s.way.sampler == sampler);
-            let errors = of_sampler.filter_map(|s| Some(s.at(spp)?.mse.value)).filter(|m| *m > 0.0);
-            errors.fold(f64::INFINITY, f64::min)
-        });
-        let scene = plan.scenes[scene].name.clone();
-        let at_spp = || series.iter().filter_map(|s| s.at(spp));
-        let seconds = at_spp().map(|p| p.seconds.value).fold(f64::INFINITY, f64::min);
+        let target = target.or_else(|| baseline.map(|b| middle_error(&series, b))).unwrap_or(0.0);
+        let at_spp = series.iter().filter_map(|s| s.at(spp));
+        let seconds = at_spp.map(|p| p.seconds.value).fold(f64::INFINITY, f64::min);
         let errors: Vec<f64> = series.iter().map(|s| s.error_in(seconds).unwrap_or(f64::INFINITY)).collect();
         let mut ranking: Vec<usize> = (0..series.len()).collect();
         ranking.sort_by(|a, b| errors[*a].total_cmp(&errors[*b]));
-        Self { scene, series, baseline, spp, gains, target: target.unwrap_or(middle), seconds, ranking }
+        // Bonferroni's correction: the points of a chart together are wrong once in twenty times
+        let judged = series.iter().flat_map(|s| &s.points).filter(|p| !p.bias.is_nan());
+        let replicates = judged.clone().map(|p| p.costs.len()).min().unwrap_or(0);
+        let bias_limit = stats::student(replicates, 0.05 / judged.count().max(1) as f64);
+        let scene = plan.scenes[scene].name.clone();
+        Self { scene, series, baseline, spp, gains, target, seconds, bias_limit, ranking }
     }
 
     /// The best series of each technique and choice, the least error first.
@@ -230,35 +267,119 @@ impl Summary {
         self.ranking.iter().copied().filter(first).collect()
     }
 
-    /// One line: which series has the least error at equal time, and what it gains over independent samples of the same technique. If
-    /// that is the best itself, or was not measured, the baseline takes its place, and then the next best.
+    /// Name of a series in this scene's charts: what not all series have in common.
+    #[must_use]
+    pub fn name(&self, way: &Way) -> String {
+        let [technique, choice, sampler] = self.varies();
+        let method = if choice && !technique { format!("by {}", way.choice.name()) } else { way.method() };
+        if sampler || !(technique || choice) { format!("{method}, {}", way.sampler.name()) } else { method }
+    }
+    /// What [`Summary::name`] leaves out, for titles; begins with a comma unless it is empty.
+    #[must_use]
+    pub fn common(&self) -> String {
+        let [technique, choice, sampler] = self.varies();
+        let mut text = String::new();
+        if let Some(Series { way, .. }) = self.series.first() {
+            if choice && !technique {
+                text += &format!(", {}", way.technique.name());
+            }
+            if (technique || choice) && !sampler {
+                text += &format!(", {}", way.sampler.name());
+            }
+        }
+        text
+    }
+    /// Whether series differ in technique, choice of a light and sampler.
+    fn varies(&self) -> [bool; 3] {
+        let ways = || self.series.iter().map(|s| s.way);
+        let Some(first) = ways().next() else { return [false; 3] };
+        [
+            ways().any(|w| w.technique != first.technique),
+            ways().any(|w| w.choice != first.choice),
+            ways().any(|w| w.sampler != first.sampler),
+        ]
+    }
+
+    /// One line: which series has the least error at equal time, and how that compares with the best series of another technique, or of
+    /// another choice of a light where the technique is one, and with the baseline.
     #[must_use]
     pub fn headline(&self) -> String {
         let error = |index: usize| self.series[index].error_in(self.seconds);
         let Some((best, least)) = self.ranking.first().and_then(|&best| Some((best, error(best)?))) else {
             return format!("{} — no error is large enough to be measured", self.scene);
         };
-        let way = self.series[best].way;
-        let independent = Way { sampler: Sampler::Independent, ..way };
-        let plain = self.series.iter().position(|s| s.way == independent);
-        let others = [plain, self.baseline, self.ranking.get(1).copied()];
-        let other =
-            others.into_iter().flatten().find_map(|other| Some((other, error(other).filter(|_| other != best)?)));
-        let mut line = format!("{} — best: {}", self.scene, way.phrase());
-        if let Some((other, more)) = other {
-            let (factor, other_way) = (short(more / least), self.series[other].way);
-            line += &if other_way.sampler == Sampler::Independent {
-                // whose error falls as 1/time
-                format!(", which reaches the same error in 1/{factor} of the time of {}", other_way.phrase())
+        let way = |index: usize| self.series[index].way;
+        let mut line = format!("{} — best: {}", self.scene, way(best).phrase());
+        let [is_technique, ..] = self.varies();
+        let differs = |other: &usize| {
+            if is_technique {
+                way(*other).technique != way(best).technique
             } else {
-                format!(", whose error is 1/{factor} of that of {} at equal time", other_way.phrase())
-            };
-            line += &format!(" ({} s per image)", short(self.seconds));
-            let sure = |index: usize| self.series[index].points.iter().any(Point::is_sure);
-            if !sure(best) || !sure(other) {
-                line += "; uncertain, because the intervals are wide";
+                way(*other).choice != way(best).choice
             }
+        };
+        let other = self.ranking.iter().copied().find(differs);
+        let kind = if is_technique { "technique" } else { "choice" };
+        let mut compared: Vec<(usize, String)> = Vec::new();
+        compared.extend(other.map(|other| (other, format!("{}, the best other {kind}", way(other).phrase()))));
+        let baseline = self.baseline.filter(|b| *b != best && Some(*b) != other);
+        compared.extend(baseline.map(|baseline| {
+            let is_plain = way(baseline).technique == Technique::Area && way(baseline).sampler == Sampler::Independent;
+            (baseline, if is_plain { "plain area sampling".to_owned() } else { way(baseline).phrase() })
+        }));
+        let sure = |index: usize| self.series[index].points.iter().any(Point::is_sure);
+        let all_sure = sure(best) && compared.iter().all(|(index, _)| sure(*index));
+        let parts: Vec<String> = compared
+            .into_iter()
+            .filter_map(|(index, name)| Some(format!("1/{} of that of {name}", short(error(index)? / least))))
+            .collect();
+        if !parts.is_empty() {
+            line += &format!("; its error after {} s is {}", short(self.seconds), parts.join(", and "));
+        }
+        if !all_sure {
+            line += "; uncertain, because the intervals are wide";
         }
         line
     }
+}
+
+/// The series of a scene, in the order of `etendue list`.
+fn lines(plan: &Plan, rows: &Rows, scene: usize) -> Vec<Series> {
+    let way_of = |key: &Key| Way { technique: key.technique, choice: key.choice, sampler: key.sampler };
+    let keys = || plan.keys.iter().filter(|k| k.scene == scene);
+    let mut ways: Vec<Way> = Vec::new();
+    for way in keys().map(way_of) {
+        if !ways.contains(&way) {
+            ways.push(way);
+        }
+    }
+    ways.sort_by_key(|w| (w.technique as usize, w.choice as usize, w.sampler as usize));
+    let mut series = Vec::new();
+    for way in ways {
+        let measured = keys().filter(|key| way_of(key) == way);
+        let mut points: Vec<Point> =
+            measured.filter_map(|key| Some(Point::new(key.spp, rows.get(key)?, plan, key))).collect();
+        points.sort_by_key(|p| p.spp);
+        if !points.is_empty() {
+            series.push(Series::new(way, points));
+        }
+    }
+    series
+}
+
+/// The largest sample count among those that most series have, and that the baseline has.
+fn common_spp(series: &[Series], baseline: Option<usize>) -> u32 {
+    let measured = |spp: u32| series.iter().filter(|s| s.at(spp).is_some_and(|p| p.costs.len() > 1)).count();
+    let all = series.iter().flat_map(|s| s.points.iter().map(|p| p.spp));
+    let in_baseline = |spp: &u32| baseline.is_none_or(|b| series[b].at(*spp).is_some());
+    all.filter(in_baseline).max_by_key(|&n| (measured(n), n)).unwrap_or(0)
+}
+
+/// The error of the best technique, with the baseline's sampler, at the median sample count.
+fn middle_error(series: &[Series], baseline: usize) -> f64 {
+    let Series { way, points, .. } = &series[baseline];
+    let spp = points[points.len() / 2].spp;
+    let of_sampler = series.iter().filter(|s| s.way.sampler == way.sampler);
+    let errors = of_sampler.filter_map(|s| Some(s.at(spp)?.mse.value)).filter(|m| *m > 0.0);
+    errors.fold(f64::INFINITY, f64::min)
 }

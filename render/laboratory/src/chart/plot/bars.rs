@@ -2,7 +2,6 @@
 
 use super::axis::{Axis, Bar, Scale};
 use super::canvas::{Drawing, GRID, INK, PALE, Part, ROW, TEXT, UNIT, WIDTH, font, layer, rgb, stroke};
-use super::text::short;
 use plotters::coord::ranged1d::Ranged;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
@@ -18,6 +17,8 @@ pub struct BarRow {
     pub color: usize,
     /// Where the bar ends.
     pub bar: Bar,
+    /// The value, as it is written behind the bar.
+    pub text: String,
     /// Whether the value supports a claim; otherwise the bar is hollow.
     pub sure: bool,
     /// Whether a page shows it at first; files contain only what is shown.
@@ -35,8 +36,6 @@ pub struct Bars {
     pub rows: Vec<BarRow>,
     /// Value at which bars begin.
     pub origin: f64,
-    /// Unit written behind each value.
-    pub unit: String,
 }
 
 impl Bars {
@@ -78,7 +77,7 @@ impl Bars {
                 area.draw(&Text::new(row.name.clone(), ((left - 6) * UNIT, middle), style))?;
                 let value = font(TEXT - 2).pos(Pos::new(HPos::Left, VPos::Center));
                 if !drawable(bar) {
-                    return area.draw(&Text::new("unknown", (at(self.origin) + 6 * UNIT, middle), value));
+                    return area.draw(&Text::new(row.text.clone(), (at(self.origin) + 6 * UNIT, middle), value));
                 }
                 let (a, b) = (at(self.origin), at(bar.value));
                 let rectangle = [(a.min(b), y + 3 * UNIT), (a.max(b), y + (ROW - 3) * UNIT)];
@@ -94,8 +93,7 @@ impl Bars {
                 let ends = [(at(bar.low), middle), (at(bar.high).min(most.max(b)), middle)];
                 area.draw(&PathElement::new(ends, stroke(INK, 10)))?;
                 let right = b.max(a).max(ends[1].0) + 5 * UNIT;
-                let known = if *sure { "" } else { " ?" };
-                area.draw(&Text::new(format!("{}{}{known}", short(bar.value), self.unit), (right, middle), value))
+                area.draw(&Text::new(row.text.clone(), (right, middle), value))
             });
             Part { id: row.id.clone(), shown: row.shown, body }
         };

@@ -43,7 +43,7 @@ pub(super) fn rgb(n: usize) -> RGBColor {
 
 /// Lengths of dash and gap of the line of each sampler; the first is a solid line.
 const DASHES: [Option<(i32, i32)>; Sampler::Adaptive as usize + 1] =
-    [None, Some((7, 4)), Some((2, 3)), Some((12, 3)), Some((4, 2)), Some((9, 6))];
+    [None, Some((7, 4)), Some((2, 3)), Some((12, 3)), Some((4, 2)), Some((1, 2)), Some((16, 8))];
 
 /// Lengths of dash and gap of the n-th line style.
 #[must_use]

@@ -60,6 +60,9 @@ fn marker((x, y): (i32, i32), n: usize, color: RGBColor, sure: bool) -> Polygon<
     Polygon::new(outline(n).into_iter().map(|(dx, dy)| (x + dx, y + dy)).collect::<Vec<_>>(), style)
 }
 
+/// Number of markers: one for each sampler.
+const MARKERS: usize = 7;
+
 /// Corners of the n-th marker relative to its centre.
 fn outline(n: usize) -> Vec<(i32, i32)> {
     let r = 3.4 * f64::from(UNIT);
@@ -71,12 +74,14 @@ fn outline(n: usize) -> Vec<(i32, i32)> {
             })
             .collect()
     };
-    match n % 5 {
+    match n % MARKERS {
         0 => regular(24, 0.0, 1.0),
         1 => regular(4, 0.125, 1.2),
         2 => regular(3, -0.25, 1.35),
         3 => regular(4, 0.0, 1.3),
-        _ => regular(3, 0.25, 1.35),
+        4 => regular(3, 0.25, 1.35),
+        5 => regular(5, -0.25, 1.25),
+        _ => regular(3, 0.0, 1.35),
     }
 }
 

@@ -1,0 +1,207 @@
+//! How long measurements take, by a short trial, and what of them fits into a time.
+
+use super::measure::{Key, inapplicable, needs_repeats};
+use super::options::Options;
+use super::prepare::Loaded;
+use super::reference::Reference;
+use etendue_render::{Sampler, Settings};
+use std::collections::HashMap;
+use std::time::Instant;
+
+/// What is measured of all scenes.
+#[derive(Clone, Debug)]
+pub(super) struct Extent {
+    /// Samples per pixel, in ascending order.
+    pub(super) spps: Vec<u32>,
+    /// Number of images per key.
+    pub(super) replicates: u32,
+    /// Pixels across and down, for each scene.
+    pub(super) sizes: Vec<[u32; 2]>,
+    /// Samples per pixel of the references that are rendered.
+    pub(super) reference_spp: u32,
+}
+
+/// Seconds for each pixel of an image: some for any number of samples, as for certificates, and some for each sample.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Rate {
+    fixed: f64,
+    sample: f64,
+}
+
+impl Rate {
+    /// The rate at which images of `pixels` pixels with these samples per pixel took these seconds; the second has more samples.
+    fn new(pixels: f64, [(n, a), (m, b)]: [(f64, f64); 2]) -> Self {
+        let sample = (b - a) / (m - n);
+        let fixed = a - n * sample;
+        // noise: all is due to the samples
+        let sound = sample > 0.0 && fixed > 0.0;
+        let (fixed, sample) = if sound { (fixed, sample) } else { (0.0, b / m) };
+        Self { fixed: fixed / pixels, sample: sample / pixels }
+    }
+    fn seconds(self, [width, height]: [u32; 2], spp: u32) -> f64 {
+        f64::from(width) * f64::from(height) * (self.fixed + self.sample * f64::from(spp))
+    }
+}
+
+/// Measured rates of all methods and samplers.
+pub(super) struct Trial {
+    /// By keys of no samples.
+    rates: HashMap<Key, Rate>,
+    /// Of the references that are to be rendered.
+    references: Vec<Option<Rate>>,
+    samplers: Vec<Sampler>,
+    /// Whether the camera of each scene has a lens.
+    lenses: Vec<bool>,
+}
+
+/// Images of a trial are repeated until this many seconds have passed, at most three times; the shortest counts.
+const SECONDS: f64 = 0.03;
+/// Part of a time that the estimate may fill.
+const FILLED: f64 = 0.85;
+/// Images for the pictures of a method, and the samples per pixel that they have at most.
+const PICTURES: (f64, u32) = (4.0, 16);
+
+fn seconds(scene: &Loaded, settings: &Settings) -> f64 {
+    let begin = Instant::now();
+    let mut least = f64::INFINITY;
+    for _ in 0..3 {
+        let start = Instant::now();
+        scene.world.render(settings, &|_| ());
+        least = least.min(start.elapsed().as_secs_f64());
+        if begin.elapsed().as_secs_f64() > SECONDS {
+            break;
+        }
+    }
+    least
+}
+
+/// The rate at which a way renders a scene: that of two images of half the width and height.
+fn rate(scene: &Loaded, size: [u32; 2], spps: [u32; 2], settings: impl Fn([u32; 2], u32) -> Settings) -> Rate {
+    let size = size.map(|side| side.div_ceil(2));
+    let pixels = f64::from(size[0]) * f64::from(size[1]);
+    Rate::new(pixels, spps.map(|spp| (f64::from(spp), seconds(scene, &settings(size, spp)))))
+}
+
+impl Trial {
+    /// Renders small images by all methods and samplers, as far as these apply.
+    pub(super) fn new(scenes: &[Loaded], samplers: Vec<Sampler>) -> Self {
+        let mut rates = HashMap::new();
+        for (scene, loaded) in scenes.iter().enumerate() {
+            for &(technique, choice) in &loaded.methods {
+                for &sampler in &samplers {
+                    let applies = |spp: &u32| inapplicable(sampler, *spp, loaded.has_lens()).is_none();
+                    let mut possible = (0..=14).map(|k| 1 << k).filter(applies);
+                    let Some(few) = possible.next() else { continue };
+                    let many = possible.find(|spp| *spp >= 4 * few).unwrap_or(2 * few);
+                    let key = |spp| Key { scene, technique, choice, sampler, spp };
+                    let found = rate(loaded, loaded.size, [few, many], |size, spp| key(spp).settings(size, 1));
+                    rates.insert(key(0), found);
+                }
+            }
+        }
+        let of_reference =
+            |scene: &Loaded| scene.lacks_reference().then(|| rate(scene, scene.size, [32, 64], Reference::settings));
+        let references = scenes.iter().map(of_reference).collect();
+        let lenses = scenes.iter().map(Loaded::has_lens).collect();
+        Self { rates, references, samplers, lenses }
+    }
+
+    /// Estimated seconds for references.
+    fn references(&self, extent: &Extent) -> f64 {
+        let rates = self.references.iter().zip(&extent.sizes);
+        rates.filter_map(|(rate, size)| Some((*rate)?.seconds(*size, extent.reference_spp))).sum()
+    }
+
+    /// Estimated seconds for the pictures of a report, of which each method has some.
+    pub(super) fn pictures(&self, extent: &Extent) -> f64 {
+        let spp = extent.spps.iter().copied().filter(|spp| *spp <= PICTURES.1).max().unwrap_or(PICTURES.1);
+        let first = self.rates.iter().filter(|(key, _)| Some(&key.sampler) == self.samplers.first());
+        PICTURES.0 * first.map(|(key, rate)| rate.seconds(extent.sizes[key.scene], spp)).sum::<f64>()
+    }
+
+    /// Estimated seconds for all.
+    pub(super) fn estimate(&self, extent: &Extent) -> f64 {
+        let image = |key: &Key, rate: &Rate| {
+            let possible = |spp: &&u32| inapplicable(key.sampler, **spp, self.lenses[key.scene]).is_none();
+            let spps = extent.spps.iter().filter(possible);
+            spps.map(|spp| needs_repeats(rate.seconds(extent.sizes[key.scene], *spp))).sum::<f64>()
+        };
+        let images: f64 = self.rates.iter().map(|(key, rate)| image(key, rate)).sum();
+        f64::from(extent.replicates) * images + self.references(extent) + self.pictures(extent)
+    }
+
+    /// Reduces what the options do not ask for until it fits into this many seconds, as far as it stays worth measuring: samples of
+    /// references, sample counts from the greatest on, replicates, and the sides of images.
+    pub(super) fn fit(&self, extent: &mut Extent, options: &Options, seconds: f64) {
+        let goal = FILLED * seconds;
+        let can_halve = |size: &[u32; 2]| size.iter().all(|side| *side > 64 && side.is_multiple_of(2));
+        while self.estimate(extent) > goal {
+            let counts = if options.spp.is_empty() { extent.spps.len() } else { 0 };
+            if options.reference_spp.is_none() && extent.reference_spp > 256 && self.references(extent) > 0.25 * goal {
+                extent.reference_spp /= 2;
+            } else if counts > 4 {
+                extent.spps.pop();
+            } else if options.replicates.is_none() && extent.replicates > 3 {
+                extent.replicates -= 1;
+            } else if options.size.is_none() && options.reference.is_none() && extent.sizes.iter().any(can_halve) {
+                extent.sizes.iter_mut().filter(|size| can_halve(size)).for_each(|size| *size = size.map(|s| s / 2));
+            } else if counts > 2 {
+                extent.spps.pop();
+            } else {
+                break;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use etendue_render::{ChoiceBy, Technique};
+
+    #[test]
+    fn rates_are_those_of_the_images() {
+        let close = |rate: Rate, fixed: f64, sample: f64| {
+            assert!((rate.fixed - fixed).abs() < 1e-12 && (rate.sample - sample).abs() < 1e-12, "{rate:?}");
+        };
+        close(Rate::new(100.0, [(4.0, 0.9), (16.0, 2.1)]), 0.005, 0.001);
+        // the larger image took less time
+        close(Rate::new(100.0, [(4.0, 0.9), (16.0, 0.8)]), 0.0, 0.0005);
+    }
+
+    #[test]
+    fn what_is_not_asked_for_shrinks_until_it_fits() {
+        let key =
+            Key { scene: 0, technique: Technique::Area, choice: ChoiceBy::Auto, sampler: Sampler::Independent, spp: 0 };
+        let rates = HashMap::from([(key, Rate { fixed: 0.0, sample: 1e-6 })]);
+        let samplers = vec![Sampler::Independent];
+        let trial = Trial { rates, references: vec![None], samplers, lenses: vec![false] };
+        let parse = |line: &str| {
+            #[derive(clap::Parser)]
+            struct Line {
+                #[command(flatten)]
+                options: Options,
+            }
+            <Line as clap::Parser>::parse_from(line.split(' ')).options
+        };
+        let fitted = |line: &str, seconds: f64| {
+            let options = parse(line);
+            let mut extent = Extent {
+                spps: options.spps(),
+                replicates: options.replicates.unwrap_or(5),
+                sizes: vec![[256; 2]],
+                reference_spp: 4096,
+            };
+            trial.fit(&mut extent, &options, seconds);
+            let estimate = trial.estimate(&extent);
+            (extent.spps.last().copied().unwrap_or(0), extent.replicates, extent.sizes[0][0], estimate <= seconds)
+        };
+        // five images of 341 samples in each of 65,536 pixels take 112 s, and four of 16 samples another 4 s
+        assert_eq!(fitted("chart", 150.0), (256, 5, 256, true));
+        assert_eq!(fitted("chart", 120.0), (64, 5, 256, true));
+        assert_eq!(fitted("chart", 25.0), (64, 3, 256, true));
+        assert_eq!(fitted("chart", 7.0), (64, 3, 128, true));
+        assert_eq!(fitted("chart --size 256x256", 7.0), (4, 3, 256, true));
+        assert_eq!(fitted("chart --spp 1024 --replicates 5 --size 256x256", 6.0), (1024, 5, 256, false));
+    }
+}

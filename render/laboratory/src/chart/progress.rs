@@ -1,0 +1,30 @@
+//! Progress bars and durations.
+
+use indicatif::{ProgressBar, ProgressStyle};
+use std::error::Error;
+
+/// A progress bar, which draws nothing unless stderr is a terminal.
+pub(super) fn bar(total: u64, what: &str) -> Result<ProgressBar, Box<dyn Error>> {
+    let style = ProgressStyle::with_template("{msg} {wide_bar} {percent:>3} %  {elapsed}, {eta} left")?;
+    Ok(ProgressBar::new(total).with_style(style).with_message(what.to_owned()))
+}
+
+/// A number of seconds in words, such as `4 min 10 s`.
+pub(super) fn duration(seconds: f64) -> String {
+    let whole = seconds.round() as u64;
+    match whole {
+        0..60 => format!("{} s", whole.max(1)),
+        60..3600 => format!("{} min {} s", whole / 60, whole % 60),
+        _ => format!("{} h {} min", whole / 3600, whole % 3600 / 60),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn durations_are_in_words() {
+        assert_eq!([0.2, 59.4, 250.0, 4800.0].map(duration), ["1 s", "59 s", "4 min 10 s", "1 h 20 min"]);
+    }
+}
