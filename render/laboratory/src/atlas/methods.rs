@@ -65,8 +65,11 @@ pub struct Method {
     /// Whether it belongs to the library; otherwise it is a baseline.
     pub ours: bool,
     /// Prepares for a pose and draws samples.
-    pub run: fn(&Pose, &mut Draw<'_>),
+    pub run: Run,
 }
+
+/// Prepares for a pose and draws samples.
+type Run = fn(&Pose, &mut Draw<'_>);
 
 type V = [f32; 3];
 
@@ -119,46 +122,129 @@ fn hexagon(pose: &Pose) -> [[V; 3]; 4] {
 }
 const ORIGIN: Vec3<f32> = Vec3 { x: 0.0, y: 0.0, z: 0.0 };
 
+fn ours(name: &'static str, run: Run) -> Method {
+    Method { name, ours: true, run }
+}
+fn textbook(name: &'static str, run: Run) -> Method {
+    Method { name, ours: false, run }
+}
+
 /// The techniques for a kind of shape: by (projected) solid angle, then by area, then textbook formulas.
 #[must_use]
 pub fn methods(kind: ShapeKind) -> Vec<Method> {
-    let ours = |name, run| Method { name, ours: true, run };
-    let textbook = |name, run| Method { name, ours: false, run };
-    let sphere_area = ours("by area", |pose, draw| {
-        let (center, radius, _) = sphere(pose);
-        let light = Sphere { center: vector(center), radius };
-        draw.light(|u| light.by_area(ORIGIN).sample(u));
-    });
-    let area = ours("by area", |pose, draw| {
-        let (p, u, v) = flat(pose);
-        let light = Parallelogram { corner: vector(p), edge_s: vector(u), edge_t: vector(v) };
-        draw.light(|u| light.by_area(ORIGIN).sample(u));
-    });
-    let triangle_area = ours("by area", |pose, draw| {
-        let (p, u, v) = flat(pose);
-        let light = Triangle { v0: vector(p), e1: vector(u), e2: vector(v) };
-        draw.light(|u| light.by_area(ORIGIN).sample(u));
-    });
-    let polygon_area = ours("by area", |pose, draw| {
-        let light = Polygon { corners: corners(pose).map(vector) };
-        draw.light(|u| light.by_area(ORIGIN).sample(u));
-    });
-    let length = ours("by area", |pose, draw| {
-        let light = line(pose);
-        draw.each(|u, _| {
-            let LightSample { direction: w, distance, pdf, .. } = light.by_length(ORIGIN).sample(Vec2::new(u[0], 0.0));
-            // per radian in the plane of point and line
-            let density = if pdf > 0.0 { pdf / distance } else { 0.0 };
-            Sample { by_area: true, weight: pdf, ..Sample::new([w.x, w.y, w.z], density, None) }
-        });
-    });
+    let textbooks = if kind.projected() { textbooks_projected(kind) } else { textbooks(kind) };
+    [own(kind), ours("by area", by_area(kind))].into_iter().chain(textbooks).collect()
+}
+
+/// Samples uniform over the area, or over the length of a line.
+fn by_area(kind: ShapeKind) -> Run {
+    match kind {
+        ShapeKind::Sphere | ShapeKind::ProjectedSphere => |pose, draw| {
+            let (center, radius, _) = sphere(pose);
+            let light = Sphere { center: vector(center), radius };
+            draw.light(|u| light.by_area(ORIGIN).sample(u));
+        },
+        ShapeKind::Parallelogram | ShapeKind::Rectangle | ShapeKind::ProjectedParallelogram => |pose, draw| {
+            let (p, u, v) = flat(pose);
+            let light = Parallelogram { corner: vector(p), edge_s: vector(u), edge_t: vector(v) };
+            draw.light(|u| light.by_area(ORIGIN).sample(u));
+        },
+        ShapeKind::Triangle | ShapeKind::ProjectedTriangle => |pose, draw| {
+            let (p, u, v) = flat(pose);
+            let light = Triangle { v0: vector(p), e1: vector(u), e2: vector(v) };
+            draw.light(|u| light.by_area(ORIGIN).sample(u));
+        },
+        ShapeKind::Polygon | ShapeKind::ProjectedPolygon => |pose, draw| {
+            let light = Polygon { corners: corners(pose).map(vector) };
+            draw.light(|u| light.by_area(ORIGIN).sample(u));
+        },
+        ShapeKind::Segment | ShapeKind::ProjectedSegment => |pose, draw| {
+            let light = line(pose);
+            draw.each(|u, _| {
+                let LightSample { direction: w, distance, pdf, .. } =
+                    light.by_length(ORIGIN).sample(Vec2::new(u[0], 0.0));
+                // per radian in the plane of point and line
+                let density = if pdf > 0.0 { pdf / distance } else { 0.0 };
+                Sample { by_area: true, weight: pdf, ..Sample::new([w.x, w.y, w.z], density, None) }
+            });
+        },
+        ShapeKind::Disk => |pose, draw| {
+            let (center, normal, radius) = disk(pose);
+            let light = Disk { center: vector(center), normal: vector(normal), radius };
+            draw.light(|u| light.by_area(ORIGIN).sample(u));
+        },
+    }
+}
+
+/// The technique of the library by (projected) solid angle.
+fn own(kind: ShapeKind) -> Method {
+    match kind {
+        ShapeKind::Sphere => ours("SphericalCap", |pose, draw| {
+            let (center, radius, _) = sphere(pose);
+            draw.warp(&SphericalCap::new(vector(center), radius));
+        }),
+        ShapeKind::ProjectedSphere => ours("ProjectedCap", |pose, draw| {
+            let (center, radius, normal) = sphere(pose);
+            let map = ProjectedCap::new(vector(center), radius, vector(normal));
+            draw.projected(&map, |cos| map.pdf_at_cosine(cos), vector(normal));
+        }),
+        ShapeKind::Triangle => ours("SphericalTriangle", |pose, draw| {
+            let (p, u, v) = flat(pose);
+            let (p, u, v) = (vector(p), vector(u), vector(v));
+            draw.warp(&SphericalTriangle::with_edges(p, p + u, p + v, u, v));
+        }),
+        ShapeKind::Parallelogram => ours("SphericalParallelogram", |pose, draw| {
+            let (p, u, v) = flat(pose);
+            draw.warp(&SphericalParallelogram::new(vector(p), vector(u), vector(v)));
+        }),
+        ShapeKind::Rectangle => ours("SphericalRectangle", |pose, draw| {
+            let (p, u, v) = flat(pose);
+            draw.warp(&SphericalRectangle::new(vector(p), vector(u), vector(v)));
+        }),
+        ShapeKind::Polygon => ours("SphericalPolygon", |pose, draw| {
+            draw.warp(&SphericalPolygon::new(corners(pose).map(vector)));
+        }),
+        ShapeKind::Disk => ours("SphericalDisk", |pose, draw| {
+            let (center, normal, radius) = disk(pose);
+            draw.warp(&SphericalDisk::new(vector(center), vector(normal), radius));
+        }),
+        ShapeKind::Segment => ours("SphericalSegment", |pose, draw| {
+            let (a, edge) = segment(pose);
+            let map = SphericalSegment::new(vector(a), vector(edge));
+            let weight = |u| line(pose).by_angle(ORIGIN).sample(Vec2::new(u, 0.0)).pdf;
+            draw.line(|u| map.sample(u), |w| map.pdf(w), |w| map.invert(w), weight);
+        }),
+        ShapeKind::ProjectedTriangle => ours("ProjectedTriangle", |pose, draw| {
+            let (p, u, v) = flat(pose);
+            let (p, u, v, n) = (vector(p), vector(u), vector(v), vector(pose.normal));
+            let map = ProjectedTriangle::with_edges(p, p + u, p + v, u, v, n);
+            draw.projected(&map, |cos| map.pdf_at_cosine(cos), n);
+        }),
+        ShapeKind::ProjectedParallelogram => ours("ProjectedPolygon of 4", |pose, draw| {
+            let (p, u, v) = flat(pose);
+            let n = vector(pose.normal);
+            let map = ProjectedPolygon::parallelogram(vector(p), vector(u), vector(v), n);
+            draw.projected(&map, |cos| map.pdf_at_cosine(cos), n);
+        }),
+        ShapeKind::ProjectedPolygon => ours("ProjectedPolygon of 6", |pose, draw| {
+            let n = vector(pose.normal);
+            let map = ProjectedPolygon::new(corners(pose).map(vector), n);
+            draw.projected(&map, |cos| map.pdf_at_cosine(cos), n);
+        }),
+        ShapeKind::ProjectedSegment => ours("ProjectedSegment", |pose, draw| {
+            let (a, edge) = segment(pose);
+            let map = ProjectedSegment::new(vector(a), vector(edge), vector(pose.normal));
+            let weight =
+                |u| line(pose).by_projected_solid_angle(ORIGIN, vector(pose.normal)).sample(Vec2::new(u, 0.0)).pdf;
+            draw.line(|u| map.sample(u), |w| map.pdf(w), |w| map.invert(w), weight);
+        }),
+    }
+}
+
+/// Formulas for sampling by solid angle.
+fn textbooks(kind: ShapeKind) -> Vec<Method> {
     match kind {
         ShapeKind::Sphere => vec![
-            ours("SphericalCap", |pose, draw| {
-                let (center, radius, _) = sphere(pose);
-                draw.warp(&SphericalCap::new(vector(center), radius));
-            }),
-            sphere_area,
             textbook("cone, 1-cos naive", |pose, draw| {
                 let (center, radius, _) = sphere(pose);
                 textbook::cone(center, radius, false, draw);
@@ -168,31 +254,7 @@ pub fn methods(kind: ShapeKind) -> Vec<Method> {
                 textbook::cone(center, radius, true, draw);
             }),
         ],
-        ShapeKind::ProjectedSphere => vec![
-            ours("ProjectedCap", |pose, draw| {
-                let (center, radius, normal) = sphere(pose);
-                let map = ProjectedCap::new(vector(center), radius, vector(normal));
-                draw.projected(&map, |cos| map.pdf_at_cosine(cos), vector(normal));
-            }),
-            sphere_area,
-            textbook("closed form of the pdf", |pose, draw| {
-                let (center, radius, normal) = sphere(pose);
-                let projected = textbook::projected_cap(center, radius, normal);
-                let cap = ProjectedCap::new(vector(center), radius, vector(normal));
-                draw.each(|u, _| {
-                    let w = cap.sample(Vec2::new(u[0], u[1]));
-                    let cos = w.dot(vector(normal)).max(0.0);
-                    Sample::new([w.x, w.y, w.z], cos / projected, None)
-                });
-            }),
-        ],
         ShapeKind::Triangle => vec![
-            ours("SphericalTriangle", |pose, draw| {
-                let (p, u, v) = flat(pose);
-                let (p, u, v) = (vector(p), vector(u), vector(v));
-                draw.warp(&SphericalTriangle::with_edges(p, p + u, p + v, u, v));
-            }),
-            triangle_area,
             textbook("Arvo, angle excess", |pose, draw| {
                 let (p, u, v) = flat(pose);
                 textbook::fan([[p, add(p, u), add(p, v)]], Excess::Angles, draw);
@@ -207,20 +269,10 @@ pub fn methods(kind: ShapeKind) -> Vec<Method> {
             }),
         ],
         ShapeKind::Parallelogram => vec![
-            ours("SphericalParallelogram", |pose, draw| {
-                let (p, u, v) = flat(pose);
-                draw.warp(&SphericalParallelogram::new(vector(p), vector(u), vector(v)));
-            }),
-            area,
             textbook("Arvo ×2, angle excess", |pose, draw| textbook::fan(halves(pose), Excess::Angles, draw)),
             textbook("Van Oosterom ×2", |pose, draw| textbook::fan(halves(pose), Excess::Oosterom, draw)),
         ],
         ShapeKind::Rectangle => vec![
-            ours("SphericalRectangle", |pose, draw| {
-                let (p, u, v) = flat(pose);
-                draw.warp(&SphericalRectangle::new(vector(p), vector(u), vector(v)));
-            }),
-            area,
             textbook("Ureña 2013 as published", |pose, draw| {
                 let (p, u, v) = flat(pose);
                 textbook::urena(p, u, v, draw);
@@ -231,115 +283,73 @@ pub fn methods(kind: ShapeKind) -> Vec<Method> {
             }),
         ],
         ShapeKind::Polygon => vec![
-            ours("SphericalPolygon", |pose, draw| {
-                draw.warp(&SphericalPolygon::new(corners(pose).map(vector)));
-            }),
-            polygon_area,
             textbook("Arvo ×4, angle excess", |pose, draw| textbook::fan(hexagon(pose), Excess::Angles, draw)),
             textbook("Van Oosterom ×4", |pose, draw| textbook::fan(hexagon(pose), Excess::Oosterom, draw)),
         ],
-        ShapeKind::Disk => vec![
-            ours("SphericalDisk", |pose, draw| {
-                let (center, normal, radius) = disk(pose);
-                draw.warp(&SphericalDisk::new(vector(center), vector(normal), radius));
-            }),
-            ours("by area", |pose, draw| {
-                let (center, normal, radius) = disk(pose);
-                let light = Disk { center: vector(center), normal: vector(normal), radius };
-                draw.light(|u| light.by_area(ORIGIN).sample(u));
-            }),
-            textbook("Ω by arc cosines of the cone", |pose, draw| {
-                let (center, normal, radius) = disk(pose);
-                let map = SphericalDisk::new(vector(center), vector(normal), radius);
-                draw.with_density(&map, 1.0 / textbook::disk(center, normal, radius), None);
-            }),
-        ],
-        ShapeKind::Segment => vec![
-            ours("SphericalSegment", |pose, draw| {
-                let (a, edge) = segment(pose);
-                let map = SphericalSegment::new(vector(a), vector(edge));
-                let weight = |u| line(pose).by_angle(ORIGIN).sample(Vec2::new(u, 0.0)).pdf;
-                draw.line(|u| map.sample(u), |w| map.pdf(w), |w| map.invert(w), weight);
-            }),
-            length,
-            textbook("equiangular, by arc tangents", |pose, draw| {
-                let (a, edge) = segment(pose);
-                let map = textbook::Equiangular::new(a, edge);
-                let back = |v: Vec3<f32>| [v.x, v.y, v.z];
-                let weight = |u| map.pdf() * map.distance(u);
-                draw.line(|u| vector(map.sample(u)), |_| map.pdf(), |w| map.invert(back(w)), weight);
-            }),
-        ],
-        ShapeKind::ProjectedTriangle => vec![
-            ours("ProjectedTriangle", |pose, draw| {
-                let (p, u, v) = flat(pose);
-                let (p, u, v, n) = (vector(p), vector(u), vector(v), vector(pose.normal));
-                let map = ProjectedTriangle::with_edges(p, p + u, p + v, u, v, n);
-                draw.projected(&map, |cos| map.pdf_at_cosine(cos), n);
-            }),
-            triangle_area,
-            textbook("Lambert by arc cosines", |pose, draw| {
-                let (p, u, v) = flat(pose);
-                let corners = [p, add(p, u), add(p, v)];
-                let (p, u, v, n) = (vector(p), vector(u), vector(v), vector(pose.normal));
-                let map = ProjectedTriangle::with_edges(p, p + u, p + v, u, v, n);
-                draw.with_density(&map, 1.0 / textbook::lambert(&corners, pose.normal), Some(n));
-            }),
-        ],
-        ShapeKind::ProjectedParallelogram => vec![
-            ours("ProjectedPolygon of 4", |pose, draw| {
-                let (p, u, v) = flat(pose);
-                let n = vector(pose.normal);
-                let map = ProjectedPolygon::parallelogram(vector(p), vector(u), vector(v), n);
-                draw.projected(&map, |cos| map.pdf_at_cosine(cos), n);
-            }),
-            area,
-            textbook("Lambert by arc cosines", |pose, draw| {
-                let (p, u, v) = flat(pose);
-                let corners = [p, add(p, u), add(add(p, u), v), add(p, v)];
-                let n = vector(pose.normal);
-                let map = ProjectedPolygon::parallelogram(vector(p), vector(u), vector(v), n);
-                draw.with_density(&map, 1.0 / textbook::lambert(&corners, pose.normal), Some(n));
-            }),
-        ],
-        ShapeKind::ProjectedPolygon => vec![
-            ours("ProjectedPolygon of 6", |pose, draw| {
-                let n = vector(pose.normal);
-                let map = ProjectedPolygon::new(corners(pose).map(vector), n);
-                draw.projected(&map, |cos| map.pdf_at_cosine(cos), n);
-            }),
-            polygon_area,
-            textbook("Lambert by arc cosines", |pose, draw| {
-                let n = vector(pose.normal);
-                let map = ProjectedPolygon::new(corners(pose).map(vector), n);
-                draw.with_density(&map, 1.0 / textbook::lambert(&corners(pose), pose.normal), Some(n));
-            }),
-        ],
-        ShapeKind::ProjectedSegment => vec![
-            ours("ProjectedSegment", |pose, draw| {
-                let (a, edge) = segment(pose);
-                let map = ProjectedSegment::new(vector(a), vector(edge), vector(pose.normal));
-                let weight =
-                    |u| line(pose).by_projected_solid_angle(ORIGIN, vector(pose.normal)).sample(Vec2::new(u, 0.0)).pdf;
-                draw.line(|u| map.sample(u), |w| map.pdf(w), |w| map.invert(w), weight);
-            }),
-            length,
-            textbook("pdf by closed-form integral", |pose, draw| {
-                let (a, edge) = segment(pose);
-                let map = ProjectedSegment::new(vector(a), vector(edge), vector(pose.normal));
-                let whole = textbook::projected_segment(a, edge, pose.normal);
-                let (along, n) = (vector(edge), vector(pose.normal));
-                let along = along * (1.0 / along.length());
-                let pdf = |w: Vec3<f32>| {
-                    let cos = w.dot(along);
-                    (1.0 - cos * cos).max(0.0).sqrt() * w.dot(n).max(0.0) / whole
-                };
-                draw.each(|u, _| {
-                    let DirectionSample { direction: w, distance } = map.sample_direction(u[0]);
-                    let pdf = pdf(w);
-                    Sample { weight: pdf * distance, ..Sample::new([w.x, w.y, w.z], pdf, None) }
-                });
-            }),
-        ],
+        ShapeKind::Disk => vec![textbook("Ω by arc cosines of the cone", |pose, draw| {
+            let (center, normal, radius) = disk(pose);
+            let map = SphericalDisk::new(vector(center), vector(normal), radius);
+            draw.with_density(&map, 1.0 / textbook::disk(center, normal, radius), None);
+        })],
+        ShapeKind::Segment => vec![textbook("equiangular, by arc tangents", |pose, draw| {
+            let (a, edge) = segment(pose);
+            let map = textbook::Equiangular::new(a, edge);
+            let back = |v: Vec3<f32>| [v.x, v.y, v.z];
+            let weight = |u| map.pdf() * map.distance(u);
+            draw.line(|u| vector(map.sample(u)), |_| map.pdf(), |w| map.invert(back(w)), weight);
+        })],
+        _ => Vec::new(),
+    }
+}
+
+/// Formulas for sampling by projected solid angle.
+fn textbooks_projected(kind: ShapeKind) -> Vec<Method> {
+    match kind {
+        ShapeKind::ProjectedSphere => vec![textbook("closed form of the pdf", |pose, draw| {
+            let (center, radius, normal) = sphere(pose);
+            let projected = textbook::projected_cap(center, radius, normal);
+            let cap = ProjectedCap::new(vector(center), radius, vector(normal));
+            draw.each(|u, _| {
+                let w = cap.sample(Vec2::new(u[0], u[1]));
+                let cos = w.dot(vector(normal)).max(0.0);
+                Sample::new([w.x, w.y, w.z], cos / projected, None)
+            });
+        })],
+        ShapeKind::ProjectedTriangle => vec![textbook("Lambert by arc cosines", |pose, draw| {
+            let (p, u, v) = flat(pose);
+            let corners = [p, add(p, u), add(p, v)];
+            let (p, u, v, n) = (vector(p), vector(u), vector(v), vector(pose.normal));
+            let map = ProjectedTriangle::with_edges(p, p + u, p + v, u, v, n);
+            draw.with_density(&map, 1.0 / textbook::lambert(&corners, pose.normal), Some(n));
+        })],
+        ShapeKind::ProjectedParallelogram => vec![textbook("Lambert by arc cosines", |pose, draw| {
+            let (p, u, v) = flat(pose);
+            let corners = [p, add(p, u), add(add(p, u), v), add(p, v)];
+            let n = vector(pose.normal);
+            let map = ProjectedPolygon::parallelogram(vector(p), vector(u), vector(v), n);
+            draw.with_density(&map, 1.0 / textbook::lambert(&corners, pose.normal), Some(n));
+        })],
+        ShapeKind::ProjectedPolygon => vec![textbook("Lambert by arc cosines", |pose, draw| {
+            let n = vector(pose.normal);
+            let map = ProjectedPolygon::new(corners(pose).map(vector), n);
+            draw.with_density(&map, 1.0 / textbook::lambert(&corners(pose), pose.normal), Some(n));
+        })],
+        ShapeKind::ProjectedSegment => vec![textbook("pdf by closed-form integral", |pose, draw| {
+            let (a, edge) = segment(pose);
+            let map = ProjectedSegment::new(vector(a), vector(edge), vector(pose.normal));
+            let whole = textbook::projected_segment(a, edge, pose.normal);
+            let (along, n) = (vector(edge), vector(pose.normal));
+            let along = along * (1.0 / along.length());
+            let pdf = |w: Vec3<f32>| {
+                let cos = w.dot(along);
+                (1.0 - cos * cos).max(0.0).sqrt() * w.dot(n).max(0.0) / whole
+            };
+            draw.each(|u, _| {
+                let DirectionSample { direction: w, distance } = map.sample_direction(u[0]);
+                let pdf = pdf(w);
+                Sample { weight: pdf * distance, ..Sample::new([w.x, w.y, w.z], pdf, None) }
+            });
+        })],
+        _ => Vec::new(),
     }
 }

@@ -209,36 +209,41 @@ fn cuts() -> Vec<Tick> {
     all
 }
 
+/// The sweeps of spheres, with so many steps per decade.
+fn round_sweeps(fine: i32) -> Vec<Sweep> {
+    // up to the surface, and inside
+    let mut x = powers(-9, -1, fine);
+    x.extend([named(0.3, ""), named(0.7, ""), named(0.9, "0.9")]);
+    x.extend((2..=7).map(|k| named(1.0 - 0.1_f64.powi(k), if k == 7 { "1-1e-7" } else { "" })));
+    x.extend([named(1.0, "1"), named(1.0 + 1e-6, ""), named(1.1, ""), named(1e3, "1e3")]);
+    vec![
+        Sweep {
+            name: "size-elevation",
+            title: "size × elevation of the centre above the horizon",
+            x_title: "radius / distance",
+            y_title: "sine of elevation",
+            x: x.clone(),
+            y: elevations(fine),
+            axes: Axes::Elevation,
+        },
+        Sweep {
+            name: "size-horizon",
+            title: "size × elevation in units of the size: where the horizon cuts",
+            x_title: "radius / distance",
+            y_title: "sine of elevation / (radius/distance)",
+            x: x.into_iter().filter(|t| t.value < 1.0).collect(),
+            y: cuts(),
+            axes: Axes::Horizon,
+        },
+    ]
+}
+
 /// The sweeps of a kind; coarse if `quick`.
 #[must_use]
 pub fn sweeps(kind: ShapeKind, quick: bool) -> Vec<Sweep> {
     let fine = if quick { 1 } else { 2 };
     if kind.round() {
-        // up to the surface, and inside
-        let mut x = powers(-9, -1, fine);
-        x.extend([named(0.3, ""), named(0.7, ""), named(0.9, "0.9")]);
-        x.extend((2..=7).map(|k| named(1.0 - 0.1_f64.powi(k), if k == 7 { "1-1e-7" } else { "" })));
-        x.extend([named(1.0, "1"), named(1.0 + 1e-6, ""), named(1.1, ""), named(1e3, "1e3")]);
-        return vec![
-            Sweep {
-                name: "size-elevation",
-                title: "size × elevation of the centre above the horizon",
-                x_title: "radius / distance",
-                y_title: "sine of elevation",
-                x: x.clone(),
-                y: elevations(fine),
-                axes: Axes::Elevation,
-            },
-            Sweep {
-                name: "size-horizon",
-                title: "size × elevation in units of the size: where the horizon cuts",
-                x_title: "radius / distance",
-                y_title: "sine of elevation / (radius/distance)",
-                x: x.into_iter().filter(|t| t.value < 1.0).collect(),
-                y: cuts(),
-                axes: Axes::Horizon,
-            },
-        ];
+        return round_sweeps(fine);
     }
     let mut list = vec![Sweep {
         name: "size-elevation",

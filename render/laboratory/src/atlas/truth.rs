@@ -48,6 +48,48 @@ fn between(a: Dd3, b: Dd3) -> f64 {
     length(cross(a, b)).to_f64().atan2(dot(a, b).to_f64())
 }
 
+fn vector(v: V3) -> Vec3<f64> {
+    Vec3::new(v[0], v[1], v[2])
+}
+
+/// The map of a triangle or parallelogram by a corner and two edges, its measure and its extent.
+fn flat(kind: ShapeKind, shape: [V3; 3], normal: V3) -> (Map, f64, f64) {
+    let (wide_normal, n) = (vector(normal), dd(normal));
+    let [pw, uw, vw] = shape.map(vector);
+    let [p, u, v] = shape.map(dd);
+    let minus = |a: Dd3| a.map(|x| -x);
+    let (pu, puv, pv) = (add(p, u), add(add(p, u), v), add(p, v));
+    match kind {
+        ShapeKind::Rectangle => {
+            let window = Window::new(p, u, v);
+            let measure = window.solid_angle;
+            (Map::Window(window), measure, widest(&[p, pu, puv, pv]))
+        }
+        ShapeKind::Triangle => {
+            let fan = Fan::new(p, u, v);
+            let measure = fan.solid_angle();
+            (Map::Fans(vec![fan]), measure, widest(&[p, pu, pv]))
+        }
+        ShapeKind::ProjectedTriangle => {
+            let body = ProjectedTriangle::with_edges(pw, pw + uw, pw + vw, uw, vw, wide_normal);
+            let corners = [p, pu, pv];
+            let measure = facing(&corners, n);
+            (Map::Triangle(Box::new(body)), measure, widest(&corners))
+        }
+        ShapeKind::ProjectedParallelogram => {
+            let body = ProjectedPolygon::parallelogram(pw, uw, vw, wide_normal);
+            let corners = [p, pu, puv, pv];
+            let measure = facing(&corners, n);
+            (Map::Quad(Box::new(body)), measure, widest(&corners))
+        }
+        _ => {
+            let fans = vec![Fan::new(pu, minus(u), v), Fan::new(puv, minus(add(u, v)), minus(u))];
+            let measure = fans.iter().map(Fan::solid_angle).sum();
+            (Map::Fans(fans), measure, widest(&[p, pu, puv, pv]))
+        }
+    }
+}
+
 impl Truth {
     /// The exact results for a kind of shape in a pose.
     #[must_use]
@@ -55,7 +97,6 @@ impl Truth {
         let projected = kind.projected();
         let normal = unit(wide(pose.normal));
         let n = dd(wide(pose.normal));
-        let vector = |v: V3| Vec3::new(v[0], v[1], v[2]);
         let (map, measure, extent) = match &pose.shape {
             Shape::Sphere { center, radius } => {
                 let (c, r) = (wide(*center), f64::from(*radius));
@@ -84,62 +125,18 @@ impl Truth {
                 let (measure, extent) = if projected { (arc.whole, arc.angle) } else { (arc.angle, arc.angle) };
                 (if projected { Map::Surface(arc) } else { Map::Line(arc) }, measure, extent)
             }
-            Shape::Flat { p, u, v } => {
-                let wide_normal = vector(wide(pose.normal));
-                let (pw, uw, vw) = (vector(wide(*p)), vector(wide(*u)), vector(wide(*v)));
-                let (p, u, v) = (dd(wide(*p)), dd(wide(*u)), dd(wide(*v)));
-                let minus = |a: Dd3| a.map(|x| -x);
-                let (pu, puv, pv) = (add(p, u), add(add(p, u), v), add(p, v));
-                match kind {
-                    ShapeKind::Rectangle => {
-                        let window = Window::new(p, u, v);
-                        let measure = window.solid_angle;
-                        (Map::Window(window), measure, widest(&[p, pu, puv, pv]))
-                    }
-                    ShapeKind::Triangle => {
-                        let fan = Fan::new(p, u, v);
-                        let measure = fan.solid_angle();
-                        (Map::Fans(vec![fan]), measure, widest(&[p, pu, pv]))
-                    }
-                    ShapeKind::ProjectedTriangle => {
-                        let body = ProjectedTriangle::with_edges(pw, pw + uw, pw + vw, uw, vw, wide_normal);
-                        let corners = [p, pu, pv];
-                        let measure = facing(&corners, n);
-                        (Map::Triangle(Box::new(body)), measure, widest(&corners))
-                    }
-                    ShapeKind::ProjectedParallelogram => {
-                        let body = ProjectedPolygon::parallelogram(pw, uw, vw, wide_normal);
-                        let corners = [p, pu, puv, pv];
-                        let measure = facing(&corners, n);
-                        (Map::Quad(Box::new(body)), measure, widest(&corners))
-                    }
-                    _ => {
-                        let fans = vec![Fan::new(pu, minus(u), v), Fan::new(puv, minus(add(u, v)), minus(u))];
-                        let measure = fans.iter().map(Fan::solid_angle).sum();
-                        (Map::Fans(fans), measure, widest(&[p, pu, puv, pv]))
-                    }
-                }
-            }
+            Shape::Flat { p, u, v } => flat(kind, [*p, *u, *v].map(wide), wide(pose.normal)),
             Shape::Corners(corners) => {
                 let c = corners.map(|c| dd(wide(c)));
                 if projected {
                     let body = ProjectedPolygon::new(corners.map(|c| vector(wide(c))), vector(wide(pose.normal)));
-                    let measure = facing(&c, n);
-                    return Self {
-                        map: Map::Hexagon(Box::new(body)),
-                        measure,
-                        extent: widest(&c),
-                        defined: convex(&c),
-                        projected,
-                        normal,
-                        shape: pose.shape.clone(),
-                        kind,
-                    };
+                    (Map::Hexagon(Box::new(body)), facing(&c, n), widest(&c))
+                } else {
+                    let edge = |from: Dd3, to: Dd3| add(to, from.map(|x| -x));
+                    let fans: Vec<_> = (1..5).map(|i| Fan::new(c[i], edge(c[i], c[0]), edge(c[i], c[i + 1]))).collect();
+                    let measure = fans.iter().map(Fan::solid_angle).sum();
+                    (Map::Fans(fans), measure, widest(&c))
                 }
-                let edge = |from: Dd3, to: Dd3| add(to, from.map(|x| -x));
-                let fans: Vec<_> = (1..5).map(|i| Fan::new(c[i], edge(c[i], c[0]), edge(c[i], c[i + 1]))).collect();
-                let measure = fans.iter().map(Fan::solid_angle).sum();
-                (Map::Fans(fans), measure, widest(&c))
             }
         };
         let defined = match &pose.shape {

@@ -8,7 +8,7 @@ use etendue_oracle::direct::{
 use etendue_oracle::{V3, along, basis, cross, dot, sub, unit, wide};
 use etendue_render::light_picture::LightPicture;
 use etendue_render::scene::{
-    self, CameraSettings, Geometry, Instance, Material, Parallelogram, Scene, Sphere, Varying,
+    self, CameraSettings, Geometry, Instance, Material, Parallelogram, Scene, Shape, Sphere, Varying,
 };
 use etendue_render::texture::{self, Colors, Mapping, Texture, Wrap};
 use std::collections::HashMap;
@@ -81,10 +81,9 @@ fn pixels(picture: &texture::Picture, channel: usize) -> Picture {
     }
 }
 
-/// The bodies of a scene.
-#[must_use]
-pub fn bodies(scene: &Scene) -> Vec<Body> {
-    let finish = |index: u32| match scene.materials[index as usize] {
+/// What a material reflects.
+fn finish(scene: &Scene, index: u32) -> Finish {
+    match scene.materials[index as usize] {
         Material::Diffuse(albedo) => Finish::Diffuse(albedo[CHANNEL].into()),
         Material::Mirror(reflectance) => Finish::Mirror(reflectance[CHANNEL].into()),
         Material::Conductor { eta, k, roughness } => {
@@ -105,7 +104,15 @@ pub fn bodies(scene: &Scene) -> Vec<Body> {
             } => Finish::Coat { albedo: 0.0, reflectance: specular[CHANNEL].into(), alpha: (*alpha).into() },
             _ => unreachable!("no such material is drawn"),
         },
-    };
+    }
+}
+
+fn triangle([corner, b, c]: [V3; 3]) -> Form {
+    Form::Flat { corner, edges: [sub(b, corner), sub(c, corner)], is_triangle: true }
+}
+
+/// The triangles of meshes and their instances.
+fn meshes(scene: &Scene) -> Vec<Body> {
     let albedos = scene.varying.iter().map(|varying| match varying {
         Varying::Diffuse(albedo) | Varying::Glossy { diffuse: albedo, .. } => Arc::new(pattern(albedo, CHANNEL)),
         Varying::Metallic { .. } => unreachable!("no such material is drawn"),
@@ -116,8 +123,6 @@ pub fn bodies(scene: &Scene) -> Vec<Body> {
         least: mask.least.map(f64::from),
     };
     let opacities: HashMap<u32, Opacity> = scene.masks.iter().map(|(of, mask)| (*of, opacity(mask))).collect();
-    let triangle =
-        |[corner, b, c]: [V3; 3]| Form::Flat { corner, edges: [sub(b, corner), sub(c, corner)], is_triangle: true };
     let mesh = |index: usize, map: Option<&Map>| {
         let material = scene.triangle_materials[index];
         let corners = scene.triangles[index].map(wide);
@@ -134,7 +139,7 @@ pub fn bodies(scene: &Scene) -> Vec<Body> {
             Arc::new(Detail { uvs, normals: normals.map(moved), albedo, opacity, glow: None })
         });
         let form = triangle(corners.map(|p| map.map_or(p, |map| map.point(p))));
-        Body { form, finish: finish(material), emission: None, detail }
+        Body { form, finish: finish(scene, material), emission: None, detail }
     };
     let own = scene.objects.first().map_or(scene.triangles.len(), |range| range.start);
     let instances = scene.instances.iter().flat_map(|instance| {
@@ -142,7 +147,11 @@ pub fn bodies(scene: &Scene) -> Vec<Body> {
         scene.objects[instance.object as usize].clone().map(move |index| (index, Some(map)))
     });
     let meshes = (0..own).map(|index| (index, None)).chain(instances);
-    let meshes = meshes.map(|(index, map)| mesh(index, map.as_ref()));
+    meshes.map(|(index, map)| mesh(index, map.as_ref())).collect()
+}
+
+/// Spheres, and what emits.
+fn shapes(scene: &Scene) -> Vec<Body> {
     let glow = |emission: &scene::Emission| Some(&scene.pictures[emission.picture? as usize]);
     // by the coordinates along the edges
     let shown = |of: &LightPicture| Detail {
@@ -152,7 +161,7 @@ pub fn bodies(scene: &Scene) -> Vec<Body> {
         opacity: None,
         glow: Some(Arc::new(Pattern::Picture(pixels(&of.picture, CHANNEL)))),
     };
-    let shapes = scene.shapes.iter().map(|shape| Body {
+    let body = |shape: &Shape| Body {
         form: match shape.geometry {
             Geometry::Sphere(Sphere { center, radius }) => Form::Sphere { center: wide(center), radius: radius.into() },
             Geometry::Triangle(corners) => triangle(corners.map(wide)),
@@ -161,14 +170,20 @@ pub fn bodies(scene: &Scene) -> Vec<Body> {
             }
             ref other => unreachable!("no draft as it is meant has {other:?}"),
         },
-        finish: finish(shape.material),
+        finish: finish(scene, shape.material),
         emission: shape.emission.map(|emission| Emission {
             radiance: glow(&emission).map_or(emission.radiance, |of| of.factor)[CHANNEL].into(),
             two_sided: emission.two_sided,
         }),
         detail: shape.emission.as_ref().and_then(glow).map(|of| Arc::new(shown(of))),
-    });
-    meshes.chain(shapes).filter(has_area).collect()
+    };
+    scene.shapes.iter().map(body).collect()
+}
+
+/// The bodies of a scene.
+#[must_use]
+pub fn bodies(scene: &Scene) -> Vec<Body> {
+    meshes(scene).into_iter().chain(shapes(scene)).filter(has_area).collect()
 }
 
 /// Gives the bodies of a draft's scene the normals that the draft has, which the scene's reader may have turned.

@@ -307,6 +307,15 @@ fn unseen(mean: f64, greatest: f64, samples: f64) -> f64 {
     if few < FEW { few * (greatest / samples).powi(2) } else { 0.0 }
 }
 
+/// What a block differs by beyond the tolerance and `slack`, in standard errors; and by more than three of these, relative to `scale`.
+fn score(difference: f64, scale: f64, slack: f64, error: f64) -> [f64; 2] {
+    let beyond = (difference.abs() - TOLERANCE * scale - slack).max(0.0);
+    let z = if beyond > 0.0 { beyond / error.max(1e-9 * scale) * difference.signum() } else { 0.0 };
+    let relative = (difference.abs() - 3.0 * error).max(0.0).copysign(difference) / scale;
+    [if difference.is_nan() { f64::NAN } else { z }, relative]
+}
+
+/// Compares an image with the oracle's.
 fn compare(
     [technique, chosen]: [Technique; 2],
     image: &[[f64; 2]],
@@ -318,20 +327,16 @@ fn compare(
     let samples = f64::from(effort.block).powi(2) * f64::from(effort.spp);
     let total: f64 = truth.iter().map(|block| block.unoccluded).sum();
     for (([mean, variance], block), slack) in image.iter().zip(truth).zip(slack) {
-        let difference = mean - block.mean;
         // a block that hardly receives light is judged by the light of the image
         let scale = block.unoccluded.max(1e-3 * total / truth.len() as f64).max(f64::MIN_POSITIVE);
-        let beyond = (difference.abs() - TOLERANCE * scale - slack).max(0.0);
         // samples may all miss the little that is seen of a light, and a shadow that is rarely met; closed forms meet every shadow
         let lit = unseen(block.mean, scale.max(block.greatest), samples);
         let is_sampled = chosen != Technique::Analytic || *variance == 0.0;
         let hidden = if is_sampled { unseen((scale - block.mean).max(0.0), scale, samples) } else { 0.0 };
         let error = (variance.max(lit + hidden) + block.error * block.error).sqrt();
-        z.push(if beyond > 0.0 { beyond / error.max(1e-9 * scale) * difference.signum() } else { 0.0 });
-        relative.push((difference.abs() - 3.0 * error).max(0.0).copysign(difference) / scale);
-        if difference.is_nan() {
-            *z.last_mut().unwrap_or(&mut 0.0) = f64::NAN;
-        }
+        let scores = score(mean - block.mean, scale, *slack, error);
+        z.push(scores[0]);
+        relative.push(scores[1]);
     }
     let sum: f64 = image.iter().map(|block| block[0]).sum();
     let expected: f64 = truth.iter().map(|block| block.mean).sum();
@@ -351,12 +356,10 @@ fn compare_sum([technique, chosen]: [Technique; 2], image: &[[f64; 2]], sum: &[[
     let (mut z, mut relative) = (Vec::new(), Vec::new());
     let slack = slack.iter().copied().chain(std::iter::repeat(0.0));
     for (([mean, variance], [expected, of_sum]), slack) in image.iter().zip(sum).zip(slack) {
-        let difference = mean - expected;
         let scale = expected.max(1e-3 * all(sum) / sum.len() as f64).max(f64::MIN_POSITIVE);
-        let (beyond, error) = ((difference.abs() - TOLERANCE * scale - slack).max(0.0), (variance + of_sum).sqrt());
-        let score = if beyond > 0.0 { beyond / error.max(1e-9 * scale) * difference.signum() } else { 0.0 };
-        z.push(if difference.is_nan() { f64::NAN } else { score });
-        relative.push((difference.abs() - 3.0 * error).max(0.0).copysign(difference) / scale);
+        let scores = score(mean - expected, scale, slack, (variance + of_sum).sqrt());
+        z.push(scores[0]);
+        relative.push(scores[1]);
     }
     let mean = if all(sum) > 0.0 { all(image) / all(sum) - 1.0 } else { 0.0 };
     Row { against: Against::Sum, technique, chosen, z, relative, mean }

@@ -6,131 +6,138 @@ use super::skin::Skin;
 /// Greatest number of scenes that are tried.
 const MOST: usize = 400;
 
+/// The smallest scene that failed so far.
+struct Search<F> {
+    best: Draft,
+    tried: usize,
+    fails: F,
+}
+
+impl<F: Fn(&Draft) -> bool> Search<F> {
+    /// Keeps a change if the scene still fails; returns whether it did.
+    fn try_to(&mut self, change: impl FnOnce(&mut Draft)) -> bool {
+        let mut candidate = self.best.clone();
+        change(&mut candidate);
+        if candidate == self.best || self.tried == MOST {
+            return false;
+        }
+        self.tried += 1;
+        let better = (self.fails)(&candidate);
+        if better {
+            self.best = candidate;
+        }
+        better
+    }
+
+    /// Leaves out parts and lights.
+    fn remove(&mut self) {
+        for index in (0..self.best.parts.len()).rev() {
+            self.try_to(|draft| _ = draft.parts.remove(index));
+        }
+        for index in (0..self.best.sources.len()).rev() {
+            self.try_to(|draft| _ = draft.sources.remove(index));
+        }
+    }
+
+    /// Leaves out what varies over lights.
+    fn simplify_sources(&mut self) {
+        let bare: [fn(&mut Source); 5] = [
+            |source| source.map = None,
+            |source| source.measure.scale = None,
+            |source| source.measure.wanted = None,
+            |source| source.picture = None,
+            |source| source.strength = 1.0,
+        ];
+        for index in 0..self.best.sources.len() {
+            for bare in bare {
+                self.try_to(|draft| bare(&mut draft.sources[index]));
+            }
+        }
+    }
+
+    /// Leaves out what varies over parts, and copies.
+    fn simplify_parts(&mut self) {
+        let of_glow: [fn(&mut Part, &mut Glow); 5] = [
+            |part, _| part.place = None,
+            |part, _| part.place.iter_mut().for_each(|place| place.is_reversed = false),
+            |_, glow| glow.measure.scale = None,
+            |_, glow| glow.measure.wanted = None,
+            |_, glow| glow.two_sided = false,
+        ];
+        let of_skin: [fn(&mut Skin); 5] = [
+            |skin| skin.glow = None,
+            |skin| skin.albedo = None,
+            |skin| skin.opacity = None,
+            |skin| skin.bend = None,
+            |skin| *skin = Skin::default(),
+        ];
+        for index in 0..self.best.parts.len() {
+            for bare in of_glow {
+                if let Some(mut glow) = self.best.parts[index].glow {
+                    self.try_to(|draft| {
+                        bare(&mut draft.parts[index], &mut glow);
+                        draft.parts[index].glow = Some(glow);
+                    });
+                }
+            }
+            for bare in of_skin {
+                self.try_to(|draft| bare(&mut draft.parts[index].skin));
+            }
+            // the last copy stays, since the triangles are elsewhere without it
+            for copy in (0..self.best.parts[index].copies.len()).rev() {
+                if self.best.parts[index].copies.len() > 1 {
+                    self.try_to(|draft| _ = draft.parts[index].copies.remove(copy));
+                }
+            }
+        }
+    }
+
+    /// Leaves out halves of a mesh, then smaller pieces, down to triangles.
+    fn thin_out(&mut self, index: usize) {
+        let count = |draft: &Draft| draft.parts[index].form.triangles().len();
+        let mut step = count(&self.best).div_ceil(2);
+        while step > 0 {
+            let mut start = 0;
+            while start < count(&self.best) && count(&self.best) > step {
+                let is_smaller = self.try_to(|draft| {
+                    if let Form::Mesh(triangles) = &mut draft.parts[index].form {
+                        triangles.drain(start..(start + step).min(triangles.len()));
+                    }
+                });
+                start += if is_smaller { 0 } else { step };
+            }
+            step /= 2;
+        }
+    }
+}
+
 /// Leaves out what the failure does not need: the lens, parts, what varies over them, copies, halves of meshes, and triangles; and shortens
 /// numbers.
 #[must_use]
 pub fn shrink(draft: &Draft, fails: impl Fn(&Draft) -> bool) -> Draft {
-    let mut best = draft.clone();
-    let mut tried = 0;
-    let mut accept = |best: &mut Draft, candidate: Draft| {
-        tried += 1;
-        let better = tried <= MOST && candidate != *best && fails(&candidate);
-        if better {
-            *best = candidate;
-        }
-        better
-    };
-    if best.look.lens.is_some() {
-        let mut candidate = best.clone();
-        candidate.look.lens = None;
-        accept(&mut best, candidate);
-    }
-    if best.look.frame.is_some() {
-        let mut candidate = best.clone();
-        candidate.look.frame = None;
-        accept(&mut best, candidate);
-    }
-    if best.is_shared {
-        let candidate = Draft { is_shared: false, ..best.clone() };
-        accept(&mut best, candidate);
+    let mut search = Search { best: draft.clone(), tried: 0, fails };
+    let whole: [fn(&mut Draft); 3] =
+        [|draft| draft.look.lens = None, |draft| draft.look.frame = None, |draft| draft.is_shared = false];
+    for simplify in whole {
+        search.try_to(simplify);
     }
     loop {
-        let before = best.size();
-        for index in (0..best.parts.len()).rev() {
-            let mut candidate = best.clone();
-            candidate.parts.remove(index);
-            accept(&mut best, candidate);
-        }
-        for index in (0..best.sources.len()).rev() {
-            let mut candidate = best.clone();
-            candidate.sources.remove(index);
-            accept(&mut best, candidate);
-        }
-        for index in 0..best.sources.len() {
-            let bare: [fn(&mut Source); 5] = [
-                |source| source.map = None,
-                |source| source.measure.scale = None,
-                |source| source.measure.wanted = None,
-                |source| source.picture = None,
-                |source| source.strength = 1.0,
-            ];
-            for bare in bare {
-                let mut candidate = best.clone();
-                bare(&mut candidate.sources[index]);
-                accept(&mut best, candidate);
-            }
-        }
-        for index in 0..best.parts.len() {
-            let bare: [fn(&mut Part, &mut Glow); 5] = [
-                |part, _| part.place = None,
-                |part, _| part.place.iter_mut().for_each(|place| place.is_reversed = false),
-                |_, glow| glow.measure.scale = None,
-                |_, glow| glow.measure.wanted = None,
-                |_, glow| glow.two_sided = false,
-            ];
-            for bare in bare {
-                let mut candidate = best.clone();
-                let part = &mut candidate.parts[index];
-                if let Some(mut glow) = part.glow {
-                    bare(part, &mut glow);
-                    part.glow = Some(glow);
-                    accept(&mut best, candidate);
-                }
-            }
-            let bare: [fn(&mut Skin); 5] = [
-                |skin| skin.glow = None,
-                |skin| skin.albedo = None,
-                |skin| skin.opacity = None,
-                |skin| skin.bend = None,
-                |skin| *skin = Skin::default(),
-            ];
-            for bare in bare {
-                let mut candidate = best.clone();
-                bare(&mut candidate.parts[index].skin);
-                accept(&mut best, candidate);
-            }
-            // the last copy stays, since the triangles are elsewhere without it
-            for copy in (0..best.parts[index].copies.len()).rev() {
-                if best.parts[index].copies.len() > 1 {
-                    let mut candidate = best.clone();
-                    candidate.parts[index].copies.remove(copy);
-                    accept(&mut best, candidate);
-                }
-            }
-        }
-        for index in 0..best.parts.len() {
-            let Form::Mesh(all) = &best.parts[index].form else { continue };
-            let mut step = all.len().div_ceil(2);
-            while step > 0 {
-                let mut start = 0;
-                while let Form::Mesh(triangles) = &best.parts[index].form
-                    && start < triangles.len()
-                    && triangles.len() > step
-                {
-                    let mut left = triangles.clone();
-                    left.drain(start..(start + step).min(left.len()));
-                    let mut candidate = best.clone();
-                    candidate.parts[index].form = Form::Mesh(left);
-                    if !accept(&mut best, candidate) {
-                        start += step;
-                    }
-                }
-                step /= 2;
-            }
-        }
-        if best.size() == before {
+        let before = search.best.size();
+        search.remove();
+        search.simplify_sources();
+        search.simplify_parts();
+        (0..search.best.parts.len()).for_each(|index| search.thin_out(index));
+        if search.best.size() == before {
             break;
         }
     }
     for digits in [2, 3, 4] {
-        for index in 0..best.parts.len() {
-            let mut candidate = best.clone();
-            let short = |v: [f64; 3]| v.map(|x| rounded(x, digits));
-            candidate.parts[index].form.moved(short, short);
-            accept(&mut best, candidate);
+        let short = |v: [f64; 3]| v.map(|x| rounded(x, digits));
+        for index in 0..search.best.parts.len() {
+            search.try_to(|draft| draft.parts[index].form.moved(short, short));
         }
     }
-    best
+    search.best
 }
 
 /// A number of so many significant digits.
