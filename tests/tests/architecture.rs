@@ -239,7 +239,7 @@ fn imports_are_found() {
         ("render", "render::bvh", "stream", "single_ray"),
         ("render", "render::bvh", "bvh", "stream"),
         ("render", "render::drive", "tile", "estimator"),
-        ("render/laboratory", "render/laboratory", "figure", "chart"),
+        ("render/laboratory", "render/laboratory", "atlas", "chart"),
         ("render/laboratory", "render/laboratory::chart", "report", "outcome"),
         ("render/laboratory", "render/laboratory::chart", "plot", "stats"),
         ("render/laboratory", "render/laboratory::atlas", "survey", "truth"),

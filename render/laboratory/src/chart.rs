@@ -131,7 +131,7 @@ pub fn measure(options: &Options, stop: &Arc<AtomicBool>) -> Result<Outcome, Box
     // fails before the measurements, not after them
     files::make_folder(&options.output)?;
     announce(&scenes, &extent, trial.estimate(&extent), took, limit);
-    let pictures = Duration::from_secs_f64(trial.pictures(&extent));
+    let pictures = Duration::from_secs_f64(trial.all_pictures(&extent));
     let end = limit.and_then(|limit| start.checked_add(Duration::from_secs(limit)));
     alarm(stop, end.map(|end| end.checked_sub(pictures).unwrap_or(start)));
 

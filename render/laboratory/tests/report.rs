@@ -207,8 +207,9 @@ fn a_bias_is_named_where_there_is_one() {
     }
     let baseline = Way { technique: Technique::Area, choice: ChoiceBy::Auto, sampler: Sampler::Independent };
     let summary = Summary::new(&outcome.plan, &outcome.rows, 0, baseline, None);
-    // t of three values beyond which chance comes once in 20 × 27 times
-    assert!((summary.bias_limit / 32.83 - 1.0).abs() < 0.01, "{}", summary.bias_limit);
+    // t of three values beyond which chance comes once in 20 × 27 times: its probability is 1 − t/√(2 + t²)
+    let t = summary.bias_limit;
+    assert!((1.0 - t / (2.0 + t * t).sqrt() - 0.05 / 27.0).abs() < 1e-9, "{t}");
     for series in &summary.series {
         let is_biased = series.way.technique == Technique::Area && series.way.sampler == Sampler::Sobol;
         let found = series.bias(summary.bias_limit);

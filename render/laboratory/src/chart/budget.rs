@@ -106,45 +106,65 @@ impl Trial {
         Self { rates, references, samplers, lenses }
     }
 
-    /// Estimated seconds for references.
-    fn references(&self, extent: &Extent) -> f64 {
-        let rates = self.references.iter().zip(&extent.sizes);
-        rates.filter_map(|(rate, size)| Some((*rate)?.seconds(*size, extent.reference_spp))).sum()
+    /// Estimated seconds for the reference of a scene.
+    fn reference(&self, extent: &Extent, scene: usize) -> f64 {
+        self.references[scene].map_or(0.0, |rate| rate.seconds(extent.sizes[scene], extent.reference_spp))
     }
 
-    /// Estimated seconds for the pictures of a report, of which each method has some.
-    pub(super) fn pictures(&self, extent: &Extent) -> f64 {
+    /// Estimated seconds for the pictures of a scene in a report, of which each method has some.
+    fn pictures(&self, extent: &Extent, scene: usize) -> f64 {
         let spp = extent.spps.iter().copied().filter(|spp| *spp <= PICTURES.1).max().unwrap_or(PICTURES.1);
-        let first = self.rates.iter().filter(|(key, _)| Some(&key.sampler) == self.samplers.first());
-        PICTURES.0 * first.map(|(key, rate)| rate.seconds(extent.sizes[key.scene], spp)).sum::<f64>()
+        let is_first = |key: &Key| key.scene == scene && Some(&key.sampler) == self.samplers.first();
+        let first = self.rates.iter().filter(|(key, _)| is_first(key));
+        PICTURES.0 * first.map(|(_, rate)| rate.seconds(extent.sizes[scene], spp)).sum::<f64>()
+    }
+
+    /// Estimated seconds for the pictures of all scenes.
+    pub(super) fn all_pictures(&self, extent: &Extent) -> f64 {
+        (0..extent.sizes.len()).map(|scene| self.pictures(extent, scene)).sum()
+    }
+
+    /// Estimated seconds for a scene.
+    fn of_scene(&self, extent: &Extent, scene: usize) -> f64 {
+        let image = |key: &Key, rate: &Rate| {
+            let possible = |spp: &&u32| inapplicable(key.sampler, **spp, self.lenses[scene]).is_none();
+            let spps = extent.spps.iter().filter(possible);
+            spps.map(|spp| needs_repeats(rate.seconds(extent.sizes[scene], *spp))).sum::<f64>()
+        };
+        let keys = self.rates.iter().filter(|(key, _)| key.scene == scene);
+        let images = f64::from(extent.replicates) * keys.map(|(key, rate)| image(key, rate)).sum::<f64>();
+        images + self.reference(extent, scene) + self.pictures(extent, scene)
     }
 
     /// Estimated seconds for all.
     pub(super) fn estimate(&self, extent: &Extent) -> f64 {
-        let image = |key: &Key, rate: &Rate| {
-            let possible = |spp: &&u32| inapplicable(key.sampler, **spp, self.lenses[key.scene]).is_none();
-            let spps = extent.spps.iter().filter(possible);
-            spps.map(|spp| needs_repeats(rate.seconds(extent.sizes[key.scene], *spp))).sum::<f64>()
-        };
-        let images: f64 = self.rates.iter().map(|(key, rate)| image(key, rate)).sum();
-        f64::from(extent.replicates) * images + self.references(extent) + self.pictures(extent)
+        (0..extent.sizes.len()).map(|scene| self.of_scene(extent, scene)).sum()
     }
 
     /// Reduces what the options do not ask for until it fits into this many seconds, as far as it stays worth measuring: samples of
     /// references, sample counts from the greatest on, replicates, and the sides of images.
     pub(super) fn fit(&self, extent: &mut Extent, options: &Options, seconds: f64) {
         let goal = FILLED * seconds;
-        let can_halve = |size: &[u32; 2]| size.iter().all(|side| *side > 64 && side.is_multiple_of(2));
+        let all = 0..extent.sizes.len();
         while self.estimate(extent) > goal {
             let counts = if options.spp.is_empty() { extent.spps.len() } else { 0 };
-            if options.reference_spp.is_none() && extent.reference_spp > 256 && self.references(extent) > 0.25 * goal {
+            let references: f64 = all.clone().map(|scene| self.reference(extent, scene)).sum();
+            // of the scenes that can have a smaller image, the one that takes longest
+            let can_halve =
+                |scene: &usize| extent.sizes[*scene].iter().all(|side| *side > 64 && side.is_multiple_of(2));
+            let is_free = options.size.is_none() && options.reference.is_none();
+            let slow = all.clone().filter(|scene| is_free && can_halve(scene));
+            let slow = slow.max_by(|a, b| self.of_scene(extent, *a).total_cmp(&self.of_scene(extent, *b)));
+            if options.reference_spp.is_none() && extent.reference_spp > 256 && references > 0.25 * goal {
                 extent.reference_spp /= 2;
             } else if counts > 4 {
                 extent.spps.pop();
+            } else if options.replicates.is_none() && extent.replicates > 4 {
+                extent.replicates -= 1;
+            } else if let Some(scene) = slow {
+                extent.sizes[scene] = extent.sizes[scene].map(|side| side / 2);
             } else if options.replicates.is_none() && extent.replicates > 3 {
                 extent.replicates -= 1;
-            } else if options.size.is_none() && options.reference.is_none() && extent.sizes.iter().any(can_halve) {
-                extent.sizes.iter_mut().filter(|size| can_halve(size)).for_each(|size| *size = size.map(|s| s / 2));
             } else if counts > 2 {
                 extent.spps.pop();
             } else {
@@ -199,9 +219,9 @@ mod tests {
         // five images of 341 samples in each of 65,536 pixels take 112 s, and four of 16 samples another 4 s
         assert_eq!(fitted("chart", 150.0), (256, 5, 256, true));
         assert_eq!(fitted("chart", 120.0), (64, 5, 256, true));
-        assert_eq!(fitted("chart", 25.0), (64, 3, 256, true));
-        assert_eq!(fitted("chart", 7.0), (64, 3, 128, true));
-        assert_eq!(fitted("chart --size 256x256", 7.0), (4, 3, 256, true));
+        assert_eq!(fitted("chart", 32.0), (64, 4, 256, true));
+        assert_eq!(fitted("chart", 8.0), (64, 4, 128, true));
+        assert_eq!(fitted("chart --size 256x256", 8.0), (4, 3, 256, true));
         assert_eq!(fitted("chart --spp 1024 --replicates 5 --size 256x256", 6.0), (1024, 5, 256, false));
     }
 }

@@ -6,7 +6,7 @@ use super::pictures::{Panel, Picture};
 use super::plot::{color, dash, escape, short};
 use super::reference::KNOWN_TO;
 use super::stats::{Estimate, WIDEST};
-use super::summary::{Summary, Time, Way};
+use super::summary::{Summary, Way};
 use base64::Engine;
 use etendue_render::Sampler;
 use serde_json::json;
@@ -42,7 +42,7 @@ fn table(summary: &Summary) -> String {
         let slope = |s: &Option<Estimate>| s.as_ref().map_or_else(unknown, |s| with_interval(s).replace('-', "−"));
         let point = series.at(summary.spp);
         let gain = summary.gains.iter().find(|g| g.series == index).map_or_else(unknown, |g| percent(&g.gain));
-        let seconds = series.seconds_to(summary.target).map_or_else(unknown, Time::text);
+        let seconds = series.seconds_to(summary.target).map_or_else(unknown, |time| escape(&time.text()));
         let _ = writeln!(
             text,
             "<tr data-series=\"{}\"{}><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{gain}</td><td>{seconds}</td>\
