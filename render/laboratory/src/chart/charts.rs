@@ -64,6 +64,9 @@ impl Against {
     pub const fn is_shown(self) -> bool {
         matches!(self, Self::Time | Self::Samples)
     }
+    const fn title(self) -> &'static str {
+        ["time", "CPU time", "rays", "samples"][self as usize]
+    }
     const fn label(self) -> &'static str {
         ["seconds per image", "seconds of all threads together per image", "rays per image", "samples per pixel"]
             [self as usize]
@@ -124,7 +127,7 @@ pub fn error(summary: &Summary, against: Against, measure: Measure) -> Option<Fi
         Measure::RelativeMse => ["relative error", "mean of squared error / squared reference"],
     };
     let chart = Chart {
-        title: format!("{}: {title} against {}{}", summary.scene, against.name(), summary.common()),
+        title: format!("{}: {title} against {}{}", summary.scene, against.title(), summary.common()),
         x_label: against.label().to_owned(),
         y_label: y_label.to_owned(),
         scales: [if is_samples { Scale::Binary } else { Scale::Log }, Scale::Log],
@@ -135,7 +138,7 @@ pub fn error(summary: &Summary, against: Against, measure: Measure) -> Option<Fi
         "Lower and further left is better. Each point is one sample count per pixel. Bars are 95 % intervals over \
                        replicates. Hollow points have an interval too wide to support a claim."
             .to_owned();
-    if is_samples {
+    if is_samples && measure == Measure::Mse {
         caption += " Slopes of log error over log samples are fitted to each replicate: mean and 95 % interval; ? is one of fewer than two \
                     points.";
     }

@@ -6,7 +6,8 @@ use super::stats::Cost;
 use super::table::Table;
 use crate::cost::median;
 use crate::hash::fnv1a;
-use etendue_render::{ChoiceBy, RayCount, Sampler, Settings, Technique, World};
+use etendue_render::{ChoiceBy, Sampler, Settings, Technique, World};
+use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
 use std::error::Error;
 use std::hash::{Hash, Hasher};
@@ -71,7 +72,7 @@ impl Hash for Key {
 }
 
 /// One measurement, which is a line of the table.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Row {
     /// Index of the replicate.
     pub replicate: u32,
@@ -85,8 +86,8 @@ pub struct Row {
     pub repeats: u32,
     /// Difference from the reference, which has an error of its own.
     pub difference: Difference,
-    /// Numbers of rays of a rendering.
-    pub rays: RayCount,
+    /// Numbers of rays of a rendering: from the camera, from mirrors, towards lights, and through corners of pixels.
+    pub rays: [u64; 4],
 }
 
 impl Row {
@@ -95,12 +96,6 @@ impl Row {
     pub fn cost(&self, reference: &Reference) -> Cost {
         let Difference { squared, relative, .. } = self.difference;
         Cost { mse: squared - reference.error, relative: relative - reference.relative_error, seconds: self.seconds }
-    }
-    /// Number of all rays.
-    #[must_use]
-    pub fn all_rays(&self) -> u64 {
-        let RayCount { camera, mirror, shadow, corner } = self.rays;
-        camera + mirror + shadow + corner
     }
 }
 
@@ -219,7 +214,7 @@ impl Plan {
             cpu,
             repeats: seconds.len() as u32,
             difference: subject.reference.difference(film.pixels.iter().map(|p| p.mean)),
-            rays,
+            rays: [rays.camera, rays.mirror, rays.shadow, rays.corner],
         }
     }
 }

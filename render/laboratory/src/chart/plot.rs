@@ -1,15 +1,15 @@
-//! Draws charts as SVG. No other module uses plotters.
+//! Draws charts as SVG.
 //!
 //! Each series is a separate group (`<g data-series="…">`), so that a page can switch it on and off.
 
 mod axis;
 mod bars;
-mod canvas;
+mod drawing;
 mod lines;
 mod text;
 
 pub use axis::{Bar, Scale};
 pub use bars::{BarRow, Bars};
-pub use canvas::{Drawing, PALETTE, color, dash};
+pub use drawing::{Drawing, color, dash};
 pub use lines::{Chart, Dot, Line};
 pub use text::{escape, short};

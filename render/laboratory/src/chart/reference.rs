@@ -2,6 +2,7 @@
 
 use etendue_render::image::{self, Picture};
 use etendue_render::{Sampler, Settings, Technique, World};
+use serde::{Deserialize, Serialize};
 use std::path::Path;
 
 /// An image that serves as the truth, with a known error.
@@ -152,7 +153,7 @@ impl Reference {
 }
 
 /// Means over pixels and channels of the difference image − reference.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Difference {
     /// Of its square.
     pub squared: f64,

@@ -109,14 +109,11 @@ fn chip(value: &str, is_pressed: bool, sample: &str) -> String {
 fn chips(outcome: &Outcome) -> [String; 4] {
     let ways = || outcome.summaries.iter().flat_map(|summary| &summary.series).map(|series| series.way);
     let methods: BTreeMap<_, Way> = ways().map(|way| ((way.technique as usize, way.choice as usize), way)).collect();
-    let technique = |way: &Way| {
-        let [r, g, b] = color(way.color());
-        chip(&way.method(), true, &format!("<i style=\"background:rgb({r},{g},{b})\"></i>"))
-    };
+    let technique =
+        |way: &Way| chip(&way.method(), true, &format!("<i style=\"background:{}\"></i>", color(way.color())));
     let sampler = |sampler: &Sampler| {
-        let dashes =
-            dash(*sampler as usize).map_or_else(String::new, |(on, off)| format!(" stroke-dasharray=\"{on} {off}\""));
-        let line = format!("<path d=\"M0 4H26\" stroke=\"#333\" stroke-width=\"2\"{dashes}/>");
+        let dash = dash(*sampler as usize);
+        let line = format!("<path d=\"M0 4H26\" stroke=\"#333\" stroke-width=\"2\" stroke-dasharray=\"{dash}\"/>");
         chip(sampler.name(), false, &format!("<svg viewBox=\"0 0 26 8\">{line}</svg>"))
     };
     let measured = |sampler: &&Sampler| ways().any(|way| way.sampler == **sampler);

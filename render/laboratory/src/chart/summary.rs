@@ -76,7 +76,7 @@ impl Point {
         let seconds = Estimate::of(&costs.iter().map(|c| c.seconds).collect::<Vec<_>>());
         let cpu = rows.iter().map(|r| r.cpu).collect::<Option<Vec<_>>>().map(|cpu| Estimate::of(&cpu));
         let n = rows.len() as f64;
-        let rays = rows.iter().map(|r| r.all_rays() as f64).sum::<f64>() / n;
+        let rays = rows.iter().map(|r| r.rays.iter().sum::<u64>() as f64).sum::<f64>() / n;
         // channels share their samples, so the reference's error of a pixel counts once
         let own = reference.error / reference.picture.radiance.len() as f64;
         let (mean, deviation) = stats::moments(&rows.iter().map(|r| r.difference.mean).collect::<Vec<_>>());

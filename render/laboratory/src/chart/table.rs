@@ -1,57 +1,36 @@
 //! The CSV file of measurements, from which a later run goes on.
 
 use super::measure::{ChartedScene, Key, Plan, Row, Rows};
-use super::reference::Difference;
-use etendue_render::{ChoiceBy, RayCount, Sampler, Technique};
+use etendue_render::{ChoiceBy, Sampler, Technique};
 use serde::{Deserialize, Serialize};
 use std::collections::HashSet;
 use std::error::Error;
 use std::fs::{File, OpenOptions};
 use std::path::Path;
 
-/// A line of the table. All means are over pixels and channels.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-struct Line {
+/// What a measurement is of.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+struct Subject {
     /// Hash of the circumstances, in hexadecimal digits.
     settings: String,
     scene: String,
     technique: Technique,
     choice: ChoiceBy,
     sampler: Sampler,
-    /// Pixels across.
-    width: u32,
-    /// Pixels down.
-    height: u32,
     /// Samples per pixel.
     spp: u32,
-    replicate: u32,
-    seed: u64,
-    /// Wall time of an image.
-    seconds: f64,
-    /// Time of all threads together for an image, where the system tells.
-    cpu_seconds: Option<f64>,
-    repeats: u32,
-    mse_with_reference_error: f64,
-    reference_error: f64,
-    mse: f64,
-    relative_mse_with_reference_error: f64,
-    relative_mse: f64,
-    mean_difference: f64,
-    camera_rays: u64,
-    mirror_rays: u64,
-    shadow_rays: u64,
-    corner_rays: u64,
 }
 
-/// The names of the columns.
+/// What is for readers only: pixels across and down, the reference's error, and errors without it.
+type Derived = (u32, u32, f64, f64, f64);
+
+/// The names of the columns of a [`Subject`], a [`Row`] and what is [`Derived`].
 const HEADER: [&str; 23] = [
     "settings",
     "scene",
     "technique",
     "choice",
     "sampler",
-    "width",
-    "height",
     "spp",
     "replicate",
     "seed",
@@ -59,72 +38,28 @@ const HEADER: [&str; 23] = [
     "cpu_seconds",
     "repeats",
     "mse_with_reference_error",
-    "reference_error",
-    "mse",
     "relative_mse_with_reference_error",
-    "relative_mse",
     "mean_difference",
     "camera_rays",
     "mirror_rays",
     "shadow_rays",
     "corner_rays",
+    "width",
+    "height",
+    "reference_error",
+    "mse",
+    "relative_mse",
 ];
 
-impl Line {
-    fn new(subject: &ChartedScene, key: &Key, row: &Row) -> Self {
-        let cost = row.cost(&subject.reference);
-        Self {
-            settings: format!("{:016x}", subject.settings),
-            scene: subject.name.clone(),
-            technique: key.technique,
-            choice: key.choice,
-            sampler: key.sampler,
-            width: subject.size[0],
-            height: subject.size[1],
-            spp: key.spp,
-            replicate: row.replicate,
-            seed: row.seed,
-            seconds: row.seconds,
-            cpu_seconds: row.cpu,
-            repeats: row.repeats,
-            mse_with_reference_error: row.difference.squared,
-            reference_error: subject.reference.error,
-            mse: cost.mse,
-            relative_mse_with_reference_error: row.difference.relative,
-            relative_mse: cost.relative,
-            mean_difference: row.difference.mean,
-            camera_rays: row.rays.camera,
-            mirror_rays: row.rays.mirror,
-            shadow_rays: row.rays.shadow,
-            corner_rays: row.rays.corner,
-        }
+impl Subject {
+    fn new(scene: &ChartedScene, key: &Key) -> Self {
+        let settings = format!("{:016x}", scene.settings);
+        let Key { technique, choice, sampler, spp, .. } = *key;
+        Self { settings, scene: scene.name.clone(), technique, choice, sampler, spp }
     }
-
-    fn row(&self) -> Row {
-        let [squared, relative] = [self.mse_with_reference_error, self.relative_mse_with_reference_error];
-        Row {
-            replicate: self.replicate,
-            seed: self.seed,
-            seconds: self.seconds,
-            cpu: self.cpu_seconds,
-            repeats: self.repeats,
-            difference: Difference { squared, relative, mean: self.mean_difference },
-            rays: RayCount {
-                camera: self.camera_rays,
-                mirror: self.mirror_rays,
-                shadow: self.shadow_rays,
-                corner: self.corner_rays,
-            },
-        }
-    }
-
-    /// The key of a plan that the line belongs to, if there is one.
+    /// The key of a plan that it belongs to, if there is one.
     fn key(&self, plan: &Plan) -> Option<Key> {
-        let belongs = |s: &ChartedScene| s.name == self.scene && format!("{:016x}", s.settings) == self.settings;
-        let scene = plan.scenes.iter().position(belongs)?;
-        let Self { technique, choice, sampler, spp, .. } = *self;
-        let key = Key { scene, technique, choice, sampler, spp };
-        (self.replicate < plan.replicates && plan.keys.contains(&key)).then_some(key)
+        plan.keys.iter().copied().find(|key| *self == Self::new(&plan.scenes[key.scene], key))
     }
 }
 
@@ -164,8 +99,10 @@ impl Table {
         Ok((Self { writer }, rows, others))
     }
 
-    pub(super) fn append(&mut self, subject: &ChartedScene, key: &Key, row: &Row) -> Result<(), Box<dyn Error>> {
-        self.writer.serialize(Line::new(subject, key, row))?;
+    pub(super) fn append(&mut self, scene: &ChartedScene, key: &Key, row: &Row) -> Result<(), Box<dyn Error>> {
+        let (cost, [width, height]) = (row.cost(&scene.reference), scene.size);
+        let derived: Derived = (width, height, scene.reference.error, cost.mse, cost.relative);
+        self.writer.serialize((Subject::new(scene, key), row, derived))?;
         self.writer.flush()?;
         Ok(())
     }
@@ -185,19 +122,22 @@ fn read(text: &str, plan: &Plan) -> Result<(Rows, usize), String> {
             return Err(format!("line {number} has {} values instead of {}", record.len(), HEADER.len()));
         }
         let invalid = |column: usize| format!("line {number}: {:?} is not a valid {}", &record[column], HEADER[column]);
-        let line: Line = record.deserialize(None).map_err(|error| match error.kind() {
-            csv::ErrorKind::Deserialize { err, .. } => {
-                err.field().map_or_else(|| error.to_string(), |n| invalid(n as usize))
-            }
-            _ => error.to_string(),
+        let (subject, row, _): (Subject, Row, Derived) = record.deserialize(None).map_err(|error| {
+            let field = match error.kind() {
+                csv::ErrorKind::Deserialize { err, .. } => err.field(),
+                _ => None,
+            };
+            field.map_or_else(|| error.to_string(), |field| invalid(field as usize))
         })?;
-        let infinite = |value: &str| value.parse::<f64>().is_ok_and(|x| !x.is_finite());
-        // names of scenes are no numbers
-        if let Some(column) = (2..record.len()).find(|column| infinite(&record[*column])) {
+        let is_infinite = |column: &usize| record[*column].parse::<f64>().is_ok_and(|x| !x.is_finite());
+        // a scene may have such a name
+        if let Some(column) = (2..record.len()).find(is_infinite) {
             return Err(invalid(column));
         }
-        match line.key(plan) {
-            Some(key) if seen.insert((key, line.replicate)) => rows.entry(key).or_default().push(line.row()),
+        match subject.key(plan) {
+            Some(key) if row.replicate < plan.replicates && seen.insert((key, row.replicate)) => {
+                rows.entry(key).or_default().push(row);
+            }
             _ => others += 1,
         }
     }

@@ -2,7 +2,6 @@
 
 use super::text::short;
 use crate::chart::stats::Estimate;
-use plotters::coord::ranged1d::{DefaultFormatting, KeyPointHint, Ranged};
 
 /// A logarithmic scale of an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -95,23 +94,9 @@ impl Axis {
             _ => short(x),
         }
     }
-    /// Clamps a value to the axis, so that an interval that includes 0 ends at its edge.
-    pub(super) fn inside(&self, x: f64) -> f64 {
-        if x.is_nan() { self.low } else { x.clamp(self.low, self.high) }
-    }
-}
-
-impl Ranged for Axis {
-    type FormatOption = DefaultFormatting;
-    type ValueType = f64;
-    fn map(&self, value: &f64, limit: (i32, i32)) -> i32 {
-        let share = (value / self.low).ln() / (self.high / self.low).ln();
-        limit.0 + (share * f64::from(limit.1 - limit.0)).round() as i32
-    }
-    fn key_points<H: KeyPointHint>(&self, hint: H) -> Vec<f64> {
-        if hint.weight().allow_light_points() { self.light.clone() } else { self.bold.clone() }
-    }
-    fn range(&self) -> std::ops::Range<f64> {
-        self.low..self.high
+    /// Where a value is between two places; beyond the axis, as an interval that includes 0, it is at its edge.
+    pub(super) fn place(&self, x: f64, [from, to]: [f64; 2]) -> f64 {
+        let inside = if x.is_nan() { self.low } else { x.clamp(self.low, self.high) };
+        from + (to - from) * (inside / self.low).ln() / (self.high / self.low).ln()
     }
 }

@@ -1,10 +1,7 @@
 //! Bar charts.
 
 use super::axis::{Axis, Bar, Scale};
-use super::canvas::{Drawing, GRID, INK, PALE, Part, ROW, TEXT, UNIT, WIDTH, font, layer, rgb, stroke};
-use plotters::coord::ranged1d::Ranged;
-use plotters::prelude::*;
-use plotters::style::text_anchor::{HPos, Pos, VPos};
+use super::drawing::{Anchor, Drawing, GRID, INK, Layer, PALE, Part, ROW, Stroke, TEXT, WIDTH, color};
 
 /// One bar.
 #[derive(Clone, Debug)]
@@ -38,11 +35,20 @@ pub struct Bars {
     pub origin: f64,
 }
 
+/// Where the axis is, and where rows begin.
+const ACROSS: [f64; 2] = [186.0, WIDTH - 12.0];
+const TOP: f64 = 70.0;
+/// Width of the numbers behind bars.
+const NUMBER: f64 = 64.0;
+
+fn drawable(bar: &Bar) -> bool {
+    bar.value.is_finite() && bar.value > 0.0
+}
+
 impl Bars {
     /// Draws the chart.
     #[must_use]
     pub fn draw(&self) -> Drawing {
-        let drawable = |b: &Bar| b.value.is_finite() && b.value > 0.0;
         let values = self.rows.iter().filter(|r| drawable(&r.bar)).flat_map(|r| {
             let ends = if r.sure { [r.bar.low, r.bar.high] } else { [r.bar.value; 2] };
             [r.bar.value, ends[0], ends[1]]
@@ -50,55 +56,55 @@ impl Bars {
         let mut axis = Axis::new(Scale::Log, values.chain([self.origin]));
         // leaves room for the numbers behind the bars
         axis.high *= (axis.high / axis.low).powf(0.22);
-        axis = Axis { scale: Scale::Log, ..Axis::new(Scale::Log, [axis.low * 1.3, axis.high / 1.3].into_iter()) };
-        let (top, left) = (70, 186);
-        let base = top + self.rows.len() as i32 * ROW;
-        let width = WIDTH - left - 12;
-        let at = |v: f64| left * UNIT + axis.map(&axis.inside(v), (0, width * UNIT));
-        let frame = layer(WIDTH, base, |area| {
-            area.draw(&Text::new(self.title.clone(), (12 * UNIT, 8 * UNIT), font(TEXT + 1)))?;
-            for v in &axis.light {
-                area.draw(&PathElement::new([(at(*v), top * UNIT), (at(*v), base * UNIT)], stroke(PALE, 6)))?;
-            }
-            for v in &axis.bold {
-                area.draw(&PathElement::new([(at(*v), top * UNIT), (at(*v), base * UNIT)], stroke(GRID, 10)))?;
-                let style = font(TEXT - 1).pos(Pos::new(HPos::Center, VPos::Bottom));
-                area.draw(&Text::new(axis.label(*v), (at(*v), (top - 4) * UNIT), style))?;
-            }
-            let style = font(TEXT).pos(Pos::new(HPos::Center, VPos::Bottom));
-            area.draw(&Text::new(self.label.clone(), ((left + width / 2) * UNIT, (top - 21) * UNIT), style))
-        });
-        let part = |row: &BarRow| {
-            let BarRow { bar, sure, .. } = row;
-            let y = top * UNIT;
-            let body = layer(WIDTH, base, |area| {
-                let style = font(TEXT - 2).pos(Pos::new(HPos::Right, VPos::Center));
-                let middle = y + ROW * UNIT / 2;
-                area.draw(&Text::new(row.name.clone(), ((left - 6) * UNIT, middle), style))?;
-                let value = font(TEXT - 2).pos(Pos::new(HPos::Left, VPos::Center));
-                if !drawable(bar) {
-                    return area.draw(&Text::new(row.text.clone(), (at(self.origin) + 6 * UNIT, middle), value));
-                }
-                let (a, b) = (at(self.origin), at(bar.value));
-                let rectangle = [(a.min(b), y + 3 * UNIT), (a.max(b), y + (ROW - 3) * UNIT)];
-                if *sure {
-                    area.draw(&Rectangle::new(rectangle, rgb(row.color).mix(0.75).filled()))?;
-                } else {
-                    let [(x0, y0), (x1, y1)] = rectangle;
-                    let outline = [(x0, y0), (x1, y0), (x1, y1), (x0, y1), (x0, y0)];
-                    area.draw(&PathElement::new(outline, stroke(rgb(row.color), 10)))?;
-                }
-                // an interval that reaches the edge leaves room for the number, too
-                let most = (left + width - 64) * UNIT;
-                let ends = [(at(bar.low), middle), (at(bar.high).min(most.max(b)), middle)];
-                area.draw(&PathElement::new(ends, stroke(INK, 10)))?;
-                let right = b.max(a).max(ends[1].0) + 5 * UNIT;
-                area.draw(&Text::new(row.text.clone(), (right, middle), value))
-            });
-            Part { id: row.id.clone(), shown: row.shown, body }
-        };
+        axis = Axis::new(Scale::Log, [axis.low * 1.3, axis.high / 1.3].into_iter());
+        let part = |row: &BarRow| Part { id: row.id.clone(), shown: row.shown, body: self.row(row, &axis) };
         let parts = self.rows.iter().map(part).collect();
-        let about = self.title.clone();
-        Drawing { width: WIDTH, height: top, legend: 0, about, frame, parts, key: String::new(), row: ROW }
+        let (about, frame) = (self.title.clone(), self.frame(&axis));
+        Drawing { height: TOP, legend: 0.0, about, frame, parts, key: Layer::default(), row: ROW }
+    }
+
+    /// Title and axis, with lines down through all rows.
+    fn frame(&self, axis: &Axis) -> Layer {
+        let mut layer = Layer::default();
+        layer.text([12.0, 20.0], Anchor::Start, TEXT + 1.0, INK, &self.title);
+        let bottom = TOP + self.rows.len() as f64 * ROW;
+        for (values, stroke) in [(&axis.light, Stroke(PALE, 0.6, "none")), (&axis.bold, Stroke(GRID, 1.0, "none"))] {
+            for value in values {
+                let x = axis.place(*value, ACROSS);
+                layer.line(&[[x, TOP], [x, bottom]], stroke);
+            }
+        }
+        for value in &axis.bold {
+            let x = axis.place(*value, ACROSS);
+            layer.text([x, TOP - 6.0], Anchor::Middle, TEXT - 1.0, INK, &axis.label(*value));
+        }
+        // a long label ends at the edge
+        let middle = 0.5 * (ACROSS[0] + ACROSS[1]).min(2.0 * (WIDTH - 8.0) - 6.2 * self.label.chars().count() as f64);
+        layer.text([middle, TOP - 24.0], Anchor::Middle, TEXT, INK, &self.label);
+        layer
+    }
+
+    fn row(&self, row: &BarRow, axis: &Axis) -> Layer {
+        let BarRow { bar, sure, .. } = row;
+        let mut layer = Layer::default();
+        let (middle, base) = (TOP + 0.5 * ROW, TOP + 0.5 * ROW + 4.0);
+        layer.text([ACROSS[0] - 6.0, base], Anchor::End, TEXT - 2.0, INK, &row.name);
+        let at = |value: f64| axis.place(value, ACROSS);
+        let origin = at(self.origin);
+        if !drawable(bar) {
+            layer.text([origin + 6.0, base], Anchor::Start, TEXT - 2.0, INK, &row.text);
+            return layer;
+        }
+        let (end, color) = (at(bar.value), color(row.color));
+        let [top, bottom] = [TOP + 3.0, TOP + ROW - 3.0];
+        let fill = if *sure { &*color } else { "none" };
+        layer.polygon(&[[origin, top], [end, top], [end, bottom], [origin, bottom]], fill, &color);
+        // an interval that reaches the edge leaves room for the number, too
+        let most = (ACROSS[1] - NUMBER).max(end);
+        let high = at(bar.high).min(most);
+        layer.line(&[[at(bar.low), middle], [high, middle]], Stroke(INK, 1.0, "none"));
+        let right = end.max(origin).max(high) + 5.0;
+        layer.text([right, base], Anchor::Start, TEXT - 2.0, INK, &row.text);
+        layer
     }
 }
