@@ -2,8 +2,10 @@
 //! sweeps of size, elevation, aspect ratio and distance.
 //!
 //! [`pose`] has the sweeps, [`truth`] the exact results, [`methods`] the measured techniques, [`textbook`] the baselines, [`sample`] what
-//! they draw, [`mod@survey`] the measurements and [`page`] the maps.
+//! they draw, [`mod@survey`] and `irradiance` the measurements, `maps` and [`page`] what is drawn of them.
 
+mod irradiance;
+mod maps;
 pub mod methods;
 pub mod page;
 pub mod pose;
@@ -13,9 +15,9 @@ pub mod textbook;
 pub mod truth;
 
 use crate::options::{out, threads};
+use crate::progress::bar;
 use clap::Args;
 use etendue_render::files::make_folder;
-use indicatif::{ProgressBar, ProgressStyle};
 use pose::ShapeKind;
 use std::error::Error;
 use std::io::Write;
@@ -55,8 +57,7 @@ pub fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     make_folder(folder)?;
     let pool = crate::options::pool(options.threads)?;
     let detail = Detail::new(options.quick);
-    let style = ProgressStyle::with_template("{wide_bar} {percent:>3} %  {elapsed}, {eta} left")?;
-    let bar = ProgressBar::new(cells(&kinds, detail) as u64).with_style(style);
+    let bar = bar(cells(&kinds, detail) as u64, "measuring")?;
     let charts = pool.install(|| survey(&kinds, detail, || bar.inc(1)));
     bar.finish_and_clear();
     page::write(&charts, folder, options.quick)?;

@@ -14,4 +14,5 @@ pub mod cost;
 mod hash;
 pub mod interrupt;
 pub mod options;
+mod progress;
 mod random;

@@ -2,7 +2,7 @@
 
 use super::measure::{Plan, SETS, inapplicable};
 use super::outcome::Outcome;
-use super::plot::short;
+use super::plot::{ramp, short};
 use super::summary::{Summary, Way};
 use crate::hash::fnv1a;
 use etendue_render::{Settings, image};
@@ -42,23 +42,19 @@ const SAMPLES: u32 = 16;
 
 /// Colour map from black through red to pale yellow, for t in [0, 1].
 fn heat(t: f64) -> [u8; 3] {
-    const STOPS: [[f64; 3]; 6] = [
-        [0.0, 0.0, 4.0],
-        [66.0, 10.0, 104.0],
-        [147.0, 38.0, 103.0],
-        [221.0, 81.0, 58.0],
-        [252.0, 165.0, 10.0],
-        [252.0, 255.0, 164.0],
+    const STOPS: [(f64, [u8; 3]); 6] = [
+        (0.0, [0, 0, 4]),
+        (0.2, [66, 10, 104]),
+        (0.4, [147, 38, 103]),
+        (0.6, [221, 81, 58]),
+        (0.8, [252, 165, 10]),
+        (1.0, [252, 255, 164]),
     ];
-    let x = t.clamp(0.0, 1.0) * (STOPS.len() - 1) as f64;
-    let i = (x as usize).min(STOPS.len() - 2);
-    let s = x - i as f64;
-    std::array::from_fn(|k| (STOPS[i][k] * (1.0 - s) + STOPS[i + 1][k] * s).round() as u8)
+    ramp(&STOPS, t)
 }
 
 /// Colour map from blue through white to red, for t in [−1, 1].
-#[must_use]
-pub fn signed(t: f64) -> [u8; 3] {
+fn signed(t: f64) -> [u8; 3] {
     let t = t.clamp(-1.0, 1.0);
     let end = if t < 0.0 { [33.0, 102.0, 172.0] } else { [178.0, 24.0, 43.0] };
     let s = t.abs().sqrt();

@@ -2,9 +2,9 @@
 
 use super::measure::{ChartedScene, method};
 use super::options::{Options, chosen};
-use super::progress::bar;
 use super::reference::Reference;
 use crate::hash::fnv1a;
+use crate::progress::bar;
 use etendue_render::scene::{Material, Scene};
 use etendue_render::{ChoiceBy, Sampler, Settings, Technique, World};
 use std::error::Error;

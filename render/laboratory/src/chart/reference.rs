@@ -12,7 +12,7 @@ pub struct Reference {
     pub picture: Picture,
     /// Mean squared standard error of the image.
     pub error: f64,
-    /// The same, each squared error relative to [`Reference::scale`].
+    /// The same of relative errors, see [`Difference::relative`].
     pub relative_error: f64,
     /// What is added to the square of a radiance before a squared error is divided by it.
     floor: f64,

@@ -4,13 +4,13 @@ use indicatif::{ProgressBar, ProgressStyle};
 use std::error::Error;
 
 /// A progress bar, which draws nothing unless stderr is a terminal.
-pub(super) fn bar(total: u64, what: &str) -> Result<ProgressBar, Box<dyn Error>> {
+pub(crate) fn bar(total: u64, what: &str) -> Result<ProgressBar, Box<dyn Error>> {
     let style = ProgressStyle::with_template("{msg} {wide_bar} {percent:>3} %  {elapsed}, {eta} left")?;
     Ok(ProgressBar::new(total).with_style(style).with_message(what.to_owned()))
 }
 
 /// A number of seconds in words, such as `4 min 10 s`.
-pub(super) fn duration(seconds: f64) -> String {
+pub(crate) fn duration(seconds: f64) -> String {
     let whole = seconds.round() as u64;
     match whole {
         0..60 => format!("{} s", whole.max(1)),
