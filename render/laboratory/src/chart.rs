@@ -79,7 +79,7 @@ fn keys(scenes: &[Loaded], spps: &[u32], samplers: &[Sampler]) -> (Vec<Key>, Vec
     let (mut keys, mut notes) = (Vec::new(), Vec::new());
     for (scene, loaded) in scenes.iter().enumerate() {
         for (spp, sampler) in spps.iter().flat_map(|spp| samplers.iter().map(move |sampler| (*spp, *sampler))) {
-            match inapplicable(sampler, spp, loaded.has_lens()) {
+            match inapplicable(sampler, spp) {
                 Some(reason) if !notes.contains(&reason) => notes.push(reason),
                 Some(_) => (),
                 None => keys.extend(loaded.methods.iter().map(|&(technique, choice)| Key {

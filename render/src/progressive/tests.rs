@@ -1,7 +1,7 @@
 //! Passes, their weights, and what the next one is.
 
 use super::*;
-use crate::scene::{CameraSettings, Emission, Geometry, Material, Scene, Screen, Shape};
+use crate::scene::{CameraSettings, Emission, Geometry, Material, Parallelogram, Scene, Screen, Shape};
 
 static NEVER: AtomicBool = AtomicBool::new(false);
 
@@ -34,7 +34,7 @@ fn lit_floor() -> World {
     let (origin, forward, right, up) = ([0.0, 0.0, 1.0], [0.0, 0.0, -1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]);
     let (screen, lens) = (Screen::Half(0.5), None);
     let camera = CameraSettings { origin, forward, right, up, is_orthographic: false, screen, lens };
-    let square = Geometry::Parallelogram { p: [0.0, 0.0, 1.5], u: [0.0, 0.5, 0.0], v: [0.5, 0.0, 0.0] };
+    let square = Geometry::Parallelogram(Parallelogram { p: [0.0, 0.0, 1.5], u: [0.0, 0.5, 0.0], v: [0.5, 0.0, 0.0] });
     let emission = Some(Emission { radiance: [1.0; 3], ..Emission::default() });
     let mut scene = Scene::new(camera, [40, 32]);
     scene.materials.push(Material::Diffuse([0.5; 3]));

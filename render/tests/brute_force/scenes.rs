@@ -2,7 +2,9 @@
 
 use crate::meshes::{Random, Triangle, add, cube, meshes, sheet};
 use etendue_oracle::{V3, along, cross, length, sub, unit, wide};
-use etendue_render::scene::{CameraSettings, Emission, Geometry, Material, Scene, Screen, Shape};
+use etendue_render::scene::{
+    CameraSettings, Emission, Geometry, Material, Parallelogram, Scene, Screen, Shape, Sphere,
+};
 
 /// A scene of triangles and shapes.
 pub(crate) fn scene(triangles: Vec<Triangle>, shapes: Vec<Shape>) -> Scene {
@@ -27,7 +29,7 @@ pub(crate) fn scene(triangles: Vec<Triangle>, shapes: Vec<Shape>) -> Scene {
 pub(crate) fn shape(geometry: Geometry, emission: Option<bool>) -> Shape {
     let emission = emission.map(|two_sided| Emission { radiance: [1.0; 3], two_sided, ..Emission::default() });
     // flat lights do not reflect
-    let black = emission.is_some() && !matches!(geometry, Geometry::Sphere { .. });
+    let black = emission.is_some() && !matches!(geometry, Geometry::Sphere(Sphere { .. }));
     Shape { geometry, material: u32::from(black), emission }
 }
 
@@ -52,11 +54,11 @@ pub(crate) type Scenes = Vec<(String, Vec<Triangle>, Vec<Shape>)>;
 pub(crate) fn light(random: &mut Random, size: f32) -> Shape {
     let center = random.point().map(|x| 1.8 * x);
     let geometry = match random.below(3) {
-        0 => Geometry::Sphere { center, radius: size * (0.05 + random.unit()) },
+        0 => Geometry::Sphere(Sphere { center, radius: size * (0.05 + random.unit()) }),
         1 => Geometry::Triangle([0; 3].map(|_| add(center, random.point(), size))),
         _ => {
             let [u, v] = [0; 2].map(|_| random.point().map(|x| x * size));
-            Geometry::Parallelogram { p: center, u, v }
+            Geometry::Parallelogram(Parallelogram { p: center, u, v })
         }
     };
     let two_sided = random.below(3) == 0;
@@ -80,7 +82,10 @@ pub(crate) fn scenes(random: &mut Random) -> Scenes {
         let lamp = |random: &mut Random, y: f32| {
             let (x, z) = (0.8 * random.signed(), 0.8 * random.signed());
             let (w, h) = (0.2 * random.unit() + 0.01, 0.2 * random.unit() + 0.01);
-            shape(Geometry::Parallelogram { p: [x, y, z], u: [w, 0.0, 0.0], v: [0.0, 0.0, h] }, Some(false))
+            shape(
+                Geometry::Parallelogram(Parallelogram { p: [x, y, z], u: [w, 0.0, 0.0], v: [0.0, 0.0, h] }),
+                Some(false),
+            )
         };
         let lights = vec![lamp(random, 1.0), lamp(random, 0.999), lamp(random, 0.5), light(random, 0.2)];
         all.push(("room".to_owned(), mesh, lights));
@@ -97,14 +102,14 @@ pub(crate) fn scenes(random: &mut Random) -> Scenes {
         let mut shapes: Vec<Shape> = (0..4).map(|k| light(random, [0.5, 0.2, 0.05, 0.01][k])).collect();
         for _ in 0..random.below(4) {
             let radius = 0.05 + 0.6 * random.unit();
-            shapes.push(shape(Geometry::Sphere { center: random.point(), radius }, None));
+            shapes.push(shape(Geometry::Sphere(Sphere { center: random.point(), radius }), None));
         }
         // a lamp that stands on the floor, and a ball that rests on it
         let p = [random.signed(), -1.0, random.signed()];
-        let standing = Geometry::Parallelogram { p, u: [0.0, 0.3, 0.0], v: [0.3, 0.0, 0.1] };
+        let standing = Geometry::Parallelogram(Parallelogram { p, u: [0.0, 0.3, 0.0], v: [0.3, 0.0, 0.1] });
         shapes.push(shape(standing, Some(true)));
         let center = [random.signed(), -0.75, random.signed()];
-        shapes.push(shape(Geometry::Sphere { center, radius: 0.25 }, Some(false)));
+        shapes.push(shape(Geometry::Sphere(Sphere { center, radius: 0.25 }), Some(false)));
         all.push(("sparse".to_owned(), mesh, shapes));
     }
     for n in [1, 4] {
@@ -114,14 +119,15 @@ pub(crate) fn scenes(random: &mut Random) -> Scenes {
         let lights = (0..4).map(|_| {
             let mut lamp = light(random, 0.3);
             match &mut lamp.geometry {
-                Geometry::Sphere { center, .. } => center[1] = 1.5 + 0.2 * center[1],
+                Geometry::Sphere(Sphere { center, .. }) => center[1] = 1.5 + 0.2 * center[1],
                 Geometry::Triangle(corners) => corners.iter_mut().for_each(|c| c[1] = 1.5 + 0.2 * c[1]),
-                Geometry::Parallelogram { p, .. } => p[1] = 1.5 + 0.2 * p[1],
+                Geometry::Parallelogram(Parallelogram { p, .. }) => p[1] = 1.5 + 0.2 * p[1],
+                other => panic!("{other:?} is not moved"),
             }
             lamp
         });
         let mut shapes: Vec<_> = lights.collect();
-        shapes.push(shape(Geometry::Sphere { center: [0.0, -0.3, 0.0], radius: 0.3 }, None));
+        shapes.push(shape(Geometry::Sphere(Sphere { center: [0.0, -0.3, 0.0], radius: 0.3 }), None));
         all.push(("wall".to_owned(), mesh, shapes));
     }
     all
@@ -131,9 +137,14 @@ pub(crate) fn placed(shape: &Shape, scale: f32, shift: f32) -> Shape {
     let place = |v: [f32; 3]| v.map(|x| x * scale + shift);
     let turn = |v: [f32; 3]| v.map(|x| x * scale);
     let geometry = match shape.geometry {
-        Geometry::Sphere { center, radius } => Geometry::Sphere { center: place(center), radius: radius * scale },
+        Geometry::Sphere(Sphere { center, radius }) => {
+            Geometry::Sphere(Sphere { center: place(center), radius: radius * scale })
+        }
         Geometry::Triangle(corners) => Geometry::Triangle(corners.map(place)),
-        Geometry::Parallelogram { p, u, v } => Geometry::Parallelogram { p: place(p), u: turn(u), v: turn(v) },
+        Geometry::Parallelogram(Parallelogram { p, u, v }) => {
+            Geometry::Parallelogram(Parallelogram { p: place(p), u: turn(u), v: turn(v) })
+        }
+        ref other => panic!("{other:?} is not moved"),
     };
     Shape { geometry, ..shape.clone() }
 }
@@ -147,7 +158,7 @@ pub(crate) fn light_point(geometry: &Geometry, p: V3, random: &mut Random) -> V3
     };
     let [mut s, mut t] = [random.unit(), random.unit()].map(snap);
     match *geometry {
-        Geometry::Sphere { center, radius } => {
+        Geometry::Sphere(Sphere { center, radius }) => {
             let (c, r) = (wide(center), f64::from(radius));
             let axis = sub(p, c);
             let across = unit(cross(axis, wide(random.point())));
@@ -163,6 +174,7 @@ pub(crate) fn light_point(geometry: &Geometry, p: V3, random: &mut Random) -> V3
             let [a, b, c] = corners.map(wide);
             along(along(a, sub(b, a), s), sub(c, a), t)
         }
-        Geometry::Parallelogram { p, u, v } => along(along(wide(p), wide(u), s), wide(v), t),
+        Geometry::Parallelogram(Parallelogram { p, u, v }) => along(along(wide(p), wide(u), s), wide(v), t),
+        ref other => panic!("no points of {other:?}"),
     }
 }

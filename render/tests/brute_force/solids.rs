@@ -3,7 +3,7 @@
 use super::scenes::{Scenes, light, quad, shape};
 use crate::meshes::{Random, Triangle, cube};
 use etendue_oracle::{V3, along, cross, unit, wide};
-use etendue_render::scene::{Geometry, Shape};
+use etendue_render::scene::{Geometry, Parallelogram, Shape, Sphere};
 
 /// A convex polyhedron within [−1, 1]³: corners, and the corners of each face in order around.
 pub(crate) type Solid = (Vec<V3>, Vec<Vec<usize>>);
@@ -151,9 +151,12 @@ fn plate(random: &mut Random) -> Vec<Triangle> {
 fn around(lights: &[Shape], whole: bool, random: &mut Random) -> Vec<Triangle> {
     let mut mesh = Vec::new();
     for lamp in lights {
-        let (Geometry::Sphere { center: at, .. }
+        let (Geometry::Sphere(Sphere { center: at, .. })
         | Geometry::Triangle([at, ..])
-        | Geometry::Parallelogram { p: at, .. }) = lamp.geometry;
+        | Geometry::Parallelogram(Parallelogram { p: at, .. })) = lamp.geometry
+        else {
+            panic!("no lamp is {:?}", lamp.geometry)
+        };
         let (mut half, mut center) = (half(random, 0.3), wide(at));
         if whole {
             half = half.map(|x| x + 0.5 * f64::from(random.unit()));
@@ -177,7 +180,7 @@ fn room(lights: &mut Vec<Shape>, random: &mut Random) -> Vec<Triangle> {
     }));
     for y in [1.899, 1.9, 1.900_01, 1.91] {
         let p = [random.signed(), y, random.signed()];
-        let geometry = Geometry::Parallelogram { p, u: [0.3, 0.0, 0.0], v: [0.0, 0.0, 0.2] };
+        let geometry = Geometry::Parallelogram(Parallelogram { p, u: [0.3, 0.0, 0.0], v: [0.0, 0.0, 0.2] });
         lights.push(shape(geometry, Some(y > 1.9)));
     }
     mesh
@@ -237,7 +240,7 @@ pub(crate) fn solids(random: &mut Random) -> Scenes {
         // balls receive light, too
         if random.below(2) == 0 {
             let radius = 0.02 + 0.3 * random.unit();
-            lights.push(shape(Geometry::Sphere { center: random.point(), radius }, None));
+            lights.push(shape(Geometry::Sphere(Sphere { center: random.point(), radius }), None));
         }
         all.push((kind.to_owned(), mesh, lights));
     }

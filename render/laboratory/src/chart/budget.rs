@@ -50,8 +50,6 @@ pub(super) struct Trial {
     /// Of the references that are to be rendered.
     references: Vec<Option<Rate>>,
     samplers: Vec<Sampler>,
-    /// Whether the camera of each scene has a lens.
-    lenses: Vec<bool>,
 }
 
 /// Images of a trial are repeated until this many seconds have passed, at most three times; the shortest counts.
@@ -89,7 +87,7 @@ impl Trial {
         for (scene, loaded) in scenes.iter().enumerate() {
             for &(technique, choice) in &loaded.methods {
                 for &sampler in &samplers {
-                    let applies = |spp: &u32| inapplicable(sampler, *spp, loaded.has_lens()).is_none();
+                    let applies = |spp: &u32| inapplicable(sampler, *spp).is_none();
                     let mut possible = (0..=14).map(|k| 1 << k).filter(applies);
                     let Some(few) = possible.next() else { continue };
                     let many = possible.find(|spp| *spp >= 4 * few).unwrap_or(2 * few);
@@ -102,8 +100,7 @@ impl Trial {
         let of_reference =
             |scene: &Loaded| scene.lacks_reference().then(|| rate(scene, scene.size, [32, 64], Reference::settings));
         let references = scenes.iter().map(of_reference).collect();
-        let lenses = scenes.iter().map(Loaded::has_lens).collect();
-        Self { rates, references, samplers, lenses }
+        Self { rates, references, samplers }
     }
 
     /// Estimated seconds for the reference of a scene.
@@ -127,7 +124,7 @@ impl Trial {
     /// Estimated seconds for a scene.
     fn of_scene(&self, extent: &Extent, scene: usize) -> f64 {
         let image = |key: &Key, rate: &Rate| {
-            let possible = |spp: &&u32| inapplicable(key.sampler, **spp, self.lenses[scene]).is_none();
+            let possible = |spp: &&u32| inapplicable(key.sampler, **spp).is_none();
             let spps = extent.spps.iter().filter(possible);
             spps.map(|spp| needs_repeats(rate.seconds(extent.sizes[scene], *spp))).sum::<f64>()
         };
@@ -195,7 +192,7 @@ mod tests {
             Key { scene: 0, technique: Technique::Area, choice: ChoiceBy::Auto, sampler: Sampler::Independent, spp: 0 };
         let rates = HashMap::from([(key, Rate { fixed: 0.0, sample: 1e-6 })]);
         let samplers = vec![Sampler::Independent];
-        let trial = Trial { rates, references: vec![None], samplers, lenses: vec![false] };
+        let trial = Trial { rates, references: vec![None], samplers };
         let parse = |line: &str| {
             #[derive(clap::Parser)]
             struct Line {

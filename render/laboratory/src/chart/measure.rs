@@ -23,8 +23,6 @@ pub struct ChartedScene {
     pub world: World,
     /// Pixels across and down.
     pub size: [u32; 2],
-    /// Whether the camera has a lens, which adds two dimensions.
-    pub lens: bool,
     /// The reference image.
     pub reference: Reference,
     /// Hash of everything a measurement depends on, besides the values of a [`Row`].
@@ -60,7 +58,7 @@ impl Key {
     #[must_use]
     pub fn settings(&self, [width, height]: [u32; 2], seed: u64) -> Settings {
         let Self { technique, choice, sampler, spp, .. } = *self;
-        let sets = sets(sampler);
+        let sets = SETS;
         Settings { width, height, spp, technique, choice, depth: Settings::DEPTH, sampler, sets, seed }
     }
 }
@@ -111,15 +109,12 @@ pub(super) fn needs_repeats(seconds: f64) -> f64 {
     if seconds >= SECONDS { seconds } else { (SECONDS + 0.5 * seconds).min(f64::from(REPEATS) * seconds) }
 }
 
-/// Sets per pixel: one, which has the least error, since the error comes from replicates of the image. Stratified-4d uses as many
-/// as its few sizes need.
-pub(crate) fn sets(sampler: Sampler) -> u32 {
-    u32::from(sampler != Sampler::Stratified4d)
-}
+/// Sets per pixel: one, which has the least error, since the error comes from replicates of the image.
+pub(crate) const SETS: u32 = 1;
 
 /// Why a sampler does not support this many samples; `None` if it does.
-pub(crate) fn inapplicable(sampler: Sampler, spp: u32, lens: bool) -> Option<String> {
-    sampler.check(spp, sets(sampler), lens).err()
+pub(crate) fn inapplicable(sampler: Sampler, spp: u32) -> Option<String> {
+    sampler.check(spp, SETS).err()
 }
 
 /// The planned measurements.

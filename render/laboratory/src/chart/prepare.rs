@@ -58,11 +58,6 @@ impl Loaded {
         Ok(loaded)
     }
 
-    /// Whether the camera has a lens, which adds two dimensions.
-    pub(super) fn has_lens(&self) -> bool {
-        self.scene.camera.lens.is_some()
-    }
-
     /// Whether the reference is still to be rendered.
     pub(super) fn lacks_reference(&self) -> bool {
         self.reference.is_none()
@@ -143,8 +138,7 @@ impl Loaded {
         bytes.extend(scene.triangle_materials.iter().flat_map(|x| x.to_le_bytes()));
         bytes.extend(size.iter().flat_map(|x| x.to_le_bytes()));
         bytes.extend(reference.picture.radiance.iter().flatten().flat_map(|x| x.to_le_bytes()));
-        let lens = scene.camera.lens.is_some();
-        Ok(ChartedScene { name, world, size, lens, settings: fnv1a(&bytes), reference })
+        Ok(ChartedScene { name, world, size, settings: fnv1a(&bytes), reference })
     }
 }
 

@@ -38,7 +38,7 @@ pub fn color(n: usize) -> String {
 }
 
 /// Lengths of dashes and gaps of the line of each sampler; the first is a solid line.
-const DASHES: [&str; Sampler::ALL.len()] = ["none", "7 4", "2 3", "12 3", "4 2", "1 2", "12 4 2 4"];
+const DASHES: [&str; Sampler::ALL.len()] = ["none", "7 4", "2 3", "12 3", "4 2", "12 4 2 4"];
 
 /// Lengths of dashes and gaps of the n-th line style.
 #[must_use]
