@@ -178,7 +178,6 @@ const EXCEPTIONS: [(&str, &str, &str, &str); 2] = [
 /// folder has the traits and types that all its modules share, so they import it.
 const PACKAGES: [(&str, bool); 12] = [
     ("core", false),
-    ("core/fit", true),
     ("core/playground", true),
     ("core/shader", true),
     ("render", true),
@@ -186,6 +185,7 @@ const PACKAGES: [(&str, bool); 12] = [
     ("render/laboratory", true),
     ("render/cli", true),
     ("tests/bits", true),
+    ("tests/fit", true),
     ("tests/oracle", true),
     ("tests/properties", false),
     ("benches/routines", true),
@@ -270,7 +270,6 @@ const ARROWS: [(&str, &[&str], &[&str]); 21] = [
     ("core", &[], &[]),
     ("core/batch", &["etendue"], &[]),
     ("core/c", &["etendue", "etendue-batch"], &[]),
-    ("core/fit", &[], &[]),
     ("core/playground", &["etendue"], &["etendue-oracle"]),
     ("core/python", &["etendue", "etendue-batch"], &[]),
     ("core/shader", &["etendue"], &["etendue-oracle", "etendue-properties"]),
@@ -280,6 +279,7 @@ const ARROWS: [(&str, &[&str], &[&str]); 21] = [
     ("render/laboratory", &["etendue", "etendue-oracle", "etendue-render", "etendue-scene"], &["etendue-properties"]),
     ("render/cli", &["etendue-laboratory", "etendue-render", "etendue-scene"], &["etendue-oracle"]),
     ("tests/bits", &["etendue", "etendue-properties"], &[]),
+    ("tests/fit", &[], &[]),
     ("tests/oracle", &[], &[]),
     ("tests/proof", &["etendue", "etendue-oracle"], &[]),
     ("tests/properties", &["etendue", "etendue-oracle"], &[]),

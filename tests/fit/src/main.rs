@@ -147,7 +147,7 @@ fn main() -> ExitCode {
     print("standard deviation of f/g, with a fit for the place itself", |i, j| residuals[i][j][2]);
     print("error of the albedo", |i, j| residuals[i][j][3]);
     if write {
-        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../src/reflection/table.rs");
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../core/src/reflection/table.rs");
         if let Err(error) = std::fs::write(path, source(&table)) {
             eprintln!("etendue-fit: {path}: {error}");
             return ExitCode::FAILURE;
