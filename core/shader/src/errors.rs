@@ -82,7 +82,7 @@ fn of_named_method(lines: &[&str]) -> Option<String> {
 /// method that returns the type of this name.
 pub(crate) fn greatest_error(type_name: &str, returned: &str) -> Option<String> {
     let shapes = type_name.split(['<', '>', ',', ' ']);
-    let modules = ["etendue::light::shapes::", "etendue::warp::", "etendue::reflection::"];
+    let modules = ["etendue::light::", "etendue::warp::", "etendue::reflection::"];
     let shapes = shapes.filter(|name| modules.iter().any(|module| name.starts_with(module)));
     // that a sampler has one of these, the name of its type does not tell
     let warped = type_name.contains("::ByCosineWarp<").then_some("CosineWarped");
