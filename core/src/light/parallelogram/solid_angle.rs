@@ -48,8 +48,8 @@ impl<R: Real> SphericalParallelogram<R> {
         let first = Planes { n01: -rounded(pu), n02: rounded(far_u), n12: diagonal, normal, volume, edge: u + v };
         let second = Planes { n01: -diagonal, n02: rounded(far_v), n12: rounded(pv), normal, volume, edge: v };
         Self {
-            first: SphericalTriangle::prepare([a, p, b], &first, || first.n12, scale),
-            second: SphericalTriangle::prepare([b, p, c], &second, || second.n12, scale),
+            first: SphericalTriangle::prepare([a, p, b], first, || first.n12, scale),
+            second: SphericalTriangle::prepare([b, p, c], second, || second.n12, scale),
         }
     }
     /// Repeats one prepared parallelogram in every lane.

@@ -70,7 +70,7 @@ impl<R: Real, const N: usize> SphericalPolygon<R, N> {
         let n02 = cross_sums(corners[from], side);
         let [n01, n02, n12, normal] = [n01, n02, n12, normal].map(|[n, rest]| n + rest);
         let planes = Planes { n01, n02, n12, normal, volume, edge: edges[to][0] };
-        SphericalTriangle::prepare([a, p, b], &planes, || n12, *scale)
+        SphericalTriangle::prepare([a, p, b], planes, || n12, *scale)
     }
     /// Repeats one prepared polygon in every lane.
     #[inline(always)]

@@ -2,10 +2,11 @@
 
 mod arc;
 mod inverse;
+mod prepare;
 
 use crate::lanewise::lanewise;
 use crate::light::direction::{DirectionSample, to_unit};
-use crate::math::{quotient, rsqrt};
+use crate::math::quotient;
 use crate::real::{Mask, Real, unit_interval};
 use crate::vector::double_word::{compensated_height, cross_dw, height_over, sum_dw};
 use crate::vector::{Vec2, Vec3};
@@ -87,6 +88,7 @@ lanewise! {
 }
 
 /// Quantities that callers know more accurately than the rounded vertices give them.
+#[derive(Clone, Copy)]
 pub(in crate::light) struct Planes<R> {
     /// V₀×V₁
     pub(in crate::light) n01: Vec3<R>,
@@ -102,27 +104,6 @@ pub(in crate::light) struct Planes<R> {
     pub(in crate::light) edge: Vec3<R>,
 }
 
-/// Va/lₐ + Vb/l_b for a and b more than 90° apart, given n = Va×Vb: accurate relative to its own size, from the foot of the
-/// perpendicular on the line through both.
-#[inline]
-fn sum_of_units<R: Real>([a, b]: [Vec3<R>; 2], [ia, ib]: [R; 2], n: Vec3<R>) -> Vec3<R> {
-    let (zero, one) = (R::lit(0.0), R::lit(1.0));
-    let plain = a * ia + b * ib;
-    let opposite = a.dot(b).lt(zero);
-    let edge = b - a;
-    let squared = edge.length_squared();
-    let some = squared.gt(R::lit(1e-36));
-    let inverse = rsqrt(R::blend(some, squared, one));
-    let by = inverse * inverse;
-    let foot = edge.cross(n) * by;
-    let height = n.length_squared() * by;
-    let along = edge * inverse;
-    // 1 − |a·along|/lₐ
-    let lack = |v: Vec3<R>, i: R| height * i * i / (one + v.dot(along).abs() * i);
-    let sum = foot.mul_add(ia + ib, along * (lack(a, ia) - lack(b, ib)));
-    Vec3::blend(opposite & some, sum, plain)
-}
-
 impl<R: Real> SphericalTriangle<R> {
     /// Prepares for the vertices `v0`, `v1`, `v2` relative to the point, in any unit of length.
     #[inline(always)]
@@ -135,7 +116,7 @@ impl<R: Real> SphericalTriangle<R> {
         let volume = compensated_height(v0, [normal, rest]);
         let (n01, n02, n12) = (v0.cross(v1), v0.cross(v2), v1.cross(v2));
         let planes = Planes { n01, n02, n12, normal: normal + rest, volume, edge: v2 - v1 };
-        Self::prepare([v0, v1, v2], &planes, || n12, scale)
+        Self::prepare([v0, v1, v2], planes, || n12, scale)
     }
 
     /// As `new`, with the edges `e1` = v1−v0 and `e2` = v2−v0.
@@ -155,134 +136,7 @@ impl<R: Real> SphericalTriangle<R> {
             let [n12, rest] = sum_dw(cross_dw(e1, e2), sum_dw(cross_dw(v0, e2), cross_dw(e1, v0)));
             n12 + rest
         };
-        Self::prepare([v0, v1, v2], &Planes { n01, n02, n12, normal, volume, edge }, exact, scale)
-    }
-
-    /// Prepares vertices scaled so that all lengths are below 4. Where a side is wide, the length of V₁×V₂ counts: `exact` returns it
-    /// accurate relative to itself.
-    #[inline(always)]
-    pub(in crate::light) fn prepare(
-        [v0, v1, v2]: [Vec3<R>; 3],
-        planes: &Planes<R>,
-        exact: impl FnOnce() -> Vec3<R>,
-        scale: R,
-    ) -> Self {
-        let Planes { n01, n02, mut n12, normal, volume, edge } = *planes;
-        let (zero, one) = (R::lit(0.0), R::lit(1.0));
-        // distances lᵢ of the vertices and the cosines dᵢⱼ between their directions
-        let squared = [v0, v1, v2].map(Vec3::length_squared);
-        let [i0, i1, i2] = squared.map(|s| rsqrt(s).keep(s.gt(R::lit(1e-36))));
-        let (d01, d02) = (v0.dot(v1) * i0 * i1, v0.dot(v2) * i0 * i2);
-        let inverse = |n: Vec3<R>| {
-            let squared = n.length_squared();
-            rsqrt(squared).keep(squared.gt(R::lit(1e-37)))
-        };
-        let i01 = inverse(n01);
-        let (l0, l1, l2) = (squared[0] * i0, squared[1] * i1, squared[2] * i2);
-        // the side c from v0 to v1: its sine, 1−d₀₁ and 1+d₀₁, the smaller one from the sine, and tan(c/2)
-        let sin_side = n01.length_squared() * i01 * i0 * i1;
-        let inv_sin_side = i01 * l0 * l1;
-        let stretch = R::lit(2.0) * inv_sin_side;
-        let small = sin_side * sin_side / (one + d01.abs());
-        let obtuse = d01.lt(zero);
-        let (minus, g2) = (R::blend(obtuse, one - d01, small), R::blend(obtuse, small, one + d01));
-        let tan_half = minus * inv_sin_side;
-        // tanH = G₀/T for H = Ω/2, T as (V₀/l₀ + V₁/l₁)·V₂/l₂, so that opposite unit vectors cancel first
-        let g0 = volume.abs() * i0 * i1 * i2;
-        let apex = v1 * i1;
-        let mut total = (v0 * i0 + apex).dot(v2).mul_add(i2, g2);
-        // the frame at v1
-        let towards = volume.lt(zero);
-        let pole = n01 * i01;
-        let along = apex.cross(pole);
-        // V₂/l₂ along the tangents at v1, and 1+d₁₂
-        let d12 = apex.dot(v2) * i2;
-        let (mut x2, y2) = (along.dot(edge) * i2, volume.abs() * i01 * i2);
-        let (mut one_plus_d12, mut one_plus_d02) = (one + d12, one + d02);
-        let sin02_squared = n02.length_squared() * (i0 * i2) * (i0 * i2);
-        // a side of more than 120° is rare: do the extra work only where there is one
-        let wide = d01.lesser(d02).lesser(d12).lt(R::lit(-0.5));
-        if wide.any() {
-            n12 = Vec3::blend(wide, exact(), n12);
-            let sums = [
-                sum_of_units([v0, v1], [i0, i1], n01),
-                sum_of_units([v0, v2], [i0, i2], n02),
-                sum_of_units([v1, v2], [i1, i2], n12),
-            ];
-            // T at the vertex to which the others are least opposite
-            let at0 = sums[0].dot(sums[1]);
-            let at1 = sums[0].dot(sums[2]);
-            let at2 = sums[1].dot(sums[2]);
-            let sum = R::blend(d01.gt(d02.greater(d12)), at2, R::blend(d02.gt(d12), at1, at0));
-            total = R::blend(wide, sum, total);
-            x2 = R::blend(wide, -(n01.dot(n12) * i01 * i1 * i2), x2);
-            let behind = x2.mul_add(x2, y2 * y2) / (one + d12.abs());
-            one_plus_d12 = R::blend(wide & d12.lt(zero), behind, one_plus_d12);
-            one_plus_d02 = R::blend(wide & d02.lt(zero), sin02_squared / (one + d02.abs()), one_plus_d02);
-        }
-        let across = Vec3::blend(towards, -pole, pole);
-        // sinα : cosα = |volume| l₀ : n₀₁·n₀₂
-        let opposite = volume.abs() * l0;
-        let angle = opposite.gt(R::lit(1e-37));
-        let cot_alpha = (n01.dot(n02) / R::blend(angle, opposite, one)).keep(angle);
-        // Ω, and H; at a vertex everything is 0, and so is Ω
-        let somewhere = i0.gt(zero) & i1.gt(zero) & i2.gt(zero) & g0.gt(zero);
-        let solid_angle = (R::lit(2.0) * g0.atan2(total)).keep(somewhere);
-        let inv_g0 = one / R::blend(g0.gt(R::lit(1e-37)), g0, one);
-        // (sin, cos)(α−H)/sinα from v2, where the sweep ends: P there has the coordinates (X, Y) = tan(δ₂/2) (cosψ, sinψ)
-        let squared = g0.mul_add(g0, total * total).greater(R::lit(1e-36));
-        let over = rsqrt(squared);
-        let half = Vec2::new(g0 * over, total * over);
-        let inv_half_sin = inv_g0 * squared * over;
-        let by_plus = one / one_plus_d12.greater(R::lit(1e-30));
-        // sin c / (2 sinH)
-        let by_swept = R::lit(0.5) * sin_side * inv_half_sin;
-        let some = by_swept.lt(R::lit(1e30));
-        let most = R::lit(1e18);
-        let turned = Vec2::new(
-            (y2 * by_plus * by_swept).lesser(most).keep(some),
-            (x2.mul_add(-by_plus, tan_half) * by_swept).clamped(-most, most).keep(some),
-        );
-        // the map starts from the great circles through v0 and v1; those, and any through nearly opposite vertices, are known
-        // only to −cos : sin of their angle. The map reaches the one through v1 and v2 along the one from v0 to v2
-        let start = -d01 / R::blend(sin_side.gt(zero), sin_side, one);
-        let inwards = |n: Vec3<R>| Vec3::blend(towards, -n, n);
-        let start = start.greater(one).lesser(R::lit(1e18));
-        let far = start.greater(-d02 * rsqrt(sin02_squared.greater(R::lit(1e-7))));
-        let slack =
-            |n: Vec3<R>, a: Vec3<R>, b: Vec3<R>, known: R| (n.length() * known).greater(-a.dot(b)) * R::lit(BEYOND);
-        Self {
-            side01: inwards(n01),
-            side12: inwards(n12),
-            side20: inwards(-n02),
-            slack: Vec3::new(slack(n01, v0, v1, start), slack(n12, v1, v2, far), slack(n02, v2, v0, start)),
-            normal,
-            l1,
-            farthest: l0.greater(l1).greater(l2),
-            apex,
-            along,
-            across,
-            cot_alpha,
-            stretch,
-            tan_half,
-            half,
-            turned,
-            sin_side,
-            inv_l0: i0,
-            inv_l2: i2,
-            cot_half: total * inv_g0,
-            inv_half_sin,
-            g2,
-            g2_over_g0: g2 * inv_g0,
-            one_plus_d02,
-            sin02_squared,
-            x2,
-            y2,
-            g1: total - g2,
-            volume,
-            solid_angle,
-            unit: scale.pow2_scale(),
-        }
+        Self::prepare([v0, v1, v2], Planes { n01, n02, n12, normal, volume, edge }, exact, scale)
     }
 
     /// Solid angle in steradians, in [0, 2π].
