@@ -1,4 +1,4 @@
-//! Conversions to and from `glam` and arrays. Only this file names `glam`.
+//! Conversions to and from arrays and, with the feature `glam`, its vectors. Only this file names `glam`.
 //!
 //! A single vector also converts to a packet, whose lanes it fills.
 
@@ -6,21 +6,9 @@ use crate::real::Real;
 use crate::vector::{Vec2, Vec3};
 use wide::{f32x4, f32x8, f32x16, f64x4, f64x8};
 
-macro_rules! splats {
-    ($scalar:ident, $vec2:ty, $vec3:ty, $($real:ident),+) => {
+macro_rules! arrays {
+    ($scalar:ident, $($real:ident),+) => {
         $(
-            impl From<$vec2> for Vec2<$real> {
-                #[inline]
-                fn from(v: $vec2) -> Self {
-                    Self::splat(Vec2 { x: v.x, y: v.y })
-                }
-            }
-            impl From<$vec3> for Vec3<$real> {
-                #[inline]
-                fn from(v: $vec3) -> Self {
-                    Self::splat(Vec3 { x: v.x, y: v.y, z: v.z })
-                }
-            }
             impl From<[$scalar; 2]> for Vec2<$real> {
                 #[inline]
                 fn from([x, y]: [$scalar; 2]) -> Self {
@@ -34,16 +22,10 @@ macro_rules! splats {
                 }
             }
         )+
-        impl From<Vec2<$scalar>> for $vec2 {
+        impl From<Vec2<$scalar>> for [$scalar; 2] {
             #[inline]
             fn from(v: Vec2<$scalar>) -> Self {
-                Self::new(v.x, v.y)
-            }
-        }
-        impl From<Vec3<$scalar>> for $vec3 {
-            #[inline]
-            fn from(v: Vec3<$scalar>) -> Self {
-                Self::new(v.x, v.y, v.z)
+                [v.x, v.y]
             }
         }
         impl From<Vec3<$scalar>> for [$scalar; 3] {
@@ -54,12 +36,46 @@ macro_rules! splats {
         }
     };
 }
-splats!(f32, glam::Vec2, glam::Vec3, f32, f32x4, f32x8, f32x16);
-splats!(f64, glam::DVec2, glam::DVec3, f64, f64x4, f64x8);
+arrays!(f32, f32, f32x4, f32x8, f32x16);
+arrays!(f64, f64, f64x4, f64x8);
 
-impl From<glam::Vec3A> for Vec3<f32> {
-    #[inline]
-    fn from(v: glam::Vec3A) -> Self {
-        Self { x: v.x, y: v.y, z: v.z }
+/// By their components.
+#[cfg(feature = "glam")]
+macro_rules! vectors {
+    ($($own:ident of $scalar:ident = $other:ty, $($real:ident),+;)+) => {$(
+        $(impl From<$other> for $own<$real> {
+            #[inline]
+            fn from(v: $other) -> Self {
+                v.to_array().into()
+            }
+        })+
+        impl From<$own<$scalar>> for $other {
+            #[inline]
+            fn from(v: $own<$scalar>) -> Self {
+                Self::from_array(v.into())
+            }
+        }
+    )+};
+}
+#[cfg(feature = "glam")]
+vectors! {
+    Vec2 of f32 = glam::Vec2, f32, f32x4, f32x8, f32x16;
+    Vec3 of f32 = glam::Vec3, f32, f32x4, f32x8, f32x16;
+    Vec3 of f32 = glam::Vec3A, f32, f32x4, f32x8, f32x16;
+    Vec2 of f64 = glam::DVec2, f64, f64x4, f64x8;
+    Vec3 of f64 = glam::DVec3, f64, f64x4, f64x8;
+}
+
+#[cfg(all(test, feature = "glam"))]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn vectors_of_glam_convert_both_ways() {
+        let there = glam::Vec3A::from(Vec3::new(1.0, 2.0, 3.0_f32));
+        assert_eq!((there, Vec3::from(there)), (glam::Vec3A::new(1.0, 2.0, 3.0), Vec3::new(1.0, 2.0, 3.0_f32)));
+        let packet = Vec3::<f32x8>::from(glam::Vec3::new(4.0, 5.0, 6.0));
+        assert_eq!(glam::Vec3::from(packet.lane(7)), glam::Vec3::new(4.0, 5.0, 6.0));
+        assert_eq!(<[f64; 2]>::from(Vec2::from(glam::DVec2::new(7.0, 8.0))), [7.0, 8.0]);
     }
 }

@@ -29,6 +29,9 @@
 //!
 #![doc = include_str!("index.md")]
 //!
+//! # Features
+//! None is on by default. `glam` converts vectors to and from those of `glam`; `rand` makes `sequence::CounterRng` a generator of `rand_core`.
+//!
 //! # Speed
 //! `wide` chooses its vector width when it is compiled. Build with `-C target-cpu=x86-64-v3` (or native); otherwise a packet of 8 is two
 //! or more registers, and software computes each fused multiply-add, with the same bits.
@@ -41,6 +44,7 @@ mod interop;
 mod lanewise;
 pub mod light;
 pub mod math;
+#[doc(hidden)]
 pub mod memory;
 pub mod occlusion;
 pub mod real;

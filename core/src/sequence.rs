@@ -22,12 +22,16 @@
 //!
 //! A dimension here is a pair of coordinates: dimension 0 might be the pixel, 1 the light, 2 the lens.
 
+#[cfg(feature = "rand")]
+mod generator;
 mod independent;
 mod joint;
 mod owen_sobol;
 mod stratified;
 
-pub use independent::{CounterRng, Independent};
+#[cfg(feature = "rand")]
+pub use generator::CounterRng;
+pub use independent::Independent;
 pub use joint::JointSobol;
 pub use owen_sobol::{OwenSobol, ZOrder, ZOrderIndex};
 pub use stratified::Stratified;
