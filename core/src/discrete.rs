@@ -32,6 +32,7 @@ pub use cell::{Cell, Cell2d};
 use cell::{Row, Rows, draw, rest};
 pub(crate) use cell::{locate, place};
 use core::fmt::{self, Display, Formatter};
+#[doc(hidden)]
 pub use words::{AliasWords, Words1d, Words2d};
 
 /// Steps of `u` in the unit interval, and the greatest number of cells in a table.

@@ -133,9 +133,9 @@ pub use disk::{Disk, DiskByArea, DiskBySolidAngle};
 pub use distant::{
     ConstantEnvironment, EnvironmentByProjectedSolidAngle, EnvironmentBySolidAngle, Sun, SunBySolidAngle,
 };
-pub use environment::{
-    ByRadiance, EnvironmentMap, EnvironmentSample, EnvironmentWords, ImageEnvironment, ImageSampler, Texel,
-};
+#[doc(hidden)]
+pub use environment::EnvironmentWords;
+pub use environment::{ByRadiance, EnvironmentMap, EnvironmentSample, ImageEnvironment, ImageSampler, Texel};
 pub use line::{Line, LineByAngle, LineByLength, LineByProjectedSolidAngle};
 pub use opening::LuminousOpening;
 pub use parallelogram::{
@@ -144,13 +144,18 @@ pub use parallelogram::{
 };
 pub use patch::{BilinearPatch, PatchByArea};
 pub use picture::{Picture, mean_of_bilinear};
+#[doc(hidden)]
 pub use picture_words::PictureWords;
 pub use pictured::{ByPicture, PictureSample, Pictured, PicturedLight, PicturedSampler};
+#[doc(hidden)]
 pub use pictured_curved::Curved;
+#[doc(hidden)]
 pub use pictured_flat::{Area, Flat, FlatLight, Projected, SolidAngle};
 pub use polygon::{Polygon, PolygonByArea, PolygonByProjectedSolidAngle, PolygonByReflection, PolygonBySolidAngle};
 pub use portal::{MOST_PORTALS, Portal, PortalEnvironment, PortalMap, PortalTable, PortalsByRadiance};
-pub use profile::{Profile, ProfileError, ProfileWords};
+#[doc(hidden)]
+pub use profile::ProfileWords;
+pub use profile::{Profile, ProfileError};
 pub use projector::{ProjectedImage, Projector};
 pub use rectangle::{Rectangle, RectangleByCosineWarp, RectangleBySolidAngle};
 pub use sample::{FAR, LightSample};

@@ -28,7 +28,9 @@ pub use bound::LightBound;
 pub use gloss::Gloss;
 pub use power::PowerLights;
 pub use spatial::{LightsAt, SpatialLights};
-pub use tree::{Join, LightTree, NO_LIGHT, Node8, Sequential, TreeAt, TreeChild, TreeWords, TreeWordsAt};
+pub use tree::{Join, LightTree, NO_LIGHT, Node8, Sequential, TreeAt};
+#[doc(hidden)]
+pub use tree::{TreeChild, TreeWords, TreeWordsAt};
 
 use crate::real::{Real, Uint, unit_interval};
 
