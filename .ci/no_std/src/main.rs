@@ -331,7 +331,7 @@ fn sequences(count: &mut Count) {
     let mut rng = CounterRng::seed_from_u64(7);
     let mut total = lit(0.0);
     for _ in 0..SAMPLES / 8 {
-        let mut unit = || X::unit(u32x8::from_fn(|_| rng.next_u32()));
+        let mut unit = || X::unit(u32x8::from(core::array::from_fn(|_| rng.next_u32())));
         total += unit() * unit();
     }
     count.check(near(sum(total) / SAMPLES as f32, 0.25, 5e-2));
