@@ -83,10 +83,10 @@ impl<R: Real> Sphere<R> {
     /// cap is an ellipse, which the horizon may cut. The density there is constant, and there are three cases:
     /// 1. whole, cosω ≥ sinσ: the concentric disk, scaled to the ellipse;
     /// 2. cut, with the axis above the horizon: slices across, starting at the far end. Beyond the two points where the cap meets
-    /// the horizon they end on the unit circle, before them on the ellipse. Either part is a circular segment, after scaling,
-    /// and u₀ solves φ − sinφ cosφ = its area;
+    ///    the horizon they end on the unit circle, before them on the ellipse. Either part is a circular segment, after scaling,
+    ///    and u₀ solves φ − sinφ cosφ = its area;
     /// 3. cut, with the axis below the horizon: the lune between circle and ellipse, in slices along the azimuth plane of the
-    /// axis.
+    ///    axis.
     ///
     /// - Formula: centre sinω cosσ, semi-axes sinσ cosω and sinσ; y = √((sinσ−cosω)(sinσ+cosω)) from the sphere and the normal
     ///   in twice the working precision, sinθ = y/sinω, cosθ = cosσ/sinω, κ = |cosω|/sinσ, cosψ = κ cosθ, S(φ) = φ − sinφ cosφ
