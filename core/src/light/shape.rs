@@ -1,12 +1,6 @@
 //! Traits shared by the shapes that are seen from a point.
 
 use super::direction::DirectionSample;
-use super::disk::solid_angle::SphericalDisk;
-use super::parallelogram::solid_angle::SphericalParallelogram;
-use super::polygon::{projected::ProjectedPolygon, solid_angle::SphericalPolygon};
-use super::rectangle::solid_angle::SphericalRectangle;
-use super::sphere::{projected::ProjectedCap, solid_angle::SphericalCap};
-use super::triangle::{projected::ProjectedTriangle, solid_angle::SphericalTriangle};
 use crate::real::Real;
 use crate::vector::{Vec2, Vec3};
 use crate::warp::Warp;
@@ -43,15 +37,16 @@ pub trait ProjectedShape<R: Real>: Warp<R, Point = Vec3<R>> + Copy {
     fn in_front(&self) -> R::Mask;
 }
 
+/// Gives a shape its trait by its own methods, and by another one for the points of its surface.
 macro_rules! spherical {
     ($name:ident $(, $n:ident)?; $this:ident => $front:expr $(, $point:ident)?) => {
-        impl<R: Real $(, const $n: usize)?> SphericalShape<R> for $name<R $(, $n)?> {
+        impl<R: $crate::real::Real $(, const $n: usize)?> $crate::light::shape::SphericalShape<R> for $name<R $(, $n)?> {
             #[inline(always)]
-            fn sample_direction(&self, u: Vec2<R>) -> DirectionSample<R> {
+            fn sample_direction(&self, u: $crate::vector::Vec2<R>) -> $crate::light::direction::DirectionSample<R> {
                 Self::sample_direction(self, u)
             }
             $(#[inline(always)]
-            fn sample_point(&self, u: Vec2<R>) -> (DirectionSample<R>, Option<Vec2<R>>) {
+            fn sample_point(&self, u: $crate::vector::Vec2<R>) -> ($crate::light::direction::DirectionSample<R>, Option<$crate::vector::Vec2<R>>) {
                 let (sample, coordinates) = self.$point(u);
                 (sample, Some(coordinates))
             })?
@@ -71,18 +66,14 @@ macro_rules! spherical {
         }
     };
 }
-spherical!(SphericalCap; s => !s.inside());
-spherical!(SphericalDisk; s => Self::in_front(s));
-spherical!(SphericalTriangle; s => Self::in_front(s), sample_with_coordinates);
-spherical!(SphericalParallelogram; s => Self::in_front(s), sample_with_coordinates);
-spherical!(SphericalRectangle; s => Self::in_front(s), sample_with_coordinates);
-spherical!(SphericalPolygon, N; s => Self::in_front(s));
+pub(super) use spherical;
 
+/// The same above the horizon.
 macro_rules! projected {
     ($name:ident $(, $n:ident)*; $this:ident => $front:expr) => {
-        impl<R: Real $(, const $n: usize)*> ProjectedShape<R> for $name<R $(, $n)*> {
+        impl<R: $crate::real::Real $(, const $n: usize)*> $crate::light::shape::ProjectedShape<R> for $name<R $(, $n)*> {
             #[inline(always)]
-            fn sample_direction(&self, u: Vec2<R>) -> DirectionSample<R> {
+            fn sample_direction(&self, u: $crate::vector::Vec2<R>) -> $crate::light::direction::DirectionSample<R> {
                 Self::sample_direction(self, u)
             }
             #[inline(always)]
@@ -94,7 +85,7 @@ macro_rules! projected {
                 Self::pdf_at_cosine(self, cos)
             }
             #[inline(always)]
-            fn contains(&self, w: Vec3<R>) -> R::Mask {
+            fn contains(&self, w: $crate::vector::Vec3<R>) -> R::Mask {
                 Self::contains(self, w)
             }
             #[inline(always)]
@@ -105,6 +96,4 @@ macro_rules! projected {
         }
     };
 }
-projected!(ProjectedCap; s => !s.inside());
-projected!(ProjectedTriangle; s => Self::in_front(s));
-projected!(ProjectedPolygon, N, ROOM; s => Self::in_front(s));
+pub(super) use projected;

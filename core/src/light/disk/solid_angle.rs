@@ -2,6 +2,7 @@
 
 use crate::lanewise::lanewise;
 use crate::light::direction::DirectionSample;
+use crate::light::shape::spherical;
 use crate::math::{quotient, ratio, rsqrt};
 use crate::real::{Real, unit_interval};
 use crate::vector::double_word::compensated_dot;
@@ -259,6 +260,8 @@ impl<R: Real> SphericalDisk<R> {
         DirectionSample { direction, distance: distance.keep(self.solid_angle.gt(R::lit(0.0))) }
     }
 }
+
+spherical!(SphericalDisk; s => Self::in_front(s));
 
 impl<R: Real> Warp<R> for SphericalDisk<R> {
     type Point = Vec3<R>;

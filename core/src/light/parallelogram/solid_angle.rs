@@ -2,6 +2,7 @@
 
 use crate::lanewise::lanewise_by_map;
 use crate::light::direction::{DirectionSample, to_unit};
+use crate::light::shape::spherical;
 use crate::light::triangle::solid_angle::Planes;
 use crate::light::triangle::solid_angle::SphericalTriangle;
 use crate::math::quotient;
@@ -102,6 +103,8 @@ impl<R: Real> SphericalParallelogram<R> {
         (sample, Vec2::new(R::blend(first, both, b0), R::blend(first, b2, both)))
     }
 }
+
+spherical!(SphericalParallelogram; s => Self::in_front(s), sample_with_coordinates);
 
 impl<R: Real> Warp<R> for SphericalParallelogram<R> {
     type Point = Vec3<R>;

@@ -3,6 +3,7 @@
 use super::corners::PlacedCorners;
 use crate::lanewise::lanewise_by_map;
 use crate::light::direction::{DirectionSample, to_unit};
+use crate::light::shape::projected;
 use crate::light::triangle::projected::piece::narrowest;
 use crate::light::triangle::projected::sector::Sector;
 use crate::light::triangle::projected::zenith::{Found, Side, drop_narrow, sectors, surrounds};
@@ -313,6 +314,8 @@ impl<R: Real, const N: usize, const ROOM: usize> ProjectedPolygon<R, N, ROOM> {
         within(least) & ahead(w, self.plane, self.in_front())
     }
 }
+
+projected!(ProjectedPolygon, N, ROOM; s => Self::in_front(s));
 
 impl<R: Real, const N: usize, const ROOM: usize> Warp<R> for ProjectedPolygon<R, N, ROOM> {
     type Point = Vec3<R>;

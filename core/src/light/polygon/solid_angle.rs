@@ -3,6 +3,7 @@
 use super::corners::PlacedCorners;
 use crate::lanewise::lanewise_by_map;
 use crate::light::direction::DirectionSample;
+use crate::light::shape::spherical;
 use crate::light::triangle::solid_angle::{Planes, SphericalTriangle};
 use crate::math::quotient;
 use crate::real::{Mask, Real, unit_interval};
@@ -130,6 +131,8 @@ impl<R: Real, const N: usize> SphericalPolygon<R, N> {
         triangle.sample_point_from(u, rest).0
     }
 }
+
+spherical!(SphericalPolygon, N; s => Self::in_front(s));
 
 impl<R: Real, const N: usize> Warp<R> for SphericalPolygon<R, N> {
     type Point = Vec3<R>;

@@ -2,6 +2,7 @@
 
 use crate::lanewise::lanewise;
 use crate::light::direction::DirectionSample;
+use crate::light::shape::spherical;
 use crate::math::{ratio, rsqrt};
 use crate::real::{Mask, Real, unit_interval};
 use crate::vector::double_word::{cross_dw, dot_dw, height_over, rounded_sum, sum_dw};
@@ -383,6 +384,8 @@ impl<R: Real> SphericalRectangle<R> {
         (sample, coordinates)
     }
 }
+
+spherical!(SphericalRectangle; s => Self::in_front(s), sample_with_coordinates);
 
 impl<R: Real> Warp<R> for SphericalRectangle<R> {
     type Point = Vec3<R>;

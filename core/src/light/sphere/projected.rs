@@ -5,6 +5,7 @@ mod segment;
 
 use crate::lanewise::lanewise;
 use crate::light::direction::{DirectionSample, above_horizon};
+use crate::light::shape::projected;
 use crate::math::{ratio, rsqrt};
 use crate::real::{Mask, Real, unit_interval};
 use crate::vector::double_word::dot_dw;
@@ -317,6 +318,8 @@ impl<R: Real> ProjectedCap<R> {
         DirectionSample { direction: above_horizon(self.frame.to_world(w), self.frame.n), distance }
     }
 }
+
+projected!(ProjectedCap; s => !s.inside());
 
 impl<R: Real> Warp<R> for ProjectedCap<R> {
     type Point = Vec3<R>;

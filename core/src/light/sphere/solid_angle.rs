@@ -2,6 +2,7 @@
 
 use crate::lanewise::lanewise;
 use crate::light::direction::DirectionSample;
+use crate::light::shape::spherical;
 use crate::real::Real;
 use crate::vector::{Frame, Vec2, Vec3};
 use crate::warp::{Cone, Warp};
@@ -110,6 +111,8 @@ impl<R: Real> SphericalCap<R> {
         }
     }
 }
+
+spherical!(SphericalCap; s => !s.inside());
 
 impl<R: Real> Warp<R> for SphericalCap<R> {
     type Point = Vec3<R>;

@@ -7,6 +7,7 @@ pub(in crate::light) mod zenith;
 
 use crate::lanewise::lanewise;
 use crate::light::direction::{DirectionSample, to_unit};
+use crate::light::shape::projected;
 use crate::light::triangle::solid_angle::TRIANGLE_SLACK;
 use crate::math::{quotient, ratio, rsqrt};
 use crate::real::{Mask, Real, unit_interval};
@@ -367,6 +368,8 @@ pub(in crate::light) fn edge<R: Real>(whole: R) -> R {
     let step = R::lit(1.0) - R::ONE_MINUS_EPSILON;
     whole * (step + step)
 }
+
+projected!(ProjectedTriangle; s => Self::in_front(s));
 
 impl<R: Real> Warp<R> for ProjectedTriangle<R> {
     type Point = Vec3<R>;
