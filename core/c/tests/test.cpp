@@ -167,7 +167,7 @@ static void test_warps() {
     test_warp(Linear(1, 3)), test_warp(Tent(2));
 
     std::array<float, 20> x, y, a, b, c, pdf;
-    CHECK(R2{1}.pairs({}, {x, y}) == ETENDUE_STATUS_OK);
+    CHECK(OwenSobol{1}.pairs({}, {x, y}) == ETENDUE_STATUS_OK);
     CHECK(CosineHemisphere().sample({x, y}, {a, b, c}) == ETENDUE_STATUS_OK && CosineHemisphere().pdf({a, b, c}, pdf) == ETENDUE_STATUS_OK);
     CHECK(Vec3(CosineHemisphere().sample({x[7], y[7]})).y == b[7] && std::fabs(pdf[7] - c[7] * 0.318309886f) < 1e-6f);
     CHECK(CosineHemisphere().invert({a, b, c}, {a, b}) == ETENDUE_STATUS_OK && std::fabs(a[7] - x[7]) < 1e-5f);
