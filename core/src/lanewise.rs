@@ -35,7 +35,7 @@ macro_rules! lanewise {
         $($(#[$field_doc:meta])* $vis:vis $field:ident: $kind:ident $(<$lane:ident>)?),+ $(,)?
     }) => {
         $(#[$doc])*
-        #[derive(Clone, Copy, Debug, Default)]
+        #[derive(Clone, Copy, Debug, Default, PartialEq)]
         #[repr(C)]
         $struct_vis struct $name<R> {
             $($(#[$field_doc])* $vis $field: $kind $(<$lane>)?,)+

@@ -5,9 +5,11 @@ pub(crate) mod double_word;
 use crate::lanewise::{lanewise, only};
 use crate::math::{difference_of_products, rsqrt};
 use crate::real::Real;
-use core::ops::{Add, AddAssign, Mul, Neg, Sub};
+use core::ops::{Add, AddAssign, Div, Index, Mul, Neg, Sub};
 
 macro_rules! vector {
+    (@count $x:ident $y:ident) => { 2 };
+    (@count $x:ident $y:ident $z:ident) => { 3 };
     ($(#[$doc:meta])* $name:ident { $($axis:ident),+ }) => {
         $(#[$doc])*
         #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -20,6 +22,11 @@ macro_rules! vector {
             #[inline(always)]
             pub const fn new($($axis: R),+) -> Self {
                 Self { $($axis),+ }
+            }
+            /// The components in order.
+            #[inline(always)]
+            pub fn to_array(self) -> [R; vector!(@count $($axis)+)] {
+                [$(self.$axis),+]
             }
             /// Replaces each component x by `f(x)`.
             #[inline(always)]
@@ -86,6 +93,22 @@ macro_rules! vector {
                 Self { $($axis: self.$axis * s),+ }
             }
         }
+        /// A quotient for each component, rounded once.
+        impl<R: Real> Div<R> for $name<R> {
+            type Output = Self;
+            #[inline(always)]
+            fn div(self, s: R) -> Self {
+                Self { $($axis: self.$axis / s),+ }
+            }
+        }
+        /// The components in order. Panics past the last one.
+        impl<R> Index<usize> for $name<R> {
+            type Output = R;
+            #[inline(always)]
+            fn index(&self, axis: usize) -> &R {
+                [$(&self.$axis),+][axis]
+            }
+        }
         impl<R: Real> Neg for $name<R> {
             type Output = Self;
             #[inline(always)]
@@ -100,7 +123,13 @@ vector!(
     Vec2 { x, y }
 );
 vector!(
-    /// A point or a direction in space, over a scalar or a packet.
+    /// A point or a direction in space, over a scalar or a packet. The default is 0.
+    ///
+    /// ```
+    /// use etendue::Vec3;
+    /// let v = Vec3::new(2.0, 4.0, 6.0_f32) / 2.0;
+    /// assert_eq!((v, v[2], v.to_array()), ([1.0, 2.0, 3.0].into(), 3.0, [1.0, 2.0, 3.0]));
+    /// ```
     Vec3 { x, y, z }
 );
 
@@ -181,7 +210,6 @@ impl<R: Real> Vec3<R> {
 
 lanewise! {
     /// A right-handed orthonormal frame whose local z axis is a given direction.
-    #[derive(PartialEq)]
     pub struct Frame {
         /// Local x axis, a unit vector.
         pub s: Vec3<R>,

@@ -37,7 +37,6 @@ lanewise! {
     /// assert!((radiance * opening.factor(1.0, lamp.intensity(Vec3::new(0.0, 0.0, 1.0))) - 100.0).abs() < 0.01);
     /// # Ok::<(), etendue::light::ProfileError>(())
     /// ```
-    #[derive(PartialEq)]
     pub struct LuminousOpening {
         /// π/Φ.
         pub gain: R,

@@ -27,7 +27,7 @@ use solid_angle::SphericalPolygon;
 /// let s = panel.by_solid_angle([0.0, 0.0, 0.0_f32].into()).sample(Vec2::new(0.3, 0.6));
 /// assert!(s.valid() && (s.direction.y * s.distance - 2.0).abs() < 1e-6);
 /// ```
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub struct Polygon<R, const N: usize> {
     /// Corners in order, in one plane, in the coordinates of the scene.

@@ -39,7 +39,6 @@ lanewise! {
     /// assert!((s.direction.x / s.direction.y - 1.0).abs() < 0.01 && (s.uv.x - 10.0 / 18.0).abs() < 0.001);
     /// assert!(spread.attenuation(s.direction, s.normal) < 0.05);
     /// ```
-    #[derive(PartialEq)]
     pub struct Spread {
         /// tan σ.
         pub tan_half: R,

@@ -47,7 +47,7 @@ lanewise! {
 }
 
 /// One value per panel of the quadrature.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[repr(C)]
 struct Quarter<R>([R; 4]);
 impl<R> Quarter<R> {

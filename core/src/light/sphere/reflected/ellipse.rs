@@ -54,7 +54,7 @@ lanewise! {
 }
 
 /// The density over θ between the cells, in any unit. It is 0 at both ends.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[repr(C)]
 struct Nodes<R>([R; CELLS - 1]);
 impl<R> Nodes<R> {
