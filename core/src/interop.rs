@@ -66,7 +66,8 @@ vectors! {
     Vec3 of f64 = glam::DVec3, f64, f64x4, f64x8;
 }
 
-#[cfg(all(test, feature = "glam"))]
+#[cfg(test)]
+#[cfg(feature = "glam")]
 mod tests {
     use super::*;
 
