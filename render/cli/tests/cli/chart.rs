@@ -115,6 +115,15 @@ fn a_run_is_resumed_and_its_page_needs_nothing_else() {
     folder.succeed(&format!("{SMALL} --replicates 3 -o out"));
     let more = folder.read("out/measurements.csv");
     assert!(more.starts_with(&table) && more.lines().count() == 1 + 3 * 2 * 2, "{more}");
+    // other settings are measured anew, and the earlier measurements are kept
+    let out = folder.succeed(&format!("{SMALL} --replicates 2 --seed 9 -o out"));
+    assert!(out.contains("12 measurements with other settings"), "{out}");
+    assert!(folder.read("out/measurements.csv").starts_with(&more));
+}
+
+#[test]
+fn equal_techniques_are_left_out_and_choices_are_curves() {
+    let folder = Folder::new();
     // a technique that equals another one in a scene is left out, with a note
     let out =
         folder.succeed("chart delta-lights --quick --size 16x16 --spp 4 --replicates 2 --samplers stratified -o other");
@@ -138,10 +147,6 @@ fn a_run_is_resumed_and_its_page_needs_nothing_else() {
         );
     }
     assert_eq!(chart.matches("data-series=").count(), 5);
-    // other settings are measured anew, and the earlier measurements are kept
-    let out = folder.succeed(&format!("{SMALL} --replicates 2 --seed 9 -o out"));
-    assert!(out.contains("12 measurements with other settings"), "{out}");
-    assert!(folder.read("out/measurements.csv").starts_with(&more));
 }
 
 #[test]
