@@ -19,7 +19,9 @@ pub use disk::Disk;
 pub(crate) use form::{Approach, Extent, NEAR, Solid};
 pub use form::{Chart, Outline};
 pub use parallelogram::Parallelogram;
-pub(crate) use points::{LEAST, LIFT, Points, on_triangle, on_triangles};
+#[cfg(feature = "analytic")]
+pub(crate) use points::{LEAST, LIFT};
+pub(crate) use points::{Points, on_triangle, on_triangles};
 pub use sphere::Sphere;
 pub(crate) use sphere::across;
 pub use table::Geometry;

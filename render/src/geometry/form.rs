@@ -34,6 +34,7 @@ pub(crate) trait Form: Sized {
     /// Prepares the form for rays.
     fn solid(&self) -> Self::Solid;
     /// The outward normals at points of the surface, of any length.
+    #[cfg(feature = "analytic")]
     #[inline(always)]
     fn outwards(&self, _points: V8) -> V8 {
         V8::from(self.normal())

@@ -60,6 +60,7 @@ impl Form for Sphere {
     fn solid(&self) -> Self {
         *self
     }
+    #[cfg(feature = "analytic")]
     #[inline(always)]
     fn outwards(&self, points: V8) -> V8 {
         points - V8::from(self.center)

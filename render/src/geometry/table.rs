@@ -160,6 +160,7 @@ impl Geometry {
         of!(self, |form| form.middle())
     }
     /// The outward normals at points of the surface, of any length.
+    #[cfg(feature = "analytic")]
     #[inline]
     pub(crate) fn outwards(&self, points: V8) -> V8 {
         of!(self, |form| form.outwards(points))
