@@ -5,6 +5,7 @@ mod blocks;
 mod builtin;
 mod daylight;
 mod directed;
+mod film_and_camera;
 mod generated;
 mod ies;
 mod includes;
@@ -29,7 +30,6 @@ mod subdivision;
 mod tests;
 mod textures;
 mod transform_directives;
-mod view;
 
 use crate::message::utf8;
 pub(crate) use builtin::known_scenes;

@@ -2,6 +2,7 @@
 
 use super::area_lights::{self, Shown};
 use super::blocks::{Blocks, State};
+use super::film_and_camera;
 use super::includes::Includes;
 pub(super) use super::includes::Origin;
 use super::inputs::Files;
@@ -15,7 +16,6 @@ use super::shapes;
 use super::sources::Sources;
 use super::textures::Textures;
 use super::transform_directives;
-use super::view;
 use crate::builder::{Builder, Rest};
 use crate::message::{Place, shortened, utf8};
 use crate::transform::Transform;
@@ -97,7 +97,7 @@ pub(super) fn read(text: &str, file: &str, dir: &Path, origin: Origin<'_>) -> Re
     }
     let whole = FilmSettings { width: 1280, height: 720, diagonal: 35.0, filename: None, place: None };
     let film = reader.film.unwrap_or(whole);
-    view::fit(&mut camera, &film);
+    film_and_camera::fit(&mut camera, &film);
     let Sources { delta_lights, intensities, environment, portals } = reader.sources;
     let rest = Rest {
         camera,
@@ -263,8 +263,8 @@ impl Reader<'_> {
     fn with_params(&mut self, word: &str, kind: &str, mut params: Params, dir: &Path) -> Result<(), Message> {
         match word {
             "Camera" => self.camera(kind, &mut params)?,
-            "Film" => self.film = Some(view::film(kind, &mut params)?),
-            "Sampler" => self.pixel_samples = Some(view::samples(kind, &mut params, &mut self.out.notes)?),
+            "Film" => self.film = Some(film_and_camera::film(kind, &mut params)?),
+            "Sampler" => self.pixel_samples = Some(film_and_camera::samples(kind, &mut params, &mut self.out.notes)?),
             "PixelFilter" => {
                 let mut half = |name| Ok(params.float(name)?.is_none_or(|radius| radius == 0.5));
                 if !(half("xradius")? & half("yradius")? & (kind == "box")) {
@@ -346,7 +346,7 @@ impl Reader<'_> {
         if self.camera.is_some() {
             self.out.notes.warn(params.error("a second camera: the last one counts"));
         }
-        let (camera, world) = view::camera(kind, params, &self.state.ctm, &mut self.out.notes)?;
+        let (camera, world) = film_and_camera::camera(kind, params, &self.state.ctm, &mut self.out.notes)?;
         self.systems.insert("camera".into(), world);
         self.camera = Some(camera);
         Ok(())
