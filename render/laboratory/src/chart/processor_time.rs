@@ -16,14 +16,14 @@ pub(super) fn processor_seconds() -> Option<f64> {
     None
 }
 
-#[cfg(all(test, unix))]
+#[cfg(test)]
 mod tests {
     use super::*;
     use std::time::{Duration, Instant};
 
     #[test]
     fn work_counts() {
-        let before = processor_seconds().unwrap();
+        let Some(before) = processor_seconds() else { return };
         let start = Instant::now();
         let mut sum = 0_u64;
         while start.elapsed() < Duration::from_millis(50) {
