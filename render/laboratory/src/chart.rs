@@ -22,7 +22,7 @@ use crate::progress::{bar, duration};
 use budget::{Extent, Trial};
 use etendue_render::files;
 use etendue_render::{Sampler, identity};
-use measure::{Key, Plan, inapplicable};
+use measure::{ChartedScene, Key, Plan, Row, inapplicable};
 pub use options::Options;
 pub use outcome::Outcome;
 use prepare::Loaded;
@@ -172,7 +172,8 @@ fn render(
         notes.push(format!("{found} measurements come from an earlier run"));
     }
     let bar = bar(plan.work(&rows), "measuring")?;
-    pool.install(|| plan.run(&mut table, &mut rows, stop, &|done| bar.inc(done)).map_err(|e| e.to_string()))?;
+    let keep = &mut |scene: &ChartedScene, key: &Key, row: &Row| table.append(scene, key, row);
+    pool.install(|| plan.run(&mut rows, keep, stop, &|done| bar.inc(done)).map_err(|e| e.to_string()))?;
     bar.finish_and_clear();
     let all = plan.keys.len() * plan.replicates as usize;
     let done: usize = rows.values().map(Vec::len).sum();

@@ -3,7 +3,6 @@
 use super::processor_time::processor_seconds;
 use super::reference::{Difference, Reference};
 use super::stats::Cost;
-use super::table::Table;
 use crate::cost::median;
 use crate::hash::fnv1a;
 use etendue_render::{ChoiceBy, Sampler, Settings, Technique, World};
@@ -117,6 +116,9 @@ pub(crate) fn inapplicable(sampler: Sampler, spp: u32) -> Option<String> {
     sampler.check(spp, SETS).err()
 }
 
+/// Keeps a row of a scene.
+pub type Keep<'a> = dyn FnMut(&ChartedScene, &Key, &Row) -> Result<(), Box<dyn Error>> + Send + 'a;
+
 /// The planned measurements.
 #[derive(Debug)]
 pub struct Plan {
@@ -148,15 +150,15 @@ impl Plan {
         let left = |key: &Key| u64::from(self.replicates) - rows.get(key).map_or(0, |r| r.len() as u64);
         self.keys.iter().map(|key| left(key) * samples(key)).sum()
     }
-    /// Measures what is missing and appends it to the table line by line. Calls `progress` with numbers of samples. Returns early if
+    /// Measures what is missing, and gives each row to `keep` before it adds it. Calls `progress` with numbers of samples. Returns early if
     /// `stop` is set.
     ///
     /// # Errors
-    /// Fails if the table cannot be written.
+    /// Fails if `keep` does.
     pub fn run(
         &self,
-        table: &mut Table,
         rows: &mut Rows,
+        keep: &mut Keep<'_>,
         stop: &AtomicBool,
         progress: &(dyn Fn(u64) + Sync),
     ) -> Result<(), Box<dyn Error>> {
@@ -175,7 +177,7 @@ impl Plan {
                     return Ok(());
                 }
                 let row = self.render(key, replicate, progress);
-                table.append(&self.scenes[key.scene], key, &row)?;
+                keep(&self.scenes[key.scene], key, &row)?;
                 rows.entry(*key).or_default().push(row);
             }
         }
