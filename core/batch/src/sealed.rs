@@ -3,8 +3,8 @@
 /// A type of this crate's lists. [`Batch`](crate::Batch) takes memory as written by the functions of such types, without a look, so that no
 /// other type may have the traits above this one.
 ///
-/// ```compile_fail
-/// use etendue::Real;
+/// ```compile_fail,E0277
+/// use etendue::{Mask, Real};
 /// use etendue_batch::{BatchMap, MOST_NUMBERS, MOST_RESULTS, MapFunctions, Table};
 /// #[derive(Clone, Copy)]
 /// struct Mine;
@@ -12,10 +12,10 @@
 ///     const NUMBERS: usize = 1;
 ///     const RESULTS: usize = 1;
 ///     fn map<R: Real<Scalar = f32>>(&self, _: [R; MOST_NUMBERS]) -> ([R; MOST_RESULTS], R::Mask) {
-///         unimplemented!()
+///         ([R::lit(0.0); MOST_RESULTS], R::Mask::splat(true))
 ///     }
 ///     fn map_functions(_: &'static Table) -> MapFunctions<Self> {
-///         unimplemented!()
+///         loop {}
 ///     }
 /// }
 /// ```

@@ -44,8 +44,7 @@ impl<R: Real> Surface<R> for PlacedParallelogram<R> {
 impl<R: Real> AreaSurface<R> for PlacedParallelogram<R> {
     const FLAT: bool = true;
     #[inline(always)]
-    fn draw(&self, u: Vec2<R>) -> SurfacePoint<R> {
-        let uv = u;
+    fn draw(&self, uv: Vec2<R>) -> SurfacePoint<R> {
         let position = self.first.mul_add(uv.x, self.second.mul_add(uv.y, self.origin));
         SurfacePoint { position, normal: self.plane.normal, uv, inverse_pdf: self.area() }
     }
@@ -65,6 +64,6 @@ impl<R: Real> AreaSurface<R> for PlacedParallelogram<R> {
     }
     #[inline(always)]
     fn area(&self) -> R {
-        self.plane.parallelogram_area() * R::lit(1.0)
+        self.plane.parallelogram_area()
     }
 }

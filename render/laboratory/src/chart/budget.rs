@@ -45,9 +45,9 @@ impl Rate {
 
 /// Measured rates of all methods and samplers.
 pub(super) struct Trial {
-    /// By keys of no samples.
+    /// Their rates, by keys whose number of samples is 0.
     rates: HashMap<Key, Rate>,
-    /// Of the references that are to be rendered.
+    /// The rates of references; `None` where the reference is already there.
     references: Vec<Option<Rate>>,
     samplers: Vec<Sampler>,
 }

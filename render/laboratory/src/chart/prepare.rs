@@ -67,7 +67,7 @@ impl Loaded {
     fn find_methods(&mut self, options: &Options) {
         let is_glossy = self.scene.materials.iter().any(Material::is_glossy);
         let choices = chosen(&options.choices, &ChoiceBy::ALL);
-        // choices are told apart by one technique that samples a chosen light
+        // several choices are compared by one technique, which samples the light that was chosen
         let one = [if is_glossy { Technique::MisLobe } else { Technique::SolidAngle }];
         let techniques = chosen(&options.techniques, if choices.len() > 1 { &one } else { &Technique::ALL });
         let mut images: Vec<Vec<PixelMean>> = Vec::new();
