@@ -81,6 +81,21 @@ fn two_halves_of_an_image_share_its_samples() {
     assert!((means[0] - 2.0).abs() < 0.1 && (means[1] - 12.7).abs() < 0.3, "{means:?}");
 }
 
+/// Where the pilot bounds no number, variances in a ratio of 32 give numbers in that of 32^0.4 = 4.
+#[test]
+fn numbers_follow_the_variance_around() {
+    let variance = |i: usize| if i % 64 < 32 { 1.0 } else { 32.0 };
+    let parts: Vec<_> = (0..64 * 64).map(|i| Statistics { variance: variance(i), ..Statistics::default() }).collect();
+    let (packets, _) = count_packets(&parts, 64, &plan(1, 2, 100.0));
+    assert!((average(&packets) / 100.0 - 1.0).abs() < 0.02, "{}", average(&packets));
+    // away from the border by more than the far neighbours
+    let columns = |from: usize, to: usize| -> Vec<u32> {
+        packets.chunks(64).flat_map(|row| row[from..to].iter().copied()).collect()
+    };
+    let ratio = average(&columns(39, 64)) / average(&columns(0, 25));
+    assert!((ratio / 4.0 - 1.0).abs() < 0.03, "{ratio}");
+}
+
 /// Differences of samples that overflow do not keep the search for a scale from ending.
 #[test]
 fn infinite_variance_gets_equal_numbers() {
