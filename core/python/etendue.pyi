@@ -1,6 +1,5 @@
 """Light sampling: maps of random numbers to directions, their densities and inverses, over numpy arrays of single precision."""
 
-from collections.abc import Callable
 from collections.abc import Sequence as _Sequence
 from typing import Final, Literal, final
 
@@ -15,7 +14,6 @@ __all__ = [
     "ConcentricDisk",
     "Cone",
     "CosineHemisphere",
-    "GeneralSky",
     "GgxVisibleNormals",
     "ImageEnvironment",
     "Independent",
@@ -32,22 +30,17 @@ __all__ = [
     "PolarDisk",
     "Portal",
     "PortalEnvironment",
-    "Profile",
-    "ProjectedImage",
-    "Projector",
     "Reflection",
     "Sampler",
     "Samples",
     "Sequence",
     "Spread",
     "Stratified",
-    "SunPosition",
     "Tent",
     "UniformHemisphere",
     "UniformSphere",
     "Warp",
     "__version__",
-    "by_profile",
     "level",
     # lights from the list of techniques: WRITE=1 cargo test -p etendue-tests --test bindings
     "Sphere",
@@ -877,43 +870,3 @@ class Spread:
     def attenuation(self, w: ArrayLike, n: ArrayLike) -> _F32: ...
     def visible_part(self, light: Parallelogram | Rectangle, p: ArrayLike) -> Parallelogram: ...
     def by_spread(self, light: Parallelogram | Rectangle | Disk, p: ArrayLike) -> Sampler: ...
-
-@final
-class GeneralSky:
-    def __new__(cls, kind: int, sun: _Sequence[float] | NDArray[np.float64]) -> GeneralSky: ...
-    def luminance(self, w: ArrayLike) -> _F32: ...
-    def horizontal(self) -> float: ...
-
-@final
-class SunPosition:
-    def __new__(cls, year: int, month: int, day: int, hours: float, latitude: float, longitude: float) -> SunPosition: ...
-    @property
-    def elevation(self) -> float: ...
-    @property
-    def azimuth(self) -> float: ...
-    @property
-    def direction(self) -> NDArray[np.float64]: ...
-
-@final
-class Profile:
-    def __new__(cls, polar: ArrayLike, azimuth: ArrayLike, values: ArrayLike) -> Profile: ...
-    def intensity(self, w: ArrayLike) -> _F32: ...
-    @property
-    def power(self) -> float: ...
-    @property
-    def cos_cone(self) -> float: ...
-    def means(self, height: int, width: int) -> _F32: ...
-
-def by_profile(light: PointLight, p: ArrayLike, intensity: Callable[[_F32], float | np.float32 | _F32]) -> Sampler: ...
-@final
-class Projector:
-    def __new__(cls, tan_half: ArrayLike) -> Projector: ...
-    def place(self, w: ArrayLike) -> tuple[_F32, NDArray[np.bool_]]: ...
-    def direction(self, uv: ArrayLike) -> _F32: ...
-    @property
-    def cos_cone(self) -> float: ...
-    def solid_angles(self, height: int, width: int) -> NDArray[np.float64]: ...
-
-@final
-class ProjectedImage(Warp):
-    def __new__(cls, projector: Projector, weights: ArrayLike) -> ProjectedImage: ...

@@ -58,9 +58,7 @@ mod warp;
 
 pub use columns::{ChoiceColumns, Choices, Counters, EvaluationColumns, Evaluations, SampleColumns, Samples};
 pub use kernel::Views;
-pub use map::{
-    BatchMap, DirectionOfImage, MOST_NUMBERS, MOST_RESULTS, PlaceInImage, ReflectedSphere, SeenThroughPortals,
-};
+pub use map::{BatchMap, MOST_NUMBERS, MOST_RESULTS, ReflectedSphere, SeenThroughPortals};
 pub use one::{OnceFunctions, OneFunctions, OneSample, OneWarpFunctions};
 pub use placed::{
     PictureByArea, PictureByProjectedSolidAngle, PictureBySolidAngle, PictureOnPatchByVisibleArea,

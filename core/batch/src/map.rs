@@ -2,8 +2,8 @@
 
 use crate::kernel::Packet;
 use crate::sealed::Sealed;
-use crate::table::{Lanes, MapFunctions, Table};
-use etendue::light::{GeneralSky, PortalEnvironment, PortalMap, Profile, Projector, Spread};
+use crate::table::{MapFunctions, Table};
+use etendue::light::{PortalEnvironment, PortalMap, Spread};
 use etendue::reflection::Reflection;
 use etendue::{Mask, Real, Vec2, Vec3};
 
@@ -24,12 +24,6 @@ pub trait BatchMap: Copy + Sealed {
     fn map_functions(table: &'static Table) -> MapFunctions<Self>;
 }
 
-/// [`Projector::place`].
-#[derive(Clone, Copy, Debug)]
-pub struct PlaceInImage(pub Projector);
-/// [`Projector::direction`].
-#[derive(Clone, Copy, Debug)]
-pub struct DirectionOfImage(pub Projector);
 /// [`Reflection::sphere`].
 #[derive(Clone, Copy, Debug)]
 pub struct ReflectedSphere(pub Reflection<f32>);
@@ -83,41 +77,15 @@ fn one<R: Real>(x: R) -> ([R; MOST_RESULTS], R::Mask) {
     let zero = R::lit(0.0);
     ([x, zero, zero, zero], R::Mask::splat(true))
 }
-/// Three or four results, which always hold.
-#[inline(always)]
-fn direction<R: Real>(w: Vec3<R>, measure: R) -> ([R; MOST_RESULTS], R::Mask) {
-    ([w.x, w.y, w.z, measure], R::Mask::splat(true))
-}
 
 maps! {
-    profile: Profile<'a>, 3 -> 1, |profile, [x, y, z, ..]| one(profile.intensity(Vec3::new(x, y, z)));
-    place_in_image: PlaceInImage, 3 -> 2, |image, [x, y, z, ..]| {
-        let (uv, inside) = image.0.place(Vec3::new(x, y, z));
-        ([uv.x, uv.y, R::lit(0.0), R::lit(0.0)], inside)
-    };
-    direction_of_image: DirectionOfImage, 2 -> 3, |image, [u, v, ..]| direction(image.0.direction(Vec2::new(u, v)), R::lit(0.0));
     spread: Spread[f32], 6 -> 1, |spread, [x, y, z, nx, ny, nz]|
         one(Spread::<R>::splat(*spread).attenuation(Vec3::new(x, y, z), Vec3::new(nx, ny, nz)));
     sphere: ReflectedSphere, 4 -> 1, |sphere, [x, y, z, radius, ..]| one(Reflection::<R>::splat(sphere.0).sphere(Vec3::new(x, y, z), radius));
     portal_map: PortalMap, 2 -> 4, |map, [u, v, ..]| {
         let (w, solid_angle) = PortalMap::direction(map, Vec2::new(u, v));
-        direction(w, solid_angle)
+        ([w.x, w.y, w.z, solid_angle], R::Mask::splat(true))
     };
     seen: SeenThroughPortals<'a>, 6 -> 0, |portals, [px, py, pz, x, y, z]|
         ([R::lit(0.0); MOST_RESULTS], portals.0.sees(Vec3::new(px, py, pz), Vec3::new(x, y, z)));
-}
-
-impl Sealed for GeneralSky {}
-/// Its exponentials are those of a library that is not compiled once more for other instructions: all levels use the build's.
-impl BatchMap for GeneralSky {
-    const NUMBERS: usize = 3;
-    const RESULTS: usize = 1;
-    #[inline(always)]
-    fn map<R: Real<Scalar = f32>>(&self, [x, y, z, ..]: [R; MOST_NUMBERS]) -> ([R; MOST_RESULTS], R::Mask) {
-        one(self.luminance(Vec3::new(x, y, z)))
-    }
-    #[inline]
-    fn map_functions(_: &'static Table) -> MapFunctions<Self> {
-        MapFunctions::of::<Lanes>()
-    }
 }

@@ -166,7 +166,6 @@ macro_rules! table {
             $($field: $functions<$type>,)+
             pub(crate) tree: TreeFunctions,
             pub(crate) image: SamplerFunctions<ByRadiance<'static>>,
-            pub(crate) projected_image: WarpFunctions<ProjectedImage<'static>>,
             pub(crate) placed: PlacedTable,
             pub(crate) maps: MapTable,
             pub(crate) reflections: ReflectionsFunction,
@@ -178,7 +177,6 @@ macro_rules! table {
                     $($field: $functions::of::<R>(),)+
                     tree: TreeFunctions::of::<R>(),
                     image: SamplerFunctions::of::<R>(),
-                    projected_image: WarpFunctions::of::<R>(),
                     placed: PlacedTable::of::<R>(),
                     maps: MapTable::of::<R>(),
                     reflections: kernel::reflections::<R>,

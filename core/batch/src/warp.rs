@@ -2,7 +2,6 @@
 
 use crate::sealed::Sealed;
 use crate::table::{InTable, Table, WarpFunctions};
-use etendue::light::ProjectedImage;
 use etendue::reflection::Reflection;
 use etendue::warp::*;
 use etendue::{Real, Vec2, Vec3};
@@ -117,23 +116,3 @@ macro_rules! warps {
     };
 }
 etendue::warps!(warps! {});
-
-impl Sealed for ProjectedImage<'_> {}
-impl<'a> BatchWarp for ProjectedImage<'a> {
-    type Of<R: Real> = Self;
-    #[inline(always)]
-    fn splat<R: Real<Scalar = f32>>(&self) -> Self {
-        *self
-    }
-    warps!(# 3, 2;
-        |warp, u| Point::coordinates(Warp::sample(warp, u)),
-        |warp, point| Warp::pdf(warp, Point::from_coordinates(point)),
-        |warp, point| Warp::invert(warp, Point::from_coordinates(point)));
-    #[inline]
-    fn warp_functions(table: &'static Table) -> WarpFunctions<Self> {
-        // SAFETY: the types differ in how long the image lives, and the functions keep nothing of it
-        unsafe {
-            core::mem::transmute::<WarpFunctions<ProjectedImage<'static>>, WarpFunctions<Self>>(table.projected_image)
-        }
-    }
-}

@@ -2,9 +2,7 @@
 
 mod every;
 
-use etendue::light::{
-    EnvironmentMap, GeneralSky, ImageEnvironment, Portal, PortalEnvironment, PortalTable, Profile, Projector, Spread,
-};
+use etendue::light::{EnvironmentMap, ImageEnvironment, Portal, PortalEnvironment, PortalTable, Spread};
 use etendue::reflection::Reflection;
 use etendue::select::{LightBound, LightChoice, LightTree, Node8};
 use etendue::sequence::{Independent, Sequence};
@@ -192,12 +190,6 @@ fn assert_map<M: BatchMap>(name: &str, map: &M) {
 
 #[test]
 fn maps_have_the_bits_of_the_core() {
-    let values = [100.0, 30.0, 0.0, 80.0, 50.0, 1.0];
-    assert_map("profile", &Profile::new(&[0.0, 60.0, 90.0], &[0.0, 90.0], &values).unwrap());
-    let slide = Projector { tan_half: [1.0, 0.5] };
-    assert_map("place in image", &PlaceInImage(slide));
-    assert_map("direction of image", &DirectionOfImage(slide));
-    assert_map("sky", &GeneralSky::new(12, [0.6, 0.0, 0.8]).unwrap());
     let floor = Reflection::new(0.2, Vec3::new(0.0, 1.0, 0.0), Vec3::new(-0.6, 0.8, 0.0));
     assert_map("reflected sphere", &ReflectedSphere(floor));
     assert_map("spread", &Spread::<f32>::new(1.2));

@@ -625,34 +625,6 @@ typedef struct {
   float *u;
 } EtendueChoiceColumns;
 
-// The sky by CIE's standard general sky (ISO 15469:2004): how bright it is in each direction, relative to the zenith. z is up.
-//
-// What is inside does not concern callers: it may be copied, and used by any thread. An image of it is sampled in proportion to it, see
-// EtendueImageEnvironment; the sun itself is an EtendueSun.
-typedef struct {
-  double data[9];
-} EtendueGeneralSky;
-
-// A time, in the Gregorian calendar and universal time.
-typedef struct {
-  // The year.
-  int32_t year;
-  // The month, from 1.
-  uint32_t month;
-  // The day of the month, from 1.
-  uint32_t day;
-  // Hours since midnight; any number: -1 is 23 o'clock of the day before.
-  double hours;
-} EtendueMoment;
-
-// Where the sun stands as seen from a place, without refraction.
-typedef struct {
-  // Angle above the horizon in radians.
-  double elevation;
-  // Angle from north over east in radians, in [0, 2 pi).
-  double azimuth;
-} EtendueSunPosition;
-
 // Light from all around as an image tells it, in memory of the caller: directions in proportion to the image, the same for all shading
 // points. The position in the image is `uv` of a sample.
 typedef struct {
@@ -837,39 +809,6 @@ typedef struct {
   // The shading point.
   float p[3];
 } EtenduePortalsByRadiance;
-
-// The radiant intensity of a light by direction: a table over two angles, between which it is bilinear, as photometry interpolates.
-//
-// Directions are those in which light travels, in the space of the profile: the polar angle is that from +z, and the azimuth that from +x
-// towards +y. IES files (LM-63) of type C have the nadir as +z; those of types A and B have their axis as z, and the polar angle is their
-// vertical angle plus 90 degrees. What is inside does not concern callers: it may be copied, and used by any thread, while the arrays that it
-// was prepared from live.
-typedef struct {
-  size_t data[8];
-} EtendueProfile;
-
-// A light that projects a rectangular image through a pinhole, as a slide projector does.
-//
-// Directions are those in which light travels, in the space of the projector: +z is the axis, +x the right and +y the upper edge of the
-// image. Positions in the image run from the upper left corner, in [0, 1]^2.
-typedef struct {
-  // Tangents of half the horizontal and vertical angle of view, greater than 0. With others, no direction is in the image.
-  float tan_half[2];
-} EtendueProjector;
-
-// What a projector emits of an image, for light tracing, in memory of the caller: a texel by its weight times its solid angle, and in the
-// texel uniform in the plane of the image. The pdf is the probability of the texel times the number of texels, over
-// 4 tx ty cos(theta)^3, per steradian, with the tangents tx and ty; 0 where the weight is 0, and outside the image.
-typedef struct {
-  // The table that etendue_projected_image_build wrote.
-  const float *table;
-  // Number of columns of the image.
-  size_t width;
-  // Number of its rows.
-  size_t height;
-  // The projector.
-  EtendueProjector projector;
-} EtendueProjectedImage;
 
 // How a flat light emits within a cone about its normal, as through a honeycomb before it: the spread of Cycles. A host multiplies the
 // radiance of the light by the attenuation, which leaves its power as it is. A point sees only a disk of the plane of the light, which the
@@ -3752,37 +3691,6 @@ EtendueStatus etendue_light_tree_pmf_batch(const EtendueLightTree *tree,
                                            const uint32_t *lights,
                                            float *out);
 
-// Prepares the sky of a type from 1 to 15 with the sun in the direction `sun`, three numbers of any length. 1 is overcast, 5 uniform, 12 clear,
-// 15 turbid with a wide corona. Returns ETENDUE_STATUS_VALUE for another type, and if there is no direction.
-EtendueStatus etendue_general_sky_prepare(uint32_t kind,
-                                          const double *sun,
-                                          EtendueGeneralSky *out);
-
-// The luminance in the unit direction `w` over that of the zenith; 0 below the horizon, where the direction is NaN, and if a pointer is NULL.
-float etendue_general_sky_luminance(const EtendueGeneralSky *sky,
-                                    const float *w);
-
-// The luminance in each unit direction over that of the zenith: three columns.
-EtendueStatus etendue_general_sky_luminance_batch(const EtendueGeneralSky *sky,
-                                                  size_t n,
-                                                  const float *const *w,
-                                                  float *out);
-
-// Illuminance of the horizontal plane over the luminance of the zenith, in steradians, without the sun's disk: within 2e-5. A sum over 512 x
-// 1024 directions. 0 for NULL.
-double etendue_general_sky_horizontal(const EtendueGeneralSky *sky);
-
-// Where the sun stands at a time, as seen from a latitude (north is positive) and longitude (east is positive) in degrees: to 0.01 degrees from
-// 1950 to 2050 (Michalsky 1988). Returns ETENDUE_STATUS_VALUE if the calendar does not have the day, if the hours are not finite, the
-// latitude is not in [-90, 90], or the longitude not in [-180, 180].
-EtendueStatus etendue_sun_position(const EtendueMoment *time,
-                                   double latitude,
-                                   double longitude,
-                                   EtendueSunPosition *out);
-
-// The unit direction to the sun, three numbers: +x is east, +y north and +z up.
-EtendueStatus etendue_sun_position_direction(const EtendueSunPosition *position, double *direction);
-
 // Number of floats in the table of an image; 0 for one without columns or rows, or with more than 2^24 of them.
 size_t etendue_image_environment_table(size_t width, size_t height);
 
@@ -4493,130 +4401,6 @@ EtendueStatus etendue_portals_by_radiance_hit_each(const EtenduePortalEnvironmen
                                                    const float *const *p,
                                                    const float *const *w,
                                                    const EtendueSampleColumns *out);
-
-// Prepares a profile from polar angles and azimuths in degrees, and a value for each pair: all polar angles of the first azimuth come first.
-//
-// There are 2 or more polar angles that ascend in [0, 180], and azimuths that ascend from one in (-360, 0] over at most 360; a single azimuth
-// stands for all. `values` has polar_count x azimuth_count elements from 0 to 1e37, in any unit. Below the first and above the last polar
-// angle, and outside the azimuths, the light is dark. The arrays must live as long as the profile is used. Returns ETENDUE_STATUS_COUNT for
-// too few angles, and ETENDUE_STATUS_VALUE if angles do not ascend or are out of their range, and if a value is negative, NaN or too large.
-EtendueStatus etendue_profile_prepare(const float *polar,
-                                      size_t polar_count,
-                                      const float *azimuth,
-                                      size_t azimuth_count,
-                                      const float *values,
-                                      EtendueProfile *out);
-
-// The intensity in the unit direction `w` in which light travels, in the unit of the values; 0 if a pointer is NULL.
-float etendue_profile_intensity(const EtendueProfile *profile, const float *w);
-
-// The intensity in each unit direction in which light travels: three columns.
-EtendueStatus etendue_profile_intensity_batch(const EtendueProfile *profile,
-                                              size_t n,
-                                              const float *const *w,
-                                              float *out);
-
-// The integral of the intensity over all directions: the power, for intensities per steradian. Exact to some 1e-14; 0 for NULL.
-double etendue_profile_power(const EtendueProfile *profile);
-
-// Cosine of the angle from +z from which on the light is dark, at most 1: for EtendueLightBound. -1 if it may shine in all directions, and
-// for NULL.
-float etendue_profile_cos_cone(const EtendueProfile *profile);
-
-// Fills an image of width x height texels with the mean of the intensity over each texel of an equirectangular map, row by row, which is
-// greater than 0 where there is light. etendue_image_environment_build samples what the light emits with these weights. Returns
-// ETENDUE_STATUS_COUNT for an image without columns or rows.
-EtendueStatus etendue_profile_means(const EtendueProfile *profile,
-                                    size_t width,
-                                    size_t height,
-                                    float *means);
-
-// Prepares a point light whose intensity differs by direction for a shading point. `intensity` is called once, with the unit direction in
-// which light travels, in the coordinates of the scene, and with `context`, and returns the intensity there, relative to the I of the
-// estimator: of a profile, of a projected image, or of anything else. The pdf of a sample is distance^2 over it, which is no density, and 0
-// where the intensity is 0.
-EtendueStatus etendue_point_light_by_profile_prepare(const EtenduePointLight *light,
-                                                     const float *p,
-                                                     float (*intensity)(const float *w, void *context),
-                                                     void *context,
-                                                     EtenduePointLightByDelta *out);
-
-// The position `uv` in the image of the unit direction `w`, and whether it is there: where it is not, `inside` is 0, and so is the position.
-//
-// u = (1 + x/(z tx))/2, v = (1 - y/(z ty))/2, with the tangents tx and ty of half the angles of view.
-EtendueStatus etendue_projector_place(const EtendueProjector *projector,
-                                      const float *w,
-                                      float *uv,
-                                      uint8_t *inside);
-
-// The position in the image of each unit direction, and whether it is there: three columns in, two and one out.
-EtendueStatus etendue_projector_place_batch(const EtendueProjector *projector,
-                                            size_t n,
-                                            const float *const *w,
-                                            float *const *uv,
-                                            uint8_t *inside);
-
-// The unit direction `w` in which the light of a position `uv` in the image travels.
-EtendueStatus etendue_projector_direction(const EtendueProjector *projector, const float *uv, float *w);
-
-// The unit direction in which the light of each position in the image travels: two columns in, three out.
-EtendueStatus etendue_projector_direction_batch(const EtendueProjector *projector,
-                                                size_t n,
-                                                const float *const *uv,
-                                                float *const *w);
-
-// A cosine of the angle to the axis from which on the light is dark, for EtendueLightBound: that of the corners, less a rounding. -1 for NULL.
-float etendue_projector_cos_cone(const EtendueProjector *projector);
-
-// Solid angle of the texel in column `x` and row `y` of an image of width x height texels, in steradians: exact to some 1e-16. 0 for NULL, and
-// for a texel beyond the image.
-double etendue_projector_texel_solid_angle(const EtendueProjector *projector,
-                                           size_t width,
-                                           size_t height,
-                                           size_t x,
-                                           size_t y);
-
-// Number of floats in the table of an image; 0 for one without columns or rows, or with more than 2^24 of them.
-size_t etendue_projected_image_table(size_t width, size_t height);
-
-// Builds the table of an image, from a weight per steradian for each texel, row by row from the top.
-//
-// `weights` has width x height elements, `table` has etendue_projected_image_table; it must live as long as `image` is used, `weights`
-// need not. Returns ETENDUE_STATUS_COUNT for a size that is not allowed, and ETENDUE_STATUS_VALUE if a weight is negative, infinite or NaN, if
-// all weights are 0, and if a tangent of the projector is not positive and finite.
-EtendueStatus etendue_projected_image_build(const EtendueProjector *projector,
-                                            const float *weights,
-                                            size_t width,
-                                            size_t height,
-                                            float *table,
-                                            EtendueProjectedImage *image);
-
-// Maps random numbers `u` to a unit direction `w` in which light travels.
-EtendueStatus etendue_projected_image_sample(const EtendueProjectedImage *image, const float *u, float *w);
-
-// The pdf of a unit direction `w`, per steradian; 0 outside the image, and if a pointer is NULL.
-float etendue_projected_image_pdf(const EtendueProjectedImage *image, const float *w);
-
-// The random numbers that are mapped to a unit direction `w`; any in [0, 1)^2 outside the image.
-EtendueStatus etendue_projected_image_invert(const EtendueProjectedImage *image, const float *w, float *u);
-
-// A direction for each u, in columns.
-EtendueStatus etendue_projected_image_sample_batch(const EtendueProjectedImage *image,
-                                                   size_t n,
-                                                   const float *const *u,
-                                                   float *const *w);
-
-// The pdf of each unit direction, in columns.
-EtendueStatus etendue_projected_image_pdf_batch(const EtendueProjectedImage *image,
-                                                size_t n,
-                                                const float *const *w,
-                                                float *out);
-
-// The random numbers of each unit direction, in columns.
-EtendueStatus etendue_projected_image_invert_batch(const EtendueProjectedImage *image,
-                                                   size_t n,
-                                                   const float *const *w,
-                                                   float *const *u);
 
 // Prepares a spread with this full angle in radians, which is taken to be from 1e-3 to pi. Returns ETENDUE_STATUS_VALUE if it is NaN.
 EtendueStatus etendue_spread_prepare(double angle,

@@ -10,7 +10,7 @@
 //   to every class with such members or an operator[] that three floats initialise: T{x, y, z}. The same holds for Vec2.
 // - Lights: Sphere, Triangle, Parallelogram, Rectangle, Disk, BilinearPatch, Polygon, Line, Sun, PointLight, SpotLight,
 //   DirectionalLight. Their methods by_... prepare them for a shading point. ImageEnvironment is the same at every point.
-// - Picture::on puts a picture on a light. PortalEnvironment, Spread, GeneralSky, Profile, Projector and ProjectedImage.
+// - Picture::on puts a picture on a light. PortalEnvironment and Spread.
 // - Batches: columns of one length, from anything with data() and size(). Every length is checked: a column of another length gives
 //   ETENDUE_STATUS_COUNT. Empty columns stand for results that are not wanted.
 // - Warps, sequences and LightTree. Reflection is a warp for which flat lights are prepared by_reflection; ReflectionColumns are many of them.
@@ -761,106 +761,6 @@ struct Spread : EtendueSpread {
     }
 };
 
-// The sky by CIE's general sky, of a type from 1 to 15, relative to the zenith. z is up.
-class GeneralSky {
-    EtendueGeneralSky c_ = {};
-
-  public:
-    Status prepare(uint32_t kind, double x, double y, double z) {
-        const double sun[3] = {x, y, z};
-        return etendue_general_sky_prepare(kind, sun, &c_);
-    }
-    const EtendueGeneralSky& c() const { return c_; }
-    float luminance(Vec3 w) const { return etendue_general_sky_luminance(&c_, detail::Row<3>(w).v); }
-    Status luminance(In<3> w, Span<float> out) const {
-        if (!detail::fits(w, out.size())) return ETENDUE_STATUS_COUNT;
-        return etendue_general_sky_luminance_batch(&c_, out.size(), detail::Pointers<const float, 3>(w).p, out.data());
-    }
-    // Illuminance of the horizontal plane over the luminance of the zenith, in steradians.
-    double horizontal() const { return etendue_general_sky_horizontal(&c_); }
-};
-using Moment = EtendueMoment;
-using SunPosition = EtendueSunPosition;
-
-// ---- profiles, and projected images ----
-
-// The intensity of a light by direction, in arrays of the caller's, which must live as long as the profile is used.
-class Profile {
-    EtendueProfile c_ = {};
-    bool is_prepared_ = false;
-
-  public:
-    // Ascending polar angles and azimuths in degrees, and a value for each pair: all polar angles of the first azimuth come first.
-    Status prepare(Span<const float> polar, Span<const float> azimuth, Span<const float> values) {
-        is_prepared_ = false;
-        if (values.size() != polar.size() * azimuth.size()) return ETENDUE_STATUS_COUNT;
-        const Status status = etendue_profile_prepare(polar.data(), polar.size(), azimuth.data(), azimuth.size(), values.data(), &c_);
-        is_prepared_ = status == ETENDUE_STATUS_OK;
-        return status;
-    }
-    // NULL before it is prepared: then the functions return 0, or refuse it.
-    const EtendueProfile* c() const { return is_prepared_ ? &c_ : nullptr; }
-    // The intensity in the unit direction w in which light travels.
-    float intensity(Vec3 w) const { return etendue_profile_intensity(c(), detail::Row<3>(w).v); }
-    Status intensity(In<3> w, Span<float> out) const {
-        if (!detail::fits(w, out.size())) return ETENDUE_STATUS_COUNT;
-        return etendue_profile_intensity_batch(c(), out.size(), detail::Pointers<const float, 3>(w).p, out.data());
-    }
-    double power() const { return etendue_profile_power(c()); }
-    float cos_cone() const { return etendue_profile_cos_cone(c()); }
-    // Fills an equirectangular image with mean intensities: ImageEnvironment samples what the light emits with these weights.
-    Status means(size_t width, Span<float> means) const {
-        if (width == 0 || means.size() % width != 0) return ETENDUE_STATUS_COUNT;
-        return etendue_profile_means(c(), width, means.size() / width, means.data());
-    }
-};
-
-// A point light whose intensity differs by direction, prepared for a shading point: `intensity` takes the direction in which light travels.
-template <class Intensity>
-EtenduePointLightByDelta by_profile(const EtenduePointLight& light, Vec3 p, Intensity&& intensity) {
-    using F = std::remove_reference_t<Intensity>;
-    EtenduePointLightByDelta out = {};
-    const auto call = [](const float* w, void* context) { return float((*static_cast<F*>(context))(Vec3(w[0], w[1], w[2]))); };
-    void* const context = const_cast<void*>(static_cast<const void*>(&intensity));
-    etendue_point_light_by_profile_prepare(&light, detail::Row<3>(p).v, call, context, &out);
-    return out;
-}
-
-// A light that projects an image through a pinhole.
-struct Projector : EtendueProjector {
-    // Tangents of half the horizontal and vertical angle of view.
-    Projector(float across, float up) : EtendueProjector{{across, up}} {}
-    // The position in the image of the unit direction w, and whether it is there.
-    std::pair<Vec2, bool> place(Vec3 w) const {
-        detail::Row<2> uv;
-        uint8_t inside = 0;
-        etendue_projector_place(this, detail::Row<3>(w).v, uv.v, &inside);
-        return {uv.value(), inside != 0};
-    }
-    Status place(In<3> w, Out<2> uv, Span<uint8_t> inside) const {
-        using namespace detail;
-        const size_t n = w.size();
-        if (!fits(w, n) || !fits_or_absent(uv, n) || !fits_or_absent(inside, n)) return ETENDUE_STATUS_COUNT;
-        return etendue_projector_place_batch(this, n, Pointers<const float, 3>(w).p, Pointers<float, 2>(uv).p, pointer(inside));
-    }
-    // The direction in which the light of a position in the image travels.
-    Vec3 direction(Vec2 uv) const {
-        detail::Row<3> w;
-        etendue_projector_direction(this, detail::Row<2>(uv).v, w.v);
-        return w.value();
-    }
-    Status direction(In<2> uv, Out<3> w) const {
-        using namespace detail;
-        const size_t n = uv.size();
-        if (!fits(uv, n) || !fits_or_absent(w, n)) return ETENDUE_STATUS_COUNT;
-        return etendue_projector_direction_batch(this, n, Pointers<const float, 2>(uv).p, Pointers<float, 3>(w).p);
-    }
-    float cos_cone() const { return etendue_projector_cos_cone(this); }
-    double texel_solid_angle(size_t width, size_t height, size_t x, size_t y) const {
-        return etendue_projector_texel_solid_angle(this, width, height, x, y);
-    }
-};
-
 // ---- warps ----
 
 // One warp of U random numbers to P coordinates. SELF is its C struct, if it has one.
@@ -901,23 +801,6 @@ struct Projector : EtendueProjector {
         ETENDUE_WARP_METHODS(PREFIX, 2, P, )                                                                                           \
     };
 #define ETENDUE_WARP(PREFIX, U, P) ETENDUE_WARP_METHODS(PREFIX, U, P, this ETENDUE_COMMA)
-
-// What a projector emits of an image, in a table of the caller's, which must live as long as the image is used. Before it is built, its pdf is 0.
-class ProjectedImage {
-    EtendueProjectedImage c_ = {};
-
-  public:
-    // Number of floats in the table of an image; 0 for a size that is not allowed.
-    static size_t table(size_t width, size_t height) { return etendue_projected_image_table(width, height); }
-    // Builds the table, of table(width, height) floats, from a weight for each texel, row by row, from the top.
-    Status build(const EtendueProjector& projector, Span<const float> weights, size_t width, Span<float> table) {
-        const size_t height = width == 0 ? 0 : weights.size() / width, floats = ProjectedImage::table(width, height);
-        if (floats == 0 || width * height != weights.size() || table.size() != floats) return ETENDUE_STATUS_COUNT;
-        return etendue_projected_image_build(&projector, weights.data(), width, height, table.data(), &c_);
-    }
-    const EtendueProjectedImage& c() const { return c_; }
-    ETENDUE_WARP_METHODS(etendue_projected_image, 2, 3, &c_ ETENDUE_COMMA)
-};
 
 // Points of the unit disk, by concentric squares, and by radius and angle.
 ETENDUE_FIXED_WARP(ConcentricDisk, etendue_concentric_disk, 2)

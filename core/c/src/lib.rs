@@ -13,25 +13,18 @@ mod reflected;
 mod sequence;
 mod tree;
 // after the lights, as in the header
-mod daylight;
 mod environment;
 mod picture;
 mod portal;
-mod profile;
-mod projector;
 mod spread;
 mod warp;
 
-use core::ptr::null_mut;
-use etendue_batch::{Batch, BatchMap};
+use etendue_batch::Batch;
 
-pub use daylight::*;
 pub use environment::*;
 pub use light::*;
 pub use picture::*;
 pub use portal::*;
-pub use profile::*;
-pub use projector::*;
 pub use reflected::*;
 pub use sampler::{EtendueLightSample, EtendueSampleColumns};
 pub use sequence::*;
@@ -98,29 +91,6 @@ unsafe fn each<const N: usize>(numbers: *const f32) -> [*const f32; N] {
 /// N numbers in a row as columns of one element, for results.
 unsafe fn each_mut<const N: usize>(numbers: *mut f32) -> [*mut f32; N] {
     core::array::from_fn(|i| numbers.wrapping_add(i))
-}
-
-/// A function of directions at one of them.
-unsafe fn value<M: BatchMap>(map: &M, w: *const f32) -> f32 {
-    let mut value = 0.0;
-    // SAFETY: the caller's
-    unsafe {
-        let [x, y, z] = each(w);
-        let results = [&raw mut value, null_mut(), null_mut(), null_mut()];
-        (Batch::new().map_functions().map)(map, 1, &[x, y, z, x, x, x], &results, null_mut());
-    }
-    value
-}
-
-/// A function of directions in each of three columns of them.
-unsafe fn values<M: BatchMap>(map: &M, n: usize, w: *const *const f32, out: *mut f32) -> EtendueStatus {
-    // SAFETY: the caller's
-    unsafe {
-        let Some([x, y, z]) = columns(w) else { return EtendueStatus::NullPointer };
-        let results = [out, null_mut(), null_mut(), null_mut()];
-        (Batch::new().map_functions().map)(map, n, &[x, y, z, x, x, x], &results, null_mut());
-    }
-    EtendueStatus::Ok
 }
 
 /// The precompiled `core` names it, although nothing unwinds.

@@ -1,4 +1,4 @@
-// Tests of the lights with images and of daylight in etendue.h, in C99: images
+// Tests of the lights with images and of spreads in etendue.h, in C99: images
 //
 // Closed forms, inverses, sums of probabilities, degenerate input, null pointers, and that batches are their elements one by one and write
 // nothing else. core/c/tests/bits.rs compares the functions with the core.
@@ -343,113 +343,6 @@ static void test_portals(void) {
     free(r.memory), free(d.memory);
 }
 
-static float of_profile(const float *w, void *context) { return etendue_profile_intensity(context, w); }
-
-static void test_profiles(void) {
-    current = "profile";
-    const float polar[2] = {0, 60}, azimuth[1] = {0}, values[2] = {100, 0}, falling[2] = {60, 0}, negative[2] = {-1, 2};
-    EtendueProfile profile;
-    memset(&profile, PATTERN, sizeof profile);
-    CHECK(etendue_profile_prepare(NULL, 2, azimuth, 1, values, &profile) == REFUSED && etendue_profile_prepare(polar, 2, NULL, 1, values, &profile) == REFUSED);
-    CHECK(etendue_profile_prepare(polar, 2, azimuth, 1, NULL, &profile) == REFUSED && etendue_profile_prepare(polar, 2, azimuth, 1, values, NULL) == REFUSED);
-    CHECK(etendue_profile_prepare(polar, 1, azimuth, 1, values, &profile) == COUNT && etendue_profile_prepare(polar, 2, azimuth, 0, values, &profile) == COUNT);
-    CHECK(etendue_profile_prepare(falling, 2, azimuth, 1, values, &profile) == WRONG && etendue_profile_prepare(polar, 2, azimuth, 1, negative, &profile) == WRONG);
-    CHECK(is_untouched((unsigned char *)&profile, sizeof profile));
-    CHECK(etendue_profile_prepare(polar, 2, azimuth, 1, values, &profile) == OK);
-    // linear in the angle: 50 at 30 degrees; the power is 2 pi times the integral of 100 (1 - t/(pi/3)) sin t
-    const float w[3] = {0.5f, 0, 0.8660254f}, down[3] = {0, 0, -1};
-    CHECK(fabsf(etendue_profile_intensity(&profile, w) - 50) < 1e-3f && etendue_profile_intensity(&profile, down) == 0);
-    CHECK(fabs(etendue_profile_power(&profile) / (2 * PI * 100 * (1 - sqrt(0.75) / (PI / 3))) - 1) < 1e-12);
-    CHECK(etendue_profile_cos_cone(&profile) == 0.5f && etendue_profile_power(NULL) == 0 && etendue_profile_intensity(NULL, w) == 0);
-    Results r = results(N);
-    CHECK(etendue_profile_intensity_batch(&profile, N, w_in, r.column[0]) == OK && only_written(&r, 0, 1));
-    for (size_t i = 0; i < N; i++) {
-        const float w_i[3] = {w_numbers[0][i], w_numbers[1][i], w_numbers[2][i]};
-        CHECK(same(etendue_profile_intensity(&profile, w_i), at(r.column[0], i)));
-    }
-    CHECK(etendue_profile_intensity_batch(NULL, N, w_in, r.column[0]) == REFUSED && etendue_profile_intensity_batch(&profile, N, w_in, NULL) == REFUSED);
-    free(r.memory);
-
-    // what the lamp emits: every sample is worth nearly the power
-    enum { ROWS = 256 };
-    static float means[ROWS], table[2 * ROWS];
-    EtendueImageEnvironment emission;
-    CHECK(etendue_profile_means(&profile, 0, 1, means) == COUNT && etendue_profile_means(NULL, 1, ROWS, means) == REFUSED);
-    CHECK(etendue_profile_means(&profile, 1, ROWS, means) == OK);
-    CHECK(etendue_image_environment_build(means, 1, ROWS, ETENDUE_ENVIRONMENT_MAP_EQUIRECTANGULAR, table, &emission) == OK);
-    double mean = 0;
-    for (int i = 0; i < N; i++) {
-        const float u[2] = {u_numbers[0][i], u_numbers[1][i]};
-        EtendueLightSample s;
-        CHECK(etendue_image_environment_sample(&emission, u, &s) == OK);
-        mean += etendue_profile_intensity(&profile, s.direction) * s.weight / N;
-    }
-    CHECK(fabs(mean / etendue_profile_power(&profile) - 1) < 2e-2);
-
-    // a point light with the profile, above the point: the light travels downwards, which is -z here
-    const EtenduePointLight lamp = {{0, 0, -2}};
-    const float origin[3] = {0, 0, 0};
-    EtenduePointLightByDelta by_delta;
-    EtendueLightSample s;
-    CHECK(etendue_point_light_by_profile_prepare(&lamp, origin, of_profile, &profile, &by_delta) == OK);
-    CHECK(etendue_point_light_by_delta_sample(&by_delta, *u_in, &s) == OK && fabsf(s.weight - 25) < 1e-4f && s.direction[2] == -1);
-    CHECK(etendue_point_light_by_profile_prepare(&lamp, origin, NULL, NULL, &by_delta) == REFUSED);
-}
-
-static void test_projector(void) {
-    current = "projector";
-    const EtendueProjector slide = {{1, 0.5f}}, none = {{0, 0.5f}};
-    const float w[3] = {0.43643578f, 0.21821789f, 0.87287156f}, behind[3] = {0, 0, -1};
-    float uv[2], back[3], table[TEXELS + HEIGHT];
-    uint8_t inside;
-    CHECK(etendue_projector_place(&slide, w, uv, &inside) == OK && inside == 1 && fabsf(uv[0] - 0.75f) < 1e-6f && fabsf(uv[1] - 0.25f) < 1e-6f);
-    CHECK(etendue_projector_direction(&slide, uv, back) == OK && difference(back, w, 3) < 1e-6f);
-    CHECK(etendue_projector_place(&slide, behind, uv, &inside) == OK && inside == 0 && uv[0] == 0 && uv[1] == 0);
-    CHECK(etendue_projector_place(NULL, w, uv, &inside) == REFUSED && etendue_projector_place(&slide, w, NULL, &inside) == REFUSED);
-    double sum = 0;
-    for (int k = 0; k < TEXELS; k++) sum += etendue_projector_texel_solid_angle(&slide, WIDTH, HEIGHT, (size_t)(k % WIDTH), (size_t)(k / WIDTH));
-    CHECK(fabs(sum / (4 * atan(0.5 / sqrt(1 + 1 + 0.25))) - 1) < 1e-12);
-    CHECK(etendue_projector_texel_solid_angle(NULL, 2, 2, 0, 0) == 0 && etendue_projector_texel_solid_angle(&slide, 2, 2, 2, 0) == 0);
-    CHECK(fabsf(etendue_projector_cos_cone(&slide) - 1 / sqrtf(2.25f)) < 2e-6f && etendue_projector_cos_cone(NULL) == -1);
-
-    current = "projected_image";
-    EtendueProjectedImage image, broken;
-    memset(&image, PATTERN, sizeof image);
-    CHECK(etendue_projected_image_table(WIDTH, HEIGHT) == TEXELS + HEIGHT && etendue_projected_image_table(0, 1) == 0);
-    CHECK(etendue_projected_image_build(NULL, weights, WIDTH, HEIGHT, table, &image) == REFUSED);
-    CHECK(etendue_projected_image_build(&none, weights, WIDTH, HEIGHT, table, &image) == WRONG);
-    CHECK(etendue_projected_image_build(&slide, weights, 0, HEIGHT, table, &image) == COUNT && is_untouched((unsigned char *)&image, sizeof image));
-    CHECK(etendue_projected_image_build(&slide, weights, WIDTH, HEIGHT, table, &image) == OK);
-    Results r = results(N), e = results(N);
-    CHECK(etendue_projected_image_sample_batch(&image, N, u_in, r.column) == OK && only_written(&r, 0, 3));
-    const float *const drawn[3] = {r.column[0], r.column[1], r.column[2]};
-    CHECK(etendue_projected_image_pdf_batch(&image, N, drawn, e.column[0]) == OK && etendue_projected_image_invert_batch(&image, N, drawn, e.column + 1) == OK);
-    CHECK(only_written(&e, 0, 3));
-    double total = 0;
-    for (int k = 0; k < TEXELS; k++) total += weights[k] * etendue_projector_texel_solid_angle(&slide, WIDTH, HEIGHT, (size_t)(k % WIDTH), (size_t)(k / WIDTH));
-    for (size_t i = 0; i < N; i++) {
-        const float u[2] = {u_numbers[0][i], u_numbers[1][i]};
-        float v[3], again[2];
-        CHECK(etendue_projected_image_sample(&image, u, v) == OK && same(v[0], at(r.column[0], i)) && same(v[2], at(r.column[2], i)));
-        CHECK(same(etendue_projected_image_pdf(&image, v), at(e.column[0], i)) && etendue_projected_image_invert(&image, v, again) == OK);
-        CHECK(same(again[0], at(e.column[1], i)) && same(again[1], at(e.column[2], i)) && difference(again, u, 2) < 1e-4f);
-        // the pdf is the part of the texel, over its area in the plane of the image, over the cube of the cosine
-        CHECK(etendue_projector_place(&slide, v, uv, &inside) == OK && inside);
-        const size_t x = (size_t)(uv[0] * WIDTH), y = (size_t)(uv[1] * HEIGHT);
-        const double part = weights[y * WIDTH + x] * etendue_projector_texel_solid_angle(&slide, WIDTH, HEIGHT, x, y) / total;
-        CHECK(fabs(at(e.column[0], i) / (part * TEXELS / (2 * pow(v[2], 3))) - 1) < 1e-4);
-    }
-    broken = image;
-    broken.table = NULL;
-    CHECK(etendue_projected_image_sample(&broken, *u_in, back) == REFUSED && etendue_projected_image_pdf(&broken, w) == 0);
-    broken = image;
-    broken.width = 0;
-    CHECK(etendue_projected_image_sample(&broken, *u_in, back) == COUNT && etendue_projected_image_sample(NULL, *u_in, back) == REFUSED);
-    CHECK(etendue_projector_place_batch(&slide, N, w_in, r.column, (uint8_t *)r.column[2]) == OK && etendue_projector_direction_batch(&slide, N, u_in, e.column) == OK);
-    CHECK(etendue_projector_place_batch(NULL, N, w_in, r.column, NULL) == REFUSED && etendue_projector_direction_batch(&slide, N, NULL, e.column) == REFUSED);
-    free(r.memory), free(e.memory);
-}
-
 static void test_spread(void) {
     current = "spread";
     EtendueSpread spread;
@@ -493,42 +386,6 @@ static void test_spread(void) {
     CHECK(etendue_rectangle_by_spread_prepare(&panel, origin, NULL, &rectangle) == REFUSED && etendue_disk_by_spread_prepare(NULL, origin, &spread, &by_disk) == REFUSED);
 }
 
-static void test_daylight(void) {
-    current = "daylight";
-    const double sun[3] = {0.6, 0, 0.8}, nowhere[3] = {0, 0, 0};
-    const float zenith[3] = {0, 0, 1}, below[3] = {0, 0.6f, -0.8f};
-    EtendueGeneralSky sky;
-    memset(&sky, PATTERN, sizeof sky);
-    CHECK(etendue_general_sky_prepare(0, sun, &sky) == WRONG && etendue_general_sky_prepare(16, sun, &sky) == WRONG);
-    CHECK(etendue_general_sky_prepare(12, nowhere, &sky) == WRONG && etendue_general_sky_prepare(12, NULL, &sky) == REFUSED);
-    CHECK(is_untouched((unsigned char *)&sky, sizeof sky));
-    for (uint32_t kind = 1; kind <= 15; kind++) {
-        CHECK(etendue_general_sky_prepare(kind, sun, &sky) == OK);
-        CHECK(fabsf(etendue_general_sky_luminance(&sky, zenith) - 1) < 2e-6f && etendue_general_sky_luminance(&sky, below) == 0);
-        Results r = results(N);
-        CHECK(etendue_general_sky_luminance_batch(&sky, N, w_in, r.column[0]) == OK && only_written(&r, 0, 1));
-        for (size_t i = 0; i < N; i++) {
-            const float w[3] = {w_numbers[0][i], w_numbers[1][i], w_numbers[2][i]};
-            CHECK(same(etendue_general_sky_luminance(&sky, w), at(r.column[0], i)));
-            // the uniform sky
-            CHECK(kind != 5 || w[2] < 0 || fabsf(at(r.column[0], i) - 1) < 1e-6f);
-        }
-        CHECK(etendue_general_sky_luminance_batch(&sky, N, w_in, NULL) == REFUSED);
-        free(r.memory);
-    }
-    CHECK(etendue_general_sky_prepare(5, sun, &sky) == OK && fabs(etendue_general_sky_horizontal(&sky) / PI - 1) < 2e-5);
-    CHECK(etendue_general_sky_horizontal(NULL) == 0 && etendue_general_sky_luminance(NULL, zenith) == 0);
-
-    // noon in Greenwich at an equinox
-    const EtendueMoment time = {2026, 3, 20, 12}, never = {2026, 2, 29, 12};
-    EtendueSunPosition position;
-    double direction[3];
-    CHECK(etendue_sun_position(&time, 51.48, 0, &position) == OK && fabs(position.elevation - 38.5 * PI / 180) < 4e-3);
-    CHECK(etendue_sun_position_direction(&position, direction) == OK && fabs(direction[2] - sin(position.elevation)) < 1e-12 && direction[1] < 0);
-    CHECK(etendue_sun_position(&never, 51.48, 0, &position) == WRONG && etendue_sun_position(&time, 91, 0, &position) == WRONG);
-    CHECK(etendue_sun_position(NULL, 0, 0, &position) == REFUSED && etendue_sun_position_direction(NULL, direction) == REFUSED);
-}
-
 int main(void) {
     for (size_t i = 0; i < N; i++) {
         float w[3], m[3];
@@ -546,10 +403,7 @@ int main(void) {
     test_closed_forms();
     test_techniques();
     test_portals();
-    test_profiles();
-    test_projector();
     test_spread();
-    test_daylight();
     printf("%ld checks, %d failed\n", checks, failures);
     return failures > 0;
 }

@@ -302,46 +302,12 @@ static void test_skies() {
     CHECK(sky.sees({px, py, pz}, {zero, one, zero}, sees) == ETENDUE_STATUS_OK && sees[0] == 1 && sees[1] == 0);
     CHECK(sky.sees({px, py, pz}, {zero, one, zero}, Span<uint8_t>(sees.data(), 1)) == ETENDUE_STATUS_COUNT);
 
-    GeneralSky daylight;
-    CHECK(daylight.prepare(16, 0, 0, 1) == ETENDUE_STATUS_VALUE && daylight.prepare(5, 0, 0, 1) == ETENDUE_STATUS_OK);
-    CHECK(std::fabs(daylight.luminance({0, 0.6f, 0.8f}) - 1) < 1e-6f && std::fabs(daylight.horizontal() - 3.14159265) < 1e-4);
-    std::array<float, 2> luminance;
-    CHECK(daylight.luminance({zero, zero, one}, luminance) == ETENDUE_STATUS_OK && luminance[0] == daylight.luminance({0, 0, 1}));
-
     const Spread spread(1.5707963267948966);
     std::array<float, 2> factor;
     CHECK(spread.attenuation({0, 1, 0}, {0, -1, 0}) > 4.6f && spread.attenuation({0.8f, 0.6f, 0}, {0, -1, 0}) == 0);
     CHECK(spread.attenuation({zero, one, zero}, {zero, one, zero}, factor) == ETENDUE_STATUS_OK && factor[1] == spread.attenuation(n, n));
     const Parallelogram panel({-9, 1, -9}, {18, 0, 0}, {0, 0, 18});
     CHECK(std::fabs(spread.visible_part(panel, {0, 0, 0}).corner[0] + 1) < 1e-3f);
-}
-
-static void test_emission() {
-    const std::vector<float> polar = {0, 60}, azimuth = {0}, values = {100, 0}, weights = {1, 2, 0, 4, 5, 6};
-    Profile profile;
-    CHECK(profile.intensity(n) == 0 && profile.power() == 0 && profile.intensity(In<3>(), Span<float>()) == ETENDUE_STATUS_OK);
-    CHECK(profile.prepare(polar, azimuth, polar) == ETENDUE_STATUS_OK && profile.prepare(polar, azimuth, weights) == ETENDUE_STATUS_COUNT);
-    CHECK(profile.c() == nullptr && profile.prepare(polar, azimuth, values) == ETENDUE_STATUS_OK);
-    CHECK(std::fabs(profile.intensity({0.5f, 0, 0.8660254f}) - 50) < 1e-3f && profile.cos_cone() == 0.5f);
-    std::vector<float> means(16);
-    CHECK(profile.means(2, means) == ETENDUE_STATUS_OK && means[0] > means[4] && means[15] == 0 && profile.means(3, means) == ETENDUE_STATUS_COUNT);
-    // from 2 above, along the axis
-    const float distance_2 = 25;
-    EtendueLightSample s;
-    const auto lamp = by_profile(PointLight({0, 0, -2}), {0, 0, 0}, [&](Vec3 w) { return profile.intensity(w); });
-    CHECK(etendue_point_light_by_delta_sample(&lamp, detail::Row<2>(u).v, &s) == ETENDUE_STATUS_OK && std::fabs(s.weight - distance_2) < 1e-4f);
-
-    const Projector slide(1, 0.5f);
-    const Vec3 w = slide.direction({0.75f, 0.25f});
-    const auto [uv, inside] = slide.place(w);
-    CHECK(inside && near(uv, {0.75f, 0.25f}, 1e-6f) && !slide.place({0, 0, -1}).second && slide.cos_cone() > 0.66f);
-    ProjectedImage image;
-    std::vector<float> table(ProjectedImage::table(3, 2)), x(9), y(9), a(9), b(9), c(9), pdf(9);
-    CHECK(image.pdf(w) == 0 && image.build(slide, weights, 4, table) == ETENDUE_STATUS_COUNT && image.build(slide, weights, 3, table) == ETENDUE_STATUS_OK);
-    CHECK(OwenSobol{2}.pairs({}, {x, y}) == ETENDUE_STATUS_OK && image.sample({x, y}, {a, b, c}) == ETENDUE_STATUS_OK);
-    CHECK(image.pdf({a, b, c}, pdf) == ETENDUE_STATUS_OK);
-    for (size_t i = 0; i < 9; i++) CHECK(near(image.invert({a[i], b[i], c[i]}), {x[i], y[i]}, 1e-4f) && pdf[i] == image.pdf({a[i], b[i], c[i]}) && pdf[i] > 0);
-    CHECK(slide.direction({x, y}, {a, b, c}) == ETENDUE_STATUS_OK && slide.place({a, b, c}, {x, y}, Span<uint8_t>()) == ETENDUE_STATUS_OK);
 }
 
 static void test_pbrt() {
@@ -498,7 +464,6 @@ int main() {
     test_image();
     test_pictures();
     test_skies();
-    test_emission();
     test_pbrt();
     test_calls_of_pbrt();
     std::printf("%d checks, %d failed\n", checks, failures);

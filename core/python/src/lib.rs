@@ -4,9 +4,7 @@
 #![forbid(unsafe_code)]
 
 mod arrays;
-mod daylight;
 mod each;
-mod emission;
 mod environment;
 mod lights;
 mod pictures;
@@ -52,10 +50,8 @@ fn extension(module: &Bound<'_, PyModule>) -> PyResult<()> {
     pictures::add(module)?;
     portals::add(module)?;
     spread::add(module)?;
-    daylight::add(module)?;
     warps::add(module)?;
     reflections::add(module)?;
-    emission::add(module)?;
     sequences::add(module)?;
     tree::add(module)
 }

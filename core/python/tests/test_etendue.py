@@ -48,7 +48,6 @@ WARPS = [
     (et.PatchSurface([0, 1, 0], [1, 0, 0], [0, 0, 1], [1, 0.3, 1]), 2, 3),
     (et.Linear(3, 1), 1, 1),
     (et.Tent(1.5), 1, 1),
-    (et.ProjectedImage(et.Projector([1, 0.5]), [[1, 2, 4], [3, 1, 2]]), 2, 3),
 ]
 SEQUENCES = [
     et.Independent(1),

@@ -1,4 +1,4 @@
-"""Lights with images, portals, profiles, projectors, spread and daylight: closed forms, arguments, and the bits of the core."""
+"""Lights with images, portals and spread: closed forms, arguments, and the bits of the core."""
 
 import pathlib
 import re
@@ -148,48 +148,7 @@ def test_portals():
     assert sky.by_radiance([0, 9, 0]).sample([0.3, 0.6]).pdf == 0 and not sky.sees([0, 9, 0], everywhere).any()
 
 
-# profiles, and projectors
-
-
-def test_profiles():
-    lamp = et.Profile([0, 60], [0], [[100, 0]])
-    assert lamp.intensity([0.5, 0, 0.75**0.5]) == pytest.approx(50, abs=1e-3) and lamp.cos_cone == 0.5
-    power = 2 * np.pi * 100 * (1 - 0.75**0.5 / (np.pi / 3))
-    assert lamp.power == pytest.approx(power, rel=1e-12)
-    means = lamp.means(256, 2)
-    assert means.shape == (256, 2) and means[0, 0] > 99 and not means[90:].any()
-    s = et.ImageEnvironment(means).by_radiance().sample(U)
-    assert (lamp.intensity(s.direction) / s.pdf).mean() == pytest.approx(power, rel=5e-3)
-    light = et.PointLight([0, 0, -2])
-    asked = []
-    down = et.by_profile(light, [0, 0, 0], lambda w: asked.append(w.copy()) or lamp.intensity(w))
-    assert down.sample([0.3, 0.6]).weight == pytest.approx(25) and len(asked) == 1 and asked[0].tolist() == [0, 0, 1]
-    assert et.by_profile(light, [9, 0, -2], lamp.intensity).sample([0.3, 0.6]).weight == 0
-    with pytest.raises(ZeroDivisionError):
-        et.by_profile(light, [0, 0, 0], lambda w: 1 / 0)
-
-
-def test_projectors():
-    slide = et.Projector([1, 0.5])
-    w = np.array([0.5, 0.25, 1]) / np.linalg.norm([0.5, 0.25, 1])
-    uv, inside = slide.place(w)
-    np.testing.assert_allclose(uv, [0.75, 0.25], atol=1e-6)
-    assert inside and not slide.place([0, 0, -1])[1]
-    np.testing.assert_allclose(slide.direction(uv), w, atol=1e-6)
-    angles = slide.solid_angles(3, 5)
-    assert angles.shape == (3, 5) and angles.sum() == pytest.approx(4 * np.arctan(0.5 / 1.5), rel=1e-12)
-    assert slide.cos_cone == pytest.approx(1 / 1.5, rel=2e-6)
-    image = et.ProjectedImage(slide, WEIGHTS)
-    w = image.sample(U)
-    uv, inside = slide.place(w)
-    column, row = np.floor(uv * [5, 3]).astype(int).T
-    part = (WEIGHTS * angles)[row, column] / (WEIGHTS * angles).sum()
-    assert inside.all()
-    np.testing.assert_allclose(image.pdf(w), part * 15 / (2 * w[:, 2].astype(float) ** 3), rtol=1e-4)
-    np.testing.assert_allclose(image.invert(w), U, atol=1e-4)
-
-
-# spread, and daylight
+# spread
 
 
 def test_spread():
@@ -208,21 +167,6 @@ def test_spread():
     assert np.abs(s.uv - 0.5).max() < 0.0557
     disk = spread.by_spread(et.Disk([0, 1, 0], [0, -1, 0], 9), [0, 0, 0])
     assert disk.solid_angle == pytest.approx(2 * np.pi * (1 - 0.5**0.5), rel=1e-4)
-
-
-def test_daylight():
-    for kind in range(1, 16):
-        sky = et.GeneralSky(kind, [0.6, 0, 0.8])
-        assert sky.luminance([0, 0, 1]) == pytest.approx(1, rel=2e-6) and sky.luminance([0, 0.6, -0.8]) == 0
-    assert et.GeneralSky(5, [0, 0, 2]).horizontal() == pytest.approx(np.pi, rel=2e-5)
-    # the overcast sky of CIE: 1 + 4 exp(-0.7/cos Z), from 1 + 4 exp(-0.7)
-    cosine = np.float32(0.8)
-    wanted = (1 + 4 * np.exp(-0.7 / cosine)) / (1 + 4 * np.exp(-0.7))
-    assert et.GeneralSky(1, [0.6, 0, 0.8]).luminance([0.6, 0, 0.8]) == pytest.approx(wanted, rel=2e-6)
-    sun = et.SunPosition(2026, 3, 20, 12, 51.48, 0)
-    assert np.degrees(sun.elevation) == pytest.approx(38.5, abs=0.2) and np.degrees(sun.azimuth) == pytest.approx(177.3, abs=0.5)
-    assert sun.direction.dtype == np.float64 and np.linalg.norm(sun.direction) == pytest.approx(1)
-    np.testing.assert_allclose(sun.direction[2], np.sin(sun.elevation))
 
 
 # wrong arguments
@@ -245,21 +189,9 @@ def test_daylight():
         (lambda: et.Portal([0, 0, 0], [1, 0, 0], [2, 0, 0]), ValueError, "must not be parallel"),
         (lambda: et.PortalEnvironment([], []), ValueError, "1 to 8"),
         (lambda: et.PortalEnvironment([et.Portal([0, 0, 0], [1, 0, 0], [0, 1, 0])], [np.ones((1, 4097))]), ValueError, "at most 4096"),
-        (lambda: et.Profile([0, 90], [0], [[1, 2], [3, 4]]), ValueError, r"values must have the shape \(1, 2\), not \[2, 2\]"),
-        (lambda: et.Profile([90, 0], [0], [[1, 2]]), ValueError, "angles do not ascend"),
-        (lambda: et.Profile([0, 90], [0], [[1, -2]]), ValueError, "negative"),
-        (lambda: et.Profile([[0]], [0], [[1]]), ValueError, r"polar must have the shape \(count\)"),
-        (lambda: et.Profile([0, 60], [0], [[100, 0]]).means(0, 4), ValueError, "at least 1"),
-        (lambda: et.Projector([1, 0]), ValueError, "tan_half must be finite and greater than 0"),
-        (lambda: et.ProjectedImage(1, WEIGHTS), TypeError, "projector must be a Projector, not int"),
-        (lambda: et.ProjectedImage(et.Projector([1, 1]), [[0]]), ValueError, "all weights are 0"),
         (lambda: et.Spread(np.nan), ValueError, "NaN"),
         (lambda: et.Spread(1).by_spread(CURVED[0], P), TypeError, "light must be a Parallelogram, Rectangle or Disk, not Sphere"),
         (lambda: et.Spread(1).visible_part(LIGHTS["disk"][0], P), TypeError, "not Disk"),
-        (lambda: et.GeneralSky(16, [0, 0, 1]), ValueError, r"kind must be in \[1, 15\], not 16"),
-        (lambda: et.GeneralSky(1, [0, 0, 0]), ValueError, "sun must be a direction"),
-        (lambda: et.SunPosition(2026, 2, 29, 12, 0, 0), ValueError, "the calendar has no 2026-2-29"),
-        (lambda: et.SunPosition(2026, 2, 28, 12, 91, 0), ValueError, "latitude must be in"),
     ],
 )
 def test_wrong_arguments(call, kind, message):
@@ -289,8 +221,6 @@ def test_the_bits_are_those_of_the_core():
     weights = WEIGHTS.astype(np.float32)
     picture, smooth = et.Picture(weights), et.Picture.interpolated(weights)
     portals = [et.Portal(corner, [0, 0.25, 1], [1, 0, 0]) for corner in ([-0.5, 1, -0.5], [0.25, 1.5, 0])]
-    slide = et.Projector([1, 0.5])
-    lamp = et.Profile([0, 20, 90], [0, 120, 360], [[100, 30, 1], [80, 50, 0], [100, 30, 1]])
     w = et.UniformSphere().sample(U)
     found = [
         samples(picture.on(PANEL).by_area(P)),
@@ -299,9 +229,6 @@ def test_the_bits_are_those_of_the_core():
         samples(smooth.on(CURVED[0]).by_visible_area(P)),
         samples(picture.on(CURVED[1]).by_visible_area(P)),
         samples(et.PortalEnvironment(portals, [weights, weights]).by_radiance(P)),
-        fnv(et.ProjectedImage(slide, weights).sample(U).view(np.uint32)),
-        fnv(lamp.intensity(w).view(np.uint32)),
-        fnv(et.GeneralSky(12, [0.6, 0.1, 0.8]).luminance(w).view(np.uint32)),
         fnv(et.Spread(1.2).attenuation(w, [0, 0, 1]).view(np.uint32)),
     ]
     assert found == [int(word.replace("_", ""), 16) for word in HASHES]

@@ -43,8 +43,7 @@
 //!
 //! What a routine asks of one lane as a number of Rust ([`Real::lane_f64`](etendue::Real::lane_f64), a comparison of scalars, the bits of a
 //! mask) is known for constants alone; anything else panics with a message. Portals, whose tables have numbers of 64 bits, and
-//! what occluders leave visible do ask that, and so does the exponential function, of which [`GeneralSky`](etendue::light::GeneralSky)
-//! consists: they are not here. A host looks such a sky up in a texture.
+//! what occluders leave visible do ask that, and so does the exponential function: they are not here.
 //!
 //! # Memory
 //! A routine of the core that reads tables takes them as a [`Memory`](etendue::memory::Memory); recorded, that is [`Words`]. In a source all
@@ -65,7 +64,6 @@
 //! | `alias_table` | [`AliasTable::words`](etendue::discrete::AliasTable::words) | `cell`, `pmf` |
 //! | `piecewise_constant_1d`, `piecewise_constant_2d` | the buffer of [`PiecewiseConstant1d`](etendue::discrete::PiecewiseConstant1d) or [`PiecewiseConstant2d`](etendue::discrete::PiecewiseConstant2d) | `cell`, `pmf`, `invert_cell` |
 //! | `equirectangular_environment`, `equal_area_environment` | the buffer of [`ImageEnvironment::build`](etendue::light::ImageEnvironment::build) | `draw`, `sample`, `pdf`, `hit`, `invert` |
-//! | `profile` | [`Profile::words`](etendue::light::Profile::words) | `intensity` |
 //! | `reflection` | [`reflection::table`](etendue::reflection::table) | `prepare`, `sphere` |
 //! | `pictured_L_by_M`, with L `parallelogram` (or a rectangle), `triangle` or `disk` | the buffer of [`Picture::build`](etendue::light::Picture::build) | the same as of environments |
 //! | `interpolated_parallelogram_by_M` | the buffer of [`Picture::interpolated`](etendue::light::Picture::interpolated), and the radiance at the centres | the same |

@@ -1,4 +1,4 @@
-//! What reads tables in memory: choices among lights, distributions, images of the sky, profiles, and lights with pictures.
+//! What reads tables in memory: choices among lights, distributions, images of the sky, and lights with pictures.
 
 use crate::distributions::{add_alias_table, add_line, add_square};
 use crate::inputs::{Inputs, add_function, add_words};
@@ -8,7 +8,7 @@ use crate::pictures::{add_pictured, pictured};
 use crate::record::{drawn_struct, reflection_struct, sample_outputs, sample_struct};
 use crate::wanted::{Part, Wanted};
 use etendue::LightSampler;
-use etendue::light::{EnvironmentMap, EnvironmentWords, ImageSampler, ProfileWords};
+use etendue::light::{EnvironmentMap, EnvironmentWords, ImageSampler};
 use etendue::reflection::Reflection;
 use etendue::select::{Choice, LightChoice, TreeWords, TreeWordsAt};
 
@@ -16,7 +16,7 @@ use etendue::select::{Choice, LightChoice, TreeWords, TreeWordsAt};
 #[must_use]
 pub fn tables() -> Vec<String> {
     let choices = ["light_tree", "alias_table", "piecewise_constant_1d", "piecewise_constant_2d"];
-    let lights = ["equirectangular_environment", "equal_area_environment", "profile", "reflection"];
+    let lights = ["equirectangular_environment", "equal_area_environment", "reflection"];
     choices.into_iter().chain(lights).map(str::to_owned).chain(pictured()).collect()
 }
 
@@ -142,28 +142,6 @@ fn add_environment(module: &mut Module, name: &str, map: EnvironmentMap, wanted:
     }
 }
 
-fn add_profile(module: &mut Module) {
-    let of = add_words(
-        module,
-        "profile",
-        "The intensities of a light by direction in memory: the words of Profile::words.",
-        &[
-            ("first", "Index of the first word."),
-            ("polar", "Number of polar angles, at least 2."),
-            ("azimuths", "Number of azimuths, at least 1."),
-        ],
-    );
-    add_function(module, "profile_intensity", |module, inputs| {
-        let [first, polar, azimuths] = inputs.words(module, "profile", of);
-        let profile = ProfileWords { memory: Words, first, angles: [polar, azimuths] };
-        let intensity = profile.intensity(inputs.vec3("w"));
-        let doc = "The radiant intensity in the unit direction w in which light travels, in the space of the profile: bilinear in the polar \
-                   angle from +z and the azimuth from +x; 0 beyond the table. Within that of a direction that is off by 1e-6, and 4e-7 of the \
-                   greatest of the four values between which it lies.";
-        (doc.into(), Type::Leaf(Leaf::Real), vec![intensity.id()])
-    });
-}
-
 fn add_reflection(module: &mut Module) {
     let of = module.add_struct(reflection_struct());
     add_function(module, "reflection_prepare", |_, inputs| {
@@ -195,7 +173,6 @@ pub fn add_table(module: &mut Module, name: &str, wanted: &Wanted) {
         "light_tree" => add_light_tree(module, wanted),
         "equirectangular_environment" => add_environment(module, name, EnvironmentMap::Equirectangular, wanted),
         "equal_area_environment" => add_environment(module, name, EnvironmentMap::EqualArea, wanted),
-        "profile" => add_profile(module),
         "reflection" => add_reflection(module),
         "alias_table" => add_alias_table(module, wanted),
         "piecewise_constant_1d" => add_line(module, wanted),

@@ -5,7 +5,7 @@ use crate::inputs::{Inputs, add_function, pair, three};
 use crate::module::{Leaf, Module, Type};
 use crate::number::{Number, Truth, Word};
 use etendue::estimate::{Heuristic, technique_pdf};
-use etendue::light::{PortalMap, Projector, Spread};
+use etendue::light::{PortalMap, Spread};
 use etendue::sequence::{Independent, OwenSobol};
 use etendue::{LightSample, Mask, Real, Uint, Vec2, Vec3};
 
@@ -22,9 +22,6 @@ pub fn tools() -> &'static [&'static str] {
         "power_light_weight",
         "power_bsdf_weight",
         "spread_attenuation",
-        "projector_place",
-        "projector_has",
-        "projector_direction",
         "portal_direction",
         "portal_solid_angle",
     ]
@@ -127,33 +124,6 @@ fn body(name: &str, inputs: &mut Inputs) -> (&'static str, Leaf, Vec<Id>) {
                 "The factor of the radiance in or against the unit direction w of a flat light with the unit normal n that emits within an angle of it, on either side: (tan_half - tan theta) gain, with theta the angle to the normal, tan_half the tangent of half the spread, and gain 1/(tan_half - half the spread); 0 beyond. Within 4e-7 of the factor on the axis.",
                 Leaf::Real,
                 vec![factor.id()],
-            )
-        }
-        "projector_place" => {
-            let tan_half = inputs.vec2("tan_half");
-            let (place, _) = Projector::place_by([tan_half.x, tan_half.y], inputs.vec3("w"));
-            (
-                "The position in [0, 1)^2, from the upper left corner, of the unit direction w in an image that a light projects along +z, with these tangents of half the horizontal and vertical angle of view: (1 + w.x/(w.z tan_half.x))/2 and (1 - w.y/(w.z tan_half.y))/2; 0 where w misses the image. Within 2e-7 over the cosine to the axis.",
-                Leaf::Vec2,
-                pair(place),
-            )
-        }
-        "projector_has" => {
-            let tan_half = inputs.vec2("tan_half");
-            let (_, inside) = Projector::place_by([tan_half.x, tan_half.y], inputs.vec3("w"));
-            (
-                "Whether the unit direction w is in an image that a light projects along +z, with these tangents of half the angles of view; false for tangents that are not greater than 0.",
-                Leaf::Truth,
-                vec![inside.id()],
-            )
-        }
-        "projector_direction" => {
-            let tan_half = inputs.vec2("tan_half");
-            let w = Projector::direction_by([tan_half.x, tan_half.y], inputs.vec2("uv"));
-            (
-                "The unit direction in which the light of a position in a projected image travels: the inverse of projector_place.",
-                Leaf::Vec3,
-                three(w),
             )
         }
         "portal_direction" => (

@@ -1,15 +1,11 @@
-//! Every light by every technique: samples, pdfs, inverses and hits; environment images, profiles, projected
-//! images, spreads, and visible parts.
+//! Every light by every technique: samples, pdfs, inverses and hits; environment images, spreads, and visible parts.
 
 use crate::figures::{Figures, Lanes, List, Routine};
-use etendue::light::{
-    EnvironmentMap, GeneralSky, ImageEnvironment, LuminousOpening, Moment, Portal, PortalEnvironment, PortalTable,
-    Profile, ProjectedImage, Projector, Spread, SunPosition, Texel,
-};
+use etendue::light::{EnvironmentMap, ImageEnvironment, Portal, PortalEnvironment, PortalTable, Spread, Texel};
 use etendue::occlusion::{Convex, Occlusion};
 use etendue::{
     ConstantEnvironment, DirectionalLight, Disk, LightSample, LightSampler, Parallelogram, PointLight, Real, Rectangle,
-    SpotLight, Sun, Vec3, Warp,
+    SpotLight, Sun, Vec3,
 };
 use etendue_properties::generators::{self, Random};
 use etendue_properties::properties::{lanes_of, squares_of, vectors_of};
@@ -188,31 +184,6 @@ impl Routine for Portals {
     }
 }
 
-/// Skies of all types, and suns at some times.
-struct Daylight;
-
-impl Routine for Daylight {
-    fn run<R: Real>(&self, figures: &mut Figures) {
-        let mut random = Random::new(1000);
-        for kind in 1..=15 {
-            let sky = GeneralSky::new(kind, random.direction()).expect("one of the types");
-            figures.packets::<R>(4 * Figures::MOST, |_, lanes| {
-                let ws: Vec<_> = (0..R::LANES).map(|_| unit(&mut random)).collect();
-                lanes.real(sky.luminance(vectors_of::<R>(|i| ws[i])));
-            });
-            let time = Moment {
-                year: 1950 + 6 * kind as i32,
-                month: 1 + kind % 12,
-                day: kind,
-                hours: 24.0 * random.unit_f64(),
-            };
-            let (latitude, longitude) = (random.range(-90.0, 90.0), random.range(-180.0, 180.0));
-            let sun = SunPosition::new(time, latitude, longitude).expect("a time and a place");
-            [sun.elevation, sun.azimuth].into_iter().for_each(|x| figures.number(x));
-        }
-    }
-}
-
 /// A polygon or a sphere above, past polygons and spheres, as seen from points below.
 struct Visible;
 
@@ -261,63 +232,6 @@ fn shape<R: Real>(random: &mut Random, center: [f64; 3], size: f64, round: bool)
     Convex::Polygon { corners: [corner(0.0, 0.0), corner(1.0, 0.0), corner(1.0, 1.0), corner(0.0, 1.0)], count }
 }
 
-/// A table of intensities, with edges and seams.
-struct Intensities;
-
-impl Routine for Intensities {
-    fn run<R: Real>(&self, figures: &mut Figures) {
-        let mut random = Random::new(900);
-        let (polar, azimuth) = ([0.0, 10.0, 35.0, 90.0, 120.0], [-90.0, -30.0, 0.0, 45.0, 200.0]);
-        let values: Vec<_> = (0..25).map(|_| random.unit()).collect();
-        let profile = Profile::new(&polar, &azimuth, &values).expect("the angles ascend");
-        let mut means = [0.0; 32];
-        profile.means(8, &mut means).expect("a whole number of rows");
-        means.into_iter().for_each(|mean| figures.number(mean.into()));
-        let axis = [0.6, 0.0, 0.8];
-        let opening = LuminousOpening::<R>::new(axis.into(), false, |w: Vec3<R>| profile.intensity(w));
-        let opening = opening.expect("there is light above the plane");
-        let spot = SpotLight {
-            position: Vec3::lit([0.3, 2.0, -1.0]),
-            axis: Vec3::lit(axis),
-            one_minus_cos_inner: R::lit(0.3),
-            one_minus_cos_outer: R::lit(1.2),
-        };
-        figures.packets::<R>(SLOTS, |_, lanes| {
-            let ws: Vec<_> = (0..R::LANES).map(|_| unit(&mut random)).collect();
-            let w = vectors_of(|i| ws[i]);
-            let intensity = profile.intensity::<R>(w);
-            lanes.real(intensity);
-            lanes.real(opening.factor(w.dot(spot.axis), intensity));
-            sample(lanes, &spot.by_profile(w, |w| profile.intensity(w)).sample(squares_of(&vec![[0.5; 2]; R::LANES])));
-        });
-    }
-}
-
-/// A projected image.
-struct Slide;
-
-impl Routine for Slide {
-    fn run<R: Real>(&self, figures: &mut Figures) {
-        let mut random = Random::new(901);
-        let projector = Projector { tan_half: [1.5, 0.7] };
-        let weights: Vec<_> = (0..77).map(|_| uneven(random.unit())).collect();
-        let mut buffer = [0.0; ProjectedImage::buffer(11, 7)];
-        let image = ProjectedImage::build(projector, &weights, 11, &mut buffer).expect("the weights are valid");
-        figures.packets::<R>(SLOTS, |_, lanes| {
-            let (us, ws): (Vec<_>, Vec<_>) = (0..R::LANES).map(|_| (square(&mut random), unit(&mut random))).unzip();
-            let (drawn, w) = (image.sample(squares_of::<R>(&us)), vectors_of::<R>(|i| ws[i]));
-            lanes.vector(drawn);
-            for w in [drawn, w] {
-                let (uv, inside) = projector.place(w);
-                lanes.pair(uv);
-                lanes.truth::<R>(inside);
-                lanes.real(image.pdf(w));
-                lanes.pair(image.invert(w));
-            }
-        });
-    }
-}
-
 /// Flat lights that emit within an angle of their normal.
 struct Narrow;
 
@@ -359,10 +273,7 @@ pub(crate) fn add(list: &mut List<'_>) {
     }
     list.add("light/Image/EqualArea", &Sky(EnvironmentMap::EqualArea, 16, 16));
     list.add("light/Image/Equirectangular", &Sky(EnvironmentMap::Equirectangular, 24, 13));
-    list.add("light/Profile", &Intensities);
-    list.add("light/Projector", &Slide);
     list.add("light/Spread", &Narrow);
     list.add("light/Portals", &Portals);
-    list.add("light/Daylight", &Daylight);
     list.add("occlusion", &Visible);
 }

@@ -82,7 +82,7 @@ fn glossy() -> Reflection<f32> {
     Reflection::new(0.2, v(0.0, 1.0, 0.0), v(-0.6, 0.8, 0.0))
 }
 
-/// Visits lights with pictures, the sky through two portals, and what a projector emits.
+/// Visits lights with pictures, and the sky through two portals.
 fn visit_images(visitor: &mut impl Visitor) {
     let weights: Vec<f32> = (0..15).map(|i| [0.0, 1.0, 0.3, 1e-3, 7.0][i * 7 % 5]).collect();
     let mut buffer = [0.0; Picture::buffer(5, 3)];
@@ -103,10 +103,6 @@ fn visit_images(visitor: &mut impl Visitor) {
     let portals = corners.map(|corner| Portal::new(corner, [0.0, 0.25, 1.0], [1.0, 0.0, 0.0]).unwrap());
     let sky = PortalEnvironment::new(&portals, &tables).unwrap();
     visitor.technique::<PortalsByRadiance<'_>>("portals by radiance", sky);
-
-    let mut buffer = [0.0; ProjectedImage::buffer(5, 3)];
-    let slide = ProjectedImage::build(Projector { tan_half: [1.0, 0.5] }, &weights, 5, &mut buffer).unwrap();
-    visitor.warp("projected image", slide);
 }
 
 /// Visits all of them.

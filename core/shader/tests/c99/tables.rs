@@ -3,7 +3,7 @@
 use crate::driver::{HOSTILE, compare, slots};
 use crate::lights::sample;
 use crate::program::Driver;
-use etendue::light::{EnvironmentMap, EnvironmentSample, ImageEnvironment, Profile};
+use etendue::light::{EnvironmentMap, EnvironmentSample, ImageEnvironment};
 use etendue::reflection::{Reflection, table};
 use etendue::select::{Choice, LightBound, LightChoice, LightTree, NO_LIGHT, Node8};
 use etendue::{LightSampler, Vec2, Vec3};
@@ -183,45 +183,6 @@ fn environments_have_the_same_bits() {
         }
         driver.same_bits(&format!("table_{name}"), cases(&["-O1"], &["-O2"]), &inputs, &right);
     }
-}
-
-/// Profiles of one azimuth and of many, of parts of the sphere and of all of it.
-#[test]
-fn profiles_have_the_same_bits() {
-    let (mut random, mut memory) = (Random::new(4500), Memory::default());
-    let angles = |count: usize, from: f32, to: f32| -> Vec<f32> {
-        (0..count).map(|k| from + (to - from) * k as f32 / (count - 1).max(1) as f32).collect()
-    };
-    let tables = [
-        (2, 0.0, 60.0, 1, 0.0, 0.0),
-        (37, 0.0, 180.0, 24, 0.0, 360.0),
-        (9, 90.0, 180.0, 7, -90.0, 90.0),
-        (5, 12.0, 77.0, 2, -359.0, 1.0),
-    ];
-    let tables = tables.map(|(rows, low, high, columns, from, to)| {
-        let values: Vec<f32> =
-            (0..rows * columns).map(|k| if k % 5 == 3 { 0.0 } else { 100.0 * random.unit() }).collect();
-        let (polar, azimuth) = (angles(rows, low, high), angles(columns, from, to));
-        let first = memory.add(Profile::new(&polar, &azimuth, &values).unwrap().words());
-        ((polar, azimuth, values), [first, rows as u32, columns as u32])
-    });
-    let (mut inputs, mut right, mut lit) = (Vec::new(), Vec::new(), 0);
-    for slot in 0..20 * slots() {
-        let ((polar, azimuth, values), words) = &tables[slot / 8 % tables.len()];
-        let w = direction(slot, &mut random);
-        let intensity = Profile::new(polar, azimuth, values).unwrap().intensity(Vec3::from(w));
-        lit += usize::from(intensity > 0.0);
-        right.push(vec![intensity]);
-        inputs.push([words.map(f32::from_bits), w].concat());
-    }
-    assert!(lit > inputs.len() / 4, "{lit} of {}", inputs.len());
-    let module = module("profile");
-    let mut driver = Driver::new(&module);
-    driver.memory = memory.0;
-    driver.take(driver.function("profile_intensity").unwrap().parameters[0].of, "profile");
-    driver.take(Type::Leaf(Leaf::Vec3), "w");
-    driver.output("profile_intensity", &["profile", "w"], "intensity");
-    driver.same_bits("table_profile", cases(&["-O1"], &["-O2"]), &inputs, &right);
 }
 
 /// Reflections that a source prepares from the table have the bits of the core's, as have what spheres cover of them.

@@ -3,7 +3,7 @@
 use crate::driver::{HOSTILE, slots};
 use crate::program::Driver;
 use etendue::estimate::{Heuristic, technique_pdf};
-use etendue::light::{PortalMap, Projector, Spread};
+use etendue::light::{PortalMap, Spread};
 use etendue::sequence::{Independent, OwenSobol, Sequence};
 use etendue::{LightSample, Vec2, Vec3};
 use etendue_oracle::tier::cases;
@@ -36,9 +36,6 @@ fn tool(name: &str, x: &[f32]) -> Vec<f32> {
         "power_light_weight" => vec![Heuristic::POWER.light_weight(&sample(x[0], truth(1), truth(2)), x[3])],
         "power_bsdf_weight" => vec![Heuristic::POWER.bsdf_weight(x[0], &sample(x[1], truth(2), false))],
         "spread_attenuation" => vec![Spread { tan_half: x[0], gain: x[1] }.attenuation(three(2), three(5))],
-        "projector_place" => pair(Projector { tan_half: [x[0], x[1]] }.place(three(2)).0),
-        "projector_has" => vec![f32::from(u8::from(Projector { tan_half: [x[0], x[1]] }.place(three(2)).1))],
-        "projector_direction" => vector(Projector { tan_half: [x[0], x[1]] }.direction(Vec2::new(x[2], x[3]))),
         "portal_direction" => vector(portal().0),
         "portal_solid_angle" => vec![portal().1],
         _ => panic!("the test does not know {name}"),
