@@ -33,10 +33,9 @@
 //! | a flat light with a [`Picture`] | [`by_area`](Pictured::by_area) | [`by_solid_angle`](Pictured::by_solid_angle) | [`by_projected_solid_angle`](Pictured::by_projected_solid_angle) |
 //! | a [`Sphere`] or [`BilinearPatch`] with a [`Picture`] | [`by_visible_area`](Pictured::by_visible_area) | | |
 //! | [`PointLight`], [`SpotLight`], [`DirectionalLight`] | `by_delta`: one direction, `delta` holds | | |
-//! | [`PointLight`] or [`SpotLight`] with a [`Profile`] or a [`Projector`] | [`by_profile`](PointLight::by_profile): the same | | |
 //!
 //! Some lights emit only within an angle of their normal, a [`Spread`]. Their method `by_spread` samples the part that a point sees:
-//! [`Parallelogram`], [`Rectangle`] and [`Disk`] have it. A [`LuminousOpening`] gives flat lights the intensities of a [`Profile`].
+//! [`Parallelogram`], [`Rectangle`] and [`Disk`] have it. Where the intensity differs by direction otherwise, multiply the weight by it.
 //!
 //! Cells are empty where no map is here that keeps the contract at every size: for the solid angle of bilinear patches, and the projected
 //! solid angle of disks. A sun and a constant environment have no area.
@@ -88,10 +87,8 @@
 //! Without compiler flags a packet of 8 is two registers, and software computes each fused multiply-add, with the same bits;
 //! `CARGO_ENCODED_RUSTFLAGS= cargo bench -p etendue-benches --bench summary -- light` prints what that costs.
 
-mod around;
 mod cells;
 mod cosine_warped;
-mod daylight;
 mod delta;
 mod direction;
 mod disk;
@@ -99,7 +96,6 @@ mod distant;
 mod environment;
 mod hierarchy;
 mod line;
-mod opening;
 mod parallelogram;
 mod patch;
 mod picture;
@@ -110,8 +106,6 @@ mod pictured_flat;
 mod plane;
 mod polygon;
 mod portal;
-mod profile;
-mod projector;
 mod rectangle;
 mod sample;
 mod sampler;
@@ -125,7 +119,6 @@ mod techniques;
 mod triangle;
 
 pub use cells::Region;
-pub use daylight::{GeneralSky, Moment, SunPosition};
 pub use delta::{
     DirectionalLight, DirectionalLightByDelta, PointLight, PointLightByDelta, SpotLight, SpotLightByDelta,
 };
@@ -137,7 +130,6 @@ pub use distant::{
 pub use environment::EnvironmentWords;
 pub use environment::{ByRadiance, EnvironmentMap, EnvironmentSample, ImageEnvironment, ImageSampler, Texel};
 pub use line::{Line, LineByAngle, LineByLength, LineByProjectedSolidAngle};
-pub use opening::LuminousOpening;
 pub use parallelogram::{
     Parallelogram, ParallelogramByArea, ParallelogramByProjectedSolidAngle, ParallelogramByReflection,
     ParallelogramBySolidAngle,
@@ -153,10 +145,6 @@ pub use pictured_curved::Curved;
 pub use pictured_flat::{Area, Flat, FlatLight, Projected, SolidAngle};
 pub use polygon::{Polygon, PolygonByArea, PolygonByProjectedSolidAngle, PolygonByReflection, PolygonBySolidAngle};
 pub use portal::{MOST_PORTALS, Portal, PortalEnvironment, PortalMap, PortalTable, PortalsByRadiance};
-#[doc(hidden)]
-pub use profile::ProfileWords;
-pub use profile::{Profile, ProfileError};
-pub use projector::{ProjectedImage, Projector};
 pub use rectangle::{Rectangle, RectangleByCosineWarp, RectangleBySolidAngle};
 pub use sample::{FAR, LightSample};
 pub use sampler::{ByArea, ByCosineWarp, ByProjectedSolidAngle, ByReflection, BySolidAngle, LightSampler};

@@ -1,24 +1,22 @@
 //! Intensities of point lights that differ by direction, looked up in packets.
 
+mod profile;
+mod projector;
+mod rings;
+
 use crate::packet::{V8, X8, select};
-use etendue::light::{EnvironmentMap, ImageEnvironment, Profile, ProfileError, Projector};
-use etendue::{Real, Vec3};
+use etendue::light::{EnvironmentMap, ImageEnvironment};
+use etendue::{Real, SpotLight, Vec3};
+pub use profile::{Profile, ProfileError};
+pub use projector::Projector;
+pub(crate) use rings::integral;
 use std::f64::consts::TAU;
 
 /// Relative radiant intensities by direction in the space of the light, whose greatest is 1. They all are finite and at least 0.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Intensity {
-    /// A photometric table, bilinear between its angles: see [`Profile`].
-    Angles {
-        /// Polar angles in degrees.
-        polar: Vec<f32>,
-        /// Azimuths in degrees.
-        azimuth: Vec<f32>,
-        /// All polar angles of the first azimuth come first.
-        values: Vec<f32>,
-        /// Those of the [`Profile`].
-        ends: [f32; 2],
-    },
+    /// A photometric table, bilinear between its angles.
+    Angles(Profile),
     /// An image of all directions, constant within each texel.
     Sphere {
         /// How the image maps to directions.
@@ -55,19 +53,11 @@ impl Intensity {
         ImageEnvironment::build(&texels, width, map, &mut table).ok()?;
         Some(Self::Sphere { map, width, texels, table })
     }
-    /// A photometric table.
-    ///
-    /// # Errors
-    /// Those of [`Profile::new`].
-    pub fn angles(polar: Vec<f32>, azimuth: Vec<f32>, values: Vec<f32>) -> Result<Self, ProfileError> {
-        let ends = Profile::new(&polar, &azimuth, &values)?.ends();
-        Ok(Self::Angles { polar, azimuth, values, ends })
-    }
     /// Intensity in the unit direction `w`, in which light travels.
     pub fn at(&self, w: V8) -> V8 {
         match self {
-            Self::Angles { polar, azimuth, values, ends } => {
-                let value: X8 = Profile::from_checked(polar, azimuth, values, *ends).intensity(w);
+            Self::Angles(profile) => {
+                let value = profile.intensity(w);
                 Vec3::new(value, value, value)
             }
             Self::Sphere { map, width, texels, table } => {
@@ -100,9 +90,7 @@ impl Intensity {
     /// ∫I dω of each channel.
     pub fn flux(&self) -> [f64; 3] {
         match self {
-            Self::Angles { polar, azimuth, values, ends } => {
-                [Profile::from_checked(polar, azimuth, values, *ends).power(); 3]
-            }
+            Self::Angles(profile) => [profile.power(); 3],
             Self::Sphere { map, width, texels, .. } => {
                 let height = texels.len() / width;
                 let row = |(y, row): (usize, &[f32])| {
@@ -123,12 +111,18 @@ impl Intensity {
             Self::Cone { inner, outer } => [TAU / 3.0 * (2.0 * f64::from(*inner) + f64::from(*outer)); 3],
         }
     }
+    /// ∫I·falloff dω of a grey intensity within the cone of a spot light: its power, for intensities per steradian. It is a sum over 6,912
+    /// directions or more in the cone: to 1e−5 for tables whose polar axis is that of the light, by half degrees from it and by 2.5° around
+    /// it, and to 1e−3 for others. Beams of less than half a degree may pass between these directions.
+    pub fn flux_of_spot(&self, light: &SpotLight<f32>) -> f64 {
+        let light = light.map(f64::from);
+        let turns = Real::acos((1.0 - light.one_minus_cos_outer).clamp(-1.0, 1.0)) / TAU;
+        integral(light.axis, turns, |w, cos| self.at(w).x * X8::lit(light.falloff_at(1.0 - cos)))
+    }
     /// Cosine of an angle to +z from which on it is dark; −1 if it may shine in all directions.
     pub fn cos_cone(&self) -> f32 {
         match self {
-            Self::Angles { polar, azimuth, values, ends } => {
-                Profile::from_checked(polar, azimuth, values, *ends).cos_cone()
-            }
+            Self::Angles(profile) => profile.cos_cone(),
             Self::Sphere { .. } => -1.0,
             Self::Projected { projector, .. } => projector.cos_cone(),
             Self::Cone { outer, .. } => (1.0 - outer).next_down(),

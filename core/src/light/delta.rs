@@ -1,6 +1,5 @@
 //! Lights that reach a point from one direction only.
 
-use super::around::integral;
 use super::direction::DirectionSample;
 use super::sample::{FAR, LightSample, direction_to};
 use super::sampler::LightSampler;
@@ -61,8 +60,7 @@ macro_rules! by_delta {
     };
 }
 by_delta! {
-    /// A [`PointLight`] prepared for a shading point; its samples have pdf distance², or that over the intensity of its profile, which is
-    /// no density.
+    /// A [`PointLight`] prepared for a shading point; its samples have pdf distance², which is no density.
     PointLightByDelta
 }
 by_delta! {
@@ -97,16 +95,6 @@ impl<R: Real> PointLight<R> {
         let DirectionSample { direction, distance } = direction_to(self.position - p);
         PointLightByDelta { direction, distance, pdf: inverse_square(distance) }
     }
-    /// A light at this position whose intensity differs by direction, prepared for the shading point `p`. `intensity` returns that in the
-    /// unit direction in which light travels, relative to the I of the estimator: of a [`Profile`](super::Profile), a
-    /// [`Projector`](super::Projector), or a texel of an [`ImageEnvironment`](super::ImageEnvironment). `pdf` is distance²/intensity,
-    /// which is no density; where the intensity is 0, so is the pdf.
-    #[inline(always)]
-    pub fn by_profile(&self, p: Vec3<R>, intensity: impl FnOnce(Vec3<R>) -> R) -> PointLightByDelta<R> {
-        let DirectionSample { direction, distance } = direction_to(self.position - p);
-        let pdf = attenuated(inverse_square(distance), intensity(-direction));
-        PointLightByDelta { direction, distance, pdf }
-    }
 }
 
 lanewise! {
@@ -133,9 +121,9 @@ impl<R: Real> SpotLight<R> {
         // 1 − cosθ of two unit vectors
         self.falloff_at((w - self.axis).length_squared() * R::lit(0.5))
     }
-    /// The same, given 1 − cosθ.
+    /// The same, given 1 − cosθ of the angle to the axis.
     #[inline(always)]
-    fn falloff_at(&self, one_minus_cos: R) -> R {
+    pub fn falloff_at(&self, one_minus_cos: R) -> R {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let width = self.one_minus_cos_outer - self.one_minus_cos_inner;
         let soft = width.gt(zero);
@@ -148,25 +136,6 @@ impl<R: Real> SpotLight<R> {
         let DirectionSample { direction, distance } = direction_to(self.position - p);
         let pdf = attenuated(inverse_square(distance), self.falloff(-direction));
         SpotLightByDelta { direction, distance, pdf }
-    }
-    /// A spot light whose intensity differs by direction within its cone, prepared for the shading point `p`: that of
-    /// [`PointLight::by_profile`] times the falloff. `pdf` is distance²/(falloff · intensity), which is no density; where either is 0, so is
-    /// the pdf.
-    #[inline(always)]
-    pub fn by_profile(&self, p: Vec3<R>, intensity: impl FnOnce(Vec3<R>) -> R) -> SpotLightByDelta<R> {
-        let DirectionSample { direction, distance } = direction_to(self.position - p);
-        let strength = self.falloff(-direction) * intensity(-direction);
-        SpotLightByDelta { direction, distance, pdf: attenuated(inverse_square(distance), strength) }
-    }
-    /// ∫ falloff · I dω of such a light in the first lane: its power, for intensities per steradian. It is a sum over 6,912
-    /// directions or more in the cone: to 1e−5 for tables whose polar axis is that of the light, by half degrees from it and by 2.5° around
-    /// it, and to 1e−3 for others. Beams of less than half a degree may pass between these directions.
-    #[must_use]
-    pub fn power<S: Real>(&self, intensity: impl Fn(Vec3<S>) -> S) -> f64 {
-        let light = self.map(|x| x.lane_f64(0));
-        let turns = Real::acos((1.0 - light.one_minus_cos_outer).clamped(-1.0, 1.0)) / core::f64::consts::TAU;
-        let falloff = |cos: f64| S::lit(light.falloff_at(1.0 - cos));
-        integral(light.axis, turns, |w, cos| intensity(w) * falloff(cos))
     }
 }
 

@@ -1,12 +1,16 @@
-//! Bodies of the fuzz targets of the renderer, scenes, images, parts of images and certificates, and of the C interface. `tests/seeds.rs` runs
-//! the same functions without a fuzzer.
+//! Bodies of the fuzz targets of the renderer, scenes, images, parts of images, certificates, daylight and lights that emit other than evenly,
+//! and of the C interface. `tests/seeds.rs` runs the same functions without a fuzzer.
 
 mod c_interface;
 mod certificates;
+mod daylight;
+mod emitters;
 mod part;
 
 pub use c_interface::c_interface;
 pub use certificates::certificates;
+pub use daylight::daylight;
+pub use emitters::emitters;
 use etendue_render::World;
 use etendue_render::compare::Comparison;
 use etendue_render::texture::{Mapping, Picture, Texture, Wrap};

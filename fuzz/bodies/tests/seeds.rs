@@ -56,6 +56,24 @@ fn parts() {
 fn certificates() {
     damaged("certificates", files::certificates, cases(3000, 30_000));
 }
+/// Runs `body` on each seed, on damaged copies, and on random bytes.
+fn damaged_and_random(name: &str, body: fn(&[u8]), times: u64) {
+    damaged(name, body, times / 4);
+    let mut state = times;
+    for k in 0..times {
+        let bytes: Vec<u8> = (0..8 + k % 256).map(|_| next(&mut state) as u8).collect();
+        let outcome = std::panic::catch_unwind(|| body(&bytes));
+        assert!(outcome.is_ok(), "{name}, random input {k}");
+    }
+}
+#[test]
+fn daylight() {
+    damaged_and_random("daylight", files::daylight, cases(2000, 20_000));
+}
+#[test]
+fn emitters() {
+    damaged_and_random("emitters", files::emitters, cases(2000, 20_000));
+}
 #[test]
 fn c_interface() {
     damaged("c_interface", files::c_interface, cases(100, 1000));

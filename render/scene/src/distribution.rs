@@ -1,8 +1,9 @@
 //! How luminaires lie, and how flat ones distribute what they emit.
 
 use crate::transform::{Transform, cross, dot, scaled, sub, unit};
-use etendue::light::{LuminousOpening, Spread};
+use etendue::light::Spread;
 use etendue_render::intensity::Intensity;
+use etendue_render::light_profile::LuminousOpening;
 use std::sync::Arc;
 
 /// A signed axis of light space: x, y or z, and its sign.
@@ -23,7 +24,7 @@ pub(super) struct Aim {
 pub(super) struct Distribution {
     pub(super) intensity: Arc<Intensity>,
     pub(super) aim: Aim,
-    pub(super) opening: LuminousOpening<f32>,
+    pub(super) opening: LuminousOpening,
     /// The cone about the normal beyond which it is dark.
     pub(super) cone: Spread<f32>,
 }

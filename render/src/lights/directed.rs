@@ -63,22 +63,20 @@ impl DirectedLight {
 pub(super) fn sample(lights: &[DirectedLight], chosen: &mut Chosen, p: V8, here: M8) -> LightSample<X8> {
     let index = chosen.second.x.to_bits();
     let mut found = V8::default();
-    let look_up = |w: V8| {
-        each_group(index, here, |light, same| {
-            let DirectedLight { rows, intensity, cone } = &lights[light as usize];
-            let [x, y, z] = rows.map(|row| V8::from(row).dot(w));
-            let mut own = intensity.at(Vec3::new(x, y, z));
-            if let Some(cone) = cone {
-                own = own * SpotLight::splat(*cone).falloff(w);
-            }
-            found = V8::blend(same, own, found);
-        });
-        let some = (found.x + found.y + found.z).gt(X8::lit(0.0));
-        X8::lit(1.0).keep(some)
-    };
-    let sample = PointLight::new(chosen.place).by_profile(p, look_up).sample(Vec2::default());
+    let sample = PointLight::new(chosen.place).by_delta(p).sample(Vec2::default());
+    let w = -sample.direction;
+    each_group(index, here, |light, same| {
+        let DirectedLight { rows, intensity, cone } = &lights[light as usize];
+        let [x, y, z] = rows.map(|row| V8::from(row).dot(w));
+        let mut own = intensity.at(Vec3::new(x, y, z));
+        if let Some(cone) = cone {
+            own = own * SpotLight::splat(*cone).falloff(w);
+        }
+        found = V8::blend(same, own, found);
+    });
     let V8 { x, y, z } = chosen.radiance;
     let intensity = V8::new(x * found.x, y * found.y, z * found.z);
     chosen.radiance = V8::blend(here, intensity, chosen.radiance);
-    sample
+    let some = (found.x + found.y + found.z).gt(X8::lit(0.0));
+    LightSample { pdf: sample.pdf.keep(some), emits: sample.emits & some, ..sample }
 }

@@ -4,7 +4,6 @@
 //! Every body reads its bytes as numbers at which methods break ([`Input`]): signed zeros, subnormal numbers, ulps about 1, the ends of the
 //! f32 range; vectors that are equal, opposite, collinear, or a few ulps from that.
 
-mod emitters;
 mod light_tree;
 mod lights;
 mod numbers;
@@ -86,14 +85,10 @@ targets! {
     distant_lights: lights, 700;
     /// An environment image, in either mapping.
     environment: numbers, 300;
-    /// Profiles of intensity, projected images, and lights with a spread.
-    emitters: emitters, 150;
     /// Pictures on lights of any shape.
     pictures: pictures, 200;
     /// The sky through up to three portals, seen from anywhere.
     portals: skies, 30;
-    /// Daylight of any type, and the sun at any time and place.
-    daylight: skies, 200;
     /// Tables of one and two dimensions.
     piecewise_constant: numbers, 500;
     /// Vose's alias tables.
@@ -129,19 +124,19 @@ impl<'a> Input<'a> {
         Self(Unstructured::new(bytes))
     }
     /// An integer below `n`.
-    fn below(&mut self, n: u8) -> u8 {
+    pub fn below(&mut self, n: u8) -> u8 {
         self.0.arbitrary::<u8>().unwrap_or(0) % n
     }
     /// 32 bits.
-    fn word(&mut self) -> u32 {
+    pub fn word(&mut self) -> u32 {
         self.0.arbitrary().unwrap_or(0)
     }
     /// 64 bits.
-    fn seed(&mut self) -> u64 {
+    pub fn seed(&mut self) -> u64 {
         self.0.arbitrary().unwrap_or(0)
     }
     /// A multiple of 2⁻²⁴ in [0, 1), often one of [`EDGES`].
-    fn unit(&mut self) -> f32 {
+    pub fn unit(&mut self) -> f32 {
         if self.below(3) == 0 {
             EDGES[self.below(EDGES.len() as u8) as usize]
         } else {
@@ -149,15 +144,15 @@ impl<'a> Input<'a> {
         }
     }
     /// A point of the unit square.
-    fn square(&mut self) -> [f32; 2] {
+    pub fn square(&mut self) -> [f32; 2] {
         [self.unit(), self.unit()]
     }
     /// A number in [−2, 2).
-    fn ordinary(&mut self) -> f32 {
+    pub fn ordinary(&mut self) -> f32 {
         (self.word() >> 8) as f32 / 4_194_304.0 - 2.0
     }
     /// Any finite number, biased towards those that break methods.
-    fn number(&mut self) -> f32 {
+    pub fn number(&mut self) -> f32 {
         let sign = |word: u32, x: f32| if word & 1 == 1 { -x } else { x };
         match self.below(8) {
             0 => NASTY[self.below(NASTY.len() as u8) as usize],
@@ -181,11 +176,11 @@ impl<'a> Input<'a> {
         }
     }
     /// A finite number ≥ 0, biased in the same way.
-    fn weight(&mut self) -> f32 {
+    pub fn weight(&mut self) -> f32 {
         self.number().abs()
     }
     /// A vector, often related to one of `before`.
-    fn vector(&mut self, before: &[[f32; 3]]) -> [f32; 3] {
+    pub fn vector(&mut self, before: &[[f32; 3]]) -> [f32; 3] {
         let kind = self.below(10);
         if let (true, false) = (kind < 5, before.is_empty()) {
             let v = before[self.below(before.len() as u8) as usize];
@@ -220,13 +215,13 @@ impl<'a> Input<'a> {
         }
     }
     /// A unit vector, up to rounding.
-    fn direction(&mut self) -> [f32; 3] {
+    pub fn direction(&mut self) -> [f32; 3] {
         let v = self.vector(&[]).map(f64::from);
         let length = etendue_oracle::length(v);
         if length > 0.0 { v.map(|x| (x / length) as f32) } else { [0.0, 0.0, 1.0] }
     }
     /// Between 1 and `most` weights.
-    fn weights(&mut self, most: u8) -> Vec<f32> {
+    pub fn weights(&mut self, most: u8) -> Vec<f32> {
         let n = 1 + self.below(most);
         (0..n).map(|_| self.weight()).collect()
     }

@@ -7,10 +7,12 @@ use super::profiles::{self, Profile};
 use crate::distribution::Distribution;
 use crate::message::Notes;
 use crate::radiance::{brightness, luminance, radiances, rounded};
-use etendue::light::{LuminousOpening, Spread};
+use etendue::Real;
+use etendue::light::Spread;
 use etendue_render::image::Picture;
+use etendue_render::light_profile::LuminousOpening;
 use etendue_render::limits::MOST_RADIANCE;
-use etendue_render::packet::V8;
+use etendue_render::packet::X8;
 use etendue_render::scene::{Emission, Message};
 use etendue_render::texture::{self, Colors, Mapping, Texels, Wrap};
 use std::collections::HashMap;
@@ -74,7 +76,7 @@ pub(super) fn read(
     }
     // the greatest factor of the spread is on the axis, and that of a profile at most at its least cosine
     let gain = match &profile {
-        Some(distribution) => f64::from(distribution.opening.factor(0.0, 1.0)),
+        Some(distribution) => distribution.opening.factor(X8::lit(0.0), X8::lit(1.0)).lane_f64(0),
         None => spread.map_or(1.0, |spread| f64::from(spread.tan_half) * f64::from(spread.gain)),
     };
     let most = (f64::from(MOST_RADIANCE) / gain) as f32;
@@ -109,7 +111,7 @@ fn distribution(
         return Ok(None);
     };
     let ahead = aim.ahead();
-    let Some(opening) = LuminousOpening::new(ahead.into(), two_sided, |w: V8| intensity.at(w).x) else {
+    let Some(opening) = LuminousOpening::new(ahead, two_sided, &intensity) else {
         return Ok(None);
     };
     // about another axis, or behind, the cone of the intensity tells nothing

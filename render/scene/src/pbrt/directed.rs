@@ -9,10 +9,8 @@ use crate::message::Notes;
 use crate::radiance::{brightness, luminance, rounded};
 use crate::transform::Transform;
 use etendue::SpotLight;
-use etendue::light::Projector;
 use etendue_render::image::Picture;
-use etendue_render::intensity::Intensity;
-use etendue_render::packet::V8;
+use etendue_render::intensity::{Intensity, Projector};
 use etendue_render::scene::{Cone, DeltaLight, Message};
 
 /// Axes of projected images, in light space.
@@ -106,7 +104,7 @@ pub(super) fn spot(
     };
     let ahead = profile.aim.ahead().map(|x| x as f32);
     let upright = SpotLight { position: [0.0; 3].into(), axis: ahead.into(), one_minus_cos_inner, one_minus_cos_outer };
-    let flux = upright.power(|w: V8| profile.intensity.at(w).x);
+    let flux = profile.intensity.flux_of_spot(&upright);
     if flux <= 0.0 {
         notes.warn(params.error("emits nothing: its profile is dark in its cone"));
         return Ok(None);

@@ -14,7 +14,7 @@
 use super::inputs::Files;
 use crate::distribution::Axis;
 use crate::message::shown;
-use etendue_render::intensity::Intensity;
+use etendue_render::intensity::{Intensity, Profile};
 
 /// The intensity of a luminaire.
 #[derive(Debug)]
@@ -247,6 +247,7 @@ pub(super) fn parse(text: &str, name: &str) -> Result<Photometry, String> {
         _ => (polar.iter().map(|v| v + 90.0).collect(), [(0, 1.0), (2, -1.0), (1, -1.0)], ((0, 1.0), (1, 1.0))),
     };
     // angles that differ by too little are the same once they are mirrored
-    let intensity = Intensity::angles(polar, azimuth, values).map_err(|error| format!("{name}: {error}"))?;
+    let profile = Profile::new(polar, azimuth, values).map_err(|error| format!("{name}: {error}"))?;
+    let intensity = Intensity::Angles(profile);
     Ok(Photometry { intensity, greatest: greatest * header.factor, axes, ahead, aside, warnings })
 }

@@ -1,7 +1,8 @@
 //! Reading of daylight, and its error messages.
 
 use super::*;
-use etendue::light::{EnvironmentMap, GeneralSky, ImageEnvironment};
+use etendue::light::{EnvironmentMap, ImageEnvironment};
+use etendue_render::sky::GeneralSky;
 
 fn directive(parameters: &str) -> String {
     world(&format!("LightSource \"infinite\" \"string sky\" \"cie\" {parameters}"))

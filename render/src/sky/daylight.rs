@@ -1,8 +1,7 @@
 //! Daylight: the sky by CIE's formula, and where the sun is.
 
-use crate::real::Real;
-use crate::vector::Vec3;
-use core::f64::consts::{FRAC_PI_2, TAU};
+use etendue::{Real, Vec3};
+use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// Gradations: a and b.
 const GRADATIONS: [[f64; 2]; 6] = [[4.0, -0.7], [1.1, -0.8], [0.0, -1.0], [-1.0, -0.55], [-1.0, -0.32], [-1.0, -0.15]];
@@ -37,11 +36,9 @@ const TYPES: [[usize; 2]; 15] = [
 /// - Greatest error: 1e−6 relative, in single precision.
 /// - Source: ISO 15469:2004, which is CIE S 011/E:2003.
 ///
-/// An image of it is sampled in proportion to it: [`ImageEnvironment`](super::ImageEnvironment) with the mean of each texel. The sun itself is a
-/// [`Sun`](super::Sun).
-///
 /// ```
-/// use etendue::{Vec3, light::GeneralSky};
+/// use etendue::Vec3;
+/// use etendue_render::sky::GeneralSky;
 /// let sky = GeneralSky::new(12, [0.6, 0.0, 0.8]).unwrap();
 /// assert!((sky.luminance(Vec3::new(0.0_f32, 0.0, 1.0)) - 1.0).abs() < 1e-6);
 /// assert!(sky.luminance(Vec3::new(0.6_f32, 0.0, 0.8)) > 3.0); // about the sun
@@ -61,10 +58,12 @@ impl GeneralSky {
     #[must_use]
     pub fn new(kind: u32, sun: [f64; 3]) -> Option<Self> {
         let [gradation, indicatrix] = *TYPES.get((kind as usize).checked_sub(1)?)?;
-        let (sun, length) = Vec3::<f64>::from(sun).unit_and_length();
-        if !(length > 0.0 && length < f64::INFINITY) {
+        // of any length, since its square might be none
+        let most = sun.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        if !(most > 0.0 && sun.iter().all(|x| x.is_finite())) {
             return None;
         }
+        let sun = Vec3::from(sun.map(|x| x * most.pow2_scale())).normalize();
         let (gradation, indicatrix) = (GRADATIONS[gradation - 1], INDICATRICES[indicatrix - 1]);
         let own = Self { gradation, indicatrix, sun, scale: 1.0 };
         let zenith = own.luminance(Vec3::new(0.0, 0.0, 1.0));
@@ -167,7 +166,7 @@ impl SunPosition {
     /// - Source: Michalsky, "The Astronomical Almanac's Algorithm for Approximate Solar Position (1950–2050)", Solar Energy 40(3), 1988.
     ///
     /// ```
-    /// use etendue::light::{Moment, SunPosition};
+    /// use etendue_render::sky::{Moment, SunPosition};
     /// // noon in Greenwich at an equinox
     /// let time = Moment { year: 2026, month: 3, day: 20, hours: 12.0 };
     /// let sun = SunPosition::new(time, 51.48, 0.0).unwrap();

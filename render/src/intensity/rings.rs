@@ -1,8 +1,8 @@
 //! Integrals over directions about an axis, of functions that only tables know.
 
-use crate::real::Real;
-use crate::vector::{Frame, Vec3};
-use core::f64::consts::TAU;
+use crate::packet::{V8, X8};
+use etendue::{Frame, Real, Vec3};
+use std::f64::consts::TAU;
 
 /// The greatest width of a ring about the axis, half a degree in turns: tables have their kinks between rings.
 const RING: f64 = 1.0 / 720.0;
@@ -20,15 +20,15 @@ const GAUSS: [[f64; 2]; 3] = [
 /// ∫ f(w, cosθ) dω over the directions w whose angle θ to the unit vector `axis` is below `most`, in turns: by Gauss's quadrature in θ within
 /// rings, and by the midpoint rule around the axis. Of what is a polynomial of degree 4 in θ within each ring, and linear in each step around
 /// it, the sum is the integral but for rounding.
-pub(super) fn integral<R: Real>(axis: Vec3<f64>, most: f64, f: impl Fn(Vec3<R>, f64) -> R) -> f64 {
+pub(crate) fn integral(axis: Vec3<f64>, most: f64, f: impl Fn(V8, f64) -> X8) -> f64 {
     let frame = Frame::new(axis);
-    let narrow = |v: Vec3<f64>| Vec3::<R>::lit([v.x, v.y, v.z]);
+    let narrow = |v: Vec3<f64>| V8::lit([v.x, v.y, v.z]);
     let (s, t, n) = (narrow(frame.s), narrow(frame.t), narrow(frame.n));
-    let width = RING.lesser(most / RINGS as f64);
+    let width = RING.min(most / RINGS as f64);
     let (mut sum, mut ring) = (0.0, 0_usize);
     loop {
         let from = width * ring as f64;
-        let half = 0.5 * width.lesser(most - from);
+        let half = 0.5 * width.min(most - from);
         // rounding may leave a sliver
         if half.is_nan() || half <= 1e-9 * width {
             return sum * (TAU * TAU / AROUND as f64);
@@ -36,13 +36,11 @@ pub(super) fn integral<R: Real>(axis: Vec3<f64>, most: f64, f: impl Fn(Vec3<R>, 
         for [x, weight] in GAUSS {
             let (sin, cos) = (half * x + (from + half)).sin_cos_turns();
             let mut row = 0.0;
-            for j in (0..AROUND).step_by(R::LANES) {
-                let turn = R::from_fn(|lane| R::Scalar::lit(((j + lane) as f64 + 0.5) / AROUND as f64));
+            for j in (0..AROUND).step_by(8) {
+                let turn = X8::from_fn(|lane| (((j + lane) as f64 + 0.5) / AROUND as f64) as f32);
                 let (up, across) = turn.sin_cos_turns();
-                let w = n * R::lit(cos) + (s * across + t * up) * R::lit(sin);
-                let value = f(w, cos);
-                // in the same order at every width
-                (0..R::LANES).for_each(|lane| row += value.lane_f64(lane));
+                let w = n * X8::lit(cos) + (s * across + t * up) * X8::lit(sin);
+                f(w, cos).to_array().into_iter().for_each(|value| row += f64::from(value));
             }
             sum += half * weight * sin * row;
         }

@@ -1,0 +1,153 @@
+//! Lights that emit other than evenly: profiles, projected images, and spreads.
+
+use etendue::light::Spread;
+use etendue::{Disk, LightSampler, Parallelogram, Rectangle, SpotLight, Vec3, f32x8};
+use etendue_properties::fuzz_bodies::Input;
+use etendue_properties::properties::{squares_of, vectors_of};
+use etendue_render::intensity::{Intensity, Profile, ProfileError, Projector};
+use etendue_render::light_profile::LuminousOpening;
+use etendue_render::packet::V8;
+
+/// One of three kinds of light, of any numbers.
+pub fn emitters(bytes: &[u8]) {
+    let input = &mut Input::new(bytes);
+    match input.below(3) {
+        0 => profile(input),
+        1 => projected(input),
+        _ => spread(input),
+    }
+}
+
+/// Angles that are often valid.
+fn angles(input: &mut Input<'_>, low: f32, high: f32) -> Vec<f32> {
+    let mut angles: Vec<f32> = (0..input.below(6)).map(|_| low + (high - low) * input.unit()).collect();
+    angles.extend([low, high]);
+    angles.sort_by(f32::total_cmp);
+    angles.dedup();
+    match input.below(8) {
+        0 => angles.reverse(),
+        1 => angles.truncate(1),
+        2 => angles[0] = input.number(),
+        3 => angles[0] = f32::NAN,
+        _ => {}
+    }
+    angles
+}
+
+/// Flat lights and spot lights with a profile: no factor and no power is infinite or below 0.
+fn lamps(input: &mut Input<'_>, intensity: &Intensity) {
+    let (axis, any) = (input.direction(), input.direction());
+    // sums over many directions
+    if input.below(64) != 0 {
+        return;
+    }
+    let spot = SpotLight {
+        position: Vec3::default(),
+        axis: axis.into(),
+        one_minus_cos_inner: 2.0 * input.unit(),
+        one_minus_cos_outer: 2.0 * input.unit(),
+    };
+    let flux = intensity.flux_of_spot(&spot);
+    assert!(flux >= 0.0 && flux.is_finite(), "{flux} by {spot:?}");
+    let Some(opening) = LuminousOpening::new(axis.map(f64::from), input.below(2) == 1, intensity) else { return };
+    let w: V8 = vectors_of(|_| any);
+    let factor = opening.factor(w.dot(vectors_of(|_| axis)), intensity.at(w).x).as_array()[4];
+    assert!(
+        opening.gain > 0.0 && factor >= 0.0 && factor.is_finite(),
+        "{factor} by {opening:?} along {any:?} from {axis:?}"
+    );
+}
+
+/// Tables that are no profile are refused; others have finite values between those of the table.
+fn profile(input: &mut Input<'_>) {
+    let [low, high] = [[0.0, 180.0], [0.0, 90.0], [90.0, 180.0], [30.0, 31.0]][input.below(4) as usize];
+    let polar = angles(input, low, high);
+    let [low, high] = [[0.0, 360.0], [-90.0, 90.0], [-270.0, 90.0]][input.below(3) as usize];
+    let azimuth = angles(input, low, high);
+    let mut values: Vec<f32> = (0..polar.len() * azimuth.len()).map(|_| input.weight()).collect();
+    if input.below(6) == 0 {
+        values[0] = -input.number();
+    }
+    let ascend = |angles: &[f32]| angles.iter().zip(&angles[1..]).all(|(a, b)| a < b);
+    let [first, last] = [azimuth[0], azimuth[azimuth.len() - 1]];
+    let is_turn = first > -360.0 && first <= 0.0 && last - first <= 360.0;
+    let error = if polar.len() < 2 {
+        Some(ProfileError::Length)
+    } else if !(polar.iter().all(|x| (0.0..=180.0).contains(x)) && ascend(&polar) && ascend(&azimuth) && is_turn) {
+        Some(ProfileError::Angle)
+    } else if values.iter().any(|x| !(0.0..=1e37).contains(x)) {
+        Some(ProfileError::Value)
+    } else {
+        None
+    };
+    let built = Profile::new(polar.clone(), azimuth.clone(), values.clone());
+    assert_eq!(built.as_ref().err().copied(), error, "{polar:?} {azimuth:?} {values:?}");
+    let Ok(profile) = built else { return };
+    let greatest = values.iter().fold(0.0_f32, |most, &x| most.max(x));
+    let power = profile.power();
+    assert!((0.0..=f64::from(greatest) * 12.6).contains(&power), "{power} of {greatest}");
+    for _ in 0..4 {
+        let any = [(); 8].map(|()| [input.direction(), input.vector(&[])][input.below(2) as usize]);
+        for (value, any) in profile.intensity(vectors_of(|lane| any[lane])).to_array().into_iter().zip(any) {
+            assert!((0.0..=greatest * 1.000_001).contains(&value), "{value} of {greatest} at {any:?}");
+            let alone = profile.intensity(vectors_of(|_| any)).to_array();
+            assert_eq!(alone.map(f32::to_bits), [value.to_bits(); 8]);
+        }
+    }
+    lamps(input, &Intensity::Angles(profile));
+}
+
+/// Any tangents: places are in the image, and the same in every lane.
+fn projected(input: &mut Input<'_>) {
+    let tan_half = [input.weight(), input.weight()];
+    let projector = Projector { tan_half };
+    assert!((0.0..=1.0).contains(&projector.cos_cone()), "{tan_half:?}");
+    for _ in 0..4 {
+        let any = [(); 8].map(|()| input.vector(&[]));
+        let (uv, inside) = projector.place(vectors_of(|lane| any[lane]));
+        let found: Vec<_> = uv.x.to_array().into_iter().zip(uv.y.to_array()).collect();
+        for (lane, any) in any.into_iter().enumerate() {
+            let (u, v) = found[lane];
+            assert!([u, v].iter().all(|x| (0.0..1.0).contains(x)), "{tan_half:?} at {any:?}: {u} {v} {inside:?}");
+            let (alone, _) = projector.place(vectors_of(|_| any));
+            assert_eq!((alone.x.as_array()[2], alone.y.as_array()[5]), (u, v));
+        }
+    }
+    let (width, height) = (1 + usize::from(input.below(30)), 1 + usize::from(input.below(30)));
+    let (x, y) = (usize::from(input.below(width as u8)), usize::from(input.below(height as u8)));
+    let solid_angle = projector.texel_solid_angle([width, height], [x, y]);
+    assert!(
+        solid_angle > 0.0 && solid_angle < 6.3,
+        "{tan_half:?}, texel ({x}, {y}) of {width} x {height}: {solid_angle}"
+    );
+}
+
+/// Lights, points and spreads of any numbers: results are finite, in every lane the same, and a part is no larger than the light.
+fn spread(input: &mut Input<'_>) {
+    let spread = Spread::<f32>::new(3.2 * f64::from(input.unit()));
+    let p = input.vector(&[]);
+    let a = input.vector(&[p]);
+    let b = input.vector(&[a, p]);
+    let c = input.vector(&[a, b]);
+    let (n, radius, u) = (input.direction(), input.number(), input.square());
+    let one = |v: [f32; 3]| -> Vec3<f32> { vectors_of(|_| v) };
+    let eight = |v: [f32; 3]| -> Vec3<f32x8> { vectors_of(|_| v) };
+    let factor = spread.attenuation(one(n), one(input.direction()));
+    assert!(factor >= 0.0 && factor.is_finite(), "{factor}");
+    let wide = Spread::splat(spread);
+    let check = |narrow: &dyn LightSampler<f32>, packet: &dyn LightSampler<f32x8>| {
+        let s = narrow.sample(squares_of(&[u]));
+        let finite = [s.pdf, s.distance, s.direction.x, s.direction.y, s.direction.z, s.uv.x, s.uv.y, s.weight()];
+        assert!(finite.iter().all(|x| x.is_finite()) && s.pdf >= 0.0, "{s:?}");
+        assert_eq!(packet.sample(squares_of(&[u])).pdf.as_array()[3].to_bits(), s.pdf.to_bits());
+    };
+    let (light, lights) =
+        (Parallelogram::new(one(a), one(b), one(c)), Parallelogram::new(eight(a), eight(b), eight(c)));
+    check(&light.by_spread(one(p), &spread), &lights.by_spread(eight(p), &wide));
+    let part = light.visible_part(one(p), &spread);
+    assert!(part.edge_s.max_abs() <= light.edge_s.max_abs() && part.edge_t.max_abs() <= light.edge_t.max_abs());
+    let (light, lights) = (Rectangle::new(one(a), one(b), one(c)), Rectangle::new(eight(a), eight(b), eight(c)));
+    check(&light.by_spread(one(p), &spread), &lights.by_spread(eight(p), &wide));
+    let (light, lights) = (Disk::new(one(a), one(n), radius), Disk::new(eight(a), eight(n), f32x8::splat(radius)));
+    check(&light.by_spread(one(p), &spread), &lights.by_spread(eight(p), &wide));
+}

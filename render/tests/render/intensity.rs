@@ -1,0 +1,230 @@
+//! Intensity profiles and projected images against definitions in double precision, and by quadrature.
+
+use etendue::Mask;
+use etendue_oracle::tier::cases;
+use etendue_oracle::{V3, unit};
+use etendue_properties::generators::Random;
+use etendue_properties::properties::Coordinates;
+use etendue_render::intensity::{Profile, ProfileError, Projector};
+use etendue_render::packet::V8;
+use std::f64::consts::{PI, TAU};
+
+/// A table that owns its numbers.
+#[derive(Debug)]
+struct Table {
+    polar: Vec<f32>,
+    azimuth: Vec<f32>,
+    values: Vec<f32>,
+}
+
+impl Table {
+    fn profile(&self) -> Profile {
+        Profile::new(self.polar.clone(), self.azimuth.clone(), self.values.clone()).unwrap()
+    }
+    /// Some table; of every third, the azimuths do not go all around.
+    fn random(random: &mut Random, kind: usize) -> Self {
+        let mut angles = |low: f64, high: f64, most: f64| {
+            let count = random.range(0.0, most) as usize;
+            let mut all: Vec<f32> = (0..count).map(|_| random.range(low, high) as f32).collect();
+            all.extend([low as f32, high as f32]);
+            all.sort_by(f32::total_cmp);
+            all.dedup();
+            all
+        };
+        let polar = match kind % 4 {
+            0 => angles(0.0, 180.0, 9.0),
+            1 => angles(0.0, 90.0, 5.0),
+            2 => angles(90.0, 180.0, 5.0),
+            _ => angles(20.0, 71.0, 3.0),
+        };
+        let azimuth = match kind % 3 {
+            0 => vec![0.0],
+            1 => angles(0.0, 360.0, 9.0),
+            _ => angles(-90.0, 90.0, 4.0),
+        };
+        let mut values: Vec<f32> =
+            (0..polar.len() * azimuth.len()).map(|_| (random.range(-1.0, 2.0) as f32).max(0.0)).collect();
+        values[0] = 1.0;
+        Self { polar, azimuth, values }
+    }
+    /// Value at angles in degrees, by a search from the start.
+    fn at(&self, polar: f64, azimuth: f64) -> f64 {
+        let n = self.polar.len();
+        let wide = |angles: &[f32]| -> Vec<f64> { angles.iter().map(|&a| f64::from(a)).collect() };
+        let (rows, columns) = (wide(&self.polar), wide(&self.azimuth));
+        let Some(j) = (0..n - 1).find(|&j| rows[j] <= polar && polar <= rows[j + 1]) else { return 0.0 };
+        let t = (polar - rows[j]) / (rows[j + 1] - rows[j]);
+        let value =
+            |i: usize| f64::from(self.values[i * n + j]) * (1.0 - t) + f64::from(self.values[i * n + j + 1]) * t;
+        if columns.len() == 1 {
+            return value(0);
+        }
+        for azimuth in [azimuth, azimuth - 360.0] {
+            if let Some(i) = (0..columns.len() - 1).find(|&i| columns[i] <= azimuth && azimuth <= columns[i + 1]) {
+                let s = (azimuth - columns[i]) / (columns[i + 1] - columns[i]);
+                return value(i) * (1.0 - s) + value(i + 1) * s;
+            }
+        }
+        0.0
+    }
+    fn angles(w: V3) -> [f64; 2] {
+        [w[0].hypot(w[1]).atan2(w[2]).to_degrees(), w[1].atan2(w[0]).to_degrees().rem_euclid(360.0)]
+    }
+    /// ∫ I dω, by the midpoint rule between the angles of the table.
+    fn integral(&self) -> f64 {
+        let cut = |most: f64, at: &[f32], steps: usize| {
+            let mut cuts: Vec<f64> = at.iter().flat_map(|&a| [f64::from(a), f64::from(a) + 360.0]).collect();
+            cuts.extend([0.0, most]);
+            cuts.retain(|a| (0.0..=most).contains(a));
+            cuts.sort_by(f64::total_cmp);
+            let pairs: Vec<[f64; 2]> = cuts.windows(2).map(|pair| [pair[0], pair[1]]).collect();
+            pairs.into_iter().flat_map(move |[a, b]| {
+                (0..steps).map(move |k| (a + (b - a) * (k as f64 + 0.5) / steps as f64, (b - a) / steps as f64))
+            })
+        };
+        let mut sum = 0.0;
+        for (theta, height) in cut(180.0, &self.polar, 400) {
+            let across: f64 = cut(360.0, &self.azimuth, 1).map(|(phi, width)| width * self.at(theta, phi)).sum();
+            sum += across * height * theta.to_radians().sin();
+        }
+        sum * (PI / 180.0).powi(2)
+    }
+}
+
+fn directions(random: &mut Random, count: usize) -> Vec<V3> {
+    let mut all = vec![[0.0, 0.0, 1.0], [0.0, 0.0, -1.0], [1.0, 0.0, 0.0], [1.0, -0.0, 0.0], [-1.0, -0.0, 0.0]];
+    all.extend((0..count).map(|_| random.direction().map(|x| f64::from(x as f32))));
+    all
+}
+
+/// Bilinear between angles, also at poles and seams, and the same in any lane.
+#[test]
+fn intensity_is_that_of_the_table() {
+    let mut random = Random::new(3);
+    for kind in 0..cases(60, 600) {
+        let table = Table::random(&mut random, kind);
+        let profile = table.profile();
+        for packet in directions(&mut random, 203).chunks(8) {
+            let found = profile.intensity(Coordinates::gather(packet)).to_array();
+            let turned: Vec<V3> = (0..8).map(|lane| packet[(lane + 3) % 8]).collect();
+            let again = profile.intensity(Coordinates::gather(&turned)).to_array();
+            for (lane, &w) in packet.iter().enumerate() {
+                assert_eq!(found[lane].to_bits(), again[(lane + 5) % 8].to_bits());
+                let [polar, azimuth] = Table::angles(w);
+                // the value, and those within the rounding of the angles: at its edges, a table is not continuous
+                let slack = 1e-6_f64.to_degrees();
+                let across = slack / polar.to_radians().sin().max(slack.to_radians());
+                let azimuths = [-across.min(180.0), 0.0, across.min(180.0)].map(|d| (azimuth + d).rem_euclid(360.0));
+                let near: Vec<f64> = [-slack, 0.0, slack]
+                    .into_iter()
+                    .flat_map(|d| azimuths.map(|a| table.at((polar + d).clamp(0.0, 180.0), a)))
+                    .collect();
+                let [low, high] = [f64::min, f64::max].map(|f| near.iter().copied().reduce(f).unwrap());
+                let (low, high, value) = (low - 8e-7, high + 8e-7, f64::from(found[lane]));
+                assert!((low..=high).contains(&value), "{value} at {w:?}, expected {low} to {high}: {table:?}");
+            }
+        }
+    }
+}
+
+/// The power has a closed form for tables that are linear in the polar angle; elsewhere quadrature tells it.
+#[test]
+fn powers_are_integrals() {
+    let all_around = Profile::new(vec![0.0, 180.0], vec![0.0], vec![2.0, 2.0]).unwrap();
+    assert!((all_around.power() - 8.0 * PI).abs() < 1e-13);
+    // ∫ (1 − θ/b) sinθ dθ from 0 to b is 1 − sin b/b
+    for b in [1.0_f32, 20.0, 90.0, 135.0, 180.0] {
+        let cone = Profile::new(vec![0.0, b], vec![0.0], vec![3.0, 0.0]).unwrap();
+        let radians = f64::from(b).to_radians();
+        let truth = 3.0 * TAU * (1.0 - radians.sin() / radians);
+        assert!((cone.power() / truth - 1.0).abs() < 1e-12, "{b}: {} for {truth}", cone.power());
+    }
+    let mut random = Random::new(5);
+    for kind in 0..cases(12, 60) {
+        let table = Table::random(&mut random, kind);
+        let (power, truth) = (table.profile().power(), table.integral());
+        assert!((power / truth - 1.0).abs() < 1e-5, "{power} for {truth}: {table:?}");
+    }
+}
+
+/// Beyond the cone all is dark; within, the last angle counts.
+#[test]
+fn cones_contain_the_light() {
+    let mut random = Random::new(9);
+    for kind in 0..cases(60, 600) {
+        let table = Table::random(&mut random, kind);
+        let profile = table.profile();
+        for packet in directions(&mut random, 203).chunks(8) {
+            let w: V8 = Coordinates::gather(packet);
+            for (value, z) in profile.intensity(w).to_array().into_iter().zip(w.z.to_array()) {
+                assert!(value == 0.0 || z >= profile.cos_cone(), "{value} at {z}: {table:?}");
+            }
+        }
+    }
+    let cone =
+        |polar: &[f32], values: &[f32]| Profile::new(polar.to_vec(), vec![0.0], values.to_vec()).unwrap().cos_cone();
+    assert_eq!(cone(&[0.0, 90.0], &[1.0, 1.0]), 0.0);
+    assert_eq!(cone(&[0.0, 60.0, 90.0], &[1.0, 0.0, 0.0]), 0.5);
+    assert_eq!(cone(&[0.0, 60.0, 180.0], &[1.0, 1.0, 0.0]), -1.0);
+    assert_eq!(cone(&[0.0, 60.0], &[0.0, 0.0]), 1.0);
+}
+
+#[test]
+fn tables_that_are_none_are_refused() {
+    let error = |polar: &[f32], azimuth: &[f32], values: &[f32]| {
+        Profile::new(polar.to_vec(), azimuth.to_vec(), values.to_vec()).err()
+    };
+    let one = [1.0; 4];
+    assert_eq!(error(&[0.0], &[0.0], &one[..1]), Some(ProfileError::Length));
+    assert_eq!(error(&[0.0, 1.0], &[], &[]), Some(ProfileError::Length));
+    assert_eq!(error(&[0.0, 1.0], &[0.0], &one), Some(ProfileError::Length));
+    for polar in [[0.0, 0.0], [1.0, 0.0], [-1.0, 2.0], [0.0, 181.0], [f32::NAN, 1.0], [0.0, f32::NAN]] {
+        assert_eq!(error(&polar, &[0.0], &one[..2]), Some(ProfileError::Angle), "{polar:?}");
+    }
+    for azimuth in [[0.0, 0.0], [1.0, 2.0], [-360.0, 0.0], [-1.0, 359.5], [f32::NAN, 1.0], [0.0, f32::NAN]] {
+        assert_eq!(error(&[0.0, 1.0], &azimuth, &one), Some(ProfileError::Angle), "{azimuth:?}");
+    }
+    for value in [-1.0, f32::NAN, f32::INFINITY, 2e37] {
+        assert_eq!(error(&[0.0, 1.0], &[0.0], &[0.0, value]), Some(ProfileError::Value));
+    }
+}
+
+const PROJECTORS: [[f32; 2]; 5] = [[1.0, 1.0], [0.5, 0.1], [1e-3, 2e-3], [20.0, 0.3], [3.0, 100.0]];
+
+/// Places are those of the definition, and the solid angles of the texels sum to that of the image.
+#[test]
+fn projectors_map_the_image() {
+    let mut random = Random::new(13);
+    for tan_half in PROJECTORS {
+        let projector = Projector { tan_half };
+        let [across, up] = tan_half.map(f64::from);
+        for _ in 0..cases(200, 20_000) / 8 + 1 {
+            let places = [(); 8].map(|()| [random.unit_f64(), random.unit_f64()]);
+            // through its point in the plane of the image
+            let w = places.map(|[u, v]| unit([(2.0 * u - 1.0) * across, (1.0 - 2.0 * v) * up, 1.0]));
+            let (found, inside) = projector.place(Coordinates::gather(&w));
+            for (lane, (uv, w)) in places.into_iter().zip(w).enumerate() {
+                assert!(w[2] >= f64::from(projector.cos_cone()));
+                let slack = 3e-7 / w[2];
+                let off = [found.x, found.y].map(|x| f64::from(x.to_array()[lane]));
+                let edge = uv.iter().any(|&x| x < slack || x > 1.0 - slack);
+                let is_near = (0..2).all(|k| (off[k] - uv[k]).abs() < slack);
+                assert!(edge || inside.lane(lane) && is_near, "{uv:?} {off:?}");
+            }
+        }
+        for packet in directions(&mut random, 299).chunks(8) {
+            let (_, inside) = projector.place(Coordinates::gather(packet));
+            for (lane, w) in packet.iter().enumerate() {
+                let there = w[2] > 0.0 && (w[0] / w[2]).abs() < across && (w[1] / w[2]).abs() < up;
+                assert_eq!(inside.lane(lane), there, "{w:?}");
+            }
+        }
+        // Ω = 4 asin(sin α sin β) for half angles α and β of a pyramid
+        let sin = |t: f64| t / t.hypot(1.0);
+        let whole = 4.0 * (sin(across) * sin(up)).asin();
+        for [w, h] in [[1, 1], [2, 3], [64, 33]] {
+            let sum: f64 = (0..w * h).map(|i| projector.texel_solid_angle([w, h], [i % w, i / w])).sum();
+            assert!((sum / whole - 1.0).abs() < 1e-9, "{tan_half:?}: {sum} for {whole}");
+        }
+    }
+}
