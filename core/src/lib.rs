@@ -14,8 +14,7 @@
 //! ```
 //!
 //! Start at [`light`] to sample a light, at [`warp`] for maps without a shading point, at [`sequence`] for random numbers, at
-//! [`estimate`] for weights of combined techniques, at [`select`] to choose among lights, and at [`occlusion`] for the visible part of a
-//! light behind a few convex blockers, without samples.
+//! [`estimate`] for weights of combined techniques, and at [`select`] to choose among lights.
 //!
 //! # The contract
 //! Every routine is *total*, *closed*, *threshold-free*, *lane-identical* and *bounded*. The README, which comes with this package, says
@@ -46,7 +45,6 @@ pub mod light;
 pub mod math;
 #[doc(hidden)]
 pub mod memory;
-pub mod occlusion;
 pub mod real;
 pub mod reflection;
 pub mod select;

@@ -14,7 +14,8 @@ mod uint;
 use core::fmt::Debug;
 use core::ops::{Add, AddAssign, BitAnd, BitOr, BitXor, Div, Mul, MulAssign, Neg, Not, Sub, SubAssign};
 
-pub(crate) use functions::polynomial;
+#[doc(hidden)]
+pub use functions::polynomial;
 pub use mask::{MaskF64X4, MaskF64X8, MaskX4, MaskX8, MaskX16};
 
 /// A truth value per lane.

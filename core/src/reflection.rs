@@ -3,7 +3,7 @@
 //! A diffuse surface weights light by cosθ, which has closed forms and samplers for flat lights and spheres. A linear map of the directions
 //! carries both over to the lobe of a rough surface: [`Reflection`] is the map, fitted to GGX. What a light of radiance L adds to the
 //! reflected radiance is about F · albedo · L · Ω⊥/π, with the projected solid angle Ω⊥ of the light after the map
-//! ([`Reflection::sphere`], [`Occlusion::reflected`](crate::occlusion::Occlusion::reflected)); and a sample of the mapped light varies
+//! ([`Reflection::sphere`], `projected_solid_angle` of samplers `by_reflection`); and a sample of the mapped light varies
 //! little beside visibility (`by_reflection` of flat lights and spheres). Both are exact for the fit, but for samples of spheres, so that the
 //! difference between GGX and the fit can be sampled besides.
 //!

@@ -2,6 +2,9 @@
 
 pub(crate) mod double_word;
 
+#[doc(hidden)]
+pub use double_word::{height_dw, sum_dw};
+
 use crate::lanewise::{lanewise, only};
 use crate::math::{difference_of_products, rsqrt};
 use crate::real::Real;
@@ -171,7 +174,7 @@ impl<R: Real> Vec3<R> {
     }
     /// Unit vector and length, at any scale; 0 and 0 for the zero vector.
     #[inline(always)]
-    pub(crate) fn unit_and_length(self) -> (Self, R) {
+    pub fn unit_and_length(self) -> (Self, R) {
         let scale = self.max_abs().pow2_scale();
         let v = self * scale;
         let squared = v.length_squared();

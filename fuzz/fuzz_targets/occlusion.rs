@@ -1,4 +1,4 @@
-//! Runs `fuzz_bodies::occlusion` on any bytes.
+//! Runs `etendue_fuzz_bodies::occlusion` on any bytes.
 #![no_main]
 
-libfuzzer_sys::fuzz_target!(|bytes: &[u8]| etendue_properties::fuzz_bodies::occlusion(bytes));
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| etendue_fuzz_bodies::occlusion(bytes));

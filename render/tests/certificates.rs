@@ -1,8 +1,9 @@
 //! Compares what certificates allow to compute with the light that all primitives leave, in double precision: random patches and lights in
-//! difficult scenes.
+//! difficult scenes. `occlusion` tests the closed forms alone.
 
 mod brute_force;
 mod meshes;
+mod occlusion;
 
 use brute_force::regimes::REGIMES;
 use brute_force::values;

@@ -274,7 +274,7 @@ const ARROWS: [(&str, &[&str], &[&str]); 21] = [
     ("core/python", &["etendue", "etendue-batch"], &[]),
     ("core/shader", &["etendue"], &["etendue-oracle", "etendue-properties"]),
     ("core/shader/device", &[], &[]),
-    ("render", &["etendue"], &["etendue-oracle", "etendue-scene"]),
+    ("render", &["etendue"], &["etendue-oracle", "etendue-properties", "etendue-scene"]),
     ("render/scene", &["etendue", "etendue-render"], &["etendue-oracle"]),
     ("render/laboratory", &["etendue", "etendue-oracle", "etendue-render", "etendue-scene"], &["etendue-properties"]),
     ("render/cli", &["etendue-laboratory", "etendue-render", "etendue-scene"], &["etendue-oracle"]),
@@ -286,7 +286,11 @@ const ARROWS: [(&str, &[&str], &[&str]); 21] = [
     ("tests", &[], &["etendue", "etendue-bits", "etendue-oracle", "etendue-properties"]),
     ("benches/routines", &["etendue", "etendue-render", "etendue-scene"], &[]),
     ("benches", &[], &["etendue", "etendue-laboratory", "etendue-render", "etendue-routines", "etendue-scene"]),
-    ("fuzz/bodies", &["etendue", "etendue-c", "etendue-oracle", "etendue-render", "etendue-scene"], &[]),
+    (
+        "fuzz/bodies",
+        &["etendue", "etendue-c", "etendue-oracle", "etendue-properties", "etendue-render", "etendue-scene"],
+        &[],
+    ),
     ("fuzz", &["etendue-fuzz-bodies", "etendue-properties"], &[]),
 ];
 

@@ -6,7 +6,6 @@ use etendue::light::shapes::{
     SphericalParallelogram, SphericalRectangle, SphericalSegment, SphericalTriangle,
 };
 use etendue::light::{EnvironmentMap, ImageEnvironment, Picture, Region};
-use etendue::occlusion::{Convex, Occlusion};
 use etendue::reflection::Reflection;
 use etendue::sequence::{Independent, JointSobol, OwenSobol, Sequence, Stratified, ZOrder, ZOrderIndex};
 use etendue::warp::{
@@ -17,6 +16,7 @@ use etendue::{
     BilinearPatch, DirectionalLight, Disk, LightSample, LightSampler, Line, Parallelogram, PointLight, Polygon, Real,
     Rectangle, Sphere, SpotLight, Sun, Triangle, Uint, Vec2, Vec3,
 };
+use etendue_render::occlusion::{Convex, Occlusion};
 use std::hint::black_box;
 
 /// Samples per call of [`Routine::run`].

@@ -42,8 +42,8 @@
 //! [`Real::iterate_with_words`](etendue::Real::iterate_with_words). Other loops of the core have constant bounds, and are written out.
 //!
 //! What a routine asks of one lane as a number of Rust ([`Real::lane_f64`](etendue::Real::lane_f64), a comparison of scalars, the bits of a
-//! mask) is known for constants alone; anything else panics with a message. Portals, whose tables have numbers of 64 bits, and
-//! what occluders leave visible do ask that, and so does the exponential function: they are not here.
+//! mask) is known for constants alone; anything else panics with a message. Portals, whose tables have numbers of 64 bits,
+//! do ask that, and so does the exponential function: they are not here.
 //!
 //! # Memory
 //! A routine of the core that reads tables takes them as a [`Memory`](etendue::memory::Memory); recorded, that is [`Words`]. In a source all

@@ -5,7 +5,7 @@ use super::Real;
 
 /// Horner's rule with `mul_add`, coefficients from the constant term up.
 #[inline(always)]
-pub(crate) fn polynomial<R: Real, const N: usize>(x: R, coefficients: [f64; N]) -> R {
+pub fn polynomial<R: Real, const N: usize>(x: R, coefficients: [f64; N]) -> R {
     let mut sum = R::lit(coefficients[N - 1]);
     for &c in coefficients[..N - 1].iter().rev() {
         sum = sum.mul_add(x, R::lit(c));

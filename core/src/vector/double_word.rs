@@ -53,7 +53,7 @@ pub(crate) fn height_over<R: Real>(p: Vec3<R>, [a, b]: [Vec3<R>; 2], n: Vec3<R>)
 
 /// p·n for an unevaluated sum n, not rounded.
 #[inline(always)]
-pub(crate) fn height_dw<R: Real>(p: Vec3<R>, [n, more]: [Vec3<R>; 2]) -> [R; 2] {
+pub fn height_dw<R: Real>(p: Vec3<R>, [n, more]: [Vec3<R>; 2]) -> [R; 2] {
     let [sum, rest] = dot_dw(p, n);
     [sum, rest + p.dot(more)]
 }
@@ -79,7 +79,7 @@ pub(crate) fn cross_sums<R: Real>([a, ra]: [Vec3<R>; 2], [b, rb]: [Vec3<R>; 2]) 
 
 /// a + b for two unevaluated sums; a plain vector has the rest 0.
 #[inline(always)]
-pub(crate) fn sum_dw<R: Real>([a, ra]: [Vec3<R>; 2], [b, rb]: [Vec3<R>; 2]) -> [Vec3<R>; 2] {
+pub fn sum_dw<R: Real>([a, ra]: [Vec3<R>; 2], [b, rb]: [Vec3<R>; 2]) -> [Vec3<R>; 2] {
     let ((x, ex), (y, ey), (z, ez)) = (a.x.two_sum(b.x), a.y.two_sum(b.y), a.z.two_sum(b.z));
     [Vec3::new(x, y, z), Vec3::new(ex, ey, ez) + (ra + rb)]
 }

@@ -1,10 +1,10 @@
 //! Small scenes on a lattice, so that their parts touch, coincide and are parallel, whose certificates must agree with single segments.
 
-use etendue::occlusion::Convex;
 use etendue_oracle::{V3, along, cross, dot, length, sub, unit, wide};
 use etendue_render::bvh::SHAPE;
 use etendue_render::camera::Pinhole;
 use etendue_render::certify::{Blocker, Bodies, Certificate, Certifier, MOST, Patch, Pyramid, Viewer};
+use etendue_render::occlusion::Convex;
 use etendue_render::scene::{
     CameraSettings, Emission, Geometry, Material, Parallelogram, Scene, Screen, Shape, Sphere,
 };

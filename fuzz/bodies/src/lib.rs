@@ -1,10 +1,11 @@
-//! Bodies of the fuzz targets of the renderer, scenes, images, parts of images, certificates, daylight and lights that emit other than evenly,
-//! and of the C interface. `tests/seeds.rs` runs the same functions without a fuzzer.
+//! Bodies of the fuzz targets of the renderer, scenes, images, parts of images, certificates, visible parts, daylight and lights that emit
+//! other than evenly, and of the C interface. `tests/seeds.rs` runs the same functions without a fuzzer.
 
 mod c_interface;
 mod certificates;
 mod daylight;
 mod emitters;
+mod occlusion;
 mod part;
 
 pub use c_interface::c_interface;
@@ -15,6 +16,7 @@ use etendue_render::World;
 use etendue_render::compare::Comparison;
 use etendue_render::texture::{Mapping, Picture, Texture, Wrap};
 use etendue_scene::image::{self as images, Encoding};
+pub use occlusion::occlusion;
 pub use part::part;
 use std::path::Path;
 

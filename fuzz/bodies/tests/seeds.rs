@@ -75,6 +75,10 @@ fn emitters() {
     damaged_and_random("emitters", files::emitters, cases(2000, 20_000));
 }
 #[test]
+fn occlusion() {
+    damaged_and_random("occlusion", files::occlusion, cases(1000, 10_000));
+}
+#[test]
 fn c_interface() {
     damaged("c_interface", files::c_interface, cases(100, 1000));
     // every function, whatever the seeds are

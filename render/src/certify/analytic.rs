@@ -8,10 +8,10 @@ use super::residual::{Left, Residual};
 use crate::bvh::GROUP;
 use crate::camera::Camera;
 use crate::estimate::{Estimator, Group, Place, Plain, Points, Reflected, TileEstimator, Tracer};
+use crate::occlusion::Convex;
 use crate::packet::{M8, V8, X8, each_bit};
 use crate::prepared::PreparedScene;
 use crate::settings::Settings;
-use etendue::occlusion::Convex;
 use etendue::{Mask, Real};
 use std::f64::consts::FRAC_1_PI;
 

@@ -4,9 +4,9 @@ use super::hull::{Hull, V64, edges, magnitude, unit, wide};
 use super::shaft::Shaft;
 use crate::bvh::SHAPE;
 use crate::geometry::{Geometry, Outline};
+use crate::occlusion::{Convex, SPARED};
 use crate::surfaces::Surfaces;
 use etendue::Vec3;
-use etendue::occlusion::{Convex, SPARED};
 
 /// A patch that is nowhere higher over the plane of a blocker, as a fraction of the distance of its farthest point, is flush with it. The
 /// rounding of heights is some 1e−6 of that distance.

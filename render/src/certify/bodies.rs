@@ -4,8 +4,8 @@ use super::blockers::crosses;
 use super::hull::{Hull, V64, unit, wide};
 use super::shaft::Shaft;
 use crate::bvh::{Bvh, NOTHING};
+use crate::occlusion::{Edge, Polyhedron, SPARED};
 use etendue::Vec3;
-use etendue::occlusion::{Edge, Polyhedron, SPARED};
 use std::collections::HashMap;
 use std::f64::consts::SQRT_2;
 

@@ -16,11 +16,11 @@ use crate::area::TILE;
 use crate::bvh::{NOTHING, SHAPE};
 use crate::camera::{Camera, Pinhole};
 use crate::estimate::Place;
+use crate::occlusion::Convex;
 use crate::packet::{M8, V8, X8, equal, first_lane};
 use crate::prepared::PreparedScene;
 use crate::settings::Settings;
 use crate::surfaces::{Surface, Surfaces};
-use etendue::occlusion::Convex;
 use etendue::{Mask, Real, Vec3, u32x8};
 use std::collections::HashMap;
 

@@ -13,9 +13,9 @@ use super::patch::Patch;
 use super::precision::{Behind, Precision};
 use super::shaft::{Facing, Form, Lamp, Shaft};
 use crate::bvh::{Region, SHAPE};
+use crate::occlusion::Occlusion;
 use crate::surfaces::Surfaces;
 use etendue::f64x8;
-use etendue::occlusion::Occlusion;
 
 /// Greatest number of blockers in a certificate.
 pub const MOST: usize = 16;

@@ -2,9 +2,9 @@
 
 use super::scenery::{Blocking, Scenery};
 use super::visible::Visible;
+use crate::occlusion::{Convex, Occlusion, Polyhedron};
 use crate::packet::{V8, X8, widen, widen_points};
 use etendue::f64x8;
-use etendue::occlusion::{Convex, Occlusion, Polyhedron};
 use etendue::reflection::Reflection;
 
 /// Computes closed forms, and holds the memory for it.

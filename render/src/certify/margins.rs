@@ -154,7 +154,7 @@ fn patches_near_the_plane_of_a_light_are_on_no_side() {
         assert_eq!(found, expected, "{y}");
     }
     let (_, shaft) = set(&loose(1.0), panel);
-    assert!(shaft.end.unwrap().2 < etendue::occlusion::SPARED - 0.9 * ROUNDING);
+    assert!(shaft.end.unwrap().2 < crate::occlusion::SPARED - 0.9 * ROUNDING);
 }
 
 #[test]

@@ -4,8 +4,8 @@ use super::hull::{CORNERS, Hull, V64, magnitude, unit, wide};
 use crate::bvh::SHAPE;
 use crate::camera::Pinhole;
 use crate::geometry::{LEAST, LIFT, Outline};
+use crate::occlusion::Convex;
 use crate::surfaces::Surfaces;
-use etendue::occlusion::Convex;
 
 /// How far shading points can be from the ideal patch, relative to their greatest coordinate: a lift of less than 1.8 · 2⁻²³, and a rounding of
 /// less than 1.8 · 2⁻²⁴.

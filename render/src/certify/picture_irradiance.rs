@@ -8,9 +8,9 @@
 use crate::geometry::{Geometry, Outline};
 use crate::light_picture::LightPicture;
 use crate::limits::MOST_RADIANCE;
+use crate::occlusion::Convex;
 use crate::packet::{M8, V8, X8};
 use crate::texture::Picture;
-use etendue::occlusion::Convex;
 use etendue::{Mask, Real, Vec3};
 use std::f64::consts::PI;
 use std::sync::LazyLock;

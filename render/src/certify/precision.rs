@@ -3,7 +3,7 @@
 use super::hull::{V64, edges, unit};
 use super::patch::Patch;
 use super::shaft::{Form, Lamp};
-use etendue::occlusion::{COMPACT, Convex, Occlusion};
+use crate::occlusion::{COMPACT, Convex, Occlusion};
 use etendue::{Vec3, f64x8};
 use std::f64::consts::{PI, TAU};
 
@@ -29,7 +29,7 @@ struct Errors {
     whole: f64,
 }
 /// More than the greatest errors that `cargo test -p etendue-render --test certificates -- values --nocapture` prints, and for compact lights
-/// `cargo test -p etendue-tests --test occlusion -- compact --nocapture`.
+/// `cargo test -p etendue-render --test certificates -- compact --nocapture`.
 const SINGLE: Errors = Errors { flat: 1.2e-7, ball: 1.2e-7, compact: 1e-7, outline: 2e-9, sphere: 4e-7, whole: 1e-7 };
 /// Twice the greatest errors or more.
 const DOUBLE: Errors = Errors { flat: 1e-15, ball: 1e-15, compact: 1e-15, outline: 1e-15, sphere: 1e-15, whole: 1e-15 };

@@ -2,7 +2,7 @@
 
 use super::blockers::Blocker;
 use super::bodies::Bodies;
-use etendue::occlusion::{Convex, Polyhedron};
+use crate::occlusion::{Convex, Polyhedron};
 use std::ops::Range;
 
 /// What may occlude lights, in single and in double precision.

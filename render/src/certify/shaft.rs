@@ -3,8 +3,8 @@
 use super::hull::{Hull, V64, magnitude, unit};
 use super::patch::{Patch, TILT};
 use crate::bvh::Region;
+use crate::occlusion::{Convex, SPARED};
 use crate::scene::Shape;
-use etendue::occlusion::{Convex, SPARED};
 
 /// Rounding of points on lights and of directions to them, relative to the greatest coordinate.
 const ROUNDED: f64 = 1.0 / 524_288.0;

@@ -4,8 +4,8 @@
 //! visible` prints both), and the successive packets of a tile mostly see the same.
 
 use super::scenery::{Blocking, Scenery};
+use crate::occlusion::{Convex, Occlusion};
 use crate::packet::{M8, V8, X8};
-use etendue::occlusion::{Convex, Occlusion};
 use etendue::{Vec3, f32x16};
 
 /// A packet that waits for the visible part of a light.

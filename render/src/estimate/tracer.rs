@@ -2,8 +2,8 @@
 
 use super::points::keep;
 use crate::bvh::{Bvh, GROUP, NOTHING, Rays, Scratch};
+use crate::occlusion::SPARED;
 use crate::packet::{M8, V8, X8};
-use etendue::occlusion::SPARED;
 use etendue::{Mask, Real, u32x8};
 use std::ops::AddAssign;
 

@@ -4,10 +4,10 @@ use super::bounds::bounds_of;
 use super::flat::{Edged, coordinates, sample_picture};
 use super::form::{Chart, Extent, Form, Outline, projected, wide};
 use super::points::{Points, on_plane};
+use crate::occlusion::Convex;
 use crate::packet::{V8, X8};
 use crate::technique::Measure;
 use etendue::light::{self, Picture, Spread};
-use etendue::occlusion::Convex;
 use etendue::{LightSample, LightSampler, Vec2, Vec3};
 
 /// The parallelogram `p + s u + t v` for s, t in \[0,1\]; the normal is u × v.

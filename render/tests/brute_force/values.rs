@@ -8,10 +8,10 @@ use super::scenes::{placed, scene};
 use super::truth::Truth;
 use super::views::{Fit, View, World};
 use crate::meshes::{Random, Triangle};
-use etendue::occlusion::{Convex, Occlusion, Polyhedron};
 use etendue::{Real, Vec3, f32x8, f64x4};
 use etendue_oracle::{V3, along, dot, narrow, sub, unit, wide};
 use etendue_render::certify::{Blocker, Bodies, Certificate, Certifier, Precision};
+use etendue_render::occlusion::{Convex, Occlusion, Polyhedron};
 use etendue_render::surfaces::Surfaces;
 use std::fmt;
 

@@ -1,11 +1,10 @@
-//! Every light by every technique: samples, pdfs, inverses and hits; environment images, spreads, and visible parts.
+//! Every light by every technique: samples, pdfs, inverses and hits; environment images and spreads.
 
 use crate::figures::{Figures, Lanes, List, Routine};
 use etendue::light::{EnvironmentMap, ImageEnvironment, Portal, PortalEnvironment, PortalTable, Spread, Texel};
-use etendue::occlusion::{Convex, Occlusion};
 use etendue::{
     ConstantEnvironment, DirectionalLight, Disk, LightSample, LightSampler, Parallelogram, PointLight, Real, Rectangle,
-    SpotLight, Sun, Vec3,
+    SpotLight, Sun,
 };
 use etendue_properties::generators::{self, Random};
 use etendue_properties::properties::{lanes_of, squares_of, vectors_of};
@@ -184,54 +183,6 @@ impl Routine for Portals {
     }
 }
 
-/// A polygon or a sphere above, past polygons and spheres, as seen from points below.
-struct Visible;
-
-impl Routine for Visible {
-    fn run<R: Real>(&self, figures: &mut Figures) {
-        let mut random = Random::new(800);
-        for round in 0..60 {
-            let size = 0.3 + random.unit_f64();
-            let light = shape::<R>(&mut random, [0.0, 0.0, 2.0], size, round % 4 == 3);
-            let blockers: Vec<_> = (0..round % 4)
-                .map(|k| {
-                    let at = core::array::from_fn(|i| [0.0, 0.0, 1.0][i] + 0.3 * random.range(-1.0, 1.0));
-                    let size = 0.05 + 0.3 * random.unit_f64();
-                    shape::<R>(&mut random, at, size, round % 3 == 2 && k == 0)
-                })
-                .collect();
-            figures.packets::<R>(Figures::MOST, |_, lanes| {
-                let places: Vec<_> = (0..R::LANES)
-                    .map(|_| {
-                        let [x, y, z] = random.direction();
-                        ([x, y, -0.5 * z.abs()].map(|x| x as f32), unit(&mut random))
-                    })
-                    .collect();
-                let (p, n) = (vectors_of::<R>(|i| places[i].0), vectors_of::<R>(|i| places[i].1));
-                let found = Occlusion::new().visible(p, n, &light, &blockers);
-                // `None` concerns all lanes of a packet, so that each is asked alone
-                for (lane, (p, n)) in places.iter().enumerate() {
-                    let (p, n) = (vectors_of::<R::Scalar>(|_| *p), vectors_of(|_| *n));
-                    let one = Occlusion::new().visible(p, n, &light, &blockers);
-                    let same = found.map(|found| found.lane(lane)).or(one);
-                    lanes.lane(lane, same.map_or(-1.0, |x| x.lane_f64(0)));
-                }
-            });
-        }
-    }
-}
-fn shape<R: Real>(random: &mut Random, center: [f64; 3], size: f64, round: bool) -> Convex<R::Scalar> {
-    let lit = |x: f64| R::Scalar::lit(f64::from(x as f32));
-    let vector = |v: [f64; 3]| Vec3::new(lit(v[0]), lit(v[1]), lit(v[2]));
-    if round {
-        return Convex::Sphere { center: vector(center), radius: lit(0.5 * size) };
-    }
-    let (a, b) = (random.direction().map(|x| x * size), random.direction().map(|x| x * size));
-    let corner = |s: f64, t: f64| vector(core::array::from_fn(|k| center[k] + s * a[k] + t * b[k]));
-    let count = if random.word().is_multiple_of(3) { 3 } else { 4 };
-    Convex::Polygon { corners: [corner(0.0, 0.0), corner(1.0, 0.0), corner(1.0, 1.0), corner(0.0, 1.0)], count }
-}
-
 /// Flat lights that emit within an angle of their normal.
 struct Narrow;
 
@@ -275,5 +226,4 @@ pub(crate) fn add(list: &mut List<'_>) {
     list.add("light/Image/Equirectangular", &Sky(EnvironmentMap::Equirectangular, 24, 13));
     list.add("light/Spread", &Narrow);
     list.add("light/Portals", &Portals);
-    list.add("occlusion", &Visible);
 }

@@ -3,7 +3,6 @@
 use crate::figures::{Figures, List, Routine};
 use crate::lights::sampler;
 use etendue::light::Polygon;
-use etendue::occlusion::{Convex, Occlusion};
 use etendue::reflection::Reflection;
 use etendue::{Parallelogram, Real, Sphere, Triangle, Vec3, Warp};
 use etendue_properties::generators::{self, Random};
@@ -37,13 +36,6 @@ impl Routine for Rough {
             sampler(lanes, &Triangle { v0: a, e1: b, e2: c }.by_reflection(p, &lobe), &us, &ws);
             sampler(lanes, &Parallelogram::new(a, b, c).by_reflection(p, &lobe), &us, &ws);
             sampler(lanes, &Polygon::new([a, b, c]).by_reflection(p, &lobe), &us, &ws);
-            let square = |y: f64, half: f64| Convex::Parallelogram {
-                corner: Vec3::lit([-half, y, -half]),
-                edges: [Vec3::lit([2.0 * half, 0.0, 0.0]), Vec3::lit([0.0, 0.0, 2.0 * half])],
-            };
-            let (light, blocker) = (square(2.0, 1.0), square(1.0, 0.25));
-            let seen = Occlusion::new().reflected(p, normal, &lobe, &light, &[blocker], &[]);
-            lanes.real(seen.unwrap_or(R::lit(-1.0)));
         });
     }
 }

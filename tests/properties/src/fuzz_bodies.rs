@@ -7,7 +7,6 @@
 mod light_tree;
 mod lights;
 mod numbers;
-mod occlusion;
 mod pictures;
 mod reflections;
 mod sequences;
@@ -97,8 +96,6 @@ targets! {
     light_choice: numbers, 500;
     /// Trees of up to 200 lights, and points at which one might be lost.
     light_tree: light_tree, 20;
-    /// Lights behind up to 17 blockers, polygons and spheres of any size and place.
-    occlusion: occlusion, 50;
     /// Lobes of rough surfaces, and the parts of them that lights cover.
     reflection: reflections, 200;
     /// Every sequence, at any index.
@@ -233,6 +230,6 @@ impl<'a> Input<'a> {
 }
 
 /// Whether all lengths are 0 or within this factor of 1, so that a factor of 2^±20 neither overflows nor underflows.
-fn scalable(lengths: &[f32], within: f32) -> bool {
+pub fn scalable(lengths: &[f32], within: f32) -> bool {
     lengths.iter().all(|x| *x == 0.0 || (1.0 / within..within).contains(&x.abs()))
 }

@@ -9,8 +9,7 @@
 //! - [`tolerances`]: the one table of tolerances, each with its reason.
 //! - [`suite`]: all properties over all regimes.
 //! - [`fuzz_bodies`]: the bodies of the fuzz targets.
-//! - [`checks`]: properties of functions that are not warps; [`techniques`]: properties of lights; [`occlusion`]: of their visible parts;
-//!   [`light_tree`]: of trees of lights.
+//! - [`checks`]: properties of functions that are not warps; [`techniques`]: properties of lights; [`light_tree`]: of trees of lights.
 //! - [`mutants`]: well-known defects of renderers, which the properties must detect.
 //! - [`stats`] has p-values.
 
@@ -24,8 +23,6 @@ pub mod generators;
 pub mod light_tree;
 #[cfg(feature = "checks")]
 pub mod mutants;
-#[cfg(feature = "checks")]
-pub mod occlusion;
 pub mod properties;
 #[cfg(feature = "checks")]
 pub mod stats;

@@ -2,10 +2,10 @@
 
 use super::bridge::{CHANNEL, bodies, framed, sources, straighten, view};
 use super::draft::{Draft, Frame, Look, Map, Part};
-use etendue::occlusion::SPARED;
 use etendue_oracle::direct::{self, Block, Body, Source, View};
 use etendue_render::compare::{LIMIT, differs};
 use etendue_render::film::Film;
+use etendue_render::occlusion::SPARED;
 use etendue_render::scene::{Affine, Instance, Scene};
 use etendue_render::{Settings, Technique, World};
 use std::path::{Path, PathBuf};

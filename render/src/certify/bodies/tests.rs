@@ -3,7 +3,7 @@
 use super::*;
 use crate::bvh::ShapeSet;
 use crate::geometry::Geometry;
-use etendue::occlusion::{Convex, Occlusion};
+use crate::occlusion::{Convex, Occlusion};
 
 type Triangle = [[f32; 3]; 3];
 

@@ -3,7 +3,6 @@
 use super::Input;
 use core::f32::consts::PI;
 use etendue::light::Polygon;
-use etendue::occlusion::{Convex, Occlusion};
 use etendue::reflection::Reflection;
 use etendue::{LightSampler, Parallelogram, Sphere, Triangle, Vec2, Vec3, Warp, f32x8};
 
@@ -50,14 +49,4 @@ pub(super) fn reflection(input: &mut Input<'_>) {
     closed(&Triangle { v0: a, e1: b, e2: c }.by_reflection(p, &lobe), u, w);
     closed(&Polygon::new([a, b, c, a + c]).by_reflection(p, &lobe), u, w);
     closed(&Sphere::new(a, radius).by_reflection(p, &lobe), u, w);
-    let mut occlusion = Occlusion::<f32x8>::new();
-    let light = Convex::Parallelogram { corner: a, edges: [b, c] };
-    let blocker = Convex::Polygon { corners: [b, c, Vec3::from(input.vector(&[])), a], count: 3 };
-    let wide = Reflection::<f32x8>::splat(lobe);
-    let [at, up] = [p, normal].map(Vec3::<f32x8>::splat);
-    let all = occlusion.reflected(at, up, &wide, &light, &[], &[]).expect("one light").as_array()[0];
-    assert!((0.0..=PI).contains(&all), "{all}");
-    if let Some(left) = occlusion.reflected(at, up, &wide, &light, &[blocker], &[]) {
-        assert!(left.as_array()[0] >= 0.0 && left.as_array()[0] <= all, "{left:?} of {all}");
-    }
 }

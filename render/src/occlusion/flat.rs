@@ -1,8 +1,7 @@
 //! Flat shapes as seen from points, and their numbers without rounding.
 
 use super::shapes::Convex;
-use crate::real::Real;
-use crate::vector::Vec3;
+use etendue::{Real, Vec3};
 
 /// A flat shape as seen from the points, in units of a power of two. Only directions matter, so that each shape can have its own unit.
 ///

@@ -1,42 +1,41 @@
 //! Lights behind blockers, and the properties of their visible parts that hold for any numbers.
 
-use crate::properties::{twice, vectors_of};
-use etendue::occlusion::{Convex, Edge, Occlusion, Polyhedron};
 use etendue::{Real, Vec3, f32x4, f32x8, f32x16};
 use etendue_oracle::{V3, along, cross, dot, narrow, sub, unit, wide};
+use etendue_properties::properties::{twice, vectors_of};
+use etendue_render::occlusion::{Convex, Edge, Occlusion, Polyhedron};
 
 /// A light, blockers, and eight points with the normals of their surfaces.
 #[derive(Clone, Debug)]
-pub struct Scene {
+pub(crate) struct Scene {
     /// The light.
-    pub light: Convex<f32>,
+    pub(crate) light: Convex<f32>,
     /// The blockers.
-    pub blockers: Vec<Convex<f32>>,
+    pub(crate) blockers: Vec<Convex<f32>>,
     /// Polyhedra as further blockers.
-    pub solids: Vec<Solid>,
+    pub(crate) solids: Vec<Solid>,
     /// The shading points.
-    pub points: [[f32; 3]; 8],
+    pub(crate) points: [[f32; 3]; 8],
     /// Unit normals.
-    pub normals: [[f32; 3]; 8],
+    pub(crate) normals: [[f32; 3]; 8],
 }
 
 /// A convex polyhedron, as [`Polyhedron`] refers to it.
 #[derive(Clone, Debug)]
-pub struct Solid {
+pub(crate) struct Solid {
     /// A point inside.
-    pub center: Vec3<f32>,
+    pub(crate) center: Vec3<f32>,
     /// Normals and points of its faces.
-    pub faces: Vec<[Vec3<f32>; 2]>,
+    pub(crate) faces: Vec<[Vec3<f32>; 2]>,
     /// Its edges.
-    pub edges: Vec<Edge<f32>>,
+    pub(crate) edges: Vec<Edge<f32>>,
     /// The corners of each face in order around.
-    pub outlines: Vec<Vec<Vec3<f32>>>,
+    pub(crate) outlines: Vec<Vec<Vec3<f32>>>,
 }
 
 impl Solid {
     /// From its corners, and the corners of each face in order around.
-    #[must_use]
-    pub fn new(corners: &[[f32; 3]], faces: &[Vec<usize>]) -> Self {
+    pub(crate) fn new(corners: &[[f32; 3]], faces: &[Vec<usize>]) -> Self {
         let at = |i: usize| wide(corners[i]);
         let center = (0..corners.len()).fold([0.0; 3], |sum, i| along(sum, at(i), 1.0 / corners.len() as f64));
         let sides = |face: &[usize]| -> Vec<[usize; 2]> {
@@ -68,8 +67,7 @@ impl Solid {
         }
     }
     /// The same with other points; normals stay.
-    #[must_use]
-    pub fn map(&self, f: impl Fn(Vec3<f32>) -> Vec3<f32>) -> Self {
+    pub(crate) fn map(&self, f: impl Fn(Vec3<f32>) -> Vec3<f32>) -> Self {
         Self {
             center: f(self.center),
             faces: self.faces.iter().map(|&[normal, on]| [normal, f(on)]).collect(),
@@ -96,8 +94,7 @@ fn converted<S: From<f32>>(shape: &Convex<f32>) -> Convex<S> {
 
 impl Scene {
     /// Ω⊥ of the visible part from the points `first` and after, in any precision and width. Sixteen lanes have the points [`twice`].
-    #[must_use]
-    pub fn found<R: Real>(&self, first: usize) -> Option<R>
+    pub(crate) fn found<R: Real>(&self, first: usize) -> Option<R>
     where
         R::Scalar: From<f32>,
     {
@@ -115,10 +112,7 @@ impl Scene {
         )
     }
     /// The results are finite, at least 0, and at most what there is without blockers.
-    ///
-    /// # Panics
-    /// If they are not.
-    pub fn total(&self) {
+    pub(crate) fn total(&self) {
         let bare = Self { blockers: Vec::new(), solids: Vec::new(), ..self.clone() };
         let all = bare.found::<f32x8>(0).expect("there are no blockers");
         let left = self.found::<f32x8>(0).unwrap_or_default();
@@ -128,10 +122,7 @@ impl Scene {
         }
     }
     /// f32, f32x4, f32x8 and f32x16 give the same bits. What eight lanes can compute, each can alone; four may have too many corners.
-    ///
-    /// # Panics
-    /// If they do not.
-    pub fn lanes(&self) {
+    pub(crate) fn lanes(&self) {
         let Some(eight) = self.found::<f32x8>(0) else { return };
         let sixteen = self.found::<f32x16>(0).map(|x| x.to_array().map(f32::to_bits));
         let expected = twice(&eight.to_array().map(f32::to_bits));
@@ -145,10 +136,7 @@ impl Scene {
         }
     }
     /// Multiplying all lengths by a power of two changes no bit.
-    ///
-    /// # Panics
-    /// If it does.
-    pub fn scale(&self, exponent: i32) {
+    pub(crate) fn scale(&self, exponent: i32) {
         let factor = 2.0_f32.powi(exponent);
         let times = |shape: &Convex<f32>| shape.map(|x| x * factor);
         let scaled = Self {

@@ -3,7 +3,9 @@
 mod accuracy;
 mod compact;
 mod known_values;
+mod lobes;
 mod properties;
+mod scene;
 mod scenes;
 mod solids;
 mod truth;

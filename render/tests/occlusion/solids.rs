@@ -1,10 +1,10 @@
 //! Scenes with convex polyhedra, by regimes.
 
-use crate::scenes::{Placement, corners};
-use crate::truth::{SPARED, polygon, sphere};
+use super::scene::{Scene, Solid};
+use super::scenes::{Placement, corners};
+use super::truth::{SPARED, polygon, sphere};
 use etendue_oracle::{V3, along, basis, cross, dot, narrow, sub, unit};
 use etendue_properties::generators::Random;
-use etendue_properties::occlusion::{Scene, Solid};
 
 /// How polyhedra are placed.
 #[derive(Clone, Copy, PartialEq, Debug)]

@@ -1,10 +1,10 @@
 //! The truth about scenes.
 
+use super::scene::{Scene, Solid};
 use etendue::Vec3;
-use etendue::occlusion::Convex;
 use etendue_oracle::visible::{Shape, Visible, visible};
 use etendue_oracle::{V3, along, cross, dot, length, narrow, sub, unit, wide};
-use etendue_properties::occlusion::{Scene, Solid};
+use etendue_render::occlusion::Convex;
 
 /// The fraction of the way to a flat light within which blockers do not occlude, as documented.
 pub(crate) const SPARED: f64 = 1.0 / 131_072.0;

@@ -1,11 +1,10 @@
 //! Edges of blockers, and how high a light is over the planes through them and a point.
 
-use super::MOST;
+use super::capacity::MOST;
 use super::flat::two_words;
 use super::outline::Outline;
-use crate::real::{Mask, Real};
-use crate::vector::Vec3;
-use crate::vector::double_word::{height_dw, sum_dw};
+use etendue::vector::{height_dw, sum_dw};
+use etendue::{Mask, Real, Vec3};
 
 /// The line of an edge of a blocker. The plane through it and the point has the normal (p₀ − x) × e, where p₀ is on the line and e along it.
 pub(super) struct Line<R> {

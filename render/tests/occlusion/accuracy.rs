@@ -1,13 +1,13 @@
 //! Greatest errors.
 
-use crate::scenes::{KINDS, Round, scene};
-use crate::solids::{SOLID_KINDS, scene_with_solids};
-use crate::truth::Truth;
+use super::scene::Scene;
+use super::scenes::{KINDS, Round, scene};
+use super::solids::{SOLID_KINDS, scene_with_solids};
+use super::truth::Truth;
 use etendue::{Real, f32x8};
 use etendue_oracle::Greatest;
 use etendue_oracle::tier::cases;
 use etendue_properties::generators::Random;
-use etendue_properties::occlusion::Scene;
 
 /// Greatest errors of a regime.
 #[derive(Clone, Copy, Default)]

@@ -1,9 +1,13 @@
 //! Convex polygons as seen from a point, and what planes leave of them.
 
-use super::{COMPACT, TooMany};
-use crate::math::{polynomial, rsqrt};
-use crate::real::{Mask, Real};
-use crate::vector::Vec3;
+use super::capacity::TooMany;
+use etendue::math::rsqrt;
+use etendue::real::polynomial;
+use etendue::{Mask, Real, Vec3};
+
+/// A flat light looks compact if the squared distances of its corners from their mean are less than this fraction of that of the mean from
+/// the point. What is visible of it is then accurate relative to the square of its size over its distance, not just to the angle around it.
+pub const COMPACT: f64 = 0.25;
 
 /// A convex polygon with up to `MOST` corners. Corners may coincide.
 #[derive(Clone, Copy, Debug)]

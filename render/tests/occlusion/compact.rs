@@ -1,11 +1,11 @@
 //! Flat lights that are compact as [`COMPACT`] says, whole and behind a triangle: errors relative to the square of their size.
 
-use crate::truth::Truth;
-use etendue::occlusion::{COMPACT, Convex};
+use super::scene::Scene;
+use super::truth::Truth;
 use etendue::{Vec3, f32x8};
 use etendue_oracle::{Greatest, along, dot, length, narrow, sub, unit, wide};
 use etendue_properties::generators::Random;
-use etendue_properties::occlusion::Scene;
+use etendue_render::occlusion::{COMPACT, Convex};
 
 /// What the documentation of `Occlusion::visible` states, in units of (half of the perimeter / distance)².
 const BOUND: f64 = 1e-7;

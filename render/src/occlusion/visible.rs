@@ -1,114 +1,18 @@
-//! How much of a light is visible past a few convex blockers: the projected solid angle of the visible part, without random numbers.
-//!
-//! A diffuse surface with albedo ρ reflects ρ/π · L · Ω⊥, where Ω⊥ is the projected solid angle of the visible part of a light with the
-//! radiance L. [`Occlusion::visible`] computes it for one light, some blockers, and as many shading points as there are lanes.
-//!
-//! ```
-//! use etendue::{Vec3, f32x8, occlusion::{Convex, Occlusion}};
-//! let square = |y: f32, half: f32| Convex::Polygon {
-//!     corners: [[-half, -half], [half, -half], [half, half], [-half, half]].map(|[x, z]| Vec3::new(x, y, z)),
-//!     count: 4,
-//! };
-//! let (light, blocker) = (square(2.0, 1.0), square(1.0, 0.25));
-//! // eight points below the light; the blocker hides the middle of the light from the first of them
-//! let point = Vec3::new(f32x8::from([0.0, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 3.5]), f32x8::ZERO, f32x8::ZERO);
-//! let normal = Vec3::lit([0.0, 1.0, 0.0]);
-//! let mut occlusion = Occlusion::new();
-//! let all = occlusion.visible(point, normal, &light, &[]).unwrap();
-//! let part = occlusion.visible(point, normal, &light, &[blocker]).unwrap();
-//! assert!(part.as_array()[0] < 0.8 * all.as_array()[0] && part.as_array()[7] == all.as_array()[7]);
-//! ```
-//!
-//! - Formula: Ω⊥(L \ ∪Bᵢ) = Ω⊥(L) − Σᵢ Ω⊥((L ∩ Bᵢ) \ ∪ⱼ₍ⱼ﹤ᵢ₎Bⱼ), recursively. All intersections are convex. A polygon is clipped by planes
-//!   through the point (Sutherland and Hodgman 1974) and has Ω⊥ = ½ n·Σ θᵢ Γᵢ over its edges, with their angles θᵢ and unit normals Γᵢ
-//!   (Lambert 1760; Baum, Rushmeier and Winget 1989). For a sphere, arcs of its circle replace the edges outside: from the azimuth φ₁ to φ₂
-//!   about the axis a, an arc of half-angle α has ∫ r × dr = sin²α (φ₂ − φ₁) a + sinα cosα a × (e(φ₂) − e(φ₁)).
-//! - Domain: any points and shapes with finite coordinates. A point lies outside of spheres, and in front of what it sees.
-//! - What lies behind the light, or between the point and the light but within 2⁻¹⁷ of the way from the light, does not occlude. A sphere
-//!   ends at the circle in which its tangents from the point touch it.
-//! - Degenerate input: blockers without area hide nothing. A light that is seen edge-on, lies below the horizon or has no area has Ω⊥ = 0.
-//! - Greatest error: see [`Occlusion::visible`].
-//!
-//! Nanoseconds per point, one at a time and in packets of 8. A blocker beside the light takes a quarter of the time of one before it.
-//!
-//! <!-- table: visible -->
-//! AMD EPYC, x86-64-v3, 2026-11-25.
-//!
-//! | light | blockers | x1 | x8 |
-//! |---|---|---|---|
-//! | polygon | none | 114.4 | 14.6 |
-//! |  | a polygon before it | 442.9 | 74.7 |
-//! |  | 4 polygons, 1 before it | 805.0 | 139.7 |
-//! |  | a sphere before it | 251.8 | 47.0 |
-//! | sphere | none | 14.7 | 1.94 |
-//! |  | a polygon before it | 349.1 | 49.7 |
-//! <!-- end of table -->
+//! What blockers leave of a light, by intersections of all of them.
 
-mod blockers;
-mod cap;
-mod flat;
-mod line;
-mod outline;
-mod shapes;
+use super::cap::Cap;
+use super::capacity::{BLOCKERS, DEPTH, EDGES, MOST, TERMS, TooMany};
+use super::flat::{Flat, corner, exactly};
+use super::outline::Outline;
+use super::seen::{Seen, Target};
+use super::shapes::{Convex, Polyhedron};
+use etendue::light::shapes::ProjectedCap;
+use etendue::reflection::Reflection;
+use etendue::{Mask, Real, Vec3};
 
-use crate::light::shapes::ProjectedCap;
-use crate::real::{Mask, Real};
-use crate::reflection::Reflection;
-use crate::vector::Vec3;
-use cap::Cap;
-use flat::{Flat, corner, exactly};
-use outline::Outline;
-pub use shapes::{Convex, Edge, Polyhedron};
-
-/// Greatest number of blockers that [`Occlusion::visible`] accepts.
-pub const BLOCKERS: usize = 16;
-/// Greatest number of blockers in a row that overlap as seen from the point.
-const DEPTH: usize = 6;
-/// Greatest number of planes through a point and an edge of a blocker's outline.
-const EDGES: usize = 12;
-/// Greatest number of corners of an intersection.
-const MOST: usize = 12;
-/// Greatest number of faces of a polyhedron.
-const FACES: usize = 16;
-/// Greatest number of intersections.
-const TERMS: u32 = 48;
 /// A blocker this near to the light, as a fraction of the way from the point to the light's plane, does not occlude. A shadow ray that is
 /// this much shorter agrees with that.
 pub const SPARED: f64 = 1.0 / 131_072.0;
-
-/// A flat light looks compact if the squared distances of its corners from their mean are less than this fraction of that of the mean from
-/// the point. What is visible of it is then accurate relative to the square of its size over its distance, not just to the angle around it.
-pub const COMPACT: f64 = 0.25;
-
-/// A blocker as seen from the points.
-#[derive(Clone, Copy, Debug)]
-struct Seen<R: Real> {
-    /// The outline of a polygon in front of the light, if that is a sphere.
-    outline: Outline<R, 5>,
-    /// Normals of the planes through the point and the edges of the outline, towards the inside.
-    planes: [Vec3<R>; EDGES],
-    /// Heights of the base of the light over these planes, in units of the light and the normal.
-    heights: [R; EDGES],
-    /// Number of planes.
-    count: usize,
-    /// A sphere.
-    cap: Option<Cap<R>>,
-    /// Lanes in which it hides part of the light.
-    lanes: R::Mask,
-}
-
-impl<R: Real> Default for Seen<R> {
-    fn default() -> Self {
-        Self {
-            outline: Outline::default(),
-            planes: [Vec3::default(); EDGES],
-            heights: [R::lit(0.0); EDGES],
-            count: 0,
-            cap: None,
-            lanes: R::Mask::splat(false),
-        }
-    }
-}
 
 /// Computes visible parts, and holds the memory for it.
 #[derive(Clone, Debug)]
@@ -126,7 +30,7 @@ pub struct Occlusion<R: Real> {
     /// The light if it is a sphere.
     light: Option<Cap<R>>,
     /// The point of a flat light from which its outline is measured, and the reciprocal of its unit.
-    base: (Vec3<f64>, R),
+    base: Option<(Vec3<f64>, R)>,
     /// Only what has x with normal · x ≥ least lies before the light.
     front: (Vec3<R>, R),
     terms: u32,
@@ -152,9 +56,6 @@ struct Left<R: Real> {
     kept: usize,
 }
 
-/// Why the intersections do not suffice.
-struct TooMany;
-
 impl<R: Real> Occlusion<R> {
     /// Empty memory.
     #[must_use]
@@ -167,7 +68,7 @@ impl<R: Real> Occlusion<R> {
             normal: Vec3::default(),
             lobe: None,
             light: None,
-            base: (Vec3::default(), R::lit(1.0)),
+            base: None,
             front: (Vec3::default(), R::lit(0.0)),
             terms: 0,
         }
@@ -184,12 +85,12 @@ impl<R: Real> Occlusion<R> {
     /// among polygons; in double precision 1e−7). The error is absolute: where the blockers leave little, it may be as large as what is
     /// left. It grows by the reciprocals of the sine of an edge that is seen under more than a right angle, and of the cosine of the
     /// half-angle of a sphere. A point that lies over a flat blocker, nearer to its plane than 1e−6 of its extent, may be on either side.
-    /// Measured by `cargo test -p etendue-tests --test occlusion -- --nocapture --include-ignored`.
+    /// Measured by `cargo test -p etendue-render --test certificates -- occlusion --nocapture --include-ignored`.
     ///
     /// A flat light whose corners are all nearer to their mean than half of its distance is computed from small differences: there the
     /// error is 1e−7 times the square of half of its perimeter over its distance, alone and behind one flat blocker (7e−8 measured), and
     /// as much again for each further one: it stays relative to the light however small that is. Measured by
-    /// `cargo test -p etendue-tests --test occlusion -- compact --nocapture`.
+    /// `cargo test -p etendue-render --test certificates -- compact --nocapture`.
     #[inline]
     pub fn visible(
         &mut self,
@@ -226,7 +127,7 @@ impl<R: Real> Occlusion<R> {
     /// [`visible_past`](Self::visible_past) otherwise; `None` also if a sphere blocks, or is blocked.
     ///
     /// Parts are clipped before the map, and measured after it. Greatest error of a light without blockers in single precision: 3e−5 of the
-    /// result plus 0.01 (measured by `cargo test -p etendue-tests --test reflection -- --nocapture`); of spheres as [`Reflection::sphere`].
+    /// result plus 0.01 (measured by `cargo test -p etendue-render --test certificates -- lobe --nocapture`); of spheres as [`Reflection::sphere`].
     #[inline]
     pub fn reflected(
         &mut self,
@@ -261,7 +162,7 @@ impl<R: Real> Occlusion<R> {
                 let (center, radius) = (Vec3::splat(center) - point, R::splat(radius));
                 let cap = Cap::new(center, radius);
                 self.front = (-cap.axis, -cap.tangents);
-                self.light = Some(cap);
+                (self.light, self.base) = (Some(cap), None);
                 let all = match &self.lobe {
                     Some(lobe) => lobe.sphere(center, radius),
                     None => unoccluded(&cap, center, radius, normal),
@@ -275,7 +176,7 @@ impl<R: Real> Occlusion<R> {
                 let towards = R::lit(-1.0).copysign(-flat.height);
                 self.front = (flat.normal * towards, flat.height * towards * R::lit(1.0 - SPARED) / flat.scale);
                 self.light = None;
-                self.base = (corner(light, 0) + exactly(flat.middle), flat.scale);
+                self.base = Some((corner(light, 0) + exactly(flat.middle), flat.scale));
                 self.stack[0].start(
                     flat.middle.mul_add(flat.scale, flat.corners[0]),
                     &flat.offsets[..flat.count],
@@ -287,7 +188,7 @@ impl<R: Real> Occlusion<R> {
                 measure(self.lobe.as_ref(), &self.stack[0], normal, &mut self.spare)
             }
         };
-        self.beside(all.clamped(R::lit(0.0), R::lit(core::f64::consts::PI)), point, blockers, polyhedra).ok()
+        self.beside(all.clamped(R::lit(0.0), R::lit(std::f64::consts::PI)), point, blockers, polyhedra).ok()
     }
 
     /// What the blockers leave of `all`.
@@ -305,25 +206,32 @@ impl<R: Real> Occlusion<R> {
             if left.covered.all() {
                 break;
             }
-            self.see_polyhedron(left.kept, polyhedron, point)?;
+            let (seen, _, target) = self.next(left.kept);
+            seen.polyhedron(polyhedron, point, &target)?;
             self.hide(&mut left)?;
         }
         for blocker in blockers {
             if left.covered.all() {
                 break;
             }
+            self.flat.take(blocker, point);
+            let (seen, flat, target) = self.next(left.kept);
             match *blocker {
                 Convex::Sphere { center, radius } => {
-                    self.see_sphere(left.kept, Vec3::splat(center) - point, R::splat(radius))?;
+                    seen.sphere(Vec3::splat(center) - point, R::splat(radius), &target)?;
                 }
-                _ => {
-                    self.flat.take(blocker, point);
-                    self.see_flat(left.kept, blocker, point)?;
-                }
+                _ => seen.flat(flat, blocker, point, &target)?,
             }
             self.hide(&mut left)?;
         }
         Ok(left.visible.clamped(R::lit(0.0), all).keep(!left.covered))
+    }
+
+    /// The place of blocker `k`, the flat shape that was taken last, and the light.
+    #[inline(always)]
+    fn next(&mut self, k: usize) -> (&mut Seen<R>, &Flat<R>, Target<'_, R>) {
+        let Self { seen, flat, stack, base, front, .. } = self;
+        (&mut seen[k], flat, Target { outline: &stack[0], base: *base, front: *front })
     }
 
     /// Takes away what the blocker that was prepared last hides, and keeps the blocker if it hides anything.
@@ -450,7 +358,7 @@ fn unoccluded<R: Real>(cap: &Cap<R>, center: Vec3<R>, radius: R, normal: Vec3<R>
     let cos = cap.axis.dot(normal);
     // a reserve keeps caps that touch the horizon out
     let above = cos.gt(cap.sin * R::lit(1.000_01)) & cap.tangents.gt(R::lit(0.0));
-    let whole = R::lit(core::f64::consts::PI) * cap.sin * cap.sin * cos;
+    let whole = R::lit(std::f64::consts::PI) * cap.sin * cap.sin * cos;
     if above.all() {
         return whole;
     }

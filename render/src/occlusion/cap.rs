@@ -1,10 +1,9 @@
 //! Spheres as seen from a point, and the part of them within an outline.
 
-use super::TooMany;
+use super::capacity::TooMany;
 use super::outline::Outline;
-use crate::math::rsqrt;
-use crate::real::{Mask, Real};
-use crate::vector::{Frame, Vec2, Vec3};
+use etendue::math::rsqrt;
+use etendue::{Frame, Mask, Real, Vec2, Vec3};
 
 /// The directions to a sphere: a cap about an axis.
 #[derive(Clone, Copy, Debug, Default)]

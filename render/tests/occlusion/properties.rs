@@ -1,14 +1,14 @@
 //! Properties of visible parts, and special cases.
 
-use crate::accuracy::BOUND;
-use crate::scenes::{KINDS, Round, scene};
-use crate::solids::{SOLID_KINDS, scene_with_solids};
-use crate::truth::{Truth, polygon, sphere};
-use etendue::occlusion::Convex;
+use super::accuracy::BOUND;
+use super::scene::Scene;
+use super::scenes::{KINDS, Round, scene};
+use super::solids::{SOLID_KINDS, scene_with_solids};
+use super::truth::{Truth, polygon, sphere};
 use etendue::{Real, f32x8};
 use etendue_oracle::{Greatest, narrow};
 use etendue_properties::generators::{NASTY, Random};
-use etendue_properties::occlusion::Scene;
+use etendue_render::occlusion::Convex;
 
 /// Scenes of all regimes, with their greatest rounding error in a lane.
 fn scenes(count: u32, seed: u64, mut f: impl FnMut(Scene, &mut Random)) {

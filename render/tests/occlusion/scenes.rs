@@ -1,11 +1,11 @@
 //! Scenes of polygons and spheres, by regimes.
 
-use crate::truth::{polygon, sphere};
+use super::scene::Scene;
+use super::truth::{polygon, sphere};
 use etendue::Vec3;
-use etendue::occlusion::Convex;
 use etendue_oracle::{V3, along, basis, cross, dot, narrow, sub, unit, wide};
 use etendue_properties::generators::Random;
-use etendue_properties::occlusion::Scene;
+use etendue_render::occlusion::Convex;
 
 /// How shapes are placed.
 #[derive(Clone, Copy, PartialEq, Debug)]

@@ -1,7 +1,7 @@
 //! Lights that are as small as a search by sampling or subdivision in double precision cannot know them, in double precision.
 
-use etendue::occlusion::{Convex, Occlusion};
 use etendue::{Vec3, f64x4};
+use etendue_render::occlusion::{Convex, Occlusion};
 
 /// The greatest relative error allowed.
 const BOUND: f64 = 1e-13;

@@ -1,6 +1,6 @@
 //! The shapes of lights and blockers.
 
-use crate::vector::Vec3;
+use etendue::Vec3;
 
 /// A convex shape: a light or a blocker.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -12,7 +12,7 @@ pub enum Convex<S> {
         /// Number of corners: 3 or 4.
         count: usize,
     },
-    /// The parallelogram `corner + s edges[0] + t edges[1]` for s, t in \[0, 1\], as [`Parallelogram`](crate::Parallelogram) has it: however
+    /// The parallelogram `corner + s edges[0] + t edges[1]` for s, t in \[0, 1\], as [`Parallelogram`](etendue::Parallelogram) has it: however
     /// small it is for its coordinates, its edges are not rounded.
     Parallelogram {
         /// One corner.

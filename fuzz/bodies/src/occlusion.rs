@@ -1,0 +1,127 @@
+//! What convex blockers leave of a light.
+
+use etendue::reflection::Reflection;
+use etendue::{Real, Vec3, f32x8};
+use etendue_properties::fuzz_bodies::{Input, scalable};
+use etendue_properties::properties::vectors_of;
+use etendue_render::occlusion::{Convex, Occlusion};
+use std::f32::consts::PI;
+
+fn shape(input: &mut Input<'_>, before: &mut Vec<[f32; 3]>) -> Convex<f32> {
+    let mut vector = |input: &mut Input<'_>| {
+        let v = input.vector(before);
+        before.push(v);
+        v.into()
+    };
+    if input.below(3) == 0 {
+        let center = vector(input);
+        return Convex::Sphere { center, radius: input.number() };
+    }
+    let count = 3 + usize::from(input.below(2));
+    if input.below(4) == 0 {
+        // flat for certain: a corner and two edges
+        let [p, u, v] = [(); 3].map(|()| vector(input));
+        if input.below(2) == 0 {
+            return Convex::Parallelogram { corner: p, edges: [u, v] };
+        }
+        return Convex::Polygon { corners: [p, p + u, p + u + v, p + v].map(finite), count };
+    }
+    Convex::Polygon { corners: [(); 4].map(|()| vector(input)), count }
+}
+
+fn finite(v: Vec3<f32>) -> Vec3<f32> {
+    if v.max_abs() <= f32::MAX { v } else { Vec3::default() }
+}
+
+/// A light, blockers, and eight points with the normals of their surfaces.
+#[derive(Clone, Debug)]
+struct Scene {
+    light: Convex<f32>,
+    blockers: Vec<Convex<f32>>,
+    points: [[f32; 3]; 8],
+    normals: [[f32; 3]; 8],
+}
+
+impl Scene {
+    /// What is visible, and what is there without blockers. The lane `i` has the point `i + first`.
+    fn found<R: Real<Scalar = f32>>(&self, first: usize) -> [Option<R>; 2] {
+        let p = vectors_of::<R>(|i| self.points[(first + i) % 8]);
+        let n = vectors_of::<R>(|i| self.normals[(first + i) % 8]);
+        [&self.blockers[..], &[]].map(|blockers| Occlusion::new().visible(p, n, &self.light, blockers))
+    }
+    /// Results are between 0 and what there is without blockers, and the bits of a packet are those of its lanes alone.
+    fn check(&self) {
+        let [left, all] = self.found::<f32x8>(0);
+        let all = all.expect("there are no blockers").to_array();
+        assert!(all.iter().all(|all| all.is_finite() && (0.0..=PI).contains(all)), "{all:?}: {self:?}");
+        let Some(left) = left.map(f32x8::to_array) else { return };
+        for (lane, all) in all.into_iter().enumerate() {
+            assert!((0.0..=all).contains(&left[lane]), "{left:?} of {all}: {self:?}");
+            let alone = self.found::<f32>(lane)[0].map(f32::to_bits);
+            assert_eq!(alone, Some(left[lane].to_bits()), "lane {lane}: {self:?}");
+        }
+    }
+    /// Multiplying all lengths by a power of two changes no bit.
+    fn scale(&self, exponent: i32) {
+        let factor = 2.0_f32.powi(exponent);
+        let times = |shape: &Convex<f32>| shape.map(|x| x * factor);
+        let scaled = Self {
+            light: times(&self.light),
+            blockers: self.blockers.iter().map(times).collect(),
+            points: self.points.map(|p| p.map(|x| x * factor)),
+            normals: self.normals,
+        };
+        let bits = |scene: &Self| scene.found::<f32x8>(0)[0].map(|x| x.to_array().map(f32::to_bits));
+        assert_eq!(bits(self), bits(&scaled), "times 2^{exponent}: {self:?}");
+    }
+}
+
+/// Lights behind blockers, also as a rough surface reflects them.
+pub fn occlusion(bytes: &[u8]) {
+    let input = &mut Input::new(bytes);
+    // the points first, so that shapes can have them as corners
+    let mut before = Vec::new();
+    let points: [[f32; 3]; 8] = std::array::from_fn(|_| {
+        let p = input.vector(&before);
+        before.push(p);
+        p
+    });
+    let normals = std::array::from_fn(|_| input.direction());
+    let light = shape(input, &mut before);
+    let count = input.below(18) % (1 + input.below(17));
+    let blockers = (0..count).map(|_| shape(input, &mut before)).collect();
+    let scene = Scene { light, blockers, points, normals };
+    scene.check();
+    let mut lengths: Vec<f32> = points.iter().flatten().copied().collect();
+    for shape in scene.blockers.iter().chain([&scene.light]) {
+        match shape {
+            Convex::Polygon { corners, .. } => lengths.extend(corners.iter().flat_map(|c| [c.x, c.y, c.z])),
+            Convex::Parallelogram { corner, edges: [u, v] } => {
+                lengths.extend([corner, u, v].iter().flat_map(|c| [c.x, c.y, c.z]));
+            }
+            Convex::Sphere { center, radius } => lengths.extend([center.x, center.y, center.z, *radius]),
+        }
+    }
+    // products of up to four lengths neither overflow nor underflow
+    if scalable(&lengths, 1e3) {
+        scene.scale(12);
+        scene.scale(-12);
+    }
+    reflected(input, &scene);
+}
+
+/// The same by the lobe of a surface of any roughness, seen from anywhere.
+fn reflected(input: &mut Input<'_>, scene: &Scene) {
+    let alpha = if input.below(2) == 0 { input.number() } else { input.unit() };
+    let view = if input.below(8) == 0 { input.vector(&[]) } else { input.direction() };
+    let [p, n] = [&scene.points, &scene.normals].map(|v| vectors_of::<f32x8>(|i| v[i]));
+    let lobe = Reflection::new(f32x8::splat(alpha), n, vectors_of(|_| view));
+    let mut occlusion = Occlusion::new();
+    let [left, all] = [&scene.blockers[..], &[]]
+        .map(|blockers| occlusion.reflected(p, n, &lobe, &scene.light, blockers, &[]).map(f32x8::to_array));
+    let all = all.expect("there are no blockers");
+    assert!(all.iter().all(|all| (0.0..=PI).contains(all)), "{all:?}");
+    if let Some(left) = left {
+        assert!(left.iter().zip(all).all(|(left, all)| (0.0..=all).contains(left)), "{left:?} of {all:?}");
+    }
+}
