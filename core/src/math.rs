@@ -51,7 +51,11 @@ pub fn one_minus_cos<R: Real>(sin_squared: R) -> R {
 pub fn difference_of_products<R: Real>(a: R, b: R, c: R, d: R) -> R {
     let cd = c * d;
     let error = R::two_prod_error(c, d, cd);
-    a.mul_add(b, -cd) - error
+    if R::FUSED {
+        return a.mul_add(b, -cd) - error;
+    }
+    let ab = a * b;
+    (ab - cd) + (R::two_prod_error(a, b, ab) - error)
 }
 
 /// a/b, or 0 where b is not positive.

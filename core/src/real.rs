@@ -116,6 +116,8 @@ pub trait Real:
     const LANES: usize;
     /// True in double precision, where series are longer and iterations take more steps.
     const DOUBLE: bool;
+    /// True where [`mul_add`](Real::mul_add) rounds once.
+    const FUSED: bool = true;
     /// The largest number below 1 on the grid of [`unit`](Real::unit): 1 − 2⁻²⁴ at every precision.
     const ONE_MINUS_EPSILON: Self;
 
@@ -170,7 +172,7 @@ pub trait Real:
     fn sqrt(self) -> Self;
     /// Nearest integer, ties to even.
     fn round_ties_even(self) -> Self;
-    /// `self * a + b`, rounded once. Where the target has no fused multiply-add, software computes it, with the same bits.
+    /// `self * a + b`, rounded once, or, where it is not [`FUSED`](Real::FUSED), twice.
     fn mul_add(self, a: Self, b: Self) -> Self;
     /// `a * b - rounded(a * b)`, exactly, barring overflow and underflow (TwoProd).
     #[inline(always)]

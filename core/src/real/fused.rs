@@ -1,7 +1,23 @@
-//! Multiplication and addition with one rounding, on targets whose instructions round twice. All targets so return the same bits.
+//! Multiplication and addition with one rounding, on targets whose instructions round twice.
+
+use super::Real;
 
 /// True where `wide` multiplies and adds in one instruction, with one rounding.
 pub(super) const IN_HARDWARE: bool = cfg!(any(target_feature = "fma", target_arch = "aarch64"));
+
+/// True where single precision multiplies and adds with one rounding, by an instruction or, with the feature `same-bits`, by software.
+/// Double precision always does.
+pub(super) const ALWAYS: bool = IN_HARDWARE || cfg!(feature = "same-bits");
+
+/// `a·b − product` of each lane, rounded to the number type: exact for single precision, if `product` is a·b rounded and the difference
+/// neither over- nor underflows.
+#[inline(always)]
+pub(super) fn product_error<T, const N: usize>(a: [T; N], b: [T; N], product: [T; N]) -> [T; N]
+where
+    T: Real,
+{
+    core::array::from_fn(|i| T::lit(a[i].lane_f64(0) * b[i].lane_f64(0) - product[i].lane_f64(0)))
+}
 
 /// `a·b + c` of each lane, rounded once.
 ///

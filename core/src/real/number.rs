@@ -78,6 +78,7 @@ macro_rules! scalar_real {
             type Uint = u32;
             const LANES: usize = 1;
             const DOUBLE: bool = size_of::<$scalar>() > 4;
+            const FUSED: bool = Self::DOUBLE || fused::ALWAYS;
             const ONE_MINUS_EPSILON: Self = 1.0 - 1.0 / 16_777_216.0;
             #[inline(always)]
             fn splat(value: $scalar) -> Self {
@@ -154,9 +155,15 @@ macro_rules! scalar_real {
             fn mul_add(self, a: Self, b: Self) -> Self {
                 if fused::IN_HARDWARE {
                     $packet::splat(self).mul_add($packet::splat(a), $packet::splat(b)).to_array()[0]
-                } else {
+                } else if Self::FUSED {
                     fused::$fused([self], [a], [b])[0]
+                } else {
+                    self * a + b
                 }
+            }
+            #[inline(always)]
+            fn two_prod_error(a: Self, b: Self, product: Self) -> Self {
+                if Self::FUSED { a.mul_add(b, -product) } else { fused::product_error([a], [b], [product])[0] }
             }
             #[inline(always)]
             fn pow2_scale(self) -> Self {
@@ -192,6 +199,7 @@ macro_rules! packet_real {
             type Uint = $uint;
             const LANES: usize = $lanes;
             const DOUBLE: bool = size_of::<$scalar>() > 4;
+            const FUSED: bool = Self::DOUBLE || fused::ALWAYS;
             const ONE_MINUS_EPSILON: Self = $packet::splat(1.0 - 1.0 / 16_777_216.0);
             #[inline(always)]
             fn splat(value: $scalar) -> Self {
@@ -277,9 +285,18 @@ macro_rules! packet_real {
             fn mul_add(self, a: Self, b: Self) -> Self {
                 if fused::IN_HARDWARE {
                     $packet::mul_add(self, a, b)
-                } else {
+                } else if Self::FUSED {
                     $packet::new(fused::$fused(self.to_array(), a.to_array(), b.to_array()))
+                } else {
+                    self * a + b
                 }
+            }
+            #[inline(always)]
+            fn two_prod_error(a: Self, b: Self, product: Self) -> Self {
+                if Self::FUSED {
+                    return a.mul_add(b, -product);
+                }
+                $packet::new(fused::product_error(a.to_array(), b.to_array(), product.to_array()))
             }
             #[inline(always)]
             fn pow2_scale(self) -> Self {
