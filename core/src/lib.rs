@@ -30,10 +30,12 @@
 //!
 //! # Features
 //! None is on by default. `glam` converts vectors to and from those of `glam`; `rand` makes `sequence::CounterRng` a generator of `rand_core`.
+//! `same-bits` makes [all processors](real::SAME_BITS) return the same bits.
 //!
 //! # Speed
-//! `wide` chooses its vector width when it is compiled. Build with `-C target-cpu=x86-64-v3` (or native); otherwise a packet of 8 is two
-//! or more registers, and software computes each fused multiply-add, with the same bits.
+//! `wide` chooses its vector width when it is compiled. Build with `-C target-cpu=x86-64-v3` (or native): otherwise a packet of 8 is two
+//! or more registers, and products and sums take two instructions, with the errors of the index. With `same-bits`, software then rounds
+//! them once, which takes three to four times as long.
 #![no_std]
 #![forbid(unsafe_code)]
 

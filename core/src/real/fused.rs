@@ -57,7 +57,7 @@ pub(super) fn double<const N: usize>(a: [f64; N], b: [f64; N], c: [f64; N]) -> [
 
 #[cfg(test)]
 mod tests {
-    use super::single;
+    use super::{product_error, single};
 
     fn check(a: f32, b: f32, c: f32) {
         let (found, right) = (single([a], [b], [c])[0], libm::fmaf(a, b, c));
@@ -78,6 +78,19 @@ mod tests {
         for _ in 0..2_000_000 {
             let [a, b, c] = [(); 3].map(|()| f32::from_bits(bits(&mut state)));
             check(a, b, c);
+        }
+    }
+    #[test]
+    fn the_rest_of_a_product_is_exact() {
+        let mut state = 4;
+        for _ in 0..2_000_000 {
+            let [a, b] = [(); 2].map(|()| f32::from_bits(bits(&mut state)));
+            let product = a * b;
+            // below, the rest has digits beyond the least number
+            if product.is_finite() && product.abs() > 1e-30 {
+                let (rest, right) = (product_error([a], [b], [product])[0], libm::fmaf(a, b, -product));
+                assert!(rest == right, "{a:e} × {b:e} leaves {right:e} and not {rest:e}");
+            }
         }
     }
     /// Sums next to the middle of two numbers, where rounding to double precision first loses on which side they are.
