@@ -204,10 +204,15 @@ impl<R: Real> Vec3<R> {
     pub fn lit([x, y, z]: [f64; 3]) -> Self {
         Self { x: R::lit(x), y: R::lit(y), z: R::lit(z) }
     }
-    /// Largest magnitude of a component.
+    /// Largest magnitude of a component that is a number.
     #[inline(always)]
     pub fn max_abs(self) -> R {
         self.x.abs().greater(self.y.abs()).greater(self.z.abs())
+    }
+    /// True where all components are numbers of magnitudes below `most`.
+    #[inline(always)]
+    pub(crate) fn is_within(self, most: R) -> R::Mask {
+        self.x.abs().lt(most) & self.y.abs().lt(most) & self.z.abs().lt(most)
     }
 }
 

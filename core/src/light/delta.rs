@@ -155,10 +155,11 @@ impl<R: Real> DirectionalLight<R> {
     pub fn new(direction: Vec3<R>) -> Self {
         Self { direction }
     }
-    /// Prepared for any shading point: all have the same samples. `pdf` is 1.
+    /// Prepared for any shading point: all have the same samples. `pdf` is 1, or 0 where the direction is none.
     #[inline(always)]
     pub fn by_delta(&self) -> DirectionalLightByDelta<R> {
-        let (distance, pdf) = (R::lit(FAR), R::lit(1.0));
+        let is_direction = self.direction.is_within(R::lit(f64::INFINITY));
+        let (distance, pdf) = (R::lit(FAR), R::lit(1.0).keep(is_direction));
         DirectionalLightByDelta { direction: self.direction, distance, pdf }
     }
 }

@@ -27,13 +27,14 @@ impl<R: Real, const N: usize> PlacedCorners<R, N> {
         let from = |p: Vec3<R>| move |c: Vec3<R>| sum_dw([c, Vec3::default()], [-p, Vec3::default()]);
         Self::with_edges(from(p)(corners[0]), corners.map(from(corners[0])))
     }
-    /// Takes the first corner relative to the point, and the edges from it to each corner. All results are 0 where a coordinate exceeds half
-    /// of the largest number, since its rounding error might overflow.
+    /// Takes the first corner relative to the point, and the edges from it to each corner. All results are 0 where a coordinate is no number
+    /// or exceeds half of the largest one, since its rounding error might overflow.
     #[inline(always)]
     pub(in crate::light) fn with_edges(first: [Vec3<R>; 2], edges: [[Vec3<R>; 2]; N]) -> Self {
         let corners = edges.map(|edge| sum_dw(first, edge));
         let reach = corners.iter().chain(&edges).fold(R::lit(0.0), |most, [v, _]| most.greater(v.max_abs()));
-        let finite = reach.lt(R::lit(0.5 * if R::DOUBLE { f64::MAX } else { f64::from(f32::MAX) }));
+        let most = R::lit(0.5 * if R::DOUBLE { f64::MAX } else { f64::from(f32::MAX) });
+        let finite = corners.iter().fold(reach.lt(most), |finite, [v, _]| finite & v.is_within(most));
         let scale = reach.pow2_scale();
         let scaled = |pair: [Vec3<R>; 2]| pair.map(|v| v.keep(finite) * scale);
         let (corners, edges) = (corners.map(|pair| rounded(scaled(pair))), edges.map(scaled));
