@@ -68,7 +68,7 @@ impl<R: Real> SunBySolidAngle<R> {
 impl<R: Real> LightSampler<R> for SunBySolidAngle<R> {
     #[inline(always)]
     fn sample(&self, u: Vec2<R>) -> LightSample<R> {
-        distant(self.frame.to_world(self.cone.sample(u)), self.cone.uniform_pdf(), u)
+        distant(self.frame.to_world(self.cone.sample(u)), self.cone.uniform_pdf(), u).drawn_from(u)
     }
     #[inline(always)]
     fn pdf(&self, w: Vec3<R>) -> R {
@@ -110,7 +110,7 @@ impl<R: Real> LightSampler<R> for EnvironmentBySolidAngle {
     #[inline(always)]
     fn sample(&self, u: Vec2<R>) -> LightSample<R> {
         let direction: Vec3<R> = UniformSphere.sample(u);
-        distant(direction, UniformSphere.pdf(direction), u)
+        distant(direction, UniformSphere.pdf(direction), u).drawn_from(u)
     }
     #[inline(always)]
     fn pdf(&self, w: Vec3<R>) -> R {

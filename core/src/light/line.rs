@@ -159,7 +159,7 @@ macro_rules! line_sampler {
                 let ($this, $u) = (self, u.x);
                 let drawn: DirectionSample<R> = $draw;
                 let ($self, $w, $reach) = (self, drawn.direction, drawn.distance);
-                self.line.sample(drawn, finite($pdf))
+                self.line.sample(drawn, finite($pdf)).drawn_from(Vec2::new(u.x, u.x))
             }
             #[inline(always)]
             fn pdf(&self, w: Vec3<R>) -> R {

@@ -56,6 +56,11 @@ impl<R: Real> LightSample<R> {
         let valid = self.valid();
         (R::lit(1.0) / R::blend(valid, self.pdf, R::lit(1.0))).keep(valid)
     }
+    /// The sample if `u`, from which it was drawn, consists of numbers; without them its pdf is 0.
+    #[inline(always)]
+    pub(super) fn drawn_from(self, u: Vec2<R>) -> Self {
+        Self { pdf: self.pdf.keep(u.x.le(u.x) & u.y.le(u.y)), ..self }
+    }
     /// The same sample for a light that emits from both sides.
     #[inline(always)]
     #[must_use]

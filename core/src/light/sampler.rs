@@ -58,8 +58,8 @@ use core::f64::consts::PI;
 /// assert!(reflected(&triangle.by_projected_solid_angle(p, n), n, u, u) > 0.0);
 /// ```
 pub trait LightSampler<R: Real> {
-    /// Draws a direction to the light for `u` in [0, 1)². Lights of one dimension use `u.x`, delta lights neither number. From a `u` of NaN
-    /// follows a direction of NaN, whatever the pdf is.
+    /// Draws a direction to the light for `u` in [0, 1)². Lights of one dimension use `u.x`, delta lights neither number. A sample from NaN
+    /// has the pdf 0.
     fn sample(&self, u: Vec2<R>) -> LightSample<R>;
     /// Probability density, in the measure of [`LightSample::pdf`], with which [`sample`](Self::sample) draws the unit direction `w`; 0
     /// where it misses the light.
@@ -105,7 +105,7 @@ impl<R: Real, S: AreaSurface<R>> LightSampler<R> for ByArea<S> {
         let reach = if S::FLAT { self.surface.at(direction).distance } else { distance };
         let pdf = solid_angle_pdf(reach, cos.abs() * point.inverse_pdf);
         let (emits, delta) = (cos.lt(R::lit(0.0)), R::Mask::splat(false));
-        LightSample { direction, distance, pdf, normal: point.normal, uv: point.uv, emits, delta }
+        LightSample { direction, distance, pdf, normal: point.normal, uv: point.uv, emits, delta }.drawn_from(u)
     }
     #[inline(always)]
     fn pdf(&self, w: Vec3<R>) -> R {
@@ -184,7 +184,7 @@ impl<R: Real, S: Surface<R>, W: SphericalShape<R>> LightSampler<R> for BySolidAn
     #[inline(always)]
     fn sample(&self, u: Vec2<R>) -> LightSample<R> {
         let (direction, at) = point_of(&self.surface, self.shape.sample_point(u));
-        drawn(direction, self.shape.uniform_pdf(), at, self.shape.in_front())
+        drawn(direction, self.shape.uniform_pdf(), at, self.shape.in_front()).drawn_from(u)
     }
     #[inline(always)]
     fn pdf(&self, w: Vec3<R>) -> R {
@@ -225,7 +225,8 @@ impl<R: Real, S: Surface<R>, W: ProjectedShape<R>> LightSampler<R> for ByProject
     #[inline(always)]
     fn sample(&self, u: Vec2<R>) -> LightSample<R> {
         let (direction, at) = point_of(&self.surface, (self.shape.sample_direction(u), None));
-        drawn(direction, self.shape.pdf_at_cosine(direction.dot(self.normal)), at, self.shape.in_front())
+        let pdf = self.shape.pdf_at_cosine(direction.dot(self.normal));
+        drawn(direction, pdf, at, self.shape.in_front()).drawn_from(u)
     }
     #[inline(always)]
     fn pdf(&self, w: Vec3<R>) -> R {
@@ -270,7 +271,7 @@ impl<R: Real, S: AreaSurface<R>, W: ProjectedShape<R> + Warp<R, Point = Vec3<R>>
     #[inline(always)]
     fn sample(&self, u: Vec2<R>) -> LightSample<R> {
         let direction = self.reflection.from_cosine(self.shape.sample(u)).unit_and_length().0;
-        drawn(direction, self.pdf(direction), self.surface.at(direction), self.shape.in_front())
+        drawn(direction, self.pdf(direction), self.surface.at(direction), self.shape.in_front()).drawn_from(u)
     }
     #[inline(always)]
     fn pdf(&self, w: Vec3<R>) -> R {
@@ -315,7 +316,7 @@ impl<R: Real, S: Surface<R>, W: SphericalShape<R>> LightSampler<R> for ByCosineW
         let shape = &self.warped.shape;
         let v = self.warped.weights.sample(u);
         let (direction, at) = point_of(&self.surface, shape.sample_point(v));
-        drawn(direction, shape.uniform_pdf() * self.warped.weights.pdf(v), at, shape.in_front())
+        drawn(direction, shape.uniform_pdf() * self.warped.weights.pdf(v), at, shape.in_front()).drawn_from(u)
     }
     #[inline(always)]
     fn pdf(&self, w: Vec3<R>) -> R {

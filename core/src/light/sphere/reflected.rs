@@ -84,7 +84,7 @@ impl<R: Real> LightSampler<R> for SphereByReflection<R> {
     fn sample(&self, u: Vec2<R>) -> LightSample<R> {
         let direction = self.surface.inwards(self.reflection.from_cosine(self.shape.sample(u)).unit_and_length().0);
         let direction = above_horizon(direction, self.reflection.normal());
-        drawn(direction, self.pdf(direction), self.surface.at(direction), self.surface.outside())
+        drawn(direction, self.pdf(direction), self.surface.at(direction), self.surface.outside()).drawn_from(u)
     }
     #[inline(always)]
     fn pdf(&self, w: Vec3<R>) -> R {
