@@ -42,7 +42,7 @@ __all__ = [
     "Warp",
     "__version__",
     "level",
-    # lights from the list of techniques: WRITE=1 cargo test -p etendue-tests --test bindings
+    # lights from the list of techniques: WRITE=1 cargo test -p etendue-tests bindings
     "Sphere",
     "Triangle",
     "Parallelogram",
@@ -95,7 +95,7 @@ class Sampler:
     @property
     def angle(self) -> float: ...
 
-# from the list of techniques: WRITE=1 cargo test -p etendue-tests --test bindings
+# from the list of techniques: WRITE=1 cargo test -p etendue-tests bindings
 @final
 class Sphere:
     def __new__(cls, center: ArrayLike, radius: ArrayLike) -> Sphere: ...

@@ -21,7 +21,7 @@
 //!
 //! No test can go over all pairs of floats. For [`Real::atan2`] the row above has every argument that the polynomial can have, in four
 //! octants; the other four differ by a sign that is copied. Elsewhere the quotient is rounded, too. These errors are over random pairs
-//! (`cargo test -p etendue-tests --test math -- --nocapture`):
+//! (`cargo test -p etendue-tests math -- --nocapture`):
 //!
 //! | function | domain | greatest error |
 //! |---|---|---|

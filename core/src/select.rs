@@ -10,7 +10,7 @@
 //!
 //! `at_glossy` of [`SpatialLights`] and of [`LightTree`] chooses in view of a [`Gloss`]: of what a rough surface reflects towards the viewer.
 //! Above a metal floor of roughness α = 0.1, seen at 60° from its normal, that divides the variance of a choice among 4,096 lamps by 15
-//! (`cargo test -p etendue-tests --test gloss -- --nocapture`).
+//! (`cargo test -p etendue-tests gloss -- --nocapture`).
 //!
 //! All of them implement [`LightChoice`]. The estimator divides by the `pmf` of the choice times the pdf of the sample on the light. The
 //! method [`pmf`](LightChoice::pmf) returns the same bits, for multiple importance sampling: a light that another technique hits has a

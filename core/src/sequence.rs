@@ -3,7 +3,7 @@
 //! The table gives the variance of the mean of N samples in a pair of dimensions, and the gain: how many times smaller that
 //! variance is than with independent samples. The two integrands are f = exp(x + y) (smooth) and a straight edge at a random
 //! place and angle. Times are per pair, for many samples of one pixel, on one thread at x86-64-v3, all lanes counted.
-//! (`cargo test -p etendue-tests --test sobol -- --nocapture variance`,
+//! (`cargo test -p etendue-tests variance -- --nocapture`,
 //! `cargo bench -p etendue-benches --bench summary -- sequence`.)
 //!
 //! <!-- table: sequences -->

@@ -425,7 +425,7 @@ class ReflectionColumns {
     ETENDUE_TECHNIQUE(NAME, LIGHT, PREFIX, ETENDUE_COMMA const EtendueReflection& reflection, ETENDUE_COMMA &reflection,               \
                       ETENDUE_COMMA const ReflectionColumns& reflections, || !reflections.fits(n), ETENDUE_COMMA &reflections.c())
 
-// from the list of techniques: WRITE=1 cargo test -p etendue-tests --test bindings
+// from the list of techniques: WRITE=1 cargo test -p etendue-tests bindings
 ETENDUE_ANYWHERE(SphereByArea, Sphere, etendue_sphere_by_area)
 ETENDUE_ANYWHERE(SphereBySolidAngle, Sphere, etendue_sphere_by_solid_angle)
 ETENDUE_ON_SURFACE(SphereByProjectedSolidAngle, Sphere, etendue_sphere_by_projected_solid_angle)

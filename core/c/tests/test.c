@@ -150,7 +150,7 @@ static const EtendueReflectionColumns *reflections(size_t n, const float *const 
 #define FUNCTIONS_2(NAME, LIGHT, PREFIX) FUNCTIONS(NAME, LIGHT, PREFIX, reflection(n) COMMA, reflections(n COMMA normals) COMMA)
 
 // name, light, functions, what it needs beside the point: 1 a normal, 2 a reflection
-// from the list of techniques: WRITE=1 cargo test -p etendue-tests --test bindings
+// from the list of techniques: WRITE=1 cargo test -p etendue-tests bindings
 #define TECHNIQUES(T) \
     T(SphereByArea, Sphere, sphere_by_area, 0) \
     T(SphereBySolidAngle, Sphere, sphere_by_solid_angle, 0) \

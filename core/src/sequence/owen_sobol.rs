@@ -139,7 +139,7 @@ impl Sequence for OwenSobol {
 /// - Property: the samples of one pixel are a net of 2ᵏ points; so are aligned blocks of 2ᵐ of them, and so are those of any
 ///   aligned square of 2ⁿ × 2ⁿ pixels together.
 /// - Spectrum: with 4 samples, below an eighth of the sampling rate, errors have 0.13 of the power of white noise where the
-///   integrand is smooth and 0.42 where it has an edge (`cargo test -p etendue-tests --test sobol blue -- --nocapture`).
+///   integrand is smooth and 0.42 where it has an edge (`cargo test -p etendue-tests sobol::blue -- --nocapture`).
 /// - Domain: any 32-bit counters. The pixel is a position along the curve, a [`ZOrderIndex`]. Pixels share one net while
 ///   pixel·2ᵏ < 2³²; later ones take further, independent nets, and so do samples past 2ᵏ.
 /// - Values: multiples of 2⁻²⁴ in [0, 1 − 2⁻²⁴].

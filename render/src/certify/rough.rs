@@ -14,7 +14,7 @@ use etendue::{Mask, Real};
 use std::f64::consts::FRAC_1_PI;
 
 /// Greatest error of a closed form, as a fraction of what the light covers of the lobe, and of [`SLIVER`]. Measured by
-/// `cargo test -p etendue-tests --test reflection -- --nocapture`: 3.9e−5.
+/// `cargo test -p etendue-tests reflection -- --nocapture`: 3.9e−5.
 const ALLOWED: f64 = 5e-5;
 const SLIVER: f64 = 0.01;
 

@@ -4,7 +4,9 @@ use crate::generators::{self, Case, Random};
 use crate::properties::{self, Fixture};
 use etendue_oracle::Greatest;
 use etendue_oracle::tier;
-use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::cell::Cell;
+use std::panic::{AssertUnwindSafe, catch_unwind, set_hook, take_hook};
+use std::sync::Once;
 
 /// The result of one property in one regime.
 #[derive(Clone, Debug)]
@@ -39,14 +41,31 @@ impl PropertyOutcome {
     }
 }
 
-/// How many properties there are.
-pub const PROPERTIES: usize = 11;
+thread_local! {
+    static IS_QUIET: Cell<bool> = const { Cell::new(false) };
+}
 
-/// The message of a panic.
-#[must_use]
-pub fn message(panic: &(dyn core::any::Any + Send)) -> String {
-    let text = panic.downcast_ref::<String>().map(String::as_str).or_else(|| panic.downcast_ref::<&str>().copied());
-    text.unwrap_or("panic inside").to_owned()
+/// Runs something that may panic, which prints nothing.
+///
+/// # Errors
+/// The message of the panic.
+pub fn quietly<T>(run: impl FnOnce() -> T) -> Result<T, String> {
+    static HOOK: Once = Once::new();
+    HOOK.call_once(|| {
+        let printed = take_hook();
+        set_hook(Box::new(move |panic| {
+            if !IS_QUIET.get() {
+                printed(panic);
+            }
+        }));
+    });
+    let before = IS_QUIET.replace(true);
+    let result = catch_unwind(AssertUnwindSafe(run));
+    IS_QUIET.set(before);
+    result.map_err(|panic| {
+        let text = panic.downcast_ref::<String>().map(String::as_str).or_else(|| panic.downcast_ref::<&str>().copied());
+        text.unwrap_or("panic inside").to_owned()
+    })
 }
 
 /// Runs one property over the cases.
@@ -58,11 +77,11 @@ fn each<S: Fixture>(property: &'static str, cases: &[Case<S>], run: impl Fn(&S, 
             regimes.len() - 1
         });
         let entry = &mut regimes[at];
-        match catch_unwind(AssertUnwindSafe(|| run(subject, i))) {
+        match quietly(|| run(subject, i)) {
             Ok(figure) => entry.figure.take(figure, i),
-            Err(error) => {
+            Err(message) => {
                 if entry.broken == 0 {
-                    entry.first = message(&*error);
+                    entry.first = message;
                 }
                 entry.broken += 1;
             }
@@ -78,7 +97,7 @@ pub fn within_reach<S: Fixture>(cases: &[Case<S>]) -> PropertyOutcome {
 }
 
 /// All properties over the cases, at the edges of the square and at `random` further points; in the quick tier, at every second of them.
-pub fn all<S: Fixture>(cases: &[Case<S>], random: usize) -> [PropertyOutcome; PROPERTIES] {
+pub fn all<S: Fixture>(cases: &[Case<S>], random: usize) -> [PropertyOutcome; 11] {
     let square: Vec<_> = generators::square(random, 1).into_iter().step_by(tier::cases(2, 1)).collect();
     let at = |run: fn(&S, [f32; 2], &mut Random) -> f64| {
         let square = &square;

@@ -30,7 +30,7 @@ impl<R: Real> Reflection<R> {
     /// about π times the part of the lobe that the sphere covers. A radius ≤ 0 gives 0, and a point inside π.
     ///
     /// Greatest error in single precision: 4e−5 of the result plus 1e−4, and 5e−4 of it where the horizon cuts the sphere (measured by
-    /// `LONG=1 cargo test -p etendue-tests --test reflection -- --nocapture` down to angular radii of 1e−3).
+    /// `LONG=1 cargo test -p etendue-tests reflection -- --nocapture` down to angular radii of 1e−3).
     #[inline]
     pub fn sphere(&self, center: Vec3<R>, radius: R) -> R {
         let (zero, pi) = (R::lit(0.0), R::lit(PI));
@@ -52,7 +52,7 @@ lanewise! {
     /// - Density: the pdf, per steradian, is known exactly and integrates to 1 over the sphere above the horizon. It is nearly π times that of
     ///   the [`Reflection`] over the projected solid angle after its map: the ratio of both has a standard deviation of 0.03 on average for
     ///   small spheres, 0.09 for those that nearly touch the point, and 0.2 from inside. Measured by
-    ///   `LONG=1 cargo test -p etendue-tests --test reflection -- samples_vary_little --nocapture`.
+    ///   `LONG=1 cargo test -p etendue-tests samples_vary_little -- --nocapture`.
     /// - Degenerate input: a radius ≤ 0, and a sphere below the horizon, give pdf 0; from inside, all directions above the horizon are
     ///   sampled, and `emits` is false.
     /// - Greatest error: a direction is rounded to 10⁻⁷, times what the inverse of the map stretches there. For spheres with an angular

@@ -1,6 +1,6 @@
 //! Pictures that are interpolated between the centres of their texels.
 
-use crate::lights::{Ball, By, LIGHTS, POINTS, Patch, normal, vector};
+use crate::lights::pictures::lights::{Ball, By, LIGHTS, POINTS, Patch, normal, vector};
 use etendue::Vec2;
 use etendue::light::{Picture, Region, mean_of_bilinear};
 use etendue_oracle::tier::cases;

@@ -388,7 +388,7 @@ fn invalid_input_is_an_error() {
 }
 
 /// Time of a sample from a point of its own, and of an image of as many texels. Optimised:
-/// `cargo test --config profile.dev.package.etendue-tests.opt-level=3 -p etendue-tests --test portals -- --ignored --nocapture`
+/// `cargo test --config profile.dev.package.etendue-tests.opt-level=3 -p etendue-tests portals -- --ignored --nocapture`
 #[test]
 #[ignore = "prints times"]
 fn time_per_sample() {

@@ -1,5 +1,5 @@
 //! The parts of the bindings that no macro can expand are what the core's list of techniques gives. `WRITE=1 cargo test -p etendue-tests
-//! --test bindings` writes them anew.
+//! bindings` writes them anew.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -223,7 +223,7 @@ fn python() -> String {
 fn check(file: &str, mark: &str, part: &str) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(file);
     let text = std::fs::read_to_string(&path).unwrap();
-    let begin = format!("{mark} from the list of techniques: WRITE=1 cargo test -p etendue-tests --test bindings\n");
+    let begin = format!("{mark} from the list of techniques: WRITE=1 cargo test -p etendue-tests bindings\n");
     let end = format!("{mark} end of what is from the list\n");
     let (before, rest) = text.split_once(&begin).unwrap_or_else(|| panic!("{file} has no line {begin:?}"));
     let (old, after) = rest.split_once(&end).unwrap_or_else(|| panic!("{file} has no line {end:?}"));

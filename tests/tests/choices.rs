@@ -1,0 +1,7 @@
+//! Discrete choices: of cells of tables, and of lights.
+
+mod discrete;
+mod gloss;
+mod light_tree;
+mod select;
+mod tables_in_memory;

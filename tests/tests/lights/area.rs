@@ -1,0 +1,444 @@
+//! Lights: means against closed forms, points on the shape, lanes, scale, arguments of any bits.
+
+use core::f64::consts::PI;
+use etendue::{
+    BilinearPatch, ConstantEnvironment, DirectionalLight, Disk, LightSample, LightSampler, Line, Mask, Parallelogram,
+    PointLight, Polygon, Real, Rectangle, Sphere, SpotLight, Sun, Triangle, Vec2, Vec3, f32x4, f32x8, f32x16,
+};
+use etendue_oracle::tier::cases;
+use etendue_oracle::{
+    V3, along, basis, cross, dot, facing_disk, gauss_legendre, length, narrow, perpendicular_disk, projected_polygon,
+    sub, unit,
+};
+use etendue_properties::generators::{self, Random};
+use etendue_properties::properties::{Coordinates, squares_of, twice, vectors_of};
+
+/// Mean of f over an n × n grid of `u`.
+fn mean(n: usize, f: impl Fn(Vec2<f64>) -> f64) -> f64 {
+    let at = |i: usize| (i as f64 + 0.5) / n as f64;
+    (0..n * n).map(|i| f(Vec2::new(at(i % n), at(i / n)))).sum::<f64>() / (n * n) as f64
+}
+/// Irradiance of one sample, where the radiance is 1 on the emitting side.
+fn irradiance(s: &LightSample<f64>, n: V3) -> f64 {
+    let cos = dot(s.direction.at(0), n).max(0.0);
+    if s.pdf > 0.0 && s.emits { cos / s.pdf } else { 0.0 }
+}
+fn origin() -> Vec3<f64> {
+    Vec3::new(0.0, 0.0, 0.0)
+}
+
+#[test]
+fn disk_has_its_form_factor() {
+    let all = [(2.0, 0.3, 2.5), (0.5, 1.0, 0.0), (0.5, 1.0, 0.7), (1e-3, 1.0, 3.0), (30.0, 1.0, 31.0)];
+    for (r, h, a) in all.into_iter().take(cases(2, 5)) {
+        let disk = Disk { center: [a, 0.0, h].into(), normal: [0.0, 0.0, -1.0].into(), radius: r };
+        let of = |n: V3| mean(1500, |u| irradiance(&disk.by_area(origin()).sample(u), n));
+        let (facing, upright) = (of([0.0, 0.0, 1.0]) / PI, of([1.0, 0.0, 0.0]) / PI);
+        let truth = facing_disk(r, h, a);
+        assert!((facing / truth - 1.0).abs() < 2e-4, "{r} {h} {a}: {facing} for {truth}");
+        if r <= a {
+            let truth = perpendicular_disk(r, h, a);
+            assert!((upright / truth - 1.0).abs() < 2e-4, "{r} {h} {a}: {upright} for {truth}");
+        }
+        let by_solid_angle = |n: V3| mean(500, |u| irradiance(&disk.by_solid_angle(origin()).sample(u), n));
+        let (facing, upright) = (by_solid_angle([0.0, 0.0, 1.0]) / PI, by_solid_angle([1.0, 0.0, 0.0]) / PI);
+        assert!((facing / truth - 1.0).abs() < 1e-5, "{r} {h} {a} by solid angle: {facing} for {truth}");
+        if r <= a {
+            let truth = perpendicular_disk(r, h, a);
+            assert!((upright / truth - 1.0).abs() < 1e-5, "{r} {h} {a} by solid angle: {upright} for {truth}");
+        }
+        // from behind it is dark
+        let behind = Disk { normal: -disk.normal, ..disk };
+        assert!(mean(50, |u| irradiance(&behind.by_area(origin()).sample(u), [0.0, 0.0, 1.0])) == 0.0);
+    }
+}
+
+#[test]
+fn rectangle_has_its_projected_solid_angle() {
+    let mut random = Random::new(5);
+    for (size, height) in [(4.0, 0.5), (1.0, 1e-2), (1.0, 1.0), (1e-3, 1.0), (30.0, 1.0)].into_iter().take(cases(1, 5))
+    {
+        let (s, t) = basis(random.direction());
+        let n = unit(cross(s, t));
+        let (u, v) = (s.map(|x| x * size), t.map(|x| x * 0.7 * size));
+        let shift = random.range(0.0, 1.0);
+        let p: V3 = core::array::from_fn(|k| -height * n[k] - shift * u[k] - 0.3 * v[k]);
+        let corners = [p, along(p, u, 1.0), along(along(p, u, 1.0), v, 1.0), along(p, v, 1.0)];
+        // the receiver faces the rectangle, or cuts it with its horizon
+        for receiver in [n.map(|x| -x), unit(along(u, n, -0.3 * size))] {
+            let light = Rectangle { corner: p.into(), edge_s: u.into(), edge_t: v.into() };
+            let e = mean(1024, |u| irradiance(&light.by_solid_angle(origin()).sample(u), receiver));
+            let truth = projected_polygon(&corners, receiver);
+            assert!((e / truth - 1.0).abs() < 1e-5, "{size} {height}: {e} for {truth}");
+            let warped =
+                mean(512, |u| irradiance(&light.by_cosine_warp(origin(), receiver.into()).sample(u), receiver));
+            assert!((warped / truth - 1.0).abs() < 1e-4, "{size} {height} warped: {warped} for {truth}");
+            let (a, b, c) = (p, along(p, u, 1.0), along(p, v, 1.0));
+            let half = Triangle { v0: a.into(), e1: u.into(), e2: v.into() };
+            let warped = mean(512, |u| irradiance(&half.by_cosine_warp(origin(), receiver.into()).sample(u), receiver));
+            let half = projected_polygon(&[a, b, c], receiver);
+            assert!((warped - half).abs() < 1e-4 * truth, "{size} {height} triangle, warped: {warped} for {half}");
+            let by_area = mean(1024, |u| irradiance(&light.by_area(origin()).sample(u), receiver));
+            assert!((by_area / truth - 1.0).abs() < 1e-3, "{size} {height}: {by_area} for {truth}");
+            let behind = Rectangle { edge_s: light.edge_t, edge_t: light.edge_s, ..light };
+            assert_eq!(mean(20, |u| irradiance(&behind.by_solid_angle(origin()).sample(u), receiver)), 0.0);
+        }
+    }
+}
+
+/// Facing, on the axis: by area the second moment is (π²k²/3)(1 − (1+k²)⁻³), by solid angle 4π²(1−c)(1−c³)/3, with k = R/h, c = 1/√(1+k²).
+#[test]
+fn disk_has_its_variance() {
+    for k in [0.25_f64, 1.0, 4.0, 8.0] {
+        let disk = Disk { center: [0.0, 0.0, 1.0].into(), normal: [0.0, 0.0, -1.0].into(), radius: k };
+        let c = 1.0 / (1.0 + k * k).sqrt();
+        let square = |s: LightSample<f64>| irradiance(&s, [0.0, 0.0, 1.0]).powi(2);
+        let by_area = mean(400, |u| square(disk.by_area(origin()).sample(u)));
+        let truth = (PI * k).powi(2) / 3.0 * (1.0 - (1.0 + k * k).powi(-3));
+        assert!((by_area / truth - 1.0).abs() < 1e-3, "{k}: {by_area} for {truth}");
+        let by_solid_angle = mean(400, |u| square(disk.by_solid_angle(origin()).sample(u)));
+        let truth = 4.0 * PI * PI * (1.0 - c) * (1.0 - c * c * c) / 3.0;
+        assert!((by_solid_angle / truth - 1.0).abs() < 1e-5, "{k}: {by_solid_angle} for {truth}");
+    }
+}
+
+/// The area of each light that is sampled by it, against closed forms, and the mean of what its samples are worth.
+#[test]
+fn areas_are_those_of_the_shapes() {
+    fn check(name: &str, own: f64, sampler: &impl LightSampler<f64>, area: f64) {
+        // nine Gauss points measure a twisted patch
+        assert!((own / area - 1.0).abs() < 2e-5, "{name}: {own} is not {area}");
+        // an area is to the solid angle as the square of the distance to the cosine
+        let worth = mean(64, |u| {
+            let s = sampler.sample(u);
+            s.distance * s.distance / (s.pdf * s.direction.dot(s.normal).abs())
+        });
+        assert!((worth / area - 1.0).abs() < 2e-5, "{name}: samples are worth {worth}, not {area}");
+    }
+    let place = Vec3::lit([0.3, -0.2, 0.1]);
+    let [p, u, v, w] = [[1.0, 0.5, 2.0], [2.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0]].map(Vec3::<f64>::lit);
+    let triangle = Triangle::new(p, p + u, p + w).by_area(place);
+    check("triangle", triangle.area(), &triangle, 1.0);
+    let parallelogram = Parallelogram::new(p, u, w).by_area(place);
+    check("parallelogram", parallelogram.area(), &parallelogram, 2.0);
+    let rectangle = Rectangle::new(p, u, v).by_area(place);
+    check("rectangle", rectangle.area(), &rectangle, 2.0);
+    let polygon = Polygon::new([p, p + u, p + w, p + v, p + v * 0.5]).by_area(place);
+    check("polygon", polygon.area(), &polygon, 1.5);
+    let disk = Disk::new(p, Vec3::lit([0.0, 0.6, 0.8]), 0.5).by_area(place);
+    check("disk", disk.area(), &disk, 0.25 * PI);
+    let sphere = Sphere::new(p, 0.5).by_area(place);
+    check("sphere", sphere.area(), &sphere, PI);
+    let trapezium = BilinearPatch::new(p, u, v, w).by_area(place);
+    check("trapezium", trapezium.area(), &trapezium, 1.5);
+    // z = st over a square
+    let saddle = BilinearPatch::new(p, u * 0.5, v, Vec3::lit([1.0, 1.0, 1.0])).by_area(place);
+    let nodes = gauss_legendre::<20>();
+    let by_s = |s: f64| nodes.iter().map(|(t, weight)| weight * (1.0 + s * s + t * t).sqrt()).sum::<f64>();
+    check("saddle", saddle.area(), &saddle, nodes.iter().map(|&(s, weight)| weight * by_s(s)).sum());
+}
+
+/// A line through two points of a twisted patch meets it nowhere else. Seen from beyond one of them, that one is hit, with its surface
+/// coordinates; seen from between them, the one ahead; and seen from beyond both with the back turned, neither.
+#[test]
+fn a_patch_that_is_seen_twice_is_hit_where_it_is_near() {
+    let mut random = Random::new(77);
+    let mut seen = 0;
+    while seen < 2000 {
+        let [p, u, v, w] = core::array::from_fn(|_| Vec3::<f64>::lit(random.direction().map(f64::from)));
+        let twist = w - u - v;
+        let point = |[s, t]: [f64; 2]| p + u * s + v * t + twist * (s * t);
+        let [a, b] = core::array::from_fn(|_| [random.unit_f64(), random.unit_f64()]);
+        let (from, to) = (point(a), point(b));
+        let apart = (to - from).length();
+        let ahead = (to - from) * (1.0 / apart);
+        // the line crosses the patch at both points, and runs along no edge
+        let cos = |[s, t]: [f64; 2]| ahead.dot((u + twist * t).cross(v + twist * s).normalize()).abs();
+        if apart < 0.3 || cos(a).min(cos(b)) < 0.1 || (a[0] - b[0]).abs().min((a[1] - b[1]).abs()) < 0.1 {
+            continue;
+        }
+        seen += 1;
+        let hit = |place: Vec3<f64>, ray: Vec3<f64>| BilinearPatch::new(p, u, v, w).by_area(place).hit(ray);
+        let near = |place: Vec3<f64>, ray: Vec3<f64>, distance: f64, [s, t]: [f64; 2]| {
+            let hit = hit(place, ray);
+            let off = (hit.distance - distance).abs().max((hit.uv.x - s).abs()).max((hit.uv.y - t).abs());
+            assert!(hit.pdf > 0.0 && off < 1e-4, "{a:?} {b:?}: {hit:?}, not {distance} at {s}, {t}");
+        };
+        near(from - ahead * 0.5, ahead, 0.5, a);
+        near(to + ahead * 0.5, -ahead, 0.5, b);
+        near(from + ahead * (0.5 * apart), ahead, 0.5 * apart, b);
+        near(from + ahead * (0.5 * apart), -ahead, 0.5 * apart, a);
+        assert_eq!(hit(from - ahead * 0.5, -ahead).pdf, 0.0);
+    }
+}
+
+#[test]
+fn disk_points_lie_on_it() {
+    let mut random = Random::new(1);
+    for _ in 0..2000 {
+        let (c, n, r) = (random.direction(), random.direction(), random.magnitude(1e-3, 10.0));
+        let disk = Disk { center: c.into(), normal: n.into(), radius: r };
+        let s = disk.by_area(origin()).sample(Vec2::new(random.unit_f64(), random.unit_f64()));
+        let x = sub(s.direction.at(0).map(|w| w * s.distance), c);
+        assert!(dot(x, n).abs() < 1e-14 * (1.0 + r) && length(x) <= r * (1.0 + 1e-13) + 1e-15);
+        let density = s.distance * s.distance / (dot(s.direction.at(0), n).abs() * PI * r * r);
+        assert!((s.pdf / density - 1.0).abs() < 1e-12);
+    }
+}
+
+/// Irradiance of a line of unit radiance and width: by Gauss and Legendre along it, clipped to the horizon.
+fn line_irradiance(a: V3, edge: V3, n: V3) -> f64 {
+    let (low, high) = (dot(a, n), dot(a, n) + dot(edge, n));
+    let crossing = (low / (low - high)).clamp(0.0, 1.0);
+    let (first, last) = (if low < 0.0 { crossing } else { 0.0 }, if high < 0.0 { crossing } else { 1.0 });
+    let panels = 200;
+    let mut sum = 0.0;
+    for panel in 0..panels {
+        for (x, weight) in gauss_legendre::<8>() {
+            let t = first + (last - first) * (f64::from(panel) + x) / f64::from(panels);
+            let point = along(a, edge, t);
+            let r = length(point);
+            sum += weight * length(cross(point, edge)) * dot(point, n).max(0.0) / (r * r * r * r);
+        }
+    }
+    if low < 0.0 && high < 0.0 { 0.0 } else { sum * (last - first) / f64::from(panels) }
+}
+
+#[test]
+fn lines_have_their_irradiance() {
+    let mut random = Random::new(6);
+    for i in 0..30 {
+        let size = [1.0, 0.01, 20.0][i % 3];
+        let (p, e, n) = (random.direction(), random.direction().map(|x| x * size), random.direction());
+        let (line, truth) = (Line { start: p.into(), edge: e.into() }, line_irradiance(p, e, n));
+        let total = line_irradiance(p, e, unit(p)) + truth;
+        let steps = 20_000;
+        let mean = |f: &dyn Fn(f64) -> LightSample<f64>| {
+            (0..steps).map(|k| irradiance(&f((f64::from(k) + 0.5) / f64::from(steps)), n)).sum::<f64>()
+                / f64::from(steps)
+        };
+        let by_length = mean(&|u| line.by_length(origin()).sample(Vec2::new(u, 0.0)));
+        assert!((by_length - truth).abs() < 1e-4 * total, "by length {i}: {by_length} for {truth}");
+        let by_angle = mean(&|u| line.by_angle(origin()).sample(Vec2::new(u, 0.0)));
+        assert!((by_angle - truth).abs() < 1e-6 * total, "by angle {i}: {by_angle} for {truth}");
+        for k in 0..100 {
+            let u = (f64::from(k) + random.unit_f64()) / 100.0;
+            let s = line.by_projected_solid_angle(origin(), n.into()).sample(Vec2::new(u, 0.0));
+            let e = irradiance(&s, n);
+            // at the ends of the range the cosine is a small difference
+            let slack = 1e-12 / dot(s.direction.at(0), n).abs().max(1e-9);
+            assert!((e - truth).abs() <= (1e-9 + slack) * truth, "projected {i}: {e} for {truth} at {u}");
+            // on the line, and the number comes back
+            for s in [
+                s,
+                line.by_angle(origin()).sample(Vec2::new(u, 0.0)),
+                line.by_length(origin()).sample(Vec2::new(u, 0.0)),
+            ] {
+                let x = sub(s.direction.at(0).map(|w| w * s.distance), p);
+                let off = length(cross(x, unit(e_of(&line))));
+                assert!(s.pdf == 0.0 || off < 1e-11 * s.distance / sine(&s, &line), "off the line by {off}");
+            }
+        }
+    }
+}
+fn e_of(line: &Line<f64>) -> V3 {
+    line.edge.at(0)
+}
+fn sine(s: &LightSample<f64>, line: &Line<f64>) -> f64 {
+    length(cross(s.direction.at(0), unit(e_of(line))))
+}
+
+#[test]
+fn sun_and_sky() {
+    let h = 0.1;
+    let sun = Sun { direction: [0.6, 0.0, 0.8].into(), one_minus_cos: h };
+    let e = mean(300, |u| irradiance(&sun.by_solid_angle().sample(u), [0.0, 0.0, 1.0]));
+    // π sin²σ cosω
+    let truth = PI * h * (2.0 - h) * 0.8;
+    assert!((e / truth - 1.0).abs() < 1e-9, "{e} for {truth}");
+    for i in 0..100 {
+        let u = Vec2::new(f64::from(i) / 100.0, 0.3);
+        let s = sun.by_solid_angle().sample(u);
+        let again = sun.by_solid_angle().invert(s.direction);
+        assert!((again.x - u.x).abs() < 1e-13 && (again.y - u.y).abs() < 1e-13 || i == 0);
+        assert_eq!(sun.by_solid_angle().pdf(s.direction), s.pdf);
+        assert_eq!(sun.by_solid_angle().pdf(-s.direction), 0.0);
+    }
+    let n = unit([0.3, -0.5, 0.2]);
+    let uniform = mean(400, |u| irradiance(&ConstantEnvironment.by_solid_angle().sample(u), n));
+    assert!((uniform / PI - 1.0).abs() < 1e-4, "{uniform}");
+    // the first would lie on the horizon
+    for i in 1..1000 {
+        let u = Vec2::new((f64::from(i) * 0.618_033_988_7).fract(), (f64::from(i) * 0.754_877_666_2).fract());
+        let e = irradiance(&ConstantEnvironment.by_projected_solid_angle(n.into()).sample(u), n);
+        assert!((e / PI - 1.0).abs() < 1e-12, "{e}");
+    }
+}
+
+#[test]
+fn delta_lights() {
+    let point = PointLight { position: [0.0, 3.0, 4.0].into() };
+    let s = point.by_delta(origin()).sample(Vec2::default());
+    assert!(s.delta && s.emits && s.distance == 5.0 && (s.pdf - 25.0).abs() < 1e-13);
+    assert_eq!(point.by_delta(point.position).sample(Vec2::default()).pdf, 0.0);
+    let (one_minus_cos_inner, one_minus_cos_outer) = (0.1, 0.3);
+    let axis = [0.0, -0.6, -0.8];
+    let spot = SpotLight { position: point.position, axis: axis.into(), one_minus_cos_inner, one_minus_cos_outer };
+    assert!((spot.by_delta(origin()).sample(Vec2::default()).pdf - 25.0).abs() < 1e-12);
+    let (side, _) = basis(axis);
+    let at = |cos: f64| {
+        let w: V3 = core::array::from_fn(|k| axis[k] * cos + side[k] * (1.0 - cos * cos).sqrt());
+        spot.by_delta(core::array::from_fn::<_, 3, _>(|k| [0.0, 3.0, 4.0][k] + 2.0 * w[k]).into())
+            .sample(Vec2::default())
+    };
+    assert!((at(0.95).pdf - 4.0).abs() < 1e-12 && (at(0.8).pdf - 8.0).abs() < 1e-9);
+    assert!(at(0.69).pdf == 0.0 && !at(0.69).emits && !at(-0.95).emits);
+    let s = DirectionalLight { direction: Vec3::<f64>::new(0.0, 0.0, 1.0) }.by_delta().sample(Vec2::default());
+    assert!(s.delta && s.emits && s.pdf == 1.0 && s.distance.is_finite());
+}
+
+/// Cones of any angle end where they should, to the rounding of a direction: 1e−7 rad beside the angle of the narrowest.
+#[test]
+fn narrow_cones_are_as_narrow_as_they_are() {
+    let mut random = Random::new(31);
+    for degrees in [1e-3_f64, 1e-2, 0.1, 0.5, 5.0, 60.0, 150.0] {
+        let outer = degrees.to_radians();
+        for _ in 0..200 {
+            let axis = random.direction();
+            let (side, _) = basis(axis);
+            let position: [f32; 3] = narrow(random.direction());
+            let one_minus_cos = |angle: f64| (2.0 * (0.5 * angle).sin().powi(2)) as f32;
+            for inner in [0.0, 0.5, 1.0] {
+                let spot = SpotLight {
+                    position: position.into(),
+                    axis: narrow(axis).into(),
+                    one_minus_cos_inner: one_minus_cos(inner * outer),
+                    one_minus_cos_outer: one_minus_cos(outer),
+                };
+                let falloff = |angle: f64| {
+                    let w = along(axis.map(|x| x * angle.cos()), side, angle.sin());
+                    f64::from(spot.falloff(narrow(w).into()))
+                };
+                let rounding = 2e-7 / outer + 1e-6;
+                assert!(falloff(outer * (1.0 + rounding)) == 0.0, "{degrees}");
+                assert!(falloff(inner * outer * (1.0 - rounding)) == 1.0 || inner == 0.0, "{degrees}");
+                let at = random.range(0.0, 1.0);
+                let t = |inner: f64| {
+                    let cosine = |part: f64| 2.0 * (0.5 * part * outer).sin().powi(2);
+                    ((cosine(1.0) - cosine(at)) / (cosine(1.0) - cosine(inner))).clamp(0.0, 1.0)
+                };
+                let truth = t(inner) * t(inner) * (3.0 - 2.0 * t(inner));
+                let found = falloff(at * outer);
+                assert!(inner == 1.0 || (found - truth).abs() < 12.0 * rounding, "{degrees}: {found} for {truth}");
+            }
+        }
+    }
+}
+
+/// All lights with the parameters a, b (b also as a unit vector) and r, from the point p.
+fn samples<R: Real>(p: Vec3<R>, a: Vec3<R>, b: Vec3<R>, r: R, u: Vec2<R>) -> [LightSample<R>; 12] {
+    let n = b.normalize();
+    [
+        Disk { center: a, normal: n, radius: r }.by_area(p).sample(u),
+        Disk { center: a, normal: n, radius: r }.by_solid_angle(p).sample(u),
+        Line { start: a, edge: b }.by_length(p).sample(u),
+        Line { start: a, edge: b }.by_angle(p).sample(u),
+        Line { start: a, edge: b }.by_projected_solid_angle(p, n).sample(u),
+        PointLight { position: a }.by_delta(p).sample(u),
+        SpotLight { position: a, axis: n, one_minus_cos_inner: u.x, one_minus_cos_outer: u.y }.by_delta(p).sample(u),
+        SpotLight { position: a, axis: n, one_minus_cos_inner: u.x, one_minus_cos_outer: u.x }.by_delta(p).sample(u),
+        DirectionalLight { direction: n }.by_delta().sample(u),
+        Sun { direction: n, one_minus_cos: u.x + u.y }.by_solid_angle().sample(u),
+        ConstantEnvironment.by_solid_angle().sample(u),
+        ConstantEnvironment.by_projected_solid_angle(n).sample(u),
+    ]
+}
+fn bits<R: Real>(s: &LightSample<R>, i: usize) -> [u64; 7] {
+    let [x, y, z] = s.direction.at(i);
+    let masks = u64::from(s.emits.lane(i)) + 2 * u64::from(s.delta.lane(i));
+    [x.to_bits(), y.to_bits(), z.to_bits(), s.distance.lane_f64(i).to_bits(), s.pdf.lane_f64(i).to_bits(), masks, 0]
+}
+
+#[test]
+fn any_bits_in_every_lane() {
+    let mut random = Random::new(3);
+    for round in 0..5000 {
+        let mut vectors = || -> [[f32; 3]; 8] {
+            core::array::from_fn(|_| {
+                if round % 3 == 0 { generators::nasty(&mut random) } else { random.direction().map(|x| x as f32) }
+            })
+        };
+        let (p, a, b, r) = (vectors(), vectors(), vectors(), vectors());
+        let us: [[f32; 2]; 8] = core::array::from_fn(|_| [random.unit(), random.unit()]);
+        let radius = |i: usize| r[i][0];
+        let one: Vec<_> = (0..8)
+            .map(|i| {
+                let v = |x: [f32; 3]| vectors_of::<f32>(|_| x);
+                samples(v(p[i]), v(a[i]), v(b[i]), radius(i), squares_of(&us[i..=i]))
+            })
+            .collect();
+        let eight = samples::<f32x8>(
+            vectors_of(|i| p[i]),
+            vectors_of(|i| a[i]),
+            vectors_of(|i| b[i]),
+            f32x8::from_fn(radius),
+            squares_of(&us),
+        );
+        let [p16, a16, b16] = [p, a, b].map(|v| twice(&v));
+        let sixteen = samples::<f32x16>(
+            vectors_of(|i| p16[i]),
+            vectors_of(|i| a16[i]),
+            vectors_of(|i| b16[i]),
+            f32x16::from_fn(|i| twice(&r)[i][0]),
+            squares_of(&twice(&us)),
+        );
+        let four = samples::<f32x4>(
+            vectors_of(|i| p[i]),
+            vectors_of(|i| a[i]),
+            vectors_of(|i| b[i]),
+            f32x4::from_fn(radius),
+            squares_of(&us[..4]),
+        );
+        for (i, scalars) in one.iter().enumerate() {
+            for (k, scalar) in scalars.iter().enumerate() {
+                assert_eq!(bits(scalar, 0), bits(&eight[k], i), "light {k}, lane {i}: {scalar:?}\n{:?}", eight[k]);
+                assert!(i > 3 || bits(scalar, 0) == bits(&four[k], i), "light {k}, lane {i}");
+                for lane in [i, 15 - i] {
+                    assert_eq!(bits(scalar, 0), bits(&sixteen[k], lane), "light {k}, lane {lane} of 16");
+                }
+                let s = scalar;
+                let finite = length(s.direction.at(0)).is_finite() && s.pdf.is_finite() && s.pdf >= 0.0;
+                assert!(
+                    finite && s.distance.is_finite(),
+                    "light {k}: {s:?}\n{:?} {:?} {:?} {}",
+                    p[i],
+                    a[i],
+                    b[i],
+                    r[i][0]
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn scale_changes_no_direction() {
+    let mut random = Random::new(4);
+    for _ in 0..2000 {
+        let [p, a, b] = [(); 3].map(|()| random.direction().map(|x| x as f32));
+        let (r, u) = (random.unit() + 0.01, [random.unit(), random.unit()]);
+        for power in [-20, -7, 20] {
+            let f = 2.0_f32.powi(power);
+            let times = |v: [f32; 3], f: f32| vectors_of::<f32>(|_| v.map(|x| x * f));
+            let s = Disk { center: times(a, 1.0), normal: times(b, 1.0), radius: r }
+                .by_area(times(p, 1.0))
+                .sample(squares_of(&[u]));
+            let t = Disk { center: times(a, f), normal: times(b, 1.0), radius: r * f }
+                .by_area(times(p, f))
+                .sample(squares_of(&[u]));
+            assert_eq!(s.direction, t.direction);
+            assert_eq!(s.pdf.to_bits(), t.pdf.to_bits());
+            assert_eq!(s.distance * f, t.distance);
+        }
+    }
+}

@@ -1,0 +1,4 @@
+//! What the sources themselves must keep.
+
+mod architecture;
+mod bindings;

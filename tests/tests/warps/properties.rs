@@ -1,0 +1,259 @@
+//! Every property of every warp in every regime. `-- --nocapture` prints the greatest figure of each (warp, regime, property).
+
+use etendue_oracle::tier::{cases, is_long};
+use etendue_properties::fixtures::{
+    AreaTriangle, Bilinear, Cap, ConcentricDisk, Cone, CosineHemisphere, Disk, GgxVisibleNormals, Hexagon, Linear,
+    LowDistortionTriangle, Octahedral, Parallelogram, PatchSurface, PolarDisk, ProjectedCap, ProjectedParallelogram,
+    ProjectedPentagon, ProjectedSegment, ProjectedTriangle, Rectangle, Segment, Tent, Triangle, UniformHemisphere,
+    UniformSphere, nearest_hit,
+};
+use etendue_properties::generators::{self, Case, Random};
+use etendue_properties::properties::{self, Fixture};
+use etendue_properties::suite;
+use std::collections::BTreeSet;
+
+/// Runs all properties over the cases; in the quick tier, over one of each regime. Reports every regime that breaks one, with its first
+/// message.
+fn all<S: Fixture>(warp: &str, mut cases: Vec<Case<S>>, random: usize) {
+    if !is_long() {
+        let mut seen = BTreeSet::new();
+        cases.retain(|case| seen.insert(case.0));
+    }
+    let outcomes = suite::all(&cases, if is_long() { random } else { random / 8 });
+    for (property, r) in outcomes.iter().flat_map(|o| o.regimes.iter().map(|r| (o.property, r))) {
+        let broken = if r.broken > 0 { "BROKEN" } else { "" };
+        println!("{property:10} {:28} {:9.3e} {broken}", r.name, r.figure.error());
+    }
+    let regimes: BTreeSet<_> = cases.iter().map(|case| case.0).collect();
+    let [sample, density] = ["accurate", "density"].map(|property| {
+        outcomes.iter().find(|o| o.property == property).map_or(f64::NAN, suite::PropertyOutcome::greatest)
+    });
+    // greatest errors in units of 2⁻²⁴: of a sample against the same code in f64, and of a pdf against the truth
+    println!("{warp:36} {:3} regimes {:4} cases  sample {sample:5.1}  pdf {density:5.1}", regimes.len(), cases.len());
+    let broken: Vec<_> = outcomes
+        .iter()
+        .flat_map(|o| o.broken().map(|r| format!("{} [{}] ×{}: {}", o.property, r.name, r.broken, r.first)))
+        .collect();
+    assert!(broken.is_empty(), "broken properties:\n{}", broken.join("\n"));
+}
+
+/// A test for each warp: its name, its cases, and how many random points of the square.
+macro_rules! warps {
+    ($($name:ident: $cases:expr, $random:literal;)+) => {
+        $(#[test]
+        fn $name() {
+            all(stringify!($name), $cases, $random);
+        })+
+    };
+}
+warps! {
+    concentric_disk: vec![("whole", ConcentricDisk)], 4000;
+    polar_disk: vec![("whole", PolarDisk)], 4000;
+    area_triangle: vec![("whole", AreaTriangle)], 4000;
+    low_distortion_triangle: vec![("whole", LowDistortionTriangle)], 4000;
+    linear: generators::linears(), 1000;
+    tent: generators::tents(), 1000;
+    bilinear: generators::bilinears(), 1000;
+    ggx_visible_normals: generators::microsurfaces(), 500;
+    cosine_hemisphere: vec![("whole", CosineHemisphere)], 4000;
+    uniform_hemisphere: vec![("whole", UniformHemisphere)], 4000;
+    uniform_sphere: vec![("whole", UniformSphere)], 4000;
+    octahedral: vec![("whole", Octahedral)], 4000;
+    cone: generators::cones(), 1000;
+    spherical_cap: generators::caps(3, 11), 200;
+    spherical_polygon: generators::hexagons(3, 15), 60;
+    spherical_polygon_of_every_size: generators::hexagons_of_every_size(3, 16), 60;
+    spherical_disk: generators::disks(3, 31), 100;
+    spherical_segment: generators::segments(3, 21).0, 200;
+    projected_segment: generators::segments(1, 22).1, 60;
+    patch_surface: generators::patch_surfaces(), 200;
+    cosine_triangle: generators::cosine_triangles(2, 43), 60;
+    cosine_rectangle: generators::cosine_rectangles(2, 44), 60;
+    projected_cap: generators::projected_caps(3, 14), 100;
+    projected_triangle: generators::projected_triangles(3, 16), 60;
+    projected_parallelogram: generators::projected_parallelograms(1, 17), 40;
+    projected_polygon: generators::projected_pentagons(2, 18), 40;
+    projected_polygon_of_every_size: generators::projected_pentagons_of_every_size(2, 19), 40;
+    spherical_triangle: generators::triangles(4, 12), 60;
+    spherical_parallelogram: generators::parallelograms(4, 13), 200;
+    spherical_rectangle: generators::rectangles(8, 14), 200;
+}
+
+/// Total and lane-identical for any parameters: nasty numbers and random bits.
+#[test]
+fn any_parameters_are_total() {
+    let mut random = Random::new(99);
+    let square = generators::square(40, 5);
+    for i in 0..cases(2000, 20_000) {
+        let mut vector = || {
+            if i % 2 == 0 { generators::nasty(&mut random) } else { core::array::from_fn(|_| random.any_f32()) }
+        };
+        let [a, b, c, d] = [vector(), vector(), vector(), vector()];
+        let (b, c) = match i % 7 {
+            0 => (a, c),
+            1 => (a, a),
+            2 => (b, b),
+            _ => (b, c),
+        };
+        let u = square[i % square.len()];
+        properties::any_bits(&Triangle::by_vertices(a, b, c), u);
+        properties::any_bits(&Triangle::by_edges(a, b, c), u);
+        properties::any_bits(&Parallelogram::new(a, b, c), u);
+        properties::any_bits(&Cap::new(a, b[0]), u);
+        properties::any_bits(&ProjectedCap::new(a, b[0], c), u);
+        properties::any_bits(&PatchSurface { p: d, u: a, v: b, w: c }, u);
+        if i % 4 < 2 {
+            properties::any_bits(&Disk::new(a, b, c[0]), u);
+            properties::any_bits(&Segment::new(a, b), u);
+            properties::any_bits(&ProjectedSegment::new(a, b, c), u);
+        }
+        properties::any_bits(&Hexagon::new([a, b, c, b, a, c]), u);
+        properties::any_bits(&ProjectedTriangle::by_vertices(a, b, c, d), u);
+        properties::any_bits(&ProjectedTriangle::by_edges(a, b, c, d), u);
+        properties::any_bits(&ProjectedParallelogram::new(a, b, c, d), u);
+        properties::any_bits(&ProjectedPentagon::new([a, b, c, d, a], d), u);
+        properties::any_bits(&GgxVisibleNormals { alpha: [a[0], b[0]], wi: c }, u);
+        properties::any_bits(&GgxVisibleNormals { alpha: [0.3, 0.1], wi: c }, u);
+        properties::any_bits(&Linear { a: a[0], b: b[1] }, u);
+        properties::any_bits(&Tent { radius: a[0] }, u);
+        properties::any_bits(&Bilinear { corners: [a[0], a[1], b[0], c[2]] }, u);
+        properties::any_bits(&Cone { one_minus_cos: b[0].clamp(0.0, 2.0) }, u);
+    }
+}
+
+/// Lane-identical with any other parameters and any other `u` in each lane, subnormal ones included: a lane that takes a rare path does not
+/// take its neighbours there.
+#[test]
+fn lanes_keep_to_themselves() {
+    let mut random = Random::new(98);
+    for i in 0..cases(500, 20_000) {
+        let mut vectors = || -> [[[f32; 3]; 8]; 3] {
+            let of = |random: &mut Random| {
+                if i % 2 == 0 { generators::nasty(random) } else { random.direction().map(|x| x as f32) }
+            };
+            core::array::from_fn(|_| core::array::from_fn(|_| of(&mut random)))
+        };
+        let [a, b, c] = vectors();
+        let us = core::array::from_fn(|_| {
+            core::array::from_fn(|_| match random.word() % 4 {
+                0 => f32::from_bits((random.word() as u32) >> 8),
+                1 => random.unit() * 1e-30,
+                _ => random.unit(),
+            })
+        });
+        properties::lanes(&core::array::from_fn(|k| Linear { a: a[k][0], b: b[k][0] }), &us);
+        properties::lanes(&core::array::from_fn(|k| Tent { radius: a[k][0] }), &us);
+        properties::lanes(&core::array::from_fn(|k| Bilinear { corners: [a[k][0], a[k][1], b[k][0], c[k][2]] }), &us);
+        properties::lanes(&core::array::from_fn(|k| Cone { one_minus_cos: b[k][0].clamp(0.0, 2.0) }), &us);
+        properties::lanes(&core::array::from_fn(|k| GgxVisibleNormals { alpha: [a[k][0], b[k][0]], wi: c[k] }), &us);
+        properties::lanes(&core::array::from_fn(|k| Cap::new(a[k], b[k][0])), &us);
+        properties::lanes(&core::array::from_fn(|k| ProjectedCap::new(a[k], b[k][0], c[k])), &us);
+        properties::lanes(&core::array::from_fn(|k| Triangle::by_edges(a[k], b[k], c[k])), &us);
+        properties::lanes(&core::array::from_fn(|k| Parallelogram::new(a[k], b[k], c[k])), &us);
+        properties::lanes(&core::array::from_fn(|k| Segment::new(a[k], b[k])), &us);
+        properties::lanes(&core::array::from_fn(|k| ProjectedSegment::new(a[k], b[k], c[k])), &us);
+        properties::lanes(&core::array::from_fn(|k| Disk::new(a[k], b[k], c[k][0])), &us);
+        properties::lanes(&core::array::from_fn(|k| PatchSurface { p: c[k], u: a[k], v: b[k], w: a[7 - k] }), &us);
+        properties::lanes(&core::array::from_fn(|k| ProjectedTriangle::by_edges(a[k], b[k], c[k], a[7 - k])), &us);
+        properties::lanes(&core::array::from_fn(|k| ProjectedParallelogram::new(a[k], b[k], c[k], a[7 - k])), &us);
+    }
+}
+
+/// Points on a vertex, on an edge and in the plane; on and in spheres. If nothing is visible, the pdf is 0.
+#[test]
+fn contact() {
+    let (o, x, y) = ([0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]);
+    for u in generators::square(20, 6) {
+        // on a vertex, on an edge, in the plane outside and inside, without area
+        for t in [
+            Triangle::by_vertices(o, x, y),
+            Triangle::by_vertices([-0.5, 0.0, 0.0], [0.5, 0.0, 0.0], y),
+            Triangle::by_vertices([1.0, 1.0, 0.0], [2.0, 1.0, 0.0], [1.0, 2.0, 0.0]),
+            Triangle::by_vertices([-1.0, -1.0, 0.0], [2.0, 0.0, 0.0], [0.0, 2.0, 0.0]),
+            Triangle::by_vertices([0.0, 0.0, 1.0], [0.0, 0.0, 1.0], x),
+            Triangle::by_vertices([0.0, 0.0, 1.0], [0.5, 0.0, 1.0], [1.0, 0.0, 1.0]),
+        ] {
+            properties::any_bits(&t, u);
+            let seen =
+                properties::observe::<Triangle, f32>(&Triangle::prepare::<f32>(&[t]), properties::squares_of(&[u]))[0];
+            assert!(seen.pdf == 0.0, "{t:?} {seen:?}");
+        }
+        for (center, radius, omega) in
+            [(o, 1.0, 4.0), (x, 1.0, 2.0), ([0.5, 0.0, 0.0], 1.0, 4.0), (x, 0.0, 0.0), (x, -1.0, 0.0)]
+        {
+            let cap = Cap::new(center, radius);
+            properties::any_bits(&cap, u);
+            let solid_angle = f64::from(Cap::prepare::<f32>(&[cap]).solid_angle());
+            assert!((solid_angle - omega * core::f64::consts::PI).abs() < 1e-6, "{cap:?} {solid_angle}");
+        }
+    }
+}
+
+/// The distance to a sphere is that of its near side.
+#[test]
+fn spheres_are_hit_on_the_near_side() {
+    let square = generators::square(200, 7);
+    for (_, cap) in generators::caps(3, 17) {
+        square.iter().for_each(|&u| nearest_hit(&cap, u));
+    }
+}
+/// No point is beyond its shape, in every regime and where the distance is least certain: nearly in a plane with the shape.
+#[test]
+fn no_point_is_beyond_its_shape() {
+    fn check<S: Fixture>(cases: &[Case<S>]) {
+        let outcome = suite::within_reach(cases);
+        let broken: Vec<_> = outcome.broken().map(|r| format!("[{}] ×{}: {}", r.name, r.broken, r.first)).collect();
+        assert!(broken.is_empty(), "{}", broken.join("\n"));
+    }
+    let edge_on = generators::nearly_in_plane(50, 19);
+    let cases = |name| edge_on.iter().map(move |&[v, a, b]| (name, [v, a, b]));
+    check(&generators::triangles(4, 12));
+    check(&cases("nearly in plane").map(|(n, [v, a, b])| (n, Triangle::by_edges(v, a, b))).collect::<Vec<_>>());
+    check(&generators::parallelograms(4, 13));
+    check(&cases("nearly in plane").map(|(n, [v, a, b])| (n, Parallelogram::new(v, a, b))).collect::<Vec<_>>());
+    check(&generators::rectangles(4, 14));
+    check(&generators::hexagons(4, 15));
+    check(&generators::hexagons_of_every_size(4, 15));
+}
+/// Surfaces too smooth for a density, and views that see no normal, have pdf 0 everywhere; a little rougher, they have one.
+#[test]
+fn mirrors_have_no_density() {
+    use etendue::warp::{GgxVisibleNormals, Warp};
+    use etendue::{Vec2, Vec3};
+    let (view, up, below) = ([0.6_f32, 0.0, 0.8], [0.0, 0.0, 1.0], [0.0, 0.0, -1.0]);
+    for (alpha, wi, some) in [
+        ([1e-15, 0.5], view, false),
+        ([0.5, 1e-15], view, false),
+        ([0.0, 0.0], up, false),
+        ([-0.5, 0.5], view, false),
+        ([0.5, 0.5], [0.0; 3], false),
+        ([0.5, 0.5], below, false),
+        ([1e-6, 0.5], view, true),
+        ([0.5, 0.5], view, true),
+    ] {
+        let normals = GgxVisibleNormals::new(alpha[0], alpha[1], Vec3::from(wi));
+        for [x, y] in generators::square(20, 8) {
+            let m = normals.sample(Vec2::new(x, y));
+            let densities = [normals.pdf(m), normals.reflected_pdf(m)];
+            assert!((m.length_squared() - 1.0).abs() < 1e-5, "{alpha:?} {wi:?}: {m:?}");
+            assert!(some || densities == [0.0; 2], "{alpha:?} {wi:?}: {densities:?} at {m:?}");
+        }
+        let around = normals.pdf(normals.sample(Vec2::new(0.5, 0.5)));
+        assert_eq!(around > 0.0, some, "{alpha:?} {wi:?}: {around}");
+    }
+}
+#[test]
+fn nasty_rectangles() {
+    let mut random = Random::new(15);
+    for _ in 0..cases(2000, 20_000) {
+        let mut vector = || generators::nasty(&mut random);
+        let rectangle = Rectangle::new(vector(), vector(), vector());
+        properties::any_bits(&rectangle, [random.unit(), random.unit()]);
+    }
+    // random bits, mostly of very different magnitudes
+    for _ in 0..cases(2000, 20_000) {
+        let mut vector = || core::array::from_fn(|_| random.any_f32());
+        let rectangle = Rectangle::new(vector(), vector(), vector());
+        properties::any_bits(&rectangle, [random.unit(), random.unit()]);
+    }
+}
