@@ -1,16 +1,12 @@
 //! Compares what certificates allow to compute with the light that all primitives leave, in double precision: random patches and lights in
 //! difficult scenes. `occlusion` tests the closed forms alone.
 
-mod brute_force;
-mod meshes;
-mod occlusion;
-
-use brute_force::regimes::REGIMES;
-use brute_force::values;
+use crate::brute_force::regimes::REGIMES;
+use crate::brute_force::values;
+use crate::meshes::{Triangle, cube, sheet};
 use etendue_oracle::tier::cases;
 use etendue_render::bvh::{Bvh, ShapeSet};
 use etendue_render::certify::Bodies;
-use meshes::{Triangle, cube, sheet};
 
 /// Patches and lights of each regime whose values are compared, and how many times as many are of chamfered boxes: a plane through rounded
 /// ends of an edge is wrong in one of ten thousand.

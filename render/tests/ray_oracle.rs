@@ -6,12 +6,10 @@
 //! distances below 10⁻⁴ (scale 10⁻⁶), a tree deeper than its stack ("nested"), coincident primitives ("alike"; 100,000 of them in
 //! `rays.rs`), and gaps between adjacent triangles (`closed_meshes_do_not_leak`).
 
-mod meshes;
-
+use crate::meshes::{Random, Triangle, add, cube, meshes};
 use etendue::{Mask, Real, Vec3, f32x8, u32x8};
 use etendue_render::bvh::{Bvh, GROUP, Hits, NOTHING, Scratch, ShapeSet, Traversal};
 use etendue_render::packet::M8;
-use meshes::{Random, Triangle, add, cube, meshes};
 
 type Ray = ([f32; 3], [f32; 3]);
 

@@ -10,7 +10,7 @@ use std::collections::HashMap;
 use std::f64::consts::SQRT_2;
 
 /// Greatest number of triangles of a mesh that is searched for bodies. To search so many takes 15 ms in a height field, and 76 ms if all of
-/// them are boxes, by `cargo test --release -p etendue-render --test certificates -- --ignored time_per_search --nocapture`.
+/// them are boxes, by `cargo test --release -p etendue-render time_per_search -- --ignored --nocapture`.
 const SEARCHED: usize = 65_536;
 /// Greatest number of triangles, and of faces, of a body.
 const TRIANGLES: usize = 28;

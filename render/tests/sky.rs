@@ -1,4 +1,4 @@
-//! The image of the built-in scene `sky` matches its formula. `cargo test -p etendue-render --test render sky -- --ignored` writes it again.
+//! The image of the built-in scene `sky` matches its formula. `cargo test -p etendue-render sky -- --ignored` writes it again.
 
 use etendue::warp::Octahedral;
 use etendue::{Vec2, Vec3, Warp};

@@ -1,6 +1,9 @@
-//! Images of scenes, against closed forms, references and each other, and what lights and skies emit by its definition. One program: linking the renderer takes longer than most tests.
+//! Rays, certificates, images of scenes, and what lights and skies emit: against closed forms, references and each other. One program:
+//! linking the renderer takes longer than most tests.
 
 mod analytic;
+mod brute_force;
+mod certificates;
 mod choice;
 mod daylight;
 mod glossy;
@@ -11,11 +14,15 @@ mod intensity;
 mod kit;
 mod lens;
 mod lights;
+mod meshes;
+mod occlusion;
 mod openings;
 mod panels;
 mod parts;
 mod portals;
 mod profiles;
+mod ray_oracle;
+mod rays;
 mod references;
 mod sampler;
 mod samples;

@@ -130,7 +130,7 @@ fn plain_images_are_read_however_they_are_compressed() {
 /// Found by fuzzing: a file of 600 bytes for which 2.7 GB were allocated.
 #[test]
 fn a_size_that_the_file_cannot_hold_is_an_error() {
-    let bytes = include_bytes!("../../../fuzz/seeds/image/oversized");
+    let bytes = include_bytes!("../../fuzz/seeds/image/oversized");
     let error = etendue_scene::image::decode(Path::new("large.exr"), bytes).unwrap_err().to_string();
     assert_eq!(error, "large.exr: 64 × 67108802 pixels: at most 268435456 are supported");
     // changes the last coordinates of the data window of a valid file
@@ -151,7 +151,7 @@ fn a_size_that_the_file_cannot_hold_is_an_error() {
 /// Found by fuzzing: an HDR image without rows, whose mean is 0/0.
 #[test]
 fn an_image_of_nothing_is_an_error() {
-    let bytes = include_bytes!("../../../fuzz/seeds/image/zero-rows");
+    let bytes = include_bytes!("../../fuzz/seeds/image/zero-rows");
     let error = etendue_scene::image::decode(Path::new("flat.hdr"), bytes).unwrap_err().to_string();
     assert_eq!(error, "flat.hdr: the image is empty: 4 × 0 pixels");
 }
