@@ -45,7 +45,7 @@ impl Measured {
             return Ok(Self { times, errors: HashMap::new() });
         }
         let output = Command::new(env!("CARGO"))
-            .args(["test", "--locked", "-p", "etendue-tests", "--test", "all", "warps::properties", "--", "--show-output"])
+            .args(["test", "--locked", "-p", "etendue-tests", "--test", "all", "warps::", "--", "--show-output"])
             .current_dir(root())
             .output()
             .map_err(|e| format!("cargo test: {e}"))?;

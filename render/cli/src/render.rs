@@ -270,6 +270,8 @@ fn print(
     let rays = image.rays;
     let rate = rays.camera as f64 / render / 1e6;
     writeln!(out, "{rate:.1} million samples/s; {} camera rays, {} shadow rays", rays.camera, rays.shadow)?;
+    let [shadow, mirror] = [rays.shadow, rays.mirror].map(|count| count as f64 / render / 1e6);
+    writeln!(out, "million rays/s: {rate:.1} from the camera, {shadow:.1} to lights, {mirror:.1} from mirrors")?;
     let [r, g, b] = image.film.mean();
     match options.image.sensor {
         Sensor::Radiance => writeln!(out, "mean radiance {r:.6} {g:.6} {b:.6}")?,

@@ -9,7 +9,6 @@ pub mod outcome;
 pub mod pictures;
 pub mod plot;
 mod prepare;
-mod processor_time;
 pub mod reference;
 pub mod report;
 pub mod stats;

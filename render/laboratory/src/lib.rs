@@ -6,6 +6,7 @@
 //! - [`cost`]: time per sample, for these and for the benchmarks.
 //! - [`interrupt`]: what ends the program from outside.
 //! - [`options`]: what command lines share.
+//! - [`processor_time`]: the time that the processors spend for this program.
 
 pub mod atlas;
 pub mod attack;
@@ -14,5 +15,6 @@ pub mod cost;
 mod hash;
 pub mod interrupt;
 pub mod options;
+pub mod processor_time;
 mod progress;
 mod random;

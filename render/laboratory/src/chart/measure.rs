@@ -1,10 +1,10 @@
 //! Measures error and time of every scene × technique × choice of a light × sampler × sample count, in interleaved replicates.
 
-use super::processor_time::processor_seconds;
 use super::reference::{Difference, Reference};
 use super::stats::Cost;
 use crate::cost::median;
 use crate::hash::fnv1a;
+use crate::processor_time::processor_seconds;
 use etendue_render::{ChoiceBy, Sampler, Settings, Technique, World};
 use serde::{Deserialize, Serialize};
 use std::collections::HashMap;

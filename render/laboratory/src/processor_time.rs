@@ -3,7 +3,7 @@
 /// Seconds that all threads of the program have run so far, together; `None` where the system does not tell.
 #[cfg(unix)]
 #[must_use]
-pub(super) fn processor_seconds() -> Option<f64> {
+pub fn processor_seconds() -> Option<f64> {
     use nix::time::{ClockId, clock_gettime};
     let time = clock_gettime(ClockId::CLOCK_PROCESS_CPUTIME_ID).ok()?;
     Some(time.tv_sec() as f64 + 1e-9 * time.tv_nsec() as f64)
@@ -12,7 +12,7 @@ pub(super) fn processor_seconds() -> Option<f64> {
 /// `None`: this system has no such clock.
 #[cfg(not(unix))]
 #[must_use]
-pub(super) fn processor_seconds() -> Option<f64> {
+pub fn processor_seconds() -> Option<f64> {
     None
 }
 

@@ -1,0 +1,177 @@
+//! Whole images of ten scenes with one and with two threads: samples and rays per second by kind, the time of the processors, and the seconds
+//! until the image claims an error of 1 % and of 0.1 %.
+//!
+//! `cargo bench -p etendue-benches --bench two_cores -- quads` selects scenes by name. `-- --json=FILE` writes all times, `-- --baseline=FILE`
+//! compares with those of an earlier run; paths are absolute. `-- --limit=SECONDS` ends each search for an error, `-- --limit=0` leaves
+//! them out.
+
+mod compare;
+
+use etendue_laboratory::cost::median;
+use etendue_laboratory::processor_time::processor_seconds;
+use etendue_render::progressive::{self, Goal, Refinement};
+use etendue_render::sampler::default_sampler;
+use etendue_render::{RayCount, Settings, World};
+use serde_json::{Value, json};
+use std::error::Error;
+use std::path::Path;
+use std::process::ExitCode;
+use std::time::Instant;
+
+const SCENES: [&str; 10] =
+    ["quads", "chandelier", "city", "cornell-box", "defocus", "knot", "mirror-room", "plates", "sky", "terrain"];
+/// Pixels along each side of the image, and samples of each.
+const SIDE: u32 = 256;
+const SPP: u32 = 64;
+/// How often an image is rendered with each number of threads. They take turns, so that a change of the processor's clock affects both.
+const REPETITIONS: usize = 9;
+/// The errors that are waited for, relative to the mean of the image.
+const ERRORS: [f64; 2] = [0.01, 0.001];
+/// Seconds after which a search for an error is given up.
+const LIMIT: f64 = 60.0;
+
+/// What was measured of a scene with a number of threads.
+struct Measured {
+    scene: &'static str,
+    threads: usize,
+    /// Seconds of each image.
+    seconds: Vec<f64>,
+    /// Seconds of all processors for each image; empty where the system does not tell.
+    processor: Vec<f64>,
+    /// The rays of one image.
+    rays: RayCount,
+    /// Seconds to each of the [`ERRORS`]; `None` if the limit came first.
+    to_errors: [Option<f64>; 2],
+}
+
+impl Measured {
+    /// In the manner of Criterion: the benchmark, its function and its parameter.
+    fn id(&self) -> String {
+        format!("two_cores/{}/{}", self.scene, self.threads)
+    }
+    /// Millions per second.
+    fn rate(&self, count: u64) -> f64 {
+        count as f64 / median(&self.seconds) / 1e6
+    }
+    fn print(&self) {
+        let RayCount { camera, shadow, mirror, .. } = self.rays;
+        let [samples, camera, shadow, mirror] =
+            [u64::from(SIDE * SIDE * SPP), camera, shadow, mirror].map(|count| self.rate(count));
+        let wait = |seconds: Option<f64>| seconds.map_or_else(|| "—".to_owned(), |seconds| format!("{seconds:.2}"));
+        let [first, second] = self.to_errors.map(wait);
+        let (seconds, processor) = (median(&self.seconds), median(&self.processor));
+        println!(
+            "| {} | {} | {seconds:.3} | {processor:.3} | {samples:.2} | {camera:.2} | {shadow:.2} | {mirror:.2} | {first} | {second} |",
+            self.scene, self.threads
+        );
+    }
+    fn json(&self) -> Value {
+        let RayCount { camera, shadow, mirror, corner } = self.rays;
+        json!({
+            "id": self.id(),
+            "seconds": self.seconds,
+            "processor_seconds": self.processor,
+            "samples": SIDE * SIDE * SPP,
+            "rays": { "camera": camera, "shadow": shadow, "mirror": mirror, "corner": corner },
+            "seconds_to_errors": self.to_errors,
+        })
+    }
+}
+
+/// Seconds until an image claims the error, if that is within the limit.
+fn seconds_to(world: &World, settings: Settings, error: f64, limit: f64) -> Result<Option<f64>, String> {
+    let goal = Goal { seconds: Some(limit), error: Some(error) };
+    let plan = Refinement { settings, sampler: None, goal };
+    let done = progressive::render(world, &plan, &|_| (), |_, _| (), |_| Ok(()))?;
+    Ok(done.error.is_some_and(|claim| claim.total() <= error).then_some(done.seconds))
+}
+
+/// Measures a scene with one and with two threads.
+fn measure(scene: &'static str, limit: f64) -> Result<[Measured; 2], Box<dyn Error>> {
+    let world = World::from_scene(&mut etendue_scene::load(scene)?)?;
+    let base = Settings { width: SIDE, height: SIDE, spp: SPP, seed: 1, ..Settings::DEFAULT };
+    let settings = Settings { sampler: default_sampler(SPP, base.sets), ..base };
+    let new = |threads| Measured {
+        scene,
+        threads,
+        seconds: Vec::new(),
+        processor: Vec::new(),
+        rays: RayCount::default(),
+        to_errors: [None; 2],
+    };
+    let mut both = [new(1), new(2)];
+    let pool = |threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+    let pools = [pool(1)?, pool(2)?];
+    // the first image of each warms up
+    for repetition in 0..=REPETITIONS {
+        for (measured, pool) in both.iter_mut().zip(&pools) {
+            let (before, start) = (processor_seconds(), Instant::now());
+            measured.rays = pool.install(|| world.render(&settings, &|_| ())).1;
+            let seconds = start.elapsed().as_secs_f64();
+            if repetition > 0 {
+                measured.seconds.push(seconds);
+                measured.processor.extend(processor_seconds().zip(before).map(|(after, before)| after - before));
+            }
+        }
+    }
+    for (measured, pool) in both.iter_mut().zip(&pools).filter(|_| limit > 0.0) {
+        for (seconds, error) in measured.to_errors.iter_mut().zip(ERRORS) {
+            *seconds = pool.install(|| seconds_to(&world, settings, error, limit))?;
+        }
+    }
+    Ok(both)
+}
+
+fn run() -> Result<(), Box<dyn Error>> {
+    // cargo passes --bench too
+    let arguments: Vec<String> = std::env::args().skip(1).filter(|argument| argument != "--bench").collect();
+    let (mut filter, mut json, mut baseline, mut limit) = ("", None, None, LIMIT);
+    for argument in &arguments {
+        match argument.split_once('=') {
+            Some(("--json", path)) => json = Some(Path::new(path)),
+            Some(("--baseline", path)) => baseline = Some(compare::Baseline::read(Path::new(path))?),
+            Some(("--limit", seconds)) => {
+                let valid = seconds.parse().ok().filter(|seconds| (0.0..=1e6).contains(seconds));
+                limit = valid.ok_or_else(|| format!("--limit={seconds}: not a number of seconds from 0 to 1e6"))?;
+            }
+            None if !argument.starts_with('-') => filter = argument,
+            _ => return Err(format!("{argument}: not one of --json=FILE, --baseline=FILE and --limit=SECONDS").into()),
+        }
+    }
+    let chosen: Vec<_> = SCENES.into_iter().filter(|scene| scene.contains(filter)).collect();
+    if chosen.is_empty() {
+        return Err(format!("{filter}: in the name of no scene; there are {}", SCENES.join(", ")).into());
+    }
+    println!(
+        "| scene | threads | s | processor s | M samples/s | M camera rays/s | M shadow rays/s | M mirror rays/s | s to 1 % | s to 0.1 % |"
+    );
+    println!("|---|---|---|---|---|---|---|---|---|---|");
+    let mut all = Vec::new();
+    for scene in chosen {
+        for measured in measure(scene, limit).map_err(|error| format!("{scene}: {error}"))? {
+            measured.print();
+            all.push(measured);
+        }
+    }
+    if let Some(path) = json {
+        let rows: Value = all.iter().map(Measured::json).collect();
+        std::fs::write(path, format!("{rows:#}\n")).map_err(|error| format!("{}: {error}", path.display()))?;
+    }
+    if let Some(baseline) = baseline {
+        println!("\n| | seconds, over those of the baseline | 95 % |\n|---|---|---|");
+        for measured in &all {
+            println!("{}", baseline.row(&measured.id(), &measured.seconds));
+        }
+    }
+    Ok(())
+}
+
+fn main() -> ExitCode {
+    match run() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::from(2)
+        }
+    }
+}
