@@ -62,7 +62,7 @@ impl Image {
 fn samples_follow_the_pdf() {
     let mut random = Random::new(5);
     for light in LIGHTS {
-        for image in images().iter().filter(|image| image.name != "sparks").step_by(cases(3, 1)) {
+        for image in images().iter().filter(|image| image.name != "sparks").step_by(cases(5, 1)) {
             let mut buffer = image.buffer();
             let picture = image.build(light, &mut buffer);
             for p in POINTS.into_iter().step_by(cases(2, 1)) {
@@ -129,7 +129,8 @@ fn samples_follow_the_pdf() {
 fn samples_are_worth_the_light() {
     let count = 9216;
     for light in LIGHTS {
-        for image in images().iter().filter(|image| ["flat", "half of it black"].contains(&image.name)) {
+        let whole = |image: &&Image| ["flat", "half of it black"].contains(&image.name);
+        for image in images().iter().filter(whole).step_by(cases(5, 1)) {
             let mut buffer = image.buffer();
             let picture = image.build(light, &mut buffer);
             for p in POINTS.into_iter().step_by(cases(2, 1)) {

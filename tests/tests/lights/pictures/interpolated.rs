@@ -41,7 +41,7 @@ fn means_of_interpolated_texels() {
 fn interpolated_pictures() {
     let mut random = Random::new(9);
     for light in LIGHTS.into_iter().filter(|light| light.region() == Region::Square) {
-        for [width, height] in [[1, 1], [2, 5], [16, 9]] {
+        for [width, height] in [[1, 1], [2, 5], [16, 9]].into_iter().skip(cases(1, 0)) {
             // some texels are dark, and some very bright
             let values: Vec<f32> = (0..width * height)
                 .map(|i| if i % 4 == 3 { 0.0 } else { 0.01 + random.unit().powi(6) * 50.0 })
