@@ -5,7 +5,7 @@ mod spheres;
 use core::f64::consts::{PI, TAU};
 use etendue::light::Polygon;
 use etendue::reflection::Reflection;
-use etendue::{LightSampler, Parallelogram, Real, Rectangle, Triangle, Vec2, Vec3, Warp, f32x8};
+use etendue::{LightSampler, Parallelogram, Real, Rectangle, Triangle, Vec2, Vec3, Warp};
 use etendue_oracle::tier::cases;
 use etendue_oracle::{V3, along, basis, cross, dot, length, narrow, sub, unit, wide};
 use etendue_properties::generators::Random;
@@ -369,39 +369,6 @@ fn samplers_have_the_solid_angle() {
         }
     }
     assert!(count > 20, "{count} lights");
-}
-
-/// A packet has the bits of its lanes.
-#[test]
-fn lanes_have_the_bits_of_scalars() {
-    let mut random = Random::new(7);
-    for _ in 0..cases(50, 2_000) {
-        let flats: [Flat; 8] = core::array::from_fn(|_| flat(&mut random));
-        let us: [[f32; 2]; 8] = core::array::from_fn(|_| [random.unit(), random.unit()]);
-        let of = |f: fn(&Flat) -> V3| {
-            let all = flats.each_ref().map(f).map(narrow);
-            Vec3::new(f32x8::from_fn(|i| all[i][0]), f32x8::from_fn(|i| all[i][1]), f32x8::from_fn(|i| all[i][2]))
-        };
-        let alpha = f32x8::from_fn(|i| flats[i].place.alpha as f32);
-        let reflection = Reflection::new(alpha, of(|f| f.place.normal), of(|f| f.place.view));
-        let u = Vec2::new(f32x8::from_fn(|i| us[i][0]), f32x8::from_fn(|i| us[i][1]));
-        let (corner, s, t) = (of(|f| f.corner), of(|f| f.s), of(|f| f.t));
-        let sampler = Parallelogram::new(corner, s, t).by_reflection(Vec3::default(), &reflection);
-        let drawn = sampler.sample(u);
-        let ball = reflection.sphere(corner, s.length());
-        for (i, flat) in flats.iter().enumerate() {
-            let one = flat.place.reflection::<f32>();
-            let light = Parallelogram::new(vector(flat.corner), vector(flat.s), vector(flat.t));
-            let alone = light.by_reflection(Vec3::default(), &one);
-            let sample = alone.sample(Vec2::new(us[i][0], us[i][1]));
-            assert_eq!(drawn.direction.lane(i), sample.direction);
-            assert_eq!(drawn.pdf.lane(i).to_bits(), sample.pdf.to_bits());
-            assert_eq!(
-                ball.lane(i).to_bits(),
-                one.sphere(vector(flat.corner), vector::<f32>(flat.s).length()).to_bits()
-            );
-        }
-    }
 }
 
 /// Whatever the input, nothing is infinite, and no pdf is NaN.

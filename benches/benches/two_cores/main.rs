@@ -1,5 +1,5 @@
-//! Whole images of ten scenes with one and with two threads: samples and rays per second by kind, the time of the processors, and the seconds
-//! until the image claims an error of 1 % and of 0.1 %.
+//! Whole images of ten scenes with one and with two threads: samples and rays per second by kind and the time of the processors, by solid
+//! angle, which traces a shadow ray for each sample; and the seconds until an image by `auto` claims an error of 1 % and of 0.1 %.
 //!
 //! `cargo bench -p etendue-benches --bench two_cores -- quads` selects scenes by name. `-- --json=FILE` writes all times, `-- --baseline=FILE`
 //! compares with those of an earlier run; paths are absolute. `-- --limit=SECONDS` ends each search for an error, `-- --limit=0` leaves
@@ -11,7 +11,7 @@ use etendue_laboratory::cost::median;
 use etendue_laboratory::processor_time::processor_seconds;
 use etendue_render::progressive::{self, Goal, Refinement};
 use etendue_render::sampler::default_sampler;
-use etendue_render::{RayCount, Settings, World};
+use etendue_render::{RayCount, Settings, Technique, World};
 use serde_json::{Value, json};
 use std::error::Error;
 use std::path::Path;
@@ -91,6 +91,7 @@ fn measure(scene: &'static str, limit: f64) -> Result<[Measured; 2], Box<dyn Err
     let world = World::from_scene(&mut etendue_scene::load(scene)?)?;
     let base = Settings { width: SIDE, height: SIDE, spp: SPP, seed: 1, ..Settings::DEFAULT };
     let settings = Settings { sampler: default_sampler(SPP, base.sets), ..base };
+    let traced = Settings { technique: Technique::SolidAngle, ..settings };
     let new = |threads| Measured {
         scene,
         threads,
@@ -106,7 +107,7 @@ fn measure(scene: &'static str, limit: f64) -> Result<[Measured; 2], Box<dyn Err
     for repetition in 0..=REPETITIONS {
         for (measured, pool) in both.iter_mut().zip(&pools) {
             let (before, start) = (processor_seconds(), Instant::now());
-            measured.rays = pool.install(|| world.render(&settings, &|_| ())).1;
+            measured.rays = pool.install(|| world.render(&traced, &|_| ())).1;
             let seconds = start.elapsed().as_secs_f64();
             if repetition > 0 {
                 measured.seconds.push(seconds);

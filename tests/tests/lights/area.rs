@@ -2,16 +2,16 @@
 
 use core::f64::consts::PI;
 use etendue::{
-    BilinearPatch, ConstantEnvironment, DirectionalLight, Disk, LightSample, LightSampler, Line, Mask, Parallelogram,
-    PointLight, Polygon, Real, Rectangle, Sphere, SpotLight, Sun, Triangle, Vec2, Vec3, f32x4, f32x8, f32x16,
+    BilinearPatch, ConstantEnvironment, DirectionalLight, Disk, LightSample, LightSampler, Line, Parallelogram,
+    PointLight, Polygon, Rectangle, Sphere, SpotLight, Sun, Triangle, Vec2, Vec3,
 };
 use etendue_oracle::tier::cases;
 use etendue_oracle::{
     V3, along, basis, cross, dot, facing_disk, gauss_legendre, length, narrow, perpendicular_disk, projected_polygon,
     sub, unit,
 };
-use etendue_properties::generators::{self, Random};
-use etendue_properties::properties::{Coordinates, squares_of, twice, vectors_of};
+use etendue_properties::generators::Random;
+use etendue_properties::properties::Coordinates;
 
 /// Mean of f over an n × n grid of `u`.
 fn mean(n: usize, f: impl Fn(Vec2<f64>) -> f64) -> f64 {
@@ -331,114 +331,6 @@ fn narrow_cones_are_as_narrow_as_they_are() {
                 let found = falloff(at * outer);
                 assert!(inner == 1.0 || (found - truth).abs() < 12.0 * rounding, "{degrees}: {found} for {truth}");
             }
-        }
-    }
-}
-
-/// All lights with the parameters a, b (b also as a unit vector) and r, from the point p.
-fn samples<R: Real>(p: Vec3<R>, a: Vec3<R>, b: Vec3<R>, r: R, u: Vec2<R>) -> [LightSample<R>; 12] {
-    let n = b.normalize();
-    [
-        Disk { center: a, normal: n, radius: r }.by_area(p).sample(u),
-        Disk { center: a, normal: n, radius: r }.by_solid_angle(p).sample(u),
-        Line { start: a, edge: b }.by_length(p).sample(u),
-        Line { start: a, edge: b }.by_angle(p).sample(u),
-        Line { start: a, edge: b }.by_projected_solid_angle(p, n).sample(u),
-        PointLight { position: a }.by_delta(p).sample(u),
-        SpotLight { position: a, axis: n, one_minus_cos_inner: u.x, one_minus_cos_outer: u.y }.by_delta(p).sample(u),
-        SpotLight { position: a, axis: n, one_minus_cos_inner: u.x, one_minus_cos_outer: u.x }.by_delta(p).sample(u),
-        DirectionalLight { direction: n }.by_delta().sample(u),
-        Sun { direction: n, one_minus_cos: u.x + u.y }.by_solid_angle().sample(u),
-        ConstantEnvironment.by_solid_angle().sample(u),
-        ConstantEnvironment.by_projected_solid_angle(n).sample(u),
-    ]
-}
-fn bits<R: Real>(s: &LightSample<R>, i: usize) -> [u64; 7] {
-    let [x, y, z] = s.direction.at(i);
-    let masks = u64::from(s.emits.lane(i)) + 2 * u64::from(s.delta.lane(i));
-    [x.to_bits(), y.to_bits(), z.to_bits(), s.distance.lane_f64(i).to_bits(), s.pdf.lane_f64(i).to_bits(), masks, 0]
-}
-
-#[test]
-fn any_bits_in_every_lane() {
-    let mut random = Random::new(3);
-    for round in 0..5000 {
-        let mut vectors = || -> [[f32; 3]; 8] {
-            core::array::from_fn(|_| {
-                if round % 3 == 0 { generators::nasty(&mut random) } else { random.direction().map(|x| x as f32) }
-            })
-        };
-        let (p, a, b, r) = (vectors(), vectors(), vectors(), vectors());
-        let us: [[f32; 2]; 8] = core::array::from_fn(|_| [random.unit(), random.unit()]);
-        let radius = |i: usize| r[i][0];
-        let one: Vec<_> = (0..8)
-            .map(|i| {
-                let v = |x: [f32; 3]| vectors_of::<f32>(|_| x);
-                samples(v(p[i]), v(a[i]), v(b[i]), radius(i), squares_of(&us[i..=i]))
-            })
-            .collect();
-        let eight = samples::<f32x8>(
-            vectors_of(|i| p[i]),
-            vectors_of(|i| a[i]),
-            vectors_of(|i| b[i]),
-            f32x8::from_fn(radius),
-            squares_of(&us),
-        );
-        let [p16, a16, b16] = [p, a, b].map(|v| twice(&v));
-        let sixteen = samples::<f32x16>(
-            vectors_of(|i| p16[i]),
-            vectors_of(|i| a16[i]),
-            vectors_of(|i| b16[i]),
-            f32x16::from_fn(|i| twice(&r)[i][0]),
-            squares_of(&twice(&us)),
-        );
-        let four = samples::<f32x4>(
-            vectors_of(|i| p[i]),
-            vectors_of(|i| a[i]),
-            vectors_of(|i| b[i]),
-            f32x4::from_fn(radius),
-            squares_of(&us[..4]),
-        );
-        for (i, scalars) in one.iter().enumerate() {
-            for (k, scalar) in scalars.iter().enumerate() {
-                assert_eq!(bits(scalar, 0), bits(&eight[k], i), "light {k}, lane {i}: {scalar:?}\n{:?}", eight[k]);
-                assert!(i > 3 || bits(scalar, 0) == bits(&four[k], i), "light {k}, lane {i}");
-                for lane in [i, 15 - i] {
-                    assert_eq!(bits(scalar, 0), bits(&sixteen[k], lane), "light {k}, lane {lane} of 16");
-                }
-                let s = scalar;
-                let finite = length(s.direction.at(0)).is_finite() && s.pdf.is_finite() && s.pdf >= 0.0;
-                assert!(
-                    finite && s.distance.is_finite(),
-                    "light {k}: {s:?}\n{:?} {:?} {:?} {}",
-                    p[i],
-                    a[i],
-                    b[i],
-                    r[i][0]
-                );
-            }
-        }
-    }
-}
-
-#[test]
-fn scale_changes_no_direction() {
-    let mut random = Random::new(4);
-    for _ in 0..2000 {
-        let [p, a, b] = [(); 3].map(|()| random.direction().map(|x| x as f32));
-        let (r, u) = (random.unit() + 0.01, [random.unit(), random.unit()]);
-        for power in [-20, -7, 20] {
-            let f = 2.0_f32.powi(power);
-            let times = |v: [f32; 3], f: f32| vectors_of::<f32>(|_| v.map(|x| x * f));
-            let s = Disk { center: times(a, 1.0), normal: times(b, 1.0), radius: r }
-                .by_area(times(p, 1.0))
-                .sample(squares_of(&[u]));
-            let t = Disk { center: times(a, f), normal: times(b, 1.0), radius: r * f }
-                .by_area(times(p, f))
-                .sample(squares_of(&[u]));
-            assert_eq!(s.direction, t.direction);
-            assert_eq!(s.pdf.to_bits(), t.pdf.to_bits());
-            assert_eq!(s.distance * f, t.distance);
         }
     }
 }

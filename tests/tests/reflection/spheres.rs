@@ -4,7 +4,7 @@ use super::{Place, closed, vector};
 use core::f64::consts::TAU;
 use etendue::light::SphereByReflection;
 use etendue::reflection::Reflection;
-use etendue::{LightSampler, Real, Sphere, Vec2, Vec3, Warp, f32x8};
+use etendue::{LightSampler, Real, Sphere, Vec2, Vec3, Warp};
 use etendue_oracle::tier::cases;
 use etendue_oracle::{V3, along, basis, cross, dot, length, narrow, sub, wide};
 use etendue_properties::generators::Random;
@@ -202,30 +202,6 @@ fn samplers_are_closed() {
             }
             let under = vector(ball.place.normal.map(|x| -x));
             assert_eq!(sampler.pdf(under), 0.0, "{ball:?}");
-        }
-    }
-}
-
-/// A packet has the bits of its lanes.
-#[test]
-fn lanes_have_the_bits_of_scalars() {
-    let mut random = Random::new(24);
-    for _ in 0..cases(50, 2_000) {
-        let balls: [Ball; 8] = core::array::from_fn(|i| Ball::new(&mut random, SINES[i], 1e-3));
-        let us: [[f32; 2]; 8] = core::array::from_fn(|_| [random.unit(), random.unit()]);
-        let of = |f: fn(&Ball) -> V3| Vec3::<f32x8>::gather(&balls.each_ref().map(f));
-        let alpha = f32x8::from_fn(|i| balls[i].place.alpha as f32);
-        let reflection = Reflection::new(alpha, of(|b| b.place.normal), of(|b| b.place.view));
-        let light = Sphere::new(of(|b| b.center), f32x8::from_fn(|i| balls[i].radius as f32));
-        let sampler = light.by_reflection(Vec3::default(), &reflection);
-        let drawn = sampler.sample(Vec2::new(f32x8::from_fn(|i| us[i][0]), f32x8::from_fn(|i| us[i][1])));
-        let back = sampler.invert(drawn.direction);
-        for (i, ball) in balls.iter().enumerate() {
-            let alone = ball.sampler::<f32>();
-            let sample = alone.sample(Vec2::new(us[i][0], us[i][1]));
-            assert_eq!(drawn.direction.lane(i), sample.direction, "{ball:?}");
-            assert_eq!(drawn.pdf.lane(i).to_bits(), sample.pdf.to_bits(), "{ball:?}");
-            assert_eq!(back.lane(i), alone.invert(sample.direction), "{ball:?}");
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Sequences: marginals, independence, strata, permutations, and the variances predicted by theory.
 
+use etendue::Vec2;
 use etendue::sequence::{CounterRng, Independent, Sequence, Stratified};
-use etendue::{Uint, Vec2, f32x8, f32x16, u32x8, u32x16};
 use etendue_oracle::tier::cases;
 use etendue_properties::stats;
 use etendue_properties::tolerances::SIGNIFICANCE;
@@ -18,34 +18,6 @@ fn pair(sequence: &impl Sequence, pixel: u32, sample: u32, dimension: u32) -> [f
 fn likely(p: f64, what: &str) {
     println!("{what:40} p = {p:.2e}");
     assert!(p > SIGNIFICANCE, "{what}: p = {p:e}");
-}
-
-#[test]
-fn packets_are_scalars() {
-    fn check(sequence: &impl Sequence) {
-        for start in [0, 5, 1 << 20, u32::MAX - 8] {
-            for dimension in 0..4 {
-                let pixel = |k: usize| start.wrapping_add(k as u32 * 977);
-                let sample = |k: usize| start / 2 + k as u32 * 3;
-                let eight: Vec2<f32x8> = sequence.pair(u32x8::from_fn(pixel), u32x8::from_fn(sample), dimension);
-                let (pixels, samples) = (u32x16::from_fn(pixel), u32x16::from_fn(sample));
-                let sixteen: Vec2<f32x16> = sequence.pair(pixels, samples, dimension);
-                for k in 0..16 {
-                    let one: Vec2<f32> = sequence.pair(pixels.lane(k), samples.lane(k), dimension);
-                    let wide: Vec2<f64> = sequence.pair(pixels.lane(k), samples.lane(k), dimension);
-                    assert_eq!(sixteen.lane(k), one);
-                    assert!(k > 7 || eight.lane(k) == one);
-                    // f64 does not round the jitter
-                    let error = (wide.x - f64::from(one.x)).abs().max((wide.y - f64::from(one.y)).abs());
-                    assert!(error < 2.4e-7, "{error:e}: {one:?} {wide:?} for sample {}", samples.lane(k));
-                }
-            }
-        }
-    }
-    check(&Independent::new(3));
-    for count in [1, 7, 64, 100, 4096] {
-        check(&Stratified::new(3, count));
-    }
 }
 
 #[test]
