@@ -2,10 +2,13 @@
 
 use clap::Args;
 use etendue_laboratory::options::{named, say, size, threads, whole};
+use etendue_laboratory::progress::waiting;
+use etendue_render::bvh::BuildError;
 use etendue_render::limits::MOST_SAMPLES;
 use etendue_render::sampler::default_sampler;
 use etendue_render::scene::Scene;
-use etendue_render::{ChoiceBy, Sampler, Sensor, Settings, Technique};
+use etendue_render::{ChoiceBy, Sampler, Sensor, Settings, Technique, World};
+use rayon::ThreadPool;
 use std::error::Error;
 use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
@@ -60,10 +63,10 @@ fn sets(text: &str) -> Result<u32, String> {
 impl ImageOptions {
     /// Reads the scene, prints its warnings, and completes the settings.
     pub(crate) fn load(&self) -> Result<(Scene, Settings), Box<dyn Error>> {
-        let mut scene = match &self.environment {
+        let mut scene = waiting(format!("reading {}", self.scene.display()), || match &self.environment {
             Some(sky) => etendue_scene::load_with_sky(&self.scene, sky),
             None => etendue_scene::load(&self.scene),
-        }?;
+        })?;
         if let Some(stand_in) = scene.stand_ins.first().filter(|_| self.strict) {
             return Err(format!("--strict: {stand_in}").into());
         }
@@ -94,6 +97,12 @@ impl ImageOptions {
             seed: self.seed,
         };
         Ok((scene, settings))
+    }
+
+    /// Builds the trees and tables of a scene with these threads.
+    pub(crate) fn world(&self, scene: &mut Scene, pool: &ThreadPool) -> Result<World, BuildError> {
+        let built = waiting(format!("building {}", scene.name), || pool.install(|| World::from_scene(scene)));
+        Ok(built?.with_sensor(self.sensor))
     }
 
     /// Checks that the sampler supports the number of samples.

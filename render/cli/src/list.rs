@@ -4,12 +4,15 @@ use etendue_laboratory::options::out;
 use etendue_render::{ChoiceBy, Sampler, Sensor, Technique};
 use std::io::{self, Write};
 
+/// Letters of the longest name, `projected-solid-angle`.
+const WIDTH: usize = 21;
+
 /// Prints the built-in scenes, techniques, choices, samplers and sensors, each with a description.
 pub(crate) fn run() -> io::Result<()> {
     let mut out = out();
     writeln!(out, "scenes")?;
     for (name, about) in etendue_scene::builtin() {
-        writeln!(out, "  {name:20} {about}")?;
+        writeln!(out, "  {name:WIDTH$} {about}")?;
     }
     values(&mut out, "techniques", &Technique::NAMES)?;
     values(&mut out, "choices", &ChoiceBy::NAMES)?;
@@ -19,5 +22,5 @@ pub(crate) fn run() -> io::Result<()> {
 
 fn values(out: &mut impl Write, title: &str, names: &[[&str; 2]]) -> io::Result<()> {
     writeln!(out, "{title}")?;
-    names.iter().try_for_each(|[name, about]| writeln!(out, "  {name:20} {about}"))
+    names.iter().try_for_each(|[name, about]| writeln!(out, "  {name:WIDTH$} {about}"))
 }

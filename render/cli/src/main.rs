@@ -1,5 +1,6 @@
 //! The renderer's command line: reads the arguments, runs a command and sets the exit code.
 
+mod beside;
 mod compare;
 mod display;
 mod image;

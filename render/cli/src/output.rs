@@ -114,6 +114,19 @@ impl Output {
     }
 }
 
+/// A number with commas between groups of three digits.
+pub(crate) fn grouped(n: u64) -> String {
+    let digits = n.to_string();
+    let mut text = String::new();
+    for (i, digit) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i) % 3 == 0 {
+            text.push(',');
+        }
+        text.push(digit);
+    }
+    text
+}
+
 /// A fraction as a percentage with three digits.
 pub(crate) fn percent(x: f64) -> String {
     let x = 100.0 * x;

@@ -13,7 +13,7 @@ use etendue_render::files;
 use etendue_render::merge;
 use etendue_render::parts::{self, Piece, PieceFile, PieceKind};
 use etendue_render::scene::Scene;
-use etendue_render::{Identity, Sampler, Settings, World, image};
+use etendue_render::{Identity, Sampler, Settings, image};
 use serde_json::json;
 use std::error::Error;
 use std::io::Write;
@@ -180,7 +180,7 @@ pub(crate) fn run(
     let counts = if let What::After(file) = what { Some(merge::pixel_counts(file, &identity, *area)?) } else { None };
 
     let pool = pool(options.threads)?;
-    let world = pool.install(|| World::from_scene(&mut scene))?.with_sensor(options.sensor);
+    let world = options.world(&mut scene, &pool)?;
     world.check(&settings)?;
     let bar = bar(area::count(*area) as u64, "{wide_bar} {percent:>3} %  {elapsed} of {duration}");
     interrupt.watch(&bar, &path);

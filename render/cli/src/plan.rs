@@ -39,12 +39,12 @@ fn quote(word: &OsStr) -> Vec<u8> {
 }
 
 /// A command as a line without its end.
-fn line(words: &[OsString]) -> Vec<u8> {
+pub(crate) fn line(words: &[OsString]) -> Vec<u8> {
     words.iter().map(|word| quote(word)).collect::<Vec<_>>().join(&b' ')
 }
 
 /// The words of a list.
-fn words<const N: usize>(words: [&dyn AsRef<OsStr>; N]) -> Vec<OsString> {
+pub(crate) fn words<const N: usize>(words: [&dyn AsRef<OsStr>; N]) -> Vec<OsString> {
     words.map(|word| word.as_ref().to_owned()).into()
 }
 

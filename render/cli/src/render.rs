@@ -1,14 +1,16 @@
 //! `etendue render`: renders a scene with a given number of samples, or until its error or the time is what was asked for.
 
+use crate::beside::{Beside, Cost};
 use crate::display::{Display, DisplayOptions};
 use crate::image::ImageOptions;
 use crate::interrupt::Interrupt;
-use crate::output::{Output, percent};
+use crate::output::{Output, grouped, percent};
 use crate::part::{self, PartOptions};
+use crate::plan::{line, words};
 use crate::progress::bar;
 use clap::Args;
 use etendue_laboratory::cost::median;
-use etendue_laboratory::options::{out, pool, whole};
+use etendue_laboratory::options::{named, out, pool, whole};
 use etendue_render::claim::{Claim, why_unknown};
 use etendue_render::film::Film;
 use etendue_render::progressive::{self, Goal, Pass, Progress, Refinement};
@@ -39,6 +41,9 @@ pub(crate) struct Options {
     /// Render the same image this many times, for timing
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = whole::<u32>(1..=1_000_000), conflicts_with = "parts")]
     repeat: u32,
+    /// Render the scene by this technique too, in the same time, and write a PNG whose left half is that image
+    #[arg(long, value_name = "TECHNIQUE", value_parser = named::<Technique>(&Technique::NAMES), hide_possible_values = true, conflicts_with_all = ["parts", "repeat", "json"])]
+    beside: Option<Technique>,
     #[command(flatten)]
     display: DisplayOptions,
     /// Print the result as one JSON object
@@ -99,19 +104,30 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
         return part::run(image, &content, options.output.as_deref(), scene, settings, options.json, &interrupt);
     }
     let output = Output::new(options.output.as_deref(), &scene, image.stem())?;
+    let beside = options.beside.map(|technique| Beside::new(technique, &output, &scene.inputs)).transpose()?;
     let identity = Identity::new(&scene, settings, image.sensor);
+    let exposure = identity.exposure;
 
     let pool = pool(image.threads)?;
     let start = Instant::now();
-    let world = pool.install(|| World::from_scene(&mut scene))?.with_sensor(image.sensor);
+    let world = image.world(&mut scene, &pool)?;
     world.check(&settings)?;
+    if let Some(beside) = &beside {
+        world.check(&Settings { technique: beside.technique, ..settings })?;
+    }
     let build = start.elapsed().as_secs_f64();
 
     let display = RefCell::new(options.display.connect(&output.exr));
     let studio = Session { world: &world, identity, output: &output, interrupt: &interrupt, display };
-    let done = pool.install(move || match &plan {
-        None => studio.once(options.repeat),
-        Some(plan) => studio.refine(plan),
+    let technique = beside.as_ref().map(|beside| beside.technique);
+    let (done, other) = pool.install(move || -> Result<_, String> {
+        let done = match &plan {
+            None => studio.once(options.repeat),
+            Some(plan) => studio.refine(plan),
+        }?;
+        let seconds = median(&done.seconds);
+        let other = technique.map(|technique| studio.other(Settings { technique, ..settings }, image.sampler, seconds));
+        Ok((done, other.transpose()?))
     })?;
 
     let chosen = world.view(&settings).technique();
@@ -123,6 +139,22 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
         print(options, &settings, chosen, &scene.name, &done, &output, times)
     };
     said.map_err(|error| output.were_written(&error))?;
+    if let (Some(beside), Some(other)) = (beside, other) {
+        let wrote = beside.write(&other.film, &done.film, exposure)?;
+        let of = |settings: &Settings, seconds: f64, shadow_rays: u64, error: Option<Claim>| Cost {
+            technique: title(settings.technique, world.view(settings).technique()),
+            seconds,
+            shadow_rays,
+            error,
+        };
+        let left =
+            of(&Settings { technique: beside.technique, ..settings }, other.seconds, other.rays.shadow, other.error);
+        let right = of(&settings, median(&done.seconds), done.rays.shadow, done.error);
+        writeln!(out(), "{wrote}: the same scene in the same time\n  left   {left}\n  right  {right}")?;
+    }
+    if !options.json {
+        next_steps(image, &done, chosen)?;
+    }
     Ok(())
 }
 
@@ -196,6 +228,18 @@ impl Session<'_> {
         Ok(Image { film, error, rays, spp, sampler, sets, has_sets, seconds: vec![seconds], passes })
     }
 
+    /// Renders the scene with other settings in so many seconds, and writes nothing.
+    fn other(&self, settings: Settings, sampler: Option<Sampler>, seconds: f64) -> Result<Progress, String> {
+        let plan = Refinement { settings, sampler, goal: Goal { seconds: Some(seconds), error: None } };
+        let template = format!("{{wide_bar}} {{elapsed}} of {seconds:.1} s, by {}", settings.technique.name());
+        let bar = bar((seconds * 1000.0) as u64, &template);
+        let began = Instant::now();
+        let advance = |_| bar.set_position(began.elapsed().as_millis() as u64);
+        let done = progressive::render(self.world, &plan, &advance, |_, _| (), |_| Ok(()));
+        bar.finish_and_clear();
+        done
+    }
+
     fn write(&self, film: &Film, identity: &Identity, error: Option<Claim>) -> Result<(), String> {
         self.output.save(self.interrupt, film, identity, error)?;
         self.display.borrow_mut().show(film);
@@ -243,6 +287,37 @@ fn to_json(
     })
 }
 
+/// The name of a technique, with that of the one that `auto` stands for.
+fn title(technique: Technique, chosen: Technique) -> String {
+    let (name, other) = (technique.name(), chosen.name());
+    if name == other { name.to_owned() } else { format!("{name} ({other})") }
+}
+
+/// Prints what the number of shadow rays means, and the commands that a reader may want to try next.
+fn next_steps(image: &ImageOptions, done: &Image, chosen: Technique) -> io::Result<()> {
+    let mut out = out();
+    let RayCount { camera, shadow, .. } = done.rays;
+    if chosen == Technique::Analytic && shadow < camera / 2 {
+        let [shadow, camera] = [shadow, camera].map(grouped);
+        writeln!(
+            out,
+            "{shadow} shadow rays sufficed, where sampling one light for each camera ray takes up to {camera}: the rest was proved"
+        )?;
+    }
+    let program = std::env::args_os().next().unwrap_or_else(|| "etendue".into());
+    let other = if chosen == Technique::Area { Technique::Auto } else { Technique::Area }.name();
+    for (what, command) in [
+        ("compare", words([&program, &"render", &image.scene, &"--beside", &other])),
+        ("measure", words([&program, &"chart", &image.scene, &"--quick"])),
+        ("watch", words([&program, &"view", &image.scene])),
+    ] {
+        write!(out, "{what}: ")?;
+        out.write_all(&line(&command))?;
+        writeln!(out)?;
+    }
+    Ok(())
+}
+
 fn print(
     options: &Options,
     settings: &Settings,
@@ -255,11 +330,7 @@ fn print(
     let mut out = out();
     let Settings { width, height, technique, .. } = settings;
     let sampler = image.sampler.name();
-    let technique = if chosen == *technique {
-        chosen.name().to_owned()
-    } else {
-        format!("{} ({})", technique.name(), chosen.name())
-    };
+    let technique = title(*technique, chosen);
     writeln!(out, "{scene}: {width}x{height}, {} samples per pixel, {technique}, {sampler}", image.spp)?;
     if !image.passes.is_empty() {
         let spp: Vec<String> = image.passes.iter().map(|p| p.spp.to_string()).collect();

@@ -16,5 +16,5 @@ mod hash;
 pub mod interrupt;
 pub mod options;
 pub mod processor_time;
-mod progress;
+pub mod progress;
 mod random;

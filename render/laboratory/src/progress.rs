@@ -2,6 +2,34 @@
 
 use indicatif::{ProgressBar, ProgressStyle};
 use std::error::Error;
+use std::sync::mpsc::{self, RecvTimeoutError};
+use std::thread;
+use std::time::Duration;
+
+/// Work that takes no longer than this needs no words.
+const PATIENCE: Duration = Duration::from_secs(1);
+/// Time from one picture of a spinner to the next.
+const TURN: Duration = Duration::from_millis(120);
+
+/// Does something, and says on a terminal what that is, if it takes longer than a second.
+pub fn waiting<T>(what: String, work: impl FnOnce() -> T) -> T {
+    let style = ProgressStyle::with_template("{spinner} {msg}, {elapsed}");
+    let bar = ProgressBar::no_length().with_style(style.unwrap_or_else(|_| ProgressStyle::default_spinner()));
+    let bar = bar.with_message(what);
+    let (working, end) = mpsc::channel::<()>();
+    let shown = &bar;
+    thread::scope(|scope| {
+        scope.spawn(move || {
+            if end.recv_timeout(PATIENCE) == Err(RecvTimeoutError::Timeout) {
+                shown.enable_steady_tick(TURN);
+            }
+        });
+        let result = work();
+        bar.finish_and_clear();
+        drop(working);
+        result
+    })
+}
 
 /// A progress bar, which draws nothing unless stderr is a terminal.
 pub(crate) fn bar(total: u64, what: &str) -> Result<ProgressBar, Box<dyn Error>> {

@@ -97,7 +97,7 @@ impl Worker<'_> {
     fn build(&self, Reading { mut scene, settings, began }: Reading) -> Result<Subject, Box<dyn Error>> {
         let watch = Watch::new(scene.inputs.iter().map(|input| &*input.path), began);
         let identity = Identity::new(&scene, settings, self.image.sensor);
-        let world = self.pool.install(|| World::from_scene(&mut scene))?.with_sensor(self.image.sensor);
+        let world = self.image.world(&mut scene, self.pool)?;
         let facts = Facts {
             scene: scene.name.clone(),
             size: [settings.width, settings.height],

@@ -4,7 +4,8 @@ use std::path::Path;
 use strsim::levenshtein;
 
 /// Name and description of each scene.
-const DESCRIBED: [(&str, &str); 14] = [
+const DESCRIBED: [(&str, &str); 15] = [
+    ("studio", "seven coloured blocks under three lamps and a panel: the first picture of the README"),
     ("sphere-light", "two boxes under a sphere light outside the view"),
     ("triangle-light", "a box in front of a large, visible triangle light"),
     ("quads", "three boxes under five quadrilateral lights of very different sizes and powers"),
@@ -25,21 +26,22 @@ const DESCRIBED: [(&str, &str); 14] = [
 const MANY_LIGHTS: usize = 4;
 
 /// Name and text of each scene.
-const BUILTIN: [(&str, &str); 14] = [
-    (DESCRIBED[0].0, include_str!("../../../scenes/sphere-light.pbrt")),
-    (DESCRIBED[1].0, include_str!("../../../scenes/triangle-light.pbrt")),
-    (DESCRIBED[2].0, include_str!("../../../scenes/quads.pbrt")),
-    (DESCRIBED[3].0, include_str!("../../../scenes/terrain.pbrt")),
-    (DESCRIBED[4].0, include_str!("../../../scenes/cornell-box.pbrt")),
-    (DESCRIBED[5].0, include_str!("../../../scenes/mirror-room.pbrt")),
-    (DESCRIBED[6].0, include_str!("../../../scenes/plates.pbrt")),
-    (DESCRIBED[7].0, include_str!("../../../scenes/delta-lights.pbrt")),
-    (DESCRIBED[8].0, include_str!("../../../scenes/sky.pbrt")),
-    (DESCRIBED[9].0, include_str!("../../../scenes/defocus.pbrt")),
-    (DESCRIBED[10].0, include_str!("../../../scenes/chandelier.pbrt")),
-    (DESCRIBED[11].0, include_str!("../../../scenes/city.pbrt")),
-    (DESCRIBED[12].0, include_str!("../../../scenes/wet-city.pbrt")),
-    (DESCRIBED[13].0, include_str!("../../../scenes/knot.pbrt")),
+const BUILTIN: [(&str, &str); 15] = [
+    (DESCRIBED[0].0, include_str!("../../../scenes/studio.pbrt")),
+    (DESCRIBED[1].0, include_str!("../../../scenes/sphere-light.pbrt")),
+    (DESCRIBED[2].0, include_str!("../../../scenes/triangle-light.pbrt")),
+    (DESCRIBED[3].0, include_str!("../../../scenes/quads.pbrt")),
+    (DESCRIBED[4].0, include_str!("../../../scenes/terrain.pbrt")),
+    (DESCRIBED[5].0, include_str!("../../../scenes/cornell-box.pbrt")),
+    (DESCRIBED[6].0, include_str!("../../../scenes/mirror-room.pbrt")),
+    (DESCRIBED[7].0, include_str!("../../../scenes/plates.pbrt")),
+    (DESCRIBED[8].0, include_str!("../../../scenes/delta-lights.pbrt")),
+    (DESCRIBED[9].0, include_str!("../../../scenes/sky.pbrt")),
+    (DESCRIBED[10].0, include_str!("../../../scenes/defocus.pbrt")),
+    (DESCRIBED[11].0, include_str!("../../../scenes/chandelier.pbrt")),
+    (DESCRIBED[12].0, include_str!("../../../scenes/city.pbrt")),
+    (DESCRIBED[13].0, include_str!("../../../scenes/wet-city.pbrt")),
+    (DESCRIBED[14].0, include_str!("../../../scenes/knot.pbrt")),
 ];
 
 /// Images that these scenes refer to.

@@ -28,7 +28,8 @@ fn grouped(n: usize) -> String {
 }
 
 /// Numbers of triangles, of shapes that emit, of lights without an area, of mirrors and of rough materials.
-const SIZES: [(&str, [usize; 5]); 14] = [
+const SIZES: [(&str, [usize; 5]); 15] = [
+    ("studio", [88, 4, 0, 0, 0]),
     ("sphere-light", [26, 1, 0, 0, 0]),
     ("triangle-light", [14, 1, 0, 0, 0]),
     ("quads", [38, 5, 0, 0, 0]),
@@ -55,8 +56,12 @@ fn builtin_scenes_have_the_stated_sizes_and_no_warnings() {
         assert_eq!((warnings(&scene), scene.name.as_str()), (Vec::new(), *name));
         // sky.exr is its map
         let filename = Some(format!("{}.exr", if *name == "sky" { "sky-render" } else { name }));
-        let (width, samples) = if *name == "defocus" { (384, 256) } else { (256, 64) };
-        let film = FilmSettings { width, height: 256, diagonal: 35.0, filename, place: None };
+        let (width, height, samples) = match *name {
+            "studio" => (512, 384, 16),
+            "defocus" => (384, 256, 256),
+            _ => (256, 256, 64),
+        };
+        let film = FilmSettings { width, height, diagonal: 35.0, filename, place: None };
         assert_eq!((&scene.film, scene.pixel_samples), (&film, samples));
         let emitting: Vec<_> = scene.shapes.iter().filter(|shape| shape.emission.is_some()).collect();
         let count = |is: fn(&Material) -> bool| scene.materials.iter().filter(|material| is(material)).count();
