@@ -1,11 +1,13 @@
 //! The camera of an image: a pinhole, a thin lens, a lens in a barrel, or parallel rays.
 
 mod linear;
+mod orbit;
 mod orthographic;
 mod pinhole;
 mod thin_lens;
 mod vignetting;
 
+pub use orbit::Orbit;
 pub use orthographic::Orthographic;
 pub use pinhole::Pinhole;
 pub use thin_lens::{Slopes, ThinLens};

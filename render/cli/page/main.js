@@ -11,7 +11,7 @@ const PAUSE = 200;
 
 class View {
   constructor() {
-    Object.assign(this, { status: null, pixels: new Map(), other: "", cursor: null, dragged: null, hidden: null, updates: 0 });
+    Object.assign(this, { status: null, pixels: new Map(), other: "", cursor: null, dragged: null, wipes: false, hidden: null, updates: 0 });
     this.lens = new Lens();
     this.first = new Drawn();
     this.second = new Drawn();
@@ -103,7 +103,11 @@ class View {
       : "all pixels";
     byId("whole").disabled = !status.crop;
     this.takeOthers(pictures, nameOf(way));
-    byId("files").textContent = `The files ${status.files} hold the image that is shown, and Ctrl-C ends the program.`;
+    byId("files").textContent = status.files
+      ? `The files ${status.files} hold the image that is shown, and Ctrl-C ends the program.`
+      : "Nothing is written unless you save a copy. Ctrl-C ends the program.";
+    byId("save").textContent = `Save a copy as ${status.copy}`;
+    byId("still").disabled = !status.orbit;
     plot(byId("plot"), pictures, nameOf(way), status.target);
   }
   takeOthers(pictures, shown) {
@@ -138,19 +142,27 @@ class View {
     if (!pixels) return;
     this.last = pixels;
     const other = this.pixels.get(this.other);
-    const layer = byId("layer").value;
+    const asked = byId("layer").value;
+    const compares = asked === "difference" || asked === "relative";
+    const layer = compares && !other ? "radiance" : asked;
     const stops = Number(byId("exposure").value);
     byId("stops").textContent = `${stops > 0 ? "+" : ""}${stops.toFixed(1)} stops`;
     const gain = [1 / status.exposure, 2 ** stops];
     // both have the same colours
     const all = [pixels, other].filter((p) => p);
-    const range = layer === "radiance" ? [0, 1] : all.map((p) => ends(p, layer)).reduce((a, b) => [Math.min(a[0], b[0]), Math.max(a[1], b[1])]);
-    this.first.update(pixels, layer, gain, range);
-    if (other) this.second.update(other, layer, gain, range);
+    const range = layer === "radiance" ? [0, 1] : compares ? widest(pixels, other, layer === "relative") : all.map((p) => ends(p, layer)).reduce((a, b) => [Math.min(a[0], b[0]), Math.max(a[1], b[1])]);
+    this.first.update(pixels, layer, gain, range, compares && other);
+    this.isSplit = Boolean(other) && !compares;
+    if (this.isSplit) this.second.update(other, layer, gain, range);
     const crop = this.dragged || status.crop;
-    draw(byId("image"), this.lens, this.first.canvas, other && this.second.canvas, byId("wipe").value / 100, crop, cursor);
-    byId("legend").textContent =
-      layer === "radiance" ? "" : `${layer === "samples" ? "Samples" : "Variance of the mean"} of a pixel: dark is ${short(range[0])}, bright ${short(range[1])}${layer === "samples" ? "" : ", in decades; grey is not known"}.`;
+    draw(byId("image"), this.lens, this.first.canvas, this.isSplit && this.second.canvas, byId("wipe").value / 100, all.map((p) => p.name), crop, cursor);
+    byId("legend").textContent = compares && !other ? "Choose an image B to compare with." : "";
+    byId("bar").hidden = layer === "radiance";
+    if (layer !== "radiance") {
+      const scale = scaleOf(layer, range, status.sensor);
+      bar(byId("bar"), scale);
+      byId("bar").setAttribute("aria-label", `${scale.title}: from ${scale.format(scale.at(0))} to ${scale.format(scale.at(1))}`);
+    }
     this.read(all);
   }
   /** The numbers of the pixel under the cursor. */
@@ -210,6 +222,12 @@ class View {
     });
     click("crop", () => this.drags(!this.isCropping));
     click("whole", () => this.wish({ crop: null }));
+    click("save", () => this.wish({ save: true }));
+    click("turn", () => {
+      byId("turn").setAttribute("aria-pressed", !this.isTurning);
+      canvas.classList.toggle("turns", this.isTurning);
+    });
+    click("still", () => this.wish({ orbit: null }));
     const canvas = byId("image");
     const middle = () => [canvas.width / 2, canvas.height / 2];
     click("visible", () => {
@@ -231,7 +249,8 @@ class View {
     click("fit", all);
     canvas.addEventListener("wheel", (event) => {
       event.preventDefault();
-      zoom(2 ** (-Math.sign(event.deltaY) / 2), this.at(event));
+      if (this.isTurning) this.turn(0, 0, 2 ** (Math.sign(event.deltaY) / 4));
+      else zoom(2 ** (-Math.sign(event.deltaY) / 2), this.at(event));
     }, { passive: false });
     this.bindPointers(canvas);
     canvas.addEventListener("keydown", (event) => {
@@ -251,14 +270,36 @@ class View {
       event.preventDefault();
     });
   }
-  /** Drags move the image or choose a part of it; two fingers zoom. */
+  get isTurning() {
+    return byId("turn").getAttribute("aria-pressed") === "true";
+  }
+  /** Turns the camera further. One wish waits for its answer, and the next one has all turns since. */
+  async turn(around, over, factor) {
+    const [a, o, d] = this.orbit || this.status.orbit || [0, 0, 1];
+    this.orbit = [a + around, o + over, Math.max(1e-3, Math.min(1e3, d * factor))];
+    if (this.isAsking) return;
+    this.isAsking = true;
+    while (this.orbit) {
+      const orbit = this.orbit;
+      await this.wish({ orbit });
+      if (this.orbit === orbit) this.orbit = null;
+    }
+    this.isAsking = false;
+  }
+  /** Whether a place of the canvas is at the line between two images. */
+  isAtLine(place) {
+    const canvas = byId("image");
+    return this.isSplit && Math.abs(place[0] - (byId("wipe").value / 100) * canvas.width) < 12 * ratio();
+  }
+  /** Drags move the line between two images, the image or the camera, or choose a part of it; two fingers zoom. */
   bindPointers(canvas) {
     const down = new Map();
     canvas.addEventListener("pointerdown", (event) => {
       canvas.setPointerCapture(event.pointerId);
       down.set(event.pointerId, this.at(event));
       if (down.size === 1) this.from = this.at(event);
-      canvas.classList.toggle("moves", !this.isCropping);
+      this.wipes = down.size === 1 && !this.isCropping && this.isAtLine(this.from);
+      canvas.classList.toggle("moves", !this.isCropping && !this.wipes);
     });
     canvas.addEventListener("pointermove", (event) => {
       const to = this.at(event);
@@ -267,8 +308,11 @@ class View {
         const still = [...down].find(([id]) => id !== event.pointerId)[1];
         const far = (p) => Math.hypot(p[0] - still[0], p[1] - still[1]);
         this.lens.scale(canvas, far(to) / Math.max(1, far(from)), still);
-      } else if (from && this.isCropping) this.dragged = this.between(this.from, to);
+      } else if (from && this.wipes) byId("wipe").value = (100 * to[0]) / canvas.width;
+      else if (from && this.isCropping) this.dragged = this.between(this.from, to);
+      else if (from && this.isTurning) this.turn((-Math.PI * (to[0] - from[0])) / canvas.width, (Math.PI * (to[1] - from[1])) / canvas.height, 1);
       else if (from) this.lens.move([to[0] - from[0], to[1] - from[1]]);
+      canvas.classList.toggle("wipes", this.wipes || (!down.size && this.isAtLine(to)));
       if (from) down.set(event.pointerId, to);
       this.cursor = this.pixelAt(to);
       this.frame();
@@ -276,6 +320,7 @@ class View {
     const up = (event) => {
       if (!down.delete(event.pointerId) || down.size) return;
       canvas.classList.remove("moves");
+      this.wipes = false;
       if (this.isCropping && this.dragged && event.type === "pointerup") this.wish({ crop: this.dragged });
       if (this.dragged) this.drags(false);
       this.dragged = null;

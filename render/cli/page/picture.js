@@ -33,15 +33,27 @@ function ends(pixels, layer) {
   return layer === "samples" ? [low, high] : [Math.max(low, high * 1e-6), high];
 }
 
+/** A − B at a pixel, the mean over the channels; or that over the mean of B. */
+function gap(a, b, i, isRelative) {
+  const mean = (p) => (p.mean[3 * i] + p.mean[3 * i + 1] + p.mean[3 * i + 2]) / 3;
+  return isRelative ? (mean(a) - mean(b)) / mean(b) : mean(a) - mean(b);
+}
+/** The greatest difference but for the hundredth part of the pixels that differ most. */
+function widest(a, b, isRelative) {
+  const all = Float64Array.from(a.samples, (_, i) => Math.abs(gap(a, b, i, isRelative))).filter(Number.isFinite).sort();
+  const most = all[Math.floor(0.99 * (all.length - 1))];
+  return [0, most > 0 ? most : 1];
+}
+
 /** An image in colours, made anew only if it or its colours change. */
 class Drawn {
   constructor() {
     this.canvas = document.createElement("canvas");
   }
-  update(pixels, layer, gain, range) {
-    const key = [pixels.version, layer, gain, range].join();
-    if (this.key === key && this.pixels === pixels) return;
-    Object.assign(this, { key, pixels });
+  update(pixels, layer, gain, range, other) {
+    const key = [pixels.version, layer, gain, range, other && other.version].join();
+    if (this.key === key && this.pixels === pixels && this.other === other) return;
+    Object.assign(this, { key, pixels, other });
     const { width, height } = pixels;
     if (this.canvas.width !== width || this.canvas.height !== height || !this.image) {
       this.canvas.width = width;
@@ -51,6 +63,7 @@ class Drawn {
     }
     const words = new Uint32Array(this.image.data.buffer);
     if (layer === "radiance") this.tones(words, pixels.mean, gain);
+    else if (other) this.difference(words, pixels, other, layer === "relative", range);
     else this.map(words, pixels, layer, range);
     this.context.putImageData(this.image, 0, 0);
   }
@@ -61,6 +74,12 @@ class Drawn {
         f32(f32(mean[k + 1] * first) * second),
         f32(f32(mean[k + 2] * first) * second),
       );
+    }
+  }
+  difference(words, a, b, isRelative, [, most]) {
+    for (let i = 0; i < words.length; i++) {
+      const x = gap(a, b, i, isRelative);
+      words[i] = Number.isFinite(x) ? tint(x / most) : NONE;
     }
   }
   map(words, pixels, layer, [low, high]) {
@@ -123,8 +142,8 @@ class Lens {
   }
 }
 
-/** Draws the image, the other one right of the slider, the part that receives samples, and the pixel that is read. */
-function draw(canvas, lens, first, second, wipe, crop, cursor) {
+/** Draws the image, the other one right of the line with the names of both, the part that receives samples, and the pixel that is read. */
+function draw(canvas, lens, first, second, wipe, names, crop, cursor) {
   fit(canvas);
   const context = canvas.getContext("2d");
   lens.update(canvas, [first.width, first.height]);
@@ -145,6 +164,21 @@ function draw(canvas, lens, first, second, wipe, crop, cursor) {
     context.restore();
     context.fillStyle = "#ffffff";
     context.fillRect(x - ratio(), 0, 2 * ratio(), canvas.height);
+    // a handle, and what is left and right of it
+    context.beginPath();
+    context.arc(x, canvas.height / 2, 9 * ratio(), 0, 2 * Math.PI);
+    context.fill();
+    context.font = `${13 * ratio()}px system-ui, sans-serif`;
+    context.textBaseline = "top";
+    names.forEach((name, side) => {
+      const text = side ? `B: ${name} ▸` : `◂ A: ${name}`;
+      const [wide, off] = [context.measureText(text).width + 12 * ratio(), 8 * ratio()];
+      const at = side ? x + off : x - off - wide;
+      context.fillStyle = "#12151ccc";
+      context.fillRect(at, off, wide, 22 * ratio());
+      context.fillStyle = "#ffffff";
+      context.fillText(text, at + 6 * ratio(), off + 4 * ratio());
+    });
   }
   if (crop) {
     const [x0, y0] = lens.toCanvas(canvas, [crop[0], crop[1]]);

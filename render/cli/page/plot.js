@@ -43,7 +43,7 @@ function plot(canvas, pictures, shown, target) {
     context.fillText("the error is not known yet", width / 2, height / 2);
     return;
   }
-  const [left, top, right, bottom] = [52 * r, 12 * r, width - 12 * r, height - 34 * r];
+  const [left, top, right, bottom] = [70 * r, 12 * r, width - 12 * r, height - 34 * r];
   const x = decades(lines.flatMap((p) => p.history.map((point) => point[0])));
   const y = decades([...lines.flatMap((p) => p.history.map((point) => point[1])), ...(target ? [target] : [])]);
   const across = (s) => left + ((Math.log10(s) - x[0]) / (x[1] - x[0])) * (right - left);
@@ -63,7 +63,12 @@ function plot(canvas, pictures, shown, target) {
     line([[across(s), top], [across(s), bottom]], "#2b3342", 1);
     context.fillText(`${Number(s.toPrecision(1))}`, across(s), bottom + 14 * r);
   }
-  context.fillText("seconds", (left + right) / 2, height - 5 * r);
+  context.fillText("seconds of rendering", (left + right) / 2, height - 5 * r);
+  context.save();
+  context.translate(14 * r, (top + bottom) / 2);
+  context.rotate(-Math.PI / 2);
+  context.fillText("estimated relative RMS error", 0, 0);
+  context.restore();
   context.textAlign = "right";
   for (const e of ticks(y)) {
     line([[left, down(e)], [right, down(e)]], "#2b3342", 1);

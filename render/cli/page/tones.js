@@ -60,6 +60,12 @@ const HEAT = Uint32Array.from({ length: 256 }, (_, i) => {
 const NONE = packed(64, 70, 82);
 const heat = (t) => HEAT[Math.max(0, Math.min(255, Math.round(255 * t)))];
 
+/** Colours of differences: blue for less, white for none, red for more. */
+const tint = (t) => {
+  const s = Math.sqrt(Math.min(1, Math.abs(t)));
+  return packed(...(t < 0 ? [33, 102, 200] : [200, 24, 43]).map((end) => Math.round(255 + (end - 255) * s)));
+};
+
 /** A number with three digits. */
 function short(x) {
   if (x === 0) return "0";

@@ -68,10 +68,24 @@ impl Output {
         Ok(Self { exr, png })
     }
 
+    /// Files that do not exist yet, called `stem`, or that and a number.
+    pub(crate) fn free(stem: &OsStr) -> Self {
+        let with =
+            |end: String| Self { exr: named(stem, &format!("{end}.exr")), png: named(stem, &format!("{end}.png")) };
+        let names = (2..).map(|n| with(format!("-{n}")));
+        let mut all = std::iter::once(with(String::new())).chain(names);
+        let found = all.find(|files| !files.exr.exists() && !files.png.exists());
+        found.unwrap_or_else(|| unreachable!("there are more numbers than files"))
+    }
+
+    /// Both names, for a message.
+    pub(crate) fn both(&self) -> String {
+        format!("{} and {}", self.exr.display(), self.png.display())
+    }
+
     /// An error after both files have been written.
     pub(crate) fn were_written(&self, error: &io::Error) -> io::Error {
-        let (exr, png) = (self.exr.display(), self.png.display());
-        io::Error::new(error.kind(), format!("{error}; {exr} and {png} were written"))
+        io::Error::new(error.kind(), format!("{error}; {} were written", self.both()))
     }
 
     /// Writes both files. The PNG is exposed so that its middle looks the same with every sensor.

@@ -368,5 +368,5 @@ fn print(
         let what = if never { "no time suffices" } else { "the time did not suffice" };
         writeln!(out, "{what} for an error of {}", percent(target))?;
     }
-    writeln!(out, "wrote {} and {}", output.exr.display(), output.png.display())
+    writeln!(out, "wrote {}", output.both())
 }

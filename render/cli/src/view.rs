@@ -1,5 +1,7 @@
 //! `etendue view`: renders a scene pass by pass, and shows the image in the browser while it improves.
 //!
+//! Nothing is written unless `-o` or the page asks for it.
+//!
 //! The page is served on the loopback address alone, and its address has a random token. Connections, the time of each, requests and images
 //! that are being sent are limited in number and size (`view/http.rs`, `view/server.rs`, `view/answer.rs`), so that memory is, too: a
 //! client that does not read holds one of four images for at most 20 seconds. Each technique and sampler has an image of its own, which is
@@ -9,6 +11,7 @@
 //! sampler takes longer. A wish for another image or part ends the pass, whose samples are lost.
 
 mod answer;
+mod browser;
 mod http;
 mod page;
 mod server;
@@ -19,11 +22,11 @@ mod work;
 use crate::display::DisplayOptions;
 use crate::image::ImageOptions;
 use crate::interrupt::Interrupt;
-use crate::output::Output;
+use crate::output::{Output, named};
 use crate::progress::bar;
 use crate::render::{fraction, seconds};
 use clap::Args;
-use etendue_laboratory::options::{out, pool, whole};
+use etendue_laboratory::options::{out, pool, say, whole};
 use etendue_render::progressive::{Goal, Refinement};
 use etendue_render::sampler::default_sampler;
 use server::Server;
@@ -41,7 +44,7 @@ const USUAL: u32 = 64;
 pub(crate) struct Options {
     #[command(flatten)]
     image: ImageOptions,
-    /// Write the image that is shown to this EXR file, and a PNG beside it [default: the scene's film filename, or SCENE.exr]
+    /// Keep the image that is shown in this EXR file, and in a PNG beside it [default: nothing is written]
     #[arg(short, long, value_name = "OUT.exr")]
     output: Option<PathBuf>,
     /// Refine an image until this many seconds of rendering have passed
@@ -53,6 +56,9 @@ pub(crate) struct Options {
     /// Serve the page on this port of 127.0.0.1, or on the next one that is free
     #[arg(long, value_name = "N", default_value_t = 7450, value_parser = whole::<u16>(1..=65535))]
     port: u16,
+    /// Print the address of the page, and open no browser
+    #[arg(long)]
+    no_open: bool,
     #[command(flatten)]
     display: DisplayOptions,
 }
@@ -70,19 +76,26 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     let sampler = image.sampler.unwrap_or_else(|| default_sampler(USUAL, settings.sets));
     let plan = Refinement { settings, sampler: Some(sampler), goal };
     plan.check().map_err(|what| format!("--{}: {what}", goal.option()))?;
-    let output = Arc::new(Output::new(options.output.as_deref(), &reading.scene, image.stem())?);
+    let inputs = &reading.scene.inputs;
+    let output = options.output.as_ref().map(|path| Output::of(path.clone(), inputs)).transpose()?.map(Arc::new);
 
     let server = Server::new(options.port)?;
     let pool = pool(image.threads)?;
     let shared = Arc::new(Shared::new(Worker::state(Way { technique: settings.technique, sampler })));
-    let display = options.display.connect(&output.exr);
-    interrupt.watch(&bar(0, ""), &output.exr);
+    let display = match &output {
+        Some(output) => options.display.connect(&output.exr),
+        None => options.display.connect(&named(image.stem(), ".exr")),
+    };
+    if let Some(output) = &output {
+        interrupt.watch(&bar(0, ""), &output.exr);
+    }
+    let address = server.address();
     let said = if server.port() == options.port {
         String::new()
     } else {
         format!("port {} is in use, so the page is on port {}\n", options.port, server.port())
     };
-    let text = format!("{said}{} is shown at\n{}\nCtrl-C ends it\n", reading.scene.name, server.address());
+    let text = format!("{said}{} is shown at\n{}\nCtrl-C ends it\n", reading.scene.name, address);
     let asked = Arc::clone(&shared);
     server.serve(move |path, request| answer::answer(&asked, path, request))?;
     {
@@ -90,6 +103,11 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
         let mut out = out();
         out.write_all(text.as_bytes())?;
         out.flush()?;
+    }
+    if !options.no_open
+        && let Err(what) = browser::open(&address)
+    {
+        say(format_args!("no browser opened, since {what}: open the address above in one"));
     }
     Worker { image, goal, pool: &pool, output, interrupt: &interrupt, display }.run(reading, &shared)
 }

@@ -34,7 +34,7 @@ class Viewer:
         # a test in the background ignores Ctrl-C, which its programs would go on ignoring
         heed = lambda: signal.signal(signal.SIGINT, signal.SIG_DFL)
         pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
-        self.process = subprocess.Popen([PROGRAM, "view", *arguments], preexec_fn=heed, **pipes)
+        self.process = subprocess.Popen([PROGRAM, "view", "--no-open", *arguments], preexec_fn=heed, **pipes)
         said = [self.process.stdout.readline() for _ in range(3)]
         self.url = next(line.strip() for line in said if line.startswith("http://"))
 

@@ -1,14 +1,16 @@
 //! A scene ready to be rendered.
 
-use crate::bvh::BuildError;
+use crate::bvh::{BuildError, Hits, NOTHING, Scratch};
 #[cfg(feature = "analytic")]
 use crate::certify::Certifiable;
 use crate::choose::ChoiceBy;
+use crate::packet::{V8, X8};
 use crate::prepared::PreparedScene;
 use crate::scene::{CameraSettings, Scene};
 use crate::sensor::{Exposure, Sensor};
 use crate::settings::Settings;
 use crate::technique::Technique;
+use etendue::{Real, Uint};
 
 /// A scene ready to be rendered.
 #[derive(Debug)]
@@ -61,6 +63,26 @@ impl World {
     #[must_use]
     pub fn with_sensor(self, sensor: Sensor) -> Self {
         Self { sensor, ..self }
+    }
+
+    /// The camera.
+    pub const fn camera(&self) -> &CameraSettings {
+        &self.camera
+    }
+
+    /// Replaces the camera.
+    pub fn set_camera(&mut self, camera: CameraSettings) {
+        self.camera = camera;
+    }
+
+    /// The distance along the camera's axis of what it sees there; `None` if that is nothing.
+    pub fn depth(&self) -> Option<f64> {
+        let bvh = &self.scene.surfaces.bvh;
+        let [origin, forward] = [self.camera.origin, self.camera.forward].map(|v| V8::from(v.map(|x| x as f32)));
+        let mut hits = [Hits::none(X8::splat(f32::INFINITY))];
+        let active = [X8::splat(0.0).le(X8::splat(1.0))];
+        bvh.closest(&[bvh.rays(origin, forward)], &active, &mut hits, &mut Scratch::default());
+        (hits[0].place.lane(0) != NOTHING).then(|| f64::from(hits[0].distance.lane(0)))
     }
 
     /// Checks that the scene can be rendered as these settings say.

@@ -5,6 +5,7 @@ use super::page;
 use super::server::Place;
 use super::state::{Picture, Shared, State, Way};
 use etendue_render::area::Area;
+use etendue_render::camera::Orbit;
 use etendue_render::film::Film;
 use etendue_render::{Sampler, Settings, Technique};
 use serde_json::{Value, json};
@@ -38,7 +39,8 @@ fn value<T: FromStr>(option: &str, text: &str) -> Result<T, String> {
     text.parse().map_err(|_| format!("{option}: {text:?} is not one of those that `etendue list` prints"))
 }
 
-/// Changes what is rendered: an object with any of `technique`, `sampler`, `crop` ([x0, y0, x1, y1], or null), `paused` and `reload`.
+/// Changes what is rendered: an object with any of `technique`, `sampler`, `crop` ([x0, y0, x1, y1], or null), `paused`, `reload`,
+/// `save` and `orbit` ([around, over, distance] as in [`Orbit`], or null).
 fn wish(shared: &Shared, body: &[u8]) -> Result<(), String> {
     let wished: Value = serde_json::from_slice(body).map_err(|error| format!("not JSON: {error}"))?;
     let Value::Object(wished) = wished else { return Err("not an object".into()) };
@@ -55,6 +57,9 @@ fn wish(shared: &Shared, body: &[u8]) -> Result<(), String> {
                 "crop" => next.crop = Some(crop(of, facts.size).ok_or_else(|| wrong("a part of the image"))?),
                 "paused" => next.paused = flag()?,
                 "reload" => next.reload = flag()?,
+                "save" => next.save = flag()?,
+                "orbit" if of.is_null() => next.orbit = None,
+                "orbit" => next.orbit = Some(orbit(of).ok_or_else(|| wrong("a turn of the camera"))?),
                 _ => return Err(format!("{key}: there is no such wish")),
             }
         }
@@ -72,6 +77,14 @@ fn crop(value: &Value, [width, height]: [u32; 2]) -> Option<Area> {
     };
     let ([x0, x1], [y0, y1]) = (outer(x0, x1, width)?, outer(y0, y1, height)?);
     Some([x0, y0, x1, y1])
+}
+
+/// A turn of the camera; `None` if it is none.
+fn orbit(value: &Value) -> Option<Orbit> {
+    let numbers = value.as_array()?.iter().map(Value::as_f64).collect::<Option<Vec<f64>>>()?;
+    let [around, over, distance] = numbers.try_into().ok()?;
+    let is_one = [around, over].iter().all(|angle| angle.abs() <= 1e3) && (1e-3..=1e3).contains(&distance);
+    is_one.then_some(Orbit { around, over, distance })
 }
 
 /// All that the page shows besides the pixels.
@@ -100,6 +113,8 @@ fn status(shared: &Shared) -> Response {
         "sensor": facts.sensor,
         "target": facts.target,
         "files": facts.files,
+        "copy": facts.copy,
+        "orbit": wishes.orbit.map(|orbit| [orbit.around, orbit.over, orbit.distance]),
         "techniques": Technique::NAMES,
         "samplers": Sampler::NAMES,
         "way": way(&wishes.way),

@@ -9,6 +9,7 @@ const SCRIPT: &str = concat!(
     "\"use strict\";\n(() => {\n",
     include_str!("../../page/tones.js"),
     include_str!("../../page/picture.js"),
+    include_str!("../../page/scale.js"),
     include_str!("../../page/plot.js"),
     include_str!("../../page/main.js"),
     "})();\n"

@@ -1,6 +1,7 @@
 //! What the rendering thread and those of the clients share: what the page wishes, and what there is to show.
 
 use etendue_render::area::Area;
+use etendue_render::camera::Orbit;
 use etendue_render::claim::Claim;
 use etendue_render::film::Film;
 use etendue_render::{Sampler, Technique};
@@ -25,6 +26,10 @@ pub(crate) struct Wishes {
     pub(crate) paused: bool,
     /// Whether the scene is to be read again.
     pub(crate) reload: bool,
+    /// Whether a copy of the image that is shown is to be written.
+    pub(crate) save: bool,
+    /// Where the camera has turned; `None` for that of the scene.
+    pub(crate) orbit: Option<Orbit>,
 }
 
 /// An image as it was after its last pass.
@@ -57,8 +62,10 @@ pub(crate) struct Facts {
     pub(crate) sensor: &'static str,
     /// The error that is asked for.
     pub(crate) target: Option<f64>,
-    /// Which files hold the image.
-    pub(crate) files: String,
+    /// Which files hold the image, if any is written.
+    pub(crate) files: Option<String>,
+    /// Which files a copy would be written to.
+    pub(crate) copy: String,
 }
 
 #[derive(Debug)]
@@ -104,12 +111,12 @@ impl Shared {
     }
 
     /// Changes the wishes, unless that fails, and wakes the rendering thread. It ends its pass if another image or part is wished, but not to
-    /// pause.
+    /// pause or to save.
     pub(crate) fn wish(&self, change: impl FnOnce(&mut Wishes, &Facts) -> Result<(), String>) -> Result<(), String> {
         let mut state = self.lock();
         let mut next = state.wishes;
         change(&mut next, &state.facts)?;
-        let before = Wishes { paused: next.paused, ..state.wishes };
+        let before = Wishes { paused: next.paused, save: next.save, ..state.wishes };
         if before != next {
             self.stop.store(true, Ordering::Relaxed);
             self.done.store(0, Ordering::Relaxed);
@@ -142,7 +149,7 @@ mod tests {
     #[test]
     fn no_wish_is_lost() {
         let way = Way { technique: Technique::Auto, sampler: Sampler::Sobol };
-        let wishes = Wishes { way, crop: Some([0; 4]), paused: false, reload: false };
+        let wishes = Wishes { way, crop: Some([0; 4]), paused: false, reload: false, save: false, orbit: None };
         let (facts, pictures) = (Facts::default(), Vec::new());
         let shared = Shared::new(State { wishes, facts, pictures, changed: None, message: None });
         let count = || {

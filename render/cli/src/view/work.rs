@@ -8,11 +8,12 @@ use crate::interrupt::Interrupt;
 use crate::output::Output;
 use etendue_laboratory::options::say;
 use etendue_render::area::{self, Area};
+use etendue_render::camera::Orbit;
 use etendue_render::claim::why_unknown;
 use etendue_render::limits::MOST_SAMPLES;
 use etendue_render::progressive::{Goal, Progress, Refined, Refinement};
 use etendue_render::sampler::default_sampler;
-use etendue_render::scene::Scene;
+use etendue_render::scene::{CameraSettings, Scene};
 use etendue_render::{Identity, Settings, World};
 use rayon::ThreadPool;
 use std::error::Error;
@@ -63,6 +64,10 @@ struct Subject {
     watch: Watch,
     facts: Facts,
     identity: Identity,
+    /// The camera of the scene, and the distance of what it looks at.
+    camera: CameraSettings,
+    depth: f64,
+    orbit: Option<Orbit>,
 }
 
 /// An image that is rendered, or was and is kept.
@@ -77,7 +82,8 @@ pub(crate) struct Worker<'a> {
     pub(crate) image: &'a ImageOptions,
     pub(crate) goal: Goal,
     pub(crate) pool: &'a ThreadPool,
-    pub(crate) output: Arc<Output>,
+    /// The files that the image is kept in, if that is asked for.
+    pub(crate) output: Option<Arc<Output>>,
     pub(crate) interrupt: &'a Interrupt,
     pub(crate) display: Display,
 }
@@ -104,14 +110,24 @@ impl Worker<'_> {
             exposure: identity.exposure,
             sensor: self.image.sensor.name(),
             target: self.goal.error,
-            files: format!("{} and {}", self.output.exr.display(), self.output.png.display()),
+            files: self.output.as_ref().map(|output| output.both()),
+            copy: self.copy().both(),
         };
-        Ok(Subject { world, settings, watch, facts, identity })
+        let camera = world.camera().clone();
+        let depth = world.depth().unwrap_or_else(|| length(camera.origin)).max(f64::MIN_POSITIVE);
+        Ok(Subject { world, settings, watch, facts, identity, camera, depth, orbit: None })
+    }
+
+    /// The files of the next copy.
+    fn copy(&self) -> Output {
+        let mut stem = self.image.stem().to_owned();
+        stem.push("-view");
+        Output::free(&stem)
     }
 
     /// What is shared at the beginning.
     pub(crate) fn state(way: Way) -> State {
-        let wishes = Wishes { way, crop: None, paused: false, reload: false };
+        let wishes = Wishes { way, crop: None, paused: false, reload: false, save: false, orbit: None };
         State { wishes, facts: Facts::default(), pictures: Vec::new(), changed: None, message: None }
     }
 
@@ -132,6 +148,15 @@ impl Worker<'_> {
             if wishes.reload {
                 self.reload(&mut subject, &mut kept, shared);
                 continue;
+            }
+            if wishes.save {
+                self.save_copy(wishes.way, &subject, shared);
+                continue;
+            }
+            if wishes.orbit != subject.orbit {
+                subject.turn(wishes.orbit);
+                kept.clear();
+                shared.lock().pictures.clear();
             }
             if let Err(what) = subject.choose(wishes.way, &mut kept, shared, self.goal) {
                 let mut state = shared.lock();
@@ -163,7 +188,9 @@ impl Worker<'_> {
     /// Reads the scene again, and forgets all images of the old one. If it is faulty, the page says why, and the old one stays.
     fn reload(&self, subject: &mut Subject, kept: &mut Vec<Kept>, shared: &Shared) {
         let read = Reading::new(self.image).and_then(|reading| {
-            Output::of(self.output.exr.clone(), &reading.scene.inputs)?;
+            if let Some(output) = &self.output {
+                Output::of(output.exr.clone(), &reading.scene.inputs)?;
+            }
             self.build(reading)
         });
         let mut state = shared.lock();
@@ -172,7 +199,7 @@ impl Worker<'_> {
             Ok(read) => {
                 *subject = read;
                 kept.clear();
-                state.wishes.crop = None;
+                (state.wishes.crop, state.wishes.orbit) = (None, None);
                 state.facts = subject.facts.clone();
                 (state.changed, state.message) = (None, None);
                 state.pictures.clear();
@@ -182,6 +209,23 @@ impl Worker<'_> {
                 state.message = Some(format!("The scene stays as it was: {error}"));
             }
         }
+    }
+
+    /// Writes a copy of the image that is shown, into files that did not exist.
+    fn save_copy(&self, way: Way, subject: &Subject, shared: &Shared) {
+        let picture = shared.lock().picture(way).cloned();
+        let output = self.copy();
+        let message = match picture {
+            None => "There is no image yet, so nothing was written".to_owned(),
+            Some(picture) => match output.write(&picture.film, &subject.identity_of(&picture)) {
+                Ok(()) => format!("Wrote {}", output.both()),
+                Err(error) => format!("Nothing was written: {error}"),
+            },
+        };
+        let copy = self.copy().both();
+        let mut state = shared.lock();
+        state.wishes.save = false;
+        (state.facts.copy, state.message) = (copy, Some(message));
     }
 
     /// Why an image receives no more samples; `None` if it does.
@@ -208,18 +252,17 @@ impl Worker<'_> {
     /// Writes the files and shows the image elsewhere, if that is due. An interruption writes what they do not have yet.
     fn keep(&mut self, done: &mut Done, way: Way, subject: &Subject, shared: &Shared, is_idle: bool) {
         let Some(picture) = shared.lock().picture(way).cloned() else { return };
-        let Picture { film, spp, error, version, .. } = picture;
-        let Way { technique, sampler } = way;
-        let settings = Settings { technique, sampler, spp: spp.round() as u32, ..subject.settings };
-        let identity = Identity { settings, ..subject.identity.clone() };
+        let identity = subject.identity_of(&picture);
+        let Picture { film, error, version, .. } = picture;
         let is_due = |has: u64, at: Instant| has != version && (is_idle || Instant::now() >= at);
         if is_due(done.shown, done.show) {
             self.display.show(&film);
             (done.shown, done.show) = (version, Instant::now() + SHOW);
         }
+        let Some(output) = &self.output else { return };
         if is_due(done.saved, done.save) {
             let began = Instant::now();
-            let written = self.output.save(self.interrupt, &film, &identity, error);
+            let written = output.save(self.interrupt, &film, &identity, error);
             // large files take no more than a tenth of the time
             (done.saved, done.save) = (version, began + LOOK + 10 * began.elapsed());
             if let Err(error) = written {
@@ -227,7 +270,7 @@ impl Worker<'_> {
                 shared.lock().message = Some(error);
             }
         } else if done.saved != version {
-            let output = Arc::clone(&self.output);
+            let output = Arc::clone(output);
             let last = move || output.write(&film, &identity).map(|()| output.holds(&identity, error));
             self.interrupt.lock().last = Some(Box::new(last));
         }
@@ -235,6 +278,24 @@ impl Worker<'_> {
 }
 
 impl Subject {
+    /// What an image depends on; also the camera, if that has turned.
+    fn identity_of(&self, picture: &Picture) -> Identity {
+        let Way { technique, sampler } = picture.way;
+        let settings = Settings { technique, sampler, spp: picture.spp.round() as u32, ..self.settings };
+        let mut identity = Identity { settings, ..self.identity.clone() };
+        if let Some(Orbit { around, over, distance }) = self.orbit {
+            identity.digest.push_str(&format!(", turned by {around:?} and {over:?}, at {distance:?} of the distance"));
+        }
+        identity
+    }
+
+    /// Turns the camera.
+    fn turn(&mut self, orbit: Option<Orbit>) {
+        self.orbit = orbit;
+        let turned = orbit.map(|orbit| self.camera.orbited(self.depth, orbit));
+        self.world.set_camera(turned.unwrap_or_else(|| self.camera.clone()));
+    }
+
     /// Makes the image that is sampled in this way the last of those that are kept. Old ones are forgotten if all take too much memory.
     fn choose(&self, way: Way, kept: &mut Vec<Kept>, shared: &Shared, goal: Goal) -> Result<(), String> {
         if kept.last().is_some_and(|last| last.way == way) {
@@ -262,6 +323,10 @@ impl Subject {
         }
         Ok(())
     }
+}
+
+fn length(v: [f64; 3]) -> f64 {
+    v.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
 /// Takes the first of some images of so many pixels away, until the rest takes little enough memory or is only two.

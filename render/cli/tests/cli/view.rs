@@ -43,7 +43,7 @@ impl Viewer {
         Self::with(folder, &[&["view"], more, &common].concat())
     }
     fn with(folder: &Folder, arguments: &[&str]) -> Self {
-        let mut child = folder.spawn(arguments);
+        let mut child = folder.spawn(&[arguments, &["--no-open"]].concat());
         let mut out = BufReader::new(child.stdout.take().unwrap());
         let mut said = String::new();
         while !said.ends_with("Ctrl-C ends it\n") {
