@@ -91,6 +91,7 @@ mod gltf;
 pub mod image;
 mod lamps;
 mod message;
+mod nearest;
 #[cfg(feature = "pbrt")]
 mod pbrt;
 mod radiance;

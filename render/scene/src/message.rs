@@ -9,7 +9,7 @@ use std::sync::Arc;
 pub(super) struct Notes {
     /// Warnings in the order of the file.
     pub(super) warnings: Vec<Message>,
-    /// Those of them that say what stands for something else.
+    /// Those of them that say what stands for something else, or may be misspelt.
     pub(super) stand_ins: Vec<Message>,
     kinds: HashSet<String>,
 }
@@ -25,6 +25,11 @@ impl Notes {
             let message = message();
             self.warnings.push(Message { text: format!("{} (reported once)", message.text), ..message });
         }
+    }
+    /// Adds a warning of what is left out since it may be misspelt.
+    pub(super) fn misspelt(&mut self, message: Message) {
+        self.stand_ins.push(message.clone());
+        self.warnings.push(message);
     }
     /// Warns that something stands for something else, but only of the first one of its kind.
     pub(super) fn stand_in(&mut self, kind: &str, message: impl FnOnce() -> Message) {

@@ -1,7 +1,7 @@
 //! The built-in scenes.
 
+use crate::nearest::did_you_mean;
 use std::path::Path;
-use strsim::levenshtein;
 
 /// Name and description of each scene.
 const DESCRIBED: [(&str, &str); 15] = [
@@ -65,15 +65,7 @@ pub(super) fn text_of(name: &Path) -> Option<(&'static str, &'static str)> {
 
 /// What to say where a file is missing, whose name may be that of a built-in scene, misspelt.
 pub(crate) fn known_scenes(name: &str) -> String {
-    let near = nearest(name).map_or(String::new(), |near| format!("; did you mean {near}?"));
+    // "quads.pbrt" is an extension away
+    let near = did_you_mean(name.strip_suffix(".pbrt").unwrap_or(name), DESCRIBED.map(|(name, _)| name));
     format!("{near}; built-in scenes: {}", DESCRIBED.map(|(name, _)| name).join(", "))
-}
-
-/// The built-in scene whose name is the fewest letters away from `name`, if it is at most two letters or, as in "quads.pbrt", an
-/// extension away.
-fn nearest(name: &str) -> Option<&'static str> {
-    let name = name.strip_suffix(".pbrt").unwrap_or(name).to_lowercase();
-    let near = DESCRIBED.iter().map(|(builtin, _)| (levenshtein(&name, builtin), *builtin)).min()?;
-    // two edits turn any name of two letters into another
-    (near.0 <= 2 && near.0 < near.1.len().min(name.len())).then_some(near.1)
 }

@@ -2,6 +2,7 @@
 
 use super::params::{Params, shown};
 use crate::message::Notes;
+use crate::nearest::did_you_mean;
 use crate::transform::{Transform, length, scaled};
 use etendue_render::area::{Area, Place};
 use etendue_render::limits::{MOST_SAMPLES, is_size};
@@ -177,7 +178,19 @@ pub(super) fn samples(kind: &str, params: &mut Params, notes: &mut Notes) -> Res
         .filter(|n| (1..=MOST_SAMPLES).contains(n))
         .ok_or_else(|| params.error(format!("{samples} samples per pixel: must be from 1 to {MOST_SAMPLES}")))?;
     if kind != "independent" && kind != "stratified" {
-        notes.warn(params.error("only the number of samples is used; --sampler chooses the sampler"));
+        let nearest = match kind {
+            "zsobol" => "z-order",
+            "halton" | "sobol" | "paddedsobol" | "pmj02bn" | "02sequence" | "lowdiscrepancy" | "maxmindist" => "sobol",
+            "random" => "independent",
+            other => {
+                let near =
+                    did_you_mean(other, ["independent", "stratified", "zsobol", "halton", "sobol", "paddedsobol"]);
+                notes.misspelt(params.error(format!("unknown: only its number of samples is used{near}")));
+                return Ok(samples);
+            }
+        };
+        notes
+            .warn(params.error(format!("only its number of samples is used; the nearest here is --sampler {nearest}")));
     }
     Ok(samples)
 }

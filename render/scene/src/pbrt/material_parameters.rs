@@ -6,6 +6,7 @@ use super::spectrum::{self, Named};
 use super::textures::{Textures, Value};
 use crate::builder::Builder;
 use crate::message::shortened;
+use crate::nearest::did_you_mean;
 use crate::radiance::rounded;
 use etendue_render::scene::{Material, Message, Roughness, Varying};
 use etendue_render::texture::Texture;
@@ -28,10 +29,32 @@ pub(super) struct Context<'a> {
     pub(super) files: Files<'a>,
 }
 
-/// The types of materials, for messages.
-const KINDS: &str = "\"diffuse\", \"coateddiffuse\", \"conductor\", \"coatedconductor\", \"dielectric\", \"thindielectric\", \
-    \"diffusetransmission\", \"subsurface\", \"hair\", \"measured\", \"mix\", \"interface\", \"mirror\", and pbrt-v3's \"matte\", \
-    \"plastic\", \"metal\", \"glass\", \"uber\", \"substrate\", \"translucent\", \"disney\", \"fourier\" and \"kdsubsurface\"";
+/// The types of materials, for messages; the last ones are those of pbrt-v3.
+const KINDS: [&str; 23] = [
+    "diffuse",
+    "coateddiffuse",
+    "conductor",
+    "coatedconductor",
+    "dielectric",
+    "thindielectric",
+    "diffusetransmission",
+    "subsurface",
+    "hair",
+    "measured",
+    "mix",
+    "interface",
+    "mirror",
+    "matte",
+    "plastic",
+    "metal",
+    "glass",
+    "uber",
+    "substrate",
+    "translucent",
+    "disney",
+    "fourier",
+    "kdsubsurface",
+];
 
 /// Reads the parameters of a material. What direct light on opaque surfaces cannot show becomes a stand-in.
 pub(super) fn read(
@@ -106,8 +129,9 @@ pub(super) fn read(
             return Ok(Finish::Invisible);
         }
         _ => {
+            let (kinds, near) = (KINDS.join(", "), did_you_mean(kind, KINDS));
             let kind = shortened(kind);
-            return Err(params.error(format!("material type {kind:?} is not supported, only {KINDS}")));
+            return Err(params.error(format!("material type {kind:?} is not supported, only {kinds}{near}")));
         }
     }))
 }

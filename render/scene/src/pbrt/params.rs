@@ -4,7 +4,8 @@ use super::inputs::Files;
 use super::lexer::{Lexer, Token, number};
 use super::spectrum::{self, Named, Samples};
 pub(super) use crate::message::shown;
-use crate::message::{Place, shortened};
+use crate::message::{Notes, Place, shortened};
+use crate::nearest::nearest;
 use etendue_render::scene::Message;
 use std::path::Path;
 
@@ -52,6 +53,8 @@ pub(super) struct Params {
     list: Vec<Param>,
     /// Warnings of parameters that are given twice.
     repeated: Vec<Message>,
+    /// The names that were looked up.
+    known: Vec<String>,
 }
 
 /// The canonical name of a parameter type.
@@ -110,7 +113,7 @@ impl Values {
 impl Params {
     /// Reads the parameters that follow the directive `owner`.
     pub(super) fn read(lexer: &mut Lexer<'_>, owner: String, place: Place) -> Result<Self, Message> {
-        let mut params = Params { owner, place, list: Vec::new(), repeated: Vec::new() };
+        let mut params = Params { owner, place, list: Vec::new(), repeated: Vec::new(), known: Vec::new() };
         while let Some(Token::Text(_)) = lexer.peek()? {
             let param = Self::read_one(lexer, &params.owner)?;
             if params.list.len() == MOST_PARAMETERS {
@@ -118,7 +121,8 @@ impl Params {
                 return Err(lexer.place(param.line).message(format!("{}: {:?}: {why}", params.owner, param.name)));
             }
             // as in pbrt, the last one counts
-            if params.given(&param.name) {
+            if params.has(&param.name) {
+                params.list.retain(|other| other.name != param.name);
                 params.repeated.push(params.at(&param, "given twice: this one counts"));
             }
             params.list.push(param);
@@ -173,10 +177,14 @@ impl Params {
         place.message(format!("{}: {:?}: {}", self.owner, param.name, text.as_ref()))
     }
 
+    /// Where a parameter is in the list, if it is given.
+    fn find(&mut self, name: &str) -> Option<usize> {
+        self.known.push(name.to_owned());
+        self.list.iter().position(|p| p.name == name)
+    }
+
     fn take(&mut self, name: &str, kind: &str) -> Result<Option<Param>, Message> {
-        let Some(i) = self.list.iter().position(|p| p.name == name) else {
-            return Ok(None);
-        };
+        let Some(i) = self.find(name) else { return Ok(None) };
         let param = self.list.remove(i);
         if param.kind != kind {
             return Err(self.at(&param, format!("type {} is not supported, only {kind}", param.kind)));
@@ -257,7 +265,7 @@ impl Params {
 
     /// Removes a parameter if it is of one of these types.
     fn take_any(&mut self, name: &str, kinds: &[&str]) -> Result<Option<Param>, Message> {
-        let Some(i) = self.list.iter().position(|p| p.name == name) else { return Ok(None) };
+        let Some(i) = self.find(name) else { return Ok(None) };
         let param = self.list.remove(i);
         if kinds.contains(&param.kind) {
             return Ok(Some(param));
@@ -369,6 +377,7 @@ impl Params {
 
     /// Removes the parameter, of whatever type; returns whether it was given.
     pub(super) fn given(&mut self, name: &str) -> bool {
+        self.known.push(name.to_owned());
         let before = self.list.len();
         self.list.retain(|p| p.name != name);
         self.list.len() != before
@@ -403,9 +412,14 @@ impl Params {
         self.list.iter().any(|p| p.name == name)
     }
 
-    /// A warning for each parameter that was not looked up.
-    pub(super) fn finish(self) -> Vec<Message> {
-        let ignored = self.list.iter().map(|param| self.at(param, "ignored"));
-        self.repeated.iter().cloned().chain(ignored).collect()
+    /// Warns of each parameter that was not looked up, and names the one that may be meant.
+    pub(super) fn finish(self, notes: &mut Notes) {
+        self.repeated.iter().cloned().for_each(|message| notes.warn(message));
+        for param in &self.list {
+            match nearest(&param.name, self.known.iter().map(String::as_str)) {
+                Some(near) => notes.misspelt(self.at(param, format!("ignored; did you mean {near:?}?"))),
+                None => notes.warn(self.at(param, "ignored")),
+            }
+        }
     }
 }

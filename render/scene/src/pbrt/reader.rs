@@ -18,6 +18,7 @@ use super::textures::Textures;
 use super::transform_directives;
 use crate::builder::{Builder, Rest};
 use crate::message::{Place, shortened, utf8};
+use crate::nearest::did_you_mean;
 use crate::transform::Transform;
 use etendue_render::scene::{CameraSettings, FilmSettings, Message, Scene};
 use std::cell::RefCell;
@@ -43,6 +44,29 @@ const WORLD: [&str; 14] = [
     "ObjectBegin",
     "ObjectEnd",
     "ObjectInstance",
+];
+
+/// Directives on either side of it, and itself.
+const ANYWHERE: [&str; 19] = [
+    "WorldBegin",
+    "Identity",
+    "Translate",
+    "Scale",
+    "Rotate",
+    "LookAt",
+    "Transform",
+    "ConcatTransform",
+    "CoordinateSystem",
+    "CoordSysTransform",
+    "ActiveTransform",
+    "TransformTimes",
+    "Include",
+    "Import",
+    "MediumInterface",
+    "MakeNamedMedium",
+    "Attribute",
+    "Texture",
+    "ColorSpace",
 ];
 
 struct Reader<'a> {
@@ -190,7 +214,10 @@ impl Reader<'_> {
                 let params = Params::read(lexer, format!("{word} {:?}", shortened(&kind)), place)?;
                 self.with_params(word, &kind, params, dir)?;
             }
-            _ => return Err(place.message(format!("unknown directive {}", shortened(word)))),
+            _ => {
+                let near = did_you_mean(word, OPTIONS.into_iter().chain(WORLD).chain(ANYWHERE));
+                return Err(place.message(format!("unknown directive {}{near}", shortened(word))));
+            }
         }
         Ok(())
     }
@@ -256,7 +283,7 @@ impl Reader<'_> {
         let Self { textures, out, .. } = self;
         let files = self.files.at(dir);
         textures.define(&name, &value, &kind, &mut params, &files, &mut out.notes)?;
-        out.notes.warnings.extend(params.finish());
+        params.finish(&mut out.notes);
         Ok(())
     }
 
@@ -309,7 +336,7 @@ impl Reader<'_> {
                 self.shape(kind, &mut params, dir)?;
             }
         }
-        self.out.notes.warnings.extend(params.finish());
+        params.finish(&mut self.out.notes);
         Ok(())
     }
 

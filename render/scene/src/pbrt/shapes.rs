@@ -6,6 +6,7 @@ use super::params::{Params, shown};
 use super::ply::{self, Face};
 use super::subdivision;
 use crate::builder::{Builder, round};
+use crate::nearest::did_you_mean;
 use crate::shape_attributes::ShapeAttributes;
 use crate::transform::Transform;
 use crate::vertices::{Vertex, Vertices};
@@ -13,6 +14,9 @@ use etendue_render::geometry::{Disk, Geometry, Sphere};
 use etendue_render::scene::{Emission, Message};
 use etendue_render::texture::Mapping;
 use std::path::Path;
+
+/// The types of shapes, for messages.
+const KINDS: [&str; 7] = ["sphere", "trianglemesh", "bilinearmesh", "plymesh", "loopsubdiv", "disk", "cylinder"];
 
 /// Reads a `Shape`; only a built-in scene may name `builtin:` meshes.
 pub(super) fn read(
@@ -44,9 +48,10 @@ pub(super) fn read(
             params.ignore_all();
             Ok(())
         }
-        _ => Err(params.error(
-            "shape not supported, only sphere, trianglemesh, bilinearmesh, plymesh, loopsubdiv, disk and cylinder",
-        )),
+        _ => {
+            let (kinds, near) = (KINDS.join(", "), did_you_mean(kind, KINDS));
+            Err(params.error(format!("shape not supported, only {kinds}{near}")))
+        }
     }?;
     let shared = surface.power.map_or(Ok(()), |power| out.lamps.share(power, &mut out.shapes[first..]));
     shared.map_err(|why| params.error(why))
@@ -300,6 +305,8 @@ fn ply_mesh(
 
     let placed = surface.place(mesh.points.into_iter());
     let points = placed.map_err(|why| params.error(format!("{shown}: {why}")))?;
+    // warnings from here on name the mesh
+    params.owner.push_str(&format!(" {shown:?}"));
     let vertices = Vertices::new(points, placed_normals(surface, mesh.normals.into_iter()).collect(), mesh.uvs);
     out.reserve(surface, mesh.faces.len());
     for face in mesh.faces {

@@ -5,7 +5,8 @@ use super::*;
 /// Texts that follow a valid first line, the line of their fault, and a part of the message.
 const FAULTS: &[(&str, u32, &str)] = &[
     // words and tokens
-    ("Flim \"rgb\"", 2, "unknown directive Flim"),
+    ("Flim \"rgb\"", 2, "unknown directive Flim; did you mean Film?"),
+    ("Atributebegin", 2, "unknown directive Atributebegin; did you mean AttributeBegin?"),
     ("# comment\r\nFlim", 3, "unknown directive Flim"),
     ("#\u{e9}\nAttributeBegin\u{e9}", 3, "unknown directive AttributeBegin\u{e9}"),
     ("\n\"Shape\"", 3, "expected a directive, found \"Shape\""),
@@ -87,6 +88,8 @@ const FAULTS: &[(&str, u32, &str)] = &[
     ("Import \"a.pbrt\"", 2, "cannot read"),
     ("Include \"none.pbrt\"", 2, "cannot read"),
     ("Shape \"cube\"", 2, "Shape \"cube\": shape not supported"),
+    ("Shape \"sphre\"", 2, "disk, cylinder; did you mean sphere?"),
+    ("Material \"difuse\"", 2, "kdsubsurface; did you mean diffuse?"),
     ("Shape \"sphere\" \"texture alpha\" \"a\"", 2, "\"alpha\": no float Texture \"a\" precedes this"),
     ("Material \"cloth\"", 2, "material type \"cloth\" is not supported"),
     ("Material \"dielectric\" \"float eta\" 0", 2, "\"eta\": must be from 1e-3 to 1e3, not 0"),
@@ -252,7 +255,7 @@ fn errors_before_the_world() {
     for name in ["ab", "", "no-such-scene"] {
         assert!(!load(name).unwrap_err().to_string().contains("did you mean"), "{name}");
     }
-    assert!(load("no-such-scene").unwrap_err().to_string().contains("built-in scenes: sphere-light, "));
+    assert!(load("no-such-scene").unwrap_err().to_string().contains("built-in scenes: studio, sphere-light, "));
     assert!(load(".").unwrap_err().to_string().contains("not a regular file"));
 }
 
@@ -272,7 +275,7 @@ fn warnings_name_line_and_parameter() {
         "a.pbrt:2: ColorSpace \"aces2065-1\" ignored",
         "a.pbrt:3: Accelerator \"bvh\": ignored",
         "a.pbrt:4: Film \"rgb\": \"iso\": ignored",
-        "a.pbrt:5: Sampler \"halton\": only the number of samples",
+        "a.pbrt:5: Sampler \"halton\": only its number of samples is used; the nearest here is --sampler sobol",
         "a.pbrt:5: Sampler \"halton\": \"seed\": ignored",
         "a.pbrt:6: PixelFilter \"gaussian\": ignored",
         "a.pbrt:7: Integrator \"path\": only direct light",
@@ -287,6 +290,23 @@ fn warnings_name_line_and_parameter() {
         assert!(found.starts_with(expected), "{found}\n{expected}");
     }
     assert!(scene.shapes[0].emission.is_none());
+}
+
+/// What may be misspelt is a warning, and what `--strict` refuses; what is only unknown is no more than a warning.
+#[test]
+fn misspelt_parameters_name_the_one_that_may_be_meant() {
+    let text = "Sampler \"zsobl\"\nCamera \"perspective\" \"float fvo\" 30 \"float weight\" 2\nWorldBegin\n\
+                AreaLightSource \"diffuse\" \"rgb L\" [1 1 1]\nShape \"sphere\" \"float raduis\" 2 \"float radius\" 3";
+    let scene = read(text);
+    let expected = [
+        "a.pbrt:1: Sampler \"zsobl\": unknown: only its number of samples is used; did you mean zsobol?",
+        "a.pbrt:2: Camera \"perspective\": \"fvo\": ignored; did you mean \"fov\"?",
+        "a.pbrt:2: Camera \"perspective\": \"weight\": ignored",
+        "a.pbrt:5: Shape \"sphere\": \"raduis\": ignored; did you mean \"radius\"?",
+    ];
+    assert_eq!(warnings(&scene), expected);
+    let refused: Vec<String> = scene.stand_ins.iter().map(ToString::to_string).collect();
+    assert_eq!(refused, [expected[0], expected[1], expected[3]]);
 }
 
 #[test]
