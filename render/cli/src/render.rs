@@ -150,10 +150,10 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
         let left =
             of(&Settings { technique: beside.technique, ..settings }, other.seconds, other.rays.shadow, other.error);
         let right = of(&settings, median(&done.seconds), done.rays.shadow, done.error);
-        writeln!(out(), "{wrote}: the same scene in the same time\n  left   {left}\n  right  {right}")?;
+        writeln!(out(), "{wrote}: the same scene in about the same time\n  left   {left}\n  right  {right}")?;
     }
     if !options.json {
-        next_steps(image, &done, chosen)?;
+        next_steps(options, &done, chosen)?;
     }
     Ok(())
 }
@@ -294,7 +294,7 @@ fn title(technique: Technique, chosen: Technique) -> String {
 }
 
 /// Prints what the number of shadow rays means, and the commands that a reader may want to try next.
-fn next_steps(image: &ImageOptions, done: &Image, chosen: Technique) -> io::Result<()> {
+fn next_steps(options: &Options, done: &Image, chosen: Technique) -> io::Result<()> {
     let mut out = out();
     let RayCount { camera, shadow, .. } = done.rays;
     if chosen == Technique::Analytic && shadow < camera / 2 {
@@ -304,14 +304,14 @@ fn next_steps(image: &ImageOptions, done: &Image, chosen: Technique) -> io::Resu
             "{shadow} shadow rays sufficed, where sampling one light for each camera ray takes up to {camera}: the rest was proved"
         )?;
     }
+    let scene = &options.image.scene;
     let program = std::env::args_os().next().unwrap_or_else(|| "etendue".into());
     let other = if chosen == Technique::Area { Technique::Auto } else { Technique::Area }.name();
-    for (what, command) in [
-        ("compare", words([&program, &"render", &image.scene, &"--beside", &other])),
-        ("measure", words([&program, &"chart", &image.scene, &"--quick"])),
-        ("watch", words([&program, &"view", &image.scene])),
-    ] {
-        write!(out, "{what}: ")?;
+    let compare = words([&program, &"render", scene, &"--beside", &other]);
+    let compare = options.beside.is_none().then_some(("compare", compare));
+    let measure = ("measure", words([&program, &"chart", scene, &"--quick"]));
+    for (what, command) in compare.into_iter().chain([measure, ("watch", words([&program, &"view", scene]))]) {
+        write!(out, "{:9}", format!("{what}:"))?;
         out.write_all(&line(&command))?;
         writeln!(out)?;
     }

@@ -105,6 +105,7 @@ def watch_to_the_end(browser):
         # the pixel under the cursor, by hand and by key
         browser.evaluate("document.getElementById('image').scrollIntoView()")
         left, top, w, h = browser.box("#image")
+        top -= browser.evaluate("scrollY")
         browser.mouse("mouseMoved", left + w / 2 + 0.3, top + h / 2 + 0.3)
         browser.settle()
         assert browser.evaluate("view.cursor") == [80, 60]
@@ -183,6 +184,21 @@ def switch_and_compare(browser):
             assert min(same[1 - first[left]], same[3 - first[right]]) < 0.9, f"both images are the same: {same}"
         keep("compare.png", browser)
         browser.choose("wipe", "50")
+        # the line follows the hand, and the names of both images stand at it
+        browser.evaluate("document.getElementById('image').scrollIntoView()")
+        x, y, w, h = browser.evaluate("(() => { const b = document.getElementById('image').getBoundingClientRect(); return [b.x, b.y, b.width, b.height]; })()")
+        browser.drag((x + w / 2, y + h / 3), (x + 0.7 * w, y + h / 3))
+        assert abs(float(browser.evaluate("document.getElementById('wipe').value")) - 70) <= 0.5
+        browser.choose("wipe", "50")
+        # differences have a bar of colours with numbers and a unit
+        for layer, title in [("difference", "A − B, W/(m² sr)"), ("relative", "(A − B) / B")]:
+            browser.choose("layer", layer)
+            assert browser.evaluate("document.getElementById('bar').getAttribute('aria-label')").startswith(title)
+            number, _ = colors(browser.screenshot("#image"))
+            assert number > 20, f"{layer} has {number} colours"
+            keep(f"{layer}.png", browser)
+        browser.choose("layer", "radiance")
+        assert browser.evaluate("document.getElementById('bar').hidden")
         # a part, dragged by hand
         browser.click("#crop")
         browser.evaluate("document.getElementById('image').scrollIntoView()")
@@ -230,6 +246,32 @@ def switch_and_compare(browser):
         browser.wait("!document.getElementById('lost').hidden")
         assert browser.evaluate("document.getElementById('lost').getBoundingClientRect().height") > 20
         subprocess.run([PROGRAM, "compare", "switch.exr", "switch.exr"], check=True, capture_output=True)
+    finally:
+        viewer.close()
+
+
+def turn_and_save(browser):
+    """The camera turns about what it looks at, and the image starts again; nothing is written but the copy that the page asks for."""
+    before = set(os.listdir())
+    viewer = Viewer("studio", "--size", "96x72", "--technique", "area", "--sampler", "sobol")
+    try:
+        browser.open(viewer.url, "window.view && window.view.last")
+        browser.wait("view.status.pictures[0].spp > 64")
+        still = browser.evaluate("[...view.last.mean.slice(0, 3 * 96)]")
+        browser.click("#turn")
+        x, y, w, h = browser.evaluate("(() => { const b = document.getElementById('image').getBoundingClientRect(); return [b.x, b.y, b.width, b.height]; })()")
+        browser.drag((x + w / 2, y + h / 2), (x + 0.7 * w, y + 0.4 * h))
+        browser.wait("view.status.orbit && view.status.pictures.length && view.status.pictures[0].spp < 64")
+        browser.wait(f"view.last.mean.slice(0, 3 * 96).some((x, i) => Math.abs(x - {json.dumps(still)}[i]) > 0.3)")
+        keep("turned.png", browser)
+        browser.click("#still")
+        browser.wait("!view.status.orbit")
+        assert set(os.listdir()) == before, set(os.listdir()) - before
+        browser.click("#save")
+        browser.wait("document.getElementById('message').textContent.includes('Wrote studio-view.exr and studio-view.png')")
+        assert set(os.listdir()) - before == {"studio-view.exr", "studio-view.png"}
+        assert "studio-view-2.exr" in browser.evaluate("document.getElementById('save').textContent")
+        assert "nothing was written" in viewer.interrupt()
     finally:
         viewer.close()
 
@@ -285,7 +327,7 @@ def main():
         os.chdir(folder)
         browser = Browser(path)
         try:
-            for step in [watch_to_the_end, switch_and_compare, change_the_scene, measure]:
+            for step in [watch_to_the_end, switch_and_compare, turn_and_save, change_the_scene, measure]:
                 step(browser)
                 print(f"{step.__name__}: passed after {time.monotonic() - began:.0f} s")
             errors = browser.errors()

@@ -338,8 +338,8 @@ fn selftest_compares_random_scenes() {
 fn list_names_everything() {
     let text = Folder::new().succeed(&["list"]);
     let names: Vec<_> = text.lines().filter_map(|line| line.split_whitespace().next()).collect();
-    let expected = "scenes sphere-light triangle-light quads terrain cornell-box mirror-room plates delta-lights sky defocus chandelier \
-                    city wet-city knot techniques uniform-hemisphere cosine-hemisphere area solid-angle projected-solid-angle brdf \
+    let expected = "scenes studio sphere-light triangle-light quads terrain cornell-box mirror-room plates delta-lights sky defocus \
+                    chandelier city wet-city knot techniques uniform-hemisphere cosine-hemisphere area solid-angle projected-solid-angle brdf \
                     mis-balance mis-power mis-lobe analytic auto choices auto uniform power spatial tree kinds samplers independent \
                     stratified sobol sobol-4d z-order adaptive sensors radiance irradiance power";
     assert_eq!(names.join(" "), expected);

@@ -1,0 +1,109 @@
+"""The index of the project's site, and its test in a browser.
+
+site.py write FOLDER [PLAYGROUND]: writes index.html; standard input has a line for each chart, its scene and a description. PLAYGROUND is
+anything but empty if there is a playground. The gallery has the captions of render/README.md.
+site.py test FOLDER [PICTURES]: opens every page at 1,400 and 400 pixels in a headless Chromium, and keeps pictures."""
+
+import re
+import sys
+from html import escape
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+STYLE = """
+:root { color-scheme: light dark; }
+body { max-width: 70rem; margin: 0 auto; padding: 1rem; font: 16px/1.5 system-ui, sans-serif; overflow-wrap: anywhere; }
+img { max-width: 100%; height: auto; }
+ul { padding-left: 1.2rem; }
+.gallery { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(100%, 20rem), 1fr)); gap: 1rem; align-items: end; }
+figure { margin: 0; }
+figcaption { font-size: 0.9rem; }
+"""
+
+
+def captions():
+    """The pictures of the renderer's README, each with what it shows: its path in the site, and its text."""
+    text = (ROOT / "render/README.md").read_text()
+    for about, path in re.findall(r"!\[([^\]]+)\]\((gallery/[^)]+)\)", text):
+        yield path, about
+
+
+def first_words():
+    """The first paragraph of the README, and the alternative text of its picture."""
+    text = (ROOT / "README.md").read_text()
+    paragraph = text.split("\n\n")[1].replace("`", "")
+    about, path = re.search(r"!\[([^\]]+)\]\(render/(gallery/[^)]+)\)", text).groups()
+    return paragraph, about, path
+
+
+def write(folder, playground, charts):
+    paragraph, about, picture = first_words()
+    links = [("playground/index.html", "Playground", "drag a light, and see where samples go")] if playground else []
+    links += [("atlas/atlas.html", "Atlas", "where the library and textbook formulas lose accuracy")]
+    items = [f'<li><a href="{path}">{name}</a>: {what}</li>' for path, name, what in links]
+    items += [f'<li><a href="chart/{escape(name)}/report.html">{escape(name)}</a>: {escape(what)}</li>' for name, what in charts]
+    figures = [f'<figure><img loading="lazy" src="{path}" alt="{escape(what)}"><figcaption>{escape(what)}</figcaption></figure>' for path, what in captions()]
+    page = f"""<!doctype html>
+<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
+<title>Étendue</title><link rel="icon" href="data:,"><style>{STYLE}</style></head><body>
+<h1>Étendue</h1>
+<p>{escape(paragraph)}</p>
+<figure><img src="{picture}" alt="{escape(about)}"><figcaption>{escape(about)}, in the same time</figcaption></figure>
+<h2>Try and measure</h2>
+<ul>
+{chr(10).join(items[: len(links)])}
+</ul>
+<h2>Charts: the error of each technique against its time</h2>
+<ul>
+{chr(10).join(items[len(links) :])}
+</ul>
+<h2>Gallery</h2>
+<div class="gallery">
+{chr(10).join(figures)}
+</div>
+</body></html>
+"""
+    (folder / "index.html").write_text(page)
+
+
+def test(folder, pictures):
+    sys.path.insert(0, str(ROOT / "core/playground/tests"))
+    from browser import Browser, find
+
+    chromium = find()
+    if not chromium:
+        sys.exit("site.py: there is no Chromium here: the site is not tested")
+    index = folder / "index.html"
+    browser = Browser(chromium)
+    try:
+        browser.open(index.as_uri(), "document.body")
+        pages = browser.evaluate("[...document.querySelectorAll('a')].map((a) => a.href)")
+        assert pages, "the index has no links"
+        for url in [index.as_uri(), *pages]:
+            assert Path(url.removeprefix("file://")).is_file(), f"{url} is missing"
+            name = Path(url).relative_to(folder.as_uri()).as_posix()
+            for width in [1400, 400]:
+                browser.resize(width, 1000)
+                browser.open(url, "document.body")
+                # pictures that are loaded late, too
+                broken = browser.evaluate(
+                    "Promise.all([...document.images].map((i) => { i.loading = 'eager'; return i.decode().then(() => '', () => i.src.slice(0, 80)); })).then((all) => all.filter(Boolean))"
+                )
+                assert not broken, f"{name}: pictures are missing: {broken}"
+                wide = browser.evaluate("document.documentElement.scrollWidth")
+                assert wide <= width, f"{name} is {wide} pixels wide in a window of {width}"
+                if pictures and url == index.as_uri():
+                    pictures.mkdir(parents=True, exist_ok=True)
+                    (pictures / f"site-{width}.png").write_bytes(browser.screenshot())
+            assert not browser.errors(), f"{name}: {browser.errors()}"
+        print(f"{1 + len(pages)} pages: they fit 1,400 and 400 pixels, lack no picture, and have no errors")
+    finally:
+        browser.close()
+
+
+command, folder, *more = sys.argv[1:]
+folder = Path(folder).resolve()
+if command == "write":
+    write(folder, more and more[0], [line.split("\t") for line in sys.stdin.read().splitlines() if line])
+else:
+    test(folder, Path(more[0]) if more else None)
