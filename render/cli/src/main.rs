@@ -36,20 +36,37 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     /// Render a scene to an EXR file, with a PNG beside it
+    ///
+    /// Example: `etendue render studio --error 1%` renders until the estimated error is 1 %.
     Render(render::Options),
     /// Show an image in the browser while it improves
+    ///
+    /// Example: `etendue view studio --technique area` shows it by sampling points of the lamps; the page switches techniques, compares
+    /// them and turns the camera.
     View(view::Options),
     /// Print the commands that render an image in parts, on any number of machines
+    ///
+    /// Example: `etendue plan quads --spp 4096 -o quads.exr > quads.plan`, then `sh quads.plan`.
     Plan(plan::Options),
     /// Put parts of an image together
+    ///
+    /// Example: `etendue merge -o quads.exr quads.parts` puts together what `etendue plan` had rendered.
     Merge(merge::Options),
     /// Compare an image with a reference of the same size
+    ///
+    /// Example: `etendue compare reference.exr image.exr` prints the error, and whether the difference is more than noise.
     Compare(compare::Options),
     /// Render random scenes with several techniques, and check that the images agree with an exhaustive renderer
+    ///
+    /// Example: `etendue selftest 10` renders ten scenes of each kind.
     Selftest(selftest::Options),
     /// Measure the error and time of techniques and samplers, and write a report with charts
+    ///
+    /// Example: `etendue chart studio --quick` finds the best technique for a scene in less than three minutes.
     Chart(chart::Options),
     /// Map where each technique of the library loses accuracy, compared with textbook formulas
+    ///
+    /// Example: `etendue atlas --shape triangle --quick` maps triangles in some seconds.
     Atlas(atlas::Options),
     /// List the built-in scenes, techniques, choices of a light, samplers and sensors
     List,

@@ -22,6 +22,30 @@ pub struct Picture {
     pub png: Vec<u8>,
 }
 
+/// The colours of a kind of picture, and what their ends and their middle stand for.
+#[derive(Clone, Debug)]
+pub struct ColorBar {
+    /// Kind of picture.
+    pub kind: &'static str,
+    /// Colours from one end to the other, as a page writes them.
+    pub colors: Vec<String>,
+    /// What the first colour, the one in the middle and the last stand for.
+    pub ends: [String; 3],
+    /// What is shown, with its unit.
+    pub title: String,
+}
+
+impl ColorBar {
+    /// The bar of a map of colours, from `low` to 1.
+    fn new(kind: &'static str, low: f64, color: fn(f64) -> [u8; 3], ends: [String; 3], title: &str) -> Self {
+        let css = |k: u8| {
+            let [r, g, b] = color(low + (1.0 - low) * f64::from(k) / 20.0);
+            format!("rgb({r},{g},{b})")
+        };
+        Self { kind, colors: (0..=20).map(css).collect(), ends, title: title.to_owned() }
+    }
+}
+
 /// The images of a scene.
 #[derive(Clone, Debug)]
 pub struct Panel {
@@ -33,6 +57,8 @@ pub struct Panel {
     pub pictures: Vec<Picture>,
     /// Explanation of the colours.
     pub caption: String,
+    /// Their bars.
+    pub bars: Vec<ColorBar>,
 }
 
 /// Number of images from which variances are computed.
@@ -164,14 +190,17 @@ pub fn panel(outcome: &Outcome, summary: &Summary) -> Panel {
         }
     }
     let caption = format!(
-        "Images have {spp} samples per pixel, adaptive ones on average. Difference from the reference: blue is too dark, red too \
-         bright, full colour at ±{}. Variance of a pixel over {REPLICATES} replicates, on a logarithmic scale: black is {} or less, \
-         pale yellow {} or more. Wanted: the number of samples a pixel would need for a variance of {}, if variance falls as 1/N. \
-         Samples: the number an adaptive sampler took. Both on a logarithmic scale: black is 1, pale yellow {MOST_SAMPLES} or more.",
-        short(range),
-        short(low),
-        short(high),
+        "Images have {spp} samples per pixel, adaptive ones on average. Difference: blue is too dark, red too bright. \
+         Variance: that of a pixel over {REPLICATES} replicates. Wanted: the number of samples a pixel would need for a variance of {}, if \
+         variance falls as 1/N. Samples: the number an adaptive sampler took. The last three have logarithmic scales.",
         short(summary.target),
     );
-    Panel { scene: summary.scene.clone(), spp, pictures, caption }
+    let counts = || [1.0, MOST_SAMPLES.sqrt(), MOST_SAMPLES].map(short);
+    let bars = vec![
+        ColorBar::new("difference", -1.0, signed, [-range, 0.0, range].map(short), "image − reference, W/(m² sr)"),
+        ColorBar::new("variance", 0.0, heat, [low, (low * high).sqrt(), high].map(short), "variance, (W/(m² sr))²"),
+        ColorBar::new("wanted", 0.0, heat, counts(), "samples per pixel that would be needed"),
+        ColorBar::new("samples", 0.0, heat, counts(), "samples per pixel"),
+    ];
+    Panel { scene: summary.scene.clone(), spp, pictures, caption, bars }
 }

@@ -2,7 +2,7 @@
 
 use super::charts::{Against, Figure, Measure, id, with_interval};
 use super::outcome::Outcome;
-use super::pictures::{Panel, Picture};
+use super::pictures::{ColorBar, Panel, Picture};
 use super::plot::{color, dash, escape, short};
 use super::reference::KNOWN_TO;
 use super::stats::{Estimate, WIDEST};
@@ -67,6 +67,7 @@ fn viewer(index: usize, panel: &Panel) -> String {
          <div class=\"stage\"><img alt=\"left image\"><img alt=\"right image\"><div class=\"edge\"></div><span class=\"left\"></span>\
          <span class=\"right\"></span></div><input type=\"range\" min=\"0\" max=\"100\" value=\"50\" \
          aria-label=\"position of the boundary between the two images\">\
+         <div class=\"bar\"><i></i><span></span><span></span><span></span><b></b></div>\
          <p><small><span class=\"by-hand\">Drag the boundary, or click here and press <kbd>f</kbd> to flip between the two, \
          <kbd>←</kbd> <kbd>→</kbd> to step through all.</span> {}</small></p>\
          <div class=\"thumbs\"></div></div>\n",
@@ -148,15 +149,19 @@ fn facts(outcome: &Outcome, command: &str) -> String {
     facts.into_iter().chain(scenes).map(row).collect()
 }
 
-/// The pictures of each scene, as JSON.
+/// The pictures of each scene and the bars of their colours, as JSON.
 fn pictures(outcome: &Outcome, panels: &[Panel]) -> String {
     let one = |p: &Picture| {
         let uri = format!("data:image/png;base64,{}", base64::engine::general_purpose::STANDARD.encode(&p.png));
         json!({ "kind": p.kind, "title": p.title, "uri": uri })
     };
+    let bar = |b: &ColorBar| json!({ "kind": b.kind, "colors": b.colors, "ends": b.ends, "title": b.title });
     let of_scene = |s: &Summary| {
-        let pictures = panels.iter().find(|p| p.scene == s.scene).map_or(&[][..], |p| &p.pictures);
-        pictures.iter().map(one).collect::<Vec<_>>()
+        let panel = panels.iter().find(|p| p.scene == s.scene);
+        let [pictures, bars] = panel.map_or_else(Default::default, |p| {
+            [p.pictures.iter().map(one).collect::<Vec<_>>(), p.bars.iter().map(bar).collect()]
+        });
+        json!({ "pictures": pictures, "bars": bars })
     };
     let all: Vec<_> = outcome.summaries.iter().map(of_scene).collect();
     // "</" could end the script
