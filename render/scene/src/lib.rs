@@ -1,9 +1,9 @@
 //! Reads scene files: glTF 2.0 (feature `gltf`), and the part of the pbrt-v4 format that direct lighting needs (feature `pbrt`), in which
 //! the built-in scenes are, too.
 //!
-//! Coordinates are transformed in f64 and rounded once to f32. What is invalid is an error that names file and line or item. What changes
-//! the image little, or only its noise, is a warning. What direct light on opaque surfaces cannot show becomes something else, with one
-//! warning for each kind, which [`Scene::stand_ins`] has, too:
+//! Coordinates are transformed in f64 and rounded once to f32. Errors name the file, and the line or item. What changes
+//! the image little, or only its noise, is a warning. Unsupported features are replaced, with one warning for each kind, which
+//! [`Scene::stand_ins`] has, too, as those of parameters that may be misspelt:
 //!
 //! | in pbrt files | becomes |
 //! |---|---|

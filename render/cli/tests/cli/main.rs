@@ -334,6 +334,45 @@ fn selftest_compares_random_scenes() {
     assert!(folder.names().is_empty());
 }
 
+/// The left half is the other image, the right half is this one, and a white line is between them.
+#[test]
+fn another_technique_is_beside_the_image() {
+    let folder = Folder::new();
+    let image = ["render", "quads", "--size", "34x8", "--spp", "2"];
+    let text = folder.succeed(&[&image[..], &["--beside", "area"]].concat());
+    assert_eq!(folder.names(), ["quads-beside-area.png", "quads.exr", "quads.png"]);
+    let line = |start: &str| text.lines().find(|line| line.starts_with(start)).unwrap_or_else(|| panic!("{text}"));
+    assert!(line("wrote quads-beside-area.png: ").ends_with("in about the same time"), "{text}");
+    for start in ["  left   area: ", "  right  auto (analytic): "] {
+        let end = line(start).strip_prefix(start).unwrap();
+        assert!(end.contains(" s, ") && end.contains(" shadow rays, error "), "{end}");
+    }
+    let pixels = |name: &str| {
+        let bytes = fs::read(folder.path(name)).unwrap();
+        let mut reader = png::Decoder::new(std::io::Cursor::new(bytes)).read_info().unwrap();
+        let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+        reader.next_frame(&mut pixels).unwrap();
+        assert_eq!(pixels.len(), 3 * 34 * 8);
+        pixels
+    };
+    let (both, this) = (pixels("quads-beside-area.png"), pixels("quads.png"));
+    for (y, (both, this)) in both.chunks(3 * 34).zip(this.chunks(3 * 34)).enumerate() {
+        assert_eq!((&both[48..54], &both[54..]), (&[255; 6][..], &this[54..]), "row {y}");
+    }
+    assert_ne!(both[..48], this[..48]);
+    // the end says what to try next
+    assert!(text.contains("measure: ") && text.ends_with(" view quads\n") && !text.contains("compare: "), "{text}");
+    let plain = folder.succeed(&image);
+    assert!(plain.contains(" render quads --beside area\nmeasure: "), "{plain}");
+    assert!(folder.fail(&[&image[..], &["--beside", "area", "--json"]].concat()).contains("cannot be used with"));
+    // nothing is rendered for a picture that cannot be written
+    let folder = Folder::new();
+    fs::create_dir(folder.path("quads-beside-area.png")).unwrap();
+    let error = folder.fail(&[&image[..], &["--beside", "area"]].concat());
+    assert!(error.contains("quads-beside-area.png: "), "{error}");
+    assert_eq!(folder.names(), ["quads-beside-area.png"]);
+}
+
 #[test]
 fn list_names_everything() {
     let text = Folder::new().succeed(&["list"]);

@@ -340,6 +340,42 @@ fn an_interruption_writes_the_image_that_is_shown() {
 }
 
 #[test]
+fn nothing_is_written_but_a_copy_that_is_asked_for_and_a_turned_camera_starts_again() {
+    let folder = Folder::new();
+    let more = ["--size", "32x32", "--threads", "1", "--technique", "area", "--sampler", "sobol"];
+    let mut viewer = Viewer::with(&folder, &[&["view", "quads"], &more[..]].concat());
+    viewer.until("there are samples", |status| spp(status, "area", "sobol") > 100.0);
+    let (still, _) = viewer.image("area", "sobol");
+    for wrong in ["[1,2]", "[0,0,0]", "[1e9,0,1]", "true"] {
+        let answer = viewer.wish(&format!("{{\"orbit\":{wrong}}}"));
+        assert!(answer.code == 400 && answer.text().contains("is not a turn of the camera"), "{}", answer.text());
+    }
+    assert_eq!(viewer.wish("{\"orbit\":[0.8,0.1,1.0]}").code, 200);
+    viewer.until("it starts again", |status| {
+        status["orbit"] == json!([0.8, 0.1, 1.0]) && (1.0..100.0).contains(&spp(status, "area", "sobol"))
+    });
+    let (turned, _) = viewer.image("area", "sobol");
+    let differ = turned.iter().zip(&still).filter(|(a, b)| (*a - *b).abs() > 0.1 * (*a + *b)).count();
+    assert!(differ > turned.len() / 8, "{differ} of {} values", turned.len());
+    assert_eq!((folder.names(), viewer.status()["copy"].as_str()), (vec![], Some("quads-view.exr and quads-view.png")));
+    viewer.wish("{\"paused\":true}");
+    viewer.wish("{\"save\":true}");
+    let saved = viewer.until("it is written", |status| !status["message"].is_null());
+    assert_eq!(saved["message"], "Wrote quads-view.exr and quads-view.png");
+    assert_eq!(saved["copy"], "quads-view-2.exr and quads-view-2.png");
+    assert_eq!(folder.names(), ["quads-view.exr", "quads-view.png"]);
+    // it is no image of the camera that the scene has
+    folder.succeed(&["render", "quads", "--size", "32x32", "--spp", "64", "--technique", "area", "-o", "plain.exr"]);
+    let error = folder.fail(&["merge", "-o", "both.exr", "quads-view.exr", "plain.exr"]);
+    assert!(error.contains("digest") || error.contains("scene"), "{error}");
+    let id = viewer.child.id().to_string();
+    assert!(Command::new("kill").args(["-INT", &id]).status().unwrap().success());
+    let mut error = String::new();
+    viewer.child.stderr.take().unwrap().read_to_string(&mut error).unwrap();
+    assert_eq!((viewer.child.wait().unwrap().code(), &*error), (Some(130), "interrupted: nothing was written\n"));
+}
+
+#[test]
 fn goals_end_the_rendering_and_not_the_page() {
     let folder = Folder::new();
     let viewer = Viewer::new(&folder, &["quads", "--technique", "area", "--error", "2%"]);
