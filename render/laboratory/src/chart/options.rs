@@ -53,7 +53,7 @@ pub struct Options {
     #[arg(long, default_value_t = 0, value_parser = threads)]
     pub threads: usize,
     /// The technique that all others are compared with
-    #[arg(long, value_parser = named::<Technique>(&Technique::NAMES), default_value = "area")]
+    #[arg(long, value_name = "TECHNIQUE", value_parser = named::<Technique>(&Technique::NAMES), hide_possible_values = true, default_value = "area")]
     pub baseline: Technique,
     /// Mean squared error to reach [default: the error of the best technique at the median sample count]
     #[arg(long, value_name = "MSE")]
