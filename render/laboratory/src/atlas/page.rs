@@ -144,23 +144,29 @@ fn html(charts: &[ErrorMap], sheets: &[(ShapeKind, Sweep, String)], quick: bool)
         );
     }
     let mut maps = String::new();
+    let mut contents =
+        r##"<nav aria-label="Contents"><a href="#summary">Greatest errors</a><a href="#key">How to read the maps</a>"##
+            .to_owned();
     let mut last = None;
     for (kind, sweep, svg) in sheets {
         if last != Some(*kind) {
-            let _ = writeln!(maps, r#"<h2 id="{}">{}</h2>"#, kind.name(), escape(&kind.about()));
+            let (name, about) = (kind.name(), escape(&kind.about()));
+            let _ = writeln!(maps, r#"<h2 id="{name}">{about}</h2>"#);
+            let _ = write!(contents, r##"<a href="#{name}">{about}</a>"##);
             last = Some(*kind);
         }
         // a narrow screen scrolls it, also by keyboard
-        let title = escape(sweep.title);
+        let [title, across, up] = [sweep.title, sweep.x_title, sweep.y_title].map(escape);
         let _ = writeln!(
             maps,
-            r#"<h3>{title}</h3><div class="sheet" tabindex="0" role="region" aria-label="maps: {title}">{svg}</div>"#
+            r#"<h3>{title} <small>(across: {across}; up: {up})</small></h3><div class="sheet" tabindex="0" role="region" aria-label="maps: {title}">{svg}</div>"#
         );
     }
     include_str!("atlas.html")
         .replace("{{DETAIL}}", if quick { "This is a quick survey with coarse axes. " } else { "" })
         .replace("{{ERRORS}}", &legend(&ERRORS, -8, 0, "≤", "≥"))
         .replace("{{RATIOS}}", &legend(&RATIOS, -3, 8, "≤", "≥"))
+        .replace("{{CONTENTS}}", &(contents + "</nav>"))
         .replace("{{SUMMARY}}", &rows)
         .replace("{{MAPS}}", &maps)
 }
