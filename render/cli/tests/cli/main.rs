@@ -7,6 +7,7 @@ mod misuse;
 mod parts;
 mod refined;
 mod view;
+mod viewer;
 
 use serde_json::Value;
 use std::path::{Path, PathBuf};
