@@ -50,7 +50,7 @@ pub(crate) struct ImageOptions {
     /// Light the scene by this image of a sky (EXR, HDR, PFM or PNG), instead of its own sky
     #[arg(long, value_name = "FILE")]
     environment: Option<PathBuf>,
-    /// Fail, rather than substitute unsupported features
+    /// Fail, rather than substitute unsupported features or ignore misspelt parameters
     #[arg(long)]
     strict: bool,
 }
