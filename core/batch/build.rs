@@ -11,6 +11,12 @@ use std::process::Command;
 const V3: &str = "+avx2,+fma,+bmi1,+bmi2,+popcnt";
 const V4: &str = "+avx2,+fma,+bmi1,+bmi2,+popcnt,+avx512f,+avx512bw,+avx512cd,+avx512dq,+avx512vl";
 
+/// The feature of a light, of the variable by which cargo tells it.
+fn light(variable: &str) -> Option<String> {
+    let feature = variable.strip_prefix("CARGO_FEATURE_")?.to_lowercase();
+    (!["default", "dispatch", "all"].contains(&&*feature) && !feature.starts_with("level")).then_some(feature)
+}
+
 fn main() {
     println!("cargo::rustc-check-cfg=cfg(levels)");
     for path in ["build.rs", "src", "Cargo.toml", "../src", "../Cargo.toml"] {
@@ -32,12 +38,22 @@ fn main() {
     let levels = out.ancestors().nth(4).unwrap_or(out).join("levels");
     let archive = out.join("libetendue_levels.a");
     let _ = std::fs::remove_file(&archive);
-    let compile = |(level, features): (&str, &str)| {
+    // the lights of this build
+    let lights: String =
+        std::env::vars().filter_map(|(name, _)| light(&name)).map(|light| format!(",{light}")).collect();
+    let compile = |(level, instructions): (&str, &str)| {
         // the same path for all profiles, since cargo compiles again if its arguments change
         let object = levels.join(level).join(format!("{level}.o"));
         let mut cargo = Command::new(var("CARGO").unwrap());
         cargo
-            .args(["rustc", "--release", "--lib", "--no-default-features", "--features", &format!("level-{level}")])
+            .args([
+                "rustc",
+                "--release",
+                "--lib",
+                "--no-default-features",
+                "--features",
+                &format!("level-{level}{lights}"),
+            ])
             .args(["--manifest-path", "Cargo.toml", "--target", &var("TARGET").unwrap()])
             .arg("--target-dir")
             .arg(levels.join(level))
@@ -45,7 +61,7 @@ fn main() {
             .args(["--", &format!("--emit=obj={}", object.display())])
             .env(
                 "CARGO_ENCODED_RUSTFLAGS",
-                format!("-Ctarget-cpu=x86-64\x1f-Ctarget-feature={features}\x1f-Cforce-unwind-tables=no"),
+                format!("-Ctarget-cpu=x86-64\x1f-Ctarget-feature={instructions}\x1f-Cforce-unwind-tables=no"),
             )
             .env_remove("RUSTFLAGS")
             .env_remove("CARGO_MAKEFLAGS");

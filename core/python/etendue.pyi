@@ -113,6 +113,7 @@ class Sphere:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
+        spread: ArrayLike | None = None,
         by: Literal["area", "solid_angle", "projected_solid_angle", "reflection"] = "solid_angle",
     ) -> Samples: ...
     @staticmethod
@@ -125,6 +126,7 @@ class Sphere:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
+        spread: ArrayLike | None = None,
         by: Literal["area", "solid_angle", "projected_solid_angle", "reflection"] = "solid_angle",
     ) -> Samples: ...
     @staticmethod
@@ -137,6 +139,7 @@ class Sphere:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
+        spread: ArrayLike | None = None,
         by: Literal["area", "solid_angle", "projected_solid_angle", "reflection"] = "solid_angle",
     ) -> _F32: ...
     @staticmethod
@@ -149,6 +152,7 @@ class Sphere:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
+        spread: ArrayLike | None = None,
         by: Literal["area", "solid_angle", "projected_solid_angle", "reflection"] = "solid_angle",
     ) -> _F32: ...
 
@@ -171,6 +175,7 @@ class Triangle:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
+        spread: ArrayLike | None = None,
         by: Literal["area", "solid_angle", "projected_solid_angle", "cosine_warp", "reflection"] = "solid_angle",
     ) -> Samples: ...
     @staticmethod
@@ -184,6 +189,7 @@ class Triangle:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
+        spread: ArrayLike | None = None,
         by: Literal["area", "solid_angle", "projected_solid_angle", "cosine_warp", "reflection"] = "solid_angle",
     ) -> Samples: ...
     @staticmethod
@@ -197,6 +203,7 @@ class Triangle:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
+        spread: ArrayLike | None = None,
         by: Literal["area", "solid_angle", "projected_solid_angle", "cosine_warp", "reflection"] = "solid_angle",
     ) -> _F32: ...
     @staticmethod
@@ -210,6 +217,7 @@ class Triangle:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
+        spread: ArrayLike | None = None,
         by: Literal["area", "solid_angle", "projected_solid_angle", "cosine_warp", "reflection"] = "solid_angle",
     ) -> _F32: ...
 
@@ -220,6 +228,7 @@ class Parallelogram:
     def by_solid_angle(self, p: ArrayLike) -> Sampler: ...
     def by_projected_solid_angle(self, p: ArrayLike, n: ArrayLike) -> Sampler: ...
     def by_reflection(self, p: ArrayLike, reflection: Reflection) -> Sampler: ...
+    def by_spread(self, p: ArrayLike, spread: Spread) -> Sampler: ...
     @staticmethod
     def sample_each(
         corner: ArrayLike,
@@ -231,7 +240,8 @@ class Parallelogram:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
-        by: Literal["area", "solid_angle", "projected_solid_angle", "reflection"] = "solid_angle",
+        spread: ArrayLike | None = None,
+        by: Literal["area", "solid_angle", "projected_solid_angle", "reflection", "spread"] = "solid_angle",
     ) -> Samples: ...
     @staticmethod
     def hit_each(
@@ -244,7 +254,8 @@ class Parallelogram:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
-        by: Literal["area", "solid_angle", "projected_solid_angle", "reflection"] = "solid_angle",
+        spread: ArrayLike | None = None,
+        by: Literal["area", "solid_angle", "projected_solid_angle", "reflection", "spread"] = "solid_angle",
     ) -> Samples: ...
     @staticmethod
     def pdf_each(
@@ -257,7 +268,8 @@ class Parallelogram:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
-        by: Literal["area", "solid_angle", "projected_solid_angle", "reflection"] = "solid_angle",
+        spread: ArrayLike | None = None,
+        by: Literal["area", "solid_angle", "projected_solid_angle", "reflection", "spread"] = "solid_angle",
     ) -> _F32: ...
     @staticmethod
     def invert_each(
@@ -270,7 +282,8 @@ class Parallelogram:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
-        by: Literal["area", "solid_angle", "projected_solid_angle", "reflection"] = "solid_angle",
+        spread: ArrayLike | None = None,
+        by: Literal["area", "solid_angle", "projected_solid_angle", "reflection", "spread"] = "solid_angle",
     ) -> _F32: ...
 
 @final
@@ -281,6 +294,7 @@ class Rectangle:
     def by_projected_solid_angle(self, p: ArrayLike, n: ArrayLike) -> Sampler: ...
     def by_cosine_warp(self, p: ArrayLike, n: ArrayLike) -> Sampler: ...
     def by_reflection(self, p: ArrayLike, reflection: Reflection) -> Sampler: ...
+    def by_spread(self, p: ArrayLike, spread: Spread) -> Sampler: ...
     @staticmethod
     def sample_each(
         corner: ArrayLike,
@@ -292,7 +306,8 @@ class Rectangle:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
-        by: Literal["area", "solid_angle", "projected_solid_angle", "cosine_warp", "reflection"] = "solid_angle",
+        spread: ArrayLike | None = None,
+        by: Literal["area", "solid_angle", "projected_solid_angle", "cosine_warp", "reflection", "spread"] = "solid_angle",
     ) -> Samples: ...
     @staticmethod
     def hit_each(
@@ -305,7 +320,8 @@ class Rectangle:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
-        by: Literal["area", "solid_angle", "projected_solid_angle", "cosine_warp", "reflection"] = "solid_angle",
+        spread: ArrayLike | None = None,
+        by: Literal["area", "solid_angle", "projected_solid_angle", "cosine_warp", "reflection", "spread"] = "solid_angle",
     ) -> Samples: ...
     @staticmethod
     def pdf_each(
@@ -318,7 +334,8 @@ class Rectangle:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
-        by: Literal["area", "solid_angle", "projected_solid_angle", "cosine_warp", "reflection"] = "solid_angle",
+        spread: ArrayLike | None = None,
+        by: Literal["area", "solid_angle", "projected_solid_angle", "cosine_warp", "reflection", "spread"] = "solid_angle",
     ) -> _F32: ...
     @staticmethod
     def invert_each(
@@ -331,7 +348,8 @@ class Rectangle:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
-        by: Literal["area", "solid_angle", "projected_solid_angle", "cosine_warp", "reflection"] = "solid_angle",
+        spread: ArrayLike | None = None,
+        by: Literal["area", "solid_angle", "projected_solid_angle", "cosine_warp", "reflection", "spread"] = "solid_angle",
     ) -> _F32: ...
 
 @final
@@ -339,6 +357,7 @@ class Disk:
     def __new__(cls, center: ArrayLike, normal: ArrayLike, radius: ArrayLike) -> Disk: ...
     def by_area(self, p: ArrayLike) -> Sampler: ...
     def by_solid_angle(self, p: ArrayLike) -> Sampler: ...
+    def by_spread(self, p: ArrayLike, spread: Spread) -> Sampler: ...
     @staticmethod
     def sample_each(
         center: ArrayLike,
@@ -348,7 +367,10 @@ class Disk:
         p: ArrayLike,
         u: ArrayLike,
         n: ArrayLike | None = None,
-        by: Literal["area", "solid_angle"] = "solid_angle",
+        alpha: ArrayLike | None = None,
+        view: ArrayLike | None = None,
+        spread: ArrayLike | None = None,
+        by: Literal["area", "solid_angle", "spread"] = "solid_angle",
     ) -> Samples: ...
     @staticmethod
     def hit_each(
@@ -359,7 +381,10 @@ class Disk:
         p: ArrayLike,
         w: ArrayLike,
         n: ArrayLike | None = None,
-        by: Literal["area", "solid_angle"] = "solid_angle",
+        alpha: ArrayLike | None = None,
+        view: ArrayLike | None = None,
+        spread: ArrayLike | None = None,
+        by: Literal["area", "solid_angle", "spread"] = "solid_angle",
     ) -> Samples: ...
     @staticmethod
     def pdf_each(
@@ -370,7 +395,10 @@ class Disk:
         p: ArrayLike,
         w: ArrayLike,
         n: ArrayLike | None = None,
-        by: Literal["area", "solid_angle"] = "solid_angle",
+        alpha: ArrayLike | None = None,
+        view: ArrayLike | None = None,
+        spread: ArrayLike | None = None,
+        by: Literal["area", "solid_angle", "spread"] = "solid_angle",
     ) -> _F32: ...
     @staticmethod
     def invert_each(
@@ -381,7 +409,10 @@ class Disk:
         p: ArrayLike,
         w: ArrayLike,
         n: ArrayLike | None = None,
-        by: Literal["area", "solid_angle"] = "solid_angle",
+        alpha: ArrayLike | None = None,
+        view: ArrayLike | None = None,
+        spread: ArrayLike | None = None,
+        by: Literal["area", "solid_angle", "spread"] = "solid_angle",
     ) -> _F32: ...
 
 @final
@@ -400,6 +431,7 @@ class Polygon:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
+        spread: ArrayLike | None = None,
         by: Literal["area", "solid_angle", "projected_solid_angle", "reflection"] = "solid_angle",
     ) -> Samples: ...
     @staticmethod
@@ -411,6 +443,7 @@ class Polygon:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
+        spread: ArrayLike | None = None,
         by: Literal["area", "solid_angle", "projected_solid_angle", "reflection"] = "solid_angle",
     ) -> Samples: ...
     @staticmethod
@@ -422,6 +455,7 @@ class Polygon:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
+        spread: ArrayLike | None = None,
         by: Literal["area", "solid_angle", "projected_solid_angle", "reflection"] = "solid_angle",
     ) -> _F32: ...
     @staticmethod
@@ -433,6 +467,7 @@ class Polygon:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
+        spread: ArrayLike | None = None,
         by: Literal["area", "solid_angle", "projected_solid_angle", "reflection"] = "solid_angle",
     ) -> _F32: ...
 
@@ -450,6 +485,9 @@ class BilinearPatch:
         p: ArrayLike,
         u: ArrayLike,
         n: ArrayLike | None = None,
+        alpha: ArrayLike | None = None,
+        view: ArrayLike | None = None,
+        spread: ArrayLike | None = None,
         by: Literal["area"] = "area",
     ) -> Samples: ...
     @staticmethod
@@ -462,6 +500,9 @@ class BilinearPatch:
         p: ArrayLike,
         w: ArrayLike,
         n: ArrayLike | None = None,
+        alpha: ArrayLike | None = None,
+        view: ArrayLike | None = None,
+        spread: ArrayLike | None = None,
         by: Literal["area"] = "area",
     ) -> Samples: ...
     @staticmethod
@@ -474,6 +515,9 @@ class BilinearPatch:
         p: ArrayLike,
         w: ArrayLike,
         n: ArrayLike | None = None,
+        alpha: ArrayLike | None = None,
+        view: ArrayLike | None = None,
+        spread: ArrayLike | None = None,
         by: Literal["area"] = "area",
     ) -> _F32: ...
     @staticmethod
@@ -486,6 +530,9 @@ class BilinearPatch:
         p: ArrayLike,
         w: ArrayLike,
         n: ArrayLike | None = None,
+        alpha: ArrayLike | None = None,
+        view: ArrayLike | None = None,
+        spread: ArrayLike | None = None,
         by: Literal["area"] = "area",
     ) -> _F32: ...
 
@@ -503,6 +550,9 @@ class Line:
         p: ArrayLike,
         u: ArrayLike,
         n: ArrayLike | None = None,
+        alpha: ArrayLike | None = None,
+        view: ArrayLike | None = None,
+        spread: ArrayLike | None = None,
         by: Literal["length", "angle", "projected_solid_angle"] = "angle",
     ) -> Samples: ...
     @staticmethod
@@ -513,6 +563,9 @@ class Line:
         p: ArrayLike,
         w: ArrayLike,
         n: ArrayLike | None = None,
+        alpha: ArrayLike | None = None,
+        view: ArrayLike | None = None,
+        spread: ArrayLike | None = None,
         by: Literal["length", "angle", "projected_solid_angle"] = "angle",
     ) -> Samples: ...
     @staticmethod
@@ -523,6 +576,9 @@ class Line:
         p: ArrayLike,
         w: ArrayLike,
         n: ArrayLike | None = None,
+        alpha: ArrayLike | None = None,
+        view: ArrayLike | None = None,
+        spread: ArrayLike | None = None,
         by: Literal["length", "angle", "projected_solid_angle"] = "angle",
     ) -> _F32: ...
     @staticmethod
@@ -533,6 +589,9 @@ class Line:
         p: ArrayLike,
         w: ArrayLike,
         n: ArrayLike | None = None,
+        alpha: ArrayLike | None = None,
+        view: ArrayLike | None = None,
+        spread: ArrayLike | None = None,
         by: Literal["length", "angle", "projected_solid_angle"] = "angle",
     ) -> _F32: ...
 
@@ -548,6 +607,9 @@ class Sun:
         p: ArrayLike,
         u: ArrayLike,
         n: ArrayLike | None = None,
+        alpha: ArrayLike | None = None,
+        view: ArrayLike | None = None,
+        spread: ArrayLike | None = None,
         by: Literal["solid_angle"] = "solid_angle",
     ) -> Samples: ...
     @staticmethod
@@ -558,6 +620,9 @@ class Sun:
         p: ArrayLike,
         w: ArrayLike,
         n: ArrayLike | None = None,
+        alpha: ArrayLike | None = None,
+        view: ArrayLike | None = None,
+        spread: ArrayLike | None = None,
         by: Literal["solid_angle"] = "solid_angle",
     ) -> Samples: ...
     @staticmethod
@@ -568,6 +633,9 @@ class Sun:
         p: ArrayLike,
         w: ArrayLike,
         n: ArrayLike | None = None,
+        alpha: ArrayLike | None = None,
+        view: ArrayLike | None = None,
+        spread: ArrayLike | None = None,
         by: Literal["solid_angle"] = "solid_angle",
     ) -> _F32: ...
     @staticmethod
@@ -578,6 +646,9 @@ class Sun:
         p: ArrayLike,
         w: ArrayLike,
         n: ArrayLike | None = None,
+        alpha: ArrayLike | None = None,
+        view: ArrayLike | None = None,
+        spread: ArrayLike | None = None,
         by: Literal["solid_angle"] = "solid_angle",
     ) -> _F32: ...
 
@@ -592,6 +663,9 @@ class PointLight:
         p: ArrayLike,
         u: ArrayLike,
         n: ArrayLike | None = None,
+        alpha: ArrayLike | None = None,
+        view: ArrayLike | None = None,
+        spread: ArrayLike | None = None,
         by: Literal["delta"] = "delta",
     ) -> Samples: ...
     @staticmethod
@@ -601,6 +675,9 @@ class PointLight:
         p: ArrayLike,
         w: ArrayLike,
         n: ArrayLike | None = None,
+        alpha: ArrayLike | None = None,
+        view: ArrayLike | None = None,
+        spread: ArrayLike | None = None,
         by: Literal["delta"] = "delta",
     ) -> Samples: ...
     @staticmethod
@@ -610,6 +687,9 @@ class PointLight:
         p: ArrayLike,
         w: ArrayLike,
         n: ArrayLike | None = None,
+        alpha: ArrayLike | None = None,
+        view: ArrayLike | None = None,
+        spread: ArrayLike | None = None,
         by: Literal["delta"] = "delta",
     ) -> _F32: ...
     @staticmethod
@@ -619,6 +699,9 @@ class PointLight:
         p: ArrayLike,
         w: ArrayLike,
         n: ArrayLike | None = None,
+        alpha: ArrayLike | None = None,
+        view: ArrayLike | None = None,
+        spread: ArrayLike | None = None,
         by: Literal["delta"] = "delta",
     ) -> _F32: ...
 
@@ -636,6 +719,9 @@ class SpotLight:
         p: ArrayLike,
         u: ArrayLike,
         n: ArrayLike | None = None,
+        alpha: ArrayLike | None = None,
+        view: ArrayLike | None = None,
+        spread: ArrayLike | None = None,
         by: Literal["delta"] = "delta",
     ) -> Samples: ...
     @staticmethod
@@ -648,6 +734,9 @@ class SpotLight:
         p: ArrayLike,
         w: ArrayLike,
         n: ArrayLike | None = None,
+        alpha: ArrayLike | None = None,
+        view: ArrayLike | None = None,
+        spread: ArrayLike | None = None,
         by: Literal["delta"] = "delta",
     ) -> Samples: ...
     @staticmethod
@@ -660,6 +749,9 @@ class SpotLight:
         p: ArrayLike,
         w: ArrayLike,
         n: ArrayLike | None = None,
+        alpha: ArrayLike | None = None,
+        view: ArrayLike | None = None,
+        spread: ArrayLike | None = None,
         by: Literal["delta"] = "delta",
     ) -> _F32: ...
     @staticmethod
@@ -672,6 +764,9 @@ class SpotLight:
         p: ArrayLike,
         w: ArrayLike,
         n: ArrayLike | None = None,
+        alpha: ArrayLike | None = None,
+        view: ArrayLike | None = None,
+        spread: ArrayLike | None = None,
         by: Literal["delta"] = "delta",
     ) -> _F32: ...
 
@@ -686,6 +781,9 @@ class DirectionalLight:
         p: ArrayLike,
         u: ArrayLike,
         n: ArrayLike | None = None,
+        alpha: ArrayLike | None = None,
+        view: ArrayLike | None = None,
+        spread: ArrayLike | None = None,
         by: Literal["delta"] = "delta",
     ) -> Samples: ...
     @staticmethod
@@ -695,6 +793,9 @@ class DirectionalLight:
         p: ArrayLike,
         w: ArrayLike,
         n: ArrayLike | None = None,
+        alpha: ArrayLike | None = None,
+        view: ArrayLike | None = None,
+        spread: ArrayLike | None = None,
         by: Literal["delta"] = "delta",
     ) -> Samples: ...
     @staticmethod
@@ -704,6 +805,9 @@ class DirectionalLight:
         p: ArrayLike,
         w: ArrayLike,
         n: ArrayLike | None = None,
+        alpha: ArrayLike | None = None,
+        view: ArrayLike | None = None,
+        spread: ArrayLike | None = None,
         by: Literal["delta"] = "delta",
     ) -> _F32: ...
     @staticmethod
@@ -713,6 +817,9 @@ class DirectionalLight:
         p: ArrayLike,
         w: ArrayLike,
         n: ArrayLike | None = None,
+        alpha: ArrayLike | None = None,
+        view: ArrayLike | None = None,
+        spread: ArrayLike | None = None,
         by: Literal["delta"] = "delta",
     ) -> _F32: ...
 

@@ -276,6 +276,7 @@ impl<'a> PiecewiseConstant2d<'a> {
     ///
     /// # Errors
     /// Fails if no table with this width has a buffer of this length.
+    #[inline]
     pub fn from_buffer(buffer: &'a [f32], width: usize) -> Result<Self, TableError> {
         let height = buffer.len() / width.saturating_add(1);
         if width == 0 || height == 0 || buffer.len() != Self::buffer(width, height) {

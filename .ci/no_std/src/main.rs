@@ -13,8 +13,9 @@ use etendue::light::shapes::{
 };
 use etendue::light::{
     BilinearPatch, ConstantEnvironment, DirectionalLight, Disk, EnvironmentMap, ImageEnvironment, Line, PointLight,
-    Polygon, SpotLight, Sun,
+    Polygon, SpotLight, Spread, Sun,
 };
+use etendue::reflection::Reflection;
 use etendue::select::{
     Allocation, LightBound, LightChoice, LightTree, Node8, PowerLights, SpatialLights, UniformLights,
 };
@@ -296,16 +297,19 @@ fn irradiance<L: Known>(_: &L) -> f32 {
 }
 macro_rules! all_lights {
     ({ $count:ident } $(
-        $(#[$light_doc:meta])* $light:ident $([$corners:literal])? = $light_c:ident, $columns_c:ident { $($fields:tt)* }
-        $(reflected { $($lobe:tt)* })? by $default:literal {
+        $(#[$light_doc:meta])* $light:ident $([$corners:literal])? = $light_c:ident, $columns_c:ident { $($fields:tt)* } by $default:literal {
             $(
-                $(#[$doc:meta])* $sampler:ident $([$n:literal])?
-                    $(= $sampler_c:ident, $name:ident[$size:literal])?: $by:ident $place:tt $($measure:ident)?;
+                $(#[$doc:meta])* $technique:ident, $name:ident -> $sampler:ident $([$n:literal])? $(= $sampler_c:ident[$size:literal])?: $by:ident $place:tt $($measure:ident)?;
             )+
         }
     )+) => {$(
         let light = $light::known();
-        $($count.light(irradiance(&light), |u| etendue::prepared!(light, $by $place, ORIGIN.into(), UP.into()).sample(u));)+
+        $($count.light(irradiance(&light), |u| {
+            // a matt surface, and a light that emits everywhere
+            let (reflection, spread) = (Reflection::new(lit(1.0), UP.into(), UP.into()), Spread::<X>::new(f64::from(PI)));
+            let _ = (&reflection, &spread);
+            etendue::prepared!(light, $by $place, p: ORIGIN.into(), n: UP.into(), reflection: &reflection, spread: &spread).sample(u)
+        });)+
     )+};
 }
 

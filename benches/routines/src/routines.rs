@@ -5,7 +5,7 @@ use etendue::light::shapes::{
     CosineWarped, ProjectedCap, ProjectedPolygon, ProjectedSegment, ProjectedTriangle, SphericalCap, SphericalDisk,
     SphericalParallelogram, SphericalRectangle, SphericalSegment, SphericalTriangle,
 };
-use etendue::light::{EnvironmentMap, ImageEnvironment, Picture, Region};
+use etendue::light::{EnvironmentMap, ImageEnvironment, Picture, Region, Spread};
 use etendue::reflection::Reflection;
 use etendue::sequence::{Independent, JointSobol, OwenSobol, Sequence, Stratified, ZOrder, ZOrderIndex};
 use etendue::warp::{
@@ -197,6 +197,8 @@ struct Room<R> {
     radius: R,
     /// What a rough floor reflects.
     glossy: Reflection<R>,
+    /// How flat lights emit within a right angle.
+    spread: Spread<R>,
 }
 /// A light of the room, and what it is called.
 trait InRoom<R> {
@@ -237,24 +239,17 @@ fn named<R, L: InRoom<R>>(_: &L, by: &str) -> String {
 }
 macro_rules! all_lights {
     ({ $list:ident, $room:ident } $(
-        $(#[$light_doc:meta])* $light:ident $([$corners:literal])? = $light_c:ident, $columns_c:ident { $($fields:tt)* }
-        $(reflected { $($lobe:tt)* })? by $default:literal {
+        $(#[$light_doc:meta])* $light:ident $([$corners:literal])? = $light_c:ident, $columns_c:ident { $($fields:tt)* } by $default:literal {
             $(
-                $(#[$doc:meta])* $sampler:ident $([$n:literal])?
-                    $(= $sampler_c:ident, $name:ident[$size:literal])?: $by:ident $place:tt $($measure:ident)?;
+                $(#[$doc:meta])* $technique:ident, $name:ident -> $sampler:ident $([$n:literal])? $(= $sampler_c:ident[$size:literal])?: $by:ident $place:tt $($measure:ident)?;
             )+
         }
     )+) => {$(
         let light = $light::of(&$room);
         $($list.light(&named(&light, stringify!($by)), move |p| {
             let _ = p;
-            etendue::prepared!(light, $by $place, p, $room.up)
+            etendue::prepared!(light, $by $place, p: p, n: $room.up, reflection: &$room.glossy, spread: &$room.spread)
         });)+
-        $(
-            let _ = stringify!($($lobe)*);
-            let glossy = $room.glossy;
-            $list.light(&named(&light, "by_reflection"), move |p| light.by_reflection(p, &glossy));
-        )?
     )+};
 }
 
@@ -389,7 +384,7 @@ pub fn without_tables<R: Real + 'static>() -> Vec<Routine> {
     list.warp("patch surface", PatchSurface { corner: a, edge_s: e1, edge_t: e2, diagonal: twisted });
 
     let glossy = Reflection::new(R::lit(0.3), up, vector([0.6, 0.8, 0.0]));
-    let room = Room { a, e1, e2, corner, du, dv, up, twisted, radius, glossy };
+    let room = Room { a, e1, e2, corner, du, dv, up, twisted, radius, glossy, spread: Spread::new(1.57) };
     etendue::techniques!(all_lights! { { list, room } });
 
     visible_parts(&mut list);

@@ -1,6 +1,35 @@
 //! What a batch reads and writes beside directions.
 
-use crate::one::OneSample;
+use crate::packet::{Packet, Place};
+use etendue::{LightSample, Vec2, Vec3};
+
+/// One sample of a light, or the point of a light that a direction hits, in single numbers.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[repr(C)]
+pub struct OneSample {
+    /// Unit direction from the shading point to the light.
+    pub direction: Vec3<f32>,
+    /// Distance to the light along it, in the unit of the coordinates.
+    pub distance: f32,
+    /// Probability density of the direction, per steradian (lines: see [`etendue::Line`]); 0 where there is no sample.
+    pub pdf: f32,
+    /// 1/pdf where there is a sample and the light emits towards the shading point, 0 elsewhere.
+    pub weight: f32,
+    /// Unit normal of the light at the sampled point. Not meaningful where the pdf is 0.
+    pub normal: Vec3<f32>,
+    /// Surface coordinates of the sampled point in [0, 1]². Not meaningful where the pdf is 0.
+    pub uv: Vec2<f32>,
+    /// 1 where the shading point is on the side of the light that emits, else 0.
+    pub emits: u8,
+}
+
+impl OneSample {
+    #[inline(always)]
+    pub(crate) fn new(s: &LightSample<f32>) -> Self {
+        let LightSample { direction, distance, pdf, normal, uv, emits, .. } = *s;
+        Self { direction, distance, pdf, weight: s.weight(), normal, uv, emits: u8::from(emits) }
+    }
+}
 
 /// Where samples go: slices of the length of the batch, or empty slices for what is not wanted. The fields are those of
 /// [`etendue::LightSample`].
@@ -89,6 +118,24 @@ impl SampleColumns {
         if !self.emits.is_null() {
             // SAFETY: the caller's column has this element
             unsafe { self.emits.add(i).write(s.emits) };
+        }
+    }
+    /// Writes the samples of a packet.
+    #[inline(always)]
+    pub(crate) unsafe fn store_packet<R: Packet>(&self, place: Place, s: &LightSample<R>) {
+        // SAFETY: the caller's
+        unsafe {
+            place.store3(self.direction, s.direction);
+            place.store(self.distance, s.distance);
+            place.store(self.pdf, s.pdf);
+            place.store(self.weight, s.weight());
+            // in one branch, so that the compiler moves there what only the surface needs
+            if self.needs_surface() {
+                place.store3(self.normal, s.normal);
+                place.store(self.uv[0], s.uv.x);
+                place.store(self.uv[1], s.uv.y);
+            }
+            place.store_mask(self.emits, s.emits);
         }
     }
     /// The columns from element `i` on.

@@ -47,34 +47,38 @@
 #![cfg_attr(not(test), no_std)]
 
 mod columns;
+mod functions;
 mod kernel;
 mod map;
+pub mod memory;
 mod one;
-mod placed;
+mod packet;
 mod sealed;
+mod sequence;
 mod table;
-mod technique;
+pub mod technique;
 mod warp;
 
-pub use columns::{ChoiceColumns, Choices, Counters, EvaluationColumns, Evaluations, SampleColumns, Samples};
+pub use columns::{
+    ChoiceColumns, Choices, Counters, EvaluationColumns, Evaluations, OneSample, SampleColumns, Samples,
+};
+pub use functions::{
+    MapFunction, ReflectionsFunction, SamplerFunctions, SequenceFunction, TechniqueFunctions, TreeFunctions,
+    WarpFunctions,
+};
 pub use kernel::Views;
-pub use map::{BatchMap, MOST_NUMBERS, MOST_RESULTS, ReflectedSphere, SeenThroughPortals};
-pub use one::{OnceFunctions, OneFunctions, OneSample, OneWarpFunctions};
-pub use placed::{
-    PictureByArea, PictureByProjectedSolidAngle, PictureBySolidAngle, PictureOnPatchByVisibleArea,
-    PictureOnSphereByVisibleArea, PortalsByRadiance,
-};
-pub use table::{
-    InTable, LightFunctions, MapFunctions, ReflectionsFunction, SamplerFunctions, SequenceFunctions, Table,
-    TreeFunctions, WarpFunctions,
-};
-pub use technique::{BatchSampler, BatchTechnique, Reflected};
-pub use warp::BatchWarp;
+pub use map::{BatchMap, MOST_NUMBERS, MOST_RESULTS, PortalDirection, ReflectedSphere, SeenThroughPortals};
+pub use sequence::BatchSequence;
+pub use table::Table;
+pub use technique::{Prepared, TECHNIQUES, Technique};
+pub use warp::{BatchWarp, WARPS};
 
+use core::ffi::c_void;
+use core::mem::MaybeUninit;
+use core::ptr::from_ref;
 use etendue::reflection::Reflection;
-use etendue::select::LightTree;
-use etendue::sequence::Sequence;
 use etendue::{Vec2, Vec3};
+use memory::TreeMemory;
 
 /// The instructions that a [`Batch`] uses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -118,7 +122,6 @@ cpufeatures::new!(v3_instructions, "avx2", "fma", "bmi1", "bmi2", "popcnt");
 cpufeatures::new!(v4_instructions, "avx512f", "avx512bw", "avx512cd", "avx512dq", "avx512vl");
 #[cfg(levels)]
 // the build script compiles these tables from this crate
-#[allow(improper_ctypes)]
 unsafe extern "C" {
     // SAFETY: the tables do not change
     safe static etendue_batch_v3: Table;
@@ -161,157 +164,182 @@ impl Batch {
     pub const fn level(&self) -> Level {
         self.level
     }
-    /// The functions by raw pointers: each of them reads and writes as many elements of every column that is not null as the batch has.
-    /// A light is prepared by [`prepare`](Self::prepare).
+    /// The functions of the technique with this number, by raw pointers; none if there is no such technique, or its light is not built. Each
+    /// reads and writes as many elements of every column that is not null as the batch has.
     #[inline]
     #[must_use]
-    pub fn functions<T: InTable>(&self) -> &'static T::Functions {
-        T::functions(self.table)
+    pub fn technique(&self, number: usize) -> Option<&'static TechniqueFunctions> {
+        *self.table.techniques.get(number)?
+    }
+    /// The same, of which those of one element and of one call are those of single numbers.
+    #[inline]
+    #[must_use]
+    pub fn technique_of_one(&self, number: usize) -> Option<&'static TechniqueFunctions> {
+        *self.one.techniques.get(number)?
+    }
+    #[track_caller]
+    fn functions<T: Technique>(&self) -> &'static TechniqueFunctions {
+        self.technique(T::INDEX).expect("the light is not built: see the features of etendue-batch")
+    }
+    #[track_caller]
+    fn once<T: Technique>(&self) -> &'static TechniqueFunctions {
+        self.technique_of_one(T::INDEX).expect("the light is not built: see the features of etendue-batch")
+    }
+    #[track_caller]
+    fn sampler<P: Prepared>(&self) -> &'static SamplerFunctions {
+        &self.technique(P::INDEX).expect("the light is not built: see the features of etendue-batch").sampler
+    }
+    #[track_caller]
+    fn one<P: Prepared>(&self) -> &'static SamplerFunctions {
+        &self.technique_of_one(P::INDEX).expect("the light is not built: see the features of etendue-batch").sampler
     }
 
-    /// Prepares a light for the point `p` of a surface with the unit normal `n`.
-    pub fn prepare<T: BatchTechnique>(&self, light: &T::Light<f32>, p: Vec3<f32>, n: Vec3<f32>) -> T {
-        let mut out = core::mem::MaybeUninit::<T>::uninit();
+    /// Prepares a light for the point `p`, and for what else the technique takes: nothing, a unit normal, a [`Reflection`] or a spread.
+    #[must_use]
+    pub fn prepare<T: Technique>(&self, light: &T::Light<f32>, p: Vec3<f32>, with: T::With<f32>) -> T::Prepared {
+        let mut out = MaybeUninit::<T::Prepared>::uninit();
         // SAFETY: the function writes a whole sampler
         unsafe {
-            (self.once::<T>().prepare)(light, p, n, out.as_mut_ptr());
+            (self.once::<T>().prepare)(erased(light), row(&p), erased(&with), out.as_mut_ptr().cast());
             out.assume_init()
         }
     }
     /// Draws one direction from a prepared light, for `u` in [0, 1)².
     #[inline]
     #[must_use]
-    pub fn sample_one<T: BatchSampler>(&self, sampler: &T, u: Vec2<f32>) -> OneSample {
+    pub fn sample_one<P: Prepared>(&self, sampler: &P, u: Vec2<f32>) -> OneSample {
         let mut out = OneSample::default();
         // SAFETY: the function reads two numbers, and writes its result
-        unsafe { (self.one::<T>().sample)(sampler, row(&u), &mut out) };
+        unsafe { (self.one::<P>().one_sample)(erased(sampler), row(&u), &mut out) };
         out
     }
     /// The pdf of one unit direction, per steradian (lines: see [`etendue::Line`]); 0 where it misses the light.
     #[inline]
     #[must_use]
-    pub fn pdf_one<T: BatchSampler>(&self, sampler: &T, w: Vec3<f32>) -> f32 {
+    pub fn pdf_one<P: Prepared>(&self, sampler: &P, w: Vec3<f32>) -> f32 {
         // SAFETY: the function reads three numbers
-        unsafe { (self.one::<T>().pdf)(sampler, row(&w)) }
+        unsafe { (self.one::<P>().one_pdf)(erased(sampler), row(&w)) }
     }
     /// The numbers in [0, 1)² that the sampler maps to one unit direction.
     #[inline]
     #[must_use]
-    pub fn invert_one<T: BatchSampler>(&self, sampler: &T, w: Vec3<f32>) -> Vec2<f32> {
+    pub fn invert_one<P: Prepared>(&self, sampler: &P, w: Vec3<f32>) -> Vec2<f32> {
         let mut out = Vec2::default();
         // SAFETY: the function reads three numbers, and writes two
-        unsafe { (self.one::<T>().invert)(sampler, row(&w), (&raw mut out).cast()) };
+        unsafe { (self.one::<P>().one_invert)(erased(sampler), row(&w), (&raw mut out).cast()) };
         out
     }
     /// The nearest point of the light in one unit direction, with its pdf; 0 where the direction misses it.
     #[inline]
     #[must_use]
-    pub fn hit_one<T: BatchSampler>(&self, sampler: &T, w: Vec3<f32>) -> OneSample {
+    pub fn hit_one<P: Prepared>(&self, sampler: &P, w: Vec3<f32>) -> OneSample {
         let mut out = OneSample::default();
         // SAFETY: the function reads three numbers, and writes its result
-        unsafe { (self.one::<T>().hit)(sampler, row(&w), &mut out) };
+        unsafe { (self.one::<P>().one_hit)(erased(sampler), row(&w), &mut out) };
         out
     }
-    /// Prepares a light for the point `p` of a surface with the unit normal `n`, and draws one direction. What the sample does not need is
-    /// not prepared.
+    /// Prepares a light as [`prepare`](Self::prepare) does, and draws one direction. What the sample does not need is not prepared.
     #[inline]
     #[must_use]
-    pub fn sample_once<T: BatchTechnique>(
+    pub fn sample_once<T: Technique>(
         &self,
         light: &T::Light<f32>,
         p: Vec3<f32>,
-        n: Vec3<f32>,
+        with: T::With<f32>,
         u: Vec2<f32>,
     ) -> OneSample {
         let mut out = OneSample::default();
-        // SAFETY: the function reads vectors, and writes its result
-        unsafe { (self.once::<T>().sample)(light, row(&p), row(&n), row(&u), &mut out) };
+        // SAFETY: the function reads what it is prepared for, and writes its result
+        unsafe { (self.once::<T>().sample_once)(erased(light), row(&p), erased(&with), row(&u), &mut out) };
         out
     }
-    /// Prepares a light for the point `p` of a surface with the unit normal `n`, and returns the pdf of one unit direction. What the pdf
-    /// does not need is not prepared.
+    /// Prepares a light as [`prepare`](Self::prepare) does, and returns the pdf of one unit direction. What the pdf does not need is not
+    /// prepared.
     #[inline]
     #[must_use]
-    pub fn pdf_once<T: BatchTechnique>(&self, light: &T::Light<f32>, p: Vec3<f32>, n: Vec3<f32>, w: Vec3<f32>) -> f32 {
-        // SAFETY: the function reads vectors
-        unsafe { (self.once::<T>().pdf)(light, row(&p), row(&n), row(&w)) }
+    pub fn pdf_once<T: Technique>(&self, light: &T::Light<f32>, p: Vec3<f32>, with: T::With<f32>, w: Vec3<f32>) -> f32 {
+        // SAFETY: the function reads what it is prepared for
+        unsafe { (self.once::<T>().pdf_once)(erased(light), row(&p), erased(&with), row(&w)) }
     }
     /// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it. Where `w` misses, the result
     /// is finite, and of no meaning.
     #[inline]
     #[must_use]
-    pub fn pdf_of_hit_once<T: BatchTechnique>(
+    pub fn pdf_of_hit_once<T: Technique>(
         &self,
         light: &T::Light<f32>,
         p: Vec3<f32>,
-        n: Vec3<f32>,
+        with: T::With<f32>,
         w: Vec3<f32>,
     ) -> f32 {
-        // SAFETY: the function reads vectors
-        unsafe { (self.once::<T>().pdf_of_hit)(light, row(&p), row(&n), row(&w)) }
+        // SAFETY: the function reads what it is prepared for
+        unsafe { (self.once::<T>().pdf_of_hit_once)(erased(light), row(&p), erased(&with), row(&w)) }
     }
     /// Samples one prepared light, at the numbers `u` in [0, 1)².
-    pub fn sample<T: BatchSampler>(&self, sampler: &T, u: Vec2<&[f32]>, out: Samples<'_>) {
+    pub fn sample<P: Prepared>(&self, sampler: &P, u: Vec2<&[f32]>, out: Samples<'_>) {
         let n = u.x.len();
         check(n, [u.y.len()]);
         let out = out.columns(n);
         // SAFETY: all columns have n elements, and the outputs are borrowed mutably
-        unsafe { (self.sampler::<T>().sample)(sampler, n, u.map(<[f32]>::as_ptr), &out) };
+        unsafe { (self.sampler::<P>().sample)(erased(sampler), n, u.map(<[f32]>::as_ptr), &out) };
     }
-    /// Prepares a light of its own for each element, for the point `p` of a surface with the unit normal `n`, and samples it. Techniques
-    /// that need no normal do not read `n`, which may be empty.
-    pub fn sample_each<T: BatchTechnique>(
+    /// Prepares a light of its own for each element, for the point `p` and what else the technique takes, and samples it.
+    pub fn sample_each<T: Technique>(
         &self,
         lights: T::Light<&[f32]>,
         p: Vec3<&[f32]>,
-        n: Vec3<&[f32]>,
+        with: T::With<&[f32]>,
         u: Vec2<&[f32]>,
         out: Samples<'_>,
     ) {
         let count = u.x.len();
         check(count, [u.y.len()]);
-        let (views, out) = (views::<T>(count, lights, p, n), out.columns(count));
+        let out = out.columns(count);
         // SAFETY: all columns have `count` elements, and the outputs are borrowed mutably
-        unsafe { (T::light_functions(self.table).sample_each)(&views, count, u.map(<[f32]>::as_ptr), &out) };
+        with_views::<T>(count, lights, p, with, |views| unsafe {
+            (self.functions::<T>().sample_each)(views, count, u.map(<[f32]>::as_ptr), &out);
+        });
     }
     /// Prepares a light of its own for each element, as [`sample_each`](Self::sample_each) does, and evaluates it in the unit direction `w`.
     /// What is not wanted is not computed.
-    pub fn evaluate_each<T: BatchTechnique>(
+    pub fn evaluate_each<T: Technique>(
         &self,
         lights: T::Light<&[f32]>,
         p: Vec3<&[f32]>,
-        n: Vec3<&[f32]>,
+        with: T::With<&[f32]>,
         w: Vec3<&[f32]>,
         out: Evaluations<'_>,
     ) {
         let count = w.x.len();
         check(count, [w.y.len(), w.z.len()]);
-        let (views, out) = (views::<T>(count, lights, p, n), out.columns(count));
+        let out = out.columns(count);
         // SAFETY: all columns have `count` elements, and the outputs are borrowed mutably
-        unsafe { (T::light_functions(self.table).evaluate_each)(&views, count, w.map(<[f32]>::as_ptr), &out) };
+        with_views::<T>(count, lights, p, with, |views| unsafe {
+            (self.functions::<T>().evaluate_each)(views, count, w.map(<[f32]>::as_ptr), &out);
+        });
     }
     /// The pdf of unit directions, per steradian (lines: see [`etendue::Line`]).
-    pub fn pdf<T: BatchSampler>(&self, sampler: &T, directions: Vec3<&[f32]>, out: &mut [f32]) {
+    pub fn pdf<P: Prepared>(&self, sampler: &P, directions: Vec3<&[f32]>, out: &mut [f32]) {
         let n = out.len();
         check(n, [directions.x.len(), directions.y.len(), directions.z.len()]);
         // SAFETY: all columns have n elements, and the output is borrowed mutably
-        unsafe { (self.sampler::<T>().pdf)(sampler, n, directions.map(<[f32]>::as_ptr), out.as_mut_ptr()) };
+        unsafe { (self.sampler::<P>().pdf)(erased(sampler), n, directions.map(<[f32]>::as_ptr), out.as_mut_ptr()) };
     }
     /// The numbers in [0, 1)² that the sampler maps to unit directions.
-    pub fn invert<T: BatchSampler>(&self, sampler: &T, directions: Vec3<&[f32]>, out: Vec2<&mut [f32]>) {
+    pub fn invert<P: Prepared>(&self, sampler: &P, directions: Vec3<&[f32]>, out: Vec2<&mut [f32]>) {
         let n = out.x.len();
         check(n, [out.y.len(), directions.x.len(), directions.y.len(), directions.z.len()]);
         let out = out.map(<[f32]>::as_mut_ptr);
         // SAFETY: all columns have n elements, and the outputs are borrowed mutably
-        unsafe { (self.sampler::<T>().invert)(sampler, n, directions.map(<[f32]>::as_ptr), out) };
+        unsafe { (self.sampler::<P>().invert)(erased(sampler), n, directions.map(<[f32]>::as_ptr), out) };
     }
     /// The nearest points of the light in unit directions, with their pdf; 0 where a direction misses it.
-    pub fn hit<T: BatchSampler>(&self, sampler: &T, directions: Vec3<&[f32]>, out: Samples<'_>) {
+    pub fn hit<P: Prepared>(&self, sampler: &P, directions: Vec3<&[f32]>, out: Samples<'_>) {
         let n = directions.x.len();
         check(n, [directions.y.len(), directions.z.len()]);
         let out = out.columns(n);
         // SAFETY: all columns have n elements, and the outputs are borrowed mutably
-        unsafe { (self.sampler::<T>().hit)(sampler, n, directions.map(<[f32]>::as_ptr), &out) };
+        unsafe { (self.sampler::<P>().hit)(erased(sampler), n, directions.map(<[f32]>::as_ptr), &out) };
     }
 
     /// Prepares a reflection for each roughness `alpha`, unit normal of a surface and unit vector towards the viewer. What it consists of
@@ -334,14 +362,16 @@ impl Batch {
         check(n, out.iter().take(W::COORDINATES).map(|column| column.len()));
         let columns = out.each_mut().map(|column| column.as_mut_ptr());
         // SAFETY: the columns that are read and written have n elements, and the outputs are borrowed mutably
-        unsafe { (W::warp_functions(self.table).sample)(warp, n, Vec2::new(u[0].as_ptr(), u[1].as_ptr()), &columns) };
+        unsafe {
+            (self.warp_functions(W::INDEX).sample)(erased(warp), n, Vec2::new(u[0].as_ptr(), u[1].as_ptr()), &columns)
+        };
     }
     /// The pdf of a warp at points.
     pub fn warp_pdf<W: BatchWarp>(&self, warp: &W, points: [&[f32]; 3], out: &mut [f32]) {
         let n = out.len();
         check(n, points.iter().take(W::COORDINATES).map(|column| column.len()));
         // SAFETY: the columns that are read have n elements, and the output is borrowed mutably
-        unsafe { (W::warp_functions(self.table).pdf)(warp, n, &points.map(<[f32]>::as_ptr), out.as_mut_ptr()) };
+        unsafe { (self.warp_functions(W::INDEX).pdf)(erased(warp), n, &points.map(<[f32]>::as_ptr), out.as_mut_ptr()) };
     }
     /// The numbers that a warp maps to points.
     pub fn warp_invert<W: BatchWarp>(&self, warp: &W, points: [&[f32]; 3], out: [&mut [f32]; 2]) {
@@ -351,8 +381,8 @@ impl Batch {
         let [x, y] = out;
         // SAFETY: the columns that are read and written have n elements, and the outputs are borrowed mutably
         unsafe {
-            let invert = W::warp_functions(self.table).invert;
-            invert(warp, n, &points.map(<[f32]>::as_ptr), Vec2::new(x.as_mut_ptr(), y.as_mut_ptr()));
+            let invert = self.warp_functions(W::INDEX).invert;
+            invert(erased(warp), n, &points.map(<[f32]>::as_ptr), Vec2::new(x.as_mut_ptr(), y.as_mut_ptr()));
         }
     }
     /// The point of a warp at one `u` in [0, 1)²; coordinates that a point does not have are 0.
@@ -361,7 +391,7 @@ impl Batch {
     pub fn warp_one<W: BatchWarp>(&self, warp: &W, u: Vec2<f32>) -> [f32; 3] {
         let mut out = [0.0; 3];
         // SAFETY: the function reads one or two numbers, and writes at most three
-        unsafe { (self.one_warp::<W>().sample)(warp, row(&u), out.as_mut_ptr()) };
+        unsafe { (self.one.warps[W::INDEX].one_sample)(erased(warp), row(&u), out.as_mut_ptr()) };
         out
     }
     /// The pdf of a warp at one point.
@@ -369,7 +399,7 @@ impl Batch {
     #[must_use]
     pub fn warp_pdf_one<W: BatchWarp>(&self, warp: &W, point: &[f32; 3]) -> f32 {
         // SAFETY: the function reads at most three numbers
-        unsafe { (self.one_warp::<W>().pdf)(warp, point.as_ptr()) }
+        unsafe { (self.one.warps[W::INDEX].one_pdf)(erased(warp), point.as_ptr()) }
     }
     /// The numbers that a warp maps to one point; 0 where it has one number only.
     #[inline]
@@ -377,7 +407,7 @@ impl Batch {
     pub fn warp_invert_one<W: BatchWarp>(&self, warp: &W, point: &[f32; 3]) -> Vec2<f32> {
         let mut out = Vec2::default();
         // SAFETY: the function reads at most three numbers, and writes one or two
-        unsafe { (self.one_warp::<W>().invert)(warp, point.as_ptr(), (&raw mut out).cast()) };
+        unsafe { (self.one.warps[W::INDEX].one_invert)(erased(warp), point.as_ptr(), (&raw mut out).cast()) };
         out
     }
     /// The results of a map of columns of numbers: as many columns as it has numbers and results, and 1 where they hold, else 0.
@@ -391,21 +421,18 @@ impl Batch {
             *pointer = columns::pointer(column, n);
         }
         // SAFETY: the columns that are read and written have n elements, and the outputs are borrowed mutably
-        unsafe { (M::map_functions(self.table).map)(map, n, &inputs, &outputs, columns::pointer(holds, n)) };
+        unsafe { (self.table.maps[M::INDEX])(erased(map), n, &inputs, &outputs, columns::pointer(holds, n)) };
     }
     /// Pairs of a sequence: of the samples from `counters.sample` on, of one pixel and one dimension, or of those in the columns.
-    pub fn pairs<S>(&self, sequence: &S, counters: Counters, out: Vec2<&mut [f32]>)
-    where
-        S: Sequence + InTable<Functions = SequenceFunctions<S>>,
-    {
+    pub fn pairs<S: BatchSequence>(&self, sequence: &S, counters: Counters, out: Vec2<&mut [f32]>) {
         let n = out.x.len();
         check(n, [out.y.len()]);
-        assert!(counters.pixels.is_null() && counters.samples.is_null(), "columns of counters are for `functions`");
+        assert!(counters.pixels.is_null() && counters.samples.is_null(), "columns of counters are for raw pointers");
         // SAFETY: both columns have n elements and are borrowed mutably
-        unsafe { (self.functions::<S>().pairs)(sequence, n, &counters, out.map(<[f32]>::as_mut_ptr)) };
+        unsafe { (self.sequence::<S>())(erased(sequence), n, &counters, out.map(<[f32]>::as_mut_ptr)) };
     }
     /// Chooses a light of a tree for each point `p` of a surface with the unit normal `n`.
-    pub fn choose(&self, tree: &LightTree<'_>, p: Vec3<&[f32]>, n: Vec3<&[f32]>, u: &[f32], out: Choices<'_>) {
+    pub fn choose(&self, tree: &TreeMemory<'_>, p: Vec3<&[f32]>, n: Vec3<&[f32]>, u: &[f32], out: Choices<'_>) {
         let count = u.len();
         check(count, [p, n].iter().flat_map(|v| [v.x.len(), v.y.len(), v.z.len()]));
         let out = out.columns(count);
@@ -414,7 +441,7 @@ impl Batch {
         unsafe { (self.tree().choose)(tree, count, p, n, u.as_ptr(), &out) };
     }
     /// The probability with which [`choose`](Self::choose) returns each of `lights`.
-    pub fn pmf(&self, tree: &LightTree<'_>, p: Vec3<&[f32]>, n: Vec3<&[f32]>, lights: &[u32], out: &mut [f32]) {
+    pub fn pmf(&self, tree: &TreeMemory<'_>, p: Vec3<&[f32]>, n: Vec3<&[f32]>, lights: &[u32], out: &mut [f32]) {
         let count = out.len();
         check(count, [p, n].iter().flat_map(|v| [v.x.len(), v.y.len(), v.z.len()]));
         check(count, [lights.len()]);
@@ -422,47 +449,29 @@ impl Batch {
         // SAFETY: all columns have `count` elements, and the output is borrowed mutably
         unsafe { (self.tree().pmf)(tree, count, p, n, lights.as_ptr(), out.as_mut_ptr()) };
     }
-    /// The functions of a prepared light, or of an [`ImageEnvironment`](etendue::light::ImageEnvironment), by raw pointers.
+    /// The functions of the warp with this number, by raw pointers. There must be one.
     #[inline]
     #[must_use]
-    pub fn sampler<T: BatchSampler>(&self) -> SamplerFunctions<T> {
-        T::sampler_functions(self.table)
+    pub fn warp_functions(&self, number: usize) -> &'static WarpFunctions {
+        &self.table.warps[number]
     }
-    /// The functions of a technique with a light of its own for each element, by raw pointers.
+    /// The same, of which those of one element are those of single numbers.
     #[inline]
     #[must_use]
-    pub fn technique<T: BatchTechnique>(&self) -> LightFunctions<T> {
-        T::light_functions(self.table)
-    }
-    /// The functions of a prepared light for one element, by raw pointers.
-    #[inline]
-    #[must_use]
-    pub fn one<T: BatchSampler>(&self) -> OneFunctions<T> {
-        T::sampler_functions(self.one).one
-    }
-    /// The functions of a technique for one element, by raw pointers.
-    #[inline]
-    #[must_use]
-    pub fn once<T: BatchTechnique>(&self) -> OnceFunctions<T> {
-        T::light_functions(self.one).once
-    }
-    /// The functions of a warp for one element, by raw pointers.
-    #[inline]
-    #[must_use]
-    pub fn one_warp<W: BatchWarp>(&self) -> OneWarpFunctions<W> {
-        W::warp_functions(self.one).one
-    }
-    /// The functions of a warp, by raw pointers.
-    #[inline]
-    #[must_use]
-    pub fn warp_functions<W: BatchWarp>(&self) -> WarpFunctions<W> {
-        W::warp_functions(self.table)
+    pub fn warp_of_one(&self, number: usize) -> &'static WarpFunctions {
+        &self.one.warps[number]
     }
     /// The function of a map, by raw pointers.
     #[inline]
     #[must_use]
-    pub fn map_functions<M: BatchMap>(&self) -> MapFunctions<M> {
-        M::map_functions(self.table)
+    pub const fn map_function<M: BatchMap>(&self) -> MapFunction {
+        self.table.maps[M::INDEX]
+    }
+    /// The function of a sequence, by raw pointers.
+    #[inline]
+    #[must_use]
+    pub const fn sequence<S: BatchSequence>(&self) -> SequenceFunction {
+        self.table.sequences[S::INDEX]
     }
     /// The function that prepares reflections, by raw pointers.
     #[inline]
@@ -480,21 +489,30 @@ impl Batch {
 
 /// The numbers of a vector, which are in a row.
 const fn row<V>(vector: &V) -> *const f32 {
-    core::ptr::from_ref(vector).cast()
+    from_ref(vector).cast()
 }
 
-/// Lights, points and normals by pointers.
+/// A pointer whose type the function knows.
+const fn erased<T>(value: &T) -> *const c_void {
+    from_ref(value).cast()
+}
+
+/// Calls `f` with lights, points and what they are prepared for by pointers.
 #[track_caller]
-fn views<T: BatchTechnique>(count: usize, lights: T::Light<&[f32]>, p: Vec3<&[f32]>, n: Vec3<&[f32]>) -> Views<T> {
+fn with_views<T: Technique>(
+    count: usize,
+    lights: T::Light<&[f32]>,
+    p: Vec3<&[f32]>,
+    with: T::With<&[f32]>,
+    f: impl FnOnce(&Views),
+) {
     check(count, [p.x.len(), p.y.len(), p.z.len()]);
-    if T::ON_SURFACE {
-        check(count, [n.x.len(), n.y.len(), n.z.len()]);
-    }
-    let lights = T::map(lights, |column: &[f32]| {
+    let pointer = |column: &[f32]| {
         check(count, [column.len()]);
         column.as_ptr()
-    });
-    Views { lights, points: p.map(<[f32]>::as_ptr), normals: n.map(<[f32]>::as_ptr) }
+    };
+    let (lights, with) = (T::map_light(lights, pointer), T::map_with(with, pointer));
+    f(&Views { lights: erased(&lights), points: p.map(<[f32]>::as_ptr), with: erased(&with) });
 }
 
 /// Panics unless all columns are as long as the batch.

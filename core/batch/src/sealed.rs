@@ -4,17 +4,15 @@
 /// other type may have the traits above this one.
 ///
 /// ```compile_fail,E0277
-/// use etendue::{Mask, Real};
-/// use etendue_batch::{BatchMap, MOST_NUMBERS, MOST_RESULTS, MapFunctions, Table};
+/// use etendue::light::SphereByArea;
+/// use etendue::{LightSampler, Real};
+/// use etendue_batch::Prepared;
 /// #[derive(Clone, Copy)]
 /// struct Mine;
-/// impl BatchMap for Mine {
-///     const NUMBERS: usize = 1;
-///     const RESULTS: usize = 1;
-///     fn map<R: Real<Scalar = f32>>(&self, _: [R; MOST_NUMBERS]) -> ([R; MOST_RESULTS], R::Mask) {
-///         ([R::lit(0.0); MOST_RESULTS], R::Mask::splat(true))
-///     }
-///     fn map_functions(_: &'static Table) -> MapFunctions<Self> {
+/// impl Prepared for Mine {
+///     const INDEX: usize = 0;
+///     type Of<'a, R: Real> = SphereByArea<R>;
+///     fn over<R: Real<Scalar = f32>, T>(&self, _: impl FnOnce(&SphereByArea<R>) -> T) -> T {
 ///         loop {}
 ///     }
 /// }

@@ -1,144 +1,316 @@
-//! Prepared lights over any kind of number: what a loop over packets needs to know of them.
+//! Techniques over any kind of number: what a loop over packets needs to know of them.
 
+use crate::memory::{ImageMemory, PictureMemory, PortalMemory};
 use crate::sealed::Sealed;
-use crate::table::{InTable, LightFunctions, SamplerFunctions, Table};
-use etendue::light::*;
+use core::marker::PhantomData;
+use etendue::light::shapes::{PlacedPatch, PlacedSphere};
+use etendue::light::{self, Area, ByPicture, Curved, Flat, Projected, SolidAngle, Spread};
 use etendue::reflection::Reflection;
 use etendue::{Lanewise, LightSampler, Real, Vec3};
 
 /// A light prepared for a shading point, or the same for all of them, in numbers of single precision.
-pub trait BatchSampler: Copy + Sealed {
+pub trait Prepared: Copy + Sealed {
+    /// The number of a technique that prepares it.
+    const INDEX: usize;
     /// The prepared light over packets.
-    type Of<R: Real>: LightSampler<R>;
-    /// The prepared light in every lane of a packet.
-    fn splat<R: Real<Scalar = f32>>(&self) -> Self::Of<R>;
-    /// The functions of the prepared light.
-    fn sampler_functions(table: &'static Table) -> SamplerFunctions<Self>;
+    type Of<'a, R: Real>: LightSampler<R>;
+    /// Calls `f` with the prepared light in every lane of a packet.
+    fn over<R: Real<Scalar = f32>, T>(&self, f: impl FnOnce(&Self::Of<'_, R>) -> T) -> T;
 }
 
-impl Sealed for ByRadiance<'_> {}
-impl<'a> BatchSampler for ByRadiance<'a> {
-    type Of<R: Real> = Self;
-    #[inline(always)]
-    fn splat<R: Real<Scalar = f32>>(&self) -> Self {
-        *self
-    }
-    #[inline]
-    fn sampler_functions(table: &'static Table) -> SamplerFunctions<Self> {
-        // SAFETY: the types differ in how long the image lives, and the functions keep nothing of it
-        unsafe { core::mem::transmute::<SamplerFunctions<ByRadiance<'static>>, SamplerFunctions<Self>>(table.image) }
-    }
-}
-
-/// A light prepared for a shading point by one technique, in numbers of single precision.
-pub trait BatchTechnique: BatchSampler {
+/// A light by one technique.
+pub trait Technique: Sized + Sealed {
+    /// Its number: its place in the core's list, and after that in this module's list of lights with memory.
+    const INDEX: usize;
     /// The light over numbers, packets of numbers, or columns.
     type Light<X: Copy>: Copy;
-    /// True if the preparation needs the normal of the surface.
-    const ON_SURFACE: bool;
-    /// Prepares for the point `p` of a surface with the unit normal `n`.
-    fn prepare<R: Real>(light: Self::Light<R>, p: Vec3<R>, n: Vec3<R>) -> Self::Of<R>;
+    /// What it is prepared for beside the point: nothing, the unit normal of the surface there, a [`Reflection`] or a [`Spread`].
+    type With<X: Copy>: Copy;
+    /// The prepared light.
+    type Prepared: Prepared;
     /// The light with `f` applied to each of its numbers.
-    fn map<X: Copy, Y: Copy>(light: Self::Light<X>, f: impl FnMut(X) -> Y) -> Self::Light<Y>;
-    /// One light, prepared for the point `p` of a surface with the unit normal `n`.
-    fn prepared(light: Self::Light<f32>, p: Vec3<f32>, n: Vec3<f32>) -> Self;
-    /// The functions of the technique.
-    fn light_functions(table: &'static Table) -> LightFunctions<Self>;
+    fn map_light<X: Copy, Y: Copy>(light: Self::Light<X>, f: impl FnMut(X) -> Y) -> Self::Light<Y>;
+    /// What it is prepared for, with `f` applied to each of its numbers.
+    fn map_with<X: Copy, Y: Copy>(with: Self::With<X>, f: impl FnMut(X) -> Y) -> Self::With<Y>;
+    /// Prepares one light for the point `p`.
+    fn prepare(light: Self::Light<f32>, p: Vec3<f32>, with: Self::With<f32>) -> Self::Prepared;
+    /// Calls `f` with a light that is prepared for the point `p`.
+    fn prepared<R: Real, T>(
+        light: Self::Light<R>,
+        p: Vec3<R>,
+        with: Self::With<R>,
+        f: impl FnOnce(&<Self::Prepared as Prepared>::Of<'_, R>) -> T,
+    ) -> T;
 }
 
-/// A light, and the lobe of the surface that reflects it: what samplers `by_reflection` are prepared for.
-#[derive(Clone, Copy, Debug)]
-#[repr(C)]
-pub struct Reflected<L, X> {
-    /// The light.
-    pub light: L,
-    /// The lobe.
-    pub reflection: Reflection<X>,
-}
-
-/// Whether a method takes a normal.
-macro_rules! on_surface {
-    ((p, n)) => {
-        true
+/// The type of what a technique is prepared for, over numbers `X`.
+macro_rules! with {
+    ((p, n), $x:ident) => {
+        Vec3<$x>
     };
-    ($other:tt) => {
-        false
+    ((p, reflection), $x:ident) => {
+        Reflection<$x>
     };
+    ((p, spread), $x:ident) => {
+        Spread<$x>
+    };
+    ($place:tt, $x:ident) => {
+        ()
+    };
+    (map (p, n), $with:ident, $f:ident) => {
+        $with.map($f)
+    };
+    (map (p, reflection), $with:ident, $f:ident) => {
+        $with.map($f)
+    };
+    (map (p, spread), $with:ident, $f:ident) => {
+        $with.map($f)
+    };
+    (map $place:tt, $with:ident, $f:ident) => {{
+        let _ = ($with, $f);
+    }};
 }
 
+/// The number of each technique, and those of the core's list.
 macro_rules! implement {
-    ($(
-        $(#[$light_doc:meta])* $light:ident $([$corners:literal])? = $light_c:ident, $columns_c:ident { $($fields:tt)* } $(reflected {
-            $(#[$lobe_doc:meta])* $lobe:ident $([$lobe_n:literal])? $(= $lobe_c:ident, $lobe_name:ident[$lobe_size:literal])?;
-        })? by $default:literal {
+    ({ $($in_memory:ident),+ } $(
+        $(#[$light_doc:meta])* $light:ident $([$corners:literal])? = $light_c:ident, $columns_c:ident { $($fields:tt)* } by $default:literal {
             $(
-                $(#[$doc:meta])* $sampler:ident $([$n:literal])?
-                    $(= $sampler_c:ident, $name:ident[$size:literal])?: $by:ident $place:tt $($measure:ident)?;
+                $(#[doc = $doc:literal])* $technique:ident, $name:ident -> $sampler:ident $([$n:literal])? $(= $sampler_c:ident[$size:literal])?: $by:ident $place:tt $($measure:ident)?;
             )+
         }
     )+) => {
-        $($(implement!(@ $light, $sampler $([$n])?, $by $place $(, $name)?);)+)+
-        $($(implement!(# $light, $lobe $([$lobe_n])? $(, $lobe_name)?);)?)+
-    };
-    // the sampler of another light
-    (@ $light:ident, $sampler:ident $([$n:literal])?, $by:ident $place:tt) => {};
-    (# $light:ident, $sampler:ident $([$n:literal])?) => {};
-    (@ $light:ident, $sampler:ident $([$n:literal])?, $by:ident $place:tt, $name:ident) => {
-        implement!(sampler $sampler $([$n])?);
-        impl BatchTechnique for $sampler<f32 $(, $n)?> {
-            type Light<X: Copy> = $light<X $(, $n)?>;
-            const ON_SURFACE: bool = on_surface!($place);
-            #[inline(always)]
-            fn prepare<R: Real>(light: Self::Light<R>, p: Vec3<R>, n: Vec3<R>) -> Self::Of<R> {
-                let _ = (p, n);
-                etendue::prepared!(light, $by $place, p, n)
-            }
-            #[inline(always)]
-            fn map<X: Copy, Y: Copy>(light: Self::Light<X>, f: impl FnMut(X) -> Y) -> Self::Light<Y> {
-                light.map(f)
-            }
-            implement!(technique);
+        /// The number of each technique.
+        #[derive(Clone, Copy)]
+        enum Number {
+            $($($technique,)+)+
+            $($in_memory,)+
         }
+        /// How many techniques there are.
+        pub const TECHNIQUES: usize = [$($(Number::$technique,)+)+ $(Number::$in_memory),+].len();
+        $($(
+            $(#[doc = $doc])*
+            #[derive(Clone, Copy, Debug)]
+            pub struct $technique;
+            impl Sealed for $technique {}
+            impl Technique for $technique {
+                const INDEX: usize = Number::$technique as usize;
+                type Light<X: Copy> = light::$light<X $(, $n)?>;
+                type With<X: Copy> = with!($place, X);
+                type Prepared = light::$sampler<f32 $(, $n)?>;
+                #[inline(always)]
+                fn map_light<X: Copy, Y: Copy>(light: Self::Light<X>, f: impl FnMut(X) -> Y) -> Self::Light<Y> {
+                    light.map(f)
+                }
+                #[inline(always)]
+                fn map_with<X: Copy, Y: Copy>(with: Self::With<X>, f: impl FnMut(X) -> Y) -> Self::With<Y> {
+                    with!(map $place, with, f)
+                }
+                #[inline(always)]
+                fn prepare(light: Self::Light<f32>, p: Vec3<f32>, with: Self::With<f32>) -> Self::Prepared {
+                    Self::prepared::<f32, _>(light, p, with, |sampler| *sampler)
+                }
+                #[inline(always)]
+                fn prepared<R: Real, T>(
+                    light: Self::Light<R>,
+                    p: Vec3<R>,
+                    with: Self::With<R>,
+                    f: impl FnOnce(&light::$sampler<R $(, $n)?>) -> T,
+                ) -> T {
+                    let _ = (p, &with);
+                    f(&etendue::prepared!(light, $by $place, p: p, n: with, reflection: &with, spread: &with))
+                }
+            }
+            implement!(@ $technique, $sampler $([$n])? $(, $size)?);
+        )+)+
     };
-    (# $light:ident, $sampler:ident $([$n:literal])?, $name:ident) => {
-        implement!(sampler $sampler $([$n])?);
-        impl BatchTechnique for $sampler<f32 $(, $n)?> {
-            type Light<X: Copy> = Reflected<$light<X $(, $n)?>, X>;
-            const ON_SURFACE: bool = false;
+    // the sampler of another technique
+    (@ $technique:ident, $sampler:ident $([$n:literal])?) => {};
+    (@ $technique:ident, $sampler:ident $([$n:literal])?, $size:literal) => {
+        impl Sealed for light::$sampler<f32 $(, $n)?> {}
+        impl Prepared for light::$sampler<f32 $(, $n)?> {
+            const INDEX: usize = Number::$technique as usize;
+            type Of<'a, R: Real> = light::$sampler<R $(, $n)?>;
             #[inline(always)]
-            fn prepare<R: Real>(Reflected { light, reflection }: Self::Light<R>, p: Vec3<R>, _: Vec3<R>) -> Self::Of<R> {
-                light.by_reflection(p, &reflection)
+            fn over<R: Real<Scalar = f32>, T>(&self, f: impl FnOnce(&Self::Of<'_, R>) -> T) -> T {
+                f(&Lanewise::splat(*self))
             }
-            #[inline(always)]
-            fn map<X: Copy, Y: Copy>(reflected: Self::Light<X>, mut f: impl FnMut(X) -> Y) -> Self::Light<Y> {
-                Reflected { light: reflected.light.map(&mut f), reflection: reflected.reflection.map(&mut f) }
-            }
-            implement!(technique);
-        }
-    };
-    (sampler $sampler:ident $([$n:literal])?) => {
-        impl Sealed for $sampler<f32 $(, $n)?> {}
-        impl BatchSampler for $sampler<f32 $(, $n)?> {
-            type Of<R: Real> = $sampler<R $(, $n)?>;
-            #[inline(always)]
-            fn splat<R: Real<Scalar = f32>>(&self) -> Self::Of<R> {
-                Lanewise::splat(*self)
-            }
-            #[inline]
-            fn sampler_functions(table: &'static Table) -> SamplerFunctions<Self> {
-                Self::functions(table).sampler
-            }
-        }
-    };
-    (technique) => {
-        #[inline(always)]
-        fn prepared(light: Self::Light<f32>, p: Vec3<f32>, n: Vec3<f32>) -> Self {
-            Self::prepare::<f32>(light, p, n)
-        }
-        #[inline]
-        fn light_functions(table: &'static Table) -> LightFunctions<Self> {
-            *Self::functions(table)
         }
     };
 }
-etendue::techniques!(implement! {});
+etendue::techniques!(implement! {
+    { PictureByArea, PictureBySolidAngle, PictureByProjectedSolidAngle, PictureOnSphereByVisibleArea, PictureOnPatchByVisibleArea,
+      PortalsByRadiance, ImageByRadiance }
+});
+
+/// A light with memory, prepared for a shading point. What is prepared over packets has no form in single precision that a caller could keep, so
+/// that the light and the point are kept, and each call prepares anew: that takes as long as few samples.
+#[derive(Debug)]
+#[repr(C)]
+pub struct Placed<T: InMemory> {
+    light: T::Light<f32>,
+    p: Vec3<f32>,
+    with: T::With<f32>,
+}
+impl<T: InMemory> Clone for Placed<T> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+impl<T: InMemory> Copy for Placed<T> {}
+impl<T: InMemory> Sealed for Placed<T> {}
+impl<T: InMemory> Prepared for Placed<T> {
+    const INDEX: usize = T::INDEX;
+    type Of<'a, R: Real> = T::At<'a, R>;
+    #[inline(always)]
+    fn over<R: Real<Scalar = f32>, X>(&self, f: impl FnOnce(&Self::Of<'_, R>) -> X) -> X {
+        let (light, with) = (T::map_light(self.light, |x| R::splat(x)), T::map_with(self.with, |x| R::splat(x)));
+        T::prepared::<R, X>(light, Vec3::splat(self.p), with, f)
+    }
+}
+/// A technique of a light with memory.
+pub trait InMemory:
+    Technique<Prepared = Placed<Self>, Light<f32>: core::fmt::Debug, With<f32>: core::fmt::Debug>
+{
+    /// The prepared light over packets.
+    type At<'a, R: Real>: LightSampler<R>;
+}
+
+/// A light with a picture.
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+pub struct OnPicture<'a, L> {
+    /// The picture.
+    pub picture: PictureMemory<'a>,
+    /// The light that it is on.
+    pub light: L,
+}
+
+/// The techniques of lights with pictures.
+macro_rules! pictured {
+    ($($(#[$doc:meta])* $technique:ident: $light:ident, $by:ident $place:tt -> [$a:lifetime $r:ident] $of:ty;)+) => {$(
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug)]
+        pub struct $technique<'m>(PhantomData<&'m PictureMemory<'m>>);
+        impl Sealed for $technique<'_> {}
+        impl<'m> Technique for $technique<'m> {
+            const INDEX: usize = Number::$technique as usize;
+            type Light<X: Copy> = OnPicture<'m, light::$light<X>>;
+            type With<X: Copy> = with!($place, X);
+            type Prepared = Placed<Self>;
+            #[inline(always)]
+            fn map_light<X: Copy, Y: Copy>(light: Self::Light<X>, f: impl FnMut(X) -> Y) -> Self::Light<Y> {
+                OnPicture { picture: light.picture, light: light.light.map(f) }
+            }
+            #[inline(always)]
+            fn map_with<X: Copy, Y: Copy>(with: Self::With<X>, f: impl FnMut(X) -> Y) -> Self::With<Y> {
+                with!(map $place, with, f)
+            }
+            #[inline(always)]
+            fn prepare(light: Self::Light<f32>, p: Vec3<f32>, with: Self::With<f32>) -> Placed<Self> {
+                Placed { light, p, with }
+            }
+            #[inline(always)]
+            fn prepared<R: Real, T>(
+                light: Self::Light<R>,
+                p: Vec3<R>,
+                with: Self::With<R>,
+                f: impl FnOnce(&<Self as InMemory>::At<'_, R>) -> T,
+            ) -> T {
+                let _ = with;
+                let on = light.picture.view().expect("the memory is that of a picture").on(light.light);
+                f(&etendue::prepared!(on, $by $place, p: p, n: with,))
+            }
+        }
+        impl<'m> InMemory for $technique<'m> {
+            type At<$a, $r: Real> = $of;
+        }
+    )+};
+}
+pictured! {
+    /// A flat light with a picture, by radiance times area: [`Pictured::by_area`](light::Pictured::by_area) of the parallelogram of its
+    /// surface coordinates.
+    PictureByArea: Parallelogram, by_area(p) -> ['a R] ByPicture<'a, Flat<R, Area>>;
+    /// A flat light with a picture, by radiance times solid angle: [`Pictured::by_solid_angle`](light::Pictured::by_solid_angle) of that
+    /// parallelogram.
+    PictureBySolidAngle: Parallelogram, by_solid_angle(p) -> ['a R] ByPicture<'a, Flat<R, SolidAngle<R>>>;
+    /// A flat light with a picture, by radiance times projected solid angle:
+    /// [`Pictured::by_projected_solid_angle`](light::Pictured::by_projected_solid_angle) of that parallelogram.
+    PictureByProjectedSolidAngle: Parallelogram, by_projected_solid_angle(p, n) -> ['a R] ByPicture<'a, Flat<R, Projected<R>>>;
+    /// A sphere with a picture, by radiance times visible area: [`Pictured::by_visible_area`](light::Pictured::by_visible_area).
+    PictureOnSphereByVisibleArea: Sphere, by_visible_area(p) -> ['a R] ByPicture<'a, Curved<PlacedSphere<R>>>;
+    /// A bilinear patch with a picture, by radiance times visible area.
+    PictureOnPatchByVisibleArea: BilinearPatch, by_visible_area(p) -> ['a R] ByPicture<'a, Curved<PlacedPatch<R>>>;
+}
+
+/// The sky through portals: [`PortalEnvironment::by_radiance`](light::PortalEnvironment::by_radiance).
+#[derive(Clone, Copy, Debug)]
+pub struct PortalsByRadiance<'m>(PhantomData<&'m PortalMemory<'m>>);
+impl Sealed for PortalsByRadiance<'_> {}
+impl<'m> Technique for PortalsByRadiance<'m> {
+    const INDEX: usize = Number::PortalsByRadiance as usize;
+    type Light<X: Copy> = PortalMemory<'m>;
+    type With<X: Copy> = ();
+    type Prepared = Placed<Self>;
+    #[inline(always)]
+    fn map_light<X: Copy, Y: Copy>(light: PortalMemory<'m>, _: impl FnMut(X) -> Y) -> PortalMemory<'m> {
+        light
+    }
+    #[inline(always)]
+    fn map_with<X: Copy, Y: Copy>((): (), _: impl FnMut(X) -> Y) {}
+    #[inline(always)]
+    fn prepare(light: PortalMemory<'m>, p: Vec3<f32>, with: ()) -> Placed<Self> {
+        Placed { light, p, with }
+    }
+    #[inline(always)]
+    fn prepared<R: Real, T>(
+        light: PortalMemory<'m>,
+        p: Vec3<R>,
+        (): (),
+        f: impl FnOnce(&light::PortalsByRadiance<'_, R>) -> T,
+    ) -> T {
+        light.with(|sky| f(&sky.by_radiance(p))).expect("the memory is that of portals")
+    }
+}
+impl InMemory for PortalsByRadiance<'_> {
+    type At<'a, R: Real> = light::PortalsByRadiance<'a, R>;
+}
+
+/// An image of the sky: [`ImageEnvironment::by_radiance`](light::ImageEnvironment::by_radiance), the same at every point.
+#[derive(Clone, Copy, Debug)]
+pub struct ImageByRadiance<'m>(PhantomData<&'m ImageMemory<'m>>);
+impl Sealed for ImageByRadiance<'_> {}
+impl<'m> Technique for ImageByRadiance<'m> {
+    const INDEX: usize = Number::ImageByRadiance as usize;
+    type Light<X: Copy> = ImageMemory<'m>;
+    type With<X: Copy> = ();
+    type Prepared = ImageMemory<'m>;
+    #[inline(always)]
+    fn map_light<X: Copy, Y: Copy>(light: ImageMemory<'m>, _: impl FnMut(X) -> Y) -> ImageMemory<'m> {
+        light
+    }
+    #[inline(always)]
+    fn map_with<X: Copy, Y: Copy>((): (), _: impl FnMut(X) -> Y) {}
+    #[inline(always)]
+    fn prepare(light: ImageMemory<'m>, _: Vec3<f32>, (): ()) -> ImageMemory<'m> {
+        light
+    }
+    #[inline(always)]
+    fn prepared<R: Real, T>(
+        light: ImageMemory<'m>,
+        _: Vec3<R>,
+        (): (),
+        f: impl FnOnce(&light::ByRadiance<'_>) -> T,
+    ) -> T {
+        f(&light.view().expect("the memory is that of an image").by_radiance())
+    }
+}
+impl Sealed for ImageMemory<'_> {}
+impl<'m> Prepared for ImageMemory<'m> {
+    const INDEX: usize = Number::ImageByRadiance as usize;
+    type Of<'a, R: Real> = light::ByRadiance<'a>;
+    #[inline(always)]
+    fn over<R: Real<Scalar = f32>, T>(&self, f: impl FnOnce(&Self::Of<'_, R>) -> T) -> T {
+        f(&self.view().expect("the memory is that of an image").by_radiance())
+    }
+}

@@ -1,13 +1,14 @@
 //! Warps over any kind of number: what a loop over packets needs to know of them.
 
 use crate::sealed::Sealed;
-use crate::table::{InTable, Table, WarpFunctions};
 use etendue::reflection::Reflection;
 use etendue::warp::*;
 use etendue::{Real, Vec2, Vec3};
 
 /// A warp in numbers of single precision.
 pub trait BatchWarp: Copy + Sealed {
+    /// Its number: its place in the core's list.
+    const INDEX: usize;
     /// The warp over packets.
     type Of<R: Real>: Copy;
     /// How many random numbers it maps.
@@ -22,8 +23,6 @@ pub trait BatchWarp: Copy + Sealed {
     fn pdf<R: Real>(warp: &Self::Of<R>, point: [R; 3]) -> R;
     /// The random numbers that map to a point.
     fn invert<R: Real>(warp: &Self::Of<R>, point: [R; 3]) -> Vec2<R>;
-    /// The functions of the warp.
-    fn warp_functions(table: &'static Table) -> WarpFunctions<Self>;
 }
 
 /// A point as coordinates, and back.
@@ -54,6 +53,13 @@ impl<R: Real> Point<R> for Vec3<R> {
 
 macro_rules! warps {
     ($($(#[$doc:meta])* $name:ident $([$packets:tt] = $struct:ident)?, $module:ident: $numbers:tt -> $coordinates:literal;)+) => {
+        /// The number of each warp.
+        #[derive(Clone, Copy)]
+        enum Number {
+            $($name,)+
+        }
+        /// How many warps there are.
+        pub const WARPS: usize = [$(Number::$name),+].len();
         $(warps!($numbers $name $([$packets])?; $coordinates);)+
     };
     (2 $name:ident $([$packets:tt])?; $coordinates:literal) => {
@@ -71,31 +77,25 @@ macro_rules! warps {
     (@ $name:ident; $($rest:tt)+) => {
         impl Sealed for $name {}
         impl BatchWarp for $name {
+            const INDEX: usize = Number::$name as usize;
             type Of<R: Real> = $name;
             #[inline(always)]
             fn splat<R: Real<Scalar = f32>>(&self) -> Self {
                 *self
             }
             warps!(# $($rest)+);
-            warps!(table);
         }
     };
     (@ $name:ident [R]; $($rest:tt)+) => {
         impl Sealed for $name<f32> {}
         impl BatchWarp for $name<f32> {
+            const INDEX: usize = Number::$name as usize;
             type Of<R: Real> = $name<R>;
             #[inline(always)]
             fn splat<R: Real<Scalar = f32>>(&self) -> $name<R> {
                 $name::splat(*self)
             }
             warps!(# $($rest)+);
-            warps!(table);
-        }
-    };
-    (table) => {
-        #[inline]
-        fn warp_functions(table: &'static Table) -> WarpFunctions<Self> {
-            *Self::functions(table)
         }
     };
     (# $coordinates:literal, $numbers:literal; |$w:ident, $u:ident| $sample:expr, |$pw:ident, $pp:ident| $pdf:expr, |$iw:ident, $ip:ident| $invert:expr) => {

@@ -115,33 +115,39 @@ impl Bench {
 }
 
 impl Visitor for Bench {
-    fn technique<T: BatchTechnique>(&mut self, name: &str, light: T::Light<f32>) {
+    fn technique<T: Technique>(&mut self, name: &str, light: T::Light<f32>, with: T::With<f32>) {
         let input = &Inputs::new();
-        let (p, normal) = (Vec3::new(0.1, 0.2, 0.3), Vec3::new(0.0, 1.0, 0.0));
-        let sampler = Batch::new().prepare::<T>(&light, p, normal);
+        let sampler = Batch::new().prepare::<T>(&light, Vec3::new(0.1, 0.2, 0.3), with);
         let u = |n| Vec2::new(input.column(0, n), input.column(1, n));
         let core: &dyn Fn(&mut Results) = if cfg!(target_feature = "avx512f") {
-            &|out| by_core::<T, f32x16>(&sampler, u(N), out)
+            &|out| by_core::<T::Prepared, f32x16>(&sampler, u(N), out)
         } else {
-            &|out| by_core::<T, f32x8>(&sampler, u(N), out)
+            &|out| by_core::<T::Prepared, f32x8>(&sampler, u(N), out)
         };
         self.row(&format!("{name}, sample"), |b, n, out| b.sample(&sampler, u(n), out.samples(n)), Some(core));
         let lights = |n| {
             let mut k = 8;
-            T::map(light, |_| {
+            T::map_light(light, |_| {
+                k += 1;
+                input.column(k, n)
+            })
+        };
+        let withs = |n| {
+            let mut k = 4;
+            T::map_with(with, |_| {
                 k += 1;
                 input.column(k, n)
             })
         };
         self.row(
             &format!("{name}, sample each"),
-            |b, n, out| b.sample_each::<T>(lights(n), input.vector(2, n), input.vector(5, n), u(n), out.samples(n)),
+            |b, n, out| b.sample_each::<T>(lights(n), input.vector(2, n), withs(n), u(n), out.samples(n)),
             None,
         );
         let pdf_each = |b: Batch, n: usize, out: &mut Results| {
             let w = input.vector(5, n);
             let out = Evaluations { pdf: &mut out.columns[0][..n], ..Evaluations::default() };
-            b.evaluate_each::<T>(lights(n), input.vector(2, n), w, w, out);
+            b.evaluate_each::<T>(lights(n), input.vector(2, n), withs(n), w, out);
         };
         self.row(&format!("{name}, pdf each"), pdf_each, None);
         let mut drawn = Results { columns: core::array::from_fn(|_| vec![0.0; N]) };
@@ -173,10 +179,7 @@ impl Visitor for Bench {
         self.row(&format!("{name}, invert"), invert, None);
     }
 
-    fn sequence<S>(&mut self, name: &str, sequence: S)
-    where
-        S: Sequence + InTable<Functions = SequenceFunctions<S>>,
-    {
+    fn sequence<S: BatchSequence>(&mut self, name: &str, sequence: S) {
         let pairs = |b: Batch, n, out: &mut Results| {
             let [x, y, _] = out.three(n);
             b.pairs(&sequence, Counters { pixel: 3, dimension: 1, ..Counters::default() }, Vec2::new(x, y));
@@ -187,18 +190,19 @@ impl Visitor for Bench {
 
 /// The same samples by the core, with the instructions of this build.
 #[inline(never)]
-fn by_core<T: BatchTechnique, R: Real<Scalar = f32>>(sampler: &T, u: Vec2<&[f32]>, out: &mut Results) {
-    let sampler = sampler.splat::<R>();
-    for at in (0..N).step_by(R::LANES) {
-        let s = sampler.sample(u.map(|column| R::from_fn(|lane| column[at + lane])));
-        let values = [s.direction.x, s.direction.y, s.direction.z, s.distance, s.pdf, s.weight()];
-        for (column, value) in out.columns.iter_mut().zip(values) {
-            let column = &mut column[at..at + R::LANES];
-            for (lane, x) in column.iter_mut().enumerate() {
-                *x = value.lane(lane);
+fn by_core<P: Prepared, R: Real<Scalar = f32>>(sampler: &P, u: Vec2<&[f32]>, out: &mut Results) {
+    sampler.over::<R, _>(|sampler| {
+        for at in (0..N).step_by(R::LANES) {
+            let s = sampler.sample(u.map(|column| R::from_fn(|lane| column[at + lane])));
+            let values = [s.direction.x, s.direction.y, s.direction.z, s.distance, s.pdf, s.weight()];
+            for (column, value) in out.columns.iter_mut().zip(values) {
+                let column = &mut column[at..at + R::LANES];
+                for (lane, x) in column.iter_mut().enumerate() {
+                    *x = value.lane(lane);
+                }
             }
         }
-    }
+    });
 }
 
 fn main() {

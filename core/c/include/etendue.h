@@ -5,9 +5,12 @@
 //     EtendueTriangle lamp = {{0, 2, 0}, {1, 0, 0}, {0, 0, 1}};
 //     float p[3] = {0, 0, 0}, u[2] = {0.3f, 0.6f};
 //     EtendueTriangleBySolidAngle sampler;
-//     etendue_triangle_by_solid_angle_prepare(&lamp, p, &sampler); // once for a shading point
+//     etendue_prepare(ETENDUE_TECHNIQUE_TRIANGLE_BY_SOLID_ANGLE, &lamp, p, NULL, &sampler); // once for a shading point
 //     EtendueLightSample s;
-//     etendue_triangle_by_solid_angle_sample(&sampler, u, &s);     // as often as needed
+//     etendue_sample(ETENDUE_TECHNIQUE_TRIANGLE_BY_SOLID_ANGLE, &sampler, u, &s);           // as often as needed
+//
+// etendue_typed.h, which this header includes, has the same in functions of one line for each technique, with its types and its name, as
+// etendue_triangle_by_solid_angle_sample.
 //
 // Rules for all functions:
 // - Nothing is allocated, nothing is kept between calls, and all functions may be called from any thread.
@@ -16,7 +19,8 @@
 // - Batches are structures of arrays: one column per coordinate, of n elements each, without demands on alignment. An output may be
 //   NULL where it is not wanted, and may be the same column as an input.
 // - A function that cannot work returns a status other than ETENDUE_STATUS_OK and writes nothing: for a NULL pointer to something that it
-//   needs. A count of 0 is fine and touches nothing.
+//   needs, and for a technique or a warp that is none. A count of 0 is fine and touches nothing.
+// - `void` pointers are to structs of the technique: its light, columns of it, or its sampler, by the names of the technique.
 // - `p`, `n`, `w`, `direction` and `normal` are three numbers each, `u` and `uv` two, or as many columns.
 // - Coordinates may be in any unit; pdfs are per steradian unless stated; u is in [0, 1)^2; directions are unit vectors from the shading
 //   point to the light. `p` is a shading point, and `n` the unit normal of the surface there.
@@ -60,21 +64,305 @@ typedef enum {
   ETENDUE_STATUS_VALUE = 3,
 } EtendueStatus;
 
-// A sphere that emits outwards. A radius <= 0 gives pdf 0; from inside, every direction hits it and it does not emit.
+// A light by a way to sample it. The comments say what it is uniform over, at a point p.
+typedef enum {
+  // Uniform over the surface: pdf distance^2/(|cos(theta')| 4 piR^2) per steradian, theta' at the light. More than half of the samples
+  // face away.
+  ETENDUE_TECHNIQUE_SPHERE_BY_AREA,
+  // Uniform over the solid angle Omega at the point p: pdf 1/Omega per steradian. From inside, every direction.
+  ETENDUE_TECHNIQUE_SPHERE_BY_SOLID_ANGLE,
+  // Uniform over the projected solid angle Omega' above the horizon of the unit normal n at the point p: pdf cos(theta)/Omega' per
+  // steradian, 0 where nothing of the light is above the horizon.
+  ETENDUE_TECHNIQUE_SPHERE_BY_PROJECTED_SOLID_ANGLE,
+  // Nearly in proportion to the lobe of a rough surface at the point p: pdf per steradian; 0 where nothing of the light is above
+  // the horizon. From inside, every direction above the horizon.
+  ETENDUE_TECHNIQUE_SPHERE_BY_REFLECTION,
+  // Uniform over the surface of area A: pdf distance^2/(|cos(theta')| A) per steradian, theta' at the light. For small, far and facing
+  // triangles.
+  ETENDUE_TECHNIQUE_TRIANGLE_BY_AREA,
+  // Uniform over the solid angle Omega at the point p: pdf 1/Omega per steradian.
+  ETENDUE_TECHNIQUE_TRIANGLE_BY_SOLID_ANGLE,
+  // Uniform over the projected solid angle Omega' above the horizon of the unit normal n at the point p: pdf cos(theta)/Omega' per
+  // steradian, 0 where nothing of the light is above the horizon. It has no variance on an unoccluded diffuse surface.
+  ETENDUE_TECHNIQUE_TRIANGLE_BY_PROJECTED_SOLID_ANGLE,
+  // By solid angle times a bilinear approximation of the cosine to the unit normal n at the point p; pdf per steradian.
+  ETENDUE_TECHNIQUE_TRIANGLE_BY_COSINE_WARP,
+  // In proportion to the lobe of a rough surface at the point p: pdf pi times that of the reflection, over the projected solid
+  // angle after its map, per steradian; 0 where nothing of the light is above the horizon.
+  ETENDUE_TECHNIQUE_TRIANGLE_BY_REFLECTION,
+  // Uniform over the surface of area A: pdf distance^2/(|cos(theta')| A) per steradian, theta' at the light.
+  ETENDUE_TECHNIQUE_PARALLELOGRAM_BY_AREA,
+  // Uniform over the solid angle Omega at the point p: pdf 1/Omega per steradian.
+  ETENDUE_TECHNIQUE_PARALLELOGRAM_BY_SOLID_ANGLE,
+  // Uniform over the projected solid angle Omega' above the horizon of the unit normal n at the point p: pdf cos(theta)/Omega' per
+  // steradian, 0 where nothing of the light is above the horizon.
+  ETENDUE_TECHNIQUE_PARALLELOGRAM_BY_PROJECTED_SOLID_ANGLE,
+  // In proportion to the lobe of a rough surface at the point p: pdf pi times that of the reflection, over the projected solid
+  // angle after its map, per steradian; 0 where nothing of the light is above the horizon.
+  ETENDUE_TECHNIQUE_PARALLELOGRAM_BY_REFLECTION,
+  // Uniform over the solid angle of the part that the point p sees of a light with this spread; pdf per steradian. Surface
+  // coordinates are those of the whole light.
+  ETENDUE_TECHNIQUE_PARALLELOGRAM_BY_SPREAD,
+  // Uniform over the surface of area A, as a parallelogram: pdf distance^2/(|cos(theta')| A) per steradian, theta' at the light.
+  ETENDUE_TECHNIQUE_RECTANGLE_BY_AREA,
+  // Uniform over the solid angle Omega at the point p: pdf 1/Omega per steradian.
+  ETENDUE_TECHNIQUE_RECTANGLE_BY_SOLID_ANGLE,
+  // Uniform over the projected solid angle Omega' above the horizon of the unit normal n at the point p, as a parallelogram: pdf
+  // cos(theta)/Omega' per steradian, 0 where nothing of the light is above the horizon.
+  ETENDUE_TECHNIQUE_RECTANGLE_BY_PROJECTED_SOLID_ANGLE,
+  // By solid angle times a bilinear approximation of the cosine to the unit normal n at the point p; pdf per steradian.
+  ETENDUE_TECHNIQUE_RECTANGLE_BY_COSINE_WARP,
+  // In proportion to the lobe of a rough surface at the point p, as a parallelogram: pdf pi times that of the reflection, over the
+  // projected solid angle after its map, per steradian; 0 where nothing of the light is above the horizon.
+  ETENDUE_TECHNIQUE_RECTANGLE_BY_REFLECTION,
+  // Uniform over the solid angle of the part that the point p sees of a light with this spread; pdf per steradian. Surface
+  // coordinates are those of the whole light.
+  ETENDUE_TECHNIQUE_RECTANGLE_BY_SPREAD,
+  // Uniform over the surface of area A: pdf distance^2/(|cos(theta')| A) per steradian, theta' at the light.
+  ETENDUE_TECHNIQUE_DISK_BY_AREA,
+  // Uniform over the solid angle Omega at the point p: pdf 1/Omega per steradian.
+  ETENDUE_TECHNIQUE_DISK_BY_SOLID_ANGLE,
+  // Uniform over the solid angle of what the point p sees of a light with this spread, if that is a disk within the light; else,
+  // of the whole light. The pdf is per steradian; surface coordinates are those of the whole light.
+  ETENDUE_TECHNIQUE_DISK_BY_SPREAD,
+  // Uniform over the surface of area A: pdf distance^2/(|cos(theta')| A) per steradian, theta' at the light.
+  ETENDUE_TECHNIQUE_POLYGON_BY_AREA,
+  // Uniform over the solid angle Omega at the point p: pdf 1/Omega per steradian.
+  ETENDUE_TECHNIQUE_POLYGON_BY_SOLID_ANGLE,
+  // Uniform over the projected solid angle Omega' above the horizon of the unit normal n at the point p: pdf cos(theta)/Omega' per
+  // steradian, 0 where nothing of the light is above the horizon.
+  ETENDUE_TECHNIQUE_POLYGON_BY_PROJECTED_SOLID_ANGLE,
+  // In proportion to the lobe of a rough surface at the point p: pdf pi times that of the reflection, over the projected solid
+  // angle after its map, per steradian; 0 where nothing of the light is above the horizon.
+  ETENDUE_TECHNIQUE_POLYGON_BY_REFLECTION,
+  // Nearly uniform over the surface: the pdf per unit area, times distance^2/|cos(theta')|, is exact for the map.
+  ETENDUE_TECHNIQUE_PATCH_BY_AREA,
+  // Uniform over the length: pdf r^2/(length * sin(gamma)).
+  ETENDUE_TECHNIQUE_LINE_BY_LENGTH,
+  // Uniform over the angle alpha that the line subtends at the point p: pdf r/alpha, with r its least distance.
+  ETENDUE_TECHNIQUE_LINE_BY_ANGLE,
+  // By projected solid angle above the horizon of the unit normal n at the point p; pdf 0 where nothing of the line is above
+  // it.
+  ETENDUE_TECHNIQUE_LINE_BY_PROJECTED_SOLID_ANGLE,
+  // Uniform over the cone: pdf 1/(2 pi(1 - cos(sigma))) per steradian, 0 where the cone is empty.
+  ETENDUE_TECHNIQUE_SUN_BY_SOLID_ANGLE,
+  // Its one direction, whatever the random numbers. The pdf of a sample is distance^2, which is no density; that of a
+  // direction is 0.
+  ETENDUE_TECHNIQUE_POINT_LIGHT_BY_DELTA,
+  // Its one direction, whatever the random numbers. The pdf of a sample is distance^2 over the part of I that is emitted
+  // there, which is no density, and 0 outside of the cone; that of a direction is 0.
+  ETENDUE_TECHNIQUE_SPOT_LIGHT_BY_DELTA,
+  // Its one direction, whatever the random numbers. The pdf of a sample is 1, which is no density; that of a direction is 0.
+  ETENDUE_TECHNIQUE_DIRECTIONAL_LIGHT_BY_DELTA,
+  // A flat light with a picture, by radiance times area, for lights that are small for their distance: the pdf is the pmf of the texel,
+  // over its area, times distance^2/|cos(theta')| per steradian, theta' at the light. 0 where the radiance is, and beyond the rim of triangles and
+  // disks.
+  ETENDUE_TECHNIQUE_PICTURE_BY_AREA,
+  // A flat light with a picture, by radiance times solid angle at the point: the pdf is the pmf of the texel over its solid angle, per
+  // steradian. 0 where the radiance is, and beyond the rim of triangles and disks.
+  ETENDUE_TECHNIQUE_PICTURE_BY_SOLID_ANGLE,
+  // A flat light with a picture, by radiance times projected solid angle above the horizon of the unit normal n at the point: the pdf is
+  // the pmf of the texel over its projected solid angle, times cos(theta), per steradian. 0 where nothing of the light is above the horizon,
+  // where the radiance is 0, and beyond the rim of triangles and disks.
+  ETENDUE_TECHNIQUE_PICTURE_BY_PROJECTED_SOLID_ANGLE,
+  // A sphere with a picture, by radiance times the area that is visible from the point, over the squared distance: the pdf is the pmf of
+  // the texel, over its area, times distance^2/|cos(theta')| per steradian, theta' at the light. From inside, texels are drawn by radiance alone.
+  ETENDUE_TECHNIQUE_PICTURE_ON_SPHERE_BY_VISIBLE_AREA,
+  // A bilinear patch with a picture, by radiance times the area that is visible from the point, over the squared distance; in a texel,
+  // uniform in (s, t). The pdf is per steradian.
+  ETENDUE_TECHNIQUE_PICTURE_ON_PATCH_BY_VISIBLE_AREA,
+  // The sky through portals as a point sees it: from each point exactly the part is sampled that it sees, by the weights of the texels.
+  // The pdf is the probability of the cells over the solid angle that they cover there, per steradian, summed over portals; 0 where no
+  // portal is seen, and from behind. `uv` of a sample are the numbers that etendue_octahedral_sample maps to the direction.
+  ETENDUE_TECHNIQUE_PORTALS_BY_RADIANCE,
+  // An image of the sky, in proportion to it, the same at every point. EtendueImageEnvironment is both the light and its sampler.
+  ETENDUE_TECHNIQUE_IMAGE_BY_RADIANCE,
+} EtendueTechnique;
+
+// A map of random numbers to points. The comments say how many numbers and coordinates there are, if not two and three.
+typedef enum {
+  // Points of the unit disk, uniform in area (pdf 1/pi), by concentric squares: keeps strata compact.
+  ETENDUE_WARP_CONCENTRIC_DISK,
+  // Points of the unit disk, uniform in area (pdf 1/pi), by radius and angle.
+  ETENDUE_WARP_POLAR_DISK,
+  // Directions with z >= 0, uniform in solid angle: pdf 1/(2 pi) per steradian.
+  ETENDUE_WARP_UNIFORM_HEMISPHERE,
+  // Directions, uniform in solid angle: pdf 1/(4 pi) per steradian.
+  ETENDUE_WARP_UNIFORM_SPHERE,
+  // Directions with z >= 0 and the pdf z/pi per steradian.
+  ETENDUE_WARP_COSINE_HEMISPHERE,
+  // Directions, uniform in solid angle, by a nearly continuous map: pdf 1/(4 pi) per steradian.
+  ETENDUE_WARP_OCTAHEDRAL,
+  // Barycentric coordinates of the second and third vertex of a triangle, uniform in area: pdf 2.
+  ETENDUE_WARP_AREA_TRIANGLE,
+  // Barycentric coordinates of the second and third vertex of a triangle, by a map that keeps strata compact: pdf 2.
+  ETENDUE_WARP_LOW_DISTORTION_TRIANGLE,
+  // Directions of a cone: pdf 1/(2 pi one_minus_cos) per steradian.
+  ETENDUE_WARP_CONE,
+  // Points of the unit square, bilinear.
+  ETENDUE_WARP_BILINEAR,
+  // Visible normals of a GGX microsurface, per steradian.
+  ETENDUE_WARP_GGX_VISIBLE_NORMALS,
+  // Directions in which a rough surface reflects a view, per steradian.
+  ETENDUE_WARP_REFLECTION,
+  // Points of a bilinear patch: pdf nearly 1/area.
+  ETENDUE_WARP_PATCH_SURFACE,
+  // Numbers in [0, 1), linear. `u` and `point` are one number each.
+  ETENDUE_WARP_LINEAR,
+  // Numbers in [-r, r], a tent. `u` and `point` are one number each.
+  ETENDUE_WARP_TENT,
+} EtendueWarp;
+
+// Light from all around as an image tells it, in memory of the caller: directions in proportion to the image, the same for all shading
+// points. The position in the image is `uv` of a sample.
+typedef struct {
+  // The table that etendue_image_environment_build wrote.
+  const float *table;
+  // Number of columns of the image.
+  size_t width;
+  // Number of its rows.
+  size_t height;
+  // One of EtendueEnvironmentMap.
+  uint32_t map;
+} EtendueImageEnvironment;
+
+// A picture for lights, in memory of the caller: texels are drawn in proportion to their radiance times their area, solid angle or projected
+// solid angle as seen from a shading point. Columns are u, rows v, of the surface coordinates of the light; of a sphere, columns are heights
+// from -1 to 1, and rows azimuths.
+typedef struct {
+  // The table that etendue_picture_build or etendue_picture_interpolate wrote.
+  const float *table;
+  // The radiance at the centres of texels, between which the picture is interpolated; NULL for one that is constant in each texel.
+  const float *values;
+  // Number of columns of the image.
+  size_t width;
+  // Number of its rows.
+  size_t height;
+  // One of EtenduePictureRegion.
+  uint32_t region;
+} EtenduePicture;
+
+// A rectangle, of a corner and two perpendicular edges from there, that emits from the side of the first edge x the second one.
+// Its strata follow the edges. Without area, and from a point in its plane, the pdf is 0. uv: (s, t), the parts of the edges,
+// in [0, 1].
+typedef struct {
+  // Corner, in the coordinates of the scene.
+  float corner[3];
+  // Edge along s.
+  float edge_s[3];
+  // Edge along t, perpendicular to the other one.
+  float edge_t[3];
+} EtendueRectangle;
+
+// A parallelogram, of a corner and two edges from there, that emits from the side of the first edge x the second one. Without
+// area, and from a point in its plane, the pdf is 0. uv: (s, t), the parts of the edges, in [0, 1].
+typedef struct {
+  // Corner, in the coordinates of the scene.
+  float corner[3];
+  // Edge along s.
+  float edge_s[3];
+  // Edge along t.
+  float edge_t[3];
+} EtendueParallelogram;
+
+// A triangle that emits from the side on which its vertices run counterclockwise. Without area, and from a point in its plane,
+// the pdf is 0. uv: the barycentric coordinates of the second and the third vertex.
+typedef struct {
+  // First vertex, in the coordinates of the scene.
+  float v0[3];
+  // Second vertex, as the edge from the first one.
+  float e1[3];
+  // Third vertex, as the edge from the first one.
+  float e2[3];
+} EtendueTriangle;
+
+// A disk that emits from the side of its normal. A radius <= 0, and a point in its plane, give pdf 0. uv: (1 + q)/2 for the
+// position q on the unit disk.
 typedef struct {
   // Centre, in the coordinates of the scene.
   float center[3];
+  // Unit normal.
+  float normal[3];
   // Radius, in the unit of the coordinates.
   float radius;
-} EtendueSphere;
+} EtendueDisk;
 
-// Uniform over the surface: pdf distance^2/(|cos(theta')| 4 piR^2) per steradian, theta' at the light. More than half of the samples
-// face away.
-//
-// What is inside does not concern callers: it may be copied, and used by any thread.
+// The sky in the coordinates of a portal, as a table of sums in memory of the caller. Portals with parallel edges may share one.
 typedef struct {
-  float data[4];
-} EtendueSphereByArea;
+  // The table that etendue_portal_table_build wrote.
+  const uint64_t *sums;
+  // Number of columns of the image.
+  size_t width;
+  // Number of its rows.
+  size_t height;
+} EtenduePortalTable;
+
+// A parallelogram through which the sky is seen, from the side that its normal s x t points away from.
+typedef struct {
+  // Corner, in the coordinates of the scene.
+  float corner[3];
+  // Edge along s.
+  float edge_s[3];
+  // Edge along t, not parallel to the other one.
+  float edge_t[3];
+} EtenduePortal;
+
+// The part of an image of the sky that is seen through portals; the rest of the sky is hidden by walls.
+typedef struct {
+  // The portals, at most 8.
+  const EtenduePortal *portals;
+  // The table of each portal.
+  const EtenduePortalTable *tables;
+  // Number of portals.
+  size_t count;
+} EtenduePortalEnvironment;
+
+// The lobe of a GGX surface of the same roughness in all directions, seen from one direction: a cosine after a linear map of directions, which
+// keeps the horizon. It is a warp from random numbers to directions above the surface, with the pdf of the fit per steradian, and lights are
+// prepared for it `by_reflection`. Of light from all directions alike it reflects albedo (F0 + (1 - F0) schlick), with the reflectance F0 at
+// normal incidence.
+typedef struct {
+  // What is inside does not concern callers.
+  float data[14];
+  // The part of light from all directions alike that the surface reflects with a Fresnel factor of 1, in [0, 1].
+  float albedo;
+  // The mean of Schlick's weight (1 - v*m)^5 over the lobe, in [0, 1].
+  float schlick;
+} EtendueReflection;
+
+// Columns of reflections: the fields are those of EtendueReflection.
+typedef struct {
+  // What is inside does not concern callers.
+  float *data[14];
+  // The part of light from all directions alike that the surface reflects with a Fresnel factor of 1, in [0, 1].
+  float *albedo;
+  // The mean of Schlick's weight (1 - v*m)^5 over the lobe, in [0, 1].
+  float *schlick;
+} EtendueReflectionColumns;
+
+// Which pairs of a sequence a batch needs.
+typedef struct {
+  // The pixel of all elements, if `pixels` is NULL.
+  uint32_t pixel;
+  // The sample of the first element, if `samples` is NULL; the others follow.
+  uint32_t sample;
+  // The dimension of all elements, which is a pair of coordinates: 0 might be the pixel, 1 the light, 2 the lens.
+  uint32_t dimension;
+  // The pixel of each element, or NULL.
+  const uint32_t *pixels;
+  // The sample of each element, or NULL.
+  const uint32_t *samples;
+} EtendueCounters;
+
+// How a flat light emits within a cone about its normal, as through a honeycomb before it: the spread of Cycles. A host multiplies the
+// radiance of the light by the attenuation, which leaves its power as it is. A point sees only a disk of the plane of the light, which
+// the techniques by spread sample.
+typedef struct {
+  // The tangent of half the angle.
+  float tan_half;
+  // 1/(tan_half - half the angle).
+  float gain;
+} EtendueSpread;
 
 // One sample of a light as seen from a shading point, or the point of a light that a ray hits.
 //
@@ -114,472 +402,6 @@ typedef struct {
   // 1 where the shading point is on the side of the light that emits, else 0.
   uint8_t *emits;
 } EtendueSampleColumns;
-
-// Columns of lights: the fields are those of the light.
-typedef struct {
-  // Centre, in the coordinates of the scene.
-  const float *center[3];
-  // Radius, in the unit of the coordinates.
-  const float *radius;
-} EtendueSphereColumns;
-
-// Uniform over the solid angle Omega at the point p: pdf 1/Omega per steradian. From inside, every direction.
-//
-// What is inside does not concern callers: it may be copied, and used by any thread.
-typedef struct {
-  float data[17];
-} EtendueSphereBySolidAngle;
-
-// Uniform over the projected solid angle Omega' above the horizon of the unit normal n at the point p: pdf cos(theta)/Omega' per
-// steradian, 0 where nothing of the light is above the horizon.
-//
-// What is inside does not concern callers: it may be copied, and used by any thread.
-typedef struct {
-  float data[36];
-} EtendueSphereByProjectedSolidAngle;
-
-// The lobe of a GGX surface of the same roughness in all directions, seen from one direction: a cosine after a linear map of directions, which
-// keeps the horizon. It is a warp from random numbers to directions above the surface, with the pdf of the fit per steradian, and lights are
-// prepared for it `by_reflection`. Of light from all directions alike it reflects albedo (F0 + (1 - F0) schlick), with the reflectance F0 at
-// normal incidence.
-typedef struct {
-  // What is inside does not concern callers.
-  float data[14];
-  // The part of light from all directions alike that the surface reflects with a Fresnel factor of 1, in [0, 1].
-  float albedo;
-  // The mean of Schlick's weight (1 - v*m)^5 over the lobe, in [0, 1].
-  float schlick;
-} EtendueReflection;
-
-// Nearly in proportion to the lobe of a rough surface at the point p: pdf per steradian; 0 where nothing of the light is above
-// the horizon. From inside, every direction above the horizon.
-//
-// What is inside does not concern callers: it may be copied, and used by any thread.
-typedef struct {
-  float data[41];
-} EtendueSphereByReflection;
-
-// Columns of reflections: the fields are those of EtendueReflection.
-typedef struct {
-  // What is inside does not concern callers.
-  float *data[14];
-  // The part of light from all directions alike that the surface reflects with a Fresnel factor of 1, in [0, 1].
-  float *albedo;
-  // The mean of Schlick's weight (1 - v*m)^5 over the lobe, in [0, 1].
-  float *schlick;
-} EtendueReflectionColumns;
-
-// A triangle that emits from the side on which its vertices run counterclockwise. Without area, and from a point in its plane,
-// the pdf is 0. uv: the barycentric coordinates of the second and the third vertex.
-typedef struct {
-  // First vertex, in the coordinates of the scene.
-  float v0[3];
-  // Second vertex, as the edge from the first one.
-  float e1[3];
-  // Third vertex, as the edge from the first one.
-  float e2[3];
-} EtendueTriangle;
-
-// Uniform over the surface of area A: pdf distance^2/(|cos(theta')| A) per steradian, theta' at the light. For small, far and facing
-// triangles.
-//
-// What is inside does not concern callers: it may be copied, and used by any thread.
-typedef struct {
-  float data[33];
-} EtendueTriangleByArea;
-
-// Columns of lights: the fields are those of the light.
-typedef struct {
-  // First vertex, in the coordinates of the scene.
-  const float *v0[3];
-  // Second vertex, as the edge from the first one.
-  const float *e1[3];
-  // Third vertex, as the edge from the first one.
-  const float *e2[3];
-} EtendueTriangleColumns;
-
-// Uniform over the solid angle Omega at the point p: pdf 1/Omega per steradian.
-//
-// What is inside does not concern callers: it may be copied, and used by any thread.
-typedef struct {
-  float data[81];
-} EtendueTriangleBySolidAngle;
-
-// Uniform over the projected solid angle Omega' above the horizon of the unit normal n at the point p: pdf cos(theta)/Omega' per
-// steradian, 0 where nothing of the light is above the horizon. It has no variance on an unoccluded diffuse surface.
-//
-// What is inside does not concern callers: it may be copied, and used by any thread.
-typedef struct {
-  float data[162];
-} EtendueTriangleByProjectedSolidAngle;
-
-// By solid angle times a bilinear approximation of the cosine to the unit normal n at the point p; pdf per steradian.
-//
-// What is inside does not concern callers: it may be copied, and used by any thread.
-typedef struct {
-  float data[85];
-} EtendueTriangleByCosineWarp;
-
-// In proportion to the lobe of a rough surface at the point p: pdf pi times that of the reflection, over the projected solid
-// angle after its map, per steradian; 0 where nothing of the light is above the horizon.
-//
-// What is inside does not concern callers: it may be copied, and used by any thread.
-typedef struct {
-  float data[175];
-} EtendueTriangleByReflection;
-
-// A parallelogram, of a corner and two edges from there, that emits from the side of the first edge x the second one. Without
-// area, and from a point in its plane, the pdf is 0. uv: (s, t), the parts of the edges, in [0, 1].
-typedef struct {
-  // Corner, in the coordinates of the scene.
-  float corner[3];
-  // Edge along s.
-  float edge_s[3];
-  // Edge along t.
-  float edge_t[3];
-} EtendueParallelogram;
-
-// Uniform over the surface of area A: pdf distance^2/(|cos(theta')| A) per steradian, theta' at the light.
-//
-// What is inside does not concern callers: it may be copied, and used by any thread.
-typedef struct {
-  float data[34];
-} EtendueParallelogramByArea;
-
-// Columns of lights: the fields are those of the light.
-typedef struct {
-  // Corner, in the coordinates of the scene.
-  const float *corner[3];
-  // Edge along s.
-  const float *edge_s[3];
-  // Edge along t.
-  const float *edge_t[3];
-} EtendueParallelogramColumns;
-
-// Uniform over the solid angle Omega at the point p: pdf 1/Omega per steradian.
-//
-// What is inside does not concern callers: it may be copied, and used by any thread.
-typedef struct {
-  float data[130];
-} EtendueParallelogramBySolidAngle;
-
-// Uniform over the projected solid angle Omega' above the horizon of the unit normal n at the point p: pdf cos(theta)/Omega' per
-// steradian, 0 where nothing of the light is above the horizon.
-//
-// What is inside does not concern callers: it may be copied, and used by any thread.
-typedef struct {
-  float data[295];
-} EtendueParallelogramByProjectedSolidAngle;
-
-// In proportion to the lobe of a rough surface at the point p: pdf pi times that of the reflection, over the projected solid
-// angle after its map, per steradian; 0 where nothing of the light is above the horizon.
-//
-// What is inside does not concern callers: it may be copied, and used by any thread.
-typedef struct {
-  float data[308];
-} EtendueParallelogramByReflection;
-
-// A rectangle, of a corner and two perpendicular edges from there, that emits from the side of the first edge x the second one.
-// Its strata follow the edges. Without area, and from a point in its plane, the pdf is 0. uv: (s, t), the parts of the edges,
-// in [0, 1].
-typedef struct {
-  // Corner, in the coordinates of the scene.
-  float corner[3];
-  // Edge along s.
-  float edge_s[3];
-  // Edge along t, perpendicular to the other one.
-  float edge_t[3];
-} EtendueRectangle;
-
-// Uniform over the solid angle Omega at the point p: pdf 1/Omega per steradian.
-//
-// What is inside does not concern callers: it may be copied, and used by any thread.
-typedef struct {
-  float data[86];
-} EtendueRectangleBySolidAngle;
-
-// Columns of lights: the fields are those of the light.
-typedef struct {
-  // Corner, in the coordinates of the scene.
-  const float *corner[3];
-  // Edge along s.
-  const float *edge_s[3];
-  // Edge along t, perpendicular to the other one.
-  const float *edge_t[3];
-} EtendueRectangleColumns;
-
-// By solid angle times a bilinear approximation of the cosine to the unit normal n at the point p; pdf per steradian.
-//
-// What is inside does not concern callers: it may be copied, and used by any thread.
-typedef struct {
-  float data[90];
-} EtendueRectangleByCosineWarp;
-
-// A disk that emits from the side of its normal. A radius <= 0, and a point in its plane, give pdf 0. uv: (1 + q)/2 for the
-// position q on the unit disk.
-typedef struct {
-  // Centre, in the coordinates of the scene.
-  float center[3];
-  // Unit normal.
-  float normal[3];
-  // Radius, in the unit of the coordinates.
-  float radius;
-} EtendueDisk;
-
-// Uniform over the surface of area A: pdf distance^2/(|cos(theta')| A) per steradian, theta' at the light.
-//
-// What is inside does not concern callers: it may be copied, and used by any thread.
-typedef struct {
-  float data[14];
-} EtendueDiskByArea;
-
-// Columns of lights: the fields are those of the light.
-typedef struct {
-  // Centre, in the coordinates of the scene.
-  const float *center[3];
-  // Unit normal.
-  const float *normal[3];
-  // Radius, in the unit of the coordinates.
-  const float *radius;
-} EtendueDiskColumns;
-
-// Uniform over the solid angle Omega at the point p: pdf 1/Omega per steradian.
-//
-// What is inside does not concern callers: it may be copied, and used by any thread.
-typedef struct {
-  float data[39];
-} EtendueDiskBySolidAngle;
-
-// A flat convex polygon of 3 to 8 corners that emits from the side on which they run counterclockwise. Without area, and from a
-// point in its plane, the pdf is 0. uv: the parts of the edges from the first corner to the second and to the last, clamped to
-// [0, 1].
-typedef struct {
-  // Corners in order, in one plane, in the coordinates of the scene. A polygon with fewer than 8 corners repeats its last
-  // one.
-  float corners[8][3];
-} EtenduePolygon;
-
-// Uniform over the surface of area A: pdf distance^2/(|cos(theta')| A) per steradian, theta' at the light.
-//
-// What is inside does not concern callers: it may be copied, and used by any thread.
-typedef struct {
-  float data[64];
-} EtenduePolygonByArea;
-
-// Columns of lights: the fields are those of the light.
-typedef struct {
-  // Corners in order, in one plane, in the coordinates of the scene. A polygon with fewer than 8 corners repeats its last
-  // one.
-  const float *corners[8][3];
-} EtenduePolygonColumns;
-
-// Uniform over the solid angle Omega at the point p: pdf 1/Omega per steradian.
-//
-// What is inside does not concern callers: it may be copied, and used by any thread.
-typedef struct {
-  float data[449];
-} EtenduePolygonBySolidAngle;
-
-// Uniform over the projected solid angle Omega' above the horizon of the unit normal n at the point p: pdf cos(theta)/Omega' per
-// steradian, 0 where nothing of the light is above the horizon.
-//
-// What is inside does not concern callers: it may be copied, and used by any thread.
-typedef struct {
-  float data[1081];
-} EtenduePolygonByProjectedSolidAngle;
-
-// In proportion to the lobe of a rough surface at the point p: pdf pi times that of the reflection, over the projected solid
-// angle after its map, per steradian; 0 where nothing of the light is above the horizon.
-//
-// What is inside does not concern callers: it may be copied, and used by any thread.
-typedef struct {
-  float data[1094];
-} EtenduePolygonByReflection;
-
-// A bilinear patch, of a corner and the vectors from there to the others, that emits from the side of ds x dt. Without area the
-// pdf is 0. uv: (s, t), in [0, 1].
-typedef struct {
-  // Corner, in the coordinates of the scene.
-  float corner[3];
-  // From there to the next corner, s = 1.
-  float edge_s[3];
-  // From there to the other next corner, t = 1.
-  float edge_t[3];
-  // From there to the opposite corner.
-  float diagonal[3];
-} EtendueBilinearPatch;
-
-// Nearly uniform over the surface: the pdf per unit area, times distance^2/|cos(theta')|, is exact for the map.
-//
-// What is inside does not concern callers: it may be copied, and used by any thread.
-typedef struct {
-  float data[25];
-} EtenduePatchByArea;
-
-// Columns of lights: the fields are those of the light.
-typedef struct {
-  // Corner, in the coordinates of the scene.
-  const float *corner[3];
-  // From there to the next corner, s = 1.
-  const float *edge_s[3];
-  // From there to the other next corner, t = 1.
-  const float *edge_t[3];
-  // From there to the opposite corner.
-  const float *diagonal[3];
-} EtendueBilinearPatchColumns;
-
-// A line: a cylinder so thin that only its width times its radiance counts, which emits in all directions. Samplers use the
-// first random number alone. The pdf is in the measure sin(gamma) ds/r^2 (gamma from the line, s along it), so that the estimator is
-// f * L * width * cos(theta) * weight. No direction hits a line. A length of 0, and a point on the line, give pdf 0. uv: the part of
-// the length, and 0.
-typedef struct {
-  // One end, in the coordinates of the scene.
-  float start[3];
-  // From there to the other end.
-  float edge[3];
-} EtendueLine;
-
-// Uniform over the length: pdf r^2/(length * sin(gamma)).
-//
-// What is inside does not concern callers: it may be copied, and used by any thread.
-typedef struct {
-  float data[11];
-} EtendueLineByLength;
-
-// Columns of lights: the fields are those of the light.
-typedef struct {
-  // One end, in the coordinates of the scene.
-  const float *start[3];
-  // From there to the other end.
-  const float *edge[3];
-} EtendueLineColumns;
-
-// Uniform over the angle alpha that the line subtends at the point p: pdf r/alpha, with r its least distance.
-//
-// What is inside does not concern callers: it may be copied, and used by any thread.
-typedef struct {
-  float data[28];
-} EtendueLineByAngle;
-
-// By projected solid angle above the horizon of the unit normal n at the point p; pdf 0 where nothing of the line is above
-// it.
-//
-// What is inside does not concern callers: it may be copied, and used by any thread.
-typedef struct {
-  float data[43];
-} EtendueLineByProjectedSolidAngle;
-
-// A sun: the same radiance from all directions within an angle sigma of one direction, at every point. The distance is the
-// largest number of single precision.
-typedef struct {
-  // Unit vector towards the centre of the sun.
-  float direction[3];
-  // 1 - cos(sigma), in [0, 2]: 1.09e-5 for the sun from the earth.
-  float one_minus_cos;
-} EtendueSun;
-
-// Uniform over the cone: pdf 1/(2 pi(1 - cos(sigma))) per steradian, 0 where the cone is empty.
-//
-// What is inside does not concern callers: it may be copied, and used by any thread.
-typedef struct {
-  float data[10];
-} EtendueSunBySolidAngle;
-
-// Columns of lights: the fields are those of the light.
-typedef struct {
-  // Unit vector towards the centre of the sun.
-  const float *direction[3];
-  // 1 - cos(sigma), in [0, 2]: 1.09e-5 for the sun from the earth.
-  const float *one_minus_cos;
-} EtendueSunColumns;
-
-// A point light, that emits the same intensity I in all directions. The estimator is f * I * cos(theta) * weight. No direction
-// hits it: its weight in multiple importance sampling is 1.
-typedef struct {
-  // Position, in the coordinates of the scene.
-  float position[3];
-} EtenduePointLight;
-
-// Its one direction, whatever the random numbers. The pdf of a sample is distance^2, which is no density; that of a
-// direction is 0.
-//
-// What is inside does not concern callers: it may be copied, and used by any thread.
-typedef struct {
-  float data[5];
-} EtenduePointLightByDelta;
-
-// Columns of lights: the fields are those of the light.
-typedef struct {
-  // Position, in the coordinates of the scene.
-  const float *position[3];
-} EtenduePointLightColumns;
-
-// A spot light: a point light that emits into a cone, with the intensity I on its axis. The estimator is f * I * cos(theta) * weight.
-// No direction hits it: its weight in multiple importance sampling is 1.
-typedef struct {
-  // Position, in the coordinates of the scene.
-  float position[3];
-  // Unit vector along which the light travels.
-  float axis[3];
-  // 1 - cos(theta) of the angle to the axis up to which the intensity is I, in [0, 2].
-  float one_minus_cos_inner;
-  // 1 - cos(theta) of the angle from which it is 0, in [0, 2]; at least the other one.
-  float one_minus_cos_outer;
-} EtendueSpotLight;
-
-// Its one direction, whatever the random numbers. The pdf of a sample is distance^2 over the part of I that is emitted
-// there, which is no density, and 0 outside of the cone; that of a direction is 0.
-//
-// What is inside does not concern callers: it may be copied, and used by any thread.
-typedef struct {
-  float data[5];
-} EtendueSpotLightByDelta;
-
-// Columns of lights: the fields are those of the light.
-typedef struct {
-  // Position, in the coordinates of the scene.
-  const float *position[3];
-  // Unit vector along which the light travels.
-  const float *axis[3];
-  // 1 - cos(theta) of the angle to the axis up to which the intensity is I, in [0, 2].
-  const float *one_minus_cos_inner;
-  // 1 - cos(theta) of the angle from which it is 0, in [0, 2]; at least the other one.
-  const float *one_minus_cos_outer;
-} EtendueSpotLightColumns;
-
-// A directional light, that reaches every point from one direction with the irradiance E on a surface that faces it. The
-// estimator is f * E * cos(theta) * weight. No direction hits it: its weight in multiple importance sampling is 1.
-typedef struct {
-  // Unit vector towards the light.
-  float direction[3];
-} EtendueDirectionalLight;
-
-// Its one direction, whatever the random numbers. The pdf of a sample is 1, which is no density; that of a direction is 0.
-//
-// What is inside does not concern callers: it may be copied, and used by any thread.
-typedef struct {
-  float data[5];
-} EtendueDirectionalLightByDelta;
-
-// Columns of lights: the fields are those of the light.
-typedef struct {
-  // Unit vector towards the light.
-  const float *direction[3];
-} EtendueDirectionalLightColumns;
-
-// Which pairs of a sequence a batch needs.
-typedef struct {
-  // The pixel of all elements, if `pixels` is NULL.
-  uint32_t pixel;
-  // The sample of the first element, if `samples` is NULL; the others follow.
-  uint32_t sample;
-  // The dimension of all elements, which is a pair of coordinates: 0 might be the pixel, 1 the light, 2 the lens.
-  uint32_t dimension;
-  // The pixel of each element, or NULL.
-  const uint32_t *pixels;
-  // The sample of each element, or NULL.
-  const uint32_t *samples;
-} EtendueCounters;
 
 // A bound of what a light of finite extent can contribute.
 typedef struct {
@@ -625,201 +447,6 @@ typedef struct {
   float *u;
 } EtendueChoiceColumns;
 
-// Light from all around as an image tells it, in memory of the caller: directions in proportion to the image, the same for all shading
-// points. The position in the image is `uv` of a sample.
-typedef struct {
-  // The table that etendue_image_environment_build wrote.
-  const float *table;
-  // Number of columns of the image.
-  size_t width;
-  // Number of its rows.
-  size_t height;
-  // One of EtendueEnvironmentMap.
-  uint32_t map;
-} EtendueImageEnvironment;
-
-// A picture for lights, in memory of the caller: texels are drawn in proportion to their radiance times their area, solid angle or projected
-// solid angle as seen from a shading point. Columns are u, rows v, of the surface coordinates of the light; of a sphere, columns are heights
-// from -1 to 1, and rows azimuths.
-typedef struct {
-  // The table that etendue_picture_build or etendue_picture_interpolate wrote.
-  const float *table;
-  // The radiance at the centres of texels, between which the picture is interpolated; NULL for one that is constant in each texel.
-  const float *values;
-  // Number of columns of the image.
-  size_t width;
-  // Number of its rows.
-  size_t height;
-  // One of EtenduePictureRegion.
-  uint32_t region;
-} EtenduePicture;
-
-// A parallelogram with a picture: a flat light of any shape, by its surface coordinates. Those of a parallelogram are itself;
-// etendue_rectangle_coordinates, etendue_triangle_coordinates and etendue_disk_coordinates give those of others.
-typedef struct {
-  // The picture.
-  EtenduePicture picture;
-  // The light that it is on.
-  EtendueParallelogram light;
-} EtenduePicturedParallelogram;
-
-// A flat light with a picture, by radiance times area, for lights that are small for their distance: the pdf is the pmf of the texel, over
-// its area, times distance^2/|cos(theta')| per steradian, theta' at the light. 0 where the radiance is, and beyond the rim of triangles and disks.
-//
-// It has no data of its own beside the light and the point: each call prepares the light, which takes as long as few samples. The
-// fields are set by `prepare`.
-typedef struct {
-  // The light with its picture.
-  EtenduePicturedParallelogram light;
-  // The shading point.
-  float p[3];
-} EtenduePictureByArea;
-
-// Columns of lights with one picture.
-typedef struct {
-  // The picture of all of them.
-  EtenduePicture picture;
-  // The lights.
-  EtendueParallelogramColumns lights;
-} EtenduePicturedParallelogramColumns;
-
-// A flat light with a picture, by radiance times solid angle at the point: the pdf is the pmf of the texel over its solid angle, per
-// steradian. 0 where the radiance is, and beyond the rim of triangles and disks.
-//
-// It has no data of its own beside the light and the point: each call prepares the light, which takes as long as few samples. The
-// fields are set by `prepare`.
-typedef struct {
-  // The light with its picture.
-  EtenduePicturedParallelogram light;
-  // The shading point.
-  float p[3];
-} EtenduePictureBySolidAngle;
-
-// A flat light with a picture, by radiance times projected solid angle above the horizon of the unit normal n at the point: the pdf is the
-// pmf of the texel over its projected solid angle, times cos(theta), per steradian. 0 where nothing of the light is above the horizon, where
-// the radiance is 0, and beyond the rim of triangles and disks.
-//
-// It has no data of its own beside the light and the point: each call prepares the light, which takes as long as few samples. The
-// fields are set by `prepare`.
-typedef struct {
-  // The light with its picture.
-  EtenduePicturedParallelogram light;
-  // The shading point.
-  float p[3];
-  // The unit normal there.
-  float n[3];
-} EtenduePictureByProjectedSolidAngle;
-
-// A sphere with a picture.
-typedef struct {
-  // The picture.
-  EtenduePicture picture;
-  // The light that it is on.
-  EtendueSphere light;
-} EtenduePicturedSphere;
-
-// A sphere with a picture, by radiance times the area that is visible from the point, over the squared distance: the pdf is the pmf of the
-// texel, over its area, times distance^2/|cos(theta')| per steradian, theta' at the light. From inside, texels are drawn by radiance alone.
-//
-// It has no data of its own beside the light and the point: each call prepares the light, which takes as long as few samples. The
-// fields are set by `prepare`.
-typedef struct {
-  // The light with its picture.
-  EtenduePicturedSphere light;
-  // The shading point.
-  float p[3];
-} EtenduePictureOnSphereByVisibleArea;
-
-// Columns of lights with one picture.
-typedef struct {
-  // The picture of all of them.
-  EtenduePicture picture;
-  // The lights.
-  EtendueSphereColumns lights;
-} EtenduePicturedSphereColumns;
-
-// A bilinear patch with a picture.
-typedef struct {
-  // The picture.
-  EtenduePicture picture;
-  // The light that it is on.
-  EtendueBilinearPatch light;
-} EtenduePicturedPatch;
-
-// A bilinear patch with a picture, by radiance times the area that is visible from the point, over the squared distance; in a texel,
-// uniform in (s, t). The pdf is per steradian.
-//
-// It has no data of its own beside the light and the point: each call prepares the light, which takes as long as few samples. The
-// fields are set by `prepare`.
-typedef struct {
-  // The light with its picture.
-  EtenduePicturedPatch light;
-  // The shading point.
-  float p[3];
-} EtenduePictureOnPatchByVisibleArea;
-
-// Columns of lights with one picture.
-typedef struct {
-  // The picture of all of them.
-  EtenduePicture picture;
-  // The lights.
-  EtendueBilinearPatchColumns lights;
-} EtenduePicturedPatchColumns;
-
-// The sky in the coordinates of a portal, as a table of sums in memory of the caller. Portals with parallel edges may share one.
-typedef struct {
-  // The table that etendue_portal_table_build wrote.
-  const uint64_t *sums;
-  // Number of columns of the image.
-  size_t width;
-  // Number of its rows.
-  size_t height;
-} EtenduePortalTable;
-
-// A parallelogram through which the sky is seen, from the side that its normal s x t points away from.
-typedef struct {
-  // Corner, in the coordinates of the scene.
-  float corner[3];
-  // Edge along s.
-  float edge_s[3];
-  // Edge along t, not parallel to the other one.
-  float edge_t[3];
-} EtenduePortal;
-
-// The part of an image of the sky that is seen through portals; the rest of the sky is hidden by walls.
-typedef struct {
-  // The portals, at most 8.
-  const EtenduePortal *portals;
-  // The table of each portal.
-  const EtenduePortalTable *tables;
-  // Number of portals.
-  size_t count;
-} EtenduePortalEnvironment;
-
-// The sky through portals as a point sees it: from each point exactly the part is sampled that it sees, by the weights of the texels.
-//
-// The pdf is the probability of the cells over the solid angle that they cover there, per steradian, summed over portals; 0 where no portal
-// is seen, and from behind. `uv` of a sample are the numbers that etendue_octahedral_sample maps to the direction.
-//
-// It has no data of its own beside the environment and the point: each call prepares for the point, which takes as long as some samples, so
-// that batches are faster. The fields are set by `prepare`.
-typedef struct {
-  // The sky and its portals.
-  EtenduePortalEnvironment environment;
-  // The shading point.
-  float p[3];
-} EtenduePortalsByRadiance;
-
-// How a flat light emits within a cone about its normal, as through a honeycomb before it: the spread of Cycles. A host multiplies the
-// radiance of the light by the attenuation, which leaves its power as it is. A point sees only a disk of the plane of the light, which the
-// functions of this struct sample.
-typedef struct {
-  // The tangent of half the angle.
-  float tan_half;
-  // 1/(tan_half - half the angle).
-  float gain;
-} EtendueSpread;
-
 // Visible normals of a GGX microsurface, prepared for a view; in the frame whose z axis is the normal of the surface.
 typedef struct {
   // What is inside does not concern callers.
@@ -864,6 +491,418 @@ typedef struct {
   float radius;
 } EtendueTent;
 
+// Columns of spreads.
+typedef struct {
+  // The tangent of half the angle.
+  const float *tan_half;
+  // 1/(tan_half - half the angle).
+  const float *gain;
+} EtendueSpreadColumns;
+
+// Columns of lights: the fields are those of the light.
+typedef struct {
+  const float *corner[3];
+  const float *edge_s[3];
+  const float *edge_t[3];
+} EtendueParallelogramColumns;
+
+// Columns of lights with one picture.
+typedef struct {
+  // The picture of all of them.
+  EtenduePicture picture;
+  // The lights.
+  EtendueParallelogramColumns lights;
+} EtenduePicturedParallelogramColumns;
+
+// Columns of lights: the fields are those of the light.
+typedef struct {
+  const float *center[3];
+  const float *radius;
+} EtendueSphereColumns;
+
+// Columns of lights with one picture.
+typedef struct {
+  // The picture of all of them.
+  EtenduePicture picture;
+  // The lights.
+  EtendueSphereColumns lights;
+} EtenduePicturedSphereColumns;
+
+// Columns of lights: the fields are those of the light.
+typedef struct {
+  const float *corner[3];
+  const float *edge_s[3];
+  const float *edge_t[3];
+  const float *diagonal[3];
+} EtendueBilinearPatchColumns;
+
+// Columns of lights with one picture.
+typedef struct {
+  // The picture of all of them.
+  EtenduePicture picture;
+  // The lights.
+  EtendueBilinearPatchColumns lights;
+} EtenduePicturedPatchColumns;
+
+// A parallelogram with a picture: a flat light of any shape, by its surface coordinates. Those of a parallelogram are itself;
+// etendue_rectangle_coordinates, etendue_triangle_coordinates and etendue_disk_coordinates give those of others.
+typedef struct {
+  // The picture.
+  EtenduePicture picture;
+  // The light that it is on.
+  EtendueParallelogram light;
+} EtenduePicturedParallelogram;
+
+// What the technique of this name prepares. It has no data of its own beside the light and the point: each call prepares the light,
+// which takes as long as few samples.
+typedef struct {
+  // The light with its picture.
+  EtenduePicturedParallelogram light;
+  // The shading point.
+  float p[3];
+} EtenduePictureByArea;
+
+// What the technique of this name prepares. It has no data of its own beside the light and the point: each call prepares the light,
+// which takes as long as few samples.
+typedef struct {
+  // The light with its picture.
+  EtenduePicturedParallelogram light;
+  // The shading point.
+  float p[3];
+} EtenduePictureBySolidAngle;
+
+// What the technique of this name prepares. It has no data of its own beside the light and the point: each call prepares the light,
+// which takes as long as few samples.
+typedef struct {
+  // The light with its picture.
+  EtenduePicturedParallelogram light;
+  // The shading point.
+  float p[3];
+  // The unit normal there.
+  float n[3];
+} EtenduePictureByProjectedSolidAngle;
+
+// A sphere that emits outwards. A radius <= 0 gives pdf 0; from inside, every direction hits it and it does not emit.
+typedef struct {
+  // Centre, in the coordinates of the scene.
+  float center[3];
+  // Radius, in the unit of the coordinates.
+  float radius;
+} EtendueSphere;
+
+// A sphere with a picture.
+typedef struct {
+  // The picture.
+  EtenduePicture picture;
+  // The light that it is on.
+  EtendueSphere light;
+} EtenduePicturedSphere;
+
+// What the technique of this name prepares. It has no data of its own beside the light and the point: each call prepares the light,
+// which takes as long as few samples.
+typedef struct {
+  // The light with its picture.
+  EtenduePicturedSphere light;
+  // The shading point.
+  float p[3];
+} EtenduePictureOnSphereByVisibleArea;
+
+// A bilinear patch, of a corner and the vectors from there to the others, that emits from the side of ds x dt. Without area the
+// pdf is 0. uv: (s, t), in [0, 1].
+typedef struct {
+  // Corner, in the coordinates of the scene.
+  float corner[3];
+  // From there to the next corner, s = 1.
+  float edge_s[3];
+  // From there to the other next corner, t = 1.
+  float edge_t[3];
+  // From there to the opposite corner.
+  float diagonal[3];
+} EtendueBilinearPatch;
+
+// A bilinear patch with a picture.
+typedef struct {
+  // The picture.
+  EtenduePicture picture;
+  // The light that it is on.
+  EtendueBilinearPatch light;
+} EtenduePicturedPatch;
+
+// What the technique of this name prepares. It has no data of its own beside the light and the point: each call prepares the light,
+// which takes as long as few samples.
+typedef struct {
+  // The light with its picture.
+  EtenduePicturedPatch light;
+  // The shading point.
+  float p[3];
+} EtenduePictureOnPatchByVisibleArea;
+
+// What the technique of this name prepares. It has no data of its own beside the environment and the point: each call prepares for the point,
+// which takes as long as some samples, so that batches are faster.
+typedef struct {
+  // The sky and its portals.
+  EtenduePortalEnvironment environment;
+  // The shading point.
+  float p[3];
+} EtenduePortalsByRadiance;
+
+// What the technique of this name prepares. What is inside does not concern callers: it may be copied, and used by any thread.
+typedef struct {
+  float data[4];
+} EtendueSphereByArea;
+
+// What the technique of this name prepares. What is inside does not concern callers: it may be copied, and used by any thread.
+typedef struct {
+  float data[17];
+} EtendueSphereBySolidAngle;
+
+// What the technique of this name prepares. What is inside does not concern callers: it may be copied, and used by any thread.
+typedef struct {
+  float data[36];
+} EtendueSphereByProjectedSolidAngle;
+
+// What the technique of this name prepares. What is inside does not concern callers: it may be copied, and used by any thread.
+typedef struct {
+  float data[41];
+} EtendueSphereByReflection;
+
+// Columns of lights: the fields are those of the light.
+typedef struct {
+  const float *v0[3];
+  const float *e1[3];
+  const float *e2[3];
+} EtendueTriangleColumns;
+
+// What the technique of this name prepares. What is inside does not concern callers: it may be copied, and used by any thread.
+typedef struct {
+  float data[33];
+} EtendueTriangleByArea;
+
+// What the technique of this name prepares. What is inside does not concern callers: it may be copied, and used by any thread.
+typedef struct {
+  float data[81];
+} EtendueTriangleBySolidAngle;
+
+// What the technique of this name prepares. What is inside does not concern callers: it may be copied, and used by any thread.
+typedef struct {
+  float data[162];
+} EtendueTriangleByProjectedSolidAngle;
+
+// What the technique of this name prepares. What is inside does not concern callers: it may be copied, and used by any thread.
+typedef struct {
+  float data[85];
+} EtendueTriangleByCosineWarp;
+
+// What the technique of this name prepares. What is inside does not concern callers: it may be copied, and used by any thread.
+typedef struct {
+  float data[175];
+} EtendueTriangleByReflection;
+
+// What the technique of this name prepares. What is inside does not concern callers: it may be copied, and used by any thread.
+typedef struct {
+  float data[34];
+} EtendueParallelogramByArea;
+
+// What the technique of this name prepares. What is inside does not concern callers: it may be copied, and used by any thread.
+typedef struct {
+  float data[130];
+} EtendueParallelogramBySolidAngle;
+
+// What the technique of this name prepares. What is inside does not concern callers: it may be copied, and used by any thread.
+typedef struct {
+  float data[295];
+} EtendueParallelogramByProjectedSolidAngle;
+
+// What the technique of this name prepares. What is inside does not concern callers: it may be copied, and used by any thread.
+typedef struct {
+  float data[308];
+} EtendueParallelogramByReflection;
+
+// Columns of lights: the fields are those of the light.
+typedef struct {
+  const float *corner[3];
+  const float *edge_s[3];
+  const float *edge_t[3];
+} EtendueRectangleColumns;
+
+// What the technique of this name prepares. What is inside does not concern callers: it may be copied, and used by any thread.
+typedef struct {
+  float data[86];
+} EtendueRectangleBySolidAngle;
+
+// What the technique of this name prepares. What is inside does not concern callers: it may be copied, and used by any thread.
+typedef struct {
+  float data[90];
+} EtendueRectangleByCosineWarp;
+
+// Columns of lights: the fields are those of the light.
+typedef struct {
+  const float *center[3];
+  const float *normal[3];
+  const float *radius;
+} EtendueDiskColumns;
+
+// What the technique of this name prepares. What is inside does not concern callers: it may be copied, and used by any thread.
+typedef struct {
+  float data[14];
+} EtendueDiskByArea;
+
+// What the technique of this name prepares. What is inside does not concern callers: it may be copied, and used by any thread.
+typedef struct {
+  float data[39];
+} EtendueDiskBySolidAngle;
+
+// A flat convex polygon of 3 to 8 corners that emits from the side on which they run counterclockwise. Without area, and from a
+// point in its plane, the pdf is 0. uv: the parts of the edges from the first corner to the second and to the last, clamped to
+// [0, 1].
+typedef struct {
+  // Corners in order, in one plane, in the coordinates of the scene. A polygon with fewer than 8 corners repeats its last
+  // one.
+  float corners[8][3];
+} EtenduePolygon;
+
+// Columns of lights: the fields are those of the light.
+typedef struct {
+  const float *corners[8][3];
+} EtenduePolygonColumns;
+
+// What the technique of this name prepares. What is inside does not concern callers: it may be copied, and used by any thread.
+typedef struct {
+  float data[64];
+} EtenduePolygonByArea;
+
+// What the technique of this name prepares. What is inside does not concern callers: it may be copied, and used by any thread.
+typedef struct {
+  float data[449];
+} EtenduePolygonBySolidAngle;
+
+// What the technique of this name prepares. What is inside does not concern callers: it may be copied, and used by any thread.
+typedef struct {
+  float data[1081];
+} EtenduePolygonByProjectedSolidAngle;
+
+// What the technique of this name prepares. What is inside does not concern callers: it may be copied, and used by any thread.
+typedef struct {
+  float data[1094];
+} EtenduePolygonByReflection;
+
+// What the technique of this name prepares. What is inside does not concern callers: it may be copied, and used by any thread.
+typedef struct {
+  float data[25];
+} EtenduePatchByArea;
+
+// A line: a cylinder so thin that only its width times its radiance counts, which emits in all directions. Samplers use the
+// first random number alone. The pdf is in the measure sin(gamma) ds/r^2 (gamma from the line, s along it), so that the estimator is
+// f * L * width * cos(theta) * weight. No direction hits a line. A length of 0, and a point on the line, give pdf 0. uv: the part of
+// the length, and 0.
+typedef struct {
+  // One end, in the coordinates of the scene.
+  float start[3];
+  // From there to the other end.
+  float edge[3];
+} EtendueLine;
+
+// Columns of lights: the fields are those of the light.
+typedef struct {
+  const float *start[3];
+  const float *edge[3];
+} EtendueLineColumns;
+
+// What the technique of this name prepares. What is inside does not concern callers: it may be copied, and used by any thread.
+typedef struct {
+  float data[11];
+} EtendueLineByLength;
+
+// What the technique of this name prepares. What is inside does not concern callers: it may be copied, and used by any thread.
+typedef struct {
+  float data[28];
+} EtendueLineByAngle;
+
+// What the technique of this name prepares. What is inside does not concern callers: it may be copied, and used by any thread.
+typedef struct {
+  float data[43];
+} EtendueLineByProjectedSolidAngle;
+
+// A sun: the same radiance from all directions within an angle sigma of one direction, at every point. The distance is the
+// largest number of single precision.
+typedef struct {
+  // Unit vector towards the centre of the sun.
+  float direction[3];
+  // 1 - cos(sigma), in [0, 2]: 1.09e-5 for the sun from the earth.
+  float one_minus_cos;
+} EtendueSun;
+
+// Columns of lights: the fields are those of the light.
+typedef struct {
+  const float *direction[3];
+  const float *one_minus_cos;
+} EtendueSunColumns;
+
+// What the technique of this name prepares. What is inside does not concern callers: it may be copied, and used by any thread.
+typedef struct {
+  float data[10];
+} EtendueSunBySolidAngle;
+
+// A point light, that emits the same intensity I in all directions. The estimator is f * I * cos(theta) * weight. No direction
+// hits it: its weight in multiple importance sampling is 1.
+typedef struct {
+  // Position, in the coordinates of the scene.
+  float position[3];
+} EtenduePointLight;
+
+// Columns of lights: the fields are those of the light.
+typedef struct {
+  const float *position[3];
+} EtenduePointLightColumns;
+
+// What the technique of this name prepares. What is inside does not concern callers: it may be copied, and used by any thread.
+typedef struct {
+  float data[5];
+} EtenduePointLightByDelta;
+
+// A spot light: a point light that emits into a cone, with the intensity I on its axis. The estimator is f * I * cos(theta) * weight.
+// No direction hits it: its weight in multiple importance sampling is 1.
+typedef struct {
+  // Position, in the coordinates of the scene.
+  float position[3];
+  // Unit vector along which the light travels.
+  float axis[3];
+  // 1 - cos(theta) of the angle to the axis up to which the intensity is I, in [0, 2].
+  float one_minus_cos_inner;
+  // 1 - cos(theta) of the angle from which it is 0, in [0, 2]; at least the other one.
+  float one_minus_cos_outer;
+} EtendueSpotLight;
+
+// Columns of lights: the fields are those of the light.
+typedef struct {
+  const float *position[3];
+  const float *axis[3];
+  const float *one_minus_cos_inner;
+  const float *one_minus_cos_outer;
+} EtendueSpotLightColumns;
+
+// What the technique of this name prepares. What is inside does not concern callers: it may be copied, and used by any thread.
+typedef struct {
+  float data[5];
+} EtendueSpotLightByDelta;
+
+// A directional light, that reaches every point from one direction with the irradiance E on a surface that faces it. The
+// estimator is f * E * cos(theta) * weight. No direction hits it: its weight in multiple importance sampling is 1.
+typedef struct {
+  // Unit vector towards the light.
+  float direction[3];
+} EtendueDirectionalLight;
+
+// Columns of lights: the fields are those of the light.
+typedef struct {
+  const float *direction[3];
+} EtendueDirectionalLightColumns;
+
+// What the technique of this name prepares. What is inside does not concern callers: it may be copied, and used by any thread.
+typedef struct {
+  float data[5];
+} EtendueDirectionalLightByDelta;
+
 #ifdef __cplusplus
 extern "C" {
 #endif // __cplusplus
@@ -871,2825 +910,6 @@ extern "C" {
 // The instructions that batches use on this processor: 0 for those of every processor of the architecture, 3 for x86-64-v3 (AVX2,
 // fused multiply-add), 4 for x86-64-v4 (AVX-512).
 uint32_t etendue_level(void);
-
-// Prepares the light for a shading point.
-EtendueStatus etendue_sphere_by_area_prepare(const EtendueSphere *light, const float *p, EtendueSphereByArea *out);
-
-// Draws a direction for u.
-EtendueStatus etendue_sphere_by_area_sample(const EtendueSphereByArea *sampler,
-                                            const float *u,
-                                            EtendueLightSample *out);
-
-// The pdf with which a unit direction `w` is drawn; 0 where it misses the light, and if a pointer is NULL.
-float etendue_sphere_by_area_pdf(const EtendueSphereByArea *sampler, const float *w);
-
-// The random numbers `u` that are mapped to a unit direction `w`; any in [0, 1)^2 where it misses the light.
-EtendueStatus etendue_sphere_by_area_invert(const EtendueSphereByArea *sampler, const float *w, float *u);
-
-// The nearest point of the light in a unit direction `w`, with the pdf of that direction; pdf 0 where it misses the light.
-EtendueStatus etendue_sphere_by_area_hit(const EtendueSphereByArea *sampler,
-                                         const float *w,
-                                         EtendueLightSample *out);
-
-// Draws a direction for each u: two columns.
-EtendueStatus etendue_sphere_by_area_sample_batch(const EtendueSphereByArea *sampler,
-                                                  size_t n,
-                                                  const float *const *u,
-                                                  const EtendueSampleColumns *out);
-
-// The pdf of each unit direction: three columns.
-EtendueStatus etendue_sphere_by_area_pdf_batch(const EtendueSphereByArea *sampler,
-                                               size_t n,
-                                               const float *const *w,
-                                               float *out);
-
-// The random numbers of each unit direction: three columns in, two out.
-EtendueStatus etendue_sphere_by_area_invert_batch(const EtendueSphereByArea *sampler,
-                                                  size_t n,
-                                                  const float *const *w,
-                                                  float *const *u);
-
-// The nearest point of the light in each unit direction: three columns.
-EtendueStatus etendue_sphere_by_area_hit_batch(const EtendueSphereByArea *sampler,
-                                               size_t n,
-                                               const float *const *w,
-                                               const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_sphere_by_area_sample_once(const EtendueSphere *light,
-                                                 const float *p,
-                                                 const float *u,
-                                                 EtendueLightSample *out);
-
-// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
-// and if a pointer is NULL. What the pdf does not need is not prepared.
-float etendue_sphere_by_area_pdf_once(const EtendueSphere *light,
-                                      const float *p,
-                                      const float *w);
-
-// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
-// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
-float etendue_sphere_by_area_pdf_of_hit_once(const EtendueSphere *light,
-                                             const float *p,
-                                             const float *w);
-
-// Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
-EtendueStatus etendue_sphere_by_area_sample_each(const EtendueSphereColumns *lights,
-                                                 size_t n,
-                                                 const float *const *p,
-                                                 const float *const *u,
-                                                 const EtendueSampleColumns *out);
-
-// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_sphere_by_area_pdf_each(const EtendueSphereColumns *lights,
-                                              size_t n,
-                                              const float *const *p,
-                                              const float *const *w,
-                                              float *out);
-
-// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_sphere_by_area_invert_each(const EtendueSphereColumns *lights,
-                                                 size_t n,
-                                                 const float *const *p,
-                                                 const float *const *w,
-                                                 float *const *u);
-
-// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
-EtendueStatus etendue_sphere_by_area_hit_each(const EtendueSphereColumns *lights,
-                                              size_t n,
-                                              const float *const *p,
-                                              const float *const *w,
-                                              const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point.
-EtendueStatus etendue_sphere_by_solid_angle_prepare(const EtendueSphere *light,
-                                                    const float *p,
-                                                    EtendueSphereBySolidAngle *out);
-
-// Draws a direction for u.
-EtendueStatus etendue_sphere_by_solid_angle_sample(const EtendueSphereBySolidAngle *sampler,
-                                                   const float *u,
-                                                   EtendueLightSample *out);
-
-// The pdf with which a unit direction `w` is drawn; 0 where it misses the light, and if a pointer is NULL.
-float etendue_sphere_by_solid_angle_pdf(const EtendueSphereBySolidAngle *sampler, const float *w);
-
-// The random numbers `u` that are mapped to a unit direction `w`; any in [0, 1)^2 where it misses the light.
-EtendueStatus etendue_sphere_by_solid_angle_invert(const EtendueSphereBySolidAngle *sampler, const float *w, float *u);
-
-// The nearest point of the light in a unit direction `w`, with the pdf of that direction; pdf 0 where it misses the light.
-EtendueStatus etendue_sphere_by_solid_angle_hit(const EtendueSphereBySolidAngle *sampler,
-                                                const float *w,
-                                                EtendueLightSample *out);
-
-// Draws a direction for each u: two columns.
-EtendueStatus etendue_sphere_by_solid_angle_sample_batch(const EtendueSphereBySolidAngle *sampler,
-                                                         size_t n,
-                                                         const float *const *u,
-                                                         const EtendueSampleColumns *out);
-
-// The pdf of each unit direction: three columns.
-EtendueStatus etendue_sphere_by_solid_angle_pdf_batch(const EtendueSphereBySolidAngle *sampler,
-                                                      size_t n,
-                                                      const float *const *w,
-                                                      float *out);
-
-// The random numbers of each unit direction: three columns in, two out.
-EtendueStatus etendue_sphere_by_solid_angle_invert_batch(const EtendueSphereBySolidAngle *sampler,
-                                                         size_t n,
-                                                         const float *const *w,
-                                                         float *const *u);
-
-// The nearest point of the light in each unit direction: three columns.
-EtendueStatus etendue_sphere_by_solid_angle_hit_batch(const EtendueSphereBySolidAngle *sampler,
-                                                      size_t n,
-                                                      const float *const *w,
-                                                      const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_sphere_by_solid_angle_sample_once(const EtendueSphere *light,
-                                                        const float *p,
-                                                        const float *u,
-                                                        EtendueLightSample *out);
-
-// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
-// and if a pointer is NULL. What the pdf does not need is not prepared.
-float etendue_sphere_by_solid_angle_pdf_once(const EtendueSphere *light,
-                                             const float *p,
-                                             const float *w);
-
-// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
-// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
-float etendue_sphere_by_solid_angle_pdf_of_hit_once(const EtendueSphere *light,
-                                                    const float *p,
-                                                    const float *w);
-
-// Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
-EtendueStatus etendue_sphere_by_solid_angle_sample_each(const EtendueSphereColumns *lights,
-                                                        size_t n,
-                                                        const float *const *p,
-                                                        const float *const *u,
-                                                        const EtendueSampleColumns *out);
-
-// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_sphere_by_solid_angle_pdf_each(const EtendueSphereColumns *lights,
-                                                     size_t n,
-                                                     const float *const *p,
-                                                     const float *const *w,
-                                                     float *out);
-
-// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_sphere_by_solid_angle_invert_each(const EtendueSphereColumns *lights,
-                                                        size_t n,
-                                                        const float *const *p,
-                                                        const float *const *w,
-                                                        float *const *u);
-
-// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
-EtendueStatus etendue_sphere_by_solid_angle_hit_each(const EtendueSphereColumns *lights,
-                                                     size_t n,
-                                                     const float *const *p,
-                                                     const float *const *w,
-                                                     const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point.
-EtendueStatus etendue_sphere_by_projected_solid_angle_prepare(const EtendueSphere *light,
-                                                              const float *p,
-                                                              const float *n,
-                                                              EtendueSphereByProjectedSolidAngle *out);
-
-// Draws a direction for u.
-EtendueStatus etendue_sphere_by_projected_solid_angle_sample(const EtendueSphereByProjectedSolidAngle *sampler,
-                                                             const float *u,
-                                                             EtendueLightSample *out);
-
-// The pdf with which a unit direction `w` is drawn; 0 where it misses the light, and if a pointer is NULL.
-float etendue_sphere_by_projected_solid_angle_pdf(const EtendueSphereByProjectedSolidAngle *sampler, const float *w);
-
-// The random numbers `u` that are mapped to a unit direction `w`; any in [0, 1)^2 where it misses the light.
-EtendueStatus etendue_sphere_by_projected_solid_angle_invert(const EtendueSphereByProjectedSolidAngle *sampler,
-                                                             const float *w,
-                                                             float *u);
-
-// The nearest point of the light in a unit direction `w`, with the pdf of that direction; pdf 0 where it misses the light.
-EtendueStatus etendue_sphere_by_projected_solid_angle_hit(const EtendueSphereByProjectedSolidAngle *sampler,
-                                                          const float *w,
-                                                          EtendueLightSample *out);
-
-// Draws a direction for each u: two columns.
-EtendueStatus etendue_sphere_by_projected_solid_angle_sample_batch(const EtendueSphereByProjectedSolidAngle *sampler,
-                                                                   size_t n,
-                                                                   const float *const *u,
-                                                                   const EtendueSampleColumns *out);
-
-// The pdf of each unit direction: three columns.
-EtendueStatus etendue_sphere_by_projected_solid_angle_pdf_batch(const EtendueSphereByProjectedSolidAngle *sampler,
-                                                                size_t n,
-                                                                const float *const *w,
-                                                                float *out);
-
-// The random numbers of each unit direction: three columns in, two out.
-EtendueStatus etendue_sphere_by_projected_solid_angle_invert_batch(const EtendueSphereByProjectedSolidAngle *sampler,
-                                                                   size_t n,
-                                                                   const float *const *w,
-                                                                   float *const *u);
-
-// The nearest point of the light in each unit direction: three columns.
-EtendueStatus etendue_sphere_by_projected_solid_angle_hit_batch(const EtendueSphereByProjectedSolidAngle *sampler,
-                                                                size_t n,
-                                                                const float *const *w,
-                                                                const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_sphere_by_projected_solid_angle_sample_once(const EtendueSphere *light,
-                                                                  const float *p,
-                                                                  const float *n,
-                                                                  const float *u,
-                                                                  EtendueLightSample *out);
-
-// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
-// and if a pointer is NULL. What the pdf does not need is not prepared.
-float etendue_sphere_by_projected_solid_angle_pdf_once(const EtendueSphere *light,
-                                                       const float *p,
-                                                       const float *n,
-                                                       const float *w);
-
-// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
-// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
-float etendue_sphere_by_projected_solid_angle_pdf_of_hit_once(const EtendueSphere *light,
-                                                              const float *p,
-                                                              const float *n,
-                                                              const float *w);
-
-// Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
-EtendueStatus etendue_sphere_by_projected_solid_angle_sample_each(const EtendueSphereColumns *lights,
-                                                                  size_t n,
-                                                                  const float *const *p,
-                                                                  const float *const *normals,
-                                                                  const float *const *u,
-                                                                  const EtendueSampleColumns *out);
-
-// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_sphere_by_projected_solid_angle_pdf_each(const EtendueSphereColumns *lights,
-                                                               size_t n,
-                                                               const float *const *p,
-                                                               const float *const *normals,
-                                                               const float *const *w,
-                                                               float *out);
-
-// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_sphere_by_projected_solid_angle_invert_each(const EtendueSphereColumns *lights,
-                                                                  size_t n,
-                                                                  const float *const *p,
-                                                                  const float *const *normals,
-                                                                  const float *const *w,
-                                                                  float *const *u);
-
-// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
-EtendueStatus etendue_sphere_by_projected_solid_angle_hit_each(const EtendueSphereColumns *lights,
-                                                               size_t n,
-                                                               const float *const *p,
-                                                               const float *const *normals,
-                                                               const float *const *w,
-                                                               const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point.
-EtendueStatus etendue_sphere_by_reflection_prepare(const EtendueSphere *light,
-                                                   const float *p,
-                                                   const EtendueReflection *reflection,
-                                                   EtendueSphereByReflection *out);
-
-// Draws a direction for u.
-EtendueStatus etendue_sphere_by_reflection_sample(const EtendueSphereByReflection *sampler,
-                                                  const float *u,
-                                                  EtendueLightSample *out);
-
-// The pdf with which a unit direction `w` is drawn; 0 where it misses the light, and if a pointer is NULL.
-float etendue_sphere_by_reflection_pdf(const EtendueSphereByReflection *sampler, const float *w);
-
-// The random numbers `u` that are mapped to a unit direction `w`; any in [0, 1)^2 where it misses the light.
-EtendueStatus etendue_sphere_by_reflection_invert(const EtendueSphereByReflection *sampler, const float *w, float *u);
-
-// The nearest point of the light in a unit direction `w`, with the pdf of that direction; pdf 0 where it misses the light.
-EtendueStatus etendue_sphere_by_reflection_hit(const EtendueSphereByReflection *sampler,
-                                               const float *w,
-                                               EtendueLightSample *out);
-
-// Draws a direction for each u: two columns.
-EtendueStatus etendue_sphere_by_reflection_sample_batch(const EtendueSphereByReflection *sampler,
-                                                        size_t n,
-                                                        const float *const *u,
-                                                        const EtendueSampleColumns *out);
-
-// The pdf of each unit direction: three columns.
-EtendueStatus etendue_sphere_by_reflection_pdf_batch(const EtendueSphereByReflection *sampler,
-                                                     size_t n,
-                                                     const float *const *w,
-                                                     float *out);
-
-// The random numbers of each unit direction: three columns in, two out.
-EtendueStatus etendue_sphere_by_reflection_invert_batch(const EtendueSphereByReflection *sampler,
-                                                        size_t n,
-                                                        const float *const *w,
-                                                        float *const *u);
-
-// The nearest point of the light in each unit direction: three columns.
-EtendueStatus etendue_sphere_by_reflection_hit_batch(const EtendueSphereByReflection *sampler,
-                                                     size_t n,
-                                                     const float *const *w,
-                                                     const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_sphere_by_reflection_sample_once(const EtendueSphere *light,
-                                                       const float *p,
-                                                       const EtendueReflection *reflection,
-                                                       const float *u,
-                                                       EtendueLightSample *out);
-
-// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
-// and if a pointer is NULL. What the pdf does not need is not prepared.
-float etendue_sphere_by_reflection_pdf_once(const EtendueSphere *light,
-                                            const float *p,
-                                            const EtendueReflection *reflection,
-                                            const float *w);
-
-// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
-// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
-float etendue_sphere_by_reflection_pdf_of_hit_once(const EtendueSphere *light,
-                                                   const float *p,
-                                                   const EtendueReflection *reflection,
-                                                   const float *w);
-
-// Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
-EtendueStatus etendue_sphere_by_reflection_sample_each(const EtendueSphereColumns *lights,
-                                                       size_t n,
-                                                       const float *const *p,
-                                                       const EtendueReflectionColumns *reflections,
-                                                       const float *const *u,
-                                                       const EtendueSampleColumns *out);
-
-// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_sphere_by_reflection_pdf_each(const EtendueSphereColumns *lights,
-                                                    size_t n,
-                                                    const float *const *p,
-                                                    const EtendueReflectionColumns *reflections,
-                                                    const float *const *w,
-                                                    float *out);
-
-// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_sphere_by_reflection_invert_each(const EtendueSphereColumns *lights,
-                                                       size_t n,
-                                                       const float *const *p,
-                                                       const EtendueReflectionColumns *reflections,
-                                                       const float *const *w,
-                                                       float *const *u);
-
-// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
-EtendueStatus etendue_sphere_by_reflection_hit_each(const EtendueSphereColumns *lights,
-                                                    size_t n,
-                                                    const float *const *p,
-                                                    const EtendueReflectionColumns *reflections,
-                                                    const float *const *w,
-                                                    const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point.
-EtendueStatus etendue_triangle_by_area_prepare(const EtendueTriangle *light,
-                                               const float *p,
-                                               EtendueTriangleByArea *out);
-
-// Draws a direction for u.
-EtendueStatus etendue_triangle_by_area_sample(const EtendueTriangleByArea *sampler,
-                                              const float *u,
-                                              EtendueLightSample *out);
-
-// The pdf with which a unit direction `w` is drawn; 0 where it misses the light, and if a pointer is NULL.
-float etendue_triangle_by_area_pdf(const EtendueTriangleByArea *sampler, const float *w);
-
-// The random numbers `u` that are mapped to a unit direction `w`; any in [0, 1)^2 where it misses the light.
-EtendueStatus etendue_triangle_by_area_invert(const EtendueTriangleByArea *sampler, const float *w, float *u);
-
-// The nearest point of the light in a unit direction `w`, with the pdf of that direction; pdf 0 where it misses the light.
-EtendueStatus etendue_triangle_by_area_hit(const EtendueTriangleByArea *sampler,
-                                           const float *w,
-                                           EtendueLightSample *out);
-
-// Draws a direction for each u: two columns.
-EtendueStatus etendue_triangle_by_area_sample_batch(const EtendueTriangleByArea *sampler,
-                                                    size_t n,
-                                                    const float *const *u,
-                                                    const EtendueSampleColumns *out);
-
-// The pdf of each unit direction: three columns.
-EtendueStatus etendue_triangle_by_area_pdf_batch(const EtendueTriangleByArea *sampler,
-                                                 size_t n,
-                                                 const float *const *w,
-                                                 float *out);
-
-// The random numbers of each unit direction: three columns in, two out.
-EtendueStatus etendue_triangle_by_area_invert_batch(const EtendueTriangleByArea *sampler,
-                                                    size_t n,
-                                                    const float *const *w,
-                                                    float *const *u);
-
-// The nearest point of the light in each unit direction: three columns.
-EtendueStatus etendue_triangle_by_area_hit_batch(const EtendueTriangleByArea *sampler,
-                                                 size_t n,
-                                                 const float *const *w,
-                                                 const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_triangle_by_area_sample_once(const EtendueTriangle *light,
-                                                   const float *p,
-                                                   const float *u,
-                                                   EtendueLightSample *out);
-
-// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
-// and if a pointer is NULL. What the pdf does not need is not prepared.
-float etendue_triangle_by_area_pdf_once(const EtendueTriangle *light,
-                                        const float *p,
-                                        const float *w);
-
-// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
-// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
-float etendue_triangle_by_area_pdf_of_hit_once(const EtendueTriangle *light,
-                                               const float *p,
-                                               const float *w);
-
-// Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
-EtendueStatus etendue_triangle_by_area_sample_each(const EtendueTriangleColumns *lights,
-                                                   size_t n,
-                                                   const float *const *p,
-                                                   const float *const *u,
-                                                   const EtendueSampleColumns *out);
-
-// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_triangle_by_area_pdf_each(const EtendueTriangleColumns *lights,
-                                                size_t n,
-                                                const float *const *p,
-                                                const float *const *w,
-                                                float *out);
-
-// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_triangle_by_area_invert_each(const EtendueTriangleColumns *lights,
-                                                   size_t n,
-                                                   const float *const *p,
-                                                   const float *const *w,
-                                                   float *const *u);
-
-// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
-EtendueStatus etendue_triangle_by_area_hit_each(const EtendueTriangleColumns *lights,
-                                                size_t n,
-                                                const float *const *p,
-                                                const float *const *w,
-                                                const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point.
-EtendueStatus etendue_triangle_by_solid_angle_prepare(const EtendueTriangle *light,
-                                                      const float *p,
-                                                      EtendueTriangleBySolidAngle *out);
-
-// Draws a direction for u.
-EtendueStatus etendue_triangle_by_solid_angle_sample(const EtendueTriangleBySolidAngle *sampler,
-                                                     const float *u,
-                                                     EtendueLightSample *out);
-
-// The pdf with which a unit direction `w` is drawn; 0 where it misses the light, and if a pointer is NULL.
-float etendue_triangle_by_solid_angle_pdf(const EtendueTriangleBySolidAngle *sampler, const float *w);
-
-// The random numbers `u` that are mapped to a unit direction `w`; any in [0, 1)^2 where it misses the light.
-EtendueStatus etendue_triangle_by_solid_angle_invert(const EtendueTriangleBySolidAngle *sampler,
-                                                     const float *w,
-                                                     float *u);
-
-// The nearest point of the light in a unit direction `w`, with the pdf of that direction; pdf 0 where it misses the light.
-EtendueStatus etendue_triangle_by_solid_angle_hit(const EtendueTriangleBySolidAngle *sampler,
-                                                  const float *w,
-                                                  EtendueLightSample *out);
-
-// Draws a direction for each u: two columns.
-EtendueStatus etendue_triangle_by_solid_angle_sample_batch(const EtendueTriangleBySolidAngle *sampler,
-                                                           size_t n,
-                                                           const float *const *u,
-                                                           const EtendueSampleColumns *out);
-
-// The pdf of each unit direction: three columns.
-EtendueStatus etendue_triangle_by_solid_angle_pdf_batch(const EtendueTriangleBySolidAngle *sampler,
-                                                        size_t n,
-                                                        const float *const *w,
-                                                        float *out);
-
-// The random numbers of each unit direction: three columns in, two out.
-EtendueStatus etendue_triangle_by_solid_angle_invert_batch(const EtendueTriangleBySolidAngle *sampler,
-                                                           size_t n,
-                                                           const float *const *w,
-                                                           float *const *u);
-
-// The nearest point of the light in each unit direction: three columns.
-EtendueStatus etendue_triangle_by_solid_angle_hit_batch(const EtendueTriangleBySolidAngle *sampler,
-                                                        size_t n,
-                                                        const float *const *w,
-                                                        const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_triangle_by_solid_angle_sample_once(const EtendueTriangle *light,
-                                                          const float *p,
-                                                          const float *u,
-                                                          EtendueLightSample *out);
-
-// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
-// and if a pointer is NULL. What the pdf does not need is not prepared.
-float etendue_triangle_by_solid_angle_pdf_once(const EtendueTriangle *light,
-                                               const float *p,
-                                               const float *w);
-
-// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
-// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
-float etendue_triangle_by_solid_angle_pdf_of_hit_once(const EtendueTriangle *light,
-                                                      const float *p,
-                                                      const float *w);
-
-// Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
-EtendueStatus etendue_triangle_by_solid_angle_sample_each(const EtendueTriangleColumns *lights,
-                                                          size_t n,
-                                                          const float *const *p,
-                                                          const float *const *u,
-                                                          const EtendueSampleColumns *out);
-
-// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_triangle_by_solid_angle_pdf_each(const EtendueTriangleColumns *lights,
-                                                       size_t n,
-                                                       const float *const *p,
-                                                       const float *const *w,
-                                                       float *out);
-
-// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_triangle_by_solid_angle_invert_each(const EtendueTriangleColumns *lights,
-                                                          size_t n,
-                                                          const float *const *p,
-                                                          const float *const *w,
-                                                          float *const *u);
-
-// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
-EtendueStatus etendue_triangle_by_solid_angle_hit_each(const EtendueTriangleColumns *lights,
-                                                       size_t n,
-                                                       const float *const *p,
-                                                       const float *const *w,
-                                                       const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point.
-EtendueStatus etendue_triangle_by_projected_solid_angle_prepare(const EtendueTriangle *light,
-                                                                const float *p,
-                                                                const float *n,
-                                                                EtendueTriangleByProjectedSolidAngle *out);
-
-// Draws a direction for u.
-EtendueStatus etendue_triangle_by_projected_solid_angle_sample(const EtendueTriangleByProjectedSolidAngle *sampler,
-                                                               const float *u,
-                                                               EtendueLightSample *out);
-
-// The pdf with which a unit direction `w` is drawn; 0 where it misses the light, and if a pointer is NULL.
-float etendue_triangle_by_projected_solid_angle_pdf(const EtendueTriangleByProjectedSolidAngle *sampler,
-                                                    const float *w);
-
-// The random numbers `u` that are mapped to a unit direction `w`; any in [0, 1)^2 where it misses the light.
-EtendueStatus etendue_triangle_by_projected_solid_angle_invert(const EtendueTriangleByProjectedSolidAngle *sampler,
-                                                               const float *w,
-                                                               float *u);
-
-// The nearest point of the light in a unit direction `w`, with the pdf of that direction; pdf 0 where it misses the light.
-EtendueStatus etendue_triangle_by_projected_solid_angle_hit(const EtendueTriangleByProjectedSolidAngle *sampler,
-                                                            const float *w,
-                                                            EtendueLightSample *out);
-
-// Draws a direction for each u: two columns.
-EtendueStatus etendue_triangle_by_projected_solid_angle_sample_batch(const EtendueTriangleByProjectedSolidAngle *sampler,
-                                                                     size_t n,
-                                                                     const float *const *u,
-                                                                     const EtendueSampleColumns *out);
-
-// The pdf of each unit direction: three columns.
-EtendueStatus etendue_triangle_by_projected_solid_angle_pdf_batch(const EtendueTriangleByProjectedSolidAngle *sampler,
-                                                                  size_t n,
-                                                                  const float *const *w,
-                                                                  float *out);
-
-// The random numbers of each unit direction: three columns in, two out.
-EtendueStatus etendue_triangle_by_projected_solid_angle_invert_batch(const EtendueTriangleByProjectedSolidAngle *sampler,
-                                                                     size_t n,
-                                                                     const float *const *w,
-                                                                     float *const *u);
-
-// The nearest point of the light in each unit direction: three columns.
-EtendueStatus etendue_triangle_by_projected_solid_angle_hit_batch(const EtendueTriangleByProjectedSolidAngle *sampler,
-                                                                  size_t n,
-                                                                  const float *const *w,
-                                                                  const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_triangle_by_projected_solid_angle_sample_once(const EtendueTriangle *light,
-                                                                    const float *p,
-                                                                    const float *n,
-                                                                    const float *u,
-                                                                    EtendueLightSample *out);
-
-// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
-// and if a pointer is NULL. What the pdf does not need is not prepared.
-float etendue_triangle_by_projected_solid_angle_pdf_once(const EtendueTriangle *light,
-                                                         const float *p,
-                                                         const float *n,
-                                                         const float *w);
-
-// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
-// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
-float etendue_triangle_by_projected_solid_angle_pdf_of_hit_once(const EtendueTriangle *light,
-                                                                const float *p,
-                                                                const float *n,
-                                                                const float *w);
-
-// Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
-EtendueStatus etendue_triangle_by_projected_solid_angle_sample_each(const EtendueTriangleColumns *lights,
-                                                                    size_t n,
-                                                                    const float *const *p,
-                                                                    const float *const *normals,
-                                                                    const float *const *u,
-                                                                    const EtendueSampleColumns *out);
-
-// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_triangle_by_projected_solid_angle_pdf_each(const EtendueTriangleColumns *lights,
-                                                                 size_t n,
-                                                                 const float *const *p,
-                                                                 const float *const *normals,
-                                                                 const float *const *w,
-                                                                 float *out);
-
-// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_triangle_by_projected_solid_angle_invert_each(const EtendueTriangleColumns *lights,
-                                                                    size_t n,
-                                                                    const float *const *p,
-                                                                    const float *const *normals,
-                                                                    const float *const *w,
-                                                                    float *const *u);
-
-// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
-EtendueStatus etendue_triangle_by_projected_solid_angle_hit_each(const EtendueTriangleColumns *lights,
-                                                                 size_t n,
-                                                                 const float *const *p,
-                                                                 const float *const *normals,
-                                                                 const float *const *w,
-                                                                 const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point.
-EtendueStatus etendue_triangle_by_cosine_warp_prepare(const EtendueTriangle *light,
-                                                      const float *p,
-                                                      const float *n,
-                                                      EtendueTriangleByCosineWarp *out);
-
-// Draws a direction for u.
-EtendueStatus etendue_triangle_by_cosine_warp_sample(const EtendueTriangleByCosineWarp *sampler,
-                                                     const float *u,
-                                                     EtendueLightSample *out);
-
-// The pdf with which a unit direction `w` is drawn; 0 where it misses the light, and if a pointer is NULL.
-float etendue_triangle_by_cosine_warp_pdf(const EtendueTriangleByCosineWarp *sampler, const float *w);
-
-// The random numbers `u` that are mapped to a unit direction `w`; any in [0, 1)^2 where it misses the light.
-EtendueStatus etendue_triangle_by_cosine_warp_invert(const EtendueTriangleByCosineWarp *sampler,
-                                                     const float *w,
-                                                     float *u);
-
-// The nearest point of the light in a unit direction `w`, with the pdf of that direction; pdf 0 where it misses the light.
-EtendueStatus etendue_triangle_by_cosine_warp_hit(const EtendueTriangleByCosineWarp *sampler,
-                                                  const float *w,
-                                                  EtendueLightSample *out);
-
-// Draws a direction for each u: two columns.
-EtendueStatus etendue_triangle_by_cosine_warp_sample_batch(const EtendueTriangleByCosineWarp *sampler,
-                                                           size_t n,
-                                                           const float *const *u,
-                                                           const EtendueSampleColumns *out);
-
-// The pdf of each unit direction: three columns.
-EtendueStatus etendue_triangle_by_cosine_warp_pdf_batch(const EtendueTriangleByCosineWarp *sampler,
-                                                        size_t n,
-                                                        const float *const *w,
-                                                        float *out);
-
-// The random numbers of each unit direction: three columns in, two out.
-EtendueStatus etendue_triangle_by_cosine_warp_invert_batch(const EtendueTriangleByCosineWarp *sampler,
-                                                           size_t n,
-                                                           const float *const *w,
-                                                           float *const *u);
-
-// The nearest point of the light in each unit direction: three columns.
-EtendueStatus etendue_triangle_by_cosine_warp_hit_batch(const EtendueTriangleByCosineWarp *sampler,
-                                                        size_t n,
-                                                        const float *const *w,
-                                                        const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_triangle_by_cosine_warp_sample_once(const EtendueTriangle *light,
-                                                          const float *p,
-                                                          const float *n,
-                                                          const float *u,
-                                                          EtendueLightSample *out);
-
-// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
-// and if a pointer is NULL. What the pdf does not need is not prepared.
-float etendue_triangle_by_cosine_warp_pdf_once(const EtendueTriangle *light,
-                                               const float *p,
-                                               const float *n,
-                                               const float *w);
-
-// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
-// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
-float etendue_triangle_by_cosine_warp_pdf_of_hit_once(const EtendueTriangle *light,
-                                                      const float *p,
-                                                      const float *n,
-                                                      const float *w);
-
-// Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
-EtendueStatus etendue_triangle_by_cosine_warp_sample_each(const EtendueTriangleColumns *lights,
-                                                          size_t n,
-                                                          const float *const *p,
-                                                          const float *const *normals,
-                                                          const float *const *u,
-                                                          const EtendueSampleColumns *out);
-
-// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_triangle_by_cosine_warp_pdf_each(const EtendueTriangleColumns *lights,
-                                                       size_t n,
-                                                       const float *const *p,
-                                                       const float *const *normals,
-                                                       const float *const *w,
-                                                       float *out);
-
-// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_triangle_by_cosine_warp_invert_each(const EtendueTriangleColumns *lights,
-                                                          size_t n,
-                                                          const float *const *p,
-                                                          const float *const *normals,
-                                                          const float *const *w,
-                                                          float *const *u);
-
-// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
-EtendueStatus etendue_triangle_by_cosine_warp_hit_each(const EtendueTriangleColumns *lights,
-                                                       size_t n,
-                                                       const float *const *p,
-                                                       const float *const *normals,
-                                                       const float *const *w,
-                                                       const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point.
-EtendueStatus etendue_triangle_by_reflection_prepare(const EtendueTriangle *light,
-                                                     const float *p,
-                                                     const EtendueReflection *reflection,
-                                                     EtendueTriangleByReflection *out);
-
-// Draws a direction for u.
-EtendueStatus etendue_triangle_by_reflection_sample(const EtendueTriangleByReflection *sampler,
-                                                    const float *u,
-                                                    EtendueLightSample *out);
-
-// The pdf with which a unit direction `w` is drawn; 0 where it misses the light, and if a pointer is NULL.
-float etendue_triangle_by_reflection_pdf(const EtendueTriangleByReflection *sampler, const float *w);
-
-// The random numbers `u` that are mapped to a unit direction `w`; any in [0, 1)^2 where it misses the light.
-EtendueStatus etendue_triangle_by_reflection_invert(const EtendueTriangleByReflection *sampler,
-                                                    const float *w,
-                                                    float *u);
-
-// The nearest point of the light in a unit direction `w`, with the pdf of that direction; pdf 0 where it misses the light.
-EtendueStatus etendue_triangle_by_reflection_hit(const EtendueTriangleByReflection *sampler,
-                                                 const float *w,
-                                                 EtendueLightSample *out);
-
-// Draws a direction for each u: two columns.
-EtendueStatus etendue_triangle_by_reflection_sample_batch(const EtendueTriangleByReflection *sampler,
-                                                          size_t n,
-                                                          const float *const *u,
-                                                          const EtendueSampleColumns *out);
-
-// The pdf of each unit direction: three columns.
-EtendueStatus etendue_triangle_by_reflection_pdf_batch(const EtendueTriangleByReflection *sampler,
-                                                       size_t n,
-                                                       const float *const *w,
-                                                       float *out);
-
-// The random numbers of each unit direction: three columns in, two out.
-EtendueStatus etendue_triangle_by_reflection_invert_batch(const EtendueTriangleByReflection *sampler,
-                                                          size_t n,
-                                                          const float *const *w,
-                                                          float *const *u);
-
-// The nearest point of the light in each unit direction: three columns.
-EtendueStatus etendue_triangle_by_reflection_hit_batch(const EtendueTriangleByReflection *sampler,
-                                                       size_t n,
-                                                       const float *const *w,
-                                                       const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_triangle_by_reflection_sample_once(const EtendueTriangle *light,
-                                                         const float *p,
-                                                         const EtendueReflection *reflection,
-                                                         const float *u,
-                                                         EtendueLightSample *out);
-
-// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
-// and if a pointer is NULL. What the pdf does not need is not prepared.
-float etendue_triangle_by_reflection_pdf_once(const EtendueTriangle *light,
-                                              const float *p,
-                                              const EtendueReflection *reflection,
-                                              const float *w);
-
-// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
-// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
-float etendue_triangle_by_reflection_pdf_of_hit_once(const EtendueTriangle *light,
-                                                     const float *p,
-                                                     const EtendueReflection *reflection,
-                                                     const float *w);
-
-// Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
-EtendueStatus etendue_triangle_by_reflection_sample_each(const EtendueTriangleColumns *lights,
-                                                         size_t n,
-                                                         const float *const *p,
-                                                         const EtendueReflectionColumns *reflections,
-                                                         const float *const *u,
-                                                         const EtendueSampleColumns *out);
-
-// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_triangle_by_reflection_pdf_each(const EtendueTriangleColumns *lights,
-                                                      size_t n,
-                                                      const float *const *p,
-                                                      const EtendueReflectionColumns *reflections,
-                                                      const float *const *w,
-                                                      float *out);
-
-// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_triangle_by_reflection_invert_each(const EtendueTriangleColumns *lights,
-                                                         size_t n,
-                                                         const float *const *p,
-                                                         const EtendueReflectionColumns *reflections,
-                                                         const float *const *w,
-                                                         float *const *u);
-
-// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
-EtendueStatus etendue_triangle_by_reflection_hit_each(const EtendueTriangleColumns *lights,
-                                                      size_t n,
-                                                      const float *const *p,
-                                                      const EtendueReflectionColumns *reflections,
-                                                      const float *const *w,
-                                                      const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point.
-EtendueStatus etendue_parallelogram_by_area_prepare(const EtendueParallelogram *light,
-                                                    const float *p,
-                                                    EtendueParallelogramByArea *out);
-
-// Draws a direction for u.
-EtendueStatus etendue_parallelogram_by_area_sample(const EtendueParallelogramByArea *sampler,
-                                                   const float *u,
-                                                   EtendueLightSample *out);
-
-// The pdf with which a unit direction `w` is drawn; 0 where it misses the light, and if a pointer is NULL.
-float etendue_parallelogram_by_area_pdf(const EtendueParallelogramByArea *sampler, const float *w);
-
-// The random numbers `u` that are mapped to a unit direction `w`; any in [0, 1)^2 where it misses the light.
-EtendueStatus etendue_parallelogram_by_area_invert(const EtendueParallelogramByArea *sampler, const float *w, float *u);
-
-// The nearest point of the light in a unit direction `w`, with the pdf of that direction; pdf 0 where it misses the light.
-EtendueStatus etendue_parallelogram_by_area_hit(const EtendueParallelogramByArea *sampler,
-                                                const float *w,
-                                                EtendueLightSample *out);
-
-// Draws a direction for each u: two columns.
-EtendueStatus etendue_parallelogram_by_area_sample_batch(const EtendueParallelogramByArea *sampler,
-                                                         size_t n,
-                                                         const float *const *u,
-                                                         const EtendueSampleColumns *out);
-
-// The pdf of each unit direction: three columns.
-EtendueStatus etendue_parallelogram_by_area_pdf_batch(const EtendueParallelogramByArea *sampler,
-                                                      size_t n,
-                                                      const float *const *w,
-                                                      float *out);
-
-// The random numbers of each unit direction: three columns in, two out.
-EtendueStatus etendue_parallelogram_by_area_invert_batch(const EtendueParallelogramByArea *sampler,
-                                                         size_t n,
-                                                         const float *const *w,
-                                                         float *const *u);
-
-// The nearest point of the light in each unit direction: three columns.
-EtendueStatus etendue_parallelogram_by_area_hit_batch(const EtendueParallelogramByArea *sampler,
-                                                      size_t n,
-                                                      const float *const *w,
-                                                      const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_parallelogram_by_area_sample_once(const EtendueParallelogram *light,
-                                                        const float *p,
-                                                        const float *u,
-                                                        EtendueLightSample *out);
-
-// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
-// and if a pointer is NULL. What the pdf does not need is not prepared.
-float etendue_parallelogram_by_area_pdf_once(const EtendueParallelogram *light,
-                                             const float *p,
-                                             const float *w);
-
-// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
-// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
-float etendue_parallelogram_by_area_pdf_of_hit_once(const EtendueParallelogram *light,
-                                                    const float *p,
-                                                    const float *w);
-
-// Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
-EtendueStatus etendue_parallelogram_by_area_sample_each(const EtendueParallelogramColumns *lights,
-                                                        size_t n,
-                                                        const float *const *p,
-                                                        const float *const *u,
-                                                        const EtendueSampleColumns *out);
-
-// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_parallelogram_by_area_pdf_each(const EtendueParallelogramColumns *lights,
-                                                     size_t n,
-                                                     const float *const *p,
-                                                     const float *const *w,
-                                                     float *out);
-
-// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_parallelogram_by_area_invert_each(const EtendueParallelogramColumns *lights,
-                                                        size_t n,
-                                                        const float *const *p,
-                                                        const float *const *w,
-                                                        float *const *u);
-
-// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
-EtendueStatus etendue_parallelogram_by_area_hit_each(const EtendueParallelogramColumns *lights,
-                                                     size_t n,
-                                                     const float *const *p,
-                                                     const float *const *w,
-                                                     const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point.
-EtendueStatus etendue_parallelogram_by_solid_angle_prepare(const EtendueParallelogram *light,
-                                                           const float *p,
-                                                           EtendueParallelogramBySolidAngle *out);
-
-// Draws a direction for u.
-EtendueStatus etendue_parallelogram_by_solid_angle_sample(const EtendueParallelogramBySolidAngle *sampler,
-                                                          const float *u,
-                                                          EtendueLightSample *out);
-
-// The pdf with which a unit direction `w` is drawn; 0 where it misses the light, and if a pointer is NULL.
-float etendue_parallelogram_by_solid_angle_pdf(const EtendueParallelogramBySolidAngle *sampler, const float *w);
-
-// The random numbers `u` that are mapped to a unit direction `w`; any in [0, 1)^2 where it misses the light.
-EtendueStatus etendue_parallelogram_by_solid_angle_invert(const EtendueParallelogramBySolidAngle *sampler,
-                                                          const float *w,
-                                                          float *u);
-
-// The nearest point of the light in a unit direction `w`, with the pdf of that direction; pdf 0 where it misses the light.
-EtendueStatus etendue_parallelogram_by_solid_angle_hit(const EtendueParallelogramBySolidAngle *sampler,
-                                                       const float *w,
-                                                       EtendueLightSample *out);
-
-// Draws a direction for each u: two columns.
-EtendueStatus etendue_parallelogram_by_solid_angle_sample_batch(const EtendueParallelogramBySolidAngle *sampler,
-                                                                size_t n,
-                                                                const float *const *u,
-                                                                const EtendueSampleColumns *out);
-
-// The pdf of each unit direction: three columns.
-EtendueStatus etendue_parallelogram_by_solid_angle_pdf_batch(const EtendueParallelogramBySolidAngle *sampler,
-                                                             size_t n,
-                                                             const float *const *w,
-                                                             float *out);
-
-// The random numbers of each unit direction: three columns in, two out.
-EtendueStatus etendue_parallelogram_by_solid_angle_invert_batch(const EtendueParallelogramBySolidAngle *sampler,
-                                                                size_t n,
-                                                                const float *const *w,
-                                                                float *const *u);
-
-// The nearest point of the light in each unit direction: three columns.
-EtendueStatus etendue_parallelogram_by_solid_angle_hit_batch(const EtendueParallelogramBySolidAngle *sampler,
-                                                             size_t n,
-                                                             const float *const *w,
-                                                             const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_parallelogram_by_solid_angle_sample_once(const EtendueParallelogram *light,
-                                                               const float *p,
-                                                               const float *u,
-                                                               EtendueLightSample *out);
-
-// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
-// and if a pointer is NULL. What the pdf does not need is not prepared.
-float etendue_parallelogram_by_solid_angle_pdf_once(const EtendueParallelogram *light,
-                                                    const float *p,
-                                                    const float *w);
-
-// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
-// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
-float etendue_parallelogram_by_solid_angle_pdf_of_hit_once(const EtendueParallelogram *light,
-                                                           const float *p,
-                                                           const float *w);
-
-// Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
-EtendueStatus etendue_parallelogram_by_solid_angle_sample_each(const EtendueParallelogramColumns *lights,
-                                                               size_t n,
-                                                               const float *const *p,
-                                                               const float *const *u,
-                                                               const EtendueSampleColumns *out);
-
-// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_parallelogram_by_solid_angle_pdf_each(const EtendueParallelogramColumns *lights,
-                                                            size_t n,
-                                                            const float *const *p,
-                                                            const float *const *w,
-                                                            float *out);
-
-// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_parallelogram_by_solid_angle_invert_each(const EtendueParallelogramColumns *lights,
-                                                               size_t n,
-                                                               const float *const *p,
-                                                               const float *const *w,
-                                                               float *const *u);
-
-// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
-EtendueStatus etendue_parallelogram_by_solid_angle_hit_each(const EtendueParallelogramColumns *lights,
-                                                            size_t n,
-                                                            const float *const *p,
-                                                            const float *const *w,
-                                                            const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point.
-EtendueStatus etendue_parallelogram_by_projected_solid_angle_prepare(const EtendueParallelogram *light,
-                                                                     const float *p,
-                                                                     const float *n,
-                                                                     EtendueParallelogramByProjectedSolidAngle *out);
-
-// Draws a direction for u.
-EtendueStatus etendue_parallelogram_by_projected_solid_angle_sample(const EtendueParallelogramByProjectedSolidAngle *sampler,
-                                                                    const float *u,
-                                                                    EtendueLightSample *out);
-
-// The pdf with which a unit direction `w` is drawn; 0 where it misses the light, and if a pointer is NULL.
-float etendue_parallelogram_by_projected_solid_angle_pdf(const EtendueParallelogramByProjectedSolidAngle *sampler,
-                                                         const float *w);
-
-// The random numbers `u` that are mapped to a unit direction `w`; any in [0, 1)^2 where it misses the light.
-EtendueStatus etendue_parallelogram_by_projected_solid_angle_invert(const EtendueParallelogramByProjectedSolidAngle *sampler,
-                                                                    const float *w,
-                                                                    float *u);
-
-// The nearest point of the light in a unit direction `w`, with the pdf of that direction; pdf 0 where it misses the light.
-EtendueStatus etendue_parallelogram_by_projected_solid_angle_hit(const EtendueParallelogramByProjectedSolidAngle *sampler,
-                                                                 const float *w,
-                                                                 EtendueLightSample *out);
-
-// Draws a direction for each u: two columns.
-EtendueStatus etendue_parallelogram_by_projected_solid_angle_sample_batch(const EtendueParallelogramByProjectedSolidAngle *sampler,
-                                                                          size_t n,
-                                                                          const float *const *u,
-                                                                          const EtendueSampleColumns *out);
-
-// The pdf of each unit direction: three columns.
-EtendueStatus etendue_parallelogram_by_projected_solid_angle_pdf_batch(const EtendueParallelogramByProjectedSolidAngle *sampler,
-                                                                       size_t n,
-                                                                       const float *const *w,
-                                                                       float *out);
-
-// The random numbers of each unit direction: three columns in, two out.
-EtendueStatus etendue_parallelogram_by_projected_solid_angle_invert_batch(const EtendueParallelogramByProjectedSolidAngle *sampler,
-                                                                          size_t n,
-                                                                          const float *const *w,
-                                                                          float *const *u);
-
-// The nearest point of the light in each unit direction: three columns.
-EtendueStatus etendue_parallelogram_by_projected_solid_angle_hit_batch(const EtendueParallelogramByProjectedSolidAngle *sampler,
-                                                                       size_t n,
-                                                                       const float *const *w,
-                                                                       const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_parallelogram_by_projected_solid_angle_sample_once(const EtendueParallelogram *light,
-                                                                         const float *p,
-                                                                         const float *n,
-                                                                         const float *u,
-                                                                         EtendueLightSample *out);
-
-// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
-// and if a pointer is NULL. What the pdf does not need is not prepared.
-float etendue_parallelogram_by_projected_solid_angle_pdf_once(const EtendueParallelogram *light,
-                                                              const float *p,
-                                                              const float *n,
-                                                              const float *w);
-
-// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
-// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
-float etendue_parallelogram_by_projected_solid_angle_pdf_of_hit_once(const EtendueParallelogram *light,
-                                                                     const float *p,
-                                                                     const float *n,
-                                                                     const float *w);
-
-// Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
-EtendueStatus etendue_parallelogram_by_projected_solid_angle_sample_each(const EtendueParallelogramColumns *lights,
-                                                                         size_t n,
-                                                                         const float *const *p,
-                                                                         const float *const *normals,
-                                                                         const float *const *u,
-                                                                         const EtendueSampleColumns *out);
-
-// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_parallelogram_by_projected_solid_angle_pdf_each(const EtendueParallelogramColumns *lights,
-                                                                      size_t n,
-                                                                      const float *const *p,
-                                                                      const float *const *normals,
-                                                                      const float *const *w,
-                                                                      float *out);
-
-// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_parallelogram_by_projected_solid_angle_invert_each(const EtendueParallelogramColumns *lights,
-                                                                         size_t n,
-                                                                         const float *const *p,
-                                                                         const float *const *normals,
-                                                                         const float *const *w,
-                                                                         float *const *u);
-
-// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
-EtendueStatus etendue_parallelogram_by_projected_solid_angle_hit_each(const EtendueParallelogramColumns *lights,
-                                                                      size_t n,
-                                                                      const float *const *p,
-                                                                      const float *const *normals,
-                                                                      const float *const *w,
-                                                                      const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point.
-EtendueStatus etendue_parallelogram_by_reflection_prepare(const EtendueParallelogram *light,
-                                                          const float *p,
-                                                          const EtendueReflection *reflection,
-                                                          EtendueParallelogramByReflection *out);
-
-// Draws a direction for u.
-EtendueStatus etendue_parallelogram_by_reflection_sample(const EtendueParallelogramByReflection *sampler,
-                                                         const float *u,
-                                                         EtendueLightSample *out);
-
-// The pdf with which a unit direction `w` is drawn; 0 where it misses the light, and if a pointer is NULL.
-float etendue_parallelogram_by_reflection_pdf(const EtendueParallelogramByReflection *sampler, const float *w);
-
-// The random numbers `u` that are mapped to a unit direction `w`; any in [0, 1)^2 where it misses the light.
-EtendueStatus etendue_parallelogram_by_reflection_invert(const EtendueParallelogramByReflection *sampler,
-                                                         const float *w,
-                                                         float *u);
-
-// The nearest point of the light in a unit direction `w`, with the pdf of that direction; pdf 0 where it misses the light.
-EtendueStatus etendue_parallelogram_by_reflection_hit(const EtendueParallelogramByReflection *sampler,
-                                                      const float *w,
-                                                      EtendueLightSample *out);
-
-// Draws a direction for each u: two columns.
-EtendueStatus etendue_parallelogram_by_reflection_sample_batch(const EtendueParallelogramByReflection *sampler,
-                                                               size_t n,
-                                                               const float *const *u,
-                                                               const EtendueSampleColumns *out);
-
-// The pdf of each unit direction: three columns.
-EtendueStatus etendue_parallelogram_by_reflection_pdf_batch(const EtendueParallelogramByReflection *sampler,
-                                                            size_t n,
-                                                            const float *const *w,
-                                                            float *out);
-
-// The random numbers of each unit direction: three columns in, two out.
-EtendueStatus etendue_parallelogram_by_reflection_invert_batch(const EtendueParallelogramByReflection *sampler,
-                                                               size_t n,
-                                                               const float *const *w,
-                                                               float *const *u);
-
-// The nearest point of the light in each unit direction: three columns.
-EtendueStatus etendue_parallelogram_by_reflection_hit_batch(const EtendueParallelogramByReflection *sampler,
-                                                            size_t n,
-                                                            const float *const *w,
-                                                            const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_parallelogram_by_reflection_sample_once(const EtendueParallelogram *light,
-                                                              const float *p,
-                                                              const EtendueReflection *reflection,
-                                                              const float *u,
-                                                              EtendueLightSample *out);
-
-// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
-// and if a pointer is NULL. What the pdf does not need is not prepared.
-float etendue_parallelogram_by_reflection_pdf_once(const EtendueParallelogram *light,
-                                                   const float *p,
-                                                   const EtendueReflection *reflection,
-                                                   const float *w);
-
-// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
-// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
-float etendue_parallelogram_by_reflection_pdf_of_hit_once(const EtendueParallelogram *light,
-                                                          const float *p,
-                                                          const EtendueReflection *reflection,
-                                                          const float *w);
-
-// Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
-EtendueStatus etendue_parallelogram_by_reflection_sample_each(const EtendueParallelogramColumns *lights,
-                                                              size_t n,
-                                                              const float *const *p,
-                                                              const EtendueReflectionColumns *reflections,
-                                                              const float *const *u,
-                                                              const EtendueSampleColumns *out);
-
-// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_parallelogram_by_reflection_pdf_each(const EtendueParallelogramColumns *lights,
-                                                           size_t n,
-                                                           const float *const *p,
-                                                           const EtendueReflectionColumns *reflections,
-                                                           const float *const *w,
-                                                           float *out);
-
-// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_parallelogram_by_reflection_invert_each(const EtendueParallelogramColumns *lights,
-                                                              size_t n,
-                                                              const float *const *p,
-                                                              const EtendueReflectionColumns *reflections,
-                                                              const float *const *w,
-                                                              float *const *u);
-
-// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
-EtendueStatus etendue_parallelogram_by_reflection_hit_each(const EtendueParallelogramColumns *lights,
-                                                           size_t n,
-                                                           const float *const *p,
-                                                           const EtendueReflectionColumns *reflections,
-                                                           const float *const *w,
-                                                           const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point.
-EtendueStatus etendue_rectangle_by_solid_angle_prepare(const EtendueRectangle *light,
-                                                       const float *p,
-                                                       EtendueRectangleBySolidAngle *out);
-
-// Draws a direction for u.
-EtendueStatus etendue_rectangle_by_solid_angle_sample(const EtendueRectangleBySolidAngle *sampler,
-                                                      const float *u,
-                                                      EtendueLightSample *out);
-
-// The pdf with which a unit direction `w` is drawn; 0 where it misses the light, and if a pointer is NULL.
-float etendue_rectangle_by_solid_angle_pdf(const EtendueRectangleBySolidAngle *sampler, const float *w);
-
-// The random numbers `u` that are mapped to a unit direction `w`; any in [0, 1)^2 where it misses the light.
-EtendueStatus etendue_rectangle_by_solid_angle_invert(const EtendueRectangleBySolidAngle *sampler,
-                                                      const float *w,
-                                                      float *u);
-
-// The nearest point of the light in a unit direction `w`, with the pdf of that direction; pdf 0 where it misses the light.
-EtendueStatus etendue_rectangle_by_solid_angle_hit(const EtendueRectangleBySolidAngle *sampler,
-                                                   const float *w,
-                                                   EtendueLightSample *out);
-
-// Draws a direction for each u: two columns.
-EtendueStatus etendue_rectangle_by_solid_angle_sample_batch(const EtendueRectangleBySolidAngle *sampler,
-                                                            size_t n,
-                                                            const float *const *u,
-                                                            const EtendueSampleColumns *out);
-
-// The pdf of each unit direction: three columns.
-EtendueStatus etendue_rectangle_by_solid_angle_pdf_batch(const EtendueRectangleBySolidAngle *sampler,
-                                                         size_t n,
-                                                         const float *const *w,
-                                                         float *out);
-
-// The random numbers of each unit direction: three columns in, two out.
-EtendueStatus etendue_rectangle_by_solid_angle_invert_batch(const EtendueRectangleBySolidAngle *sampler,
-                                                            size_t n,
-                                                            const float *const *w,
-                                                            float *const *u);
-
-// The nearest point of the light in each unit direction: three columns.
-EtendueStatus etendue_rectangle_by_solid_angle_hit_batch(const EtendueRectangleBySolidAngle *sampler,
-                                                         size_t n,
-                                                         const float *const *w,
-                                                         const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_rectangle_by_solid_angle_sample_once(const EtendueRectangle *light,
-                                                           const float *p,
-                                                           const float *u,
-                                                           EtendueLightSample *out);
-
-// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
-// and if a pointer is NULL. What the pdf does not need is not prepared.
-float etendue_rectangle_by_solid_angle_pdf_once(const EtendueRectangle *light,
-                                                const float *p,
-                                                const float *w);
-
-// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
-// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
-float etendue_rectangle_by_solid_angle_pdf_of_hit_once(const EtendueRectangle *light,
-                                                       const float *p,
-                                                       const float *w);
-
-// Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
-EtendueStatus etendue_rectangle_by_solid_angle_sample_each(const EtendueRectangleColumns *lights,
-                                                           size_t n,
-                                                           const float *const *p,
-                                                           const float *const *u,
-                                                           const EtendueSampleColumns *out);
-
-// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_rectangle_by_solid_angle_pdf_each(const EtendueRectangleColumns *lights,
-                                                        size_t n,
-                                                        const float *const *p,
-                                                        const float *const *w,
-                                                        float *out);
-
-// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_rectangle_by_solid_angle_invert_each(const EtendueRectangleColumns *lights,
-                                                           size_t n,
-                                                           const float *const *p,
-                                                           const float *const *w,
-                                                           float *const *u);
-
-// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
-EtendueStatus etendue_rectangle_by_solid_angle_hit_each(const EtendueRectangleColumns *lights,
-                                                        size_t n,
-                                                        const float *const *p,
-                                                        const float *const *w,
-                                                        const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point.
-EtendueStatus etendue_rectangle_by_cosine_warp_prepare(const EtendueRectangle *light,
-                                                       const float *p,
-                                                       const float *n,
-                                                       EtendueRectangleByCosineWarp *out);
-
-// Draws a direction for u.
-EtendueStatus etendue_rectangle_by_cosine_warp_sample(const EtendueRectangleByCosineWarp *sampler,
-                                                      const float *u,
-                                                      EtendueLightSample *out);
-
-// The pdf with which a unit direction `w` is drawn; 0 where it misses the light, and if a pointer is NULL.
-float etendue_rectangle_by_cosine_warp_pdf(const EtendueRectangleByCosineWarp *sampler, const float *w);
-
-// The random numbers `u` that are mapped to a unit direction `w`; any in [0, 1)^2 where it misses the light.
-EtendueStatus etendue_rectangle_by_cosine_warp_invert(const EtendueRectangleByCosineWarp *sampler,
-                                                      const float *w,
-                                                      float *u);
-
-// The nearest point of the light in a unit direction `w`, with the pdf of that direction; pdf 0 where it misses the light.
-EtendueStatus etendue_rectangle_by_cosine_warp_hit(const EtendueRectangleByCosineWarp *sampler,
-                                                   const float *w,
-                                                   EtendueLightSample *out);
-
-// Draws a direction for each u: two columns.
-EtendueStatus etendue_rectangle_by_cosine_warp_sample_batch(const EtendueRectangleByCosineWarp *sampler,
-                                                            size_t n,
-                                                            const float *const *u,
-                                                            const EtendueSampleColumns *out);
-
-// The pdf of each unit direction: three columns.
-EtendueStatus etendue_rectangle_by_cosine_warp_pdf_batch(const EtendueRectangleByCosineWarp *sampler,
-                                                         size_t n,
-                                                         const float *const *w,
-                                                         float *out);
-
-// The random numbers of each unit direction: three columns in, two out.
-EtendueStatus etendue_rectangle_by_cosine_warp_invert_batch(const EtendueRectangleByCosineWarp *sampler,
-                                                            size_t n,
-                                                            const float *const *w,
-                                                            float *const *u);
-
-// The nearest point of the light in each unit direction: three columns.
-EtendueStatus etendue_rectangle_by_cosine_warp_hit_batch(const EtendueRectangleByCosineWarp *sampler,
-                                                         size_t n,
-                                                         const float *const *w,
-                                                         const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_rectangle_by_cosine_warp_sample_once(const EtendueRectangle *light,
-                                                           const float *p,
-                                                           const float *n,
-                                                           const float *u,
-                                                           EtendueLightSample *out);
-
-// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
-// and if a pointer is NULL. What the pdf does not need is not prepared.
-float etendue_rectangle_by_cosine_warp_pdf_once(const EtendueRectangle *light,
-                                                const float *p,
-                                                const float *n,
-                                                const float *w);
-
-// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
-// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
-float etendue_rectangle_by_cosine_warp_pdf_of_hit_once(const EtendueRectangle *light,
-                                                       const float *p,
-                                                       const float *n,
-                                                       const float *w);
-
-// Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
-EtendueStatus etendue_rectangle_by_cosine_warp_sample_each(const EtendueRectangleColumns *lights,
-                                                           size_t n,
-                                                           const float *const *p,
-                                                           const float *const *normals,
-                                                           const float *const *u,
-                                                           const EtendueSampleColumns *out);
-
-// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_rectangle_by_cosine_warp_pdf_each(const EtendueRectangleColumns *lights,
-                                                        size_t n,
-                                                        const float *const *p,
-                                                        const float *const *normals,
-                                                        const float *const *w,
-                                                        float *out);
-
-// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_rectangle_by_cosine_warp_invert_each(const EtendueRectangleColumns *lights,
-                                                           size_t n,
-                                                           const float *const *p,
-                                                           const float *const *normals,
-                                                           const float *const *w,
-                                                           float *const *u);
-
-// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
-EtendueStatus etendue_rectangle_by_cosine_warp_hit_each(const EtendueRectangleColumns *lights,
-                                                        size_t n,
-                                                        const float *const *p,
-                                                        const float *const *normals,
-                                                        const float *const *w,
-                                                        const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point.
-EtendueStatus etendue_disk_by_area_prepare(const EtendueDisk *light, const float *p, EtendueDiskByArea *out);
-
-// Draws a direction for u.
-EtendueStatus etendue_disk_by_area_sample(const EtendueDiskByArea *sampler, const float *u, EtendueLightSample *out);
-
-// The pdf with which a unit direction `w` is drawn; 0 where it misses the light, and if a pointer is NULL.
-float etendue_disk_by_area_pdf(const EtendueDiskByArea *sampler, const float *w);
-
-// The random numbers `u` that are mapped to a unit direction `w`; any in [0, 1)^2 where it misses the light.
-EtendueStatus etendue_disk_by_area_invert(const EtendueDiskByArea *sampler, const float *w, float *u);
-
-// The nearest point of the light in a unit direction `w`, with the pdf of that direction; pdf 0 where it misses the light.
-EtendueStatus etendue_disk_by_area_hit(const EtendueDiskByArea *sampler,
-                                       const float *w,
-                                       EtendueLightSample *out);
-
-// Draws a direction for each u: two columns.
-EtendueStatus etendue_disk_by_area_sample_batch(const EtendueDiskByArea *sampler,
-                                                size_t n,
-                                                const float *const *u,
-                                                const EtendueSampleColumns *out);
-
-// The pdf of each unit direction: three columns.
-EtendueStatus etendue_disk_by_area_pdf_batch(const EtendueDiskByArea *sampler,
-                                             size_t n,
-                                             const float *const *w,
-                                             float *out);
-
-// The random numbers of each unit direction: three columns in, two out.
-EtendueStatus etendue_disk_by_area_invert_batch(const EtendueDiskByArea *sampler,
-                                                size_t n,
-                                                const float *const *w,
-                                                float *const *u);
-
-// The nearest point of the light in each unit direction: three columns.
-EtendueStatus etendue_disk_by_area_hit_batch(const EtendueDiskByArea *sampler,
-                                             size_t n,
-                                             const float *const *w,
-                                             const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_disk_by_area_sample_once(const EtendueDisk *light,
-                                               const float *p,
-                                               const float *u,
-                                               EtendueLightSample *out);
-
-// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
-// and if a pointer is NULL. What the pdf does not need is not prepared.
-float etendue_disk_by_area_pdf_once(const EtendueDisk *light,
-                                    const float *p,
-                                    const float *w);
-
-// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
-// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
-float etendue_disk_by_area_pdf_of_hit_once(const EtendueDisk *light,
-                                           const float *p,
-                                           const float *w);
-
-// Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
-EtendueStatus etendue_disk_by_area_sample_each(const EtendueDiskColumns *lights,
-                                               size_t n,
-                                               const float *const *p,
-                                               const float *const *u,
-                                               const EtendueSampleColumns *out);
-
-// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_disk_by_area_pdf_each(const EtendueDiskColumns *lights,
-                                            size_t n,
-                                            const float *const *p,
-                                            const float *const *w,
-                                            float *out);
-
-// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_disk_by_area_invert_each(const EtendueDiskColumns *lights,
-                                               size_t n,
-                                               const float *const *p,
-                                               const float *const *w,
-                                               float *const *u);
-
-// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
-EtendueStatus etendue_disk_by_area_hit_each(const EtendueDiskColumns *lights,
-                                            size_t n,
-                                            const float *const *p,
-                                            const float *const *w,
-                                            const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point.
-EtendueStatus etendue_disk_by_solid_angle_prepare(const EtendueDisk *light,
-                                                  const float *p,
-                                                  EtendueDiskBySolidAngle *out);
-
-// Draws a direction for u.
-EtendueStatus etendue_disk_by_solid_angle_sample(const EtendueDiskBySolidAngle *sampler,
-                                                 const float *u,
-                                                 EtendueLightSample *out);
-
-// The pdf with which a unit direction `w` is drawn; 0 where it misses the light, and if a pointer is NULL.
-float etendue_disk_by_solid_angle_pdf(const EtendueDiskBySolidAngle *sampler, const float *w);
-
-// The random numbers `u` that are mapped to a unit direction `w`; any in [0, 1)^2 where it misses the light.
-EtendueStatus etendue_disk_by_solid_angle_invert(const EtendueDiskBySolidAngle *sampler, const float *w, float *u);
-
-// The nearest point of the light in a unit direction `w`, with the pdf of that direction; pdf 0 where it misses the light.
-EtendueStatus etendue_disk_by_solid_angle_hit(const EtendueDiskBySolidAngle *sampler,
-                                              const float *w,
-                                              EtendueLightSample *out);
-
-// Draws a direction for each u: two columns.
-EtendueStatus etendue_disk_by_solid_angle_sample_batch(const EtendueDiskBySolidAngle *sampler,
-                                                       size_t n,
-                                                       const float *const *u,
-                                                       const EtendueSampleColumns *out);
-
-// The pdf of each unit direction: three columns.
-EtendueStatus etendue_disk_by_solid_angle_pdf_batch(const EtendueDiskBySolidAngle *sampler,
-                                                    size_t n,
-                                                    const float *const *w,
-                                                    float *out);
-
-// The random numbers of each unit direction: three columns in, two out.
-EtendueStatus etendue_disk_by_solid_angle_invert_batch(const EtendueDiskBySolidAngle *sampler,
-                                                       size_t n,
-                                                       const float *const *w,
-                                                       float *const *u);
-
-// The nearest point of the light in each unit direction: three columns.
-EtendueStatus etendue_disk_by_solid_angle_hit_batch(const EtendueDiskBySolidAngle *sampler,
-                                                    size_t n,
-                                                    const float *const *w,
-                                                    const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_disk_by_solid_angle_sample_once(const EtendueDisk *light,
-                                                      const float *p,
-                                                      const float *u,
-                                                      EtendueLightSample *out);
-
-// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
-// and if a pointer is NULL. What the pdf does not need is not prepared.
-float etendue_disk_by_solid_angle_pdf_once(const EtendueDisk *light,
-                                           const float *p,
-                                           const float *w);
-
-// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
-// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
-float etendue_disk_by_solid_angle_pdf_of_hit_once(const EtendueDisk *light,
-                                                  const float *p,
-                                                  const float *w);
-
-// Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
-EtendueStatus etendue_disk_by_solid_angle_sample_each(const EtendueDiskColumns *lights,
-                                                      size_t n,
-                                                      const float *const *p,
-                                                      const float *const *u,
-                                                      const EtendueSampleColumns *out);
-
-// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_disk_by_solid_angle_pdf_each(const EtendueDiskColumns *lights,
-                                                   size_t n,
-                                                   const float *const *p,
-                                                   const float *const *w,
-                                                   float *out);
-
-// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_disk_by_solid_angle_invert_each(const EtendueDiskColumns *lights,
-                                                      size_t n,
-                                                      const float *const *p,
-                                                      const float *const *w,
-                                                      float *const *u);
-
-// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
-EtendueStatus etendue_disk_by_solid_angle_hit_each(const EtendueDiskColumns *lights,
-                                                   size_t n,
-                                                   const float *const *p,
-                                                   const float *const *w,
-                                                   const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point.
-EtendueStatus etendue_polygon_by_area_prepare(const EtenduePolygon *light, const float *p, EtenduePolygonByArea *out);
-
-// Draws a direction for u.
-EtendueStatus etendue_polygon_by_area_sample(const EtenduePolygonByArea *sampler,
-                                             const float *u,
-                                             EtendueLightSample *out);
-
-// The pdf with which a unit direction `w` is drawn; 0 where it misses the light, and if a pointer is NULL.
-float etendue_polygon_by_area_pdf(const EtenduePolygonByArea *sampler, const float *w);
-
-// The random numbers `u` that are mapped to a unit direction `w`; any in [0, 1)^2 where it misses the light.
-EtendueStatus etendue_polygon_by_area_invert(const EtenduePolygonByArea *sampler, const float *w, float *u);
-
-// The nearest point of the light in a unit direction `w`, with the pdf of that direction; pdf 0 where it misses the light.
-EtendueStatus etendue_polygon_by_area_hit(const EtenduePolygonByArea *sampler,
-                                          const float *w,
-                                          EtendueLightSample *out);
-
-// Draws a direction for each u: two columns.
-EtendueStatus etendue_polygon_by_area_sample_batch(const EtenduePolygonByArea *sampler,
-                                                   size_t n,
-                                                   const float *const *u,
-                                                   const EtendueSampleColumns *out);
-
-// The pdf of each unit direction: three columns.
-EtendueStatus etendue_polygon_by_area_pdf_batch(const EtenduePolygonByArea *sampler,
-                                                size_t n,
-                                                const float *const *w,
-                                                float *out);
-
-// The random numbers of each unit direction: three columns in, two out.
-EtendueStatus etendue_polygon_by_area_invert_batch(const EtenduePolygonByArea *sampler,
-                                                   size_t n,
-                                                   const float *const *w,
-                                                   float *const *u);
-
-// The nearest point of the light in each unit direction: three columns.
-EtendueStatus etendue_polygon_by_area_hit_batch(const EtenduePolygonByArea *sampler,
-                                                size_t n,
-                                                const float *const *w,
-                                                const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_polygon_by_area_sample_once(const EtenduePolygon *light,
-                                                  const float *p,
-                                                  const float *u,
-                                                  EtendueLightSample *out);
-
-// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
-// and if a pointer is NULL. What the pdf does not need is not prepared.
-float etendue_polygon_by_area_pdf_once(const EtenduePolygon *light,
-                                       const float *p,
-                                       const float *w);
-
-// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
-// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
-float etendue_polygon_by_area_pdf_of_hit_once(const EtenduePolygon *light,
-                                              const float *p,
-                                              const float *w);
-
-// Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
-EtendueStatus etendue_polygon_by_area_sample_each(const EtenduePolygonColumns *lights,
-                                                  size_t n,
-                                                  const float *const *p,
-                                                  const float *const *u,
-                                                  const EtendueSampleColumns *out);
-
-// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_polygon_by_area_pdf_each(const EtenduePolygonColumns *lights,
-                                               size_t n,
-                                               const float *const *p,
-                                               const float *const *w,
-                                               float *out);
-
-// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_polygon_by_area_invert_each(const EtenduePolygonColumns *lights,
-                                                  size_t n,
-                                                  const float *const *p,
-                                                  const float *const *w,
-                                                  float *const *u);
-
-// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
-EtendueStatus etendue_polygon_by_area_hit_each(const EtenduePolygonColumns *lights,
-                                               size_t n,
-                                               const float *const *p,
-                                               const float *const *w,
-                                               const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point.
-EtendueStatus etendue_polygon_by_solid_angle_prepare(const EtenduePolygon *light,
-                                                     const float *p,
-                                                     EtenduePolygonBySolidAngle *out);
-
-// Draws a direction for u.
-EtendueStatus etendue_polygon_by_solid_angle_sample(const EtenduePolygonBySolidAngle *sampler,
-                                                    const float *u,
-                                                    EtendueLightSample *out);
-
-// The pdf with which a unit direction `w` is drawn; 0 where it misses the light, and if a pointer is NULL.
-float etendue_polygon_by_solid_angle_pdf(const EtenduePolygonBySolidAngle *sampler, const float *w);
-
-// The random numbers `u` that are mapped to a unit direction `w`; any in [0, 1)^2 where it misses the light.
-EtendueStatus etendue_polygon_by_solid_angle_invert(const EtenduePolygonBySolidAngle *sampler,
-                                                    const float *w,
-                                                    float *u);
-
-// The nearest point of the light in a unit direction `w`, with the pdf of that direction; pdf 0 where it misses the light.
-EtendueStatus etendue_polygon_by_solid_angle_hit(const EtenduePolygonBySolidAngle *sampler,
-                                                 const float *w,
-                                                 EtendueLightSample *out);
-
-// Draws a direction for each u: two columns.
-EtendueStatus etendue_polygon_by_solid_angle_sample_batch(const EtenduePolygonBySolidAngle *sampler,
-                                                          size_t n,
-                                                          const float *const *u,
-                                                          const EtendueSampleColumns *out);
-
-// The pdf of each unit direction: three columns.
-EtendueStatus etendue_polygon_by_solid_angle_pdf_batch(const EtenduePolygonBySolidAngle *sampler,
-                                                       size_t n,
-                                                       const float *const *w,
-                                                       float *out);
-
-// The random numbers of each unit direction: three columns in, two out.
-EtendueStatus etendue_polygon_by_solid_angle_invert_batch(const EtenduePolygonBySolidAngle *sampler,
-                                                          size_t n,
-                                                          const float *const *w,
-                                                          float *const *u);
-
-// The nearest point of the light in each unit direction: three columns.
-EtendueStatus etendue_polygon_by_solid_angle_hit_batch(const EtenduePolygonBySolidAngle *sampler,
-                                                       size_t n,
-                                                       const float *const *w,
-                                                       const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_polygon_by_solid_angle_sample_once(const EtenduePolygon *light,
-                                                         const float *p,
-                                                         const float *u,
-                                                         EtendueLightSample *out);
-
-// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
-// and if a pointer is NULL. What the pdf does not need is not prepared.
-float etendue_polygon_by_solid_angle_pdf_once(const EtenduePolygon *light,
-                                              const float *p,
-                                              const float *w);
-
-// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
-// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
-float etendue_polygon_by_solid_angle_pdf_of_hit_once(const EtenduePolygon *light,
-                                                     const float *p,
-                                                     const float *w);
-
-// Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
-EtendueStatus etendue_polygon_by_solid_angle_sample_each(const EtenduePolygonColumns *lights,
-                                                         size_t n,
-                                                         const float *const *p,
-                                                         const float *const *u,
-                                                         const EtendueSampleColumns *out);
-
-// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_polygon_by_solid_angle_pdf_each(const EtenduePolygonColumns *lights,
-                                                      size_t n,
-                                                      const float *const *p,
-                                                      const float *const *w,
-                                                      float *out);
-
-// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_polygon_by_solid_angle_invert_each(const EtenduePolygonColumns *lights,
-                                                         size_t n,
-                                                         const float *const *p,
-                                                         const float *const *w,
-                                                         float *const *u);
-
-// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
-EtendueStatus etendue_polygon_by_solid_angle_hit_each(const EtenduePolygonColumns *lights,
-                                                      size_t n,
-                                                      const float *const *p,
-                                                      const float *const *w,
-                                                      const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point.
-EtendueStatus etendue_polygon_by_projected_solid_angle_prepare(const EtenduePolygon *light,
-                                                               const float *p,
-                                                               const float *n,
-                                                               EtenduePolygonByProjectedSolidAngle *out);
-
-// Draws a direction for u.
-EtendueStatus etendue_polygon_by_projected_solid_angle_sample(const EtenduePolygonByProjectedSolidAngle *sampler,
-                                                              const float *u,
-                                                              EtendueLightSample *out);
-
-// The pdf with which a unit direction `w` is drawn; 0 where it misses the light, and if a pointer is NULL.
-float etendue_polygon_by_projected_solid_angle_pdf(const EtenduePolygonByProjectedSolidAngle *sampler, const float *w);
-
-// The random numbers `u` that are mapped to a unit direction `w`; any in [0, 1)^2 where it misses the light.
-EtendueStatus etendue_polygon_by_projected_solid_angle_invert(const EtenduePolygonByProjectedSolidAngle *sampler,
-                                                              const float *w,
-                                                              float *u);
-
-// The nearest point of the light in a unit direction `w`, with the pdf of that direction; pdf 0 where it misses the light.
-EtendueStatus etendue_polygon_by_projected_solid_angle_hit(const EtenduePolygonByProjectedSolidAngle *sampler,
-                                                           const float *w,
-                                                           EtendueLightSample *out);
-
-// Draws a direction for each u: two columns.
-EtendueStatus etendue_polygon_by_projected_solid_angle_sample_batch(const EtenduePolygonByProjectedSolidAngle *sampler,
-                                                                    size_t n,
-                                                                    const float *const *u,
-                                                                    const EtendueSampleColumns *out);
-
-// The pdf of each unit direction: three columns.
-EtendueStatus etendue_polygon_by_projected_solid_angle_pdf_batch(const EtenduePolygonByProjectedSolidAngle *sampler,
-                                                                 size_t n,
-                                                                 const float *const *w,
-                                                                 float *out);
-
-// The random numbers of each unit direction: three columns in, two out.
-EtendueStatus etendue_polygon_by_projected_solid_angle_invert_batch(const EtenduePolygonByProjectedSolidAngle *sampler,
-                                                                    size_t n,
-                                                                    const float *const *w,
-                                                                    float *const *u);
-
-// The nearest point of the light in each unit direction: three columns.
-EtendueStatus etendue_polygon_by_projected_solid_angle_hit_batch(const EtenduePolygonByProjectedSolidAngle *sampler,
-                                                                 size_t n,
-                                                                 const float *const *w,
-                                                                 const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_polygon_by_projected_solid_angle_sample_once(const EtenduePolygon *light,
-                                                                   const float *p,
-                                                                   const float *n,
-                                                                   const float *u,
-                                                                   EtendueLightSample *out);
-
-// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
-// and if a pointer is NULL. What the pdf does not need is not prepared.
-float etendue_polygon_by_projected_solid_angle_pdf_once(const EtenduePolygon *light,
-                                                        const float *p,
-                                                        const float *n,
-                                                        const float *w);
-
-// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
-// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
-float etendue_polygon_by_projected_solid_angle_pdf_of_hit_once(const EtenduePolygon *light,
-                                                               const float *p,
-                                                               const float *n,
-                                                               const float *w);
-
-// Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
-EtendueStatus etendue_polygon_by_projected_solid_angle_sample_each(const EtenduePolygonColumns *lights,
-                                                                   size_t n,
-                                                                   const float *const *p,
-                                                                   const float *const *normals,
-                                                                   const float *const *u,
-                                                                   const EtendueSampleColumns *out);
-
-// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_polygon_by_projected_solid_angle_pdf_each(const EtenduePolygonColumns *lights,
-                                                                size_t n,
-                                                                const float *const *p,
-                                                                const float *const *normals,
-                                                                const float *const *w,
-                                                                float *out);
-
-// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_polygon_by_projected_solid_angle_invert_each(const EtenduePolygonColumns *lights,
-                                                                   size_t n,
-                                                                   const float *const *p,
-                                                                   const float *const *normals,
-                                                                   const float *const *w,
-                                                                   float *const *u);
-
-// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
-EtendueStatus etendue_polygon_by_projected_solid_angle_hit_each(const EtenduePolygonColumns *lights,
-                                                                size_t n,
-                                                                const float *const *p,
-                                                                const float *const *normals,
-                                                                const float *const *w,
-                                                                const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point.
-EtendueStatus etendue_polygon_by_reflection_prepare(const EtenduePolygon *light,
-                                                    const float *p,
-                                                    const EtendueReflection *reflection,
-                                                    EtenduePolygonByReflection *out);
-
-// Draws a direction for u.
-EtendueStatus etendue_polygon_by_reflection_sample(const EtenduePolygonByReflection *sampler,
-                                                   const float *u,
-                                                   EtendueLightSample *out);
-
-// The pdf with which a unit direction `w` is drawn; 0 where it misses the light, and if a pointer is NULL.
-float etendue_polygon_by_reflection_pdf(const EtenduePolygonByReflection *sampler, const float *w);
-
-// The random numbers `u` that are mapped to a unit direction `w`; any in [0, 1)^2 where it misses the light.
-EtendueStatus etendue_polygon_by_reflection_invert(const EtenduePolygonByReflection *sampler, const float *w, float *u);
-
-// The nearest point of the light in a unit direction `w`, with the pdf of that direction; pdf 0 where it misses the light.
-EtendueStatus etendue_polygon_by_reflection_hit(const EtenduePolygonByReflection *sampler,
-                                                const float *w,
-                                                EtendueLightSample *out);
-
-// Draws a direction for each u: two columns.
-EtendueStatus etendue_polygon_by_reflection_sample_batch(const EtenduePolygonByReflection *sampler,
-                                                         size_t n,
-                                                         const float *const *u,
-                                                         const EtendueSampleColumns *out);
-
-// The pdf of each unit direction: three columns.
-EtendueStatus etendue_polygon_by_reflection_pdf_batch(const EtenduePolygonByReflection *sampler,
-                                                      size_t n,
-                                                      const float *const *w,
-                                                      float *out);
-
-// The random numbers of each unit direction: three columns in, two out.
-EtendueStatus etendue_polygon_by_reflection_invert_batch(const EtenduePolygonByReflection *sampler,
-                                                         size_t n,
-                                                         const float *const *w,
-                                                         float *const *u);
-
-// The nearest point of the light in each unit direction: three columns.
-EtendueStatus etendue_polygon_by_reflection_hit_batch(const EtenduePolygonByReflection *sampler,
-                                                      size_t n,
-                                                      const float *const *w,
-                                                      const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_polygon_by_reflection_sample_once(const EtenduePolygon *light,
-                                                        const float *p,
-                                                        const EtendueReflection *reflection,
-                                                        const float *u,
-                                                        EtendueLightSample *out);
-
-// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
-// and if a pointer is NULL. What the pdf does not need is not prepared.
-float etendue_polygon_by_reflection_pdf_once(const EtenduePolygon *light,
-                                             const float *p,
-                                             const EtendueReflection *reflection,
-                                             const float *w);
-
-// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
-// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
-float etendue_polygon_by_reflection_pdf_of_hit_once(const EtenduePolygon *light,
-                                                    const float *p,
-                                                    const EtendueReflection *reflection,
-                                                    const float *w);
-
-// Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
-EtendueStatus etendue_polygon_by_reflection_sample_each(const EtenduePolygonColumns *lights,
-                                                        size_t n,
-                                                        const float *const *p,
-                                                        const EtendueReflectionColumns *reflections,
-                                                        const float *const *u,
-                                                        const EtendueSampleColumns *out);
-
-// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_polygon_by_reflection_pdf_each(const EtenduePolygonColumns *lights,
-                                                     size_t n,
-                                                     const float *const *p,
-                                                     const EtendueReflectionColumns *reflections,
-                                                     const float *const *w,
-                                                     float *out);
-
-// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_polygon_by_reflection_invert_each(const EtenduePolygonColumns *lights,
-                                                        size_t n,
-                                                        const float *const *p,
-                                                        const EtendueReflectionColumns *reflections,
-                                                        const float *const *w,
-                                                        float *const *u);
-
-// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
-EtendueStatus etendue_polygon_by_reflection_hit_each(const EtenduePolygonColumns *lights,
-                                                     size_t n,
-                                                     const float *const *p,
-                                                     const EtendueReflectionColumns *reflections,
-                                                     const float *const *w,
-                                                     const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point.
-EtendueStatus etendue_patch_by_area_prepare(const EtendueBilinearPatch *light, const float *p, EtenduePatchByArea *out);
-
-// Draws a direction for u.
-EtendueStatus etendue_patch_by_area_sample(const EtenduePatchByArea *sampler, const float *u, EtendueLightSample *out);
-
-// The pdf with which a unit direction `w` is drawn; 0 where it misses the light, and if a pointer is NULL.
-float etendue_patch_by_area_pdf(const EtenduePatchByArea *sampler, const float *w);
-
-// The random numbers `u` that are mapped to a unit direction `w`; any in [0, 1)^2 where it misses the light.
-EtendueStatus etendue_patch_by_area_invert(const EtenduePatchByArea *sampler, const float *w, float *u);
-
-// The nearest point of the light in a unit direction `w`, with the pdf of that direction; pdf 0 where it misses the light.
-EtendueStatus etendue_patch_by_area_hit(const EtenduePatchByArea *sampler,
-                                        const float *w,
-                                        EtendueLightSample *out);
-
-// Draws a direction for each u: two columns.
-EtendueStatus etendue_patch_by_area_sample_batch(const EtenduePatchByArea *sampler,
-                                                 size_t n,
-                                                 const float *const *u,
-                                                 const EtendueSampleColumns *out);
-
-// The pdf of each unit direction: three columns.
-EtendueStatus etendue_patch_by_area_pdf_batch(const EtenduePatchByArea *sampler,
-                                              size_t n,
-                                              const float *const *w,
-                                              float *out);
-
-// The random numbers of each unit direction: three columns in, two out.
-EtendueStatus etendue_patch_by_area_invert_batch(const EtenduePatchByArea *sampler,
-                                                 size_t n,
-                                                 const float *const *w,
-                                                 float *const *u);
-
-// The nearest point of the light in each unit direction: three columns.
-EtendueStatus etendue_patch_by_area_hit_batch(const EtenduePatchByArea *sampler,
-                                              size_t n,
-                                              const float *const *w,
-                                              const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_patch_by_area_sample_once(const EtendueBilinearPatch *light,
-                                                const float *p,
-                                                const float *u,
-                                                EtendueLightSample *out);
-
-// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
-// and if a pointer is NULL. What the pdf does not need is not prepared.
-float etendue_patch_by_area_pdf_once(const EtendueBilinearPatch *light,
-                                     const float *p,
-                                     const float *w);
-
-// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
-// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
-float etendue_patch_by_area_pdf_of_hit_once(const EtendueBilinearPatch *light,
-                                            const float *p,
-                                            const float *w);
-
-// Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
-EtendueStatus etendue_patch_by_area_sample_each(const EtendueBilinearPatchColumns *lights,
-                                                size_t n,
-                                                const float *const *p,
-                                                const float *const *u,
-                                                const EtendueSampleColumns *out);
-
-// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_patch_by_area_pdf_each(const EtendueBilinearPatchColumns *lights,
-                                             size_t n,
-                                             const float *const *p,
-                                             const float *const *w,
-                                             float *out);
-
-// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_patch_by_area_invert_each(const EtendueBilinearPatchColumns *lights,
-                                                size_t n,
-                                                const float *const *p,
-                                                const float *const *w,
-                                                float *const *u);
-
-// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
-EtendueStatus etendue_patch_by_area_hit_each(const EtendueBilinearPatchColumns *lights,
-                                             size_t n,
-                                             const float *const *p,
-                                             const float *const *w,
-                                             const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point.
-EtendueStatus etendue_line_by_length_prepare(const EtendueLine *light, const float *p, EtendueLineByLength *out);
-
-// Draws a direction for u.
-EtendueStatus etendue_line_by_length_sample(const EtendueLineByLength *sampler,
-                                            const float *u,
-                                            EtendueLightSample *out);
-
-// The pdf with which a unit direction `w` is drawn; 0 where it misses the light, and if a pointer is NULL.
-float etendue_line_by_length_pdf(const EtendueLineByLength *sampler, const float *w);
-
-// The random numbers `u` that are mapped to a unit direction `w`; any in [0, 1)^2 where it misses the light.
-EtendueStatus etendue_line_by_length_invert(const EtendueLineByLength *sampler, const float *w, float *u);
-
-// The nearest point of the light in a unit direction `w`, with the pdf of that direction; pdf 0 where it misses the light.
-EtendueStatus etendue_line_by_length_hit(const EtendueLineByLength *sampler,
-                                         const float *w,
-                                         EtendueLightSample *out);
-
-// Draws a direction for each u: two columns.
-EtendueStatus etendue_line_by_length_sample_batch(const EtendueLineByLength *sampler,
-                                                  size_t n,
-                                                  const float *const *u,
-                                                  const EtendueSampleColumns *out);
-
-// The pdf of each unit direction: three columns.
-EtendueStatus etendue_line_by_length_pdf_batch(const EtendueLineByLength *sampler,
-                                               size_t n,
-                                               const float *const *w,
-                                               float *out);
-
-// The random numbers of each unit direction: three columns in, two out.
-EtendueStatus etendue_line_by_length_invert_batch(const EtendueLineByLength *sampler,
-                                                  size_t n,
-                                                  const float *const *w,
-                                                  float *const *u);
-
-// The nearest point of the light in each unit direction: three columns.
-EtendueStatus etendue_line_by_length_hit_batch(const EtendueLineByLength *sampler,
-                                               size_t n,
-                                               const float *const *w,
-                                               const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_line_by_length_sample_once(const EtendueLine *light,
-                                                 const float *p,
-                                                 const float *u,
-                                                 EtendueLightSample *out);
-
-// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
-// and if a pointer is NULL. What the pdf does not need is not prepared.
-float etendue_line_by_length_pdf_once(const EtendueLine *light,
-                                      const float *p,
-                                      const float *w);
-
-// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
-// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
-float etendue_line_by_length_pdf_of_hit_once(const EtendueLine *light,
-                                             const float *p,
-                                             const float *w);
-
-// Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
-EtendueStatus etendue_line_by_length_sample_each(const EtendueLineColumns *lights,
-                                                 size_t n,
-                                                 const float *const *p,
-                                                 const float *const *u,
-                                                 const EtendueSampleColumns *out);
-
-// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_line_by_length_pdf_each(const EtendueLineColumns *lights,
-                                              size_t n,
-                                              const float *const *p,
-                                              const float *const *w,
-                                              float *out);
-
-// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_line_by_length_invert_each(const EtendueLineColumns *lights,
-                                                 size_t n,
-                                                 const float *const *p,
-                                                 const float *const *w,
-                                                 float *const *u);
-
-// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
-EtendueStatus etendue_line_by_length_hit_each(const EtendueLineColumns *lights,
-                                              size_t n,
-                                              const float *const *p,
-                                              const float *const *w,
-                                              const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point.
-EtendueStatus etendue_line_by_angle_prepare(const EtendueLine *light, const float *p, EtendueLineByAngle *out);
-
-// Draws a direction for u.
-EtendueStatus etendue_line_by_angle_sample(const EtendueLineByAngle *sampler, const float *u, EtendueLightSample *out);
-
-// The pdf with which a unit direction `w` is drawn; 0 where it misses the light, and if a pointer is NULL.
-float etendue_line_by_angle_pdf(const EtendueLineByAngle *sampler, const float *w);
-
-// The random numbers `u` that are mapped to a unit direction `w`; any in [0, 1)^2 where it misses the light.
-EtendueStatus etendue_line_by_angle_invert(const EtendueLineByAngle *sampler, const float *w, float *u);
-
-// The nearest point of the light in a unit direction `w`, with the pdf of that direction; pdf 0 where it misses the light.
-EtendueStatus etendue_line_by_angle_hit(const EtendueLineByAngle *sampler,
-                                        const float *w,
-                                        EtendueLightSample *out);
-
-// Draws a direction for each u: two columns.
-EtendueStatus etendue_line_by_angle_sample_batch(const EtendueLineByAngle *sampler,
-                                                 size_t n,
-                                                 const float *const *u,
-                                                 const EtendueSampleColumns *out);
-
-// The pdf of each unit direction: three columns.
-EtendueStatus etendue_line_by_angle_pdf_batch(const EtendueLineByAngle *sampler,
-                                              size_t n,
-                                              const float *const *w,
-                                              float *out);
-
-// The random numbers of each unit direction: three columns in, two out.
-EtendueStatus etendue_line_by_angle_invert_batch(const EtendueLineByAngle *sampler,
-                                                 size_t n,
-                                                 const float *const *w,
-                                                 float *const *u);
-
-// The nearest point of the light in each unit direction: three columns.
-EtendueStatus etendue_line_by_angle_hit_batch(const EtendueLineByAngle *sampler,
-                                              size_t n,
-                                              const float *const *w,
-                                              const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_line_by_angle_sample_once(const EtendueLine *light,
-                                                const float *p,
-                                                const float *u,
-                                                EtendueLightSample *out);
-
-// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
-// and if a pointer is NULL. What the pdf does not need is not prepared.
-float etendue_line_by_angle_pdf_once(const EtendueLine *light,
-                                     const float *p,
-                                     const float *w);
-
-// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
-// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
-float etendue_line_by_angle_pdf_of_hit_once(const EtendueLine *light,
-                                            const float *p,
-                                            const float *w);
-
-// Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
-EtendueStatus etendue_line_by_angle_sample_each(const EtendueLineColumns *lights,
-                                                size_t n,
-                                                const float *const *p,
-                                                const float *const *u,
-                                                const EtendueSampleColumns *out);
-
-// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_line_by_angle_pdf_each(const EtendueLineColumns *lights,
-                                             size_t n,
-                                             const float *const *p,
-                                             const float *const *w,
-                                             float *out);
-
-// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_line_by_angle_invert_each(const EtendueLineColumns *lights,
-                                                size_t n,
-                                                const float *const *p,
-                                                const float *const *w,
-                                                float *const *u);
-
-// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
-EtendueStatus etendue_line_by_angle_hit_each(const EtendueLineColumns *lights,
-                                             size_t n,
-                                             const float *const *p,
-                                             const float *const *w,
-                                             const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point.
-EtendueStatus etendue_line_by_projected_solid_angle_prepare(const EtendueLine *light,
-                                                            const float *p,
-                                                            const float *n,
-                                                            EtendueLineByProjectedSolidAngle *out);
-
-// Draws a direction for u.
-EtendueStatus etendue_line_by_projected_solid_angle_sample(const EtendueLineByProjectedSolidAngle *sampler,
-                                                           const float *u,
-                                                           EtendueLightSample *out);
-
-// The pdf with which a unit direction `w` is drawn; 0 where it misses the light, and if a pointer is NULL.
-float etendue_line_by_projected_solid_angle_pdf(const EtendueLineByProjectedSolidAngle *sampler, const float *w);
-
-// The random numbers `u` that are mapped to a unit direction `w`; any in [0, 1)^2 where it misses the light.
-EtendueStatus etendue_line_by_projected_solid_angle_invert(const EtendueLineByProjectedSolidAngle *sampler,
-                                                           const float *w,
-                                                           float *u);
-
-// The nearest point of the light in a unit direction `w`, with the pdf of that direction; pdf 0 where it misses the light.
-EtendueStatus etendue_line_by_projected_solid_angle_hit(const EtendueLineByProjectedSolidAngle *sampler,
-                                                        const float *w,
-                                                        EtendueLightSample *out);
-
-// Draws a direction for each u: two columns.
-EtendueStatus etendue_line_by_projected_solid_angle_sample_batch(const EtendueLineByProjectedSolidAngle *sampler,
-                                                                 size_t n,
-                                                                 const float *const *u,
-                                                                 const EtendueSampleColumns *out);
-
-// The pdf of each unit direction: three columns.
-EtendueStatus etendue_line_by_projected_solid_angle_pdf_batch(const EtendueLineByProjectedSolidAngle *sampler,
-                                                              size_t n,
-                                                              const float *const *w,
-                                                              float *out);
-
-// The random numbers of each unit direction: three columns in, two out.
-EtendueStatus etendue_line_by_projected_solid_angle_invert_batch(const EtendueLineByProjectedSolidAngle *sampler,
-                                                                 size_t n,
-                                                                 const float *const *w,
-                                                                 float *const *u);
-
-// The nearest point of the light in each unit direction: three columns.
-EtendueStatus etendue_line_by_projected_solid_angle_hit_batch(const EtendueLineByProjectedSolidAngle *sampler,
-                                                              size_t n,
-                                                              const float *const *w,
-                                                              const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_line_by_projected_solid_angle_sample_once(const EtendueLine *light,
-                                                                const float *p,
-                                                                const float *n,
-                                                                const float *u,
-                                                                EtendueLightSample *out);
-
-// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
-// and if a pointer is NULL. What the pdf does not need is not prepared.
-float etendue_line_by_projected_solid_angle_pdf_once(const EtendueLine *light,
-                                                     const float *p,
-                                                     const float *n,
-                                                     const float *w);
-
-// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
-// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
-float etendue_line_by_projected_solid_angle_pdf_of_hit_once(const EtendueLine *light,
-                                                            const float *p,
-                                                            const float *n,
-                                                            const float *w);
-
-// Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
-EtendueStatus etendue_line_by_projected_solid_angle_sample_each(const EtendueLineColumns *lights,
-                                                                size_t n,
-                                                                const float *const *p,
-                                                                const float *const *normals,
-                                                                const float *const *u,
-                                                                const EtendueSampleColumns *out);
-
-// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_line_by_projected_solid_angle_pdf_each(const EtendueLineColumns *lights,
-                                                             size_t n,
-                                                             const float *const *p,
-                                                             const float *const *normals,
-                                                             const float *const *w,
-                                                             float *out);
-
-// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_line_by_projected_solid_angle_invert_each(const EtendueLineColumns *lights,
-                                                                size_t n,
-                                                                const float *const *p,
-                                                                const float *const *normals,
-                                                                const float *const *w,
-                                                                float *const *u);
-
-// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
-EtendueStatus etendue_line_by_projected_solid_angle_hit_each(const EtendueLineColumns *lights,
-                                                             size_t n,
-                                                             const float *const *p,
-                                                             const float *const *normals,
-                                                             const float *const *w,
-                                                             const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point.
-EtendueStatus etendue_sun_by_solid_angle_prepare(const EtendueSun *light, const float *p, EtendueSunBySolidAngle *out);
-
-// Draws a direction for u.
-EtendueStatus etendue_sun_by_solid_angle_sample(const EtendueSunBySolidAngle *sampler,
-                                                const float *u,
-                                                EtendueLightSample *out);
-
-// The pdf with which a unit direction `w` is drawn; 0 where it misses the light, and if a pointer is NULL.
-float etendue_sun_by_solid_angle_pdf(const EtendueSunBySolidAngle *sampler, const float *w);
-
-// The random numbers `u` that are mapped to a unit direction `w`; any in [0, 1)^2 where it misses the light.
-EtendueStatus etendue_sun_by_solid_angle_invert(const EtendueSunBySolidAngle *sampler, const float *w, float *u);
-
-// The nearest point of the light in a unit direction `w`, with the pdf of that direction; pdf 0 where it misses the light.
-EtendueStatus etendue_sun_by_solid_angle_hit(const EtendueSunBySolidAngle *sampler,
-                                             const float *w,
-                                             EtendueLightSample *out);
-
-// Draws a direction for each u: two columns.
-EtendueStatus etendue_sun_by_solid_angle_sample_batch(const EtendueSunBySolidAngle *sampler,
-                                                      size_t n,
-                                                      const float *const *u,
-                                                      const EtendueSampleColumns *out);
-
-// The pdf of each unit direction: three columns.
-EtendueStatus etendue_sun_by_solid_angle_pdf_batch(const EtendueSunBySolidAngle *sampler,
-                                                   size_t n,
-                                                   const float *const *w,
-                                                   float *out);
-
-// The random numbers of each unit direction: three columns in, two out.
-EtendueStatus etendue_sun_by_solid_angle_invert_batch(const EtendueSunBySolidAngle *sampler,
-                                                      size_t n,
-                                                      const float *const *w,
-                                                      float *const *u);
-
-// The nearest point of the light in each unit direction: three columns.
-EtendueStatus etendue_sun_by_solid_angle_hit_batch(const EtendueSunBySolidAngle *sampler,
-                                                   size_t n,
-                                                   const float *const *w,
-                                                   const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_sun_by_solid_angle_sample_once(const EtendueSun *light,
-                                                     const float *p,
-                                                     const float *u,
-                                                     EtendueLightSample *out);
-
-// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
-// and if a pointer is NULL. What the pdf does not need is not prepared.
-float etendue_sun_by_solid_angle_pdf_once(const EtendueSun *light,
-                                          const float *p,
-                                          const float *w);
-
-// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
-// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
-float etendue_sun_by_solid_angle_pdf_of_hit_once(const EtendueSun *light,
-                                                 const float *p,
-                                                 const float *w);
-
-// Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
-EtendueStatus etendue_sun_by_solid_angle_sample_each(const EtendueSunColumns *lights,
-                                                     size_t n,
-                                                     const float *const *p,
-                                                     const float *const *u,
-                                                     const EtendueSampleColumns *out);
-
-// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_sun_by_solid_angle_pdf_each(const EtendueSunColumns *lights,
-                                                  size_t n,
-                                                  const float *const *p,
-                                                  const float *const *w,
-                                                  float *out);
-
-// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_sun_by_solid_angle_invert_each(const EtendueSunColumns *lights,
-                                                     size_t n,
-                                                     const float *const *p,
-                                                     const float *const *w,
-                                                     float *const *u);
-
-// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
-EtendueStatus etendue_sun_by_solid_angle_hit_each(const EtendueSunColumns *lights,
-                                                  size_t n,
-                                                  const float *const *p,
-                                                  const float *const *w,
-                                                  const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point.
-EtendueStatus etendue_point_light_by_delta_prepare(const EtenduePointLight *light,
-                                                   const float *p,
-                                                   EtenduePointLightByDelta *out);
-
-// Draws a direction for u.
-EtendueStatus etendue_point_light_by_delta_sample(const EtenduePointLightByDelta *sampler,
-                                                  const float *u,
-                                                  EtendueLightSample *out);
-
-// The pdf with which a unit direction `w` is drawn; 0 where it misses the light, and if a pointer is NULL.
-float etendue_point_light_by_delta_pdf(const EtenduePointLightByDelta *sampler, const float *w);
-
-// The random numbers `u` that are mapped to a unit direction `w`; any in [0, 1)^2 where it misses the light.
-EtendueStatus etendue_point_light_by_delta_invert(const EtenduePointLightByDelta *sampler, const float *w, float *u);
-
-// The nearest point of the light in a unit direction `w`, with the pdf of that direction; pdf 0 where it misses the light.
-EtendueStatus etendue_point_light_by_delta_hit(const EtenduePointLightByDelta *sampler,
-                                               const float *w,
-                                               EtendueLightSample *out);
-
-// Draws a direction for each u: two columns.
-EtendueStatus etendue_point_light_by_delta_sample_batch(const EtenduePointLightByDelta *sampler,
-                                                        size_t n,
-                                                        const float *const *u,
-                                                        const EtendueSampleColumns *out);
-
-// The pdf of each unit direction: three columns.
-EtendueStatus etendue_point_light_by_delta_pdf_batch(const EtenduePointLightByDelta *sampler,
-                                                     size_t n,
-                                                     const float *const *w,
-                                                     float *out);
-
-// The random numbers of each unit direction: three columns in, two out.
-EtendueStatus etendue_point_light_by_delta_invert_batch(const EtenduePointLightByDelta *sampler,
-                                                        size_t n,
-                                                        const float *const *w,
-                                                        float *const *u);
-
-// The nearest point of the light in each unit direction: three columns.
-EtendueStatus etendue_point_light_by_delta_hit_batch(const EtenduePointLightByDelta *sampler,
-                                                     size_t n,
-                                                     const float *const *w,
-                                                     const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_point_light_by_delta_sample_once(const EtenduePointLight *light,
-                                                       const float *p,
-                                                       const float *u,
-                                                       EtendueLightSample *out);
-
-// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
-// and if a pointer is NULL. What the pdf does not need is not prepared.
-float etendue_point_light_by_delta_pdf_once(const EtenduePointLight *light,
-                                            const float *p,
-                                            const float *w);
-
-// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
-// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
-float etendue_point_light_by_delta_pdf_of_hit_once(const EtenduePointLight *light,
-                                                   const float *p,
-                                                   const float *w);
-
-// Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
-EtendueStatus etendue_point_light_by_delta_sample_each(const EtenduePointLightColumns *lights,
-                                                       size_t n,
-                                                       const float *const *p,
-                                                       const float *const *u,
-                                                       const EtendueSampleColumns *out);
-
-// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_point_light_by_delta_pdf_each(const EtenduePointLightColumns *lights,
-                                                    size_t n,
-                                                    const float *const *p,
-                                                    const float *const *w,
-                                                    float *out);
-
-// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_point_light_by_delta_invert_each(const EtenduePointLightColumns *lights,
-                                                       size_t n,
-                                                       const float *const *p,
-                                                       const float *const *w,
-                                                       float *const *u);
-
-// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
-EtendueStatus etendue_point_light_by_delta_hit_each(const EtenduePointLightColumns *lights,
-                                                    size_t n,
-                                                    const float *const *p,
-                                                    const float *const *w,
-                                                    const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point.
-EtendueStatus etendue_spot_light_by_delta_prepare(const EtendueSpotLight *light,
-                                                  const float *p,
-                                                  EtendueSpotLightByDelta *out);
-
-// Draws a direction for u.
-EtendueStatus etendue_spot_light_by_delta_sample(const EtendueSpotLightByDelta *sampler,
-                                                 const float *u,
-                                                 EtendueLightSample *out);
-
-// The pdf with which a unit direction `w` is drawn; 0 where it misses the light, and if a pointer is NULL.
-float etendue_spot_light_by_delta_pdf(const EtendueSpotLightByDelta *sampler, const float *w);
-
-// The random numbers `u` that are mapped to a unit direction `w`; any in [0, 1)^2 where it misses the light.
-EtendueStatus etendue_spot_light_by_delta_invert(const EtendueSpotLightByDelta *sampler, const float *w, float *u);
-
-// The nearest point of the light in a unit direction `w`, with the pdf of that direction; pdf 0 where it misses the light.
-EtendueStatus etendue_spot_light_by_delta_hit(const EtendueSpotLightByDelta *sampler,
-                                              const float *w,
-                                              EtendueLightSample *out);
-
-// Draws a direction for each u: two columns.
-EtendueStatus etendue_spot_light_by_delta_sample_batch(const EtendueSpotLightByDelta *sampler,
-                                                       size_t n,
-                                                       const float *const *u,
-                                                       const EtendueSampleColumns *out);
-
-// The pdf of each unit direction: three columns.
-EtendueStatus etendue_spot_light_by_delta_pdf_batch(const EtendueSpotLightByDelta *sampler,
-                                                    size_t n,
-                                                    const float *const *w,
-                                                    float *out);
-
-// The random numbers of each unit direction: three columns in, two out.
-EtendueStatus etendue_spot_light_by_delta_invert_batch(const EtendueSpotLightByDelta *sampler,
-                                                       size_t n,
-                                                       const float *const *w,
-                                                       float *const *u);
-
-// The nearest point of the light in each unit direction: three columns.
-EtendueStatus etendue_spot_light_by_delta_hit_batch(const EtendueSpotLightByDelta *sampler,
-                                                    size_t n,
-                                                    const float *const *w,
-                                                    const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_spot_light_by_delta_sample_once(const EtendueSpotLight *light,
-                                                      const float *p,
-                                                      const float *u,
-                                                      EtendueLightSample *out);
-
-// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
-// and if a pointer is NULL. What the pdf does not need is not prepared.
-float etendue_spot_light_by_delta_pdf_once(const EtendueSpotLight *light,
-                                           const float *p,
-                                           const float *w);
-
-// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
-// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
-float etendue_spot_light_by_delta_pdf_of_hit_once(const EtendueSpotLight *light,
-                                                  const float *p,
-                                                  const float *w);
-
-// Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
-EtendueStatus etendue_spot_light_by_delta_sample_each(const EtendueSpotLightColumns *lights,
-                                                      size_t n,
-                                                      const float *const *p,
-                                                      const float *const *u,
-                                                      const EtendueSampleColumns *out);
-
-// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_spot_light_by_delta_pdf_each(const EtendueSpotLightColumns *lights,
-                                                   size_t n,
-                                                   const float *const *p,
-                                                   const float *const *w,
-                                                   float *out);
-
-// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_spot_light_by_delta_invert_each(const EtendueSpotLightColumns *lights,
-                                                      size_t n,
-                                                      const float *const *p,
-                                                      const float *const *w,
-                                                      float *const *u);
-
-// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
-EtendueStatus etendue_spot_light_by_delta_hit_each(const EtendueSpotLightColumns *lights,
-                                                   size_t n,
-                                                   const float *const *p,
-                                                   const float *const *w,
-                                                   const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point.
-EtendueStatus etendue_directional_light_by_delta_prepare(const EtendueDirectionalLight *light,
-                                                         const float *p,
-                                                         EtendueDirectionalLightByDelta *out);
-
-// Draws a direction for u.
-EtendueStatus etendue_directional_light_by_delta_sample(const EtendueDirectionalLightByDelta *sampler,
-                                                        const float *u,
-                                                        EtendueLightSample *out);
-
-// The pdf with which a unit direction `w` is drawn; 0 where it misses the light, and if a pointer is NULL.
-float etendue_directional_light_by_delta_pdf(const EtendueDirectionalLightByDelta *sampler, const float *w);
-
-// The random numbers `u` that are mapped to a unit direction `w`; any in [0, 1)^2 where it misses the light.
-EtendueStatus etendue_directional_light_by_delta_invert(const EtendueDirectionalLightByDelta *sampler,
-                                                        const float *w,
-                                                        float *u);
-
-// The nearest point of the light in a unit direction `w`, with the pdf of that direction; pdf 0 where it misses the light.
-EtendueStatus etendue_directional_light_by_delta_hit(const EtendueDirectionalLightByDelta *sampler,
-                                                     const float *w,
-                                                     EtendueLightSample *out);
-
-// Draws a direction for each u: two columns.
-EtendueStatus etendue_directional_light_by_delta_sample_batch(const EtendueDirectionalLightByDelta *sampler,
-                                                              size_t n,
-                                                              const float *const *u,
-                                                              const EtendueSampleColumns *out);
-
-// The pdf of each unit direction: three columns.
-EtendueStatus etendue_directional_light_by_delta_pdf_batch(const EtendueDirectionalLightByDelta *sampler,
-                                                           size_t n,
-                                                           const float *const *w,
-                                                           float *out);
-
-// The random numbers of each unit direction: three columns in, two out.
-EtendueStatus etendue_directional_light_by_delta_invert_batch(const EtendueDirectionalLightByDelta *sampler,
-                                                              size_t n,
-                                                              const float *const *w,
-                                                              float *const *u);
-
-// The nearest point of the light in each unit direction: three columns.
-EtendueStatus etendue_directional_light_by_delta_hit_batch(const EtendueDirectionalLightByDelta *sampler,
-                                                           size_t n,
-                                                           const float *const *w,
-                                                           const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_directional_light_by_delta_sample_once(const EtendueDirectionalLight *light,
-                                                             const float *p,
-                                                             const float *u,
-                                                             EtendueLightSample *out);
-
-// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
-// and if a pointer is NULL. What the pdf does not need is not prepared.
-float etendue_directional_light_by_delta_pdf_once(const EtendueDirectionalLight *light,
-                                                  const float *p,
-                                                  const float *w);
-
-// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
-// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
-float etendue_directional_light_by_delta_pdf_of_hit_once(const EtendueDirectionalLight *light,
-                                                         const float *p,
-                                                         const float *w);
-
-// Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
-EtendueStatus etendue_directional_light_by_delta_sample_each(const EtendueDirectionalLightColumns *lights,
-                                                             size_t n,
-                                                             const float *const *p,
-                                                             const float *const *u,
-                                                             const EtendueSampleColumns *out);
-
-// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_directional_light_by_delta_pdf_each(const EtendueDirectionalLightColumns *lights,
-                                                          size_t n,
-                                                          const float *const *p,
-                                                          const float *const *w,
-                                                          float *out);
-
-// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_directional_light_by_delta_invert_each(const EtendueDirectionalLightColumns *lights,
-                                                             size_t n,
-                                                             const float *const *p,
-                                                             const float *const *w,
-                                                             float *const *u);
-
-// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
-EtendueStatus etendue_directional_light_by_delta_hit_each(const EtendueDirectionalLightColumns *lights,
-                                                          size_t n,
-                                                          const float *const *p,
-                                                          const float *const *w,
-                                                          const EtendueSampleColumns *out);
-
-// Prepares the reflection of a surface of this roughness alpha, taken to be from 3e-4 to 1, with the unit normal n, towards the viewer in the
-// unit direction view. A view below the horizon counts as one on the horizon, and has albedo 0.
-EtendueStatus etendue_reflection_prepare(float alpha,
-                                         const float *n,
-                                         const float *view,
-                                         EtendueReflection *out);
-
-// Prepares a reflection for each roughness, unit normal and unit direction to the viewer: all in columns. Lights are prepared for all columns of
-// `out`, of which any may be NULL here.
-EtendueStatus etendue_reflection_prepare_batch(size_t n,
-                                               const float *alphas,
-                                               const float *const *normals,
-                                               const float *const *views,
-                                               const EtendueReflectionColumns *out);
-
-// The projected solid angle after the map, in [0, pi], of the part above the horizon of a sphere with this centre relative to the point: about
-// pi times the part of the lobe that the sphere covers. 0 for a radius <= 0 and if a pointer is NULL, and pi from inside.
-float etendue_reflection_sphere(const EtendueReflection *reflection,
-                                const float *center,
-                                float radius);
-
-// The projected solid angle after the map of each sphere, with centres in three columns, relative to the point, and radii in one.
-EtendueStatus etendue_reflection_sphere_batch(const EtendueReflection *reflection,
-                                              size_t n,
-                                              const float *const *centers,
-                                              const float *radii,
-                                              float *out);
-
-// Independent random numbers: a counter, hashed.
-//
-// Writes the pairs, in [0, 1)^2, to two columns.
-EtendueStatus etendue_independent_pairs(uint64_t seed, const EtendueCounters *counters, size_t n, float *const *u);
-
-// Owen-scrambled Sobol pairs, each dimension on its own: the choice where the count is a power of two.
-//
-// Writes the pairs, in [0, 1)^2, to two columns.
-EtendueStatus etendue_owen_sobol_pairs(uint64_t seed, const EtendueCounters *counters, size_t n, float *const *u);
-
-// Owen-scrambled Sobol pairs whose dimensions are stratified together.
-//
-// Writes the pairs, in [0, 1)^2, to two columns.
-EtendueStatus etendue_joint_sobol_pairs(uint64_t seed, const EtendueCounters *counters, size_t n, float *const *u);
-
-// Stratified pairs, of `count` samples a pixel.
-//
-// Writes the pairs, in [0, 1)^2, to two columns.
-EtendueStatus etendue_stratified_pairs(uint64_t seed,
-                                       uint32_t count,
-                                       const EtendueCounters *counters,
-                                       size_t n,
-                                       float *const *u);
-
-// Number of nodes that a tree of `light_count` lights needs.
-size_t etendue_light_tree_nodes(size_t light_count);
-
-// Builds a tree.
-//
-// `nodes` has etendue_light_tree_nodes elements, `places` has `light_count`; both must live as long as `tree` is used. A light whose
-// power is not positive and finite is never chosen. Returns ETENDUE_STATUS_COUNT for more than 2^27 lights,
-// and ETENDUE_STATUS_VALUE if a `two_sided` is neither 0 nor 1.
-EtendueStatus etendue_light_tree_build(const EtendueLightBound *lights,
-                                       size_t light_count,
-                                       EtendueLightTreeNode *nodes,
-                                       uint32_t *places,
-                                       EtendueLightTree *tree);
-
-// Chooses a light for each shading point, in columns. `n` are the unit normals there, `u` one column of random numbers in [0, 1).
-EtendueStatus etendue_light_tree_choose_batch(const EtendueLightTree *tree,
-                                              size_t n,
-                                              const float *const *p,
-                                              const float *const *normals,
-                                              const float *u,
-                                              const EtendueChoiceColumns *out);
-
-// The probability with which each of `lights` is chosen for each shading point, in columns: for multiple importance sampling.
-EtendueStatus etendue_light_tree_pmf_batch(const EtendueLightTree *tree,
-                                           size_t n,
-                                           const float *const *p,
-                                           const float *const *normals,
-                                           const uint32_t *lights,
-                                           float *out);
 
 // Number of floats in the table of an image; 0 for one without columns or rows, or with more than 2^24 of them.
 size_t etendue_image_environment_table(size_t width, size_t height);
@@ -3705,46 +925,6 @@ EtendueStatus etendue_image_environment_build(const float *weights,
                                               uint32_t map,
                                               float *table,
                                               EtendueImageEnvironment *environment);
-
-// Draws a direction for u.
-EtendueStatus etendue_image_environment_sample(const EtendueImageEnvironment *sampler,
-                                               const float *u,
-                                               EtendueLightSample *out);
-
-// The pdf with which a unit direction `w` is drawn; 0 where it misses the light, and if a pointer is NULL.
-float etendue_image_environment_pdf(const EtendueImageEnvironment *sampler, const float *w);
-
-// The random numbers `u` that are mapped to a unit direction `w`; any in [0, 1)^2 where it misses the light.
-EtendueStatus etendue_image_environment_invert(const EtendueImageEnvironment *sampler, const float *w, float *u);
-
-// The nearest point of the light in a unit direction `w`, with the pdf of that direction; pdf 0 where it misses the light.
-EtendueStatus etendue_image_environment_hit(const EtendueImageEnvironment *sampler,
-                                            const float *w,
-                                            EtendueLightSample *out);
-
-// Draws a direction for each u: two columns.
-EtendueStatus etendue_image_environment_sample_batch(const EtendueImageEnvironment *sampler,
-                                                     size_t n,
-                                                     const float *const *u,
-                                                     const EtendueSampleColumns *out);
-
-// The pdf of each unit direction: three columns.
-EtendueStatus etendue_image_environment_pdf_batch(const EtendueImageEnvironment *sampler,
-                                                  size_t n,
-                                                  const float *const *w,
-                                                  float *out);
-
-// The random numbers of each unit direction: three columns in, two out.
-EtendueStatus etendue_image_environment_invert_batch(const EtendueImageEnvironment *sampler,
-                                                     size_t n,
-                                                     const float *const *w,
-                                                     float *const *u);
-
-// The nearest point of the light in each unit direction: three columns.
-EtendueStatus etendue_image_environment_hit_batch(const EtendueImageEnvironment *sampler,
-                                                  size_t n,
-                                                  const float *const *w,
-                                                  const EtendueSampleColumns *out);
 
 // Number of floats in the table of a picture; 0 for a single texel, and for a picture without columns or rows, with more than 2^24 of them,
 // or with 2^31 texels or more.
@@ -3799,477 +979,6 @@ EtendueStatus etendue_triangle_coordinates(const EtendueTriangle *light, Etendue
 // The square around a disk, for pictures of the region ETENDUE_PICTURE_REGION_DISK. A radius < 0 counts as 0.
 EtendueStatus etendue_disk_coordinates(const EtendueDisk *light, EtendueParallelogram *out);
 
-// Prepares the light for a shading point.
-EtendueStatus etendue_picture_by_area_prepare(const EtenduePicturedParallelogram *light,
-                                              const float *p,
-                                              EtenduePictureByArea *out);
-
-// Draws a direction for u.
-EtendueStatus etendue_picture_by_area_sample(const EtenduePictureByArea *sampler,
-                                             const float *u,
-                                             EtendueLightSample *out);
-
-// The pdf with which a unit direction `w` is drawn; 0 where it misses the light, and if a pointer is NULL.
-float etendue_picture_by_area_pdf(const EtenduePictureByArea *sampler, const float *w);
-
-// The random numbers `u` that are mapped to a unit direction `w`; any in [0, 1)^2 where it misses the light.
-EtendueStatus etendue_picture_by_area_invert(const EtenduePictureByArea *sampler, const float *w, float *u);
-
-// The nearest point of the light in a unit direction `w`, with the pdf of that direction; pdf 0 where it misses the light.
-EtendueStatus etendue_picture_by_area_hit(const EtenduePictureByArea *sampler,
-                                          const float *w,
-                                          EtendueLightSample *out);
-
-// Draws a direction for each u: two columns.
-EtendueStatus etendue_picture_by_area_sample_batch(const EtenduePictureByArea *sampler,
-                                                   size_t n,
-                                                   const float *const *u,
-                                                   const EtendueSampleColumns *out);
-
-// The pdf of each unit direction: three columns.
-EtendueStatus etendue_picture_by_area_pdf_batch(const EtenduePictureByArea *sampler,
-                                                size_t n,
-                                                const float *const *w,
-                                                float *out);
-
-// The random numbers of each unit direction: three columns in, two out.
-EtendueStatus etendue_picture_by_area_invert_batch(const EtenduePictureByArea *sampler,
-                                                   size_t n,
-                                                   const float *const *w,
-                                                   float *const *u);
-
-// The nearest point of the light in each unit direction: three columns.
-EtendueStatus etendue_picture_by_area_hit_batch(const EtenduePictureByArea *sampler,
-                                                size_t n,
-                                                const float *const *w,
-                                                const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_picture_by_area_sample_once(const EtenduePicturedParallelogram *light,
-                                                  const float *p,
-                                                  const float *u,
-                                                  EtendueLightSample *out);
-
-// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
-// and if a pointer is NULL. What the pdf does not need is not prepared.
-float etendue_picture_by_area_pdf_once(const EtenduePicturedParallelogram *light,
-                                       const float *p,
-                                       const float *w);
-
-// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
-// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
-float etendue_picture_by_area_pdf_of_hit_once(const EtenduePicturedParallelogram *light,
-                                              const float *p,
-                                              const float *w);
-
-// Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
-EtendueStatus etendue_picture_by_area_sample_each(const EtenduePicturedParallelogramColumns *lights,
-                                                  size_t n,
-                                                  const float *const *p,
-                                                  const float *const *u,
-                                                  const EtendueSampleColumns *out);
-
-// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_picture_by_area_pdf_each(const EtenduePicturedParallelogramColumns *lights,
-                                               size_t n,
-                                               const float *const *p,
-                                               const float *const *w,
-                                               float *out);
-
-// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_picture_by_area_invert_each(const EtenduePicturedParallelogramColumns *lights,
-                                                  size_t n,
-                                                  const float *const *p,
-                                                  const float *const *w,
-                                                  float *const *u);
-
-// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
-EtendueStatus etendue_picture_by_area_hit_each(const EtenduePicturedParallelogramColumns *lights,
-                                               size_t n,
-                                               const float *const *p,
-                                               const float *const *w,
-                                               const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point.
-EtendueStatus etendue_picture_by_solid_angle_prepare(const EtenduePicturedParallelogram *light,
-                                                     const float *p,
-                                                     EtenduePictureBySolidAngle *out);
-
-// Draws a direction for u.
-EtendueStatus etendue_picture_by_solid_angle_sample(const EtenduePictureBySolidAngle *sampler,
-                                                    const float *u,
-                                                    EtendueLightSample *out);
-
-// The pdf with which a unit direction `w` is drawn; 0 where it misses the light, and if a pointer is NULL.
-float etendue_picture_by_solid_angle_pdf(const EtenduePictureBySolidAngle *sampler, const float *w);
-
-// The random numbers `u` that are mapped to a unit direction `w`; any in [0, 1)^2 where it misses the light.
-EtendueStatus etendue_picture_by_solid_angle_invert(const EtenduePictureBySolidAngle *sampler,
-                                                    const float *w,
-                                                    float *u);
-
-// The nearest point of the light in a unit direction `w`, with the pdf of that direction; pdf 0 where it misses the light.
-EtendueStatus etendue_picture_by_solid_angle_hit(const EtenduePictureBySolidAngle *sampler,
-                                                 const float *w,
-                                                 EtendueLightSample *out);
-
-// Draws a direction for each u: two columns.
-EtendueStatus etendue_picture_by_solid_angle_sample_batch(const EtenduePictureBySolidAngle *sampler,
-                                                          size_t n,
-                                                          const float *const *u,
-                                                          const EtendueSampleColumns *out);
-
-// The pdf of each unit direction: three columns.
-EtendueStatus etendue_picture_by_solid_angle_pdf_batch(const EtenduePictureBySolidAngle *sampler,
-                                                       size_t n,
-                                                       const float *const *w,
-                                                       float *out);
-
-// The random numbers of each unit direction: three columns in, two out.
-EtendueStatus etendue_picture_by_solid_angle_invert_batch(const EtenduePictureBySolidAngle *sampler,
-                                                          size_t n,
-                                                          const float *const *w,
-                                                          float *const *u);
-
-// The nearest point of the light in each unit direction: three columns.
-EtendueStatus etendue_picture_by_solid_angle_hit_batch(const EtenduePictureBySolidAngle *sampler,
-                                                       size_t n,
-                                                       const float *const *w,
-                                                       const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_picture_by_solid_angle_sample_once(const EtenduePicturedParallelogram *light,
-                                                         const float *p,
-                                                         const float *u,
-                                                         EtendueLightSample *out);
-
-// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
-// and if a pointer is NULL. What the pdf does not need is not prepared.
-float etendue_picture_by_solid_angle_pdf_once(const EtenduePicturedParallelogram *light,
-                                              const float *p,
-                                              const float *w);
-
-// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
-// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
-float etendue_picture_by_solid_angle_pdf_of_hit_once(const EtenduePicturedParallelogram *light,
-                                                     const float *p,
-                                                     const float *w);
-
-// Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
-EtendueStatus etendue_picture_by_solid_angle_sample_each(const EtenduePicturedParallelogramColumns *lights,
-                                                         size_t n,
-                                                         const float *const *p,
-                                                         const float *const *u,
-                                                         const EtendueSampleColumns *out);
-
-// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_picture_by_solid_angle_pdf_each(const EtenduePicturedParallelogramColumns *lights,
-                                                      size_t n,
-                                                      const float *const *p,
-                                                      const float *const *w,
-                                                      float *out);
-
-// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_picture_by_solid_angle_invert_each(const EtenduePicturedParallelogramColumns *lights,
-                                                         size_t n,
-                                                         const float *const *p,
-                                                         const float *const *w,
-                                                         float *const *u);
-
-// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
-EtendueStatus etendue_picture_by_solid_angle_hit_each(const EtenduePicturedParallelogramColumns *lights,
-                                                      size_t n,
-                                                      const float *const *p,
-                                                      const float *const *w,
-                                                      const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point.
-EtendueStatus etendue_picture_by_projected_solid_angle_prepare(const EtenduePicturedParallelogram *light,
-                                                               const float *p,
-                                                               const float *n,
-                                                               EtenduePictureByProjectedSolidAngle *out);
-
-// Draws a direction for u.
-EtendueStatus etendue_picture_by_projected_solid_angle_sample(const EtenduePictureByProjectedSolidAngle *sampler,
-                                                              const float *u,
-                                                              EtendueLightSample *out);
-
-// The pdf with which a unit direction `w` is drawn; 0 where it misses the light, and if a pointer is NULL.
-float etendue_picture_by_projected_solid_angle_pdf(const EtenduePictureByProjectedSolidAngle *sampler, const float *w);
-
-// The random numbers `u` that are mapped to a unit direction `w`; any in [0, 1)^2 where it misses the light.
-EtendueStatus etendue_picture_by_projected_solid_angle_invert(const EtenduePictureByProjectedSolidAngle *sampler,
-                                                              const float *w,
-                                                              float *u);
-
-// The nearest point of the light in a unit direction `w`, with the pdf of that direction; pdf 0 where it misses the light.
-EtendueStatus etendue_picture_by_projected_solid_angle_hit(const EtenduePictureByProjectedSolidAngle *sampler,
-                                                           const float *w,
-                                                           EtendueLightSample *out);
-
-// Draws a direction for each u: two columns.
-EtendueStatus etendue_picture_by_projected_solid_angle_sample_batch(const EtenduePictureByProjectedSolidAngle *sampler,
-                                                                    size_t n,
-                                                                    const float *const *u,
-                                                                    const EtendueSampleColumns *out);
-
-// The pdf of each unit direction: three columns.
-EtendueStatus etendue_picture_by_projected_solid_angle_pdf_batch(const EtenduePictureByProjectedSolidAngle *sampler,
-                                                                 size_t n,
-                                                                 const float *const *w,
-                                                                 float *out);
-
-// The random numbers of each unit direction: three columns in, two out.
-EtendueStatus etendue_picture_by_projected_solid_angle_invert_batch(const EtenduePictureByProjectedSolidAngle *sampler,
-                                                                    size_t n,
-                                                                    const float *const *w,
-                                                                    float *const *u);
-
-// The nearest point of the light in each unit direction: three columns.
-EtendueStatus etendue_picture_by_projected_solid_angle_hit_batch(const EtenduePictureByProjectedSolidAngle *sampler,
-                                                                 size_t n,
-                                                                 const float *const *w,
-                                                                 const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_picture_by_projected_solid_angle_sample_once(const EtenduePicturedParallelogram *light,
-                                                                   const float *p,
-                                                                   const float *n,
-                                                                   const float *u,
-                                                                   EtendueLightSample *out);
-
-// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
-// and if a pointer is NULL. What the pdf does not need is not prepared.
-float etendue_picture_by_projected_solid_angle_pdf_once(const EtenduePicturedParallelogram *light,
-                                                        const float *p,
-                                                        const float *n,
-                                                        const float *w);
-
-// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
-// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
-float etendue_picture_by_projected_solid_angle_pdf_of_hit_once(const EtenduePicturedParallelogram *light,
-                                                               const float *p,
-                                                               const float *n,
-                                                               const float *w);
-
-// Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
-EtendueStatus etendue_picture_by_projected_solid_angle_sample_each(const EtenduePicturedParallelogramColumns *lights,
-                                                                   size_t n,
-                                                                   const float *const *p,
-                                                                   const float *const *normals,
-                                                                   const float *const *u,
-                                                                   const EtendueSampleColumns *out);
-
-// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_picture_by_projected_solid_angle_pdf_each(const EtenduePicturedParallelogramColumns *lights,
-                                                                size_t n,
-                                                                const float *const *p,
-                                                                const float *const *normals,
-                                                                const float *const *w,
-                                                                float *out);
-
-// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_picture_by_projected_solid_angle_invert_each(const EtenduePicturedParallelogramColumns *lights,
-                                                                   size_t n,
-                                                                   const float *const *p,
-                                                                   const float *const *normals,
-                                                                   const float *const *w,
-                                                                   float *const *u);
-
-// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
-EtendueStatus etendue_picture_by_projected_solid_angle_hit_each(const EtenduePicturedParallelogramColumns *lights,
-                                                                size_t n,
-                                                                const float *const *p,
-                                                                const float *const *normals,
-                                                                const float *const *w,
-                                                                const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point.
-EtendueStatus etendue_picture_on_sphere_by_visible_area_prepare(const EtenduePicturedSphere *light,
-                                                                const float *p,
-                                                                EtenduePictureOnSphereByVisibleArea *out);
-
-// Draws a direction for u.
-EtendueStatus etendue_picture_on_sphere_by_visible_area_sample(const EtenduePictureOnSphereByVisibleArea *sampler,
-                                                               const float *u,
-                                                               EtendueLightSample *out);
-
-// The pdf with which a unit direction `w` is drawn; 0 where it misses the light, and if a pointer is NULL.
-float etendue_picture_on_sphere_by_visible_area_pdf(const EtenduePictureOnSphereByVisibleArea *sampler, const float *w);
-
-// The random numbers `u` that are mapped to a unit direction `w`; any in [0, 1)^2 where it misses the light.
-EtendueStatus etendue_picture_on_sphere_by_visible_area_invert(const EtenduePictureOnSphereByVisibleArea *sampler,
-                                                               const float *w,
-                                                               float *u);
-
-// The nearest point of the light in a unit direction `w`, with the pdf of that direction; pdf 0 where it misses the light.
-EtendueStatus etendue_picture_on_sphere_by_visible_area_hit(const EtenduePictureOnSphereByVisibleArea *sampler,
-                                                            const float *w,
-                                                            EtendueLightSample *out);
-
-// Draws a direction for each u: two columns.
-EtendueStatus etendue_picture_on_sphere_by_visible_area_sample_batch(const EtenduePictureOnSphereByVisibleArea *sampler,
-                                                                     size_t n,
-                                                                     const float *const *u,
-                                                                     const EtendueSampleColumns *out);
-
-// The pdf of each unit direction: three columns.
-EtendueStatus etendue_picture_on_sphere_by_visible_area_pdf_batch(const EtenduePictureOnSphereByVisibleArea *sampler,
-                                                                  size_t n,
-                                                                  const float *const *w,
-                                                                  float *out);
-
-// The random numbers of each unit direction: three columns in, two out.
-EtendueStatus etendue_picture_on_sphere_by_visible_area_invert_batch(const EtenduePictureOnSphereByVisibleArea *sampler,
-                                                                     size_t n,
-                                                                     const float *const *w,
-                                                                     float *const *u);
-
-// The nearest point of the light in each unit direction: three columns.
-EtendueStatus etendue_picture_on_sphere_by_visible_area_hit_batch(const EtenduePictureOnSphereByVisibleArea *sampler,
-                                                                  size_t n,
-                                                                  const float *const *w,
-                                                                  const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_picture_on_sphere_by_visible_area_sample_once(const EtenduePicturedSphere *light,
-                                                                    const float *p,
-                                                                    const float *u,
-                                                                    EtendueLightSample *out);
-
-// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
-// and if a pointer is NULL. What the pdf does not need is not prepared.
-float etendue_picture_on_sphere_by_visible_area_pdf_once(const EtenduePicturedSphere *light,
-                                                         const float *p,
-                                                         const float *w);
-
-// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
-// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
-float etendue_picture_on_sphere_by_visible_area_pdf_of_hit_once(const EtenduePicturedSphere *light,
-                                                                const float *p,
-                                                                const float *w);
-
-// Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
-EtendueStatus etendue_picture_on_sphere_by_visible_area_sample_each(const EtenduePicturedSphereColumns *lights,
-                                                                    size_t n,
-                                                                    const float *const *p,
-                                                                    const float *const *u,
-                                                                    const EtendueSampleColumns *out);
-
-// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_picture_on_sphere_by_visible_area_pdf_each(const EtenduePicturedSphereColumns *lights,
-                                                                 size_t n,
-                                                                 const float *const *p,
-                                                                 const float *const *w,
-                                                                 float *out);
-
-// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_picture_on_sphere_by_visible_area_invert_each(const EtenduePicturedSphereColumns *lights,
-                                                                    size_t n,
-                                                                    const float *const *p,
-                                                                    const float *const *w,
-                                                                    float *const *u);
-
-// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
-EtendueStatus etendue_picture_on_sphere_by_visible_area_hit_each(const EtenduePicturedSphereColumns *lights,
-                                                                 size_t n,
-                                                                 const float *const *p,
-                                                                 const float *const *w,
-                                                                 const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point.
-EtendueStatus etendue_picture_on_patch_by_visible_area_prepare(const EtenduePicturedPatch *light,
-                                                               const float *p,
-                                                               EtenduePictureOnPatchByVisibleArea *out);
-
-// Draws a direction for u.
-EtendueStatus etendue_picture_on_patch_by_visible_area_sample(const EtenduePictureOnPatchByVisibleArea *sampler,
-                                                              const float *u,
-                                                              EtendueLightSample *out);
-
-// The pdf with which a unit direction `w` is drawn; 0 where it misses the light, and if a pointer is NULL.
-float etendue_picture_on_patch_by_visible_area_pdf(const EtenduePictureOnPatchByVisibleArea *sampler, const float *w);
-
-// The random numbers `u` that are mapped to a unit direction `w`; any in [0, 1)^2 where it misses the light.
-EtendueStatus etendue_picture_on_patch_by_visible_area_invert(const EtenduePictureOnPatchByVisibleArea *sampler,
-                                                              const float *w,
-                                                              float *u);
-
-// The nearest point of the light in a unit direction `w`, with the pdf of that direction; pdf 0 where it misses the light.
-EtendueStatus etendue_picture_on_patch_by_visible_area_hit(const EtenduePictureOnPatchByVisibleArea *sampler,
-                                                           const float *w,
-                                                           EtendueLightSample *out);
-
-// Draws a direction for each u: two columns.
-EtendueStatus etendue_picture_on_patch_by_visible_area_sample_batch(const EtenduePictureOnPatchByVisibleArea *sampler,
-                                                                    size_t n,
-                                                                    const float *const *u,
-                                                                    const EtendueSampleColumns *out);
-
-// The pdf of each unit direction: three columns.
-EtendueStatus etendue_picture_on_patch_by_visible_area_pdf_batch(const EtenduePictureOnPatchByVisibleArea *sampler,
-                                                                 size_t n,
-                                                                 const float *const *w,
-                                                                 float *out);
-
-// The random numbers of each unit direction: three columns in, two out.
-EtendueStatus etendue_picture_on_patch_by_visible_area_invert_batch(const EtenduePictureOnPatchByVisibleArea *sampler,
-                                                                    size_t n,
-                                                                    const float *const *w,
-                                                                    float *const *u);
-
-// The nearest point of the light in each unit direction: three columns.
-EtendueStatus etendue_picture_on_patch_by_visible_area_hit_batch(const EtenduePictureOnPatchByVisibleArea *sampler,
-                                                                 size_t n,
-                                                                 const float *const *w,
-                                                                 const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_picture_on_patch_by_visible_area_sample_once(const EtenduePicturedPatch *light,
-                                                                   const float *p,
-                                                                   const float *u,
-                                                                   EtendueLightSample *out);
-
-// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
-// and if a pointer is NULL. What the pdf does not need is not prepared.
-float etendue_picture_on_patch_by_visible_area_pdf_once(const EtenduePicturedPatch *light,
-                                                        const float *p,
-                                                        const float *w);
-
-// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
-// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
-float etendue_picture_on_patch_by_visible_area_pdf_of_hit_once(const EtenduePicturedPatch *light,
-                                                               const float *p,
-                                                               const float *w);
-
-// Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
-EtendueStatus etendue_picture_on_patch_by_visible_area_sample_each(const EtenduePicturedPatchColumns *lights,
-                                                                   size_t n,
-                                                                   const float *const *p,
-                                                                   const float *const *u,
-                                                                   const EtendueSampleColumns *out);
-
-// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_picture_on_patch_by_visible_area_pdf_each(const EtenduePicturedPatchColumns *lights,
-                                                                size_t n,
-                                                                const float *const *p,
-                                                                const float *const *w,
-                                                                float *out);
-
-// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_picture_on_patch_by_visible_area_invert_each(const EtenduePicturedPatchColumns *lights,
-                                                                   size_t n,
-                                                                   const float *const *p,
-                                                                   const float *const *w,
-                                                                   float *const *u);
-
-// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
-EtendueStatus etendue_picture_on_patch_by_visible_area_hit_each(const EtenduePicturedPatchColumns *lights,
-                                                                size_t n,
-                                                                const float *const *p,
-                                                                const float *const *w,
-                                                                const EtendueSampleColumns *out);
-
 // Number of 64-bit words in the table of an image in the coordinates of a portal; 0 for one without columns or rows, or with more than 4096
 // of them.
 size_t etendue_portal_table(size_t width,
@@ -4311,96 +1020,57 @@ EtendueStatus etendue_portal_environment_sees_batch(const EtenduePortalEnvironme
                                                     const float *const *w,
                                                     uint8_t *out);
 
-// Prepares the light for a shading point.
-EtendueStatus etendue_portals_by_radiance_prepare(const EtenduePortalEnvironment *light,
-                                                  const float *p,
-                                                  EtenduePortalsByRadiance *out);
+// Prepares the reflection of a surface of this roughness alpha, taken to be from 3e-4 to 1, with the unit normal n, towards the viewer in the
+// unit direction view. A view below the horizon counts as one on the horizon, and has albedo 0.
+EtendueStatus etendue_reflection_prepare(float alpha,
+                                         const float *n,
+                                         const float *view,
+                                         EtendueReflection *out);
 
-// Draws a direction for u.
-EtendueStatus etendue_portals_by_radiance_sample(const EtenduePortalsByRadiance *sampler,
-                                                 const float *u,
-                                                 EtendueLightSample *out);
+// Prepares a reflection for each roughness, unit normal and unit direction to the viewer: all in columns. Lights are prepared for all columns of
+// `out`, of which any may be NULL here.
+EtendueStatus etendue_reflection_prepare_batch(size_t n,
+                                               const float *alphas,
+                                               const float *const *normals,
+                                               const float *const *views,
+                                               const EtendueReflectionColumns *out);
 
-// The pdf with which a unit direction `w` is drawn; 0 where it misses the light, and if a pointer is NULL.
-float etendue_portals_by_radiance_pdf(const EtenduePortalsByRadiance *sampler, const float *w);
+// The projected solid angle after the map, in [0, pi], of the part above the horizon of a sphere with this centre relative to the point: about
+// pi times the part of the lobe that the sphere covers. 0 for a radius <= 0 and if a pointer is NULL, and pi from inside.
+float etendue_reflection_sphere(const EtendueReflection *reflection,
+                                const float *center,
+                                float radius);
 
-// The random numbers `u` that are mapped to a unit direction `w`; any in [0, 1)^2 where it misses the light.
-EtendueStatus etendue_portals_by_radiance_invert(const EtenduePortalsByRadiance *sampler, const float *w, float *u);
+// The projected solid angle after the map of each sphere, with centres in three columns, relative to the point, and radii in one.
+EtendueStatus etendue_reflection_sphere_batch(const EtendueReflection *reflection,
+                                              size_t n,
+                                              const float *const *centers,
+                                              const float *radii,
+                                              float *out);
 
-// The nearest point of the light in a unit direction `w`, with the pdf of that direction; pdf 0 where it misses the light.
-EtendueStatus etendue_portals_by_radiance_hit(const EtenduePortalsByRadiance *sampler,
-                                              const float *w,
-                                              EtendueLightSample *out);
+// Independent random numbers: a counter, hashed.
+//
+// Writes the pairs, in [0, 1)^2, to two columns.
+EtendueStatus etendue_independent_pairs(uint64_t seed, const EtendueCounters *counters, size_t n, float *const *u);
 
-// Draws a direction for each u: two columns.
-EtendueStatus etendue_portals_by_radiance_sample_batch(const EtenduePortalsByRadiance *sampler,
-                                                       size_t n,
-                                                       const float *const *u,
-                                                       const EtendueSampleColumns *out);
+// Owen-scrambled Sobol pairs, each dimension on its own: the choice where the count is a power of two.
+//
+// Writes the pairs, in [0, 1)^2, to two columns.
+EtendueStatus etendue_owen_sobol_pairs(uint64_t seed, const EtendueCounters *counters, size_t n, float *const *u);
 
-// The pdf of each unit direction: three columns.
-EtendueStatus etendue_portals_by_radiance_pdf_batch(const EtenduePortalsByRadiance *sampler,
-                                                    size_t n,
-                                                    const float *const *w,
-                                                    float *out);
+// Owen-scrambled Sobol pairs whose dimensions are stratified together.
+//
+// Writes the pairs, in [0, 1)^2, to two columns.
+EtendueStatus etendue_joint_sobol_pairs(uint64_t seed, const EtendueCounters *counters, size_t n, float *const *u);
 
-// The random numbers of each unit direction: three columns in, two out.
-EtendueStatus etendue_portals_by_radiance_invert_batch(const EtenduePortalsByRadiance *sampler,
-                                                       size_t n,
-                                                       const float *const *w,
-                                                       float *const *u);
-
-// The nearest point of the light in each unit direction: three columns.
-EtendueStatus etendue_portals_by_radiance_hit_batch(const EtenduePortalsByRadiance *sampler,
-                                                    size_t n,
-                                                    const float *const *w,
-                                                    const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_portals_by_radiance_sample_once(const EtenduePortalEnvironment *light,
-                                                      const float *p,
-                                                      const float *u,
-                                                      EtendueLightSample *out);
-
-// Prepares the light for a shading point, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses the light,
-// and if a pointer is NULL. What the pdf does not need is not prepared.
-float etendue_portals_by_radiance_pdf_once(const EtenduePortalEnvironment *light,
-                                           const float *p,
-                                           const float *w);
-
-// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not
-// intersected again. Where `w` misses the light, the result is finite, and of no meaning.
-float etendue_portals_by_radiance_pdf_of_hit_once(const EtenduePortalEnvironment *light,
-                                                  const float *p,
-                                                  const float *w);
-
-// Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
-EtendueStatus etendue_portals_by_radiance_sample_each(const EtenduePortalEnvironment *lights,
-                                                      size_t n,
-                                                      const float *const *p,
-                                                      const float *const *u,
-                                                      const EtendueSampleColumns *out);
-
-// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_portals_by_radiance_pdf_each(const EtenduePortalEnvironment *lights,
-                                                   size_t n,
-                                                   const float *const *p,
-                                                   const float *const *w,
-                                                   float *out);
-
-// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_portals_by_radiance_invert_each(const EtenduePortalEnvironment *lights,
-                                                      size_t n,
-                                                      const float *const *p,
-                                                      const float *const *w,
-                                                      float *const *u);
-
-// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
-EtendueStatus etendue_portals_by_radiance_hit_each(const EtenduePortalEnvironment *lights,
-                                                   size_t n,
-                                                   const float *const *p,
-                                                   const float *const *w,
-                                                   const EtendueSampleColumns *out);
+// Stratified pairs, of `count` samples a pixel.
+//
+// Writes the pairs, in [0, 1)^2, to two columns.
+EtendueStatus etendue_stratified_pairs(uint64_t seed,
+                                       uint32_t count,
+                                       const EtendueCounters *counters,
+                                       size_t n,
+                                       float *const *u);
 
 // Prepares a spread with this full angle in radians, which is taken to be from 1e-3 to pi. Returns ETENDUE_STATUS_VALUE if it is NaN.
 EtendueStatus etendue_spread_prepare(double angle,
@@ -4426,26 +1096,149 @@ EtendueStatus etendue_parallelogram_visible_part(const EtendueParallelogram *lig
                                                  const EtendueSpread *spread,
                                                  EtendueParallelogram *out);
 
-// Prepares a parallelogram with this spread: uniform over the solid angle of the part that the point sees. Surface coordinates are those
-// of the whole light.
-EtendueStatus etendue_parallelogram_by_spread_prepare(const EtendueParallelogram *light,
-                                                      const float *p,
-                                                      const EtendueSpread *spread,
-                                                      EtendueParallelogramBySolidAngle *out);
+// Prepares a light for a shading point.
+//
+// `light` is the struct of the light of the technique. `with` is what it is prepared for beside the point: the unit normal there (three numbers)
+// by projected solid angle and by cosine warp, an EtendueReflection by reflection, an EtendueSpread by spread; else it may be NULL. `sampler` is
+// the struct of the technique. Returns ETENDUE_STATUS_VALUE for a technique that is none, or that this library was built without.
+EtendueStatus etendue_prepare(uint32_t technique,
+                              const void *light,
+                              const float *p,
+                              const void *with,
+                              void *sampler);
 
-// Prepares a rectangle with this spread: uniform over the solid angle of the part that the point sees. Surface coordinates are those of
-// the whole light.
-EtendueStatus etendue_rectangle_by_spread_prepare(const EtendueRectangle *light,
-                                                  const float *p,
-                                                  const EtendueSpread *spread,
-                                                  EtendueRectangleBySolidAngle *out);
+// Draws a direction from a prepared light, for u.
+EtendueStatus etendue_sample(uint32_t technique, const void *sampler, const float *u, EtendueLightSample *out);
 
-// Prepares a disk with this spread: uniform over the solid angle of what the point sees, if that is a disk within the light; else, of the
-// whole light. Surface coordinates are those of the whole light.
-EtendueStatus etendue_disk_by_spread_prepare(const EtendueDisk *light,
-                                             const float *p,
-                                             const EtendueSpread *spread,
-                                             EtendueDiskBySolidAngle *out);
+// The pdf with which a prepared light draws a unit direction `w`; 0 where it misses the light, and where the function cannot work.
+float etendue_pdf(uint32_t technique,
+                  const void *sampler,
+                  const float *w);
+
+// The random numbers `u` that a prepared light maps to a unit direction `w`; any in [0, 1)^2 where it misses the light.
+EtendueStatus etendue_invert(uint32_t technique, const void *sampler, const float *w, float *u);
+
+// The nearest point of a prepared light in a unit direction `w`, with the pdf of that direction; pdf 0 where it misses the light.
+EtendueStatus etendue_hit(uint32_t technique,
+                          const void *sampler,
+                          const float *w,
+                          EtendueLightSample *out);
+
+// Prepares a light for a shading point, as etendue_prepare does, and draws one direction. What the sample does not need is not prepared.
+EtendueStatus etendue_sample_once(uint32_t technique,
+                                  const void *light,
+                                  const float *p,
+                                  const void *with,
+                                  const float *u,
+                                  EtendueLightSample *out);
+
+// Prepares a light for a shading point, as etendue_prepare does, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses
+// the light, and where the function cannot work. What the pdf does not need is not prepared.
+float etendue_pdf_once(uint32_t technique,
+                       const void *light,
+                       const float *p,
+                       const void *with,
+                       const float *w);
+
+// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not intersected again.
+// Where `w` misses the light, the result is finite, and of no meaning.
+float etendue_pdf_of_hit_once(uint32_t technique,
+                              const void *light,
+                              const float *p,
+                              const void *with,
+                              const float *w);
+
+// Draws a direction from a prepared light for each u: two columns.
+EtendueStatus etendue_sample_batch(uint32_t technique,
+                                   const void *sampler,
+                                   size_t n,
+                                   const float *const *u,
+                                   const EtendueSampleColumns *out);
+
+// The pdf of each unit direction: three columns.
+EtendueStatus etendue_pdf_batch(uint32_t technique, const void *sampler, size_t n, const float *const *w, float *out);
+
+// The random numbers of each unit direction: three columns in, two out.
+EtendueStatus etendue_invert_batch(uint32_t technique,
+                                   const void *sampler,
+                                   size_t n,
+                                   const float *const *w,
+                                   float *const *u);
+
+// The nearest point of a prepared light in each unit direction: three columns.
+EtendueStatus etendue_hit_batch(uint32_t technique,
+                                const void *sampler,
+                                size_t n,
+                                const float *const *w,
+                                const EtendueSampleColumns *out);
+
+// Prepares a light of its own for each shading point, and draws a direction for each u: all in columns. `lights` is the struct of columns of the
+// technique's light. `with` is what etendue_prepare takes, in columns: an array of three pointers to coordinates of unit normals, an
+// EtendueReflectionColumns, an EtendueSpreadColumns, or NULL.
+EtendueStatus etendue_sample_each(uint32_t technique,
+                                  const void *lights,
+                                  size_t n,
+                                  const float *const *p,
+                                  const void *with,
+                                  const float *const *u,
+                                  const EtendueSampleColumns *out);
+
+// The pdf of a unit direction for each shading point, towards a light of its own: all in columns, as etendue_sample_each takes them.
+EtendueStatus etendue_pdf_each(uint32_t technique,
+                               const void *lights,
+                               size_t n,
+                               const float *const *p,
+                               const void *with,
+                               const float *const *w,
+                               float *out);
+
+// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_invert_each(uint32_t technique,
+                                  const void *lights,
+                                  size_t n,
+                                  const float *const *p,
+                                  const void *with,
+                                  const float *const *w,
+                                  float *const *u);
+
+// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
+EtendueStatus etendue_hit_each(uint32_t technique,
+                               const void *lights,
+                               size_t n,
+                               const float *const *p,
+                               const void *with,
+                               const float *const *w,
+                               const EtendueSampleColumns *out);
+
+// Number of nodes that a tree of `light_count` lights needs.
+size_t etendue_light_tree_nodes(size_t light_count);
+
+// Builds a tree.
+//
+// `nodes` has etendue_light_tree_nodes elements, `places` has `light_count`; both must live as long as `tree` is used. A light whose
+// power is not positive and finite is never chosen. Returns ETENDUE_STATUS_COUNT for more than 2^27 lights,
+// and ETENDUE_STATUS_VALUE if a `two_sided` is neither 0 nor 1.
+EtendueStatus etendue_light_tree_build(const EtendueLightBound *lights,
+                                       size_t light_count,
+                                       EtendueLightTreeNode *nodes,
+                                       uint32_t *places,
+                                       EtendueLightTree *tree);
+
+// Chooses a light for each shading point, in columns. `n` are the unit normals there, `u` one column of random numbers in [0, 1).
+EtendueStatus etendue_light_tree_choose_batch(const EtendueLightTree *tree,
+                                              size_t n,
+                                              const float *const *p,
+                                              const float *const *normals,
+                                              const float *u,
+                                              const EtendueChoiceColumns *out);
+
+// The probability with which each of `lights` is chosen for each shading point, in columns: for multiple importance sampling.
+EtendueStatus etendue_light_tree_pmf_batch(const EtendueLightTree *tree,
+                                           size_t n,
+                                           const float *const *p,
+                                           const float *const *normals,
+                                           const uint32_t *lights,
+                                           float *out);
 
 // Prepares the visible normals of a GGX microsurface: the roughnesses along x and y, and the unit direction to the viewer in the frame
 // whose z axis is the normal.
@@ -4454,347 +1247,44 @@ EtendueStatus etendue_ggx_visible_normals_prepare(float alpha_x,
                                                   const float *wi,
                                                   EtendueGgxVisibleNormals *out);
 
-// Points of the unit disk, uniform in area (pdf 1/pi), by concentric squares: keeps strata compact.
-//
-// Maps random numbers `u` to a point.
-EtendueStatus etendue_concentric_disk_sample(const float *u, float *point);
+// Maps random numbers `u` to a point. `parameters` is the struct of the warp, or NULL if it has none. Returns ETENDUE_STATUS_VALUE for a warp that is
+// none.
+EtendueStatus etendue_warp_sample(uint32_t warp,
+                                  const void *parameters,
+                                  const float *u,
+                                  float *point);
 
-// The pdf at a point, in the measure of the warp; 0 outside its range, and if a pointer is NULL.
-float etendue_concentric_disk_pdf(const float *point);
-
-// The random numbers that are mapped to a point; any in [0, 1)^2 outside the range of the warp.
-EtendueStatus etendue_concentric_disk_invert(const float *point, float *u);
-
-// A point for each u, in columns.
-EtendueStatus etendue_concentric_disk_sample_batch(size_t n, const float *const *u, float *const *points);
-
-// The pdf at each point, in columns.
-EtendueStatus etendue_concentric_disk_pdf_batch(size_t n, const float *const *points, float *out);
-
-// The random numbers of each point, in columns.
-EtendueStatus etendue_concentric_disk_invert_batch(size_t n, const float *const *points, float *const *u);
-
-// Points of the unit disk, uniform in area (pdf 1/pi), by radius and angle.
-//
-// Maps random numbers `u` to a point.
-EtendueStatus etendue_polar_disk_sample(const float *u, float *point);
-
-// The pdf at a point, in the measure of the warp; 0 outside its range, and if a pointer is NULL.
-float etendue_polar_disk_pdf(const float *point);
+// The pdf at a point, in the measure of the warp; 0 outside its range, and where the function cannot work.
+float etendue_warp_pdf(uint32_t warp, const void *parameters, const float *point);
 
 // The random numbers that are mapped to a point; any in [0, 1)^2 outside the range of the warp.
-EtendueStatus etendue_polar_disk_invert(const float *point, float *u);
+EtendueStatus etendue_warp_invert(uint32_t warp, const void *parameters, const float *point, float *u);
 
-// A point for each u, in columns.
-EtendueStatus etendue_polar_disk_sample_batch(size_t n, const float *const *u, float *const *points);
-
-// The pdf at each point, in columns.
-EtendueStatus etendue_polar_disk_pdf_batch(size_t n, const float *const *points, float *out);
-
-// The random numbers of each point, in columns.
-EtendueStatus etendue_polar_disk_invert_batch(size_t n, const float *const *points, float *const *u);
-
-// Directions with z >= 0, uniform in solid angle: pdf 1/(2 pi) per steradian.
-//
-// Maps random numbers `u` to a point.
-EtendueStatus etendue_uniform_hemisphere_sample(const float *u, float *point);
-
-// The pdf at a point, in the measure of the warp; 0 outside its range, and if a pointer is NULL.
-float etendue_uniform_hemisphere_pdf(const float *point);
-
-// The random numbers that are mapped to a point; any in [0, 1)^2 outside the range of the warp.
-EtendueStatus etendue_uniform_hemisphere_invert(const float *point, float *u);
-
-// A point for each u, in columns.
-EtendueStatus etendue_uniform_hemisphere_sample_batch(size_t n, const float *const *u, float *const *points);
+// A point for each u, in columns: as many as the warp has numbers and coordinates.
+EtendueStatus etendue_warp_sample_batch(uint32_t warp,
+                                        const void *parameters,
+                                        size_t n,
+                                        const float *const *u,
+                                        float *const *points);
 
 // The pdf at each point, in columns.
-EtendueStatus etendue_uniform_hemisphere_pdf_batch(size_t n, const float *const *points, float *out);
+EtendueStatus etendue_warp_pdf_batch(uint32_t warp,
+                                     const void *parameters,
+                                     size_t n,
+                                     const float *const *points,
+                                     float *out);
 
 // The random numbers of each point, in columns.
-EtendueStatus etendue_uniform_hemisphere_invert_batch(size_t n, const float *const *points, float *const *u);
-
-// Directions, uniform in solid angle: pdf 1/(4 pi) per steradian.
-//
-// Maps random numbers `u` to a point.
-EtendueStatus etendue_uniform_sphere_sample(const float *u, float *point);
-
-// The pdf at a point, in the measure of the warp; 0 outside its range, and if a pointer is NULL.
-float etendue_uniform_sphere_pdf(const float *point);
-
-// The random numbers that are mapped to a point; any in [0, 1)^2 outside the range of the warp.
-EtendueStatus etendue_uniform_sphere_invert(const float *point, float *u);
-
-// A point for each u, in columns.
-EtendueStatus etendue_uniform_sphere_sample_batch(size_t n, const float *const *u, float *const *points);
-
-// The pdf at each point, in columns.
-EtendueStatus etendue_uniform_sphere_pdf_batch(size_t n, const float *const *points, float *out);
-
-// The random numbers of each point, in columns.
-EtendueStatus etendue_uniform_sphere_invert_batch(size_t n, const float *const *points, float *const *u);
-
-// Directions with z >= 0 and the pdf z/pi per steradian.
-//
-// Maps random numbers `u` to a point.
-EtendueStatus etendue_cosine_hemisphere_sample(const float *u, float *point);
-
-// The pdf at a point, in the measure of the warp; 0 outside its range, and if a pointer is NULL.
-float etendue_cosine_hemisphere_pdf(const float *point);
-
-// The random numbers that are mapped to a point; any in [0, 1)^2 outside the range of the warp.
-EtendueStatus etendue_cosine_hemisphere_invert(const float *point, float *u);
-
-// A point for each u, in columns.
-EtendueStatus etendue_cosine_hemisphere_sample_batch(size_t n, const float *const *u, float *const *points);
-
-// The pdf at each point, in columns.
-EtendueStatus etendue_cosine_hemisphere_pdf_batch(size_t n, const float *const *points, float *out);
-
-// The random numbers of each point, in columns.
-EtendueStatus etendue_cosine_hemisphere_invert_batch(size_t n, const float *const *points, float *const *u);
-
-// Directions, uniform in solid angle, by a nearly continuous map: pdf 1/(4 pi) per steradian.
-//
-// Maps random numbers `u` to a point.
-EtendueStatus etendue_octahedral_sample(const float *u, float *point);
-
-// The pdf at a point, in the measure of the warp; 0 outside its range, and if a pointer is NULL.
-float etendue_octahedral_pdf(const float *point);
-
-// The random numbers that are mapped to a point; any in [0, 1)^2 outside the range of the warp.
-EtendueStatus etendue_octahedral_invert(const float *point, float *u);
-
-// A point for each u, in columns.
-EtendueStatus etendue_octahedral_sample_batch(size_t n, const float *const *u, float *const *points);
-
-// The pdf at each point, in columns.
-EtendueStatus etendue_octahedral_pdf_batch(size_t n, const float *const *points, float *out);
-
-// The random numbers of each point, in columns.
-EtendueStatus etendue_octahedral_invert_batch(size_t n, const float *const *points, float *const *u);
-
-// Barycentric coordinates of the second and third vertex of a triangle, uniform in area: pdf 2.
-//
-// Maps random numbers `u` to a point.
-EtendueStatus etendue_area_triangle_sample(const float *u, float *point);
-
-// The pdf at a point, in the measure of the warp; 0 outside its range, and if a pointer is NULL.
-float etendue_area_triangle_pdf(const float *point);
-
-// The random numbers that are mapped to a point; any in [0, 1)^2 outside the range of the warp.
-EtendueStatus etendue_area_triangle_invert(const float *point, float *u);
-
-// A point for each u, in columns.
-EtendueStatus etendue_area_triangle_sample_batch(size_t n, const float *const *u, float *const *points);
-
-// The pdf at each point, in columns.
-EtendueStatus etendue_area_triangle_pdf_batch(size_t n, const float *const *points, float *out);
-
-// The random numbers of each point, in columns.
-EtendueStatus etendue_area_triangle_invert_batch(size_t n, const float *const *points, float *const *u);
-
-// Barycentric coordinates of the second and third vertex of a triangle, by a map that keeps strata compact: pdf 2.
-//
-// Maps random numbers `u` to a point.
-EtendueStatus etendue_low_distortion_triangle_sample(const float *u, float *point);
-
-// The pdf at a point, in the measure of the warp; 0 outside its range, and if a pointer is NULL.
-float etendue_low_distortion_triangle_pdf(const float *point);
-
-// The random numbers that are mapped to a point; any in [0, 1)^2 outside the range of the warp.
-EtendueStatus etendue_low_distortion_triangle_invert(const float *point, float *u);
-
-// A point for each u, in columns.
-EtendueStatus etendue_low_distortion_triangle_sample_batch(size_t n, const float *const *u, float *const *points);
-
-// The pdf at each point, in columns.
-EtendueStatus etendue_low_distortion_triangle_pdf_batch(size_t n, const float *const *points, float *out);
-
-// The random numbers of each point, in columns.
-EtendueStatus etendue_low_distortion_triangle_invert_batch(size_t n, const float *const *points, float *const *u);
-
-// Directions of a cone: pdf 1/(2 pi one_minus_cos) per steradian.
-//
-// Maps random numbers `u` to a point.
-EtendueStatus etendue_cone_sample(const EtendueCone *warp, const float *u, float *point);
-
-// The pdf at a point, in the measure of the warp; 0 outside its range, and if a pointer is NULL.
-float etendue_cone_pdf(const EtendueCone *warp, const float *point);
-
-// The random numbers that are mapped to a point; any in [0, 1)^2 outside the range of the warp.
-EtendueStatus etendue_cone_invert(const EtendueCone *warp, const float *point, float *u);
-
-// A point for each u, in columns.
-EtendueStatus etendue_cone_sample_batch(const EtendueCone *warp, size_t n, const float *const *u, float *const *points);
-
-// The pdf at each point, in columns.
-EtendueStatus etendue_cone_pdf_batch(const EtendueCone *warp, size_t n, const float *const *points, float *out);
-
-// The random numbers of each point, in columns.
-EtendueStatus etendue_cone_invert_batch(const EtendueCone *warp, size_t n, const float *const *points, float *const *u);
-
-// Points of the unit square, bilinear.
-//
-// Maps random numbers `u` to a point.
-EtendueStatus etendue_bilinear_sample(const EtendueBilinear *warp, const float *u, float *point);
-
-// The pdf at a point, in the measure of the warp; 0 outside its range, and if a pointer is NULL.
-float etendue_bilinear_pdf(const EtendueBilinear *warp, const float *point);
-
-// The random numbers that are mapped to a point; any in [0, 1)^2 outside the range of the warp.
-EtendueStatus etendue_bilinear_invert(const EtendueBilinear *warp, const float *point, float *u);
-
-// A point for each u, in columns.
-EtendueStatus etendue_bilinear_sample_batch(const EtendueBilinear *warp,
-                                            size_t n,
-                                            const float *const *u,
-                                            float *const *points);
-
-// The pdf at each point, in columns.
-EtendueStatus etendue_bilinear_pdf_batch(const EtendueBilinear *warp, size_t n, const float *const *points, float *out);
-
-// The random numbers of each point, in columns.
-EtendueStatus etendue_bilinear_invert_batch(const EtendueBilinear *warp,
-                                            size_t n,
-                                            const float *const *points,
-                                            float *const *u);
-
-// Visible normals of a GGX microsurface, per steradian.
-//
-// Maps random numbers `u` to a point.
-EtendueStatus etendue_ggx_visible_normals_sample(const EtendueGgxVisibleNormals *warp, const float *u, float *point);
-
-// The pdf at a point, in the measure of the warp; 0 outside its range, and if a pointer is NULL.
-float etendue_ggx_visible_normals_pdf(const EtendueGgxVisibleNormals *warp, const float *point);
-
-// The random numbers that are mapped to a point; any in [0, 1)^2 outside the range of the warp.
-EtendueStatus etendue_ggx_visible_normals_invert(const EtendueGgxVisibleNormals *warp, const float *point, float *u);
-
-// A point for each u, in columns.
-EtendueStatus etendue_ggx_visible_normals_sample_batch(const EtendueGgxVisibleNormals *warp,
-                                                       size_t n,
-                                                       const float *const *u,
-                                                       float *const *points);
-
-// The pdf at each point, in columns.
-EtendueStatus etendue_ggx_visible_normals_pdf_batch(const EtendueGgxVisibleNormals *warp,
-                                                    size_t n,
-                                                    const float *const *points,
-                                                    float *out);
-
-// The random numbers of each point, in columns.
-EtendueStatus etendue_ggx_visible_normals_invert_batch(const EtendueGgxVisibleNormals *warp,
-                                                       size_t n,
-                                                       const float *const *points,
-                                                       float *const *u);
-
-// Directions in which a rough surface reflects a view, per steradian.
-//
-// Maps random numbers `u` to a point.
-EtendueStatus etendue_reflection_sample(const EtendueReflection *warp, const float *u, float *point);
-
-// The pdf at a point, in the measure of the warp; 0 outside its range, and if a pointer is NULL.
-float etendue_reflection_pdf(const EtendueReflection *warp, const float *point);
-
-// The random numbers that are mapped to a point; any in [0, 1)^2 outside the range of the warp.
-EtendueStatus etendue_reflection_invert(const EtendueReflection *warp, const float *point, float *u);
-
-// A point for each u, in columns.
-EtendueStatus etendue_reflection_sample_batch(const EtendueReflection *warp,
-                                              size_t n,
-                                              const float *const *u,
-                                              float *const *points);
-
-// The pdf at each point, in columns.
-EtendueStatus etendue_reflection_pdf_batch(const EtendueReflection *warp,
-                                           size_t n,
-                                           const float *const *points,
-                                           float *out);
-
-// The random numbers of each point, in columns.
-EtendueStatus etendue_reflection_invert_batch(const EtendueReflection *warp,
-                                              size_t n,
-                                              const float *const *points,
-                                              float *const *u);
-
-// Points of a bilinear patch: pdf nearly 1/area.
-//
-// Maps random numbers `u` to a point.
-EtendueStatus etendue_patch_surface_sample(const EtenduePatchSurface *warp, const float *u, float *point);
-
-// The pdf at a point, in the measure of the warp; 0 outside its range, and if a pointer is NULL.
-float etendue_patch_surface_pdf(const EtenduePatchSurface *warp, const float *point);
-
-// The random numbers that are mapped to a point; any in [0, 1)^2 outside the range of the warp.
-EtendueStatus etendue_patch_surface_invert(const EtenduePatchSurface *warp, const float *point, float *u);
-
-// A point for each u, in columns.
-EtendueStatus etendue_patch_surface_sample_batch(const EtenduePatchSurface *warp,
-                                                 size_t n,
-                                                 const float *const *u,
-                                                 float *const *points);
-
-// The pdf at each point, in columns.
-EtendueStatus etendue_patch_surface_pdf_batch(const EtenduePatchSurface *warp,
-                                              size_t n,
-                                              const float *const *points,
-                                              float *out);
-
-// The random numbers of each point, in columns.
-EtendueStatus etendue_patch_surface_invert_batch(const EtenduePatchSurface *warp,
-                                                 size_t n,
-                                                 const float *const *points,
-                                                 float *const *u);
-
-// Numbers in [0, 1), linear. `u` and `point` are one number each.
-//
-// Maps random numbers `u` to a point.
-EtendueStatus etendue_linear_sample(const EtendueLinear *warp, const float *u, float *point);
-
-// The pdf at a point, in the measure of the warp; 0 outside its range, and if a pointer is NULL.
-float etendue_linear_pdf(const EtendueLinear *warp, const float *point);
-
-// The random numbers that are mapped to a point; any in [0, 1)^2 outside the range of the warp.
-EtendueStatus etendue_linear_invert(const EtendueLinear *warp, const float *point, float *u);
-
-// A point for each u, in columns.
-EtendueStatus etendue_linear_sample_batch(const EtendueLinear *warp,
-                                          size_t n,
-                                          const float *const *u,
-                                          float *const *points);
-
-// The pdf at each point, in columns.
-EtendueStatus etendue_linear_pdf_batch(const EtendueLinear *warp, size_t n, const float *const *points, float *out);
-
-// The random numbers of each point, in columns.
-EtendueStatus etendue_linear_invert_batch(const EtendueLinear *warp,
-                                          size_t n,
-                                          const float *const *points,
-                                          float *const *u);
-
-// Numbers in [-r, r], a tent. `u` and `point` are one number each.
-//
-// Maps random numbers `u` to a point.
-EtendueStatus etendue_tent_sample(const EtendueTent *warp, const float *u, float *point);
-
-// The pdf at a point, in the measure of the warp; 0 outside its range, and if a pointer is NULL.
-float etendue_tent_pdf(const EtendueTent *warp, const float *point);
-
-// The random numbers that are mapped to a point; any in [0, 1)^2 outside the range of the warp.
-EtendueStatus etendue_tent_invert(const EtendueTent *warp, const float *point, float *u);
-
-// A point for each u, in columns.
-EtendueStatus etendue_tent_sample_batch(const EtendueTent *warp, size_t n, const float *const *u, float *const *points);
-
-// The pdf at each point, in columns.
-EtendueStatus etendue_tent_pdf_batch(const EtendueTent *warp, size_t n, const float *const *points, float *out);
-
-// The random numbers of each point, in columns.
-EtendueStatus etendue_tent_invert_batch(const EtendueTent *warp, size_t n, const float *const *points, float *const *u);
+EtendueStatus etendue_warp_invert_batch(uint32_t warp,
+                                        const void *parameters,
+                                        size_t n,
+                                        const float *const *points,
+                                        float *const *u);
 
 #ifdef __cplusplus
 }  // extern "C"
 #endif  // __cplusplus
 
 #endif  /* ETENDUE_H */
+
+#include "etendue_typed.h"

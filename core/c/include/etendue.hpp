@@ -311,6 +311,18 @@ class ReflectionColumns {
     const EtendueReflectionColumns& c() const { return c_; }
 };
 
+// Spreads in columns.
+class SpreadColumns {
+    Span<const float> tan_half_, gain_;
+    EtendueSpreadColumns c_;
+
+  public:
+    SpreadColumns(Span<const float> tan_half, Span<const float> gain)
+        : tan_half_(tan_half), gain_(gain), c_{tan_half.data(), gain.data()} {}
+    bool fits(size_t n) const { return detail::fits(tan_half_, n) && detail::fits(gain_, n); }
+    const EtendueSpreadColumns& c() const { return c_; }
+};
+
 // ---- lights ----
 
 // What is done with a sampler c_.
@@ -363,15 +375,15 @@ class ReflectionColumns {
 //
 // What it needs beside the point, a unit normal or a reflection, is in the last arguments: parameter, its C pointer, columns, their check and their
 // C pointer.
-#define ETENDUE_TECHNIQUE(NAME, LIGHT, PREFIX, PARAMETER, POINTER, COLUMNS, COLUMNS_FIT, COLUMNS_POINTER)                               \
+#define ETENDUE_TECHNIQUE(NAME, SAMPLER, LIGHT, PREFIX, PARAMETER, POINTER, COLUMNS, COLUMNS_FIT, COLUMNS_POINTER)                               \
     class NAME {                                                                                                                       \
-        Etendue##NAME c_;                                                                                                              \
+        Etendue##SAMPLER c_;                                                                                                           \
                                                                                                                                        \
       public:                                                                                                                          \
         NAME(const Etendue##LIGHT& light, Vec3 p PARAMETER) {                                                                          \
             if (PREFIX##_prepare(&light, detail::Row<3>(p).v POINTER, &c_) != ETENDUE_STATUS_OK) c_ = {};                              \
         }                                                                                                                              \
-        const Etendue##NAME& c() const { return c_; }                                                                                  \
+        const Etendue##SAMPLER& c() const { return c_; }                                                                               \
         ETENDUE_SAMPLER_METHODS(PREFIX)                                                                                                \
         /* Prepares a light of its own for each shading point, and draws a direction for each u. */                                    \
         static Status sample_each(const LightColumns<Etendue##LIGHT##Columns>& lights, In<3> p COLUMNS, In<2> u,                       \
@@ -416,45 +428,54 @@ class ReflectionColumns {
         }                                                                                                                              \
     };
 #define ETENDUE_COMMA ,
-#define ETENDUE_ANYWHERE(NAME, LIGHT, PREFIX) ETENDUE_TECHNIQUE(NAME, LIGHT, PREFIX, , , , , )
-#define ETENDUE_ON_SURFACE(NAME, LIGHT, PREFIX)                                                                                        \
-    ETENDUE_TECHNIQUE(NAME, LIGHT, PREFIX, ETENDUE_COMMA Vec3 normal, ETENDUE_COMMA detail::Row<3>(normal).v,                          \
+#define ETENDUE_ANYWHERE(NAME, SAMPLER, LIGHT, PREFIX) ETENDUE_TECHNIQUE(NAME, SAMPLER, LIGHT, PREFIX, , , , , )
+#define ETENDUE_ON_SURFACE(NAME, SAMPLER, LIGHT, PREFIX)                                                                                        \
+    ETENDUE_TECHNIQUE(NAME, SAMPLER, LIGHT, PREFIX, ETENDUE_COMMA Vec3 normal, ETENDUE_COMMA detail::Row<3>(normal).v,                          \
                       ETENDUE_COMMA In<3> normals, || !detail::fits(normals, n),                                                       \
                       ETENDUE_COMMA detail::Pointers<const float ETENDUE_COMMA 3>(normals).p)
-#define ETENDUE_REFLECTED(NAME, LIGHT, PREFIX)                                                                                         \
-    ETENDUE_TECHNIQUE(NAME, LIGHT, PREFIX, ETENDUE_COMMA const EtendueReflection& reflection, ETENDUE_COMMA &reflection,               \
+#define ETENDUE_REFLECTED(NAME, SAMPLER, LIGHT, PREFIX)                                                                                         \
+    ETENDUE_TECHNIQUE(NAME, SAMPLER, LIGHT, PREFIX, ETENDUE_COMMA const EtendueReflection& reflection, ETENDUE_COMMA &reflection,               \
                       ETENDUE_COMMA const ReflectionColumns& reflections, || !reflections.fits(n), ETENDUE_COMMA &reflections.c())
+#define ETENDUE_SPREAD(NAME, SAMPLER, LIGHT, PREFIX)                                                                                   \
+    ETENDUE_TECHNIQUE(NAME, SAMPLER, LIGHT, PREFIX, ETENDUE_COMMA const EtendueSpread& spread, ETENDUE_COMMA &spread,                  \
+                      ETENDUE_COMMA const SpreadColumns& spreads, || !spreads.fits(n), ETENDUE_COMMA &spreads.c())
 
 // from the list of techniques: WRITE=1 cargo test -p etendue-tests bindings
-ETENDUE_ANYWHERE(SphereByArea, Sphere, etendue_sphere_by_area)
-ETENDUE_ANYWHERE(SphereBySolidAngle, Sphere, etendue_sphere_by_solid_angle)
-ETENDUE_ON_SURFACE(SphereByProjectedSolidAngle, Sphere, etendue_sphere_by_projected_solid_angle)
-ETENDUE_REFLECTED(SphereByReflection, Sphere, etendue_sphere_by_reflection)
-ETENDUE_ANYWHERE(TriangleByArea, Triangle, etendue_triangle_by_area)
-ETENDUE_ANYWHERE(TriangleBySolidAngle, Triangle, etendue_triangle_by_solid_angle)
-ETENDUE_ON_SURFACE(TriangleByProjectedSolidAngle, Triangle, etendue_triangle_by_projected_solid_angle)
-ETENDUE_ON_SURFACE(TriangleByCosineWarp, Triangle, etendue_triangle_by_cosine_warp)
-ETENDUE_REFLECTED(TriangleByReflection, Triangle, etendue_triangle_by_reflection)
-ETENDUE_ANYWHERE(ParallelogramByArea, Parallelogram, etendue_parallelogram_by_area)
-ETENDUE_ANYWHERE(ParallelogramBySolidAngle, Parallelogram, etendue_parallelogram_by_solid_angle)
-ETENDUE_ON_SURFACE(ParallelogramByProjectedSolidAngle, Parallelogram, etendue_parallelogram_by_projected_solid_angle)
-ETENDUE_REFLECTED(ParallelogramByReflection, Parallelogram, etendue_parallelogram_by_reflection)
-ETENDUE_ANYWHERE(RectangleBySolidAngle, Rectangle, etendue_rectangle_by_solid_angle)
-ETENDUE_ON_SURFACE(RectangleByCosineWarp, Rectangle, etendue_rectangle_by_cosine_warp)
-ETENDUE_ANYWHERE(DiskByArea, Disk, etendue_disk_by_area)
-ETENDUE_ANYWHERE(DiskBySolidAngle, Disk, etendue_disk_by_solid_angle)
-ETENDUE_ANYWHERE(PolygonByArea, Polygon, etendue_polygon_by_area)
-ETENDUE_ANYWHERE(PolygonBySolidAngle, Polygon, etendue_polygon_by_solid_angle)
-ETENDUE_ON_SURFACE(PolygonByProjectedSolidAngle, Polygon, etendue_polygon_by_projected_solid_angle)
-ETENDUE_REFLECTED(PolygonByReflection, Polygon, etendue_polygon_by_reflection)
-ETENDUE_ANYWHERE(PatchByArea, BilinearPatch, etendue_patch_by_area)
-ETENDUE_ANYWHERE(LineByLength, Line, etendue_line_by_length)
-ETENDUE_ANYWHERE(LineByAngle, Line, etendue_line_by_angle)
-ETENDUE_ON_SURFACE(LineByProjectedSolidAngle, Line, etendue_line_by_projected_solid_angle)
-ETENDUE_ANYWHERE(SunBySolidAngle, Sun, etendue_sun_by_solid_angle)
-ETENDUE_ANYWHERE(PointLightByDelta, PointLight, etendue_point_light_by_delta)
-ETENDUE_ANYWHERE(SpotLightByDelta, SpotLight, etendue_spot_light_by_delta)
-ETENDUE_ANYWHERE(DirectionalLightByDelta, DirectionalLight, etendue_directional_light_by_delta)
+ETENDUE_ANYWHERE(SphereByArea, SphereByArea, Sphere, etendue_sphere_by_area)
+ETENDUE_ANYWHERE(SphereBySolidAngle, SphereBySolidAngle, Sphere, etendue_sphere_by_solid_angle)
+ETENDUE_ON_SURFACE(SphereByProjectedSolidAngle, SphereByProjectedSolidAngle, Sphere, etendue_sphere_by_projected_solid_angle)
+ETENDUE_REFLECTED(SphereByReflection, SphereByReflection, Sphere, etendue_sphere_by_reflection)
+ETENDUE_ANYWHERE(TriangleByArea, TriangleByArea, Triangle, etendue_triangle_by_area)
+ETENDUE_ANYWHERE(TriangleBySolidAngle, TriangleBySolidAngle, Triangle, etendue_triangle_by_solid_angle)
+ETENDUE_ON_SURFACE(TriangleByProjectedSolidAngle, TriangleByProjectedSolidAngle, Triangle, etendue_triangle_by_projected_solid_angle)
+ETENDUE_ON_SURFACE(TriangleByCosineWarp, TriangleByCosineWarp, Triangle, etendue_triangle_by_cosine_warp)
+ETENDUE_REFLECTED(TriangleByReflection, TriangleByReflection, Triangle, etendue_triangle_by_reflection)
+ETENDUE_ANYWHERE(ParallelogramByArea, ParallelogramByArea, Parallelogram, etendue_parallelogram_by_area)
+ETENDUE_ANYWHERE(ParallelogramBySolidAngle, ParallelogramBySolidAngle, Parallelogram, etendue_parallelogram_by_solid_angle)
+ETENDUE_ON_SURFACE(ParallelogramByProjectedSolidAngle, ParallelogramByProjectedSolidAngle, Parallelogram, etendue_parallelogram_by_projected_solid_angle)
+ETENDUE_REFLECTED(ParallelogramByReflection, ParallelogramByReflection, Parallelogram, etendue_parallelogram_by_reflection)
+ETENDUE_SPREAD(ParallelogramBySpread, ParallelogramBySolidAngle, Parallelogram, etendue_parallelogram_by_spread)
+ETENDUE_ANYWHERE(RectangleByArea, ParallelogramByArea, Rectangle, etendue_rectangle_by_area)
+ETENDUE_ANYWHERE(RectangleBySolidAngle, RectangleBySolidAngle, Rectangle, etendue_rectangle_by_solid_angle)
+ETENDUE_ON_SURFACE(RectangleByProjectedSolidAngle, ParallelogramByProjectedSolidAngle, Rectangle, etendue_rectangle_by_projected_solid_angle)
+ETENDUE_ON_SURFACE(RectangleByCosineWarp, RectangleByCosineWarp, Rectangle, etendue_rectangle_by_cosine_warp)
+ETENDUE_REFLECTED(RectangleByReflection, ParallelogramByReflection, Rectangle, etendue_rectangle_by_reflection)
+ETENDUE_SPREAD(RectangleBySpread, RectangleBySolidAngle, Rectangle, etendue_rectangle_by_spread)
+ETENDUE_ANYWHERE(DiskByArea, DiskByArea, Disk, etendue_disk_by_area)
+ETENDUE_ANYWHERE(DiskBySolidAngle, DiskBySolidAngle, Disk, etendue_disk_by_solid_angle)
+ETENDUE_SPREAD(DiskBySpread, DiskBySolidAngle, Disk, etendue_disk_by_spread)
+ETENDUE_ANYWHERE(PolygonByArea, PolygonByArea, Polygon, etendue_polygon_by_area)
+ETENDUE_ANYWHERE(PolygonBySolidAngle, PolygonBySolidAngle, Polygon, etendue_polygon_by_solid_angle)
+ETENDUE_ON_SURFACE(PolygonByProjectedSolidAngle, PolygonByProjectedSolidAngle, Polygon, etendue_polygon_by_projected_solid_angle)
+ETENDUE_REFLECTED(PolygonByReflection, PolygonByReflection, Polygon, etendue_polygon_by_reflection)
+ETENDUE_ANYWHERE(PatchByArea, PatchByArea, BilinearPatch, etendue_patch_by_area)
+ETENDUE_ANYWHERE(LineByLength, LineByLength, Line, etendue_line_by_length)
+ETENDUE_ANYWHERE(LineByAngle, LineByAngle, Line, etendue_line_by_angle)
+ETENDUE_ON_SURFACE(LineByProjectedSolidAngle, LineByProjectedSolidAngle, Line, etendue_line_by_projected_solid_angle)
+ETENDUE_ANYWHERE(SunBySolidAngle, SunBySolidAngle, Sun, etendue_sun_by_solid_angle)
+ETENDUE_ANYWHERE(PointLightByDelta, PointLightByDelta, PointLight, etendue_point_light_by_delta)
+ETENDUE_ANYWHERE(SpotLightByDelta, SpotLightByDelta, SpotLight, etendue_spot_light_by_delta)
+ETENDUE_ANYWHERE(DirectionalLightByDelta, DirectionalLightByDelta, DirectionalLight, etendue_directional_light_by_delta)
 
 using SphereColumns = LightColumns<EtendueSphereColumns>;
 using TriangleColumns = LightColumns<EtendueTriangleColumns>;
@@ -494,21 +515,24 @@ struct Parallelogram : EtendueParallelogram {
     ParallelogramBySolidAngle by_solid_angle(Vec3 at) const { return {*this, at}; }
     ParallelogramByProjectedSolidAngle by_projected_solid_angle(Vec3 at, Vec3 n) const { return {*this, at, n}; }
     ParallelogramByReflection by_reflection(Vec3 at, const EtendueReflection& reflection) const { return {*this, at, reflection}; }
+    ParallelogramBySpread by_spread(Vec3 at, const EtendueSpread& spread) const { return {*this, at, spread}; }
 };
 // EtendueRectangle with its constructors and techniques.
 struct Rectangle : EtendueRectangle {
     Rectangle(Vec3 corner_, Vec3 edge_s_, Vec3 edge_t_) : EtendueRectangle{{corner_.x, corner_.y, corner_.z}, {edge_s_.x, edge_s_.y, edge_s_.z}, {edge_t_.x, edge_t_.y, edge_t_.z}} {}
-    ParallelogramByArea by_area(Vec3 at) const { return {EtendueParallelogram{{corner[0], corner[1], corner[2]}, {edge_s[0], edge_s[1], edge_s[2]}, {edge_t[0], edge_t[1], edge_t[2]}}, at}; }
+    RectangleByArea by_area(Vec3 at) const { return {*this, at}; }
     RectangleBySolidAngle by_solid_angle(Vec3 at) const { return {*this, at}; }
-    ParallelogramByProjectedSolidAngle by_projected_solid_angle(Vec3 at, Vec3 n) const { return {EtendueParallelogram{{corner[0], corner[1], corner[2]}, {edge_s[0], edge_s[1], edge_s[2]}, {edge_t[0], edge_t[1], edge_t[2]}}, at, n}; }
+    RectangleByProjectedSolidAngle by_projected_solid_angle(Vec3 at, Vec3 n) const { return {*this, at, n}; }
     RectangleByCosineWarp by_cosine_warp(Vec3 at, Vec3 n) const { return {*this, at, n}; }
-    ParallelogramByReflection by_reflection(Vec3 at, const EtendueReflection& reflection) const { return {EtendueParallelogram{{corner[0], corner[1], corner[2]}, {edge_s[0], edge_s[1], edge_s[2]}, {edge_t[0], edge_t[1], edge_t[2]}}, at, reflection}; }
+    RectangleByReflection by_reflection(Vec3 at, const EtendueReflection& reflection) const { return {*this, at, reflection}; }
+    RectangleBySpread by_spread(Vec3 at, const EtendueSpread& spread) const { return {*this, at, spread}; }
 };
 // EtendueDisk with its constructors and techniques.
 struct Disk : EtendueDisk {
     Disk(Vec3 center_, Vec3 normal_, float radius_) : EtendueDisk{{center_.x, center_.y, center_.z}, {normal_.x, normal_.y, normal_.z}, radius_} {}
     DiskByArea by_area(Vec3 at) const { return {*this, at}; }
     DiskBySolidAngle by_solid_angle(Vec3 at) const { return {*this, at}; }
+    DiskBySpread by_spread(Vec3 at, const EtendueSpread& spread) const { return {*this, at, spread}; }
 };
 // EtenduePolygon with its constructors and techniques.
 struct Polygon : EtenduePolygon {
@@ -620,11 +644,11 @@ using PicturedSphereColumns = LightColumns<EtenduePicturedSphereColumns>;
 using PicturedPatchColumns = LightColumns<EtenduePicturedPatchColumns>;
 
 // A picture that is not built gives pdf 0.
-ETENDUE_ANYWHERE(PictureByArea, PicturedParallelogram, etendue_picture_by_area)
-ETENDUE_ANYWHERE(PictureBySolidAngle, PicturedParallelogram, etendue_picture_by_solid_angle)
-ETENDUE_ON_SURFACE(PictureByProjectedSolidAngle, PicturedParallelogram, etendue_picture_by_projected_solid_angle)
-ETENDUE_ANYWHERE(PictureOnSphereByVisibleArea, PicturedSphere, etendue_picture_on_sphere_by_visible_area)
-ETENDUE_ANYWHERE(PictureOnPatchByVisibleArea, PicturedPatch, etendue_picture_on_patch_by_visible_area)
+ETENDUE_ANYWHERE(PictureByArea, PictureByArea, PicturedParallelogram, etendue_picture_by_area)
+ETENDUE_ANYWHERE(PictureBySolidAngle, PictureBySolidAngle, PicturedParallelogram, etendue_picture_by_solid_angle)
+ETENDUE_ON_SURFACE(PictureByProjectedSolidAngle, PictureByProjectedSolidAngle, PicturedParallelogram, etendue_picture_by_projected_solid_angle)
+ETENDUE_ANYWHERE(PictureOnSphereByVisibleArea, PictureOnSphereByVisibleArea, PicturedSphere, etendue_picture_on_sphere_by_visible_area)
+ETENDUE_ANYWHERE(PictureOnPatchByVisibleArea, PictureOnPatchByVisibleArea, PicturedPatch, etendue_picture_on_patch_by_visible_area)
 
 // A flat light with a picture.
 struct PicturedParallelogram : EtenduePicturedParallelogram {
@@ -711,7 +735,6 @@ struct PortalTable : EtenduePortalTable {
     }
 };
 
-using EtenduePortalEnvironmentColumns = EtenduePortalEnvironment;
 template <>
 class LightColumns<EtenduePortalEnvironment> {
     EtenduePortalEnvironment c_;
@@ -721,7 +744,7 @@ class LightColumns<EtenduePortalEnvironment> {
     bool fits(size_t) const { return true; }
     const EtenduePortalEnvironment& c() const { return c_; }
 };
-ETENDUE_ANYWHERE(PortalsByRadiance, PortalEnvironment, etendue_portals_by_radiance)
+ETENDUE_ANYWHERE(PortalsByRadiance, PortalsByRadiance, PortalEnvironment, etendue_portals_by_radiance)
 
 // The sky through at most 8 portals, with a table for each: both must live as long as the environment is used.
 struct PortalEnvironment : EtenduePortalEnvironment {
@@ -1074,6 +1097,7 @@ inline Vec2 InvertBilinearSample(Vec2 p, const float (&w)[4]) { return Bilinear(
 #undef ETENDUE_ANYWHERE
 #undef ETENDUE_ON_SURFACE
 #undef ETENDUE_REFLECTED
+#undef ETENDUE_SPREAD
 #undef ETENDUE_WARP_METHODS
 #undef ETENDUE_FIXED_WARP
 #undef ETENDUE_WARP

@@ -1,10 +1,11 @@
 //! Light from all around as an image tells it.
 
-use crate::sampler::*;
-use crate::{EtendueStatus, columns, outputs, refuse_null};
+use crate::memory::refuse_null;
+use crate::status::EtendueStatus;
+use core::mem::{offset_of, size_of};
 use core::slice::{from_raw_parts, from_raw_parts_mut};
-use etendue::light::{ByRadiance, EnvironmentMap, ImageEnvironment};
-use etendue_batch::Batch;
+use etendue::light::{EnvironmentMap, ImageEnvironment};
+use etendue_batch::memory::ImageMemory;
 
 /// The most columns or rows.
 const MOST: usize = 1 << 24;
@@ -42,25 +43,24 @@ fn map_of(map: u32) -> Option<EnvironmentMap> {
     }
 }
 
-impl Sampler for EtendueImageEnvironment {
-    type Core = ByRadiance<'static>;
-    #[inline(always)]
-    unsafe fn with(this: *const Self, f: impl FnOnce(&ByRadiance<'static>)) -> EtendueStatus {
-        refuse_null!(this);
-        // SAFETY: the caller's pointer is not null
-        let Self { table, width, height, map } = unsafe { this.read() };
-        refuse_null!(table);
-        let Some(map) = map_of(map) else { return EtendueStatus::Value };
-        let length = etendue_image_environment_table(width, height);
-        // SAFETY: `etendue_image_environment_build` wrote it, and `f` keeps nothing of it
-        let table = unsafe { from_raw_parts(table, length) };
-        match ImageEnvironment::from_buffer(table, width, map) {
-            Ok(environment) => f(&environment.by_radiance()),
-            Err(_) => return EtendueStatus::Count,
+impl EtendueImageEnvironment {
+    /// Whether the library can look into it.
+    pub(crate) fn status(&self) -> EtendueStatus {
+        refuse_null!(self.table);
+        if map_of(self.map).is_none() {
+            return EtendueStatus::Value;
         }
-        EtendueStatus::Ok
+        if etendue_image_environment_table(self.width, self.height) == 0 {
+            EtendueStatus::Count
+        } else {
+            EtendueStatus::Ok
+        }
     }
 }
+const _: () = {
+    assert!(size_of::<EtendueImageEnvironment>() == size_of::<ImageMemory<'_>>());
+    assert!(offset_of!(EtendueImageEnvironment, map) == size_of::<ImageMemory<'_>>() - size_of::<usize>());
+};
 
 /// Number of floats in the table of an image; 0 for one without columns or rows, or with more than 2^24 of them.
 #[unsafe(no_mangle)]
@@ -107,11 +107,4 @@ pub unsafe extern "C" fn etendue_image_environment_build(
     // SAFETY: as above
     unsafe { environment.write(EtendueImageEnvironment { table, width, height, map }) };
     EtendueStatus::Ok
-}
-
-/// The functions of [`EtendueImageEnvironment`]: their names in C begin with `etendue_image_environment_`.
-pub mod image_environment {
-    use super::*;
-
-    sampler_functions!(EtendueImageEnvironment, image_environment);
 }

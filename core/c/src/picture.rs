@@ -4,15 +4,12 @@ use crate::light::{
     EtendueBilinearPatch, EtendueBilinearPatchColumns, EtendueDisk, EtendueParallelogram, EtendueParallelogramColumns,
     EtendueRectangle, EtendueSphere, EtendueSphereColumns, EtendueTriangle,
 };
-use crate::sampler::*;
-use crate::{EtendueStatus, columns, outputs, refuse_null};
+use crate::memory::refuse_null;
+use crate::status::EtendueStatus;
+use core::mem::{offset_of, size_of};
 use core::slice::{from_raw_parts, from_raw_parts_mut};
-use etendue::light::{self, FlatLight, Picture, Pictured, Region};
-use etendue::{Vec3, light::mean_of_bilinear};
-use etendue_batch::{
-    Batch, BatchTechnique, PictureByArea, PictureByProjectedSolidAngle, PictureBySolidAngle,
-    PictureOnPatchByVisibleArea, PictureOnSphereByVisibleArea,
-};
+use etendue::light::{self, FlatLight, Picture, Region, mean_of_bilinear};
+use etendue_batch::memory::PictureMemory;
 
 /// The most columns or rows, and the most texels.
 const MOST: usize = 1 << 24;
@@ -58,40 +55,30 @@ fn region_of(region: u32) -> Option<Region> {
 }
 
 impl EtenduePicture {
-    /// Calls `f` with the core's picture, unless the struct is not valid.
-    unsafe fn with(&self, f: impl FnOnce(Picture<'static>)) -> EtendueStatus {
+    /// Whether the library can look into it.
+    pub(crate) fn status(&self) -> EtendueStatus {
         let Self { table, values, width, height, region } = *self;
         refuse_null!(table);
-        let Some(region) = region_of(region) else { return EtendueStatus::Value };
-        let is_smooth = !values.is_null();
-        let length = if is_smooth {
-            etendue_picture_interpolated_table(width, height)
-        } else {
-            etendue_picture_table(width, height)
-        };
-        if length == 0 && width.saturating_mul(height) != 1 {
-            return EtendueStatus::Count;
+        if region_of(region).is_none() {
+            return EtendueStatus::Value;
         }
-        // SAFETY: `etendue_picture_build` or `etendue_picture_interpolate` wrote the table, and `f` keeps nothing of either
-        let picture = unsafe {
-            let table = from_raw_parts(table, length);
-            if is_smooth {
-                Picture::interpolated_from_buffer(from_raw_parts(values, width * height), width, table)
-            } else {
-                Picture::from_buffer(table, [width, height], region)
-            }
-        };
-        match picture {
-            Ok(picture) => f(picture),
-            Err(_) => return EtendueStatus::Count,
-        }
-        EtendueStatus::Ok
+        let is_size = if values.is_null() { is_size(width, height) } else { is_interpolated_size(width, height) };
+        if is_size { EtendueStatus::Ok } else { EtendueStatus::Count }
     }
 }
+const _: () = {
+    assert!(size_of::<EtenduePicture>() == size_of::<PictureMemory<'_>>());
+    assert!(offset_of!(EtenduePicture, region) == size_of::<PictureMemory<'_>>() - size_of::<usize>());
+};
 
 fn is_size(width: usize, height: usize) -> bool {
     let sizes = 1..=MOST;
     sizes.contains(&width) && sizes.contains(&height) && width <= MOST_TEXELS / height
+}
+
+fn is_interpolated_size(width: usize, height: usize) -> bool {
+    let sizes = 1..MOST;
+    sizes.contains(&width) && sizes.contains(&height) && is_size(width + 1, height + 1)
 }
 
 /// Number of floats in the table of a picture; 0 for a single texel, and for a picture without columns or rows, with more than 2^24 of them,
@@ -105,10 +92,7 @@ pub extern "C" fn etendue_picture_table(width: usize, height: usize) -> usize {
 /// rows, with 2^24 of them or more, or with 2^31 texels or more between centres.
 #[unsafe(no_mangle)]
 pub extern "C" fn etendue_picture_interpolated_table(width: usize, height: usize) -> usize {
-    if width == 0 || height == 0 || width >= MOST || height >= MOST {
-        return 0;
-    }
-    etendue_picture_table(width + 1, height + 1)
+    if is_interpolated_size(width, height) { Picture::buffer(width + 1, height + 1) } else { 0 }
 }
 
 /// Builds the table of a picture that is constant in each texel, from the mean radiance of each texel, row by row: its luminance, or a sum of
@@ -235,9 +219,9 @@ coordinates! {
     etendue_disk_coordinates(EtendueDisk = Disk);
 }
 
-/// A light with a picture, and columns of lights with one picture: the core's light is the same over numbers or pointers.
+/// A light with a picture, and columns of lights with one picture.
 macro_rules! pictured {
-    ($($(#[$doc:meta])* $name:ident, $columns:ident: $light:ident, $light_columns:ident = $core:ident;)+) => {$(
+    ($($(#[$doc:meta])* $name:ident, $columns:ident: $light:ident, $light_columns:ident;)+) => {$(
         $(#[$doc])*
         #[derive(Clone, Copy, Debug)]
         #[repr(C)]
@@ -256,41 +240,23 @@ macro_rules! pictured {
             /// The lights.
             pub lights: $light_columns,
         }
-        impl $name {
-            unsafe fn with(&self, f: impl FnOnce(Pictured<'static, light::$core<f32>>)) -> EtendueStatus {
-                // SAFETY: the caller's; the structs of the light have the same fields
-                unsafe { self.picture.with(|picture| f(picture.on(*(&raw const self.light).cast::<light::$core<f32>>()))) }
-            }
-        }
-        impl $columns {
-            unsafe fn with(&self, f: impl FnOnce(Pictured<'static, light::$core<*const f32>>)) -> EtendueStatus {
-                // SAFETY: the columns of lights consist of pointers
-                if !unsafe { all_there(&self.lights) } {
-                    return EtendueStatus::NullPointer;
-                }
-                // SAFETY: the caller's; the structs of columns have the same fields
-                unsafe { self.picture.with(|picture| f(picture.on(*(&raw const self.lights).cast::<light::$core<*const f32>>()))) }
-            }
-        }
     )+};
 }
 pictured! {
     /// A parallelogram with a picture: a flat light of any shape, by its surface coordinates. Those of a parallelogram are itself;
     /// [`etendue_rectangle_coordinates`], [`etendue_triangle_coordinates`] and [`etendue_disk_coordinates`] give those of others.
-    EtenduePicturedParallelogram, EtenduePicturedParallelogramColumns: EtendueParallelogram, EtendueParallelogramColumns = Parallelogram;
+    EtenduePicturedParallelogram, EtenduePicturedParallelogramColumns: EtendueParallelogram, EtendueParallelogramColumns;
     /// A sphere with a picture.
-    EtenduePicturedSphere, EtenduePicturedSphereColumns: EtendueSphere, EtendueSphereColumns = Sphere;
+    EtenduePicturedSphere, EtenduePicturedSphereColumns: EtendueSphere, EtendueSphereColumns;
     /// A bilinear patch with a picture.
-    EtenduePicturedPatch, EtenduePicturedPatchColumns: EtendueBilinearPatch, EtendueBilinearPatchColumns = BilinearPatch;
+    EtenduePicturedPatch, EtenduePicturedPatchColumns: EtendueBilinearPatch, EtendueBilinearPatchColumns;
 }
 
-/// The struct of a technique with pictures, and its functions.
-macro_rules! techniques {
-    ($($(#[$doc:meta])* $sampler:ident = $core:ident: $light:ident, $columns:ident, $module:ident($($n:ident: $normals:ident)?);)+) => {$(
-        $(#[$doc])*
-        ///
-        /// It has no data of its own beside the light and the point: each call prepares the light, which takes as long as few samples. The
-        /// fields are set by `prepare`.
+/// The struct of a technique with pictures.
+macro_rules! samplers {
+    ($($sampler:ident: $light:ident $($n:ident)?;)+) => {$(
+        /// What the technique of this name prepares. It has no data of its own beside the light and the point: each call prepares the light,
+        /// which takes as long as few samples.
         #[derive(Clone, Copy, Debug)]
         #[repr(C)]
         pub struct $sampler {
@@ -301,79 +267,12 @@ macro_rules! techniques {
             $(/// The unit normal there.
             pub $n: [f32; 3],)?
         }
-        impl Sampler for $sampler {
-            type Core = $core<'static>;
-            #[inline(always)]
-            unsafe fn with(this: *const Self, f: impl FnOnce(&$core<'static>)) -> EtendueStatus {
-                refuse_null!(this);
-                // SAFETY: the caller's
-                unsafe {
-                    let Self { light, p, $($n)? } = this.read();
-                    let normal = Vec3::new(0.0, 0.0, 0.0);
-                    $(let normal = { let _ = normal; vec3($n) };)?
-                    light.with(|light| f(&$core::prepared(light, vec3(p), normal)))
-                }
-            }
-        }
-        impl Technique for $sampler {
-            type Light = $light;
-            type Columns = $columns;
-            #[inline(always)]
-            unsafe fn prepare(light: *const $light, p: Vec3<f32>, normal: Vec3<f32>, out: *mut Self) -> EtendueStatus {
-                // SAFETY: the caller's
-                unsafe {
-                    let light = light.read();
-                    let status = light.with(|_| ());
-                    if status == EtendueStatus::Ok {
-                        let _ = normal;
-                        out.write(Self { light, p: [p.x, p.y, p.z], $($n: [normal.x, normal.y, normal.z])? });
-                    }
-                    status
-                }
-            }
-            #[inline(always)]
-            unsafe fn with_light(
-                light: *const $light,
-                f: impl FnOnce(&<$core<'static> as BatchTechnique>::Light<f32>),
-            ) -> EtendueStatus {
-                // SAFETY: the caller's
-                unsafe { light.read().with(|light| f(&light)) }
-            }
-            #[inline(always)]
-            unsafe fn with_lights(
-                lights: *const $columns,
-                f: impl FnOnce(<$core<'static> as BatchTechnique>::Light<*const f32>),
-            ) -> EtendueStatus {
-                // SAFETY: the caller's
-                unsafe { (*lights).with(f) }
-            }
-        }
-        #[doc = concat!("The functions of [`", stringify!($sampler), "`]: their names in C begin with `etendue_", stringify!($module), "_`.")]
-        pub mod $module {
-            use super::*;
-
-            technique_functions!($sampler, $light, $columns, $module, ($($n: $normals)?));
-        }
     )+};
 }
-techniques! {
-    /// A flat light with a picture, by radiance times area, for lights that are small for their distance: the pdf is the pmf of the texel, over
-    /// its area, times distance²/|cosθ'| per steradian, θ' at the light. 0 where the radiance is, and beyond the rim of triangles and disks.
-    EtenduePictureByArea = PictureByArea: EtenduePicturedParallelogram, EtenduePicturedParallelogramColumns, picture_by_area();
-    /// A flat light with a picture, by radiance times solid angle at the point: the pdf is the pmf of the texel over its solid angle, per
-    /// steradian. 0 where the radiance is, and beyond the rim of triangles and disks.
-    EtenduePictureBySolidAngle = PictureBySolidAngle: EtenduePicturedParallelogram, EtenduePicturedParallelogramColumns, picture_by_solid_angle();
-    /// A flat light with a picture, by radiance times projected solid angle above the horizon of the unit normal n at the point: the pdf is the
-    /// pmf of the texel over its projected solid angle, times cosθ, per steradian. 0 where nothing of the light is above the horizon, where
-    /// the radiance is 0, and beyond the rim of triangles and disks.
-    EtenduePictureByProjectedSolidAngle = PictureByProjectedSolidAngle: EtenduePicturedParallelogram, EtenduePicturedParallelogramColumns,
-    picture_by_projected_solid_angle(n: normals);
-    /// A sphere with a picture, by radiance times the area that is visible from the point, over the squared distance: the pdf is the pmf of the
-    /// texel, over its area, times distance²/|cosθ'| per steradian, θ' at the light. From inside, texels are drawn by radiance alone.
-    EtenduePictureOnSphereByVisibleArea = PictureOnSphereByVisibleArea: EtenduePicturedSphere, EtenduePicturedSphereColumns,
-    picture_on_sphere_by_visible_area();
-    /// A bilinear patch with a picture, by radiance times the area that is visible from the point, over the squared distance; in a texel,
-    /// uniform in (s, t). The pdf is per steradian.
-    EtenduePictureOnPatchByVisibleArea = PictureOnPatchByVisibleArea: EtenduePicturedPatch, EtenduePicturedPatchColumns,
-    picture_on_patch_by_visible_area();
+samplers! {
+    EtenduePictureByArea: EtenduePicturedParallelogram;
+    EtenduePictureBySolidAngle: EtenduePicturedParallelogram;
+    EtenduePictureByProjectedSolidAngle: EtenduePicturedParallelogram n;
+    EtenduePictureOnSphereByVisibleArea: EtenduePicturedSphere;
+    EtenduePictureOnPatchByVisibleArea: EtenduePicturedPatch;
 }

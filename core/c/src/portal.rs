@@ -1,12 +1,13 @@
 //! The sky through portals.
 
-use crate::sampler::*;
-use crate::{EtendueStatus, columns, each, each_mut, outputs, refuse_null};
-use core::ptr::null_mut;
+use crate::memory::{columns, each, each_mut, outputs, refuse_null};
+use crate::status::EtendueStatus;
+use core::mem::size_of;
+use core::ptr::{from_ref, null_mut};
 use core::slice::{from_raw_parts, from_raw_parts_mut};
-use etendue::Vec3;
-use etendue::light::{MOST_PORTALS, Portal, PortalEnvironment, PortalMap, PortalTable};
-use etendue_batch::{Batch, BatchTechnique, PortalsByRadiance, SeenThroughPortals};
+use etendue::light::{MOST_PORTALS, Portal, PortalTable};
+use etendue_batch::memory::{PortalMemory, PortalShape, PortalSums};
+use etendue_batch::{Batch, PortalDirection, SeenThroughPortals};
 
 /// A parallelogram through which the sky is seen, from the side that its normal s x t points away from.
 #[derive(Clone, Copy, Debug)]
@@ -44,53 +45,32 @@ pub struct EtenduePortalEnvironment {
     pub count: usize,
 }
 
-impl EtenduePortalTable {
-    unsafe fn table(&self) -> Result<PortalTable<'static>, EtendueStatus> {
-        let length = etendue_portal_table(self.width, self.height);
-        if self.sums.is_null() {
-            return Err(EtendueStatus::NullPointer);
-        }
-        if length == 0 {
-            return Err(EtendueStatus::Count);
-        }
-        // SAFETY: `etendue_portal_table_build` wrote it
-        let sums = unsafe { from_raw_parts(self.sums, length) };
-        PortalTable::from_buffer(sums, self.width).map_err(|_| EtendueStatus::Count)
-    }
-}
-
 impl EtenduePortalEnvironment {
-    /// Calls `f` with the core's environment, unless the struct is not valid.
-    unsafe fn with(&self, f: impl FnOnce(PortalEnvironment<'static>)) -> EtendueStatus {
+    /// Whether the library can look into it.
+    pub(crate) fn status(&self) -> EtendueStatus {
         let Self { portals, tables, count } = *self;
         refuse_null!(portals, tables);
         if !(1..=MOST_PORTALS).contains(&count) {
             return EtendueStatus::Count;
         }
-        let mut known = [None; MOST_PORTALS];
         // SAFETY: the pointers are not null, and point to what the header says
-        unsafe {
-            for (i, known) in known.iter_mut().take(count).enumerate() {
-                let EtenduePortal { corner, edge_s, edge_t } = portals.add(i).read();
-                let Some(portal) = Portal::new(corner, edge_s, edge_t) else { return EtendueStatus::Value };
-                match (*tables.add(i)).table() {
-                    Ok(table) => *known = Some((portal, table)),
-                    Err(status) => return status,
-                }
+        for (portal, table) in unsafe { from_raw_parts(portals, count).iter().zip(from_raw_parts(tables, count)) } {
+            refuse_null!(table.sums);
+            if Portal::new(portal.corner, portal.edge_s, portal.edge_t).is_none() {
+                return EtendueStatus::Value;
             }
-            let Some(first) = known[0] else { return EtendueStatus::Count };
-            let known = known.map(|own| own.unwrap_or(first));
-            let (portals, tables) = (known.map(|own| own.0), known.map(|own| own.1));
-            // the arrays live as long as `f` runs, which keeps nothing of them
-            let (portals, tables) = (from_raw_parts(portals.as_ptr(), count), from_raw_parts(tables.as_ptr(), count));
-            match PortalEnvironment::new(portals, tables) {
-                Ok(environment) => f(environment),
-                Err(_) => return EtendueStatus::Count,
+            if etendue_portal_table(table.width, table.height) == 0 {
+                return EtendueStatus::Count;
             }
         }
         EtendueStatus::Ok
     }
 }
+const _: () = {
+    assert!(size_of::<EtenduePortal>() == size_of::<PortalShape>());
+    assert!(size_of::<EtenduePortalTable>() == size_of::<PortalSums<'_>>());
+    assert!(size_of::<EtenduePortalEnvironment>() == size_of::<PortalMemory<'_>>());
+};
 
 /// Number of 64-bit words in the table of an image in the coordinates of a portal; 0 for one without columns or rows, or with more than 4096
 /// of them.
@@ -182,9 +162,9 @@ unsafe fn directions(
     // SAFETY: the caller's
     unsafe {
         let EtenduePortal { edge_s, edge_t, .. } = portal.read();
-        let Some(map) = PortalMap::new(edge_s, edge_t) else { return EtendueStatus::Value };
-        let numbers = [u, v, u, u, u, u];
-        (Batch::new().map_functions().map)(&map, n, &numbers, &[x, y, z, solid_angle], null_mut());
+        let Some(map) = PortalDirection::new(edge_s, edge_t) else { return EtendueStatus::Value };
+        let (function, numbers) = (Batch::new().map_function::<PortalDirection>(), [u, v, u, u, u, u]);
+        function(from_ref(&map).cast(), n, &numbers, &[x, y, z, solid_angle], null_mut());
     }
     EtendueStatus::Ok
 }
@@ -205,21 +185,17 @@ pub unsafe extern "C" fn etendue_portal_environment_sees_batch(
     // SAFETY: the pointers are not null, and point to what the header says
     unsafe {
         let (Some([px, py, pz]), Some([x, y, z])) = (columns(p), columns(w)) else { return EtendueStatus::NullPointer };
-        let numbers = [px, py, pz, x, y, z];
-        (*environment).with(|environment| {
-            let map = SeenThroughPortals(environment);
-            (Batch::new().map_functions().map)(&map, n, &numbers, &[null_mut(); 4], out);
-        })
+        let status = (*environment).status();
+        if status == EtendueStatus::Ok {
+            let function = Batch::new().map_function::<SeenThroughPortals<'_>>();
+            function(environment.cast(), n, &[px, py, pz, x, y, z], &[null_mut(); 4], out);
+        }
+        status
     }
 }
 
-/// The sky through portals as a point sees it: from each point exactly the part is sampled that it sees, by the weights of the texels.
-///
-/// The pdf is the probability of the cells over the solid angle that they cover there, per steradian, summed over portals; 0 where no portal
-/// is seen, and from behind. `uv` of a sample are the numbers that etendue_octahedral_sample maps to the direction.
-///
-/// It has no data of its own beside the environment and the point: each call prepares for the point, which takes as long as some samples, so
-/// that batches are faster. The fields are set by `prepare`.
+/// What the technique of this name prepares. It has no data of its own beside the environment and the point: each call prepares for the point,
+/// which takes as long as some samples, so that batches are faster.
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct EtenduePortalsByRadiance {
@@ -227,69 +203,4 @@ pub struct EtenduePortalsByRadiance {
     pub environment: EtenduePortalEnvironment,
     /// The shading point.
     pub p: [f32; 3],
-}
-
-impl Sampler for EtenduePortalsByRadiance {
-    type Core = PortalsByRadiance<'static>;
-    #[inline(always)]
-    unsafe fn with(this: *const Self, f: impl FnOnce(&PortalsByRadiance<'static>)) -> EtendueStatus {
-        refuse_null!(this);
-        // SAFETY: the caller's
-        unsafe {
-            let Self { environment, p } = this.read();
-            environment.with(|environment| {
-                f(&PortalsByRadiance::prepared(environment, vec3(p), Vec3::new(0.0, 0.0, 0.0)));
-            })
-        }
-    }
-}
-impl Technique for EtenduePortalsByRadiance {
-    type Light = EtenduePortalEnvironment;
-    type Columns = EtenduePortalEnvironment;
-    #[inline(always)]
-    unsafe fn prepare(
-        environment: *const EtenduePortalEnvironment,
-        p: Vec3<f32>,
-        _: Vec3<f32>,
-        out: *mut Self,
-    ) -> EtendueStatus {
-        // SAFETY: the caller's
-        unsafe {
-            let environment = environment.read();
-            let status = environment.with(|_| ());
-            if status == EtendueStatus::Ok {
-                out.write(Self { environment, p: [p.x, p.y, p.z] });
-            }
-            status
-        }
-    }
-    #[inline(always)]
-    unsafe fn with_light(
-        environment: *const EtenduePortalEnvironment,
-        f: impl FnOnce(&PortalEnvironment<'static>),
-    ) -> EtendueStatus {
-        // SAFETY: the caller's
-        unsafe { environment.read().with(|environment| f(&environment)) }
-    }
-    #[inline(always)]
-    unsafe fn with_lights(
-        environment: *const EtenduePortalEnvironment,
-        f: impl FnOnce(PortalEnvironment<'static>),
-    ) -> EtendueStatus {
-        // SAFETY: the caller's
-        unsafe { (*environment).with(f) }
-    }
-}
-
-/// The functions of [`EtenduePortalsByRadiance`]: their names in C begin with `etendue_portals_by_radiance_`.
-pub mod portals_by_radiance {
-    use super::*;
-
-    technique_functions!(
-        EtenduePortalsByRadiance,
-        EtenduePortalEnvironment,
-        EtenduePortalEnvironment,
-        portals_by_radiance,
-        ()
-    );
 }

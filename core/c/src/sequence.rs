@@ -1,6 +1,8 @@
 //! Sequences of random numbers.
 
-use crate::{EtendueStatus, outputs, refuse_null};
+use crate::memory::{outputs, refuse_null};
+use crate::status::EtendueStatus;
+use core::ptr::from_ref;
 use etendue::Vec2;
 use etendue::sequence;
 use etendue_batch::{Batch, Counters};
@@ -40,7 +42,7 @@ macro_rules! sequence {
                 let Some([x, y]) = outputs(u) else { return EtendueStatus::NullPointer };
                 let EtendueCounters { pixel, sample, dimension, pixels, samples } = *counters;
                 let counters = Counters { pixel, sample, dimension, pixels, samples };
-                (Batch::new().functions::<$type>().pairs)(&$value, n, &counters, Vec2::new(x, y));
+                Batch::new().sequence::<$type>()(from_ref(&$value).cast(), n, &counters, Vec2::new(x, y));
             }
             EtendueStatus::Ok
         }

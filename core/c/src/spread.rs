@@ -1,19 +1,16 @@
 //! Flat lights that emit within an angle of their normal.
 
-use crate::light::{
-    EtendueDisk, EtendueDiskBySolidAngle, EtendueParallelogram, EtendueParallelogramBySolidAngle, EtendueRectangle,
-    EtendueRectangleBySolidAngle,
-};
-use crate::sampler::vec3;
-use crate::{EtendueStatus, columns, each, refuse_null};
+use crate::light::EtendueParallelogram;
+use crate::memory::{columns, each, refuse_null, vec3};
+use crate::status::EtendueStatus;
 use core::mem::size_of;
 use core::ptr::null_mut;
-use etendue::light::{self, Disk, Parallelogram, Rectangle, Spread};
+use etendue::light::{Parallelogram, Spread};
 use etendue_batch::Batch;
 
 /// How a flat light emits within a cone about its normal, as through a honeycomb before it: the spread of Cycles. A host multiplies the
-/// radiance of the light by the attenuation, which leaves its power as it is. A point sees only a disk of the plane of the light, which the
-/// functions of this struct sample.
+/// radiance of the light by the attenuation, which leaves its power as it is. A point sees only a disk of the plane of the light, which
+/// the techniques by spread sample.
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct EtendueSpread {
@@ -23,6 +20,16 @@ pub struct EtendueSpread {
     pub gain: f32,
 }
 const _: () = assert!(size_of::<EtendueSpread>() == size_of::<Spread<f32>>());
+
+/// Columns of spreads.
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+pub struct EtendueSpreadColumns {
+    /// The tangent of half the angle.
+    pub tan_half: *const f32,
+    /// 1/(tan_half - half the angle).
+    pub gain: *const f32,
+}
 
 impl EtendueSpread {
     fn spread(self) -> Spread<f32> {
@@ -85,8 +92,9 @@ unsafe fn attenuations(
 ) {
     // SAFETY: the caller's
     unsafe {
-        let (spread, columns) = ((*spread).spread(), [out, null_mut(), null_mut(), null_mut()]);
-        (Batch::new().map_functions().map)(&spread, n, &[x, y, z, nx, ny, nz], &columns, null_mut());
+        let (function, results) =
+            (Batch::new().map_function::<Spread<f32>>(), [out, null_mut(), null_mut(), null_mut()]);
+        function(spread.cast(), n, &[x, y, z, nx, ny, nz], &results, null_mut());
     }
 }
 
@@ -107,37 +115,4 @@ pub unsafe extern "C" fn etendue_parallelogram_visible_part(
         out.cast::<Parallelogram<f32>>().write(light.visible_part(p, &(*spread).spread()));
     }
     EtendueStatus::Ok
-}
-
-/// The functions that prepare the part of a light that a point sees.
-macro_rules! by_spread {
-    ($($(#[$doc:meta])* $function:ident($light:ident = $core:ident) -> $sampler:ident = $prepared:ident;)+) => {$(
-        $(#[$doc])*
-        #[unsafe(no_mangle)]
-        pub unsafe extern "C" fn $function(
-            light: *const $light,
-            p: *const f32,
-            spread: *const EtendueSpread,
-            out: *mut $sampler,
-        ) -> EtendueStatus {
-            refuse_null!(light, p, spread, out);
-            // SAFETY: the pointers are not null, and point to what the header says; the structs hold the core's
-            unsafe {
-                let p = vec3(p.cast::<[f32; 3]>().read_unaligned());
-                out.cast::<light::$prepared<f32>>().write(light.cast::<$core<f32>>().read().by_spread(p, &(*spread).spread()));
-            }
-            EtendueStatus::Ok
-        }
-    )+};
-}
-by_spread! {
-    /// Prepares a parallelogram with this spread: uniform over the solid angle of the part that the point sees. Surface coordinates are those
-    /// of the whole light.
-    etendue_parallelogram_by_spread_prepare(EtendueParallelogram = Parallelogram) -> EtendueParallelogramBySolidAngle = ParallelogramBySolidAngle;
-    /// Prepares a rectangle with this spread: uniform over the solid angle of the part that the point sees. Surface coordinates are those of
-    /// the whole light.
-    etendue_rectangle_by_spread_prepare(EtendueRectangle = Rectangle) -> EtendueRectangleBySolidAngle = RectangleBySolidAngle;
-    /// Prepares a disk with this spread: uniform over the solid angle of what the point sees, if that is a disk within the light; else, of the
-    /// whole light. Surface coordinates are those of the whole light.
-    etendue_disk_by_spread_prepare(EtendueDisk = Disk) -> EtendueDiskBySolidAngle = DiskBySolidAngle;
 }

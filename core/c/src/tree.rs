@@ -1,10 +1,11 @@
 //! Trees of lights.
 
-use crate::sampler::vec3;
-use crate::{EtendueStatus, columns, refuse_null};
+use crate::memory::{columns, refuse_null, vec3};
+use crate::status::EtendueStatus;
 use core::mem::{align_of, offset_of, size_of};
 use core::slice::{from_raw_parts, from_raw_parts_mut};
 use etendue::select::{LightBound, LightTree, Node8};
+use etendue_batch::memory::TreeMemory;
 use etendue_batch::{Batch, ChoiceColumns};
 
 /// A bound of what a light of finite extent can contribute.
@@ -56,17 +57,11 @@ pub struct EtendueLightTree {
     pub light_count: usize,
 }
 
+const _: () = assert!(size_of::<EtendueLightTree>() == size_of::<TreeMemory<'_>>());
+
 impl EtendueLightTree {
-    /// The core's tree over this memory.
-    unsafe fn tree(&self) -> Option<LightTree<'_>> {
-        if self.nodes.is_null() || self.places.is_null() {
-            return None;
-        }
-        // SAFETY: `etendue_light_tree_build` wrote them
-        unsafe {
-            let nodes = from_raw_parts(self.nodes.cast::<Node8>(), self.node_count);
-            Some(LightTree::from_buffers(nodes, from_raw_parts(self.places, self.light_count)))
-        }
+    fn is_built(&self) -> bool {
+        !self.nodes.is_null() && !self.places.is_null()
     }
 }
 
@@ -144,12 +139,13 @@ pub unsafe extern "C" fn etendue_light_tree_choose_batch(
     refuse_null!(tree, u, out);
     // SAFETY: the pointers are not null, and point to what the header says
     unsafe {
-        let (Some(p), Some(normals), Some(tree)) = (columns(p), columns(normals), (*tree).tree()) else {
+        let (Some(p), Some(normals), true) = (columns(p), columns(normals), (*tree).is_built()) else {
             return EtendueStatus::NullPointer;
         };
+        let tree = &*tree.cast::<TreeMemory<'_>>();
         let EtendueChoiceColumns { light, pmf, u: rest } = *out;
         let out = ChoiceColumns { light, pmf, u: rest };
-        (Batch::new().tree().choose)(&tree, n, vec3(p), vec3(normals), u, &out);
+        (Batch::new().tree().choose)(tree, n, vec3(p), vec3(normals), u, &out);
     }
     EtendueStatus::Ok
 }
@@ -170,10 +166,11 @@ pub unsafe extern "C" fn etendue_light_tree_pmf_batch(
     refuse_null!(tree, lights, out);
     // SAFETY: the pointers are not null, and point to what the header says
     unsafe {
-        let (Some(p), Some(normals), Some(tree)) = (columns(p), columns(normals), (*tree).tree()) else {
+        let (Some(p), Some(normals), true) = (columns(p), columns(normals), (*tree).is_built()) else {
             return EtendueStatus::NullPointer;
         };
-        (Batch::new().tree().pmf)(&tree, n, vec3(p), vec3(normals), lights, out);
+        let tree = &*tree.cast::<TreeMemory<'_>>();
+        (Batch::new().tree().pmf)(tree, n, vec3(p), vec3(normals), lights, out);
     }
     EtendueStatus::Ok
 }

@@ -1,122 +1,33 @@
-//! Warps.
+//! Warps, and the functions of all of them, which are given by their numbers.
 
-use crate::reflected::EtendueReflection;
-use crate::{EtendueStatus, columns, outputs, refuse_null};
+use crate::memory::refuse_null;
+use crate::status::EtendueStatus;
+use core::ffi::c_void;
 use core::mem::size_of;
+use core::ptr::{NonNull, null};
 use etendue::reflection::Reflection;
 use etendue::warp::{self, *};
 use etendue::{Vec2, Vec3};
-use etendue_batch::{Batch, BatchWarp};
+use etendue_batch::{Batch, BatchWarp, WARPS, WarpFunctions};
 
-/// Three columns from N of them; a warp does not touch the others.
-fn three<T: Copy, const N: usize>(columns: [T; N]) -> [T; 3] {
-    core::array::from_fn(|i| columns[i.min(N - 1)])
-}
-fn two<T: Copy, const N: usize>(columns: [T; N]) -> Vec2<T> {
-    Vec2::new(columns[0], columns[N - 1])
-}
-/// The functions of one warp, in a module of their own.
-macro_rules! warp {
-    ($(#[$doc:meta])* $warp:ident, $module:ident, $numbers:literal, $coordinates:literal) => {
-        warp!(@ $(#[$doc])* $warp, $module, $numbers, $coordinates, (), &$warp);
-    };
-    ($(#[$doc:meta])* $warp:ident, $module:ident, $numbers:literal, $coordinates:literal, $struct:ident) => {
-        warp!(@ $(#[$doc])* $warp<f32>, $module, $numbers, $coordinates, (warp: $struct), &*warp.cast());
-    };
-    (@ $(#[$doc:meta])* $type:ty, $module:ident, $numbers:literal, $coordinates:literal, ($($warp:ident: $struct:ident)?), $value:expr) => {
-        #[doc = concat!("The functions of a warp: their names in C begin with `etendue_", stringify!($module), "_`.")]
-        pub mod $module {
-            use super::*;
-
-            const _: () = assert!(<$type as BatchWarp>::NUMBERS == $numbers && <$type as BatchWarp>::COORDINATES == $coordinates);
-            $(#[$doc])*
-            ///
-            /// Maps random numbers `u` to a point.
-            #[unsafe(export_name = concat!("etendue_", stringify!($module), "_sample"))]
-            pub unsafe extern "C" fn sample($($warp: *const $struct,)? u: *const f32, point: *mut f32) -> EtendueStatus {
-                refuse_null!($($warp,)? u, point);
-                // SAFETY: the pointers are not null, and point to what the header says
-                unsafe { (Batch::new().one_warp::<$type>().sample)($value, u, point) };
-                EtendueStatus::Ok
-            }
-            /// The pdf at a point, in the measure of the warp; 0 outside its range, and if a pointer is NULL.
-            #[unsafe(export_name = concat!("etendue_", stringify!($module), "_pdf"))]
-            pub unsafe extern "C" fn pdf($($warp: *const $struct,)? point: *const f32) -> f32 {
-                let mut pdf = 0.0;
-                if $(!$warp.is_null() &&)? !point.is_null() {
-                    // SAFETY: the pointers are not null, and point to what the header says
-                    unsafe { pdf = (Batch::new().one_warp::<$type>().pdf)($value, point) };
-                }
-                pdf
-            }
-            /// The random numbers that are mapped to a point; any in [0, 1)^2 outside the range of the warp.
-            #[unsafe(export_name = concat!("etendue_", stringify!($module), "_invert"))]
-            pub unsafe extern "C" fn invert($($warp: *const $struct,)? point: *const f32, u: *mut f32) -> EtendueStatus {
-                refuse_null!($($warp,)? point, u);
-                // SAFETY: the pointers are not null, and point to what the header says
-                unsafe { (Batch::new().one_warp::<$type>().invert)($value, point, u) };
-                EtendueStatus::Ok
-            }
-            /// A point for each u, in columns.
-            #[unsafe(export_name = concat!("etendue_", stringify!($module), "_sample_batch"))]
-            pub unsafe extern "C" fn sample_batch(
-                $($warp: *const $struct,)? n: usize, u: *const *const f32, points: *const *mut f32,
-            ) -> EtendueStatus {
-                if n == 0 {
-                    return EtendueStatus::Ok;
-                }
-                $(refuse_null!($warp);)?
-                // SAFETY: the pointers are not null, and point to what the header says
-                unsafe {
-                    let (Some(u), Some(points)) = (columns::<$numbers>(u), outputs::<$coordinates>(points)) else {
-                        return EtendueStatus::NullPointer;
-                    };
-                    (Batch::new().functions::<$type>().sample)($value, n, two(u), &three(points));
-                }
-                EtendueStatus::Ok
-            }
-            /// The pdf at each point, in columns.
-            #[unsafe(export_name = concat!("etendue_", stringify!($module), "_pdf_batch"))]
-            pub unsafe extern "C" fn pdf_batch(
-                $($warp: *const $struct,)? n: usize, points: *const *const f32, out: *mut f32,
-            ) -> EtendueStatus {
-                if n == 0 {
-                    return EtendueStatus::Ok;
-                }
-                refuse_null!($($warp,)? out);
-                // SAFETY: the pointers are not null, and point to what the header says
-                unsafe {
-                    let Some(points) = columns::<$coordinates>(points) else { return EtendueStatus::NullPointer };
-                    (Batch::new().functions::<$type>().pdf)($value, n, &three(points), out);
-                }
-                EtendueStatus::Ok
-            }
-            /// The random numbers of each point, in columns.
-            #[unsafe(export_name = concat!("etendue_", stringify!($module), "_invert_batch"))]
-            pub unsafe extern "C" fn invert_batch(
-                $($warp: *const $struct,)? n: usize, points: *const *const f32, u: *const *mut f32,
-            ) -> EtendueStatus {
-                if n == 0 {
-                    return EtendueStatus::Ok;
-                }
-                $(refuse_null!($warp);)?
-                // SAFETY: the pointers are not null, and point to what the header says
-                unsafe {
-                    let (Some(points), Some(u)) = (columns::<$coordinates>(points), outputs::<$numbers>(u)) else {
-                        return EtendueStatus::NullPointer;
-                    };
-                    (Batch::new().functions::<$type>().invert)($value, n, &three(points), two(u));
-                }
-                EtendueStatus::Ok
-            }
-        }
-    };
-}
+/// The number of each warp, and whether it has parameters.
 macro_rules! warps {
-    ($($(#[$doc:meta])* $warp:ident $([R] = $struct:ident)?, $module:ident: $numbers:literal -> $coordinates:literal;)+) => {
-        $(warp!($(#[$doc])* $warp, $module, $numbers, $coordinates $(, $struct)?);)+
+    ($($(#[$doc:meta])* $warp:ident $([$r:tt] = $struct:ident)?, $module:ident: $numbers:literal -> $coordinates:literal;)+) => {
+        /// A map of random numbers to points. The comments say how many numbers and coordinates there are, if not two and three.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        #[repr(C)]
+        pub enum EtendueWarp {
+            $($(#[$doc])* $warp,)+
+        }
+        const HAS_PARAMETERS: [bool; WARPS] = [$(!concat!($(stringify!($struct))?).is_empty()),+];
+        const _: () = {
+            $(assert!(EtendueWarp::$warp as usize == <warps!(@ $warp $([$r])?) as BatchWarp>::INDEX);)+
+        };
     };
+    (@ $warp:ident) => { $warp };
+    (@ $warp:ident [$r:tt]) => { $warp<f32> };
 }
+etendue::warps!(warps! {});
 
 /// The struct of a warp's parameters; the core's struct has the same fields.
 macro_rules! parameters {
@@ -202,4 +113,152 @@ pub unsafe extern "C" fn etendue_ggx_visible_normals_prepare(
     }
     EtendueStatus::Ok
 }
-etendue::warps!(warps! {});
+
+/// The parameters of a warp; of one that has none, a pointer that is not null. None if there is no such warp, or it lacks its parameters.
+fn checked(warp: u32, parameters: *const c_void) -> Result<*const c_void, EtendueStatus> {
+    match HAS_PARAMETERS.get(warp as usize) {
+        None => Err(EtendueStatus::Value),
+        Some(false) => Ok(NonNull::<f32>::dangling().as_ptr().cast()),
+        Some(true) if parameters.is_null() => Err(EtendueStatus::NullPointer),
+        Some(true) => Ok(parameters),
+    }
+}
+/// A status unless the parameters are there.
+macro_rules! given {
+    ($warp:ident, $parameters:ident) => {
+        match checked($warp, $parameters) {
+            Ok(parameters) => parameters,
+            Err(status) => return status,
+        }
+    };
+}
+
+/// Maps random numbers `u` to a point. `parameters` is the struct of the warp, or NULL if it has none. Returns ETENDUE_STATUS_VALUE for a warp that is
+/// none.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn etendue_warp_sample(
+    warp: u32,
+    parameters: *const c_void,
+    u: *const f32,
+    point: *mut f32,
+) -> EtendueStatus {
+    refuse_null!(u, point);
+    let parameters = given!(warp, parameters);
+    // SAFETY: the pointers are not null, and point to what the header says
+    unsafe { (Batch::new().warp_of_one(warp as usize).one_sample)(parameters, u, point) };
+    EtendueStatus::Ok
+}
+/// The pdf at a point, in the measure of the warp; 0 outside its range, and where the function cannot work.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn etendue_warp_pdf(warp: u32, parameters: *const c_void, point: *const f32) -> f32 {
+    match checked(warp, parameters) {
+        // SAFETY: the pointers are not null, and point to what the header says
+        Ok(parameters) if !point.is_null() => unsafe {
+            (Batch::new().warp_of_one(warp as usize).one_pdf)(parameters, point)
+        },
+        _ => 0.0,
+    }
+}
+/// The random numbers that are mapped to a point; any in [0, 1)^2 outside the range of the warp.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn etendue_warp_invert(
+    warp: u32,
+    parameters: *const c_void,
+    point: *const f32,
+    u: *mut f32,
+) -> EtendueStatus {
+    refuse_null!(point, u);
+    let parameters = given!(warp, parameters);
+    // SAFETY: the pointers are not null, and point to what the header says
+    unsafe { (Batch::new().warp_of_one(warp as usize).one_invert)(parameters, point, u) };
+    EtendueStatus::Ok
+}
+
+/// Columns of points or random numbers, of which all `count` must be there if `needed`; the others repeat the last one, and are not touched.
+unsafe fn few<const N: usize>(columns: *const *const f32, count: usize, needed: bool) -> Option<[*const f32; N]> {
+    if columns.is_null() {
+        return None;
+    }
+    let mut all = [null(); N];
+    for (i, column) in all.iter_mut().enumerate() {
+        // SAFETY: the caller's array has `count` pointers
+        *column = unsafe { columns.add(i.min(count - 1)).read_unaligned() };
+        if needed && column.is_null() {
+            return None;
+        }
+    }
+    Some(all)
+}
+fn outputs<const N: usize>(columns: [*const f32; N]) -> [*mut f32; N] {
+    columns.map(<*const f32>::cast_mut)
+}
+
+/// A point for each u, in columns: as many as the warp has numbers and coordinates.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn etendue_warp_sample_batch(
+    warp: u32,
+    parameters: *const c_void,
+    n: usize,
+    u: *const *const f32,
+    points: *const *mut f32,
+) -> EtendueStatus {
+    if n == 0 {
+        return EtendueStatus::Ok;
+    }
+    let parameters = given!(warp, parameters);
+    let WarpFunctions { sample, numbers, coordinates, .. } = *Batch::new().warp_functions(warp as usize);
+    // SAFETY: the pointers are null, or point to what the header says
+    unsafe {
+        let (Some([x, y]), Some(points)) = (few(u, numbers, true), few(points.cast(), coordinates, false)) else {
+            return EtendueStatus::NullPointer;
+        };
+        sample(parameters, n, Vec2::new(x, y), &outputs(points));
+    }
+    EtendueStatus::Ok
+}
+/// The pdf at each point, in columns.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn etendue_warp_pdf_batch(
+    warp: u32,
+    parameters: *const c_void,
+    n: usize,
+    points: *const *const f32,
+    out: *mut f32,
+) -> EtendueStatus {
+    if n == 0 {
+        return EtendueStatus::Ok;
+    }
+    refuse_null!(out);
+    let parameters = given!(warp, parameters);
+    let WarpFunctions { pdf, coordinates, .. } = *Batch::new().warp_functions(warp as usize);
+    // SAFETY: the pointers are null, or point to what the header says
+    unsafe {
+        let Some(points) = few(points, coordinates, true) else { return EtendueStatus::NullPointer };
+        pdf(parameters, n, &points, out);
+    }
+    EtendueStatus::Ok
+}
+/// The random numbers of each point, in columns.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn etendue_warp_invert_batch(
+    warp: u32,
+    parameters: *const c_void,
+    n: usize,
+    points: *const *const f32,
+    u: *const *mut f32,
+) -> EtendueStatus {
+    if n == 0 {
+        return EtendueStatus::Ok;
+    }
+    let parameters = given!(warp, parameters);
+    let WarpFunctions { invert, numbers, coordinates, .. } = *Batch::new().warp_functions(warp as usize);
+    // SAFETY: the pointers are null, or point to what the header says
+    unsafe {
+        let (Some(points), Some(u)) = (few(points, coordinates, true), few(u.cast(), numbers, false)) else {
+            return EtendueStatus::NullPointer;
+        };
+        let [x, y] = outputs(u);
+        invert(parameters, n, &points, Vec2::new(x, y));
+    }
+    EtendueStatus::Ok
+}

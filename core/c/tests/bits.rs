@@ -1,12 +1,12 @@
 //! The functions for lights with images, and for spreads, return what the core does, bit by bit.
 
-use core::ptr::null;
 use etendue::light::*;
 use etendue::reflection::Reflection;
 use etendue::sequence::{Independent, Sequence};
 use etendue::warp::{UniformSphere, Warp};
 use etendue::{LightSampler, Vec2, Vec3};
 use etendue_c::*;
+use std::ptr::null;
 
 const P: [f32; 3] = [0.1, 0.2, 0.3];
 const N: [f32; 3] = [0.0, 0.8, 0.6];
@@ -37,24 +37,30 @@ fn of_c(s: &EtendueLightSample) -> Vec<u32> {
 
 /// Compares all that is done with one prepared light.
 macro_rules! assert_same {
-    ($name:expr, $core:expr, $sampler:expr, $module:ident) => {{
+    ($name:expr, $core:expr, $sampler:expr, $technique:ident) => {{
         let (core, sampler) = ($core, $sampler);
+        let (technique, sampler) = (EtendueTechnique::$technique as u32, std::ptr::from_ref(&sampler).cast());
         let (mut found, mut positive) = (EtendueLightSample::default(), 0);
         for i in 0..COUNT {
             let u = pair(i);
             // SAFETY: all pointers are to what the header says
             unsafe {
-                assert_eq!($module::sample(&sampler, [u.x, u.y].as_ptr(), &mut found), EtendueStatus::Ok);
+                assert_eq!(etendue_sample(technique, sampler, [u.x, u.y].as_ptr(), &mut found), EtendueStatus::Ok);
                 let expected = core.sample(u);
                 assert_eq!(of_c(&found), of_core(&expected), "{}, sample {i}", $name);
                 for w in [expected.direction, direction(i)] {
                     let (raw, mut back) = (three(w), [0.0; 2]);
                     let pdf = core.pdf(w);
                     positive += u32::from(pdf > 0.0);
-                    assert_eq!($module::pdf(&sampler, raw.as_ptr()).to_bits(), pdf.to_bits(), "{}, pdf {i}", $name);
-                    assert_eq!($module::hit(&sampler, raw.as_ptr(), &mut found), EtendueStatus::Ok);
+                    assert_eq!(
+                        etendue_pdf(technique, sampler, raw.as_ptr()).to_bits(),
+                        pdf.to_bits(),
+                        "{}, pdf {i}",
+                        $name
+                    );
+                    assert_eq!(etendue_hit(technique, sampler, raw.as_ptr(), &mut found), EtendueStatus::Ok);
                     assert_eq!(of_c(&found), of_core(&core.hit(w)), "{}, hit {i}", $name);
-                    assert_eq!($module::invert(&sampler, raw.as_ptr(), back.as_mut_ptr()), EtendueStatus::Ok);
+                    assert_eq!(etendue_invert(technique, sampler, raw.as_ptr(), back.as_mut_ptr()), EtendueStatus::Ok);
                     let u = core.invert(w);
                     assert_eq!(bits(&back), bits(&[u.x, u.y]), "{}, inverse {i}", $name);
                 }
@@ -63,13 +69,15 @@ macro_rules! assert_same {
         assert!(positive > COUNT / 2, "{}: only {positive} directions have a pdf", $name);
     }};
 }
-/// A sampler of C, prepared for the point and the normal.
+/// A sampler of C, prepared for the point, and for what else the technique takes.
 macro_rules! prepared {
-    ($light:expr, $module:ident::prepare($($place:expr),+)) => {{
-        let mut sampler = core::mem::MaybeUninit::uninit();
-        // SAFETY: all pointers are to what the header says
+    ($sampler:ident: $light:expr, $technique:ident, $with:expr) => {{
+        let mut sampler = std::mem::MaybeUninit::<$sampler>::uninit();
+        let (technique, light) = (EtendueTechnique::$technique as u32, std::ptr::from_ref(&$light).cast());
+        // SAFETY: all pointers are to what the header says, and the function writes the sampler
         unsafe {
-            assert_eq!($module::prepare(&$light, $($place.as_ptr(),)+ sampler.as_mut_ptr()), EtendueStatus::Ok);
+            let status = etendue_prepare(technique, light, P.as_ptr(), $with, sampler.as_mut_ptr().cast());
+            assert_eq!(status, EtendueStatus::Ok);
             sampler.assume_init()
         }
     }};
@@ -80,78 +88,57 @@ fn reflections() {
     let (p, n, view) = (Vec3::from(P), Vec3::from(N), [-0.6, 0.64, 0.48]);
     for alpha in [0.0, 0.1, 0.5, 1.0] {
         let core = Reflection::new(alpha, n, view.into());
-        let mut same = core::mem::MaybeUninit::<EtendueReflection>::uninit();
+        let mut same = std::mem::MaybeUninit::<EtendueReflection>::uninit();
         // SAFETY: the pointers are to what the header says, and the function writes the reflection
         let same = unsafe {
             let prepared = etendue_reflection_prepare(alpha, N.as_ptr(), view.as_ptr(), same.as_mut_ptr());
             assert_eq!(prepared, EtendueStatus::Ok);
             same.assume_init()
         };
+        let (lobe, of) = (EtendueWarp::Reflection as u32, std::ptr::from_ref(&same).cast());
         assert_eq!(bits(&[same.albedo, same.schlick]), bits(&[core.albedo(), core.schlick()]));
         for i in 0..COUNT {
             let (u, center, mut drawn, mut back) = (pair(i), direction(i), [0.0; 3], [0.0; 2]);
             // SAFETY: the pointers are to what the header says
             unsafe {
-                assert_eq!(reflection::sample(&same, [u.x, u.y].as_ptr(), drawn.as_mut_ptr()), EtendueStatus::Ok);
+                assert_eq!(etendue_warp_sample(lobe, of, [u.x, u.y].as_ptr(), drawn.as_mut_ptr()), EtendueStatus::Ok);
                 let w = core.sample(u);
                 assert_eq!(bits(&drawn), bits(&three(w)), "{alpha}, sample {i}");
-                assert_eq!(reflection::pdf(&same, drawn.as_ptr()).to_bits(), core.pdf(w).to_bits(), "{alpha}, pdf {i}");
-                assert_eq!(reflection::invert(&same, drawn.as_ptr(), back.as_mut_ptr()), EtendueStatus::Ok);
+                assert_eq!(
+                    etendue_warp_pdf(lobe, of, drawn.as_ptr()).to_bits(),
+                    core.pdf(w).to_bits(),
+                    "{alpha}, pdf {i}"
+                );
+                assert_eq!(etendue_warp_invert(lobe, of, drawn.as_ptr(), back.as_mut_ptr()), EtendueStatus::Ok);
                 assert_eq!(bits(&back), bits(&[core.invert(w).x, core.invert(w).y]), "{alpha}, inverse {i}");
                 let covered = etendue_reflection_sphere(&same, three(center).as_ptr(), u.x);
                 assert_eq!(covered.to_bits(), core.sphere(center, u.x).to_bits(), "{alpha}, sphere {i}");
             }
         }
         let (corner, s, t) = ([-0.5, 2.0, -0.3], [0.1, 0.2, 1.1], [1.2, 0.1, 0.2]);
-        let prepare = |light: &EtendueParallelogram| {
-            let mut sampler = core::mem::MaybeUninit::uninit();
-            // SAFETY: the pointers are to what the header says, and the function writes the sampler
-            unsafe {
-                let prepared = parallelogram_by_reflection::prepare(light, P.as_ptr(), &same, sampler.as_mut_ptr());
-                assert_eq!(prepared, EtendueStatus::Ok);
-                sampler.assume_init()
-            }
-        };
         let light = EtendueParallelogram { corner, edge_s: s, edge_t: t };
         let expected = Parallelogram::new(corner.into(), s.into(), t.into()).by_reflection(p, &core);
-        assert_same!(alpha, expected, prepare(&light), parallelogram_by_reflection);
+        let sampler = prepared!(EtendueParallelogramByReflection: light, ParallelogramByReflection, of);
+        assert_same!(alpha, expected, sampler, ParallelogramByReflection);
         // the sampler of a rectangle is a parallelogram's
         let (s, t) = ([0.0, 0.0, 1.0], [1.0, 0.0, 0.0]);
-        let light = EtendueParallelogram { corner, edge_s: s, edge_t: t };
+        let light = EtendueRectangle { corner, edge_s: s, edge_t: t };
         let expected = Rectangle::new(corner.into(), s.into(), t.into()).by_reflection(p, &core);
-        assert_same!(alpha, expected, prepare(&light), parallelogram_by_reflection);
-        let mut sampler = core::mem::MaybeUninit::uninit();
+        let sampler = prepared!(EtendueParallelogramByReflection: light, RectangleByReflection, of);
+        assert_same!(alpha, expected, sampler, RectangleByReflection);
         let light = EtendueTriangle { v0: corner, e1: [1.2, 0.1, 0.2], e2: [0.1, 0.2, 1.1] };
-        // SAFETY: the pointers are to what the header says, and the function writes the sampler
-        let sampler = unsafe {
-            let prepared = triangle_by_reflection::prepare(&light, P.as_ptr(), &same, sampler.as_mut_ptr());
-            assert_eq!(prepared, EtendueStatus::Ok);
-            sampler.assume_init()
-        };
         let expected = Triangle { v0: light.v0.into(), e1: light.e1.into(), e2: light.e2.into() };
-        assert_same!(alpha, expected.by_reflection(p, &core), sampler, triangle_by_reflection);
-        let mut sampler = core::mem::MaybeUninit::uninit();
+        let sampler = prepared!(EtendueTriangleByReflection: light, TriangleByReflection, of);
+        assert_same!(alpha, expected.by_reflection(p, &core), sampler, TriangleByReflection);
         let corners = [[-0.5, 2.0, -0.3], [0.6, 2.0, -0.4], [0.9, 2.0, 0.4], [0.2, 2.0, 0.9]];
-        let corners = core::array::from_fn(|i| corners[i.min(3)]);
-        // SAFETY: the pointers are to what the header says, and the function writes the sampler
-        let sampler = unsafe {
-            let light = EtenduePolygon { corners };
-            let prepared = polygon_by_reflection::prepare(&light, P.as_ptr(), &same, sampler.as_mut_ptr());
-            assert_eq!(prepared, EtendueStatus::Ok);
-            sampler.assume_init()
-        };
+        let corners = std::array::from_fn(|i| corners[i.min(3)]);
         let expected = Polygon::new(corners.map(Vec3::from)).by_reflection(p, &core);
-        assert_same!(alpha, expected, sampler, polygon_by_reflection);
-        let mut sampler = core::mem::MaybeUninit::uninit();
+        let sampler = prepared!(EtenduePolygonByReflection: EtenduePolygon { corners }, PolygonByReflection, of);
+        assert_same!(alpha, expected, sampler, PolygonByReflection);
         let light = EtendueSphere { center: [-0.2, 2.0, 0.3], radius: 0.9 };
-        // SAFETY: the pointers are to what the header says, and the function writes the sampler
-        let sampler = unsafe {
-            let prepared = sphere_by_reflection::prepare(&light, P.as_ptr(), &same, sampler.as_mut_ptr());
-            assert_eq!(prepared, EtendueStatus::Ok);
-            sampler.assume_init()
-        };
         let expected = Sphere::new(light.center.into(), light.radius).by_reflection(p, &core);
-        assert_same!(alpha, expected, sampler, sphere_by_reflection);
+        let sampler = prepared!(EtendueSphereByReflection: light, SphereByReflection, of);
+        assert_same!(alpha, expected, sampler, SphereByReflection);
     }
 }
 
@@ -166,44 +153,50 @@ fn assert_pictures(picture: Picture<'_>, same: EtenduePicture, name: &str) {
             let parallelogram = Parallelogram { corner: corner.into(), edge_s: s.into(), edge_t: t.into() };
             let own = light(EtendueParallelogram { corner, edge_s: s, edge_t: t });
             let on = picture.on(parallelogram);
-            assert_same!(name, on.by_area(p), prepared!(own, picture_by_area::prepare(P)), picture_by_area);
-            let sampler = prepared!(own, picture_by_solid_angle::prepare(P));
-            assert_same!(name, on.by_solid_angle(p), sampler, picture_by_solid_angle);
-            let sampler = prepared!(own, picture_by_projected_solid_angle::prepare(P, N));
-            assert_same!(name, on.by_projected_solid_angle(p, n), sampler, picture_by_projected_solid_angle);
+            assert_same!(
+                name,
+                on.by_area(p),
+                prepared!(EtenduePictureByArea: own, PictureByArea, null()),
+                PictureByArea
+            );
+            let sampler = prepared!(EtenduePictureBySolidAngle: own, PictureBySolidAngle, null());
+            assert_same!(name, on.by_solid_angle(p), sampler, PictureBySolidAngle);
+            let sampler =
+                prepared!(EtenduePictureByProjectedSolidAngle: own, PictureByProjectedSolidAngle, N.as_ptr().cast());
+            assert_same!(name, on.by_projected_solid_angle(p, n), sampler, PictureByProjectedSolidAngle);
 
             let rectangle =
                 Rectangle { corner: corner.into(), edge_s: [0.0, 0.0, 1.0].into(), edge_t: [1.0, 0.0, 0.0].into() };
             let raw = EtendueRectangle { corner, edge_s: [0.0, 0.0, 1.0], edge_t: [1.0, 0.0, 0.0] };
             // SAFETY: the pointers are to a light and to room for one
             assert_eq!(unsafe { etendue_rectangle_coordinates(&raw, &mut coordinates) }, EtendueStatus::Ok);
-            let sampler = prepared!(light(coordinates), picture_by_solid_angle::prepare(P));
-            assert_same!(name, picture.on(rectangle).by_solid_angle(p), sampler, picture_by_solid_angle);
+            let sampler = prepared!(EtenduePictureBySolidAngle: light(coordinates), PictureBySolidAngle, null());
+            assert_same!(name, picture.on(rectangle).by_solid_angle(p), sampler, PictureBySolidAngle);
 
             let sphere =
                 EtenduePicturedSphere { picture: same, light: EtendueSphere { center: [0.3, 2.0, 0.1], radius: 0.5 } };
-            let sampler = prepared!(sphere, picture_on_sphere_by_visible_area::prepare(P));
+            let sampler = prepared!(EtenduePictureOnSphereByVisibleArea: sphere, PictureOnSphereByVisibleArea, null());
             let core = picture.on(Sphere::new(Vec3::new(0.3, 2.0, 0.1), 0.5)).by_visible_area(p);
-            assert_same!(name, core, sampler, picture_on_sphere_by_visible_area);
+            assert_same!(name, core, sampler, PictureOnSphereByVisibleArea);
 
             let patch = EtendueBilinearPatch { corner, edge_s: s, edge_t: t, diagonal: [1.3, 0.6, 1.2] };
             let patch = EtenduePicturedPatch { picture: same, light: patch };
-            let sampler = prepared!(patch, picture_on_patch_by_visible_area::prepare(P));
+            let sampler = prepared!(EtenduePictureOnPatchByVisibleArea: patch, PictureOnPatchByVisibleArea, null());
             let core = BilinearPatch {
                 corner: corner.into(),
                 edge_s: s.into(),
                 edge_t: t.into(),
                 diagonal: [1.3, 0.6, 1.2].into(),
             };
-            assert_same!(name, picture.on(core).by_visible_area(p), sampler, picture_on_patch_by_visible_area);
+            assert_same!(name, picture.on(core).by_visible_area(p), sampler, PictureOnPatchByVisibleArea);
         }
         Region::Triangle => {
             let raw = EtendueTriangle { v0: corner, e1: s, e2: t };
             // SAFETY: the pointers are to a light and to room for one
             assert_eq!(unsafe { etendue_triangle_coordinates(&raw, &mut coordinates) }, EtendueStatus::Ok);
             let core = picture.on(Triangle { v0: corner.into(), e1: s.into(), e2: t.into() });
-            let sampler = prepared!(light(coordinates), picture_by_projected_solid_angle::prepare(P, N));
-            assert_same!(name, core.by_projected_solid_angle(p, n), sampler, picture_by_projected_solid_angle);
+            let sampler = prepared!(EtenduePictureByProjectedSolidAngle: light(coordinates), PictureByProjectedSolidAngle, N.as_ptr().cast());
+            assert_same!(name, core.by_projected_solid_angle(p, n), sampler, PictureByProjectedSolidAngle);
         }
         Region::Disk => {
             let raw = EtendueDisk { center: [0.3, 2.0, 0.1], normal: [0.0, -0.8, 0.6], radius: 0.5 };
@@ -211,8 +204,8 @@ fn assert_pictures(picture: Picture<'_>, same: EtenduePicture, name: &str) {
             assert_eq!(unsafe { etendue_disk_coordinates(&raw, &mut coordinates) }, EtendueStatus::Ok);
             let core =
                 picture.on(Disk { center: [0.3, 2.0, 0.1].into(), normal: [0.0, -0.8, 0.6].into(), radius: 0.5 });
-            let sampler = prepared!(light(coordinates), picture_by_solid_angle::prepare(P));
-            assert_same!(name, core.by_solid_angle(p), sampler, picture_by_solid_angle);
+            let sampler = prepared!(EtenduePictureBySolidAngle: light(coordinates), PictureBySolidAngle, null());
+            assert_same!(name, core.by_solid_angle(p), sampler, PictureBySolidAngle);
         }
     }
 }
@@ -263,8 +256,8 @@ fn portals() {
     assert_eq!(built, EtendueStatus::Ok);
     let (raw, both) = (corners.map(|corner| EtenduePortal { corner, edge_s: s, edge_t: t }), [table; 2]);
     let sky = EtenduePortalEnvironment { portals: raw.as_ptr(), tables: both.as_ptr(), count: 2 };
-    let sampler = prepared!(sky, portals_by_radiance::prepare(P));
-    assert_same!("portals", core.by_radiance(Vec3::from(P)), sampler, portals_by_radiance);
+    let sampler = prepared!(EtenduePortalsByRadiance: sky, PortalsByRadiance, null());
+    assert_same!("portals", core.by_radiance(Vec3::from(P)), sampler, PortalsByRadiance);
     for i in 0..COUNT {
         let (uv, mut w, mut angle) = (pair(i), [0.0; 3], 0.0);
         let (direction, solid_angle) = portals[0].map().direction(uv);
@@ -282,16 +275,12 @@ fn spread() {
     let mut same = EtendueSpread { tan_half: 0.0, gain: 0.0 };
     let panel = EtendueRectangle { corner: [-9.0, 1.0, -9.0], edge_s: [18.0, 0.0, 0.0], edge_t: [0.0, 0.0, 18.0] };
     let core = Rectangle::<f32>::new([-9.0, 1.0, -9.0].into(), [18.0, 0.0, 0.0].into(), [0.0, 0.0, 18.0].into());
-    let mut sampler = core::mem::MaybeUninit::uninit();
-    // SAFETY: all pointers here are to what the header says, and the function writes the sampler
-    let sampler = unsafe {
-        assert_eq!(etendue_spread_prepare(1.2, &mut same), EtendueStatus::Ok);
-        assert_eq!(bits(&[same.tan_half, same.gain]), bits(&[spread.tan_half, spread.gain]));
-        let prepared = etendue_rectangle_by_spread_prepare(&panel, P.as_ptr(), &same, sampler.as_mut_ptr());
-        assert_eq!(prepared, EtendueStatus::Ok);
-        sampler.assume_init()
-    };
-    assert_same!("spread", core.by_spread(Vec3::from(P), &spread), sampler, rectangle_by_solid_angle);
+    // SAFETY: the pointer is to a spread
+    assert_eq!(unsafe { etendue_spread_prepare(1.2, &mut same) }, EtendueStatus::Ok);
+    assert_eq!(bits(&[same.tan_half, same.gain]), bits(&[spread.tan_half, spread.gain]));
+    let with = std::ptr::from_ref(&same).cast();
+    let sampler = prepared!(EtendueRectangleBySolidAngle: panel, RectangleBySpread, with);
+    assert_same!("spread", core.by_spread(Vec3::from(P), &spread), sampler, RectangleBySpread);
     // SAFETY: all pointers here are to what the header says
     unsafe {
         for i in 0..COUNT {

@@ -41,7 +41,7 @@ typedef struct {
     const char *name;
     const float *light;
     size_t light_numbers, sampler_numbers;
-    // what it needs beside the point: 1 the normal `n`, 2 a reflection, of which `n` is the normal
+    // what it needs beside the point: 1 the normal `n`, 2 a reflection, of which `n` is the normal, 3 a spread
     int on_surface;
     EtendueStatus (*prepare)(const float *light, const float *p, const float *n, float *sampler);
     EtendueStatus (*sample)(const float *sampler, const float *u, EtendueLightSample *out);
@@ -80,6 +80,24 @@ static const EtendueReflectionColumns *reflections(size_t n, const float *const 
     for (size_t i = 0; i < MOST; i++) alphas[i] = alpha;
     const int prepared = normals && etendue_reflection_prepare_batch(n, alphas, normals, normals, &reflection_columns) == ETENDUE_STATUS_OK;
     return prepared ? &reflection_columns : NULL;
+}
+
+// The spread of all lights, as functions of normals take it.
+static EtendueSpread spread_memory;
+static const EtendueSpread *spread(const float *n) {
+    return n && etendue_spread_prepare(3, &spread_memory) == ETENDUE_STATUS_OK ? &spread_memory : NULL;
+}
+static float tangents[MOST], gains[MOST];
+static const EtendueSpreadColumns spread_columns = {tangents, gains};
+static const EtendueSpreadColumns *spreads(const float *const *normals) {
+    for (int k = 0; normals && k < 3; k++)
+        if (!normals[k]) return NULL;
+    if (!normals || !spread(&alpha)) return NULL;
+    for (size_t i = 0; i < MOST; i++) {
+        tangents[i] = spread_memory.tan_half;
+        gains[i] = spread_memory.gain;
+    }
+    return &spread_columns;
 }
 
 // The functions of a technique with all structs as arrays of numbers or pointers. N and NORMALS are the arguments for normals, if any.
@@ -148,8 +166,9 @@ static const EtendueReflectionColumns *reflections(size_t n, const float *const 
 #define FUNCTIONS_0(NAME, LIGHT, PREFIX) FUNCTIONS(NAME, LIGHT, PREFIX, , )
 #define FUNCTIONS_1(NAME, LIGHT, PREFIX) FUNCTIONS(NAME, LIGHT, PREFIX, n COMMA, normals COMMA)
 #define FUNCTIONS_2(NAME, LIGHT, PREFIX) FUNCTIONS(NAME, LIGHT, PREFIX, reflection(n) COMMA, reflections(n COMMA normals) COMMA)
+#define FUNCTIONS_3(NAME, LIGHT, PREFIX) FUNCTIONS(NAME, LIGHT, PREFIX, spread(n) COMMA, spreads(normals) COMMA)
 
-// name, light, functions, what it needs beside the point: 1 a normal, 2 a reflection
+// name, light, functions, what it needs beside the point: 1 a normal, 2 a reflection, 3 a spread
 // from the list of techniques: WRITE=1 cargo test -p etendue-tests bindings
 #define TECHNIQUES(T) \
     T(SphereByArea, Sphere, sphere_by_area, 0) \
@@ -165,10 +184,16 @@ static const EtendueReflectionColumns *reflections(size_t n, const float *const 
     T(ParallelogramBySolidAngle, Parallelogram, parallelogram_by_solid_angle, 0) \
     T(ParallelogramByProjectedSolidAngle, Parallelogram, parallelogram_by_projected_solid_angle, 1) \
     T(ParallelogramByReflection, Parallelogram, parallelogram_by_reflection, 2) \
+    T(ParallelogramBySolidAngle, Parallelogram, parallelogram_by_spread, 3) \
+    T(ParallelogramByArea, Rectangle, rectangle_by_area, 0) \
     T(RectangleBySolidAngle, Rectangle, rectangle_by_solid_angle, 0) \
+    T(ParallelogramByProjectedSolidAngle, Rectangle, rectangle_by_projected_solid_angle, 1) \
     T(RectangleByCosineWarp, Rectangle, rectangle_by_cosine_warp, 1) \
+    T(ParallelogramByReflection, Rectangle, rectangle_by_reflection, 2) \
+    T(RectangleBySolidAngle, Rectangle, rectangle_by_spread, 3) \
     T(DiskByArea, Disk, disk_by_area, 0) \
     T(DiskBySolidAngle, Disk, disk_by_solid_angle, 0) \
+    T(DiskBySolidAngle, Disk, disk_by_spread, 3) \
     T(PolygonByArea, Polygon, polygon_by_area, 0) \
     T(PolygonBySolidAngle, Polygon, polygon_by_solid_angle, 0) \
     T(PolygonByProjectedSolidAngle, Polygon, polygon_by_projected_solid_angle, 1) \
@@ -948,6 +973,41 @@ static void test_image(uint32_t map) {
 
 // Inputs are 8 GB of zeros, which need no memory while they are only read; outputs lie in 64 MB that are mapped again and again, so that
 // the last elements remain.
+// Numbers that are no technique or no warp are refused, and nothing is written.
+static void test_unknown(void) {
+    const uint32_t numbers[] = {ETENDUE_TECHNIQUE_IMAGE_BY_RADIANCE + 1, 1000, 0x80000000u, UINT32_MAX};
+    const float light[64] = {0}, w[3] = {0, 1, 0};
+    const float *const columns[3] = {u_numbers[0], u_numbers[1], w_numbers[0]};
+    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++) {
+        const uint32_t t = numbers[k];
+        Results r = results(17);
+        const EtendueSampleColumns out = sample_columns(r.column);
+        float *const sampler = r.column[0];
+        EtendueLightSample s, before;
+        memset(&before, PATTERN, sizeof before);
+        s = before;
+        CHECK(etendue_prepare(t, light, w, w, sampler) == ETENDUE_STATUS_VALUE && etendue_sample(t, light, w, &s) == ETENDUE_STATUS_VALUE);
+        CHECK(etendue_hit(t, light, w, &s) == ETENDUE_STATUS_VALUE && etendue_invert(t, light, w, sampler) == ETENDUE_STATUS_VALUE);
+        CHECK(etendue_sample_once(t, light, w, w, w, &s) == ETENDUE_STATUS_VALUE && memcmp(&s, &before, sizeof s) == 0);
+        CHECK(etendue_pdf(t, light, w) == 0 && etendue_pdf_once(t, light, w, w, w) == 0 && etendue_pdf_of_hit_once(t, light, w, w, w) == 0);
+        CHECK(etendue_sample_batch(t, light, 17, columns, &out) == ETENDUE_STATUS_VALUE);
+        CHECK(etendue_hit_batch(t, light, 17, columns, &out) == ETENDUE_STATUS_VALUE);
+        CHECK(etendue_pdf_batch(t, light, 17, columns, r.column[0]) == ETENDUE_STATUS_VALUE);
+        CHECK(etendue_invert_batch(t, light, 17, columns, r.column) == ETENDUE_STATUS_VALUE);
+        CHECK(etendue_sample_each(t, light, 17, columns, columns, columns, &out) == ETENDUE_STATUS_VALUE);
+        CHECK(etendue_hit_each(t, light, 17, columns, columns, columns, &out) == ETENDUE_STATUS_VALUE);
+        CHECK(etendue_pdf_each(t, light, 17, columns, columns, columns, r.column[0]) == ETENDUE_STATUS_VALUE);
+        CHECK(etendue_invert_each(t, light, 17, columns, columns, columns, r.column) == ETENDUE_STATUS_VALUE);
+        CHECK(etendue_warp_sample(t, light, w, sampler) == ETENDUE_STATUS_VALUE && etendue_warp_invert(t, light, w, sampler) == ETENDUE_STATUS_VALUE);
+        CHECK(etendue_warp_pdf(t, light, w) == 0 && etendue_warp_pdf_batch(t, light, 17, columns, r.column[0]) == ETENDUE_STATUS_VALUE);
+        CHECK(etendue_warp_sample_batch(t, light, 17, columns, r.column) == ETENDUE_STATUS_VALUE);
+        CHECK(etendue_warp_invert_batch(t, light, 17, columns, r.column) == ETENDUE_STATUS_VALUE);
+        CHECK(only_written(&r, 0, 0));
+        free(r.memory);
+    }
+    CHECK(etendue_warp_sample(ETENDUE_WARP_TENT + 1, light, w, NULL) == REFUSED && etendue_warp_pdf(ETENDUE_WARP_TENT + 1, light, w) == 0);
+}
+
 static void test_huge(void) {
     current = "2^31 + 5 elements";
     const size_t n = ((size_t)1 << 31) + 5, window = (size_t)1 << 26, windows = 4 * n / window + 1;
@@ -1036,6 +1096,8 @@ int main(int argc, char **argv) {
             current = sequences[k].name;
             test_sequence(sequences + k);
         }
+        current = "unknown";
+        test_unknown();
         current = "light_tree";
         test_tree(300);
         test_tree(1);

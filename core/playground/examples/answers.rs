@@ -104,14 +104,21 @@ fn technique(by: &str, sampler: &impl LightSampler<f32>, view: &View) -> Value {
     })
 }
 
+/// What is done for the techniques that the page shows: those that take a point and at most a normal.
+macro_rules! shown {
+    ((p, reflection), $done:expr) => {};
+    ((p, spread), $done:expr) => {};
+    ($place:tt, $done:expr) => {
+        $done;
+    };
+}
 macro_rules! answer {
     ($(
         $(#[$light_doc:meta])* $light:ident $([$corners:literal])? = $light_c:ident, $columns_c:ident {
             $($(#[$field_doc:meta])* $field:ident as $argument:ident: $kind:ident,)+
-        } $(reflected { $($lobe:tt)* })? by $default:literal {
+        } by $default:literal {
             $(
-                $(#[$doc:meta])* $sampler:ident $([$n:literal])? $(= $sampler_c:ident, $name:ident[$size:literal])?:
-                    $by:ident $place:tt $($measure:ident)?;
+                $(#[$doc:meta])* $technique:ident, $name:ident -> $sampler:ident $([$n:literal])? $(= $sampler_c:ident[$size:literal])?: $by:ident $place:tt $($measure:ident)?;
             )+
         }
     )+) => {
@@ -121,7 +128,12 @@ macro_rules! answer {
                 $(stringify!($light) => {
                     let mut rest = view.numbers.iter().copied();
                     let light: $light<f32 $(, $corners)?> = $light { $($field: field!($kind, rest)),+ };
-                    json!([$(technique(stringify!($by), &etendue::prepared!(light, $by $place, view.p, view.n), view)),+])
+                    let mut all = Vec::new();
+                    $(shown!($place, {
+                        let sampler = etendue::prepared!(light, $by $place, p: view.p, n: view.n,);
+                        all.push(technique(stringify!($by), &sampler, view));
+                    });)+
+                    json!(all)
                 })+
                 _ => json!(null),
             }

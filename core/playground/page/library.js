@@ -34,10 +34,7 @@ async function startLibrary() {
     );
   }
   const instance = await WebAssembly.instantiate(module, {});
-  const missing = LIGHTS.flatMap((light) => light.techniques).find(
-    (t) => !instance.exports[`etendue_${t.function}_sample_batch`],
-  );
-  if (missing) throw new Unusable(`The library in this page lacks ${missing.function}. ${AGAIN}`);
+  if (!instance.exports.etendue_sample_batch) throw new Unusable(`The library in this page is another one. ${AGAIN}`);
   return new Library(instance.exports);
 }
 
@@ -122,20 +119,21 @@ class Library {
     this.light.set(light);
     this.p.set(p);
     this.n.set(n);
-    const normal = takesNormal(sampler.technique) ? [this.n.byteOffset] : [];
     // a sun takes the point, too, which is not used
     this.call(
-      `etendue_${sampler.technique.function}_prepare`,
+      "etendue_prepare",
+      sampler.technique.technique,
       this.light.byteOffset,
       this.p.byteOffset,
-      ...normal,
+      takesNormal(sampler.technique) ? this.n.byteOffset : 0,
       sampler.memory.byteOffset,
     );
   }
   sample(sampler, n, u, samples) {
     const columns = this.columns(u);
     this.call(
-      `etendue_${sampler.technique.function}_sample_batch`,
+      "etendue_sample_batch",
+      sampler.technique.technique,
       sampler.memory.byteOffset,
       n,
       columns,
@@ -144,7 +142,8 @@ class Library {
   }
   pdf(sampler, n, w, pdf) {
     this.call(
-      `etendue_${sampler.technique.function}_pdf_batch`,
+      "etendue_pdf_batch",
+      sampler.technique.technique,
       sampler.memory.byteOffset,
       n,
       this.columns(w),
@@ -167,7 +166,8 @@ class Library {
     const columns = this.columns(this.one.w);
     this.results.set(this.one.u.map((view) => view.byteOffset));
     this.call(
-      `etendue_${sampler.technique.function}_invert_batch`,
+      "etendue_invert_batch",
+      sampler.technique.technique,
       sampler.memory.byteOffset,
       1,
       columns,
@@ -193,8 +193,8 @@ class Library {
   hemisphere(warp, n, u, local, pdf) {
     const columns = this.columns(u);
     this.results.set(local.map((view) => view.byteOffset));
-    this.call(`etendue_${warp}_sample_batch`, n, columns, this.results.byteOffset);
-    this.call(`etendue_${warp}_pdf_batch`, n, this.columns(local), pdf.byteOffset);
+    this.call("etendue_warp_sample_batch", WARPS[warp], 0, n, columns, this.results.byteOffset);
+    this.call("etendue_warp_pdf_batch", WARPS[warp], 0, n, this.columns(local), pdf.byteOffset);
   }
   hemisphereInverse(warp, local) {
     this.one.w.forEach((column, k) => {
@@ -202,8 +202,8 @@ class Library {
     });
     const columns = this.columns(this.one.w);
     this.results.set(this.one.u.map((view) => view.byteOffset));
-    this.call(`etendue_${warp}_invert_batch`, 1, columns, this.results.byteOffset);
-    this.call(`etendue_${warp}_pdf_batch`, 1, this.columns(this.one.w), this.one.samples.pdf.byteOffset);
+    this.call("etendue_warp_invert_batch", WARPS[warp], 0, 1, columns, this.results.byteOffset);
+    this.call("etendue_warp_pdf_batch", WARPS[warp], 0, 1, this.columns(this.one.w), this.one.samples.pdf.byteOffset);
     return { u: this.one.u.map((column) => column[0]), pdf: this.one.samples.pdf[0] };
   }
 }

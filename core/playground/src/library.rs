@@ -8,6 +8,8 @@ const TARGET: &str = "wasm32-unknown-unknown";
 const FLAGS: &str = "-Ctarget-feature=+simd128";
 /// Settings that let the linker drop the functions that the page never calls.
 const PROFILE: [&str; 4] = ["panic='abort'", "lto='fat'", "codegen-units=1", "debug=false"];
+/// The lights of the page.
+const LIGHTS: &str = "sphere,triangle,parallelogram,rectangle,disk,polygon,patch,line,sun";
 /// Bytes for the stack: prepared lights in every lane of a packet take tens of thousands.
 const STACK: usize = 1 << 20;
 
@@ -29,7 +31,7 @@ fn toolchain() -> Result<(PathBuf, String), String> {
 }
 
 /// The library with these functions.
-pub(crate) fn build(functions: &[String]) -> Result<Vec<u8>, String> {
+pub(crate) fn build(functions: &[&str]) -> Result<Vec<u8>, String> {
     let (root, host) = toolchain()?;
     if !root.join("lib/rustlib").join(TARGET).is_dir() {
         return Err(format!("Rust lacks the target of WebAssembly: rustup target add {TARGET}"));
@@ -40,6 +42,7 @@ pub(crate) fn build(functions: &[String]) -> Result<Vec<u8>, String> {
     let target = target.join("wasm");
     let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     cargo.current_dir(&workspace).args(["rustc", "--release", "--locked", "-p", "etendue-c", "--no-default-features"]);
+    cargo.args(["--features", LIGHTS]);
     cargo.args(["--crate-type", "staticlib", "--target", TARGET, "--target-dir"]).arg(&target);
     for setting in PROFILE {
         cargo.args(["--config", &format!("profile.release.{setting}")]);

@@ -2,23 +2,23 @@
 
 use serde_json::{Value, json};
 
-/// The lights of `etendue::techniques!` as JSON. The sampler of another light gets its name and size from there.
+/// The lights of `etendue::techniques!` as JSON. A sampler that another technique has as its own gets its size from there.
 macro_rules! list {
     ($(
         $(#[doc = $light_doc:literal])* $light:ident $([$corners:literal])? = $light_c:ident, $columns_c:ident {
             $($(#[doc = $field_doc:literal])* $field:ident as $argument:ident: $kind:ident,)+
-        } $(reflected { $($lobe:tt)* })? by $default:literal {
+        } by $default:literal {
             $(
-                $(#[doc = $doc:literal])* $sampler:ident $([$n:literal])? $(= $sampler_c:ident, $name:ident[$size:literal])?:
-                    $by:ident $place:tt $($measure:ident)?;
+                $(#[doc = $doc:literal])* $technique:ident, $name:ident -> $sampler:ident $([$n:literal])? $(= $sampler_c:ident[$size:literal])?: $by:ident $place:tt $($measure:ident)?;
             )+
         }
     )+) => {
-        /// Samplers: type, name in C, and how many numbers they consist of.
-        const SAMPLERS: &[(&str, &str, usize)] = &[$($($((stringify!($sampler), stringify!($name), $size),)?)+)+];
+        /// Samplers, and how many numbers they consist of.
+        const SAMPLERS: &[(&str, usize)] = &[$($($((stringify!($sampler), $size),)?)+)+];
 
         /// Each light: its name, documentation, fields and techniques, and which of them is the default.
         pub(crate) fn lights() -> Value {
+            let mut number = 0;
             json!([$({
                 "name": stringify!($light),
                 "about": text(&[$($light_doc),*]),
@@ -28,21 +28,44 @@ macro_rules! list {
                     "kind": stringify!($kind),
                     "about": text(&[$($field_doc),*]),
                 }),+],
-                "techniques": [$({
+                "techniques": shown(&mut number, [$(json!({
                     "by": stringify!($by),
-                    "function": sampler(stringify!($sampler)).1,
-                    "numbers": sampler(stringify!($sampler)).2,
+                    "name": stringify!($name),
+                    "numbers": numbers(stringify!($sampler)),
                     "place": stringify!($place),
                     "about": text(&[$($doc),*]),
-                }),+],
+                })),+]),
             }),+])
         }
     };
 }
 etendue::techniques!(list! {});
 
-fn sampler(name: &str) -> (&'static str, &'static str, usize) {
-    *SAMPLERS.iter().find(|sampler| sampler.0 == name).expect("the list names the sampler of each technique")
+/// The techniques that the page shows, with their numbers in the C interface: those that take a point and at most a normal.
+fn shown<const N: usize>(number: &mut u32, techniques: [Value; N]) -> Vec<Value> {
+    let numbered = techniques.into_iter().map(|mut technique| {
+        technique["technique"] = json!(*number);
+        *number += 1;
+        technique
+    });
+    let takes = |technique: &Value| technique["place"].as_str().unwrap_or_default().to_owned();
+    let is_shown = |place: String| !place.contains("reflection") && !place.contains("spread");
+    numbered.filter(|technique| is_shown(takes(technique))).collect()
+}
+
+fn numbers(sampler: &str) -> usize {
+    SAMPLERS.iter().find(|known| known.0 == sampler).expect("one technique has the sampler as its own").1
+}
+
+/// The numbers of warps in the C interface, by their names.
+pub(crate) fn warps() -> Value {
+    macro_rules! names {
+        ($($(#[$doc:meta])* $warp:ident $([$r:tt] = $struct:ident)?, $name:ident: $numbers:tt -> $coordinates:literal;)+) => {
+            [$(stringify!($name)),+]
+        };
+    }
+    let names = etendue::warps!(names! {});
+    names.iter().enumerate().map(|(number, name)| ((*name).to_owned(), json!(number))).collect()
 }
 
 /// The lines of a documentation comment as one paragraph.
@@ -51,22 +74,15 @@ fn text(lines: &[&str]) -> String {
 }
 
 /// The functions of the C interface that the page calls.
-pub(crate) fn functions(lights: &Value) -> Vec<String> {
-    let list = |value: &Value| value.as_array().cloned().unwrap_or_default();
-    let word = |value: &Value| value.as_str().unwrap_or_default().to_owned();
-    let mut names: Vec<String> =
-        ["owen_sobol", "independent", "stratified"].map(|s| format!("etendue_{s}_pairs")).into();
-    for warp in ["uniform_hemisphere", "cosine_hemisphere"] {
-        names.extend(["sample", "pdf", "invert"].map(|what| format!("etendue_{warp}_{what}_batch")));
-    }
-    for light in list(lights) {
-        for technique in list(&light["techniques"]) {
-            let function = word(&technique["function"]);
-            let what = ["prepare", "sample_batch", "pdf_batch", "invert_batch"];
-            names.extend(what.map(|what| format!("etendue_{function}_{what}")));
-        }
-    }
-    names.sort();
-    names.dedup();
-    names
-}
+pub(crate) const FUNCTIONS: [&str; 10] = [
+    "etendue_prepare",
+    "etendue_sample_batch",
+    "etendue_pdf_batch",
+    "etendue_invert_batch",
+    "etendue_warp_sample_batch",
+    "etendue_warp_pdf_batch",
+    "etendue_warp_invert_batch",
+    "etendue_owen_sobol_pairs",
+    "etendue_independent_pairs",
+    "etendue_stratified_pairs",
+];

@@ -49,9 +49,9 @@ struct Options {
 
 fn write(options: &Options) -> Result<(), String> {
     let lights = list::lights();
-    let wasm = library::build(&list::functions(&lights))?;
+    let wasm = library::build(&list::FUNCTIONS)?;
     let packed = page::gzip(&wasm)?;
-    let text = page::join(&lights, &packed);
+    let text = page::join(&lights, &list::warps(), &packed);
     std::fs::create_dir_all(&options.output).map_err(|e| format!("{}: {e}", options.output.display()))?;
     let path = options.output.join("index.html");
     std::fs::write(&path, &text).map_err(|e| format!("{}: {e}", path.display()))?;

@@ -32,9 +32,10 @@ pub(crate) fn gzip(bytes: &[u8]) -> Result<Vec<u8>, String> {
 }
 
 /// The page, with the library as text, since a page in a folder may not load other files.
-pub(crate) fn join(lights: &Value, packed: &[u8]) -> String {
+pub(crate) fn join(lights: &Value, warps: &Value, packed: &[u8]) -> String {
     // one scope for all scripts, which declare nothing for the page but what the last one says
-    let script = format!("\"use strict\";\n(() => {{\nconst LIGHTS = {lights};\n{}\n}})();", SCRIPTS.join("\n"));
+    let lists = format!("const LIGHTS = {lights};\nconst WARPS = {warps};");
+    let script = format!("\"use strict\";\n(() => {{\n{lists}\n{}\n}})();", SCRIPTS.join("\n"));
     let library = base64::engine::general_purpose::STANDARD.encode(packed);
     let parts = [("/*style*/", STYLE), ("/*script*/", &script), ("/*library*/", &library)];
     parts.into_iter().fold(HTML.to_owned(), |page, (mark, part)| page.replacen(mark, part, 1))

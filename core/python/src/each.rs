@@ -3,8 +3,9 @@
 use crate::arrays::{Argument, FieldKind, array, broadcast, room, rows, run, zero_columns, zeros};
 use crate::reflections::reflections;
 use crate::samplers::{Samples, vector};
-use etendue::{Vec2, Vec3};
-use etendue_batch::{Batch, BatchTechnique, Evaluations};
+use etendue::Vec2;
+use etendue::light::Spread;
+use etendue_batch::{Batch, Evaluations, Technique};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 
@@ -31,12 +32,68 @@ pub(crate) fn numbers(
     Ok(columns)
 }
 
+/// What techniques take beside the point, where they are given: unit normals, roughnesses and directions to the viewer, and angles of spreads.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct Given<'a, 'py> {
+    pub(crate) n: Option<&'a Bound<'py, PyAny>>,
+    pub(crate) alpha: Option<&'a Bound<'py, PyAny>>,
+    pub(crate) view: Option<&'a Bound<'py, PyAny>>,
+    pub(crate) spread: Option<&'a Bound<'py, PyAny>>,
+}
+
+/// What one technique takes beside the point.
+#[derive(Clone, Copy, PartialEq)]
+pub(crate) enum Needs {
+    Nothing,
+    Normal,
+    Reflection,
+    Spread,
+}
+
+impl Needs {
+    /// The arguments from which it is made.
+    fn arguments<'py>(self, given: Given<'_, 'py>) -> PyResult<Vec<Argument<'py>>> {
+        let wrong = |message: &str| Err(PyTypeError::new_err(message.to_owned()));
+        let direction = |name, object| Argument::new(name, FieldKind::Direction, object);
+        match (self, given) {
+            (Self::Nothing, _) => Ok(Vec::new()),
+            (Self::Normal, Given { n: Some(n), .. }) => Ok(vec![direction("n", n)?]),
+            (Self::Reflection, Given { n: Some(n), alpha: Some(alpha), view: Some(view), .. }) => Ok(vec![
+                Argument::new("alpha", FieldKind::Number, alpha)?,
+                direction("n", n)?,
+                direction("view", view)?,
+            ]),
+            (Self::Spread, Given { spread: Some(spread), .. }) => {
+                Ok(vec![Argument::new("spread", FieldKind::Number, spread)?])
+            }
+            (Self::Normal, _) => wrong("this technique needs n, the normals at the shading points"),
+            (Self::Reflection, _) => {
+                wrong("by reflection, n, alpha and view are needed: normals, roughnesses and directions to the viewer")
+            }
+            (Self::Spread, _) => wrong("by spread, spread is needed: full angles in radians"),
+        }
+    }
+    /// Its numbers in columns.
+    fn columns(self, py: Python<'_>, arguments: &[Argument<'_>], shape: &[usize]) -> PyResult<Vec<Vec<f32>>> {
+        let columns = arguments.iter().map(|argument| argument.columns(shape)).collect::<PyResult<Vec<_>>>()?;
+        match (self, &columns[..]) {
+            (Self::Reflection, [alpha, n, view]) => reflections(py, &alpha[0], n, view),
+            (Self::Spread, [angles]) => {
+                let spreads = angles[0].iter().map(|&angle| Spread::<f32>::new(f64::from(angle)));
+                let (tan_half, gain) = spreads.map(|spread| (spread.tan_half, spread.gain)).unzip();
+                Ok(vec![tan_half, gain])
+            }
+            _ => Ok(columns.concat()),
+        }
+    }
+}
+
 /// Lights and shading points of their own for each row, and the numbers u or the directions w there.
 pub(crate) struct Each {
     shape: Vec<usize>,
     light: Vec<Vec<f32>>,
     p: Vec<Vec<f32>>,
-    n: Option<Vec<Vec<f32>>>,
+    with: Vec<Vec<f32>>,
     at: Vec<Vec<f32>>,
 }
 
@@ -64,40 +121,28 @@ impl Each {
         py: Python<'_>,
         fields: &[Field<'_, '_>],
         p: &Bound<'_, PyAny>,
-        n: Option<&Bound<'_, PyAny>>,
-        lobe: Option<[&Bound<'_, PyAny>; 2]>,
+        (needs, given): (Needs, Given<'_, '_>),
         (name, kind, at): (&'static str, FieldKind, &Bound<'_, PyAny>),
     ) -> PyResult<Self> {
         let arguments = fields.iter().map(|&(name, kind, _, object)| Argument::new(name, kind, object));
         let arguments = arguments.collect::<PyResult<Vec<_>>>()?;
-        let lobe = lobe.map(|[alpha, view]| {
-            Ok::<_, PyErr>([
-                Argument::new("alpha", FieldKind::Number, alpha)?,
-                Argument::new("view", FieldKind::Direction, view)?,
-            ])
-        });
-        let lobe = lobe.transpose()?;
+        let with = needs.arguments(given)?;
         let (p, at) = (Argument::new("p", FieldKind::Row(3), p)?, Argument::new(name, kind, at)?);
-        let n = n.map(|n| Argument::new("n", FieldKind::Direction, n)).transpose()?;
-        let all = arguments.iter().chain([&p, &at]).chain(&n).chain(lobe.iter().flatten());
+        let all = arguments.iter().chain([&p, &at]).chain(&with);
         let shape = broadcast(py, &all.collect::<Vec<_>>())?;
-        let mut light = numbers(fields, &arguments, &shape)?;
-        let n = n.map(|n| n.columns(&shape)).transpose()?;
-        if let (Some(n), Some([alpha, view])) = (&n, lobe) {
-            light.extend(reflections(py, &alpha.columns(&shape)?[0], n, &view.columns(&shape)?)?);
-        }
-        Ok(Self { light, p: p.columns(&shape)?, n, at: at.columns(&shape)?, shape })
+        let (light, with) = (numbers(fields, &arguments, &shape)?, needs.columns(py, &with, &shape)?);
+        Ok(Self { light, p: p.columns(&shape)?, with, at: at.columns(&shape)?, shape })
     }
     /// One light, of these numbers, for all rows.
     pub(crate) fn of_one(
         py: Python<'_>,
         numbers: &[f32],
         p: &Bound<'_, PyAny>,
-        n: Option<&Bound<'_, PyAny>>,
+        with: (Needs, Given<'_, '_>),
         call: Call,
         at: &Bound<'_, PyAny>,
     ) -> PyResult<Self> {
-        let mut this = Self::new(py, &[], p, n, None, call.argument(at))?;
+        let mut this = Self::new(py, &[], p, with, call.argument(at))?;
         for &number in numbers {
             let mut column = room(this.at[0].len())?;
             column.resize(this.at[0].len(), number);
@@ -106,27 +151,24 @@ impl Each {
         Ok(this)
     }
     /// Calls a function of the technique `T` for all rows.
-    pub(crate) fn call<T: BatchTechnique>(
+    pub(crate) fn call<T: Technique>(
         self,
         py: Python<'_>,
         call: Call,
-        build: impl for<'a> Fn(&[&'a [f32]]) -> T::Light<&'a [f32]> + Send + Sync,
+        light_of: impl for<'a> Fn(&[&'a [f32]]) -> T::Light<&'a [f32]> + Send + Sync,
+        with_of: impl for<'a> Fn(&[&'a [f32]]) -> T::With<&'a [f32]> + Send + Sync,
     ) -> PyResult<Py<PyAny>> {
-        let Self { shape, light, p, n, at } = self;
-        if T::ON_SURFACE && n.is_none() {
-            return Err(PyTypeError::new_err("this technique needs n, the normals at the shading points"));
-        }
-        let light: Vec<_> = light.iter().map(Vec::as_slice).collect();
-        let normals = n.as_deref().map_or(Vec3::new(&[][..], &[][..], &[][..]), vector);
+        let Self { shape, light, p, with, at } = self;
+        let [light, with] = [&light, &with].map(|columns| columns.iter().map(Vec::as_slice).collect::<Vec<_>>());
         let evaluate = |out: Evaluations<'_>| {
-            Batch::new().evaluate_each::<T>(build(&light), vector(&p), normals, vector(&at), out);
+            Batch::new().evaluate_each::<T>(light_of(&light), vector(&p), with_of(&with), vector(&at), out);
         };
         let count = at[0].len();
         Ok(match call {
             Call::Sample => {
                 let u = Vec2::new(&at[0][..], &at[1][..]);
                 let sample = |out: etendue_batch::Samples<'_>| {
-                    Batch::new().sample_each::<T>(build(&light), vector(&p), normals, u, out);
+                    Batch::new().sample_each::<T>(light_of(&light), vector(&p), with_of(&with), u, out);
                 };
                 Py::new(py, Samples::of(py, shape, sample)?)?.into_any()
             }

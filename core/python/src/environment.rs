@@ -2,8 +2,9 @@
 
 use crate::arrays::{self, run, zeros};
 use crate::samplers::{Prepared, Sampler};
-use etendue::light::{self, ByRadiance, EnvironmentMap};
+use etendue::light::{self, EnvironmentMap};
 use etendue::{Vec2, Vec3};
+use etendue_batch::memory::ImageMemory;
 use etendue_batch::{Batch, Samples};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -19,24 +20,23 @@ struct Image {
 }
 
 impl Image {
-    fn with<X>(&self, f: impl FnOnce(&ByRadiance<'_>) -> X) -> Option<X> {
-        let environment = light::ImageEnvironment::from_buffer(&self.table, self.width, self.map);
-        environment.ok().map(|environment| f(&environment.by_radiance()))
+    fn memory(&self) -> ImageMemory<'_> {
+        ImageMemory::new(&self.table, self.width, self.map).expect("the table was built for this width")
     }
 }
 
 impl Prepared for Image {
     fn sample(&self, u: Vec2<&[f32]>, out: Samples<'_>) {
-        self.with(|sampler| Batch::new().sample(sampler, u, out));
+        Batch::new().sample(&self.memory(), u, out);
     }
     fn hit(&self, w: Vec3<&[f32]>, out: Samples<'_>) {
-        self.with(|sampler| Batch::new().hit(sampler, w, out));
+        Batch::new().hit(&self.memory(), w, out);
     }
     fn pdf(&self, w: Vec3<&[f32]>, out: &mut [f32]) {
-        self.with(|sampler| Batch::new().pdf(sampler, w, out));
+        Batch::new().pdf(&self.memory(), w, out);
     }
     fn invert(&self, w: Vec3<&[f32]>, out: Vec2<&mut [f32]>) {
-        self.with(|sampler| Batch::new().invert(sampler, w, out));
+        Batch::new().invert(&self.memory(), w, out);
     }
 }
 

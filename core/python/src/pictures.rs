@@ -1,15 +1,17 @@
 //! Pictures on lights.
 
 use crate::arrays::{Image, run, zeros};
-use crate::each::{Call, Each};
+use crate::each::{Call, Each, Given, Needs};
 use crate::lights;
 use crate::samplers::{Prepared, Sampler, single};
 use etendue::light::{self, FlatLight, Region};
 use etendue::{Vec2, Vec3};
-use etendue_batch::{
-    Batch, BatchTechnique, PictureByArea, PictureByProjectedSolidAngle, PictureBySolidAngle,
-    PictureOnPatchByVisibleArea, PictureOnSphereByVisibleArea, Samples,
+use etendue_batch::memory::PictureMemory;
+use etendue_batch::technique::{
+    OnPicture, PictureByArea, PictureByProjectedSolidAngle, PictureBySolidAngle, PictureOnPatchByVisibleArea,
+    PictureOnSphereByVisibleArea,
 };
+use etendue_batch::{Batch, Samples};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use std::sync::Arc;
@@ -25,10 +27,10 @@ struct Table {
 }
 
 impl Table {
-    fn picture(&self) -> light::Picture<'_> {
+    fn picture(&self) -> PictureMemory<'_> {
         let picture = match &self.values {
-            Some(values) => light::Picture::interpolated_from_buffer(values, self.size[0], &self.table),
-            None => light::Picture::from_buffer(&self.table, self.size, self.region),
+            Some(values) => PictureMemory::interpolated(values, self.size[0], &self.table),
+            None => PictureMemory::new(&self.table, self.size, self.region),
         };
         picture.expect("the table was built for this size")
     }
@@ -172,24 +174,29 @@ macro_rules! with {
         let picture = table.picture();
         match shape {
             Shape::Sphere(light) => {
-                let $sampler = &PictureOnSphereByVisibleArea::prepared(picture.on(*light), *p, *n);
+                let light = OnPicture { picture, light: *light };
+                let $sampler = &Batch::new().prepare::<PictureOnSphereByVisibleArea<'_>>(&light, *p, ());
                 $body
             }
             Shape::Patch(light) => {
-                let $sampler = &PictureOnPatchByVisibleArea::prepared(picture.on(*light), *p, *n);
+                let light = OnPicture { picture, light: *light };
+                let $sampler = &Batch::new().prepare::<PictureOnPatchByVisibleArea<'_>>(&light, *p, ());
                 $body
             }
             Shape::Flat(light) => match by {
                 By::Area => {
-                    let $sampler = &PictureByArea::prepared(picture.on(*light), *p, *n);
+                    let light = OnPicture { picture, light: *light };
+                    let $sampler = &Batch::new().prepare::<PictureByArea<'_>>(&light, *p, ());
                     $body
                 }
                 By::ProjectedSolidAngle => {
-                    let $sampler = &PictureByProjectedSolidAngle::prepared(picture.on(*light), *p, *n);
+                    let light = OnPicture { picture, light: *light };
+                    let $sampler = &Batch::new().prepare::<PictureByProjectedSolidAngle<'_>>(&light, *p, *n);
                     $body
                 }
                 _ => {
-                    let $sampler = &PictureBySolidAngle::prepared(picture.on(*light), *p, *n);
+                    let light = OnPicture { picture, light: *light };
+                    let $sampler = &Batch::new().prepare::<PictureBySolidAngle<'_>>(&light, *p, ());
                     $body
                 }
             },
@@ -241,31 +248,52 @@ impl Pictured {
         at: &Bound<'_, PyAny>,
     ) -> PyResult<Py<PyAny>> {
         let picture = self.table.picture();
+        let given = Given { n, ..Given::default() };
+        let needs = if by == Some("projected_solid_angle") { Needs::Normal } else { Needs::Nothing };
         let vector = |v: Vec3<f32>| [v.x, v.y, v.z];
         match (self.shape, by) {
             (Shape::Sphere(light), None | Some("visible_area")) => {
                 let numbers = [&vector(light.center)[..], &[light.radius]].concat();
-                let each = Each::of_one(py, &numbers, p, n, call, at)?;
-                each.call::<PictureOnSphereByVisibleArea<'_>>(py, call, |x| picture.on(lights::Sphere::build(x)))
+                let each = Each::of_one(py, &numbers, p, (needs, given), call, at)?;
+                each.call::<PictureOnSphereByVisibleArea<'_>>(
+                    py,
+                    call,
+                    |x| OnPicture { picture, light: lights::Sphere::build(x) },
+                    |_| (),
+                )
             }
             (Shape::Patch(light), None | Some("visible_area")) => {
                 let numbers = [light.corner, light.edge_s, light.edge_t, light.diagonal].map(vector).concat();
-                let each = Each::of_one(py, &numbers, p, n, call, at)?;
-                each.call::<PictureOnPatchByVisibleArea<'_>>(py, call, |x| picture.on(lights::BilinearPatch::build(x)))
+                let each = Each::of_one(py, &numbers, p, (needs, given), call, at)?;
+                each.call::<PictureOnPatchByVisibleArea<'_>>(
+                    py,
+                    call,
+                    |x| OnPicture { picture, light: lights::BilinearPatch::build(x) },
+                    |_| (),
+                )
             }
             (Shape::Flat(light), None | Some("area" | "solid_angle" | "projected_solid_angle")) => {
                 let numbers = [light.corner, light.edge_s, light.edge_t].map(vector).concat();
-                let each = Each::of_one(py, &numbers, p, n, call, at)?;
+                let each = Each::of_one(py, &numbers, p, (needs, given), call, at)?;
                 match by {
-                    Some("area") => {
-                        each.call::<PictureByArea<'_>>(py, call, |x| picture.on(lights::Parallelogram::build(x)))
-                    }
-                    Some("projected_solid_angle") => each.call::<PictureByProjectedSolidAngle<'_>>(py, call, |x| {
-                        picture.on(lights::Parallelogram::build(x))
-                    }),
-                    _ => {
-                        each.call::<PictureBySolidAngle<'_>>(py, call, |x| picture.on(lights::Parallelogram::build(x)))
-                    }
+                    Some("area") => each.call::<PictureByArea<'_>>(
+                        py,
+                        call,
+                        |x| OnPicture { picture, light: lights::Parallelogram::build(x) },
+                        |_| (),
+                    ),
+                    Some("projected_solid_angle") => each.call::<PictureByProjectedSolidAngle<'_>>(
+                        py,
+                        call,
+                        |x| OnPicture { picture, light: lights::Parallelogram::build(x) },
+                        |x| Vec3::new(x[0], x[1], x[2]),
+                    ),
+                    _ => each.call::<PictureBySolidAngle<'_>>(
+                        py,
+                        call,
+                        |x| OnPicture { picture, light: lights::Parallelogram::build(x) },
+                        |_| (),
+                    ),
                 }
             }
             (shape, Some(by)) => {

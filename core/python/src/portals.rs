@@ -1,11 +1,13 @@
 //! The sky through portals.
 
 use crate::arrays::{Argument, FieldKind, Image, array, broadcast, map, rows, run, zeros};
-use crate::each::{Call, Each};
+use crate::each::{Call, Each, Given, Needs};
 use crate::samplers::{Prepared, Sampler, single};
-use etendue::light::{self, MOST_PORTALS, PortalTable};
+use etendue::light::{MOST_PORTALS, PortalTable};
 use etendue::{Vec2, Vec3};
-use etendue_batch::{Batch, BatchTechnique, PortalsByRadiance, Samples, SeenThroughPortals};
+use etendue_batch::memory::{PortalMemory, PortalShape, PortalSums};
+use etendue_batch::technique::{Placed as Prepares, PortalsByRadiance};
+use etendue_batch::{Batch, PortalDirection, Samples, SeenThroughPortals};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use std::sync::Arc;
@@ -14,8 +16,7 @@ use std::sync::Arc;
 /// from there are (3) each; parallel edges, and numbers that are not finite, raise ValueError.
 #[pyclass(module = "etendue", frozen)]
 pub(crate) struct Portal {
-    portal: light::Portal,
-    numbers: [[f32; 3]; 3],
+    shape: PortalShape,
 }
 
 #[pymethods]
@@ -25,8 +26,9 @@ impl Portal {
         let numbers = [single("corner", corner)?, single("edge_s", edge_s)?, single("edge_t", edge_t)?];
         let [corner, s, t] = numbers.map(|v| [v.x, v.y, v.z]);
         let message = "the edges of a portal must not be parallel, and its numbers finite";
-        let portal = light::Portal::new(corner, s, t).ok_or_else(|| PyValueError::new_err(message))?;
-        Ok(Self { portal, numbers: [corner, s, t] })
+        let shape = PortalShape { corner, edge_s: s, edge_t: t };
+        shape.view().ok_or_else(|| PyValueError::new_err(message))?;
+        Ok(Self { shape })
     }
     /// The unit directions at positions uv (..., 2) in [0, 1]² of the image of the sky for this portal, (..., 3), and the solid angles there per
     /// unit of the image's area, in steradians, (...).
@@ -39,27 +41,29 @@ impl Portal {
         uv: &Bound<'py, PyAny>,
     ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
         let uv = Argument::new("uv", FieldKind::Row(2), uv)?;
-        let (mut out, _) = map(py, &self.portal.map(), &uv.columns(&uv.shape)?)?;
+        let direction = PortalDirection::new(self.shape.edge_s, self.shape.edge_t).expect("its edges are not parallel");
+        let (mut out, _) = map(py, &direction, &uv.columns(&uv.shape)?)?;
         let solid_angle = out.remove(3);
         Ok((rows(py, &uv.shape, &out)?, array(py, &uv.shape, solid_angle)?))
     }
     fn __repr__(&self) -> String {
-        format!("<etendue.Portal {:?}>", self.numbers)
+        let PortalShape { corner, edge_s, edge_t } = self.shape;
+        format!("<etendue.Portal {:?}>", [corner, edge_s, edge_t])
     }
 }
 
 /// The portals and the tables of their images, which samplers share.
 #[derive(Clone)]
 struct Sky {
-    portals: Arc<Vec<light::Portal>>,
+    portals: Arc<Vec<PortalShape>>,
     tables: Arc<Vec<(Vec<u64>, usize)>>,
 }
 
 impl Sky {
-    fn with<X>(&self, f: impl FnOnce(light::PortalEnvironment<'_>) -> X) -> X {
-        let tables = self.tables.iter().map(|(sums, width)| PortalTable::from_buffer(sums, *width));
+    fn with<X>(&self, f: impl FnOnce(PortalMemory<'_>) -> X) -> X {
+        let tables = self.tables.iter().map(|(sums, width)| PortalSums::new(sums, *width));
         let tables: Vec<_> = tables.collect::<Result<_, _>>().expect("the tables were built");
-        f(light::PortalEnvironment::new(&self.portals, &tables).expect("as many tables as portals"))
+        f(PortalMemory::new(&self.portals, &tables).expect("as many tables as portals"))
     }
 }
 
@@ -81,8 +85,8 @@ struct Placed {
 }
 
 impl Placed {
-    fn with<X>(&self, f: impl FnOnce(&PortalsByRadiance<'_>) -> X) -> X {
-        self.sky.with(|sky| f(&PortalsByRadiance::prepared(sky, self.p, Vec3::default())))
+    fn with<X>(&self, f: impl FnOnce(&Prepares<PortalsByRadiance<'_>>) -> X) -> X {
+        self.sky.with(|sky| f(&Batch::new().prepare::<PortalsByRadiance<'_>>(&sky, self.p, ())))
     }
 }
 impl Prepared for Placed {
@@ -102,8 +106,8 @@ impl Prepared for Placed {
 
 impl PortalEnvironment {
     fn each(&self, py: Python<'_>, p: &Bound<'_, PyAny>, call: Call, at: &Bound<'_, PyAny>) -> PyResult<Py<PyAny>> {
-        let each = Each::of_one(py, &[], p, None, call, at)?;
-        self.sky.with(|sky| each.call::<PortalsByRadiance<'_>>(py, call, |_| sky))
+        let each = Each::of_one(py, &[], p, (Needs::Nothing, Given::default()), call, at)?;
+        self.sky.with(|sky| each.call::<PortalsByRadiance<'_>>(py, call, |_| sky, |_| ()))
     }
 }
 
@@ -131,7 +135,7 @@ impl PortalEnvironment {
             built.map_err(PyValueError::new_err)?;
             tables.push((sums, width));
         }
-        let portals = portals.iter().map(|portal| portal.get().portal).collect();
+        let portals = portals.iter().map(|portal| portal.get().shape).collect();
         Ok(Self { sky: Sky { portals: Arc::new(portals), tables: Arc::new(tables) } })
     }
     /// Directions from the point p (3) in proportion to the weights of what it sees. The pdf is 0 where it sees no portal.

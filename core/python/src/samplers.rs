@@ -2,7 +2,7 @@
 
 use crate::arrays::{Argument, FieldKind, array, rows, run, zero_columns, zeros};
 use etendue::{Vec2, Vec3};
-use etendue_batch::{Batch, BatchTechnique, InTable, LightFunctions};
+use etendue_batch::Batch;
 use pyo3::exceptions::PyAttributeError;
 use pyo3::prelude::*;
 
@@ -13,7 +13,7 @@ pub(crate) trait Prepared: Send + Sync {
     fn pdf(&self, w: Vec3<&[f32]>, out: &mut [f32]);
     fn invert(&self, w: Vec3<&[f32]>, out: Vec2<&mut [f32]>);
 }
-impl<T: BatchTechnique + InTable<Functions = LightFunctions<T>> + Send + Sync> Prepared for T {
+impl<T: etendue_batch::Prepared + Send + Sync> Prepared for T {
     fn sample(&self, u: Vec2<&[f32]>, out: etendue_batch::Samples<'_>) {
         Batch::new().sample(self, u, out);
     }

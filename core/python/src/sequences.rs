@@ -2,7 +2,7 @@
 
 use crate::arrays::{Argument, FieldKind, rows, run, zero_columns};
 use etendue::Vec2;
-use etendue_batch::{Batch, Counters, InTable, SequenceFunctions};
+use etendue_batch::{Batch, BatchSequence, Counters};
 use pyo3::exceptions::{PyMemoryError, PyValueError};
 use pyo3::prelude::*;
 
@@ -10,7 +10,7 @@ use pyo3::prelude::*;
 trait Pairs: Send + Sync {
     fn pairs(&self, counters: Counters, out: Vec2<&mut [f32]>);
 }
-impl<S: etendue::sequence::Sequence + InTable<Functions = SequenceFunctions<S>> + Send + Sync> Pairs for S {
+impl<S: BatchSequence + Send + Sync> Pairs for S {
     fn pairs(&self, counters: Counters, out: Vec2<&mut [f32]>) {
         Batch::new().pairs(self, counters, out);
     }

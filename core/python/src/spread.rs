@@ -2,7 +2,7 @@
 
 use crate::arrays::{Argument, FieldKind, array, broadcast, map};
 use crate::lights;
-use crate::samplers::{Sampler, single};
+use crate::samplers::single;
 use etendue::light::{self, FlatLight};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
@@ -11,10 +11,10 @@ use pyo3::prelude::*;
 /// radians, taken to be from 1e-3 to π.
 ///
 /// A host multiplies the radiance of the light by `attenuation`, which leaves its power as it is. A point sees only a disk of the plane of the
-/// light, which `by_spread` samples.
+/// light, which `by_spread` of the lights samples.
 #[pyclass(module = "etendue", frozen)]
 pub(crate) struct Spread {
-    spread: light::Spread<f32>,
+    pub(crate) spread: light::Spread<f32>,
     angle: f64,
 }
 
@@ -60,23 +60,6 @@ impl Spread {
         };
         let part = light.visible_part(single("p", p)?, &self.spread);
         Ok(lights::Parallelogram { numbers: [part.corner, part.edge_s, part.edge_t].map(|v| [v.x, v.y, v.z]).concat() })
-    }
-    /// Uniform over the solid angle of what the point p (3) sees of a Parallelogram, Rectangle or Disk with this spread; of a disk, of the whole
-    /// light where that is not a disk within it. Surface coordinates are those of the whole light.
-    fn by_spread(&self, light: &Bound<'_, PyAny>, p: &Bound<'_, PyAny>) -> PyResult<Sampler> {
-        let at = single("p", p)?;
-        if let Ok(light) = light.cast::<lights::Parallelogram>() {
-            let sampler = lights::Parallelogram::build(&light.get().numbers).by_spread(at, &self.spread);
-            Ok(Sampler::new(Box::new(sampler), "Parallelogram by_spread", Some(("solid_angle", sampler.solid_angle()))))
-        } else if let Ok(light) = light.cast::<lights::Rectangle>() {
-            let sampler = lights::Rectangle::build(&light.get().numbers).by_spread(at, &self.spread);
-            Ok(Sampler::new(Box::new(sampler), "Rectangle by_spread", Some(("solid_angle", sampler.solid_angle()))))
-        } else if let Ok(light) = light.cast::<lights::Disk>() {
-            let sampler = lights::Disk::build(&light.get().numbers).by_spread(at, &self.spread);
-            Ok(Sampler::new(Box::new(sampler), "Disk by_spread", Some(("solid_angle", sampler.solid_angle()))))
-        } else {
-            Err(wrong(light, "Parallelogram, Rectangle or Disk"))
-        }
     }
     fn __repr__(&self) -> String {
         format!("<etendue.Spread {}>", self.angle)

@@ -3,6 +3,7 @@
 use crate::arrays::{Argument, FieldKind, array, broadcast, room, run, zeros};
 use etendue::Vec3;
 use etendue::select::{LightBound, LightTree as Tree, NO_LIGHT, Node8};
+use etendue_batch::memory::TreeMemory;
 use etendue_batch::{Batch, Choices};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -127,8 +128,8 @@ impl LightTree {
 }
 
 impl LightTree {
-    fn tree(&self) -> Tree<'_> {
-        Tree::from_buffers(&self.nodes, &self.places)
+    fn tree(&self) -> TreeMemory<'_> {
+        TreeMemory::new(&self.nodes, &self.places)
     }
 }
 

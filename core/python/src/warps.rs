@@ -1,7 +1,7 @@
 //! Maps of random numbers that need no shading point.
 
 use crate::arrays::{Argument, FieldKind, array, room, rows, run, zero_columns, zeros};
-use etendue_batch::{Batch, BatchWarp, InTable, WarpFunctions};
+use etendue_batch::{Batch, BatchWarp};
 use pyo3::prelude::*;
 
 /// A map of any kind.
@@ -12,7 +12,7 @@ pub(crate) trait Mapping: Send + Sync {
     fn pdf(&self, points: [&[f32]; 3], out: &mut [f32]);
     fn invert(&self, points: [&[f32]; 3], out: [&mut [f32]; 2]);
 }
-impl<W: BatchWarp + InTable<Functions = WarpFunctions<W>> + Send + Sync> Mapping for W {
+impl<W: BatchWarp + Send + Sync> Mapping for W {
     fn sizes(&self) -> [usize; 2] {
         [W::NUMBERS, W::COORDINATES]
     }

@@ -159,13 +159,13 @@ def test_spread():
     w = et.CosineHemisphere().sample(et.OwenSobol(1).pairs(1 << 14))
     assert spread.attenuation(w, [0, 0, 1]).mean() == pytest.approx(1, rel=1e-3)
     panel = et.Rectangle([-9, 1, -9], [18, 0, 0], [0, 0, 18])
-    sampler = spread.by_spread(panel, [0, 0, 0])
+    sampler = panel.by_spread([0, 0, 0], spread)
     assert sampler.solid_angle == pytest.approx(2 * np.pi / 3, rel=3e-4)
     part = spread.visible_part(panel, [0, 0, 0])
     assert part.by_solid_angle([0, 0, 0]).solid_angle == pytest.approx(sampler.solid_angle, rel=1e-5)
     s = sampler.sample(U)
     assert np.abs(s.uv - 0.5).max() < 0.0557
-    disk = spread.by_spread(et.Disk([0, 1, 0], [0, -1, 0], 9), [0, 0, 0])
+    disk = et.Disk([0, 1, 0], [0, -1, 0], 9).by_spread([0, 0, 0], spread)
     assert disk.solid_angle == pytest.approx(2 * np.pi * (1 - 0.5**0.5), rel=1e-4)
 
 
@@ -190,7 +190,7 @@ def test_spread():
         (lambda: et.PortalEnvironment([], []), ValueError, "1 to 8"),
         (lambda: et.PortalEnvironment([et.Portal([0, 0, 0], [1, 0, 0], [0, 1, 0])], [np.ones((1, 4097))]), ValueError, "at most 4096"),
         (lambda: et.Spread(np.nan), ValueError, "NaN"),
-        (lambda: et.Spread(1).by_spread(CURVED[0], P), TypeError, "light must be a Parallelogram, Rectangle or Disk, not Sphere"),
+        (lambda: LIGHTS["disk"][0].by_spread(P, 1.0), TypeError, "Spread"),
         (lambda: et.Spread(1).visible_part(LIGHTS["disk"][0], P), TypeError, "not Disk"),
     ],
 )

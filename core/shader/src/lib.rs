@@ -182,7 +182,7 @@ mod wanted;
 pub use graph::{Call, Condition, Graph, Id, Kind, Loop, Node, Op};
 pub use language::Language;
 pub use list::{
-    Entry, Technique, TechniqueVisitor, WarpEntry, WarpTechnique, WarpVisitor, every_technique, every_warp,
+    Entry, Technique, TechniqueVisitor, WarpEntry, WarpTechnique, WarpVisitor, With, every_technique, every_warp,
 };
 pub use module::{Access, Field, Function, Leaf, Module, Parameter, Struct, Type};
 pub use names::{pascal, snake};

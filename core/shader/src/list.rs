@@ -21,26 +21,41 @@ pub struct Entry {
     pub doc: &'static [&'static str],
     /// Whether the preparation takes the shading point.
     pub at_point: bool,
-    /// Whether it takes the normal there.
-    pub on_surface: bool,
-    /// Whether it takes what a surface reflects there: numbers that follow those of the light.
-    pub reflected: bool,
+    /// What else it takes.
+    pub with: With,
     /// The method that returns what the technique is uniform over.
     pub measure: Option<&'static str>,
+}
+
+/// What a light is prepared for beside the shading point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum With {
+    /// Nothing.
+    Nothing,
+    /// The unit normal of the surface there.
+    Normal,
+    /// What the surface reflects.
+    Reflection,
+    /// The spread of the light.
+    Spread,
 }
 
 /// A light by a technique.
 pub trait Technique {
     /// The light.
     type Light<R: Real>: Copy + Debug;
+    /// What it is prepared for beside the point.
+    type With<R: Real>: Copy + Debug;
     /// The light prepared for a point.
     type Sampler<R: Real>: LightSampler<R> + Copy + Debug;
     /// What the list says about it.
     const ENTRY: Entry;
     /// The light with its numbers in the order of its fields.
     fn light<R: Real>(numbers: &mut dyn FnMut() -> R) -> Self::Light<R>;
-    /// Prepares for the point `p` of a surface with the unit normal `n`.
-    fn prepare<R: Real>(light: &Self::Light<R>, p: Vec3<R>, n: Vec3<R>) -> Self::Sampler<R>;
+    /// What it is prepared for beside the point, of its numbers in order.
+    fn with<R: Real>(numbers: &mut dyn FnMut() -> R) -> Self::With<R>;
+    /// Prepares for the point `p`.
+    fn prepare<R: Real>(light: &Self::Light<R>, p: Vec3<R>, with: Self::With<R>) -> Self::Sampler<R>;
     /// The prepared light with `f` applied to each of its numbers.
     fn map<R: Real>(sampler: Self::Sampler<R>, f: &mut dyn FnMut(R) -> R) -> Self::Sampler<R>;
     /// What the technique is uniform over, where it has that.
@@ -51,13 +66,6 @@ pub trait Technique {
 pub trait TechniqueVisitor {
     /// Does it.
     fn visit<T: Technique>(&mut self);
-}
-
-/// A flat light, and the lobe of the surface that reflects it.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Reflected<L, R> {
-    light: L,
-    reflection: Reflection<R>,
 }
 
 /// A light of the list.
@@ -82,16 +90,50 @@ macro_rules! field {
         vec3($next)
     };
 }
+/// Whether the preparation takes the point, what else it takes, the type of that, how it is made of numbers, and how it is passed.
 macro_rules! takes {
-    (()) => {
-        (false, false)
+    (point ()) => {
+        false
     };
-    ((p)) => {
-        (true, false)
+    (point $place:tt) => {
+        true
     };
-    ((p, n)) => {
-        (true, true)
+    (with (p, n)) => {
+        With::Normal
     };
+    (with (p, reflection)) => {
+        With::Reflection
+    };
+    (with (p, spread)) => {
+        With::Spread
+    };
+    (with $place:tt) => {
+        With::Nothing
+    };
+    (type (p, n) $r:ident) => {
+        Vec3<$r>
+    };
+    (type (p, reflection) $r:ident) => {
+        Reflection<$r>
+    };
+    (type (p, spread) $r:ident) => {
+        Spread<$r>
+    };
+    (type $place:tt $r:ident) => {
+        ()
+    };
+    (of (p, n) $r:ident, $next:ident) => {
+        vec3($next)
+    };
+    (of (p, reflection) $r:ident, $next:ident) => {
+        Reflection::<$r>::default().map(|_| $next())
+    };
+    (of (p, spread) $r:ident, $next:ident) => {
+        Spread::<$r>::default().map(|_| $next())
+    };
+    (of $place:tt $r:ident, $next:ident) => {{
+        let _ = $next;
+    }};
 }
 macro_rules! measure {
     ($sampler:ident) => {{
@@ -115,12 +157,9 @@ macro_rules! techniques {
     ($(
         $(#[doc = $light_doc:literal])* $light:ident $([$corners:literal])? = $light_c:ident, $columns_c:ident {
             $($(#[doc = $field_doc:literal])* $field:ident as $argument:ident: $kind:ident,)+
-        } $(reflected {
-            $(#[doc = $lobe_doc:literal])* $lobe:ident $([$lobe_n:literal])? $(= $lobe_c:ident, $lobe_name:ident[$lobe_size:literal])?;
-        })? by $default:literal {
+        } by $default:literal {
             $(
-                $(#[doc = $doc:literal])* $sampler:ident $([$n:literal])?
-                    $(= $sampler_c:ident, $name:ident[$size:literal])?: $by:ident $place:tt $($measure:ident)?;
+                $(#[doc = $doc:literal])* $technique:ident, $name:ident -> $sampler:ident $([$n:literal])? $(= $sampler_c:ident[$size:literal])?: $by:ident $place:tt $($measure:ident)?;
             )+
         }
     )+) => {
@@ -132,12 +171,13 @@ macro_rules! techniques {
                 $light { $($field: field!(next, $kind)),+ }
             }
         })+
-        /// Calls the visitor for each light by each technique, in the order of the list, and then for flat lights with a spread.
+        /// Calls the visitor for each light by each technique, in the order of the list.
         pub fn every_technique(visitor: &mut impl TechniqueVisitor) {
             $($({
                 struct Row;
                 impl Technique for Row {
                     type Light<R: Real> = $light<R $(, $n)?>;
+                    type With<R: Real> = takes!(type $place R);
                     type Sampler<R: Real> = $sampler<R $(, $n)?>;
                     const ENTRY: Entry = Entry {
                         light: stringify!($light),
@@ -145,17 +185,19 @@ macro_rules! techniques {
                         fields: <$light<f32 $(, $n)?> as Listed<f32>>::FIELDS,
                         by: stringify!($by),
                         doc: &[$($doc),*],
-                        at_point: takes!($place).0,
-                        on_surface: takes!($place).1,
-                        reflected: false,
+                        at_point: takes!(point $place),
+                        with: takes!(with $place),
                         measure: measure_name!($($measure)?),
                     };
                     fn light<R: Real>(next: &mut dyn FnMut() -> R) -> Self::Light<R> {
                         Listed::listed(next)
                     }
-                    fn prepare<R: Real>(light: &Self::Light<R>, p: Vec3<R>, n: Vec3<R>) -> Self::Sampler<R> {
-                        let _ = (p, n);
-                        etendue::prepared!(light, $by $place, p, n)
+                    fn with<R: Real>(next: &mut dyn FnMut() -> R) -> Self::With<R> {
+                        takes!(of $place R, next)
+                    }
+                    fn prepare<R: Real>(light: &Self::Light<R>, p: Vec3<R>, with: Self::With<R>) -> Self::Sampler<R> {
+                        let _ = (p, &with);
+                        etendue::prepared!(light, $by $place, p: p, n: with, reflection: &with, spread: &with)
                     }
                     fn map<R: Real>(sampler: Self::Sampler<R>, f: &mut dyn FnMut(R) -> R) -> Self::Sampler<R> {
                         sampler.map(f)
@@ -165,115 +207,11 @@ macro_rules! techniques {
                     }
                 }
                 visitor.visit::<Row>();
-            })+
-            $({
-                struct Row;
-                impl Technique for Row {
-                    type Light<R: Real> = Reflected<$light<R $(, $lobe_n)?>, R>;
-                    type Sampler<R: Real> = $lobe<R $(, $lobe_n)?>;
-                    const ENTRY: Entry = Entry {
-                        light: stringify!($light),
-                        light_doc: <$light<f32 $(, $lobe_n)?> as Listed<f32>>::DOC,
-                        fields: <$light<f32 $(, $lobe_n)?> as Listed<f32>>::FIELDS,
-                        by: "by_reflection",
-                        doc: &[$($lobe_doc),*],
-                        at_point: true,
-                        on_surface: false,
-                        reflected: true,
-                        measure: Some("projected_solid_angle"),
-                    };
-                    fn light<R: Real>(next: &mut dyn FnMut() -> R) -> Self::Light<R> {
-                        let light = Listed::listed(next);
-                        Reflected { light, reflection: Reflection::<R>::default().map(|_| next()) }
-                    }
-                    fn prepare<R: Real>(light: &Self::Light<R>, p: Vec3<R>, _: Vec3<R>) -> Self::Sampler<R> {
-                        light.light.by_reflection(p, &light.reflection)
-                    }
-                    fn map<R: Real>(sampler: Self::Sampler<R>, f: &mut dyn FnMut(R) -> R) -> Self::Sampler<R> {
-                        sampler.map(f)
-                    }
-                    fn measure<R: Real>(sampler: &Self::Sampler<R>) -> Option<R> {
-                        Some(sampler.projected_solid_angle())
-                    }
-                }
-                visitor.visit::<Row>();
-            })?)+
-            every_spread(visitor);
+            })+)+
         }
     };
 }
 etendue::techniques!(techniques! {});
-
-/// Rows for flat lights that emit within an angle of their normal: a light's fields, and the tangent of half the angle.
-macro_rules! spreads {
-    ($($(#[doc = $light_doc:literal])* $name:ident: $light:ident { $($field:ident: $kind:ident $type:ty),+ }
-        $(#[doc = $doc:literal])* by_solid_angle: $sampler:ident;)+) => {
-        $($(#[doc = $light_doc])*
-        #[derive(Clone, Copy, Debug)]
-        struct $name<R> {
-            $($field: $type,)+
-            tan_half: R,
-        })+
-        /// Calls the visitor for each flat light with a spread.
-        fn every_spread(visitor: &mut impl TechniqueVisitor) {
-            $({
-                struct Row;
-                impl Technique for Row {
-                    type Light<R: Real> = $name<R>;
-                    type Sampler<R: Real> = $sampler<R>;
-                    const ENTRY: Entry = Entry {
-                        light: stringify!($name),
-                        light_doc: &[$($light_doc),*],
-                        fields: TAN_HALF,
-                        by: "by_solid_angle",
-                        doc: &[$($doc),*],
-                        at_point: true,
-                        on_surface: false,
-                        reflected: false,
-                        measure: Some("solid_angle"),
-                    };
-                    fn light<R: Real>(next: &mut dyn FnMut() -> R) -> $name<R> {
-                        $(let $field = field!(next, $kind);)+
-                        $name { $($field,)+ tan_half: next() }
-                    }
-                    fn prepare<R: Real>(light: &$name<R>, p: Vec3<R>, _: Vec3<R>) -> $sampler<R> {
-                        let $name { $($field,)+ tan_half } = *light;
-                        // the gain is for the radiance alone
-                        $light { $($field),+ }.by_spread(p, &Spread { tan_half, gain: R::lit(1.0) })
-                    }
-                    fn map<R: Real>(sampler: $sampler<R>, f: &mut dyn FnMut(R) -> R) -> $sampler<R> {
-                        sampler.map(f)
-                    }
-                    fn measure<R: Real>(sampler: &$sampler<R>) -> Option<R> {
-                        Some(sampler.solid_angle())
-                    }
-                }
-                visitor.visit::<Row>();
-            })+
-        }
-    };
-}
-const TAN_HALF: &[(&str, &[&str])] = &[(
-    "tan_half",
-    &["The tangent of half the angle within which the light emits; the radiance is multiplied by spread_attenuation."],
-)];
-spreads! {
-    /// A parallelogram that emits within an angle of its normal, from the side of the first edge x the second one.
-    SpreadParallelogram: Parallelogram { corner: point Vec3<R>, edge_s: edge Vec3<R>, edge_t: edge Vec3<R> }
-    /// Uniform over the solid angle of the part that the point p sees; pdf 1/solid angle per steradian. Surface coordinates are those of the
-    /// whole light.
-    by_solid_angle: ParallelogramBySolidAngle;
-    /// A rectangle that emits within an angle of its normal, from the side of the first edge x the second one.
-    SpreadRectangle: Rectangle { corner: point Vec3<R>, edge_s: edge Vec3<R>, edge_t: edge Vec3<R> }
-    /// Uniform over the solid angle of the part that the point p sees; pdf 1/solid angle per steradian. Surface coordinates are those of the
-    /// whole light.
-    by_solid_angle: RectangleBySolidAngle;
-    /// A disk that emits within an angle of its normal.
-    SpreadDisk: Disk { center: point Vec3<R>, normal: direction Vec3<R>, radius: number R }
-    /// Uniform over the solid angle of what the point p sees, if that is a disk within the light; else, of the whole light. Surface coordinates
-    /// are those of the whole light.
-    by_solid_angle: DiskBySolidAngle;
-}
 
 /// What the list says about a warp.
 #[derive(Clone, Copy, Debug)]

@@ -3,7 +3,7 @@
 use crate::errors::greatest_error;
 use crate::graph::{Call, Graph, Id};
 use crate::layout::{Slot, slots};
-use crate::list::{Entry, Technique, WarpTechnique, WarpVisitor, every_warp};
+use crate::list::{Technique, WarpTechnique, WarpVisitor, With, every_warp};
 use crate::module::{Access, Field, Function, Leaf, Module, Parameter, Struct, Type};
 use crate::names::{pascal, snake};
 use crate::number::{Inner, Number, Truth, record};
@@ -135,6 +135,20 @@ pub(crate) fn reflection_struct() -> Struct {
     of.0.expect("the list has reflections")
 }
 
+/// The struct of spreads.
+fn spread_struct() -> Struct {
+    let field = |name: &str, doc: &str| Field { name: name.into(), leaf: Leaf::Real, doc: doc.into() };
+    Struct {
+        name: "spread".into(),
+        doc: "How a flat light emits within an angle of its normal; the radiance is multiplied by spread_attenuation."
+            .into(),
+        fields: vec![
+            field("tan_half", "The tangent of half the angle within which the light emits."),
+            field("gain", "1/(tan_half - half the angle)."),
+        ],
+    }
+}
+
 /// Adds the struct of what was prepared, with the fields that the functions use or with all, and these functions. Returns the struct, if it has any
 /// fields, and the nodes of their values.
 fn add_functions(
@@ -220,37 +234,35 @@ pub(crate) fn light_struct<T: Technique>(light: &T::Light<Number>) -> Struct {
     Struct {
         name: snake(entry.light),
         doc: text(entry.light_doc),
-        fields: own_slots(&entry, light).into_iter().map(field).collect(),
+        fields: slots(light).into_iter().map(field).collect(),
     }
 }
-/// The fields of a light alone, without those of the reflection that it is prepared for.
-fn own_slots(entry: &Entry, light: &impl core::fmt::Debug) -> Vec<Slot> {
-    let all = slots(light).into_iter();
-    if !entry.reflected {
-        return all.collect();
-    }
-    all.filter_map(|Slot { name, parts }| Some(Slot { name: name.strip_prefix("light_")?.to_owned(), parts })).collect()
-}
-
 /// Adds a light by a technique.
 pub fn add_technique<T: Technique>(module: &mut Module, wanted: &Wanted) {
     let entry = T::ENTRY;
     let light_name = snake(entry.light);
     let name = format!("{light_name}_{}", entry.by);
+    let structure = match entry.with {
+        With::Reflection => Some(("reflection", " and what a surface reflects", reflection_struct())),
+        With::Spread => Some(("spread", " with a spread", spread_struct())),
+        With::Nothing | With::Normal => None,
+    };
     let ((light, sampler), preparation) = record(|| {
         let mut next = Next(0);
         let light = T::light(&mut || next.number());
-        // the inputs of `p` and `n` come after those of the light, if there are any
+        // in the order of the parameters: structs come before vectors
+        let of_struct = structure.is_some().then(|| T::with(&mut || next.number()));
         let p = if entry.at_point { next.vec3() } else { Vec3::default() };
-        let n = if entry.on_surface { next.vec3() } else { Vec3::default() };
-        (light, T::prepare(&light, p, n))
+        let with = of_struct.unwrap_or_else(|| T::with(&mut || next.number()));
+        (light, T::prepare(&light, p, with))
     });
 
     let sample = sample_struct(wanted);
     let technique_doc = text(entry.doc);
     let returned = format!("{}{}", entry.light, pascal(entry.by));
     // by reflection, the error of a shape is that of the light after the map
-    let error = (!entry.reflected).then(|| greatest_error(core::any::type_name::<T::Sampler<f32>>(), &returned));
+    let error =
+        (entry.with != With::Reflection).then(|| greatest_error(core::any::type_name::<T::Sampler<f32>>(), &returned));
     let error = error.flatten().unwrap_or_default();
     let mut functions = Vec::new();
     for part in &wanted.parts {
@@ -301,16 +313,16 @@ pub fn add_technique<T: Technique>(module: &mut Module, wanted: &Wanted) {
     let light = module.add_struct(light_struct::<T>(&light));
     let mut parameters = vec![Parameter { name: "light".into(), of: Type::Struct(light) }];
     let mut doc = "Prepares a light".to_owned();
-    if entry.reflected {
-        let reflection = module.add_struct(reflection_struct());
-        parameters.push(Parameter { name: "reflection".into(), of: Type::Struct(reflection) });
-        doc += " and what a surface reflects";
+    if let Some((name, what, structure)) = structure {
+        let structure = module.add_struct(structure);
+        parameters.push(Parameter { name: name.into(), of: Type::Struct(structure) });
+        doc += what;
     }
     if entry.at_point {
         parameters.push(Parameter { name: "p".into(), of: Type::Leaf(Leaf::Vec3) });
         doc += " for the shading point p";
     }
-    if entry.on_surface {
+    if entry.with == With::Normal {
         parameters.push(Parameter { name: "n".into(), of: Type::Leaf(Leaf::Vec3) });
         doc += " of a surface with the unit normal n";
     }

@@ -78,8 +78,8 @@ impl Sample {
 }
 
 #[inline(never)]
-fn prepare<T: Technique>(light: &T::Light<f32>, p: &Vec3<f32>, n: &Vec3<f32>) -> T::Sampler<f32> {
-    T::prepare(light, *p, *n)
+fn prepare<T: Technique>(light: &T::Light<f32>, p: &Vec3<f32>, with: &T::With<f32>) -> T::Sampler<f32> {
+    T::prepare(light, *p, *with)
 }
 #[inline(never)]
 fn sample<T: Technique>(sampler: &T::Sampler<f32>, u: &Vec2<f32>) -> Sample {

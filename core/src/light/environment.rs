@@ -125,6 +125,7 @@ impl<'a> ImageEnvironment<'a> {
     ///
     /// # Errors
     /// If the length of the buffer is not that of a table with so many columns.
+    #[inline]
     pub fn from_buffer(buffer: &'a [f32], width: usize, map: EnvironmentMap) -> Result<Self, TableError> {
         Ok(Self { table: PiecewiseConstant2d::from_buffer(buffer, width)?, map })
     }

@@ -33,12 +33,14 @@ struct Levels {
 }
 
 impl Levels {
+    #[inline]
     const fn new(size: [u32; 2]) -> Self {
         let longest = if size[0] > size[1] { size[0] } else { size[1] };
         let log = if longest > 1 { 32 - (longest - 1).leading_zeros() } else { 0 };
         Self { size, boxes: 0, log }
     }
     /// The next level, while a box has more than one cell.
+    #[inline]
     const fn advance(&mut self) -> Option<Boxes> {
         let (first, log) = (self.boxes, self.log);
         if log == 0 {
@@ -73,12 +75,14 @@ pub(super) struct Hierarchy<'a> {
 
 impl<'a> Hierarchy<'a> {
     /// Number of entries.
+    #[inline]
     pub(super) const fn length(size: [u32; 2]) -> usize {
         let mut levels = Levels::new(size);
         while levels.advance().is_some() {}
         levels.boxes as usize * ENTRIES
     }
     /// The hierarchy in a buffer of this [`length`](Self::length).
+    #[inline]
     pub(super) const fn new(buffer: &'a [f32], size: [u32; 2]) -> Self {
         Self { entries: buffer, size }
     }

@@ -34,6 +34,7 @@ pub struct Picture<'a> {
 impl<'a> Picture<'a> {
     /// Length of the buffer for w × h texels: 16(wh − 1)/15 if both are the same power of four, and less than 13wh always. Cache lines are
     /// best used if it begins at a multiple of 64 bytes.
+    #[inline]
     #[must_use]
     pub const fn buffer(width: usize, height: usize) -> usize {
         Hierarchy::length([width as u32, height as u32])
@@ -66,6 +67,7 @@ impl<'a> Picture<'a> {
     ///
     /// # Errors
     /// If the length of the buffer is not that of a picture of this size.
+    #[inline]
     pub fn from_buffer(buffer: &'a [f32], [width, height]: [usize; 2], region: Region) -> Result<Self, TableError> {
         let sizes = 1..=STEPS as usize;
         let fits = sizes.contains(&width) && sizes.contains(&height) && width * height <= u32::MAX as usize / 2;
@@ -111,6 +113,7 @@ impl<'a> Picture<'a> {
     ///
     /// # Errors
     /// As for [`from_buffer`](Self::from_buffer).
+    #[inline]
     pub fn interpolated_from_buffer(values: &'a [f32], width: usize, buffer: &'a [f32]) -> Result<Self, TableError> {
         let height = values.len().checked_div(width).unwrap_or(0);
         if height == 0 || values.len() != width * height {

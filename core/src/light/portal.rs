@@ -36,6 +36,7 @@ pub struct PortalMap {
 
 impl PortalMap {
     /// The map of portals with these edges. The sky is where `s` × `t` points to. `None` if the edges are parallel or not finite.
+    #[inline]
     #[must_use]
     pub fn new(s: [f32; 3], t: [f32; 3]) -> Option<Self> {
         let wide = |v: [f32; 3]| Vec3::<f64>::from(v.map(f64::from)).unit_and_length();
@@ -100,6 +101,7 @@ pub struct Portal {
 
 impl Portal {
     /// The portal with a corner and the edges `s` and `t` from there. `None` if the edges are parallel or a number is not finite.
+    #[inline]
     #[must_use]
     pub fn new(corner: [f32; 3], s: [f32; 3], t: [f32; 3]) -> Option<Self> {
         let map = PortalMap::new(s, t)?;
@@ -205,6 +207,7 @@ impl<'a> PortalEnvironment<'a> {
     ///
     /// # Errors
     /// If there are none or more than [`MOST_PORTALS`], or not as many tables.
+    #[inline]
     pub fn new(portals: &'a [Portal], tables: &'a [PortalTable<'a>]) -> Result<Self, TableError> {
         let is_some = (1..=MOST_PORTALS).contains(&portals.len()) && tables.len() == portals.len();
         let unit = tables.iter().fold(0.0, |most: f64, table| most.max(table.unit));

@@ -2,16 +2,14 @@
 
 /// Expands `callback! { before… list }` for the list of all lights, each with its fields and the techniques that sample it.
 ///
-/// A light is `Light [corners] = NameInC, ColumnsInC { field as argument: kind, … } reflected { lobe; } by "default" { technique; … }`. A
-/// field is a `point`, an `edge` (from one point to another), an edge to a `vertex` (hosts with constructors take the vertex, not the edge
-/// from the first one), a `direction`, a `number` or `corners`.
+/// A light is `Light [corners] = NameInC, ColumnsInC { field as argument: kind, … } by "default" { technique; … }`. A field is a `point`, an
+/// `edge` (from one point to another), an edge to a `vertex` (hosts with constructors take the vertex, not the edge from the first one), a
+/// `direction`, a `number` or `corners`.
 ///
-/// A technique is `Sampler [corners] = NameInC, name_in_c[numbers]: method(arguments) measure;`: a prepared sampler consists of so many
-/// numbers, and the measure is its method that returns what it is uniform over, if it has one. A sampler that another light has already
-/// has no name and no numbers here; the light converts into that one.
-///
-/// The light has a lobe `Sampler [corners] = NameInC, name_in_c[numbers];` if its method `by_reflection(p, reflection)` returns this sampler, with
-/// the measure `projected_solid_angle`. It is not among the techniques, since it is prepared for what those of the other measures do not take.
+/// A technique is `Name, name_in_c -> Sampler [corners] = SamplerInC[numbers]: method(arguments) measure;`. Its number is its place in the
+/// list. A prepared sampler consists of so many numbers; one that another technique has already has no struct here, and the light converts
+/// into that technique's. The arguments are `p`, the point, and at most one of `n`, the unit normal there, `reflection` and `spread`. The
+/// measure is the sampler's method that returns what it is uniform over, if it has one.
 ///
 /// Hosts without Rust read the documentation of each row, where the fields have other names: it does not name them.
 #[doc(hidden)]
@@ -25,19 +23,18 @@ macro_rules! techniques {
                 center as center: point,
                 /// Radius, in the unit of the coordinates.
                 radius as radius: number,
-            } reflected {
-                /// Nearly in proportion to the lobe of a rough surface at the point p: pdf per steradian; 0 where nothing of the light is above
-                /// the horizon. From inside, every direction above the horizon.
-                SphereByReflection = EtendueSphereByReflection, sphere_by_reflection[41];
             } by "solid_angle" {
                 /// Uniform over the surface: pdf distance²/(|cosθ'| 4πR²) per steradian, θ' at the light. More than half of the samples
                 /// face away.
-                SphereByArea = EtendueSphereByArea, sphere_by_area[4]: by_area(p) area;
+                SphereByArea, sphere_by_area -> SphereByArea = EtendueSphereByArea[4]: by_area(p) area;
                 /// Uniform over the solid angle Ω at the point p: pdf 1/Ω per steradian. From inside, every direction.
-                SphereBySolidAngle = EtendueSphereBySolidAngle, sphere_by_solid_angle[17]: by_solid_angle(p) solid_angle;
+                SphereBySolidAngle, sphere_by_solid_angle -> SphereBySolidAngle = EtendueSphereBySolidAngle[17]: by_solid_angle(p) solid_angle;
                 /// Uniform over the projected solid angle Ω⊥ above the horizon of the unit normal n at the point p: pdf cosθ/Ω⊥ per
                 /// steradian, 0 where nothing of the light is above the horizon.
-                SphereByProjectedSolidAngle = EtendueSphereByProjectedSolidAngle, sphere_by_projected_solid_angle[36]: by_projected_solid_angle(p, n) projected_solid_angle;
+                SphereByProjectedSolidAngle, sphere_by_projected_solid_angle -> SphereByProjectedSolidAngle = EtendueSphereByProjectedSolidAngle[36]: by_projected_solid_angle(p, n) projected_solid_angle;
+                /// Nearly in proportion to the lobe of a rough surface at the point p: pdf per steradian; 0 where nothing of the light is above
+                /// the horizon. From inside, every direction above the horizon.
+                SphereByReflection, sphere_by_reflection -> SphereByReflection = EtendueSphereByReflection[41]: by_reflection(p, reflection) projected_solid_angle;
             }
             /// A triangle that emits from the side on which its vertices run counterclockwise. Without area, and from a point in its plane,
             /// the pdf is 0. uv: the barycentric coordinates of the second and the third vertex.
@@ -48,21 +45,20 @@ macro_rules! techniques {
                 e1 as v1: vertex,
                 /// Third vertex, as the edge from the first one.
                 e2 as v2: vertex,
-            } reflected {
-                /// In proportion to the lobe of a rough surface at the point p: pdf π times that of the reflection, over the projected solid
-                /// angle after its map, per steradian; 0 where nothing of the light is above the horizon.
-                TriangleByReflection = EtendueTriangleByReflection, triangle_by_reflection[175];
             } by "solid_angle" {
                 /// Uniform over the surface of area A: pdf distance²/(|cosθ'| A) per steradian, θ' at the light. For small, far and facing
                 /// triangles.
-                TriangleByArea = EtendueTriangleByArea, triangle_by_area[33]: by_area(p) area;
+                TriangleByArea, triangle_by_area -> TriangleByArea = EtendueTriangleByArea[33]: by_area(p) area;
                 /// Uniform over the solid angle Ω at the point p: pdf 1/Ω per steradian.
-                TriangleBySolidAngle = EtendueTriangleBySolidAngle, triangle_by_solid_angle[81]: by_solid_angle(p) solid_angle;
+                TriangleBySolidAngle, triangle_by_solid_angle -> TriangleBySolidAngle = EtendueTriangleBySolidAngle[81]: by_solid_angle(p) solid_angle;
                 /// Uniform over the projected solid angle Ω⊥ above the horizon of the unit normal n at the point p: pdf cosθ/Ω⊥ per
                 /// steradian, 0 where nothing of the light is above the horizon. It has no variance on an unoccluded diffuse surface.
-                TriangleByProjectedSolidAngle = EtendueTriangleByProjectedSolidAngle, triangle_by_projected_solid_angle[162]: by_projected_solid_angle(p, n) projected_solid_angle;
+                TriangleByProjectedSolidAngle, triangle_by_projected_solid_angle -> TriangleByProjectedSolidAngle = EtendueTriangleByProjectedSolidAngle[162]: by_projected_solid_angle(p, n) projected_solid_angle;
                 /// By solid angle times a bilinear approximation of the cosine to the unit normal n at the point p; pdf per steradian.
-                TriangleByCosineWarp = EtendueTriangleByCosineWarp, triangle_by_cosine_warp[85]: by_cosine_warp(p, n) solid_angle;
+                TriangleByCosineWarp, triangle_by_cosine_warp -> TriangleByCosineWarp = EtendueTriangleByCosineWarp[85]: by_cosine_warp(p, n) solid_angle;
+                /// In proportion to the lobe of a rough surface at the point p: pdf π times that of the reflection, over the projected solid
+                /// angle after its map, per steradian; 0 where nothing of the light is above the horizon.
+                TriangleByReflection, triangle_by_reflection -> TriangleByReflection = EtendueTriangleByReflection[175]: by_reflection(p, reflection) projected_solid_angle;
             }
             /// A parallelogram, of a corner and two edges from there, that emits from the side of the first edge × the second one. Without
             /// area, and from a point in its plane, the pdf is 0. uv: (s, t), the parts of the edges, in [0, 1].
@@ -73,18 +69,20 @@ macro_rules! techniques {
                 edge_s as edge_s: edge,
                 /// Edge along t.
                 edge_t as edge_t: edge,
-            } reflected {
-                /// In proportion to the lobe of a rough surface at the point p: pdf π times that of the reflection, over the projected solid
-                /// angle after its map, per steradian; 0 where nothing of the light is above the horizon.
-                ParallelogramByReflection = EtendueParallelogramByReflection, parallelogram_by_reflection[308];
             } by "solid_angle" {
                 /// Uniform over the surface of area A: pdf distance²/(|cosθ'| A) per steradian, θ' at the light.
-                ParallelogramByArea = EtendueParallelogramByArea, parallelogram_by_area[34]: by_area(p) area;
+                ParallelogramByArea, parallelogram_by_area -> ParallelogramByArea = EtendueParallelogramByArea[34]: by_area(p) area;
                 /// Uniform over the solid angle Ω at the point p: pdf 1/Ω per steradian.
-                ParallelogramBySolidAngle = EtendueParallelogramBySolidAngle, parallelogram_by_solid_angle[130]: by_solid_angle(p) solid_angle;
+                ParallelogramBySolidAngle, parallelogram_by_solid_angle -> ParallelogramBySolidAngle = EtendueParallelogramBySolidAngle[130]: by_solid_angle(p) solid_angle;
                 /// Uniform over the projected solid angle Ω⊥ above the horizon of the unit normal n at the point p: pdf cosθ/Ω⊥ per
                 /// steradian, 0 where nothing of the light is above the horizon.
-                ParallelogramByProjectedSolidAngle = EtendueParallelogramByProjectedSolidAngle, parallelogram_by_projected_solid_angle[295]: by_projected_solid_angle(p, n) projected_solid_angle;
+                ParallelogramByProjectedSolidAngle, parallelogram_by_projected_solid_angle -> ParallelogramByProjectedSolidAngle = EtendueParallelogramByProjectedSolidAngle[295]: by_projected_solid_angle(p, n) projected_solid_angle;
+                /// In proportion to the lobe of a rough surface at the point p: pdf π times that of the reflection, over the projected solid
+                /// angle after its map, per steradian; 0 where nothing of the light is above the horizon.
+                ParallelogramByReflection, parallelogram_by_reflection -> ParallelogramByReflection = EtendueParallelogramByReflection[308]: by_reflection(p, reflection) projected_solid_angle;
+                /// Uniform over the solid angle of the part that the point p sees of a light with this spread; pdf per steradian. Surface
+                /// coordinates are those of the whole light.
+                ParallelogramBySpread, parallelogram_by_spread -> ParallelogramBySolidAngle: by_spread(p, spread) solid_angle;
             }
             /// A rectangle, of a corner and two perpendicular edges from there, that emits from the side of the first edge × the second one.
             /// Its strata follow the edges. Without area, and from a point in its plane, the pdf is 0. uv: (s, t), the parts of the edges,
@@ -96,20 +94,22 @@ macro_rules! techniques {
                 edge_s as edge_s: edge,
                 /// Edge along t, perpendicular to the other one.
                 edge_t as edge_t: edge,
-            } reflected {
-                /// In proportion to the lobe of a rough surface at the point p, as a parallelogram: pdf π times that of the reflection, over the
-                /// projected solid angle after its map, per steradian; 0 where nothing of the light is above the horizon.
-                ParallelogramByReflection;
             } by "solid_angle" {
                 /// Uniform over the surface of area A, as a parallelogram: pdf distance²/(|cosθ'| A) per steradian, θ' at the light.
-                ParallelogramByArea: by_area(p) area;
+                RectangleByArea, rectangle_by_area -> ParallelogramByArea: by_area(p) area;
                 /// Uniform over the solid angle Ω at the point p: pdf 1/Ω per steradian.
-                RectangleBySolidAngle = EtendueRectangleBySolidAngle, rectangle_by_solid_angle[86]: by_solid_angle(p) solid_angle;
+                RectangleBySolidAngle, rectangle_by_solid_angle -> RectangleBySolidAngle = EtendueRectangleBySolidAngle[86]: by_solid_angle(p) solid_angle;
                 /// Uniform over the projected solid angle Ω⊥ above the horizon of the unit normal n at the point p, as a parallelogram: pdf
                 /// cosθ/Ω⊥ per steradian, 0 where nothing of the light is above the horizon.
-                ParallelogramByProjectedSolidAngle: by_projected_solid_angle(p, n) projected_solid_angle;
+                RectangleByProjectedSolidAngle, rectangle_by_projected_solid_angle -> ParallelogramByProjectedSolidAngle: by_projected_solid_angle(p, n) projected_solid_angle;
                 /// By solid angle times a bilinear approximation of the cosine to the unit normal n at the point p; pdf per steradian.
-                RectangleByCosineWarp = EtendueRectangleByCosineWarp, rectangle_by_cosine_warp[90]: by_cosine_warp(p, n) solid_angle;
+                RectangleByCosineWarp, rectangle_by_cosine_warp -> RectangleByCosineWarp = EtendueRectangleByCosineWarp[90]: by_cosine_warp(p, n) solid_angle;
+                /// In proportion to the lobe of a rough surface at the point p, as a parallelogram: pdf π times that of the reflection, over the
+                /// projected solid angle after its map, per steradian; 0 where nothing of the light is above the horizon.
+                RectangleByReflection, rectangle_by_reflection -> ParallelogramByReflection: by_reflection(p, reflection) projected_solid_angle;
+                /// Uniform over the solid angle of the part that the point p sees of a light with this spread; pdf per steradian. Surface
+                /// coordinates are those of the whole light.
+                RectangleBySpread, rectangle_by_spread -> RectangleBySolidAngle: by_spread(p, spread) solid_angle;
             }
             /// A disk that emits from the side of its normal. A radius ≤ 0, and a point in its plane, give pdf 0. uv: (1 + q)/2 for the
             /// position q on the unit disk.
@@ -122,9 +122,12 @@ macro_rules! techniques {
                 radius as radius: number,
             } by "solid_angle" {
                 /// Uniform over the surface of area A: pdf distance²/(|cosθ'| A) per steradian, θ' at the light.
-                DiskByArea = EtendueDiskByArea, disk_by_area[14]: by_area(p) area;
+                DiskByArea, disk_by_area -> DiskByArea = EtendueDiskByArea[14]: by_area(p) area;
                 /// Uniform over the solid angle Ω at the point p: pdf 1/Ω per steradian.
-                DiskBySolidAngle = EtendueDiskBySolidAngle, disk_by_solid_angle[39]: by_solid_angle(p) solid_angle;
+                DiskBySolidAngle, disk_by_solid_angle -> DiskBySolidAngle = EtendueDiskBySolidAngle[39]: by_solid_angle(p) solid_angle;
+                /// Uniform over the solid angle of what the point p sees of a light with this spread, if that is a disk within the light; else,
+                /// of the whole light. The pdf is per steradian; surface coordinates are those of the whole light.
+                DiskBySpread, disk_by_spread -> DiskBySolidAngle: by_spread(p, spread) solid_angle;
             }
             /// A flat convex polygon of 3 to 8 corners that emits from the side on which they run counterclockwise. Without area, and from a
             /// point in its plane, the pdf is 0. uv: the parts of the edges from the first corner to the second and to the last, clamped to
@@ -133,18 +136,17 @@ macro_rules! techniques {
                 /// Corners in order, in one plane, in the coordinates of the scene. A polygon with fewer than 8 corners repeats its last
                 /// one.
                 corners as corners: corners,
-            } reflected {
-                /// In proportion to the lobe of a rough surface at the point p: pdf π times that of the reflection, over the projected solid
-                /// angle after its map, per steradian; 0 where nothing of the light is above the horizon.
-                PolygonByReflection [8] = EtenduePolygonByReflection, polygon_by_reflection[1094];
             } by "solid_angle" {
                 /// Uniform over the surface of area A: pdf distance²/(|cosθ'| A) per steradian, θ' at the light.
-                PolygonByArea [8] = EtenduePolygonByArea, polygon_by_area[64]: by_area(p) area;
+                PolygonByArea, polygon_by_area -> PolygonByArea [8] = EtenduePolygonByArea[64]: by_area(p) area;
                 /// Uniform over the solid angle Ω at the point p: pdf 1/Ω per steradian.
-                PolygonBySolidAngle [8] = EtenduePolygonBySolidAngle, polygon_by_solid_angle[449]: by_solid_angle(p) solid_angle;
+                PolygonBySolidAngle, polygon_by_solid_angle -> PolygonBySolidAngle [8] = EtenduePolygonBySolidAngle[449]: by_solid_angle(p) solid_angle;
                 /// Uniform over the projected solid angle Ω⊥ above the horizon of the unit normal n at the point p: pdf cosθ/Ω⊥ per
                 /// steradian, 0 where nothing of the light is above the horizon.
-                PolygonByProjectedSolidAngle [8] = EtenduePolygonByProjectedSolidAngle, polygon_by_projected_solid_angle[1081]: by_projected_solid_angle(p, n) projected_solid_angle;
+                PolygonByProjectedSolidAngle, polygon_by_projected_solid_angle -> PolygonByProjectedSolidAngle [8] = EtenduePolygonByProjectedSolidAngle[1081]: by_projected_solid_angle(p, n) projected_solid_angle;
+                /// In proportion to the lobe of a rough surface at the point p: pdf π times that of the reflection, over the projected solid
+                /// angle after its map, per steradian; 0 where nothing of the light is above the horizon.
+                PolygonByReflection, polygon_by_reflection -> PolygonByReflection [8] = EtenduePolygonByReflection[1094]: by_reflection(p, reflection) projected_solid_angle;
             }
             /// A bilinear patch, of a corner and the vectors from there to the others, that emits from the side of ∂s × ∂t. Without area the
             /// pdf is 0. uv: (s, t), in [0, 1].
@@ -159,7 +161,7 @@ macro_rules! techniques {
                 diagonal as diagonal: edge,
             } by "area" {
                 /// Nearly uniform over the surface: the pdf per unit area, times distance²/|cosθ'|, is exact for the map.
-                PatchByArea = EtenduePatchByArea, patch_by_area[25]: by_area(p) area;
+                PatchByArea, patch_by_area -> PatchByArea = EtenduePatchByArea[25]: by_area(p) area;
             }
             /// A line: a cylinder so thin that only its width times its radiance counts, which emits in all directions. Samplers use the
             /// first random number alone. The pdf is in the measure sinγ ds/r² (γ from the line, s along it), so that the estimator is
@@ -172,12 +174,12 @@ macro_rules! techniques {
                 edge as edge: edge,
             } by "angle" {
                 /// Uniform over the length: pdf r²/(length · sinγ).
-                LineByLength = EtendueLineByLength, line_by_length[11]: by_length(p);
+                LineByLength, line_by_length -> LineByLength = EtendueLineByLength[11]: by_length(p);
                 /// Uniform over the angle α that the line subtends at the point p: pdf r/α, with r its least distance.
-                LineByAngle = EtendueLineByAngle, line_by_angle[28]: by_angle(p) angle;
+                LineByAngle, line_by_angle -> LineByAngle = EtendueLineByAngle[28]: by_angle(p) angle;
                 /// By projected solid angle above the horizon of the unit normal n at the point p; pdf 0 where nothing of the line is above
                 /// it.
-                LineByProjectedSolidAngle = EtendueLineByProjectedSolidAngle, line_by_projected_solid_angle[43]: by_projected_solid_angle(p, n);
+                LineByProjectedSolidAngle, line_by_projected_solid_angle -> LineByProjectedSolidAngle = EtendueLineByProjectedSolidAngle[43]: by_projected_solid_angle(p, n);
             }
             /// A sun: the same radiance from all directions within an angle σ of one direction, at every point. The distance is the
             /// largest number of single precision.
@@ -188,7 +190,7 @@ macro_rules! techniques {
                 one_minus_cos as one_minus_cos: number,
             } by "solid_angle" {
                 /// Uniform over the cone: pdf 1/(2π(1 − cosσ)) per steradian, 0 where the cone is empty.
-                SunBySolidAngle = EtendueSunBySolidAngle, sun_by_solid_angle[10]: by_solid_angle() solid_angle;
+                SunBySolidAngle, sun_by_solid_angle -> SunBySolidAngle = EtendueSunBySolidAngle[10]: by_solid_angle() solid_angle;
             }
             /// A point light, that emits the same intensity I in all directions. The estimator is f · I · cosθ · weight. No direction
             /// hits it: its weight in multiple importance sampling is 1.
@@ -198,7 +200,7 @@ macro_rules! techniques {
             } by "delta" {
                 /// Its one direction, whatever the random numbers. The pdf of a sample is distance², which is no density; that of a
                 /// direction is 0.
-                PointLightByDelta = EtenduePointLightByDelta, point_light_by_delta[5]: by_delta(p);
+                PointLightByDelta, point_light_by_delta -> PointLightByDelta = EtenduePointLightByDelta[5]: by_delta(p);
             }
             /// A spot light: a point light that emits into a cone, with the intensity I on its axis. The estimator is f · I · cosθ · weight.
             /// No direction hits it: its weight in multiple importance sampling is 1.
@@ -214,7 +216,7 @@ macro_rules! techniques {
             } by "delta" {
                 /// Its one direction, whatever the random numbers. The pdf of a sample is distance² over the part of I that is emitted
                 /// there, which is no density, and 0 outside of the cone; that of a direction is 0.
-                SpotLightByDelta = EtendueSpotLightByDelta, spot_light_by_delta[5]: by_delta(p);
+                SpotLightByDelta, spot_light_by_delta -> SpotLightByDelta = EtendueSpotLightByDelta[5]: by_delta(p);
             }
             /// A directional light, that reaches every point from one direction with the irradiance E on a surface that faces it. The
             /// estimator is f · E · cosθ · weight. No direction hits it: its weight in multiple importance sampling is 1.
@@ -223,23 +225,29 @@ macro_rules! techniques {
                 direction as direction: direction,
             } by "delta" {
                 /// Its one direction, whatever the random numbers. The pdf of a sample is 1, which is no density; that of a direction is 0.
-                DirectionalLightByDelta = EtendueDirectionalLightByDelta, directional_light_by_delta[5]: by_delta();
+                DirectionalLightByDelta, directional_light_by_delta -> DirectionalLightByDelta = EtendueDirectionalLightByDelta[5]: by_delta();
             }
         }
     };
 }
 
-/// A light prepared by a method of the list, at a point and with the normal there, for those of them that it takes.
+/// A light prepared by a method of the list, with those of the named arguments that it takes.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! prepared {
-    ($light:expr, $by:ident(), $p:expr, $n:expr) => {
+    ($light:expr, $by:ident(), $($values:tt)*) => {
         $light.$by()
     };
-    ($light:expr, $by:ident(p), $p:expr, $n:expr) => {
+    ($light:expr, $by:ident(p), p: $p:expr, $($values:tt)*) => {
         $light.$by($p)
     };
-    ($light:expr, $by:ident(p, n), $p:expr, $n:expr) => {
+    ($light:expr, $by:ident(p, n), p: $p:expr, n: $n:expr, $($values:tt)*) => {
         $light.$by($p, $n)
+    };
+    ($light:expr, $by:ident(p, reflection), p: $p:expr, n: $n:expr, reflection: $reflection:expr, $($values:tt)*) => {
+        $light.$by($p, $reflection)
+    };
+    ($light:expr, $by:ident(p, spread), p: $p:expr, n: $n:expr, reflection: $reflection:expr, spread: $spread:expr) => {
+        $light.$by($p, $spread)
     };
 }

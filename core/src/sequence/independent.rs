@@ -40,6 +40,7 @@ pub(super) fn hash4<U: Uint>(v: [U; 4]) -> [U; 4] {
 /// - Domain: any 32-bit counters.
 /// - Values: multiples of 2⁻²⁴ in [0, 1 − 2⁻²⁴], the same at every precision and width.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(C)]
 pub struct Independent {
     pub(super) seed: u32,
 }

@@ -84,6 +84,7 @@ fn mixed<U: Uint>(word: U) -> U {
 /// - Source: Sobol 1967; Joe and Kuo, "Constructing Sobol Sequences with Better Two-Dimensional Projections", SIAM J. Sci.
 ///   Comput. 30, 2008 (first numbers); for the scrambling see [`OwenSobol`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(C)]
 pub struct JointSobol {
     random: Independent,
 }

@@ -88,6 +88,7 @@ pub(super) fn net<R: Real>(index: R::Uint, keys: [R::Uint; 2]) -> Vec2<R> {
 ///   [`JointSobol`](super::JointSobol).
 /// - Source: Owen 1995, "Randomly Permuted (t,m,s)-Nets"; Burley, "Practical Hash-based Owen Scrambling", JCGT 9(4), 2020.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(C)]
 pub struct OwenSobol {
     pub(super) random: Independent,
 }

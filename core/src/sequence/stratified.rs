@@ -20,6 +20,7 @@ use crate::vector::Vec2;
 ///   the replicates' means, not from the spread of samples, which are negatively correlated.
 /// - Source: Cook, Porter and Carpenter 1984 (jitter); Kensler 2013 and PBR 4th ed., 8.5, for padding by permutation.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
 pub struct Stratified {
     random: Independent,
     count: u32,

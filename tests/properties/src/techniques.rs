@@ -273,23 +273,38 @@ macro_rules! measure {
         Measure::Delta
     };
 }
+/// What is there for the rows of the core's list whose arguments an [`AreaLight`] has.
+macro_rules! row {
+    ((p, reflection), ($shape:expr, $by:expr)) => {
+        None
+    };
+    ((p, spread), ($shape:expr, $by:expr)) => {
+        None
+    };
+    ($place:tt, ($shape:expr, $by:expr)) => {
+        Some(($shape, $by))
+    };
+    ((p, reflection), $done:expr) => {};
+    ((p, spread), $done:expr) => {};
+    ($place:tt, $done:expr) => {
+        $done
+    };
+}
 macro_rules! techniques {
     ($(
-        $(#[$light_doc:meta])* $light:ident $([$corners:literal])? = $light_c:ident, $columns_c:ident { $($fields:tt)* }
-        $(reflected { $($lobe:tt)* })? by $default:literal {
+        $(#[$light_doc:meta])* $light:ident $([$corners:literal])? = $light_c:ident, $columns_c:ident { $($fields:tt)* } by $default:literal {
             $(
-                $(#[$doc:meta])* $sampler:ident $([$n:literal])?
-                    $(= $sampler_c:ident, $name:ident[$size:literal])?: $by:ident $place:tt $($measure:ident)?;
+                $(#[$doc:meta])* $technique:ident, $name:ident -> $sampler:ident $([$n:literal])? $(= $sampler_c:ident[$size:literal])?: $by:ident $place:tt $($measure:ident)?;
             )+
         }
     )+) => {
-        /// All shapes by all techniques, in the order of the core's list.
-        const KINDS: &[(LightShape, Measure)] = &[$($((shape!($light), measure!($by)),)+)+];
+        /// All rows of the core's list, in its order, but for lobes and spreads, which have fixtures of their own.
+        const ROWS: &[Option<(LightShape, Measure)>] = &[$($(row!($place, (shape!($light), measure!($by))),)+)+];
         /// The light of a shape, by a technique.
         fn prepare<R: Real>(shape: LightShape, by: Measure, (v, radius): &([Vec3<R>; 5], R)) -> Box<dyn LightSampler<R>> {
-            $($(if (shape, by) == (shape!($light), measure!($by)) {
-                return boxed(|| etendue::prepared!($light::placed(v, *radius), $by $place, v[0], v[4]));
-            })+)+
+            $($(row!($place, if (shape, by) == (shape!($light), measure!($by)) {
+                return boxed(|| etendue::prepared!($light::placed(v, *radius), $by $place, p: v[0], n: v[4],));
+            });)+)+
             panic!("the core's list has no {shape:?} by {by:?}");
         }
         /// The numbers of the light of a shape, in the order of its fields.
@@ -303,6 +318,30 @@ macro_rules! techniques {
     };
 }
 etendue::techniques!(techniques! {});
+
+/// The rows that are there.
+const KINDS: &[(LightShape, Measure)] = {
+    const COUNT: usize = {
+        let (mut i, mut count) = (0, 0);
+        while i < ROWS.len() {
+            count += ROWS[i].is_some() as usize;
+            i += 1;
+        }
+        count
+    };
+    &{
+        let mut kinds = [(LightShape::Sphere, Measure::Area); COUNT];
+        let (mut i, mut count) = (0, 0);
+        while i < ROWS.len() {
+            if let Some(kind) = ROWS[i] {
+                kinds[count] = kind;
+                count += 1;
+            }
+            i += 1;
+        }
+        kinds
+    }
+};
 
 /// A light from the shading point, the vectors a, b, c and n of an [`AreaLight`], and its radius.
 trait Placed<R> {

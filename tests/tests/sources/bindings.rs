@@ -10,40 +10,31 @@ struct Light {
     fields: &'static [[&'static str; 3]],
     default: &'static str,
     techniques: &'static [Row],
-    /// By reflection, if it has that.
-    lobe: &'static [Row],
 }
 
-/// A technique: its sampler, its name in C, which is empty if another light has that sampler, its method, and the arguments of that.
+/// A technique: its name in C, its sampler, whether no other technique has that, its method, and the arguments of that.
 struct Row {
-    sampler: &'static str,
     name: &'static str,
+    sampler: &'static str,
+    is_own: bool,
     by: &'static str,
     place: &'static [&'static str],
 }
 
 impl Row {
-    /// The light whose sampler it is.
-    fn light(&self) -> &'static str {
-        self.sampler.split("By").next().unwrap()
+    /// Its name in words that begin with capitals.
+    fn class(&self) -> String {
+        let capital = |word: &str| word[..1].to_uppercase() + &word[1..];
+        self.name.split('_').map(capital).collect()
     }
-    /// How its functions are called beside the point: the number of the macro in the test of C, and the macro of C++.
+    /// How its functions are called beside the point: the number of the macro in the test of C, and the macro of C and C++.
     fn kind(&self) -> (u8, &'static str) {
         match self.place {
             [_, "n"] => (1, "ON_SURFACE"),
             [_, "reflection"] => (2, "REFLECTED"),
+            [_, "spread"] => (3, "SPREAD"),
             _ => (0, "ANYWHERE"),
         }
-    }
-}
-
-impl Light {
-    fn all(&self) -> impl Iterator<Item = &'static Row> {
-        self.techniques.iter().chain(self.lobe)
-    }
-    /// Techniques whose samplers no other light has.
-    fn own(&self) -> impl Iterator<Item = &'static Row> {
-        self.all().filter(|technique| !technique.name.is_empty())
     }
 }
 
@@ -51,12 +42,9 @@ macro_rules! lights {
     ($(
         $(#[$light_doc:meta])* $light:ident $([$corners:literal])? = $light_c:ident, $columns_c:ident {
             $($(#[$field_doc:meta])* $field:ident as $argument:ident: $kind:ident,)+
-        } $(reflected {
-            $(#[$lobe_doc:meta])* $lobe:ident $([$lobe_n:literal])? $(= $lobe_c:ident, $lobe_name:ident[$lobe_size:literal])?;
-        })? by $default:literal {
+        } by $default:literal {
             $(
-                $(#[$doc:meta])* $sampler:ident $([$n:literal])?
-                    $(= $sampler_c:ident, $technique:ident[$size:literal])?: $by:ident($($place:ident),*) $($measure:ident)?;
+                $(#[$doc:meta])* $technique:ident, $name:ident -> $sampler:ident $([$n:literal])? $(= $sampler_c:ident[$size:literal])?: $by:ident($($place:ident),*) $($measure:ident)?;
             )+
         }
     )+) => {
@@ -65,17 +53,12 @@ macro_rules! lights {
             fields: &[$([stringify!($field), stringify!($argument), stringify!($kind)]),+],
             default: $default,
             techniques: &[$(Row {
+                name: stringify!($name),
                 sampler: stringify!($sampler),
-                name: concat!($(stringify!($technique))?),
+                is_own: !concat!($(stringify!($sampler_c))?).is_empty(),
                 by: stringify!($by),
                 place: &[$(stringify!($place)),*],
             }),+],
-            lobe: &[$(Row {
-                sampler: stringify!($lobe),
-                name: concat!($(stringify!($lobe_name))?),
-                by: "by_reflection",
-                place: &["p", "reflection"],
-            })?],
         }),+];
     };
 }
@@ -122,28 +105,20 @@ fn cpp_light(light: &Light, out: &mut String) -> std::fmt::Result {
             writeln!(out, "    static {name} from_vertices({arguments}) {{ return {{{values}}}; }}")?;
         }
     }
-    for technique in light.all() {
-        let Row { sampler, by, .. } = technique;
-        // the fields of a light whose sampler is another one's are that one's
-        let this = if technique.name.is_empty() {
-            let fields: Vec<_> =
-                fields.iter().map(|[field, ..]| format!("{{{field}[0], {field}[1], {field}[2]}}")).collect();
-            format!("Etendue{}{{{}}}", technique.light(), fields.join(", "))
-        } else {
-            "*this".to_owned()
+    for technique in light.techniques {
+        let (class, by) = (technique.class(), technique.by);
+        let argument = match technique.place {
+            [] => {
+                let at = "// The same at every point.";
+                writeln!(out, "    {at}\n    {class} {by}() const {{ return {{*this, Vec3()}}; }}")?;
+                continue;
+            }
+            [_] => ("", ""),
+            [_, "n"] => (", Vec3 n", ", n"),
+            [_, "reflection"] => (", const EtendueReflection& reflection", ", reflection"),
+            _ => (", const EtendueSpread& spread", ", spread"),
         };
-        match technique.place {
-            [] => writeln!(
-                out,
-                "    // The same at every point.\n    {sampler} {by}() const {{ return {{{this}, Vec3()}}; }}"
-            )?,
-            [_] => writeln!(out, "    {sampler} {by}(Vec3 at) const {{ return {{{this}, at}}; }}")?,
-            [_, "n"] => writeln!(out, "    {sampler} {by}(Vec3 at, Vec3 n) const {{ return {{{this}, at, n}}; }}")?,
-            _ => writeln!(
-                out,
-                "    {sampler} {by}(Vec3 at, const EtendueReflection& reflection) const {{ return {{{this}, at, reflection}}; }}"
-            )?,
-        }
+        writeln!(out, "    {class} {by}(Vec3 at{}) const {{ return {{*this, at{}}}; }}", argument.0, argument.1)?;
     }
     out.push_str("};\n");
     Ok(())
@@ -152,9 +127,10 @@ fn cpp_light(light: &Light, out: &mut String) -> std::fmt::Result {
 fn cpp() -> String {
     let mut out = String::new();
     for light in LIGHTS {
-        for technique in light.own() {
+        for technique in light.techniques {
             let (_, kind) = technique.kind();
-            writeln!(out, "ETENDUE_{kind}({}, {}, etendue_{})", technique.sampler, light.name, technique.name).unwrap();
+            let Row { sampler, name, .. } = technique;
+            writeln!(out, "ETENDUE_{kind}({}, {sampler}, {}, etendue_{name})", technique.class(), light.name).unwrap();
         }
     }
     out.push('\n');
@@ -166,11 +142,34 @@ fn cpp() -> String {
     out
 }
 
+/// The typed functions of C.
+fn c_typed() -> String {
+    let mut out = String::new();
+    for light in LIGHTS {
+        for technique in light.techniques {
+            let ((_, kind), Row { sampler, name, .. }) = (technique.kind(), technique);
+            writeln!(out, "ETENDUE_{kind}_({name}, {}, {}, {sampler})", name.to_uppercase(), light.name).unwrap();
+        }
+    }
+    out
+}
+
+/// The structs that the header has, although no function names them.
+fn c_structs() -> String {
+    let mut out = String::new();
+    for light in LIGHTS {
+        let samplers = light.techniques.iter().filter(|technique| technique.is_own).map(|technique| technique.sampler);
+        let structs = samplers.map(|sampler| format!("\"Etendue{sampler}\",")).collect::<Vec<_>>();
+        writeln!(out, "    \"Etendue{0}\", \"Etendue{0}Columns\", {1}", light.name, structs.join(" ")).unwrap();
+    }
+    out
+}
+
 /// All techniques as a macro of the C test.
 fn c() -> String {
     let mut rows = String::from("#define TECHNIQUES(T)");
     for light in LIGHTS {
-        for technique in light.own() {
+        for technique in light.techniques {
             let (kind, _) = technique.kind();
             write!(rows, " \\\n    T({}, {}, {}, {kind})", technique.sampler, light.name, technique.name).unwrap();
         }
@@ -184,12 +183,16 @@ fn python_light(light: &Light, out: &mut String) -> std::fmt::Result {
     let arguments: Vec<_> = fields.iter().map(|[_, argument, _]| format!("{argument}: ArrayLike")).collect();
     writeln!(out, "@final\nclass {name}:")?;
     writeln!(out, "    def __new__(cls, {}) -> {name}: ...", arguments.join(", "))?;
-    for Row { by, place, .. } in light.all() {
-        let kind = |name| if name == "reflection" { "Reflection" } else { "ArrayLike" };
+    for Row { by, place, .. } in light.techniques {
+        let kind = |name| match name {
+            "reflection" => "Reflection",
+            "spread" => "Spread",
+            _ => "ArrayLike",
+        };
         let place: String = place.iter().map(|&name| format!(", {name}: {}", kind(name))).collect();
         writeln!(out, "    def {by}(self{place}) -> Sampler: ...")?;
     }
-    let by: Vec<_> = light.all().map(|technique| format!("\"{}\"", &technique.by[3..])).collect();
+    let by: Vec<_> = light.techniques.iter().map(|technique| format!("\"{}\"", &technique.by[3..])).collect();
     let functions =
         [("sample", "u", "Samples"), ("hit", "w", "Samples"), ("pdf", "w", "_F32"), ("invert", "w", "_F32")];
     for (function, at, result) in functions {
@@ -199,7 +202,7 @@ fn python_light(light: &Light, out: &mut String) -> std::fmt::Result {
             out,
             "        *,\n        p: ArrayLike,\n        {at}: ArrayLike,\n        n: ArrayLike | None = None,"
         )?;
-        for name in if light.lobe.is_empty() { &[][..] } else { &["alpha", "view"] } {
+        for name in ["alpha", "view", "spread"] {
             writeln!(out, "        {name}: ArrayLike | None = None,")?;
         }
         writeln!(out, "        by: Literal[{}] = \"{}\",\n    ) -> {result}: ...", by.join(", "), light.default)?;
@@ -238,6 +241,11 @@ fn check(file: &str, mark: &str, part: &str) {
 #[test]
 fn the_test_in_c_is_what_the_list_gives() {
     check("core/c/tests/test.c", "//", &c());
+}
+#[test]
+fn the_header_of_c_is_what_the_list_gives() {
+    check("core/c/include/etendue_typed.h", "//", &c_typed());
+    check("core/c/cbindgen.toml", "    #", &c_structs());
 }
 #[test]
 fn cpp_is_what_the_list_gives() {

@@ -5,18 +5,18 @@ use etendue::light::*;
 use etendue::reflection::Reflection;
 use etendue::sequence::*;
 use etendue::warp::*;
-use etendue_batch::{PortalsByRadiance, *};
+use etendue_batch::memory::{PictureMemory, PortalMemory, PortalShape, PortalSums};
+use etendue_batch::technique::{self, OnPicture};
+use etendue_batch::*;
 
 /// What is done with all of them.
 pub(crate) trait Visitor {
     /// A light by the technique `T`.
-    fn technique<T: BatchTechnique>(&mut self, name: &str, light: T::Light<f32>);
+    fn technique<T: Technique>(&mut self, name: &str, light: T::Light<f32>, with: T::With<f32>);
     /// A warp.
     fn warp<W: BatchWarp>(&mut self, name: &str, warp: W);
     /// A sequence.
-    fn sequence<S>(&mut self, name: &str, sequence: S)
-    where
-        S: Sequence + InTable<Functions = SequenceFunctions<S>>;
+    fn sequence<S: BatchSequence>(&mut self, name: &str, sequence: S);
 }
 
 fn v(x: f32, y: f32, z: f32) -> Vec3<f32> {
@@ -56,24 +56,26 @@ overhead! {
 }
 macro_rules! visit_techniques {
     ({ $visitor:ident } $(
-        $(#[$light_doc:meta])* $light:ident $([$corners:literal])? = $light_c:ident, $columns_c:ident { $($fields:tt)* } $(reflected {
-            $(#[$lobe_doc:meta])* $lobe:ident $([$lobe_n:literal])? $(= $lobe_c:ident, $lobe_name:ident[$lobe_size:literal])?;
-        })? by $default:literal {
-            $($(#[$doc:meta])* $sampler:ident $([$n:literal])? $(= $sampler_c:ident, $name:ident[$size:literal])?: $by:ident $place:tt $($measure:ident)?;)+
+        $(#[$light_doc:meta])* $light:ident $([$corners:literal])? = $light_c:ident, $columns_c:ident { $($fields:tt)* } by $default:literal {
+            $($(#[$doc:meta])* $technique:ident, $name:ident -> $sampler:ident $([$n:literal])? $(= $sampler_c:ident[$size:literal])?: $by:ident $place:tt $($measure:ident)?;)+
         }
     )+) => {
-        $($(visit_techniques!(@ $visitor, $sampler<f32 $(, $n)?> $(, $name)?);)+)+
-        $($(visit_techniques!(# $visitor, $lobe<f32 $(, $lobe_n)?> $(, $lobe_name)?);)?)+
+        $($(
+            let with = visit_techniques!(with $place);
+            $visitor.technique::<technique::$technique>(&stringify!($name).replace('_', " "), Overhead::overhead(), with);
+        )+)+
     };
-    // the sampler of another light
-    (@ $visitor:ident, $sampler:ty) => {};
-    (# $visitor:ident, $sampler:ty) => {};
-    (# $visitor:ident, $sampler:ty, $name:ident) => {
-        let reflected = Reflected { light: Overhead::overhead(), reflection: glossy() };
-        $visitor.technique::<$sampler>(&stringify!($name).replace('_', " "), reflected);
+    (with (p, n)) => {
+        v(0.0, 1.0, 0.0)
     };
-    (@ $visitor:ident, $sampler:ty, $name:ident) => {
-        $visitor.technique::<$sampler>(&stringify!($name).replace('_', " "), Overhead::overhead());
+    (with (p, reflection)) => {
+        glossy()
+    };
+    (with (p, spread)) => {
+        Spread::new(2.0)
+    };
+    (with $place:tt) => {
+        ()
     };
 }
 
@@ -86,23 +88,29 @@ fn glossy() -> Reflection<f32> {
 fn visit_images(visitor: &mut impl Visitor) {
     let weights: Vec<f32> = (0..15).map(|i| [0.0, 1.0, 0.3, 1e-3, 7.0][i * 7 % 5]).collect();
     let mut buffer = [0.0; Picture::buffer(5, 3)];
-    let picture = Picture::build(&weights, 5, Region::Square, &mut buffer).unwrap();
-    visitor.technique::<PictureByArea<'_>>("picture by area", picture.on(Overhead::overhead()));
-    visitor.technique::<PictureBySolidAngle<'_>>("picture by solid angle", picture.on(Overhead::overhead()));
-    let projected = "picture by projected solid angle";
-    visitor.technique::<PictureByProjectedSolidAngle<'_>>(projected, picture.on(Overhead::overhead()));
+    Picture::build(&weights, 5, Region::Square, &mut buffer).unwrap();
+    let picture = PictureMemory::new(&buffer, [5, 3], Region::Square).unwrap();
+    let panel = OnPicture { picture, light: Overhead::overhead() };
+    visitor.technique::<technique::PictureByArea<'_>>("picture by area", panel, ());
+    visitor.technique::<technique::PictureBySolidAngle<'_>>("picture by solid angle", panel, ());
+    let (projected, up) = ("picture by projected solid angle", v(0.0, 1.0, 0.0));
+    visitor.technique::<technique::PictureByProjectedSolidAngle<'_>>(projected, panel, up);
+    let patch = OnPicture { picture, light: Overhead::overhead() };
+    visitor.technique::<technique::PictureOnPatchByVisibleArea<'_>>("picture on patch", patch, ());
     let mut buffer = [0.0; Picture::buffer(6, 4)];
-    let smooth = Picture::interpolated(&weights, 5, &mut buffer).unwrap();
-    visitor.technique::<PictureBySolidAngle<'_>>("interpolated picture", smooth.on(Overhead::overhead()));
-    visitor.technique::<PictureOnSphereByVisibleArea<'_>>("picture on sphere", smooth.on(Overhead::overhead()));
-    visitor.technique::<PictureOnPatchByVisibleArea<'_>>("picture on patch", picture.on(Overhead::overhead()));
+    Picture::interpolated(&weights, 5, &mut buffer).unwrap();
+    let picture = PictureMemory::interpolated(&weights, 5, &buffer).unwrap();
+    visitor.technique::<technique::PictureBySolidAngle<'_>>("interpolated picture", OnPicture { picture, ..panel }, ());
+    let sphere = OnPicture { picture, light: Overhead::overhead() };
+    visitor.technique::<technique::PictureOnSphereByVisibleArea<'_>>("picture on sphere", sphere, ());
 
     let mut buffer = [0; PortalTable::buffer(5, 3)];
-    let tables = [PortalTable::build(&weights, 5, &mut buffer).unwrap(); 2];
-    let corners = [[-0.5, 1.0, -0.5], [0.25, 1.5, 0.0]];
-    let portals = corners.map(|corner| Portal::new(corner, [0.0, 0.25, 1.0], [1.0, 0.0, 0.0]).unwrap());
-    let sky = PortalEnvironment::new(&portals, &tables).unwrap();
-    visitor.technique::<PortalsByRadiance<'_>>("portals by radiance", sky);
+    PortalTable::build(&weights, 5, &mut buffer).unwrap();
+    let tables = [PortalSums::new(&buffer, 5).unwrap(); 2];
+    let shape = |corner| PortalShape { corner, edge_s: [0.0, 0.25, 1.0], edge_t: [1.0, 0.0, 0.0] };
+    let portals = [[-0.5, 1.0, -0.5], [0.25, 1.5, 0.0]].map(shape);
+    let sky = PortalMemory::new(&portals, &tables).unwrap();
+    visitor.technique::<technique::PortalsByRadiance<'_>>("portals by radiance", sky, ());
 }
 
 /// Visits all of them.

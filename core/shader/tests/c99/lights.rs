@@ -6,7 +6,7 @@ use etendue::reflection::Reflection;
 use etendue::{LightSample, LightSampler, Real, Vec2, Vec3};
 use etendue_oracle::tier::{cases, is_long};
 use etendue_properties::generators::{Random, nasty, unit_or_edge};
-use etendue_properties::techniques::{AreaLight, LightShape};
+use etendue_properties::techniques::AreaLight;
 use etendue_shader::*;
 
 pub(crate) fn vec3(x: &[f32]) -> Vec3<f32> {
@@ -42,14 +42,9 @@ fn octagon(light: &AreaLight) -> Vec<f32> {
 fn arguments(kind: usize, numbers: usize) -> Vec<Vec<f32>> {
     let mut random = Random::new(3600 + kind as u64);
     let slot = |round: usize| {
-        // after the list, and the four lights without a surface at its end, are those with a spread
-        let with_spread = kind.checked_sub(AreaLight::KINDS.len() + 4).map(|k| {
-            let shape = [LightShape::Parallelogram, LightShape::Rectangle, LightShape::Disk][k];
-            AreaLight::KINDS.iter().position(|known| known.0 == shape).unwrap()
-        });
-        let with_surface = kind < AreaLight::KINDS.len() || with_spread.is_some();
-        let shape = with_spread.unwrap_or(if with_surface { kind } else { 0 });
-        let mut light = AreaLight::any(shape, round as u32 / 3, &mut random);
+        // four lights without a surface are at the end of the list
+        let with_surface = kind < AreaLight::KINDS.len();
+        let mut light = AreaLight::any(if with_surface { kind } else { 0 }, round as u32 / 3, &mut random);
         if round % 8 == 7 {
             match random.word() % 4 {
                 0 => light.a = nasty(&mut random),
@@ -67,10 +62,6 @@ fn arguments(kind: usize, numbers: usize) -> Vec<Vec<f32>> {
                 all[3] = random.unit();
             }
             all.truncate(numbers);
-        }
-        if with_spread.is_some() {
-            // from a narrow cone to nearly all directions
-            all.push(random.magnitude(0.02, 50.0).abs() as f32);
         }
         if numbers == 24 && round.is_multiple_of(2) {
             all = octagon(&light);
@@ -110,7 +101,7 @@ impl<'a> Lights<'a> {
     fn compare(wanted: Wanted, flags: &'a [&'a str], test: &'a str, rest: fn(&Entry, usize) -> bool) -> Self {
         let mut this = Self { wanted, flags, test, rest, kind: 0, compared: 0, numbers: 0 };
         every_technique(&mut this);
-        assert!(this.kind >= 30, "{} techniques", this.kind);
+        assert!(this.kind >= 27, "{} techniques", this.kind);
         this
     }
 }
@@ -118,8 +109,9 @@ impl<'a> Lights<'a> {
 impl TechniqueVisitor for Lights<'_> {
     fn visit<T: Technique>(&mut self) {
         let entry = T::ENTRY;
-        // by reflection, the light is that of the technique before
-        self.kind += usize::from(!entry.reflected);
+        // by reflection and by spread, the light is that of the technique before
+        let is_own = matches!(entry.with, With::Nothing | With::Normal);
+        self.kind += usize::from(is_own);
         let kind = self.kind - 1;
         if !is_long() && (self.rest)(&entry, kind) {
             return;
@@ -129,17 +121,19 @@ impl TechniqueVisitor for Lights<'_> {
         let mut module = Module::default();
         add_technique::<T>(&mut module, &self.wanted);
         add_calls(&mut module);
-        let mut light_numbers = 0;
+        let mut own_numbers = 0;
         let _ = T::light(&mut || {
-            light_numbers += 1;
+            own_numbers += 1;
             0.0_f32
         });
-        let lobe_numbers = if entry.reflected { 16 } else { 0 };
-        let own_numbers = light_numbers - lobe_numbers;
         let mut inputs = arguments(kind, own_numbers);
-        if entry.reflected {
-            let mut random = Random::new(4100 + kind as u64);
-            for input in &mut inputs {
+        let mut random = Random::new(4100 + kind as u64);
+        for input in &mut inputs {
+            if entry.with == With::Spread {
+                // from a narrow cone to nearly all directions
+                input.splice(own_numbers..own_numbers, [random.magnitude(0.02, 50.0).abs() as f32, 1.0]);
+            }
+            if entry.with == With::Reflection {
                 let [normal, view] = [(); 2].map(|()| vec3(&random.direction().map(|x| x as f32)));
                 let size = random.unit();
                 let lobe = Reflection::new(size * size, normal, view);
@@ -150,11 +144,14 @@ impl TechniqueVisitor for Lights<'_> {
         }
 
         let right = inputs.iter().map(|input| {
-            let (light, rest) = input.split_at(light_numbers);
-            let mut next = light.iter();
+            let mut next = input.iter();
             let light = T::light(&mut || *next.next().unwrap());
-            let (p, n, u, w) = (vec3(&rest[..3]), vec3(&rest[3..6]), Vec2::new(rest[6], rest[7]), vec3(&rest[8..]));
-            let sampler = T::prepare(&light, p, n);
+            let of_struct = (!is_own).then(|| T::with(&mut || *next.next().unwrap()));
+            let rest = next.as_slice();
+            let (p, u, w) = (vec3(&rest[..3]), Vec2::new(rest[6], rest[7]), vec3(&rest[8..]));
+            let mut normal = rest[3..6].iter();
+            let with = of_struct.unwrap_or_else(|| T::with(&mut || *normal.next().unwrap()));
+            let sampler = T::prepare(&light, p, with);
             let s = sampler.sample(u);
             let mut all = Vec::new();
             sample(&s, &self.wanted, &mut all);
@@ -181,19 +178,18 @@ impl TechniqueVisitor for Lights<'_> {
         match driver.function(&format!("{name}_prepare")) {
             Some(prepare) => {
                 driver.take(prepare.parameters[0].of, "light");
-                if entry.reflected {
-                    driver.take(prepare.parameters[1].of, "reflection");
+                if !is_own {
+                    driver.take(prepare.parameters[1].of, "with");
                 }
             }
-            None => driver.inputs += light_numbers,
+            None => driver.inputs += own_numbers,
         }
         driver.take(vec3, "p");
         driver.take(vec3, "n");
         driver.take(Type::Leaf(Leaf::Vec2), "u");
         driver.take(vec3, "w");
         if driver.function(&format!("{name}_prepare")).is_some() {
-            let all =
-                [("light", true), ("reflection", entry.reflected), ("p", entry.at_point), ("n", entry.on_surface)];
+            let all = [("light", true), ("with", !is_own), ("p", entry.at_point), ("n", entry.with == With::Normal)];
             let arguments: Vec<&str> = all.into_iter().filter(|(_, takes)| *takes).map(|(name, _)| name).collect();
             driver.call(&format!("{name}_prepare"), &arguments, "prepared");
         }

@@ -349,10 +349,12 @@ pub struct PortalTable<'a> {
 
 impl<'a> PortalTable<'a> {
     /// Length of the buffer for w × h texels: (w + 1)(h + 1) + 1.
+    #[inline]
     #[must_use]
     pub const fn buffer(width: usize, height: usize) -> usize {
         (width + 1) * (height + 1) + 1
     }
+    #[inline]
     fn is_size(width: usize, height: usize) -> bool {
         (1..=MOST_CELLS).contains(&width) && (1..=MOST_CELLS).contains(&height)
     }
@@ -393,6 +395,7 @@ impl<'a> PortalTable<'a> {
     ///
     /// # Errors
     /// If the length of the buffer is not that of a table with so many columns.
+    #[inline]
     pub fn from_buffer(buffer: &'a [u64], width: usize) -> Result<Self, TableError> {
         let (unit, sums) = buffer.split_first().ok_or(TableError::Length)?;
         let height = (sums.len() / width.saturating_add(1)).saturating_sub(1);

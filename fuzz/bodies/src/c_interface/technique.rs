@@ -7,139 +7,140 @@ use super::{
     COUNTS, Column, FIELDS, LIGHT, Output, SAMPLER, all_finite, expected, fields, same, sample_columns, total,
 };
 use etendue_c::*;
-use std::ptr::{null, null_mut};
+use std::ffi::c_void;
+use std::ptr::{from_ref, null, null_mut};
 
-/// The functions of a technique, with every struct as numbers or pointers in a row.
-pub(super) struct Functions {
+/// A technique, of which every struct is numbers or pointers in a row.
+pub(super) struct Kind {
     /// The light's struct.
     name: &'static str,
     light: usize,
     sampler: usize,
-    on_surface: bool,
-    prepare: unsafe fn(Column, Column, Column, Output) -> EtendueStatus,
-    sample: unsafe fn(Column, Column, *mut EtendueLightSample) -> EtendueStatus,
-    pdf: unsafe fn(Column, Column) -> f32,
-    invert: unsafe fn(Column, Column, Output) -> EtendueStatus,
-    hit: unsafe fn(Column, Column, *mut EtendueLightSample) -> EtendueStatus,
-    once: unsafe fn(Column, Column, Column, Column, *mut EtendueLightSample) -> EtendueStatus,
-    sample_batch: unsafe fn(Column, usize, *const Column, *const EtendueSampleColumns) -> EtendueStatus,
-    pdf_batch: unsafe fn(Column, usize, *const Column, Output) -> EtendueStatus,
-    invert_batch: unsafe fn(Column, usize, *const Column, *const Output) -> EtendueStatus,
-    hit_batch: unsafe fn(Column, usize, *const Column, *const EtendueSampleColumns) -> EtendueStatus,
-    sample_each: unsafe fn(&Views, usize, *const Column, *const EtendueSampleColumns) -> EtendueStatus,
-    hit_each: unsafe fn(&Views, usize, *const Column, *const EtendueSampleColumns) -> EtendueStatus,
-    pdf_each: unsafe fn(&Views, usize, *const Column, Output) -> EtendueStatus,
-    invert_each: unsafe fn(&Views, usize, *const Column, *const Output) -> EtendueStatus,
+    needs: Needs,
 }
 
-/// Columns of lights, shading points and normals.
-struct Views {
-    lights: *const Column,
-    p: *const Column,
-    n: *const Column,
+/// What a technique is prepared for beside the point.
+#[derive(Clone, Copy, PartialEq)]
+enum Needs {
+    Nothing,
+    Normal,
+    Reflection,
+    Spread,
 }
 
-impl Views {
-    /// Reflections of surfaces with these normals, if all are there, in memory that lives as long as what is returned.
-    fn reflections(&self, n: usize) -> Option<(Vec<f32>, EtendueReflectionColumns)> {
-        let mut numbers = vec![0.0; 16 * n];
-        let mut columns = numbers.chunks_mut(n.max(1)).map(<[f32]>::as_mut_ptr);
-        let mut next = || columns.next().unwrap_or(null_mut());
-        let out = EtendueReflectionColumns { data: [(); 14].map(|()| next()), albedo: next(), schlick: next() };
-        let alphas = vec![ALPHA; n];
-        // SAFETY: the columns have n elements or are null
-        let status = unsafe { etendue_reflection_prepare_batch(n, alphas.as_ptr(), self.n, self.n, &out) };
-        (status == EtendueStatus::Ok).then_some((numbers, out))
+/// The roughness of all surfaces, which are seen along their normals, and the spread of all lights, in radians.
+const ALPHA: f32 = 0.3;
+const SPREAD: f64 = 1.2;
+
+/// What a light is prepared for where the surface has this normal, in memory that lives as long as what is returned; none without a normal.
+struct With {
+    reflection: EtendueReflection,
+    spread: EtendueSpread,
+    normal: Column,
+    needs: Needs,
+}
+
+impl With {
+    unsafe fn new(needs: Needs, normal: Column) -> Option<Self> {
+        let mut reflection = EtendueReflection { data: [0.0; 14], albedo: 0.0, schlick: 0.0 };
+        let mut spread = EtendueSpread { tan_half: 0.0, gain: 0.0 };
+        if normal.is_null() {
+            return None;
+        }
+        // SAFETY: the caller's
+        unsafe {
+            assert_eq!(etendue_reflection_prepare(ALPHA, normal, normal, &mut reflection), EtendueStatus::Ok);
+            assert_eq!(etendue_spread_prepare(SPREAD, &mut spread), EtendueStatus::Ok);
+        }
+        Some(Self { reflection, spread, normal, needs })
+    }
+    fn pointer(&self) -> *const c_void {
+        match self.needs {
+            Needs::Nothing => null(),
+            Needs::Normal => self.normal.cast(),
+            Needs::Reflection => from_ref(&self.reflection).cast(),
+            Needs::Spread => from_ref(&self.spread).cast(),
+        }
     }
 }
 
-/// The roughness of all surfaces, which are seen along their normals.
-const ALPHA: f32 = 0.3;
-
-/// The reflection of a surface with this normal, if that is there.
-unsafe fn reflection(normal: Column) -> Option<EtendueReflection> {
-    let mut out = EtendueReflection { data: [0.0; 14], albedo: 0.0, schlick: 0.0 };
-    // SAFETY: the caller's
-    let status = unsafe { etendue_reflection_prepare(ALPHA, normal, normal, &mut out) };
-    (status == EtendueStatus::Ok).then_some(out)
+/// The same in columns, for normals in columns, any of which may be missing.
+struct Withs {
+    /// The numbers of all columns.
+    _numbers: Vec<f32>,
+    pointers: Vec<Column>,
 }
 
-/// Calls a function with a normal or a reflection, if the technique needs one.
-macro_rules! call {
-    (needs_normal (p, n)) => {
-        true
-    };
-    (needs_normal (p, reflection)) => {
-        true
-    };
-    (needs_normal $place:tt) => {
-        false
-    };
-    ((p, n) $module:ident::$function:ident($($before:expr),*; $normal:expr; $($after:expr),*)) => {
-        $module::$function($($before,)* $normal, $($after),*)
-    };
-    ((p, reflection) $module:ident::$function:ident($($before:expr),*; $normal:expr; $($after:expr),*)) => {
-        $module::$function($($before,)* reflection($normal).as_ref().map_or(null(), std::ptr::from_ref), $($after),*)
-    };
-    ($place:tt $module:ident::$function:ident($($before:expr),*; $normal:expr; $($after:expr),*)) => {{
-        let _ = $normal;
-        $module::$function($($before,)* $($after),*)
-    }};
-}
-/// Calls a function with a light, a point, and a normal or a reflection of its own for each element.
-macro_rules! each {
-    ((p, reflection) $views:ident, $n:ident, $module:ident::$function:ident($($after:expr),*)) => {{
-        let reflections = $views.reflections($n);
-        let columns = reflections.as_ref().map_or(null(), |(_, columns)| std::ptr::from_ref(columns));
-        $module::$function($views.lights.cast(), $n, $views.p, columns, $($after),*)
-    }};
-    ($place:tt $views:ident, $n:ident, $module:ident::$function:ident($($after:expr),*)) => {
-        call!($place $module::$function($views.lights.cast(), $n, $views.p; $views.n; $($after),*))
-    };
-}
-/// The functions of a technique.
-macro_rules! functions {
-    ($light:ident, $size:literal, $name:ident, $place:tt) => {
-        // SAFETY of all: the caller's pointers are those that the functions demand
-        Functions {
-            name: stringify!($light),
-            light: size_of::<$light>() / 4,
-            sampler: $size,
-            on_surface: call!(needs_normal $place),
-            prepare: |light, p, n, out| unsafe { call!($place $name::prepare(light.cast(), p; n; out.cast())) },
-            sample: |s, u, out| unsafe { $name::sample(s.cast(), u, out) },
-            pdf: |s, w| unsafe { $name::pdf(s.cast(), w) },
-            invert: |s, w, u| unsafe { $name::invert(s.cast(), w, u) },
-            hit: |s, w, out| unsafe { $name::hit(s.cast(), w, out) },
-            once: |light, p, n, u, out| unsafe { call!($place $name::sample_once(light.cast(), p; n; u, out)) },
-            sample_batch: |s, n, u, out| unsafe { $name::sample_batch(s.cast(), n, u, out) },
-            pdf_batch: |s, n, w, out| unsafe { $name::pdf_batch(s.cast(), n, w, out) },
-            invert_batch: |s, n, w, u| unsafe { $name::invert_batch(s.cast(), n, w, u) },
-            hit_batch: |s, n, w, out| unsafe { $name::hit_batch(s.cast(), n, w, out) },
-            sample_each: |v, n, u, out| unsafe { each!($place v, n, $name::sample_each(u, out)) },
-            hit_each: |v, n, w, out| unsafe { each!($place v, n, $name::hit_each(w, out)) },
-            pdf_each: |v, n, w, out| unsafe { each!($place v, n, $name::pdf_each(w, out)) },
-            invert_each: |v, n, w, u| unsafe { each!($place v, n, $name::invert_each(w, u)) },
+impl Withs {
+    unsafe fn new(needs: Needs, n: usize, normals: &[Column; 3]) -> Self {
+        let missing = normals.iter().any(|column| column.is_null());
+        let mut numbers = vec![0.0; 16 * n.max(1)];
+        let mut columns = numbers.chunks_mut(n.max(1)).map(<[f32]>::as_mut_ptr).collect::<Vec<_>>();
+        match needs {
+            Needs::Nothing => columns.clear(),
+            Needs::Normal => columns = normals.iter().map(|column| column.cast_mut()).collect(),
+            Needs::Reflection => {
+                let mut next = columns.iter().copied();
+                let mut next = || next.next().unwrap_or(null_mut());
+                let out = EtendueReflectionColumns { data: [(); 14].map(|()| next()), albedo: next(), schlick: next() };
+                let alphas = vec![ALPHA; n];
+                // SAFETY: the columns have n elements or are null
+                unsafe {
+                    etendue_reflection_prepare_batch(n, alphas.as_ptr(), normals.as_ptr(), normals.as_ptr(), &out)
+                };
+            }
+            Needs::Spread => {
+                let mut spread = EtendueSpread { tan_half: 0.0, gain: 0.0 };
+                // SAFETY: the pointer is to a spread
+                unsafe { etendue_spread_prepare(SPREAD, &mut spread) };
+                columns.truncate(2);
+                numbers[..n].fill(spread.tan_half);
+                numbers[n.max(1)..][..n].fill(spread.gain);
+            }
         }
+        if missing && !columns.is_empty() {
+            columns[0] = null_mut();
+        }
+        Self { _numbers: numbers, pointers: columns.into_iter().map(<*mut f32>::cast_const).collect() }
+    }
+    fn pointer(&self) -> *const c_void {
+        if self.pointers.is_empty() { null() } else { self.pointers.as_ptr().cast() }
+    }
+}
+
+macro_rules! needs {
+    ((p, n)) => {
+        Needs::Normal
+    };
+    ((p, reflection)) => {
+        Needs::Reflection
+    };
+    ((p, spread)) => {
+        Needs::Spread
+    };
+    ($place:tt) => {
+        Needs::Nothing
     };
 }
 macro_rules! techniques {
     ($(
         $(#[$light_doc:meta])* $core:ident $([$corners:literal])? = $light:ident, $columns:ident {
             $($(#[$field_doc:meta])* $field:ident as $argument:ident: $kind:ident,)+
-        } $(reflected {
-            $(#[$lobe_doc:meta])* $lobe:ident $([$lobe_n:literal])? $(= $lobe_c:ident, $lobe_name:ident[$lobe_size:literal])?;
-        })? by $default:literal {
+        } by $default:literal {
             $(
-                $(#[$doc:meta])* $core_sampler:ident $([$n:literal])?
-                    $(= $sampler:ident, $name:ident[$size:literal])?: $by:ident $place:tt $($measure:ident)?;
+                $(#[$doc:meta])* $technique:ident, $name:ident -> $sampler:ident $([$n:literal])? $(= $sampler_c:ident[$size:literal])?: $by:ident $place:tt $($measure:ident)?;
             )+
         }
     )+) => {
-        pub(super) const TECHNIQUES: &[Functions] = &[$(
-            $($(functions!($light, $size, $name, $place),)?)+
-            $($(functions!($light, $lobe_size, $lobe_name, (p, reflection)),)?)?
-        )+];
+        /// The techniques at their numbers.
+        pub(super) const TECHNIQUES: &[Kind] = &[$($(
+            Kind {
+                name: stringify!($light),
+                light: size_of::<$light>() / 4,
+                sampler: size_of::<etendue::light::$sampler<f32 $(, $n)?>>() / 4,
+                needs: needs!($place),
+            },
+        )+)+];
         /// The kinds of the fields of each light.
         const KINDS: &[(&str, &[&str])] = &[$((stringify!($light), &[$(stringify!($kind)),+]),)+];
     };
@@ -155,7 +156,7 @@ fn unit_at(light: &str) -> Option<usize> {
 
 /// Calls the functions of a technique.
 pub(super) fn check(input: &mut Input<'_>, index: usize) {
-    let t = &TECHNIQUES[index];
+    let (t, number) = (&TECHNIQUES[index], index as u32);
     let call = input.below(6);
     let n = COUNTS[input.below(COUNTS.len())];
     // the pointer that is null, if any
@@ -175,11 +176,21 @@ pub(super) fn check(input: &mut Input<'_>, index: usize) {
     // SAFETY of all calls: pointers are null or to as many numbers as the header demands
     unsafe {
         let out = sampler.as_mut_ptr();
-        assert_eq!((t.prepare)(null(), p.as_ptr(), normal.as_ptr(), out), EtendueStatus::NullPointer);
-        assert_eq!((t.prepare)(light.as_ptr(), null(), normal.as_ptr(), out), EtendueStatus::NullPointer);
+        let with = With::new(t.needs, normal.as_ptr()).expect("the normal is there");
+        let with = with.pointer();
+        let prepare =
+            |light: Column, p: Column, with, out: Output| etendue_prepare(number, light.cast(), p, with, out.cast());
+        assert_eq!(prepare(null(), p.as_ptr(), with, out), EtendueStatus::NullPointer);
+        assert_eq!(prepare(light.as_ptr(), null(), with, out), EtendueStatus::NullPointer);
+        let without = if t.needs == Needs::Nothing { EtendueStatus::Ok } else { EtendueStatus::NullPointer };
+        if without != EtendueStatus::Ok {
+            assert_eq!(prepare(light.as_ptr(), p.as_ptr(), null(), out), without);
+        }
+        let unknown = u32::MAX - index as u32;
+        assert_eq!(etendue_prepare(unknown, light.as_ptr().cast(), p.as_ptr(), with, out.cast()), EtendueStatus::Value);
         assert!(sampler.iter().all(|x| x.to_bits() == 0xA5A5_A5A5));
         let out = sampler.as_mut_ptr();
-        assert_eq!((t.prepare)(light.as_ptr(), p.as_ptr(), normal.as_ptr(), out), EtendueStatus::Ok);
+        assert_eq!(prepare(light.as_ptr(), p.as_ptr(), with, out), EtendueStatus::Ok);
         assert!(sampler[t.sampler..].iter().all(|x| x.to_bits() == 0xA5A5_A5A5));
         let (sampler, mut memory) = (sampler.as_ptr(), Memory::new(input, FIELDS, n));
         let (u_memory, w_memory) = (Memory::of(input, &[&u[0], &u[1]]), Memory::of(input, &[&w[0], &w[1], &w[2]]));
@@ -218,17 +229,17 @@ pub(super) fn check(input: &mut Input<'_>, index: usize) {
         match call {
             0 | 1 => {
                 let (is_null, status) = if call == 0 {
-                    (u_null, (t.sample_batch)(self_in, n, u_in.as_ptr(), &columns))
+                    (u_null, etendue_sample_batch(number, self_in.cast(), n, u_in.as_ptr(), &columns))
                 } else {
-                    (w_null, (t.hit_batch)(self_in, n, w_in.as_ptr(), &columns))
+                    (w_null, etendue_hit_batch(number, self_in.cast(), n, w_in.as_ptr(), &columns))
                 };
                 assert_eq!(status, expected(n, is_null));
                 memory.only(if status == EtendueStatus::Ok { &widths } else { &[] });
                 for i in 0..if is_null { 0 } else { n } {
                     let status = if call == 0 {
-                        (t.sample)(sampler, [u[0][i], u[1][i]].as_ptr(), &mut one)
+                        etendue_sample(number, sampler.cast(), [u[0][i], u[1][i]].as_ptr(), &mut one)
                     } else {
-                        (t.hit)(sampler, [w[0][i], w[1][i], w[2][i]].as_ptr(), &mut one)
+                        etendue_hit(number, sampler.cast(), [w[0][i], w[1][i], w[2][i]].as_ptr(), &mut one)
                     };
                     assert_eq!(status, EtendueStatus::Ok);
                     check(&memory, i, &one);
@@ -236,7 +247,7 @@ pub(super) fn check(input: &mut Input<'_>, index: usize) {
                     if call == 0 {
                         let mut once = EtendueLightSample::default();
                         let u = [u[0][i], u[1][i]];
-                        (t.once)(light.as_ptr(), p.as_ptr(), normal.as_ptr(), u.as_ptr(), &mut once);
+                        etendue_sample_once(number, light.as_ptr().cast(), p.as_ptr(), with, u.as_ptr(), &mut once);
                         assert!(
                             fields(&one).into_iter().zip(fields(&once)).all(|(a, b)| same(a, b))
                                 && one.emits == once.emits
@@ -246,23 +257,23 @@ pub(super) fn check(input: &mut Input<'_>, index: usize) {
             }
             2 => {
                 let out = memory.outputs::<1>()[0];
-                let status = (t.pdf_batch)(self_in, n, w_in.as_ptr(), out);
+                let status = etendue_pdf_batch(number, self_in.cast(), n, w_in.as_ptr(), out);
                 assert_eq!(status, expected(n, w_null));
                 memory.only(if w_null { &[] } else { &[4] });
                 for i in 0..if w_null { 0 } else { n } {
-                    let pdf = (t.pdf)(sampler, [w[0][i], w[1][i], w[2][i]].as_ptr());
+                    let pdf = etendue_pdf(number, sampler.cast(), [w[0][i], w[1][i], w[2][i]].as_ptr());
                     assert!(same(memory.get(0, i), pdf));
                     total(is_finite, [pdf]);
                 }
             }
             3 => {
-                let status = (t.invert_batch)(self_in, n, w_in.as_ptr(), outputs.as_ptr());
+                let status = etendue_invert_batch(number, self_in.cast(), n, w_in.as_ptr(), outputs.as_ptr());
                 assert_eq!(status, expected(n, w_null));
                 memory.only(if w_null { &[] } else { &widths[..2] });
                 for i in 0..if w_null { 0 } else { n } {
                     let mut back = [0.0; 2];
                     assert_eq!(
-                        (t.invert)(sampler, [w[0][i], w[1][i], w[2][i]].as_ptr(), back.as_mut_ptr()),
+                        etendue_invert(number, sampler.cast(), [w[0][i], w[1][i], w[2][i]].as_ptr(), back.as_mut_ptr()),
                         EtendueStatus::Ok
                     );
                     for k in 0..2 {
@@ -281,15 +292,24 @@ pub(super) fn check(input: &mut Input<'_>, index: usize) {
                 (fields[1], fields[5]) = (a, b);
                 let columns = sample_columns(fields);
                 assert_eq!(
-                    (t.sample_batch)(sampler, n, [a.cast_const(), b.cast_const()].as_ptr(), &columns),
+                    etendue_sample_batch(
+                        number,
+                        sampler.cast(),
+                        n,
+                        [a.cast_const(), b.cast_const()].as_ptr(),
+                        &columns
+                    ),
                     EtendueStatus::Ok
                 );
                 let w_in = [c.cast_const(), d.cast_const(), e.cast_const()];
-                assert_eq!((t.invert_batch)(sampler, n, w_in.as_ptr(), [e, c].as_ptr()), EtendueStatus::Ok);
+                assert_eq!(
+                    etendue_invert_batch(number, sampler.cast(), n, w_in.as_ptr(), [e, c].as_ptr()),
+                    EtendueStatus::Ok
+                );
                 for i in 0..n {
                     let mut back = [0.0; 2];
-                    (t.sample)(sampler, [u[0][i], u[1][i]].as_ptr(), &mut one);
-                    (t.invert)(sampler, [w[0][i], w[1][i], w[2][i]].as_ptr(), back.as_mut_ptr());
+                    etendue_sample(number, sampler.cast(), [u[0][i], u[1][i]].as_ptr(), &mut one);
+                    etendue_invert(number, sampler.cast(), [w[0][i], w[1][i], w[2][i]].as_ptr(), back.as_mut_ptr());
                     let results = [over.get(0, i), over.get(1, i), over.get(4, i), over.get(2, i)];
                     for (a, b) in results.into_iter().zip([one.direction[1], one.weight, back[0], back[1]]) {
                         assert!(same(a, b));
@@ -313,18 +333,31 @@ pub(super) fn check(input: &mut Input<'_>, index: usize) {
                 let mut is_null = false;
                 match null_at {
                     3..6 => (p_in[null_at - 3], is_null) = (null(), true),
-                    6..9 => (n_in[null_at - 6], is_null) = (null(), t.on_surface),
+                    6..9 => (n_in[null_at - 6], is_null) = (null(), t.needs != Needs::Nothing),
                     9..33 => (light_in[null_at - 9], is_null) = (null(), null_at - 9 < t.light),
                     _ => (),
                 }
-                let views = Views { lights: light_in.as_ptr(), p: p_in.as_ptr(), n: n_in.as_ptr() };
+                let withs = Withs::new(t.needs, n, &n_in);
+                let (lights_in, p_in, withs) = (light_in.as_ptr().cast(), p_in.as_ptr(), withs.pointer());
                 let [u_null, w_null] = [1..3, 1..4].map(|own| is_null || own.contains(&null_at));
                 let function = input.below(4);
                 let (is_null, status, written) = match function {
-                    0 => (u_null, (t.sample_each)(&views, n, u_in.as_ptr(), &columns), FIELDS),
-                    1 => (w_null, (t.hit_each)(&views, n, w_in.as_ptr(), &columns), FIELDS),
-                    2 => (w_null, (t.invert_each)(&views, n, w_in.as_ptr(), outputs.as_ptr()), 2),
-                    _ => (w_null || widths[0] == 0, (t.pdf_each)(&views, n, w_in.as_ptr(), outputs[0]), 1),
+                    0 => (
+                        u_null,
+                        etendue_sample_each(number, lights_in, n, p_in, withs, u_in.as_ptr(), &columns),
+                        FIELDS,
+                    ),
+                    1 => (w_null, etendue_hit_each(number, lights_in, n, p_in, withs, w_in.as_ptr(), &columns), FIELDS),
+                    2 => (
+                        w_null,
+                        etendue_invert_each(number, lights_in, n, p_in, withs, w_in.as_ptr(), outputs.as_ptr()),
+                        2,
+                    ),
+                    _ => (
+                        w_null || widths[0] == 0,
+                        etendue_pdf_each(number, lights_in, n, p_in, withs, w_in.as_ptr(), outputs[0]),
+                        1,
+                    ),
                 };
                 assert_eq!(status, expected(n, is_null));
                 memory.only(if status == EtendueStatus::Ok { &widths[..written] } else { &[] });
@@ -333,14 +366,16 @@ pub(super) fn check(input: &mut Input<'_>, index: usize) {
                     let [p, normal] = [&points, &normals].map(|c| [c[0][i], c[1][i], c[2][i]]);
                     let (u, w) = ([u[0][i], u[1][i]], [w[0][i], w[1][i], w[2][i]]);
                     let mut sampler = [0.0; SAMPLER];
-                    (t.prepare)(light.as_ptr(), p.as_ptr(), normal.as_ptr(), sampler.as_mut_ptr());
+                    let own = With::new(t.needs, normal.as_ptr()).expect("the normal is there");
+                    let own = own.pointer();
+                    prepare(light.as_ptr(), p.as_ptr(), own, sampler.as_mut_ptr());
                     let mut few = [0.0; 2];
                     match function {
-                        0 => (t.once)(light.as_ptr(), p.as_ptr(), normal.as_ptr(), u.as_ptr(), &mut one),
-                        1 => (t.hit)(sampler.as_ptr(), w.as_ptr(), &mut one),
-                        2 => (t.invert)(sampler.as_ptr(), w.as_ptr(), few.as_mut_ptr()),
+                        0 => etendue_sample_once(number, light.as_ptr().cast(), p.as_ptr(), own, u.as_ptr(), &mut one),
+                        1 => etendue_hit(number, sampler.as_ptr().cast(), w.as_ptr(), &mut one),
+                        2 => etendue_invert(number, sampler.as_ptr().cast(), w.as_ptr(), few.as_mut_ptr()),
                         _ => {
-                            few[0] = (t.pdf)(sampler.as_ptr(), w.as_ptr());
+                            few[0] = etendue_pdf(number, sampler.as_ptr().cast(), w.as_ptr());
                             EtendueStatus::Ok
                         }
                     };

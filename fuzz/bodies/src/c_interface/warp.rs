@@ -7,35 +7,23 @@ use super::{COUNTS, Column, Output, all_finite, expected, same, total};
 use etendue_c::*;
 use std::ptr::{null, null_mut};
 
-/// The functions of a warp, with its parameters as numbers in a row, if it has any.
+/// A warp, with its parameters as numbers in a row, if it has any.
 pub(super) struct Warp {
     name: &'static str,
     parameters: usize,
     numbers: usize,
     coordinates: usize,
-    sample: unsafe fn(Column, Column, Output) -> EtendueStatus,
-    pdf: unsafe fn(Column, Column) -> f32,
-    invert: unsafe fn(Column, Column, Output) -> EtendueStatus,
-    sample_batch: unsafe fn(Column, usize, *const Column, *const Output) -> EtendueStatus,
-    pdf_batch: unsafe fn(Column, usize, *const Column, Output) -> EtendueStatus,
-    invert_batch: unsafe fn(Column, usize, *const Column, *const Output) -> EtendueStatus,
 }
 
 macro_rules! warps {
     ($($(#[$doc:meta])* $warp:ident $([R] = $struct:ident)?, $module:ident: $numbers:literal -> $coordinates:literal;)+) => {
+        /// The warps at their numbers.
         pub(super) const WARPS: &[Warp] = &[$(
-            // SAFETY of all: the caller's pointers are those that the functions demand
             Warp {
                 name: stringify!($module),
                 parameters: 0 $(+ size_of::<$struct>() / 4)?,
                 numbers: $numbers,
                 coordinates: $coordinates,
-                sample: |_warp, u, out| unsafe { $module::sample($(_warp.cast::<$struct>(),)? u, out) },
-                pdf: |_warp, x| unsafe { $module::pdf($(_warp.cast::<$struct>(),)? x) },
-                invert: |_warp, x, out| unsafe { $module::invert($(_warp.cast::<$struct>(),)? x, out) },
-                sample_batch: |_warp, n, u, out| unsafe { $module::sample_batch($(_warp.cast::<$struct>(),)? n, u, out) },
-                pdf_batch: |_warp, n, x, out| unsafe { $module::pdf_batch($(_warp.cast::<$struct>(),)? n, x, out) },
-                invert_batch: |_warp, n, x, out| unsafe { $module::invert_batch($(_warp.cast::<$struct>(),)? n, x, out) },
             },
         )+];
     };
@@ -44,7 +32,7 @@ etendue::warps!(warps! {});
 
 /// Calls the functions of a warp.
 pub(super) fn check(input: &mut Input<'_>, index: usize) {
-    let t = &WARPS[index];
+    let (t, number) = (&WARPS[index], index as u32);
     let call = input.below(3);
     let n = COUNTS[input.below(COUNTS.len())];
     let null_at = input.below(16);
@@ -87,17 +75,17 @@ pub(super) fn check(input: &mut Input<'_>, index: usize) {
         }
         let written = match call {
             0 => {
-                let status = (t.sample_batch)(self_in, n, u_in.as_ptr(), outputs.as_ptr());
+                let status = etendue_warp_sample_batch(number, self_in.cast(), n, u_in.as_ptr(), outputs.as_ptr());
                 assert_eq!(status, expected(n, missing(t.numbers)));
                 if status == EtendueStatus::Ok { t.coordinates } else { 0 }
             }
             1 => {
-                let status = (t.invert_batch)(self_in, n, x_in.as_ptr(), outputs.as_ptr());
+                let status = etendue_warp_invert_batch(number, self_in.cast(), n, x_in.as_ptr(), outputs.as_ptr());
                 assert_eq!(status, expected(n, missing(t.coordinates)));
                 if status == EtendueStatus::Ok { t.numbers } else { 0 }
             }
             _ => {
-                let status = (t.pdf_batch)(self_in, n, x_in.as_ptr(), outputs[0]);
+                let status = etendue_warp_pdf_batch(number, self_in.cast(), n, x_in.as_ptr(), outputs[0]);
                 assert_eq!(status, expected(n, missing(t.coordinates) || widths[0] == 0));
                 usize::from(status == EtendueStatus::Ok)
             }
@@ -107,9 +95,15 @@ pub(super) fn check(input: &mut Input<'_>, index: usize) {
             let (u_i, x_i) = ([u[0][i], u[1][i]], [x[0][i], x[1][i], x[2][i]]);
             let mut one = [0.0; 3];
             match call {
-                0 => assert_eq!((t.sample)(own, u_i.as_ptr(), one.as_mut_ptr()), EtendueStatus::Ok),
-                1 => assert_eq!((t.invert)(own, x_i.as_ptr(), one.as_mut_ptr()), EtendueStatus::Ok),
-                _ => one[0] = (t.pdf)(own, x_i.as_ptr()),
+                0 => assert_eq!(
+                    etendue_warp_sample(number, own.cast(), u_i.as_ptr(), one.as_mut_ptr()),
+                    EtendueStatus::Ok
+                ),
+                1 => assert_eq!(
+                    etendue_warp_invert(number, own.cast(), x_i.as_ptr(), one.as_mut_ptr()),
+                    EtendueStatus::Ok
+                ),
+                _ => one[0] = etendue_warp_pdf(number, own.cast(), x_i.as_ptr()),
             }
             for k in 0..written {
                 assert!(widths[k] == 0 || same(memory.get(k, i), one[k]), "column {k} of element {i}");

@@ -1,7 +1,7 @@
 //! The light that rough surfaces reflect.
 
-use crate::sampler::vec3;
-use crate::{EtendueStatus, columns, each, refuse_null};
+use crate::memory::{columns, each, refuse_null, vec3};
+use crate::status::EtendueStatus;
 use core::mem::size_of;
 use core::ptr::null_mut;
 use etendue::reflection::Reflection;
@@ -124,7 +124,8 @@ unsafe fn spheres(
 ) {
     // SAFETY: the caller's
     unsafe {
-        let (sphere, results) = (ReflectedSphere(*reflection.cast()), [out, null_mut(), null_mut(), null_mut()]);
-        (Batch::new().map_functions().map)(&sphere, n, &[x, y, z, radii, x, x], &results, null_mut());
+        let (function, results) =
+            (Batch::new().map_function::<ReflectedSphere>(), [out, null_mut(), null_mut(), null_mut()]);
+        function(reflection.cast(), n, &[x, y, z, radii, x, x], &results, null_mut());
     }
 }

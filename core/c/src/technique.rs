@@ -1,0 +1,449 @@
+//! The functions of all techniques, which are given by their numbers.
+
+use crate::environment::EtendueImageEnvironment;
+use crate::list::{EtendueTechnique, TAKES, WITHOUT_MEMORY};
+use crate::memory::{are_there, columns, count_of, outputs, refuse_null, vec2, vec3};
+use crate::picture::{
+    EtenduePicture, EtenduePicturedParallelogramColumns, EtenduePicturedPatchColumns, EtenduePicturedSphereColumns,
+};
+use crate::portal::EtenduePortalEnvironment;
+use crate::sample::{EtendueLightSample, EtendueSampleColumns, NOTHING};
+use crate::status::EtendueStatus;
+use core::ffi::c_void;
+use core::mem::size_of;
+use etendue_batch::{Batch, EvaluationColumns, TechniqueFunctions, Views};
+
+/// Numbers of techniques with memory.
+const PICTURES: core::ops::Range<usize> =
+    EtendueTechnique::PictureByArea as usize..EtendueTechnique::PortalsByRadiance as usize;
+const PORTALS: usize = EtendueTechnique::PortalsByRadiance as usize;
+
+/// Whether the memory with which a light, columns of it or its sampler begin is one that the library can look into.
+#[inline(always)]
+unsafe fn memory(technique: usize, light: *const c_void) -> EtendueStatus {
+    if technique < WITHOUT_MEMORY {
+        return EtendueStatus::Ok;
+    }
+    // SAFETY: the caller's pointer is to a struct of this technique
+    unsafe {
+        if PICTURES.contains(&technique) {
+            light.cast::<EtenduePicture>().read().status()
+        } else if technique == PORTALS {
+            light.cast::<EtenduePortalEnvironment>().read().status()
+        } else {
+            light.cast::<EtendueImageEnvironment>().read().status()
+        }
+    }
+}
+/// Returns the status of a light's memory, unless it is fine.
+macro_rules! refuse_memory {
+    ($technique:expr, $light:expr) => {
+        match memory($technique as usize, $light.cast()) {
+            EtendueStatus::Ok => {}
+            status => return status,
+        }
+    };
+}
+/// The functions of a technique for one element, or a status.
+macro_rules! one {
+    ($technique:expr) => {
+        match Batch::new().technique_of_one($technique as usize) {
+            Some(functions) => functions,
+            None => return EtendueStatus::Value,
+        }
+    };
+}
+/// The functions of a technique for columns, or a status.
+macro_rules! many {
+    ($technique:expr) => {
+        match Batch::new().technique($technique as usize) {
+            Some(functions) => functions,
+            None => return EtendueStatus::Value,
+        }
+    };
+}
+/// Whether what a light is prepared for is there, where the technique takes it.
+fn is_given(technique: u32, with: *const c_void) -> bool {
+    !with.is_null() || TAKES[technique as usize].with == 0
+}
+
+/// Prepares a light for a shading point.
+///
+/// `light` is the struct of the light of the technique. `with` is what it is prepared for beside the point: the unit normal there (three numbers)
+/// by projected solid angle and by cosine warp, an EtendueReflection by reflection, an EtendueSpread by spread; else it may be NULL. `sampler` is
+/// the struct of the technique. Returns ETENDUE_STATUS_VALUE for a technique that is none, or that this library was built without.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn etendue_prepare(
+    technique: u32,
+    light: *const c_void,
+    p: *const f32,
+    with: *const c_void,
+    sampler: *mut c_void,
+) -> EtendueStatus {
+    refuse_null!(light, p, sampler);
+    let functions = one!(technique);
+    if !is_given(technique, with) {
+        return EtendueStatus::NullPointer;
+    }
+    // SAFETY: the pointers are not null, and point to what the header says
+    unsafe {
+        refuse_memory!(technique, light);
+        (functions.prepare)(light, p, with, sampler);
+    }
+    EtendueStatus::Ok
+}
+/// Draws a direction from a prepared light, for u.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn etendue_sample(
+    technique: u32,
+    sampler: *const c_void,
+    u: *const f32,
+    out: *mut EtendueLightSample,
+) -> EtendueStatus {
+    refuse_null!(sampler, u, out);
+    let functions = one!(technique);
+    // SAFETY: the pointers are not null, and point to what the header says
+    unsafe {
+        refuse_memory!(technique, sampler);
+        (functions.sampler.one_sample)(sampler, u, out.cast());
+    }
+    EtendueStatus::Ok
+}
+/// The pdf with which a prepared light draws a unit direction `w`; 0 where it misses the light, and where the function cannot work.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn etendue_pdf(technique: u32, sampler: *const c_void, w: *const f32) -> f32 {
+    let Some(functions) = Batch::new().technique_of_one(technique as usize) else { return 0.0 };
+    if sampler.is_null() || w.is_null() {
+        return 0.0;
+    }
+    // SAFETY: the pointers are not null, and point to what the header says
+    unsafe {
+        if memory(technique as usize, sampler) != EtendueStatus::Ok {
+            return 0.0;
+        }
+        (functions.sampler.one_pdf)(sampler, w)
+    }
+}
+/// The random numbers `u` that a prepared light maps to a unit direction `w`; any in [0, 1)^2 where it misses the light.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn etendue_invert(
+    technique: u32,
+    sampler: *const c_void,
+    w: *const f32,
+    u: *mut f32,
+) -> EtendueStatus {
+    refuse_null!(sampler, w, u);
+    let functions = one!(technique);
+    // SAFETY: the pointers are not null, and point to what the header says
+    unsafe {
+        refuse_memory!(technique, sampler);
+        (functions.sampler.one_invert)(sampler, w, u);
+    }
+    EtendueStatus::Ok
+}
+/// The nearest point of a prepared light in a unit direction `w`, with the pdf of that direction; pdf 0 where it misses the light.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn etendue_hit(
+    technique: u32,
+    sampler: *const c_void,
+    w: *const f32,
+    out: *mut EtendueLightSample,
+) -> EtendueStatus {
+    refuse_null!(sampler, w, out);
+    let functions = one!(technique);
+    // SAFETY: the pointers are not null, and point to what the header says
+    unsafe {
+        refuse_memory!(technique, sampler);
+        (functions.sampler.one_hit)(sampler, w, out.cast());
+    }
+    EtendueStatus::Ok
+}
+/// Prepares a light for a shading point, as etendue_prepare does, and draws one direction. What the sample does not need is not prepared.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn etendue_sample_once(
+    technique: u32,
+    light: *const c_void,
+    p: *const f32,
+    with: *const c_void,
+    u: *const f32,
+    out: *mut EtendueLightSample,
+) -> EtendueStatus {
+    refuse_null!(light, p, u, out);
+    let functions = one!(technique);
+    if !is_given(technique, with) {
+        return EtendueStatus::NullPointer;
+    }
+    // SAFETY: the pointers are not null, and point to what the header says
+    unsafe {
+        refuse_memory!(technique, light);
+        (functions.sample_once)(light, p, with, u, out.cast());
+    }
+    EtendueStatus::Ok
+}
+/// The pdf functions of a light that is prepared for one call.
+unsafe fn pdf_once(
+    technique: u32,
+    light: *const c_void,
+    p: *const f32,
+    with: *const c_void,
+    w: *const f32,
+    which: impl FnOnce(
+        &TechniqueFunctions,
+    ) -> unsafe extern "C" fn(*const c_void, *const f32, *const c_void, *const f32) -> f32,
+) -> f32 {
+    let Some(functions) = Batch::new().technique_of_one(technique as usize) else { return 0.0 };
+    if light.is_null() || p.is_null() || w.is_null() || !is_given(technique, with) {
+        return 0.0;
+    }
+    // SAFETY: the pointers are not null, and point to what the header says
+    unsafe {
+        if memory(technique as usize, light) != EtendueStatus::Ok {
+            return 0.0;
+        }
+        which(functions)(light, p, with, w)
+    }
+}
+/// Prepares a light for a shading point, as etendue_prepare does, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses
+/// the light, and where the function cannot work. What the pdf does not need is not prepared.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn etendue_pdf_once(
+    technique: u32,
+    light: *const c_void,
+    p: *const f32,
+    with: *const c_void,
+    w: *const f32,
+) -> f32 {
+    // SAFETY: the caller's
+    unsafe { pdf_once(technique, light, p, with, w, |functions| functions.pdf_once) }
+}
+/// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not intersected again.
+/// Where `w` misses the light, the result is finite, and of no meaning.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn etendue_pdf_of_hit_once(
+    technique: u32,
+    light: *const c_void,
+    p: *const f32,
+    with: *const c_void,
+    w: *const f32,
+) -> f32 {
+    // SAFETY: the caller's
+    unsafe { pdf_once(technique, light, p, with, w, |functions| functions.pdf_of_hit_once) }
+}
+
+/// Draws a direction from a prepared light for each u: two columns.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn etendue_sample_batch(
+    technique: u32,
+    sampler: *const c_void,
+    n: usize,
+    u: *const *const f32,
+    out: *const EtendueSampleColumns,
+) -> EtendueStatus {
+    if n == 0 {
+        return EtendueStatus::Ok;
+    }
+    refuse_null!(sampler, out);
+    let functions = many!(technique);
+    // SAFETY: the pointers are not null, and point to what the header says
+    unsafe {
+        let Some(u) = columns(u) else { return EtendueStatus::NullPointer };
+        refuse_memory!(technique, sampler);
+        (functions.sampler.sample)(sampler, n, vec2(u), &(*out).columns());
+    }
+    EtendueStatus::Ok
+}
+/// The pdf of each unit direction: three columns.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn etendue_pdf_batch(
+    technique: u32,
+    sampler: *const c_void,
+    n: usize,
+    w: *const *const f32,
+    out: *mut f32,
+) -> EtendueStatus {
+    if n == 0 {
+        return EtendueStatus::Ok;
+    }
+    refuse_null!(sampler, out);
+    let functions = many!(technique);
+    // SAFETY: the pointers are not null, and point to what the header says
+    unsafe {
+        let Some(w) = columns(w) else { return EtendueStatus::NullPointer };
+        refuse_memory!(technique, sampler);
+        (functions.sampler.pdf)(sampler, n, vec3(w), out);
+    }
+    EtendueStatus::Ok
+}
+/// The random numbers of each unit direction: three columns in, two out.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn etendue_invert_batch(
+    technique: u32,
+    sampler: *const c_void,
+    n: usize,
+    w: *const *const f32,
+    u: *const *mut f32,
+) -> EtendueStatus {
+    if n == 0 {
+        return EtendueStatus::Ok;
+    }
+    refuse_null!(sampler);
+    let functions = many!(technique);
+    // SAFETY: the pointers are not null, and point to what the header says
+    unsafe {
+        let (Some(w), Some(u)) = (columns(w), outputs(u)) else { return EtendueStatus::NullPointer };
+        refuse_memory!(technique, sampler);
+        (functions.sampler.invert)(sampler, n, vec3(w), vec2(u));
+    }
+    EtendueStatus::Ok
+}
+/// The nearest point of a prepared light in each unit direction: three columns.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn etendue_hit_batch(
+    technique: u32,
+    sampler: *const c_void,
+    n: usize,
+    w: *const *const f32,
+    out: *const EtendueSampleColumns,
+) -> EtendueStatus {
+    if n == 0 {
+        return EtendueStatus::Ok;
+    }
+    refuse_null!(sampler, out);
+    let functions = many!(technique);
+    // SAFETY: the pointers are not null, and point to what the header says
+    unsafe {
+        let Some(w) = columns(w) else { return EtendueStatus::NullPointer };
+        refuse_memory!(technique, sampler);
+        (functions.sampler.hit)(sampler, n, vec3(w), &(*out).columns());
+    }
+    EtendueStatus::Ok
+}
+
+/// Where the columns of a light begin in its struct, and how many there are.
+fn columns_of(technique: usize) -> (usize, usize) {
+    let panel = count_of::<EtenduePicturedParallelogramColumns>();
+    let [sphere, patch] = [count_of::<EtenduePicturedSphereColumns>(), count_of::<EtenduePicturedPatchColumns>()];
+    let pictured = [panel, panel, panel, sphere, patch];
+    if PICTURES.contains(&technique) {
+        let first = size_of::<EtenduePicture>() / size_of::<*const f32>();
+        (first, pictured[technique - PICTURES.start] - first)
+    } else {
+        (0, TAKES[technique].light)
+    }
+}
+/// Calls `f` with lights, shading points and what they are prepared for in columns, of which none may be null.
+unsafe fn with_views(
+    technique: u32,
+    lights: *const c_void,
+    p: *const *const f32,
+    with: *const c_void,
+    f: impl FnOnce(&TechniqueFunctions, &Views),
+) -> EtendueStatus {
+    refuse_null!(lights);
+    let functions = many!(technique);
+    let ((first, count), withs) = (columns_of(technique as usize), TAKES[technique as usize].with);
+    // SAFETY: the caller's pointers are null or point to what the header says
+    unsafe {
+        let Some(points) = columns(p) else { return EtendueStatus::NullPointer };
+        if !are_there(lights.cast::<*const f32>().add(first), count) || !are_there(with.cast(), withs) {
+            return EtendueStatus::NullPointer;
+        }
+        refuse_memory!(technique, lights);
+        f(functions, &Views { lights, points: vec3(points), with });
+    }
+    EtendueStatus::Ok
+}
+/// Prepares a light of its own for each shading point, and draws a direction for each u: all in columns. `lights` is the struct of columns of the
+/// technique's light. `with` is what etendue_prepare takes, in columns: an array of three pointers to coordinates of unit normals, an
+/// EtendueReflectionColumns, an EtendueSpreadColumns, or NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn etendue_sample_each(
+    technique: u32,
+    lights: *const c_void,
+    n: usize,
+    p: *const *const f32,
+    with: *const c_void,
+    u: *const *const f32,
+    out: *const EtendueSampleColumns,
+) -> EtendueStatus {
+    if n == 0 {
+        return EtendueStatus::Ok;
+    }
+    refuse_null!(out);
+    // SAFETY: the pointers are null, or point to what the header says
+    unsafe {
+        let Some(u) = columns(u) else { return EtendueStatus::NullPointer };
+        with_views(technique, lights, p, with, |functions, views| {
+            (functions.sample_each)(views, n, vec2(u), &(*out).columns());
+        })
+    }
+}
+/// Evaluates a light of its own for each direction.
+unsafe fn evaluate_each(
+    technique: u32,
+    lights: *const c_void,
+    n: usize,
+    p: *const *const f32,
+    with: *const c_void,
+    w: *const *const f32,
+    out: Option<EvaluationColumns>,
+) -> EtendueStatus {
+    if n == 0 {
+        return EtendueStatus::Ok;
+    }
+    // SAFETY: the caller's
+    unsafe {
+        let (Some(w), Some(out)) = (columns(w), out) else { return EtendueStatus::NullPointer };
+        with_views(technique, lights, p, with, |functions, views| (functions.evaluate_each)(views, n, vec3(w), &out))
+    }
+}
+/// The pdf of a unit direction for each shading point, towards a light of its own: all in columns, as etendue_sample_each takes them.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn etendue_pdf_each(
+    technique: u32,
+    lights: *const c_void,
+    n: usize,
+    p: *const *const f32,
+    with: *const c_void,
+    w: *const *const f32,
+    out: *mut f32,
+) -> EtendueStatus {
+    let wanted = (!out.is_null()).then_some(EvaluationColumns { pdf: out, ..NOTHING });
+    // SAFETY: the pointers are null, or point to what the header says
+    unsafe { evaluate_each(technique, lights, n, p, with, w, wanted) }
+}
+/// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn etendue_invert_each(
+    technique: u32,
+    lights: *const c_void,
+    n: usize,
+    p: *const *const f32,
+    with: *const c_void,
+    w: *const *const f32,
+    u: *const *mut f32,
+) -> EtendueStatus {
+    // SAFETY: the pointers are null, or point to what the header says
+    unsafe {
+        let wanted = if n == 0 { None } else { outputs(u).map(|u| EvaluationColumns { u, ..NOTHING }) };
+        evaluate_each(technique, lights, n, p, with, w, wanted)
+    }
+}
+/// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn etendue_hit_each(
+    technique: u32,
+    lights: *const c_void,
+    n: usize,
+    p: *const *const f32,
+    with: *const c_void,
+    w: *const *const f32,
+    out: *const EtendueSampleColumns,
+) -> EtendueStatus {
+    // SAFETY: the pointers are null, or point to what the header says
+    unsafe {
+        let is_wanted = n > 0 && !out.is_null();
+        let wanted = is_wanted.then(|| EvaluationColumns { hit: (*out).columns(), ..NOTHING });
+        evaluate_each(technique, lights, n, p, with, w, wanted)
+    }
+}
