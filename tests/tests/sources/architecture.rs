@@ -176,8 +176,10 @@ const EXCEPTIONS: [(&str, &str, &str, &str); 2] = [
 
 /// The packages, and whether the files inside of their folders must import one way, too. In the core and the properties, the file of a
 /// folder has the traits and types that all its modules share, so they import it.
-const PACKAGES: [(&str, bool); 12] = [
+const PACKAGES: [(&str, bool); 14] = [
     ("core", false),
+    ("core/batch", true),
+    ("core/c", true),
     ("core/playground", true),
     ("core/shader", true),
     ("render", true),
@@ -232,6 +234,8 @@ fn modules_import_one_way() {
 fn imports_are_found() {
     for (package, level, from, to) in [
         ("core", "core", "light", "reflection"),
+        ("core/batch", "core/batch", "table", "functions"),
+        ("core/c", "core/c", "technique", "list"),
         ("core/shader", "core/shader", "plan", "graph"),
         ("render", "render", "drive", "estimate"),
         ("render", "render", "image", "film"),
