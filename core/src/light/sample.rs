@@ -56,10 +56,12 @@ impl<R: Real> LightSample<R> {
         let valid = self.valid();
         (R::lit(1.0) / R::blend(valid, self.pdf, R::lit(1.0))).keep(valid)
     }
-    /// The sample if `u`, from which it was drawn, consists of numbers; without them its pdf is 0.
+    /// The sample if `u`, from which it was drawn, consists of finite numbers; without them its pdf is 0.
     #[inline(always)]
     pub(super) fn drawn_from(self, u: Vec2<R>) -> Self {
-        Self { pdf: self.pdf.keep(u.x.le(u.x) & u.y.le(u.y)), ..self }
+        let zero = R::lit(0.0);
+        // adds 0 or NaN, which `greater` turns into 0
+        Self { pdf: ((u.x + u.y) * zero + self.pdf).greater(zero), ..self }
     }
     /// The same sample for a light that emits from both sides.
     #[inline(always)]

@@ -25,10 +25,8 @@ where
 /// where the first rounding ends halfway between two numbers of single precision, or where the result is subnormal. These rare lanes are
 /// left to `libm`. (A result of 0 is right: where the product is so small, its sum is exact in double precision.)
 ///
-/// Builds with assertions do not inline it, because that takes LLVM minutes for every program that uses many routines, nor do those with the
-/// feature `compact`.
-#[cfg_attr(any(debug_assertions, feature = "compact"), inline(never))]
-#[cfg_attr(not(any(debug_assertions, feature = "compact")), inline(always))]
+/// A function of its own: inline, it would take LLVM minutes for every program that uses many routines.
+#[inline(never)]
 pub(super) fn single<const N: usize>(a: [f32; N], b: [f32; N], c: [f32; N]) -> [f32; N] {
     let sums: [f64; N] = core::array::from_fn(|i| f64::from(a[i]) * f64::from(b[i]) + f64::from(c[i]));
     let rounded = sums.map(|sum| sum as f32);
@@ -50,8 +48,7 @@ fn exactly<const N: usize>(a: [f32; N], b: [f32; N], c: [f32; N]) -> [f32; N] {
 }
 
 /// `a·b + c` of each lane, rounded once.
-#[cfg_attr(debug_assertions, inline(never))]
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[inline(never)]
 pub(super) fn double<const N: usize>(a: [f64; N], b: [f64; N], c: [f64; N]) -> [f64; N] {
     core::array::from_fn(|i| libm::fma(a[i], b[i], c[i]))
 }
