@@ -117,6 +117,10 @@ macro_rules! scalar_real {
                 if mask { yes } else { no }
             }
             #[inline(always)]
+            fn has_bits(value: u32) -> bool {
+                value != 0
+            }
+            #[inline(always)]
             fn keep(self, mask: bool) -> Self {
                 if mask { self } else { 0.0 }
             }
@@ -192,7 +196,7 @@ scalar_real!(f64, u64, f64x2, 0x7ff0_0000_0000_0000, 0x7fe0_0000_0000_0000, doub
 macro_rules! packet_real {
     ($packet:ident, $scalar:ident, $bits:ident, $mask:ident, $uint:ident, $lanes:literal, $exponent:literal,
      $reflected:literal, $fused:ident, $from_int:ident, $functions:ident, $to_uint:expr,
-     $mask_uint:expr) => {
+     $mask_uint:expr, $has_bits:expr) => {
         impl Real for $packet {
             type Scalar = $scalar;
             type Mask = $mask;
@@ -237,6 +241,11 @@ macro_rules! packet_real {
             fn blend_uint(mask: $mask, yes: $uint, no: $uint) -> $uint {
                 let bits: fn($mask) -> $uint = $mask_uint;
                 no ^ ((no ^ yes) & bits(mask))
+            }
+            #[inline(always)]
+            fn has_bits(value: $uint) -> $mask {
+                let has_bits: fn($uint) -> $mask = $has_bits;
+                has_bits(value)
             }
             #[inline(always)]
             fn keep(self, mask: $mask) -> Self {
@@ -333,7 +342,8 @@ packet_real!(
     from_i32x4,
     polynomials,
     |x| x.fast_trunc_int().cast_unsigned(),
-    |mask| mask.0.to_bits()
+    |mask| mask.0.to_bits(),
+    |value| MaskX4(f32x4::from_bits(value.simd_ne(u32x4::splat(0))))
 );
 packet_real!(
     f32x8,
@@ -348,7 +358,8 @@ packet_real!(
     from_i32x8,
     polynomials,
     |x| x.fast_trunc_int().cast_unsigned(),
-    |mask| mask.0.to_bits()
+    |mask| mask.0.to_bits(),
+    |value| MaskX8(f32x8::from_bits(value.simd_ne(u32x8::splat(0))))
 );
 packet_real!(
     f32x16,
@@ -363,7 +374,8 @@ packet_real!(
     from_i32x16,
     polynomials,
     |x| x.fast_trunc_int().cast_unsigned(),
-    |mask| mask.0.to_bits()
+    |mask| mask.0.to_bits(),
+    |value| MaskX16(f32x16::from_bits(value.simd_ne(u32x16::splat(0))))
 );
 packet_real!(
     f64x4,
@@ -378,7 +390,8 @@ packet_real!(
     from_i32x4,
     lane_by_lane,
     |x| u32x4::new(core::array::from_fn(|i| x.as_array()[i] as i32 as u32)),
-    |mask| u32x4::new(core::array::from_fn(|i| if mask.lane(i) { u32::MAX } else { 0 }))
+    |mask| u32x4::new(core::array::from_fn(|i| if mask.lane(i) { u32::MAX } else { 0 })),
+    |value| MaskF64X4::from_bits(value.simd_ne(u32x4::splat(0)).to_bitmask())
 );
 packet_real!(
     f64x8,
@@ -393,5 +406,6 @@ packet_real!(
     from_i32x8,
     lane_by_lane,
     |x| u32x8::new(core::array::from_fn(|i| x.as_array()[i] as i32 as u32)),
-    |mask| u32x8::new(core::array::from_fn(|i| if mask.lane(i) { u32::MAX } else { 0 }))
+    |mask| u32x8::new(core::array::from_fn(|i| if mask.lane(i) { u32::MAX } else { 0 })),
+    |value| MaskF64X8::from_bits(value.simd_ne(u32x8::splat(0)).to_bitmask())
 );
