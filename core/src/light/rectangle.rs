@@ -72,6 +72,8 @@ impl<R: Real> Rectangle<R> {
     ///   rounding of a direction at the ends: the inverse is then one of the `u` that lead back to the direction.
     /// - Source: Ureña, Fajardo and King 2013, "An Area-Preserving Parametrization for Spherical Rectangles"; the forms without
     ///   cancellation are derived here from w = w₁ − 2e.
+    #[doc(alias = "Urena")]
+    #[doc(alias = "SampleSphericalRectangle")]
     #[inline(always)]
     pub fn by_solid_angle(&self, p: Vec3<R>) -> RectangleBySolidAngle<R> {
         let shape = SphericalRectangle::new(self.corner - p, self.edge_s, self.edge_t);

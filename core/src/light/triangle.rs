@@ -99,6 +99,8 @@ impl<R: Real> Triangle<R> {
     /// - Source: Arvo 1995, "Stratified Sampling of Spherical Triangles"; Van Oosterom and Strackee 1983 for Ω; Peters 2021,
     ///   "BRDF Importance Sampling for Polygonal Lights", section 3, for the form without inverse trigonometry, here expressed
     ///   in edges.
+    #[doc(alias = "Arvo")]
+    #[doc(alias = "SampleSphericalTriangle")]
     #[inline(always)]
     pub fn by_solid_angle(&self, p: Vec3<R>) -> TriangleBySolidAngle<R> {
         BySolidAngle { surface: self.placed(p), shape: self.spherical(p) }
@@ -140,6 +142,7 @@ impl<R: Real> Triangle<R> {
     ///   for the areas. Unlike there, sectors start at vertices, not at sorted azimuths: where both edges meet, every quantity
     ///   is a length or a volume of the triangle and as small as the triangle, and the zenith may lie on an edge. The forms
     ///   without cancellation are derived here.
+    #[doc(alias = "Peters")]
     #[inline(always)]
     pub fn by_projected_solid_angle(&self, p: Vec3<R>, n: Vec3<R>) -> TriangleByProjectedSolidAngle<R> {
         let v0 = self.v0 - p;
