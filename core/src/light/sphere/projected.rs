@@ -89,6 +89,9 @@ impl<R: Real> ProjectedCap<R> {
     #[inline(always)]
     pub fn new(center: Vec3<R>, radius: R, normal: Vec3<R>) -> Self {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
+        // a difference has overflowed: nothing is visible
+        let finite = center.is_within(R::lit(f64::INFINITY)) & radius.abs().lt(R::lit(f64::INFINITY));
+        let (center, radius) = (center.keep(finite), radius.keep(finite));
         let scale = center.max_abs().greater(radius.abs()).pow2_scale();
         let (c, r) = (center * scale, radius * scale);
         let power = c.length_squared_minus_square(r);
