@@ -762,7 +762,7 @@ struct PortalEnvironment : EtenduePortalEnvironment {
     }
 };
 
-// ---- spread, and daylight ----
+// ---- spread ----
 
 // How a flat light emits within an angle of its normal.
 struct Spread : EtendueSpread {
