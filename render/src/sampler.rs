@@ -5,8 +5,8 @@
 //! distributed in all of its dimensions together.
 //!
 //! The samples of a well-distributed set are not independent, so their spread does not measure the error. A pixel therefore
-//! consists of a few independent *replicates* of the set, and its variance is that of the mean of their means. Pixels of the sampler
-//! `adaptive` can have one set, since second sets of some pixels tell the variances of all.
+//! consists of a few independent *replicates* of the set, and its variance is that of the mean of their means. The sampler
+//! `adaptive` needs one set in a pixel: it renders some pixels twice, and the differences estimate the variance everywhere.
 
 use crate::named::named;
 use crate::packet::{M8, X8};
@@ -108,7 +108,7 @@ impl Sampler {
     pub fn has_sets(self) -> bool {
         self != Self::Independent
     }
-    /// Whether second sets of some pixels tell the variance of all: if no number of sets is asked for.
+    /// Whether some pixels are rendered twice, so that the differences estimate the variance everywhere: if no number of sets is asked for.
     #[must_use]
     pub fn checks(self, asked: u32) -> bool {
         self == Self::Adaptive && asked == 0

@@ -118,8 +118,8 @@ impl PixelCounts {
     fn packets_at(&self, pixel: [u32; 2]) -> u32 {
         self.packets[self.index(pixel)]
     }
-    /// Renders the samples of a tile that follow the pilot, and second sets of some pixels if these tell the variances of all. Returns the
-    /// finished pixels.
+    /// Renders the samples of a tile that follow the pilot, and some pixels a second time where the differences estimate the variance. Returns
+    /// the finished pixels.
     pub(super) fn rest(
         &self,
         renderer: &mut TileRenderer<'_>,
