@@ -90,7 +90,10 @@ fn orbit(value: &Value) -> Option<Orbit> {
 /// All that the page shows besides the pixels.
 fn status(shared: &Shared) -> Response {
     let (done, of) = (shared.done.load(Ordering::Relaxed), shared.of.load(Ordering::Relaxed));
-    let State { wishes, facts, pictures, changed, message } = &*shared.lock();
+    // files may be on a slow disk, for which nobody else has to wait
+    let watch = Arc::clone(&shared.lock().watch);
+    let changed = watch.changed().map(|path| path.display().to_string());
+    let State { wishes, facts, pictures, message, .. } = &*shared.lock();
     let way = |way: &Way| json!({ "technique": way.technique.name(), "sampler": way.sampler.name() });
     let picture = |picture: &Picture| {
         json!({

@@ -1,5 +1,6 @@
 //! What the rendering thread and those of the clients share: what the page wishes, and what there is to show.
 
+use super::watch::Watch;
 use etendue_render::area::Area;
 use etendue_render::camera::Orbit;
 use etendue_render::claim::Claim;
@@ -74,8 +75,8 @@ pub(crate) struct State {
     pub(crate) facts: Facts,
     /// The images that are kept, the one that was rendered last at the end.
     pub(crate) pictures: Vec<Picture>,
-    /// A file of the scene that has changed since it was read.
-    pub(crate) changed: Option<String>,
+    /// The files of the scene, which whoever asks for the status looks at: a pass, or a disk that is slow to write the image, delays no answer.
+    pub(crate) watch: Arc<Watch>,
     /// What the page should say.
     pub(crate) message: Option<String>,
 }
@@ -151,7 +152,7 @@ mod tests {
         let way = Way { technique: Technique::Auto, sampler: Sampler::Sobol };
         let wishes = Wishes { way, crop: Some([0; 4]), paused: false, reload: false, save: false, orbit: None };
         let (facts, pictures) = (Facts::default(), Vec::new());
-        let shared = Shared::new(State { wishes, facts, pictures, changed: None, message: None });
+        let shared = Shared::new(State { wishes, facts, pictures, watch: Arc::default(), message: None });
         let count = || {
             for _ in 0..1000 {
                 let counted = shared.wish(|next, _| {

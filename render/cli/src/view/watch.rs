@@ -13,7 +13,7 @@ fn stamp(path: &Path) -> Stamp {
 }
 
 /// The files of a scene as they were when it was read.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(crate) struct Watch(Vec<(PathBuf, Stamp)>);
 
 impl Watch {

@@ -29,8 +29,8 @@ const BYTES: u64 = 28 + 8 + 28;
 const MOST_KEPT: u64 = 1 << 30;
 /// A pass takes a quarter of the time so far, within these bounds in seconds, unless its least number of samples takes longer.
 const PASS: [f64; 2] = [0.1, 1.0];
-/// The files of the scene are looked at, and a display server is sent an image, no more often than that.
-const LOOK: Duration = Duration::from_secs(1);
+/// Files are written, and a display server is sent an image, no more often than that.
+const SAVE: Duration = Duration::from_secs(1);
 const SHOW: Duration = Duration::from_millis(250);
 /// Errors are noted at times that differ by this factor, so that a longer rendering has only a few more of them.
 const APART: f64 = 1.1;
@@ -61,7 +61,7 @@ impl Reading {
 struct Subject {
     world: World,
     settings: Settings,
-    watch: Watch,
+    watch: Arc<Watch>,
     facts: Facts,
     identity: Identity,
     /// The camera of the scene, and the distance of what it looks at.
@@ -101,7 +101,7 @@ struct Done {
 
 impl Worker<'_> {
     fn build(&self, Reading { mut scene, settings, began }: Reading) -> Result<Subject, Box<dyn Error>> {
-        let watch = Watch::new(scene.inputs.iter().map(|input| &*input.path), began);
+        let watch = Arc::new(Watch::new(scene.inputs.iter().map(|input| &*input.path), began));
         let identity = Identity::new(&scene, settings, self.image.sensor);
         let world = self.image.world(&mut scene, self.pool)?;
         let facts = Facts {
@@ -128,22 +128,17 @@ impl Worker<'_> {
     /// What is shared at the beginning.
     pub(crate) fn state(way: Way) -> State {
         let wishes = Wishes { way, crop: None, paused: false, reload: false, save: false, orbit: None };
-        State { wishes, facts: Facts::default(), pictures: Vec::new(), changed: None, message: None }
+        State { wishes, facts: Facts::default(), pictures: Vec::new(), watch: Arc::default(), message: None }
     }
 
     /// Renders until the program is interrupted.
     pub(crate) fn run(mut self, reading: Reading, shared: &Shared) -> Result<(), Box<dyn Error>> {
         let mut subject = self.build(reading)?;
-        shared.lock().facts = subject.facts.clone();
+        subject.share(&mut shared.lock());
         let mut kept: Vec<Kept> = Vec::new();
         let now = Instant::now();
-        let (mut looked, mut done) = (now, Done { version: 0, saved: 0, shown: 0, save: now, show: now });
+        let mut done = Done { version: 0, saved: 0, shown: 0, save: now, show: now };
         loop {
-            if looked.elapsed() > LOOK {
-                looked = Instant::now();
-                let changed = subject.watch.changed().map(|path| path.display().to_string());
-                shared.lock().changed = changed;
-            }
             let wishes = shared.wishes();
             if wishes.reload {
                 self.reload(&mut subject, &mut kept, shared);
@@ -180,7 +175,7 @@ impl Worker<'_> {
             }
             self.keep(&mut done, wishes.way, &subject, shared, is_idle);
             if is_idle {
-                shared.wait(&wishes, LOOK);
+                shared.wait(&wishes, SAVE);
             }
         }
     }
@@ -200,8 +195,8 @@ impl Worker<'_> {
                 *subject = read;
                 kept.clear();
                 (state.wishes.crop, state.wishes.orbit) = (None, None);
-                state.facts = subject.facts.clone();
-                (state.changed, state.message) = (None, None);
+                subject.share(&mut state);
+                state.message = None;
                 state.pictures.clear();
             }
             Err(error) => {
@@ -264,7 +259,7 @@ impl Worker<'_> {
             let began = Instant::now();
             let written = output.save(self.interrupt, &film, &identity, error);
             // large files take no more than a tenth of the time
-            (done.saved, done.save) = (version, began + LOOK + 10 * began.elapsed());
+            (done.saved, done.save) = (version, began + SAVE + 10 * began.elapsed());
             if let Err(error) = written {
                 say(format_args!("warning: {error}"));
                 shared.lock().message = Some(error);
@@ -278,6 +273,11 @@ impl Worker<'_> {
 }
 
 impl Subject {
+    /// Tells what is known of the scene.
+    fn share(&self, state: &mut State) {
+        (state.facts, state.watch) = (self.facts.clone(), Arc::clone(&self.watch));
+    }
+
     /// What an image depends on; also the camera, if that has turned.
     fn identity_of(&self, picture: &Picture) -> Identity {
         let Way { technique, sampler } = picture.way;
