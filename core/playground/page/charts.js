@@ -6,9 +6,11 @@ const raised = (k) => (k < 0 ? "⁻" : "") + [...String(Math.abs(k))].map((c) =>
 function say(x, digits = 3) {
   if (!Number.isFinite(x)) return Number.isNaN(x) ? "NaN" : x > 0 ? "∞" : "−∞";
   if (x === 0) return "0";
-  const k = Math.floor(Math.log10(Math.abs(x)));
-  if (k >= -3 && k < 6) return String(Number(x.toPrecision(digits))).replace("-", "−");
-  return `${(x / 10 ** k).toFixed(digits - 1)}·10${raised(k)}`.replace("-", "−");
+  // rounded first, since 9.99 may become 10
+  const [front, power] = x.toExponential(digits - 1).split("e");
+  const k = Number(power);
+  const text = k >= -3 && k < 6 ? String(Number(x.toPrecision(digits))) : `${front}·10${raised(k)}`;
+  return text.replace("-", "−");
 }
 
 const tick = (t, { log, base = 10 }) =>
@@ -25,7 +27,7 @@ class Plot {
     const { context, canvas } = this;
     const r = ratio();
     this.box = [58 * r, 10 * r, canvas.width - 20 * r, canvas.height - 40 * r];
-    Object.assign(this, { x, y });
+    Object.assign(this, { x, y, drawn: [], texts: [] });
     context.fillStyle = INK.back;
     context.fillRect(0, 0, canvas.width, canvas.height);
     context.font = `${11 * r}px sans-serif`;
@@ -52,7 +54,7 @@ class Plot {
       );
       context.stroke();
       context.fillStyle = INK.text;
-      context.fillText(tick(t, x), px, bottom + 15 * r);
+      this.write(tick(t, x), px, bottom + 15 * r);
     }
     context.textAlign = "right";
     for (const t of ticks(y)) {
@@ -68,15 +70,30 @@ class Plot {
       );
       context.stroke();
       context.fillStyle = INK.text;
-      context.fillText(tick(t, y), left - 5 * r, py + 4 * r);
+      this.write(tick(t, y), left - 5 * r, py + 4 * r);
     }
     context.textAlign = "center";
-    context.fillText(xLabel, (left + right) / 2, canvas.height - 6 * r);
+    this.write(xLabel, (left + right) / 2, canvas.height - 6 * r);
     context.save();
     context.translate(12 * r, (top + bottom) / 2);
     context.rotate(-Math.PI / 2);
     context.fillText(yLabel, 0, 0);
     context.restore();
+  }
+  /** Writes a text, and notes the box that it takes: left, top, right and bottom. */
+  write(text, x, y) {
+    const { context } = this;
+    context.fillText(text, x, y);
+    const m = context.measureText(text);
+    this.texts.push({
+      text,
+      box: [
+        x - m.actualBoundingBoxLeft,
+        y - m.actualBoundingBoxAscent,
+        x + m.actualBoundingBoxRight,
+        y + m.actualBoundingBoxDescent,
+      ],
+    });
   }
   px(v) {
     return this.at(v, this.x, this.box[0], this.box[2]);
@@ -92,6 +109,7 @@ class Plot {
     const { context } = this;
     const q = points.filter((p) => Number.isFinite(p[0] + p[1])).map(([a, b]) => [this.px(a), this.py(b)]);
     if (!q.length) return;
+    this.drawn.push(...q);
     context.setLineDash(dash.map((d) => d * ratio()));
     context.strokeStyle = color;
     context.lineWidth = 2 * ratio();
@@ -114,15 +132,27 @@ class Plot {
       context.fillRect(a + 1, y, b - a - 1, this.box[3] - y);
     }
   }
+  /** The names of the curves, in the corner where the fewest of their points are. */
   legend(entries) {
-    const { context } = this;
+    const { context, drawn } = this;
     const r = ratio();
+    const [left, top, right, bottom] = this.box;
     context.textAlign = "left";
+    const width = 36 * r + Math.max(...entries.map(([text]) => context.measureText(text).width));
+    const height = (16 * entries.length + 6) * r;
+    const corners = [
+      [right - width, top],
+      [left, bottom - height],
+      [left, top],
+      [right - width, bottom - height],
+    ];
+    const hidden = ([x, y]) => drawn.filter(([a, b]) => a > x && a < x + width && b > y && b < y + height).length;
+    const corner = corners.reduce((best, next) => (hidden(next) < hidden(best) ? next : best));
     entries.forEach(([text, color, dash], i) => {
-      const y = this.box[1] + (14 + 16 * i) * r;
-      const x = this.box[2] - 190 * r;
+      const x = corner[0] + 6 * r;
+      const y = corner[1] + (15 + 16 * i) * r;
       context.fillStyle = "rgba(18,21,28,0.75)";
-      context.fillRect(x - 4 * r, y - 11 * r, 194 * r, 16 * r);
+      context.fillRect(x - 4 * r, y - 11 * r, width - 4 * r, 16 * r);
       context.strokeStyle = color;
       context.lineWidth = 2 * r;
       context.setLineDash((dash || []).map((d) => d * r));
@@ -137,7 +167,7 @@ class Plot {
       context.stroke();
       context.setLineDash([]);
       context.fillStyle = INK.text;
-      context.fillText(text, x + 28 * r, y);
+      this.write(text, x + 28 * r, y);
     });
   }
 }

@@ -23,7 +23,7 @@ function choices(select, list, chosen) {
 /** A slider with a label and the number that it stands for. */
 class Slider {
   constructor(label, { low, high, logarithmic, unit }, put) {
-    Object.assign(this, { low, high, logarithmic, unit: unit || "" });
+    Object.assign(this, { low, high, logarithmic, unit });
     this.input = make("input", { type: "range", min: 0, max: 1000, step: 1 });
     this.output = make("output");
     this.element = make("label", { className: "push" }, make("span", { textContent: label }), this.input, this.output);
@@ -38,7 +38,7 @@ class Slider {
       : (x - this.low) / (this.high - this.low);
     // a slider that the hand holds stays where it is
     if (Math.abs(this.input.value / 1000 - t) > 0.0008) this.input.value = String(Math.round(1000 * clamp(t, 0, 1)));
-    tell(this.output, say(x) + this.unit);
+    tell(this.output, this.unit === "°" ? `${say(Math.round(10 * x) / 10)}°` : say(x));
   }
 }
 /** Ranges of the fields that are numbers. */
@@ -165,11 +165,7 @@ const ROWS = [
   ["pdf", "pdf", "density of the direction under the cursor, per steradian (lines: in their measure)"],
   ["invert u", "u", "the first of the numbers that are mapped to the direction under the cursor"],
   ["invert v", "v", "the second of them"],
-  [
-    "broken",
-    "faults",
-    "how many samples that are not finite or have no density, plus how many directions pass beside the light by more than a hundredth of it",
-  ],
+  ["broken", "faults", "how many of the samples break the contract that stands below the cards"],
 ];
 /** The card of a way, with the textbook's formula beside it if there is one: their maps and their numbers. */
 class Card {
@@ -247,7 +243,8 @@ class Card {
     canvas.addEventListener("pointerdown", put);
   }
   show(view, options, probe) {
-    for (const { way, button, directions, surface, cells } of this.parts) {
+    for (const part of this.parts) {
+      const { way, button, directions, surface, cells } = part;
       button.setAttribute("aria-pressed", String(way.name === this.app.state.way));
       directions.aim(view, options.projection, options.near);
       const own = probe && probe.of(way);
@@ -262,14 +259,41 @@ class Card {
         put(n, view.truth > 0 ? say(error, 2) : "–", view.truth > 0 && !(error < 1e3));
       }
       const mean = meanOf(way.values, MOST);
-      put("estimate", say(mean, mean < 1e-3 ? 3 : 5), !Number.isFinite(mean));
-      put("pdf", own && own.pdf !== undefined ? say(own.pdf, 4) : "–");
+      put("estimate", say(mean, mean < 0.01 ? 3 : 5), !Number.isFinite(mean));
+      put("pdf", own && own.pdf !== undefined ? say(own.pdf, own.pdf < 0.01 || own.pdf > 1e3 ? 3 : 4) : "–");
       const numbersThere = own && own.u && (own.pdf > 0 ? own.u.map((x) => x.toFixed(5)) : ["beside", "beside"]);
       ["u", "v"].forEach((key, k) => put(key, numbersThere ? numbersThere[k] : "–"));
       if (options.draft) continue;
       // directions of the surface may pass beside the light
-      const { broken, beside } = way.kind === "surface" ? { broken: 0, beside: 0 } : faults(way, view, MOST);
-      put("faults", broken + beside ? `${broken} + ${beside}` : "none", broken + beside > 0);
+      const { wrong, beside } = faults(way, way.kind === "surface" ? { ...view, locate: undefined } : view, MOST);
+      part.broken = wrong + beside;
+      put("faults", part.broken ? part.broken.toLocaleString("en") : "none", part.broken > 0);
+      const why = [`${wrong} are not finite or have no positive pdf`, `${beside} miss the light`];
+      cells.faults.title = part.broken ? why.join(", ") : "";
     }
   }
+}
+
+/** A relative error as people read it. */
+const percent = (error) => (error < 1e3 ? `${say(100 * error, 2)} %` : say(error, 2));
+/** What the cards show in a sentence: whether textbooks' formulas hold here, and the best technique of the core. */
+function verdict(cards, { truth }) {
+  if (!(truth > 0)) return "";
+  const parts = cards.flatMap((card) => card.parts.map((part) => ({ ...part, core: card.parts[0] })));
+  const off = ({ way }, n) => blockError(way.values, MOST, n, truth);
+  const said = [];
+  const books = parts.filter(({ way }) => way.kind === "textbook");
+  const fails = books.filter((part) => part.broken || !(off(part, 1024) <= 20 * off(part.core, 1024)));
+  for (const part of fails) {
+    const count = part.broken ? `${part.broken.toLocaleString("en")} of ${MOST.toLocaleString("en")} samples are broken, and ` : "";
+    const error = off(part, 1024);
+    said.push(
+      `The textbook’s formula ${part.core.way.name} fails here: ${count}1,024 of them are off by ${Number.isFinite(error) ? percent(error) : "NaN"}. The core’s are off by ${percent(off(part.core, 1024))}${part.core.broken ? "" : ", none broken"}.`,
+    );
+  }
+  if (books.length && !fails.length) said.push("Textbooks’ formulas hold here.");
+  const core = parts.filter(({ way }) => way.kind === "core");
+  const best = core.reduce((a, b) => (off(b, 1) < off(a, 1) ? b : a), core[0]);
+  if (best) said.push(`The best: one sample ${best.way.name} is off by ${percent(off(best, 1))}.`);
+  return said.join(" ");
 }

@@ -58,14 +58,14 @@ class Formula extends Way {
       x[i] = drawn.x;
       y[i] = drawn.y;
       z[i] = drawn.z;
-      pdf[i] = Math.abs(drawn.pdf);
-      // a pdf below 0 is that of a point that faces away
-      weight[i] = this.emits && !(drawn.pdf <= 0) ? 1 / drawn.pdf : 0;
+      pdf[i] = drawn.pdf;
+      // as a renderer would: a pdf that is not positive gives nothing, NaN gives NaN
+      weight[i] = this.emits && !drawn.away && !(drawn.pdf <= 0) ? 1 / drawn.pdf : 0;
     }
   }
   sampleOf(u) {
     this.formula(Math.fround(u[0]), Math.fround(u[1]));
-    return { direction: [drawn.x, drawn.y, drawn.z], pdf: Math.abs(drawn.pdf) };
+    return { direction: [drawn.x, drawn.y, drawn.z], pdf: drawn.pdf };
   }
 }
 /** Directions of the surface, whatever the light: those that miss it are worth 0. */
@@ -204,22 +204,34 @@ function placer(way, { shape, locate, p }) {
   return (i, target) => (way.kind !== "surface" || weight[i] > 0) && locate(x[i], y[i], z[i], target) && found(target);
 }
 
-/** How many of the first samples have no finite direction and pdf, and how many directions pass beside the light by more than a hundredth of it. */
+/** A unit in the last place of a direction. */
+const ROUNDING = 2 ** -23;
+/** What the contract rules out, among the first samples: numbers that are not finite, a pdf below 0, a weight where the pdf is 0, and directions that miss the light by more than a hundredth of it and more than the rounding of a direction explains. Samples of pdf and weight 0 say that there is none, as below the horizon. */
 function faults(way, { locate, shape }, n) {
   const {
     direction: [x, y, z],
     pdf,
+    weight,
   } = way.samples;
   const q = [0, 0];
   const edges = shape.mapOutline && edgesOf(shape.mapOutline);
-  let broken = 0;
+  const isOn = (a, b, c) => locate(a, b, c, q) && isNear(edges, q, reachOfRounding(locate, [a, b, c], q));
+  let wrong = 0;
   let beside = 0;
   for (let i = 0; i < n; i++) {
-    const sum = x[i] + y[i] + z[i] + pdf[i];
-    if (sum - sum !== 0 || !(pdf[i] > 0)) broken++;
-    else if (locate && !(locate(x[i], y[i], z[i], q) && isNear(edges, q))) beside++;
+    const sum = x[i] + y[i] + z[i] + pdf[i] + weight[i];
+    if (sum - sum !== 0 || pdf[i] < 0 || (pdf[i] === 0 && weight[i] !== 0)) wrong++;
+    else if (locate && pdf[i] > 0 && !isOn(x[i], y[i], z[i])) beside++;
   }
-  return { broken, beside };
+  return { wrong, beside };
+}
+/** How far the place of a direction on the map of the light moves if each of its coordinates is rounded. */
+function reachOfRounding(locate, w, [x, y]) {
+  const there = [0, 0];
+  return w.reduce((sum, _, k) => {
+    locate(...w.map((c, i) => (i === k ? c + ROUNDING : c)), there);
+    return sum + Math.hypot(there[0] - x, there[1] - y);
+  }, 0);
 }
 /** The edges of a convex outline, by unit normals that point inwards, and distances from the origin. */
 const edgesOf = (outline) =>
@@ -230,15 +242,15 @@ const edgesOf = (outline) =>
     const size = Math.hypot(ex, ey);
     return size > 0 ? [[-ey / size, ex / size, (-ey * a[0] + ex * a[1]) / size]] : [];
   });
-/** True within an outline, or beside it by at most a hundredth. */
-function isNear(edges, q) {
+/** True within an outline, or beside it by at most a hundredth and a reach. */
+function isNear(edges, q, reach) {
   const x = q[0];
   const y = q[1];
   // the rim of a disk has more edges than any polygon
-  if (edges.length > 8) return (x - 0.5) * (x - 0.5) + (y - 0.5) * (y - 0.5) < 0.51 * 0.51;
+  if (edges.length > 8) return Math.hypot(x - 0.5, y - 0.5) < 0.51 + reach;
   for (let i = 0; i < edges.length; i++) {
     const edge = edges[i];
-    if (edge[0] * x + edge[1] * y - edge[2] < -0.01) return false;
+    if (edge[0] * x + edge[1] * y - edge[2] < -0.01 - reach) return false;
   }
   return true;
 }

@@ -1,6 +1,5 @@
 // The lecture: figures about one point and one light, and about integrals, each live.
 
-const UP = { p: [0, 0, 0], n: [0, 1, 0] };
 const LECTURE = [
   {
     figure: "hemisphere-vs-area",
@@ -136,9 +135,16 @@ const LECTURE = [
     set: { ...UP, light: "Rectangle", ways: [], dots: 256, sequence: "stratified", panel: "stratification" },
   },
 ];
-/** The state of a lesson, from that before it. */
-function lessonState(index) {
-  const { light, ...rest } = LECTURE[index].set;
-  const made = typeof light === "string" ? overhead(light) : structuredClone(light);
-  return { panel: null, handle: "whole light", ...structuredClone(rest), light: made, lesson: index };
+/** The light of a figure, before anyone chooses another one. */
+const lightOf = ({ set: { light } }) => (typeof light === "string" ? overhead(light) : structuredClone(light));
+/** The state of a lesson: about its own light, or that of a name which was chosen. */
+function lessonState(index, chosen) {
+  const own = lightOf(LECTURE[index]);
+  const light = chosen && chosen !== own.name ? overhead(chosen) : own;
+  return { panel: null, handle: "whole light", ...structuredClone(LECTURE[index].set), light, lesson: index, chosen };
+}
+/** What a figure asks to try, and which light its text is about if another one was chosen. */
+function triesOf({ tries, set: { panel } }, own, light) {
+  if (own.name === light.name || panel === "importance" || panel === "stratification") return tries;
+  return `${tries} The text is about the ${title(own.name).toLowerCase()}; the ${title(light.name).toLowerCase()} stays, since you chose it, until “Reset”.`;
 }

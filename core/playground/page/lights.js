@@ -1,8 +1,10 @@
 // Lights as the hand changes them: their fields, what one may take hold of, and how they are pushed far, thin or to the horizon.
 
+/** The shading point and its normal before anyone moves them. */
+const UP = { p: [0, 0, 0], n: [0, 1, 0] };
 /** A light of each kind above the origin. A kind that is not here gets fields by their kind. */
 const OVERHEAD = {
-  Sphere: { center: [0.3, 1.25, -0.2], radius: 0.45 },
+  Sphere: { center: [-0.3, 1.25, -0.2], radius: 0.45 },
   Triangle: { v0: [-0.8, 0.95, -0.7], e1: [1.7, 0.1, 0.1], e2: [0.2, 0.5, 1.4] },
   Parallelogram: { corner: [-0.7, 1.1, -0.6], edge_s: [1.3, 0.1, 0], edge_t: [0.3, 0.15, 1.1] },
   Rectangle: { corner: [-0.7, 1.2, -0.5], edge_s: [1.4, 0, 0], edge_t: [0, 0.3, 0.9] },

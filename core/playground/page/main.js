@@ -1,10 +1,9 @@
 // The page: its state, and one frame after another.
 
 const START = {
-  light: overhead("Triangle"),
-  p: [0, 0, 0],
-  n: [0, 1, 0],
-  handle: "whole light",
+  light: pushed("Sphere", PRESETS["far, at the horizon"]),
+  ...UP,
+  handle: "center",
   way: "by solid angle",
   dots: 1024,
   sequence: "owen_sobol",
@@ -14,6 +13,7 @@ const START = {
   textbook: true,
   surface: false,
   lesson: null,
+  chosen: null,
   ways: null,
   panel: null,
   probe: null,
@@ -52,6 +52,8 @@ function isAllowed(key, value) {
   switch (key) {
     case "panel":
       return PANELS.includes(value);
+    case "chosen":
+      return value === null || LIGHTS.some((light) => light.name === value);
     case "ways":
       return value === null || (Array.isArray(value) && value.every((name) => typeof name === "string"));
     case "probe":
@@ -102,10 +104,11 @@ class App {
     if (location.hash.length < 2) return;
     try {
       const given = JSON.parse(decodeURIComponent(location.hash.slice(1)));
-      const lesson = Number.isInteger(given.lesson) && LECTURE[given.lesson] ? lessonState(given.lesson) : {};
+      const chosen = isAllowed("chosen", given.chosen) ? given.chosen : null;
+      const lesson = Number.isInteger(given.lesson) && LECTURE[given.lesson] ? lessonState(given.lesson, chosen) : {};
       const state = { ...structuredClone(START), ...lesson };
       const { light } = given;
-      if (light) state.light = overhead(light.name || light);
+      if (light) Object.assign(state, { light: overhead(light.name || light), handle: "whole light" });
       for (const [key, value] of Object.entries(given))
         if (!["light", "lesson"].includes(key) && isAllowed(key, value)) state[key] = value;
       state.n = unit(state.n);
@@ -125,22 +128,27 @@ class App {
       history.replaceState(null, "", this.written);
     }, 400);
   }
-  lesson(index) {
+  /** Begins a figure of the lecture, or the page without one; a light that was chosen stays. */
+  lesson(index, chosen = this.state.chosen) {
     const { inside } = this.state;
-    this.state = { ...structuredClone(START), inside, ...(index === null ? {} : lessonState(index)) };
+    const explored = chosen ? { chosen, light: overhead(chosen), handle: "whole light" } : {};
+    const own = index === null ? explored : lessonState(index, chosen);
+    this.state = { ...structuredClone(START), inside, ...own };
     this.change({});
   }
   bind() {
     const select = (id, put) => byId(id).addEventListener("change", () => put(byId(id).value));
-    select("light", (name) => this.change({ light: overhead(name), probe: null, handle: "whole light", ways: null }));
+    select("light", (name) =>
+      this.change({ light: overhead(name), chosen: name, probe: null, handle: "whole light" }),
+    );
     for (const id of ["handle", "sequence", "shade", "projection"]) select(id, (value) => this.change({ [id]: value }));
     select("dots", (value) => this.change({ dots: Number(value) }));
     for (const id of ["near", "textbook", "surface"])
       byId(id).addEventListener("change", () => this.change({ [id]: byId(id).checked, ways: null }));
     byId("reset").addEventListener("click", () =>
       this.state.lesson === null
-        ? this.change({ light: overhead(this.state.light.name), p: [0, 0, 0], n: [0, 1, 0] })
-        : this.lesson(this.state.lesson),
+        ? this.change({ light: overhead(this.state.light.name), ...UP })
+        : this.lesson(this.state.lesson, null),
     );
     byId("explore").addEventListener("click", () => this.lesson(null));
     byId("lecture").addEventListener("click", () => this.lesson(this.state.lesson ?? 0));
@@ -194,6 +202,7 @@ class App {
       this.ways = waysOf(this.library, kind);
       this.sliders = sliders(this);
       byId("pushes").replaceChildren(...this.sliders.map(({ slider }) => slider.element));
+      byId("presets").replaceChildren(...presets(this));
       this.coordinates = coordinates(this);
       byId("inputs").replaceChildren(...this.coordinates.map((row) => row.element));
       const light = kindOf(kind);
@@ -204,8 +213,10 @@ class App {
       );
       this.shown = null;
     }
+    // a light that was chosen may have none of the ways that a figure compares
+    const named = state.ways && (!state.ways.length || this.ways.some((way) => state.ways.includes(way.name)));
     const wanted = (way) =>
-      state.ways
+      named
         ? state.ways.includes(way.name)
         : way.kind === "core" || (way.kind === "textbook" ? state.textbook : state.surface);
     const ways = this.ways.filter(wanted);
@@ -284,6 +295,7 @@ class App {
     if (lines.length) drawErrors(this.plot, lines);
     tell(byId("finding"), panel === "variance" ? drawVariances(this.plot, chosen.values) : finding);
     this.controls(view, probe);
+    if (!draft) tell(byId("verdict"), verdict(this.cards, view));
     if (draft) this.pace(began);
     this.write();
   }
@@ -345,14 +357,14 @@ class App {
       layout.age++;
     }
     if (lesson) {
-      const { says, tries } = LECTURE[state.lesson];
+      const figure = LECTURE[state.lesson];
       choices(
         byId("figures"),
         LECTURE.map(({ title: text }, i) => [String(i), `${i + 1}. ${text}`]),
         String(state.lesson),
       );
-      tell(byId("says"), says);
-      tell(byId("tries"), tries);
+      tell(byId("says"), figure.says);
+      tell(byId("tries"), triesOf(figure, lightOf(figure), state.light));
       byId("previous").disabled = state.lesson === 0;
       byId("next").disabled = state.lesson === LECTURE.length - 1;
     }
@@ -362,11 +374,10 @@ class App {
     this.times.push({ began, work: now - began });
     if (this.times.length > 60) this.times.shift();
     const work = this.times.map((t) => t.work).sort((a, b) => a - b);
-    const middleOf = work[work.length >> 1];
-    tell(
-      byId("pace"),
-      `A frame of ${MOST.toLocaleString("en")} samples by each of ${this.cards.flatMap((card) => card.ways).length} ways takes ${middleOf.toFixed(1)} ms.`,
-    );
+    const ways = this.cards.flatMap((card) => card.ways).length;
+    const each = ways === 1 ? "one way" : `each of ${ways} ways`;
+    const time = `${work[work.length >> 1].toFixed(1)} ms`;
+    tell(byId("pace"), ways ? `A frame of ${MOST.toLocaleString("en")} samples by ${each} takes ${time}.` : "");
   }
   /** The relative error of 1,024 samples by a way. */
   errorOf(way) {

@@ -235,7 +235,9 @@ class Scene {
       if (chosen) {
         context.font = `${12 * ratio()}px sans-serif`;
         context.fillStyle = INK.strong;
-        context.fillText(handle.name.replaceAll("_", " "), q[0] + 12 * ratio(), q[1] - 8 * ratio());
+        const far = this.scale < 1 && !handle.ground && handle.name !== "normal";
+        const away = far ? `, ${say(length(sub(handle.at, this.state.p)))} away` : "";
+        context.fillText(handle.name.replaceAll("_", " ") + away, q[0] + 12 * ratio(), q[1] - 8 * ratio());
       }
     }
   }

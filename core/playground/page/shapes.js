@@ -176,6 +176,7 @@ function locator(shape, p) {
   if (!shape.sphere) return undefined;
   const { center, radius } = shape.sphere;
   const o = sub(p, center);
+  const isInside = dot(o, o) < radius * radius;
   const [ax, bx] = basis(unit(times(o, -1)));
   return (x, y, z, target) => {
     const b = o[0] * x + o[1] * y + o[2] * z;
@@ -187,6 +188,6 @@ function locator(shape, p) {
     const k = 1 / radius;
     target[0] = 0.5 + 0.5 * k * ((cx - r * x) * ax[0] + (cy - r * y) * ax[1] + (cz - r * z) * ax[2]);
     target[1] = 0.5 + 0.5 * k * ((cx - r * x) * bx[0] + (cy - r * y) * bx[1] + (cz - r * z) * bx[2]);
-    return b < 0;
+    return b < 0 || isInside;
   };
 }

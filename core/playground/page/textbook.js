@@ -2,7 +2,7 @@
 // A formula is prepared for a light relative to the point; it then writes a direction and its pdf for a pair of numbers to `drawn`.
 
 const f32 = Math.fround;
-const drawn = { x: 0, y: 0, z: 0, pdf: 0 };
+const drawn = { x: 0, y: 0, z: 0, pdf: 0, away: false };
 const PI = f32(Math.PI);
 const TAU = f32(2 * Math.PI);
 const dotF = (a, b) => f32(f32(f32(a[0] * b[0]) + f32(a[1] * b[1])) + f32(a[2] * b[2]));
@@ -25,6 +25,7 @@ function write(x, y, z, pdf) {
   drawn.y = f32(y / l);
   drawn.z = f32(z / l);
   drawn.pdf = pdf;
+  drawn.away = false;
 }
 /** Writes the direction to a point of a flat light with the pdf d²/(cosθ' A). */
 function writeByArea(x, y, z, normal, area) {
@@ -103,7 +104,7 @@ function sphereByArea(center, radius) {
       area,
     );
     // the far side does not emit towards the point
-    if (dotS(drawn.x, drawn.y, drawn.z, normal) >= 0) drawn.pdf = f32(-drawn.pdf);
+    drawn.away = dotS(drawn.x, drawn.y, drawn.z, normal) >= 0;
   };
 }
 /** A spherical triangle with its solid angle from the angles between planes, and Arvo's map. */

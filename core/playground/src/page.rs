@@ -6,10 +6,11 @@ use serde_json::Value;
 const HTML: &str = include_str!("../page/index.html");
 const STYLE: &str = include_str!("../page/style.css");
 /// The scripts, in the order in which they use each other.
-const SCRIPTS: [&str; 14] = [
+const SCRIPTS: [&str; 15] = [
     include_str!("../page/vector.js"),
     include_str!("../page/library.js"),
     include_str!("../page/lights.js"),
+    include_str!("../page/presets.js"),
     include_str!("../page/shapes.js"),
     include_str!("../page/closed.js"),
     include_str!("../page/textbook.js"),

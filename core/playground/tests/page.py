@@ -188,6 +188,130 @@ def slide(browser, name, value):
     browser.settle()
 
 
+# what is written where numbers are, and the boxes that it takes on the page and in the chart
+WRITTEN = """(() => {
+  const page = [...document.querySelectorAll('.card th, .card td, .push span, .push output, .card h2 button, figcaption, #options p, #options label, #verdict')]
+    .filter((e) => e.offsetParent && e.textContent.trim()).map((e) => {
+      const range = document.createRange(); range.selectNodeContents([...e.childNodes].find((c) => e.matches('label') && c.nodeType === 3) || e);
+      const { left, top, right, bottom } = range.getBoundingClientRect();
+      const room = (e.closest('.card, .push, #options, #verdict') || e).getBoundingClientRect();
+      return { text: e.textContent, box: [left, top, right, bottom], out: left < room.left - 1 || right > room.right + 1 };
+    });
+  const chart = playground.plot.texts.map(({ text, box }) => ({ text, box, out: box[0] < 0 || box[2] > playground.plot.canvas.width }));
+  return [page, chart];
+})()"""
+
+
+def collisions(written):
+    """Pairs of texts whose boxes overlap, and texts that are wider than what holds them."""
+    found = [f"{w['text']!r} is too wide" for w in written if w["out"]]
+    for i, a in enumerate(written):
+        for b in written[:i]:
+            wide = min(a["box"][2], b["box"][2]) - max(a["box"][0], b["box"][0])
+            high = min(a["box"][3], b["box"][3]) - max(a["box"][1], b["box"][1])
+            # lines of a table touch
+            if wide > 0.5 and high > 2.5:
+                found.append(f"{a['text']!r} is on {b['text']!r}")
+    return found
+
+
+def ends(browser, test):
+    """At both ends of every slider of every light, no number collides with another one, and no sample of the core breaks its contract."""
+    checked, faults = 0, []
+    for width, height in [(1400, 900), (400, 900)]:
+        browser.resize(width, height)
+        browser.open(address())
+        names = browser.evaluate("[...document.getElementById('light').options].map((o) => o.value)")
+        for light in names:
+            browser.open(address(light=light, probe={"u": [0.3, 0.6]}))
+            browser.settle()
+            for slider in browser.evaluate("playground.sliders.map((s) => s.name)"):
+                for end in [0, 1000]:
+                    step = f"{light}, {slider} at {end / 10:.0f} %, {width} px"
+                    browser.evaluate(f"playground.change({{ light: (playground.reset ??= structuredClone(playground.state.light)), probe: {{ u: [0.3, 0.6] }} }})")
+                    browser.settle()
+                    browser.evaluate(f"(() => {{ const s = playground.sliders.find((s) => s.name === {json.dumps(slider)}).slider.input; s.value = '{end}'; s.dispatchEvent(new Event('input')); }})()")
+                    browser.settle()
+                    # the last frame, which is no draft, counts what is broken
+                    browser.evaluate("(clearTimeout(playground.finer), playground.frame())")
+                    for written in browser.evaluate(WRITTEN):
+                        faults += [f"{step}: {what}" for what in collisions(written)]
+                    broken = browser.evaluate("playground.cards.flatMap((c) => c.parts).filter((p) => p.way.kind === 'core' && p.broken).map((p) => `${p.way.name}: ${p.cells.faults.title}`)")
+                    faults += [f"{step}: {what}" for what in broken]
+                    checked += 1
+            assert browser.evaluate("document.documentElement.scrollWidth") <= width, f"{light} at {width} px"
+    assert not faults, "\n".join([f"{len(faults)} faults", *faults[:40]])
+    browser.resize(1400, 1000)
+    print(f"{checked} ends of sliders: no number collides, and no sample of the core is broken")
+
+
+def first_view(browser, test):
+    """The page begins where a textbook's formula fails and the core holds, says so, and shows its chart; each preset changes the view."""
+    browser.resize(1400, 900)
+    browser.open(address())
+    browser.wait("document.getElementById('verdict').textContent")
+    test.take(browser, "the first view")
+    said = browser.evaluate("document.getElementById('verdict').textContent")
+    assert re.search(r"The textbook’s formula by solid angle fails here: \d[\d,]* of 4,096 samples are broken", said) and "none broken" in said, said
+    core, textbook = browser.evaluate("playground.cards[1].parts.map((p) => [p.broken, playground.errorOf(p.way)])")
+    assert core[0] == 0 and core[1] < 1e-3 and textbook[0] > 0 and textbook[1] > 20 * core[1], (core, textbook)
+    assert browser.evaluate("getComputedStyle(document.getElementById('contract')).display !== 'none' && document.getElementById('contract').textContent.startsWith('Broken is what the contract rules out')")
+    _, top, _, high = browser.box("#chart")
+    assert top + high <= 900, f"the chart ends at {top + high} px"
+    keep("playground-1400.png", browser)
+    pressed = 0
+    for light in ["Triangle", "Sphere", "Line", "Sun"]:
+        browser.open(address(light=light))
+        browser.settle()
+        pictures = {browser.screenshot("#view")}
+        for k in range(browser.evaluate("document.querySelectorAll('#presets button').length")):
+            name, disabled = browser.evaluate(f"(({{ textContent, disabled }}) => [textContent, disabled])(document.querySelectorAll('#presets button')[{k}])")
+            if disabled:
+                continue
+            browser.click(f"#presets button:nth-child({k + 1})")
+            browser.evaluate("(clearTimeout(playground.finer), playground.frame())")
+            shown = test.take(browser, f"{light}, {name}")
+            assert double(shown["truth"]) > 0, f"{light}, {name}: nothing arrives"
+            picture = browser.screenshot(".maps") + browser.screenshot("#view")
+            assert picture not in pictures, f"{light}, {name}: nothing changes"
+            pictures.add(picture)
+            pressed += 1
+            keep(f"playground-{light}-{name.replace(', ', '-').replace(' ', '-')}.png", browser)
+    assert pressed >= 12, pressed
+    browser.resize(400, 900)
+    browser.open(address())
+    browser.wait("document.getElementById('verdict').textContent")
+    keep("playground-400.png", browser)
+    browser.resize(1400, 1000)
+    print(f"the first view: {said}\n{pressed} presets change the view")
+
+
+def a_light_stays(browser):
+    """A light that was chosen is that of every figure of the lecture, and of the page after it; a figure can be reset to its own."""
+    browser.open(address())
+    browser.choose("light", "Disk")
+    browser.click("#lecture")
+    count = browser.evaluate("document.getElementById('figures').options.length")
+    for k in range(count):
+        light, ways, panel = browser.evaluate("[playground.state.light.name, playground.cards.length, playground.state.panel]")
+        assert light == "Disk", f"figure {k + 1} shows {light}"
+        assert ways or panel in ("importance", "stratification"), f"figure {k + 1} compares nothing"
+        assert not re.search(r"\b0 ways", browser.evaluate("document.body.innerText")), f"figure {k + 1}"
+        if k == 1:
+            assert "The text is about the sphere; the disk stays, since you chose it" in browser.evaluate("document.getElementById('tries').textContent")
+        if k + 1 < count:
+            browser.click("#next")
+    browser.choose("figures", "1")
+    browser.click("#reset")
+    assert browser.evaluate("playground.state.light.name") == "Sphere"
+    browser.choose("light", "Line")
+    browser.click("#next")
+    assert browser.evaluate("playground.state.light.name") == "Line"
+    browser.click("#explore")
+    assert browser.evaluate("playground.state.light.name") == "Line"
+    print(f"a light that was chosen stays through {count} figures")
+
+
 def lecture(browser):
     """Every figure of the lecture shows something, and says what to do."""
     browser.open(address())
@@ -321,6 +445,9 @@ def main():
         lights(browser, test)
         hands(browser, test)
         breaks(browser, test)
+        first_view(browser, test)
+        ends(browser, test)
+        a_light_stays(browser)
         lecture(browser)
         looks(browser)
         addresses(browser)
