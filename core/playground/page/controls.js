@@ -285,10 +285,13 @@ function verdict(cards, { truth }) {
   const books = parts.filter(({ way }) => way.kind === "textbook");
   const fails = books.filter((part) => part.broken || !(off(part, 1024) <= 20 * off(part.core, 1024)));
   for (const part of fails) {
-    const count = part.broken ? `${part.broken.toLocaleString("en")} of ${MOST.toLocaleString("en")} samples are broken, and ` : "";
+    const grouped = (n) => n.toLocaleString("en");
+    const count = part.broken ? `${grouped(part.broken)} of ${grouped(MOST)} samples are broken, and ` : "";
     const error = off(part, 1024);
+    const is = Number.isFinite(error) ? `is off by ${percent(error)}` : "is no number";
+    const core = `is off by ${percent(off(part.core, 1024))}${part.core.broken ? "" : ", and none is broken"}`;
     said.push(
-      `The textbook’s formula ${part.core.way.name} fails here: ${count}1,024 of them are off by ${Number.isFinite(error) ? percent(error) : "NaN"}. The core’s are off by ${percent(off(part.core, 1024))}${part.core.broken ? "" : ", none broken"}.`,
+      `The textbook’s formula ${part.core.way.name} fails here: ${count}the mean of 1,024 ${is}. The core’s ${core}.`,
     );
   }
   if (books.length && !fails.length) said.push("Textbooks’ formulas hold here.");

@@ -252,7 +252,7 @@ def first_view(browser, test):
     browser.wait("document.getElementById('verdict').textContent")
     test.take(browser, "the first view")
     said = browser.evaluate("document.getElementById('verdict').textContent")
-    assert re.search(r"The textbook’s formula by solid angle fails here: \d[\d,]* of 4,096 samples are broken", said) and "none broken" in said, said
+    assert re.search(r"The textbook’s formula by solid angle fails here: \d[\d,]* of 4,096 samples are broken", said) and "none is broken" in said, said
     core, textbook = browser.evaluate("playground.cards[1].parts.map((p) => [p.broken, playground.errorOf(p.way)])")
     assert core[0] == 0 and core[1] < 1e-3 and textbook[0] > 0 and textbook[1] > 20 * core[1], (core, textbook)
     assert browser.evaluate("getComputedStyle(document.getElementById('contract')).display !== 'none' && document.getElementById('contract').textContent.startsWith('Broken is what the contract rules out')")
