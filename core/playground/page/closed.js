@@ -27,7 +27,8 @@ function integral(f, low, high, panels) {
 
 /** Lambert's term of an edge: half of its angle, times the cosine between the normal of its plane through the point and n. */
 function edgeTerm(a, b, n) {
-  const normal = cross(a, b);
+  // not a × b, which cancels where the edge is short for its distance
+  const normal = cross(a, sub(b, a));
   const size = length(normal);
   return size > 0 ? (0.5 * Math.atan2(size, dot(a, b)) * dot(normal, n)) / size : 0;
 }

@@ -29,7 +29,7 @@
 //! # Sources of the page
 //! `page/*.js` are joined in the order of `page.rs` in one scope. `library.js` calls the C interface; `estimates.js` has the ways to sample
 //! that are compared, `textbook.js` the formulas beside them, `closed.js` the irradiance; `maps.js`, `scene.js` and `charts.js` draw;
-//! `lights.js`, `controls.js` and `main.js` are what the hand changes.
+//! `lights.js`, `presets.js`, `controls.js`, `state.js` and `main.js` are what the hand changes.
 
 mod library;
 mod list;

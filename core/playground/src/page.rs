@@ -6,7 +6,7 @@ use serde_json::Value;
 const HTML: &str = include_str!("../page/index.html");
 const STYLE: &str = include_str!("../page/style.css");
 /// The scripts, in the order in which they use each other.
-const SCRIPTS: [&str; 15] = [
+const SCRIPTS: [&str; 16] = [
     include_str!("../page/vector.js"),
     include_str!("../page/library.js"),
     include_str!("../page/lights.js"),
@@ -21,6 +21,7 @@ const SCRIPTS: [&str; 15] = [
     include_str!("../page/charts.js"),
     include_str!("../page/lecture.js"),
     include_str!("../page/controls.js"),
+    include_str!("../page/state.js"),
     include_str!("../page/main.js"),
 ];
 
