@@ -110,7 +110,7 @@ impl Detail {
     #[must_use]
     pub fn new(quick: bool) -> Self {
         if quick {
-            Self { turns: 4, samples: 48, strata: 8, quick }
+            Self { turns: 4, samples: 40, strata: 8, quick }
         } else {
             Self { turns: 12, samples: 128, strata: 16, quick }
         }
