@@ -56,6 +56,8 @@ pub(super) fn double<const N: usize>(a: [f64; N], b: [f64; N], c: [f64; N]) -> [
 #[cfg(test)]
 mod tests {
     use super::{product_error, single};
+    use crate::real::Real;
+    use wide::f32x4;
 
     fn check(a: f32, b: f32, c: f32) {
         let (found, right) = (single([a], [b], [c])[0], libm::fmaf(a, b, c));
@@ -88,6 +90,20 @@ mod tests {
             if product.is_finite() && product.abs() > 1e-30 {
                 let (rest, right) = (product_error([a], [b], [product])[0], libm::fmaf(a, b, -product));
                 assert!(rest == right, "{a:e} × {b:e} leaves {right:e} and not {rest:e}");
+            }
+        }
+    }
+    /// Also in builds for processors without an instruction for both, with the feature `same-bits` and without it.
+    #[test]
+    fn the_rest_of_a_product_is_exact_in_packets() {
+        let mut state = 5;
+        for _ in 0..100_000 {
+            let [a, b] = [(); 2].map(|()| f32::from_bits(bits(&mut state)));
+            let product = a * b;
+            if product.is_finite() && product.abs() > 1e-30 {
+                let [x, y, xy] = [a, b, product].map(f32x4::splat);
+                let right = libm::fmaf(a, b, -product);
+                assert_eq!(f32x4::two_prod_error(x, y, xy).to_array(), [right; 4], "{a:e} × {b:e}");
             }
         }
     }

@@ -167,7 +167,7 @@ macro_rules! scalar_real {
             }
             #[inline(always)]
             fn two_prod_error(a: Self, b: Self, product: Self) -> Self {
-                if Self::FUSED { a.mul_add(b, -product) } else { fused::product_error([a], [b], [product])[0] }
+                if Self::FUSED { Real::mul_add(a, b, -product) } else { fused::product_error([a], [b], [product])[0] }
             }
             #[inline(always)]
             fn pow2_scale(self) -> Self {
@@ -303,7 +303,8 @@ macro_rules! packet_real {
             #[inline(always)]
             fn two_prod_error(a: Self, b: Self, product: Self) -> Self {
                 if Self::FUSED {
-                    return a.mul_add(b, -product);
+                    // not the packet's own `mul_add`, which rounds twice where no instruction does both
+                    return Real::mul_add(a, b, -product);
                 }
                 $packet::new(fused::product_error(a.to_array(), b.to_array(), product.to_array()))
             }
