@@ -15,7 +15,8 @@ const V4: &str = "+avx2,+fma,+bmi1,+bmi2,+popcnt,+avx512f,+avx512bw,+avx512cd,+a
 fn light(variable: &str) -> Option<String> {
     let feature = variable.strip_prefix("CARGO_FEATURE_")?.to_lowercase();
     // the levels multiply and add in one instruction
-    (!["default", "dispatch", "all", "same_bits"].contains(&&*feature) && !feature.starts_with("level")).then_some(feature)
+    (!["default", "dispatch", "all", "same_bits"].contains(&&*feature) && !feature.starts_with("level"))
+        .then_some(feature)
 }
 
 fn main() {

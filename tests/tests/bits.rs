@@ -4,7 +4,10 @@
 use etendue_bits::{REPLACE, Row, TABLE, differences, rows, text};
 
 /// Only builds that promise it: `etendue::real::SAME_BITS`.
-#[cfg_attr(not(any(target_feature = "fma", target_arch = "aarch64")), ignore = "products and sums of this build are rounded twice")]
+#[cfg_attr(
+    not(any(target_feature = "fma", target_arch = "aarch64")),
+    ignore = "products and sums of this build are rounded twice"
+)]
 #[test]
 fn every_routine_returns_the_bits_of_the_table() {
     let differences = differences(&rows(), TABLE);

@@ -219,14 +219,19 @@ impl<R: Real, S, W: ProjectedShape<R>> ByProjectedSolidAngle<R, S, W> {
     pub fn projected_solid_angle(&self) -> R {
         self.shape.projected_solid_angle()
     }
+    /// The pdf of a direction that hits the light; 0 where that is not finite, since a normal may be of any length.
+    #[inline(always)]
+    fn density(&self, w: Vec3<R>) -> R {
+        let pdf = self.shape.pdf_at_cosine(w.dot(self.normal));
+        pdf.keep(pdf.lt(R::lit(f64::INFINITY)))
+    }
 }
 
 impl<R: Real, S: Surface<R>, W: ProjectedShape<R>> LightSampler<R> for ByProjectedSolidAngle<R, S, W> {
     #[inline(always)]
     fn sample(&self, u: Vec2<R>) -> LightSample<R> {
         let (direction, at) = point_of(&self.surface, (self.shape.sample_direction(u), None));
-        let pdf = self.shape.pdf_at_cosine(direction.dot(self.normal));
-        drawn(direction, pdf, at, self.shape.in_front()).drawn_from(u)
+        drawn(direction, self.density(direction), at, self.shape.in_front()).drawn_from(u)
     }
     #[inline(always)]
     fn pdf(&self, w: Vec3<R>) -> R {
@@ -234,7 +239,7 @@ impl<R: Real, S: Surface<R>, W: ProjectedShape<R>> LightSampler<R> for ByProject
     }
     #[inline(always)]
     fn pdf_of_hit(&self, w: Vec3<R>) -> R {
-        self.shape.pdf_at_cosine(w.dot(self.normal))
+        self.density(w)
     }
     #[inline(always)]
     fn invert(&self, w: Vec3<R>) -> Vec2<R> {
