@@ -145,6 +145,12 @@ fn point_of<R: Real>(
     (direction, SurfaceHit { uv: Vec2::new(x, y), ..at })
 }
 
+/// A pdf, or 0 where it is not finite, since a normal may be of any length.
+#[inline(always)]
+fn finite<R: Real>(pdf: R) -> R {
+    pdf.keep(pdf.lt(R::lit(f64::INFINITY)))
+}
+
 /// A hit where the pdf is positive, a miss elsewhere.
 #[inline(always)]
 pub(super) fn found<R: Real>(w: Vec3<R>, pdf: R, surface: &impl Surface<R>, front: Option<R::Mask>) -> LightSample<R> {
@@ -219,11 +225,10 @@ impl<R: Real, S, W: ProjectedShape<R>> ByProjectedSolidAngle<R, S, W> {
     pub fn projected_solid_angle(&self) -> R {
         self.shape.projected_solid_angle()
     }
-    /// The pdf of a direction that hits the light; 0 where that is not finite, since a normal may be of any length.
+    /// The pdf of a direction that hits the light.
     #[inline(always)]
     fn density(&self, w: Vec3<R>) -> R {
-        let pdf = self.shape.pdf_at_cosine(w.dot(self.normal));
-        pdf.keep(pdf.lt(R::lit(f64::INFINITY)))
+        finite(self.shape.pdf_at_cosine(w.dot(self.normal)))
     }
 }
 
@@ -321,16 +326,17 @@ impl<R: Real, S: Surface<R>, W: SphericalShape<R>> LightSampler<R> for ByCosineW
         let shape = &self.warped.shape;
         let v = self.warped.weights.sample(u);
         let (direction, at) = point_of(&self.surface, shape.sample_point(v));
-        drawn(direction, shape.uniform_pdf() * self.warped.weights.pdf(v), at, shape.in_front()).drawn_from(u)
+        let pdf = finite(shape.uniform_pdf() * self.warped.weights.pdf(v));
+        drawn(direction, pdf, at, shape.in_front()).drawn_from(u)
     }
     #[inline(always)]
     fn pdf(&self, w: Vec3<R>) -> R {
-        self.warped.pdf(w)
+        finite(self.warped.pdf(w))
     }
     #[inline(always)]
     fn pdf_of_hit(&self, w: Vec3<R>) -> R {
         let CosineWarped { shape, weights } = &self.warped;
-        shape.uniform_pdf() * weights.pdf(shape.invert(w))
+        finite(shape.uniform_pdf() * weights.pdf(shape.invert(w)))
     }
     #[inline(always)]
     fn invert(&self, w: Vec3<R>) -> Vec2<R> {

@@ -54,10 +54,10 @@ macro_rules! check {
         }
     )+) => {
         /// Samples of all techniques from the numbers, each with the technique's name.
+        #[allow(unused, reason = "not all techniques take everything, nor do all lights have edges")]
         fn samples(numbers: impl Fn() -> Numbers) -> Vec<(&'static str, usize, LightSample<f32>)> {
             let mut all = Vec::new();
             $({
-                #[allow(unused_mut, unused_assignments)]
                 let light = |numbers: &mut Numbers| -> light::$light<f32 $(, $corners)?> {
                     let mut edges = 0;
                     light::$light { $($field: value!($kind, numbers, edges)),+ }
