@@ -202,6 +202,9 @@ pub(crate) unsafe extern "C" fn sample_each<T: Technique, R: Packet>(
     u: Vec2<*const f32>,
     out: &SampleColumns,
 ) {
+    if !cfg!(feature = "each") {
+        return;
+    }
     if R::LANES == 1 {
         for i in 0..n {
             // SAFETY: the caller's columns have `n` elements
@@ -226,6 +229,9 @@ pub(crate) unsafe extern "C" fn evaluate_each<T: Technique, R: Packet>(
     w: Vec3<*const f32>,
     out: &EvaluationColumns,
 ) {
+    if !cfg!(feature = "each") {
+        return;
+    }
     let (wants_u, wants_hit) = (!out.u.iter().all(|column| column.is_null()), out.hit.any());
     if R::LANES == 1 {
         for i in 0..n {

@@ -171,15 +171,27 @@ impl Batch {
     pub fn technique(&self, number: usize) -> Option<&'static TechniqueFunctions> {
         *self.table.techniques.get(number)?
     }
-    /// The same, of which those of one element and of one call are those of single numbers.
+    /// The same, of which those that prepare a light are those of single numbers.
+    #[inline]
+    #[must_use]
+    pub fn technique_to_prepare(&self, number: usize) -> Option<&'static TechniqueFunctions> {
+        *self.one.techniques.get(number)?
+    }
+    /// The same, of which those of one element and of one call are those of single numbers; none without the feature `one`.
     #[inline]
     #[must_use]
     pub fn technique_of_one(&self, number: usize) -> Option<&'static TechniqueFunctions> {
-        *self.one.techniques.get(number)?
+        self.technique_to_prepare(number).filter(|_| cfg!(feature = "one"))
+    }
+    /// The same, of which those with a light for each element are meant; none without the feature `each`.
+    #[inline]
+    #[must_use]
+    pub fn technique_of_each(&self, number: usize) -> Option<&'static TechniqueFunctions> {
+        self.technique(number).filter(|_| cfg!(feature = "each"))
     }
     #[track_caller]
-    fn functions<T: Technique>(&self) -> &'static TechniqueFunctions {
-        self.technique(T::INDEX).expect("the light is not built: see the features of etendue-batch")
+    fn each<T: Technique>(&self) -> &'static TechniqueFunctions {
+        self.technique_of_each(T::INDEX).expect("the light is not built: see the features of etendue-batch")
     }
     #[track_caller]
     fn once<T: Technique>(&self) -> &'static TechniqueFunctions {
@@ -200,7 +212,9 @@ impl Batch {
         let mut out = MaybeUninit::<T::Prepared>::uninit();
         // SAFETY: the function writes a whole sampler
         unsafe {
-            (self.once::<T>().prepare)(erased(light), row(&p), erased(&with), out.as_mut_ptr().cast());
+            let functions = self.technique_to_prepare(T::INDEX);
+            let functions = functions.expect("the light is not built: see the features of etendue-batch");
+            (functions.prepare)(erased(light), row(&p), erased(&with), out.as_mut_ptr().cast());
             out.assume_init()
         }
     }
@@ -297,7 +311,7 @@ impl Batch {
         let out = out.columns(count);
         // SAFETY: all columns have `count` elements, and the outputs are borrowed mutably
         with_views::<T>(count, lights, p, with, |views| unsafe {
-            (self.functions::<T>().sample_each)(views, count, u.map(<[f32]>::as_ptr), &out);
+            (self.each::<T>().sample_each)(views, count, u.map(<[f32]>::as_ptr), &out);
         });
     }
     /// Prepares a light of its own for each element, as [`sample_each`](Self::sample_each) does, and evaluates it in the unit direction `w`.
@@ -315,7 +329,7 @@ impl Batch {
         let out = out.columns(count);
         // SAFETY: all columns have `count` elements, and the outputs are borrowed mutably
         with_views::<T>(count, lights, p, with, |views| unsafe {
-            (self.functions::<T>().evaluate_each)(views, count, w.map(<[f32]>::as_ptr), &out);
+            (self.each::<T>().evaluate_each)(views, count, w.map(<[f32]>::as_ptr), &out);
         });
     }
     /// The pdf of unit directions, per steradian (lines: see [`etendue::Line`]).

@@ -10,9 +10,11 @@ use core::ffi::c_void;
 use core::mem::MaybeUninit;
 use etendue::{LightSampler, Real, Vec2, Vec3};
 
-/// True in a compilation whose functions of one element nobody asks for: they do nothing there. x86-64-v4 would compile them to the
-/// instructions of x86-64-v3 again.
-const IS_ABSENT: bool = cfg!(feature = "level-v4");
+/// True in the compilation whose functions of one element and preparations nobody asks for: they do nothing there. x86-64-v4 would compile
+/// them to the instructions of x86-64-v3 again.
+const IS_V4: bool = cfg!(feature = "level-v4");
+/// True where nobody asks for the functions of one element: they do nothing there.
+const IS_ABSENT: bool = IS_V4 || !cfg!(feature = "one") && !IS_LONG;
 /// True where a multiply-add is so long in code and time that whatever is there already is called.
 const IS_LONG: bool = <Lanes as Real>::LANES == 1;
 
@@ -90,7 +92,7 @@ pub(crate) unsafe extern "C" fn prepare<T: Technique>(
     with: *const c_void,
     out: *mut c_void,
 ) {
-    if !IS_ABSENT {
+    if !IS_V4 {
         // SAFETY: the caller's memory has room for it
         unsafe {
             let (light, with) = (*typed::<T::Light<f32>>(light), figures(with.cast::<T::With<f32>>()));
@@ -153,7 +155,7 @@ pub(crate) unsafe extern "C" fn pdf_of_hit_once<T: Technique>(
 
 /// One point of a warp.
 pub(crate) unsafe extern "C" fn one_warp_sample<W: BatchWarp>(warp: *const c_void, u: *const f32, out: *mut f32) {
-    if !IS_ABSENT {
+    if !IS_V4 {
         // SAFETY: the caller's
         unsafe {
             let x = u.read_unaligned();
@@ -170,11 +172,11 @@ unsafe fn point<W: BatchWarp>(numbers: *const f32) -> [f32; 3] {
 /// The pdf of a warp at one point.
 pub(crate) unsafe extern "C" fn one_warp_pdf<W: BatchWarp>(warp: *const c_void, at: *const f32) -> f32 {
     // SAFETY: the caller's
-    if IS_ABSENT { 0.0 } else { unsafe { W::pdf(&figures(warp.cast::<W>()).splat::<f32>(), point::<W>(at)) } }
+    if IS_V4 { 0.0 } else { unsafe { W::pdf(&figures(warp.cast::<W>()).splat::<f32>(), point::<W>(at)) } }
 }
 /// The random numbers that a warp maps to one point.
 pub(crate) unsafe extern "C" fn one_warp_invert<W: BatchWarp>(warp: *const c_void, at: *const f32, out: *mut f32) {
-    if !IS_ABSENT {
+    if !IS_V4 {
         // SAFETY: the caller's
         unsafe {
             let u = W::invert(&figures(warp.cast::<W>()).splat::<f32>(), point::<W>(at));

@@ -81,7 +81,9 @@ pub unsafe extern "C" fn etendue_prepare(
     sampler: *mut c_void,
 ) -> EtendueStatus {
     refuse_null!(light, p, sampler);
-    let functions = one!(technique);
+    let Some(functions) = Batch::new().technique_to_prepare(technique as usize) else {
+        return EtendueStatus::Value;
+    };
     if !is_given(technique, with) {
         return EtendueStatus::NullPointer;
     }
@@ -340,7 +342,7 @@ unsafe fn with_views(
     f: impl FnOnce(&TechniqueFunctions, &Views),
 ) -> EtendueStatus {
     refuse_null!(lights);
-    let functions = many!(technique);
+    let Some(functions) = Batch::new().technique_of_each(technique as usize) else { return EtendueStatus::Value };
     let ((first, count), withs) = (columns_of(technique as usize), TAKES[technique as usize].with);
     // SAFETY: the caller's pointers are null or point to what the header says
     unsafe {
