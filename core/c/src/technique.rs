@@ -11,7 +11,7 @@ use crate::sample::{EtendueLightSample, EtendueSampleColumns, NOTHING};
 use crate::status::EtendueStatus;
 use core::ffi::c_void;
 use core::mem::size_of;
-use etendue_batch::{Batch, EvaluationColumns, TechniqueFunctions, Views};
+use etendue_batch::{Batch, EvaluationColumns, SamplerFunctions, TechniqueFunctions, Views};
 
 /// Numbers of techniques with memory.
 const PICTURES: core::ops::Range<usize> =
@@ -232,6 +232,26 @@ pub unsafe extern "C" fn etendue_pdf_of_hit_once(
     unsafe { pdf_once(technique, light, p, with, w, |functions| functions.pdf_of_hit_once) }
 }
 
+/// Calls `f` with the functions of a prepared light and with columns of what they read; it returns `None` where a column that it needs is null.
+unsafe fn batch<const N: usize>(
+    technique: u32,
+    sampler: *const c_void,
+    n: usize,
+    read: *const *const f32,
+    f: impl FnOnce(&SamplerFunctions, [*const f32; N]) -> Option<()>,
+) -> EtendueStatus {
+    if n == 0 {
+        return EtendueStatus::Ok;
+    }
+    refuse_null!(sampler);
+    let functions = many!(technique);
+    // SAFETY: the pointers are null, or point to what the header says
+    unsafe {
+        let Some(read) = columns(read) else { return EtendueStatus::NullPointer };
+        refuse_memory!(technique, sampler);
+        f(&functions.sampler, read).map_or(EtendueStatus::NullPointer, |()| EtendueStatus::Ok)
+    }
+}
 /// Draws a direction from a prepared light for each u: two columns.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn etendue_sample_batch(
@@ -241,18 +261,13 @@ pub unsafe extern "C" fn etendue_sample_batch(
     u: *const *const f32,
     out: *const EtendueSampleColumns,
 ) -> EtendueStatus {
-    if n == 0 {
-        return EtendueStatus::Ok;
-    }
-    refuse_null!(sampler, out);
-    let functions = many!(technique);
-    // SAFETY: the pointers are not null, and point to what the header says
+    // SAFETY: the pointers are null, or point to what the header says
     unsafe {
-        let Some(u) = columns(u) else { return EtendueStatus::NullPointer };
-        refuse_memory!(technique, sampler);
-        (functions.sampler.sample)(sampler, n, vec2(u), &(*out).columns());
+        batch(technique, sampler, n, u, |functions, u| {
+            (functions.sample)(sampler, n, vec2(u), &out.as_ref()?.columns());
+            Some(())
+        })
     }
-    EtendueStatus::Ok
 }
 /// The pdf of each unit direction: three columns.
 #[unsafe(no_mangle)]
@@ -263,18 +278,12 @@ pub unsafe extern "C" fn etendue_pdf_batch(
     w: *const *const f32,
     out: *mut f32,
 ) -> EtendueStatus {
-    if n == 0 {
-        return EtendueStatus::Ok;
-    }
-    refuse_null!(sampler, out);
-    let functions = many!(technique);
-    // SAFETY: the pointers are not null, and point to what the header says
+    // SAFETY: the pointers are null, or point to what the header says
     unsafe {
-        let Some(w) = columns(w) else { return EtendueStatus::NullPointer };
-        refuse_memory!(technique, sampler);
-        (functions.sampler.pdf)(sampler, n, vec3(w), out);
+        batch(technique, sampler, n, w, |functions, w| {
+            (!out.is_null()).then(|| (functions.pdf)(sampler, n, vec3(w), out))
+        })
     }
-    EtendueStatus::Ok
 }
 /// The random numbers of each unit direction: three columns in, two out.
 #[unsafe(no_mangle)]
@@ -285,18 +294,13 @@ pub unsafe extern "C" fn etendue_invert_batch(
     w: *const *const f32,
     u: *const *mut f32,
 ) -> EtendueStatus {
-    if n == 0 {
-        return EtendueStatus::Ok;
-    }
-    refuse_null!(sampler);
-    let functions = many!(technique);
-    // SAFETY: the pointers are not null, and point to what the header says
+    // SAFETY: the pointers are null, or point to what the header says
     unsafe {
-        let (Some(w), Some(u)) = (columns(w), outputs(u)) else { return EtendueStatus::NullPointer };
-        refuse_memory!(technique, sampler);
-        (functions.sampler.invert)(sampler, n, vec3(w), vec2(u));
+        batch(technique, sampler, n, w, |functions, w| {
+            (functions.invert)(sampler, n, vec3(w), vec2(outputs(u)?));
+            Some(())
+        })
     }
-    EtendueStatus::Ok
 }
 /// The nearest point of a prepared light in each unit direction: three columns.
 #[unsafe(no_mangle)]
@@ -307,18 +311,13 @@ pub unsafe extern "C" fn etendue_hit_batch(
     w: *const *const f32,
     out: *const EtendueSampleColumns,
 ) -> EtendueStatus {
-    if n == 0 {
-        return EtendueStatus::Ok;
-    }
-    refuse_null!(sampler, out);
-    let functions = many!(technique);
-    // SAFETY: the pointers are not null, and point to what the header says
+    // SAFETY: the pointers are null, or point to what the header says
     unsafe {
-        let Some(w) = columns(w) else { return EtendueStatus::NullPointer };
-        refuse_memory!(technique, sampler);
-        (functions.sampler.hit)(sampler, n, vec3(w), &(*out).columns());
+        batch(technique, sampler, n, w, |functions, w| {
+            (functions.hit)(sampler, n, vec3(w), &out.as_ref()?.columns());
+            Some(())
+        })
     }
-    EtendueStatus::Ok
 }
 
 /// Where the columns of a light begin in its struct, and how many there are.
