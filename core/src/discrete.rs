@@ -234,33 +234,12 @@ impl<'a> PiecewiseConstant2d<'a> {
         factor: impl Fn(usize) -> f64,
         buffer: &'a mut [f32],
     ) -> Result<Self, TableError> {
-        Self::build_by(weights, width, |_, _| 1.0, factor, buffer)
-    }
-    /// As [`build`](Self::build), with the weight in column x of row y times `factor(x, y)`, which must be finite and greater than 0.
-    ///
-    /// # Errors
-    /// As for [`build`](Self::build).
-    pub fn build_by_cells(
-        weights: &[f32],
-        width: usize,
-        factor: impl Fn(usize, usize) -> f64,
-        buffer: &'a mut [f32],
-    ) -> Result<Self, TableError> {
-        Self::build_by(weights, width, factor, |_| 1.0, buffer)
-    }
-    fn build_by(
-        weights: &[f32],
-        width: usize,
-        of_cell: impl Fn(usize, usize) -> f64,
-        of_row: impl Fn(usize) -> f64,
-        buffer: &'a mut [f32],
-    ) -> Result<Self, TableError> {
         let height = weights.len().checked_div(width).unwrap_or(0);
         if height == 0 || weights.len() != width * height || buffer.len() != Self::buffer(width, height) {
             return Err(TableError::Length);
         }
         let (rows, marginal) = buffer.split_at_mut(width * height);
-        let weight = |x: usize, y: usize| f64::from(weights[y * width + x]) * of_cell(x, y);
+        let weight = |x: usize, y: usize| f64::from(weights[y * width + x]);
         for (y, cdf) in rows.chunks_exact_mut(width).enumerate() {
             match accumulate(cdf, |x| weight(x, y)) {
                 // this row is never drawn
@@ -268,7 +247,7 @@ impl<'a> PiecewiseConstant2d<'a> {
                 other => other?,
             }
         }
-        accumulate(marginal, |y| (0..width).map(|x| weight(x, y)).sum::<f64>() * of_row(y))?;
+        accumulate(marginal, |y| (0..width).map(|x| weight(x, y)).sum::<f64>() * factor(y))?;
         Ok(Self { marginal: PiecewiseConstant1d { cdf: marginal }, rows, width })
     }
     /// Reads the table that [`build`](Self::build) left in a buffer. The contents are not validated, but no contents cause a

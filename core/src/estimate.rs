@@ -34,12 +34,6 @@ pub struct Welford<R> {
 }
 
 impl<R: Real> Welford<R> {
-    /// An accumulator that has already taken `count` samples with this mean and sum of squared deviations from it.
-    #[inline]
-    #[must_use]
-    pub const fn from_moments(count: R, mean: R, m2: R) -> Self {
-        Self { count, mean, m2 }
-    }
     /// Takes a sample.
     #[inline]
     pub fn push(&mut self, x: R) {
