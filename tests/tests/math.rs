@@ -2,6 +2,7 @@
 //! `-- --nocapture` prints the figures that the second table in `core/src/math.rs` rounds up.
 
 use etendue::math::{difference_of_products, one_minus_cos};
+use etendue::real::SAME_BITS;
 use etendue::{Real, f32x8, f64x4, f64x8};
 use etendue_oracle::tier::cases;
 use etendue_properties::checks::{self, MeasuredError};
@@ -19,7 +20,7 @@ fn sin_cos_turns() {
             unit.take((s * s + c * c - 1.0).abs(), [u.lane(k), 0.0]);
         }
     }
-    unit.assert_below(1.9e-7);
+    unit.assert_below(if SAME_BITS { 1.9e-7 } else { 2.1e-7 });
     for (u, s, c) in [(0.0, 0.0, 1.0), (0.25, 1.0, 0.0), (0.5, 0.0, -1.0), (0.75, -1.0, 0.0), (1.0, 0.0, 1.0)] {
         let (sin, cos) = Real::sin_cos_turns(u as f32);
         assert!(sin == s && cos == c, "{u}: {sin} {cos}");
@@ -91,7 +92,7 @@ fn differences() {
             difference.take((f64::from(value) - truth).abs() / ulp, [a, d]);
         }
     }
-    difference.assert_below(1.5);
+    difference.assert_below(if SAME_BITS { 1.5 } else { 1.0 });
 }
 
 #[test]

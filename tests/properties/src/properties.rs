@@ -5,7 +5,7 @@ use crate::generators::Random;
 use crate::stats;
 #[cfg(feature = "checks")]
 use crate::tolerances::SIGNIFICANCE;
-use crate::tolerances::{self, Tolerance, ULP, ULP_F64};
+use crate::tolerances::{self, ROUNDING, Tolerance, ULP, ULP_F64};
 use core::fmt::Debug;
 use etendue::light::shapes::DirectionSample;
 use etendue::{Real, Vec2, Vec3, Warp, f32x4, f32x8};
@@ -296,7 +296,7 @@ fn rounding<S: Fixture>(s: &S, ulp: f64) -> f64 {
 ///
 /// Returns the greatest error, in units of the rounding.
 pub fn closed<S: Fixture>(s: &S, u: [f32; 2]) -> f64 {
-    closed_at::<S, f32>(s, u, ULP).max(closed_at::<S, f64>(s, u, ULP_F64))
+    closed_at::<S, f32>(s, u, ROUNDING).max(closed_at::<S, f64>(s, u, ULP_F64))
 }
 fn closed_at<S: Fixture, R: Real>(s: &S, u: [f32; 2], ulp: f64) -> f64 {
     let seen = observe::<S, R>(&S::prepare::<R>(&[*s]), squares_of(&[u]))[0];
@@ -383,7 +383,7 @@ fn points_agree<S: Fixture>(s: &S, point: V3, inverse: [f64; 2], known: f64) -> 
 /// Returns the relative error in units in the last place, divided by the condition.
 pub fn pdf<S: Fixture>(s: &S, u: [f32; 2], st: [f64; 2]) -> f64 {
     // the oracles are accurate to 1e-13
-    density_at::<S, f32>(s, u, st, ULP).max(density_at::<S, f64>(s, u, st, 1e-13))
+    density_at::<S, f32>(s, u, st, ROUNDING).max(density_at::<S, f64>(s, u, st, 1e-13))
 }
 fn density_at<S: Fixture, R: Real>(s: &S, u: [f32; 2], st: [f64; 2], ulp: f64) -> f64 {
     let mut greatest = Greatest::NONE;
@@ -471,13 +471,13 @@ pub fn accurate<S: Fixture>(s: &S, u: [f32; 2]) -> f64 {
     };
     let away = |o: &Observed| s.distance(o.point, wide.point);
     let excess_of_point = excess(away(&narrow), s.tolerance().steps, &away);
-    let point = excess_of_point / rounding(s, ULP);
+    let point = excess_of_point / rounding(s, ROUNDING);
     assert!(point <= s.tolerance().point, "point: {s:?} at {u:?}: {point:e} units\n{narrow:?}\n{wide:?}");
     let (d, e) = (narrow.sighting[3], wide.sighting[3]);
     // the distance belongs to the sampled direction, and moves by as many steps
     let farther = |o: &Observed| (o.sighting[3] - e).abs();
     let excess_of_distance = excess(farther(&narrow), s.tolerance().steps.max(4.0), &farther);
-    let distance = if e > 0.0 { excess_of_distance / ((e * s.slant(wide.point) + s.reach()) * ULP) } else { 0.0 };
+    let distance = if e > 0.0 { excess_of_distance / ((e * s.slant(wide.point) + s.reach()) * ROUNDING) } else { 0.0 };
     assert!(distance <= s.tolerance().distance, "distance: {s:?} at {u:?}: {d}, f64 {e}: {distance:e} units");
     point.max(distance)
 }
@@ -501,7 +501,7 @@ pub fn within_reach<S: Fixture>(s: &S, u: [f32; 2]) -> f64 {
 /// direction.
 pub fn integral<S: Fixture>(s: &S) -> f64 {
     if s.extent()[1] > tolerances::RESOLVED * s.granularity() || s.gradient() == 0.0 {
-        integral_of::<S, f32>(s, ULP)
+        integral_of::<S, f32>(s, ROUNDING)
     } else {
         integral_of::<S, f64>(s, 1e-13)
     }

@@ -3,6 +3,7 @@
 use crate::sweep::{Extent, Figure, Found, SPARSE, on_all_processors};
 use core::f64::consts::{FRAC_PI_2, PI};
 use etendue::math::{one_minus_cos, rsqrt};
+use etendue::real::SAME_BITS;
 use etendue::{Real, f32x8, u32x8};
 
 /// The table of errors, for comparison.
@@ -119,6 +120,12 @@ fn relative(y: f32, truth: f64) -> f64 {
 fn figure(of: &'static str, documented: f64, worst: u64) -> Figure {
     Figure { of, documented, worst }
 }
+impl Figure {
+    /// Another figure in builds that round a product and a sum twice.
+    fn or_twice_rounded(self, documented: f64, worst: u64) -> Self {
+        if SAME_BITS { self } else { Self { documented, worst, ..self } }
+    }
+}
 
 fn sines_and_arcs(all: &mut String, extent: Extent) {
     let turns = |u: f64| {
@@ -128,7 +135,7 @@ fn sines_and_arcs(all: &mut String, extent: Extent) {
     };
     let domain = |u: f32| u.abs() < 2.0_f32.powi(126);
     let call = |u| <[f32x8; 2]>::from(Real::sin_cos_turns(u));
-    let figures = [figure("absolute", 8.5e-8, 0x3df7_4f0d)];
+    let figures = [figure("absolute", 8.5e-8, 0x3df7_4f0d).or_twice_rounded(8.8e-8, 0x3df3_a1c3)];
     let truth = Truth { of: turns, domain };
     check(all, extent, "Real::sin_cos_turns", figures, call, truth, |u, [s, c], [sin, cos], at, found| {
         if domain(u) {
@@ -138,7 +145,10 @@ fn sines_and_arcs(all: &mut String, extent: Extent) {
         }
     });
 
-    let figures = [figure("relative", 2.3e-7, 0x3eff_7323), figure("absolute", 4.4e-7, 0xbef6_946b)];
+    let figures = [
+        figure("relative", 2.3e-7, 0x3eff_7323).or_twice_rounded(2.2e-7, 0x3efe_73a3),
+        figure("absolute", 4.4e-7, 0xbef6_946b).or_twice_rounded(4.4e-7, 0xbef0_166b),
+    ];
     let domain = |x: f32| x.abs() < 1.0 || x == -1.0;
     let truth = Truth { of: |x: f64| [x.acos()], domain };
     check(
@@ -163,7 +173,7 @@ fn sines_and_arcs(all: &mut String, extent: Extent) {
     // differ by the sign of y, which is copied
     let one = f32x8::splat(1.0);
     let call = |v: f32x8| [Real::atan2(v, one), Real::atan2(one, v), Real::atan2(v, -one), Real::atan2(one, -v)];
-    let figures = [figure("relative", 2.1e-7, 0x3edd_381b)];
+    let figures = [figure("relative", 2.1e-7, 0x3edd_381b).or_twice_rounded(2.1e-7, 0x3edb_1e7f)];
     let domain = |v: f32| (0.0..=1.0).contains(&v) && v.is_sign_positive();
     let truth = Truth { of: |v: f64| [v.atan()], domain };
     check(all, extent, "Real::atan2", figures, call, truth, |v, y, [angle], at, found| {
@@ -182,7 +192,10 @@ fn sines_and_arcs(all: &mut String, extent: Extent) {
 
 fn roots(all: &mut String, extent: Extent) {
     let normal = |x: f32| (f32::MIN_POSITIVE..f32::INFINITY).contains(&x);
-    let figures = [figure("relative", 7.9e-8, 0x0e01_7605), figure("relative, below 2⁻¹⁰⁰", 1.1e-7, 0x00c4_dc07)];
+    let figures = [
+        figure("relative", 7.9e-8, 0x0e01_7605).or_twice_rounded(8.3e-8, 0x0e10_e0a4),
+        figure("relative, below 2⁻¹⁰⁰", 1.1e-7, 0x00c4_dc07),
+    ];
     let truth = Truth { of: |x: f64| [x.cbrt()], domain: normal };
     check(
         all,
