@@ -1,4 +1,4 @@
 //! Runs `fuzz_bodies::projected_cap` on any bytes.
 #![no_main]
 
-libfuzzer_sys::fuzz_target!(|bytes: &[u8]| etendue_properties::fuzz_bodies::projected_cap(bytes));
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| etendue_judge::fuzz_bodies::projected_cap(bytes));

@@ -1,10 +1,10 @@
 //! CIE's general sky against its formula with the standard's own list of parameters, and the sun against almanacs.
 
 use etendue::{Vec3, f32x8};
+use etendue_judge::generators::{self, Random};
+use etendue_judge::properties::{Coordinates, vectors_of};
 use etendue_oracle::tier::cases;
 use etendue_oracle::{V3, dot, gauss_legendre, length, unit};
-use etendue_properties::generators::{self, Random};
-use etendue_properties::properties::{Coordinates, vectors_of};
 use etendue_render::sky::{GeneralSky, Moment, SunPosition};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 

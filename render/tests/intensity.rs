@@ -1,10 +1,10 @@
 //! Intensity profiles and projected images against definitions in double precision, and by quadrature.
 
 use etendue::Mask;
+use etendue_judge::generators::Random;
+use etendue_judge::properties::Coordinates;
 use etendue_oracle::tier::cases;
 use etendue_oracle::{V3, unit};
-use etendue_properties::generators::Random;
-use etendue_properties::properties::Coordinates;
 use etendue_render::intensity::{Profile, ProfileError, Projector};
 use etendue_render::packet::V8;
 use std::f64::consts::{PI, TAU};

@@ -1,10 +1,10 @@
 //! Flat lights and spot lights with profiles: factors and powers by their definitions, summed in double precision.
 
 use etendue::{SpotLight, Vec3};
+use etendue_judge::generators::Random;
+use etendue_judge::properties::Coordinates;
 use etendue_oracle::tier::cases;
 use etendue_oracle::{V3, along, basis, unit};
-use etendue_properties::generators::Random;
-use etendue_properties::properties::Coordinates;
 use etendue_render::intensity::{Intensity, Profile};
 use etendue_render::light_profile::LuminousOpening;
 use etendue_render::packet::{V8, X8};

@@ -3,8 +3,8 @@
 use etendue::estimate::{Heuristic, Welford, technique_pdf};
 use etendue::sequence::{Independent, Sequence};
 use etendue::{LightSample, LightSampler, PointLight, Real, Sphere, Triangle, Vec2, Vec3, f32x4, f32x8, f32x16};
-use etendue_properties::checks::{self, EXTREMES, HEURISTICS};
-use etendue_properties::stats;
+use etendue_judge::checks::{self, EXTREMES, HEURISTICS};
+use etendue_judge::stats;
 
 #[test]
 fn weights_sum_to_one_at_every_extreme() {

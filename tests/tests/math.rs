@@ -4,9 +4,9 @@
 use etendue::math::{difference_of_products, one_minus_cos};
 use etendue::real::SAME_BITS;
 use etendue::{Real, f32x8, f64x4, f64x8};
+use etendue_judge::checks::{self, MeasuredError};
+use etendue_judge::generators::Random;
 use etendue_oracle::tier::cases;
-use etendue_properties::checks::{self, MeasuredError};
-use etendue_properties::generators::Random;
 
 /// Sine and cosine of all multiples of 2⁻²⁴ make a vector of length 1, and are exact at quarters.
 #[test]

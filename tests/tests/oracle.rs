@@ -1,10 +1,10 @@
 //! The oracles against each other: closed forms, quadrature, special values.
 
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
+use etendue_judge::generators::Random;
 use etendue_oracle::curves::{Arc, Ellipse};
 use etendue_oracle::flat::Fan;
 use etendue_oracle::*;
-use etendue_properties::generators::Random;
 
 #[test]
 fn octant_and_facing_disk() {

@@ -7,7 +7,7 @@ mod sobol;
 
 use etendue::sequence::{Independent, JointSobol, OwenSobol, Sequence, Stratified, ZOrder};
 use etendue::{Uint, Vec2, f32x4, f32x8, f32x16, f64x4, u32x4};
-use etendue_properties::generators::AlongCurve;
+use etendue_judge::generators::AlongCurve;
 
 #[test]
 fn packets_are_scalars() {

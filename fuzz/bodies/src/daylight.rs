@@ -1,9 +1,9 @@
 //! Daylight.
 
 use etendue::{Real, Vec3, f32x8};
+use etendue_judge::fuzz_bodies::Input;
+use etendue_judge::properties::vectors_of;
 use etendue_oracle::length;
-use etendue_properties::fuzz_bodies::Input;
-use etendue_properties::properties::vectors_of;
 use etendue_render::sky::{GeneralSky, Moment, SunPosition};
 use std::f64::consts::{FRAC_PI_2, TAU};
 

@@ -1,13 +1,13 @@
 //! The atlas: its truths against their own definitions, and bounds on the errors it finds in every technique.
 
 use core::f64::consts::PI;
+use etendue_judge::generators::Random;
 use etendue_laboratory::atlas::methods;
 use etendue_laboratory::atlas::pose::{Pose, Shape, ShapeKind, Sweep, sweeps};
 use etendue_laboratory::atlas::survey::{Detail, Figures, LIMIT, survey};
 use etendue_laboratory::atlas::truth::Truth;
 use etendue_oracle::tier::cases;
 use etendue_oracle::{V3, cross, dot, length, sub, wide};
-use etendue_properties::generators::Random;
 
 fn close(a: f64, b: f64, tolerance: f64, what: &str) {
     assert!((a / b - 1.0).abs() <= tolerance, "{what}: {a:e}, expected {b:e}, off by {:.1e}", a / b - 1.0);

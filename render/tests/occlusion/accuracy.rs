@@ -5,9 +5,9 @@ use super::scenes::{KINDS, Round, scene};
 use super::solids::{SOLID_KINDS, scene_with_solids};
 use super::truth::Truth;
 use etendue::{Real, f32x8};
+use etendue_judge::generators::Random;
 use etendue_oracle::Greatest;
 use etendue_oracle::tier::cases;
-use etendue_properties::generators::Random;
 
 /// Greatest errors of a regime.
 #[derive(Clone, Copy, Default)]

@@ -3,8 +3,8 @@
 use super::scene::Scene;
 use super::truth::Truth;
 use etendue::{Vec3, f32x8};
+use etendue_judge::generators::Random;
 use etendue_oracle::{Greatest, along, dot, length, narrow, sub, unit, wide};
-use etendue_properties::generators::Random;
 use etendue_render::occlusion::{COMPACT, Convex};
 
 /// What the documentation of `Occlusion::visible` states, in units of (half of the perimeter / distance)².

@@ -2,10 +2,10 @@
 
 use etendue::reflection::Reflection;
 use etendue::{Parallelogram, Real, Vec2, Vec3, Warp};
+use etendue_judge::generators::Random;
+use etendue_judge::properties::Coordinates;
 use etendue_oracle::tier::cases;
 use etendue_oracle::{V3, along, basis, cross, dot, length, narrow, sub, unit, wide};
-use etendue_properties::generators::Random;
-use etendue_properties::properties::Coordinates;
 use etendue_render::occlusion::{Convex, Occlusion};
 use std::f64::consts::{PI, TAU};
 

@@ -6,8 +6,8 @@ use super::scenes::{KINDS, Round, scene};
 use super::solids::{SOLID_KINDS, scene_with_solids};
 use super::truth::{Truth, polygon, sphere};
 use etendue::{Real, f32x8};
+use etendue_judge::generators::{NASTY, Random};
 use etendue_oracle::{Greatest, narrow};
-use etendue_properties::generators::{NASTY, Random};
 use etendue_render::occlusion::Convex;
 
 /// Scenes of all regimes, with their greatest rounding error in a lane.

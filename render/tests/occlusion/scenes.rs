@@ -3,8 +3,8 @@
 use super::scene::Scene;
 use super::truth::{polygon, sphere};
 use etendue::Vec3;
+use etendue_judge::generators::Random;
 use etendue_oracle::{V3, along, basis, cross, dot, narrow, sub, unit, wide};
-use etendue_properties::generators::Random;
 use etendue_render::occlusion::Convex;
 
 /// How shapes are placed.

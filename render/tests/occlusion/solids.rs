@@ -3,8 +3,8 @@
 use super::scene::{Scene, Solid};
 use super::scenes::{Placement, corners};
 use super::truth::{SPARED, polygon, sphere};
+use etendue_judge::generators::Random;
 use etendue_oracle::{V3, along, basis, cross, dot, narrow, sub, unit};
-use etendue_properties::generators::Random;
 
 /// How polyhedra are placed.
 #[derive(Clone, Copy, PartialEq, Debug)]

@@ -8,9 +8,9 @@ use etendue::select::{
     UniformLights,
 };
 use etendue::{Mask, Real, Uint, Warp, Warp1};
-use etendue_properties::generators::{self, Random};
-use etendue_properties::light_tree::{Lamp, Place, Regime, place};
-use etendue_properties::properties::{lanes_of, squares_of, vectors_of};
+use etendue_judge::generators::{self, Random};
+use etendue_judge::light_tree::{Lamp, Place, Regime, place};
+use etendue_judge::properties::{lanes_of, squares_of, vectors_of};
 
 fn choice<R: Real>(lanes: &mut Lanes<'_>, choice: &Choice<R>) {
     lanes.words(choice.index);

@@ -4,7 +4,7 @@ use crate::figures::{Figures, Lanes, List, Routine};
 use etendue::estimate::{Heuristic, Welford, technique_pdf};
 use etendue::math::{atan2_turns, difference_of_products, one_minus_cos, rsqrt};
 use etendue::{Frame, Real, Uint, Vec3};
-use etendue_properties::generators::{NASTY, Random};
+use etendue_judge::generators::{NASTY, Random};
 
 /// A function of five numbers.
 struct Function<F>(Domain, F);

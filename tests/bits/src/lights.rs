@@ -6,9 +6,9 @@ use etendue::{
     ConstantEnvironment, DirectionalLight, Disk, LightSample, LightSampler, Parallelogram, PointLight, Real, Rectangle,
     SpotLight, Sun,
 };
-use etendue_properties::generators::{self, Random};
-use etendue_properties::properties::{lanes_of, squares_of, vectors_of};
-use etendue_properties::techniques::{AreaLight, LightFixture};
+use etendue_judge::generators::{self, Random};
+use etendue_judge::properties::{lanes_of, squares_of, vectors_of};
+use etendue_judge::techniques::{AreaLight, LightFixture};
 
 const SLOTS: usize = 50 * Figures::MOST;
 

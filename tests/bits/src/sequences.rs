@@ -3,7 +3,7 @@
 use crate::figures::{Figures, List, Routine};
 use etendue::sequence::{CounterRng, Independent, JointSobol, OwenSobol, Sequence, Stratified, ZOrder};
 use etendue::{Real, Uint};
-use etendue_properties::generators::{AlongCurve, Random};
+use etendue_judge::generators::{AlongCurve, Random};
 use rand_core::{Rng, SeedableRng};
 
 /// A sequence for each number of samples, and its dimensions.

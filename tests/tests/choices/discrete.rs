@@ -2,8 +2,8 @@
 
 use etendue::discrete::{AliasTable, PiecewiseConstant1d, PiecewiseConstant2d, TableError};
 use etendue::{Real, Uint, Vec2, Warp, Warp1, f32x4, f32x8, f32x16, u32x4, u32x8};
+use etendue_judge::generators::Random;
 use etendue_oracle::tier::cases;
-use etendue_properties::generators::Random;
 
 const STEPS: u32 = 1 << 24;
 fn step(i: u32) -> f32 {

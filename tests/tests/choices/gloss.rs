@@ -4,11 +4,11 @@ use core::f64::consts::{PI, TAU};
 use etendue::reflection::Reflection;
 use etendue::select::{FEW, Gloss, LightBound, LightChoice, SpatialLights};
 use etendue::{Mask, Real, Uint, Vec3, f32x8};
+use etendue_judge::generators::Random;
+use etendue_judge::light_tree::{Grove, Regime, place};
+use etendue_judge::properties::{lanes_of, vectors_of};
 use etendue_oracle::tier::cases;
 use etendue_oracle::{V3, along, basis, dot, length, narrow, sub, unit, wide};
-use etendue_properties::generators::Random;
-use etendue_properties::light_tree::{Grove, Regime, place};
-use etendue_properties::properties::{lanes_of, vectors_of};
 
 /// A surface with a diffuse part and a rough one.
 #[derive(Clone, Copy, Debug)]

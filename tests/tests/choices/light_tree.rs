@@ -3,11 +3,11 @@
 use etendue::discrete::TableError;
 use etendue::select::{Choice, Join, LightBound, LightChoice, LightTree, NO_LIGHT, Node8, TreeWords};
 use etendue::{Real, Uint, Vec3, f32x8, u32x8};
+use etendue_judge::generators::{EDGES, NASTY, Random};
+use etendue_judge::light_tree::{Grove, Lamp, Place, Reached, Regime, figures, place};
+use etendue_judge::stats;
+use etendue_judge::tolerances::SIGNIFICANCE;
 use etendue_oracle::tier::cases;
-use etendue_properties::generators::{EDGES, NASTY, Random};
-use etendue_properties::light_tree::{Grove, Lamp, Place, Reached, Regime, figures, place};
-use etendue_properties::stats;
-use etendue_properties::tolerances::SIGNIFICANCE;
 
 const COUNTS: [usize; 9] = [1, 2, 7, 8, 9, 63, 64, 65, 1000];
 

@@ -4,9 +4,9 @@ use etendue::discrete::TableError;
 use etendue::select::{Allocation, Choice, FEW, LightBound, LightChoice, PowerLights, SpatialLights, UniformLights};
 use etendue::sequence::{Independent, Sequence};
 use etendue::{Mask, Real, Uint, Vec2, f32x4, f32x8, u32x8};
+use etendue_judge::stats;
+use etendue_judge::tolerances::SIGNIFICANCE;
 use etendue_oracle::{dot, length, sub};
-use etendue_properties::stats;
-use etendue_properties::tolerances::SIGNIFICANCE;
 
 /// Frequencies are the pmf, the pmf sums to 1, the number left is uniform, and widths agree.
 fn check(

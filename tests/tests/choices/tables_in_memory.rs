@@ -3,8 +3,8 @@
 use etendue::discrete::{AliasTable, AliasWords, PiecewiseConstant1d, Words1d};
 use etendue::light::{EnvironmentMap, EnvironmentWords, ImageEnvironment, Picture, PictureWords, Region};
 use etendue::{LightSampler, Parallelogram, Real, Uint, Vec2, Vec3, f32x8, u32x8};
+use etendue_judge::generators::Random;
 use etendue_oracle::tier::cases;
-use etendue_properties::generators::Random;
 
 /// A table for each lane: its words, where they begin, and its size.
 struct Lanes {

@@ -5,13 +5,13 @@ use etendue::{
     BilinearPatch, ConstantEnvironment, DirectionalLight, Disk, LightSample, LightSampler, Line, Parallelogram,
     PointLight, Polygon, Rectangle, Sphere, SpotLight, Sun, Triangle, Vec2, Vec3,
 };
+use etendue_judge::generators::Random;
+use etendue_judge::properties::Coordinates;
 use etendue_oracle::tier::cases;
 use etendue_oracle::{
     V3, along, basis, cross, dot, facing_disk, gauss_legendre, length, narrow, perpendicular_disk, projected_polygon,
     sub, unit,
 };
-use etendue_properties::generators::Random;
-use etendue_properties::properties::Coordinates;
 
 /// Mean of f over an n × n grid of `u`.
 fn mean(n: usize, f: impl Fn(Vec2<f64>) -> f64) -> f64 {

@@ -1,9 +1,9 @@
 //! Lights that are mostly below the horizon, by projected solid angle: no sample is lost below it.
 
 use etendue::{Lanewise, LightSampler, Line, Parallelogram, Polygon, Real, Sphere, Triangle, Vec3, f32x8};
+use etendue_judge::generators::Random;
+use etendue_judge::properties::squares_of;
 use etendue_oracle::{along, basis, narrow};
-use etendue_properties::generators::Random;
-use etendue_properties::properties::squares_of;
 
 /// Of 3 million samples, as many as 1,300 were below the horizon by rounding, and had pdf 0.
 #[test]

@@ -4,12 +4,12 @@ use core::f64::consts::{PI, TAU};
 use etendue::discrete::TableError;
 use etendue::light::{EnvironmentMap, ImageEnvironment};
 use etendue::{Mask, Real, Uint, Vec2, Vec3, Warp, f32x4, f32x8, f32x16};
+use etendue_judge::generators::{self, Random};
+use etendue_judge::properties::{Coordinates, squares_of, twice, vectors_of};
+use etendue_judge::stats;
+use etendue_judge::tolerances::{SIGNIFICANCE, ULP};
 use etendue_oracle::tier::cases;
 use etendue_oracle::{V3, length, sub};
-use etendue_properties::generators::{self, Random};
-use etendue_properties::properties::{Coordinates, squares_of, twice, vectors_of};
-use etendue_properties::stats;
-use etendue_properties::tolerances::{SIGNIFICANCE, ULP};
 
 use EnvironmentMap::{EqualArea, Equirectangular};
 const MAPS: [EnvironmentMap; 2] = [EqualArea, Equirectangular];

@@ -3,12 +3,12 @@
 use core::f64::consts::PI;
 use etendue::estimate::Welford;
 use etendue::{LightSample, LightSampler, Mask, Parallelogram, Real, Sphere, Triangle, Vec2, Vec3, f32x8};
+use etendue_judge::generators::Random;
+use etendue_judge::properties::Coordinates;
+use etendue_judge::stats;
+use etendue_judge::tolerances::{GRID, GRID_AREA, ULP};
 use etendue_oracle::tier::cases;
 use etendue_oracle::{V3, along, cross, dot, length, projected_cap, projected_polygon, sub, unit, wide};
-use etendue_properties::generators::Random;
-use etendue_properties::properties::Coordinates;
-use etendue_properties::stats;
-use etendue_properties::tolerances::{GRID, GRID_AREA, ULP};
 
 /// Mean over the midpoints of a 1024 × 1024 grid: accurate to 1/12n² where the integrand is smooth, to n^(−3/2) across kinks.
 fn mean(n: V3, sample: impl Fn(Vec2<f32x8>) -> LightSample<f32x8>) -> f64 {

@@ -1,9 +1,9 @@
 //! What a host gets wrong at first, as the documentation of `LightSampler` says it.
 
 use etendue::{Disk, LightSampler, Parallelogram, Polygon, Rectangle, Sphere, Triangle, Vec2, Vec3};
+use etendue_judge::generators::Random;
+use etendue_judge::properties::Coordinates;
 use etendue_oracle::{length, sub, unit};
-use etendue_properties::generators::Random;
-use etendue_properties::properties::Coordinates;
 
 type V = Vec3<f32>;
 

@@ -1,10 +1,10 @@
 //! Bilinear patches: what a ray meets is what was sampled, of flat ones along the axes, too, where one of two roots does not exist.
 
 use etendue::{BilinearPatch, LightSampler, Vec2};
+use etendue_judge::generators::Random;
+use etendue_judge::techniques::{self, AreaLight, LightShape, Measure};
 use etendue_oracle::tier::cases;
 use etendue_oracle::{V3, along, cross, dot, length, narrow, sub, unit, wide};
-use etendue_properties::generators::Random;
-use etendue_properties::techniques::{self, AreaLight, LightShape, Measure};
 
 /// Corner, and from there both edges and the opposite corner.
 type Corners = [[f32; 3]; 4];

@@ -7,12 +7,12 @@ use core::f64::consts::PI;
 use etendue::discrete::TableError;
 use etendue::light::{Picture, Region};
 use etendue::{LightSample, Mask, Real, Uint, Vec2, Vec3, f32x4, f32x8, f32x16};
+use etendue_judge::generators::{self, Random};
+use etendue_judge::properties::{Coordinates, squares_of, twice, vectors_of};
+use etendue_judge::stats;
+use etendue_judge::tolerances::SIGNIFICANCE;
 use etendue_oracle::tier::cases;
 use etendue_oracle::{V3, dot, sub};
-use etendue_properties::generators::{self, Random};
-use etendue_properties::properties::{Coordinates, squares_of, twice, vectors_of};
-use etendue_properties::stats;
-use etendue_properties::tolerances::SIGNIFICANCE;
 use lights::{Ball, By, LIGHTS, Light, POINTS, Patch, Sampler, normal, vector};
 
 struct Image {

@@ -1,12 +1,12 @@
 //! Polygons as lights: irradiance against Lambert's formula, coincident corners, lanes, arbitrary bits.
 
 use etendue::{LightSample, LightSampler, Parallelogram, Polygon, Vec2, Vec3};
+use etendue_judge::generators::Random;
+use etendue_judge::properties::Coordinates;
 use etendue_oracle::tier::is_long;
 use etendue_oracle::{
     V3, above_horizon, along, basis, cross, dd, dot, exact_sum, lambert, projected_polygon, triangle_solid_angle, unit,
 };
-use etendue_properties::generators::Random;
-use etendue_properties::properties::Coordinates;
 
 fn mean(n: usize, f: impl Fn(Vec2<f64>) -> f64) -> f64 {
     let at = |i: usize| (i as f64 + 0.5) / n as f64;

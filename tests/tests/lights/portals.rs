@@ -8,12 +8,12 @@ use etendue::light::{
     EnvironmentMap, ImageEnvironment, MOST_PORTALS, Portal, PortalEnvironment, PortalMap, PortalTable,
 };
 use etendue::{LightSampler, Mask, Real, Vec2, Vec3, Warp, f32x4, f32x8, f32x16};
+use etendue_judge::generators::{self, Random};
+use etendue_judge::properties::{Coordinates, squares_of, twice, vectors_of};
+use etendue_judge::stats;
+use etendue_judge::tolerances::SIGNIFICANCE;
 use etendue_oracle::tier::cases;
 use etendue_oracle::{V3, cross, dot, length, sub, wide};
-use etendue_properties::generators::{self, Random};
-use etendue_properties::properties::{Coordinates, squares_of, twice, vectors_of};
-use etendue_properties::stats;
-use etendue_properties::tolerances::SIGNIFICANCE;
 use openings::{Opening, add, portals_of, scale, scenes, with};
 
 fn narrow(p: V3) -> Vec3<f32> {

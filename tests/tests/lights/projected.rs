@@ -4,12 +4,12 @@
 use core::f64::consts::PI;
 use etendue::light::shapes::{ProjectedCap, ProjectedSegment, ProjectedTriangle};
 use etendue::{LightSample, LightSampler, Mask, Parallelogram, Real, Sphere, Triangle, Vec2, Vec3, Warp, f32x8};
+use etendue_judge::generators::{self, Random};
+use etendue_judge::properties::Fixture;
+use etendue_judge::tolerances::{PROJECTED_POLYGON, ULP};
 use etendue_oracle::{
     V3, above_horizon, along, basis, cross, dd, dot, exact_sum, lambert, length, narrow, projected_cap, unit, wide,
 };
-use etendue_properties::generators::{self, Random};
-use etendue_properties::properties::Fixture;
-use etendue_properties::tolerances::{PROJECTED_POLYGON, ULP};
 
 /// Bound on the relative variance; that of a rounded quotient is 1e−14.
 const VARIANCE: f64 = 1e-10;

@@ -2,10 +2,10 @@
 
 use etendue::reflection::Reflection;
 use etendue::{Lanewise, LightSampler, Mask, Parallelogram, Real, Rectangle, Sphere, Triangle, Vec2, Vec3, f32x8};
+use etendue_judge::generators::Random;
+use etendue_judge::properties::{Coordinates, squares_of};
+use etendue_judge::techniques::{self, AreaLight, LightFixture, LightShape, Measure};
 use etendue_oracle::{V3, cross, dot, length, sub, unit, wide};
-use etendue_properties::generators::Random;
-use etendue_properties::properties::{Coordinates, squares_of};
-use etendue_properties::techniques::{self, AreaLight, LightFixture, LightShape, Measure};
 
 /// Clearly out of its plane, or not flat, so that the shape is known to more than rounding.
 fn clear(light: &AreaLight) -> bool {

@@ -3,11 +3,11 @@
 use core::f64::consts::{PI, TAU};
 use etendue::light::Spread;
 use etendue::{Disk, LightSampler, Parallelogram, Real, Rectangle, Vec2, Vec3};
+use etendue_judge::generators::Random;
+use etendue_judge::properties::Coordinates;
+use etendue_judge::tolerances::ULP;
 use etendue_oracle::tier::cases;
 use etendue_oracle::{V3, along, basis, cross, dot, length, narrow, sub, unit, wide};
-use etendue_properties::generators::Random;
-use etendue_properties::properties::Coordinates;
-use etendue_properties::tolerances::ULP;
 
 fn vector<R: Real>(v: V3) -> Vec3<R> {
     Coordinates::gather(&[v])

@@ -9,7 +9,7 @@ use etendue::light::shapes::SphericalCap;
 use etendue::sequence::{Independent, Sequence};
 use etendue::warp::{UniformHemisphere, Warp};
 use etendue::{LightSample, LightSampler, Real, Sphere, Vec2, Vec3, f32x8, u32x8};
-use etendue_properties::stats;
+use etendue_judge::stats;
 
 const BATCHES: u32 = 64;
 const PACKETS: u32 = 2048;

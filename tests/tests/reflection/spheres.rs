@@ -5,10 +5,10 @@ use core::f64::consts::TAU;
 use etendue::light::SphereByReflection;
 use etendue::reflection::Reflection;
 use etendue::{LightSampler, Real, Sphere, Vec2, Vec3, Warp};
+use etendue_judge::generators::Random;
+use etendue_judge::properties::Coordinates;
 use etendue_oracle::tier::cases;
 use etendue_oracle::{V3, along, basis, cross, dot, length, narrow, sub, wide};
-use etendue_properties::generators::Random;
-use etendue_properties::properties::Coordinates;
 
 /// A surface, and a sphere of an angular radius about what it reflects, anywhere, or on the horizon.
 #[derive(Clone, Copy, Debug)]

@@ -54,7 +54,7 @@ fn measured<const PAIRS: usize>(sequence: &impl Sequence, n: u32, f: impl Fn([f6
     let squares: Vec<f64> = (0..replicates())
         .map(|pixel| ((0..n).map(|i| f(point(sequence, pixel, i))).sum::<f64>() / f64::from(n)).powi(2))
         .collect();
-    let (mean, variance) = etendue_properties::stats::mean_variance(&squares);
+    let (mean, variance) = etendue_judge::stats::mean_variance(&squares);
     [mean, (variance / f64::from(replicates())).sqrt()]
 }
 

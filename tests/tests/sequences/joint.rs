@@ -2,8 +2,8 @@
 
 use etendue::Vec2;
 use etendue::sequence::{Independent, JointSobol, OwenSobol, Sequence};
-use etendue_properties::stats;
-use etendue_properties::tolerances::SIGNIFICANCE;
+use etendue_judge::stats;
+use etendue_judge::tolerances::SIGNIFICANCE;
 
 fn point(sequence: &impl Sequence, pixel: u32, sample: u32) -> [f64; 8] {
     let mut all = [0.0; 8];

@@ -2,9 +2,9 @@
 
 use etendue::Vec2;
 use etendue::sequence::{CounterRng, Independent, Sequence, Stratified};
+use etendue_judge::stats;
+use etendue_judge::tolerances::SIGNIFICANCE;
 use etendue_oracle::tier::cases;
-use etendue_properties::stats;
-use etendue_properties::tolerances::SIGNIFICANCE;
 
 /// A name, and a function of a counter.
 type Counted<'a, T> = (&'a str, &'a dyn Fn(u32) -> T);

@@ -2,10 +2,10 @@
 
 use etendue::sequence::{Independent, OwenSobol, Sequence, Stratified, ZOrder, ZOrderIndex};
 use etendue::{Real, Uint, Vec2, u32x4};
+use etendue_judge::generators::AlongCurve;
+use etendue_judge::stats;
+use etendue_judge::tolerances::SIGNIFICANCE;
 use etendue_oracle::tier::cases;
-use etendue_properties::generators::AlongCurve;
-use etendue_properties::stats;
-use etendue_properties::tolerances::SIGNIFICANCE;
 
 /// The position of a pixel along the Z-order curve.
 fn position(x: u32, y: u32) -> u32 {

@@ -170,8 +170,8 @@ fn cycle(imports: &Graph) -> Option<Vec<String>> {
 
 /// Imports that close a cycle: folder, module, what it imports, and why.
 const EXCEPTIONS: [(&str, &str, &str, &str); 2] = [
-    ("tests/properties", "fixtures", "generators", "`Random` is in generators.rs, beside the shapes that it generates"),
-    ("tests/properties", "properties", "generators", "the same"),
+    ("tests/judge", "fixtures", "generators", "`Random` is in generators.rs, beside the shapes that it generates"),
+    ("tests/judge", "properties", "generators", "the same"),
 ];
 
 /// The packages, and whether the files inside of their folders must import one way, too. In the core and the properties, the file of a
@@ -189,7 +189,7 @@ const PACKAGES: [(&str, bool); 14] = [
     ("tests/bits", true),
     ("tests/fit", true),
     ("tests/oracle", true),
-    ("tests/properties", false),
+    ("tests/judge", false),
     ("benches/routines", true),
 ];
 
@@ -249,7 +249,7 @@ fn imports_are_found() {
         ("render/laboratory", "render/laboratory::atlas", "survey", "truth"),
         ("render/cli", "render/cli", "render", "output"),
         ("tests/oracle", "tests/oracle", "flat", "quadrature"),
-        ("tests/properties", "tests/properties", "suite", "properties"),
+        ("tests/judge", "tests/judge", "suite", "properties"),
         ("benches/routines", "benches/routines", "rays", "baseline"),
     ] {
         assert!(levels(package)[level][from].contains(to), "{level}: {from} → {to}");
@@ -276,26 +276,26 @@ const ARROWS: [(&str, &[&str], &[&str]); 21] = [
     ("core/c", &["etendue", "etendue-batch"], &[]),
     ("core/playground", &["etendue"], &["etendue-oracle"]),
     ("core/python", &["etendue", "etendue-batch"], &[]),
-    ("core/shader", &["etendue"], &["etendue-oracle", "etendue-properties"]),
+    ("core/shader", &["etendue"], &["etendue-oracle", "etendue-judge"]),
     ("core/shader/device", &[], &[]),
-    ("render", &["etendue"], &["etendue-oracle", "etendue-properties", "etendue-scene"]),
+    ("render", &["etendue"], &["etendue-oracle", "etendue-judge", "etendue-scene"]),
     ("render/scene", &["etendue", "etendue-render"], &["etendue-oracle"]),
-    ("render/laboratory", &["etendue", "etendue-oracle", "etendue-render", "etendue-scene"], &["etendue-properties"]),
+    ("render/laboratory", &["etendue", "etendue-oracle", "etendue-render", "etendue-scene"], &["etendue-judge"]),
     ("render/cli", &["etendue-laboratory", "etendue-render", "etendue-scene"], &["etendue-oracle"]),
-    ("tests/bits", &["etendue", "etendue-properties"], &[]),
+    ("tests/bits", &["etendue", "etendue-judge"], &[]),
     ("tests/fit", &[], &[]),
     ("tests/oracle", &[], &[]),
     ("tests/proof", &["etendue", "etendue-oracle"], &[]),
-    ("tests/properties", &["etendue", "etendue-oracle"], &[]),
-    ("tests", &[], &["etendue", "etendue-bits", "etendue-oracle", "etendue-properties"]),
+    ("tests/judge", &["etendue", "etendue-oracle"], &[]),
+    ("tests", &[], &["etendue", "etendue-bits", "etendue-oracle", "etendue-judge"]),
     ("benches/routines", &["etendue", "etendue-render", "etendue-scene"], &[]),
     ("benches", &[], &["etendue", "etendue-laboratory", "etendue-render", "etendue-routines", "etendue-scene"]),
     (
         "fuzz/bodies",
-        &["etendue", "etendue-c", "etendue-oracle", "etendue-properties", "etendue-render", "etendue-scene"],
+        &["etendue", "etendue-c", "etendue-oracle", "etendue-judge", "etendue-render", "etendue-scene"],
         &[],
     ),
-    ("fuzz", &["etendue-fuzz-bodies", "etendue-properties"], &[]),
+    ("fuzz", &["etendue-fuzz-bodies", "etendue-judge"], &[]),
 ];
 
 /// The sections of a manifest, each with its name and lines.

@@ -3,13 +3,13 @@
 
 use etendue::Real;
 use etendue::estimate::Heuristic;
-use etendue_properties::fixtures::{Cap, ConcentricDisk, Cone, CosineHemisphere, Triangle};
-use etendue_properties::generators::{self, Case};
-use etendue_properties::mutants::{
+use etendue_judge::fixtures::{Cap, ConcentricDisk, Cone, CosineHemisphere, Triangle};
+use etendue_judge::generators::{self, Case};
+use etendue_judge::mutants::{
     AreaBetweenThresholds, ConeOverflow, CosineWarp, Defect, DroppedGrazing, ExcessInSample, FlatCentre,
     NonZeroOffTheCone, PaddedDisk, SelfClampingBarycentrics, Sound, SoundDisk, UnguardedCap, UnitsInTheSwitch, plant,
 };
-use etendue_properties::{checks, suite, techniques};
+use etendue_judge::{checks, suite, techniques};
 
 /// The properties that detected a defect, each with its regimes; empty if none did.
 type Noticed = Vec<(String, String)>;

@@ -1,15 +1,15 @@
 //! Every property of every warp in every regime. `-- --nocapture` prints the greatest figure of each (warp, regime, property).
 
-use etendue_oracle::tier::{cases, is_long};
-use etendue_properties::fixtures::{
+use etendue_judge::fixtures::{
     AreaTriangle, Bilinear, Cap, ConcentricDisk, Cone, CosineHemisphere, Disk, GgxVisibleNormals, Hexagon, Linear,
     LowDistortionTriangle, Octahedral, Parallelogram, PatchSurface, PolarDisk, ProjectedCap, ProjectedParallelogram,
     ProjectedPentagon, ProjectedSegment, ProjectedTriangle, Rectangle, Segment, Tent, Triangle, UniformHemisphere,
     UniformSphere, nearest_hit,
 };
-use etendue_properties::generators::{self, Case, Random};
-use etendue_properties::properties::{self, Fixture};
-use etendue_properties::suite;
+use etendue_judge::generators::{self, Case, Random};
+use etendue_judge::properties::{self, Fixture};
+use etendue_judge::suite;
+use etendue_oracle::tier::{cases, is_long};
 use std::collections::BTreeSet;
 
 /// Properties that say nothing of a warp: it has no lengths, or its points scale with them, or nothing is outside of its shape.

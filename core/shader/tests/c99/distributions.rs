@@ -5,8 +5,8 @@ use crate::program::Driver;
 use crate::tables::{Memory, halves, module};
 use etendue::Vec2;
 use etendue::discrete::{AliasTable, PiecewiseConstant1d, PiecewiseConstant2d};
+use etendue_judge::generators::{Random, unit_or_edge};
 use etendue_oracle::tier::cases;
-use etendue_properties::generators::{Random, unit_or_edge};
 use etendue_shader::*;
 
 fn weights(count: usize, random: &mut Random) -> Vec<f32> {

@@ -4,9 +4,9 @@ use crate::driver::{HOSTILE, slots};
 use crate::program::Driver;
 use etendue::reflection::Reflection;
 use etendue::{LightSample, LightSampler, Real, Vec2, Vec3};
+use etendue_judge::generators::{Random, nasty, unit_or_edge};
+use etendue_judge::techniques::AreaLight;
 use etendue_oracle::tier::{cases, is_long};
-use etendue_properties::generators::{Random, nasty, unit_or_edge};
-use etendue_properties::techniques::AreaLight;
 use etendue_shader::*;
 
 pub(crate) fn vec3(x: &[f32]) -> Vec3<f32> {

@@ -5,7 +5,7 @@ use crate::program::Driver;
 use etendue::memory::Memory;
 use etendue::real::State;
 use etendue::{Mask, Real, Uint};
-use etendue_properties::generators::Random;
+use etendue_judge::generators::Random;
 use etendue_shader::*;
 
 /// The memory that functions read. A slice reads 0 past the end, and a source the last word: here they are the same.

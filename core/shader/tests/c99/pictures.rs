@@ -6,9 +6,9 @@ use crate::program::Driver;
 use crate::tables::{Memory, module};
 use etendue::light::{Picture, PictureSample, Region};
 use etendue::{Disk, LightSample, LightSampler, Parallelogram, Triangle, Vec2, Vec3};
+use etendue_judge::generators::{Random, nasty, unit_or_edge};
+use etendue_judge::techniques::{AreaLight, LightShape};
 use etendue_oracle::tier::{cases, is_long};
-use etendue_properties::generators::{Random, nasty, unit_or_edge};
-use etendue_properties::techniques::{AreaLight, LightShape};
 use etendue_shader::*;
 
 /// A picture in the memory of Rust, and where it is in that of a source.

@@ -7,9 +7,9 @@ use etendue::light::{EnvironmentMap, EnvironmentSample, ImageEnvironment};
 use etendue::reflection::{Reflection, table};
 use etendue::select::{Choice, LightBound, LightChoice, LightTree, NO_LIGHT, Node8};
 use etendue::{LightSampler, Vec2, Vec3};
+use etendue_judge::generators::{Random, unit_or_edge};
+use etendue_judge::light_tree::{Lamp, Regime, place};
 use etendue_oracle::tier::cases;
-use etendue_properties::generators::{Random, unit_or_edge};
-use etendue_properties::light_tree::{Lamp, Regime, place};
 use etendue_shader::*;
 
 pub(crate) fn module(name: &str) -> Module {

@@ -6,8 +6,8 @@ use etendue::estimate::{Heuristic, technique_pdf};
 use etendue::light::{PortalMap, Spread};
 use etendue::sequence::{Independent, OwenSobol, Sequence};
 use etendue::{LightSample, Vec2, Vec3};
+use etendue_judge::generators::Random;
 use etendue_oracle::tier::cases;
-use etendue_properties::generators::Random;
 use etendue_shader::*;
 
 /// A tool of Rust in scalars: words come as the bits of numbers, and truth values as 0 and 1.

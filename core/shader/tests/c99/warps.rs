@@ -2,8 +2,8 @@
 
 use crate::driver::{HOSTILE, slots};
 use crate::program::Driver;
+use etendue_judge::generators::{Random, unit_or_edge};
 use etendue_oracle::tier::cases;
-use etendue_properties::generators::{Random, unit_or_edge};
 use etendue_shader::*;
 
 /// Compares one warp after another.

@@ -3,10 +3,10 @@
 use crate::lights::pictures::lights::{Ball, By, LIGHTS, POINTS, Patch, normal, vector};
 use etendue::Vec2;
 use etendue::light::{Picture, Region, mean_of_bilinear};
+use etendue_judge::generators::Random;
+use etendue_judge::properties::Coordinates;
 use etendue_oracle::tier::cases;
 use etendue_oracle::{V3, dot};
-use etendue_properties::generators::Random;
-use etendue_properties::properties::Coordinates;
 
 /// What interpolation makes of values at the centres of texels, continued by the outermost ones.
 fn interpolation(values: &[f32], [w, h]: [usize; 2], [u, v]: [f64; 2]) -> f64 {

@@ -2,8 +2,8 @@
 
 use core::f64::consts::PI;
 use etendue::light::{Portal, PortalEnvironment, PortalTable};
+use etendue_judge::generators::Random;
 use etendue_oracle::{V3, cross, dot, length, sub, wide};
-use etendue_properties::generators::Random;
 
 /// A parallelogram with the texels of its map.
 #[derive(Clone)]
