@@ -22,6 +22,8 @@ pub mod generators;
 #[cfg_attr(not(feature = "checks"), allow(dead_code, unused_imports, reason = "only its lamps remain"))]
 pub mod light_tree;
 #[cfg(feature = "checks")]
+pub mod lights;
+#[cfg(feature = "checks")]
 pub mod mutants;
 pub mod properties;
 #[cfg(feature = "checks")]

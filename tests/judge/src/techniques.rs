@@ -217,6 +217,8 @@ pub enum Measure {
     CosineWarp,
     /// One direction.
     Delta,
+    /// Anything else.
+    Other,
 }
 
 /// Any light with a surface.

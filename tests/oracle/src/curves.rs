@@ -87,6 +87,43 @@ impl Ellipse {
     }
 }
 
+impl Ellipse {
+    /// How far a direction is outside of the cone, in radians, to first order; negative inside.
+    #[must_use]
+    pub fn beyond(&self, w: V3) -> f64 {
+        let [x, y, z] = self.axes.map(|axis| crate::vectors::dot(axis, w));
+        if z <= 0.0 {
+            return FRAC_PI_2;
+        }
+        let tangents = [0, 1].map(|k| self.sines[k] / self.cosines[k]);
+        let (x, y) = (x / z / tangents[0], y / z / tangents[1]);
+        let (outside, slope) = (x * x + y * y - 1.0, 2.0 * (x / tangents[0]).hypot(y / tangents[1]));
+        // tangents grow faster than angles
+        outside / slope.max(1e-300) * z * z
+    }
+    /// The inverse of [`at`](Self::at) for a direction within the cone.
+    #[must_use]
+    pub fn place(&self, w: V3) -> [f64; 2] {
+        let [x, y, z] = self.axes.map(|axis| crate::vectors::dot(axis, w));
+        let chi = (x.abs() / self.sines[0]).atan2(y.abs() / self.sines[1]);
+        let (s, c) = chi.sin_cos();
+        let (a, b) = (self.sines[0] * s, self.sines[1] * c);
+        // 1−cosθ, without cancellation
+        let k = (x * x + y * y) / (1.0 + z);
+        let last = self.panels[self.panels.len() - 1][1];
+        let i = self.panels.iter().position(|p| p[0] >= chi).unwrap_or(self.panels.len() - 1).max(1);
+        let [low, before] = self.panels[i - 1];
+        let part = (before + integral(&self.nodes, low, chi, |chi| 1.0 / (1.0 + self.rim(chi)))) / last;
+        let u0 = match (x >= 0.0, y >= 0.0) {
+            (true, true) => part,
+            (true, false) => 2.0 - part,
+            (false, false) => 2.0 + part,
+            (false, true) => 4.0 - part,
+        };
+        [0.25 * u0, k * (1.0 + self.rim(chi)) / (a * a + b * b)]
+    }
+}
+
 /// One end of an [`Arc`]: its direction, the tangent towards the other end, and sinγ and cosθ there with their derivatives by the angle.
 #[derive(Clone, Debug)]
 struct End {

@@ -1,0 +1,439 @@
+//! The figures of a sampler at a place, each with its limit.
+
+use super::definition::{Chart, Definition, SIDE, middles};
+use super::observe::{Answers, CORNERS, Questions, SETS, SLOPES, STEP, direction};
+use super::sampler::Sample;
+use crate::stats;
+use crate::techniques::Measure;
+use etendue_oracle::{V3, along, cross, dot, length, sub, unit, wide};
+use serde::{Deserialize, Serialize};
+
+/// What is measured. Values are relative errors, unless said.
+#[derive(Deserialize, Serialize, Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Figure {
+    /// Number of answers that are no numbers, negative densities, no unit vectors or no points of the unit square.
+    Nonsense,
+    /// Part of the draws without a sample, where all of them are.
+    Dark,
+    /// Angle by which a direction is outside of the light, over the light's width.
+    Outside,
+    /// Error of a sample's pdf.
+    Density,
+    /// Difference between the pdf of a sample and that of its direction.
+    TwoPdfs,
+    /// Part of the directions outside of the light with a positive pdf.
+    Stray,
+    /// ∫ pdf less the part of the draws that are samples.
+    Integral,
+    /// χ² of the samples over cells against their pdf: 1 less the p-value's logarithm over that of the least allowed one.
+    Frequencies,
+    /// Error of the mean place of the samples, over the light's width.
+    Placement,
+    /// Error of the area that the map gives to a part of the square.
+    Jacobian,
+    /// Angle between a sample and the sample of its inverse, over the light's size.
+    Inverse,
+    /// Error of the distance of the light.
+    Hit,
+    /// Bias of the irradiance.
+    Bias,
+    /// Bias of the irradiance with multiple importance sampling.
+    MisBias,
+    /// The sampler did not answer: it panicked, crashed or did not end.
+    Answer,
+}
+impl Figure {
+    /// What a finding says, before where it is.
+    #[must_use]
+    pub fn said(self, value: f64) -> String {
+        let part = if value < 1e-3 { format!("{:.2} %", value * 100.0) } else { format!("{:.1} %", value * 100.0) };
+        let part = if value > 10.0 { format!("a factor of {value:.0}") } else { part };
+        match self {
+            Self::Nonsense => format!("{value} answers are no numbers, negative, or no unit vectors"),
+            Self::Dark => "no light is drawn although some is seen".into(),
+            Self::Outside => format!("directions miss the light by up to {part} of its width"),
+            Self::Density => format!("the pdf of samples is wrong by up to {part}"),
+            Self::TwoPdfs => format!("the pdf of a sample and of its direction differ by up to {part}"),
+            Self::Stray => "the pdf is not 0 outside of the light".into(),
+            Self::Integral => format!("the pdf does not integrate to 1: it is off by {part}"),
+            Self::Frequencies => "samples are not distributed as their pdf says".into(),
+            Self::Placement => format!("samples are shifted by {part} of the light's width"),
+            Self::Jacobian => format!("parts of the square map to areas that are wrong by {part}"),
+            Self::Inverse => format!("the inverse is off by up to {part} of the light's size"),
+            Self::Hit => format!("the distance is wrong by up to {part}"),
+            Self::Bias => format!("irradiance is biased by {part}"),
+            Self::MisBias => format!("irradiance is biased by {part} under MIS"),
+            Self::Answer => "the sampler does not answer".into(),
+        }
+    }
+}
+
+/// A figure at a place.
+#[derive(Deserialize, Serialize, Clone, Debug)]
+pub struct Measured {
+    /// What was measured.
+    pub figure: Figure,
+    /// The value, for the worst sample where there is one.
+    pub value: f64,
+    /// What is allowed.
+    pub limit: f64,
+    /// The worst sample, in words; empty for means.
+    pub at: String,
+}
+impl Measured {
+    /// Whether it is more than is allowed.
+    #[must_use]
+    pub fn is_finding(&self) -> bool {
+        !(self.value <= self.limit)
+    }
+}
+
+/// Least relative error that is a finding.
+pub const ERROR: f64 = 1e-3;
+/// Rounding of a direction in single precision that every sampler may have, in radians: four units in the last place.
+const ROUNDED: f64 = 4.0 / 16_777_216.0;
+/// Standard errors, from 15 degrees of freedom, that a mean may be off by: a right sampler is once in 2·10⁷ times. A judgement has some
+/// thousand means.
+const DEVIATIONS: f64 = 10.0;
+/// The least p-value.
+const SIGNIFICANCE: f64 = 1e-7;
+/// Least width of a light, in radians, whose samples are binned.
+const RESOLVED: f64 = 2e-4;
+/// Greatest estimate, over the mean one, up to which the spread of a mean is believed.
+const TAIL: f64 = 30.0;
+
+/// A place, what was asked there and what was answered.
+pub struct Trial<'a> {
+    /// The light as it is seen.
+    pub seen: &'a Definition,
+    /// What the sampler claims to be uniform by.
+    pub by: Measure,
+    /// What was asked.
+    pub questions: &'a Questions,
+    /// What was answered.
+    pub answers: &'a Answers,
+}
+
+/// The mean of the sets' means, and the standard error of that.
+fn mean(sets: &[f64]) -> (f64, f64) {
+    let (mean, variance) = stats::mean_variance(sets);
+    (mean, (variance / sets.len() as f64).sqrt())
+}
+/// A mean over the grid of directions, and its difference to the mean of every second one.
+fn grid_mean(values: &[f64]) -> (f64, f64) {
+    let half = |odd: usize| {
+        let of = values.iter().enumerate().filter(|(i, _)| (i % SIDE + i / SIDE) % 2 == odd).map(|v| v.1);
+        of.sum::<f64>() / (values.len() / 2) as f64
+    };
+    let (a, b) = (half(0), half(1));
+    (0.5 * (a + b), (a - b).abs())
+}
+
+impl Trial<'_> {
+    /// All figures that can be measured.
+    #[must_use]
+    pub fn figures(&self) -> Vec<Measured> {
+        let mut all = vec![self.nonsense()];
+        if all[0].is_finding() {
+            return all;
+        }
+        let drawn = self.answers.samples.iter().flatten().count();
+        let expects = self.by != Measure::ProjectedSolidAngle || self.seen.irradiance(self.seen.normal()) > 0.0;
+        let is_dark = drawn == 0 && expects && self.seen.solid_angle > 0.0;
+        // a sampler with an eye for the horizon may draw nothing below it
+        let below = self.by == Measure::Other && self.seen.irradiance(self.seen.normal()) == 0.0;
+        all.push(Measured {
+            figure: Figure::Dark,
+            value: f64::from(u8::from(is_dark && !below)),
+            limit: 0.5,
+            at: String::new(),
+        });
+        if drawn == 0 {
+            return all;
+        }
+        self.single(&mut all);
+        all.extend(self.hits());
+        all.extend(self.inverses());
+        if self.seen.size[1] > RESOLVED + 1e3 * self.seen.rounding {
+            self.distribution(&mut all);
+            self.estimates(&mut all);
+        }
+        all
+    }
+
+    fn nonsense(&self) -> Measured {
+        let (answers, mut count, mut at) = (self.answers, 0, String::new());
+        let mut take = |is_wrong: bool, said: &dyn Fn() -> String| {
+            if is_wrong {
+                if count == 0 {
+                    at = said();
+                }
+                count += 1;
+            }
+        };
+        for (u, s) in self.questions.us.iter().zip(&answers.samples) {
+            let Some(s) = s else { continue };
+            let off = (length(wide(s.direction)) - 1.0).abs();
+            let is_right = off <= 1e-3 && s.pdf.is_finite() && s.pdf >= 0.0;
+            take(!is_right, &|| format!("u = {u:?}: direction {:?}, pdf {:e}", s.direction, s.pdf));
+        }
+        let all = [(&self.questions.directions, &answers.pdfs), (&self.questions.outside, &answers.outside)];
+        for (w, pdf) in all.into_iter().flat_map(|(directions, pdfs)| directions.iter().zip(pdfs)) {
+            take(!(pdf.is_finite() && *pdf >= 0.0), &|| format!("direction {w:?}: pdf {pdf:e}"));
+        }
+        for (s, pdf) in answers.samples.iter().zip(&answers.evaluated) {
+            let w = s.map(|s| s.direction);
+            take(!(pdf.is_finite() && *pdf >= 0.0), &|| format!("direction {w:?}: pdf {pdf:e}"));
+        }
+        for (i, u, _) in &answers.inverses {
+            let w = answers.samples[*i].map(|s| s.direction);
+            take(!u.iter().all(|u| (0.0..=1.0).contains(u)), &|| format!("direction {w:?}: inverse {u:?}"));
+        }
+        take(answers.hits.iter().any(|h| !h.1.is_finite()), &|| "a distance is no number".into());
+        Measured { figure: Figure::Nonsense, value: f64::from(count), limit: 0.5, at }
+    }
+
+    /// How far a direction may be off, in radians.
+    fn turned(&self) -> f64 {
+        ROUNDED + 4.0 * self.seen.rounding
+    }
+    /// Whether a direction is so far inside of the light that rounding does not lead out of it.
+    fn is_inside(&self, w: V3) -> bool {
+        let middle = self.seen.at(Chart::SolidAngle, [0.5, 0.5]).0;
+        let out = sub(w, middle);
+        let moved = unit(along(w, out, 4.0 * self.turned() / length(out).max(1e-30)));
+        self.seen.beyond(moved) == 0.0
+    }
+
+    /// Figures of single samples.
+    fn single(&self, all: &mut Vec<Measured>) {
+        let worst = |figure, limit| Measured { figure, value: 0.0, limit, at: String::new() };
+        let mut outside = worst(Figure::Outside, ERROR.min(2e-4));
+        let mut density = worst(Figure::Density, ERROR);
+        let mut two = worst(Figure::TwoPdfs, ERROR);
+        let turned = self.turned();
+        for (i, s) in self.answers.samples[..self.questions.single()].iter().enumerate() {
+            let Some(s) = s.filter(|s| !s.is_hidden) else { continue };
+            let (u, w) = (self.questions.us[i], direction(s.direction));
+            let said = |what: String| format!("u = {u:?}: direction {:?}, pdf {:e}: {what}", s.direction, s.pdf);
+            let beyond = self.seen.beyond(w);
+            take(&mut outside, (beyond - turned).max(0.0) / self.seen.size[1], || {
+                said(format!("{beyond:.3e} rad outside of the light"))
+            });
+            let slack = self.seen.steepness(self.by, w) * turned;
+            if let Some(truth) = self.seen.density(self.by, w)
+                && slack < 0.1
+                && truth < 1e30
+            {
+                let off = ((f64::from(s.pdf) / truth - 1.0).abs() - slack).max(0.0);
+                take(&mut density, off, || said(format!("by definition {truth:e}")));
+            }
+            if let Some(&evaluated) = self.answers.evaluated.get(i)
+                && slack < 0.1
+                && s.pdf > 0.0
+                && self.is_inside(w)
+            {
+                let off = ((f64::from(evaluated) / f64::from(s.pdf) - 1.0).abs() - slack).max(0.0);
+                take(&mut two, off, || said(format!("evaluated {evaluated:e}")));
+            }
+        }
+        let stray = self.answers.outside.iter().zip(&self.questions.outside).filter(|p| *p.0 > 0.0);
+        let at = stray.clone().next().map(|(pdf, w)| format!("direction {w:?}: pdf {pdf:e}")).unwrap_or_default();
+        let part = stray.count() as f64 / self.answers.outside.len().max(1) as f64;
+        all.extend([outside, density, two, Measured { figure: Figure::Stray, value: part, limit: 0.0, at }]);
+    }
+    fn hits(&self) -> Option<Measured> {
+        let mut worst = Measured { figure: Figure::Hit, value: 0.0, limit: ERROR, at: String::new() };
+        for &(i, distance) in &self.answers.hits {
+            let s = self.answers.samples[i]?;
+            let w = direction(s.direction);
+            let Some(met) = self.seen.met(w).filter(|met| met.cosine > 0.05 && self.is_inside(w)) else { continue };
+            let off = (f64::from(distance) / met.distance - 1.0).abs();
+            let slack = 4.0 * self.turned() / met.cosine * self.seen.farthest / met.distance;
+            take(&mut worst, (off - slack).max(0.0), || {
+                format!("direction {:?}: distance {distance:e}, by definition {:e}", s.direction, met.distance)
+            });
+        }
+        (!self.answers.hits.is_empty()).then_some(worst)
+    }
+    fn inverses(&self) -> Option<Measured> {
+        let mut worst = Measured { figure: Figure::Inverse, value: 0.0, limit: ERROR, at: String::new() };
+        for (i, u, again) in &self.answers.inverses {
+            let (Some(s), Some(again)) = (self.answers.samples[*i], again) else { continue };
+            let off = length(sub(direction(s.direction), direction(again.direction)));
+            take(&mut worst, (off - 4.0 * self.turned()).max(0.0) / self.seen.size[0], || {
+                let (from, to) = (s.direction, again.direction);
+                format!("u = {:?}: direction {from:?} inverts to {u:?}, which draws {to:?}", self.questions.us[*i])
+            });
+        }
+        (!self.answers.inverses.is_empty()).then_some(worst)
+    }
+
+    /// Density of the samples in the chart's square, by the pdf.
+    fn claimed(&self) -> Vec<f64> {
+        let directions = self.questions.directions.iter().zip(&self.answers.pdfs).take(SIDE * SIDE);
+        let of =
+            |(w, pdf): (&[f32; 3], &f32)| f64::from(*pdf) * self.seen.steradians(self.questions.chart, direction(*w));
+        directions.map(of).collect()
+    }
+    fn drawn(&self, i: usize) -> Option<Sample> {
+        self.answers.samples[i].filter(|s| !s.is_hidden)
+    }
+    /// What the grid of directions resolves, in units of [`ERROR`]: less near a hemisphere, where densities have peaks, and where a horizon
+    /// may cut the light.
+    fn coarseness(&self) -> f64 {
+        let is_cut = self.by == Measure::ProjectedSolidAngle
+            || self.seen.irradiance(self.seen.normal()) < 0.8 * self.seen.solid_angle;
+        if self.seen.size[0] > 2.2 {
+            20.0
+        } else if is_cut {
+            3.0
+        } else {
+            1.0
+        }
+    }
+    /// ∫ pdf, frequencies and places of the samples, and the map's derivative.
+    fn distribution(&self, all: &mut Vec<Measured>) {
+        let claimed = self.claimed();
+        let (integral, error) = grid_mean(&claimed);
+        // the grid does not resolve the edge that a horizon cuts
+        if self.by == Measure::ProjectedSolidAngle && claimed.iter().any(|q| *q < 0.1) {
+            return;
+        }
+        let n = (self.questions.strata * self.questions.strata) as f64;
+        let parts: Vec<f64> =
+            (0..SETS).map(|k| self.questions.set(k).filter_map(|i| self.drawn(i)).count() as f64 / n).collect();
+        let (part, spread) = mean(&parts);
+        // the density of a named measure is known besides
+        let resolved = if self.by == Measure::ProjectedSolidAngle { 10.0 } else { self.coarseness() };
+        let limit = (ERROR * resolved).max(2.0 * error).max(DEVIATIONS * spread);
+        let value = (integral - part).abs();
+        all.push(Measured { figure: Figure::Integral, value, limit, at: format!("∫ pdf = {integral:.6}") });
+        // a density that the grid does not resolve has no expectations
+        if error > 0.01 || part == 0.0 {
+            return;
+        }
+        const CELLS: usize = 8;
+        let (mut observed, mut expected) = ([0_u64; CELLS * CELLS], [0.0; CELLS * CELLS]);
+        let functions = |[a, b]: [f64; 2]| [a - 0.5, b - 0.5, (a - 0.5).abs() - 0.25, (b - 0.5).abs() - 0.25];
+        let mut sums = [[0.0; 4]; SETS];
+        let mut count = 0.0;
+        for (k, sums) in sums.iter_mut().enumerate() {
+            for s in self.questions.set(k).filter_map(|i| self.drawn(i)) {
+                let place = self.seen.place(self.questions.chart, direction(s.direction));
+                let [a, b] = place.map(|x| ((x * CELLS as f64) as usize).min(CELLS - 1));
+                observed[a + b * CELLS] += 1;
+                count += 1.0;
+                for (sum, f) in sums.iter_mut().zip(functions(place)) {
+                    *sum += f / n;
+                }
+            }
+        }
+        for (q, [x, y]) in claimed.iter().zip(middles()) {
+            let cell = (x * CELLS as f64) as usize + (y * CELLS as f64) as usize * CELLS;
+            expected[cell] += q * count / (integral * (SIDE * SIDE) as f64);
+        }
+        let p = stats::chi_square(&observed, &expected).max(1e-300);
+        let value = p.log10() / SIGNIFICANCE.log10();
+        all.push(Measured { figure: Figure::Frequencies, value, limit: 1.0, at: format!("p = {p:.1e}") });
+        let is_constant = matches!(self.by, Measure::SolidAngle | Measure::Area);
+        let mut worst = Measured { figure: Figure::Placement, value: 0.0, limit: 1.0, at: String::new() };
+        for f in 0..4 {
+            let values: Vec<f64> = claimed.iter().zip(middles()).map(|(q, u)| q * functions(u)[f]).collect();
+            let (truth, error) = grid_mean(&values);
+            let (seen, spread) = mean(&sums.map(|sum| sum[f]));
+            let least = if is_constant { 2e-4 } else { 5e-3 } + self.turned() / self.seen.size[1];
+            let limit = least.max(DEVIATIONS * spread).max(4.0 * error);
+            let value = (seen - truth).abs();
+            if value / limit > worst.value / worst.limit {
+                (worst.value, worst.limit) = (value, limit);
+            }
+        }
+        all.push(worst);
+        if (1e-3..2.0).contains(&self.seen.size[0]) && self.seen.size[1] > 0.05 * self.seen.size[0] {
+            all.extend(self.slopes());
+        }
+    }
+    fn slopes(&self) -> Option<Measured> {
+        let first = self.questions.set(SETS).start;
+        let mut off: Vec<f64> = (0..SLOPES)
+            .filter_map(|i| {
+                let at = |k: usize| self.drawn(first + 5 * i + k);
+                let [left, right, down, up] = [at(0)?, at(1)?, at(2)?, at(3)?].map(|s| wide(s.direction));
+                let area = length(cross(sub(right, left), sub(up, down))) / (4.0 * STEP * STEP);
+                Some((area * f64::from(at(4)?.pdf) - 1.0).abs())
+            })
+            .collect();
+        if off.len() < SLOPES / 2 {
+            return None;
+        }
+        off.sort_by(f64::total_cmp);
+        Some(Measured { figure: Figure::Jacobian, value: off[off.len() / 2], limit: 0.05, at: String::new() })
+    }
+
+    /// Irradiance, and solid angle where the receiver's normal does not matter, by the sampler alone and with another one.
+    fn estimates(&self, all: &mut Vec<Measured>) {
+        let normal = self.seen.normal();
+        let mut worst = [Figure::Bias, Figure::MisBias].map(|figure| Measured {
+            figure,
+            value: 0.0,
+            limit: ERROR,
+            at: String::new(),
+        });
+        let cosine = |w: V3| dot(w, normal).max(0.0);
+        self.estimate(&cosine, self.seen.irradiance(normal), "irradiance", &mut worst);
+        if matches!(self.by, Measure::SolidAngle | Measure::Area) {
+            self.estimate(&|_| 1.0, self.seen.solid_angle, "solid angle", &mut worst);
+        }
+        all.extend(worst);
+    }
+    fn estimate(&self, f: &dyn Fn(V3) -> f64, truth: f64, what: &str, worst: &mut [Measured; 2]) {
+        if truth <= 1e-9 * self.seen.solid_angle {
+            return;
+        }
+        let n = (self.questions.strata * self.questions.strata) as f64;
+        let partner = 1.0 / self.seen.solid_angle;
+        let sets = |weight: &dyn Fn(f64) -> f64| -> Vec<f64> {
+            let of = |s: Sample| f(direction(s.direction)) * weight(f64::from(s.pdf));
+            (0..SETS).map(|k| self.questions.set(k).filter_map(|i| self.drawn(i)).map(of).sum::<f64>() / n).collect()
+        };
+        let mut take = |k: usize, value: f64, limit: f64, of: f64| {
+            if value / limit > worst[k].value / worst[k].limit {
+                worst[k] = Measured {
+                    value,
+                    limit,
+                    at: format!("{what} {of:e}, by definition {truth:e}"),
+                    ..worst[k].clone()
+                };
+            }
+        };
+        let first = self.questions.partner();
+        let directions = self.questions.directions[first..].iter().zip(&self.answers.pdfs[first..]);
+        let directions: Vec<_> = directions.map(|(w, pdf)| (f(direction(*w)), f64::from(*pdf))).collect();
+        // rare estimates that are many times the mean tell nothing in few samples
+        let greatest = directions.iter().map(|(f, pdf)| if *f > 0.0 { f / pdf } else { 0.0 }).fold(0.0, f64::max);
+        if greatest < TAIL * truth {
+            let (of, spread) = mean(&sets(&|pdf| if pdf > 0.0 { 1.0 / pdf } else { 0.0 }));
+            take(0, (of / truth - 1.0).abs(), ERROR.max(DEVIATIONS * spread / truth), of);
+        }
+        let (own, spread) = mean(&sets(&|pdf| if pdf > 0.0 { 1.0 / (pdf + partner) } else { 0.0 }));
+        let values: Vec<f64> = directions.iter().map(|(f, pdf)| f / (pdf + partner)).collect();
+        let (other, error) = grid_mean(&values);
+        let least = ERROR * self.coarseness();
+        let limit = least.max(DEVIATIONS * spread / truth).max(4.0 * error / truth);
+        take(1, ((own + other) / truth - 1.0).abs(), limit, own + other);
+    }
+}
+
+fn take(worst: &mut Measured, value: f64, said: impl FnOnce() -> String) {
+    if !(value <= worst.value) {
+        worst.value = value;
+        worst.at = said();
+    }
+}
+
+/// Number of samples of a place.
+#[must_use]
+pub fn samples(questions: &Questions) -> usize {
+    CORNERS + SETS * questions.strata * questions.strata
+}

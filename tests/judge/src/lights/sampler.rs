@@ -1,0 +1,135 @@
+//! What a sampler is: two functions of its own, and what it claims.
+
+use crate::techniques::{AreaLight, LightFixture, LightShape, Measure};
+use etendue::{LightSampler, Vec2, Vec3};
+use etendue_oracle::{length, sub, wide};
+
+/// One sample.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    /// Unit vector from the point towards the light.
+    pub direction: [f32; 3],
+    /// Density per steradian.
+    pub pdf: f32,
+    /// Whether the light itself hides what was drawn, so that the estimate is 0.
+    pub is_hidden: bool,
+}
+
+/// A light prepared for a point.
+pub trait Sampler {
+    /// Draws for `u` in [0, 1)²; `None` is a draw whose estimate is 0.
+    fn sample(&self, u: [f32; 2]) -> Option<Sample>;
+    /// The density per steradian with which a unit direction is drawn.
+    fn pdf(&self, direction: [f32; 3]) -> f32;
+    /// The `u` that draws a direction, if the sampler can tell.
+    fn invert(&self, _direction: [f32; 3]) -> Option<[f32; 2]> {
+        None
+    }
+    /// The distance of the light in a direction, if the sampler can tell; 0 where it is not.
+    fn hit(&self, _direction: [f32; 3]) -> Option<f32> {
+        None
+    }
+}
+
+/// What preparing a light for a point gives.
+pub enum Prepared<'a> {
+    /// The sampler does not claim to be right there.
+    OutsideOfDomain,
+    /// Nothing can be sampled.
+    Nothing,
+    /// It can be sampled.
+    Ready(Box<dyn Sampler + 'a>),
+}
+
+/// A sampler that is judged.
+pub struct Subject<'a> {
+    /// Its name.
+    pub name: String,
+    /// The lights that it samples.
+    pub shape: LightShape,
+    /// What it claims to be uniform by.
+    pub by: Measure,
+    /// In words, where it claims to be right; empty if everywhere.
+    pub domain: String,
+    /// Prepares a light for its point.
+    pub prepare: Box<dyn Fn(&AreaLight) -> Prepared<'a> + 'a>,
+}
+
+/// The shapes whose samplers are judged.
+pub const SHAPES: [(LightShape, &str); 5] = [
+    (LightShape::Sphere, "sphere"),
+    (LightShape::Triangle, "triangle"),
+    (LightShape::Rectangle, "rectangle"),
+    (LightShape::Parallelogram, "parallelogram"),
+    (LightShape::Disk, "disk"),
+];
+/// The measures that say what a density has to be.
+pub const MEASURES: [(Measure, &str); 4] = [
+    (Measure::SolidAngle, "solid angle"),
+    (Measure::ProjectedSolidAngle, "projected solid angle"),
+    (Measure::Area, "area"),
+    (Measure::Other, "other"),
+];
+
+/// The name of a measure.
+#[must_use]
+pub fn measure_name(by: Measure) -> &'static str {
+    MEASURES.iter().find(|m| m.0 == by).map_or("other", |m| m.1)
+}
+/// The name of a shape.
+#[must_use]
+pub fn shape_name(shape: LightShape) -> &'static str {
+    SHAPES.iter().find(|s| s.0 == shape).map_or("other", |s| s.1)
+}
+
+/// A technique of the core.
+struct Own {
+    light: Box<dyn LightSampler<f32>>,
+    /// Spheres emit outwards, and are judged from inside too.
+    is_inside: bool,
+}
+
+fn vector(v: [f32; 3]) -> Vec3<f32> {
+    Vec3::new(v[0], v[1], v[2])
+}
+impl Sampler for Own {
+    fn sample(&self, u: [f32; 2]) -> Option<Sample> {
+        let s = self.light.sample(Vec2::new(u[0], u[1]));
+        let direction = [s.direction.x, s.direction.y, s.direction.z];
+        // NaN is a sample
+        (s.pdf != 0.0).then_some(Sample { direction, pdf: s.pdf, is_hidden: !s.emits && !self.is_inside })
+    }
+    fn pdf(&self, direction: [f32; 3]) -> f32 {
+        self.light.pdf(vector(direction))
+    }
+    fn invert(&self, direction: [f32; 3]) -> Option<[f32; 2]> {
+        let u = self.light.invert(vector(direction));
+        Some([u.x, u.y])
+    }
+    fn hit(&self, direction: [f32; 3]) -> Option<f32> {
+        Some(self.light.hit(vector(direction)).distance)
+    }
+}
+
+/// The core's own techniques of these shapes, from its one list.
+#[must_use]
+pub fn own() -> Vec<Subject<'static>> {
+    let kinds = AreaLight::KINDS.iter().filter(|kind| SHAPES.iter().any(|s| s.0 == kind.0));
+    kinds
+        .map(|&(shape, by)| {
+            let known = MEASURES.iter().any(|m| m.0 == by);
+            Subject {
+                name: format!("etendue {} by {by:?}", shape_name(shape)),
+                shape,
+                by: if known { by } else { Measure::Other },
+                domain: String::new(),
+                prepare: Box::new(move |light| {
+                    let light = AreaLight { by, ..*light };
+                    let away = length(sub(wide(light.a), wide(light.p)));
+                    let is_inside = light.shape == LightShape::Sphere && away < f64::from(light.radius);
+                    Prepared::Ready(Box::new(Own { light: LightFixture::prepare::<f32>(&[light]), is_inside }))
+                }),
+            }
+        })
+        .collect()
+}
