@@ -105,6 +105,9 @@ class Flat:
                 out |= -(d @ edge) / length > slack
         return out
 
+    def cosines(self, d):
+        return np.maximum(np.abs(d @ self.normal), 1e-12)
+
     def pdfs(self, d):
         """The pdfs of both conventions: uniform in solid angle, and uniform in area."""
         distance, cosine, _ = self.place(d)
@@ -138,6 +141,9 @@ class Ball:
             return np.zeros(len(d), bool)
         angle = np.arctan2(np.linalg.norm(np.cross(d, self.centre), axis=1), d @ self.centre)
         return angle - math.asin(min(1.0, self.radius / self.distance)) > slack
+
+    def cosines(self, d):
+        return np.ones(len(d))
 
     def pdfs(self, d):
         """Uniform in solid angle, or, from inside, uniform in area."""
@@ -276,7 +282,9 @@ def judge(light, normal, grid, drawn, asked, hit, chosen, resolution):
     note("pdf differs from its definition", error[measure] > PDF_LIMIT + 4 * resolution, error[measure])
     wanted = light.pdfs(chosen)[measure]
     wrong = np.abs(hit / wanted - 1)
-    note("pdf of a direction differs from its definition", wrong > PDF_LIMIT + 8 * resolution, wrong)
+    # A ray finds the plane as exactly as a 32-bit cosine allows, and what it finds at the light's border is anybody's guess.
+    allowed = PDF_LIMIT + 8 * resolution + 12 * EPSILON / light.cosines(chosen)
+    note("pdf of a direction differs from its definition", (wrong > allowed) & ~light.misses(chosen, -slack), wrong)
 
     # Estimates of the solid angle and of the irradiance, with the errors that random samples of the defined pdf would have.
     all_pdfs = light.pdfs(light.directions)[measure]
