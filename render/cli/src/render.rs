@@ -318,6 +318,17 @@ fn next_steps(options: &Options, done: &Image, chosen: Technique) -> io::Result<
     Ok(())
 }
 
+/// Numbers of rays and how many were traced in a second; those of mirrors only if there are any.
+fn rays(count: &RayCount, seconds: f64) -> String {
+    let RayCount { camera, mirror, shadow, .. } = *count;
+    let kinds = [("camera", camera), ("mirror", mirror), ("shadow", shadow)].into_iter();
+    let kinds = kinds.filter(|&(kind, number)| kind != "mirror" || number > 0);
+    let texts = kinds.map(|(kind, number)| {
+        format!("{} {kind} rays ({:.3} million/s)", grouped(number), number as f64 / seconds / 1e6)
+    });
+    texts.collect::<Vec<_>>().join(", ")
+}
+
 fn print(
     options: &Options,
     settings: &Settings,
@@ -338,11 +349,7 @@ fn print(
     }
     let render = median(&image.seconds);
     writeln!(out, "load {load:.3} s, build {build:.3} s, render {render:.3} s")?;
-    let rays = image.rays;
-    let rate = rays.camera as f64 / render / 1e6;
-    writeln!(out, "{rate:.1} million samples/s; {} camera rays, {} shadow rays", rays.camera, rays.shadow)?;
-    let [shadow, mirror] = [rays.shadow, rays.mirror].map(|count| count as f64 / render / 1e6);
-    writeln!(out, "million rays/s: {rate:.1} from the camera, {shadow:.1} to lights, {mirror:.1} from mirrors")?;
+    writeln!(out, "{}", rays(&image.rays, render))?;
     let [r, g, b] = image.film.mean();
     match options.image.sensor {
         Sensor::Radiance => writeln!(out, "mean radiance {r:.6} {g:.6} {b:.6}")?,
