@@ -233,7 +233,7 @@ impl Source {
     }
 }
 
-/// The best sampler that still reports the variance of `spp` samples in `sets` sets (see
+/// The most accurate sampler that can also estimate the variance of `spp` samples in `sets` sets (see
 /// [`Settings::sets`](crate::Settings::sets)): [`Sampler::Adaptive`] from 16 samples in each set on, else [`Sampler::Sobol`] for an even number
 /// of samples, else [`Sampler::Independent`]. If one set is asked for, nobody asks for a variance.
 #[must_use]
