@@ -69,6 +69,8 @@ enum Command {
     /// Example: `etendue atlas --shape triangle --quick` maps triangles in some seconds.
     Atlas(atlas::Options),
     /// List the built-in scenes, techniques, choices of a light, samplers and sensors
+    ///
+    /// Example: `etendue list | grep lens` finds a scene that is seen through a lens.
     List,
 }
 

@@ -107,7 +107,7 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     if !options.no_open
         && let Err(what) = browser::open(&address)
     {
-        say(format_args!("no browser opened, since {what}: open the address above in one"));
+        say(format_args!("no browser was opened, since {what}: open the address above yourself"));
     }
     Worker { image, goal, pool: &pool, output, interrupt: &interrupt, display }.run(reading, &shared)
 }

@@ -1,6 +1,7 @@
 //! Opens the page in the browser of whoever runs the program.
 
 use std::env;
+use std::io;
 use std::process::{Command, Stdio};
 use std::thread;
 
@@ -25,7 +26,10 @@ pub(super) fn open(address: &str) -> Result<(), String> {
     let (program, arguments) = opener()?;
     let mut command = Command::new(program);
     command.args(arguments).arg(address).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
-    let mut child = command.spawn().map_err(|error| format!("{program} cannot be run ({error})"))?;
+    let mut child = command.spawn().map_err(|error| match error.kind() {
+        io::ErrorKind::NotFound => format!("{program} is not installed"),
+        _ => format!("{program} cannot be run ({error})"),
+    })?;
     // whoever ends is waited for, so that nothing is left of it
     let wait = thread::Builder::new().name("browser".into()).spawn(move || child.wait());
     wait.map(drop).map_err(|error| error.to_string())

@@ -43,7 +43,8 @@ impl Server {
                 Err(error) => return Err(format!("--port {first}: cannot listen on 127.0.0.1:{port}: {error}")),
             }
         }
-        Err(format!("--port {first}: the ports {first} to {last} of 127.0.0.1 are all in use"))
+        let all = if first == last { format!("port {first}") } else { format!("every port from {first} to {last}") };
+        Err(format!("--port {first}: {all} of 127.0.0.1 is in use: choose another one"))
     }
 
     pub(crate) const fn port(&self) -> u16 {

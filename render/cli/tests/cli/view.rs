@@ -71,7 +71,7 @@ fn a_busy_port_is_passed_over() {
     // the last port has none after it; it does not matter who uses it
     let _last = std::net::TcpListener::bind("127.0.0.1:65535");
     let error = folder.fail(&["view", "quads", "--port", "65535"]);
-    assert!(error.contains("--port 65535: the ports 65535 to 65535 of 127.0.0.1 are all in use"), "{error}");
+    assert!(error.contains("--port 65535: port 65535 of 127.0.0.1 is in use: choose another one"), "{error}");
 }
 
 #[test]

@@ -67,5 +67,6 @@ pub(super) fn text_of(name: &Path) -> Option<(&'static str, &'static str)> {
 pub(crate) fn known_scenes(name: &str) -> String {
     // "quads.pbrt" is an extension away
     let near = did_you_mean(name.strip_suffix(".pbrt").unwrap_or(name), DESCRIBED.map(|(name, _)| name));
-    format!("{near}; built-in scenes: {}", DESCRIBED.map(|(name, _)| name).join(", "))
+    let known = if near.is_empty() { "; built-in scenes" } else { " Built-in scenes" };
+    format!("{near}{known}: {}", DESCRIBED.map(|(name, _)| name).join(", "))
 }

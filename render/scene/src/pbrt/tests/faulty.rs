@@ -250,7 +250,7 @@ fn errors_before_the_world() {
     assert!(matches!(load("no-such-scene"), Err(SceneError::Io { .. })));
     for (name, near) in [("qads", "quads"), ("Quads", "quads"), ("skyy.pbrt", "sky"), ("cornellbox", "cornell-box")] {
         let message = load(name).unwrap_err().to_string();
-        assert!(message.contains(&format!("; did you mean {near}?; built-in scenes: ")), "{message}");
+        assert!(message.contains(&format!("; did you mean {near}? Built-in scenes: ")), "{message}");
     }
     for name in ["ab", "", "no-such-scene"] {
         assert!(!load(name).unwrap_err().to_string().contains("did you mean"), "{name}");
