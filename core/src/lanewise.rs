@@ -1,6 +1,6 @@
 //! Structs whose fields are lanes.
 
-use crate::real::Real;
+use crate::real::{Real, Uint};
 
 /// A struct over numbers `R`, which may be numbers, packets of numbers, or columns.
 pub trait Lanewise<R>: Sized {
@@ -12,6 +12,36 @@ pub trait Lanewise<R>: Sized {
     #[inline(always)]
     fn splat<P: Real<Scalar = R>>(self) -> Self::With<P> {
         self.map(P::splat)
+    }
+    /// Lane `i` is the element of a slice at `index.lane(i)`; past its end it is the default, a light that emits nothing.
+    ///
+    /// ```
+    /// use etendue::{Lanewise, LightSampler, Sphere, Vec2, Vec3, f32x4, u32x4};
+    /// let lamps = [1.0_f32, 2.0, 3.0].map(|x| Sphere::new(Vec3::new(x, 2.0, 0.0), 0.5));
+    /// let chosen: Sphere<f32x4> = Sphere::gather(&lamps, u32x4::from([2, 0, 0, u32::MAX]));
+    /// assert_eq!(chosen.center.x.to_array(), [3.0, 1.0, 1.0, 0.0]);
+    /// let s = chosen.by_solid_angle(Vec3::default()).sample(Vec2::lit([0.3, 0.6]));
+    /// assert!(s.lane(0).valid() && s.lane(1).valid() && !s.lane(3).valid());
+    /// ```
+    #[inline(always)]
+    fn gather<P: Real<Scalar = R>>(from: &[Self], index: P::Uint) -> Self::With<P>
+    where
+        Self: Copy + Default,
+        R: Real,
+    {
+        let element = |lane: usize| from.get(index.lane(lane) as usize).copied().unwrap_or_default();
+        let mut numbers = 0..;
+        Self::default().map(|none| {
+            let Some(number) = numbers.next() else { return P::splat(none) };
+            P::from_fn(|lane| {
+                let (mut found, mut k) = (none, 0_u32);
+                element(lane).map(|x| {
+                    found = if k == number { x } else { found };
+                    k += 1;
+                });
+                found
+            })
+        })
     }
 }
 

@@ -130,7 +130,7 @@ vector!(
     ///
     /// ```
     /// use etendue::Vec3;
-    /// let v = Vec3::new(2.0, 4.0, 6.0_f32) / 2.0;
+    /// let v = 0.25 * (Vec3::new(4.0, 8.0, 12.0_f32) / 2.0) * 2.0 - Vec3::ZERO;
     /// assert_eq!((v, v[2], v.to_array()), ([1.0, 2.0, 3.0].into(), 3.0, [1.0, 2.0, 3.0]));
     /// ```
     Vec3 { x, y, z }

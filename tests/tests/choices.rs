@@ -1,5 +1,6 @@
 //! Discrete choices: of cells of tables, and of lights.
 
+mod bounds;
 mod discrete;
 mod gloss;
 mod light_tree;

@@ -114,6 +114,11 @@ lanewise! {
 }
 
 impl<R: Real> SpotLight<R> {
+    /// The spot light at this position, along this unit vector, with 1 − cosθ of its inner and of its outer angle.
+    #[inline(always)]
+    pub fn new(position: Vec3<R>, axis: Vec3<R>, [one_minus_cos_inner, one_minus_cos_outer]: [R; 2]) -> Self {
+        Self { position, axis, one_minus_cos_inner, one_minus_cos_outer }
+    }
     /// The intensity in the unit direction `w` away from the light, over that on the axis: t²(3−2t) with
     /// t = (cosθ − cosθₒ)/(cosθᵢ − cosθₒ), as in PBR 4th ed., 12.2.1; a step where the two angles are equal.
     #[inline(always)]

@@ -85,7 +85,7 @@ impl<R: Real> LightSampler<R> for SunBySolidAngle<R> {
 }
 
 /// A sky with the same radiance in every direction. Surface coordinates: those of [`UniformSphere`].
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ConstantEnvironment;
 
 impl ConstantEnvironment {

@@ -44,6 +44,13 @@ impl<R, const N: usize> Polygon<R, N> {
 
 lanewise_by_map!(Polygon, N);
 
+impl<R: Copy + Default, const N: usize> Default for Polygon<R, N> {
+    #[inline(always)]
+    fn default() -> Self {
+        Self { corners: [Vec3::default(); N] }
+    }
+}
+
 impl<R: Real, const N: usize> Polygon<R, N> {
     /// The polygon with these corners, which must be in order and in one plane.
     #[inline(always)]

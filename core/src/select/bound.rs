@@ -1,6 +1,26 @@
 //! What a choice of lights needs to know of a light.
 
+use crate::light::{
+    BilinearPatch, Disk, Line, Parallelogram, PointLight, Polygon, Rectangle, Sphere, SpotLight, Spread, Triangle,
+};
+use crate::real::Real;
+use crate::vector::Vec3;
+use core::f64::consts::PI;
+
 /// A bound of what a light of finite extent can contribute.
+///
+/// Method `bound` of each light returns it for a radiance, or an intensity, in any unit: radii are rounded up, so that the sphere holds the
+/// light in spite of the rounding of its centre. Powers are kept within the positive numbers of single precision; a scene whose extent is
+/// beyond 1e±15 needs a unit for its radiance in which they do not reach the ends.
+///
+/// ```
+/// use etendue::{SpotLight, Triangle, Vec3, select::LightBound};
+/// let triangle = Triangle::new([0.0; 3].into(), [3.0, 0.0, 0.0].into(), [0.0, 3.0, 0.0_f32].into());
+/// let bound = LightBound { two_sided: true, ..triangle.bound(2.0) };
+/// assert_eq!((bound.center, bound.normal), ([1.0, 1.0, 0.0], [0.0, 0.0, 1.0]));
+/// assert!(bound.radius >= 5_f32.sqrt() && bound.radius < 2.2361);
+/// assert!((bound.power / (4.5 * 2.0 * std::f32::consts::PI) - 1.0).abs() < 1e-6);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[repr(C)]
 pub struct LightBound {
@@ -10,11 +30,172 @@ pub struct LightBound {
     pub radius: f32,
     /// Unit normal of a flat light, or axis of a spot light; 0 for a light that emits in all directions, such as a sphere or a point.
     pub normal: [f32; 3],
-    /// Cosine of the angle to `normal` from which on a spot light, or a flat light with a [`Spread`](crate::light::Spread), is dark, less a
-    /// rounding; 0 for other lights. A light that emits beyond a hemisphere has the normal 0.
+    /// Cosine of the angle to `normal` from which on a spot light, or a flat light with a [`Spread`], is dark, less a rounding; 0 for other
+    /// lights. A light that emits beyond a hemisphere has the normal 0.
     pub cos_cone: f32,
     /// Whether a flat light emits from both sides.
     pub two_sided: bool,
     /// Power of one side of a flat light, or of all of another light, in any unit.
     pub power: f32,
+}
+
+/// The cosine of the narrowest cone that a tree tells from its axis. A narrower light counts as if it filled this cone: as bright as on its
+/// axis, it would take the samples of all points around its cone, which it does not light.
+const NARROWEST: f32 = 253.0 / 254.0;
+
+fn wide(v: Vec3<f32>) -> Vec3<f64> {
+    v.map(f64::from)
+}
+
+fn narrow(v: Vec3<f64>) -> [f32; 3] {
+    v.map(|x| x as f32).to_array()
+}
+
+/// A power as a positive number of single precision; 0 of a light that is dark.
+fn power(flux: f64) -> f32 {
+    if flux > 0.0 { flux.clamped(f64::from(f32::MIN_POSITIVE), f64::from(f32::MAX)) as f32 } else { 0.0 }
+}
+
+impl LightBound {
+    /// The bound of the same light with this spread, which does not change its power.
+    #[must_use]
+    pub fn within(self, spread: &Spread<f32>) -> Self {
+        let tangent = f64::from(spread.tan_half);
+        // less what the tangent of a direction is rounded by
+        let cos = (1.0 - 1e-6) / tangent.mul_add(tangent, 1.0).sqrt();
+        Self { cos_cone: (cos as f32).next_down().greater(0.0), ..self }
+    }
+    /// About points that are given relative to the first of them, which is one of the light's: the sphere around all, centred at `middle`.
+    fn around(first: Vec3<f32>, points: &[Vec3<f64>], middle: Vec3<f64>) -> Self {
+        let center = narrow(wide(first) + middle);
+        // as it is rounded, which for a small and far light is not at its middle
+        let moved = wide(center.into()) - wide(first);
+        let radius = points.iter().fold(0.0, |most: f64, point| most.greater((*point - moved).length()));
+        // more than its own rounding
+        let outwards = radius * (1.0 + 1e-14);
+        let radius = outwards as f32;
+        let radius = if f64::from(radius) < outwards { radius.next_up() } else { radius };
+        Self { center, radius, ..Self::default() }
+    }
+    /// A flat convex light by its corners, relative to the first one, which is 0.
+    fn flat(first: Vec3<f32>, corners: &[Vec3<f64>], radiance: f32) -> Self {
+        let (mut sum, mut area, mut middle) = (Vec3::default(), 0.0, Vec3::default());
+        for pair in corners.windows(2) {
+            let cross = pair[0].cross(pair[1]);
+            let size = cross.unit_and_length().1;
+            sum += cross;
+            area += size;
+            middle += (pair[0] + pair[1]) * (size / 3.0);
+        }
+        let middle = if area > 0.0 { middle / area } else { Vec3::default() };
+        let normal = narrow(sum.unit_and_length().0);
+        Self { normal, power: power(0.5 * area * PI * f64::from(radiance)), ..Self::around(first, corners, middle) }
+    }
+}
+
+impl Sphere<f32> {
+    /// What it can contribute with this radiance.
+    #[must_use]
+    pub fn bound(&self, radiance: f32) -> LightBound {
+        let radius = self.radius.greater(0.0);
+        let power = power(4.0 * PI * PI * f64::from(radius) * f64::from(radius) * f64::from(radiance));
+        LightBound { center: self.center.to_array(), radius, power, ..LightBound::default() }
+    }
+}
+
+impl Triangle<f32> {
+    /// What it can contribute with this radiance.
+    #[must_use]
+    pub fn bound(&self, radiance: f32) -> LightBound {
+        LightBound::flat(self.v0, &[Vec3::default(), wide(self.e1), wide(self.e2)], radiance)
+    }
+}
+
+impl Parallelogram<f32> {
+    /// What it can contribute with this radiance.
+    #[must_use]
+    pub fn bound(&self, radiance: f32) -> LightBound {
+        let [s, t] = [self.edge_s, self.edge_t].map(wide);
+        LightBound::flat(self.corner, &[Vec3::default(), s, s + t, t], radiance)
+    }
+}
+
+impl Rectangle<f32> {
+    /// What it can contribute with this radiance.
+    #[must_use]
+    pub fn bound(&self, radiance: f32) -> LightBound {
+        Parallelogram::from(*self).bound(radiance)
+    }
+}
+
+impl<const N: usize> Polygon<f32, N> {
+    /// What it can contribute with this radiance.
+    #[must_use]
+    pub fn bound(&self, radiance: f32) -> LightBound {
+        let first = self.corners[0];
+        LightBound::flat(first, &self.corners.map(|corner| wide(corner) - wide(first)), radiance)
+    }
+}
+
+impl Disk<f32> {
+    /// What it can contribute with this radiance.
+    #[must_use]
+    pub fn bound(&self, radiance: f32) -> LightBound {
+        let radius = self.radius.greater(0.0);
+        let power = power(PI * PI * f64::from(radius) * f64::from(radius) * f64::from(radiance));
+        let normal = narrow(wide(self.normal).unit_and_length().0);
+        LightBound { center: self.center.to_array(), radius, normal, power, ..LightBound::default() }
+    }
+}
+
+impl BilinearPatch<f32> {
+    /// What it can contribute with this radiance. It counts as a light that emits in all directions, as its normals differ.
+    #[must_use]
+    pub fn bound(&self, radiance: f32) -> LightBound {
+        let [s, t, diagonal] = [self.edge_s, self.edge_t, self.diagonal].map(wide);
+        let area = self.map(f64::from).by_area(wide(self.corner)).area();
+        let middle = (s + t + diagonal) * 0.25;
+        let bound = LightBound::around(self.corner, &[Vec3::default(), s, t, diagonal], middle);
+        LightBound { power: power(area * PI * f64::from(radiance)), ..bound }
+    }
+}
+
+impl Line<f32> {
+    /// What it can contribute with this product of radiance and width.
+    #[must_use]
+    pub fn bound(&self, radiance_times_width: f32) -> LightBound {
+        let edge = wide(self.edge);
+        let bound = LightBound::around(self.start, &[Vec3::default(), edge], edge * 0.5);
+        LightBound { power: power(edge.length() * PI * PI * f64::from(radiance_times_width)), ..bound }
+    }
+}
+
+impl PointLight<f32> {
+    /// What it can contribute with this intensity.
+    #[must_use]
+    pub fn bound(&self, intensity: f32) -> LightBound {
+        let power = power(4.0 * PI * f64::from(intensity));
+        LightBound { center: self.position.to_array(), power, ..LightBound::default() }
+    }
+}
+
+impl SpotLight<f32> {
+    /// What it can contribute with this intensity on its axis. A cone of less than 5° counts as one of 5°.
+    #[must_use]
+    pub fn bound(&self, intensity: f32) -> LightBound {
+        let [inner, outer] = [self.one_minus_cos_inner, self.one_minus_cos_outer].map(f64::from);
+        // the falloff is half on average, and a cone too narrow for numbers still has a chance
+        let power = power((inner + outer).greater(1e-30) * PI * f64::from(intensity));
+        let cos = (1.0 - self.one_minus_cos_outer).next_down();
+        // beyond a hemisphere, a cone bounds nothing
+        let normal = if cos > 0.0 { wide(self.axis).unit_and_length().0 } else { Vec3::default() };
+        let cos_cone = cos.clamped(0.0, NARROWEST);
+        LightBound {
+            center: self.position.to_array(),
+            normal: narrow(normal),
+            cos_cone,
+            power,
+            ..LightBound::default()
+        }
+    }
 }

@@ -1,7 +1,9 @@
 //! Every light by every technique, as an integrator uses it: one trait, one pdf.
 
 use etendue::reflection::Reflection;
-use etendue::{Lanewise, LightSampler, Mask, Parallelogram, Real, Rectangle, Sphere, Triangle, Vec2, Vec3, f32x8};
+use etendue::{
+    Lanewise, LightSampler, Line, Mask, Parallelogram, Polygon, Real, Rectangle, Sphere, Triangle, Vec2, Vec3, f32x8,
+};
 use etendue_judge::generators::Random;
 use etendue_judge::properties::{Coordinates, squares_of};
 use etendue_judge::techniques::{self, AreaLight, LightFixture, LightShape, Measure};
@@ -169,6 +171,23 @@ fn splat_is_the_same_sampler() {
         by_projected_solid_angle(p, n; pw, nw),
         by_cosine_warp(p, n; pw, nw)
     );
+}
+
+/// Of lights in a slice, each lane takes the one at its index; past the end there is none.
+#[test]
+fn lights_are_gathered_by_the_indices_of_lanes() {
+    let corner = |k: usize| Vec3::new(k as f32, 1.5, -(k as f32));
+    let polygons: Vec<Polygon<f32, 5>> = (0..20)
+        .map(|k| Polygon::new(core::array::from_fn(|i| Vec3::new(0.1 * i as f32, k as f32, (i * k) as f32))))
+        .collect();
+    let lines: Vec<Line<f32>> = (0..20).map(|k| Line::new(corner(k), corner(20 - k))).collect();
+    let index = [3, 0, 19, 20, 7, 7, u32::MAX, 11];
+    let (some, more) = (Polygon::gather::<f32x8>(&polygons, index.into()), Line::gather::<f32x8>(&lines, index.into()));
+    for (lane, k) in index.iter().enumerate() {
+        let [polygon, line] = [some.map(|x| x.lane(lane)).corners[4], more.edge.lane(lane)];
+        let [wanted, end] = [polygons.get(*k as usize).map(|p| p.corners[4]), lines.get(*k as usize).map(|l| l.edge)];
+        assert_eq!([polygon, line], [wanted, end].map(Option::unwrap_or_default), "{lane}");
+    }
 }
 
 /// Lanes without a sample weigh nothing, and no light divides by 0.
