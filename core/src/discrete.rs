@@ -40,6 +40,7 @@ const STEPS: f64 = 16_777_216.0;
 
 /// Why a table cannot be built.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum TableError {
     /// The lengths of the slices do not match, or there are no cells, or more than 2²⁴.
     Length,

@@ -28,7 +28,7 @@
 //! | [`Line`] | [`by_length`](Line::by_length) | [`by_angle`](Line::by_angle) | [`by_projected_solid_angle`](Line::by_projected_solid_angle) |
 //! | [`Sun`] | | [`by_solid_angle`](Sun::by_solid_angle) | |
 //! | [`ConstantEnvironment`] | | [`by_solid_angle`](ConstantEnvironment::by_solid_angle) | [`by_projected_solid_angle`](ConstantEnvironment::by_projected_solid_angle) |
-//! | [`ImageEnvironment`] | | [`by_radiance`](ImageEnvironment::by_radiance): in proportion to an image | |
+//! | [`ImageEnvironment`] | | [`by_radiance`](ImageEnvironment::by_radiance): in proportion to an image, [`Rotated`] where its axes are others | |
 //! | [`PortalEnvironment`] | | [`by_radiance`](PortalEnvironment::by_radiance): what is seen of an image through portals | |
 //! | a flat light with a [`Picture`] | [`by_area`](Pictured::by_area) | [`by_solid_angle`](Pictured::by_solid_angle) | [`by_projected_solid_angle`](Pictured::by_projected_solid_angle) |
 //! | a [`Sphere`] or [`BilinearPatch`] with a [`Picture`] | [`by_visible_area`](Pictured::by_visible_area) | | |
@@ -107,6 +107,7 @@ mod plane;
 mod polygon;
 mod portal;
 mod rectangle;
+mod rotated;
 mod sample;
 mod sampler;
 mod shape;
@@ -144,8 +145,9 @@ pub use pictured_curved::Curved;
 #[doc(hidden)]
 pub use pictured_flat::{Area, Flat, FlatLight, Projected, SolidAngle};
 pub use polygon::{Polygon, PolygonByArea, PolygonByProjectedSolidAngle, PolygonByReflection, PolygonBySolidAngle};
-pub use portal::{MOST_PORTALS, Portal, PortalEnvironment, PortalMap, PortalTable, PortalsByRadiance};
+pub use portal::{MOST_PORTALS, Portal, PortalEnvironment, PortalError, PortalMap, PortalTable, PortalsByRadiance};
 pub use rectangle::{Rectangle, RectangleByCosineWarp, RectangleBySolidAngle};
+pub use rotated::Rotated;
 pub use sample::{FAR, LightSample};
 pub use sampler::{ByArea, ByCosineWarp, ByProjectedSolidAngle, ByReflection, BySolidAngle, LightSampler};
 pub use sphere::{Sphere, SphereByArea, SphereByProjectedSolidAngle, SphereByReflection, SphereBySolidAngle};

@@ -33,9 +33,29 @@ pub use tree::{Join, LightTree, NO_LIGHT, Node8, Sequential, TreeAt};
 pub use tree::{TreeChild, TreeWords, TreeWordsAt};
 
 use crate::real::{Real, Uint, unit_interval};
+use core::fmt::{self, Display, Formatter};
 
 /// The greatest number of lights of [`SpatialLights`] and of an [`Allocation`].
 pub const FEW: usize = 32;
+
+/// Why a choice of lights cannot be prepared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum LightsError {
+    /// There are more lights than the choice takes.
+    TooMany,
+    /// The memory is not that of so many lights.
+    Length,
+}
+impl Display for LightsError {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::TooMany => "there are more lights than the choice takes",
+            Self::Length => "the memory is not that of so many lights",
+        })
+    }
+}
+impl core::error::Error for LightsError {}
 
 /// A light that was chosen, per lane.
 #[derive(Clone, Copy, Debug)]

@@ -90,7 +90,7 @@ impl PortalDirection {
     /// None if the edges are parallel or not finite.
     #[must_use]
     pub fn new(edge_s: [f32; 3], edge_t: [f32; 3]) -> Option<Self> {
-        PortalMap::new(edge_s, edge_t).map(|_| Self { edge_s, edge_t })
+        PortalMap::new(edge_s, edge_t).ok().map(|_| Self { edge_s, edge_t })
     }
 }
 impl Sealed for PortalDirection {}

@@ -41,12 +41,7 @@ impl<'a> PictureMemory<'a> {
     /// If the length of the buffer is not that of such a picture.
     pub fn new(table: &'a [f32], size: [usize; 2], region: Region) -> Result<Self, TableError> {
         let _ = light::Picture::from_buffer(table, size, region)?;
-        let region = match region {
-            Region::Square => 0,
-            Region::Triangle => 1,
-            Region::Disk => 2,
-        };
-        Ok(Self { table: table.as_ptr(), values: null(), size, region, lives: PhantomData })
+        Ok(Self { table: table.as_ptr(), values: null(), size, region: region as u32, lives: PhantomData })
     }
     /// The picture that [`interpolated`](light::Picture::interpolated) has left in a buffer.
     ///
@@ -106,11 +101,7 @@ impl<'a> ImageMemory<'a> {
     /// If the length of the buffer is not that of an image with so many columns.
     pub fn new(table: &'a [f32], width: usize, map: EnvironmentMap) -> Result<Self, TableError> {
         let size = ImageEnvironment::from_buffer(table, width, map)?.size();
-        let map = match map {
-            EnvironmentMap::EqualArea => 0,
-            EnvironmentMap::Equirectangular => 1,
-        };
-        Ok(Self { table: table.as_ptr(), size, map, lives: PhantomData })
+        Ok(Self { table: table.as_ptr(), size, map: map as u32, lives: PhantomData })
     }
     /// The environment; none if a number of the struct is wrong.
     #[inline(always)]
@@ -147,7 +138,7 @@ impl PortalShape {
     /// The portal; none if its edges are parallel or a number is not finite.
     #[inline(always)]
     pub fn view(&self) -> Option<Portal> {
-        Portal::new(self.corner, self.edge_s, self.edge_t)
+        Portal::new(self.corner, self.edge_s, self.edge_t).ok()
     }
 }
 

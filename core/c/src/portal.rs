@@ -56,7 +56,7 @@ impl EtenduePortalEnvironment {
         // SAFETY: the pointers are not null, and point to what the header says
         for (portal, table) in unsafe { from_raw_parts(portals, count).iter().zip(from_raw_parts(tables, count)) } {
             refuse_null!(table.sums);
-            if Portal::new(portal.corner, portal.edge_s, portal.edge_t).is_none() {
+            if Portal::new(portal.corner, portal.edge_s, portal.edge_t).is_err() {
                 return EtendueStatus::Value;
             }
             if etendue_portal_table(table.width, table.height) == 0 {

@@ -35,6 +35,7 @@ use crate::real::Real;
 /// assert_eq!(Heuristic::POWER.weights([technique_pdf(1.0_f32, 1.0, true), 7.0]), [1.0, 0.0]);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Heuristic {
     /// β = 1.
     Balance,

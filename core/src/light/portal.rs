@@ -6,17 +6,42 @@ mod table;
 use super::distant::met;
 use super::sample::LightSample;
 use super::sampler::LightSampler;
-use crate::discrete::TableError;
 use crate::real::{GREATEST, MOST_LANES, Mask, Real, unit_interval};
 use crate::vector::{Vec2, Vec3};
 use crate::warp::{Octahedral, Warp};
 use core::f64::consts::PI;
+use core::fmt::{self, Display, Formatter};
 use side::Side;
 pub use table::PortalTable;
 use table::{Columns, Found, Place, STEPS, Search, Span};
 
 /// Greatest number of portals of a [`PortalEnvironment`].
 pub const MOST_PORTALS: usize = 8;
+
+/// Why there is no such portal, or no sky through portals.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum PortalError {
+    /// The edges are parallel, or not finite.
+    Edges,
+    /// The corner is not finite.
+    Corner,
+    /// There are no portals, or more than [`MOST_PORTALS`].
+    Count,
+    /// There are not as many tables as portals.
+    Tables,
+}
+impl Display for PortalError {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Edges => "the edges are parallel or not finite",
+            Self::Corner => "the corner is not finite",
+            Self::Count => "there are no portals or more than 8",
+            Self::Tables => "there are not as many tables as portals",
+        })
+    }
+}
+impl core::error::Error for PortalError {}
 
 /// The directions in front of a portal, as a rectangle in which its edges are parallel to the axes from wherever they are seen.
 ///
@@ -35,16 +60,19 @@ pub struct PortalMap {
 }
 
 impl PortalMap {
-    /// The map of portals with these edges. The sky is where `s` × `t` points to. `None` if the edges are parallel or not finite.
+    /// The map of portals with these edges. The sky is where `s` × `t` points to.
+    ///
+    /// # Errors
+    /// If the edges are parallel or not finite.
     #[inline]
-    #[must_use]
-    pub fn new(s: [f32; 3], t: [f32; 3]) -> Option<Self> {
+    pub fn new(s: [f32; 3], t: [f32; 3]) -> Result<Self, PortalError> {
         let wide = |v: [f32; 3]| Vec3::<f64>::from(v.map(f64::from)).unit_and_length();
         let ((x, a), (y, b)) = (wide(s), wide(t));
         let (z, sin) = x.cross(y).unit_and_length();
         let is_some = a > 0.0 && b > 0.0 && sin > 0.0 && a.is_finite() && b.is_finite();
         let inverse = 1.0 / sin;
-        is_some.then(|| Self { axes: [x, y, z], duals: [y.cross(z) * inverse, z.cross(x) * inverse, z], sin })
+        let map = || Self { axes: [x, y, z], duals: [y.cross(z) * inverse, z.cross(x) * inverse, z], sin };
+        is_some.then(map).ok_or(PortalError::Edges)
     }
     /// The unit direction of a point of the map, and the solid angle there per unit of its area, in steradians.
     ///
@@ -100,13 +128,15 @@ pub struct Portal {
 }
 
 impl Portal {
-    /// The portal with a corner and the edges `s` and `t` from there. `None` if the edges are parallel or a number is not finite.
+    /// The portal with a corner and the edges `s` and `t` from there.
+    ///
+    /// # Errors
+    /// If the edges are parallel or a number is not finite.
     #[inline]
-    #[must_use]
-    pub fn new(corner: [f32; 3], s: [f32; 3], t: [f32; 3]) -> Option<Self> {
+    pub fn new(corner: [f32; 3], s: [f32; 3], t: [f32; 3]) -> Result<Self, PortalError> {
         let map = PortalMap::new(s, t)?;
         let lengths = [s, t].map(|v| Vec3::<f64>::from(v.map(f64::from)).unit_and_length().1);
-        corner.iter().all(|x| x.is_finite()).then_some(Self { corner, lengths, map })
+        corner.iter().all(|x| x.is_finite()).then_some(Self { corner, lengths, map }).ok_or(PortalError::Corner)
     }
     /// Its area.
     #[must_use]
@@ -208,10 +238,15 @@ impl<'a> PortalEnvironment<'a> {
     /// # Errors
     /// If there are none or more than [`MOST_PORTALS`], or not as many tables.
     #[inline]
-    pub fn new(portals: &'a [Portal], tables: &'a [PortalTable<'a>]) -> Result<Self, TableError> {
-        let is_some = (1..=MOST_PORTALS).contains(&portals.len()) && tables.len() == portals.len();
+    pub fn new(portals: &'a [Portal], tables: &'a [PortalTable<'a>]) -> Result<Self, PortalError> {
+        if !(1..=MOST_PORTALS).contains(&portals.len()) {
+            return Err(PortalError::Count);
+        }
+        if tables.len() != portals.len() {
+            return Err(PortalError::Tables);
+        }
         let unit = tables.iter().fold(0.0, |most: f64, table| most.max(table.unit));
-        if is_some { Ok(Self { portals, tables, unit }) } else { Err(TableError::Length) }
+        Ok(Self { portals, tables, unit })
     }
     /// Whether a ray from `p` in the unit direction `w` passes a portal towards the sky.
     #[inline(always)]

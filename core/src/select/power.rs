@@ -1,7 +1,6 @@
 //! Choice of lights by their power.
 
-use super::{Choice, LightChoice};
-use crate::discrete::TableError;
+use super::{Choice, LightChoice, LightsError};
 use crate::real::{Real, Uint, unit_interval};
 
 /// Chooses lights in proportion to their power, by a table of sums in the caller's buffer.
@@ -20,7 +19,7 @@ use crate::real::{Real, Uint, unit_interval};
 /// let choice = lights.choose(0.625_f32);
 /// assert_eq!((choice.index, choice.pmf, choice.u), (2, 0.75, 0.5));
 /// assert_eq!(LightChoice::<f32>::pmf(&lights, 1), 0.0);
-/// # Ok::<(), etendue::discrete::TableError>(())
+/// # Ok::<(), etendue::select::LightsError>(())
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct PowerLights<'a> {
@@ -34,10 +33,13 @@ impl<'a> PowerLights<'a> {
     /// Fills `sums`, which needs one entry per light.
     ///
     /// # Errors
-    /// [`TableError::Length`] if the lengths differ or there are more than [`MOST`](Self::MOST) lights.
-    pub fn new(powers: &[f32], sums: &'a mut [f32]) -> Result<Self, TableError> {
-        if powers.len() != sums.len() || powers.len() > Self::MOST {
-            return Err(TableError::Length);
+    /// If the lengths differ, or there are more than [`MOST`](Self::MOST) lights.
+    pub fn new(powers: &[f32], sums: &'a mut [f32]) -> Result<Self, LightsError> {
+        if powers.len() > Self::MOST {
+            return Err(LightsError::TooMany);
+        }
+        if powers.len() != sums.len() {
+            return Err(LightsError::Length);
         }
         let clean = |power: f32| if power > 0.0 && power < f32::INFINITY { f64::from(power) } else { 0.0 };
         let total: f64 = powers.iter().map(|&power| clean(power)).sum();

@@ -1,7 +1,6 @@
 //! Choice of lights by what they can contribute to a point.
 
-use super::{Choice, FEW, Gloss, LightBound, LightChoice};
-use crate::discrete::TableError;
+use super::{Choice, FEW, Gloss, LightBound, LightChoice, LightsError};
 use crate::real::{Real, Uint, unit_interval};
 use crate::vector::Vec3;
 
@@ -26,7 +25,7 @@ use crate::vector::Vec3;
 /// let lights = SpatialLights::new(&[lamp(1.0, 1.0), lamp(2.0, 4.0), lamp(-1.0, 1.0)])?;
 /// let at = lights.at::<f32>([0.0, 0.0, 0.0].into(), [0.0, 0.0, 1.0].into());
 /// assert_eq!([0, 1, 2].map(|light| at.pmf(light)), [0.5, 0.5, 0.0]);
-/// # Ok::<(), etendue::discrete::TableError>(())
+/// # Ok::<(), etendue::select::LightsError>(())
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct SpatialLights {
@@ -52,10 +51,10 @@ impl SpatialLights {
     /// Prepares the lights.
     ///
     /// # Errors
-    /// [`TableError::Length`] if there are more than [`FEW`] lights.
-    pub fn new(lights: &[LightBound]) -> Result<Self, TableError> {
+    /// If there are more than [`FEW`] lights.
+    pub fn new(lights: &[LightBound]) -> Result<Self, LightsError> {
         if lights.len() > FEW {
-            return Err(TableError::Length);
+            return Err(LightsError::TooMany);
         }
         let mut own = Self { lights: [LightBound::default(); FEW], count: lights.len(), scale: 1.0 };
         let (mut extent, mut strongest) = (0.0_f32, 0.0_f32);

@@ -6,8 +6,7 @@ mod node;
 mod part;
 mod words;
 
-use super::{Choice, Gloss, LightBound, LightChoice};
-use crate::discrete::TableError;
+use super::{Choice, Gloss, LightBound, LightChoice, LightsError};
 use crate::real::{MOST_LANES, Real, Uint};
 use crate::vector::Vec3;
 use build::{Build, nodes_for};
@@ -64,8 +63,9 @@ const DEEPEST: usize = 64;
 /// let at = tree.at::<f32>([500.0, 0.0, 0.0].into(), [0.0, 0.0, 1.0].into());
 /// let choice = at.choose_by([0x8000_0000, 1]);
 /// assert!((400..600).contains(&choice.index) && choice.pmf == at.pmf(choice.index));
-/// # Ok::<(), etendue::discrete::TableError>(())
+/// # Ok::<(), etendue::select::LightsError>(())
 /// ```
+#[doc(alias = "light BVH")]
 #[derive(Clone, Copy, Debug)]
 pub struct LightTree<'a> {
     nodes: &'a [Node8],
@@ -89,9 +89,8 @@ impl<'a> LightTree<'a> {
     /// the widest axes of positions and of normals, until a node has eight children. The lowest nodes are full.
     ///
     /// # Errors
-    /// [`TableError::Length`] if the nodes are too few, if the lengths of `lights` and `places` differ, or if there are more than
-    /// [`MOST`](Self::MOST) lights.
-    pub fn build(lights: &[LightBound], nodes: &'a mut [Node8], places: &'a mut [u32]) -> Result<Self, TableError> {
+    /// If the nodes are too few, the lengths of `lights` and `places` differ, or there are more than [`MOST`](Self::MOST) lights.
+    pub fn build(lights: &[LightBound], nodes: &'a mut [Node8], places: &'a mut [u32]) -> Result<Self, LightsError> {
         Self::build_with(lights, nodes, places, &Sequential)
     }
 
@@ -104,10 +103,13 @@ impl<'a> LightTree<'a> {
         nodes: &'a mut [Node8],
         places: &'a mut [u32],
         join: &impl Join,
-    ) -> Result<Self, TableError> {
+    ) -> Result<Self, LightsError> {
         let count = lights.len();
-        if count != places.len() || count > Self::MOST || nodes.len() < nodes_for(count) {
-            return Err(TableError::Length);
+        if count > Self::MOST {
+            return Err(LightsError::TooMany);
+        }
+        if count != places.len() || nodes.len() < nodes_for(count) {
+            return Err(LightsError::Length);
         }
         for (place, light) in places.iter_mut().zip(0..) {
             *place = light;
@@ -136,10 +138,10 @@ impl<'a> LightTree<'a> {
     /// becomes less good as neighbours part.
     ///
     /// # Errors
-    /// [`TableError::Length`] if the number of lights is not that of the tree.
-    pub fn refit(lights: &[LightBound], nodes: &mut [Node8], places: &[u32]) -> Result<(), TableError> {
+    /// If the number of lights is not that of the tree, or the memory does not hold a tree of so many.
+    pub fn refit(lights: &[LightBound], nodes: &mut [Node8], places: &[u32]) -> Result<(), LightsError> {
         if lights.len() != places.len() || nodes.len() < nodes_for(lights.len()) {
-            return Err(TableError::Length);
+            return Err(LightsError::Length);
         }
         // what is beyond may be left of a larger tree
         let nodes = &mut nodes[..nodes_for(lights.len())];
@@ -150,10 +152,10 @@ impl<'a> LightTree<'a> {
                 let part = match nodes[index].child[slot] {
                     NONE => continue,
                     light if light & LIGHT != 0 => {
-                        let light = lights.get((light & !LIGHT) as usize).ok_or(TableError::Length)?;
+                        let light = lights.get((light & !LIGHT) as usize).ok_or(LightsError::Length)?;
                         Part::light(light, units)
                     }
-                    node => nodes.get(node as usize).ok_or(TableError::Length)?.union(),
+                    node => nodes.get(node as usize).ok_or(LightsError::Length)?.union(),
                 };
                 let child = nodes[index].child[slot];
                 nodes[index].set(slot, child, &part);

@@ -7,7 +7,7 @@ use etendue::{BilinearPatch, Disk, Line, Parallelogram, PointLight, Rectangle, S
 use etendue_oracle::double_double::{Dd, dd};
 use etendue_oracle::tier::cases;
 use etendue_oracle::{V3, cross, dot, length, narrow, unit, wide};
-use etendue_properties::generators::Random;
+use etendue_judge::generators::Random;
 
 /// Three vectors of a size, the first of which is up to 10⁶ times as long as the others.
 fn vectors(random: &mut Random) -> [[f32; 3]; 3] {

@@ -1,7 +1,6 @@
 //! Trees of lights: exact sums, the pmf of choices, frequencies, and that no light is lost.
 
-use etendue::discrete::TableError;
-use etendue::select::{Choice, Join, LightBound, LightChoice, LightTree, NO_LIGHT, Node8, TreeWords};
+use etendue::select::{Choice, Join, LightBound, LightChoice, LightTree, LightsError, NO_LIGHT, Node8, TreeWords};
 use etendue::{Real, Uint, Vec3, f32x8, u32x8};
 use etendue_judge::generators::{EDGES, NASTY, Random};
 use etendue_judge::light_tree::{Grove, Lamp, Place, Reached, Regime, figures, place};
@@ -480,16 +479,16 @@ fn memory_of_the_wrong_size_is_refused() {
     assert_eq!(build(&lights, enough, 100), Ok(100));
     assert_eq!(build(&lights, enough + 5, 100), Ok(100));
     for (nodes, places) in [(enough - 1, 100), (0, 100), (enough, 99), (enough, 101)] {
-        assert_eq!(build(&lights, nodes, places), Err(TableError::Length), "{nodes} {places}");
+        assert_eq!(build(&lights, nodes, places), Err(LightsError::Length), "{nodes} {places}");
     }
     assert_eq!(LightTree::MOST, 1 << 27);
     assert_eq!(build(&[], LightTree::nodes_for(0), 0), Ok(0));
     let Grove { mut nodes, places, .. } = Grove::new(lights.clone());
-    assert_eq!(LightTree::refit(&lights[1..], &mut nodes, &places), Err(TableError::Length));
-    assert_eq!(LightTree::refit(&lights, &mut nodes[1..], &places), Err(TableError::Length));
-    assert_eq!(LightTree::refit(&lights[1..], &mut nodes, &places[1..]), Err(TableError::Length));
+    assert_eq!(LightTree::refit(&lights[1..], &mut nodes, &places), Err(LightsError::Length));
+    assert_eq!(LightTree::refit(&lights, &mut nodes[1..], &places), Err(LightsError::Length));
+    assert_eq!(LightTree::refit(&lights[1..], &mut nodes, &places[1..]), Err(LightsError::Length));
     let more: Vec<_> = lights.iter().chain(&lights[..1]).copied().collect();
-    assert_eq!(LightTree::refit(&more, &mut nodes, &places), Err(TableError::Length));
+    assert_eq!(LightTree::refit(&more, &mut nodes, &places), Err(LightsError::Length));
     // in memory of a larger tree, whose nodes beyond those of the smaller one name lights past its end
     let (few, mut places) = (&lights[..9], vec![0; 9]);
     LightTree::build(few, &mut nodes, &mut places).unwrap();

@@ -1,7 +1,8 @@
 //! Choice of lights: frequencies against probabilities, sums, limits.
 
-use etendue::discrete::TableError;
-use etendue::select::{Allocation, Choice, FEW, LightBound, LightChoice, PowerLights, SpatialLights, UniformLights};
+use etendue::select::{
+    Allocation, Choice, FEW, LightBound, LightChoice, LightsError, PowerLights, SpatialLights, UniformLights,
+};
 use etendue::sequence::{Independent, Sequence};
 use etendue::{Mask, Real, Uint, Vec2, f32x4, f32x8, u32x8};
 use etendue_judge::stats;
@@ -94,9 +95,9 @@ fn power() {
     // a table that does not fit the lights is refused, not cut
     let mut sums = vec![0.0; PowerLights::MOST + 1];
     let powers = vec![1.0; sums.len()];
-    assert_eq!(PowerLights::new(&powers, &mut sums).err(), Some(TableError::Length));
-    assert_eq!(PowerLights::new(&powers[..3], &mut sums[..2]).err(), Some(TableError::Length));
-    assert_eq!(PowerLights::new(&powers[..2], &mut sums[..3]).err(), Some(TableError::Length));
+    assert_eq!(PowerLights::new(&powers, &mut sums).err(), Some(LightsError::TooMany));
+    assert_eq!(PowerLights::new(&powers[..3], &mut sums[..2]).err(), Some(LightsError::Length));
+    assert_eq!(PowerLights::new(&powers[..2], &mut sums[..3]).err(), Some(LightsError::Length));
 }
 
 /// Each of 2¹⁴ lights, one of them 10³⁰ times as strong as the others, is found by some u of the grid, in its due share.
@@ -191,7 +192,7 @@ fn spatial() {
         assert_eq!(at.choose(0.3_f32).pmf, 0.0);
     }
     let many = vec![list[0]; FEW + 1];
-    assert_eq!(SpatialLights::new(&many).err(), Some(TableError::Length));
+    assert_eq!(SpatialLights::new(&many).err(), Some(LightsError::TooMany));
     assert_eq!(SpatialLights::new(&many[1..]).unwrap().len(), FEW);
 }
 

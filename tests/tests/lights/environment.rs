@@ -2,8 +2,8 @@
 
 use core::f64::consts::{PI, TAU};
 use etendue::discrete::TableError;
-use etendue::light::{EnvironmentMap, ImageEnvironment};
-use etendue::{Mask, Real, Uint, Vec2, Vec3, Warp, f32x4, f32x8, f32x16};
+use etendue::light::{EnvironmentMap, ImageEnvironment, Rotated};
+use etendue::{Frame, LightSampler, Mask, Real, Uint, Vec2, Vec3, Warp, f32x4, f32x8, f32x16};
 use etendue_judge::generators::{self, Random};
 use etendue_judge::properties::{Coordinates, squares_of, twice, vectors_of};
 use etendue_judge::stats;
@@ -25,7 +25,7 @@ fn images(map: EnvironmentMap) -> Vec<Image> {
     let sizes: &[[usize; 2]] = match map {
         EqualArea => &[[1, 1], [2, 2], [7, 7], [64, 64]],
         // with odd heights, the horizon passes through a row
-        Equirectangular => &[[1, 1], [2, 1], [4, 2], [6, 3], [13, 7], [128, 64], [16, 301]],
+        _ => &[[1, 1], [2, 1], [4, 2], [6, 3], [13, 7], [128, 64], [16, 301]],
     };
     let mut random = Random::new(11);
     let mut all = Vec::new();
@@ -51,7 +51,7 @@ impl Image {
         let (w, h) = (self.width as f64, self.height as f64);
         match map {
             EqualArea => 4.0 * PI / (w * h),
-            Equirectangular => TAU / w * ((PI * y as f64 / h).cos() - (PI * (y + 1) as f64 / h).cos()),
+            _ => TAU / w * ((PI * y as f64 / h).cos() - (PI * (y + 1) as f64 / h).cos()),
         }
     }
     /// Column and row of a direction, as real numbers, by the definition of the map.
@@ -59,7 +59,7 @@ impl Image {
         let (w, h) = (self.width as f64, self.height as f64);
         match map {
             Equirectangular => [(d[1].atan2(d[0]) / TAU).rem_euclid(1.0) * w, d[0].hypot(d[1]).atan2(d[2]) / PI * h],
-            EqualArea => {
+            _ => {
                 // upper half: the disk of radius √(1−|z|), mapped to a diamond; lower half: folded outwards over its sides
                 let r = ((d[0] * d[0] + d[1] * d[1]) / (1.0 + d[2].abs())).sqrt();
                 let b = r * d[1].abs().atan2(d[0].abs()) / (PI / 2.0);
@@ -78,7 +78,7 @@ impl Image {
         let across = d[0].hypot(d[1]).max(1e-300);
         let (slack_x, slack_y) = match map {
             EqualArea => (rounding * w, rounding * h),
-            Equirectangular => (rounding * w / across, rounding * h),
+            _ => (rounding * w / across, rounding * h),
         };
         let range = |x: f64, slack: f64, n: usize| {
             let low = (x - slack).floor().max(0.0) as usize;
@@ -333,6 +333,28 @@ fn poles_of_large_images() {
             assert!(rows > row as f64 - inside && rows < (row + 1) as f64 + inside, "{row}: {rows}");
             assert!(d[0] <= 1e-7 && d[1] >= -1e-7, "not in the second quadrant: {d:?}");
         }
+    }
+}
+
+/// In axes of its own a sky is the same image: its pdfs, texels and inverses are those of the direction in these axes.
+#[test]
+fn a_sky_may_have_axes_of_its_own() {
+    let mut random = Random::new(11);
+    let weights: Vec<f32> = (0..32).map(|_| random.unit()).collect();
+    let mut buffer = [0.0; ImageEnvironment::buffer(8, 4)];
+    let image = ImageEnvironment::build(&weights, 8, Equirectangular, &mut buffer).unwrap().by_radiance();
+    for _ in 0..cases(2_000, 40_000) {
+        let [x, y] = [random.direction(), random.direction()].map(|v| Vec3::from(v.map(|x| x as f32)));
+        let (n, s) = (x.normalize(), x.cross(y).normalize());
+        let frame = Frame { s, t: n.cross(s), n };
+        let sky = Rotated { sampler: image, frame };
+        let u = Vec2::new(random.unit(), random.unit());
+        let (plain, turned) = (image.sample(u), sky.sample(u));
+        assert!((turned.direction - frame.to_world(plain.direction)).length() < 1e-6, "{plain:?} {turned:?}");
+        assert!(turned.pdf == sky.pdf(turned.direction) && turned.direction.dot(turned.normal) < -0.999);
+        let hit = image.hit(frame.to_local(turned.direction));
+        assert_eq!((turned.pdf, turned.uv, turned.distance), (hit.pdf, hit.uv, hit.distance));
+        assert_eq!(sky.invert(turned.direction), image.invert(frame.to_local(turned.direction)));
     }
 }
 

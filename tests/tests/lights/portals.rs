@@ -5,7 +5,7 @@ mod openings;
 use core::f64::consts::PI;
 use etendue::discrete::TableError;
 use etendue::light::{
-    EnvironmentMap, ImageEnvironment, MOST_PORTALS, Portal, PortalEnvironment, PortalMap, PortalTable,
+    EnvironmentMap, ImageEnvironment, MOST_PORTALS, Portal, PortalEnvironment, PortalError, PortalMap, PortalTable,
 };
 use etendue::{LightSampler, Mask, Real, Vec2, Vec3, Warp, f32x4, f32x8, f32x16};
 use etendue_judge::generators::{self, Random};
@@ -376,14 +376,16 @@ fn invalid_input_is_an_error() {
         assert!(PortalTable::from_buffer(&[0; 10][..length], width).is_err(), "{length} {width}");
     }
     let (s, t) = ([0.0, 1.0, 0.0], [0.0, 0.0, 1.0]);
-    assert!(PortalMap::new(s, s).is_none() && PortalMap::new(s, [0.0; 3]).is_none());
-    assert!(PortalMap::new(s, [f32::NAN; 3]).is_none() && PortalMap::new([f32::INFINITY, 0.0, 0.0], t).is_none());
+    for (s, t) in [(s, s), (s, [0.0; 3]), (s, [f32::NAN; 3]), ([f32::INFINITY, 0.0, 0.0], t)] {
+        assert_eq!(PortalMap::new(s, t), Err(PortalError::Edges));
+    }
     let table = PortalTable::build(&[1.0; 4], 2, &mut buffer).unwrap();
-    assert!(Portal::new([f32::NAN, 0.0, 0.0], s, t).is_none());
+    assert_eq!(Portal::new([f32::NAN, 0.0, 0.0], s, t), Err(PortalError::Corner));
     let portals = [Portal::new([0.0; 3], s, t).unwrap(); MOST_PORTALS + 1];
     let tables = [table; MOST_PORTALS + 1];
-    assert!(PortalEnvironment::new(&portals, &tables).is_err() && PortalEnvironment::new(&[], &[]).is_err());
-    assert!(PortalEnvironment::new(&portals[1..], &tables).is_err());
+    let error = |portals, tables| PortalEnvironment::new(portals, tables).unwrap_err();
+    assert_eq!([error(&portals, &tables), error(&[], &[])], [PortalError::Count; 2]);
+    assert_eq!(error(&portals[1..], &tables), PortalError::Tables);
     assert!(PortalEnvironment::new(&portals[1..], &tables[1..]).is_ok());
 }
 

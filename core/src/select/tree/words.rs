@@ -26,7 +26,7 @@ use crate::vector::Vec3;
 /// let choice = tree.at(p, n).choose(0.7);
 /// let same = LightTree::from_buffers(&nodes, &places).at(p, n).choose(0.7);
 /// assert_eq!((choice.index, choice.pmf, choice.u), (same.index, same.pmf, same.u));
-/// # Ok::<(), etendue::discrete::TableError>(())
+/// # Ok::<(), etendue::select::LightsError>(())
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct TreeWords<M, U> {

@@ -43,6 +43,6 @@ fn portal([p0, p1, p2, p3]: [[f64; 3]; 4]) -> Result<Portal, String> {
     let cross = [s[1] * t[2] - s[2] * t[1], s[2] * t[0] - s[0] * t[2], s[0] * t[1] - s[1] * t[0]];
     let is_wide = length(cross) > TOLERANCE * length(s) * length(t);
     let narrow = |v: [f64; 3]| v.map(|x| x as f32);
-    let portal = Portal::new(narrow(p0), narrow(s), narrow(t)).filter(|_| is_wide);
+    let portal = Portal::new(narrow(p0), narrow(s), narrow(t)).ok().filter(|_| is_wide);
     portal.ok_or_else(|| format!("the corners {named} enclose no area"))
 }

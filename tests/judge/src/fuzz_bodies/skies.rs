@@ -32,7 +32,7 @@ pub(super) fn portals(input: &mut Input<'_>) {
         .collect();
     let (mut all, mut tables) = (Vec::new(), Vec::new());
     for ((corner, s, t, weights, width), buffer) in openings.iter().zip(&mut buffers) {
-        let Some(portal) = Portal::new(*corner, *s, *t) else {
+        let Ok(portal) = Portal::new(*corner, *s, *t) else {
             assert!(!are_plain, "{openings:?}");
             return;
         };
