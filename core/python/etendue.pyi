@@ -7,6 +7,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 _F32 = NDArray[np.float32]
+_Field = Literal["direction", "distance", "pdf", "weight", "normal", "uv", "emits"]
+_Fields = _Field | _Sequence[_Field]
 
 __all__ = [
     "AreaTriangle",
@@ -82,10 +84,11 @@ class Samples:
 
 @final
 class Sampler:
-    def sample(self, u: ArrayLike) -> Samples: ...
-    def hit(self, w: ArrayLike) -> Samples: ...
-    def pdf(self, w: ArrayLike) -> _F32: ...
-    def invert(self, w: ArrayLike) -> _F32: ...
+    def sample(self, u: ArrayLike, *, fields: _Fields | None = None, out: Samples | None = None) -> Samples: ...
+    def hit(self, w: ArrayLike, *, fields: _Fields | None = None, out: Samples | None = None) -> Samples: ...
+    def pdf(self, w: ArrayLike, *, out: _F32 | None = None) -> _F32: ...
+    def pdf_of_hit(self, w: ArrayLike, *, out: _F32 | None = None) -> _F32: ...
+    def invert(self, w: ArrayLike, *, out: _F32 | None = None) -> _F32: ...
     @property
     def area(self) -> float: ...
     @property
@@ -115,6 +118,8 @@ class Sphere:
         view: ArrayLike | None = None,
         spread: ArrayLike | None = None,
         by: Literal["area", "solid_angle", "projected_solid_angle", "reflection"] = "solid_angle",
+        fields: _Fields | None = None,
+        out: Samples | None = None,
     ) -> Samples: ...
     @staticmethod
     def hit_each(
@@ -128,6 +133,8 @@ class Sphere:
         view: ArrayLike | None = None,
         spread: ArrayLike | None = None,
         by: Literal["area", "solid_angle", "projected_solid_angle", "reflection"] = "solid_angle",
+        fields: _Fields | None = None,
+        out: Samples | None = None,
     ) -> Samples: ...
     @staticmethod
     def pdf_each(
@@ -141,6 +148,7 @@ class Sphere:
         view: ArrayLike | None = None,
         spread: ArrayLike | None = None,
         by: Literal["area", "solid_angle", "projected_solid_angle", "reflection"] = "solid_angle",
+        out: _F32 | None = None,
     ) -> _F32: ...
     @staticmethod
     def invert_each(
@@ -154,6 +162,7 @@ class Sphere:
         view: ArrayLike | None = None,
         spread: ArrayLike | None = None,
         by: Literal["area", "solid_angle", "projected_solid_angle", "reflection"] = "solid_angle",
+        out: _F32 | None = None,
     ) -> _F32: ...
 
 @final
@@ -177,6 +186,8 @@ class Triangle:
         view: ArrayLike | None = None,
         spread: ArrayLike | None = None,
         by: Literal["area", "solid_angle", "projected_solid_angle", "cosine_warp", "reflection"] = "solid_angle",
+        fields: _Fields | None = None,
+        out: Samples | None = None,
     ) -> Samples: ...
     @staticmethod
     def hit_each(
@@ -191,6 +202,8 @@ class Triangle:
         view: ArrayLike | None = None,
         spread: ArrayLike | None = None,
         by: Literal["area", "solid_angle", "projected_solid_angle", "cosine_warp", "reflection"] = "solid_angle",
+        fields: _Fields | None = None,
+        out: Samples | None = None,
     ) -> Samples: ...
     @staticmethod
     def pdf_each(
@@ -205,6 +218,7 @@ class Triangle:
         view: ArrayLike | None = None,
         spread: ArrayLike | None = None,
         by: Literal["area", "solid_angle", "projected_solid_angle", "cosine_warp", "reflection"] = "solid_angle",
+        out: _F32 | None = None,
     ) -> _F32: ...
     @staticmethod
     def invert_each(
@@ -219,6 +233,7 @@ class Triangle:
         view: ArrayLike | None = None,
         spread: ArrayLike | None = None,
         by: Literal["area", "solid_angle", "projected_solid_angle", "cosine_warp", "reflection"] = "solid_angle",
+        out: _F32 | None = None,
     ) -> _F32: ...
 
 @final
@@ -242,6 +257,8 @@ class Parallelogram:
         view: ArrayLike | None = None,
         spread: ArrayLike | None = None,
         by: Literal["area", "solid_angle", "projected_solid_angle", "reflection", "spread"] = "solid_angle",
+        fields: _Fields | None = None,
+        out: Samples | None = None,
     ) -> Samples: ...
     @staticmethod
     def hit_each(
@@ -256,6 +273,8 @@ class Parallelogram:
         view: ArrayLike | None = None,
         spread: ArrayLike | None = None,
         by: Literal["area", "solid_angle", "projected_solid_angle", "reflection", "spread"] = "solid_angle",
+        fields: _Fields | None = None,
+        out: Samples | None = None,
     ) -> Samples: ...
     @staticmethod
     def pdf_each(
@@ -270,6 +289,7 @@ class Parallelogram:
         view: ArrayLike | None = None,
         spread: ArrayLike | None = None,
         by: Literal["area", "solid_angle", "projected_solid_angle", "reflection", "spread"] = "solid_angle",
+        out: _F32 | None = None,
     ) -> _F32: ...
     @staticmethod
     def invert_each(
@@ -284,6 +304,7 @@ class Parallelogram:
         view: ArrayLike | None = None,
         spread: ArrayLike | None = None,
         by: Literal["area", "solid_angle", "projected_solid_angle", "reflection", "spread"] = "solid_angle",
+        out: _F32 | None = None,
     ) -> _F32: ...
 
 @final
@@ -308,6 +329,8 @@ class Rectangle:
         view: ArrayLike | None = None,
         spread: ArrayLike | None = None,
         by: Literal["area", "solid_angle", "projected_solid_angle", "cosine_warp", "reflection", "spread"] = "solid_angle",
+        fields: _Fields | None = None,
+        out: Samples | None = None,
     ) -> Samples: ...
     @staticmethod
     def hit_each(
@@ -322,6 +345,8 @@ class Rectangle:
         view: ArrayLike | None = None,
         spread: ArrayLike | None = None,
         by: Literal["area", "solid_angle", "projected_solid_angle", "cosine_warp", "reflection", "spread"] = "solid_angle",
+        fields: _Fields | None = None,
+        out: Samples | None = None,
     ) -> Samples: ...
     @staticmethod
     def pdf_each(
@@ -336,6 +361,7 @@ class Rectangle:
         view: ArrayLike | None = None,
         spread: ArrayLike | None = None,
         by: Literal["area", "solid_angle", "projected_solid_angle", "cosine_warp", "reflection", "spread"] = "solid_angle",
+        out: _F32 | None = None,
     ) -> _F32: ...
     @staticmethod
     def invert_each(
@@ -350,6 +376,7 @@ class Rectangle:
         view: ArrayLike | None = None,
         spread: ArrayLike | None = None,
         by: Literal["area", "solid_angle", "projected_solid_angle", "cosine_warp", "reflection", "spread"] = "solid_angle",
+        out: _F32 | None = None,
     ) -> _F32: ...
 
 @final
@@ -371,6 +398,8 @@ class Disk:
         view: ArrayLike | None = None,
         spread: ArrayLike | None = None,
         by: Literal["area", "solid_angle", "spread"] = "solid_angle",
+        fields: _Fields | None = None,
+        out: Samples | None = None,
     ) -> Samples: ...
     @staticmethod
     def hit_each(
@@ -385,6 +414,8 @@ class Disk:
         view: ArrayLike | None = None,
         spread: ArrayLike | None = None,
         by: Literal["area", "solid_angle", "spread"] = "solid_angle",
+        fields: _Fields | None = None,
+        out: Samples | None = None,
     ) -> Samples: ...
     @staticmethod
     def pdf_each(
@@ -399,6 +430,7 @@ class Disk:
         view: ArrayLike | None = None,
         spread: ArrayLike | None = None,
         by: Literal["area", "solid_angle", "spread"] = "solid_angle",
+        out: _F32 | None = None,
     ) -> _F32: ...
     @staticmethod
     def invert_each(
@@ -413,6 +445,7 @@ class Disk:
         view: ArrayLike | None = None,
         spread: ArrayLike | None = None,
         by: Literal["area", "solid_angle", "spread"] = "solid_angle",
+        out: _F32 | None = None,
     ) -> _F32: ...
 
 @final
@@ -433,6 +466,8 @@ class Polygon:
         view: ArrayLike | None = None,
         spread: ArrayLike | None = None,
         by: Literal["area", "solid_angle", "projected_solid_angle", "reflection"] = "solid_angle",
+        fields: _Fields | None = None,
+        out: Samples | None = None,
     ) -> Samples: ...
     @staticmethod
     def hit_each(
@@ -445,6 +480,8 @@ class Polygon:
         view: ArrayLike | None = None,
         spread: ArrayLike | None = None,
         by: Literal["area", "solid_angle", "projected_solid_angle", "reflection"] = "solid_angle",
+        fields: _Fields | None = None,
+        out: Samples | None = None,
     ) -> Samples: ...
     @staticmethod
     def pdf_each(
@@ -457,6 +494,7 @@ class Polygon:
         view: ArrayLike | None = None,
         spread: ArrayLike | None = None,
         by: Literal["area", "solid_angle", "projected_solid_angle", "reflection"] = "solid_angle",
+        out: _F32 | None = None,
     ) -> _F32: ...
     @staticmethod
     def invert_each(
@@ -469,6 +507,7 @@ class Polygon:
         view: ArrayLike | None = None,
         spread: ArrayLike | None = None,
         by: Literal["area", "solid_angle", "projected_solid_angle", "reflection"] = "solid_angle",
+        out: _F32 | None = None,
     ) -> _F32: ...
 
 @final
@@ -489,6 +528,8 @@ class BilinearPatch:
         view: ArrayLike | None = None,
         spread: ArrayLike | None = None,
         by: Literal["area"] = "area",
+        fields: _Fields | None = None,
+        out: Samples | None = None,
     ) -> Samples: ...
     @staticmethod
     def hit_each(
@@ -504,6 +545,8 @@ class BilinearPatch:
         view: ArrayLike | None = None,
         spread: ArrayLike | None = None,
         by: Literal["area"] = "area",
+        fields: _Fields | None = None,
+        out: Samples | None = None,
     ) -> Samples: ...
     @staticmethod
     def pdf_each(
@@ -519,6 +562,7 @@ class BilinearPatch:
         view: ArrayLike | None = None,
         spread: ArrayLike | None = None,
         by: Literal["area"] = "area",
+        out: _F32 | None = None,
     ) -> _F32: ...
     @staticmethod
     def invert_each(
@@ -534,6 +578,7 @@ class BilinearPatch:
         view: ArrayLike | None = None,
         spread: ArrayLike | None = None,
         by: Literal["area"] = "area",
+        out: _F32 | None = None,
     ) -> _F32: ...
 
 @final
@@ -554,6 +599,8 @@ class Line:
         view: ArrayLike | None = None,
         spread: ArrayLike | None = None,
         by: Literal["length", "angle", "projected_solid_angle"] = "angle",
+        fields: _Fields | None = None,
+        out: Samples | None = None,
     ) -> Samples: ...
     @staticmethod
     def hit_each(
@@ -567,6 +614,8 @@ class Line:
         view: ArrayLike | None = None,
         spread: ArrayLike | None = None,
         by: Literal["length", "angle", "projected_solid_angle"] = "angle",
+        fields: _Fields | None = None,
+        out: Samples | None = None,
     ) -> Samples: ...
     @staticmethod
     def pdf_each(
@@ -580,6 +629,7 @@ class Line:
         view: ArrayLike | None = None,
         spread: ArrayLike | None = None,
         by: Literal["length", "angle", "projected_solid_angle"] = "angle",
+        out: _F32 | None = None,
     ) -> _F32: ...
     @staticmethod
     def invert_each(
@@ -593,6 +643,7 @@ class Line:
         view: ArrayLike | None = None,
         spread: ArrayLike | None = None,
         by: Literal["length", "angle", "projected_solid_angle"] = "angle",
+        out: _F32 | None = None,
     ) -> _F32: ...
 
 @final
@@ -611,6 +662,8 @@ class Sun:
         view: ArrayLike | None = None,
         spread: ArrayLike | None = None,
         by: Literal["solid_angle"] = "solid_angle",
+        fields: _Fields | None = None,
+        out: Samples | None = None,
     ) -> Samples: ...
     @staticmethod
     def hit_each(
@@ -624,6 +677,8 @@ class Sun:
         view: ArrayLike | None = None,
         spread: ArrayLike | None = None,
         by: Literal["solid_angle"] = "solid_angle",
+        fields: _Fields | None = None,
+        out: Samples | None = None,
     ) -> Samples: ...
     @staticmethod
     def pdf_each(
@@ -637,6 +692,7 @@ class Sun:
         view: ArrayLike | None = None,
         spread: ArrayLike | None = None,
         by: Literal["solid_angle"] = "solid_angle",
+        out: _F32 | None = None,
     ) -> _F32: ...
     @staticmethod
     def invert_each(
@@ -650,6 +706,7 @@ class Sun:
         view: ArrayLike | None = None,
         spread: ArrayLike | None = None,
         by: Literal["solid_angle"] = "solid_angle",
+        out: _F32 | None = None,
     ) -> _F32: ...
 
 @final
@@ -667,6 +724,8 @@ class PointLight:
         view: ArrayLike | None = None,
         spread: ArrayLike | None = None,
         by: Literal["delta"] = "delta",
+        fields: _Fields | None = None,
+        out: Samples | None = None,
     ) -> Samples: ...
     @staticmethod
     def hit_each(
@@ -679,6 +738,8 @@ class PointLight:
         view: ArrayLike | None = None,
         spread: ArrayLike | None = None,
         by: Literal["delta"] = "delta",
+        fields: _Fields | None = None,
+        out: Samples | None = None,
     ) -> Samples: ...
     @staticmethod
     def pdf_each(
@@ -691,6 +752,7 @@ class PointLight:
         view: ArrayLike | None = None,
         spread: ArrayLike | None = None,
         by: Literal["delta"] = "delta",
+        out: _F32 | None = None,
     ) -> _F32: ...
     @staticmethod
     def invert_each(
@@ -703,6 +765,7 @@ class PointLight:
         view: ArrayLike | None = None,
         spread: ArrayLike | None = None,
         by: Literal["delta"] = "delta",
+        out: _F32 | None = None,
     ) -> _F32: ...
 
 @final
@@ -723,6 +786,8 @@ class SpotLight:
         view: ArrayLike | None = None,
         spread: ArrayLike | None = None,
         by: Literal["delta"] = "delta",
+        fields: _Fields | None = None,
+        out: Samples | None = None,
     ) -> Samples: ...
     @staticmethod
     def hit_each(
@@ -738,6 +803,8 @@ class SpotLight:
         view: ArrayLike | None = None,
         spread: ArrayLike | None = None,
         by: Literal["delta"] = "delta",
+        fields: _Fields | None = None,
+        out: Samples | None = None,
     ) -> Samples: ...
     @staticmethod
     def pdf_each(
@@ -753,6 +820,7 @@ class SpotLight:
         view: ArrayLike | None = None,
         spread: ArrayLike | None = None,
         by: Literal["delta"] = "delta",
+        out: _F32 | None = None,
     ) -> _F32: ...
     @staticmethod
     def invert_each(
@@ -768,6 +836,7 @@ class SpotLight:
         view: ArrayLike | None = None,
         spread: ArrayLike | None = None,
         by: Literal["delta"] = "delta",
+        out: _F32 | None = None,
     ) -> _F32: ...
 
 @final
@@ -785,6 +854,8 @@ class DirectionalLight:
         view: ArrayLike | None = None,
         spread: ArrayLike | None = None,
         by: Literal["delta"] = "delta",
+        fields: _Fields | None = None,
+        out: Samples | None = None,
     ) -> Samples: ...
     @staticmethod
     def hit_each(
@@ -797,6 +868,8 @@ class DirectionalLight:
         view: ArrayLike | None = None,
         spread: ArrayLike | None = None,
         by: Literal["delta"] = "delta",
+        fields: _Fields | None = None,
+        out: Samples | None = None,
     ) -> Samples: ...
     @staticmethod
     def pdf_each(
@@ -809,6 +882,7 @@ class DirectionalLight:
         view: ArrayLike | None = None,
         spread: ArrayLike | None = None,
         by: Literal["delta"] = "delta",
+        out: _F32 | None = None,
     ) -> _F32: ...
     @staticmethod
     def invert_each(
@@ -821,6 +895,7 @@ class DirectionalLight:
         view: ArrayLike | None = None,
         spread: ArrayLike | None = None,
         by: Literal["delta"] = "delta",
+        out: _F32 | None = None,
     ) -> _F32: ...
 
 # end of what is from the list
@@ -951,10 +1026,44 @@ class Pictured:
     def by_solid_angle(self, p: ArrayLike) -> Sampler: ...
     def by_projected_solid_angle(self, p: ArrayLike, n: ArrayLike) -> Sampler: ...
     def by_visible_area(self, p: ArrayLike) -> Sampler: ...
-    def sample_each(self, *, p: ArrayLike, u: ArrayLike, n: ArrayLike | None = None, by: _ByPicture | None = None) -> Samples: ...
-    def hit_each(self, *, p: ArrayLike, w: ArrayLike, n: ArrayLike | None = None, by: _ByPicture | None = None) -> Samples: ...
-    def pdf_each(self, *, p: ArrayLike, w: ArrayLike, n: ArrayLike | None = None, by: _ByPicture | None = None) -> _F32: ...
-    def invert_each(self, *, p: ArrayLike, w: ArrayLike, n: ArrayLike | None = None, by: _ByPicture | None = None) -> _F32: ...
+    def sample_each(
+        self,
+        *,
+        p: ArrayLike,
+        u: ArrayLike,
+        n: ArrayLike | None = None,
+        by: _ByPicture | None = None,
+        fields: _Fields | None = None,
+        out: Samples | None = None,
+    ) -> Samples: ...
+    def hit_each(
+        self,
+        *,
+        p: ArrayLike,
+        w: ArrayLike,
+        n: ArrayLike | None = None,
+        by: _ByPicture | None = None,
+        fields: _Fields | None = None,
+        out: Samples | None = None,
+    ) -> Samples: ...
+    def pdf_each(
+        self,
+        *,
+        p: ArrayLike,
+        w: ArrayLike,
+        n: ArrayLike | None = None,
+        by: _ByPicture | None = None,
+        out: _F32 | None = None,
+    ) -> _F32: ...
+    def invert_each(
+        self,
+        *,
+        p: ArrayLike,
+        w: ArrayLike,
+        n: ArrayLike | None = None,
+        by: _ByPicture | None = None,
+        out: _F32 | None = None,
+    ) -> _F32: ...
 
 @final
 class Portal:
@@ -965,10 +1074,10 @@ class Portal:
 class PortalEnvironment:
     def __new__(cls, portals: _Sequence[Portal], weights: _Sequence[ArrayLike]) -> PortalEnvironment: ...
     def by_radiance(self, p: ArrayLike) -> Sampler: ...
-    def sample_each(self, *, p: ArrayLike, u: ArrayLike) -> Samples: ...
-    def hit_each(self, *, p: ArrayLike, w: ArrayLike) -> Samples: ...
-    def pdf_each(self, *, p: ArrayLike, w: ArrayLike) -> _F32: ...
-    def invert_each(self, *, p: ArrayLike, w: ArrayLike) -> _F32: ...
+    def sample_each(self, *, p: ArrayLike, u: ArrayLike, fields: _Fields | None = None, out: Samples | None = None) -> Samples: ...
+    def hit_each(self, *, p: ArrayLike, w: ArrayLike, fields: _Fields | None = None, out: Samples | None = None) -> Samples: ...
+    def pdf_each(self, *, p: ArrayLike, w: ArrayLike, out: _F32 | None = None) -> _F32: ...
+    def invert_each(self, *, p: ArrayLike, w: ArrayLike, out: _F32 | None = None) -> _F32: ...
     def sees(self, p: ArrayLike, w: ArrayLike) -> NDArray[np.bool_]: ...
 
 @final

@@ -1,13 +1,11 @@
-//! numpy arrays as columns of numbers, and back.
+//! numpy arrays as columns of numbers.
 
-use etendue_batch::{Batch, BatchMap};
-use numpy::{Element, PyArray1, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArrayMethods};
-use pyo3::exceptions::{PyMemoryError, PyTypeError, PyValueError};
+use crate::results::room;
+use numpy::{Element, PyReadonlyArrayDyn};
+use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
-/// Batches at least as long as this release Python's lock.
-const LARGE: usize = 256;
 /// The largest number below 1.
 const LAST: f32 = 1.0 - 1.0 / 16_777_216.0;
 
@@ -22,8 +20,10 @@ pub(crate) enum FieldKind {
     Row(usize),
     /// Two numbers in [0, 1).
     Units,
-    /// A unit vector, or 0.
+    /// A unit vector.
     Direction,
+    /// A unit vector, or what makes a light or a surface degenerate: 0, or numbers that are not finite.
+    Normal,
     /// 3 to 8 points, on the last two axes.
     Corners,
     /// An index.
@@ -37,7 +37,7 @@ impl FieldKind {
             Self::Number | Self::Unit | Self::Index => "",
             Self::Row(2) | Self::Units => "2",
             Self::Row(4) => "4",
-            Self::Row(_) | Self::Direction => "3",
+            Self::Row(_) | Self::Direction | Self::Normal => "3",
             Self::Corners => "3 to 8, 3",
         }
     }
@@ -47,7 +47,7 @@ impl FieldKind {
             Self::Number | Self::Unit | Self::Index => 1,
             Self::Units => 2,
             Self::Row(width) => width,
-            Self::Direction => 3,
+            Self::Direction | Self::Normal => 3,
             Self::Corners => 24,
         }
     }
@@ -158,7 +158,7 @@ impl<'py> Argument<'py> {
             }
             columns
         };
-        if self.kind == FieldKind::Direction {
+        if let FieldKind::Direction | FieldKind::Normal = self.kind {
             self.check_length(&columns, shape)?;
         }
         Ok(columns)
@@ -177,30 +177,38 @@ impl<'py> Argument<'py> {
             // a polygon repeats its last corner
             let k = if k < width { k } else { width - 3 + k % 3 };
             let mut column = room(n)?;
-            column.extend(numbers.iter().skip(k).step_by(width.max(1)).take(n));
+            match width {
+                2 => column.extend(numbers.as_chunks::<2>().0.iter().map(|row| row[k])),
+                3 => column.extend(numbers.as_chunks::<3>().0.iter().map(|row| row[k])),
+                _ => column.extend(numbers.iter().skip(k).step_by(width.max(1)).take(n)),
+            }
             columns.push(column);
         }
         Ok(columns)
     }
     fn check_unit<T: Copy + Into<f64>>(&self, columns: &[Vec<T>], shape: &[usize]) -> PyResult<()> {
+        let is_wrong = |x: &T| !(0.0..1.0).contains(&(*x).into());
         for (k, column) in columns.iter().enumerate() {
-            let wrong = column.iter().position(|&x| !(0.0..1.0).contains(&x.into()));
-            if let Some((at, &x)) = wrong.and_then(|at| Some((at, column.get(at)?))) {
+            if let Some(at) = first(column, is_wrong) {
+                let x = column[at].into();
                 let at = self.index(at, shape, (columns.len() > 1).then_some(k));
-                return Err(PyValueError::new_err(format!("{at} must be in [0, 1), not {}", x.into())));
+                return Err(PyValueError::new_err(format!("{at} must be in [0, 1), not {x}")));
             }
         }
         Ok(())
     }
     fn check_length(&self, columns: &[Vec<f32>], shape: &[usize]) -> PyResult<()> {
         let [x, y, z] = columns else { return Ok(()) };
-        for (at, ((x, y), z)) in x.iter().zip(y).zip(z).enumerate() {
-            let square = x * x + *y * *y + *z * *z;
-            if square > 0.0 && square.is_finite() && (square - 1.0).abs() > 0.01 {
-                let at = self.index(at, shape, None);
-                let message = format!("{at} must be a unit vector, not of length {}", square.sqrt());
-                return Err(PyValueError::new_err(message));
-            }
+        let may_be_degenerate = self.kind == FieldKind::Normal;
+        let is_wrong = |&square: &f32| {
+            let is_degenerate = !(square > 0.0 && square < f32::INFINITY);
+            if is_degenerate { !may_be_degenerate } else { (square - 1.0).abs() > 0.01 }
+        };
+        let squares: Vec<f32> = x.iter().zip(y).zip(z).map(|((x, y), z)| x * x + y * y + z * z).collect();
+        if let Some(at) = first(&squares, is_wrong) {
+            let length = squares[at].sqrt();
+            let at = self.index(at, shape, None);
+            return Err(PyValueError::new_err(format!("{at} must be a unit vector, not of length {length}")));
         }
         Ok(())
     }
@@ -228,6 +236,12 @@ impl<'py> Argument<'py> {
         };
         array.as_slice()?.iter().map(index).collect()
     }
+}
+
+/// The place of the first number that is wrong. It asks all of them without a branch for each, since nearly always none is.
+fn first<T>(column: &[T], is_wrong: impl Fn(&T) -> bool) -> Option<usize> {
+    let any = column.iter().fold(false, |any, x| any | is_wrong(x));
+    if any { column.iter().position(is_wrong) } else { None }
 }
 
 /// The most columns or rows of an image.
@@ -275,73 +289,4 @@ pub(crate) fn broadcast(py: Python<'_>, arguments: &[&Argument<'_>]) -> PyResult
         }
     })?;
     shape.extract()
-}
-
-/// Memory for so many numbers.
-pub(crate) fn room<T>(n: usize) -> PyResult<Vec<T>> {
-    let mut column = Vec::new();
-    match column.try_reserve_exact(n) {
-        Ok(()) => Ok(column),
-        Err(_) => Err(PyMemoryError::new_err(format!("no memory for {n} numbers"))),
-    }
-}
-/// So many zeros.
-pub(crate) fn zeros<T: Default + Clone>(n: usize) -> PyResult<Vec<T>> {
-    let mut column = room(n)?;
-    column.resize(n, T::default());
-    Ok(column)
-}
-/// So many zeros in each of K columns.
-pub(crate) fn zero_columns<const K: usize>(n: usize) -> PyResult<[Vec<f32>; K]> {
-    let mut columns = [const { Vec::new() }; K];
-    for column in &mut columns {
-        *column = zeros(n)?;
-    }
-    Ok(columns)
-}
-
-/// Runs a batch of `n`, without Python's lock if it is large.
-pub(crate) fn run<R: Send>(py: Python<'_>, n: usize, batch: impl FnOnce() -> R + Send) -> R {
-    if n < LARGE { batch() } else { py.detach(batch) }
-}
-
-/// The results of a map of columns of numbers, and whether they hold.
-pub(crate) fn map<M: BatchMap + Sync>(
-    py: Python<'_>,
-    map: &M,
-    columns: &[Vec<f32>],
-) -> PyResult<(Vec<Vec<f32>>, Vec<bool>)> {
-    let n = columns[0].len();
-    let mut out = Vec::new();
-    for _ in 0..M::RESULTS {
-        out.push(zeros(n)?);
-    }
-    let mut holds = zeros::<u8>(n)?;
-    let numbers: Vec<&[f32]> = columns.iter().map(Vec::as_slice).collect();
-    run(py, n, || {
-        let mut out: Vec<&mut [f32]> = out.iter_mut().map(Vec::as_mut_slice).collect();
-        Batch::new().map(map, &numbers, &mut out, &mut holds);
-    });
-    Ok((out, holds.into_iter().map(|holds| holds != 0).collect()))
-}
-
-/// A numpy array of the shape `shape`.
-pub(crate) fn array<'py, T: Element>(py: Python<'py>, shape: &[usize], numbers: Vec<T>) -> PyResult<Bound<'py, PyAny>> {
-    let array = PyArray1::from_vec(py, numbers);
-    debug_assert_eq!(array.len(), shape.iter().product::<usize>());
-    Ok(array.reshape(shape.to_vec())?.into_any())
-}
-/// A numpy array of the shape `shape`, with the columns on one more axis.
-pub(crate) fn rows<'py>(py: Python<'py>, shape: &[usize], columns: &[Vec<f32>]) -> PyResult<Bound<'py, PyAny>> {
-    let n = columns.first().map_or(0, Vec::len);
-    let mut numbers = zeros(n * columns.len())?;
-    run(py, n, || {
-        for (k, column) in columns.iter().enumerate() {
-            for (to, from) in numbers.iter_mut().skip(k).step_by(columns.len()).zip(column) {
-                *to = *from;
-            }
-        }
-    });
-    let shape: Vec<usize> = shape.iter().copied().chain([columns.len()]).collect();
-    array(py, &shape, numbers)
 }

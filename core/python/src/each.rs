@@ -1,13 +1,16 @@
 //! Lights and shading points of their own for each row.
 
-use crate::arrays::{Argument, FieldKind, array, broadcast, room, rows, run, zero_columns, zeros};
+use crate::arrays::{Argument, FieldKind, broadcast};
 use crate::reflections::reflections;
-use crate::samplers::{Samples, vector};
+use crate::results::{Target, given_or_new, room, run};
+use crate::samplers::{cut, numbers as numbers_of, vector};
+use crate::samples::{Samples, Wanted};
 use etendue::Vec2;
 use etendue::light::Spread;
 use etendue_batch::{Batch, Evaluations, Technique};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
+use std::ops::Range;
 
 /// An argument of a light's constructor: its name, its kind, whether it is a vertex of which the core keeps the edge from the first one, and
 /// its value.
@@ -54,7 +57,7 @@ impl Needs {
     /// The arguments from which it is made.
     fn arguments<'py>(self, given: Given<'_, 'py>) -> PyResult<Vec<Argument<'py>>> {
         let wrong = |message: &str| Err(PyTypeError::new_err(message.to_owned()));
-        let direction = |name, object| Argument::new(name, FieldKind::Direction, object);
+        let direction = |name, object| Argument::new(name, FieldKind::Normal, object);
         match (self, given) {
             (Self::Nothing, _) => Ok(Vec::new()),
             (Self::Normal, Given { n: Some(n), .. }) => Ok(vec![direction("n", n)?]),
@@ -151,44 +154,45 @@ impl Each {
         Ok(this)
     }
     /// Calls a function of the technique `T` for all rows.
-    pub(crate) fn call<T: Technique>(
+    pub(crate) fn call<'py, T: Technique>(
         self,
-        py: Python<'_>,
-        call: Call,
+        py: Python<'py>,
+        (call, wanted): (Call, Wanted<'_, 'py>),
         light_of: impl for<'a> Fn(&[&'a [f32]]) -> T::Light<&'a [f32]> + Send + Sync,
         with_of: impl for<'a> Fn(&[&'a [f32]]) -> T::With<&'a [f32]> + Send + Sync,
-    ) -> PyResult<Py<PyAny>> {
+    ) -> PyResult<Bound<'py, PyAny>> {
         let Self { shape, light, p, with, at } = self;
-        let [light, with] = [&light, &with].map(|columns| columns.iter().map(Vec::as_slice).collect::<Vec<_>>());
-        let evaluate = |out: Evaluations<'_>| {
-            Batch::new().evaluate_each::<T>(light_of(&light), vector(&p), with_of(&with), vector(&at), out);
+        let [light, p, with, at] = &[light, p, with, at];
+        let evaluate = |range: Range<usize>, out: Evaluations<'_>| {
+            let [light, p, with, w] = [light, p, with, at].map(|columns| cut(columns, range.clone()));
+            Batch::new().evaluate_each::<T>(light_of(&light), vector(&p), with_of(&with), vector(&w), out);
         };
         let count = at[0].len();
         Ok(match call {
             Call::Sample => {
-                let u = Vec2::new(&at[0][..], &at[1][..]);
-                let sample = |out: etendue_batch::Samples<'_>| {
+                let sample = |range: Range<usize>, out: etendue_batch::Samples<'_>| {
+                    let [light, p, with, u] = [light, p, with, at].map(|columns| cut(columns, range.clone()));
+                    let u = Vec2::new(u[0], u[1]);
                     Batch::new().sample_each::<T>(light_of(&light), vector(&p), with_of(&with), u, out);
                 };
-                Py::new(py, Samples::of(py, shape, sample)?)?.into_any()
+                Samples::of(py, &shape, wanted, sample)?.into_any()
             }
             Call::Hit => {
-                let hit = |hit: etendue_batch::Samples<'_>| evaluate(Evaluations { hit, ..Evaluations::default() });
-                Py::new(py, Samples::of(py, shape, hit)?)?.into_any()
+                let hit = |range: Range<usize>, hit: etendue_batch::Samples<'_>| {
+                    evaluate(range, Evaluations { hit, ..Evaluations::default() });
+                };
+                Samples::of(py, &shape, wanted, hit)?.into_any()
             }
             Call::Pdf => {
-                let mut out = zeros(count)?;
-                run(py, count, || evaluate(Evaluations { pdf: &mut out, ..Evaluations::default() }));
-                array(py, &shape, out)?.unbind()
+                let array = given_or_new(py, &shape, wanted.out)?;
+                let mut target = Target::of(Some(&array), count)?;
+                let pdf = target.numbers();
+                run(py, count, || evaluate(0..count, Evaluations { pdf, ..Evaluations::default() }));
+                array.clone().into_any()
             }
-            Call::Invert => {
-                let mut out = zero_columns::<2>(count)?;
-                run(py, count, || {
-                    let [x, y] = &mut out;
-                    evaluate(Evaluations { u: [x, y], ..Evaluations::default() });
-                });
-                rows(py, &shape, &out)?.unbind()
-            }
+            Call::Invert => numbers_of(py, &shape, wanted.out, |range, u| {
+                evaluate(range, Evaluations { u, ..Evaluations::default() });
+            })?,
         })
     }
 }

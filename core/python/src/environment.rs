@@ -1,7 +1,8 @@
 //! Light from all around as an image tells it.
 
-use crate::arrays::{self, run, zeros};
-use crate::samplers::{Prepared, Sampler};
+use crate::arrays;
+use crate::results::{run, zeros};
+use crate::samplers::{Prepared, Sampler, pdf_of_hit};
 use etendue::light::{self, EnvironmentMap};
 use etendue::{Vec2, Vec3};
 use etendue_batch::memory::ImageMemory;
@@ -34,6 +35,9 @@ impl Prepared for Image {
     }
     fn pdf(&self, w: Vec3<&[f32]>, out: &mut [f32]) {
         Batch::new().pdf(&self.memory(), w, out);
+    }
+    fn pdf_of_hit(&self, w: Vec3<&[f32]>, out: &mut [f32]) {
+        pdf_of_hit(&self.memory(), w, out);
     }
     fn invert(&self, w: Vec3<&[f32]>, out: Vec2<&mut [f32]>) {
         Batch::new().invert(&self.memory(), w, out);

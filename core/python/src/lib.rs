@@ -1,6 +1,7 @@
 //! The Python package of Étendue: the batches of [`etendue_batch`] with numpy arrays.
 //!
-//! All arrays are copied, so that no other thread can change them while a batch runs without Python's lock.
+//! All arguments are copied, so that no other thread can change them while a batch runs without Python's lock. Results go to new arrays, or to
+//! those of the caller, which no other call of this package uses meanwhile.
 #![forbid(unsafe_code)]
 
 mod arrays;
@@ -10,7 +11,9 @@ mod lights;
 mod pictures;
 mod portals;
 mod reflections;
+mod results;
 mod samplers;
+mod samples;
 mod sequences;
 mod spread;
 mod tree;
@@ -44,6 +47,7 @@ fn level() -> &'static str {
 fn extension(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add_function(wrap_pyfunction!(level, module)?)?;
+    samples::add(module)?;
     samplers::add(module)?;
     lights::add(module)?;
     environment::add(module)?;

@@ -4,6 +4,7 @@ use crate::arrays::{Argument, FieldKind};
 use crate::each::{Call, Each, Field, Given, Needs, numbers};
 use crate::reflections::{self, Reflection};
 use crate::samplers::{Sampler, single};
+use crate::samples::Wanted;
 use crate::spread::Spread;
 use etendue::{Vec3, light};
 use etendue_batch::{Batch, technique};
@@ -71,7 +72,7 @@ macro_rules! kind {
         FieldKind::Number
     };
     (direction) => {
-        FieldKind::Direction
+        FieldKind::Normal
     };
     (corners) => {
         FieldKind::Corners
@@ -146,18 +147,17 @@ macro_rules! light {
                 let mut numbers = numbers.iter().copied();
                 light::$light { $($field: next!($kind numbers)),+ }
             }
-            fn each(
-                py: Python<'_>,
-                fields: &[Field<'_, '_>],
-                p: &Bound<'_, PyAny>,
-                given: Given<'_, '_>,
-                by: &str,
-                call: Call,
-                at: &Bound<'_, PyAny>,
-            ) -> PyResult<Py<PyAny>> {
+            fn each<'py>(
+                py: Python<'py>,
+                fields: &[Field<'_, 'py>],
+                p: &Bound<'py, PyAny>,
+                (given, by): (Given<'_, 'py>, &str),
+                (call, wanted): (Call, Wanted<'_, 'py>),
+                at: &Bound<'py, PyAny>,
+            ) -> PyResult<Bound<'py, PyAny>> {
                 $(if by == &stringify!($by)[3..] {
                     let each = Each::new(py, fields, p, (with!(needs $whole), given), call.argument(at))?;
-                    return each.call::<technique::$technique>(py, call, |x| Self::build(x), with!(columns $whole));
+                    return each.call::<technique::$technique>(py, (call, wanted), |x| Self::build(x), with!(columns $whole));
                 })+
                 let names = [$(&stringify!($by)[3..]),+];
                 Err(PyValueError::new_err(format!("by must be one of {names:?}, not {by:?}")))
@@ -182,77 +182,83 @@ macro_rules! light {
             /// (..., 2), and the unit normals n (..., 3) at the shading points, for techniques that need them. `by` names the
             /// technique: "area" for `by_area`, and so on. By "reflection", which spheres and flat lights have, the arguments of a
             /// `Reflection` are needed, too: roughnesses alpha (...) and unit vectors view (..., 3) towards the viewer; by "spread", full angles
-            /// spread (...) in radians.
+            /// spread (...) in radians. `fields` and `out` are those of `Sampler.sample`.
             #[staticmethod]
-            #[pyo3(signature = ($($argument),+, *, p, u, n=None, alpha=None, view=None, spread=None, by=$default))]
+            #[pyo3(signature = ($($argument),+, *, p, u, n=None, alpha=None, view=None, spread=None, by=$default, fields=None, out=None))]
             #[allow(clippy::too_many_arguments)]
-            fn sample_each(
-                py: Python<'_>,
-                $($argument: &Bound<'_, PyAny>,)+
-                p: &Bound<'_, PyAny>,
-                u: &Bound<'_, PyAny>,
-                n: Option<&Bound<'_, PyAny>>,
-                alpha: Option<&Bound<'_, PyAny>>,
-                view: Option<&Bound<'_, PyAny>>,
-                spread: Option<&Bound<'_, PyAny>>,
+            fn sample_each<'py>(
+                py: Python<'py>,
+                $($argument: &Bound<'py, PyAny>,)+
+                p: &Bound<'py, PyAny>,
+                u: &Bound<'py, PyAny>,
+                n: Option<&Bound<'py, PyAny>>,
+                alpha: Option<&Bound<'py, PyAny>>,
+                view: Option<&Bound<'py, PyAny>>,
+                spread: Option<&Bound<'py, PyAny>>,
                 by: &str,
-            ) -> PyResult<Py<PyAny>> {
-                let fields = Self::fields([$($argument),+]);
-                Self::each(py, &fields, p, Given { n, alpha, view, spread }, by, Call::Sample, u)
+                fields: Option<&Bound<'py, PyAny>>,
+                out: Option<&Bound<'py, PyAny>>,
+            ) -> PyResult<Bound<'py, PyAny>> {
+                let light = Self::fields([$($argument),+]);
+                Self::each(py, &light, p, (Given { n, alpha, view, spread }, by), (Call::Sample, Wanted { fields, out }), u)
             }
             /// The points of a light of its own for each row that unit directions w (..., 3) hit, as `sample_each` takes lights and points.
             #[staticmethod]
-            #[pyo3(signature = ($($argument),+, *, p, w, n=None, alpha=None, view=None, spread=None, by=$default))]
+            #[pyo3(signature = ($($argument),+, *, p, w, n=None, alpha=None, view=None, spread=None, by=$default, fields=None, out=None))]
             #[allow(clippy::too_many_arguments)]
-            fn hit_each(
-                py: Python<'_>,
-                $($argument: &Bound<'_, PyAny>,)+
-                p: &Bound<'_, PyAny>,
-                w: &Bound<'_, PyAny>,
-                n: Option<&Bound<'_, PyAny>>,
-                alpha: Option<&Bound<'_, PyAny>>,
-                view: Option<&Bound<'_, PyAny>>,
-                spread: Option<&Bound<'_, PyAny>>,
+            fn hit_each<'py>(
+                py: Python<'py>,
+                $($argument: &Bound<'py, PyAny>,)+
+                p: &Bound<'py, PyAny>,
+                w: &Bound<'py, PyAny>,
+                n: Option<&Bound<'py, PyAny>>,
+                alpha: Option<&Bound<'py, PyAny>>,
+                view: Option<&Bound<'py, PyAny>>,
+                spread: Option<&Bound<'py, PyAny>>,
                 by: &str,
-            ) -> PyResult<Py<PyAny>> {
-                let fields = Self::fields([$($argument),+]);
-                Self::each(py, &fields, p, Given { n, alpha, view, spread }, by, Call::Hit, w)
+                fields: Option<&Bound<'py, PyAny>>,
+                out: Option<&Bound<'py, PyAny>>,
+            ) -> PyResult<Bound<'py, PyAny>> {
+                let light = Self::fields([$($argument),+]);
+                Self::each(py, &light, p, (Given { n, alpha, view, spread }, by), (Call::Hit, Wanted { fields, out }), w)
             }
             /// The probability densities of unit directions w (..., 3), as `sample_each` takes lights and points.
             #[staticmethod]
-            #[pyo3(signature = ($($argument),+, *, p, w, n=None, alpha=None, view=None, spread=None, by=$default))]
+            #[pyo3(signature = ($($argument),+, *, p, w, n=None, alpha=None, view=None, spread=None, by=$default, out=None))]
             #[allow(clippy::too_many_arguments)]
-            fn pdf_each(
-                py: Python<'_>,
-                $($argument: &Bound<'_, PyAny>,)+
-                p: &Bound<'_, PyAny>,
-                w: &Bound<'_, PyAny>,
-                n: Option<&Bound<'_, PyAny>>,
-                alpha: Option<&Bound<'_, PyAny>>,
-                view: Option<&Bound<'_, PyAny>>,
-                spread: Option<&Bound<'_, PyAny>>,
+            fn pdf_each<'py>(
+                py: Python<'py>,
+                $($argument: &Bound<'py, PyAny>,)+
+                p: &Bound<'py, PyAny>,
+                w: &Bound<'py, PyAny>,
+                n: Option<&Bound<'py, PyAny>>,
+                alpha: Option<&Bound<'py, PyAny>>,
+                view: Option<&Bound<'py, PyAny>>,
+                spread: Option<&Bound<'py, PyAny>>,
                 by: &str,
-            ) -> PyResult<Py<PyAny>> {
-                let fields = Self::fields([$($argument),+]);
-                Self::each(py, &fields, p, Given { n, alpha, view, spread }, by, Call::Pdf, w)
+                out: Option<&Bound<'py, PyAny>>,
+            ) -> PyResult<Bound<'py, PyAny>> {
+                let light = Self::fields([$($argument),+]);
+                Self::each(py, &light, p, (Given { n, alpha, view, spread }, by), (Call::Pdf, Wanted { fields: None, out }), w)
             }
             /// The numbers u in [0, 1)² that are mapped to unit directions w (..., 3), as `sample_each` takes lights and points.
             #[staticmethod]
-            #[pyo3(signature = ($($argument),+, *, p, w, n=None, alpha=None, view=None, spread=None, by=$default))]
+            #[pyo3(signature = ($($argument),+, *, p, w, n=None, alpha=None, view=None, spread=None, by=$default, out=None))]
             #[allow(clippy::too_many_arguments)]
-            fn invert_each(
-                py: Python<'_>,
-                $($argument: &Bound<'_, PyAny>,)+
-                p: &Bound<'_, PyAny>,
-                w: &Bound<'_, PyAny>,
-                n: Option<&Bound<'_, PyAny>>,
-                alpha: Option<&Bound<'_, PyAny>>,
-                view: Option<&Bound<'_, PyAny>>,
-                spread: Option<&Bound<'_, PyAny>>,
+            fn invert_each<'py>(
+                py: Python<'py>,
+                $($argument: &Bound<'py, PyAny>,)+
+                p: &Bound<'py, PyAny>,
+                w: &Bound<'py, PyAny>,
+                n: Option<&Bound<'py, PyAny>>,
+                alpha: Option<&Bound<'py, PyAny>>,
+                view: Option<&Bound<'py, PyAny>>,
+                spread: Option<&Bound<'py, PyAny>>,
                 by: &str,
-            ) -> PyResult<Py<PyAny>> {
-                let fields = Self::fields([$($argument),+]);
-                Self::each(py, &fields, p, Given { n, alpha, view, spread }, by, Call::Invert, w)
+                out: Option<&Bound<'py, PyAny>>,
+            ) -> PyResult<Bound<'py, PyAny>> {
+                let light = Self::fields([$($argument),+]);
+                Self::each(py, &light, p, (Given { n, alpha, view, spread }, by), (Call::Invert, Wanted { fields: None, out }), w)
             }
             fn __repr__(&self) -> String {
                 format!("<etendue.{} {:?}>", stringify!($light), self.numbers)

@@ -1,9 +1,11 @@
 //! Pictures on lights.
 
-use crate::arrays::{Image, run, zeros};
+use crate::arrays::Image;
 use crate::each::{Call, Each, Given, Needs};
 use crate::lights;
-use crate::samplers::{Prepared, Sampler, single};
+use crate::results::{run, zeros};
+use crate::samplers::{Prepared, Sampler, pdf_of_hit, single};
+use crate::samples::Wanted;
 use etendue::light::{self, FlatLight, Region};
 use etendue::{Vec2, Vec3};
 use etendue_batch::memory::PictureMemory;
@@ -213,6 +215,9 @@ impl Prepared for Placed {
     fn pdf(&self, w: Vec3<&[f32]>, out: &mut [f32]) {
         with!(self, |sampler| Batch::new().pdf(sampler, w, out));
     }
+    fn pdf_of_hit(&self, w: Vec3<&[f32]>, out: &mut [f32]) {
+        with!(self, |sampler| pdf_of_hit(sampler, w, out));
+    }
     fn invert(&self, w: Vec3<&[f32]>, out: Vec2<&mut [f32]>) {
         with!(self, |sampler| Batch::new().invert(sampler, w, out));
     }
@@ -238,15 +243,14 @@ impl Pictured {
         let placed = Placed { table: self.table.clone(), shape: self.shape, by, p: single("p", p)?, n };
         Ok(Sampler::new(Box::new(placed), name, None))
     }
-    fn each(
+    fn each<'py>(
         &self,
-        py: Python<'_>,
-        p: &Bound<'_, PyAny>,
-        n: Option<&Bound<'_, PyAny>>,
-        by: Option<&str>,
-        call: Call,
-        at: &Bound<'_, PyAny>,
-    ) -> PyResult<Py<PyAny>> {
+        py: Python<'py>,
+        p: &Bound<'py, PyAny>,
+        (n, by): (Option<&Bound<'py, PyAny>>, Option<&str>),
+        (call, wanted): (Call, Wanted<'_, 'py>),
+        at: &Bound<'py, PyAny>,
+    ) -> PyResult<Bound<'py, PyAny>> {
         let picture = self.table.picture();
         let given = Given { n, ..Given::default() };
         let needs = if by == Some("projected_solid_angle") { Needs::Normal } else { Needs::Nothing };
@@ -257,7 +261,7 @@ impl Pictured {
                 let each = Each::of_one(py, &numbers, p, (needs, given), call, at)?;
                 each.call::<PictureOnSphereByVisibleArea<'_>>(
                     py,
-                    call,
+                    (call, wanted),
                     |x| OnPicture { picture, light: lights::Sphere::build(x) },
                     |_| (),
                 )
@@ -267,7 +271,7 @@ impl Pictured {
                 let each = Each::of_one(py, &numbers, p, (needs, given), call, at)?;
                 each.call::<PictureOnPatchByVisibleArea<'_>>(
                     py,
-                    call,
+                    (call, wanted),
                     |x| OnPicture { picture, light: lights::BilinearPatch::build(x) },
                     |_| (),
                 )
@@ -278,19 +282,19 @@ impl Pictured {
                 match by {
                     Some("area") => each.call::<PictureByArea<'_>>(
                         py,
-                        call,
+                        (call, wanted),
                         |x| OnPicture { picture, light: lights::Parallelogram::build(x) },
                         |_| (),
                     ),
                     Some("projected_solid_angle") => each.call::<PictureByProjectedSolidAngle<'_>>(
                         py,
-                        call,
+                        (call, wanted),
                         |x| OnPicture { picture, light: lights::Parallelogram::build(x) },
                         |x| Vec3::new(x[0], x[1], x[2]),
                     ),
                     _ => each.call::<PictureBySolidAngle<'_>>(
                         py,
-                        call,
+                        (call, wanted),
                         |x| OnPicture { picture, light: lights::Parallelogram::build(x) },
                         |_| (),
                     ),
@@ -331,52 +335,62 @@ impl Pictured {
     /// Samples from a shading point of its own for each row. All arrays are broadcast to one shape (...) beside their last axis: shading points
     /// p (..., 3), numbers u in [0, 1)² (..., 2), and unit normals n (..., 3). `by` names the technique: "area", "solid_angle" or
     /// "projected_solid_angle" for flat lights, "visible_area" for others; None is "solid_angle" or "visible_area".
-    #[pyo3(signature = (*, p, u, n=None, by=None))]
-    fn sample_each(
+    #[pyo3(signature = (*, p, u, n=None, by=None, fields=None, out=None))]
+    #[allow(clippy::too_many_arguments)]
+    fn sample_each<'py>(
         &self,
-        py: Python<'_>,
-        p: &Bound<'_, PyAny>,
-        u: &Bound<'_, PyAny>,
-        n: Option<&Bound<'_, PyAny>>,
+        py: Python<'py>,
+        p: &Bound<'py, PyAny>,
+        u: &Bound<'py, PyAny>,
+        n: Option<&Bound<'py, PyAny>>,
         by: Option<&str>,
-    ) -> PyResult<Py<PyAny>> {
-        self.each(py, p, n, by, Call::Sample, u)
+        fields: Option<&Bound<'py, PyAny>>,
+        out: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        self.each(py, p, (n, by), (Call::Sample, Wanted { fields, out }), u)
     }
     /// The points of the light that unit directions w (..., 3) hit, as `sample_each` takes points.
-    #[pyo3(signature = (*, p, w, n=None, by=None))]
-    fn hit_each(
+    #[pyo3(signature = (*, p, w, n=None, by=None, fields=None, out=None))]
+    #[allow(clippy::too_many_arguments)]
+    fn hit_each<'py>(
         &self,
-        py: Python<'_>,
-        p: &Bound<'_, PyAny>,
-        w: &Bound<'_, PyAny>,
-        n: Option<&Bound<'_, PyAny>>,
+        py: Python<'py>,
+        p: &Bound<'py, PyAny>,
+        w: &Bound<'py, PyAny>,
+        n: Option<&Bound<'py, PyAny>>,
         by: Option<&str>,
-    ) -> PyResult<Py<PyAny>> {
-        self.each(py, p, n, by, Call::Hit, w)
+        fields: Option<&Bound<'py, PyAny>>,
+        out: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        self.each(py, p, (n, by), (Call::Hit, Wanted { fields, out }), w)
     }
     /// The probability densities of unit directions w (..., 3), as `sample_each` takes points.
-    #[pyo3(signature = (*, p, w, n=None, by=None))]
-    fn pdf_each(
+    #[pyo3(signature = (*, p, w, n=None, by=None, out=None))]
+    #[allow(clippy::too_many_arguments)]
+    fn pdf_each<'py>(
         &self,
-        py: Python<'_>,
-        p: &Bound<'_, PyAny>,
-        w: &Bound<'_, PyAny>,
-        n: Option<&Bound<'_, PyAny>>,
+        py: Python<'py>,
+        p: &Bound<'py, PyAny>,
+        w: &Bound<'py, PyAny>,
+        n: Option<&Bound<'py, PyAny>>,
         by: Option<&str>,
-    ) -> PyResult<Py<PyAny>> {
-        self.each(py, p, n, by, Call::Pdf, w)
+        out: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        self.each(py, p, (n, by), (Call::Pdf, Wanted { fields: None, out }), w)
     }
     /// The numbers u in [0, 1)² that are mapped to unit directions w (..., 3), as `sample_each` takes points.
-    #[pyo3(signature = (*, p, w, n=None, by=None))]
-    fn invert_each(
+    #[pyo3(signature = (*, p, w, n=None, by=None, out=None))]
+    #[allow(clippy::too_many_arguments)]
+    fn invert_each<'py>(
         &self,
-        py: Python<'_>,
-        p: &Bound<'_, PyAny>,
-        w: &Bound<'_, PyAny>,
-        n: Option<&Bound<'_, PyAny>>,
+        py: Python<'py>,
+        p: &Bound<'py, PyAny>,
+        w: &Bound<'py, PyAny>,
+        n: Option<&Bound<'py, PyAny>>,
         by: Option<&str>,
-    ) -> PyResult<Py<PyAny>> {
-        self.each(py, p, n, by, Call::Invert, w)
+        out: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        self.each(py, p, (n, by), (Call::Invert, Wanted { fields: None, out }), w)
     }
     fn __repr__(&self) -> String {
         let [width, height] = self.table.size;

@@ -1,8 +1,10 @@
 //! The sky through portals.
 
-use crate::arrays::{Argument, FieldKind, Image, array, broadcast, map, rows, run, zeros};
+use crate::arrays::{Argument, FieldKind, Image, broadcast};
 use crate::each::{Call, Each, Given, Needs};
-use crate::samplers::{Prepared, Sampler, single};
+use crate::results::{array, map, rows, run, zeros};
+use crate::samplers::{Prepared, Sampler, pdf_of_hit, single};
+use crate::samples::Wanted;
 use etendue::light::{MOST_PORTALS, PortalTable};
 use etendue::{Vec2, Vec3};
 use etendue_batch::memory::{PortalMemory, PortalShape, PortalSums};
@@ -99,15 +101,24 @@ impl Prepared for Placed {
     fn pdf(&self, w: Vec3<&[f32]>, out: &mut [f32]) {
         self.with(|sampler| Batch::new().pdf(sampler, w, out));
     }
+    fn pdf_of_hit(&self, w: Vec3<&[f32]>, out: &mut [f32]) {
+        self.with(|sampler| pdf_of_hit(sampler, w, out));
+    }
     fn invert(&self, w: Vec3<&[f32]>, out: Vec2<&mut [f32]>) {
         self.with(|sampler| Batch::new().invert(sampler, w, out));
     }
 }
 
 impl PortalEnvironment {
-    fn each(&self, py: Python<'_>, p: &Bound<'_, PyAny>, call: Call, at: &Bound<'_, PyAny>) -> PyResult<Py<PyAny>> {
+    fn each<'py>(
+        &self,
+        py: Python<'py>,
+        p: &Bound<'py, PyAny>,
+        (call, wanted): (Call, Wanted<'_, 'py>),
+        at: &Bound<'py, PyAny>,
+    ) -> PyResult<Bound<'py, PyAny>> {
         let each = Each::of_one(py, &[], p, (Needs::Nothing, Given::default()), call, at)?;
-        self.sky.with(|sky| each.call::<PortalsByRadiance<'_>>(py, call, |_| sky, |_| ()))
+        self.sky.with(|sky| each.call::<PortalsByRadiance<'_>>(py, (call, wanted), |_| sky, |_| ()))
     }
 }
 
@@ -145,24 +156,50 @@ impl PortalEnvironment {
     }
     /// Samples from a point of its own for each row: points p (..., 3) and numbers u in [0, 1)² (..., 2) are broadcast to one shape (...)
     /// beside their last axis.
-    #[pyo3(signature = (*, p, u))]
-    fn sample_each(&self, py: Python<'_>, p: &Bound<'_, PyAny>, u: &Bound<'_, PyAny>) -> PyResult<Py<PyAny>> {
-        self.each(py, p, Call::Sample, u)
+    #[pyo3(signature = (*, p, u, fields=None, out=None))]
+    fn sample_each<'py>(
+        &self,
+        py: Python<'py>,
+        p: &Bound<'py, PyAny>,
+        u: &Bound<'py, PyAny>,
+        fields: Option<&Bound<'py, PyAny>>,
+        out: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        self.each(py, p, (Call::Sample, Wanted { fields, out }), u)
     }
     /// What unit directions w (..., 3) see of the sky, as `sample_each` takes points.
-    #[pyo3(signature = (*, p, w))]
-    fn hit_each(&self, py: Python<'_>, p: &Bound<'_, PyAny>, w: &Bound<'_, PyAny>) -> PyResult<Py<PyAny>> {
-        self.each(py, p, Call::Hit, w)
+    #[pyo3(signature = (*, p, w, fields=None, out=None))]
+    fn hit_each<'py>(
+        &self,
+        py: Python<'py>,
+        p: &Bound<'py, PyAny>,
+        w: &Bound<'py, PyAny>,
+        fields: Option<&Bound<'py, PyAny>>,
+        out: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        self.each(py, p, (Call::Hit, Wanted { fields, out }), w)
     }
     /// The probability densities of unit directions w (..., 3), as `sample_each` takes points.
-    #[pyo3(signature = (*, p, w))]
-    fn pdf_each(&self, py: Python<'_>, p: &Bound<'_, PyAny>, w: &Bound<'_, PyAny>) -> PyResult<Py<PyAny>> {
-        self.each(py, p, Call::Pdf, w)
+    #[pyo3(signature = (*, p, w, out=None))]
+    fn pdf_each<'py>(
+        &self,
+        py: Python<'py>,
+        p: &Bound<'py, PyAny>,
+        w: &Bound<'py, PyAny>,
+        out: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        self.each(py, p, (Call::Pdf, Wanted { fields: None, out }), w)
     }
     /// The numbers u in [0, 1)² that are mapped to unit directions w (..., 3), as `sample_each` takes points.
-    #[pyo3(signature = (*, p, w))]
-    fn invert_each(&self, py: Python<'_>, p: &Bound<'_, PyAny>, w: &Bound<'_, PyAny>) -> PyResult<Py<PyAny>> {
-        self.each(py, p, Call::Invert, w)
+    #[pyo3(signature = (*, p, w, out=None))]
+    fn invert_each<'py>(
+        &self,
+        py: Python<'py>,
+        p: &Bound<'py, PyAny>,
+        w: &Bound<'py, PyAny>,
+        out: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        self.each(py, p, (Call::Invert, Wanted { fields: None, out }), w)
     }
     /// Whether rays from points p (..., 3) in unit directions w (..., 3) pass a portal towards the sky.
     fn sees<'py>(&self, py: Python<'py>, p: &Bound<'py, PyAny>, w: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {

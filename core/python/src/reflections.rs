@@ -1,6 +1,7 @@
 //! The light that rough surfaces reflect.
 
-use crate::arrays::{Argument, FieldKind, array, broadcast, map, run, zeros};
+use crate::arrays::{Argument, FieldKind, broadcast};
+use crate::results::{array, map, run, zeros};
 use crate::samplers::{single, vector};
 use crate::warps::Warp;
 use etendue::reflection;
@@ -50,7 +51,7 @@ impl Reflection {
         view: &Bound<'_, PyAny>,
     ) -> PyResult<PyClassInitializer<Self>> {
         let alpha = Argument::single("alpha", FieldKind::Number, alpha)?.columns(&[])?[0][0];
-        let view = Argument::single("view", FieldKind::Direction, view)?.columns(&[])?;
+        let view = Argument::single("view", FieldKind::Normal, view)?.columns(&[])?;
         let view = etendue::Vec3::new(view[0][0], view[1][0], view[2][0]);
         let reflection = reflection::Reflection::new(alpha, single("n", n)?, view);
         Ok(PyClassInitializer::from(Warp { map: Box::new(reflection) }).add_subclass(Self { reflection }))
@@ -92,8 +93,7 @@ impl Reflection {
         view: &Bound<'py, PyAny>,
     ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
         let alpha = Argument::new("alpha", FieldKind::Number, alpha)?;
-        let (n, view) =
-            (Argument::new("n", FieldKind::Direction, n)?, Argument::new("view", FieldKind::Direction, view)?);
+        let (n, view) = (Argument::new("n", FieldKind::Normal, n)?, Argument::new("view", FieldKind::Normal, view)?);
         let shape = broadcast(py, &[&alpha, &n, &view])?;
         let mut numbers = reflections(py, &alpha.columns(&shape)?[0], &n.columns(&shape)?, &view.columns(&shape)?)?;
         let [albedo, schlick] = [NUMBERS - 2, NUMBERS - 1].map(|k| core::mem::take(&mut numbers[k]));

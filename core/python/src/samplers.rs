@@ -1,16 +1,20 @@
-//! Lights prepared for a shading point, and their samples.
+//! Lights prepared for a shading point.
 
-use crate::arrays::{Argument, FieldKind, array, rows, run, zero_columns, zeros};
-use etendue::{Vec2, Vec3};
+use crate::arrays::{Argument, FieldKind};
+use crate::results::{Target, fill_rows, given_or_new, run};
+use crate::samples::{Samples, Wanted};
+use etendue::{LightSampler, Vec2, Vec3};
 use etendue_batch::Batch;
 use pyo3::exceptions::PyAttributeError;
 use pyo3::prelude::*;
+use std::ops::Range;
 
 /// A light prepared by any technique.
 pub(crate) trait Prepared: Send + Sync {
     fn sample(&self, u: Vec2<&[f32]>, out: etendue_batch::Samples<'_>);
     fn hit(&self, w: Vec3<&[f32]>, out: etendue_batch::Samples<'_>);
     fn pdf(&self, w: Vec3<&[f32]>, out: &mut [f32]);
+    fn pdf_of_hit(&self, w: Vec3<&[f32]>, out: &mut [f32]);
     fn invert(&self, w: Vec3<&[f32]>, out: Vec2<&mut [f32]>);
 }
 impl<T: etendue_batch::Prepared + Send + Sync> Prepared for T {
@@ -23,76 +27,30 @@ impl<T: etendue_batch::Prepared + Send + Sync> Prepared for T {
     fn pdf(&self, w: Vec3<&[f32]>, out: &mut [f32]) {
         Batch::new().pdf(self, w, out);
     }
+    fn pdf_of_hit(&self, w: Vec3<&[f32]>, out: &mut [f32]) {
+        pdf_of_hit(self, w, out);
+    }
     fn invert(&self, w: Vec3<&[f32]>, out: Vec2<&mut [f32]>) {
         Batch::new().invert(self, w, out);
     }
 }
 
+/// The pdfs of directions that are known to hit: a few operations each, for which batches have no function.
+pub(crate) fn pdf_of_hit<T: etendue_batch::Prepared>(sampler: &T, w: Vec3<&[f32]>, out: &mut [f32]) {
+    sampler.over::<f32, _>(|light| {
+        for (i, pdf) in out.iter_mut().enumerate() {
+            *pdf = light.pdf_of_hit(w.map(|column| column[i]));
+        }
+    });
+}
+
 /// Three columns as a vector.
-pub(crate) fn vector(columns: &[Vec<f32>]) -> Vec3<&[f32]> {
-    Vec3::new(&columns[0], &columns[1], &columns[2])
+pub(crate) fn vector<C: AsRef<[f32]>>(columns: &[C]) -> Vec3<&[f32]> {
+    Vec3::new(columns[0].as_ref(), columns[1].as_ref(), columns[2].as_ref())
 }
-
-/// Samples of a light, or the points of it that directions hit, in arrays of one shape (...).
-///
-/// The estimator of reflected radiance is f · L · cosθ · weight, where nothing is in the way from the shading point along `direction` up
-/// to `distance`. The weight is 0 where there is no sample and where the light does not emit towards the point.
-#[pyclass(module = "etendue", frozen)]
-pub(crate) struct Samples {
-    /// Unit directions from the shading point to the light, (..., 3).
-    #[pyo3(get)]
-    direction: Py<PyAny>,
-    /// Distances to the light along them, in the unit of the coordinates; the largest float32 for suns.
-    #[pyo3(get)]
-    distance: Py<PyAny>,
-    /// Probability densities of the directions, per steradian (lines: see `Line`); 0 where there is no sample.
-    #[pyo3(get)]
-    pdf: Py<PyAny>,
-    /// 1/pdf where there is a sample and the light emits towards the shading point, else 0.
-    #[pyo3(get)]
-    weight: Py<PyAny>,
-    /// Unit normals of the light, (..., 3).
-    #[pyo3(get)]
-    normal: Py<PyAny>,
-    /// Surface coordinates in [0, 1]², (..., 2).
-    #[pyo3(get)]
-    uv: Py<PyAny>,
-    /// Whether the shading point is on the side of the light that emits: bool.
-    #[pyo3(get)]
-    emits: Py<PyAny>,
-}
-
-#[pymethods]
-impl Samples {
-    fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
-        Ok(format!("<etendue.Samples of shape {}>", self.pdf.bind(py).getattr("shape")?))
-    }
-}
-
-impl Samples {
-    /// The samples that `batch` writes, one for each element of `shape`.
-    pub(crate) fn of(
-        py: Python<'_>,
-        shape: Vec<usize>,
-        batch: impl FnOnce(etendue_batch::Samples<'_>) + Send,
-    ) -> PyResult<Self> {
-        let n = shape.iter().product();
-        let mut columns = zero_columns::<11>(n)?;
-        let mut emits = zeros::<u8>(n)?;
-        run(py, n, || {
-            let [x, y, z, distance, pdf, weight, nx, ny, nz, u, v] = columns.each_mut().map(Vec::as_mut_slice);
-            let (direction, normal, uv) = ([x, y, z], [nx, ny, nz], [u, v]);
-            batch(etendue_batch::Samples { direction, distance, pdf, weight, normal, uv, emits: &mut emits });
-        });
-        let direction = rows(py, &shape, &columns[..3])?.unbind();
-        let normal = rows(py, &shape, &columns[6..9])?.unbind();
-        let uv = rows(py, &shape, &columns[9..])?.unbind();
-        let [_, _, _, distance, pdf, weight, ..] = columns;
-        let [distance, pdf, weight] = [distance, pdf, weight].map(|column| array(py, &shape, column));
-        let emits = array(py, &shape, emits.into_iter().map(|emits| emits != 0).collect())?.unbind();
-        let (distance, pdf, weight) = (distance?.unbind(), pdf?.unbind(), weight?.unbind());
-        Ok(Self { direction, distance, pdf, weight, normal, uv, emits })
-    }
+/// The columns for a range of elements.
+pub(crate) fn cut(columns: &[Vec<f32>], range: Range<usize>) -> Vec<&[f32]> {
+    columns.iter().map(|column| &column[range.clone()]).collect()
 }
 
 /// A light prepared for one shading point by one technique: `light.by_…` makes it, and it draws as often as needed.
@@ -127,36 +85,76 @@ impl Sampler {
 #[pymethods]
 impl Sampler {
     /// Draws directions to the light for numbers u in [0, 1)², (..., 2). Lines use the first number alone.
-    fn sample(&self, py: Python<'_>, u: &Bound<'_, PyAny>) -> PyResult<Samples> {
+    ///
+    /// `fields` names what is wanted, as in ("direction", "weight"): the rest is not computed and takes no memory. `out` are samples of the
+    /// same shape that are written over and returned, with the fields that they have.
+    #[pyo3(signature = (u, *, fields=None, out=None))]
+    fn sample<'py>(
+        &self,
+        py: Python<'py>,
+        u: &Bound<'py, PyAny>,
+        fields: Option<&Bound<'py, PyAny>>,
+        out: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, Samples>> {
         let u = Argument::new("u", FieldKind::Units, u)?;
         let columns = u.columns(&u.shape)?;
-        Samples::of(py, u.shape, |out| self.prepared.sample(Vec2::new(&columns[0], &columns[1]), out))
+        Samples::of(py, &u.shape, Wanted { fields, out }, |range, out| {
+            self.prepared.sample(Vec2::new(&columns[0][range.clone()], &columns[1][range]), out);
+        })
     }
     /// The points of the light that unit directions w hit, (..., 3), with the pdf with which `sample` draws them; the pdf is 0 where a
-    /// direction misses the light.
-    fn hit(&self, py: Python<'_>, w: &Bound<'_, PyAny>) -> PyResult<Samples> {
+    /// direction misses the light. `fields` and `out` are those of `sample`.
+    #[pyo3(signature = (w, *, fields=None, out=None))]
+    fn hit<'py>(
+        &self,
+        py: Python<'py>,
+        w: &Bound<'py, PyAny>,
+        fields: Option<&Bound<'py, PyAny>>,
+        out: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, Samples>> {
         let w = Argument::new("w", FieldKind::Direction, w)?;
         let columns = w.columns(&w.shape)?;
-        Samples::of(py, w.shape, |out| self.prepared.hit(vector(&columns), out))
+        Samples::of(py, &w.shape, Wanted { fields, out }, |range, out| {
+            self.prepared.hit(vector(&cut(&columns, range)), out);
+        })
     }
-    /// The probability density per steradian with which `sample` draws unit directions w, (..., 3); 0 where they miss the light.
-    fn pdf<'py>(&self, py: Python<'py>, w: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
-        let w = Argument::new("w", FieldKind::Direction, w)?;
-        let columns = w.columns(&w.shape)?;
-        let mut out = zeros(columns[0].len())?;
-        run(py, out.len(), || self.prepared.pdf(vector(&columns), &mut out));
-        array(py, &w.shape, out)
+    /// The probability density per steradian with which `sample` draws unit directions w, (..., 3); 0 where they miss the light. It is
+    /// written to the array `out` of float32, if there is one.
+    #[pyo3(signature = (w, *, out=None))]
+    fn pdf<'py>(
+        &self,
+        py: Python<'py>,
+        w: &Bound<'py, PyAny>,
+        out: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        pdfs(py, w, out, |w, out| self.prepared.pdf(w, out))
     }
-    /// The numbers u in [0, 1)² that `sample` maps to unit directions w, (..., 3); any numbers where they miss the light.
-    fn invert<'py>(&self, py: Python<'py>, w: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+    /// The same for unit directions w, (..., 3), that are known to hit the light, as where a ray of the host has hit it: the light is not
+    /// intersected again, so that no rounding makes a direction beside an edge miss it. Where w misses, the result is finite, and of no
+    /// meaning.
+    #[pyo3(signature = (w, *, out=None))]
+    fn pdf_of_hit<'py>(
+        &self,
+        py: Python<'py>,
+        w: &Bound<'py, PyAny>,
+        out: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        pdfs(py, w, out, |w, out| self.prepared.pdf_of_hit(w, out))
+    }
+    /// The numbers u in [0, 1)² that `sample` maps to unit directions w, (..., 3); any numbers where they miss the light. They are written
+    /// to the array `out` of float32 and the shape (..., 2), if there is one.
+    #[pyo3(signature = (w, *, out=None))]
+    fn invert<'py>(
+        &self,
+        py: Python<'py>,
+        w: &Bound<'py, PyAny>,
+        out: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
         let w = Argument::new("w", FieldKind::Direction, w)?;
         let columns = w.columns(&w.shape)?;
-        let mut out = zero_columns::<2>(columns[0].len())?;
-        run(py, columns[0].len(), || {
-            let [x, y] = &mut out;
-            self.prepared.invert(vector(&columns), Vec2::new(x, y));
-        });
-        rows(py, &w.shape, &out)
+        numbers(py, &w.shape, out, |range, [x, y]| {
+            self.prepared.invert(vector(&cut(&columns, range)), Vec2::new(x, y));
+        })
     }
     /// Surface area of the light, in the square of the unit of the coordinates; of samplers by area.
     #[getter]
@@ -184,15 +182,45 @@ impl Sampler {
     }
 }
 
+/// The pdfs of unit directions w by `pdf`.
+fn pdfs<'py>(
+    py: Python<'py>,
+    w: &Bound<'py, PyAny>,
+    out: Option<&Bound<'py, PyAny>>,
+    pdf: impl FnOnce(Vec3<&[f32]>, &mut [f32]) + Send,
+) -> PyResult<Bound<'py, PyAny>> {
+    let w = Argument::new("w", FieldKind::Direction, w)?;
+    let columns = w.columns(&w.shape)?;
+    let n = columns[0].len();
+    let array = given_or_new(py, &w.shape, out)?;
+    let mut target = Target::of(Some(&array), n)?;
+    let numbers = target.numbers();
+    run(py, n, || pdf(vector(&columns), numbers));
+    Ok(array.clone().into_any())
+}
+/// The numbers u, (..., 2), that `batch` writes for ranges of the elements of `shape`.
+pub(crate) fn numbers<'py>(
+    py: Python<'py>,
+    shape: &[usize],
+    out: Option<&Bound<'py, PyAny>>,
+    batch: impl Fn(Range<usize>, [&mut [f32]; 2]) + Send,
+) -> PyResult<Bound<'py, PyAny>> {
+    let n = shape.iter().product();
+    let array = given_or_new(py, &[shape, &[2]].concat(), out)?;
+    let mut target = Target::of(Some(&array), 2 * n)?;
+    let rows = target.numbers();
+    run(py, n, || fill_rows(n, rows, batch));
+    Ok(array.clone().into_any())
+}
+
 /// A point p, or a normal n.
 pub(crate) fn single(name: &'static str, object: &Bound<'_, PyAny>) -> PyResult<Vec3<f32>> {
-    let kind = if name == "n" { FieldKind::Direction } else { FieldKind::Row(3) };
+    let kind = if name == "n" { FieldKind::Normal } else { FieldKind::Row(3) };
     let columns = Argument::single(name, kind, object)?.columns(&[])?;
     Ok(Vec3::new(columns[0][0], columns[1][0], columns[2][0]))
 }
 
 /// Adds samplers to the module.
 pub(crate) fn add(module: &Bound<'_, PyModule>) -> PyResult<()> {
-    module.add_class::<Samples>()?;
     module.add_class::<Sampler>()
 }

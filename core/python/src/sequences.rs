@@ -1,6 +1,7 @@
 //! Sequences of random numbers.
 
-use crate::arrays::{Argument, FieldKind, rows, run, zero_columns};
+use crate::arrays::{Argument, FieldKind};
+use crate::results::{rows, run, zero_columns};
 use etendue::Vec2;
 use etendue_batch::{Batch, BatchSequence, Counters};
 use pyo3::exceptions::{PyMemoryError, PyValueError};

@@ -1,7 +1,8 @@
 //! Flat lights that emit within an angle of their normal.
 
-use crate::arrays::{Argument, FieldKind, array, broadcast, map};
+use crate::arrays::{Argument, FieldKind, broadcast};
 use crate::lights;
+use crate::results::{array, map};
 use crate::samplers::single;
 use etendue::light::{self, FlatLight};
 use pyo3::exceptions::{PyTypeError, PyValueError};
@@ -42,7 +43,7 @@ impl Spread {
         w: &Bound<'py, PyAny>,
         n: &Bound<'py, PyAny>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let (w, n) = (Argument::new("w", FieldKind::Direction, w)?, Argument::new("n", FieldKind::Direction, n)?);
+        let (w, n) = (Argument::new("w", FieldKind::Direction, w)?, Argument::new("n", FieldKind::Normal, n)?);
         let shape = broadcast(py, &[&w, &n])?;
         let mut columns = w.columns(&shape)?;
         columns.extend(n.columns(&shape)?);

@@ -1,6 +1,7 @@
 //! Choice among many lights.
 
-use crate::arrays::{Argument, FieldKind, array, broadcast, room, run, zeros};
+use crate::arrays::{Argument, FieldKind, broadcast};
+use crate::results::{array, room, run, zeros};
 use etendue::Vec3;
 use etendue::select::{LightBound, LightTree as Tree, NO_LIGHT, Node8};
 use etendue_batch::memory::TreeMemory;
@@ -41,7 +42,7 @@ impl LightTree {
         let arguments = [
             ("center", FieldKind::Row(3), Some(center)),
             ("radius", FieldKind::Number, Some(radius)),
-            ("normal", FieldKind::Direction, normal),
+            ("normal", FieldKind::Normal, normal),
             ("cos_cone", FieldKind::Number, cos_cone),
             ("two_sided", FieldKind::Number, two_sided),
             ("power", FieldKind::Number, power),
@@ -90,7 +91,7 @@ impl LightTree {
         n: &Bound<'py, PyAny>,
         u: &Bound<'py, PyAny>,
     ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>, Bound<'py, PyAny>)> {
-        let (p, n) = (Argument::new("p", FieldKind::Row(3), p)?, Argument::new("n", FieldKind::Direction, n)?);
+        let (p, n) = (Argument::new("p", FieldKind::Row(3), p)?, Argument::new("n", FieldKind::Normal, n)?);
         let u = Argument::new("u", FieldKind::Unit, u)?;
         let shape = broadcast(py, &[&p, &n, &u])?;
         let (p, n, u) = (p.columns(&shape)?, n.columns(&shape)?, u.columns(&shape)?);
@@ -111,7 +112,7 @@ impl LightTree {
         n: &Bound<'py, PyAny>,
         light: &Bound<'py, PyAny>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let (p, n) = (Argument::new("p", FieldKind::Row(3), p)?, Argument::new("n", FieldKind::Direction, n)?);
+        let (p, n) = (Argument::new("p", FieldKind::Row(3), p)?, Argument::new("n", FieldKind::Normal, n)?);
         let light = Argument::new("light", FieldKind::Index, light)?;
         let shape = broadcast(py, &[&p, &n, &light])?;
         let (p, n, light) = (p.columns(&shape)?, n.columns(&shape)?, light.indices(&shape)?);

@@ -1,6 +1,7 @@
 //! Maps of random numbers that need no shading point.
 
-use crate::arrays::{Argument, FieldKind, array, room, rows, run, zero_columns, zeros};
+use crate::arrays::{Argument, FieldKind};
+use crate::results::{array, room, rows, run, zero_columns, zeros};
 use etendue_batch::{Batch, BatchWarp};
 use pyo3::prelude::*;
 

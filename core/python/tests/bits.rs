@@ -78,7 +78,7 @@ fn polygons_are_padded() {
     assert_eq!(differ, [[0; 2]; 5], "by area and by solid angle");
 }
 
-/// The same hashes are in `test_etendue.py`.
+/// `test_package.py` reads them here.
 #[test]
 fn hashes() {
     let (p, n) = (Vec3::new(0.1, 0.2, 0.3), Vec3::new(0.0, 0.8, 0.6));

@@ -30,6 +30,45 @@ def prepare(pictured, by):
     return getattr(pictured, "by_" + by)(*((P, N) if by == "projected_solid_angle" else (P,)))
 
 
+# light from an image
+
+
+def test_image_environment():
+    rng = np.random.default_rng(1)
+    weights = 0.1 + rng.random((16, 32))
+    weights[3, 5] = 0
+    sky = et.ImageEnvironment(weights)
+    assert "32 x 16" in repr(sky)
+    sampler = sky.by_radiance()
+    s = sampler.sample(et.OwenSobol().pairs(1 << 16))
+    # the cosines and azimuths of the rows' and columns' edges, in double precision
+    edges = np.cos(np.arange(17) * np.pi / 16)
+    power = weights * (edges[:-1] - edges[1:])[:, None] * (np.pi / 16)
+    x, y, z = s.direction.astype(float).T
+    column = np.floor(np.arctan2(y, x) % (2 * np.pi) * 16 / np.pi).astype(int) % 32
+    row = np.floor(np.arccos(np.clip(z, -1, 1)) * 16 / np.pi).astype(int)
+    # directions within rounding of an edge may be found on its other side
+    inside = np.abs(s.uv * [32, 16] % 1 - 0.5).max(axis=1) < 0.4999
+    assert inside.mean() > 0.99
+    found = np.stack([column, row], axis=1)[inside]
+    assert np.array_equal(found, np.floor(s.uv * [32, 16])[inside].astype(int))
+    # a table's probabilities are multiples of 2^-24 in the column of rows and in each row
+    np.testing.assert_allclose(s.pdf[inside], (weights[row, column] / power.sum())[inside], rtol=2e-5)
+    np.testing.assert_array_equal(s.pdf, sampler.pdf(s.direction))
+    np.testing.assert_allclose(s.weight * s.pdf, 1, rtol=1e-6)
+    counts = np.zeros((16, 32))
+    np.add.at(counts, (row, column), 1 / len(row))
+    assert np.abs(counts - power / power.sum()).max() < 3e-4 and counts[3, 5] == 0
+    back = sampler.sample(sampler.invert(s.direction))
+    np.testing.assert_allclose(back.direction[inside], s.direction[inside], atol=2e-6)
+    np.testing.assert_array_equal(sampler.hit(s.direction).uv, s.uv)
+    # the table lives as long as its samplers do
+    u = [[0.3, 0.6]]
+    assert et.ImageEnvironment([[1, 2]], "equal-area").by_radiance().sample(u).pdf[0] > 0
+    uniform = et.ImageEnvironment(np.ones((8, 8)), "equal-area").by_radiance()
+    np.testing.assert_allclose(uniform.sample(u).pdf, 1 / (4 * np.pi), rtol=1e-6)
+
+
 # pictures
 
 

@@ -205,7 +205,11 @@ fn python_light(light: &Light, out: &mut String) -> std::fmt::Result {
         for name in ["alpha", "view", "spread"] {
             writeln!(out, "        {name}: ArrayLike | None = None,")?;
         }
-        writeln!(out, "        by: Literal[{}] = \"{}\",\n    ) -> {result}: ...", by.join(", "), light.default)?;
+        writeln!(out, "        by: Literal[{}] = \"{}\",", by.join(", "), light.default)?;
+        if result == "Samples" {
+            writeln!(out, "        fields: _Fields | None = None,")?;
+        }
+        writeln!(out, "        out: {result} | None = None,\n    ) -> {result}: ...")?;
     }
     out.push('\n');
     Ok(())
