@@ -19,8 +19,9 @@
 //! | anisotropic roughness | itself, by the direction of growing u; of lights its geometric mean; tangents `S` are ignored |
 //! | `displacement`, `normalmap` | ignored |
 //! | textures `constant`, `scale`, `mix`, `checkerboard`, `imagemap` | themselves, by u and v; others 0.5; those of lights and spheres their means |
-//! | `trianglemesh`, `plymesh`, `loopsubdiv`, `sphere`, `disk`, parallelograms of `bilinearmesh` | themselves, with interpolated normals |
+//! | `trianglemesh`, `plymesh`, `sphere`, `disk`, parallelograms of `bilinearmesh` | themselves, with interpolated normals |
 //! | other patches, `cylinder`, partial, stretched or textured spheres and disks | triangles |
+//! | `loopsubdiv` | its control mesh |
 //! | `curve` and older quadrics | left out |
 //! | `ObjectInstance` | itself, or a copy in small scenes; lights in objects emit nothing, as in pbrt |
 //! | `power` of a `diffuse` light | that of all of a shape, also of a mesh; `scale` multiplies it |

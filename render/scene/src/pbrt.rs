@@ -25,7 +25,6 @@ mod shape_state;
 mod shapes;
 mod sources;
 mod spectrum;
-mod subdivision;
 #[cfg(test)]
 mod tests;
 mod textures;

@@ -4,7 +4,6 @@ use super::generated;
 use super::inputs::Files;
 use super::params::{Params, shown};
 use super::ply::{self, Face};
-use super::subdivision;
 use crate::builder::{Builder, round};
 use crate::nearest::did_you_mean;
 use crate::shape_attributes::ShapeAttributes;
@@ -31,7 +30,11 @@ pub(super) fn read(
         "sphere" => sphere(out, surface, params),
         "trianglemesh" => triangle_mesh(out, surface, params),
         "bilinearmesh" => bilinear_mesh(out, surface, params),
-        "loopsubdiv" => loop_mesh(out, surface, params),
+        "loopsubdiv" => {
+            out.notes.stand_in(kind, || params.error("becomes its control mesh"));
+            params.ignore(&["levels", "nlevels", "scheme"]);
+            triangle_mesh(out, surface, params)
+        }
         "disk" => disk(out, surface, params),
         "cylinder" => cylinder(out, surface, params),
         "plymesh" => {
@@ -267,24 +270,6 @@ fn bilinear_mesh(out: &mut Builder, surface: &ShapeAttributes, params: &mut Para
     let mesh = indexed::<4>(out, surface, params)?;
     for face in mesh.faces {
         out.patch(surface, mesh.vertices.corners(face, &PATCH_UVS));
-    }
-    note_left_out(out, params);
-    Ok(())
-}
-
-/// Reads `Shape "loopsubdiv"`: Loop's subdivision of a mesh.
-fn loop_mesh(out: &mut Builder, surface: &ShapeAttributes, params: &mut Params) -> Result<(), Message> {
-    params.rename("nlevels", "levels");
-    let levels = params.integer("levels")?.unwrap_or(3).clamp(0, 10) as usize;
-    let mesh = indexed::<3>(out, surface, params)?;
-    let smooth = subdivision::smooth(mesh.vertices.points, mesh.faces, levels);
-    let (points, faces, normals) = smooth.map_err(|why| params.error(why))?;
-    let side = if surface.flip { -1.0 } else { 1.0 };
-    for face in faces {
-        out.triangle(
-            surface,
-            face.map(|i| Vertex { point: points[i], normal: normals[i].map(|x| x * side), uv: [0.0; 2] }),
-        );
     }
     note_left_out(out, params);
     Ok(())

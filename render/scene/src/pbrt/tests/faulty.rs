@@ -143,7 +143,6 @@ const FAULTS: &[(&str, u32, &str)] = &[
         2,
         "\"N\" has 1 values for 3 points",
     ),
-    ("Shape \"loopsubdiv\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"integer indices\" [0 0 1]", 2, "the same vertex twice"),
     (
         "Shape \"bilinearmesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0 1 1 0] \"integer indices\" [0 1 2]",
         2,
