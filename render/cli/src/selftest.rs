@@ -1,8 +1,6 @@
-//! `etendue selftest`: random scenes by all techniques against the oracle, the errors that they claim, and how well they choose between
-//! kinds of lights.
+//! `etendue selftest`: random scenes by all techniques against the oracle, and the errors that they claim.
 
 use clap::Args;
-use etendue_laboratory::attack::choice;
 use etendue_laboratory::attack::claims::{self, SHARE, Tally, honest};
 use etendue_laboratory::attack::defects::{self, Table};
 use etendue_laboratory::attack::judge::Effort;
@@ -24,19 +22,16 @@ pub(crate) struct Options {
     #[arg(default_value_t = 10, value_parser = whole::<u64>(1..=1 << 32))]
     scenes: u64,
     /// Compare the errors that images claim with those that they have, instead
-    #[arg(long, conflicts_with = "choices")]
-    claims: bool,
-    /// Measure how well lamps, skies and suns are chosen, instead
     #[arg(long)]
-    choices: bool,
+    claims: bool,
     /// Compare the scenes on which the renderer was wrong once, instead
-    #[arg(long, conflicts_with_all = ["scenes", "claims", "choices", "regime", "shrink"])]
+    #[arg(long, conflicts_with_all = ["scenes", "claims", "regime", "shrink"])]
     defects: bool,
     /// Take random scenes of these regimes only [default: all]
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     regime: Vec<String>,
     /// Write the scenes that differ to this folder, reduced to what still differs
-    #[arg(long, value_name = "FOLDER", conflicts_with_all = ["claims", "choices"])]
+    #[arg(long, value_name = "FOLDER", conflicts_with = "claims")]
     shrink: Option<PathBuf>,
     /// Take this many samples per pixel
     #[arg(long, default_value_t = QUICK[1], value_parser = whole::<u32>(2..=MOST_SAMPLES.into()))]
@@ -67,18 +62,10 @@ pub(crate) fn run(options: &Options) -> Result<bool, Box<dyn Error>> {
     if regimes.is_empty() {
         regimes.extend(&REGIMES);
     }
-    let (seeds, quality) = (options.seed..options.seed + options.scenes, [options.side, options.spp]);
+    let seeds = options.seed..options.seed + options.scenes;
     if options.claims {
+        let quality = [options.side, options.spp];
         return claim(&regimes, |regime| pool.install(|| claims::run(regime, seeds.clone(), quality)));
-    }
-    if options.choices {
-        let mut is_good = true;
-        for regime in regimes {
-            let tally = pool.install(|| choice::run(regime, seeds.clone(), quality))?;
-            writeln!(out(), "{tally}")?;
-            is_good &= !tally.choices.iter().any(|(choice, _)| choice.is_poor());
-        }
-        return Ok(is_good);
     }
     compare(options, &regimes, &seeds, &pool)
 }

@@ -3,7 +3,7 @@
 use etendue_laboratory::attack::draft::{Draft, Form};
 use etendue_laboratory::attack::regimes::{REGIMES, named};
 use etendue_laboratory::attack::shrink::shrink;
-use etendue_laboratory::attack::{bridge, choice, claims, defects, judge, report};
+use etendue_laboratory::attack::{bridge, claims, defects, judge, report};
 use etendue_oracle::tier::cases;
 use etendue_oracle::{along, direct};
 use etendue_render::scene::{Geometry, Parallelogram, Sphere};
@@ -35,9 +35,9 @@ fn judges_know_what_samples_miss() {
 }
 
 #[test]
-#[ignore = "32,500 scenes: hours on one core"]
-fn techniques_agree_with_the_oracle_on_32500_scenes() {
-    attack(834);
+#[ignore = "30,000 scenes: hours on one core"]
+fn techniques_agree_with_the_oracle_on_30000_scenes() {
+    attack(811);
 }
 
 /// The errors of images over those that they claim.
@@ -65,21 +65,9 @@ fn images_tell_their_error() {
 }
 
 #[test]
-#[ignore = "390 scenes: a quarter of an hour on two cores"]
-fn images_of_390_scenes_tell_their_error() {
+#[ignore = "370 scenes: a quarter of an hour on two cores"]
+fn images_of_370_scenes_tell_their_error() {
     claims_hold(10, 32, claims::SHARE);
-}
-
-/// No size of a floor takes the samples from a lamp beside a sky or a sun.
-#[test]
-fn kinds_of_lights_are_chosen_well() {
-    for stage in choice::STAGES {
-        for half in [1.0, 1e3, 1e5].into_iter().take(cases(2, 3)) {
-            let choice = choice::measure(&choice::stage(stage, half), [16, 256], 1).unwrap().unwrap();
-            println!("{} ±{half}: {:.3} {choice:?}", stage.0, choice.ratio());
-            assert!(choice.ratio() >= choice::LEAST, "{} ±{half}: {choice:?}", stage.0);
-        }
-    }
 }
 
 /// The scenes on which the renderer was wrong once, in smaller images than usual.
@@ -101,7 +89,7 @@ fn text_is_exact() {
         let draft = regime.draft(seed);
         assert_eq!(draft, regime.draft(seed));
         let scene = judge::read(&draft).unwrap();
-        if draft.parts.iter().any(|part| !part.copies.is_empty() || part.place.is_some()) {
+        if draft.parts.iter().any(|part| !part.copies.is_empty()) {
             continue;
         }
         let (mut meshes, mut shapes) = (scene.triangles.iter(), scene.shapes.iter());
@@ -126,7 +114,6 @@ fn text_is_exact() {
                         "{draft}"
                     );
                 }
-                Form::Swept(_) => unreachable!("it has a place"),
             }
         }
         assert!(meshes.next().is_none() && shapes.next().is_none());

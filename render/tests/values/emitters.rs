@@ -1,6 +1,6 @@
 //! Diffuse area lights on shapes of every kind, seen from both sides and by what they light.
 
-use super::place::{Place, all};
+use super::place::{Place, all, similar};
 use super::row::{ROUNDING, Row, grey, look, on_floor, reflected, times};
 use etendue_oracle::{V3, along, cross, dot, length, sub, unit};
 use etendue_render::Technique;
@@ -267,6 +267,23 @@ fn pictures() -> Vec<Row> {
                 let right = grey(factor * texel(u, v));
                 rows.push(Row::new(name, format!("{}{}", look(eye, point), place.holds(&light)), right).within(1e-3));
             }
+        }
+    }
+    // on what triangles stand for, u goes around and v along the axis, and the power is by the mean over the area
+    let curved = FORMS.iter().filter(|form| form.name.ends_with("cylinder"));
+    for (form, place) in curved.flat_map(|form| similar(&Place::new()).into_iter().map(move |place| (form, place))) {
+        let factor = 100.0 / (PI * area(form, &place) * 2.5);
+        for (u, v) in [(0.25, 0.25), (0.75, 0.25), (0.25, 0.75), (0.75, 0.75)] {
+            // a little beside an edge of triangles
+            let (point, normal) = (form.at)(u + 2e-3, v);
+            let (point, normal) = (place.point(point), place.normal(normal));
+            let light = format!(
+                "AreaLightSource \"diffuse\" \"string filename\" \"quarters.pfm\" \"float power\" 100 {}",
+                form.text
+            );
+            let text = format!("{}{}", look(along(point, normal, 0.1), point), place.holds(&light));
+            let name = format!("picture at {u}, {v} on {}, {}", form.name, place.name);
+            rows.push(Row::new(name, text, grey(factor * texel(u, v))).within(1e-2));
         }
     }
     // a sphere: u by the angle from +x to +y, v from the south to the north; a row of the lowest texels is 3 and 4

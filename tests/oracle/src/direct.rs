@@ -161,7 +161,7 @@ impl Tracer<'_> {
         };
         let front = dot(outward, direction) < 0.0;
         let emission = met.body.emission.filter(|emission| front || emission.two_sided);
-        let own = emission.map_or(0.0, |emission| emission.radiance) * met.glow(point, self.effort.lift).unwrap_or(1.0);
+        let own = emission.map_or(0.0, |emission| emission.radiance);
         let flat = if front { outward } else { outward.map(|x| -x) };
         let smooth = met.smooth(point, flat, direction);
         let normal = smooth.unwrap_or(flat);
@@ -206,9 +206,8 @@ impl Tracer<'_> {
             };
             let radiance = self.bodies[light].body.emission.map_or(0.0, |emission| emission.radiance);
             let count = self.effort.points;
-            let is_pictured = self.bodies[light].body.detail.as_ref().is_some_and(|detail| detail.glow.is_some());
             let [left, all, most] = match finish {
-                Finish::Diffuse(albedo) | Finish::Mirror(albedo) if !is_pictured => {
+                Finish::Diffuse(albedo) | Finish::Mirror(albedo) => {
                     let factor = albedo * core::f64::consts::FRAC_1_PI;
                     let [left, all] = seen.both(count, random);
                     [left, all, seen.most].map(|x| x * factor)
@@ -216,8 +215,7 @@ impl Tracer<'_> {
                 _ => {
                     let mut parts = [0.0; 3];
                     for point in seen.points(4 * count, random) {
-                        let glow = self.bodies[light].glow(along(at.point, point.to, 1.0), self.effort.lift);
-                        let reflected = brdf(finish, toward, unit(point.to), at.normal) * glow.unwrap_or(1.0);
+                        let reflected = brdf(finish, toward, unit(point.to), at.normal);
                         let part = point.weight * reflected;
                         parts[1] += part;
                         parts[0] += part * seen.transmittance(point.to);

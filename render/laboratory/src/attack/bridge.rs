@@ -1,14 +1,12 @@
 //! A scene as the oracle takes it: the numbers that the renderer keeps, in f64, and what only a draft tells.
 
-use super::draft::{Draft, Frame, Kind, Source};
-use super::meaning::columns;
+use super::draft::{self, Draft, Frame, Kind, Source};
 use etendue_oracle::direct::{
     self, Beyond, Body, Cone, Detail, Emission, Finish, Form, Lens, Opacity, Pattern, Picture, Sky, View,
 };
 use etendue_oracle::{V3, along, basis, cross, dot, sub, unit, wide};
-use etendue_render::light_picture::LightPicture;
 use etendue_render::scene::{
-    self, CameraSettings, Geometry, Instance, Material, Parallelogram, Scene, Shape, Sphere, Varying,
+    CameraSettings, Geometry, Instance, Material, Parallelogram, Scene, Shape, Sphere, Varying,
 };
 use etendue_render::texture::{self, Colors, Mapping, Texture, Wrap};
 use std::collections::HashMap;
@@ -136,7 +134,7 @@ fn meshes(scene: &Scene) -> Vec<Body> {
             let normals = known.map_or([[0.0; 3]; 3], |known| known.normals.map(wide));
             let moved = |n: V3| if n == [0.0; 3] { n } else { unit(map.map_or(n, |map| map.normal(n))) };
             let uvs = known.map_or([[0.0; 2]; 3], |known| known.uvs.map(|uv| uv.map(f64::from)));
-            Arc::new(Detail { uvs, normals: normals.map(moved), albedo, opacity, glow: None })
+            Arc::new(Detail { uvs, normals: normals.map(moved), albedo, opacity })
         });
         let form = triangle(corners.map(|p| map.map_or(p, |map| map.point(p))));
         Body { form, finish: finish(scene, material), emission: None, detail }
@@ -152,15 +150,6 @@ fn meshes(scene: &Scene) -> Vec<Body> {
 
 /// Spheres, and what emits.
 fn shapes(scene: &Scene) -> Vec<Body> {
-    let glow = |emission: &scene::Emission| Some(&scene.pictures[emission.picture? as usize]);
-    // by the coordinates along the edges
-    let shown = |of: &LightPicture| Detail {
-        uvs: [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]],
-        normals: [[0.0; 3]; 3],
-        albedo: None,
-        opacity: None,
-        glow: Some(Arc::new(Pattern::Picture(pixels(&of.picture, CHANNEL)))),
-    };
     let body = |shape: &Shape| Body {
         form: match shape.geometry {
             Geometry::Sphere(Sphere { center, radius }) => Form::Sphere { center: wide(center), radius: radius.into() },
@@ -168,14 +157,13 @@ fn shapes(scene: &Scene) -> Vec<Body> {
             Geometry::Parallelogram(Parallelogram { p, u, v }) => {
                 Form::Flat { corner: wide(p), edges: [wide(u), wide(v)], is_triangle: false }
             }
-            ref other => unreachable!("no draft as it is meant has {other:?}"),
+            ref other => unreachable!("no draft has {other:?}"),
         },
         finish: finish(scene, shape.material),
-        emission: shape.emission.map(|emission| Emission {
-            radiance: glow(&emission).map_or(emission.radiance, |of| of.factor)[CHANNEL].into(),
-            two_sided: emission.two_sided,
-        }),
-        detail: shape.emission.as_ref().and_then(glow).map(|of| Arc::new(shown(of))),
+        emission: shape
+            .emission
+            .map(|emission| Emission { radiance: emission.radiance[CHANNEL].into(), two_sided: emission.two_sided }),
+        detail: None,
     };
     scene.shapes.iter().map(body).collect()
 }
@@ -202,7 +190,7 @@ pub(super) fn straighten(draft: &Draft, bodies: &mut [Body]) {
     }
 }
 
-/// The lights without a surface, as they are meant.
+/// The lights without a surface.
 pub(super) fn sources(sources: &[Source]) -> Vec<direct::Source> {
     let round = |v: V3| v.map(|x| f64::from(x as f32));
     let of = |source: &Source| {
@@ -218,14 +206,14 @@ pub(super) fn sources(sources: &[Source]) -> Vec<direct::Source> {
                 direct::Source::Distant { towards: unit(sub(round(from), round(to))), irradiance: intensity }
             }
             Kind::Sky => {
+                let columns = |map: &draft::Map| [0, 1, 2].map(|axis| map.map(|row| row[axis]));
                 let axes = source.map.as_ref().map_or([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], columns);
                 let (columns, texels) = match &source.picture {
                     Some(picture) => (picture.width, picture.texels.as_slice()),
                     None => (1, &[1.0_f32][..]),
                 };
-                let factor = source.measure.scale.filter(|_| source.picture.is_some()).map_or(intensity, f64::from);
                 let rows = texels.chunks(columns).rev().flatten();
-                let texels = rows.map(|x| factor * f64::from(*x)).collect();
+                let texels = rows.map(|x| intensity * f64::from(*x)).collect();
                 direct::Source::Sky(Sky::new(axes.map(unit), columns, texels))
             }
         }

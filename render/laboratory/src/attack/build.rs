@@ -181,7 +181,6 @@ pub(super) fn radiance(form: &Form, distance: f64) -> f32 {
         }
         Form::Sphere(_, radius) => std::f64::consts::PI * radius * radius,
         Form::Parallelogram(_, u, v) => length(cross(*u, *v)),
-        Form::Swept(_) => 1.0,
     };
     (distance * distance / area) as f32
 }
@@ -255,7 +254,6 @@ pub(super) fn has_speck(draft: &Draft) -> bool {
                 let (u, v) = (sub(b, a), sub(c, a));
                 (along(along(a, u, 0.33), v, 0.33), 0.25 * length(u).min(length(v)), Some(cross(u, v)))
             }
-            Form::Swept(_) => return false,
         };
         let to = sub(center, *eye);
         let is_seen = glow.two_sided || normal.is_none_or(|n| dot(n, to) < 0.0);

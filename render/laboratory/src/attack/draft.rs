@@ -41,74 +41,25 @@ pub enum Form {
     Sphere(V3, f64),
     /// The parallelogram of a corner and two edges; the normal is their cross product.
     Parallelogram(V3, V3, V3),
-    /// A light that becomes triangles.
-    Swept(Swept),
 }
 
-/// A surface over (s, t) in \[0, 1\]², whose angle in degrees is `sweep`, about +z from +x.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Swept {
-    /// A disk with a hole; the normal is +z.
-    Disk {
-        /// Outer and inner radius.
-        radii: [f64; 2],
-        /// Its z.
-        height: f64,
-        /// Angle in degrees.
-        sweep: f64,
-    },
-    /// A cylinder; the normal points outwards.
-    Cylinder {
-        /// Radius.
-        radius: f64,
-        /// Least and greatest z.
-        z: [f64; 2],
-        /// Angle in degrees.
-        sweep: f64,
-    },
-    /// A sphere, or a zone of one; the normal points outwards.
-    Sphere {
-        /// Radius.
-        radius: f64,
-        /// Least and greatest z.
-        z: [f64; 2],
-        /// Angle in degrees.
-        sweep: f64,
-    },
-    /// The bilinear patch of the corners at (0, 0), (1, 0), (0, 1) and (1, 1); the normal is ∂s × ∂t.
-    Patch([V3; 4]),
-}
-
-/// Emission, constant but for the picture of a skin.
+/// Emission.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Glow {
     /// Radiance in every channel.
     pub radiance: f32,
     /// Whether both sides emit.
     pub two_sided: bool,
-    /// Its factor, and its power in watts.
-    pub measure: Measure,
-}
-
-/// Parameters of a light beside its radiance or intensity.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Measure {
-    /// What all is multiplied by.
-    pub scale: Option<f32>,
-    /// The power, or the illuminance of a light at infinity, that it has before.
-    pub wanted: Option<f32>,
 }
 
 /// A light without a surface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Source {
-    /// Kind and position in its own space.
+    /// Kind and position.
     pub kind: Kind,
-    /// Intensity, irradiance or radiance in every channel.
+    /// Intensity, irradiance or radiance in every channel, or what the picture of a sky is multiplied by.
     pub strength: f32,
-    /// Its factor, and its power in watts or its illuminance.
-    pub measure: Measure,
-    /// From its space to world space.
+    /// From the space of a sky to world space.
     pub map: Option<Map>,
     /// What a sky shows.
     pub picture: Option<Picture>,
@@ -127,15 +78,6 @@ pub enum Kind {
     Sky,
 }
 
-/// Where a part is.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place {
-    /// From the space of its form to world space.
-    pub map: Map,
-    /// Whether its normals are turned over.
-    pub is_reversed: bool,
-}
-
 /// A part of a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Part {
@@ -149,8 +91,6 @@ pub struct Part {
     pub skin: Skin,
     /// If there are some, the maps that place copies of a mesh, which is nowhere else.
     pub copies: Vec<Map>,
-    /// Where a light is, if its form does not tell.
-    pub place: Option<Place>,
 }
 
 /// A map to world space: the rows of the linear part, each followed by its part of the shift. Text rounds it to f32.
@@ -201,7 +141,7 @@ pub struct Draft {
 
 impl Part {
     fn new(form: Form, albedo: f32, glow: Option<Glow>) -> Self {
-        Self { form, finish: Finish::Diffuse(albedo), glow, skin: Skin::default(), copies: Vec::new(), place: None }
+        Self { form, finish: Finish::Diffuse(albedo), glow, skin: Skin::default(), copies: Vec::new() }
     }
     /// Triangles that reflect.
     #[must_use]
@@ -216,7 +156,7 @@ impl Part {
     /// A light, which reflects nothing.
     #[must_use]
     pub fn light(form: Form, radiance: f32, two_sided: bool) -> Self {
-        Self::new(form, 0.0, Some(Glow { radiance, two_sided, measure: Measure::default() }))
+        Self::new(form, 0.0, Some(Glow { radiance, two_sided }))
     }
     /// Number of primitives.
     #[must_use]
@@ -237,7 +177,6 @@ impl Form {
             Self::Mesh(triangles) => triangles.iter_mut().for_each(|t| *t = t.map(&place)),
             Self::Sphere(center, _) => *center = place(*center),
             Self::Parallelogram(p, u, v) => (*p, *u, *v) = (place(*p), turn(*u), turn(*v)),
-            Self::Swept(_) => {}
         }
     }
 }
@@ -257,6 +196,25 @@ impl Draft {
     pub fn pictures(&self) -> impl Iterator<Item = &Picture> {
         let sources = self.sources.iter().filter_map(|source| source.picture.as_ref());
         self.parts.iter().flat_map(|part| part.skin.pictures()).chain(sources)
+    }
+    /// The same scene without light.
+    #[must_use]
+    fn dark(&self) -> Self {
+        let dark = |part: &Part| Part { glow: None, ..part.clone() };
+        Self { parts: self.parts.iter().map(dark).collect(), sources: Vec::new(), ..self.clone() }
+    }
+    /// The scenes with one of its lights each; the others are there, but dark.
+    #[must_use]
+    pub fn alone(&self) -> Vec<Self> {
+        let dark = self.dark();
+        let with = |index: usize| {
+            let mut alone = dark.clone();
+            alone.parts[index] = self.parts[index].clone();
+            alone
+        };
+        let of_parts = (0..self.parts.len()).filter(|&i| self.parts[i].glow.is_some()).map(with);
+        let of_sources = self.sources.iter().map(|source| Self { sources: vec![source.clone()], ..dark.clone() });
+        of_parts.chain(of_sources).collect()
     }
     /// Moves everything.
     pub fn shift(&mut self, by: V3) {

@@ -1,6 +1,6 @@
 //! Drafts as the text of a scene file.
 
-use super::draft::{Draft, Finish, Form, Frame, Glow, Kind, Look, Map, Measure, Part, Place, Source, Swept, V3};
+use super::draft::{Draft, Finish, Form, Frame, Glow, Kind, Look, Map, Part, Source, V3};
 use super::skin::Number;
 use std::fmt::{self, Display, Formatter};
 
@@ -16,28 +16,6 @@ impl Finish {
     /// The finish with an albedo that is the texture of this name, if it has one.
     const fn with<'a>(&'a self, texture: Option<&'a str>) -> Textured<'a> {
         Textured(self, texture)
-    }
-}
-
-impl Measure {
-    /// Its parameters, of which the second one has this name.
-    const fn named(self, wanted: &str) -> Measured<'_> {
-        Measured(self, wanted)
-    }
-}
-
-/// Parameters of a light, and the name of the second one.
-struct Measured<'a>(Measure, &'a str);
-
-impl Display for Measured<'_> {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let Self(Measure { scale, wanted }, name) = *self;
-        for (name, x) in [("scale", scale), (name, wanted)] {
-            if let Some(x) = x {
-                write!(f, " \"float {name}\" {}", Number(x.into()))?;
-            }
-        }
-        Ok(())
     }
 }
 
@@ -98,17 +76,9 @@ impl Part {
         if let Some(opacity) = &self.skin.opacity {
             write!(f, "{}", opacity.named("opacity", false))?;
         }
-        if let Some(Glow { radiance, two_sided, measure }) = self.glow {
-            write!(f, "  AreaLightSource \"diffuse\" ")?;
-            match &self.skin.glow {
-                Some(picture) => write!(f, "\"string filename\" \"{}\"", picture.name())?,
-                None => write!(f, "\"rgb L\" [ {0} {0} {0} ]", Number(radiance.into()))?,
-            }
-            writeln!(f, "{}{}", measure.named("power"), if two_sided { " \"bool twosided\" true" } else { "" })?;
-        }
-        if let Some(Place { map, is_reversed }) = &self.place {
-            transform(f, map)?;
-            f.write_str(if *is_reversed { "  ReverseOrientation\n" } else { "" })?;
+        if let Some(Glow { radiance, two_sided }) = self.glow {
+            write!(f, "  AreaLightSource \"diffuse\" \"rgb L\" [ {0} {0} {0} ]", Number(radiance.into()))?;
+            writeln!(f, "{}", if two_sided { " \"bool twosided\" true" } else { "" })?;
         }
         Ok(())
     }
@@ -155,33 +125,8 @@ impl Part {
                 }
                 writeln!(f, "]")?;
             }
-            Form::Swept(swept) => swept.fmt(f)?,
         }
         Ok(())
-    }
-}
-
-impl Display for Swept {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let (kind, sweep, numbers) = match *self {
-            Self::Disk { radii: [radius, inner], height, sweep } => {
-                ("disk", sweep, [("radius", radius), ("innerradius", inner), ("height", height)])
-            }
-            Self::Cylinder { radius, z: [low, high], sweep } => {
-                ("cylinder", sweep, [("radius", radius), ("zmin", low), ("zmax", high)])
-            }
-            Self::Sphere { radius, z: [low, high], sweep } => {
-                ("sphere", sweep, [("radius", radius), ("zmin", low), ("zmax", high)])
-            }
-            Self::Patch(corners) => {
-                write!(f, "  Shape \"bilinearmesh\" \"point3 P\" [")?;
-                points(f, &corners)?;
-                return writeln!(f, "]");
-            }
-        };
-        write!(f, "  Shape \"{kind}\" \"float phimax\" {}", Number(sweep))?;
-        numbers.iter().try_for_each(|(name, x)| write!(f, " \"float {name}\" {}", Number(*x)))?;
-        writeln!(f)
     }
 }
 
@@ -191,16 +136,17 @@ impl Display for Source {
         if let Some(map) = &self.map {
             transform(f, map)?;
         }
-        let (kind, name, wanted) = match self.kind {
-            Kind::Point(_) => ("point", "I", "power"),
-            Kind::Spot(..) => ("spot", "I", "power"),
-            Kind::Distant(_) => ("distant", "L", "illuminance"),
-            Kind::Sky => ("infinite", "L", "illuminance"),
+        let (kind, name) = match self.kind {
+            Kind::Point(_) => ("point", "I"),
+            Kind::Spot(..) => ("spot", "I"),
+            Kind::Distant(_) => ("distant", "L"),
+            Kind::Sky => ("infinite", "L"),
         };
+        let strength = Number(self.strength.into());
         write!(f, "  LightSource \"{kind}\"")?;
         match &self.picture {
-            Some(picture) => write!(f, " \"string filename\" \"{}\"", picture.name())?,
-            None => write!(f, " \"rgb {name}\" [ {0} {0} {0} ]", Number(self.strength.into()))?,
+            Some(picture) => write!(f, " \"string filename\" \"{}\" \"float scale\" {strength}", picture.name())?,
+            None => write!(f, " \"rgb {name}\" [ {strength} {strength} {strength} ]")?,
         }
         match self.kind {
             Kind::Point(from) => {
@@ -220,7 +166,7 @@ impl Display for Source {
         if let Kind::Spot(_, [angle, delta]) = self.kind {
             write!(f, " \"float coneangle\" {angle:?} \"float conedeltaangle\" {delta:?}")?;
         }
-        writeln!(f, "{}\nAttributeEnd", self.measure.named(wanted))
+        writeln!(f, "\nAttributeEnd")
     }
 }
 

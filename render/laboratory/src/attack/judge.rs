@@ -57,7 +57,7 @@ pub struct Trial {
     size: [u32; 2],
     /// What the oracle renders, unless that takes too long.
     exact: Option<(Vec<Body>, Vec<Source>, View)>,
-    /// The scenes of its lights alone, as they are meant, if they are to be summed.
+    /// The scenes of its lights alone, if they are to be summed.
     alone: Vec<Scene>,
 }
 
@@ -203,22 +203,18 @@ impl Trial {
     /// # Errors
     /// Fails if it cannot be read.
     pub fn read(draft: &Draft, side: u32) -> Result<Self, String> {
-        let (scene, meant) = (read(draft)?, draft.meant());
-        let has_sphere_picture = meant
-            .parts
-            .iter()
-            .any(|part| part.skin.glow.is_some() && part.size() == 1 && part.form.triangles().is_empty());
+        let scene = read(draft)?;
         let frame = draft.look.frame;
         let size = frame.map_or([side; 2], |Frame { window, .. }| window.map(|[from, to]| to - from));
-        let plain = read(&Draft { look: Look { frame: None, ..draft.look }, ..meant.clone() })?;
+        let plain = read(&Draft { look: Look { frame: None, ..draft.look }, ..draft.clone() })?;
         let mut bodies = bodies(&plain);
-        straighten(&meant, &mut bodies);
+        straighten(draft, &mut bodies);
         let emitting = bodies.iter().filter(|body| body.emission.is_some()).count();
-        let is_small = (emitting + 4 * meant.sources.len()) * bodies.len() <= MOST && !has_sphere_picture;
+        let is_small = (emitting + 4 * draft.sources.len()) * bodies.len() <= MOST;
         let view = frame.map_or_else(|| view(&plain.camera, side, side), |frame| framed(&frame, &plain.camera));
-        let exact = is_small.then(|| (bodies, sources(&meant.sources), view));
-        let is_summed = !is_small || meant.lights() > 1;
-        let alone = if is_summed { meant.alone() } else { Vec::new() };
+        let exact = is_small.then(|| (bodies, sources(&draft.sources), view));
+        let alone = draft.alone();
+        let alone = if is_small && alone.len() < 2 { Vec::new() } else { alone };
         let alone = alone.iter().map(read).collect::<Result<_, _>>()?;
         Ok(Self { scene, size, exact, alone })
     }

@@ -27,7 +27,7 @@ const fn regime(name: &'static str, about: &'static str, make: fn(&mut Random) -
 }
 
 /// All regimes.
-pub const REGIMES: [Regime; 39] = [
+pub const REGIMES: [Regime; 37] = [
     regime("thin", "closed sheets with thicknesses of 1e-5 to 1e-2 of their size", bodies::thin),
     regime("chamfered", "boxes with corners cut off at 1e-7 to 1e-1 of their size", bodies::chamfered),
     regime("open", "bodies that lack triangles", bodies::open),
@@ -62,8 +62,6 @@ pub const REGIMES: [Regime; 39] = [
     regime("coats", "rough coats over diffuse surfaces, some of them textured or smooth", others::coated),
     regime("everything", "instances with holes, textures and normals of smooth surfaces", others::everything),
     regime("skies", "skies, suns and lamps over floors of 1 to 1e5", people::skies),
-    regime("watts", "lights of every shape with power, illuminance, factors and pictures", people::watts),
-    regime("turned-lights", "lights that are turned, mirrored, stretched and reversed", people::turned),
     regime("wild-normals", "vertex normals that fit no surface", people::wild),
     Regime { has_specks: true, ..regime("one-of-many", "up to 40 lights of which few matter", people::one_of_many) },
     regime("films", "parts of wide and high films, and orthographic cameras", people::films),
@@ -90,7 +88,7 @@ impl Regime {
             }
             draft.parts.retain(|part| part.size() > 0);
             draft.name = format!("{} {seed}", self.name);
-            if attempt == 99 || self.has_specks || !has_speck(&draft.meant()) {
+            if attempt == 99 || self.has_specks || !has_speck(&draft) {
                 return draft;
             }
         }

@@ -1,6 +1,6 @@
 //! Finds the fewest parts and triangles of a scene that still fail.
 
-use super::draft::{Draft, Form, Glow, Part, Source};
+use super::draft::{Draft, Form, Source};
 use super::skin::Skin;
 
 /// Greatest number of scenes that are tried.
@@ -41,13 +41,8 @@ impl<F: Fn(&Draft) -> bool> Search<F> {
 
     /// Leaves out what varies over lights.
     fn simplify_sources(&mut self) {
-        let bare: [fn(&mut Source); 5] = [
-            |source| source.map = None,
-            |source| source.measure.scale = None,
-            |source| source.measure.wanted = None,
-            |source| source.picture = None,
-            |source| source.strength = 1.0,
-        ];
+        let bare: [fn(&mut Source); 3] =
+            [|source| source.map = None, |source| source.picture = None, |source| source.strength = 1.0];
         for index in 0..self.best.sources.len() {
             for bare in bare {
                 self.try_to(|draft| bare(&mut draft.sources[index]));
@@ -57,29 +52,18 @@ impl<F: Fn(&Draft) -> bool> Search<F> {
 
     /// Leaves out what varies over parts, and copies.
     fn simplify_parts(&mut self) {
-        let of_glow: [fn(&mut Part, &mut Glow); 5] = [
-            |part, _| part.place = None,
-            |part, _| part.place.iter_mut().for_each(|place| place.is_reversed = false),
-            |_, glow| glow.measure.scale = None,
-            |_, glow| glow.measure.wanted = None,
-            |_, glow| glow.two_sided = false,
-        ];
-        let of_skin: [fn(&mut Skin); 5] = [
-            |skin| skin.glow = None,
+        let of_skin: [fn(&mut Skin); 4] = [
             |skin| skin.albedo = None,
             |skin| skin.opacity = None,
             |skin| skin.bend = None,
             |skin| *skin = Skin::default(),
         ];
         for index in 0..self.best.parts.len() {
-            for bare in of_glow {
-                if let Some(mut glow) = self.best.parts[index].glow {
-                    self.try_to(|draft| {
-                        bare(&mut draft.parts[index], &mut glow);
-                        draft.parts[index].glow = Some(glow);
-                    });
+            self.try_to(|draft| {
+                if let Some(glow) = &mut draft.parts[index].glow {
+                    glow.two_sided = false;
                 }
-            }
+            });
             for bare in of_skin {
                 self.try_to(|draft| bare(&mut draft.parts[index].skin));
             }

@@ -28,10 +28,6 @@ pub struct Skin {
     pub albedo: Option<Pattern>,
     /// The opacity, if there are holes.
     pub opacity: Option<Pattern>,
-    /// The picture that a light shows instead of its radiance.
-    pub glow: Option<Picture>,
-    /// If there are some, the texture coordinates of all corners in order, instead of `uv`.
-    pub own_uvs: Vec<[f64; 2]>,
 }
 
 /// Texture coordinates of a corner.
@@ -163,14 +159,11 @@ impl Skin {
     /// The pictures of its patterns.
     pub fn pictures(&self) -> impl Iterator<Item = &Picture> {
         let patterns = [&self.albedo, &self.opacity].into_iter().flatten();
-        patterns.filter_map(|pattern| pattern.picture.as_ref().ok()).chain(&self.glow)
+        patterns.filter_map(|pattern| pattern.picture.as_ref().ok())
     }
     /// The texture coordinates of corners, if they have some.
     #[must_use]
     pub fn uvs(&self, corners: &[V3]) -> Option<Vec<[f64; 2]>> {
-        if !self.own_uvs.is_empty() {
-            return Some(self.own_uvs.clone());
-        }
         self.uv.map(|uv| corners.iter().map(|p| uv.at(*p)).collect())
     }
 }

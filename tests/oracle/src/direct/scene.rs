@@ -61,7 +61,7 @@ pub struct Emission {
     pub two_sided: bool,
 }
 
-/// What varies over a triangle, or a parallelogram as over the triangle of its edges. Its corners are that of [`Form::Flat`] and the ends of both edges.
+/// What varies over a triangle. Its corners are that of [`Form::Flat`] and the ends of both edges.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Detail {
     /// Texture coordinates of the corners.
@@ -74,8 +74,6 @@ pub struct Detail {
     pub albedo: Option<Arc<Pattern>>,
     /// The chance that a ray which meets the triangle is stopped, if that is less than 1 somewhere.
     pub opacity: Option<Opacity>,
-    /// What the radiance of a light is multiplied by, if it varies.
-    pub glow: Option<Arc<Pattern>>,
 }
 
 /// The opacity of a surface with holes.
@@ -248,11 +246,6 @@ impl Prepared {
         let Some(Opacity { chance, least }) = &detail.opacity else { return 1.0 };
         let chance = chance.at(self.uv(detail, p, lift), lift);
         least.map_or(chance.clamp(0.0, 1.0), |least| if chance >= least { 1.0 } else { 0.0 })
-    }
-    /// What the radiance that the body emits is multiplied by at a point.
-    pub(super) fn glow(&self, p: V3, lift: f64) -> Option<f64> {
-        let detail = self.body.detail.as_ref()?;
-        Some(detail.glow.as_ref()?.at(self.uv(detail, p, lift), lift).max(0.0))
     }
     /// How the body reflects at a point.
     pub(super) fn finish(&self, p: V3, lift: f64) -> Finish {

@@ -110,7 +110,7 @@ fn object(random: &mut Random) -> Vec<Triangle> {
 }
 
 /// Factors of an instance: the same, different or very different ones, each of them perhaps a mirror.
-pub(super) fn factors(random: &mut Random) -> V3 {
+fn factors(random: &mut Random) -> V3 {
     let signs: V3 = [0; 3].map(|_| if random.one_in(3) { -1.0 } else { 1.0 });
     let sizes = match random.below(4) {
         0 => [1.0; 3],

@@ -1,19 +1,16 @@
-//! Scenes as people make them: under a sky, by the watt, turned over, smooth anyhow, with many lights, and on any film.
+//! Scenes as people make them: under a sky, smooth anyhow, with many lights, and on any film.
 
-use super::others::factors;
 use super::places::furnish;
 use crate::attack::build::{
-    albedo, any_solid, axes, cube, facing, floor, lamp, level, look, map, overhead, placed, quad, radiance, stage,
-    triangles,
+    albedo, axes, cube, facing, floor, lamp, level, look, map, overhead, placed, radiance, stage, triangles,
 };
-use crate::attack::draft::{Draft, Finish, Form, Frame, Kind, Map, Measure, Part, Place, Source, Swept, V3};
-use crate::attack::skin::{Bend, Picture, Uv, Wild};
+use crate::attack::draft::{Draft, Form, Frame, Kind, Part, Source, V3};
+use crate::attack::skin::{Bend, Picture, Wild};
 use crate::random::Random;
 use etendue_oracle::along;
-use std::f64::consts::PI;
 
 fn source(kind: Kind, strength: f64) -> Source {
-    Source { kind, strength: strength as f32, measure: Measure::default(), map: None, picture: None }
+    Source { kind, strength: strength as f32, map: None, picture: None }
 }
 
 /// A picture with texels of about 1, and often one that is much brighter.
@@ -35,7 +32,6 @@ fn sky(random: &mut Random) -> Source {
     if random.one_in(2) {
         let size = random.of(&[[1, 1], [2, 2], [4, 4], [8, 8], [2, 1], [6, 3], [16, 8], [3, 5]]);
         sky.picture = Some(picture(size, random));
-        sky.measure.scale = Some(sky.strength);
     }
     sky
 }
@@ -91,170 +87,6 @@ pub(super) fn skies(random: &mut Random) -> Draft {
         }
     }
     if random.one_in(2) {
-        furnish(&mut draft, random);
-    }
-    draft
-}
-
-/// The form of a light, of size 1 about the origin.
-fn form(random: &mut Random) -> Form {
-    let sweep = |random: &mut Random| if random.one_in(2) { 360.0 } else { random.between(40.0, 350.0).round() };
-    let ends = |random: &mut Random| [random.between(-1.0, -0.1), random.between(0.1, 1.2)];
-    match random.below(8) {
-        0 => {
-            let radii = [0.5, random.of(&[0.0, 0.2])];
-            Form::Swept(Swept::Disk { radii, height: random.of(&[0.0, 0.1]), sweep: sweep(random) })
-        }
-        1 => Form::Swept(Swept::Cylinder { radius: 0.4, z: ends(random).map(|z| 0.5 * z), sweep: sweep(random) }),
-        2 => Form::Swept(Swept::Sphere { radius: 0.5, z: ends(random).map(|z| 0.5 * z), sweep: sweep(random) }),
-        3 => {
-            let corner = |x: f64, y: f64, random: &mut Random| along([x, y, 0.0], random.point(), 0.15);
-            let corners = [[-0.5, -0.5], [0.5, -0.5], [-0.5, 0.5], [0.5, 0.5]];
-            let mut corners = corners.map(|[x, y]| corner(x, y, random));
-            if random.one_in(2) {
-                corners.iter_mut().for_each(|p| p[2] = 0.0);
-            }
-            Form::Swept(Swept::Patch(corners))
-        }
-        4 => Form::Sphere([0.0; 3], 0.5),
-        5 => Form::Mesh(triangles(&placed(&any_solid(random), [0.3; 3], &axes(2, random), [0.0; 3]))),
-        6 => Form::Mesh(quad([-0.5, -0.5, 0.0], [1.0, 0.0, 0.0], [random.between(-0.5, 0.5), 1.0, 0.0])),
-        _ => Form::Parallelogram([-0.5, -0.5, 0.0], [1.0, 0.0, 0.0], [random.between(-0.5, 0.5), 1.0, 0.0]),
-    }
-}
-
-/// A light at a distance above the origin, towards which its +z is, with about 1 of irradiance there.
-fn shape(factors: V3, random: &mut Random) -> Part {
-    let center = overhead(random.between(1.5, 3.0), random);
-    let Form::Parallelogram(_, u, v) = facing(center, [0.0; 3], [1.0; 2], random) else { unreachable!() };
-    let axes = if random.one_in(4) { axes(2, random) } else { [u, v, etendue_oracle::cross(u, v)] };
-    let mut part = Part::light(form(random), 0.0, random.one_in(4));
-    part.place = Some(Place { map: map(&axes, factors, center), is_reversed: false });
-    let size = factors.iter().map(|x| x.abs()).product::<f64>().powf(2.0 / 3.0);
-    if let Some(glow) = &mut part.glow {
-        glow.radiance = (etendue_oracle::dot(center, center) / size) as f32;
-    }
-    // all of them reflect, on both sides
-    part.finish = Finish::Diffuse(random.of(&[0.0, 0.0, 0.7]));
-    part
-}
-
-/// Turns the camera to a light.
-fn look_at(draft: &mut Draft, part: usize, random: &mut Random) {
-    if let Some(Place { map, .. }) = &draft.parts[part].place {
-        let center = map.map(|row| f64::from(row[3] as f32));
-        draft.look = look(center, random.between(4.0, 6.0), random);
-        draft.look.fov = random.between(15.0, 30.0);
-        if random.one_in(2) {
-            // from below
-            draft.look.eye[1] = center[1].mul_add(0.4, 0.1);
-        }
-        draft.look.eye = draft.look.eye.map(|x| f64::from(x as f32));
-    }
-}
-
-fn measure(watts: f64, random: &mut Random) -> Measure {
-    let wanted = (!random.one_in(3)).then(|| (watts * random.power(-0.5, 0.5)) as f32);
-    Measure { scale: random.one_in(2).then(|| random.power(-1.0, 1.0) as f32), wanted }
-}
-
-pub(super) fn watts(random: &mut Random) -> Draft {
-    let mut draft = stage(random);
-    draft.parts[1] = shape([random.between(0.3, 1.5); 3], random);
-    let part = &mut draft.parts[1];
-    let watts = 10.0 * PI;
-    if random.one_in(2) {
-        let size = [1 + random.below(4), 1 + random.below(4)];
-        part.skin.glow = Some(picture(size, random));
-        part.skin.uv = matches!(part.form, Form::Mesh(_))
-            .then(|| Uv { rows: [[1.0, 0.2, 0.3, 0.5], [-0.1, 1.0, 0.2, 0.5]], noise: random.of(&[0.0, 0.0, 0.5]) });
-        if matches!(part.form, Form::Sphere(..)) {
-            // without a map, since the axes of a sphere are those of its picture
-            let center = part.place.take().map_or([0.0; 3], |place| place.map.map(|row| row[3]));
-            part.form = Form::Sphere(center, random.between(0.2, 0.6));
-        }
-    }
-    if let Some(glow) = &mut part.glow {
-        glow.measure = measure(watts, random);
-    }
-    if random.one_in(4) {
-        draft.parts.remove(1);
-    }
-    if draft.parts.len() < 2 || random.one_in(3) {
-        let mut other = match random.below(4) {
-            0 => sun(1.0, random),
-            1 => sky(random),
-            _ => bulb(1.0, overhead(random.between(1.0, 4.0), random), random),
-        };
-        let is_far = matches!(other.kind, Kind::Distant(_) | Kind::Sky);
-        other.measure = measure(if is_far { 1.0 } else { watts }, random);
-        draft.sources.push(other);
-    }
-    match draft.parts.len() {
-        2 if random.one_in(3) => look_at(&mut draft, 1, random),
-        _ if random.one_in(3) => furnish(&mut draft, random),
-        _ => {}
-    }
-    draft
-}
-
-/// A map that turns, and mirrors or not; and if it may, stretches.
-fn turn(stretches: bool, center: V3, random: &mut Random) -> Map {
-    let size = random.power(-1.0, 1.0);
-    let factors = if stretches { factors(random) } else { [0; 3].map(|_| random.of(&[-size, size])) };
-    map(&axes(random.below(3), random), factors, center)
-}
-
-pub(super) fn turned(random: &mut Random) -> Draft {
-    let mut draft = stage(random);
-    draft.parts.remove(1);
-    match random.below(4) {
-        0 => {
-            let irradiance = random.power(-0.5, 0.5);
-            let mut other = match random.below(4) {
-                0 => sun(irradiance, random),
-                1 => sky(random),
-                _ => bulb(irradiance, overhead(2.0, random), random),
-            };
-            let stretches = matches!(other.kind, Kind::Point(_) | Kind::Distant(_));
-            let map = turn(stretches, [0.0; 3], random);
-            // so that it still shines on the floor
-            let lifted = |p: V3| {
-                let [x, y, z] = map.map(|[a, b, c, _]| etendue_oracle::dot([a, b, c], p));
-                y > 0.3 * (x.abs() + z.abs()) && y < 20.0 && y > 0.2
-            };
-            match other.kind {
-                Kind::Point(from) | Kind::Spot([from, _], _) | Kind::Distant([from, _]) if !lifted(from) => {}
-                _ => other.map = Some(map),
-            }
-            draft.sources.push(other);
-        }
-        1 => {
-            // all around the scene
-            let (radius, size) = (random.between(4.0, 8.0), random.between(1.0, 3.0));
-            let mut around = Part::light(Form::Sphere([0.0; 3], radius), 0.5, false);
-            let factors = [0; 3].map(|_| random.of(&[-size, size]));
-            let map = map(&axes(random.below(3), random), factors, [0.0; 3]);
-            around.place = Some(Place { map, is_reversed: !random.one_in(4) });
-            draft.parts.push(around);
-        }
-        _ => {
-            let size = random.between(0.5, 1.5);
-            let factors = if random.one_in(3) {
-                [0; 3].map(|_| random.of(&[-size, size]))
-            } else {
-                factors(random).map(|x| size * x.signum() * x.abs().max(0.1))
-            };
-            let mut part = shape(factors, random);
-            part.place = part.place.map(|place| Place { is_reversed: random.one_in(3), ..place });
-            draft.parts.push(part);
-            if random.one_in(3) {
-                look_at(&mut draft, 1, random);
-                return draft;
-            }
-        }
-    }
-    if random.one_in(3) {
         furnish(&mut draft, random);
     }
     draft
