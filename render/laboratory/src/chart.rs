@@ -123,6 +123,7 @@ pub fn measure(options: &Options, stop: &Arc<AtomicBool>) -> Result<Outcome, Box
     }
     let (keys, inapplicable) = keys(&scenes, &extent.spps, &samplers);
     notes.extend(inapplicable);
+    notes.extend(scenes.iter().zip(&extent.sizes).filter_map(|(scene, size)| scene.note_on_size(*size)));
     if keys.is_empty() {
         return Err(format!("nothing to measure: {}", notes.join("; ")).into());
     }

@@ -102,7 +102,7 @@ fn the_page_begins_with_the_best_series_of_each_scene() {
         let plain = ways.iter().find(|w| (w.technique, w.sampler) == (Technique::Area, Sampler::Independent)).unwrap();
         let [factor, of_plain] = [other, plain].map(|way| error(way) / error(best));
         let expected = format!(
-            "{} — best: solid-angle with stratified; its error after 0.16 s is 1/{factor:.2} of that of mis-power with sobol, the best \
+            "{} — best: solid-angle with stratified; its squared error after 0.16 s is 1/{factor:.2} of that of mis-power with sobol, the best \
              other technique, and 1/{of_plain:.1} of that of plain area sampling",
             summary.scene
         );

@@ -88,6 +88,22 @@ impl Loaded {
         }
     }
 
+    /// A remark on images that are smaller than the scene's, if `analytic` is compared there: its proofs hold for squares of pixels, so
+    /// that they take the same time for fewer samples.
+    pub(super) fn note_on_size(&self, size: [u32; 2]) -> Option<String> {
+        let [width, height] = size;
+        let film = &self.scene.film;
+        let is_analytic = |(technique, _): &Method| *technique == Technique::Analytic;
+        let matters = width < film.width && self.methods.len() > 1 && self.methods.iter().any(is_analytic);
+        matters.then(|| {
+            let whole = format!("{}x{}", film.width, film.height);
+            format!(
+                "{}: images of {width}x{height} pixels save time; at the scene's {whole}, analytic usually compares better",
+                self.name
+            )
+        })
+    }
+
     /// A small image by a method, or why the method does not apply.
     fn probe(&self, technique: Technique, choice: ChoiceBy, is_glossy: bool) -> Result<Vec<PixelMean>, String> {
         let is_blind = matches!(technique, Technique::UniformHemisphere | Technique::CosineHemisphere);

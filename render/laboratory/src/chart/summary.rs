@@ -334,7 +334,7 @@ impl Summary {
             .filter_map(|(index, name)| Some(format!("1/{} of that of {name}", short(error(index)? / least))))
             .collect();
         if !parts.is_empty() {
-            line += &format!("; its error after {} s is {}", short(self.seconds), parts.join(", and "));
+            line += &format!("; its squared error after {} s is {}", short(self.seconds), parts.join(", and "));
         }
         if !all_sure {
             line += "; uncertain, because the intervals are wide";
