@@ -24,16 +24,16 @@ named! {
     /// How a light is chosen.
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
     pub enum ChoiceBy {
-        /// Spatial where it applies, else kinds; a few delta lights are all sampled, and a few others share the samples of a pixel beforehand, or need none with analytic
+        /// Choose for me: spatial for 2 to 32 area lights, among which sobol and adaptive divide their samples in advance; otherwise kinds, but up to 32 delta lights alone are all sampled
         #[default]
         Auto = "auto",
         /// Each light has the same chance
         Uniform = "uniform",
-        /// By power; that of a sun or sky passes a disk as large as the scene
+        /// By power; that of a sun or sky is what falls on a disk as large as the scene
         Power = "power",
-        /// By what each of up to 32 lights can contribute to the point; no sun or sky
+        /// By what each of up to 32 lights can contribute to the point; not with a sun or sky
         Spatial = "spatial",
-        /// By a light tree; no sun or sky
+        /// By a light tree; not with a sun or sky
         Tree = "tree",
         /// Lamps, suns or sky by the irradiance that they can cause at the point, then one of them by a light tree
         Kinds = "kinds",

@@ -43,7 +43,7 @@ pub struct Options {
     /// Render the reference with this many samples per pixel [default without a built-in one: 4096, or fewer if the time is short; with --quick 1024]
     #[arg(long, value_name = "SPP", conflicts_with = "reference", value_parser = whole::<u32>(32..=MOST_SAMPLES.into()))]
     pub reference_spp: Option<u32>,
-    /// Image size in pixels [default: from the scene, or a half or quarter if the time is short; with --quick at most half]
+    /// Image size in pixels [default: from the scene, or smaller if the time is short; with --quick at most half]
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub size: Option<(u32, u32)>,
     /// Seed of the random numbers; different seeds give independent measurements
