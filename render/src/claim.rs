@@ -123,8 +123,8 @@ impl Claim {
             return Ok(());
         }
         Err(format!(
-            "no number of samples reaches an error of {target:e}: closed forms may have one of {:.1e}. Sampled lights have none, as with \
-             `--technique solid-angle`",
+            "no number of samples reaches an error of {target:e}: approximations of `analytic` may cause one of {:.1e}; \
+             `--technique solid-angle` has none",
             self.systematic
         ))
     }

@@ -206,7 +206,10 @@ fn closed_forms_have_an_error_of_their_own() {
         [&["render", "quads", "--size", "64x64", "-o", "a.exr"], more].concat()
     }
     let error = folder.fail(&render(&["--error", "1e-6"]));
-    assert!(error.contains("no number of samples reaches an error of 1e-6: closed forms may have one of"), "{error}");
+    assert!(
+        error.contains("no number of samples reaches an error of 1e-6: approximations of `analytic` may cause one of"),
+        "{error}"
+    );
     assert!(folder.names().is_empty());
     let text = folder.succeed(&render(&["--error", "1e-6", "--time", "0.2"]));
     assert!(text.contains("from approximations\nno time suffices for an error of"), "{text}");
