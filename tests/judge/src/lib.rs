@@ -21,7 +21,6 @@ pub mod fuzz_bodies;
 pub mod generators;
 #[cfg_attr(not(feature = "checks"), allow(dead_code, unused_imports, reason = "only its lamps remain"))]
 pub mod light_tree;
-#[cfg(feature = "checks")]
 pub mod lights;
 #[cfg(feature = "checks")]
 pub mod mutants;
@@ -31,4 +30,5 @@ pub mod stats;
 #[cfg(feature = "checks")]
 pub mod suite;
 pub mod techniques;
+pub mod textbook;
 pub mod tolerances;

@@ -280,7 +280,7 @@ const ARROWS: [(&str, &[&str], &[&str]); 21] = [
     ("core/shader/device", &[], &[]),
     ("render", &["etendue"], &["etendue-oracle", "etendue-judge", "etendue-scene"]),
     ("render/scene", &["etendue", "etendue-render"], &["etendue-oracle"]),
-    ("render/laboratory", &["etendue", "etendue-oracle", "etendue-render", "etendue-scene"], &["etendue-judge"]),
+    ("render/laboratory", &["etendue", "etendue-judge", "etendue-oracle", "etendue-render", "etendue-scene"], &[]),
     ("render/cli", &["etendue-laboratory", "etendue-render", "etendue-scene"], &["etendue-oracle"]),
     ("tests/bits", &["etendue", "etendue-judge"], &[]),
     ("tests/fit", &[], &[]),

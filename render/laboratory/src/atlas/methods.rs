@@ -2,13 +2,14 @@
 
 use super::pose::{Pose, Shape, ShapeKind};
 use super::sample::{Draw, Sample};
-use super::textbook::{self, Excess, add};
 use etendue::light::Polygon;
 use etendue::light::shapes::{
     DirectionSample, ProjectedCap, ProjectedPolygon, ProjectedSegment, ProjectedTriangle, SphericalCap, SphericalDisk,
     SphericalParallelogram, SphericalPolygon, SphericalRectangle, SphericalSegment, SphericalTriangle,
 };
 use etendue::{Disk, LightSample, LightSampler, Line, Parallelogram, Sphere, Triangle, Vec2, Vec3, Warp};
+use etendue_judge::lights::sampler::Sampler;
+use etendue_judge::textbook::{self, Excess, add};
 
 impl Draw<'_> {
     /// Draws samples by projected solid angle; the weight is the pdf at the cosine to the given normal.
@@ -48,6 +49,17 @@ impl Draw<'_> {
             let cos = normal.map_or(1.0, |n| w.dot(n).max(0.0));
             Sample::new([w.x, w.y, w.z], cos * density, None)
         });
+    }
+    fn textbook(&mut self, sampler: &dyn Sampler, by_area: bool) {
+        self.each(|u, invert| {
+            let (w, pdf) = sampler.sample(u).map_or(([0.0; 3], 0.0), |s| (s.direction, s.pdf));
+            let inverse = if invert { sampler.invert(w) } else { None };
+            Sample { by_area, ..Sample::new(w, pdf, inverse) }
+        });
+    }
+    /// A sampler that is by area where it has no inverse.
+    fn with_thresholds(&mut self, sampler: &dyn Sampler) {
+        self.textbook(sampler, sampler.invert([0.0, 0.0, 1.0]).is_none());
     }
     fn light(&mut self, sample: impl Fn(Vec2<f32>) -> LightSample<f32>) {
         self.each(|u, _| {
@@ -247,44 +259,52 @@ fn textbooks(kind: ShapeKind) -> Vec<Method> {
         ShapeKind::Sphere => vec![
             textbook("cone, 1-cos naive", |pose, draw| {
                 let (center, radius, _) = sphere(pose);
-                textbook::cone(center, radius, false, draw);
+                draw.textbook(&textbook::Cone::new(center, radius, false), false);
             }),
             textbook("cone, series below 1.5°", |pose, draw| {
                 let (center, radius, _) = sphere(pose);
-                textbook::cone(center, radius, true, draw);
+                draw.textbook(&textbook::Cone::new(center, radius, true), false);
             }),
         ],
         ShapeKind::Triangle => vec![
             textbook("Arvo, angle excess", |pose, draw| {
                 let (p, u, v) = flat(pose);
-                textbook::fan([[p, add(p, u), add(p, v)]], Excess::Angles, draw);
+                draw.textbook(&textbook::Fan::new(&[[p, add(p, u), add(p, v)]], Excess::Angles), false);
             }),
             textbook("Van Oosterom, unit vectors", |pose, draw| {
                 let (p, u, v) = flat(pose);
-                textbook::fan([[p, add(p, u), add(p, v)]], Excess::Oosterom, draw);
+                draw.textbook(&textbook::Fan::new(&[[p, add(p, u), add(p, v)]], Excess::Oosterom), false);
             }),
             textbook("by area outside 3e-4 to 6.22 sr", |pose, draw| {
                 let (p, u, v) = flat(pose);
-                textbook::triangle_with_thresholds(p, u, v, draw);
+                draw.with_thresholds(&*textbook::triangle_with_thresholds([p, u, v]));
             }),
         ],
         ShapeKind::Parallelogram => vec![
-            textbook("Arvo ×2, angle excess", |pose, draw| textbook::fan(halves(pose), Excess::Angles, draw)),
-            textbook("Van Oosterom ×2", |pose, draw| textbook::fan(halves(pose), Excess::Oosterom, draw)),
+            textbook("Arvo ×2, angle excess", |pose, draw| {
+                draw.textbook(&textbook::Fan::new(&halves(pose), Excess::Angles), false)
+            }),
+            textbook("Van Oosterom ×2", |pose, draw| {
+                draw.textbook(&textbook::Fan::new(&halves(pose), Excess::Oosterom), false)
+            }),
         ],
         ShapeKind::Rectangle => vec![
             textbook("Ureña 2013 as published", |pose, draw| {
                 let (p, u, v) = flat(pose);
-                textbook::urena(p, u, v, draw);
+                draw.textbook(&textbook::Urena::new([p, u, v]), false);
             }),
             textbook("by area outside 3e-4 to 6.22 sr", |pose, draw| {
                 let (p, u, v) = flat(pose);
-                textbook::rectangle_with_thresholds(p, u, v, draw);
+                draw.with_thresholds(&*textbook::rectangle_with_thresholds([p, u, v]));
             }),
         ],
         ShapeKind::Polygon => vec![
-            textbook("Arvo ×4, angle excess", |pose, draw| textbook::fan(hexagon(pose), Excess::Angles, draw)),
-            textbook("Van Oosterom ×4", |pose, draw| textbook::fan(hexagon(pose), Excess::Oosterom, draw)),
+            textbook("Arvo ×4, angle excess", |pose, draw| {
+                draw.textbook(&textbook::Fan::new(&hexagon(pose), Excess::Angles), false)
+            }),
+            textbook("Van Oosterom ×4", |pose, draw| {
+                draw.textbook(&textbook::Fan::new(&hexagon(pose), Excess::Oosterom), false)
+            }),
         ],
         ShapeKind::Disk => vec![textbook("Ω by arc cosines of the cone", |pose, draw| {
             let (center, normal, radius) = disk(pose);
