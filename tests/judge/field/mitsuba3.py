@@ -160,7 +160,7 @@ class Ball:
 def regimes(shape):
     """Lights of half-size 1 by a and the shading point (x, y, h below the light), for every regime."""
     if shape == "sphere":
-        for distance in (1e6, 1e5, 1e4, 3e3, 1e3, 300, 100, 60, 38, 30, 10, 3, 2, 1.5, 1.1, 1.01, 1.001, 1.0001):
+        for distance in (1e6, 1e5, 1e4, 5e3, 4e3, 3e3, 1e3, 300, 100, 60, 38, 30, 10, 3, 2, 1.5, 1.1, 1.01, 1.001, 1.0001):
             yield f"{distance:g} radii away", 1, 0, 0, distance
         for distance in (0, 0.1, 0.5, 0.9, 0.99, 0.999, 0.9999):
             yield f"inside, {distance:g} radii from the centre", 1, 0, 0, distance
