@@ -375,5 +375,5 @@ fn documents_are_short() {
     let all = [&more[..], &sources(&[".md"])].concat();
     let [readme, sum] = [words(&more[0]), all.iter().map(|path| words(path)).sum()];
     println!("README.md has {readme} words, all documents {sum}");
-    assert!((300..=1000).contains(&readme) && sum <= 9000, "README.md has {readme} words, all documents {sum}");
+    assert!((300..=1000).contains(&readme) && sum <= 9600, "README.md has {readme} words, all documents {sum}");
 }
