@@ -6,7 +6,7 @@ mod random;
 mod sobol;
 
 use etendue::sequence::{Independent, JointSobol, OwenSobol, Sequence, Stratified, ZOrder};
-use etendue::{Uint, Vec2, f32x4, f32x8, f32x16, f64x4, u32x4};
+use etendue::{Uint, Vec2, f32x8};
 use etendue_judge::generators::AlongCurve;
 
 #[test]
@@ -17,22 +17,14 @@ fn packets_are_scalars() {
                 let pixels = |k: usize| start.wrapping_add(k as u32 * 977);
                 let samples = |k: usize| (start / 2).wrapping_add(k as u32 * 3);
                 let eight: Vec2<f32x8> = sequence.pair(Uint::from_fn(pixels), Uint::from_fn(samples), dimension);
-                let sixteen: Vec2<f32x16> = sequence.pair(Uint::from_fn(pixels), Uint::from_fn(samples), dimension);
-                let four: Vec2<f32x4> = sequence.pair(Uint::from_fn(pixels), Uint::from_fn(samples), dimension);
-                let double: Vec2<f64x4> = sequence.pair(u32x4::from_fn(pixels), u32x4::from_fn(samples), dimension);
-                for k in 0..16 {
+                for k in 0..8 {
                     let one: Vec2<f32> = sequence.pair(pixels(k), samples(k), dimension);
                     assert!((0.0..1.0).contains(&one.x) && (0.0..1.0).contains(&one.y), "{name}: {one:?}");
-                    assert_eq!(sixteen.lane(k), one, "{name}, lane {k} of 16");
-                    assert!(k > 7 || eight.lane(k) == one, "{name}, lane {k} of 8");
+                    assert_eq!(eight.lane(k), one, "{name}, lane {k}");
                     let wide: Vec2<f64> = sequence.pair(pixels(k), samples(k), dimension);
                     // f64 does not round the point
                     let off = (wide.x - f64::from(one.x)).abs().max((wide.y - f64::from(one.y)).abs());
                     assert!(off < 2.4e-7, "{name}: {one:?} {wide:?}");
-                    if k < 4 {
-                        assert_eq!(four.lane(k), one, "{name}, lane {k} of 4");
-                        assert_eq!(double.lane(k), wide, "{name}, lane {k} in f64");
-                    }
                 }
             }
         }

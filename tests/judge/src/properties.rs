@@ -8,7 +8,7 @@ use crate::tolerances::SIGNIFICANCE;
 use crate::tolerances::{self, ROUNDING, Tolerance, ULP, ULP_F64};
 use core::fmt::Debug;
 use etendue::light::shapes::DirectionSample;
-use etendue::{Real, Vec2, Vec3, Warp, f32x4, f32x8};
+use etendue::{Real, Vec2, Vec3, Warp, f32x8};
 #[cfg(feature = "checks")]
 use etendue_oracle::tier::cases;
 use etendue_oracle::{Greatest, V3, cross, integrate, length, sub};
@@ -237,18 +237,13 @@ fn total_at<S: Fixture, R: Real>(s: &S, u: [f32; 2]) {
     }
 }
 
-/// **Lane-identical**: f32, f32x4 and f32x8 give the same bits, with other parameters in each lane; so does a splatted scalar warp.
+/// **Lane-identical**: f32 and f32x8 give the same bits, with other parameters in each lane; so does a splatted scalar warp.
 ///
-/// The samplers of lights are also compared with f32x16 ([`techniques::any_bits`](crate::techniques::any_bits)), and all routines in the
-/// tests of `etendue-batch` and by `.ci/bits`: every width costs half a minute of building.
+/// `etendue-bits` compares all routines at every width, which takes as long to build as the rest.
 pub fn lanes<S: Fixture>(subjects: &[S; 8], us: &[[f32; 2]; 8]) {
     let scalars: Vec<_> =
         (0..8).map(|i| observe::<S, f32>(&S::prepare::<f32>(&subjects[i..=i]), squares_of(&us[i..=i]))[0]).collect();
     same(subjects, us, &scalars, &observe::<S, f32x8>(&S::prepare(subjects), squares_of(us)), "f32x8");
-    for half in [0..4, 4..8] {
-        let (subjects, us) = (&subjects[half.clone()], &us[half.clone()]);
-        same(subjects, us, &scalars[half], &observe::<S, f32x4>(&S::prepare(subjects), squares_of(us)), "f32x4");
-    }
     let splatted = S::splat::<f32x8>(S::prepare::<f32>(&subjects[..1]));
     let alone = S::prepare::<f32>(&subjects[..1]);
     let expected: Vec<_> = us.iter().map(|u| observe::<S, f32>(&alone, squares_of(&[*u]))[0]).collect();
