@@ -1,11 +1,12 @@
 //! Rectangles by solid angle.
 
+mod prepare;
+
 use crate::lanewise::lanewise;
 use crate::light::direction::DirectionSample;
 use crate::light::shape::spherical;
 use crate::math::{ratio, rsqrt};
 use crate::real::{Mask, Real, unit_interval};
-use crate::vector::double_word::{cross_dw, dot_dw, height_over, rounded_sum, sum_dw};
 use crate::vector::{Vec2, Vec3};
 use crate::warp::Warp;
 
@@ -51,24 +52,12 @@ lanewise! {
         anchor: Vec2<R>,
         /// 1 where `side_x` or `side_y` points against the edge
         flip: Vec2<R>,
-        /// sinw₁, w₁ the solid angle of the strip from the foot to x₁
-        sin_w1: R,
-        /// cosw₁
-        cos_w1: R,
+        /// the strip from the foot to x₁
+        strip: Strip<R>,
         /// 1/sinw₁
         inv_sin_w1: R,
-        /// A = cosw₁ − p
-        above_p: R,
-        /// B = cosw₁ + s
-        above_s: R,
-        /// sinw₁ of the strip from the foot to x₀ if x₀ < 0, else 0
-        near_sin: R,
-        /// cosw₁ of that strip
-        near_cos: R,
-        /// A of that strip
-        near_above_p: R,
-        /// B of that strip
-        near_above_s: R,
+        /// the strip from the foot to x₀ if x₀ < 0, else 0
+        near_strip: Strip<R>,
         /// where more than this share of the area lies towards x₁, the map counts from x₀: ½ if x₀ < 0, else 2 (never)
         half: R,
         /// Ω in steradians
@@ -80,19 +69,22 @@ lanewise! {
     }
 }
 
+lanewise! {
+    /// The strip [0, x]×[y₀, y₁], with the solid angle w.
+    struct Strip {
+        /// sinw
+        sin: R,
+        /// cosw
+        cos: R,
+        /// A = cosw − p
+        above_p: R,
+        /// B = cosw + s
+        above_s: R,
+    }
+}
+
 /// Height over the plane in units of the far end, and share of the area, below which a change of the strips counts as steep.
 const STEEP: f64 = 1.0 / 16.0;
-
-/// Unit normal of the plane through `p` along `u` and `v`, and p·normal. From a far corner that height is a small difference,
-/// so it is formed in twice the working precision.
-#[inline(always)]
-fn normal_and_height<R: Real>(p: Vec3<R>, u: Vec3<R>, v: Vec3<R>) -> (Vec3<R>, R) {
-    let (u, v) = (u * u.max_abs().pow2_scale(), v * v.max_abs().pow2_scale());
-    let cross = u.cross(v);
-    let (normal, length) = cross.unit_and_length();
-    let some = length.gt(R::lit(0.0));
-    (normal, (height_over(p, [u, v], cross) / R::blend(some, length, R::lit(1.0))).keep(some))
-}
 
 /// Solid angle of [near.x, far.x]×[near.y, far.y] at the height z, with |near| ≤ far and `size` = far − near.
 ///
@@ -135,139 +127,6 @@ fn window<R: Real>(near: Vec2<R>, far: Vec2<R>, size: Vec2<R>, z: R) -> R {
 }
 
 impl<R: Real> SphericalRectangle<R> {
-    /// Prepares for the corners p, p+u, p+u+v, p+v, with p relative to the point and u perpendicular to v; all in one unit of
-    /// length.
-    #[inline(always)]
-    pub fn new(p: Vec3<R>, u: Vec3<R>, v: Vec3<R>) -> Self {
-        let (zero, one) = (R::lit(0.0), R::lit(1.0));
-        // the unit of length is a power of two near the largest length; every point of the rectangle must have a finite distance
-        let reach = p.max_abs().greater(u.max_abs()).greater(v.max_abs());
-        let sum = p.max_abs() + u.max_abs() + v.max_abs();
-        let finite = (sum + sum).lt(R::lit(f64::INFINITY));
-        let scale = reach.pow2_scale();
-        let scaled = |v: Vec3<R>| Vec3::new(v.x.keep(finite), v.y.keep(finite), v.z.keep(finite)) * scale;
-        let (p, u, v) = (scaled(p), scaled(u), scaled(v));
-        // axes and sizes, and the height z of the point over the plane
-        let ((x_axis, dx), (y_axis, dy)) = (u.unit_and_length(), v.unit_and_length());
-        let (z_axis, signed) = normal_and_height(p, u, v);
-        let corners = [p, p + u, p + u + v, p + v];
-        let (z, side) = (signed.abs(), one.copysign(signed));
-
-        // the ends (x₀, y₀) and (x₁, y₁): both axes point to the far end; coordinates of far corners are small differences
-        let ends = |size: R, edge: Vec3<R>| {
-            let unit = edge * edge.max_abs().pow2_scale();
-            let squared = unit.length_squared();
-            let inverse = rsqrt(squared).keep(squared.gt(zero));
-            let (from, reach) = (dot_dw(p, unit), dot_dw(edge, unit));
-            let (low, high) = ((from[0] + from[1]) * inverse, rounded_sum(from, reach) * inverse);
-            // rounding may lose a tiny size in both ends; the near end is the one of smaller magnitude
-            let flip = (low + high).lt(zero);
-            let near = R::blend(flip, -high, low).greater(R::lit(-0.5) * size);
-            (flip, near, near + size)
-        };
-        let (flip_x, x0, x1) = ends(dx, u);
-        let (flip_y, y0, y1) = ends(dy, v);
-        let turn = |v: Vec3<R>, m: R::Mask| Vec3::new(v.x.negate_where(m), v.y.negate_where(m), v.z.negate_where(m));
-        let (side_x, side_y) = (turn(x_axis, flip_x), turn(y_axis, flip_y));
-        let (anchored_x, anchored_y) = ((x0 + x0).ge(x1), (y0 + y0).ge(y1));
-        let far_corner = Vec3::blend(
-            flip_x,
-            Vec3::blend(flip_y, corners[0], corners[3]),
-            Vec3::blend(flip_y, corners[1], corners[2]),
-        );
-        // the origin of X and Y, from the far corner or from the foot, whichever is nearer to it
-        let (there_x, there_y) = (x1.keep(anchored_x), y1.keep(anchored_y));
-        let (gone_x, gone_y) = (x1 - there_x, y1 - there_y);
-        let from_corner = far_corner - side_x * gone_x - side_y * gone_y;
-        let from_foot = side_x.mul_add(there_x, side_y.mul_add(there_y, z_axis * signed));
-        let gone = gone_x.greater(gone_y);
-        let base = Vec3::blend(gone.le(there_x.greater(there_y).greater(z)), from_corner, from_foot);
-
-        // the strips from the foot to x₁ and, if the foot is inside, to x₀
-        let (zz, yy) = (z * z, y0 * y1);
-        let (mm0, mm1) = (y0.mul_add(y0, zz), y1.mul_add(y1, zz));
-        let im = ratio(one, (mm0 * mm1).sqrt());
-        let across = y0.lt(zero);
-        // sine and cosine of w for the strip from the foot to x, cosw − p and cosw + s
-        let strip = |x: R| {
-            let xx = x * x;
-            let d = xx + zz;
-            let (r0, r1) = (y0.mul_add(y0, d).sqrt(), y1.mul_add(y1, d).sqrt());
-            let rr = r0 * r1;
-            let id = ratio(one, d);
-            let sum = y1.mul_add(r0, y0.abs() * r1);
-            let cross = R::blend(across, sum * id, ratio(dy * (y1 + y0), sum));
-            // rr ∓ |y₀y₁|, the smaller one over d
-            let (plus, minus) = (rr + yy.abs(), ratio(y0.mul_add(y0, y1.mul_add(y1, d)), rr + yy.abs()));
-            (
-                x * z * cross * im,
-                xx.mul_add(yy, zz * rr) * id * im,
-                ratio(zz * dy * dy * im, R::blend(across, d * (minus + one), plus + d)),
-                zz * im * R::blend(across, (plus + d) * id, minus + one),
-            )
-        };
-        let (sin_w1, cos_w1, above_p, above_s) = strip(x1);
-        let straddles = x0.lt(zero);
-        let (near_sin, near_cos, near_above_p, near_above_s) =
-            if straddles.any() { strip(-x0) } else { (zero, zero, zero, zero) };
-        // Ω, and whether the rectangle can be sampled
-        let solid_angle = window(Vec2::new(x0, y0), Vec2::new(x1, y1), Vec2::new(dx, dy), z);
-        let some = finite
-            & solid_angle.gt(R::lit(1e-36))
-            & solid_angle.lt(R::lit(7.0))
-            & sin_w1.gt(zero)
-            & z.gt(R::lit(1e-18));
-
-        // planes through the viewpoint and the sides, from p, u and v, since the other corners are rounded sums
-        let (pu, pv, uv) = (cross_dw(p, u), cross_dw(p, v), cross_dw(u, v));
-        let minus = |n: [Vec3<R>; 2]| n.map(|n| -n);
-        let plane = |n: [Vec3<R>; 2], a: Vec3<R>, b: Vec3<R>| {
-            let (unit, length) = (n[0] + n[1]).unit_and_length();
-            (
-                turn(unit, side.lt(zero)),
-                ratio(-a.dot(b), length).greater(one).lesser(R::lit(1e18)) * R::lit(RECTANGLE_SLACK),
-            )
-        };
-        let (low_x, slack_low_x) = plane(minus(pv), corners[0], corners[3]);
-        let (high_x, slack_high_x) = plane(sum_dw(pv, uv), corners[1], corners[2]);
-        let (low_y, slack_low_y) = plane(pu, corners[0], corners[1]);
-        let (high_y, slack_high_y) = plane(sum_dw(uv, minus(pu)), corners[3], corners[2]);
-        Self {
-            base,
-            side_x,
-            side_y,
-            near_x: Vec3::blend(flip_x, high_x, low_x),
-            far_x: Vec3::blend(flip_x, low_x, high_x),
-            near_y: Vec3::blend(flip_y, high_y, low_y),
-            far_y: Vec3::blend(flip_y, low_y, high_y),
-            slack: Vec2::new(R::blend(flip_x, slack_high_x, slack_low_x), R::blend(flip_y, slack_high_y, slack_low_y)),
-            slack_far: Vec2::new(
-                R::blend(flip_x, slack_low_x, slack_high_x),
-                R::blend(flip_y, slack_low_y, slack_high_y),
-            ),
-            normal: z_axis * side,
-            near: Vec2::new(x0, y0),
-            far: Vec2::new(x1, y1),
-            size: Vec2::new(dx, dy),
-            height: z,
-            anchor: Vec2::new(one.keep(anchored_x), one.keep(anchored_y)),
-            flip: Vec2::new(one.keep(flip_x), one.keep(flip_y)),
-            sin_w1,
-            cos_w1,
-            inv_sin_w1: ratio(one, sin_w1),
-            above_p,
-            above_s,
-            near_sin,
-            near_cos,
-            near_above_p,
-            near_above_s,
-            half: R::blend(straddles, R::lit(0.5), R::lit(2.0)),
-            solid_angle: solid_angle.keep(some),
-            side,
-            unit: one / scale,
-        }
-    }
-
     /// Solid angle in steradians, in [0, 2π].
     #[inline(always)]
     pub fn solid_angle(&self) -> R {
@@ -294,19 +153,18 @@ impl<R: Real> SphericalRectangle<R> {
         // from k = cosw − cosw₁, counted from the nearer end on either side of the foot
         let near = left.gt(self.half);
         let part = R::blend(near, swept, left);
-        let (sin_w1, cos_w1) = (R::blend(near, self.near_sin, self.sin_w1), R::blend(near, self.near_cos, self.cos_w1));
+        let strip = Strip::blend(near, self.near_strip, self.strip);
         let (sin_e, cos_e) = (part * (self.solid_angle * R::lit(INV_FOUR_PI))).sin_cos_turns();
-        let sin_d = sin_w1.mul_add(cos_e, -(cos_w1 * sin_e)).greater(-one.keep(near));
-        let cos_d = cos_w1.mul_add(cos_e, sin_w1 * sin_e);
+        let sin_d = strip.sin.mul_add(cos_e, -(strip.cos * sin_e)).greater(-one.keep(near));
+        let cos_d = strip.cos.mul_add(cos_e, strip.sin * sin_e);
         let sin_w = sin_d.mul_add(cos_e, -(cos_d * sin_e));
         let k = (sin_d + sin_d) * sin_e;
-        let above_p = k + R::blend(near, self.near_above_p, self.above_p);
-        let above_s = k + R::blend(near, self.near_above_s, self.above_s);
+        let (above_p, above_s) = (k + strip.above_p, k + strip.above_s);
         let root = (above_p * above_s).greater(zero).sqrt();
         // where cosw₁ < 0, the difference still leaves at least half of the first term
-        let (far_p, far_s) = (self.above_p, self.above_s);
-        let square = self.sin_w1 * self.sin_w1;
-        let q = square.mul_add(far_p + far_s + k, (self.cos_w1 + self.cos_w1 + k) * (far_p * far_s));
+        let Strip { sin: sin_w1, cos: cos_w1, above_p: far_p, above_s: far_s } = self.strip;
+        let square = sin_w1 * sin_w1;
+        let q = square.mul_add(far_p + far_s + k, (cos_w1 + cos_w1 + k) * (far_p * far_s));
         let from_far = (sin_d + sin_d) * self.inv_sin_w1 * (sin_e * self.inv_sin_w1) * q * x1 * x1;
         let foot = (z * sin_w).negate_where(near);
         let anchored = self.anchor.x.gt(zero);

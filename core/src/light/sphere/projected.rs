@@ -83,31 +83,27 @@ fn tangent_distance<R: Real>(r: R, n: Vec3<R>, [height, rest]: [R; 2]) -> (R, R)
     (shrink.mul_add(off, shrink), distance)
 }
 
-impl<R: Real> ProjectedCap<R> {
-    /// Prepares for a sphere with its centre at `center` relative to the point (both lengths in one unit), on a surface with
-    /// the normal `normal` (of any length).
-    #[inline(always)]
-    pub fn new(center: Vec3<R>, radius: R, normal: Vec3<R>) -> Self {
-        let (zero, one) = (R::lit(0.0), R::lit(1.0));
-        // a difference has overflowed: nothing is visible
-        let finite = center.is_within(R::lit(f64::INFINITY)) & radius.abs().lt(R::lit(f64::INFINITY));
-        let (center, radius) = (center.keep(finite), radius.keep(finite));
-        let scale = center.max_abs().greater(radius.abs()).pow2_scale();
-        let (c, r) = (center * scale, radius * scale);
-        let power = c.length_squared_minus_square(r);
-        let squared = c.length_squared();
-        let some = squared.gt(zero);
-        let inverse = rsqrt(R::blend(some, squared, one)).keep(some);
-        let outside = power.ge(zero) & some;
+/// Where a sphere is over the horizon: the frame with x towards the axis and z the normal, the centre in it, how far the sphere reaches
+/// across, and where the normal has a direction.
+struct Upright<R: Real> {
+    frame: Frame<R>,
+    along_x: R,
+    along_z: R,
+    margin: R,
+    directed: R::Mask,
+}
 
-        // normalise, at any scale
+impl<R: Real> Upright<R> {
+    #[inline(always)]
+    fn new(c: Vec3<R>, r: R, normal: Vec3<R>) -> Self {
+        let (zero, one) = (R::lit(0.0), R::lit(1.0));
+        // at any scale
         let normal = normal * normal.max_abs().pow2_scale();
         let flat = normal.max_abs().le(zero);
         let normal = Vec3::new(normal.x, normal.y, R::blend(flat, one, normal.z));
         let [height, rest] = dot_dw(c, normal);
         let (height, rest) = height.two_sum(rest);
         let (shrink, margin) = tangent_distance(r, normal, [height, rest]);
-        let (along_z, margin) = (height * shrink, margin * shrink);
         // y axis: horizontal, perpendicular to the plane of normal and axis, before the normal is rounded
         let across = normal.cross(c);
         let normal = normal * shrink;
@@ -117,28 +113,58 @@ impl<R: Real> ProjectedCap<R> {
         let t = Vec3::blend(oblique, across * inverse_width, Frame::new(normal).t);
         let side = t.cross(normal);
         let s = side.mul_add(R::lit(0.5) * (one - side.length_squared()), side);
-        let frame = Frame { s, t, n: normal };
-        let along_x = (width_squared * inverse_width * shrink).keep(oblique);
+        Self {
+            frame: Frame { s, t, n: normal },
+            along_x: (width_squared * inverse_width * shrink).keep(oblique),
+            along_z: height * shrink,
+            margin: margin * shrink,
+            directed: shrink.gt(zero),
+        }
+    }
+}
 
-        // from inside, the hemisphere is a cap about the normal
+/// The angles of a cap, with the names of [`ProjectedCap`], and whether it is whole. From inside, the hemisphere is a cap about the normal.
+struct Angles<R: Real> {
+    sin_sigma: R,
+    cos_sigma: R,
+    sin_omega: R,
+    cos_omega: R,
+    sin_theta: R,
+    cos_theta: R,
+    kappa: R,
+    whole: R::Mask,
+}
+
+impl<R: Real> Angles<R> {
+    /// Of a sphere with the radius `r`, with `power` = d² − r² and `inverse` = 1/d.
+    #[inline(always)]
+    fn new(at: &Upright<R>, [r, power, inverse]: [R; 3], outside: R::Mask) -> Self {
+        let (zero, one, &Upright { along_x, along_z, margin, .. }) = (R::lit(0.0), R::lit(1.0), at);
         let pick = |yes: R, no: f64| R::blend(outside, yes, R::lit(no));
         let reciprocal = |square: R| rsqrt(R::blend(square.gt(zero), square, one));
         let by_radius = reciprocal(r.mul_add(r, power.greater(zero)));
-        let sin_sigma = pick((r.greater(zero) * by_radius).lesser(one), 1.0);
         let cos_sigma = pick((power.greater(zero).sqrt() * by_radius).lesser(one), 0.0);
         let by_height = reciprocal(along_x.mul_add(along_x, along_z * along_z));
-        let sin_omega = pick((along_x * by_height).lesser(one), 0.0);
-        let cos_omega = pick((along_z * by_height).clamped(-one, one), 1.0);
         let height_squared = (margin * (r + along_z.abs())).greater(zero) * inverse * inverse;
         let height_squared = height_squared.keep(outside);
-        // from inside, the cap is whole
-        let whole = !outside | (margin.le(zero) & along_z.ge(zero));
         // sin²ω = y² + cos²σ
         let by_sin_omega = reciprocal(cos_sigma.mul_add(cos_sigma, height_squared));
-        let sin_theta = height_squared.sqrt() * by_sin_omega;
-        let cos_theta = R::blend(height_squared.gt(zero), cos_sigma * by_sin_omega, one);
-        let kappa = ratio(along_z.abs(), r).lesser(one);
-
+        Self {
+            sin_sigma: pick((r.greater(zero) * by_radius).lesser(one), 1.0),
+            cos_sigma,
+            sin_omega: pick((along_x * by_height).lesser(one), 0.0),
+            cos_omega: pick((along_z * by_height).clamped(-one, one), 1.0),
+            sin_theta: height_squared.sqrt() * by_sin_omega,
+            cos_theta: R::blend(height_squared.gt(zero), cos_sigma * by_sin_omega, one),
+            kappa: ratio(along_z.abs(), r).lesser(one),
+            whole: !outside | (margin.le(zero) & along_z.ge(zero)),
+        }
+    }
+    /// `part`, `rest` and `projected` of the cap of a sphere with the radius `r`, which reaches across the horizon by `margin`.
+    #[inline(always)]
+    fn areas(&self, margin: R, r: R) -> [R; 3] {
+        let (zero, one) = (R::lit(0.0), R::lit(1.0));
+        let &Self { sin_sigma, cos_omega, sin_theta, cos_theta, kappa, whole, .. } = self;
         let area = sin_sigma * sin_sigma * cos_omega;
         let near = kappa * cos_theta;
         let over = cos_omega.ge(zero);
@@ -157,14 +183,39 @@ impl<R: Real> ProjectedCap<R> {
             let below = R::lit(2.0) * sin_theta * sin_theta * sin_theta * spread * lune;
             projected = R::blend(over, projected, below);
         }
+        [part, rest, projected]
+    }
+}
+
+impl<R: Real> ProjectedCap<R> {
+    /// Prepares for a sphere with its centre at `center` relative to the point (both lengths in one unit), on a surface with
+    /// the normal `normal` (of any length).
+    #[inline(always)]
+    pub fn new(center: Vec3<R>, radius: R, normal: Vec3<R>) -> Self {
+        let (zero, one) = (R::lit(0.0), R::lit(1.0));
+        // a difference has overflowed: nothing is visible
+        let finite = center.is_within(R::lit(f64::INFINITY)) & radius.abs().lt(R::lit(f64::INFINITY));
+        let (center, radius) = (center.keep(finite), radius.keep(finite));
+        let scale = center.max_abs().greater(radius.abs()).pow2_scale();
+        let (c, r) = (center * scale, radius * scale);
+        let power = c.length_squared_minus_square(r);
+        let squared = c.length_squared();
+        let some = squared.gt(zero);
+        let inverse = rsqrt(R::blend(some, squared, one)).keep(some);
+        let outside = power.ge(zero) & some;
+        let at = Upright::new(c, r, normal);
+        let angles = Angles::new(&at, [r, power, inverse], outside);
+        let [part, rest, projected] = angles.areas(at.margin, r);
         // nothing where the centre is no number, or the normal has no direction
-        let some_sphere = r.gt(zero) & squared.ge(zero) & shrink.gt(zero);
-        let visible = (whole | margin.gt(zero)) & some_sphere;
+        let some_sphere = r.gt(zero) & squared.ge(zero) & at.directed;
+        let visible = (angles.whole | at.margin.gt(zero)) & some_sphere;
         let axis = c * inverse;
+        let Angles { sin_sigma, cos_sigma, sin_omega, cos_omega, sin_theta, cos_theta, kappa, .. } = angles;
+        let one_minus_cos = R::blend(outside, sin_sigma * sin_sigma / (one + cos_sigma), R::lit(2.0));
         Self {
-            frame,
+            frame: at.frame,
             axis: Vec3::new(axis.x, axis.y, R::blend(some, axis.z, one)),
-            cone: Cone { one_minus_cos: pick(sin_sigma * sin_sigma / (one + cos_sigma), 2.0).keep(some_sphere) },
+            cone: Cone { one_minus_cos: one_minus_cos.keep(some_sphere) },
             sin_sigma,
             cos_sigma,
             sin_omega,
@@ -175,11 +226,11 @@ impl<R: Real> ProjectedCap<R> {
             part,
             rest,
             projected: projected.keep(visible),
-            along_x,
-            along_z,
+            along_x: at.along_x,
+            along_z: at.along_z,
             distance: squared * inverse,
             power,
-            margin: R::blend(outside, margin, -one),
+            margin: R::blend(outside, at.margin, -one),
             unit: one / scale,
         }
     }
