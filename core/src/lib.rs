@@ -29,7 +29,7 @@
 #![doc = include_str!("index.md")]
 //!
 //! # Features
-//! None is on by default. `glam` converts vectors to and from those of `glam`; `rand` makes `sequence::CounterRng` a generator of `rand_core`.
+//! None is on by default. `alloc` adds `owned`: trees, environments and pictures with their memory on the heap. `glam` converts vectors to and from those of `glam`; `rand` makes `sequence::CounterRng` a generator of `rand_core`.
 //! `same-bits` makes [all processors](real::SAME_BITS) return the same bits.
 //!
 //! # Speed
@@ -39,6 +39,9 @@
 #![no_std]
 #![forbid(unsafe_code)]
 
+#[cfg(feature = "alloc")]
+extern crate alloc;
+
 pub mod discrete;
 pub mod estimate;
 mod interop;
@@ -47,6 +50,8 @@ pub mod light;
 pub mod math;
 #[doc(hidden)]
 pub mod memory;
+#[cfg(feature = "alloc")]
+pub mod owned;
 pub mod real;
 pub mod reflection;
 pub mod select;
