@@ -45,7 +45,7 @@ pub trait Lanewise<R>: Sized {
     }
 }
 
-/// Implements [`Lanewise`] by the method `map` of a struct over numbers alone, or over numbers and constants.
+/// Implements [`Lanewise`], and `splat` without the trait, by the method `map` of a struct over numbers alone, or over numbers and constants.
 macro_rules! lanewise_by_map {
     ($name:ident $(, $n:ident)*) => {
         impl<R $(, const $n: usize)*> $crate::lanewise::Lanewise<R> for $name<R $(, $n)*> {
@@ -53,6 +53,15 @@ macro_rules! lanewise_by_map {
             #[inline(always)]
             fn map<S>(self, f: impl FnMut(R) -> S) -> $name<S $(, $n)*> {
                 self.map(f)
+            }
+        }
+        // of a private struct it is not reachable, nor is it always used
+        #[allow(unreachable_pub, dead_code)]
+        impl<R: $crate::real::Real $(, const $n: usize)*> $name<R $(, $n)*> {
+            /// Repeats one scalar value in every lane.
+            #[inline]
+            pub fn splat(s: $name<R::Scalar $(, $n)*>) -> Self {
+                s.map(R::splat)
             }
         }
     };
@@ -83,11 +92,6 @@ macro_rules! lanewise {
         // of a private struct they are not reachable, nor are all of them used
         #[allow(unreachable_pub, dead_code)]
         impl<R: $crate::real::Real> $name<R> {
-            /// Repeats one scalar value in every lane.
-            #[inline]
-            pub fn splat(s: $name<R::Scalar>) -> Self {
-                s.map(R::splat)
-            }
             /// Takes the lanes of `yes` where the mask is true, and those of `no` elsewhere.
             #[inline(always)]
             pub fn blend(mask: R::Mask, yes: Self, no: Self) -> Self {

@@ -75,8 +75,7 @@ impl<R: Real> PlacedPatch<R> {
     #[inline(always)]
     pub(super) fn at_coordinates(&self, st: Vec2<R>) -> SurfacePoint<R> {
         let position = self.surface.corner + self.surface.offset(st);
-        let below = |x: R| x.abs().lt(R::lit(f64::INFINITY));
-        let finite = below(position.x) & below(position.y) & below(position.z);
+        let finite = position.is_within(R::lit(f64::INFINITY));
         let (normal, uv) = (self.normal(st).0, st);
         SurfacePoint { position: position.keep(finite), normal, uv, inverse_pdf: self.stretch_at(st) }
     }
@@ -157,15 +156,7 @@ impl<R: Real> AreaSurface<R> for PlacedPatch<R> {
     #[inline(always)]
     fn draw(&self, u: Vec2<R>) -> SurfacePoint<R> {
         let uv = self.surface.parameters().sample(u);
-        let position = self.surface.corner + self.surface.offset(uv);
-        let below = |x: R| x.abs().lt(R::lit(f64::INFINITY));
-        let finite = below(position.x) & below(position.y) & below(position.z);
-        SurfacePoint {
-            position: position.keep(finite),
-            normal: self.normal(uv).0,
-            uv,
-            inverse_pdf: self.inverse_pdf(uv),
-        }
+        SurfacePoint { inverse_pdf: self.inverse_pdf(uv), ..self.at_coordinates(uv) }
     }
     #[inline(always)]
     fn inverse_pdf(&self, uv: Vec2<R>) -> R {

@@ -57,11 +57,6 @@ impl<R: Real, const N: usize> Polygon<R, N> {
     pub fn new(corners: [Vec3<R>; N]) -> Self {
         Self { corners }
     }
-    /// Repeats one polygon in every lane.
-    #[inline]
-    pub fn splat(s: Polygon<R::Scalar, N>) -> Self {
-        s.map(R::splat)
-    }
     /// Uniform over the surface, seen from the point `p`: pdf distance²/(|cosθ'| A) per steradian, which follows from
     /// the rounded corners.
     #[inline(always)]

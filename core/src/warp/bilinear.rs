@@ -35,11 +35,6 @@ impl<R> Bilinear<R> {
 lanewise_by_map!(Bilinear);
 
 impl<R: Real> Bilinear<R> {
-    /// Repeats one distribution in every lane.
-    #[inline(always)]
-    pub fn splat(b: Bilinear<R::Scalar>) -> Self {
-        b.map(R::splat)
-    }
     /// The marginal of y, and the corners, times a power of two where their squares would leave the range.
     #[inline(always)]
     fn marginal(&self) -> (Linear<R>, [R; 4]) {

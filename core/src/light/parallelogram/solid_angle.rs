@@ -53,11 +53,6 @@ impl<R: Real> SphericalParallelogram<R> {
             second: SphericalTriangle::prepare([b, p, c], second, || second.n12, scale),
         }
     }
-    /// Repeats one prepared parallelogram in every lane.
-    #[inline(always)]
-    pub fn splat(s: SphericalParallelogram<R::Scalar>) -> Self {
-        s.map(R::splat)
-    }
     /// Solid angle in steradians, in [0, 2π].
     #[inline(always)]
     pub fn solid_angle(&self) -> R {

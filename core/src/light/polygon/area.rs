@@ -56,9 +56,8 @@ impl<R: Real, const N: usize> PlacedPolygon<R, N> {
             total += sizes[i];
         }
         let origin = first - origin;
-        let below = |x: R| x.abs().lt(R::lit(f64::INFINITY));
-        let finite = [origin, whole].map(|v| below(v.x) & below(v.y) & below(v.z));
-        let finite = finite[0] & finite[1];
+        let infinity = R::lit(f64::INFINITY);
+        let finite = origin.is_within(infinity) & whole.is_within(infinity);
         let (normal, length) = whole.keep(finite).unit_and_length();
         let mut plane = AffinePlane::new(origin, edges[1], edges[N - 1]);
         // the first three corners may be in line
@@ -66,11 +65,6 @@ impl<R: Real, const N: usize> PlacedPolygon<R, N> {
         plane.height = compensated_dot(origin.keep(finite) * (R::lit(1.0) / plane.unit), normal);
         let (origin, edges) = (origin.keep(finite), edges.map(|e| e.keep(finite)));
         Self { origin, edges, plane, sizes, total, normal, area: length * R::lit(0.5) }
-    }
-    /// Repeats one polygon in every lane.
-    #[inline(always)]
-    pub fn splat(s: PlacedPolygon<R::Scalar, N>) -> Self {
-        s.map(R::splat)
     }
 }
 

@@ -245,11 +245,6 @@ impl<R: Real, const N: usize, const ROOM: usize> ProjectedPolygon<R, N, ROOM> {
         self.projected = R::blend(central, sum, self.projected);
         self.central = one.keep(central);
     }
-    /// Repeats one prepared polygon in every lane.
-    #[inline(always)]
-    pub fn splat(s: ProjectedPolygon<R::Scalar, N, ROOM>) -> Self {
-        s.map(R::splat)
-    }
     /// Projected solid angle Ω⊥ in [0, π]: irradiance per unit of radiance.
     #[inline(always)]
     pub fn projected_solid_angle(&self) -> R {

@@ -73,11 +73,6 @@ impl<R: Real, const N: usize> SphericalPolygon<R, N> {
         let planes = Planes { n01, n02, n12, normal, volume, edge: edges[to][0] };
         SphericalTriangle::prepare([a, p, b], planes, || n12, *scale)
     }
-    /// Repeats one prepared polygon in every lane.
-    #[inline(always)]
-    pub fn splat(s: SphericalPolygon<R::Scalar, N>) -> Self {
-        s.map(R::splat)
-    }
     /// Solid angle in steradians, in [0, 2π].
     #[inline(always)]
     pub fn solid_angle(&self) -> R {

@@ -28,8 +28,7 @@ impl<R: Real> SphericalCap<R> {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         // a difference has overflowed: nothing is visible
         let finite = center.max_abs().lt(R::lit(f64::INFINITY));
-        let center = Vec3::new(center.x.keep(finite), center.y.keep(finite), center.z.keep(finite));
-        let radius = radius.keep(finite);
+        let (center, radius) = (center.keep(finite), radius.keep(finite));
         let scale = center.max_abs().greater(radius.abs()).pow2_scale();
         let (c, r) = (center * scale, radius * scale);
         let squared = c.length_squared();
