@@ -3,11 +3,11 @@
 //! | | purpose |
 //! |---|---|
 //! | [`Welford`] | mean and variance of a stream |
-//! | [`Heuristic`], [`technique_pdf`] | multiple importance sampling |
+//! | [`Heuristic`] | multiple importance sampling |
 
 mod mis;
 
-pub use mis::{Heuristic, technique_pdf};
+pub use mis::Heuristic;
 
 use crate::real::Real;
 

@@ -13,6 +13,9 @@
 //! estimator of reflected radiance is `f · L · cosθ · weight()`, once a shadow ray along `direction` has reached `distance`; the weight is
 //! 0 in lanes without a sample.
 //!
+//! A host that stores a sampler names its type by the light and the method, such as `light::TriangleBySolidAngle<f32>`: a [`ByArea`],
+//! [`BySolidAngle`], [`ByProjectedSolidAngle`], [`ByReflection`] or [`ByCosineWarp`], which also tell the size of what they sample.
+//!
 //! A shape with the same values in all lanes (`splat`) draws a packet of samples of one light. Lanes may as well hold different lights,
 //! and the shading points may differ.
 //!
@@ -30,8 +33,8 @@
 //! | [`ConstantEnvironment`] | | [`by_solid_angle`](ConstantEnvironment::by_solid_angle) | [`by_projected_solid_angle`](ConstantEnvironment::by_projected_solid_angle) |
 //! | [`ImageEnvironment`] | | [`by_radiance`](ImageEnvironment::by_radiance): in proportion to an image, [`Rotated`] where its axes are others | |
 //! | [`PortalEnvironment`] | | [`by_radiance`](PortalEnvironment::by_radiance): what is seen of an image through portals | |
-//! | a flat light with a [`Picture`] | [`by_area`](Pictured::by_area) | [`by_solid_angle`](Pictured::by_solid_angle) | [`by_projected_solid_angle`](Pictured::by_projected_solid_angle) |
-//! | a [`Sphere`] or [`BilinearPatch`] with a [`Picture`] | [`by_visible_area`](Pictured::by_visible_area) | | |
+//! | a flat light with a [`Picture`] | [`by_area`](PicturedLight::by_area) | [`by_solid_angle`](PicturedLight::by_solid_angle) | [`by_projected_solid_angle`](PicturedLight::by_projected_solid_angle) |
+//! | a [`Sphere`] or [`BilinearPatch`] with a [`Picture`] | [`by_visible_area`](PicturedLight::by_visible_area) | | |
 //! | [`PointLight`], [`SpotLight`], [`DirectionalLight`] | `by_delta`: one direction, `delta` holds | | |
 //!
 //! Some lights emit only within an angle of their normal, a [`Spread`]. Their method `by_spread` samples the part that a point sees:
@@ -120,39 +123,53 @@ mod techniques;
 mod triangle;
 
 pub use cells::Region;
-pub use delta::{
-    DirectionalLight, DirectionalLightByDelta, PointLight, PointLightByDelta, SpotLight, SpotLightByDelta,
-};
-pub use disk::{Disk, DiskByArea, DiskBySolidAngle};
-pub use distant::{
-    ConstantEnvironment, EnvironmentByProjectedSolidAngle, EnvironmentBySolidAngle, Sun, SunBySolidAngle,
-};
+pub use delta::{DirectionalLight, PointLight, SpotLight};
 #[doc(hidden)]
-pub use environment::EnvironmentWords;
-pub use environment::{ByRadiance, EnvironmentMap, EnvironmentSample, ImageEnvironment, ImageSampler, Texel};
+pub use delta::{DirectionalLightByDelta, PointLightByDelta, SpotLightByDelta};
+pub use disk::Disk;
+#[doc(hidden)]
+pub use disk::{DiskByArea, DiskBySolidAngle};
+pub use distant::{ConstantEnvironment, Sun, SunBySolidAngle};
+#[doc(hidden)]
+pub use distant::{EnvironmentByProjectedSolidAngle, EnvironmentBySolidAngle};
+#[doc(hidden)]
+pub use environment::{ByRadiance, EnvironmentWords};
+pub use environment::{EnvironmentMap, ImageEnvironment, ImageSampler, Texel};
 pub use line::{Line, LineByAngle, LineByLength, LineByProjectedSolidAngle};
+pub use parallelogram::Parallelogram;
+#[doc(hidden)]
 pub use parallelogram::{
-    Parallelogram, ParallelogramByArea, ParallelogramByProjectedSolidAngle, ParallelogramByReflection,
-    ParallelogramBySolidAngle,
+    ParallelogramByArea, ParallelogramByProjectedSolidAngle, ParallelogramByReflection, ParallelogramBySolidAngle,
 };
-pub use patch::{BilinearPatch, PatchByArea};
-pub use picture::{Picture, mean_of_bilinear};
+pub use patch::BilinearPatch;
+#[doc(hidden)]
+pub use patch::PatchByArea;
+pub use picture::Picture;
 #[doc(hidden)]
 pub use picture_words::PictureWords;
-pub use pictured::{ByPicture, PictureSample, Pictured, PicturedLight, PicturedSampler};
+#[doc(hidden)]
+pub use pictured::{ByPicture, Pictured};
+pub use pictured::{PicturedLight, PicturedSampler};
 #[doc(hidden)]
 pub use pictured_curved::Curved;
 #[doc(hidden)]
 pub use pictured_flat::{Area, Flat, FlatLight, Projected, SolidAngle};
-pub use polygon::{Polygon, PolygonByArea, PolygonByProjectedSolidAngle, PolygonByReflection, PolygonBySolidAngle};
+pub use polygon::Polygon;
+#[doc(hidden)]
+pub use polygon::{PolygonByArea, PolygonByProjectedSolidAngle, PolygonByReflection, PolygonBySolidAngle};
 pub use portal::{MOST_PORTALS, Portal, PortalEnvironment, PortalError, PortalMap, PortalTable, PortalsByRadiance};
-pub use rectangle::{Rectangle, RectangleByCosineWarp, RectangleBySolidAngle};
+pub use rectangle::Rectangle;
+#[doc(hidden)]
+pub use rectangle::{RectangleByCosineWarp, RectangleBySolidAngle};
 pub use rotated::Rotated;
-pub use sample::{FAR, LightSample};
+pub use sample::{FAR, LightSample, TexelSample};
 pub use sampler::{ByArea, ByCosineWarp, ByProjectedSolidAngle, ByReflection, BySolidAngle, LightSampler};
-pub use sphere::{Sphere, SphereByArea, SphereByProjectedSolidAngle, SphereByReflection, SphereBySolidAngle};
+pub use sphere::{Sphere, SphereByReflection};
+#[doc(hidden)]
+pub use sphere::{SphereByArea, SphereByProjectedSolidAngle, SphereBySolidAngle};
 pub use spread::Spread;
+pub use triangle::Triangle;
+#[doc(hidden)]
 pub use triangle::{
-    Triangle, TriangleByArea, TriangleByCosineWarp, TriangleByProjectedSolidAngle, TriangleByReflection,
-    TriangleBySolidAngle,
+    TriangleByArea, TriangleByCosineWarp, TriangleByProjectedSolidAngle, TriangleByReflection, TriangleBySolidAngle,
 };

@@ -45,12 +45,14 @@ use crate::real::Real;
 pub(crate) use crate::real::polynomial;
 
 /// 1/√x for x > 0, by a correctly rounded square root and division. 0 gives infinity; callers must guard against it.
+#[doc(hidden)]
 #[inline(always)]
 pub fn rsqrt<R: Real>(x: R) -> R {
     R::lit(1.0) / x.sqrt()
 }
 
 /// 1 − cosθ for θ in [0, π/2], from sin²θ in [0, 1]: `s²/(1 + √(1 − s²))`, free of cancellation at every size.
+#[doc(hidden)]
 #[inline(always)]
 pub fn one_minus_cos<R: Real>(sin_squared: R) -> R {
     let cos = (R::lit(1.0) - sin_squared).greater(R::lit(0.0)).sqrt();
@@ -58,6 +60,7 @@ pub fn one_minus_cos<R: Real>(sin_squared: R) -> R {
 }
 
 /// `a·b − c·d` to within 1.5 ulp of the exact result (Kahan; Jeannerod, Louvet and Muller 2013).
+#[doc(hidden)]
 #[inline(always)]
 pub fn difference_of_products<R: Real>(a: R, b: R, c: R, d: R) -> R {
     let cd = c * d;
@@ -91,6 +94,7 @@ pub(crate) fn quotient_if_any<R: Real>(a: R, b: R) -> (R, R::Mask) {
 }
 
 /// Angle of (x, y) in turns, in [0, 1): the inverse of [`Real::sin_cos_turns`]. 0 at the origin.
+#[doc(hidden)]
 #[inline(always)]
 pub fn atan2_turns<R: Real>(y: R, x: R) -> R {
     let turns = y.atan2(x) * R::lit(0.5 / core::f64::consts::PI);

@@ -16,6 +16,7 @@ use core::ops::{Add, AddAssign, BitAnd, BitOr, BitXor, Div, Mul, MulAssign, Neg,
 
 #[doc(hidden)]
 pub use functions::polynomial;
+#[doc(hidden)]
 pub use mask::{MaskF64X4, MaskF64X8, MaskX4, MaskX8, MaskX16};
 
 /// A truth value per lane.
@@ -85,9 +86,10 @@ pub trait Uint: Copy + Debug + BitAnd<Output = Self> + BitOr<Output = Self> + Bi
 pub const SAME_BITS: bool = fused::ALWAYS;
 
 /// The greatest number of lanes of a packet: some routines keep a word for each lane, and do not compile for more.
-pub const MOST_LANES: usize = 16;
+pub(crate) const MOST_LANES: usize = 16;
 
 /// The numbers and the counters of a loop: see [`Real::iterate_with_words`].
+#[doc(hidden)]
 pub type State<R, const N: usize, const W: usize> = ([R; N], [<R as Real>::Uint; W]);
 
 /// A real number or a packet of them: everything that a warp needs, and no more.
@@ -116,7 +118,7 @@ pub trait Real:
     type Mask: Mask;
     /// A 32-bit counter per lane.
     type Uint: Uint;
-    /// Number of lanes, at most [`MOST_LANES`].
+    /// Number of lanes, at most 16.
     const LANES: usize;
     /// True in double precision, where series are longer and iterations take more steps.
     const DOUBLE: bool;

@@ -81,6 +81,7 @@ lanewise! {
 }
 
 /// The numbers of the fit, row by row, as [`Reflection::with_table`] reads them.
+#[doc(hidden)]
 #[inline]
 #[must_use]
 pub fn table() -> &'static [f32] {
@@ -115,6 +116,7 @@ impl<R: Real> Reflection<R> {
         Self::with_table(&table(), R::Uint::splat(0), alpha, normal, view)
     }
     /// As [`new`](Self::new), of the numbers of [`table`] in other memory, where they begin at the word `first`.
+    #[doc(hidden)]
     #[inline(always)]
     pub fn with_table(memory: &impl Memory<R>, first: R::Uint, alpha: R, normal: Vec3<R>, view: Vec3<R>) -> Self {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));

@@ -28,7 +28,7 @@ pub use bound::LightBound;
 pub use gloss::Gloss;
 pub use power::PowerLights;
 pub use spatial::{LightsAt, SpatialLights};
-pub use tree::{Join, LightTree, NO_LIGHT, Node8, Sequential, TreeAt};
+pub use tree::{Join, LightTree, NO_LIGHT, Node8, TreeAt};
 #[doc(hidden)]
 pub use tree::{TreeChild, TreeWords, TreeWordsAt};
 

@@ -1,6 +1,6 @@
 //! Estimators: MIS weights and running variances: sums, limits, and expectations by enumeration.
 
-use etendue::estimate::{Heuristic, Welford, technique_pdf};
+use etendue::estimate::{Heuristic, Welford};
 use etendue::sequence::{Independent, Sequence};
 use etendue::{LightSample, LightSampler, PointLight, Real, Sphere, Triangle, Vec2, Vec3, f32x4, f32x8, f32x16};
 use etendue_judge::checks::{self, EXTREMES, HEURISTICS};
@@ -61,13 +61,14 @@ fn weights_are_their_formula_at_every_scale_and_width() {
 #[test]
 fn deltas_take_all() {
     for heuristic in HEURISTICS {
-        assert_eq!(heuristic.weights([technique_pdf(1.0_f32, 3.0, true), 1e38]), [1.0, 0.0]);
-        assert_eq!(heuristic.weights([technique_pdf(0.0_f32, 0.0, true), f32::MAX]), [1.0, 0.0]);
+        assert_eq!(heuristic.weights([Heuristic::technique_pdf(1.0_f32, 3.0, true), 1e38]), [1.0, 0.0]);
+        assert_eq!(heuristic.weights([Heuristic::technique_pdf(0.0_f32, 0.0, true), f32::MAX]), [1.0, 0.0]);
         // a density that overflows is no delta
-        let [huge, delta] = heuristic.weights([technique_pdf(16.0_f32, 1e38, false), technique_pdf(1.0, 1.0, true)]);
+        let [huge, delta] = heuristic
+            .weights([Heuristic::technique_pdf(16.0_f32, 1e38, false), Heuristic::technique_pdf(1.0, 1.0, true)]);
         assert_eq!([huge, delta], [0.0, 1.0]);
     }
-    assert_eq!(technique_pdf(2.0_f32, 0.25, false), 0.5);
+    assert_eq!(Heuristic::technique_pdf(2.0_f32, 0.25, false), 0.5);
 }
 
 /// E Σᵢ wᵢ f/(nᵢ pᵢ) over points of a finite set, exactly.
@@ -79,7 +80,7 @@ fn combinations_are_unbiased() {
     for heuristic in HEURISTICS {
         let mut expectation = 0.0;
         for x in 0..f.len() {
-            let weights = heuristic.weights([0, 1].map(|t| technique_pdf(samples[t], p[t][x], false)));
+            let weights = heuristic.weights([0, 1].map(|t| Heuristic::technique_pdf(samples[t], p[t][x], false)));
             for t in 0..2 {
                 if p[t][x] > 0.0 {
                     // n samples, each x with probability p, each worth w f/(n p)

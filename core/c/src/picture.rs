@@ -8,7 +8,7 @@ use crate::memory::refuse_null;
 use crate::status::EtendueStatus;
 use core::mem::{offset_of, size_of};
 use core::slice::{from_raw_parts, from_raw_parts_mut};
-use etendue::light::{self, FlatLight, Picture, Region, mean_of_bilinear};
+use etendue::light::{self, FlatLight, Picture, Region};
 use etendue_batch::memory::PictureMemory;
 
 /// The most columns or rows, and the most texels.
@@ -191,7 +191,7 @@ pub unsafe extern "C" fn etendue_picture_means_of_bilinear(
     unsafe {
         let values = from_raw_parts(values, width * height);
         for (i, y) in (0..width * height).map(|i| (i, i / width)) {
-            means.add(i).write_unaligned(mean_of_bilinear(values, width, [i - y * width, y]));
+            means.add(i).write_unaligned(Picture::mean_of_bilinear(values, width, [i - y * width, y]));
         }
     }
     EtendueStatus::Ok

@@ -115,7 +115,7 @@ impl Language {
                  take it and its size in bytes as their last parameters, and one parameter is the word at which a table begins."
             }
             _ => {
-                " All tables are in one buffer of words, one after another, some of which are numbers by their bits: etendue_memory, with the \
+                " All tables are in one buffer of words, one after another, some of which are numbers by their bits: etendue_shader_memory, with the \
                  binding 0, which a host may change. A parameter of each function is the word at which a table begins."
             }
         };

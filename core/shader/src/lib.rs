@@ -9,17 +9,17 @@
 //! let selection = Selection { lights: vec!["sphere_by_solid_angle".into()], ..Selection::default() };
 //! let source = Language::C.write(&selection.module(), "Written by an example.").unwrap();
 //! let source = String::from_utf8(source).unwrap();
-//! assert!(source.contains("EtendueLightSample etendue_sphere_by_solid_angle_sample("));
+//! assert!(source.contains("EtendueShaderLightSample etendue_shader_sphere_by_solid_angle_sample("));
 //! ```
 //!
 //! The program does the same: `etendue-shader --language cuda --lights triangle,sphere -o etendue.cuh`. In C, a sample takes two calls:
 //!
 //! ```c
-//! EtendueTriangle lamp = {{0, 2, 0}, {1, 0, 0}, {0, 0, 1}};
-//! EtendueVec3 p = {0, 0, 0};
-//! EtendueVec2 u = {0.3f, 0.6f};
-//! EtendueTriangleBySolidAngle prepared = etendue_triangle_by_solid_angle_prepare(lamp, p); // once for a shading point
-//! EtendueLightSample s = etendue_triangle_by_solid_angle_sample(prepared, u);              // as often as needed
+//! EtendueShaderTriangle lamp = {{0, 2, 0}, {1, 0, 0}, {0, 0, 1}};
+//! EtendueShaderVec3 p = {0, 0, 0};
+//! EtendueShaderVec2 u = {0.3f, 0.6f};
+//! EtendueShaderTriangleBySolidAngle prepared = etendue_shader_triangle_by_solid_angle_prepare(lamp, p); // once for a shading point
+//! EtendueShaderLightSample s = etendue_shader_triangle_by_solid_angle_sample(prepared, u);              // as often as needed
 //! float irradiance = s.direction.y * s.weight;                                            // per unit of radiance
 //! ```
 //!
@@ -52,8 +52,8 @@
 //!
 //! | language | the buffer |
 //! |---|---|
-//! | C, C++, CUDA, HIP, OpenCL C | the first parameter, `EtendueMemory`: a pointer to constant (in OpenCL, global) memory, and a count |
-//! | WGSL, SPIR-V | a storage buffer `etendue_memory`, group (set) 0, binding 0 |
+//! | C, C++, CUDA, HIP, OpenCL C | the first parameter, `EtendueShaderMemory`: a pointer to constant (in OpenCL, global) memory, and a count |
+//! | WGSL, SPIR-V | a storage buffer `etendue_shader_memory`, group (set) 0, binding 0 |
 //! | GLSL | a buffer with the binding 0; `glsl-es` then is GLSL ES 3.10, since 3.00 and WebGL 2 have none |
 //! | HLSL | a `ByteAddressBuffer` at register t0 |
 //! | Metal | the last two parameters: the buffer, and its size in bytes |

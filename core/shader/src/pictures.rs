@@ -8,7 +8,7 @@ use crate::names::snake;
 use crate::number::{Number, Word, Words, record};
 use crate::record::{drawn_struct, light_struct, sample_outputs, sample_struct};
 use crate::wanted::{Part, Wanted};
-use etendue::light::{PictureSample, PictureWords, PicturedLight, Region};
+use etendue::light::{PictureWords, PicturedLight, Region, TexelSample};
 use etendue::{Disk, LightSampler, Parallelogram, Triangle, Vec3};
 
 /// A light with a picture by a technique.
@@ -136,7 +136,7 @@ fn disk(given: &mut Given<'_>) -> On<Disk<Number>> {
 }
 
 /// A sample with its texel.
-fn drawn_outputs(s: &PictureSample<Number>, wanted: &Wanted) -> Vec<Id> {
+fn drawn_outputs(s: &TexelSample<Number>, wanted: &Wanted) -> Vec<Id> {
     [sample_outputs(&s.light, wanted), vec![s.x.id(), s.y.id()]].concat()
 }
 

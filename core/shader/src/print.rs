@@ -21,12 +21,12 @@ use std::collections::BTreeSet;
 /// The name of a struct.
 #[must_use]
 pub fn struct_name(name: &str) -> String {
-    format!("Etendue{}", pascal(name))
+    format!("EtendueShader{}", pascal(name))
 }
 /// The name of a function.
 #[must_use]
 pub fn function_name(name: &str) -> String {
-    format!("etendue_{name}")
+    format!("etendue_shader_{name}")
 }
 
 /// A module in a language. `how` is a sentence about how the file was made.
@@ -174,7 +174,7 @@ impl<'a, D: Dialect> Printer<'a, D> {
                 let low = Expression::atom(self.language.word(31));
                 bits(">>", &Expression::bits(&all[1], "&", &low))
             }
-            Op::Load => Expression::atom(format!("etendue_load({}{})", memory(), all[0].text)),
+            Op::Load => Expression::atom(format!("etendue_shader_load({}{})", memory(), all[0].text)),
             Op::WordAny => Expression::apart(&all[0], "!=", &Expression::atom(self.language.word(0))),
             Op::Select => self.language.select(&all[0], &all[1], &all[2]),
             Op::Part(k) => Expression::atom(format!("{}{}", all[0].text, [".x", ".y"][k as usize])),

@@ -4,7 +4,7 @@ use crate::graph::Id;
 use crate::inputs::{Inputs, add_function, pair, three};
 use crate::module::{Leaf, Module, Type};
 use crate::number::{Number, Truth, Word};
-use etendue::estimate::{Heuristic, technique_pdf};
+use etendue::estimate::Heuristic;
 use etendue::light::{PortalMap, Spread};
 use etendue::sequence::{Independent, OwenSobol};
 use etendue::{LightSample, Mask, Real, Uint, Vec2, Vec3};
@@ -75,7 +75,7 @@ fn body(name: &str, inputs: &mut Inputs) -> (&'static str, Leaf, Vec<Id>) {
             )
         }
         "technique_pdf" => {
-            let pdf = technique_pdf(inputs.real("samples"), inputs.real("pdf"), inputs.truth("delta"));
+            let pdf = Heuristic::technique_pdf(inputs.real("samples"), inputs.real("pdf"), inputs.truth("delta"));
             (
                 "What the weights take for a technique with this number of samples and this density; infinite where delta holds.",
                 Leaf::Real,

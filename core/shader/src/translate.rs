@@ -108,7 +108,7 @@ impl<'a> Checked<'a> {
     /// GLSL is translated for an entry point alone: one that does nothing but read memory, if others do. It is then left out with the line of
     /// the version, so that the text can stand in any shader.
     fn glsl(&self, version: glsl::Version) -> Result<Vec<u8>, String> {
-        let read = if self.has_memory() { "_ = etendue_load(0u);" } else { "" };
+        let read = if self.has_memory() { "_ = etendue_shader_load(0u);" } else { "" };
         let wgsl = format!("{}@fragment fn main() {{{read}}}\n", self.wgsl);
         let Checked { module, info, .. } = &Checked::new(&wgsl)?;
         let place = ResourceBinding { group: 0, binding: 0 };
@@ -123,6 +123,6 @@ impl<'a> Checked<'a> {
         let functions = functions.and_then(|(text, _)| text.strip_prefix("#version")?.split_once('\n'));
         let (_, functions) = functions.ok_or("the translator puts the version and the entry point elsewhere")?;
         // the name that it has in the other languages
-        Ok(functions.trim().replace("_group_0_binding_0_fs", "etendue_memory").into_bytes())
+        Ok(functions.trim().replace("_group_0_binding_0_fs", "etendue_shader_memory").into_bytes())
     }
 }

@@ -21,7 +21,7 @@ fn function(routine: impl Fn(Number) -> Number) -> Module {
 /// Its statements in C.
 fn body(module: &Module) -> String {
     let text = print(module, &C, "Written by a test.");
-    let (_, body) = text.split_once("float etendue_f(float x) {\n").unwrap();
+    let (_, body) = text.split_once("float etendue_shader_f(float x) {\n").unwrap();
     let body = body.split_once("}\n\n#endif").unwrap().0;
     body.lines().map(|line| format!("{}\n", line.strip_prefix("    ").unwrap())).collect()
 }

@@ -2,7 +2,7 @@
 
 use etendue_oracle::tier::{cases, is_long};
 use etendue_shader::*;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 fn everything() -> Selection {
     Selection {
@@ -80,6 +80,23 @@ fn all_languages_have_all_functions() {
     });
 }
 
+/// A host may include these functions and the library's header in one program: names and types of one are not those of the other.
+#[test]
+fn no_name_in_c_is_one_of_the_library() {
+    let include = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../c/include");
+    let read = |name| std::fs::read_to_string(include.join(name)).unwrap();
+    let library = ["etendue.h", "etendue_typed.h", "etendue.hpp"].map(read).concat();
+    let text = String::from_utf8(Language::C.write(&translated().module(), "Written by a test.").unwrap()).unwrap();
+    let names = |text: &str| -> HashSet<String> {
+        let words = text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_');
+        words.filter(|word| word.to_ascii_lowercase().starts_with("etendue")).map(str::to_owned).collect()
+    };
+    let (theirs, ours) = (names(&library), names(&text));
+    assert!(theirs.contains("EtendueLightSample") && ours.contains("EtendueShaderLightSample"));
+    // the name of the library in a sentence
+    assert_eq!(theirs.intersection(&ours).filter(|name| *name != "etendue").collect::<Vec<_>>(), Vec::<&String>::new());
+}
+
 /// Sources without tables have no buffer, and those with tables are of a version that has buffers.
 #[test]
 fn tables_are_in_a_buffer() {
@@ -89,11 +106,11 @@ fn tables_are_in_a_buffer() {
     let without = Selection { tools: vec!["balance_weights".into()], ..Selection::default() };
     let with = Selection { tables: vec!["light_tree".into()], ..without.clone() };
     for (language, buffer, version) in [
-        (Language::C, "etendue_load(EtendueMemory memory, etendue_word k)", "C99"),
-        (Language::Wgsl, "@group(0) @binding(0) var<storage, read> etendue_memory: array<u32>;", "in WGSL"),
+        (Language::C, "etendue_shader_load(EtendueShaderMemory memory, etendue_shader_word k)", "C99"),
+        (Language::Wgsl, "@group(0) @binding(0) var<storage, read> etendue_shader_memory: array<u32>;", "in WGSL"),
         (Language::Glsl, "layout(std430, binding = 0) readonly buffer", "GLSL 4.50"),
         (Language::GlslEs, "layout(std430, binding = 0) readonly buffer", "GLSL ES 3.10"),
-        (Language::Hlsl, "ByteAddressBuffer etendue_memory : register(t0);", "in HLSL"),
+        (Language::Hlsl, "ByteAddressBuffer etendue_shader_memory : register(t0);", "in HLSL"),
         (Language::Msl, "device type_", "last parameters"),
     ] {
         let (without, with) = (write(language, &without), write(language, &with));
@@ -144,8 +161,12 @@ fn broken_sources_are_found() {
     let text = print(&module, &Wgsl::default(), "Written by a test.");
     Checked::new(&text).unwrap();
     for (from, to, why) in [
-        ("fn etendue_lesser(a: f32, b: f32) -> f32 {", "fn etendue_lesser(a: f32, b: f32) -> u32 {", "type"),
-        ("fn etendue_greater(", "fn etendue_other(", "etendue_greater"),
+        (
+            "fn etendue_shader_lesser(a: f32, b: f32) -> f32 {",
+            "fn etendue_shader_lesser(a: f32, b: f32) -> u32 {",
+            "type",
+        ),
+        ("fn etendue_shader_greater(", "fn etendue_shader_other(", "etendue_shader_greater"),
         ("    return bitcast<f32>(bits);", "    return bits;", "return"),
     ] {
         assert!(text.contains(from), "{from}");

@@ -53,16 +53,16 @@ fn what_is_asked_for_is_written() {
     let text = fs::read_to_string(path).unwrap();
     assert_eq!(text.as_bytes(), program(&arguments).stdout);
     for (name, there) in [
-        ("etendue_sphere_by_area_prepare(", true),
-        ("etendue_sphere_by_area_sample(", true),
-        ("etendue_sun_by_solid_angle_sample(", true),
-        ("etendue_sphere_by_area_pdf(", false),
-        ("etendue_sphere_by_solid_angle_sample(", false),
-        ("etendue_triangle", false),
-        ("EtendueVec3 direction;", true),
-        ("EtendueVec3 normal;", false),
-        ("etendue_sin_cos_turns(", true),
-        ("etendue_angle(", false),
+        ("etendue_shader_sphere_by_area_prepare(", true),
+        ("etendue_shader_sphere_by_area_sample(", true),
+        ("etendue_shader_sun_by_solid_angle_sample(", true),
+        ("etendue_shader_sphere_by_area_pdf(", false),
+        ("etendue_shader_sphere_by_solid_angle_sample(", false),
+        ("etendue_shader_triangle", false),
+        ("EtendueShaderVec3 direction;", true),
+        ("EtendueShaderVec3 normal;", false),
+        ("etendue_shader_sin_cos_turns(", true),
+        ("etendue_shader_angle(", false),
     ] {
         assert_eq!(text.contains(name), there, "{name}");
     }
@@ -81,7 +81,7 @@ fn operations_are_written_out_where_they_may_be_inexact() {
         }
         assert!(output.status.success(), "{output:?}");
         let text = String::from_utf8_lossy(&output.stdout);
-        for name in ["etendue_exact_fma", "etendue_exact_quotient", "etendue_exact_sqrt"] {
+        for name in ["etendue_shader_exact_fma", "etendue_shader_exact_quotient", "etendue_shader_exact_sqrt"] {
             assert!(text.contains(name), "{}: no {name}", language.name());
         }
     }
@@ -89,7 +89,7 @@ fn operations_are_written_out_where_they_may_be_inexact() {
     let [with, without] = [with, without].map(|bytes| String::from_utf8(bytes).unwrap());
     assert!(without.contains(" / ") && without.contains("fma(") && without.contains("sqrt("));
     // the functions of the prelude are the only ones that divide
-    let (_, body) = with.split_once("struct EtenduePatchSurface").unwrap();
+    let (_, body) = with.split_once("struct EtendueShaderPatchSurface").unwrap();
     assert!(!body.contains(" / ") && !body.contains(" fma(") && !body.contains(" sqrt("), "{body}");
 }
 
@@ -112,7 +112,7 @@ fn the_command_of_the_readme_writes_every_language() {
         let bytes = fs::read(&path).unwrap();
         let has = |name: &str| bytes.windows(name.len()).any(|part| part == name.as_bytes());
         for name in ["triangle_by_solid_angle_sample", "cosine_hemisphere_pdf", "balance_weights"] {
-            assert!(has(&format!("etendue_{name}")), "{}: no {name}", language.name());
+            assert!(has(&format!("etendue_shader_{name}")), "{}: no {name}", language.name());
         }
     }
 }

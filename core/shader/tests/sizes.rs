@@ -61,7 +61,7 @@ impl Disassembly {
 /// Tells where this program is in memory.
 #[unsafe(no_mangle)]
 #[inline(never)]
-extern "C" fn etendue_size_anchor() {
+extern "C" fn etendue_shader_size_anchor() {
     std::hint::black_box(());
 }
 
@@ -151,7 +151,7 @@ impl TechniqueVisitor for Sizes {
 #[ignore = "prints a table; needs objdump and a release build"]
 fn sizes() {
     let own = Disassembly::of(&std::env::current_exe().unwrap());
-    let base = (etendue_size_anchor as *const () as u64).wrapping_sub(own.find("etendue_size_anchor"));
+    let base = (etendue_shader_size_anchor as *const () as u64).wrapping_sub(own.find("etendue_shader_size_anchor"));
     let mut sizes = Sizes { own, base, rows: Vec::new() };
     every_technique(&mut sizes);
     println!("| function | operations | instructions, Rust | instructions, C | operations/Rust | C/Rust |");

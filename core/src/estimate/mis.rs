@@ -13,7 +13,7 @@ use crate::real::Real;
 /// - Domain: dᵢ in [0, ∞]; a negative number or NaN counts as 0. All are divided by the largest before they are raised to the power, so
 ///   that none overflows, and a common factor changes nothing.
 /// - Delta distributions: a technique that alone can sample the point (a point light, a mirror) has d = ∞, see
-///   [`technique_pdf`]; its weight is 1 and that of the others 0. Several such techniques share equally.
+///   [`technique_pdf`](Self::technique_pdf); its weight is 1 and that of the others 0. Several such techniques share equally.
 /// - Degenerate: if all dᵢ are 0, so are the weights.
 /// - Greatest error: weights sum to 1 within 2⁻²³ for two techniques.
 /// - Source: Veach 1997, *Robust Monte Carlo Methods for Light Transport Simulation*, 9.2.
@@ -26,13 +26,13 @@ use crate::real::Real;
 /// | [`Maximum`](Heuristic::Maximum) | discontinuous weights; for comparison |
 ///
 /// ```
-/// use etendue::estimate::{Heuristic, technique_pdf};
+/// use etendue::estimate::Heuristic;
 /// let [light, surface] = Heuristic::POWER.weights([3.0_f32, 1.0]);
 /// assert!((light - 0.9).abs() < 1e-6 && (surface - 0.1).abs() < 1e-6);
 /// // squares of these would overflow
 /// assert_eq!(Heuristic::POWER.weights([3e30_f32, 3e30]), [0.5, 0.5]);
 /// // a point light: a delta
-/// assert_eq!(Heuristic::POWER.weights([technique_pdf(1.0_f32, 1.0, true), 7.0]), [1.0, 0.0]);
+/// assert_eq!(Heuristic::POWER.weights([Heuristic::technique_pdf(1.0_f32, 1.0, true), 7.0]), [1.0, 0.0]);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
@@ -49,6 +49,13 @@ impl Heuristic {
     /// The power heuristic with β = 2, Veach's choice.
     pub const POWER: Self = Self::Power(2);
 
+    /// What [`weights`](Self::weights) takes for a technique with this number of samples and this pdf: their product, at most the largest
+    /// single-precision number; ∞ where `delta` holds.
+    #[inline]
+    pub fn technique_pdf<R: Real>(samples: R, pdf: R, delta: R::Mask) -> R {
+        let product = (samples * pdf).clamped(R::lit(0.0), R::lit(f64::from(f32::MAX)));
+        R::blend(delta, R::lit(f64::INFINITY), product)
+    }
     /// The weight of each technique, given its d = n·p at the point.
     #[inline]
     pub fn weights<R: Real, const N: usize>(self, densities: [R; N]) -> [R; N] {
@@ -84,7 +91,7 @@ impl Heuristic {
     #[inline]
     pub fn light_weight<R: Real>(self, light: &LightSample<R>, bsdf_pdf: R) -> R {
         let one = R::lit(1.0);
-        self.weights([technique_pdf(one, light.pdf, light.delta), bsdf_pdf])[0] * light.weight()
+        self.weights([Self::technique_pdf(one, light.pdf, light.delta), bsdf_pdf])[0] * light.weight()
     }
     /// The weight over its pdf of a direction that the surface drew with pdf `bsdf_pdf`, where it hits the light at `hit`: the estimator of
     /// this technique is `f · L · cosθ · bsdf_weight`. One sample of each technique; 0 where the light is missed or does not emit that
@@ -97,12 +104,4 @@ impl Heuristic {
         let divisor = R::blend(drawn & !mirror, bsdf_pdf, one);
         (self.weights([bsdf_pdf, hit.pdf])[0] / divisor).keep(drawn)
     }
-}
-
-/// What [`Heuristic::weights`] takes for a technique with this number of samples and this pdf: their product, at most the largest
-/// single-precision number; ∞ where `delta` holds.
-#[inline]
-pub fn technique_pdf<R: Real>(samples: R, pdf: R, delta: R::Mask) -> R {
-    let product = (samples * pdf).clamped(R::lit(0.0), R::lit(f64::from(f32::MAX)));
-    R::blend(delta, R::lit(f64::INFINITY), product)
 }

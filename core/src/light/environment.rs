@@ -1,7 +1,7 @@
 //! Light from all around as an image tells it.
 
 use super::distant::{distant, met};
-use super::sample::LightSample;
+use super::sample::{LightSample, TexelSample};
 use super::sampler::LightSampler;
 use crate::discrete::{Cell2d, PiecewiseConstant2d, TableError, Words2d, locate, place};
 use crate::math::atan2_turns;
@@ -47,17 +47,6 @@ pub struct Texel<R: Real> {
     pub y: R::Uint,
     /// Position in [0, 1)²: uniform by solid angle, from the first column and row on.
     pub offset: Vec2<R>,
-}
-
-/// A sample of an environment, and the texel that it comes from.
-#[derive(Clone, Copy, Debug)]
-pub struct EnvironmentSample<R: Real> {
-    /// Direction and density; the distance is [`FAR`](super::FAR).
-    pub light: LightSample<R>,
-    /// Column.
-    pub x: R::Uint,
-    /// Row.
-    pub y: R::Uint,
 }
 
 /// Light from all around, as an image tells it: a texel by its weight times its solid angle, and in the texel uniform by solid angle.
@@ -139,7 +128,7 @@ impl<'a> ImageEnvironment<'a> {
 
     /// A direction in proportion to the weights, with its texel.
     #[inline(always)]
-    pub fn draw<R: Real>(&self, u: Vec2<R>) -> EnvironmentSample<R> {
+    pub fn draw<R: Real>(&self, u: Vec2<R>) -> TexelSample<R> {
         self.drawn(u)
     }
     /// Directions in proportion to the weights, as a [`LightSampler`].
@@ -175,12 +164,12 @@ trait Image<R: Real> {
     fn invert_cell(&self, texel: &Texel<R>) -> Vec2<R>;
 
     #[inline(always)]
-    fn drawn(&self, u: Vec2<R>) -> EnvironmentSample<R> {
+    fn drawn(&self, u: Vec2<R>) -> TexelSample<R> {
         let cell = self.cell(u);
         let texel = Texel { x: cell.x, y: cell.y, offset: cell.offset };
         let pdf = self.texel_pdf(cell.pmf, cell.y);
         let uv = self.place(&texel);
-        EnvironmentSample { light: distant(self.direction_of(&texel), pdf, uv), x: cell.x, y: cell.y }
+        TexelSample { light: distant(self.direction_of(&texel), pdf, uv), x: cell.x, y: cell.y }
     }
     /// The pdf of a direction.
     #[inline(always)]
@@ -337,7 +326,7 @@ impl<M: Copy, U: Copy> EnvironmentWords<M, U> {
     }
     /// A direction in proportion to the weights, with its texel.
     #[inline]
-    pub fn draw<R: Real<Uint = U>>(&self, u: Vec2<R>) -> EnvironmentSample<R>
+    pub fn draw<R: Real<Uint = U>>(&self, u: Vec2<R>) -> TexelSample<R>
     where
         M: Memory<R>,
     {

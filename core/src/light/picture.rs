@@ -40,7 +40,7 @@ impl<'a> Picture<'a> {
         Hierarchy::length([width as u32, height as u32])
     }
     /// Builds the hierarchy in the caller's buffer, of [`buffer`](Self::buffer) entries, from the mean radiance of each texel, row by row:
-    /// its luminance, or a sum of its channels. [`mean_of_bilinear`] is that mean where the host interpolates. Columns are u, rows v, of the
+    /// its luminance, or a sum of its channels. [`mean_of_bilinear`](Self::mean_of_bilinear) is that mean where the host interpolates. Columns are u, rows v, of the
     /// light's surface coordinates.
     ///
     /// # Errors
@@ -121,6 +121,21 @@ impl<'a> Picture<'a> {
         }
         Ok(Self { values: Some(values), ..Self::from_buffer(buffer, [width + 1, height + 1], Region::Square)? })
     }
+    /// The mean over the texel in column `x` and row `y` of an image that is interpolated bilinearly between the centres of its texels, and
+    /// continued by its outermost ones: what pbrt-v4 does with pictures on lights, and Mitsuba 3 with textures that are clamped.
+    ///
+    /// It is ⅛, ¾ and ⅛ of a texel and its neighbours, in both directions, so that it is above 0 wherever the interpolation is.
+    ///
+    /// # Panics
+    /// If the texel is not in the image.
+    #[must_use]
+    pub fn mean_of_bilinear(values: &[f32], width: usize, [x, y]: [usize; 2]) -> f32 {
+        let height = values.len() / width;
+        let around = |i: usize, n: usize| [(i.saturating_sub(1), 0.125), (i, 0.75), ((i + 1).min(n - 1), 0.125)];
+        let row =
+            |y: usize| around(x, width).map(|(x, part)| part * f64::from(values[y * width + x])).iter().sum::<f64>();
+        around(y, height).map(|(y, part)| part * row(y)).iter().sum::<f64>() as f32
+    }
     /// Columns and rows.
     #[inline(always)]
     #[must_use]
@@ -167,19 +182,4 @@ impl<R: Real> Cells<R> for Picture<'_> {
     fn walk(&self, measure: &impl Measure<R>, before: impl Fn(usize, R, R) -> R::Mask) -> Drawn<R> {
         self.hierarchy.walk(self, measure, before)
     }
-}
-
-/// The mean over the texel in column `x` and row `y` of an image that is interpolated bilinearly between the centres of its texels, and
-/// continued by its outermost ones: what pbrt-v4 does with pictures on lights, and Mitsuba 3 with textures that are clamped.
-///
-/// It is ⅛, ¾ and ⅛ of a texel and its neighbours, in both directions, so that it is above 0 wherever the interpolation is.
-///
-/// # Panics
-/// If the texel is not in the image.
-#[must_use]
-pub fn mean_of_bilinear(values: &[f32], width: usize, [x, y]: [usize; 2]) -> f32 {
-    let height = values.len() / width;
-    let around = |i: usize, n: usize| [(i.saturating_sub(1), 0.125), (i, 0.75), ((i + 1).min(n - 1), 0.125)];
-    let row = |y: usize| around(x, width).map(|(x, part)| part * f64::from(values[y * width + x])).iter().sum::<f64>();
-    around(y, height).map(|(y, part)| part * row(y)).iter().sum::<f64>() as f32
 }

@@ -2,22 +2,11 @@
 
 use super::cells::{Box2, Cells, Drawn, Measure};
 use super::picture::Picture;
-use super::sample::LightSample;
+use super::sample::{LightSample, TexelSample};
 use super::sampler::LightSampler;
 use super::surface::SurfaceHit;
 use crate::real::{GREATEST, Real};
 use crate::vector::{Vec2, Vec3};
-
-/// A sample of a light with a picture, and the texel that it comes from.
-#[derive(Clone, Copy, Debug)]
-pub struct PictureSample<R: Real> {
-    /// Direction, density, and the point of the light.
-    pub light: LightSample<R>,
-    /// Column of the texel.
-    pub x: R::Uint,
-    /// Row of the texel.
-    pub y: R::Uint,
-}
 
 /// A light with a picture in the caller's memory.
 pub type Pictured<'a, L> = PicturedLight<Picture<'a>, L>;
@@ -133,7 +122,7 @@ impl<P, S> PicturedSampler<P, S> {
     /// A direction in proportion to radiance and measure, with its texel.
     #[allow(private_bounds, reason = "the surfaces are those of this library")]
     #[inline]
-    pub fn draw<R: Real>(&self, u: Vec2<R>) -> PictureSample<R>
+    pub fn draw<R: Real>(&self, u: Vec2<R>) -> TexelSample<R>
     where
         P: Cells<R>,
         S: TexelSurface<R>,
@@ -141,7 +130,7 @@ impl<P, S> PicturedSampler<P, S> {
         let (drawn, within) = self.picture.draw(u, &self.surface);
         let light = self.surface.draw(&texel(&self.picture, drawn.cell), within);
         let pdf = density(&drawn, light.pdf).keep(self.picture.region().contains(light.uv));
-        PictureSample { light: LightSample { pdf, ..light }, x: drawn.cell.x.to_uint(), y: drawn.cell.y.to_uint() }
+        TexelSample { light: LightSample { pdf, ..light }, x: drawn.cell.x.to_uint(), y: drawn.cell.y.to_uint() }
     }
 }
 

@@ -37,6 +37,17 @@ pub struct LightSample<R: Real> {
     pub delta: R::Mask,
 }
 
+/// A sample of a light with an image, and the texel that it comes from.
+#[derive(Clone, Copy, Debug)]
+pub struct TexelSample<R: Real> {
+    /// Direction and density.
+    pub light: LightSample<R>,
+    /// Column of the texel.
+    pub x: R::Uint,
+    /// Row of the texel.
+    pub y: R::Uint,
+}
+
 impl<R: Real> LightSample<R> {
     /// What a ray that misses the light gets: `pdf` 0 and `emits` false.
     #[inline(always)]

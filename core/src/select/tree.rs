@@ -9,8 +9,8 @@ mod words;
 use super::{Choice, Gloss, LightBound, LightChoice, LightsError};
 use crate::real::{MOST_LANES, Real, Uint};
 use crate::vector::Vec3;
+pub use build::Join;
 use build::{Build, nodes_for};
-pub use build::{Join, Sequential};
 use eight::Chosen;
 pub use node::Node8;
 use node::{LIGHT, NONE, Place, Shares, WHOLE};
@@ -91,7 +91,7 @@ impl<'a> LightTree<'a> {
     /// # Errors
     /// If the nodes are too few, the lengths of `lights` and `places` differ, or there are more than [`MOST`](Self::MOST) lights.
     pub fn build(lights: &[LightBound], nodes: &'a mut [Node8], places: &'a mut [u32]) -> Result<Self, LightsError> {
-        Self::build_with(lights, nodes, places, &Sequential)
+        Self::build_with(lights, nodes, places, &())
     }
 
     /// Like [`build`](Self::build), on the threads of `join`. The tree is the same.

@@ -2,7 +2,7 @@
 
 use crate::packet::{M8, X8, select};
 use etendue::Real;
-use etendue::estimate::{Heuristic, technique_pdf};
+use etendue::estimate::Heuristic;
 
 /// How samples of a light and of the BSDF are weighted (Veach 1997, chapter 9).
 #[derive(Clone, Copy)]
@@ -21,7 +21,7 @@ impl Mis {
     pub(super) fn of_light(&self, pdfs: [X8; 2], delta: M8, alone: M8, rough: M8) -> X8 {
         let one = X8::lit(1.0);
         let [pdf, surface_pdf] = pdfs;
-        let weight = self.heuristic.weights([technique_pdf(one, pdf, delta), surface_pdf])[0];
+        let weight = self.heuristic.weights([Heuristic::technique_pdf(one, pdf, delta), surface_pdf])[0];
         let weight = select(alone, one, weight);
         if self.only_rough { select(rough, weight, one) } else { weight }
     }

@@ -4,7 +4,7 @@ use crate::light_tree::OwnedTree;
 use crate::packet::{V8, X8};
 use etendue::light::{MOST_PORTALS, Portal, PortalEnvironment, PortalMap, PortalTable};
 use etendue::real::Real;
-use etendue::select::{LightBound, Sequential};
+use etendue::select::LightBound;
 use etendue::{Vec2, Vec3};
 use rayon::prelude::*;
 use std::f64::consts::PI;
@@ -51,7 +51,7 @@ impl Windows {
         let powers = portals.iter().zip(&of).map(|(portal, of)| portal.area() * irradiances[*of]);
         let bounds: Vec<LightBound> =
             portals.iter().zip(powers).map(|(portal, power)| bound(portal, power as f32)).collect();
-        let tree = OwnedTree::new(&bounds, &Sequential).expect("a few portals");
+        let tree = OwnedTree::new(&bounds, &()).expect("a few portals");
         Some(Self { portals: portals.to_vec(), of, tables, size, tree })
     }
     /// An estimate of the irradiance that comes through the portals, summed over channels.

@@ -1,7 +1,7 @@
 //! Operations and elementary functions, and what estimators compute of them.
 
 use crate::figures::{Figures, Lanes, List, Routine};
-use etendue::estimate::{Heuristic, Welford, technique_pdf};
+use etendue::estimate::{Heuristic, Welford};
 use etendue::math::{atan2_turns, difference_of_products, one_minus_cos, rsqrt};
 use etendue::{Frame, Real, Uint, Vec3};
 use etendue_judge::generators::{NASTY, Random};
@@ -138,7 +138,7 @@ pub(crate) fn add(list: &mut List<'_>) {
                 lanes.reals(heuristic.weights([a, b]));
                 lanes.reals(heuristic.weights([b, c, d]));
             }
-            lanes.real(technique_pdf(R::lit(4.0), a, b.lt(c)));
+            lanes.real(Heuristic::technique_pdf(R::lit(4.0), a, b.lt(c)));
         };
         "Welford", Signed, |[a, b, c, d, e], lanes: R| {
             let (mut one, mut other) = (Welford::default(), Welford::default());

@@ -2,7 +2,7 @@
 
 use crate::figures::{Figures, Lanes, List, Routine};
 use crate::lights::{sample, sampler};
-use etendue::light::{Picture, PictureSample, Region, mean_of_bilinear};
+use etendue::light::{Picture, Region, TexelSample};
 use etendue::{BilinearPatch, Disk, LightSampler, Parallelogram, Real, Rectangle, Sphere, Triangle, Vec2, Vec3};
 use etendue_judge::generators::{self, Random};
 use etendue_judge::properties::{squares_of, vectors_of};
@@ -20,7 +20,7 @@ fn sixth(x: f32) -> f32 {
 fn all<R: Real>(
     lanes: &mut Lanes<'_>,
     light: &dyn LightSampler<R>,
-    draw: &dyn Fn(Vec2<R>) -> PictureSample<R>,
+    draw: &dyn Fn(Vec2<R>) -> TexelSample<R>,
     us: &[[f32; 2]],
     ws: &[[f32; 3]],
 ) {
@@ -35,7 +35,7 @@ impl Routine for Shown {
         let Self(name, region, [width, height], is_interpolated) = *self;
         let mut random = Random::new(950);
         let values: Vec<_> = (0..width * height).map(|_| sixth(random.unit())).collect();
-        let mean = |i: usize| mean_of_bilinear(&values, width, [i % width, i / width]);
+        let mean = |i: usize| Picture::mean_of_bilinear(&values, width, [i % width, i / width]);
         // some texels are dark
         let weights: Vec<_> = (0..width * height).map(|i| if i % 5 == 4 { 0.0 } else { mean(i) }).collect();
         weights.iter().for_each(|&weight| figures.number(weight.into()));

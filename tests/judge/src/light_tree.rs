@@ -4,9 +4,7 @@ mod lamp;
 mod regimes;
 
 use crate::properties::{lanes_of, twice, vectors_of};
-use etendue::select::{
-    Choice, Gloss, Join, LightBound, LightChoice, LightTree, NO_LIGHT, Node8, Sequential, TreeAt, TreeChild,
-};
+use etendue::select::{Choice, Gloss, Join, LightBound, LightChoice, LightTree, NO_LIGHT, Node8, TreeAt, TreeChild};
 use etendue::{Real, Uint, f32x4, f32x8, f32x16, u32x4, u32x8, u32x16};
 pub use lamp::{Lamp, LampKind};
 pub use regimes::{Regime, place};
@@ -66,7 +64,7 @@ impl Grove {
     /// If the memory does not suffice.
     #[must_use]
     pub fn new(bounds: Vec<LightBound>) -> Self {
-        Self::with(bounds, &Sequential)
+        Self::with(bounds, &())
     }
     /// Builds a tree on the threads of `join`.
     ///

@@ -50,7 +50,7 @@ impl Call {
             Self::Cbrt => [Real::cbrt(of[0]); 2],
         }
     }
-    /// Its name in sources, after `etendue_`.
+    /// Its name in sources, after `etendue_shader_`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {

@@ -24,15 +24,15 @@ impl Dialect for C {
         include_str!("memory.h")
     }
     fn memory_parameter(&self) -> Option<(&'static str, &'static str)> {
-        Some(("EtendueMemory", "memory"))
+        Some(("EtendueShaderMemory", "memory"))
     }
     fn leaf(&self, leaf: Leaf) -> &'static str {
         match leaf {
             Leaf::Real => "float",
             Leaf::Truth => "bool",
-            Leaf::Word => "etendue_word",
-            Leaf::Vec2 => "EtendueVec2",
-            Leaf::Vec3 => "EtendueVec3",
+            Leaf::Word => "etendue_shader_word",
+            Leaf::Vec2 => "EtendueShaderVec2",
+            Leaf::Vec3 => "EtendueShaderVec3",
         }
     }
     fn real(&self, value: f32) -> Expression {
@@ -54,18 +54,18 @@ impl Dialect for C {
             Op::Sqrt => "sqrtf",
             Op::Abs => "fabsf",
             Op::Round => "rintf",
-            Op::CopySign => "etendue_copysign",
-            Op::Lesser => "etendue_lesser",
-            Op::Greater => "etendue_greater",
-            Op::Pow2Scale => "etendue_pow2_scale",
-            Op::InverseCbrtEstimate => "etendue_inverse_cbrt_estimate",
-            Op::Unit => "etendue_unit",
-            Op::FromWord => "etendue_from_word",
-            Op::ToWord => "etendue_to_word",
-            Op::WordReverse => "etendue_reverse_bits",
-            Op::WordLess => "etendue_word_less",
-            Op::WordQuotient => "etendue_word_quotient",
-            Op::FromBits => "etendue_from_bits",
+            Op::CopySign => "etendue_shader_copysign",
+            Op::Lesser => "etendue_shader_lesser",
+            Op::Greater => "etendue_shader_greater",
+            Op::Pow2Scale => "etendue_shader_pow2_scale",
+            Op::InverseCbrtEstimate => "etendue_shader_inverse_cbrt_estimate",
+            Op::Unit => "etendue_shader_unit",
+            Op::FromWord => "etendue_shader_from_word",
+            Op::ToWord => "etendue_shader_to_word",
+            Op::WordReverse => "etendue_shader_reverse_bits",
+            Op::WordLess => "etendue_shader_word_less",
+            Op::WordQuotient => "etendue_shader_word_quotient",
+            Op::FromBits => "etendue_shader_from_bits",
             _ => panic!("{op:?} is an operator and not a function"),
         }
     }
@@ -96,7 +96,7 @@ impl Dialect for C {
         match of {
             Leaf::Real => format!("float {name} = 0.0f;"),
             Leaf::Truth => format!("bool {name} = false;"),
-            Leaf::Word => format!("etendue_word {name} = 0u;"),
+            Leaf::Word => format!("etendue_shader_word {name} = 0u;"),
             Leaf::Vec2 | Leaf::Vec3 => {
                 let zeros = ["0.0f"; 3][..of.parts()].join(", ");
                 format!("{} {name} = {{{zeros}}};", self.leaf(of))

@@ -18,17 +18,17 @@
 #define sqrtf sqrt
 #define fabsf fabs
 #define rintf rint
-typedef uint etendue_word;
-ETENDUE_FUNCTION etendue_word etendue_bits(float x) { return as_uint(x); }
-ETENDUE_FUNCTION float etendue_from_bits(etendue_word bits) { return as_float(bits); }
+typedef uint etendue_shader_word;
+ETENDUE_FUNCTION etendue_shader_word etendue_shader_bits(float x) { return as_uint(x); }
+ETENDUE_FUNCTION float etendue_shader_from_bits(etendue_shader_word bits) { return as_float(bits); }
 #elif defined(__CUDACC_RTC__) || defined(__HIPCC_RTC__)
 #define ETENDUE_FUNCTION static inline __device__
 #ifndef INFINITY
 #define INFINITY __uint_as_float(0x7f800000u)
 #endif
-typedef unsigned int etendue_word;
-ETENDUE_FUNCTION etendue_word etendue_bits(float x) { return __float_as_uint(x); }
-ETENDUE_FUNCTION float etendue_from_bits(etendue_word bits) { return __uint_as_float(bits); }
+typedef unsigned int etendue_shader_word;
+ETENDUE_FUNCTION etendue_shader_word etendue_shader_bits(float x) { return __float_as_uint(x); }
+ETENDUE_FUNCTION float etendue_shader_from_bits(etendue_shader_word bits) { return __uint_as_float(bits); }
 #else
 #if defined(__CUDACC__) || defined(__HIPCC__)
 #define ETENDUE_FUNCTION static inline __host__ __device__
@@ -39,13 +39,13 @@ ETENDUE_FUNCTION float etendue_from_bits(etendue_word bits) { return __uint_as_f
 #include <stdbool.h>
 #include <stdint.h>
 #include <string.h>
-typedef uint32_t etendue_word;
-ETENDUE_FUNCTION etendue_word etendue_bits(float x) {
-    etendue_word bits;
+typedef uint32_t etendue_shader_word;
+ETENDUE_FUNCTION etendue_shader_word etendue_shader_bits(float x) {
+    etendue_shader_word bits;
     memcpy(&bits, &x, sizeof bits);
     return bits;
 }
-ETENDUE_FUNCTION float etendue_from_bits(etendue_word bits) {
+ETENDUE_FUNCTION float etendue_shader_from_bits(etendue_shader_word bits) {
     float x;
     memcpy(&x, &bits, sizeof x);
     return x;
@@ -55,49 +55,49 @@ ETENDUE_FUNCTION float etendue_from_bits(etendue_word bits) {
 // Two numbers.
 typedef struct {
     float x, y;
-} EtendueVec2;
+} EtendueShaderVec2;
 // Three numbers.
 typedef struct {
     float x, y, z;
-} EtendueVec3;
+} EtendueShaderVec3;
 
 // b where either is NaN.
-ETENDUE_FUNCTION float etendue_lesser(float a, float b) { return a < b ? a : b; }
+ETENDUE_FUNCTION float etendue_shader_lesser(float a, float b) { return a < b ? a : b; }
 // b where either is NaN.
-ETENDUE_FUNCTION float etendue_greater(float a, float b) { return a > b ? a : b; }
+ETENDUE_FUNCTION float etendue_shader_greater(float a, float b) { return a > b ? a : b; }
 // The magnitude of x with the sign of another number; a NaN counts as positive.
-ETENDUE_FUNCTION float etendue_copysign(float x, float sign) {
-    return etendue_from_bits((etendue_bits(x) & 0x7fffffffu) | (sign == sign ? etendue_bits(sign) & 0x80000000u : 0u));
+ETENDUE_FUNCTION float etendue_shader_copysign(float x, float sign) {
+    return etendue_shader_from_bits((etendue_shader_bits(x) & 0x7fffffffu) | (sign == sign ? etendue_shader_bits(sign) & 0x80000000u : 0u));
 }
 // The power of two that scales a normal number to [1, 2); of 0 and subnormal numbers 2^127.
-ETENDUE_FUNCTION float etendue_pow2_scale(float x) {
-    return etendue_greater(etendue_from_bits(0x7f000000u - (etendue_bits(x) & 0x7f800000u)), 5.877471754111438e-39f);
+ETENDUE_FUNCTION float etendue_shader_pow2_scale(float x) {
+    return etendue_shader_greater(etendue_shader_from_bits(0x7f000000u - (etendue_shader_bits(x) & 0x7f800000u)), 5.877471754111438e-39f);
 }
 // An unsigned number of less than 2^31 as the nearest number.
-ETENDUE_FUNCTION float etendue_from_word(etendue_word k) { return (float)(int)k; }
+ETENDUE_FUNCTION float etendue_shader_from_word(etendue_shader_word k) { return (float)(int)k; }
 // The integer part of a number in [0, 2^24]; others end at the least and the greatest integer of 32 bits, and NaN is 0.
-ETENDUE_FUNCTION etendue_word etendue_to_word(float x) {
+ETENDUE_FUNCTION etendue_shader_word etendue_shader_to_word(float x) {
     if (x >= 2147483648.0f) {
         return 0x7fffffffu;
     }
     if (x < -2147483648.0f) {
         return 0x80000000u;
     }
-    return x == x ? (etendue_word)(int)x : 0u;
+    return x == x ? (etendue_shader_word)(int)x : 0u;
 }
 // x^(-1/3) of a positive normal number within 3.5 %.
-ETENDUE_FUNCTION float etendue_inverse_cbrt_estimate(float x) {
-    const float third = etendue_from_word(etendue_bits(x)) * 0.33333334f;
-    return etendue_from_bits(etendue_to_word(1419916083.0f - third));
+ETENDUE_FUNCTION float etendue_shader_inverse_cbrt_estimate(float x) {
+    const float third = etendue_shader_from_word(etendue_shader_bits(x)) * 0.33333334f;
+    return etendue_shader_from_bits(etendue_shader_to_word(1419916083.0f - third));
 }
 // A number in [0, 1 - 2^-24] from the 24 high bits.
-ETENDUE_FUNCTION float etendue_unit(etendue_word k) { return (float)(k >> 8) * 5.9604645e-8f; }
+ETENDUE_FUNCTION float etendue_shader_unit(etendue_shader_word k) { return (float)(k >> 8) * 5.9604645e-8f; }
 // All ones where a < b, else 0.
-ETENDUE_FUNCTION etendue_word etendue_word_less(etendue_word a, etendue_word b) { return a < b ? 0xffffffffu : 0u; }
+ETENDUE_FUNCTION etendue_shader_word etendue_shader_word_less(etendue_shader_word a, etendue_shader_word b) { return a < b ? 0xffffffffu : 0u; }
 // The quotient, rounded down; 0 where the divisor is.
-ETENDUE_FUNCTION etendue_word etendue_word_quotient(etendue_word a, etendue_word b) { return b == 0u ? 0u : a / b; }
+ETENDUE_FUNCTION etendue_shader_word etendue_shader_word_quotient(etendue_shader_word a, etendue_shader_word b) { return b == 0u ? 0u : a / b; }
 // Bit k becomes bit 31 - k.
-ETENDUE_FUNCTION etendue_word etendue_reverse_bits(etendue_word k) {
+ETENDUE_FUNCTION etendue_shader_word etendue_shader_reverse_bits(etendue_shader_word k) {
     k = (k >> 1 & 0x55555555u) | (k & 0x55555555u) << 1;
     k = (k >> 2 & 0x33333333u) | (k & 0x33333333u) << 2;
     k = (k >> 4 & 0x0f0f0f0fu) | (k & 0x0f0f0f0fu) << 4;

@@ -38,7 +38,7 @@ impl Dialect for Wgsl {
     }
     fn real(&self, value: f32) -> Expression {
         // an infinite constant would be an error
-        let infinite = || "etendue_from_bits(0x7f800000u)".into();
+        let infinite = || "etendue_shader_from_bits(0x7f800000u)".into();
         let text = if value.is_infinite() { infinite() } else { format!("{}f", decimal(value.abs())) };
         if value.is_sign_negative() { Expression::prefix("-", &Expression::atom(text)) } else { Expression::atom(text) }
     }
@@ -54,29 +54,29 @@ impl Dialect for Wgsl {
     }
     fn function(&self, op: Op) -> &'static str {
         match op {
-            Op::MulAdd if self.exact => "etendue_exact_fma",
+            Op::MulAdd if self.exact => "etendue_shader_exact_fma",
             Op::MulAdd => "fma",
-            Op::Sqrt if self.exact => "etendue_exact_sqrt",
+            Op::Sqrt if self.exact => "etendue_shader_exact_sqrt",
             Op::Sqrt => "sqrt",
             Op::Abs => "abs",
             Op::Round => "round",
-            Op::CopySign => "etendue_copysign",
-            Op::Lesser => "etendue_lesser",
-            Op::Greater => "etendue_greater",
-            Op::Pow2Scale => "etendue_pow2_scale",
-            Op::InverseCbrtEstimate => "etendue_inverse_cbrt_estimate",
-            Op::Unit => "etendue_unit",
-            Op::FromWord => "etendue_from_word",
-            Op::ToWord => "etendue_to_word",
+            Op::CopySign => "etendue_shader_copysign",
+            Op::Lesser => "etendue_shader_lesser",
+            Op::Greater => "etendue_shader_greater",
+            Op::Pow2Scale => "etendue_shader_pow2_scale",
+            Op::InverseCbrtEstimate => "etendue_shader_inverse_cbrt_estimate",
+            Op::Unit => "etendue_shader_unit",
+            Op::FromWord => "etendue_shader_from_word",
+            Op::ToWord => "etendue_shader_to_word",
             Op::WordReverse => "reverseBits",
-            Op::WordLess => "etendue_word_less",
-            Op::WordQuotient => "etendue_word_quotient",
-            Op::FromBits => "etendue_from_bits",
+            Op::WordLess => "etendue_shader_word_less",
+            Op::WordQuotient => "etendue_shader_word_quotient",
+            Op::FromBits => "etendue_shader_from_bits",
             _ => panic!("{op:?} is an operator and not a function"),
         }
     }
     fn quotient(&self) -> Option<&'static str> {
-        self.exact.then_some("etendue_exact_quotient")
+        self.exact.then_some("etendue_shader_exact_quotient")
     }
     fn select(&self, mask: &Expression, yes: &Expression, no: &Expression) -> Expression {
         Expression::atom(format!("select({}, {}, {})", no.text, yes.text, mask.text))

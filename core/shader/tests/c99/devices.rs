@@ -41,7 +41,7 @@ impl Driver<'_> {
     fn cuda(&self, name: &str) -> String {
         let mut text = format!("#include \"case.h\"\n{}", print(self.module, &C, "Made by a test."));
         let memory = if self.module.reads_memory() {
-            "    const EtendueMemory memory = {of.words, of.word_count};\n    (void)memory;\n"
+            "    const EtendueShaderMemory memory = {of.words, of.word_count};\n    (void)memory;\n"
         } else {
             ""
         };

@@ -58,8 +58,8 @@ impl Driver<'_> {
         compile.args(["-std=c99", "-Wall", "-Wextra", "-Werror"]).args(flags);
         let mut source = print(self.module, &C, "Made by a test.");
         if self.module.reads_memory() {
-            source += &self.words("etendue_word");
-            source += "static const EtendueMemory memory = {words, sizeof words / 4};\n";
+            source += &self.words("etendue_shader_word");
+            source += "static const EtendueShaderMemory memory = {words, sizeof words / 4};\n";
         }
         self.run_source(name, "c", &source, &self.c(), compile, inputs)
     }

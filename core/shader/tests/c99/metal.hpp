@@ -39,7 +39,7 @@ template <class To, class From> To as_type(From from) {
 }
 
 // as the program around the functions calls them
-using etendue_word = metal::uint;
-using EtendueVec2 = metal::float2;
-using EtendueVec3 = metal::float3;
-inline metal::uint etendue_bits(float x) { return as_type<metal::uint>(x); }
+using etendue_shader_word = metal::uint;
+using EtendueShaderVec2 = metal::float2;
+using EtendueShaderVec3 = metal::float3;
+inline metal::uint etendue_shader_bits(float x) { return as_type<metal::uint>(x); }

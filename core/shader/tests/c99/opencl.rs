@@ -56,7 +56,7 @@ impl Driver<'_> {
         let folder = folder(name);
         let [kernel, words] = ["kernel.cl", "words.bin"].map(|file| folder.join(file));
         let memory = if self.module.reads_memory() {
-            "    const EtendueMemory memory = {words, word_count};\n    (void)memory;\n"
+            "    const EtendueShaderMemory memory = {words, word_count};\n    (void)memory;\n"
         } else {
             ""
         };

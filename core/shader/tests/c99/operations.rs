@@ -120,14 +120,14 @@ fn operation<R: Real, M: Memory<R>>(op: Op, of: &Arguments<R, M>) -> (Value<R>, 
         Op::Sqrt => (real(a.sqrt()), "sqrt(a)"),
         Op::Abs => (real(a.abs()), "abs(a)"),
         Op::Round => (real(a.round_ties_even()), "round(a)"),
-        Op::CopySign => (real(a.copysign(b)), "etendue_copysign(a, b)"),
-        Op::Lesser => (real(a.lesser(b)), "etendue_lesser(a, b)"),
-        Op::Greater => (real(a.greater(b)), "etendue_greater(a, b)"),
-        Op::Pow2Scale => (real(a.pow2_scale()), "etendue_pow2_scale(a)"),
-        Op::InverseCbrtEstimate => (real(a.inverse_cbrt_estimate()), "etendue_inverse_cbrt_estimate(a)"),
-        Op::Unit => (real(R::unit(k)), "etendue_unit(k)"),
-        Op::FromWord => (real(R::from_uint(k)), "etendue_from_word(k)"),
-        Op::ToWord => (word(a.to_uint()), "etendue_to_word(a)"),
+        Op::CopySign => (real(a.copysign(b)), "etendue_shader_copysign(a, b)"),
+        Op::Lesser => (real(a.lesser(b)), "etendue_shader_lesser(a, b)"),
+        Op::Greater => (real(a.greater(b)), "etendue_shader_greater(a, b)"),
+        Op::Pow2Scale => (real(a.pow2_scale()), "etendue_shader_pow2_scale(a)"),
+        Op::InverseCbrtEstimate => (real(a.inverse_cbrt_estimate()), "etendue_shader_inverse_cbrt_estimate(a)"),
+        Op::Unit => (real(R::unit(k)), "etendue_shader_unit(k)"),
+        Op::FromWord => (real(R::from_uint(k)), "etendue_shader_from_word(k)"),
+        Op::ToWord => (word(a.to_uint()), "etendue_shader_to_word(a)"),
         Op::Less => (truth(a.lt(b)), "a < b"),
         Op::LessEqual => (truth(a.le(b)), "a <= b"),
         Op::And => (truth(p & q), "p & q"),
@@ -144,18 +144,18 @@ fn operation<R: Real, M: Memory<R>>(op: Op, of: &Arguments<R, M>) -> (Value<R>, 
         Op::WordShl(bits) => (word(k.shl(bits)), "k << 7u"),
         Op::WordShr(bits) => (word(k.shr(bits)), "k >> 7u"),
         Op::WordReverse => (word(k.reverse_bits()), "reverseBits(k)"),
-        Op::WordLess => (word(Uint::lt(k, m)), "etendue_word_less(k, m)"),
+        Op::WordLess => (word(Uint::lt(k, m)), "etendue_shader_word_less(k, m)"),
         Op::WordShrBy => (word(k.shr_by(m)), "k >> (m & 31u)"),
-        Op::WordQuotient => (word(k.quotient(m)), "etendue_word_quotient(k, m)"),
-        Op::Load => (word(of.memory.word(k)), "etendue_load(k)"),
-        Op::FromBits => (real(of.memory.number(k)), "etendue_from_bits(etendue_load(k))"),
+        Op::WordQuotient => (word(k.quotient(m)), "etendue_shader_word_quotient(k, m)"),
+        Op::Load => (word(of.memory.word(k)), "etendue_shader_load(k)"),
+        Op::FromBits => (real(of.memory.number(k)), "etendue_shader_from_bits(etendue_shader_load(k))"),
         Op::WordAny => (truth(R::has_bits(k & m)), "(k & m) != 0u"),
         Op::Call(Call::SinCosTurns) | Op::Part(0) => (real(a.sin_cos_turns().0), "v1.x"),
         Op::Call(Call::SinCosQuarters) | Op::Part(_) => (real(a.sin_cos_quarters().1), "v1.y"),
-        Op::Call(Call::Acos) => (real(a.acos()), "etendue_acos(a)"),
-        Op::Call(Call::Atan2) => (real(a.atan2(b)), "etendue_angle(a, b)"),
-        Op::Call(Call::AtanEighth) => (real(a.atan_eighth()), "etendue_atan_eighth(a)"),
-        Op::Call(Call::Cbrt) => (real(a.cbrt()), "etendue_cbrt(a)"),
+        Op::Call(Call::Acos) => (real(a.acos()), "etendue_shader_acos(a)"),
+        Op::Call(Call::Atan2) => (real(a.atan2(b)), "etendue_shader_angle(a, b)"),
+        Op::Call(Call::AtanEighth) => (real(a.atan_eighth()), "etendue_shader_atan_eighth(a)"),
+        Op::Call(Call::Cbrt) => (real(a.cbrt()), "etendue_shader_cbrt(a)"),
         Op::LoopVariable(..) | Op::Loop(_) | Op::LoopResult(..) => {
             (Value::Several(squares(of, 7).to_vec()), "for (var i = 0; i < 7 && (b3 | b4); i++) {")
         }
@@ -330,7 +330,7 @@ fn operations_are_written_in_wgsl() {
     let text = print(&module(), &Wgsl::default(), "Written by a test.");
     Checked::new(&text).unwrap();
     for (k, op) in operations().into_iter().enumerate() {
-        let (_, body) = text.split_once(&format!("fn etendue_operation_{k}_of(")).unwrap();
+        let (_, body) = text.split_once(&format!("fn etendue_shader_operation_{k}_of(")).unwrap();
         let (body, _) = body.split_once("\n}\n").unwrap();
         let (_, right) = operation(op, &Arguments::of(&[0.0; 7]));
         let wanted = [format!(" = {right};"), format!("return {right};"), format!("    {right}")];

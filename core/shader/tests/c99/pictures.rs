@@ -4,7 +4,7 @@ use crate::driver::{HOSTILE, slots};
 use crate::lights::{sample, vec3};
 use crate::program::Driver;
 use crate::tables::{Memory, module};
-use etendue::light::{Picture, PictureSample, Region};
+use etendue::light::{Picture, Region, TexelSample};
 use etendue::{Disk, LightSample, LightSampler, Parallelogram, Triangle, Vec2, Vec3};
 use etendue_judge::generators::{Random, nasty, unit_or_edge};
 use etendue_judge::techniques::{AreaLight, LightShape};
@@ -60,9 +60,9 @@ struct Right<'a> {
     w: Vec3<f32>,
 }
 impl Right<'_> {
-    fn of(&self, draw: impl Fn(Vec2<f32>) -> PictureSample<f32>, sampler: &impl LightSampler<f32>) -> Vec<f32> {
+    fn of(&self, draw: impl Fn(Vec2<f32>) -> TexelSample<f32>, sampler: &impl LightSampler<f32>) -> Vec<f32> {
         let mut all = Vec::new();
-        let PictureSample { light, x, y } = draw(self.u);
+        let TexelSample { light, x, y } = draw(self.u);
         let add = |s: &LightSample<f32>, all: &mut Vec<f32>| sample(s, self.wanted, all);
         add(&light, &mut all);
         all.extend([0.0, x as f32, 0.0, y as f32]);

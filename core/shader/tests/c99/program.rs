@@ -103,7 +103,7 @@ impl<'a> Driver<'a> {
                     for (k, (place, leaf)) in self.places(*of, name).into_iter().enumerate() {
                         let number = format!("in[{}]", first + k);
                         let value = match leaf {
-                            Leaf::Word => format!("etendue_bits({number})"),
+                            Leaf::Word => format!("etendue_shader_bits({number})"),
                             Leaf::Truth => format!("{number} > 0.5f"),
                             _ => number,
                         };

@@ -3,7 +3,7 @@
 use crate::driver::{HOSTILE, compare, slots};
 use crate::lights::sample;
 use crate::program::Driver;
-use etendue::light::{EnvironmentMap, EnvironmentSample, ImageEnvironment};
+use etendue::light::{EnvironmentMap, ImageEnvironment, TexelSample};
 use etendue::reflection::{Reflection, table};
 use etendue::select::{Choice, LightBound, LightChoice, LightTree, NO_LIGHT, Node8};
 use etendue::{LightSampler, Vec2, Vec3};
@@ -156,7 +156,7 @@ fn environments_have_the_same_bits() {
             let [u, v] = [(); 2].map(|()| (unit_or_edge(&mut random) as f32).min(1.0 - 1.0 / 16_777_216.0));
             let w = direction(slot, &mut random);
             let mut all = Vec::new();
-            let EnvironmentSample { light, x, y } = sky.draw(Vec2::new(u, v));
+            let TexelSample { light, x, y } = sky.draw(Vec2::new(u, v));
             sample(&light, &wanted, &mut all);
             all.extend([halves(x), halves(y)].concat());
             sample(&sampler.sample(Vec2::new(u, v)), &wanted, &mut all);

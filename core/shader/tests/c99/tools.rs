@@ -2,7 +2,7 @@
 
 use crate::driver::{HOSTILE, slots};
 use crate::program::Driver;
-use etendue::estimate::{Heuristic, technique_pdf};
+use etendue::estimate::Heuristic;
 use etendue::light::{PortalMap, Spread};
 use etendue::sequence::{Independent, OwenSobol, Sequence};
 use etendue::{LightSample, Vec2, Vec3};
@@ -30,7 +30,7 @@ fn tool(name: &str, x: &[f32]) -> Vec<f32> {
             if word(2).is_multiple_of(2) { vec![x, y] } else { vec![z, w] }
         }
         "owen_sobol_pair" => pair(OwenSobol::pair_by(word(0), word(1), word(2), word(3))),
-        "technique_pdf" => vec![technique_pdf(x[0], x[1], truth(2))],
+        "technique_pdf" => vec![Heuristic::technique_pdf(x[0], x[1], truth(2))],
         "balance_weights" => Heuristic::Balance.weights([x[0], x[1]]).to_vec(),
         "power_weights" => Heuristic::POWER.weights([x[0], x[1]]).to_vec(),
         "power_light_weight" => vec![Heuristic::POWER.light_weight(&sample(x[0], truth(1), truth(2)), x[3])],

@@ -5,17 +5,13 @@ use super::part::{Part, Units};
 use crate::real::Real;
 use crate::select::LightBound;
 
-/// Runs two halves of the building, at once if it can.
+/// Runs two halves of the building, at once if it can; `()` runs one after the other.
 pub trait Join: Sync {
     /// Runs both.
     fn join(&self, a: impl FnOnce() + Send, b: impl FnOnce() + Send);
 }
 
-/// Runs one after the other.
-#[derive(Clone, Copy, Debug)]
-pub struct Sequential;
-
-impl Join for Sequential {
+impl Join for () {
     fn join(&self, a: impl FnOnce() + Send, b: impl FnOnce() + Send) {
         a();
         b();

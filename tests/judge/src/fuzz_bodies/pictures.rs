@@ -2,11 +2,11 @@
 
 use super::Input;
 use crate::properties::{squares_of, vectors_of};
-use etendue::light::{Picture, PictureSample, Region};
+use etendue::light::{Picture, Region, TexelSample};
 use etendue::{BilinearPatch, Disk, LightSampler, Parallelogram, Real, Sphere, Triangle, Vec2, f32x8};
 
 /// Takes a sampler, and its method that returns the texel, too.
-type Visitor<'a, R> = dyn FnMut(&dyn LightSampler<R>, &dyn Fn(Vec2<R>) -> PictureSample<R>) + 'a;
+type Visitor<'a, R> = dyn FnMut(&dyn LightSampler<R>, &dyn Fn(Vec2<R>) -> TexelSample<R>) + 'a;
 
 /// What is tested of a light: its numbers, in the words of the light.
 #[derive(Debug)]

@@ -2,7 +2,7 @@
 
 use crate::lights::pictures::lights::{Ball, By, LIGHTS, POINTS, Patch, normal, vector};
 use etendue::Vec2;
-use etendue::light::{Picture, Region, mean_of_bilinear};
+use etendue::light::{Picture, Region};
 use etendue_judge::generators::Random;
 use etendue_judge::properties::Coordinates;
 use etendue_oracle::tier::cases;
@@ -31,7 +31,7 @@ fn means_of_interpolated_texels() {
         let point = |k: usize| [k % n, k / n].map(|i| (i as f64 + 0.5) / n as f64);
         let uv = |[s, t]: [f64; 2]| [(x as f64 + s) / w as f64, (y as f64 + t) / h as f64];
         let sum: f64 = (0..n * n).map(|k| interpolation(&values, [w, h], uv(point(k)))).sum();
-        let mean = f64::from(mean_of_bilinear(&values, w, [x, y]));
+        let mean = f64::from(Picture::mean_of_bilinear(&values, w, [x, y]));
         assert!((mean - sum / (n * n) as f64).abs() < 1e-4, "{x}, {y}: {mean}");
     }
 }

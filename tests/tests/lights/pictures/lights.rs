@@ -1,7 +1,7 @@
 //! The lights that show pictures, in double precision, and their samplers.
 
 use core::f64::consts::{PI, TAU};
-use etendue::light::{Picture, PictureSample, Region};
+use etendue::light::{Picture, Region, TexelSample};
 use etendue::{BilinearPatch, Disk, LightSampler, Parallelogram, Real, Rectangle, Sphere, Triangle, Vec2, Vec3};
 use etendue_oracle::{V3, cross, dot, length, sub, unit};
 
@@ -123,7 +123,7 @@ impl Light {
 
 pub(crate) struct Sampler<'a, R: Real> {
     pub(crate) light: Box<dyn LightSampler<R> + 'a>,
-    pub(crate) draw: Box<dyn Fn(Vec2<R>) -> PictureSample<R> + 'a>,
+    pub(crate) draw: Box<dyn Fn(Vec2<R>) -> TexelSample<R> + 'a>,
 }
 
 /// Points from which lights are seen: afar, near, touching, from the plane of the flat ones, from behind.
