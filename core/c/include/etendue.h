@@ -19,7 +19,7 @@
 // - Batches are structures of arrays: one column per coordinate, of n elements each, without demands on alignment. An output may be
 //   NULL where it is not wanted, and may be the same column as an input.
 // - A function that cannot work returns a status other than ETENDUE_STATUS_OK and writes nothing: for a NULL pointer to something that it
-//   needs, and for a technique or a warp that is none. A count of 0 is fine and touches nothing.
+//   needs, for a technique or a warp that is none, and in single calls for a `u` outside of [0, 1). A count of 0 is fine and touches nothing.
 // - `void` pointers are to structs of the technique: its light, columns of it, or its sampler, by the names of the technique.
 // - `p`, `n`, `w`, `direction` and `normal` are three numbers each, `u` and `uv` two, or as many columns.
 // - Coordinates may be in any unit; pdfs are per steradian unless stated; u is in [0, 1)^2; directions are unit vectors from the shading
@@ -1107,7 +1107,7 @@ EtendueStatus etendue_prepare(uint32_t technique,
                               const void *with,
                               void *sampler);
 
-// Draws a direction from a prepared light, for u.
+// Draws a direction from a prepared light, for u. Returns ETENDUE_STATUS_VALUE for a number that is not in [0, 1).
 EtendueStatus etendue_sample(uint32_t technique, const void *sampler, const float *u, EtendueLightSample *out);
 
 // The pdf with which a prepared light draws a unit direction `w`; 0 where it misses the light, and where the function cannot work.
@@ -1124,7 +1124,8 @@ EtendueStatus etendue_hit(uint32_t technique,
                           const float *w,
                           EtendueLightSample *out);
 
-// Prepares a light for a shading point, as etendue_prepare does, and draws one direction. What the sample does not need is not prepared.
+// Prepares a light for a shading point, as etendue_prepare does, and draws one direction, as etendue_sample does. What the sample does not need is
+// not prepared.
 EtendueStatus etendue_sample_once(uint32_t technique,
                                   const void *light,
                                   const float *p,
@@ -1148,7 +1149,8 @@ float etendue_pdf_of_hit_once(uint32_t technique,
                               const void *with,
                               const float *w);
 
-// Draws a direction from a prepared light for each u: two columns.
+// Draws a direction from a prepared light for each u: two columns. The numbers are not asked whether they are in [0, 1): where one is NaN, the pdf
+// is 0 unless the technique does not use it; where one is outside, the sample has no meaning, and may have numbers that are not finite.
 EtendueStatus etendue_sample_batch(uint32_t technique,
                                    const void *sampler,
                                    size_t n,
@@ -1248,7 +1250,7 @@ EtendueStatus etendue_ggx_visible_normals_prepare(float alpha_x,
                                                   EtendueGgxVisibleNormals *out);
 
 // Maps random numbers `u` to a point. `parameters` is the struct of the warp, or NULL if it has none. Returns ETENDUE_STATUS_VALUE for a warp that is
-// none.
+// none, and for a number that is not in [0, 1).
 EtendueStatus etendue_warp_sample(uint32_t warp,
                                   const void *parameters,
                                   const float *u,

@@ -327,7 +327,7 @@ class SpreadColumns {
 
 // What is done with a sampler c_.
 #define ETENDUE_SAMPLER_METHODS(PREFIX)                                                                                                \
-    /* Draws a direction for u. */                                                                                                     \
+    /* Draws a direction for u; the pdf is 0 for a number that is not in [0, 1). */                                                    \
     LightSample sample(Vec2 u) const {                                                                                                 \
         LightSample out = {};                                                                                                              \
         PREFIX##_sample(&c_, detail::Row<2>(u).v, &out);                                                                               \

@@ -13,6 +13,17 @@ macro_rules! refuse_null {
 }
 pub(crate) use refuse_null;
 
+/// Returns [`EtendueStatus::Value`](crate::EtendueStatus::Value) unless all `count` random numbers are in [0, 1).
+macro_rules! refuse_outside {
+    ($u:ident, $count:expr) => {
+        // SAFETY: the pointer is not null, and points to what the header says
+        if !unsafe { $crate::memory::are_random($u, $count) } {
+            return $crate::EtendueStatus::Value;
+        }
+    };
+}
+pub(crate) use refuse_outside;
+
 pub(crate) fn vec3<T>([x, y, z]: [T; 3]) -> Vec3<T> {
     Vec3::new(x, y, z)
 }
@@ -38,6 +49,11 @@ pub(crate) unsafe fn outputs<const N: usize>(columns: *const *mut f32) -> Option
 pub(crate) unsafe fn are_there(columns: *const *const f32, count: usize) -> bool {
     // SAFETY: the caller's array has so many pointers
     count == 0 || !columns.is_null() && (0..count).all(|i| unsafe { !columns.add(i).read_unaligned().is_null() })
+}
+/// Whether so many numbers are in [0, 1).
+pub(crate) unsafe fn are_random(u: *const f32, count: usize) -> bool {
+    // SAFETY: the caller's pointer is to so many numbers
+    (0..count).map(|i| unsafe { u.add(i).read_unaligned() }).all(|u| (0.0..1.0).contains(&u))
 }
 /// How many pointers a struct of columns consists of.
 pub(crate) const fn count_of<C>() -> usize {

@@ -2,7 +2,7 @@
 
 use crate::environment::EtendueImageEnvironment;
 use crate::list::{EtendueTechnique, TAKES, WITHOUT_MEMORY};
-use crate::memory::{are_there, columns, count_of, outputs, refuse_null, vec2, vec3};
+use crate::memory::{are_there, columns, count_of, outputs, refuse_null, refuse_outside, vec2, vec3};
 use crate::picture::{
     EtenduePicture, EtenduePicturedParallelogramColumns, EtenduePicturedPatchColumns, EtenduePicturedSphereColumns,
 };
@@ -94,7 +94,7 @@ pub unsafe extern "C" fn etendue_prepare(
     }
     EtendueStatus::Ok
 }
-/// Draws a direction from a prepared light, for u.
+/// Draws a direction from a prepared light, for u. Returns ETENDUE_STATUS_VALUE for a number that is not in [0, 1).
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn etendue_sample(
     technique: u32,
@@ -104,6 +104,7 @@ pub unsafe extern "C" fn etendue_sample(
 ) -> EtendueStatus {
     refuse_null!(sampler, u, out);
     let functions = one!(technique);
+    refuse_outside!(u, 2);
     // SAFETY: the pointers are not null, and point to what the header says
     unsafe {
         refuse_memory!(technique, sampler);
@@ -160,7 +161,8 @@ pub unsafe extern "C" fn etendue_hit(
     }
     EtendueStatus::Ok
 }
-/// Prepares a light for a shading point, as etendue_prepare does, and draws one direction. What the sample does not need is not prepared.
+/// Prepares a light for a shading point, as etendue_prepare does, and draws one direction, as etendue_sample does. What the sample does not need is
+/// not prepared.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn etendue_sample_once(
     technique: u32,
@@ -172,6 +174,7 @@ pub unsafe extern "C" fn etendue_sample_once(
 ) -> EtendueStatus {
     refuse_null!(light, p, u, out);
     let functions = one!(technique);
+    refuse_outside!(u, 2);
     if !is_given(technique, with) {
         return EtendueStatus::NullPointer;
     }
@@ -252,7 +255,8 @@ unsafe fn batch<const N: usize>(
         f(&functions.sampler, read).map_or(EtendueStatus::NullPointer, |()| EtendueStatus::Ok)
     }
 }
-/// Draws a direction from a prepared light for each u: two columns.
+/// Draws a direction from a prepared light for each u: two columns. The numbers are not asked whether they are in [0, 1): where one is NaN, the pdf
+/// is 0 unless the technique does not use it; where one is outside, the sample has no meaning, and may have numbers that are not finite.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn etendue_sample_batch(
     technique: u32,

@@ -1,6 +1,6 @@
 //! Warps, and the functions of all of them, which are given by their numbers.
 
-use crate::memory::refuse_null;
+use crate::memory::{refuse_null, refuse_outside};
 use crate::status::EtendueStatus;
 use core::ffi::c_void;
 use core::mem::size_of;
@@ -134,7 +134,7 @@ macro_rules! given {
 }
 
 /// Maps random numbers `u` to a point. `parameters` is the struct of the warp, or NULL if it has none. Returns ETENDUE_STATUS_VALUE for a warp that is
-/// none.
+/// none, and for a number that is not in [0, 1).
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn etendue_warp_sample(
     warp: u32,
@@ -144,6 +144,7 @@ pub unsafe extern "C" fn etendue_warp_sample(
 ) -> EtendueStatus {
     refuse_null!(u, point);
     let parameters = given!(warp, parameters);
+    refuse_outside!(u, Batch::new().warp_functions(warp as usize).numbers);
     // SAFETY: the pointers are not null, and point to what the header says
     unsafe { (Batch::new().warp_of_one(warp as usize).one_sample)(parameters, u, point) };
     EtendueStatus::Ok

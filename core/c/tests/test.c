@@ -1008,6 +1008,57 @@ static void test_unknown(void) {
     CHECK(etendue_warp_sample(ETENDUE_WARP_TENT + 1, light, w, NULL) == REFUSED && etendue_warp_pdf(ETENDUE_WARP_TENT + 1, light, w) == 0);
 }
 
+// Random numbers outside of [0, 1) are refused by single calls, which write nothing. Batches take them: the neighbours are as they are without
+// them, and for NaN the pdf is 0 unless the technique does not use the number.
+enum { OUTSIDE = 8 };
+static void test_outside(void) {
+    const float outside[OUTSIDE] = {-1e-30f, -1, 1, 1.5f, 1e30f, INFINITY, -INFINITY, NAN};
+    EtendueLightSample s, before;
+    memset(&before, PATTERN, sizeof before);
+    for (size_t k = 0; k < sizeof techniques / sizeof *techniques; k++) {
+        const Technique *t = techniques + k;
+        float sampler[SAMPLER_NUMBERS];
+        current = t->name;
+        CHECK(t->prepare(t->light, origin, up, sampler) == OK);
+        for (int which = 0; which < 2; which++) {
+            float numbers[2][OUTSIDE + 1];
+            for (int i = 0; i < OUTSIDE; i++) {
+                numbers[which][i] = outside[i];
+                numbers[!which][i] = 0.3f;
+                const float u[2] = {numbers[0][i], numbers[1][i]};
+                s = before;
+                CHECK(t->sample(sampler, u, &s) == ETENDUE_STATUS_VALUE && memcmp(&s, &before, sizeof s) == 0);
+                CHECK(t->once(t->light, origin, up, u, &s) == ETENDUE_STATUS_VALUE && memcmp(&s, &before, sizeof s) == 0);
+            }
+            const float edge[2] = {which ? 0.3f : -0.0f, which ? 1 - FLT_EPSILON / 2 : 0.3f};
+            CHECK(t->sample(sampler, edge, &s) == OK);
+            numbers[0][OUTSIDE] = edge[0];
+            numbers[1][OUTSIDE] = edge[1];
+            const float *const u_in[2] = {numbers[0], numbers[1]};
+            Results r = results(OUTSIDE + 1);
+            const EtendueSampleColumns out = sample_columns(r.column);
+            CHECK(t->sample_batch(sampler, OUTSIDE + 1, u_in, &out) == OK && is_sample(r.column, OUTSIDE, &s));
+            // lights of one dimension use the first number alone, delta lights none
+            int unused = 1;
+            for (int i = 0; i < OUTSIDE - 1; i++) unused = unused && same(at(r.column[4], OUTSIDE - 1), at(r.column[4], i));
+            CHECK((at(r.column[4], OUTSIDE - 1) == 0 && at(r.column[5], OUTSIDE - 1) == 0) || unused);
+            free(r.memory);
+        }
+    }
+    for (size_t k = 0; k < sizeof warps / sizeof *warps; k++) {
+        const Warp *w = warps + k;
+        current = w->name;
+        for (int which = 0; which < w->numbers; which++) {
+            for (int i = 0; i < OUTSIDE; i++) {
+                float point[3], u[2] = {0.3f, 0.6f};
+                memset(point, PATTERN, sizeof point);
+                u[which] = outside[i];
+                CHECK(w->sample(w->parameters, u, point) == ETENDUE_STATUS_VALUE && is_untouched((unsigned char *)point, sizeof point));
+            }
+        }
+    }
+}
+
 static void test_huge(void) {
     current = "2^31 + 5 elements";
     const size_t n = ((size_t)1 << 31) + 5, window = (size_t)1 << 26, windows = 4 * n / window + 1;
@@ -1098,6 +1149,7 @@ int main(int argc, char **argv) {
         }
         current = "unknown";
         test_unknown();
+        test_outside();
         current = "light_tree";
         test_tree(300);
         test_tree(1);
