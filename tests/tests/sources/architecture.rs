@@ -1,4 +1,4 @@
-//! What the sources themselves must keep: imports go one way, and documents are short.
+//! What the sources themselves must keep: imports go one way, manifests are whole, and documents are short.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -354,6 +354,51 @@ fn packages_depend_one_way() {
     let render = dependencies("render", false);
     for other in ["clap", "csv", "etendue-scene", "image", "indicatif"] {
         assert!(!render.iter().any(|name| name == other), "the renderer must not depend on {other}");
+    }
+}
+
+/// The packages that go to a registry.
+const PUBLISHED: [&str; 3] = ["core", "core/batch", "core/shader"];
+
+/// Packages that hosts use say all that a registry shows, and the others are not published.
+#[test]
+fn manifests_are_whole() {
+    for (package, ..) in ARROWS {
+        let sections = sections(&root().join(package).join("Cargo.toml"));
+        let lines = &sections.iter().find(|(name, _)| name == "package").unwrap().1;
+        let value = |key: &str| lines.iter().find_map(|line| line.strip_prefix(&format!("{key} = ")));
+        let is_inherited = |key: &str| lines.contains(&format!("{key}.workspace = true"));
+        for key in ["version", "edition", "rust-version", "license"] {
+            assert!(is_inherited(key), "{package}: {key}");
+        }
+        if !PUBLISHED.contains(&package) {
+            assert_eq!(value("publish"), Some("false"), "{package}");
+            continue;
+        }
+        // one place for the owner to fill in
+        assert!(value("publish").is_none() && is_inherited("repository"), "{package}");
+        for (key, count) in [("keywords", 3..=5), ("categories", 2..=5)] {
+            let found = value(key).unwrap_or_else(|| panic!("{package}: {key}")).matches('"').count() / 2;
+            assert!(count.contains(&found), "{package} has {found} {key}");
+        }
+        let name = value("name").unwrap().trim_matches('"');
+        assert_eq!(value("documentation"), Some(&*format!("\"https://docs.rs/{name}\"")), "{package}");
+        assert!(value("description").is_some() && value("include").is_some(), "{package}");
+        assert!(sections.iter().any(|(name, _)| name == "package.metadata.docs.rs"), "{package}");
+        // what a registry shows has nothing beside it
+        let readme = fs::read_to_string(root().join(package).join(value("readme").unwrap().trim_matches('"'))).unwrap();
+        let links = readme.split("](").skip(1).map(|rest| rest.split(')').next().unwrap());
+        assert!(links.clone().count() > 0, "{package} has no link");
+        for link in links {
+            assert!(link.starts_with("https://") || link.starts_with('#'), "{package}: {link}");
+        }
+        assert!(
+            !readme.contains("cargo run -p") && !readme.contains(" -p etendue"),
+            "{package}: a command of the workspace"
+        );
+        for file in ["LICENSE-MIT", "LICENSE-APACHE"] {
+            assert!(root().join(package).join(file).is_file(), "{package} has no {file}");
+        }
     }
 }
 
