@@ -314,7 +314,8 @@ def judge_shape(mi, shape, side):
         numbers = draw(mi, load(mi, shape, light), p, side, chosen)
         chosen = chosen.astype(np.float64)
         chosen /= np.linalg.norm(chosen, axis=1)[:, None]
-        found, measure, error = judge(exact, normal / np.linalg.norm(normal), *numbers, chosen, resolution)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            found, measure, error = judge(exact, normal / np.linalg.norm(normal), *numbers, chosen, resolution)
         if measure is not None:
             measures[measure] = measures.get(measure, 0) + 1
         worst = max(worst, error)
