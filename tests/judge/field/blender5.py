@@ -165,7 +165,10 @@ def main():
     arguments = parser.parse_args()
     if not 1 <= arguments.samples <= 1 << 20:
         parser.error(f"--samples is from 1 to 1048576, not {arguments.samples}")
-    import bpy
+    try:
+        import bpy
+    except ImportError as error:
+        parser.error(f"pip install bpy==5.0.1 comes first: {error}")
 
     warnings.simplefilter("ignore", DeprecationWarning)
     rows = []

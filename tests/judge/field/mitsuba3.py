@@ -336,7 +336,10 @@ def main():
     for shape in arguments.shapes:
         if shape not in ("sphere", "triangle", "rectangle", "disk"):
             parser.error(f"there is no shape {shape!r}: sphere, triangle, rectangle, disk")
-    import mitsuba as mi
+    try:
+        import mitsuba as mi
+    except ImportError as error:
+        parser.error(f"pip install mitsuba==3.9.1 comes first: {error}")
 
     mi.set_variant("scalar_rgb")
     start = time.time()
@@ -356,7 +359,9 @@ def main():
     if arguments.json:
         try:
             with open(arguments.json, "w", encoding="utf-8") as file:
-                json.dump({"version": mi.__version__, "verdicts": verdicts}, file, indent=1)
+                # JSON has no infinity.
+                text = json.dumps({"version": mi.__version__, "verdicts": verdicts}, indent=1)
+                file.write(text.replace(": Infinity", ': "infinite"').replace(": NaN", ': "NaN"'))
         except OSError as error:
             print(f"{arguments.json}: {error.strerror}", file=sys.stderr)
             return 2
