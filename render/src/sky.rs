@@ -7,7 +7,7 @@ mod windows;
 use crate::packet::{M8, V8, X8, select};
 use crate::scene;
 use crate::technique::Measure;
-pub use daylight::{GeneralSky, Moment, SunPosition};
+pub use daylight::GeneralSky;
 use etendue::light::{FAR, ImageEnvironment, SunBySolidAngle, Texel};
 use etendue::{ConstantEnvironment, LightSample, LightSampler, Mask, Real, Sun, Uint, Vec2, Vec3, Warp, u32x8};
 use moments::Moments;

@@ -36,14 +36,11 @@ impl Folder {
     ) {
         exr::prelude::write_rgb_file(self.path(name), width, height, |x, y| texel(x, y).into()).unwrap();
     }
-    /// Writes an IES file of this photometric type.
-    pub(crate) fn ies(&self, name: &str, kind: u32, vertical: &str, horizontal: &str, values: &str) {
+    /// Writes an IES file.
+    pub(crate) fn ies(&self, name: &str, vertical: &str, horizontal: &str, values: &str) {
         let count = |list: &str| list.split_whitespace().count();
         let sizes = format!("{} {}", count(vertical), count(horizontal));
-        self.write(
-            name,
-            format!("TILT=NONE\n1 -1 1 {sizes} {kind} 2 0 0 0\n1 1 9\n{vertical}\n{horizontal}\n{values}\n"),
-        );
+        self.write(name, format!("TILT=NONE\n1 -1 1 {sizes} 1 2 0 0 0\n1 1 9\n{vertical}\n{horizontal}\n{values}\n"));
     }
     /// A scene whose files are in this folder.
     pub(crate) fn read(&self, text: &str) -> Scene {

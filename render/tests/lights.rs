@@ -233,9 +233,9 @@ fn lights_far_away_have_their_share_of_the_irradiance() {
 /// and spots and panels with profiles.
 fn directed_and_spread() -> Scene {
     let folder = Folder::new();
-    folder.ies("narrow.ies", 1, "0 5 10", "0", "9 1 0");
-    folder.ies("wide.ies", 1, "0 60 90", "0", "1 2 3");
-    folder.ies("up.ies", 1, "90 120 180", "0", "1 2 3");
+    folder.ies("narrow.ies", "0 5 10", "0", "9 1 0");
+    folder.ies("wide.ies", "0 60 90", "0", "1 2 3");
+    folder.ies("up.ies", "90 120 180", "0", "1 2 3");
     folder.picture("slide.exr", [4, 3], |x, y| if (x + y).is_multiple_of(2) { [1.0, 0.0, 2.0] } else { [0.0; 3] });
     let corners = "\"point3 P\" [0 0 0 .3 0 0 0 .2 0 .3 .2 0]";
     let area = "AreaLightSource \"diffuse\"";

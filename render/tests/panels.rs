@@ -152,13 +152,13 @@ fn profiled(intensity: Intensity) -> impl Fn(V3, [f64; 2]) -> V3 {
 #[test]
 fn profiles_change_panels() {
     let folder = Folder::new();
-    folder.ies("wide.ies", 1, "0 90", "0", "1 3");
-    folder.ies("skew.ies", 1, "0 90", "0 180", "2 1 2 5");
-    folder.ies("beam.ies", 1, "0 15 30", "0", "4 1 0");
+    folder.ies("wide.ies", "0 90", "0", "1 3");
+    folder.ies("skew.ies", "0 90", "0 180", "2 1 2 5");
+    folder.ies("beam.ies", "0 15 30", "0", "4 1 0");
     // longitude and latitude, of which the lower row is towards the nadir: dark at half of the azimuths, from +x over +z
     folder.picture("half.exr", [4, 2], |x, y| [if y == 1 && x < 2 { 3.0 } else { 0.0 }; 3]);
     // three quarters of the intensity go up, to where the normal is not
-    folder.ies("both.ies", 1, "0 89.999 90.001 180", "0", "1 1 3 3");
+    folder.ies("both.ies", "0 89.999 90.001 180", "0", "1 1 3 3");
     let skew: Intensity = |theta, turn| {
         let side = 1.0 + 4.0 * turn.min(360.0 - turn) / 180.0;
         2.0 + (side - 2.0) * theta / 90.0

@@ -14,10 +14,11 @@ pub(super) type Axis = (usize, f64);
 pub(super) struct Aim {
     /// The axes of the space of its intensity.
     pub(super) axes: [Axis; 3],
-    /// The direction in which it is aimed, and one at its side.
-    pub(super) ahead: Axis,
-    pub(super) aside: Axis,
 }
+
+/// The nadir, along which luminaires are aimed, and the photometric horizontal, which is at their side, in light space.
+const NADIR: [f64; 3] = [0.0, -1.0, 0.0];
+const HORIZONTAL: [f64; 3] = [1.0, 0.0, 0.0];
 
 /// A profile of flat lights, which each has along its normal.
 #[derive(Debug)]
@@ -32,29 +33,23 @@ pub(super) struct Distribution {
 impl Aim {
     /// The unit direction in which the luminaire is aimed, in the space of the intensity.
     pub(super) fn ahead(&self) -> [f64; 3] {
-        let (ahead, sign) = self.ahead;
-        self.axes.map(|(axis, own)| if axis == ahead { own * sign } else { 0.0 })
+        self.axes.map(|(axis, sign)| sign * NADIR[axis])
     }
     /// Rows of the orthogonal matrix from world space to that of the intensity, when the luminaire is aimed along the unit vector `axis`. It
     /// is turned about that so that what is at its side stays in the plane of the axis and of where the transform of the light would put
     /// it: photometric horizontals are at +x, and at −y where +x is along the axis.
     pub(super) fn aimed(&self, axis: [f64; 3], ctm: &Transform) -> [[f32; 3]; 3] {
-        let (ahead, aside) = (self.ahead, self.aside);
-        let across = |(k, sign): Axis| {
-            let mut direction = [0.0; 3];
-            direction[k] = sign;
+        let across = |direction: [f64; 3]| {
             let v = unit(ctm.vector(direction))?;
             let v = sub(v, scaled(axis, dot(v, axis)));
             (dot(v, v) > 1e-6).then(|| unit(v))?
         };
-        let third = 3 - ahead.0 - aside.0;
         let any = || unit(cross(axis, if axis[0].abs() < 0.5 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] }));
-        let side = across(aside).or_else(|| across(ahead)).or_else(any).unwrap_or([0.0; 3]);
-        let mut axes = [[0.0; 3]; 3];
-        (axes[ahead.0], axes[aside.0]) = (scaled(axis, ahead.1), scaled(side, aside.1));
+        let side = across(HORIZONTAL).or_else(|| across(NADIR)).or_else(any).unwrap_or([0.0; 3]);
+        let up = scaled(axis, -1.0);
         // as left- or right-handed as the transform
         let sign = if ctm.determinant() < 0.0 { -1.0 } else { 1.0 };
-        axes[third] = scaled(cross(axes[(third + 1) % 3], axes[(third + 2) % 3]), sign);
+        let axes = [side, up, scaled(cross(side, up), sign)];
         self.axes.map(|(k, sign)| axes[k].map(|x| (x * sign) as f32))
     }
 }

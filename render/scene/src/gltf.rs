@@ -24,12 +24,11 @@ use std::collections::HashMap;
 use std::path::Path;
 
 /// Extensions that are supported, or change nothing when they are required.
-const SUPPORTED: [&str; 9] = [
+const SUPPORTED: [&str; 8] = [
     nodes::INSTANCING,
     "KHR_lights_punctual",
     "KHR_materials_emissive_strength",
     "KHR_materials_ior",
-    "KHR_materials_pbrSpecularGlossiness",
     "KHR_materials_specular",
     "KHR_materials_unlit",
     "KHR_mesh_quantization",

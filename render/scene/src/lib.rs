@@ -27,7 +27,7 @@
 //! | `power` of a `diffuse` light | that of all of a shape, also of a mesh; `scale` multiplies it |
 //! | `diffuse` with a picture | itself: texels are interpolated as in pbrt-v4, by u and v, or the angles of a whole sphere |
 //! | pictures in EXR files | their display windows: black where they have no data, and without the data outside |
-//! | `goniometric`, `projection` | themselves, with the texel of a direction; also IES files, which pbrt does not read, without factors of `TILT` |
+//! | `goniometric`, `projection` | themselves, with the texel of a direction; also IES files of type C, which pbrt does not read, without factors of `TILT` |
 //! | `portal` | itself, in world space; a ray that escapes beside it is black, as in pbrt |
 //! | `"float spread"` of area lights, which pbrt does not have | the full angle of [`Spread`](etendue::light::Spread) in degrees, as in Cycles |
 //! | `"string profile"` of spot and area lights, which pbrt does not have | intensities by direction, as below |
@@ -44,15 +44,12 @@
 //! |---|---|---|
 //! | `integer type` | type of the sky, 1 to 15 | 12: clear |
 //! | `float elevation`, `azimuth` | the sun in degrees: above the horizon, and from north over east | azimuth 180 |
-//! | `float latitude`, `longitude` | place in degrees, instead of those; north and east are positive | |
-//! | `integer year`, `month`, `day`, `float hours`, `timezone` | local time there; the time zone is in hours before Greenwich | timezone 0 |
 //! | `rgb L`, `float scale` | radiance of the zenith | 1 |
 //! | `float illuminance` | illuminance of the horizontal plane by the sky, instead; `scale` multiplies it | |
 //! | `float sun` | illuminance of a surface that faces the sun, by its disk of 0.53° | 0: no disk |
 //!
 //! A profile is an IES file or an image, as those of `goniometric` lights. It lies so that its nadir is along the axis of a spot light, or the
-//! normal of a flat light (of files of type A, the photometric horizontal is), and the photometric horizontal in the plane of that and of the
-//! light's +x (of type A, the zenith, and +y). The intensity of a spot light is `I` times candela values, or texels, times the falloff. Of flat
+//! normal of a flat light, and the photometric horizontal in the plane of that and of the light's +x. The intensity of a spot light is `I` times candela values, or texels, times the falloff. Of flat
 //! lights `L` and `power` stay what they are, and the profile distributes it: see [`LuminousOpening`](etendue_render::light_profile::LuminousOpening).
 //!
 //! These differ from pbrt-v4 by choice:
@@ -72,7 +69,7 @@
 //!
 //! | in glTF files | becomes |
 //! |---|---|
-//! | metallic-roughness, specular-glossiness, index of refraction, specular | glTF's GGX over diffuse; a tinted F hides the diffuse part per channel |
+//! | metallic-roughness, index of refraction, specular | glTF's GGX over diffuse; a tinted F hides the diffuse part per channel |
 //! | spots | the falloff that `KHR_lights_punctual` suggests, also where its cosines differ by less than 0.001 |
 //! | emissive textures | themselves, on each triangle |
 //! | masks, blending | holes, as for `alpha` |

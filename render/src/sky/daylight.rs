@@ -1,4 +1,4 @@
-//! Daylight: the sky by CIE's formula, and where the sun is.
+//! Daylight: the sky by CIE's formula.
 
 use etendue::{Real, Vec3};
 use std::f64::consts::{FRAC_PI_2, TAU};
@@ -105,102 +105,5 @@ impl GeneralSky {
         }
         // ∫ sinZ cosZ dZ over a ring is exact: of a uniform sky the sum is π
         sum * (step / TAU).sin_cos_turns().0 * turn
-    }
-}
-
-/// A time, in the Gregorian calendar and universal time.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Moment {
-    /// The year.
-    pub year: i32,
-    /// The month, from 1.
-    pub month: u32,
-    /// The day of the month, from 1.
-    pub day: u32,
-    /// Hours since midnight; any number: −1 is 23 o'clock of the day before.
-    pub hours: f64,
-}
-
-impl Moment {
-    /// Whether the calendar has this day, and the hours are finite.
-    #[must_use]
-    pub fn is_valid(&self) -> bool {
-        let is_leap = self.year % 4 == 0 && (self.year % 100 != 0 || self.year % 400 == 0);
-        let days = match self.month {
-            2 => 28 + u32::from(is_leap),
-            4 | 6 | 9 | 11 => 30,
-            1..=12 => 31,
-            _ => 0,
-        };
-        (1..=days).contains(&self.day) && self.hours.is_finite()
-    }
-    /// Days since noon of 1 January 2000.
-    fn days(&self) -> f64 {
-        // the year begins with March, so that the day that may be missing is the last
-        let year = i64::from(self.year) - i64::from(self.month < 3);
-        let month = (i64::from(self.month) + 9) % 12;
-        let whole = 365 * year + year.div_euclid(4) - year.div_euclid(100)
-            + year.div_euclid(400)
-            + (153 * month + 2) / 5
-            + i64::from(self.day);
-        // 1 January 2000 is day 730 426 of this count
-        (whole - 730_426) as f64 - 0.5 + self.hours / 24.0
-    }
-}
-
-/// Where the sun stands as seen from a place, without refraction.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SunPosition {
-    /// Angle above the horizon in radians.
-    pub elevation: f64,
-    /// Angle from north over east in radians, in [0, 2π).
-    pub azimuth: f64,
-}
-
-impl SunPosition {
-    /// The position at a time, from a latitude (north is positive) and longitude (east is positive) in degrees. `None` if the time is not
-    /// [valid](Moment::is_valid), the latitude is not in [−90, 90] or the longitude not in [−180, 180].
-    ///
-    /// - Formula: mean longitude and anomaly, two terms of the equation of the centre, mean sidereal time.
-    /// - Greatest error: 0.01° from 1950 to 2050; the sun's disk is 0.53° wide. Refraction would raise it by 0.5° at the horizon.
-    /// - Source: Michalsky, "The Astronomical Almanac's Algorithm for Approximate Solar Position (1950–2050)", Solar Energy 40(3), 1988.
-    ///
-    /// ```
-    /// use etendue_render::sky::{Moment, SunPosition};
-    /// // noon in Greenwich at an equinox
-    /// let time = Moment { year: 2026, month: 3, day: 20, hours: 12.0 };
-    /// let sun = SunPosition::new(time, 51.48, 0.0).unwrap();
-    /// assert!((sun.elevation.to_degrees() - 38.5).abs() < 0.2 && (sun.azimuth.to_degrees() - 177.3).abs() < 0.5);
-    /// ```
-    #[must_use]
-    pub fn new(time: Moment, latitude: f64, longitude: f64) -> Option<Self> {
-        if !time.is_valid() || !(-90.0..=90.0).contains(&latitude) || !(-180.0..=180.0).contains(&longitude) {
-            return None;
-        }
-        // by the name of the trait, since the standard library's methods of f64 have other bits
-        let days = time.days();
-        // degrees of more than a turn keep their precision as turns
-        let turn = |degrees: f64| (degrees / 360.0).sin_cos_turns();
-        let anomaly = 357.528 + 0.985_600_3 * days;
-        let mean = 280.46 + 0.985_647_4 * days;
-        let longitude_of_sun = mean + 1.915 * turn(anomaly).0 + 0.02 * turn(2.0 * anomaly).0;
-        let ((sin, cos), (tilt_sin, tilt_cos)) = (turn(longitude_of_sun), turn(23.439 - 4e-7 * days));
-        let ascension = Real::atan2(tilt_cos * sin, cos);
-        let height = tilt_sin * sin;
-        let width = Real::sqrt(1.0 - height * height);
-        let sidereal = 15.0 * (6.697_375 + 0.065_709_824_2 * days + time.hours) + longitude;
-        let (h_sin, h_cos) = (sidereal / 360.0 - ascension / TAU).sin_cos_turns();
-        let (lat_sin, lat_cos) = turn(latitude);
-        let (east, north) = (-width * h_sin, height * lat_cos - width * lat_sin * h_cos);
-        let up = height * lat_sin + width * lat_cos * h_cos;
-        let azimuth = Real::atan2(east, north);
-        let across = Real::sqrt(east * east + north * north);
-        Some(Self { elevation: Real::atan2(up, across), azimuth: if azimuth < 0.0 { azimuth + TAU } else { azimuth } })
-    }
-    /// The direction to the sun: +x is east, +y north and +z up.
-    #[must_use]
-    pub fn direction(&self) -> [f64; 3] {
-        let ((s, c), (sin, cos)) = ((self.elevation / TAU).sin_cos_turns(), (self.azimuth / TAU).sin_cos_turns());
-        [c * sin, c * cos, s]
     }
 }

@@ -125,23 +125,7 @@ impl Reader<'_, '_> {
         if extensions.is_some_and(|all| all.unlit.is_some()) {
             self.stand_in("unlit", "KHR_materials_unlit: a diffuse surface of its base colour stands for it");
         }
-        let varying = match extensions.and_then(|all| all.pbr_specular_glossiness.as_ref()) {
-            Some(glossiness) => {
-                let [r, g, b, _] = self.shares("diffuseFactor", glossiness.diffuse_factor.0);
-                let specular = self.shares("specularFactor", glossiness.specular_factor.0);
-                let [smooth] = self.shares("glossinessFactor", [glossiness.glossiness_factor.0]);
-                let diffuse = self.textured([r, g, b], glossiness.diffuse_texture.as_ref(), Encoding::Srgb)?;
-                let map = glossiness.specular_glossiness_texture.as_ref();
-                if map.is_some() {
-                    self.stand_in("glossiness", "the opacity of its specularGlossinessTexture, glossiness, is ignored");
-                }
-                let specular = self.textured(specular, map, Encoding::Srgb)?;
-                let alpha = Texture::number((1.0 - smooth) * (1.0 - smooth));
-                let grazing = Texture::number(1.0);
-                Varying::Glossy { diffuse, specular, grazing, roughness: [alpha.clone(), alpha], turn: 0.0 }
-            }
-            None => self.metallic(material)?,
-        };
+        let varying = self.metallic(material)?;
         let read = self.out.vary(varying);
         let mask = self.mask(material)?;
         let set = self.set;
@@ -164,14 +148,8 @@ impl Reader<'_, '_> {
             Checked::Valid(AlphaMode::Blend) => None,
             _ => return Ok(None),
         };
-        let glossiness = material.extensions.as_ref().and_then(|all| all.pbr_specular_glossiness.as_ref());
-        let (factor, info) = match glossiness {
-            Some(of) => (of.diffuse_factor.0[3], of.diffuse_texture.as_ref()),
-            None => {
-                let of = &material.pbr_metallic_roughness;
-                (of.base_color_factor.0[3], of.base_color_texture.as_ref())
-            }
-        };
+        let of = &material.pbr_metallic_roughness;
+        let (factor, info) = (of.base_color_factor.0[3], of.base_color_texture.as_ref());
         let [factor] = self.shares("the opacity", [factor]);
         let mut opacity = Texture::number(factor);
         if let Some(info) = info

@@ -9,9 +9,9 @@ use etendue::light::{EnvironmentMap, ImageEnvironment, Texel};
 use etendue::{Real, Vec2, f32x8, u32x8};
 use etendue_render::limits::MOST_RADIANCE;
 use etendue_render::scene::{Message, SkyRadiance, SunDisk};
-use etendue_render::sky::{GeneralSky, Moment, SunPosition};
+use etendue_render::sky::GeneralSky;
 use rayon::prelude::*;
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 /// Columns and rows of the image, and places in a texel along each axis.
 const SIDE: usize = 512;
@@ -74,65 +74,20 @@ pub(super) fn read(
     Ok((!is_dark || disk.is_some()).then_some((sky, disk)))
 }
 
-/// Unit vector to the sun in the light's space.
+/// Unit vector to the sun in the light's space, in which +x is east, +y north and +z up.
 fn sun(params: &mut Params, may_lack: bool) -> Result<[f64; 3], Message> {
-    let place = [params.float("latitude")?, params.float("longitude")?];
-    let [latitude, longitude] = match (params.float("elevation")?, place) {
-        (Some(_), [Some(_), _] | [_, Some(_)]) => {
-            return Err(params.error("\"elevation\" and \"latitude\": the sun has one or the other"));
-        }
-        (Some(elevation), _) => {
-            if !(0.0..=90.0).contains(&elevation) {
-                return Err(
-                    params.error(format!("\"elevation\": must be from 0 to 90 degrees, not {}", shown(elevation)))
-                );
-            }
-            let azimuth = params.float("azimuth")?.unwrap_or(180.0);
-            if !azimuth.is_finite() {
-                return Err(params.error(format!("\"azimuth\": must be finite, not {}", shown(azimuth))));
-            }
-            let position = SunPosition { elevation: elevation.to_radians(), azimuth: azimuth.to_radians() };
-            return Ok(position.direction());
-        }
-        (None, [None, None]) if may_lack => return Ok([0.0, 0.0, 1.0]),
-        (None, [Some(latitude), Some(longitude)]) => [latitude, longitude],
-        _ => return Err(params.error("needs \"elevation\", or \"latitude\" and \"longitude\", for its sun")),
+    let Some(elevation) = params.float("elevation")? else {
+        return if may_lack { Ok([0.0, 0.0, 1.0]) } else { Err(params.error("needs \"elevation\" for its sun")) };
     };
-    let mut date = |name: &str| -> Result<i64, Message> {
-        params.integer(name)?.ok_or_else(|| params.error(format!("needs {name:?} for its sun")))
-    };
-    let [year, month, day] = [date("year")?, date("month")?, date("day")?];
-    let hours = params.float("hours")?.ok_or_else(|| params.error("needs \"hours\" for its sun"))?;
-    let zone = params.float("timezone")?.unwrap_or(0.0);
-    if !(0.0..=24.0).contains(&hours) || !(-24.0..=24.0).contains(&zone) {
-        return Err(params.error(format!(
-            "\"hours\" must be from 0 to 24 and \"timezone\" from -24 to 24, not {} and {}",
-            shown(hours),
-            shown(zone)
-        )));
+    if !(0.0..=90.0).contains(&elevation) {
+        return Err(params.error(format!("\"elevation\": must be from 0 to 90 degrees, not {}", shown(elevation))));
     }
-    let small = |x: i64| u32::try_from(x).unwrap_or(0);
-    let time = Moment {
-        year: i32::try_from(year).unwrap_or(0).clamp(-9999, 9999),
-        month: small(month),
-        day: small(day),
-        hours: hours - zone,
-    };
-    if i64::from(time.year) != year || !time.is_valid() {
-        return Err(params.error(format!("there is no day {year}-{month}-{day}")));
+    let azimuth = params.float("azimuth")?.unwrap_or(180.0);
+    if !azimuth.is_finite() {
+        return Err(params.error(format!("\"azimuth\": must be finite, not {}", shown(azimuth))));
     }
-    let position = SunPosition::new(time, latitude, longitude).ok_or_else(|| {
-        params.error(format!(
-            "\"latitude\" must be from -90 to 90 and \"longitude\" from -180 to 180 degrees, not {} and {}",
-            shown(latitude),
-            shown(longitude)
-        ))
-    })?;
-    if position.elevation < 0.0 {
-        let below = shown(-position.elevation.to_degrees());
-        return Err(params.error(format!("the sun is {below} degrees below the horizon at that time")));
-    }
-    Ok(position.direction())
+    let [(s, c), (sin, cos)] = [elevation, azimuth].map(|degrees| (degrees.to_radians() / TAU).sin_cos_turns());
+    Ok([c * sin, c * cos, s])
 }
 
 /// The mean of each texel, over the luminance of the zenith.

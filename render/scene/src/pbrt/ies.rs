@@ -5,14 +5,10 @@
 //!
 //! The factors of `TILT`, by which some lamps are dimmer when the luminaire is tilted, are ignored: a scene does not know where the ground is.
 //!
-//! | type | polar axis | vertical angle | horizontal angle |
-//! |---|---|---|---|
-//! | C | nadir | from the nadir | from the photometric horizontal, counterclockwise seen from above |
-//! | B | photometric horizontal | from the plane perpendicular to it | from the nadir to the right, with the axis up |
-//! | A | vertical | from the horizontal plane upwards | from the photometric horizontal to the right |
+//! Only the photometric type C is read, which luminaires for rooms and streets have, not B of floodlights and A of headlamps. Its vertical
+//! angles are from the nadir, and its horizontal ones from the photometric horizontal, counterclockwise seen from above.
 
 use super::inputs::Files;
-use crate::distribution::Axis;
 use crate::message::shown;
 use etendue_render::intensity::{Intensity, Profile};
 
@@ -23,12 +19,6 @@ pub(super) struct Photometry {
     pub(super) intensity: Intensity,
     /// The greatest intensity in candela.
     pub(super) greatest: f64,
-    /// The axes of the profile's space, in light space.
-    pub(super) axes: [Axis; 3],
-    /// Where the luminaire is aimed at, in light space: the nadir, or the photometric horizontal in type A.
-    pub(super) ahead: Axis,
-    /// What is at its side: the photometric horizontal, or the zenith in type A.
-    pub(super) aside: Axis,
     /// What of the file is ignored.
     pub(super) warnings: Vec<String>,
 }
@@ -134,8 +124,6 @@ fn skip_tilt(numbers: &mut Numbers<'_>) -> Result<(), String> {
 struct Header {
     rows: usize,
     columns: usize,
-    /// The letter of the photometric type.
-    kind: char,
     /// What candela values are multiplied by.
     factor: f64,
 }
@@ -148,11 +136,11 @@ impl Header {
         let multiplier = numbers.within("multiplier", 0.0, f64::MAX)?;
         let rows = numbers.count("number of vertical angles")?;
         let columns = numbers.count("number of horizontal angles")?;
-        let kind = match numbers.within("photometric type", 1.0, 3.0)? {
-            kind if kind < 2.0 => 'C',
-            kind if kind < 3.0 => 'B',
-            _ => 'A',
-        };
+        let kind = numbers.number("photometric type")?;
+        if kind != 1.0 {
+            let what = format!("photometric type: must be 1, which is type C, not {}", shown(kind));
+            return Err(numbers.error(numbers.line(), what));
+        }
         for what in ["units", "width", "length", "height"] {
             numbers.number(what)?;
         }
@@ -173,18 +161,16 @@ impl Header {
             );
             return Err(numbers.error(line, what));
         }
-        Ok(Self { rows, columns, kind, factor })
+        Ok(Self { rows, columns, factor })
     }
 
     /// The vertical angles in degrees, and the columns of all azimuths: those of the file and their mirror images.
     fn table(&self, numbers: &mut Numbers<'_>) -> Result<(Vec<f32>, Columns), String> {
-        let is_c = self.kind == 'C';
-        let [vertical, horizontal] = if is_c { [[0.0, 180.0], [0.0, 360.0]] } else { [[-90.0, 90.0]; 2] };
-        let polar = numbers.angles(self.rows, "vertical angle", vertical[0], vertical[1])?;
+        let polar = numbers.angles(self.rows, "vertical angle", 0.0, 180.0)?;
         if self.rows < 2 {
             return Err(numbers.error(numbers.line(), "a single vertical angle: at least two are needed"));
         }
-        let azimuth = numbers.angles(self.columns, "horizontal angle", horizontal[0], horizontal[1])?;
+        let azimuth = numbers.angles(self.columns, "horizontal angle", 0.0, 360.0)?;
         let line = numbers.line();
         let mut columns = Columns::with_capacity(self.columns);
         for &angle in &azimuth {
@@ -193,21 +179,19 @@ impl Header {
             columns.push((angle, column?));
         }
         let ends = [azimuth[0], azimuth[self.columns - 1]];
-        let columns = match (is_c, ends) {
+        let columns = match ends {
             _ if self.columns == 1 => vec![(0.0, columns.swap_remove(0).1)],
-            (true, [0.0, 90.0]) => mirrored(mirrored(columns, 90.0), 180.0),
-            (true, [0.0, 180.0]) => mirrored(columns, 180.0),
-            (true, [0.0, 360.0]) => columns,
-            (true, [90.0, 270.0]) => {
+            [0.0, 90.0] => mirrored(mirrored(columns, 90.0), 180.0),
+            [0.0, 180.0] => mirrored(columns, 180.0),
+            [0.0, 360.0] => columns,
+            [90.0, 270.0] => {
                 mirrored(columns, 270.0).into_iter().map(|(angle, column)| (angle - 360.0, column)).collect()
             }
-            (false, [0.0, 90.0]) => mirrored(columns, 0.0),
-            (false, [-90.0, 90.0]) => columns,
-            (_, [first, last]) => {
-                let may = if is_c { "0 to 90, 180 or 360, or from 90 to 270" } else { "0 or -90 to 90" };
-                let what =
-                    format!("horizontal angles from {first} to {last} in type {}: must be from {may}", self.kind);
-                return Err(numbers.error(line, what));
+            [first, last] => {
+                let may = "0 to 90, 180 or 360, or from 90 to 270";
+                return Err(
+                    numbers.error(line, format!("horizontal angles from {first} to {last}: must be from {may}"))
+                );
             }
         };
         Ok((polar, columns))
@@ -240,14 +224,8 @@ pub(super) fn parse(text: &str, name: &str) -> Result<Photometry, String> {
     let unit = if greatest > 0.0 { greatest } else { 1.0 };
     let values: Vec<f32> = columns.iter().flat_map(|(_, column)| column.iter().map(|x| (x / unit) as f32)).collect();
     let azimuth: Vec<f32> = columns.iter().map(|(angle, _)| *angle).collect();
-    let nadir = ((1, -1.0), (0, 1.0));
-    let (polar, axes, (ahead, aside)): (Vec<f32>, _, _) = match header.kind {
-        'C' => (polar, [(0, 1.0), (2, 1.0), (1, -1.0)], nadir),
-        'B' => (polar.iter().map(|v| v + 90.0).collect(), [(1, -1.0), (2, -1.0), (0, -1.0)], nadir),
-        _ => (polar.iter().map(|v| v + 90.0).collect(), [(0, 1.0), (2, -1.0), (1, -1.0)], ((0, 1.0), (1, 1.0))),
-    };
     // angles that differ by too little are the same once they are mirrored
     let profile = Profile::new(polar, azimuth, values).map_err(|error| format!("{name}: {error}"))?;
     let intensity = Intensity::Angles(profile);
-    Ok(Photometry { intensity, greatest: greatest * header.factor, axes, ahead, aside, warnings })
+    Ok(Photometry { intensity, greatest: greatest * header.factor, warnings })
 }

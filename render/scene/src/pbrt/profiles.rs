@@ -22,6 +22,8 @@ pub(super) struct Profile {
 
 /// Axes of the images of directions: pbrt has y up, and images have z.
 const UP: [Axis; 3] = [(0, 1.0), (2, 1.0), (1, 1.0)];
+/// Axes of IES files, whose pole is the nadir.
+const DOWN: [Axis; 3] = [(0, 1.0), (2, 1.0), (1, -1.0)];
 
 /// Reads an IES file, or pbrt's square image of directions, or an older one of longitude and latitude; `None` if it is dark.
 pub(super) fn read(
@@ -34,11 +36,10 @@ pub(super) fn read(
         let image = picture(params, name, files)?;
         return sphere(&image).map_err(|what| params.error(format!("{name}: {what}")));
     }
-    let ies::Photometry { intensity, greatest, axes, ahead, aside, warnings } =
+    let ies::Photometry { intensity, greatest, warnings } =
         ies::read(name, files).map_err(|what| params.error(what))?;
     warnings.into_iter().for_each(|what| notes.warn(params.error(what)));
-    let aim = Aim { axes, ahead, aside };
-    Ok((greatest > 0.0).then_some(Profile { intensity, greatest, aim }))
+    Ok((greatest > 0.0).then_some(Profile { intensity, greatest, aim: Aim { axes: DOWN } }))
 }
 
 /// Reads an image without what no light can have.
@@ -69,7 +70,6 @@ fn sphere(image: &Picture) -> Result<Option<Profile>, String> {
         image.radiance.iter().map(|rgb| rgb.iter().map(|&x| f64::from(x)).sum::<f64>() / 3.0).collect();
     let greatest = means.iter().fold(0.0, |most: f64, &x| most.max(x));
     let texels = means.iter().map(|x| (x / greatest.max(f64::MIN_POSITIVE)) as f32).collect();
-    let aim = Aim { axes: UP, ahead: (1, -1.0), aside: (0, 1.0) };
-    let profile = |intensity| Profile { intensity, greatest, aim };
+    let profile = |intensity| Profile { intensity, greatest, aim: Aim { axes: UP } };
     Ok(Intensity::sphere(map, image.width, texels).map(profile))
 }

@@ -335,20 +335,6 @@ fn anisotropic_roughness() {
 }
 
 #[test]
-fn specular_and_glossiness() {
-    let asset = textured(json!({"extensions": {"KHR_materials_pbrSpecularGlossiness": {
-        "diffuseFactor": [0.5, 0.5, 0.5, 1], "diffuseTexture": {"index": 0},
-        "specularFactor": [0.25, 0.5, 1], "glossinessFactor": 0.5,
-    }}}));
-    let Varying::Glossy { diffuse, specular, roughness: [along, across], turn: 0.0, .. } = varying(&asset) else {
-        panic!()
-    };
-    assert_eq!(diffuse.at([0.25, 0.25]), [0.5, 0.0, 0.0]);
-    assert_eq!(specular, Texture::Constant([0.25, 0.5, 1.0]));
-    assert_eq!([along, across], [0.25; 2].map(Texture::number));
-}
-
-#[test]
 fn textures_of_unsupported_extensions() {
     let mut asset = textured(json!({"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}));
     asset.json["textures"][0]["extensions"] = json!({"KHR_texture_basisu": {"source": 7}});
