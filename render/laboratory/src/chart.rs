@@ -148,7 +148,7 @@ pub fn measure(options: &Options, stop: &Arc<AtomicBool>) -> Result<Outcome, Box
     let rows = render(&plan, options, &pool, stop, &mut notes)?;
     let baseline = Way { technique: options.baseline, choice: options.choices[0], sampler: Sampler::Independent };
     let summaries = (0..plan.scenes.len())
-        .map(|scene| Summary::new(&plan, &rows, scene, baseline, options.target))
+        .map(|scene| Summary::new(&plan, &rows, scene, baseline))
         .filter(|s| !s.series.is_empty())
         .collect();
     Ok(Outcome { plan, rows, summaries, facts, notes })

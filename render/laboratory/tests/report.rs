@@ -3,7 +3,7 @@
 use etendue_laboratory::chart::charts::{self, Against, Measure};
 use etendue_laboratory::chart::measure::{ChartedScene, Key, Plan, Row, Rows};
 use etendue_laboratory::chart::reference::{Difference, Reference};
-use etendue_laboratory::chart::summary::{Summary, Time, Way};
+use etendue_laboratory::chart::summary::{Summary, Way};
 use etendue_laboratory::chart::{Outcome, plot, report};
 use etendue_render::{ChoiceBy, Sampler, Technique, World};
 use std::collections::HashSet;
@@ -55,7 +55,7 @@ fn outcome(names: &[&str]) -> Outcome {
     }
     let plan = Plan { scenes, keys, replicates: 3, seed: 0 };
     let baseline = Way { technique: Technique::Area, choice: ChoiceBy::Auto, sampler: Sampler::Independent };
-    let summaries = (0..names.len()).map(|scene| Summary::new(&plan, &rows, scene, baseline, None)).collect();
+    let summaries = (0..names.len()).map(|scene| Summary::new(&plan, &rows, scene, baseline)).collect();
     Outcome { plan, rows, summaries, facts: Vec::new(), notes: vec!["a remark at the end".to_owned()] }
 }
 
@@ -117,11 +117,11 @@ fn one_series_of_each_technique_is_shown_at_first() {
     let outcome = outcome(&["quads"]);
     let page = page(&outcome);
     let parts: Vec<&str> = page.split("<figure").skip(1).collect();
-    // two errors against four costs, efficiency and time
-    assert_eq!(parts.len(), 10);
+    // two errors against four costs, and efficiency
+    assert_eq!(parts.len(), 9);
     let at_first = |part: &&&str| !part.starts_with(" class=\"off\"");
-    assert_eq!(parts.iter().filter(at_first).count(), 4);
-    let table = parts[9].split_once("<table>").unwrap().1;
+    assert_eq!(parts.iter().filter(at_first).count(), 3);
+    let table = parts[8].split_once("<table>").unwrap().1;
     for part in parts.iter().map(|p| p.split("</figure>").next().unwrap()).chain([table]) {
         let all = series(part);
         assert_eq!(all.len(), 9, "{all:?}");
@@ -153,11 +153,6 @@ fn bars_are_sorted_and_notes_come_last() {
     let gain = |i: usize| summary.gains.iter().find(|g| g.series == i).unwrap().gain.value;
     let efficiency = series(part(": efficiency at")).iter().map(|s| value(s.0, &gain)).collect::<Vec<_>>();
     assert!(efficiency.len() == 9 && efficiency.is_sorted_by(|a, b| a >= b), "{efficiency:?}");
-    // what even the fewest samples reach comes first
-    let order = |i: usize| summary.series[i].seconds_to(summary.target).unwrap().order();
-    let index = |id: &str| summary.series.iter().position(|s| charts::id(s) == id).unwrap();
-    let times = series(part(": time to a mean")).iter().map(|s| order(index(s.0))).collect::<Vec<_>>();
-    assert!(times.len() == 9 && times.is_sorted() && times[0] != times[8], "{times:?}");
     // rows are stacked from the top without gaps, hidden ones aside
     let rows: Vec<&str> = part(": efficiency at").split("translate(0 ").skip(1).collect();
     let places: Vec<i32> = rows.iter().map(|r| r[..r.find(')').unwrap()].parse().unwrap()).collect();
@@ -174,24 +169,6 @@ fn every_technique_has_a_colour_and_every_sampler_a_line_of_its_own() {
     assert_eq!(colours.len(), Technique::ALL.len());
 }
 
-#[test]
-fn a_target_that_the_fewest_samples_reach_takes_less_than_their_time() {
-    let mut outcome = outcome(&["quads"]);
-    let summary = &mut outcome.summaries[0];
-    // reached by solid-angle at one sample per pixel, and by area at four
-    summary.target = 0.025;
-    let time = |technique: Technique| {
-        let way = Way { technique, choice: ChoiceBy::Auto, sampler: Sampler::Independent };
-        summary.series.iter().find(|s| s.way == way).unwrap().seconds_to(0.025).unwrap()
-    };
-    assert_eq!(
-        (time(Technique::SolidAngle), time(Technique::SolidAngle).text()),
-        (Time::Less(0.01), "< 0.01 s".to_owned())
-    );
-    assert!((time(Technique::Area).seconds() / 0.04 - 1.0).abs() < 0.02, "{:?}", time(Technique::Area));
-    assert!(page(&outcome).contains("<td>&lt; 0.01 s</td>"));
-}
-
 /// Differences of three replicates from the reference that no chance explains are named, and chance is not.
 #[test]
 fn a_bias_is_named_where_there_is_one() {
@@ -206,7 +183,7 @@ fn a_bias_is_named_where_there_is_one() {
         }
     }
     let baseline = Way { technique: Technique::Area, choice: ChoiceBy::Auto, sampler: Sampler::Independent };
-    let summary = Summary::new(&outcome.plan, &outcome.rows, 0, baseline, None);
+    let summary = Summary::new(&outcome.plan, &outcome.rows, 0, baseline);
     // t of three values beyond which chance comes once in 20 × 27 times: its probability is 1 − t/√(2 + t²)
     let t = summary.bias_limit;
     assert!((1.0 - t / (2.0 + t * t).sqrt() - 0.05 / 27.0).abs() < 1e-9, "{t}");
@@ -230,7 +207,7 @@ fn charts_of_choices_name_the_choices() {
     outcome.rows = outcome.rows.iter().map(|(key, rows)| (rename(key), rows.clone())).collect();
     outcome.plan.keys.iter_mut().for_each(|key| *key = rename(key));
     let baseline = Way { technique: Technique::Area, choice: ChoiceBy::Uniform, sampler: Sampler::Independent };
-    let summary = Summary::new(&outcome.plan, &outcome.rows, 0, baseline, None);
+    let summary = Summary::new(&outcome.plan, &outcome.rows, 0, baseline);
     let drawing = charts::error(&summary, Against::Rays, Measure::RelativeMse).unwrap().drawing.file();
     for name in ["by uniform, sobol", "by power, stratified", "by tree, sobol", "rays, solid-angle", "rays per image"] {
         assert!(drawing.contains(name), "{name}");

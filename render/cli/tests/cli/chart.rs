@@ -1,5 +1,6 @@
 //! Runs `etendue chart` as a user would, and checks their measurements.
 
+use super::Folder;
 use etendue_laboratory::chart::measure::{Row, Rows};
 use etendue_laboratory::chart::reference::Reference;
 use etendue_laboratory::chart::{self, Options};
@@ -7,49 +8,25 @@ use etendue_oracle::tier::cases;
 use etendue_render::compare::{Comparison, differs};
 use etendue_render::image::Picture;
 use etendue_render::{ChoiceBy, Sampler, Settings, Technique, World};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command, Output, Stdio};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
+use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
-use std::{env, fs, process, thread};
-
-/// A temporary folder for a test, removed when the test ends.
-struct Folder(PathBuf);
+use std::{env, fs, thread};
 
 impl Folder {
-    fn new() -> Self {
-        static NEXT: AtomicU32 = AtomicU32::new(0);
-        let name = format!("etendue-chart-{}-{}", process::id(), NEXT.fetch_add(1, Ordering::Relaxed));
-        let path = env::temp_dir().join(name);
-        fs::create_dir_all(&path).unwrap();
-        Self(path)
-    }
     fn command(&self, arguments: &str) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_etendue"));
         command.current_dir(&self.0).args(arguments.split(' '));
         command
     }
     /// Runs the program, which must succeed, and returns its standard output.
-    fn succeed(&self, arguments: &str) -> String {
-        let output = self.command(arguments).output().unwrap();
-        text(&output, 0).0
-    }
-    /// Runs the program, which must exit with code 2, and returns its message.
-    fn fail(&self, arguments: &str) -> String {
-        let output = self.command(arguments).output().unwrap();
-        let error = text(&output, 2).1;
-        assert!(!error.contains("panicked"), "{error}");
-        error
+    fn chart(&self, arguments: &str) -> String {
+        text(&self.command(arguments).output().unwrap(), 0).0
     }
     fn read(&self, name: &str) -> String {
-        fs::read_to_string(self.0.join(name)).unwrap()
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        let _ = fs::remove_dir_all(&self.0);
+        fs::read_to_string(self.path(name)).unwrap()
     }
 }
 
@@ -64,7 +41,7 @@ const SMALL: &str = "chart triangle-light --size 32x32 --spp 1,4 --techniques ar
 #[test]
 fn a_run_is_resumed_and_its_page_needs_nothing_else() {
     let folder = Folder::new();
-    let out = folder.succeed(&format!("{SMALL} --replicates 2 -o out"));
+    let out = folder.chart(&format!("{SMALL} --replicates 2 -o out"));
     assert!(
         out.contains("triangle-light") && out.contains("area, independent") && out.contains("report.html"),
         "{out}"
@@ -108,15 +85,15 @@ fn a_run_is_resumed_and_its_page_needs_nothing_else() {
 
     // the same command measures nothing; one more replicate adds four lines and removes an incomplete one
     assert!(
-        folder.succeed(&format!("{SMALL} --replicates 2 -o out")).contains("8 measurements come from an earlier run")
+        folder.chart(&format!("{SMALL} --replicates 2 -o out")).contains("8 measurements come from an earlier run")
     );
     assert_eq!(folder.read("out/measurements.csv"), table);
     fs::write(folder.0.join("out/measurements.csv"), format!("{table}0123,triangle-li")).unwrap();
-    folder.succeed(&format!("{SMALL} --replicates 3 -o out"));
+    folder.chart(&format!("{SMALL} --replicates 3 -o out"));
     let more = folder.read("out/measurements.csv");
     assert!(more.starts_with(&table) && more.lines().count() == 1 + 3 * 2 * 2, "{more}");
     // other settings are measured anew, and the earlier measurements are kept
-    let out = folder.succeed(&format!("{SMALL} --replicates 2 --seed 9 -o out"));
+    let out = folder.chart(&format!("{SMALL} --replicates 2 --seed 9 -o out"));
     assert!(out.contains("12 measurements with other settings"), "{out}");
     assert!(folder.read("out/measurements.csv").starts_with(&more));
 }
@@ -126,17 +103,17 @@ fn equal_techniques_are_left_out_and_choices_are_curves() {
     let folder = Folder::new();
     // a technique that equals another one in a scene is left out, with a note
     let out =
-        folder.succeed("chart delta-lights --quick --size 16x16 --spp 4 --replicates 2 --samplers stratified -o other");
+        folder.chart("chart delta-lights --quick --size 16x16 --spp 4 --replicates 2 --samplers stratified -o other");
     assert!(out.contains("cosine-hemisphere is left out: it gives the same image as uniform-hemisphere"), "{out}");
     assert!(!folder.read("other/measurements.csv").contains("cosine-hemisphere"));
     // a page of somebody else stays as it is
     fs::create_dir(folder.0.join("theirs")).unwrap();
     fs::write(folder.0.join("theirs/report.html"), "<title>A year</title>").unwrap();
-    let error = folder.fail(&format!("{SMALL} -o theirs"));
+    let error = folder.fail(&format!("{SMALL} -o theirs").split(' ').collect::<Vec<_>>());
     assert!(error.contains("theirs/report.html: this is no report of a chart: choose another folder"), "{error}");
     assert_eq!(folder.read("theirs/report.html"), "<title>A year</title>");
     // one chart with a curve for each choice of a light, by its name
-    let out = folder.succeed(
+    let out = folder.chart(
         "chart quads --size 16x16 --spp 4 --replicates 2 --reference-spp 32 --samplers sobol --choice uniform,power,spatial,tree,kinds -o by",
     );
     let chart = folder.read("by/quads-error-time.svg");
@@ -153,13 +130,12 @@ fn equal_techniques_are_left_out_and_choices_are_curves() {
 fn faults_are_reported() {
     let folder = Folder::new();
     let says = |arguments: &str, words: &[&str]| {
-        let error = folder.fail(arguments);
+        let error = folder.fail(&arguments.split(' ').collect::<Vec<_>>());
         assert!(words.iter().all(|w| error.contains(w)), "{arguments}: {error}");
     };
     says("chart none.pbrt", &["none.pbrt"]);
     says("chart quads --spp 0", &["--spp", "0"]);
     says("chart quads --techniques luck", &["luck"]);
-    says("chart quads --target=-1", &["--target"]);
     says("chart quads sphere-light --reference a.exr", &["--reference"]);
     says("chart quads --reference a.exr", &["a.exr"]);
     says("chart quads --spp 3 --samplers adaptive", &["nothing to measure", "adaptive"]);
@@ -172,14 +148,14 @@ fn faults_are_reported() {
     fs::write(folder.0.join("out/measurements.csv"), "a,b\n1,2\n").unwrap();
     says(&format!("{SMALL} -o out"), &["measurements.csv", "line 1"]);
     fs::remove_file(folder.0.join("out/measurements.csv")).unwrap();
-    folder.succeed(&format!("{SMALL} --replicates 1 -o out"));
+    folder.chart(&format!("{SMALL} --replicates 1 -o out"));
     let table = folder.read("out/measurements.csv");
     fs::write(folder.0.join("out/measurements.csv"), table.replacen(",1,0,", ",1,one,", 1)).unwrap();
     says(&format!("{SMALL} -o out"), &["measurements.csv", "line 2", "\"one\"", "replicate"]);
     fs::write(folder.0.join("file"), "").unwrap();
     says(&format!("{SMALL} -o file"), &["file"]);
     // a reference whose size is not a multiple of the image's
-    folder.succeed("render quads --size 9x9 --spp 4 -o a.exr");
+    folder.chart("render quads --size 9x9 --spp 4 -o a.exr");
     says("chart quads --reference a.exr --size 8x8", &["a.exr", "9x9", "8x8"]);
 }
 
@@ -238,7 +214,6 @@ fn options(output: &Path, scene: &str) -> Options {
         seed: 5,
         threads: 0,
         baseline: Technique::Area,
-        target: None,
         time_limit: None,
         quick: false,
         long: false,

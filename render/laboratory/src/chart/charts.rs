@@ -2,7 +2,7 @@
 
 use super::plot::{Bar, BarRow, Bars, Chart, Dot, Drawing, Line, Scale, short};
 use super::stats::Estimate;
-use super::summary::{Point, Series, Summary, Time};
+use super::summary::{Gain, Point, Series, Summary};
 
 /// A chart with a file name and a caption.
 #[derive(Clone, Debug)]
@@ -150,40 +150,30 @@ pub fn error(summary: &Summary, against: Against, measure: Measure) -> Option<Fi
 #[must_use]
 pub fn all(summary: &Summary) -> Vec<Figure> {
     let errors = Measure::ALL.iter().flat_map(|m| Against::ALL.map(|a| error(summary, a, *m)));
-    errors.chain([efficiency(summary), time_to_error(summary)]).flatten().collect()
-}
-
-/// A bar of a series, and what sorts it.
-type Sorted = ((bool, f64), BarRow);
-
-/// The bars, the least first.
-fn sorted(mut rows: Vec<Sorted>) -> Vec<BarRow> {
-    rows.sort_by(|(a, _), (b, _)| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
-    rows.into_iter().map(|(_, row)| row).collect()
-}
-
-fn row(summary: &Summary, index: usize, bar: Bar, text: String, sure: bool) -> BarRow {
-    let series = &summary.series[index];
-    let shown = summary.leaders().contains(&index);
-    BarRow { id: id(series), name: summary.name(&series.way), color: series.way.color(), bar, text, sure, shown }
+    errors.chain([efficiency(summary)]).flatten().collect()
 }
 
 /// Draws efficiency relative to the baseline, the greatest first; `None` if there is no baseline.
 #[must_use]
 pub fn efficiency(summary: &Summary) -> Option<Figure> {
     let baseline = &summary.series[summary.baseline?];
-    let rows = summary.gains.iter().map(|g| {
+    let leaders = summary.leaders();
+    let row = |g: &Gain| {
         // the interval is that of a logarithm
         let factor = 1.0 + g.gain.half / g.gain.value;
         let bar = Bar { value: g.gain.value, low: g.gain.value / factor, high: g.gain.value * factor };
         let sure = g.gain.is_sure() || Some(g.series) == summary.baseline;
         let text = format!("{}×{}", short(g.gain.value), if sure { "" } else { " ?" });
-        ((false, -g.gain.value), row(summary, g.series, bar, text, sure))
-    });
+        let (series, shown) = (&summary.series[g.series], leaders.contains(&g.series));
+        let (name, color) = (summary.name(&series.way), series.way.color());
+        BarRow { id: id(series), name, color, bar, text, sure, shown }
+    };
+    let mut rows: Vec<BarRow> = summary.gains.iter().map(row).collect();
+    rows.sort_by(|a, b| b.bar.value.total_cmp(&a.bar.value));
     let bars = Bars {
         title: format!("{}: efficiency at {} samples per pixel{}", summary.scene, summary.spp, summary.common()),
         label: format!("1/(error × time), relative to {}", baseline.way.title()),
-        rows: sorted(rows.collect()),
+        rows,
         origin: 1.0,
     };
     let caption =
@@ -191,37 +181,4 @@ pub fn efficiency(summary: &Summary) -> Option<Figure> {
                    Ratios compare replicates rendered in the same round. Hollow bars with ? have an interval too wide to support a claim."
             .to_owned();
     Some(Figure { file: "efficiency".to_owned(), shown_for: None, drawing: bars.draw(), caption })
-}
-
-/// Draws the seconds each series takes to reach the target error, the least first; `None` if no series reaches it.
-#[must_use]
-pub fn time_to_error(summary: &Summary) -> Option<Figure> {
-    let times: Vec<Option<Time>> = summary.series.iter().map(|s| s.seconds_to(summary.target)).collect();
-    let seconds = times.iter().flatten().map(|t| t.seconds());
-    let least = seconds.fold(f64::INFINITY, f64::min);
-    if !least.is_finite() || summary.target <= 0.0 {
-        return None;
-    }
-    let rows = times.iter().enumerate().map(|(index, time)| {
-        // unknown times come last
-        let (order, value) = time.map_or(((true, f64::INFINITY), f64::NAN), |t| (t.order(), t.seconds()));
-        let text = time.map_or_else(|| "unknown".to_owned(), Time::text);
-        (order, row(summary, index, Bar::exact(value), text, matches!(time, Some(Time::Sure(_)))))
-    });
-    let bars = Bars {
-        title: format!(
-            "{}: time to a mean squared error of {}{}",
-            summary.scene,
-            short(summary.target),
-            summary.common()
-        ),
-        label: "seconds".to_owned(),
-        rows: sorted(rows.collect()),
-        origin: least * 0.7,
-    };
-    let caption =
-        "Shorter is better. Where even the fewest samples suffice, < is before their time, and the bar is hollow as those with ≈: they \
-                   are extrapolated by the slope of the last two points, or rest on times with wide intervals."
-            .to_owned();
-    Some(Figure { file: "time-to-error".to_owned(), shown_for: None, drawing: bars.draw(), caption })
 }

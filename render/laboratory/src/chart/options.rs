@@ -55,9 +55,6 @@ pub struct Options {
     /// The technique that all others are compared with
     #[arg(long, value_name = "TECHNIQUE", value_parser = named::<Technique>(&Technique::NAMES), hide_possible_values = true, default_value = "area")]
     pub baseline: Technique,
-    /// Mean squared error to reach [default: the error of the best technique at the median sample count]
-    #[arg(long, value_name = "MSE")]
-    pub target: Option<f64>,
     /// Take at most this many seconds [default: 300; with --quick 150; as long as needed with --long or --spp]
     #[arg(long, value_name = "SECONDS", value_parser = whole::<u64>(0..=u64::MAX))]
     pub time_limit: Option<u64>,
@@ -77,9 +74,6 @@ impl Options {
         }
         if !(0.0..f64::INFINITY).contains(&self.reference_error) {
             return Err(format!("--reference-error {}: must be finite and at least 0", self.reference_error));
-        }
-        if self.target.is_some_and(|t| !t.is_finite() || t <= 0.0) {
-            return Err("--target: must be finite and greater than 0".to_owned());
         }
         Ok(())
     }

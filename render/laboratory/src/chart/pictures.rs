@@ -12,7 +12,7 @@ use etendue_render::{Settings, image};
 pub struct Picture {
     /// Stem of the file name.
     pub file: String,
-    /// Kind of picture: `image`, `difference`, `variance`, `wanted` or `samples`.
+    /// Kind of picture: `image`, `difference`, `variance` or `samples`.
     pub kind: &'static str,
     /// Title for the reader.
     pub title: String,
@@ -184,23 +184,20 @@ pub fn panel(outcome: &Outcome, summary: &Summary) -> Panel {
         let scaled = spread.variance.iter().map(|v| heat((v.max(low) / low).ln() / (high / low).ln()));
         push("variance", png(size, scaled));
         let number = |n: f64| heat(n.max(1.0).ln() / MOST_SAMPLES.ln());
-        push("wanted", png(size, spread.variance.iter().map(|v| number(f64::from(spp) * v / summary.target))));
         if spread.samples.windows(2).any(|w| w[0] != w[1]) {
             push("samples", png(size, spread.samples.iter().map(|n| number(f64::from(*n)))));
         }
     }
     let caption = format!(
         "Images have {spp} samples per pixel, adaptive ones on average. Difference: blue is too dark, red too bright. \
-         Variance: that of a pixel over {REPLICATES} replicates. Wanted: the number of samples a pixel would need for a variance of {}, if \
-         variance falls as 1/N. Samples: the number an adaptive sampler took. The last three have logarithmic scales.",
-        short(summary.target),
+         Variance: that of a pixel over {REPLICATES} replicates. Samples: the number an adaptive sampler took. Both \
+         have logarithmic scales.",
     );
-    let counts = || [1.0, MOST_SAMPLES.sqrt(), MOST_SAMPLES].map(short);
+    let counts = [1.0, MOST_SAMPLES.sqrt(), MOST_SAMPLES].map(short);
     let bars = vec![
         ColorBar::new("difference", -1.0, signed, [-range, 0.0, range].map(short), "image − reference, W/(m² sr)"),
         ColorBar::new("variance", 0.0, heat, [low, (low * high).sqrt(), high].map(short), "variance, (W/(m² sr))²"),
-        ColorBar::new("wanted", 0.0, heat, counts(), "samples per pixel that would be needed"),
-        ColorBar::new("samples", 0.0, heat, counts(), "samples per pixel"),
+        ColorBar::new("samples", 0.0, heat, counts, "samples per pixel"),
     ];
     Panel { scene: summary.scene.clone(), spp, pictures, caption, bars }
 }

@@ -30,10 +30,9 @@ fn table(summary: &Summary) -> String {
     let base = summary.baseline.map_or_else(String::new, |b| summary.series[b].way.title());
     let mut text = format!(
         "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"series\"><table><tr><th>series</th><th>slope over samples</th><th>slope over time</th><th>error at {0} spp</th>\
-         <th>seconds at {0} spp</th><th>efficiency relative to {1}</th><th>seconds to {2}</th><th>bias</th></tr>\n",
+         <th>seconds at {0} spp</th><th>efficiency relative to {1}</th><th>bias</th></tr>\n",
         summary.spp,
         escape(&base),
-        short(summary.target)
     );
     let leaders = summary.leaders();
     for &index in &summary.ranking {
@@ -42,10 +41,9 @@ fn table(summary: &Summary) -> String {
         let slope = |s: &Option<Estimate>| s.as_ref().map_or_else(unknown, |s| with_interval(s).replace('-', "−"));
         let point = series.at(summary.spp);
         let gain = summary.gains.iter().find(|g| g.series == index).map_or_else(unknown, |g| percent(&g.gain));
-        let seconds = series.seconds_to(summary.target).map_or_else(unknown, |time| escape(&time.text()));
         let _ = writeln!(
             text,
-            "<tr data-series=\"{}\"{}><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{gain}</td><td>{seconds}</td>\
+            "<tr data-series=\"{}\"{}><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{gain}</td>\
              <td>{}</td></tr>",
             escape(&id(series)),
             if leaders.contains(&index) { " data-best=\"\"" } else { " class=\"off\"" },

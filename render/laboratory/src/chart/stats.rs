@@ -135,38 +135,6 @@ pub fn slope(x: &[f64], replicates: &[Vec<f64>]) -> Option<Estimate> {
     Some(Estimate::of(&replicates.iter().map(one).collect::<Vec<_>>()))
 }
 
-/// Where a line falls to a level.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Reach {
-    /// At this x.
-    At(f64),
-    /// Before its first point, which is at this x.
-    Before(f64),
-    /// At this x, if it goes on like its last segment.
-    Beyond(f64),
-}
-
-/// The x at which a polyline through points (x, y), in order of x, falls to `y`, in logarithms.
-#[must_use]
-pub fn reach(points: &[(f64, f64)], y: f64) -> Option<Reach> {
-    let cross = |a: (f64, f64), b: (f64, f64)| {
-        let share = (y / a.1).ln() / (b.1 / a.1).ln();
-        (share.is_finite() && b.1 < a.1).then(|| a.0 * ((b.0 / a.0).ln() * share).exp())
-    };
-    let first = points.first()?;
-    if points.iter().any(|p| p.0 <= 0.0 || p.1 <= 0.0) {
-        return None;
-    }
-    if first.1 <= y {
-        return Some(Reach::Before(first.0));
-    }
-    if let Some(pair) = points.windows(2).find(|p| p[0].1 >= y && p[1].1 <= y) {
-        return cross(pair[0], pair[1]).map(Reach::At);
-    }
-    let [a, b] = points.last_chunk()?;
-    cross(*a, *b).map(Reach::Beyond)
-}
-
 /// The y at `x` of a polyline through points (x, y), in logarithms. Beyond its ends, y falls as 1/x. `None` without a positive point.
 #[must_use]
 pub fn level(points: &[(f64, f64)], x: f64) -> Option<f64> {
@@ -268,21 +236,8 @@ mod tests {
     }
 
     #[test]
-    fn a_line_reaches_a_level_within_and_beyond() {
+    fn a_line_has_a_level_within_and_beyond() {
         let line = [(1.0, 1.0), (2.0, 0.5), (8.0, 0.25)];
-        let close = |y: f64, make: fn(f64) -> Reach, x: f64| {
-            let (Reach::At(value) | Reach::Before(value) | Reach::Beyond(value)) = reach(&line, y).unwrap();
-            assert!((value / x - 1.0).abs() < 1e-12 && make(value) == reach(&line, y).unwrap(), "{value}");
-        };
-        close(0.5, Reach::At, 2.0);
-        close(0.5_f64.powf(1.5), Reach::At, 4.0);
-        close(2.0, Reach::Before, 1.0);
-        close(1.0, Reach::Before, 1.0);
-        close(0.125, Reach::Beyond, 32.0);
-        assert_eq!(reach(&line[..1], 0.5), None);
-        assert_eq!(reach(&[(1.0, 1.0), (2.0, 1.0)], 0.5), None);
-        assert_eq!(reach(&[(1.0, 1.0), (2.0, -1.0)], 0.5), None);
-        // the same line at a place
         for (x, y) in [(0.5, 2.0), (1.0, 1.0), (2.0, 0.5), (4.0, 0.5_f64.powf(1.5)), (8.0, 0.25), (16.0, 0.125)] {
             assert!((level(&line, x).unwrap() / y - 1.0).abs() < 1e-12, "{x}");
         }

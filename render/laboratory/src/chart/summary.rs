@@ -3,7 +3,7 @@
 use super::measure::{Key, Plan, Row, Rows, method};
 use super::plot::short;
 use super::reference::KNOWN_TO;
-use super::stats::{self, Cost, Estimate, Reach};
+use super::stats::{self, Cost, Estimate};
 use etendue_render::{ChoiceBy, Sampler, Technique};
 
 /// A technique with a choice of a light and a sampler.
@@ -90,41 +90,6 @@ impl Point {
     }
 }
 
-/// Seconds that something takes.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Time {
-    /// Less than these: even the image with the fewest samples does.
-    Less(f64),
-    /// These.
-    Sure(f64),
-    /// About these: extrapolated, or from times with wide intervals.
-    About(f64),
-}
-
-impl Time {
-    /// The number of seconds.
-    #[must_use]
-    pub fn seconds(self) -> f64 {
-        let (Self::Less(seconds) | Self::Sure(seconds) | Self::About(seconds)) = self;
-        seconds
-    }
-    /// The time in words, such as `< 0.19 s`.
-    #[must_use]
-    pub fn text(self) -> String {
-        let sign = match self {
-            Self::Less(_) => "< ",
-            Self::Sure(_) => "",
-            Self::About(_) => "≈ ",
-        };
-        format!("{sign}{} s", short(self.seconds()))
-    }
-    /// What sorts times: those that are less than some come first.
-    #[must_use]
-    pub fn order(self) -> (bool, f64) {
-        (!matches!(self, Self::Less(_)), self.seconds())
-    }
-}
-
 /// One line of a chart.
 #[derive(Clone, Debug)]
 pub struct Series {
@@ -150,18 +115,6 @@ impl Series {
         let slope = of(|p| p.mse.is_sure(), |p| f64::from(p.spp));
         let slope_in_time = of(Point::is_sure, |p| p.seconds.value);
         Self { way, points, slope, slope_in_time }
-    }
-    /// Seconds to reach a squared error.
-    #[must_use]
-    pub fn seconds_to(&self, mse: f64) -> Option<Time> {
-        let known = || self.points.iter().filter(|p| p.mse.is_sure());
-        let points: Vec<_> = known().map(|p| (p.seconds.value, p.mse.value)).collect();
-        let sure = known().all(|p| p.seconds.is_sure());
-        Some(match stats::reach(&points, mse)? {
-            Reach::Before(seconds) => Time::Less(seconds),
-            Reach::At(seconds) if sure => Time::Sure(seconds),
-            Reach::At(seconds) | Reach::Beyond(seconds) => Time::About(seconds),
-        })
     }
     /// Squared error that an image of this many seconds has, from the points with narrow intervals or, if there are none, from all.
     #[must_use]
@@ -213,8 +166,6 @@ pub struct Summary {
     pub spp: u32,
     /// Efficiencies relative to the baseline at `spp`.
     pub gains: Vec<Gain>,
-    /// The mean squared error to reach.
-    pub target: f64,
     /// Seconds per image at which errors are compared: the shortest time of a series at `spp`.
     pub seconds: f64,
     /// The number of standard errors beyond which chance brings a difference from the reference in one of twenty charts.
@@ -224,10 +175,9 @@ pub struct Summary {
 }
 
 impl Summary {
-    /// Summarises scene `scene` of a plan. If `baseline` was not measured, the first series takes its place. The default target is
-    /// the error of the best technique, with the baseline's sampler, at the median sample count.
+    /// Summarises scene `scene` of a plan. If `baseline` was not measured, the first series takes its place.
     #[must_use]
-    pub fn new(plan: &Plan, rows: &Rows, scene: usize, baseline: Way, target: Option<f64>) -> Self {
+    pub fn new(plan: &Plan, rows: &Rows, scene: usize, baseline: Way) -> Self {
         let series = lines(plan, rows, scene);
         let found = series.iter().position(|s| s.way == baseline);
         let baseline = found.or(if series.is_empty() { None } else { Some(0) });
@@ -240,7 +190,6 @@ impl Summary {
                 }
             }
         }
-        let target = target.or_else(|| baseline.map(|b| middle_error(&series, b))).unwrap_or(0.0);
         let at_spp = series.iter().filter_map(|s| s.at(spp));
         let seconds = at_spp.map(|p| p.seconds.value).fold(f64::INFINITY, f64::min);
         let errors: Vec<f64> = series.iter().map(|s| s.error_in(seconds).unwrap_or(f64::INFINITY)).collect();
@@ -251,7 +200,7 @@ impl Summary {
         let replicates = judged.clone().map(|p| p.costs.len()).min().unwrap_or(0);
         let bias_limit = stats::student(replicates, 0.05 / judged.count().max(1) as f64);
         let scene = plan.scenes[scene].name.clone();
-        Self { scene, series, baseline, spp, gains, target, seconds, bias_limit, ranking }
+        Self { scene, series, baseline, spp, gains, seconds, bias_limit, ranking }
     }
 
     /// The best series of each technique and choice, the least error first.
@@ -373,13 +322,4 @@ fn common_spp(series: &[Series], baseline: Option<usize>) -> u32 {
     let all = series.iter().flat_map(|s| s.points.iter().map(|p| p.spp));
     let in_baseline = |spp: &u32| baseline.is_none_or(|b| series[b].at(*spp).is_some());
     all.filter(in_baseline).max_by_key(|&n| (measured(n), n)).unwrap_or(0)
-}
-
-/// The error of the best technique, with the baseline's sampler, at the median sample count.
-fn middle_error(series: &[Series], baseline: usize) -> f64 {
-    let Series { way, points, .. } = &series[baseline];
-    let spp = points[points.len() / 2].spp;
-    let of_sampler = series.iter().filter(|s| s.way.sampler == way.sampler);
-    let errors = of_sampler.filter_map(|s| Some(s.at(spp)?.mse.value)).filter(|m| *m > 0.0);
-    errors.fold(f64::INFINITY, f64::min)
 }
