@@ -2,7 +2,6 @@
 
 use clap::Args;
 use etendue_laboratory::attack::claims::{self, SHARE, Tally, honest};
-use etendue_laboratory::attack::defects::{self, Table};
 use etendue_laboratory::attack::judge::Effort;
 use etendue_laboratory::attack::regimes::{REGIMES, Regime, named};
 use etendue_laboratory::attack::report::{self, QUICK, shrunk};
@@ -24,9 +23,6 @@ pub(crate) struct Options {
     /// Compare the errors that images claim with those that they have, instead
     #[arg(long)]
     claims: bool,
-    /// Compare the scenes on which the renderer was wrong once, instead
-    #[arg(long, conflicts_with_all = ["scenes", "claims", "regime", "shrink"])]
-    defects: bool,
     /// Take random scenes of these regimes only [default: all]
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     regime: Vec<String>,
@@ -50,13 +46,6 @@ pub(crate) struct Options {
 /// Prints the tables; returns whether all is well.
 pub(crate) fn run(options: &Options) -> Result<bool, Box<dyn Error>> {
     let pool = pool(options.threads)?;
-    if options.defects {
-        let compare = |case: &defects::Case| defects::compare(case, &defects::EFFORT);
-        let cases = defects::all();
-        let tables = pool.install(|| cases.iter().map(compare).collect::<Result<Vec<_>, _>>())?;
-        tables.iter().try_for_each(|table| write!(out(), "{table}"))?;
-        return Ok(tables.iter().all(Table::agrees));
-    }
     let find = |name: &String| named(name).ok_or_else(|| format!("no regime is called {name:?}: {}", known()));
     let mut regimes = options.regime.iter().map(find).collect::<Result<Vec<&Regime>, _>>()?;
     if regimes.is_empty() {

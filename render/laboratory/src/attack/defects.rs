@@ -1,12 +1,10 @@
-//! The scenes on which the renderer was wrong once, each with its variants, and what images of them show now.
+//! The scenes on which the renderer was wrong once, each with its variants.
 
 use super::build::{axes, cube, facing, level, placed, triangles};
 use super::draft::{Draft, Finish, Form, Look, Part, V3};
-use super::judge::{Effort, Trial, Verdict, confirmed, parse};
+use super::judge::Effort;
 use crate::random::Random;
 use etendue_oracle::along;
-use etendue_render::Technique;
-use std::fmt::{self, Display, Formatter};
 
 /// A scene on which the renderer was wrong.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,15 +17,6 @@ pub struct Case {
     pub text: String,
 }
 
-/// A case by several techniques and by the oracle.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Table {
-    letter: char,
-    about: &'static str,
-    verdict: Verdict,
-}
-
-const TECHNIQUES: [Technique; 4] = [Technique::Auto, Technique::Analytic, Technique::SolidAngle, Technique::Area];
 /// `auto` decides by the size of pixels, so images are as large as they usually are.
 pub const EFFORT: Effort = Effort { side: 256, block: 32, spp: 64, points: 1, seed: 7 };
 
@@ -147,46 +136,4 @@ pub fn all() -> Vec<Case> {
         case("sphere that emits on both sides", lantern()),
         found('L', "a triangle twice, its plane cuts a light", include_str!("defects/twins.pbrt")),
     ]
-}
-
-/// Renders a case by the techniques and by the oracle.
-///
-/// # Errors
-/// Fails if the renderer cannot read the scene.
-pub fn compare(case: &Case, effort: &Effort) -> Result<Table, String> {
-    let verdict = confirmed(&Trial::new(parse(&case.text)?, effort.side), &TECHNIQUES, effort)?;
-    Ok(Table { letter: case.letter, about: case.about, verdict })
-}
-
-impl Table {
-    /// Whether all techniques agree with the oracle.
-    #[must_use]
-    pub fn agrees(&self) -> bool {
-        self.verdict.failing().next().is_none()
-    }
-}
-
-impl Display for Table {
-    /// One line per technique: the mean relative to the oracle's, the worst block relative to the light if nothing hid it, and |z|.
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let Verdict { truth, rows } = &self.verdict;
-        let count = truth.len() as f64;
-        let mean = truth.iter().map(|block| block.mean).sum::<f64>() / count;
-        let error = truth.iter().map(|block| block.error.powi(2)).sum::<f64>().sqrt() / count;
-        writeln!(f, "{} {:36} oracle       {mean:.6e} ± {error:.1e}", self.letter, self.about)?;
-        for row in rows {
-            let chosen = if row.chosen == row.technique { String::new() } else { format!(" ({})", row.chosen.name()) };
-            writeln!(
-                f,
-                "  {:36} {:12} mean {:+10.3e}, worst block {:+10.3e}, |z| {:8.1}{}{chosen}",
-                "",
-                row.technique.name(),
-                row.mean,
-                row.greatest_difference(),
-                row.greatest_z(),
-                if row.failing().next().is_some() { "  DIFFERS" } else { "" }
-            )?;
-        }
-        Ok(())
-    }
 }
