@@ -1,12 +1,9 @@
 //! Compares what certificates allow to compute with the light that all primitives leave, in double precision: random patches and lights in
-//! difficult scenes. `occlusion` tests the closed forms alone.
+//! scenes that are difficult for closed forms. `occlusion` tests these alone, and the laboratory images of scenes with difficult bodies.
 
 use crate::brute_force::regimes::REGIMES;
 use crate::brute_force::values;
-use crate::meshes::{Triangle, cube, sheet};
 use etendue_oracle::tier::cases;
-use etendue_render::bvh::{Bvh, ShapeSet};
-use etendue_render::certify::Bodies;
 
 /// Patches and lights of each regime whose values are compared, and how many times as many are of chamfered boxes: a plane through rounded
 /// ends of an edge is wrong in one of ten thousand.
@@ -24,7 +21,7 @@ fn soundness(shafts: u64, chamfered: u64) {
             continue;
         }
         let shafts = if name == "chamfered boxes" { chamfered * shafts } else { shafts };
-        // eight regimes have numbers of their own; the ninth makes other scenes of those of the first
+        // regimes have numbers of their own
         let halves = [0, 1].map(|half| k.wrapping_mul(0x2000_0000) + half * 0x1000_0000 + 1);
         let parts = std::thread::scope(|scope| {
             let run = |first| scope.spawn(move || values::campaign(name, made, shafts / 2, first));
@@ -69,23 +66,4 @@ fn values_agree_with_the_truth() {
 #[ignore = "ten million patches and lights: half an hour"]
 fn values_agree_with_the_truth_at_length() {
     soundness(1_250_000, 1);
-}
-
-/// Median times of the search for bodies in the largest meshes that are searched: a sheet, and boxes side by side.
-#[test]
-#[ignore = "measures time"]
-fn time_per_search() {
-    let boxes = |k: usize| cube(1).into_iter().map(move |t| t.map(|[x, y, z]| [x + 4.0 * k as f32, y, z]));
-    let boxes: Vec<Triangle> = (0..65_536 / 12).flat_map(boxes).collect();
-    for (name, triangles) in [("sheet", sheet(181, |x, z| 0.25 * x * z)), ("boxes", boxes)] {
-        let bvh = Bvh::new(&triangles, ShapeSet::new(std::iter::empty()).unwrap()).unwrap();
-        let search = |_| {
-            let start = std::time::Instant::now();
-            (Bodies::new(&bvh).len(), start.elapsed().as_secs_f64() * 1e3)
-        };
-        let mut times = [0; 9].map(search);
-        times.sort_by(|a, b| a.1.total_cmp(&b.1));
-        let (found, milliseconds) = times[4];
-        println!("{name}: {found} bodies among {} triangles, {milliseconds:.1} ms", triangles.len());
-    }
 }

@@ -1,7 +1,7 @@
 //! Scenes of the regimes in which closed forms lose digits, and points of view from which blockers cut their lights.
 
-use super::scenes::{light, light_point, quad, scenes, shape};
-use super::solids::{Solid, block, cut, moved, solids};
+use super::scenes::{light_point, quad, shape};
+use super::solids::{Solid, block, cut, moved};
 use super::views::{Fit, View, World};
 use crate::meshes::{Random, Triangle};
 use etendue_oracle::{V3, along, cross, dot, length, sub, unit, wide};
@@ -18,15 +18,13 @@ pub(crate) struct Setting {
 type Regime = (&'static str, fn(&mut Random) -> Setting);
 
 /// All regimes.
-pub(crate) const REGIMES: [Regime; 9] = [
+pub(crate) const REGIMES: [Regime; 7] = [
     ("thin sheets", sheets),
     ("chamfered boxes", chamfered),
     ("inside spheres", inside),
     ("touching spheres", touching),
     ("small and far lights", far_lights),
     ("small lights far out", far_out),
-    ("difficult meshes", |random| drawn(scenes(random), random)),
-    ("solids", |random| drawn(solids(random), random)),
     ("long walls", walls),
 ];
 
@@ -298,15 +296,6 @@ fn walls(random: &mut Random) -> Setting {
     };
     let shapes = [0; 2].map(|_| each(random)).into();
     Setting { triangles, shapes, floors: 2 }
-}
-
-/// One of the scenes that other tests have, with one more light.
-fn drawn(all: super::scenes::Scenes, random: &mut Random) -> Setting {
-    let chosen = random.below(all.len());
-    let (_, triangles, mut shapes) = all.into_iter().nth(chosen).expect("one of them");
-    shapes.push(light(random, 0.3));
-    let floors = triangles.len();
-    Setting { triangles, shapes, floors }
 }
 
 impl World {
