@@ -67,7 +67,7 @@ pub struct Claim {
     pub pixels: f64,
 }
 
-/// In fewer pixels, the variances of few sets of samples tell the random error less well: `etendue selftest --claims` measures it.
+/// In fewer pixels, the variances of few sets of samples tell the random error less well.
 const ENOUGH: f64 = 8.0;
 
 impl Claim {

@@ -1,7 +1,6 @@
-//! `etendue selftest`: random scenes by all techniques against the oracle, and the errors that they claim.
+//! `etendue selftest`: random scenes by all techniques against the oracle.
 
 use clap::Args;
-use etendue_laboratory::attack::claims::{self, SHARE, Tally, honest};
 use etendue_laboratory::attack::judge::Effort;
 use etendue_laboratory::attack::regimes::{REGIMES, Regime, named};
 use etendue_laboratory::attack::report::{self, QUICK, shrunk};
@@ -20,14 +19,11 @@ pub(crate) struct Options {
     /// Number of random scenes of each regime
     #[arg(default_value_t = 10, value_parser = whole::<u64>(1..=1 << 32))]
     scenes: u64,
-    /// Compare the errors that images claim with those that they have, instead
-    #[arg(long)]
-    claims: bool,
     /// Take random scenes of these regimes only [default: all]
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     regime: Vec<String>,
     /// Write the scenes that differ to this folder, reduced to what still differs
-    #[arg(long, value_name = "FOLDER", conflicts_with = "claims")]
+    #[arg(long, value_name = "FOLDER")]
     shrink: Option<PathBuf>,
     /// Take this many samples per pixel
     #[arg(long, default_value_t = QUICK[1], value_parser = whole::<u32>(2..=MOST_SAMPLES.into()))]
@@ -52,10 +48,6 @@ pub(crate) fn run(options: &Options) -> Result<bool, Box<dyn Error>> {
         regimes.extend(&REGIMES);
     }
     let seeds = options.seed..options.seed + options.scenes;
-    if options.claims {
-        let quality = [options.side, options.spp];
-        return claim(&regimes, |regime| pool.install(|| claims::run(regime, seeds.clone(), quality)));
-    }
     compare(options, &regimes, &seeds, &pool)
 }
 
@@ -94,25 +86,6 @@ fn compare(
     let verdict = if differ == 0 { "all agree".to_owned() } else { format!("{differ} DIFFER") };
     writeln!(out(), "{scenes} scenes, {seconds:.1} s: greatest |z| {z:.2}, {verdict}")?;
     Ok(differ == 0)
-}
-
-/// Prints how the errors of images compare with those that they claim; returns whether enough are alike.
-fn claim(regimes: &[&Regime], run: impl Fn(&Regime) -> Result<Tally, String>) -> Result<bool, Box<dyn Error>> {
-    let mut all = Tally::default();
-    for regime in regimes {
-        let tally = run(regime)?;
-        writeln!(out(), "{:13} {tally}", regime.name)?;
-        all = all.and(tally);
-    }
-    let mut out = out();
-    for way in all.ways() {
-        writeln!(out, "{:13} {}", way.to_string(), all.by(way))?;
-    }
-    for (from, to) in [1.0, 8.0, 16.0, 64.0, f64::INFINITY].windows(2).map(|w| (w[0], w[1])) {
-        writeln!(out, "{:13} {}", format!("{from} to {to} px"), all.spread(from..to))?;
-    }
-    writeln!(out, "{:13} {all}", "all")?;
-    Ok(honest(&all.runs) >= SHARE)
 }
 
 /// The names of all regimes.

@@ -325,7 +325,6 @@ fn selftest_compares_random_scenes() {
     for (words, why) in [
         (&["selftest", "quads"][..], "whole number from 1 to"),
         (&["selftest", "--regime", "none"], "no regime is called \"none\": thin, "),
-        (&["selftest", "--shrink", "out", "--claims"], "cannot be used with"),
     ] {
         let error = folder.fail(words);
         assert!(error.contains(why), "{error}");

@@ -23,36 +23,13 @@ const PRECISE: f64 = 0.5;
 /// Images of a scene with each number of samples.
 const SEEDS: u64 = 2;
 
-/// How an image was rendered.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Way {
-    /// With so many samples per pixel.
-    Samples(u32),
-    /// Until the claimed error was half of what 64 samples claim.
-    Error,
-    /// For a twentieth of a second.
-    Time,
-}
-
 /// An image whose true error is known.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Run {
-    /// How it was rendered.
-    pub way: Way,
-    /// Seed of the scene in its regime.
-    pub scene: u64,
-    /// The technique that it was rendered by.
-    pub technique: Technique,
-    /// The claimed error, relative to the mean of the image.
-    pub claimed: f64,
-    /// In about how many pixels it is, see [`Claim::pixels`].
-    pub pixels: f64,
     /// The true error over the claimed one.
     pub ratio: f64,
     /// Whether the claim is mostly the bound of closed forms' error, or due to small lights that few samples meet: the error may be much less.
     pub bounded: bool,
-    /// Whether the reference is by another technique.
-    pub other: bool,
 }
 
 /// The images of a regime.
@@ -131,51 +108,41 @@ pub fn measure(scene: &Scene, seed: u64, [side, spp]: [u32; 2]) -> Result<Tally,
     let base = settings(spp, 0);
     let view = world.view(&base);
     let (technique, foreseen) = (view.technique(), view.foreseen());
-    let mut images: Vec<(Way, Film, Option<Claim>)> = Vec::new();
+    let mut images: Vec<(Film, Option<Claim>)> = Vec::new();
     for spp in [2, 16, spp] {
         for run in 1..=SEEDS {
             let (film, _) = world.render(&settings(spp, run), &|_| ());
             let claim = Claim::new(&film, &foreseen, spp.into());
-            images.push((Way::Samples(spp), film, claim));
+            images.push((film, claim));
         }
     }
-    let mut refine = |way, goal| {
+    let mut refine = |goal| {
         let plan = Refinement { settings: settings(spp, SEEDS + 1), sampler: None, goal };
         let Progress { film, error, .. } = render(&world, &plan, &|_| (), |_, _| (), |_| Ok(()))?;
-        images.push((way, film, error));
+        images.push((film, error));
         Ok::<(), String>(())
     };
-    refine(Way::Time, Goal { seconds: Some(0.05), error: None })?;
+    refine(Goal { seconds: Some(0.05), error: None })?;
     let (film, _) = world.render(&settings(spp, 0), &|_| ());
     if let Some(claim) = Claim::new(&film, &foreseen, spp.into()).filter(|claim| 0.5 * claim.random > claim.systematic)
     {
-        refine(Way::Error, Goal { seconds: None, error: Some(0.5 * claim.total()) })?;
+        refine(Goal { seconds: None, error: Some(0.5 * claim.total()) })?;
     }
     // by the technique itself only where the other is not precise enough
     let (world, base) = (&world, &base);
     let references =
         [other(technique), technique].map(|technique| LazyCell::new(move || Reference::new(world, base, technique)));
     let mut tally = Tally::default();
-    for (way, film, claim) in images {
-        let found = (0..2).find_map(|i| Some((i, references[i].squared_error(&film)?)));
-        let (Some(claim), Some((index, square))) = (claim, found) else {
+    for (film, claim) in images {
+        let found = references.iter().find_map(|reference| reference.squared_error(&film));
+        let (Some(claim), Some(square)) = (claim, found) else {
             tally.without += 1;
             continue;
         };
-        let claimed = claim.total();
         let mean = film.mean().iter().sum::<f64>() / 3.0;
-        let ratio = square.sqrt() / mean / claimed;
+        let ratio = square.sqrt() / mean / claim.total();
         let bounded = claim.systematic.max(claim.missed) > 0.5 * claim.random;
-        tally.runs.push(Run {
-            bounded,
-            way,
-            scene: seed,
-            technique,
-            claimed,
-            pixels: claim.pixels,
-            ratio,
-            other: index == 0,
-        });
+        tally.runs.push(Run { ratio, bounded });
     }
     Ok(tally)
 }
@@ -199,27 +166,6 @@ impl Tally {
         self.runs.extend(other.runs);
         Self { without: self.without + other.without, ..self }
     }
-    /// The images that were rendered in this way.
-    #[must_use]
-    pub fn by(&self, way: Way) -> Self {
-        Self { runs: self.runs.iter().filter(|run| run.way == way).copied().collect(), without: 0 }
-    }
-    /// The images whose error is in so many pixels.
-    #[must_use]
-    pub fn spread(&self, pixels: Range<f64>) -> Self {
-        Self { runs: self.runs.iter().filter(|run| pixels.contains(&run.pixels)).copied().collect(), without: 0 }
-    }
-    /// The ways in which images were rendered.
-    #[must_use]
-    pub fn ways(&self) -> Vec<Way> {
-        let mut ways = Vec::new();
-        for run in &self.runs {
-            if !ways.contains(&run.way) {
-                ways.push(run.way);
-            }
-        }
-        ways
-    }
     /// The ratio that this part of the images does not exceed.
     #[must_use]
     pub fn quantile(&self, part: f64) -> f64 {
@@ -228,62 +174,19 @@ impl Tally {
         let last = ratios.len().saturating_sub(1) as f64;
         ratios.get((part * last).round() as usize).copied().unwrap_or(f64::NAN)
     }
-    /// Root of the mean square of the true errors over that of the claimed ones, each relative to what its scene claims on average: 1 if
-    /// the estimator is right on average.
-    #[must_use]
-    pub fn on_average(&self) -> f64 {
-        let (mut sum, mut count) = (0.0, 0.0);
-        let mut rest = &self.runs[..];
-        while let Some(first) = rest.first() {
-            let same = |run: &Run| run.scene == first.scene && run.way == first.way;
-            let (scene, others) = rest.split_at(rest.iter().position(|run| !same(run)).unwrap_or(rest.len()));
-            let claimed: f64 = scene.iter().map(|run| run.claimed.powi(2)).sum();
-            let measured: f64 = scene.iter().map(|run| (run.claimed * run.ratio).powi(2)).sum();
-            sum += measured / claimed * scene.len() as f64;
-            count += scene.len() as f64;
-            rest = others;
-        }
-        f64::sqrt(sum / count)
-    }
-    /// The images of greatest and least ratio.
-    #[must_use]
-    pub fn extremes(&self) -> Option<[Run; 2]> {
-        let by = |a: &&Run, b: &&Run| a.ratio.total_cmp(&b.ratio);
-        Some([*self.runs.iter().min_by(by)?, *self.runs.iter().max_by(by)?])
-    }
-}
-
-impl Display for Way {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Samples(spp) => write!(f, "--spp {spp}"),
-            Self::Error => f.write_str("--error"),
-            Self::Time => f.write_str("--time"),
-        }
-    }
 }
 
 impl Display for Tally {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let [least, median, greatest] = [0.025, 0.5, 0.975].map(|part| self.quantile(part));
-        let count = |of: fn(&Run) -> bool| self.runs.iter().filter(|run| of(run)).count();
-        let (others, bounded) = (count(|run| run.other), count(|run| run.bounded));
+        let [least, median, greatest] = [0.0, 0.5, 1.0].map(|part| self.quantile(part));
         write!(
             f,
-            "{:5} images, true/claimed {least:5.2} {median:5.2} {greatest:5.2}, {:5.2} on average, {:5.1} % within {} to {}; {others:4} \
-             against another technique, {bounded:3} mostly a bound, {} left out",
+            "{:5} images, true/claimed {least:5.2} {median:5.2} {greatest:5.2}, {:5.1} % within {} to {}; {} left out",
             self.runs.len(),
-            self.on_average(),
             100.0 * honest(&self.runs),
             HONEST.start(),
             HONEST.end(),
             self.without
-        )?;
-        if let Some(extremes) = self.extremes() {
-            for Run { way, scene, technique, claimed, ratio, .. } in extremes {
-                write!(f, "; {ratio:.2} of {claimed:.1e}: {scene} {way} {}", technique.name())?;
-            }
-        }
-        Ok(())
+        )
     }
 }
