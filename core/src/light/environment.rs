@@ -14,7 +14,6 @@ const PI: f64 = core::f64::consts::PI;
 
 /// How an image covers the sphere of directions. In both z is up and the first row of the image comes first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
 pub enum EnvironmentMap {
     /// [`Octahedral`]: a square image whose texels all have the solid angle 4π/(wh), as in pbrt-v4. Columns are u₀, rows u₁.
     EqualArea,
