@@ -29,15 +29,16 @@ def captions():
 
 
 def first_words():
-    """The first paragraph of the README, and the alternative text of its picture."""
+    """The first paragraph of the README, its picture with the alternative text, and the head of the table beneath."""
     text = (ROOT / "README.md").read_text()
     paragraph = text.split("\n\n")[1].replace("`", "")
     about, path = re.search(r"!\[([^\]]+)\]\(render/(gallery/[^)]+)\)", text).groups()
-    return paragraph, about, path
+    said, left, right = re.search(r"^\| (in .+?) \| (.+?) \| (.+?) \|$", text, re.M).groups()
+    return paragraph, about, path, f"{said[0].upper()}{said[1:]}: {left}; {right}"
 
 
 def write(folder, playground, charts):
-    paragraph, about, picture = first_words()
+    paragraph, about, picture, halves = first_words()
     links = [("playground/index.html", "Playground", "drag a light, and see where samples go")] if playground else []
     links += [("atlas/atlas.html", "Atlas", "where the library and textbook formulas lose accuracy")]
     items = [f'<li><a href="{path}">{name}</a>: {what}</li>' for path, name, what in links]
@@ -48,7 +49,7 @@ def write(folder, playground, charts):
 <title>Étendue</title><link rel="icon" href="data:,"><style>{STYLE}</style></head><body>
 <h1>Étendue</h1>
 <p>{escape(paragraph)}</p>
-<figure><img src="{picture}" alt="{escape(about)}"><figcaption>{escape(about)}, in the same time</figcaption></figure>
+<figure><img src="{picture}" alt="{escape(about)}"><figcaption>{escape(halves)}</figcaption></figure>
 <h2>Try and measure</h2>
 <ul>
 {chr(10).join(items[: len(links)])}
@@ -93,6 +94,11 @@ def test(folder, pictures):
                 assert not broken, f"{name}: pictures are missing: {broken}"
                 wide = browser.evaluate("document.documentElement.scrollWidth")
                 assert wide <= width, f"{name} is {wide} pixels wide in a window of {width}"
+                if width > 1000:
+                    clipped = browser.evaluate(
+                        "[...document.querySelectorAll('body *')].filter((e) => getComputedStyle(e).overflowX !== 'visible' && e.scrollWidth > e.clientWidth && e.clientWidth).map((e) => e.tagName + ' ' + (e.getAttribute('aria-label') ?? e.id))"
+                    )
+                    assert not clipped, f"{name}: in a window of {width} pixels, {clipped} scroll sideways"
                 if pictures and url == index.as_uri():
                     pictures.mkdir(parents=True, exist_ok=True)
                     (pictures / f"site-{width}.png").write_bytes(browser.screenshot())

@@ -109,7 +109,12 @@ class Plot {
     const { context } = this;
     const q = points.filter((p) => Number.isFinite(p[0] + p[1])).map(([a, b]) => [this.px(a), this.py(b)]);
     if (!q.length) return;
-    this.drawn.push(...q);
+    // what a legend would hide: points a few pixels apart
+    this.drawn.push(q[0]);
+    q.slice(1).forEach((end, i) => {
+      const steps = Math.ceil(Math.hypot(end[0] - q[i][0], end[1] - q[i][1]) / (4 * ratio())) || 1;
+      for (let k = 1; k <= steps; k++) this.drawn.push([0, 1].map((axis) => q[i][axis] + ((end[axis] - q[i][axis]) * k) / steps));
+    });
     context.setLineDash(dash.map((d) => d * ratio()));
     context.strokeStyle = color;
     context.lineWidth = 2 * ratio();
@@ -132,7 +137,7 @@ class Plot {
       context.fillRect(a + 1, y, b - a - 1, this.box[3] - y);
     }
   }
-  /** The names of the curves, in the corner where the fewest of their points are. */
+  /** The names of the curves, at the left or right edge, where they hide the least of the curves. */
   legend(entries) {
     const { context, drawn } = this;
     const r = ratio();
@@ -140,14 +145,16 @@ class Plot {
     context.textAlign = "left";
     const width = 36 * r + Math.max(...entries.map(([text]) => context.measureText(text).width));
     const height = (16 * entries.length + 6) * r;
-    const corners = [
-      [right - width, top],
-      [left, bottom - height],
-      [left, top],
-      [right - width, bottom - height],
-    ];
+    // from the corners inwards
+    const heights = Array.from({ length: Math.max(1, Math.ceil((bottom - height - top) / (8 * r))) }, (_, i) => 8 * r * i);
+    const places = heights.flatMap((inwards) => [
+      [right - width, top + inwards],
+      [left, bottom - height - inwards],
+      [left, top + inwards],
+      [right - width, bottom - height - inwards],
+    ]);
     const hidden = ([x, y]) => drawn.filter(([a, b]) => a > x && a < x + width && b > y && b < y + height).length;
-    const corner = corners.reduce((best, next) => (hidden(next) < hidden(best) ? next : best));
+    const corner = places.reduce((best, next) => (hidden(next) < hidden(best) ? next : best));
     entries.forEach(([text, color, dash], i) => {
       const x = corner[0] + 6 * r;
       const y = corner[1] + (15 + 16 * i) * r;

@@ -237,7 +237,13 @@ class Scene {
         context.fillStyle = INK.strong;
         const far = this.scale < 1 && !handle.ground && handle.name !== "normal";
         const away = far ? `, ${say(length(sub(handle.at, this.state.p)))} away` : "";
-        context.fillText(handle.name.replaceAll("_", " ") + away, q[0] + 12 * ratio(), q[1] - 8 * ratio());
+        const place = [handle.name.replaceAll("_", " ") + away, q[0] + 12 * ratio(), q[1] - 8 * ratio()];
+        // lines end before the text
+        context.strokeStyle = INK.back;
+        context.lineWidth = 5 * ratio();
+        context.lineJoin = "round";
+        context.strokeText(...place);
+        context.fillText(...place);
       }
     }
   }

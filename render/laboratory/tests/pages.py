@@ -13,7 +13,8 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "core/playground/te
 from browser import Browser, find
 
 CHART = "chart quads --quick --size 24x18 --spp 1,16 --replicates 2 -o"
-ATLAS = "atlas --quick --shape triangle -o"
+# the shape with the longest names, too
+ATLAS = "atlas --quick --shape triangle,projected-parallelogram -o"
 # of A4 between margins of a centimetre, in CSS pixels
 PRINTED = 718
 CONTROLS = "button, select, input, textarea, summary, a[href], [tabindex]:not([tabindex='-1'])"
