@@ -2,10 +2,13 @@
 
 site.py write FOLDER [PLAYGROUND]: writes index.html; standard input has a line for each chart, its scene and a description. PLAYGROUND is
 anything but empty if there is a playground. The gallery has the captions of render/README.md.
-site.py test FOLDER [PICTURES]: opens every page at 1,400 and 400 pixels in a headless Chromium, and keeps pictures."""
+site.py test FOLDER [PICTURES]: opens every page at 1,400 and 400 pixels in a headless Chromium, and keeps pictures.
+site.py readme FOLDER: keeps pictures of the first screen of README.md, at both widths."""
 
 import re
+import subprocess
 import sys
+import tempfile
 from html import escape
 from pathlib import Path
 
@@ -67,15 +70,39 @@ def write(folder, playground, charts):
     (folder / "index.html").write_text(page)
 
 
-def test(folder, pictures):
+def chromium():
     sys.path.insert(0, str(ROOT / "core/playground/tests"))
     from browser import Browser, find
 
-    chromium = find()
-    if not chromium:
-        sys.exit("site.py: there is no Chromium here: the site is not tested")
+    path = find()
+    if not path:
+        sys.exit("site.py: there is no Chromium here: no page is opened")
+    return Browser(path)
+
+
+def readme(folder):
+    folder.mkdir(parents=True, exist_ok=True)
+    # as on a page of a repository: wide tables scroll
+    style = STYLE + "table { display: block; overflow-x: auto; } td, th { padding: 0.2em 0.6em; border: 1px solid #8888; } pre { overflow-x: auto; }"
+    with tempfile.TemporaryDirectory() as scratch:
+        head = Path(scratch) / "head.html"
+        head.write_text(f'<base href="{ROOT.as_uri()}/"><style>{style}</style>')
+        subprocess.run(["rustdoc", ROOT / "README.md", "-o", scratch, "--markdown-no-toc", "--html-in-header", head], check=True)
+        browser = chromium()
+        try:
+            for width, height in [(1400, 1000), (400, 800)]:
+                browser.resize(width, height)
+                browser.open((Path(scratch) / "README.html").as_uri(), "[...document.images].every((i) => i.naturalWidth)")
+                wide = browser.evaluate("document.documentElement.scrollWidth")
+                assert wide <= width, f"README.md is {wide} pixels wide in a window of {width}"
+                (folder / f"readme-{width}.png").write_bytes(browser.screenshot(whole=False))
+        finally:
+            browser.close()
+
+
+def test(folder, pictures):
     index = folder / "index.html"
-    browser = Browser(chromium)
+    browser = chromium()
     try:
         browser.open(index.as_uri(), "document.body")
         pages = browser.evaluate("[...document.querySelectorAll('a')].map((a) => a.href)")
@@ -96,7 +123,7 @@ def test(folder, pictures):
                 assert wide <= width, f"{name} is {wide} pixels wide in a window of {width}"
                 if width > 1000:
                     clipped = browser.evaluate(
-                        "[...document.querySelectorAll('body *')].filter((e) => getComputedStyle(e).overflowX !== 'visible' && e.scrollWidth > e.clientWidth && e.clientWidth).map((e) => e.tagName + ' ' + (e.getAttribute('aria-label') ?? e.id))"
+                        "[...document.querySelectorAll('body *:not(input)')].filter((e) => getComputedStyle(e).overflowX !== 'visible' && e.scrollWidth > e.clientWidth && e.clientWidth).map((e) => e.tagName + ' ' + (e.getAttribute('aria-label') ?? e.id))"
                     )
                     assert not clipped, f"{name}: in a window of {width} pixels, {clipped} scroll sideways"
                 if pictures and url == index.as_uri():
@@ -112,5 +139,7 @@ command, folder, *more = sys.argv[1:]
 folder = Path(folder).resolve()
 if command == "write":
     write(folder, more and more[0], [line.split("\t") for line in sys.stdin.read().splitlines() if line])
+elif command == "readme":
+    readme(folder)
 else:
     test(folder, Path(more[0]) if more else None)

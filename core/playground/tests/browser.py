@@ -162,12 +162,12 @@ class Browser:
         """Where an element is on the page: left, top, width and height."""
         return self.evaluate(f"(() => {{ const b = document.querySelector({json.dumps(selector)}).getBoundingClientRect(); return [b.x + scrollX, b.y + scrollY, b.width, b.height]; }})()")
 
-    def screenshot(self, selector=None):
-        """PNG bytes of the whole page, or of an element."""
-        clip = {}
+    def screenshot(self, selector=None, whole=True):
+        """PNG bytes of the whole page, of an element, or of what the window shows."""
+        clip = {"captureBeyondViewport": whole}
         if selector:
             clip["clip"] = dict(zip(["x", "y", "width", "height"], self.box(selector)), scale=1)
-        return base64.b64decode(self.call("Page.captureScreenshot", format="png", captureBeyondViewport=True, **clip)["data"])
+        return base64.b64decode(self.call("Page.captureScreenshot", format="png", **clip)["data"])
 
     def busy(self):
         """Seconds of processor time that the page's thread has taken."""
