@@ -1,4 +1,4 @@
-//! Compiles the batches once more for x86-64-v3 and x86-64-v4, and links these objects.
+//! With the feature `dispatch`, compiles the batches once more for x86-64-v3 and x86-64-v4, and links these objects.
 //!
 //! `wide` chooses its vector instructions when it is compiled, so each level needs a compilation of its own. Cargo has one set of flags for
 //! all packages of a build; this script calls it again with others.
@@ -21,13 +21,15 @@ fn light(variable: &str) -> Option<String> {
 
 fn main() {
     println!("cargo::rustc-check-cfg=cfg(levels)");
-    for path in ["build.rs", "src", "Cargo.toml", "../src", "../Cargo.toml"] {
-        println!("cargo::rerun-if-changed={path}");
-    }
+    println!("cargo::rerun-if-changed=build.rs");
     let is_set = |name: &str| std::env::var_os(name).is_some();
     let is_a_level = is_set("CARGO_FEATURE_LEVEL_V3") || is_set("CARGO_FEATURE_LEVEL_V4");
     if is_a_level || !is_set("CARGO_FEATURE_DISPATCH") || var("CARGO_CFG_TARGET_ARCH").unwrap() != "x86_64" {
         return;
+    }
+    // the core is beside this crate in its repository alone
+    for path in ["src", "Cargo.toml", "../src", "../Cargo.toml"].into_iter().filter(|path| Path::new(path).exists()) {
+        println!("cargo::rerun-if-changed={path}");
     }
     let out = var("OUT_DIR").unwrap();
     let out = Path::new(&out);

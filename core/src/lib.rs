@@ -35,7 +35,8 @@
 //! # Speed
 //! `wide` chooses its vector width when it is compiled. Build with `-C target-cpu=x86-64-v3` (or native): otherwise a packet of 8 is two
 //! or more registers, and products and sums take two instructions, with the errors of the index. With `same-bits`, software then rounds
-//! them once, which takes several times as long.
+//! them once, which takes several times as long. A debug build of a host compiles these routines without optimisation: `etendue-batch` has
+//! them compiled.
 #![no_std]
 #![forbid(unsafe_code)]
 

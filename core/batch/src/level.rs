@@ -12,7 +12,8 @@ use crate::technique::{Prepared, Technique};
 /// The instructions that a [`Batch`] uses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Level {
-    /// Those of the build: eight lanes, four on WebAssembly, and one where multiply-add takes several instructions.
+    /// Those of the build: eight lanes, four on WebAssembly, and one where the same bits are asked for of a processor without fused
+    /// multiply-add.
     Build,
     /// x86-64-v3: eight lanes with AVX2 and fused multiply-add.
     V3,
@@ -121,6 +122,12 @@ impl Batch {
     #[track_caller]
     pub(crate) fn each<T: Technique>(&self) -> &'static TechniqueFunctions {
         self.technique_of_each(T::INDEX).expect("the light is not built: see the features of etendue-batch")
+    }
+    /// Those whose packets have at most eight lanes.
+    #[track_caller]
+    pub(crate) fn each_of_eight<T: Technique>(&self) -> &'static TechniqueFunctions {
+        let functions = self.technique_to_prepare(T::INDEX).filter(|_| cfg!(feature = "each"));
+        functions.expect("the light is not built: see the features of etendue-batch")
     }
     #[track_caller]
     pub(crate) fn once<T: Technique>(&self) -> &'static TechniqueFunctions {

@@ -1,8 +1,8 @@
 //! Light sampling in batches of any length, with the widest vector instructions that the processor has.
 //!
-//! [`etendue`] itself uses the instructions for which it was compiled, which by default are those of every x86-64 processor. This crate
-//! compiles its routines for x86-64, x86-64-v3 (AVX2, fused multiply-add) and x86-64-v4 (AVX-512), and chooses when it runs. All of them
-//! return the same bits as the core.
+//! [`etendue`] itself uses the instructions for which it was compiled, which by default are those of every x86-64 processor. With the feature
+//! `dispatch` this crate compiles its routines for x86-64, x86-64-v3 (AVX2, fused multiply-add) and x86-64-v4 (AVX-512), and chooses when it
+//! runs: this is for those who ship programs. With the feature `same-bits` all of them return the same bits as the core.
 //!
 //! ```
 //! use etendue::{Parallelogram, Vec2, Vec3, sequence::OwenSobol};
@@ -22,11 +22,27 @@
 //! assert!(irradiance > 0.7 && irradiance < 0.9);
 //! ```
 //!
+//! # Debug builds
+//! A debug build of a host compiles the generic routines of the core without optimisation, where they take many
+//! times as long. [`Batch::sample_once`] for numbers and [`Batch::sample_packet`] for packets are compiled in this library, so that a host that
+//! calls them or batches is as fast as its other code and builds again in seconds, if its `Cargo.toml` has these lines (`benches/host/run` prints
+//! its times):
+//!
+//! ```toml
+//! [profile.dev.package."*"]
+//! opt-level = 3
+//! ```
+//!
+//! # What `dispatch` costs
+//! The build script runs cargo twice to compile this crate with other instructions: it needs the dependencies there, and building takes
+//! three times as long. Without the feature it does nothing. Functions with `#[target_feature]` cannot replace it yet: they give their
+//! instructions to routines of other crates only where all of these are inlined, and closures and functions of the standard library in them
+//! are not: there, each operation is a call.
+//!
 //! # Costs
-//! `cargo bench -p etendue-batch` prints nanoseconds per sample for batches of 1, 8, 64 and 4096 at every level, beside a loop over packets
-//! of the core with the instructions of that build. A call repeats the prepared light in all lanes first, so a batch of 1 takes as long
-//! as a whole packet and more: for one element there are [`Batch::sample_one`] and others, in single numbers. Building takes twice as long,
-//! since the crate compiles itself two more times; without the default feature `dispatch` it does not, and uses the instructions of the build.
+//! `cargo bench -p etendue-batch --features dispatch` prints nanoseconds per sample for batches of 1, 8, 64 and 4096 at every level, beside a
+//! loop over packets of the core with the instructions of that build. A call repeats the prepared light in all lanes first, so a batch of 1
+//! takes as long as a whole packet and more: for one element there are [`Batch::sample_one`] and others, in single numbers.
 //!
 //! Nanoseconds per call from C, of the textbook's formulas (PBR's, for this processor), of the C library, which calls this crate, and of the
 //! C header of `etendue-shader`, for this processor (AMD EPYC); `benches/peers/single_calls.py` prints them. The textbook's pdf, like that
@@ -49,6 +65,7 @@
 mod columns;
 mod functions;
 mod kernel;
+mod lanes;
 mod level;
 mod map;
 pub mod memory;
@@ -68,8 +85,10 @@ pub use functions::{
     WarpFunctions,
 };
 pub use kernel::Views;
+pub use lanes::PacketSample;
 pub use level::{Batch, Level};
 pub use map::{BatchMap, MOST_NUMBERS, MOST_RESULTS, PortalDirection, ReflectedSphere, SeenThroughPortals};
+pub use packet::Packet;
 pub use sequence::BatchSequence;
 pub use table::Table;
 pub use technique::{Prepared, TECHNIQUES, Technique};

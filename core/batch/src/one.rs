@@ -3,20 +3,18 @@
 //! What they are given has no type, so that those of all techniques are in one table.
 
 use crate::columns::OneSample;
-use crate::packet::Lanes;
+use crate::packet::IS_LONG;
 use crate::technique::{Prepared, Technique};
 use crate::warp::BatchWarp;
 use core::ffi::c_void;
 use core::mem::MaybeUninit;
-use etendue::{LightSampler, Real, Vec2, Vec3};
+use etendue::{LightSampler, Vec2, Vec3};
 
 /// True in the compilation whose functions of one element and preparations nobody asks for: they do nothing there. x86-64-v4 would compile
 /// them to the instructions of x86-64-v3 again.
 const IS_V4: bool = cfg!(feature = "level-v4");
 /// True where nobody asks for the functions of one element: they do nothing there.
 const IS_ABSENT: bool = IS_V4 || !cfg!(feature = "one") && !IS_LONG;
-/// True where a multiply-add is so long in code and time that whatever is there already is called.
-const IS_LONG: bool = <Lanes as Real>::LANES == 1;
 
 /// What a pointer without a type is to.
 #[inline(always)]

@@ -3,37 +3,39 @@
 //! Columns are raw pointers, since callers in other languages pass them so, since an output may be null, and since an output may be
 //! the same memory as an input.
 
+use crate::sealed::Sealed;
 use core::mem::MaybeUninit;
 use core::ptr::copy_nonoverlapping;
+use etendue::real::SAME_BITS;
 use etendue::{Mask, Real, Uint, Vec3};
 
-/// A packet that consists of its lanes, in order.
+/// A packet that consists of its lanes, in order; a number is one lane.
 ///
 /// # Safety
 /// `Self` is `LANES` numbers in a row, and nothing else.
-pub(crate) unsafe trait Packet: Real<Scalar = f32> {}
-// SAFETY: a number is one lane
-unsafe impl Packet for f32 {}
-// SAFETY: `wide` has `as_array` for it
-unsafe impl Packet for etendue::f32x4 {}
-// SAFETY: as above
-unsafe impl Packet for etendue::f32x8 {}
-// SAFETY: as above
-unsafe impl Packet for etendue::f32x16 {}
+pub unsafe trait Packet: Real<Scalar = f32> + Sealed {}
+macro_rules! packets {
+    ($($packet:ty),+) => {$(
+        impl Sealed for $packet {}
+        // SAFETY: a number is one lane, and `wide` has `as_array` for packets
+        unsafe impl Packet for $packet {}
+    )+};
+}
+packets!(f32, etendue::f32x4, etendue::f32x8, etendue::f32x16);
 
-/// The packet of this compilation. Without fused multiply-add, a packet of eight gains little, as its multiply-add takes many instructions.
+/// True where the same bits are asked for of a processor without fused multiply-add: software then rounds once, in many instructions. A packet of
+/// eight gains little, and whatever is there already is called. (On WebAssembly one register of four lanes takes two thirds of the time of single
+/// numbers.)
+pub(crate) const IS_LONG: bool =
+    SAME_BITS && !cfg!(any(target_feature = "fma", target_arch = "aarch64", target_feature = "simd128"));
+
+/// The packet of this compilation, unless [`IS_LONG`].
 #[cfg(feature = "level-v4")]
 pub(crate) type Lanes = etendue::f32x16;
-#[cfg(all(not(feature = "level-v4"), any(target_feature = "fma", target_arch = "aarch64")))]
+#[cfg(all(not(feature = "level-v4"), not(target_feature = "simd128")))]
 pub(crate) type Lanes = etendue::f32x8;
-/// On WebAssembly, whose multiply-add is software, too, one register of four lanes takes two thirds of the time of single numbers.
 #[cfg(all(not(feature = "level-v4"), target_feature = "simd128"))]
 pub(crate) type Lanes = etendue::f32x4;
-#[cfg(all(
-    not(feature = "level-v4"),
-    not(any(target_feature = "fma", target_arch = "aarch64", target_feature = "simd128"))
-))]
-pub(crate) type Lanes = f32;
 
 /// The elements of a batch that one packet holds: `count` of them from `at` on.
 #[derive(Clone, Copy)]

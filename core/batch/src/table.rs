@@ -5,7 +5,7 @@ use crate::functions::{
     reflections,
 };
 use crate::map::{MAPS, PortalDirection, ReflectedSphere, SeenThroughPortals};
-use crate::packet::{Lanes, Packet};
+use crate::packet::{IS_LONG, Lanes, Packet};
 use crate::sequence::SEQUENCES;
 use crate::technique::{self, TECHNIQUES};
 use crate::warp::WARPS;
@@ -144,4 +144,4 @@ impl Table {
 /// The functions of this compilation.
 #[cfg_attr(feature = "level-v3", unsafe(export_name = "etendue_batch_v3"))]
 #[cfg_attr(feature = "level-v4", unsafe(export_name = "etendue_batch_v4"))]
-pub(crate) static TABLE: Table = Table::of::<Lanes>();
+pub(crate) static TABLE: Table = if IS_LONG { Table::of::<f32>() } else { Table::of::<Lanes>() };
