@@ -1,5 +1,5 @@
-//! What vectors of each number type have besides: zeros, products with a scalar before them, and conversions to and from arrays and, with
-//! the feature `glam`, its vectors. Only this file names `glam`.
+//! What vectors of each number type have besides: products with a scalar before them, and conversions to and from arrays and, with the
+//! feature `glam`, its vectors. Only this file names `glam`.
 //!
 //! A single vector also converts to a packet, whose lanes it fills.
 
@@ -8,26 +8,23 @@ use crate::vector::{Vec2, Vec3};
 use core::ops::Mul;
 use wide::{f32x4, f32x8, f32x16, f64x4, f64x8};
 
-macro_rules! of_number {
-    ($own:ident of $real:ident = $zero:expr, $($axis:ident),+) => {
-        impl $own<$real> {
-            /// 0 in all components.
-            pub const ZERO: Self = Self { $($axis: $zero),+ };
-        }
-        impl Mul<$own<$real>> for $real {
-            type Output = $own<$real>;
-            #[inline(always)]
-            fn mul(self, v: $own<$real>) -> $own<$real> {
-                v * self
-            }
-        }
-    };
-}
 macro_rules! arrays {
-    ($scalar:ident, $($real:ident = $zero:expr),+) => {
+    ($scalar:ident, $($real:ident),+) => {
         $(
-            of_number!(Vec2 of $real = $zero, x, y);
-            of_number!(Vec3 of $real = $zero, x, y, z);
+            impl Mul<Vec2<$real>> for $real {
+                type Output = Vec2<$real>;
+                #[inline(always)]
+                fn mul(self, v: Vec2<$real>) -> Vec2<$real> {
+                    v * self
+                }
+            }
+            impl Mul<Vec3<$real>> for $real {
+                type Output = Vec3<$real>;
+                #[inline(always)]
+                fn mul(self, v: Vec3<$real>) -> Vec3<$real> {
+                    v * self
+                }
+            }
             impl From<[$scalar; 2]> for Vec2<$real> {
                 #[inline]
                 fn from([x, y]: [$scalar; 2]) -> Self {
@@ -55,8 +52,8 @@ macro_rules! arrays {
         }
     };
 }
-arrays!(f32, f32 = 0.0, f32x4 = f32x4::ZERO, f32x8 = f32x8::ZERO, f32x16 = f32x16::ZERO);
-arrays!(f64, f64 = 0.0, f64x4 = f64x4::ZERO, f64x8 = f64x8::ZERO);
+arrays!(f32, f32, f32x4, f32x8, f32x16);
+arrays!(f64, f64, f64x4, f64x8);
 
 /// By their components.
 #[cfg(feature = "glam")]

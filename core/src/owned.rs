@@ -127,9 +127,9 @@ impl OwnedPicture {
         Picture::interpolated(&values, width, &mut table)?;
         Ok(Self { table, values: Some(values), size: [width, height], region: Region::Square })
     }
-    /// The length of the table of a picture that is not too large for one.
+    /// The length of the table of a picture that is neither empty nor too large for one.
     fn length(width: usize, height: usize) -> Result<usize, TableError> {
-        let is_size = width.checked_mul(height).is_some_and(|count| count <= u32::MAX as usize / 2);
+        let is_size = width.checked_mul(height).is_some_and(|count| (1..=u32::MAX as usize / 2).contains(&count));
         if is_size { Ok(Picture::buffer(width, height)) } else { Err(TableError::Length) }
     }
     /// The picture.

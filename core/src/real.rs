@@ -124,6 +124,8 @@ pub trait Real:
     const DOUBLE: bool;
     /// True where [`mul_add`](Real::mul_add) rounds once.
     const FUSED: bool = true;
+    /// 0 in every lane.
+    const ZERO: Self;
     /// The largest number below 1 on the grid of [`unit`](Real::unit): 1 − 2⁻²⁴ at every precision.
     const ONE_MINUS_EPSILON: Self;
 

@@ -12,6 +12,8 @@
 //! Above a metal floor of roughness α = 0.1, seen at 60° from its normal, that divides the variance of a choice among 4,096 lamps by 15
 //! (`cargo test -p etendue-tests gloss -- --nocapture`).
 //!
+//! [`SpatialLights`] and [`LightTree`] take a [`LightBound`] of each light, which the method `bound` of lights that have a place returns.
+//!
 //! All of them implement [`LightChoice`]. The estimator divides by the `pmf` of the choice times the pdf of the sample on the light. The
 //! method [`pmf`](LightChoice::pmf) returns the same bits, for multiple importance sampling: a light that another technique hits has a
 //! probability too. Every light that can contribute has a positive pmf.

@@ -38,6 +38,9 @@ macro_rules! vector {
             }
         }
         impl<R: Real> $name<R> {
+            /// 0 in all components.
+            pub const ZERO: Self = Self { $($axis: R::ZERO),+ };
+
             /// Repeats one vector in every lane.
             #[inline(always)]
             pub fn splat(v: $name<R::Scalar>) -> Self {

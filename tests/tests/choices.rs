@@ -4,5 +4,6 @@ mod bounds;
 mod discrete;
 mod gloss;
 mod light_tree;
+mod owned;
 mod select;
 mod tables_in_memory;

@@ -232,6 +232,7 @@ macro_rules! real {
             type Uint = Word;
             const LANES: usize = 1;
             const DOUBLE: bool = false;
+            const ZERO: Self = Self(ZERO);
             const ONE_MINUS_EPSILON: Self = Self(ONE_MINUS_EPSILON);
             fn splat(value: Self) -> Self {
                 value

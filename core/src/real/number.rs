@@ -79,6 +79,7 @@ macro_rules! scalar_real {
             const LANES: usize = 1;
             const DOUBLE: bool = size_of::<$scalar>() > 4;
             const FUSED: bool = Self::DOUBLE || fused::ALWAYS;
+            const ZERO: Self = 0.0;
             const ONE_MINUS_EPSILON: Self = 1.0 - 1.0 / 16_777_216.0;
             #[inline(always)]
             fn splat(value: $scalar) -> Self {
@@ -204,6 +205,7 @@ macro_rules! packet_real {
             const LANES: usize = $lanes;
             const DOUBLE: bool = size_of::<$scalar>() > 4;
             const FUSED: bool = Self::DOUBLE || fused::ALWAYS;
+            const ZERO: Self = $packet::splat(0.0);
             const ONE_MINUS_EPSILON: Self = $packet::splat(1.0 - 1.0 / 16_777_216.0);
             #[inline(always)]
             fn splat(value: $scalar) -> Self {

@@ -25,7 +25,7 @@ fn images(map: EnvironmentMap) -> Vec<Image> {
     let sizes: &[[usize; 2]] = match map {
         EqualArea => &[[1, 1], [2, 2], [7, 7], [64, 64]],
         // with odd heights, the horizon passes through a row
-        _ => &[[1, 1], [2, 1], [4, 2], [6, 3], [13, 7], [128, 64], [16, 301]],
+        Equirectangular => &[[1, 1], [2, 1], [4, 2], [6, 3], [13, 7], [128, 64], [16, 301]],
     };
     let mut random = Random::new(11);
     let mut all = Vec::new();
@@ -51,7 +51,7 @@ impl Image {
         let (w, h) = (self.width as f64, self.height as f64);
         match map {
             EqualArea => 4.0 * PI / (w * h),
-            _ => TAU / w * ((PI * y as f64 / h).cos() - (PI * (y + 1) as f64 / h).cos()),
+            Equirectangular => TAU / w * ((PI * y as f64 / h).cos() - (PI * (y + 1) as f64 / h).cos()),
         }
     }
     /// Column and row of a direction, as real numbers, by the definition of the map.
@@ -59,7 +59,7 @@ impl Image {
         let (w, h) = (self.width as f64, self.height as f64);
         match map {
             Equirectangular => [(d[1].atan2(d[0]) / TAU).rem_euclid(1.0) * w, d[0].hypot(d[1]).atan2(d[2]) / PI * h],
-            _ => {
+            EqualArea => {
                 // upper half: the disk of radius √(1−|z|), mapped to a diamond; lower half: folded outwards over its sides
                 let r = ((d[0] * d[0] + d[1] * d[1]) / (1.0 + d[2].abs())).sqrt();
                 let b = r * d[1].abs().atan2(d[0].abs()) / (PI / 2.0);
@@ -78,7 +78,7 @@ impl Image {
         let across = d[0].hypot(d[1]).max(1e-300);
         let (slack_x, slack_y) = match map {
             EqualArea => (rounding * w, rounding * h),
-            _ => (rounding * w / across, rounding * h),
+            Equirectangular => (rounding * w / across, rounding * h),
         };
         let range = |x: f64, slack: f64, n: usize| {
             let low = (x - slack).floor().max(0.0) as usize;

@@ -8,26 +8,30 @@ use crate::limits;
 use crate::tape::{self, EXACT};
 use etendue::Real;
 
+/// A number that is known exactly.
+const fn constant(value: f64) -> Traced {
+    let point = Interval::point(value);
+    Traced {
+        computed: point,
+        between: point,
+        form: Affine::constant(point.lo),
+        grid: -24,
+        exact: point.lo,
+        node: EXACT,
+        name: 0,
+        factors: [0; 2],
+        at_most: 0,
+    }
+}
+
 impl Real for Traced {
     type Scalar = Self;
     type Mask = bool;
     type Uint = u32;
     const LANES: usize = 1;
     const DOUBLE: bool = false;
-    const ONE_MINUS_EPSILON: Self = {
-        let point = Interval::point(1.0 - 1.0 / 16_777_216.0);
-        Self {
-            computed: point,
-            between: point,
-            form: Affine::constant(point.lo),
-            grid: -24,
-            exact: point.lo,
-            node: EXACT,
-            name: 0,
-            factors: [0; 2],
-            at_most: 0,
-        }
-    };
+    const ZERO: Self = constant(0.0);
+    const ONE_MINUS_EPSILON: Self = constant(1.0 - 1.0 / 16_777_216.0);
 
     fn splat(value: Self) -> Self {
         value
