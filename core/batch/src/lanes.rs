@@ -8,11 +8,12 @@ use crate::packet::Packet;
 use crate::technique::Technique;
 use core::mem::MaybeUninit;
 use core::ptr::{from_ref, null_mut};
-use etendue::real::MOST_LANES;
 use etendue::{Mask, Vec2, Vec3};
 
 /// The most numbers of a light, of a point and of what else it is prepared for.
 const MOST_NUMBERS: usize = 64;
+/// The lanes of the widest packet, `f32x16`.
+const MOST_LANES: usize = 16;
 /// How many numbers a sample has.
 const NUMBERS: usize = 11;
 
