@@ -34,10 +34,10 @@
 //! ```
 //!
 //! # What `dispatch` costs
-//! The build script runs cargo twice to compile this crate with other instructions: it needs the dependencies there, and building takes
-//! three times as long. Without the feature it does nothing. Functions with `#[target_feature]` cannot replace it yet: they give their
-//! instructions to routines of other crates only where all of these are inlined, and closures and functions of the standard library in them
-//! are not: there, each operation is a call.
+//! The build script runs cargo twice to compile this crate with other instructions: where a host is built, cargo must find the dependencies
+//! once more, and building takes three times as long. Without the feature the script does nothing. Functions with `#[target_feature]` cannot
+//! replace it yet: they give their instructions to routines of other crates only where all of these are inlined, and closures and functions of
+//! the standard library in them are not: there, each operation is a call.
 //!
 //! # Costs
 //! `cargo bench -p etendue-batch --features dispatch` prints nanoseconds per sample for batches of 1, 8, 64 and 4096 at every level, beside a
