@@ -2,10 +2,10 @@
 
 macro_rules! sources {
     ($($path:literal)+) => {
-        &[$(include_str!(concat!("../../src/", $path))),+]
+        &[$(include_str!(concat!("../documented/", $path))),+]
     };
 }
-/// The files whose types document an error.
+/// The files whose types document an error; `documented` is the sources of the core, of which the package has its own.
 const SOURCES: &[&str] = sources! {
     "light/cosine_warped.rs"
     "light/disk.rs"

@@ -14,7 +14,8 @@ fn files(folder: &Path, endings: &[&str]) -> Vec<PathBuf> {
     let mut all = Vec::new();
     for entry in fs::read_dir(folder).unwrap_or_else(|e| panic!("{}: {e}", folder.display())) {
         let path = entry.unwrap().path();
-        if path.is_dir() {
+        // links lead to files that are elsewhere, too
+        if path.is_dir() && !path.is_symlink() {
             all.extend(files(&path, endings));
         } else if endings.iter().any(|ending| path.to_string_lossy().ends_with(ending)) {
             all.push(path);
