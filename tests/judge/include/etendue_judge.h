@@ -35,7 +35,8 @@ typedef struct etendue_judge_sampler {
      *   "rectangle"      9 numbers: corner, edge, edge (perpendicular to one another, to rounding)
      *   "parallelogram"  9 numbers: corner, edge, edge
      *   "disk"           7 numbers: centre, unit normal, radius
-     * Lights emit the same radiance from either side. */
+     * A point is always on the side to which the normal of a disk, or the cross product of the edges (from the first corner), points. A
+     * sphere is seen from inside, too. */
     const char *shape;
     /* What samples are distributed by, which says what their pdf has to be, per solid angle at p:
      *   "solid angle"            uniform over the directions of the light: 1/solid angle

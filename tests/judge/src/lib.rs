@@ -15,7 +15,13 @@
 
 #[cfg(feature = "checks")]
 pub mod checks;
+#[cfg(feature = "program")]
+pub mod child;
+#[cfg(feature = "checks")]
+pub mod choices;
 pub mod fixtures;
+#[cfg(feature = "program")]
+pub mod foreign;
 #[cfg(feature = "checks")]
 pub mod fuzz_bodies;
 pub mod generators;
@@ -24,6 +30,10 @@ pub mod light_tree;
 pub mod lights;
 #[cfg(feature = "checks")]
 pub mod mutants;
+#[cfg(feature = "checks")]
+pub mod numbers;
+#[cfg(feature = "checks")]
+pub mod page;
 pub mod properties;
 #[cfg(feature = "checks")]
 pub mod stats;

@@ -154,3 +154,14 @@ fn a_sampler_is_right_where_it_says_so() {
     let unsaid = judge(&of(half(false, right.prepare)), QUICK, |_| ());
     assert!(unsaid.findings.iter().any(|f| f.figure == Figure::Dark), "{:?}", unsaid.findings);
 }
+
+#[test]
+fn textbooks_are_wrong_where_lights_are_small() {
+    for subject in etendue_judge::textbook::samplers() {
+        let judgement = judge(&subject, QUICK, |_| ());
+        told(&judgement);
+        let naive = ["naive", "angle excess", "Ureña"].iter().any(|name| subject.name.contains(name));
+        let said = judgement.findings.iter().any(|f| f.said.contains("where the light is no larger than 1/"));
+        assert!(said || !naive, "{}: {:?}", subject.name, judgement.findings);
+    }
+}

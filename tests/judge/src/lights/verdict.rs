@@ -177,8 +177,8 @@ const FOLLOWS: [(Figure, Figure); 9] = [
     (Figure::Stray, Figure::Outside),
 ];
 
-/// One finding for each figure and what is varied where it is found.
-fn findings(cases: &[Case], mut input: impl FnMut(Figure, usize) -> String) -> Vec<Finding> {
+/// One finding for each figure that does not follow from another one.
+pub fn findings(cases: &[Case], mut input: impl FnMut(Figure, usize) -> String) -> Vec<Finding> {
     let mut found: Vec<Figure> = Vec::new();
     for m in cases.iter().flat_map(|c| &c.figures).filter(|m| m.is_finding()) {
         if !found.contains(&m.figure) {

@@ -1,0 +1,147 @@
+//! Judges choosers among lights against sums over all lights, and estimators by several strategies against each strategy alone.
+
+use crate::generators::Random;
+use crate::stats::chi_square;
+
+/// Chooses one of many lights.
+pub trait Chooser {
+    /// The light for `u` in [0, 1) and the probability with which it is chosen; `None` chooses none.
+    fn choose(&self, u: f32) -> Option<(usize, f32)>;
+    /// The probability of a light.
+    fn pmf(&self, light: usize) -> f32;
+}
+
+/// What is said about a chooser.
+#[derive(Clone, Debug, Default)]
+pub struct Choice {
+    /// Lights that contribute and are never chosen.
+    pub lost: Vec<usize>,
+    /// Σ pmf over all lights.
+    pub sum: f64,
+    /// Variance of one choice over the squared sum of all contributions; 0 is the optimum.
+    pub variance: f64,
+    /// What is wrong, in sentences.
+    pub findings: Vec<String>,
+}
+
+/// Greatest relative error of a probability.
+const ERROR: f64 = 1e-3;
+/// Expected number of choices of a light from which none at all says that it is lost: once in 10¹³ by chance.
+const CERTAIN: f64 = 30.0;
+
+/// Judges a chooser whose lights contribute `all`, by `draws` choices, which should be 50 for each light at least.
+pub fn choices(chooser: &dyn Chooser, all: &[f64], draws: usize, seed: u64) -> Choice {
+    let pmf: Vec<f64> = (0..all.len()).map(|i| f64::from(chooser.pmf(i))).collect();
+    let (sum, total) = (pmf.iter().sum::<f64>(), all.iter().sum::<f64>());
+    let mut said = Choice { sum, ..Choice::default() };
+    if let Some((i, p)) = pmf.iter().enumerate().find(|(_, p)| !(p.is_finite() && **p >= 0.0)) {
+        said.findings.push(format!("the pmf of light {i} is {p}"));
+        return said;
+    }
+    // draws: one in each stratum
+    let (mut counts, mut random, mut none) = (vec![0_u64; all.len()], Random::new(seed), 0_usize);
+    let (mut worst, mut estimate) = ((0.0, 0, 0.0_f32), 0.0);
+    for k in 0..draws {
+        let u = ((k as f64 + random.unit_f64()) / draws as f64) as f32;
+        let Some((i, p)) = chooser.choose(u.min(1.0 - 1.0 / 16_777_216.0)) else {
+            none += 1;
+            continue;
+        };
+        if i >= all.len() {
+            said.findings.push(format!("u = {u:?} chooses light {i} of {}", all.len()));
+            return said;
+        }
+        counts[i] += 1;
+        estimate += if p > 0.0 { all[i] / f64::from(p) } else { f64::INFINITY };
+        let off = (f64::from(p) / pmf[i] - 1.0).abs();
+        if !(off <= worst.0) {
+            worst = (off, i, u);
+        }
+    }
+    if !(worst.0 <= ERROR) {
+        said.findings
+            .push(format!("u = {:?} chooses light {} with a pmf that is off by {:.1e}", worst.2, worst.1, worst.0));
+    }
+    let drawn = (draws - none) as f64 / draws as f64;
+    if (sum - drawn).abs() > ERROR {
+        said.findings.push(format!("Σ pmf is {sum:.6}, and {drawn:.6} of the draws choose a light"));
+    }
+    let is_lost = |i: usize| all[i] > 0.0 && (pmf[i] == 0.0 || counts[i] == 0 && pmf[i] * draws as f64 > CERTAIN);
+    said.lost = (0..all.len()).filter(|i| is_lost(*i)).collect();
+    if let Some(first) = said.lost.first() {
+        let part = said.lost.iter().map(|i| all[*i]).sum::<f64>() / total;
+        let count = said.lost.len();
+        said.findings
+            .push(format!("{count} lights are never chosen, light {first} first: {part:.1e} of all light is lost"));
+    }
+    let expected: Vec<f64> = pmf.iter().map(|p| p * draws as f64).collect();
+    let p = chi_square(&counts, &expected);
+    if p < 1e-7 && said.lost.is_empty() {
+        said.findings.push(format!("lights are not chosen as often as their pmf says: p = {p:.1e}"));
+    }
+    let squares = all.iter().zip(&pmf).filter(|(c, _)| **c > 0.0).map(|(c, p)| c * c / p).sum::<f64>();
+    said.variance = (squares / (total * total) - 1.0).max(0.0);
+    // five standard deviations of the plain estimate, which strata only lessen
+    let allowed = ERROR.max(5.0 * (said.variance / draws as f64).sqrt());
+    let off = (estimate / draws as f64 / total - 1.0).abs();
+    if said.lost.is_empty() && !(off <= allowed) {
+        said.findings.push(format!("the estimate of all light is off by {off:.1e}"));
+    }
+    said
+}
+
+/// A strategy on [0, 1]: where it samples, and its density.
+#[derive(Clone, Copy)]
+pub struct Strategy {
+    /// The point for `u`.
+    pub sample: fn(f64) -> f64,
+    /// The density of a point.
+    pub pdf: fn(f64) -> f64,
+}
+/// Uniform, linear and quadratic strategies, and one that samples the first half only.
+pub const STRATEGIES: [Strategy; 4] = [
+    Strategy { sample: |u| u, pdf: |_| 1.0 },
+    Strategy { sample: f64::sqrt, pdf: |x| 2.0 * x },
+    Strategy { sample: f64::cbrt, pdf: |x| 3.0 * x * x },
+    Strategy { sample: |u| 0.5 * u, pdf: |x| if x < 0.5 { 2.0 } else { 0.0 } },
+];
+
+/// Judges weights of several strategies: the estimate of ∫ f by all of them together is that of each one alone that samples all of f.
+/// `weights` gets the densities of a point by all strategies. Returns what is wrong.
+pub fn weights(weights: impl Fn(&[f32]) -> Vec<f32>) -> Vec<String> {
+    const SAMPLES: usize = 1 << 16;
+    let mut findings = Vec::new();
+    for set in [&[0, 1][..], &[0, 2], &[1, 3], &[0, 1, 2], &[0, 1, 2, 3]] {
+        let used: Vec<Strategy> = set.iter().map(|i| STRATEGIES[*i]).collect();
+        let (mut together, mut worst) = (0.0, 0.0_f64);
+        // f = x (1 − x), whose integral is 1/6
+        let f = |x: f64| x * (1.0 - x);
+        for (k, strategy) in used.iter().enumerate() {
+            for i in 0..SAMPLES {
+                let x = (strategy.sample)((i as f64 + 0.5) / SAMPLES as f64);
+                let densities: Vec<f32> = used.iter().map(|s| (s.pdf)(x) as f32).collect();
+                let all = weights(&densities);
+                let sum: f64 = all.iter().copied().map(f64::from).sum();
+                worst = worst.max((sum - 1.0).abs());
+                let none = densities.iter().zip(&all).any(|(d, w)| *d == 0.0 && *w != 0.0);
+                if none || all.iter().any(|w| !(0.0..=1.0).contains(w)) {
+                    findings.push(format!("densities {densities:?} have the weights {all:?}"));
+                    return findings;
+                }
+                together += f64::from(all[k]) * f(x) / (strategy.pdf)(x) / SAMPLES as f64;
+            }
+        }
+        if !(worst <= 1e-6) {
+            findings.push(format!("strategies {set:?}: weights sum to 1 ± {worst:.1e}"));
+        }
+        for (i, alone) in set.iter().map(|i| (*i, STRATEGIES[*i])).filter(|s| s.0 != 3) {
+            let points = (0..SAMPLES).map(|k| (alone.sample)((k as f64 + 0.5) / SAMPLES as f64));
+            let mean = points.map(|x| f(x) / (alone.pdf)(x)).sum::<f64>() / SAMPLES as f64;
+            let off = (together / mean - 1.0).abs();
+            if !(off <= ERROR) {
+                findings.push(format!("strategies {set:?} together are off by {off:.1e} from strategy {i} alone"));
+            }
+        }
+    }
+    findings
+}
