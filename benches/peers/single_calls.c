@@ -1,6 +1,6 @@
 /* Nanoseconds per call of one sample, one pdf: the textbook's formulas, the C library, and the header that needs none. See single_calls.py.
  *
- * The library's names and the header's are the same, so that each is a translation unit of its own (this one, thrice), which exports a table. */
+ * Each is a translation unit of its own (this one, thrice), which exports a table. */
 #define _POSIX_C_SOURCE 199309L
 #include <stddef.h>
 #include <stdio.h>
@@ -102,17 +102,17 @@ const Column LIBRARY = {triangle_by_solid_angle, triangle_by_cosine_warp, triang
 
 #ifdef OF_HEADER
 #include "etendue_header.h"
-static EtendueVec3 v3(const float *x) { return (EtendueVec3){x[0], x[1], x[2]}; }
-static float sum(EtendueLightSample s) { return s.direction.x + s.direction.y + s.direction.z + s.distance + s.pdf + s.normal.x + s.normal.y + s.normal.z + s.uv.x + s.uv.y; }
-static EtendueTriangle a_triangle(const Input *i) {
+static EtendueShaderVec3 v3(const float *x) { return (EtendueShaderVec3){x[0], x[1], x[2]}; }
+static float sum(EtendueShaderLightSample s) { return s.direction.x + s.direction.y + s.direction.z + s.distance + s.pdf + s.normal.x + s.normal.y + s.normal.z + s.uv.x + s.uv.y; }
+static EtendueShaderTriangle a_triangle(const Input *i) {
     const float *a = i->light, *b = a + 3, *c = a + 6;
-    return (EtendueTriangle){v3(a), {b[0] - a[0], b[1] - a[1], b[2] - a[2]}, {c[0] - a[0], c[1] - a[1], c[2] - a[2]}};
+    return (EtendueShaderTriangle){v3(a), {b[0] - a[0], b[1] - a[1], b[2] - a[2]}, {c[0] - a[0], c[1] - a[1], c[2] - a[2]}};
 }
-static EtendueSphere a_sphere(const Input *i) { return (EtendueSphere){v3(i->light), 0.5f}; }
-static EtendueRectangle a_rectangle(const Input *i) { return (EtendueRectangle){v3(i->light), {1, 0, 0}, {0, 0.5f, 0.5f}}; }
-#define U (EtendueVec2){i->u[0], i->u[1]}
-#define ONCE(name, ...) APART float name(const Input *i) { return sum(etendue_##name##_sample(etendue_##name##_prepare(__VA_ARGS__), U)); }
-#define PDF(name, ...) APART float name##_pdf(const Input *i) { return etendue_##name##_pdf(etendue_##name##_prepare(__VA_ARGS__), v3(i->w)); }
+static EtendueShaderSphere a_sphere(const Input *i) { return (EtendueShaderSphere){v3(i->light), 0.5f}; }
+static EtendueShaderRectangle a_rectangle(const Input *i) { return (EtendueShaderRectangle){v3(i->light), {1, 0, 0}, {0, 0.5f, 0.5f}}; }
+#define U (EtendueShaderVec2){i->u[0], i->u[1]}
+#define ONCE(name, ...) APART float name(const Input *i) { return sum(etendue_shader_##name##_sample(etendue_shader_##name##_prepare(__VA_ARGS__), U)); }
+#define PDF(name, ...) APART float name##_pdf(const Input *i) { return etendue_shader_##name##_pdf(etendue_shader_##name##_prepare(__VA_ARGS__), v3(i->w)); }
 ONCE(triangle_by_solid_angle, a_triangle(i), v3(i->p))
 ONCE(triangle_by_cosine_warp, a_triangle(i), v3(i->p), v3(i->n))
 ONCE(triangle_by_projected_solid_angle, a_triangle(i), v3(i->p), v3(i->n))
@@ -123,16 +123,16 @@ PDF(triangle_by_projected_solid_angle, a_triangle(i), v3(i->p), v3(i->n))
 PDF(sphere_by_solid_angle, a_sphere(i), v3(i->p))
 PDF(rectangle_by_solid_angle, a_rectangle(i), v3(i->p))
 APART float bilinear(const Input *i) {
-    EtendueBilinear warp = {i->w[0] + 1, i->w[1] + 1, i->w[2] + 1, 1};
-    EtendueVec2 point = etendue_bilinear_sample(warp, U);
+    EtendueShaderBilinear warp = {i->w[0] + 1, i->w[1] + 1, i->w[2] + 1, 1};
+    EtendueShaderVec2 point = etendue_shader_bilinear_sample(warp, U);
     return point.x + point.y;
 }
-static EtendueTriangleBySolidAngle kept;
-APART float prepared(const Input *i) { return sum(etendue_triangle_by_solid_angle_sample(kept, U)); }
+static EtendueShaderTriangleBySolidAngle kept;
+APART float prepared(const Input *i) { return sum(etendue_shader_triangle_by_solid_angle_sample(kept, U)); }
 __attribute__((constructor)) static void prepare(void) {
-    EtendueTriangle light = {{0, 2, 0}, {1, 0, 0}, {0, 0, 1}};
-    EtendueVec3 p = {0, 0, 0};
-    kept = etendue_triangle_by_solid_angle_prepare(light, p);
+    EtendueShaderTriangle light = {{0, 2, 0}, {1, 0, 0}, {0, 0, 1}};
+    EtendueShaderVec3 p = {0, 0, 0};
+    kept = etendue_shader_triangle_by_solid_angle_prepare(light, p);
 }
 const Column HEADER = {triangle_by_solid_angle, triangle_by_cosine_warp, triangle_by_projected_solid_angle, triangle_by_solid_angle_pdf, NULL,
     triangle_by_projected_solid_angle_pdf, NULL, sphere_by_solid_angle, sphere_by_solid_angle_pdf, NULL, rectangle_by_solid_angle,
