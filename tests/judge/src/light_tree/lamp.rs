@@ -2,10 +2,11 @@
 
 use crate::properties::squares_of;
 use crate::techniques::{AreaLight, LightFixture, LightShape, Measure};
+#[cfg(feature = "checks")]
 use etendue::light::Spread;
 use etendue::select::LightBound;
-use etendue::{Disk, LightSample, LightSampler, Line, Parallelogram, PointLight, Sphere, SpotLight, Triangle, Vec3};
-use etendue_oracle::{V3, along, narrow, wide};
+use etendue::{LightSample, LightSampler, PointLight, SpotLight, Vec3};
+use etendue_oracle::{V3, along, cross, length, narrow, sub, unit, wide};
 
 /// What kind of light it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,27 +40,43 @@ pub struct Lamp {
     pub power: f32,
 }
 
+const ZERO: V3 = [0.0; 3];
+
 impl Lamp {
     /// What the renderer tells the tree about it.
     #[must_use]
     pub fn bound(&self) -> LightBound {
-        let [a, b, c] = [self.a, self.b, self.c].map(Vec3::from);
-        let bound = match self.kind {
-            LampKind::Area(LightShape::Sphere) => Sphere::new(a, self.radius.abs()).bound(1.0),
-            LampKind::Area(LightShape::Triangle) => Triangle { v0: a, e1: b, e2: c }.bound(1.0),
-            LampKind::Area(LightShape::Disk) => Disk::new(a, b, self.radius.abs()).bound(1.0),
-            LampKind::Area(LightShape::Line) => Line::new(a, b).bound(1.0),
-            LampKind::Area(_) => Parallelogram::new(a, b, c).bound(1.0),
-            LampKind::Point => PointLight::new(a).bound(1.0),
-            LampKind::Spot => {
-                let spot = SpotLight::new(a, b, [self.c[0], self.c[1]].map(|cos| 1.0 - cos));
-                // narrower than the library tells a tree
-                LightBound { cos_cone: self.c[1], ..spot.bound(1.0) }
+        let [a, b, c] = [self.a, self.b, self.c].map(wide);
+        let r = f64::from(self.radius).abs();
+        let (center, radius, normal) = match self.kind {
+            LampKind::Area(LightShape::Sphere) => (a, r, ZERO),
+            LampKind::Area(LightShape::Triangle) => {
+                let center = along(along(a, b, 1.0 / 3.0), c, 1.0 / 3.0);
+                let far = [a, along(a, b, 1.0), along(a, c, 1.0)].map(|corner| length(sub(corner, center)));
+                (center, far.into_iter().fold(0.0, f64::max), cross(b, c))
             }
+            LampKind::Area(LightShape::Disk) => (a, r, b),
+            LampKind::Area(LightShape::Line) => (along(a, b, 0.5), 0.5 * length(b), ZERO),
+            LampKind::Area(_) => {
+                let diagonals = [1.0, -1.0].map(|sign| length(along(b, c, sign)));
+                (along(along(a, b, 0.5), c, 0.5), 0.5 * diagonals[0].max(diagonals[1]), cross(b, c))
+            }
+            LampKind::Point => (a, 0.0, ZERO),
+            LampKind::Spot => (a, 0.0, b),
         };
-        let bound = if self.spread > 0.0 { bound.within(&Spread::new(self.spread.into())) } else { bound };
-        let two_sided = self.two_sided && bound.normal != [0.0; 3] && self.kind != LampKind::Spot;
-        LightBound { two_sided, power: self.power, ..bound }
+        LightBound {
+            center: narrow(center),
+            radius: (radius * (1.0 + 1e-6)) as f32,
+            normal: narrow(unit(normal)),
+            cos_cone: match self.kind {
+                LampKind::Spot => self.c[1],
+                // less a rounding
+                _ if self.spread > 0.0 => (libm::cos(0.5 * f64::from(self.spread)) * (1.0 - 1e-5)) as f32,
+                _ => 0.0,
+            },
+            two_sided: self.two_sided && length(normal) > 0.0,
+            power: self.power,
+        }
     }
 
     #[cfg(feature = "checks")]
