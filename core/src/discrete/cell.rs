@@ -90,17 +90,15 @@ impl<'a, R: Real, F: Fn(usize) -> &'a [f32]> Row<R> for Rows<F> {
     }
     #[inline(always)]
     fn bounds(&self, index: R::Uint) -> (R, R) {
-        let row = &self.0;
-        let at = |lane: usize, back: usize| {
-            let i = index.lane(lane) as usize;
-            let cdf = row(lane);
-            let value = if i < cdf.len() && i >= back { cdf[i - back] } else { 0.0 };
-            R::Scalar::lit(f64::from(value))
+        let at = |back: usize| {
+            R::from_fn(|lane| {
+                let (cdf, i) = (self.0(lane), index.lane(lane) as usize);
+                let value = if i < cdf.len() && i >= back { cdf[i - back] } else { 0.0 };
+                R::Scalar::lit(f64::from(value))
+            })
         };
-        let start =
-            R::from_fn(|lane| if (index.lane(lane) as usize) < row(lane).len() { at(lane, 1) } else { at(lane, 0) });
-        let end = R::from_fn(|lane| at(lane, 0));
-        (start, end - start)
+        let start = at(1);
+        (start, at(0) - start)
     }
 }
 
