@@ -321,22 +321,11 @@ fn trees_of_many_parts_are_whole() {
             ([x, 2.0, z], d.map(|x| x / length))
         })
         .collect();
-    let lanes = |p: usize, f: &dyn Fn(usize) -> [f32; 3]| {
-        let axis = |k: usize| f32x8::from_fn(|i| f(8 * p + i)[k]);
-        Vec3::new(axis(0), axis(1), axis(2))
-    };
-    let all = [<f32x8 as Real>::Mask::splat(true); 8];
     let ways = [Traversal::Exhaustive, Traversal::Choose, Traversal::Stream, Traversal::Single];
-    let found = ways.map(|way| {
-        let bvh = tree(&triangles).with_traversal(way);
-        let packets: Vec<_> = (0..8).map(|p| bvh.rays(lanes(p, &|i| rays[i].0), lanes(p, &|i| rays[i].1))).collect();
-        let mut hits = [Hits::none(f32x8::splat(f32::INFINITY)); 8];
-        bvh.closest(&packets, &all, &mut hits, &mut Scratch::default());
-        hits.map(|h| (h.distance.to_array().map(f32::to_bits), h.place.to_array()))
-    });
-    let met = found[0].iter().flat_map(|(_, places)| places).filter(|&&place| place != NOTHING).count();
+    let all = ways.map(|way| found(&tree(&triangles).with_traversal(way), &rays));
+    let met = all[0].iter().filter(|(_, place)| *place != NOTHING).count();
     assert!(met > 32, "{met} of 64 rays hit");
-    assert!(found.iter().all(|f| *f == found[0]), "traversals differ");
+    assert!(all.iter().all(|hits| *hits == all[0]), "traversals differ");
 }
 
 #[test]

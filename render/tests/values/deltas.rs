@@ -28,7 +28,7 @@ fn strengths(color: &str, photometric: &str, per_unit: f64) -> Vec<(String, V3)>
 }
 
 pub(super) fn rows() -> Vec<Row> {
-    let kinds = [points(), distant(), spots(), goniometric(), lamps(), projections(), together(), beside_colours()];
+    let kinds = [points(), distant(), spots(), goniometric(), lamps(), together(), beside_colours()];
     // as light from one direction has no noise, every technique has the values of one place exactly
     let exactly = |row: Row| if row.name.contains(Place::new().name.as_str()) { row.exactly() } else { row };
     kinds.into_iter().flatten().map(exactly).collect()
@@ -127,7 +127,7 @@ fn spots() -> Vec<Row> {
     rows
 }
 
-/// The values of `quarters.pfm`, row by row from the top.
+/// The values of `quarters.exr`, row by row from the top.
 const QUARTERS: [V3; 4] = [[1.0, 1.0, 1.0], [2.0, 2.0, 2.0], [3.0, 3.0, 3.0], [4.0, 4.0, 4.0]];
 
 fn goniometric() -> Vec<Row> {
@@ -139,7 +139,7 @@ fn goniometric() -> Vec<Row> {
         let shown = QUARTERS[usize::from(z > 0.0) * 2 + usize::from(x > 0.0)];
         // the texels have equal solid angles
         for (text, strength) in strengths("I", "power", 4.0 * PI * 2.5) {
-            let light = format!("LightSource \"goniometric\" \"string filename\" \"quarters.pfm\" {text}");
+            let light = format!("LightSource \"goniometric\" \"string filename\" \"quarters.exr\" {text}");
             let right: V3 = std::array::from_fn(|k| shown[k] * strength[k] * from_point(position));
             let name = format!("goniometric {text}, {}", place.name);
             rows.push(Row::new(name, on_floor(&place.holds(&light)), reflected(right)));
@@ -193,48 +193,6 @@ fn together() -> Vec<Row> {
         row("lights behind a mirror", format!("{lamp} {glow} Material \"mirror\" {screen}"), grey(0.0)),
         row("lights behind a rough metal", format!("{lamp} {glow} {metal} {screen}"), grey(0.0)),
     ]
-}
-
-/// Solid angle of the rectangle [0, x] × [0, y] at distance 1.
-fn corner(x: f64, y: f64) -> f64 {
-    (x * y / (1.0 + x * x + y * y).sqrt()).atan()
-}
-
-fn projections() -> Vec<Row> {
-    let mut rows = Vec::new();
-    let half = 30_f64.to_radians().tan();
-    for base in [[0.4, 0.6, 3.0], [-0.5, 0.3, 3.0], [-0.2, -0.8, 3.0], [0.7, -0.1, 3.0], [2.5, 0.1, 3.0]] {
-        // along −z
-        for place in similar(&Place::new().translate(base).rotate(180.0, [1.0, 0.0, 0.0])) {
-            let position = place.point([0.0; 3]);
-            let [x, y, z] = place.inverse_vector(sub([0.0; 3], position));
-            let [x, y] = [x / z, y / z];
-            for (file, aspect) in [("quarters.pfm", 1.0), ("wide.pfm", 2.0), ("tall.pfm", 0.5)] {
-                let [across, up] = if aspect > 1.0 { [half * aspect, half] } else { [half, half / aspect] };
-                let inside = z > 0.0 && x.abs() < across && y.abs() < up;
-                // the first row is at the top; the wide image has two columns, and the tall one two rows
-                let (right, lower) = (usize::from(x > 0.0), usize::from(y < 0.0));
-                let texel = match file {
-                    "quarters.pfm" => QUARTERS[2 * lower + right],
-                    "wide.pfm" => QUARTERS[right],
-                    _ => QUARTERS[lower],
-                };
-                let mean = if aspect == 1.0 { 2.5 } else { 1.5 };
-                let strengths = strengths("I", "power", 4.0 * corner(across, up) * mean);
-                // where it aims elsewhere, what it has is the same
-                let some = if base[0] == 0.4 { 0..7 } else { 3..4 };
-                for (text, strength) in &strengths[some] {
-                    let light =
-                        format!("LightSource \"projection\" \"float fov\" 60 \"string filename\" \"{file}\" {text}");
-                    let shown = if inside { times(texel, from_point(position)) } else { grey(0.0) };
-                    let value = std::array::from_fn(|k| shown[k] * strength[k]);
-                    let name = format!("projection {file} {text}, {} at {base:?}", place.name);
-                    rows.push(Row::new(name, on_floor(&place.holds(&light)), reflected(value)));
-                }
-            }
-        }
-    }
-    rows
 }
 
 /// pbrt-v4 multiplies a power by the colour beside it; here the light has the power.

@@ -240,7 +240,7 @@ fn lit() -> Vec<Row> {
 /// Pictures: pbrt's u goes to the right and v upwards, and texels are interpolated.
 fn pictures() -> Vec<Row> {
     let mut rows = Vec::new();
-    // texels from the top left, of quarters.pfm; v = 1 is the top
+    // texels from the top left, of quarters.exr; v = 1 is the top
     let texel = |u: f64, v: f64| [1.0, 2.0, 3.0, 4.0][usize::from(u > 0.5) + 2 * usize::from(v < 0.5)];
     let meshes = [
         format!("Shape \"trianglemesh\" {QUAD} \"point2 uv\" [0 0 1 0 1 1 0 1]"),
@@ -262,7 +262,7 @@ fn pictures() -> Vec<Row> {
                 // a little off the middle of a texel, and of the diagonal
                 let point = place.point([2.0 * u - 1.0 + 1e-4, 2.0 * v - 1.0, 0.0]);
                 let eye = along(point, place.normal([0.0, 0.0, 1.0]), 0.1);
-                let light = format!("AreaLightSource \"diffuse\" \"string filename\" \"quarters.pfm\" {text} {mesh}");
+                let light = format!("AreaLightSource \"diffuse\" \"string filename\" \"quarters.exr\" {text} {mesh}");
                 let name = format!("picture {text} at {u}, {v} on {}, {}", &mesh[7..16], place.name);
                 let right = grey(factor * texel(u, v));
                 rows.push(Row::new(name, format!("{}{}", look(eye, point), place.holds(&light)), right).within(1e-3));
@@ -278,7 +278,7 @@ fn pictures() -> Vec<Row> {
             let (point, normal) = (form.at)(u + 2e-3, v);
             let (point, normal) = (place.point(point), place.normal(normal));
             let light = format!(
-                "AreaLightSource \"diffuse\" \"string filename\" \"quarters.pfm\" \"float power\" 100 {}",
+                "AreaLightSource \"diffuse\" \"string filename\" \"quarters.exr\" \"float power\" 100 {}",
                 form.text
             );
             let text = format!("{}{}", look(along(point, normal, 0.1), point), place.holds(&light));
@@ -290,7 +290,7 @@ fn pictures() -> Vec<Row> {
     for (degrees, north, value) in [(90.0, 1.0, 1.0), (270.0, 1.0, 2.0), (90.0, -1.0, 3.0), (270.0, -1.0, 4.0)] {
         let ((sin, cos), r) = (f64::to_radians(degrees).sin_cos(), 0.5_f64.sqrt());
         let point = [r * cos, r * sin, r * north];
-        let light = "AreaLightSource \"diffuse\" \"string filename\" \"quarters.pfm\" Shape \"sphere\"";
+        let light = "AreaLightSource \"diffuse\" \"string filename\" \"quarters.exr\" Shape \"sphere\"";
         let text = format!("{}{light}", look(times(point, 1.1), point));
         rows.push(Row::new(format!("picture on a sphere at {degrees}"), text, grey(value)).within(1e-3));
     }

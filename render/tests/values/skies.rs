@@ -49,7 +49,7 @@ fn constant() -> Vec<Row> {
 /// The value of an image in a direction of its own space. A square image is pbrt-v4's equal-area map, of which the quarters are those of x
 /// and y; others show longitude from +x over +y, and the north at the top.
 fn texel(file: &str, w: V3) -> f64 {
-    if file == "quarters.pfm" {
+    if file == "quarters.exr" {
         return [1.0, 2.0, 3.0, 4.0][usize::from(w[0] > 0.0) + 2 * usize::from(w[1] > 0.0)];
     }
     let turn = w[1].atan2(w[0]).rem_euclid(2.0 * PI) / (2.0 * PI);
@@ -60,7 +60,7 @@ fn images() -> Vec<Row> {
     let mut rows = Vec::new();
     // the illuminance of a surface that faces the sky's +z: each quarter has a quarter of π
     let illuminance = 2.5 * PI;
-    for file in ["quarters.pfm", "longitudes.pfm"] {
+    for file in ["quarters.exr", "longitudes.exr"] {
         for place in similar(&Place::new().rotate(25.0, [0.3, -1.0, 0.2])) {
             for (text, factor) in [
                 ("", 1.0),
@@ -81,14 +81,14 @@ fn images() -> Vec<Row> {
         let row = Row::new(format!("floor below {file} of 10"), on_floor(&text), reflected(grey(10.0)));
         rows.push(row.by(&Technique::ALL).samples(1 << 16));
     }
-    for size in ["one.pfm", "1x3.pfm", "3x3.pfm", "7x7.pfm", "6x2.pfm", "4x3.pfm"] {
+    for size in ["one.exr", "1x3.exr", "3x3.exr", "7x7.exr", "6x2.exr", "4x3.exr"] {
         let text = format!("LightSource \"infinite\" \"string filename\" \"{size}\" \"float illuminance\" 10");
         let right = reflected(grey(10.0));
         rows.push(Row::new(format!("floor below a sky of {size} of 10"), on_floor(&text), right).samples(1 << 16));
     }
     // beside a constant one, in either order
     let (image, constant) =
-        ("LightSource \"infinite\" \"string filename\" \"one.pfm\"", "LightSource \"infinite\" \"rgb L\" [1 2 4]");
+        ("LightSource \"infinite\" \"string filename\" \"one.exr\"", "LightSource \"infinite\" \"rgb L\" [1 2 4]");
     for skies in [format!("{image} {constant}"), format!("{constant} {image}")] {
         let text = format!("{}{skies}", look([0.0; 3], [0.3, 0.4, -0.5]));
         rows.push(Row::new("an image and a constant sky", text, [2.0, 3.0, 5.0]));

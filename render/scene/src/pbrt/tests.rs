@@ -64,17 +64,6 @@ fn normal(geometry: &Geometry) -> [f32; 3] {
     }
 }
 
-#[test]
-fn fov_spans_the_shorter_side() {
-    let camera = read(&world(TRIANGLE)).camera;
-    assert_eq!(camera.screen, Screen::Half(libm::tan(90_f64.to_radians() / 2.0)));
-    for (width, height, expected) in [(400, 200, [2.0, 1.0]), (200, 400, [1.0, 2.0]), (1, 1, [1.0, 1.0])] {
-        let [left, right, lower, upper] = camera.edges(width, height);
-        assert!((right - expected[0]).abs() < 1e-12 && (upper - expected[1]).abs() < 1e-12, "{right} {upper}");
-        assert_eq!([left, lower], [-right, -upper]);
-    }
-}
-
 /// Without `Scale -1 1 1`, pbrt's camera space is left-handed: looking from +z towards the origin, right is −x.
 #[test]
 fn camera_space_is_left_handed() {
