@@ -1,14 +1,12 @@
 //! Intensities of point lights that differ by direction, looked up in packets.
 
 mod profile;
-mod projector;
 mod rings;
 
 use crate::packet::{V8, X8, select};
 use etendue::light::{EnvironmentMap, ImageEnvironment};
-use etendue::{Real, SpotLight, Vec3};
+use etendue::{Real, SpotLight};
 pub use profile::{Profile, ProfileError};
-pub use projector::Projector;
 pub(crate) use rings::integral;
 use std::f64::consts::TAU;
 
@@ -28,15 +26,6 @@ pub enum Intensity {
         /// The table by which its texels are sampled, of [`ImageEnvironment`].
         table: Vec<f32>,
     },
-    /// A coloured image projected along +z, constant within each texel.
-    Projected {
-        /// How the image maps to directions.
-        projector: Projector,
-        /// Number of columns.
-        width: usize,
-        /// Texels row by row, linear RGB.
-        texels: Vec<[f32; 3]>,
-    },
     /// A cone about +z that falls off by the square of a linear step of the cosine, as glTF suggests.
     Cone {
         /// 1 − cosθ of the angle θ up to which the intensity is 1.
@@ -54,27 +43,14 @@ impl Intensity {
         Some(Self::Sphere { map, width, texels, table })
     }
     /// Intensity in the unit direction `w`, in which light travels.
-    pub fn at(&self, w: V8) -> V8 {
+    pub fn at(&self, w: V8) -> X8 {
         match self {
-            Self::Angles(profile) => {
-                let value = profile.intensity(w);
-                Vec3::new(value, value, value)
-            }
+            Self::Angles(profile) => profile.intensity(w),
             Self::Sphere { map, width, texels, table } => {
                 let image = ImageEnvironment::from_buffer(table, *width, *map).expect("a table of its own size");
                 let texel = image.texel(w);
                 let (x, y) = (texel.x.to_array(), texel.y.to_array());
-                let value = X8::from(std::array::from_fn(|lane| texels[y[lane] as usize * width + x[lane] as usize]));
-                Vec3::new(value, value, value)
-            }
-            Self::Projected { projector, width, texels } => {
-                let (uv, inside) = projector.place(w);
-                let height = texels.len() / width;
-                let index = |x: X8, n: usize| (x * X8::splat(n as f32)).to_array().map(|x| (x as usize).min(n - 1));
-                let (x, y) = (index(uv.x, *width), index(uv.y, height));
-                let each: [[f32; 3]; 8] = std::array::from_fn(|lane| texels[y[lane] * width + x[lane]]);
-                let channel = |k: usize| select(inside, X8::from(each.map(|texel| texel[k])), X8::splat(0.0));
-                Vec3::new(channel(0), channel(1), channel(2))
+                X8::from(std::array::from_fn(|lane| texels[y[lane] as usize * width + x[lane] as usize]))
             }
             Self::Cone { inner, outer } => {
                 // 1 − cosθ, which is precise for narrow cones
@@ -83,48 +59,38 @@ impl Intensity {
                 // a step where both angles are equal
                 let width = X8::splat((outer - inner).max(f32::MIN_POSITIVE));
                 let t = ((X8::splat(*outer) - away) / width).clamped(X8::splat(0.0), X8::splat(1.0));
-                Vec3::new(t * t, t * t, t * t)
+                t * t
             }
         }
     }
-    /// ∫I dω of each channel.
-    pub fn flux(&self) -> [f64; 3] {
+    /// ∫I dω.
+    pub fn flux(&self) -> f64 {
         match self {
-            Self::Angles(profile) => [profile.power(); 3],
+            Self::Angles(profile) => profile.power(),
             Self::Sphere { map, width, texels, .. } => {
                 let height = texels.len() / width;
                 let row = |(y, row): (usize, &[f32])| {
                     row.iter().map(|&x| f64::from(x)).sum::<f64>() * map.texel_solid_angle(*width, height, y)
                 };
-                [texels.chunks(*width).enumerate().map(row).sum(); 3]
-            }
-            Self::Projected { projector, width, texels } => {
-                let size = [*width, texels.len() / width];
-                let mut flux = [0.0; 3];
-                for (i, texel) in texels.iter().enumerate() {
-                    let solid_angle = projector.texel_solid_angle(size, [i % width, i / width]);
-                    (0..3).for_each(|k| flux[k] += f64::from(texel[k]) * solid_angle);
-                }
-                flux
+                texels.chunks(*width).enumerate().map(row).sum()
             }
             // the mean of t² over t is a third
-            Self::Cone { inner, outer } => [TAU / 3.0 * (2.0 * f64::from(*inner) + f64::from(*outer)); 3],
+            Self::Cone { inner, outer } => TAU / 3.0 * (2.0 * f64::from(*inner) + f64::from(*outer)),
         }
     }
-    /// ∫I·falloff dω of a grey intensity within the cone of a spot light: its power, for intensities per steradian. It is a sum over 6,912
+    /// ∫I·falloff dω within the cone of a spot light: its power, for intensities per steradian. It is a sum over 6,912
     /// directions or more in the cone: to 1e−5 for tables whose polar axis is that of the light, by half degrees from it and by 2.5° around
     /// it, and to 1e−3 for others. Beams of less than half a degree may pass between these directions.
     pub fn flux_of_spot(&self, light: &SpotLight<f32>) -> f64 {
         let light = light.map(f64::from);
         let turns = Real::acos((1.0 - light.one_minus_cos_outer).clamp(-1.0, 1.0)) / TAU;
-        integral(light.axis, turns, |w, cos| self.at(w).x * X8::lit(light.falloff_at(1.0 - cos)))
+        integral(light.axis, turns, |w, cos| self.at(w) * X8::lit(light.falloff_at(1.0 - cos)))
     }
     /// Cosine of an angle to +z from which on it is dark; −1 if it may shine in all directions.
     pub fn cos_cone(&self) -> f32 {
         match self {
             Self::Angles(profile) => profile.cos_cone(),
             Self::Sphere { .. } => -1.0,
-            Self::Projected { projector, .. } => projector.cos_cone(),
             Self::Cone { outer, .. } => (1.0 - outer).next_down(),
         }
     }

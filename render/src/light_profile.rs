@@ -32,7 +32,7 @@ const LEAST_COS: f64 = 0.087_155_742_747_658_17;
 /// let lamp = Intensity::Angles(Profile::new(vec![0.0, 60.0], vec![0.0], vec![100.0, 0.0])?);
 /// let opening = LuminousOpening::new([0.0, 0.0, 1.0], false, &lamp).unwrap();
 /// // with an area of 1, the radiance on the axis is the intensity; the power πL is that of the table
-/// let radiance = f32x8::splat(lamp.flux()[0] as f32 / std::f32::consts::PI);
+/// let radiance = f32x8::splat(lamp.flux() as f32 / std::f32::consts::PI);
 /// let on_axis = lamp.at(Vec3::lit([0.0, 0.0, 1.0])).x;
 /// assert!(((radiance * opening.factor(f32x8::splat(1.0), on_axis)).to_array()[0] - 100.0).abs() < 0.01);
 /// # Ok::<(), etendue_render::intensity::ProfileError>(())
@@ -50,7 +50,7 @@ impl LuminousOpening {
         let (turns, sides) = if two_sided { (0.5, 2.0) } else { (0.25, 1.0) };
         let seen = |cos: f64| X8::lit((cos.abs() / LEAST_COS).min(1.0));
         // profiles are grey
-        let flux = integral(normal.into(), turns, |w, cos| intensity.at(w).x * seen(cos));
+        let flux = integral(normal.into(), turns, |w, cos| intensity.at(w) * seen(cos));
         let gain = sides * PI / flux;
         (flux > 0.0 && gain < f64::from(f32::MAX)).then_some(Self { gain: gain as f32 })
     }
@@ -77,6 +77,6 @@ impl LightProfile {
     /// The factor of the radiance in the unit directions `w`, in which light travels, of a shape with this unit normal.
     pub fn factor(&self, w: V8, normal: V8) -> X8 {
         let [x, y, z] = self.to_light.map(|row| V8::from(row).dot(w));
-        self.opening.factor(w.dot(normal), self.intensity.at(Vec3::new(x, y, z)).x)
+        self.opening.factor(w.dot(normal), self.intensity.at(Vec3::new(x, y, z)))
     }
 }

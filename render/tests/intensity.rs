@@ -1,11 +1,10 @@
-//! Intensity profiles and projected images against definitions in double precision, and by quadrature.
+//! Intensity profiles against definitions in double precision, and by quadrature.
 
-use etendue::Mask;
 use etendue_judge::generators::Random;
 use etendue_judge::properties::Coordinates;
+use etendue_oracle::V3;
 use etendue_oracle::tier::cases;
-use etendue_oracle::{V3, unit};
-use etendue_render::intensity::{Profile, ProfileError, Projector};
+use etendue_render::intensity::{Profile, ProfileError};
 use etendue_render::packet::V8;
 use std::f64::consts::{PI, TAU};
 
@@ -186,45 +185,5 @@ fn tables_that_are_none_are_refused() {
     }
     for value in [-1.0, f32::NAN, f32::INFINITY, 2e37] {
         assert_eq!(error(&[0.0, 1.0], &[0.0], &[0.0, value]), Some(ProfileError::Value));
-    }
-}
-
-const PROJECTORS: [[f32; 2]; 5] = [[1.0, 1.0], [0.5, 0.1], [1e-3, 2e-3], [20.0, 0.3], [3.0, 100.0]];
-
-/// Places are those of the definition, and the solid angles of the texels sum to that of the image.
-#[test]
-fn projectors_map_the_image() {
-    let mut random = Random::new(13);
-    for tan_half in PROJECTORS {
-        let projector = Projector { tan_half };
-        let [across, up] = tan_half.map(f64::from);
-        for _ in 0..cases(200, 20_000) / 8 + 1 {
-            let places = [(); 8].map(|()| [random.unit_f64(), random.unit_f64()]);
-            // through its point in the plane of the image
-            let w = places.map(|[u, v]| unit([(2.0 * u - 1.0) * across, (1.0 - 2.0 * v) * up, 1.0]));
-            let (found, inside) = projector.place(Coordinates::gather(&w));
-            for (lane, (uv, w)) in places.into_iter().zip(w).enumerate() {
-                assert!(w[2] >= f64::from(projector.cos_cone()));
-                let slack = 3e-7 / w[2];
-                let off = [found.x, found.y].map(|x| f64::from(x.to_array()[lane]));
-                let edge = uv.iter().any(|&x| x < slack || x > 1.0 - slack);
-                let is_near = (0..2).all(|k| (off[k] - uv[k]).abs() < slack);
-                assert!(edge || inside.lane(lane) && is_near, "{uv:?} {off:?}");
-            }
-        }
-        for packet in directions(&mut random, 299).chunks(8) {
-            let (_, inside) = projector.place(Coordinates::gather(packet));
-            for (lane, w) in packet.iter().enumerate() {
-                let there = w[2] > 0.0 && (w[0] / w[2]).abs() < across && (w[1] / w[2]).abs() < up;
-                assert_eq!(inside.lane(lane), there, "{w:?}");
-            }
-        }
-        // Ω = 4 asin(sin α sin β) for half angles α and β of a pyramid
-        let sin = |t: f64| t / t.hypot(1.0);
-        let whole = 4.0 * (sin(across) * sin(up)).asin();
-        for [w, h] in [[1, 1], [2, 3], [64, 33]] {
-            let sum: f64 = (0..w * h).map(|i| projector.texel_solid_angle([w, h], [i % w, i / w])).sum();
-            assert!((sum / whole - 1.0).abs() < 1e-9, "{tan_half:?}: {sum} for {whole}");
-        }
     }
 }

@@ -229,14 +229,14 @@ fn lights_far_away_have_their_share_of_the_irradiance() {
     }
 }
 
-/// A hundred and sixty lights that differ by direction, each turned in its own way: lamps of IES files, projected images, panels with a spread,
+/// A hundred and sixty lights that differ by direction, each turned in its own way: lamps of IES files and of images, panels with a spread,
 /// and spots and panels with profiles.
 fn directed_and_spread() -> Scene {
     let folder = Folder::new();
     folder.ies("narrow.ies", "0 5 10", "0", "9 1 0");
     folder.ies("wide.ies", "0 60 90", "0", "1 2 3");
     folder.ies("up.ies", "90 120 180", "0", "1 2 3");
-    folder.picture("slide.exr", [4, 3], |x, y| if (x + y).is_multiple_of(2) { [1.0, 0.0, 2.0] } else { [0.0; 3] });
+    folder.picture("around.exr", [4, 4], |x, y| if (x + y).is_multiple_of(2) { [1.0, 0.0, 2.0] } else { [0.0; 3] });
     let corners = "\"point3 P\" [0 0 0 .3 0 0 0 .2 0 .3 .2 0]";
     let area = "AreaLightSource \"diffuse\"";
     let quad = format!("Shape \"bilinearmesh\" {corners}");
@@ -244,7 +244,7 @@ fn directed_and_spread() -> Scene {
         "LightSource \"goniometric\" \"string filename\" \"narrow.ies\"".to_owned(),
         "LightSource \"goniometric\" \"string filename\" \"wide.ies\"".to_owned(),
         "LightSource \"goniometric\" \"string filename\" \"up.ies\"".to_owned(),
-        "LightSource \"projection\" \"string filename\" \"slide.exr\" \"float fov\" ANGLE".to_owned(),
+        "LightSource \"goniometric\" \"string filename\" \"around.exr\"".to_owned(),
         format!("{area} \"float spread\" ANGLE {quad}"),
         format!("{area} \"float spread\" ANGLE Shape \"trianglemesh\" \"integer indices\" [0 1 2 1 3 2] {corners}"),
         "LightSource \"spot\" \"float coneangle\" ANGLE \"float conedeltaangle\" 2 \"string profile\" \"wide.ies\""

@@ -116,7 +116,7 @@ fn openings_have_the_intensities_of_their_table() {
     let opening = LuminousOpening::new([0.0, 0.0, 1.0], false, &intensity).unwrap();
     let of = |directions: &[V3]| {
         let w: V8 = Coordinates::gather(directions);
-        (opening.factor(w.z, intensity.at(w).x) * w.z.abs()).to_array().map(f64::from)
+        (opening.factor(w.z, intensity.at(w)) * w.z.abs()).to_array().map(f64::from)
     };
     let scale = of(&[[0.0, 0.0, 1.0]])[0] / table.at([0.0, 0.0, 1.0]);
     for _ in 0..cases(1000, 100_000) / 8 {

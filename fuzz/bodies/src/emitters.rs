@@ -1,19 +1,18 @@
-//! Lights that emit other than evenly: profiles, projected images, and spreads.
+//! Lights that emit other than evenly: profiles and spreads.
 
 use etendue::light::Spread;
 use etendue::{Disk, LightSampler, Parallelogram, Rectangle, SpotLight, Vec3, f32x8};
 use etendue_judge::fuzz_bodies::Input;
 use etendue_judge::properties::{squares_of, vectors_of};
-use etendue_render::intensity::{Intensity, Profile, ProfileError, Projector};
+use etendue_render::intensity::{Intensity, Profile, ProfileError};
 use etendue_render::light_profile::LuminousOpening;
 use etendue_render::packet::V8;
 
-/// One of three kinds of light, of any numbers.
+/// One of two kinds of light, of any numbers.
 pub fn emitters(bytes: &[u8]) {
     let input = &mut Input::new(bytes);
-    match input.below(3) {
+    match input.below(2) {
         0 => profile(input),
-        1 => projected(input),
         _ => spread(input),
     }
 }
@@ -51,7 +50,7 @@ fn lamps(input: &mut Input<'_>, intensity: &Intensity) {
     assert!(flux >= 0.0 && flux.is_finite(), "{flux} by {spot:?}");
     let Some(opening) = LuminousOpening::new(axis.map(f64::from), input.below(2) == 1, intensity) else { return };
     let w: V8 = vectors_of(|_| any);
-    let factor = opening.factor(w.dot(vectors_of(|_| axis)), intensity.at(w).x).as_array()[4];
+    let factor = opening.factor(w.dot(vectors_of(|_| axis)), intensity.at(w)).as_array()[4];
     assert!(
         opening.gain > 0.0 && factor >= 0.0 && factor.is_finite(),
         "{factor} by {opening:?} along {any:?} from {axis:?}"
@@ -95,31 +94,6 @@ fn profile(input: &mut Input<'_>) {
         }
     }
     lamps(input, &Intensity::Angles(profile));
-}
-
-/// Any tangents: places are in the image, and the same in every lane.
-fn projected(input: &mut Input<'_>) {
-    let tan_half = [input.weight(), input.weight()];
-    let projector = Projector { tan_half };
-    assert!((0.0..=1.0).contains(&projector.cos_cone()), "{tan_half:?}");
-    for _ in 0..4 {
-        let any = [(); 8].map(|()| input.vector(&[]));
-        let (uv, inside) = projector.place(vectors_of(|lane| any[lane]));
-        let found: Vec<_> = uv.x.to_array().into_iter().zip(uv.y.to_array()).collect();
-        for (lane, any) in any.into_iter().enumerate() {
-            let (u, v) = found[lane];
-            assert!([u, v].iter().all(|x| (0.0..1.0).contains(x)), "{tan_half:?} at {any:?}: {u} {v} {inside:?}");
-            let (alone, _) = projector.place(vectors_of(|_| any));
-            assert_eq!((alone.x.as_array()[2], alone.y.as_array()[5]), (u, v));
-        }
-    }
-    let (width, height) = (1 + usize::from(input.below(30)), 1 + usize::from(input.below(30)));
-    let (x, y) = (usize::from(input.below(width as u8)), usize::from(input.below(height as u8)));
-    let solid_angle = projector.texel_solid_angle([width, height], [x, y]);
-    assert!(
-        solid_angle > 0.0 && solid_angle < 6.3,
-        "{tan_half:?}, texel ({x}, {y}) of {width} x {height}: {solid_angle}"
-    );
 }
 
 /// Lights, points and spreads of any numbers: results are finite, in every lane the same, and a part is no larger than the light.

@@ -22,12 +22,12 @@
 //! | `trianglemesh`, `plymesh`, `sphere`, `disk`, parallelograms of `bilinearmesh` | themselves, with interpolated normals |
 //! | other patches, `cylinder`, partial, stretched or textured spheres and disks | triangles |
 //! | `loopsubdiv` | its control mesh |
-//! | `curve` and older quadrics | left out |
+//! | `curve` and older quadrics, `projection` | left out |
 //! | `ObjectInstance` | itself, or a copy in small scenes; lights in objects emit nothing, as in pbrt |
 //! | `power` of a `diffuse` light | that of all of a shape, also of a mesh; `scale` multiplies it |
 //! | `diffuse` with a picture | itself: texels are interpolated as in pbrt-v4, by u and v, or the angles of a whole sphere |
 //! | pictures in EXR files | their display windows: black where they have no data, and without the data outside |
-//! | `goniometric`, `projection` | themselves, with the texel of a direction; also IES files of type C, which pbrt does not read, without factors of `TILT` |
+//! | `goniometric` | itself, with the texel of a direction; also IES files of type C, which pbrt does not read, without factors of `TILT` |
 //! | `portal` | itself, in world space; a ray that escapes beside it is black, as in pbrt |
 //! | `"float spread"` of area lights, which pbrt does not have | the full angle of [`Spread`](etendue::light::Spread) in degrees, as in Cycles |
 //! | `"string profile"` of spot and area lights, which pbrt does not have | intensities by direction, as below |

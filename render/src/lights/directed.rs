@@ -5,7 +5,7 @@ use super::chosen::Chosen;
 use super::record::{Candidate, LightRecord};
 use super::spot::cosine_below;
 use crate::intensity::Intensity;
-use crate::packet::{M8, V8, X8, each_group};
+use crate::packet::{M8, V8, X8, each_group, select};
 use crate::scene::Cone;
 use etendue::{LightSample, LightSampler, PointLight, Real, SpotLight, Vec2, Vec3};
 use std::f64::consts::PI;
@@ -51,8 +51,8 @@ impl DirectedLight {
             _ => own,
         };
         let second = [f32::from_bits(index), 0.0, cos];
-        let flux = cone.map_or_else(|| self.intensity.flux(), |cone| [cone.flux; 3]);
-        let power = (0..3).map(|k| f64::from(radiance[k]) * flux[k]).sum::<f64>() / PI;
+        let flux = cone.map_or_else(|| self.intensity.flux(), |cone| cone.flux);
+        let power = (0..3).map(|k| f64::from(radiance[k]) * flux).sum::<f64>() / PI;
         Candidate::near(LightRecord { first, second, ..LightRecord::bare(KIND, position, radiance) }, power)
     }
 }
@@ -62,7 +62,7 @@ impl DirectedLight {
 #[inline(never)]
 pub(super) fn sample(lights: &[DirectedLight], chosen: &mut Chosen, p: V8, here: M8) -> LightSample<X8> {
     let index = chosen.second.x.to_bits();
-    let mut found = V8::default();
+    let mut found = X8::default();
     let sample = PointLight::new(chosen.place).by_delta(p).sample(Vec2::default());
     let w = -sample.direction;
     each_group(index, here, |light, same| {
@@ -72,11 +72,9 @@ pub(super) fn sample(lights: &[DirectedLight], chosen: &mut Chosen, p: V8, here:
         if let Some(cone) = cone {
             own = own * SpotLight::splat(*cone).falloff(w);
         }
-        found = V8::blend(same, own, found);
+        found = select(same, own, found);
     });
-    let V8 { x, y, z } = chosen.radiance;
-    let intensity = V8::new(x * found.x, y * found.y, z * found.z);
-    chosen.radiance = V8::blend(here, intensity, chosen.radiance);
-    let some = (found.x + found.y + found.z).gt(X8::lit(0.0));
+    chosen.radiance = V8::blend(here, chosen.radiance * found, chosen.radiance);
+    let some = found.gt(X8::lit(0.0));
     LightSample { pdf: sample.pdf.keep(some), emits: sample.emits & some, ..sample }
 }

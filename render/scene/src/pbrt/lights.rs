@@ -29,9 +29,9 @@ pub(super) fn read(
     notes: &mut Notes,
 ) -> Result<Source, Message> {
     if !["point", "spot", "distant", "infinite"].contains(&kind) {
-        return Err(params.error(
-            "not supported, only \"point\", \"spot\", \"distant\", \"infinite\", \"goniometric\" and \"projection\"",
-        ));
+        return Err(
+            params.error("not supported, only \"point\", \"spot\", \"distant\", \"infinite\" and \"goniometric\"")
+        );
     }
     let is_sky = kind == "infinite";
     let file = match if is_sky { params.text("filename")? } else { None } {

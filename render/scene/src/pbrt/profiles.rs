@@ -43,7 +43,7 @@ pub(super) fn read(
 }
 
 /// Reads an image without what no light can have.
-pub(super) fn picture(params: &Params, name: &str, files: &Files<'_>) -> Result<Picture, Message> {
+fn picture(params: &Params, name: &str, files: &Files<'_>) -> Result<Picture, Message> {
     let image = files.image(name).map_err(|error| params.error(error.to_string()))?;
     let (width, height) = (image.width, image.height);
     if width * height > MOST_TEXELS {

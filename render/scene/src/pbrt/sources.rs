@@ -34,8 +34,13 @@ impl Sources {
         notes: &mut Notes,
     ) -> Result<(), Message> {
         let table = self.intensities.len() as u32;
-        if ["goniometric", "projection"].contains(&kind) {
-            self.push(directed::read(kind, params, ctm, files, notes, table)?);
+        if kind == "goniometric" {
+            self.push(directed::read(params, ctm, files, notes, table)?);
+            return Ok(());
+        }
+        if kind == "projection" {
+            notes.stand_in(kind, || params.error("lights of this type are left out"));
+            params.ignore_all();
             return Ok(());
         }
         let profile = match if kind == "spot" { params.text("profile")? } else { None } {

@@ -1,4 +1,4 @@
-//! Lights with intensities of their own: IES files, images of directions, projected images, and their error messages.
+//! Lights with intensities of their own: IES files, images of directions, and their error messages.
 
 use super::*;
 use etendue_render::packet::V8;
@@ -16,7 +16,7 @@ fn intensities(folder: &Folder, light: &str, directions: &[[f64; 3]]) -> Vec<f64
         let length = w.iter().map(|x| x * x).sum::<f64>().sqrt();
         let w = V8::splat(w.map(|x| (x / length) as f32).into());
         let [x, y, z] = to_light.map(|row| V8::from(row).dot(w));
-        f64::from(shape.at(V8::new(x, y, z)).x.as_array()[5]) * f64::from(intensity[0])
+        f64::from(shape.at(V8::new(x, y, z)).as_array()[5]) * f64::from(intensity[0])
     };
     directions.iter().map(at).collect()
 }
@@ -77,7 +77,7 @@ fn damaged_files_are_errors() {
         .replace("TILT=NONE", "TILT=INCLUDE\n1 2 0 90 1 1");
     let judge = |text: &str| match ies::parse(text, "a.ies") {
         Ok(found) => {
-            let flux = found.intensity.flux()[0];
+            let flux = found.intensity.flux();
             assert!((0.0..=12.6).contains(&flux) && found.greatest >= 0.0, "{flux}: {text}");
             true
         }
@@ -143,32 +143,29 @@ fn errors_name_file_line_and_value() {
     folder.write("a.ies", file(NEW, 1, "0 90", "0", "0 0"));
     assert!(load_in(&folder, LAMP).unwrap().warnings[0].text.contains("emits nothing"));
     folder.picture("odd.exr", [3, 2], |_, _| [1.0, 1.0, 1.0]);
+    folder.picture("even.exr", [2, 2], |_, _| [1.0, 1.0, 1.0]);
     folder.picture("nan.exr", [2, 2], |x, _| [x as f32, f32::NAN, 1.0]);
     folder.picture("negative.exr", [2, 2], |x, _| [-(x as f32), 1.0, 1.0]);
     for (light, what) in [
         ("\"goniometric\"", "needs the name of a file"),
-        ("\"projection\" \"float fov\" 40", "needs the name of a file"),
         ("\"goniometric\" \"string filename\" \"none.ies\"", "cannot read \"none.ies\""),
         (
             "\"goniometric\" \"string filename\" \"odd.exr\"",
             "odd.exr: 3×2 texels: must be square, or twice as wide as high",
         ),
         ("\"goniometric\" \"string filename\" \"nan.exr\"", "nan.exr: texel (0, 0) is [0.0, NaN, 1.0]: must be finite"),
-        ("\"projection\" \"string filename\" \"negative.exr\"", "negative.exr: texel (1, 0) is [-1.0, 1.0, 1.0]"),
+        ("\"goniometric\" \"string filename\" \"negative.exr\"", "negative.exr: texel (1, 0) is [-1.0, 1.0, 1.0]"),
         (
-            "\"projection\" \"string filename\" \"odd.exr\" \"float fov\" 180",
-            "\"fov\": must be between 0 and 180 degrees, not 180",
-        ),
-        (
-            "\"projection\" \"string filename\" \"odd.exr\" \"float power\" -1",
+            "\"goniometric\" \"string filename\" \"even.exr\" \"float power\" -1",
             "\"power\": must be greater than 0, not -1",
         ),
-        ("\"projection\" \"string filename\" \"odd.exr\" \"float scale\" 1e39", "at most 3.4028235e38 is supported"),
+        ("\"goniometric\" \"string filename\" \"even.exr\" \"float scale\" 1e39", "at most 3.4028235e38 is supported"),
     ] {
         let error = load_in(&folder, &format!("LightSource {light}")).unwrap_err();
         assert!(error.starts_with("a.pbrt:2: LightSource ") && error.contains(what), "{error}\n{what}");
     }
-    let error = load_in(&folder, "Scale 1 2 1 LightSource \"projection\" \"string filename\" \"odd.exr\"").unwrap_err();
+    let error =
+        load_in(&folder, "Scale 1 2 1 LightSource \"goniometric\" \"string filename\" \"even.exr\"").unwrap_err();
     assert!(error.contains("rotations, reflections and uniform scales"), "{error}");
 }
 
