@@ -4,6 +4,7 @@ use etendue_judge::fixtures::ProjectedTriangle;
 use etendue_judge::fuzz_bodies::{TARGETS, Target};
 use etendue_judge::generators::Random;
 use etendue_judge::properties;
+use etendue_judge::techniques::AreaLight;
 use etendue_oracle::tier::cases;
 use std::path::Path;
 use std::sync::Mutex;
@@ -31,6 +32,15 @@ fn seeds() {
     }
 }
 
+/// Every light of the core's list.
+#[test]
+fn every_light_has_a_target() {
+    for (shape, _) in AreaLight::KINDS {
+        let name = format!("{shape:?}_light").to_lowercase();
+        assert!(TARGETS.iter().any(|target| target.name == name), "{name}");
+    }
+}
+
 /// A past finding as plain numbers: a triangle with an edge that rises vertically above the horizon, and a direction next to that edge.
 #[test]
 fn inverse_beside_an_upright_edge() {
@@ -43,7 +53,7 @@ fn inverse_beside_an_upright_edge() {
     properties::inverse(&triangle, [-0.504813015, 0.341584474, 0.79276967]);
 }
 
-/// Runs `count` inputs of 8 to 263 bytes on each target, with the targets distributed over all processors. An input that breaks a property
+/// Runs `count` inputs of 8 to 1,028 bytes on each target, with the targets distributed over all processors. An input that breaks a property
 /// is kept as a file.
 fn random(count: impl Fn(&Target) -> u64 + Sync) {
     let (next, total, broken) = (AtomicUsize::new(0), Mutex::new(0), Mutex::new(Vec::new()));
@@ -52,7 +62,7 @@ fn random(count: impl Fn(&Target) -> u64 + Sync) {
             let (count, start) = (count(target), Instant::now());
             let mut random = Random::new(count);
             for i in 0..count {
-                let bytes: Vec<u8> = (0..8 + i % 256).map(|_| random.word() as u8).collect();
+                let bytes: Vec<u8> = (0..8 + i % 256 * 4).map(|_| random.word() as u8).collect();
                 if std::panic::catch_unwind(|| (target.body)(&bytes)).is_err() {
                     let file = Path::new(env!("CARGO_TARGET_TMPDIR")).join(target.name);
                     std::fs::write(&file, &bytes).unwrap();

@@ -14,7 +14,7 @@ mod shapes;
 mod skies;
 mod surfaces;
 
-use crate::generators::{self, EDGES, NASTY};
+use crate::generators::{self, EDGES, NASTY, Random};
 use arbitrary::Unstructured;
 
 /// A fuzz target.
@@ -78,10 +78,32 @@ targets! {
     cosine_warped: shapes, 100;
     /// Bilinear patches, by area.
     patch_surface: surfaces, 20;
-    /// Lights with a surface, and lines, by every technique.
-    area_lights: lights, 700;
-    /// Lights without a surface.
-    distant_lights: lights, 700;
+    /// Spheres, by every technique.
+    sphere_light: lights, 90;
+    /// Triangles, by every technique.
+    triangle_light: lights, 90;
+    /// Parallelograms, by every technique.
+    parallelogram_light: lights, 90;
+    /// Rectangles, also without right angles, by every technique.
+    rectangle_light: lights, 90;
+    /// Disks, by every technique.
+    disk_light: lights, 90;
+    /// Quadrilaterals, by every technique.
+    polygon_light: lights, 90;
+    /// Bilinear patches, by every technique.
+    patch_light: lights, 90;
+    /// Lines, by every technique.
+    line_light: lights, 90;
+    /// Point lights.
+    point_light: lights, 140;
+    /// Spot lights.
+    spot_light: lights, 140;
+    /// Directional lights.
+    directional_light: lights, 140;
+    /// Suns of any size.
+    sun_light: lights, 140;
+    /// Skies of one radiance.
+    constant_light: lights, 140;
     /// An environment image, in either mapping.
     environment: numbers, 300;
     /// Pictures on lights of any shape.
@@ -131,6 +153,11 @@ impl<'a> Input<'a> {
     /// 64 bits.
     pub fn seed(&mut self) -> u64 {
         self.0.arbitrary().unwrap_or(0)
+    }
+    /// Numbers that are bytes of the input themselves, eight each; after its end, any.
+    fn numbers(&mut self, count: usize) -> Random {
+        let there = self.0.len() / size_of::<u64>();
+        Random::of((0..count.min(there)).map(|_| self.seed()).collect())
     }
     /// A multiple of 2⁻²⁴ in [0, 1), often one of [`EDGES`].
     pub fn unit(&mut self) -> f32 {
@@ -222,10 +249,15 @@ impl<'a> Input<'a> {
         let n = 1 + self.below(most);
         (0..n).map(|_| self.weight()).collect()
     }
-    /// One of the cases that a generator makes, from a seed in the input.
-    fn case<S: Copy>(&mut self, cases: impl Fn(usize, u64) -> Vec<generators::Case<S>>) -> generators::Case<S> {
-        let all = cases(1, self.seed());
-        all[self.below(all.len() as u8) as usize]
+    /// One of the cases that a generator makes, of numbers of the input.
+    fn case<S: Copy>(&mut self, cases: impl Fn(usize, Random) -> Vec<generators::Case<S>>) -> generators::Case<S> {
+        let which = self.below(u8::MAX) as usize;
+        let all = cases(1, self.numbers(18));
+        all[which % all.len()]
+    }
+    /// What [`properties::pointwise`](crate::properties::pointwise) draws.
+    fn points(&mut self) -> Random {
+        self.numbers(16)
     }
 }
 

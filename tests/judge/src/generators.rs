@@ -27,20 +27,52 @@ impl etendue::sequence::Sequence for AlongCurve {
     }
 }
 
-/// SplitMix64, independent of the generators under test.
+/// SplitMix64, independent of the generators under test; before it, given numbers, if there are any: a fuzzer's bytes are then numbers of a
+/// shape, and no seed.
 #[derive(Clone, Debug)]
-pub struct Random(u64);
+pub struct Random {
+    numbers: Vec<u64>,
+    /// How many of the numbers have been read.
+    read: usize,
+    state: u64,
+}
+
+impl From<u64> for Random {
+    fn from(seed: u64) -> Self {
+        Self::new(seed)
+    }
+}
 
 impl Random {
+    /// Numbers of a case, at most.
+    const CASE: usize = 16;
+
     /// Starts a stream.
     #[must_use]
     pub fn new(seed: u64) -> Self {
-        Self(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ 0x1234_5678_9abc_def0)
+        Self { numbers: Vec::new(), read: 0, state: seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ 0x1234_5678_9abc_def0 }
+    }
+    /// Begins with these numbers.
+    #[must_use]
+    pub fn of(numbers: Vec<u64>) -> Self {
+        Self { numbers, ..Self::new(0) }
+    }
+    /// Without the numbers of a case.
+    fn rest(&self) -> Self {
+        Self { numbers: self.numbers.get(Self::CASE..).unwrap_or_default().to_vec(), read: 0, state: self.state }
+    }
+    /// Begins a case, which reads the numbers that others read: they are those of whichever is taken.
+    fn begin(&mut self) {
+        self.read = 0;
     }
     /// 64 random bits.
     pub fn word(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
+        if let Some(&number) = self.numbers.get(self.read) {
+            self.read += 1;
+            return number;
+        }
+        self.state = self.state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.state;
         z = (z ^ z >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
         z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
         z ^ z >> 31
@@ -117,7 +149,9 @@ pub fn unit_or_edge(random: &mut Random) -> f64 {
 /// A shape, with the name of the regime that it represents.
 pub type Case<S> = (&'static str, S);
 
+/// A frame of any orientation: a case begins.
 fn frame(random: &mut Random) -> [[f64; 3]; 3] {
+    random.begin();
     let n = random.direction();
     let (s, t) = etendue_oracle::basis(n);
     let turn = random.range(0.0, core::f64::consts::TAU);

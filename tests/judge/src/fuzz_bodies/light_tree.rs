@@ -1,7 +1,6 @@
 //! The body of the target of trees of lights.
 
 use super::Input;
-use crate::generators::Random;
 use crate::light_tree::{Grove, Lamp, LampKind, Regime, place};
 use crate::techniques::LightShape;
 use etendue::reflection::Reflection;
@@ -45,7 +44,7 @@ fn fair(lamp: &Lamp) -> bool {
 pub(super) fn light_tree(input: &mut Input<'_>) {
     let regime = Regime::ALL[input.below(Regime::ALL.len() as u8) as usize];
     let count = 1 + usize::from(input.below(200)) % (1 + usize::from(input.below(200)));
-    let mut random = Random::new(input.seed());
+    let mut random = input.numbers(64);
     let mut lamps = regime.lamps(count, &mut random);
     let mut before = vec![lamps[0].a];
     let odd = input.below(6);

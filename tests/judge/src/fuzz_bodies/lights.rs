@@ -8,9 +8,28 @@ use etendue::{
 };
 use etendue_oracle::{V3, cross, dot, length, sub, wide};
 
-/// Lights with a surface: packets of eight that mix two lights of one kind.
-pub(super) fn area_lights(input: &mut Input<'_>) {
-    let (shape, by) = AreaLight::KINDS[input.below(AreaLight::KINDS.len() as u8) as usize];
+macro_rules! area_lights {
+    ($($target:ident: $shape:ident;)+) => {$(
+        pub(super) fn $target(input: &mut Input<'_>) {
+            area_light(LightShape::$shape, input);
+        }
+    )+};
+}
+area_lights! {
+    sphere_light: Sphere;
+    triangle_light: Triangle;
+    parallelogram_light: Parallelogram;
+    rectangle_light: Rectangle;
+    disk_light: Disk;
+    polygon_light: Polygon;
+    patch_light: Patch;
+    line_light: Line;
+}
+
+/// A shape by any of its techniques: packets of eight that mix two lights.
+fn area_light(shape: LightShape, input: &mut Input<'_>) {
+    let techniques: Vec<_> = AreaLight::KINDS.iter().filter(|kind| kind.0 == shape).collect();
+    let by = techniques[input.below(techniques.len() as u8) as usize].1;
     let mut one = || {
         let p = input.vector(&[]);
         let a = input.vector(&[p]);
@@ -92,9 +111,24 @@ impl LightFixture for Distant {
     }
 }
 
-/// Lights without a surface: packets of eight that mix two lights of one kind.
-pub(super) fn distant_lights(input: &mut Input<'_>) {
-    let kind = input.below(6);
+macro_rules! distant_lights {
+    ($($target:ident: |$input:ident| $kind:expr;)+) => {$(
+        pub(super) fn $target($input: &mut Input<'_>) {
+            let kind = $kind;
+            distant_light(kind, $input);
+        }
+    )+};
+}
+distant_lights! {
+    point_light: |input| 0;
+    spot_light: |input| 1;
+    directional_light: |input| 2;
+    sun_light: |input| 3;
+    constant_light: |input| 4 + input.below(2);
+}
+
+/// Packets of eight that mix two lights of one kind.
+fn distant_light(kind: u8, input: &mut Input<'_>) {
     let mut one = || {
         let (p, n) = (input.vector(&[]), input.direction());
         (Distant { kind, p, a: input.vector(&[p]), n, x: input.number(), y: input.number() }, input.square())

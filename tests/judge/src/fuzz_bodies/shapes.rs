@@ -24,7 +24,7 @@ pub(super) fn cone(input: &mut Input<'_>) {
     let (cone, u) = (Cone { one_minus_cos: input.number() }, input.square());
     properties::any_bits(&cone, u);
     if (1e-30..=2.0).contains(&cone.one_minus_cos) {
-        properties::pointwise(&cone, u, &mut Random::new(input.seed()));
+        properties::pointwise(&cone, u, &mut input.points());
         uniform(&cone, u, |c| c.uniform_pdf());
     }
 }
@@ -34,7 +34,7 @@ pub(super) fn fixed_warps(input: &mut Input<'_>) {
     fn check<S: Fixture>(s: &S, input: &mut Input<'_>) {
         let u = input.square();
         properties::any_bits(s, u);
-        properties::pointwise(s, u, &mut Random::new(input.seed()));
+        properties::pointwise(s, u, &mut input.points());
     }
     match input.below(8) {
         0 => check(&ConcentricDisk, input),
@@ -52,7 +52,7 @@ pub(super) fn fixed_warps(input: &mut Input<'_>) {
 pub(super) fn line_warps(input: &mut Input<'_>) {
     let (kind, u) = (input.below(3), input.square());
     let [a, b, c, d] = [(); 4].map(|()| input.number());
-    let random = &mut Random::new(input.seed());
+    let random = &mut input.points();
     let fair = |x: f32| (1e-25..1e25).contains(&x);
     match kind {
         0 => {
@@ -89,7 +89,7 @@ pub(super) fn visible_normals(input: &mut Input<'_>) {
     properties::any_bits(&GgxVisibleNormals { wi: input.direction(), ..s }, u);
     let all = generators::microsurfaces();
     let (_, s) = all[input.below(all.len() as u8) as usize];
-    properties::pointwise(&s, u, &mut Random::new(input.seed()));
+    properties::pointwise(&s, u, &mut input.points());
 }
 
 /// Spheres.
@@ -104,7 +104,7 @@ pub(super) fn spherical_cap(input: &mut Input<'_>) {
     }
     let (name, s) = input.case(generators::caps);
     let _said = Said(name);
-    properties::pointwise(&s, u, &mut Random::new(input.seed()));
+    properties::pointwise(&s, u, &mut input.points());
     nearest_hit(&s, u);
 }
 
@@ -144,16 +144,15 @@ fn flat<S: Fixture>(s: &S, u: [f32; 2], lengths: &[f32]) {
 }
 /// The properties of a shape from a regime: all of them, except near a hemisphere, where a step of `u` turns the direction a lot. There,
 /// one distance in 1e4 is off by more than the tolerance, which is a known limit.
-fn regime<S: Fixture>((name, s): generators::Case<S>, u: [f32; 2], seed: u64) {
+fn regime<S: Fixture>((name, s): generators::Case<S>, u: [f32; 2], mut random: Random) {
     let _said = Said(name);
     properties::within_reach(&s, u);
     if name.starts_with("near-hemisphere") || name.starts_with("large") {
         properties::any_bits(&s, u);
         properties::scale(&s, u);
-        let mut random = Random::new(seed);
         properties::pdf(&s, u, [random.unit_f64(), random.unit_f64()]);
     } else {
-        properties::pointwise(&s, u, &mut Random::new(seed));
+        properties::pointwise(&s, u, &mut random);
     }
 }
 /// Three vectors that may be related, and all their coordinates.
@@ -170,14 +169,14 @@ pub(super) fn spherical_triangle(input: &mut Input<'_>) {
     let (by_edges, by_vertices) = (Triangle::by_edges(a, b, c), Triangle::by_vertices(a, b, c));
     flat(&by_edges, u, &all);
     flat(&by_vertices, u, &all);
-    regime(input.case(generators::triangles), u, input.seed());
+    regime(input.case(generators::triangles), u, input.points());
 }
 
 /// Parallelograms.
 pub(super) fn spherical_parallelogram(input: &mut Input<'_>) {
     let (u, ([a, b, c], all)) = (input.square(), three(input));
     flat(&Parallelogram::new(a, b, c), u, &all);
-    regime(input.case(generators::parallelograms), u, input.seed());
+    regime(input.case(generators::parallelograms), u, input.points());
 }
 
 /// Rectangles, including malformed ones.
@@ -191,7 +190,7 @@ pub(super) fn spherical_rectangle(input: &mut Input<'_>) {
         flat(&s, u, &[]);
         properties::within_reach(&s, u);
     } else {
-        regime((name, s), u, input.seed());
+        regime((name, s), u, input.points());
     }
 }
 
@@ -210,9 +209,9 @@ pub(super) fn spherical_polygon(input: &mut Input<'_>) {
         flat(&s, u, &[]);
         properties::within_reach(&s, u);
     } else {
-        regime((name, s), u, input.seed());
+        regime((name, s), u, input.points());
     }
-    regime(input.case(generators::hexagons_of_every_size), u, input.seed());
+    regime(input.case(generators::hexagons_of_every_size), u, input.points());
 }
 
 /// Disks with a unit normal, and with any normal.
@@ -222,7 +221,7 @@ pub(super) fn spherical_disk(input: &mut Input<'_>) {
     flat(&s, u, &[center[0], center[1], center[2], radius]);
     properties::any_bits(&Disk::new(center, input.vector(&[center]), radius), u);
     let (name, (center, normal, radius)) = input.case(generators::disk_parameters);
-    regime((name, Disk::new(center, normal, radius)), u, input.seed());
+    regime((name, Disk::new(center, normal, radius)), u, input.points());
 }
 
 /// Line segments.
@@ -232,7 +231,7 @@ pub(super) fn spherical_segment(input: &mut Input<'_>) {
     flat(&Segment::new(a, edge), u, &[a, edge].concat());
     let (name, [a, edge]) = input.case(|each, seed| generators::segment_parameters(each, seed).0);
     let _said = Said(name);
-    properties::pointwise(&Segment::new(a, edge), u, &mut Random::new(input.seed()));
+    properties::pointwise(&Segment::new(a, edge), u, &mut input.points());
 }
 
 /// Line segments over a horizon.
@@ -247,7 +246,7 @@ pub(super) fn projected_segment(input: &mut Input<'_>) {
     // the rounding of the normal may move the horizon past the whole of a tiny segment
     let warp = ProjectedSegment::prepare::<f32>(&[s]);
     if s.seen() && warp.pdf(warp.sample(properties::squares_of(&[u]))) > 0.0 {
-        properties::pointwise(&s, u, &mut Random::new(input.seed()));
+        properties::pointwise(&s, u, &mut input.points());
     }
 }
 
@@ -260,18 +259,18 @@ pub(super) fn projected_triangle(input: &mut Input<'_>) {
     let (name, [v, a, b, normal]) = input.case(generators::over_horizon);
     let s = ProjectedTriangle::by_edges(v, a, b, normal);
     if s.projected_solid_angle() > 0.0 {
-        over_horizon((name, s), u, input.seed());
+        over_horizon((name, s), u, input.points());
     }
 }
 /// The properties of a shape over a horizon. Known limits: near a hemisphere a step of `u` turns the direction by more than the tolerance;
 /// for slivers the pdf and the direction may be off by twice the tolerance; next to shapes of 1e−7 the pdf may not yet be 0 at 16 units
 /// outside.
-fn over_horizon<S: Fixture>((name, s): generators::Case<S>, u: [f32; 2], seed: u64) {
+fn over_horizon<S: Fixture>((name, s): generators::Case<S>, u: [f32; 2], mut random: Random) {
     let _said = Said(name);
     if ["hemisphere", "huge", "close", "sliver", "1e-7"].iter().any(|part| name.contains(part)) {
         flat(&s, u, &[]);
     } else {
-        properties::pointwise(&s, u, &mut Random::new(seed));
+        properties::pointwise(&s, u, &mut random);
     }
 }
 
@@ -284,15 +283,15 @@ pub(super) fn projected_polygon(input: &mut Input<'_>) {
     all.extend([d, e].concat());
     flat(&ProjectedPentagon::new([a, b, c, d, e], normal), u, &all);
     if input.below(2) == 0 {
-        over_horizon(input.case(generators::projected_pentagons), u, input.seed());
+        over_horizon(input.case(generators::projected_pentagons), u, input.points());
     } else {
         let (name, [p, a, b, normal]) = input.case(generators::over_horizon);
         let s = ProjectedParallelogram::new(p, a, b, normal);
         if s.projected_solid_angle() > 0.0 {
-            over_horizon((name, s), u, input.seed());
+            over_horizon((name, s), u, input.points());
         }
     }
-    over_horizon(input.case(generators::projected_pentagons_of_every_size), u, input.seed());
+    over_horizon(input.case(generators::projected_pentagons_of_every_size), u, input.points());
 }
 
 /// Shapes warped by the cosine.
@@ -302,8 +301,8 @@ pub(super) fn cosine_warped(input: &mut Input<'_>) {
     flat(&CosineTriangle { shape: Triangle::by_edges(a, b, c), normal }, u, &all);
     flat(&CosineRectangle { shape: Rectangle::new(a, b, c), normal }, u, &all);
     if input.below(2) == 0 {
-        regime(input.case(generators::cosine_triangles), u, input.seed());
+        regime(input.case(generators::cosine_triangles), u, input.points());
     } else {
-        regime(input.case(generators::cosine_rectangles), u, input.seed());
+        regime(input.case(generators::cosine_rectangles), u, input.points());
     }
 }

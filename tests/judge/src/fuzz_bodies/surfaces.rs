@@ -2,14 +2,13 @@
 
 use super::Input;
 use crate::fixtures::PatchSurface;
-use crate::generators::Random;
 use crate::properties::{self, Fixture};
 
 /// Checks a surface of any numbers, and one of ordinary size and distance, for which all properties hold.
 fn check<S: Fixture>(any: &S, fair: &S, input: &mut Input<'_>) {
     let u = input.square();
     properties::any_bits(any, u);
-    properties::pointwise(fair, u, &mut Random::new(input.seed()));
+    properties::pointwise(fair, u, &mut input.points());
 }
 /// A length from 2⁻²⁰ to 2²⁰, and how far away a thing of that size may be: up to a thousand times its size.
 fn units(input: &mut Input<'_>) -> (f32, f32) {

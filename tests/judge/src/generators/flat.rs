@@ -8,8 +8,8 @@ use libm::{cos, exp2, log2, sin};
 type Place<'a> = dyn FnMut(&mut Random, [[f64; 3]; 3]) -> [[f64; 3]; 3] + 'a;
 
 /// Corner and two edges of flat shapes, `each` random ones in every regime.
-fn flats(each: usize, seed: u64) -> Vec<(&'static str, [[f32; 3]; 3])> {
-    let mut random = Random::new(seed);
+fn flats(each: usize, numbers: impl Into<Random>) -> Vec<(&'static str, [[f32; 3]; 3])> {
+    let mut random: Random = numbers.into();
     let mut all = Vec::new();
     for _ in 0..each {
         let mut push = |name, f: &mut Place<'_>| {
@@ -69,8 +69,8 @@ fn flats(each: usize, seed: u64) -> Vec<(&'static str, [[f32; 3]; 3])> {
 
 /// Corner and edges of flat shapes so nearly in a plane with the viewpoint that f32 barely resolves on which side it lies.
 #[must_use]
-pub fn nearly_in_plane(each: usize, seed: u64) -> Vec<[[f32; 3]; 3]> {
-    let mut random = Random::new(seed);
+pub fn nearly_in_plane(each: usize, numbers: impl Into<Random>) -> Vec<[[f32; 3]; 3]> {
+    let mut random: Random = numbers.into();
     let mut one = |height: f64| {
         let a = frame(&mut random);
         if random.word() & 1 == 0 {
@@ -86,8 +86,8 @@ pub fn nearly_in_plane(each: usize, seed: u64) -> Vec<[[f32; 3]; 3]> {
 
 /// Triangles in every regime.
 #[must_use]
-pub fn triangles(each: usize, seed: u64) -> Vec<Case<Triangle>> {
-    flats(each, seed)
+pub fn triangles(each: usize, numbers: impl Into<Random>) -> Vec<Case<Triangle>> {
+    flats(each, numbers)
         .into_iter()
         .enumerate()
         .map(|(i, (name, [v0, e1, e2]))| {
@@ -103,13 +103,14 @@ pub fn triangles(each: usize, seed: u64) -> Vec<Case<Triangle>> {
 
 /// Parallelograms in every regime.
 #[must_use]
-pub fn parallelograms(each: usize, seed: u64) -> Vec<Case<Parallelogram>> {
-    flats(each, seed).into_iter().map(|(name, [p, u, v])| (name, Parallelogram::new(p, u, v))).collect()
+pub fn parallelograms(each: usize, numbers: impl Into<Random>) -> Vec<Case<Parallelogram>> {
+    flats(each, numbers).into_iter().map(|(name, [p, u, v])| (name, Parallelogram::new(p, u, v))).collect()
 }
 
 /// Two perpendicular vectors of random orientation whose products with 8-bit numbers are exact in f32, and their unit normal: columns of
 /// the rotation by a quaternion of small integers.
 fn exact_axes(random: &mut Random) -> [[f64; 3]; 3] {
+    random.begin();
     let mut pick = || (random.word() % 13) as f64 - 6.0;
     let (a, b, c, d) = (pick() + 0.5, pick(), pick(), pick());
     let u = [a * a + b * b - c * c - d * d, 2.0 * (b * c + a * d), 2.0 * (b * d - a * c)];
@@ -128,8 +129,8 @@ type SizeAndCorner = ([f64; 2], [f64; 3]);
 
 /// Rectangles in every regime; rounding leaves their right angles exact.
 #[must_use]
-pub fn rectangles(each: usize, seed: u64) -> Vec<Case<Rectangle>> {
-    let mut random = Random::new(seed);
+pub fn rectangles(each: usize, numbers: impl Into<Random>) -> Vec<Case<Rectangle>> {
+    let mut random: Random = numbers.into();
     let mut all = Vec::new();
     for _ in 0..each {
         let mut push = |name, f: &dyn Fn(&mut Random) -> SizeAndCorner| {
@@ -188,8 +189,8 @@ pub fn rectangles(each: usize, seed: u64) -> Vec<Case<Rectangle>> {
 
 /// Convex hexagons, from the semi-axes and the centre of their circumscribed ellipse.
 #[must_use]
-pub fn hexagons(each: usize, seed: u64) -> Vec<Case<Hexagon>> {
-    let mut random = Random::new(seed);
+pub fn hexagons(each: usize, numbers: impl Into<Random>) -> Vec<Case<Hexagon>> {
+    let mut random: Random = numbers.into();
     let mut all = Vec::new();
     for _ in 0..each {
         for (name, size, center) in [
@@ -214,8 +215,8 @@ pub fn hexagons(each: usize, seed: u64) -> Vec<Case<Hexagon>> {
 
 /// Convex hexagons of every size, in coordinates about their own centre, as the corners of a small one in a large scene have their digits.
 #[must_use]
-pub fn hexagons_of_every_size(each: usize, seed: u64) -> Vec<Case<Hexagon>> {
-    let mut random = Random::new(seed);
+pub fn hexagons_of_every_size(each: usize, numbers: impl Into<Random>) -> Vec<Case<Hexagon>> {
+    let mut random: Random = numbers.into();
     let mut all = Vec::new();
     for _ in 0..each {
         for (name, size, unit) in [
@@ -240,21 +241,26 @@ pub fn hexagons_of_every_size(each: usize, seed: u64) -> Vec<Case<Hexagon>> {
 }
 
 /// Shapes with random normals, from the regimes where the cosine varies over the shape and from the extremes of size.
-fn with_normals<S, W>(shapes: Vec<Case<S>>, seed: u64, of: impl Fn(S, [f32; 3]) -> W) -> Vec<Case<W>> {
+fn with_normals<S, W>(shapes: Vec<Case<S>>, mut random: Random, of: impl Fn(S, [f32; 3]) -> W) -> Vec<Case<W>> {
     const KEPT: [&str; 7] = ["ordinary", "ordinary, aside", "small 1e-2", "tiny 1e-5", "far 1e9", "large 6", "oblique"];
-    let mut random = Random::new(seed);
     let kept = shapes.into_iter().filter(|case| KEPT.contains(&case.0));
-    kept.map(|(name, shape)| (name, of(shape, narrow(random.direction())))).collect()
+    kept.map(|(name, shape)| {
+        random.begin();
+        (name, of(shape, narrow(random.direction())))
+    })
+    .collect()
 }
 
 /// Triangles on surfaces of any orientation.
 #[must_use]
-pub fn cosine_triangles(each: usize, seed: u64) -> Vec<Case<CosineTriangle>> {
-    with_normals(triangles(each, seed), seed, |shape, normal| CosineTriangle { shape, normal })
+pub fn cosine_triangles(each: usize, numbers: impl Into<Random>) -> Vec<Case<CosineTriangle>> {
+    let random = numbers.into();
+    with_normals(triangles(each, random.clone()), random.rest(), |shape, normal| CosineTriangle { shape, normal })
 }
 
 /// Rectangles on surfaces of any orientation.
 #[must_use]
-pub fn cosine_rectangles(each: usize, seed: u64) -> Vec<Case<CosineRectangle>> {
-    with_normals(rectangles(each, seed), seed, |shape, normal| CosineRectangle { shape, normal })
+pub fn cosine_rectangles(each: usize, numbers: impl Into<Random>) -> Vec<Case<CosineRectangle>> {
+    let random = numbers.into();
+    with_normals(rectangles(each, random.clone()), random.rest(), |shape, normal| CosineRectangle { shape, normal })
 }

@@ -19,9 +19,9 @@ enum Lie {
 
 /// Flat shapes relative to a horizon, in every regime: corner, two edges and normal.
 #[must_use]
-pub fn over_horizon(each: usize, seed: u64) -> Vec<Case<[[f32; 3]; 4]>> {
+pub fn over_horizon(each: usize, numbers: impl Into<Random>) -> Vec<Case<[[f32; 3]; 4]>> {
     use Lie::{At, Corner, Cut, Zenith};
-    let mut random = Random::new(seed);
+    let mut random: Random = numbers.into();
     let mut all = Vec::new();
     for _ in 0..each {
         // size, length over width, distance from the point of its plane nearest to the viewpoint, and placement
@@ -98,6 +98,7 @@ pub fn over_horizon(each: usize, seed: u64) -> Vec<Case<[[f32; 3]; 4]>> {
             all.push((name, [corner, e1, e2, normal].map(narrow)));
         }
         // exactly aligned with the coordinate planes
+        random.begin();
         let upright = [[0.2, 0.0, 1.0], [1.0, 0.0, 0.0], [0.5, random.range(0.2, 1.0), 0.0], [0.0, 0.0, 1.0]];
         all.push(("azimuth of an edge", upright.map(narrow)));
         let lying = [[-1.0, 2.0, 0.0], [1.5, 0.0, 0.0], [0.5, 0.2, random.range(0.2, 1.0)], [0.0, 0.0, 1.0]];
@@ -108,9 +109,9 @@ pub fn over_horizon(each: usize, seed: u64) -> Vec<Case<[[f32; 3]; 4]>> {
 
 /// Triangles relative to a horizon, in every regime.
 #[must_use]
-pub fn projected_triangles(each: usize, seed: u64) -> Vec<Case<ProjectedTriangle>> {
+pub fn projected_triangles(each: usize, numbers: impl Into<Random>) -> Vec<Case<ProjectedTriangle>> {
     let add = |a: [f32; 3], b: [f32; 3]| core::array::from_fn(|k| a[k] + b[k]);
-    over_horizon(each, seed)
+    over_horizon(each, numbers)
         .into_iter()
         .enumerate()
         .map(|(i, (name, [v, a, b, n]))| {
@@ -125,8 +126,8 @@ pub fn projected_triangles(each: usize, seed: u64) -> Vec<Case<ProjectedTriangle
 
 /// Parallelograms relative to a horizon, in every regime.
 #[must_use]
-pub fn projected_parallelograms(each: usize, seed: u64) -> Vec<Case<ProjectedParallelogram>> {
-    over_horizon(each, seed)
+pub fn projected_parallelograms(each: usize, numbers: impl Into<Random>) -> Vec<Case<ProjectedParallelogram>> {
+    over_horizon(each, numbers)
         .into_iter()
         .map(|(name, [p, u, v, n])| (name, ProjectedParallelogram::new(p, u, v, n)))
         .filter(|(_, t)| t.projected_solid_angle() > 0.0)
@@ -135,8 +136,8 @@ pub fn projected_parallelograms(each: usize, seed: u64) -> Vec<Case<ProjectedPar
 
 /// Convex pentagons relative to a horizon.
 #[must_use]
-pub fn projected_pentagons(each: usize, seed: u64) -> Vec<Case<ProjectedPentagon>> {
-    let mut random = Random::new(seed);
+pub fn projected_pentagons(each: usize, numbers: impl Into<Random>) -> Vec<Case<ProjectedPentagon>> {
+    let mut random: Random = numbers.into();
     let mut all = Vec::new();
     for _ in 0..each {
         for (name, size, center, normal) in [
@@ -163,8 +164,8 @@ pub fn projected_pentagons(each: usize, seed: u64) -> Vec<Case<ProjectedPentagon
 
 /// Convex pentagons of every size relative to a horizon, in coordinates about their own centre.
 #[must_use]
-pub fn projected_pentagons_of_every_size(each: usize, seed: u64) -> Vec<Case<ProjectedPentagon>> {
-    let mut random = Random::new(seed);
+pub fn projected_pentagons_of_every_size(each: usize, numbers: impl Into<Random>) -> Vec<Case<ProjectedPentagon>> {
+    let mut random: Random = numbers.into();
     let mut all = Vec::new();
     for _ in 0..each {
         for (name, size, unit, normal) in [

@@ -7,8 +7,8 @@ use std::sync::Mutex;
 
 /// Line segments in every regime, alone and relative to a horizon.
 #[must_use]
-pub fn segments(each: usize, seed: u64) -> (Vec<Case<Segment>>, Vec<Case<ProjectedSegment>>) {
-    let (plain, over) = segment_parameters(each, seed);
+pub fn segments(each: usize, numbers: impl Into<Random>) -> (Vec<Case<Segment>>, Vec<Case<ProjectedSegment>>) {
+    let (plain, over) = segment_parameters(each, numbers);
     let plain = plain.into_iter().map(|(name, [a, edge])| (name, Segment::new(a, edge))).collect();
     let over = over.into_iter().map(|(name, [a, edge, n])| (name, ProjectedSegment::new(a, edge, n)));
     (plain, over.filter(|(_, s)| s.seen()).collect())
@@ -25,8 +25,11 @@ fn joined(name: &'static str, place: &'static str) -> &'static str {
 /// plane with the viewpoint, and the inner table the tilt of the normal and the first end's height over the horizon.
 #[must_use]
 #[expect(clippy::type_complexity, reason = "vectors")]
-pub fn segment_parameters(each: usize, seed: u64) -> (Vec<Case<[[f32; 3]; 2]>>, Vec<Case<[[f32; 3]; 3]>>) {
-    let mut random = Random::new(seed);
+pub fn segment_parameters(
+    each: usize,
+    numbers: impl Into<Random>,
+) -> (Vec<Case<[[f32; 3]; 2]>>, Vec<Case<[[f32; 3]; 3]>>) {
+    let mut random: Random = numbers.into();
     let (mut plain, mut projected) = (Vec::new(), Vec::new());
     for _ in 0..each {
         for (name, a, edge) in [

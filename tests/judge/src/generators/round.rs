@@ -5,8 +5,8 @@ use crate::fixtures::{Cap, Disk, ProjectedCap};
 
 /// Spheres in every regime.
 #[must_use]
-pub fn caps(each: usize, seed: u64) -> Vec<Case<Cap>> {
-    let mut random = Random::new(seed);
+pub fn caps(each: usize, numbers: impl Into<Random>) -> Vec<Case<Cap>> {
+    let mut random: Random = numbers.into();
     let mut all = Vec::new();
     for _ in 0..each {
         for (name, ratio, unit) in [
@@ -23,9 +23,11 @@ pub fn caps(each: usize, seed: u64) -> Vec<Case<Cap>> {
             ("inside", 1.5, 1.0),
             ("deep inside", 1e3, 1.0),
         ] {
+            random.begin();
             let center = narrow(random.direction().map(|x| x * unit));
             all.push((name, Cap::new(center, (ratio * unit) as f32)));
         }
+        random.begin();
         let size = random.magnitude(1e-9, 1e-2);
         all.push(("on the axis", Cap::new([0.0, 0.0, 1.0], size as f32)));
     }
@@ -34,8 +36,8 @@ pub fn caps(each: usize, seed: u64) -> Vec<Case<Cap>> {
 
 /// Spheres relative to a horizon, in every regime: the ratio of radius to distance, and the cosine between the normal and the axis.
 #[must_use]
-pub fn projected_caps(each: usize, seed: u64) -> Vec<Case<ProjectedCap>> {
-    let mut random = Random::new(seed);
+pub fn projected_caps(each: usize, numbers: impl Into<Random>) -> Vec<Case<ProjectedCap>> {
+    let mut random: Random = numbers.into();
     let mut all = Vec::new();
     for _ in 0..each {
         for (name, ratio, cos) in [
@@ -62,6 +64,7 @@ pub fn projected_caps(each: usize, seed: u64) -> Vec<Case<ProjectedCap>> {
             let center = narrow(combine(&a, f64::sqrt(1.0 - cos * cos), 0.0, cos));
             all.push((name, ProjectedCap::new(center, ratio as f32, narrow(a[2]))));
         }
+        random.begin();
         let normal = narrow(random.direction());
         // exactly along the normal: if rounding alone separated the axis from it, the azimuth would be that of the rounding
         all.push((
@@ -79,15 +82,15 @@ pub fn projected_caps(each: usize, seed: u64) -> Vec<Case<ProjectedCap>> {
 
 /// Disks in every regime.
 #[must_use]
-pub fn disks(each: usize, seed: u64) -> Vec<Case<Disk>> {
-    disk_parameters(each, seed).into_iter().map(|(name, (c, n, r))| (name, Disk::new(c, n, r))).collect()
+pub fn disks(each: usize, numbers: impl Into<Random>) -> Vec<Case<Disk>> {
+    disk_parameters(each, numbers).into_iter().map(|(name, (c, n, r))| (name, Disk::new(c, n, r))).collect()
 }
 
 /// Centre, normal and radius of [`disks`]: the radius, the height of the viewpoint over the plane, and its offset from the axis.
 #[must_use]
 #[expect(clippy::type_complexity, reason = "vectors and a number")]
-pub fn disk_parameters(each: usize, seed: u64) -> Vec<Case<([f32; 3], [f32; 3], f32)>> {
-    let mut random = Random::new(seed);
+pub fn disk_parameters(each: usize, numbers: impl Into<Random>) -> Vec<Case<([f32; 3], [f32; 3], f32)>> {
+    let mut random: Random = numbers.into();
     let mut all = Vec::new();
     for _ in 0..each {
         for (name, radius, height, offset) in [
@@ -116,6 +119,7 @@ pub fn disk_parameters(each: usize, seed: u64) -> Vec<Case<([f32; 3], [f32; 3], 
             let center = narrow(combine(&axes, offset, 0.0, height));
             all.push((name, (center, narrow(axes[2]), radius as f32)));
         }
+        random.begin();
         all.push(("exactly on the axis", ([0.0, 0.0, -2.0], [0.0, 0.0, 1.0], random.range(0.1, 4.0) as f32)));
     }
     all
