@@ -1,17 +1,17 @@
 //! A small host: directions to a triangle, a rectangle and a sphere, uniform in solid angle, each from a point of its own. Prints nanoseconds
-//! per sample with its preparation, ours beside a textbook's, as rows of a table. `benches/host/run` builds it for three kinds of hosts.
+//! per sample with its preparation, ours beside a textbook's, as rows of a table. `benches/host/run` builds it for four kinds of hosts.
 //!
-//! A debug build calls the batches, which are compiled in their library, and a release build the core. In a debug build packets stand beside
-//! the textbook's single numbers, which are faster there than its packets.
+//! A debug build, and one with the feature `dispatch`, call the batches, which are compiled in their library; others call the core. In a debug
+//! build packets stand beside the textbook's single numbers, which are faster there than its packets.
 
 #[cfg_attr(debug_assertions, allow(dead_code))]
 mod packets;
 mod textbook;
 
-#[cfg(not(debug_assertions))]
+#[cfg(not(any(debug_assertions, feature = "dispatch")))]
 use etendue::LightSampler;
 use etendue::{Rectangle, Sphere, Triangle, Vec2, Vec3, f32x8};
-#[cfg(debug_assertions)]
+#[cfg(any(debug_assertions, feature = "dispatch"))]
 use etendue_batch::{Batch, technique};
 use std::hint::black_box;
 use std::time::Instant;
@@ -108,12 +108,12 @@ fn eight(v: Vector) -> Vec3<f32x8> {
     Vec3::from(v).map(f32x8::splat)
 }
 
-/// Times of a light: in a debug build by the technique of the batches, in a release build by the core.
+/// Times of a light, by the technique of the batches or by the core.
 macro_rules! times {
     ($input:expr, $technique:ident, $light:expr, $textbook:expr, $textbook_of_eight:expr) => {{
         let light = black_box($light);
         let of_eight = light.map(f32x8::splat);
-        #[cfg(debug_assertions)]
+        #[cfg(any(debug_assertions, feature = "dispatch"))]
         let (one, eight) = {
             type Light = technique::$technique;
             let batch = Batch::new();
@@ -128,7 +128,7 @@ macro_rules! times {
                 },
             )
         };
-        #[cfg(not(debug_assertions))]
+        #[cfg(not(any(debug_assertions, feature = "dispatch")))]
         let (one, eight) = (
             move |p: Vector, [x, y]: [f32; 2]| {
                 let s = light.by_solid_angle(p.into()).sample(Vec2::new(x, y));
