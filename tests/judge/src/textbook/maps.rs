@@ -1,0 +1,346 @@
+//! Samplers of spheres, triangles and rectangles.
+
+use super::vectors::{V, add, cross, dot, length, normalize, sub, times};
+use crate::lights::sampler::{Sample, Sampler};
+use core::f32::consts::{PI, TAU};
+
+fn drawn(direction: V, pdf: f32) -> Option<Sample> {
+    Some(Sample { direction, pdf, is_hidden: false })
+}
+/// The distance at which a ray meets a triangle (`half`) or a parallelogram, by Möller and Trumbore; none if it is not met.
+fn met([p, e1, e2]: [V; 3], half: bool, w: V) -> Option<f32> {
+    let across = cross(w, e2);
+    let scale = 1.0 / dot(e1, across);
+    let from = times(p, -1.0);
+    let (s, over) = (dot(from, across) * scale, cross(from, e1));
+    let (t, distance) = (dot(w, over) * scale, dot(e2, over) * scale);
+    let most = if half { 1.0 - s } else { 1.0 };
+    ((0.0..=1.0).contains(&s) && (0.0..=most).contains(&t) && distance > 0.0).then_some(distance)
+}
+
+/// A cone by its cosine: cosσ = √(1 − R²/d²), cosθ = 1 − u₀(1 − cosσ), sinθ = √(1 − cos²θ). With `series`,
+/// sin²θ = u₀ sin²σ and 1 − cosσ = ½ sin²σ below sin²σ = 0.00068523 (1.5°), as in PBR 4th ed., 6.2.4.
+#[derive(Clone, Copy, Debug)]
+pub struct Cone {
+    frame: etendue::Frame<f32>,
+    sin_squared: f32,
+    small: bool,
+    h: f32,
+}
+impl Cone {
+    /// The sphere of a centre and a radius.
+    #[must_use]
+    pub fn new(center: V, radius: f32, series: bool) -> Self {
+        let distance = length(center);
+        let axis = normalize(center);
+        let frame = etendue::Frame::new(etendue::Vec3::new(axis[0], axis[1], axis[2]));
+        let sin_squared = radius * radius / (distance * distance);
+        let small = series && sin_squared < 0.000_685_23;
+        let cos_sigma = (1.0 - sin_squared).max(0.0).sqrt();
+        Self { frame, sin_squared, small, h: if small { 0.5 * sin_squared } else { 1.0 - cos_sigma } }
+    }
+}
+impl Sampler for Cone {
+    fn sample(&self, u: [f32; 2]) -> Option<Sample> {
+        let mut cos = 1.0 - u[0] * self.h;
+        let mut sin_squared_theta = 1.0 - cos * cos;
+        if self.small {
+            sin_squared_theta = self.sin_squared * u[0];
+            cos = (1.0 - sin_squared_theta).sqrt();
+        }
+        let sin = sin_squared_theta.max(0.0).sqrt();
+        let (s, c) = (TAU * u[1]).sin_cos();
+        let w = self.frame.to_world(etendue::Vec3::new(sin * c, sin * s, cos));
+        drawn([w.x, w.y, w.z], 1.0 / (TAU * self.h))
+    }
+    fn pdf(&self, w: V) -> f32 {
+        let local = self.frame.to_local(etendue::Vec3::new(w[0], w[1], w[2]));
+        let across = local.x * local.x + local.y * local.y;
+        if local.z > 0.0 && across <= self.sin_squared { 1.0 / (TAU * self.h) } else { 0.0 }
+    }
+    fn invert(&self, w: V) -> Option<[f32; 2]> {
+        let local = self.frame.to_local(etendue::Vec3::new(w[0], w[1], w[2]));
+        let azimuth = local.y.atan2(local.x) / TAU;
+        Some([(1.0 - local.z) / self.h, if azimuth < 0.0 { azimuth + 1.0 } else { azimuth }])
+    }
+}
+
+/// How to compute the solid angle of a spherical triangle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Excess {
+    /// α + β + γ − π, with angles by arc cosines of the planes' normals (Girard; Arvo 1995).
+    Angles,
+    /// 2 atan2(|a·(b×c)|, 1 + a·b + b·c + c·a) on unit vectors (Van Oosterom and Strackee 1983).
+    Oosterom,
+}
+
+/// A spherical triangle and Arvo's map about b, from a to c ("Stratified Sampling of Spherical Triangles", 1995).
+#[derive(Clone, Copy, Debug)]
+pub struct Arvo {
+    a: V,
+    b: V,
+    c: V,
+    cos_c: f32,
+    angle: [f32; 2],
+    solid_angle: f32,
+}
+impl Arvo {
+    /// The triangle of vertices relative to the point.
+    #[must_use]
+    pub fn new([a, b, c]: [V; 3], excess: Excess) -> Self {
+        let (a, b, c) = (normalize(a), normalize(b), normalize(c));
+        let planes = [cross(a, b), cross(b, c), cross(c, a)].map(normalize);
+        let angle = |p: V, q: V| (-dot(p, q)).clamp(-1.0, 1.0).acos();
+        let (alpha, beta, gamma) =
+            (angle(planes[0], planes[2]), angle(planes[1], planes[0]), angle(planes[2], planes[1]));
+        let solid_angle = match excess {
+            Excess::Angles => alpha + beta + gamma - PI,
+            Excess::Oosterom => {
+                let volume = dot(a, cross(b, c)).abs();
+                2.0 * volume.atan2(1.0 + dot(a, b) + dot(b, c) + dot(c, a))
+            }
+        };
+        Self { a, b, c, cos_c: dot(a, b), angle: [alpha.sin(), alpha.cos()], solid_angle }
+    }
+    /// Solid angle in steradians.
+    #[must_use]
+    pub fn solid_angle(&self) -> f32 {
+        self.solid_angle
+    }
+    /// The direction for `u`.
+    #[must_use]
+    pub fn sample(&self, u: [f32; 2]) -> V {
+        let [sin_alpha, cos_alpha] = self.angle;
+        let (sin_area, cos_area) = (u[0] * self.solid_angle).sin_cos();
+        let s = sin_area * cos_alpha - cos_area * sin_alpha;
+        let t = cos_area * cos_alpha + sin_area * sin_alpha;
+        let p = t - cos_alpha;
+        let q = s + sin_alpha * self.cos_c;
+        let cos = ((q * t - p * s) * cos_alpha - q) / ((q * s + p * t) * sin_alpha);
+        let cos = cos.clamp(-1.0, 1.0);
+        let towards = |from: V, to: V| normalize(sub(to, times(from, dot(from, to))));
+        let swept = add(times(self.a, cos), times(towards(self.a, self.c), (1.0 - cos * cos).max(0.0).sqrt()));
+        let z = 1.0 - u[1] * (1.0 - dot(swept, self.b));
+        add(times(self.b, z), times(towards(self.b, swept), (1.0 - z * z).max(0.0).sqrt()))
+    }
+    /// The inverse: the swept fraction of the solid angle, and a ratio of values of 1 − cos.
+    #[must_use]
+    pub fn invert(&self, w: V, excess: Excess) -> [f32; 2] {
+        let plane = cross(self.b, w);
+        if dot(plane, plane) == 0.0 {
+            return [0.0; 2];
+        }
+        let mut swept = normalize(cross(plane, cross(self.c, self.a)));
+        if dot(swept, add(self.a, self.c)) < 0.0 {
+            swept = times(swept, -1.0);
+        }
+        let part = Self::new([self.a, self.b, swept], excess);
+        [part.solid_angle / self.solid_angle, (1.0 - dot(w, self.b)) / (1.0 - dot(swept, self.b))]
+    }
+}
+
+/// A fan of spherical triangles, chosen by u₀.
+#[derive(Clone, Debug)]
+pub struct Fan {
+    parts: Vec<Arvo>,
+    excess: Excess,
+    whole: f32,
+}
+impl Fan {
+    /// The triangles of vertices relative to the point.
+    #[must_use]
+    pub fn new(triangles: &[[V; 3]], excess: Excess) -> Self {
+        let parts: Vec<_> = triangles.iter().map(|t| Arvo::new(*t, excess)).collect();
+        let whole = parts.iter().map(Arvo::solid_angle).sum();
+        Self { parts, excess, whole }
+    }
+    /// How far a direction is inside of each part, and the index of the part that has it deepest.
+    fn part_of(&self, w: V) -> (f32, usize) {
+        let depth = |f: &Arvo| {
+            let turn = dot(f.a, cross(f.b, f.c)).signum();
+            let sides = [(f.a, f.b), (f.b, f.c), (f.c, f.a)];
+            sides.map(|(a, b)| turn * dot(w, cross(a, b))).into_iter().fold(f32::INFINITY, f32::min)
+        };
+        let depths = self.parts.iter().map(depth).enumerate().map(|(i, d)| (d, i));
+        depths.fold((f32::NEG_INFINITY, 0), |best, d| if d.0 > best.0 { d } else { best })
+    }
+}
+impl Sampler for Fan {
+    fn sample(&self, u: [f32; 2]) -> Option<Sample> {
+        let swept = u[0] * self.whole;
+        let mut before = 0.0;
+        let mut chosen = (self.parts.len() - 1, 0.0);
+        for (i, f) in self.parts.iter().enumerate() {
+            if i + 1 == self.parts.len() || swept < before + f.solid_angle {
+                chosen = (i, before);
+                break;
+            }
+            before += f.solid_angle;
+        }
+        let f = &self.parts[chosen.0];
+        drawn(f.sample([(swept - chosen.1) / f.solid_angle, u[1]]), 1.0 / self.whole)
+    }
+    fn pdf(&self, w: V) -> f32 {
+        if self.part_of(w).0 >= 0.0 { 1.0 / self.whole } else { 0.0 }
+    }
+    fn invert(&self, w: V) -> Option<[f32; 2]> {
+        let chosen = self.part_of(w).1;
+        let before: f32 = self.parts[..chosen].iter().map(|f| f.solid_angle).sum();
+        let f = &self.parts[chosen];
+        let [x, y] = f.invert(w, self.excess);
+        Some([(before + x * f.solid_angle) / self.whole, y])
+    }
+}
+
+/// A point of a flat shape, uniform by area, with pdf d²/(|cosθ'| A).
+#[derive(Clone, Copy, Debug)]
+pub struct Area {
+    shape: [V; 3],
+    half: bool,
+    normal: V,
+    area: f32,
+}
+impl Area {
+    /// A triangle if `half`, else a parallelogram, of a corner and two edges.
+    #[must_use]
+    pub fn new(shape: [V; 3], half: bool) -> Self {
+        let normal = cross(shape[1], shape[2]);
+        let area = length(normal) * if half { 0.5 } else { 1.0 };
+        Self { shape, half, normal: normalize(normal), area }
+    }
+    fn density(&self, w: V, squared: f32) -> f32 {
+        squared / (dot(w, self.normal).abs() * self.area)
+    }
+}
+impl Sampler for Area {
+    fn sample(&self, u: [f32; 2]) -> Option<Sample> {
+        let [p, e1, e2] = self.shape;
+        let (b1, b2) = if self.half {
+            let root = u[0].sqrt();
+            (root * (1.0 - u[1]), root * u[1])
+        } else {
+            (u[0], u[1])
+        };
+        let point = add(p, add(times(e1, b1), times(e2, b2)));
+        let w = normalize(point);
+        drawn(w, self.density(w, dot(point, point)))
+    }
+    fn pdf(&self, w: V) -> f32 {
+        met(self.shape, self.half, w).map_or(0.0, |distance| self.density(w, distance * distance))
+    }
+}
+
+/// A triangle as in renderers: by solid angle (Van Oosterom and Strackee, Arvo) from 3e−4 to 6.22 sr, otherwise by area.
+#[must_use]
+pub fn triangle_with_thresholds(shape: [V; 3]) -> Box<dyn Sampler> {
+    let [p, e1, e2] = shape;
+    let fan = Fan::new(&[[p, add(p, e1), add(p, e2)]], Excess::Oosterom);
+    if (3e-4..=6.22).contains(&fan.whole) { Box::new(fan) } else { Box::new(Area::new(shape, true)) }
+}
+
+/// A spherical rectangle: Ureña, Fajardo and King, "An Area-Preserving Parametrization for Spherical Rectangles", 2013.
+#[derive(Clone, Copy, Debug)]
+pub struct Urena {
+    shape: [V; 3],
+    axes: [V; 3],
+    x: [f32; 2],
+    y: [f32; 2],
+    z: f32,
+    b: [f32; 2],
+    k: f32,
+    solid_angle: f32,
+}
+impl Urena {
+    /// The rectangle of a corner and two perpendicular edges.
+    #[must_use]
+    pub fn new([p, u, v]: [V; 3]) -> Self {
+        let (lu, lv) = (length(u), length(v));
+        let (x_axis, y_axis) = (times(u, 1.0 / lu), times(v, 1.0 / lv));
+        let mut z_axis = cross(x_axis, y_axis);
+        let mut z = dot(p, z_axis);
+        if z > 0.0 {
+            (z, z_axis) = (-z, times(z_axis, -1.0));
+        }
+        let (x0, y0) = (dot(p, x_axis), dot(p, y_axis));
+        let (x1, y1) = (x0 + lu, y0 + lv);
+        let corner = |x, y| [x, y, z];
+        let around = [corner(x0, y0), corner(x1, y0), corner(x1, y1), corner(x0, y1)];
+        let n: [V; 4] = core::array::from_fn(|i| normalize(cross(around[i], around[(i + 1) % 4])));
+        let gamma: [f32; 4] = core::array::from_fn(|i| (-dot(n[i], n[(i + 1) % 4])).clamp(-1.0, 1.0).acos());
+        let k = TAU - gamma[2] - gamma[3];
+        Self {
+            shape: [p, u, v],
+            axes: [x_axis, y_axis, z_axis],
+            x: [x0, x1],
+            y: [y0, y1],
+            z,
+            b: [n[0][2], n[2][2]],
+            k,
+            solid_angle: gamma[0] + gamma[1] - k,
+        }
+    }
+    /// The direction for `u`.
+    #[must_use]
+    pub fn at(&self, u: [f32; 2]) -> V {
+        let [b0, b1] = self.b;
+        let (sin, cos) = (u[0] * self.solid_angle + self.k).sin_cos();
+        let f = (cos * b0 - b1) / sin;
+        let c = (1.0 / (f * f + b0 * b0).sqrt() * if f > 0.0 { 1.0 } else { -1.0 }).clamp(-1.0, 1.0);
+        let x = (-(c * self.z) / (1.0 - c * c).max(1e-12).sqrt()).clamp(self.x[0], self.x[1]);
+        let d = (x * x + self.z * self.z).sqrt();
+        let h = self.y.map(|y| y / (d * d + y * y).sqrt());
+        let height = h[0] + u[1] * (h[1] - h[0]);
+        let squared = height * height;
+        let y = if squared < 1.0 - 1e-6 { height * d / (1.0 - squared).sqrt() } else { self.y[1] };
+        let [a, b, n] = self.axes;
+        normalize(add(times(a, x), add(times(b, y), times(n, self.z))))
+    }
+    /// The inverse, by solving the same equations for `u`.
+    #[must_use]
+    pub fn place(&self, w: V) -> [f32; 2] {
+        let [a, b, n] = self.axes;
+        let scale = self.z / dot(w, n);
+        let x = (dot(w, a) * scale).clamp(self.x[0], self.x[1]);
+        let y = dot(w, b) * scale;
+        // the cosine of the azimuth about y, then f, then b₀ cos − f sin = b₁
+        let [b0, b1] = self.b;
+        let c = x / (x * x + self.z * self.z).sqrt();
+        let f = (1.0 / (c * c) - b0 * b0).max(0.0).sqrt().copysign(c);
+        let radius = (b0 * b0 + f * f).sqrt();
+        let (offset, reach) = (f.atan2(b0), (b1 / radius).clamp(-1.0, 1.0).acos());
+        // takes the solution that lies within the swept angle
+        let mut best = (f32::INFINITY, 0.0);
+        for root in [reach - offset, -reach - offset] {
+            for turn in [0.0, TAU, 2.0 * TAU] {
+                let part = (root + turn - self.k) / self.solid_angle;
+                let miss = (part - 0.5).abs();
+                let sin = (root + turn).sin();
+                if miss < best.0 && sin != 0.0 {
+                    best = (miss, part);
+                }
+            }
+        }
+        let d = (x * x + self.z * self.z).sqrt();
+        let h = self.y.map(|y| y / (d * d + y * y).sqrt());
+        [best.1, (y / (d * d + y * y).sqrt() - h[0]) / (h[1] - h[0])]
+    }
+}
+
+impl Sampler for Urena {
+    fn sample(&self, u: [f32; 2]) -> Option<Sample> {
+        drawn(self.at(u), 1.0 / self.solid_angle)
+    }
+    fn pdf(&self, w: V) -> f32 {
+        if met(self.shape, false, w).is_some() { 1.0 / self.solid_angle } else { 0.0 }
+    }
+    fn invert(&self, w: V) -> Option<[f32; 2]> {
+        Some(self.place(w))
+    }
+}
+
+/// A rectangle as in renderers: the published map from 3e−4 to 6.22 sr, otherwise by area.
+#[must_use]
+pub fn rectangle_with_thresholds(shape: [V; 3]) -> Box<dyn Sampler> {
+    let map = Urena::new(shape);
+    if (3e-4..=6.22).contains(&map.solid_angle) { Box::new(map) } else { Box::new(Area::new(shape, false)) }
+}
