@@ -7,3 +7,4 @@ mod light_tree;
 mod owned;
 mod select;
 mod tables_in_memory;
+mod trees_of_bounds;

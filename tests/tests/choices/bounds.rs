@@ -4,10 +4,10 @@ use core::f64::consts::PI;
 use etendue::light::{Polygon, Spread};
 use etendue::select::LightBound;
 use etendue::{BilinearPatch, Disk, Line, Parallelogram, PointLight, Rectangle, Sphere, SpotLight, Triangle, Vec3};
+use etendue_judge::generators::Random;
 use etendue_oracle::double_double::{Dd, dd};
 use etendue_oracle::tier::cases;
 use etendue_oracle::{V3, cross, dot, length, narrow, unit, wide};
-use etendue_judge::generators::Random;
 
 /// Three vectors of a size, the first of which is up to 10⁶ times as long as the others.
 fn vectors(random: &mut Random) -> [[f32; 3]; 3] {
