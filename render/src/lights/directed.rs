@@ -70,7 +70,7 @@ pub(super) fn sample(lights: &[DirectedLight], chosen: &mut Chosen, p: V8, here:
         let [x, y, z] = rows.map(|row| V8::from(row).dot(w));
         let mut own = intensity.at(Vec3::new(x, y, z));
         if let Some(cone) = cone {
-            own = own * SpotLight::splat(*cone).falloff(w);
+            own *= SpotLight::splat(*cone).falloff(w);
         }
         found = select(same, own, found);
     });

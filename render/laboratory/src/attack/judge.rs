@@ -83,8 +83,6 @@ pub struct Row {
     pub z: Vec<f64>,
     /// The part of the difference of each block that is more than three standard errors, relative to its light if nothing hid it.
     pub relative: Vec<f64>,
-    /// Mean of the image relative to the oracle's, less 1.
-    pub mean: f64,
 }
 
 /// The judgement of a scene.
@@ -334,31 +332,21 @@ fn compare(
         z.push(scores[0]);
         relative.push(scores[1]);
     }
-    let sum: f64 = image.iter().map(|block| block[0]).sum();
-    let expected: f64 = truth.iter().map(|block| block.mean).sum();
-    let mean = if expected > 0.0 {
-        sum / expected - 1.0
-    } else if sum > 0.0 {
-        f64::INFINITY
-    } else {
-        0.0
-    };
-    Row { against: Against::Oracle, technique, chosen, z, relative, mean }
+    Row { against: Against::Oracle, technique, chosen, z, relative }
 }
 
 /// Compares an image with the sum of others; what comes of points off their surfaces is known if the oracle has been asked.
 fn compare_sum([technique, chosen]: [Technique; 2], image: &[[f64; 2]], sum: &[[f64; 2]], slack: &[f64]) -> Row {
-    let all = |image: &[[f64; 2]]| image.iter().map(|[mean, _]| mean).sum::<f64>();
+    let total: f64 = sum.iter().map(|[mean, _]| mean).sum();
     let (mut z, mut relative) = (Vec::new(), Vec::new());
     let slack = slack.iter().copied().chain(std::iter::repeat(0.0));
     for (([mean, variance], [expected, of_sum]), slack) in image.iter().zip(sum).zip(slack) {
-        let scale = expected.max(1e-3 * all(sum) / sum.len() as f64).max(f64::MIN_POSITIVE);
+        let scale = expected.max(1e-3 * total / sum.len() as f64).max(f64::MIN_POSITIVE);
         let scores = score(mean - expected, scale, slack, (variance + of_sum).sqrt());
         z.push(scores[0]);
         relative.push(scores[1]);
     }
-    let mean = if all(sum) > 0.0 { all(image) / all(sum) - 1.0 } else { 0.0 };
-    Row { against: Against::Sum, technique, chosen, z, relative, mean }
+    Row { against: Against::Sum, technique, chosen, z, relative }
 }
 
 /// Further judgements of what differs. A sliver of light that some technique samples, or the oracle, may be missed even by thousands of
