@@ -416,6 +416,10 @@ impl Trial<'_> {
             let (of, spread) = mean(&sets(&|pdf| if pdf > 0.0 { 1.0 / pdf } else { 0.0 }));
             take(0, (of / truth - 1.0).abs(), ERROR.max(DEVIATIONS * spread / truth), of);
         }
+        // a corner above the horizon is smaller than what the grid resolves
+        if directions.iter().filter(|d| d.0 > 0.0).count() < SIDE * SIDE / 4 {
+            return;
+        }
         let (own, spread) = mean(&sets(&|pdf| if pdf > 0.0 { 1.0 / (pdf + partner) } else { 0.0 }));
         let values: Vec<f64> = directions.iter().map(|(f, pdf)| f / (pdf + partner)).collect();
         let (other, error) = grid_mean(&values);

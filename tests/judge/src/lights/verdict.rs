@@ -307,7 +307,7 @@ fn map(subject: &Subject<'_>, seed: u64, before: &mut impl FnMut(&str)) -> Map {
             before(&text(&light));
             let all = figures(subject, &light, Effort { quick: true, seed, page: false });
             let of = |m: &Measured| match m.figure {
-                Figure::Density | Figure::TwoPdfs | Figure::Outside | Figure::MisBias => m.value,
+                Figure::Density | Figure::TwoPdfs | Figure::Outside => m.value,
                 _ if m.is_finding() => 1.0,
                 _ => 0.0,
             };
