@@ -462,7 +462,10 @@ impl LightFixture for AreaLight {
         }
         let (size, reach) = match self.shape {
             LightShape::Patch => {
-                (length(wide(self.b)).min(length(wide(self.c))), f64::from(s.distance) + length(wide(self.n)))
+                // its shortest edge: from there to the opposite one, the area per step of u and v changes by its own size
+                let (b, c, n) = (wide(self.b), wide(self.c), wide(self.n));
+                let edges = [b, c, sub(n, b), sub(n, c)].map(length);
+                (edges.into_iter().fold(f64::INFINITY, f64::min), f64::from(s.distance) + length(n))
             }
             _ => (f64::from(self.radius), f64::from(s.distance) + length(wide(self.b)) + length(self.offset())),
         };
