@@ -420,10 +420,15 @@ fn documents_are_short() {
     let more = ["README.md", "fuzz/README.md"].map(|file| root().join(file));
     let all = [&more[..], &sources(&[".md"])].concat();
     let [readme, sum]: [usize; 2] = [words(&more[0]), all.iter().map(|path| words(path)).sum()];
-    // what hosts are promised, and what was found in other renderers, have words of their own
-    let own = [("core/POLICIES.md", 400), ("core/CHANGELOG.md", 150), ("tests/judge/FIELD.md", 600)];
+    // what hosts are promised, and what judges other renderers, have words of their own
+    let own = [
+        ("core/POLICIES.md", 400),
+        ("core/CHANGELOG.md", 150),
+        ("tests/judge/FIELD.md", 600),
+        ("tests/judge/README.md", 520),
+    ];
     let own = own.map(|(file, most)| (file, words(&root().join(file)), most));
     let others = sum - own.iter().map(|(_, words, _)| words).sum::<usize>();
     println!("README.md has {readme} words, {own:?}, all others {others}");
-    assert!((300..=1000).contains(&readme) && own.iter().all(|(_, words, most)| words <= most) && others <= 9500);
+    assert!((300..=1000).contains(&readme) && own.iter().all(|(_, words, most)| words <= most) && others <= 9000);
 }
