@@ -18,7 +18,7 @@ impl Folder {
     fn library(&self, fault: &str) -> PathBuf {
         let (out, root) = (self.0.join(format!("lib{fault}.so")), Path::new(env!("CARGO_MANIFEST_DIR")));
         let mut cc = Command::new("cc");
-        cc.args(["-O1", "-shared", "-fPIC", "-Wall", "-Wextra"]).arg(format!("-DFAULT={fault}"));
+        cc.args(["-O1", "-shared", "-fPIC", "-Wall", "-Wextra", "-D"]).arg(format!("FAULT={fault}"));
         let built = cc.arg("-o").arg(&out).arg(root.join("tests/sphere.c")).arg("-lm").output().expect("a C compiler");
         assert!(built.status.success(), "{}", String::from_utf8_lossy(&built.stderr));
         out
