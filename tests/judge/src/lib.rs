@@ -13,6 +13,8 @@
 //! - [`mutants`]: well-known defects of renderers, which the properties must detect.
 //! - [`stats`] has p-values.
 
+#![allow(clippy::neg_cmp_op_on_partial_ord, reason = "what is NaN is wrong")]
+
 #[cfg(feature = "checks")]
 pub mod checks;
 #[cfg(feature = "program")]

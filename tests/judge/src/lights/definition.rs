@@ -369,7 +369,8 @@ impl Definition {
                     Body::Sphere { radius, .. } => met.distance / radius,
                     _ => 0.0,
                 };
-                (3.0 + curved) / met.cosine.max(1e-300) / met.cosine.max(1e-300).min(1.0)
+                let cosine = met.cosine.max(1e-300);
+                (3.0 + curved) / cosine / cosine.min(1.0)
             }
             (_, None) => f64::INFINITY,
         }
