@@ -33,7 +33,7 @@ const LEAST_COS: f64 = 0.087_155_742_747_658_17;
 /// let opening = LuminousOpening::new([0.0, 0.0, 1.0], false, &lamp).unwrap();
 /// // with an area of 1, the radiance on the axis is the intensity; the power πL is that of the table
 /// let radiance = f32x8::splat(lamp.flux() as f32 / std::f32::consts::PI);
-/// let on_axis = lamp.at(Vec3::lit([0.0, 0.0, 1.0])).x;
+/// let on_axis = lamp.at(Vec3::lit([0.0, 0.0, 1.0]));
 /// assert!(((radiance * opening.factor(f32x8::splat(1.0), on_axis)).to_array()[0] - 100.0).abs() < 0.01);
 /// # Ok::<(), etendue_render::intensity::ProfileError>(())
 /// ```
