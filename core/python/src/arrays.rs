@@ -1,10 +1,17 @@
 //! numpy arrays as columns of numbers.
 
-use crate::results::room;
+use crate::results::{Object, refuse, room};
+use etendue::Vec3;
 use numpy::{Element, PyReadonlyArrayDyn};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
+use std::ops::Range;
+
+/// An argument: its name, what it is made of, and its value.
+pub(crate) type Field<'a, 'py> = (&'static str, FieldKind, &'a Object<'py>);
+/// Columns of numbers, all of one length.
+pub(crate) type Columns = Vec<Vec<f32>>;
 
 /// The largest number below 1.
 const LAST: f32 = 1.0 - 1.0 / 16_777_216.0;
@@ -20,6 +27,8 @@ pub(crate) enum FieldKind {
     Row(usize),
     /// Two numbers in [0, 1).
     Units,
+    /// A point, from which the first argument is subtracted: the core keeps the edge.
+    Vertex,
     /// A unit vector.
     Direction,
     /// A unit vector, or what makes a light or a surface degenerate: 0, or numbers that are not finite.
@@ -31,23 +40,13 @@ pub(crate) enum FieldKind {
 }
 
 impl FieldKind {
-    /// The lengths of its own axes, where they are fixed.
-    fn axes(self) -> &'static str {
-        match self {
-            Self::Number | Self::Unit | Self::Index => "",
-            Self::Row(2) | Self::Units => "2",
-            Self::Row(4) => "4",
-            Self::Row(_) | Self::Direction | Self::Normal => "3",
-            Self::Corners => "3 to 8, 3",
-        }
-    }
     /// How many columns it takes.
-    fn width(self) -> usize {
+    pub(crate) fn width(self) -> usize {
         match self {
             Self::Number | Self::Unit | Self::Index => 1,
             Self::Units => 2,
             Self::Row(width) => width,
-            Self::Direction | Self::Normal => 3,
+            Self::Vertex | Self::Direction | Self::Normal => 3,
             Self::Corners => 24,
         }
     }
@@ -63,6 +62,14 @@ impl FieldKind {
             _ => 1,
         }
     }
+    /// Its own axes, as messages say them.
+    fn axes(self) -> String {
+        match self.rank() {
+            0 => "()".into(),
+            1 => self.width().to_string(),
+            _ => "3 to 8, 3".into(),
+        }
+    }
     fn fits(self, axes: &[usize]) -> bool {
         match (self, axes) {
             (Self::Corners, [corners, 3]) => (3..=8).contains(corners),
@@ -76,14 +83,14 @@ impl FieldKind {
 pub(crate) struct Argument<'py> {
     name: &'static str,
     kind: FieldKind,
-    array: Bound<'py, PyAny>,
+    array: Object<'py>,
     /// The axes before its own.
     pub(crate) shape: Vec<usize>,
     axes: Vec<usize>,
 }
 
 impl<'py> Argument<'py> {
-    pub(crate) fn new(name: &'static str, kind: FieldKind, object: &Bound<'py, PyAny>) -> PyResult<Self> {
+    pub(crate) fn new(name: &'static str, kind: FieldKind, object: &Object<'py>) -> PyResult<Self> {
         let py = object.py();
         let named = |e: PyErr| {
             let message = format!("{name}: {}", e.value(py));
@@ -111,23 +118,21 @@ impl<'py> Argument<'py> {
             let own = shape.len().checked_sub(kind.rank());
             let axes = own.map(|own| shape.split_off(own)).filter(|axes| kind.fits(axes));
             let Some(axes) = axes else {
-                let whole = array.getattr("shape")?;
-                let wanted = if kind.rank() == 0 { "()" } else { kind.axes() };
-                return Err(PyValueError::new_err(format!("{name} must have the shape (..., {wanted}), not {whole}")));
+                refuse!("{name} must have the shape (..., {}), not {}", kind.axes(), array.getattr("shape")?);
             };
             (array, axes)
         };
         Ok(Self { name, kind, array, shape, axes })
     }
     /// An argument of one element.
-    pub(crate) fn single(name: &'static str, kind: FieldKind, object: &Bound<'py, PyAny>) -> PyResult<Self> {
+    fn single(name: &'static str, kind: FieldKind, object: &Object<'py>) -> PyResult<Self> {
         let this = Self::new(name, kind, object)?;
         if this.shape.is_empty() {
             return Ok(this);
         }
-        let wanted =
-            if kind.rank() == 0 { "be one number".into() } else { format!("have the shape ({})", kind.axes()) };
-        Err(PyValueError::new_err(format!("{name} must {wanted}, not {}", this.array.getattr("shape")?)))
+        let wanted = kind.axes();
+        let wanted = if kind.rank() == 0 { "be one number".into() } else { format!("have the shape ({wanted})") };
+        refuse!("{name} must {wanted}, not {}", this.array.getattr("shape")?)
     }
     /// The array with the axes `shape` before its own, as contiguous memory.
     fn spread<T: Element>(&self, shape: &[usize], dtype: &str) -> PyResult<PyReadonlyArrayDyn<'py, T>> {
@@ -139,7 +144,7 @@ impl<'py> Argument<'py> {
         array.extract()
     }
     /// Its columns, of one number for each element of `shape`.
-    pub(crate) fn columns(&self, shape: &[usize]) -> PyResult<Vec<Vec<f32>>> {
+    fn columns(&self, shape: &[usize]) -> PyResult<Columns> {
         let columns = if self.kind.is_unit() && !self.is_single()? {
             // a number of double precision that is below 1 may round to 1: what it is shows only before
             let columns = self.split(self.spread::<f64>(shape, "float64")?.as_slice()?, shape)?;
@@ -191,8 +196,7 @@ impl<'py> Argument<'py> {
         for (k, column) in columns.iter().enumerate() {
             if let Some(at) = first(column, is_wrong) {
                 let x = column[at].into();
-                let at = self.index(at, shape, (columns.len() > 1).then_some(k));
-                return Err(PyValueError::new_err(format!("{at} must be in [0, 1), not {x}")));
+                refuse!("{} must be in [0, 1), not {x}", self.index(at, shape, (columns.len() > 1).then_some(k)));
             }
         }
         Ok(())
@@ -207,13 +211,12 @@ impl<'py> Argument<'py> {
         let squares: Vec<f32> = x.iter().zip(y).zip(z).map(|((x, y), z)| x * x + y * y + z * z).collect();
         if let Some(at) = first(&squares, is_wrong) {
             let length = squares[at].sqrt();
-            let at = self.index(at, shape, None);
-            return Err(PyValueError::new_err(format!("{at} must be a unit vector, not of length {length}")));
+            refuse!("{} must be a unit vector, not of length {length}", self.index(at, shape, None));
         }
         Ok(())
     }
     /// Its element that is the `at`-th of those of `shape`, as one writes it in Python.
-    pub(crate) fn index(&self, mut at: usize, shape: &[usize], last: Option<usize>) -> String {
+    fn index(&self, mut at: usize, shape: &[usize], last: Option<usize>) -> String {
         let mut places: Vec<usize> = last.into_iter().collect();
         // from the last axis on, which is where the argument's own axes end, too
         for (i, &length) in shape.iter().rev().enumerate() {
@@ -256,29 +259,28 @@ pub(crate) struct Image {
 
 impl Image {
     /// An argument of the shape (height, width), of numbers that are finite and not negative.
-    pub(crate) fn new(name: &'static str, object: &Bound<'_, PyAny>) -> PyResult<Self> {
+    pub(crate) fn new(name: &'static str, object: &Object<'_>) -> PyResult<Self> {
         let argument = Argument::new(name, FieldKind::Number, object)?;
         let &[height, width] = &argument.shape[..] else {
-            let shape = argument.array.getattr("shape")?;
-            return Err(PyValueError::new_err(format!("{name} must have the shape (height, width), not {shape}")));
+            refuse!("{name} must have the shape (height, width), not {}", argument.array.getattr("shape")?);
         };
         let sizes = 1..=MOST_TEXELS;
         if !sizes.contains(&width) || !sizes.contains(&height) {
-            let message = format!("{name} must have 1 to {MOST_TEXELS} rows and columns, not {height} and {width}");
-            return Err(PyValueError::new_err(message));
+            refuse!("{name} must have 1 to {MOST_TEXELS} rows and columns, not {height} and {width}");
         }
         let weights = argument.columns(&argument.shape)?.remove(0);
         if let Some(at) = weights.iter().position(|&weight| !(0.0..f32::INFINITY).contains(&weight)) {
             let place = argument.index(at, &argument.shape, None);
-            let message = format!("{place} must be finite in float32 and not negative, not {}", weights[at]);
-            return Err(PyValueError::new_err(message));
+            refuse!("{place} must be finite in float32 and not negative, not {}", weights[at]);
         }
         Ok(Self { weights, width, height })
     }
 }
 
 /// The common shape of arguments, by numpy's rules.
-pub(crate) fn broadcast(py: Python<'_>, arguments: &[&Argument<'_>]) -> PyResult<Vec<usize>> {
+pub(crate) fn broadcast(arguments: &[Argument<'_>]) -> PyResult<Vec<usize>> {
+    let [first, _, ..] = arguments else { return Ok(arguments[0].shape.clone()) };
+    let py = first.array.py();
     let shapes = PyTuple::new(py, arguments.iter().map(|a| PyTuple::new(py, &a.shape)).collect::<PyResult<Vec<_>>>()?)?;
     let shape = py.import("numpy")?.getattr("broadcast_shapes")?.call1(shapes).map_err(|_| {
         let shapes = arguments.iter().filter(|a| !a.shape.is_empty());
@@ -289,4 +291,48 @@ pub(crate) fn broadcast(py: Python<'_>, arguments: &[&Argument<'_>]) -> PyResult
         }
     })?;
     shape.extract()
+}
+/// The columns of all arguments, of one number for each element of `shape`.
+pub(crate) fn columns(arguments: &[Argument<'_>], shape: &[usize]) -> PyResult<Columns> {
+    let mut columns = Columns::new();
+    for argument in arguments {
+        let mut own = argument.columns(shape)?;
+        if argument.kind == FieldKind::Vertex {
+            for (column, first) in own.iter_mut().zip(&columns) {
+                column.iter_mut().zip(first).for_each(|(x, from)| *x -= from);
+            }
+        }
+        columns.append(&mut own);
+    }
+    Ok(columns)
+}
+/// The shape to which arguments are broadcast, and their columns.
+pub(crate) fn together(fields: &[Field<'_, '_>]) -> PyResult<(Vec<usize>, Columns)> {
+    let arguments = fields.iter().map(|&(name, kind, object)| Argument::new(name, kind, object));
+    let arguments = arguments.collect::<PyResult<Vec<_>>>()?;
+    let shape = broadcast(&arguments)?;
+    let columns = columns(&arguments, &shape)?;
+    Ok((shape, columns))
+}
+/// The numbers of arguments of one element each.
+pub(crate) fn numbers(fields: &[Field<'_, '_>]) -> PyResult<Vec<f32>> {
+    let arguments = fields.iter().map(|&(name, kind, object)| Argument::single(name, kind, object));
+    Ok(columns(&arguments.collect::<PyResult<Vec<_>>>()?, &[])?.concat())
+}
+/// The point p.
+pub(crate) fn point(p: &Object<'_>) -> PyResult<Vec3<f32>> {
+    Ok(three(&numbers(&[("p", FieldKind::Row(3), p)])?))
+}
+
+/// The first three numbers as a vector.
+pub(crate) fn three(numbers: &[f32]) -> Vec3<f32> {
+    Vec3::new(numbers[0], numbers[1], numbers[2])
+}
+/// The first three columns as a vector.
+pub(crate) fn vector<C: AsRef<[f32]>>(columns: &[C]) -> Vec3<&[f32]> {
+    Vec3::new(columns[0].as_ref(), columns[1].as_ref(), columns[2].as_ref())
+}
+/// The columns for a range of elements.
+pub(crate) fn cut(columns: &[Vec<f32>], range: Range<usize>) -> Vec<&[f32]> {
+    columns.iter().map(|column| &column[range.clone()]).collect()
 }

@@ -1,198 +1,148 @@
 //! Lights and shading points of their own for each row.
 
-use crate::arrays::{Argument, FieldKind, broadcast};
-use crate::reflections::reflections;
-use crate::results::{Target, given_or_new, room, run};
-use crate::samplers::{cut, numbers as numbers_of, vector};
-use crate::samples::{Samples, Wanted};
-use etendue::Vec2;
-use etendue::light::Spread;
-use etendue_batch::{Batch, Evaluations, Technique};
+use crate::arrays::{Columns, Field, FieldKind, cut, numbers, three, together, vector};
+use crate::results::{Object, room};
+use crate::samplers::Call;
+use crate::samples::Wanted;
+use etendue::{Vec2, Vec3};
+use etendue_batch::{Batch, Technique};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use std::ops::Range;
-
-/// An argument of a light's constructor: its name, its kind, whether it is a vertex of which the core keeps the edge from the first one, and
-/// its value.
-pub(crate) type Field<'a, 'py> = (&'static str, FieldKind, bool, &'a Bound<'py, PyAny>);
-
-/// The numbers of a light in columns, in the order of the core.
-pub(crate) fn numbers(
-    fields: &[Field<'_, '_>],
-    arguments: &[Argument<'_>],
-    shape: &[usize],
-) -> PyResult<Vec<Vec<f32>>> {
-    let mut columns: Vec<Vec<f32>> = Vec::new();
-    for (&(_, _, is_vertex, _), argument) in fields.iter().zip(arguments) {
-        let mut own = argument.columns(shape)?;
-        if is_vertex {
-            for (column, first) in own.iter_mut().zip(&columns) {
-                column.iter_mut().zip(first).for_each(|(x, from)| *x -= from);
-            }
-        }
-        columns.append(&mut own);
-    }
-    Ok(columns)
-}
 
 /// What techniques take beside the point, where they are given: unit normals, roughnesses and directions to the viewer, and angles of spreads.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct Given<'a, 'py> {
-    pub(crate) n: Option<&'a Bound<'py, PyAny>>,
-    pub(crate) alpha: Option<&'a Bound<'py, PyAny>>,
-    pub(crate) view: Option<&'a Bound<'py, PyAny>>,
-    pub(crate) spread: Option<&'a Bound<'py, PyAny>>,
+    pub(crate) n: Option<&'a Object<'py>>,
+    pub(crate) alpha: Option<&'a Object<'py>>,
+    pub(crate) view: Option<&'a Object<'py>>,
+    pub(crate) spread: Option<&'a Object<'py>>,
 }
 
 /// What one technique takes beside the point.
-#[derive(Clone, Copy, PartialEq)]
-pub(crate) enum Needs {
-    Nothing,
-    Normal,
-    Reflection,
-    Spread,
-}
-
-impl Needs {
-    /// The arguments from which it is made.
-    fn arguments<'py>(self, given: Given<'_, 'py>) -> PyResult<Vec<Argument<'py>>> {
-        let wrong = |message: &str| Err(PyTypeError::new_err(message.to_owned()));
-        let direction = |name, object| Argument::new(name, FieldKind::Normal, object);
-        match (self, given) {
-            (Self::Nothing, _) => Ok(Vec::new()),
-            (Self::Normal, Given { n: Some(n), .. }) => Ok(vec![direction("n", n)?]),
-            (Self::Reflection, Given { n: Some(n), alpha: Some(alpha), view: Some(view), .. }) => Ok(vec![
-                Argument::new("alpha", FieldKind::Number, alpha)?,
-                direction("n", n)?,
-                direction("view", view)?,
-            ]),
-            (Self::Spread, Given { spread: Some(spread), .. }) => {
-                Ok(vec![Argument::new("spread", FieldKind::Number, spread)?])
-            }
-            (Self::Normal, _) => wrong("this technique needs n, the normals at the shading points"),
-            (Self::Reflection, _) => {
-                wrong("by reflection, n, alpha and view are needed: normals, roughnesses and directions to the viewer")
-            }
-            (Self::Spread, _) => wrong("by spread, spread is needed: full angles in radians"),
-        }
+pub(crate) trait Beside: Copy + Default {
+    /// What a method takes for one point.
+    fn one(object: &Object<'_>) -> PyResult<Self>;
+    /// The arguments from which it is made for each row.
+    fn fields<'a, 'py>(given: Given<'a, 'py>) -> PyResult<Vec<Field<'a, 'py>>>;
+    /// Its numbers in columns, from those of the arguments.
+    fn columns(_: Python<'_>, arguments: Columns) -> PyResult<Columns> {
+        Ok(arguments)
     }
-    /// Its numbers in columns.
-    fn columns(self, py: Python<'_>, arguments: &[Argument<'_>], shape: &[usize]) -> PyResult<Vec<Vec<f32>>> {
-        let columns = arguments.iter().map(|argument| argument.columns(shape)).collect::<PyResult<Vec<_>>>()?;
-        match (self, &columns[..]) {
-            (Self::Reflection, [alpha, n, view]) => reflections(py, &alpha[0], n, view),
-            (Self::Spread, [angles]) => {
-                let spreads = angles[0].iter().map(|&angle| Spread::<f32>::new(f64::from(angle)));
-                let (tan_half, gain) = spreads.map(|spread| (spread.tan_half, spread.gain)).unzip();
-                Ok(vec![tan_half, gain])
-            }
-            _ => Ok(columns.concat()),
-        }
+}
+impl Beside for () {
+    fn one(_: &Object<'_>) -> PyResult<Self> {
+        Ok(())
+    }
+    fn fields<'a, 'py>(_: Given<'a, 'py>) -> PyResult<Vec<Field<'a, 'py>>> {
+        Ok(Vec::new())
+    }
+}
+impl Beside for Vec3<f32> {
+    fn one(n: &Object<'_>) -> PyResult<Self> {
+        Ok(three(&numbers(&[("n", FieldKind::Normal, n)])?))
+    }
+    fn fields<'a, 'py>(given: Given<'a, 'py>) -> PyResult<Vec<Field<'a, 'py>>> {
+        let wrong = || PyTypeError::new_err("this technique needs n, the normals at the shading points");
+        Ok(vec![("n", FieldKind::Normal, given.n.ok_or_else(wrong)?)])
     }
 }
 
-/// Lights and shading points of their own for each row, and the numbers u or the directions w there.
-pub(crate) struct Each {
-    shape: Vec<usize>,
-    light: Vec<Vec<f32>>,
-    p: Vec<Vec<f32>>,
-    with: Vec<Vec<f32>>,
-    at: Vec<Vec<f32>>,
-}
-
-/// What is done with each row.
+/// A call for rows with shading points of their own: what is asked, the points, and the numbers u or the directions w there.
 #[derive(Clone, Copy)]
-pub(crate) enum Call {
-    Sample,
-    Hit,
-    Pdf,
-    Invert,
+pub(crate) struct Rows<'a, 'py> {
+    pub(crate) call: Call,
+    pub(crate) p: &'a Object<'py>,
+    pub(crate) at: &'a Object<'py>,
+    pub(crate) given: Given<'a, 'py>,
+    pub(crate) wanted: Wanted<'a, 'py>,
 }
 
-impl Call {
-    /// What it takes, for each row: numbers u or directions w.
-    pub(crate) fn argument<'a, 'py>(
-        self,
-        at: &'a Bound<'py, PyAny>,
-    ) -> (&'static str, FieldKind, &'a Bound<'py, PyAny>) {
-        if let Self::Sample = self { ("u", FieldKind::Units, at) } else { ("w", FieldKind::Direction, at) }
-    }
-}
-
-impl Each {
-    pub(crate) fn new(
-        py: Python<'_>,
-        fields: &[Field<'_, '_>],
-        p: &Bound<'_, PyAny>,
-        (needs, given): (Needs, Given<'_, '_>),
-        (name, kind, at): (&'static str, FieldKind, &Bound<'_, PyAny>),
-    ) -> PyResult<Self> {
-        let arguments = fields.iter().map(|&(name, kind, _, object)| Argument::new(name, kind, object));
-        let arguments = arguments.collect::<PyResult<Vec<_>>>()?;
-        let with = needs.arguments(given)?;
-        let (p, at) = (Argument::new("p", FieldKind::Row(3), p)?, Argument::new(name, kind, at)?);
-        let all = arguments.iter().chain([&p, &at]).chain(&with);
-        let shape = broadcast(py, &all.collect::<Vec<_>>())?;
-        let (light, with) = (numbers(fields, &arguments, &shape)?, needs.columns(py, &with, &shape)?);
-        Ok(Self { light, p: p.columns(&shape)?, with, at: at.columns(&shape)?, shape })
-    }
-    /// One light, of these numbers, for all rows.
-    pub(crate) fn of_one(
-        py: Python<'_>,
-        numbers: &[f32],
-        p: &Bound<'_, PyAny>,
-        with: (Needs, Given<'_, '_>),
-        call: Call,
-        at: &Bound<'_, PyAny>,
-    ) -> PyResult<Self> {
-        let mut this = Self::new(py, &[], p, with, call.argument(at))?;
-        for &number in numbers {
-            let mut column = room(this.at[0].len())?;
-            column.resize(this.at[0].len(), number);
-            this.light.push(column);
+impl<'py> Rows<'_, 'py> {
+    /// The results by the technique `T`, of lights whose numbers are in `fields`, or of one light for all rows where there are no fields.
+    pub(crate) fn by<T>(self, light: T::Light<f32>, fields: &[Field<'_, 'py>]) -> PyResult<Object<'py>>
+    where
+        T: Technique<Light<f32>: Send + Sync, With<f32>: Beside>,
+    {
+        let Self { call, wanted, .. } = self;
+        let (py, point, at) = (self.p.py(), ("p", FieldKind::Row(3), self.p), call.field(self.at));
+        let (with, width) = (T::With::<f32>::fields(self.given)?, at.1.width());
+        let (shape, mut lights) = together(&[fields, &[point, at], &with].concat())?;
+        let mut p = lights.split_off(fields.iter().map(|field| field.1.width()).sum());
+        let mut at = p.split_off(3);
+        let with = T::With::<f32>::columns(py, at.split_off(width))?;
+        if fields.is_empty() {
+            let mut numbers = Vec::new();
+            T::map_light(light, |number| numbers.push(number));
+            for number in numbers {
+                let mut column = room(at[0].len())?;
+                column.resize(at[0].len(), number);
+                lights.push(column);
+            }
         }
-        Ok(this)
-    }
-    /// Calls a function of the technique `T` for all rows.
-    pub(crate) fn call<'py, T: Technique>(
-        self,
-        py: Python<'py>,
-        (call, wanted): (Call, Wanted<'_, 'py>),
-        light_of: impl for<'a> Fn(&[&'a [f32]]) -> T::Light<&'a [f32]> + Send + Sync,
-        with_of: impl for<'a> Fn(&[&'a [f32]]) -> T::With<&'a [f32]> + Send + Sync,
-    ) -> PyResult<Bound<'py, PyAny>> {
-        let Self { shape, light, p, with, at } = self;
-        let [light, p, with, at] = &[light, p, with, at];
-        let evaluate = |range: Range<usize>, out: Evaluations<'_>| {
-            let [light, p, with, w] = [light, p, with, at].map(|columns| cut(columns, range.clone()));
-            Batch::new().evaluate_each::<T>(light_of(&light), vector(&p), with_of(&with), vector(&w), out);
-        };
-        let count = at[0].len();
-        Ok(match call {
-            Call::Sample => {
-                let sample = |range: Range<usize>, out: etendue_batch::Samples<'_>| {
-                    let [light, p, with, u] = [light, p, with, at].map(|columns| cut(columns, range.clone()));
-                    let u = Vec2::new(u[0], u[1]);
-                    Batch::new().sample_each::<T>(light_of(&light), vector(&p), with_of(&with), u, out);
-                };
-                Samples::of(py, &shape, wanted, sample)?.into_any()
+
+        call.results(py, &shape, wanted, |range, out| {
+            let [lights, p, with, at] = [&lights, &p, &with, &at].map(|columns| cut(columns, range.clone()));
+            let (mut lights, mut with) = (lights.into_iter(), with.into_iter());
+            let lights = T::map_light(light, |_| lights.next().expect("as many columns as a light has numbers"));
+            let with = T::map_with(T::With::<f32>::default(), |_| with.next().expect("as many columns as numbers"));
+            let batch = Batch::new();
+            match call {
+                Call::Sample => batch.sample_each::<T>(lights, vector(&p), with, Vec2::new(at[0], at[1]), out.hit),
+                _ => batch.evaluate_each::<T>(lights, vector(&p), with, vector(&at), out),
             }
-            Call::Hit => {
-                let hit = |range: Range<usize>, hit: etendue_batch::Samples<'_>| {
-                    evaluate(range, Evaluations { hit, ..Evaluations::default() });
-                };
-                Samples::of(py, &shape, wanted, hit)?.into_any()
-            }
-            Call::Pdf => {
-                let array = given_or_new(py, &shape, wanted.out)?;
-                let mut target = Target::of(Some(&array), count)?;
-                let pdf = target.numbers();
-                run(py, count, || evaluate(0..count, Evaluations { pdf, ..Evaluations::default() }));
-                array.clone().into_any()
-            }
-            Call::Invert => numbers_of(py, &shape, wanted.out, |range, u| {
-                evaluate(range, Evaluations { u, ..Evaluations::default() });
-            })?,
         })
     }
 }
+
+/// Implements the methods of a class: those in braces, and those for rows with shading points of their own. These begin with `$this` or, of a
+/// class without it, with the arguments of a constructor; what they take beside the point is in `$given`, and `$body` calls [`Rows::by`].
+macro_rules! with_each {
+    (
+        $class:ident { $($own:tt)* } $(#[$doc:meta])*
+        ($($this:tt)*) [$($static:ident)?] $arguments:tt $given:tt $by:tt |$rows:ident| $body:expr
+    ) => {
+        $crate::each::with_each! { @ $class { $($own)* }
+            $(#[$doc])* [$($static)?]
+            sample_each Sample(fields, out) ($($this)*) $arguments u $given $by |$rows| $body;
+            /// What unit directions w (..., 3) hit of the light, which is given as to `sample_each`.
+            [$($static)?]
+            hit_each Hit(fields, out) ($($this)*) $arguments w $given $by |$rows| $body;
+            /// The probability densities of unit directions w (..., 3), of a light that is given as to `sample_each`.
+            [$($static)?]
+            pdf_each Pdf(out) ($($this)*) $arguments w $given $by |$rows| $body;
+            /// The numbers u in [0, 1)² that are mapped to unit directions w (..., 3), by a light that is given as to `sample_each`.
+            [$($static)?]
+            invert_each Invert(out) ($($this)*) $arguments w $given $by |$rows| $body;
+        }
+    };
+    (@ $class:ident { $($own:tt)* } $(
+        $(#[$doc:meta])* [$($static:ident)?] $name:ident $call:ident($($wanted:ident),+) ($($this:tt)*)
+        ($($argument:ident),*) $at:ident ($($given:ident),*) ($($by:ident: $type:ty = $default:tt)?) |$rows:ident| $body:expr;
+    )+) => {
+        #[pymethods]
+        impl $class {
+            $($own)*
+            $(
+            $(#[$doc])*
+            $(#[$static])?
+            #[pyo3(signature = ($($argument,)* *, p, $at, $($given=None,)* $($by=$default,)? $($wanted=None),+))]
+            #[allow(clippy::too_many_arguments, clippy::needless_update)]
+            fn $name<'py>(
+                $($this)*
+                $($argument: &Object<'py>,)*
+                p: &Object<'py>,
+                $at: &Object<'py>,
+                $($given: Option<&Object<'py>>,)*
+                $($by: $type,)?
+                $($wanted: Option<&Object<'py>>),+
+            ) -> PyResult<Object<'py>> {
+                let given = Given { $($given,)* ..Given::default() };
+                let wanted = Wanted { $($wanted,)+ ..Wanted::default() };
+                let $rows = Rows { call: Call::$call, p, at: $at, given, wanted };
+                $body
+            }
+            )+
+        }
+    };
+}
+pub(crate) use with_each;

@@ -1,13 +1,11 @@
 //! Light from all around as an image tells it.
 
 use crate::arrays;
-use crate::results::{run, zeros};
-use crate::samplers::{Prepared, Sampler, pdf_of_hit};
+use crate::results::{Object, refuse, table};
+use crate::samplers::{Call, Prepared, Sampler};
 use etendue::light::{self, EnvironmentMap};
-use etendue::{Vec2, Vec3};
+use etendue_batch::Evaluations;
 use etendue_batch::memory::ImageMemory;
-use etendue_batch::{Batch, Samples};
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use std::sync::Arc;
 
@@ -27,20 +25,8 @@ impl Image {
 }
 
 impl Prepared for Image {
-    fn sample(&self, u: Vec2<&[f32]>, out: Samples<'_>) {
-        Batch::new().sample(&self.memory(), u, out);
-    }
-    fn hit(&self, w: Vec3<&[f32]>, out: Samples<'_>) {
-        Batch::new().hit(&self.memory(), w, out);
-    }
-    fn pdf(&self, w: Vec3<&[f32]>, out: &mut [f32]) {
-        Batch::new().pdf(&self.memory(), w, out);
-    }
-    fn pdf_of_hit(&self, w: Vec3<&[f32]>, out: &mut [f32]) {
-        pdf_of_hit(&self.memory(), w, out);
-    }
-    fn invert(&self, w: Vec3<&[f32]>, out: Vec2<&mut [f32]>) {
-        Batch::new().invert(&self.memory(), w, out);
+    fn answer(&self, call: Call, at: &[&[f32]], out: Evaluations<'_>) {
+        call.answer(&self.memory(), at, out);
     }
 }
 
@@ -60,21 +46,16 @@ pub(crate) struct ImageEnvironment {
 impl ImageEnvironment {
     #[new]
     #[pyo3(signature = (weights, map="equirectangular"))]
-    fn new(py: Python<'_>, weights: &Bound<'_, PyAny>, map: &str) -> PyResult<Self> {
+    fn new(py: Python<'_>, weights: &Object<'_>, map: &str) -> PyResult<Self> {
         let map = match map {
             "equirectangular" => EnvironmentMap::Equirectangular,
             "equal-area" => EnvironmentMap::EqualArea,
-            _ => {
-                let message = format!("map must be \"equirectangular\" or \"equal-area\", not \"{map}\"");
-                return Err(PyValueError::new_err(message));
-            }
+            _ => refuse!("map must be \"equirectangular\" or \"equal-area\", not \"{map}\""),
         };
         let arrays::Image { weights, width, height } = arrays::Image::new("weights", weights)?;
-        let mut table = zeros(light::ImageEnvironment::buffer(width, height))?;
-        let built = run(py, weights.len(), || {
-            light::ImageEnvironment::build(&weights, width, map, &mut table).map(|_| ()).map_err(|e| e.to_string())
-        });
-        built.map_err(PyValueError::new_err)?;
+        let table = table(py, light::ImageEnvironment::buffer(width, height), |table| {
+            light::ImageEnvironment::build(&weights, width, map, table).map(|_| ())
+        })?;
         Ok(Self { image: Image { table: Arc::new(table), width, height, map } })
     }
     /// Directions in proportion to the image, the same for all shading points.

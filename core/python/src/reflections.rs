@@ -1,34 +1,43 @@
 //! The light that rough surfaces reflect.
 
-use crate::arrays::{Argument, FieldKind, broadcast};
-use crate::results::{array, map, run, zeros};
-use crate::samplers::{single, vector};
+use crate::arrays::{Columns, Field, FieldKind, numbers, three, together, vector};
+use crate::each::{Beside, Given};
+use crate::results::{Object, array, map, run, zero_columns};
 use crate::warps::Warp;
 use etendue::reflection;
 use etendue_batch::{Batch, ReflectedSphere};
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 
 /// How many numbers a reflection consists of. The last two are the albedo and Schlick's weight.
-pub(crate) const NUMBERS: usize = 16;
+const NUMBERS: usize = 16;
 
-/// A reflection of its numbers in their order, or of columns of them.
-pub(crate) fn build<X: Copy>(numbers: &[X]) -> reflection::Reflection<X> {
-    let mut numbers = numbers.iter();
-    reflection::Reflection::<f32>::default().map(|_| *numbers.next().expect("a reflection has so many numbers"))
-}
-
-/// The numbers of reflections in columns.
-pub(crate) fn reflections(py: Python<'_>, alpha: &[f32], n: &[Vec<f32>], view: &[Vec<f32>]) -> PyResult<Vec<Vec<f32>>> {
-    let mut columns = Vec::with_capacity(NUMBERS);
-    for _ in 0..NUMBERS {
-        columns.push(zeros(alpha.len())?);
+impl Beside for reflection::Reflection<f32> {
+    fn one(reflection: &Object<'_>) -> PyResult<Self> {
+        Ok(reflection.cast::<Reflection>()?.get().reflection)
     }
-    run(py, alpha.len(), || {
-        let mut to = columns.iter_mut();
-        let out = reflection::Reflection::<f32>::default().map(|_| to.next().map_or(&mut [][..], Vec::as_mut_slice));
-        Batch::new().reflections(alpha, vector(n), vector(view), out);
-    });
-    Ok(columns)
+    fn fields<'a, 'py>(given: Given<'a, 'py>) -> PyResult<Vec<Field<'a, 'py>>> {
+        let Given { n: Some(n), alpha: Some(alpha), view: Some(view), .. } = given else {
+            let message =
+                "by reflection, n, alpha and view are needed: normals, roughnesses and directions to the viewer";
+            return Err(PyTypeError::new_err(message));
+        };
+        Ok(fields(alpha, n, view).into())
+    }
+    fn columns(py: Python<'_>, arguments: Columns) -> PyResult<Columns> {
+        let (alpha, n, view) = (&arguments[0], vector(&arguments[1..4]), vector(&arguments[4..]));
+        let mut columns = zero_columns(NUMBERS, alpha.len())?;
+        run(py, alpha.len(), || {
+            let mut to = columns.iter_mut();
+            let out = Self::default().map(|_| to.next().map_or(&mut [][..], Vec::as_mut_slice));
+            Batch::new().reflections(alpha, n, view, out);
+        });
+        Ok(columns)
+    }
+}
+/// The arguments of which reflections are made.
+fn fields<'a, 'py>(alpha: &'a Object<'py>, n: &'a Object<'py>, view: &'a Object<'py>) -> [Field<'a, 'py>; 3] {
+    [("alpha", FieldKind::Number, alpha), ("n", FieldKind::Normal, n), ("view", FieldKind::Normal, view)]
 }
 
 /// The lobe of a GGX surface of the same roughness in all directions, seen from one direction, as a cosine after a linear map of directions, which
@@ -45,15 +54,9 @@ pub(crate) struct Reflection {
 #[pymethods]
 impl Reflection {
     #[new]
-    fn new(
-        alpha: &Bound<'_, PyAny>,
-        n: &Bound<'_, PyAny>,
-        view: &Bound<'_, PyAny>,
-    ) -> PyResult<PyClassInitializer<Self>> {
-        let alpha = Argument::single("alpha", FieldKind::Number, alpha)?.columns(&[])?[0][0];
-        let view = Argument::single("view", FieldKind::Normal, view)?.columns(&[])?;
-        let view = etendue::Vec3::new(view[0][0], view[1][0], view[2][0]);
-        let reflection = reflection::Reflection::new(alpha, single("n", n)?, view);
+    fn new(alpha: &Object<'_>, n: &Object<'_>, view: &Object<'_>) -> PyResult<PyClassInitializer<Self>> {
+        let x = numbers(&fields(alpha, n, view))?;
+        let reflection = reflection::Reflection::new(x[0], three(&x[1..]), three(&x[4..]));
         Ok(PyClassInitializer::from(Warp { map: Box::new(reflection) }).add_subclass(Self { reflection }))
     }
     /// The part of light from all directions alike that the surface reflects with a Fresnel factor of 1, in [0, 1].
@@ -70,17 +73,9 @@ impl Reflection {
     /// The projected solid angles after the map, in [0, π], of the parts above the horizon of spheres with the centres center (..., 3) relative
     /// to the shading point and the radii radius (...): about π times the part of the lobe that a sphere covers. A radius ≤ 0 gives 0, and a point
     /// inside π.
-    fn sphere<'py>(
-        &self,
-        py: Python<'py>,
-        center: &Bound<'py, PyAny>,
-        radius: &Bound<'py, PyAny>,
-    ) -> PyResult<Bound<'py, PyAny>> {
-        let center = Argument::new("center", FieldKind::Row(3), center)?;
-        let radius = Argument::new("radius", FieldKind::Number, radius)?;
-        let shape = broadcast(py, &[&center, &radius])?;
-        let mut columns = center.columns(&shape)?;
-        columns.extend(radius.columns(&shape)?);
+    fn sphere<'py>(&self, py: Python<'py>, center: &Object<'py>, radius: &Object<'py>) -> PyResult<Object<'py>> {
+        let (shape, columns) =
+            together(&[("center", FieldKind::Row(3), center), ("radius", FieldKind::Number, radius)])?;
         array(py, &shape, map(py, &ReflectedSphere(self.reflection), &columns)?.0.remove(0))
     }
     /// The albedo and Schlick's weight of a reflection of its own for each row: arrays of the shape (...) to which roughnesses alpha (...), normals
@@ -88,15 +83,13 @@ impl Reflection {
     #[staticmethod]
     fn albedo_and_schlick_each<'py>(
         py: Python<'py>,
-        alpha: &Bound<'py, PyAny>,
-        n: &Bound<'py, PyAny>,
-        view: &Bound<'py, PyAny>,
-    ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
-        let alpha = Argument::new("alpha", FieldKind::Number, alpha)?;
-        let (n, view) = (Argument::new("n", FieldKind::Normal, n)?, Argument::new("view", FieldKind::Normal, view)?);
-        let shape = broadcast(py, &[&alpha, &n, &view])?;
-        let mut numbers = reflections(py, &alpha.columns(&shape)?[0], &n.columns(&shape)?, &view.columns(&shape)?)?;
-        let [albedo, schlick] = [NUMBERS - 2, NUMBERS - 1].map(|k| core::mem::take(&mut numbers[k]));
+        alpha: &Object<'py>,
+        n: &Object<'py>,
+        view: &Object<'py>,
+    ) -> PyResult<(Object<'py>, Object<'py>)> {
+        let (shape, arguments) = together(&fields(alpha, n, view))?;
+        let mut columns = reflection::Reflection::columns(py, arguments)?;
+        let [albedo, schlick] = [NUMBERS - 2, NUMBERS - 1].map(|k| core::mem::take(&mut columns[k]));
         Ok((array(py, &shape, albedo)?, array(py, &shape, schlick)?))
     }
     fn __repr__(&self) -> String {

@@ -7,6 +7,17 @@ use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 use std::ops::Range;
 
+/// Returns a ValueError with this message.
+macro_rules! refuse {
+    ($($message:tt)+) => {
+        return Err(pyo3::exceptions::PyValueError::new_err(format!($($message)+)))
+    };
+}
+pub(crate) use refuse;
+
+/// What a caller gives or gets.
+pub(crate) type Object<'py> = Bound<'py, PyAny>;
+
 /// Batches at least as long as this release Python's lock.
 const LARGE: usize = 256;
 /// Elements that are computed at a time, so that their columns stay in the processor's nearest memory until they are rows.
@@ -26,18 +37,26 @@ pub(crate) fn zeros<T: Default + Clone>(n: usize) -> PyResult<Vec<T>> {
     column.resize(n, T::default());
     Ok(column)
 }
-/// So many zeros in each of K columns.
-pub(crate) fn zero_columns<const K: usize>(n: usize) -> PyResult<[Vec<f32>; K]> {
-    let mut columns = [const { Vec::new() }; K];
-    for column in &mut columns {
-        *column = zeros(n)?;
-    }
-    Ok(columns)
+/// So many columns of zeros.
+pub(crate) fn zero_columns(count: usize, n: usize) -> PyResult<Vec<Vec<f32>>> {
+    (0..count).map(|_| zeros(n)).collect()
 }
 
 /// Runs a batch of `n`, without Python's lock if it is large.
 pub(crate) fn run<R: Send>(py: Python<'_>, n: usize, batch: impl FnOnce() -> R + Send) -> R {
     if n < LARGE { batch() } else { py.detach(batch) }
+}
+
+/// The table that `build` writes to so many zeros.
+pub(crate) fn table<T: Default + Clone + Send, E: ToString>(
+    py: Python<'_>,
+    length: usize,
+    build: impl FnOnce(&mut [T]) -> Result<(), E> + Send,
+) -> PyResult<Vec<T>> {
+    let mut table = zeros(length)?;
+    let built = run(py, length, || build(&mut table).map_err(|e| e.to_string()));
+    built.map_err(PyValueError::new_err)?;
+    Ok(table)
 }
 
 /// The results of a map of columns of numbers, and whether they hold.
@@ -47,10 +66,7 @@ pub(crate) fn map<M: BatchMap + Sync>(
     columns: &[Vec<f32>],
 ) -> PyResult<(Vec<Vec<f32>>, Vec<bool>)> {
     let n = columns[0].len();
-    let mut out = Vec::new();
-    for _ in 0..M::RESULTS {
-        out.push(zeros(n)?);
-    }
+    let mut out = zero_columns(M::RESULTS, n)?;
     let mut holds = zeros::<u8>(n)?;
     let numbers: Vec<&[f32]> = columns.iter().map(Vec::as_slice).collect();
     run(py, n, || {
@@ -61,13 +77,13 @@ pub(crate) fn map<M: BatchMap + Sync>(
 }
 
 /// A numpy array of the shape `shape`.
-pub(crate) fn array<'py, T: Element>(py: Python<'py>, shape: &[usize], numbers: Vec<T>) -> PyResult<Bound<'py, PyAny>> {
+pub(crate) fn array<'py, T: Element>(py: Python<'py>, shape: &[usize], numbers: Vec<T>) -> PyResult<Object<'py>> {
     let array = PyArray1::from_vec(py, numbers);
     debug_assert_eq!(array.len(), shape.iter().product::<usize>());
     Ok(array.reshape(shape.to_vec())?.into_any())
 }
 /// A numpy array of the shape `shape`, with the columns on one more axis.
-pub(crate) fn rows<'py>(py: Python<'py>, shape: &[usize], columns: &[Vec<f32>]) -> PyResult<Bound<'py, PyAny>> {
+pub(crate) fn rows<'py>(py: Python<'py>, shape: &[usize], columns: &[Vec<f32>]) -> PyResult<Object<'py>> {
     let n = columns.first().map_or(0, Vec::len);
     let mut numbers = zeros(n * columns.len())?;
     run(py, n, || {
@@ -90,7 +106,7 @@ pub(crate) fn new_array<'py, T: Element>(py: Python<'py>, shape: &[usize]) -> Py
 pub(crate) fn given_or_new<'py, T: Element>(
     py: Python<'py>,
     shape: &[usize],
-    out: Option<&Bound<'py, PyAny>>,
+    out: Option<&Object<'py>>,
 ) -> PyResult<Bound<'py, PyArrayDyn<T>>> {
     let Some(out) = out else { return new_array(py, shape) };
     let Ok(array) = out.cast::<PyArrayDyn<T>>() else {
@@ -99,8 +115,7 @@ pub(crate) fn given_or_new<'py, T: Element>(
         return Err(PyTypeError::new_err(format!("out must be an array of {wanted}, not of {found}")));
     };
     if array.shape() != shape {
-        let (wanted, found) = (PyTuple::new(py, shape)?, out.getattr("shape")?);
-        return Err(PyValueError::new_err(format!("out must have the shape {wanted}, not {found}")));
+        refuse!("out must have the shape {}, not {}", PyTuple::new(py, shape)?, out.getattr("shape")?);
     }
     Ok(array.clone())
 }
@@ -115,8 +130,7 @@ impl<'py, T: Element> Target<'py, T> {
         let mut target =
             array.try_readwrite().map_err(|e| PyValueError::new_err(format!("out cannot be written: {e}")))?;
         if target.as_slice_mut().map_or(0, |numbers| numbers.len()) != length {
-            let message = format!("out must be contiguous, of {length} numbers");
-            return Err(PyValueError::new_err(message));
+            refuse!("out must be contiguous, of {length} numbers");
         }
         Ok(Self(Some(target)))
     }

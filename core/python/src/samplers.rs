@@ -1,56 +1,90 @@
 //! Lights prepared for a shading point.
 
-use crate::arrays::{Argument, FieldKind};
-use crate::results::{Target, fill_rows, given_or_new, run};
+use crate::arrays::{Field, FieldKind, cut, together, vector};
+use crate::results::{Object, Target, fill_rows, given_or_new, run};
 use crate::samples::{Samples, Wanted};
-use etendue::{LightSampler, Vec2, Vec3};
-use etendue_batch::Batch;
+use etendue::{LightSampler, Vec2};
+use etendue_batch::{Batch, Evaluations};
 use pyo3::exceptions::PyAttributeError;
 use pyo3::prelude::*;
 use std::ops::Range;
 
+/// What is asked of a light for each row.
+#[derive(Clone, Copy)]
+pub(crate) enum Call {
+    Sample,
+    Hit,
+    Pdf,
+    PdfOfHit,
+    Invert,
+}
+
+impl Call {
+    /// What it takes: numbers u or directions w.
+    pub(crate) fn field<'a, 'py>(self, at: &'a Object<'py>) -> Field<'a, 'py> {
+        if let Self::Sample = self { ("u", FieldKind::Units, at) } else { ("w", FieldKind::Direction, at) }
+    }
+    /// Answers it by a prepared light, for columns of what it takes.
+    pub(crate) fn answer<P: etendue_batch::Prepared>(self, sampler: &P, at: &[&[f32]], out: Evaluations<'_>) {
+        let batch = Batch::new();
+        match self {
+            Self::Sample => batch.sample(sampler, Vec2::new(at[0], at[1]), out.hit),
+            Self::Hit => batch.hit(sampler, vector(at), out.hit),
+            Self::Pdf => batch.pdf(sampler, vector(at), out.pdf),
+            Self::Invert => {
+                let [x, y] = out.u;
+                batch.invert(sampler, vector(at), Vec2::new(x, y));
+            }
+            // a few operations each, for which batches have no function
+            Self::PdfOfHit => sampler.over::<f32, _>(|light| {
+                let w = vector(at);
+                for (i, pdf) in out.pdf.iter_mut().enumerate() {
+                    *pdf = light.pdf_of_hit(w.map(|column| column[i]));
+                }
+            }),
+        }
+    }
+    /// The arrays of the answers that `batch` writes for ranges of rows: the samples to `hit`.
+    pub(crate) fn results<'py>(
+        self,
+        py: Python<'py>,
+        shape: &[usize],
+        wanted: Wanted<'_, 'py>,
+        batch: impl Fn(Range<usize>, Evaluations<'_>) + Send,
+    ) -> PyResult<Object<'py>> {
+        let n = shape.iter().product();
+        match self {
+            Self::Sample | Self::Hit => Samples::of(py, shape, wanted, move |range, hit| {
+                batch(range, Evaluations { hit, ..Evaluations::default() })
+            }),
+            Self::Pdf | Self::PdfOfHit => {
+                let array = given_or_new(py, shape, wanted.out)?;
+                let mut target = Target::of(Some(&array), n)?;
+                let pdf = target.numbers();
+                run(py, n, move || batch(0..n, Evaluations { pdf, ..Evaluations::default() }));
+                Ok(array.clone().into_any())
+            }
+            Self::Invert => {
+                let array = given_or_new(py, &[shape, &[2]].concat(), wanted.out)?;
+                let mut target = Target::of(Some(&array), 2 * n)?;
+                let rows = target.numbers();
+                let write = move |range, u: [&mut [f32]; 2]| batch(range, Evaluations { u, ..Evaluations::default() });
+                run(py, n, move || fill_rows(n, rows, write));
+                Ok(array.clone().into_any())
+            }
+        }
+    }
+}
+
 /// A light prepared by any technique.
 pub(crate) trait Prepared: Send + Sync {
-    fn sample(&self, u: Vec2<&[f32]>, out: etendue_batch::Samples<'_>);
-    fn hit(&self, w: Vec3<&[f32]>, out: etendue_batch::Samples<'_>);
-    fn pdf(&self, w: Vec3<&[f32]>, out: &mut [f32]);
-    fn pdf_of_hit(&self, w: Vec3<&[f32]>, out: &mut [f32]);
-    fn invert(&self, w: Vec3<&[f32]>, out: Vec2<&mut [f32]>);
+    /// Answers a call for columns of what it takes.
+    fn answer(&self, call: Call, at: &[&[f32]], out: Evaluations<'_>);
 }
-impl<T: etendue_batch::Prepared + Send + Sync> Prepared for T {
-    fn sample(&self, u: Vec2<&[f32]>, out: etendue_batch::Samples<'_>) {
-        Batch::new().sample(self, u, out);
+impl<P: etendue_batch::Prepared + Send + Sync> Prepared for P {
+    fn answer(&self, call: Call, at: &[&[f32]], out: Evaluations<'_>) {
+        call.answer(self, at, out);
     }
-    fn hit(&self, w: Vec3<&[f32]>, out: etendue_batch::Samples<'_>) {
-        Batch::new().hit(self, w, out);
-    }
-    fn pdf(&self, w: Vec3<&[f32]>, out: &mut [f32]) {
-        Batch::new().pdf(self, w, out);
-    }
-    fn pdf_of_hit(&self, w: Vec3<&[f32]>, out: &mut [f32]) {
-        pdf_of_hit(self, w, out);
-    }
-    fn invert(&self, w: Vec3<&[f32]>, out: Vec2<&mut [f32]>) {
-        Batch::new().invert(self, w, out);
-    }
-}
-
-/// The pdfs of directions that are known to hit: a few operations each, for which batches have no function.
-pub(crate) fn pdf_of_hit<T: etendue_batch::Prepared>(sampler: &T, w: Vec3<&[f32]>, out: &mut [f32]) {
-    sampler.over::<f32, _>(|light| {
-        for (i, pdf) in out.iter_mut().enumerate() {
-            *pdf = light.pdf_of_hit(w.map(|column| column[i]));
-        }
-    });
-}
-
-/// Three columns as a vector.
-pub(crate) fn vector<C: AsRef<[f32]>>(columns: &[C]) -> Vec3<&[f32]> {
-    Vec3::new(columns[0].as_ref(), columns[1].as_ref(), columns[2].as_ref())
-}
-/// The columns for a range of elements.
-pub(crate) fn cut(columns: &[Vec<f32>], range: Range<usize>) -> Vec<&[f32]> {
-    columns.iter().map(|column| &column[range.clone()]).collect()
 }
 
 /// A light prepared for one shading point by one technique: `light.by_…` makes it, and it draws as often as needed.
@@ -76,6 +110,11 @@ impl Sampler {
     ) -> Self {
         Self { prepared, technique, measure }
     }
+    fn answer<'py>(&self, call: Call, at: &Object<'py>, wanted: Wanted<'_, 'py>) -> PyResult<Object<'py>> {
+        let (shape, columns) = together(&[call.field(at)])?;
+        let batch = |range, out: Evaluations<'_>| self.prepared.answer(call, &cut(&columns, range), out);
+        call.results(at.py(), &shape, wanted, batch)
+    }
     fn measure(&self, name: &str) -> PyResult<f32> {
         let found = self.measure.filter(|measure| measure.0 == name).map(|measure| measure.1);
         found.ok_or_else(|| PyAttributeError::new_err(format!("a sampler {} has no {name}", self.technique)))
@@ -91,70 +130,41 @@ impl Sampler {
     #[pyo3(signature = (u, *, fields=None, out=None))]
     fn sample<'py>(
         &self,
-        py: Python<'py>,
-        u: &Bound<'py, PyAny>,
-        fields: Option<&Bound<'py, PyAny>>,
-        out: Option<&Bound<'py, PyAny>>,
-    ) -> PyResult<Bound<'py, Samples>> {
-        let u = Argument::new("u", FieldKind::Units, u)?;
-        let columns = u.columns(&u.shape)?;
-        Samples::of(py, &u.shape, Wanted { fields, out }, |range, out| {
-            self.prepared.sample(Vec2::new(&columns[0][range.clone()], &columns[1][range]), out);
-        })
+        u: &Object<'py>,
+        fields: Option<&Object<'py>>,
+        out: Option<&Object<'py>>,
+    ) -> PyResult<Object<'py>> {
+        self.answer(Call::Sample, u, Wanted { fields, out })
     }
     /// The points of the light that unit directions w hit, (..., 3), with the pdf with which `sample` draws them; the pdf is 0 where a
     /// direction misses the light. `fields` and `out` are those of `sample`.
     #[pyo3(signature = (w, *, fields=None, out=None))]
     fn hit<'py>(
         &self,
-        py: Python<'py>,
-        w: &Bound<'py, PyAny>,
-        fields: Option<&Bound<'py, PyAny>>,
-        out: Option<&Bound<'py, PyAny>>,
-    ) -> PyResult<Bound<'py, Samples>> {
-        let w = Argument::new("w", FieldKind::Direction, w)?;
-        let columns = w.columns(&w.shape)?;
-        Samples::of(py, &w.shape, Wanted { fields, out }, |range, out| {
-            self.prepared.hit(vector(&cut(&columns, range)), out);
-        })
+        w: &Object<'py>,
+        fields: Option<&Object<'py>>,
+        out: Option<&Object<'py>>,
+    ) -> PyResult<Object<'py>> {
+        self.answer(Call::Hit, w, Wanted { fields, out })
     }
     /// The probability density per steradian with which `sample` draws unit directions w, (..., 3); 0 where they miss the light. It is
     /// written to the array `out` of float32, if there is one.
     #[pyo3(signature = (w, *, out=None))]
-    fn pdf<'py>(
-        &self,
-        py: Python<'py>,
-        w: &Bound<'py, PyAny>,
-        out: Option<&Bound<'py, PyAny>>,
-    ) -> PyResult<Bound<'py, PyAny>> {
-        pdfs(py, w, out, |w, out| self.prepared.pdf(w, out))
+    fn pdf<'py>(&self, w: &Object<'py>, out: Option<&Object<'py>>) -> PyResult<Object<'py>> {
+        self.answer(Call::Pdf, w, Wanted { fields: None, out })
     }
     /// The same for unit directions w, (..., 3), that are known to hit the light, as where a ray of the host has hit it: the light is not
     /// intersected again, so that no rounding makes a direction beside an edge miss it. Where w misses, the result is finite, and of no
     /// meaning.
     #[pyo3(signature = (w, *, out=None))]
-    fn pdf_of_hit<'py>(
-        &self,
-        py: Python<'py>,
-        w: &Bound<'py, PyAny>,
-        out: Option<&Bound<'py, PyAny>>,
-    ) -> PyResult<Bound<'py, PyAny>> {
-        pdfs(py, w, out, |w, out| self.prepared.pdf_of_hit(w, out))
+    fn pdf_of_hit<'py>(&self, w: &Object<'py>, out: Option<&Object<'py>>) -> PyResult<Object<'py>> {
+        self.answer(Call::PdfOfHit, w, Wanted { fields: None, out })
     }
     /// The numbers u in [0, 1)² that `sample` maps to unit directions w, (..., 3); any numbers where they miss the light. They are written
     /// to the array `out` of float32 and the shape (..., 2), if there is one.
     #[pyo3(signature = (w, *, out=None))]
-    fn invert<'py>(
-        &self,
-        py: Python<'py>,
-        w: &Bound<'py, PyAny>,
-        out: Option<&Bound<'py, PyAny>>,
-    ) -> PyResult<Bound<'py, PyAny>> {
-        let w = Argument::new("w", FieldKind::Direction, w)?;
-        let columns = w.columns(&w.shape)?;
-        numbers(py, &w.shape, out, |range, [x, y]| {
-            self.prepared.invert(vector(&cut(&columns, range)), Vec2::new(x, y));
-        })
+    fn invert<'py>(&self, w: &Object<'py>, out: Option<&Object<'py>>) -> PyResult<Object<'py>> {
+        self.answer(Call::Invert, w, Wanted { fields: None, out })
     }
     /// Surface area of the light, in the square of the unit of the coordinates; of samplers by area.
     #[getter]
@@ -180,44 +190,6 @@ impl Sampler {
     fn __repr__(&self) -> String {
         format!("<etendue.Sampler: {}>", self.technique)
     }
-}
-
-/// The pdfs of unit directions w by `pdf`.
-fn pdfs<'py>(
-    py: Python<'py>,
-    w: &Bound<'py, PyAny>,
-    out: Option<&Bound<'py, PyAny>>,
-    pdf: impl FnOnce(Vec3<&[f32]>, &mut [f32]) + Send,
-) -> PyResult<Bound<'py, PyAny>> {
-    let w = Argument::new("w", FieldKind::Direction, w)?;
-    let columns = w.columns(&w.shape)?;
-    let n = columns[0].len();
-    let array = given_or_new(py, &w.shape, out)?;
-    let mut target = Target::of(Some(&array), n)?;
-    let numbers = target.numbers();
-    run(py, n, || pdf(vector(&columns), numbers));
-    Ok(array.clone().into_any())
-}
-/// The numbers u, (..., 2), that `batch` writes for ranges of the elements of `shape`.
-pub(crate) fn numbers<'py>(
-    py: Python<'py>,
-    shape: &[usize],
-    out: Option<&Bound<'py, PyAny>>,
-    batch: impl Fn(Range<usize>, [&mut [f32]; 2]) + Send,
-) -> PyResult<Bound<'py, PyAny>> {
-    let n = shape.iter().product();
-    let array = given_or_new(py, &[shape, &[2]].concat(), out)?;
-    let mut target = Target::of(Some(&array), 2 * n)?;
-    let rows = target.numbers();
-    run(py, n, || fill_rows(n, rows, batch));
-    Ok(array.clone().into_any())
-}
-
-/// A point p, or a normal n.
-pub(crate) fn single(name: &'static str, object: &Bound<'_, PyAny>) -> PyResult<Vec3<f32>> {
-    let kind = if name == "n" { FieldKind::Normal } else { FieldKind::Row(3) };
-    let columns = Argument::single(name, kind, object)?.columns(&[])?;
-    Ok(Vec3::new(columns[0][0], columns[1][0], columns[2][0]))
 }
 
 /// Adds samplers to the module.

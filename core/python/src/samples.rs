@@ -1,8 +1,8 @@
 //! Samples of lights in numpy arrays.
 
-use crate::results::{BLOCK, Target, new_array, part, run, write_rows};
-use numpy::{Element, PyArrayDyn};
-use pyo3::exceptions::{PyAttributeError, PyTypeError, PyValueError};
+use crate::results::{BLOCK, Object, Target, new_array, part, refuse, run, write_rows};
+use numpy::Element;
+use pyo3::exceptions::{PyAttributeError, PyTypeError};
 use pyo3::prelude::*;
 use pyo3::types::{PyString, PyTuple};
 use std::ops::Range;
@@ -21,66 +21,59 @@ const NUMBERS: usize = 6;
 #[pyclass(module = "etendue", frozen)]
 pub(crate) struct Samples {
     shape: Vec<usize>,
-    /// Those of [`FIELDS`] that are numbers, where they are wanted.
-    numbers: [Option<Py<PyArrayDyn<f32>>>; NUMBERS],
-    emits: Option<Py<PyArrayDyn<bool>>>,
+    /// The arrays of [`FIELDS`], where they are wanted.
+    fields: [Option<Py<PyAny>>; FIELDS.len()],
 }
 
 #[pymethods]
 impl Samples {
     /// Unit directions from the shading point to the light, (..., 3).
     #[getter]
-    fn direction(&self, py: Python<'_>) -> PyResult<Py<PyArrayDyn<f32>>> {
-        self.number(py, 0)
+    fn direction(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        self.field(py, 0)
     }
     /// Distances to the light along them, in the unit of the coordinates; the largest float32 for suns.
     #[getter]
-    fn distance(&self, py: Python<'_>) -> PyResult<Py<PyArrayDyn<f32>>> {
-        self.number(py, 1)
+    fn distance(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        self.field(py, 1)
     }
     /// Probability densities of the directions, per steradian (lines: see `Line`); 0 where there is no sample.
     #[getter]
-    fn pdf(&self, py: Python<'_>) -> PyResult<Py<PyArrayDyn<f32>>> {
-        self.number(py, 2)
+    fn pdf(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        self.field(py, 2)
     }
     /// 1/pdf where there is a sample and the light emits towards the shading point, else 0.
     #[getter]
-    fn weight(&self, py: Python<'_>) -> PyResult<Py<PyArrayDyn<f32>>> {
-        self.number(py, 3)
+    fn weight(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        self.field(py, 3)
     }
     /// Unit normals of the light, (..., 3).
     #[getter]
-    fn normal(&self, py: Python<'_>) -> PyResult<Py<PyArrayDyn<f32>>> {
-        self.number(py, 4)
+    fn normal(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        self.field(py, 4)
     }
     /// Surface coordinates in [0, 1]², (..., 2).
     #[getter]
-    fn uv(&self, py: Python<'_>) -> PyResult<Py<PyArrayDyn<f32>>> {
-        self.number(py, 5)
+    fn uv(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        self.field(py, 5)
     }
     /// Whether the shading point is on the side of the light that emits: bool.
     #[getter]
-    fn emits(&self, py: Python<'_>) -> PyResult<Py<PyArrayDyn<bool>>> {
-        found(py, &self.emits, FIELDS[NUMBERS].0)
+    fn emits(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        self.field(py, NUMBERS)
     }
     fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
-        let has = self.numbers.iter().map(Option::is_some).chain([self.emits.is_some()]);
-        let names: Vec<_> = FIELDS.iter().zip(has).filter(|(_, has)| *has).map(|((name, _), _)| *name).collect();
+        let names = FIELDS.iter().zip(&self.fields).filter_map(|((name, _), field)| field.as_ref().map(|_| *name));
+        let names: Vec<_> = names.collect();
         Ok(format!("<etendue.Samples of shape {}: {}>", PyTuple::new(py, &self.shape)?, names.join(", ")))
     }
-}
-
-/// A field, if it is there.
-fn found<T>(py: Python<'_>, field: &Option<Py<T>>, name: &str) -> PyResult<Py<T>> {
-    let missing = || PyAttributeError::new_err(format!("these samples have no {name}: `fields` did not name it"));
-    field.as_ref().map(|field| field.clone_ref(py)).ok_or_else(missing)
 }
 
 /// What is wanted of samples, as the caller says it: names of fields, and samples to write over.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct Wanted<'a, 'py> {
-    pub(crate) fields: Option<&'a Bound<'py, PyAny>>,
-    pub(crate) out: Option<&'a Bound<'py, PyAny>>,
+    pub(crate) fields: Option<&'a Object<'py>>,
+    pub(crate) out: Option<&'a Object<'py>>,
 }
 
 impl<'py> Wanted<'_, 'py> {
@@ -93,7 +86,7 @@ impl<'py> Wanted<'_, 'py> {
         };
         let known = FIELDS.map(|(name, _)| name);
         if let Some(name) = names.iter().find(|name| !known.contains(&name.as_str())) {
-            return Err(PyValueError::new_err(format!("fields must be of {known:?}, not {name:?}")));
+            refuse!("fields must be of {known:?}, not {name:?}");
         }
         Ok(known.map(|known| names.iter().any(|name| name == known)))
     }
@@ -101,12 +94,17 @@ impl<'py> Wanted<'_, 'py> {
     fn samples(self, py: Python<'py>, shape: &[usize]) -> PyResult<Bound<'py, Samples>> {
         let Some(out) = self.out else {
             let which = self.which()?;
-            let mut numbers = [const { None }; NUMBERS];
-            for (k, field) in numbers.iter_mut().enumerate().filter(|(k, _)| which[*k]) {
-                *field = Some(new_field(py, shape, FIELDS[k].1)?);
+            let mut fields = [const { None }; FIELDS.len()];
+            for (k, field) in fields.iter_mut().enumerate().filter(|(k, _)| which[*k]) {
+                let own: &[usize] = if FIELDS[k].1 > 1 { &[FIELDS[k].1] } else { &[] };
+                let shape = [shape, own].concat();
+                *field = Some(if k < NUMBERS {
+                    new_array::<f32>(py, &shape)?.into_any().unbind()
+                } else {
+                    new_array::<bool>(py, &shape)?.into_any().unbind()
+                });
             }
-            let emits = if which[NUMBERS] { Some(new_field(py, shape, 1)?) } else { None };
-            return Bound::new(py, Samples { shape: shape.to_vec(), numbers, emits });
+            return Bound::new(py, Samples { shape: shape.to_vec(), fields });
         };
         if self.fields.is_some() {
             return Err(PyTypeError::new_err("out has its fields: give either fields or out"));
@@ -116,21 +114,21 @@ impl<'py> Wanted<'_, 'py> {
         };
         if samples.get().shape != shape {
             let [wanted, found] = [shape, &samples.get().shape].map(|shape| PyTuple::new(py, shape));
-            return Err(PyValueError::new_err(format!("out must have the shape {}, not {}", wanted?, found?)));
+            refuse!("out must have the shape {}, not {}", wanted?, found?);
         }
         Ok(samples.clone())
     }
 }
 
-/// An array of `width` numbers for each element.
-fn new_field<T: Element>(py: Python<'_>, shape: &[usize], width: usize) -> PyResult<Py<PyArrayDyn<T>>> {
-    let own: &[usize] = if width > 1 { &[width] } else { &[] };
-    Ok(new_array(py, &[shape, own].concat())?.unbind())
-}
-
 impl Samples {
-    fn number(&self, py: Python<'_>, k: usize) -> PyResult<Py<PyArrayDyn<f32>>> {
-        found(py, &self.numbers[k], FIELDS[k].0)
+    fn field(&self, py: Python<'_>, k: usize) -> PyResult<Py<PyAny>> {
+        let missing =
+            || PyAttributeError::new_err(format!("these samples have no {}: `fields` did not name it", FIELDS[k].0));
+        self.fields[k].as_ref().map(|field| field.clone_ref(py)).ok_or_else(missing)
+    }
+    /// The memory of a field of so many numbers.
+    fn target<'py, T: Element>(&self, py: Python<'py>, k: usize, count: usize) -> PyResult<Target<'py, T>> {
+        Target::of(self.fields[k].as_ref().map(|field| field.bind(py).cast()).transpose()?, count)
     }
     /// The samples that `batch` writes for ranges of elements, one for each element of `shape`.
     pub(crate) fn of<'py>(
@@ -138,22 +136,21 @@ impl Samples {
         shape: &[usize],
         wanted: Wanted<'_, 'py>,
         batch: impl Fn(Range<usize>, etendue_batch::Samples<'_>) + Send,
-    ) -> PyResult<Bound<'py, Self>> {
+    ) -> PyResult<Object<'py>> {
         let samples = wanted.samples(py, shape)?;
         let n = shape.iter().product::<usize>();
-        let Self { numbers, emits, .. } = samples.get();
         let mut targets = Vec::with_capacity(NUMBERS);
-        for (field, (_, width)) in numbers.iter().zip(FIELDS) {
-            targets.push(Target::of(field.as_ref().map(|field| field.bind(py)), n * width)?);
+        for (k, (_, width)) in FIELDS[..NUMBERS].iter().enumerate() {
+            targets.push(samples.get().target(py, k, n * width)?);
         }
-        let mut emits = Target::of(emits.as_ref().map(|field| field.bind(py)), n)?;
+        let mut emits = samples.get().target(py, NUMBERS, n)?;
         let [direction, distance, pdf, weight, normal, uv] = &mut targets[..] else {
             unreachable!("as many as numbers")
         };
         let numbers = [direction, distance, pdf, weight, normal, uv].map(Target::numbers);
         let emits = emits.numbers();
         run(py, n, || fill(n, numbers, emits, batch));
-        Ok(samples)
+        Ok(samples.into_any())
     }
 }
 

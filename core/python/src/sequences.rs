@@ -1,7 +1,7 @@
 //! Sequences of random numbers.
 
 use crate::arrays::{Argument, FieldKind};
-use crate::results::{rows, run, zero_columns};
+use crate::results::{Object, refuse, rows, run, zero_columns};
 use etendue::Vec2;
 use etendue_batch::{Batch, BatchSequence, Counters};
 use pyo3::exceptions::{PyMemoryError, PyValueError};
@@ -32,14 +32,14 @@ impl Sequence {
         &self,
         py: Python<'py>,
         count: i128,
-        pixel: Option<&Bound<'py, PyAny>>,
+        pixel: Option<&Object<'py>>,
         dimension: i128,
         first: i128,
-    ) -> PyResult<Bound<'py, PyAny>> {
+    ) -> PyResult<Object<'py>> {
         let (dimension, first) = (unsigned("dimension", dimension)?, unsigned::<u32>("first", first)?);
         let count: u64 = unsigned("count", count)?;
         if count > (1 << 32) - u64::from(first) {
-            return Err(PyValueError::new_err(format!("first + count must be at most 2**32, not {first} + {count}")));
+            refuse!("first + count must be at most 2**32, not {first} + {count}");
         }
         let (mut shape, pixels) = match pixel {
             None => (vec![], vec![0]),
@@ -53,9 +53,9 @@ impl Sequence {
         let total = count.checked_mul(pixels.len());
         let total = total.ok_or_else(|| PyMemoryError::new_err("no memory for so many numbers"))?;
         shape.push(count);
-        let mut columns = zero_columns::<2>(total)?;
+        let mut columns = zero_columns(2, total)?;
         run(py, total, || {
-            let [x, y] = &mut columns;
+            let [x, y] = &mut columns[..] else { return };
             let places = x.chunks_mut(count.max(1)).zip(y.chunks_mut(count.max(1)));
             for (&pixel, (x, y)) in pixels.iter().zip(places) {
                 let counters = Counters { pixel, dimension, sample: first, ..Counters::default() };
@@ -73,9 +73,10 @@ fn unsigned<T: TryFrom<i128>>(name: &str, number: i128) -> PyResult<T> {
 }
 /// A number of samples in the domain of stratified sequences.
 fn strata(count: i128) -> PyResult<u32> {
-    let inside = (1..=1 << 22).contains(&count);
-    let wrong = || PyValueError::new_err(format!("count must be in [1, 2**22], not {count}"));
-    if inside { unsigned("count", count) } else { Err(wrong()) }
+    if !(1..=1 << 22).contains(&count) {
+        refuse!("count must be in [1, 2**22], not {count}");
+    }
+    unsigned("count", count)
 }
 
 macro_rules! sequences {

@@ -1,9 +1,9 @@
 //! Flat lights that emit within an angle of their normal.
 
-use crate::arrays::{Argument, FieldKind, broadcast};
+use crate::arrays::{Columns, Field, FieldKind, point, together};
+use crate::each::{Beside, Given};
 use crate::lights;
-use crate::results::{array, map};
-use crate::samplers::single;
+use crate::results::{Object, array, map};
 use etendue::light::{self, FlatLight};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
@@ -15,14 +15,22 @@ use pyo3::prelude::*;
 /// light, which `by_spread` of the lights samples.
 #[pyclass(module = "etendue", frozen)]
 pub(crate) struct Spread {
-    pub(crate) spread: light::Spread<f32>,
+    spread: light::Spread<f32>,
     angle: f64,
 }
 
-fn wrong(light: &Bound<'_, PyAny>, kinds: &str) -> PyErr {
-    match light.get_type().name() {
-        Ok(name) => PyTypeError::new_err(format!("light must be a {kinds}, not {name}")),
-        Err(e) => e,
+impl Beside for light::Spread<f32> {
+    fn one(spread: &Object<'_>) -> PyResult<Self> {
+        Ok(spread.cast::<Spread>()?.get().spread)
+    }
+    fn fields<'a, 'py>(given: Given<'a, 'py>) -> PyResult<Vec<Field<'a, 'py>>> {
+        let wrong = || PyTypeError::new_err("by spread, spread is needed: full angles in radians");
+        Ok(vec![("spread", FieldKind::Number, given.spread.ok_or_else(wrong)?)])
+    }
+    fn columns(_: Python<'_>, angles: Columns) -> PyResult<Columns> {
+        let spreads = angles[0].iter().map(|&angle| Self::new(f64::from(angle)));
+        let (tan_half, gain) = spreads.map(|spread| (spread.tan_half, spread.gain)).unzip();
+        Ok(vec![tan_half, gain])
     }
 }
 
@@ -37,29 +45,22 @@ impl Spread {
     }
     /// The factor of the radiance in or against unit directions w (..., 3) of lights with the unit normals n (..., 3), on either side:
     /// (tanσ − tanθ)/(tanσ − σ) at the angle θ < σ to the normal, with σ half of the spread; 0 beyond.
-    fn attenuation<'py>(
-        &self,
-        py: Python<'py>,
-        w: &Bound<'py, PyAny>,
-        n: &Bound<'py, PyAny>,
-    ) -> PyResult<Bound<'py, PyAny>> {
-        let (w, n) = (Argument::new("w", FieldKind::Direction, w)?, Argument::new("n", FieldKind::Normal, n)?);
-        let shape = broadcast(py, &[&w, &n])?;
-        let mut columns = w.columns(&shape)?;
-        columns.extend(n.columns(&shape)?);
+    fn attenuation<'py>(&self, py: Python<'py>, w: &Object<'py>, n: &Object<'py>) -> PyResult<Object<'py>> {
+        let (shape, columns) = together(&[("w", FieldKind::Direction, w), ("n", FieldKind::Normal, n)])?;
         array(py, &shape, map(py, &self.spread, &columns)?.0.remove(0))
     }
     /// The part of a Parallelogram or Rectangle with this spread that the point p (3) sees: the smallest parallelogram with edges along its own
     /// about what of its plane is within the angle. It is without area where the point sees nothing.
-    fn visible_part(&self, light: &Bound<'_, PyAny>, p: &Bound<'_, PyAny>) -> PyResult<lights::Parallelogram> {
+    fn visible_part(&self, light: &Object<'_>, p: &Object<'_>) -> PyResult<lights::Parallelogram> {
         let light = if let Ok(light) = light.cast::<lights::Parallelogram>() {
             lights::Parallelogram::build(&light.get().numbers)
         } else if let Ok(light) = light.cast::<lights::Rectangle>() {
             lights::Rectangle::build(&light.get().numbers).coordinates()
         } else {
-            return Err(wrong(light, "Parallelogram or Rectangle"));
+            let message = format!("light must be a Parallelogram or Rectangle, not {}", light.get_type().name()?);
+            return Err(PyTypeError::new_err(message));
         };
-        let part = light.visible_part(single("p", p)?, &self.spread);
+        let part = light.visible_part(point(p)?, &self.spread);
         Ok(lights::Parallelogram { numbers: [part.corner, part.edge_s, part.edge_t].map(|v| [v.x, v.y, v.z]).concat() })
     }
     fn __repr__(&self) -> String {

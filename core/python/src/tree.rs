@@ -1,13 +1,13 @@
 //! Choice among many lights.
 
-use crate::arrays::{Argument, FieldKind, broadcast};
-use crate::results::{array, room, run, zeros};
-use etendue::Vec3;
+use crate::arrays::{Argument, FieldKind, broadcast, columns, together, vector};
+use crate::results::{Object, array, refuse, room, run, zeros};
 use etendue::select::{LightBound, LightTree as Tree, NO_LIGHT, Node8};
 use etendue_batch::memory::TreeMemory;
 use etendue_batch::{Batch, Choices};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use pyo3::types::{PyFloat, PyTuple};
 
 /// Chooses among any number of lights by what they can contribute to a point of a surface: from their power, distance and cosines.
 ///
@@ -22,58 +22,46 @@ pub(crate) struct LightTree {
     places: Vec<u32>,
 }
 
-fn vector(columns: &[Vec<f32>]) -> Vec3<&[f32]> {
-    Vec3::new(&columns[0], &columns[1], &columns[2])
-}
-
 #[pymethods]
 impl LightTree {
     #[new]
     #[pyo3(signature = (center, radius, normal=None, cos_cone=None, two_sided=None, power=None))]
     fn new(
         py: Python<'_>,
-        center: &Bound<'_, PyAny>,
-        radius: &Bound<'_, PyAny>,
-        normal: Option<&Bound<'_, PyAny>>,
-        cos_cone: Option<&Bound<'_, PyAny>>,
-        two_sided: Option<&Bound<'_, PyAny>>,
-        power: Option<&Bound<'_, PyAny>>,
+        center: &Object<'_>,
+        radius: &Object<'_>,
+        normal: Option<&Object<'_>>,
+        cos_cone: Option<&Object<'_>>,
+        two_sided: Option<&Object<'_>>,
+        power: Option<&Object<'_>>,
     ) -> PyResult<Self> {
-        let arguments = [
-            ("center", FieldKind::Row(3), Some(center)),
-            ("radius", FieldKind::Number, Some(radius)),
-            ("normal", FieldKind::Normal, normal),
-            ("cos_cone", FieldKind::Number, cos_cone),
-            ("two_sided", FieldKind::Number, two_sided),
-            ("power", FieldKind::Number, power),
-        ];
-        let mut given = Vec::new();
-        for (name, kind, object) in arguments {
-            given.push(object.map(|object| Argument::new(name, kind, object)).transpose()?);
-        }
-        let shape = broadcast(py, &given.iter().flatten().collect::<Vec<_>>())?;
+        // of a light that emits in all directions, from both sides or not, with a power of 1
+        let origin = PyTuple::new(py, [0.0; 3])?.into_any();
+        let [zero, one] = [0.0, 1.0].map(|number| PyFloat::new(py, number).into_any());
+        let (shape, columns) = together(&[
+            ("center", FieldKind::Row(3), center),
+            ("radius", FieldKind::Number, radius),
+            ("normal", FieldKind::Normal, normal.unwrap_or(&origin)),
+            ("cos_cone", FieldKind::Number, cos_cone.unwrap_or(&zero)),
+            ("two_sided", FieldKind::Number, two_sided.unwrap_or(&zero)),
+            ("power", FieldKind::Number, power.unwrap_or(&one)),
+        ])?;
         let &[count] = &shape[..] else {
-            return Err(PyValueError::new_err(format!("center must have the shape (count, 3), not (*{shape:?}, 3)")));
+            refuse!("center must have the shape (count, 3), not (*{shape:?}, 3)");
         };
         if count > Tree::MOST {
-            return Err(PyValueError::new_err(format!("a tree has at most {} lights, not {count}", Tree::MOST)));
-        }
-        let mut columns = Vec::new();
-        for argument in &given {
-            columns.push(argument.as_ref().map(|argument| argument.columns(&shape)).transpose()?);
+            refuse!("a tree has at most {} lights, not {count}", Tree::MOST);
         }
         let mut lights = room(count)?;
         lights.extend((0..count).map(|i| {
-            let number = |which: usize, k: usize, default: f32| {
-                columns[which].as_ref().map_or(default, |columns: &Vec<Vec<f32>>| columns[k][i])
-            };
+            let number = |k: usize| columns[k][i];
             LightBound {
-                center: [0, 1, 2].map(|k| number(0, k, 0.0)),
-                radius: number(1, 0, 0.0),
-                normal: [0, 1, 2].map(|k| number(2, k, 0.0)),
-                cos_cone: number(3, 0, 0.0),
-                two_sided: number(4, 0, 0.0) != 0.0,
-                power: number(5, 0, 1.0),
+                center: [0, 1, 2].map(number),
+                radius: number(3),
+                normal: [4, 5, 6].map(number),
+                cos_cone: number(7),
+                two_sided: number(8) != 0.0,
+                power: number(9),
             }
         }));
         let (mut nodes, mut places) = (zeros::<Node8>(Tree::nodes_for(count))?, zeros(count)?);
@@ -83,23 +71,20 @@ impl LightTree {
     /// Chooses a light for each point p (..., 3) of a surface with the unit normal n (..., 3), by numbers u in [0, 1) (...). Returns the
     /// indices (uint32; `NO_LIGHT` where no light can contribute), the probabilities with which they were chosen, and what is left of
     /// the numbers u: uniform in [0, 1), independent of the light.
-    #[allow(clippy::type_complexity)]
     fn choose<'py>(
         &self,
         py: Python<'py>,
-        p: &Bound<'py, PyAny>,
-        n: &Bound<'py, PyAny>,
-        u: &Bound<'py, PyAny>,
-    ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>, Bound<'py, PyAny>)> {
-        let (p, n) = (Argument::new("p", FieldKind::Row(3), p)?, Argument::new("n", FieldKind::Normal, n)?);
-        let u = Argument::new("u", FieldKind::Unit, u)?;
-        let shape = broadcast(py, &[&p, &n, &u])?;
-        let (p, n, u) = (p.columns(&shape)?, n.columns(&shape)?, u.columns(&shape)?);
-        let count = u[0].len();
+        p: &Object<'py>,
+        n: &Object<'py>,
+        u: &Object<'py>,
+    ) -> PyResult<(Object<'py>, Object<'py>, Object<'py>)> {
+        let fields = [("p", FieldKind::Row(3), p), ("n", FieldKind::Normal, n), ("u", FieldKind::Unit, u)];
+        let (shape, columns) = together(&fields)?;
+        let count = columns[6].len();
         let (mut light, mut pmf, mut left) = (zeros(count)?, zeros(count)?, zeros(count)?);
         run(py, count, || {
             let out = Choices { light: &mut light, pmf: &mut pmf, u: &mut left };
-            Batch::new().choose(&self.tree(), vector(&p), vector(&n), &u[0], out);
+            Batch::new().choose(&self.tree(), vector(&columns), vector(&columns[3..]), &columns[6], out);
         });
         Ok((array(py, &shape, light)?, array(py, &shape, pmf)?, array(py, &shape, left)?))
     }
@@ -108,16 +93,19 @@ impl LightTree {
     fn pmf<'py>(
         &self,
         py: Python<'py>,
-        p: &Bound<'py, PyAny>,
-        n: &Bound<'py, PyAny>,
-        light: &Bound<'py, PyAny>,
-    ) -> PyResult<Bound<'py, PyAny>> {
-        let (p, n) = (Argument::new("p", FieldKind::Row(3), p)?, Argument::new("n", FieldKind::Normal, n)?);
-        let light = Argument::new("light", FieldKind::Index, light)?;
-        let shape = broadcast(py, &[&p, &n, &light])?;
-        let (p, n, light) = (p.columns(&shape)?, n.columns(&shape)?, light.indices(&shape)?);
+        p: &Object<'py>,
+        n: &Object<'py>,
+        light: &Object<'py>,
+    ) -> PyResult<Object<'py>> {
+        let fields = [("p", FieldKind::Row(3), p), ("n", FieldKind::Normal, n), ("light", FieldKind::Index, light)];
+        let arguments = fields.map(|(name, kind, object)| Argument::new(name, kind, object));
+        let arguments = arguments.into_iter().collect::<PyResult<Vec<_>>>()?;
+        let shape = broadcast(&arguments)?;
+        let (columns, light) = (columns(&arguments[..2], &shape)?, arguments[2].indices(&shape)?);
         let mut pmf = zeros(light.len())?;
-        run(py, light.len(), || Batch::new().pmf(&self.tree(), vector(&p), vector(&n), &light, &mut pmf));
+        run(py, light.len(), || {
+            Batch::new().pmf(&self.tree(), vector(&columns), vector(&columns[3..]), &light, &mut pmf);
+        });
         array(py, &shape, pmf)
     }
     fn __len__(&self) -> usize {

@@ -1,7 +1,7 @@
 //! Maps of random numbers that need no shading point.
 
-use crate::arrays::{Argument, FieldKind};
-use crate::results::{array, room, rows, run, zero_columns, zeros};
+use crate::arrays::{Columns, FieldKind, numbers, three, together};
+use crate::results::{Object, array, rows, run, zero_columns, zeros};
 use etendue_batch::{Batch, BatchWarp};
 use pyo3::prelude::*;
 
@@ -38,75 +38,53 @@ pub(crate) struct Warp {
 fn slices<const K: usize>(columns: &[Vec<f32>]) -> [&[f32]; K] {
     core::array::from_fn(|k| columns.get(k).map_or(&[][..], Vec::as_slice))
 }
+/// The same to write to.
+fn places<const K: usize>(columns: &mut [Vec<f32>]) -> [&mut [f32]; K] {
+    let mut columns = columns.iter_mut();
+    core::array::from_fn(|_| columns.next().map_or(&mut [][..], Vec::as_mut_slice))
+}
 /// An array of the columns, without an axis of its own for a single one.
-fn result<'py>(
-    py: Python<'py>,
-    shape: &[usize],
-    mut columns: Vec<Vec<f32>>,
-    width: usize,
-) -> PyResult<Bound<'py, PyAny>> {
-    columns.truncate(width);
-    if width == 1 { array(py, shape, columns.remove(0)) } else { rows(py, shape, &columns) }
+fn result<'py>(py: Python<'py>, shape: &[usize], mut columns: Columns) -> PyResult<Object<'py>> {
+    if columns.len() == 1 { array(py, shape, columns.remove(0)) } else { rows(py, shape, &columns) }
 }
 
 impl Warp {
-    fn points<'py>(&self, points: &Bound<'py, PyAny>) -> PyResult<(Argument<'py>, Vec<Vec<f32>>)> {
+    fn points(&self, points: &Object<'_>) -> PyResult<(Vec<usize>, Columns)> {
         let kind = match self.map.sizes()[1] {
             1 => FieldKind::Number,
             coordinates => FieldKind::Row(coordinates),
         };
-        let points = Argument::new("x", kind, points)?;
-        let columns = points.columns(&points.shape)?;
-        Ok((points, columns))
+        together(&[("x", kind, points)])
     }
 }
 
 #[pymethods]
 impl Warp {
     /// Points for numbers u in [0, 1)², (..., 2), or in [0, 1), (...), as the warp needs.
-    fn sample<'py>(&self, py: Python<'py>, u: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+    fn sample<'py>(&self, py: Python<'py>, u: &Object<'py>) -> PyResult<Object<'py>> {
         let [width, coordinates] = self.map.sizes();
-        let u = Argument::new("u", if width == 2 { FieldKind::Units } else { FieldKind::Unit }, u)?;
-        let columns = u.columns(&u.shape)?;
+        let kind = if width == 2 { FieldKind::Units } else { FieldKind::Unit };
+        let (shape, columns) = together(&[("u", kind, u)])?;
         let n = columns[0].len();
-        let mut out = room(3)?;
-        for k in 0..3 {
-            out.push(zeros(if k < coordinates { n } else { 0 })?);
-        }
-        run(py, n, || {
-            let [x, y, z] = &mut out[..] else { return };
-            self.map.sample(slices(&columns), [x, y, z]);
-        });
-        result(py, &u.shape, out, coordinates)
+        let mut out = zero_columns(coordinates, n)?;
+        run(py, n, || self.map.sample(slices(&columns), places(&mut out)));
+        result(py, &shape, out)
     }
     /// The probability density of points x, in the measure of the warp.
-    fn pdf<'py>(&self, py: Python<'py>, x: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
-        let (points, columns) = self.points(x)?;
+    fn pdf<'py>(&self, py: Python<'py>, x: &Object<'py>) -> PyResult<Object<'py>> {
+        let (shape, columns) = self.points(x)?;
         let mut out = zeros(columns[0].len())?;
         run(py, out.len(), || self.map.pdf(slices(&columns), &mut out));
-        array(py, &points.shape, out)
+        array(py, &shape, out)
     }
     /// The numbers that `sample` maps to points x.
-    fn invert<'py>(&self, py: Python<'py>, x: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
-        let (points, columns) = self.points(x)?;
+    fn invert<'py>(&self, py: Python<'py>, x: &Object<'py>) -> PyResult<Object<'py>> {
+        let (shape, columns) = self.points(x)?;
         let n = columns[0].len();
-        let mut out = zero_columns::<2>(n)?;
-        run(py, n, || self.map.invert(slices(&columns), out.each_mut().map(Vec::as_mut_slice)));
-        result(py, &points.shape, out.into(), self.map.sizes()[0])
+        let mut out = zero_columns(self.map.sizes()[0], n)?;
+        run(py, n, || self.map.invert(slices(&columns), places(&mut out)));
+        result(py, &shape, out)
     }
-}
-
-type Field<'a, 'py> = (&'static str, FieldKind, &'a Bound<'py, PyAny>);
-
-fn numbers(fields: &[Field<'_, '_>]) -> PyResult<Vec<f32>> {
-    let mut numbers = Vec::new();
-    for &(name, kind, object) in fields {
-        numbers.extend(Argument::single(name, kind, object)?.columns(&[])?.iter().flatten());
-    }
-    Ok(numbers)
-}
-fn v(numbers: &[f32], at: usize) -> etendue::Vec3<f32> {
-    etendue::Vec3::new(numbers[at], numbers[at + 1], numbers[at + 2])
 }
 
 macro_rules! warps {
@@ -119,9 +97,8 @@ macro_rules! warps {
             #[pymethods]
             impl $name {
                 #[new]
-                fn new($($field: &Bound<'_, PyAny>),*) -> PyResult<PyClassInitializer<Self>> {
-                    let fields: &[Field<'_, '_>] = &[$((stringify!($field), $kind, $field)),*];
-                    let $x = &numbers(fields)?[..];
+                fn new($($field: &Object<'_>),*) -> PyResult<PyClassInitializer<Self>> {
+                    let $x = &numbers(&[$((stringify!($field), $kind, $field)),*])?[..];
                     Ok(PyClassInitializer::from(Warp { map: Box::new($build) }).add_subclass(Self))
                 }
             })+
@@ -163,10 +140,10 @@ warps! {
     /// GGX normals of roughness alpha_x and alpha_y that are visible from the direction wi (3, z up): (2) to (3), pdf
     /// 2 max(0, wi·m) / (π αx αy l⁴ (|M·wi| + wi.z)) per steradian of the normal. A mirror, α ≤ 1e-15, has pdf 0.
     GgxVisibleNormals(alpha_x: Number, alpha_y: Number, wi: POINT)
-    |x| etendue::warp::GgxVisibleNormals::new(x[0], x[1], v(x, 2));
+    |x| etendue::warp::GgxVisibleNormals::new(x[0], x[1], three(&x[2..]));
     /// Points of a bilinear patch (see `BilinearPatch`), nearly uniform in area: (2) to (3), exact pdf per unit area. Without area it is 0.
     PatchSurface(corner: POINT, edge_s: POINT, edge_t: POINT, diagonal: POINT)
-    |x| etendue::warp::PatchSurface { corner: v(x, 0), edge_s: v(x, 3), edge_t: v(x, 6), diagonal: v(x, 9) };
+    |x| etendue::warp::PatchSurface { corner: three(x), edge_s: three(&x[3..]), edge_t: three(&x[6..]), diagonal: three(&x[9..]) };
     /// Numbers in [0, 1) with a density linear from a at 0 to b at 1: pdf 2(a(1−x) + bx)/(a+b) per unit length; 0 if neither is positive.
     Linear(a: Number, b: Number) |x| etendue::warp::Linear { a: x[0], b: x[1] };
     /// Numbers within ±r with the density of a tent: pdf (1 − |x|/r)/r per unit length; 0 if the radius r is 0.
