@@ -31,44 +31,89 @@ impl OneSample {
     }
 }
 
-/// Where samples go: slices of the length of the batch, or empty slices for what is not wanted. The fields are those of
-/// [`etendue::LightSample`].
-#[derive(Debug, Default)]
-pub struct Samples<'a> {
-    /// Unit direction from the shading point to the light.
-    pub direction: [&'a mut [f32]; 3],
-    /// Distance to the light along it, in the unit of the coordinates.
-    pub distance: &'a mut [f32],
-    /// Probability density of the direction, per steradian; 0 where there is no sample.
-    pub pdf: &'a mut [f32],
-    /// 1/pdf where there is a sample and the light emits towards the shading point, 0 elsewhere.
-    pub weight: &'a mut [f32],
-    /// Unit normal of the light at the sampled point.
-    pub normal: [&'a mut [f32]; 3],
-    /// Surface coordinates of the sampled point in [0, 1]².
-    pub uv: [&'a mut [f32]; 2],
-    /// 1 where the shading point is on the side of the light that emits, else 0.
-    pub emits: &'a mut [u8],
+/// Where results go, by slices and by pointers: of a field there is one column, an array of columns, or a struct of them.
+macro_rules! results {
+    ($($(#[$doc:meta])* $name:ident, $columns:ident {
+        $($(#[$field_doc:meta])* $field:ident: $([$n:literal])? $kind:ident,)+
+    })+) => {$(
+        $(#[$doc])*
+        #[derive(Debug, Default)]
+        pub struct $name<'a> {
+            $($(#[$field_doc])* pub $field: results!(slice $([$n])? $kind 'a),)+
+        }
+        #[doc = concat!("[`", stringify!($name), "`] by pointers, each null or to as many elements as the batch has.")]
+        #[derive(Clone, Copy, Debug)]
+        #[repr(C)]
+        pub struct $columns {
+            $($(#[$field_doc])* pub $field: results!(pointer $([$n])? $kind),)+
+        }
+        impl $name<'_> {
+            /// Pointers to them, null for those that are empty.
+            #[must_use]
+            #[track_caller]
+            pub fn columns(self, n: usize) -> $columns {
+                $columns { $($field: results!(columns $([$n])? $kind, self.$field, n)),+ }
+            }
+        }
+        // of choices it has no use
+        #[allow(dead_code)]
+        impl $columns {
+            /// The columns from element `i` on.
+            pub(crate) fn from(&self, i: usize) -> Self {
+                Self { $($field: results!(from $([$n])? $kind, self.$field, i)),+ }
+            }
+        }
+    )+};
+    (slice Samples $a:lifetime) => { Samples<$a> };
+    (pointer Samples) => { SampleColumns };
+    (columns Samples, $samples:expr, $n:ident) => { $samples.columns($n) };
+    (from Samples, $samples:expr, $i:ident) => { $samples.from($i) };
+    (slice $([$n:literal])? $number:ident $a:lifetime) => { results!(@ $([$n])? &$a mut [$number]) };
+    (pointer $([$n:literal])? $number:ident) => { results!(@ $([$n])? *mut $number) };
+    (columns [$count:literal] $number:ident, $slices:expr, $n:ident) => { $slices.map(|column| pointer(column, $n)) };
+    (columns $number:ident, $slice:expr, $n:ident) => { pointer($slice, $n) };
+    (from [$count:literal] $number:ident, $pointers:expr, $i:ident) => { $pointers.map(|column| from(column, $i)) };
+    (from $number:ident, $pointer:expr, $i:ident) => { from($pointer, $i) };
+    (@ [$n:literal] $type:ty) => { [$type; $n] };
+    (@ $type:ty) => { $type };
 }
-
-/// [`Samples`] by pointers, each null or to as many elements as the batch has.
-#[derive(Clone, Copy, Debug)]
-#[repr(C)]
-pub struct SampleColumns {
-    /// Unit direction from the shading point to the light: x, y and z.
-    pub direction: [*mut f32; 3],
-    /// Distance to the light along the direction, in the unit of the coordinates.
-    pub distance: *mut f32,
-    /// Probability density of the direction, per steradian; 0 where there is no sample.
-    pub pdf: *mut f32,
-    /// 1/pdf where there is a sample and the light emits towards the shading point, 0 elsewhere.
-    pub weight: *mut f32,
-    /// Unit normal of the light at the sampled point: x, y and z.
-    pub normal: [*mut f32; 3],
-    /// Surface coordinates of the sampled point in [0, 1]².
-    pub uv: [*mut f32; 2],
-    /// 1 where the shading point is on the side of the light that emits, else 0.
-    pub emits: *mut u8,
+results! {
+    /// Where samples go: slices of the length of the batch, or empty slices for what is not wanted. The fields are those of
+    /// [`etendue::LightSample`].
+    Samples, SampleColumns {
+        /// Unit direction from the shading point to the light: x, y and z.
+        direction: [3] f32,
+        /// Distance to the light along it, in the unit of the coordinates.
+        distance: f32,
+        /// Probability density of the direction, per steradian; 0 where there is no sample.
+        pdf: f32,
+        /// 1/pdf where there is a sample and the light emits towards the shading point, 0 elsewhere.
+        weight: f32,
+        /// Unit normal of the light at the sampled point: x, y and z.
+        normal: [3] f32,
+        /// Surface coordinates of the sampled point in [0, 1]².
+        uv: [2] f32,
+        /// 1 where the shading point is on the side of the light that emits, else 0.
+        emits: u8,
+    }
+    /// Where what is known of directions goes: slices of the length of the batch, or empty slices for what is not wanted.
+    Evaluations, EvaluationColumns {
+        /// The pdf of each direction, per steradian (lines: see [`etendue::Line`]); 0 where it misses the light.
+        pdf: f32,
+        /// The numbers in [0, 1)² that are mapped to each direction; any where it misses the light.
+        u: [2] f32,
+        /// The nearest point of the light in each direction, with its pdf; 0 where it misses the light.
+        hit: Samples,
+    }
+    /// Where choices of lights go: slices of the length of the batch, or empty slices for what is not wanted.
+    Choices, ChoiceColumns {
+        /// Index of the light; [`etendue::select::NO_LIGHT`], 2³² − 1, where none was chosen.
+        light: u32,
+        /// Probability with which it was chosen; 0 where none was.
+        pmf: f32,
+        /// What is left of the random number: uniform in [0, 1), independent of the light.
+        u: f32,
+    }
 }
 
 /// The numbers of element `i`.
@@ -90,28 +135,20 @@ impl SampleColumns {
     pub(crate) fn needs_surface(&self) -> bool {
         !self.normal.iter().chain(&self.uv).all(|column| column.is_null())
     }
+    /// The columns of numbers, in the order of the fields.
+    fn numbers(&self) -> impl Iterator<Item = *mut f32> {
+        let between = [self.distance, self.pdf, self.weight];
+        self.direction.into_iter().chain(between).chain(self.normal).chain(self.uv)
+    }
     /// True if any column is wanted.
     pub(crate) fn any(&self) -> bool {
-        let mut others = self.direction.iter().chain([&self.distance, &self.pdf, &self.weight]);
-        self.needs_surface() || !self.emits.is_null() || !others.all(|column| column.is_null())
+        !self.emits.is_null() || self.numbers().any(|column| !column.is_null())
     }
     /// Writes a sample as element `i`.
     pub(crate) unsafe fn store(&self, i: usize, s: &OneSample) {
-        let Self { direction: w, normal: n, uv, .. } = self;
-        let numbers = [
-            (w[0], s.direction.x),
-            (w[1], s.direction.y),
-            (w[2], s.direction.z),
-            (self.distance, s.distance),
-            (self.pdf, s.pdf),
-            (self.weight, s.weight),
-            (n[0], s.normal.x),
-            (n[1], s.normal.y),
-            (n[2], s.normal.z),
-            (uv[0], s.uv.x),
-            (uv[1], s.uv.y),
-        ];
-        for (column, number) in numbers {
+        let (w, n) = (s.direction, s.normal);
+        let numbers = [w.x, w.y, w.z, s.distance, s.pdf, s.weight, n.x, n.y, n.z, s.uv.x, s.uv.y];
+        for (column, number) in self.numbers().zip(numbers) {
             // SAFETY: the caller's columns have this element
             unsafe { store(column, i, number) };
         }
@@ -137,101 +174,6 @@ impl SampleColumns {
             }
             place.store_mask(self.emits, s.emits);
         }
-    }
-    /// The columns from element `i` on.
-    pub(crate) fn from(&self, i: usize) -> Self {
-        Self {
-            direction: self.direction.map(|column| from(column, i)),
-            distance: from(self.distance, i),
-            pdf: from(self.pdf, i),
-            weight: from(self.weight, i),
-            normal: self.normal.map(|column| from(column, i)),
-            uv: self.uv.map(|column| from(column, i)),
-            emits: from(self.emits, i),
-        }
-    }
-}
-
-impl Samples<'_> {
-    #[track_caller]
-    pub(crate) fn columns(self, n: usize) -> SampleColumns {
-        SampleColumns {
-            direction: self.direction.map(|column| pointer(column, n)),
-            distance: pointer(self.distance, n),
-            pdf: pointer(self.pdf, n),
-            weight: pointer(self.weight, n),
-            normal: self.normal.map(|column| pointer(column, n)),
-            uv: self.uv.map(|column| pointer(column, n)),
-            emits: pointer(self.emits, n),
-        }
-    }
-}
-
-/// Where what is known of directions goes: slices of the length of the batch, or empty slices for what is not wanted.
-#[derive(Debug, Default)]
-pub struct Evaluations<'a> {
-    /// The pdf of each direction, per steradian (lines: see [`etendue::Line`]); 0 where it misses the light.
-    pub pdf: &'a mut [f32],
-    /// The numbers in [0, 1)² that are mapped to each direction; any where it misses the light.
-    pub u: [&'a mut [f32]; 2],
-    /// The nearest point of the light in each direction, with its pdf; 0 where it misses the light.
-    pub hit: Samples<'a>,
-}
-
-/// [`Evaluations`] by pointers, each null or to as many elements as the batch has.
-#[derive(Clone, Copy, Debug)]
-#[repr(C)]
-pub struct EvaluationColumns {
-    /// The pdf of each direction, per steradian; 0 where it misses the light.
-    pub pdf: *mut f32,
-    /// The numbers in [0, 1)² that are mapped to each direction.
-    pub u: [*mut f32; 2],
-    /// The nearest point of the light in each direction, with its pdf.
-    pub hit: SampleColumns,
-}
-
-impl EvaluationColumns {
-    /// The columns from element `i` on.
-    pub(crate) fn from(&self, i: usize) -> Self {
-        Self { pdf: from(self.pdf, i), u: self.u.map(|column| from(column, i)), hit: self.hit.from(i) }
-    }
-}
-
-impl Evaluations<'_> {
-    #[track_caller]
-    pub(crate) fn columns(self, n: usize) -> EvaluationColumns {
-        let u = self.u.map(|column| pointer(column, n));
-        EvaluationColumns { pdf: pointer(self.pdf, n), u, hit: self.hit.columns(n) }
-    }
-}
-
-/// Where choices of lights go: slices of the length of the batch, or empty slices for what is not wanted.
-#[derive(Debug, Default)]
-pub struct Choices<'a> {
-    /// Index of the light; [`etendue::select::NO_LIGHT`] where none was chosen.
-    pub light: &'a mut [u32],
-    /// Probability with which it was chosen; 0 where none was.
-    pub pmf: &'a mut [f32],
-    /// What is left of the random number: uniform in [0, 1), independent of the light.
-    pub u: &'a mut [f32],
-}
-
-/// [`Choices`] by pointers, each null or to as many elements as the batch has.
-#[derive(Clone, Copy, Debug)]
-#[repr(C)]
-pub struct ChoiceColumns {
-    /// Index of the light; 2³² − 1 where none was chosen.
-    pub light: *mut u32,
-    /// Probability with which it was chosen; 0 where none was.
-    pub pmf: *mut f32,
-    /// What is left of the random number: uniform in [0, 1), independent of the light.
-    pub u: *mut f32,
-}
-
-impl Choices<'_> {
-    #[track_caller]
-    pub(crate) fn columns(self, n: usize) -> ChoiceColumns {
-        ChoiceColumns { light: pointer(self.light, n), pmf: pointer(self.pmf, n), u: pointer(self.u, n) }
     }
 }
 

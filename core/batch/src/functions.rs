@@ -3,7 +3,7 @@
 
 use crate::columns::{ChoiceColumns, Counters, EvaluationColumns, OneSample, SampleColumns};
 use crate::kernel::{self, Views};
-use crate::map::{BatchMap, MOST_NUMBERS, MOST_RESULTS};
+use crate::map::{MOST_NUMBERS, MOST_RESULTS};
 use crate::memory::TreeMemory;
 use crate::one;
 use crate::packet::Packet;
@@ -11,7 +11,6 @@ use crate::technique::{Prepared, Technique};
 use crate::warp::BatchWarp;
 use core::ffi::c_void;
 use etendue::reflection::Reflection;
-use etendue::sequence::Sequence;
 use etendue::{Vec2, Vec3};
 
 type Column = *const f32;
@@ -126,21 +125,12 @@ impl WarpFunctions {
 /// See [`Batch::map`](crate::Batch::map): the map, and as many columns as it has numbers and results, and whether they hold.
 pub type MapFunction =
     unsafe extern "C" fn(*const c_void, usize, &[Column; MOST_NUMBERS], &[*mut f32; MOST_RESULTS], *mut u8);
-pub(crate) const fn map<M: BatchMap, R: Packet>() -> MapFunction {
-    kernel::map::<M, R>
-}
 
 /// See [`Batch::pairs`](crate::Batch::pairs): the sequence, and two columns.
 pub type SequenceFunction = unsafe extern "C" fn(*const c_void, usize, &Counters, Vec2<*mut f32>);
-pub(crate) const fn pairs<S: Sequence, R: Packet>() -> SequenceFunction {
-    kernel::pairs::<S, R>
-}
 
 /// See [`Batch::reflections`](crate::Batch::reflections): roughnesses, normals, views, and where the reflections go.
 pub type ReflectionsFunction = unsafe extern "C" fn(usize, Column, Vec3<Column>, Vec3<Column>, &Reflection<*mut f32>);
-pub(crate) const fn reflections<R: Packet>() -> ReflectionsFunction {
-    kernel::reflections::<R>
-}
 
 /// The functions of a tree of lights.
 #[derive(Clone, Copy, Debug)]

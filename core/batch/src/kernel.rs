@@ -19,11 +19,15 @@ use etendue::{LightSampler, Uint, Vec2, Vec3};
 /// Prepared lights of more bytes are used by functions that several loops share, where a call takes little beside what it does.
 const LARGE: usize = 256;
 
-/// A step of a loop over packets, in a function of its own where the prepared light is large.
-macro_rules! step {
-    ($name:ident, $apart:ident($sampler:ident, $place:ident, $input:ident: $of_input:ty, $out:ident: $of_out:ty) $body:expr) => {
+/// A function of a prepared light for columns, and a step of its loop over packets, which is in a function of its own where the prepared light is
+/// large. Of packets of one lane, `$alone` calls the function of one element, whose code is there already.
+macro_rules! prepared {
+    (
+        $(#[$doc:meta])* $name:ident, $step:ident, $apart:ident($input:ident: $of_input:ty, $out:ident: $of_out:ty)
+        |$sampler:ident, $place:ident| $body:expr, |$one:ident, $i:ident| $alone:expr
+    ) => {
         #[inline(always)]
-        unsafe fn $name<'a, P: Prepared, R: Packet>(
+        unsafe fn $step<'a, P: Prepared, R: Packet>(
             sampler: &P::Of<'a, R>,
             place: Place,
             input: $of_input,
@@ -48,107 +52,66 @@ macro_rules! step {
                 unsafe { $body }
             }
         }
-    };
-}
-step!(sample_step, sample_apart(s, place, u: Vec2<*const f32>, out: &SampleColumns)
-    out.store_packet(place, &s.sample(u.map(|column| place.load(column)))));
-step!(hit_step, hit_apart(s, place, w: Vec3<*const f32>, out: &SampleColumns)
-    out.store_packet(place, &s.hit(w.map(|column| place.load(column)))));
-step!(pdf_step, pdf_apart(s, place, w: Vec3<*const f32>, out: *mut f32)
-    place.store(out, s.pdf(w.map(|column| place.load(column)))));
-step!(invert_step, invert_apart(s, place, w: Vec3<*const f32>, out: Vec2<*mut f32>) {
-    let u = s.invert(w.map(|column| place.load(column)));
-    place.store(out.x, u.x);
-    place.store(out.y, u.y);
-});
-
-/// Samples of one prepared light.
-pub(crate) unsafe extern "C" fn sample<P: Prepared, R: Packet>(
-    sampler: *const c_void,
-    n: usize,
-    u: Vec2<*const f32>,
-    out: &SampleColumns,
-) {
-    if R::LANES == 1 {
-        for i in 0..n {
-            let mut s = OneSample::default();
+        $(#[$doc])*
+        pub(crate) unsafe extern "C" fn $name<P: Prepared, R: Packet>(
+            $one: *const c_void,
+            n: usize,
+            $input: $of_input,
+            $out: $of_out,
+        ) {
             // SAFETY: the caller's columns have `n` elements
             unsafe {
-                one_sample::<P>(sampler, numbers([u.x, u.y], i).as_ptr(), &mut s);
-                out.store(i, &s);
+                if R::LANES == 1 {
+                    (0..n).for_each(|$i| $alone);
+                } else {
+                    typed::<P>($one).over::<R, _>(|s| {
+                        packets(n, R::LANES, |place| $step::<P, R>(s, place, $input, $out));
+                    });
+                }
             }
         }
-        return;
-    }
-    // SAFETY: the caller's columns have `n` elements
-    unsafe {
-        typed::<P>(sampler).over::<R, _>(|s| packets(n, R::LANES, |place| sample_step::<P, R>(s, place, u, out)))
     };
 }
-
-/// Where directions hit the light.
-pub(crate) unsafe extern "C" fn hit<P: Prepared, R: Packet>(
-    sampler: *const c_void,
-    n: usize,
-    w: Vec3<*const f32>,
-    out: &SampleColumns,
-) {
-    if R::LANES == 1 {
-        for i in 0..n {
-            let mut s = OneSample::default();
-            // SAFETY: the caller's columns have `n` elements
-            unsafe {
-                one_hit::<P>(sampler, numbers([w.x, w.y, w.z], i).as_ptr(), &mut s);
-                out.store(i, &s);
-            }
-        }
-        return;
+prepared! {
+    /// Samples of one prepared light.
+    sample, sample_step, sample_apart(u: Vec2<*const f32>, out: &SampleColumns)
+    |s, place| out.store_packet(place, &s.sample(u.map(|column| place.load(column)))),
+    |sampler, i| {
+        let mut s = OneSample::default();
+        one_sample::<P>(sampler, numbers([u.x, u.y], i).as_ptr(), &mut s);
+        out.store(i, &s);
     }
-    // SAFETY: the caller's columns have `n` elements
-    unsafe { typed::<P>(sampler).over::<R, _>(|s| packets(n, R::LANES, |place| hit_step::<P, R>(s, place, w, out))) };
 }
-
-/// The pdf of directions.
-pub(crate) unsafe extern "C" fn pdf<P: Prepared, R: Packet>(
-    sampler: *const c_void,
-    n: usize,
-    w: Vec3<*const f32>,
-    out: *mut f32,
-) {
-    if R::LANES == 1 {
-        for i in 0..n {
-            // SAFETY: the caller's columns have `n` elements
-            unsafe { store(out, i, one_pdf::<P>(sampler, numbers([w.x, w.y, w.z], i).as_ptr())) };
-        }
-        return;
+prepared! {
+    /// Where directions hit the light.
+    hit, hit_step, hit_apart(w: Vec3<*const f32>, out: &SampleColumns)
+    |s, place| out.store_packet(place, &s.hit(w.map(|column| place.load(column)))),
+    |sampler, i| {
+        let mut s = OneSample::default();
+        one_hit::<P>(sampler, numbers([w.x, w.y, w.z], i).as_ptr(), &mut s);
+        out.store(i, &s);
     }
-    // SAFETY: the caller's columns have `n` elements
-    unsafe { typed::<P>(sampler).over::<R, _>(|s| packets(n, R::LANES, |place| pdf_step::<P, R>(s, place, w, out))) };
 }
-
-/// The random numbers that the sampler maps to directions.
-pub(crate) unsafe extern "C" fn invert<P: Prepared, R: Packet>(
-    sampler: *const c_void,
-    n: usize,
-    w: Vec3<*const f32>,
-    out: Vec2<*mut f32>,
-) {
-    if R::LANES == 1 {
-        for i in 0..n {
-            let mut u = [0.0; 2];
-            // SAFETY: the caller's columns have `n` elements
-            unsafe {
-                one_invert::<P>(sampler, numbers([w.x, w.y, w.z], i).as_ptr(), u.as_mut_ptr());
-                store(out.x, i, u[0]);
-                store(out.y, i, u[1]);
-            }
-        }
-        return;
+prepared! {
+    /// The pdf of directions.
+    pdf, pdf_step, pdf_apart(w: Vec3<*const f32>, out: *mut f32)
+    |s, place| place.store(out, s.pdf(w.map(|column| place.load(column)))),
+    |sampler, i| store(out, i, one_pdf::<P>(sampler, numbers([w.x, w.y, w.z], i).as_ptr()))
+}
+prepared! {
+    /// The random numbers that the sampler maps to directions.
+    invert, invert_step, invert_apart(w: Vec3<*const f32>, out: Vec2<*mut f32>)
+    |s, place| {
+        let u = s.invert(w.map(|column| place.load(column)));
+        place.store(out.x, u.x);
+        place.store(out.y, u.y);
+    },
+    |sampler, i| {
+        let mut u = [0.0; 2];
+        one_invert::<P>(sampler, numbers([w.x, w.y, w.z], i).as_ptr(), u.as_mut_ptr());
+        store(out.x, i, u[0]);
+        store(out.y, i, u[1]);
     }
-    // SAFETY: the caller's columns have `n` elements
-    unsafe {
-        typed::<P>(sampler).over::<R, _>(|s| packets(n, R::LANES, |place| invert_step::<P, R>(s, place, w, out)))
-    };
 }
 
 /// Lights of their own for each element, as seen from points of their own.

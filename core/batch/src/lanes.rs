@@ -1,13 +1,13 @@
 //! A light of its own for each lane of a packet, prepared and used in one call.
 
-use crate::columns::{EvaluationColumns, SampleColumns};
+use crate::columns::{EvaluationColumns, Evaluations, SampleColumns};
 use crate::functions::TechniqueFunctions;
 use crate::kernel::Views;
 use crate::level::Batch;
 use crate::packet::Packet;
 use crate::technique::Technique;
 use core::mem::MaybeUninit;
-use core::ptr::{from_ref, null_mut};
+use core::ptr::from_ref;
 use etendue::{Mask, Vec2, Vec3};
 
 /// The most numbers of a light, of a point and of what else it is prepared for.
@@ -80,22 +80,15 @@ fn written<R: Packet>(f: impl FnOnce(&SampleColumns)) -> PacketSample<R> {
     }
 }
 
-/// Columns that are not wanted.
-const NO_SAMPLES: SampleColumns = SampleColumns {
-    direction: [null_mut(); 3],
-    distance: null_mut(),
-    pdf: null_mut(),
-    weight: null_mut(),
-    normal: [null_mut(); 3],
-    uv: [null_mut(); 2],
-    emits: null_mut(),
-};
-
 impl Batch {
     /// The functions whose packets are not much wider than `R`.
     #[track_caller]
     fn lanes<T: Technique, R: Packet>(&self) -> &'static TechniqueFunctions {
-        if R::LANES > 8 { self.each::<T>() } else { self.each_of_eight::<T>() }
+        // the functions of one element are beside those of packets of at most eight lanes
+        let of = if R::LANES > 8 { Self::technique } else { Self::technique_to_prepare };
+        of(self, T::INDEX)
+            .filter(|_| cfg!(feature = "each"))
+            .expect("the light is not built: see the features of etendue-batch")
     }
     /// Prepares a light of its own for each lane, for the point `p` and what else the technique takes, and draws one direction from it, for
     /// `u` in [0, 1)². See [Debug builds](crate#debug-builds).
@@ -126,13 +119,9 @@ impl Batch {
         with: T::With<R>,
         w: Vec3<R>,
     ) -> R {
-        let (functions, mut pdf) = (self.lanes::<T, R>(), R::default());
-        let out = EvaluationColumns { pdf: (&raw mut pdf).cast(), u: [null_mut(); 2], hit: NO_SAMPLES };
-        // SAFETY: a packet is a column of its lanes
-        with_views::<T, R>(light, p, with, |views| unsafe {
-            let w = Vec3::new(&w.x, &w.y, &w.z).map(|packet| from_ref(packet).cast());
-            (functions.evaluate_each)(views, R::LANES, w, &out);
-        });
+        let mut pdf = R::default();
+        let nothing = Evaluations::default().columns(R::LANES);
+        self.evaluate_packet::<T, R>(light, p, with, w, &EvaluationColumns { pdf: (&raw mut pdf).cast(), ..nothing });
         pdf
     }
     /// Prepares a light of its own for each lane, as [`sample_packet`](Self::sample_packet) does, and returns its nearest point in the unit
@@ -145,14 +134,21 @@ impl Batch {
         with: T::With<R>,
         w: Vec3<R>,
     ) -> PacketSample<R> {
+        let nothing = Evaluations::default().columns(R::LANES);
+        written(|hit| self.evaluate_packet::<T, R>(light, p, with, w, &EvaluationColumns { hit: *hit, ..nothing }))
+    }
+    #[track_caller]
+    fn evaluate_packet<T: Technique, R: Packet>(
+        &self,
+        light: T::Light<R>,
+        p: Vec3<R>,
+        with: T::With<R>,
+        w: Vec3<R>,
+        out: &EvaluationColumns,
+    ) {
         let functions = self.lanes::<T, R>();
-        written(|hit| {
-            let out = EvaluationColumns { pdf: null_mut(), u: [null_mut(); 2], hit: *hit };
-            // SAFETY: a packet is a column of its lanes, and there is room for the results of all of them
-            with_views::<T, R>(light, p, with, |views| unsafe {
-                let w = Vec3::new(&w.x, &w.y, &w.z).map(|packet| from_ref(packet).cast());
-                (functions.evaluate_each)(views, R::LANES, w, &out);
-            });
-        })
+        let w = Vec3::new(&w.x, &w.y, &w.z).map(|packet| from_ref(packet).cast());
+        // SAFETY: a packet is a column of its lanes, and there is room for the results of all of them
+        with_views::<T, R>(light, p, with, |views| unsafe { (functions.evaluate_each)(views, R::LANES, w, out) });
     }
 }

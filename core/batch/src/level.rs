@@ -123,12 +123,6 @@ impl Batch {
     pub(crate) fn each<T: Technique>(&self) -> &'static TechniqueFunctions {
         self.technique_of_each(T::INDEX).expect("the light is not built: see the features of etendue-batch")
     }
-    /// Those whose packets have at most eight lanes.
-    #[track_caller]
-    pub(crate) fn each_of_eight<T: Technique>(&self) -> &'static TechniqueFunctions {
-        let functions = self.technique_to_prepare(T::INDEX).filter(|_| cfg!(feature = "each"));
-        functions.expect("the light is not built: see the features of etendue-batch")
-    }
     #[track_caller]
     pub(crate) fn once<T: Technique>(&self) -> &'static TechniqueFunctions {
         self.technique_of_one(T::INDEX).expect("the light is not built: see the features of etendue-batch")

@@ -8,7 +8,7 @@ use crate::technique::{Prepared, Technique};
 use crate::warp::BatchWarp;
 use core::ffi::c_void;
 use core::mem::MaybeUninit;
-use etendue::{LightSampler, Vec2, Vec3};
+use etendue::{LightSampler, Vec2};
 
 /// True in the compilation whose functions of one element and preparations nobody asks for: they do nothing there. x86-64-v4 would compile
 /// them to the instructions of x86-64-v3 again.
@@ -38,14 +38,6 @@ unsafe fn figures<T: Copy>(from: *const T) -> T {
     // SAFETY: as above
     unsafe { to.assume_init() }
 }
-unsafe fn two(x: *const f32) -> Vec2<f32> {
-    // SAFETY: the caller's memory has them
-    unsafe { figures(x.cast()) }
-}
-unsafe fn three(x: *const f32) -> Vec3<f32> {
-    // SAFETY: the caller's memory has them
-    unsafe { figures(x.cast()) }
-}
 unsafe fn write<const N: usize>(to: *mut f32, numbers: [f32; N], count: usize) {
     for (i, number) in numbers.into_iter().enumerate().take(count) {
         // SAFETY: the caller's memory has room for them
@@ -57,20 +49,20 @@ unsafe fn write<const N: usize>(to: *mut f32, numbers: [f32; N], count: usize) {
 pub(crate) unsafe extern "C" fn one_sample<P: Prepared>(sampler: *const c_void, u: *const f32, out: *mut OneSample) {
     if !IS_ABSENT {
         // SAFETY: the caller's
-        unsafe { typed::<P>(sampler).over::<f32, _>(|s| out.write(OneSample::new(&s.sample(two(u))))) };
+        unsafe { typed::<P>(sampler).over::<f32, _>(|s| out.write(OneSample::new(&s.sample(figures(u.cast()))))) };
     }
 }
 /// The pdf of one direction.
 pub(crate) unsafe extern "C" fn one_pdf<P: Prepared>(sampler: *const c_void, w: *const f32) -> f32 {
     // SAFETY: the caller's
-    if IS_ABSENT { 0.0 } else { unsafe { typed::<P>(sampler).over::<f32, _>(|s| s.pdf(three(w))) } }
+    if IS_ABSENT { 0.0 } else { unsafe { typed::<P>(sampler).over::<f32, _>(|s| s.pdf(figures(w.cast()))) } }
 }
 /// The random numbers of one direction.
 pub(crate) unsafe extern "C" fn one_invert<P: Prepared>(sampler: *const c_void, w: *const f32, out: *mut f32) {
     if !IS_ABSENT {
         // SAFETY: the caller's
         unsafe {
-            let u = typed::<P>(sampler).over::<f32, _>(|s| s.invert(three(w)));
+            let u = typed::<P>(sampler).over::<f32, _>(|s| s.invert(figures(w.cast())));
             write(out, [u.x, u.y], 2);
         }
     }
@@ -79,7 +71,7 @@ pub(crate) unsafe extern "C" fn one_invert<P: Prepared>(sampler: *const c_void, 
 pub(crate) unsafe extern "C" fn one_hit<P: Prepared>(sampler: *const c_void, w: *const f32, out: *mut OneSample) {
     if !IS_ABSENT {
         // SAFETY: the caller's
-        unsafe { typed::<P>(sampler).over::<f32, _>(|s| out.write(OneSample::new(&s.hit(three(w))))) };
+        unsafe { typed::<P>(sampler).over::<f32, _>(|s| out.write(OneSample::new(&s.hit(figures(w.cast()))))) };
     }
 }
 
@@ -94,7 +86,7 @@ pub(crate) unsafe extern "C" fn prepare<T: Technique>(
         // SAFETY: the caller's memory has room for it
         unsafe {
             let (light, with) = (*typed::<T::Light<f32>>(light), figures(with.cast::<T::With<f32>>()));
-            out.cast::<T::Prepared>().write(T::prepare(light, three(p), with));
+            out.cast::<T::Prepared>().write(T::prepare(light, figures(p.cast()), with));
         }
     }
 }
@@ -114,7 +106,7 @@ unsafe fn once<T: Technique, X>(
             return sampler.assume_init_ref().over::<f32, X>(f);
         }
         let (light, with) = (figures(light.cast::<T::Light<f32>>()), figures(with.cast::<T::With<f32>>()));
-        T::prepared::<f32, X>(light, three(p), with, f)
+        T::prepared::<f32, X>(light, figures(p.cast()), with, f)
     }
 }
 /// One sample of a light that is prepared for it alone.
@@ -127,7 +119,7 @@ pub(crate) unsafe extern "C" fn sample_once<T: Technique>(
 ) {
     if !IS_ABSENT {
         // SAFETY: the caller's
-        unsafe { once::<T, _>(light, p, with, |s| out.write(OneSample::new(&s.sample(two(u))))) };
+        unsafe { once::<T, _>(light, p, with, |s| out.write(OneSample::new(&s.sample(figures(u.cast()))))) };
     }
 }
 /// The pdf of one direction, of a light that is prepared for it alone.
@@ -138,7 +130,7 @@ pub(crate) unsafe extern "C" fn pdf_once<T: Technique>(
     w: *const f32,
 ) -> f32 {
     // SAFETY: the caller's
-    if IS_ABSENT { 0.0 } else { unsafe { once::<T, _>(light, p, with, |s| s.pdf(three(w))) } }
+    if IS_ABSENT { 0.0 } else { unsafe { once::<T, _>(light, p, with, |s| s.pdf(figures(w.cast()))) } }
 }
 /// The same of a direction that hits the light.
 pub(crate) unsafe extern "C" fn pdf_of_hit_once<T: Technique>(
@@ -148,7 +140,7 @@ pub(crate) unsafe extern "C" fn pdf_of_hit_once<T: Technique>(
     w: *const f32,
 ) -> f32 {
     // SAFETY: the caller's
-    if IS_ABSENT { 0.0 } else { unsafe { once::<T, _>(light, p, with, |s| s.pdf_of_hit(three(w))) } }
+    if IS_ABSENT { 0.0 } else { unsafe { once::<T, _>(light, p, with, |s| s.pdf_of_hit(figures(w.cast()))) } }
 }
 
 /// One point of a warp.

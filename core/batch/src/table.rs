@@ -1,9 +1,9 @@
 //! The functions of every level, in tables of the same form.
 
 use crate::functions::{
-    MapFunction, ReflectionsFunction, SequenceFunction, TechniqueFunctions, TreeFunctions, WarpFunctions, map, pairs,
-    reflections,
+    MapFunction, ReflectionsFunction, SequenceFunction, TechniqueFunctions, TreeFunctions, WarpFunctions,
 };
+use crate::kernel;
 use crate::map::{MAPS, PortalDirection, ReflectedSphere, SeenThroughPortals};
 use crate::packet::{IS_LONG, Lanes, Packet};
 use crate::sequence::SEQUENCES;
@@ -27,50 +27,28 @@ pub struct Table {
 }
 
 /// Whether a light is built.
-macro_rules! is_built {
-    (Sphere) => {
-        cfg!(feature = "sphere")
-    };
-    (Triangle) => {
-        cfg!(feature = "triangle")
-    };
-    (Parallelogram) => {
-        cfg!(feature = "parallelogram")
-    };
-    (Rectangle) => {
-        cfg!(feature = "rectangle")
-    };
-    (Disk) => {
-        cfg!(feature = "disk")
-    };
-    (Polygon) => {
-        cfg!(feature = "polygon")
-    };
-    (BilinearPatch) => {
-        cfg!(feature = "patch")
-    };
-    (Line) => {
-        cfg!(feature = "line")
-    };
-    (Picture) => {
-        cfg!(feature = "picture")
-    };
-    (Portals) => {
-        cfg!(feature = "portals")
-    };
-    (Image) => {
-        cfg!(feature = "image")
-    };
-    // lights at infinity, and without extent
-    ($small:ident) => {
-        cfg!(feature = "sun")
-    };
+const fn is_built(light: &str) -> bool {
+    match light.as_bytes() {
+        b"Sphere" => cfg!(feature = "sphere"),
+        b"Triangle" => cfg!(feature = "triangle"),
+        b"Parallelogram" => cfg!(feature = "parallelogram"),
+        b"Rectangle" => cfg!(feature = "rectangle"),
+        b"Disk" => cfg!(feature = "disk"),
+        b"Polygon" => cfg!(feature = "polygon"),
+        b"BilinearPatch" => cfg!(feature = "patch"),
+        b"Line" => cfg!(feature = "line"),
+        b"Picture" => cfg!(feature = "picture"),
+        b"Portals" => cfg!(feature = "portals"),
+        b"Image" => cfg!(feature = "image"),
+        // lights at infinity, and without extent
+        _ => cfg!(feature = "sun"),
+    }
 }
 /// The functions of a technique, if its light is built. A light whose sampler another technique has is prepared by that one, with the same
 /// numbers, unless it is prepared for something else.
 macro_rules! entry {
     ($light:ident, $technique:ty $(, $size:literal)?) => {
-        if is_built!($light) { Some(const { &TechniqueFunctions::of::<$technique, R>() }) } else { None }
+        if is_built(stringify!($light)) { Some(const { &TechniqueFunctions::of::<$technique, R>() }) } else { None }
     };
     ($light:ident, $technique:ident, $sampler:ident, $place:tt, $size:literal) => {
         entry!($light, technique::$technique)
@@ -124,19 +102,19 @@ impl Table {
             techniques: techniques::<R>(),
             warps: warps::<R>(),
             maps: [
-                map::<Spread<f32>, R>(),
-                map::<ReflectedSphere, R>(),
-                map::<PortalDirection, R>(),
-                map::<SeenThroughPortals<'static>, R>(),
+                kernel::map::<Spread<f32>, R>,
+                kernel::map::<ReflectedSphere, R>,
+                kernel::map::<PortalDirection, R>,
+                kernel::map::<SeenThroughPortals<'static>, R>,
             ],
             sequences: [
-                pairs::<Independent, R>(),
-                pairs::<OwenSobol, R>(),
-                pairs::<JointSobol, R>(),
-                pairs::<Stratified, R>(),
+                kernel::pairs::<Independent, R>,
+                kernel::pairs::<OwenSobol, R>,
+                kernel::pairs::<JointSobol, R>,
+                kernel::pairs::<Stratified, R>,
             ],
             tree: TreeFunctions::of::<R>(),
-            reflections: reflections::<R>(),
+            reflections: kernel::reflections::<R>,
         }
     }
 }

@@ -57,13 +57,7 @@ macro_rules! with {
     ($place:tt, $x:ident) => {
         ()
     };
-    (map (p, n), $with:ident, $f:ident) => {
-        $with.map($f)
-    };
-    (map (p, reflection), $with:ident, $f:ident) => {
-        $with.map($f)
-    };
-    (map (p, spread), $with:ident, $f:ident) => {
+    (map (p, $kind:ident), $with:ident, $f:ident) => {
         $with.map($f)
     };
     (map $place:tt, $with:ident, $f:ident) => {{
@@ -243,67 +237,50 @@ pictured! {
     PictureOnPatchByVisibleArea: BilinearPatch, by_visible_area(p) -> ['a R] ByPicture<'a, Curved<PlacedPatch<R>>>;
 }
 
-/// The sky through portals: [`PortalEnvironment::by_radiance`](light::PortalEnvironment::by_radiance).
-#[derive(Clone, Copy, Debug)]
-pub struct PortalsByRadiance<'m>(PhantomData<&'m PortalMemory<'m>>);
-impl Sealed for PortalsByRadiance<'_> {}
-impl<'m> Technique for PortalsByRadiance<'m> {
-    const INDEX: usize = Number::PortalsByRadiance as usize;
-    type Light<X: Copy> = PortalMemory<'m>;
-    type With<X: Copy> = ();
-    type Prepared = Placed<Self>;
-    #[inline(always)]
-    fn map_light<X: Copy, Y: Copy>(light: PortalMemory<'m>, _: impl FnMut(X) -> Y) -> PortalMemory<'m> {
-        light
-    }
-    #[inline(always)]
-    fn map_with<X: Copy, Y: Copy>((): (), _: impl FnMut(X) -> Y) {}
-    #[inline(always)]
-    fn prepare(light: PortalMemory<'m>, p: Vec3<f32>, with: ()) -> Placed<Self> {
-        Placed { light, p, with }
-    }
-    #[inline(always)]
-    fn prepared<R: Real, T>(
-        light: PortalMemory<'m>,
-        p: Vec3<R>,
-        (): (),
-        f: impl FnOnce(&light::PortalsByRadiance<'_, R>) -> T,
-    ) -> T {
-        light.with(|sky| f(&sky.by_radiance(p))).expect("the memory is that of portals")
-    }
+/// The techniques of lights that are memory alone, which take nothing beside the point.
+macro_rules! from_memory {
+    ($($(#[$doc:meta])* $technique:ident: $memory:ident -> $prepared:ty, |$light:ident, $p:ident| $prepare:expr, |$f:ident| $call:expr;)+) => {$(
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug)]
+        pub struct $technique<'m>(PhantomData<&'m $memory<'m>>);
+        impl Sealed for $technique<'_> {}
+        impl<'m> Technique for $technique<'m> {
+            const INDEX: usize = Number::$technique as usize;
+            type Light<X: Copy> = $memory<'m>;
+            type With<X: Copy> = ();
+            type Prepared = $prepared;
+            #[inline(always)]
+            fn map_light<X: Copy, Y: Copy>(light: $memory<'m>, _: impl FnMut(X) -> Y) -> $memory<'m> {
+                light
+            }
+            #[inline(always)]
+            fn map_with<X: Copy, Y: Copy>((): (), _: impl FnMut(X) -> Y) {}
+            #[inline(always)]
+            fn prepare($light: $memory<'m>, $p: Vec3<f32>, (): ()) -> $prepared {
+                $prepare
+            }
+            #[inline(always)]
+            fn prepared<R: Real, T>(
+                $light: $memory<'m>,
+                $p: Vec3<R>,
+                (): (),
+                $f: impl FnOnce(&<$prepared as Prepared>::Of<'_, R>) -> T,
+            ) -> T {
+                $call
+            }
+        }
+    )+};
+}
+from_memory! {
+    /// The sky through portals: [`PortalEnvironment::by_radiance`](light::PortalEnvironment::by_radiance).
+    PortalsByRadiance: PortalMemory -> Placed<Self>, |light, p| Placed { light, p, with: () },
+    |f| light.with(|sky| f(&sky.by_radiance(p))).expect("the memory is that of portals");
+    /// An image of the sky: [`ImageEnvironment::by_radiance`](light::ImageEnvironment::by_radiance), the same at every point.
+    ImageByRadiance: ImageMemory -> ImageMemory<'m>, |light, _p| light,
+    |f| f(&light.view().expect("the memory is that of an image").by_radiance());
 }
 impl InMemory for PortalsByRadiance<'_> {
     type At<'a, R: Real> = light::PortalsByRadiance<'a, R>;
-}
-
-/// An image of the sky: [`ImageEnvironment::by_radiance`](light::ImageEnvironment::by_radiance), the same at every point.
-#[derive(Clone, Copy, Debug)]
-pub struct ImageByRadiance<'m>(PhantomData<&'m ImageMemory<'m>>);
-impl Sealed for ImageByRadiance<'_> {}
-impl<'m> Technique for ImageByRadiance<'m> {
-    const INDEX: usize = Number::ImageByRadiance as usize;
-    type Light<X: Copy> = ImageMemory<'m>;
-    type With<X: Copy> = ();
-    type Prepared = ImageMemory<'m>;
-    #[inline(always)]
-    fn map_light<X: Copy, Y: Copy>(light: ImageMemory<'m>, _: impl FnMut(X) -> Y) -> ImageMemory<'m> {
-        light
-    }
-    #[inline(always)]
-    fn map_with<X: Copy, Y: Copy>((): (), _: impl FnMut(X) -> Y) {}
-    #[inline(always)]
-    fn prepare(light: ImageMemory<'m>, _: Vec3<f32>, (): ()) -> ImageMemory<'m> {
-        light
-    }
-    #[inline(always)]
-    fn prepared<R: Real, T>(
-        light: ImageMemory<'m>,
-        _: Vec3<R>,
-        (): (),
-        f: impl FnOnce(&light::ByRadiance<'_>) -> T,
-    ) -> T {
-        f(&light.view().expect("the memory is that of an image").by_radiance())
-    }
 }
 impl Sealed for ImageMemory<'_> {}
 impl<'m> Prepared for ImageMemory<'m> {

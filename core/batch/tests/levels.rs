@@ -25,6 +25,14 @@ fn levels() -> Vec<Batch> {
     levels
 }
 
+/// Calls `f` for each level, with numbers in [0, 1) and hostile ones, for each count.
+fn each(mut f: impl FnMut(Batch, &Columns, usize)) {
+    let inputs = [false, true].map(Columns::new);
+    for (batch, input) in levels().into_iter().flat_map(|batch| inputs.each_ref().map(|input| (batch, input))) {
+        COUNTS.into_iter().for_each(|n| f(batch, input, n));
+    }
+}
+
 /// Columns of numbers: uniform in [0, 1), or hostile ones.
 struct Columns(Vec<Vec<f32>>);
 
@@ -202,34 +210,28 @@ fn image_lights_have_the_bits_of_the_core() {
         ImageEnvironment::build(&weights, 6, map, &mut buffer).unwrap();
         let memory = ImageMemory::new(&buffer, 6, map).unwrap();
         let alone = ImageEnvironment::from_buffer(&buffer, 6, map).unwrap().by_radiance();
-        for (batch, hostile) in levels().into_iter().flat_map(|batch| [(batch, false), (batch, true)]) {
-            let input = Columns::new(hostile);
-            for n in COUNTS {
-                let sky = batch.prepare::<ImageByRadiance<'_>>(&memory, Vec3::default(), ());
-                assert_sampler(batch, &input, n, "image", &sky, &alone);
-            }
-        }
+        each(|batch, input, n| {
+            let sky = batch.prepare::<ImageByRadiance<'_>>(&memory, Vec3::default(), ());
+            assert_sampler(batch, input, n, "image", &sky, &alone);
+        });
     }
 }
 
 /// Compares a map with itself over single numbers, which is the core.
 fn assert_map<M: BatchMap>(name: &str, map: &M) {
-    for (batch, hostile) in levels().into_iter().flat_map(|batch| [(batch, false), (batch, true)]) {
-        let input = Columns::new(hostile);
-        for n in COUNTS {
-            let numbers: Vec<_> = (0..M::NUMBERS).map(|k| input.of(k, n)).collect();
-            let mut out = vec![vec![-7.0; n]; M::RESULTS];
-            let mut holds = vec![9; n];
-            batch.map(map, &numbers, &mut out.iter_mut().map(Vec::as_mut_slice).collect::<Vec<_>>(), &mut holds);
-            for i in 0..n {
-                let one = core::array::from_fn(|k| if k < M::NUMBERS { numbers[k][i] } else { 0.0 });
-                let (expected, truth) = map.with(|view| M::map::<f32>(view, one));
-                let found: Vec<u32> = out.iter().map(|column| bits(column[i])).collect();
-                assert_eq!(found, expected[..M::RESULTS].iter().map(|&x| bits(x)).collect::<Vec<_>>(), "{name}, {i}");
-                assert_eq!(holds[i], u8::from(truth), "{name}, {batch:?}, element {i} of {n}");
-            }
+    each(|batch, input, n| {
+        let numbers: Vec<_> = (0..M::NUMBERS).map(|k| input.of(k, n)).collect();
+        let mut out = vec![vec![-7.0; n]; M::RESULTS];
+        let mut holds = vec![9; n];
+        batch.map(map, &numbers, &mut out.iter_mut().map(Vec::as_mut_slice).collect::<Vec<_>>(), &mut holds);
+        for i in 0..n {
+            let one = core::array::from_fn(|k| if k < M::NUMBERS { numbers[k][i] } else { 0.0 });
+            let (expected, truth) = map.with(|view| M::map::<f32>(view, one));
+            let found: Vec<u32> = out.iter().map(|column| bits(column[i])).collect();
+            assert_eq!(found, expected[..M::RESULTS].iter().map(|&x| bits(x)).collect::<Vec<_>>(), "{name}, {i}");
+            assert_eq!(holds[i], u8::from(truth), "{name}, {batch:?}, element {i} of {n}");
         }
-    }
+    });
 }
 
 #[test]
@@ -248,133 +250,122 @@ fn maps_have_the_bits_of_the_core() {
 
 #[test]
 fn reflections_have_the_bits_of_the_core() {
-    for (batch, hostile) in levels().into_iter().flat_map(|batch| [(batch, false), (batch, true)]) {
-        let input = Columns::new(hostile);
-        for n in COUNTS {
-            let (alpha, normal, view) = (input.of(0, n), input.three(1, n), input.three(4, n));
-            let mut written = vec![vec![-7.0; n]; 16];
-            let mut columns = written.iter_mut();
-            let out = Reflection::<f32>::default().map(|_| &mut columns.next().unwrap()[..]);
-            batch.reflections(alpha, normal, view, out);
-            for i in 0..n {
-                let mut found = written.iter().map(|column| bits(column[i]));
-                Reflection::new(alpha[i], at(normal, i), at(view, i)).map(|number| {
-                    assert_eq!(found.next(), Some(bits(number)), "{batch:?}, element {i} of {n}");
-                });
-            }
+    each(|batch, input, n| {
+        let (alpha, normal, view) = (input.of(0, n), input.three(1, n), input.three(4, n));
+        let mut written = vec![vec![-7.0; n]; 16];
+        let mut columns = written.iter_mut();
+        let out = Reflection::<f32>::default().map(|_| &mut columns.next().unwrap()[..]);
+        batch.reflections(alpha, normal, view, out);
+        for i in 0..n {
+            let mut found = written.iter().map(|column| bits(column[i]));
+            Reflection::new(alpha[i], at(normal, i), at(view, i)).map(|number| {
+                assert_eq!(found.next(), Some(bits(number)), "{batch:?}, element {i} of {n}");
+            });
         }
-    }
+    });
 }
 
 struct Equal {
-    inputs: [Columns; 2],
     compared: usize,
 }
 
 impl Visitor for Equal {
     fn technique<T: Technique>(&mut self, name: &str, light: T::Light<f32>, with: T::With<f32>) {
-        for (batch, input) in levels().into_iter().flat_map(|batch| self.inputs.iter().map(move |input| (batch, input)))
-        {
-            for n in COUNTS {
-                let p = Vec3::new(0.1, 0.2, 0.3);
-                let sampler = batch.prepare::<T>(&light, p, with);
-                let (u, directions) = T::prepared::<f32, _>(light, p, with, |alone| {
-                    assert_sampler(batch, input, n, name, &sampler, alone)
-                });
-                let w = Vec3::new(&directions[0][..], &directions[1][..], &directions[2][..]);
-                let one = |i: usize| Vec2::new(u.x[i], u.y[i]);
-                let say = |i: usize| format!("{name}, {batch:?}, element {i} of {n}");
+        each(|batch, input, n| {
+            let p = Vec3::new(0.1, 0.2, 0.3);
+            let sampler = batch.prepare::<T>(&light, p, with);
+            let (u, directions) =
+                T::prepared::<f32, _>(light, p, with, |alone| assert_sampler(batch, input, n, name, &sampler, alone));
+            let w = Vec3::new(&directions[0][..], &directions[1][..], &directions[2][..]);
+            let one = |i: usize| Vec2::new(u.x[i], u.y[i]);
+            let say = |i: usize| format!("{name}, {batch:?}, element {i} of {n}");
 
-                let mut k = 5;
-                let mut next = || {
-                    k += 1;
-                    input.of(k, n)
-                };
-                let (lights, p) = (T::map_light(light, |_| next()), input.three(30, n));
-                k = 32;
-                let withs = T::map_with(with, |_| {
-                    k += 1;
-                    input.of(k, n)
-                });
-                let mut written = Written::new(n);
-                batch.sample_each::<T>(lights, p, withs, u, written.samples());
-                let drawn = written;
-                let at_element = |i: usize| {
-                    let light = T::map_light(lights, |column| column[i]);
-                    (light, at(p, i), T::map_with(withs, |column| column[i]))
-                };
-                for i in 0..n {
-                    let (light, p, with) = at_element(i);
-                    let expected = T::prepared::<f32, _>(light, p, with, |alone| figures(&alone.sample(one(i))));
-                    assert_eq!(drawn.figures(i), expected, "sample each: {}", say(i));
-                    let once = batch.sample_once::<T>(&light, p, with, one(i));
-                    assert_eq!(of_one(&once), expected, "sample once: {}", say(i));
-                }
-                let (mut pdf, mut x, mut y) = (vec![-7.0; n], vec![-7.0; n], vec![-7.0; n]);
-                let mut written = Written::new(n);
-                let out = Evaluations { pdf: &mut pdf, u: [&mut x, &mut y], hit: written.samples() };
-                batch.evaluate_each::<T>(lights, p, withs, w, out);
-                let mut only = vec![-7.0; n];
-                let out = Evaluations { pdf: &mut only, ..Evaluations::default() };
-                batch.evaluate_each::<T>(lights, p, withs, w, out);
-                for i in 0..n {
-                    let ((light, p, with), w) = (at_element(i), at(w, i));
-                    let (expected, u, met) = T::prepared::<f32, _>(light, p, with, |alone| {
-                        (alone.pdf(w), alone.invert(w), figures(&alone.hit(w)))
-                    });
-                    assert_eq!([pdf[i], only[i]].map(bits), [expected; 2].map(bits), "pdf each: {}", say(i));
-                    let once = batch.pdf_once::<T>(&light, p, with, w);
-                    assert_eq!(bits(once), bits(expected), "pdf once: {}", say(i));
-                    let of_hit = batch.pdf_of_hit_once::<T>(&light, p, with, w);
-                    let same = of_hit.is_finite() && (expected == 0.0 || bits(of_hit) == bits(expected));
-                    assert!(same, "pdf of a hit: {of_hit:e} and {expected:e}: {}", say(i));
-                    assert_eq!([x[i], y[i]].map(bits), [u.x, u.y].map(bits), "invert each: {}", say(i));
-                    assert_eq!(written.figures(i), met, "hit each: {}", say(i));
-                }
-                let all = (lights, p, withs, u, w);
-                assert_packets::<T, f32>(batch, all, [&drawn, &written], &pdf);
-                assert_packets::<T, f32x4>(batch, all, [&drawn, &written], &pdf);
-                assert_packets::<T, f32x8>(batch, all, [&drawn, &written], &pdf);
-                assert_packets::<T, f32x16>(batch, all, [&drawn, &written], &pdf);
-                self.compared += n;
+            let mut k = 5;
+            let mut next = || {
+                k += 1;
+                input.of(k, n)
+            };
+            let (lights, p) = (T::map_light(light, |_| next()), input.three(30, n));
+            k = 32;
+            let withs = T::map_with(with, |_| {
+                k += 1;
+                input.of(k, n)
+            });
+            let mut written = Written::new(n);
+            batch.sample_each::<T>(lights, p, withs, u, written.samples());
+            let drawn = written;
+            let at_element = |i: usize| {
+                let light = T::map_light(lights, |column| column[i]);
+                (light, at(p, i), T::map_with(withs, |column| column[i]))
+            };
+            for i in 0..n {
+                let (light, p, with) = at_element(i);
+                let expected = T::prepared::<f32, _>(light, p, with, |alone| figures(&alone.sample(one(i))));
+                assert_eq!(drawn.figures(i), expected, "sample each: {}", say(i));
+                let once = batch.sample_once::<T>(&light, p, with, one(i));
+                assert_eq!(of_one(&once), expected, "sample once: {}", say(i));
             }
-        }
+            let (mut pdf, mut x, mut y) = (vec![-7.0; n], vec![-7.0; n], vec![-7.0; n]);
+            let mut written = Written::new(n);
+            let out = Evaluations { pdf: &mut pdf, u: [&mut x, &mut y], hit: written.samples() };
+            batch.evaluate_each::<T>(lights, p, withs, w, out);
+            let mut only = vec![-7.0; n];
+            let out = Evaluations { pdf: &mut only, ..Evaluations::default() };
+            batch.evaluate_each::<T>(lights, p, withs, w, out);
+            for i in 0..n {
+                let ((light, p, with), w) = (at_element(i), at(w, i));
+                let (expected, u, met) = T::prepared::<f32, _>(light, p, with, |alone| {
+                    (alone.pdf(w), alone.invert(w), figures(&alone.hit(w)))
+                });
+                assert_eq!([pdf[i], only[i]].map(bits), [expected; 2].map(bits), "pdf each: {}", say(i));
+                let once = batch.pdf_once::<T>(&light, p, with, w);
+                assert_eq!(bits(once), bits(expected), "pdf once: {}", say(i));
+                let of_hit = batch.pdf_of_hit_once::<T>(&light, p, with, w);
+                let same = of_hit.is_finite() && (expected == 0.0 || bits(of_hit) == bits(expected));
+                assert!(same, "pdf of a hit: {of_hit:e} and {expected:e}: {}", say(i));
+                assert_eq!([x[i], y[i]].map(bits), [u.x, u.y].map(bits), "invert each: {}", say(i));
+                assert_eq!(written.figures(i), met, "hit each: {}", say(i));
+            }
+            let all = (lights, p, withs, u, w);
+            assert_packets::<T, f32>(batch, all, [&drawn, &written], &pdf);
+            assert_packets::<T, f32x4>(batch, all, [&drawn, &written], &pdf);
+            assert_packets::<T, f32x8>(batch, all, [&drawn, &written], &pdf);
+            assert_packets::<T, f32x16>(batch, all, [&drawn, &written], &pdf);
+            self.compared += n;
+        });
     }
     fn warp<W: BatchWarp>(&mut self, name: &str, warp: W) {
-        for (batch, input) in levels().into_iter().flat_map(|batch| self.inputs.iter().map(move |input| (batch, input)))
-        {
-            for n in COUNTS {
-                let alone = warp.splat::<f32>();
-                let u = [input.of(0, n), input.of(1, n)];
-                let mut points = [vec![0.0; n], vec![0.0; n], vec![0.0; n]];
-                batch.warp(&warp, u, points.each_mut().map(|column| &mut column[..]));
-                for i in 0..n {
-                    let expected = W::sample(&alone, Vec2::new(u[0][i], u[1][i]));
-                    let one = batch.warp_one(&warp, Vec2::new(u[0][i], u[1][i]));
-                    assert_eq!(one.map(bits), expected.map(bits), "{name}, {batch:?}, one element");
-                    for k in 0..W::COORDINATES {
-                        assert_eq!(bits(points[k][i]), bits(expected[k]), "{name}, {batch:?}, element {i} of {n}");
-                    }
+        each(|batch, input, n| {
+            let alone = warp.splat::<f32>();
+            let u = [input.of(0, n), input.of(1, n)];
+            let mut points = [vec![0.0; n], vec![0.0; n], vec![0.0; n]];
+            batch.warp(&warp, u, points.each_mut().map(|column| &mut column[..]));
+            for i in 0..n {
+                let expected = W::sample(&alone, Vec2::new(u[0][i], u[1][i]));
+                let one = batch.warp_one(&warp, Vec2::new(u[0][i], u[1][i]));
+                assert_eq!(one.map(bits), expected.map(bits), "{name}, {batch:?}, one element");
+                for k in 0..W::COORDINATES {
+                    assert_eq!(bits(points[k][i]), bits(expected[k]), "{name}, {batch:?}, element {i} of {n}");
                 }
-                let points = points.each_ref().map(|column| &column[..]);
-                let mut pdf = vec![0.0; n];
-                batch.warp_pdf(&warp, points, &mut pdf);
-                let mut inverse = [vec![0.0; n], vec![0.0; n]];
-                batch.warp_invert(&warp, points, inverse.each_mut().map(|column| &mut column[..]));
-                for i in 0..n {
-                    let point = core::array::from_fn(|k| if k < W::COORDINATES { points[k][i] } else { 0.0 });
-                    assert_eq!(bits(pdf[i]), bits(W::pdf(&alone, point)), "{name}, {batch:?}, element {i} of {n}");
-                    let u = W::invert(&alone, point);
-                    let expected = [u.x, if W::NUMBERS == 2 { u.y } else { 0.0 }];
-                    let found = [inverse[0][i], inverse[1][i]];
-                    assert_eq!(found.map(bits), expected.map(bits), "{name}, {batch:?}, element {i} of {n}");
-                    assert_eq!(bits(batch.warp_pdf_one(&warp, &point)), bits(pdf[i]), "{name}, {batch:?}, one element");
-                    let one = batch.warp_invert_one(&warp, &point);
-                    assert_eq!([one.x, one.y].map(bits), [u.x, u.y].map(bits), "{name}, {batch:?}, one element");
-                }
-                self.compared += n;
             }
-        }
+            let points = points.each_ref().map(|column| &column[..]);
+            let mut pdf = vec![0.0; n];
+            batch.warp_pdf(&warp, points, &mut pdf);
+            let mut inverse = [vec![0.0; n], vec![0.0; n]];
+            batch.warp_invert(&warp, points, inverse.each_mut().map(|column| &mut column[..]));
+            for i in 0..n {
+                let point = core::array::from_fn(|k| if k < W::COORDINATES { points[k][i] } else { 0.0 });
+                assert_eq!(bits(pdf[i]), bits(W::pdf(&alone, point)), "{name}, {batch:?}, element {i} of {n}");
+                let u = W::invert(&alone, point);
+                let expected = [u.x, if W::NUMBERS == 2 { u.y } else { 0.0 }];
+                let found = [inverse[0][i], inverse[1][i]];
+                assert_eq!(found.map(bits), expected.map(bits), "{name}, {batch:?}, element {i} of {n}");
+                assert_eq!(bits(batch.warp_pdf_one(&warp, &point)), bits(pdf[i]), "{name}, {batch:?}, one element");
+                let one = batch.warp_invert_one(&warp, &point);
+                assert_eq!([one.x, one.y].map(bits), [u.x, u.y].map(bits), "{name}, {batch:?}, one element");
+            }
+            self.compared += n;
+        });
     }
     fn sequence<S: BatchSequence>(&mut self, name: &str, sequence: S) {
         for batch in levels() {
@@ -385,8 +376,7 @@ impl Visitor for Equal {
                 batch.pairs(&sequence, counters, Vec2::new(x, y));
                 for (i, (&x, &y)) in u[0].iter().zip(&u[1]).enumerate() {
                     let expected = sequence.pair::<f32>(11, (u32::MAX - 20).wrapping_add(i as u32), 2);
-                    let found = [x, y];
-                    assert_eq!(found.map(bits), [expected.x, expected.y].map(bits), "{name}, {batch:?}, {i} of {n}");
+                    assert_eq!([x, y].map(bits), [expected.x, expected.y].map(bits), "{name}, {batch:?}, {i} of {n}");
                 }
                 self.compared += n;
             }
@@ -396,7 +386,7 @@ impl Visitor for Equal {
 
 #[test]
 fn every_level_gives_the_bits_of_the_core() {
-    let mut equal = Equal { inputs: [Columns::new(false), Columns::new(true)], compared: 0 };
+    let mut equal = Equal { compared: 0 };
     every::visit(&mut equal);
     println!("{} elements", equal.compared);
     assert!(equal.compared > 10_000);
