@@ -1,9 +1,8 @@
 //! Light from all around as an image tells it.
 
-use crate::memory::refuse_null;
+use crate::memory::{build_table, refuse_null};
 use crate::status::EtendueStatus;
 use core::mem::{offset_of, size_of};
-use core::slice::{from_raw_parts, from_raw_parts_mut};
 use etendue::light::{EnvironmentMap, ImageEnvironment};
 use etendue_batch::memory::ImageMemory;
 
@@ -91,20 +90,13 @@ pub unsafe extern "C" fn etendue_image_environment_build(
     }
     let Some(known) = map_of(map) else { return EtendueStatus::Value };
     // SAFETY: the pointers are not null, and point to what the header says
-    let weights = unsafe { from_raw_parts(weights, width * height) };
-    // before the table is written
-    if weights.iter().any(|&w| !(0.0..f32::INFINITY).contains(&w)) || weights.iter().all(|&w| w == 0.0) {
-        return EtendueStatus::Value;
+    unsafe {
+        let status = build_table(weights, width * height, table, length, |weights, table| {
+            ImageEnvironment::build(weights, width, known, table).is_ok()
+        });
+        if status == EtendueStatus::Ok {
+            environment.write(EtendueImageEnvironment { table, width, height, map });
+        }
+        status
     }
-    // SAFETY: as above; every float of the table is written before it is read
-    let built = unsafe {
-        table.write_bytes(0, length);
-        ImageEnvironment::build(weights, width, known, from_raw_parts_mut(table, length)).is_ok()
-    };
-    if !built {
-        return EtendueStatus::Value;
-    }
-    // SAFETY: as above
-    unsafe { environment.write(EtendueImageEnvironment { table, width, height, map }) };
-    EtendueStatus::Ok
 }

@@ -1,9 +1,13 @@
 //! Pointers to numbers and to columns of them.
 
+use crate::status::EtendueStatus;
 use core::mem::size_of;
+use core::ptr::null_mut;
+use core::slice::{from_raw_parts, from_raw_parts_mut};
 use etendue::{Vec2, Vec3};
+use etendue_batch::{Batch, BatchMap};
 
-/// Returns [`EtendueStatus::NullPointer`](crate::EtendueStatus::NullPointer) if a pointer is null.
+/// Returns [`EtendueStatus::NullPointer`] if a pointer is null.
 macro_rules! refuse_null {
     ($($pointer:expr),+ $(,)?) => {
         if $($pointer.is_null())||+ {
@@ -13,7 +17,17 @@ macro_rules! refuse_null {
 }
 pub(crate) use refuse_null;
 
-/// Returns [`EtendueStatus::Value`](crate::EtendueStatus::Value) unless all `count` random numbers are in [0, 1).
+/// Returns [`EtendueStatus::Ok`] for a batch of no elements.
+macro_rules! skip_empty {
+    ($n:ident) => {
+        if $n == 0 {
+            return $crate::EtendueStatus::Ok;
+        }
+    };
+}
+pub(crate) use skip_empty;
+
+/// Returns [`EtendueStatus::Value`] unless all `count` random numbers are in [0, 1).
 macro_rules! refuse_outside {
     ($u:ident, $count:expr) => {
         // SAFETY: the pointer is not null, and points to what the header says
@@ -64,7 +78,30 @@ pub(crate) const fn count_of<C>() -> usize {
 pub(crate) unsafe fn each<const N: usize>(numbers: *const f32) -> [*const f32; N] {
     core::array::from_fn(|i| numbers.wrapping_add(i))
 }
-/// N numbers in a row as columns of one element, for results.
-pub(crate) unsafe fn each_mut<const N: usize>(numbers: *mut f32) -> [*mut f32; N] {
-    core::array::from_fn(|i| numbers.wrapping_add(i))
+/// Builds a table of `length` elements from the weights of so many texels. Returns [`EtendueStatus::Value`] if a weight is negative, infinite or
+/// NaN, if all are 0, and if `build` refuses them.
+pub(crate) unsafe fn build_table<T>(
+    weights: *const f32,
+    texels: usize,
+    table: *mut T,
+    length: usize,
+    build: impl FnOnce(&[f32], &mut [T]) -> bool,
+) -> EtendueStatus {
+    // SAFETY: the caller's pointers are to so many elements; every one of the table is written before it is read
+    unsafe {
+        let weights = from_raw_parts(weights, texels);
+        // before the table is written
+        if weights.iter().any(|w| !(0.0..f32::INFINITY).contains(w)) || weights.iter().all(|&w| w == 0.0) {
+            return EtendueStatus::Value;
+        }
+        table.write_bytes(0, length);
+        if build(weights, from_raw_parts_mut(table, length)) { EtendueStatus::Ok } else { EtendueStatus::Value }
+    }
+}
+
+/// The only result of a map of columns of numbers.
+pub(crate) unsafe fn map<M: BatchMap>(map: *const M, n: usize, numbers: [*const f32; 6], out: *mut f32) {
+    let results = [out, null_mut(), null_mut(), null_mut()];
+    // SAFETY: the caller's columns have `n` elements
+    unsafe { Batch::new().map_function::<M>()(map.cast(), n, &numbers, &results, null_mut()) };
 }

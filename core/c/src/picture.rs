@@ -4,10 +4,10 @@ use crate::light::{
     EtendueBilinearPatch, EtendueBilinearPatchColumns, EtendueDisk, EtendueParallelogram, EtendueParallelogramColumns,
     EtendueRectangle, EtendueSphere, EtendueSphereColumns, EtendueTriangle,
 };
-use crate::memory::refuse_null;
+use crate::memory::{build_table, refuse_null};
 use crate::status::EtendueStatus;
 use core::mem::{offset_of, size_of};
-use core::slice::{from_raw_parts, from_raw_parts_mut};
+use core::slice::from_raw_parts;
 use etendue::light::{self, FlatLight, Picture, Region};
 use etendue_batch::memory::PictureMemory;
 
@@ -116,21 +116,17 @@ pub unsafe extern "C" fn etendue_picture_build(
         return EtendueStatus::Count;
     }
     let Some(known) = region_of(region) else { return EtendueStatus::Value };
-    // SAFETY: the pointers are not null, and point to what the header says; every float of the table is written before it is read
+    let length = etendue_picture_table(width, height);
+    // SAFETY: the pointers are not null, and point to what the header says
     unsafe {
-        let weights = from_raw_parts(weights, width * height);
-        // before the table is written
-        if !are_radiance(weights) {
-            return EtendueStatus::Value;
+        let status = build_table(weights, width * height, table, length, |weights, table| {
+            Picture::build(weights, width, known, table).is_ok()
+        });
+        if status == EtendueStatus::Ok {
+            picture.write(EtenduePicture { table, values: core::ptr::null(), width, height, region });
         }
-        let length = etendue_picture_table(width, height);
-        table.write_bytes(0, length);
-        if Picture::build(weights, width, known, from_raw_parts_mut(table, length)).is_err() {
-            return EtendueStatus::Value;
-        }
-        picture.write(EtenduePicture { table, values: core::ptr::null(), width, height, region });
+        status
     }
-    EtendueStatus::Ok
 }
 
 /// Builds the table of a picture that is interpolated bilinearly between the centres of its texels, and continued by its outermost ones: the
@@ -152,25 +148,17 @@ pub unsafe extern "C" fn etendue_picture_interpolate(
     if length == 0 {
         return EtendueStatus::Count;
     }
-    // SAFETY: as in `etendue_picture_build`
+    // SAFETY: the pointers are not null, and point to what the header says
     unsafe {
-        let known = from_raw_parts(values, width * height);
-        if !are_radiance(known) {
-            return EtendueStatus::Value;
+        let status = build_table(values, width * height, table, length, |values, table| {
+            Picture::interpolated(values, width, table).is_ok()
+        });
+        if status == EtendueStatus::Ok {
+            let region = EtenduePictureRegion::Square as u32;
+            picture.write(EtenduePicture { table, values, width, height, region });
         }
-        table.write_bytes(0, length);
-        if Picture::interpolated(known, width, from_raw_parts_mut(table, length)).is_err() {
-            return EtendueStatus::Value;
-        }
-        let region = EtenduePictureRegion::Square as u32;
-        picture.write(EtenduePicture { table, values, width, height, region });
+        status
     }
-    EtendueStatus::Ok
-}
-
-/// Whether numbers are radiance: none is negative, infinite or NaN, and not all are 0.
-fn are_radiance(weights: &[f32]) -> bool {
-    weights.iter().all(|w| (0.0..f32::INFINITY).contains(w)) && weights.iter().any(|&w| w > 0.0)
 }
 
 /// Fills `means` with the mean over each texel of an image that is interpolated bilinearly between the centres of its texels, and continued

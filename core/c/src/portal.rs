@@ -1,10 +1,10 @@
 //! The sky through portals.
 
-use crate::memory::{columns, each, each_mut, outputs, refuse_null};
+use crate::memory::{build_table, columns, each, outputs, refuse_null, skip_empty};
 use crate::status::EtendueStatus;
 use core::mem::size_of;
 use core::ptr::{from_ref, null_mut};
-use core::slice::{from_raw_parts, from_raw_parts_mut};
+use core::slice::from_raw_parts;
 use etendue::light::{MOST_PORTALS, Portal, PortalTable};
 use etendue_batch::memory::{PortalMemory, PortalShape, PortalSums};
 use etendue_batch::{Batch, PortalDirection, SeenThroughPortals};
@@ -99,20 +99,16 @@ pub unsafe extern "C" fn etendue_portal_table_build(
     if length == 0 {
         return EtendueStatus::Count;
     }
-    // SAFETY: the pointers are not null, and point to what the header says; every word of the table is written before it is read
+    // SAFETY: the pointers are not null, and point to what the header says
     unsafe {
-        let weights = from_raw_parts(weights, width * height);
-        // before the table is written
-        if weights.iter().any(|&w| !(0.0..f32::INFINITY).contains(&w)) || weights.iter().all(|&w| w == 0.0) {
-            return EtendueStatus::Value;
+        let status = build_table(weights, width * height, sums, length, |weights, sums| {
+            PortalTable::build(weights, width, sums).is_ok()
+        });
+        if status == EtendueStatus::Ok {
+            table.write(EtenduePortalTable { sums, width, height });
         }
-        sums.write_bytes(0, length);
-        if PortalTable::build(weights, width, from_raw_parts_mut(sums, length)).is_err() {
-            return EtendueStatus::Value;
-        }
-        table.write(EtenduePortalTable { sums, width, height });
+        status
     }
-    EtendueStatus::Ok
 }
 
 /// The unit direction `w` at a position in the image of a portal, and the solid angle there per unit of the image's area, in steradians.
@@ -129,7 +125,7 @@ pub unsafe extern "C" fn etendue_portal_direction(
 ) -> EtendueStatus {
     refuse_null!(uv, w);
     // SAFETY: the pointers are not null, and point to what the header says
-    unsafe { directions(portal, 1, each(uv), each_mut(w), solid_angle) }
+    unsafe { directions(portal, 1, each(uv), each(w).map(<*const f32>::cast_mut), solid_angle) }
 }
 
 /// The unit direction and the solid angle at each position in the image of a portal: two columns in, three and one out.
@@ -141,9 +137,7 @@ pub unsafe extern "C" fn etendue_portal_direction_batch(
     w: *const *mut f32,
     solid_angle: *mut f32,
 ) -> EtendueStatus {
-    if n == 0 {
-        return EtendueStatus::Ok;
-    }
+    skip_empty!(n);
     // SAFETY: the pointers are not null, and point to what the header says
     unsafe {
         let (Some(uv), Some(w)) = (columns(uv), outputs(w)) else { return EtendueStatus::NullPointer };
@@ -178,9 +172,7 @@ pub unsafe extern "C" fn etendue_portal_environment_sees_batch(
     w: *const *const f32,
     out: *mut u8,
 ) -> EtendueStatus {
-    if n == 0 {
-        return EtendueStatus::Ok;
-    }
+    skip_empty!(n);
     refuse_null!(environment, out);
     // SAFETY: the pointers are not null, and point to what the header says
     unsafe {

@@ -1,9 +1,8 @@
 //! The light that rough surfaces reflect.
 
-use crate::memory::{columns, each, refuse_null, vec3};
+use crate::memory::{columns, each, map, refuse_null, skip_empty, vec3};
 use crate::status::EtendueStatus;
 use core::mem::size_of;
-use core::ptr::null_mut;
 use etendue::reflection::Reflection;
 use etendue_batch::{Batch, ReflectedSphere};
 
@@ -64,9 +63,7 @@ pub unsafe extern "C" fn etendue_reflection_prepare_batch(
     views: *const *const f32,
     out: *const EtendueReflectionColumns,
 ) -> EtendueStatus {
-    if n == 0 {
-        return EtendueStatus::Ok;
-    }
+    skip_empty!(n);
     refuse_null!(alphas, out);
     // SAFETY: the pointers are not null, and point to what the header says; the struct has the fields of the core's
     unsafe {
@@ -103,9 +100,7 @@ pub unsafe extern "C" fn etendue_reflection_sphere_batch(
     radii: *const f32,
     out: *mut f32,
 ) -> EtendueStatus {
-    if n == 0 {
-        return EtendueStatus::Ok;
-    }
+    skip_empty!(n);
     refuse_null!(reflection, radii, out);
     // SAFETY: the pointers are not null, and point to what the header says
     unsafe {
@@ -123,9 +118,5 @@ unsafe fn spheres(
     out: *mut f32,
 ) {
     // SAFETY: the caller's
-    unsafe {
-        let (function, results) =
-            (Batch::new().map_function::<ReflectedSphere>(), [out, null_mut(), null_mut(), null_mut()]);
-        function(reflection.cast(), n, &[x, y, z, radii, x, x], &results, null_mut());
-    }
+    unsafe { map(reflection.cast::<ReflectedSphere>(), n, [x, y, z, radii, x, x], out) };
 }

@@ -1,8 +1,7 @@
 //! Samples.
 
 use core::mem::size_of;
-use core::ptr::null_mut;
-use etendue_batch::{EvaluationColumns, OneSample, SampleColumns};
+use etendue_batch::{OneSample, SampleColumns};
 
 /// One sample of a light as seen from a shading point, or the point of a light that a ray hits.
 ///
@@ -66,16 +65,3 @@ const _: () = {
     assert!(offset_of!(EtendueLightSample, uv) == offset_of!(OneSample, uv));
     assert!(offset_of!(EtendueLightSample, emits) == offset_of!(OneSample, emits));
 };
-
-/// Columns of which none is wanted.
-const NO_SAMPLES: SampleColumns = SampleColumns {
-    direction: [null_mut(); 3],
-    distance: null_mut(),
-    pdf: null_mut(),
-    weight: null_mut(),
-    normal: [null_mut(); 3],
-    uv: [null_mut(); 2],
-    emits: null_mut(),
-};
-pub(crate) const NOTHING: EvaluationColumns =
-    EvaluationColumns { pdf: null_mut(), u: [null_mut(); 2], hit: NO_SAMPLES };

@@ -1,6 +1,6 @@
 //! Sequences of random numbers.
 
-use crate::memory::{outputs, refuse_null};
+use crate::memory::{outputs, refuse_null, skip_empty};
 use crate::status::EtendueStatus;
 use core::ptr::from_ref;
 use etendue::Vec2;
@@ -23,9 +23,9 @@ pub struct EtendueCounters {
     pub samples: *const u32,
 }
 
-/// The function of one sequence.
-macro_rules! sequence {
-    ($(#[$doc:meta])* $type:ty, ($($name:ident: $kind:ty),+), $value:expr, $pairs:ident) => {
+/// The function of each sequence.
+macro_rules! sequences {
+    ($($(#[$doc:meta])* $pairs:ident($($name:ident: $kind:ty),+) $sequence:ident;)+) => {$(
         $(#[$doc])*
         ///
         /// Writes the pairs, in [0, 1)^2, to two columns.
@@ -33,34 +33,27 @@ macro_rules! sequence {
         pub unsafe extern "C" fn $pairs(
             $($name: $kind,)+ counters: *const EtendueCounters, n: usize, u: *const *mut f32,
         ) -> EtendueStatus {
-            if n == 0 {
-                return EtendueStatus::Ok;
-            }
+            skip_empty!(n);
             refuse_null!(counters);
             // SAFETY: the pointers are not null, and point to what the header says
             unsafe {
                 let Some([x, y]) = outputs(u) else { return EtendueStatus::NullPointer };
                 let EtendueCounters { pixel, sample, dimension, pixels, samples } = *counters;
+                let sequence = sequence::$sequence::new($($name),+);
                 let counters = Counters { pixel, sample, dimension, pixels, samples };
-                Batch::new().sequence::<$type>()(from_ref(&$value).cast(), n, &counters, Vec2::new(x, y));
+                Batch::new().sequence::<sequence::$sequence>()(from_ref(&sequence).cast(), n, &counters, Vec2::new(x, y));
             }
             EtendueStatus::Ok
         }
-    };
+    )+};
 }
-sequence!(
+sequences! {
     /// Independent random numbers: a counter, hashed.
-    sequence::Independent, (seed: u64), sequence::Independent::new(seed), etendue_independent_pairs
-);
-sequence!(
+    etendue_independent_pairs(seed: u64) Independent;
     /// Owen-scrambled Sobol pairs, each dimension on its own: the choice where the count is a power of two.
-    sequence::OwenSobol, (seed: u64), sequence::OwenSobol::new(seed), etendue_owen_sobol_pairs
-);
-sequence!(
+    etendue_owen_sobol_pairs(seed: u64) OwenSobol;
     /// Owen-scrambled Sobol pairs whose dimensions are stratified together.
-    sequence::JointSobol, (seed: u64), sequence::JointSobol::new(seed), etendue_joint_sobol_pairs
-);
-sequence!(
+    etendue_joint_sobol_pairs(seed: u64) JointSobol;
     /// Stratified pairs, of `count` samples a pixel.
-    sequence::Stratified, (seed: u64, count: u32), sequence::Stratified::new(seed, count), etendue_stratified_pairs
-);
+    etendue_stratified_pairs(seed: u64, count: u32) Stratified;
+}

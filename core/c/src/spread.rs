@@ -1,12 +1,10 @@
 //! Flat lights that emit within an angle of their normal.
 
 use crate::light::EtendueParallelogram;
-use crate::memory::{columns, each, refuse_null, vec3};
+use crate::memory::{columns, each, map, refuse_null, skip_empty, vec3};
 use crate::status::EtendueStatus;
 use core::mem::size_of;
-use core::ptr::null_mut;
 use etendue::light::{Parallelogram, Spread};
-use etendue_batch::Batch;
 
 /// How a flat light emits within a cone about its normal, as through a honeycomb before it: the spread of Cycles. A host multiplies the
 /// radiance of the light by the attenuation, which leaves its power as it is. A point sees only a disk of the plane of the light, which
@@ -71,9 +69,7 @@ pub unsafe extern "C" fn etendue_spread_attenuation_batch(
     normals: *const *const f32,
     out: *mut f32,
 ) -> EtendueStatus {
-    if n == 0 {
-        return EtendueStatus::Ok;
-    }
+    skip_empty!(n);
     refuse_null!(spread, out);
     // SAFETY: the pointers are not null, and point to what the header says
     unsafe {
@@ -91,11 +87,7 @@ unsafe fn attenuations(
     out: *mut f32,
 ) {
     // SAFETY: the caller's
-    unsafe {
-        let (function, results) =
-            (Batch::new().map_function::<Spread<f32>>(), [out, null_mut(), null_mut(), null_mut()]);
-        function(spread.cast(), n, &[x, y, z, nx, ny, nz], &results, null_mut());
-    }
+    unsafe { map(spread.cast::<Spread<f32>>(), n, [x, y, z, nx, ny, nz], out) };
 }
 
 /// The part of a parallelogram with this spread that a point sees: the smallest parallelogram with edges along its own about what of its plane

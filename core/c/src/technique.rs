@@ -2,16 +2,16 @@
 
 use crate::environment::EtendueImageEnvironment;
 use crate::list::{EtendueTechnique, TAKES, WITHOUT_MEMORY};
-use crate::memory::{are_there, columns, count_of, outputs, refuse_null, refuse_outside, vec2, vec3};
+use crate::memory::{are_there, columns, count_of, outputs, refuse_null, refuse_outside, skip_empty, vec2, vec3};
 use crate::picture::{
     EtenduePicture, EtenduePicturedParallelogramColumns, EtenduePicturedPatchColumns, EtenduePicturedSphereColumns,
 };
 use crate::portal::EtenduePortalEnvironment;
-use crate::sample::{EtendueLightSample, EtendueSampleColumns, NOTHING};
+use crate::sample::{EtendueLightSample, EtendueSampleColumns};
 use crate::status::EtendueStatus;
 use core::ffi::c_void;
 use core::mem::size_of;
-use etendue_batch::{Batch, EvaluationColumns, SamplerFunctions, TechniqueFunctions, Views};
+use etendue_batch::{Batch, EvaluationColumns, Evaluations, SamplerFunctions, TechniqueFunctions, Views};
 
 /// Numbers of techniques with memory.
 const PICTURES: core::ops::Range<usize> =
@@ -44,19 +44,10 @@ macro_rules! refuse_memory {
         }
     };
 }
-/// The functions of a technique for one element, or a status.
-macro_rules! one {
-    ($technique:expr) => {
-        match Batch::new().technique_of_one($technique as usize) {
-            Some(functions) => functions,
-            None => return EtendueStatus::Value,
-        }
-    };
-}
-/// The functions of a technique for columns, or a status.
-macro_rules! many {
-    ($technique:expr) => {
-        match Batch::new().technique($technique as usize) {
+/// The functions of a technique that a method of [`Batch`] returns, or a status.
+macro_rules! functions {
+    ($method:ident, $technique:expr) => {
+        match Batch::new().$method($technique as usize) {
             Some(functions) => functions,
             None => return EtendueStatus::Value,
         }
@@ -81,9 +72,7 @@ pub unsafe extern "C" fn etendue_prepare(
     sampler: *mut c_void,
 ) -> EtendueStatus {
     refuse_null!(light, p, sampler);
-    let Some(functions) = Batch::new().technique_to_prepare(technique as usize) else {
-        return EtendueStatus::Value;
-    };
+    let functions = functions!(technique_to_prepare, technique);
     if !is_given(technique, with) {
         return EtendueStatus::NullPointer;
     }
@@ -92,6 +81,24 @@ pub unsafe extern "C" fn etendue_prepare(
         refuse_memory!(technique, light);
         (functions.prepare)(light, p, with, sampler);
     }
+    EtendueStatus::Ok
+}
+/// Calls `f` with the functions for one element of what begins with `from`: a light, which is prepared for `with`, or a sampler, which needs no more
+/// and stands for both.
+#[inline(always)]
+unsafe fn one(
+    technique: u32,
+    from: *const c_void,
+    with: *const c_void,
+    f: impl FnOnce(&TechniqueFunctions),
+) -> EtendueStatus {
+    let functions = functions!(technique_of_one, technique);
+    if !is_given(technique, with) {
+        return EtendueStatus::NullPointer;
+    }
+    // SAFETY: the caller's pointer is to a struct of this technique
+    unsafe { refuse_memory!(technique, from) };
+    f(functions);
     EtendueStatus::Ok
 }
 /// Draws a direction from a prepared light, for u. Returns ETENDUE_STATUS_VALUE for a number that is not in [0, 1).
@@ -103,29 +110,19 @@ pub unsafe extern "C" fn etendue_sample(
     out: *mut EtendueLightSample,
 ) -> EtendueStatus {
     refuse_null!(sampler, u, out);
-    let functions = one!(technique);
     refuse_outside!(u, 2);
     // SAFETY: the pointers are not null, and point to what the header says
-    unsafe {
-        refuse_memory!(technique, sampler);
-        (functions.sampler.one_sample)(sampler, u, out.cast());
-    }
-    EtendueStatus::Ok
+    unsafe { one(technique, sampler, sampler, |functions| (functions.sampler.one_sample)(sampler, u, out.cast())) }
 }
 /// The pdf with which a prepared light draws a unit direction `w`; 0 where it misses the light, and where the function cannot work.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn etendue_pdf(technique: u32, sampler: *const c_void, w: *const f32) -> f32 {
-    let Some(functions) = Batch::new().technique_of_one(technique as usize) else { return 0.0 };
-    if sampler.is_null() || w.is_null() {
-        return 0.0;
+    let mut pdf = 0.0;
+    if !sampler.is_null() && !w.is_null() {
+        // SAFETY: the pointers are not null, and point to what the header says
+        unsafe { one(technique, sampler, sampler, |functions| pdf = (functions.sampler.one_pdf)(sampler, w)) };
     }
-    // SAFETY: the pointers are not null, and point to what the header says
-    unsafe {
-        if memory(technique as usize, sampler) != EtendueStatus::Ok {
-            return 0.0;
-        }
-        (functions.sampler.one_pdf)(sampler, w)
-    }
+    pdf
 }
 /// The random numbers `u` that a prepared light maps to a unit direction `w`; any in [0, 1)^2 where it misses the light.
 #[unsafe(no_mangle)]
@@ -136,13 +133,8 @@ pub unsafe extern "C" fn etendue_invert(
     u: *mut f32,
 ) -> EtendueStatus {
     refuse_null!(sampler, w, u);
-    let functions = one!(technique);
     // SAFETY: the pointers are not null, and point to what the header says
-    unsafe {
-        refuse_memory!(technique, sampler);
-        (functions.sampler.one_invert)(sampler, w, u);
-    }
-    EtendueStatus::Ok
+    unsafe { one(technique, sampler, sampler, |functions| (functions.sampler.one_invert)(sampler, w, u)) }
 }
 /// The nearest point of a prepared light in a unit direction `w`, with the pdf of that direction; pdf 0 where it misses the light.
 #[unsafe(no_mangle)]
@@ -153,13 +145,8 @@ pub unsafe extern "C" fn etendue_hit(
     out: *mut EtendueLightSample,
 ) -> EtendueStatus {
     refuse_null!(sampler, w, out);
-    let functions = one!(technique);
     // SAFETY: the pointers are not null, and point to what the header says
-    unsafe {
-        refuse_memory!(technique, sampler);
-        (functions.sampler.one_hit)(sampler, w, out.cast());
-    }
-    EtendueStatus::Ok
+    unsafe { one(technique, sampler, sampler, |functions| (functions.sampler.one_hit)(sampler, w, out.cast())) }
 }
 /// Prepares a light for a shading point, as etendue_prepare does, and draws one direction, as etendue_sample does. What the sample does not need is
 /// not prepared.
@@ -173,17 +160,9 @@ pub unsafe extern "C" fn etendue_sample_once(
     out: *mut EtendueLightSample,
 ) -> EtendueStatus {
     refuse_null!(light, p, u, out);
-    let functions = one!(technique);
     refuse_outside!(u, 2);
-    if !is_given(technique, with) {
-        return EtendueStatus::NullPointer;
-    }
     // SAFETY: the pointers are not null, and point to what the header says
-    unsafe {
-        refuse_memory!(technique, light);
-        (functions.sample_once)(light, p, with, u, out.cast());
-    }
-    EtendueStatus::Ok
+    unsafe { one(technique, light, with, |functions| (functions.sample_once)(light, p, with, u, out.cast())) }
 }
 /// The pdf functions of a light that is prepared for one call.
 unsafe fn pdf_once(
@@ -196,17 +175,12 @@ unsafe fn pdf_once(
         &TechniqueFunctions,
     ) -> unsafe extern "C" fn(*const c_void, *const f32, *const c_void, *const f32) -> f32,
 ) -> f32 {
-    let Some(functions) = Batch::new().technique_of_one(technique as usize) else { return 0.0 };
-    if light.is_null() || p.is_null() || w.is_null() || !is_given(technique, with) {
-        return 0.0;
+    let mut pdf = 0.0;
+    if !light.is_null() && !p.is_null() && !w.is_null() {
+        // SAFETY: the pointers are not null, and point to what the header says
+        unsafe { one(technique, light, with, |functions| pdf = which(functions)(light, p, with, w)) };
     }
-    // SAFETY: the pointers are not null, and point to what the header says
-    unsafe {
-        if memory(technique as usize, light) != EtendueStatus::Ok {
-            return 0.0;
-        }
-        which(functions)(light, p, with, w)
-    }
+    pdf
 }
 /// Prepares a light for a shading point, as etendue_prepare does, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses
 /// the light, and where the function cannot work. What the pdf does not need is not prepared.
@@ -243,11 +217,9 @@ unsafe fn batch<const N: usize>(
     read: *const *const f32,
     f: impl FnOnce(&SamplerFunctions, [*const f32; N]) -> Option<()>,
 ) -> EtendueStatus {
-    if n == 0 {
-        return EtendueStatus::Ok;
-    }
+    skip_empty!(n);
     refuse_null!(sampler);
-    let functions = many!(technique);
+    let functions = functions!(technique, technique);
     // SAFETY: the pointers are null, or point to what the header says
     unsafe {
         let Some(read) = columns(read) else { return EtendueStatus::NullPointer };
@@ -345,7 +317,7 @@ unsafe fn with_views(
     f: impl FnOnce(&TechniqueFunctions, &Views),
 ) -> EtendueStatus {
     refuse_null!(lights);
-    let Some(functions) = Batch::new().technique_of_each(technique as usize) else { return EtendueStatus::Value };
+    let functions = functions!(technique_of_each, technique);
     let ((first, count), withs) = (columns_of(technique as usize), TAKES[technique as usize].with);
     // SAFETY: the caller's pointers are null or point to what the header says
     unsafe {
@@ -371,9 +343,7 @@ pub unsafe extern "C" fn etendue_sample_each(
     u: *const *const f32,
     out: *const EtendueSampleColumns,
 ) -> EtendueStatus {
-    if n == 0 {
-        return EtendueStatus::Ok;
-    }
+    skip_empty!(n);
     refuse_null!(out);
     // SAFETY: the pointers are null, or point to what the header says
     unsafe {
@@ -393,9 +363,7 @@ unsafe fn evaluate_each(
     w: *const *const f32,
     out: Option<EvaluationColumns>,
 ) -> EtendueStatus {
-    if n == 0 {
-        return EtendueStatus::Ok;
-    }
+    skip_empty!(n);
     // SAFETY: the caller's
     unsafe {
         let (Some(w), Some(out)) = (columns(w), out) else { return EtendueStatus::NullPointer };
@@ -413,7 +381,7 @@ pub unsafe extern "C" fn etendue_pdf_each(
     w: *const *const f32,
     out: *mut f32,
 ) -> EtendueStatus {
-    let wanted = (!out.is_null()).then_some(EvaluationColumns { pdf: out, ..NOTHING });
+    let wanted = (!out.is_null()).then_some(EvaluationColumns { pdf: out, ..Evaluations::default().columns(0) });
     // SAFETY: the pointers are null, or point to what the header says
     unsafe { evaluate_each(technique, lights, n, p, with, w, wanted) }
 }
@@ -430,7 +398,11 @@ pub unsafe extern "C" fn etendue_invert_each(
 ) -> EtendueStatus {
     // SAFETY: the pointers are null, or point to what the header says
     unsafe {
-        let wanted = if n == 0 { None } else { outputs(u).map(|u| EvaluationColumns { u, ..NOTHING }) };
+        let wanted = if n == 0 {
+            None
+        } else {
+            outputs(u).map(|u| EvaluationColumns { u, ..Evaluations::default().columns(0) })
+        };
         evaluate_each(technique, lights, n, p, with, w, wanted)
     }
 }
@@ -448,7 +420,8 @@ pub unsafe extern "C" fn etendue_hit_each(
     // SAFETY: the pointers are null, or point to what the header says
     unsafe {
         let is_wanted = n > 0 && !out.is_null();
-        let wanted = is_wanted.then(|| EvaluationColumns { hit: (*out).columns(), ..NOTHING });
+        let wanted =
+            is_wanted.then(|| EvaluationColumns { hit: (*out).columns(), ..Evaluations::default().columns(0) });
         evaluate_each(technique, lights, n, p, with, w, wanted)
     }
 }

@@ -1,6 +1,6 @@
 //! Trees of lights.
 
-use crate::memory::{columns, refuse_null, vec3};
+use crate::memory::{columns, refuse_null, skip_empty, vec3};
 use crate::status::EtendueStatus;
 use core::mem::{align_of, offset_of, size_of};
 use core::slice::{from_raw_parts, from_raw_parts_mut};
@@ -102,7 +102,7 @@ pub unsafe extern "C" fn etendue_light_tree_build(
     }
     let node_count = LightTree::nodes_for(light_count);
     // SAFETY: the pointers are not null, and point to what the header says
-    let built = unsafe {
+    unsafe {
         if from_raw_parts(lights, light_count).iter().any(|light| light.two_sided > 1) {
             return EtendueStatus::Value;
         }
@@ -112,14 +112,12 @@ pub unsafe extern "C" fn etendue_light_tree_build(
         places.write_bytes(0, light_count);
         // both structs have the same fields, and all values of `two_sided` are 0 or 1
         let lights = from_raw_parts(lights.cast::<LightBound>(), light_count);
-        let nodes = from_raw_parts_mut(nodes.cast::<Node8>(), node_count);
-        LightTree::build(lights, nodes, from_raw_parts_mut(places, light_count)).is_ok()
-    };
-    if !built {
-        return EtendueStatus::Count;
+        let slots = from_raw_parts_mut(nodes.cast::<Node8>(), node_count);
+        if LightTree::build(lights, slots, from_raw_parts_mut(places, light_count)).is_err() {
+            return EtendueStatus::Count;
+        }
+        tree.write(EtendueLightTree { nodes, node_count, places, light_count });
     }
-    // SAFETY: as above
-    unsafe { tree.write(EtendueLightTree { nodes, node_count, places, light_count }) };
     EtendueStatus::Ok
 }
 
@@ -133,9 +131,7 @@ pub unsafe extern "C" fn etendue_light_tree_choose_batch(
     u: *const f32,
     out: *const EtendueChoiceColumns,
 ) -> EtendueStatus {
-    if n == 0 {
-        return EtendueStatus::Ok;
-    }
+    skip_empty!(n);
     refuse_null!(tree, u, out);
     // SAFETY: the pointers are not null, and point to what the header says
     unsafe {
@@ -160,9 +156,7 @@ pub unsafe extern "C" fn etendue_light_tree_pmf_batch(
     lights: *const u32,
     out: *mut f32,
 ) -> EtendueStatus {
-    if n == 0 {
-        return EtendueStatus::Ok;
-    }
+    skip_empty!(n);
     refuse_null!(tree, lights, out);
     // SAFETY: the pointers are not null, and point to what the header says
     unsafe {

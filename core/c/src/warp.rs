@@ -1,13 +1,13 @@
 //! Warps, and the functions of all of them, which are given by their numbers.
 
-use crate::memory::{refuse_null, refuse_outside};
+use crate::memory::{refuse_null, refuse_outside, skip_empty, vec3};
 use crate::status::EtendueStatus;
 use core::ffi::c_void;
 use core::mem::size_of;
 use core::ptr::{NonNull, null};
+use etendue::Vec2;
 use etendue::reflection::Reflection;
 use etendue::warp::{self, *};
-use etendue::{Vec2, Vec3};
 use etendue_batch::{Batch, BatchWarp, WARPS, WarpFunctions};
 
 /// The number of each warp, and whether it has parameters.
@@ -31,7 +31,7 @@ etendue::warps!(warps! {});
 
 /// The struct of a warp's parameters; the core's struct has the same fields.
 macro_rules! parameters {
-    ($(#[$doc:meta])* $name:ident = $type:ty { $($(#[$field_doc:meta])* $field:ident: $kind:ty,)+ }) => {
+    ($($(#[$doc:meta])* $name:ident = $type:ty { $($(#[$field_doc:meta])* $field:ident: $kind:ty,)+ })+) => {$(
         $(#[$doc])*
         #[derive(Clone, Copy, Debug)]
         #[repr(C)]
@@ -39,7 +39,7 @@ macro_rules! parameters {
             $($(#[$field_doc])* pub $field: $kind,)+
         }
         const _: () = assert!(size_of::<$name>() == size_of::<$type>());
-    };
+    )+};
 }
 parameters! {
     /// Directions within an angle of +z, uniform in solid angle.
@@ -47,22 +47,16 @@ parameters! {
         /// 1 - cos of the angle, in [0, 2].
         one_minus_cos: f32,
     }
-}
-parameters! {
     /// Points of the unit square with a pdf that is bilinear between four corner values.
     EtendueBilinear = warp::Bilinear<f32> {
         /// Relative densities at (0, 0), (1, 0), (0, 1) and (1, 1): at least 0, in any unit.
         corners: [f32; 4],
     }
-}
-parameters! {
     /// Visible normals of a GGX microsurface, prepared for a view; in the frame whose z axis is the normal of the surface.
     EtendueGgxVisibleNormals = warp::GgxVisibleNormals<f32> {
         /// What is inside does not concern callers.
         data: [f32; 12],
     }
-}
-parameters! {
     /// Points of a bilinear patch, nearly uniform in area.
     EtenduePatchSurface = warp::PatchSurface<f32> {
         /// Corner.
@@ -74,8 +68,6 @@ parameters! {
         /// From there to the opposite corner.
         diagonal: [f32; 3],
     }
-}
-parameters! {
     /// Numbers in [0, 1) with a pdf linear between two end values.
     EtendueLinear = warp::Linear<f32> {
         /// Relative density at 0: at least 0, in any unit.
@@ -83,8 +75,6 @@ parameters! {
         /// Relative density at 1, in the unit of `a`.
         b: f32,
     }
-}
-parameters! {
     /// Numbers in [-r, r] with the pdf (r - |x|)/r^2.
     EtendueTent = warp::Tent<f32> {
         /// The radius r.
@@ -104,12 +94,8 @@ pub unsafe extern "C" fn etendue_ggx_visible_normals_prepare(
     refuse_null!(wi, out);
     // SAFETY: the pointers are not null, and point to what the header says
     unsafe {
-        let [x, y, z] = wi.cast::<[f32; 3]>().read_unaligned();
-        out.cast::<warp::GgxVisibleNormals<f32>>().write(warp::GgxVisibleNormals::new(
-            alpha_x,
-            alpha_y,
-            Vec3::new(x, y, z),
-        ));
+        let wi = vec3(wi.cast::<[f32; 3]>().read_unaligned());
+        out.cast::<warp::GgxVisibleNormals<f32>>().write(warp::GgxVisibleNormals::new(alpha_x, alpha_y, wi));
     }
     EtendueStatus::Ok
 }
@@ -203,9 +189,7 @@ pub unsafe extern "C" fn etendue_warp_sample_batch(
     u: *const *const f32,
     points: *const *mut f32,
 ) -> EtendueStatus {
-    if n == 0 {
-        return EtendueStatus::Ok;
-    }
+    skip_empty!(n);
     let parameters = given!(warp, parameters);
     let WarpFunctions { sample, numbers, coordinates, .. } = *Batch::new().warp_functions(warp as usize);
     // SAFETY: the pointers are null, or point to what the header says
@@ -226,9 +210,7 @@ pub unsafe extern "C" fn etendue_warp_pdf_batch(
     points: *const *const f32,
     out: *mut f32,
 ) -> EtendueStatus {
-    if n == 0 {
-        return EtendueStatus::Ok;
-    }
+    skip_empty!(n);
     refuse_null!(out);
     let parameters = given!(warp, parameters);
     let WarpFunctions { pdf, coordinates, .. } = *Batch::new().warp_functions(warp as usize);
@@ -248,9 +230,7 @@ pub unsafe extern "C" fn etendue_warp_invert_batch(
     points: *const *const f32,
     u: *const *mut f32,
 ) -> EtendueStatus {
-    if n == 0 {
-        return EtendueStatus::Ok;
-    }
+    skip_empty!(n);
     let parameters = given!(warp, parameters);
     let WarpFunctions { invert, numbers, coordinates, .. } = *Batch::new().warp_functions(warp as usize);
     // SAFETY: the pointers are null, or point to what the header says
