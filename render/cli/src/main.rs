@@ -2,7 +2,6 @@
 
 mod beside;
 mod compare;
-mod display;
 mod image;
 mod interrupt;
 mod list;

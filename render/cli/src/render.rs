@@ -1,7 +1,6 @@
 //! `etendue render`: renders a scene with a given number of samples, or until its error or the time is what was asked for.
 
 use crate::beside::{Beside, Cost};
-use crate::display::{Display, DisplayOptions};
 use crate::image::ImageOptions;
 use crate::interrupt::Interrupt;
 use crate::output::{Output, grouped, percent};
@@ -17,7 +16,6 @@ use etendue_render::progressive::{self, Goal, Pass, Progress, Refinement};
 use etendue_render::sampler::reports_variance;
 use etendue_render::{Identity, RayCount, Sampler, Sensor, Settings, Technique, World};
 use serde_json::{Value, json};
-use std::cell::RefCell;
 use std::error::Error;
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -44,8 +42,6 @@ pub(crate) struct Options {
     /// Render the scene by this technique too, in the same time, and write a PNG whose left half is that image
     #[arg(long, value_name = "TECHNIQUE", value_parser = named::<Technique>(&Technique::NAMES), hide_possible_values = true, conflicts_with_all = ["parts", "repeat", "json"])]
     beside: Option<Technique>,
-    #[command(flatten)]
-    display: DisplayOptions,
     /// Print the result as one JSON object
     #[arg(long)]
     json: bool,
@@ -100,7 +96,6 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
         Some(plan) => plan.check().map_err(|what| format!("--{}: {what}", goal.option()))?,
     }
     if let Some(content) = options.part.content(&settings)? {
-        options.display.check_is_unused()?;
         return part::run(image, &content, options.output.as_deref(), scene, settings, options.json, &interrupt);
     }
     let output = Output::new(options.output.as_deref(), &scene, image.stem())?;
@@ -117,8 +112,7 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     }
     let build = start.elapsed().as_secs_f64();
 
-    let display = RefCell::new(options.display.connect(&output.exr));
-    let studio = Session { world: &world, identity, output: &output, interrupt: &interrupt, display };
+    let studio = Session { world: &world, identity, output: &output, interrupt: &interrupt };
     let technique = beside.as_ref().map(|beside| beside.technique);
     let (done, other) = pool.install(move || -> Result<_, String> {
         let done = match &plan {
@@ -164,7 +158,6 @@ struct Session<'a> {
     identity: Identity,
     output: &'a Output,
     interrupt: &'a Interrupt,
-    display: RefCell<Display>,
 }
 
 impl Session<'_> {
@@ -185,7 +178,7 @@ impl Session<'_> {
         let (film, rays) = last.unwrap_or_else(|| unreachable!("--repeat is at least 1"));
         bar.finish_and_clear();
         let error = Claim::new(&film, &self.world.view(&self.identity.settings).foreseen(), spp.into());
-        self.write(&film, &self.identity, error)?;
+        self.output.save(self.interrupt, &film, &self.identity, error)?;
         let has_sets = reports_variance(sampler, spp, sets);
         let sets = sampler.sets(spp, sets);
         Ok(Image { film, error, rays, spp: spp.into(), sampler, sets, has_sets, seconds, passes: Vec::new() })
@@ -217,7 +210,8 @@ impl Session<'_> {
         let finish = |known: &Progress| {
             let (spp, sampler) = (u32::try_from(known.spp).unwrap_or(u32::MAX), known.passes[0].sampler);
             let settings = Settings { spp, sampler, ..plan.settings };
-            self.write(&known.film, &Identity { settings, ..self.identity.clone() }, known.error)
+            let identity = Identity { settings, ..self.identity.clone() };
+            self.output.save(self.interrupt, &known.film, &identity, known.error)
         };
         let done = progressive::render(self.world, plan, &advance, start, finish);
         bar.finish_and_clear();
@@ -238,12 +232,6 @@ impl Session<'_> {
         let done = progressive::render(self.world, &plan, &advance, |_, _| (), |_| Ok(()));
         bar.finish_and_clear();
         done
-    }
-
-    fn write(&self, film: &Film, identity: &Identity, error: Option<Claim>) -> Result<(), String> {
-        self.output.save(self.interrupt, film, identity, error)?;
-        self.display.borrow_mut().show(film);
-        Ok(())
     }
 }
 

@@ -19,10 +19,9 @@ mod state;
 mod watch;
 mod work;
 
-use crate::display::DisplayOptions;
 use crate::image::ImageOptions;
 use crate::interrupt::Interrupt;
-use crate::output::{Output, named};
+use crate::output::Output;
 use crate::progress::bar;
 use crate::render::{fraction, seconds};
 use clap::Args;
@@ -59,8 +58,6 @@ pub(crate) struct Options {
     /// Print the address of the page, and open no browser
     #[arg(long)]
     no_open: bool,
-    #[command(flatten)]
-    display: DisplayOptions,
 }
 
 /// Serves the page and renders, until the program is interrupted.
@@ -82,10 +79,6 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     let server = Server::new(options.port)?;
     let pool = pool(image.threads)?;
     let shared = Arc::new(Shared::new(Worker::state(Way { technique: settings.technique, sampler })));
-    let display = match &output {
-        Some(output) => options.display.connect(&output.exr),
-        None => options.display.connect(&named(image.stem(), ".exr")),
-    };
     if let Some(output) = &output {
         interrupt.watch(&bar(0, ""), &output.exr);
     }
@@ -109,5 +102,5 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     {
         say(format_args!("no browser was opened, since {what}: open the address above yourself"));
     }
-    Worker { image, goal, pool: &pool, output, interrupt: &interrupt, display }.run(reading, &shared)
+    Worker { image, goal, pool: &pool, output, interrupt: &interrupt }.run(reading, &shared)
 }

@@ -2,7 +2,6 @@
 
 use super::state::{Facts, Picture, Shared, State, Way, Wishes};
 use super::watch::Watch;
-use crate::display::Display;
 use crate::image::ImageOptions;
 use crate::interrupt::Interrupt;
 use crate::output::Output;
@@ -29,9 +28,8 @@ const BYTES: u64 = 28 + 8 + 28;
 const MOST_KEPT: u64 = 1 << 30;
 /// A pass takes a quarter of the time so far, within these bounds in seconds, unless its least number of samples takes longer.
 const PASS: [f64; 2] = [0.1, 1.0];
-/// Files are written, and a display server is sent an image, no more often than that.
+/// Files are written no more often than that.
 const SAVE: Duration = Duration::from_secs(1);
-const SHOW: Duration = Duration::from_millis(250);
 /// Errors are noted at times that differ by this factor, so that a longer rendering has only a few more of them.
 const APART: f64 = 1.1;
 
@@ -85,18 +83,15 @@ pub(crate) struct Worker<'a> {
     /// The files that the image is kept in, if that is asked for.
     pub(crate) output: Option<Arc<Output>>,
     pub(crate) interrupt: &'a Interrupt,
-    pub(crate) display: Display,
 }
 
 /// What has been done with the image that is shown.
 struct Done {
     version: u64,
-    /// The versions that the files and the display server have.
+    /// The version that the files have.
     saved: u64,
-    shown: u64,
     /// When they get the next one.
     save: Instant,
-    show: Instant,
 }
 
 impl Worker<'_> {
@@ -132,12 +127,12 @@ impl Worker<'_> {
     }
 
     /// Renders until the program is interrupted.
-    pub(crate) fn run(mut self, reading: Reading, shared: &Shared) -> Result<(), Box<dyn Error>> {
+    pub(crate) fn run(self, reading: Reading, shared: &Shared) -> Result<(), Box<dyn Error>> {
         let mut subject = self.build(reading)?;
         subject.share(&mut shared.lock());
         let mut kept: Vec<Kept> = Vec::new();
         let now = Instant::now();
-        let mut done = Done { version: 0, saved: 0, shown: 0, save: now, show: now };
+        let mut done = Done { version: 0, saved: 0, save: now };
         loop {
             let wishes = shared.wishes();
             if wishes.reload {
@@ -244,18 +239,13 @@ impl Worker<'_> {
         }
     }
 
-    /// Writes the files and shows the image elsewhere, if that is due. An interruption writes what they do not have yet.
-    fn keep(&mut self, done: &mut Done, way: Way, subject: &Subject, shared: &Shared, is_idle: bool) {
+    /// Writes the files if that is due. An interruption writes what they do not have yet.
+    fn keep(&self, done: &mut Done, way: Way, subject: &Subject, shared: &Shared, is_idle: bool) {
+        let Some(output) = &self.output else { return };
         let Some(picture) = shared.lock().picture(way).cloned() else { return };
         let identity = subject.identity_of(&picture);
         let Picture { film, error, version, .. } = picture;
-        let is_due = |has: u64, at: Instant| has != version && (is_idle || Instant::now() >= at);
-        if is_due(done.shown, done.show) {
-            self.display.show(&film);
-            (done.shown, done.show) = (version, Instant::now() + SHOW);
-        }
-        let Some(output) = &self.output else { return };
-        if is_due(done.saved, done.save) {
+        if done.saved != version && (is_idle || Instant::now() >= done.save) {
             let began = Instant::now();
             let written = output.save(self.interrupt, &film, &identity, error);
             // large files take no more than a tenth of the time

@@ -1,7 +1,6 @@
 //! Runs the program as a user would, and checks output, messages and exit codes.
 
 mod chart;
-mod display;
 mod lost;
 mod misuse;
 mod parts;
