@@ -2,7 +2,7 @@
 //! linking the renderer takes longer than most tests.
 
 mod analytic;
-mod brute_force;
+mod attack;
 mod certificates;
 mod choice;
 mod daylight;
@@ -21,6 +21,7 @@ mod panels;
 mod parts;
 mod portals;
 mod profiles;
+mod random;
 mod ray_oracle;
 mod rays;
 mod references;

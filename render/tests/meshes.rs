@@ -1,32 +1,13 @@
-//! Difficult meshes, and random numbers to make them.
+//! Difficult meshes.
 
-use etendue::Vec2;
-use etendue::sequence::{Independent, Sequence};
+use crate::random::Random;
+use etendue_oracle::narrow;
 
 /// The corners of a triangle.
 pub(crate) type Triangle = [[f32; 3]; 3];
 
-/// A generator of random numbers.
-pub(crate) struct Random {
-    /// How many numbers have been drawn.
-    pub(crate) index: u32,
-}
-
-impl Random {
-    pub(crate) fn unit(&mut self) -> f32 {
-        self.index += 1;
-        let u: Vec2<f32> = Independent::new(9).pair(0, self.index, 0);
-        u.x
-    }
-    pub(crate) fn signed(&mut self) -> f32 {
-        self.unit() * 2.0 - 1.0
-    }
-    pub(crate) fn point(&mut self) -> [f32; 3] {
-        [self.signed(), self.signed(), self.signed()]
-    }
-    pub(crate) fn below(&mut self, n: usize) -> usize {
-        (self.unit() * n as f32) as usize % n
-    }
+pub(crate) fn point(random: &mut Random) -> [f32; 3] {
+    narrow(random.point())
 }
 
 pub(crate) fn add(a: [f32; 3], b: [f32; 3], s: f32) -> [f32; 3] {
@@ -64,13 +45,13 @@ pub(crate) fn cube(n: usize) -> Vec<Triangle> {
 /// Difficult meshes within [−2, 2]³.
 pub(crate) fn meshes(random: &mut Random) -> Vec<(&'static str, Vec<Triangle>)> {
     let soup = (0..300).map(|_| {
-        let center = random.point();
-        [0; 3].map(|_| add(center, random.point(), 0.2))
+        let center = point(random);
+        [0; 3].map(|_| add(center, point(random), 0.2))
     });
     let soup = soup.collect();
     let slivers = (0..200).map(|_| {
-        let (a, along) = (random.point(), random.point());
-        [a, add(a, along, 1.0), add(add(a, along, random.unit()), random.point(), 1e-6)]
+        let (a, along) = (point(random), point(random));
+        [a, add(a, along, 1.0), add(add(a, along, random.unit() as f32), point(random), 1e-6)]
     });
     let slivers = slivers.collect();
     let fan = (0..64).map(|i| {

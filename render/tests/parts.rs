@@ -1,6 +1,7 @@
 //! Parts of an image make the image, bit for bit, however it was split, and nothing else.
 
 use crate::kit::Folder;
+use crate::random::Random;
 use etendue_oracle::tier::cases;
 use etendue_render::area::{Area, count};
 use etendue_render::drive::{Content, Samples};
@@ -12,14 +13,7 @@ use etendue_render::{Identity, Sampler, Sensor, Settings, Technique, World, imag
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-/// A random number generator (Knuth's MMIX).
-struct Random(u64);
-
 impl Random {
-    fn below(&mut self, n: usize) -> usize {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        ((self.0 >> 33) as usize) % n
-    }
     fn shuffle<T>(&mut self, items: &mut [T]) {
         for i in (1..items.len()).rev() {
             items.swap(i, self.below(i + 1));
@@ -101,7 +95,7 @@ const SETTINGS: Settings = Settings { width: 50, height: 37, spp: 24, seed: 3, .
 
 #[test]
 fn any_tiles_in_any_order_make_the_image() {
-    let mut random = Random(1);
+    let mut random = Random::new(1);
     for (name, technique, sampler, spp, sets) in [
         ("quads", Technique::Auto, Sampler::Sobol, 64, 0),
         ("quads", Technique::SolidAngle, Sampler::Independent, 21, 0),
@@ -137,7 +131,7 @@ fn any_tiles_in_any_order_make_the_image() {
 /// With the adaptive sampler, any tiles of the pilot and any tiles after it make the image.
 #[test]
 fn adaptive_parts_make_the_image() {
-    let mut random = Random(2);
+    let mut random = Random::new(2);
     for (name, technique, spp, sets) in [
         ("quads", Technique::SolidAngle, 64, 0),
         ("quads", Technique::Auto, 32, 1),
@@ -320,7 +314,7 @@ fn damaged_files_are_noticed() {
         assert!(error.starts_with(&name), "{error}");
     }
     // bits of the header, the fifth of which leads beyond what systems allow in places, and of all
-    let mut random = Random(5);
+    let mut random = Random::new(5);
     let header = |length: usize| (0..length).flat_map(|at| [(at, at % 8), (at, 4)]);
     let all = (0..1000).map(|_| (random.below(bytes.len()), random.below(8)));
     let mut noticed = [0; 2];

@@ -6,7 +6,8 @@
 //! distances below 10⁻⁴ (scale 10⁻⁶), a tree deeper than its stack ("nested"), coincident primitives ("alike"; 100,000 of them in
 //! `rays.rs`), and gaps between adjacent triangles (`closed_meshes_do_not_leak`).
 
-use crate::meshes::{Random, Triangle, add, cube, meshes};
+use crate::meshes::{Triangle, add, cube, meshes, point};
+use crate::random::Random;
 use etendue::{Mask, Real, Vec3, f32x8, u32x8};
 use etendue_render::bvh::{Bvh, GROUP, Hits, NOTHING, Scratch, ShapeSet, Traversal};
 use etendue_render::packet::M8;
@@ -17,11 +18,11 @@ type Ray = ([f32; 3], [f32; 3]);
 /// the plane of a side of a triangle's box; from a corner.
 fn ray(kind: usize, mesh: &[Triangle], random: &mut Random) -> Ray {
     let t = mesh[random.below(mesh.len())];
-    let origin = random.point().map(|x| 2.0 * x);
+    let origin = point(random).map(|x| 2.0 * x);
     let towards = |o: [f32; 3], p: [f32; 3]| (o, add(p, o, -1.0));
     let (a, b) = (t[random.below(3)], t[random.below(3)]);
     match kind {
-        0 => (origin, random.point()),
+        0 => (origin, point(random)),
         1 => towards(origin, a),
         2 => towards(origin, add(a.map(|x| 0.5 * x), b, 0.5)),
         3 | 4 => {
@@ -33,12 +34,12 @@ fn ray(kind: usize, mesh: &[Triangle], random: &mut Random) -> Ray {
         }
         5 => {
             let axis = random.below(3);
-            let (mut o, mut p) = (origin, random.point());
+            let (mut o, mut p) = (origin, point(random));
             let plane = t.iter().map(|v| v[axis]).fold(f32::INFINITY, f32::min);
             (o[axis], p[axis]) = (plane, plane);
             towards(o, p)
         }
-        _ => (a, random.point()),
+        _ => (a, point(random)),
     }
 }
 
@@ -52,7 +53,7 @@ fn group(kind: usize, mesh: &[Triangle], random: &mut Random) -> Vec<Ray> {
     // narrow enough for a frustum, or just too wide
     let (o, d) = ray(1, mesh, random);
     let spread = if kind == 7 { 0.005 } else { 0.03 };
-    (0..8 * GROUP).map(|_| (add(o, random.point(), 0.001), add(d, random.point(), spread))).collect()
+    (0..8 * GROUP).map(|_| (add(o, point(random), 0.001), add(d, point(random), spread))).collect()
 }
 
 /// The hits of a group, and which rays are unoccluded up to half of the hit distance, up to it, and slightly beyond.
@@ -94,7 +95,7 @@ fn trace(bvh: &Bvh, rays: &[Ray], active: &[M8], stack: &mut Scratch) -> Found {
 
 /// Traces groups of all kinds on all meshes, scaled and shifted. Returns the numbers of compared rays and of hits.
 fn campaign(groups: usize, seed: u32) -> [u64; 2] {
-    let mut random = Random { index: seed };
+    let mut random = Random::new(seed.into());
     let mut stack = Scratch::default();
     let mut counts = [0; 2];
     for (name, mesh) in meshes(&mut random) {
@@ -160,18 +161,18 @@ fn ways_agree_with_every_leaf_tested_at_length() {
 /// Every ray from inside a closed mesh hits it, also at corners and edges.
 #[test]
 fn closed_meshes_do_not_leak() {
-    let mut random = Random { index: 77 };
+    let mut random = Random::new(77);
     let mut stack = Scratch::default();
     for scale in [1e-6_f32, 1.0, 1e6] {
         let mesh: Vec<Triangle> = cube(7).iter().map(|t| t.map(|v| v.map(|x| x * scale))).collect();
         for way in [Traversal::Choose, Traversal::Stream, Traversal::Single] {
             let bvh = Bvh::new(&mesh, ShapeSet::new(std::iter::empty()).unwrap()).unwrap().with_traversal(way);
             for index in 0..300 {
-                let center = random.point().map(|x| 0.9 * x * scale);
+                let center = point(&mut random).map(|x| 0.9 * x * scale);
                 let rays = (0..8 * GROUP).map(|_| {
                     let t = mesh[random.below(mesh.len())];
                     let (a, b) = (t[random.below(3)], t[random.below(3)]);
-                    let mix = if index % 2 == 0 { 0.5 } else { random.unit() };
+                    let mix = if index % 2 == 0 { 0.5 } else { random.unit() as f32 };
                     let d = add(add(a, add(b, a, -1.0), mix), center, -1.0).map(f64::from);
                     let length = d.iter().map(|x| x * x).sum::<f64>().sqrt();
                     (center, d.map(|x| (x / length) as f32))

@@ -12,7 +12,6 @@ mod plan;
 mod processor;
 mod progress;
 mod render;
-mod selftest;
 mod view;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
@@ -55,10 +54,6 @@ enum Command {
     ///
     /// Example: `etendue compare reference.exr image.exr` prints the error, and whether the difference is more than noise.
     Compare(compare::Options),
-    /// Render random scenes with several techniques, and check that the images agree with an exhaustive renderer
-    ///
-    /// Example: `etendue selftest 10` renders ten scenes of each kind.
-    Selftest(selftest::Options),
     /// Measure the error and time of techniques and samplers, and write a report with charts
     ///
     /// Example: `etendue chart studio --quick` finds the best technique for a scene in less than three minutes.
@@ -84,7 +79,7 @@ fn main() -> ExitCode {
         return ExitCode::from(3);
     }
     match run(arguments().command) {
-        Ok(code) => code,
+        Ok(()) => ExitCode::SUCCESS,
         // the reader has closed the pipe, as `head` does: this ends the program as SIGPIPE ends others, without a message
         Err(error) if error.downcast_ref::<io::Error>().is_some_and(|e| e.kind() == io::ErrorKind::BrokenPipe) => {
             ExitCode::from(141)
@@ -111,10 +106,8 @@ fn arguments() -> Cli {
     Cli::from_arg_matches(&command.get_matches()).unwrap_or_else(|error| error.exit())
 }
 
-fn run(command: Command) -> Result<ExitCode, Box<dyn Error>> {
+fn run(command: Command) -> Result<(), Box<dyn Error>> {
     match command {
-        Command::Selftest(options) if !selftest::run(&options)? => return Ok(ExitCode::FAILURE),
-        Command::Selftest(_) => {}
         Command::Render(options) => render::run(&options)?,
         Command::View(options) => view::run(&options)?,
         Command::Plan(options) => plan::run(&options)?,
@@ -124,7 +117,7 @@ fn run(command: Command) -> Result<ExitCode, Box<dyn Error>> {
         Command::Atlas(options) => atlas::run(&options)?,
         Command::List => list::run()?,
     }
-    Ok(ExitCode::SUCCESS)
+    Ok(())
 }
 
 /// The command line, for the report.

@@ -1,7 +1,6 @@
 //! Measures the renderer and the library: the error of every technique against its time, and where the library loses accuracy.
 //!
 //! - [`chart`]: error against time on scenes, as a report with charts.
-//! - [`attack`]: random scenes by all techniques, which must agree with the oracle's images.
 //! - [`atlas`]: greatest errors of every shape over size, elevation, distance and aspect ratio, beside textbook formulas.
 //! - [`cost`]: time per sample, for these and for the benchmarks.
 //! - [`interrupt`]: what ends the program from outside.
@@ -9,7 +8,6 @@
 //! - [`processor_time`]: the time that the processors spend for this program.
 
 pub mod atlas;
-pub mod attack;
 pub mod chart;
 pub mod cost;
 mod hash;
@@ -17,4 +15,3 @@ pub mod interrupt;
 pub mod options;
 pub mod processor_time;
 pub mod progress;
-mod random;

@@ -313,24 +313,6 @@ fn compare_warns_and_refuses() {
     assert!(error.contains("few.png"), "{error}");
 }
 
-#[test]
-fn selftest_compares_random_scenes() {
-    let folder = Folder::new();
-    let few = ["--regime", "open,soup", "--side", "12", "--spp", "16", "--threads", "2"];
-    let text = folder.succeed(&[&["selftest", "2"], &few[..]].concat());
-    let lines: Vec<_> = text.lines().collect();
-    assert!(lines.len() == 3 && lines[0].starts_with("open ") && lines[1].starts_with("soup "), "{text}");
-    assert!(lines[2].starts_with("4 scenes, ") && lines[2].ends_with(", all agree"), "{text}");
-    for (words, why) in [
-        (&["selftest", "quads"][..], "whole number from 1 to"),
-        (&["selftest", "--regime", "none"], "no regime is called \"none\": thin, "),
-    ] {
-        let error = folder.fail(words);
-        assert!(error.contains(why), "{error}");
-    }
-    assert!(folder.names().is_empty());
-}
-
 /// The left half is the other image, the right half is this one, and a white line is between them.
 #[test]
 fn another_technique_is_beside_the_image() {

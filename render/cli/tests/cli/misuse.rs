@@ -28,15 +28,13 @@ fn bad_values_are_named_with_their_option() {
         ("render", "--sensor", "film", "[possible values: "),
         ("render", "--seed", "x", "from 0 to 18446744073709551615"),
         ("plan", "--tasks", "-1", "from 1 to 1000000"),
-        ("selftest", "--side", "-1", "from 1 to 4096"),
-        ("selftest", "--seed", "-1", "from 0 to 9223372036854775808"),
         ("chart", "--spp", "-1", "from 1 to 4194304"),
         ("chart", "--replicates", "-1", "from 1 to 10000"),
         ("chart", "--time-limit", "-1", "from 0 to"),
         ("chart", "--reference-error", "-1", "at least 0"),
         ("atlas", "--threads", "-1", "0 for one thread per core"),
     ] {
-        let words: &[&str] = if ["atlas", "selftest"].contains(&command) { &[command] } else { &[command, "quads"] };
+        let words: &[&str] = if command == "atlas" { &[command] } else { &[command, "quads"] };
         let error = folder.fail(&[words, &[option, value]].concat());
         let first = error.lines().next().unwrap();
         assert!(first.contains(option) && first.contains(value), "{option} {value}: {error}");
@@ -159,7 +157,6 @@ fn a_full_standard_output_is_named() {
         (&["compare", "a.exr", "a.exr"], ""),
         (&["compare", "a.exr", "a.exr", "--json"], ""),
         (&["merge", "-o", "b.exr", "part.exr"], ""),
-        (&["selftest", "1", "--regime", "open", "--side", "2", "--spp", "4"], ""),
     ] {
         let to = |out: Stdio| {
             let mut command = Command::new(env!("CARGO_BIN_EXE_etendue"));

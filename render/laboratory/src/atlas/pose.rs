@@ -1,7 +1,7 @@
 //! Poses of shapes, and the sweeps over them, with lengths that are exact in f32.
 
-use crate::random::Random;
 use clap::ValueEnum;
+use etendue_judge::generators::Random;
 use etendue_oracle::{V3, cross, length as norm, narrow, unit};
 
 /// A kind of shape and the measure by which it is sampled.
@@ -305,11 +305,11 @@ pub fn sweeps(kind: ShapeKind, quick: bool) -> Vec<Sweep> {
 #[must_use]
 pub fn square(n: usize, seed: u64) -> Vec<[f32; 2]> {
     const EDGES: [f32; 7] = [0.0, 1.0 / 16_777_216.0, 1e-3, 0.5, 0.75, 0.999, 1.0 - 1.0 / 16_777_216.0];
-    let mut random = Random(seed ^ 0x5eed);
+    let mut random = Random::new(seed);
     (0..n)
         .map(|i| {
             let mut axis = |edge: bool| {
-                let word = random.bits();
+                let word = random.word();
                 if edge { EDGES[(word % 7) as usize] } else { (word >> 40) as f32 / 16_777_216.0 }
             };
             // a quarter of them in a corner, half of them at an edge
@@ -330,7 +330,7 @@ fn coarse(x: f64) -> f64 {
 /// Three perpendicular vectors whose products with 8-bit numbers are exact in f32: columns of the rotation by a quaternion of small
 /// integers. The third has length 1; if `upright`, it is the z axis, so that a height of 0 is exact.
 fn axes(random: &mut Random, upright: bool) -> [V3; 3] {
-    let mut pick = || (random.bits() % 13) as f64 - 6.0;
+    let mut pick = || (random.word() % 13) as f64 - 6.0;
     let (a, d) = (pick() + 0.5, pick());
     let (b, c) = if upright { (0.0, 0.0) } else { (pick(), pick()) };
     let u = [a * a + b * b - c * c - d * d, 2.0 * (b * c + a * d), 2.0 * (b * d - a * c)];
@@ -348,13 +348,14 @@ impl Sweep {
     /// The pose of a cell, rotated at random for each `turn`.
     #[must_use]
     pub fn pose(&self, kind: ShapeKind, x: f64, y: f64, turn: u64) -> Pose {
-        let mut random = Random(turn.wrapping_mul(0x1234_5678_9abc_def1) ^ x.to_bits() ^ y.to_bits().rotate_left(17));
+        let mut random =
+            Random::new(turn.wrapping_mul(0x1234_5678_9abc_def1) ^ x.to_bits() ^ y.to_bits().rotate_left(17));
         let exact = y == 0.0 && (kind.round() == (self.axes == Axes::Elevation) || !kind.round());
         let axes = axes(&mut random, exact && self.axes != Axes::Horizon);
         let units = axes.map(unit);
         let at = |v: V3| -> V3 { core::array::from_fn(|i| (0..3).map(|k| units[k][i] * v[k]).sum()) };
         let up = narrow(units[2]);
-        let around = |random: &mut Random| (std::f64::consts::TAU * random.unit()).sin_cos();
+        let around = |random: &mut Random| (std::f64::consts::TAU * random.unit_f64()).sin_cos();
         let level = |sine: f64| ((1.0 - sine) * (1.0 + sine)).max(0.0).sqrt();
         if kind.round() {
             let sin = if self.axes == Axes::Elevation { y } else { y * x };

@@ -6,7 +6,7 @@ use crate::attack::build::{
 };
 use crate::attack::draft::{Draft, Finish, Form, Part, V3};
 use crate::random::Random;
-use etendue_oracle::unit;
+use etendue_oracle::{along, length, sub, unit};
 
 /// Half sizes of a body.
 fn half(random: &mut Random) -> V3 {
@@ -46,7 +46,7 @@ fn height(random: &mut Random) -> f64 {
     if random.one_in(2) { random.between(0.7, 2.0) } else { random.power(0.0, 2.5) }
 }
 
-pub(super) fn thin(random: &mut Random) -> Draft {
+pub(crate) fn thin(random: &mut Random) -> Draft {
     let size = random.between(0.3, 0.8);
     let solid = if random.one_in(4) { prism(5) } else { cube() };
     let half = [size, 0.5 * size * random.power(-5.0, -2.0), size * random.between(0.3, 1.0)];
@@ -56,7 +56,7 @@ pub(super) fn thin(random: &mut Random) -> Draft {
     high(&body, height, random)
 }
 
-pub(super) fn chamfered(random: &mut Random) -> Draft {
+pub(crate) fn chamfered(random: &mut Random) -> Draft {
     let mut solid = cube();
     for _ in 0..1 + random.below(3) {
         let corner: V3 = [0; 3].map(|_| random.of(&[-1.0, 1.0]));
@@ -71,7 +71,7 @@ pub(super) fn chamfered(random: &mut Random) -> Draft {
     high(&body, height, random)
 }
 
-pub(super) fn open(random: &mut Random) -> Draft {
+pub(crate) fn open(random: &mut Random) -> Draft {
     let mut draft = stage(random);
     for _ in 0..1 + random.below(3) {
         let mut mesh = triangles(&free(random));
@@ -84,7 +84,7 @@ pub(super) fn open(random: &mut Random) -> Draft {
     draft
 }
 
-pub(super) fn inverted(random: &mut Random) -> Draft {
+pub(crate) fn inverted(random: &mut Random) -> Draft {
     let mut draft = stage(random);
     for _ in 0..1 + random.below(3) {
         let mut mesh = triangles(&free(random));
@@ -105,7 +105,7 @@ pub(super) fn inverted(random: &mut Random) -> Draft {
     draft
 }
 
-pub(super) fn nested(random: &mut Random) -> Draft {
+pub(crate) fn nested(random: &mut Random) -> Draft {
     let mut draft = stage(random);
     let (solid, half, center, kind) = (any_solid(random), half(random), above(random), random.below(3));
     let axes = axes(kind, random);
@@ -119,7 +119,7 @@ pub(super) fn nested(random: &mut Random) -> Draft {
     draft
 }
 
-pub(super) fn touching(random: &mut Random) -> Draft {
+pub(crate) fn touching(random: &mut Random) -> Draft {
     let mut draft = stage(random);
     let unit_axes = axes(0, random);
     // sides that f32 has, so that what touches does so exactly
@@ -139,7 +139,7 @@ pub(super) fn touching(random: &mut Random) -> Draft {
     draft
 }
 
-pub(super) fn coplanar(random: &mut Random) -> Draft {
+pub(crate) fn coplanar(random: &mut Random) -> Draft {
     let mut draft = stage(random);
     // what is twice in the same place has one albedo
     let Finish::Diffuse(ground) = draft.parts[0].finish else { return draft };
@@ -162,7 +162,7 @@ pub(super) fn coplanar(random: &mut Random) -> Draft {
     draft
 }
 
-pub(super) fn soup(random: &mut Random) -> Draft {
+pub(crate) fn soup(random: &mut Random) -> Draft {
     let mut draft = stage(random);
     for _ in 0..1 + random.below(8) {
         let (center, size) = (above(random), random.power(-2.0, 0.0));
@@ -180,7 +180,7 @@ pub(super) fn soup(random: &mut Random) -> Draft {
     draft
 }
 
-pub(super) fn balls(random: &mut Random) -> Draft {
+pub(crate) fn balls(random: &mut Random) -> Draft {
     let mut draft = stage(random);
     for _ in 0..1 + random.below(3) {
         let radius = random.power(-1.5, -0.2);
@@ -205,5 +205,30 @@ pub(super) fn balls(random: &mut Random) -> Draft {
         draft.parts[0] = floor(20.0, random);
         draft.look = look([0.0, 0.2, 0.0], 6.0, random);
     }
+    draft
+}
+
+/// Points next to a wall see its edges under nearly 180°.
+pub(crate) fn walls(random: &mut Random) -> Draft {
+    let mut draft = stage(random);
+    let (height, reach) = (random.power(-1.3, 0.3), random.between(5.0, 50.0));
+    let half = [reach, 0.5 * height, 0.5 * height * random.power(-3.0, 0.0)];
+    draft.parts[0] = floor(2.0 * reach, random);
+    let (kind, center) = (random.below(2), [0.0, half[1], 0.0]);
+    let axes = axes(kind, random);
+    let at = |v: V3| -> V3 { (0..3).fold(center, |sum, k| along(sum, axes[k], v[k] * half[k])) };
+    let mesh = if random.one_in(4) {
+        quad(at([-1.0, -1.0, 0.0]), axes[0].map(|x| 2.0 * half[0] * x), axes[1].map(|x| 2.0 * half[1] * x))
+    } else {
+        triangles(&placed(&cube(), half, &axes, center))
+    };
+    draft.parts.push(Part::mesh(mesh, albedo(random)));
+    // a lamp behind it, seen past its upper edge
+    let top = at([random.between(-1.0, 1.0), 1.0, 0.0]);
+    let foot = along([top[0], 0.0, top[2]], axes[2], height * random.between(0.1, 5.0));
+    let beyond = along(foot, sub(top, foot), random.between(1.3, 30.0));
+    let size = length(sub(beyond, foot)) * random.power(-3.0, 0.0);
+    draft.parts[1] = lamp(beyond, foot, size, random);
+    draft.look = look(foot, random.between(1.0, 5.0), random);
     draft
 }

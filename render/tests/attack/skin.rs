@@ -6,7 +6,7 @@ use std::fmt::{self, Display, Formatter};
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 /// A number as f32, with as many digits as it has.
-pub(super) struct Number(pub(super) f64);
+pub(crate) struct Number(pub(super) f64);
 
 impl Display for Number {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
@@ -19,29 +19,29 @@ impl Display for Number {
 
 /// What varies over a mesh.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Skin {
+pub(crate) struct Skin {
     /// Texture coordinates, if it has some.
-    pub uv: Option<Uv>,
+    pub(crate) uv: Option<Uv>,
     /// Normals, if it has some.
-    pub bend: Option<Bend>,
+    pub(crate) bend: Option<Bend>,
     /// The albedo, instead of that of the finish.
-    pub albedo: Option<Pattern>,
+    pub(crate) albedo: Option<Pattern>,
     /// The opacity, if there are holes.
-    pub opacity: Option<Pattern>,
+    pub(crate) opacity: Option<Pattern>,
 }
 
 /// Texture coordinates of a corner.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Uv {
+pub(crate) struct Uv {
     /// Factors of x, y, z and 1.
-    pub rows: [[f64; 4]; 2],
+    pub(crate) rows: [[f64; 4]; 2],
     /// Greatest magnitude of what is added, which has nothing to do with the coordinates of other corners.
-    pub noise: f64,
+    pub(crate) noise: f64,
 }
 
 /// Normals of a corner: away from a centre, or those of the triangles with some noise.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Bend {
+pub(crate) enum Bend {
     /// Away from this point.
     Ball(V3),
     /// The triangle's own, and this much of another vector at each corner.
@@ -52,7 +52,7 @@ pub enum Bend {
 
 /// Normals that fit no surface, each of which depends on the position of its corner.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Wild {
+pub(crate) enum Wild {
     /// Any.
     Any,
     /// The triangle's own or the opposite.
@@ -65,26 +65,26 @@ pub enum Wild {
 
 /// Numbers over texture coordinates.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Pattern {
+pub(crate) struct Pattern {
     /// A picture, or else squares of both numbers.
-    pub picture: Result<Picture, [f32; 2]>,
+    pub(crate) picture: Result<Picture, [f32; 2]>,
     /// The mode beyond the edges of a picture, in pbrt's words.
-    pub wrap: &'static str,
+    pub(crate) wrap: &'static str,
     /// Whether a picture is interpolated.
-    pub is_bilinear: bool,
+    pub(crate) is_bilinear: bool,
     /// Factor and shift of u, and of v.
-    pub scale: [[f64; 2]; 2],
+    pub(crate) scale: [[f64; 2]; 2],
     /// Whether a picture is 1 less its numbers.
-    pub is_inverted: bool,
+    pub(crate) is_inverted: bool,
 }
 
 /// The texels of a picture.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Picture {
+pub(crate) struct Picture {
     /// Number of columns.
-    pub width: usize,
+    pub(crate) width: usize,
     /// Texels, row by row from the bottom.
-    pub texels: Vec<f32>,
+    pub(crate) texels: Vec<f32>,
 }
 
 /// A number from −1 to 1 that depends on a position.
@@ -97,8 +97,7 @@ fn noise(p: V3, salt: u64) -> f64 {
 
 impl Uv {
     /// The coordinates of a corner.
-    #[must_use]
-    pub fn at(&self, p: V3) -> [f64; 2] {
+    pub(crate) fn at(&self, p: V3) -> [f64; 2] {
         [0, 1].map(|k| {
             let [a, b, c, d] = self.rows[k];
             dot([a, b, c], p) + d + self.noise * noise(p, k as u64)
@@ -108,8 +107,7 @@ impl Uv {
 
 impl Bend {
     /// The normals at the corners of a triangle.
-    #[must_use]
-    pub fn normals(&self, [a, b, c]: [V3; 3]) -> [V3; 3] {
+    pub(crate) fn normals(&self, [a, b, c]: [V3; 3]) -> [V3; 3] {
         let flat = unit(cross(sub(b, a), sub(c, a)));
         [a, b, c].map(|p| {
             let normal = match self {
@@ -140,15 +138,13 @@ impl Wild {
 
 impl Picture {
     /// The name of its file.
-    #[must_use]
-    pub fn name(&self) -> String {
+    pub(crate) fn name(&self) -> String {
         let mut hasher = DefaultHasher::new();
         (self.width, self.texels.iter().map(|x| x.to_bits()).collect::<Vec<_>>()).hash(&mut hasher);
         format!("{:016x}.pfm", hasher.finish())
     }
     /// Its file, a portable float map.
-    #[must_use]
-    pub fn bytes(&self) -> Vec<u8> {
+    pub(crate) fn bytes(&self) -> Vec<u8> {
         let mut bytes = format!("Pf\n{} {}\n-1\n", self.width, self.texels.len() / self.width).into_bytes();
         bytes.extend(self.texels.iter().flat_map(|x| x.to_le_bytes()));
         bytes
@@ -157,22 +153,21 @@ impl Picture {
 
 impl Skin {
     /// The pictures of its patterns.
-    pub fn pictures(&self) -> impl Iterator<Item = &Picture> {
+    pub(crate) fn pictures(&self) -> impl Iterator<Item = &Picture> {
         let patterns = [&self.albedo, &self.opacity].into_iter().flatten();
         patterns.filter_map(|pattern| pattern.picture.as_ref().ok())
     }
     /// The texture coordinates of corners, if they have some.
-    #[must_use]
-    pub fn uvs(&self, corners: &[V3]) -> Option<Vec<[f64; 2]>> {
+    pub(crate) fn uvs(&self, corners: &[V3]) -> Option<Vec<[f64; 2]>> {
         self.uv.map(|uv| corners.iter().map(|p| uv.at(*p)).collect())
     }
 }
 
 /// A pattern as the texture of this name, of colours or of numbers.
-pub(super) struct Named<'a>(&'a Pattern, &'a str, bool);
+pub(crate) struct Named<'a>(&'a Pattern, &'a str, bool);
 
 impl Pattern {
-    pub(super) const fn named<'a>(&'a self, name: &'a str, is_color: bool) -> Named<'a> {
+    pub(crate) const fn named<'a>(&'a self, name: &'a str, is_color: bool) -> Named<'a> {
         Named(self, name, is_color)
     }
 }

@@ -3,11 +3,11 @@
 use super::skin::{Picture, Skin};
 
 /// A vector or point in f64; text rounds it to f32.
-pub type V3 = [f64; 3];
+pub(crate) type V3 = [f64; 3];
 
 /// How a part reflects.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Finish {
+pub(crate) enum Finish {
     /// Lambertian, with this albedo.
     Diffuse(f32),
     /// A perfect mirror, with this reflectance.
@@ -34,7 +34,7 @@ pub enum Finish {
 
 /// The form of a part.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Form {
+pub(crate) enum Form {
     /// Triangles.
     Mesh(Vec<[V3; 3]>),
     /// A sphere of this centre and radius.
@@ -45,29 +45,29 @@ pub enum Form {
 
 /// Emission.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Glow {
+pub(crate) struct Glow {
     /// Radiance in every channel.
-    pub radiance: f32,
+    pub(crate) radiance: f32,
     /// Whether both sides emit.
-    pub two_sided: bool,
+    pub(crate) two_sided: bool,
 }
 
 /// A light without a surface.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Source {
+pub(crate) struct Source {
     /// Kind and position.
-    pub kind: Kind,
+    pub(crate) kind: Kind,
     /// Intensity, irradiance or radiance in every channel, or what the picture of a sky is multiplied by.
-    pub strength: f32,
+    pub(crate) strength: f32,
     /// From the space of a sky to world space.
-    pub map: Option<Map>,
+    pub(crate) map: Option<Map>,
     /// What a sky shows.
-    pub picture: Option<Picture>,
+    pub(crate) picture: Option<Picture>,
 }
 
 /// A kind of light without a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Kind {
+pub(crate) enum Kind {
     /// A point.
     Point(V3),
     /// A cone about the way from one point towards another; its angle, and how much of that is the falloff, in degrees.
@@ -80,63 +80,63 @@ pub enum Kind {
 
 /// A part of a scene.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Part {
+pub(crate) struct Part {
     /// Form and position.
-    pub form: Form,
+    pub(crate) form: Form,
     /// How it reflects.
-    pub finish: Finish,
+    pub(crate) finish: Finish,
     /// What it emits, if it is a light.
-    pub glow: Option<Glow>,
+    pub(crate) glow: Option<Glow>,
     /// What varies over a mesh.
-    pub skin: Skin,
+    pub(crate) skin: Skin,
     /// If there are some, the maps that place copies of a mesh, which is nowhere else.
-    pub copies: Vec<Map>,
+    pub(crate) copies: Vec<Map>,
 }
 
 /// A map to world space: the rows of the linear part, each followed by its part of the shift. Text rounds it to f32.
-pub type Map = [[f64; 4]; 3];
+pub(crate) type Map = [[f64; 4]; 3];
 
 /// Where a scene is seen from.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Look {
+pub(crate) struct Look {
     /// Position of the camera.
-    pub eye: V3,
+    pub(crate) eye: V3,
     /// What is in the middle of the image.
-    pub target: V3,
+    pub(crate) target: V3,
     /// A direction that appears upwards.
-    pub up: V3,
+    pub(crate) up: V3,
     /// Angle of view in degrees.
-    pub fov: f64,
+    pub(crate) fov: f64,
     /// Radius and distance of focus of a lens.
-    pub lens: Option<[f64; 2]>,
+    pub(crate) lens: Option<[f64; 2]>,
     /// The film, if it is not square.
-    pub frame: Option<Frame>,
+    pub(crate) frame: Option<Frame>,
 }
 
 /// A film.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Frame {
+pub(crate) struct Frame {
     /// Width and height in pixels.
-    pub size: [u32; 2],
+    pub(crate) size: [u32; 2],
     /// The columns and rows that are rendered, each from one to before the other.
-    pub window: [[u32; 2]; 2],
+    pub(crate) window: [[u32; 2]; 2],
     /// Half of the shorter side, if the camera is orthographic.
-    pub screen: Option<f64>,
+    pub(crate) screen: Option<f64>,
 }
 
 /// A scene of parts.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Draft {
+pub(crate) struct Draft {
     /// What the scene is called.
-    pub name: String,
+    pub(crate) name: String,
     /// The camera.
-    pub look: Look,
+    pub(crate) look: Look,
     /// What is in it.
-    pub parts: Vec<Part>,
+    pub(crate) parts: Vec<Part>,
     /// Its lights without a surface.
-    pub sources: Vec<Source>,
+    pub(crate) sources: Vec<Source>,
     /// Whether copies share their triangles, as they do in scenes that are read only if they have very many of them.
-    pub is_shared: bool,
+    pub(crate) is_shared: bool,
 }
 
 impl Part {
@@ -144,35 +144,30 @@ impl Part {
         Self { form, finish: Finish::Diffuse(albedo), glow, skin: Skin::default(), copies: Vec::new() }
     }
     /// Triangles that reflect.
-    #[must_use]
-    pub fn mesh(triangles: Vec<[V3; 3]>, albedo: f32) -> Self {
+    pub(crate) fn mesh(triangles: Vec<[V3; 3]>, albedo: f32) -> Self {
         Self::new(Form::Mesh(triangles), albedo, None)
     }
     /// A sphere that reflects.
-    #[must_use]
-    pub fn ball(center: V3, radius: f64, albedo: f32) -> Self {
+    pub(crate) fn ball(center: V3, radius: f64, albedo: f32) -> Self {
         Self::new(Form::Sphere(center, radius), albedo, None)
     }
     /// A light, which reflects nothing.
-    #[must_use]
-    pub fn light(form: Form, radiance: f32, two_sided: bool) -> Self {
+    pub(crate) fn light(form: Form, radiance: f32, two_sided: bool) -> Self {
         Self::new(form, 0.0, Some(Glow { radiance, two_sided }))
     }
     /// Number of primitives.
-    #[must_use]
-    pub fn size(&self) -> usize {
+    pub(crate) fn size(&self) -> usize {
         if let Form::Mesh(triangles) = &self.form { triangles.len() * self.copies.len().max(1) } else { 1 }
     }
 }
 
 impl Form {
     /// The triangles of a mesh.
-    #[must_use]
-    pub fn triangles(&self) -> &[[V3; 3]] {
+    pub(crate) fn triangles(&self) -> &[[V3; 3]] {
         if let Self::Mesh(triangles) = self { triangles } else { &[] }
     }
     /// The points that define the form, a sphere's being its centre, moved by `place`, and the edges and radii turned by `turn`.
-    pub fn moved(&mut self, place: impl Fn(V3) -> V3, turn: impl Fn(V3) -> V3) {
+    pub(crate) fn moved(&mut self, place: impl Fn(V3) -> V3, turn: impl Fn(V3) -> V3) {
         match self {
             Self::Mesh(triangles) => triangles.iter_mut().for_each(|t| *t = t.map(&place)),
             Self::Sphere(center, _) => *center = place(*center),
@@ -183,29 +178,25 @@ impl Form {
 
 impl Draft {
     /// A scene that is seen from there.
-    #[must_use]
-    pub const fn new(name: String, look: Look, parts: Vec<Part>) -> Self {
+    pub(crate) const fn new(name: String, look: Look, parts: Vec<Part>) -> Self {
         Self { name, look, parts, sources: Vec::new(), is_shared: false }
     }
     /// Number of primitives.
-    #[must_use]
-    pub fn size(&self) -> usize {
+    pub(crate) fn size(&self) -> usize {
         self.parts.iter().map(Part::size).sum::<usize>() + self.sources.len()
     }
     /// The pictures that the text names.
-    pub fn pictures(&self) -> impl Iterator<Item = &Picture> {
+    pub(crate) fn pictures(&self) -> impl Iterator<Item = &Picture> {
         let sources = self.sources.iter().filter_map(|source| source.picture.as_ref());
         self.parts.iter().flat_map(|part| part.skin.pictures()).chain(sources)
     }
     /// The same scene without light.
-    #[must_use]
     fn dark(&self) -> Self {
         let dark = |part: &Part| Part { glow: None, ..part.clone() };
         Self { parts: self.parts.iter().map(dark).collect(), sources: Vec::new(), ..self.clone() }
     }
     /// The scenes with one of its lights each; the others are there, but dark.
-    #[must_use]
-    pub fn alone(&self) -> Vec<Self> {
+    pub(crate) fn alone(&self) -> Vec<Self> {
         let dark = self.dark();
         let with = |index: usize| {
             let mut alone = dark.clone();
@@ -217,7 +208,7 @@ impl Draft {
         of_parts.chain(of_sources).collect()
     }
     /// Moves everything.
-    pub fn shift(&mut self, by: V3) {
+    pub(crate) fn shift(&mut self, by: V3) {
         let place = |p: V3| std::array::from_fn(|k| p[k] + by[k]);
         let whole = self.parts.iter_mut().filter(|part| part.copies.is_empty());
         whole.for_each(|part| part.form.moved(place, |v| v));

@@ -12,11 +12,11 @@ use crate::random::Random;
 
 /// A kind of difficulty.
 #[derive(Clone, Copy, Debug)]
-pub struct Regime {
-    /// What it is called on command lines.
-    pub name: &'static str,
+pub(crate) struct Regime {
+    /// What it is called.
+    pub(crate) name: &'static str,
     /// What its scenes are.
-    pub about: &'static str,
+    pub(crate) about: &'static str,
     make: fn(&mut Random) -> Draft,
     /// Whether lights may appear so small that some images have a sample of them and others have not.
     has_specks: bool,
@@ -27,7 +27,7 @@ const fn regime(name: &'static str, about: &'static str, make: fn(&mut Random) -
 }
 
 /// All regimes.
-pub const REGIMES: [Regime; 37] = [
+pub(crate) const REGIMES: [Regime; 38] = [
     regime("thin", "closed sheets with thicknesses of 1e-5 to 1e-2 of their size", bodies::thin),
     regime("chamfered", "boxes with corners cut off at 1e-7 to 1e-1 of their size", bodies::chamfered),
     regime("open", "bodies that lack triangles", bodies::open),
@@ -65,18 +65,17 @@ pub const REGIMES: [Regime; 37] = [
     regime("wild-normals", "vertex normals that fit no surface", people::wild),
     Regime { has_specks: true, ..regime("one-of-many", "up to 40 lights of which few matter", people::one_of_many) },
     regime("films", "parts of wide and high films, and orthographic cameras", people::films),
+    regime("walls", "walls up to 1e3 times as long as high, with a lamp behind them", bodies::walls),
 ];
 
 /// The regime of this name.
-#[must_use]
-pub fn named(name: &str) -> Option<&'static Regime> {
-    REGIMES.iter().find(|regime| regime.name == name)
+pub(crate) fn named(name: &str) -> &'static Regime {
+    REGIMES.iter().find(|regime| regime.name == name).unwrap_or_else(|| panic!("no regime is called {name:?}"))
 }
 
 impl Regime {
     /// The scene of a seed.
-    #[must_use]
-    pub fn draft(&self, seed: u64) -> Draft {
+    pub(crate) fn draft(&self, seed: u64) -> Draft {
         let name = self.name.bytes().fold(0_u64, |h, b| h.wrapping_mul(131).wrapping_add(b.into()));
         for attempt in 0.. {
             let mut random = Random::new(seed.wrapping_mul(0x100).wrapping_add(attempt) ^ name << 40);
@@ -87,7 +86,7 @@ impl Regime {
                 }
             }
             draft.parts.retain(|part| part.size() > 0);
-            draft.name = format!("{} {seed}", self.name);
+            draft.name = format!("{} {seed}, {}", self.name, self.about);
             if attempt == 99 || self.has_specks || !has_speck(&draft) {
                 return draft;
             }

@@ -13,9 +13,9 @@ use std::fmt::{self, Display, Formatter};
 use std::ops::{Range, RangeInclusive};
 
 /// The true error should be this many times the claimed one, …
-pub const HONEST: RangeInclusive<f64> = 0.7..=1.4;
+pub(crate) const HONEST: RangeInclusive<f64> = 0.7..=1.4;
 /// … in this part of all images.
-pub const SHARE: f64 = 0.95;
+pub(crate) const SHARE: f64 = 0.95;
 /// A reference has this many times the samples.
 const FINER: u32 = 16;
 /// A reference is precise enough if its squared error is at most this part of that of the image.
@@ -25,33 +25,27 @@ const SEEDS: u64 = 2;
 
 /// An image whose true error is known.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Run {
+pub(crate) struct Run {
     /// The true error over the claimed one.
-    pub ratio: f64,
+    pub(crate) ratio: f64,
     /// Whether the claim is mostly the bound of closed forms' error, or due to small lights that few samples meet: the error may be much less.
-    pub bounded: bool,
+    pub(crate) bounded: bool,
 }
 
 /// The images of a regime.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Tally {
+pub(crate) struct Tally {
     /// The images whose error is known.
-    pub runs: Vec<Run>,
+    pub(crate) runs: Vec<Run>,
     /// How many others are black, or have no error that the references show.
-    pub without: usize,
+    pub(crate) without: usize,
 }
 
 /// Renders scenes of a regime with these seeds, several times with `spp` and with fewer samples, and until an error or a time, and measures
 /// their errors.
-///
-/// # Errors
-/// Fails if a scene cannot be read or rendered.
-pub fn run(regime: &Regime, seeds: Range<u64>, quality: [u32; 2]) -> Result<Tally, String> {
-    let tallies = seeds.into_par_iter().map(|seed| {
-        let scene = read(&regime.draft(seed)).map_err(|error| format!("{} {seed}: {error}", regime.name))?;
-        measure(&scene, seed, quality).map_err(|error| format!("{} {seed}: {error}", regime.name))
-    });
-    Ok(tallies.collect::<Result<Vec<_>, String>>()?.into_iter().fold(Tally::default(), Tally::and))
+pub(crate) fn run(regime: &Regime, seeds: Range<u64>, quality: [u32; 2]) -> Tally {
+    let tallies = seeds.into_par_iter().map(|seed| measure(&read(&regime.draft(seed)).unwrap(), seed, quality));
+    tallies.collect::<Vec<_>>().into_iter().fold(Tally::default(), Tally::and)
 }
 
 /// The technique by which a reference is rendered.
@@ -92,11 +86,8 @@ impl Reference {
 }
 
 /// Renders a scene, and measures the errors of the images.
-///
-/// # Errors
-/// Fails if the scene cannot be rendered.
-pub fn measure(scene: &Scene, seed: u64, [side, spp]: [u32; 2]) -> Result<Tally, String> {
-    let world = World::new(scene).map_err(|error| error.to_string())?;
+fn measure(scene: &Scene, seed: u64, [side, spp]: [u32; 2]) -> Tally {
+    let world = World::new(scene).unwrap();
     let settings = |spp: u32, run: u64| Settings {
         width: side,
         height: side,
@@ -118,15 +109,14 @@ pub fn measure(scene: &Scene, seed: u64, [side, spp]: [u32; 2]) -> Result<Tally,
     }
     let mut refine = |goal| {
         let plan = Refinement { settings: settings(spp, SEEDS + 1), sampler: None, goal };
-        let Progress { film, error, .. } = render(&world, &plan, &|_| (), |_, _| (), |_| Ok(()))?;
+        let Progress { film, error, .. } = render(&world, &plan, &|_| (), |_, _| (), |_| Ok(())).unwrap();
         images.push((film, error));
-        Ok::<(), String>(())
     };
-    refine(Goal { seconds: Some(0.05), error: None })?;
+    refine(Goal { seconds: Some(0.05), error: None });
     let (film, _) = world.render(&settings(spp, 0), &|_| ());
     if let Some(claim) = Claim::new(&film, &foreseen, spp.into()).filter(|claim| 0.5 * claim.random > claim.systematic)
     {
-        refine(Goal { seconds: None, error: Some(0.5 * claim.total()) })?;
+        refine(Goal { seconds: None, error: Some(0.5 * claim.total()) });
     }
     // by the technique itself only where the other is not precise enough
     let (world, base) = (&world, &base);
@@ -144,12 +134,11 @@ pub fn measure(scene: &Scene, seed: u64, [side, spp]: [u32; 2]) -> Result<Tally,
         let bounded = claim.systematic.max(claim.missed) > 0.5 * claim.random;
         tally.runs.push(Run { ratio, bounded });
     }
-    Ok(tally)
+    tally
 }
 
 /// The part of images whose ratio of errors is [`HONEST`]. Where the claim is mostly a bound, the error may be less.
-#[must_use]
-pub fn honest<'a>(runs: impl IntoIterator<Item = &'a Run>) -> f64 {
+pub(crate) fn honest<'a>(runs: impl IntoIterator<Item = &'a Run>) -> f64 {
     let (mut within, mut all) = (0.0, 0.0);
     for run in runs {
         all += 1.0;
@@ -161,14 +150,12 @@ pub fn honest<'a>(runs: impl IntoIterator<Item = &'a Run>) -> f64 {
 
 impl Tally {
     /// All images of both.
-    #[must_use]
-    pub fn and(mut self, other: Self) -> Self {
+    pub(crate) fn and(mut self, other: Self) -> Self {
         self.runs.extend(other.runs);
         Self { without: self.without + other.without, ..self }
     }
     /// The ratio that this part of the images does not exceed.
-    #[must_use]
-    pub fn quantile(&self, part: f64) -> f64 {
+    pub(crate) fn quantile(&self, part: f64) -> f64 {
         let mut ratios: Vec<f64> = self.runs.iter().map(|run| run.ratio).collect();
         ratios.sort_by(f64::total_cmp);
         let last = ratios.len().saturating_sub(1) as f64;

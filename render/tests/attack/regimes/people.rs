@@ -53,7 +53,7 @@ fn bulb(irradiance: f64, from: V3, random: &mut Random) -> Source {
     source(kind, irradiance * etendue_oracle::dot(from, from))
 }
 
-pub(super) fn skies(random: &mut Random) -> Draft {
+pub(crate) fn skies(random: &mut Random) -> Draft {
     let mut draft = stage(random);
     let half = random.power(0.0, 5.0);
     draft.parts[0] = floor(half, random);
@@ -92,7 +92,7 @@ pub(super) fn skies(random: &mut Random) -> Draft {
     draft
 }
 
-pub(super) fn wild(random: &mut Random) -> Draft {
+pub(crate) fn wild(random: &mut Random) -> Draft {
     let mut draft = stage(random);
     furnish(&mut draft, random);
     if random.one_in(3) {
@@ -113,7 +113,7 @@ pub(super) fn wild(random: &mut Random) -> Draft {
     draft
 }
 
-pub(super) fn one_of_many(random: &mut Random) -> Draft {
+pub(crate) fn one_of_many(random: &mut Random) -> Draft {
     let mut draft = stage(random);
     // a box in which lights are hidden
     let hidden = [1.5, 0.3, -1.5];
@@ -160,7 +160,7 @@ pub(super) fn one_of_many(random: &mut Random) -> Draft {
     draft
 }
 
-pub(super) fn films(random: &mut Random) -> Draft {
+pub(crate) fn films(random: &mut Random) -> Draft {
     let mut draft = if random.one_in(3) { skies(random) } else { stage(random) };
     furnish(&mut draft, random);
     let long = random.power(1.0, 4.8) as u32;

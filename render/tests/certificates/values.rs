@@ -3,15 +3,16 @@
 //! The error of a light at a point is allowed to be 10⁻⁵ of what the light contributes there if nothing occludes it. A point that receives
 //! less than a hundredth of what another one of the patch does counts as a point that receives that hundredth.
 
-use super::regimes::Setting;
-use super::scenes::{placed, scene};
 use super::truth::Truth;
 use super::views::{Fit, View, World};
-use crate::meshes::{Random, Triangle};
+use crate::attack::judge::read;
+use crate::attack::regimes::Regime;
+use crate::random::Random;
 use etendue::{Real, Vec3, f32x8, f64x4};
 use etendue_oracle::{V3, along, dot, narrow, sub, unit, wide};
 use etendue_render::certify::{Blocker, Bodies, Certificate, Certifier, Precision};
 use etendue_render::occlusion::{Convex, Occlusion, Polyhedron};
+use etendue_render::scene::{Geometry, Parallelogram, Scene, Shape, Sphere};
 use etendue_render::surfaces::Surfaces;
 use std::fmt;
 
@@ -281,25 +282,49 @@ impl World {
     }
 }
 
-/// Tests about `shafts` shafts of a regime, from a number of the generator onwards.
-pub(crate) fn campaign(name: &str, made: fn(&mut Random) -> Setting, shafts: u64, first: u32) -> Values {
+/// A scene in another unit of length.
+fn scaled(scene: Scene, scale: f32) -> Scene {
+    let times = |v: [f32; 3]| v.map(|x| x * scale);
+    let shape = |shape: &Shape| {
+        let geometry = match shape.geometry {
+            Geometry::Sphere(Sphere { center, radius }) => {
+                Geometry::Sphere(Sphere { center: times(center), radius: radius * scale })
+            }
+            Geometry::Triangle(corners) => Geometry::Triangle(corners.map(times)),
+            Geometry::Parallelogram(Parallelogram { p, u, v }) => {
+                Geometry::Parallelogram(Parallelogram { p: times(p), u: times(u), v: times(v) })
+            }
+            ref other => panic!("{other:?} is not scaled"),
+        };
+        Shape { geometry, ..shape.clone() }
+    };
+    Scene {
+        triangles: scene.triangles.iter().map(|triangle| triangle.map(times)).collect(),
+        shapes: scene.shapes.iter().map(shape).collect(),
+        ..scene
+    }
+}
+
+/// Tests about `shafts` shafts of a regime, in scenes of these seeds.
+pub(crate) fn campaign(regime: &Regime, shafts: u64, seeds: impl IntoIterator<Item = u64>) -> Values {
     let (mut values, mut forms) = (Values::default(), Forms::default());
-    let mut random = Random { index: first };
-    while values.shafts < shafts {
-        let begun = random.index;
-        let Setting { triangles, shapes, floors } = made(&mut random);
-        let scale = [1.0_f32, 1.0, 1e-3, 1e3][random.below(4)];
-        let place = |v: [f32; 3]| v.map(|x| x * scale);
-        let triangles: Vec<Triangle> = triangles.iter().map(|t| t.map(place)).collect();
-        let shapes = shapes.iter().map(|s| placed(s, scale, 0.0)).collect();
-        let scene = scene(triangles, shapes);
-        let name = format!("{name} from {begun} × {scale}");
+    for seed in seeds {
+        if values.shafts >= shafts {
+            break;
+        }
+        let draft = regime.draft(seed);
+        let mut random = Random::new(!seed);
+        let scale = random.of(&[1.0, 1.0, 1e-3, 1e3]);
+        let scene = scaled(read(&draft).unwrap(), scale);
+        let name = format!("{} × {scale}", draft.name);
         let world = World { name, surfaces: Surfaces::new(&scene).unwrap(), scene };
         let found = Bodies::new(&world.surfaces.bvh);
         let none = Bodies::default();
+        // the first part is the floor
+        let floors = draft.parts[0].form.triangles().len();
         for _ in 0..16 {
             let Some(view) = world.look_past_edges(floors, &mut random, &mut values.fit) else { continue };
-            let bodies = if random.below(4) == 0 { &none } else { &found };
+            let bodies = if random.one_in(4) { &none } else { &found };
             world.values(&view, bodies, &mut forms, &mut values);
         }
     }

@@ -2,55 +2,53 @@
 
 use super::bridge::{CHANNEL, bodies, framed, sources, straighten, view};
 use super::draft::{Draft, Frame, Look, Map, Part};
+use super::regimes::named;
+use crate::kit::Folder;
 use etendue_oracle::direct::{self, Block, Body, Source, View};
 use etendue_render::compare::{LIMIT, differs};
 use etendue_render::film::Film;
 use etendue_render::occlusion::SPARED;
 use etendue_render::scene::{Affine, Instance, Scene};
 use etendue_render::{Settings, Technique, World};
-use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicU64, Ordering};
 
 /// How precisely a scene is judged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Effort {
+pub(crate) struct Effort {
     /// Width and height of the images in pixels.
-    pub side: u32,
+    pub(crate) side: u32,
     /// Width and height of the blocks that are compared, in pixels.
-    pub block: u32,
+    pub(crate) block: u32,
     /// Samples per pixel of each technique.
-    pub spp: u32,
+    pub(crate) spp: u32,
     /// Points per pixel of the oracle: four times the square of this.
-    pub points: usize,
+    pub(crate) points: usize,
     /// Seed of all random numbers.
-    pub seed: u64,
+    pub(crate) seed: u64,
 }
 
 impl Effort {
     /// Images of this size with so many samples per pixel.
-    #[must_use]
-    pub fn new(side: u32, spp: u32, seed: u64) -> Self {
+    pub(crate) fn new(side: u32, spp: u32, seed: u64) -> Self {
         let points = (f64::from(spp).sqrt() / 4.0).max(1.0) as usize;
         Self { side, block: side.div_ceil(3), spp, points, seed: seed.wrapping_mul(0x9e37_79b9) }
     }
     /// The same scene again, with other random numbers and more of them.
-    #[must_use]
-    pub const fn again(self) -> Self {
+    pub(crate) const fn again(self) -> Self {
         Self { spp: 4 * self.spp, points: 2 * self.points, seed: self.seed ^ 0x5bd1_e995, ..self }
     }
 }
 
 /// Beside noise, a block may be off by this fraction of the light that would arrive if nothing hid it, …
-pub const TOLERANCE: f64 = 2e-5;
+pub(crate) const TOLERANCE: f64 = 2e-5;
 /// … and by what it changes if points are off their surface by this fraction of their coordinates, two units in the last place, and if the
 /// ends of ways to lights are spared, so that a surface that cuts a light hides a strip less of it.
-pub const ROUNDING: f64 = 1.0 / 4_194_304.0;
+pub(crate) const ROUNDING: f64 = 1.0 / 4_194_304.0;
 /// Of fewer samples than this that see a light, or do not, an image cannot tell its own error.
 const FEW: f64 = 10.0;
 
 /// A scene to render, and what it shows.
 #[derive(Clone, Debug)]
-pub struct Trial {
+pub(crate) struct Trial {
     /// The scene, as it is written.
     scene: Scene,
     /// Width and height of its images in pixels.
@@ -63,7 +61,7 @@ pub struct Trial {
 
 /// What an image is compared with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Against {
+pub(crate) enum Against {
     /// The oracle's.
     Oracle,
     /// The sum of those of its lights alone.
@@ -72,26 +70,26 @@ pub enum Against {
 
 /// One technique against the oracle, or against a sum.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Row {
+pub(crate) struct Row {
     /// What it is compared with.
-    pub against: Against,
+    pub(crate) against: Against,
     /// How lights were sampled.
-    pub technique: Technique,
+    pub(crate) technique: Technique,
     /// The technique that `auto` chose, or the same.
-    pub chosen: Technique,
+    pub(crate) chosen: Technique,
     /// Difference of each block in standard errors, beyond the tolerance.
-    pub z: Vec<f64>,
+    pub(crate) z: Vec<f64>,
     /// The part of the difference of each block that is more than three standard errors, relative to its light if nothing hid it.
-    pub relative: Vec<f64>,
+    pub(crate) relative: Vec<f64>,
 }
 
 /// The judgement of a scene.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Verdict {
+pub(crate) struct Verdict {
     /// What the oracle has computed.
-    pub truth: Vec<Block>,
+    pub(crate) truth: Vec<Block>,
     /// One row per technique.
-    pub rows: Vec<Row>,
+    pub(crate) rows: Vec<Row>,
 }
 
 impl Row {
@@ -100,33 +98,28 @@ impl Row {
         differs(self.z[i])
     }
     /// The blocks that differ.
-    pub fn failing(&self) -> impl Iterator<Item = usize> {
+    pub(crate) fn failing(&self) -> impl Iterator<Item = usize> {
         (0..self.z.len()).filter(|&i| self.differs(i))
     }
     /// The greatest |z|.
-    #[must_use]
-    pub fn greatest_z(&self) -> f64 {
+    pub(crate) fn greatest_z(&self) -> f64 {
         self.z.iter().fold(0.0, |m: f64, z| if z.is_nan() { f64::INFINITY } else { m.max(z.abs()) })
     }
     /// The difference of greatest magnitude, relative to the light of its block if nothing hid it.
-    #[must_use]
-    pub fn greatest_difference(&self) -> f64 {
+    pub(crate) fn greatest_difference(&self) -> f64 {
         self.relative.iter().fold(0.0, |m: f64, x| if x.abs() > m.abs() { *x } else { m })
     }
 }
 
 impl Verdict {
     /// Techniques with a block that differs.
-    pub fn failing(&self) -> impl Iterator<Item = Technique> {
+    pub(crate) fn failing(&self) -> impl Iterator<Item = Technique> {
         self.rows.iter().filter(|row| row.failing().next().is_some()).map(|row| row.technique)
     }
 }
 
 /// Reads the text of a draft, exactly as a scene file, with its pictures.
-///
-/// # Errors
-/// Fails if a triangle has no area in f32, or the like.
-pub fn read(draft: &Draft) -> Result<Scene, String> {
+pub(crate) fn read(draft: &Draft) -> Result<Scene, String> {
     if !draft.is_shared {
         return with_pictures(draft);
     }
@@ -147,42 +140,14 @@ pub fn read(draft: &Draft) -> Result<Scene, String> {
 }
 
 fn with_pictures(draft: &Draft) -> Result<Scene, String> {
-    let folder = Folder::new().map_err(|error| error.to_string())?;
-    for picture in draft.pictures() {
-        std::fs::write(folder.0.join(picture.name()), picture.bytes()).map_err(|error| error.to_string())?;
-    }
-    etendue_scene::parse(&draft.to_string(), "attack.pbrt", &folder.0).map_err(|error| error.to_string())
-}
-
-/// A folder for pictures, which is removed when it is dropped.
-struct Folder(PathBuf);
-
-impl Folder {
-    fn new() -> std::io::Result<Self> {
-        static COUNT: AtomicU64 = AtomicU64::new(0);
-        let count = COUNT.fetch_add(1, Ordering::Relaxed);
-        let path = std::env::temp_dir().join(format!("etendue-attack-{}-{count}", std::process::id()));
-        std::fs::create_dir_all(&path)?;
-        Ok(Self(path))
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        let _ = std::fs::remove_dir_all(&self.0);
-    }
-}
-
-/// Reads the text of a scene file.
-///
-/// # Errors
-/// Fails if it is none.
-pub fn parse(text: &str) -> Result<Scene, String> {
-    etendue_scene::parse(text, "attack.pbrt", Path::new("")).map_err(|error| error.to_string())
+    let folder = Folder::new();
+    draft.pictures().for_each(|picture| folder.write(&picture.name(), picture.bytes()));
+    etendue_scene::parse(&draft.to_string(), "attack.pbrt", &folder.path("")).map_err(|error| error.to_string())
 }
 
 /// The techniques that are compared: what images use by default, and two that share little with it.
-pub const TECHNIQUES: [Technique; 4] = [Technique::Auto, Technique::Analytic, Technique::SolidAngle, Technique::Area];
+pub(crate) const TECHNIQUES: [Technique; 4] =
+    [Technique::Auto, Technique::Analytic, Technique::SolidAngle, Technique::Area];
 
 /// Those of them whose images are compared with sums.
 const SUMMED: [Technique; 2] = [Technique::Auto, Technique::SolidAngle];
@@ -191,16 +156,12 @@ const MOST: usize = 3000;
 
 impl Trial {
     /// Images of this width and height of a scene, which is what it says.
-    #[must_use]
-    pub fn new(scene: Scene, side: u32) -> Self {
+    pub(crate) fn new(scene: Scene, side: u32) -> Self {
         let exact = (bodies(&scene), Vec::new(), view(&scene.camera, side, side));
         Self { scene, size: [side; 2], exact: Some(exact), alone: Vec::new() }
     }
     /// A draft, whose images have this width and height, unless it has a film of its own.
-    ///
-    /// # Errors
-    /// Fails if it cannot be read.
-    pub fn read(draft: &Draft, side: u32) -> Result<Self, String> {
+    pub(crate) fn read(draft: &Draft, side: u32) -> Result<Self, String> {
         let scene = read(draft)?;
         let frame = draft.look.frame;
         let size = frame.map_or([side; 2], |Frame { window, .. }| window.map(|[from, to]| to - from));
@@ -219,10 +180,7 @@ impl Trial {
 }
 
 /// Judges a scene by these techniques.
-///
-/// # Errors
-/// Fails if the renderer cannot build the scene.
-pub fn judge(trial: &Trial, techniques: &[Technique], effort: &Effort) -> Result<Verdict, String> {
+pub(crate) fn judge(trial: &Trial, techniques: &[Technique], effort: &Effort) -> Result<Verdict, String> {
     let &Effort { block, spp, seed, .. } = effort;
     let [width, height] = trial.size;
     let settings = |technique, i: u64| Settings {
@@ -356,10 +314,7 @@ const AGAIN: usize = 3;
 const PLAIN: usize = 5;
 
 /// Judges a scene, and again by those techniques that differ: what is left differs in the same block each time.
-///
-/// # Errors
-/// Fails if the scene cannot be read.
-pub fn confirmed(trial: &Trial, techniques: &[Technique], effort: &Effort) -> Result<Verdict, String> {
+pub(crate) fn confirmed(trial: &Trial, techniques: &[Technique], effort: &Effort) -> Result<Verdict, String> {
     let mut first = judge(trial, techniques, effort)?;
     let mut effort = *effort;
     for round in 0..AGAIN {
@@ -387,31 +342,24 @@ pub fn confirmed(trial: &Trial, techniques: &[Technique], effort: &Effort) -> Re
     Ok(first)
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::attack::regimes::named;
-
-    /// Neither judge passes an image with a light too many.
-    #[test]
-    fn judges_notice_a_light() {
-        let mut seen = 0;
-        for seed in 0..6 {
-            let draft = named("skies").unwrap().draft(seed);
-            let mut trial = Trial::read(&draft, 16).unwrap();
-            if trial.alone.len() < 2 {
-                continue;
-            }
-            seen += 1;
-            // which is a source, and one that matters
-            trial.alone.pop();
-            trial.exact.as_mut().unwrap().1.pop();
-            let verdict = judge(&trial, &TECHNIQUES[..1], &Effort::new(16, 64, 1)).unwrap();
-            let fails = |against: Against| {
-                verdict.rows.iter().any(|row| row.against == against && row.failing().next().is_some())
-            };
-            assert!(fails(Against::Oracle) && fails(Against::Sum), "{draft}{verdict:?}");
+/// Neither judge passes an image with a light too many.
+#[test]
+fn judges_notice_a_light() {
+    let mut seen = 0;
+    for seed in 0..6 {
+        let draft = named("skies").draft(seed);
+        let mut trial = Trial::read(&draft, 16).unwrap();
+        if trial.alone.len() < 2 {
+            continue;
         }
-        assert!(seen > 2, "{seen}");
+        seen += 1;
+        // which is a source, and one that matters
+        trial.alone.pop();
+        trial.exact.as_mut().unwrap().1.pop();
+        let verdict = judge(&trial, &TECHNIQUES[..1], &Effort::new(16, 64, 1)).unwrap();
+        let fails =
+            |against: Against| verdict.rows.iter().any(|row| row.against == against && row.failing().next().is_some());
+        assert!(fails(Against::Oracle) && fails(Against::Sum), "{draft}{verdict:?}");
     }
+    assert!(seen > 2, "{seen}");
 }

@@ -1,13 +1,13 @@
 //! What some pixels see of a primitive.
 
-use crate::meshes::Random;
+use crate::random::Random;
 use etendue::{Mask, Real, f32x8};
 use etendue_oracle::{V3, along, cross, dot, length, sub, unit, wide};
 use etendue_render::bvh::{GROUP, Hits, NOTHING, SHAPE, Scratch};
 use etendue_render::camera::Pinhole;
 use etendue_render::certify::{Patch, Pyramid, Viewer};
 use etendue_render::packet::M8;
-use etendue_render::scene::{CameraSettings, Geometry, Scene, Screen, Sphere};
+use etendue_render::scene::{CameraSettings, Geometry, Parallelogram, Scene, Screen, Sphere};
 use etendue_render::surfaces::Surfaces;
 
 /// A scene to be tested.
@@ -88,7 +88,7 @@ impl World {
     /// Looks from a place at a target through random pixels.
     pub(crate) fn look_at(&self, origin: V3, target: V3, random: &mut Random, fit: &mut Fit) -> Option<View> {
         let forward = unit(sub(target, origin));
-        let right = unit(cross(forward, wide(random.point())));
+        let right = unit(cross(forward, random.point()));
         let up = cross(right, forward);
         let camera = CameraSettings {
             origin,
@@ -96,22 +96,20 @@ impl World {
             right,
             up,
             // the tangents of half of 60, 1 and 0.001 degrees
-            screen: Screen::Half(libm::tan([60.0_f64, 60.0, 1.0, 0.001][random.below(4)].to_radians() / 2.0)),
+            screen: Screen::Half(libm::tan(random.of(&[60.0_f64, 60.0, 1.0, 0.001]).to_radians() / 2.0)),
+            lens: None,
             ..self.scene.camera.clone()
         };
-        let size = [8, 64, 512, 4096][random.below(4)];
+        let size = random.of(&[8, 64, 512, 4096]);
         let pinhole = Pinhole::new(&camera, size, size);
-        let corner = [0; 2].map(|_| (f64::from(size) * (0.5 + 0.1 * f64::from(random.signed()))).floor());
-        let wideness = [1.0, 1.0, 4.0][random.below(3)];
+        let corner = [0; 2].map(|_| (f64::from(size) * random.between(0.4, 0.6)).floor());
+        let wideness = random.of(&[1.0, 1.0, 4.0]);
         let area = [corner[0], corner[1], corner[0] + wideness, corner[1] + wideness];
         let pyramid = Pyramid::new(&pinhole, area);
         // rays anywhere in the rectangle, often at its corners and edges
         let mut hits = [Hits::none(f32x8::splat(f32::INFINITY)); GROUP];
-        let mut inside = || {
-            let x = random.unit();
-            (((x * 1.5 - 0.25).clamp(0.0, 1.0)) * wideness as f32).min(wideness as f32)
-        };
-        let mut coordinates = |k: usize| f32x8::from_fn(|_| corner[k] as f32 + inside());
+        let mut inside = || random.between(-0.25, 1.25).clamp(0.0, 1.0) * wideness;
+        let mut coordinates = |k: usize| f32x8::from_fn(|_| (corner[k] + inside()) as f32);
         let rays: [_; GROUP] = std::array::from_fn(|_| {
             let (x, y) = (coordinates(0), coordinates(1));
             let (origin, direction) = pinhole.ray(x, y);
@@ -120,7 +118,9 @@ impl World {
         self.surfaces.bvh.closest(&rays, &[M8::splat(true); GROUP], &mut hits, &mut Scratch::default());
         let places = |i: usize| hits[i / 8].place.to_array()[i % 8];
         let receiver = places(random.below(8 * GROUP));
-        if receiver == NOTHING {
+        // lights of drafts reflect nothing
+        let is_light = |index: u32| self.scene.shapes[index as usize].emission.is_some();
+        if receiver == NOTHING || receiver & SHAPE != 0 && is_light(receiver & !SHAPE) {
             return None;
         }
         let patch = Patch::of(&self.surfaces, receiver, Viewer::Pixels(&pyramid))?;
@@ -142,7 +142,7 @@ impl World {
         let corners: Vec<V3> = patch.corners().collect();
         for k in 0..6 {
             if receiver & SHAPE == 0 {
-                let mix = if k < 3 { 0.0 } else { f64::from(random.unit()) };
+                let mix = if k < 3 { 0.0 } else { random.unit() };
                 let (a, b) = (corners[random.below(corners.len())], corners[random.below(corners.len())]);
                 let normal = patch.normal().unwrap();
                 let p = along(along(a, sub(b, a), mix), normal, patch.margin() / 4.0);
@@ -150,5 +150,83 @@ impl World {
             }
         }
         Some(View { receiver, patch, points })
+    }
+    /// A view of a place where a light is seen past the edge of something, on one of the first `floors` triangles or on a sphere.
+    pub(crate) fn look_past_edges(&self, floors: usize, random: &mut Random, fit: &mut Fit) -> Option<View> {
+        let lights: Vec<u32> = self.surfaces.light_shapes().collect();
+        let light = &self.scene.shapes[*lights.get(random.below(lights.len().max(1)))? as usize].geometry;
+        let spheres = self.scene.shapes.iter().filter(|shape| shape.emission.is_none());
+        let spheres: Vec<_> = spheres.collect();
+        let y = light_point(light, random.point(), random);
+        if !spheres.is_empty() && random.one_in(8) {
+            let Geometry::Sphere(Sphere { center, radius }) = spheres[random.below(spheres.len())].geometry else {
+                return None;
+            };
+            let target = along(wide(center), unit(random.point()), f64::from(radius));
+            let out = unit(along(sub(target, wide(center)), random.point(), 0.5 * f64::from(radius)));
+            let origin = along(target, out, f64::from(radius) * random.power(-1.0, 1.0));
+            return self.look_at(origin, target, random, fit);
+        }
+        let [a, b, d] = self.scene.triangles[random.below(floors)].map(wide);
+        let normal = unit(cross(sub(b, a), sub(d, a)));
+        let triangles = &self.scene.triangles;
+        let blockers = &triangles[if floors < triangles.len() { floors } else { 0 }..];
+        let choice = random.below(blockers.len() + spheres.len());
+        let x = if let Some(triangle) = blockers.get(choice).map(|t| t.map(wide)) {
+            let k = random.below(3);
+            along(triangle[k], sub(triangle[(k + 1) % 3], triangle[k]), random.unit())
+        } else {
+            let Geometry::Sphere(Sphere { center, radius }) = spheres[choice - blockers.len()].geometry else {
+                return None;
+            };
+            let out = unit(cross(sub(wide(center), y), random.point()));
+            along(wide(center), out, f64::from(radius))
+        };
+        let fall = dot(normal, sub(x, y));
+        let target = along(y, sub(x, y), dot(normal, sub(a, y)) / fall);
+        let inside = |p: V3, q: V3| dot(normal, cross(sub(q, p), sub(target, p))) >= 0.0;
+        let is_met = inside(a, b) && inside(b, d) && inside(d, a) && length(sub(target, x)).is_finite();
+        let target = if is_met {
+            target
+        } else {
+            let (u, v) = (random.unit(), random.unit());
+            along(along(a, sub(b, a), u * (1.0 - v)), sub(d, a), v)
+        };
+        let side = dot(normal, sub(y, target)).signum();
+        let up = normal.map(|x| x * side);
+        let out = unit(along(up, random.point(), random.power(-1.0, 1.0)));
+        let out = if dot(out, up) > 0.0 { out } else { out.map(|x| -x) };
+        let distance = length(sub(target, x)) * random.power(-1.7, 0.7);
+        self.look_at(along(target, out, distance), target, random, fit)
+    }
+}
+
+/// A point of a light that may be visible from p, often on its boundary.
+fn light_point(geometry: &Geometry, p: V3, random: &mut Random) -> V3 {
+    let snap = |x: f64| match (x * 8.0) as u32 {
+        0 | 1 => 0.0,
+        2 | 3 => 1.0,
+        _ => (x * 2.0 - 1.0).clamp(0.0, 1.0),
+    };
+    let [mut s, mut t] = [random.unit(), random.unit()].map(snap);
+    match *geometry {
+        Geometry::Sphere(Sphere { center, radius }) => {
+            let (c, r) = (wide(center), f64::from(radius));
+            let axis = sub(p, c);
+            let across = unit(cross(axis, random.point()));
+            // from the middle of the visible cap to the silhouette
+            let most = (r / length(axis)).clamp(-1.0, 1.0).acos();
+            let angle = s.sqrt() * most;
+            along(along(c, unit(axis), r * angle.cos()), across, r * angle.sin())
+        }
+        Geometry::Triangle(corners) => {
+            if s + t > 1.0 {
+                (s, t) = (1.0 - s, 1.0 - t);
+            }
+            let [a, b, c] = corners.map(wide);
+            along(along(a, sub(b, a), s), sub(c, a), t)
+        }
+        Geometry::Parallelogram(Parallelogram { p, u, v }) => along(along(wide(p), wide(u), s), wide(v), t),
+        ref other => panic!("no points of {other:?}"),
     }
 }

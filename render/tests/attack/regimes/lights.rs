@@ -21,7 +21,7 @@ fn shade(draft: &mut Draft, towards: V3, random: &mut Random) {
     }
 }
 
-pub(super) fn tiny(random: &mut Random) -> Draft {
+pub(crate) fn tiny(random: &mut Random) -> Draft {
     let mut draft = stage(random);
     let towards = overhead(1.0, random);
     let distance = random.between(1.5, 5.0);
@@ -49,7 +49,7 @@ fn distant(angle: f64, random: &mut Random) -> (V3, Part) {
     (towards, Part::light(form, radiance, false))
 }
 
-pub(super) fn far(random: &mut Random) -> Draft {
+pub(crate) fn far(random: &mut Random) -> Draft {
     let mut draft = stage(random);
     let (towards, sun) = distant(0.5_f64.to_radians(), random);
     draft.parts[1] = sun;
@@ -60,7 +60,7 @@ pub(super) fn far(random: &mut Random) -> Draft {
     draft
 }
 
-pub(super) fn far_speck(random: &mut Random) -> Draft {
+pub(crate) fn far_speck(random: &mut Random) -> Draft {
     let mut draft = stage(random);
     let angle = random.power(-4.0, -2.0);
     let (towards, sun) = distant(angle, random);
@@ -69,7 +69,7 @@ pub(super) fn far_speck(random: &mut Random) -> Draft {
     draft
 }
 
-pub(super) fn millimetres(random: &mut Random) -> Draft {
+pub(crate) fn millimetres(random: &mut Random) -> Draft {
     let mut draft = stage(random);
     let towards = overhead(1.0, random);
     let size = random.power(-3.0, -1.0);
@@ -84,7 +84,7 @@ pub(super) fn millimetres(random: &mut Random) -> Draft {
     draft
 }
 
-pub(super) fn sun_and_lamp(random: &mut Random) -> Draft {
+pub(crate) fn sun_and_lamp(random: &mut Random) -> Draft {
     let mut draft = stage(random);
     let (_, sun) = distant(0.5_f64.to_radians(), random);
     draft.parts.push(sun);
@@ -92,7 +92,7 @@ pub(super) fn sun_and_lamp(random: &mut Random) -> Draft {
     draft
 }
 
-pub(super) fn lampshade(random: &mut Random) -> Draft {
+pub(crate) fn lampshade(random: &mut Random) -> Draft {
     let mut draft = stage(random);
     let towards = overhead(1.0, random);
     let distance = random.power(0.5, 4.0);
@@ -117,7 +117,7 @@ pub(super) fn lampshade(random: &mut Random) -> Draft {
     draft
 }
 
-pub(super) fn flush(random: &mut Random) -> Draft {
+pub(crate) fn flush(random: &mut Random) -> Draft {
     let mut draft = stage(random);
     let y = 2.0;
     let lamp_y = random.of(&[y, y, y - 1e-4, y - 1e-2, y + 1e-2]);

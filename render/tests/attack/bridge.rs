@@ -13,7 +13,7 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 /// The channel that is compared.
-pub(super) const CHANNEL: usize = 1;
+pub(crate) const CHANNEL: usize = 1;
 
 /// A map from the space of an object to that of the world.
 #[derive(Clone, Copy)]
@@ -169,13 +169,12 @@ fn shapes(scene: &Scene) -> Vec<Body> {
 }
 
 /// The bodies of a scene.
-#[must_use]
-pub fn bodies(scene: &Scene) -> Vec<Body> {
+pub(crate) fn bodies(scene: &Scene) -> Vec<Body> {
     meshes(scene).into_iter().chain(shapes(scene)).filter(has_area).collect()
 }
 
 /// Gives the bodies of a draft's scene the normals that the draft has, which the scene's reader may have turned.
-pub(super) fn straighten(draft: &Draft, bodies: &mut [Body]) {
+pub(crate) fn straighten(draft: &Draft, bodies: &mut [Body]) {
     let mut index = 0;
     for part in draft.parts.iter().filter(|part| part.glow.is_none() && part.copies.is_empty()) {
         for corners in part.form.triangles() {
@@ -191,7 +190,7 @@ pub(super) fn straighten(draft: &Draft, bodies: &mut [Body]) {
 }
 
 /// The lights without a surface.
-pub(super) fn sources(sources: &[Source]) -> Vec<direct::Source> {
+pub(crate) fn sources(sources: &[Source]) -> Vec<direct::Source> {
     let round = |v: V3| v.map(|x| f64::from(x as f32));
     let of = |source: &Source| {
         let intensity = f64::from(source.strength);
@@ -227,7 +226,7 @@ fn has_area(body: &Body) -> bool {
 }
 
 /// What a film shows of a scene whose camera has all of it.
-pub(super) fn framed(frame: &Frame, camera: &CameraSettings) -> View {
+pub(crate) fn framed(frame: &Frame, camera: &CameraSettings) -> View {
     let [width, height] = frame.size;
     let [[x0, x1], [y0, y1]] = frame.window;
     let all = view(camera, width, height);
@@ -245,8 +244,7 @@ pub(super) fn framed(frame: &Frame, camera: &CameraSettings) -> View {
 }
 
 /// The camera of a scene for an image of this size, with its numbers rounded to f32 as the renderer keeps them.
-#[must_use]
-pub fn view(camera: &CameraSettings, width: u32, height: u32) -> View {
+pub(crate) fn view(camera: &CameraSettings, width: u32, height: u32) -> View {
     let [left, edge, lower, upper] = camera.edges(width, height);
     let vector = |f: &dyn Fn(usize) -> f64| std::array::from_fn(|k| f64::from(f(k) as f32));
     let (right, up) = (camera.right, camera.up);

@@ -8,17 +8,17 @@ use etendue_oracle::along;
 
 /// A scene on which the renderer was wrong.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Case {
+pub(crate) struct Case {
     /// The letter of its defect.
-    pub letter: char,
+    pub(crate) letter: char,
     /// What the scene is.
-    pub about: &'static str,
+    pub(crate) about: &'static str,
     /// The text of the scene, as a scene file.
-    pub text: String,
+    pub(crate) text: String,
 }
 
 /// `auto` decides by the size of pixels, so images are as large as they usually are.
-pub const EFFORT: Effort = Effort { side: 256, block: 32, spp: 64, points: 1, seed: 7 };
+pub(crate) const EFFORT: Effort = Effort { side: 256, block: 32, spp: 64, points: 1, seed: 7 };
 
 fn from(eye: V3, target: V3, fov: f64) -> Look {
     Look { eye: eye.map(|x| f64::from(x as f32)), target, up: [0.0, 1.0, 0.0], fov, lens: None, frame: None }
@@ -108,8 +108,7 @@ fn huge(side: f64, floor: f64, is_triangle: bool) -> Draft {
 }
 
 /// The cases in order.
-#[must_use]
-pub fn all() -> Vec<Case> {
+pub(crate) fn all() -> Vec<Case> {
     let case =
         |about, draft: Draft| Case { letter: draft.name.chars().next().unwrap_or('?'), about, text: draft.to_string() };
     let found = |letter, about, text: &str| Case { letter, about, text: text.to_owned() };

@@ -8,7 +8,7 @@ use crate::random::Random;
 use etendue_oracle::{along, unit};
 
 /// A few boxes and balls that stand on the floor or float.
-pub(super) fn furnish(draft: &mut Draft, random: &mut Random) {
+pub(crate) fn furnish(draft: &mut Draft, random: &mut Random) {
     for _ in 0..1 + random.below(3) {
         let size = random.between(0.1, 0.45);
         let mut center = [random.between(-0.8, 0.8), size, random.between(-0.8, 0.8)];
@@ -60,7 +60,7 @@ fn enclosed(shell: Part, outside: f64, random: &mut Random) -> Draft {
     Draft::new(String::new(), look, parts)
 }
 
-pub(super) fn in_sphere(random: &mut Random) -> Draft {
+pub(crate) fn in_sphere(random: &mut Random) -> Draft {
     let radius = random.between(0.9, 1.5);
     let center = random.point().map(|x| 0.1 * x);
     let mut shell = Part::ball(center, radius, albedo(random));
@@ -70,7 +70,7 @@ pub(super) fn in_sphere(random: &mut Random) -> Draft {
     enclosed(shell, radius + 0.2, random)
 }
 
-pub(super) fn in_box(random: &mut Random) -> Draft {
+pub(crate) fn in_box(random: &mut Random) -> Draft {
     let half = [0; 3].map(|_| random.between(0.9, 1.5));
     let (kind, center) = (random.below(3), random.point().map(|x| 0.05 * x));
     let mut mesh = triangles(&placed(&cube(), half, &axes(kind, random), center));
@@ -81,7 +81,7 @@ pub(super) fn in_box(random: &mut Random) -> Draft {
     enclosed(Part::mesh(mesh, albedo(random)), 2.7, random)
 }
 
-pub(super) fn far_away(random: &mut Random) -> Draft {
+pub(crate) fn far_away(random: &mut Random) -> Draft {
     let mut draft = stage(random);
     furnish(&mut draft, random);
     let distance = random.power(1.0, 3.0);
@@ -91,7 +91,7 @@ pub(super) fn far_away(random: &mut Random) -> Draft {
     draft
 }
 
-pub(super) fn vast_floor(random: &mut Random) -> Draft {
+pub(crate) fn vast_floor(random: &mut Random) -> Draft {
     let mut draft = stage(random);
     let half = random.power(2.0, 7.0);
     draft.parts[0] = match random.below(3) {
@@ -111,7 +111,7 @@ pub(super) fn vast_floor(random: &mut Random) -> Draft {
     draft
 }
 
-pub(super) fn camera(random: &mut Random) -> Draft {
+pub(crate) fn camera(random: &mut Random) -> Draft {
     let mut draft = stage(random);
     furnish(&mut draft, random);
     let half = [0.25, 0.5, 0.25];
@@ -161,7 +161,7 @@ pub(super) fn camera(random: &mut Random) -> Draft {
     draft
 }
 
-pub(super) fn lens(random: &mut Random) -> Draft {
+pub(crate) fn lens(random: &mut Random) -> Draft {
     let mut draft = stage(random);
     furnish(&mut draft, random);
     draft.look.lens = Some([random.power(-2.0, -0.7), random.between(2.0, 6.0)]);
@@ -169,7 +169,7 @@ pub(super) fn lens(random: &mut Random) -> Draft {
 }
 
 /// A stage with lights that are large enough to be reflected.
-pub(super) fn bright(random: &mut Random) -> Draft {
+pub(crate) fn bright(random: &mut Random) -> Draft {
     let mut draft = stage(random);
     let center: V3 = overhead(3.0, random);
     let form = match random.below(2) {
@@ -182,7 +182,7 @@ pub(super) fn bright(random: &mut Random) -> Draft {
     draft
 }
 
-pub(super) fn mirrors(random: &mut Random) -> Draft {
+pub(crate) fn mirrors(random: &mut Random) -> Draft {
     let mut draft = bright(random);
     let finish = if random.one_in(2) { Finish::Mirror(0.9) } else { Finish::Metal { eta: 0.2, k: 3.5, alpha: 0.0 } };
     for _ in 0..1 + random.below(2) {
@@ -199,7 +199,7 @@ pub(super) fn mirrors(random: &mut Random) -> Draft {
     draft
 }
 
-pub(super) fn metals(random: &mut Random) -> Draft {
+pub(crate) fn metals(random: &mut Random) -> Draft {
     let mut draft = bright(random);
     let alpha = random.of(&[0.2, 0.35, 0.5, 0.8]);
     let finish = Finish::Metal { eta: random.of(&[0.2, 1.1]), k: random.of(&[2.0, 3.5]), alpha };

@@ -5,24 +5,24 @@ use crate::random::Random;
 use etendue_oracle::{along, basis, cross, dot, length, sub, unit};
 
 /// The corners of a triangle.
-pub(super) type Triangle = [V3; 3];
+pub(crate) type Triangle = [V3; 3];
 /// A convex polyhedron: the corners of each face in order around, as seen from outside.
-pub(super) type Solid = Vec<Vec<V3>>;
+pub(crate) type Solid = Vec<Vec<V3>>;
 
 /// The parallelogram p + s u + t v in two triangles, with the normal u × v.
-pub(super) fn quad(p: V3, u: V3, v: V3) -> Vec<Triangle> {
+pub(crate) fn quad(p: V3, u: V3, v: V3) -> Vec<Triangle> {
     let (a, b) = (along(p, u, 1.0), along(p, v, 1.0));
     let c = along(a, v, 1.0);
     vec![[p, a, c], [p, c, b]]
 }
 
 /// The square |x|, |z| ≤ `half` at the height `y`, with its normal upwards.
-pub(super) fn level(y: f64, half: f64) -> Vec<Triangle> {
+pub(crate) fn level(y: f64, half: f64) -> Vec<Triangle> {
     quad([-half, y, -half], [0.0, 0.0, 2.0 * half], [2.0 * half, 0.0, 0.0])
 }
 
 /// The box [−1, 1]³.
-pub(super) fn cube() -> Solid {
+pub(crate) fn cube() -> Solid {
     let face = |axis: usize, side: f64| {
         let corner = |a: f64, b: f64| {
             let mut v = [0.0; 3];
@@ -35,7 +35,7 @@ pub(super) fn cube() -> Solid {
 }
 
 /// A prism over a regular polygon of n corners, along y.
-pub(super) fn prism(n: usize) -> Solid {
+pub(crate) fn prism(n: usize) -> Solid {
     let corner = |k: usize, y: f64| {
         let angle = (k % n) as f64 / n as f64 * std::f64::consts::TAU;
         [libm::cos(angle), y, libm::sin(angle)]
@@ -48,13 +48,13 @@ pub(super) fn prism(n: usize) -> Solid {
 }
 
 /// A tetrahedron with its corners at four of those of the cube.
-pub(super) fn tetrahedron() -> Solid {
+pub(crate) fn tetrahedron() -> Solid {
     let [a, b, c, d] = [[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0]];
     vec![vec![a, b, c], vec![a, d, b], vec![a, c, d], vec![b, d, c]]
 }
 
 /// The part of a solid with normal · x ≤ `most`.
-pub(super) fn cut(solid: &Solid, normal: V3, most: f64) -> Solid {
+pub(crate) fn cut(solid: &Solid, normal: V3, most: f64) -> Solid {
     let mut faces = Solid::new();
     let mut edge: Vec<V3> = Vec::new();
     for face in solid {
@@ -90,7 +90,7 @@ pub(super) fn cut(solid: &Solid, normal: V3, most: f64) -> Solid {
 }
 
 /// Three orthonormal axes: those of the world, turned about the vertical, or turned anyhow.
-pub(super) fn axes(kind: usize, random: &mut Random) -> [V3; 3] {
+pub(crate) fn axes(kind: usize, random: &mut Random) -> [V3; 3] {
     match kind {
         0 => [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
         1 => {
@@ -107,13 +107,13 @@ pub(super) fn axes(kind: usize, random: &mut Random) -> [V3; 3] {
 }
 
 /// A solid with these half sizes along its axes and this centre.
-pub(super) fn placed(solid: &Solid, half: V3, axes: &[V3; 3], center: V3) -> Solid {
+pub(crate) fn placed(solid: &Solid, half: V3, axes: &[V3; 3], center: V3) -> Solid {
     let place = |v: V3| (0..3).fold(center, |sum, k| along(sum, axes[k], v[k] * half[k]));
     solid.iter().map(|face| face.iter().map(|v| place(*v)).collect()).collect()
 }
 
 /// The map of a point to `center` plus its coordinates, times these factors, along the axes.
-pub(super) fn map(axes: &[V3; 3], factors: V3, center: V3) -> Map {
+pub(crate) fn map(axes: &[V3; 3], factors: V3, center: V3) -> Map {
     let row = |k: usize| [0, 1, 2].map(|axis| axes[axis][k] * factors[axis]);
     [0, 1, 2].map(|k| {
         let [a, b, c] = row(k);
@@ -122,7 +122,7 @@ pub(super) fn map(axes: &[V3; 3], factors: V3, center: V3) -> Map {
 }
 
 /// First one map, then the other.
-pub(super) fn then(first: &Map, second: &Map) -> Map {
+pub(crate) fn then(first: &Map, second: &Map) -> Map {
     second.map(|row| {
         let shift = |axis: usize| if axis == 3 { row[3] } else { 0.0 };
         [0, 1, 2, 3].map(|axis| shift(axis) + (0..3).map(|k| row[k] * first[k][axis]).sum::<f64>())
@@ -130,19 +130,19 @@ pub(super) fn then(first: &Map, second: &Map) -> Map {
 }
 
 /// The triangles of a solid; those without an area in f32 are left out.
-pub(super) fn triangles(solid: &Solid) -> Vec<Triangle> {
+pub(crate) fn triangles(solid: &Solid) -> Vec<Triangle> {
     let fan = |face: &Vec<V3>| (2..face.len()).map(|k| [face[0], face[k - 1], face[k]]).collect::<Vec<_>>();
     solid.iter().flat_map(fan).filter(has_area).collect()
 }
 
 /// Whether a triangle has an area in f32.
-pub(super) fn has_area(triangle: &Triangle) -> bool {
+pub(crate) fn has_area(triangle: &Triangle) -> bool {
     let [a, b, c] = triangle.map(|v| v.map(|x| f64::from(x as f32)));
     cross(sub(b, a), sub(c, a)) != [0.0; 3]
 }
 
 /// A solid of a random kind.
-pub(super) fn any_solid(random: &mut Random) -> Solid {
+pub(crate) fn any_solid(random: &mut Random) -> Solid {
     match random.below(6) {
         0 => tetrahedron(),
         1 => prism(3),
@@ -152,17 +152,17 @@ pub(super) fn any_solid(random: &mut Random) -> Solid {
 }
 
 /// A random albedo.
-pub(super) fn albedo(random: &mut Random) -> f32 {
+pub(crate) fn albedo(random: &mut Random) -> f32 {
     random.of(&[0.3, 0.5, 0.7, 0.9])
 }
 
 /// A floor of this half size at height 0.
-pub(super) fn floor(half: f64, random: &mut Random) -> Part {
+pub(crate) fn floor(half: f64, random: &mut Random) -> Part {
     Part::mesh(level(0.0, half), albedo(random))
 }
 
 /// A rectangle centred at `center` and turned towards `target`, of this size.
-pub(super) fn facing(center: V3, target: V3, [width, height]: [f64; 2], random: &mut Random) -> Form {
+pub(crate) fn facing(center: V3, target: V3, [width, height]: [f64; 2], random: &mut Random) -> Form {
     let normal = unit(sub(target, center));
     let (s, t) = basis(normal);
     let angle = random.between(0.0, std::f64::consts::TAU);
@@ -174,7 +174,7 @@ pub(super) fn facing(center: V3, target: V3, [width, height]: [f64; 2], random: 
 }
 
 /// The radiance of a light that gives about 1 of irradiance to a surface of this distance.
-pub(super) fn radiance(form: &Form, distance: f64) -> f32 {
+pub(crate) fn radiance(form: &Form, distance: f64) -> f32 {
     let area = match form {
         Form::Mesh(triangles) => {
             triangles.iter().map(|[a, b, c]| 0.5 * length(cross(sub(*b, *a), sub(*c, *a)))).sum::<f64>()
@@ -186,7 +186,7 @@ pub(super) fn radiance(form: &Form, distance: f64) -> f32 {
 }
 
 /// A light of a random form at `center`, which faces `target` if it is flat, with this size and about 1 of irradiance there.
-pub(super) fn lamp(center: V3, target: V3, size: f64, random: &mut Random) -> Part {
+pub(crate) fn lamp(center: V3, target: V3, size: f64, random: &mut Random) -> Part {
     let distance = length(sub(target, center));
     let form = match random.below(5) {
         0 | 1 => Form::Sphere(center, 0.5 * size),
@@ -201,14 +201,14 @@ pub(super) fn lamp(center: V3, target: V3, size: f64, random: &mut Random) -> Pa
 }
 
 /// A place above the floor, within a cone about the vertical, at this distance from the origin.
-pub(super) fn overhead(distance: f64, random: &mut Random) -> V3 {
+pub(crate) fn overhead(distance: f64, random: &mut Random) -> V3 {
     let (x, z) = (random.between(-0.7, 0.7), random.between(-0.7, 0.7));
     unit([x, 1.0, z]).map(|x| x * distance)
 }
 
 /// A camera at this distance that looks at a place from above, or at a part of it: images of few pixels have pixels as small as usual
 /// only if they show little, and what is known of a light depends on the size of pixels.
-pub(super) fn look(place: V3, distance: f64, random: &mut Random) -> Look {
+pub(crate) fn look(place: V3, distance: f64, random: &mut Random) -> Look {
     let is_close = !random.one_in(4);
     let aside = if is_close { 0.3 * distance } else { 0.0 };
     let target = [0, 1, 2].map(|k| place[k] + [1.0, 0.1, 1.0][k] * aside * random.between(-0.6, 0.6));
@@ -228,7 +228,7 @@ pub(super) fn look(place: V3, distance: f64, random: &mut Random) -> Look {
 }
 
 /// A floor, one light above it and a camera; parts are added by the regimes.
-pub(super) fn stage(random: &mut Random) -> Draft {
+pub(crate) fn stage(random: &mut Random) -> Draft {
     let distance = random.between(2.0, 5.0);
     let center = overhead(distance, random);
     let size = random.between(0.3, 2.0);
@@ -238,7 +238,7 @@ pub(super) fn stage(random: &mut Random) -> Draft {
 }
 
 /// Whether a light appears so small in the image that some images have a sample of it and others have not.
-pub(super) fn has_speck(draft: &Draft) -> bool {
+pub(crate) fn has_speck(draft: &Draft) -> bool {
     let Look { eye, target, fov, lens, .. } = &draft.look;
     let axis = unit(sub(*target, *eye));
     let half = 0.75 * fov.to_radians();

@@ -97,8 +97,7 @@ impl<F: Fn(&Draft) -> bool> Search<F> {
 
 /// Leaves out what the failure does not need: the lens, parts, what varies over them, copies, halves of meshes, and triangles; and shortens
 /// numbers.
-#[must_use]
-pub fn shrink(draft: &Draft, fails: impl Fn(&Draft) -> bool) -> Draft {
+pub(crate) fn shrink(draft: &Draft, fails: impl Fn(&Draft) -> bool) -> Draft {
     let mut search = Search { best: draft.clone(), tried: 0, fails };
     let whole: [fn(&mut Draft); 3] =
         [|draft| draft.look.lens = None, |draft| draft.look.frame = None, |draft| draft.is_shared = false];

@@ -80,7 +80,7 @@ fn replace(part: &mut Part, random: &mut Random) {
     }
 }
 
-pub(super) fn copies(random: &mut Random) -> Draft {
+pub(crate) fn copies(random: &mut Random) -> Draft {
     let mut draft = plain(random);
     let all = random.one_in(2);
     draft.is_shared = true;
@@ -165,7 +165,7 @@ fn with(mut draft: Draft, parts: Vec<Part>, is_shared: bool) -> Draft {
     draft
 }
 
-pub(super) fn instanced(random: &mut Random) -> Draft {
+pub(crate) fn instanced(random: &mut Random) -> Draft {
     let draft = stage(random);
     let mut parts: Vec<Part> = (0..1 + random.below(3)).map(|_| instances(1.0, [0.0; 3], random)).collect();
     for part in &mut parts {
@@ -177,7 +177,7 @@ pub(super) fn instanced(random: &mut Random) -> Draft {
     with(draft, parts, is_shared)
 }
 
-pub(super) fn odd_units(random: &mut Random) -> Draft {
+pub(crate) fn odd_units(random: &mut Random) -> Draft {
     let draft = stage(random);
     let mut parts = Vec::new();
     for _ in 0..1 + random.below(3) {
@@ -295,7 +295,7 @@ fn coat(part: &mut Part, random: &mut Random) {
 }
 
 /// Screens between the floor and the light, and other things with holes.
-pub(super) fn holes(random: &mut Random) -> Draft {
+pub(crate) fn holes(random: &mut Random) -> Draft {
     let mut draft = stage(random);
     if random.one_in(3) {
         // one that a small body can hide
@@ -348,27 +348,27 @@ fn dressed(mut draft: Draft, how: &[(usize, Dress)], random: &mut Random) -> Dra
     draft
 }
 
-pub(super) fn punched(random: &mut Random) -> Draft {
+pub(crate) fn punched(random: &mut Random) -> Draft {
     dressed(plain(random), &[(2, punch)], random)
 }
 
-pub(super) fn painted(random: &mut Random) -> Draft {
+pub(crate) fn painted(random: &mut Random) -> Draft {
     dressed(apart(random), &[(1, paint)], random)
 }
 
-pub(super) fn smooth(random: &mut Random) -> Draft {
+pub(crate) fn smooth(random: &mut Random) -> Draft {
     let mut draft = apart(random);
     meshes(&mut draft).filter(|_| random.one_in(6)).for_each(|part| part.finish = Finish::Mirror(0.8));
     dressed(draft, &[(1, bend)], random)
 }
 
-pub(super) fn coated(random: &mut Random) -> Draft {
+pub(crate) fn coated(random: &mut Random) -> Draft {
     let mut draft = places::bright(random);
     meshes(&mut draft).for_each(|part| coat(part, random));
     dressed(draft, &[(3, paint), (3, bend), (4, punch)], random)
 }
 
-pub(super) fn everything(random: &mut Random) -> Draft {
+pub(crate) fn everything(random: &mut Random) -> Draft {
     let mut draft = if random.one_in(2) {
         let mut draft = instanced(random);
         if random.one_in(2) {
