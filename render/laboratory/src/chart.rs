@@ -6,7 +6,6 @@ pub mod machine;
 pub mod measure;
 pub mod options;
 pub mod outcome;
-pub mod pictures;
 pub mod plot;
 mod prepare;
 pub mod reference;
@@ -109,7 +108,7 @@ pub fn measure(options: &Options, stop: &Arc<AtomicBool>) -> Result<Outcome, Box
     // a short trial tells what fits into the time
     let samplers = options.samplers();
     let begin = Instant::now();
-    let trial = pool.install(|| Trial::new(&scenes, samplers.clone()));
+    let trial = pool.install(|| Trial::new(&scenes, &samplers));
     let took = begin.elapsed().as_secs_f64();
     let mut extent = Extent {
         spps: options.spps(),
@@ -130,9 +129,8 @@ pub fn measure(options: &Options, stop: &Arc<AtomicBool>) -> Result<Outcome, Box
     // fails before the measurements, not after them
     files::make_folder(&options.output)?;
     announce(&scenes, &extent, trial.estimate(&extent), took, limit);
-    let pictures = Duration::from_secs_f64(trial.all_pictures(&extent));
     let end = limit.and_then(|limit| start.checked_add(Duration::from_secs(limit)));
-    alarm(stop, end.map(|end| end.checked_sub(pictures).unwrap_or(start)));
+    alarm(stop, end);
 
     // measurements of another build do not count; a new commit does not matter as long as the program stays the same
     let kept: Vec<_> = facts.iter().filter(|(name, _)| *name != "commit").collect();
@@ -211,7 +209,6 @@ pub fn run(options: &Options, command: &str) -> Result<(), Box<dyn Error>> {
     check_page(&page)?;
     let stop = interrupt()?;
     let outcome = measure(options, &stop)?;
-    let pool = crate::options::pool(options.threads)?;
     let figures: Vec<_> = outcome.summaries.iter().map(charts::all).collect();
     for (summary, figures) in outcome.summaries.iter().zip(&figures) {
         for figure in figures {
@@ -219,15 +216,7 @@ pub fn run(options: &Options, command: &str) -> Result<(), Box<dyn Error>> {
             files::replace(&options.output.join(file), figure.drawing.file().as_bytes())?;
         }
     }
-    let pictures: Vec<pictures::Panel> =
-        pool.install(|| outcome.summaries.iter().map(|s| pictures::panel(&outcome, s)).collect());
-    for panel in &pictures {
-        for picture in &panel.pictures {
-            let file = format!("{}-{}.png", stem(&outcome.summaries, &panel.scene), picture.file);
-            files::replace(&options.output.join(file), &picture.png)?;
-        }
-    }
-    files::replace(&page, report::page(&outcome, &figures, &pictures, command).as_bytes())?;
+    files::replace(&page, report::page(&outcome, &figures, command).as_bytes())?;
     print(&outcome, &page)?;
     Ok(())
 }

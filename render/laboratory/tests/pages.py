@@ -95,21 +95,6 @@ def chart_by_keyboard(browser, page):
         after = browser.evaluate(hidden)
         assert after != before, f"{page.name}: the key {key!r} on a technique shows and hides nothing"
         before = after
-    right = "document.querySelector('.stage .right').textContent"
-    first = browser.evaluate(right)
-    for selector, key in [(".thumbs button:nth-child(2)", "Enter"), (".thumbs button:nth-child(3)", " "), (".viewer", "ArrowRight")]:
-        press(browser, selector, key)
-        second = browser.evaluate(right)
-        assert second != first, f"{page.name}: the key {key!r} on {selector} changes no picture"
-        first = second
-    cut = "document.querySelector('.stage img + img').style.clipPath"
-    for selector, key in [(".viewer input[type=range]", "ArrowRight"), (".viewer", "f")]:
-        old = browser.evaluate(cut)
-        press(browser, selector, key)
-        assert browser.evaluate(cut) != old, f"{page.name}: the key {key!r} on {selector} does not move the boundary"
-    kind = ".kinds .chip:nth-child(2)"
-    press(browser, kind, " ")
-    assert browser.evaluate(f"document.querySelector({json.dumps(kind)}).getAttribute('aria-pressed')") == "true", f"{page.name}: Space does not choose a kind of picture"
 
 
 def printed(browser, page):

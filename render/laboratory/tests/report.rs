@@ -61,7 +61,7 @@ fn outcome(names: &[&str]) -> Outcome {
 
 fn page(outcome: &Outcome) -> String {
     let figures: Vec<_> = outcome.summaries.iter().map(charts::all).collect();
-    report::page(outcome, &figures, &[], "etendue chart")
+    report::page(outcome, &figures, "etendue chart")
 }
 
 /// The identifiers of the series in a chart, and whether each is hidden at first.

@@ -2,7 +2,7 @@
 
 use super::pose::Sweep;
 use super::survey::{ErrorMap, Figures};
-use crate::chart::plot::{escape, ramp};
+use crate::chart::plot::escape;
 use std::fmt::Write as _;
 
 /// The quantity that a map shows.
@@ -69,10 +69,14 @@ const NONE: &str = "#dcdcdc";
 const BROKEN: &str = "#000000";
 const CLEAN: &str = "#edf4fa";
 
-/// Interpolates a colour, rounded to quarter decades, so that equal neighbours form one shape.
+/// Interpolates a colour between stops, whose numbers ascend, rounded to quarter decades, so that equal neighbours form one shape.
 pub(super) fn blend(stops: &[(f64, [u8; 3])], log: f64) -> String {
-    let [r, g, b] = ramp(stops, (log * 4.0).floor() / 4.0);
-    format!("#{r:02x}{g:02x}{b:02x}")
+    let x = ((log * 4.0).floor() / 4.0).clamp(stops[0].0, stops[stops.len() - 1].0);
+    let above = stops.iter().position(|s| s.0 > x).unwrap_or(stops.len() - 1).max(1);
+    let ((a, from), (b, to)) = (stops[above - 1], stops[above]);
+    let t = ((x - a) / (b - a)).clamp(0.0, 1.0);
+    let mixed = |k: usize| (f64::from(from[k]) + t * (f64::from(to[k]) - f64::from(from[k]))).round() as u8;
+    format!("#{:02x}{:02x}{:02x}", mixed(0), mixed(1), mixed(2))
 }
 
 fn colour(measure: Measure, value: f64, cell: &Figures) -> String {

@@ -49,15 +49,12 @@ pub(super) struct Trial {
     rates: HashMap<Key, Rate>,
     /// The rates of references; `None` where the reference is already there.
     references: Vec<Option<Rate>>,
-    samplers: Vec<Sampler>,
 }
 
 /// Images of a trial are repeated until this many seconds have passed, at most three times; the shortest counts.
 const SECONDS: f64 = 0.03;
 /// Part of a time that the estimate may fill.
 const FILLED: f64 = 0.85;
-/// Images for the pictures of a method, and the samples per pixel that they have at most.
-const PICTURES: (f64, u32) = (4.0, 16);
 
 fn seconds(scene: &Loaded, settings: &Settings) -> f64 {
     let begin = Instant::now();
@@ -82,11 +79,11 @@ fn rate(scene: &Loaded, size: [u32; 2], spps: [u32; 2], settings: impl Fn([u32; 
 
 impl Trial {
     /// Renders small images by all methods and samplers, as far as these apply.
-    pub(super) fn new(scenes: &[Loaded], samplers: Vec<Sampler>) -> Self {
+    pub(super) fn new(scenes: &[Loaded], samplers: &[Sampler]) -> Self {
         let mut rates = HashMap::new();
         for (scene, loaded) in scenes.iter().enumerate() {
             for &(technique, choice) in &loaded.methods {
-                for &sampler in &samplers {
+                for &sampler in samplers {
                     let applies = |spp: &u32| inapplicable(sampler, *spp).is_none();
                     let mut possible = (0..=14).map(|k| 1 << k).filter(applies);
                     let Some(few) = possible.next() else { continue };
@@ -100,25 +97,12 @@ impl Trial {
         let of_reference =
             |scene: &Loaded| scene.lacks_reference().then(|| rate(scene, scene.size, [32, 64], Reference::settings));
         let references = scenes.iter().map(of_reference).collect();
-        Self { rates, references, samplers }
+        Self { rates, references }
     }
 
     /// Estimated seconds for the reference of a scene.
     fn reference(&self, extent: &Extent, scene: usize) -> f64 {
         self.references[scene].map_or(0.0, |rate| rate.seconds(extent.sizes[scene], extent.reference_spp))
-    }
-
-    /// Estimated seconds for the pictures of a scene in a report, of which each method has some.
-    fn pictures(&self, extent: &Extent, scene: usize) -> f64 {
-        let spp = extent.spps.iter().copied().filter(|spp| *spp <= PICTURES.1).max().unwrap_or(PICTURES.1);
-        let is_first = |key: &Key| key.scene == scene && Some(&key.sampler) == self.samplers.first();
-        let first = self.rates.iter().filter(|(key, _)| is_first(key));
-        PICTURES.0 * first.map(|(_, rate)| rate.seconds(extent.sizes[scene], spp)).sum::<f64>()
-    }
-
-    /// Estimated seconds for the pictures of all scenes.
-    pub(super) fn all_pictures(&self, extent: &Extent) -> f64 {
-        (0..extent.sizes.len()).map(|scene| self.pictures(extent, scene)).sum()
     }
 
     /// Estimated seconds for a scene.
@@ -130,7 +114,7 @@ impl Trial {
         };
         let keys = self.rates.iter().filter(|(key, _)| key.scene == scene);
         let images = f64::from(extent.replicates) * keys.map(|(key, rate)| image(key, rate)).sum::<f64>();
-        images + self.reference(extent, scene) + self.pictures(extent, scene)
+        images + self.reference(extent, scene)
     }
 
     /// Estimated seconds for all.
@@ -191,8 +175,7 @@ mod tests {
         let key =
             Key { scene: 0, technique: Technique::Area, choice: ChoiceBy::Auto, sampler: Sampler::Independent, spp: 0 };
         let rates = HashMap::from([(key, Rate { fixed: 0.0, sample: 1e-6 })]);
-        let samplers = vec![Sampler::Independent];
-        let trial = Trial { rates, references: vec![None], samplers };
+        let trial = Trial { rates, references: vec![None] };
         let parse = |line: &str| {
             #[derive(clap::Parser)]
             struct Line {
@@ -213,7 +196,7 @@ mod tests {
             let estimate = trial.estimate(&extent);
             (extent.spps.last().copied().unwrap_or(0), extent.replicates, extent.sizes[0][0], estimate <= seconds)
         };
-        // five images of 341 samples in each of 65,536 pixels take 112 s, and four of 16 samples another 4 s
+        // five images of 341 samples in each of 65,536 pixels take 112 s
         assert_eq!(fitted("chart", 150.0), (256, 5, 256, true));
         assert_eq!(fitted("chart", 120.0), (64, 5, 256, true));
         assert_eq!(fitted("chart", 32.0), (64, 4, 256, true));

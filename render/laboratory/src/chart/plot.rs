@@ -6,12 +6,10 @@ mod axis;
 mod bars;
 mod drawing;
 mod lines;
-mod ramp;
 mod text;
 
 pub use axis::{Bar, Scale};
 pub use bars::{BarRow, Bars};
 pub use drawing::{Drawing, color, dash};
 pub use lines::{Chart, Dot, Line};
-pub use ramp::ramp;
 pub use text::{escape, short};

@@ -1,15 +1,12 @@
-//! Writes the report: a self-contained page of charts, tables and images, with a description of the machine.
+//! Writes the report: a self-contained page of charts and tables, with a description of the machine.
 
 use super::charts::{Against, Figure, Measure, id, with_interval};
 use super::outcome::Outcome;
-use super::pictures::{ColorBar, Panel, Picture};
 use super::plot::{color, dash, escape, short};
 use super::reference::KNOWN_TO;
 use super::stats::{Estimate, WIDEST};
 use super::summary::{Summary, Way};
-use base64::Engine;
 use etendue_render::Sampler;
-use serde_json::json;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
@@ -58,27 +55,12 @@ fn table(summary: &Summary) -> String {
     text + "</table></div>\n"
 }
 
-fn viewer(index: usize, panel: &Panel) -> String {
-    format!(
-        "<div class=\"viewer\" data-scene=\"{index}\" tabindex=\"0\"><div class=\"controls\"><span class=\"chips kinds\"></span>\
-         <label>left <select class=\"pick\"></select></label><label>right <select class=\"pick\"></select></label></div>\
-         <div class=\"stage\"><img alt=\"left image\"><img alt=\"right image\"><div class=\"edge\"></div><span class=\"left\"></span>\
-         <span class=\"right\"></span></div><input type=\"range\" min=\"0\" max=\"100\" value=\"50\" \
-         aria-label=\"position of the boundary between the two images\">\
-         <div class=\"bar\"><i></i><span></span><span></span><span></span><b></b></div>\
-         <p><small><span class=\"by-hand\">Drag the boundary, or click here and press <kbd>f</kbd> to flip between the two, \
-         <kbd>←</kbd> <kbd>→</kbd> to step through all.</span> {}</small></p>\
-         <div class=\"thumbs\"></div></div>\n",
-        escape(&panel.caption)
-    )
-}
-
-/// A section for each scene: charts, a table and pictures.
-fn sections(outcome: &Outcome, figures: &[Vec<Figure>], panels: &[Panel]) -> String {
+/// A section for each scene: charts and a table.
+fn sections(outcome: &Outcome, figures: &[Vec<Figure>]) -> String {
     let mut text = String::new();
-    for (index, summary) in outcome.summaries.iter().enumerate() {
+    for (summary, figures) in outcome.summaries.iter().zip(figures) {
         let _ = writeln!(text, "<section class=\"scene\">\n<h2>{}</h2>\n<div class=\"grid\">", escape(&summary.scene));
-        for figure in &figures[index] {
+        for figure in figures {
             let shown_for = figure.shown_for.map_or_else(String::new, |(against, measure)| {
                 let is_shown = against.is_shown() && measure == Measure::Mse;
                 let class = if is_shown { "" } else { " class=\"off\"" };
@@ -90,9 +72,6 @@ fn sections(outcome: &Outcome, figures: &[Vec<Figure>], panels: &[Panel]) -> Str
         }
         text += "</div>\n";
         text += &table(summary);
-        if let Some(panel) = panels.iter().find(|p| p.scene == summary.scene) {
-            text += &viewer(index, panel);
-        }
         text += "</section>\n";
     }
     text
@@ -147,32 +126,12 @@ fn facts(outcome: &Outcome, command: &str) -> String {
     facts.into_iter().chain(scenes).map(row).collect()
 }
 
-/// The pictures of each scene and the bars of their colours, as JSON.
-fn pictures(outcome: &Outcome, panels: &[Panel]) -> String {
-    let one = |p: &Picture| {
-        let uri = format!("data:image/png;base64,{}", base64::engine::general_purpose::STANDARD.encode(&p.png));
-        json!({ "kind": p.kind, "title": p.title, "uri": uri })
-    };
-    let bar = |b: &ColorBar| json!({ "kind": b.kind, "colors": b.colors, "ends": b.ends, "title": b.title });
-    let of_scene = |s: &Summary| {
-        let panel = panels.iter().find(|p| p.scene == s.scene);
-        let [pictures, bars] = panel.map_or_else(Default::default, |p| {
-            [p.pictures.iter().map(one).collect::<Vec<_>>(), p.bars.iter().map(bar).collect()]
-        });
-        json!({ "pictures": pictures, "bars": bars })
-    };
-    let all: Vec<_> = outcome.summaries.iter().map(of_scene).collect();
-    // "</" could end the script
-    json!(all).to_string().replace("</", "<\\/")
-}
-
 /// The whole page.
 #[must_use]
-pub fn page(outcome: &Outcome, figures: &[Vec<Figure>], panels: &[Panel], command: &str) -> String {
+pub fn page(outcome: &Outcome, figures: &[Vec<Figure>], command: &str) -> String {
     let [techniques, samplers, against, measures] = chips(outcome);
     let best: String = outcome.summaries.iter().map(|s| format!("<li>{}</li>\n", escape(&s.headline()))).collect();
     let notes: String = outcome.notes.iter().map(|n| format!("<p>{}</p>\n", escape(n))).collect();
-    // the data last, so that placeholders are not searched for in it
     include_str!("report.html")
         .replace("{{known}}", &format!("{:.0}", 100.0 * KNOWN_TO))
         .replace("{{widest}}", &format!("{:.0}", 100.0 * WIDEST))
@@ -183,6 +142,5 @@ pub fn page(outcome: &Outcome, figures: &[Vec<Figure>], panels: &[Panel], comman
         .replace("{{against}}", &against)
         .replace("{{measures}}", &measures)
         .replace("{{facts}}", &facts(outcome, command))
-        .replace("{{scenes}}", &sections(outcome, figures, panels))
-        .replace("{{data}}", &pictures(outcome, panels))
+        .replace("{{scenes}}", &sections(outcome, figures))
 }
