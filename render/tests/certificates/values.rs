@@ -3,6 +3,7 @@
 //! The error of a light at a point is allowed to be 10⁻⁵ of what the light contributes there if nothing occludes it. A point that receives
 //! less than a hundredth of what another one of the patch does counts as a point that receives that hundredth.
 
+use super::pinned::Pinned;
 use super::truth::Truth;
 use super::views::{Fit, View, World};
 use crate::attack::judge::read;
@@ -327,6 +328,18 @@ pub(crate) fn campaign(regime: &Regime, shafts: u64, seeds: impl IntoIterator<It
             let bodies = if random.one_in(4) { &none } else { &found };
             world.values(&view, bodies, &mut forms, &mut values);
         }
+    }
+    values
+}
+
+/// Tests all lights of a scene for a view, with and without bodies.
+pub(crate) fn pinned(pinned: &Pinned) -> Values {
+    let (mut values, mut forms) = (Values::default(), Forms::default());
+    let scene = crate::kit::read(pinned.scene);
+    let world = World { name: "pinned".to_owned(), surfaces: Surfaces::new(&scene).unwrap(), scene };
+    let view = world.pinned(pinned).unwrap();
+    for bodies in [Bodies::default(), Bodies::new(&world.surfaces.bvh)] {
+        world.values(&view, &bodies, &mut forms, &mut values);
     }
     values
 }

@@ -1,5 +1,6 @@
 //! What some pixels see of a primitive.
 
+use super::pinned::Pinned;
 use crate::random::Random;
 use etendue::{Mask, Real, f32x8};
 use etendue_oracle::{V3, along, cross, dot, length, sub, unit, wide};
@@ -84,6 +85,15 @@ impl World {
         let [a, b, c] = self.scene.triangles[self.surfaces.bvh.order()[place as usize] as usize].map(wide);
         let normal = unit(cross(sub(b, a), sub(c, a)));
         if dot(normal, sub(viewer, a)) < 0.0 { normal.map(|x| -x) } else { normal }
+    }
+    /// What the pixels of a pinned view see.
+    pub(crate) fn pinned(&self, pinned: &Pinned) -> Option<View> {
+        let [origin, forward, right, up] = pinned.axes;
+        let screen = Screen::Half(pinned.half);
+        let camera = CameraSettings { origin, forward, right, up, screen, ..self.scene.camera.clone() };
+        let pyramid = Pyramid::new(&Pinhole::new(&camera, pinned.size, pinned.size), pinned.area);
+        let patch = Patch::of(&self.surfaces, pinned.receiver, Viewer::Pixels(&pyramid))?;
+        Some(View { receiver: pinned.receiver, patch, points: pinned.points.to_vec() })
     }
     /// Looks from a place at a target through random pixels.
     pub(crate) fn look_at(&self, origin: V3, target: V3, random: &mut Random, fit: &mut Fit) -> Option<View> {
