@@ -1,4 +1,4 @@
-//! Holes and instances, against closed forms and against scenes without them.
+//! Instances against their copies, and rough surfaces beside diffuse ones; `attack` has holes, veils and what is behind them.
 
 use crate::kit::{film, narrow, read, settings, sum, world};
 use etendue_render::compare::LIMIT;
@@ -6,9 +6,6 @@ use etendue_render::scene::{Instance, Scene};
 use etendue_render::{Technique, World};
 use std::f64::consts::TAU;
 use std::sync::Arc;
-
-const TECHNIQUES: [Technique; 4] =
-    [Technique::SolidAngle, Technique::MisPower, Technique::Analytic, Technique::CosineHemisphere];
 
 /// Mean and standard error of the green channel of the only pixel.
 fn pixel(world: &World, technique: Technique, spp: u32) -> (f64, f64) {
@@ -30,31 +27,6 @@ fn square(size: f64, height: f64, parameters: &str) -> String {
 
 const LAMP: &str = "AttributeBegin Material \"diffuse\" \"rgb reflectance\" [0 0 0] AreaLightSource \"diffuse\" \"rgb L\" [5 5 5] \
     Shape \"bilinearmesh\" \"point3 P\" [-.5 3 -.5  .5 3 -.5  -.5 3 .5  .5 3 .5] AttributeEnd\n";
-
-/// Veils let through what their opacity leaves, one after another, and whichever technique looks for the light.
-#[test]
-fn veils_dim_what_is_behind() {
-    let floor = square(9.0, 0.0, "");
-    let through = |veils: &str, technique: Technique, camera: &str| {
-        pixel(&seen(camera, &format!("{LAMP}{floor}{veils}")), technique, 1 << 14)
-    };
-    let (one, two) = (square(2.0, 1.0, "\"float alpha\" .3"), square(2.5, 1.5, "\"float alpha\" .25"));
-    for technique in TECHNIQUES {
-        // from below the veils
-        let (open, error) = through("", technique, "5 .5 0");
-        assert!(open > 0.05 && error < 0.05 * open, "{technique:?}: {open} ± {error}");
-        for (veils, share) in [(one.clone(), 0.7), (format!("{one}{two}"), 0.7 * 0.75)] {
-            let (mean, spread) = through(&veils, technique, "5 .5 0");
-            let error = spread.hypot(share * error);
-            assert!((mean - share * open).abs() < LIMIT * error, "{technique:?}: {mean} of {open}, error {error}");
-        }
-        // from above, the camera sees the veil in 0.3 of its rays, lit by the whole lamp; else the floor, as before
-        let (bare, more) = through(&one.replace(".3", "1"), technique, "0 2.5 .01");
-        let (mean, spread) = through(&one, technique, "0 2.5 .01");
-        let (wanted, error) = (0.3 * bare + 0.7 * 0.7 * open, spread.hypot(0.3 * more).hypot(0.49 * error));
-        assert!((mean - wanted).abs() < LIMIT * error, "{technique:?}: {mean} of {wanted}, error {error}");
-    }
-}
 
 /// Beside rough surfaces, `analytic` combines light and BSDF on these alone: under a light so large that each has a great weight, all
 /// floors have the brightness that the BSDF finds by chance.
@@ -81,62 +53,6 @@ fn only_rough_surfaces_combine_light_and_bsdf() {
             assert!(error < 0.01 * truth, "{technique:?} {material}: {error} of {truth}");
         }
     }
-}
-
-/// A box with holes is no body that certificates know: light passes both of its walls by chance.
-#[test]
-fn boxes_with_holes_are_no_bodies() {
-    let floor = square(9.0, 0.0, "");
-    let corners =
-        (0..8).map(|k| format!("{} {} {} ", (k & 1) * 4 - 2, 1.0 + f64::from(k >> 1 & 1) * 0.5, (k >> 2) * 4 - 2));
-    let corners = corners.collect::<String>();
-    let mesh = |parameters: &str, indices: &str| {
-        format!("Shape \"trianglemesh\" \"point3 P\" [{corners}] {parameters} \"integer indices\" [{indices}]\n")
-    };
-    let (holes, level) = ("\"float alpha\" .4", "0 4 5 0 5 1  2 3 7 2 7 6");
-    let upright = "0 1 3 0 3 2  4 6 7 4 7 5  0 2 6 0 6 4  1 5 7 1 7 3";
-    // all of it, or only what is level
-    let cages = ["", holes].map(|sides| format!("{}{}", mesh(holes, level), mesh(sides, upright)));
-    // half of the upper side is solid, beside the middle of the lamp
-    let (below, above) = (mesh(holes, "0 4 5 0 5 1"), mesh(holes, "2 3 7") + &mesh("", "2 7 6"));
-    let half = format!("{below}{above}{}", mesh("", upright));
-    for technique in TECHNIQUES {
-        let seen = |cage: &str| pixel(&seen("5 .5 0", &format!("{LAMP}{floor}{cage}")), technique, 1 << 14);
-        let (open, more) = seen("");
-        for cage in &cages {
-            let (mean, error) = seen(cage);
-            let (wanted, error) = (0.36 * open, error.hypot(0.36 * more));
-            assert!((mean - wanted).abs() < LIMIT * error, "{technique:?}: {mean} of {wanted}, error {error}");
-        }
-        // the lamp is symmetric about the middle
-        let ((mean, error), wanted) = (seen(&half), 0.18 * open);
-        let error = error.hypot(0.18 * more);
-        assert!((mean - wanted).abs() < LIMIT * error, "{technique:?}: half {mean} of {wanted}, error {error}");
-    }
-}
-
-/// A board of squares with holes shows, and casts, the pattern of its texture.
-#[test]
-fn boards_have_holes_where_the_texture_says() {
-    let textures = "Texture \"holes\" \"float\" \"checkerboard\" \"float uscale\" 4 \"float vscale\" 4 \
-        \"float tex1\" 1 \"float tex2\" 0\n";
-    let board = square(2.0, 1.0, "\"texture alpha\" \"holes\"");
-    let sun = "LightSource \"distant\" \"point3 from\" [0 1 0] \"point3 to\" [0 0 0] \"rgb L\" [1 1 1]\n";
-    let (mut solid, mut open) = (0, 0);
-    for i in 0..64 {
-        // u and v of points of the board, none of them next to an edge of its squares
-        let [u, v] = [f64::from(i % 8), f64::from(i / 8)].map(|k| (k + 0.4) / 8.0);
-        let [x, z] = [4.0 * u - 2.0, 2.0 - 4.0 * v];
-        let is_solid = ((4.0 * u).floor() + (4.0 * v).floor()) % 2.0 == 0.0;
-        let scene = format!("{sun}{textures}Translate {} 0 {}\n{}{board}", -x, -z, square(9.0, 0.0, ""));
-        for technique in [Technique::SolidAngle, Technique::Analytic] {
-            // the shadow on the floor, seen from below the board
-            let (shadow, _) = pixel(&seen("3 .5 0", &scene), technique, 4);
-            assert_eq!(shadow == 0.0, is_solid, "({u}, {v}): {shadow}");
-        }
-        *(if is_solid { &mut solid } else { &mut open }) += 1;
-    }
-    assert_eq!([solid, open], [32, 32]);
 }
 
 /// The same scene without instances.
