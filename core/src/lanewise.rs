@@ -13,7 +13,8 @@ pub trait Lanewise<R>: Sized {
     fn splat<P: Real<Scalar = R>>(self) -> Self::With<P> {
         self.map(P::splat)
     }
-    /// Lane `i` is the element of a slice at `index.lane(i)`; past its end it is the default, a light that emits nothing.
+    /// Gathers elements of a slice: lane `i` has the one at `index.lane(i)`. Past the end of the slice it has the default, which is a light
+    /// that emits nothing.
     ///
     /// ```
     /// use etendue::{Lanewise, LightSampler, Sphere, Vec2, Vec3, f32x4, u32x4};

@@ -53,7 +53,7 @@ impl OwnedTree {
     pub fn refit(&mut self, lights: &[LightBound]) -> Result<(), LightsError> {
         LightTree::refit(lights, &mut self.nodes, &self.places)
     }
-    /// The tree.
+    /// Lends the tree.
     #[must_use]
     pub fn get(&self) -> LightTree<'_> {
         LightTree::from_buffers(&self.nodes, &self.places)
@@ -79,7 +79,7 @@ impl OwnedEnvironment {
         ImageEnvironment::build(weights, width, map, &mut table)?;
         Ok(Self { table, width, map })
     }
-    /// The environment.
+    /// Lends the environment.
     #[must_use]
     pub fn get(&self) -> ImageEnvironment<'_> {
         ImageEnvironment::from_buffer(&self.table, self.width, self.map).expect("the table was built for this size")
@@ -127,12 +127,12 @@ impl OwnedPicture {
         Picture::interpolated(&values, width, &mut table)?;
         Ok(Self { table, values: Some(values), size: [width, height], region: Region::Square })
     }
-    /// The length of the table of a picture that is neither empty nor too large for one.
+    /// Returns the length of the table of a picture, which must be neither empty nor too large for one.
     fn length(width: usize, height: usize) -> Result<usize, TableError> {
         let is_size = width.checked_mul(height).is_some_and(|count| (1..=u32::MAX as usize / 2).contains(&count));
         if is_size { Ok(Picture::buffer(width, height)) } else { Err(TableError::Length) }
     }
-    /// The picture.
+    /// Lends the picture.
     #[must_use]
     pub fn get(&self) -> Picture<'_> {
         let [width, _] = self.size;

@@ -49,8 +49,8 @@ impl Heuristic {
     /// The power heuristic with β = 2, Veach's choice.
     pub const POWER: Self = Self::Power(2);
 
-    /// What [`weights`](Self::weights) takes for a technique with this number of samples and this pdf: their product, at most the largest
-    /// single-precision number; ∞ where `delta` holds.
+    /// Returns what [`weights`](Self::weights) takes for a technique that draws this number of samples with this pdf: the product of both, but
+    /// at most the largest number of single precision, or ∞ where `delta` holds.
     #[inline]
     pub fn technique_pdf<R: Real>(samples: R, pdf: R, delta: R::Mask) -> R {
         let product = (samples * pdf).clamped(R::lit(0.0), R::lit(f64::from(f32::MAX)));

@@ -122,11 +122,13 @@ impl<R: Real> PlacedPatch<R> {
             let (t, meets) = quotient_if_any(-ray.cross(start).dot(across), across.length_squared());
             let point = line.mul_add(t, start);
             let distance = ray.dot(point);
-            // by as much as a direction is rounded, over the lengths of both lines
-            let slack = |length: R| R::lit(SURFACE_SLACK) * quotient(size, length).lesser(R::lit(1e3));
-            let beyond = |x: R| (x - x.clamped(zero, one)).abs();
             let other = twist.mul_add(t.clamped(zero, one), u);
-            let inside = beyond(s).le(slack(ray.cross(other).length())) & beyond(t).le(slack(across.length()));
+            let (seen_s, seen_t) = (ray.cross(other).length(), across.length());
+            // by as much as a direction is rounded, over the lengths of both lines as they are seen and the sine of the angle between them
+            let oblique = quotient(seen_s * seen_t, ray.dot(line.cross(other)).abs()).greater(one);
+            let slack = |length: R| R::lit(SURFACE_SLACK) * (quotient(size, length) * oblique).lesser(R::lit(1e3));
+            let beyond = |x: R| (x - x.clamped(zero, one)).abs();
+            let inside = beyond(s).le(slack(seen_s)) & beyond(t).le(slack(seen_t));
             // the ray passes the point of the line that is nearest to it: so do neither a line that is only a point nor a root that is not
             // real; the plane through ray and line is known to one over the sine of their angle
             let aside = (ray.cross(point).length() * across.length()).le(R::lit(SURFACE_SLACK) * size * line.length());

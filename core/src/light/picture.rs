@@ -121,8 +121,8 @@ impl<'a> Picture<'a> {
         }
         Ok(Self { values: Some(values), ..Self::from_buffer(buffer, [width + 1, height + 1], Region::Square)? })
     }
-    /// The mean over the texel in column `x` and row `y` of an image that is interpolated bilinearly between the centres of its texels, and
-    /// continued by its outermost ones: what pbrt-v4 does with pictures on lights, and Mitsuba 3 with textures that are clamped.
+    /// Returns the mean over the texel in column `x` and row `y` of an image that is interpolated bilinearly between the centres of its texels,
+    /// and continued by its outermost ones: this is what pbrt-v4 does with pictures on lights, and Mitsuba 3 with textures that are clamped.
     ///
     /// It is ⅛, ¾ and ⅛ of a texel and its neighbours, in both directions, so that it is above 0 wherever the interpolation is.
     ///

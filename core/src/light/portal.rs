@@ -27,7 +27,7 @@ pub struct Portal {
 }
 
 impl Portal {
-    /// The portal with a corner and the edges `s` and `t` from there.
+    /// Makes the portal with this corner and the edges `s` and `t` from there, in the coordinates of the scene.
     ///
     /// # Errors
     /// If the edges are parallel or a number is not finite.

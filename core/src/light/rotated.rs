@@ -5,9 +5,10 @@ use super::sampler::LightSampler;
 use crate::real::Real;
 use crate::vector::{Frame, Vec2, Vec3};
 
-/// A light around the scene whose axes are not those of the scene: an image of the sky for a world in which y is up, or turned by the host.
+/// A light around the scene in axes of its own: an image of the sky where the scene has y up, for example, or one that the host turns.
 ///
-/// A sample has the pdf that [`pdf`](LightSampler::pdf) tells for its direction, which is rounded once more than in the axes of the light.
+/// A direction is rounded once more on its way into the scene. A sample has the pdf, per steradian, that [`pdf`](LightSampler::pdf) returns
+/// for the rounded direction.
 ///
 /// ```
 /// use etendue::light::{EnvironmentMap, ImageEnvironment, Rotated};

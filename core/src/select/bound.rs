@@ -9,8 +9,8 @@ use core::f64::consts::PI;
 
 /// A bound of what a light of finite extent can contribute.
 ///
-/// Method `bound` of each light returns it for a radiance, or an intensity, in any unit: radii are rounded up, so that the sphere holds the
-/// light in spite of the rounding of its centre. Powers are kept within the positive numbers of single precision; a scene whose extent is
+/// The method `bound` of each light returns it for a radiance, or an intensity, in any unit. Radii are rounded up, so that the sphere holds
+/// the light in spite of the rounding of its centre. Powers are kept within the positive numbers of single precision; a scene whose extent is
 /// beyond 1e±15 needs a unit for its radiance in which they do not reach the ends.
 ///
 /// ```
@@ -51,13 +51,13 @@ fn narrow(v: Vec3<f64>) -> [f32; 3] {
     v.map(|x| x as f32).to_array()
 }
 
-/// A power as a positive number of single precision; 0 of a light that is dark.
+/// Rounds a flux to a positive number of single precision. The power of a dark light is 0.
 fn power(flux: f64) -> f32 {
     if flux > 0.0 { flux.clamped(f64::from(f32::MIN_POSITIVE), f64::from(f32::MAX)) as f32 } else { 0.0 }
 }
 
 impl LightBound {
-    /// The bound of the same light with this spread, which does not change its power.
+    /// Returns the bound of the same light where it has this spread, which does not change its power.
     #[must_use]
     pub fn within(self, spread: &Spread<f32>) -> Self {
         let tangent = f64::from(spread.tan_half);
@@ -65,7 +65,11 @@ impl LightBound {
         let cos = (1.0 - 1e-6) / tangent.mul_add(tangent, 1.0).sqrt();
         Self { cos_cone: (cos as f32).next_down().greater(0.0), ..self }
     }
-    /// About points that are given relative to the first of them, which is one of the light's: the sphere around all, centred at `middle`.
+    /// Bounds a light that emits in all directions from a sphere, which may be a point.
+    fn about(center: Vec3<f32>, radius: f32, flux: f64) -> Self {
+        Self { center: center.to_array(), radius, power: power(flux), ..Self::default() }
+    }
+    /// Bounds a light by the sphere around these points of it, centred at `middle`. All are relative to the point `first`.
     fn around(first: Vec3<f32>, points: &[Vec3<f64>], middle: Vec3<f64>) -> Self {
         let center = narrow(wide(first) + middle);
         // as it is rounded, which for a small and far light is not at its middle
@@ -77,7 +81,7 @@ impl LightBound {
         let radius = if f64::from(radius) < outwards { radius.next_up() } else { radius };
         Self { center, radius, ..Self::default() }
     }
-    /// A flat convex light by its corners, relative to the first one, which is 0.
+    /// Bounds a flat convex light by its corners, which are relative to the first one, so that this is 0.
     fn flat(first: Vec3<f32>, corners: &[Vec3<f64>], radiance: f32) -> Self {
         let (mut sum, mut area, mut middle) = (Vec3::default(), 0.0, Vec3::default());
         for pair in corners.windows(2) {
@@ -93,109 +97,73 @@ impl LightBound {
     }
 }
 
-impl Sphere<f32> {
-    /// What it can contribute with this radiance.
-    #[must_use]
-    pub fn bound(&self, radiance: f32) -> LightBound {
+/// Gives each light the method `bound`.
+macro_rules! bounds {
+    ($($(#[$doc:meta])* $light:ident $(<$n:ident>)? ($self:ident, $brightness:ident) => $bound:expr;)+) => {$(
+        impl $(<const $n: usize>)? $light<f32 $(, $n)?> {
+            $(#[$doc])*
+            #[must_use]
+            pub fn bound(&$self, $brightness: f32) -> LightBound {
+                $bound
+            }
+        }
+    )+};
+}
+bounds! {
+    /// What it can contribute with this radiance. One that is not positive gives the power 0.
+    Sphere(self, radiance) => {
         let radius = self.radius.greater(0.0);
-        let power = power(4.0 * PI * PI * f64::from(radius) * f64::from(radius) * f64::from(radiance));
-        LightBound { center: self.center.to_array(), radius, power, ..LightBound::default() }
-    }
-}
-
-impl Triangle<f32> {
-    /// What it can contribute with this radiance.
-    #[must_use]
-    pub fn bound(&self, radiance: f32) -> LightBound {
+        let flux = 4.0 * PI * PI * f64::from(radius) * f64::from(radius) * f64::from(radiance);
+        LightBound::about(self.center, radius, flux)
+    };
+    /// What it can contribute with this radiance. One that is not positive gives the power 0.
+    Disk(self, radiance) => {
+        let radius = self.radius.greater(0.0);
+        let flux = PI * PI * f64::from(radius) * f64::from(radius) * f64::from(radiance);
+        let normal = narrow(wide(self.normal).unit_and_length().0);
+        LightBound { normal, ..LightBound::about(self.center, radius, flux) }
+    };
+    /// What it can contribute with this radiance. One that is not positive gives the power 0.
+    Triangle(self, radiance) => {
         LightBound::flat(self.v0, &[Vec3::default(), wide(self.e1), wide(self.e2)], radiance)
-    }
-}
-
-impl Parallelogram<f32> {
-    /// What it can contribute with this radiance.
-    #[must_use]
-    pub fn bound(&self, radiance: f32) -> LightBound {
+    };
+    /// What it can contribute with this radiance. One that is not positive gives the power 0.
+    Parallelogram(self, radiance) => {
         let [s, t] = [self.edge_s, self.edge_t].map(wide);
         LightBound::flat(self.corner, &[Vec3::default(), s, s + t, t], radiance)
-    }
-}
-
-impl Rectangle<f32> {
-    /// What it can contribute with this radiance.
-    #[must_use]
-    pub fn bound(&self, radiance: f32) -> LightBound {
-        Parallelogram::from(*self).bound(radiance)
-    }
-}
-
-impl<const N: usize> Polygon<f32, N> {
-    /// What it can contribute with this radiance.
-    #[must_use]
-    pub fn bound(&self, radiance: f32) -> LightBound {
+    };
+    /// What it can contribute with this radiance. One that is not positive gives the power 0.
+    Rectangle(self, radiance) => Parallelogram::from(*self).bound(radiance);
+    /// What it can contribute with this radiance. One that is not positive gives the power 0.
+    Polygon<N>(self, radiance) => {
         let first = self.corners[0];
         LightBound::flat(first, &self.corners.map(|corner| wide(corner) - wide(first)), radiance)
-    }
-}
-
-impl Disk<f32> {
-    /// What it can contribute with this radiance.
-    #[must_use]
-    pub fn bound(&self, radiance: f32) -> LightBound {
-        let radius = self.radius.greater(0.0);
-        let power = power(PI * PI * f64::from(radius) * f64::from(radius) * f64::from(radiance));
-        let normal = narrow(wide(self.normal).unit_and_length().0);
-        LightBound { center: self.center.to_array(), radius, normal, power, ..LightBound::default() }
-    }
-}
-
-impl BilinearPatch<f32> {
+    };
     /// What it can contribute with this radiance. It counts as a light that emits in all directions, as its normals differ.
-    #[must_use]
-    pub fn bound(&self, radiance: f32) -> LightBound {
+    BilinearPatch(self, radiance) => {
         let [s, t, diagonal] = [self.edge_s, self.edge_t, self.diagonal].map(wide);
         let area = self.map(f64::from).by_area(wide(self.corner)).area();
         let middle = (s + t + diagonal) * 0.25;
         let bound = LightBound::around(self.corner, &[Vec3::default(), s, t, diagonal], middle);
         LightBound { power: power(area * PI * f64::from(radiance)), ..bound }
-    }
-}
-
-impl Line<f32> {
-    /// What it can contribute with this product of radiance and width.
-    #[must_use]
-    pub fn bound(&self, radiance_times_width: f32) -> LightBound {
+    };
+    /// What it can contribute with this product of radiance and width, in the unit of its length.
+    Line(self, radiance_times_width) => {
         let edge = wide(self.edge);
         let bound = LightBound::around(self.start, &[Vec3::default(), edge], edge * 0.5);
         LightBound { power: power(edge.length() * PI * PI * f64::from(radiance_times_width)), ..bound }
-    }
-}
-
-impl PointLight<f32> {
-    /// What it can contribute with this intensity.
-    #[must_use]
-    pub fn bound(&self, intensity: f32) -> LightBound {
-        let power = power(4.0 * PI * f64::from(intensity));
-        LightBound { center: self.position.to_array(), power, ..LightBound::default() }
-    }
-}
-
-impl SpotLight<f32> {
+    };
+    /// What it can contribute with this intensity. One that is not positive gives the power 0.
+    PointLight(self, intensity) => LightBound::about(self.position, 0.0, 4.0 * PI * f64::from(intensity));
     /// What it can contribute with this intensity on its axis. A cone of less than 5° counts as one of 5°.
-    #[must_use]
-    pub fn bound(&self, intensity: f32) -> LightBound {
+    SpotLight(self, intensity) => {
         let [inner, outer] = [self.one_minus_cos_inner, self.one_minus_cos_outer].map(f64::from);
         // the falloff is half on average, and a cone too narrow for numbers still has a chance
-        let power = power((inner + outer).greater(1e-30) * PI * f64::from(intensity));
+        let flux = (inner + outer).greater(1e-30) * PI * f64::from(intensity);
         let cos = (1.0 - self.one_minus_cos_outer).next_down();
         // beyond a hemisphere, a cone bounds nothing
-        let normal = if cos > 0.0 { wide(self.axis).unit_and_length().0 } else { Vec3::default() };
+        let axis = if cos > 0.0 { wide(self.axis).unit_and_length().0 } else { Vec3::default() };
         let cos_cone = cos.clamped(0.0, NARROWEST);
-        LightBound {
-            center: self.position.to_array(),
-            normal: narrow(normal),
-            cos_cone,
-            power,
-            ..LightBound::default()
-        }
-    }
+        LightBound { normal: narrow(axis), cos_cone, ..LightBound::about(self.position, 0.0, flux) }
+    };
 }

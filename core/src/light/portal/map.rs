@@ -47,7 +47,7 @@ pub struct PortalMap {
 }
 
 impl PortalMap {
-    /// The map of portals with these edges. The sky is where `s` × `t` points to.
+    /// Prepares the map of portals with these edges, of any length. The sky is on the side that `s` × `t` points to.
     ///
     /// # Errors
     /// If the edges are parallel or not finite.
@@ -61,14 +61,14 @@ impl PortalMap {
         let map = || Self { axes: [x, y, z], duals: [y.cross(z) * inverse, z.cross(x) * inverse, z], sin };
         is_some.then(map).ok_or(PortalError::Edges)
     }
-    /// The unit direction of a point of the map, and the solid angle there per unit of its area, in steradians.
+    /// Returns the unit direction of a point of the map, and the solid angle per unit of the map's area there, in steradians.
     ///
     /// The domain is [0, 1]². Near the edges of the map the solid angle goes to 0.
     #[must_use]
     pub fn direction<R: Real>(&self, place: Vec2<R>) -> (Vec3<R>, R) {
         Self::direction_by(self.axes(), R::lit(PI * PI * self.sin), place)
     }
-    /// The same for unit edges and a normal that may differ by lane, and for π² times the sine of the angle between the edges.
+    /// Does the same for unit edges and a normal that may differ by lane, where `scale` is π² times the sine of the angle between the edges.
     #[must_use]
     pub fn direction_by<R: Real>(axes: [Vec3<R>; 3], scale: R, place: Vec2<R>) -> (Vec3<R>, R) {
         let half = R::lit(0.5);

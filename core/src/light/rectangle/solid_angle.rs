@@ -70,7 +70,7 @@ lanewise! {
 }
 
 lanewise! {
-    /// The strip [0, x]×[y₀, y₁], with the solid angle w.
+    /// The strip [0, x]×[y₀, y₁], whose solid angle is w.
     struct Strip {
         /// sinw
         sin: R,

@@ -64,8 +64,8 @@ lanewise! {
     }
 }
 
-/// 1/|n| and r|n| − |c·n|, where `height` is c·n as an unevaluated sum: how far the sphere reaches across the horizon, accurate
-/// relative to its own size.
+/// Returns 1/|n|, and r|n| − |c·n|, which is how far the sphere reaches across the horizon. The second parameter of these, `height`, is c·n
+/// as an unevaluated sum, so that the difference is accurate relative to its own size.
 #[inline(always)]
 fn tangent_distance<R: Real>(r: R, n: Vec3<R>, [height, rest]: [R; 2]) -> (R, R) {
     let [squared, more] = dot_dw(n, n);
@@ -83,8 +83,8 @@ fn tangent_distance<R: Real>(r: R, n: Vec3<R>, [height, rest]: [R; 2]) -> (R, R)
     (shrink.mul_add(off, shrink), distance)
 }
 
-/// Where a sphere is over the horizon: the frame with x towards the axis and z the normal, the centre in it, how far the sphere reaches
-/// across, and where the normal has a direction.
+/// A sphere in the frame of a surface, whose x axis points towards the sphere along the horizon and whose z axis is the normal: where its
+/// centre is, how far it reaches across the horizon, and whether the normal has a direction.
 struct Upright<R: Real> {
     frame: Frame<R>,
     along_x: R,
@@ -123,7 +123,8 @@ impl<R: Real> Upright<R> {
     }
 }
 
-/// The angles of a cap, with the names of [`ProjectedCap`], and whether it is whole. From inside, the hemisphere is a cap about the normal.
+/// The angles of a cap, which have the names that [`ProjectedCap`] gives them, and whether the cap is whole. Seen from inside the sphere, the
+/// cap is the hemisphere about the normal.
 struct Angles<R: Real> {
     sin_sigma: R,
     cos_sigma: R,
@@ -136,7 +137,7 @@ struct Angles<R: Real> {
 }
 
 impl<R: Real> Angles<R> {
-    /// Of a sphere with the radius `r`, with `power` = d² − r² and `inverse` = 1/d.
+    /// Computes the angles of a sphere with the radius `r` at the distance d: `power` is d² − r², and `inverse` is 1/d.
     #[inline(always)]
     fn new(at: &Upright<R>, [r, power, inverse]: [R; 3], outside: R::Mask) -> Self {
         let (zero, one, &Upright { along_x, along_z, margin, .. }) = (R::lit(0.0), R::lit(1.0), at);
@@ -160,7 +161,7 @@ impl<R: Real> Angles<R> {
             whole: !outside | (margin.le(zero) & along_z.ge(zero)),
         }
     }
-    /// `part`, `rest` and `projected` of the cap of a sphere with the radius `r`, which reaches across the horizon by `margin`.
+    /// Computes `part`, `rest` and `projected` of the cap, if the sphere has the radius `r` and reaches across the horizon by `margin`.
     #[inline(always)]
     fn areas(&self, margin: R, r: R) -> [R; 3] {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));

@@ -7,8 +7,8 @@ use crate::real::{Mask, Real};
 use crate::vector::double_word::{cross_dw, dot_dw, height_over, rounded_sum, sum_dw};
 use crate::vector::{Vec2, Vec3};
 
-/// Unit normal of the plane through `p` along `u` and `v`, and p·normal. From a far corner that height is a small difference,
-/// so it is formed in twice the working precision.
+/// Returns the unit normal of the plane through `p` along `u` and `v`, and the height p·normal. From a far corner that height is a small
+/// difference, so it is formed in twice the working precision.
 #[inline(always)]
 fn normal_and_height<R: Real>(p: Vec3<R>, u: Vec3<R>, v: Vec3<R>) -> (Vec3<R>, R) {
     let (u, v) = (u * u.max_abs().pow2_scale(), v * v.max_abs().pow2_scale());
@@ -18,25 +18,26 @@ fn normal_and_height<R: Real>(p: Vec3<R>, u: Vec3<R>, v: Vec3<R>) -> (Vec3<R>, R
     (normal, (height_over(p, [u, v], cross) / R::blend(some, length, R::lit(1.0))).keep(some))
 }
 
-/// The vector, or the opposite one where the mask is true.
+/// Reverses the vector where the mask is true.
 #[inline(always)]
 fn turned<R: Real>(v: Vec3<R>, mask: R::Mask) -> Vec3<R> {
     v.map(|x| x.negate_where(mask))
 }
 
-/// What the rectangle extends over along an edge, as coordinates from the foot: the axis points to the far end.
+/// The range that the rectangle covers along one of its edges, in coordinates from the foot. The axis points to the far end.
 struct Extent<R: Real> {
     /// Whether the axis points against the edge.
     flip: R::Mask,
     /// Unit vector along the axis.
     side: Vec3<R>,
+    /// Coordinates of the near and of the far end, and their difference, in the unit of p.
     near: R,
     far: R,
     size: R,
 }
 
 impl<R: Real> Extent<R> {
-    /// Along an edge from the corner p: coordinates of far corners are small differences.
+    /// Measures the range of an edge that begins at the corner p. Coordinates of far corners are small differences.
     #[inline(always)]
     fn new(p: Vec3<R>, edge: Vec3<R>) -> Self {
         let zero = R::lit(0.0);
@@ -56,7 +57,7 @@ impl<R: Real> Extent<R> {
     fn anchored(&self) -> R::Mask {
         (self.near + self.near).ge(self.far)
     }
-    /// Of what belongs to the sides where the edge begins and ends, first that of the near end, then of the far one.
+    /// Sorts the planes through the sides at which the edge begins and ends: the one at the near end comes first.
     #[inline(always)]
     fn sorted(&self, [low, high]: [Plane<R>; 2]) -> [Plane<R>; 2] {
         let pick = |yes: &Plane<R>, no: &Plane<R>| Plane {
@@ -67,7 +68,7 @@ impl<R: Real> Extent<R> {
     }
 }
 
-/// The origin of X and Y, from the far corner or from the foot, whichever is nearer to it.
+/// Returns the origin of X and Y, which is computed from the far corner or from the foot, whichever is nearer to it.
 #[inline(always)]
 fn base<R: Real>([x, y]: [&Extent<R>; 2], corners: [Vec3<R>; 4], foot: Vec3<R>, z: R) -> Vec3<R> {
     let far_corner =
@@ -112,7 +113,7 @@ struct Plane<R> {
     slack: R,
 }
 
-/// The planes at the corner and opposite of it, along u and along v, from p, u and v, since the other corners are rounded sums.
+/// Returns the planes at both ends of u, then those at both ends of v. They follow from p, u and v, since the other corners are rounded sums.
 #[inline(always)]
 fn planes<R: Real>([p, u, v]: [Vec3<R>; 3], corners: [Vec3<R>; 4], behind: R::Mask) -> [[Plane<R>; 2]; 2] {
     let (pu, pv, uv) = (cross_dw(p, u), cross_dw(p, v), cross_dw(u, v));
@@ -126,7 +127,8 @@ fn planes<R: Real>([p, u, v]: [Vec3<R>; 3], corners: [Vec3<R>; 4], behind: R::Ma
     [[plane(minus(pv), a, d), plane(sum_dw(pv, uv), b, c)], [plane(pu, a, b), plane(sum_dw(uv, minus(pu)), d, c)]]
 }
 
-/// Corner and edges in a unit in which no length exceeds 2, a power of two, and whether every point has a finite distance.
+/// Multiplies the corner and the edges by a power of two, so that no length exceeds 2. Returns that factor, too, and whether every point of
+/// the rectangle is at a finite distance.
 #[inline(always)]
 fn scaled<R: Real>([p, u, v]: [Vec3<R>; 3]) -> ([Vec3<R>; 3], R, R::Mask) {
     let reach = p.max_abs().greater(u.max_abs()).greater(v.max_abs());
