@@ -2,9 +2,8 @@
 
 use etendue::estimate::{Heuristic, Welford};
 use etendue::sequence::{Independent, Sequence};
-use etendue::{LightSample, LightSampler, PointLight, Real, Sphere, Triangle, Vec2, Vec3, f32x4, f32x8, f32x16};
+use etendue::{LightSample, LightSampler, PointLight, Sphere, Triangle, Vec2, Vec3};
 use etendue_judge::checks::{self, EXTREMES, HEURISTICS};
-use etendue_judge::stats;
 
 #[test]
 fn weights_sum_to_one_at_every_extreme() {
@@ -23,7 +22,7 @@ fn weights_sum_to_one_at_every_extreme() {
 }
 
 #[test]
-fn weights_are_their_formula_at_every_scale_and_width() {
+fn weights_are_their_formula_at_every_scale() {
     let sequence = Independent::new(5);
     for i in 0..2000 {
         let u: Vec2<f64> = sequence.pair(0, i, 0);
@@ -38,21 +37,6 @@ fn weights_are_their_formula_at_every_scale_and_width() {
             }
             for scale in [2.0_f32.powi(-100), 2.0_f32.powi(100)] {
                 assert_eq!(heuristic.weights(densities.map(|d| d * scale)), weights);
-            }
-        }
-        for heuristic in HEURISTICS {
-            let other = EXTREMES[i as usize % EXTREMES.len()];
-            let lane = |k: usize| if k.is_multiple_of(2) { densities } else { [other, densities[1], other] };
-            let four = heuristic.weights([0, 1, 2].map(|t| f32x4::from_fn(|k| lane(k)[t])));
-            let eight = heuristic.weights([0, 1, 2].map(|t| f32x8::from_fn(|k| lane(k)[t])));
-            let sixteen = heuristic.weights([0, 1, 2].map(|t| f32x16::from_fn(|k| lane(k)[t])));
-            for k in 0..16 {
-                let one = heuristic.weights(lane(k));
-                for t in 0..3 {
-                    assert_eq!(sixteen[t].lane(k).to_bits(), one[t].to_bits());
-                    assert!(k > 7 || eight[t].lane(k).to_bits() == one[t].to_bits());
-                    assert!(k > 3 || four[t].lane(k).to_bits() == one[t].to_bits());
-                }
             }
         }
     }
@@ -162,6 +146,7 @@ fn both(light: &impl LightSampler<f32>, u: Vec2<f32>) -> [LightSample<f32>; 2] {
 #[test]
 fn variance_has_the_true_expectation() {
     let (values, chances) = ([0.0, 1.0, 7.0], [0.5, 0.3, 0.2]);
+    assert!(Welford::<f32>::default().variance().is_infinite());
     let mean = 0.3 + 1.4;
     let variance = 0.3 + 0.2 * 49.0 - mean * mean;
     for n in 2_u32..8 {
@@ -185,46 +170,5 @@ fn variance_has_the_true_expectation() {
         for (expectation, truth) in expectations.into_iter().zip([mean, variance, variance]) {
             assert!((expectation - truth).abs() < 1e-12, "{n}: {expectations:?}");
         }
-    }
-}
-
-/// f = exp(−1000(x−¼)²) by uniform samples and by two densities of three steps.
-#[test]
-fn importance_sampling_example() {
-    let f = |x: f64| (-1000.0 * (x - 0.25) * (x - 0.25)).exp();
-    let measure = |outside: f64, inside: f64| {
-        let split = [0.15 * outside, 0.15 * outside + 0.2 * inside];
-        let mut welford = Welford::<f64>::default();
-        let mut fourth = Vec::new();
-        let n = 1 << 18;
-        for i in 0..n {
-            let u: Vec2<f64> = Independent::new(8).pair(0, i, 0);
-            let (x, pdf) = if u.x < split[0] {
-                (u.x / outside, outside)
-            } else if u.x < split[1] {
-                (0.15 + (u.x - split[0]) / inside, inside)
-            } else {
-                (0.35 + (u.x - split[1]) / outside, outside)
-            };
-            let value = f(x) / pdf;
-            welford.push(value);
-            fourth.push(value);
-        }
-        let n = f64::from(n);
-        let variance = welford.variance();
-        let integral = (std::f64::consts::PI / 1000.0).sqrt();
-        assert!((welford.mean() - integral).abs() < 5.0 * (variance / n).sqrt(), "{}", welford.mean());
-        let (_, spread) = stats::mean_variance(&fourth.iter().map(|v| (v - integral).powi(2)).collect::<Vec<_>>());
-        (variance, (spread / n).sqrt())
-    };
-    let (uniform, error) = measure(1.0, 1.0);
-    println!("variance {uniform} ± {error}");
-    assert!((uniform - 0.036_492).abs() < 5.0 * error && error < 4e-4, "{uniform} ± {error}");
-    for ((outside, inside), ratio, half_unit) in [((0.1, 4.6), 6.67, 0.005), ((1.2, 0.2), 1.0 / 5.34, 1e-4)] {
-        let (variance, other) = measure(outside, inside);
-        let gain = uniform / variance;
-        let relative = (error / uniform).hypot(other / variance);
-        println!("gain {gain} ± {}", gain * relative);
-        assert!((gain - ratio).abs() < 5.0 * gain * relative + half_unit && relative < 0.03, "{gain} is not {ratio}");
     }
 }

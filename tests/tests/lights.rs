@@ -13,4 +13,3 @@ mod portals;
 mod projected;
 mod samplers;
 mod spread;
-mod variances;

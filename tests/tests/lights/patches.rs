@@ -2,7 +2,6 @@
 
 use etendue::{BilinearPatch, LightSampler, Vec2};
 use etendue_judge::generators::Random;
-use etendue_judge::techniques::{self, AreaLight, LightShape, Measure};
 use etendue_oracle::tier::cases;
 use etendue_oracle::{V3, along, cross, dot, length, narrow, sub, unit, wide};
 
@@ -111,30 +110,6 @@ fn pdf_of_a_flat_patch_integrates_to_1() {
         assert!((sum - 1.0).abs() < 0.025, "{name} {patch:?}: {sum}");
     }
     println!("off by up to {worst:.1e}");
-}
-
-#[test]
-fn flat_patches_have_the_same_bits_in_every_lane() {
-    let mut random = Random::new(2);
-    let lights: Vec<AreaLight> = flat()
-        .into_iter()
-        .map(|(_, [a, b, c, n])| AreaLight {
-            shape: LightShape::Patch,
-            by: Measure::Area,
-            p: [0.0; 3],
-            a,
-            b,
-            c,
-            n,
-            radius: 0.0,
-        })
-        .collect();
-    for eight in lights.chunks_exact(8) {
-        for _ in 0..20 {
-            let us = core::array::from_fn(|_| [random.unit(), random.unit()]);
-            techniques::any_bits(eight.try_into().unwrap(), &us);
-        }
-    }
 }
 
 /// The nearest point in a direction, by the quadratic equation in s; and how near to another answer that is.

@@ -1,21 +1,13 @@
 //! Polygons as lights: irradiance against Lambert's formula, coincident corners, lanes, arbitrary bits.
 
-use etendue::{LightSample, LightSampler, Parallelogram, Polygon, Vec2, Vec3};
+use super::area::{irradiance, mean};
+use etendue::{LightSampler, Parallelogram, Polygon, Vec2, Vec3};
 use etendue_judge::generators::Random;
 use etendue_judge::properties::Coordinates;
 use etendue_oracle::tier::is_long;
 use etendue_oracle::{
     V3, above_horizon, along, basis, cross, dd, dot, exact_sum, lambert, projected_polygon, triangle_solid_angle, unit,
 };
-
-fn mean(n: usize, f: impl Fn(Vec2<f64>) -> f64) -> f64 {
-    let at = |i: usize| (i as f64 + 0.5) / n as f64;
-    (0..n * n).map(|i| f(Vec2::new(at(i % n), at(i / n)))).sum::<f64>() / (n * n) as f64
-}
-fn irradiance(s: &LightSample<f64>, n: V3) -> f64 {
-    let cos = dot(s.direction.at(0), n).max(0.0);
-    if s.pdf > 0.0 && s.emits { cos / s.pdf } else { 0.0 }
-}
 
 /// N corners on an ellipse at a height above the origin, corners 0 to `skip` coincident, and the unit vector from the origin to their
 /// plane.
@@ -71,32 +63,6 @@ fn irradiance_matches_lamberts_formula() {
         agrees::<4>(&mut random);
         agrees::<8>(&mut random);
     }
-}
-
-/// The points of a parallelogram and of the same polygon have equal moments.
-#[test]
-fn a_parallelogram_is_a_polygon() {
-    let (p, u, v) = (Vec3::new(0.3, 1.0, -0.2), Vec3::new(1.0, 0.2, 0.1), Vec3::new(-0.1, 0.3, 1.5_f64));
-    let one = Parallelogram { corner: p, edge_s: u, edge_t: v };
-    // counterclockwise as seen from the side to which u×v points
-    let other = Polygon { corners: [p, p + u, p + u + v, p + v] };
-    let o = Vec3::default();
-    let moment = |f: &dyn Fn(Vec2<f64>) -> LightSample<f64>| {
-        let at = |k: usize, power: i32| {
-            mean(400, |u| {
-                let s = f(u);
-                (s.direction.at(0)[k] * s.distance).powi(power)
-            })
-        };
-        [at(0, 1), at(1, 1), at(2, 1), at(0, 2), at(2, 2)]
-    };
-    let (a, b) = (moment(&|u| one.by_area(o).sample(u)), moment(&|u| other.by_area(o).sample(u)));
-    for (a, b) in a.into_iter().zip(b) {
-        // the root in the triangle's map leaves n^-1.5 = 1.3e-4 on a grid of n² points
-        assert!((a - b).abs() < 2e-4 * a.abs().max(0.1), "{a} {b}");
-    }
-    let s = (one.by_area(o).sample(Vec2::new(0.5, 0.5)).emits, other.by_area(o).sample(Vec2::new(0.5, 0.5)).emits);
-    assert_eq!(s.0, s.1);
 }
 
 // whichever corner stands for several, and whether the polygon faces the surface, contains the zenith or crosses the horizon

@@ -4,9 +4,7 @@ mod openings;
 
 use core::f64::consts::PI;
 use etendue::discrete::TableError;
-use etendue::light::{
-    EnvironmentMap, ImageEnvironment, MOST_PORTALS, Portal, PortalEnvironment, PortalError, PortalMap, PortalTable,
-};
+use etendue::light::{MOST_PORTALS, Portal, PortalEnvironment, PortalError, PortalMap, PortalTable};
 use etendue::{LightSampler, Mask, Real, Vec2, Vec3, Warp, f32x8};
 use etendue_judge::generators::{self, Random};
 use etendue_judge::properties::{Coordinates, squares_of, vectors_of};
@@ -365,59 +363,4 @@ fn invalid_input_is_an_error() {
     assert_eq!([error(&portals, &tables), error(&[], &[])], [PortalError::Count; 2]);
     assert_eq!(error(&portals[1..], &tables), PortalError::Tables);
     assert!(PortalEnvironment::new(&portals[1..], &tables[1..]).is_ok());
-}
-
-/// Time of a sample from a point of its own, and of an image of as many texels. Optimised:
-/// `cargo test --config profile.dev.package.etendue-tests.opt-level=3 -p etendue-tests portals -- --ignored --nocapture`
-#[test]
-#[ignore = "prints times"]
-fn time_per_sample() {
-    const SIDE: usize = 512;
-    let mut random = Random::new(8);
-    let weights: Vec<_> = (0..SIDE * SIDE).map(|_| random.unit()).collect();
-    let mut buffer = vec![0.0; ImageEnvironment::buffer(SIDE, SIDE)];
-    let image = ImageEnvironment::build(&weights, SIDE, EnvironmentMap::EqualArea, &mut buffer).unwrap();
-    /// Points, numbers and directions.
-    type Packet = (Vec3<f32x8>, Vec2<f32x8>, Vec3<f32x8>);
-    let mut packet = || -> Packet {
-        let mut unit = || f32x8::from_fn(|_| random.unit());
-        let p = Vec3::new(unit(), unit(), unit());
-        let ahead = f32x8::splat(1.0);
-        (p, Vec2::new(unit(), unit()), Vec3::new(ahead, unit() - ahead, unit()).normalize())
-    };
-    let packets: Vec<_> = (0..512).map(|_| packet()).collect();
-    let time = |name: &str, run: &mut dyn FnMut(&Packet) -> f32x8| {
-        let mut best = f64::INFINITY;
-        // short enough that few are interrupted
-        for _ in 0..100 {
-            let start = std::time::Instant::now();
-            let sum = packets.iter().fold(f32x8::splat(0.0), |sum, packet| sum + run(packet));
-            best = best.min(start.elapsed().as_secs_f64() * 1e9 / (8 * packets.len()) as f64);
-            assert!((0..8).any(|lane| sum.lane(lane) > 0.0), "nothing was computed");
-        }
-        println!("{name}: {best:.1} ns");
-    };
-    time("image, sample", &mut |(_, u, _)| image.draw(*u).light.pdf);
-    time("image, sample with the pdf of its direction", &mut |(_, u, _)| image.by_radiance().sample(*u).pdf);
-    time("image, pdf", &mut |(_, _, w)| image.pdf(*w));
-    for count in [1, 3] {
-        let windows = (0..count).map(|k| {
-            let mut opening = Opening::new(
-                &mut Random::new(9),
-                [3.0, 1.5 * f64::from(k) - 1.0, 0.5],
-                [0.0, 1.0, 0.0],
-                [0.0, 0.0, 1.5],
-                [1, 1],
-            );
-            (opening.weights, opening.width) = (weights.clone(), SIDE);
-            opening
-        });
-        with(&windows.collect::<Vec<_>>(), |sky| {
-            time(&format!("{count} portals, sample"), &mut |(p, u, _)| sky.by_radiance(*p).sample(*u).pdf);
-            time(&format!("{count} portals, pdf"), &mut |(p, _, w)| sky.by_radiance(*p).pdf(*w));
-            time(&format!("{count} portals, sees"), &mut |(p, _, w)| {
-                f32x8::splat(1.0).keep(sky.sees(*p, *w)) + f32x8::splat(1e-6)
-            });
-        });
-    }
 }

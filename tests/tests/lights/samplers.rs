@@ -29,6 +29,7 @@ fn pdf_of_a_sample_is_the_pdf_of_its_direction() {
             let u = [random.unit(), random.unit()];
             if clear(&light) {
                 techniques::one_pdf(&light, u);
+                techniques::measure(&light, u);
                 *checked += u32::from(AreaLight::prepare::<f32>(&[light]).sample(squares_of(&[u])).pdf > 0.0);
             }
         }
@@ -264,9 +265,11 @@ fn samples_know_their_place() {
         let (triangle, panel) = (Triangle { v0: v(a), e1: v(b), e2: v(c) }, Rectangle::new(v(a), v(b), v(c)));
         let samples = [
             triangle.by_solid_angle(o).sample(u),
+            triangle.by_area(o).sample(u),
             triangle.by_cosine_warp(o, v(n)).sample(u),
             Parallelogram::from(panel).by_solid_angle(o).sample(u),
             panel.by_solid_angle(o).sample(u),
+            panel.by_area(o).sample(u),
             panel.by_cosine_warp(o, v(n)).sample(u),
         ];
         for (k, s) in samples.into_iter().enumerate() {
@@ -275,11 +278,13 @@ fn samples_know_their_place() {
             let (there, here) = (along_edges(a, [b, c], [x, y]), s.direction.at(0).map(|w| w * f64::from(s.distance)));
             let off = length(sub(there, here));
             assert!(s.pdf == 0.0 || off < 1e-5 / cos.max(1e-3), "{k}: {there:?} for {here:?}, off by {off:e}: {s:?}");
-            assert!(k > 1 || x + y < 1.0 + 1e-5, "{s:?}");
+            assert!(k > 2 || x + y < 1.0 + 1e-5, "{s:?}");
         }
-        let s = Sphere::new(v(a), 0.5).by_solid_angle(o).sample(u);
-        let normal = sub(s.direction.at(0).map(|w| w * f64::from(s.distance)), a).map(|x| 2.0 * x);
-        assert!(length(sub(normal, s.normal.at(0))) < 2e-5, "{normal:?} for {s:?}");
+        let sphere = Sphere::new(v(a), 0.5);
+        for s in [sphere.by_solid_angle(o).sample(u), sphere.by_area(o).sample(u)] {
+            let normal = sub(s.direction.at(0).map(|w| w * f64::from(s.distance)), a).map(|x| 2.0 * x);
+            assert!(length(sub(normal, s.normal.at(0))) < 2e-5, "{normal:?} for {s:?}");
+        }
     }
 }
 fn along_edges(from: V3, [b, c]: [V3; 2], [x, y]: [f64; 2]) -> V3 {

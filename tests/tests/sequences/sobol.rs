@@ -1,7 +1,7 @@
 //! Point sets: they are the nets and strata that they claim to be, at every width, and reduce the variance as expected.
 
 use etendue::sequence::{Independent, OwenSobol, Sequence, Stratified, ZOrder, ZOrderIndex};
-use etendue::{Real, Uint, Vec2, u32x4};
+use etendue::{Real, Vec2};
 use etendue_judge::generators::AlongCurve;
 use etendue_judge::stats;
 use etendue_judge::tolerances::SIGNIFICANCE;
@@ -393,18 +393,4 @@ fn variance_against_independent_samples() {
     gain_is(sixty_four[2][1], 12.3, 0.05);
     gain_is(sixteen[2][0], 126.0, 0.5);
     gain_is(sixty_four[2][0], 1630.0, 5.0);
-}
-
-#[test]
-fn bits_are_reversed_at_every_width() {
-    let value = |k: usize| (k as u32 + 1).wrapping_mul(0x9e37_79b1);
-    for k in 0..16 {
-        assert_eq!(etendue::u32x16::from_fn(value).reverse_bits().lane(k), value(k).reverse_bits());
-    }
-    for k in 0..8 {
-        assert_eq!(etendue::u32x8::from_fn(value).reverse_bits().lane(k), value(k).reverse_bits());
-    }
-    for k in 0..4 {
-        assert_eq!(u32x4::from_fn(value).reverse_bits().lane(k), value(k).reverse_bits());
-    }
 }
