@@ -239,6 +239,35 @@ fn caps_that_just_reach_over_the_horizon() {
     assert!(cases > 250_000 && greatest <= 1.0, "{greatest} of the allowed error, {cases} cases");
 }
 
+/// Spheres with their centre on the horizon, but for rounding: the ellipse is thinner than the rounding of the circle's area, so that u₀ tells
+/// nothing of where in it a slice is. Every slice has to be one of the cap all the same.
+#[test]
+fn caps_with_their_centre_on_the_horizon() {
+    let mut random = Random::new(41);
+    // found by the judge: a direction 0.997 long
+    let mut cases =
+        vec![([0.062_234_286, 0.429_168_88, 0.901_077_7], 0.3, [-0.700_660_35, -0.624_167_5, 0.345_673_17])];
+    for _ in 0..2000 {
+        let (center, radius) = (random.direction(), random.magnitude(1e-3, 0.999));
+        let off = random.magnitude(1e-9, 1e-6);
+        let normal = unit(along(cross(center, random.direction()), center, off));
+        cases.push((narrow(center), radius as f32, narrow(normal)));
+    }
+    let (mut longest, mut outside) = (0.0_f64, 0.0_f64);
+    for (center, radius, normal) in cases {
+        let seen = ProjectedCap::<f32>::new(center.into(), radius, normal.into());
+        let (c, r) = (wide(center), f64::from(radius));
+        for u in generators::square(50, 7) {
+            let w = seen.sample(Vec2::new(u[0], u[1]));
+            let w = [w.x, w.y, w.z].map(f64::from);
+            longest = longest.max((length(w) - 1.0).abs() / ULP);
+            outside = outside.max((length(cross(w, c)).atan2(dot(w, c)) - (r / length(c)).asin()) / ULP);
+        }
+    }
+    println!("length off by {longest:.1} units, outside by {outside:.1} units");
+    assert!(longest <= 12.0 && outside <= 16.0, "length off by {longest:e} units, outside by {outside:e}");
+}
+
 /// The irradiance of a segment in both precisions, near the horizon and close to the line: errors relative to the documented ones.
 #[test]
 fn irradiance_of_segments() {

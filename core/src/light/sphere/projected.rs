@@ -45,7 +45,8 @@ lanewise! {
         kappa: R,
         /// with the axis above the horizon S(θ), the part on the circle; below, the area of half the lune in the units of its slices
         part: R,
-        /// with the axis above the horizon Ω⊥ less that of the whole ellipse; below, 1 − κ; both accurate relative to their own size
+        /// with the axis above the horizon sin²σ cosω S, the part of the ellipse beyond its chord with the circle, which is not drawn; below,
+        /// 1 − κ; both accurate relative to their own size
         rest: R,
         /// Ω⊥ in steradians
         projected: R,
@@ -174,7 +175,7 @@ impl<R: Real> Angles<R> {
         if cut.any() {
             part = segment_of(sin_theta, cos_theta);
             let on_ellipse = segment_of(ratio(sin_theta, sin_sigma).lesser(one), near);
-            rest = part - area * on_ellipse;
+            rest = area * on_ellipse;
             projected = R::blend(whole, projected, part + area * (R::lit(PI) - on_ellipse));
         }
         if !over.all() {
@@ -330,8 +331,9 @@ impl<R: Real> ProjectedCap<R> {
         let area = self.sin_sigma * self.sin_sigma * self.cos_omega;
         let from_right = u * self.projected;
         let on_circle = from_right.lt(self.part);
-        // on the ellipse, the area from its nearer end
-        let (from_left, from_end) = ((one - u) * self.projected, (from_right - self.rest).greater(R::lit(0.0)));
+        // on the ellipse, the area from its nearer end: from the right, the part beyond the chord and what is drawn of the rest, in this
+        // order, as a thin ellipse is less than the rounding of the circle's part
+        let (from_left, from_end) = ((one - u) * self.projected, (from_right - self.part) + self.rest);
         let late = from_end.lt(from_left) & !on_circle;
         let share = R::blend(on_circle, from_right, ratio(from_left.lesser(from_end), area)).lesser(R::lit(FRAC_PI_2));
         let (s, c) = invert_segment(share);
@@ -424,7 +426,8 @@ impl<R: Real> Warp<R> for ProjectedCap<R> {
             let rim = (self.cos_omega * self.cos_sigma + self.sin_omega * self.sin_sigma * c).greater(zero);
             let s = (w.y.mul_add(w.y, ((z - rim) * (z + rim)).greater(zero)).sqrt() / self.sin_sigma).lesser(one);
             let from_end = segment_of(s, c.abs()) * area;
-            let on_ellipse = R::blend(c.lt(zero), self.rest + from_end, self.projected - from_end);
+            let from_chord = (from_end - self.rest).greater(zero);
+            let on_ellipse = R::blend(c.lt(zero), self.part + from_chord, self.projected - from_end);
             let from_right = R::blend(on_circle, in_segment, on_ellipse);
             let mut high = R::blend(on_circle, span, self.sin_sigma * s);
             let x = unit_interval(ratio(from_right, self.projected));
