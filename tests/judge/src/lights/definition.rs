@@ -86,6 +86,14 @@ pub struct Met {
 fn angle(a: V3, b: V3) -> f64 {
     length(cross(a, b)).atan2(dot(a, b))
 }
+/// The greatest angle between a direction and those of an arc: at an end, or where the arc passes next to the opposite direction.
+fn farthest(from: V3, [a, b]: [V3; 2]) -> f64 {
+    let n = cross(a, b);
+    let opposite = along(n.map(|x| x * dot(from, n) / dot(n, n)), from, -1.0);
+    let is_between = dot(cross(a, opposite), n) > 0.0 && dot(cross(opposite, b), n) > 0.0;
+    let ends = angle(from, a).max(angle(from, b));
+    if is_between { ends.max(angle(from, opposite)) } else { ends }
+}
 fn versine(a: V3, b: V3) -> f64 {
     let d = sub(a, b);
     0.5 * dot(d, d)
@@ -141,7 +149,9 @@ impl Definition {
                 };
                 let corners: Vec<V3> = around.iter().map(|v| v.map(Dd::to_f64)).collect();
                 let units: Vec<V3> = corners.iter().copied().map(unit).collect();
-                let pairs = units.iter().flat_map(|a| units.iter().map(|b| angle(*a, *b)));
+                let n = units.len();
+                let sides = (0..n).map(|i| [units[i], units[(i + 1) % n]]);
+                let pairs = sides.flat_map(|side| units.iter().map(move |corner| farthest(*corner, side)));
                 let greatest = pairs.fold(0.0, f64::max);
                 let area = length(cross(b, c)) * if around.len() == 3 { 0.5 } else { 1.0 };
                 let solid_angle = fans.iter().map(Fan::solid_angle).sum();
@@ -318,6 +328,21 @@ impl Definition {
             }
             Body::Disk { cone, .. } => cone.beyond(w).max(0.0),
         }
+    }
+    /// How far beyond the light's boundary, in radians, a direction may still meet it in single precision.
+    ///
+    /// A hit is tested within the light's plane. The direction's own rounding (four units), that of its product with the plane's normal (three), of
+    /// the plane's distance (three) and of the difference to the light's middle (two) move the point at which it meets the plane by twelve
+    /// units over the sine of the angle between them, relative to the light's distance; the light's size is measured from its middle, and adds
+    /// to that distance. The test tells directions beside the light no better than those above it.
+    #[must_use]
+    pub fn blur(&self, w: V3) -> f64 {
+        let (normal, middle, reach) = match &self.body {
+            Body::Sphere { .. } => return 0.0,
+            Body::Flat { corners, edges: [b, c], .. } => (unit(cross(*b, *c)), corners[0], length(*b).max(length(*c))),
+            Body::Disk { center, normal, radius, .. } => (*normal, *center, *radius),
+        };
+        12.0 / 16_777_216.0 * (1.0 + reach / length(middle)) / dot(w, normal).abs()
     }
     /// Directions that are uniform by solid angle: those of the middles of the square's cells.
     #[must_use]

@@ -15,6 +15,13 @@ pub const SLOPES: usize = 16;
 /// Step in u of the derivative to either side.
 pub const STEP: f64 = 1.0 / 64.0;
 
+const EPSILON: f32 = 1.0 / 16_777_216.0;
+/// What single precision does to an inverse, which is a share of a whole: the sum of the areas before a direction has up to five terms, one
+/// for each side that a horizon leaves of a quadrilateral; their whole, the quotient and the product with the rest are rounded too. Each
+/// changes the share by up to 2⁻²⁴. Where a map begins in a corner, whose areas grow with the square of the distance, that is visible:
+/// 2⁻²⁴ of the square is 1/4096 of the light's length there.
+const ROUNDINGS: f32 = 8.0 * EPSILON;
+
 /// What is asked.
 #[derive(Clone, Debug)]
 pub struct Questions {
@@ -60,9 +67,10 @@ impl Questions {
         let outside = Self::outside(seen, chart, &mut random);
         Self { strata, us, chart, directions, outside }
     }
-    /// Beyond the boundary by a fiftieth of the light's width, where that is more than the rounding of a direction.
+    /// Beyond the boundary by a fiftieth of the light's width, where that is more than the rounding of a direction, and of where it meets
+    /// the light's plane.
     fn outside(seen: &Definition, chart: Chart, random: &mut Random) -> Vec<[f32; 3]> {
-        let far = (0.02 * seen.size[1]).max(1e-5 + 16.0 * seen.rounding);
+        let least = (0.02 * seen.size[1]).max(1e-5 + 16.0 * seen.rounding);
         if seen.size[0] > 1.2 || seen.is_inside() {
             return Vec::new();
         }
@@ -71,6 +79,7 @@ impl Questions {
             let (t, side) = (random.unit_f64(), random.word() % 4);
             let u = [[t, 0.0], [t, 1.0], [0.0, t], [1.0, t]][side as usize];
             let edge = seen.at(chart, u).0;
+            let far = least.max(seen.blur(edge));
             let out = sub(edge, middle);
             let w = unit(along(edge, out, 2.0 * far / length(out).max(1e-300)));
             (seen.beyond(wide(narrow(w))) > far).then_some(narrow(w))
@@ -95,6 +104,26 @@ impl Questions {
     }
 }
 
+/// The inverse of a sample.
+#[derive(Clone, Debug)]
+pub struct Inverse {
+    /// The index of the sample's own `u`.
+    pub of: usize,
+    /// What is answered.
+    pub u: [f32; 2],
+    /// What it draws, moved into the square, and then what is drawn [`ROUNDINGS`] to each side of it.
+    pub again: [Option<Sample>; 5],
+}
+impl Inverse {
+    fn new(sampler: &dyn Sampler, of: usize, u: [f32; 2]) -> Self {
+        let again = |x: f32, y: f32| {
+            let moved = [u[0] + x * ROUNDINGS, u[1] + y * ROUNDINGS].map(|x| x.clamp(0.0, 1.0 - EPSILON));
+            if u.iter().all(|x| x.is_finite()) { sampler.sample(moved) } else { None }
+        };
+        Self { of, u, again: [(0.0, 0.0), (-1.0, 0.0), (1.0, 0.0), (0.0, -1.0), (0.0, 1.0)].map(|(x, y)| again(x, y)) }
+    }
+}
+
 /// What is answered.
 #[derive(Clone, Debug, Default)]
 pub struct Answers {
@@ -106,8 +135,8 @@ pub struct Answers {
     pub pdfs: Vec<f32>,
     /// The pdf of each direction outside.
     pub outside: Vec<f32>,
-    /// Inverses of some samples, by the index of their `u`, and what they are sampled to.
-    pub inverses: Vec<(usize, [f32; 2], Option<Sample>)>,
+    /// Inverses of some samples.
+    pub inverses: Vec<Inverse>,
     /// Distances of the light in the direction of some samples, by the index of their `u`.
     pub hits: Vec<(usize, f32)>,
 }
@@ -128,8 +157,7 @@ pub fn ask(sampler: &dyn Sampler, questions: &Questions) -> Answers {
     let drawn = samples.iter().enumerate().filter_map(|(i, s)| s.filter(|s| !s.is_hidden).map(|s| (i, s)));
     for (i, s) in drawn.step_by(7).take(64) {
         if let Some(u) = sampler.invert(s.direction) {
-            let inside = u.iter().all(|u| (0.0..1.0).contains(u));
-            answers.inverses.push((i, u, if inside { sampler.sample(u) } else { None }));
+            answers.inverses.push(Inverse::new(sampler, i, u));
         }
         if let Some(distance) = sampler.hit(s.direction) {
             answers.hits.push((i, distance));

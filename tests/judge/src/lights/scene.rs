@@ -3,7 +3,7 @@
 use crate::generators::Random;
 use crate::techniques::{AreaLight, LightShape, Measure};
 use core::f64::consts::TAU;
-use etendue_oracle::{V3, along, basis, cross, dot, unit};
+use etendue_oracle::{V3, along, basis, cross, dot, sub, unit};
 use serde::{Deserialize, Serialize};
 
 /// What is varied.
@@ -188,19 +188,23 @@ fn difference(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
     core::array::from_fn(|k| a[k] - b[k])
 }
 
-/// Whether the numbers are those of a light: corners and edges agree, the edges of a rectangle are perpendicular, directions have length 1.
+/// Whether the numbers are those of a light that is seen from its front: corners and edges agree, the edges of a rectangle are
+/// perpendicular, directions have length 1.
 #[must_use]
 pub fn is_sound(light: &AreaLight) -> bool {
     let [b, c, n] = [light.b, light.c, light.n].map(etendue_oracle::wide);
+    let up = sub(etendue_oracle::wide(light.p), etendue_oracle::wide(light.a));
     let is_unit = |v: V3| (dot(v, v) - 1.0).abs() < 1e-6;
     let exact =
         |edge: [f32; 3]| (0..3).all(|k| f64::from(light.a[k]) + f64::from(edge[k]) == f64::from(light.a[k] + edge[k]));
     is_unit(n)
         && match light.shape {
             LightShape::Sphere => light.radius > 0.0,
-            LightShape::Disk => light.radius > 0.0 && is_unit(b),
-            LightShape::Triangle => exact(light.b) && exact(light.c),
-            LightShape::Rectangle => dot(b, c).abs() <= 1e-6 * (dot(b, b) * dot(c, c)).sqrt(),
-            _ => true,
+            LightShape::Disk => light.radius > 0.0 && is_unit(b) && dot(b, up) > 0.0,
+            LightShape::Triangle => exact(light.b) && exact(light.c) && dot(cross(b, c), up) > 0.0,
+            LightShape::Rectangle => {
+                dot(b, c).abs() <= 1e-6 * (dot(b, b) * dot(c, c)).sqrt() && dot(cross(b, c), up) > 0.0
+            }
+            _ => dot(cross(b, c), up) > 0.0,
         }
 }
