@@ -5,7 +5,7 @@ mod openings;
 use core::f64::consts::PI;
 use etendue::discrete::TableError;
 use etendue::light::{MOST_PORTALS, Portal, PortalEnvironment, PortalError, PortalMap, PortalTable};
-use etendue::{LightSampler, Mask, Real, Vec2, Vec3, Warp, f32x8};
+use etendue::{LightSampler, Mask, Real, Vec2, Vec3, f32x8};
 use etendue_judge::generators::{self, Random};
 use etendue_judge::properties::{Coordinates, squares_of, vectors_of};
 use etendue_judge::stats;

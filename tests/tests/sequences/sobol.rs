@@ -1,7 +1,7 @@
 //! Point sets: they are the nets and strata that they claim to be, at every width, and reduce the variance as expected.
 
 use etendue::sequence::{Independent, OwenSobol, Sequence, Stratified, ZOrder, ZOrderIndex};
-use etendue::{Real, Vec2};
+use etendue::{Real, Uint, Vec2};
 use etendue_judge::generators::AlongCurve;
 use etendue_judge::stats;
 use etendue_judge::tolerances::SIGNIFICANCE;

@@ -6,7 +6,7 @@ const P = vec3<f32>(0.2, 0.0, 0.1);
 const N = vec3<f32>(0.0, 0.8, 0.6);
 
 // A renderer traces a shadow ray first, along `direction` up to `distance`.
-fn contribution(s: EtendueLightSample) -> f32 {
+fn contribution(s: EtendueShaderLightSample) -> f32 {
     return max(dot(s.direction, N), 0.0) * s.weight;
 }
 
