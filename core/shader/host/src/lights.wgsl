@@ -16,14 +16,14 @@ fn run(@builtin(global_invocation_id) id: vec3<u32>) {
         return;
     }
     let u = numbers[id.x];
-    let sphere = etendue_sphere_by_solid_angle_prepare(EtendueSphere(vec3<f32>(-1.0, 1.5, 0.5), 0.5), P);
-    let triangle = etendue_triangle_by_solid_angle_prepare(
-        EtendueTriangle(vec3<f32>(0.0, 1.0, 0.0), vec3<f32>(1.0, 0.0, 0.0), vec3<f32>(0.0, 0.0, 1.0)), P);
-    let rectangle = etendue_rectangle_by_solid_angle_prepare(
-        EtendueRectangle(vec3<f32>(-0.5, 1.5, 0.2), vec3<f32>(1.0, 0.0, 0.0), vec3<f32>(0.0, 0.0, 1.0)), P);
+    let sphere = etendue_shader_sphere_by_solid_angle_prepare(EtendueShaderSphere(vec3<f32>(-1.0, 1.5, 0.5), 0.5), P);
+    let triangle = etendue_shader_triangle_by_solid_angle_prepare(
+        EtendueShaderTriangle(vec3<f32>(0.0, 1.0, 0.0), vec3<f32>(1.0, 0.0, 0.0), vec3<f32>(0.0, 0.0, 1.0)), P);
+    let rectangle = etendue_shader_rectangle_by_solid_angle_prepare(
+        EtendueShaderRectangle(vec3<f32>(-0.5, 1.5, 0.2), vec3<f32>(1.0, 0.0, 0.0), vec3<f32>(0.0, 0.0, 1.0)), P);
     irradiance[id.x] = vec4<f32>(
-        contribution(etendue_sphere_by_solid_angle_sample(sphere, u)),
-        contribution(etendue_triangle_by_solid_angle_sample(triangle, u)),
-        contribution(etendue_rectangle_by_solid_angle_sample(rectangle, u)),
+        contribution(etendue_shader_sphere_by_solid_angle_sample(sphere, u)),
+        contribution(etendue_shader_triangle_by_solid_angle_sample(triangle, u)),
+        contribution(etendue_shader_rectangle_by_solid_angle_sample(rectangle, u)),
         0.0);
 }

@@ -5,7 +5,7 @@
 //! `etendue-shader --language wgsl --lights sphere_by_solid_angle,triangle_by_solid_angle,rectangle_by_solid_angle --functions sample -o etendue.wgsl`
 
 use etendue::sequence::{OwenSobol, Sequence};
-use etendue::{LightSampler, Rectangle, Sphere, Triangle, Vec3};
+use etendue::{Rectangle, Sphere, Triangle, Vec3};
 use std::error::Error;
 use std::process::ExitCode;
 use wgpu::util::DeviceExt;
