@@ -153,7 +153,7 @@ fn edges_out_of_focus_have_their_closed_form() {
 /// Multiplying all lengths, including those of the lens, by a power of two does not change the image.
 #[test]
 fn the_unit_of_length_does_not_matter() {
-    let text = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/defocus.pbrt")).unwrap();
+    let text = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/defocus.pbrt")).unwrap();
     let settings = Settings {
         width: 48,
         height: 32,

@@ -54,7 +54,7 @@ fn room(portals: bool, sky: &str) -> Scene {
          Material \"diffuse\" \"rgb reflectance\" [.7 .6 .5]\n{faces}{}",
         wall(&WINDOWS)
     );
-    let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
+    let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes");
     parse(&text, "room.pbrt", &scenes).unwrap_or_else(|e| panic!("{e}\n{text}"))
 }
 

@@ -20,7 +20,7 @@ const SAMPLERS: [Sampler; 6] =
     [Sampler::Independent, Sampler::Stratified, Sampler::Sobol, Sampler::Sobol4d, Sampler::ZOrder, Sampler::Adaptive];
 
 fn reference(name: &str) -> Picture {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/references/{name}.exr"));
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("references/{name}.exr"));
     image::read_exr(&path).unwrap()
 }
 

@@ -97,7 +97,7 @@ fn errors_are_less_than_without_allocation() {
     .into_iter()
     .take(cases(3, 5))
     {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/references/{name}.exr"));
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("references/{name}.exr"));
         let reference = image::read_exr(&path).unwrap();
         let world = builtin(name);
         let [before_error, after_error] = [before, after].map(|sampler| {

@@ -1,4 +1,4 @@
-//! The image of the built-in scene `sky` matches its formula. `cargo test -p etendue-render sky -- --ignored` writes it again.
+//! The image of the built-in scene `sky` matches its formula. `cargo test -p etendue-render-tests sky -- --ignored` writes it again.
 
 use etendue::warp::Octahedral;
 use etendue::{Vec2, Vec3, Warp};
@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 const SIDE: usize = 64;
 
 fn path() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/sky.exr")
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/sky.exr")
 }
 
 /// Radiance at the centre of a texel: a blue sky that fades towards the horizon, a brown ground, and a low sun with a soft edge.

@@ -28,8 +28,8 @@ struct Errors {
     /// For a sphere without blockers: a fraction of its solid angle.
     whole: f64,
 }
-/// More than the greatest errors that `cargo test -p etendue-render certificates::values -- --nocapture` prints, and for compact lights
-/// `cargo test -p etendue-render occlusion::compact -- --nocapture`.
+/// More than the greatest errors that `cargo test -p etendue-render-tests certificates::values -- --nocapture` prints, and for compact lights
+/// `cargo test -p etendue-render-tests occlusion::compact -- --nocapture`.
 const SINGLE: Errors = Errors { flat: 1.2e-7, ball: 1.2e-7, compact: 1e-7, outline: 2e-9, sphere: 4e-7, whole: 1e-7 };
 /// Twice the greatest errors or more.
 const DOUBLE: Errors = Errors { flat: 1e-15, ball: 1e-15, compact: 1e-15, outline: 1e-15, sphere: 1e-15, whole: 1e-15 };

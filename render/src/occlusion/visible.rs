@@ -85,12 +85,12 @@ impl<R: Real> Occlusion<R> {
     /// among polygons; in double precision 1e−7). The error is absolute: where the blockers leave little, it may be as large as what is
     /// left. It grows by the reciprocals of the sine of an edge that is seen under more than a right angle, and of the cosine of the
     /// half-angle of a sphere. A point that lies over a flat blocker, nearer to its plane than 1e−6 of its extent, may be on either side.
-    /// Measured by `cargo test -p etendue-render occlusion -- --nocapture --include-ignored`.
+    /// Measured by `cargo test -p etendue-render-tests occlusion -- --nocapture --include-ignored`.
     ///
     /// A flat light whose corners are all nearer to their mean than half of its distance is computed from small differences: there the
     /// error is 1e−7 times the square of half of its perimeter over its distance, alone and behind one flat blocker (7e−8 measured), and
     /// as much again for each further one: it stays relative to the light however small that is. Measured by
-    /// `cargo test -p etendue-render occlusion::compact -- --nocapture`.
+    /// `cargo test -p etendue-render-tests occlusion::compact -- --nocapture`.
     #[inline]
     pub fn visible(
         &mut self,
@@ -127,7 +127,7 @@ impl<R: Real> Occlusion<R> {
     /// [`visible_past`](Self::visible_past) otherwise; `None` also if a sphere blocks, or is blocked.
     ///
     /// Parts are clipped before the map, and measured after it. Greatest error of a light without blockers in single precision: 3e−5 of the
-    /// result plus 0.01 (measured by `cargo test -p etendue-render occlusion::lobes -- --nocapture`); of spheres as [`Reflection::sphere`].
+    /// result plus 0.01 (measured by `cargo test -p etendue-render-tests occlusion::lobes -- --nocapture`); of spheres as [`Reflection::sphere`].
     #[inline]
     pub fn reflected(
         &mut self,
