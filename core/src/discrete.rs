@@ -28,8 +28,8 @@ mod words;
 use crate::real::{Real, Uint, unit_interval};
 use crate::vector::Vec2;
 use crate::warp::{Warp, Warp1};
+use cell::rest;
 pub use cell::{Cell, Cell2d};
-use cell::{Row, Rows, draw, rest};
 pub(crate) use cell::{locate, place};
 use core::fmt::{self, Display, Formatter};
 #[doc(hidden)]
@@ -141,18 +141,22 @@ impl<'a> PiecewiseConstant1d<'a> {
     /// Draws the cell for `u`.
     #[inline(always)]
     pub fn cell<R: Real>(&self, u: R) -> Cell<R> {
-        draw(u, &Rows(|_| self.cdf))
+        self.words().cell(u)
     }
     /// Probability of a cell; 0 past the last one.
     #[inline(always)]
     pub fn pmf<R: Real>(&self, index: R::Uint) -> R {
-        Row::<R>::bounds(&Rows(|_| self.cdf), index).1
+        self.words().pmf(index)
     }
     /// Returns the `u` that `cell` maps to a position in a cell.
     #[inline(always)]
     pub fn invert_cell<R: Real>(&self, index: R::Uint, offset: R) -> R {
-        let (start, width) = Row::<R>::bounds(&Rows(|_| self.cdf), index);
-        unit_interval(offset.mul_add(width, start))
+        self.words().invert_cell(index, offset)
+    }
+    /// The table as words.
+    #[inline(always)]
+    fn words<U: Uint>(&self) -> Words1d<&'a [f32], U> {
+        Words1d { memory: self.cdf, first: U::splat(0), count: U::splat(self.cdf.len() as u32) }
     }
     #[inline(always)]
     fn count<R: Real>(&self) -> R {
@@ -197,7 +201,7 @@ impl<R: Real> Warp1<R> for PiecewiseConstant1d<'_> {
 /// ```
 ///
 /// - Formula: u₁ draws the row, u₀ the column, each as in [`PiecewiseConstant1d`].
-/// - Domain: u in [0, 1)²; w, h from 1 to 2²⁴; finite weights ≥ 0, in any unit, row by row.
+/// - Domain: u in [0, 1)²; w, h from 1 to 2²⁴, and a buffer of less than 2³² entries; finite weights ≥ 0, in any unit, row by row.
 /// - Density: the pdf is wh × the cell's pmf per unit area of the unit square, 0 elsewhere. Cells without weight are never
 ///   drawn.
 /// - Degenerate input: if all weights are 0, `build` returns [`TableError::Empty`].
@@ -205,9 +209,10 @@ impl<R: Real> Warp1<R> for PiecewiseConstant1d<'_> {
 /// - Source: Pharr, Jakob and Humphreys, PBR 4th ed., A.4.
 #[derive(Clone, Copy, Debug)]
 pub struct PiecewiseConstant2d<'a> {
-    marginal: PiecewiseConstant1d<'a>,
-    rows: &'a [f32],
-    width: usize,
+    /// The distribution functions of the rows, then that of their sums.
+    cdfs: &'a [f32],
+    width: u32,
+    height: u32,
 }
 
 impl<'a> PiecewiseConstant2d<'a> {
@@ -236,9 +241,10 @@ impl<'a> PiecewiseConstant2d<'a> {
         buffer: &'a mut [f32],
     ) -> Result<Self, TableError> {
         let height = weights.len().checked_div(width).unwrap_or(0);
-        if height == 0 || weights.len() != width * height || buffer.len() != Self::buffer(width, height) {
+        if weights.len() != width * height {
             return Err(TableError::Length);
         }
+        PiecewiseConstant2d::from_buffer(&*buffer, width)?;
         let (rows, marginal) = buffer.split_at_mut(width * height);
         let weight = |x: usize, y: usize| f64::from(weights[y * width + x]);
         for (y, cdf) in rows.chunks_exact_mut(width).enumerate() {
@@ -249,7 +255,7 @@ impl<'a> PiecewiseConstant2d<'a> {
             }
         }
         accumulate(marginal, |y| (0..width).map(|x| weight(x, y)).sum::<f64>() * factor(y))?;
-        Ok(Self { marginal: PiecewiseConstant1d { cdf: marginal }, rows, width })
+        Self::from_buffer(buffer, width)
     }
     /// Reads the table that [`build`](Self::build) left in a buffer. The contents are not validated, but no contents cause a
     /// panic.
@@ -259,45 +265,37 @@ impl<'a> PiecewiseConstant2d<'a> {
     #[inline]
     pub fn from_buffer(buffer: &'a [f32], width: usize) -> Result<Self, TableError> {
         let height = buffer.len() / width.saturating_add(1);
-        if width == 0 || height == 0 || buffer.len() != Self::buffer(width, height) {
+        if width == 0 || height == 0 || buffer.len() != Self::buffer(width, height) || buffer.len() > u32::MAX as usize
+        {
             return Err(TableError::Length);
         }
-        let (rows, marginal) = buffer.split_at(width * height);
-        Ok(Self { marginal: PiecewiseConstant1d { cdf: marginal }, rows, width })
+        Ok(Self { cdfs: buffer, width: width as u32, height: height as u32 })
     }
     /// Width and height in cells.
     #[inline(always)]
     #[must_use]
     pub fn size(&self) -> [usize; 2] {
-        [self.width, self.marginal.cells()]
+        [self.width as usize, self.height as usize]
     }
+    /// The table as words.
     #[inline(always)]
-    fn row(&self, y: u32) -> &'a [f32] {
-        let y = (y as usize).min(self.marginal.cells() - 1);
-        &self.rows[y * self.width..(y + 1) * self.width]
+    pub(crate) fn words<U: Uint>(&self) -> Words2d<&'a [f32], U> {
+        Words2d { memory: self.cdfs, first: U::splat(0), size: [U::splat(self.width), U::splat(self.height)] }
     }
     /// Draws the cell for `u`.
     #[inline(always)]
     pub fn cell<R: Real>(&self, u: Vec2<R>) -> Cell2d<R> {
-        let row = self.marginal.cell(u.y);
-        let column = draw(u.x, &Rows(|lane| self.row(row.index.lane(lane))));
-        Cell2d {
-            x: column.index,
-            y: row.index,
-            offset: Vec2::new(column.offset, row.offset),
-            pmf: row.pmf * column.pmf,
-        }
+        self.words().cell(u)
     }
     /// Probability of a cell; 0 outside the image.
     #[inline(always)]
     pub fn pmf<R: Real>(&self, x: R::Uint, y: R::Uint) -> R {
-        self.marginal.pmf::<R>(y) * Row::<R>::bounds(&Rows(|lane| self.row(y.lane(lane))), x).1
+        self.words().pmf(x, y)
     }
     /// Returns the `u` that `cell` maps to a position in a cell.
     #[inline(always)]
     pub fn invert_cell<R: Real>(&self, x: R::Uint, y: R::Uint, offset: Vec2<R>) -> Vec2<R> {
-        let (start, width) = Row::<R>::bounds(&Rows(|lane| self.row(y.lane(lane))), x);
-        Vec2 { x: unit_interval(offset.x.mul_add(width, start)), y: self.marginal.invert_cell(y, offset.y) }
+        self.words().invert_cell(x, y, offset)
     }
 }
 

@@ -19,6 +19,22 @@ pub trait Memory<R: Real>: Copy {
     fn word(&self, index: R::Uint) -> R::Uint;
     /// The number at an index in each lane. Past the end it is any number, which for slices is 0.
     fn number(&self, index: R::Uint) -> R;
+    /// How many of `count` ascending numbers, the first of which is at this index, are not above `x`; the last one is not asked.
+    #[inline(always)]
+    fn count_up_to(&self, first: R::Uint, count: R::Uint, x: R) -> R::Uint {
+        let one = R::Uint::splat(1);
+        let before = first.wrapping_sub(one);
+        let step = |([], [low, count]): State<R, 0, 2>, [going]: [R::Mask; 1]| {
+            let half = Uint::shr(count, 1);
+            let middle = Uint::wrapping_add(low, half);
+            let is_up_to = self.number(before.wrapping_add(middle)).le(x);
+            let left = R::blend_uint(going, count.wrapping_sub(half), count);
+            (([], [R::blend_uint(going & is_up_to, middle, low), left]), [going & R::has_bits(one.lt(left))])
+        };
+        let going = [R::has_bits(one.lt(count))];
+        let ([], [index, _]) = R::iterate_with_words(32, ([], [R::Uint::splat(0), count]), going, step);
+        index
+    }
 }
 
 impl<R: Real> Memory<R> for &[f32] {
@@ -31,6 +47,14 @@ impl<R: Real> Memory<R> for &[f32] {
         R::from_fn(|lane| {
             let number = self.get(index.lane(lane) as usize).copied().unwrap_or(0.0);
             R::Scalar::lit(f64::from(number))
+        })
+    }
+    #[inline(always)]
+    fn count_up_to(&self, first: R::Uint, count: R::Uint, x: R) -> R::Uint {
+        R::Uint::from_fn(|lane| {
+            let (first, others, x) = (first.lane(lane) as usize, count.lane(lane).wrapping_sub(1), x.lane_f64(lane));
+            let numbers = self.get(first..first.wrapping_add(others as usize)).unwrap_or_default();
+            numbers.partition_point(|&number| f64::from(number) <= x) as u32
         })
     }
 }
@@ -47,21 +71,4 @@ impl<R: Real> Memory<R> for &[u32] {
             R::Scalar::lit(f64::from(f32::from_bits(bits)))
         })
     }
-}
-
-/// Of `count` ascending numbers, at least one, the index of the last that is not above `x`; 0 where the first is above it. Comparisons with NaN
-/// are false.
-#[inline(always)]
-pub(crate) fn last_up_to<R: Real>(memory: &impl Memory<R>, first: R::Uint, count: R::Uint, x: R) -> R::Uint {
-    let one = R::Uint::splat(1);
-    let step = |([], [low, count]): State<R, 0, 2>, [going]: [R::Mask; 1]| {
-        let half = Uint::shr(count, 1);
-        let middle = Uint::wrapping_add(low, half);
-        let is_up_to = memory.number(first.wrapping_add(middle)).le(x);
-        let left = R::blend_uint(going, count.wrapping_sub(half), count);
-        (([], [R::blend_uint(going & is_up_to, middle, low), left]), [going & R::has_bits(one.lt(left))])
-    };
-    let going = [R::has_bits(one.lt(count))];
-    let ([], [index, _]) = R::iterate_with_words(32, ([], [R::Uint::splat(0), count]), going, step);
-    index
 }

@@ -1,6 +1,6 @@
 //! Cells of distributions, and how they are drawn from distribution functions in memory.
 
-use crate::real::{Real, Uint, unit_interval};
+use crate::real::{Real, unit_interval};
 use crate::vector::Vec2;
 
 /// A cell (or item) drawn from a table.
@@ -56,50 +56,6 @@ pub(crate) fn locate<R: Real>(x: R, n: R) -> (R::Uint, R) {
     let i = R::blend(below, i - one, R::blend(above, i + one, i));
     let position = R::blend(below, position + one, R::blend(above, position - one, position));
     (i.clamped(zero, n - one).to_uint(), unit_interval(position))
-}
-
-/// A distribution function in memory, which may differ by lane.
-pub(super) trait Row<R: Real> {
-    /// The first cell that ends above `u`, or the last one: it has a width, since the one before it ends at or below `u`.
-    fn find(&self, u: R) -> R::Uint;
-    /// Start and width of a cell; 0 and 0 past the last one.
-    fn bounds(&self, index: R::Uint) -> (R, R);
-}
-
-/// Cell, position and pmf of `u`.
-#[inline(always)]
-pub(super) fn draw<R: Real>(u: R, row: &impl Row<R>) -> Cell<R> {
-    let u = unit_interval(u);
-    let index = row.find(u);
-    let (start, pmf) = row.bounds(index);
-    let some = pmf.gt(R::lit(0.0));
-    let offset = unit_interval((u - start) / R::blend(some, pmf, R::lit(1.0)));
-    Cell { index, offset, pmf }
-}
-
-/// The row of each lane.
-pub(super) struct Rows<F>(pub(super) F);
-
-impl<'a, R: Real, F: Fn(usize) -> &'a [f32]> Row<R> for Rows<F> {
-    #[inline(always)]
-    fn find(&self, u: R) -> R::Uint {
-        R::Uint::from_fn(|lane| {
-            let (cdf, u) = (self.0(lane), u.lane_f64(lane));
-            cdf.partition_point(|&end| f64::from(end) <= u).min(cdf.len() - 1) as u32
-        })
-    }
-    #[inline(always)]
-    fn bounds(&self, index: R::Uint) -> (R, R) {
-        let at = |back: usize| {
-            R::from_fn(|lane| {
-                let (cdf, i) = (self.0(lane), index.lane(lane) as usize);
-                let value = if i < cdf.len() && i >= back { cdf[i - back] } else { 0.0 };
-                R::Scalar::lit(f64::from(value))
-            })
-        };
-        let start = at(1);
-        (start, at(0) - start)
-    }
 }
 
 /// What is left of the position in a bucket, given its threshold, within its own item or the other one: a fresh number.

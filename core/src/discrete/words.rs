@@ -1,7 +1,7 @@
 //! Tables as words in memory.
 
-use super::cell::{Cell, Cell2d, Row, draw, locate, rest};
-use crate::memory::{Memory, last_up_to};
+use super::cell::{Cell, Cell2d, locate, rest};
+use crate::memory::Memory;
 use crate::real::{Real, Uint, unit_interval};
 use crate::vector::Vec2;
 
@@ -17,31 +17,29 @@ pub struct Words1d<M, U> {
     pub count: U,
 }
 
-impl<R: Real, M: Memory<R>> Row<R> for Words1d<M, R::Uint> {
-    #[inline(always)]
-    fn find(&self, u: R) -> R::Uint {
-        // the last cell before which one ends up to u; there is none before the first
-        last_up_to(&self.memory, self.first.wrapping_sub(R::Uint::splat(1)), self.count, u)
-    }
-    #[inline(always)]
-    fn bounds(&self, index: R::Uint) -> (R, R) {
-        let inside = R::has_bits(index.lt(self.count));
-        let at = self.first.wrapping_add(index);
-        let end = self.memory.number(at).keep(inside);
-        let before = self.memory.number(at.wrapping_sub(R::Uint::splat(1)));
-        let start = before.keep(inside & R::has_bits(index));
-        (start, end - start)
-    }
-}
-
 impl<M, U: Uint> Words1d<M, U> {
-    /// Draws the cell for `u`.
+    /// Start and width of a cell.
+    #[inline(always)]
+    fn bounds<R: Real<Uint = U>>(&self, index: U) -> (R, R)
+    where
+        M: Memory<R>,
+    {
+        let at = self.first.wrapping_add(index);
+        let start = self.memory.number(at.wrapping_sub(U::splat(1))).keep(R::has_bits(index));
+        (start, self.memory.number(at) - start)
+    }
+    /// Draws the cell for `u`: the first that ends above it, or the last one, which has a width, since the one before it ends at or below `u`.
     #[inline(always)]
     pub fn cell<R: Real<Uint = U>>(&self, u: R) -> Cell<R>
     where
         M: Memory<R>,
     {
-        draw(u, self)
+        let u = unit_interval(u);
+        let index = self.memory.count_up_to(self.first, self.count, u);
+        let (start, pmf) = self.bounds(index);
+        let some = pmf.gt(R::lit(0.0));
+        let offset = unit_interval((u - start) / R::blend(some, pmf, R::lit(1.0)));
+        Cell { index, offset, pmf }
     }
     /// Probability of a cell; 0 past the last one.
     #[inline(always)]
@@ -49,7 +47,7 @@ impl<M, U: Uint> Words1d<M, U> {
     where
         M: Memory<R>,
     {
-        Row::<R>::bounds(self, index).1
+        self.bounds::<R>(index).1.keep(R::has_bits(index.lt(self.count)))
     }
     /// Returns the `u` that `cell` maps to a position in a cell.
     #[inline(always)]
@@ -57,7 +55,7 @@ impl<M, U: Uint> Words1d<M, U> {
     where
         M: Memory<R>,
     {
-        let (start, width) = Row::<R>::bounds(self, index);
+        let (start, width) = self.bounds::<R>(index);
         unit_interval(offset.mul_add(width, start))
     }
 }
@@ -91,8 +89,8 @@ impl<M: Copy, U: Uint> Words2d<M, U> {
     where
         M: Memory<R>,
     {
-        let row = draw(u.y, &self.marginal());
-        let column = draw(u.x, &self.row(row.index));
+        let row = self.marginal().cell(u.y);
+        let column = self.row(row.index).cell(u.x);
         Cell2d {
             x: column.index,
             y: row.index,

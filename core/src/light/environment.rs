@@ -3,7 +3,7 @@
 use super::distant::{distant, met};
 use super::sample::{LightSample, TexelSample};
 use super::sampler::LightSampler;
-use crate::discrete::{Cell2d, PiecewiseConstant2d, TableError, Words2d, locate, place};
+use crate::discrete::{PiecewiseConstant2d, TableError, Words2d, locate, place};
 use crate::math::atan2_turns;
 use crate::memory::Memory;
 use crate::real::{GREATEST, Real, Uint, unit_interval};
@@ -150,21 +150,18 @@ impl<'a> ImageEnvironment<'a> {
 
 /// An image of the sphere of directions in memory.
 trait Image<R: Real> {
-    /// Columns and rows.
-    fn counts(&self) -> [R; 2];
-    /// The row in the middle; of two, the upper one.
-    fn middle_row(&self) -> R;
+    type Memory: Memory<R>;
+    fn table(&self) -> Words2d<Self::Memory, R::Uint>;
     fn map(&self) -> EnvironmentMap;
-    /// The cell of `u`.
-    fn cell(&self, u: Vec2<R>) -> Cell2d<R>;
-    /// Probability of a cell.
-    fn pmf(&self, x: R::Uint, y: R::Uint) -> R;
-    /// The `u` of a position in a cell.
-    fn invert_cell(&self, texel: &Texel<R>) -> Vec2<R>;
 
+    /// Columns and rows.
+    #[inline(always)]
+    fn counts(&self) -> [R; 2] {
+        self.table().size.map(R::from_uint)
+    }
     #[inline(always)]
     fn drawn(&self, u: Vec2<R>) -> TexelSample<R> {
-        let cell = self.cell(u);
+        let cell = self.table().cell(u);
         let texel = Texel { x: cell.x, y: cell.y, offset: cell.offset };
         let pdf = self.texel_pdf(cell.pmf, cell.y);
         let uv = self.place(&texel);
@@ -174,12 +171,13 @@ trait Image<R: Real> {
     #[inline(always)]
     fn pdf_of(&self, direction: Vec3<R>) -> R {
         let texel = self.texel_of(direction);
-        self.texel_pdf(self.pmf(texel.x, texel.y), texel.y)
+        self.texel_pdf(self.table().pmf(texel.x, texel.y), texel.y)
     }
     /// The `u` of a direction.
     #[inline(always)]
     fn inverse(&self, direction: Vec3<R>) -> Vec2<R> {
-        self.invert_cell(&self.texel_of(direction))
+        let texel = self.texel_of(direction);
+        self.table().invert_cell(texel.x, texel.y, texel.offset)
     }
     /// Position of a texel in the image, in [0, 1]².
     #[inline(always)]
@@ -220,7 +218,10 @@ trait Image<R: Real> {
                 let below = z.lt(zero);
                 // the angle to the nearer pole, in rows
                 let rows = square.sqrt().atan2(z.abs()) * R::lit(1.0 / PI) * h;
-                let near = R::from_uint(rows.clamped(zero, self.middle_row()).to_uint());
+                // of two rows in the middle, the upper one
+                let [_, height] = self.table().size;
+                let middle = R::from_uint(height.wrapping_sub(R::Uint::splat(1)).shr(1));
+                let near = R::from_uint(rows.clamped(zero, middle).to_uint());
                 let row = R::blend(below, h - one - near, near).to_uint();
                 let ring = self.ring(row);
                 // a middle row belongs to the upper pole as a whole: then 1 − z exceeds 1
@@ -259,30 +260,15 @@ trait Image<R: Real> {
     }
 }
 
-impl<R: Real> Image<R> for ImageEnvironment<'_> {
+impl<'a, R: Real> Image<R> for ImageEnvironment<'a> {
+    type Memory = &'a [f32];
     #[inline(always)]
-    fn counts(&self) -> [R; 2] {
-        self.table.size().map(|n| R::lit(n as f64))
-    }
-    #[inline(always)]
-    fn middle_row(&self) -> R {
-        R::lit(((self.table.size()[1] - 1) / 2) as f64)
+    fn table(&self) -> Words2d<&'a [f32], R::Uint> {
+        self.table.words()
     }
     #[inline(always)]
     fn map(&self) -> EnvironmentMap {
         self.map
-    }
-    #[inline(always)]
-    fn cell(&self, u: Vec2<R>) -> Cell2d<R> {
-        self.table.cell(u)
-    }
-    #[inline(always)]
-    fn pmf(&self, x: R::Uint, y: R::Uint) -> R {
-        self.table.pmf(x, y)
-    }
-    #[inline(always)]
-    fn invert_cell(&self, texel: &Texel<R>) -> Vec2<R> {
-        self.table.invert_cell(texel.x, texel.y, texel.offset)
     }
 }
 
@@ -331,37 +317,18 @@ impl<M: Copy, U: Copy> EnvironmentWords<M, U> {
     {
         self.drawn(u)
     }
-    #[inline(always)]
-    fn table(&self) -> Words2d<M, U> {
-        let Self { memory, first, size, .. } = *self;
-        Words2d { memory, first, size }
-    }
 }
 
 impl<R: Real, M: Memory<R>> Image<R> for EnvironmentWords<M, R::Uint> {
+    type Memory = M;
     #[inline(always)]
-    fn counts(&self) -> [R; 2] {
-        self.size.map(R::from_uint)
-    }
-    #[inline(always)]
-    fn middle_row(&self) -> R {
-        R::from_uint(self.size[1].wrapping_sub(R::Uint::splat(1)).shr(1))
+    fn table(&self) -> Words2d<M, R::Uint> {
+        let Self { memory, first, size, .. } = *self;
+        Words2d { memory, first, size }
     }
     #[inline(always)]
     fn map(&self) -> EnvironmentMap {
         self.map
-    }
-    #[inline(always)]
-    fn cell(&self, u: Vec2<R>) -> Cell2d<R> {
-        self.table().cell(u)
-    }
-    #[inline(always)]
-    fn pmf(&self, x: R::Uint, y: R::Uint) -> R {
-        self.table().pmf(x, y)
-    }
-    #[inline(always)]
-    fn invert_cell(&self, texel: &Texel<R>) -> Vec2<R> {
-        self.table().invert_cell(texel.x, texel.y, texel.offset)
     }
 }
 
