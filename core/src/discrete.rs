@@ -4,7 +4,6 @@
 //! |---|---|---|---|
 //! | [`PiecewiseConstant1d`] | one of n cells, and a position in it | log₂ n steps | yes |
 //! | [`PiecewiseConstant2d`] | a cell of an image, and a position in it | log₂ w + log₂ h steps | yes |
-//! | [`AliasTable`] | one of n items, and a fresh number | two look-ups | none: it maps many to one |
 //!
 //! ```
 //! use etendue::discrete::PiecewiseConstant1d;
@@ -28,12 +27,11 @@ mod words;
 use crate::real::{Real, Uint, unit_interval};
 use crate::vector::Vec2;
 use crate::warp::{Warp, Warp1};
-use cell::rest;
 pub use cell::{Cell, Cell2d};
 pub(crate) use cell::{locate, place};
 use core::fmt::{self, Display, Formatter};
 #[doc(hidden)]
-pub use words::{AliasWords, Words1d, Words2d};
+pub use words::{Words1d, Words2d};
 
 /// Steps of `u` in the unit interval, and the greatest number of cells in a table.
 const STEPS: f64 = 16_777_216.0;
@@ -321,128 +319,5 @@ impl<R: Real> Warp<R> for PiecewiseConstant2d<'_> {
         let [w, h] = self.size().map(|n| R::lit(n as f64));
         let ((x, column), (y, row)) = (locate(unit_interval(p.x), w), locate(unit_interval(p.y), h));
         self.invert_cell(x, y, Vec2::new(column, row))
-    }
-}
-
-/// Draws one of n items by weight in constant time: each of n equal buckets holds its own item up to a threshold, and one other
-/// item above it.
-///
-/// Call `AliasTable::build(&weights, &mut thresholds, &mut aliases)`, then `cell`. Weights that are invalid or all 0 are an
-/// error when the table is built.
-///
-/// ```
-/// use etendue::discrete::AliasTable;
-/// let (mut thresholds, mut aliases) = ([0.0; 4], [0; 4]);
-/// let table = AliasTable::build(&[1.0, 0.0, 2.0, 1.0], &mut thresholds, &mut aliases).unwrap();
-/// let drawn = table.cell(0.375_f32);
-/// // the second bucket holds only its alias
-/// assert_eq!((drawn.index, drawn.offset, drawn.pmf), (2, 0.5, 0.5));
-/// ```
-///
-/// - Formula: bucket ⌊un⌋; the fraction of un, against the threshold, picks the item, and its remainder over its range is a
-///   fresh number.
-/// - Domain: u in [0, 1); 1 to 2²⁴ items with finite weights ≥ 0, in any unit.
-/// - Density: the pmf is weight/total. Items without weight are never drawn. There is no inverse, since an item may lie in many
-///   buckets.
-/// - Degenerate input: if all weights are 0, `build` returns [`TableError::Empty`].
-/// - Greatest error: u has 2²⁴ values, and each bucket gets 2²⁴/n of them or one more, so the probability with which an item of
-///   average weight is drawn is off by up to n·2⁻²⁴ relative (6e−5 for a thousand items). With many items prefer
-///   [`PiecewiseConstant1d`], whose pmf is exactly the probability of the draw.
-/// - Source: Vose, "A Linear Algorithm for Generating Random Numbers with a Given Distribution", IEEE TSE 17(9), 1991; built
-///   without stacks, by one sweep over light and heavy items, as by Hübschle-Schneider and Sanders, "Parallel Weighted Random
-///   Sampling", 2019, section 4.
-#[derive(Clone, Copy, Debug)]
-pub struct AliasTable<'a> {
-    weights: &'a [f32],
-    thresholds: &'a [f32],
-    aliases: &'a [u32],
-    inverse_total: f64,
-}
-
-impl<'a> AliasTable<'a> {
-    /// Builds the table in the caller's buffers, which must be as long as the weights.
-    ///
-    /// # Errors
-    /// Fails if the lengths differ, a weight is invalid, or all are 0.
-    pub fn build(weights: &'a [f32], thresholds: &'a mut [f32], aliases: &'a mut [u32]) -> Result<Self, TableError> {
-        let n = weights.len();
-        if n == 0 || n > STEPS as usize || thresholds.len() != n || aliases.len() != n {
-            return Err(TableError::Length);
-        }
-        let (sum, some) = total(n, |i| f64::from(weights[i]))?;
-        if some == 0 {
-            return Err(TableError::Empty);
-        }
-        let share = |i: usize| f64::from(weights[i]) * (n as f64 / sum);
-        let find = |from: usize, heavy: bool| (from..n).find(|&i| (share(i) > 1.0) == heavy).unwrap_or(n);
-        for (i, (threshold, alias)) in thresholds.iter_mut().zip(aliases.iter_mut()).enumerate() {
-            (*threshold, *alias) = (1.0, i as u32);
-        }
-        let (mut light, mut heavy) = (find(0, false), find(0, true));
-        let mut rest = if heavy < n { share(heavy) } else { 0.0 };
-        // the heavy item fills up light buckets until it is light itself; then the next heavy one fills its bucket
-        while heavy < n {
-            if rest > 1.0 {
-                if light == n {
-                    break;
-                }
-                thresholds[light] = share(light) as f32;
-                aliases[light] = heavy as u32;
-                rest -= 1.0 - share(light);
-                light = find(light + 1, false);
-            } else {
-                let next = find(heavy + 1, true);
-                if next == n {
-                    break;
-                }
-                thresholds[heavy] = rest as f32;
-                aliases[heavy] = next as u32;
-                rest += share(next) - 1.0;
-                heavy = next;
-            }
-        }
-        // buckets left over by rounding keep their own item, unless it has no weight
-        while light < n {
-            if weights[light] <= 0.0 {
-                let heaviest = (0..n).fold(0, |best, i| if weights[i] > weights[best] { i } else { best });
-                (thresholds[light], aliases[light]) = (0.0, heaviest as u32);
-            }
-            light = find(light + 1, false);
-        }
-        Ok(Self { weights, thresholds, aliases, inverse_total: 1.0 / sum })
-    }
-    /// Number of items.
-    #[inline(always)]
-    #[must_use]
-    pub fn cells(&self) -> usize {
-        self.weights.len()
-    }
-    /// Three words for each item: its threshold, its alias and its probability. What [`AliasWords`] reads.
-    pub fn words(&self) -> impl Iterator<Item = u32> + use<'a> {
-        let Self { weights, thresholds, aliases, inverse_total } = *self;
-        weights.iter().zip(thresholds).zip(aliases).flat_map(move |((&weight, threshold), &alias)| {
-            [threshold.to_bits(), alias, ((f64::from(weight) * inverse_total) as f32).to_bits()]
-        })
-    }
-    /// Draws the item for `u`, with a fresh number in [0, 1) as its `offset`.
-    #[inline(always)]
-    pub fn cell<R: Real>(&self, u: R) -> Cell<R> {
-        let (bucket, fraction) = locate(unit_interval(u), R::lit(self.weights.len() as f64));
-        let threshold = R::from_fn(|lane| R::Scalar::lit(self.thresholds[bucket.lane(lane) as usize].into()));
-        let own = fraction.lt(threshold);
-        let index = R::Uint::from_fn(|lane| {
-            let bucket = bucket.lane(lane);
-            let own = fraction.lane_f64(lane) < threshold.lane_f64(lane);
-            if own { bucket } else { self.aliases[bucket as usize] }
-        });
-        Cell { index, offset: rest(own, fraction, threshold), pmf: self.pmf(index) }
-    }
-    /// Probability of an item; 0 past the last one.
-    #[inline(always)]
-    pub fn pmf<R: Real>(&self, index: R::Uint) -> R {
-        R::from_fn(|lane| {
-            let weight = self.weights.get(index.lane(lane) as usize).copied().unwrap_or(0.0);
-            R::Scalar::lit(f64::from(weight) * self.inverse_total)
-        })
     }
 }

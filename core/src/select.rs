@@ -3,7 +3,7 @@
 //! | choice | pmf | cost | when |
 //! |---|---|---|---|
 //! | [`UniformLights`] | 1/n | least | few, similar lights |
-//! | [`PowerLights`] | power/Σpower | a binary search per lane | lights of different power at similar distances |
+//! | [`PiecewiseConstant1d`] | power/Σpower | a binary search per lane | lights of different power at similar distances |
 //! | [`SpatialLights`] | power · cosθ cosθ'/d² at the centre, per shading point | one pass over all lights | 2 to 32 lights, near and far, with an area |
 //! | [`LightTree`] | by the expected cosines and distances of sets of lights, per shading point | 0.1 µs a lane for 10³ lights, 0.2 for 10⁵ | more than 32 lights, of all kinds |
 //! | [`Allocation`] | the light's share of the samples of a pixel | none per sample | the same, where a set of samples is planned in advance |
@@ -21,19 +21,18 @@
 mod allocation;
 mod bound;
 mod gloss;
-mod power;
 mod spatial;
 mod tree;
 
 pub use allocation::{Allocated, Allocation};
 pub use bound::LightBound;
 pub use gloss::Gloss;
-pub use power::PowerLights;
 pub use spatial::{LightsAt, SpatialLights};
 pub use tree::{Join, LightTree, NO_LIGHT, Node8, TreeAt};
 #[doc(hidden)]
 pub use tree::{TreeChild, TreeWords, TreeWordsAt};
 
+use crate::discrete::PiecewiseConstant1d;
 use crate::real::{Real, Uint, unit_interval};
 use core::fmt::{self, Display, Formatter};
 
@@ -107,5 +106,18 @@ impl<R: Real> LightChoice<R> for UniformLights {
     #[inline]
     fn pmf(&self, index: R::Uint) -> R {
         R::from_fn(|i| R::Scalar::lit(if index.lane(i) < self.count { 1.0 / f64::from(self.count) } else { 0.0 }))
+    }
+}
+
+/// Chooses lights in proportion to their power, which the table was built from.
+impl<R: Real> LightChoice<R> for PiecewiseConstant1d<'_> {
+    #[inline]
+    fn choose(&self, u: R) -> Choice<R> {
+        let cell = self.cell(u);
+        Choice { index: cell.index, pmf: cell.pmf, u: cell.offset }
+    }
+    #[inline]
+    fn pmf(&self, index: R::Uint) -> R {
+        self.pmf(index)
     }
 }

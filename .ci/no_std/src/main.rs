@@ -5,7 +5,7 @@
 
 use core::arch::{asm, global_asm};
 use core::f32::consts::PI;
-use etendue::discrete::{AliasTable, PiecewiseConstant1d, PiecewiseConstant2d};
+use etendue::discrete::{PiecewiseConstant1d, PiecewiseConstant2d};
 use etendue::estimate::{Heuristic, Welford};
 use etendue::light::shapes::{
     CosineWarped, ProjectedCap, ProjectedPolygon, ProjectedSegment, ProjectedTriangle, SphericalCap, SphericalDisk,
@@ -17,7 +17,7 @@ use etendue::light::{
 };
 use etendue::reflection::Reflection;
 use etendue::select::{
-    Allocation, LightBound, LightChoice, LightTree, Node8, PowerLights, SpatialLights, UniformLights,
+    Allocation, LightBound, LightChoice, LightTree, Node8, SpatialLights, UniformLights,
 };
 use etendue::sequence::{CounterRng, Independent, JointSobol, OwenSobol, Sequence, Stratified, ZOrder, ZOrderIndex};
 use etendue::warp::{
@@ -214,7 +214,7 @@ fn surfaces(count: &mut Count) {
 
 fn tables(count: &mut Count) {
     let weights = [1.0, 2.0, 0.5, 4.0, 1.0, 1.5];
-    let (mut cdf, mut thresholds, mut aliases, mut buffer) = ([0.0; 6], [0.0; 6], [0; 6], [0.0; 8]);
+    let (mut cdf, mut buffer) = ([0.0; 6], [0.0; 8]);
     match PiecewiseConstant1d::build(&weights, &mut cdf) {
         Ok(table) => count.line(table),
         Err(_) => exit(251),
@@ -223,18 +223,9 @@ fn tables(count: &mut Count) {
         Ok(table) => count.warp(table, 1.0),
         Err(_) => exit(252),
     }
-    match AliasTable::build(&weights, &mut thresholds, &mut aliases) {
-        Ok(table) => {
-            let mut mean = lit(0.0);
-            squares().for_each(|u| mean += lit(1.0) / table.cell(u.x).pmf);
-            count.check(near(sum(mean) / SAMPLES as f32, 6.0, 1e-2));
-        }
-        Err(_) => exit(253),
-    }
     let lights =
         [1.0, 2.0].map(|x| LightBound { center: [x, 1.0, 0.0], radius: 0.5, power: x, ..LightBound::default() });
-    let mut sums = [0.0; 6];
-    let Ok(power) = PowerLights::new(&weights, &mut sums) else { exit(252) };
+    let Ok(power) = PiecewiseConstant1d::build(&weights, &mut cdf) else { exit(252) };
     let Ok(spatial) = SpatialLights::new(&lights) else { exit(251) };
     let (mut nodes, mut places) = ([Node8::default(); LightTree::nodes_for(2)], [0; 2]);
     let Ok(tree) = LightTree::build(&lights, &mut nodes, &mut places) else { exit(251) };

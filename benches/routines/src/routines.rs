@@ -1,6 +1,6 @@
 //! Samples, densities and inverses.
 
-use etendue::discrete::{AliasTable, PiecewiseConstant2d};
+use etendue::discrete::PiecewiseConstant2d;
 use etendue::light::shapes::{
     CosineWarped, ProjectedCap, ProjectedPolygon, ProjectedSegment, ProjectedTriangle, SphericalCap, SphericalDisk,
     SphericalParallelogram, SphericalRectangle, SphericalSegment, SphericalTriangle,
@@ -290,10 +290,6 @@ fn tables<R: Real + 'static>() -> Vec<Routine> {
             picture.on(globe).by_visible_area(p).draw(u)
         });
     }
-    let weights = Vec::leak(weights);
-    let alias = AliasTable::build(weights, buffer(2048), Vec::leak(vec![0; 2048])).expect("weights are positive");
-    let us = list.squares.iter().map(|u| u.x).collect();
-    list.push("alias table 2048 cell", alias, us, |t, u| t.cell(u));
     list.routines
 }
 

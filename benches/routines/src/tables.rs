@@ -123,7 +123,6 @@ fn warps() -> Table {
         warp("microfacet normals", "D_v", "[`GgxVisibleNormals`](crate::warp::GgxVisibleNormals)", ["GGX visible normals sample", ""], "ggx_visible_normals", ["5e−7 in the stretched normal", "Dupuy and Benyoub 2023", "rough reflection"]),
         warp("unit square", "bilinear", "[`Bilinear`](crate::warp::Bilinear)", ["bilinear sample", ""], "bilinear", ["6 steps of u", "PBR A.5.5", "tilted or textured quads"]),
         warp("", "a table", "[`PiecewiseConstant2d`](crate::discrete::PiecewiseConstant2d)", ["table 64x32 sample", ""], "", ["1 step of u in the cell", "PBR A.4", "images"]),
-        warp("list", "a table", "[`AliasTable`](crate::discrete::AliasTable)", ["alias table 2048 cell", ""], "", ["1 step of u", "Vose 1991", "many lights"]),
         warp("line, numbers", "linear", "[`Linear`](crate::warp::Linear)", ["linear sample", ""], "linear", ["1.8e−7", "PBR 2.3.2", "linear falloff"]),
         warp("", "tent", "[`Tent`](crate::warp::Tent)", ["tent sample", ""], "tent", ["1.7e−7 relative", "inverse distribution", "pixel filters"]),
     ];

@@ -5,16 +5,16 @@ use crate::inputs::{Inputs, add_function, add_words};
 use crate::module::{Field, Leaf, Module, Struct, Type};
 use crate::number::{Number, Word, Words};
 use crate::wanted::{Part, Wanted};
-use etendue::discrete::{AliasWords, Cell, Words1d, Words2d};
+use etendue::discrete::{Cell, Words1d, Words2d};
 
 fn field(name: &str, leaf: Leaf, doc: &str) -> Field {
     Field { name: name.into(), leaf, doc: doc.into() }
 }
-/// The struct of a cell or an item.
+/// The struct of a cell.
 fn cell(module: &mut Module) -> Type {
     Type::Struct(module.add_struct(Struct {
         name: "cell".into(),
-        doc: "A cell or an item drawn from a table.".into(),
+        doc: "A cell drawn from a table.".into(),
         fields: vec![
             field("index", Leaf::Word, "Index of the cell."),
             field("offset", Leaf::Real, "Position in the cell, in [0, 1): what is left of u, uniform."),
@@ -26,33 +26,6 @@ fn cell_ids(cell: Cell<Number>) -> Vec<Id> {
     vec![cell.index.id(), cell.offset.id(), cell.pmf.id()]
 }
 const REAL: Type = Type::Leaf(Leaf::Real);
-
-pub(crate) fn add_alias_table(module: &mut Module, wanted: &Wanted) {
-    let doc = "A table in memory that draws one of its items by weight: the words of AliasTable::words, which are three for each item.";
-    let fields = [("first", "Index of the first word."), ("count", "Number of items.")];
-    let of = add_words(module, "alias_table", doc, &fields);
-    let table = |module: &Module, inputs: &mut Inputs| {
-        let [first, count] = inputs.words(module, "table", of);
-        AliasWords { memory: Words, first, count }
-    };
-    if wanted.parts.contains(&Part::Sample) {
-        let result = cell(module);
-        add_function(module, "alias_table_cell", |module, inputs| {
-            let cell = table(module, inputs).cell(inputs.real("u"));
-            (
-                "Draws an item by its weight for u in [0, 1), with a fresh number as offset.".into(),
-                result,
-                cell_ids(cell),
-            )
-        });
-    }
-    if wanted.parts.contains(&Part::Pdf) {
-        add_function(module, "alias_table_pmf", |module, inputs| {
-            let pmf: Number = table(module, inputs).pmf(inputs.word("index"));
-            ("The probability of an item; 0 past the last one.".into(), REAL, vec![pmf.id()])
-        });
-    }
-}
 
 pub(crate) fn add_line(module: &mut Module, wanted: &Wanted) {
     let doc = "A distribution on [0, 1) in memory whose density is constant in each of its cells, as PiecewiseConstant1d::build leaves it.";

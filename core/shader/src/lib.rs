@@ -61,7 +61,6 @@
 //! | table | words in memory | functions |
 //! |---|---|---|
 //! | `light_tree` | [`Node8::words`](etendue::select::Node8::words) of each node of a [`LightTree`](etendue::select::LightTree), and its places | `choose`, `choose_by`, `pmf` |
-//! | `alias_table` | [`AliasTable::words`](etendue::discrete::AliasTable::words) | `cell`, `pmf` |
 //! | `piecewise_constant_1d`, `piecewise_constant_2d` | the buffer of [`PiecewiseConstant1d`](etendue::discrete::PiecewiseConstant1d) or [`PiecewiseConstant2d`](etendue::discrete::PiecewiseConstant2d) | `cell`, `pmf`, `invert_cell` |
 //! | `equirectangular_environment`, `equal_area_environment` | the buffer of [`ImageEnvironment::build`](etendue::light::ImageEnvironment::build) | `draw`, `sample`, `pdf`, `hit`, `invert` |
 //! | `reflection` | [`reflection::table`](etendue::reflection::table) | `prepare`, `sphere` |

@@ -1,6 +1,6 @@
 //! What reads tables in memory: choices among lights, distributions, images of the sky, and lights with pictures.
 
-use crate::distributions::{add_alias_table, add_line, add_square};
+use crate::distributions::{add_line, add_square};
 use crate::inputs::{Inputs, add_function, add_words};
 use crate::module::{Field, Leaf, Module, Struct, Type};
 use crate::number::{Number, Word, Words};
@@ -15,7 +15,7 @@ use etendue::select::{Choice, LightChoice, TreeWords, TreeWordsAt};
 /// The names of the tables.
 #[must_use]
 pub fn tables() -> Vec<String> {
-    let choices = ["light_tree", "alias_table", "piecewise_constant_1d", "piecewise_constant_2d"];
+    let choices = ["light_tree", "piecewise_constant_1d", "piecewise_constant_2d"];
     let lights = ["equirectangular_environment", "equal_area_environment", "reflection"];
     choices.into_iter().chain(lights).map(str::to_owned).chain(pictured()).collect()
 }
@@ -174,7 +174,6 @@ pub fn add_table(module: &mut Module, name: &str, wanted: &Wanted) {
         "equirectangular_environment" => add_environment(module, name, EnvironmentMap::Equirectangular, wanted),
         "equal_area_environment" => add_environment(module, name, EnvironmentMap::EqualArea, wanted),
         "reflection" => add_reflection(module),
-        "alias_table" => add_alias_table(module, wanted),
         "piecewise_constant_1d" => add_line(module, wanted),
         "piecewise_constant_2d" => add_square(module, wanted),
         _ => add_pictured(module, name, wanted),

@@ -57,11 +57,3 @@ pub(crate) fn locate<R: Real>(x: R, n: R) -> (R::Uint, R) {
     let position = R::blend(below, position + one, R::blend(above, position - one, position));
     (i.clamped(zero, n - one).to_uint(), unit_interval(position))
 }
-
-/// What is left of the position in a bucket, given its threshold, within its own item or the other one: a fresh number.
-#[inline(always)]
-pub(super) fn rest<R: Real>(own: R::Mask, fraction: R, threshold: R) -> R {
-    let one = R::lit(1.0);
-    let range = R::blend(own, threshold, one - threshold);
-    unit_interval(R::blend(own, fraction, fraction - threshold) / range.greater(R::lit(1e-30)))
-}

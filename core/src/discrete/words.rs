@@ -1,6 +1,6 @@
 //! Tables as words in memory.
 
-use super::cell::{Cell, Cell2d, locate, rest};
+use super::cell::{Cell, Cell2d};
 use crate::memory::Memory;
 use crate::real::{Real, Uint, unit_interval};
 use crate::vector::Vec2;
@@ -113,45 +113,5 @@ impl<M: Copy, U: Uint> Words2d<M, U> {
         M: Memory<R>,
     {
         Vec2::new(self.row(y).invert_cell(x, offset.x), self.marginal().invert_cell(y, offset.y))
-    }
-}
-
-/// An [`AliasTable`](crate::discrete::AliasTable) as words in [memory](crate::memory), as its method `words` returns them: what is read where
-/// number types write sources. Of single precision, items have the bits of the table.
-#[derive(Clone, Copy, Debug)]
-pub struct AliasWords<M, U> {
-    /// The memory.
-    pub memory: M,
-    /// Index of the first word.
-    pub first: U,
-    /// Number of items, between 1 and 2²⁴.
-    pub count: U,
-}
-
-impl<M, U: Uint> AliasWords<M, U> {
-    /// Index of a word of an item: 0 is the threshold, 1 the alias, and 2 the probability.
-    #[inline(always)]
-    fn at(&self, index: U, word: u32) -> U {
-        self.first.wrapping_add(index.wrapping_mul(U::splat(3))).wrapping_add(U::splat(word))
-    }
-    /// Draws the item for `u`, with a fresh number in [0, 1) as its `offset`.
-    #[inline(always)]
-    pub fn cell<R: Real<Uint = U>>(&self, u: R) -> Cell<R>
-    where
-        M: Memory<R>,
-    {
-        let (bucket, fraction) = locate(unit_interval(u), R::from_uint(self.count));
-        let threshold = self.memory.number(self.at(bucket, 0));
-        let own = fraction.lt(threshold);
-        let index = R::blend_uint(own, bucket, self.memory.word(self.at(bucket, 1)));
-        Cell { index, offset: rest(own, fraction, threshold), pmf: self.pmf(index) }
-    }
-    /// Probability of an item; 0 past the last one.
-    #[inline(always)]
-    pub fn pmf<R: Real<Uint = U>>(&self, index: U) -> R
-    where
-        M: Memory<R>,
-    {
-        self.memory.number(self.at(index, 2)).keep(R::has_bits(index.lt(self.count)))
     }
 }

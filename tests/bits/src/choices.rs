@@ -1,11 +1,10 @@
 //! Choices of lights over the regimes of the trees' tests, and tables.
 
 use crate::figures::{Figures, Lanes, List, Routine};
-use etendue::discrete::{AliasTable, PiecewiseConstant1d, PiecewiseConstant2d};
+use etendue::discrete::{PiecewiseConstant1d, PiecewiseConstant2d};
 use etendue::reflection::Reflection;
 use etendue::select::{
-    Allocation, Choice, FEW, Gloss, LightBound, LightChoice, LightTree, Node8, PowerLights, SpatialLights,
-    UniformLights,
+    Allocation, Choice, FEW, Gloss, LightBound, LightChoice, LightTree, Node8, SpatialLights, UniformLights,
 };
 use etendue::{Mask, Real, Uint, Warp, Warp1};
 use etendue_judge::generators::{self, Random};
@@ -51,7 +50,6 @@ const VIEWS: [[f32; 3]; 4] = [[0.6, 0.0, 0.8], [0.0, -0.28, 0.96], [0.8, -0.6, 0
 #[derive(Clone, Copy)]
 enum ChoiceKind {
     Uniform,
-    Power,
     Spatial,
     Tree,
     /// In a tree, and among few lights, in view of what glossy surfaces reflect.
@@ -62,9 +60,6 @@ struct Choices(ChoiceKind, Vec<Set>);
 impl Routine for Choices {
     fn run<R: Real>(&self, figures: &mut Figures) {
         for Set { bounds, slots } in &self.1 {
-            let powers: Vec<_> = bounds.iter().map(|bound| bound.power).collect();
-            let mut sums = vec![0.0; powers.len()];
-            let power = PowerLights::new(&powers, &mut sums).expect("the lengths agree");
             let few = &bounds[..bounds.len().min(FEW)];
             let spatial = SpatialLights::new(few).expect("there are few lights");
             let mut nodes = vec![Node8::default(); LightTree::nodes_for(bounds.len())];
@@ -79,7 +74,6 @@ impl Routine for Choices {
                     ChoiceKind::Uniform => {
                         chosen::<R>(lanes, &UniformLights { count: bounds.len() as u32 }, &us, &lights)
                     }
-                    ChoiceKind::Power => chosen::<R>(lanes, &power, &us, &lights),
                     ChoiceKind::Spatial => {
                         let at = spatial.at(p, n);
                         chosen(lanes, &at, &us, &lights);
@@ -132,7 +126,7 @@ fn weights(count: usize, random: &mut Random) -> Vec<f32> {
     (0..count).map(|_| if random.word().is_multiple_of(5) { 0.0 } else { random.magnitude(1e-4, 1e4) as f32 }).collect()
 }
 
-/// Tables of one and two dimensions, and Vose's alias tables.
+/// Tables of one and two dimensions.
 struct Tables;
 
 impl Routine for Tables {
@@ -143,8 +137,6 @@ impl Routine for Tables {
             weights[0] = 1.0;
             let mut cdf = vec![0.0; count];
             let line = PiecewiseConstant1d::build(&weights, &mut cdf).expect("the weights are valid");
-            let (mut thresholds, mut aliases) = (vec![0.0; count], vec![0; count]);
-            let alias = AliasTable::build(&weights, &mut thresholds, &mut aliases).expect("the weights are valid");
             let width = count.min(20);
             let mut buffer = vec![0.0; PiecewiseConstant2d::buffer(width, count / width)];
             let image = PiecewiseConstant2d::build(&weights[..width * (count / width)], width, &mut buffer)
@@ -157,12 +149,10 @@ impl Routine for Tables {
                     })
                     .collect();
                 let u = squares_of::<R>(&us);
-                for cell in [line.cell(u.x), alias.cell(u.x)] {
-                    lanes.words(cell.index);
-                    lanes.reals([cell.offset, cell.pmf]);
-                }
                 let cell = line.cell(u.x);
-                lanes.reals([line.pmf(cell.index), alias.pmf(cell.index), line.invert_cell(cell.index, cell.offset)]);
+                lanes.words(cell.index);
+                lanes.reals([cell.offset, cell.pmf]);
+                lanes.reals([line.pmf(cell.index), line.invert_cell(cell.index, cell.offset)]);
                 let x = line.sample(u.y);
                 lanes.reals([x, line.pdf(x), line.invert(x), line.pdf(u.x), line.invert(u.y)]);
                 let cell = image.cell(u);
@@ -180,7 +170,6 @@ impl Routine for Tables {
 
 pub(crate) fn add(list: &mut List<'_>) {
     list.add("choice/UniformLights", &Choices(ChoiceKind::Uniform, sets(20, 2 * Figures::MOST)));
-    list.add("choice/PowerLights", &Choices(ChoiceKind::Power, sets(50, 4 * Figures::MOST)));
     list.add("choice/SpatialLights", &Choices(ChoiceKind::Spatial, sets(12, 8 * Figures::MOST)));
     list.add("choice/LightTree", &Choices(ChoiceKind::Tree, sets(200, 8 * Figures::MOST)));
     list.add("choice/glossy", &Choices(ChoiceKind::Glossy, sets(200, 4 * Figures::MOST)));

@@ -112,8 +112,6 @@ targets! {
     portals: skies, 30;
     /// Tables of one and two dimensions.
     piecewise_constant: numbers, 500;
-    /// Vose's alias tables.
-    alias_table: numbers, 600;
     /// Choices among lights of any power and place.
     light_choice: numbers, 500;
     /// Trees of up to 200 lights, and points at which one might be lost.

@@ -1,6 +1,6 @@
 //! Choosers and weights, judged: the core's are right, a light that is lost among ten thousand is found.
 
-use etendue::discrete::AliasTable;
+use etendue::discrete::PiecewiseConstant1d;
 use etendue::estimate::Heuristic;
 use etendue_judge::choices::{Chooser, choices, weights};
 use etendue_judge::generators::Random;
@@ -10,7 +10,7 @@ const LIGHTS: usize = 10_000;
 const DRAWS: usize = 100 * LIGHTS;
 
 struct ByTable<'a> {
-    table: AliasTable<'a>,
+    table: PiecewiseConstant1d<'a>,
     /// A light that is replaced by its neighbour when it is drawn.
     lost: Option<usize>,
     /// What all probabilities are multiplied by.
@@ -37,8 +37,8 @@ fn powers() -> Vec<f32> {
 fn a_light_lost_among_ten_thousand_is_found() {
     let powers = powers();
     let all: Vec<f64> = powers.iter().copied().map(f64::from).collect();
-    let (mut thresholds, mut aliases) = (vec![0.0; LIGHTS], vec![0; LIGHTS]);
-    let table = AliasTable::build(&powers, &mut thresholds, &mut aliases).expect("powers are positive");
+    let mut cdf = vec![0.0; LIGHTS];
+    let table = PiecewiseConstant1d::build(&powers, &mut cdf).expect("powers are positive");
     let of = |lost, factor| {
         let start = Instant::now();
         let said = choices(&ByTable { table, lost, factor }, &all, DRAWS, 1);

@@ -1,7 +1,7 @@
 //! Tables over slices: the frequencies of the cells over every possible `u` match the reported pmf.
 
-use etendue::discrete::{AliasTable, PiecewiseConstant1d, PiecewiseConstant2d, TableError};
-use etendue::{Uint, Vec2, Warp, Warp1, f32x4, f32x8, u32x4};
+use etendue::discrete::{PiecewiseConstant1d, PiecewiseConstant2d, TableError};
+use etendue::{Vec2, Warp, Warp1, f32x4, u32x4};
 use etendue_judge::generators::Random;
 use etendue_oracle::tier::cases;
 
@@ -125,7 +125,7 @@ fn piecewise_constant_2d_counts() {
     }
 }
 
-/// Cells outside the image, and past the last one of a line or of a table of aliases, have pmf 0, however far outside.
+/// Cells outside the image, and past the last one of a line, have pmf 0, however far outside.
 #[test]
 fn cells_outside_have_no_probability() {
     let mut buffer = vec![0.0; PiecewiseConstant2d::buffer(3, 2)];
@@ -137,92 +137,16 @@ fn cells_outside_have_no_probability() {
         }
     }
     assert!((table.pmf::<f32>(2, 1) - 6.0 / 21.0).abs() < 1e-6);
-    let (mut cdf, mut thresholds, mut aliases) = ([0.0; 3], [0.0; 3], [0; 3]);
+    let mut cdf = [0.0; 3];
     let line = PiecewiseConstant1d::build(&[1.0; 3], &mut cdf).unwrap();
-    let alias = AliasTable::build(&[1.0; 3], &mut thresholds, &mut aliases).unwrap();
     for past in [3, u32::MAX] {
-        let all = u32x4::splat(past);
-        assert_eq!([line.pmf::<f32x4>(all), alias.pmf::<f32x4>(all)], [f32x4::splat(0.0); 2]);
-    }
-}
-
-/// Over all 2²⁴ values of u: the counts are as exact as the grid allows, and the remaining `offset` is uniform.
-#[test]
-fn alias_table_counts() {
-    for n in [7_usize, 64, 1, 2, 3, 1000].into_iter().take(cases(1, 6)) {
-        for (name, weights) in regimes(n) {
-            if weights.iter().all(|w| *w == 0.0) {
-                continue;
-            }
-            let (mut thresholds, mut aliases) = (vec![0.0; n], vec![0; n]);
-            let table = AliasTable::build(&weights, &mut thresholds, &mut aliases).unwrap();
-            let (mut counts, mut offsets) = (vec![0_u32; n], vec![0.0; n]);
-            for packet in (0..STEPS).step_by(8) {
-                let cell = table.cell(f32x8::from(core::array::from_fn(|k| step(packet + k as u32))));
-                for k in 0..8 {
-                    let (i, offset) = (cell.index.lane(k) as usize, cell.offset.as_array()[k]);
-                    assert!((0.0..1.0).contains(&offset));
-                    counts[i] += 1;
-                    offsets[i] += f64::from(offset);
-                }
-            }
-            let probabilities: Vec<f32> = (0..n).map(|i| table.pmf(i as u32)).collect();
-            for i in 0..n {
-                let count = f64::from(counts[i]);
-                let expected = f64::from(probabilities[i]) * f64::from(STEPS);
-                assert!(weights[i] > 0.0 || counts[i] == 0, "{name} {n}: item {i} has no weight");
-                // each bucket that holds the item may be off by a step at either end
-                let buckets = 2.0 + aliases.iter().filter(|a| **a as usize == i).count() as f64;
-                assert!(
-                    (count - expected).abs() <= 2.0 * buckets,
-                    "{name} {n}: item {i}: {count}, expected {expected}"
-                );
-                if count > 1e4 {
-                    let mean = offsets[i] / count;
-                    assert!((mean - 0.5).abs() < 2.0 * buckets / count + 1e-6, "{name} {n}: item {i}: mean {mean}");
-                }
-            }
-        }
-    }
-}
-
-/// The buckets give each item exactly its share: below its threshold a bucket is its own, the rest is its alias's.
-#[test]
-fn alias_buckets_hold_the_shares() {
-    let mut random = Random::new(12);
-    for n in [1_usize, 2, 3, 5, 17, 256, 1000] {
-        for round in 0..20 {
-            // from nearly equal weights to very different ones, some of them 0
-            let spread = f64::from(round) * 0.5;
-            let weights: Vec<f32> = (0..n)
-                .map(|i| {
-                    let weight = (spread * random.range(-1.0, 1.0)).exp() as f32;
-                    if i > 0 && round % 4 == 3 && random.below(3) == 0 { 0.0 } else { weight }
-                })
-                .collect();
-            let (mut thresholds, mut aliases) = (vec![0.0; n], vec![0; n]);
-            AliasTable::build(&weights, &mut thresholds, &mut aliases).unwrap();
-            let mut shares = vec![0.0; n];
-            for (bucket, (&threshold, &alias)) in thresholds.iter().zip(&aliases).enumerate() {
-                assert!((0.0..=1.0).contains(&threshold), "{n} {round}: bucket {bucket} has threshold {threshold}");
-                shares[bucket] += f64::from(threshold);
-                shares[alias as usize] += 1.0 - f64::from(threshold);
-            }
-            let sum: f64 = weights.iter().map(|&weight| f64::from(weight)).sum();
-            for (i, (share, &weight)) in shares.into_iter().zip(&weights).enumerate() {
-                let truth = f64::from(weight) / sum * n as f64;
-                // each threshold is rounded to single precision
-                let buckets = 1.0 + aliases.iter().filter(|alias| **alias as usize == i).count() as f64;
-                assert!((share - truth).abs() < 1e-7 * buckets, "{n} {round}: item {i} has {share}, not {truth}");
-            }
-        }
+        assert_eq!(line.pmf::<f32x4>(u32x4::splat(past)), f32x4::splat(0.0));
     }
 }
 
 #[test]
 fn invalid_tables_are_errors() {
     let built = |weights: &[f32], n: usize| PiecewiseConstant1d::build(weights, &mut vec![0.0; n]).err();
-    let alias = |weights: &[f32], n: usize| AliasTable::build(weights, &mut vec![0.0; n], &mut vec![0; n]).err();
     let image = |weights: &[f32], n: usize| PiecewiseConstant2d::build(weights, n, &mut vec![0.0; n * n + n]).err();
     for (weights, n, error) in [
         (&[][..], 0, TableError::Length),
@@ -233,13 +157,7 @@ fn invalid_tables_are_errors() {
         (&[1.0, f32::INFINITY, 1.0, 1.0], 4, TableError::Weight),
     ] {
         assert_eq!(built(weights, n), Some(error));
-        assert_eq!(alias(weights, n), Some(error));
         let side = if n == 4 { 2 } else { n };
         assert_eq!(image(weights, side), Some(error), "{weights:?}");
-    }
-    // either of two buffers
-    for (thresholds, aliases) in [(2, 3), (4, 3), (3, 2), (3, 4)] {
-        let built = AliasTable::build(&[1.0; 3], &mut vec![0.0; thresholds], &mut vec![0; aliases]).err();
-        assert_eq!(built, Some(TableError::Length), "{thresholds} {aliases}");
     }
 }

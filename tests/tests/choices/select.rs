@@ -1,8 +1,7 @@
 //! Choice of lights: frequencies against probabilities, sums, limits.
 
-use etendue::select::{
-    Allocation, Choice, FEW, LightBound, LightChoice, LightsError, PowerLights, SpatialLights, UniformLights,
-};
+use etendue::discrete::PiecewiseConstant1d;
+use etendue::select::{Allocation, Choice, FEW, LightBound, LightChoice, LightsError, SpatialLights, UniformLights};
 use etendue::sequence::{Independent, Sequence};
 use etendue::{Mask, Real, Uint, Vec2, f32x4, f32x8, u32x8};
 use etendue_judge::stats;
@@ -45,7 +44,8 @@ fn check(
     let p = stats::chi_square(&counts, &expected);
     assert!(p > SIGNIFICANCE, "{name}: frequencies, p = {p}");
     assert!(stats::uniform(&left) > SIGNIFICANCE, "{name}: number left, p = {}", stats::uniform(&left));
-    if probabilities.iter().filter(|p| **p > 0.0).count() > 1 {
+    // without two lights that are often chosen there is nothing to correlate
+    if pairs.iter().any(|pair| pair.0 != pairs[0].0) {
         let z = stats::correlation(&pairs) * (pairs.len() as f64).sqrt();
         assert!(stats::two_sided(z) > SIGNIFICANCE, "{name}: {z}");
     }
@@ -70,55 +70,19 @@ fn power() {
     for powers in
         [&[1.0][..], &[0.0, 2.0, 0.0, 1.0, 0.0], &[1e-30, 1.0, 1e30, 0.0], &[3e38, 3e38], &[1e-42, 2e-42], &many]
     {
-        let mut sums = vec![0.0; powers.len()];
-        let lights = PowerLights::new(powers, &mut sums).unwrap();
+        let mut cdf = vec![0.0; powers.len()];
+        let lights = PiecewiseConstant1d::build(powers, &mut cdf).unwrap();
         check("power", powers.len(), |u| lights.choose(u), |u| lights.choose(u), |k| lights.pmf(k));
         for (k, power) in powers.iter().enumerate() {
             let pmf: f32 = lights.pmf(k as u32);
             assert_eq!(*power > 0.0, pmf > 0.0, "{powers:?}");
         }
-        for u in [0.0_f32, f32::ONE_MINUS_EPSILON, 1.0] {
-            let choice = lights.choose(u);
-            assert!(powers[choice.index as usize] > 0.0 && choice.pmf > 0.0);
-        }
     }
     // in proportion, where nothing is lifted
-    let mut sums = [0.0; 3];
-    let lights = PowerLights::new(&[3.0, 1.0, 4.0], &mut sums).unwrap();
+    let mut cdf = [0.0; 3];
+    let lights = PiecewiseConstant1d::build(&[3.0, 1.0, 4.0], &mut cdf).unwrap();
     let shares: [f32; 3] = [0, 1, 2].map(|k| LightChoice::<f32>::pmf(&lights, k));
     assert_eq!(shares, [0.375, 0.125, 0.5]);
-    for powers in [&[][..], &[0.0, 0.0], &[f32::NAN, -1.0]] {
-        let mut sums = vec![7.0; powers.len()];
-        let choice = PowerLights::new(powers, &mut sums).unwrap().choose(0.3_f32);
-        assert_eq!((choice.pmf, choice.u), (0.0, 0.0));
-    }
-    // a table that does not fit the lights is refused, not cut
-    let mut sums = vec![0.0; PowerLights::MOST + 1];
-    let powers = vec![1.0; sums.len()];
-    assert_eq!(PowerLights::new(&powers, &mut sums).err(), Some(LightsError::TooMany));
-    assert_eq!(PowerLights::new(&powers[..3], &mut sums[..2]).err(), Some(LightsError::Length));
-    assert_eq!(PowerLights::new(&powers[..2], &mut sums[..3]).err(), Some(LightsError::Length));
-}
-
-/// Each of 2¹⁴ lights, one of them 10³⁰ times as strong as the others, is found by some u of the grid, in its due share.
-#[test]
-fn weak_lights_are_found() {
-    let mut powers = vec![1e-20_f32; 1 << 14];
-    powers[5000] = 1e10;
-    let mut sums = vec![0.0; powers.len()];
-    let lights = PowerLights::new(&powers, &mut sums).unwrap();
-    let mut counts = vec![0_u32; powers.len()];
-    for i in (0..1 << 24).step_by(8) {
-        let u = f32x8::from_fn(|k| (i + k) as f32 / 16_777_216.0);
-        let index = lights.choose(u).index;
-        for k in 0..8 {
-            counts[index.lane(k) as usize] += 1;
-        }
-    }
-    for (k, &count) in counts.iter().enumerate() {
-        let off = f64::from(count) - f64::from(LightChoice::<f32>::pmf(&lights, k as u32)) * 16_777_216.0;
-        assert!(count > 0 && off.abs() <= 2.0, "light {k}: {count}, off by {off}");
-    }
 }
 
 fn light(center: [f32; 3], radius: f32, power: f32) -> LightBound {

@@ -1,6 +1,6 @@
 //! Tables that are read from words in memory, at an index of its own in each lane, have the bits of the tables themselves.
 
-use etendue::discrete::{AliasTable, AliasWords, PiecewiseConstant1d, Words1d};
+use etendue::discrete::{PiecewiseConstant1d, Words1d};
 use etendue::light::{EnvironmentMap, EnvironmentWords, ImageEnvironment, Picture, PictureWords, Region};
 use etendue::{LightSampler, Parallelogram, Real, Uint, Vec2, Vec3, f32x8, u32x8};
 use etendue_judge::generators::Random;
@@ -152,29 +152,14 @@ fn distributions() {
     let cdfs = Lanes::new(sizes, |_| next.next().unwrap().clone());
     let count = u32x8::from(sizes.map(|size| (size[0] * size[1]) as u32));
     let line = Words1d { memory: &cdfs.words[..], first: cdfs.first, count };
-    let mut items: Vec<(Vec<f32>, Vec<u32>)> =
-        values.iter().map(|values| (vec![0.0; values.len()], vec![0; values.len()])).collect();
-    let items: Vec<AliasTable<'_>> = values
-        .iter()
-        .zip(&mut items)
-        .map(|(values, (thresholds, aliases))| AliasTable::build(values, thresholds, aliases).unwrap())
-        .collect();
-    let mut next = items.iter();
-    let words = Lanes::new(sizes, |_| next.next().unwrap().words().map(f32::from_bits).collect());
-    let alias = AliasWords { memory: &words.words[..], first: words.first, count };
     for _ in 0..cases(1000, 10_000) {
         let u = square(&mut random).x;
-        let (cell, item) = (line.cell(u), alias.cell(u));
+        let cell = line.cell(u);
         for lane in 0..8 {
             let mut same = tables[lane].clone();
             let right = PiecewiseConstant1d::build(&values[lane], &mut same).unwrap().cell(u.lane(lane));
             assert_eq!(
                 (cell.index.lane(lane), cell.offset.lane(lane), cell.pmf.lane(lane)),
-                (right.index, right.offset, right.pmf)
-            );
-            let right = items[lane].cell(u.lane(lane));
-            assert_eq!(
-                (item.index.lane(lane), item.offset.lane(lane), item.pmf.lane(lane)),
                 (right.index, right.offset, right.pmf)
             );
         }

@@ -4,7 +4,7 @@ use crate::driver::slots;
 use crate::program::Driver;
 use crate::tables::{Memory, halves, module};
 use etendue::Vec2;
-use etendue::discrete::{AliasTable, PiecewiseConstant1d, PiecewiseConstant2d};
+use etendue::discrete::{PiecewiseConstant1d, PiecewiseConstant2d};
 use etendue_judge::generators::{Random, unit_or_edge};
 use etendue_oracle::tier::cases;
 use etendue_shader::*;
@@ -45,28 +45,6 @@ fn same(
     driver.same_bits(&format!("table_{name}"), cases(&["-O1"], &["-O2"]), inputs, right);
 }
 const COUNTS: [usize; 7] = [1, 2, 3, 8, 21, 64, 1000];
-
-#[test]
-fn items_of_alias_tables_have_the_same_bits() {
-    let (mut random, mut memory) = (Random::new(4600), Memory::default());
-    let (mut inputs, mut right) = (Vec::new(), Vec::new());
-    for count in COUNTS {
-        let weights = weights(count, &mut random);
-        let (mut thresholds, mut aliases) = (vec![0.0; count], vec![0; count]);
-        let table = AliasTable::build(&weights, &mut thresholds, &mut aliases).unwrap();
-        let words = [memory.add(table.words()), count as u32].map(f32::from_bits);
-        for _ in 0..slots() {
-            let (u, index) = (number(&mut random), random.below(count + 2) as u32);
-            let cell = table.cell(u);
-            let [high, low] = halves(cell.index);
-            right.push(vec![high, low, cell.offset, cell.pmf, table.pmf(cell.index), table.pmf(index)]);
-            inputs.push([&words[..], &[u, f32::from_bits(index)]].concat());
-        }
-    }
-    let arguments = [("u", Leaf::Real), ("index", Leaf::Word)];
-    let calls: [(&str, &[&str]); 3] = [("cell", &["u"]), ("pmf", &["cell_0.index"]), ("pmf", &["index"])];
-    same("alias_table", memory, &arguments, &calls, &inputs, &right);
-}
 
 #[test]
 fn cells_of_a_line_have_the_same_bits() {

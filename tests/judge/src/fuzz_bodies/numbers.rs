@@ -4,11 +4,11 @@ use super::Input;
 use crate::checks;
 use crate::properties::{squares_of, twice, vectors_of};
 use core::f64::consts::PI;
-use etendue::discrete::{AliasTable, PiecewiseConstant1d, PiecewiseConstant2d, TableError};
+use etendue::discrete::{PiecewiseConstant1d, PiecewiseConstant2d, TableError};
 use etendue::estimate::{Heuristic, Welford};
 use etendue::light::{EnvironmentMap, ImageEnvironment};
 use etendue::math::{difference_of_products, one_minus_cos, rsqrt};
-use etendue::select::{Allocation, Choice, LightBound, LightChoice, PowerLights, SpatialLights, UniformLights};
+use etendue::select::{Allocation, Choice, LightBound, LightChoice, SpatialLights, UniformLights};
 use etendue::{Mask, Real, Uint, Vec2, Vec3, Warp, Warp1, f32x4, f32x8, f32x16};
 use etendue_oracle::{dot, length, sub};
 
@@ -73,40 +73,6 @@ pub(super) fn piecewise_constant(input: &mut Input<'_>) {
         let back = image.invert_cell(cell.x, cell.y, cell.offset);
         let off = (back.x - u.x).abs().max((back.y - u.y).abs());
         assert!(f64::from(off) <= STEP, "{weights:?} of {width} at {u:?}: {back:?}");
-    }
-}
-
-/// Vose's table: an item's pmf is the reported one to the precision of `u`, and an item without weight is never drawn.
-pub(super) fn alias_table(input: &mut Input<'_>) {
-    let (weights, error) = weights(input, 40);
-    let n = weights.len();
-    let (mut thresholds, mut aliases) = (vec![0.0; n], vec![0; n]);
-    let (total, told): (f64, _) = (weights.iter().map(|&w| f64::from(w)).sum(), error.is_none());
-    let table = AliasTable::build(&weights, &mut thresholds, &mut aliases);
-    assert_eq!(table.as_ref().err(), error.as_ref(), "{weights:?}");
-    let Ok(table) = table else { return };
-    assert!(told && table.cells() == n);
-    for _ in 0..8 {
-        let u = input.unit();
-        let cell = table.cell(u);
-        let weight = weights[cell.index as usize];
-        assert!(weight > 0.0 && (0.0..1.0).contains(&cell.offset), "{weights:?} at {u}: {cell:?}");
-        let share = f64::from(weight) / total;
-        assert!((f64::from(cell.pmf) - share).abs() <= 1e-7 * share + 1e-45, "{weights:?}: {cell:?}");
-        let packet = table.cell(f32x8::splat(u));
-        assert_eq!((packet.index.lane(5), packet.offset.lane(5)), (cell.index, cell.offset));
-    }
-    // the buckets hold of each item what its weight demands
-    let mut held = vec![0.0; n];
-    for (i, (&threshold, &alias)) in thresholds.iter().zip(&aliases).enumerate() {
-        assert!((0.0..=1.0).contains(&threshold), "{weights:?}: {threshold}");
-        held[i] += f64::from(threshold);
-        held[alias as usize] += 1.0 - f64::from(threshold);
-    }
-    for (i, held) in held.iter().enumerate() {
-        let share = f64::from(weights[i]) / total;
-        let off = (held / n as f64 - share).abs();
-        assert!(off <= STEP, "{weights:?}: item {i} has probability {}, expected {share}", held / n as f64);
     }
 }
 
@@ -175,8 +141,9 @@ pub(super) fn light_choice(input: &mut Input<'_>) {
     assert!(count == 0 || choice.index < count && choice.pmf > 0.0 && (0.0..1.0).contains(&choice.u));
     let mut powers = input.weights(20);
     let mut sums = vec![0.0; powers.len()];
-    let lights = PowerLights::new(&powers, &mut sums).expect("as many sums as powers");
-    chosen(lights.choose(u), |k| lights.pmf(k), lights.choose(f32x8::splat(u)), &powers);
+    if let Ok(lights) = PiecewiseConstant1d::build(&powers, &mut sums) {
+        chosen(lights.choose(u), |k| lights.pmf(k), lights.choose(f32x8::splat(u)), &powers);
+    }
     // the documented domain: powers from 1e−20 to 1e20
     powers.iter_mut().for_each(|p| *p = if *p > 0.0 { p.clamp(1e-20, 1e20) } else { 0.0 });
     let mut before = vec![[0.0; 3]];
