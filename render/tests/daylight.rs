@@ -2,7 +2,7 @@
 
 use etendue::{Vec3, f32x8};
 use etendue_judge::generators::{self, Random};
-use etendue_judge::properties::{Coordinates, vectors_of};
+use etendue_judge::packets::{Coordinates, vectors_of};
 use etendue_oracle::tier::cases;
 use etendue_oracle::{V3, dot, gauss_legendre, length, unit};
 use etendue_render::sky::GeneralSky;

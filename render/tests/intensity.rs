@@ -1,7 +1,7 @@
 //! Intensity profiles against definitions in double precision, and by quadrature.
 
 use etendue_judge::generators::Random;
-use etendue_judge::properties::Coordinates;
+use etendue_judge::packets::Coordinates;
 use etendue_oracle::V3;
 use etendue_oracle::tier::cases;
 use etendue_render::intensity::{Profile, ProfileError};

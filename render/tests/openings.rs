@@ -2,7 +2,7 @@
 
 use etendue::{SpotLight, Vec3};
 use etendue_judge::generators::Random;
-use etendue_judge::properties::Coordinates;
+use etendue_judge::packets::Coordinates;
 use etendue_oracle::tier::cases;
 use etendue_oracle::{V3, along, basis, unit};
 use etendue_render::intensity::{Intensity, Profile};

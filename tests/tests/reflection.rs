@@ -7,7 +7,7 @@ use etendue::light::Polygon;
 use etendue::reflection::Reflection;
 use etendue::{LightSampler, Parallelogram, Real, Rectangle, Triangle, Vec2, Vec3, Warp};
 use etendue_judge::generators::Random;
-use etendue_judge::properties::Coordinates;
+use etendue_judge::packets::Coordinates;
 use etendue_judge::tolerances::ULP;
 use etendue_oracle::tier::cases;
 use etendue_oracle::{V3, along, basis, cross, dot, length, narrow, sub, unit, wide};

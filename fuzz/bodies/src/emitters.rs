@@ -3,7 +3,7 @@
 use etendue::light::Spread;
 use etendue::{Disk, LightSampler, Parallelogram, Rectangle, SpotLight, Vec3, f32x8};
 use etendue_judge::fuzz_bodies::Input;
-use etendue_judge::properties::{squares_of, vectors_of};
+use etendue_judge::packets::{squares_of, vectors_of};
 use etendue_render::intensity::{Intensity, Profile, ProfileError};
 use etendue_render::light_profile::LuminousOpening;
 use etendue_render::packet::V8;

@@ -3,7 +3,7 @@
 use etendue::reflection::Reflection;
 use etendue::{Real, Vec3, f32x8};
 use etendue_judge::fuzz_bodies::{Input, scalable};
-use etendue_judge::properties::vectors_of;
+use etendue_judge::packets::vectors_of;
 use etendue_render::occlusion::{Convex, Occlusion};
 use std::f32::consts::PI;
 

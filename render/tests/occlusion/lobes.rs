@@ -3,7 +3,7 @@
 use etendue::reflection::Reflection;
 use etendue::{Parallelogram, Real, Vec2, Vec3, Warp};
 use etendue_judge::generators::Random;
-use etendue_judge::properties::Coordinates;
+use etendue_judge::packets::Coordinates;
 use etendue_oracle::tier::cases;
 use etendue_oracle::{V3, along, basis, cross, dot, length, narrow, sub, unit, wide};
 use etendue_render::occlusion::{Convex, Occlusion};

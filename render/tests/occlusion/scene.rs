@@ -1,7 +1,7 @@
 //! Lights behind blockers, and the properties of their visible parts that hold for any numbers.
 
 use etendue::{Real, Vec3, f32x4, f32x8, f32x16};
-use etendue_judge::properties::{twice, vectors_of};
+use etendue_judge::packets::{twice, vectors_of};
 use etendue_oracle::{V3, along, cross, dot, narrow, sub, unit, wide};
 use etendue_render::occlusion::{Convex, Edge, Occlusion, Polyhedron};
 

@@ -9,7 +9,7 @@ use etendue::select::{
 use etendue::{Mask, Real, Uint, Warp, Warp1};
 use etendue_judge::generators::{self, Random};
 use etendue_judge::light_tree::{Lamp, Place, Regime, place};
-use etendue_judge::properties::{lanes_of, squares_of, vectors_of};
+use etendue_judge::packets::{lanes_of, squares_of, vectors_of};
 
 fn choice<R: Real>(lanes: &mut Lanes<'_>, choice: &Choice<R>) {
     lanes.words(choice.index);

@@ -7,7 +7,7 @@ use etendue::{
     SpotLight, Sun,
 };
 use etendue_judge::generators::{self, Random};
-use etendue_judge::properties::{lanes_of, squares_of, vectors_of};
+use etendue_judge::packets::{lanes_of, squares_of, vectors_of};
 use etendue_judge::techniques::{AreaLight, LightFixture};
 
 const SLOTS: usize = 50 * Figures::MOST;

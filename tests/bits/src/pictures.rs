@@ -5,7 +5,7 @@ use crate::lights::{sample, sampler};
 use etendue::light::{Picture, Region, TexelSample};
 use etendue::{BilinearPatch, Disk, LightSampler, Parallelogram, Real, Rectangle, Sphere, Triangle, Vec2, Vec3};
 use etendue_judge::generators::{self, Random};
-use etendue_judge::properties::{squares_of, vectors_of};
+use etendue_judge::packets::{squares_of, vectors_of};
 
 /// A picture on a light of this name, in texels, or interpolated.
 struct Shown(&'static str, Region, [usize; 2], bool);

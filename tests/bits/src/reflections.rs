@@ -6,7 +6,7 @@ use etendue::light::Polygon;
 use etendue::reflection::Reflection;
 use etendue::{Parallelogram, Real, Sphere, Triangle, Vec3, Warp};
 use etendue_judge::generators::{self, Random};
-use etendue_judge::properties::{lanes_of, squares_of, vectors_of};
+use etendue_judge::packets::{lanes_of, squares_of, vectors_of};
 
 /// Lobes of surfaces, and lights of ordinary and extreme places.
 struct Rough;

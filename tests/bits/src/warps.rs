@@ -3,12 +3,13 @@
 use crate::figures::{Figures, List, Routine};
 use etendue::light::shapes::DirectionSample;
 use etendue::{Real, Vec2, Warp};
+use etendue_judge::fixture::Fixture;
 use etendue_judge::fixtures::{
     AreaTriangle, ConcentricDisk, CosineHemisphere, LowDistortionTriangle, Octahedral, PolarDisk, UniformHemisphere,
     UniformSphere,
 };
 use etendue_judge::generators::{self, Case, Random};
-use etendue_judge::properties::{Coordinates, Fixture, squares_of};
+use etendue_judge::packets::{Coordinates, squares_of};
 
 /// Warps and points of the square, in groups that fit into packets, and points that did not come from a sample.
 struct Warped<S> {

@@ -1,6 +1,6 @@
 //! Generators, tolerances, and the properties that every warp has.
 //!
-//! A property is a plain function of a [`Fixture`](properties::Fixture) (a warp with its parameters) and usually a point of the unit
+//! A property is a plain function of a [`Fixture`](fixture::Fixture) (a warp with its parameters) and usually a point of the unit
 //! square. It panics when the property is broken, with the fixture, the argument and the figure. The tests in `tests/tests` run the
 //! properties over the regimes of [`generators`]; the fuzz targets run them over arbitrary bytes. `tests/README.md` says how to add a warp.
 //!
@@ -21,6 +21,7 @@ pub mod checks;
 pub mod child;
 #[cfg(feature = "checks")]
 pub mod choices;
+pub mod fixture;
 pub mod fixtures;
 #[cfg(feature = "program")]
 pub mod foreign;
@@ -34,6 +35,7 @@ pub mod lights;
 pub mod mutants;
 #[cfg(feature = "checks")]
 pub mod numbers;
+pub mod packets;
 #[cfg(feature = "checks")]
 pub mod page;
 pub mod properties;
@@ -44,3 +46,4 @@ pub mod suite;
 pub mod techniques;
 pub mod textbook;
 pub mod tolerances;
+pub mod truths;

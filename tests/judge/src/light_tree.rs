@@ -3,7 +3,7 @@
 mod lamp;
 mod regimes;
 
-use crate::properties::{lanes_of, twice, vectors_of};
+use crate::packets::{lanes_of, twice, vectors_of};
 use etendue::select::{Choice, Gloss, Join, LightBound, LightChoice, LightTree, NO_LIGHT, Node8, TreeAt, TreeChild};
 use etendue::{Real, Uint, f32x4, f32x8, f32x16, u32x4, u32x8, u32x16};
 pub use lamp::{Lamp, LampKind};

@@ -12,14 +12,12 @@ pub use warps::{
     SelfClampingBarycentrics, UnguardedCap, UnitsInTheSwitch,
 };
 
-use crate::generators::Random;
-use crate::properties::Fixture;
+use crate::fixture::Fixture;
 use crate::tolerances::Tolerance;
 use core::fmt::Debug;
 use core::marker::PhantomData;
 use etendue::light::shapes::DirectionSample;
 use etendue::{Real, Vec2, Warp};
-use etendue_oracle::V3;
 
 /// The parameters of a fixture, lane by lane; unused entries are 0.
 pub type Data<R> = [R; 9];
@@ -90,6 +88,10 @@ impl<D: Defect> Fixture for Planted<D> {
     type Warp<R: Real> = Wrong<D, R>;
     type Point<R: Real> = RightPoint<D, R>;
     const PERIODIC: bool = D::Of::PERIODIC;
+    type Truth = <D::Of as Fixture>::Truth;
+    fn truth(&self) -> Self::Truth {
+        self.0.truth()
+    }
     fn prepare<R: Real>(lanes: &[Self]) -> Self::Warp<R> {
         let lanes: Vec<_> = lanes.iter().map(|s| s.0).collect();
         Wrong { right: D::Of::prepare(&lanes), data: D::data(&lanes) }
@@ -109,65 +111,14 @@ impl<D: Defect> Fixture for Planted<D> {
     fn tolerance(&self) -> Tolerance {
         self.0.tolerance()
     }
-    fn true_pdf(&self, point: V3) -> f64 {
-        self.0.true_pdf(point)
-    }
-    fn chart(&self, s: f64, t: f64) -> (V3, f64) {
-        self.0.chart(s, t)
-    }
-    fn locate(&self, point: V3) -> [f64; 2] {
-        self.0.locate(point)
-    }
-    fn outside(&self, margin: f64, random: &mut Random) -> Option<V3> {
-        self.0.outside(margin, random)
-    }
-    fn extent(&self) -> [f64; 2] {
-        self.0.extent()
-    }
-    fn radius(&self) -> f64 {
-        self.0.radius()
-    }
-    fn metric(&self, point: V3) -> V3 {
-        self.0.metric(point)
-    }
-    fn pdf_slack(&self, point: V3) -> f64 {
-        self.0.pdf_slack(point)
-    }
     fn inverse_units(&self, u: [f64; 2]) -> f64 {
         self.0.inverse_units(u)
     }
     fn inverse_steps(&self) -> f64 {
         self.0.inverse_steps()
     }
-    fn reachable(&self, point: V3) -> bool {
-        self.0.reachable(point)
-    }
     fn torn(&self, u: [f64; 2], step: f64) -> bool {
         self.0.torn(u, step)
-    }
-    fn granularity(&self) -> f64 {
-        self.0.granularity()
-    }
-    fn distance(&self, a: V3, b: V3) -> f64 {
-        self.0.distance(a, b)
-    }
-    fn reach(&self) -> f64 {
-        self.0.reach()
-    }
-    fn farthest(&self) -> f64 {
-        self.0.farthest()
-    }
-    fn slant(&self, w: V3) -> f64 {
-        self.0.slant(w)
-    }
-    fn condition(&self) -> f64 {
-        self.0.condition()
-    }
-    fn gradient(&self) -> f64 {
-        self.0.gradient()
-    }
-    fn quadrature(&self) -> f64 {
-        self.0.quadrature()
     }
     fn smooth(&self, u: [f64; 2]) -> bool {
         self.0.smooth(u)

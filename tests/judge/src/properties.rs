@@ -1,168 +1,17 @@
 //! The properties. Each is a plain function that panics when its property is broken.
 
+use crate::fixture::{Fixture, Truth};
 use crate::generators::Random;
+use crate::packets::{Coordinates, squares_of};
 #[cfg(feature = "checks")]
 use crate::stats;
 #[cfg(feature = "checks")]
 use crate::tolerances::SIGNIFICANCE;
-use crate::tolerances::{self, ROUNDING, Tolerance, ULP, ULP_F64};
-use core::fmt::Debug;
-use etendue::light::shapes::DirectionSample;
-use etendue::{Real, Vec2, Vec3, Warp, f32x8};
+use crate::tolerances::{self, ROUNDING, ULP, ULP_F64};
+use etendue::{Real, Vec2, Warp, f32x8};
 #[cfg(feature = "checks")]
 use etendue_oracle::tier::cases;
 use etendue_oracle::{Greatest, V3, cross, integrate, length, sub};
-
-/// Points of the plane or of space, one in each lane.
-pub trait Coordinates<R: Real>: Copy {
-    /// Lane `i`, exactly; z = 0 on the plane.
-    fn at(self, i: usize) -> V3;
-    /// A packet whose lane `i` is `points[i % points.len()]`, rounded.
-    fn gather(points: &[V3]) -> Self;
-}
-/// A packet whose lane `i` is `f(i)`, rounded.
-pub fn lanes_of<R: Real>(f: impl Fn(usize) -> f64) -> R {
-    R::from_fn(|i| R::Scalar::lit(f(i)))
-}
-/// Eight cases for sixteen lanes: the upper half has them in reverse, so that lanes eight apart differ.
-#[must_use]
-pub fn twice<T: Copy>(eight: &[T; 8]) -> [T; 16] {
-    core::array::from_fn(|i| eight[if i < 8 { i } else { 15 - i }])
-}
-/// A packet of vectors whose lane `i` is `f(i)`.
-pub fn vectors_of<R: Real>(f: impl Fn(usize) -> [f32; 3]) -> Vec3<R> {
-    let axis = |k: usize| lanes_of(|i| f64::from(f(i)[k]));
-    Vec3::new(axis(0), axis(1), axis(2))
-}
-/// A packet of points of the unit square whose lane `i` is `us[i % us.len()]`.
-#[must_use]
-pub fn squares_of<R: Real>(us: &[[f32; 2]]) -> Vec2<R> {
-    Coordinates::gather(&us.iter().map(|u| [f64::from(u[0]), f64::from(u[1]), 0.0]).collect::<Vec<_>>())
-}
-impl<R: Real> Coordinates<R> for Vec2<R> {
-    fn at(self, i: usize) -> V3 {
-        [self.x.lane_f64(i), self.y.lane_f64(i), 0.0]
-    }
-    fn gather(p: &[V3]) -> Self {
-        let axis = |k: usize| lanes_of(|i| p[i % p.len()][k]);
-        Self::new(axis(0), axis(1))
-    }
-}
-impl<R: Real> Coordinates<R> for Vec3<R> {
-    fn at(self, i: usize) -> V3 {
-        [self.x.lane_f64(i), self.y.lane_f64(i), self.z.lane_f64(i)]
-    }
-    fn gather(p: &[V3]) -> Self {
-        let axis = |k: usize| lanes_of(|i| p[i % p.len()][k]);
-        Self::new(axis(0), axis(1), axis(2))
-    }
-}
-
-/// A warp with its parameters (held in f32, hence exact at every precision), and independent knowledge about it.
-pub trait Fixture: Copy + Debug {
-    /// The warp at each precision and width.
-    type Warp<R: Real>: Warp<R, Point = Self::Point<R>>;
-    /// The points that it samples.
-    type Point<R: Real>: Coordinates<R>;
-    /// The warp whose lane `i` is prepared from `lanes[i % lanes.len()]`.
-    fn prepare<R: Real>(lanes: &[Self]) -> Self::Warp<R>;
-    /// The scalar warp in every lane.
-    fn splat<R: Real>(warp: Self::Warp<R::Scalar>) -> Self::Warp<R>;
-    /// Whether the two fit into one packet.
-    fn kin(&self, _other: &Self) -> bool {
-        true
-    }
-    /// The errors that are tolerated.
-    fn tolerance(&self) -> Tolerance;
-    /// All lengths multiplied by a power of two; the same if there are none.
-    #[must_use]
-    fn scaled(&self, _factor: f32) -> Self {
-        *self
-    }
-    /// Truth: the pdf at a point of the shape.
-    fn true_pdf(&self, point: V3) -> f64;
-    /// An independent parameterisation of the shape by the unit square: the point, and the measure per unit of the square.
-    fn chart(&self, s: f64, t: f64) -> (V3, f64);
-    /// The inverse of [`Self::chart`].
-    fn locate(&self, point: V3) -> [f64; 2];
-    /// A point outside the shape, at the distance `margin` from its boundary.
-    fn outside(&self, _margin: f64, _random: &mut Random) -> Option<V3> {
-        None
-    }
-    /// Greatest and least diameter of the shape, as distances between points.
-    fn extent(&self) -> [f64; 2];
-    /// Greatest distance of a point of the shape from the origin.
-    fn radius(&self) -> f64 {
-        1.0
-    }
-    /// The point in coordinates that are all rounded alike; a shape that overrides this overrides `distance` too.
-    fn metric(&self, point: V3) -> V3 {
-        point
-    }
-    /// Absolute change of the pdf per unit of rounding, for a pdf that tends to 0 by cancellation.
-    fn pdf_slack(&self, _point: V3) -> f64 {
-        0.0
-    }
-    /// Error of the inverse besides the point's own rounding, in units of rounding.
-    fn inverse_units(&self, _u: [f64; 2]) -> f64 {
-        2.0
-    }
-    /// Error of the inverse besides the point's own rounding, in steps of `u`.
-    fn inverse_steps(&self) -> f64 {
-        2.0
-    }
-    /// Whether some `u` of the grid maps to somewhere near the point: not in tails of probability below 2⁻²⁴.
-    fn reachable(&self, _point: V3) -> bool {
-        true
-    }
-    /// Whether the map jumps within `step` of `u` in the first coordinate: rounding decides on which side of the jump a point falls.
-    fn torn(&self, _u: [f64; 2], _step: f64) -> bool {
-        false
-    }
-    /// Coordinates of a point are rounded in units of `ULP` × this: 1 in general, the extent for a shape on the z axis.
-    fn granularity(&self) -> f64 {
-        1.0
-    }
-    /// Distance between two points; for a shape on the z axis, only its component across the axis.
-    fn distance(&self, a: V3, b: V3) -> f64 {
-        let d = sub(a, b);
-        if self.granularity() < 1.0 { d[0].hypot(d[1]) } else { length(d) }
-    }
-    /// A distance is rounded relative to itself and to this length.
-    fn reach(&self) -> f64 {
-        0.0
-    }
-    /// Distance of the farthest vertex of a flat shape; 0 for others.
-    fn farthest(&self) -> f64 {
-        0.0
-    }
-    /// Relative change of the distance per radian that the direction turns.
-    fn slant(&self, _w: V3) -> f64 {
-        1.0
-    }
-    /// Condition number: relative change of the pdf per relative change of a parameter.
-    fn condition(&self) -> f64 {
-        1.0
-    }
-    /// Change of the pdf per unit of distance that the point moves.
-    fn gradient(&self) -> f64 {
-        0.0
-    }
-    /// Tolerance of the integral over each cell, relative to the whole: coarser where the parameterisation has a kink.
-    fn quadrature(&self) -> f64 {
-        1e-9
-    }
-    /// Whether the second coordinate is an azimuth.
-    const PERIODIC: bool = false;
-    /// Whether the map has two derivatives near `u`.
-    fn smooth(&self, _u: [f64; 2]) -> bool {
-        true
-    }
-    /// Direction and distance, for shapes seen from a point.
-    fn sample_direction<R: Real>(_warp: &Self::Warp<R>, _u: Vec2<R>) -> Option<DirectionSample<R>> {
-        None
-    }
-}
 
 /// All that a warp returns for one `u`.
 #[derive(Clone, Copy, Debug)]
@@ -217,6 +66,7 @@ pub fn total<S: Fixture>(s: &S, u: [f32; 2]) {
     total_at::<S, f64>(s, u);
 }
 fn total_at<S: Fixture, R: Real>(s: &S, u: [f32; 2]) {
+    let truth = s.truth();
     let warp = S::prepare::<R>(&[*s]);
     let seen = observe::<S, R>(&warp, squares_of(&[u]))[0];
     let finite = seen.figures().iter().all(|x| x.is_finite());
@@ -224,7 +74,7 @@ fn total_at<S: Fixture, R: Real>(s: &S, u: [f32; 2]) {
     assert!(finite && seen.pdf >= 0.0 && closed(seen.inverse), "not total: {s:?} at {u:?}: {seen:?}");
     assert!(
         // a subnormal length is rounded to its grid
-        length(seen.point) <= s.radius() * (1.0 + 8.0 * ULP) + 4e-45,
+        length(seen.point) <= truth.radius() * (1.0 + 8.0 * ULP) + 4e-45,
         "not a unit vector, or too far: {s:?} at {u:?}: {seen:?}"
     );
     for w in [[0.0; 3], [0.0, 0.0, 1.0], [0.0, 0.0, -1.0], [1.0, 0.0, 0.0], [-0.6, 0.8, -0.0], [1e-30, -1e-42, 1.0]] {
@@ -280,7 +130,7 @@ pub fn scale<S: Fixture>(s: &S, u: [f32; 2]) {
 
 /// Rounding error of a point's coordinates, for rounding by `ulp`.
 fn rounding<S: Fixture>(s: &S, ulp: f64) -> f64 {
-    ulp * s.granularity()
+    ulp * s.truth().granularity()
 }
 
 /// **Closed**: `sample(invert(w)) = w` and `invert(sample(u)) = u`, as far as a rounded direction allows, at both precisions.
@@ -294,6 +144,7 @@ pub fn closed<S: Fixture>(s: &S, u: [f32; 2]) -> f64 {
     closed_at::<S, f32>(s, u, ROUNDING).max(closed_at::<S, f64>(s, u, ULP_F64))
 }
 fn closed_at<S: Fixture, R: Real>(s: &S, u: [f32; 2], ulp: f64) -> f64 {
+    let truth = s.truth();
     let seen = observe::<S, R>(&S::prepare::<R>(&[*s]), squares_of(&[u]))[0];
     let known = s.tolerance().round_trip * rounding(s, ulp);
     let mut greatest = Greatest::NONE;
@@ -309,7 +160,7 @@ fn closed_at<S: Fixture, R: Real>(s: &S, u: [f32; 2], ulp: f64) -> f64 {
         low[axis] = (u[axis] - h).max(0.0);
         high[axis] = (u[axis] + h).min(1.0 - ULP);
         let step = high[axis] - low[axis];
-        sub(s.metric(sample_at(s, high)), s.metric(sample_at(s, low))).map(|x| x / step)
+        sub(truth.metric(sample_at(s, high)), truth.metric(sample_at(s, low))).map(|x| x / step)
     };
     let (a, b) = (slope(0), slope(1));
     let area = length(cross(a, b)).max(1e-300);
@@ -340,7 +191,7 @@ fn closed_at<S: Fixture, R: Real>(s: &S, u: [f32; 2], ulp: f64) -> f64 {
 
 /// **Closed** for points that did not come from `sample`: `sample(invert(w)) = w` at the point `st` of the chart.
 pub fn onto<S: Fixture>(s: &S, st: [f64; 2]) -> f64 {
-    inverse(s, s.chart(st[0], st[1]).0)
+    inverse(s, s.truth().chart(st[0], st[1]).0)
 }
 /// **Closed** at a given point: `sample(invert(w)) = w`.
 pub fn inverse<S: Fixture>(s: &S, w: V3) -> f64 {
@@ -351,16 +202,17 @@ pub fn inverse<S: Fixture>(s: &S, w: V3) -> f64 {
         / rounding(s, ULP)
 }
 fn points_agree<S: Fixture>(s: &S, point: V3, inverse: [f64; 2], known: f64) -> f64 {
-    if !s.reachable(point) || s.torn(inverse, 16.0 * ULP) {
+    let truth = s.truth();
+    if !truth.reachable(point) || s.torn(inverse, 16.0 * ULP) {
         return 0.0;
     }
     let again = sample_at(s, inverse);
-    let error = s.distance(again, point);
+    let error = truth.distance(again, point);
     let step = [[ULP, 0.0], [-ULP, 0.0], [0.0, ULP], [0.0, -ULP]]
         .map(|d| {
             // up to 1 inclusive: the last step of the grid is as long as any other
             let u = [(inverse[0] + d[0]).clamp(0.0, 1.0), (inverse[1] + d[1]).clamp(0.0, 1.0)];
-            s.distance(sample_at(s, u), again)
+            truth.distance(sample_at(s, u), again)
         })
         .into_iter()
         .collect::<Greatest>()
@@ -381,23 +233,24 @@ pub fn pdf<S: Fixture>(s: &S, u: [f32; 2], st: [f64; 2]) -> f64 {
     density_at::<S, f32>(s, u, st, ROUNDING).max(density_at::<S, f64>(s, u, st, 1e-13))
 }
 fn density_at<S: Fixture, R: Real>(s: &S, u: [f32; 2], st: [f64; 2], ulp: f64) -> f64 {
+    let truth = s.truth();
     let mut greatest = Greatest::NONE;
     let warp = S::prepare::<R>(&[*s]);
-    let chart = S::Point::<R>::gather(&[s.chart(st[0], st[1]).0]);
+    let chart = S::Point::<R>::gather(&[truth.chart(st[0], st[1]).0]);
     for point in [warp.sample(squares_of(&[u])), chart] {
-        let (pdf, truth) = (warp.pdf(point).lane_f64(0), s.true_pdf(point.at(0)));
-        let slack = s.tolerance().pdf * ulp * (s.gradient() + s.pdf_slack(point.at(0)));
+        let (pdf, expected) = (warp.pdf(point).lane_f64(0), truth.pdf(point.at(0)));
+        let slack = s.tolerance().pdf * ulp * (truth.gradient() + truth.pdf_slack(point.at(0)));
         // subnormal numbers have no more digits
         let slack = slack + f64::from(f32::from_bits(1));
-        let allowed = s.tolerance().pdf * ulp * truth * s.condition() + slack;
+        let allowed = s.tolerance().pdf * ulp * expected * truth.condition() + slack;
         assert!(
-            (pdf - truth).abs() <= allowed && (pdf > 0.0 || truth <= slack),
-            "density: {s:?} at {u:?} or {st:?}: {pdf}, truth {truth}: relative {:e}, allowed {:e}",
-            pdf / truth - 1.0,
-            allowed / truth
+            (pdf - expected).abs() <= allowed && (pdf > 0.0 || expected <= slack),
+            "density: {s:?} at {u:?} or {st:?}: {pdf}, truth {expected}: relative {:e}, allowed {:e}",
+            pdf / expected - 1.0,
+            allowed / expected
         );
-        if truth > 0.0 {
-            greatest.take((pdf - truth).abs() * s.tolerance().pdf / allowed, ());
+        if expected > 0.0 {
+            greatest.take((pdf - expected).abs() * s.tolerance().pdf / allowed, ());
         }
     }
     greatest.error()
@@ -405,9 +258,10 @@ fn density_at<S: Fixture, R: Real>(s: &S, u: [f32; 2], st: [f64; 2], ulp: f64) -
 
 /// The pdf is 0 outside the shape: 16 units in the last place beyond its boundary, and further away. Returns whether anything is outside.
 pub fn outside<S: Fixture>(s: &S, random: &mut Random) -> bool {
+    let truth = s.truth();
     let mut is_checked = false;
     for margin in [16.0 * ULP, 1e-3, 0.1] {
-        if let Some(w) = s.outside(margin, random) {
+        if let Some(w) = truth.outside(margin, random) {
             let pdf = S::prepare::<f32>(&[*s]).pdf(S::Point::<f32>::gather(&[w])).lane_f64(0);
             assert!(pdf == 0.0, "pdf {pdf} outside {s:?} by {margin:e}, at {w:?}");
             is_checked = true;
@@ -436,8 +290,8 @@ pub fn jacobian<S: Fixture>(s: &S, u: [f64; 2]) -> Option<f64> {
     };
     let area = length(cross(slope(0), slope(1)));
     let point = sample_at(s, inner);
-    let product = area * s.true_pdf(point);
-    let allowed = tolerances::JACOBIAN + 6.0 * ULP_F64 / (h * s.extent()[1]);
+    let product = area * s.truth().pdf(point);
+    let allowed = tolerances::JACOBIAN + 6.0 * ULP_F64 / (h * s.truth().extent()[1]);
     assert!((product - 1.0).abs() <= allowed, "area × pdf = {product}: {s:?} at {inner:?}, allowed {allowed:e}");
     Some((product - 1.0).abs())
 }
@@ -446,6 +300,7 @@ pub fn jacobian<S: Fixture>(s: &S, u: [f64; 2]) -> Option<f64> {
 ///
 /// Returns the point's error in units of its rounding or the distance's in units in the last place, whichever is greater.
 pub fn accurate<S: Fixture>(s: &S, u: [f32; 2]) -> f64 {
+    let truth = s.truth();
     let narrow = observe::<S, f32>(&S::prepare::<f32>(&[*s]), squares_of(&[u]))[0];
     let warp = S::prepare::<f64>(&[*s]);
     let at = |u: [f64; 2]| observe::<S, f64>(&warp, Vec2::new(u[0], u[1]))[0];
@@ -464,7 +319,7 @@ pub fn accurate<S: Fixture>(s: &S, u: [f32; 2]) -> f64 {
         let smooth = error - steps * greatest(&near);
         if smooth > 0.0 && steps > 0.0 { smooth.min(error - greatest(&at_steps(steps))) } else { smooth }
     };
-    let away = |o: &Observed| s.distance(o.point, wide.point);
+    let away = |o: &Observed| truth.distance(o.point, wide.point);
     let excess_of_point = excess(away(&narrow), s.tolerance().steps, &away);
     let point = excess_of_point / rounding(s, ROUNDING);
     assert!(point <= s.tolerance().point, "point: {s:?} at {u:?}: {point:e} units\n{narrow:?}\n{wide:?}");
@@ -472,7 +327,8 @@ pub fn accurate<S: Fixture>(s: &S, u: [f32; 2]) -> f64 {
     // the distance belongs to the sampled direction, and moves by as many steps
     let farther = |o: &Observed| (o.sighting[3] - e).abs();
     let excess_of_distance = excess(farther(&narrow), s.tolerance().steps.max(4.0), &farther);
-    let distance = if e > 0.0 { excess_of_distance / ((e * s.slant(wide.point) + s.reach()) * ROUNDING) } else { 0.0 };
+    let distance =
+        if e > 0.0 { excess_of_distance / ((e * truth.slant(wide.point) + truth.reach()) * ROUNDING) } else { 0.0 };
     assert!(distance <= s.tolerance().distance, "distance: {s:?} at {u:?}: {d}, f64 {e}: {distance:e} units");
     point.max(distance)
 }
@@ -483,7 +339,7 @@ pub fn accurate<S: Fixture>(s: &S, u: [f32; 2]) -> f64 {
 /// Returns the excess in units in the last place.
 pub fn within_reach<S: Fixture>(s: &S, u: [f32; 2]) -> f64 {
     let (distance, reach) =
-        (observe::<S, f32>(&S::prepare::<f32>(&[*s]), squares_of(&[u]))[0].sighting[3], s.farthest());
+        (observe::<S, f32>(&S::prepare::<f32>(&[*s]), squares_of(&[u]))[0].sighting[3], s.truth().farthest());
     if reach == 0.0 {
         return 0.0;
     }
@@ -495,20 +351,22 @@ pub fn within_reach<S: Fixture>(s: &S, u: [f32; 2]) -> f64 {
 /// ∫ pdf = 1 over the independent parameterisation. The f64 code is used where the pdf varies over a shape too small for a rounded
 /// direction.
 pub fn integral<S: Fixture>(s: &S) -> f64 {
-    if s.extent()[1] > tolerances::RESOLVED * s.granularity() || s.gradient() == 0.0 {
+    let truth = s.truth();
+    if truth.extent()[1] > tolerances::RESOLVED * truth.granularity() || truth.gradient() == 0.0 {
         integral_of::<S, f32>(s, ROUNDING)
     } else {
         integral_of::<S, f64>(s, 1e-13)
     }
 }
 fn integral_of<S: Fixture, R: Real>(s: &S, ulp: f64) -> f64 {
+    let truth = s.truth();
     let warp = S::prepare::<R>(&[*s]);
     let mut pdf = |a: f64, b: f64| {
-        let (point, measure) = s.chart(a, b);
+        let (point, measure) = truth.chart(a, b);
         measure * warp.pdf(S::Point::<R>::gather(&[point])).lane_f64(0)
     };
-    let sum = integrate(&mut pdf, [0.0; 2], [1.0; 2], s.quadrature());
-    let allowed = s.tolerance().pdf * s.condition() * ulp + s.quadrature() * tolerances::QUADRATURE / 1e-9;
+    let sum = integrate(&mut pdf, [0.0; 2], [1.0; 2], truth.quadrature());
+    let allowed = s.tolerance().pdf * truth.condition() * ulp + truth.quadrature() * tolerances::QUADRATURE / 1e-9;
     assert!((sum - 1.0).abs() <= allowed, "∫pdf = {sum}: {s:?}, allowed error {allowed:e}");
     (sum - 1.0).abs()
 }
@@ -519,7 +377,8 @@ fn integral_of<S: Fixture, R: Real>(s: &S, ulp: f64) -> f64 {
 ///
 /// Returns the p-value.
 pub fn chi_square<S: Fixture>(s: &S, seed: u64) -> f64 {
-    if s.extent()[1] > tolerances::RESOLVED * s.granularity() {
+    let truth = s.truth();
+    if truth.extent()[1] > tolerances::RESOLVED * truth.granularity() {
         chi_square_of::<S, f32x8>(s, seed, cases(1 << 16, 1 << 20))
     } else {
         chi_square_of::<S, etendue::f64x4>(s, seed, cases(1 << 15, 1 << 18))
@@ -527,14 +386,15 @@ pub fn chi_square<S: Fixture>(s: &S, seed: u64) -> f64 {
 }
 #[cfg(feature = "checks")]
 fn chi_square_of<S: Fixture, R: Real>(s: &S, seed: u64, n: usize) -> f64 {
+    let truth = s.truth();
     let side = cases(8, 16);
     let cells = side as f64;
     let expected: Vec<f64> = (0..side * side)
         .map(|i| {
             let (x, y) = ((i % side) as f64 / cells, (i / side) as f64 / cells);
             let mut f = |a, b| {
-                let (w, measure) = s.chart(a, b);
-                measure * s.true_pdf(w)
+                let (w, measure) = truth.chart(a, b);
+                measure * truth.pdf(w)
             };
             integrate(&mut f, [x, y], [x + 1.0 / cells, y + 1.0 / cells], 1e-6) * n as f64
         })
@@ -547,7 +407,7 @@ fn chi_square_of<S: Fixture, R: Real>(s: &S, seed: u64, n: usize) -> f64 {
         let x = axis();
         let points = warp.sample(Vec2::new(x, axis()));
         for i in 0..R::LANES {
-            let [a, b] = s.locate(points.at(i)).map(|x| ((x * cells) as usize).min(side - 1));
+            let [a, b] = truth.locate(points.at(i)).map(|x| ((x * cells) as usize).min(side - 1));
             observed[a + b * side] += 1;
         }
     }

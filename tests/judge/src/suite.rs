@@ -1,7 +1,8 @@
 //! All properties over all regimes: the tests of the warps run this, and so do the mutants.
 
+use crate::fixture::Fixture;
 use crate::generators::{self, Case, Random};
-use crate::properties::{self, Fixture};
+use crate::properties;
 use etendue_oracle::Greatest;
 use etendue_oracle::tier;
 use std::cell::Cell;

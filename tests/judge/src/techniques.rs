@@ -1,7 +1,7 @@
 //! Lights by one technique each, and the properties of their samples.
 
 use crate::generators::Random;
-use crate::properties::{Coordinates, lanes_of, squares_of, vectors_of};
+use crate::packets::{Coordinates, lanes_of, squares_of, vectors_of};
 use crate::tolerances::ULP;
 use core::f64::consts::{PI, TAU};
 use core::fmt::Debug;

@@ -125,7 +125,7 @@ impl Ellipse {
 }
 
 /// One end of an [`Arc`]: its direction, the tangent towards the other end, and sinγ and cosθ there with their derivatives by the angle.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 struct End {
     way: V3,
     turn: V3,
@@ -142,7 +142,7 @@ impl End {
 }
 
 /// The arc of a segment as seen from the point, possibly clipped to a horizon.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct Arc {
     ends: [End; 2],
     /// Angle that the segment subtends, in radians.
@@ -216,5 +216,19 @@ impl Arc {
         let (end, x) = if near { (&self.ends[0], x) } else { (&self.ends[1], self.angle - x) };
         let (s, c) = x.sin_cos();
         core::array::from_fn(|i| end.way[i] * c + end.turn[i] * s)
+    }
+    /// Angle of a direction from the first end.
+    #[must_use]
+    pub fn angle_to(&self, w: V3) -> f64 {
+        let [first, last] = [0, 1].map(|i| {
+            let End { way, turn, .. } = &self.ends[i];
+            crate::vectors::dot(w, *turn).atan2(crate::vectors::dot(w, *way))
+        });
+        if first <= 0.5 * self.angle { first } else { self.angle - last }
+    }
+    /// sinγ cosθ at an angle from the first end.
+    #[must_use]
+    pub fn product(&self, x: f64) -> f64 {
+        if x <= 0.5 * self.angle { self.ends[0].product(x) } else { self.ends[1].product(self.angle - x) }
     }
 }

@@ -6,7 +6,7 @@ use etendue::select::{FEW, Gloss, LightBound, LightChoice, SpatialLights};
 use etendue::{Mask, Real, Uint, Vec3, f32x8};
 use etendue_judge::generators::Random;
 use etendue_judge::light_tree::{Grove, Regime, place};
-use etendue_judge::properties::{lanes_of, vectors_of};
+use etendue_judge::packets::{lanes_of, vectors_of};
 use etendue_oracle::tier::cases;
 use etendue_oracle::{V3, along, basis, dot, length, narrow, sub, unit, wide};
 

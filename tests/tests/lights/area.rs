@@ -6,7 +6,7 @@ use etendue::{
     PointLight, Polygon, Rectangle, Sphere, SpotLight, Sun, Triangle, Vec2, Vec3,
 };
 use etendue_judge::generators::Random;
-use etendue_judge::properties::Coordinates;
+use etendue_judge::packets::Coordinates;
 use etendue_oracle::tier::cases;
 use etendue_oracle::{
     V3, along, basis, cross, dot, facing_disk, gauss_legendre, length, narrow, perpendicular_disk, projected_polygon,

@@ -2,7 +2,7 @@
 
 use etendue::{Lanewise, LightSampler, Line, Parallelogram, Polygon, Real, Sphere, Triangle, Vec3, f32x8};
 use etendue_judge::generators::Random;
-use etendue_judge::properties::squares_of;
+use etendue_judge::packets::squares_of;
 use etendue_oracle::{along, basis, narrow};
 
 /// Of 3 million samples, as many as 1,300 were below the horizon by rounding, and had pdf 0.

@@ -5,7 +5,7 @@ use etendue::discrete::TableError;
 use etendue::light::{EnvironmentMap, ImageEnvironment, Rotated};
 use etendue::{Frame, LightSampler, Mask, Real, Uint, Vec2, Vec3, Warp, f32x8};
 use etendue_judge::generators::{self, Random};
-use etendue_judge::properties::{Coordinates, squares_of, vectors_of};
+use etendue_judge::packets::{Coordinates, squares_of, vectors_of};
 use etendue_judge::stats;
 use etendue_judge::tolerances::{SIGNIFICANCE, ULP};
 use etendue_oracle::tier::cases;

@@ -3,7 +3,7 @@
 use core::f64::consts::PI;
 use etendue::{LightSample, LightSampler, Mask, Parallelogram, Real, Sphere, Triangle, Vec2, Vec3, f32x8};
 use etendue_judge::generators::Random;
-use etendue_judge::properties::Coordinates;
+use etendue_judge::packets::Coordinates;
 use etendue_judge::tolerances::{GRID, GRID_AREA};
 use etendue_oracle::tier::cases;
 use etendue_oracle::{V3, along, cross, dot, length, projected_cap, projected_polygon, sub, unit, wide};

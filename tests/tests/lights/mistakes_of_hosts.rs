@@ -2,7 +2,7 @@
 
 use etendue::{Disk, LightSampler, Parallelogram, Polygon, Rectangle, Sphere, Triangle, Vec2, Vec3};
 use etendue_judge::generators::Random;
-use etendue_judge::properties::Coordinates;
+use etendue_judge::packets::Coordinates;
 use etendue_oracle::{length, sub, unit};
 
 type V = Vec3<f32>;

@@ -8,7 +8,7 @@ use etendue::discrete::TableError;
 use etendue::light::{Picture, Region};
 use etendue::{LightSample, Mask, Real, Uint, Vec2, Vec3, f32x8};
 use etendue_judge::generators::{self, Random};
-use etendue_judge::properties::{Coordinates, squares_of, vectors_of};
+use etendue_judge::packets::{Coordinates, squares_of, vectors_of};
 use etendue_judge::stats;
 use etendue_judge::tolerances::SIGNIFICANCE;
 use etendue_oracle::tier::cases;

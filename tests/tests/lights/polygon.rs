@@ -3,7 +3,7 @@
 use super::area::{irradiance, mean};
 use etendue::{LightSampler, Parallelogram, Polygon, Vec2, Vec3};
 use etendue_judge::generators::Random;
-use etendue_judge::properties::Coordinates;
+use etendue_judge::packets::Coordinates;
 use etendue_oracle::tier::is_long;
 use etendue_oracle::{
     V3, above_horizon, along, basis, cross, dd, dot, exact_sum, lambert, projected_polygon, triangle_solid_angle, unit,

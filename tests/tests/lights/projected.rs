@@ -4,8 +4,8 @@
 use core::f64::consts::PI;
 use etendue::light::shapes::{ProjectedCap, ProjectedSegment, ProjectedTriangle};
 use etendue::{LightSample, LightSampler, Mask, Parallelogram, Real, Sphere, Triangle, Vec2, Vec3, Warp, f32x8};
+use etendue_judge::fixture::{Fixture, Truth};
 use etendue_judge::generators::{self, Random};
-use etendue_judge::properties::Fixture;
 use etendue_judge::tolerances::{PROJECTED_POLYGON, ULP};
 use etendue_oracle::{
     V3, above_horizon, along, basis, cross, dd, dot, exact_sum, lambert, length, narrow, projected_cap, unit, wide,
@@ -159,11 +159,11 @@ fn projected_solid_angles() {
     let mut worst: Vec<(&str, f64)> = Vec::new();
     for (name, triangle) in generators::projected_triangles(40, 23) {
         let found = f64::from(Fixture::prepare::<f32>(&[triangle]).projected_solid_angle());
-        let truth = triangle.projected_solid_angle();
-        let units = (found / truth - 1.0).abs() / (ULP * triangle.conditioned());
+        let truth = triangle.truth().measure;
+        let units = (found / truth - 1.0).abs() / (ULP * triangle.truth().condition());
         assert!(units < PROJECTED_POLYGON.pdf, "{name}: {triangle:?}: {found}, expected {truth}, {units} units");
         let double: f64 = Fixture::prepare::<f64>(&[triangle]).projected_solid_angle();
-        let relative = (double / truth - 1.0).abs() / triangle.conditioned();
+        let relative = (double / truth - 1.0).abs() / triangle.truth().condition();
         assert!(relative < 1e-14, "{name}: {triangle:?}: {double}, expected {truth}, {relative:e}");
         match worst.iter_mut().find(|w| w.0 == name) {
             Some(w) => w.1 = w.1.max(units),

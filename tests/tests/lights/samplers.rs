@@ -5,7 +5,7 @@ use etendue::{
     Lanewise, LightSampler, Line, Mask, Parallelogram, Polygon, Real, Rectangle, Sphere, Triangle, Vec2, Vec3, f32x8,
 };
 use etendue_judge::generators::Random;
-use etendue_judge::properties::{Coordinates, squares_of};
+use etendue_judge::packets::{Coordinates, squares_of};
 use etendue_judge::techniques::{self, AreaLight, LightFixture, LightShape, Measure};
 use etendue_oracle::{V3, cross, dot, length, sub, unit, wide};
 

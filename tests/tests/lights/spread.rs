@@ -4,7 +4,7 @@ use core::f64::consts::{PI, TAU};
 use etendue::light::Spread;
 use etendue::{Disk, LightSampler, Parallelogram, Real, Rectangle, Vec2, Vec3};
 use etendue_judge::generators::Random;
-use etendue_judge::properties::Coordinates;
+use etendue_judge::packets::Coordinates;
 use etendue_judge::tolerances::ULP;
 use etendue_oracle::tier::cases;
 use etendue_oracle::{V3, along, basis, cross, dot, length, narrow, sub, unit, wide};

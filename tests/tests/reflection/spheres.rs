@@ -6,7 +6,7 @@ use etendue::light::SphereByReflection;
 use etendue::reflection::Reflection;
 use etendue::{LightSampler, Real, Sphere, Vec2, Vec3, Warp};
 use etendue_judge::generators::Random;
-use etendue_judge::properties::Coordinates;
+use etendue_judge::packets::Coordinates;
 use etendue_oracle::tier::cases;
 use etendue_oracle::{V3, along, basis, cross, dot, length, narrow, sub, wide};
 

@@ -1,5 +1,6 @@
 //! Every property of every warp in every regime. `-- --nocapture` prints the greatest figure of each (warp, regime, property).
 
+use etendue_judge::fixture::Fixture;
 use etendue_judge::fixtures::{
     AreaTriangle, Bilinear, Cap, ConcentricDisk, Cone, CosineHemisphere, Disk, GgxVisibleNormals, Hexagon, Linear,
     LowDistortionTriangle, Octahedral, Parallelogram, PatchSurface, PolarDisk, ProjectedCap, ProjectedParallelogram,
@@ -7,7 +8,8 @@ use etendue_judge::fixtures::{
     UniformSphere, nearest_hit,
 };
 use etendue_judge::generators::{self, Case, Random};
-use etendue_judge::properties::{self, Fixture};
+use etendue_judge::packets::squares_of;
+use etendue_judge::properties;
 use etendue_judge::suite;
 use etendue_oracle::tier::{cases, is_long};
 use std::collections::BTreeSet;
@@ -131,14 +133,14 @@ fn any_parameters_are_total() {
         properties::any_bits(&PatchSurface { p: d, u: a, v: b, w: c }, u);
         if i % 4 < 2 {
             properties::any_bits(&Disk::new(a, b, c[0]), u);
-            properties::any_bits(&Segment::new(a, b), u);
-            properties::any_bits(&ProjectedSegment::new(a, b, c), u);
+            properties::any_bits(&Segment::new([a, b]), u);
+            properties::any_bits(&ProjectedSegment::new([a, b, c]), u);
         }
-        properties::any_bits(&Hexagon::new([a, b, c, b, a, c]), u);
+        properties::any_bits(&Hexagon::seen_from([a, b, c, b, a, c], [0.0; 3]), u);
         properties::any_bits(&ProjectedTriangle::by_vertices(a, b, c, d), u);
         properties::any_bits(&ProjectedTriangle::by_edges(a, b, c, d), u);
         properties::any_bits(&ProjectedParallelogram::new(a, b, c, d), u);
-        properties::any_bits(&ProjectedPentagon::new([a, b, c, d, a], d), u);
+        properties::any_bits(&ProjectedPentagon::seen_from([a, b, c, d, a], [0.0; 3], d), u);
         properties::any_bits(&GgxVisibleNormals { alpha: [a[0], b[0]], wi: c }, u);
         properties::any_bits(&GgxVisibleNormals { alpha: [0.3, 0.1], wi: c }, u);
         properties::any_bits(&Linear { a: a[0], b: b[1] }, u);
@@ -177,8 +179,8 @@ fn lanes_keep_to_themselves() {
         properties::lanes(&core::array::from_fn(|k| ProjectedCap::new(a[k], b[k][0], c[k])), &us);
         properties::lanes(&core::array::from_fn(|k| Triangle::by_edges(a[k], b[k], c[k])), &us);
         properties::lanes(&core::array::from_fn(|k| Parallelogram::new(a[k], b[k], c[k])), &us);
-        properties::lanes(&core::array::from_fn(|k| Segment::new(a[k], b[k])), &us);
-        properties::lanes(&core::array::from_fn(|k| ProjectedSegment::new(a[k], b[k], c[k])), &us);
+        properties::lanes(&core::array::from_fn(|k| Segment::new([a[k], b[k]])), &us);
+        properties::lanes(&core::array::from_fn(|k| ProjectedSegment::new([a[k], b[k], c[k]])), &us);
         properties::lanes(&core::array::from_fn(|k| Disk::new(a[k], b[k], c[k][0])), &us);
         properties::lanes(&core::array::from_fn(|k| PatchSurface { p: c[k], u: a[k], v: b[k], w: a[7 - k] }), &us);
         properties::lanes(&core::array::from_fn(|k| ProjectedTriangle::by_edges(a[k], b[k], c[k], a[7 - k])), &us);
@@ -201,8 +203,7 @@ fn contact() {
             Triangle::by_vertices([0.0, 0.0, 1.0], [0.5, 0.0, 1.0], [1.0, 0.0, 1.0]),
         ] {
             properties::any_bits(&t, u);
-            let seen =
-                properties::observe::<Triangle, f32>(&Triangle::prepare::<f32>(&[t]), properties::squares_of(&[u]))[0];
+            let seen = properties::observe::<Triangle, f32>(&Triangle::prepare::<f32>(&[t]), squares_of(&[u]))[0];
             assert!(seen.pdf == 0.0, "{t:?} {seen:?}");
         }
         for (center, radius, omega) in

@@ -1,7 +1,7 @@
 //! Lights.
 
 use super::{Input, scalable};
-use crate::properties;
+use crate::packets;
 use crate::techniques::{self, AreaLight, LightFixture, LightShape, Measure};
 use etendue::{
     ConstantEnvironment, DirectionalLight, LightSample, LightSampler, PointLight, Real, SpotLight, Sun, Vec3,
@@ -90,8 +90,8 @@ struct Distant {
 impl LightFixture for Distant {
     fn prepare<R: Real>(lanes: &[Self]) -> Box<dyn LightSampler<R>> {
         let of = |i: usize| lanes[i % lanes.len()];
-        let vector = |pick: fn(&Self) -> [f32; 3]| -> Vec3<R> { properties::vectors_of(|i| pick(&of(i))) };
-        let number = |pick: fn(&Self) -> f32| -> R { properties::lanes_of(|i| f64::from(pick(&of(i)))) };
+        let vector = |pick: fn(&Self) -> [f32; 3]| -> Vec3<R> { packets::vectors_of(|i| pick(&of(i))) };
+        let number = |pick: fn(&Self) -> f32| -> R { packets::lanes_of(|i| f64::from(pick(&of(i)))) };
         let (p, position, n) = (vector(|d| d.p), vector(|d| d.a), vector(|d| d.n));
         match lanes[0].kind {
             0 => Box::new(PointLight { position }.by_delta(p)),

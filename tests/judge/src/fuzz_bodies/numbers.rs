@@ -2,7 +2,7 @@
 
 use super::Input;
 use crate::checks;
-use crate::properties::{squares_of, twice, vectors_of};
+use crate::packets::{squares_of, twice, vectors_of};
 use core::f64::consts::PI;
 use etendue::discrete::{PiecewiseConstant1d, PiecewiseConstant2d, TableError};
 use etendue::estimate::{Heuristic, Welford};

@@ -1,7 +1,7 @@
 //! Lights with pictures.
 
 use super::Input;
-use crate::properties::{squares_of, vectors_of};
+use crate::packets::{squares_of, vectors_of};
 use etendue::light::{Picture, Region, TexelSample};
 use etendue::{BilinearPatch, Disk, LightSampler, Parallelogram, Real, Sphere, Triangle, Vec2, f32x8};
 

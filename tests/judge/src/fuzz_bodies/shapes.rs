@@ -1,6 +1,7 @@
 //! Warps, and shapes seen from a point.
 
 use super::{Input, scalable};
+use crate::fixture::Fixture;
 use crate::fixtures::{
     AreaTriangle, Bilinear, Cap, ConcentricDisk, Cone, CosineHemisphere, CosineRectangle, CosineTriangle, Disk,
     GgxVisibleNormals, Hexagon, Linear, LowDistortionTriangle, Octahedral, Parallelogram, PolarDisk, ProjectedCap,
@@ -8,13 +9,14 @@ use crate::fixtures::{
     UniformHemisphere, UniformSphere, nearest_hit,
 };
 use crate::generators::{self, Random};
-use crate::properties::{self, Fixture};
+use crate::packets::squares_of;
+use crate::properties;
 use etendue::Warp;
 
 /// For a shape of constant pdf: a sample has exactly that pdf, which is 0 if nothing is visible.
 fn uniform<S: Fixture>(s: &S, u: [f32; 2], uniform_pdf: impl Fn(&S::Warp<f32>) -> f32) {
     let warp = S::prepare::<f32>(&[*s]);
-    let pdf = warp.pdf(warp.sample(properties::squares_of(&[u])));
+    let pdf = warp.pdf(warp.sample(squares_of(&[u])));
     let expected = uniform_pdf(&warp);
     assert!(pdf.to_bits() == expected.to_bits(), "the pdf of a sample is {pdf}, expected {expected}: {s:?} at {u:?}");
 }
@@ -202,7 +204,7 @@ pub(super) fn spherical_polygon(input: &mut Input<'_>) {
         corners[k] = input.vector(&corners[..k]);
         all.extend(corners[k]);
     }
-    flat(&Hexagon::new(corners), u, &all);
+    flat(&Hexagon::seen_from(corners, [0.0; 3]), u, &all);
     let (name, s) = input.case(generators::hexagons);
     if name.starts_with("sliver") {
         // known limit: the pdf of a fan of slivers may be off by 1.3e−6
@@ -228,24 +230,24 @@ pub(super) fn spherical_disk(input: &mut Input<'_>) {
 pub(super) fn spherical_segment(input: &mut Input<'_>) {
     let (u, a) = (input.square(), input.vector(&[]));
     let edge = input.vector(&[a]);
-    flat(&Segment::new(a, edge), u, &[a, edge].concat());
+    flat(&Segment::new([a, edge]), u, &[a, edge].concat());
     let (name, [a, edge]) = input.case(|each, seed| generators::segment_parameters(each, seed).0);
     let _said = Said(name);
-    properties::pointwise(&Segment::new(a, edge), u, &mut input.points());
+    properties::pointwise(&Segment::new([a, edge]), u, &mut input.points());
 }
 
 /// Line segments over a horizon.
 pub(super) fn projected_segment(input: &mut Input<'_>) {
     let (u, a) = (input.square(), input.vector(&[]));
     let edge = input.vector(&[a]);
-    properties::any_bits(&ProjectedSegment::new(a, edge, input.vector(&[a, edge])), u);
-    flat(&ProjectedSegment::new(a, edge, input.direction()), u, &[a, edge].concat());
+    properties::any_bits(&ProjectedSegment::new([a, edge, input.vector(&[a, edge])]), u);
+    flat(&ProjectedSegment::new([a, edge, input.direction()]), u, &[a, edge].concat());
     let (name, [a, edge, normal]) = input.case(|each, seed| generators::segment_parameters(each, seed).1);
     let _said = Said(name);
-    let s = ProjectedSegment::new(a, edge, normal);
+    let s = ProjectedSegment::new([a, edge, normal]);
     // the rounding of the normal may move the horizon past the whole of a tiny segment
     let warp = ProjectedSegment::prepare::<f32>(&[s]);
-    if s.seen() && warp.pdf(warp.sample(properties::squares_of(&[u]))) > 0.0 {
+    if s.seen() && warp.pdf(warp.sample(squares_of(&[u]))) > 0.0 {
         properties::pointwise(&s, u, &mut input.points());
     }
 }
@@ -258,7 +260,7 @@ pub(super) fn projected_triangle(input: &mut Input<'_>) {
     flat(&ProjectedTriangle::by_vertices(a, b, c, input.direction()), u, &all);
     let (name, [v, a, b, normal]) = input.case(generators::over_horizon);
     let s = ProjectedTriangle::by_edges(v, a, b, normal);
-    if s.projected_solid_angle() > 0.0 {
+    if s.truth().measure > 0.0 {
         over_horizon((name, s), u, input.points());
     }
 }
@@ -281,13 +283,13 @@ pub(super) fn projected_polygon(input: &mut Input<'_>) {
     flat(&ProjectedParallelogram::new(a, b, c, normal), u, &all);
     let (d, e) = (input.vector(&[a, b, c]), input.vector(&[a, b, c]));
     all.extend([d, e].concat());
-    flat(&ProjectedPentagon::new([a, b, c, d, e], normal), u, &all);
+    flat(&ProjectedPentagon::seen_from([a, b, c, d, e], [0.0; 3], normal), u, &all);
     if input.below(2) == 0 {
         over_horizon(input.case(generators::projected_pentagons), u, input.points());
     } else {
         let (name, [p, a, b, normal]) = input.case(generators::over_horizon);
         let s = ProjectedParallelogram::new(p, a, b, normal);
-        if s.projected_solid_angle() > 0.0 {
+        if s.truth().measure > 0.0 {
             over_horizon((name, s), u, input.points());
         }
     }

@@ -1,7 +1,7 @@
 //! The sky through portals.
 
 use super::Input;
-use crate::properties::{squares_of, vectors_of};
+use crate::packets::{squares_of, vectors_of};
 use etendue::light::{Portal, PortalEnvironment, PortalTable};
 use etendue::{LightSampler, Real, Vec3, f32x8};
 use etendue_oracle::{cross, length, wide};

@@ -1,8 +1,9 @@
 //! Surfaces in space.
 
 use super::Input;
+use crate::fixture::Fixture;
 use crate::fixtures::PatchSurface;
-use crate::properties::{self, Fixture};
+use crate::properties;
 
 /// Checks a surface of any numbers, and one of ordinary size and distance, for which all properties hold.
 fn check<S: Fixture>(any: &S, fair: &S, input: &mut Input<'_>) {

@@ -207,7 +207,7 @@ pub fn hexagons(each: usize, numbers: impl Into<Random>) -> Vec<Case<Hexagon>> {
                 let [x, y, z] = center;
                 narrow(combine(&axes, x + size[0] * cos(angle), y + size[1] * sin(angle), z))
             };
-            all.push((name, Hexagon::new(core::array::from_fn(|i| corner(i, &mut random)))));
+            all.push((name, Hexagon::seen_from(core::array::from_fn(|i| corner(i, &mut random)), [0.0; 3])));
         }
     }
     all

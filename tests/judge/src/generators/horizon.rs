@@ -1,6 +1,7 @@
 //! Flat shapes over a horizon.
 
 use super::{Case, Random, combine, frame, narrow};
+use crate::fixture::Fixture;
 use crate::fixtures::{ProjectedParallelogram, ProjectedPentagon, ProjectedTriangle};
 use libm::{cos, sin};
 
@@ -120,7 +121,7 @@ pub fn projected_triangles(each: usize, numbers: impl Into<Random>) -> Vec<Case<
             let of = ProjectedTriangle::by_vertices;
             (name, if by_vertices { of(v, add(v, a), add(v, b), n) } else { ProjectedTriangle::by_edges(v, a, b, n) })
         })
-        .filter(|(_, t)| t.projected_solid_angle() > 0.0)
+        .filter(|(_, t)| t.truth().measure > 0.0)
         .collect()
 }
 
@@ -130,7 +131,7 @@ pub fn projected_parallelograms(each: usize, numbers: impl Into<Random>) -> Vec<
     over_horizon(each, numbers)
         .into_iter()
         .map(|(name, [p, u, v, n])| (name, ProjectedParallelogram::new(p, u, v, n)))
-        .filter(|(_, t)| t.projected_solid_angle() > 0.0)
+        .filter(|(_, t)| t.truth().measure > 0.0)
         .collect()
 }
 
@@ -156,7 +157,7 @@ pub fn projected_pentagons(each: usize, numbers: impl Into<Random>) -> Vec<Case<
             };
             let corners = core::array::from_fn(|i| corner(i, &mut random));
             let normal = narrow(combine(&axes, normal[0], normal[1], normal[2]));
-            all.push((name, ProjectedPentagon::new(corners, normal)));
+            all.push((name, ProjectedPentagon::seen_from(corners, [0.0; 3], normal)));
         }
     }
     all

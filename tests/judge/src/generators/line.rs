@@ -9,8 +9,8 @@ use std::sync::Mutex;
 #[must_use]
 pub fn segments(each: usize, numbers: impl Into<Random>) -> (Vec<Case<Segment>>, Vec<Case<ProjectedSegment>>) {
     let (plain, over) = segment_parameters(each, numbers);
-    let plain = plain.into_iter().map(|(name, [a, edge])| (name, Segment::new(a, edge))).collect();
-    let over = over.into_iter().map(|(name, [a, edge, n])| (name, ProjectedSegment::new(a, edge, n)));
+    let plain = plain.into_iter().map(|(name, ends)| (name, Segment::new(ends))).collect();
+    let over = over.into_iter().map(|(name, over)| (name, ProjectedSegment::new(over)));
     (plain, over.filter(|(_, s)| s.seen()).collect())
 }
 

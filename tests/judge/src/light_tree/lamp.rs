@@ -1,6 +1,6 @@
 //! Lights that a tree chooses among: how they are sampled, and the bound that a renderer states of them.
 
-use crate::properties::squares_of;
+use crate::packets::squares_of;
 use crate::techniques::{AreaLight, LightFixture, LightShape, Measure};
 #[cfg(feature = "checks")]
 use etendue::light::Spread;

@@ -1,6 +1,6 @@
 //! Defects of lights.
 
-use crate::properties::vectors_of;
+use crate::packets::vectors_of;
 use crate::techniques::LightFixture;
 use etendue::light::shapes::SphericalRectangle;
 use etendue::warp::Bilinear;

@@ -2,7 +2,7 @@
 
 use super::{Data, Defect};
 use crate::fixtures::{Cap, ConcentricDisk, Cone, CosineHemisphere, Triangle};
-use crate::properties::lanes_of;
+use crate::packets::lanes_of;
 use core::f64::consts::{FRAC_1_PI, PI, TAU};
 use etendue::light::shapes::{DirectionSample, SphericalCap, SphericalTriangle};
 use etendue::{Mask, Real, Vec2, Vec3, Warp, warp};

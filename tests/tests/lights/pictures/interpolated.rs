@@ -4,7 +4,7 @@ use crate::lights::pictures::lights::{Ball, By, LIGHTS, POINTS, Patch, normal, v
 use etendue::Vec2;
 use etendue::light::{Picture, Region};
 use etendue_judge::generators::Random;
-use etendue_judge::properties::Coordinates;
+use etendue_judge::packets::Coordinates;
 use etendue_oracle::tier::cases;
 use etendue_oracle::{V3, dot};
 
