@@ -8,6 +8,8 @@ pub mod definition;
 #[cfg(feature = "checks")]
 pub mod figures;
 #[cfg(feature = "checks")]
+mod grid;
+#[cfg(feature = "checks")]
 pub mod observe;
 pub mod sampler;
 #[cfg(feature = "checks")]

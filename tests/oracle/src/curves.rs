@@ -3,7 +3,7 @@
 use crate::double_double::{Dd, Dd3, add, cross, dd, dot, length, narrow, normalized, times};
 use crate::quadrature::{gauss_legendre, integral, root};
 use crate::vectors::V3;
-use core::f64::consts::FRAC_PI_2;
+use core::f64::consts::{FRAC_PI_2, PI};
 
 /// The elliptic cone of a disk as seen from the point. With χ the eccentric angle from the major axis, dΩ = sinα sinβ dχ/(1+D), where
 /// D² = cos²β cos²χ + cos²α sin²χ is the squared height of the rim. u₀ sets χ, quadrant by quadrant, and 1−cosθ is the fraction u₁ of
@@ -122,6 +122,42 @@ impl Ellipse {
         };
         [0.25 * u0, k * (1.0 + self.rim(chi)) / (a * a + b * b)]
     }
+}
+
+/// Projected solid angle of the part of a disk with the unit normal `m` that is above the horizon of the unit vector `n`: half of Lambert's
+/// integral n · (w × dw) around it, along an arc of the rim and the chord between its ends.
+#[must_use]
+pub fn projected_disk(center: V3, m: V3, radius: f64, n: V3) -> f64 {
+    use crate::vectors::{along, basis, cross, dot, length, unit};
+    // the rim, from the point that is nearest to the shading point
+    let aside = along(m.map(|x| x * dot(center, m)), center, -1.0);
+    let e = if length(aside) > 1e-12 * length(center) { unit(aside) } else { basis(m).0 };
+    let g = cross(m, e);
+    let rim = |t: f64| along(along(center, e, radius * t.cos()), g, radius * t.sin());
+    // its height above the horizon is that of the centre and a cosine of t − middle
+    let [x, y] = [dot(n, e), dot(n, g)];
+    let (height, swing, middle) = (dot(n, center), radius * x.hypot(y), y.atan2(x));
+    if height + swing <= 0.0 {
+        return 0.0;
+    }
+    let half = if height >= swing { PI } else { (-height / swing).acos() };
+    let [first, last] = [middle - half, middle + half];
+    // finer towards the nearest point, where the integrand of a large disk has a peak
+    let steps = (0..40).flat_map(|k| [0.5_f64.powi(k), -0.5_f64.powi(k)].map(|x| x * PI)).chain([0.0]);
+    let mut ends: Vec<f64> = steps.flat_map(|t| [t - 2.0 * PI, t, t + 2.0 * PI]).collect();
+    ends.retain(|t| first < *t && *t < last);
+    ends.extend([first, last]);
+    ends.sort_by(f64::total_cmp);
+    let nodes = gauss_legendre();
+    let along_rim = |t: f64| {
+        let (p, slope) = (rim(t), along(e.map(|x| -x * radius * t.sin()), g, radius * t.cos()));
+        dot(n, cross(p, slope)) / dot(p, p)
+    };
+    let arc: f64 = ends.windows(2).map(|t| integral(&nodes, t[0], t[1], along_rim)).sum();
+    let (from, to) = (rim(last), rim(first));
+    let normal = cross(from, to);
+    let chord = if height >= swing { 0.0 } else { length(normal).atan2(dot(from, to)) * dot(normal, n).signum() };
+    0.5 * (arc + chord).abs()
 }
 
 /// One end of an [`Arc`]: its direction, the tangent towards the other end, and sinγ and cosθ there with their derivatives by the angle.

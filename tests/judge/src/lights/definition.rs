@@ -4,7 +4,7 @@
 use crate::techniques::{AreaLight, LightShape, Measure};
 use core::cell::OnceCell;
 use core::f64::consts::{PI, TAU};
-use etendue_oracle::curves::Ellipse;
+use etendue_oracle::curves::{Ellipse, projected_disk};
 use etendue_oracle::double_double::{Dd, Dd3, dd};
 use etendue_oracle::flat::Fan;
 use etendue_oracle::{
@@ -59,6 +59,7 @@ pub struct Definition {
     body: Body,
     normal: V3,
     grid: OnceCell<Vec<V3>>,
+    lit: OnceCell<f64>,
     /// Solid angle, in steradians.
     pub solid_angle: f64,
     /// Greatest angle between two directions to the light, and the width across that, in radians.
@@ -176,7 +177,18 @@ impl Definition {
         let coordinate = [p, a].concat().into_iter().map(f64::abs).fold(0.0, f64::max);
         let rounding = coordinate / 16_777_216.0 / nearest.max(1e-300);
         let size = [greatest, (solid_angle / greatest).min(greatest)];
-        Some(Self { body, normal: unit(n), grid: OnceCell::new(), solid_angle, size, area, seen, farthest, rounding })
+        Some(Self {
+            body,
+            normal: unit(n),
+            grid: OnceCell::new(),
+            lit: OnceCell::new(),
+            solid_angle,
+            size,
+            area,
+            seen,
+            farthest,
+            rounding,
+        })
     }
 
     /// Whether the point is inside of the light.
@@ -349,19 +361,27 @@ impl Definition {
     pub fn grid(&self) -> &[V3] {
         self.grid.get_or_init(|| middles().map(|u| self.by_solid_angle(u)).collect())
     }
+    /// The u₀ at which that grid goes over from one of two triangles to the other one.
+    #[must_use]
+    pub fn seam(&self) -> Option<f64> {
+        match &self.body {
+            Body::Flat { fans, .. } if fans.len() == 2 => Some(fans[0].solid_angle() / self.solid_angle),
+            _ => None,
+        }
+    }
     /// Irradiance of a receiver with the unit normal `n`, per unit of radiance.
     #[must_use]
     pub fn irradiance(&self, n: V3) -> f64 {
+        if n == self.normal { *self.lit.get_or_init(|| self.projected(n)) } else { self.projected(n) }
+    }
+    fn projected(&self, n: V3) -> f64 {
         match &self.body {
             Body::Sphere { center, radius, .. } => projected_cap(*center, *radius, n),
             Body::Flat { exact, .. } => {
                 let above = above_horizon(exact, dd(n));
                 if above.len() < 3 { 0.0 } else { lambert(&above, dd(n)).max(0.0) }
             }
-            Body::Disk { .. } => {
-                let cosines = self.grid().iter().map(|w| dot(*w, n).max(0.0));
-                cosines.sum::<f64>() * self.solid_angle / (SIDE * SIDE) as f64
-            }
+            Body::Disk { center, normal, radius, .. } => projected_disk(*center, *normal, *radius, n),
         }
     }
     /// Normal of the receiver.

@@ -1,6 +1,7 @@
 //! The figures of a sampler at a place, each with its limit.
 
 use super::definition::{Chart, Definition, SIDE, middles};
+use super::grid;
 use super::observe::{Answers, CORNERS, Inverse, Questions, SETS, SLOPES, STEP, direction};
 use super::sampler::Sample;
 use crate::stats;
@@ -100,6 +101,9 @@ const DEVIATIONS: f64 = 10.0;
 const SIGNIFICANCE: f64 = 1e-7;
 /// Least width of a light, in radians, whose samples are binned.
 const RESOLVED: f64 = 2e-4;
+/// Greatest angle, in radians, over which a light is resolved up to its edge: beyond, densities by area are ten times as great there as in the
+/// middle, and more in a layer that is thinner than a cell.
+const WIDE: f64 = 2.2;
 /// Greatest estimate, over the mean one, up to which the spread of a mean is believed.
 const TAIL: f64 = 30.0;
 
@@ -120,31 +124,6 @@ fn mean(sets: &[f64]) -> (f64, f64) {
     let (mean, variance) = stats::mean_variance(sets);
     (mean, (variance / sets.len() as f64).sqrt())
 }
-/// A mean over the grid of directions, and its difference to the mean of every second one.
-fn grid_mean(values: &[f64]) -> (f64, f64) {
-    let half = |odd: usize| {
-        let of = values.iter().enumerate().filter(|(i, _)| (i % SIDE + i / SIDE) % 2 == odd).map(|v| v.1);
-        of.sum::<f64>() / (values.len() / 2) as f64
-    };
-    let (a, b) = (half(0), half(1));
-    (0.5 * (a + b), (a - b).abs())
-}
-
-/// How far the mean over the grid of a function may be off that a horizon cuts.
-///
-/// The function is linear there, with a slope s. A cell of width h that the horizon crosses counts either nothing or all that it has in its
-/// middle, which is off by up to sh/8. The lit cell next to the horizon has sh/2 in the mean, so a quarter of it bounds the error, were it the
-/// same in all of them.
-fn cut(values: &[f64]) -> f64 {
-    let is_dark = |x: usize, y: usize| x < SIDE && y < SIDE && values[x + y * SIDE] == 0.0;
-    let beside = |x: usize, y: usize| {
-        let (left, below) = (x.wrapping_sub(1), y.wrapping_sub(1));
-        is_dark(left, y) || is_dark(x + 1, y) || is_dark(x, below) || is_dark(x, y + 1)
-    };
-    let lit = values.iter().enumerate().filter(|(i, _)| beside(i % SIDE, i / SIDE));
-    0.25 * lit.map(|v| v.1.abs()).sum::<f64>() / values.len() as f64
-}
-
 impl Trial<'_> {
     /// All figures that can be measured.
     #[must_use]
@@ -224,7 +203,7 @@ impl Trial<'_> {
     /// Figures of single samples.
     fn single(&self, all: &mut Vec<Measured>) {
         let worst = |figure, limit| Measured { figure, value: 0.0, limit, at: String::new() };
-        let mut outside = worst(Figure::Outside, ERROR.min(2e-4));
+        let mut outside = worst(Figure::Outside, 2e-4);
         let mut density = worst(Figure::Density, ERROR);
         let mut two = worst(Figure::TwoPdfs, ERROR);
         let turned = self.turned();
@@ -279,7 +258,10 @@ impl Trial<'_> {
             let apart = |a: &Sample, b: &Sample| length(sub(direction(a.direction), direction(b.direction)));
             // what the rounding of the inverse itself does
             let rounded = near.iter().flatten().map(|n| apart(n, again)).fold(0.0, f64::max);
-            let off = (apart(&s, again) - 4.0 * self.turned() - rounded).max(0.0) / self.seen.size[0];
+            // rounding turns the sides of the light as well, and moves what is between them by a part of its width. The lines of a map may
+            // be nearly parallel to a narrow light, so that this is the same part of its length
+            let slack = 4.0 * self.turned() * self.seen.size[0] / self.seen.size[1] + rounded;
+            let off = (apart(&s, again) - slack).max(0.0) / self.seen.size[0];
             let beyond = u.iter().map(|u| f64::from((-u).max(u - 1.0).max(0.0))).fold(0.0, f64::max);
             take(&mut worst, off.max(beyond), || {
                 let (from, to) = (s.direction, again.direction);
@@ -296,41 +278,32 @@ impl Trial<'_> {
             |(w, pdf): (&[f32; 3], &f32)| f64::from(*pdf) * self.seen.steradians(self.questions.chart, direction(*w));
         directions.map(of).collect()
     }
+    /// Where the chart's square goes over from one map to another one.
+    fn seam(&self) -> Option<f64> {
+        self.seen.seam().filter(|_| self.questions.chart == Chart::SolidAngle)
+    }
     fn drawn(&self, i: usize) -> Option<Sample> {
         self.answers.samples[i].filter(|s| !s.is_hidden)
-    }
-    /// What the grid of directions resolves, in units of [`ERROR`]: less near a hemisphere, where densities have peaks, and where a horizon
-    /// may cut the light.
-    fn coarseness(&self) -> f64 {
-        let is_cut = self.by == Measure::ProjectedSolidAngle
-            || self.seen.irradiance(self.seen.normal()) < 0.8 * self.seen.solid_angle;
-        if self.seen.size[0] > 2.2 {
-            20.0
-        } else if is_cut {
-            3.0
-        } else {
-            1.0
-        }
     }
     /// ∫ pdf, frequencies and places of the samples, and the map's derivative.
     fn distribution(&self, all: &mut Vec<Measured>) {
         let claimed = self.claimed();
-        let (integral, error) = grid_mean(&claimed);
-        // the grid does not resolve the edge that a horizon cuts
-        if self.by == Measure::ProjectedSolidAngle && claimed.iter().any(|q| *q < 0.1) {
+        let (integral, error) = grid::mean(&claimed, self.seam());
+        // the grid resolves neither the edge that a horizon cuts nor peaks that are not known
+        if self.by == Measure::ProjectedSolidAngle && claimed.iter().any(|q| *q < 0.1)
+            || self.by == Measure::Other && self.seen.size[0] > WIDE
+        {
             return;
         }
         let n = (self.questions.strata * self.questions.strata) as f64;
         let parts: Vec<f64> =
             (0..SETS).map(|k| self.questions.set(k).filter_map(|i| self.drawn(i)).count() as f64 / n).collect();
         let (part, spread) = mean(&parts);
-        // the density of a named measure is known besides
-        let resolved = if self.by == Measure::ProjectedSolidAngle { 10.0 } else { self.coarseness() };
-        let limit = (ERROR * resolved).max(2.0 * error).max(DEVIATIONS * spread);
+        let limit = ERROR.max(error).max(DEVIATIONS * spread);
         let value = (integral - part).abs();
         all.push(Measured { figure: Figure::Integral, value, limit, at: format!("∫ pdf = {integral:.6}") });
         // a density that the grid does not resolve has no expectations
-        if error > 0.01 || part == 0.0 {
+        if error > 0.01 || part == 0.0 || integral == 0.0 {
             return;
         }
         const CELLS: usize = 8;
@@ -356,14 +329,12 @@ impl Trial<'_> {
         let p = stats::chi_square(&observed, &expected).max(1e-300);
         let value = p.log10() / SIGNIFICANCE.log10();
         all.push(Measured { figure: Figure::Frequencies, value, limit: 1.0, at: format!("p = {p:.1e}") });
-        let is_constant = matches!(self.by, Measure::SolidAngle | Measure::Area);
         let mut worst = Measured { figure: Figure::Placement, value: 0.0, limit: 1.0, at: String::new() };
         for f in 0..4 {
             let values: Vec<f64> = claimed.iter().zip(middles()).map(|(q, u)| q * functions(u)[f]).collect();
-            let (truth, error) = grid_mean(&values);
+            let (truth, error) = grid::mean(&values, self.seam());
             let (seen, spread) = mean(&sums.map(|sum| sum[f]));
-            let least = if is_constant { 2e-4 } else { 5e-3 } + self.turned() / self.seen.size[1];
-            let limit = least.max(DEVIATIONS * spread).max(4.0 * error);
+            let limit = (2e-4 + self.turned() / self.seen.size[1]).max(DEVIATIONS * spread).max(error);
             let value = (seen - truth).abs();
             if value / limit > worst.value / worst.limit {
                 (worst.value, worst.limit) = (value, limit);
@@ -440,12 +411,17 @@ impl Trial<'_> {
         if directions.iter().filter(|d| d.0 > 0.0).count() < SIDE * SIDE / 4 {
             return;
         }
+        // the partner's part of the truth, by its share in each direction: the grid's own error of f cancels, but for how shares vary
         let (own, spread) = mean(&sets(&|pdf| if pdf > 0.0 { 1.0 / (pdf + partner) } else { 0.0 }));
-        let values: Vec<f64> = directions.iter().map(|(f, pdf)| f / (pdf + partner)).collect();
-        let (other, error) = grid_mean(&values);
-        let least = ERROR * self.coarseness();
-        let limit = least.max(DEVIATIONS * spread / truth).max((4.0 * error + cut(&values)) / truth);
-        take(1, ((own + other) / truth - 1.0).abs(), limit, own + other);
+        let shares = directions.iter().map(|(f, pdf)| (f, partner / (pdf + partner)));
+        let share =
+            shares.clone().map(|(f, share)| f * share).sum::<f64>() / directions.iter().map(|d| d.0).sum::<f64>();
+        let varied: Vec<f64> = shares.map(|(f, of)| f * (of - share)).collect();
+        let error = grid::mean(&varied, self.seen.seam()).1 / partner / truth;
+        // half of a cell's width along both ends of the square
+        let layer = if self.seen.size[0] > WIDE { 1.0 / SIDE as f64 } else { 0.0 };
+        let limit = ERROR.max(DEVIATIONS * spread / truth).max(error).max(layer);
+        take(1, (own / truth + share - 1.0).abs(), limit, own + share * truth);
     }
 }
 
