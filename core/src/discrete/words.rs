@@ -56,7 +56,7 @@ impl<M, U: Uint> Words1d<M, U> {
         M: Memory<R>,
     {
         let (start, width) = self.bounds::<R>(index);
-        unit_interval(offset.mul_add(width, start))
+        unit_interval(offset.mul_add(width, start)).keep(R::has_bits(index.lt(self.count)))
     }
 }
 
