@@ -161,7 +161,6 @@
 //! we have not found why some others do in disks and rectangles by area and the surface of a patch. `.ci/shader` prints the table of all
 //! routines.
 mod distributions;
-mod errors;
 mod graph;
 mod inputs;
 mod language;

@@ -1,11 +1,10 @@
 //! Lights and warps become functions.
 
-use crate::errors::greatest_error;
 use crate::graph::{Call, Graph, Id};
 use crate::layout::{Slot, slots};
 use crate::list::{Technique, WarpTechnique, WarpVisitor, With, every_warp};
 use crate::module::{Access, Field, Function, Leaf, Module, Parameter, Struct, Type};
-use crate::names::{pascal, snake};
+use crate::names::snake;
 use crate::number::{Inner, Number, Truth, record};
 use crate::wanted::{Part, SampleField, Wanted};
 use etendue::{LightSample, LightSampler, Real, Vec2, Vec3};
@@ -259,16 +258,11 @@ pub fn add_technique<T: Technique>(module: &mut Module, wanted: &Wanted) {
 
     let sample = sample_struct(wanted);
     let technique_doc = text(entry.doc);
-    let returned = format!("{}{}", entry.light, pascal(entry.by));
-    // by reflection, the error of a shape is that of the light after the map
-    let error =
-        (entry.with != With::Reflection).then(|| greatest_error(core::any::type_name::<T::Sampler<f32>>(), &returned));
-    let error = error.flatten().unwrap_or_default();
     let mut functions = Vec::new();
     for part in &wanted.parts {
         let map = |f: &mut dyn FnMut(Number) -> Number| T::map(sampler, f);
         let w = Some(("w", Leaf::Vec3));
-        let doc = |what: &str| (part.name(), format!("{what} {technique_doc} {error}"));
+        let doc = |what: &str| (part.name(), format!("{what} {technique_doc}"));
         let real = Type::Leaf(Leaf::Real);
         functions.push(match part {
             Part::Sample => {
@@ -347,14 +341,13 @@ pub fn add_warp<W: WarpTechnique>(module: &mut Module, wanted: &Wanted) {
         W::warp(&mut || next.number())
     });
     let doc = text(entry.doc);
-    let error = greatest_error(core::any::type_name::<W::Of<f32>>(), "").unwrap_or_default();
     let [numbers, coordinates] = [entry.numbers, entry.coordinates];
     let [u, point] = [numbers, coordinates].map(Leaf::of_numbers);
     let ids = |all: Vec<Number>| all.into_iter().map(Number::id).collect();
     let mut functions = Vec::new();
     for part in &wanted.parts {
         let map = |f: &mut dyn FnMut(Number) -> Number| W::map(warp, f);
-        let told = |what: &str| (part.name(), format!("{what} {doc} {error}"));
+        let told = |what: &str| (part.name(), format!("{what} {doc}"));
         functions.push(match part {
             Part::Sample => {
                 let doc = told("Maps u, of which each number is in [0, 1), to a point.");

@@ -5,7 +5,7 @@ use crate::inputs::{Inputs, add_function, pair, three};
 use crate::module::{Leaf, Module, Type};
 use crate::number::{Number, Truth, Word};
 use etendue::estimate::Heuristic;
-use etendue::light::{PortalMap, Spread};
+use etendue::light::Spread;
 use etendue::sequence::{Independent, OwenSobol};
 use etendue::{LightSample, Mask, Real, Uint, Vec2, Vec3};
 
@@ -22,16 +22,9 @@ pub fn tools() -> &'static [&'static str] {
         "power_light_weight",
         "power_bsdf_weight",
         "spread_attenuation",
-        "portal_direction",
-        "portal_solid_angle",
     ]
 }
 
-/// The direction of a position in the image of a portal, and the solid angle there.
-fn portal(inputs: &mut Inputs) -> (Vec3<Number>, Number) {
-    let axes = ["edge_s", "edge_t", "normal"].map(|name| inputs.vec3(name));
-    PortalMap::direction_by(axes, inputs.real("scale"), inputs.vec2("uv"))
-}
 fn weights(heuristic: Heuristic, inputs: &mut Inputs) -> Vec<Id> {
     heuristic.weights([inputs.real("first"), inputs.real("second")]).map(Number::id).to_vec()
 }
@@ -126,16 +119,6 @@ fn body(name: &str, inputs: &mut Inputs) -> (&'static str, Leaf, Vec<Id>) {
                 vec![factor.id()],
             )
         }
-        "portal_direction" => (
-            "The unit direction of a position in [0, 1]^2 in the image of the sky for a portal with these unit edges and unit normal edge_s x edge_t: a direction x s + y t + z n has the position (atan(x/z)/pi + 1/2, atan(y/z)/pi + 1/2). The scale does not matter.",
-            Leaf::Vec3,
-            three(portal(inputs).0),
-        ),
-        "portal_solid_angle" => (
-            "The solid angle at a position in the image of the sky for a portal, per unit of the image's area, in steradians: what portal_direction stretches. scale is pi^2 times the sine of the angle between the edges.",
-            Leaf::Real,
-            vec![portal(inputs).1.id()],
-        ),
         _ => panic!("there is no function {name}"),
     }
 }

@@ -174,32 +174,3 @@ fn broken_sources_are_found() {
         assert!(error.contains(why), "{error}");
     }
 }
-
-/// The comments of samples tell the greatest error that the core documents: of every warp, and of the lights by solid angle and by projected
-/// solid angle.
-#[test]
-fn comments_tell_the_greatest_error() {
-    let module = Selection { tables: Vec::new(), ..everything() }.module();
-    let tells = |function: &Function| function.doc.contains("Greatest error");
-    let samples = module.functions.iter().filter(|function| function.name.ends_with("_sample"));
-    let (with, without): (Vec<_>, Vec<_>) = samples.partition(|function| tells(function));
-    let names = |of: Vec<&Function>| of.into_iter().map(|function| function.name.clone()).collect::<Vec<_>>();
-    let (with, without) = (names(with), names(without));
-    println!("with: {with:?}\nwithout: {without:?}");
-    for warp in warps() {
-        assert!(with.contains(&format!("{warp}_sample")), "{warp}: {without:?}");
-    }
-    for light in ["sphere", "triangle", "parallelogram", "polygon"] {
-        for by in ["solid_angle", "projected_solid_angle"] {
-            assert!(with.contains(&format!("{light}_by_{by}_sample")), "{light} by {by}: {without:?}");
-        }
-    }
-    // a number of the core's documentation, and links as plain text
-    let of = |name: &str| module.functions.iter().find(|function| function.name == name).unwrap();
-    assert!(of("sphere_by_solid_angle_pdf").doc.contains("Greatest error: pdf 3.0e−7 relative (proved: 2e−6)"));
-    assert!(
-        of("polygon_by_projected_solid_angle_sample").doc.contains("As with Polygon::by_solid_angle, up to all of")
-    );
-    let cosine = &of("triangle_by_cosine_warp_sample").doc;
-    assert!(cosine.contains("the pdf adds 8 ulp") && cosine.contains("direction 5.4e−7"), "{cosine}");
-}

@@ -3,7 +3,7 @@
 use crate::driver::{HOSTILE, slots};
 use crate::program::Driver;
 use etendue::estimate::Heuristic;
-use etendue::light::{PortalMap, Spread};
+use etendue::light::Spread;
 use etendue::sequence::{Independent, OwenSobol, Sequence};
 use etendue::{LightSample, Vec2, Vec3};
 use etendue_judge::generators::Random;
@@ -16,8 +16,6 @@ fn tool(name: &str, x: &[f32]) -> Vec<f32> {
     let truth = |k: usize| x[k] > 0.5;
     let pair = |u: Vec2<f32>| vec![u.x, u.y];
     let three = |k: usize| Vec3::new(x[k], x[k + 1], x[k + 2]);
-    let vector = |w: Vec3<f32>| vec![w.x, w.y, w.z];
-    let portal = || PortalMap::direction_by([three(0), three(3), three(6)], x[9], Vec2::new(x[10], x[11]));
     let sample =
         |pdf: f32, emits: bool, delta: bool| LightSample { pdf, emits, delta, ..LightSample::miss(Vec3::default()) };
     match name {
@@ -36,8 +34,6 @@ fn tool(name: &str, x: &[f32]) -> Vec<f32> {
         "power_light_weight" => vec![Heuristic::POWER.light_weight(&sample(x[0], truth(1), truth(2)), x[3])],
         "power_bsdf_weight" => vec![Heuristic::POWER.bsdf_weight(x[0], &sample(x[1], truth(2), false))],
         "spread_attenuation" => vec![Spread { tan_half: x[0], gain: x[1] }.attenuation(three(2), three(5))],
-        "portal_direction" => vector(portal().0),
-        "portal_solid_angle" => vec![portal().1],
         _ => panic!("the test does not know {name}"),
     }
 }

@@ -66,28 +66,21 @@ impl PortalMap {
     /// The domain is [0, 1]². Near the edges of the map the solid angle goes to 0.
     #[must_use]
     pub fn direction<R: Real>(&self, place: Vec2<R>) -> (Vec3<R>, R) {
-        Self::direction_by(self.axes(), R::lit(PI * PI * self.sin), place)
-    }
-    /// Does the same for unit edges and a normal that may differ by lane, where `scale` is π² times the sine of the angle between the edges.
-    #[must_use]
-    pub fn direction_by<R: Real>(axes: [Vec3<R>; 3], scale: R, place: Vec2<R>) -> (Vec3<R>, R) {
         let half = R::lit(0.5);
         let angle = |x: R| ((x - half) * half).sin_cos_turns();
         let ((sx, cx), (sy, cy)) = (angle(place.x), angle(place.y));
-        let w = combined(axes, [sx * cy, sy * cx, cx * cy]);
+        let w = self.world([sx * cy, sy * cx, cx * cy]);
         let (w, length) = w.unit_and_length();
         let some = length.gt(R::lit(0.0));
         let length = R::blend(some, length, R::lit(1.0));
+        let scale = R::lit(PI * PI * self.sin);
         let solid_angle = (scale * (cx / length) * (cy / length) / length).keep(some);
         (w, solid_angle.clamped(R::lit(0.0), R::lit(GREATEST)))
     }
     #[inline(always)]
-    fn axes<R: Real>(&self) -> [Vec3<R>; 3] {
-        self.axes.map(|v| Vec3::lit([v.x, v.y, v.z]))
-    }
-    #[inline(always)]
-    pub(super) fn world<R: Real>(self, coordinates: [R; 3]) -> Vec3<R> {
-        combined(self.axes(), coordinates)
+    pub(super) fn world<R: Real>(self, [x, y, z]: [R; 3]) -> Vec3<R> {
+        let [s, t, n] = self.axes.map(|v| Vec3::lit([v.x, v.y, v.z]));
+        s.mul_add(x, t.mul_add(y, n * z))
     }
     /// How far beside a portal a direction still passes it, in radians: what the direction itself is rounded by. Oblique axes stretch a
     /// small step by the inverse of the sine.
@@ -99,9 +92,4 @@ impl PortalMap {
     pub(super) fn local<R: Real>(self, v: Vec3<R>) -> [R; 3] {
         self.duals.map(|dual| v.dot(Vec3::lit([dual.x, dual.y, dual.z])))
     }
-}
-
-#[inline(always)]
-fn combined<R: Real>([s, t, n]: [Vec3<R>; 3], [x, y, z]: [R; 3]) -> Vec3<R> {
-    s.mul_add(x, t.mul_add(y, n * z))
 }
