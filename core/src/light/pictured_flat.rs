@@ -155,7 +155,7 @@ impl<R: Real, M: TexelMeasure<R>> TexelSurface<R> for Flat<R, M> {
     fn pdf(&self, texel: &Texel<R>, w: Vec3<R>, _: &SurfaceHit<R>, within: Vec2<R>) -> R {
         let (corners, near) = self.weights(texel);
         let far = self.far_pdf(texel, w, corners.pdf(within));
-        let [pdf] = R::where_any(near, [far], || [self.measure.pdf(&self.measure.texel(&self.texel(texel)), w)]);
+        let [pdf] = R::where_any(near, [far], || [self.measure.texel(&self.texel(texel)).pdf_of_hit(w)]);
         pdf
     }
     #[inline(always)]
@@ -195,8 +195,6 @@ pub(super) trait TexelMeasure<R: Real>: Measure<R> {
     type Texel: LightSampler<R>;
     /// A texel relative to the shading point.
     fn texel(&self, texel: &Parallelogram<R>) -> Self::Texel;
-    /// Its pdf per steradian for a unit direction that hits it.
-    fn pdf(&self, texel: &Self::Texel, w: Vec3<R>) -> R;
     /// The measure per area at the corners of a box, in any unit, and where it is so large for its distance that it is sampled as a shape of
     /// its own.
     fn corners(&self, of: &Box2<R>) -> ([R; 4], R::Mask);
@@ -220,11 +218,6 @@ impl<R: Real> TexelMeasure<R> for Area {
     #[inline(always)]
     fn texel(&self, texel: &Parallelogram<R>) -> Self::Texel {
         texel.by_area(Vec3::default())
-    }
-    #[inline(always)]
-    fn pdf(&self, texel: &Self::Texel, w: Vec3<R>) -> R {
-        let at = texel.surface.at(w);
-        solid_angle_pdf(at.distance, w.dot(at.normal).abs() * texel.area())
     }
     #[inline(always)]
     fn corners(&self, _: &Box2<R>) -> ([R; 4], R::Mask) {
@@ -351,10 +344,6 @@ impl<R: Real> TexelMeasure<R> for SolidAngle<R> {
         texel.by_solid_angle(Vec3::default())
     }
     #[inline(always)]
-    fn pdf(&self, texel: &Self::Texel, _: Vec3<R>) -> R {
-        texel.shape.uniform_pdf()
-    }
-    #[inline(always)]
     fn corners(&self, of: &Box2<R>) -> ([R; 4], R::Mask) {
         let squares = self.squares(of);
         (squares.map(|square| R::lit(1.0) / (square * square.sqrt())), self.large(of, squares))
@@ -452,10 +441,6 @@ impl<R: Real> TexelMeasure<R> for Projected<R> {
     #[inline(always)]
     fn texel(&self, texel: &Parallelogram<R>) -> Self::Texel {
         texel.by_projected_solid_angle(Vec3::default(), self.normal)
-    }
-    #[inline(always)]
-    fn pdf(&self, texel: &Self::Texel, w: Vec3<R>) -> R {
-        texel.shape.pdf_at_cosine(w.dot(self.normal))
     }
     #[inline(always)]
     fn corners(&self, of: &Box2<R>) -> ([R; 4], R::Mask) {

@@ -1,7 +1,7 @@
 //! Line segments by angle, and by projected solid angle.
 
 use crate::lanewise::lanewise;
-use crate::light::direction::DirectionSample;
+use crate::light::direction::{DirectionSample, to_unit};
 use crate::math::ratio;
 use crate::real::{Real, unit_interval};
 use crate::vector::Vec3;
@@ -11,15 +11,6 @@ use core::f64::consts::FRAC_1_PI;
 const LINE_SLACK: f64 = 4.0 / 16_777_216.0;
 /// A turn over the radians of one.
 pub(super) const TURNS: f64 = 0.5 * FRAC_1_PI;
-
-/// Scales both by a power of two, and returns that scale; both become 0 if a coordinate is infinite.
-#[inline(always)]
-pub(super) fn common_scale<R: Real>(a: Vec3<R>, edge: Vec3<R>) -> (Vec3<R>, Vec3<R>, R) {
-    let reach = a.max_abs().greater(edge.max_abs());
-    let finite = reach.lt(R::lit(f64::INFINITY));
-    let scale = reach.keep(finite).pow2_scale();
-    (a.keep(finite) * scale, edge.keep(finite) * scale, scale)
-}
 
 lanewise! {
     /// Directions from a point to a line segment, uniform in angle: for thin tubes, and for equiangular sampling of a ray about
@@ -52,7 +43,7 @@ impl<R: Real> SphericalSegment<R> {
     /// Prepares for the segment from `a` to `a + edge`, with `a` relative to the point; both in one unit of length.
     #[inline(always)]
     pub fn new(a: Vec3<R>, edge: Vec3<R>) -> Self {
-        let (a, edge, scale) = common_scale(a, edge);
+        let ([a, edge], scale) = to_unit([a, edge]);
         let b = a + edge;
         let (normal, area) = a.cross(edge).unit_and_length();
         let ((from, from_distance), (to, to_distance)) = (a.unit_and_length(), b.unit_and_length());

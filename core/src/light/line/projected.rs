@@ -1,8 +1,8 @@
 //! Lines by projected solid angle.
 
-use super::angle::{SphericalSegment, TURNS, common_scale};
+use super::angle::{SphericalSegment, TURNS};
 use crate::lanewise::lanewise;
-use crate::light::direction::{DirectionSample, above_horizon};
+use crate::light::direction::{DirectionSample, above_horizon, to_unit};
 use crate::light::sphere::projected::segment;
 use crate::math::ratio;
 use crate::real::{Real, unit_interval};
@@ -79,7 +79,7 @@ impl<R: Real> ProjectedSegment<R> {
     #[inline(always)]
     pub fn new(a: Vec3<R>, edge: Vec3<R>, normal: Vec3<R>) -> Self {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
-        let (a, edge, scale) = common_scale(a, edge);
+        let ([a, edge], scale) = to_unit([a, edge]);
         let b = a + edge;
         let (normal, long, shrink) = unit_normal(normal);
         let (across, area) = a.cross(edge).unit_and_length();
