@@ -192,17 +192,8 @@ fn in_folder(
 /// A judgement of a sampler that ended the process or did not end.
 fn unanswered(name: &str, how: &str, at: &str) -> Judgement {
     let figure = Figure::Answer;
-    let shape = at.split(':').next().unwrap_or_default().to_owned();
-    let measured = Measured { figure, value: 1.0, limit: 0.5, at: how.into() };
-    Judgement {
-        name: name.into(),
-        shape,
-        measure: String::new(),
-        domain: String::new(),
-        cases: vec![Case { axis: Axis::Ordinary, value: 1.0, figures: vec![measured] }],
-        findings: vec![Finding { figure, value: 1.0, said: format!("{}: {how}", figure.said(1.0)), input: at.into() }],
-        nanoseconds: 0.0,
-        seconds: 0.0,
-        map: None,
-    }
+    let shape = at.split(':').next().unwrap_or_default();
+    let case = Case { axis: Axis::Ordinary, value: 1.0, figures: vec![Measured::unanswered(how)] };
+    let finding = Finding { figure, value: 1.0, said: format!("{}: {how}", figure.said(1.0)), input: at.into() };
+    Judgement::new(name, shape, "", vec![case], vec![finding])
 }

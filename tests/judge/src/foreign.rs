@@ -1,7 +1,7 @@
 //! Samplers from shared libraries, by `include/etendue_judge.h`.
 
-use crate::lights::sampler::{MEASURES, Prepared, SHAPES, Sample, Sampler, Subject};
-use crate::lights::verdict::{numbers, shape_of};
+use crate::lights::sampler::{Prepared, Sample, Sampler, Subject, measure_of, shape_of};
+use crate::lights::verdict::numbers;
 use crate::techniques::{AreaLight, Measure};
 use libloading::Library;
 use std::ffi::{CStr, c_char, c_int, c_void};
@@ -137,17 +137,9 @@ fn subject(table: Table, library: &Rc<Library>) -> Result<Subject<'static>, Stri
     if name.is_empty() {
         return Err("it has no name".into());
     }
-    let names = |all: &mut dyn Iterator<Item = &'static str>| all.collect::<Vec<_>>().join(", ");
-    let shape = shape_of(&shape)
-        .ok_or_else(|| format!("{name}: shape '{shape}' is none of {}", names(&mut SHAPES.iter().map(|s| s.1))))?;
-    let by = match MEASURES.iter().find(|m| m.1 == measure) {
-        Some(known) => known.0,
-        None if measure.is_empty() => Measure::Other,
-        None => {
-            let all = names(&mut MEASURES.iter().map(|m| m.1));
-            return Err(format!("{name}: measure '{measure}' is none of {all}"));
-        }
-    };
+    let of_name = |e| format!("{name}: {e}");
+    let shape = shape_of(&shape).map_err(of_name)?;
+    let by = if measure.is_empty() { Measure::Other } else { measure_of(&measure).map_err(of_name)? };
     let missing = |what| format!("{name}: {what} is null");
     let callbacks = Callbacks {
         table,

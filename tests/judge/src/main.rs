@@ -57,12 +57,8 @@ enum Command {
         /// A name for tables
         #[arg(long, default_value = "sampler")]
         name: String,
-        /// Asks half of the places and a quarter of the samples
-        #[arg(long)]
-        quick: bool,
-        /// Decides positions and random numbers
-        #[arg(long, default_value_t = 1)]
-        seed: u64,
+        #[command(flatten)]
+        tried: Tried,
     },
     /// Judges the answers that are in such folders
     Numbers {
@@ -74,13 +70,7 @@ enum Command {
     },
 }
 #[derive(Args)]
-struct How {
-    /// Writes JSON instead of text
-    #[arg(long)]
-    json: bool,
-    /// Writes a page, with maps and times
-    #[arg(long)]
-    page: Option<PathBuf>,
+struct Tried {
     /// Tries half of the places with a quarter of the samples
     #[arg(long)]
     quick: bool,
@@ -88,9 +78,20 @@ struct How {
     #[arg(long, default_value_t = 1)]
     seed: u64,
 }
+#[derive(Args)]
+struct How {
+    /// Writes JSON instead of text
+    #[arg(long)]
+    json: bool,
+    /// Writes a page, with maps and times
+    #[arg(long)]
+    page: Option<PathBuf>,
+    #[command(flatten)]
+    tried: Tried,
+}
 impl How {
     fn effort(&self) -> Effort {
-        Effort { quick: self.quick, seed: self.seed, page: self.page.is_some() }
+        Effort { quick: self.tried.quick, seed: self.tried.seed, page: self.page.is_some() }
     }
     /// Writes verdicts, and returns whether all are right.
     fn tell(&self, all: &[Judgement]) -> Result<bool, String> {
@@ -139,8 +140,8 @@ fn run(options: &Options) -> Result<bool, String> {
             let all: Vec<_> = subjects.map(|subject| judge(&subject, how.effort(), |_| ())).collect();
             how.tell(&all)
         }
-        Command::Ask { folder, shape, measure, name, quick, seed } => {
-            let asked = numbers::Asked::new(name, shape, measure, *quick, *seed)?;
+        Command::Ask { folder, shape, measure, name, tried } => {
+            let asked = numbers::Asked::new(name, shape, measure, tried.quick, tried.seed)?;
             numbers::ask(folder, &asked).map(|()| true)
         }
         Command::Numbers { folders, how } => {
@@ -156,8 +157,8 @@ fn false_alarms(judgements: u64, how: &How) -> bool {
     let (mut false_ones, mut seconds) = (0_u64, 0.0);
     for i in 0..judgements {
         let subject = &subjects[(i % subjects.len() as u64) as usize];
-        let seed = how.seed + i / subjects.len() as u64;
-        let judgement = judge(subject, Effort { quick: how.quick, seed, page: false }, |_| ());
+        let seed = how.tried.seed + i / subjects.len() as u64;
+        let judgement = judge(subject, Effort { seed, page: false, ..how.effort() }, |_| ());
         seconds += judgement.seconds;
         if !judgement.is_right() {
             false_ones += 1;

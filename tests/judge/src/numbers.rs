@@ -8,9 +8,9 @@
 use crate::lights::definition::Definition;
 use crate::lights::figures::Trial;
 use crate::lights::observe::{Answers, Questions};
-use crate::lights::sampler::{MEASURES, Sample, measure_name, shape_name};
+use crate::lights::sampler::{Sample, measure_name, measure_of, shape_name, shape_of};
 use crate::lights::scene::{Place, places};
-use crate::lights::verdict::{self, Case, Judgement, shape_of};
+use crate::lights::verdict::{self, Case, Judgement};
 use crate::techniques::{LightShape, Measure};
 use std::fs;
 use std::path::Path;
@@ -116,11 +116,7 @@ impl Asked {
     /// # Errors
     /// Fails if there is no such shape or measure.
     pub fn new(name: &str, shape: &str, measure: &str, quick: bool, seed: u64) -> Result<Self, String> {
-        let found = shape_of(shape)
-            .ok_or_else(|| format!("shape '{shape}' is none of sphere, triangle, rectangle, parallelogram, disk"))?;
-        let by = MEASURES.iter().find(|m| m.1 == measure).map(|m| m.0);
-        let by = by.ok_or_else(|| format!("measure '{measure}' is none of {}", MEASURES.map(|m| m.1).join(", ")))?;
-        Ok(Self { name: name.into(), shape: found, by, quick, seed })
+        Ok(Self { name: name.into(), shape: shape_of(shape)?, by: measure_of(measure)?, quick, seed })
     }
     /// All places, what the light looks like from them, and what is asked there.
     #[must_use]
@@ -193,9 +189,9 @@ pub fn judge(folder: &Path) -> Result<Judgement, String> {
     };
     let samples = read("sample.npy", &[all.len(), m, 4])?;
     let pdfs = read("pdf.npy", &[all.len(), d])?;
-    let optional = |name: &str| folder.join(name).exists();
-    let hidden = if optional("hidden.npy") { read("hidden.npy", &[all.len(), m])? } else { vec![0.0; all.len() * m] };
-    let evaluated = if optional("evaluated.npy") {
+    let has = |name: &str| folder.join(name).exists();
+    let hidden = if has("hidden.npy") { read("hidden.npy", &[all.len(), m])? } else { vec![0.0; all.len() * m] };
+    let evaluated = if has("evaluated.npy") {
         let path = folder.join("evaluated.npy");
         let array = Array::read(&path)?;
         let e = array.shape.get(1).copied().unwrap_or(0).min(m);
@@ -227,15 +223,8 @@ pub fn judge(folder: &Path) -> Result<Judgement, String> {
         let measured = cases[at].figures.iter().find(|f| f.figure == figure);
         format!("{light}\nplace {at}: {}", measured.map_or("", |f| &f.at))
     };
-    Ok(Judgement {
-        name: asked.name.clone(),
-        shape: shape_name(asked.shape).into(),
-        measure: measure_name(asked.by).into(),
-        domain: String::new(),
-        findings: verdict::findings(&cases, input),
-        cases,
-        nanoseconds: 0.0,
-        seconds: start.elapsed().as_secs_f64(),
-        map: None,
-    })
+    let (shape, measure) = (shape_name(asked.shape), measure_name(asked.by));
+    let findings = verdict::findings(&cases, input);
+    let seconds = start.elapsed().as_secs_f64();
+    Ok(Judgement { seconds, ..Judgement::new(&asked.name, shape, measure, cases, findings) })
 }

@@ -101,17 +101,10 @@ fn map(map: &Map) -> String {
         out,
         r#"<text x="64" y="{}">across: {}; up: {}</text></svg>"#,
         bottom + 30.0,
-        axis(format!("{:?}", map.across.0).as_str()),
-        axis(format!("{:?}", map.up.0).as_str())
+        map.across.0.name(),
+        map.up.0.name()
     );
     out
-}
-fn axis(name: &str) -> &'static str {
-    match name {
-        "Size" => "size over distance",
-        "Elevation" => "sine of the elevation above the light's plane",
-        _ => "height above the horizon, over half of the size",
-    }
 }
 
 /// All samplers: nanoseconds to the right, the worst error upwards.

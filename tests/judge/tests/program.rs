@@ -51,7 +51,7 @@ fn a_library_is_judged() {
     assert!(fs::read_to_string(&page).unwrap().contains("Speed against accuracy"));
     // wrong where it is small
     let text = says(&["run", &library("PDF"), "--json"], 1, "\"figure\": \"Density\"");
-    assert!(text.contains("wrong by up to 1.0 % where the light is no larger than 1/"), "{text}");
+    assert!(text.contains("wrong by up to 1.0 % where the light's size is at most 1/"), "{text}");
     // which it may say
     says(&["run", &library("HALF"), "--quick"], 0, "where the light is larger than 1/300");
     says(&["run", &library("NOT_A_NUMBER"), "--quick"], 1, "are no numbers");

@@ -2,7 +2,7 @@
 
 use super::definition::{Chart, Definition, SIDE, middles};
 use super::grid;
-use super::observe::{Answers, CORNERS, Inverse, Questions, SETS, SLOPES, STEP, direction};
+use super::observe::{Answers, Inverse, Questions, SETS, SLOPES, STEP, direction};
 use super::sampler::Sample;
 use crate::stats;
 use crate::techniques::Measure;
@@ -83,6 +83,29 @@ pub struct Measured {
     pub at: String,
 }
 impl Measured {
+    /// Nothing is off.
+    #[must_use]
+    pub fn right(figure: Figure, limit: f64) -> Self {
+        Self { figure, value: 0.0, limit, at: String::new() }
+    }
+    /// The sampler did not answer, in these words.
+    #[must_use]
+    pub fn unanswered(how: &str) -> Self {
+        Self { figure: Figure::Answer, value: 1.0, limit: 0.5, at: how.into() }
+    }
+    /// Takes a value that is worse, and what is said about it.
+    fn take(&mut self, value: f64, said: impl FnOnce() -> String) {
+        if !(value <= self.value) {
+            self.value = value;
+            self.at = said();
+        }
+    }
+    /// Takes a value with a limit of its own, which is worse in terms of that.
+    fn take_mean(&mut self, value: f64, limit: f64, said: impl FnOnce() -> String) {
+        if !(value / limit <= self.value / self.limit) {
+            (self.value, self.limit, self.at) = (value, limit, said());
+        }
+    }
     /// Whether it is more than is allowed.
     #[must_use]
     pub fn is_finding(&self) -> bool {
@@ -137,12 +160,8 @@ impl Trial<'_> {
         let is_dark = drawn == 0 && expects && self.seen.solid_angle > 0.0;
         // a sampler with an eye for the horizon may draw nothing below it
         let below = self.by == Measure::Other && self.seen.irradiance(self.seen.normal()) == 0.0;
-        all.push(Measured {
-            figure: Figure::Dark,
-            value: f64::from(u8::from(is_dark && !below)),
-            limit: 0.5,
-            at: String::new(),
-        });
+        let value = f64::from(u8::from(is_dark && !below));
+        all.push(Measured { value, ..Measured::right(Figure::Dark, 0.5) });
         if drawn == 0 {
             return all;
         }
@@ -157,13 +176,11 @@ impl Trial<'_> {
     }
 
     fn nonsense(&self) -> Measured {
-        let (answers, mut count, mut at) = (self.answers, 0, String::new());
+        let (answers, mut wrong) = (self.answers, Measured::right(Figure::Nonsense, 0.5));
         let mut take = |is_wrong: bool, said: &dyn Fn() -> String| {
             if is_wrong {
-                if count == 0 {
-                    at = said();
-                }
-                count += 1;
+                wrong.at = if wrong.value == 0.0 { said() } else { core::mem::take(&mut wrong.at) };
+                wrong.value += 1.0;
             }
         };
         for (u, s) in self.questions.us.iter().zip(&answers.samples) {
@@ -185,7 +202,7 @@ impl Trial<'_> {
             take(!u.iter().all(|u| u.is_finite()), &|| format!("direction {w:?}: inverse {u:?}"));
         }
         take(answers.hits.iter().any(|h| !h.1.is_finite()), &|| "a distance is no number".into());
-        Measured { figure: Figure::Nonsense, value: f64::from(count), limit: 0.5, at }
+        wrong
     }
 
     /// How far a direction may be off, in radians.
@@ -202,17 +219,15 @@ impl Trial<'_> {
 
     /// Figures of single samples.
     fn single(&self, all: &mut Vec<Measured>) {
-        let worst = |figure, limit| Measured { figure, value: 0.0, limit, at: String::new() };
-        let mut outside = worst(Figure::Outside, 2e-4);
-        let mut density = worst(Figure::Density, ERROR);
-        let mut two = worst(Figure::TwoPdfs, ERROR);
+        let mut outside = Measured::right(Figure::Outside, 2e-4);
+        let [mut density, mut two] = [Figure::Density, Figure::TwoPdfs].map(|figure| Measured::right(figure, ERROR));
         let turned = self.turned();
         for (i, s) in self.answers.samples[..self.questions.single()].iter().enumerate() {
             let Some(s) = s.filter(|s| !s.is_hidden) else { continue };
             let (u, w) = (self.questions.us[i], direction(s.direction));
             let said = |what: String| format!("u = {u:?}: direction {:?}, pdf {:e}: {what}", s.direction, s.pdf);
             let beyond = self.seen.beyond(w);
-            take(&mut outside, (beyond - turned).max(0.0) / self.seen.size[1], || {
+            outside.take((beyond - turned).max(0.0) / self.seen.size[1], || {
                 said(format!("{beyond:.3e} rad outside of the light"))
             });
             let slack = self.seen.steepness(self.by, w) * turned;
@@ -221,7 +236,7 @@ impl Trial<'_> {
                 && truth < 1e30
             {
                 let off = ((f64::from(s.pdf) / truth - 1.0).abs() - slack).max(0.0);
-                take(&mut density, off, || said(format!("by definition {truth:e}")));
+                density.take(off, || said(format!("by definition {truth:e}")));
             }
             if let Some(&evaluated) = self.answers.evaluated.get(i)
                 && slack < 0.1
@@ -229,7 +244,7 @@ impl Trial<'_> {
                 && self.is_inside(w)
             {
                 let off = ((f64::from(evaluated) / f64::from(s.pdf) - 1.0).abs() - slack).max(0.0);
-                take(&mut two, off, || said(format!("evaluated {evaluated:e}")));
+                two.take(off, || said(format!("evaluated {evaluated:e}")));
             }
         }
         let stray = self.answers.outside.iter().zip(&self.questions.outside).filter(|p| *p.0 > 0.0);
@@ -238,21 +253,21 @@ impl Trial<'_> {
         all.extend([outside, density, two, Measured { figure: Figure::Stray, value: part, limit: 0.0, at }]);
     }
     fn hits(&self) -> Option<Measured> {
-        let mut worst = Measured { figure: Figure::Hit, value: 0.0, limit: ERROR, at: String::new() };
+        let mut worst = Measured::right(Figure::Hit, ERROR);
         for &(i, distance) in &self.answers.hits {
             let s = self.answers.samples[i]?;
             let w = direction(s.direction);
             let Some(met) = self.seen.met(w).filter(|met| met.cosine > 0.05 && self.is_inside(w)) else { continue };
             let off = (f64::from(distance) / met.distance - 1.0).abs();
             let slack = 4.0 * self.turned() / met.cosine * self.seen.farthest / met.distance;
-            take(&mut worst, (off - slack).max(0.0), || {
+            worst.take((off - slack).max(0.0), || {
                 format!("direction {:?}: distance {distance:e}, by definition {:e}", s.direction, met.distance)
             });
         }
         (!self.answers.hits.is_empty()).then_some(worst)
     }
     fn inverses(&self) -> Option<Measured> {
-        let mut worst = Measured { figure: Figure::Inverse, value: 0.0, limit: ERROR, at: String::new() };
+        let mut worst = Measured::right(Figure::Inverse, ERROR);
         for Inverse { of, u, again: [again, near @ ..] } in &self.answers.inverses {
             let (Some(s), Some(again)) = (self.answers.samples[*of], again) else { continue };
             let apart = |a: &Sample, b: &Sample| length(sub(direction(a.direction), direction(b.direction)));
@@ -263,7 +278,7 @@ impl Trial<'_> {
             let slack = 4.0 * self.turned() * self.seen.size[0] / self.seen.size[1] + rounded;
             let off = (apart(&s, again) - slack).max(0.0) / self.seen.size[0];
             let beyond = u.iter().map(|u| f64::from((-u).max(u - 1.0).max(0.0))).fold(0.0, f64::max);
-            take(&mut worst, off.max(beyond), || {
+            worst.take(off.max(beyond), || {
                 let (from, to) = (s.direction, again.direction);
                 format!("u = {:?}: direction {from:?} inverts to {u:?}, which draws {to:?}", self.questions.us[*of])
             });
@@ -329,16 +344,13 @@ impl Trial<'_> {
         let p = stats::chi_square(&observed, &expected).max(1e-300);
         let value = p.log10() / SIGNIFICANCE.log10();
         all.push(Measured { figure: Figure::Frequencies, value, limit: 1.0, at: format!("p = {p:.1e}") });
-        let mut worst = Measured { figure: Figure::Placement, value: 0.0, limit: 1.0, at: String::new() };
+        let mut worst = Measured::right(Figure::Placement, 1.0);
         for f in 0..4 {
             let values: Vec<f64> = claimed.iter().zip(middles()).map(|(q, u)| q * functions(u)[f]).collect();
             let (truth, error) = grid::mean(&values, self.seam());
             let (seen, spread) = mean(&sums.map(|sum| sum[f]));
             let limit = (2e-4 + self.turned() / self.seen.size[1]).max(DEVIATIONS * spread).max(error);
-            let value = (seen - truth).abs();
-            if value / limit > worst.value / worst.limit {
-                (worst.value, worst.limit) = (value, limit);
-            }
+            worst.take_mean((seen - truth).abs(), limit, String::new);
         }
         all.push(worst);
         if (1e-3..2.0).contains(&self.seen.size[0]) && self.seen.size[1] > 0.05 * self.seen.size[0] {
@@ -359,18 +371,13 @@ impl Trial<'_> {
             return None;
         }
         off.sort_by(f64::total_cmp);
-        Some(Measured { figure: Figure::Jacobian, value: off[off.len() / 2], limit: 0.05, at: String::new() })
+        Some(Measured { value: off[off.len() / 2], ..Measured::right(Figure::Jacobian, 0.05) })
     }
 
     /// Irradiance, and solid angle where the receiver's normal does not matter, by the sampler alone and with another one.
     fn estimates(&self, all: &mut Vec<Measured>) {
         let normal = self.seen.normal();
-        let mut worst = [Figure::Bias, Figure::MisBias].map(|figure| Measured {
-            figure,
-            value: 0.0,
-            limit: ERROR,
-            at: String::new(),
-        });
+        let mut worst = [Figure::Bias, Figure::MisBias].map(|figure| Measured::right(figure, ERROR));
         let cosine = |w: V3| dot(w, normal).max(0.0);
         self.estimate(&cosine, self.seen.irradiance(normal), "irradiance", &mut worst);
         if matches!(self.by, Measure::SolidAngle | Measure::Area) {
@@ -388,16 +395,8 @@ impl Trial<'_> {
             let of = |s: Sample| f(direction(s.direction)) * weight(f64::from(s.pdf));
             (0..SETS).map(|k| self.questions.set(k).filter_map(|i| self.drawn(i)).map(of).sum::<f64>() / n).collect()
         };
-        let mut take = |k: usize, value: f64, limit: f64, of: f64| {
-            if value / limit > worst[k].value / worst[k].limit {
-                worst[k] = Measured {
-                    value,
-                    limit,
-                    at: format!("{what} {of:e}, by definition {truth:e}"),
-                    ..worst[k].clone()
-                };
-            }
-        };
+        let [alone, with_partner] = worst;
+        let said = |of: f64| format!("{what} {of:e}, by definition {truth:e}");
         let first = self.questions.partner();
         let directions = self.questions.directions[first..].iter().zip(&self.answers.pdfs[first..]);
         let directions: Vec<_> = directions.map(|(w, pdf)| (f(direction(*w)), f64::from(*pdf))).collect();
@@ -405,7 +404,7 @@ impl Trial<'_> {
         let greatest = directions.iter().map(|(f, pdf)| if *f > 0.0 { f / pdf } else { 0.0 }).fold(0.0, f64::max);
         if greatest < TAIL * truth {
             let (of, spread) = mean(&sets(&|pdf| if pdf > 0.0 { 1.0 / pdf } else { 0.0 }));
-            take(0, (of / truth - 1.0).abs(), ERROR.max(DEVIATIONS * spread / truth), of);
+            alone.take_mean((of / truth - 1.0).abs(), ERROR.max(DEVIATIONS * spread / truth), || said(of));
         }
         // a corner above the horizon is smaller than what the grid resolves
         if directions.iter().filter(|d| d.0 > 0.0).count() < SIDE * SIDE / 4 {
@@ -421,19 +420,6 @@ impl Trial<'_> {
         // half of a cell's width along both ends of the square
         let layer = if self.seen.size[0] > WIDE { 1.0 / SIDE as f64 } else { 0.0 };
         let limit = ERROR.max(DEVIATIONS * spread / truth).max(error).max(layer);
-        take(1, (own / truth + share - 1.0).abs(), limit, own + share * truth);
+        with_partner.take_mean((own / truth + share - 1.0).abs(), limit, || said(own + share * truth));
     }
-}
-
-fn take(worst: &mut Measured, value: f64, said: impl FnOnce() -> String) {
-    if !(value <= worst.value) {
-        worst.value = value;
-        worst.at = said();
-    }
-}
-
-/// Number of samples of a place.
-#[must_use]
-pub fn samples(questions: &Questions) -> usize {
-    CORNERS + SETS * questions.strata * questions.strata
 }

@@ -81,6 +81,27 @@ pub fn measure_name(by: Measure) -> &'static str {
 pub fn shape_name(shape: LightShape) -> &'static str {
     SHAPES.iter().find(|s| s.0 == shape).map_or("other", |s| s.1)
 }
+/// The measure of a name.
+///
+/// # Errors
+/// Fails if no measure has it.
+pub fn measure_of(name: &str) -> Result<Measure, String> {
+    named("measure", &MEASURES, name)
+}
+/// The shape of a name.
+///
+/// # Errors
+/// Fails if no shape has it.
+pub fn shape_of(name: &str) -> Result<LightShape, String> {
+    named("shape", &SHAPES, name)
+}
+fn named<T: Copy>(what: &str, all: &[(T, &str)], name: &str) -> Result<T, String> {
+    let found = all.iter().find(|a| a.1 == name).map(|a| a.0);
+    found.ok_or_else(|| {
+        let names: Vec<_> = all.iter().map(|a| a.1).collect();
+        format!("{what} '{name}' is none of {}", names.join(", "))
+    })
+}
 
 /// A technique of the core.
 struct Own {

@@ -54,36 +54,46 @@ impl Axis {
         };
         all.iter().copied().skip(usize::from(quick)).step_by(if quick { 2 } else { 1 }).collect()
     }
-    /// In words, where a value of this axis is at most (`below`) or at least `value`.
+    /// In words, what it is.
     #[must_use]
-    pub fn said(self, below: bool, value: f64) -> String {
-        let times = |x: f64| if x >= 1.0 { format!("{x}") } else { format!("1/{:.0}", 1.0 / x) };
-        let side = if below { "at most" } else { "at least" };
+    pub fn name(self) -> &'static str {
         match self {
-            Self::Ordinary => "at ordinary places".into(),
-            Self::Size => {
-                let size = if below { "no larger than" } else { "no smaller than" };
-                format!("where the light is {size} {} of its distance", times(value))
-            }
-            Self::Elevation => {
-                format!("where the point is {side} {} of its distance above the light's plane", times(value))
-            }
-            Self::Aspect => format!("where the light is {side} {value} times as long as it is wide"),
-            Self::Horizon => {
-                format!("where the light is cut by the horizon ({side} {value} of half its size above it)")
-            }
-            Self::Away => format!("where the scene is {side} {value} times as far from the origin as the light is"),
-            Self::Unit => format!("where the light is {side} {value:e} units of length away"),
-            Self::Flipped => "where the receiver's normal is flipped".into(),
+            Self::Ordinary => "ordinary places",
+            Self::Size => "size over distance",
+            Self::Elevation => "sine of the elevation above the light's plane",
+            Self::Aspect => "length over width",
+            Self::Horizon => "height above the horizon, over half of the size",
+            Self::Away => "distance from the origin, over that of the light",
+            Self::Unit => "unit of length",
+            Self::Flipped => "flipped normal",
         }
     }
-}
-
-impl Axis {
-    /// In words, where this axis has a value.
+    /// In words, where a value of this axis is within these bounds, of which one may be missing.
     #[must_use]
-    pub fn said_at(self, value: f64) -> String {
-        self.said(true, value).replace("at most ", "").replace("no larger than", "about")
+    pub fn said(self, [least, most]: [Option<f64>; 2]) -> String {
+        let times = |x: f64| if x >= 1.0 || x <= 0.0 { format!("{x}") } else { format!("1/{:.0}", 1.0 / x) };
+        let number = |x: f64| match self {
+            Self::Size | Self::Elevation => times(x),
+            Self::Unit => format!("{x:e}"),
+            _ => format!("{x}"),
+        };
+        let bounds = match (least, most) {
+            (Some(a), Some(b)) if a == b => number(a),
+            (Some(a), Some(b)) => format!("{} to {}", number(a), number(b)),
+            (Some(a), None) => format!("at least {}", number(a)),
+            (None, Some(b)) => format!("at most {}", number(b)),
+            (None, None) => "anything".into(),
+        };
+        match self {
+            Self::Ordinary => "at ordinary places".into(),
+            Self::Size => format!("where the light's size is {bounds} of its distance"),
+            Self::Elevation => format!("where the point is {bounds} of its distance above the light's plane"),
+            Self::Aspect => format!("where the light is {bounds} times as long as it is wide"),
+            Self::Horizon => format!("where the light is cut by the horizon ({bounds} of half its size above it)"),
+            Self::Away => format!("where the scene is {bounds} times as far from the origin as the light is"),
+            Self::Unit => format!("where the light is {bounds} units of length away"),
+            Self::Flipped => "where the receiver's normal is flipped".into(),
+        }
     }
 }
 

@@ -3,7 +3,7 @@
 use super::definition::Definition;
 use super::figures::{Figure, Measured, Trial};
 use super::observe::{Questions, ask};
-use super::sampler::{Prepared, SHAPES, Subject, measure_name, shape_name};
+use super::sampler::{Prepared, Subject, measure_name, shape_name};
 use super::scene::{Axis, Place, place, places};
 use crate::generators::Random;
 use crate::suite::quietly;
@@ -71,6 +71,12 @@ pub struct Map {
 }
 
 impl Judgement {
+    /// Without times and a map.
+    #[must_use]
+    pub fn new(name: &str, shape: &str, measure: &str, cases: Vec<Case>, findings: Vec<Finding>) -> Self {
+        let [name, shape, measure] = [name, shape, measure].map(String::from);
+        Self { name, shape, measure, domain: String::new(), cases, findings, nanoseconds: 0.0, seconds: 0.0, map: None }
+    }
     /// Nothing is wrong.
     #[must_use]
     pub fn is_right(&self) -> bool {
@@ -128,18 +134,13 @@ pub fn judge(subject: &Subject<'_>, effort: Effort, mut before: impl FnMut(&str)
         let measured = measured.or_else(|| cases[at].figures.iter().find(|m| m.figure == figure).cloned());
         format!("{}\n{}", text(&light), measured.map_or(String::new(), |m| m.at))
     });
-    let nanoseconds = if effort.page { nanoseconds(subject) } else { 0.0 };
-    let map = effort.page.then(|| map(subject, effort.seed, &mut before));
+    let (shape, measure) = (shape_name(subject.shape), measure_name(subject.by));
     Judgement {
-        name: subject.name.clone(),
-        shape: shape_name(subject.shape).into(),
-        measure: measure_name(subject.by).into(),
         domain: subject.domain.clone(),
-        cases,
-        findings,
-        nanoseconds,
+        nanoseconds: if effort.page { nanoseconds(subject) } else { 0.0 },
+        map: effort.page.then(|| map(subject, effort.seed, &mut before)),
         seconds: start.elapsed().as_secs_f64(),
-        map,
+        ..Judgement::new(&subject.name, shape, measure, cases, findings)
     }
 }
 
@@ -158,7 +159,7 @@ pub fn figures(subject: &Subject<'_>, light: &AreaLight, effort: Effort) -> Vec<
         Prepared::Ready(sampler) => Some(ask(&*sampler, &questions)),
     });
     match answers {
-        Err(message) => vec![Measured { figure: Figure::Answer, value: 1.0, limit: 0.5, at: message }],
+        Err(message) => vec![Measured::unanswered(&message)],
         Ok(None) => Vec::new(),
         Ok(Some(answers)) => Trial { seen: &seen, by: subject.by, questions: &questions, answers: &answers }.figures(),
     }
@@ -226,17 +227,13 @@ fn regions(cases: &[Case], failed: impl Fn(&Case) -> bool) -> Vec<String> {
         if wrong.len() == values.len() || axis == Axis::Ordinary {
             return Some(match axis {
                 Axis::Ordinary => format!("at {} of {} ordinary places", wrong.len(), values.len()),
-                Axis::Flipped => axis.said(true, 1.0),
-                _ => format!("at any {axis:?}").to_lowercase(),
+                Axis::Flipped => axis.said([None; 2]),
+                _ => format!("at any {}", axis.name()),
             });
         }
+        // no bound where the axis ends
         let (lowest, highest) = (values[0].1, values[values.len() - 1].1);
-        Some(match (lowest, highest) {
-            (true, false) => axis.said(true, high),
-            (false, true) => axis.said(false, low),
-            _ if low == high => axis.said_at(low),
-            _ => format!("{} and {}", axis.said(false, low), axis.said(true, high)),
-        })
+        Some(axis.said([(!lowest || highest).then_some(low), (!highest || lowest).then_some(high)]))
     };
     axes.into_iter().filter_map(of).collect()
 }
@@ -265,11 +262,6 @@ pub fn numbers(light: &AreaLight) -> Vec<f32> {
         LightShape::Disk => [&a[..], &b, &[radius]].concat(),
         _ => [a, b, c].concat(),
     }
-}
-/// The shape of a name.
-#[must_use]
-pub fn shape_of(name: &str) -> Option<LightShape> {
-    SHAPES.iter().find(|s| s.1 == name).map(|s| s.0)
 }
 
 /// Nanoseconds to prepare a light and draw a sample, at an ordinary place.
