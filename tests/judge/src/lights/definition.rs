@@ -324,8 +324,13 @@ impl Definition {
     /// How far a direction is outside of the light, in radians; 0 inside.
     #[must_use]
     pub fn beyond(&self, w: V3) -> f64 {
+        self.from_edge(w).max(0.0)
+    }
+    /// The angle between a direction and the light's boundary, in radians; negative inside.
+    #[must_use]
+    pub fn from_edge(&self, w: V3) -> f64 {
         match &self.body {
-            Body::Sphere { axes, sigma, .. } => (angle(w, axes[2]) - sigma).max(0.0),
+            Body::Sphere { axes, sigma, .. } => angle(w, axes[2]) - sigma,
             Body::Flat { corners, .. } => {
                 let middle = corners.iter().fold([0.0; 3], |sum, c| along(sum, *c, 1.0));
                 if dot(w, middle) <= 0.0 && self.size[0] < 1.5 {
@@ -336,9 +341,9 @@ impl Definition {
                     let normal = unit(cross(corners[i], sub(corners[(i + 1) % n], corners[i])));
                     -dot(normal, w) * dot(normal, middle).signum()
                 };
-                (0..n).map(side).fold(0.0, f64::max)
+                (0..n).map(side).fold(f64::NEG_INFINITY, f64::max)
             }
-            Body::Disk { cone, .. } => cone.beyond(w).max(0.0),
+            Body::Disk { cone, .. } => cone.beyond(w),
         }
     }
     /// How far beyond the light's boundary, in radians, a direction may still meet it in single precision.

@@ -6,7 +6,7 @@ use super::observe::{Answers, Inverse, Questions, SETS, SLOPES, STEP, direction}
 use super::sampler::Sample;
 use crate::stats;
 use crate::techniques::Measure;
-use etendue_oracle::{V3, along, cross, dot, length, sub, unit, wide};
+use etendue_oracle::{V3, cross, dot, length, sub, wide};
 use serde::{Deserialize, Serialize};
 
 /// What is measured. Values are relative errors, unless said.
@@ -211,10 +211,7 @@ impl Trial<'_> {
     }
     /// Whether a direction is so far inside of the light that rounding does not lead out of it.
     fn is_inside(&self, w: V3) -> bool {
-        let middle = self.seen.at(Chart::SolidAngle, [0.5, 0.5]).0;
-        let out = sub(w, middle);
-        let moved = unit(along(w, out, 4.0 * self.turned() / length(out).max(1e-30)));
-        self.seen.beyond(moved) == 0.0
+        self.seen.from_edge(w) < -(4.0 * self.turned() + self.seen.blur(w))
     }
 
     /// Figures of single samples.
