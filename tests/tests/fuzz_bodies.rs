@@ -1,10 +1,10 @@
 //! The bodies of the fuzz targets without a fuzzer: on the committed seeds, which include past findings, and on random bytes.
 
+use etendue_judge::area_lights::AreaLight;
 use etendue_judge::fixtures::ProjectedTriangle;
 use etendue_judge::fuzz_bodies::{TARGETS, Target};
 use etendue_judge::generators::Random;
 use etendue_judge::properties;
-use etendue_judge::techniques::AreaLight;
 use etendue_oracle::tier::cases;
 use std::path::Path;
 use std::sync::Mutex;

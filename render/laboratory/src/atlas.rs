@@ -1,15 +1,14 @@
 //! Maps where methods fail: compares every technique of the library, and textbook formulas, with the exact result in 106 bits, over
 //! sweeps of size, elevation, aspect ratio and distance.
 //!
-//! [`pose`] has the sweeps, [`truth`] the exact results, [`methods`] the measured techniques, [`etendue_judge::textbook`] the baselines, [`sample`] what
-//! they draw, [`mod@survey`] and `irradiance` the measurements, `maps` and [`page`] what is drawn of them.
+//! [`pose`] has the sweeps, [`truth`] the exact results, [`methods`] the measured techniques, [`etendue_judge::textbook`] the baselines,
+//! [`mod@survey`] and `irradiance` the measurements, `maps` and [`page`] what is drawn of them.
 
 mod irradiance;
 mod maps;
 pub mod methods;
 pub mod page;
 pub mod pose;
-pub mod sample;
 pub mod survey;
 pub mod truth;
 

@@ -6,9 +6,10 @@ use etendue::{
     ConstantEnvironment, DirectionalLight, Disk, LightSample, LightSampler, Parallelogram, PointLight, Real, Rectangle,
     SpotLight, Sun,
 };
+use etendue_judge::area_lights::AreaLight;
 use etendue_judge::generators::{self, Random};
 use etendue_judge::packets::{lanes_of, squares_of, vectors_of};
-use etendue_judge::techniques::{AreaLight, LightFixture};
+use etendue_judge::techniques::LightFixture;
 
 const SLOTS: usize = 50 * Figures::MOST;
 

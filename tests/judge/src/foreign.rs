@@ -1,8 +1,8 @@
 //! Samplers from shared libraries, by `include/etendue_judge.h`.
 
+use crate::area_lights::{AreaLight, Measure};
 use crate::lights::sampler::{Prepared, Sample, Sampler, Subject, measure_of, shape_of};
 use crate::lights::verdict::numbers;
-use crate::techniques::{AreaLight, Measure};
 use libloading::Library;
 use std::ffi::{CStr, c_char, c_int, c_void};
 use std::path::Path;

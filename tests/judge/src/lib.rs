@@ -15,6 +15,7 @@
 
 #![allow(clippy::neg_cmp_op_on_partial_ord, reason = "what is NaN is wrong")]
 
+pub mod area_lights;
 #[cfg(feature = "checks")]
 pub mod checks;
 #[cfg(feature = "program")]

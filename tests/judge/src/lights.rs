@@ -3,7 +3,6 @@
 //! [`sampler`] says what a sampler is, [`scene`] where it is tried, [`definition`] what it is compared with, [`observe`] what it is asked,
 //! [`figures`] what is measured, and [`verdict`] what is said; [`shrink`] makes the inputs small that show it.
 
-#[cfg(feature = "checks")]
 pub mod definition;
 #[cfg(feature = "checks")]
 pub mod figures;

@@ -5,13 +5,13 @@
 //! zeros where nothing is drawn, and `pdf.npy` (S, D); float32 or float64. Besides, `evaluated.npy` (S, E ≤ M) may have the pdf of the first
 //! E samples' directions, and `hidden.npy` (S, M) numbers that are not 0 where the light itself hides the sample.
 
+use crate::area_lights::{LightShape, Measure};
 use crate::lights::definition::Definition;
 use crate::lights::figures::Trial;
 use crate::lights::observe::{Answers, Questions};
 use crate::lights::sampler::{Sample, measure_name, measure_of, shape_name, shape_of};
 use crate::lights::scene::{Place, places};
 use crate::lights::verdict::{self, Case, Judgement};
-use crate::techniques::{LightShape, Measure};
 use std::fs;
 use std::path::Path;
 

@@ -1,10 +1,10 @@
 //! The judge, judged: right samplers pass, planted faults are found in seconds, and nothing that a sampler does stops it.
 
+use etendue_judge::area_lights::AreaLight;
 use etendue_judge::lights::figures::Figure;
 use etendue_judge::lights::sampler::{Prepared, Sample, Sampler, Subject, own};
 use etendue_judge::lights::scene::Axis;
 use etendue_judge::lights::verdict::{Case, Effort, Judgement, judge};
-use etendue_judge::techniques::AreaLight;
 use etendue_judge::textbook;
 use etendue_oracle::{dot, length, sub, tier::cases, wide};
 

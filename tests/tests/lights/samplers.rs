@@ -4,9 +4,10 @@ use etendue::reflection::Reflection;
 use etendue::{
     Lanewise, LightSampler, Line, Mask, Parallelogram, Polygon, Real, Rectangle, Sphere, Triangle, Vec2, Vec3, f32x8,
 };
+use etendue_judge::area_lights::{AreaLight, LightShape, Measure};
 use etendue_judge::generators::Random;
 use etendue_judge::packets::{Coordinates, squares_of};
-use etendue_judge::techniques::{self, AreaLight, LightFixture, LightShape, Measure};
+use etendue_judge::techniques::{self, LightFixture};
 use etendue_oracle::{V3, cross, dot, length, sub, unit, wide};
 
 /// Clearly out of its plane, or not flat, so that the shape is known to more than rounding.

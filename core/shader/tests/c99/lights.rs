@@ -4,8 +4,8 @@ use crate::driver::{HOSTILE, slots};
 use crate::program::Driver;
 use etendue::reflection::Reflection;
 use etendue::{LightSample, LightSampler, Real, Vec2, Vec3};
+use etendue_judge::area_lights::AreaLight;
 use etendue_judge::generators::{Random, nasty, unit_or_edge};
-use etendue_judge::techniques::AreaLight;
 use etendue_oracle::tier::{cases, is_long};
 use etendue_shader::*;
 

@@ -6,8 +6,8 @@ use crate::program::Driver;
 use crate::tables::{Memory, module};
 use etendue::light::{Picture, Region, TexelSample};
 use etendue::{Disk, LightSample, LightSampler, Parallelogram, Triangle, Vec2, Vec3};
+use etendue_judge::area_lights::{AreaLight, LightShape};
 use etendue_judge::generators::{Random, nasty, unit_or_edge};
-use etendue_judge::techniques::{AreaLight, LightShape};
 use etendue_oracle::tier::{cases, is_long};
 use etendue_shader::*;
 

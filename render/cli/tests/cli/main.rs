@@ -366,23 +366,23 @@ fn list_names_everything() {
 #[test]
 fn atlas_of_one_shape() {
     let folder = Folder::new();
-    let said = folder.succeed(&["atlas", "--quick", "--shape", "segment", "-o", "maps"]);
-    assert!(said.contains("SphericalSegment") && said.ends_with("atlas.html\n"), "{said}");
+    let said = folder.succeed(&["atlas", "--quick", "--shape", "sphere", "-o", "maps"]);
+    assert!(said.contains("sphere by SolidAngle") && said.ends_with("atlas.html\n"), "{said}");
     let mut names: Vec<_> =
         fs::read_dir(folder.path("maps")).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
     names.sort();
-    assert_eq!(names, ["atlas.csv", "atlas.html", "segment-size-elevation.svg"]);
+    assert_eq!(names, ["atlas.csv", "atlas.html", "sphere-size-elevation.svg", "sphere-size-horizon.svg"]);
     let page = fs::read_to_string(folder.path("maps/atlas.html")).unwrap();
-    assert!(page.contains("equiangular, by arc tangents") && page.contains("<svg"));
+    assert!(page.contains("cone, series below 1.5°") && page.contains("<svg"));
     assert!(
         !page.contains("{{") && !page.contains(">NaN") && !page.contains("\"NaN"),
         "a placeholder or value is missing"
     );
     let mut table = csv::Reader::from_path(folder.path("maps/atlas.csv")).unwrap();
     let rows: Vec<csv::StringRecord> = table.records().map(Result::unwrap).collect();
-    // every cell of three techniques; ours is within the contract in all cells
-    assert!(rows.len().is_multiple_of(3) && rows.len() > 600, "{}", rows.len());
-    let ours = |r: &&csv::StringRecord| &r[2] == "SphericalSegment";
+    // every cell of four techniques; ours is within the contract in all cells
+    assert!(rows.len().is_multiple_of(4) && rows.len() > 600, "{}", rows.len());
+    let ours = |r: &&csv::StringRecord| &r[2] == "sphere by SolidAngle";
     let last = table.headers().unwrap().len() - 1;
     assert!(rows.iter().filter(ours).all(|r| &r[last] == "true"));
     assert!(rows.iter().filter(|r| !ours(r)).any(|r| &r[last] == "false"));
@@ -392,9 +392,9 @@ fn atlas_of_one_shape() {
 fn atlas_that_cannot_be() {
     let folder = Folder::new();
     let error = folder.fail(&["atlas", "--shape", "torus", "-o", "maps"]);
-    assert!(error.contains("torus") && error.contains("projected-segment"), "{error}");
+    assert!(error.contains("torus") && error.contains("projected-sphere"), "{error}");
     let taken = folder.write("taken", "a file");
-    let error = folder.fail(&["atlas", "--quick", "--shape", "segment", "-o", "taken"]);
+    let error = folder.fail(&["atlas", "--quick", "--shape", "sphere", "-o", "taken"]);
     assert!(error.contains("taken"), "{error}");
     assert_eq!(fs::read_to_string(taken).unwrap(), "a file");
     assert_eq!(folder.names(), ["taken"]);

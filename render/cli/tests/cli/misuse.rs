@@ -199,7 +199,7 @@ fn files_that_are_no_images_or_folders_are_named() {
     folder.write("file.exr", "");
     let error = folder.fail(&["compare", "file.exr", "file.exr"]);
     assert!(error.contains("file.exr: not a valid EXR image: it is cut off"), "{error}");
-    for command in [&["chart", "quads"][..], &["atlas", "--quick", "--shape", "segment"]] {
+    for command in [&["chart", "quads"][..], &["atlas", "--quick", "--shape", "sphere"]] {
         let error = folder.fail(&[command, &["-o", "file.exr"]].concat());
         assert!(error.contains("file.exr: cannot make this folder: a file has this name"), "{error}");
     }

@@ -211,11 +211,11 @@ pub(super) fn sheet(charts: &[&ErrorMap]) -> String {
     let _ = write!(out, r##"<rect width="{width}" height="{height}" fill="#fff"/><g fill="#222">"##);
     for (i, chart) in charts.iter().enumerate() {
         let x = MARGIN[0] + STEP[0] * i as f64;
-        let (weight, whose) = if chart.method.ours { ("bold", "étendue: ") } else { ("normal", "textbook: ") };
+        let (weight, whose) = if chart.method.1 { ("bold", "étendue: ") } else { ("normal", "textbook: ") };
         let _ = write!(
             out,
             r#"<text x="{x}" y="15" font-size="12" font-weight="{weight}">{whose}{}</text>"#,
-            escape(chart.method.name)
+            escape(&chart.method.0)
         );
         for (j, (measure, name)) in MEASURES.iter().enumerate() {
             let y = MARGIN[1] + STEP[1] * j as f64;

@@ -16,7 +16,7 @@ pub struct Summary {
     /// ShapeKind of shape.
     pub kind: ShapeKind,
     /// Name of the technique, and whether it belongs to the library.
-    pub method: (&'static str, bool),
+    pub method: (String, bool),
     /// Greatest errors of direction, pdf and round trip, and greatest bias; NaN if not measured.
     pub greatest: [Greatest; 4],
     /// Numbers of cells within the contract, of cells with an invalid sample, and of all measured cells.
@@ -38,11 +38,10 @@ impl Summary {
 pub fn summary(charts: &[ErrorMap]) -> Vec<Summary> {
     let mut all: Vec<Summary> = Vec::new();
     for chart in charts {
-        let method = (chart.method.name, chart.method.ours);
-        let at = all.iter().position(|s| s.kind == chart.kind && s.method == method).unwrap_or_else(|| {
+        let at = all.iter().position(|s| s.kind == chart.kind && s.method == chart.method).unwrap_or_else(|| {
             all.push(Summary {
                 kind: chart.kind,
-                method,
+                method: chart.method.clone(),
                 greatest: [Greatest::NONE; 4],
                 cells: [0; 3],
                 unbiased: [0; 2],
@@ -136,7 +135,7 @@ fn html(charts: &[ErrorMap], sheets: &[(ShapeKind, Sweep, String)], quick: bool)
         let _ = writeln!(
             rows,
             r#"<tr class="{class}"><td>{shape}</td><td>{}</td>{cells}<td>{}</td><td>{}</td><td>{}</td><td>{:.0}</td></tr>"#,
-            escape(s.method.0),
+            escape(&s.method.0),
             part(s.cells[0]),
             s.unbiased_part(),
             part(s.cells[1]),
@@ -197,8 +196,8 @@ fn table_of_cells(charts: &[ErrorMap]) -> Result<Vec<u8>, Box<dyn Error>> {
             out.write_record([
                 chart.kind.name(),
                 chart.sweep.name.into(),
-                chart.method.name.into(),
-                chart.method.ours.to_string(),
+                chart.method.0.clone(),
+                chart.method.1.to_string(),
                 number(chart.sweep.x[i % nx].value),
                 number(chart.sweep.y[i / nx].value),
                 number(cell.direction),

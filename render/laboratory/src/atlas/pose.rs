@@ -1,7 +1,8 @@
 //! Poses of shapes, and the sweeps over them, with lengths that are exact in f32.
 
 use clap::ValueEnum;
-use etendue_judge::generators::Random;
+use etendue_judge::area_lights::{AreaLight, LightShape, Measure};
+use etendue_judge::generators::{Random, coarse, exact_axes, small_integer};
 use etendue_oracle::{V3, cross, length as norm, narrow, unit};
 
 /// A kind of shape and the measure by which it is sampled.
@@ -17,20 +18,16 @@ pub enum ShapeKind {
     Parallelogram,
     /// A rectangle by solid angle
     Rectangle,
-    /// A convex hexagon by solid angle
+    /// A polygon of rounded corners by solid angle
     Polygon,
     /// A disk by solid angle
     Disk,
-    /// A line segment by angle
-    Segment,
     /// A triangle by projected solid angle
     ProjectedTriangle,
     /// A parallelogram by projected solid angle
     ProjectedParallelogram,
-    /// A convex hexagon by projected solid angle
+    /// A polygon of rounded corners by projected solid angle
     ProjectedPolygon,
-    /// A line segment by the irradiance it causes
-    ProjectedSegment,
 }
 impl ShapeKind {
     /// All kinds.
@@ -49,80 +46,29 @@ impl ShapeKind {
         let help = self.to_possible_value().and_then(|v| v.get_help().map(ToString::to_string));
         help.unwrap_or_default()
     }
-    fn round(self) -> bool {
-        matches!(self, Self::Sphere | Self::ProjectedSphere)
-    }
-    /// Whether it is a line segment.
+    /// The shape, and what it is sampled by.
     #[must_use]
-    pub fn line(self) -> bool {
-        matches!(self, Self::Segment | Self::ProjectedSegment)
+    pub fn light(self) -> (LightShape, Measure) {
+        use ShapeKind as Kind;
+        let shape = match self {
+            Kind::Sphere | Kind::ProjectedSphere => LightShape::Sphere,
+            Kind::Triangle | Kind::ProjectedTriangle => LightShape::Triangle,
+            Kind::Parallelogram | Kind::ProjectedParallelogram => LightShape::Parallelogram,
+            Kind::Rectangle => LightShape::Rectangle,
+            Kind::Polygon | Kind::ProjectedPolygon => LightShape::Polygon,
+            Kind::Disk => LightShape::Disk,
+        };
+        (shape, if self.projected() { Measure::ProjectedSolidAngle } else { Measure::SolidAngle })
+    }
+    fn round(self) -> bool {
+        self.light().0 == LightShape::Sphere
     }
     /// Whether its pdf is proportional to the irradiance of a receiver.
     #[must_use]
     pub fn projected(self) -> bool {
-        matches!(
-            self,
-            Self::ProjectedSphere
-                | Self::ProjectedTriangle
-                | Self::ProjectedParallelogram
-                | Self::ProjectedPolygon
-                | Self::ProjectedSegment
-        )
+        use ShapeKind::{ProjectedParallelogram, ProjectedPolygon, ProjectedSphere, ProjectedTriangle};
+        matches!(self, ProjectedSphere | ProjectedTriangle | ProjectedParallelogram | ProjectedPolygon)
     }
-    fn triangle(self) -> bool {
-        matches!(self, Self::Triangle | Self::ProjectedTriangle)
-    }
-    fn hexagon(self) -> bool {
-        matches!(self, Self::Polygon | Self::ProjectedPolygon)
-    }
-}
-
-/// A shape relative to the viewpoint.
-#[derive(Clone, Debug)]
-pub enum Shape {
-    /// A sphere.
-    Sphere {
-        /// Centre.
-        center: [f32; 3],
-        /// Radius.
-        radius: f32,
-    },
-    /// A triangle or a parallelogram.
-    Flat {
-        /// Corner.
-        p: [f32; 3],
-        /// First edge from that corner.
-        u: [f32; 3],
-        /// Second edge from that corner.
-        v: [f32; 3],
-    },
-    /// The corners of a hexagon.
-    Corners([[f32; 3]; 6]),
-    /// A disk.
-    Disk {
-        /// Centre.
-        center: [f32; 3],
-        /// Normal of any length.
-        normal: [f32; 3],
-        /// Radius.
-        radius: f32,
-    },
-    /// A line segment.
-    Segment {
-        /// First end.
-        a: [f32; 3],
-        /// Vector from the first end to the second.
-        edge: [f32; 3],
-    },
-}
-
-/// A shape and the receiver's normal.
-#[derive(Clone, Debug)]
-pub struct Pose {
-    /// The shape, relative to the viewpoint.
-    pub shape: Shape,
-    /// Unit normal of the receiver.
-    pub normal: [f32; 3],
 }
 
 /// One value of an axis.
@@ -247,11 +193,7 @@ pub fn sweeps(kind: ShapeKind, quick: bool) -> Vec<Sweep> {
     }
     let mut list = vec![Sweep {
         name: "size-elevation",
-        title: if kind.line() {
-            "size × elevation of the viewpoint above the line of the light"
-        } else {
-            "size × elevation of the viewpoint above the plane of the light"
-        },
+        title: "size × elevation of the viewpoint above the plane of the light",
         x_title: "size / distance",
         y_title: "sine of elevation",
         x: powers(-9, 5, fine),
@@ -287,7 +229,7 @@ pub fn sweeps(kind: ShapeKind, quick: bool) -> Vec<Sweep> {
             y: heights,
             axes: Axes::Foot,
         });
-    } else if !kind.line() {
+    } else {
         list.push(Sweep {
             name: "aspect-distance",
             title: "aspect ratio × distance",
@@ -318,26 +260,6 @@ pub fn square(n: usize, seed: u64) -> Vec<[f32; 2]> {
         .collect()
 }
 
-/// Rounds to 8 bits.
-fn coarse(x: f64) -> f64 {
-    if x == 0.0 {
-        return 0.0;
-    }
-    let unit = (x.abs().log2().floor() - 7.0).exp2();
-    (x / unit).round() * unit
-}
-
-/// Three perpendicular vectors whose products with 8-bit numbers are exact in f32: columns of the rotation by a quaternion of small
-/// integers. The third has length 1; if `upright`, it is the z axis, so that a height of 0 is exact.
-fn axes(random: &mut Random, upright: bool) -> [V3; 3] {
-    let mut pick = || (random.word() % 13) as f64 - 6.0;
-    let (a, d) = (pick() + 0.5, pick());
-    let (b, c) = if upright { (0.0, 0.0) } else { (pick(), pick()) };
-    let u = [a * a + b * b - c * c - d * d, 2.0 * (b * c + a * d), 2.0 * (b * d - a * c)];
-    let v = [2.0 * (b * c - a * d), a * a - b * b + c * c - d * d, 2.0 * (c * d + a * b)];
-    [u, v, unit(cross(u, v))]
-}
-
 impl Sweep {
     /// Whether the sweep varies the distance to a shape of fixed size.
     #[must_use]
@@ -345,30 +267,33 @@ impl Sweep {
         matches!(self.axes, Axes::Aspect | Axes::Foot)
     }
 
-    /// The pose of a cell, rotated at random for each `turn`.
+    /// The light of a cell as it is seen from the origin, rotated at random for each `turn`.
     #[must_use]
-    pub fn pose(&self, kind: ShapeKind, x: f64, y: f64, turn: u64) -> Pose {
+    pub fn pose(&self, kind: ShapeKind, x: f64, y: f64, turn: u64) -> AreaLight {
         let mut random =
             Random::new(turn.wrapping_mul(0x1234_5678_9abc_def1) ^ x.to_bits() ^ y.to_bits().rotate_left(17));
         let exact = y == 0.0 && (kind.round() == (self.axes == Axes::Elevation) || !kind.round());
-        let axes = axes(&mut random, exact && self.axes != Axes::Horizon);
+        let [a, d] = [(); 2].map(|()| small_integer(&mut random));
+        // a height of 0 is exact where the third axis is upright
+        let is_upright = exact && self.axes != Axes::Horizon;
+        let [b, c] = [(); 2].map(|()| if is_upright { 0.0 } else { small_integer(&mut random) });
+        let axes = exact_axes([a + 0.5, b, c, d]);
         let units = axes.map(unit);
         let at = |v: V3| -> V3 { core::array::from_fn(|i| (0..3).map(|k| units[k][i] * v[k]).sum()) };
         let up = narrow(units[2]);
         let around = |random: &mut Random| (std::f64::consts::TAU * random.unit_f64()).sin_cos();
         let level = |sine: f64| ((1.0 - sine) * (1.0 + sine)).max(0.0).sqrt();
+        let (shape, by) = kind.light();
+        let none = [0.0; 3];
+        let light = AreaLight { shape, by, p: none, a: none, b: none, c: none, n: up, radius: 0.0 };
         if kind.round() {
             let sin = if self.axes == Axes::Elevation { y } else { y * x };
             let (s, c) = around(&mut random);
             let center = narrow(at([level(sin) * c, level(sin) * s, sin]));
-            return Pose { shape: Shape::Sphere { center, radius: x as f32 }, normal: up };
+            return AreaLight { a: center, radius: x as f32, ..light };
         }
-        // a flat light is perpendicular to the third axis, a line lies along the first
+        // the light is perpendicular to the third axis
         let (length, width, center) = match self.axes {
-            Axes::Elevation if kind.line() => {
-                let (s, c) = around(&mut random);
-                (x, 0.0, [level(y), y.abs() * c, y * s])
-            }
             Axes::Elevation => {
                 let (s, c) = around(&mut random);
                 (x, 0.7 * x, [level(y) * c, level(y) * s, y])
@@ -391,47 +316,27 @@ impl Sweep {
         } else {
             narrow(towards)
         };
-        let edge = |k: usize, size: f64| {
-            let l = norm(axes[k]);
-            axes[k].map(|x| x * coarse(size / l))
-        };
-        let shape = match kind {
-            ShapeKind::Disk => {
-                let radius = if self.axes == Axes::Foot { 1.0 } else { 0.5 * length } as f32;
-                Shape::Disk { center: narrow(center), normal: up, radius }
-            }
-            ShapeKind::Segment | ShapeKind::ProjectedSegment => {
-                let u = narrow(edge(0, length));
-                Shape::Segment { a: narrow(core::array::from_fn(|i| center[i] - 0.5 * f64::from(u[i]))), edge: u }
-            }
-            _ => self.flat(kind, center, [edge(0, length), edge(1, width)], y, turn),
-        };
-        Pose { shape, normal }
-    }
-
-    fn flat(&self, kind: ShapeKind, center: V3, [u, mut v]: [V3; 2], y: f64, turn: u64) -> Shape {
-        let skew = match kind {
-            _ if kind.triangle() => 0.3,
-            ShapeKind::Parallelogram | ShapeKind::ProjectedParallelogram if self.axes != Axes::Aspect => 0.4,
+        let light = AreaLight { n: normal, ..light };
+        if shape == LightShape::Disk {
+            let radius = if self.axes == Axes::Foot { 1.0 } else { 0.5 * length } as f32;
+            return AreaLight { a: narrow(center), b: up, radius, ..light };
+        }
+        let edge = |k: usize, size: f64| axes[k].map(|x| x * coarse(size / norm(axes[k])));
+        let (u, v) = (edge(0, length), edge(1, width));
+        let skew = match shape {
+            LightShape::Triangle => 0.3,
+            LightShape::Parallelogram | LightShape::Polygon if self.axes != Axes::Aspect => 0.4,
             _ => 0.0,
         };
-        v = core::array::from_fn(|i| v[i] + skew * u[i]);
-        if kind.hexagon() {
-            let corner = |i: usize| {
-                let (s, c) = (std::f64::consts::TAU * i as f64 / 6.0).sin_cos();
-                narrow(core::array::from_fn(|k| center[k] + 0.5 * (u[k] * c + v[k] * s)))
-            };
-            return Shape::Corners(core::array::from_fn(corner));
-        }
-        let (u, v) = (narrow(u), narrow(v));
-        let middle = if kind.triangle() { 1.0 / 3.0 } else { 0.5 };
+        let (b, c) = (narrow(u), narrow(core::array::from_fn(|i| v[i] + skew * u[i])));
+        let middle = if shape == LightShape::Triangle { 1.0 / 3.0 } else { 0.5 };
         // if it touches: the viewpoint is inside, at a vertex or on an edge
         let (s, t) = match turn % 3 {
             1 if self.axes == Axes::Aspect && y == 0.0 => (0.0, 0.0),
             2 if self.axes == Axes::Aspect && y == 0.0 => (0.5, 0.0),
             _ => (middle, middle),
         };
-        let p = core::array::from_fn(|i| center[i] - s * f64::from(u[i]) - t * f64::from(v[i]));
-        Shape::Flat { p: narrow(p), u, v }
+        let corner = core::array::from_fn(|i| center[i] - s * f64::from(b[i]) - t * f64::from(c[i]));
+        AreaLight { a: narrow(corner), b, c, ..light }
     }
 }

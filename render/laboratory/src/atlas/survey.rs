@@ -3,10 +3,10 @@
 use super::irradiance::{NOTHING, biases, variance};
 use super::methods::{self, Method};
 use super::pose::{self, ShapeKind, Sweep};
-use super::sample::{Draw, Sample};
 use super::truth::Truth;
 use crate::cost::{self, Rounds};
-use etendue_oracle::{Greatest, V3, cross, length, sub, wide};
+use etendue_judge::lights::sampler::{Sample, Sampler};
+use etendue_oracle::{Greatest, V3, cross, length, sub, unit, wide};
 use rayon::prelude::*;
 use std::hint::black_box;
 
@@ -42,7 +42,7 @@ pub struct Figures {
     /// Variance of area sampling over that of the technique, for the irradiance of a diffuse receiver without shadows.
     pub variance_ratio: f64,
     /// Error of the mean estimate of that irradiance over a stratified set, relative to the closed form and beyond the error of the
-    /// exact estimator on the same set. The receiver is the pose's for projected techniques; otherwise it faces the light.
+    /// exact estimator on the same set; not for sampling by area. The receiver is the pose's for projected techniques; otherwise it faces the light.
     pub bias: f64,
 }
 impl Figures {
@@ -76,8 +76,8 @@ pub struct ErrorMap {
     pub kind: ShapeKind,
     /// Axes of the map.
     pub sweep: Sweep,
-    /// The technique.
-    pub method: Method,
+    /// Name of the technique, and whether it belongs to the library; otherwise it is a baseline.
+    pub method: (String, bool),
     /// Cells row by row, from the bottom.
     pub cells: Vec<Figures>,
     /// Nanoseconds to prepare for a point and draw one sample, in scalar code.
@@ -128,22 +128,23 @@ pub fn cells(kinds: &[ShapeKind], detail: Detail) -> usize {
 pub fn survey(kinds: &[ShapeKind], detail: Detail, tick: impl Fn() + Sync) -> Vec<ErrorMap> {
     let mut charts = Vec::new();
     for &kind in kinds {
-        let methods = methods::methods(kind);
         for sweep in pose::sweeps(kind, detail.quick) {
             let cells: Vec<(f64, f64)> =
                 sweep.y.iter().flat_map(|y| sweep.x.iter().map(|x| (x.value, y.value))).collect();
             let rows: Vec<Vec<Figures>> = cells
                 .par_iter()
                 .map(|&(x, y)| {
-                    let figures = cell(kind, &sweep, [x, y], &methods, detail);
+                    let figures = cell(kind, &sweep, [x, y], detail);
                     tick();
                     figures
                 })
                 .collect();
+            let methods = methods::methods(kind);
             let costs = costs(kind, &sweep, &methods);
-            let area_cost = methods.iter().position(|m| m.name == "by area").map_or(f64::NAN, |i| costs[i]);
-            for (i, &method) in methods.iter().enumerate() {
+            let area_cost = methods.iter().position(Method::is_by_area).map_or(f64::NAN, |i| costs[i]);
+            for (i, method) in methods.into_iter().enumerate() {
                 let cells = rows.iter().map(|row| row[i]).collect();
+                let method = (method.name, method.ours);
                 charts.push(ErrorMap { kind, sweep: sweep.clone(), method, cells, cost: costs[i], area_cost });
             }
         }
@@ -155,15 +156,13 @@ pub fn survey(kinds: &[ShapeKind], detail: Detail, tick: impl Fn() + Sync) -> Ve
 fn costs(kind: ShapeKind, sweep: &Sweep, methods: &[Method]) -> Vec<f64> {
     let us = pose::square(64, 1);
     let pose = sweep.pose(kind, if sweep.touches() { 2.0 } else { 0.3 }, 0.6, 1);
-    let routine = |method: &Method| {
-        let (run, us, pose) = (method.run, us.clone(), pose.clone());
-        let mut out = Vec::with_capacity(us.len());
+    let routine = |method| {
+        let us = us.clone();
         move || {
-            out.clear();
             for u in &us {
-                run(black_box(&pose), &mut Draw { us: &[*u], invert: false, out: &mut out });
+                let sampler = Method::prepare(method, black_box(&pose));
+                black_box(sampler.and_then(|sampler| sampler.sample(*u)));
             }
-            black_box(&out);
         }
     };
     let mut routines: Vec<_> = methods.iter().map(routine).collect();
@@ -189,10 +188,6 @@ fn reference(truth: &Truth, u: [f32; 2]) -> Reference {
         let w = truth.direction(moved);
         core::array::from_fn(|i| (w[i] - direction[i]) / h)
     };
-    if truth.line() {
-        let a = length(slope(0));
-        return Reference { direction, sensitivity: [if a > 0.0 { 1.0 / a } else { f64::INFINITY }, 0.0] };
-    }
     let (a, b) = (slope(0), slope(1));
     let area = length(cross(a, b));
     // without a derivative there is no inverse
@@ -241,42 +236,41 @@ const LAST: f64 = 1.0 - 0.5 * f64::EPSILON;
 
 /// Measures one cell with all methods.
 #[must_use]
-pub fn cell(kind: ShapeKind, sweep: &Sweep, [x, y]: [f64; 2], methods: &[Method], detail: Detail) -> Vec<Figures> {
+pub fn cell(kind: ShapeKind, sweep: &Sweep, [x, y]: [f64; 2], detail: Detail) -> Vec<Figures> {
+    let methods = methods::methods(kind);
     let mut tallies: Vec<_> = methods.iter().map(|_| Tally::default()).collect();
-    let mut samples = Vec::new();
     for turn in 0..detail.turns {
-        let pose = sweep.pose(kind, x, y, turn);
-        let truth = Truth::new(kind, &pose);
-        if !truth.defined {
-            continue;
-        }
+        let light = sweep.pose(kind, x, y, turn);
+        let Some(truth) = Truth::new(kind, &light) else { continue };
         let us = pose::square(detail.samples, turn);
         let seen = truth.measure > NOTHING && truth.measure.is_finite();
         let references: Vec<_> = if seen { us.iter().map(|&u| reference(&truth, u)).collect() } else { Vec::new() };
         for (method, tally) in methods.iter().zip(&mut tallies) {
-            samples.clear();
-            (method.run)(&pose, &mut Draw { us: &us, invert: true, out: &mut samples });
-            for (i, sample) in samples.iter().enumerate() {
+            let Some(sampler) = method.prepare(&light) else { continue };
+            for (i, &u) in us.iter().enumerate() {
+                let sample = sampler.sample(u);
                 match references.get(i) {
-                    Some(reference) => tally.add(&truth, reference, us[i], sample, |u| {
-                        let mut again = Vec::with_capacity(1);
-                        (method.run)(&pose, &mut Draw { us: &[u], invert: false, out: &mut again });
-                        wide(again[0].direction)
-                    }),
-                    None => tally.add_unseen(truth.measure, sample),
+                    _ if method.is_by_area() => tally.add_by_area(&truth, u, sample),
+                    Some(reference) => tally.add(&truth, reference, u, sample, &*sampler),
+                    None => tally.count(sample.is_some_and(|s| !is_finite(&s) || truth.measure <= 0.0)),
                 }
             }
         }
     }
-    let variances: Vec<_> = methods.iter().map(|m| variance(kind, sweep, [x, y], m)).collect();
-    let by_area = methods.iter().position(|m| m.name == "by area").map_or(f64::NAN, |i| variances[i]);
-    let biases = biases(kind, &sweep.pose(kind, x, y, 1), methods, detail.strata);
+    let pose = |turn| sweep.pose(kind, x, y, turn);
+    let variances: Vec<_> = methods.iter().map(|m| variance(&pose(0), m)).collect();
+    let by_area = methods.iter().position(Method::is_by_area).map_or(f64::NAN, |i| variances[i]);
+    let biases = biases(kind, &pose(1), &methods, detail.strata);
     tallies
         .iter()
         .zip(&variances)
         .zip(biases)
         .map(|((tally, v), bias)| Figures { bias, ..tally.figures(by_area / v) })
         .collect()
+}
+
+fn is_finite(s: &Sample) -> bool {
+    s.direction.iter().chain(&[s.pdf]).all(|x| x.is_finite())
 }
 
 #[derive(Default)]
@@ -288,55 +282,66 @@ struct Tally {
     inverses: f64,
     inverted: f64,
     invalid: f64,
+    /// Numbers of samples of a light that is seen, and of all.
+    drawn: f64,
     all: f64,
 }
 impl Tally {
-    fn add_unseen(&mut self, measure: f64, sample: &Sample) {
+    /// Counts a sample, whether it is invalid.
+    fn count(&mut self, is_invalid: bool) {
         self.all += 1.0;
-        // area sampling also works edge-on; below the least measure either answer is valid
-        let right = sample.finite() && (sample.pdf == 0.0 || measure > 0.0 || sample.by_area);
-        self.invalid += f64::from(u8::from(!right));
+        self.invalid += f64::from(u8::from(is_invalid));
     }
-    /// Adds a sample; `again` returns the technique's direction for another u.
+    /// Adds the error of a pdf, beyond what the rounding of the direction changes.
+    fn add_pdf(&mut self, pdf: f32, [truth, slope]: [f64; 2], u: [f32; 2]) {
+        let off = (f64::from(pdf) - truth).abs() - slope * DIRECTION_ULP;
+        self.pdf.take(off.max(0.0) / truth.max(slope * DIRECTION_ULP), u);
+    }
+    /// Adds a sample that is uniform by area: of its direction nothing is known.
+    fn add_by_area(&mut self, truth: &Truth, u: [f32; 2], sample: Option<Sample>) {
+        self.count(sample.is_some_and(|s| !is_finite(&s)));
+        let Some(s) = sample.filter(is_finite) else { return };
+        self.drawn += 1.0;
+        // a sphere hides half of itself
+        if s.is_hidden && truth.seen.corners().is_empty() {
+            return;
+        }
+        let density = truth.pdf_by_area(unit(wide(s.direction)));
+        if density[0] > 0.0 {
+            self.add_pdf(s.pdf, density, u);
+        }
+    }
+    /// Adds a sample.
     fn add(
         &mut self,
         truth: &Truth,
         reference: &Reference,
         u: [f32; 2],
-        sample: &Sample,
-        again: impl Fn([f32; 2]) -> V3,
+        sample: Option<Sample>,
+        sampler: &dyn Sampler,
     ) {
-        self.all += 1.0;
-        let w = wide(sample.direction);
-        let (expected, density) = if sample.by_area {
-            let (w, pdf) = truth.by_area(u.map(f64::from));
-            if !(pdf > 0.0 && pdf < 1e36) {
-                return;
-            }
-            (w, [pdf, 0.0])
-        } else {
-            (reference.direction, truth.pdf(w))
-        };
-        if !sample.finite() {
-            self.invalid += 1.0;
-            return;
-        }
-        if sample.pdf <= 0.0 {
+        let Some(sample) = sample else {
             // within the rounding of a direction from the horizon, the pdf may be 0
-            let there = if sample.by_area { density } else { truth.pdf(reference.direction) };
-            self.invalid += f64::from(u8::from(there[0] > there[1] * 2.0 * DIRECTION_ULP));
+            let there = truth.pdf(reference.direction);
+            return self.count(there[0] > there[1] * 2.0 * DIRECTION_ULP);
+        };
+        let inverse = sampler.invert(sample.direction);
+        let is_invalid = !is_finite(&sample) || inverse.is_some_and(|u| !u.iter().all(|u| u.is_finite()));
+        self.count(is_invalid || sample.pdf < 0.0);
+        if is_invalid {
             return;
         }
+        self.drawn += 1.0;
+        let w = wide(sample.direction);
         let apart = |a: V3| sub(w, a).into_iter().map(f64::abs).collect::<Greatest>().error();
-        let size = truth.extent.max(DIRECTION_ULP / LIMIT);
-        let mut error = apart(expected) / size;
-        if error > LIMIT && !sample.by_area {
+        let size = truth.seen.size[0].max(DIRECTION_ULP / LIMIT);
+        let mut error = apart(reference.direction) / size;
+        if error > LIMIT {
             error = error.min(nearest(truth, u, w, LIMIT * size) / size);
         }
         self.direction.take(error, u);
-        let off = (f64::from(sample.pdf) - density[0]).abs() - density[1] * DIRECTION_ULP;
-        self.pdf.take(off.max(0.0) / density[0].max(density[1] * DIRECTION_ULP), u);
-        let Some(inverse) = sample.inverse else { return };
+        self.add_pdf(sample.pdf, truth.pdf(w), u);
+        let Some(inverse) = inverse else { return };
         self.inverses += 1.0;
         let worth = reference.sensitivity.map(|s| 2.0 * DIRECTION_ULP * s);
         if worth[0].max(worth[1]) > 0.1 {
@@ -352,7 +357,8 @@ impl Tally {
         };
         let mut error = off(0).max(off(1));
         if error > LIMIT {
-            error = error.min(apart(again(inverse)) / (3.0 * DIRECTION_ULP) * LIMIT);
+            let again = sampler.sample(inverse).map_or([0.0; 3], |s| s.direction);
+            error = error.min(apart(wide(again)) / (3.0 * DIRECTION_ULP) * LIMIT);
         }
         if error > LIMIT {
             let enough = 2.0 * DIRECTION_ULP;
@@ -371,7 +377,7 @@ impl Tally {
             round_trip: self.round_trip.measured(),
             invertible: if_any(self.inverses, self.inverted / self.inverses),
             invalid: self.invalid / self.all,
-            variance_ratio: if self.direction.at().is_some() { variance_ratio } else { f64::NAN },
+            variance_ratio: if_any(self.drawn, variance_ratio),
             bias: f64::NAN,
         }
     }

@@ -1,8 +1,8 @@
 //! The body of the target of trees of lights.
 
 use super::Input;
+use crate::area_lights::LightShape;
 use crate::light_tree::{Grove, Lamp, LampKind, Regime, place};
-use crate::techniques::LightShape;
 use etendue::reflection::Reflection;
 use etendue::select::Gloss;
 

@@ -1,8 +1,9 @@
 //! Lights.
 
 use super::{Input, scalable};
+use crate::area_lights::{AreaLight, LightShape, Measure};
 use crate::packets;
-use crate::techniques::{self, AreaLight, LightFixture, LightShape, Measure};
+use crate::techniques::{self, LightFixture};
 use etendue::{
     ConstantEnvironment, DirectionalLight, LightSample, LightSampler, PointLight, Real, SpotLight, Sun, Vec3,
 };

@@ -107,21 +107,32 @@ pub fn parallelograms(each: usize, numbers: impl Into<Random>) -> Vec<Case<Paral
     flats(each, numbers).into_iter().map(|(name, [p, u, v])| (name, Parallelogram::new(p, u, v))).collect()
 }
 
-/// Two perpendicular vectors of random orientation whose products with 8-bit numbers are exact in f32, and their unit normal: columns of
-/// the rotation by a quaternion of small integers.
-fn exact_axes(random: &mut Random) -> [[f64; 3]; 3] {
-    random.begin();
-    let mut pick = || (random.word() % 13) as f64 - 6.0;
-    let (a, b, c, d) = (pick() + 0.5, pick(), pick(), pick());
+/// Two perpendicular vectors whose products with 8-bit numbers are exact in f32, and their unit normal: columns of the rotation by a
+/// quaternion of small integers, the first of which may have a half besides.
+#[must_use]
+pub fn exact_axes([a, b, c, d]: [f64; 4]) -> [[f64; 3]; 3] {
     let u = [a * a + b * b - c * c - d * d, 2.0 * (b * c + a * d), 2.0 * (b * d - a * c)];
     let v = [2.0 * (b * c - a * d), a * a - b * b + c * c - d * d, 2.0 * (c * d + a * b)];
     [u, v, etendue_oracle::unit(etendue_oracle::cross(u, v))]
 }
 
+/// One of the integers of such a quaternion.
+pub fn small_integer(random: &mut Random) -> f64 {
+    (random.word() % 13) as f64 - 6.0
+}
+
+/// Axes of random orientation: a case begins.
+fn any_exact_axes(random: &mut Random) -> [[f64; 3]; 3] {
+    random.begin();
+    let [a, b, c, d] = [(); 4].map(|()| small_integer(random));
+    exact_axes([a + 0.5, b, c, d])
+}
+
 /// Rounds to 8 bits.
-fn coarse(x: f64) -> f64 {
+#[must_use]
+pub fn coarse(x: f64) -> f64 {
     let unit = exp2(log2(x.abs()).floor() - 7.0);
-    (x / unit).round() * unit
+    if x == 0.0 { x } else { (x / unit).round() * unit }
 }
 
 /// A rectangle's size, and its corner in a frame whose z axis is the normal.
@@ -134,7 +145,7 @@ pub fn rectangles(each: usize, numbers: impl Into<Random>) -> Vec<Case<Rectangle
     let mut all = Vec::new();
     for _ in 0..each {
         let mut push = |name, f: &dyn Fn(&mut Random) -> SizeAndCorner| {
-            let a = exact_axes(&mut random);
+            let a = any_exact_axes(&mut random);
             let unit = [a[0], a[1], a[2]].map(etendue_oracle::unit);
             let (size, corner) = f(&mut random);
             let edge = |k: usize| a[k].map(|x| x * coarse(size[k] / etendue_oracle::length(a[k])));
@@ -175,7 +186,7 @@ pub fn rectangles(each: usize, numbers: impl Into<Random>) -> Vec<Case<Rectangle
         push("near a vertex", &|r| ([1.0, 0.9], [1e-3 * r.range(-1.0, 1.0), 1e-3, 1e-3]));
         push("near an edge", &|r| ([1.0, 0.9], [-0.5, 1e-3 * r.range(-1.0, 1.0), 1e-3]));
         // tilted rectangles on the z axis of the world, where the granularity is less than 1
-        let tilt = exact_axes(&mut random);
+        let tilt = any_exact_axes(&mut random);
         let length = etendue_oracle::length(tilt[0]);
         for (name, size) in [("on the axis, 1e-4", 1e-4), ("on the axis, 1e-9", 1e-9)] {
             let edge = |k: usize, size: f64| tilt[k].map(|x| x * coarse(size / length));
@@ -185,6 +196,19 @@ pub fn rectangles(each: usize, numbers: impl Into<Random>) -> Vec<Case<Rectangle
         }
     }
     all
+}
+
+/// Corners of a convex polygon about the z axis of a frame, on an ellipse of these semi-axes about a centre.
+pub(super) fn on_ellipse<const N: usize>(
+    axes: &[[f64; 3]; 3],
+    size: [f64; 2],
+    [x, y, z]: [f64; 3],
+    random: &mut Random,
+) -> [[f32; 3]; N] {
+    core::array::from_fn(|i| {
+        let angle = (i as f64 + random.range(-0.3, 0.3)) * core::f64::consts::TAU / N as f64;
+        narrow(combine(axes, x + size[0] * cos(angle), y + size[1] * sin(angle), z))
+    })
 }
 
 /// Convex hexagons, from the semi-axes and the centre of their circumscribed ellipse.
@@ -202,12 +226,7 @@ pub fn hexagons(each: usize, numbers: impl Into<Random>) -> Vec<Case<Hexagon>> {
             ("sliver 1e2", [0.5, 5e-3], [0.1, 0.2, 1.0]),
         ] {
             let axes = frame(&mut random);
-            let corner = |i: usize, random: &mut Random| {
-                let angle = (i as f64 + random.range(-0.3, 0.3)) * core::f64::consts::TAU / 6.0;
-                let [x, y, z] = center;
-                narrow(combine(&axes, x + size[0] * cos(angle), y + size[1] * sin(angle), z))
-            };
-            all.push((name, Hexagon::seen_from(core::array::from_fn(|i| corner(i, &mut random)), [0.0; 3])));
+            all.push((name, Hexagon::seen_from(on_ellipse(&axes, size, center, &mut random), [0.0; 3])));
         }
     }
     all
@@ -228,11 +247,7 @@ pub fn hexagons_of_every_size(each: usize, numbers: impl Into<Random>) -> Vec<Ca
             ("far 1e9", 1e-9, 1e12),
         ] {
             let axes = frame(&mut random);
-            let corner = |i: usize, random: &mut Random| {
-                let angle = (i as f64 + random.range(-0.3, 0.3)) * core::f64::consts::TAU / 6.0;
-                narrow(combine(&axes, size * unit * cos(angle), 0.7 * size * unit * sin(angle), 0.0))
-            };
-            let corners = core::array::from_fn(|i| corner(i, &mut random));
+            let corners = on_ellipse(&axes, [size * unit, 0.7 * size * unit], [0.0; 3], &mut random);
             let [x, y] = [(); 2].map(|()| random.range(-0.7, 0.7) * unit);
             all.push((name, Hexagon::seen_from(corners, narrow(combine(&axes, x, y, unit)))));
         }

@@ -1,5 +1,6 @@
 //! Flat shapes over a horizon.
 
+use super::flat::on_ellipse;
 use super::{Case, Random, combine, frame, narrow};
 use crate::fixture::Fixture;
 use crate::fixtures::{ProjectedParallelogram, ProjectedPentagon, ProjectedTriangle};
@@ -150,12 +151,7 @@ pub fn projected_pentagons(each: usize, numbers: impl Into<Random>) -> Vec<Case<
             ("grazing 1e-1", [1.0, 1.0], [3.0, 0.0, 1e-1], [0.5, 0.2, 0.8]),
         ] {
             let axes = frame(&mut random);
-            let corner = |i: usize, random: &mut Random| {
-                let angle = (i as f64 + random.range(-0.3, 0.3)) * core::f64::consts::TAU / 5.0;
-                let [x, y, z] = center;
-                narrow(combine(&axes, x + size[0] * cos(angle), y + size[1] * sin(angle), z))
-            };
-            let corners = core::array::from_fn(|i| corner(i, &mut random));
+            let corners = on_ellipse(&axes, size, center, &mut random);
             let normal = narrow(combine(&axes, normal[0], normal[1], normal[2]));
             all.push((name, ProjectedPentagon::seen_from(corners, [0.0; 3], normal)));
         }
@@ -178,11 +174,7 @@ pub fn projected_pentagons_of_every_size(each: usize, numbers: impl Into<Random>
             ("cut, tiny 1e-4", 1e-4, 1.0, [1.0, 0.0, -0.2]),
         ] {
             let axes = frame(&mut random);
-            let corner = |i: usize, random: &mut Random| {
-                let angle = (i as f64 + random.range(-0.3, 0.3)) * core::f64::consts::TAU / 5.0;
-                narrow(combine(&axes, size * unit * cos(angle), 0.7 * size * unit * sin(angle), 0.0))
-            };
-            let corners = core::array::from_fn(|i| corner(i, &mut random));
+            let corners = on_ellipse(&axes, [size * unit, 0.7 * size * unit], [0.0; 3], &mut random);
             let normal = narrow(combine(&axes, normal[0], normal[1], normal[2]));
             let point = narrow(combine(&axes, -0.2 * unit, -0.3 * unit, -unit));
             all.push((name, ProjectedPentagon::seen_from(corners, point, normal)));

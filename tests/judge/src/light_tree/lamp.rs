@@ -1,7 +1,8 @@
 //! Lights that a tree chooses among: how they are sampled, and the bound that a renderer states of them.
 
+use crate::area_lights::{AreaLight, LightShape, Measure};
 use crate::packets::squares_of;
-use crate::techniques::{AreaLight, LightFixture, LightShape, Measure};
+use crate::techniques::LightFixture;
 #[cfg(feature = "checks")]
 use etendue::light::Spread;
 use etendue::select::LightBound;

@@ -1,8 +1,8 @@
 //! Sets of lights, and points among them, at which a bound or a choice may fail.
 
 use super::{Lamp, LampKind, Place};
+use crate::area_lights::LightShape;
 use crate::generators::Random;
-use crate::techniques::LightShape;
 use core::f64::consts::TAU;
 use etendue_oracle::{V3, along, basis, cross, dot, length, narrow, sub, unit, wide};
 

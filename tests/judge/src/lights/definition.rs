@@ -1,11 +1,11 @@
 //! What a light looks like from a point, by definition, in f64 and 106 bits: its directions, solid angle, irradiance and densities. Nothing
 //! here calls a sampler.
 
-use crate::techniques::{AreaLight, LightShape, Measure};
+use crate::area_lights::{AreaLight, LightShape, Measure};
 use core::cell::OnceCell;
 use core::f64::consts::{PI, TAU};
 use etendue_oracle::curves::{Ellipse, projected_disk};
-use etendue_oracle::double_double::{Dd, Dd3, dd};
+use etendue_oracle::double_double::{Dd, Dd3, dd, determinant};
 use etendue_oracle::flat::Fan;
 use etendue_oracle::{
     V3, above_horizon, along, basis, cap, cross, dot, exact_sum, lambert, length, projected_cap, sub, unit, wide,
@@ -133,21 +133,18 @@ impl Definition {
                     PI * radius * radius,
                 )
             }
-            LightShape::Triangle | LightShape::Parallelogram | LightShape::Rectangle => {
+            LightShape::Triangle | LightShape::Parallelogram | LightShape::Rectangle | LightShape::Polygon => {
                 let exact = |edges: &[V3]| exact_sum(a, &[edges, &[back]].concat());
-                let minus = |v: Dd3| v.map(|x| -x);
-                let (u, v) = (dd(b), dd(c));
-                let around = if light.shape == LightShape::Triangle {
-                    vec![exact(&[]), exact(&[b]), exact(&[c])]
-                } else {
-                    vec![exact(&[]), exact(&[b]), exact(&[b, c]), exact(&[c])]
+                let around = match light.shape {
+                    LightShape::Triangle => vec![exact(&[]), exact(&[b]), exact(&[c])],
+                    LightShape::Polygon => light.corners().map(|corner| exact_sum(wide(corner), &[back])).to_vec(),
+                    _ => vec![exact(&[]), exact(&[b]), exact(&[b, c]), exact(&[c])],
                 };
-                let fans = if around.len() == 3 {
-                    vec![Fan::new(around[0], u, v)]
-                } else {
-                    let diagonal = exact_sum(b, &[c]);
-                    vec![Fan::new(around[1], minus(u), v), Fan::new(around[2], minus(diagonal), minus(u))]
+                let fan = |i: usize, from: usize, to: usize| {
+                    let edge = |k: usize| core::array::from_fn(|axis| around[k][axis] - around[i][axis]);
+                    Fan::new(around[i], edge(from), edge(to))
                 };
+                let fans = if around.len() == 3 { vec![fan(0, 1, 2)] } else { vec![fan(1, 0, 2), fan(2, 0, 3)] };
                 let corners: Vec<V3> = around.iter().map(|v| v.map(Dd::to_f64)).collect();
                 let units: Vec<V3> = corners.iter().copied().map(unit).collect();
                 let n = units.len();
@@ -191,6 +188,19 @@ impl Definition {
         })
     }
 
+    /// Corners of a flat light relative to the point, in order.
+    #[must_use]
+    pub fn corners(&self) -> &[V3] {
+        if let Body::Flat { corners, .. } = &self.body { corners } else { &[] }
+    }
+    /// Whether the corners of a flat light all turn the same way, as seen from the point: rounding them may leave a polygon that is none.
+    #[must_use]
+    pub fn is_convex(&self) -> bool {
+        let Body::Flat { exact, .. } = &self.body else { return true };
+        let n = exact.len();
+        let turn = |i: usize| determinant(exact[i], exact[(i + 1) % n], exact[(i + 2) % n]).to_f64();
+        n == 3 || (0..n).all(|i| turn(i) >= 0.0) != (0..n).all(|i| turn(i) <= 0.0)
+    }
     /// Whether the point is inside of the light.
     #[must_use]
     pub fn is_inside(&self) -> bool {

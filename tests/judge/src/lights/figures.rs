@@ -4,8 +4,8 @@ use super::definition::{Chart, Definition, SIDE, middles};
 use super::grid;
 use super::observe::{Answers, Inverse, Questions, SETS, SLOPES, STEP, direction};
 use super::sampler::Sample;
+use crate::area_lights::Measure;
 use crate::stats;
-use crate::techniques::Measure;
 use etendue_oracle::{V3, cross, dot, length, sub, wide};
 use serde::{Deserialize, Serialize};
 

@@ -63,7 +63,7 @@ mod tests {
     use crate::lights::figures::ERROR;
     use crate::lights::sampler::SHAPES;
     use crate::lights::scene::places;
-    use crate::techniques::Measure;
+    use crate::area_lights::Measure;
     use etendue_oracle::{dot, tier::cases};
 
     /// Cosines, whose means are known: the errors bound what is off, but for signs that cancel in them, and that is less than is allowed anyway.

@@ -2,8 +2,8 @@
 
 use super::definition::{Chart, Definition, SIDE, middles};
 use super::sampler::{Sample, Sampler};
+use crate::area_lights::Measure;
 use crate::generators::{EDGES, Random, square};
-use crate::techniques::Measure;
 use etendue_oracle::{V3, along, length, narrow, sub, unit, wide};
 
 /// Independent sets of samples, whose spread tells how far their mean may be off.

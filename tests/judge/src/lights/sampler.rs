@@ -1,6 +1,7 @@
 //! What a sampler is: two functions of its own, and what it claims.
 
-use crate::techniques::{AreaLight, LightFixture, LightShape, Measure};
+use crate::area_lights::{AreaLight, LightShape, Measure};
+use crate::techniques::LightFixture;
 use etendue::{LightSampler, Vec2, Vec3};
 use etendue_oracle::{length, sub, wide};
 
@@ -79,7 +80,8 @@ pub fn measure_name(by: Measure) -> &'static str {
 /// The name of a shape.
 #[must_use]
 pub fn shape_name(shape: LightShape) -> &'static str {
-    SHAPES.iter().find(|s| s.0 == shape).map_or("other", |s| s.1)
+    let polygon = [(LightShape::Polygon, "polygon")];
+    SHAPES.iter().chain(&polygon).find(|s| s.0 == shape).map_or("other", |s| s.1)
 }
 /// The measure of a name.
 ///
@@ -132,25 +134,27 @@ impl Sampler for Own {
     }
 }
 
+/// A technique of the core.
+#[must_use]
+pub fn technique(shape: LightShape, by: Measure) -> Subject<'static> {
+    let known = MEASURES.iter().any(|m| m.0 == by);
+    Subject {
+        name: format!("etendue {} by {by:?}", shape_name(shape)),
+        shape,
+        by: if known { by } else { Measure::Other },
+        domain: String::new(),
+        prepare: Box::new(move |light| {
+            let light = AreaLight { by, ..*light };
+            let away = length(sub(wide(light.a), wide(light.p)));
+            let is_inside = light.shape == LightShape::Sphere && away < f64::from(light.radius);
+            Prepared::Ready(Box::new(Own { light: LightFixture::prepare::<f32>(&[light]), is_inside }))
+        }),
+    }
+}
+
 /// The core's own techniques of these shapes, from its one list.
 #[must_use]
 pub fn own() -> Vec<Subject<'static>> {
     let kinds = AreaLight::KINDS.iter().filter(|kind| SHAPES.iter().any(|s| s.0 == kind.0));
-    kinds
-        .map(|&(shape, by)| {
-            let known = MEASURES.iter().any(|m| m.0 == by);
-            Subject {
-                name: format!("etendue {} by {by:?}", shape_name(shape)),
-                shape,
-                by: if known { by } else { Measure::Other },
-                domain: String::new(),
-                prepare: Box::new(move |light| {
-                    let light = AreaLight { by, ..*light };
-                    let away = length(sub(wide(light.a), wide(light.p)));
-                    let is_inside = light.shape == LightShape::Sphere && away < f64::from(light.radius);
-                    Prepared::Ready(Box::new(Own { light: LightFixture::prepare::<f32>(&[light]), is_inside }))
-                }),
-            }
-        })
-        .collect()
+    kinds.map(|&(shape, by)| technique(shape, by)).collect()
 }

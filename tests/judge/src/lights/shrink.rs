@@ -2,7 +2,7 @@
 
 use super::figures::Measured;
 use super::scene::is_sound;
-use crate::techniques::AreaLight;
+use crate::area_lights::AreaLight;
 
 /// Rounds to a number of decimal digits of the greatest coordinate.
 fn rounded(v: [f32; 3], digits: i32) -> [f32; 3] {

@@ -7,21 +7,20 @@ use core::f32::consts::{PI, TAU};
 fn drawn(direction: V, pdf: f32) -> Option<Sample> {
     Some(Sample { direction, pdf, is_hidden: false })
 }
-/// The distance at which a ray meets a triangle (`half`) or a parallelogram, by Möller and Trumbore; none if it is not met.
-fn met([p, e1, e2]: [V; 3], half: bool, w: V) -> Option<f32> {
+/// Whether a ray meets a parallelogram, by Möller and Trumbore.
+fn meets([p, e1, e2]: [V; 3], w: V) -> bool {
     let across = cross(w, e2);
     let scale = 1.0 / dot(e1, across);
     let from = times(p, -1.0);
     let (s, over) = (dot(from, across) * scale, cross(from, e1));
     let (t, distance) = (dot(w, over) * scale, dot(e2, over) * scale);
-    let most = if half { 1.0 - s } else { 1.0 };
-    ((0.0..=1.0).contains(&s) && (0.0..=most).contains(&t) && distance > 0.0).then_some(distance)
+    (0.0..=1.0).contains(&s) && (0.0..=1.0).contains(&t) && distance > 0.0
 }
 
 /// A cone by its cosine: cosσ = √(1 − R²/d²), cosθ = 1 − u₀(1 − cosσ), sinθ = √(1 − cos²θ). With `series`,
 /// sin²θ = u₀ sin²σ and 1 − cosσ = ½ sin²σ below sin²σ = 0.00068523 (1.5°), as in PBR 4th ed., 6.2.4.
 #[derive(Clone, Copy, Debug)]
-pub struct Cone {
+pub(super) struct Cone {
     frame: etendue::Frame<f32>,
     sin_squared: f32,
     small: bool,
@@ -29,8 +28,7 @@ pub struct Cone {
 }
 impl Cone {
     /// The sphere of a centre and a radius.
-    #[must_use]
-    pub fn new(center: V, radius: f32, series: bool) -> Self {
+    pub(super) fn new(center: V, radius: f32, series: bool) -> Self {
         let distance = length(center);
         let axis = normalize(center);
         let frame = etendue::Frame::new(etendue::Vec3::new(axis[0], axis[1], axis[2]));
@@ -67,7 +65,7 @@ impl Sampler for Cone {
 
 /// How to compute the solid angle of a spherical triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Excess {
+pub(super) enum Excess {
     /// α + β + γ − π, with angles by arc cosines of the planes' normals (Girard; Arvo 1995).
     Angles,
     /// 2 atan2(|a·(b×c)|, 1 + a·b + b·c + c·a) on unit vectors (Van Oosterom and Strackee 1983).
@@ -76,7 +74,7 @@ pub enum Excess {
 
 /// A spherical triangle and Arvo's map about b, from a to c ("Stratified Sampling of Spherical Triangles", 1995).
 #[derive(Clone, Copy, Debug)]
-pub struct Arvo {
+pub(super) struct Arvo {
     a: V,
     b: V,
     c: V,
@@ -86,8 +84,7 @@ pub struct Arvo {
 }
 impl Arvo {
     /// The triangle of vertices relative to the point.
-    #[must_use]
-    pub fn new([a, b, c]: [V; 3], excess: Excess) -> Self {
+    pub(super) fn new([a, b, c]: [V; 3], excess: Excess) -> Self {
         let (a, b, c) = (normalize(a), normalize(b), normalize(c));
         let planes = [cross(a, b), cross(b, c), cross(c, a)].map(normalize);
         let angle = |p: V, q: V| (-dot(p, q)).clamp(-1.0, 1.0).acos();
@@ -103,13 +100,11 @@ impl Arvo {
         Self { a, b, c, cos_c: dot(a, b), angle: [alpha.sin(), alpha.cos()], solid_angle }
     }
     /// Solid angle in steradians.
-    #[must_use]
-    pub fn solid_angle(&self) -> f32 {
+    pub(super) fn solid_angle(&self) -> f32 {
         self.solid_angle
     }
     /// The direction for `u`.
-    #[must_use]
-    pub fn sample(&self, u: [f32; 2]) -> V {
+    pub(super) fn sample(&self, u: [f32; 2]) -> V {
         let [sin_alpha, cos_alpha] = self.angle;
         let (sin_area, cos_area) = (u[0] * self.solid_angle).sin_cos();
         let s = sin_area * cos_alpha - cos_area * sin_alpha;
@@ -124,8 +119,7 @@ impl Arvo {
         add(times(self.b, z), times(towards(self.b, swept), (1.0 - z * z).max(0.0).sqrt()))
     }
     /// The inverse: the swept fraction of the solid angle, and a ratio of values of 1 − cos.
-    #[must_use]
-    pub fn invert(&self, w: V, excess: Excess) -> [f32; 2] {
+    pub(super) fn invert(&self, w: V, excess: Excess) -> [f32; 2] {
         let plane = cross(self.b, w);
         if dot(plane, plane) == 0.0 {
             return [0.0; 2];
@@ -141,15 +135,14 @@ impl Arvo {
 
 /// A fan of spherical triangles, chosen by u₀.
 #[derive(Clone, Debug)]
-pub struct Fan {
+pub(super) struct Fan {
     parts: Vec<Arvo>,
     excess: Excess,
     whole: f32,
 }
 impl Fan {
     /// The triangles of vertices relative to the point.
-    #[must_use]
-    pub fn new(triangles: &[[V; 3]], excess: Excess) -> Self {
+    pub(super) fn new(triangles: &[[V; 3]], excess: Excess) -> Self {
         let parts: Vec<_> = triangles.iter().map(|t| Arvo::new(*t, excess)).collect();
         let whole = parts.iter().map(Arvo::solid_angle).sum();
         Self { parts, excess, whole }
@@ -192,55 +185,31 @@ impl Sampler for Fan {
     }
 }
 
-/// A point of a flat shape, uniform by area, with pdf d²/(|cosθ'| A).
-#[derive(Clone, Copy, Debug)]
-pub struct Area {
-    shape: [V; 3],
-    half: bool,
-    normal: V,
-    area: f32,
+/// The directions of another sampler, whose density is constant or proportional to the cosine to a normal.
+pub(super) struct Reweighted {
+    pub(super) own: Box<dyn Sampler>,
+    /// Per steradian, at a cosine of 1.
+    pub(super) density: f32,
+    pub(super) normal: Option<V>,
 }
-impl Area {
-    /// A triangle if `half`, else a parallelogram, of a corner and two edges.
-    #[must_use]
-    pub fn new(shape: [V; 3], half: bool) -> Self {
-        let normal = cross(shape[1], shape[2]);
-        let area = length(normal) * if half { 0.5 } else { 1.0 };
-        Self { shape, half, normal: normalize(normal), area }
-    }
-    fn density(&self, w: V, squared: f32) -> f32 {
-        squared / (dot(w, self.normal).abs() * self.area)
+impl Reweighted {
+    fn at(&self, w: V) -> f32 {
+        self.normal.map_or(1.0, |n| dot(w, n).max(0.0)) * self.density
     }
 }
-impl Sampler for Area {
+impl Sampler for Reweighted {
     fn sample(&self, u: [f32; 2]) -> Option<Sample> {
-        let [p, e1, e2] = self.shape;
-        let (b1, b2) = if self.half {
-            let root = u[0].sqrt();
-            (root * (1.0 - u[1]), root * u[1])
-        } else {
-            (u[0], u[1])
-        };
-        let point = add(p, add(times(e1, b1), times(e2, b2)));
-        let w = normalize(point);
-        drawn(w, self.density(w, dot(point, point)))
+        let drawn = self.own.sample(u)?;
+        Some(Sample { pdf: self.at(drawn.direction), ..drawn })
     }
     fn pdf(&self, w: V) -> f32 {
-        met(self.shape, self.half, w).map_or(0.0, |distance| self.density(w, distance * distance))
+        if self.own.pdf(w) > 0.0 { self.at(w) } else { 0.0 }
     }
-}
-
-/// A triangle as in renderers: by solid angle (Van Oosterom and Strackee, Arvo) from 3e−4 to 6.22 sr, otherwise by area.
-#[must_use]
-pub fn triangle_with_thresholds(shape: [V; 3]) -> Box<dyn Sampler> {
-    let [p, e1, e2] = shape;
-    let fan = Fan::new(&[[p, add(p, e1), add(p, e2)]], Excess::Oosterom);
-    if (3e-4..=6.22).contains(&fan.whole) { Box::new(fan) } else { Box::new(Area::new(shape, true)) }
 }
 
 /// A spherical rectangle: Ureña, Fajardo and King, "An Area-Preserving Parametrization for Spherical Rectangles", 2013.
 #[derive(Clone, Copy, Debug)]
-pub struct Urena {
+pub(super) struct Urena {
     shape: [V; 3],
     axes: [V; 3],
     x: [f32; 2],
@@ -252,8 +221,7 @@ pub struct Urena {
 }
 impl Urena {
     /// The rectangle of a corner and two perpendicular edges.
-    #[must_use]
-    pub fn new([p, u, v]: [V; 3]) -> Self {
+    pub(super) fn new([p, u, v]: [V; 3]) -> Self {
         let (lu, lv) = (length(u), length(v));
         let (x_axis, y_axis) = (times(u, 1.0 / lu), times(v, 1.0 / lv));
         let mut z_axis = cross(x_axis, y_axis);
@@ -280,8 +248,7 @@ impl Urena {
         }
     }
     /// The direction for `u`.
-    #[must_use]
-    pub fn at(&self, u: [f32; 2]) -> V {
+    pub(super) fn at(&self, u: [f32; 2]) -> V {
         let [b0, b1] = self.b;
         let (sin, cos) = (u[0] * self.solid_angle + self.k).sin_cos();
         let f = (cos * b0 - b1) / sin;
@@ -296,8 +263,7 @@ impl Urena {
         normalize(add(times(a, x), add(times(b, y), times(n, self.z))))
     }
     /// The inverse, by solving the same equations for `u`.
-    #[must_use]
-    pub fn place(&self, w: V) -> [f32; 2] {
+    pub(super) fn place(&self, w: V) -> [f32; 2] {
         let [a, b, n] = self.axes;
         let scale = self.z / dot(w, n);
         let x = (dot(w, a) * scale).clamp(self.x[0], self.x[1]);
@@ -331,16 +297,9 @@ impl Sampler for Urena {
         drawn(self.at(u), 1.0 / self.solid_angle)
     }
     fn pdf(&self, w: V) -> f32 {
-        if met(self.shape, false, w).is_some() { 1.0 / self.solid_angle } else { 0.0 }
+        if meets(self.shape, w) { 1.0 / self.solid_angle } else { 0.0 }
     }
     fn invert(&self, w: V) -> Option<[f32; 2]> {
         Some(self.place(w))
     }
-}
-
-/// A rectangle as in renderers: the published map from 3e−4 to 6.22 sr, otherwise by area.
-#[must_use]
-pub fn rectangle_with_thresholds(shape: [V; 3]) -> Box<dyn Sampler> {
-    let map = Urena::new(shape);
-    if (3e-4..=6.22).contains(&map.solid_angle) { Box::new(map) } else { Box::new(Area::new(shape, false)) }
 }

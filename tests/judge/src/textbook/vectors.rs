@@ -8,9 +8,7 @@ pub(super) fn dot(a: V, b: V) -> f32 {
 pub(super) fn cross(a: V, b: V) -> V {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
-/// The sum of two vectors.
-#[must_use]
-pub fn add(a: V, b: V) -> V {
+pub(super) fn add(a: V, b: V) -> V {
     core::array::from_fn(|i| a[i] + b[i])
 }
 pub(super) fn sub(a: V, b: V) -> V {

@@ -1,0 +1,405 @@
+//! Every light of the core's list by every technique.
+
+use crate::generators::Random;
+use crate::packets::{Coordinates, lanes_of, vectors_of};
+use crate::techniques::LightFixture;
+use crate::tolerances::ULP;
+use core::f64::consts::{PI, TAU};
+use core::fmt::Debug;
+use etendue::{
+    BilinearPatch, DirectionalLight, Disk, LightSample, LightSampler, Line, Parallelogram, PointLight, Polygon, Real,
+    Rectangle, Sphere, SpotLight, Sun, Triangle, Vec3,
+};
+use etendue_oracle::{V3, along, cross, dot, length, sub, wide};
+
+/// A function of its own for each technique: a compiler takes several times as long for one with all of them.
+#[inline(never)]
+fn boxed<R: Real, S: LightSampler<R> + 'static>(prepare: impl FnOnce() -> S) -> Box<dyn LightSampler<R>> {
+    Box::new(prepare())
+}
+
+/// What is sampled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LightShape {
+    /// About `a`, of the radius.
+    Sphere,
+    /// `a`, and edges `b` and `c`.
+    Triangle,
+    /// `a`, and edges `b` and `c`.
+    Parallelogram,
+    /// `a`, and edges `b` and `c`.
+    Rectangle,
+    /// About `a`, with normal `b`, of the radius.
+    Disk,
+    /// `a`, `a` + `b`, `a` + `b` + `c`, `a` + `c`.
+    Polygon,
+    /// `a`, and from there `b`, `c` and, to the opposite corner, `n`.
+    Patch,
+    /// From `a` along `b`.
+    Line,
+    /// Towards `b`, with the radius as 1 − cos of its angle.
+    Sun,
+    /// At `a`.
+    PointLight,
+    /// At `a`, with axis `b`, and the radius as the cosine of its outer angle.
+    SpotLight,
+    /// Towards `b`.
+    DirectionalLight,
+}
+impl LightShape {
+    /// Whether `b` is a unit normal.
+    #[must_use]
+    pub fn has_normal(self) -> bool {
+        self == Self::Disk
+    }
+}
+/// How.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Measure {
+    /// Uniform by area; by length of a line.
+    Area,
+    /// Uniform by solid angle; by angle of a line.
+    SolidAngle,
+    /// Uniform by solid angle projected on `n` as a normal.
+    ProjectedSolidAngle,
+    /// Measure solid angle, warped towards the cosine to `n`.
+    CosineWarp,
+    /// One direction.
+    Delta,
+    /// Anything else.
+    Other,
+}
+
+/// Any light with a surface.
+#[derive(Clone, Copy, Debug)]
+pub struct AreaLight {
+    /// What.
+    pub shape: LightShape,
+    /// How.
+    pub by: Measure,
+    /// The shading point.
+    pub p: [f32; 3],
+    /// Corner or centre.
+    pub a: [f32; 3],
+    /// Edge, normal or axis.
+    pub b: [f32; 3],
+    /// Edge.
+    pub c: [f32; 3],
+    /// Unit normal at the shading point; a patch's third edge.
+    pub n: [f32; 3],
+    /// Radius.
+    pub radius: f32,
+}
+
+/// The shape of a light of the core's list.
+macro_rules! shape {
+    (BilinearPatch) => {
+        LightShape::Patch
+    };
+    ($light:ident) => {
+        LightShape::$light
+    };
+}
+/// The measure of a method of the core's list.
+macro_rules! measure {
+    (by_area) => {
+        Measure::Area
+    };
+    (by_length) => {
+        Measure::Area
+    };
+    (by_solid_angle) => {
+        Measure::SolidAngle
+    };
+    (by_angle) => {
+        Measure::SolidAngle
+    };
+    (by_projected_solid_angle) => {
+        Measure::ProjectedSolidAngle
+    };
+    (by_cosine_warp) => {
+        Measure::CosineWarp
+    };
+    (by_delta) => {
+        Measure::Delta
+    };
+}
+/// What is there for the rows of the core's list whose arguments an [`AreaLight`] has.
+macro_rules! row {
+    ((p, reflection), ($shape:expr, $by:expr)) => {
+        None
+    };
+    ((p, spread), ($shape:expr, $by:expr)) => {
+        None
+    };
+    ($place:tt, ($shape:expr, $by:expr)) => {
+        Some(($shape, $by))
+    };
+    ((p, reflection), $done:expr) => {};
+    ((p, spread), $done:expr) => {};
+    ($place:tt, $done:expr) => {
+        $done
+    };
+}
+macro_rules! techniques {
+    ($(
+        $(#[$light_doc:meta])* $light:ident $([$corners:literal])? = $light_c:ident, $columns_c:ident { $($fields:tt)* } by $default:literal {
+            $(
+                $(#[$doc:meta])* $technique:ident, $name:ident -> $sampler:ident $([$n:literal])? $(= $sampler_c:ident[$size:literal])?: $by:ident $place:tt $($measure:ident)?;
+            )+
+        }
+    )+) => {
+        /// All rows of the core's list, in its order, but for lobes and spreads, which have fixtures of their own.
+        const ROWS: &[Option<(LightShape, Measure)>] = &[$($(row!($place, (shape!($light), measure!($by))),)+)+];
+        /// The light of a shape, by a technique.
+        fn prepare<R: Real>(shape: LightShape, by: Measure, (v, radius): &([Vec3<R>; 5], R)) -> Box<dyn LightSampler<R>> {
+            $($(row!($place, if (shape, by) == (shape!($light), measure!($by)) {
+                return boxed(|| etendue::prepared!($light::placed(v, *radius), $by $place, p: v[0], n: v[4],));
+            });)+)+
+            panic!("the core's list has no {shape:?} by {by:?}");
+        }
+        /// The numbers of the light of a shape, in the order of its fields.
+        fn numbers(shape: LightShape, (v, radius): &([Vec3<f32>; 5], f32)) -> Vec<f32> {
+            let mut all = Vec::new();
+            $(if shape == shape!($light) {
+                $light::placed(v, *radius).map(|x| all.push(x));
+            })+
+            all
+        }
+    };
+}
+etendue::techniques!(techniques! {});
+
+/// The rows that are there.
+const KINDS: &[(LightShape, Measure)] = {
+    const COUNT: usize = {
+        let (mut i, mut count) = (0, 0);
+        while i < ROWS.len() {
+            count += ROWS[i].is_some() as usize;
+            i += 1;
+        }
+        count
+    };
+    &{
+        let mut kinds = [(LightShape::Sphere, Measure::Area); COUNT];
+        let (mut i, mut count) = (0, 0);
+        while i < ROWS.len() {
+            if let Some(kind) = ROWS[i] {
+                kinds[count] = kind;
+                count += 1;
+            }
+            i += 1;
+        }
+        kinds
+    }
+};
+
+/// A light from the shading point, the vectors a, b, c and n of an [`AreaLight`], and its radius.
+trait Placed<R> {
+    fn placed(vectors: &[Vec3<R>; 5], radius: R) -> Self;
+}
+macro_rules! placed {
+    ($($light:ident $(<$n:literal>)?: |$v:ident, $radius:pat_param| $value:expr;)+) => {$(
+        impl<R: Real> Placed<R> for $light<R $(, $n)?> {
+            fn placed($v: &[Vec3<R>; 5], $radius: R) -> Self {
+                $value
+            }
+        }
+    )+};
+}
+placed! {
+    Sphere: |v, radius| Self::new(v[1], radius);
+    Triangle: |v, _| Self { v0: v[1], e1: v[2], e2: v[3] };
+    Parallelogram: |v, _| Self::new(v[1], v[2], v[3]);
+    Rectangle: |v, _| Self::new(v[1], v[2], v[3]);
+    Disk: |v, radius| Self::new(v[1], v[2], radius);
+    Polygon<4>: |v, _| Self::new([v[1], v[1] + v[2], v[1] + v[2] + v[3], v[1] + v[3]]);
+    BilinearPatch: |v, _| Self::new(v[1], v[2], v[3], v[4]);
+    Line: |v, _| Self::new(v[1], v[2]);
+    Sun: |v, radius| Self::new(v[2], radius);
+    PointLight: |v, _| Self::new(v[1]);
+    SpotLight: |v, radius| Self { position: v[1], axis: v[2], one_minus_cos_inner: R::lit(0.0), one_minus_cos_outer: radius };
+    DirectionalLight: |v, _| Self::new(v[2]);
+}
+
+impl AreaLight {
+    /// Corners of a polygon, rounded.
+    #[must_use]
+    pub fn corners(&self) -> [[f32; 3]; 4] {
+        let plus = |v: [f32; 3], e: [f32; 3]| core::array::from_fn(|k| v[k] + e[k]);
+        [self.a, plus(self.a, self.b), plus(plus(self.a, self.b), self.c), plus(self.a, self.c)]
+    }
+    /// All shapes with a surface by all techniques: all of the core's list but the sun and the delta lights, which are last.
+    pub const KINDS: &[(LightShape, Measure)] = {
+        let (with_surface, rest) = KINDS.split_at(KINDS.len() - 4);
+        assert!(matches!(rest[0].0, LightShape::Sun));
+        with_surface
+    };
+    /// A light of a kind, at the scale of rooms or small, far, large or near its own plane.
+    #[must_use]
+    pub fn any(kind: usize, round: u32, random: &mut Random) -> Self {
+        let (shape, by) = Self::KINDS[kind];
+        let mut unit = || random.direction().map(|x| x as f32);
+        let (mut b, mut c, n, towards) = (unit(), unit(), unit(), unit());
+        if shape == LightShape::Rectangle {
+            let along = dot(wide(b), wide(c));
+            c = core::array::from_fn(|k| (f64::from(c[k]) - along * f64::from(b[k])) as f32);
+        }
+        let size = [1.0, 1e-3, 1e-6, 30.0][round as usize % 4];
+        if !shape.has_normal() {
+            b = b.map(|x| x * size);
+        }
+        c = c.map(|x| x * size);
+        // the fourth corner of a patch: nearly opposite
+        let n = if shape == LightShape::Patch { core::array::from_fn(|k| b[k] + c[k] + 0.2 * size * n[k]) } else { n };
+        let mut a = towards.map(|x| x * (0.1 + random.unit()) * if size > 1.0 { 10.0 } else { 1.0 });
+        if round % 5 == 4 {
+            // nearly in its plane
+            let normal = cross(wide(b), wide(c));
+            let lift = dot(wide(a), normal) / dot(normal, normal) * 0.999;
+            a = core::array::from_fn(|k| (f64::from(a[k]) - lift * normal[k]) as f32);
+        }
+        Self { shape, by, p: [0.0; 3], a, b, c, n, radius: size * 0.3 }
+    }
+    fn vectors<R: Real>(lanes: &[Self]) -> ([Vec3<R>; 5], R) {
+        let of = |i: usize| lanes[i % lanes.len()];
+        let vectors = [
+            vectors_of(|i| of(i).p),
+            vectors_of(|i| of(i).a),
+            vectors_of(|i| of(i).b),
+            vectors_of(|i| of(i).c),
+            vectors_of(|i| of(i).n),
+        ];
+        (vectors, lanes_of(|i| f64::from(of(i).radius)))
+    }
+    /// The numbers of the light itself, in the order of the fields of its type in the core.
+    #[must_use]
+    pub fn numbers(&self) -> Vec<f32> {
+        numbers(self.shape, &Self::vectors(&[*self]))
+    }
+    /// The point of a patch at surface coordinates, relative to the shading point.
+    #[must_use]
+    pub fn on_patch(&self, [s, t]: [f64; 2]) -> V3 {
+        let (u, v, w) = (wide(self.b), wide(self.c), wide(self.n));
+        along(along(along(self.offset(), u, s), v, t), sub(sub(w, u), v), s * t)
+    }
+    /// True for a patch that folds back on itself, or nearly: seen along its middle normal, no convex quadrilateral.
+    fn folded(&self) -> bool {
+        let (u, v, w) = (wide(self.b), wide(self.c), wide(self.n));
+        let twist = sub(sub(w, u), v);
+        let normal = |s: f64, t: f64| cross(along(u, twist, t), along(v, twist, s));
+        let middle = normal(0.5, 0.5);
+        let corners = [normal(0.0, 0.0), normal(1.0, 0.0), normal(0.0, 1.0), normal(1.0, 1.0)];
+        !corners.into_iter().all(|corner| dot(corner, middle) > 1e-3 * length(corner) * length(middle))
+    }
+    /// Coordinates of a point relative to `a`, rounded as the shape's own are.
+    fn offset(&self) -> V3 {
+        wide(core::array::from_fn(|k| self.a[k] - self.p[k]))
+    }
+}
+
+impl LightFixture for AreaLight {
+    fn prepare<R: Real>(lanes: &[Self]) -> Box<dyn LightSampler<R>> {
+        prepare(lanes[0].shape, lanes[0].by, &Self::vectors::<R>(lanes))
+    }
+    /// Lines: to the rounding of the direction, over the sine of its angle to the line. Curved lights by area: a rounded direction moves the
+    /// point by 16 ulp of the distance, and the cosine there by that over the radius and the cosine. Samples that the light itself hides
+    /// have the pdf of their own point. Cosine warps: to the rounding of the direction, over the least cosine.
+    fn evaluated_to(&self, s: &LightSample<f32>) -> Option<f64> {
+        let curved = matches!(self.shape, LightShape::Sphere | LightShape::Patch);
+        if self.by == Measure::CosineWarp {
+            return Some(32.0 * ULP / 0.01);
+        }
+        if self.shape != LightShape::Line && !(curved && self.by == Measure::Area) {
+            return Some(0.0);
+        }
+        let cos = dot(s.direction.at(0), s.normal.at(0));
+        if self.shape == LightShape::Line {
+            let allowed = 32.0 * ULP / cos.abs();
+            return (allowed < 0.05).then_some(allowed);
+        }
+        if self.shape == LightShape::Patch && self.folded() {
+            return None;
+        }
+        let (size, reach) = match self.shape {
+            LightShape::Patch => {
+                // its shortest edge: from there to the opposite one, the area per step of u and v changes by its own size
+                let (b, c, n) = (wide(self.b), wide(self.c), wide(self.n));
+                let edges = [b, c, sub(n, b), sub(n, c)].map(length);
+                (edges.into_iter().fold(f64::INFINITY, f64::min), f64::from(s.distance) + length(n))
+            }
+            _ => (f64::from(self.radius), f64::from(s.distance) + length(wide(self.b)) + length(self.offset())),
+        };
+        let allowed = 32.0 * ULP * (1.0 + reach / size) / (cos * cos);
+        (s.emits && allowed < 0.05).then_some(allowed)
+    }
+    fn has(&self, hit: &LightSample<f32>) -> bool {
+        let reach: V3 = hit.direction.at(0).map(|x| x * f64::from(hit.distance));
+        let size = [self.b, self.c, self.n].iter().fold(0.0, |sum, v| sum + length(wide(*v)));
+        let point = || self.on_patch([f64::from(hit.uv.x), f64::from(hit.uv.y)]);
+        // a direction is rounded, and moves the point where it meets the patch at a small angle
+        self.shape != LightShape::Patch
+            || length(sub(point(), reach)) < 1e-3 * size + 256.0 * ULP * length(self.offset())
+    }
+    fn truth(&self, w: V3, distance: f64) -> Option<(f64, f64)> {
+        // of a patch no density is known, and the corners of a polygon are rounded
+        if self.by != Measure::Area || matches!(self.shape, LightShape::Patch | LightShape::Polygon) {
+            return None;
+        }
+        let (a, b, c, r) = (self.offset(), wide(self.b), wide(self.c), f64::from(self.radius));
+        let from = |center: V3| sub(w.map(|x| x * distance), center);
+        // normal, not of unit length, and the area; what a rounded point does to the normal
+        let (normal, area, turned) = match self.shape {
+            LightShape::Sphere => (from(a), 2.0 * TAU * r * r, distance / r.abs()),
+            LightShape::Triangle => (cross(b, c), 0.5 * length(cross(b, c)), 0.0),
+            LightShape::Parallelogram | LightShape::Rectangle => (cross(b, c), length(cross(b, c)), 0.0),
+            LightShape::Disk => (b, PI * r * r, 0.0),
+            // what is across the direction
+            LightShape::Line => (cross(b, cross(w, b)), length(b), 0.0),
+            LightShape::Polygon
+            | LightShape::Patch
+            | LightShape::Sun
+            | LightShape::PointLight
+            | LightShape::SpotLight
+            | LightShape::DirectionalLight => return None,
+        };
+        // what is subnormal has few digits: so has an edge in units of another that is so much longer
+        let flat = matches!(self.shape, LightShape::Triangle | LightShape::Parallelogram | LightShape::Rectangle);
+        let (shorter, longer) = (length(b).min(length(c)), length(b).max(length(c)));
+        if !(1e-36..1e36).contains(&area) || flat && shorter < 1e-36 * longer {
+            return None;
+        }
+        let cos = dot(w, normal).abs() / length(normal);
+        // a product that cancels is known no better than its factors
+        let sine = length(cross(b, c)) / (length(b) * length(c));
+        let slim = if flat { 8.0 / sine } else { 0.0 };
+        let known = (16.0 + slim + (12.0 + slim + 4.0 * turned) / cos) * ULP;
+        if flat || self.shape.has_normal() {
+            // the direction determines the distance, by its cosine, of which the pdf is a third power
+            let distance = dot(a, normal).abs() / (length(normal) * cos);
+            return Some((distance * distance / (cos * area), 3.0 * known));
+        }
+        Some((distance * distance / (cos * area), known))
+    }
+    /// Flat shapes by projected solid angle, seen from their own plane or a corner but for rounding, have directions of any length up to 1.
+    fn unit_to(&self) -> f64 {
+        let (v, normal) = (self.offset(), cross(wide(self.b), wide(self.c)));
+        let flat = matches!(self.shape, LightShape::Triangle | LightShape::Parallelogram | LightShape::Polygon);
+        let size = length(wide(self.b)) + length(wide(self.c));
+        let edge_on = !(dot(v, normal).abs() > 1e-4 * length(v) * length(normal) && length(v) > 1e-4 * size);
+        // what is subnormal has few digits
+        let touched = self.shape == LightShape::Line && length(v) < 1e-4 * size || length(v) < 1e-37;
+        let coarse = flat && edge_on && self.by == Measure::ProjectedSolidAngle || touched;
+        if coarse { 1.0 } else { 12.0 * ULP }
+    }
+    fn pdf_scaled(&self, factor: f32) -> f32 {
+        if self.shape == LightShape::Line { factor } else { 1.0 }
+    }
+    fn scaled(&self, factor: f32) -> Self {
+        let times = |v: [f32; 3]| v.map(|x| x * factor);
+        // directions stay
+        let b = if self.shape.has_normal() { self.b } else { times(self.b) };
+        let n = if self.shape == LightShape::Patch { times(self.n) } else { self.n };
+        Self { p: times(self.p), a: times(self.a), b, c: times(self.c), n, radius: self.radius * factor, ..*self }
+    }
+}
