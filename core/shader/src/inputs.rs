@@ -59,9 +59,6 @@ impl Inputs {
 pub(crate) fn pair(of: Vec2<Number>) -> Vec<Id> {
     vec![of.x.id(), of.y.id()]
 }
-pub(crate) fn three(of: Vec3<Number>) -> Vec<Id> {
-    vec![of.x.id(), of.y.id(), of.z.id()]
-}
 
 /// Adds a function, given its name and what records it: that takes its parameters, and returns what it does, the type of the result, and its
 /// values.

@@ -1,7 +1,7 @@
 //! What is neither a light nor a warp: sequences of random numbers, weights that combine techniques, and what lights look up.
 
 use crate::graph::Id;
-use crate::inputs::{Inputs, add_function, pair, three};
+use crate::inputs::{Inputs, add_function, pair};
 use crate::module::{Leaf, Module, Type};
 use crate::number::{Number, Truth, Word};
 use etendue::estimate::Heuristic;
