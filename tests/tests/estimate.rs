@@ -137,7 +137,7 @@ fn weights_of_both_techniques_sum_to_one() {
 }
 
 /// A sample of a light, and what a ray of its direction hits.
-fn both(light: &impl LightSampler<f32>, u: Vec2<f32>) -> [LightSample<f32>; 2] {
+fn both(light: &dyn LightSampler<f32>, u: Vec2<f32>) -> [LightSample<f32>; 2] {
     let sample = light.sample(u);
     [sample, light.hit(sample.direction)]
 }

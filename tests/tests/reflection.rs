@@ -278,7 +278,7 @@ fn flat_lights_have_their_part_of_the_lobe() {
 }
 
 /// Samplers are closed: the pdf of a sample is that of its direction, samples are on the light, and inverses lead back.
-fn closed(sampler: &impl LightSampler<f32>, random: &mut Random, what: &str) -> [u32; 2] {
+fn closed(sampler: &dyn LightSampler<f32>, random: &mut Random, what: &str) -> [u32; 2] {
     let mut count = [0; 2];
     for _ in 0..20 {
         let u = Vec2::new(random.unit(), random.unit());

@@ -77,14 +77,19 @@ fn each<S: Fixture>(
     cases: &[Case<S>],
     run: impl Fn(&S, usize) -> Option<f64>,
 ) -> PropertyOutcome {
+    let names: Vec<_> = cases.iter().map(|case| case.0).collect();
+    by_regime(property, &names, &|i| run(&cases[i].1, i))
+}
+/// The same for cases of which only the regimes are known: the compiler need not repeat it for each property of each warp.
+fn by_regime(property: &'static str, names: &[&'static str], run: &dyn Fn(usize) -> Option<f64>) -> PropertyOutcome {
     let mut regimes: Vec<Regime> = Vec::new();
-    for (i, (name, subject)) in cases.iter().enumerate() {
-        let at = regimes.iter().position(|r| r.name == *name).unwrap_or_else(|| {
+    for (i, &name) in names.iter().enumerate() {
+        let at = regimes.iter().position(|r| r.name == name).unwrap_or_else(|| {
             regimes.push(Regime { name, checked: 0, figure: Greatest::NONE, broken: 0, first: String::new() });
             regimes.len() - 1
         });
         let entry = &mut regimes[at];
-        match quietly(|| run(subject, i)) {
+        match quietly(|| run(i)) {
             Ok(Some(figure)) => {
                 entry.checked += 1;
                 entry.figure.take(figure, i);

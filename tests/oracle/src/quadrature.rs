@@ -27,13 +27,13 @@ pub fn gauss_legendre<const N: usize>() -> [(f64, f64); N] {
 
 /// ∫ f over the rectangle [low, high], split until a split changes the sum by less than `tolerance` times the first estimate (at most 20
 /// times).
-pub fn integrate(f: &mut impl FnMut(f64, f64) -> f64, low: [f64; 2], high: [f64; 2], tolerance: f64) -> f64 {
+pub fn integrate(f: &mut dyn FnMut(f64, f64) -> f64, low: [f64; 2], high: [f64; 2], tolerance: f64) -> f64 {
     let nodes = gauss_legendre::<8>();
     let whole = tensor(f, &nodes, low, high);
     refine(f, &nodes, low, high, whole, tolerance * whole.abs(), 20)
 }
 
-fn tensor(f: &mut impl FnMut(f64, f64) -> f64, nodes: &[(f64, f64); 8], low: [f64; 2], high: [f64; 2]) -> f64 {
+fn tensor(f: &mut dyn FnMut(f64, f64) -> f64, nodes: &[(f64, f64); 8], low: [f64; 2], high: [f64; 2]) -> f64 {
     let (dx, dy) = (high[0] - low[0], high[1] - low[1]);
     let mut sum = 0.0;
     for &(x, wx) in nodes {
@@ -45,7 +45,7 @@ fn tensor(f: &mut impl FnMut(f64, f64) -> f64, nodes: &[(f64, f64); 8], low: [f6
 }
 
 fn refine(
-    f: &mut impl FnMut(f64, f64) -> f64,
+    f: &mut dyn FnMut(f64, f64) -> f64,
     nodes: &[(f64, f64); 8],
     low: [f64; 2],
     high: [f64; 2],

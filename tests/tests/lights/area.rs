@@ -23,6 +23,10 @@ pub(crate) fn irradiance(s: &LightSample<f64>, n: V3) -> f64 {
     let cos = dot(s.direction.at(0), n).max(0.0);
     if s.pdf > 0.0 && s.emits { cos / s.pdf } else { 0.0 }
 }
+/// Mean irradiance of samples from an n × n grid of `u`.
+pub(crate) fn flux(n: usize, sampler: &dyn LightSampler<f64>, normal: V3) -> f64 {
+    mean(n, |u| irradiance(&sampler.sample(u), normal))
+}
 fn origin() -> Vec3<f64> {
     Vec3::new(0.0, 0.0, 0.0)
 }
@@ -32,7 +36,7 @@ fn disk_has_its_form_factor() {
     let all = [(2.0, 0.3, 2.5), (0.5, 1.0, 0.0), (0.5, 1.0, 0.7), (1e-3, 1.0, 3.0), (30.0, 1.0, 31.0)];
     for (r, h, a) in all.into_iter().take(cases(2, 5)) {
         let disk = Disk { center: [a, 0.0, h].into(), normal: [0.0, 0.0, -1.0].into(), radius: r };
-        let of = |n: V3| mean(1500, |u| irradiance(&disk.by_area(origin()).sample(u), n));
+        let of = |n: V3| flux(1500, &disk.by_area(origin()), n);
         let (facing, upright) = (of([0.0, 0.0, 1.0]) / PI, of([1.0, 0.0, 0.0]) / PI);
         let truth = facing_disk(r, h, a);
         assert!((facing / truth - 1.0).abs() < 2e-4, "{r} {h} {a}: {facing} for {truth}");
@@ -40,7 +44,7 @@ fn disk_has_its_form_factor() {
             let truth = perpendicular_disk(r, h, a);
             assert!((upright / truth - 1.0).abs() < 2e-4, "{r} {h} {a}: {upright} for {truth}");
         }
-        let by_solid_angle = |n: V3| mean(500, |u| irradiance(&disk.by_solid_angle(origin()).sample(u), n));
+        let by_solid_angle = |n: V3| flux(500, &disk.by_solid_angle(origin()), n);
         let (facing, upright) = (by_solid_angle([0.0, 0.0, 1.0]) / PI, by_solid_angle([1.0, 0.0, 0.0]) / PI);
         assert!((facing / truth - 1.0).abs() < 1e-5, "{r} {h} {a} by solid angle: {facing} for {truth}");
         if r <= a {
@@ -49,7 +53,7 @@ fn disk_has_its_form_factor() {
         }
         // from behind it is dark
         let behind = Disk { normal: -disk.normal, ..disk };
-        assert!(mean(50, |u| irradiance(&behind.by_area(origin()).sample(u), [0.0, 0.0, 1.0])) == 0.0);
+        assert!(flux(50, &behind.by_area(origin()), [0.0, 0.0, 1.0]) == 0.0);
     }
 }
 
@@ -67,21 +71,20 @@ fn rectangle_has_its_projected_solid_angle() {
         // the receiver faces the rectangle, or cuts it with its horizon
         for receiver in [n.map(|x| -x), unit(along(u, n, -0.3 * size))] {
             let light = Rectangle { corner: p.into(), edge_s: u.into(), edge_t: v.into() };
-            let e = mean(1024, |u| irradiance(&light.by_solid_angle(origin()).sample(u), receiver));
+            let e = flux(1024, &light.by_solid_angle(origin()), receiver);
             let truth = projected_polygon(&corners, receiver);
             assert!((e / truth - 1.0).abs() < 1e-5, "{size} {height}: {e} for {truth}");
-            let warped =
-                mean(512, |u| irradiance(&light.by_cosine_warp(origin(), receiver.into()).sample(u), receiver));
+            let warped = flux(512, &light.by_cosine_warp(origin(), receiver.into()), receiver);
             assert!((warped / truth - 1.0).abs() < 1e-4, "{size} {height} warped: {warped} for {truth}");
             let (a, b, c) = (p, along(p, u, 1.0), along(p, v, 1.0));
             let half = Triangle { v0: a.into(), e1: u.into(), e2: v.into() };
-            let warped = mean(512, |u| irradiance(&half.by_cosine_warp(origin(), receiver.into()).sample(u), receiver));
+            let warped = flux(512, &half.by_cosine_warp(origin(), receiver.into()), receiver);
             let half = projected_polygon(&[a, b, c], receiver);
             assert!((warped - half).abs() < 1e-4 * truth, "{size} {height} triangle, warped: {warped} for {half}");
-            let by_area = mean(1024, |u| irradiance(&light.by_area(origin()).sample(u), receiver));
+            let by_area = flux(1024, &light.by_area(origin()), receiver);
             assert!((by_area / truth - 1.0).abs() < 1e-3, "{size} {height}: {by_area} for {truth}");
             let behind = Rectangle { edge_s: light.edge_t, edge_t: light.edge_s, ..light };
-            assert_eq!(mean(20, |u| irradiance(&behind.by_solid_angle(origin()).sample(u), receiver)), 0.0);
+            assert_eq!(flux(20, &behind.by_solid_angle(origin()), receiver), 0.0);
         }
     }
 }
@@ -105,7 +108,7 @@ fn disk_has_its_variance() {
 /// The area of each light that is sampled by it, against closed forms, and the mean of what its samples are worth.
 #[test]
 fn areas_are_those_of_the_shapes() {
-    fn check(name: &str, own: f64, sampler: &impl LightSampler<f64>, area: f64) {
+    fn check(name: &str, own: f64, sampler: &dyn LightSampler<f64>, area: f64) {
         // nine Gauss points measure a twisted patch
         assert!((own / area - 1.0).abs() < 2e-5, "{name}: {own} is not {area}");
         // an area is to the solid angle as the square of the distance to the cosine
@@ -238,7 +241,7 @@ fn sine(s: &LightSample<f64>, line: &Line<f64>) -> f64 {
 fn sun_and_sky() {
     let h = 0.1;
     let sun = Sun { direction: [0.6, 0.0, 0.8].into(), one_minus_cos: h };
-    let e = mean(300, |u| irradiance(&sun.by_solid_angle().sample(u), [0.0, 0.0, 1.0]));
+    let e = flux(300, &sun.by_solid_angle(), [0.0, 0.0, 1.0]);
     // π sin²σ cosω
     let truth = PI * h * (2.0 - h) * 0.8;
     assert!((e / truth - 1.0).abs() < 1e-9, "{e} for {truth}");
@@ -251,7 +254,7 @@ fn sun_and_sky() {
         assert_eq!(sun.by_solid_angle().pdf(-s.direction), 0.0);
     }
     let n = unit([0.3, -0.5, 0.2]);
-    let uniform = mean(400, |u| irradiance(&ConstantEnvironment.by_solid_angle().sample(u), n));
+    let uniform = flux(400, &ConstantEnvironment.by_solid_angle(), n);
     assert!((uniform / PI - 1.0).abs() < 1e-4, "{uniform}");
     // the first would lie on the horizon
     for i in 1..1000 {

@@ -91,10 +91,10 @@ fn super_narrow(v: V3) -> V3 {
 
 /// Whatever point of the light shines on the point can be drawn, samples are on the light, in its coordinates, and invert.
 fn holds(
-    sampler: &impl LightSampler<f32>,
+    sampler: &dyn LightSampler<f32>,
     whole: f64,
     scene: &Scene,
-    of: impl Fn([f64; 2]) -> Option<V3>,
+    of: &dyn Fn([f64; 2]) -> Option<V3>,
     random: &mut Random,
 ) -> [u32; 2] {
     let mut count = [0; 2];
@@ -155,13 +155,13 @@ fn nothing_that_shines_is_lost() {
         let whole = 1.0 / f64::from(light.by_solid_angle(vector(p)).sample(Vec2::new(0.5, 0.5)).pdf);
         let of = |uv: [f64; 2]| Some(along(along(corner, s, uv[0]), t, uv[1]));
         let mut add = |[a, b]: [u32; 2]| count = [count[0] + a, count[1] + b];
-        add(holds(&light.by_spread(vector(p), &spread), whole, &scene, of, &mut random));
+        add(holds(&light.by_spread(vector(p), &spread), whole, &scene, &of, &mut random));
         let part = light.visible_part(vector(p), &spread);
-        add(holds(&part.by_solid_angle(vector(p)), whole, &scene, |uv| of(uv).filter(|_| false), &mut random));
+        add(holds(&part.by_solid_angle(vector(p)), whole, &scene, &|uv| of(uv).filter(|_| false), &mut random));
         if i % 2 == 0 {
             let light = Rectangle::<f32>::new(vector(corner), vector(s), vector(t));
             let sampler = light.by_spread(vector(p), &spread);
-            add(holds(&sampler, whole, &scene, of, &mut random));
+            add(holds(&sampler, whole, &scene, &of, &mut random));
             smaller += u32::from(f64::from(sampler.solid_angle()) < 0.9 * whole);
         }
         let radius = length(s);
@@ -173,7 +173,7 @@ fn nothing_that_shines_is_lost() {
             (q[0].hypot(q[1]) < 1.0).then(|| along(along(corner, s, radius * q[0]), t, radius * q[1]))
         };
         let whole = 1.0 / f64::from(disk.by_solid_angle(vector(p)).sample(Vec2::new(0.5, 0.5)).pdf);
-        add(holds(&disk.by_spread(vector(p), &spread), whole, &scene, of, &mut random));
+        add(holds(&disk.by_spread(vector(p), &spread), whole, &scene, &of, &mut random));
     }
     println!("{count:?} directions and samples, {smaller} rectangles of which less is sampled");
     assert!(count.iter().all(|&n| n > cases(10_000, 1_000_000)) && smaller > cases(300, 30_000), "{count:?} {smaller}");
