@@ -5,7 +5,6 @@ mod below_the_horizon;
 mod environment;
 mod irradiance;
 mod mistakes_of_hosts;
-mod no_numbers;
 mod patches;
 mod pictures;
 mod polygon;

@@ -1,8 +1,10 @@
 //! Every light by every technique, as an integrator uses it: one trait, one pdf.
 
+use etendue::light::Spread;
 use etendue::reflection::Reflection;
 use etendue::{
-    Lanewise, LightSampler, Line, Mask, Parallelogram, Polygon, Real, Rectangle, Sphere, Triangle, Vec2, Vec3, f32x8,
+    Disk, Lanewise, LightSample, LightSampler, Line, Mask, Parallelogram, Polygon, Real, Rectangle, Sphere, Triangle,
+    Vec2, Vec3, f32x8,
 };
 use etendue_judge::area_lights::{AreaLight, LightShape, Measure};
 use etendue_judge::generators::Random;
@@ -157,22 +159,15 @@ fn splat_is_the_same_sampler() {
     let us = squares_of::<f32x8>(&core::array::from_fn::<_, 8, _>(|i| [i as f32 / 8.0, 0.9 - i as f32 / 9.0]));
     let wide = Triangle::<f32x8>::splat(triangle);
     let (pw, nw) = (Vec3::splat(p), Vec3::splat(n));
-    macro_rules! same {
-        ($($by:ident($($point:expr),+; $($packet:expr),+)),+) => {$(
-            let one = triangle.$by($($point),+).splat::<f32x8>().sample(us);
-            let other = wide.$by($($packet),+).sample(us);
-            assert_eq!(one.direction, other.direction);
-            assert_eq!(one.pdf, other.pdf);
-            assert_eq!(one.distance, other.distance);
-            assert_eq!(one.uv, other.uv);
-        )+};
-    }
-    same!(
-        by_area(p; pw),
-        by_solid_angle(p; pw),
-        by_projected_solid_angle(p, n; pw, nw),
-        by_cosine_warp(p, n; pw, nw)
-    );
+    let same = |one: &dyn LightSampler<f32x8>, other: &dyn LightSampler<f32x8>| {
+        let [one, other] = [one, other].map(|sampler| sampler.sample(us));
+        assert_eq!((one.direction, one.pdf), (other.direction, other.pdf));
+        assert_eq!((one.distance, one.uv), (other.distance, other.uv));
+    };
+    same(&triangle.by_area(p).splat::<f32x8>(), &wide.by_area(pw));
+    same(&triangle.by_solid_angle(p).splat::<f32x8>(), &wide.by_solid_angle(pw));
+    same(&triangle.by_projected_solid_angle(p, n).splat::<f32x8>(), &wide.by_projected_solid_angle(pw, nw));
+    same(&triangle.by_cosine_warp(p, n).splat::<f32x8>(), &wide.by_cosine_warp(pw, nw));
 }
 
 /// Of lights in a slice, each lane takes the one at its index; past the end there is none.
@@ -292,8 +287,8 @@ fn along_edges(from: V3, [b, c]: [V3; 2], [x, y]: [f64; 2]) -> V3 {
     core::array::from_fn(|k| from[k] + x * b[k] + y * c[k])
 }
 
-/// A number that is none in a light, in the point or in its normal leaves neither samples nor densities nor hits. A normal only guides
-/// cosine warps: whatever it is, their pdf is that of their samples.
+/// A number that is none in a light, in the point, in its normal or among the random numbers leaves neither samples nor densities nor hits.
+/// A normal only guides cosine warps: whatever it is, their pdf is that of their samples.
 #[test]
 fn what_is_no_number_gives_no_light() {
     let mut random = Random::new(77);
@@ -301,40 +296,105 @@ fn what_is_no_number_gives_no_light() {
         (LightShape::Sun, Measure::SolidAngle),
         (LightShape::PointLight, Measure::Delta),
         (LightShape::SpotLight, Measure::Delta),
+        (LightShape::DirectionalLight, Measure::Delta),
     ];
-    let mut lost = 0;
+    let mut lost = [0; 2];
     for round in 0..20 {
         for (shape, by) in AreaLight::KINDS.iter().copied().chain(others) {
             let kind = AreaLight::KINDS.iter().position(|kind| *kind == (shape, by)).unwrap_or(0);
             let light = AreaLight { shape, by, ..AreaLight::any(kind, round, &mut random) };
-            let u = squares_of(&[[random.unit(), random.unit()]]);
+            let u = Vec2::new(random.unit(), random.unit());
             let (drawn, any) = (AreaLight::prepare::<f32>(&[light]).sample(u).direction, random.direction());
-            let observe = |light: AreaLight| {
+            let observe = |light: AreaLight, u: Vec2<f32>| {
                 let sampler = AreaLight::prepare::<f32>(&[light]);
                 let s = sampler.sample(u);
                 let found = [drawn, Coordinates::gather(&[any])].map(|w| [sampler.pdf(w), sampler.hit(w).weight()]);
                 ([s.weight(), s.pdf], found)
             };
-            let before = observe(light);
+            let before = observe(light, u);
             for field in 0..if by == Measure::CosineWarp { 12 } else { 16 } {
                 let mut broken = light;
                 let AreaLight { p, a, b, c, n, radius, .. } = &mut broken;
                 *p.iter_mut().chain(a).chain(b).chain(c).chain(n).chain([radius]).nth(field).unwrap() = f32::NAN;
-                let after = observe(broken);
+                let after = observe(broken, u);
                 // a number that the light does not have changes nothing
                 let nothing = after == ([0.0; 2], [[0.0; 2]; 2]);
                 assert!(nothing || after == before, "{broken:?}: {after:?}");
-                lost += u32::from(nothing && before.0[0] > 0.0);
+                lost[0] += u32::from(nothing && before.0[0] > 0.0);
+            }
+            for broken in [Vec2::new(f32::NAN, u.y), Vec2::new(u.x, f32::NAN)] {
+                let (after, _) = observe(light, broken);
+                assert!(after == [0.0; 2] || after == before.0, "{light:?} at {broken:?}: {after:?}");
+                lost[1] += u32::from(after[1] == 0.0 && before.0[1] > 0.0);
             }
         }
     }
-    assert!(lost > 1000, "{lost}");
-    for field in 0..6 {
-        let mut x = [0.3, 2.0, 0.1, 0.5, 0.2, 0.9];
-        x[field] = f32::NAN;
-        let reflection = Reflection::new(0.4, Vec3::new(0.0, x[5], 0.0).normalize(), Vec3::new(0.6, 0.8, 0.0));
-        let sphere = Sphere::new(Vec3::new(x[0], x[1], x[2]), x[3]);
-        let s = sphere.by_reflection(Vec3::new(0.0, x[4], 0.0), &reflection).sample(Vec2::new(0.3, 0.6));
-        assert_eq!((s.pdf, s.weight()), (0.0, 0.0), "{field}: {s:?}");
+    assert!(lost[0] > 1000 && lost[1] > 500, "{lost:?}");
+}
+
+/// Nor does it where samples are drawn by a lobe or by a spread.
+#[test]
+fn what_is_no_number_leaves_no_samples_of_lobes_and_spreads() {
+    struct Place {
+        vectors: [Vec3<f32>; 4],
+        radius: f32,
+        reflection: Reflection<f32>,
+        u: Vec2<f32>,
+    }
+    let place = |x: [f32; 16]| {
+        let v = |k: usize| Vec3::new(x[k], x[k + 1], x[k + 2]);
+        let reflection = Reflection::new(0.5, Vec3::new(0.0, x[12], 0.0), Vec3::new(0.0, 0.8, 0.6));
+        Place { vectors: [v(0), v(3), v(6), v(9)], radius: x[13], reflection, u: Vec2::new(x[14], x[15]) }
+    };
+    type Sample = fn(&Place) -> LightSample<f32>;
+    let samples: [(&str, Sample); 8] = [
+        ("sphere", |s| Sphere::new(s.vectors[1], s.radius).by_reflection(s.vectors[0], &s.reflection).sample(s.u)),
+        ("triangle", |s| {
+            let [p, v0, e1, e2] = s.vectors;
+            Triangle { v0, e1, e2 }.by_reflection(p, &s.reflection).sample(s.u)
+        }),
+        ("parallelogram", |s| {
+            let [p, corner, e1, e2] = s.vectors;
+            Parallelogram::new(corner, e1, e2).by_reflection(p, &s.reflection).sample(s.u)
+        }),
+        ("rectangle", |s| {
+            let [p, corner, e1, e2] = s.vectors;
+            Rectangle::new(corner, e1, e2).by_reflection(p, &s.reflection).sample(s.u)
+        }),
+        ("polygon", |s| {
+            let [p, corner, e1, e2] = s.vectors;
+            Polygon::new([corner, corner + e1, corner + e2]).by_reflection(p, &s.reflection).sample(s.u)
+        }),
+        ("parallelogram with a spread", |s| {
+            let [p, corner, e1, e2] = s.vectors;
+            Parallelogram::new(corner, e1, e2).by_spread(p, &Spread::new(2.0)).sample(s.u)
+        }),
+        ("rectangle with a spread", |s| {
+            let [p, corner, e1, e2] = s.vectors;
+            Rectangle::new(corner, e1, e2).by_spread(p, &Spread::new(2.0)).sample(s.u)
+        }),
+        ("disk with a spread", |s| {
+            let [p, center, _, normal] = s.vectors;
+            Disk::new(center, normal * -1.0, s.radius).by_spread(p, &Spread::new(2.0)).sample(s.u)
+        }),
+    ];
+    #[rustfmt::skip]
+    let right = [
+        0.0, 0.0, 0.0,  0.3, 2.0, 0.4,  1.0, 0.0, 0.0,  0.0, 0.1, 1.0,
+        1.0,  0.25,  0.3, 0.6,
+    ];
+    for (name, sample) in samples {
+        let before = sample(&place(right));
+        let mut lost = 0;
+        for number in 0..right.len() {
+            let mut broken = right;
+            broken[number] = f32::NAN;
+            let after = sample(&place(broken));
+            let is_ignored = (after.pdf, after.direction) == (before.pdf, before.direction);
+            let nothing = after.pdf == 0.0 && after.weight() == 0.0;
+            assert!(nothing || is_ignored, "{name}: number {number} is NaN, and the pdf {}", after.pdf);
+            lost += u32::from(nothing);
+        }
+        assert!(before.pdf > 0.0 && lost >= 8, "{name}: {lost} numbers count, {before:?}");
     }
 }
