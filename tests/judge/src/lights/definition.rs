@@ -15,7 +15,7 @@ use etendue_oracle::{
 pub const SIDE: usize = 32;
 
 /// Middles of the cells of the unit square.
-pub fn middles() -> impl Iterator<Item = [f64; 2]> {
+pub fn middles() -> impl Iterator<Item = [f64; 2]> + Clone {
     let at = |i: usize| (i as f64 + 0.5) / SIDE as f64;
     (0..SIDE * SIDE).map(move |i| [at(i % SIDE), at(i / SIDE)])
 }
@@ -371,10 +371,21 @@ impl Definition {
         };
         12.0 / 16_777_216.0 * (1.0 + reach / length(middle)) / dot(w, normal).abs()
     }
-    /// Directions that are uniform by solid angle: those of the middles of the square's cells.
+    /// Directions for means by solid angle: those of the middles of the square's cells. Spheres have more of them towards their limb, where
+    /// densities by area grow without bound.
     #[must_use]
     pub fn grid(&self) -> &[V3] {
-        self.grid.get_or_init(|| middles().map(|u| self.by_solid_angle(u)).collect())
+        let graded = |[x, y]: [f64; 2]| if self.has_limb() { [x * (2.0 - x), y] } else { [x, y] };
+        self.grid.get_or_init(|| middles().map(|u| self.by_solid_angle(graded(u))).collect())
+    }
+    /// What each direction of the grid counts, 1 in the mean.
+    pub fn weights(&self) -> impl Iterator<Item = f64> + Clone {
+        middles().map(|[x, _]| if self.has_limb() { 2.0 * (1.0 - x) } else { 1.0 })
+    }
+    /// Whether the surface turns away from the point at the light's boundary.
+    #[must_use]
+    pub fn has_limb(&self) -> bool {
+        matches!(self.body, Body::Sphere { .. })
     }
     /// The u₀ at which that grid goes over from one of two triangles to the other one.
     #[must_use]

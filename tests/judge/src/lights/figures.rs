@@ -397,21 +397,23 @@ impl Trial<'_> {
         let first = self.questions.partner();
         let directions = self.questions.directions[first..].iter().zip(&self.answers.pdfs[first..]);
         let directions: Vec<_> = directions.map(|(w, pdf)| (f(direction(*w)), f64::from(*pdf))).collect();
-        // rare estimates that are many times the mean tell nothing in few samples
+        // rare estimates that are many times the mean tell nothing in few samples, nor what hardly a direction of the grid meets
         let greatest = directions.iter().map(|(f, pdf)| if *f > 0.0 { f / pdf } else { 0.0 }).fold(0.0, f64::max);
-        if greatest < TAIL * truth {
+        let lit = directions.iter().filter(|d| d.0 > 0.0).count();
+        if lit >= 4 && greatest < TAIL * truth {
             let (of, spread) = mean(&sets(&|pdf| if pdf > 0.0 { 1.0 / pdf } else { 0.0 }));
             alone.take_mean((of / truth - 1.0).abs(), ERROR.max(DEVIATIONS * spread / truth), || said(of));
         }
         // a corner above the horizon is smaller than what the grid resolves
-        if directions.iter().filter(|d| d.0 > 0.0).count() < SIDE * SIDE / 4 {
+        if lit < SIDE * SIDE / 4 {
             return;
         }
         // the partner's part of the truth, by its share in each direction: the grid's own error of f cancels, but for how shares vary
         let (own, spread) = mean(&sets(&|pdf| if pdf > 0.0 { 1.0 / (pdf + partner) } else { 0.0 }));
-        let shares = directions.iter().map(|(f, pdf)| (f, partner / (pdf + partner)));
-        let share =
-            shares.clone().map(|(f, share)| f * share).sum::<f64>() / directions.iter().map(|d| d.0).sum::<f64>();
+        let weighted = directions.iter().zip(self.seen.weights());
+        let shares = weighted.map(|((f, pdf), weight)| (f * weight, partner / (pdf + partner)));
+        let sum = shares.clone().map(|of| of.0).sum::<f64>();
+        let share = shares.clone().map(|(f, share)| f * share).sum::<f64>() / sum;
         let varied: Vec<f64> = shares.map(|(f, of)| f * (of - share)).collect();
         let error = grid::mean(&varied, self.seen.seam()).1 / partner / truth;
         // half of a cell's width along both ends of the square

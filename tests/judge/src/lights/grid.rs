@@ -64,7 +64,7 @@ mod tests {
     use crate::lights::sampler::SHAPES;
     use crate::lights::scene::places;
     use crate::area_lights::Measure;
-    use etendue_oracle::{dot, tier::cases};
+    use etendue_oracle::{V3, dot, tier::cases};
 
     /// Cosines, whose means are known: the errors bound what is off, but for signs that cancel in them, and that is less than is allowed anyway.
     #[test]
@@ -74,7 +74,8 @@ mod tests {
             for place in (0..cases(4, 40)).flat_map(|seed| places(shape, Measure::Other, true, seed)) {
                 let seen = Definition::new(&place.light).expect("all shapes have a definition");
                 let truth = seen.irradiance(seen.normal()) / seen.solid_angle;
-                let values: Vec<f64> = seen.grid().iter().map(|w| dot(*w, seen.normal()).max(0.0)).collect();
+                let cosine = |(w, weight): (&V3, f64)| dot(*w, seen.normal()).max(0.0) * weight;
+                let values: Vec<f64> = seen.grid().iter().zip(seen.weights()).map(cosine).collect();
                 if values.iter().filter(|v| **v > 0.0).count() < SIDE * SIDE / 4 {
                     continue;
                 }

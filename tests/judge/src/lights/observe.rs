@@ -31,7 +31,7 @@ pub struct Questions {
     pub us: Vec<[f32; 2]>,
     /// The chart of what is claimed.
     pub chart: Chart,
-    /// Directions of the light: uniform in the chart, then uniform by solid angle, row by row.
+    /// Directions of the light, row by row: uniform in the chart, then those of the definition's grid, if they are others.
     pub directions: Vec<[f32; 3]>,
     /// Directions a little outside of the light.
     pub outside: Vec<[f32; 3]>,
@@ -60,7 +60,7 @@ impl Questions {
         }
         let chart = if by == Measure::Area { Chart::Area } else { Chart::SolidAngle };
         let mut directions: Vec<[f32; 3]> = Vec::new();
-        if chart == Chart::Area {
+        if chart == Chart::Area || seen.has_limb() {
             directions.extend(middles().map(|u| narrow(seen.at(chart, u).0)));
         }
         directions.extend(seen.grid().iter().map(|w| narrow(*w)));
@@ -86,7 +86,7 @@ impl Questions {
         };
         (0..24).filter_map(one).collect()
     }
-    /// Index of the first direction that is uniform by solid angle.
+    /// Index of the grid's first direction.
     #[must_use]
     pub fn partner(&self) -> usize {
         self.directions.len() - SIDE * SIDE
