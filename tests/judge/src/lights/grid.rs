@@ -59,11 +59,11 @@ fn cut(values: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::mean;
+    use crate::area_lights::Measure;
     use crate::lights::definition::{Definition, SIDE};
     use crate::lights::figures::ERROR;
     use crate::lights::sampler::SHAPES;
     use crate::lights::scene::places;
-    use crate::area_lights::Measure;
     use etendue_oracle::{V3, dot, tier::cases};
 
     /// Cosines, whose means are known: the errors bound what is off, but for signs that cancel in them, and that is less than is allowed anyway.
