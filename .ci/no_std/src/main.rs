@@ -16,9 +16,7 @@ use etendue::light::{
     Polygon, SpotLight, Spread, Sun,
 };
 use etendue::reflection::Reflection;
-use etendue::select::{
-    Allocation, LightBound, LightChoice, LightTree, Node8, SpatialLights, UniformLights,
-};
+use etendue::select::{Allocation, LightBound, LightChoice, LightTree, Node8, SpatialLights, UniformLights};
 use etendue::sequence::{CounterRng, Independent, JointSobol, OwenSobol, Sequence, Stratified, ZOrder, ZOrderIndex};
 use etendue::warp::{
     AreaTriangle, Bilinear, ConcentricDisk, Cone, CosineHemisphere, GgxVisibleNormals, Linear, LowDistortionTriangle,
