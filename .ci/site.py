@@ -3,13 +3,14 @@
 site.py write FOLDER [PLAYGROUND]: writes index.html; standard input has a line for each chart, its scene and a description. PLAYGROUND is
 anything but empty if there is a playground. The gallery has the captions of render/README.md.
 site.py test FOLDER [PICTURES]: opens every page at 1,400 and 400 pixels in a headless Chromium, and keeps pictures.
-site.py readme FOLDER: keeps pictures of the first screen of README.md, at both widths."""
+site.py readme FOLDER DOC: keeps pictures of the first screens of README.md and of the core's documentation in the folder DOC, at both widths."""
 
 import re
 import subprocess
 import sys
 import tempfile
 from html import escape
+from itertools import product
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -80,7 +81,11 @@ def chromium():
     return Browser(path)
 
 
-def readme(folder):
+# pages of the documentation: what it begins with, a light, and what all lights share
+PAGES = {"index": "index.html", "triangle": "light/struct.Triangle.html", "sampler": "light/trait.LightSampler.html"}
+
+
+def readme(folder, documentation):
     folder.mkdir(parents=True, exist_ok=True)
     # as on a page of a repository: wide tables scroll
     style = STYLE + "table { display: block; overflow-x: auto; } td, th { padding: 0.2em 0.6em; border: 1px solid #8888; } pre { overflow-x: auto; }"
@@ -90,12 +95,13 @@ def readme(folder):
         subprocess.run(["rustdoc", ROOT / "README.md", "-o", scratch, "--markdown-no-toc", "--html-in-header", head], check=True)
         browser = chromium()
         try:
-            for width, height in [(1400, 1000), (400, 800)]:
+            pages = {"readme": Path(scratch) / "README.html"} | {f"documentation-{name}": documentation / page for name, page in PAGES.items()}
+            for (name, page), (width, height) in product(pages.items(), [(1400, 1000), (400, 800)]):
                 browser.resize(width, height)
-                browser.open((Path(scratch) / "README.html").as_uri(), "[...document.images].every((i) => i.naturalWidth)")
+                browser.open(page.as_uri(), "[...document.images].every((i) => i.naturalWidth)")
                 wide = browser.evaluate("document.documentElement.scrollWidth")
-                assert wide <= width, f"README.md is {wide} pixels wide in a window of {width}"
-                (folder / f"readme-{width}.png").write_bytes(browser.screenshot(whole=False))
+                assert wide <= width, f"{name} is {wide} pixels wide in a window of {width}"
+                (folder / f"{name}-{width}.png").write_bytes(browser.screenshot(whole=False))
         finally:
             browser.close()
 
@@ -140,6 +146,6 @@ folder = Path(folder).resolve()
 if command == "write":
     write(folder, more and more[0], [line.split("\t") for line in sys.stdin.read().splitlines() if line])
 elif command == "readme":
-    readme(folder)
+    readme(folder, Path(more[0]).resolve())
 else:
     test(folder, Path(more[0]) if more else None)
