@@ -2,11 +2,13 @@
 //! sample at a time or 4, 8 or 16 at once, without std and without alloc.
 //!
 //! ```
-//! use etendue::{LightSampler, Parallelogram, Vec2, Vec3, f32x8, u32x8, sequence::{Independent, Sequence}};
-//! // eight samples of a panel overhead from the origin; the same code serves f32, f32x4, f32x8, f32x16, f64, f64x4 and f64x8
-//! let panel = Parallelogram::new(Vec3::lit([-1.0, 2.0, -1.0]), Vec3::lit([2.0, 0.0, 0.0]), Vec3::lit([0.0, 0.0, 2.0]));
-//! let sampler = panel.by_solid_angle(Vec3::lit([0.0; 3]));
-//! let u: Vec2<f32x8> = Independent::new(1).pair(u32x8::splat(0), u32x8::from([0, 1, 2, 3, 4, 5, 6, 7]), 0);
+//! use etendue::sequence::{Independent, Sequence};
+//! use etendue::{LightSampler, Parallelogram, Vec2, Vec3, f32x8, u32x8};
+//! // eight samples of a panel overhead, from the origin; the same code serves all types of Real
+//! let [corner, s, t] = [[-1.0, 2.0, -1.0], [2.0, 0.0, 0.0], [0.0, 0.0, 2.0]].map(Vec3::lit);
+//! let sampler = Parallelogram::new(corner, s, t).by_solid_angle(Vec3::lit([0.0; 3]));
+//! let samples = u32x8::from([0, 1, 2, 3, 4, 5, 6, 7]);
+//! let u: Vec2<f32x8> = Independent::new(1).pair(u32x8::splat(0), samples, 0);
 //! let light = sampler.sample(u);
 //! // irradiance from one sample each, on a receiver that faces up: L cosθ / pdf with L = 1
 //! let irradiance = light.direction.y * light.weight();

@@ -23,9 +23,10 @@ lanewise! {
     /// surface. A point in the plane of the triangle, or a triangle without area, gives pdf 0.
     ///
     /// ```
-    /// use etendue::{LightSampler, Triangle, Vec2};
-    /// let light = Triangle::new([0.0, 2.0, 0.0].into(), [1.0, 2.0, 0.0].into(), [0.0, 2.0, 1.0_f32].into());
-    /// let sampler = light.by_solid_angle([0.0; 3].into()); // prepare once, for one shading point
+    /// use etendue::{LightSampler, Triangle, Vec2, Vec3};
+    /// let [a, b, c] = [[0.0, 2.0, 0.0], [1.0, 2.0, 0.0], [0.0, 2.0, 1.0]].map(Vec3::<f32>::lit);
+    /// let light = Triangle::new(a, b, c);
+    /// let sampler = light.by_solid_angle(Vec3::lit([0.0; 3])); // prepare once, for one shading point
     /// let s = sampler.sample(Vec2::new(0.3, 0.6));
     /// assert!(s.valid() && s.weight() == 1.0 / s.pdf);
     /// assert_eq!(sampler.pdf(s.direction), s.pdf);
