@@ -111,7 +111,7 @@ pub struct Inverse {
     pub of: usize,
     /// What is answered.
     pub u: [f32; 2],
-    /// What it draws, moved into the square, and then what is drawn [`ROUNDINGS`] to each side of it.
+    /// What it draws, moved into the square, and then what is drawn eight units of 2⁻²⁴ to each side of it.
     pub again: [Option<Sample>; 5],
 }
 impl Inverse {
