@@ -168,15 +168,17 @@ fn a_sampler_is_right_where_it_says_so() {
 
 /// A textbook's sampler, the axis and its value at which a figure finds it wrong, and the values at which it does not.
 type Textbook = (&'static str, Axis, f64, Figure, &'static [f64]);
-const TEXTBOOKS: [Textbook; 8] = [
+const TEXTBOOKS: [Textbook; 9] = [
     ("cone, 1-cos naive", Axis::Size, 1e-3, Figure::Density, &[0.01, 0.5, 0.99]),
     ("cone, 1-cos naive", Axis::Size, 1e-5, Figure::Nonsense, &[1e-3]),
     ("cone, series below 1.5°", Axis::Size, 100.0, Figure::Density, &[1e-5, 1e-3, 0.01, 0.5, 0.99]),
+    ("Ureña 2013 as published", Axis::Size, 1e-3, Figure::MisBias, &[0.5, 5.0]),
+    ("Ω by arc cosines of the cone", Axis::Elevation, 3e-3, Figure::Density, &[0.3]),
+    ("closed form of the pdf", Axis::Size, 100.0, Figure::Nonsense, &[1e-5, 1e-3, 0.01, 0.5, 0.99]),
+    // triangles, quadrilaterals and polygons
     ("Arvo, angle excess", Axis::Elevation, 3e-3, Figure::Bias, &[0.03, 0.3]),
     ("Van Oosterom, unit vectors", Axis::Aspect, 300.0, Figure::Outside, &[3.0]),
-    ("Ureña 2013 as published", Axis::Size, 1e-3, Figure::MisBias, &[0.5, 5.0]),
-    ("rectangle by area outside 3e-4 to 6.22 sr", Axis::Elevation, 3e-4, Figure::Density, &[0.03, 0.3]),
-    ("rectangle by area outside 3e-4 to 6.22 sr", Axis::Size, 1e3, Figure::Frequencies, &[1e-3, 0.5, 5.0]),
+    ("Lambert by arc cosines", Axis::Size, 0.01, Figure::Bias, &[0.5, 5.0]),
 ];
 
 #[test]
