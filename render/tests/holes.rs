@@ -1,4 +1,4 @@
-//! Instances against their copies, and rough surfaces beside diffuse ones; `attack` has holes, veils and what is behind them.
+//! Instances against their copies, rough surfaces beside diffuse ones, and boxes with holes; `attack` has veils and what is behind them.
 
 use crate::kit::{film, narrow, read, settings, sum, world};
 use etendue_render::compare::LIMIT;
@@ -6,6 +6,9 @@ use etendue_render::scene::{Instance, Scene};
 use etendue_render::{Technique, World};
 use std::f64::consts::TAU;
 use std::sync::Arc;
+
+const TECHNIQUES: [Technique; 4] =
+    [Technique::SolidAngle, Technique::MisPower, Technique::Analytic, Technique::CosineHemisphere];
 
 /// Mean and standard error of the green channel of the only pixel.
 fn pixel(world: &World, technique: Technique, spp: u32) -> (f64, f64) {
@@ -52,6 +55,38 @@ fn only_rough_surfaces_combine_light_and_bsdf() {
             assert!((mean - truth).abs() < LIMIT * error, "{technique:?} {material}: {mean}, {truth} ± {error}");
             assert!(error < 0.01 * truth, "{technique:?} {material}: {error} of {truth}");
         }
+    }
+}
+
+/// A box with holes is no body that certificates know: light passes both of its walls by chance.
+#[test]
+fn boxes_with_holes_are_no_bodies() {
+    let floor = square(9.0, 0.0, "");
+    let corners =
+        (0..8).map(|k| format!("{} {} {} ", (k & 1) * 4 - 2, 1.0 + f64::from(k >> 1 & 1) * 0.5, (k >> 2) * 4 - 2));
+    let corners = corners.collect::<String>();
+    let mesh = |parameters: &str, indices: &str| {
+        format!("Shape \"trianglemesh\" \"point3 P\" [{corners}] {parameters} \"integer indices\" [{indices}]\n")
+    };
+    let (holes, level) = ("\"float alpha\" .4", "0 4 5 0 5 1  2 3 7 2 7 6");
+    let upright = "0 1 3 0 3 2  4 6 7 4 7 5  0 2 6 0 6 4  1 5 7 1 7 3";
+    // all of it, or only what is level
+    let cages = ["", holes].map(|sides| format!("{}{}", mesh(holes, level), mesh(sides, upright)));
+    // half of the upper side is solid, beside the middle of the lamp
+    let (below, above) = (mesh(holes, "0 4 5 0 5 1"), mesh(holes, "2 3 7") + &mesh("", "2 7 6"));
+    let half = format!("{below}{above}{}", mesh("", upright));
+    for technique in TECHNIQUES {
+        let seen = |cage: &str| pixel(&seen("5 .5 0", &format!("{LAMP}{floor}{cage}")), technique, 1 << 14);
+        let (open, more) = seen("");
+        for cage in &cages {
+            let (mean, error) = seen(cage);
+            let (wanted, error) = (0.36 * open, error.hypot(0.36 * more));
+            assert!((mean - wanted).abs() < LIMIT * error, "{technique:?}: {mean} of {wanted}, error {error}");
+        }
+        // the lamp is symmetric about the middle
+        let ((mean, error), wanted) = (seen(&half), 0.18 * open);
+        let error = error.hypot(0.18 * more);
+        assert!((mean - wanted).abs() < LIMIT * error, "{technique:?}: half {mean} of {wanted}, error {error}");
     }
 }
 
