@@ -10,8 +10,8 @@ use crate::vector::Vec3;
 ///   the surface, belongs to the direction within the bounding sphere that is nearest to the normal, so that no light that reaches over
 ///   the horizon is left out. cosθ' is the cosine at the centre of a flat light, and ¼ for a light that emits in all directions, whose
 ///   area is four times its cross section.
-/// - Domain: finite bounds, points and unit normals; powers from 1e−20 to 1e20, in any unit; NaN, negative and infinite ones count as 0. Multiplying
-///   all lengths by a power of two changes no bit.
+/// - Domain: finite bounds, points and unit normals; powers from 1e−20 to 1e20, in any unit; NaN, negative and infinite ones count as 0.
+///   Multiplying all lengths by a power of two changes no bit.
 /// - Bounds: a light that can contribute counts as at least 2⁻¹⁸ of the sum, so that some u on the grid of 2⁻²⁴ finds it. The weight is 0
 ///   only where the bounding sphere is below the horizon or the light faces away, as far as rounding can tell; lengths below 2⁻⁵⁰ of the
 ///   extent of the lights do not count, nor do subnormal ones.
