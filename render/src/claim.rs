@@ -198,7 +198,7 @@ mod tests {
         let claim = Claim { random: 4.0, systematic: 3.0, pixels: 1.0, ..Claim::default() };
         assert_eq!(claim.total(), 5.0);
         assert!(claim.check(3.001).is_ok());
-        assert!(claim.check(3.0).unwrap_err().contains("may have one of 3.0e0"));
+        assert!(claim.check(3.0).unwrap_err().contains("may cause one of 3.0e0"));
         assert_eq!(claim.excess(5.0), 1.0);
         assert_eq!(claim.excess(3.0), f64::INFINITY);
         assert!((claim.excess(f64::sqrt(9.0 + 4.0)) - 4.0).abs() < 1e-12);
