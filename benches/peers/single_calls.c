@@ -7,7 +7,7 @@
 #include <string.h>
 #include <time.h>
 
-enum { INPUTS = 1024, ROWS = 14 };
+enum { INPUTS = 1024, ROWS = 13 };
 typedef struct {
     /* numbers of a light, a point of a surface, its normal, a direction to the light, random numbers */
     float light[9], p[3], n[3], w[3], u[2];
@@ -23,7 +23,6 @@ extern const Column TEXTBOOK, LIBRARY, HEADER;
 static float sum(Drawn s) { return s.point.x + s.point.y + s.point.z + s.normal.x + s.normal.y + s.normal.z + s.pdf + s.u + s.v; }
 #define TRIANGLE(i) const V3 v[3] = {v3(i->light), v3(i->light + 3), v3(i->light + 6)}
 APART float triangle(const Input *i) { TRIANGLE(i); return sum(textbook_triangle(v, v3(i->p), i->u[0], i->u[1])); }
-APART float warped(const Input *i) { TRIANGLE(i); return sum(textbook_triangle_by_cosines(v, v3(i->p), v3(i->n), i->u[0], i->u[1])); }
 APART float triangle_pdf(const Input *i) { TRIANGLE(i); return textbook_triangle_pdf(v, v3(i->p)); }
 APART float sphere(const Input *i) { return sum(textbook_sphere(v3(i->light), 0.5f, v3(i->p), i->u[0], i->u[1])); }
 APART float sphere_pdf(const Input *i) { return textbook_sphere_pdf(v3(i->light), 0.5f, v3(i->p)); }
@@ -36,7 +35,7 @@ APART float bilinear(const Input *i) {
     textbook_bilinear(weights, u);
     return u[0] + u[1];
 }
-const Column TEXTBOOK = {triangle, warped, NULL, triangle_pdf, triangle_pdf, NULL, NULL, sphere, sphere_pdf, sphere_pdf, rectangle, NULL, bilinear,
+const Column TEXTBOOK = {triangle, NULL, triangle_pdf, triangle_pdf, NULL, NULL, sphere, sphere_pdf, sphere_pdf, rectangle, NULL, bilinear,
     NULL};
 #endif
 
@@ -67,7 +66,6 @@ static EtendueRectangle a_rectangle(const Input *i) { return (EtendueRectangle){
     }
 #define NORMAL i->n,
 ONCE(triangle_by_solid_angle, EtendueTriangle l; a_triangle(i, &l), )
-ONCE(triangle_by_cosine_warp, EtendueTriangle l; a_triangle(i, &l), NORMAL)
 ONCE(triangle_by_projected_solid_angle, EtendueTriangle l; a_triangle(i, &l), NORMAL)
 ONCE(sphere_by_solid_angle, EtendueSphere l = a_sphere(i), )
 ONCE(rectangle_by_solid_angle, EtendueRectangle l = a_rectangle(i), )
@@ -95,7 +93,7 @@ __attribute__((constructor)) static void prepare(void) {
     const float p[3] = {0};
     etendue_triangle_by_solid_angle_prepare(&light, p, &kept);
 }
-const Column LIBRARY = {triangle_by_solid_angle, triangle_by_cosine_warp, triangle_by_projected_solid_angle, triangle_by_solid_angle_pdf,
+const Column LIBRARY = {triangle_by_solid_angle, triangle_by_projected_solid_angle, triangle_by_solid_angle_pdf,
     triangle_by_solid_angle_pdf_of_hit, triangle_by_projected_solid_angle_pdf, triangle_by_projected_solid_angle_pdf_of_hit, sphere_by_solid_angle,
     sphere_by_solid_angle_pdf, sphere_by_solid_angle_pdf_of_hit, rectangle_by_solid_angle, rectangle_by_solid_angle_pdf, bilinear, prepared};
 #endif
@@ -114,7 +112,6 @@ static EtendueShaderRectangle a_rectangle(const Input *i) { return (EtendueShade
 #define ONCE(name, ...) APART float name(const Input *i) { return sum(etendue_shader_##name##_sample(etendue_shader_##name##_prepare(__VA_ARGS__), U)); }
 #define PDF(name, ...) APART float name##_pdf(const Input *i) { return etendue_shader_##name##_pdf(etendue_shader_##name##_prepare(__VA_ARGS__), v3(i->w)); }
 ONCE(triangle_by_solid_angle, a_triangle(i), v3(i->p))
-ONCE(triangle_by_cosine_warp, a_triangle(i), v3(i->p), v3(i->n))
 ONCE(triangle_by_projected_solid_angle, a_triangle(i), v3(i->p), v3(i->n))
 ONCE(sphere_by_solid_angle, a_sphere(i), v3(i->p))
 ONCE(rectangle_by_solid_angle, a_rectangle(i), v3(i->p))
@@ -134,13 +131,13 @@ __attribute__((constructor)) static void prepare(void) {
     EtendueShaderVec3 p = {0, 0, 0};
     kept = etendue_shader_triangle_by_solid_angle_prepare(light, p);
 }
-const Column HEADER = {triangle_by_solid_angle, triangle_by_cosine_warp, triangle_by_projected_solid_angle, triangle_by_solid_angle_pdf, NULL,
+const Column HEADER = {triangle_by_solid_angle, triangle_by_projected_solid_angle, triangle_by_solid_angle_pdf, NULL,
     triangle_by_projected_solid_angle_pdf, NULL, sphere_by_solid_angle, sphere_by_solid_angle_pdf, NULL, rectangle_by_solid_angle,
     rectangle_by_solid_angle_pdf, bilinear, prepared};
 #endif
 
 #ifdef OF_PROGRAM
-static const char *const NAMES[ROWS] = {"triangle: sample", "triangle by cosine warp: sample", "triangle, projected: sample", "triangle: pdf",
+static const char *const NAMES[ROWS] = {"triangle: sample", "triangle, projected: sample", "triangle: pdf",
     "triangle: pdf of a hit", "triangle, projected: pdf", "triangle, projected: pdf of a hit", "sphere: sample", "sphere: pdf",
     "sphere: pdf of a hit", "rectangle: sample", "rectangle: pdf", "bilinear warp: sample", "triangle, prepared: sample"};
 static Input inputs[INPUTS];

@@ -18,7 +18,7 @@ import tempfile
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 LIGHTS = ",".join(
-    f"triangle_by_{way}" for way in ("solid_angle", "cosine_warp", "projected_solid_angle")
+    f"triangle_by_{way}" for way in ("solid_angle", "projected_solid_angle")
 ) + ",sphere_by_solid_angle,rectangle_by_solid_angle"
 
 

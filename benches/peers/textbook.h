@@ -98,24 +98,6 @@ static inline void textbook_bilinear(const float w[4], float u[2]) {
     u[1] = linear(u[1], w[0] + w[1], w[2] + w[3]);
     u[0] = linear(u[0], (1 - u[1]) * w[0] + u[1] * w[2], (1 - u[1]) * w[1] + u[1] * w[3]);
 }
-static inline float bilinear_pdf(const float w[4], const float u[2]) {
-    float sum = w[0] + w[1] + w[2] + w[3];
-    float value = (1 - u[0]) * (1 - u[1]) * w[0] + u[0] * (1 - u[1]) * w[1] + u[1] * (1 - u[0]) * w[2] + u[0] * u[1] * w[3];
-    return sum > 0 ? 4 * value / sum : 1;
-}
-/* The same, warped by the cosines at the corners (PBR 6.5.4, after Hart et al. 2020). */
-static inline Drawn textbook_triangle_by_cosines(const V3 v[3], V3 p, V3 n, float u0, float u1) {
-    float u[2] = {u0, u1}, cosines[3], weights[4];
-    for (int i = 0; i < 3; i++) {
-        cosines[i] = fabsf(dot(n, unit(sub(v[i], p))));
-        cosines[i] = cosines[i] < 0.01f ? 0.01f : cosines[i];
-    }
-    weights[0] = weights[1] = cosines[1], weights[2] = cosines[0], weights[3] = cosines[2];
-    textbook_bilinear(weights, u);
-    Drawn drawn = textbook_triangle(v, p, u[0], u[1]);
-    drawn.pdf *= bilinear_pdf(weights, u);
-    return drawn;
-}
 
 /* The cone of directions to a sphere (PBR 6.2.4). */
 static inline float one_minus_cos_of_sphere(V3 center, float radius, V3 p) {

@@ -52,14 +52,14 @@ arguments.add_argument('folder', type=Path, help='folder for the page')
 arguments.add_argument('--size', type=int, default=96, help='pixels of a side; a multiple of 8')
 arguments.add_argument('--samples', type=int, default=4, help='samples per pixel of a picture')
 arguments.add_argument('--pictures', type=int, default=24, help='independent pictures of each kind')
-arguments.add_argument('--ways', default='solid angle,cosine warp,projected', help='how we sample rectangles, with commas between')
+arguments.add_argument('--ways', default='solid angle,projected', help='how we sample rectangles, with commas between')
 arguments.add_argument('--device', choices=['mesa', 'swiftshader'], default='mesa', help="the driver of the machine, or Chromium's own device in software")
 arguments.add_argument('--seed', type=int, default=0, help='another seed gives independent pictures')
 arguments.add_argument('--only', help='render only scenes whose names contain this')
 OPTIONS = arguments.parse_args()
 
 # how rectangles are sampled, and what the preparation takes; disks always are by solid angle
-TECHNIQUES = {'solid angle': ('solid_angle', 'p'), 'cosine warp': ('cosine_warp', 'p, etendueNormal'), 'projected': ('projected_solid_angle', 'p, etendueNormal')}
+TECHNIQUES = {'solid angle': ('solid_angle', 'p'), 'projected': ('projected_solid_angle', 'p, etendueNormal')}
 WAYS = {'own': None} | {way: TECHNIQUES[way] for way in OPTIONS.ways.split(',')}
 KINDS = ['light alone', 'combined']
 # Mesa's is a device in software where there is no other

@@ -171,7 +171,6 @@ class Triangle:
     def by_area(self, p: ArrayLike) -> Sampler: ...
     def by_solid_angle(self, p: ArrayLike) -> Sampler: ...
     def by_projected_solid_angle(self, p: ArrayLike, n: ArrayLike) -> Sampler: ...
-    def by_cosine_warp(self, p: ArrayLike, n: ArrayLike) -> Sampler: ...
     def by_reflection(self, p: ArrayLike, reflection: Reflection) -> Sampler: ...
     @staticmethod
     def sample_each(
@@ -185,7 +184,7 @@ class Triangle:
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
         spread: ArrayLike | None = None,
-        by: Literal["area", "solid_angle", "projected_solid_angle", "cosine_warp", "reflection"] = "solid_angle",
+        by: Literal["area", "solid_angle", "projected_solid_angle", "reflection"] = "solid_angle",
         fields: _Fields | None = None,
         out: Samples | None = None,
     ) -> Samples: ...
@@ -201,7 +200,7 @@ class Triangle:
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
         spread: ArrayLike | None = None,
-        by: Literal["area", "solid_angle", "projected_solid_angle", "cosine_warp", "reflection"] = "solid_angle",
+        by: Literal["area", "solid_angle", "projected_solid_angle", "reflection"] = "solid_angle",
         fields: _Fields | None = None,
         out: Samples | None = None,
     ) -> Samples: ...
@@ -217,7 +216,7 @@ class Triangle:
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
         spread: ArrayLike | None = None,
-        by: Literal["area", "solid_angle", "projected_solid_angle", "cosine_warp", "reflection"] = "solid_angle",
+        by: Literal["area", "solid_angle", "projected_solid_angle", "reflection"] = "solid_angle",
         out: _F32 | None = None,
     ) -> _F32: ...
     @staticmethod
@@ -232,7 +231,7 @@ class Triangle:
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
         spread: ArrayLike | None = None,
-        by: Literal["area", "solid_angle", "projected_solid_angle", "cosine_warp", "reflection"] = "solid_angle",
+        by: Literal["area", "solid_angle", "projected_solid_angle", "reflection"] = "solid_angle",
         out: _F32 | None = None,
     ) -> _F32: ...
 
@@ -313,7 +312,6 @@ class Rectangle:
     def by_area(self, p: ArrayLike) -> Sampler: ...
     def by_solid_angle(self, p: ArrayLike) -> Sampler: ...
     def by_projected_solid_angle(self, p: ArrayLike, n: ArrayLike) -> Sampler: ...
-    def by_cosine_warp(self, p: ArrayLike, n: ArrayLike) -> Sampler: ...
     def by_reflection(self, p: ArrayLike, reflection: Reflection) -> Sampler: ...
     def by_spread(self, p: ArrayLike, spread: Spread) -> Sampler: ...
     @staticmethod
@@ -328,7 +326,7 @@ class Rectangle:
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
         spread: ArrayLike | None = None,
-        by: Literal["area", "solid_angle", "projected_solid_angle", "cosine_warp", "reflection", "spread"] = "solid_angle",
+        by: Literal["area", "solid_angle", "projected_solid_angle", "reflection", "spread"] = "solid_angle",
         fields: _Fields | None = None,
         out: Samples | None = None,
     ) -> Samples: ...
@@ -344,7 +342,7 @@ class Rectangle:
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
         spread: ArrayLike | None = None,
-        by: Literal["area", "solid_angle", "projected_solid_angle", "cosine_warp", "reflection", "spread"] = "solid_angle",
+        by: Literal["area", "solid_angle", "projected_solid_angle", "reflection", "spread"] = "solid_angle",
         fields: _Fields | None = None,
         out: Samples | None = None,
     ) -> Samples: ...
@@ -360,7 +358,7 @@ class Rectangle:
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
         spread: ArrayLike | None = None,
-        by: Literal["area", "solid_angle", "projected_solid_angle", "cosine_warp", "reflection", "spread"] = "solid_angle",
+        by: Literal["area", "solid_angle", "projected_solid_angle", "reflection", "spread"] = "solid_angle",
         out: _F32 | None = None,
     ) -> _F32: ...
     @staticmethod
@@ -375,7 +373,7 @@ class Rectangle:
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
         spread: ArrayLike | None = None,
-        by: Literal["area", "solid_angle", "projected_solid_angle", "cosine_warp", "reflection", "spread"] = "solid_angle",
+        by: Literal["area", "solid_angle", "projected_solid_angle", "reflection", "spread"] = "solid_angle",
         out: _F32 | None = None,
     ) -> _F32: ...
 

@@ -14,7 +14,7 @@
 //! 0 in lanes without a sample.
 //!
 //! A host that stores a sampler names its type by the light and the method, such as `light::TriangleBySolidAngle<f32>`: a [`ByArea`],
-//! [`BySolidAngle`], [`ByProjectedSolidAngle`], [`ByReflection`] or [`ByCosineWarp`], which also tell the size of what they sample.
+//! [`BySolidAngle`], [`ByProjectedSolidAngle`] or [`ByReflection`], which also tell the size of what they sample.
 //!
 //! A shape with the same values in all lanes (`splat`) draws a packet of samples of one light. Lanes may as well hold different lights,
 //! and the shading points may differ.
@@ -22,9 +22,9 @@
 //! | light | by area | by solid angle | by projected solid angle |
 //! |---|---|---|---|
 //! | [`Sphere`] | [`by_area`](Sphere::by_area) wastes all but (1−R/d)/2 of its samples | [`by_solid_angle`](Sphere::by_solid_angle), always better | [`by_projected_solid_angle`](Sphere::by_projected_solid_angle): diffuse surfaces |
-//! | [`Triangle`] | [`by_area`](Triangle::by_area): small for its distance | [`by_solid_angle`](Triangle::by_solid_angle): all others | [`by_projected_solid_angle`](Triangle::by_projected_solid_angle), or [`by_cosine_warp`](Triangle::by_cosine_warp) |
+//! | [`Triangle`] | [`by_area`](Triangle::by_area): small for its distance | [`by_solid_angle`](Triangle::by_solid_angle): all others | [`by_projected_solid_angle`](Triangle::by_projected_solid_angle) |
 //! | [`Parallelogram`] | [`by_area`](Parallelogram::by_area) | [`by_solid_angle`](Parallelogram::by_solid_angle) | [`by_projected_solid_angle`](Parallelogram::by_projected_solid_angle) |
-//! | [`Rectangle`] | [`by_area`](Rectangle::by_area) | [`by_solid_angle`](Rectangle::by_solid_angle) | [`by_projected_solid_angle`](Rectangle::by_projected_solid_angle), or [`by_cosine_warp`](Rectangle::by_cosine_warp) |
+//! | [`Rectangle`] | [`by_area`](Rectangle::by_area) | [`by_solid_angle`](Rectangle::by_solid_angle) | [`by_projected_solid_angle`](Rectangle::by_projected_solid_angle) |
 //! | [`Polygon`], 3 to 8 corners | [`by_area`](Polygon::by_area) | [`by_solid_angle`](Polygon::by_solid_angle) | [`by_projected_solid_angle`](Polygon::by_projected_solid_angle) |
 //! | [`BilinearPatch`] | [`by_area`](BilinearPatch::by_area) | | |
 //! | [`Disk`] | [`by_area`](Disk::by_area) | [`by_solid_angle`](Disk::by_solid_angle) | |
@@ -60,7 +60,6 @@
 //! | triangle | area | 37.1 | 7.15 | 12.3 | 1.59 | 0.53 | 0.47 | 7.23 |
 //! |  | solid angle | 125.3 | 17.0 | 21.5 | 2.73 | 0.21 | 3.00 | 17.9 |
 //! |  | projected solid angle | 454.1 | 104.9 | 40.3 | 7.44 | 0.25 | 40.1 | 109.2 |
-//! |  | cosine warp | 243.0 | 29.1 | 112.2 | 13.7 | 4.89 | 4.64 | 30.2 |
 //! |  | reflection | 552.9 | 113.2 | 160.4 | 27.3 | 0.82 | 14.6 | 112.8 |
 //! | parallelogram | area | 38.5 | 7.18 | 10.2 | 1.33 | 0.63 | 0.36 | 7.40 |
 //! |  | solid angle | 170.2 | 23.1 | 27.6 | 3.66 | 0.26 | 5.31 | 24.1 |
@@ -69,7 +68,6 @@
 //! | rectangle | area | 37.5 | 7.11 | 10.2 | 1.32 | 0.59 | 0.36 | 7.30 |
 //! |  | solid angle | 170.1 | 29.0 | 34.2 | 4.73 | 0.26 | 6.22 | 28.7 |
 //! |  | projected solid angle | 1220.2 | 307.3 | 68.0 | 12.1 | 0.30 | 53.0 | 307.3 |
-//! |  | cosine warp | 326.4 | 58.5 | 159.0 | 20.4 | 8.08 | 7.84 | 44.3 |
 //! |  | reflection | 988.7 | 318.8 | 186.0 | 35.6 | 0.92 | 26.7 | 321.0 |
 //! | polygon, 5 corners | area | 68.4 | 10.1 | 18.0 | 2.46 | 0.66 | 4.00 | 10.7 |
 //! |  | solid angle | 287.0 | 44.8 | 33.7 | 4.06 | 0.83 | 4.58 | 45.5 |
@@ -91,7 +89,6 @@
 //! `CARGO_ENCODED_RUSTFLAGS= cargo bench -p etendue-benches --bench summary -- light` prints what that costs.
 
 mod cells;
-mod cosine_warped;
 mod delta;
 mod direction;
 mod disk;
@@ -160,16 +157,14 @@ pub use polygon::{PolygonByArea, PolygonByProjectedSolidAngle, PolygonByReflecti
 pub use portal::{MOST_PORTALS, Portal, PortalEnvironment, PortalError, PortalMap, PortalTable, PortalsByRadiance};
 pub use rectangle::Rectangle;
 #[doc(hidden)]
-pub use rectangle::{RectangleByCosineWarp, RectangleBySolidAngle};
+pub use rectangle::RectangleBySolidAngle;
 pub use rotated::Rotated;
 pub use sample::{FAR, LightSample, TexelSample};
-pub use sampler::{ByArea, ByCosineWarp, ByProjectedSolidAngle, ByReflection, BySolidAngle, LightSampler};
+pub use sampler::{ByArea, ByProjectedSolidAngle, ByReflection, BySolidAngle, LightSampler};
 pub use sphere::{Sphere, SphereByReflection};
 #[doc(hidden)]
 pub use sphere::{SphereByArea, SphereByProjectedSolidAngle, SphereBySolidAngle};
 pub use spread::Spread;
 pub use triangle::Triangle;
 #[doc(hidden)]
-pub use triangle::{
-    TriangleByArea, TriangleByCosineWarp, TriangleByProjectedSolidAngle, TriangleByReflection, TriangleBySolidAngle,
-};
+pub use triangle::{TriangleByArea, TriangleByProjectedSolidAngle, TriangleByReflection, TriangleBySolidAngle};

@@ -8,7 +8,7 @@ use core::f32::consts::PI;
 use etendue::discrete::{PiecewiseConstant1d, PiecewiseConstant2d};
 use etendue::estimate::{Heuristic, Welford};
 use etendue::light::shapes::{
-    CosineWarped, ProjectedCap, ProjectedPolygon, ProjectedSegment, ProjectedTriangle, SphericalCap, SphericalDisk,
+    ProjectedCap, ProjectedPolygon, ProjectedSegment, ProjectedTriangle, SphericalCap, SphericalDisk,
     SphericalParallelogram, SphericalPolygon, SphericalRectangle, SphericalSegment, SphericalTriangle,
 };
 use etendue::light::{
@@ -193,7 +193,6 @@ fn seen(count: &mut Count) {
     count.warp(ProjectedCap::new([0.0, 2.0, 0.0].into(), lit(1.0), UP.into()), 2.0 * PI * 0.133_974_6);
     count.warp(ProjectedTriangle::new(a, b, c, UP.into()), 0.5 * square);
     count.warp(ProjectedPolygon::new([a, b, d, c], UP.into()), square);
-    count.warp(CosineWarped::new(SphericalTriangle::new(a, b, c), UP.into()), 0.5 * square);
     // a disk of radius 1 at distance 1: 2π(1 − 1/√2)
     let down = [0.0, -1.0, 0.0].into();
     count.warp(SphericalDisk::new([0.0, 1.0, 0.0].into(), down, lit(1.0)), 2.0 * PI * 0.292_893_2);

@@ -2,7 +2,7 @@
 
 use etendue::discrete::PiecewiseConstant2d;
 use etendue::light::shapes::{
-    CosineWarped, ProjectedCap, ProjectedPolygon, ProjectedSegment, ProjectedTriangle, SphericalCap, SphericalDisk,
+    ProjectedCap, ProjectedPolygon, ProjectedSegment, ProjectedTriangle, SphericalCap, SphericalDisk,
     SphericalParallelogram, SphericalRectangle, SphericalSegment, SphericalTriangle,
 };
 use etendue::light::{EnvironmentMap, ImageEnvironment, Picture, Region, Spread};
@@ -367,7 +367,6 @@ pub fn without_tables<R: Real + 'static>() -> Vec<Routine> {
     });
 
     let up = vector([0.0, 1.0, 0.0]);
-    list.warp("cosine-warped triangle", CosineWarped::new(SphericalTriangle::new(a, b, c), up));
     list.warp("spherical disk", SphericalDisk::new(a, up, radius));
     let arc = SphericalSegment::new(a, e1);
     list.prepared("spherical segment sample", move |_, u| arc.sample(u.x));

@@ -109,7 +109,6 @@ fn warps() -> Table {
         warp("triangle", "area", "[`AreaTriangle`](crate::warp::AreaTriangle)", ["area triangle sample", ""], "area_triangle", ["1.2e−7", "Turk 1990", "far and facing triangles"]),
         warp("", "area", "[`LowDistortionTriangle`](crate::warp::LowDistortionTriangle)", ["low-distortion triangle sample", ""], "low_distortion_triangle", ["6e−8", "Heitz 2019", "strata on triangles"]),
         warp("", "solid angle", "[`Triangle::by_solid_angle`](crate::Triangle::by_solid_angle)", ["spherical triangle sample", "spherical triangle new + sample"], "spherical_triangle", ["5.4e−7", "Arvo 1995; Peters 2021", "all triangles that are not far"]),
-        warp("", "about projected", "[`Triangle::by_cosine_warp`](crate::Triangle::by_cosine_warp)", ["cosine-warped triangle sample", ""], "cosine_triangle", ["as the triangle, and 16 steps of u", "Hart et al. 2020", "diffuse surfaces, lights near the horizon"]),
         warp("", "projected", "[`Triangle::by_projected_solid_angle`](crate::Triangle::by_projected_solid_angle)", ["projected triangle sample", "projected triangle new + sample"], "projected_triangle", ["6e−7 and 8 steps of u", "Peters 2021; derived there", "diffuse surfaces where a ray costs more than this"]),
         warp("parallelogram", "solid angle", "[`Parallelogram::by_solid_angle`](crate::Parallelogram::by_solid_angle)", ["spherical parallelogram sample", "spherical parallelogram new + sample"], "spherical_parallelogram", ["5.4e−7", "two triangles", "quads"]),
         warp("", "projected", "[`Parallelogram::by_projected_solid_angle`](crate::Parallelogram::by_projected_solid_angle)", ["projected parallelogram sample", "projected parallelogram new + sample"], "projected_parallelogram", ["as the triangle", "as the triangle", "as the triangle"]),
@@ -152,7 +151,6 @@ fn lights() -> Vec<Vec<Cell>> {
         "triangle", "area", "triangle by area";
         "", "solid angle", "triangle by solid angle";
         "", "projected solid angle", "triangle by projected solid angle";
-        "", "cosine warp", "triangle by cosine warp";
         "", "reflection", "triangle by reflection";
         "parallelogram", "area", "parallelogram by area";
         "", "solid angle", "parallelogram by solid angle";
@@ -161,7 +159,6 @@ fn lights() -> Vec<Vec<Cell>> {
         "rectangle", "area", "rectangle by area";
         "", "solid angle", "rectangle by solid angle";
         "", "projected solid angle", "rectangle by projected solid angle";
-        "", "cosine warp", "rectangle by cosine warp";
         "", "reflection", "rectangle by reflection";
         "polygon, 5 corners", "area", "pentagon by area";
         "", "solid angle", "pentagon by solid angle";

@@ -51,7 +51,6 @@
 //! | with preparation | textbook | library | header |
 //! |---|---|---|---|
 //! | triangle by solid angle | 131 | 116 | 143 |
-//! | triangle by cosine warp | 155 | 175 | 136 |
 //! | triangle by projected solid angle | | 485 | 459 |
 //! | its pdf by solid angle, and projected | | 67, 350 | 105, 338 |
 //! | its pdf, of a hit | 25, – | 55, 345 | |

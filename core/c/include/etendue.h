@@ -85,8 +85,6 @@ typedef enum {
   // Uniform over the projected solid angle Omega' above the horizon of the unit normal n at the point p: pdf cos(theta)/Omega' per
   // steradian, 0 where nothing of the light is above the horizon. It has no variance on an unoccluded diffuse surface.
   ETENDUE_TECHNIQUE_TRIANGLE_BY_PROJECTED_SOLID_ANGLE,
-  // By solid angle times a bilinear approximation of the cosine to the unit normal n at the point p; pdf per steradian.
-  ETENDUE_TECHNIQUE_TRIANGLE_BY_COSINE_WARP,
   // In proportion to the lobe of a rough surface at the point p: pdf pi times that of the reflection, over the projected solid
   // angle after its map, per steradian; 0 where nothing of the light is above the horizon.
   ETENDUE_TECHNIQUE_TRIANGLE_BY_REFLECTION,
@@ -110,8 +108,6 @@ typedef enum {
   // Uniform over the projected solid angle Omega' above the horizon of the unit normal n at the point p, as a parallelogram: pdf
   // cos(theta)/Omega' per steradian, 0 where nothing of the light is above the horizon.
   ETENDUE_TECHNIQUE_RECTANGLE_BY_PROJECTED_SOLID_ANGLE,
-  // By solid angle times a bilinear approximation of the cosine to the unit normal n at the point p; pdf per steradian.
-  ETENDUE_TECHNIQUE_RECTANGLE_BY_COSINE_WARP,
   // In proportion to the lobe of a rough surface at the point p, as a parallelogram: pdf pi times that of the reflection, over the
   // projected solid angle after its map, per steradian; 0 where nothing of the light is above the horizon.
   ETENDUE_TECHNIQUE_RECTANGLE_BY_REFLECTION,
@@ -690,11 +686,6 @@ typedef struct {
 
 // What the technique of this name prepares. What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
-  float data[85];
-} EtendueTriangleByCosineWarp;
-
-// What the technique of this name prepares. What is inside does not concern callers: it may be copied, and used by any thread.
-typedef struct {
   float data[175];
 } EtendueTriangleByReflection;
 
@@ -729,11 +720,6 @@ typedef struct {
 typedef struct {
   float data[86];
 } EtendueRectangleBySolidAngle;
-
-// What the technique of this name prepares. What is inside does not concern callers: it may be copied, and used by any thread.
-typedef struct {
-  float data[90];
-} EtendueRectangleByCosineWarp;
 
 // Columns of lights: the fields are those of the light.
 typedef struct {
@@ -1099,7 +1085,7 @@ EtendueStatus etendue_parallelogram_visible_part(const EtendueParallelogram *lig
 // Prepares a light for a shading point.
 //
 // `light` is the struct of the light of the technique. `with` is what it is prepared for beside the point: the unit normal there (three numbers)
-// by projected solid angle and by cosine warp, an EtendueReflection by reflection, an EtendueSpread by spread; else it may be NULL. `sampler` is
+// by projected solid angle, an EtendueReflection by reflection, an EtendueSpread by spread; else it may be NULL. `sampler` is
 // the struct of the technique. Returns ETENDUE_STATUS_VALUE for a technique that is none, or that this library was built without.
 EtendueStatus etendue_prepare(uint32_t technique,
                               const void *light,

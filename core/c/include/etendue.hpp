@@ -448,7 +448,6 @@ ETENDUE_REFLECTED(SphereByReflection, SphereByReflection, Sphere, etendue_sphere
 ETENDUE_ANYWHERE(TriangleByArea, TriangleByArea, Triangle, etendue_triangle_by_area)
 ETENDUE_ANYWHERE(TriangleBySolidAngle, TriangleBySolidAngle, Triangle, etendue_triangle_by_solid_angle)
 ETENDUE_ON_SURFACE(TriangleByProjectedSolidAngle, TriangleByProjectedSolidAngle, Triangle, etendue_triangle_by_projected_solid_angle)
-ETENDUE_ON_SURFACE(TriangleByCosineWarp, TriangleByCosineWarp, Triangle, etendue_triangle_by_cosine_warp)
 ETENDUE_REFLECTED(TriangleByReflection, TriangleByReflection, Triangle, etendue_triangle_by_reflection)
 ETENDUE_ANYWHERE(ParallelogramByArea, ParallelogramByArea, Parallelogram, etendue_parallelogram_by_area)
 ETENDUE_ANYWHERE(ParallelogramBySolidAngle, ParallelogramBySolidAngle, Parallelogram, etendue_parallelogram_by_solid_angle)
@@ -458,7 +457,6 @@ ETENDUE_SPREAD(ParallelogramBySpread, ParallelogramBySolidAngle, Parallelogram, 
 ETENDUE_ANYWHERE(RectangleByArea, ParallelogramByArea, Rectangle, etendue_rectangle_by_area)
 ETENDUE_ANYWHERE(RectangleBySolidAngle, RectangleBySolidAngle, Rectangle, etendue_rectangle_by_solid_angle)
 ETENDUE_ON_SURFACE(RectangleByProjectedSolidAngle, ParallelogramByProjectedSolidAngle, Rectangle, etendue_rectangle_by_projected_solid_angle)
-ETENDUE_ON_SURFACE(RectangleByCosineWarp, RectangleByCosineWarp, Rectangle, etendue_rectangle_by_cosine_warp)
 ETENDUE_REFLECTED(RectangleByReflection, ParallelogramByReflection, Rectangle, etendue_rectangle_by_reflection)
 ETENDUE_SPREAD(RectangleBySpread, RectangleBySolidAngle, Rectangle, etendue_rectangle_by_spread)
 ETENDUE_ANYWHERE(DiskByArea, DiskByArea, Disk, etendue_disk_by_area)
@@ -505,7 +503,6 @@ struct Triangle : EtendueTriangle {
     TriangleByArea by_area(Vec3 at) const { return {*this, at}; }
     TriangleBySolidAngle by_solid_angle(Vec3 at) const { return {*this, at}; }
     TriangleByProjectedSolidAngle by_projected_solid_angle(Vec3 at, Vec3 n) const { return {*this, at, n}; }
-    TriangleByCosineWarp by_cosine_warp(Vec3 at, Vec3 n) const { return {*this, at, n}; }
     TriangleByReflection by_reflection(Vec3 at, const EtendueReflection& reflection) const { return {*this, at, reflection}; }
 };
 // EtendueParallelogram with its constructors and techniques.
@@ -523,7 +520,6 @@ struct Rectangle : EtendueRectangle {
     RectangleByArea by_area(Vec3 at) const { return {*this, at}; }
     RectangleBySolidAngle by_solid_angle(Vec3 at) const { return {*this, at}; }
     RectangleByProjectedSolidAngle by_projected_solid_angle(Vec3 at, Vec3 n) const { return {*this, at, n}; }
-    RectangleByCosineWarp by_cosine_warp(Vec3 at, Vec3 n) const { return {*this, at, n}; }
     RectangleByReflection by_reflection(Vec3 at, const EtendueReflection& reflection) const { return {*this, at, reflection}; }
     RectangleBySpread by_spread(Vec3 at, const EtendueSpread& spread) const { return {*this, at, spread}; }
 };

@@ -61,7 +61,7 @@ fn is_given(technique: u32, with: *const c_void) -> bool {
 /// Prepares a light for a shading point.
 ///
 /// `light` is the struct of the light of the technique. `with` is what it is prepared for beside the point: the unit normal there (three numbers)
-/// by projected solid angle and by cosine warp, an EtendueReflection by reflection, an EtendueSpread by spread; else it may be NULL. `sampler` is
+/// by projected solid angle, an EtendueReflection by reflection, an EtendueSpread by spread; else it may be NULL. `sampler` is
 /// the struct of the technique. Returns ETENDUE_STATUS_VALUE for a technique that is none, or that this library was built without.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn etendue_prepare(

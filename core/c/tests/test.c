@@ -178,7 +178,6 @@ static const EtendueSpreadColumns *spreads(const float *const *normals) {
     T(TriangleByArea, Triangle, triangle_by_area, 0) \
     T(TriangleBySolidAngle, Triangle, triangle_by_solid_angle, 0) \
     T(TriangleByProjectedSolidAngle, Triangle, triangle_by_projected_solid_angle, 1) \
-    T(TriangleByCosineWarp, Triangle, triangle_by_cosine_warp, 1) \
     T(TriangleByReflection, Triangle, triangle_by_reflection, 2) \
     T(ParallelogramByArea, Parallelogram, parallelogram_by_area, 0) \
     T(ParallelogramBySolidAngle, Parallelogram, parallelogram_by_solid_angle, 0) \
@@ -188,7 +187,6 @@ static const EtendueSpreadColumns *spreads(const float *const *normals) {
     T(ParallelogramByArea, Rectangle, rectangle_by_area, 0) \
     T(RectangleBySolidAngle, Rectangle, rectangle_by_solid_angle, 0) \
     T(ParallelogramByProjectedSolidAngle, Rectangle, rectangle_by_projected_solid_angle, 1) \
-    T(RectangleByCosineWarp, Rectangle, rectangle_by_cosine_warp, 1) \
     T(ParallelogramByReflection, Rectangle, rectangle_by_reflection, 2) \
     T(RectangleBySolidAngle, Rectangle, rectangle_by_spread, 3) \
     T(DiskByArea, Disk, disk_by_area, 0) \
@@ -236,7 +234,7 @@ static int is_delta(const Technique *t) {
 // Whether the pdf of a sample is that of its direction, bit for bit: not of a point of a curved light, nor of a line or a delta light.
 static int is_closed(const Technique *t) {
     const int is_curved = t->light == Sphere || t->light == BilinearPatch;
-    return t->light != Line && !is_delta(t) && !(is_curved && strstr(t->name, "by_area")) && !strstr(t->name, "by_cosine_warp");
+    return t->light != Line && !is_delta(t) && !(is_curved && strstr(t->name, "by_area"));
 }
 
 static float u_numbers[2][MOST], w_numbers[3][MOST], p_numbers[3][MOST], n_numbers[3][MOST];

@@ -92,11 +92,11 @@ static void test_lights() {
     const Sphere sphere({0.3f, 2, 0.1f}, 0.5f);
     test(sphere.by_area(p)), test(sphere.by_solid_angle(p)), test(sphere.by_projected_solid_angle(p, n));
     const Triangle triangle({-0.5f, 2, -0.3f}, {1.2f, 0.1f, 0.2f}, {0.1f, 0.2f, 1.1f});
-    test(triangle.by_area(p)), test(triangle.by_solid_angle(p)), test(triangle.by_projected_solid_angle(p, n)), test(triangle.by_cosine_warp(p, n));
+    test(triangle.by_area(p)), test(triangle.by_solid_angle(p)), test(triangle.by_projected_solid_angle(p, n));
     const Parallelogram parallelogram({-0.5f, 2, -0.3f}, {1.2f, 0.1f, 0.2f}, {0.1f, 0.2f, 1.1f});
     test(parallelogram.by_area(p)), test(parallelogram.by_solid_angle(p)), test(parallelogram.by_projected_solid_angle(p, n));
     const Rectangle rectangle({-0.5f, 2, -0.3f}, {1.2f, 0, 0}, {0, 0.3f, 0.9f});
-    test(rectangle.by_solid_angle(p)), test(rectangle.by_cosine_warp(p, n));
+    test(rectangle.by_solid_angle(p));
     const Disk disk({0.3f, 2, 0.1f}, {0, -1, 0}, 0.5f);
     test(disk.by_area(p)), test(disk.by_solid_angle(p));
     test(BilinearPatch({-0.5f, 2, -0.3f}, {1.2f, 0.1f, 0.2f}, {0.1f, 0.2f, 1.1f}, {1.3f, 0.6f, 1.2f}).by_area(p));
@@ -131,10 +131,10 @@ static void test_lights() {
     CHECK(TriangleBySolidAngle::hit_each(lights, {p0, zeros, p2}, {zeros, ones, zeros}, out) == ETENDUE_STATUS_OK);
     CHECK(pdf[2] == own.hit({0, 1, 0}).pdf);
     CHECK(TriangleBySolidAngle::pdf_each(lights, {p0, zeros, p2}, {zeros, ones, zeros}, shorter) == ETENDUE_STATUS_COUNT);
-    CHECK(TriangleByCosineWarp::pdf_each(lights, {p0, zeros, p2}, {zeros, shorter, zeros}, {zeros, ones, zeros}, pdf) == ETENDUE_STATUS_COUNT);
-    CHECK(TriangleByCosineWarp::sample_each(lights, {p0, zeros, p2}, {zeros, ones, zeros}, {x, y}, out) == ETENDUE_STATUS_OK);
-    CHECK(pdf[4] == Triangle({0, 2, 0}, {1, 0, 0}, {0, 0, 1}).by_cosine_warp(p, n).sample({x[4], y[4]}).pdf);
-    CHECK(TriangleByCosineWarp::sample_each(lights, {p0, zeros, p2}, {zeros, shorter, zeros}, {x, y}, out) == ETENDUE_STATUS_COUNT);
+    CHECK(TriangleByProjectedSolidAngle::pdf_each(lights, {p0, zeros, p2}, {zeros, shorter, zeros}, {zeros, ones, zeros}, pdf) == ETENDUE_STATUS_COUNT);
+    CHECK(TriangleByProjectedSolidAngle::sample_each(lights, {p0, zeros, p2}, {zeros, ones, zeros}, {x, y}, out) == ETENDUE_STATUS_OK);
+    CHECK(pdf[4] == Triangle({0, 2, 0}, {1, 0, 0}, {0, 0, 1}).by_projected_solid_angle(p, n).sample({x[4], y[4]}).pdf);
+    CHECK(TriangleByProjectedSolidAngle::sample_each(lights, {p0, zeros, p2}, {zeros, shorter, zeros}, {x, y}, out) == ETENDUE_STATUS_COUNT);
     CHECK(TriangleBySolidAngle::sample_each(lights, {p0, shorter, p2}, {x, y}, out) == ETENDUE_STATUS_COUNT);
     const TriangleColumns uneven({zeros, twos, zeros}, {ones, zeros, zeros}, {zeros, zeros, shorter});
     CHECK(TriangleBySolidAngle::sample_each(uneven, {p0, zeros, p2}, {x, y}, out) == ETENDUE_STATUS_COUNT);

@@ -171,7 +171,7 @@ impl Sampler {
     fn area(&self) -> PyResult<f32> {
         self.measure("area")
     }
-    /// Solid angle of the light in steradians; of samplers by solid angle and by cosine warp.
+    /// Solid angle of the light in steradians; of samplers by solid angle.
     #[getter]
     fn solid_angle(&self) -> PyResult<f32> {
         self.measure("solid_angle")

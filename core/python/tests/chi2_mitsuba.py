@@ -270,7 +270,7 @@ def light_case(light, by, fields, surface, p, n):
     return surface, sample, pdf
 
 
-ON_SURFACE = {"projected_solid_angle", "cosine_warp"}
+ON_SURFACE = {"projected_solid_angle"}
 
 
 class Edge:

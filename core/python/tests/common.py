@@ -24,7 +24,7 @@ LIGHTS = {
 DISTANT = (et.Sun, et.DirectionalLight)
 VIEW = np.array([0.0, 1.0, 0.0])
 # what each row needs beside its point
-SURFACES = {by: {"n": N} for by in ("projected_solid_angle", "cosine_warp")}
+SURFACES = {"projected_solid_angle": {"n": N}}
 SURFACES |= {"reflection": {"n": N, "alpha": 0.5, "view": VIEW}, "spread": {"spread": 2.9}}
 TECHNIQUES = [(light, name[3:]) for light in LIGHTS for name in dir(light) if name.startswith("by_")]
 # a rounded direction determines the pdf and the numbers of these only as well as it determines the point
@@ -50,7 +50,7 @@ FIELDS = ["direction", "distance", "pdf", "weight", "normal", "uv", "emits"]
 
 
 def prepare(light, by, p=P, n=N, fields=None):
-    place = {"projected_solid_angle": (p, n), "cosine_warp": (p, n)}.get(by, (p,))
+    place = {"projected_solid_angle": (p, n)}.get(by, (p,))
     if by == "reflection":
         place = (p, et.Reflection(0.5, n, VIEW))
     if by == "spread":

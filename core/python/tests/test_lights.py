@@ -111,9 +111,7 @@ def test_closed(light, by):
     assert np.minimum(gap, 1 - gap).max() < 3e-5
     if light is not et.Line and (light, by) not in ROUGH:
         hit, pdf = sampler.hit(s.direction), sampler.pdf(s.direction)
-        # a cosine warp's sample has the pdf of the point that was drawn
-        assert np.allclose(pdf, s.pdf, rtol=2e-4, atol=0) if by == "cosine_warp" else np.array_equal(pdf, s.pdf)
-        assert np.array_equal(hit.pdf, pdf) and np.allclose(hit.distance, s.distance, rtol=1e-4)
+        assert np.array_equal(pdf, s.pdf) and np.array_equal(hit.pdf, pdf) and np.allclose(hit.distance, s.distance, rtol=1e-4)
 
 
 @each_technique

@@ -91,7 +91,7 @@ ASKED = (SAMPLER.pdf, SAMPLER.pdf_of_hit, SAMPLER.hit, SAMPLER.invert)
         (lambda: et.Triangle(*TRIANGLE).by_projected_solid_angle(P), TypeError, "'n'"),
         (lambda: et.Triangle(*TRIANGLE).by_projected_solid_angle(P, [0, 0, 3]), ValueError, "n must be a unit vector"),
         (lambda: et.Triangle.sample_each(*TRIANGLE, **EACH, by="magic"), ValueError, "by must be one of .*area.*magic"),
-        (lambda: et.Triangle.sample_each(*TRIANGLE, **EACH, by="cosine_warp"), TypeError, "needs n"),
+        (lambda: et.Triangle.sample_each(*TRIANGLE, **EACH, by="projected_solid_angle"), TypeError, "needs n"),
         (lambda: et.Triangle.sample_each(*TRIANGLE, **EACH, n=N, by="reflection"), TypeError, "n, alpha and view are needed"),
         (lambda: et.Disk.sample_each([0, 2, 0], [0, -1, 0], 1, **EACH, by="reflection"), ValueError, "by must be one of .*, not .reflection"),
         (lambda: et.Triangle(*TRIANGLE).by_reflection(P, N), TypeError, "Reflection"),

@@ -79,26 +79,26 @@
 //!
 //! # In another renderer
 //! three-gpu-pathtracer 0.0.26, a path tracer in WebGL 2, samples the area of its rectangular and circular lights. 25 lines by hand replace that
-//! by the functions written here: 1100 lines by solid angle for both shapes, 1500 with rectangles by cosine warp, and 9600 with rectangles
-//! by projected solid angle. The means agree. The variance of one sample on a floor, divided by the squared mean, is:
+//! by the functions written here: 1100 lines by solid angle for both shapes, and 9600 with rectangles by projected
+//! solid angle. The means agree. The variance of one sample on a floor, divided by the squared mean, is:
 //!
-//! | light | samples | its own | solid angle | cosine warp | projected |
-//! |---|---|---|---|---|---|
-//! | rectangle, near and large | of the light alone | 10.0 | 0.32 | 0.20 | 0.0036 |
-//! | | combined with the BSDF's | 3.5 | 0.26 | 0.29 | 0.16 |
-//! | rectangle, far and small | of the light alone | 3.7·10⁻⁴ | 5.9·10⁻⁵ | 4.3·10⁻⁵ | 3.9·10⁻⁵ |
-//! | rectangle, half below the horizon | of the light alone | 86 | 9.9 | 5.1 | 0.41 |
-//! | | combined | 13.6 | 7.4 | 2.8 | 0.51 |
-//! | rectangle, grazing | of the light alone | 54 | 1.8 | 2.2 | 0.85 |
-//! | | combined | 13.7 | 1.8 | 1.8 | 1.1 |
-//! | rectangle above rough metal | of the light alone | 94 | 69 | 58 | 62 |
-//! | | combined | 5.7 | 4.8 | 4.3 | 4.8 |
-//! | disk, near and large | of the light alone | 8.9 | 0.45 | | |
-//! | | combined | 4.1 | 0.45 | | |
-//! | disk, half below the horizon | of the light alone | 240 | 15 | | |
-//! | | combined | 18 | 10 | | |
+//! | light | samples | its own | solid angle | projected |
+//! |---|---|---|---|---|
+//! | rectangle, near and large | of the light alone | 10.0 | 0.32 | 0.0036 |
+//! | | combined with the BSDF's | 3.5 | 0.26 | 0.16 |
+//! | rectangle, far and small | of the light alone | 3.7·10⁻⁴ | 5.9·10⁻⁵ | 3.9·10⁻⁵ |
+//! | rectangle, half below the horizon | of the light alone | 86 | 9.9 | 0.41 |
+//! | | combined | 13.6 | 7.4 | 0.51 |
+//! | rectangle, grazing | of the light alone | 54 | 1.8 | 0.85 |
+//! | | combined | 13.7 | 1.8 | 1.1 |
+//! | rectangle above rough metal | of the light alone | 94 | 69 | 62 |
+//! | | combined | 5.7 | 4.8 | 4.8 |
+//! | disk, near and large | of the light alone | 8.9 | 0.45 | |
+//! | | combined | 4.1 | 0.45 | |
+//! | disk, half below the horizon | of the light alone | 240 | 15 | |
+//! | | combined | 18 | 10 | |
 //!
-//! A frame takes 1.1 times as long by solid angle, 1.2 times by cosine warp, and 1.9 times by projected solid angle, where the processor runs
+//! A frame takes 1.1 times as long by solid angle, and 1.9 times by projected solid angle, where the processor runs
 //! the shader and did other work besides. Variances have standard errors of about an eighth; that of 240, of a half.
 //! `python3 benches/peers/three_pathtracer.py HOST target/release/etendue-shader FOLDER --pictures 12` prints them.
 //!

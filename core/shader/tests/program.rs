@@ -22,7 +22,7 @@ fn unknown_names_are_errors_with_the_list() {
         "{text}"
     );
     let text = message(&program(&["--language", "c", "--lights", "sphere,cube"]));
-    assert!(text.contains("'cube'") && text.contains("triangle_by_cosine_warp") && text.contains("sun"), "{text}");
+    assert!(text.contains("'cube'") && text.contains("triangle_by_solid_angle") && text.contains("sun"), "{text}");
     let text = message(&program(&["--language", "c", "--warps", "cone,cylinder"]));
     assert!(text.contains("'cylinder'") && text.contains("ggx_visible_normals"), "{text}");
     let text = message(&program(&["--language", "c", "--tables", "forest"]));

@@ -2,13 +2,11 @@
 
 pub(super) mod solid_angle;
 
-use super::cosine_warped::CosineWarped;
 use super::parallelogram::area::PlacedParallelogram;
 use super::parallelogram::{
     Parallelogram, ParallelogramByArea, ParallelogramByProjectedSolidAngle, ParallelogramByReflection,
 };
-use super::sample::direction_to;
-use super::sampler::{ByArea, ByCosineWarp, BySolidAngle};
+use super::sampler::{ByArea, BySolidAngle};
 use crate::lanewise::lanewise;
 use crate::real::Real;
 use crate::reflection::Reflection;
@@ -90,16 +88,6 @@ impl<R: Real> Rectangle<R> {
     pub fn by_reflection(&self, p: Vec3<R>, reflection: &Reflection<R>) -> ParallelogramByReflection<R> {
         Parallelogram::from(*self).by_reflection(p, reflection)
     }
-    /// By solid angle times a bilinear approximation of the cosine to the unit normal `n` at the point `p`, as [`Triangle::by_cosine_warp`](crate::Triangle::by_cosine_warp): for diffuse
-    /// surfaces. The pdf is per steradian.
-    #[inline(always)]
-    pub fn by_cosine_warp(&self, p: Vec3<R>, n: Vec3<R>) -> RectangleByCosineWarp<R> {
-        let corner = self.corner - p;
-        let corners = [corner, corner + self.edge_s, corner + self.edge_t, corner + self.edge_s + self.edge_t];
-        let shape = SphericalRectangle::new(corner, self.edge_s, self.edge_t);
-        let warped = CosineWarped::with_cosines(shape, corners.map(|v| direction_to(v).direction.dot(n)));
-        ByCosineWarp { surface: self.placed(p), warped }
-    }
 }
 
 impl<R> From<Rectangle<R>> for Parallelogram<R> {
@@ -111,5 +99,3 @@ impl<R> From<Rectangle<R>> for Parallelogram<R> {
 
 /// A [`Rectangle`] sampled by solid angle from a point.
 pub type RectangleBySolidAngle<R> = BySolidAngle<PlacedParallelogram<R>, SphericalRectangle<R>>;
-/// A [`Rectangle`] sampled by the cosine warp from a point on a surface.
-pub type RectangleByCosineWarp<R> = ByCosineWarp<R, PlacedParallelogram<R>, SphericalRectangle<R>>;

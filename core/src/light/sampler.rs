@@ -1,6 +1,5 @@
 //! Lights prepared for a shading point.
 
-use super::cosine_warped::CosineWarped;
 use super::direction::DirectionSample;
 use super::sample::{LightSample, direction_to, solid_angle_pdf};
 use super::shape::{ProjectedShape, SphericalShape};
@@ -20,16 +19,15 @@ use core::f64::consts::PI;
 /// then call as often as needed: what depends on the light and the point alone is computed by the `by_…` method that returned the sampler.
 ///
 /// `sample(u).pdf` and `pdf(sample(u).direction)` are the same bits. The exceptions are curved lights (sphere, bilinear patch)
-/// *by area*, lines, and cosine warps: a rounded direction determines their pdf only as well as it determines the point, so a sample
+/// *by area* and lines: a rounded direction determines their pdf only as well as it determines the point, so a sample
 /// reports the pdf of the point that was drawn.
 ///
 /// Degenerate input (a light without extent, a shading point in the plane of a flat light) gives pdf 0, never NaN, infinity or a panic. So does
-/// NaN in a light, in the shading point or in its normal, except in the direction of a directional light and in the normal of cosine warps,
-/// whose pdf does not depend on them.
+/// NaN in a light, in the shading point or in its normal, except in the direction of a directional light, on which its pdf does not depend.
 ///
 /// # What a host gets wrong at first
 /// - The normal `n` of a shading point must have length 1: by projected solid angle the pdf is multiplied by its length, so that it no
-///   longer integrates to 1. The cosine warp takes any length.
+///   longer integrates to 1.
 /// - `n` must be on the side from which light is gathered. With the opposite one, samples by projected solid angle are below the surface,
 ///   or there are none: a surface of two sides takes the normal on the viewer's side.
 /// - The normal of a light, whose direction its corners' order or its edges' cross product gives, is on the side that emits. From behind,
@@ -303,51 +301,6 @@ impl<R: Real, S: AreaSurface<R>, W: ProjectedShape<R> + Warp<R, Point = Vec3<R>>
     }
 }
 
-/// A light sampled by its solid angle times a bilinear approximation of the cosine to a surface normal: [`Triangle::by_cosine_warp`](crate::Triangle::by_cosine_warp). A sample has the
-/// pdf of the point of the square that it was drawn from; `pdf` finds that point by the inverse, and agrees to within 2e−4 of itself.
-#[derive(Clone, Copy, Debug)]
-#[repr(C)]
-pub struct ByCosineWarp<R, S, W> {
-    pub(super) surface: S,
-    pub(super) warped: CosineWarped<W, R>,
-}
-
-impl<R: Real, S, W: SphericalShape<R>> ByCosineWarp<R, S, W> {
-    /// Solid angle of the light in steradians, in [0, 2π].
-    #[inline(always)]
-    pub fn solid_angle(&self) -> R {
-        self.warped.shape.solid_angle()
-    }
-}
-
-impl<R: Real, S: Surface<R>, W: SphericalShape<R>> LightSampler<R> for ByCosineWarp<R, S, W> {
-    #[inline(always)]
-    fn sample(&self, u: Vec2<R>) -> LightSample<R> {
-        let shape = &self.warped.shape;
-        let v = self.warped.weights.sample(u);
-        let (direction, at) = point_of(&self.surface, shape.sample_point(v));
-        let pdf = finite(shape.uniform_pdf() * self.warped.weights.pdf(v));
-        drawn(direction, pdf, at, shape.in_front()).drawn_from(u)
-    }
-    #[inline(always)]
-    fn pdf(&self, w: Vec3<R>) -> R {
-        finite(self.warped.pdf(w))
-    }
-    #[inline(always)]
-    fn pdf_of_hit(&self, w: Vec3<R>) -> R {
-        let CosineWarped { shape, weights } = &self.warped;
-        finite(shape.uniform_pdf() * weights.pdf(shape.invert(w)))
-    }
-    #[inline(always)]
-    fn invert(&self, w: Vec3<R>) -> Vec2<R> {
-        self.warped.invert(w)
-    }
-    #[inline(always)]
-    fn hit(&self, w: Vec3<R>) -> LightSample<R> {
-        found(w, self.pdf(w), &self.surface, Some(self.warped.shape.in_front()))
-    }
-}
-
 /// Prepared in scalars and splat, a sampler draws packets of samples for one point.
 macro_rules! lanewise_samplers {
     ($($name:ident<$($number:ident,)? ($($part:ident),+)> => $with:ty { $($field:ident),+ })+) => {$(
@@ -365,5 +318,4 @@ lanewise_samplers! {
     BySolidAngle<(S, W)> => BySolidAngle<S::With<T>, W::With<T>> { surface, shape }
     ByProjectedSolidAngle<R, (S, W)> => ByProjectedSolidAngle<T, S::With<T>, W::With<T>> { normal, surface, shape }
     ByReflection<R, (S, W)> => ByReflection<T, S::With<T>, W::With<T>> { reflection, surface, shape }
-    ByCosineWarp<R, (S, W)> => ByCosineWarp<T, S::With<T>, W::With<T>> { surface, warped }
 }

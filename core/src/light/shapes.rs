@@ -1,6 +1,5 @@
 //! What prepared lights consist of, for the tests and the benchmarks of this library: hosts prepare a light.
 
-pub use super::cosine_warped::CosineWarped;
 pub use super::direction::DirectionSample;
 pub use super::disk::{area::PlacedDisk, solid_angle::SphericalDisk};
 pub use super::line::{angle::SphericalSegment, projected::ProjectedSegment};

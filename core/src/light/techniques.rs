@@ -54,8 +54,6 @@ macro_rules! techniques {
                 /// Uniform over the projected solid angle Ω⊥ above the horizon of the unit normal n at the point p: pdf cosθ/Ω⊥ per
                 /// steradian, 0 where nothing of the light is above the horizon. It has no variance on an unoccluded diffuse surface.
                 TriangleByProjectedSolidAngle, triangle_by_projected_solid_angle -> TriangleByProjectedSolidAngle = EtendueTriangleByProjectedSolidAngle[162]: by_projected_solid_angle(p, n) projected_solid_angle;
-                /// By solid angle times a bilinear approximation of the cosine to the unit normal n at the point p; pdf per steradian.
-                TriangleByCosineWarp, triangle_by_cosine_warp -> TriangleByCosineWarp = EtendueTriangleByCosineWarp[85]: by_cosine_warp(p, n) solid_angle;
                 /// In proportion to the lobe of a rough surface at the point p: pdf π times that of the reflection, over the projected solid
                 /// angle after its map, per steradian; 0 where nothing of the light is above the horizon.
                 TriangleByReflection, triangle_by_reflection -> TriangleByReflection = EtendueTriangleByReflection[175]: by_reflection(p, reflection) projected_solid_angle;
@@ -102,8 +100,6 @@ macro_rules! techniques {
                 /// Uniform over the projected solid angle Ω⊥ above the horizon of the unit normal n at the point p, as a parallelogram: pdf
                 /// cosθ/Ω⊥ per steradian, 0 where nothing of the light is above the horizon.
                 RectangleByProjectedSolidAngle, rectangle_by_projected_solid_angle -> ParallelogramByProjectedSolidAngle: by_projected_solid_angle(p, n) projected_solid_angle;
-                /// By solid angle times a bilinear approximation of the cosine to the unit normal n at the point p; pdf per steradian.
-                RectangleByCosineWarp, rectangle_by_cosine_warp -> RectangleByCosineWarp = EtendueRectangleByCosineWarp[90]: by_cosine_warp(p, n) solid_angle;
                 /// In proportion to the lobe of a rough surface at the point p, as a parallelogram: pdf π times that of the reflection, over the
                 /// projected solid angle after its map, per steradian; 0 where nothing of the light is above the horizon.
                 RectangleByReflection, rectangle_by_reflection -> ParallelogramByReflection: by_reflection(p, reflection) projected_solid_angle;

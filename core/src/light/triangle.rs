@@ -4,9 +4,7 @@ pub(super) mod area;
 pub(super) mod projected;
 pub(super) mod solid_angle;
 
-use super::cosine_warped::CosineWarped;
-use super::sample::direction_to;
-use super::sampler::{ByArea, ByCosineWarp, ByProjectedSolidAngle, ByReflection, BySolidAngle};
+use super::sampler::{ByArea, ByProjectedSolidAngle, ByReflection, BySolidAngle};
 use crate::lanewise::lanewise;
 use crate::real::Real;
 use crate::reflection::Reflection;
@@ -162,30 +160,6 @@ impl<R: Real> Triangle<R> {
         sampler.shape.prepare_edges([v0, v0 + e1, v0 + e2], [e1, e2], Vec3::lit([0.0, 0.0, 1.0]));
         sampler
     }
-    /// By solid angle times a bilinear approximation of the cosine to the unit normal `n` at the point `p`: for diffuse
-    /// surfaces where the projected solid angle costs too much. The pdf is per steradian.
-    ///
-    /// A [`Bilinear`](crate::warp::Bilinear) warp of the unit square precedes the shape's own map. The weights of the square's corners are the cosines of
-    /// the directions to which the shape maps them, and at least 0.01. Since it is the square that is warped, the fit is good where
-    /// the shape's map is close to bilinear (triangles and rectangles that are not huge); the pdf is exact everywhere. Samples are
-    /// not clipped at the horizon.
-    ///
-    /// - Formula: ω = shape(v), v = bilinear(u).
-    /// - Domain: u in [0, 1)²; any shape with a constant pdf, an inverse and a fixed measure.
-    /// - Density: the pdf is the shape's pdf, per steradian, times the bilinear pdf at v; `pdf` finds v by the shape's inverse.
-    /// - Degenerate input: as for the shape.
-    /// - Greatest error: that of the shape; the pdf adds 8 ulp, the change of the bilinear pdf by the error of v, and the rounding
-    ///   of the corners' cosines over their mean.
-    /// - Source: Hart, Pharr, Müller, Lopes, McGuire and Shirley, "Practical Product Sampling by Fitting and Composing Warps", EGSR
-    ///   2020, 4.
-    #[inline(always)]
-    pub fn by_cosine_warp(&self, p: Vec3<R>, n: Vec3<R>) -> TriangleByCosineWarp<R> {
-        let v0 = self.v0 - p;
-        let [a, b, c] = [v0, v0 + self.e1, v0 + self.e2].map(|v| direction_to(v).direction.dot(n));
-        // the map sweeps about v1, from v0 to v2
-        let warped = CosineWarped::with_cosines(self.spherical(p), [b, b, a, c]);
-        ByCosineWarp { surface: self.placed(p), warped }
-    }
 }
 
 /// A [`Triangle`] sampled by area from a point.
@@ -196,5 +170,3 @@ pub type TriangleBySolidAngle<R> = BySolidAngle<PlacedTriangle<R>, SphericalTria
 pub type TriangleByProjectedSolidAngle<R> = ByProjectedSolidAngle<R, PlacedTriangle<R>, ProjectedTriangle<R>>;
 /// A [`Triangle`] sampled by the lobe of a rough surface.
 pub type TriangleByReflection<R> = ByReflection<R, PlacedTriangle<R>, ProjectedTriangle<R>>;
-/// A [`Triangle`] sampled by the cosine warp from a point on a surface.
-pub type TriangleByCosineWarp<R> = ByCosineWarp<R, PlacedTriangle<R>, SphericalTriangle<R>>;

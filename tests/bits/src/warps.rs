@@ -124,8 +124,6 @@ pub(crate) fn add(list: &mut List<'_>) {
         "spherical_polygon": generators::hexagons(3, 15);
         "spherical_disk": generators::disks(3, 31);
         "spherical_segment": generators::segments(3, 21).0;
-        "cosine_triangle": generators::cosine_triangles(2, 43);
-        "cosine_rectangle": generators::cosine_rectangles(2, 44);
         "projected_cap": generators::projected_caps(3, 14);
         "projected_triangle": generators::projected_triangles(3, 16);
         "projected_parallelogram": generators::projected_parallelograms(1, 17);

@@ -62,8 +62,6 @@ pub enum Measure {
     SolidAngle,
     /// Uniform by solid angle projected on `n` as a normal.
     ProjectedSolidAngle,
-    /// Measure solid angle, warped towards the cosine to `n`.
-    CosineWarp,
     /// One direction.
     Delta,
     /// Anything else.
@@ -116,9 +114,6 @@ macro_rules! measure {
     };
     (by_projected_solid_angle) => {
         Measure::ProjectedSolidAngle
-    };
-    (by_cosine_warp) => {
-        Measure::CosineWarp
     };
     (by_delta) => {
         Measure::Delta
@@ -304,12 +299,9 @@ impl LightFixture for AreaLight {
     }
     /// Lines: to the rounding of the direction, over the sine of its angle to the line. Curved lights by area: a rounded direction moves the
     /// point by 16 ulp of the distance, and the cosine there by that over the radius and the cosine. Samples that the light itself hides
-    /// have the pdf of their own point. Cosine warps: to the rounding of the direction, over the least cosine.
+    /// have the pdf of their own point.
     fn evaluated_to(&self, s: &LightSample<f32>) -> Option<f64> {
         let curved = matches!(self.shape, LightShape::Sphere | LightShape::Patch);
-        if self.by == Measure::CosineWarp {
-            return Some(32.0 * ULP / 0.01);
-        }
         if self.shape != LightShape::Line && !(curved && self.by == Measure::Area) {
             return Some(0.0);
         }

@@ -1,6 +1,5 @@
 //! The warps under test, each with independent knowledge about it.
 
-mod cosine;
 mod disk;
 mod flat;
 mod line;
@@ -9,7 +8,6 @@ mod round;
 mod segment;
 mod surface;
 
-pub use cosine::{CosineRectangle, CosineTriangle};
 pub use disk::Disk;
 pub use flat::{
     Hexagon, Parallelogram, ProjectedParallelogram, ProjectedPentagon, ProjectedTriangle, Rectangle, Triangle,

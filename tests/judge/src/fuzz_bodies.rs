@@ -75,7 +75,6 @@ targets! {
     /// Parallelograms and pentagons by projected solid angle.
     projected_polygon: shapes, 50;
     /// Triangles and rectangles by solid angle, warped towards the cosine.
-    cosine_warped: shapes, 100;
     /// Bilinear patches, by area.
     patch_surface: surfaces, 20;
     /// Spheres, by every technique.

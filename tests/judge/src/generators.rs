@@ -44,9 +44,6 @@ impl From<u64> for Random {
 }
 
 impl Random {
-    /// Numbers of a case, at most.
-    const CASE: usize = 16;
-
     /// Starts a stream.
     #[must_use]
     pub fn new(seed: u64) -> Self {
@@ -56,10 +53,6 @@ impl Random {
     #[must_use]
     pub fn of(numbers: Vec<u64>) -> Self {
         Self { numbers, ..Self::new(0) }
-    }
-    /// Without the numbers of a case.
-    fn rest(&self) -> Self {
-        Self { numbers: self.numbers.get(Self::CASE..).unwrap_or_default().to_vec(), read: 0, state: self.state }
     }
     /// Begins a case, which reads the numbers that others read: they are those of whichever is taken.
     fn begin(&mut self) {

@@ -1,6 +1,6 @@
 //! The judge, judged: right samplers pass, planted faults are found in seconds, and nothing that a sampler does stops it.
 
-use etendue_judge::area_lights::AreaLight;
+use etendue_judge::area_lights::{AreaLight, Measure};
 use etendue_judge::lights::figures::Figure;
 use etendue_judge::lights::sampler::{Prepared, Sample, Sampler, Subject, own};
 use etendue_judge::lights::scene::Axis;
@@ -65,7 +65,11 @@ impl Sampler for Faulty {
 }
 /// The judgement of a technique of the core with a fault, which has to be found by all these figures.
 fn found(name: &str, fault: Fault, by: &[Figure]) -> Judgement {
-    let subject = changed(technique(name), move |light, sampler| {
+    found_in(technique(name), fault, by)
+}
+fn found_in(subject: Subject<'static>, fault: Fault, by: &[Figure]) -> Judgement {
+    let name = subject.name.clone();
+    let subject = changed(subject, move |light, sampler| {
         Prepared::Ready(Box::new(Faulty(*light, sampler, fault)) as Box<dyn Sampler>)
     });
     let judgement = judged(&subject, 1);
@@ -86,9 +90,13 @@ fn one_percent_of_a_pdf_is_found() {
     let sample = |_: &AreaLight, u, right: &dyn Sampler| right.sample(u).map(|s| Sample { pdf: s.pdf * 1.01, ..s });
     let pdf = |_: &AreaLight, _, pdf| pdf * 1.01;
     // in a density that is known, and in one of which nothing is
-    for (name, figure) in [("sphere by SolidAngle", Figure::Density), ("triangle by CosineWarp", Figure::Integral)] {
-        found(name, Fault { sample, pdf }, &[figure, Figure::Bias]);
-        found(name, Fault { pdf, ..SOUND }, &[Figure::TwoPdfs, Figure::MisBias]);
+    let unknown = || Subject { by: Measure::Other, ..technique("triangle by SolidAngle") };
+    for (subject, figure) in [
+        (&(|| technique("sphere by SolidAngle")) as &dyn Fn() -> Subject<'static>, Figure::Density),
+        (&unknown, Figure::Integral),
+    ] {
+        found_in(subject(), Fault { sample, pdf }, &[figure, Figure::Bias]);
+        found_in(subject(), Fault { pdf, ..SOUND }, &[Figure::TwoPdfs, Figure::MisBias]);
     }
 }
 

@@ -25,8 +25,6 @@ fn the_length_of_a_normal_multiplies_the_pdf() {
     assert_eq!(a.direction, b.direction);
     assert_eq!((2.0 * a.pdf, 2.0 * one.pdf(a.direction)), (b.pdf, two.pdf(a.direction)));
     assert_eq!(one.projected_solid_angle(), two.projected_solid_angle());
-    let (one, two) = (lamp().by_cosine_warp(p, n), lamp().by_cosine_warp(p, n * 2.0));
-    assert_eq!((one.sample(U).direction, one.sample(U).pdf), (two.sample(U).direction, two.sample(U).pdf));
 }
 
 #[test]
@@ -64,12 +62,10 @@ fn on_emitters() -> Vec<(&'static str, bool, Box<dyn LightSampler<f32>>)> {
         all.push(("triangle by area", true, Box::new(Triangle { v0: o, e1: a, e2: b }.by_area(p))));
         all.push(("triangle by solid angle", true, Box::new(Triangle { v0: o, e1: a, e2: b }.by_solid_angle(p))));
         all.push(("triangle", true, Box::new(Triangle { v0: o, e1: a, e2: b }.by_projected_solid_angle(p, n))));
-        all.push(("triangle by cosine", true, Box::new(Triangle { v0: o, e1: a, e2: b }.by_cosine_warp(p, n))));
         all.push(("parallelogram by area", true, Box::new(Parallelogram::new(o, a, b).by_area(p))));
         all.push(("parallelogram by solid angle", true, Box::new(Parallelogram::new(o, a, b).by_solid_angle(p))));
         all.push(("parallelogram", true, Box::new(Parallelogram::new(o, a, b).by_projected_solid_angle(p, n))));
         all.push(("rectangle by solid angle", true, Box::new(Rectangle::new(o, a, b).by_solid_angle(p))));
-        all.push(("rectangle by cosine", true, Box::new(Rectangle::new(o, a, b).by_cosine_warp(p, n))));
         let corners = [o, o + a, o + a + b, o + b];
         all.push(("polygon by area", true, Box::new(Polygon::new(corners).by_area(p))));
         all.push(("polygon by solid angle", true, Box::new(Polygon::new(corners).by_solid_angle(p))));

@@ -94,8 +94,6 @@ warps! {
     spherical_segment: generators::segments(3, 21).0, 200;
     projected_segment: generators::segments(1, 22).1, 60;
     patch_surface: generators::patch_surfaces(), 200;
-    cosine_triangle: generators::cosine_triangles(2, 43), 60;
-    cosine_rectangle: generators::cosine_rectangles(2, 44), 60;
     projected_cap: generators::projected_caps(3, 14), 100;
     projected_triangle: generators::projected_triangles(3, 16), 60;
     projected_parallelogram: generators::projected_parallelograms(1, 17), 40;

@@ -3,10 +3,10 @@
 use super::{Input, scalable};
 use crate::fixture::Fixture;
 use crate::fixtures::{
-    AreaTriangle, Bilinear, Cap, ConcentricDisk, Cone, CosineHemisphere, CosineRectangle, CosineTriangle, Disk,
-    GgxVisibleNormals, Hexagon, Linear, LowDistortionTriangle, Octahedral, Parallelogram, PolarDisk, ProjectedCap,
-    ProjectedParallelogram, ProjectedPentagon, ProjectedSegment, ProjectedTriangle, Rectangle, Segment, Tent, Triangle,
-    UniformHemisphere, UniformSphere, nearest_hit,
+    AreaTriangle, Bilinear, Cap, ConcentricDisk, Cone, CosineHemisphere, Disk, GgxVisibleNormals, Hexagon, Linear,
+    LowDistortionTriangle, Octahedral, Parallelogram, PolarDisk, ProjectedCap, ProjectedParallelogram,
+    ProjectedPentagon, ProjectedSegment, ProjectedTriangle, Rectangle, Segment, Tent, Triangle, UniformHemisphere,
+    UniformSphere, nearest_hit,
 };
 use crate::generators::{self, Random};
 use crate::packets::squares_of;
@@ -294,17 +294,4 @@ pub(super) fn projected_polygon(input: &mut Input<'_>) {
         }
     }
     over_horizon(input.case(generators::projected_pentagons_of_every_size), u, input.points());
-}
-
-/// Shapes warped by the cosine.
-pub(super) fn cosine_warped(input: &mut Input<'_>) {
-    let (u, ([a, b, c], all)) = (input.square(), three(input));
-    let normal = input.direction();
-    flat(&CosineTriangle { shape: Triangle::by_edges(a, b, c), normal }, u, &all);
-    flat(&CosineRectangle { shape: Rectangle::new(a, b, c), normal }, u, &all);
-    if input.below(2) == 0 {
-        regime(input.case(generators::cosine_triangles), u, input.points());
-    } else {
-        regime(input.case(generators::cosine_rectangles), u, input.points());
-    }
 }

@@ -1,7 +1,7 @@
 //! Flat shapes by solid angle.
 
 use super::{Case, Random, combine, frame, narrow};
-use crate::fixtures::{CosineRectangle, CosineTriangle, Hexagon, Parallelogram, Rectangle, Triangle};
+use crate::fixtures::{Hexagon, Parallelogram, Rectangle, Triangle};
 use libm::{cos, exp2, log2, sin};
 
 /// Computes a corner and two edges in the given frame.
@@ -253,29 +253,4 @@ pub fn hexagons_of_every_size(each: usize, numbers: impl Into<Random>) -> Vec<Ca
         }
     }
     all
-}
-
-/// Shapes with random normals, from the regimes where the cosine varies over the shape and from the extremes of size.
-fn with_normals<S, W>(shapes: Vec<Case<S>>, mut random: Random, of: impl Fn(S, [f32; 3]) -> W) -> Vec<Case<W>> {
-    const KEPT: [&str; 7] = ["ordinary", "ordinary, aside", "small 1e-2", "tiny 1e-5", "far 1e9", "large 6", "oblique"];
-    let kept = shapes.into_iter().filter(|case| KEPT.contains(&case.0));
-    kept.map(|(name, shape)| {
-        random.begin();
-        (name, of(shape, narrow(random.direction())))
-    })
-    .collect()
-}
-
-/// Triangles on surfaces of any orientation.
-#[must_use]
-pub fn cosine_triangles(each: usize, numbers: impl Into<Random>) -> Vec<Case<CosineTriangle>> {
-    let random = numbers.into();
-    with_normals(triangles(each, random.clone()), random.rest(), |shape, normal| CosineTriangle { shape, normal })
-}
-
-/// Rectangles on surfaces of any orientation.
-#[must_use]
-pub fn cosine_rectangles(each: usize, numbers: impl Into<Random>) -> Vec<Case<CosineRectangle>> {
-    let random = numbers.into();
-    with_normals(rectangles(each, random.clone()), random.rest(), |shape, normal| CosineRectangle { shape, normal })
 }

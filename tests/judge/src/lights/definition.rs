@@ -425,7 +425,7 @@ impl Definition {
                 let met = self.met(w)?;
                 (met.cosine > 0.0).then_some(met.distance * met.distance / (self.area * met.cosine))
             }
-            Measure::CosineWarp | Measure::Delta | Measure::Other => None,
+            Measure::Delta | Measure::Other => None,
         }
     }
     /// Relative change of a density per radian that its direction turns.
