@@ -34,7 +34,7 @@
 //! | [`ImageEnvironment`] | | [`by_radiance`](ImageEnvironment::by_radiance): in proportion to an image, [`Rotated`] where its axes are others | |
 //! | [`PortalEnvironment`] | | [`by_radiance`](PortalEnvironment::by_radiance): what is seen of an image through portals | |
 //! | a flat light with a [`Picture`] | [`by_area`](PicturedLight::by_area) | [`by_solid_angle`](PicturedLight::by_solid_angle) | [`by_projected_solid_angle`](PicturedLight::by_projected_solid_angle) |
-//! | a [`Sphere`] or [`BilinearPatch`] with a [`Picture`] | [`by_visible_area`](PicturedLight::by_visible_area) | | |
+//! | a [`Sphere`] with a [`Picture`] | [`by_visible_area`](PicturedLight::by_visible_area) | | |
 //! | [`PointLight`], [`SpotLight`], [`DirectionalLight`] | `by_delta`: one direction, `delta` holds | | |
 //!
 //! Some lights emit only within an angle of their normal, a [`Spread`]. Their method `by_spread` samples the part that a point sees:
@@ -99,10 +99,9 @@ mod line;
 mod parallelogram;
 mod patch;
 mod picture;
-mod picture_words;
 mod pictured;
-mod pictured_curved;
 mod pictured_flat;
+mod pictured_sphere;
 mod plane;
 mod polygon;
 mod portal;
@@ -142,15 +141,11 @@ pub use patch::BilinearPatch;
 #[doc(hidden)]
 pub use patch::PatchByArea;
 pub use picture::Picture;
-#[doc(hidden)]
-pub use picture_words::PictureWords;
-#[doc(hidden)]
-pub use pictured::{ByPicture, Pictured};
 pub use pictured::{PicturedLight, PicturedSampler};
 #[doc(hidden)]
-pub use pictured_curved::Curved;
-#[doc(hidden)]
 pub use pictured_flat::{Area, Flat, FlatLight, Projected, SolidAngle};
+#[doc(hidden)]
+pub use pictured_sphere::VisibleSphere;
 pub use polygon::Polygon;
 #[doc(hidden)]
 pub use polygon::{PolygonByArea, PolygonByProjectedSolidAngle, PolygonByReflection, PolygonBySolidAngle};

@@ -75,7 +75,6 @@ macro_rules! techniques {
                 entry!(Picture, technique::PictureBySolidAngle<'static>),
                 entry!(Picture, technique::PictureByProjectedSolidAngle<'static>),
                 entry!(Picture, technique::PictureOnSphereByVisibleArea<'static>),
-                entry!(Picture, technique::PictureOnPatchByVisibleArea<'static>),
                 entry!(Portals, technique::PortalsByRadiance<'static>),
                 entry!(Image, technique::ImageByRadiance<'static>),
             ]

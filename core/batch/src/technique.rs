@@ -3,8 +3,7 @@
 use crate::memory::{ImageMemory, PictureMemory, PortalMemory};
 use crate::sealed::Sealed;
 use core::marker::PhantomData;
-use etendue::light::shapes::{PlacedPatch, PlacedSphere};
-use etendue::light::{self, Area, ByPicture, Curved, Flat, Projected, SolidAngle, Spread};
+use etendue::light::{self, Area, Flat, PicturedSampler, Projected, SolidAngle, Spread, VisibleSphere};
 use etendue::reflection::Reflection;
 use etendue::{Lanewise, LightSampler, Real, Vec3};
 
@@ -133,7 +132,7 @@ macro_rules! implement {
     };
 }
 etendue::techniques!(implement! {
-    { PictureByArea, PictureBySolidAngle, PictureByProjectedSolidAngle, PictureOnSphereByVisibleArea, PictureOnPatchByVisibleArea,
+    { PictureByArea, PictureBySolidAngle, PictureByProjectedSolidAngle, PictureOnSphereByVisibleArea,
       PortalsByRadiance, ImageByRadiance }
 });
 
@@ -222,19 +221,17 @@ macro_rules! pictured {
     )+};
 }
 pictured! {
-    /// A flat light with a picture, by radiance times area: [`Pictured::by_area`](light::Pictured::by_area) of the parallelogram of its
+    /// A flat light with a picture, by radiance times area: [`Pictured::by_area`](light::PicturedLight::by_area) of the parallelogram of its
     /// surface coordinates.
-    PictureByArea: Parallelogram, by_area(p) -> ['a R] ByPicture<'a, Flat<R, Area>>;
-    /// A flat light with a picture, by radiance times solid angle: [`Pictured::by_solid_angle`](light::Pictured::by_solid_angle) of that
+    PictureByArea: Parallelogram, by_area(p) -> ['a R] PicturedSampler<'a, Flat<R, Area>>;
+    /// A flat light with a picture, by radiance times solid angle: [`Pictured::by_solid_angle`](light::PicturedLight::by_solid_angle) of that
     /// parallelogram.
-    PictureBySolidAngle: Parallelogram, by_solid_angle(p) -> ['a R] ByPicture<'a, Flat<R, SolidAngle<R>>>;
+    PictureBySolidAngle: Parallelogram, by_solid_angle(p) -> ['a R] PicturedSampler<'a, Flat<R, SolidAngle<R>>>;
     /// A flat light with a picture, by radiance times projected solid angle:
-    /// [`Pictured::by_projected_solid_angle`](light::Pictured::by_projected_solid_angle) of that parallelogram.
-    PictureByProjectedSolidAngle: Parallelogram, by_projected_solid_angle(p, n) -> ['a R] ByPicture<'a, Flat<R, Projected<R>>>;
-    /// A sphere with a picture, by radiance times visible area: [`Pictured::by_visible_area`](light::Pictured::by_visible_area).
-    PictureOnSphereByVisibleArea: Sphere, by_visible_area(p) -> ['a R] ByPicture<'a, Curved<PlacedSphere<R>>>;
-    /// A bilinear patch with a picture, by radiance times visible area.
-    PictureOnPatchByVisibleArea: BilinearPatch, by_visible_area(p) -> ['a R] ByPicture<'a, Curved<PlacedPatch<R>>>;
+    /// [`Pictured::by_projected_solid_angle`](light::PicturedLight::by_projected_solid_angle) of that parallelogram.
+    PictureByProjectedSolidAngle: Parallelogram, by_projected_solid_angle(p, n) -> ['a R] PicturedSampler<'a, Flat<R, Projected<R>>>;
+    /// A sphere with a picture, by radiance times visible area: [`Pictured::by_visible_area`](light::PicturedLight::by_visible_area).
+    PictureOnSphereByVisibleArea: Sphere, by_visible_area(p) -> ['a R] PicturedSampler<'a, VisibleSphere<R>>;
 }
 
 /// The techniques of lights that are memory alone, which take nothing beside the point.

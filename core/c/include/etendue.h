@@ -44,7 +44,7 @@ typedef enum {
 
 // The part of the unit square of surface coordinates that a light covers.
 typedef enum {
-  // All of it: rectangles, parallelograms, spheres and bilinear patches.
+  // All of it: rectangles, parallelograms and spheres.
   ETENDUE_PICTURE_REGION_SQUARE = 0,
   // The half where u + v < 1: triangles.
   ETENDUE_PICTURE_REGION_TRIANGLE = 1,
@@ -164,9 +164,6 @@ typedef enum {
   // A sphere with a picture, by radiance times the area that is visible from the point, over the squared distance: the pdf is the pmf of
   // the texel, over its area, times distance^2/|cos(theta')| per steradian, theta' at the light. From inside, texels are drawn by radiance alone.
   ETENDUE_TECHNIQUE_PICTURE_ON_SPHERE_BY_VISIBLE_AREA,
-  // A bilinear patch with a picture, by radiance times the area that is visible from the point, over the squared distance; in a texel,
-  // uniform in (s, t). The pdf is per steradian.
-  ETENDUE_TECHNIQUE_PICTURE_ON_PATCH_BY_VISIBLE_AREA,
   // The sky through portals as a point sees it: from each point exactly the part is sampled that it sees, by the weights of the texels.
   // The pdf is the probability of the cells over the solid angle that they cover there, per steradian, summed over portals; 0 where no
   // portal is seen, and from behind. `uv` of a sample are the numbers that etendue_octahedral_sample maps to the direction.
@@ -532,14 +529,6 @@ typedef struct {
   const float *diagonal[3];
 } EtendueBilinearPatchColumns;
 
-// Columns of lights with one picture.
-typedef struct {
-  // The picture of all of them.
-  EtenduePicture picture;
-  // The lights.
-  EtendueBilinearPatchColumns lights;
-} EtenduePicturedPatchColumns;
-
 // A parallelogram with a picture: a flat light of any shape, by its surface coordinates. Those of a parallelogram are itself;
 // etendue_rectangle_coordinates, etendue_triangle_coordinates and etendue_disk_coordinates give those of others.
 typedef struct {
@@ -615,23 +604,6 @@ typedef struct {
   // From there to the opposite corner.
   float diagonal[3];
 } EtendueBilinearPatch;
-
-// A bilinear patch with a picture.
-typedef struct {
-  // The picture.
-  EtenduePicture picture;
-  // The light that it is on.
-  EtendueBilinearPatch light;
-} EtenduePicturedPatch;
-
-// What the technique of this name prepares. It has no data of its own beside the light and the point: each call prepares the light,
-// which takes as long as few samples.
-typedef struct {
-  // The light with its picture.
-  EtenduePicturedPatch light;
-  // The shading point.
-  float p[3];
-} EtenduePictureOnPatchByVisibleArea;
 
 // What the technique of this name prepares. It has no data of its own beside the environment and the point: each call prepares for the point,
 // which takes as long as some samples, so that batches are faster.

@@ -631,20 +631,14 @@ template <>
 class LightColumns<EtenduePicturedSphereColumns> : public PicturedColumns<EtenduePicturedSphereColumns, EtendueSphereColumns> {
     using PicturedColumns::PicturedColumns;
 };
-template <>
-class LightColumns<EtenduePicturedPatchColumns> : public PicturedColumns<EtenduePicturedPatchColumns, EtendueBilinearPatchColumns> {
-    using PicturedColumns::PicturedColumns;
-};
 using PicturedParallelogramColumns = LightColumns<EtenduePicturedParallelogramColumns>;
 using PicturedSphereColumns = LightColumns<EtenduePicturedSphereColumns>;
-using PicturedPatchColumns = LightColumns<EtenduePicturedPatchColumns>;
 
 // A picture that is not built gives pdf 0.
 ETENDUE_ANYWHERE(PictureByArea, PictureByArea, PicturedParallelogram, etendue_picture_by_area)
 ETENDUE_ANYWHERE(PictureBySolidAngle, PictureBySolidAngle, PicturedParallelogram, etendue_picture_by_solid_angle)
 ETENDUE_ON_SURFACE(PictureByProjectedSolidAngle, PictureByProjectedSolidAngle, PicturedParallelogram, etendue_picture_by_projected_solid_angle)
 ETENDUE_ANYWHERE(PictureOnSphereByVisibleArea, PictureOnSphereByVisibleArea, PicturedSphere, etendue_picture_on_sphere_by_visible_area)
-ETENDUE_ANYWHERE(PictureOnPatchByVisibleArea, PictureOnPatchByVisibleArea, PicturedPatch, etendue_picture_on_patch_by_visible_area)
 
 // A flat light with a picture.
 struct PicturedParallelogram : EtenduePicturedParallelogram {
@@ -654,9 +648,6 @@ struct PicturedParallelogram : EtenduePicturedParallelogram {
 };
 struct PicturedSphere : EtenduePicturedSphere {
     PictureOnSphereByVisibleArea by_visible_area(Vec3 at) const { return {*this, at}; }
-};
-struct PicturedPatch : EtenduePicturedPatch {
-    PictureOnPatchByVisibleArea by_visible_area(Vec3 at) const { return {*this, at}; }
 };
 
 // A picture for lights, in a table of the caller's, which must live as long as the picture is used.
@@ -689,7 +680,6 @@ class Picture {
     PicturedParallelogram on(const EtendueTriangle& light) const { return on_flat(etendue_triangle_coordinates, light); }
     PicturedParallelogram on(const EtendueDisk& light) const { return on_flat(etendue_disk_coordinates, light); }
     PicturedSphere on(const EtendueSphere& light) const { return {{c_, light}}; }
-    PicturedPatch on(const EtendueBilinearPatch& light) const { return {{c_, light}}; }
 
   private:
     template <class Light>

@@ -146,7 +146,6 @@ ETENDUE_ANYWHERE_(picture_by_area, PICTURE_BY_AREA, PicturedParallelogram, Pictu
 ETENDUE_ANYWHERE_(picture_by_solid_angle, PICTURE_BY_SOLID_ANGLE, PicturedParallelogram, PictureBySolidAngle)
 ETENDUE_ON_SURFACE_(picture_by_projected_solid_angle, PICTURE_BY_PROJECTED_SOLID_ANGLE, PicturedParallelogram, PictureByProjectedSolidAngle)
 ETENDUE_ANYWHERE_(picture_on_sphere_by_visible_area, PICTURE_ON_SPHERE_BY_VISIBLE_AREA, PicturedSphere, PictureOnSphereByVisibleArea)
-ETENDUE_ANYWHERE_(picture_on_patch_by_visible_area, PICTURE_ON_PATCH_BY_VISIBLE_AREA, PicturedPatch, PictureOnPatchByVisibleArea)
 // the environment has no columns: it is the same for all points
 typedef EtenduePortalEnvironment EtenduePortalEnvironmentColumns;
 ETENDUE_ANYWHERE_(portals_by_radiance, PORTALS_BY_RADIANCE, PortalEnvironment, PortalsByRadiance)

@@ -4,7 +4,7 @@ use crate::light::*;
 use crate::memory::count_of;
 use crate::picture::{
     EtenduePictureByArea, EtenduePictureByProjectedSolidAngle, EtenduePictureBySolidAngle,
-    EtenduePictureOnPatchByVisibleArea, EtenduePictureOnSphereByVisibleArea,
+    EtenduePictureOnSphereByVisibleArea,
 };
 use crate::portal::EtenduePortalsByRadiance;
 use crate::reflection::EtendueReflectionColumns;
@@ -82,9 +82,6 @@ etendue::techniques!(list! {
         /// A sphere with a picture, by radiance times the area that is visible from the point, over the squared distance: the pdf is the pmf of
         /// the texel, over its area, times distance²/|cosθ'| per steradian, θ' at the light. From inside, texels are drawn by radiance alone.
         PictureOnSphereByVisibleArea: EtenduePictureOnSphereByVisibleArea, 0;
-        /// A bilinear patch with a picture, by radiance times the area that is visible from the point, over the squared distance; in a texel,
-        /// uniform in (s, t). The pdf is per steradian.
-        PictureOnPatchByVisibleArea: EtenduePictureOnPatchByVisibleArea, 0;
         /// The sky through portals as a point sees it: from each point exactly the part is sampled that it sees, by the weights of the texels.
         /// The pdf is the probability of the cells over the solid angle that they cover there, per steradian, summed over portals; 0 where no
         /// portal is seen, and from behind. `uv` of a sample are the numbers that etendue_octahedral_sample maps to the direction.

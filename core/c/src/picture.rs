@@ -1,8 +1,8 @@
 //! Pictures on lights.
 
 use crate::light::{
-    EtendueBilinearPatch, EtendueBilinearPatchColumns, EtendueDisk, EtendueParallelogram, EtendueParallelogramColumns,
-    EtendueRectangle, EtendueSphere, EtendueSphereColumns, EtendueTriangle,
+    EtendueDisk, EtendueParallelogram, EtendueParallelogramColumns, EtendueRectangle, EtendueSphere,
+    EtendueSphereColumns, EtendueTriangle,
 };
 use crate::memory::{build_table, refuse_null};
 use crate::status::EtendueStatus;
@@ -19,7 +19,7 @@ const MOST_TEXELS: usize = u32::MAX as usize / 2;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(C)]
 pub enum EtenduePictureRegion {
-    /// All of it: rectangles, parallelograms, spheres and bilinear patches.
+    /// All of it: rectangles, parallelograms and spheres.
     Square = 0,
     /// The half where u + v < 1: triangles.
     Triangle = 1,
@@ -236,8 +236,6 @@ pictured! {
     EtenduePicturedParallelogram, EtenduePicturedParallelogramColumns: EtendueParallelogram, EtendueParallelogramColumns;
     /// A sphere with a picture.
     EtenduePicturedSphere, EtenduePicturedSphereColumns: EtendueSphere, EtendueSphereColumns;
-    /// A bilinear patch with a picture.
-    EtenduePicturedPatch, EtenduePicturedPatchColumns: EtendueBilinearPatch, EtendueBilinearPatchColumns;
 }
 
 /// The struct of a technique with pictures.
@@ -262,5 +260,4 @@ samplers! {
     EtenduePictureBySolidAngle: EtenduePicturedParallelogram;
     EtenduePictureByProjectedSolidAngle: EtenduePicturedParallelogram n;
     EtenduePictureOnSphereByVisibleArea: EtenduePicturedSphere;
-    EtenduePictureOnPatchByVisibleArea: EtenduePicturedPatch;
 }

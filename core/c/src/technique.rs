@@ -3,9 +3,7 @@
 use crate::environment::EtendueImageEnvironment;
 use crate::list::{EtendueTechnique, TAKES, WITHOUT_MEMORY};
 use crate::memory::{are_there, columns, count_of, outputs, refuse_null, refuse_outside, skip_empty, vec2, vec3};
-use crate::picture::{
-    EtenduePicture, EtenduePicturedParallelogramColumns, EtenduePicturedPatchColumns, EtenduePicturedSphereColumns,
-};
+use crate::picture::{EtenduePicture, EtenduePicturedParallelogramColumns, EtenduePicturedSphereColumns};
 use crate::portal::EtenduePortalEnvironment;
 use crate::sample::{EtendueLightSample, EtendueSampleColumns};
 use crate::status::EtendueStatus;
@@ -299,8 +297,7 @@ pub unsafe extern "C" fn etendue_hit_batch(
 /// Where the columns of a light begin in its struct, and how many there are.
 fn columns_of(technique: usize) -> (usize, usize) {
     let panel = count_of::<EtenduePicturedParallelogramColumns>();
-    let [sphere, patch] = [count_of::<EtenduePicturedSphereColumns>(), count_of::<EtenduePicturedPatchColumns>()];
-    let pictured = [panel, panel, panel, sphere, patch];
+    let pictured = [panel, panel, panel, count_of::<EtenduePicturedSphereColumns>()];
     if PICTURES.contains(&technique) {
         let first = size_of::<EtenduePicture>() / size_of::<*const f32>();
         (first, pictured[technique - PICTURES.start] - first)

@@ -178,17 +178,6 @@ fn assert_pictures(picture: Picture<'_>, same: EtenduePicture, name: &str) {
             let sampler = prepared!(EtenduePictureOnSphereByVisibleArea: sphere, PictureOnSphereByVisibleArea, null());
             let core = picture.on(Sphere::new(Vec3::new(0.3, 2.0, 0.1), 0.5)).by_visible_area(p);
             assert_same!(name, core, sampler, PictureOnSphereByVisibleArea);
-
-            let patch = EtendueBilinearPatch { corner, edge_s: s, edge_t: t, diagonal: [1.3, 0.6, 1.2] };
-            let patch = EtenduePicturedPatch { picture: same, light: patch };
-            let sampler = prepared!(EtenduePictureOnPatchByVisibleArea: patch, PictureOnPatchByVisibleArea, null());
-            let core = BilinearPatch {
-                corner: corner.into(),
-                edge_s: s.into(),
-                edge_t: t.into(),
-                diagonal: [1.3, 0.6, 1.2].into(),
-            };
-            assert_same!(name, picture.on(core).by_visible_area(p), sampler, PictureOnPatchByVisibleArea);
         }
         Region::Triangle => {
             let raw = EtendueTriangle { v0: corner, e1: s, e2: t };

@@ -102,7 +102,6 @@ ANYWHERE(EtenduePictureBySolidAngle, EtenduePicturedParallelogram, EtenduePictur
 TECHNIQUE(EtenduePictureByProjectedSolidAngle, EtenduePicturedParallelogram, EtenduePicturedParallelogramColumns,
           etendue_picture_by_projected_solid_angle, COMMA n, COMMA n_in, COMMA n_i, 1)
 ANYWHERE(EtenduePictureOnSphereByVisibleArea, EtenduePicturedSphere, EtenduePicturedSphereColumns, etendue_picture_on_sphere_by_visible_area, 0)
-ANYWHERE(EtenduePictureOnPatchByVisibleArea, EtenduePicturedPatch, EtenduePicturedPatchColumns, etendue_picture_on_patch_by_visible_area, 0)
 ANYWHERE(EtenduePortalsByRadiance, EtenduePortalEnvironment, EtenduePortalEnvironment, etendue_portals_by_radiance, 1)
 
 // Tables, and what cannot be built.
@@ -236,18 +235,16 @@ static void test_techniques(void) {
     CHECK(etendue_picture_interpolate(weights, WIDTH, HEIGHT, smooth, &interpolated) == OK);
     const EtenduePicturedParallelogram flat = {picture, {{-0.5f, 2, -0.3f}, {0.1f, 0.2f, 1.1f}, {1.2f, 0.1f, 0.2f}}};
     const EtenduePicturedSphere sphere = {interpolated, {{0.3f, 2, 0.1f}, 0.5f}};
-    const EtenduePicturedPatch patch = {picture, {{-0.5f, 2, -0.3f}, {0.1f, 0.2f, 1.1f}, {1.2f, 0.1f, 0.2f}, {1.3f, 0.6f, 1.2f}}};
     // the same light in all rows
-    static float numbers[12][N];
+    static float numbers[9][N];
     EtenduePicturedParallelogramColumns flats;
     EtenduePicturedSphereColumns spheres;
-    EtenduePicturedPatchColumns patches;
-    flats.picture = patches.picture = picture;
+    flats.picture = picture;
     spheres.picture = interpolated;
-    const float *const rows[3] = {flat.light.corner, sphere.light.center, patch.light.corner};
-    const float **const to[3] = {flats.lights.corner, spheres.lights.center, patches.lights.corner};
-    const int counts[3] = {9, 4, 12};
-    for (int which = 0; which < 3; which++) {
+    const float *const rows[2] = {flat.light.corner, sphere.light.center};
+    const float **const to[2] = {flats.lights.corner, spheres.lights.center};
+    const int counts[2] = {9, 4};
+    for (int which = 0; which < 2; which++) {
         for (int k = 0; k < counts[which]; k++) {
             for (int i = 0; i < N; i++) numbers[k][i] = rows[which][k];
             to[which][k] = numbers[k];
@@ -261,14 +258,10 @@ static void test_techniques(void) {
             etendue_picture_by_solid_angle_test(&flat, &flats, &wrong, COUNT);
             wrong.picture.table = NULL;
             etendue_picture_by_projected_solid_angle_test(&flat, &flats, &wrong, REFUSED);
-        } else if (which == 1) {
+        } else {
             EtenduePicturedSphere wrong = sphere;
             wrong.picture.height = SIZE_MAX;
             etendue_picture_on_sphere_by_visible_area_test(&sphere, &spheres, &wrong, COUNT);
-        } else {
-            EtenduePicturedPatch wrong = patch;
-            wrong.picture.table = NULL;
-            etendue_picture_on_patch_by_visible_area_test(&patch, &patches, &wrong, REFUSED);
         }
     }
 }

@@ -253,7 +253,6 @@ static void test_pictures() {
     test(picture.on(Parallelogram({-0.5f, 2, -0.5f}, {0, 0.1f, 1}, {1, 0, 0})).by_solid_angle(p));
     test(smooth.on(rectangle).by_projected_solid_angle(p, n));
     test(smooth.on(Sphere({0, 2, 0}, 0.5f)).by_visible_area(p));
-    test(picture.on(BilinearPatch({-0.5f, 2, -0.5f}, {0, 0, 1}, {1, 0, 0}, {1, 0.3f, 1})).by_visible_area(p));
     // a texel without radiance is not drawn; seen from behind, the light has no weight
     const LightSample s = picture.on(rectangle).by_solid_angle(p).sample(u);
     const size_t texel = size_t(s.uv[0] * 3) + 3 * size_t(s.uv[1] * 2);

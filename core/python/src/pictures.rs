@@ -10,8 +10,7 @@ use etendue::Vec3;
 use etendue::light::{self, FlatLight, Region};
 use etendue_batch::memory::PictureMemory;
 use etendue_batch::technique::{
-    OnPicture, PictureByArea, PictureByProjectedSolidAngle, PictureBySolidAngle, PictureOnPatchByVisibleArea,
-    PictureOnSphereByVisibleArea,
+    OnPicture, PictureByArea, PictureByProjectedSolidAngle, PictureBySolidAngle, PictureOnSphereByVisibleArea,
 };
 use etendue_batch::{Batch, Evaluations, Technique};
 use pyo3::exceptions::PyTypeError;
@@ -78,7 +77,7 @@ impl Picture {
         let (table, values, size) = (Arc::new(table), Some(Arc::new(values)), [width, height]);
         Ok(Self { table: Table { table, values, size, region: Region::Square } })
     }
-    /// The picture on a Rectangle, Parallelogram, Triangle, Disk, Sphere or BilinearPatch, which must cover the region for which it was built.
+    /// The picture on a Rectangle, Parallelogram, Triangle, Disk or Sphere, which must cover the region for which it was built.
     fn on(&self, light: &Object<'_>) -> PyResult<Pictured> {
         let (shape, region) = if let Ok(light) = light.cast::<lights::Parallelogram>() {
             (Shape::Flat(lights::Parallelogram::build(&light.get().numbers)), Region::Square)
@@ -90,10 +89,8 @@ impl Picture {
             (Shape::Flat(lights::Disk::build(&light.get().numbers).coordinates()), Region::Disk)
         } else if let Ok(light) = light.cast::<lights::Sphere>() {
             (Shape::Sphere(lights::Sphere::build(&light.get().numbers)), Region::Square)
-        } else if let Ok(light) = light.cast::<lights::BilinearPatch>() {
-            (Shape::Patch(lights::BilinearPatch::build(&light.get().numbers)), Region::Square)
         } else {
-            let message = "light must be a Rectangle, Parallelogram, Triangle, Disk, Sphere or BilinearPatch";
+            let message = "light must be a Rectangle, Parallelogram, Triangle, Disk or Sphere";
             return Err(PyTypeError::new_err(format!("{message}, not {}", light.get_type().name()?)));
         };
         if region != self.table.region {
@@ -131,7 +128,6 @@ enum Shape {
     /// A flat one, by its surface coordinates.
     Flat(light::Parallelogram<f32>),
     Sphere(light::Sphere<f32>),
-    Patch(light::BilinearPatch<f32>),
 }
 
 /// What texels are drawn by, besides radiance.
@@ -205,7 +201,6 @@ impl Shape {
     fn by<W: Work>(self, by: By, picture: PictureMemory<'_>, work: W) -> W::Result {
         match (self, by) {
             (Self::Sphere(light), _) => work.by::<PictureOnSphereByVisibleArea<'_>>(OnPicture { picture, light }),
-            (Self::Patch(light), _) => work.by::<PictureOnPatchByVisibleArea<'_>>(OnPicture { picture, light }),
             (Self::Flat(light), By::Area) => work.by::<PictureByArea<'_>>(OnPicture { picture, light }),
             (Self::Flat(light), By::ProjectedSolidAngle) => {
                 work.by::<PictureByProjectedSolidAngle<'_>>(OnPicture { picture, light })
@@ -228,7 +223,7 @@ impl Prepared for Placed {
 impl Pictured {
     fn sampler(&self, by: By, name: &'static str, p: &Object<'_>, n: Option<&Object<'_>>) -> PyResult<Sampler> {
         if !self.shape.is_for(by) {
-            let kinds = ["flat lights", "spheres and bilinear patches"];
+            let kinds = ["flat lights", "spheres"];
             let [own, other] = if by == By::VisibleArea { [1, 0] } else { [0, 1] }.map(|k| kinds[k]);
             return Err(PyTypeError::new_err(format!("pictures {name} are for {own}, not for {other}")));
         }
@@ -262,8 +257,7 @@ with_each! { Pictured {
     fn by_projected_solid_angle(&self, p: &Object<'_>, n: &Object<'_>) -> PyResult<Sampler> {
         self.sampler(By::ProjectedSolidAngle, "by_projected_solid_angle", p, Some(n))
     }
-    /// By radiance times the area that is visible from the point p, over the squared distance, for spheres and bilinear patches: the pdf is per
-    /// steradian.
+    /// By radiance times the area that is visible from the point p, over the squared distance, for spheres: the pdf is per steradian.
     fn by_visible_area(&self, p: &Object<'_>) -> PyResult<Sampler> {
         self.sampler(By::VisibleArea, "by_visible_area", p, None)
     }
@@ -274,7 +268,7 @@ with_each! { Pictured {
 }
 /// Samples from a shading point of its own for each row. All arrays are broadcast to one shape (...) beside their last axis: shading points
 /// p (..., 3), numbers u in [0, 1)² (..., 2), and unit normals n (..., 3). `by` names the technique: "area", "solid_angle" or
-/// "projected_solid_angle" for flat lights, "visible_area" for others; None is "solid_angle" or "visible_area".
+/// "projected_solid_angle" for flat lights, "visible_area" for spheres; None is "solid_angle" or "visible_area".
 (&self,) [] () (n) (by: Option<&str> = None) |rows| self.each(by, rows) }
 
 /// Adds pictures to the module.

@@ -64,12 +64,9 @@
 //! | `piecewise_constant_1d`, `piecewise_constant_2d` | the buffer of [`PiecewiseConstant1d`](etendue::discrete::PiecewiseConstant1d) or [`PiecewiseConstant2d`](etendue::discrete::PiecewiseConstant2d) | `cell`, `pmf`, `invert_cell` |
 //! | `equirectangular_environment`, `equal_area_environment` | the buffer of [`ImageEnvironment::build`](etendue::light::ImageEnvironment::build) | `draw`, `sample`, `pdf`, `hit`, `invert` |
 //! | `reflection` | [`reflection::table`](etendue::reflection::table) | `prepare`, `sphere` |
-//! | `pictured_L_by_M`, with L `parallelogram` (or a rectangle), `triangle` or `disk` | the buffer of [`Picture::build`](etendue::light::Picture::build) | the same as of environments |
-//! | `interpolated_parallelogram_by_M` | the buffer of [`Picture::interpolated`](etendue::light::Picture::interpolated), and the radiance at the centres | the same |
 //!
-//! M is `area`, `solid_angle` or `projected_solid_angle`. All of them are written in all languages. Their functions take the light and the
-//! shading point each time, as preparing is little beside the walk through the table. Texels that are large for their distance are sampled as
-//! shapes of their own, which is most of the text: by projected solid angle 8000 lines a function.
+//! Lights with pictures are not here: their functions would have up to 8000 lines. A texel drawn from `piecewise_constant_2d` gives the `u` of
+//! a light by area.
 //!
 //! # Size
 //! We compare the operations of each function of a light with the instructions of the scalar Rust routine, compiled for x86-64-v3, where
@@ -169,7 +166,6 @@ mod list;
 mod module;
 mod names;
 mod number;
-mod pictures;
 mod plan;
 mod print;
 mod record;

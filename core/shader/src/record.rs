@@ -223,7 +223,7 @@ pub(crate) fn drawn_struct(name: &str, doc: &str, wanted: &Wanted) -> Struct {
     Struct { name: name.into(), doc: doc.into(), fields }
 }
 /// The struct of a light.
-pub(crate) fn light_struct<T: Technique>(light: &T::Light<Number>) -> Struct {
+fn light_struct<T: Technique>(light: &T::Light<Number>) -> Struct {
     let entry = T::ENTRY;
     let field = |slot: Slot| {
         let named = |(field, _): &&(&str, _)| slot.name == *field || slot.name.starts_with(&format!("{field}_"));

@@ -1,10 +1,9 @@
-//! What reads tables in memory: choices among lights, distributions, images of the sky, and lights with pictures.
+//! What reads tables in memory: choices among lights, distributions, and images of the sky.
 
 use crate::distributions::{add_line, add_square};
 use crate::inputs::{Inputs, add_function, add_words};
 use crate::module::{Field, Leaf, Module, Struct, Type};
 use crate::number::{Number, Word, Words};
-use crate::pictures::{add_pictured, pictured};
 use crate::record::{drawn_struct, reflection_struct, sample_outputs, sample_struct};
 use crate::wanted::{Part, Wanted};
 use etendue::LightSampler;
@@ -17,7 +16,7 @@ use etendue::select::{Choice, LightChoice, TreeWords, TreeWordsAt};
 pub fn tables() -> Vec<String> {
     let choices = ["light_tree", "piecewise_constant_1d", "piecewise_constant_2d"];
     let lights = ["equirectangular_environment", "equal_area_environment", "reflection"];
-    choices.into_iter().chain(lights).map(str::to_owned).chain(pictured()).collect()
+    choices.into_iter().chain(lights).map(str::to_owned).collect()
 }
 
 /// The words of a tree, the shading point and its normal, as parameters.
@@ -176,6 +175,6 @@ pub fn add_table(module: &mut Module, name: &str, wanted: &Wanted) {
         "reflection" => add_reflection(module),
         "piecewise_constant_1d" => add_line(module, wanted),
         "piecewise_constant_2d" => add_square(module, wanted),
-        _ => add_pictured(module, name, wanted),
+        _ => panic!("there is no table {name}"),
     }
 }

@@ -28,10 +28,7 @@ fn translated() -> Selection {
         kind += 1;
         long || kind % 3 == 1 && !is_large(name)
     };
-    // of pictures, those with the least text
-    let is_short = |name: &String| !name.ends_with("solid_angle");
-    let tables = tables().into_iter().filter(|name| long || is_short(name)).collect();
-    Selection { lights: techniques.filter(is_here).collect(), tables, ..everything() }
+    Selection { lights: techniques.filter(is_here).collect(), ..everything() }
 }
 
 /// `naga` accepts the WGSL with all checks, and writes all other languages; each has every function, with its comment.

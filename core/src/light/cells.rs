@@ -114,9 +114,9 @@ pub(super) struct Drawn<R: Real> {
     /// Column and row.
     pub(super) cell: Vec2<R>,
     /// The first step of the cell in u₀ and u₁.
-    start: Vec2<R>,
+    pub(super) start: Vec2<R>,
     /// Number of its steps.
-    steps: Vec2<R>,
+    pub(super) steps: Vec2<R>,
 }
 
 impl<R: Real> Drawn<R> {
@@ -140,52 +140,48 @@ impl<R: Real> Drawn<R> {
     }
 }
 
-/// The cells of a picture in memory.
-pub(super) trait Cells<R: Real>: Copy {
+/// Where the cells of a picture are.
+#[derive(Clone, Copy)]
+pub(super) struct Grid {
     /// Columns and rows.
-    fn counts(&self) -> Vec2<R>;
-    /// The part of the surface coordinates that its light covers.
-    fn region(&self) -> Region;
+    pub(super) size: [u32; 2],
     /// Whether the radiance is bilinear in each cell.
-    fn is_interpolated(&self) -> bool;
-    /// Radiance at the corners of a cell, in which it is bilinear; none where it is constant.
-    fn corners(&self, cell: Vec2<R>) -> Option<[R; 4]>;
-    /// Goes down to a cell. At each edge between slabs, `before` is asked whether it is before the edge, given the axis, and the first step
-    /// and the first column or row after the edge.
-    fn walk(&self, measure: &impl Measure<R>, before: impl Fn(usize, R, R) -> R::Mask) -> Drawn<R>;
+    pub(super) is_interpolated: bool,
+}
 
+impl Grid {
+    /// Columns and rows.
+    #[inline(always)]
+    fn counts<R: Real>(self) -> Vec2<R> {
+        let [w, h] = self.size.map(|n| R::lit(f64::from(n)));
+        Vec2::new(w, h)
+    }
     /// One over the numbers of columns and rows that are whole, which [`edge`](Self::edge) needs.
     #[inline(always)]
-    fn pitch(&self) -> Vec2<R> {
+    fn pitch<R: Real>(self) -> Vec2<R> {
         let (counts, one) = (self.counts(), R::lit(1.0));
-        let pitch = |count: R| {
-            if self.is_interpolated() {
-                // with one cell more than texels, the first and the last one are halves
-                one / (count - one)
-            } else {
-                one / count
-            }
-        };
+        // with one cell more than texels, the first and the last one are halves
+        let pitch = |count: R| if self.is_interpolated { one / (count - one) } else { one / count };
         Vec2::new(pitch(counts.x), pitch(counts.y))
     }
     /// Where columns, or rows, begin in the picture, in [0, 1].
     #[inline(always)]
-    fn edge(&self, at: R, pitch: R) -> R {
-        if self.is_interpolated() { ((at - R::lit(0.5)) * pitch).clamped(R::lit(0.0), R::lit(1.0)) } else { at * pitch }
+    fn edge<R: Real>(self, at: R, pitch: R) -> R {
+        if self.is_interpolated { ((at - R::lit(0.5)) * pitch).clamped(R::lit(0.0), R::lit(1.0)) } else { at * pitch }
     }
     /// A cell as a box.
     #[inline(always)]
-    fn cell(&self, at: Vec2<R>) -> Box2<R> {
+    pub(super) fn cell<R: Real>(self, at: Vec2<R>) -> Box2<R> {
         let (pitch, one) = (self.pitch(), R::lit(1.0));
         let edges = |x: R, y: R| Vec2::new(self.edge(x, pitch.x), self.edge(y, pitch.y));
         Box2 { low: edges(at.x, at.y), high: edges(at.x + one, at.y + one) }
     }
     /// The cell at surface coordinates, and the position in it.
     #[inline(always)]
-    fn locate(&self, uv: Vec2<R>) -> (Vec2<R>, Vec2<R>) {
+    pub(super) fn locate<R: Real>(self, uv: Vec2<R>) -> (Vec2<R>, Vec2<R>) {
         let (counts, pitch) = (self.counts(), self.pitch());
         let one = |x: R, n: R, pitch: R| {
-            if !self.is_interpolated() {
+            if !self.is_interpolated {
                 let (i, within) = locate(unit_interval(x), n);
                 return (R::from_uint(i), within);
             }
@@ -197,23 +193,6 @@ pub(super) trait Cells<R: Real>: Copy {
         };
         let ((x, s), (y, t)) = (one(uv.x, counts.x, pitch.x), one(uv.y, counts.y, pitch.y));
         (Vec2::new(x, y), Vec2::new(s, t))
-    }
-    /// The cell that `u` draws, and the position in it.
-    #[inline(always)]
-    fn draw(&self, u: Vec2<R>, measure: &impl Measure<R>) -> (Drawn<R>, Vec2<R>) {
-        let (zero, steps) = (R::lit(0.0), R::lit(STEPS));
-        let least = |x: R| x.clamped(zero, R::ONE_MINUS_EPSILON) * steps;
-        let at = Vec2::new(least(u.x), least(u.y));
-        let drawn = self.walk(measure, |axis, step, _| if axis == 0 { at.x.lt(step) } else { at.y.lt(step) });
-        // the differences are exact
-        let within = |at: R, start: R, steps: R| unit_interval((at - start) / steps);
-        let Drawn { start, steps, .. } = drawn;
-        (drawn, Vec2::new(within(at.x, start.x, steps.x), within(at.y, start.y, steps.y)))
-    }
-    /// A cell, given its column and row, and how it is drawn.
-    #[inline(always)]
-    fn find(&self, cell: Vec2<R>, measure: &impl Measure<R>) -> Drawn<R> {
-        self.walk(measure, |axis, _, edge| if axis == 0 { cell.x.lt(edge) } else { cell.y.lt(edge) })
     }
 }
 
@@ -251,7 +230,7 @@ impl<R: Real> Walk<R> {
     #[inline(always)]
     pub(super) fn descend(
         &mut self,
-        cells: &impl Cells<R>,
+        grid: Grid,
         &Level { length, side, cut: [cut_x, cut_y] }: &Level<R>,
         shares: impl Fn(Option<R::Uint>) -> [R; 3],
         measure: &impl Measure<R>,
@@ -259,10 +238,10 @@ impl<R: Real> Walk<R> {
     ) {
         let Self { columns, rows, differ } = self;
         let pair = |v: Vec2<R>| [v.x, v.y];
-        let (counts, pitch) = (pair(cells.counts()), pair(cells.pitch()));
+        let (counts, pitch) = (pair(grid.counts()), pair(grid.pitch()));
         let end_x = (columns.cell + length).lesser(counts[0]);
         let end_y = (rows.cell + length).lesser(counts[1]);
-        let edge = |at: R, axis: usize| cells.edge(at, pitch[axis]);
+        let edge = |at: R, axis: usize| grid.edge(at, pitch[axis]);
         let slabs = |axis: usize, along: &[R; 5], across: [R; 2]| Slabs {
             axis,
             along: along.map(|at| edge(at, axis)),

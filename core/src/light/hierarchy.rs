@@ -1,11 +1,11 @@
 //! A hierarchy of boxes of a picture's cells, in the caller's memory.
 
-use super::cells::{Cells, Drawn, Level, Measure, STEPS, Walk};
+use super::cells::{Drawn, Grid, Level, Measure, STEPS, Walk};
 use crate::real::{Real, Uint};
 use wide::f32x4;
 
 /// Numbers of a box in the buffer, which are next to each other: a cache line.
-pub(super) const ENTRIES: usize = 16;
+const ENTRIES: usize = 16;
 
 /// A level of the hierarchy: boxes of 4 × 4 parts, or 2 × 2.
 struct Boxes {
@@ -119,12 +119,13 @@ impl<'a> Hierarchy<'a> {
     pub(super) const fn size(&self) -> [u32; 2] {
         self.size
     }
-    /// See [`Cells::walk`].
+    /// Goes down to a cell. At each edge between slabs, `before` is asked whether it is before the edge, given the axis, and the first step
+    /// and the first column or row after the edge.
     // by far the longest part: one copy for each measure
     #[inline]
     pub(super) fn walk<R: Real>(
         &self,
-        cells: &impl Cells<R>,
+        grid: Grid,
         measure: &impl Measure<R>,
         before: impl Fn(usize, R, R) -> R::Mask,
     ) -> Drawn<R> {
@@ -142,7 +143,7 @@ impl<'a> Hierarchy<'a> {
                 ([a, b, c, ..], None) if first == 0 => [*a, *b, *c].map(|share| R::lit(f64::from(share))),
                 (entries, row) => shares_at::<R>(entries, row.map_or(here, |row| here.wrapping_add(row))),
             };
-            walk.descend(cells, &Level { length, side, cut }, shares, measure, &before);
+            walk.descend(grid, &Level { length, side, cut }, shares, measure, &before);
         }
         walk.drawn()
     }

@@ -39,7 +39,7 @@ impl<R: Real> BilinearPatch<R> {
         ByArea { surface: self.placed(p) }
     }
     #[inline(always)]
-    pub(super) fn placed(&self, p: Vec3<R>) -> PlacedPatch<R> {
+    fn placed(&self, p: Vec3<R>) -> PlacedPatch<R> {
         let Self { corner, edge_s, edge_t, diagonal } = *self;
         PlacedPatch::new(PatchSurface { corner: corner - p, edge_s, edge_t, diagonal })
     }
@@ -70,38 +70,6 @@ impl<R: Real> PlacedPatch<R> {
     #[inline(always)]
     fn normal(&self, st: Vec2<R>) -> (Vec3<R>, R) {
         self.small.normal(st).unit_and_length()
-    }
-    /// The point at (s, t), with |∂s×∂t| as `inverse_pdf`; 0 where it is too far away to be a number.
-    #[inline(always)]
-    pub(super) fn at_coordinates(&self, st: Vec2<R>) -> SurfacePoint<R> {
-        let position = self.surface.corner + self.surface.offset(st);
-        let finite = position.is_within(R::lit(f64::INFINITY));
-        let (normal, uv) = (self.normal(st).0, st);
-        SurfacePoint { position: position.keep(finite), normal, uv, inverse_pdf: self.stretch_at(st) }
-    }
-    /// |∂s×∂t|.
-    #[inline(always)]
-    pub(super) fn stretch_at(&self, st: Vec2<R>) -> R {
-        let area = self.normal(st).1 / self.scale / self.scale;
-        area.keep(area.lt(R::lit(1e37)))
-    }
-    /// ∂s×∂t times the vector from the shading point to (s, t): bilinear in s and t. In units.
-    #[inline(always)]
-    pub(super) fn rise(&self, s: R, t: R) -> R {
-        let PatchSurface { corner: p, edge_s: u, edge_t: v, diagonal: w } = self.small;
-        let twist = (w - u) - v;
-        let cross = u.cross(v);
-        let (along_s, along_t) = (p.dot(u.cross(twist)), p.dot(twist.cross(v)));
-        (s * t).mul_add(-twist.dot(cross), s.mul_add(along_s, t.mul_add(along_t, p.dot(cross))))
-    }
-    /// The vector to the middle of a box of such a size about (s, t), and the sum of the squares of its sides. In units.
-    #[inline(always)]
-    pub(super) fn middle(&self, st: Vec2<R>, size: Vec2<R>) -> (Vec3<R>, R) {
-        let PatchSurface { corner, edge_s, edge_t, diagonal } = self.small;
-        let twist = (diagonal - edge_s) - edge_t;
-        let (along_s, along_t) = (twist.mul_add(st.y, edge_s), twist.mul_add(st.x, edge_t));
-        let sides = (along_s * size.x).length_squared() + (along_t * size.y).length_squared();
-        (corner + self.small.offset(st), sides)
     }
     /// (s, t) of the nearest point in the direction `ray` and its distance, in [0, 1]² where the ray hits; and whether it does.
     ///
@@ -158,7 +126,11 @@ impl<R: Real> AreaSurface<R> for PlacedPatch<R> {
     #[inline(always)]
     fn draw(&self, u: Vec2<R>) -> SurfacePoint<R> {
         let uv = self.surface.parameters().sample(u);
-        SurfacePoint { inverse_pdf: self.inverse_pdf(uv), ..self.at_coordinates(uv) }
+        let position = self.surface.corner + self.surface.offset(uv);
+        // too far away to be a number
+        let finite = position.is_within(R::lit(f64::INFINITY));
+        let (normal, inverse_pdf) = (self.normal(uv).0, self.inverse_pdf(uv));
+        SurfacePoint { position: position.keep(finite), normal, uv, inverse_pdf }
     }
     #[inline(always)]
     fn inverse_pdf(&self, uv: Vec2<R>) -> R {

@@ -1,9 +1,9 @@
 //! Pictures on lights: which texel, in proportion to its radiance and to its measure as seen from a point.
 
-use super::cells::{Cells, Drawn, Measure, Region, STEPS};
+use super::cells::{Drawn, Grid, Measure, Region, STEPS};
 use super::hierarchy::Hierarchy;
 use crate::discrete::TableError;
-use crate::real::{Real, Uint};
+use crate::real::{Real, Uint, unit_interval};
 use crate::vector::Vec2;
 
 /// A picture's hierarchy, in the caller's memory: how the radiance of each box of texels is divided among its parts.
@@ -150,22 +150,15 @@ impl<'a> Picture<'a> {
     }
 }
 
-impl<R: Real> Cells<R> for Picture<'_> {
+/// What samplers ask of a picture.
+impl Picture<'_> {
     #[inline(always)]
-    fn counts(&self) -> Vec2<R> {
-        let [w, h] = self.hierarchy.size().map(|n| R::lit(f64::from(n)));
-        Vec2::new(w, h)
+    pub(super) fn grid(&self) -> Grid {
+        Grid { size: self.hierarchy.size(), is_interpolated: self.values.is_some() }
     }
+    /// Radiance at the corners of a cell, in which it is bilinear; none where it is constant.
     #[inline(always)]
-    fn region(&self) -> Region {
-        self.region
-    }
-    #[inline(always)]
-    fn is_interpolated(&self) -> bool {
-        self.values.is_some()
-    }
-    #[inline(always)]
-    fn corners(&self, cell: Vec2<R>) -> Option<[R; 4]> {
+    pub(super) fn corners<R: Real>(&self, cell: Vec2<R>) -> Option<[R; 4]> {
         let values = self.values?;
         let [width, height] = self.size().map(|n| n - 1);
         let (x, y) = (cell.x.to_uint(), cell.y.to_uint());
@@ -178,8 +171,23 @@ impl<R: Real> Cells<R> for Picture<'_> {
         };
         Some([value(0, 0), value(1, 0), value(0, 1), value(1, 1)])
     }
+    /// The cell that `u` draws, and the position in it.
     #[inline(always)]
-    fn walk(&self, measure: &impl Measure<R>, before: impl Fn(usize, R, R) -> R::Mask) -> Drawn<R> {
-        self.hierarchy.walk(self, measure, before)
+    pub(super) fn draw<R: Real>(&self, u: Vec2<R>, measure: &impl Measure<R>) -> (Drawn<R>, Vec2<R>) {
+        let (zero, steps) = (R::lit(0.0), R::lit(STEPS));
+        let least = |x: R| x.clamped(zero, R::ONE_MINUS_EPSILON) * steps;
+        let at = Vec2::new(least(u.x), least(u.y));
+        let before = |axis, step, _| if axis == 0 { at.x.lt(step) } else { at.y.lt(step) };
+        let drawn = self.hierarchy.walk(self.grid(), measure, before);
+        // the differences are exact
+        let within = |at: R, start: R, steps: R| unit_interval((at - start) / steps);
+        let Drawn { start, steps, .. } = drawn;
+        (drawn, Vec2::new(within(at.x, start.x, steps.x), within(at.y, start.y, steps.y)))
+    }
+    /// A cell, given its column and row, and how it is drawn.
+    #[inline(always)]
+    pub(super) fn find<R: Real>(&self, cell: Vec2<R>, measure: &impl Measure<R>) -> Drawn<R> {
+        let before = |axis, _, edge| if axis == 0 { cell.x.lt(edge) } else { cell.y.lt(edge) };
+        self.hierarchy.walk(self.grid(), measure, before)
     }
 }

@@ -1,6 +1,6 @@
 //! Lights with pictures, prepared for a shading point.
 
-use super::cells::{Box2, Cells, Drawn, Measure};
+use super::cells::{Box2, Drawn, Measure};
 use super::picture::Picture;
 use super::sample::{LightSample, TexelSample};
 use super::sampler::LightSampler;
@@ -8,24 +8,19 @@ use super::surface::SurfaceHit;
 use crate::real::{GREATEST, Real};
 use crate::vector::{Vec2, Vec3};
 
-/// A light with a picture in the caller's memory.
-pub type Pictured<'a, L> = PicturedLight<Picture<'a>, L>;
-/// A light with a picture in the caller's memory, prepared for a shading point.
-pub type ByPicture<'a, S> = PicturedSampler<Picture<'a>, S>;
-
 /// A light with a picture: [`Picture::on`] makes it.
 #[derive(Clone, Copy, Debug)]
-pub struct PicturedLight<P, L> {
+pub struct PicturedLight<'a, L> {
     /// The picture.
-    pub picture: P,
+    pub picture: Picture<'a>,
     /// The light that it is on.
     pub light: L,
 }
 
-impl Picture<'_> {
+impl<'a> Picture<'a> {
     /// The picture on a light, which must cover the [`Region`](super::Region) for which the picture was built.
     #[inline(always)]
-    pub const fn on<L>(self, light: L) -> PicturedLight<Self, L> {
+    pub const fn on<L>(self, light: L) -> PicturedLight<'a, L> {
         PicturedLight { picture: self, light }
     }
 }
@@ -93,15 +88,15 @@ pub(super) trait TexelSurface<R: Real>: Measure<R> {
 /// assert_eq!(sampler.pdf(etendue::Vec3::new(-0.1, 0.99, 0.1).normalize()), 0.0);
 /// ```
 #[derive(Clone, Copy, Debug)]
-pub struct PicturedSampler<P, S> {
-    pub(super) picture: P,
+pub struct PicturedSampler<'a, S> {
+    pub(super) picture: Picture<'a>,
     pub(super) surface: S,
 }
 
 /// The texel of a picture at a cell.
 #[inline(always)]
-fn texel<R: Real>(picture: &impl Cells<R>, at: Vec2<R>) -> Texel<R> {
-    let Box2 { low, high } = picture.cell(at);
+fn texel<R: Real>(picture: &Picture<'_>, at: Vec2<R>) -> Texel<R> {
+    let Box2 { low, high } = picture.grid().cell(at);
     Texel { low, size: high - low, corners: picture.corners(at) }
 }
 
@@ -111,20 +106,19 @@ fn density<R: Real>(drawn: &Drawn<R>, pdf: R) -> R {
 }
 
 #[inline]
-fn pdf_at<R: Real>(picture: &impl Cells<R>, surface: &impl TexelSurface<R>, w: Vec3<R>, at: &SurfaceHit<R>) -> R {
-    let (cell, within) = picture.locate(at.uv);
+fn pdf_at<R: Real>(picture: &Picture<'_>, surface: &impl TexelSurface<R>, w: Vec3<R>, at: &SurfaceHit<R>) -> R {
+    let (cell, within) = picture.grid().locate(at.uv);
     let drawn = picture.find(cell, surface);
     let hit = surface.contains(w) & picture.region().contains(at.uv);
     density(&drawn, surface.pdf(&texel(picture, cell), w, at, within)).keep(hit)
 }
 
-impl<P, S> PicturedSampler<P, S> {
+impl<S> PicturedSampler<'_, S> {
     /// A direction in proportion to radiance and measure, with its texel.
     #[allow(private_bounds, reason = "the surfaces are those of this library")]
     #[inline]
     pub fn draw<R: Real>(&self, u: Vec2<R>) -> TexelSample<R>
     where
-        P: Cells<R>,
         S: TexelSurface<R>,
     {
         let (drawn, within) = self.picture.draw(u, &self.surface);
@@ -134,7 +128,7 @@ impl<P, S> PicturedSampler<P, S> {
     }
 }
 
-impl<P: Cells<R>, R: Real, S: TexelSurface<R>> LightSampler<R> for PicturedSampler<P, S> {
+impl<R: Real, S: TexelSurface<R>> LightSampler<R> for PicturedSampler<'_, S> {
     #[inline]
     fn sample(&self, u: Vec2<R>) -> LightSample<R> {
         let drawn = self.draw(u).light;
@@ -150,7 +144,7 @@ impl<P: Cells<R>, R: Real, S: TexelSurface<R>> LightSampler<R> for PicturedSampl
     }
     #[inline]
     fn invert(&self, w: Vec3<R>) -> Vec2<R> {
-        let (cell, within) = self.picture.locate(self.surface.at(w).uv);
+        let (cell, within) = self.picture.grid().locate(self.surface.at(w).uv);
         let drawn = self.picture.find(cell, &self.surface);
         drawn.invert(self.surface.invert(&texel(&self.picture, cell), w, within))
     }

@@ -53,9 +53,9 @@ impl<R: Real> FlatLight<R> for Disk<R> {
     }
 }
 
-impl<P: Copy, L> PicturedLight<P, L> {
+impl<'a, L> PicturedLight<'a, L> {
     #[inline(always)]
-    fn by<R: Real, M>(&self, p: Vec3<R>, measure: M) -> PicturedSampler<P, Flat<R, M>>
+    fn by<R: Real, M>(&self, p: Vec3<R>, measure: M) -> PicturedSampler<'a, Flat<R, M>>
     where
         L: FlatLight<R>,
     {
@@ -68,7 +68,7 @@ impl<P: Copy, L> PicturedLight<P, L> {
     /// By radiance times area, seen from the point `p`: for lights that are small for their distance. The pdf is the pmf of the texel, over
     /// its area, times distance²/|cosθ'|, per steradian.
     #[inline(always)]
-    pub fn by_area<R: Real>(&self, p: Vec3<R>) -> PicturedSampler<P, Flat<R, Area>>
+    pub fn by_area<R: Real>(&self, p: Vec3<R>) -> PicturedSampler<'a, Flat<R, Area>>
     where
         L: FlatLight<R>,
     {
@@ -80,7 +80,7 @@ impl<P: Copy, L> PicturedLight<P, L> {
     /// The parts of a box are compared by their solid angles where they are large for their distance, by those of their centres where
     /// not, and by radiance alone where they are too small to differ: shares are within 1 % of the exact ones.
     #[inline(always)]
-    pub fn by_solid_angle<R: Real>(&self, p: Vec3<R>) -> PicturedSampler<P, Flat<R, SolidAngle<R>>>
+    pub fn by_solid_angle<R: Real>(&self, p: Vec3<R>) -> PicturedSampler<'a, Flat<R, SolidAngle<R>>>
     where
         L: FlatLight<R>,
     {
@@ -89,7 +89,11 @@ impl<P: Copy, L> PicturedLight<P, L> {
     /// By radiance times projected solid angle above the horizon of the unit normal `n` at the point `p`. The pdf is the pmf of the texel,
     /// over its projected solid angle, times the cosine, per steradian.
     #[inline(always)]
-    pub fn by_projected_solid_angle<R: Real>(&self, p: Vec3<R>, n: Vec3<R>) -> PicturedSampler<P, Flat<R, Projected<R>>>
+    pub fn by_projected_solid_angle<R: Real>(
+        &self,
+        p: Vec3<R>,
+        n: Vec3<R>,
+    ) -> PicturedSampler<'a, Flat<R, Projected<R>>>
     where
         L: FlatLight<R>,
     {

@@ -3,7 +3,7 @@
 use crate::figures::{Figures, Lanes, List, Routine};
 use crate::lights::{sample, sampler};
 use etendue::light::{Picture, Region, TexelSample};
-use etendue::{BilinearPatch, Disk, LightSampler, Parallelogram, Real, Rectangle, Sphere, Triangle, Vec2, Vec3};
+use etendue::{Disk, LightSampler, Parallelogram, Real, Rectangle, Sphere, Triangle, Vec2, Vec3};
 use etendue_judge::generators::{self, Random};
 use etendue_judge::packets::{squares_of, vectors_of};
 
@@ -80,11 +80,7 @@ impl Routine for Shown {
                 "Parallelogram" => flat!(Parallelogram { corner, edge_s, edge_t }),
                 "Rectangle" => flat!(Rectangle { corner, edge_s, edge_t: edge_s.cross(edge_t) }),
                 "Disk" => flat!(Disk { center: corner, normal: edge_s, radius }),
-                "Sphere" => by!(picture.on(Sphere { center: corner, radius }).by_visible_area(p)),
-                _ => {
-                    let diagonal = edge_s + edge_t + vector(5) * radius;
-                    by!(picture.on(BilinearPatch { corner, edge_s, edge_t, diagonal }).by_visible_area(p));
-                }
+                _ => by!(picture.on(Sphere { center: corner, radius }).by_visible_area(p)),
             }
         });
     }
@@ -97,11 +93,10 @@ pub(crate) fn add(list: &mut List<'_>) {
         ("Rectangle", Region::Square, [16, 16]),
         ("Disk", Region::Disk, [9, 12]),
         ("Sphere", Region::Square, [8, 16]),
-        ("Patch", Region::Square, [5, 3]),
     ] {
         list.add(format!("light/Picture/{name}"), &Shown(name, region, size, false));
     }
-    for (name, size) in [("Parallelogram", [13, 7]), ("Rectangle", [16, 15]), ("Sphere", [8, 16]), ("Patch", [5, 3])] {
+    for (name, size) in [("Parallelogram", [13, 7]), ("Rectangle", [16, 15]), ("Sphere", [8, 16])] {
         list.add(format!("light/Picture/Interpolated{name}"), &Shown(name, Region::Square, size, true));
     }
 }

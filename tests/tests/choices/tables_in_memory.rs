@@ -1,8 +1,8 @@
 //! Tables that are read from words in memory, at an index of its own in each lane, have the bits of the tables themselves.
 
 use etendue::discrete::{PiecewiseConstant1d, Words1d};
-use etendue::light::{EnvironmentMap, EnvironmentWords, ImageEnvironment, Picture, PictureWords, Region};
-use etendue::{LightSampler, Parallelogram, Real, Uint, Vec2, Vec3, f32x8, u32x8};
+use etendue::light::{EnvironmentMap, EnvironmentWords, ImageEnvironment};
+use etendue::{LightSampler, Real, Uint, Vec2, Vec3, f32x8, u32x8};
 use etendue_judge::generators::Random;
 use etendue_oracle::tier::cases;
 
@@ -54,53 +54,6 @@ fn three(w: Vec3<f32x8>, lane: usize) -> Vec3<f32> {
 }
 fn bits(w: Vec3<f32>, pdf: f32) -> [u32; 4] {
     [w.x, w.y, w.z, pdf].map(f32::to_bits)
-}
-
-#[test]
-fn pictures() {
-    let mut random = Random::new(1);
-    for interpolated in [false, true] {
-        // where it is interpolated, the values come after the buffer
-        let length =
-            |[w, h]: [usize; 2]| if interpolated { Picture::buffer(w + 1, h + 1) } else { Picture::buffer(w, h) };
-        let lanes = Lanes::new(SIZES, |size| {
-            let mut values = weights(size[0] * size[1], &mut random);
-            let mut buffer = vec![0.0; length(size)];
-            if interpolated {
-                Picture::interpolated(&values, size[0], &mut buffer).unwrap();
-            } else {
-                Picture::build(&values, size[0], Region::Square, &mut buffer).unwrap();
-                values.clear();
-            }
-            [buffer, values].concat()
-        });
-        let values = lanes.first.wrapping_add(u32x8::from(SIZES.map(|size| length(size) as u32)));
-        let (size, values) = (lanes.size, interpolated.then_some(values));
-        let picture =
-            PictureWords { memory: &lanes.words[..], shares: lanes.first, values, size, region: Region::Square };
-        let edge = |x: f32, y: f32, z: f32| Vec3::new(x, y, z);
-        let light =
-            Parallelogram { corner: edge(-1.0, 0.4, -1.0), edge_s: edge(2.0, 0.1, 0.0), edge_t: edge(0.3, 0.0, 2.0) };
-        for _ in 0..cases(200, 2000) {
-            let (u, p) = (square(&mut random), direction(&mut random));
-            let sampler = picture.on(Parallelogram::splat(light)).by_solid_angle(p);
-            let drawn = sampler.draw(u);
-            let pdf = sampler.pdf(drawn.light.direction);
-            for (lane, size @ [w, h]) in SIZES.into_iter().enumerate() {
-                let (buffer, rest) = lanes.words[lanes.first.lane(lane) as usize..].split_at(length(size));
-                let own = match interpolated {
-                    true => Picture::interpolated_from_buffer(&rest[..w * h], w, buffer).unwrap(),
-                    false => Picture::from_buffer(buffer, size, Region::Square).unwrap(),
-                };
-                let sampler = own.on(light).by_solid_angle(three(p, lane));
-                let right = sampler.draw(pair(u, lane));
-                let found = bits(three(drawn.light.direction, lane), drawn.light.pdf.lane(lane));
-                assert_eq!(found, bits(right.light.direction, right.light.pdf), "{size:?}");
-                assert_eq!([drawn.x.lane(lane), drawn.y.lane(lane)], [right.x, right.y]);
-                assert_eq!(pdf.lane(lane).to_bits(), sampler.pdf(right.light.direction).to_bits());
-            }
-        }
-    }
 }
 
 #[test]

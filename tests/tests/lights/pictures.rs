@@ -13,7 +13,7 @@ use etendue_judge::stats;
 use etendue_judge::tolerances::SIGNIFICANCE;
 use etendue_oracle::tier::cases;
 use etendue_oracle::{V3, dot, narrow, sub};
-use lights::{Ball, By, LIGHTS, Light, POINTS, Patch, normal, vector};
+use lights::{Ball, By, LIGHTS, Light, POINTS, normal, vector};
 
 struct Image {
     name: &'static str,
@@ -72,15 +72,13 @@ fn samples_follow_the_pdf() {
                     // a grid over each texel: exact by solid angle and by projected solid angle for texels that are whole
                     let varies = by == By::Area || by == By::Visible;
                     let n = (128 / image.size[0].max(image.size[1])).max(if varies { 20 } else { 6 });
-                    // a patch may hide a part of itself
-                    let (mut expected, mut hidden) = (vec![0.0; image.weights.len()], false);
+                    let mut expected = vec![0.0; image.weights.len()];
                     for [x, y] in image.texels() {
                         for k in 0..n * n {
                             let at = [k % n, k / n].map(|i| (i as f64 + 0.5) / n as f64);
                             let uv = image.place(x, y, at);
                             if let Some((w, steradians)) = light.seen(p, uv) {
                                 let hit = sampler.light.hit(vector(w));
-                                hidden |= light == Patch && (hit.uv.x - uv[0]).abs() > 1e-6;
                                 expected[y * image.size[0] + x] += hit.pdf * steradians / (n * n) as f64;
                             }
                         }
@@ -103,14 +101,14 @@ fn samples_follow_the_pdf() {
                     let missed = observed[image.weights.len()] as f64 / f64::from(count);
                     let whole = light.region() == Region::Square && light != Ball && by != By::Projected;
                     let nothing = sum < 1e-6;
-                    let near = 0.05 + if by == By::Area || light == Patch || light == Ball { 0.1 } else { 0.0 };
+                    let near = 0.05 + if by == By::Area || light == Ball { 0.1 } else { 0.0 };
                     assert!(
                         nothing || cut || (sum + missed - 1.0).abs() < near,
                         "{name}: ∫pdf = {sum}, {missed} of samples without"
                     );
                     assert!(!whole || nothing || missed == 0.0, "{name}: {missed} of samples have no pdf");
                     // the quadrature's error at the horizon counts above, not below
-                    let several = !cut && !hidden && expected.iter().filter(|&&e| e > 0.01).count() > 1;
+                    let several = !cut && expected.iter().filter(|&&e| e > 0.01).count() > 1;
                     if (sum + missed - 1.0).abs() < 0.01 && sum > 0.1 && several {
                         let drawn: u64 = observed[..image.weights.len()].iter().sum();
                         let expected: Vec<_> = expected.iter().map(|e| (e / sum).max(1e-9) * drawn as f64).collect();
@@ -206,10 +204,6 @@ fn closed() {
                         if s.light.pdf == 0.0 || light == Ball && !s.light.emits {
                             continue;
                         }
-                        // the nearest point of a patch may be another one
-                        if light == Patch && (back.distance / s.light.distance - 1.0).abs() > 1e-9 {
-                            continue;
-                        }
                         let [x, y] = [back.uv.x * image.size[0] as f64, back.uv.y * image.size[1] as f64];
                         let beside = |x: f64| (x - x.round()).abs() < 1e-9;
                         if beside(x) || beside(y) {
@@ -256,7 +250,7 @@ fn all_texels_have_a_chance() {
                             if hit.pdf > 0.0 && here {
                                 assert!(lit, "{name}: a dark texel has the pdf {}", hit.pdf);
                             }
-                            if lit && visible && inside && (light != Patch || here) {
+                            if lit && visible && inside {
                                 assert!(hit.pdf > 0.0, "{name}: lost, {hit:?}");
                             }
                         }

@@ -95,8 +95,6 @@ fn visit_images(visitor: &mut impl Visitor) {
     visitor.technique::<technique::PictureBySolidAngle<'_>>("picture by solid angle", panel, ());
     let (projected, up) = ("picture by projected solid angle", v(0.0, 1.0, 0.0));
     visitor.technique::<technique::PictureByProjectedSolidAngle<'_>>(projected, panel, up);
-    let patch = OnPicture { picture, light: Overhead::overhead() };
-    visitor.technique::<technique::PictureOnPatchByVisibleArea<'_>>("picture on patch", patch, ());
     let mut buffer = [0.0; Picture::buffer(6, 4)];
     Picture::interpolated(&weights, 5, &mut buffer).unwrap();
     let picture = PictureMemory::interpolated(&weights, 5, &buffer).unwrap();

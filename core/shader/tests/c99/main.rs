@@ -8,7 +8,6 @@ mod header;
 mod lights;
 mod opencl;
 mod operations;
-mod pictures;
 mod program;
 mod tables;
 mod tools;

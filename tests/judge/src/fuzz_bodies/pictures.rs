@@ -3,7 +3,7 @@
 use super::Input;
 use crate::packets::{squares_of, vectors_of};
 use etendue::light::{Picture, Region, TexelSample};
-use etendue::{BilinearPatch, Disk, LightSampler, Parallelogram, Real, Sphere, Triangle, Vec2, f32x8};
+use etendue::{Disk, LightSampler, Parallelogram, Real, Sphere, Triangle, Vec2, f32x8};
 
 /// Takes a sampler, and its method that returns the texel, too.
 type Visitor<'a, R> = dyn FnMut(&dyn LightSampler<R>, &dyn Fn(Vec2<R>) -> TexelSample<R>) + 'a;
@@ -14,21 +14,21 @@ struct Shown {
     kind: u8,
     weights: Vec<f32>,
     size: [usize; 2],
-    /// Corner or centre, edges, diagonal, shading point, normal.
+    /// Corner or centre, edges, shading point, normal.
     vectors: Vec<[f32; 3]>,
     radius: f32,
 }
 
 impl Shown {
     fn region(&self) -> Region {
-        match self.kind % 5 {
+        match self.kind % 4 {
             0 => Region::Triangle,
             1 => Region::Disk,
             _ => Region::Square,
         }
     }
     fn is_interpolated(&self) -> bool {
-        self.kind >= 5 && self.region() == Region::Square
+        self.kind >= 4 && self.region() == Region::Square
     }
     /// Whether a texel has radiance, or one at the corners of a cell between texels.
     fn radiates(&self, x: usize, y: usize) -> bool {
@@ -39,7 +39,7 @@ impl Shown {
     }
     /// Calls `take` with the light by each measure.
     fn each<R: Real>(&self, picture: Picture<'_>, take: &mut Visitor<'_, R>) {
-        let [corner, edge_s, edge_t, diagonal, p, n] = [0, 1, 2, 3, 4, 5].map(|k| vectors_of::<R>(|_| self.vectors[k]));
+        let [corner, edge_s, edge_t, p, n] = [0, 1, 2, 3, 4].map(|k| vectors_of::<R>(|_| self.vectors[k]));
         let radius = R::lit(f64::from(self.radius));
         macro_rules! by {
             ($($sampler:expr),+) => {{$({
@@ -53,25 +53,24 @@ impl Shown {
                 by!(shown.by_area(p), shown.by_solid_angle(p), shown.by_projected_solid_angle(p, n))
             }};
         }
-        match self.kind % 5 {
+        match self.kind % 4 {
             0 => flat!(Triangle { v0: corner, e1: edge_s, e2: edge_t }),
             1 => flat!(Disk { center: corner, normal: n, radius }),
             2 => flat!(Parallelogram { corner, edge_s, edge_t }),
-            3 => by!(picture.on(Sphere { center: corner, radius }).by_visible_area(p)),
-            _ => by!(picture.on(BilinearPatch { corner, edge_s, edge_t, diagonal }).by_visible_area(p)),
+            _ => by!(picture.on(Sphere { center: corner, radius }).by_visible_area(p)),
         }
     }
 }
 
 /// Any picture on any light: texels that are drawn have radiance, results are finite, and lanes agree with scalars.
 pub(super) fn pictures(input: &mut Input<'_>) {
-    let kind = input.below(10);
+    let kind = input.below(8);
     let weights = input.weights(40);
     let width = 1 + input.below(weights.len() as u8) as usize;
     let height = weights.len() / width;
     let weights = weights[..width * height].to_vec();
     let mut vectors = Vec::new();
-    for _ in 0..5 {
+    for _ in 0..4 {
         let next = input.vector(&vectors);
         vectors.push(next);
     }

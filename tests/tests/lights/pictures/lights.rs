@@ -2,7 +2,7 @@
 
 use core::f64::consts::{PI, TAU};
 use etendue::light::{Picture, Region, TexelSample};
-use etendue::{BilinearPatch, Disk, LightSampler, Parallelogram, Real, Rectangle, Sphere, Triangle, Vec2, Vec3};
+use etendue::{Disk, LightSampler, Parallelogram, Real, Rectangle, Sphere, Triangle, Vec2, Vec3};
 use etendue_oracle::{V3, cross, dot, length, sub, unit};
 
 /// A light, as the corners and axes that define it.
@@ -13,16 +13,14 @@ pub(crate) enum Light {
     Triangle,
     Disk,
     Sphere,
-    Patch,
 }
-pub(crate) use Light::{Patch, Sphere as Ball};
-pub(crate) const LIGHTS: [Light; 6] =
-    [Light::Rectangle, Light::Parallelogram, Light::Triangle, Light::Disk, Light::Sphere, Light::Patch];
+pub(crate) use Light::Sphere as Ball;
+pub(crate) const LIGHTS: [Light; 5] =
+    [Light::Rectangle, Light::Parallelogram, Light::Triangle, Light::Disk, Light::Sphere];
 pub(crate) const CORNER: V3 = [-1.0, -0.5, 2.0];
 pub(crate) const EDGE_S: V3 = [0.0, 1.5, 0.0];
 pub(crate) const EDGE_T: V3 = [2.0, 0.0, 0.25];
 pub(crate) const SHEAR: V3 = [0.5, 1.0, 0.0];
-pub(crate) const DIAGONAL: V3 = [2.25, 1.25, 0.75];
 pub(crate) const CENTER: V3 = [0.25, 0.5, 2.0];
 pub(crate) const RADIUS: f64 = 0.75;
 
@@ -37,7 +35,7 @@ pub(crate) enum By {
 
 impl Light {
     pub(crate) fn measures(self) -> &'static [By] {
-        if matches!(self, Ball | Patch) { &[By::Visible] } else { &[By::Area, By::SolidAngle, By::Projected] }
+        if self == Ball { &[By::Visible] } else { &[By::Area, By::SolidAngle, By::Projected] }
     }
     pub(crate) fn region(self) -> Region {
         match self {
@@ -68,13 +66,6 @@ impl Light {
                 let r = (1.0 - z * z).max(0.0).sqrt();
                 let n = [r * cos, r * sin, z];
                 (core::array::from_fn(|k| CENTER[k] + RADIUS * n[k]), n.map(|x| x * 4.0 * PI * RADIUS * RADIUS))
-            }
-            Patch => {
-                let twist: V3 = core::array::from_fn(|k| DIAGONAL[k] - EDGE_S[k] - EDGE_T[k]);
-                let along_s: V3 = core::array::from_fn(|k| EDGE_S[k] + t * twist[k]);
-                let along_t: V3 = core::array::from_fn(|k| EDGE_T[k] + s * twist[k]);
-                let p = core::array::from_fn(|k| CORNER[k] + s * EDGE_S[k] + t * along_t[k]);
-                (p, cross(along_s, along_t))
             }
         })
     }
@@ -113,10 +104,6 @@ impl Light {
             Self::Triangle => flat!(Triangle { v0: corner, e1: edge_s, e2: v(SHEAR) }),
             Self::Disk => flat!(Disk { center: v(CENTER), normal: v([0.0, 0.0, -1.0]), radius: R::lit(RADIUS) }),
             Ball => sampler!(picture.on(Sphere { center: v(CENTER), radius: R::lit(RADIUS) }).by_visible_area(p)),
-            Patch => {
-                let patch = BilinearPatch { corner, edge_s, edge_t: v(EDGE_T), diagonal: v(DIAGONAL) };
-                sampler!(picture.on(patch).by_visible_area(p))
-            }
         }
     }
 }
