@@ -21,7 +21,6 @@ __all__ = [
     "Independent",
     "JointSobol",
     "LightTree",
-    "Linear",
     "LowDistortionTriangle",
     "NO_LIGHT",
     "Octahedral",
@@ -29,7 +28,6 @@ __all__ = [
     "PatchSurface",
     "Picture",
     "Pictured",
-    "PolarDisk",
     "Portal",
     "PortalEnvironment",
     "Reflection",
@@ -38,7 +36,6 @@ __all__ = [
     "Sequence",
     "Spread",
     "Stratified",
-    "Tent",
     "UniformHemisphere",
     "UniformSphere",
     "Warp",
@@ -908,10 +905,6 @@ class ConcentricDisk(Warp):
     def __new__(cls) -> ConcentricDisk: ...
 
 @final
-class PolarDisk(Warp):
-    def __new__(cls) -> PolarDisk: ...
-
-@final
 class UniformHemisphere(Warp):
     def __new__(cls) -> UniformHemisphere: ...
 
@@ -961,14 +954,6 @@ class Reflection(Warp):
 @final
 class PatchSurface(Warp):
     def __new__(cls, corner: ArrayLike, edge_s: ArrayLike, edge_t: ArrayLike, diagonal: ArrayLike) -> PatchSurface: ...
-
-@final
-class Linear(Warp):
-    def __new__(cls, a: ArrayLike, b: ArrayLike) -> Linear: ...
-
-@final
-class Tent(Warp):
-    def __new__(cls, radius: ArrayLike) -> Tent: ...
 
 class Sequence:
     def pairs(self, count: int, *, pixel: ArrayLike | None = None, dimension: int = 0, first: int = 0) -> _F32: ...

@@ -26,7 +26,7 @@ mod words;
 
 use crate::real::{Real, Uint, unit_interval};
 use crate::vector::Vec2;
-use crate::warp::{Warp, Warp1};
+use crate::warp::Warp;
 pub use cell::{Cell, Cell2d};
 pub(crate) use cell::{locate, place};
 use core::fmt::{self, Display, Formatter};
@@ -160,23 +160,22 @@ impl<'a> PiecewiseConstant1d<'a> {
     fn count<R: Real>(&self) -> R {
         R::lit(self.cdf.len() as f64)
     }
-}
-
-impl<R: Real> Warp1<R> for PiecewiseConstant1d<'_> {
+    /// Maps `u` in [0, 1) to a point of [0, 1).
     #[inline(always)]
-    fn sample(&self, u: R) -> R {
+    pub fn sample<R: Real>(&self, u: R) -> R {
         let cell = self.cell(u);
         place(cell.index, cell.offset, self.count())
     }
     /// The pdf per unit length of [0, 1).
     #[inline(always)]
-    fn pdf(&self, x: R) -> R {
+    pub fn pdf<R: Real>(&self, x: R) -> R {
         let inside = x.ge(R::lit(0.0)) & x.lt(R::lit(1.0));
         let (index, _) = locate(unit_interval(x), self.count::<R>());
         (self.pmf::<R>(index) * self.count()).keep(inside)
     }
+    /// Returns the `u` in [0, 1) that `sample` maps to a point.
     #[inline(always)]
-    fn invert(&self, x: R) -> R {
+    pub fn invert<R: Real>(&self, x: R) -> R {
         let (index, offset) = locate(unit_interval(x), self.count::<R>());
         self.invert_cell(index, offset)
     }

@@ -69,5 +69,5 @@ pub use light::{
 };
 pub use real::{Mask, Real, Uint};
 pub use vector::{Frame, Vec2, Vec3};
-pub use warp::{Warp, Warp1};
+pub use warp::Warp;
 pub use wide::{f32x4, f32x8, f32x16, f64x4, f64x8, u32x4, u32x8, u32x16};

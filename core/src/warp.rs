@@ -3,7 +3,6 @@
 //! | warp | point | pdf | notes |
 //! |---|---|---|---|
 //! | [`ConcentricDisk`] | unit disk | 1/π | keeps strata compact |
-//! | [`PolarDisk`] | unit disk | 1/π | strata grow long near the centre; no faster |
 //! | [`Cone`] | directions within σ of +z | 1/(2π(1−cosσ)) | any σ from 1e−19 to π |
 //! | [`UniformHemisphere`] | directions, z ≥ 0 | 1/(2π) | a cone |
 //! | [`UniformSphere`] | directions | 1/(4π) | a cone |
@@ -14,13 +13,6 @@
 //! | [`GgxVisibleNormals`] | normals of a microsurface | D_v | anisotropic; also gives the pdf of the reflected direction |
 //! | [`Bilinear`] | unit square | bilinear in the point | for textured or tilted emitters |
 //! | [`PatchSurface`] | points of a bilinear patch | nearly 1/area | [`BilinearPatch`](crate::BilinearPatch) is the light |
-//!
-//! One-dimensional maps implement [`Warp1`]:
-//!
-//! | warp | point | pdf | notes |
-//! |---|---|---|---|
-//! | [`Linear`] | [0, 1) | linear between two end values | includes a = b |
-//! | [`Tent`] | [−r, r] | (r − \|x\|)/r² | pixel filters |
 
 mod bilinear;
 mod cone;
@@ -35,10 +27,10 @@ mod warps;
 
 pub use bilinear::Bilinear;
 pub use cone::{Cone, UniformHemisphere, UniformSphere};
-pub use disk::{ConcentricDisk, PolarDisk};
+pub use disk::ConcentricDisk;
 pub(crate) use disk::{concentric, invert_concentric};
 pub use hemisphere::CosineHemisphere;
-pub use linear::{Linear, Tent};
+pub(crate) use linear::Linear;
 pub use octahedral::Octahedral;
 pub use patch::PatchSurface;
 pub use triangle::{AreaTriangle, LowDistortionTriangle};
@@ -61,15 +53,4 @@ pub trait Warp<R: Real> {
     fn pdf(&self, point: Self::Point) -> R;
     /// Returns the `u` in [0, 1)² that `sample` maps to the point; for a point outside the shape, some value in [0, 1)².
     fn invert(&self, point: Self::Point) -> Vec2<R>;
-}
-
-/// A monotone bijection between the unit interval and a part of the line, together with its pdf: [`Warp`] in one dimension,
-/// with the same properties. The rounding of [`Linear`] may swap neighbours; the others keep the order of all `u`.
-pub trait Warp1<R: Real> {
-    /// Maps `u` in [0, 1) to a point; also accepts exactly 1.
-    fn sample(&self, u: R) -> R;
-    /// The pdf at `x`, per unit length; 0 outside the range.
-    fn pdf(&self, x: R) -> R;
-    /// Returns the `u` in [0, 1) that `sample` maps to `x`; for an `x` outside the range, some value in [0, 1).
-    fn invert(&self, x: R) -> R;
 }

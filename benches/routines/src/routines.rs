@@ -9,8 +9,8 @@ use etendue::light::{EnvironmentMap, ImageEnvironment, Picture, Region, Spread};
 use etendue::reflection::Reflection;
 use etendue::sequence::{Independent, JointSobol, OwenSobol, Sequence, Stratified, ZOrder, ZOrderIndex};
 use etendue::warp::{
-    AreaTriangle, Bilinear, ConcentricDisk, Cone, CosineHemisphere, GgxVisibleNormals, Linear, LowDistortionTriangle,
-    Octahedral, PatchSurface, PolarDisk, Tent, UniformHemisphere, UniformSphere, Warp, Warp1,
+    AreaTriangle, Bilinear, ConcentricDisk, Cone, CosineHemisphere, GgxVisibleNormals, LowDistortionTriangle,
+    Octahedral, PatchSurface, UniformHemisphere, UniformSphere, Warp,
 };
 use etendue::{
     BilinearPatch, DirectionalLight, Disk, LightSample, LightSampler, Line, Parallelogram, PointLight, Polygon, Real,
@@ -117,14 +117,6 @@ impl<R: Real + 'static> List<R> {
         self.push(&format!("sequence {name} pair, pixels"), sequence, indices, |s, i| {
             s.pair::<R>(i, R::Uint::splat(7), 1)
         });
-    }
-    /// The three methods of a warp of the line.
-    fn line<W: Warp1<R> + Copy + 'static>(&mut self, name: &str, warp: W) {
-        let us: Vec<_> = self.squares.iter().map(|u| u.x).collect();
-        let points: Vec<_> = us.iter().map(|&u| warp.sample(u)).collect();
-        self.push(&format!("{name} sample"), warp, us, |w, u| w.sample(u));
-        self.push(&format!("{name} pdf"), warp, points.clone(), |w, x| w.pdf(x));
-        self.push(&format!("{name} invert"), warp, points, |w, x| w.invert(x));
     }
     /// A light as an integrator calls it: prepared for every sample and once, its pdf and inverse, and with normal and surface coordinates.
     fn light<S: LightSampler<R> + Copy + 'static>(
@@ -308,7 +300,6 @@ pub fn without_tables<R: Real + 'static>() -> Vec<Routine> {
     let vector = |v: [f64; 3]| Vec3::<R>::new(R::lit(v[0]), R::lit(v[1]), R::lit(v[2]));
 
     list.warp("concentric disk", ConcentricDisk);
-    list.warp("polar disk", PolarDisk);
     list.warp("uniform hemisphere", UniformHemisphere);
     list.warp("uniform sphere", UniformSphere);
     list.warp("cosine hemisphere", CosineHemisphere);
@@ -318,8 +309,6 @@ pub fn without_tables<R: Real + 'static>() -> Vec<Routine> {
     list.warp("bilinear", Bilinear { corners: [1.0, 2.0, 0.5, 4.0].map(R::lit) });
     list.warp("GGX visible normals", GgxVisibleNormals::new(R::lit(0.4), R::lit(0.2), vector([0.6, 0.0, 0.8])));
     list.warp("octahedral", Octahedral);
-    list.line("linear", Linear { a: R::lit(1.0), b: R::lit(3.0) });
-    list.line("tent", Tent { radius: R::lit(2.0) });
 
     let [a, b, c] = [[-1.0, 2.0, -0.5], [1.5, 2.5, 0.0], [0.2, 3.0, 1.0]].map(vector);
     list.directions("spherical cap", SphericalCap::new(a, R::lit(0.7)));

@@ -96,7 +96,6 @@ fn warp(
 fn warps() -> Table {
     let rows = vec![
         warp("disk, in the plane", "area", "[`ConcentricDisk`](crate::warp::ConcentricDisk)", ["concentric disk sample", ""], "concentric_disk", ["1.5e−7", "Shirley and Chiu 1997", "keeps strata compact"]),
-        warp("", "area", "[`PolarDisk`](crate::warp::PolarDisk)", ["polar disk sample", ""], "polar_disk", ["1.2e−7", "inverse distribution", "where code must match others"]),
         warp("", "solid angle", "[`Disk::by_solid_angle`](crate::Disk::by_solid_angle)", ["spherical disk sample", ""], "spherical_disk", ["1.8e−7 and 4 steps of u", "derived there", "all disks that are not far"]),
         warp("sphere, directions", "solid angle", "[`UniformSphere`](crate::warp::UniformSphere)", ["uniform sphere sample", ""], "uniform_sphere", ["1.5e−7", "inverse distribution", "constant environments"]),
         warp("hemisphere", "solid angle", "[`UniformHemisphere`](crate::warp::UniformHemisphere)", ["uniform hemisphere sample", ""], "uniform_hemisphere", ["1.5e−7", "inverse distribution", "a baseline"]),
@@ -122,8 +121,6 @@ fn warps() -> Table {
         warp("microfacet normals", "D_v", "[`GgxVisibleNormals`](crate::warp::GgxVisibleNormals)", ["GGX visible normals sample", ""], "ggx_visible_normals", ["5e−7 in the stretched normal", "Dupuy and Benyoub 2023", "rough reflection"]),
         warp("unit square", "bilinear", "[`Bilinear`](crate::warp::Bilinear)", ["bilinear sample", ""], "bilinear", ["6 steps of u", "PBR A.5.5", "tilted or textured quads"]),
         warp("", "a table", "[`PiecewiseConstant2d`](crate::discrete::PiecewiseConstant2d)", ["table 64x32 sample", ""], "", ["1 step of u in the cell", "PBR A.4", "images"]),
-        warp("line, numbers", "linear", "[`Linear`](crate::warp::Linear)", ["linear sample", ""], "linear", ["1.8e−7", "PBR 2.3.2", "linear falloff"]),
-        warp("", "tent", "[`Tent`](crate::warp::Tent)", ["tent sample", ""], "tent", ["1.7e−7 relative", "inverse distribution", "pixel filters"]),
     ];
     let header = &["shape", "uniform by", "routine", "x1", "x8", "new, x8", "measured", "greatest error", "source", "for"];
     Table { file: "core/src/index.md", name: "warps", header, rows }

@@ -102,8 +102,6 @@ pub struct WarpFunctions {
     pub pdf: unsafe extern "C" fn(*const c_void, usize, &[Column; 3], *mut f32),
     /// See [`Batch::warp_invert`](crate::Batch::warp_invert).
     pub invert: unsafe extern "C" fn(*const c_void, usize, &[Column; 3], Vec2<*mut f32>),
-    /// How many random numbers it maps.
-    pub numbers: usize,
     /// How many coordinates a point has.
     pub coordinates: usize,
 }
@@ -116,7 +114,6 @@ impl WarpFunctions {
             sample: kernel::warp_sample::<W, R>,
             pdf: kernel::warp_pdf::<W, R>,
             invert: kernel::warp_invert::<W, R>,
-            numbers: W::NUMBERS,
             coordinates: W::COORDINATES,
         }
     }

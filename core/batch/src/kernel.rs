@@ -243,9 +243,7 @@ pub(crate) unsafe extern "C" fn warp_sample<W: BatchWarp, R: Packet>(
     let warp = unsafe { typed::<W>(warp) }.splat::<R>();
     // SAFETY: the caller's columns have `n` elements
     packets(n, R::LANES, |place| unsafe {
-        let x = place.load(u.x);
-        let y = if W::NUMBERS == 2 { place.load(u.y) } else { x };
-        let point = W::sample(&warp, Vec2::new(x, y));
+        let point = W::sample(&warp, Vec2::new(place.load(u.x), place.load(u.y)));
         for (&column, value) in out.iter().zip(point).take(W::COORDINATES) {
             place.store(column, value);
         }
@@ -284,9 +282,7 @@ pub(crate) unsafe extern "C" fn warp_invert<W: BatchWarp, R: Packet>(
     packets(n, R::LANES, |place| unsafe {
         let u = W::invert(&warp, load_point::<W, R>(place, points));
         place.store(out.x, u.x);
-        if W::NUMBERS == 2 {
-            place.store(out.y, u.y);
-        }
+        place.store(out.y, u.y);
     });
 }
 

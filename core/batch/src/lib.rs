@@ -263,11 +263,10 @@ impl Batch {
         unsafe { self.reflections_function()(n, alpha.as_ptr(), normal, view, &out) };
     }
 
-    /// Points of a warp, at the numbers `u` in [0, 1)²: as many columns as a point has coordinates are written, and as many columns of
-    /// `u` read as the warp has numbers.
+    /// Points of a warp, at the numbers `u` in [0, 1)²: as many columns as a point has coordinates are written.
     pub fn warp<W: BatchWarp>(&self, warp: &W, u: [&[f32]; 2], mut out: [&mut [f32]; 3]) {
         let n = u[0].len();
-        check(n, u.iter().take(W::NUMBERS).map(|column| column.len()));
+        check(n, u.iter().map(|column| column.len()));
         check(n, out.iter().take(W::COORDINATES).map(|column| column.len()));
         let columns = out.each_mut().map(|column| column.as_mut_ptr());
         // SAFETY: the columns that are read and written have n elements, and the outputs are borrowed mutably
@@ -285,7 +284,7 @@ impl Batch {
     /// The numbers that a warp maps to points.
     pub fn warp_invert<W: BatchWarp>(&self, warp: &W, points: [&[f32]; 3], out: [&mut [f32]; 2]) {
         let n = out[0].len();
-        check(n, out.iter().take(W::NUMBERS).map(|column| column.len()));
+        check(n, out.iter().map(|column| column.len()));
         check(n, points.iter().take(W::COORDINATES).map(|column| column.len()));
         let [x, y] = out;
         // SAFETY: the columns that are read and written have n elements, and the outputs are borrowed mutably
@@ -310,7 +309,7 @@ impl Batch {
         // SAFETY: the function reads at most three numbers
         unsafe { (self.warp_of_one(W::INDEX).one_pdf)(erased(warp), point.as_ptr()) }
     }
-    /// The numbers that a warp maps to one point; 0 where it has one number only.
+    /// The numbers that a warp maps to one point.
     #[inline]
     #[must_use]
     pub fn warp_invert_one<W: BatchWarp>(&self, warp: &W, point: &[f32; 3]) -> Vec2<f32> {

@@ -148,8 +148,7 @@ pub(crate) unsafe extern "C" fn one_warp_sample<W: BatchWarp>(warp: *const c_voi
     if !IS_V4 {
         // SAFETY: the caller's
         unsafe {
-            let x = u.read_unaligned();
-            let y = if W::NUMBERS == 2 { u.add(1).read_unaligned() } else { x };
+            let [x, y] = figures(u.cast());
             write(out, W::sample(&figures(warp.cast::<W>()).splat::<f32>(), Vec2::new(x, y)), W::COORDINATES);
         }
     }
@@ -170,7 +169,7 @@ pub(crate) unsafe extern "C" fn one_warp_invert<W: BatchWarp>(warp: *const c_voi
         // SAFETY: the caller's
         unsafe {
             let u = W::invert(&figures(warp.cast::<W>()).splat::<f32>(), point::<W>(at));
-            write(out, [u.x, u.y], W::NUMBERS);
+            write(out, [u.x, u.y], 2);
         }
     }
 }

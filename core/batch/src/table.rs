@@ -84,7 +84,7 @@ macro_rules! techniques {
 etendue::techniques!(techniques! {});
 
 macro_rules! warps {
-    ($($(#[$doc:meta])* $warp:ident $([$r:tt] = $struct:ident)?, $name:ident: $numbers:tt -> $coordinates:literal;)+) => {
+    ($($(#[$doc:meta])* $warp:ident $([$r:tt] = $struct:ident)?, $name:ident: $coordinates:literal;)+) => {
         const fn warps<R: Packet>() -> [WarpFunctions; WARPS] {
             [$(WarpFunctions::of::<warps!(@ $warp $([$r])?), R>()),+]
         }

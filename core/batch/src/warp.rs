@@ -11,8 +11,6 @@ pub trait BatchWarp: Copy + Sealed {
     const INDEX: usize;
     /// The warp over packets.
     type Of<R: Real>: Copy;
-    /// How many random numbers it maps.
-    const NUMBERS: usize;
     /// How many coordinates a point has; those beyond are 0.
     const COORDINATES: usize;
     /// The warp in every lane of a packet.
@@ -52,7 +50,7 @@ impl<R: Real> Point<R> for Vec3<R> {
 }
 
 macro_rules! warps {
-    ($($(#[$doc:meta])* $name:ident $([$packets:tt] = $struct:ident)?, $module:ident: $numbers:tt -> $coordinates:literal;)+) => {
+    ($($(#[$doc:meta])* $name:ident $([$packets:tt] = $struct:ident)?, $module:ident: $coordinates:literal;)+) => {
         /// The number of each warp.
         #[derive(Clone, Copy)]
         enum Number {
@@ -60,21 +58,9 @@ macro_rules! warps {
         }
         /// How many warps there are.
         pub const WARPS: usize = [$(Number::$name),+].len();
-        $(warps!($numbers $name $([$packets])?; $coordinates);)+
+        $(warps!(@ $name $([$packets])?; $coordinates);)+
     };
-    (2 $name:ident $([$packets:tt])?; $coordinates:literal) => {
-        warps!(@ $name $([$packets])?; $coordinates, 2;
-            |warp, u| Point::coordinates(Warp::sample(warp, u)),
-            |warp, point| Warp::pdf(warp, Point::from_coordinates(point)),
-            |warp, point| Warp::invert(warp, Point::from_coordinates(point)));
-    };
-    (1 $name:ident $([$packets:tt])?; $coordinates:literal) => {
-        warps!(@ $name $([$packets])?; $coordinates, 1;
-            |warp, u| [Warp1::sample(warp, u.x), R::lit(0.0), R::lit(0.0)],
-            |warp, point| Warp1::pdf(warp, point[0]),
-            |warp, point| Vec2::new(Warp1::invert(warp, point[0]), R::lit(0.0)));
-    };
-    (@ $name:ident; $($rest:tt)+) => {
+    (@ $name:ident; $coordinates:literal) => {
         impl Sealed for $name {}
         impl BatchWarp for $name {
             const INDEX: usize = Number::$name as usize;
@@ -83,10 +69,10 @@ macro_rules! warps {
             fn splat<R: Real<Scalar = f32>>(&self) -> Self {
                 *self
             }
-            warps!(# $($rest)+);
+            warps!(# $coordinates);
         }
     };
-    (@ $name:ident [R]; $($rest:tt)+) => {
+    (@ $name:ident [R]; $coordinates:literal) => {
         impl Sealed for $name<f32> {}
         impl BatchWarp for $name<f32> {
             const INDEX: usize = Number::$name as usize;
@@ -95,23 +81,22 @@ macro_rules! warps {
             fn splat<R: Real<Scalar = f32>>(&self) -> $name<R> {
                 $name::splat(*self)
             }
-            warps!(# $($rest)+);
+            warps!(# $coordinates);
         }
     };
-    (# $coordinates:literal, $numbers:literal; |$w:ident, $u:ident| $sample:expr, |$pw:ident, $pp:ident| $pdf:expr, |$iw:ident, $ip:ident| $invert:expr) => {
-        const NUMBERS: usize = $numbers;
+    (# $coordinates:literal) => {
         const COORDINATES: usize = $coordinates;
         #[inline(always)]
-        fn sample<R: Real>($w: &Self::Of<R>, $u: Vec2<R>) -> [R; 3] {
-            $sample
+        fn sample<R: Real>(warp: &Self::Of<R>, u: Vec2<R>) -> [R; 3] {
+            Point::coordinates(Warp::sample(warp, u))
         }
         #[inline(always)]
-        fn pdf<R: Real>($pw: &Self::Of<R>, $pp: [R; 3]) -> R {
-            $pdf
+        fn pdf<R: Real>(warp: &Self::Of<R>, point: [R; 3]) -> R {
+            Warp::pdf(warp, Point::from_coordinates(point))
         }
         #[inline(always)]
-        fn invert<R: Real>($iw: &Self::Of<R>, $ip: [R; 3]) -> Vec2<R> {
-            $invert
+        fn invert<R: Real>(warp: &Self::Of<R>, point: [R; 3]) -> Vec2<R> {
+            Warp::invert(warp, Point::from_coordinates(point))
         }
     };
 }

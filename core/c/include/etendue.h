@@ -172,12 +172,10 @@ typedef enum {
   ETENDUE_TECHNIQUE_IMAGE_BY_RADIANCE,
 } EtendueTechnique;
 
-// A map of random numbers to points. The comments say how many numbers and coordinates there are, if not two and three.
+// A map of two random numbers to points. The comments say how many coordinates there are, if not three.
 typedef enum {
   // Points of the unit disk, uniform in area (pdf 1/pi), by concentric squares: keeps strata compact.
   ETENDUE_WARP_CONCENTRIC_DISK,
-  // Points of the unit disk, uniform in area (pdf 1/pi), by radius and angle.
-  ETENDUE_WARP_POLAR_DISK,
   // Directions with z >= 0, uniform in solid angle: pdf 1/(2 pi) per steradian.
   ETENDUE_WARP_UNIFORM_HEMISPHERE,
   // Directions, uniform in solid angle: pdf 1/(4 pi) per steradian.
@@ -200,10 +198,6 @@ typedef enum {
   ETENDUE_WARP_REFLECTION,
   // Points of a bilinear patch: pdf nearly 1/area.
   ETENDUE_WARP_PATCH_SURFACE,
-  // Numbers in [0, 1), linear. `u` and `point` are one number each.
-  ETENDUE_WARP_LINEAR,
-  // Numbers in [-r, r], a tent. `u` and `point` are one number each.
-  ETENDUE_WARP_TENT,
 } EtendueWarp;
 
 // Light from all around as an image tells it, in memory of the caller: directions in proportion to the image, the same for all shading
@@ -469,20 +463,6 @@ typedef struct {
   // From there to the opposite corner.
   float diagonal[3];
 } EtenduePatchSurface;
-
-// Numbers in [0, 1) with a pdf linear between two end values.
-typedef struct {
-  // Relative density at 0: at least 0, in any unit.
-  float a;
-  // Relative density at 1, in the unit of `a`.
-  float b;
-} EtendueLinear;
-
-// Numbers in [-r, r] with the pdf (r - |x|)/r^2.
-typedef struct {
-  // The radius r.
-  float radius;
-} EtendueTent;
 
 // Columns of spreads.
 typedef struct {
@@ -1220,7 +1200,7 @@ float etendue_warp_pdf(uint32_t warp, const void *parameters, const float *point
 // The random numbers that are mapped to a point; any in [0, 1)^2 outside the range of the warp.
 EtendueStatus etendue_warp_invert(uint32_t warp, const void *parameters, const float *point, float *u);
 
-// A point for each u, in columns: as many as the warp has numbers and coordinates.
+// A point for each u, in columns: as many as the warp has coordinates.
 EtendueStatus etendue_warp_sample_batch(uint32_t warp,
                                         const void *parameters,
                                         size_t n,

@@ -772,48 +772,46 @@ struct Spread : EtendueSpread {
 
 // ---- warps ----
 
-// One warp of U random numbers to P coordinates. SELF is its C struct, if it has one.
-#define ETENDUE_WARP_METHODS(PREFIX, U, P, SELF)                                                                                       \
-    using Numbers = detail::Row<U>::Value;                                                                                             \
+// One warp of two random numbers to P coordinates. SELF is its C struct, if it has one.
+#define ETENDUE_WARP_METHODS(PREFIX, P, SELF)                                                                                          \
     using Point = detail::Row<P>::Value;                                                                                               \
     /* Maps random numbers to a point. */                                                                                              \
-    Point sample(Numbers u) const {                                                                                                    \
+    Point sample(Vec2 u) const {                                                                                                       \
         detail::Row<P> point;                                                                                                          \
-        PREFIX##_sample(SELF detail::Row<U>(u).v, point.v);                                                                            \
+        PREFIX##_sample(SELF detail::Row<2>(u).v, point.v);                                                                            \
         return point.value();                                                                                                          \
     }                                                                                                                                  \
     /* The pdf at a point; 0 outside the range of the warp. */                                                                         \
     float pdf(Point point) const { return PREFIX##_pdf(SELF detail::Row<P>(point).v); }                                                \
     /* The random numbers that are mapped to a point. */                                                                               \
-    Numbers invert(Point point) const {                                                                                                \
-        detail::Row<U> u;                                                                                                              \
+    Vec2 invert(Point point) const {                                                                                                   \
+        detail::Row<2> u;                                                                                                              \
         PREFIX##_invert(SELF detail::Row<P>(point).v, u.v);                                                                            \
         return u.value();                                                                                                              \
     }                                                                                                                                  \
-    Status sample(In<U> u, Out<P> points) const {                                                                                      \
+    Status sample(In<2> u, Out<P> points) const {                                                                                      \
         const size_t n = u.size();                                                                                                     \
         if (!detail::fits(u, n) || !detail::fits_or_absent(points, n)) return ETENDUE_STATUS_COUNT;                                    \
-        return PREFIX##_sample_batch(SELF n, detail::Pointers<const float, U>(u).p, detail::Pointers<float, P>(points).p);             \
+        return PREFIX##_sample_batch(SELF n, detail::Pointers<const float, 2>(u).p, detail::Pointers<float, P>(points).p);             \
     }                                                                                                                                  \
     Status pdf(In<P> points, Span<float> out) const {                                                                                  \
         const size_t n = points.size();                                                                                                \
         if (!detail::fits(points, n) || !detail::fits(out, n)) return ETENDUE_STATUS_COUNT;                                            \
         return PREFIX##_pdf_batch(SELF n, detail::Pointers<const float, P>(points).p, out.data());                                     \
     }                                                                                                                                  \
-    Status invert(In<P> points, Out<U> u) const {                                                                                      \
+    Status invert(In<P> points, Out<2> u) const {                                                                                      \
         const size_t n = points.size();                                                                                                \
         if (!detail::fits(points, n) || !detail::fits_or_absent(u, n)) return ETENDUE_STATUS_COUNT;                                    \
-        return PREFIX##_invert_batch(SELF n, detail::Pointers<const float, P>(points).p, detail::Pointers<float, U>(u).p);             \
+        return PREFIX##_invert_batch(SELF n, detail::Pointers<const float, P>(points).p, detail::Pointers<float, 2>(u).p);             \
     }
 #define ETENDUE_FIXED_WARP(NAME, PREFIX, P)                                                                                            \
     struct NAME {                                                                                                                      \
-        ETENDUE_WARP_METHODS(PREFIX, 2, P, )                                                                                           \
+        ETENDUE_WARP_METHODS(PREFIX, P, )                                                                                              \
     };
-#define ETENDUE_WARP(PREFIX, U, P) ETENDUE_WARP_METHODS(PREFIX, U, P, this ETENDUE_COMMA)
+#define ETENDUE_WARP(PREFIX, P) ETENDUE_WARP_METHODS(PREFIX, P, this ETENDUE_COMMA)
 
-// Points of the unit disk, by concentric squares, and by radius and angle.
+// Points of the unit disk, by concentric squares.
 ETENDUE_FIXED_WARP(ConcentricDisk, etendue_concentric_disk, 2)
-ETENDUE_FIXED_WARP(PolarDisk, etendue_polar_disk, 2)
 // Directions, uniform or in proportion to the cosine to +z.
 ETENDUE_FIXED_WARP(UniformHemisphere, etendue_uniform_hemisphere, 3)
 ETENDUE_FIXED_WARP(UniformSphere, etendue_uniform_sphere, 3)
@@ -826,19 +824,19 @@ ETENDUE_FIXED_WARP(LowDistortionTriangle, etendue_low_distortion_triangle, 2)
 // Directions within an angle of +z, by 1 - cos of that angle.
 struct Cone : EtendueCone {
     explicit Cone(float one_minus_cos_) : EtendueCone{one_minus_cos_} {}
-    ETENDUE_WARP(etendue_cone, 2, 3)
+    ETENDUE_WARP(etendue_cone, 3)
 };
 // Points of the unit square: relative densities at (0, 0), (1, 0), (0, 1) and (1, 1).
 struct Bilinear : EtendueBilinear {
     Bilinear(float c00, float c10, float c01, float c11) : EtendueBilinear{{c00, c10, c01, c11}} {}
-    ETENDUE_WARP(etendue_bilinear, 2, 2)
+    ETENDUE_WARP(etendue_bilinear, 2)
 };
 // Visible normals of a GGX microsurface: roughnesses along x and y, and the unit direction to the viewer, where z is the normal.
 struct GgxVisibleNormals : EtendueGgxVisibleNormals {
     GgxVisibleNormals(float alpha_x, float alpha_y, Vec3 wi) {
         etendue_ggx_visible_normals_prepare(alpha_x, alpha_y, detail::Row<3>(wi).v, this);
     }
-    ETENDUE_WARP(etendue_ggx_visible_normals, 2, 3)
+    ETENDUE_WARP(etendue_ggx_visible_normals, 3)
 };
 // The lobe of a rough surface, by its roughness, its unit normal and the unit direction to the viewer: directions that it reflects there.
 // Lights are prepared for it by_reflection. The fields albedo and schlick are those of the C struct.
@@ -846,7 +844,7 @@ struct Reflection : EtendueReflection {
     Reflection(float alpha, Vec3 normal, Vec3 view) : EtendueReflection{} {
         etendue_reflection_prepare(alpha, detail::Row<3>(normal).v, detail::Row<3>(view).v, this);
     }
-    ETENDUE_WARP(etendue_reflection, 2, 3)
+    ETENDUE_WARP(etendue_reflection, 3)
     // The projected solid angle after the map of a sphere with this centre relative to the point: pi times the part of the lobe that it covers.
     float sphere(Vec3 center, float radius) const { return etendue_reflection_sphere(this, detail::Row<3>(center).v, radius); }
     Status sphere(In<3> centers, Span<const float> radii, Span<float> out) const {
@@ -859,16 +857,7 @@ struct Reflection : EtendueReflection {
 struct PatchSurface : EtenduePatchSurface {
     PatchSurface(Vec3 corner, Vec3 s, Vec3 t, Vec3 opposite)
         : EtenduePatchSurface{{corner.x, corner.y, corner.z}, {s.x, s.y, s.z}, {t.x, t.y, t.z}, {opposite.x, opposite.y, opposite.z}} {}
-    ETENDUE_WARP(etendue_patch_surface, 2, 3)
-};
-// Densities on the line.
-struct Linear : EtendueLinear {
-    Linear(float at_0, float at_1) : EtendueLinear{at_0, at_1} {}
-    ETENDUE_WARP(etendue_linear, 1, 1)
-};
-struct Tent : EtendueTent {
-    explicit Tent(float radius_) : EtendueTent{radius_} {}
-    ETENDUE_WARP(etendue_tent, 1, 1)
+    ETENDUE_WARP(etendue_patch_surface, 3)
 };
 
 // ---- sequences ----
@@ -1041,8 +1030,6 @@ inline Vec2 InvertUniformConeSample(Vec3 w, float cosThetaMax) { return Cone(1 -
 
 inline Vec2 SampleUniformDiskConcentric(Vec2 u) { return ConcentricDisk().sample(u); }
 inline Vec2 InvertUniformDiskConcentricSample(Vec2 p) { return ConcentricDisk().invert(p); }
-inline Vec2 SampleUniformDiskPolar(Vec2 u) { return PolarDisk().sample(u); }
-inline Vec2 InvertUniformDiskPolarSample(Vec2 p) { return PolarDisk().invert(p); }
 
 // Barycentric coordinates of all three vertices.
 inline Vec3 SampleUniformTriangle(Vec2 u) {
@@ -1054,13 +1041,6 @@ template <class Barycentric, detail::IsIndexed<Barycentric> = 0>
 Vec2 InvertUniformTriangleSample(const Barycentric& b) {
     return LowDistortionTriangle().invert({float(b[1]), float(b[2])});
 }
-
-inline float SampleLinear(float u, float a, float b) { return Linear(a, b).sample(u); }
-inline float LinearPDF(float x, float a, float b) { return Linear(a, b).pdf(x); }
-inline float InvertLinearSample(float x, float a, float b) { return Linear(a, b).invert(x); }
-inline float SampleTent(float u, float r) { return Tent(r).sample(u); }
-inline float TentPDF(float x, float r) { return Tent(r).pdf(x); }
-inline float InvertTentSample(float x, float r) { return Tent(r).invert(x); }
 
 // `w` are four densities, in pbrt's order: at (0, 0), (1, 0), (0, 1) and (1, 1).
 template <class Weights>

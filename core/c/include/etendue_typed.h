@@ -152,7 +152,6 @@ ETENDUE_ANYWHERE_(portals_by_radiance, PORTALS_BY_RADIANCE, PortalEnvironment, P
 ETENDUE_SAMPLER_(image_environment, IMAGE_BY_RADIANCE, ImageEnvironment)
 
 ETENDUE_FIXED_WARP_(concentric_disk, CONCENTRIC_DISK)
-ETENDUE_FIXED_WARP_(polar_disk, POLAR_DISK)
 ETENDUE_FIXED_WARP_(uniform_hemisphere, UNIFORM_HEMISPHERE)
 ETENDUE_FIXED_WARP_(uniform_sphere, UNIFORM_SPHERE)
 ETENDUE_FIXED_WARP_(cosine_hemisphere, COSINE_HEMISPHERE)
@@ -164,8 +163,6 @@ ETENDUE_WARP_(bilinear, BILINEAR, Bilinear)
 ETENDUE_WARP_(ggx_visible_normals, GGX_VISIBLE_NORMALS, GgxVisibleNormals)
 ETENDUE_WARP_(reflection, REFLECTION, Reflection)
 ETENDUE_WARP_(patch_surface, PATCH_SURFACE, PatchSurface)
-ETENDUE_WARP_(linear, LINEAR, Linear)
-ETENDUE_WARP_(tent, TENT, Tent)
 
 #undef ETENDUE_COMMA_
 #undef ETENDUE_SAMPLER_

@@ -12,8 +12,8 @@ use etendue_batch::{Batch, BatchWarp, WARPS, WarpFunctions};
 
 /// The number of each warp, and whether it has parameters.
 macro_rules! warps {
-    ($($(#[$doc:meta])* $warp:ident $([$r:tt] = $struct:ident)?, $module:ident: $numbers:literal -> $coordinates:literal;)+) => {
-        /// A map of random numbers to points. The comments say how many numbers and coordinates there are, if not two and three.
+    ($($(#[$doc:meta])* $warp:ident $([$r:tt] = $struct:ident)?, $module:ident: $coordinates:literal;)+) => {
+        /// A map of two random numbers to points. The comments say how many coordinates there are, if not three.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         #[repr(C)]
         pub enum EtendueWarp {
@@ -68,18 +68,6 @@ parameters! {
         /// From there to the opposite corner.
         diagonal: [f32; 3],
     }
-    /// Numbers in [0, 1) with a pdf linear between two end values.
-    EtendueLinear = warp::Linear<f32> {
-        /// Relative density at 0: at least 0, in any unit.
-        a: f32,
-        /// Relative density at 1, in the unit of `a`.
-        b: f32,
-    }
-    /// Numbers in [-r, r] with the pdf (r - |x|)/r^2.
-    EtendueTent = warp::Tent<f32> {
-        /// The radius r.
-        radius: f32,
-    }
 }
 
 /// Prepares the visible normals of a GGX microsurface: the roughnesses along x and y, and the unit direction to the viewer in the frame
@@ -130,7 +118,7 @@ pub unsafe extern "C" fn etendue_warp_sample(
 ) -> EtendueStatus {
     refuse_null!(u, point);
     let parameters = given!(warp, parameters);
-    refuse_outside!(u, Batch::new().warp_functions(warp as usize).numbers);
+    refuse_outside!(u, 2);
     // SAFETY: the pointers are not null, and point to what the header says
     unsafe { (Batch::new().warp_of_one(warp as usize).one_sample)(parameters, u, point) };
     EtendueStatus::Ok
@@ -180,7 +168,7 @@ fn outputs<const N: usize>(columns: [*const f32; N]) -> [*mut f32; N] {
     columns.map(<*const f32>::cast_mut)
 }
 
-/// A point for each u, in columns: as many as the warp has numbers and coordinates.
+/// A point for each u, in columns: as many as the warp has coordinates.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn etendue_warp_sample_batch(
     warp: u32,
@@ -191,10 +179,10 @@ pub unsafe extern "C" fn etendue_warp_sample_batch(
 ) -> EtendueStatus {
     skip_empty!(n);
     let parameters = given!(warp, parameters);
-    let WarpFunctions { sample, numbers, coordinates, .. } = *Batch::new().warp_functions(warp as usize);
+    let WarpFunctions { sample, coordinates, .. } = *Batch::new().warp_functions(warp as usize);
     // SAFETY: the pointers are null, or point to what the header says
     unsafe {
-        let (Some([x, y]), Some(points)) = (few(u, numbers, true), few(points.cast(), coordinates, false)) else {
+        let (Some([x, y]), Some(points)) = (few(u, 2, true), few(points.cast(), coordinates, false)) else {
             return EtendueStatus::NullPointer;
         };
         sample(parameters, n, Vec2::new(x, y), &outputs(points));
@@ -232,10 +220,10 @@ pub unsafe extern "C" fn etendue_warp_invert_batch(
 ) -> EtendueStatus {
     skip_empty!(n);
     let parameters = given!(warp, parameters);
-    let WarpFunctions { invert, numbers, coordinates, .. } = *Batch::new().warp_functions(warp as usize);
+    let WarpFunctions { invert, coordinates, .. } = *Batch::new().warp_functions(warp as usize);
     // SAFETY: the pointers are null, or point to what the header says
     unsafe {
-        let (Some(points), Some(u)) = (few(points, coordinates, true), few(u.cast(), numbers, false)) else {
+        let (Some(points), Some(u)) = (few(points, coordinates, true), few(u.cast(), 2, false)) else {
             return EtendueStatus::NullPointer;
         };
         let [x, y] = outputs(u);

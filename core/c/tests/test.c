@@ -504,30 +504,26 @@ typedef struct {
         return etendue_##PREFIX##_invert_batch(SELF n, points, u);                                                               \
     }
 #define WARPS_WITHOUT(W)           \
-    W(concentric_disk, 2, 2)       \
-    W(polar_disk, 2, 2)            \
-    W(uniform_hemisphere, 2, 3)    \
-    W(uniform_sphere, 2, 3)        \
-    W(cosine_hemisphere, 2, 3)     \
-    W(octahedral, 2, 3)            \
-    W(area_triangle, 2, 2)         \
-    W(low_distortion_triangle, 2, 2)
+    W(concentric_disk, 2)       \
+    W(uniform_hemisphere, 3)    \
+    W(uniform_sphere, 3)        \
+    W(cosine_hemisphere, 3)     \
+    W(octahedral, 3)            \
+    W(area_triangle, 2)         \
+    W(low_distortion_triangle, 2)
 #define WARPS_WITH(W)                                 \
-    W(cone, Cone, 2, 3)                               \
-    W(bilinear, Bilinear, 2, 2)                       \
-    W(ggx_visible_normals, GgxVisibleNormals, 2, 3)   \
-    W(reflection, Reflection, 2, 3)                   \
-    W(patch_surface, PatchSurface, 2, 3)              \
-    W(linear, Linear, 1, 1)                           \
-    W(tent, Tent, 1, 1)
+    W(cone, Cone, 3)                               \
+    W(bilinear, Bilinear, 2)                       \
+    W(ggx_visible_normals, GgxVisibleNormals, 3)   \
+    W(reflection, Reflection, 3)                   \
+    W(patch_surface, PatchSurface, 3)
 static const float Cone[] = {0.3f}, Bilinear[] = {1, 2, 0.5f, 3};
 static float GgxVisibleNormals[12], Reflection[16];
 static const float PatchSurface[] = {-0.5f, 2, -0.3f, 1.2f, 0.1f, 0.2f, 0.1f, 0.2f, 1.1f, 1.3f, 0.6f, 1.2f};
-static const float Linear[] = {1, 3}, Tent[] = {2};
-#define WRITE_WITHOUT(PREFIX, U, P) WARP_FUNCTIONS(PREFIX, )
-#define WRITE_WITH(PREFIX, TYPE, U, P) WARP_FUNCTIONS(PREFIX, (const Etendue##TYPE *)warp COMMA)
+#define WRITE_WITHOUT(PREFIX, P) WARP_FUNCTIONS(PREFIX, )
+#define WRITE_WITH(PREFIX, TYPE, P) WARP_FUNCTIONS(PREFIX, (const Etendue##TYPE *)warp COMMA)
 #define FUNCTIONS_OF(PREFIX) PREFIX##_1, PREFIX##_2, PREFIX##_3, PREFIX##_4, PREFIX##_5, PREFIX##_6
-#define ROW_WITHOUT(PREFIX, U, P) {#PREFIX, NULL, U, P, FUNCTIONS_OF(PREFIX)},
+#define ROW_WITHOUT(PREFIX, P) {#PREFIX, NULL, P, FUNCTIONS_OF(PREFIX)},
 #define ROW_WITH(PREFIX, TYPE, U, P) {#PREFIX, TYPE, U, P, FUNCTIONS_OF(PREFIX)},
 WARPS_WITHOUT(WRITE_WITHOUT)
 WARPS_WITH(WRITE_WITH)

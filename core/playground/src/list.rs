@@ -60,7 +60,7 @@ fn numbers(sampler: &str) -> usize {
 /// The numbers of warps in the C interface, by their names.
 pub(crate) fn warps() -> Value {
     macro_rules! names {
-        ($($(#[$doc:meta])* $warp:ident $([$r:tt] = $struct:ident)?, $name:ident: $numbers:tt -> $coordinates:literal;)+) => {
+        ($($(#[$doc:meta])* $warp:ident $([$r:tt] = $struct:ident)?, $name:ident: $coordinates:literal;)+) => {
             [$(stringify!($name)),+]
         };
     }

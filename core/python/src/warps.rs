@@ -7,15 +7,15 @@ use pyo3::prelude::*;
 
 /// A map of any kind.
 pub(crate) trait Mapping: Send + Sync {
-    /// How many random numbers it maps, and to how many coordinates.
-    fn sizes(&self) -> [usize; 2];
+    /// To how many coordinates it maps two random numbers.
+    fn coordinates(&self) -> usize;
     fn sample(&self, u: [&[f32]; 2], out: [&mut [f32]; 3]);
     fn pdf(&self, points: [&[f32]; 3], out: &mut [f32]);
     fn invert(&self, points: [&[f32]; 3], out: [&mut [f32]; 2]);
 }
 impl<W: BatchWarp + Send + Sync> Mapping for W {
-    fn sizes(&self) -> [usize; 2] {
-        [W::NUMBERS, W::COORDINATES]
+    fn coordinates(&self) -> usize {
+        W::COORDINATES
     }
     fn sample(&self, u: [&[f32]; 2], out: [&mut [f32]; 3]) {
         Batch::new().warp(self, u, out);
@@ -43,32 +43,22 @@ fn places<const K: usize>(columns: &mut [Vec<f32>]) -> [&mut [f32]; K] {
     let mut columns = columns.iter_mut();
     core::array::from_fn(|_| columns.next().map_or(&mut [][..], Vec::as_mut_slice))
 }
-/// An array of the columns, without an axis of its own for a single one.
-fn result<'py>(py: Python<'py>, shape: &[usize], mut columns: Columns) -> PyResult<Object<'py>> {
-    if columns.len() == 1 { array(py, shape, columns.remove(0)) } else { rows(py, shape, &columns) }
-}
 
 impl Warp {
     fn points(&self, points: &Object<'_>) -> PyResult<(Vec<usize>, Columns)> {
-        let kind = match self.map.sizes()[1] {
-            1 => FieldKind::Number,
-            coordinates => FieldKind::Row(coordinates),
-        };
-        together(&[("x", kind, points)])
+        together(&[("x", FieldKind::Row(self.map.coordinates()), points)])
     }
 }
 
 #[pymethods]
 impl Warp {
-    /// Points for numbers u in [0, 1)², (..., 2), or in [0, 1), (...), as the warp needs.
+    /// Points for numbers u in [0, 1)², (..., 2).
     fn sample<'py>(&self, py: Python<'py>, u: &Object<'py>) -> PyResult<Object<'py>> {
-        let [width, coordinates] = self.map.sizes();
-        let kind = if width == 2 { FieldKind::Units } else { FieldKind::Unit };
-        let (shape, columns) = together(&[("u", kind, u)])?;
+        let (shape, columns) = together(&[("u", FieldKind::Units, u)])?;
         let n = columns[0].len();
-        let mut out = zero_columns(coordinates, n)?;
+        let mut out = zero_columns(self.map.coordinates(), n)?;
         run(py, n, || self.map.sample(slices(&columns), places(&mut out)));
-        result(py, &shape, out)
+        rows(py, &shape, &out)
     }
     /// The probability density of points x, in the measure of the warp.
     fn pdf<'py>(&self, py: Python<'py>, x: &Object<'py>) -> PyResult<Object<'py>> {
@@ -81,9 +71,9 @@ impl Warp {
     fn invert<'py>(&self, py: Python<'py>, x: &Object<'py>) -> PyResult<Object<'py>> {
         let (shape, columns) = self.points(x)?;
         let n = columns[0].len();
-        let mut out = zero_columns(self.map.sizes()[0], n)?;
+        let mut out = zero_columns(2, n)?;
         run(py, n, || self.map.invert(slices(&columns), places(&mut out)));
-        result(py, &shape, out)
+        rows(py, &shape, &out)
     }
 }
 
@@ -116,8 +106,6 @@ const POINT: FieldKind = FieldKind::Row(3);
 warps! {
     /// Points of the unit disk, uniform in area, by the map of concentric squares to rings: (2) to (2), pdf 1/π per unit area.
     ConcentricDisk() |_x| etendue::warp::ConcentricDisk;
-    /// Points of the unit disk, uniform in area, by r = √u₀ and φ = 2πu₁: (2) to (2), pdf 1/π per unit area.
-    PolarDisk() |_x| etendue::warp::PolarDisk;
     /// Directions with z ≥ 0, uniform in solid angle: (2) to (3), pdf 1/(2π) per steradian.
     UniformHemisphere() |_x| etendue::warp::UniformHemisphere;
     /// Directions of the whole sphere, uniform in solid angle, by z = 1 − 2u₀ and φ = 2πu₁: (2) to (3), pdf 1/(4π) per steradian.
@@ -144,8 +132,4 @@ warps! {
     /// Points of a bilinear patch (see `BilinearPatch`), nearly uniform in area: (2) to (3), exact pdf per unit area. Without area it is 0.
     PatchSurface(corner: POINT, edge_s: POINT, edge_t: POINT, diagonal: POINT)
     |x| etendue::warp::PatchSurface { corner: three(x), edge_s: three(&x[3..]), edge_t: three(&x[6..]), diagonal: three(&x[9..]) };
-    /// Numbers in [0, 1) with a density linear from a at 0 to b at 1: pdf 2(a(1−x) + bx)/(a+b) per unit length; 0 if neither is positive.
-    Linear(a: Number, b: Number) |x| etendue::warp::Linear { a: x[0], b: x[1] };
-    /// Numbers within ±r with the density of a tent: pdf (1 − |x|/r)/r per unit length; 0 if the radius r is 0.
-    Tent(radius: Number) |x| etendue::warp::Tent { radius: x[0] };
 }

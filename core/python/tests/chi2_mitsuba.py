@@ -408,18 +408,12 @@ def warps():
         return et.GgxVisibleNormals(*rng.uniform(0.2, 0.9, 2), np.abs(wi)), HEMISPHERE
 
 
-
-    def tent(rng):
-        radius = positive(rng)
-        return et.Tent(radius), Segment(-radius, radius)
-
     def reflection(rng):
         view = np.abs(unit(rng))
         return et.Reflection(rng.uniform(0.3, 0.9), [0, 0, 1], view), HEMISPHERE
 
     cases = {
         "ConcentricDisk": lambda rng: (et.ConcentricDisk(), DISK),
-        "PolarDisk": lambda rng: (et.PolarDisk(), DISK),
         "UniformHemisphere": lambda rng: (et.UniformHemisphere(), HEMISPHERE),
         "UniformSphere": lambda rng: (et.UniformSphere(), SPHERE),
         "CosineHemisphere": lambda rng: (et.CosineHemisphere(), HEMISPHERE),
@@ -431,8 +425,6 @@ def warps():
         "GgxVisibleNormals": visible,
         "Reflection": reflection,
         "PatchSurface": patch,
-        "Linear": lambda rng: (et.Linear(*rng.uniform(0, 3, 2)), Segment(0, 1)),
-        "Tent": tent,
     }
     for name, make in cases.items():
 

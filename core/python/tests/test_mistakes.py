@@ -53,7 +53,7 @@ ASKED = (SAMPLER.pdf, SAMPLER.pdf_of_hit, SAMPLER.hit, SAMPLER.invert)
         (lambda: SAMPLER.sample(np.ones((1, 2), np.float32)), ValueError, r"u\[0, 0\] must be in .* not 1$"),
         (lambda: SAMPLER.sample([[0.1, 0.2], [0.3, -1e-60]]), ValueError, r"u\[1, 1\] must be in .*, not -0\.0*1$"),
         (lambda: SAMPLER.sample(np.linspace(0, 1, 12).reshape(2, 3, 2)), ValueError, r"u\[1, 2, 1\] must be .* not 1$"),
-        (lambda: et.Tent(1).sample(np.float16(1)), ValueError, r"u must be in \[0, 1\), not 1$"),
+        (lambda: et.ConcentricDisk().sample(np.float16([0.5, 1])), ValueError, r"u\[1\] must be in \[0, 1\), not 1$"),
         (
             lambda: et.Sphere.sample_each([0, 2, 0], 1, p=np.zeros((5, 1, 3)), u=[[0.5, 0.5], [0.5, 1]], by="area"),
             ValueError,
@@ -109,7 +109,7 @@ ASKED = (SAMPLER.pdf, SAMPLER.pdf_of_hit, SAMPLER.hit, SAMPLER.invert)
         (lambda: et.Polygon(np.zeros((9, 3))), ValueError, r"\(9, 3\)"),
         (lambda: et.Warp(), TypeError, "Warp"),
         (lambda: et.Bilinear([1, 2, 3]), ValueError, r"corners must have the shape \(\.\.\., 4\)"),
-        (lambda: et.Tent(1).sample([0.5, 2]), ValueError, r"u\[1\] must be in \[0, 1\), not 2"),
+        (lambda: et.ConcentricDisk().sample([0.5, 2]), ValueError, r"u\[1\] must be in \[0, 1\), not 2"),
         (lambda: et.OwenSobol(-1), ValueError, "seed must be in"),
         (lambda: et.OwenSobol("x"), TypeError, "seed"),
         (lambda: et.OwenSobol().pairs(-1), ValueError, "count must be in"),

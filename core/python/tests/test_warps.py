@@ -11,16 +11,15 @@ SEQUENCES = [
     et.JointSobol(1),
     et.Stratified(1, 4096),
 ]
-each_warp = pytest.mark.parametrize("warp, numbers, coordinates", WARPS, ids=lambda x: type(x).__name__)
+each_warp = pytest.mark.parametrize("warp, coordinates", WARPS, ids=lambda x: type(x).__name__)
 each_sequence = pytest.mark.parametrize("sequence", SEQUENCES, ids=lambda x: type(x).__name__)
 
 
 @each_warp
-def test_warps_are_closed(warp, numbers, coordinates):
+def test_warps_are_closed(warp, coordinates):
     u = et.OwenSobol(5).pairs(4096)
-    u = u if numbers == 2 else u[:, 0]
     x = warp.sample(u)
-    assert x.shape == ((4096, coordinates) if coordinates > 1 else (4096,)) and x.dtype == np.float32
+    assert x.shape == (4096, coordinates) and x.dtype == np.float32
     assert warp.invert(x).shape == u.shape
     gap = np.abs(warp.invert(x) - u)
     assert np.minimum(gap, 1 - gap).max() < 2e-5
@@ -30,8 +29,6 @@ def test_warps_are_closed(warp, numbers, coordinates):
 def test_the_pdfs_of_warps():
     w = et.CosineHemisphere().sample(et.OwenSobol().pairs(256))
     np.testing.assert_allclose(et.CosineHemisphere().pdf(w), w[:, 2] / np.pi, rtol=1e-6)
-    x = np.linspace(-10, 10, 2001)
-    assert et.Tent(1).pdf([-0.5, 0, 0.5, 2]).tolist() == [0.5, 1, 0.5, 0]
 
 
 @each_sequence

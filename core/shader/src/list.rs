@@ -220,8 +220,6 @@ pub struct WarpEntry {
     pub name: &'static str,
     /// What it is.
     pub doc: &'static [&'static str],
-    /// How many random numbers it maps.
-    pub numbers: usize,
     /// How many coordinates a point has.
     pub coordinates: usize,
     /// Whether its struct has all of its numbers, as lights are prepared for it.
@@ -241,11 +239,11 @@ pub trait WarpTechnique {
     /// The warp with `f` applied to each of its numbers.
     fn map<R: Real>(warp: Self::Of<R>, f: &mut dyn FnMut(R) -> R) -> Self::Of<R>;
     /// Maps random numbers to a point.
-    fn sample<R: Real>(warp: &Self::Of<R>, u: &[R]) -> Vec<R>;
+    fn sample<R: Real>(warp: &Self::Of<R>, u: Vec2<R>) -> Vec<R>;
     /// The pdf of a point.
     fn pdf<R: Real>(warp: &Self::Of<R>, point: &[R]) -> R;
     /// The random numbers that map to a point.
-    fn invert<R: Real>(warp: &Self::Of<R>, point: &[R]) -> Vec<R>;
+    fn invert<R: Real>(warp: &Self::Of<R>, point: &[R]) -> Vec2<R>;
 }
 
 /// Something to do with each warp.
@@ -302,7 +300,7 @@ macro_rules! made_of {
     };
 }
 macro_rules! warps {
-    ($($(#[doc = $doc:literal])* $name:ident $([$packets:tt] = $struct:ident)?, $module:ident: $numbers:tt -> $coordinates:literal;)+) => {
+    ($($(#[doc = $doc:literal])* $name:ident $([$packets:tt] = $struct:ident)?, $module:ident: $coordinates:literal;)+) => {
         /// Calls the visitor for each warp, in the order of the list.
         pub fn every_warp(visitor: &mut impl WarpVisitor) {
             $({
@@ -311,13 +309,20 @@ macro_rules! warps {
                     const ENTRY: WarpEntry = WarpEntry {
                         name: stringify!($module),
                         doc: &[$($doc),*],
-                        numbers: $numbers,
                         coordinates: $coordinates,
                         whole: whole!($name),
                         prepared_from: made_of!($name),
                     };
                     warps!(@type $name $([$packets])?);
-                    warps!(@functions $numbers);
+                    fn sample<R: Real>(warp: &Self::Of<R>, u: Vec2<R>) -> Vec<R> {
+                        Point::coordinates(Warp::sample(warp, u))
+                    }
+                    fn pdf<R: Real>(warp: &Self::Of<R>, point: &[R]) -> R {
+                        Warp::pdf(warp, Point::from_coordinates(point))
+                    }
+                    fn invert<R: Real>(warp: &Self::Of<R>, point: &[R]) -> Vec2<R> {
+                        Warp::invert(warp, Point::from_coordinates(point))
+                    }
                 }
                 visitor.visit::<Row>();
             })+
@@ -339,28 +344,6 @@ macro_rules! warps {
         }
         fn map<R: Real>(warp: $name<R>, f: &mut dyn FnMut(R) -> R) -> $name<R> {
             warp.map(f)
-        }
-    };
-    (@functions 2) => {
-        fn sample<R: Real>(warp: &Self::Of<R>, u: &[R]) -> Vec<R> {
-            Point::coordinates(Warp::sample(warp, Vec2::new(u[0], u[1])))
-        }
-        fn pdf<R: Real>(warp: &Self::Of<R>, point: &[R]) -> R {
-            Warp::pdf(warp, Point::from_coordinates(point))
-        }
-        fn invert<R: Real>(warp: &Self::Of<R>, point: &[R]) -> Vec<R> {
-            Warp::invert(warp, Point::from_coordinates(point)).coordinates()
-        }
-    };
-    (@functions 1) => {
-        fn sample<R: Real>(warp: &Self::Of<R>, u: &[R]) -> Vec<R> {
-            vec![Warp1::sample(warp, u[0])]
-        }
-        fn pdf<R: Real>(warp: &Self::Of<R>, point: &[R]) -> R {
-            Warp1::pdf(warp, point[0])
-        }
-        fn invert<R: Real>(warp: &Self::Of<R>, point: &[R]) -> Vec<R> {
-            vec![Warp1::invert(warp, point[0])]
         }
     };
 }

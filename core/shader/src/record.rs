@@ -341,9 +341,7 @@ pub fn add_warp<W: WarpTechnique>(module: &mut Module, wanted: &Wanted) {
         W::warp(&mut || next.number())
     });
     let doc = text(entry.doc);
-    let [numbers, coordinates] = [entry.numbers, entry.coordinates];
-    let [u, point] = [numbers, coordinates].map(Leaf::of_numbers);
-    let ids = |all: Vec<Number>| all.into_iter().map(Number::id).collect();
+    let (coordinates, point) = (entry.coordinates, Leaf::of_numbers(entry.coordinates));
     let mut functions = Vec::new();
     for part in &wanted.parts {
         let map = |f: &mut dyn FnMut(Number) -> Number| W::map(warp, f);
@@ -351,8 +349,8 @@ pub fn add_warp<W: WarpTechnique>(module: &mut Module, wanted: &Wanted) {
         functions.push(match part {
             Part::Sample => {
                 let doc = told("Maps u, of which each number is in [0, 1), to a point.");
-                Recorded::new(doc, &preparation, map, Some(("u", u)), Type::Leaf(point), |warp, next| {
-                    ids(W::sample(warp, &next.numbers(numbers)))
+                Recorded::new(doc, &preparation, map, Some(("u", Leaf::Vec2)), Type::Leaf(point), |warp, next| {
+                    W::sample(warp, next.vec2()).into_iter().map(Number::id).collect()
                 })
             }
             Part::Pdf => {
@@ -363,8 +361,9 @@ pub fn add_warp<W: WarpTechnique>(module: &mut Module, wanted: &Wanted) {
             }
             Part::Invert => {
                 let doc = told("The u that is mapped to a point; any in [0, 1) for a point outside of the range.");
-                Recorded::new(doc, &preparation, map, Some(("point", point)), Type::Leaf(u), |warp, next| {
-                    ids(W::invert(warp, &next.numbers(coordinates)))
+                Recorded::new(doc, &preparation, map, Some(("point", point)), Type::Leaf(Leaf::Vec2), |warp, next| {
+                    let u = W::invert(warp, &next.numbers(coordinates));
+                    vec![u.x.id(), u.y.id()]
                 })
             }
             Part::Hit | Part::Measure => continue,

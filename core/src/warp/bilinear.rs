@@ -1,6 +1,6 @@
 //! The unit square with a bilinear density.
 
-use super::{Linear, Warp, Warp1};
+use super::{Linear, Warp};
 use crate::lanewise::lanewise_by_map;
 use crate::real::Real;
 use crate::vector::Vec2;
@@ -10,13 +10,13 @@ use crate::vector::Vec2;
 ///
 /// Set `corners`, then call `sample`, `pdf` or `invert`. If no corner is positive, the pdf is 0 and `sample` returns `u`.
 ///
-/// - Formula: y is [`Linear`] between the sums of the lower and of the upper corners; x is [`Linear`] between the values that
-///   the left and the right side have at y.
+/// - Formula: the density of y is linear between the sums of the lower and of the upper corners, that of x between the values that the left
+///   and the right side have at y; between a and b, x = u(a+b) / (a + √(a²(1−u) + b²u)).
 /// - Domain: u in [0, 1)²; corners ≥ 0 in any unit (negative ones count as 0).
 /// - Density: the pdf is 4 × the interpolated value / the sum of the corners, per unit area of [0, 1]²; 0 elsewhere.
 /// - Degenerate input: if all corners are 0, the pdf is 0 and the point is u.
 /// - Greatest error: 2e−7 in the point, 4e−7 relative in the pdf.
-/// - Source: Pharr, Jakob and Humphreys, PBR 4th ed., A.5.5 (bilinear), with the marginal and the conditional by [`Linear`].
+/// - Source: Pharr, Jakob and Humphreys, PBR 4th ed., A.5.5 (bilinear), by the marginal and the conditional (2.3.2), rationalised.
 #[derive(Clone, Copy, Debug, Default)]
 #[repr(C)]
 pub struct Bilinear<R> {

@@ -1,7 +1,6 @@
 //! The unit disk, uniform in area.
 
 use super::Warp;
-use crate::math::atan2_turns;
 use crate::real::{Real, unit_interval};
 use crate::vector::Vec2;
 
@@ -36,12 +35,6 @@ pub(crate) fn invert_concentric<R: Real>(p: Vec2<R>, r: R) -> Vec2<R> {
     Vec2 { x: unit_interval(a.mul_add(half, half)), y: unit_interval(b.mul_add(half, half)) }
 }
 
-#[inline(always)]
-fn disk_pdf<R: Real>(p: Vec2<R>) -> R {
-    // a sample on the rim may round to 1 + 2ε
-    R::lit(INV_PI).keep(p.length_squared().le(R::lit(1.0 + 4e-7)))
-}
-
 /// Points of the unit disk, uniform in area, by the map that takes concentric squares to concentric rings: the default disk,
 /// since it keeps strata compact.
 ///
@@ -73,40 +66,11 @@ impl<R: Real> Warp<R> for ConcentricDisk {
     /// The pdf per unit area.
     #[inline(always)]
     fn pdf(&self, p: Vec2<R>) -> R {
-        disk_pdf(p)
+        // a sample on the rim may round to 1 + 2ε
+        R::lit(INV_PI).keep(p.length_squared().le(R::lit(1.0 + 4e-7)))
     }
     #[inline(always)]
     fn invert(&self, p: Vec2<R>) -> Vec2<R> {
         invert_concentric(p, p.length())
-    }
-}
-
-/// Points of the unit disk, uniform in area, by radius and angle. Prefer [`ConcentricDisk`], which keeps strata compact.
-///
-/// Call `PolarDisk.sample(u)`; there is nothing to set up and no degenerate input.
-///
-/// - Formula: r = √u₀, φ = 2πu₁.
-/// - Domain: u in [0, 1)²; u₀ = 0 maps to the centre, whose inverse is (0, 0).
-/// - Density: the pdf is 1/π per unit area inside, 0 outside.
-/// - Greatest error: 1.2e−7 in the point (proved for all u: 2.2e−7).
-/// - Source: the inverse of the disk's distribution function.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct PolarDisk;
-
-impl<R: Real> Warp<R> for PolarDisk {
-    type Point = Vec2<R>;
-    #[inline(always)]
-    fn sample(&self, u: Vec2<R>) -> Vec2<R> {
-        let (s, c) = u.y.sin_cos_turns();
-        Vec2 { x: c, y: s } * u.x.greater(R::lit(0.0)).sqrt()
-    }
-    /// The pdf per unit area.
-    #[inline(always)]
-    fn pdf(&self, p: Vec2<R>) -> R {
-        disk_pdf(p)
-    }
-    #[inline(always)]
-    fn invert(&self, p: Vec2<R>) -> Vec2<R> {
-        Vec2 { x: unit_interval(p.length_squared()), y: atan2_turns(p.y, p.x) }
     }
 }

@@ -6,7 +6,7 @@ use etendue::reflection::Reflection;
 use etendue::select::{
     Allocation, Choice, FEW, Gloss, LightBound, LightChoice, LightTree, Node8, SpatialLights, UniformLights,
 };
-use etendue::{Mask, Real, Uint, Warp, Warp1};
+use etendue::{Mask, Real, Uint, Warp};
 use etendue_judge::generators::{self, Random};
 use etendue_judge::light_tree::{Lamp, Place, Regime, place};
 use etendue_judge::packets::{lanes_of, squares_of, vectors_of};

@@ -5,8 +5,7 @@ use etendue::light::shapes::DirectionSample;
 use etendue::{Real, Vec2, Warp};
 use etendue_judge::fixture::Fixture;
 use etendue_judge::fixtures::{
-    AreaTriangle, ConcentricDisk, CosineHemisphere, LowDistortionTriangle, Octahedral, PolarDisk, UniformHemisphere,
-    UniformSphere,
+    AreaTriangle, ConcentricDisk, CosineHemisphere, LowDistortionTriangle, Octahedral, UniformHemisphere, UniformSphere,
 };
 use etendue_judge::generators::{self, Case, Random};
 use etendue_judge::packets::{Coordinates, squares_of};
@@ -104,11 +103,8 @@ pub(crate) fn add(list: &mut List<'_>) {
     }
     warps! {
         "concentric_disk": [("whole", ConcentricDisk)];
-        "polar_disk": [("whole", PolarDisk)];
         "area_triangle": [("whole", AreaTriangle)];
         "low_distortion_triangle": [("whole", LowDistortionTriangle)];
-        "linear": generators::linears();
-        "tent": generators::tents();
         "bilinear": generators::bilinears();
         "ggx_visible_normals": generators::microsurfaces();
         "cosine_hemisphere": [("whole", CosineHemisphere)];

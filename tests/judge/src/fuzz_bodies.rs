@@ -48,8 +48,8 @@ targets! {
     cone: shapes, 700;
     /// Warps without parameters: disks, hemispheres, the sphere, triangles in the plane, octahedral maps.
     fixed_warps: shapes, 700;
-    /// Densities on the line, and the bilinear density.
-    line_warps: shapes, 700;
+    /// The bilinear density.
+    bilinear: shapes, 700;
     /// Microsurfaces of any roughness, viewed from anywhere.
     visible_normals: shapes, 400;
     /// Spheres by solid angle.

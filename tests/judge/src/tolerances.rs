@@ -48,10 +48,6 @@ pub const OCTAHEDRAL: Tolerance = Tolerance { point: 4.0, steps: 0.0, distance: 
 /// Like the disk, with a third coordinate. The inverse has 1−cosθ of rounded coordinates. Fuzzing found at most 4.1 units for the inverse,
 /// and 3.013 for the point.
 pub const CONE: Tolerance = Tolerance { point: 3.02, steps: 0.0, distance: 0.0, pdf: 2.0, round_trip: 5.0 };
-/// A root of a sum of products, a sum and a quotient.
-pub const LINEAR: Tolerance = Tolerance { point: 3.0, steps: 0.0, distance: 0.0, pdf: 4.0, round_trip: 3.0 };
-/// A root, a sum and a quotient; the pdf has two quotients.
-pub const TENT: Tolerance = Tolerance { point: 3.0, steps: 0.0, distance: 0.0, pdf: 4.0, round_trip: 3.0 };
 /// Two linear densities; x is drawn from the density at the rounded y, which moves it as much as these steps of u would.
 pub const BILINEAR: Tolerance = Tolerance { point: 6.0, steps: 4.0, distance: 0.0, pdf: 8.0, round_trip: 6.0 };
 /// A cone; a sum that is short where a grazing view sees normals turned away from it (a step of u turns the normal there as much as

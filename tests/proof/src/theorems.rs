@@ -10,7 +10,7 @@ use crate::tape;
 use crate::traced::Traced;
 use cone::Directions;
 use etendue::{Real, Vec2, Vec3};
-use fixed::{Barycentrics, Disk, Hemisphere, Polar};
+use fixed::{Barycentrics, Disk, Hemisphere};
 use sphere::Sphere;
 use triangle::Triangle;
 
@@ -26,7 +26,6 @@ enum Quantity {
 pub fn all(whole: bool) -> Vec<Box<dyn Theorem>> {
     let mut all: Vec<Box<dyn Theorem>> = vec![
         Box::new(Disk),
-        Box::new(Polar),
         Box::new(Hemisphere),
         Box::new(Barycentrics),
         Box::new(Directions { heights: if whole { [1e-30, 4.0] } else { [1e-6, 4.0] } }),

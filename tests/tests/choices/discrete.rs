@@ -1,7 +1,7 @@
 //! Tables over slices: the frequencies of the cells over every possible `u` match the reported pmf.
 
 use etendue::discrete::{PiecewiseConstant1d, PiecewiseConstant2d, TableError};
-use etendue::{Vec2, Warp, Warp1, f32x4, u32x4};
+use etendue::{Vec2, Warp, f32x4, u32x4};
 use etendue_judge::generators::Random;
 use etendue_oracle::tier::cases;
 

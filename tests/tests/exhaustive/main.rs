@@ -1,4 +1,4 @@
-//! Every float of single precision through the functions of one argument, and every `u` through the warps of one dimension.
+//! Every float of single precision through the functions of one argument.
 //!
 //! `cargo test --release -p etendue-tests --test exhaustive -- --ignored --nocapture` goes over all of them. Without `--ignored`, the
 //! same checks go over every 257th, the edges of all binades and the documented worst inputs.
@@ -10,4 +10,3 @@
 
 mod functions;
 mod sweep;
-mod warps;

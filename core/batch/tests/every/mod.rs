@@ -117,7 +117,6 @@ pub(crate) fn visit(visitor: &mut impl Visitor) {
     visit_images(visitor);
     let center = v(0.0, 1.0, 0.0);
     visitor.warp("concentric disk", ConcentricDisk);
-    visitor.warp("polar disk", PolarDisk);
     visitor.warp("uniform hemisphere", UniformHemisphere);
     visitor.warp("uniform sphere", UniformSphere);
     visitor.warp("cosine hemisphere", CosineHemisphere);
@@ -131,8 +130,6 @@ pub(crate) fn visit(visitor: &mut impl Visitor) {
     let patch =
         PatchSurface { corner: center, edge_s: v(1.0, 0.0, 0.0), edge_t: v(0.0, 0.0, 1.0), diagonal: v(0.0, 0.3, 0.0) };
     visitor.warp("patch surface", patch);
-    visitor.warp("linear", Linear { a: 3.0, b: 1.0 });
-    visitor.warp("tent", Tent { radius: 1.5 });
     visitor.sequence("independent", Independent::new(1));
     visitor.sequence("Owen-Sobol", OwenSobol::new(1));
     visitor.sequence("joint Sobol", JointSobol::new(1));

@@ -2,6 +2,7 @@
 
 use crate::driver::{HOSTILE, slots};
 use crate::program::Driver;
+use etendue::Vec2;
 use etendue_judge::generators::{Random, unit_or_edge};
 use etendue_oracle::tier::cases;
 use etendue_shader::*;
@@ -28,7 +29,7 @@ impl WarpVisitor for Warps {
                 1 => (0..parameters).map(|_| random.magnitude(1e-12, 1e6) as f32).collect(),
                 _ => (0..parameters).map(|_| random.range(-2.0, 2.0) as f32).collect(),
             };
-            all.extend((0..entry.numbers).map(|_| unit_or_edge(&mut random) as f32));
+            all.extend((0..2).map(|_| unit_or_edge(&mut random) as f32));
             all.extend(random.direction()[..entry.coordinates].iter().map(|x| *x as f32));
             if round % 4 == 3 {
                 for _ in 0..1 + random.below(2) {
@@ -43,12 +44,13 @@ impl WarpVisitor for Warps {
             let (numbers, rest) = input.split_at(parameters);
             let mut next = numbers.iter();
             let warp = W::warp(&mut || *next.next().unwrap());
-            let (u, point) = rest.split_at(entry.numbers);
-            let sampled = W::sample(&warp, u);
+            let (u, point) = rest.split_at(2);
+            let sampled = W::sample(&warp, Vec2::new(u[0], u[1]));
             let mut all = sampled.clone();
             for point in [&sampled, point] {
                 all.push(W::pdf(&warp, point));
-                all.extend(W::invert(&warp, point));
+                let Vec2 { x, y } = W::invert(&warp, point);
+                all.extend([x, y]);
             }
             all
         });
@@ -67,7 +69,7 @@ impl WarpVisitor for Warps {
             let sample = driver.function(&format!("{name}_sample")).unwrap();
             driver.take(sample.parameters[0].of, "prepared");
         }
-        driver.take(Type::Leaf(Leaf::of_numbers(entry.numbers)), "u");
+        driver.take(Type::Leaf(Leaf::Vec2), "u");
         driver.take(Type::Leaf(Leaf::of_numbers(entry.coordinates)), "point");
         driver.output(&format!("{name}_sample"), &["prepared", "u"], "sampled");
         for point in ["sampled", "point"] {
@@ -82,5 +84,5 @@ impl WarpVisitor for Warps {
 fn warps_have_the_same_bits() {
     let mut warps = Warps(0);
     every_warp(&mut warps);
-    assert!(warps.0 >= 14, "{} warps", warps.0);
+    assert!(warps.0 >= 12, "{} warps", warps.0);
 }

@@ -7,7 +7,7 @@ use crate::math::{quotient, ratio, rsqrt};
 use crate::real::{Real, unit_interval};
 use crate::vector::double_word::compensated_dot;
 use crate::vector::{Frame, Vec2, Vec3};
-use crate::warp::{Linear, Warp, Warp1};
+use crate::warp::{Linear, Warp};
 
 /// Angle by which the rounding of its direction and of the frame may move a sample out of the disk: 6 ulp of a component near
 /// 1.

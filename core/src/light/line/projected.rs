@@ -8,7 +8,7 @@ use crate::math::ratio;
 use crate::real::{Real, unit_interval};
 use crate::vector::Vec3;
 use crate::vector::double_word::{dot_dw, rounded_sum, unit_normal};
-use crate::warp::{Linear, Warp1};
+use crate::warp::Linear;
 use core::f64::consts::FRAC_PI_2;
 
 lanewise! {

@@ -9,7 +9,7 @@ use etendue::estimate::{Heuristic, Welford};
 use etendue::light::{EnvironmentMap, ImageEnvironment};
 use etendue::math::{difference_of_products, one_minus_cos, rsqrt};
 use etendue::select::{Allocation, Choice, LightBound, LightChoice, SpatialLights, UniformLights};
-use etendue::{Mask, Real, Uint, Vec2, Vec3, Warp, Warp1, f32x4, f32x8, f32x16};
+use etendue::{Mask, Real, Uint, Vec2, Vec3, Warp, f32x4, f32x8, f32x16};
 use etendue_oracle::{dot, length, sub};
 
 /// Weights, some of them 0 and rarely one invalid, with the error that an invalid one must give.

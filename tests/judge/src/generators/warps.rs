@@ -1,7 +1,7 @@
 //! Parameters of maps of lines, squares and surfaces.
 
 use super::{Case, EPSILON};
-use crate::fixtures::{Bilinear, Cone, GgxVisibleNormals, Linear, PatchSurface, Tent};
+use crate::fixtures::{Bilinear, Cone, GgxVisibleNormals, PatchSurface};
 
 /// Cones of half-angles from 1e−15 to π.
 #[must_use]
@@ -27,42 +27,6 @@ pub fn cones() -> Vec<Case<Cone>> {
     all.push(("sphere", Cone { one_minus_cos: 2.0 }));
     all.push(("sphere, all but a point", Cone { one_minus_cos: 2.0 - 2.0 * EPSILON }));
     all
-}
-
-/// Linear densities: flat, rising, falling, nearly flat, 0 at either end, in tiny and huge units.
-#[must_use]
-pub fn linears() -> Vec<Case<Linear>> {
-    [
-        ("flat", 1.0, 1.0),
-        ("ordinary", 1.0, 3.0),
-        ("falling", 5.0, 0.5),
-        ("nearly flat", 1.0, 1.0 + 2.0 * EPSILON),
-        ("from 0", 0.0, 2.0),
-        ("to 0", 2.0, 0.0),
-        ("from almost 0", 1e-7, 1.0),
-        ("to almost 0", 1.0, 1e-7),
-        ("tiny units", 1e-30, 3e-30),
-        ("huge units", 2e31, 1e31),
-    ]
-    .map(|(name, a, b)| (name, Linear { a, b }))
-    .to_vec()
-}
-
-/// Scales of distributions on the line.
-const SIZES: [(&str, f32); 7] = [
-    ("1", 1.0),
-    ("ordinary", 0.37),
-    ("tiny 1e-6", 1e-6),
-    ("tiny 1e-20", 1.3e-20),
-    ("huge 1e6", 1.7e6),
-    ("huge 1e20", 1e20),
-    ("tiny 1e-30", 1e-30),
-];
-
-/// Tents of every scale.
-#[must_use]
-pub fn tents() -> Vec<Case<Tent>> {
-    SIZES.map(|(name, radius)| (name, Tent { radius })).to_vec()
 }
 
 /// Bilinear densities: flat, ordinary, with corners and sides of 0, steep, in tiny and huge units.

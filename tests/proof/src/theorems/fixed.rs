@@ -8,8 +8,8 @@ use crate::interval::Interval;
 use crate::search::{Range, Statement, Theorem, Trial};
 use crate::tape;
 use crate::traced::Traced;
-use core::f64::consts::{FRAC_1_PI, PI, TAU};
-use etendue::warp::{AreaTriangle, ConcentricDisk, CosineHemisphere, PolarDisk, Warp};
+use core::f64::consts::{FRAC_1_PI, PI};
+use etendue::warp::{AreaTriangle, ConcentricDisk, CosineHemisphere, Warp};
 use etendue::{Mask, Real, f32x8};
 
 /// So many values next to an end are tried one by one.
@@ -71,52 +71,6 @@ impl Theorem for Disk {
         let truth = concentric([values[0], values[1]]);
         let (pdf, assumed) = tape::assume(|| ConcentricDisk.pdf(p));
         vec![[p.x.exact(), truth[0], 1.0], [p.y.exact(), truth[1], 1.0], [pdf.exact(), FRAC_1_PI, 1.0]]
-            .into_iter()
-            .chain(margins(&assumed, RIM))
-            .collect()
-    }
-}
-
-pub(super) struct Polar;
-impl Polar {
-    fn outputs<R: Real>(&self, x: &[R]) -> Vec<R> {
-        point(PolarDisk.sample(pair(x)))
-    }
-}
-impl Theorem for Polar {
-    outputs!();
-    fn statement(&self) -> Statement {
-        Statement {
-            name: "PolarDisk",
-            domain: "all 2⁴⁸ pairs u".to_owned(),
-            ranges: unit_square(),
-            limits: vec![
-                limit("error of the point, in radii", 2.2e-7),
-                limit("relative error of the pdf", 6e-8),
-                INSIDE,
-            ],
-        }
-    }
-    fn bounds(&self, x: &[Traced]) -> Vec<f64> {
-        let p = PolarDisk.sample(pair(x));
-        let (pdf, assumed) = tape::assume(|| PolarDisk.pdf(p));
-        // in exact arithmetic, x² + y² = u₀
-        let inside = over_margin(&assumed, RIM + (1.0 - x[0].computed().hi));
-        let tried = at_least(x[0], STEPS - TRIED);
-        vec![length(&[p.x, p.y]), relative(pdf), if tried { 0.0 } else { inside }]
-    }
-    fn trial(&self) -> Option<Trial> {
-        Some(Trial {
-            what: "the pdf of samples at the rim is positive",
-            ranges: vec![[(STEPS - TRIED, STEPS - 1), (0, STEPS - 1)]],
-            holds: |u| PolarDisk.pdf(PolarDisk.sample(u)).gt(f32x8::splat(0.0)).all(),
-        })
-    }
-    fn definition(&self, x: &[Traced], values: &[f64]) -> Vec<[f64; 3]> {
-        let p = PolarDisk.sample(pair(x));
-        let (r, angle) = (values[0].sqrt(), TAU * values[1]);
-        let (pdf, assumed) = tape::assume(|| PolarDisk.pdf(p));
-        vec![[p.x.exact(), r * angle.cos(), 1.0], [p.y.exact(), r * angle.sin(), 1.0], [pdf.exact(), FRAC_1_PI, 1.0]]
             .into_iter()
             .chain(margins(&assumed, RIM))
             .collect()
