@@ -125,13 +125,15 @@ pub use delta::{DirectionalLightByDelta, PointLightByDelta, SpotLightByDelta};
 pub use disk::Disk;
 #[doc(hidden)]
 pub use disk::{DiskByArea, DiskBySolidAngle};
-pub use distant::{ConstantEnvironment, Sun, SunBySolidAngle};
+pub use distant::{ConstantEnvironment, Sun};
 #[doc(hidden)]
-pub use distant::{EnvironmentByProjectedSolidAngle, EnvironmentBySolidAngle};
+pub use distant::{EnvironmentByProjectedSolidAngle, EnvironmentBySolidAngle, SunBySolidAngle};
 #[doc(hidden)]
 pub use environment::{ByRadiance, EnvironmentWords};
 pub use environment::{EnvironmentMap, ImageEnvironment, ImageSampler, Texel};
-pub use line::{Line, LineByAngle, LineByLength, LineByProjectedSolidAngle};
+pub use line::Line;
+#[doc(hidden)]
+pub use line::{LineByAngle, LineByLength, LineByProjectedSolidAngle};
 pub use parallelogram::Parallelogram;
 #[doc(hidden)]
 pub use parallelogram::{
@@ -149,16 +151,16 @@ pub use pictured_sphere::VisibleSphere;
 pub use polygon::Polygon;
 #[doc(hidden)]
 pub use polygon::{PolygonByArea, PolygonByProjectedSolidAngle, PolygonByReflection, PolygonBySolidAngle};
-pub use portal::{MOST_PORTALS, Portal, PortalEnvironment, PortalError, PortalMap, PortalTable, PortalsByRadiance};
+pub use portal::{Portal, PortalEnvironment, PortalError, PortalMap, PortalTable, PortalsByRadiance};
 pub use rectangle::Rectangle;
 #[doc(hidden)]
 pub use rectangle::RectangleBySolidAngle;
 pub use rotated::Rotated;
 pub use sample::{FAR, LightSample, TexelSample};
 pub use sampler::{ByArea, ByProjectedSolidAngle, ByReflection, BySolidAngle, LightSampler};
-pub use sphere::{Sphere, SphereByReflection};
+pub use sphere::Sphere;
 #[doc(hidden)]
-pub use sphere::{SphereByArea, SphereByProjectedSolidAngle, SphereBySolidAngle};
+pub use sphere::{SphereByArea, SphereByProjectedSolidAngle, SphereByReflection, SphereBySolidAngle};
 pub use spread::Spread;
 pub use triangle::Triangle;
 #[doc(hidden)]

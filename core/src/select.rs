@@ -6,7 +6,6 @@
 //! | [`PiecewiseConstant1d`] | power/Σpower | a binary search per lane | lights of different power at similar distances |
 //! | [`SpatialLights`] | power · cosθ cosθ'/d² at the centre, per shading point | one pass over all lights | 2 to 32 lights, near and far, with an area |
 //! | [`LightTree`] | by the expected cosines and distances of sets of lights, per shading point | 0.1 µs a lane for 10³ lights, 0.2 for 10⁵ | more than 32 lights, of all kinds |
-//! | [`Allocation`] | the light's share of the samples of a pixel | none per sample | the same, where a set of samples is planned in advance |
 //!
 //! `at_glossy` of [`SpatialLights`] and of [`LightTree`] chooses in view of a [`Gloss`]: of what a rough surface reflects towards the viewer.
 //! Above a metal floor of roughness α = 0.1, seen at 60° from its normal, that divides the variance of a choice among 4,096 lamps by 15
@@ -18,17 +17,15 @@
 //! method [`pmf`](LightChoice::pmf) returns the same bits, for multiple importance sampling: a light that another technique hits has a
 //! probability too. Every light that can contribute has a positive pmf.
 
-mod allocation;
 mod bound;
 mod gloss;
 mod spatial;
 mod tree;
 
-pub use allocation::{Allocated, Allocation};
 pub use bound::LightBound;
 pub use gloss::Gloss;
 pub use spatial::{LightsAt, SpatialLights};
-pub use tree::{Join, LightTree, NO_LIGHT, Node8, TreeAt};
+pub use tree::{Join, LightTree, Node8, TreeAt};
 #[doc(hidden)]
 pub use tree::{TreeChild, TreeWords, TreeWordsAt};
 
@@ -36,8 +33,8 @@ use crate::discrete::PiecewiseConstant1d;
 use crate::real::{Real, Uint, unit_interval};
 use core::fmt::{self, Display, Formatter};
 
-/// The greatest number of lights of [`SpatialLights`] and of an [`Allocation`].
-pub const FEW: usize = 32;
+/// See [`SpatialLights::MOST`].
+const FEW: usize = 32;
 
 /// Why a choice of lights cannot be prepared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

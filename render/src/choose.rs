@@ -7,6 +7,7 @@ mod spatial;
 mod tree;
 mod uniform;
 
+use crate::allocation::{Allocated, FEW};
 use crate::bvh::BuildError;
 use crate::light_tree::OwnedTree;
 use crate::lights::Lights;
@@ -14,7 +15,7 @@ use crate::named::named;
 use crate::packet::{V8, X8};
 use choose_light::ChooseLight;
 use etendue::discrete::PiecewiseConstant2d;
-use etendue::select::{Allocated, Choice, FEW, Gloss, LightChoice, LightsAt, SpatialLights, TreeAt, UniformLights};
+use etendue::select::{Choice, Gloss, LightsAt, SpatialLights, TreeAt, UniformLights};
 use etendue::{Real, u32x8};
 use kinds::{Kinds, KindsAt};
 use power::Power;
@@ -79,7 +80,7 @@ pub enum LightPmf<'a> {
     /// By the kinds of lights, then by trees.
     Kinds(KindsAt<'a>),
     /// By an allocation of the samples.
-    Allocated(&'a Allocated<'a, X8>),
+    Allocated(&'a Allocated<'a>),
 }
 
 impl LightPmf<'_> {
@@ -93,7 +94,7 @@ impl LightPmf<'_> {
             Self::Spatial(at) => SpatialLights::pmf(at, light),
             Self::Tree(at) => OwnedTree::pmf(at, light),
             Self::Kinds(at) => Kinds::pmf(at, light),
-            Self::Allocated(allocated) => allocated.pmf_of(light),
+            Self::Allocated(allocated) => allocated.pmf(light),
         }
     }
 }

@@ -1,8 +1,8 @@
 //! Accumulates the mean and variance of pixels into an image.
 
-use crate::packet::{V8, X8};
+use crate::allocation::Allocated;
+use crate::packet::V8;
 use crate::sums::{Adder, Moments, Sample};
-use etendue::select::Allocated;
 
 /// The finished estimate of one pixel.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -53,7 +53,7 @@ pub trait Accumulator {
     fn begin(&mut self, first: u32);
     /// Adds eight samples, of which the first has an index that is a multiple of eight, with the part of their radiance that the camera
     /// sees directly, and the lights to which they were allocated, if they were.
-    fn push_packet(&mut self, radiance: V8, seen: V8, allocated: Option<&Allocated<'_, X8>>);
+    fn push_packet(&mut self, radiance: V8, seen: V8, allocated: Option<&Allocated<'_>>);
     /// Adds one sample.
     fn push(&mut self, radiance: [f32; 3]);
     /// Returns the pixel, and starts the next one.
@@ -110,7 +110,7 @@ impl<V: Sample> Accumulator for PixelSum<V> {
         self.0.begin(first);
     }
     #[inline]
-    fn push_packet(&mut self, radiance: V8, _: V8, _: Option<&Allocated<'_, X8>>) {
+    fn push_packet(&mut self, radiance: V8, _: V8, _: Option<&Allocated<'_>>) {
         self.0.push_octet(&channels(radiance));
     }
     #[inline]

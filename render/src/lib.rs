@@ -49,6 +49,7 @@
 //!   claim of it.
 //! - [`identity`], [`split`], [`parts`], [`merge`]: what an image depends on, and images whose parts are rendered apart.
 
+pub mod allocation;
 pub mod area;
 pub mod bsdf;
 pub mod bvh;

@@ -29,6 +29,7 @@ pub(crate) mod spot;
 mod spread;
 pub(crate) mod sun;
 
+use crate::allocation::FEW;
 use crate::bvh::NOTHING;
 use crate::geometry::{self, Geometry};
 use crate::light_picture::LightPicture;
@@ -39,7 +40,7 @@ use crate::sky::Sky;
 use crate::technique::Measure;
 pub use chosen::{Chosen, Drawn};
 use directed::DirectedLight;
-use etendue::select::{FEW, LightBound};
+use etendue::select::LightBound;
 use etendue::{Real, Vec2, u32x8};
 use kinds::{
     ONLY_AREAS, ONLY_DELTAS, PICTURES, PROFILES, SHAPES, SPREADS, UNEVEN, area_lights, delta_lights, sample_delta,

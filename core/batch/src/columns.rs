@@ -107,7 +107,7 @@ results! {
     }
     /// Where choices of lights go: slices of the length of the batch, or empty slices for what is not wanted.
     Choices, ChoiceColumns {
-        /// Index of the light; [`etendue::select::NO_LIGHT`], 2³² − 1, where none was chosen.
+        /// Index of the light; [`etendue::select::LightTree::NO_LIGHT`], 2³² − 1, where none was chosen.
         light: u32,
         /// Probability with which it was chosen; 0 where none was.
         pmf: f32,

@@ -5,9 +5,7 @@ use core::marker::PhantomData;
 use core::ptr::null;
 use core::slice::from_raw_parts;
 use etendue::discrete::TableError;
-use etendue::light::{
-    self, EnvironmentMap, ImageEnvironment, MOST_PORTALS, Portal, PortalEnvironment, PortalTable, Region,
-};
+use etendue::light::{self, EnvironmentMap, ImageEnvironment, Portal, PortalEnvironment, PortalTable, Region};
 use etendue::select::{LightTree, Node8};
 
 /// The slices of what follows live as long as its lifetime.
@@ -184,7 +182,7 @@ pub struct PortalMemory<'a> {
 }
 
 impl<'a> PortalMemory<'a> {
-    /// The sky through these portals, with the table of each. None if there are none, more than [`MOST_PORTALS`] or not as many tables, or if
+    /// The sky through these portals, with the table of each. None if there are none, more than [`MOST`](PortalEnvironment::MOST) or not as many tables, or if
     /// the edges of a portal are parallel or not finite.
     pub fn new(portals: &'a [PortalShape], tables: &'a [PortalSums<'a>]) -> Option<Self> {
         let count = portals.len();
@@ -194,14 +192,14 @@ impl<'a> PortalMemory<'a> {
     /// Calls `f` with the environment, unless a number of the struct is wrong.
     #[inline(always)]
     pub fn with<T>(&self, f: impl FnOnce(PortalEnvironment<'_>) -> T) -> Option<T> {
-        if self.portals.is_null() || self.tables.is_null() || !(1..=MOST_PORTALS).contains(&self.count) {
+        if self.portals.is_null() || self.tables.is_null() || !(1..=PortalEnvironment::MOST).contains(&self.count) {
             return None;
         }
         // SAFETY: the memory has so many of them
         let (shapes, sums) =
             unsafe { (from_raw_parts(self.portals, self.count), from_raw_parts(self.tables, self.count)) };
         let first = (shapes[0].view()?, sums[0].view()?);
-        let (mut portals, mut tables) = ([first.0; MOST_PORTALS], [first.1; MOST_PORTALS]);
+        let (mut portals, mut tables) = ([first.0; PortalEnvironment::MOST], [first.1; PortalEnvironment::MOST]);
         for (i, (shape, sums)) in shapes.iter().zip(sums).enumerate() {
             (portals[i], tables[i]) = (shape.view()?, sums.view()?);
         }

@@ -5,7 +5,7 @@ use crate::status::EtendueStatus;
 use core::mem::size_of;
 use core::ptr::{from_ref, null_mut};
 use core::slice::from_raw_parts;
-use etendue::light::{MOST_PORTALS, Portal, PortalTable};
+use etendue::light::{Portal, PortalEnvironment, PortalTable};
 use etendue_batch::memory::{PortalMemory, PortalShape, PortalSums};
 use etendue_batch::{Batch, PortalDirection, SeenThroughPortals};
 
@@ -50,7 +50,7 @@ impl EtenduePortalEnvironment {
     pub(crate) fn status(&self) -> EtendueStatus {
         let Self { portals, tables, count } = *self;
         refuse_null!(portals, tables);
-        if !(1..=MOST_PORTALS).contains(&count) {
+        if !(1..=PortalEnvironment::MOST).contains(&count) {
             return EtendueStatus::Count;
         }
         // SAFETY: the pointers are not null, and point to what the header says

@@ -2,7 +2,7 @@
 
 use crate::arrays::{Argument, FieldKind, broadcast, columns, together, vector};
 use crate::results::{Object, array, refuse, room, run, zeros};
-use etendue::select::{LightBound, LightTree as Tree, NO_LIGHT, Node8};
+use etendue::select::{LightBound, LightTree as Tree, Node8};
 use etendue_batch::memory::TreeMemory;
 use etendue_batch::{Batch, Choices};
 use pyo3::exceptions::PyValueError;
@@ -125,5 +125,5 @@ impl LightTree {
 /// Adds the tree to the module.
 pub(crate) fn add(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<LightTree>()?;
-    module.add("NO_LIGHT", NO_LIGHT)
+    module.add("NO_LIGHT", Tree::NO_LIGHT)
 }

@@ -15,8 +15,8 @@ use side::Side;
 pub use table::PortalTable;
 use table::{Columns, Found, Place, STEPS, Search, Span};
 
-/// Greatest number of portals of a [`PortalEnvironment`].
-pub const MOST_PORTALS: usize = 8;
+/// See [`PortalEnvironment::MOST`].
+const MOST_PORTALS: usize = 8;
 
 /// A parallelogram through which the sky is seen, from the side that its normal s × t points away from.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -90,7 +90,7 @@ fn spans<R: Real>(table: &PortalTable<'_>, sides: &[Side<R>; 2], lane: usize) ->
     [sides[0].span(lane, w), sides[1].span(lane, h)]
 }
 
-/// The part of an image of the sky that is seen through some portals, at most [`MOST_PORTALS`]; the rest of the sky is hidden by walls.
+/// The part of an image of the sky that is seen through some portals, at most [`MOST`](Self::MOST); the rest of the sky is hidden by walls.
 ///
 /// What the sky is like beyond the portals is in the tables of the portals: from each point exactly the part is sampled that the point sees,
 /// by the weights of the texels. A direction through two portals counts once: the pdf is that with which either one draws it.
@@ -132,10 +132,13 @@ pub struct PortalEnvironment<'a> {
 }
 
 impl<'a> PortalEnvironment<'a> {
+    /// The greatest number of portals.
+    pub const MOST: usize = MOST_PORTALS;
+
     /// The sky through these portals, with the table of each. Portals with the same [`PortalMap`] may share one.
     ///
     /// # Errors
-    /// If there are none or more than [`MOST_PORTALS`], or not as many tables.
+    /// If there are none or more than [`MOST`](Self::MOST), or not as many tables.
     #[inline]
     pub fn new(portals: &'a [Portal], tables: &'a [PortalTable<'a>]) -> Result<Self, PortalError> {
         if !(1..=MOST_PORTALS).contains(&portals.len()) {

@@ -4,7 +4,7 @@ use super::{Choice, FEW, Gloss, LightBound, LightChoice, LightsError};
 use crate::real::{Real, Uint, unit_interval};
 use crate::vector::Vec3;
 
-/// Chooses lights in proportion to what they can contribute to a point of a surface, for up to [`FEW`] lights.
+/// Chooses lights in proportion to what they can contribute to a point of a surface, for up to [`MOST`](Self::MOST) lights.
 ///
 /// - Formula: weight = power · cosθ · cosθ' / d², where d is the distance to the light's centre, or its radius if that is more. cosθ, at
 ///   the surface, belongs to the direction within the bounding sphere that is nearest to the normal, so that no light that reaches over
@@ -48,10 +48,13 @@ const GREATEST: f64 = 1e35;
 const LEAST: f64 = 1.0 / (1_u128 << 100) as f64;
 
 impl SpatialLights {
+    /// The greatest number of lights.
+    pub const MOST: usize = FEW;
+
     /// Prepares the lights.
     ///
     /// # Errors
-    /// If there are more than [`FEW`] lights.
+    /// If there are more than [`MOST`](Self::MOST) lights.
     pub fn new(lights: &[LightBound]) -> Result<Self, LightsError> {
         if lights.len() > FEW {
             return Err(LightsError::TooMany);
@@ -149,7 +152,7 @@ pub struct LightsAt<R: Real> {
 }
 
 impl<R: Real> LightsAt<R> {
-    /// The choice by these weights, finite and at least 0, of at most [`FEW`] lights or kinds of lights. Where all are 0, the pmf is 0.
+    /// The choice by these weights, finite and at least 0, of at most [`SpatialLights::MOST`] lights or kinds of lights. Where all are 0, the pmf is 0.
     #[must_use]
     #[inline]
     pub fn by_weights(weights: &[R]) -> Self {

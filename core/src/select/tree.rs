@@ -17,8 +17,8 @@ use node::{LIGHT, NONE, Place, Shares, WHOLE};
 use part::{Part, Units};
 pub use words::{TreeWords, TreeWordsAt};
 
-/// The index of a [`Choice`] of a [`LightTree`] where no light can contribute.
-pub const NO_LIGHT: u32 = u32::MAX;
+/// See [`LightTree::NO_LIGHT`].
+const NO_LIGHT: u32 = u32::MAX;
 
 /// More than the number of levels of 2²⁷ lights: seven splits, each of which leaves at most 15/16, leave a child at most 0.64 of a node.
 const DEEPEST: usize = 64;
@@ -44,7 +44,7 @@ const DEEPEST: usize = 64;
 /// - No light is lost: where a sample of a light contributes, B is positive at all nodes above it, in spite of all rounding, so its pmf is
 ///   positive.
 /// - Dead ends: where all children of a node have no share, the outcome is "no light", with its own probability; then the index is
-///   [`NO_LIGHT`] and the pmf is 0. The pmfs of all lights and the probability of "no light" sum to 1.
+///   [`NO_LIGHT`](Self::NO_LIGHT) and the pmf is 0. The pmfs of all lights and the probability of "no light" sum to 1.
 /// - Domain: up to [`MOST`](Self::MOST) lights; finite bounds, points and unit normals. A light whose power is 0, negative, infinite or
 ///   NaN, or whose place is not finite, is never chosen. Multiplying all lengths by a power of two changes no bit. Powers count as at
 ///   least 2⁻⁴⁰ of the strongest, radii as at least 2⁻³⁰ of the extent of the lights.
@@ -76,6 +76,8 @@ pub struct LightTree<'a> {
 impl<'a> LightTree<'a> {
     /// The greatest number of lights.
     pub const MOST: usize = 1 << 27;
+    /// The index of a [`Choice`] where no light can contribute.
+    pub const NO_LIGHT: u32 = NO_LIGHT;
 
     /// Number of nodes that so many lights need.
     #[must_use]

@@ -1,9 +1,9 @@
 //! What closed forms leave to be sampled.
 
+use crate::allocation::FEW;
 use crate::bvh::GROUP;
 use crate::estimate::{Integrand, Points, Proof};
 use crate::packet::{M8, V8, X8};
-use etendue::select::FEW;
 use etendue::{Mask, Real, u32x8};
 
 /// What is left of the light of a group of shading points, for each light and packet.

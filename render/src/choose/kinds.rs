@@ -2,12 +2,13 @@
 //! narrow for a tree, suns, and the sky. Then a lamp or a sun is chosen by a tree.
 
 use super::choose_light::{ChooseLight, bounds};
+use crate::allocation::FEW;
 use crate::bvh::BuildError;
 use crate::light_tree::{OwnedTree, Threads};
 use crate::lights::{Candidate, Far};
 use crate::packet::{V8, X8, equal, pick, select};
 use crate::sky::Sky;
-use etendue::select::{Choice, FEW, Gloss, LightBound, LightChoice, LightsAt, TreeAt};
+use etendue::select::{Choice, Gloss, LightBound, LightChoice, LightsAt, TreeAt};
 use etendue::{LightSampler, Mask, Real, SpotLight, Vec2, u32x8};
 use std::f64::consts::FRAC_1_PI;
 use std::sync::Arc;

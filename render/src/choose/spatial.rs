@@ -3,11 +3,12 @@
 use super::choose_light::{ChooseLight, bounds};
 use crate::lights::Candidate;
 use crate::packet::{V8, X8};
-use etendue::select::{Choice, FEW, Gloss, LightChoice, LightsAt, SpatialLights};
+use etendue::select::{Choice, Gloss, LightChoice, LightsAt, SpatialLights};
 
 /// Prepares the choice.
 pub(super) fn new(all: &[Candidate]) -> Result<SpatialLights, String> {
-    SpatialLights::new(&bounds(all)).map_err(|_| format!("at most {FEW} lights, and the scene has {}", all.len()))
+    SpatialLights::new(&bounds(all))
+        .map_err(|_| format!("at most {} lights, and the scene has {}", SpatialLights::MOST, all.len()))
 }
 
 impl ChooseLight for SpatialLights {

@@ -1,12 +1,12 @@
 //! What the samples of a pixel tell of its variance.
 
 use super::light_weights::APART;
+use crate::allocation::Allocated;
 use crate::film::{Accumulator, channels};
-use crate::packet::{V8, X8};
+use crate::packet::V8;
 use crate::sums::{Adder, Sum};
 use etendue::Real;
 use etendue::estimate::Welford;
-use etendue::select::Allocated;
 
 /// Statistics of a range of the samples of a pixel.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -76,7 +76,7 @@ impl Accumulator for StatisticsSum {
     fn begin(&mut self, first: u32) {
         self.adder.begin(first);
     }
-    fn push_packet(&mut self, radiance: V8, seen: V8, allocated: Option<&Allocated<'_, X8>>) {
+    fn push_packet(&mut self, radiance: V8, seen: V8, allocated: Option<&Allocated<'_>>) {
         self.adder.push_octet(&channels(radiance));
         // the samples of a packet that is shared among lights differ by their lights: only what does not depend on them is compared
         for half in halves(if allocated.is_some() { seen } else { radiance }) {
@@ -147,7 +147,7 @@ fn halves(radiance: V8) -> [[f64; 3]; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use etendue::select::Allocation;
+    use crate::allocation::Allocation;
 
     fn packet(of: impl Fn(usize) -> [f32; 3]) -> V8 {
         let lane = |channel: usize| X8::from_fn(|k| of(k)[channel]);
@@ -192,7 +192,7 @@ mod tests {
         let mut before = Allocation::NONE;
         let allocation = Allocation::new(&[5.0, 3.0], 8, &mut before);
         let counts = [before[0], before[1]];
-        let allocated = allocation.samples::<X8>(0);
+        let allocated = allocation.samples(0);
         let light = allocated.light.to_array();
         let reflected = |k: usize| [(k * k) as f32, 2.0 * k as f32, 1.0];
         let seen = |k: usize| [if k < 4 { 3.0 } else { 5.0 }, 0.0, 0.0];

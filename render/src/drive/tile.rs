@@ -6,6 +6,7 @@ use super::pixel_statistics::{Statistics, StatisticsSum};
 use super::radiance::Radiance;
 use super::runs::{Run, TilePiece, next_packet, z_order};
 use super::world::World;
+use crate::allocation::Allocated;
 use crate::area::Area;
 use crate::bvh::GROUP;
 use crate::camera::{Camera, CameraSample, counted_from};
@@ -19,7 +20,6 @@ use crate::prepared::PreparedScene;
 use crate::sampler::{CHOICE, FILM, LENS, Packet, SURFACE, Source};
 use crate::sensor::Exposure;
 use crate::settings::Settings;
-use etendue::select::Allocated;
 use etendue::{Mask, Vec2, u32x8};
 use std::ops::Range;
 
@@ -190,7 +190,7 @@ impl<'a> TileRenderer<'a> {
             }
             let at = |&(block, sample): &(usize, u32)| blocks.allocations()[block].samples(sample);
             let all = |first: &(usize, u32)| std::array::from_fn(|p| at(places.get(p).unwrap_or(first)));
-            let allocated: Option<[Allocated<'_, X8>; GROUP]> = places.first().map(all);
+            let allocated: Option<[Allocated<'_>; GROUP]> = places.first().map(all);
             let allocated = allocated.as_ref().map_or(&[][..], |all| &all[..places.len()]);
             let radiance = self.radiance(&packets, allocated, &expected);
             for TilePiece { packet, lanes, run } in pieces.drain(..) {
@@ -217,7 +217,7 @@ impl<'a> TileRenderer<'a> {
     fn radiance(
         &mut self,
         packets: &[Packet],
-        allocated: &[Allocated<'_, X8>],
+        allocated: &[Allocated<'_>],
         expected: &[u32; GROUP],
     ) -> [Radiance; GROUP] {
         let (samples, numbers) = self.numbers(packets, allocated);
@@ -254,7 +254,7 @@ impl<'a> TileRenderer<'a> {
 
     /// The random numbers of a group of packets: for the camera, and for lights and surfaces.
     #[inline(always)]
-    fn numbers(&self, packets: &[Packet], allocated: &[Allocated<'_, X8>]) -> ([CameraSample; GROUP], Numbers) {
+    fn numbers(&self, packets: &[Packet], allocated: &[Allocated<'_>]) -> ([CameraSample; GROUP], Numbers) {
         let Self { lights, chooser, source, start, settings, .. } = self;
         // delta lights alone need no point on the light
         let point = settings.technique.finds_lights() || !lights.only_deltas();

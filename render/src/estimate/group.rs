@@ -2,6 +2,7 @@
 
 use super::points::Points;
 use super::tracer::Tracer;
+use crate::allocation::Allocated;
 use crate::bsdf::Bsdf;
 use crate::bvh::GROUP;
 use crate::choose::Chooser;
@@ -9,7 +10,6 @@ use crate::lights::Lights;
 use crate::packet::{M8, V8, X8};
 use crate::prepared::PreparedScene;
 use crate::surfaces::Surface;
-use etendue::select::Allocated;
 use etendue::{Mask, Vec2};
 
 /// A way to estimate the light that a group of shading points reflects, or what an [`Integrand`] has left of it.
@@ -93,7 +93,7 @@ pub(crate) struct Group<'a> {
     pub(crate) count: usize,
     pub(crate) numbers: &'a Numbers,
     /// Allocates each sample of each packet to a light, or is empty.
-    pub(crate) allocated: &'a [Allocated<'a, X8>],
+    pub(crate) allocated: &'a [Allocated<'a>],
     /// If samples are allocated, a bit for each light that is worth some in a packet.
     pub(crate) expected: &'a [u32; GROUP],
 }

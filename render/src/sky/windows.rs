@@ -2,7 +2,7 @@
 
 use crate::light_tree::OwnedTree;
 use crate::packet::{V8, X8};
-use etendue::light::{MOST_PORTALS, Portal, PortalEnvironment, PortalMap, PortalTable};
+use etendue::light::{Portal, PortalEnvironment, PortalMap, PortalTable};
 use etendue::real::Real;
 use etendue::select::LightBound;
 use etendue::{Vec2, Vec3};
@@ -63,7 +63,7 @@ impl Windows {
     #[inline]
     pub(super) fn all<T>(&self, run: impl FnOnce(&PortalEnvironment<'_>) -> T) -> T {
         let table = |k: usize| PortalTable::from_buffer(&self.tables[k], self.size).expect("a table of its own size");
-        let mut tables = [table(0); MOST_PORTALS];
+        let mut tables = [table(0); PortalEnvironment::MOST];
         for (k, of) in self.of.iter().enumerate().filter(|(_, of)| **of > 0) {
             tables[k] = table(*of);
         }

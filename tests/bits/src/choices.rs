@@ -3,9 +3,7 @@
 use crate::figures::{Figures, Lanes, List, Routine};
 use etendue::discrete::{PiecewiseConstant1d, PiecewiseConstant2d};
 use etendue::reflection::Reflection;
-use etendue::select::{
-    Allocation, Choice, FEW, Gloss, LightBound, LightChoice, LightTree, Node8, SpatialLights, UniformLights,
-};
+use etendue::select::{Choice, Gloss, LightBound, LightChoice, LightTree, Node8, SpatialLights, UniformLights};
 use etendue::{Mask, Real, Uint, Warp};
 use etendue_judge::generators::{self, Random};
 use etendue_judge::light_tree::{Lamp, Place, Regime, place};
@@ -60,7 +58,7 @@ struct Choices(ChoiceKind, Vec<Set>);
 impl Routine for Choices {
     fn run<R: Real>(&self, figures: &mut Figures) {
         for Set { bounds, slots } in &self.1 {
-            let few = &bounds[..bounds.len().min(FEW)];
+            let few = &bounds[..bounds.len().min(SpatialLights::MOST)];
             let spatial = SpatialLights::new(few).expect("there are few lights");
             let mut nodes = vec![Node8::default(); LightTree::nodes_for(bounds.len())];
             let mut places = vec![0; bounds.len()];
@@ -95,28 +93,6 @@ impl Routine for Choices {
                     }
                 }
             });
-        }
-    }
-}
-
-/// Samples allocated to few lights.
-struct Allocations;
-
-impl Routine for Allocations {
-    fn run<R: Real>(&self, figures: &mut Figures) {
-        let mut random = Random::new(1200);
-        for round in 0..50 {
-            let weights: Vec<f32> = (0..1 + round % 8).map(|_| random.magnitude(1e-6, 1e3) as f32).collect();
-            let mut before = Allocation::NONE;
-            for size in [8, 16, 64] {
-                let block = Allocation::new(&weights, size, &mut before);
-                figures.packets::<R>(4 * Figures::MOST, |first, lanes| {
-                    let samples = block.samples::<R>(first as u32);
-                    choice(lanes, &samples.choose(R::lit(0.3)));
-                    lanes.words(samples.sample);
-                    lanes.real(samples.pmf_of(1));
-                });
-            }
         }
     }
 }
@@ -173,6 +149,5 @@ pub(crate) fn add(list: &mut List<'_>) {
     list.add("choice/SpatialLights", &Choices(ChoiceKind::Spatial, sets(12, 8 * Figures::MOST)));
     list.add("choice/LightTree", &Choices(ChoiceKind::Tree, sets(200, 8 * Figures::MOST)));
     list.add("choice/glossy", &Choices(ChoiceKind::Glossy, sets(200, 4 * Figures::MOST)));
-    list.add("choice/Allocation", &Allocations);
     list.add("tables", &Tables);
 }

@@ -4,7 +4,7 @@ mod lamp;
 mod regimes;
 
 use crate::packets::{lanes_of, twice, vectors_of};
-use etendue::select::{Choice, Gloss, Join, LightBound, LightChoice, LightTree, NO_LIGHT, Node8, TreeAt, TreeChild};
+use etendue::select::{Choice, Gloss, Join, LightBound, LightChoice, LightTree, Node8, TreeAt, TreeChild};
 use etendue::{Real, Uint, f32x4, f32x8, f32x16, u32x4, u32x8, u32x16};
 pub use lamp::{Lamp, LampKind};
 pub use regimes::{Regime, place};
@@ -164,7 +164,7 @@ impl Grove {
             let pmf = at.pmf(light);
             assert_eq!(pmf > 0.0, lights.binary_search(&light).is_ok(), "light {light} at {place:?}: pmf {pmf:e}");
         }
-        assert_eq!([at.pmf(count), at.pmf(NO_LIGHT)], [0.0; 2]);
+        assert_eq!([at.pmf(count), at.pmf(LightTree::NO_LIGHT)], [0.0; 2]);
         (reached, none)
     }
 
@@ -213,8 +213,8 @@ impl Grove {
         let evaluated = self.pmf(place, index);
         assert_eq!(evaluated.to_bits(), pmf.to_bits(), "two pmfs: {choice:?} {evaluated:e} at {place:?}");
         assert!((0.0..1.0).contains(&u) && (0.0..=1.0).contains(&pmf), "{choice:?} at {place:?}");
-        assert_eq!(pmf == 0.0, index == NO_LIGHT, "{choice:?} at {place:?}");
-        assert!(index == NO_LIGHT || (index as usize) < self.bounds.len(), "{choice:?} at {place:?}");
+        assert_eq!(pmf == 0.0, index == LightTree::NO_LIGHT, "{choice:?} at {place:?}");
+        assert!(index == LightTree::NO_LIGHT || (index as usize) < self.bounds.len(), "{choice:?} at {place:?}");
     }
 
     /// **Gloss loses no light**: with it, the same lights have a pmf as without, and the pmf of a choice is the one that is evaluated.
@@ -232,7 +232,7 @@ impl Grove {
         let Choice { index, pmf, u } = choice;
         assert_eq!(glossy.pmf(index).to_bits(), pmf.to_bits(), "two pmfs: {choice:?} at {place:?} with {gloss:?}");
         assert!((0.0..1.0).contains(&u) && (0.0..=1.0).contains(&pmf), "{choice:?} at {place:?} with {gloss:?}");
-        assert_eq!(pmf == 0.0, index == NO_LIGHT, "{choice:?} at {place:?} with {gloss:?}");
+        assert_eq!(pmf == 0.0, index == LightTree::NO_LIGHT, "{choice:?} at {place:?} with {gloss:?}");
     }
 
     /// **No light is lost**: a light with a sample that contributes has a pmf. Returns whether this one has.

@@ -2,7 +2,7 @@
 
 use core::f64::consts::{PI, TAU};
 use etendue::reflection::Reflection;
-use etendue::select::{FEW, Gloss, LightBound, LightChoice, SpatialLights};
+use etendue::select::{Gloss, LightBound, LightChoice, SpatialLights};
 use etendue::{Mask, Real, Uint, Vec3, f32x8};
 use etendue_judge::generators::Random;
 use etendue_judge::light_tree::{Grove, Regime, place};
@@ -64,7 +64,7 @@ fn gloss_loses_no_light() {
             let lamps = regime.lamps(count, &mut random);
             let grove = Grove::of(&lamps);
             let tree = grove.tree();
-            let few = (count <= FEW).then(|| SpatialLights::new(&grove.bounds).unwrap());
+            let few = (count <= SpatialLights::MOST).then(|| SpatialLights::new(&grove.bounds).unwrap());
             for _ in 0..cases(1, 10) {
                 let surfaces: [Surface; 8] = core::array::from_fn(|_| {
                     let (p, n) = place(regime, &lamps, &mut random).0;

@@ -1,6 +1,6 @@
 //! Trees of lights: exact sums, the pmf of choices, frequencies, and that no light is lost.
 
-use etendue::select::{Choice, Join, LightBound, LightChoice, LightTree, NO_LIGHT, Node8, TreeWords};
+use etendue::select::{Choice, Join, LightBound, LightChoice, LightTree, Node8, TreeWords};
 use etendue::{Real, Uint, Vec3, f32x8, u32x8};
 use etendue_judge::generators::{EDGES, Random};
 use etendue_judge::light_tree::{Grove, Lamp, Place, Reached, Regime, place};
@@ -93,9 +93,9 @@ fn words_have_the_bits_of_the_tree() {
                         of(choice),
                         (choices.index.lane(lane), choices.pmf.lane(lane).to_bits(), choices.u.lane(lane).to_bits())
                     );
-                    let light = if choice.index == NO_LIGHT { aim as u32 } else { choice.index };
+                    let light = if choice.index == LightTree::NO_LIGHT { aim as u32 } else { choice.index };
                     assert_eq!(one.pmf(light).to_bits(), other.pmf(light).to_bits(), "{regime:?}, {count} lights");
-                    chosen += u32::from(choice.index != NO_LIGHT);
+                    chosen += u32::from(choice.index != LightTree::NO_LIGHT);
                     levels = levels.max(if choice.pmf > 0.0 { -choice.pmf.log2() as u32 } else { 0 });
                 }
                 let u = random.unit();
@@ -207,7 +207,7 @@ fn frequencies_are_the_pmf() {
             for _ in 0..draws {
                 let choice = at.choose_by(words_of(&mut random));
                 counts[(choice.index as usize).min(lamps.len())] += 1;
-                if choice.index != NO_LIGHT {
+                if choice.index != LightTree::NO_LIGHT {
                     left[(choice.u * 64.0) as usize] += 1;
                     pairs.push((f64::from(choice.index), f64::from(choice.u)));
                 }

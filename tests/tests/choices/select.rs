@@ -1,7 +1,7 @@
 //! Choice of lights: frequencies against probabilities, sums, limits.
 
 use etendue::discrete::PiecewiseConstant1d;
-use etendue::select::{Allocation, Choice, FEW, LightBound, LightChoice, LightsError, SpatialLights, UniformLights};
+use etendue::select::{Choice, LightBound, LightChoice, LightsError, SpatialLights, UniformLights};
 use etendue::sequence::{Independent, Sequence};
 use etendue::{Mask, Real, Uint, Vec2, f32x4, f32x8, u32x8};
 use etendue_judge::stats;
@@ -155,9 +155,9 @@ fn spatial() {
         let at = SpatialLights::new(none).unwrap().at([0.0, 1.0, 0.0].into(), up.into());
         assert_eq!(at.choose(0.3_f32).pmf, 0.0);
     }
-    let many = vec![list[0]; FEW + 1];
+    let many = vec![list[0]; SpatialLights::MOST + 1];
     assert_eq!(SpatialLights::new(&many).err(), Some(LightsError::TooMany));
-    assert_eq!(SpatialLights::new(&many[1..]).unwrap().len(), FEW);
+    assert_eq!(SpatialLights::new(&many[1..]).unwrap().len(), SpatialLights::MOST);
 }
 
 /// Among some of the lights, the others are never chosen and have no pmf, and the pmf of those is in the same proportion as among all.
@@ -253,60 +253,4 @@ fn spatial_choice_knows_no_unit() {
             assert!(choice.pmf.lane(2) > 0.0 && choice.pmf.lane(2) <= 1.0, "{far} {p:?} {choice:?}");
         }
     }
-}
-
-/// The samples of a block belong to the lights in contiguous parts, whose shares sum to 1 exactly, in this block and those after it; a
-/// brighter light never receives fewer. Then the numbers that the documented rule gives.
-#[test]
-fn allocated_shares_sum_to_one() {
-    let draw = |k: u32| {
-        let u: Vec2<f32> = Independent::new(11).pair(0, k, 0);
-        (u.x * 12.0).exp2() * u.y
-    };
-    for lights in 1..=FEW {
-        for size in [32_u32, 64, 1024] {
-            let weights: Vec<f32> = (0..lights as u32).map(|k| draw(k * 64 + lights as u32)).collect();
-            let mut before = Allocation::NONE;
-            for block in 1..4 {
-                let last = before;
-                let allocation = Allocation::new(&weights, size, &mut before);
-                let shares: Vec<f32> = (0..lights as u32).map(|k| allocation.share(k)).collect();
-                // multiples of 1/size: their sum is exact
-                assert_eq!(shares.iter().sum::<f32>(), 1.0, "{weights:?}");
-                assert_eq!([lights as u32, u32::MAX].map(|k| allocation.share(k)), [0.0; 2]);
-                assert_eq!(before.iter().sum::<u32>(), block * size);
-                for (k, &share) in shares.iter().enumerate() {
-                    let count = before[k] - last[k];
-                    assert!(count > 0 && share * size as f32 == count as f32, "{weights:?}: light {k}");
-                    assert!((0..lights).all(|j| weights[j] <= weights[k] || before[j] - last[j] >= count));
-                }
-                let packet = allocation.samples::<f32x8>(0);
-                for k in 0..lights as u32 {
-                    assert_eq!(packet.pmf_of(k), f32x8::splat(shares[k as usize]));
-                    assert_eq!(packet.pmf(u32x8::splat(k)), f32x8::splat(shares[k as usize]));
-                }
-            }
-        }
-    }
-    for (weights, size, counts) in [
-        (&[1.0, 1.0, 1.0, 1.0][..], 32, &[8, 8, 8, 8][..]),
-        (&[8.0, 4.0, 2.0, 2.0], 32, &[16, 8, 4, 4]),
-        (&[0.0, 0.0], 8, &[4, 4]),
-        (&[0.0, 0.0, 0.0], 8, &[4, 2, 2]),
-        (&[1.0, 0.9, 0.8], 64, &[32, 16, 16]),
-        // one that dominates receives what the others leave, which have 2 % of the sum
-        (&[1.0, 0.0], 64, &[56, 8]),
-        (&[1.0, 0.0], 1024, &[896, 128]),
-        (&[1e6, 0.0, 0.0], 256, &[192, 32, 32]),
-        (&[1.0, 0.0, 0.0, 0.0], 16, &[10, 2, 2, 2]),
-        (&[7.0], 32, &[32]),
-    ] {
-        let mut before = Allocation::NONE;
-        let _ = Allocation::new(weights, size, &mut before);
-        assert_eq!(&before[..weights.len()], counts, "{weights:?}");
-    }
-    // without lights there is nothing to share
-    let mut before = Allocation::NONE;
-    let none = Allocation::new(&[], 8, &mut before);
-    assert_eq!(none.samples::<f32x8>(0).share, f32x8::splat(0.0));
 }

@@ -1,6 +1,6 @@
 //! Trees of lights that are bounds alone: what the bounds of a light mean to a tree, and memory that has a wrong size.
 
-use etendue::select::{LightBound, LightChoice, LightTree, LightsError, NO_LIGHT, Node8};
+use etendue::select::{LightBound, LightChoice, LightTree, LightsError, Node8};
 use etendue::{Real, Vec3, f32x8, u32x8};
 use etendue_judge::generators::{NASTY, Random};
 use etendue_judge::light_tree::{Grove, Regime, figures};
@@ -161,7 +161,7 @@ fn memory_of_the_wrong_size_is_refused() {
     let none = Grove::new(Vec::new());
     assert!(none.tree().is_empty());
     let choice = none.at(([0.0; 3], [0.0, 0.0, 1.0])).choose_by([1 << 31, 0]);
-    assert_eq!((choice.index, choice.pmf), (NO_LIGHT, 0.0));
+    assert_eq!((choice.index, choice.pmf), (LightTree::NO_LIGHT, 0.0));
     // any number of lights fits, however they are placed
     let mut random = Random::new(9);
     for count in (0..300).chain([511, 512, 513, 4095, 4096, 4097, 5000]) {
@@ -194,7 +194,7 @@ fn malformed_use_does_not_panic() {
         let at = trees[i % trees.len()].at::<f32>(p.into(), n.into());
         let choice = at.choose_by([random.word(), random.word()].map(|word| word as u32));
         assert!((0.0..=1.0).contains(&choice.pmf) && (0.0..1.0).contains(&choice.u), "{p:?} {n:?}: {choice:?}");
-        for index in [0, 1, 2, 3, 299, 300, NO_LIGHT, choice.index] {
+        for index in [0, 1, 2, 3, 299, 300, LightTree::NO_LIGHT, choice.index] {
             assert!((0.0..=1.0).contains(&at.pmf(index)));
         }
         let _ = [0, 1, 1000, u32::MAX].map(|node| at.shares(0, node));

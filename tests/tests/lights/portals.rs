@@ -4,7 +4,7 @@ mod openings;
 
 use core::f64::consts::PI;
 use etendue::discrete::TableError;
-use etendue::light::{MOST_PORTALS, Portal, PortalEnvironment, PortalError, PortalMap, PortalTable};
+use etendue::light::{Portal, PortalEnvironment, PortalError, PortalMap, PortalTable};
 use etendue::{LightSampler, Vec2, Vec3};
 use etendue_judge::generators::{self, Random};
 use etendue_judge::packets::{Coordinates, squares_of, vectors_of};
@@ -368,8 +368,8 @@ fn invalid_input_is_an_error() {
     }
     let table = PortalTable::build(&[1.0; 4], 2, &mut buffer).unwrap();
     assert_eq!(Portal::new([f32::NAN, 0.0, 0.0], s, t), Err(PortalError::Corner));
-    let portals = [Portal::new([0.0; 3], s, t).unwrap(); MOST_PORTALS + 1];
-    let tables = [table; MOST_PORTALS + 1];
+    let portals = [Portal::new([0.0; 3], s, t).unwrap(); PortalEnvironment::MOST + 1];
+    let tables = [table; PortalEnvironment::MOST + 1];
     let error = |portals, tables| PortalEnvironment::new(portals, tables).unwrap_err();
     assert_eq!([error(&portals, &tables), error(&[], &[])], [PortalError::Count; 2]);
     assert_eq!(error(&portals[1..], &tables), PortalError::Tables);

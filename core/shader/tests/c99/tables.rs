@@ -5,7 +5,7 @@ use crate::lights::sample;
 use crate::program::Driver;
 use etendue::light::{EnvironmentMap, ImageEnvironment, TexelSample};
 use etendue::reflection::{Reflection, table};
-use etendue::select::{Choice, LightBound, LightChoice, LightTree, NO_LIGHT, Node8};
+use etendue::select::{Choice, LightBound, LightChoice, LightTree, Node8};
 use etendue::{LightSampler, Vec2, Vec3};
 use etendue_judge::generators::{Random, unit_or_edge};
 use etendue_judge::light_tree::{Lamp, Regime, place};
@@ -76,7 +76,7 @@ fn choices_of_trees_have_the_same_bits() {
                 let (by_u, by_bits) = (at.choose(u), at.choose_by(bits));
                 // some of them are past the last light
                 let light = if slot % 3 == 0 { random.below(2 * count) } else { aim } as u32;
-                chosen += usize::from(by_bits.index != NO_LIGHT);
+                chosen += usize::from(by_bits.index != LightTree::NO_LIGHT);
                 let numbers = |choice: Choice<f32>| {
                     let [high, low] = halves(choice.index);
                     [high, low, choice.pmf, choice.u]

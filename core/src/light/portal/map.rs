@@ -13,7 +13,7 @@ pub enum PortalError {
     Edges,
     /// The corner is not finite.
     Corner,
-    /// There are no portals, or more than [`MOST_PORTALS`](super::MOST_PORTALS).
+    /// There are no portals, or more than [`MOST`](super::PortalEnvironment::MOST).
     Count,
     /// There are not as many tables as portals.
     Tables,

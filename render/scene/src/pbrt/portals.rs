@@ -5,7 +5,7 @@
 //! portals, in one list or, with the same sky, in several directives, and they may be parallelograms. What two portals show counts once.
 
 use super::params::{Params, shown};
-use etendue::light::{MOST_PORTALS, Portal};
+use etendue::light::{Portal, PortalEnvironment};
 use etendue_render::scene::Message;
 
 /// How far the fourth corner may be from its place, and how narrow the outline may be, relative to its edges: pbrt's tolerance.
@@ -15,9 +15,10 @@ const TOLERANCE: f64 = 1e-3;
 pub(super) fn read(params: &mut Params) -> Result<Vec<Portal>, Message> {
     let Some(numbers) = params.numbers("portal", "point3", 3)? else { return Ok(Vec::new()) };
     let corners: Vec<[f64; 3]> = numbers.as_chunks::<3>().0.to_vec();
-    if corners.is_empty() || !corners.len().is_multiple_of(4) || corners.len() > 4 * MOST_PORTALS {
+    if corners.is_empty() || !corners.len().is_multiple_of(4) || corners.len() > 4 * PortalEnvironment::MOST {
         return Err(params.error(format!(
-            "\"portal\": expected four corners for each of 1 to {MOST_PORTALS} portals, found {} points",
+            "\"portal\": expected four corners for each of 1 to {} portals, found {} points",
+            PortalEnvironment::MOST,
             corners.len()
         )));
     }

@@ -6,7 +6,7 @@ use super::params::Params;
 use super::{directed, portal_sides, profiles};
 use crate::message::Notes;
 use crate::transform::Transform;
-use etendue::light::{MOST_PORTALS, Portal};
+use etendue::light::{Portal, PortalEnvironment};
 use etendue_render::intensity::Intensity;
 use etendue_render::limits::MOST_RADIANCE;
 use etendue_render::scene::{DeltaLight, Environment, Message, SkyRadiance};
@@ -89,7 +89,7 @@ impl Sources {
 /// The sum of two skies, if one of them is the same in all directions, or if both are the same sky through other portals.
 fn both(mut one: Environment, other: Environment) -> Option<Environment> {
     if !one.portals.is_empty() && !other.portals.is_empty() && (one.to_light, one.sun) == (other.to_light, other.sun) {
-        let are_few = one.portals.len() + other.portals.len() <= MOST_PORTALS;
+        let are_few = one.portals.len() + other.portals.len() <= PortalEnvironment::MOST;
         if are_few && one.sky == other.sky {
             one.portals.extend(other.portals);
             return Some(one);

@@ -8,7 +8,7 @@ use etendue::discrete::{PiecewiseConstant1d, PiecewiseConstant2d, TableError};
 use etendue::estimate::{Heuristic, Welford};
 use etendue::light::{EnvironmentMap, ImageEnvironment};
 use etendue::math::{difference_of_products, one_minus_cos, rsqrt};
-use etendue::select::{Allocation, Choice, LightBound, LightChoice, SpatialLights, UniformLights};
+use etendue::select::{Choice, LightBound, LightChoice, SpatialLights, UniformLights};
 use etendue::{Mask, Real, Uint, Vec2, Vec3, Warp, f32x4, f32x8, f32x16};
 use etendue_oracle::{dot, length, sub};
 
@@ -182,40 +182,6 @@ pub(super) fn light_choice(input: &mut Input<'_>) {
         assert!(!(facing && away && above && *power > 0.0) || *able > 0.0, "{bound:?} from {p:?} over {n:?} is lost");
     }
     chosen(one.choose(u), |k| one.pmf(k), eight.choose(f32x8::splat(u)), &able);
-    // allocation: every sample of a block belongs to one light, in proportion to the shares
-    let weights = input.weights(20);
-    let size = 32 << (input.word() % 6);
-    let mut before = Allocation::NONE;
-    let block = Allocation::new(&weights, size, &mut before);
-    assert_eq!(before.iter().sum::<u32>(), if weights.is_empty() { 0 } else { size });
-    // all but a light that dominates have powers of two
-    let odd = before[..weights.len()].iter().filter(|count| !count.is_power_of_two()).count();
-    assert!(odd <= 1, "{weights:?}: {before:?}");
-    for (light, &count) in (0..).zip(&before[..weights.len()]) {
-        assert_eq!(block.share(light), count as f32 / size as f32);
-    }
-    let mut found = Allocation::NONE;
-    for first in (0..size).step_by(8) {
-        let (samples, sixteen) = (block.samples::<f32x8>(first), block.samples::<f32x16>(first));
-        for lane in 0..16 {
-            let one = block.samples::<f32>(first + lane as u32);
-            let figures = (sixteen.light.lane(lane), sixteen.sample.lane(lane), sixteen.share.lane(lane));
-            assert_eq!((one.light, one.sample, one.share), figures, "lane {lane} of 16 from {first}");
-        }
-        for lane in 0..8 {
-            let one = block.samples::<f32>(first + lane as u32);
-            let light = samples.light.lane(lane);
-            assert_eq!(
-                (one.light, one.sample, one.share),
-                (light, samples.sample.lane(lane), samples.share.lane(lane))
-            );
-            if !weights.is_empty() {
-                assert_eq!((one.sample, one.share), (found[light as usize], block.share(light)));
-                found[light as usize] += 1;
-            }
-        }
-    }
-    assert!(weights.is_empty() || found == before);
 }
 
 /// Elementary functions: within the documented errors in the documented domains, finite everywhere, identical in every lane.

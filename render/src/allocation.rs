@@ -1,7 +1,11 @@
 //! Allocation of the samples of a set to a few lights.
 
-use super::{Choice, FEW, LightChoice};
-use crate::real::{MOST_LANES, Real, Uint, unit_interval};
+use crate::packet::X8;
+use etendue::select::{Choice, SpatialLights};
+use etendue::{Real, Uint, u32x8};
+
+/// The greatest number of lights of an [`Allocation`], and of those that are chosen by what each can contribute to a point.
+pub const FEW: usize = SpatialLights::MOST;
 
 /// What is added to each weight, as a fraction of the sum: a pixel may differ from the points that the weights belong to.
 const LEAST: f32 = 0.02;
@@ -18,15 +22,6 @@ const LEAST: f32 = 0.02;
 ///   the greatest weight receives the rest. All weights are raised by 2 % of the sum.
 /// - Domain: 1 to [`FEW`] lights, and a block of at least as many samples, which must be a power of two.
 /// - Degenerate: without any weight, the samples are shared evenly.
-///
-/// ```
-/// use etendue::select::{Allocation, LightChoice};
-/// let mut before = Allocation::NONE;
-/// let block = Allocation::new(&[3.0, 1.0], 8, &mut before);
-/// assert_eq!(before[..2], [4, 4]);
-/// let samples = block.samples::<etendue::f32x8>(0);
-/// assert_eq!(samples.choose(etendue::f32x8::splat(0.5)).pmf.to_array(), [0.5; 8]);
-/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Allocation {
     lights: usize,
@@ -103,74 +98,145 @@ impl Allocation {
     /// Samples of the block from `first` on, one per lane. Samples past the end of the block belong to the last light.
     #[inline]
     #[must_use]
-    pub fn samples<R: Real>(&self, first: u32) -> Allocated<'_, R> {
+    pub fn samples(&self, first: u32) -> Allocated<'_> {
         let last = self.lights.saturating_sub(1);
         let begin = self.end[..last].partition_point(|&end| end <= first);
-        let lanes = R::Uint::LANES as u32;
-        if begin == last || self.end[begin] >= first.saturating_add(lanes) {
+        if begin == last || self.end[begin] >= first.saturating_add(8) {
             // one light in all lanes
             let before = (self.before[begin] + first).wrapping_sub(self.start(begin));
-            let share = (self.end[begin] - self.start(begin)) as f32 * self.reciprocal;
             return Allocated {
                 allocation: self,
-                light: R::Uint::splat(self.light[begin]),
-                sample: R::Uint::from_fn(|lane| before.wrapping_add(lane as u32)),
-                share: R::lit(f64::from(share)),
+                light: u32x8::splat(self.light[begin]),
+                sample: Uint::from_fn(|lane| before.wrapping_add(lane as u32)),
+                share: X8::splat(self.share_of(begin)),
             };
         }
         // each light has a sample, so successive lanes belong to the same light or to successive ones
-        const { assert!(R::LANES <= MOST_LANES) };
-        let mut places = [begin; MOST_LANES];
+        let mut places = [begin; 8];
         let mut k = begin;
-        for (place, j) in places.iter_mut().zip(first..first.saturating_add(lanes)) {
+        for (place, j) in places.iter_mut().zip(first..first.saturating_add(8)) {
             k += usize::from(k < last && j >= self.end[k]);
             *place = k;
         }
         Allocated {
             allocation: self,
-            light: R::Uint::from_fn(|lane| self.light[places[lane]]),
-            sample: R::Uint::from_fn(|lane| {
+            light: places.map(|k| self.light[k]).into(),
+            sample: Uint::from_fn(|lane| {
                 let k = places[lane];
                 (self.before[k] + first).wrapping_add(lane as u32).wrapping_sub(self.start(k))
             }),
-            share: R::from_fn(|lane| {
-                let k = places[lane];
-                R::Scalar::lit(f64::from((self.end[k] - self.start(k)) as f32 * self.reciprocal))
-            }),
+            share: places.map(|k| self.share_of(k)).into(),
         }
+    }
+    fn share_of(&self, k: usize) -> f32 {
+        (self.end[k] - self.start(k)) as f32 * self.reciprocal
     }
     /// The fraction of the block's samples that a light receives; 0 for an index past the last light.
     #[must_use]
     pub fn share(&self, light: u32) -> f32 {
         let place = self.light[..self.lights].iter().position(|&one| one == light);
-        place.map_or(0.0, |k| (self.end[k] - self.start(k)) as f32 * self.reciprocal)
+        place.map_or(0.0, |k| self.share_of(k))
     }
 }
 
 /// Allocated samples, one per lane: the choice of a light that needs no random number.
 #[derive(Clone, Copy, Debug)]
-pub struct Allocated<'a, R: Real> {
+pub struct Allocated<'a> {
     allocation: &'a Allocation,
     /// Indices of the lights.
-    pub light: R::Uint,
+    pub light: u32x8,
     /// Indices of the samples among all samples of their lights, in this block and those before.
-    pub sample: R::Uint,
+    pub sample: u32x8,
     /// Fractions of the block's samples that the lights receive.
-    pub share: R,
+    pub share: X8,
 }
 
-impl<R: Real> LightChoice<R> for Allocated<'_, R> {
-    /// The lane's own light, with its share as the pmf; `u` is returned as it is.
+impl Allocated<'_> {
+    /// The lane's own light, with its share as the pmf; `u` is returned as it is, within [0, 1).
     #[inline]
-    fn choose(&self, u: R) -> Choice<R> {
-        Choice { index: self.light, pmf: self.share, u: unit_interval(u) }
+    #[must_use]
+    pub fn choose(&self, u: X8) -> Choice<X8> {
+        Choice { index: self.light, pmf: self.share, u: u.clamped(X8::ZERO, X8::ONE_MINUS_EPSILON) }
     }
+    /// The probability of a light: its share.
     #[inline]
-    fn pmf(&self, index: R::Uint) -> R {
-        R::from_fn(|lane| R::Scalar::lit(f64::from(self.allocation.share(index.lane(lane)))))
+    #[must_use]
+    pub fn pmf(&self, light: u32) -> X8 {
+        X8::splat(self.allocation.share(light))
     }
-    #[inline]
-    fn pmf_of(&self, light: u32) -> R {
-        R::lit(f64::from(self.allocation.share(light)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use etendue::Vec2;
+    use etendue::sequence::{Independent, Sequence};
+
+    /// The samples of a block belong to the lights in contiguous parts, whose shares sum to 1 exactly, in this block and those after it; a
+    /// brighter light never receives fewer. Then the numbers that the documented rule gives.
+    #[test]
+    fn allocated_shares_sum_to_one() {
+        let draw = |k: u32| {
+            let u: Vec2<f32> = Independent::new(11).pair(0, k, 0);
+            (u.x * 12.0).exp2() * u.y
+        };
+        for lights in 1..=FEW {
+            for size in [32_u32, 64, 1024] {
+                let weights: Vec<f32> = (0..lights as u32).map(|k| draw(k * 64 + lights as u32)).collect();
+                let mut before = Allocation::NONE;
+                for block in 1..4 {
+                    let last = before;
+                    let allocation = Allocation::new(&weights, size, &mut before);
+                    let shares: Vec<f32> = (0..lights as u32).map(|k| allocation.share(k)).collect();
+                    // multiples of 1/size: their sum is exact
+                    assert_eq!(shares.iter().sum::<f32>(), 1.0, "{weights:?}");
+                    assert_eq!([lights as u32, u32::MAX].map(|k| allocation.share(k)), [0.0; 2]);
+                    assert_eq!(before.iter().sum::<u32>(), block * size);
+                    for (k, &share) in shares.iter().enumerate() {
+                        let count = before[k] - last[k];
+                        assert!(count > 0 && share * size as f32 == count as f32, "{weights:?}: light {k}");
+                        assert!((0..lights).all(|j| weights[j] <= weights[k] || before[j] - last[j] >= count));
+                    }
+                    // the samples of each light follow each other, from those of the blocks before on
+                    let mut found = last;
+                    for first in (0..size).step_by(8) {
+                        let packet = allocation.samples(first);
+                        for lane in 0..8 {
+                            let light = packet.light.lane(lane);
+                            assert_eq!(
+                                packet.sample.lane(lane),
+                                found[light as usize],
+                                "{weights:?}: {first} + {lane}"
+                            );
+                            assert_eq!(packet.share.lane(lane), shares[light as usize]);
+                            assert_eq!(packet.pmf(light), X8::splat(shares[light as usize]));
+                            found[light as usize] += 1;
+                        }
+                    }
+                    assert_eq!(found, before);
+                }
+            }
+        }
+        for (weights, size, counts) in [
+            (&[1.0, 1.0, 1.0, 1.0][..], 32, &[8, 8, 8, 8][..]),
+            (&[8.0, 4.0, 2.0, 2.0], 32, &[16, 8, 4, 4]),
+            (&[0.0, 0.0], 8, &[4, 4]),
+            (&[0.0, 0.0, 0.0], 8, &[4, 2, 2]),
+            (&[1.0, 0.9, 0.8], 64, &[32, 16, 16]),
+            // one that dominates receives what the others leave, which have 2 % of the sum
+            (&[1.0, 0.0], 64, &[56, 8]),
+            (&[1.0, 0.0], 1024, &[896, 128]),
+            (&[1e6, 0.0, 0.0], 256, &[192, 32, 32]),
+            (&[1.0, 0.0, 0.0, 0.0], 16, &[10, 2, 2, 2]),
+            (&[7.0], 32, &[32]),
+        ] {
+            let mut before = Allocation::NONE;
+            let _ = Allocation::new(weights, size, &mut before);
+            assert_eq!(&before[..weights.len()], counts, "{weights:?}");
+        }
+        // without lights there is nothing to share
+        let mut before = Allocation::NONE;
+        let none = Allocation::new(&[], 8, &mut before);
+        assert_eq!(none.samples(0).share, X8::splat(0.0));
     }
 }
