@@ -35,6 +35,18 @@ pub trait Memory<R: Real>: Copy {
         let ([], [index, _]) = R::iterate_with_words(32, ([], [R::Uint::splat(0), count]), going, step);
         index
     }
+    /// The number before the one at `index` after the first, which is 0 for the first, and that one.
+    #[inline(always)]
+    fn pair(&self, first: R::Uint, index: R::Uint) -> (R, R) {
+        two_numbers(self, first, index)
+    }
+}
+
+/// See [`Memory::pair`].
+#[inline(always)]
+fn two_numbers<R: Real>(memory: &impl Memory<R>, first: R::Uint, index: R::Uint) -> (R, R) {
+    let at = first.wrapping_add(index);
+    (memory.number(at.wrapping_sub(R::Uint::splat(1))).keep(R::has_bits(index)), memory.number(at))
 }
 
 impl<R: Real> Memory<R> for &[f32] {
@@ -56,6 +68,20 @@ impl<R: Real> Memory<R> for &[f32] {
             let numbers = self.get(first..first.wrapping_add(others as usize)).unwrap_or_default();
             numbers.partition_point(|&number| f64::from(number) <= x) as u32
         })
+    }
+    #[inline(always)]
+    fn pair(&self, first: R::Uint, index: R::Uint) -> (R, R) {
+        if R::LANES > 1 {
+            return two_numbers(self, first, index);
+        }
+        // one test of the length serves both
+        let (first, index) = (first.lane(0) as usize, index.lane(0) as usize);
+        let at = first.wrapping_add(index);
+        let [before, number] = match self.get(at) {
+            Some(&number) => [if index > 0 { self[at - 1] } else { 0.0 }, number],
+            None => [0.0; 2],
+        };
+        (R::lit(f64::from(before)), R::lit(f64::from(number)))
     }
 }
 

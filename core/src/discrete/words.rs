@@ -24,9 +24,8 @@ impl<M, U: Uint> Words1d<M, U> {
     where
         M: Memory<R>,
     {
-        let at = self.first.wrapping_add(index);
-        let start = self.memory.number(at.wrapping_sub(U::splat(1))).keep(R::has_bits(index));
-        (start, self.memory.number(at) - start)
+        let (start, end) = self.memory.pair(self.first, index);
+        (start, end - start)
     }
     /// Draws the cell for `u`: the first that ends above it, or the last one, which has a width, since the one before it ends at or below `u`.
     #[inline(always)]
