@@ -119,8 +119,9 @@ mod tests {
                         for light in 0..lights as u32 {
                             assert_eq!(found.share(light), expected.share(light), "pixel {pixel} from {start}");
                         }
-                        let own = found.samples::<f32>(0);
-                        assert_eq!(own.sample, last[own.light as usize], "pixel {pixel} from {start}");
+                        let own = found.samples(0);
+                        let [sample, light] = [own.sample, own.light].map(|lanes| lanes.to_array()[0]);
+                        assert_eq!(sample, last[light as usize], "pixel {pixel} from {start}");
                     }
                 }
                 blocks.forget();

@@ -148,6 +148,7 @@ fn halves(radiance: V8) -> [[f64; 3]; 2] {
 mod tests {
     use super::*;
     use crate::allocation::Allocation;
+    use crate::packet::X8;
 
     fn packet(of: impl Fn(usize) -> [f32; 3]) -> V8 {
         let lane = |channel: usize| X8::from_fn(|k| of(k)[channel]);
