@@ -501,14 +501,6 @@ typedef struct {
   EtendueSphereColumns lights;
 } EtenduePicturedSphereColumns;
 
-// Columns of lights: the fields are those of the light.
-typedef struct {
-  const float *corner[3];
-  const float *edge_s[3];
-  const float *edge_t[3];
-  const float *diagonal[3];
-} EtendueBilinearPatchColumns;
-
 // A parallelogram with a picture: a flat light of any shape, by its surface coordinates. Those of a parallelogram are itself;
 // etendue_rectangle_coordinates, etendue_triangle_coordinates and etendue_disk_coordinates give those of others.
 typedef struct {
@@ -571,19 +563,6 @@ typedef struct {
   // The shading point.
   float p[3];
 } EtenduePictureOnSphereByVisibleArea;
-
-// A bilinear patch, of a corner and the vectors from there to the others, that emits from the side of ds x dt. Without area the
-// pdf is 0. uv: (s, t), in [0, 1].
-typedef struct {
-  // Corner, in the coordinates of the scene.
-  float corner[3];
-  // From there to the next corner, s = 1.
-  float edge_s[3];
-  // From there to the other next corner, t = 1.
-  float edge_t[3];
-  // From there to the opposite corner.
-  float diagonal[3];
-} EtendueBilinearPatch;
 
 // What the technique of this name prepares. It has no data of its own beside the environment and the point: each call prepares for the point,
 // which takes as long as some samples, so that batches are faster.
@@ -723,6 +702,27 @@ typedef struct {
 typedef struct {
   float data[1094];
 } EtenduePolygonByReflection;
+
+// A bilinear patch, of a corner and the vectors from there to the others, that emits from the side of ds x dt. Without area the
+// pdf is 0. uv: (s, t), in [0, 1].
+typedef struct {
+  // Corner, in the coordinates of the scene.
+  float corner[3];
+  // From there to the next corner, s = 1.
+  float edge_s[3];
+  // From there to the other next corner, t = 1.
+  float edge_t[3];
+  // From there to the opposite corner.
+  float diagonal[3];
+} EtendueBilinearPatch;
+
+// Columns of lights: the fields are those of the light.
+typedef struct {
+  const float *corner[3];
+  const float *edge_s[3];
+  const float *edge_t[3];
+  const float *diagonal[3];
+} EtendueBilinearPatchColumns;
 
 // What the technique of this name prepares. What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
