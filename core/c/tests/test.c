@@ -469,7 +469,7 @@ static void test_nulls(const Technique *t, const float *sampler) {
 typedef struct {
     const char *name;
     const float *parameters; // NULL for warps without
-    int numbers, coordinates;
+    int coordinates;
     EtendueStatus (*sample)(const float *warp, const float *u, float *point);
     float (*pdf)(const float *warp, const float *point);
     EtendueStatus (*invert)(const float *warp, const float *point, float *u);
@@ -524,7 +524,7 @@ static const float PatchSurface[] = {-0.5f, 2, -0.3f, 1.2f, 0.1f, 0.2f, 0.1f, 0.
 #define WRITE_WITH(PREFIX, TYPE, P) WARP_FUNCTIONS(PREFIX, (const Etendue##TYPE *)warp COMMA)
 #define FUNCTIONS_OF(PREFIX) PREFIX##_1, PREFIX##_2, PREFIX##_3, PREFIX##_4, PREFIX##_5, PREFIX##_6
 #define ROW_WITHOUT(PREFIX, P) {#PREFIX, NULL, P, FUNCTIONS_OF(PREFIX)},
-#define ROW_WITH(PREFIX, TYPE, U, P) {#PREFIX, TYPE, U, P, FUNCTIONS_OF(PREFIX)},
+#define ROW_WITH(PREFIX, TYPE, P) {#PREFIX, TYPE, P, FUNCTIONS_OF(PREFIX)},
 WARPS_WITHOUT(WRITE_WITHOUT)
 WARPS_WITH(WRITE_WITH)
 static const Warp warps[] = {WARPS_WITHOUT(ROW_WITHOUT) WARPS_WITH(ROW_WITH)};
@@ -553,7 +553,7 @@ static void test_warp(const Warp *w) {
             for (int k = 0; k < w->coordinates; k++) {
                 CHECK(isfinite(point[k]) && same(point[k], at(points[k], i)) && same(point[k], at(in_place[k], i)));
             }
-            for (int k = 0; k < w->numbers; k++) CHECK(u_back[k] >= 0 && u_back[k] < 1 && same(u_back[k], at(back[k], i)));
+            for (int k = 0; k < 2; k++) CHECK(u_back[k] >= 0 && u_back[k] < 1 && same(u_back[k], at(back[k], i)));
             CHECK(w->pdf(self, point) > 0 && same(w->pdf(self, point), at(r.column[3], i)));
             CHECK(difference(point, again, w->coordinates) < 1e-5f);
         }
@@ -578,7 +578,7 @@ static void test_warp(const Warp *w) {
     for (int k = 0; k < 3; k++) {
         const float *u_less[2] = {u_in[0], u_in[1]}, *less[3] = {points_in[0], points_in[1], points_in[2]};
         less[k] = NULL;
-        if (k < w->numbers) {
+        if (k < 2) {
             u_less[k] = NULL;
             CHECK(w->sample_batch(self, 64, u_less, r.column) == REFUSED);
         }
@@ -999,7 +999,7 @@ static void test_unknown(void) {
         CHECK(only_written(&r, 0, 0));
         free(r.memory);
     }
-    CHECK(etendue_warp_sample(ETENDUE_WARP_TENT + 1, light, w, NULL) == REFUSED && etendue_warp_pdf(ETENDUE_WARP_TENT + 1, light, w) == 0);
+    CHECK(etendue_warp_sample(ETENDUE_WARP_PATCH_SURFACE + 1, light, w, NULL) == REFUSED && etendue_warp_pdf(ETENDUE_WARP_PATCH_SURFACE + 1, light, w) == 0);
 }
 
 // Random numbers outside of [0, 1) are refused by single calls, which write nothing. Batches take them: the neighbours are as they are without
@@ -1042,7 +1042,7 @@ static void test_outside(void) {
     for (size_t k = 0; k < sizeof warps / sizeof *warps; k++) {
         const Warp *w = warps + k;
         current = w->name;
-        for (int which = 0; which < w->numbers; which++) {
+        for (int which = 0; which < 2; which++) {
             for (int i = 0; i < OUTSIDE; i++) {
                 float point[3], u[2] = {0.3f, 0.6f};
                 memset(point, PATTERN, sizeof point);
