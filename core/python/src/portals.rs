@@ -6,7 +6,7 @@ use crate::results::{Object, array, map, refuse, rows, table};
 use crate::samplers::{Call, Prepared, Sampler};
 use crate::samples::Wanted;
 use etendue::Vec3;
-use etendue::light::{PortalEnvironment as Sky, PortalTable};
+use etendue::light::{self, PortalTable};
 use etendue_batch::memory::{PortalMemory, PortalShape, PortalSums};
 use etendue_batch::technique::PortalsByRadiance;
 use etendue_batch::{Batch, Evaluations, PortalDirection, SeenThroughPortals};
@@ -50,6 +50,8 @@ impl Portal {
         format!("<etendue.Portal {:?}>", [corner, edge_s, edge_t])
     }
 }
+
+const MOST: usize = light::PortalEnvironment::MOST;
 
 /// The portals and the tables of their images, which samplers share.
 #[derive(Clone)]
@@ -95,9 +97,9 @@ impl Prepared for Placed {
 with_each! { PortalEnvironment {
     #[new]
     fn new(py: Python<'_>, portals: Vec<Bound<'_, Portal>>, weights: Vec<Object<'_>>) -> PyResult<Self> {
-        if !(1..=Sky::MOST).contains(&portals.len()) || portals.len() != weights.len() {
-            let (most, count, images) = (Sky::MOST, portals.len(), weights.len());
-            refuse!("portals must be 1 to {most} with an image in weights each, not {count} with {images}");
+        if !(1..=MOST).contains(&portals.len()) || portals.len() != weights.len() {
+            let (count, images) = (portals.len(), weights.len());
+            refuse!("portals must be 1 to {MOST} with an image in weights each, not {count} with {images}");
         }
         let mut tables = Vec::new();
         for image in &weights {
