@@ -1,7 +1,7 @@
 //! The bodies of the fuzz targets without a fuzzer: on the committed seeds, which include past findings, and on random bytes.
 
-use etendue_judge::area_lights::AreaLight;
-use etendue_judge::fixtures::ProjectedTriangle;
+use etendue_judge::area_lights::{AreaLight, LightShape, Measure};
+use etendue_judge::fixture::Subject;
 use etendue_judge::fuzz_bodies::{TARGETS, Target};
 use etendue_judge::generators::Random;
 use etendue_judge::properties;
@@ -44,13 +44,11 @@ fn every_light_has_a_target() {
 /// A past finding as plain numbers: a triangle with an edge that rises vertically above the horizon, and a direction next to that edge.
 #[test]
 fn inverse_beside_an_upright_edge() {
-    let triangle = ProjectedTriangle::by_edges(
-        [-1.0866929, 0.21072814, 0.14530581],
-        [0.5384565, 0.15991381, 0.8273404],
-        [-0.33004466, 0.755619, -0.5657831],
-        [0.09743712, -0.066804275, 0.15172845],
-    );
-    properties::inverse(&triangle, [-0.504813015, 0.341584474, 0.79276967]);
+    let flat =
+        [[-1.0866929, 0.21072814, 0.14530581], [0.5384565, 0.15991381, 0.8273404], [-0.33004466, 0.755619, -0.5657831]];
+    let normal = [0.09743712, -0.066804275, 0.15172845];
+    let triangle = AreaLight::seen(LightShape::Triangle, Measure::ProjectedSolidAngle, flat, normal);
+    properties::inverse(&Subject::new(&triangle), [-0.504813015, 0.341584474, 0.79276967]);
 }
 
 /// Runs `count` inputs of 8 to 1,028 bytes on each target, with the targets distributed over all processors. An input that breaks a property

@@ -7,9 +7,9 @@ use etendue::{
     SpotLight, Sun,
 };
 use etendue_judge::area_lights::AreaLight;
+use etendue_judge::fixture::Fixture;
 use etendue_judge::generators::{self, Random};
 use etendue_judge::packets::{lanes_of, squares_of, vectors_of};
-use etendue_judge::techniques::LightFixture;
 
 const SLOTS: usize = 50 * Figures::MOST;
 

@@ -1,16 +1,18 @@
 //! Every light of the core's list by every technique.
 
-use crate::generators::Random;
+use crate::fixture::{Fixture, Truth};
 use crate::packets::{Coordinates, lanes_of, vectors_of};
-use crate::techniques::LightFixture;
+use crate::random::Random;
 use crate::tolerances::ULP;
+use crate::truths::{self, Round, Way};
 use core::f64::consts::{PI, TAU};
 use core::fmt::Debug;
 use etendue::{
-    BilinearPatch, DirectionalLight, Disk, LightSample, LightSampler, Line, Parallelogram, PointLight, Polygon, Real,
-    Rectangle, Sphere, SpotLight, Sun, Triangle, Vec3,
+    BilinearPatch, DirectionalLight, Disk, Lanewise, LightSample, LightSampler, Line, Parallelogram, PointLight,
+    Polygon, Real, Rectangle, Sphere, SpotLight, Sun, Triangle, Vec3,
 };
-use etendue_oracle::{V3, along, cross, dot, length, sub, wide};
+use etendue_oracle::double_double::Dd3;
+use etendue_oracle::{V3, along, cross, dot, exact_sum, length, sub, wide};
 
 /// A function of its own for each technique: a compiler takes several times as long for one with all of them.
 #[inline(never)]
@@ -41,7 +43,7 @@ pub enum LightShape {
     Sun,
     /// At `a`.
     PointLight,
-    /// At `a`, with axis `b`, and the radius as the cosine of its outer angle.
+    /// At `a`, with axis `b`; 1 − cos of its inner angle is the first number of `c`, and of its outer angle the radius.
     SpotLight,
     /// Towards `b`.
     DirectionalLight,
@@ -147,14 +149,21 @@ macro_rules! techniques {
         /// All rows of the core's list, in its order, but for lobes and spreads, which have fixtures of their own.
         const ROWS: &[Option<(LightShape, Measure)>] = &[$($(row!($place, (shape!($light), measure!($by))),)+)+];
         /// The light of a shape, by a technique.
-        fn prepare<R: Real>(shape: LightShape, by: Measure, (v, radius): &([Vec3<R>; 5], R)) -> Box<dyn LightSampler<R>> {
+        fn prepare<R: Real>(shape: LightShape, by: Measure, (v, radius): &([Vec3<R>; 9], R)) -> Box<dyn LightSampler<R>> {
             $($(row!($place, if (shape, by) == (shape!($light), measure!($by)) {
                 return boxed(|| etendue::prepared!($light::placed(v, *radius), $by $place, p: v[0], n: v[4],));
             });)+)+
             panic!("the core's list has no {shape:?} by {by:?}");
         }
+        /// The same, prepared in scalars and then in every lane.
+        fn splat<R: Real>(shape: LightShape, by: Measure, (v, radius): &([Vec3<R::Scalar>; 9], R::Scalar)) -> Box<dyn LightSampler<R>> {
+            $($(row!($place, if (shape, by) == (shape!($light), measure!($by)) {
+                return boxed(|| etendue::prepared!($light::placed(v, *radius), $by $place, p: v[0], n: v[4],).splat::<R>());
+            });)+)+
+            panic!("the core's list has no {shape:?} by {by:?}");
+        }
         /// The numbers of the light of a shape, in the order of its fields.
-        fn numbers(shape: LightShape, (v, radius): &([Vec3<f32>; 5], f32)) -> Vec<f32> {
+        fn numbers(shape: LightShape, (v, radius): &([Vec3<f32>; 9], f32)) -> Vec<f32> {
             let mut all = Vec::new();
             $(if shape == shape!($light) {
                 $light::placed(v, *radius).map(|x| all.push(x));
@@ -189,14 +198,14 @@ const KINDS: &[(LightShape, Measure)] = {
     }
 };
 
-/// A light from the shading point, the vectors a, b, c and n of an [`AreaLight`], and its radius.
+/// A light from the shading point, the vectors a, b, c and n of an [`AreaLight`], the rounded corners of a polygon, and the radius.
 trait Placed<R> {
-    fn placed(vectors: &[Vec3<R>; 5], radius: R) -> Self;
+    fn placed(vectors: &[Vec3<R>; 9], radius: R) -> Self;
 }
 macro_rules! placed {
     ($($light:ident $(<$n:literal>)?: |$v:ident, $radius:pat_param| $value:expr;)+) => {$(
         impl<R: Real> Placed<R> for $light<R $(, $n)?> {
-            fn placed($v: &[Vec3<R>; 5], $radius: R) -> Self {
+            fn placed($v: &[Vec3<R>; 9], $radius: R) -> Self {
                 $value
             }
         }
@@ -208,12 +217,12 @@ placed! {
     Parallelogram: |v, _| Self::new(v[1], v[2], v[3]);
     Rectangle: |v, _| Self::new(v[1], v[2], v[3]);
     Disk: |v, radius| Self::new(v[1], v[2], radius);
-    Polygon<4>: |v, _| Self::new([v[1], v[1] + v[2], v[1] + v[2] + v[3], v[1] + v[3]]);
+    Polygon<4>: |v, _| Self::new([v[5], v[6], v[7], v[8]]);
     BilinearPatch: |v, _| Self::new(v[1], v[2], v[3], v[4]);
     Line: |v, _| Self::new(v[1], v[2]);
     Sun: |v, radius| Self::new(v[2], radius);
     PointLight: |v, _| Self::new(v[1]);
-    SpotLight: |v, radius| Self { position: v[1], axis: v[2], one_minus_cos_inner: R::lit(0.0), one_minus_cos_outer: radius };
+    SpotLight: |v, radius| Self { position: v[1], axis: v[2], one_minus_cos_inner: v[3].x, one_minus_cos_outer: radius };
     DirectionalLight: |v, _| Self::new(v[2]);
 }
 
@@ -256,16 +265,14 @@ impl AreaLight {
         }
         Self { shape, by, p: [0.0; 3], a, b, c, n, radius: size * 0.3 }
     }
-    fn vectors<R: Real>(lanes: &[Self]) -> ([Vec3<R>; 5], R) {
-        let of = |i: usize| lanes[i % lanes.len()];
-        let vectors = [
-            vectors_of(|i| of(i).p),
-            vectors_of(|i| of(i).a),
-            vectors_of(|i| of(i).b),
-            vectors_of(|i| of(i).c),
-            vectors_of(|i| of(i).n),
-        ];
-        (vectors, lanes_of(|i| f64::from(of(i).radius)))
+    pub(crate) fn vectors<R: Real>(lanes: &[Self]) -> ([Vec3<R>; 9], R) {
+        let vectors = |light: &Self| {
+            let (Self { p, a, b, c, n, .. }, [d, e, f, g]) = (*light, light.corners());
+            [p, a, b, c, n, d, e, f, g]
+        };
+        let all: Vec<_> = lanes.iter().map(vectors).collect();
+        let of = |k: usize| vectors_of(|i| all[i % all.len()][k]);
+        (core::array::from_fn(of), lanes_of(|i| f64::from(lanes[i % lanes.len()].radius)))
     }
     /// The numbers of the light itself, in the order of the fields of its type in the core.
     #[must_use]
@@ -291,16 +298,16 @@ impl AreaLight {
     fn offset(&self) -> V3 {
         wide(core::array::from_fn(|k| self.a[k] - self.p[k]))
     }
-}
-
-impl LightFixture for AreaLight {
-    fn prepare<R: Real>(lanes: &[Self]) -> Box<dyn LightSampler<R>> {
-        prepare(lanes[0].shape, lanes[0].by, &Self::vectors::<R>(lanes))
-    }
+    /// Relative difference allowed between the pdf of a sample and the pdf of its direction; `None` where the direction says nothing.
+    ///
     /// Lines: to the rounding of the direction, over the sine of its angle to the line. Curved lights by area: a rounded direction moves the
     /// point by 16 ulp of the distance, and the cosine there by that over the radius and the cosine. Samples that the light itself hides
     /// have the pdf of their own point.
-    fn evaluated_to(&self, s: &LightSample<f32>) -> Option<f64> {
+    #[must_use]
+    pub fn evaluated_to(&self, s: &LightSample<f32>) -> Option<f64> {
+        if self.by == Measure::Delta {
+            return None;
+        }
         let curved = matches!(self.shape, LightShape::Sphere | LightShape::Patch);
         if self.shape != LightShape::Line && !(curved && self.by == Measure::Area) {
             return Some(0.0);
@@ -325,7 +332,9 @@ impl LightFixture for AreaLight {
         let allowed = 32.0 * ULP * (1.0 + reach / size) / (cos * cos);
         (s.emits && allowed < 0.05).then_some(allowed)
     }
-    fn has(&self, hit: &LightSample<f32>) -> bool {
+    /// Whether the surface coordinates of a hit are those of a point at its distance in its direction.
+    #[must_use]
+    pub fn has(&self, hit: &LightSample<f32>) -> bool {
         let reach: V3 = hit.direction.at(0).map(|x| x * f64::from(hit.distance));
         let size = [self.b, self.c, self.n].iter().fold(0.0, |sum, v| sum + length(wide(*v)));
         let point = || self.on_patch([f64::from(hit.uv.x), f64::from(hit.uv.y)]);
@@ -333,7 +342,10 @@ impl LightFixture for AreaLight {
         self.shape != LightShape::Patch
             || length(sub(point(), reach)) < 1e-3 * size + 256.0 * ULP * length(self.offset())
     }
-    fn truth(&self, w: V3, distance: f64) -> Option<(f64, f64)> {
+    /// Density per steradian by area of a point of the light in the direction `w` at `distance`, and to what part of itself it is known for a
+    /// rounded direction.
+    #[must_use]
+    pub fn density(&self, w: V3, distance: f64) -> Option<(f64, f64)> {
         // of a patch no density is known, and the corners of a polygon are rounded
         if self.by != Measure::Area || matches!(self.shape, LightShape::Patch | LightShape::Polygon) {
             return None;
@@ -383,6 +395,51 @@ impl LightFixture for AreaLight {
         let touched = self.shape == LightShape::Line && length(v) < 1e-4 * size || length(v) < 1e-37;
         let coarse = flat && edge_on && self.by == Measure::ProjectedSolidAngle || touched;
         if coarse { 1.0 } else { 12.0 * ULP }
+    }
+    /// Corners relative to the shading point, in order, unrounded.
+    pub(crate) fn exact_corners(&self) -> Vec<Dd3> {
+        let [p, a, b, c] = [self.p, self.a, self.b, self.c].map(wide);
+        let back = p.map(|x| -x);
+        let corner = |edges: &[V3]| exact_sum(a, &[edges, &[back]].concat());
+        match self.shape {
+            LightShape::Triangle => vec![corner(&[]), corner(&[b]), corner(&[c])],
+            LightShape::Polygon => self.corners().map(|corner| exact_sum(wide(corner), &[back])).to_vec(),
+            _ => vec![corner(&[]), corner(&[b]), corner(&[b, c]), corner(&[c])],
+        }
+    }
+    /// A light seen from the origin, above whose horizon there is a normal.
+    #[must_use]
+    pub fn seen(shape: LightShape, by: Measure, [a, b, c]: [[f32; 3]; 3], n: [f32; 3]) -> Self {
+        Self { shape, by, p: [0.0; 3], a, b, c, n, radius: 0.0 }
+    }
+}
+
+impl Fixture for AreaLight {
+    fn prepare<R: Real>(lanes: &[Self]) -> Box<dyn LightSampler<R>> {
+        prepare(lanes[0].shape, lanes[0].by, &Self::vectors::<R>(lanes))
+    }
+    fn splat<R: Real>(&self) -> Box<dyn LightSampler<R>> {
+        splat::<R>(self.shape, self.by, &Self::vectors(&[*self]))
+    }
+    fn truth(&self) -> Box<dyn Truth> {
+        let normal = (self.by == Measure::ProjectedSolidAngle).then_some(self.n);
+        let center = self.offset().map(|x| x as f32);
+        let way = match (self.shape, normal) {
+            (LightShape::Sphere, None) => return Box::new(Round::sphere(center, self.radius)),
+            (LightShape::Sphere, Some(n)) => return Box::new(Round::above(center, self.radius, n)),
+            (LightShape::Disk, _) => return Box::new(truths::Disk::new(center, self.b, self.radius)),
+            (LightShape::Line, _) => panic!("of lines, segments know"),
+            (_, Some(_)) => Way::Azimuth,
+            (LightShape::Triangle, None) => Way::Triangle,
+            (LightShape::Parallelogram, None) => Way::Parallelogram,
+            (LightShape::Rectangle, None) => Way::Rectangle,
+            (_, None) => Way::Fan,
+        };
+        Box::new(truths::Polygon::new(&self.exact_corners(), way, normal))
+    }
+    fn lengths(&self) -> [f64; 2] {
+        let unit_to = self.unit_to();
+        [1.0 - unit_to, 1.0 + if self.by == Measure::Area { 12.0 } else { 8.0 } * ULP]
     }
     fn pdf_scaled(&self, factor: f32) -> f32 {
         if self.shape == LightShape::Line { factor } else { 1.0 }

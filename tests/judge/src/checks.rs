@@ -1,10 +1,7 @@
 //! Checks of functions that are not warps. Each takes the function as an argument, so that mutants can be put through it too.
 
-use crate::generators::Random;
-use core::f64::consts::PI;
-use etendue::LightSample;
+use crate::random::Random;
 use etendue::estimate::Heuristic;
-use etendue::{Disk, Vec2};
 use etendue_oracle::Greatest;
 
 /// The greatest error of a function, for comparison with its documentation.
@@ -110,36 +107,5 @@ pub fn extreme_weights(heuristic: Heuristic, two: impl Fn([f32; 2]) -> [f32; 2],
                 weights_sum_to_one(heuristic, &[a, b, c], &three([a, b, c]));
             }
         }
-    }
-}
-
-/// Mean of f over an n × n grid of `u`.
-pub fn grid_mean(n: usize, f: impl Fn(Vec2<f64>) -> f64) -> f64 {
-    let at = |i: usize| (i as f64 + 0.5) / n as f64;
-    (0..n * n).map(|i| f(Vec2::new(at(i % n), at(i / n)))).sum::<f64>() / (n * n) as f64
-}
-/// Irradiance estimated from one sample, for radiance 1 on the emitting side.
-#[must_use]
-pub fn irradiance(s: &LightSample<f64>, n: [f64; 3]) -> f64 {
-    let cos = (s.direction.x * n[0] + s.direction.y * n[1] + s.direction.z * n[2]).max(0.0);
-    if s.pdf > 0.0 && s.emits { cos / s.pdf } else { 0.0 }
-}
-
-/// The irradiance from a disk matches its form factor on receivers facing it and perpendicular to it; a disk facing away gives none.
-pub fn disk_has_its_form_factor(n: usize, draw: impl Fn(&Disk<f64>, Vec2<f64>) -> LightSample<f64>) {
-    for (r, h, a) in
-        [(0.5, 1.0, 0.0), (0.5, 1.0, 0.7), (2.0, 0.3, 2.5), (1e-3, 1.0, 3.0), (0.0157, 1.0, 0.0), (30.0, 1.0, 31.0)]
-    {
-        let disk = Disk { center: [a, 0.0, h].into(), normal: [0.0, 0.0, -1.0].into(), radius: r };
-        let of = |normal: [f64; 3]| grid_mean(n, |u| irradiance(&draw(&disk, u), normal));
-        let (facing, upright) = (of([0.0, 0.0, 1.0]) / PI, of([1.0, 0.0, 0.0]) / PI);
-        let truth = etendue_oracle::facing_disk(r, h, a);
-        assert!((facing / truth - 1.0).abs() < 2e-4, "radius {r} at {h}, {a} aside: {facing} for {truth}");
-        if r <= a {
-            let truth = etendue_oracle::perpendicular_disk(r, h, a);
-            assert!((upright / truth - 1.0).abs() < 2e-4, "radius {r} at {h}, {a} aside: {upright} for {truth}");
-        }
-        let behind = Disk { normal: -disk.normal, ..disk };
-        assert!(grid_mean(50, |u| irradiance(&draw(&behind, u), [0.0, 0.0, 1.0])) == 0.0);
     }
 }

@@ -1,6 +1,6 @@
 //! Judges choosers among lights against sums over all lights, and estimators by several strategies against each strategy alone.
 
-use crate::generators::Random;
+use crate::random::Random;
 use crate::stats::chi_square;
 
 /// Chooses one of many lights.

@@ -1,64 +1,129 @@
-//! What a warp under test is, and what is known about it independently.
+//! What a sampler under test is, and what is known about it independently.
 
-use crate::generators::Random;
 use crate::packets::Coordinates;
+use crate::random::Random;
 use crate::tolerances::Tolerance;
-use core::fmt::Debug;
-use etendue::light::shapes::DirectionSample;
-use etendue::{Real, Vec2, Warp};
+use core::fmt::{self, Debug, Formatter};
+use etendue::{LightSample, LightSampler, Mask, Real, Vec2, Vec3, Warp, f32x8};
 use etendue_oracle::{V3, length, sub};
+use std::cell::LazyCell;
 
-/// A warp with its parameters (held in f32, hence exact at every precision).
-pub trait Fixture: Copy + Debug {
-    /// The warp at each precision and width.
-    type Warp<R: Real>: Warp<R, Point = Self::Point<R>>;
-    /// The points that it samples.
-    type Point<R: Real>: Coordinates<R>;
+/// A sampler with its parameters (held in f32, hence exact at every precision).
+pub trait Fixture: Copy + Debug + 'static {
+    /// The sampler whose lane `i` is prepared from `lanes[i % lanes.len()]`.
+    fn prepare<R: Real>(lanes: &[Self]) -> Box<dyn LightSampler<R>>;
+    /// It is prepared in scalars, and is then in every lane.
+    fn splat<R: Real>(&self) -> Box<dyn LightSampler<R>>;
     /// What is known about its points and their density.
-    type Truth: Truth;
-    /// What is known about its points and their density.
-    fn truth(&self) -> Self::Truth;
-    /// The warp whose lane `i` is prepared from `lanes[i % lanes.len()]`.
-    fn prepare<R: Real>(lanes: &[Self]) -> Self::Warp<R>;
-    /// The scalar warp in every lane.
-    fn splat<R: Real>(warp: Self::Warp<R::Scalar>) -> Self::Warp<R>;
-    /// Whether the two fit into one packet.
-    fn kin(&self, _other: &Self) -> bool {
-        true
-    }
-    /// The errors that are tolerated.
-    fn tolerance(&self) -> Tolerance;
+    fn truth(&self) -> Box<dyn Truth>;
+    /// The least and the greatest length of a point that has a pdf.
+    fn lengths(&self) -> [f64; 2];
     /// All lengths multiplied by a power of two; the same if there are none.
     #[must_use]
     fn scaled(&self, _factor: f32) -> Self {
         *self
     }
-    /// Error of the inverse besides the point's own rounding, in units of rounding.
-    fn inverse_units(&self, _u: [f64; 2]) -> f64 {
-        2.0
-    }
-    /// Error of the inverse besides the point's own rounding, in steps of `u`.
-    fn inverse_steps(&self) -> f64 {
-        2.0
-    }
-    /// Whether the map jumps within `step` of `u` in the first coordinate: rounding decides on which side of the jump a point falls.
-    fn torn(&self, _u: [f64; 2], _step: f64) -> bool {
-        false
-    }
-    /// Whether the second coordinate is an azimuth.
-    const PERIODIC: bool = false;
-    /// Whether the map has two derivatives near `u`.
-    fn smooth(&self, _u: [f64; 2]) -> bool {
-        true
-    }
-    /// Direction and distance, for shapes seen from a point.
-    fn sample_direction<R: Real>(_warp: &Self::Warp<R>, _u: Vec2<R>) -> Option<DirectionSample<R>> {
-        None
+    /// What the pdf is multiplied by then.
+    fn pdf_scaled(&self, _factor: f32) -> f32 {
+        1.0
     }
 }
 
-/// What is known about points and their density, from the definition of a shape and not from the code of a warp.
-pub trait Truth: Copy {
+/// A warp as a sampler: its points are directions at the distance 0.
+#[derive(Clone, Copy, Debug)]
+pub struct Mapped<W>(pub W);
+impl<R: Real, W: Warp<R>> LightSampler<R> for Mapped<W>
+where
+    W::Point: Coordinates<R>,
+{
+    fn sample(&self, u: Vec2<R>) -> LightSample<R> {
+        let point = self.0.sample(u);
+        let pdf = self.0.pdf(point);
+        LightSample { pdf, emits: R::Mask::splat(true), ..LightSample::miss(point.in_space()) }
+    }
+    fn pdf(&self, point: Vec3<R>) -> R {
+        self.0.pdf(Coordinates::from_space(point))
+    }
+    fn invert(&self, point: Vec3<R>) -> Vec2<R> {
+        self.0.invert(Coordinates::from_space(point))
+    }
+    fn hit(&self, point: Vec3<R>) -> LightSample<R> {
+        LightSample::miss(point)
+    }
+}
+
+/// How the fixture of a warp is prepared, of numbers and vectors that are functions of it.
+macro_rules! prepared {
+    (|$number:ident, $vector:ident| $warp:expr $(, $wrapped:ident)?) => {
+        fn prepare<R: Real>(lanes: &[Self]) -> Box<dyn LightSampler<R>> {
+            let of = |i: usize| &lanes[i % lanes.len()];
+            let $number = |f: &dyn Fn(&Self) -> f32| -> R { $crate::packets::lanes_of(|i| f(of(i)).into()) };
+            let $vector = |f: &dyn Fn(&Self) -> [f32; 3]| -> Vec3<R> { $crate::packets::vectors_of(|i| f(of(i))) };
+            let _ = (&$number, &$vector);
+            Box::new($crate::fixture::Mapped($($wrapped)?($warp)))
+        }
+        fn splat<R: Real>(&self) -> Box<dyn LightSampler<R>> {
+            let $number = |f: &dyn Fn(&Self) -> f32| R::Scalar::lit(f(self).into());
+            let $vector = |f: &dyn Fn(&Self) -> [f32; 3]| Vec3::<R::Scalar>::lit(f(self).map(f64::from));
+            let _ = (&$number, &$vector);
+            Box::new($crate::fixture::Mapped($($wrapped)?(etendue::Lanewise::splat::<R>($warp))))
+        }
+    };
+}
+pub(crate) use prepared;
+
+/// How a fixture is prepared with its lengths multiplied, and what its pdf is multiplied by then.
+type Scaled = dyn Fn(f32) -> (Box<dyn LightSampler<f32>>, f32);
+/// What is known about a fixture.
+type Known = dyn FnOnce() -> Box<dyn Truth>;
+
+/// A fixture that is prepared, and what is known of it: the properties are compiled once, whatever the fixture is.
+pub struct Subject {
+    fixture: Box<dyn Debug>,
+    /// The least and the greatest length of a point that has a pdf.
+    pub lengths: [f64; 2],
+    /// In single precision.
+    pub single: Box<dyn LightSampler<f32>>,
+    /// In double precision.
+    pub double: Box<dyn LightSampler<f64>>,
+    /// In packets of eight.
+    pub eight: Box<dyn Fn() -> Box<dyn LightSampler<f32x8>>>,
+    /// With all lengths multiplied.
+    pub scaled: Box<Scaled>,
+    /// What is known about its points and their density.
+    pub truth: LazyCell<Box<dyn Truth>, Box<Known>>,
+}
+impl Subject {
+    /// Prepares a fixture.
+    #[must_use]
+    pub fn new<S: Fixture>(fixture: &S) -> Self {
+        let s = *fixture;
+        Self {
+            fixture: Box::new(s),
+            lengths: s.lengths(),
+            single: S::prepare(&[s]),
+            double: S::prepare(&[s]),
+            eight: Box::new(move || S::prepare(&[s])),
+            scaled: Box::new(move |factor| (S::prepare(&[s.scaled(factor)]), s.pdf_scaled(factor))),
+            truth: LazyCell::new(Box::new(move || s.truth())),
+        }
+    }
+}
+impl Debug for Subject {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        self.fixture.fmt(f)
+    }
+}
+
+/// What is known about points and their density, from the definition of a shape and not from the code of a sampler, and which errors the code
+/// may have.
+pub trait Truth {
+    /// The errors that are tolerated.
+    fn tolerance(&self) -> Tolerance;
+    /// Whether there is anything to draw from: a horizon may leave nothing.
+    fn is_seen(&self) -> bool {
+        true
+    }
     /// The pdf at a point of the shape.
     fn pdf(&self, point: V3) -> f64;
     /// An independent parameterisation of the shape by the unit square: the point, and the measure per unit of the square.
@@ -71,10 +136,6 @@ pub trait Truth: Copy {
     }
     /// Greatest and least diameter of the shape, as distances between points.
     fn extent(&self) -> [f64; 2];
-    /// Greatest distance of a point of the shape from the origin.
-    fn radius(&self) -> f64 {
-        1.0
-    }
     /// The point in coordinates that are all rounded alike; a shape that overrides this overrides `distance` too.
     fn metric(&self, point: V3) -> V3 {
         point
@@ -120,4 +181,30 @@ pub trait Truth: Copy {
     fn quadrature(&self) -> f64 {
         1e-9
     }
+    /// Error of the inverse besides the point's own rounding, in units of rounding.
+    fn inverse_units(&self, _u: [f64; 2]) -> f64 {
+        2.0
+    }
+    /// Error of the inverse besides the point's own rounding, in steps of `u`.
+    fn inverse_steps(&self) -> f64 {
+        2.0
+    }
+    /// Whether the second coordinate of the square is an azimuth.
+    fn is_periodic(&self) -> bool {
+        false
+    }
+    /// Whether the map has two derivatives near `u`.
+    fn smooth(&self, _map: &dyn LightSampler<f64>, _u: [f64; 2]) -> bool {
+        true
+    }
+    /// Whether the map jumps within `step` of `u` in the first coordinate: rounding decides on which side of the jump a point falls.
+    fn torn(&self, _map: &dyn LightSampler<f64>, _u: [f64; 2], _step: f64) -> bool {
+        false
+    }
+}
+
+/// The point of a map in double precision.
+#[must_use]
+pub fn sample_at(map: &dyn LightSampler<f64>, u: [f64; 2]) -> V3 {
+    map.sample(Vec2::new(u[0], u[1])).direction.at(0)
 }

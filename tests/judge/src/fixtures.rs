@@ -1,22 +1,18 @@
-//! The warps under test, each with independent knowledge about it.
+//! The samplers under test that are no lights of the core's list: warps, lines by angle, polygons of any corners.
 
-mod disk;
-mod flat;
+mod corners;
 mod normals;
 mod round;
 mod segment;
 mod square;
 mod surface;
 
-pub use disk::Disk;
-pub use flat::{
-    Hexagon, Parallelogram, ProjectedParallelogram, ProjectedPentagon, ProjectedTriangle, Rectangle, Triangle,
-};
+pub use corners::Corners;
 pub use normals::GgxVisibleNormals;
 pub use round::{
-    AreaTriangle, Cap, ConcentricDisk, Cone, CosineHemisphere, LowDistortionTriangle, Octahedral, ProjectedCap,
-    UniformHemisphere, UniformSphere, nearest_hit,
+    AreaTriangle, ConcentricDisk, Cone, CosineHemisphere, LowDistortionTriangle, Octahedral, UniformHemisphere,
+    UniformSphere,
 };
-pub use segment::{ProjectedSegment, Segment};
+pub use segment::Segment;
 pub use square::Bilinear;
 pub use surface::PatchSurface;

@@ -1,15 +1,16 @@
-//! Generators, tolerances, and the properties that every warp has.
+//! Generators, tolerances, and the properties that every sampler has.
 //!
-//! A property is a plain function of a [`Fixture`](fixture::Fixture) (a warp with its parameters) and usually a point of the unit
-//! square. It panics when the property is broken, with the fixture, the argument and the figure. The tests in `tests/tests` run the
-//! properties over the regimes of [`generators`]; the fuzz targets run them over arbitrary bytes. `tests/README.md` says how to add a warp.
+//! A property is a plain function of a [`Subject`](fixture::Subject) (a prepared [`Fixture`](fixture::Fixture): a light or a warp with its
+//! parameters) and usually a point of the unit square. It panics when the property is broken, with the fixture, the argument and the figure.
+//! The tests in `tests/tests` run the properties over the regimes of [`generators`]; the fuzz targets run them over arbitrary bytes.
+//! `tests/README.md` says how to add a warp.
 //!
 //! - [`etendue_oracle`]: closed forms, double-double arithmetic and quadrature; nothing there calls the code under test.
 //! - [`generators`]: arguments biased towards the places where methods fail.
 //! - [`tolerances`]: the one table of tolerances, each with its reason.
 //! - [`suite`]: all properties over all regimes.
 //! - [`fuzz_bodies`]: the bodies of the fuzz targets.
-//! - [`checks`]: properties of functions that are not warps; [`techniques`]: properties of lights; [`light_tree`]: of trees of lights.
+//! - [`checks`]: properties of functions that are not samplers; [`light_tree`]: of trees of lights.
 //! - [`mutants`]: well-known defects of renderers, which the properties must detect.
 //! - [`stats`] has p-values.
 
@@ -40,11 +41,11 @@ pub mod packets;
 #[cfg(feature = "checks")]
 pub mod page;
 pub mod properties;
+mod random;
 #[cfg(feature = "checks")]
 pub mod stats;
 #[cfg(feature = "checks")]
 pub mod suite;
-pub mod techniques;
 pub mod textbook;
 pub mod tolerances;
 pub mod truths;

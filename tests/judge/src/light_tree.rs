@@ -6,7 +6,7 @@ mod regimes;
 use crate::packets::{lanes_of, twice, vectors_of};
 use etendue::select::{Choice, Gloss, Join, LightBound, LightChoice, LightTree, Node8, TreeAt, TreeChild};
 use etendue::{Real, Uint, f32x4, f32x8, f32x16, u32x4, u32x8, u32x16};
-pub use lamp::{Lamp, LampKind};
+pub use lamp::Lamp;
 pub use regimes::{Regime, place};
 
 /// The number of levels that the tree may have.

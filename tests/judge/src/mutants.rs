@@ -1,54 +1,33 @@
 //! Mutants: well-known defects of renderers, reintroduced on purpose. The properties must detect every one.
 //!
-//! A [`Defect`] replaces one part of a correct warp. [`Planted`] is then a fixture like any other and goes through the same properties in
+//! A [`Defect`] replaces one part of a correct sampler. [`Planted`] is then a fixture like any other and goes through the same properties in
 //! the same regimes. [`Sound`] replaces nothing, which shows that the wrapper itself breaks no property.
 
-mod lights;
-mod warps;
+mod samplers;
 
-pub use lights::{CosineWarp, PaddedDisk, SoundDisk};
-pub use warps::{
-    AreaBetweenThresholds, ConeOverflow, DroppedGrazing, ExcessInSample, FlatCentre, NonZeroOffTheCone,
-    SelfClampingBarycentrics, UnguardedCap, UnitsInTheSwitch,
+pub use samplers::{
+    AreaBetweenThresholds, ConeOverflow, CosineWarp, DroppedGrazing, ExcessInSample, FlatCentre, NonZeroOffTheCone,
+    PaddedDisk, SelfClampingBarycentrics, UnguardedCap, UnitsInTheSwitch,
 };
 
-use crate::fixture::Fixture;
-use crate::tolerances::Tolerance;
+use crate::fixture::{Fixture, Truth};
 use core::fmt::Debug;
 use core::marker::PhantomData;
-use etendue::light::shapes::DirectionSample;
-use etendue::{Real, Vec2, Warp};
+use etendue::{LightSample, LightSampler, Real, Vec2, Vec3};
 
-/// The parameters of a fixture, lane by lane; unused entries are 0.
-pub type Data<R> = [R; 9];
-
-/// A defect: replaces part of a correct warp.
-pub trait Defect: Copy + Debug {
+/// A defect: replaces part of a correct sampler, whose fixtures it gets lane by lane.
+pub trait Defect: Copy + Debug + 'static {
     /// The correct fixture.
     type Of: Fixture;
-    /// The numbers that the defective part needs.
-    fn data<R: Real>(_lanes: &[Self::Of]) -> Data<R> {
-        [R::lit(0.0); 9]
-    }
     /// Replaces `sample`.
-    fn sample<R: Real>(right: &RightWarp<Self, R>, _data: &Data<R>, u: Vec2<R>) -> RightPoint<Self, R> {
+    fn sample<R: Real>(right: &dyn LightSampler<R>, _lanes: &[Self::Of], u: Vec2<R>) -> LightSample<R> {
         right.sample(u)
     }
     /// Replaces `pdf`.
-    fn pdf<R: Real>(right: &RightWarp<Self, R>, _data: &Data<R>, point: RightPoint<Self, R>) -> R {
-        right.pdf(point)
-    }
-    /// Replaces `sample_direction`.
-    fn sample_direction<R: Real>(
-        right: &RightWarp<Self, R>,
-        _data: &Data<R>,
-        u: Vec2<R>,
-    ) -> Option<DirectionSample<R>> {
-        Self::Of::sample_direction(right, u)
+    fn pdf<R: Real>(right: &dyn LightSampler<R>, _lanes: &[Self::Of], w: Vec3<R>) -> R {
+        right.pdf(w)
     }
 }
-type RightWarp<D, R> = <<D as Defect>::Of as Fixture>::Warp<R>;
-type RightPoint<D, R> = <<D as Defect>::Of as Fixture>::Point<R>;
 
 /// No defect.
 #[derive(Clone, Copy, Debug)]
@@ -57,21 +36,23 @@ impl<S: Fixture> Defect for Sound<S> {
     type Of = S;
 }
 
-/// A warp with a defect.
-pub struct Wrong<D: Defect, R: Real> {
-    right: RightWarp<D, R>,
-    data: Data<R>,
+/// A sampler with a defect.
+struct Wrong<D: Defect, R: Real> {
+    right: Box<dyn LightSampler<R>>,
+    lanes: Vec<D::Of>,
 }
-impl<D: Defect, R: Real> Warp<R> for Wrong<D, R> {
-    type Point = RightPoint<D, R>;
-    fn sample(&self, u: Vec2<R>) -> Self::Point {
-        D::sample(&self.right, &self.data, u)
+impl<D: Defect, R: Real> LightSampler<R> for Wrong<D, R> {
+    fn sample(&self, u: Vec2<R>) -> LightSample<R> {
+        D::sample(&*self.right, &self.lanes, u)
     }
-    fn pdf(&self, point: Self::Point) -> R {
-        D::pdf(&self.right, &self.data, point)
+    fn pdf(&self, w: Vec3<R>) -> R {
+        D::pdf(&*self.right, &self.lanes, w)
     }
-    fn invert(&self, point: Self::Point) -> Vec2<R> {
-        self.right.invert(point)
+    fn invert(&self, w: Vec3<R>) -> Vec2<R> {
+        self.right.invert(w)
+    }
+    fn hit(&self, w: Vec3<R>) -> LightSample<R> {
+        LightSample { pdf: self.pdf(w), ..self.right.hit(w) }
     }
 }
 
@@ -85,42 +66,23 @@ pub fn plant<D: Defect>(cases: &[(&'static str, D::Of)]) -> Vec<(&'static str, P
 }
 
 impl<D: Defect> Fixture for Planted<D> {
-    type Warp<R: Real> = Wrong<D, R>;
-    type Point<R: Real> = RightPoint<D, R>;
-    const PERIODIC: bool = D::Of::PERIODIC;
-    type Truth = <D::Of as Fixture>::Truth;
-    fn truth(&self) -> Self::Truth {
+    fn prepare<R: Real>(lanes: &[Self]) -> Box<dyn LightSampler<R>> {
+        let lanes: Vec<_> = lanes.iter().map(|s| s.0).collect();
+        Box::new(Wrong::<D, R> { right: D::Of::prepare(&lanes), lanes })
+    }
+    fn splat<R: Real>(&self) -> Box<dyn LightSampler<R>> {
+        Box::new(Wrong::<D, R> { right: self.0.splat(), lanes: vec![self.0] })
+    }
+    fn truth(&self) -> Box<dyn Truth> {
         self.0.truth()
     }
-    fn prepare<R: Real>(lanes: &[Self]) -> Self::Warp<R> {
-        let lanes: Vec<_> = lanes.iter().map(|s| s.0).collect();
-        Wrong { right: D::Of::prepare(&lanes), data: D::data(&lanes) }
-    }
-    fn splat<R: Real>(warp: Self::Warp<R::Scalar>) -> Self::Warp<R> {
-        Wrong { right: D::Of::splat(warp.right), data: warp.data.map(R::splat) }
-    }
-    fn sample_direction<R: Real>(warp: &Self::Warp<R>, u: Vec2<R>) -> Option<DirectionSample<R>> {
-        D::sample_direction(&warp.right, &warp.data, u)
+    fn lengths(&self) -> [f64; 2] {
+        self.0.lengths()
     }
     fn scaled(&self, factor: f32) -> Self {
         Self(self.0.scaled(factor))
     }
-    fn kin(&self, other: &Self) -> bool {
-        self.0.kin(&other.0)
-    }
-    fn tolerance(&self) -> Tolerance {
-        self.0.tolerance()
-    }
-    fn inverse_units(&self, u: [f64; 2]) -> f64 {
-        self.0.inverse_units(u)
-    }
-    fn inverse_steps(&self) -> f64 {
-        self.0.inverse_steps()
-    }
-    fn torn(&self, u: [f64; 2], step: f64) -> bool {
-        self.0.torn(u, step)
-    }
-    fn smooth(&self, u: [f64; 2]) -> bool {
-        self.0.smooth(u)
+    fn pdf_scaled(&self, factor: f32) -> f32 {
+        self.0.pdf_scaled(factor)
     }
 }

@@ -9,6 +9,10 @@ pub trait Coordinates<R: Real>: Copy {
     fn at(self, i: usize) -> V3;
     /// A packet whose lane `i` is `points[i % points.len()]`, rounded.
     fn gather(points: &[V3]) -> Self;
+    /// The same in space; z = 0 on the plane.
+    fn in_space(self) -> Vec3<R>;
+    /// The inverse of [`in_space`](Self::in_space).
+    fn from_space(point: Vec3<R>) -> Self;
 }
 /// A packet whose lane `i` is `f(i)`, rounded.
 pub fn lanes_of<R: Real>(f: impl Fn(usize) -> f64) -> R {
@@ -37,6 +41,12 @@ impl<R: Real> Coordinates<R> for Vec2<R> {
         let axis = |k: usize| lanes_of(|i| p[i % p.len()][k]);
         Self::new(axis(0), axis(1))
     }
+    fn in_space(self) -> Vec3<R> {
+        Vec3::new(self.x, self.y, R::lit(0.0))
+    }
+    fn from_space(point: Vec3<R>) -> Self {
+        Self::new(point.x, point.y)
+    }
 }
 impl<R: Real> Coordinates<R> for Vec3<R> {
     fn at(self, i: usize) -> V3 {
@@ -45,5 +55,11 @@ impl<R: Real> Coordinates<R> for Vec3<R> {
     fn gather(p: &[V3]) -> Self {
         let axis = |k: usize| lanes_of(|i| p[i % p.len()][k]);
         Self::new(axis(0), axis(1), axis(2))
+    }
+    fn in_space(self) -> Vec3<R> {
+        self
+    }
+    fn from_space(point: Vec3<R>) -> Self {
+        point
     }
 }

@@ -1,136 +1,128 @@
 //! The properties. Each is a plain function that panics when its property is broken.
 
-use crate::fixture::{Fixture, Truth};
-use crate::generators::Random;
+use crate::area_lights::AreaLight;
+use crate::fixture::{Fixture, Subject, Truth, sample_at};
 use crate::packets::{Coordinates, squares_of};
+use crate::random::Random;
 #[cfg(feature = "checks")]
 use crate::stats;
 #[cfg(feature = "checks")]
 use crate::tolerances::SIGNIFICANCE;
 use crate::tolerances::{self, ROUNDING, ULP, ULP_F64};
-use etendue::{Real, Vec2, Warp, f32x8};
+use core::fmt::Debug;
+use etendue::{LightSample, LightSampler, Real, Vec2, f32x8};
 #[cfg(feature = "checks")]
 use etendue_oracle::tier::cases;
-use etendue_oracle::{Greatest, V3, cross, integrate, length, sub};
+use etendue_oracle::{Greatest, V3, cross, integrate, length, sub, wide};
 
-/// All that a warp returns for one `u`.
+/// All numbers of one lane of a sample.
+fn figures<R: Real>(s: &LightSample<R>, i: usize) -> [f64; 12] {
+    let ([x, y, z], [nx, ny, nz]) = (s.direction.at(i), s.normal.at(i));
+    let truth = |m: R::Mask| f64::from(u8::from(etendue::Mask::lane(m, i)));
+    let [distance, pdf, weight, u, v] = [s.distance, s.pdf, s.weight(), s.uv.x, s.uv.y].map(|x| x.lane_f64(i));
+    [x, y, z, distance, pdf, truth(s.emits), truth(s.delta), weight, nx, ny, nz, u + 2.0 * v]
+}
+/// All numbers that a sampler returns in each lane: a sample, and the pdf, inverse and hit of its direction.
+fn every_figure<R: Real>(sampler: &dyn LightSampler<R>, u: Vec2<R>) -> Vec<Vec<f64>> {
+    let s = sampler.sample(u);
+    let (inverse, hit) = (sampler.invert(s.direction), sampler.hit(s.direction));
+    let numbers = [sampler.pdf(s.direction), inverse.x, inverse.y, sampler.pdf_of_hit(s.direction)];
+    let lane = |i: usize| [&figures(&s, i)[..], &numbers.map(|x| x.lane_f64(i)), &figures(&hit, i)].concat();
+    (0..R::LANES).map(lane).collect()
+}
+fn bits(all: &[f64]) -> Vec<u64> {
+    all.iter().map(|x| x.to_bits()).collect()
+}
+
+/// The sample, the pdf and the inverse of its point, and its distance, for one `u`.
 #[derive(Clone, Copy, Debug)]
-pub struct Observed {
-    /// `sample(u)`.
-    pub point: V3,
-    /// `pdf(sample(u))`.
-    pub pdf: f64,
-    /// `invert(sample(u))`.
-    pub inverse: [f64; 2],
-    /// Direction and distance of `sample_direction(u)`, or zeros.
-    pub sighting: [f64; 4],
+struct Observed {
+    point: V3,
+    inverse: [f64; 2],
+    distance: f64,
 }
-impl Observed {
-    fn figures(&self) -> [f64; 10] {
-        let ([x, y, z], [u, v], [a, b, c, d]) = (self.point, self.inverse, self.sighting);
-        [x, y, z, self.pdf, u, v, a, b, c, d]
-    }
+fn observe<R: Real>(sampler: &dyn LightSampler<R>, u: [f64; 2]) -> Observed {
+    let s = sampler.sample(Vec2::new(R::lit(u[0]), R::lit(u[1])));
+    let [x, y, _] = sampler.invert(s.direction).at(0);
+    Observed { point: s.direction.at(0), inverse: [x, y], distance: s.distance.lane_f64(0) }
 }
 
-/// Evaluates a prepared warp in every lane.
-// the compiler would repeat it in every property
-#[inline(never)]
-pub fn observe<S: Fixture, R: Real>(warp: &S::Warp<R>, u: Vec2<R>) -> Vec<Observed> {
-    let point = warp.sample(u);
-    let (pdf, inverse, sighting) = (warp.pdf(point), warp.invert(point), S::sample_direction(warp, u));
-    (0..R::LANES)
-        .map(|i| Observed {
-            point: point.at(i),
-            pdf: pdf.lane_f64(i),
-            inverse: [inverse.x.lane_f64(i), inverse.y.lane_f64(i)],
-            sighting: sighting.map_or([0.0; 4], |s| {
-                let [x, y, z] = s.direction.at(i);
-                [x, y, z, s.distance.lane_f64(i)]
-            }),
-        })
-        .collect()
+/// **Total**: results are finite for any parameters; pdf ≥ 0; points are in the shape's reach; the pdf of a hit is that of its direction; the
+/// inverse of any finite direction is in [0, 1)².
+pub fn total(s: &Subject, u: [f32; 2]) {
+    total_at(s, s.lengths, &*s.single, u);
+    total_at(s, s.lengths, &*s.double, u);
 }
-
-/// Samples one `u` in `R`'s first lane.
-pub fn sample<S: Fixture, R: Real>(s: &S, u: [f32; 2]) -> V3 {
-    S::prepare::<R>(&[*s]).sample(squares_of(&[u])).at(0)
-}
-fn sample_at<S: Fixture>(s: &S, u: [f64; 2]) -> V3 {
-    S::prepare::<f64>(&[*s]).sample(Vec2::new(u[0], u[1])).at(0)
-}
-
-/// **Total**: results are finite for any parameters; pdf ≥ 0; no point lies beyond the radius; the inverse of any finite direction is in
-/// [0, 1)².
-pub fn total<S: Fixture>(s: &S, u: [f32; 2]) {
-    total_at::<S, f32>(s, u);
-    total_at::<S, f64>(s, u);
-}
-fn total_at<S: Fixture, R: Real>(s: &S, u: [f32; 2]) {
-    let truth = s.truth();
-    let warp = S::prepare::<R>(&[*s]);
-    let seen = observe::<S, R>(&warp, squares_of(&[u]))[0];
-    let finite = seen.figures().iter().all(|x| x.is_finite());
-    let closed = |u: [f64; 2]| u.iter().all(|x| (0.0..1.0).contains(x));
-    assert!(finite && seen.pdf >= 0.0 && closed(seen.inverse), "not total: {s:?} at {u:?}: {seen:?}");
-    assert!(
-        // a subnormal length is rounded to its grid
-        length(seen.point) <= truth.radius() * (1.0 + 8.0 * ULP) + 4e-45,
-        "not a unit vector, or too far: {s:?} at {u:?}: {seen:?}"
-    );
+/// The same of a sampler whose points have these lengths.
+pub fn total_at<R: Real>(s: &dyn Debug, [least, most]: [f64; 2], sampler: &dyn LightSampler<R>, u: [f32; 2]) {
+    let seen = every_figure(sampler, squares_of(&[u])).swap_remove(0);
+    let closed = |u: &[f64]| u.iter().all(|x| (0.0..1.0).contains(x));
+    // distances and pdfs of the sample and of the hit
+    let is_positive = [3, 4, 12, 19, 20].into_iter().all(|k| seen[k] >= 0.0);
+    let is_total = seen.iter().all(|x| x.is_finite()) && is_positive && closed(&seen[13..15]);
+    assert!(is_total, "not total: {s:?} at {u:?}: {seen:?}");
+    assert!(seen[12] == 0.0 || seen[15].to_bits() == seen[12].to_bits(), "pdf of a hit: {s:?} at {u:?}: {seen:?}");
+    let long = length([seen[0], seen[1], seen[2]]);
+    // a subnormal length is rounded to its grid
+    let is_reached = long <= most + 4e-45 && (seen[4] == 0.0 || long >= least);
+    assert!(is_reached, "not a unit vector, or too far, by {:e}: {s:?} at {u:?}: {seen:?}", long - most);
     for w in [[0.0; 3], [0.0, 0.0, 1.0], [0.0, 0.0, -1.0], [1.0, 0.0, 0.0], [-0.6, 0.8, -0.0], [1e-30, -1e-42, 1.0]] {
-        let point = S::Point::<R>::gather(&[w]);
-        let (pdf, inverse) = (warp.pdf(point).lane_f64(0), warp.invert(point).at(0));
-        assert!(
-            pdf.is_finite() && pdf >= 0.0 && closed([inverse[0], inverse[1]]),
-            "not total: {s:?} for {w:?}: pdf {pdf}, inverse {inverse:?}"
-        );
+        let point = Coordinates::gather(&[w]);
+        let (pdf, inverse) = (sampler.pdf(point).lane_f64(0), sampler.invert(point).at(0));
+        let is_total = pdf.is_finite() && pdf >= 0.0 && closed(&inverse[..2]);
+        assert!(is_total, "not total: {s:?} for {w:?}: pdf {pdf}, inverse {inverse:?}");
     }
 }
 
-/// **Lane-identical**: f32 and f32x8 give the same bits, with other parameters in each lane; so does a splatted scalar warp.
+/// **Lane-identical**: f32 and f32x8 give the same bits, with other parameters in each lane; so does a sampler that was prepared in scalars.
 ///
 /// `etendue-bits` compares all routines at every width, which takes as long to build as the rest.
 pub fn lanes<S: Fixture>(subjects: &[S; 8], us: &[[f32; 2]; 8]) {
-    let scalars: Vec<_> =
-        (0..8).map(|i| observe::<S, f32>(&S::prepare::<f32>(&subjects[i..=i]), squares_of(&us[i..=i]))[0]).collect();
-    same(subjects, us, &scalars, &observe::<S, f32x8>(&S::prepare(subjects), squares_of(us)), "f32x8");
-    let splatted = S::splat::<f32x8>(S::prepare::<f32>(&subjects[..1]));
-    let alone = S::prepare::<f32>(&subjects[..1]);
-    let expected: Vec<_> = us.iter().map(|u| observe::<S, f32>(&alone, squares_of(&[*u]))[0]).collect();
-    same(&[subjects[0]; 8], us, &expected, &observe::<S, f32x8>(&splatted, squares_of(us)), "splat");
+    let each = subjects.map(|s| S::prepare::<f32>(&[s]));
+    same(subjects, us, &core::array::from_fn(|i| &*each[i]), &*S::prepare(subjects), "f32x8");
+    same(subjects, us, &[&*each[0]; 8], &*subjects[0].splat::<f32x8>(), "splat");
 }
-fn same<S: Fixture>(subjects: &[S], us: &[[f32; 2]], expected: &[Observed], packet: &[Observed], name: &str) {
-    for i in 0..expected.len() {
-        let bits = |o: &Observed| o.figures().map(f64::to_bits);
-        assert!(
-            bits(&expected[i]) == bits(&packet[i]),
-            "{name} differs in lane {i}: {:?} at {:?}:\n{:?}\n{:?}",
-            subjects[i],
-            us[i],
-            expected[i],
-            packet[i]
-        );
+/// Whether a packet has the bits of scalars, lane by lane.
+pub fn same(
+    subjects: &dyn Debug,
+    us: &[[f32; 2]; 8],
+    each: &[&dyn LightSampler<f32>; 8],
+    packet: &dyn LightSampler<f32x8>,
+    name: &str,
+) {
+    let lanes = every_figure(packet, squares_of(us));
+    for (i, lane) in lanes.iter().enumerate() {
+        let one = &every_figure(each[i], squares_of(&us[i..=i]))[0];
+        assert!(bits(one) == bits(lane), "{name} differs in lane {i}: {subjects:?} at {us:?}:\n{one:?}\n{lane:?}");
     }
 }
 
-/// **Threshold-free**: multiplying all lengths by 2^±20 (and by powers between) changes no bit of a point or a pdf.
-pub fn scale<S: Fixture>(s: &S, u: [f32; 2]) {
-    let one = observe::<S, f32>(&S::prepare::<f32>(&[*s]), squares_of(&[u]))[0];
+/// **Threshold-free**: multiplying all lengths by 2^±20 (and by powers between) changes no bit of a point, a pdf or an inverse.
+pub fn scale(s: &Subject, u: [f32; 2]) {
+    scales(s, u, &[0, 1, 2, 4, 12, 13, 14]);
+}
+/// The same of all numbers of a sample, of lights at the scale of rooms.
+pub fn scale_sample(s: &Subject, u: [f32; 2]) {
+    scales(s, u, &core::array::from_fn::<_, 12, _>(|k| k));
+}
+fn scales(s: &Subject, u: [f32; 2], which: &[usize]) {
+    let at = squares_of(&[u]);
+    let one = every_figure(&*s.single, at).swap_remove(0);
     for power in [-20, -7, 1, 20] {
         let factor = 2.0_f32.powi(power);
-        let other = observe::<S, f32>(&S::prepare::<f32>(&[s.scaled(factor)]), squares_of(&[u]))[0];
-        let mut expected = one;
-        expected.sighting[3] = other.sighting[3];
-        assert!(
-            expected.figures().map(f64::to_bits) == other.figures().map(f64::to_bits),
-            "scaled by 2^{power}: {s:?} at {u:?}:\n{one:?}\n{other:?}"
-        );
+        let (sampler, pdf_factor) = (s.scaled)(factor);
+        let (mut expected, other) = (one.clone(), every_figure(&*sampler, at).swap_remove(0));
+        for (i, by) in [(3, factor), (4, pdf_factor), (7, 1.0 / pdf_factor), (12, pdf_factor)] {
+            expected[i] *= f64::from(by);
+        }
+        let is_same = which.iter().all(|&k| expected[k].to_bits() == other[k].to_bits());
+        assert!(is_same, "scaled by 2^{power}: {s:?} at {u:?}:\n{expected:?}\n{other:?}");
     }
 }
 
 /// Rounding error of a point's coordinates, for rounding by `ulp`.
-fn rounding<S: Fixture>(s: &S, ulp: f64) -> f64 {
-    ulp * s.truth().granularity()
+fn rounding(s: &Subject, ulp: f64) -> f64 {
+    ulp * s.truth.granularity()
 }
 
 /// **Closed**: `sample(invert(w)) = w` and `invert(sample(u)) = u`, as far as a rounded direction allows, at both precisions.
@@ -140,18 +132,17 @@ fn rounding<S: Fixture>(s: &S, ulp: f64) -> f64 {
 /// form is tested: the two points must agree to within the steps of `u` itself, 2⁻²⁴.
 ///
 /// Returns the greatest error, in units of the rounding.
-pub fn closed<S: Fixture>(s: &S, u: [f32; 2]) -> f64 {
-    closed_at::<S, f32>(s, u, ROUNDING).max(closed_at::<S, f64>(s, u, ULP_F64))
+pub fn closed(s: &Subject, u: [f32; 2]) -> f64 {
+    let u = u.map(f64::from);
+    closed_at(s, u, observe(&*s.single, u), ROUNDING).max(closed_at(s, u, observe(&*s.double, u), ULP_F64))
 }
-fn closed_at<S: Fixture, R: Real>(s: &S, u: [f32; 2], ulp: f64) -> f64 {
-    let truth = s.truth();
-    let seen = observe::<S, R>(&S::prepare::<R>(&[*s]), squares_of(&[u]))[0];
-    let known = s.tolerance().round_trip * rounding(s, ulp);
+fn closed_at(s: &Subject, u: [f64; 2], seen: Observed, ulp: f64) -> f64 {
+    let (truth, map) = (&**s.truth, &*s.double);
+    let known = truth.tolerance().round_trip * rounding(s, ulp);
     let mut greatest = Greatest::NONE;
     greatest.take(points_agree(s, seen.point, seen.inverse, known), ());
-    let u = [f64::from(u[0]), f64::from(u[1])];
     let h = 1.0 / 4096.0;
-    if u.iter().any(|u| !(1e-3..=0.999).contains(u)) || s.torn(u, h) || s.torn(seen.inverse, h) {
+    if u.iter().any(|u| !(1e-3..=0.999).contains(u)) || truth.torn(map, u, h) || truth.torn(map, seen.inverse, h) {
         // at the ends of the square, derivatives vanish or grow without bound; beside a jump, either side is right
         return greatest.error() / rounding(s, ulp);
     }
@@ -160,7 +151,7 @@ fn closed_at<S: Fixture, R: Real>(s: &S, u: [f32; 2], ulp: f64) -> f64 {
         low[axis] = (u[axis] - h).max(0.0);
         high[axis] = (u[axis] + h).min(1.0 - ULP);
         let step = high[axis] - low[axis];
-        sub(truth.metric(sample_at(s, high)), truth.metric(sample_at(s, low))).map(|x| x / step)
+        sub(truth.metric(sample_at(map, high)), truth.metric(sample_at(map, low))).map(|x| x / step)
     };
     let (a, b) = (slope(0), slope(1));
     let area = length(cross(a, b)).max(1e-300);
@@ -171,9 +162,9 @@ fn closed_at<S: Fixture, R: Real>(s: &S, u: [f32; 2], ulp: f64) -> f64 {
     }
     for (axis, across) in both {
         let allowed = known * across / area;
-        let grid = s.inverse_units(u) * ULP;
+        let grid = truth.inverse_units(u) * ULP;
         let mut error = (seen.inverse[axis] - u[axis]).abs();
-        if S::PERIODIC && axis == 1 {
+        if truth.is_periodic() && axis == 1 {
             error = error.min(1.0 - error);
         }
         assert!(
@@ -190,34 +181,33 @@ fn closed_at<S: Fixture, R: Real>(s: &S, u: [f32; 2], ulp: f64) -> f64 {
 }
 
 /// **Closed** for points that did not come from `sample`: `sample(invert(w)) = w` at the point `st` of the chart.
-pub fn onto<S: Fixture>(s: &S, st: [f64; 2]) -> f64 {
-    inverse(s, s.truth().chart(st[0], st[1]).0)
+pub fn onto(s: &Subject, st: [f64; 2]) -> f64 {
+    inverse(s, s.truth.chart(st[0], st[1]).0)
 }
 /// **Closed** at a given point: `sample(invert(w)) = w`.
-pub fn inverse<S: Fixture>(s: &S, w: V3) -> f64 {
-    let warp = S::prepare::<f32>(&[*s]);
-    let point = S::Point::<f32>::gather(&[w]);
-    let inverse = warp.invert(point).at(0);
-    points_agree(s, point.at(0), [inverse[0], inverse[1]], s.tolerance().round_trip * rounding(s, ULP))
-        / rounding(s, ULP)
+pub fn inverse(s: &Subject, w: V3) -> f64 {
+    let point = Coordinates::gather(&[w]);
+    let inverse = s.single.invert(point).at(0);
+    let known = s.truth.tolerance().round_trip * rounding(s, ULP);
+    points_agree(s, point.at(0), [inverse[0], inverse[1]], known) / rounding(s, ULP)
 }
-fn points_agree<S: Fixture>(s: &S, point: V3, inverse: [f64; 2], known: f64) -> f64 {
-    let truth = s.truth();
-    if !truth.reachable(point) || s.torn(inverse, 16.0 * ULP) {
+fn points_agree(s: &Subject, point: V3, inverse: [f64; 2], known: f64) -> f64 {
+    let (truth, map) = (&**s.truth, &*s.double);
+    if !truth.reachable(point) || truth.torn(map, inverse, 16.0 * ULP) {
         return 0.0;
     }
-    let again = sample_at(s, inverse);
+    let again = sample_at(map, inverse);
     let error = truth.distance(again, point);
     let step = [[ULP, 0.0], [-ULP, 0.0], [0.0, ULP], [0.0, -ULP]]
         .map(|d| {
             // up to 1 inclusive: the last step of the grid is as long as any other
             let u = [(inverse[0] + d[0]).clamp(0.0, 1.0), (inverse[1] + d[1]).clamp(0.0, 1.0)];
-            truth.distance(sample_at(s, u), again)
+            truth.distance(sample_at(map, u), again)
         })
         .into_iter()
         .collect::<Greatest>()
         .error();
-    let units = s.inverse_steps();
+    let units = truth.inverse_steps();
     assert!(
         error <= known + units * step,
         "inverse: {s:?}: {point:?} inverts to {inverse:?}, which maps to a point {error:e} away; allowed {known:e} + {units}·{step:e}"
@@ -228,41 +218,39 @@ fn points_agree<S: Fixture>(s: &S, point: V3, inverse: [f64; 2], known: f64) -> 
 /// The pdf is the true one, at a sample and at a point of the chart.
 ///
 /// Returns the relative error in units in the last place, divided by the condition.
-pub fn pdf<S: Fixture>(s: &S, u: [f32; 2], st: [f64; 2]) -> f64 {
+pub fn pdf(s: &Subject, u: [f32; 2], st: [f64; 2]) -> f64 {
+    let w = s.truth.chart(st[0], st[1]).0;
     // the oracles are accurate to 1e-13
-    density_at::<S, f32>(s, u, st, ROUNDING).max(density_at::<S, f64>(s, u, st, 1e-13))
+    density_at(s, &*s.single, u, w, ROUNDING).max(density_at(s, &*s.double, u, w, 1e-13))
 }
-fn density_at<S: Fixture, R: Real>(s: &S, u: [f32; 2], st: [f64; 2], ulp: f64) -> f64 {
-    let truth = s.truth();
-    let mut greatest = Greatest::NONE;
-    let warp = S::prepare::<R>(&[*s]);
-    let chart = S::Point::<R>::gather(&[truth.chart(st[0], st[1]).0]);
-    for point in [warp.sample(squares_of(&[u])), chart] {
-        let (pdf, expected) = (warp.pdf(point).lane_f64(0), truth.pdf(point.at(0)));
-        let slack = s.tolerance().pdf * ulp * (truth.gradient() + truth.pdf_slack(point.at(0)));
+fn density_at<R: Real>(s: &Subject, sampler: &dyn LightSampler<R>, u: [f32; 2], w: V3, ulp: f64) -> f64 {
+    let truth = &s.truth;
+    let (mut greatest, tolerance) = (Greatest::NONE, truth.tolerance().pdf);
+    for point in [sampler.sample(squares_of(&[u])).direction, Coordinates::gather(&[w])] {
+        let (pdf, expected) = (sampler.pdf(point).lane_f64(0), truth.pdf(point.at(0)));
+        let slack = tolerance * ulp * (truth.gradient() + truth.pdf_slack(point.at(0)));
         // subnormal numbers have no more digits
         let slack = slack + f64::from(f32::from_bits(1));
-        let allowed = s.tolerance().pdf * ulp * expected * truth.condition() + slack;
+        let allowed = tolerance * ulp * expected * truth.condition() + slack;
         assert!(
             (pdf - expected).abs() <= allowed && (pdf > 0.0 || expected <= slack),
-            "density: {s:?} at {u:?} or {st:?}: {pdf}, truth {expected}: relative {:e}, allowed {:e}",
+            "density: {s:?} at {u:?} or {w:?}: {pdf}, truth {expected}: relative {:e}, allowed {:e}",
             pdf / expected - 1.0,
             allowed / expected
         );
         if expected > 0.0 {
-            greatest.take((pdf - expected).abs() * s.tolerance().pdf / allowed, ());
+            greatest.take((pdf - expected).abs() * tolerance / allowed, ());
         }
     }
     greatest.error()
 }
 
 /// The pdf is 0 outside the shape: 16 units in the last place beyond its boundary, and further away. Returns whether anything is outside.
-pub fn outside<S: Fixture>(s: &S, random: &mut Random) -> bool {
-    let truth = s.truth();
+pub fn outside(s: &Subject, random: &mut Random) -> bool {
     let mut is_checked = false;
     for margin in [16.0 * ULP, 1e-3, 0.1] {
-        if let Some(w) = truth.outside(margin, random) {
-            let pdf = S::prepare::<f32>(&[*s]).pdf(S::Point::<f32>::gather(&[w])).lane_f64(0);
+        if let Some(w) = s.truth.outside(margin, random) {
+            let pdf = s.single.pdf(Coordinates::gather(&[w]));
             assert!(pdf == 0.0, "pdf {pdf} outside {s:?} by {margin:e}, at {w:?}");
             is_checked = true;
         }
@@ -273,25 +261,24 @@ pub fn outside<S: Fixture>(s: &S, random: &mut Random) -> bool {
 /// The map takes an area du to du/pdf: its derivative is a five-point formula in f64.
 ///
 /// Returns the relative error, if the map is smooth there.
-pub fn jacobian<S: Fixture>(s: &S, u: [f64; 2]) -> Option<f64> {
+pub fn jacobian(s: &Subject, u: [f64; 2]) -> Option<f64> {
     let h = 1e-3;
     let inner = u.map(|x| 0.05 + 0.9 * x);
-    if !s.smooth(inner) {
+    if !s.truth.smooth(&*s.double, inner) {
         return None;
     }
     let slope = |axis: usize| {
         let at = |k: f64| {
             let mut u = inner;
             u[axis] += k * h;
-            sample_at(s, u)
+            sample_at(&*s.double, u)
         };
         let (near, far) = (sub(at(1.0), at(-1.0)), sub(at(2.0), at(-2.0)));
         sub(near.map(|x| x * 8.0), far).map(|x| x / (12.0 * h))
     };
     let area = length(cross(slope(0), slope(1)));
-    let point = sample_at(s, inner);
-    let product = area * s.truth().pdf(point);
-    let allowed = tolerances::JACOBIAN + 6.0 * ULP_F64 / (h * s.truth().extent()[1]);
+    let product = area * s.truth.pdf(sample_at(&*s.double, inner));
+    let allowed = tolerances::JACOBIAN + 6.0 * ULP_F64 / (h * s.truth.extent()[1]);
     assert!((product - 1.0).abs() <= allowed, "area × pdf = {product}: {s:?} at {inner:?}, allowed {allowed:e}");
     Some((product - 1.0).abs())
 }
@@ -299,13 +286,11 @@ pub fn jacobian<S: Fixture>(s: &S, u: [f64; 2]) -> Option<f64> {
 /// **Accurate**: f32 agrees with f64 in the same code, for the point and, if there is one, the distance.
 ///
 /// Returns the point's error in units of its rounding or the distance's in units in the last place, whichever is greater.
-pub fn accurate<S: Fixture>(s: &S, u: [f32; 2]) -> f64 {
-    let truth = s.truth();
-    let narrow = observe::<S, f32>(&S::prepare::<f32>(&[*s]), squares_of(&[u]))[0];
-    let warp = S::prepare::<f64>(&[*s]);
-    let at = |u: [f64; 2]| observe::<S, f64>(&warp, Vec2::new(u[0], u[1]))[0];
+pub fn accurate(s: &Subject, u: [f32; 2]) -> f64 {
+    let (truth, tolerance) = (&s.truth, s.truth.tolerance());
     let u = u.map(f64::from);
-    let wide = at(u);
+    let at = |u: [f64; 2]| observe(&*s.double, u);
+    let (narrow, wide) = (observe(&*s.single, u), at(u));
     let at_steps = |n: f64| {
         let h = n * ULP;
         [[h, 0.0], [-h, 0.0], [0.0, h], [0.0, -h]]
@@ -320,16 +305,14 @@ pub fn accurate<S: Fixture>(s: &S, u: [f32; 2]) -> f64 {
         if smooth > 0.0 && steps > 0.0 { smooth.min(error - greatest(&at_steps(steps))) } else { smooth }
     };
     let away = |o: &Observed| truth.distance(o.point, wide.point);
-    let excess_of_point = excess(away(&narrow), s.tolerance().steps, &away);
-    let point = excess_of_point / rounding(s, ROUNDING);
-    assert!(point <= s.tolerance().point, "point: {s:?} at {u:?}: {point:e} units\n{narrow:?}\n{wide:?}");
-    let (d, e) = (narrow.sighting[3], wide.sighting[3]);
+    let point = excess(away(&narrow), tolerance.steps, &away) / rounding(s, ROUNDING);
+    assert!(point <= tolerance.point, "point: {s:?} at {u:?}: {point:e} units\n{narrow:?}\n{wide:?}");
+    let (d, e) = (narrow.distance, wide.distance);
     // the distance belongs to the sampled direction, and moves by as many steps
-    let farther = |o: &Observed| (o.sighting[3] - e).abs();
-    let excess_of_distance = excess(farther(&narrow), s.tolerance().steps.max(4.0), &farther);
-    let distance =
-        if e > 0.0 { excess_of_distance / ((e * truth.slant(wide.point) + truth.reach()) * ROUNDING) } else { 0.0 };
-    assert!(distance <= s.tolerance().distance, "distance: {s:?} at {u:?}: {d}, f64 {e}: {distance:e} units");
+    let farther = |o: &Observed| (o.distance - e).abs();
+    let beyond = excess(farther(&narrow), tolerance.steps.max(4.0), &farther);
+    let distance = if e > 0.0 { beyond / ((e * truth.slant(wide.point) + truth.reach()) * ROUNDING) } else { 0.0 };
+    assert!(distance <= tolerance.distance, "distance: {s:?} at {u:?}: {d}, f64 {e}: {distance:e} units");
     point.max(distance)
 }
 
@@ -337,9 +320,8 @@ pub fn accurate<S: Fixture>(s: &S, u: [f32; 2]) -> f64 {
 /// grazing angles.
 ///
 /// Returns the excess in units in the last place.
-pub fn within_reach<S: Fixture>(s: &S, u: [f32; 2]) -> f64 {
-    let (distance, reach) =
-        (observe::<S, f32>(&S::prepare::<f32>(&[*s]), squares_of(&[u]))[0].sighting[3], s.truth().farthest());
+pub fn within_reach(s: &Subject, u: [f32; 2]) -> f64 {
+    let (distance, reach) = (observe(&*s.single, u.map(f64::from)).distance, s.truth.farthest());
     if reach == 0.0 {
         return 0.0;
     }
@@ -348,25 +330,24 @@ pub fn within_reach<S: Fixture>(s: &S, u: [f32; 2]) -> f64 {
     excess.max(0.0)
 }
 
+/// Whether a rounded direction resolves the shape.
+fn is_resolved(truth: &dyn Truth) -> bool {
+    truth.extent()[1] > tolerances::RESOLVED * truth.granularity()
+}
+
 /// ∫ pdf = 1 over the independent parameterisation. The f64 code is used where the pdf varies over a shape too small for a rounded
 /// direction.
-pub fn integral<S: Fixture>(s: &S) -> f64 {
-    let truth = s.truth();
-    if truth.extent()[1] > tolerances::RESOLVED * truth.granularity() || truth.gradient() == 0.0 {
-        integral_of::<S, f32>(s, ROUNDING)
-    } else {
-        integral_of::<S, f64>(s, 1e-13)
-    }
-}
-fn integral_of<S: Fixture, R: Real>(s: &S, ulp: f64) -> f64 {
-    let truth = s.truth();
-    let warp = S::prepare::<R>(&[*s]);
+pub fn integral(s: &Subject) -> f64 {
+    let truth = &s.truth;
+    let is_single = is_resolved(&***truth) || truth.gradient() == 0.0;
     let mut pdf = |a: f64, b: f64| {
         let (point, measure) = truth.chart(a, b);
-        measure * warp.pdf(S::Point::<R>::gather(&[point])).lane_f64(0)
+        let single = || f64::from(s.single.pdf(Coordinates::gather(&[point])));
+        measure * if is_single { single() } else { s.double.pdf(Coordinates::gather(&[point])) }
     };
     let sum = integrate(&mut pdf, [0.0; 2], [1.0; 2], truth.quadrature());
-    let allowed = s.tolerance().pdf * truth.condition() * ulp + truth.quadrature() * tolerances::QUADRATURE / 1e-9;
+    let ulp = if is_single { ROUNDING } else { 1e-13 };
+    let allowed = truth.tolerance().pdf * truth.condition() * ulp + truth.quadrature() * tolerances::QUADRATURE / 1e-9;
     assert!((sum - 1.0).abs() <= allowed, "∫pdf = {sum}: {s:?}, allowed error {allowed:e}");
     (sum - 1.0).abs()
 }
@@ -376,17 +357,16 @@ fn integral_of<S: Fixture, R: Real>(s: &S, ulp: f64) -> f64 {
 /// shape too small for a rounded direction uses 2¹⁸ (2¹⁵) samples of the f64 code instead.
 ///
 /// Returns the p-value.
-pub fn chi_square<S: Fixture>(s: &S, seed: u64) -> f64 {
-    let truth = s.truth();
-    if truth.extent()[1] > tolerances::RESOLVED * truth.granularity() {
-        chi_square_of::<S, f32x8>(s, seed, cases(1 << 16, 1 << 20))
+pub fn chi_square(s: &Subject, seed: u64) -> f64 {
+    if is_resolved(&**s.truth) {
+        chi_square_of(s, &*(s.eight)(), seed, cases(1 << 16, 1 << 20))
     } else {
-        chi_square_of::<S, etendue::f64x4>(s, seed, cases(1 << 15, 1 << 18))
+        chi_square_of(s, &*s.double, seed, cases(1 << 15, 1 << 18))
     }
 }
 #[cfg(feature = "checks")]
-fn chi_square_of<S: Fixture, R: Real>(s: &S, seed: u64, n: usize) -> f64 {
-    let truth = s.truth();
+fn chi_square_of<R: Real>(s: &Subject, sampler: &dyn LightSampler<R>, seed: u64, n: usize) -> f64 {
+    let truth = &s.truth;
     let side = cases(8, 16);
     let cells = side as f64;
     let expected: Vec<f64> = (0..side * side)
@@ -399,13 +379,12 @@ fn chi_square_of<S: Fixture, R: Real>(s: &S, seed: u64, n: usize) -> f64 {
             integrate(&mut f, [x, y], [x + 1.0 / cells, y + 1.0 / cells], 1e-6) * n as f64
         })
         .collect();
-    let warp = S::prepare::<R>(&[*s]);
     let mut random = Random::new(seed);
     let mut observed = vec![0_u64; side * side];
     for _ in 0..n / R::LANES {
         let mut axis = || R::from_fn(|_| R::Scalar::lit(f64::from(random.unit())));
         let x = axis();
-        let points = warp.sample(Vec2::new(x, axis()));
+        let points = sampler.sample(Vec2::new(x, axis())).direction;
         for i in 0..R::LANES {
             let [a, b] = truth.locate(points.at(i)).map(|x| ((x * cells) as usize).min(side - 1));
             observed[a + b * side] += 1;
@@ -416,14 +395,21 @@ fn chi_square_of<S: Fixture, R: Real>(s: &S, seed: u64, n: usize) -> f64 {
     p
 }
 
+/// The properties that hold for any parameters whatever, in packets of eight.
+pub fn any_bits_of<S: Fixture>(subjects: &[S; 8], us: &[[f32; 2]; 8]) {
+    for (s, u) in subjects.iter().zip(us) {
+        total(&Subject::new(s), *u);
+    }
+    lanes(subjects, us);
+}
 /// The properties that hold for any parameters whatever.
 pub fn any_bits<S: Fixture>(s: &S, u: [f32; 2]) {
-    total(s, u);
+    total(&Subject::new(s), u);
     lanes(&[*s; 8], &core::array::from_fn(|i| [u[0], (u[1] + i as f32 / 8.0).fract()]));
 }
 
 /// The properties that hold in the regimes of [`generators`](crate::generators), at one `u`.
-pub fn pointwise<S: Fixture>(s: &S, u: [f32; 2], random: &mut Random) {
+pub fn pointwise(s: &Subject, u: [f32; 2], random: &mut Random) {
     total(s, u);
     scale(s, u);
     accurate(s, u);
@@ -433,4 +419,56 @@ pub fn pointwise<S: Fixture>(s: &S, u: [f32; 2], random: &mut Random) {
     onto(s, st);
     outside(s, random);
     jacobian(s, [random.unit_f64(), random.unit_f64()]);
+}
+
+/// **One pdf**: that of a sample is the one that is evaluated for its direction, to the bit where the direction determines it; and a ray in
+/// that direction hits the light with it.
+pub fn one_pdf(light: &AreaLight, sampler: &dyn LightSampler<f32>, u: [f32; 2]) {
+    let s = sampler.sample(squares_of(&[u]));
+    let Some(allowed) = light.evaluated_to(&s) else { return };
+    if s.pdf > 0.0 {
+        let evaluated = sampler.pdf(s.direction);
+        let hit = sampler.hit(s.direction);
+        let aside = (hit.uv.x - s.uv.x).abs().max((hit.uv.y - s.uv.y).abs());
+        if allowed > 0.0 && hit.distance < s.distance && (hit.distance < 0.999 * s.distance || aside > 0.01) {
+            // another sheet of a twisted patch hides the sample, if there is one
+            assert!(light.has(&hit), "no such point: {hit:?} for {s:?}: {light:?} at {u:?}");
+            return;
+        }
+        let off = (f64::from(evaluated) / f64::from(s.pdf) - 1.0).abs();
+        let same = if allowed == 0.0 { evaluated.to_bits() == s.pdf.to_bits() } else { off <= allowed };
+        assert!(same, "two pdfs: {evaluated} evaluated, {} sampled, allowed {allowed:e}: {light:?} at {u:?}", s.pdf);
+        let reached = hit.pdf.to_bits() == evaluated.to_bits() && hit.emits == s.emits;
+        assert!(s.delta || reached, "not hit: {hit:?} for {s:?}: {light:?} at {u:?}");
+    }
+}
+
+/// The density by area is the truth for the point that was drawn.
+pub fn measure(light: &AreaLight, sampler: &dyn LightSampler<f32>, u: [f32; 2]) {
+    let s = sampler.sample(squares_of(&[u]));
+    let Some((truth, known)) = light.density(s.direction.at(0), f64::from(s.distance)) else { return };
+    // what is next to a number's end, or known to less than a tenth, tells nothing
+    let fair = (1e-15..1e15).contains(&s.distance) && (1e-30..1e30).contains(&truth);
+    if s.pdf > 0.0 && known < 0.1 && fair {
+        let off = (f64::from(s.pdf) / truth - 1.0).abs();
+        assert!(off <= known, "pdf {} for {truth}: off by {off:e}, allowed {known:e}: {light:?} at {u:?}", s.pdf);
+    }
+}
+
+/// **Nearest hit**: the point of a sample lies on the sphere, and from outside on its near side, no farther than the tangent length √(d²−R²).
+/// Only this tells the two roots apart, since both lie on the sphere.
+pub fn nearest_hit(sphere: &AreaLight, u: [f32; 2]) {
+    let s = AreaLight::prepare::<f64>(&[*sphere]).sample(squares_of(&[u]));
+    let (center, radius) = (wide(sphere.a), f64::from(sphere.radius));
+    let d = length(center);
+    let off = length(sub(s.direction.at(0).map(|x| x * s.distance), center)) - radius;
+    // a dozen roundings of coordinates as large as d + R
+    let allowed = 12.0 * ULP_F64 * (d + radius);
+    assert!(off.abs() <= allowed, "off the sphere by {off:e}, allowed {allowed:e}: {sphere:?} at {u:?}");
+    if d > radius {
+        let tangent = ((d - radius) * (d + radius)).sqrt();
+        // near the limb the two roots meet, and differ by the square root of a rounding
+        let allowed = tangent + 1e-7 * radius;
+        assert!(s.distance <= allowed, "far side: {} beyond {tangent}: {sphere:?} at {u:?}", s.distance);
+    }
 }

@@ -1,6 +1,6 @@
 //! All properties over all regimes: the tests of the warps run this, and so do the mutants.
 
-use crate::fixture::Fixture;
+use crate::fixture::{Fixture, Subject};
 use crate::generators::{self, Case, Random};
 use crate::properties;
 use etendue_oracle::Greatest;
@@ -71,17 +71,8 @@ pub fn quietly<T>(run: impl FnOnce() -> T) -> Result<T, String> {
     })
 }
 
-/// Runs one property over the cases; it returns `None` where there is nothing to check.
-fn each<S: Fixture>(
-    property: &'static str,
-    cases: &[Case<S>],
-    run: impl Fn(&S, usize) -> Option<f64>,
-) -> PropertyOutcome {
-    let names: Vec<_> = cases.iter().map(|case| case.0).collect();
-    by_regime(property, &names, &|i| run(&cases[i].1, i))
-}
-/// The same for cases of which only the regimes are known: the compiler need not repeat it for each property of each warp.
-fn by_regime(property: &'static str, names: &[&'static str], run: &dyn Fn(usize) -> Option<f64>) -> PropertyOutcome {
+/// Runs one property over the cases, of which only the regimes are known; it returns `None` where there is nothing to check.
+fn each(property: &'static str, names: &[&'static str], run: &dyn Fn(usize) -> Option<f64>) -> PropertyOutcome {
     let mut regimes: Vec<Regime> = Vec::new();
     for (i, &name) in names.iter().enumerate() {
         let at = regimes.iter().position(|r| r.name == name).unwrap_or_else(|| {
@@ -107,62 +98,72 @@ fn by_regime(property: &'static str, names: &[&'static str], run: &dyn Fn(usize)
     PropertyOutcome { property, regimes }
 }
 
+fn prepared<S: Fixture>(cases: &[Case<S>]) -> (Vec<&'static str>, Vec<Subject>) {
+    cases.iter().map(|(name, s)| (*name, Subject::new(s))).unzip()
+}
+
 /// **Within reach**, alone: also for shapes that are too ill-conditioned for the other properties.
 pub fn within_reach<S: Fixture>(cases: &[Case<S>]) -> PropertyOutcome {
     let square = generators::square(20, 2);
-    each("reach", cases, |s, _| {
-        Some(square.iter().map(|&u| properties::within_reach(s, u)).collect::<Greatest>().error())
-    })
+    let (names, subjects) = prepared(cases);
+    let reach = |i: usize| square.iter().map(|&u| properties::within_reach(&subjects[i], u)).collect::<Greatest>();
+    each("reach", &names, &|i| Some(reach(i).error()))
 }
 
 /// All properties over the cases, at the edges of the square and at `random` further points; in the quick tier, at every second of them.
-pub fn all<S: Fixture>(cases: &[Case<S>], random: usize) -> [PropertyOutcome; 11] {
+pub fn all<S: Fixture>(cases: &[Case<S>], random: usize) -> Vec<PropertyOutcome> {
     let square: Vec<_> = generators::square(random, 1).into_iter().step_by(tier::cases(2, 1)).collect();
-    let at = |run: fn(&S, [f32; 2], &mut Random) -> Option<f64>| {
-        let square = &square;
-        move |s: &S, seed: usize| {
-            let mut random = Random::new(seed as u64);
-            let checked: Vec<f64> = square.iter().filter_map(|&u| run(s, u, &mut random)).collect();
-            (!checked.is_empty()).then(|| checked.into_iter().collect::<Greatest>().error())
+    let (names, subjects) = prepared(cases);
+    let is_scaled: Vec<bool> = cases.iter().map(|(_, s)| format!("{s:?}") != format!("{:?}", s.scaled(2.0))).collect();
+    let mut all = of_subjects(&names, &subjects, &is_scaled, &square);
+    all.push(each("lanes", &names, &|i| {
+        // each lane has another regime, and its own u
+        let lanes = core::array::from_fn(|k| cases[(i + k * 3) % cases.len()].1);
+        for start in (0..square.len() - 8).step_by(5) {
+            properties::lanes(&lanes, &core::array::from_fn(|k| square[start + k]));
         }
-    };
-    let is_scaled = |s: &S| format!("{s:?}") != format!("{:?}", s.scaled(2.0));
-    // the edges of the chart are included: that is where a density falls to 0
-    let chart = |r: &mut Random| [(); 2].map(|()| generators::unit_or_edge(r));
-    [
-        each(
-            "total",
-            cases,
-            at(|s, u, _| {
-                properties::total(s, u);
-                Some(0.0)
-            }),
-        ),
-        each("scale", cases, |s, _| {
-            is_scaled(s).then(|| {
-                square.iter().for_each(|&u| properties::scale(s, u));
-                0.0
-            })
-        }),
-        each("accurate", cases, at(|s, u, _| Some(properties::accurate(s, u)))),
-        each("closed", cases, at(|s, u, _| Some(properties::closed(s, u)))),
-        each("density", cases, |s, seed| {
-            let mut random = Random::new(seed as u64);
-            Some(square.iter().map(|&u| properties::pdf(s, u, chart(&mut random))).collect::<Greatest>().error())
-        }),
-        each("onto", cases, at(|s, _, r| Some(properties::onto(s, [r.unit_f64(), r.unit_f64()])))),
-        each("jacobian", cases, at(|s, _, r| properties::jacobian(s, [r.unit_f64(), r.unit_f64()]))),
-        each("outside", cases, at(|s, _, r| properties::outside(s, r).then_some(0.0))),
-        each("integral", cases, |s, _| Some(properties::integral(s))),
-        each("chi-square", cases, |s, i| Some(properties::chi_square(s, i as u64))),
-        each("lanes", cases, |_, i| {
-            // each lane has another regime, and its own u
-            let kin: Vec<S> = cases.iter().map(|c| c.1).filter(|s| s.kin(&cases[i].1)).collect();
-            let lanes = core::array::from_fn(|k| kin[(i + k * 3) % kin.len()]);
-            for start in (0..square.len() - 8).step_by(5) {
-                properties::lanes(&lanes, &core::array::from_fn(|k| square[start + k]));
-            }
+        Some(0.0)
+    }));
+    all
+}
+/// The properties of one subject at a time, which are compiled once for all of them.
+fn of_subjects(
+    names: &[&'static str],
+    subjects: &[Subject],
+    is_scaled: &[bool],
+    square: &[[f32; 2]],
+) -> Vec<PropertyOutcome> {
+    type Pointwise = fn(&Subject, [f32; 2], &mut Random) -> Option<f64>;
+    let pointwise: [(&'static str, Pointwise); 8] = [
+        ("total", |s, u, _| {
+            properties::total(s, u);
             Some(0.0)
         }),
-    ]
+        ("accurate", |s, u, _| Some(properties::accurate(s, u))),
+        ("closed", |s, u, _| Some(properties::closed(s, u))),
+        ("density", |s, u, r| {
+            // the edges of the chart are included: that is where a density falls to 0
+            Some(properties::pdf(s, u, [(); 2].map(|()| generators::unit_or_edge(r))))
+        }),
+        ("onto", |s, _, r| Some(properties::onto(s, [r.unit_f64(), r.unit_f64()]))),
+        ("jacobian", |s, _, r| properties::jacobian(s, [r.unit_f64(), r.unit_f64()])),
+        ("outside", |s, _, r| properties::outside(s, r).then_some(0.0)),
+        ("scale", |s, u, _| {
+            properties::scale(s, u);
+            Some(0.0)
+        }),
+    ];
+    let at = |(property, run): (&'static str, Pointwise)| {
+        each(property, names, &|i| {
+            let mut random = Random::new(i as u64);
+            let is_told = property != "scale" || is_scaled[i];
+            let square = square.iter().filter(|_| is_told);
+            let checked: Vec<f64> = square.filter_map(|&u| run(&subjects[i], u, &mut random)).collect();
+            (!checked.is_empty()).then(|| checked.into_iter().collect::<Greatest>().error())
+        })
+    };
+    let mut all: Vec<_> = pointwise.into_iter().map(at).collect();
+    all.push(each("integral", names, &|i| Some(properties::integral(&subjects[i]))));
+    all.push(each("chi-square", names, &|i| Some(properties::chi_square(&subjects[i], i as u64))));
+    all
 }

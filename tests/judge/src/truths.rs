@@ -1,7 +1,9 @@
-//! What is known about shapes that several warps sample.
+//! What is known about shapes that samplers draw from.
 
+mod disk;
 mod polygon;
 mod round;
 
-pub use polygon::Polygon;
-pub use round::Round;
+pub use disk::Disk;
+pub use polygon::{Polygon, Way};
+pub use round::{Round, Smooth, off_the_diagonals};

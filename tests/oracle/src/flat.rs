@@ -1,7 +1,6 @@
-//! Solid angles of triangles and rectangles, and their maps by definition, in 106 bits.
+//! Solid angles of triangles, and their map by definition, in 106 bits.
 
 use crate::double_double::{Dd, Dd3, add, cross, determinant, dot, length, narrow, normalized, times};
-use crate::quadrature::root;
 use crate::vectors::V3;
 
 /// Solid angle of a triangle from its vertices: accurate to 1e−13 for shapes down to 1e−9 of the distance.
@@ -77,72 +76,5 @@ impl Fan {
         let p = self.swept(Dd::from(u0));
         let [a, b, _] = self.units;
         solid_angle(a, b, p, dot(p, cross(a, b))).to_f64()
-    }
-}
-
-/// A rectangle and the map of Ureña et al.: the strip up to x has solid angle u₀Ω, and y/√(x²+y²+z²) is linear in u₁.
-#[derive(Clone, Debug)]
-pub struct Window {
-    corner: Dd3,
-    axes: [Dd3; 2],
-    near: [Dd; 2],
-    size: [Dd; 2],
-    height: Dd,
-    /// Solid angle in steradians.
-    pub solid_angle: f64,
-}
-impl Window {
-    /// The rectangle of a corner and two perpendicular edges.
-    #[must_use]
-    pub fn new(p: Dd3, u: Dd3, v: Dd3) -> Self {
-        let axes = [normalized(u), normalized(v)];
-        let normal = normalized(cross(u, v));
-        let near = axes.map(|a| dot(p, a));
-        let mut window = Self {
-            corner: p,
-            axes,
-            near,
-            size: [length(u), length(v)],
-            height: dot(p, normal).abs(),
-            solid_angle: 0.0,
-        };
-        window.solid_angle = window.strip(window.size[0]);
-        window
-    }
-    /// Solid angle of the strip from the near side in x to `dx` beyond it.
-    fn strip(&self, dx: Dd) -> f64 {
-        if self.height.to_f64() <= 0.0 || dx.to_f64() <= 0.0 {
-            return 0.0;
-        }
-        let at = |x: Dd, y: Dd| [self.near[0] + x, self.near[1] + y, self.height];
-        let zero = Dd::default();
-        let [a, b, c, d] = [at(zero, zero), at(dx, zero), at(dx, self.size[1]), at(zero, self.size[1])];
-        let volume = self.height * dx * self.size[1];
-        (solid_angle(a, b, c, volume) + solid_angle(a, c, d, volume)).to_f64()
-    }
-    /// The direction for `u`.
-    #[must_use]
-    pub fn at(&self, u: [f64; 2]) -> V3 {
-        let target = u[0] * self.solid_angle;
-        // in terms of the angle at the foot of the perpendicular, in which the strip grows evenly
-        let z = self.height;
-        let (x0, x1) = (self.near[0], self.near[0] + self.size[0]);
-        let turn = self.size[0] * z;
-        let whole = turn.to_f64().atan2((z * z + x0 * x1).to_f64());
-        // x − x₀ = (z² + x₀²) t/(z − x₀ t), t = tan of the angle from the near side
-        let moved = |angle: f64| {
-            let (s, c) = (Dd::from(angle.sin()), Dd::from(angle.cos()));
-            let dx = (z * z + x0 * x0) * s / (z * c - x0 * s);
-            if dx.to_f64() >= 0.0 && dx.to_f64() <= self.size[0].to_f64() { dx } else { self.size[0] }
-        };
-        let angle = root(whole, self.solid_angle, target, |angle| self.strip(moved(angle)));
-        let dx = if u[0] > 0.0 { moved(angle) } else { Dd::default() };
-        let x = x0 + dx;
-        let d = (x * x + z * z).sqrt();
-        let sine = |y: Dd| y / (d * d + y * y).sqrt();
-        let (y0, y1) = (self.near[1], self.near[1] + self.size[1]);
-        let h = sine(y0) + Dd::from(u[1]) * (sine(y1) - sine(y0));
-        let y = d * h / (Dd::from(1.0) - h * h).sqrt();
-        narrow(normalized(add(self.corner, add(times(self.axes[0], dx), times(self.axes[1], y - y0)))))
     }
 }

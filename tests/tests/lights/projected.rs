@@ -4,7 +4,8 @@
 use core::f64::consts::PI;
 use etendue::light::shapes::{ProjectedCap, ProjectedSegment, ProjectedTriangle};
 use etendue::{LightSample, LightSampler, Mask, Parallelogram, Real, Sphere, Triangle, Vec2, Vec3, Warp, f32x8};
-use etendue_judge::fixture::{Fixture, Truth};
+use etendue_judge::area_lights::{LightShape, Measure};
+use etendue_judge::fixture::Fixture;
 use etendue_judge::generators::{self, Random};
 use etendue_judge::tolerances::{PROJECTED_POLYGON, ULP};
 use etendue_oracle::{
@@ -157,13 +158,20 @@ fn flats() {
 #[test]
 fn projected_solid_angles() {
     let mut worst: Vec<(&str, f64)> = Vec::new();
-    for (name, triangle) in generators::projected_triangles(40, 23) {
-        let found = f64::from(Fixture::prepare::<f32>(&[triangle]).projected_solid_angle());
-        let truth = triangle.truth().measure;
-        let units = (found / truth - 1.0).abs() / (ULP * triangle.truth().condition());
+    let cases = generators::lights(LightShape::Triangle, Measure::ProjectedSolidAngle, 40, 23);
+    for (name, triangle) in generators::seen(cases) {
+        let [a, b, c, n] = [triangle.a, triangle.b, triangle.c, triangle.n].map(Vec3::<f32>::from);
+        let light = Triangle { v0: a, e1: b, e2: c };
+        let found = f64::from(light.by_projected_solid_angle(Vec3::default(), n).projected_solid_angle());
+        let known = triangle.truth();
+        // at the zenith of a receiver, a cosine is the density times this
+        let truth = length(wide(triangle.n)) / known.pdf(unit(wide(triangle.n)));
+        let units = (found / truth - 1.0).abs() / (ULP * known.condition());
         assert!(units < PROJECTED_POLYGON.pdf, "{name}: {triangle:?}: {found}, expected {truth}, {units} units");
-        let double: f64 = Fixture::prepare::<f64>(&[triangle]).projected_solid_angle();
-        let relative = (double / truth - 1.0).abs() / triangle.truth().condition();
+        let [a, b, c, n] = [triangle.a, triangle.b, triangle.c, triangle.n].map(|v| Vec3::<f64>::from(wide(v)));
+        let light = Triangle { v0: a, e1: b, e2: c };
+        let double = light.by_projected_solid_angle(Vec3::default(), n).projected_solid_angle();
+        let relative = (double / truth - 1.0).abs() / known.condition();
         assert!(relative < 1e-14, "{name}: {triangle:?}: {double}, expected {truth}, {relative:e}");
         match worst.iter_mut().find(|w| w.0 == name) {
             Some(w) => w.1 = w.1.max(units),

@@ -7,9 +7,10 @@ use etendue::{
     Vec2, Vec3, f32x8,
 };
 use etendue_judge::area_lights::{AreaLight, LightShape, Measure};
+use etendue_judge::fixture::Fixture;
 use etendue_judge::generators::Random;
 use etendue_judge::packets::{Coordinates, squares_of};
-use etendue_judge::techniques::{self, LightFixture};
+use etendue_judge::properties;
 use etendue_oracle::{V3, cross, dot, length, sub, unit, wide};
 
 /// Clearly out of its plane, or not flat, so that the shape is known to more than rounding.
@@ -31,9 +32,10 @@ fn pdf_of_a_sample_is_the_pdf_of_its_direction() {
             let light = AreaLight::any(kind, round, &mut random);
             let u = [random.unit(), random.unit()];
             if clear(&light) {
-                techniques::one_pdf(&light, u);
-                techniques::measure(&light, u);
-                *checked += u32::from(AreaLight::prepare::<f32>(&[light]).sample(squares_of(&[u])).pdf > 0.0);
+                let sampler = AreaLight::prepare::<f32>(&[light]);
+                properties::one_pdf(&light, &*sampler, u);
+                properties::measure(&light, &*sampler, u);
+                *checked += u32::from(sampler.sample(squares_of(&[u])).pdf > 0.0);
             }
         }
     }
@@ -48,7 +50,7 @@ fn every_lane_agrees_in_all_that_a_sampler_returns() {
         for round in 0..200 {
             let lights = core::array::from_fn(|i| AreaLight::any(kind, round + i as u32, &mut random));
             let us = core::array::from_fn(|_| [random.unit(), random.unit()]);
-            techniques::any_bits(&lights, &us);
+            properties::any_bits_of(&lights, &us);
         }
     }
 }

@@ -169,13 +169,6 @@ fn cycle(imports: &Graph) -> Option<Vec<String>> {
     imports.keys().find_map(|module| search(imports, &mut vec![module.clone()], &mut done))
 }
 
-/// Imports that close a cycle: folder, module, what it imports, and why.
-const EXCEPTIONS: [(&str, &str, &str, &str); 3] = [
-    ("tests/judge", "fixture", "generators", "`Random` is in generators.rs, beside the shapes that it generates"),
-    ("tests/judge", "fixtures", "generators", "the same"),
-    ("tests/judge", "truths", "generators", "the same"),
-];
-
 /// The packages, and whether the files inside of their folders must import one way, too. In the core and the properties, the file of a
 /// folder has the traits and types that all its modules share, so they import it.
 const PACKAGES: [(&str, bool); 14] = [
@@ -197,29 +190,15 @@ const PACKAGES: [(&str, bool); 14] = [
 
 #[test]
 fn modules_import_one_way() {
-    let mut exceptions = Vec::new();
     for (package, folders) in PACKAGES {
         let levels = levels(package);
-        for (level, mut graph) in levels.into_iter().filter(|(level, _)| folders || level == package) {
+        for (level, graph) in levels.into_iter().filter(|(level, _)| folders || level == package) {
             println!("{level}");
             for (module, imports) in &graph {
                 println!("    {module:16} → {}", imports.iter().cloned().collect::<Vec<_>>().join(", "));
             }
             assert!(graph.len() > 1, "{level} has no modules");
-            for &(_, from, to, why) in EXCEPTIONS.iter().filter(|exception| exception.0 == level) {
-                assert!(
-                    graph.get_mut(from).is_some_and(|imports| imports.remove(to)),
-                    "{level}: {from} → {to} is gone"
-                );
-                println!("    except {from} → {to}: {why}");
-                exceptions.push((level.clone(), from, to));
-            }
             assert_eq!(cycle(&graph), None, "modules of {level} import each other");
-            for (_, from, to) in exceptions.iter().filter(|exception| exception.0 == level) {
-                let mut one = graph.clone();
-                one.get_mut(*from).unwrap().insert((*to).to_owned());
-                assert!(cycle(&one).is_some(), "{level}: {from} → {to} is no exception any more");
-            }
             // any import in the other direction is found
             for (from, to) in graph.iter().flat_map(|(from, imports)| imports.iter().map(move |to| (from, to))) {
                 let mut planted = graph.clone();
@@ -228,7 +207,6 @@ fn modules_import_one_way() {
             }
         }
     }
-    assert_eq!(exceptions.len(), EXCEPTIONS.len(), "exceptions in folders that do not exist");
 }
 
 /// Imports that are known to exist are found, so that the other test cannot pass because it reads nothing.
@@ -250,7 +228,7 @@ fn imports_are_found() {
         ("render/laboratory", "render/laboratory::chart", "plot", "stats"),
         ("render/laboratory", "render/laboratory::atlas", "survey", "truth"),
         ("render/cli", "render/cli", "render", "output"),
-        ("tests/oracle", "tests/oracle", "flat", "quadrature"),
+        ("tests/oracle", "tests/oracle", "curves", "quadrature"),
         ("tests/judge", "tests/judge", "suite", "properties"),
         ("benches/routines", "benches/routines", "rays", "baseline"),
     ] {

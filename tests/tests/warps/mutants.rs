@@ -3,13 +3,15 @@
 
 use etendue::Real;
 use etendue::estimate::Heuristic;
-use etendue_judge::fixtures::{Cap, ConcentricDisk, Cone, CosineHemisphere, Triangle};
+use etendue_judge::area_lights::{AreaLight, LightShape, Measure};
+use etendue_judge::fixture::Fixture;
+use etendue_judge::fixtures::{ConcentricDisk, Cone, CosineHemisphere};
 use etendue_judge::generators::{self, Case};
 use etendue_judge::mutants::{
     AreaBetweenThresholds, ConeOverflow, CosineWarp, Defect, DroppedGrazing, ExcessInSample, FlatCentre,
-    NonZeroOffTheCone, PaddedDisk, SelfClampingBarycentrics, Sound, SoundDisk, UnguardedCap, UnitsInTheSwitch, plant,
+    NonZeroOffTheCone, PaddedDisk, Planted, SelfClampingBarycentrics, Sound, UnguardedCap, UnitsInTheSwitch, plant,
 };
-use etendue_judge::{checks, suite, techniques};
+use etendue_judge::{checks, properties, suite};
 
 /// The properties that detected a defect, each with its regimes; empty if none did.
 type Noticed = Vec<(String, String)>;
@@ -21,7 +23,7 @@ fn squares<const N: usize>(densities: [f32; N]) -> [f32; N] {
 }
 
 /// Runs all properties of warps.
-fn properties<D: Defect>(cases: &[Case<D::Of>]) -> Noticed {
+fn all<D: Defect>(cases: &[Case<D::Of>]) -> Noticed {
     noticed(&suite::all(&plant::<D>(cases), 8))
 }
 /// Runs only the property that points are on the shape.
@@ -41,6 +43,14 @@ fn noticed(outcomes: &[suite::PropertyOutcome]) -> Noticed {
             )
         })
         .collect()
+}
+/// Runs the property that there is one pdf, and that it is the true one by area.
+fn one_pdf<D: Defect<Of = AreaLight>>(light: AreaLight) -> Noticed {
+    let sampler = Planted::<D>::prepare::<f32>(&[Planted(light)]);
+    let square = generators::square(60, 3);
+    let noticed = check("one pdf", || square.iter().for_each(|&u| properties::one_pdf(&light, &*sampler, u)));
+    let by_area = check("measure", || square.iter().for_each(|&u| properties::measure(&light, &*sampler, u)));
+    [noticed, by_area].concat()
 }
 /// Runs one check.
 fn check(name: &str, run: impl FnOnce()) -> Noticed {
@@ -68,14 +78,15 @@ fn report(number: u32, what: &str, noticed: Noticed, falsely: Noticed) -> Report
 }
 #[test]
 fn every_mutant_is_detected() {
-    let (caps, triangles): (Vec<Case<Cap>>, Vec<Case<Triangle>>) =
-        (generators::caps(1, 11), generators::triangles(1, 12));
+    let caps = generators::lights(LightShape::Sphere, Measure::SolidAngle, 1, 11);
+    let triangles = generators::lights(LightShape::Triangle, Measure::SolidAngle, 1, 12);
     let (cones, disk): (Vec<Case<Cone>>, _) = (generators::cones(), [("whole", ConcentricDisk)]);
     let hemisphere = [("whole", CosineHemisphere)];
 
-    let panel = |p, u, v| (CosineWarp::<true> { p, u, v }, CosineWarp::<false> { p, u, v });
-    let (wrong, right) = panel([0.5, -0.4, 0.2], [0.0, 0.8, 0.0], [0.3, 0.0, 0.6]);
-    let square = generators::square(60, 3);
+    let panel = [[0.5, -0.4, 0.2], [0.0, 0.8, 0.0], [0.3, 0.0, 0.6]];
+    let panel = AreaLight::seen(LightShape::Rectangle, Measure::SolidAngle, panel, [0.0, 0.0, 1.0]);
+    let disk_light = AreaLight { radius: 0.5, ..panel };
+    let disk_light = AreaLight { shape: LightShape::Disk, by: Measure::Area, b: [0.0, 0.0, -1.0], ..disk_light };
 
     let flushed = |x: f32| if x.is_subnormal() { 0.0_f32.copysign(x) } else { x };
     let power = Heuristic::POWER;
@@ -83,24 +94,24 @@ fn every_mutant_is_detected() {
     // with the correct clamp the distance is inaccurate too, but the point stays on the triangle
     let edge_on: Vec<_> = generators::nearly_in_plane(50, 19)
         .into_iter()
-        .map(|[v, a, b]| ("nearly in plane", Triangle::by_edges(v, a, b)))
+        .map(|flat| ("nearly in plane", AreaLight { a: flat[0], b: flat[1], c: flat[2], ..triangles[0].1 }))
         .collect();
     // the correct fixtures, once each
-    let (cap, triangle) = (properties::<Sound<Cap>>(&caps), properties::<Sound<Triangle>>(&triangles));
+    let (cap, triangle) = (all::<Sound<AreaLight>>(&caps), all::<Sound<AreaLight>>(&triangles));
     let all = [
-        report(1, "1−cosσ unguarded in the pdf", properties::<UnguardedCap>(&caps), cap.clone()),
-        report(2, "Ω by angle excess in the sample", properties::<ExcessInSample>(&triangles), triangle.clone()),
+        report(1, "1−cosσ unguarded in the pdf", all::<UnguardedCap>(&caps), cap.clone()),
+        report(2, "Ω by angle excess in the sample", all::<ExcessInSample>(&triangles), triangle.clone()),
         report(
             3,
             "cosine warp's factor missing in the evaluated pdf",
-            check("one pdf", || square.iter().for_each(|&u| techniques::one_pdf(&wrong, u))),
-            check("one pdf", || square.iter().for_each(|&u| techniques::one_pdf(&right, u))),
+            one_pdf::<CosineWarp>(panel),
+            one_pdf::<Sound<AreaLight>>(panel),
         ),
-        report(4, "area-uniform point with pdf 1/Ω", properties::<AreaBetweenThresholds>(&triangles), triangle.clone()),
+        report(4, "area-uniform point with pdf 1/Ω", all::<AreaBetweenThresholds>(&triangles), triangle.clone()),
         report(
             5,
             "switch of technique that depends on the units",
-            properties::<UnitsInTheSwitch>(&triangles),
+            all::<UnitsInTheSwitch>(&triangles),
             triangle.clone(),
         ),
         report(
@@ -118,8 +129,8 @@ fn every_mutant_is_detected() {
         report(
             8,
             "0/0 at the centre of the concentric disk",
-            properties::<FlatCentre>(&disk),
-            properties::<Sound<ConcentricDisk>>(&disk),
+            all::<FlatCentre>(&disk),
+            all::<Sound<ConcentricDisk>>(&disk),
         ),
         report(
             9,
@@ -130,17 +141,17 @@ fn every_mutant_is_detected() {
         report(
             10,
             "directions below 1e−5 dropped",
-            properties::<DroppedGrazing>(&hemisphere),
-            properties::<Sound<CosineHemisphere>>(&hemisphere),
+            all::<DroppedGrazing>(&hemisphere),
+            all::<Sound<CosineHemisphere>>(&hemisphere),
         ),
         report(
             11,
             "1e−4 added to a pdf's divisor",
-            check("form factor", || checks::disk_has_its_form_factor(200, PaddedDisk::draw)),
-            check("form factor", || checks::disk_has_its_form_factor(1500, SoundDisk::draw)),
+            one_pdf::<PaddedDisk>(disk_light),
+            one_pdf::<Sound<AreaLight>>(disk_light),
         ),
-        report(12, "√(1+z²) for √(1−z²)", properties::<ConeOverflow>(&cones), properties::<Sound<Cone>>(&cones)),
-        report(13, "pdf of a sphere off its cone", properties::<NonZeroOffTheCone>(&caps), cap.clone()),
+        report(12, "√(1+z²) for √(1−z²)", all::<ConeOverflow>(&cones), all::<Sound<Cone>>(&cones)),
+        report(13, "pdf of a sphere off its cone", all::<NonZeroOffTheCone>(&caps), cap.clone()),
     ];
     let noticed = all.iter().filter(|r| !r.noticed.is_empty()).count();
     println!("mutants: {noticed} of {} detected", all.len());

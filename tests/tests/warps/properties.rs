@@ -1,12 +1,13 @@
 //! Every property of every warp in every regime. `-- --nocapture` prints the greatest figure of each (warp, regime, property).
 
+use etendue::Sphere;
+use etendue_judge::area_lights::{AreaLight, LightShape, Measure};
 use etendue_judge::fixture::Fixture;
 use etendue_judge::fixtures::{
-    AreaTriangle, Bilinear, Cap, ConcentricDisk, Cone, CosineHemisphere, Disk, GgxVisibleNormals,
-    LowDistortionTriangle, Octahedral, Parallelogram, PatchSurface, ProjectedCap, ProjectedParallelogram,
-    ProjectedSegment, ProjectedTriangle, Segment, Triangle, UniformHemisphere, UniformSphere, nearest_hit,
+    AreaTriangle, Bilinear, ConcentricDisk, Cone, CosineHemisphere, GgxVisibleNormals, LowDistortionTriangle, Octahedral,
+    PatchSurface, Segment, UniformHemisphere, UniformSphere,
 };
-use etendue_judge::generators::{self, Case, Random};
+use etendue_judge::generators::{self, Case, Random, lights};
 use etendue_judge::packets::squares_of;
 use etendue_judge::properties;
 use etendue_judge::suite;
@@ -30,7 +31,8 @@ const VACUOUS: [(&str, &str); 11] = [
 
 /// Runs all properties over the cases; in the quick tier, over one of each regime. Reports every regime that breaks one, with its first
 /// message.
-fn all<S: Fixture>(warp: &str, mut cases: Vec<Case<S>>, random: usize) {
+fn all<S: Fixture>(warp: &str, cases: Vec<Case<S>>, random: usize) {
+    let mut cases = generators::seen(cases);
     if !is_long() {
         let mut seen = BTreeSet::new();
         cases.retain(|case| seen.insert(case.0));
@@ -63,6 +65,9 @@ fn all<S: Fixture>(warp: &str, mut cases: Vec<Case<S>>, random: usize) {
 }
 
 /// A test for each warp: its name, its cases, and how many random points of the square.
+use LightShape::{Disk, Parallelogram, Rectangle, Triangle};
+use Measure::{ProjectedSolidAngle, SolidAngle};
+
 macro_rules! warps {
     ($($name:ident: $cases:expr, $random:literal;)+) => {
         $(#[test]
@@ -82,22 +87,34 @@ warps! {
     uniform_sphere: vec![("whole", UniformSphere)], 4000;
     octahedral: vec![("whole", Octahedral)], 4000;
     cone: generators::cones(), 1000;
-    spherical_cap: generators::caps(3, 11), 200;
+    spherical_cap: lights(LightShape::Sphere, SolidAngle, 3, 11), 200;
     spherical_polygon: generators::hexagons(3, 15), 60;
     spherical_polygon_of_every_size: generators::hexagons_of_every_size(3, 16), 60;
-    spherical_disk: generators::disks(3, 31), 100;
-    spherical_segment: generators::segments(3, 21).0, 200;
-    projected_segment: generators::segments(1, 22).1, 60;
+    spherical_disk: lights(Disk, SolidAngle, 3, 31), 100;
+    spherical_segment: generators::segments(3, 21)[0].clone(), 200;
+    projected_segment: generators::segments(1, 22)[1].clone(), 60;
     patch_surface: generators::patch_surfaces(), 200;
-    projected_cap: generators::projected_caps(3, 14), 100;
-    projected_triangle: generators::projected_triangles(3, 16), 60;
-    projected_parallelogram: generators::projected_parallelograms(1, 17), 40;
+    projected_cap: lights(LightShape::Sphere, ProjectedSolidAngle, 3, 14), 100;
+    projected_triangle: lights(Triangle, ProjectedSolidAngle, 3, 16), 60;
+    projected_parallelogram: lights(Parallelogram, ProjectedSolidAngle, 1, 17), 40;
     projected_polygon: generators::projected_pentagons(2, 18), 40;
     projected_polygon_of_every_size: generators::projected_pentagons_of_every_size(2, 19), 40;
-    spherical_triangle: generators::triangles(4, 12), 60;
-    spherical_parallelogram: generators::parallelograms(4, 13), 200;
-    spherical_rectangle: generators::rectangles(8, 14), 200;
+    spherical_triangle: lights(Triangle, SolidAngle, 4, 12), 60;
+    spherical_parallelogram: lights(Parallelogram, SolidAngle, 4, 13), 200;
+    spherical_rectangle: lights(Rectangle, SolidAngle, 8, 14), 200;
 }
+
+/// Every shape by its techniques other than area.
+const SHAPES: [(LightShape, Measure); 8] = [
+    (LightShape::Sphere, SolidAngle),
+    (LightShape::Sphere, ProjectedSolidAngle),
+    (Triangle, SolidAngle),
+    (Triangle, ProjectedSolidAngle),
+    (Parallelogram, SolidAngle),
+    (Parallelogram, ProjectedSolidAngle),
+    (Rectangle, SolidAngle),
+    (Disk, SolidAngle),
+];
 
 /// Lane-identical with any other parameters and any other `u` in each lane, subnormal ones included: a lane that takes a rare path does not
 /// take its neighbours there.
@@ -122,16 +139,16 @@ fn lanes_keep_to_themselves() {
         properties::lanes(&core::array::from_fn(|k| Bilinear { corners: [a[k][0], a[k][1], b[k][0], c[k][2]] }), &us);
         properties::lanes(&core::array::from_fn(|k| Cone { one_minus_cos: b[k][0].clamp(0.0, 2.0) }), &us);
         properties::lanes(&core::array::from_fn(|k| GgxVisibleNormals { alpha: [a[k][0], b[k][0]], wi: c[k] }), &us);
-        properties::lanes(&core::array::from_fn(|k| Cap::new(a[k], b[k][0])), &us);
-        properties::lanes(&core::array::from_fn(|k| ProjectedCap::new(a[k], b[k][0], c[k])), &us);
-        properties::lanes(&core::array::from_fn(|k| Triangle::by_edges(a[k], b[k], c[k])), &us);
-        properties::lanes(&core::array::from_fn(|k| Parallelogram::new(a[k], b[k], c[k])), &us);
-        properties::lanes(&core::array::from_fn(|k| Segment::new([a[k], b[k]])), &us);
-        properties::lanes(&core::array::from_fn(|k| ProjectedSegment::new([a[k], b[k], c[k]])), &us);
-        properties::lanes(&core::array::from_fn(|k| Disk::new(a[k], b[k], c[k][0])), &us);
+        for (shape, by) in SHAPES {
+            let light = |k: usize| {
+                let b = if shape == LightShape::Disk { c[k] } else { b[k] };
+                AreaLight { radius: b[0], ..AreaLight::seen(shape, by, [a[k], b, c[k]], a[7 - k]) }
+            };
+            properties::lanes(&core::array::from_fn(light), &us);
+        }
+        properties::lanes(&core::array::from_fn(|k| Segment { ends: [a[k], b[k]], normal: None }), &us);
+        properties::lanes(&core::array::from_fn(|k| Segment { ends: [a[k], b[k]], normal: Some(c[k]) }), &us);
         properties::lanes(&core::array::from_fn(|k| PatchSurface { p: c[k], u: a[k], v: b[k], w: a[7 - k] }), &us);
-        properties::lanes(&core::array::from_fn(|k| ProjectedTriangle::by_edges(a[k], b[k], c[k], a[7 - k])), &us);
-        properties::lanes(&core::array::from_fn(|k| ProjectedParallelogram::new(a[k], b[k], c[k], a[7 - k])), &us);
     }
 }
 
@@ -141,25 +158,28 @@ fn contact() {
     let (o, x, y) = ([0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]);
     for u in generators::square(20, 6) {
         // on a vertex, on an edge, in the plane outside and inside, without area
-        for t in [
-            Triangle::by_vertices(o, x, y),
-            Triangle::by_vertices([-0.5, 0.0, 0.0], [0.5, 0.0, 0.0], y),
-            Triangle::by_vertices([1.0, 1.0, 0.0], [2.0, 1.0, 0.0], [1.0, 2.0, 0.0]),
-            Triangle::by_vertices([-1.0, -1.0, 0.0], [2.0, 0.0, 0.0], [0.0, 2.0, 0.0]),
-            Triangle::by_vertices([0.0, 0.0, 1.0], [0.0, 0.0, 1.0], x),
-            Triangle::by_vertices([0.0, 0.0, 1.0], [0.5, 0.0, 1.0], [1.0, 0.0, 1.0]),
+        for corners in [
+            [o, x, y],
+            [[-0.5, 0.0, 0.0], [0.5, 0.0, 0.0], y],
+            [[1.0, 1.0, 0.0], [2.0, 1.0, 0.0], [1.0, 2.0, 0.0]],
+            [[-1.0, -1.0, 0.0], [2.0, 0.0, 0.0], [0.0, 2.0, 0.0]],
+            [[0.0, 0.0, 1.0], [0.0, 0.0, 1.0], x],
+            [[0.0, 0.0, 1.0], [0.5, 0.0, 1.0], [1.0, 0.0, 1.0]],
         ] {
-            properties::any_bits(&t, u);
-            let seen = properties::observe::<Triangle, f32>(&Triangle::prepare::<f32>(&[t]), squares_of(&[u]))[0];
-            assert!(seen.pdf == 0.0, "{t:?} {seen:?}");
+            let edge = |k: usize| core::array::from_fn(|i| corners[k][i] - corners[0][i]);
+            let light = AreaLight::seen(Triangle, SolidAngle, [corners[0], edge(1), edge(2)], o);
+            properties::any_bits(&light, u);
+            let seen = AreaLight::prepare::<f32>(&[light]).sample(squares_of(&[u]));
+            assert!(seen.pdf == 0.0, "{light:?} {seen:?}");
         }
         for (center, radius, omega) in
             [(o, 1.0, 4.0), (x, 1.0, 2.0), ([0.5, 0.0, 0.0], 1.0, 4.0), (x, 0.0, 0.0), (x, -1.0, 0.0)]
         {
-            let cap = Cap::new(center, radius);
-            properties::any_bits(&cap, u);
-            let solid_angle = f64::from(Cap::prepare::<f32>(&[cap]).solid_angle());
-            assert!((solid_angle - omega * core::f64::consts::PI).abs() < 1e-6, "{cap:?} {solid_angle}");
+            let sphere = AreaLight::seen(LightShape::Sphere, SolidAngle, [center, o, o], o);
+            properties::any_bits(&AreaLight { radius, ..sphere }, u);
+            let solid_angle: f32 = Sphere::new(center.into(), radius).by_solid_angle(o.into()).solid_angle();
+            let truth = omega * core::f64::consts::PI;
+            assert!((f64::from(solid_angle) - truth).abs() < 1e-6, "{center:?}, {radius}: {solid_angle}");
         }
     }
 }
@@ -168,8 +188,8 @@ fn contact() {
 #[test]
 fn spheres_are_hit_on_the_near_side() {
     let square = generators::square(200, 7);
-    for (_, cap) in generators::caps(3, 17) {
-        square.iter().for_each(|&u| nearest_hit(&cap, u));
+    for (_, sphere) in lights(LightShape::Sphere, SolidAngle, 3, 17) {
+        square.iter().for_each(|&u| properties::nearest_hit(&sphere, u));
     }
 }
 /// No point is beyond its shape, in every regime and where the distance is least certain: nearly in a plane with the shape.
@@ -180,13 +200,13 @@ fn no_point_is_beyond_its_shape() {
         let broken: Vec<_> = outcome.broken().map(|r| format!("[{}] ×{}: {}", r.name, r.broken, r.first)).collect();
         assert!(broken.is_empty(), "{}", broken.join("\n"));
     }
-    let edge_on = generators::nearly_in_plane(50, 19);
-    let cases = |name| edge_on.iter().map(move |&[v, a, b]| (name, [v, a, b]));
-    check(&generators::triangles(4, 12));
-    check(&cases("nearly in plane").map(|(n, [v, a, b])| (n, Triangle::by_edges(v, a, b))).collect::<Vec<_>>());
-    check(&generators::parallelograms(4, 13));
-    check(&cases("nearly in plane").map(|(n, [v, a, b])| (n, Parallelogram::new(v, a, b))).collect::<Vec<_>>());
-    check(&generators::rectangles(4, 14));
+    for (shape, seed) in [(Triangle, 12), (Parallelogram, 13), (Rectangle, 14)] {
+        check(&lights(shape, SolidAngle, 4, seed));
+        let flat = |flat| ("nearly in plane", AreaLight::seen(shape, SolidAngle, flat, [0.0; 3]));
+        if shape != Rectangle {
+            check(&generators::nearly_in_plane(50, 19).into_iter().map(flat).collect::<Vec<_>>());
+        }
+    }
     check(&generators::hexagons(4, 15));
     check(&generators::hexagons_of_every_size(4, 15));
 }

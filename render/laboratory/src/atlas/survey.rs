@@ -28,8 +28,8 @@ pub struct Figures {
     pub direction: f64,
     /// Greatest relative error of the pdf, in excess of the change that 2 ulp of the direction cause.
     pub pdf: f64,
-    /// Greatest error of u after sampling and inverting. If 4 ulp of the direction (2 of the sample, 2 of the inverse) change u by more
-    /// than the limit, the error is relative to that change, times the limit. Samples where they change u by more than 0.1 do not count,
+    /// Greatest error of u after sampling and inverting, beyond 2 ulp of u. If 4 ulp of the direction (2 of the sample, 2 of the inverse)
+    /// change u by more than the limit, the error is relative to that change, times the limit. Samples where they change u by more than 0.1 do not count,
     /// as f32 has no inverse there. At a discontinuity of the map (about the zenith, or between two parts) two values of u are equally
     /// good: there the error is the distance from the sample to the direction of the inverse, relative to 6 ulp (2 of each
     /// direction, 2 of the inverse), times the limit; or, if that is less, to the nearest true direction of a u within 2 ulp of the
@@ -353,7 +353,8 @@ impl Tally {
             if truth.periodic(axis) {
                 error = error.min((1.0 - error).abs());
             }
-            error * (LIMIT / worth[axis]).min(1.0)
+            // the inverse is itself rounded
+            (error - U_ULP).max(0.0) * (LIMIT / worth[axis]).min(1.0)
         };
         let mut error = off(0).max(off(1));
         if error > LIMIT {

@@ -2,37 +2,37 @@
 
 use super::Input;
 use crate::area_lights::LightShape;
-use crate::light_tree::{Grove, Lamp, LampKind, Regime, place};
+use crate::light_tree::{Grove, Lamp, Regime, place};
 use etendue::reflection::Reflection;
 use etendue::select::Gloss;
 
-const KINDS: [LampKind; 6] = [
-    LampKind::Area(LightShape::Triangle),
-    LampKind::Area(LightShape::Parallelogram),
-    LampKind::Area(LightShape::Disk),
-    LampKind::Area(LightShape::Sphere),
-    LampKind::Point,
-    LampKind::Spot,
+const KINDS: [LightShape; 6] = [
+    LightShape::Triangle,
+    LightShape::Parallelogram,
+    LightShape::Disk,
+    LightShape::Sphere,
+    LightShape::PointLight,
+    LightShape::SpotLight,
 ];
 
 /// A light of any numbers.
 fn lamp(input: &mut Input<'_>, before: &mut Vec<[f32; 3]>) -> Lamp {
-    let kind = KINDS[input.below(KINDS.len() as u8) as usize];
+    let shape = KINDS[input.below(KINDS.len() as u8) as usize];
     let a = input.vector(before);
     before.push(a);
     let (mut b, mut c) = (input.vector(before), input.vector(before));
-    if matches!(kind, LampKind::Spot | LampKind::Area(LightShape::Disk)) {
+    if matches!(shape, LightShape::SpotLight | LightShape::Disk) {
         b = input.direction();
     }
-    if kind == LampKind::Spot {
+    if shape == LightShape::SpotLight {
         let cosine = input.unit();
         c = [cosine + (1.0 - cosine) * input.unit(), cosine, 0.0];
     }
     before.push(b);
     let (radius, two_sided, power) = (input.weight(), input.below(4) == 0, input.weight());
-    let is_flat = matches!(kind, LampKind::Area(LightShape::Triangle | LightShape::Parallelogram | LightShape::Disk));
+    let is_flat = matches!(shape, LightShape::Triangle | LightShape::Parallelogram | LightShape::Disk);
     let spread = if is_flat && input.below(2) == 0 { 3.0 * input.unit() } else { 0.0 };
-    Lamp { kind, a, b, c, radius, two_sided, spread, power }
+    Lamp { shape, a, b, c, radius, two_sided, spread, power }
 }
 
 /// Whether the lengths of a light are such that squares of them do not overflow.

@@ -1,12 +1,13 @@
-//! Lights.
+//! Lights by every technique.
 
 use super::{Input, scalable};
 use crate::area_lights::{AreaLight, LightShape, Measure};
-use crate::packets;
-use crate::techniques::{self, LightFixture};
-use etendue::{
-    ConstantEnvironment, DirectionalLight, LightSample, LightSampler, PointLight, Real, SpotLight, Sun, Vec3,
-};
+use crate::fixture::{Fixture, Subject, Truth};
+use crate::packets::vectors_of;
+use crate::properties;
+use crate::tolerances::ULP;
+use crate::truths::Round;
+use etendue::{ConstantEnvironment, LightSampler, Real};
 use etendue_oracle::{V3, cross, dot, length, sub, wide};
 
 macro_rules! area_lights {
@@ -31,20 +32,16 @@ area_lights! {
 fn area_light(shape: LightShape, input: &mut Input<'_>) {
     let techniques: Vec<_> = AreaLight::KINDS.iter().filter(|kind| kind.0 == shape).collect();
     let by = techniques[input.below(techniques.len() as u8) as usize].1;
-    let mut one = || {
+    let (light, u) = mixed(input, |input| {
         let p = input.vector(&[]);
         let a = input.vector(&[p]);
         // normals are unit vectors
         let b = if shape.has_normal() { input.direction() } else { input.vector(&[a, p]) };
         let c = input.vector(&[a, b]);
         let n = if shape == LightShape::Patch { input.vector(&[b, c]) } else { input.direction() };
-        (AreaLight { shape, by, p, a, b, c, n, radius: input.number() }, input.square())
-    };
-    let (first, second) = (one(), one());
-    let pick = |i: usize| if i % 3 == 1 { second } else { first };
-    techniques::any_bits(&core::array::from_fn(|i| pick(i).0), &core::array::from_fn(|i| pick(i).1));
-    let (light, u) = first;
-    techniques::measure(&light, u);
+        AreaLight { shape, by, p, a, b, c, n, radius: input.number() }
+    });
+    properties::measure(&light, &*AreaLight::prepare(&[light]), u);
     let AreaLight { p, a, b, c, n, radius, .. } = light;
     // the area of a shape is a square of lengths, and even smaller if the shape is slim
     let [e, f, g] = [b, c, n].map(wide);
@@ -57,7 +54,7 @@ fn area_light(shape: LightShape, input: &mut Input<'_>) {
         length(cross(e, f)) == 0.0 || roomy(e, f)
     };
     if scalable(&[p, a, b, c, n].concat(), 1e6) && scalable(&[radius], 1e6) && spread {
-        techniques::scale(&light, u);
+        properties::scale_sample(&Subject::new(&light), u);
     }
     // at the scale of rooms, more properties hold
     let [p, a] = [[0.0; 3], input.vector(&[]).map(|x| x.clamp(-2.0, 2.0))];
@@ -74,68 +71,63 @@ fn area_light(shape: LightShape, input: &mut Input<'_>) {
     let lifted = elevation > 1e-3 && length(v) > 1e-3 && length(normal) > 1e-3;
     let fair = !flat || lifted && (!strict || elevation > 0.05 && length(v) > 0.05 && length(normal) > 0.05);
     if shape != LightShape::Rectangle && fair {
-        techniques::one_pdf(&near, u);
+        properties::one_pdf(&near, &*AreaLight::prepare(&[near]), u);
     }
 }
-
-/// A light without a surface.
-#[derive(Clone, Copy, Debug)]
-struct Distant {
-    kind: u8,
-    p: [f32; 3],
-    a: [f32; 3],
-    n: [f32; 3],
-    x: f32,
-    y: f32,
-}
-impl LightFixture for Distant {
-    fn prepare<R: Real>(lanes: &[Self]) -> Box<dyn LightSampler<R>> {
-        let of = |i: usize| lanes[i % lanes.len()];
-        let vector = |pick: fn(&Self) -> [f32; 3]| -> Vec3<R> { packets::vectors_of(|i| pick(&of(i))) };
-        let number = |pick: fn(&Self) -> f32| -> R { packets::lanes_of(|i| f64::from(pick(&of(i)))) };
-        let (p, position, n) = (vector(|d| d.p), vector(|d| d.a), vector(|d| d.n));
-        match lanes[0].kind {
-            0 => Box::new(PointLight { position }.by_delta(p)),
-            1 => {
-                let (one_minus_cos_inner, one_minus_cos_outer) = (number(|d| d.x), number(|d| d.y));
-                Box::new(SpotLight { position, axis: n, one_minus_cos_inner, one_minus_cos_outer }.by_delta(p))
-            }
-            2 => Box::new(DirectionalLight::new(n).by_delta()),
-            3 => Box::new(Sun::new(n, number(|d| d.x)).by_solid_angle()),
-            4 => Box::new(ConstantEnvironment.by_solid_angle()),
-            _ => Box::new(ConstantEnvironment.by_projected_solid_angle(n)),
-        }
-    }
-    /// Delta lights have no density.
-    fn evaluated_to(&self, s: &LightSample<f32>) -> Option<f64> {
-        (!s.delta).then_some(0.0)
-    }
+/// Packets of eight that mix two lights; returns the first.
+fn mixed<S: Fixture>(input: &mut Input<'_>, any: impl Fn(&mut Input<'_>) -> S) -> (S, [f32; 2]) {
+    let [first, second] = [(); 2].map(|()| (any(input), input.square()));
+    let pick = |i: usize| if i % 3 == 1 { second } else { first };
+    properties::any_bits_of(&core::array::from_fn(|i| pick(i).0), &core::array::from_fn(|i| pick(i).1));
+    first
 }
 
 macro_rules! distant_lights {
-    ($($target:ident: |$input:ident| $kind:expr;)+) => {$(
-        pub(super) fn $target($input: &mut Input<'_>) {
-            let kind = $kind;
-            distant_light(kind, $input);
+    ($($target:ident: $shape:ident, $by:ident;)+) => {$(
+        pub(super) fn $target(input: &mut Input<'_>) {
+            let (light, u) = mixed(input, |input| {
+                let (p, b) = (input.vector(&[]), input.direction());
+                let (a, c) = (input.vector(&[p]), [input.number(), 0.0, 0.0]);
+                let light = AreaLight::seen(LightShape::$shape, Measure::$by, [a, b, c], b);
+                AreaLight { p, radius: input.number(), ..light }
+            });
+            properties::one_pdf(&light, &*AreaLight::prepare(&[light]), u);
         }
     )+};
 }
 distant_lights! {
-    point_light: |input| 0;
-    spot_light: |input| 1;
-    directional_light: |input| 2;
-    sun_light: |input| 3;
-    constant_light: |input| 4 + input.below(2);
+    point_light: PointLight, Delta;
+    spot_light: SpotLight, Delta;
+    directional_light: DirectionalLight, Delta;
+    sun_light: Sun, SolidAngle;
 }
 
-/// Packets of eight that mix two lights of one kind.
-fn distant_light(kind: u8, input: &mut Input<'_>) {
-    let mut one = || {
-        let (p, n) = (input.vector(&[]), input.direction());
-        (Distant { kind, p, a: input.vector(&[p]), n, x: input.number(), y: input.number() }, input.square())
-    };
-    let (first, second) = (one(), one());
-    let pick = |i: usize| if i % 3 == 1 { second } else { first };
-    techniques::any_bits(&core::array::from_fn(|i| pick(i).0), &core::array::from_fn(|i| pick(i).1));
-    techniques::one_pdf(&first.0, first.1);
+/// The sky of one radiance, by solid angle, or by projected solid angle where there is a normal: the inside of a sphere.
+#[derive(Clone, Copy, Debug)]
+struct Everywhere(Option<[f32; 3]>);
+impl Fixture for Everywhere {
+    fn prepare<R: Real>(lanes: &[Self]) -> Box<dyn LightSampler<R>> {
+        if lanes[0].0.is_none() {
+            return Box::new(ConstantEnvironment.by_solid_angle());
+        }
+        let normals = vectors_of(|i| lanes[i % lanes.len()].0.unwrap_or_default());
+        Box::new(ConstantEnvironment.by_projected_solid_angle(normals))
+    }
+    fn splat<R: Real>(&self) -> Box<dyn LightSampler<R>> {
+        Self::prepare(&[*self])
+    }
+    fn truth(&self) -> Box<dyn Truth> {
+        let center = [0.0; 3];
+        Box::new(self.0.map_or_else(|| Round::sphere(center, 1.0), |n| Round::above(center, 1.0, n)))
+    }
+    fn lengths(&self) -> [f64; 2] {
+        [1.0 - 12.0 * ULP, 1.0 + 12.0 * ULP]
+    }
+}
+pub(super) fn constant_light(input: &mut Input<'_>) {
+    let is_projected = input.below(2) == 1;
+    let (sky, u) = mixed(input, |input| Everywhere(is_projected.then(|| input.direction())));
+    // as exact as that of a sphere
+    let sphere = AreaLight::seen(LightShape::Sphere, Measure::SolidAngle, [[0.0; 3]; 3], [0.0; 3]);
+    properties::one_pdf(&sphere, &*Everywhere::prepare(&[sky]), u);
 }

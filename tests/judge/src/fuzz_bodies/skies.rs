@@ -2,6 +2,7 @@
 
 use super::Input;
 use crate::packets::{squares_of, vectors_of};
+use crate::properties;
 use etendue::light::{Portal, PortalEnvironment, PortalTable};
 use etendue::{LightSampler, Real, Vec3, f32x8};
 use etendue_oracle::{cross, length, wide};
@@ -49,30 +50,19 @@ pub(super) fn portals(input: &mut Input<'_>) {
     let p: Vec3<f32> = vectors_of(|_| place);
     let (sampler, wide) = (sky.by_radiance(p), sky.by_radiance::<f32x8>(vectors_of(|_| place)));
     let faces = all.iter().any(|portal| portal.faces(p));
+    let said = (&openings, place);
+    let sound = |one: &dyn LightSampler<f32>, eight: &dyn LightSampler<f32x8>, u: [f32; 2]| {
+        properties::total_at(&said, [1.0 - 5e-7, 1.0 + 5e-7], one, u);
+        properties::same(&said, &[u; 8], &[one; 8], eight, "a packet");
+        let s = one.sample(squares_of(&[u]));
+        assert_eq!((s.pdf > 0.0, one.pdf(s.direction)), (s.emits, s.pdf), "{said:?} {u:?}");
+        s
+    };
     for _ in 0..4 {
         let u = input.square();
-        let s = sampler.sample(squares_of(&[u]));
-        let w = s.direction;
-        assert!(
-            s.pdf >= 0.0 && s.pdf.is_finite() && w.length_squared().is_finite(),
-            "{openings:?} {place:?} {u:?}: {s:?}"
-        );
-        assert_eq!((s.pdf > 0.0, sampler.pdf(w)), (s.emits, s.pdf), "{openings:?} {place:?} {u:?}");
-        let eight = wide.sample(squares_of(&[u]));
-        assert_eq!(
-            (eight.pdf.lane(5).to_bits(), eight.direction.lane(5)),
-            (s.pdf.to_bits(), w),
-            "{openings:?} {place:?} {u:?}"
-        );
-        if are_plain && faces {
-            assert!(s.pdf > 0.0, "a lost sample: {openings:?} {place:?} {u:?}");
-        }
-        if s.pdf > 0.0 {
-            assert!(sky.sees(p, w), "{openings:?} {place:?} {u:?}");
-            assert!((w.length_squared() - 1.0).abs() < 1e-6, "{openings:?} {place:?} {u:?}");
-        }
-        let back = sampler.invert(w);
-        assert!([back.x, back.y].iter().all(|x| (0.0..1.0).contains(x)), "{openings:?} {place:?} {u:?}: {back:?}");
+        let s = sound(&sampler, &wide, u);
+        assert!(s.pdf > 0.0 || !(are_plain && faces), "a lost sample: {said:?} {u:?}");
+        assert!(s.pdf == 0.0 || sky.sees(p, s.direction), "{said:?} {u:?}");
     }
     let normal = input.direction();
     let (above, wide_above) = (
@@ -80,20 +70,13 @@ pub(super) fn portals(input: &mut Input<'_>) {
         sky.by_radiance_above::<f32x8>(vectors_of(|_| place), vectors_of(|_| normal)),
     );
     let u = input.square();
-    let s = above.sample(squares_of(&[u]));
-    let w = s.direction;
-    assert_eq!((s.pdf > 0.0, above.pdf(w)), (s.emits, s.pdf), "{openings:?} {place:?} {normal:?} {u:?}");
-    assert!(
-        s.pdf.is_finite() && (s.pdf == 0.0 || sampler.pdf(w) > 0.0),
-        "{openings:?} {place:?} {normal:?} {u:?}: {s:?}"
-    );
-    let eight = wide_above.sample(squares_of(&[u]));
-    assert_eq!((eight.pdf.lane(6).to_bits(), eight.direction.lane(6)), (s.pdf.to_bits(), w));
+    let s = sound(&above, &wide_above, u);
+    assert!(s.pdf == 0.0 || sampler.pdf(s.direction) > 0.0, "{said:?} {normal:?} {u:?}: {s:?}");
     let any = input.direction();
     let w: Vec3<f32> = vectors_of(|_| any);
     let pdf = sampler.pdf(w);
-    assert!(pdf >= 0.0 && pdf.is_finite() && (pdf == 0.0 || sky.sees(p, w)), "{openings:?} {place:?} {any:?}");
+    assert!(pdf >= 0.0 && pdf.is_finite() && (pdf == 0.0 || sky.sees(p, w)), "{said:?} {any:?}");
     let back = sampler.invert(w);
-    assert!([back.x, back.y].iter().all(|x| (0.0..1.0).contains(x)), "{openings:?} {place:?} {any:?}: {back:?}");
+    assert!([back.x, back.y].iter().all(|x| (0.0..1.0).contains(x)), "{said:?} {any:?}: {back:?}");
     assert_eq!(wide.pdf(vectors_of(|_| any)).lane(3).to_bits(), pdf.to_bits());
 }

@@ -1,16 +1,10 @@
 //! Surfaces in space.
 
 use super::Input;
-use crate::fixture::Fixture;
+use crate::fixture::Subject;
 use crate::fixtures::PatchSurface;
 use crate::properties;
 
-/// Checks a surface of any numbers, and one of ordinary size and distance, for which all properties hold.
-fn check<S: Fixture>(any: &S, fair: &S, input: &mut Input<'_>) {
-    let u = input.square();
-    properties::any_bits(any, u);
-    properties::pointwise(fair, u, &mut input.points());
-}
 /// A length from 2⁻²⁰ to 2²⁰, and how far away a thing of that size may be: up to a thousand times its size.
 fn units(input: &mut Input<'_>) -> (f32, f32) {
     let size = (f32::from(input.below(41)) - 20.0).exp2();
@@ -20,7 +14,7 @@ fn place(input: &mut Input<'_>, reach: f32) -> [f32; 3] {
     [(); 3].map(|()| input.ordinary() * 0.5 * reach)
 }
 
-/// Bilinear patches. The ordinary ones are slightly twisted near-squares, convex as seen along the normal of their middle.
+/// Bilinear patches of any numbers, and ones of ordinary size and distance, for which all properties hold. The ordinary ones are slightly twisted near-squares, convex as seen along the normal of their middle.
 pub(super) fn patch_surface(input: &mut Input<'_>) {
     let p = input.vector(&[]);
     let u = input.vector(&[p]);
@@ -39,5 +33,7 @@ pub(super) fn patch_surface(input: &mut Input<'_>) {
     };
     let (u, v, w) = (mix(1.0, 0.0), mix(0.0, 1.0), mix(1.0, 1.0));
     let fair = PatchSurface { p: place(input, reach), u, v, w };
-    check(&any, &fair, input);
+    let u = input.square();
+    properties::any_bits(&any, u);
+    properties::pointwise(&Subject::new(&fair), u, &mut input.points());
 }

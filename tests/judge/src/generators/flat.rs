@@ -1,15 +1,17 @@
 //! Flat shapes by solid angle.
 
 use super::{Case, Random, combine, frame, narrow};
-use crate::fixtures::{Hexagon, Parallelogram, Rectangle, Triangle};
+use crate::fixtures::Corners;
 use libm::{cos, exp2, log2, sin};
 
 /// Computes a corner and two edges in the given frame.
 type Place<'a> = dyn FnMut(&mut Random, [[f64; 3]; 3]) -> [[f64; 3]; 3] + 'a;
 
-/// Corner and two edges of flat shapes, `each` random ones in every regime.
-fn flats(each: usize, numbers: impl Into<Random>) -> Vec<(&'static str, [[f32; 3]; 3])> {
-    let mut random: Random = numbers.into();
+/// A corner and two edges.
+pub(super) type Flat = [[f32; 3]; 3];
+
+/// Flat shapes, `each` random ones in every regime.
+pub(super) fn flats(each: usize, mut random: Random) -> Vec<Case<Flat>> {
     let mut all = Vec::new();
     for _ in 0..each {
         let mut push = |name, f: &mut Place<'_>| {
@@ -69,7 +71,7 @@ fn flats(each: usize, numbers: impl Into<Random>) -> Vec<(&'static str, [[f32; 3
 
 /// Corner and edges of flat shapes so nearly in a plane with the viewpoint that f32 barely resolves on which side it lies.
 #[must_use]
-pub fn nearly_in_plane(each: usize, numbers: impl Into<Random>) -> Vec<[[f32; 3]; 3]> {
+pub fn nearly_in_plane(each: usize, numbers: impl Into<Random>) -> Vec<Flat> {
     let mut random: Random = numbers.into();
     let mut one = |height: f64| {
         let a = frame(&mut random);
@@ -82,29 +84,6 @@ pub fn nearly_in_plane(each: usize, numbers: impl Into<Random>) -> Vec<[[f32; 3]
         [v0, combine(&a, -0.3, 1.0, 0.0), combine(&a, 0.3, 1.0, 0.0)].map(narrow)
     };
     [1e-5, 1e-6, 1e-7, 1e-8].into_iter().flat_map(|height| (0..each).map(|_| one(height)).collect::<Vec<_>>()).collect()
-}
-
-/// Triangles in every regime.
-#[must_use]
-pub fn triangles(each: usize, numbers: impl Into<Random>) -> Vec<Case<Triangle>> {
-    flats(each, numbers)
-        .into_iter()
-        .enumerate()
-        .map(|(i, (name, [v0, e1, e2]))| {
-            let by_edges = Triangle::by_edges(v0, e1, e2);
-            // moving a corner to the viewpoint would lose a tiny shape, and the sum rounds: the result is another shape, but an exact one
-            let add = |a: [f32; 3], b: [f32; 3]| core::array::from_fn(|k| a[k] + b[k]);
-            let by_vertices = Triangle::by_vertices(v0, add(v0, e1), add(v0, e2));
-            let whole = !(name.contains("tiny") || name.contains("far") || name.contains("sliver 1e4"));
-            (name, if whole && i % 2 == 0 { by_vertices } else { by_edges })
-        })
-        .collect()
-}
-
-/// Parallelograms in every regime.
-#[must_use]
-pub fn parallelograms(each: usize, numbers: impl Into<Random>) -> Vec<Case<Parallelogram>> {
-    flats(each, numbers).into_iter().map(|(name, [p, u, v])| (name, Parallelogram::new(p, u, v))).collect()
 }
 
 /// Two perpendicular vectors whose products with 8-bit numbers are exact in f32, and their unit normal: columns of the rotation by a
@@ -139,9 +118,7 @@ pub fn coarse(x: f64) -> f64 {
 type SizeAndCorner = ([f64; 2], [f64; 3]);
 
 /// Rectangles in every regime; rounding leaves their right angles exact.
-#[must_use]
-pub fn rectangles(each: usize, numbers: impl Into<Random>) -> Vec<Case<Rectangle>> {
-    let mut random: Random = numbers.into();
+pub(super) fn rectangles(each: usize, mut random: Random) -> Vec<Case<Flat>> {
     let mut all = Vec::new();
     for _ in 0..each {
         let mut push = |name, f: &dyn Fn(&mut Random) -> SizeAndCorner| {
@@ -153,10 +130,7 @@ pub fn rectangles(each: usize, numbers: impl Into<Random>) -> Vec<Case<Rectangle
             if random.word() & 1 == 0 {
                 (u, v) = (v, u);
             }
-            all.push((
-                name,
-                Rectangle::new(narrow(combine(&unit, corner[0], corner[1], corner[2])), narrow(u), narrow(v)),
-            ));
+            all.push((name, [combine(&unit, corner[0], corner[1], corner[2]), u, v].map(narrow)));
         };
         let facing = |r: &mut Random, size: f64, shift: f64| {
             let at = |r: &mut Random| r.range(-1.0, 1.0) * shift - 0.5 * size;
@@ -192,7 +166,7 @@ pub fn rectangles(each: usize, numbers: impl Into<Random>) -> Vec<Case<Rectangle
             let edge = |k: usize, size: f64| tilt[k].map(|x| x * coarse(size / length));
             let (u, v) = (edge(0, size), edge(1, 0.7 * size));
             let p = [-0.4 * (u[0] + v[0]), -0.3 * (u[1] + v[1]), 1.0];
-            all.push((name, Rectangle::new(narrow(p), narrow(u), narrow(v))));
+            all.push((name, [p, u, v].map(narrow)));
         }
     }
     all
@@ -213,7 +187,7 @@ pub(super) fn on_ellipse<const N: usize>(
 
 /// Convex hexagons, from the semi-axes and the centre of their circumscribed ellipse.
 #[must_use]
-pub fn hexagons(each: usize, numbers: impl Into<Random>) -> Vec<Case<Hexagon>> {
+pub fn hexagons(each: usize, numbers: impl Into<Random>) -> Vec<Case<Corners<6>>> {
     let mut random: Random = numbers.into();
     let mut all = Vec::new();
     for _ in 0..each {
@@ -225,8 +199,8 @@ pub fn hexagons(each: usize, numbers: impl Into<Random>) -> Vec<Case<Hexagon>> {
             ("grazing 1e-2", [1.0, 1.0], [3.0, 0.0, 1e-2]),
             ("sliver 1e2", [0.5, 5e-3], [0.1, 0.2, 1.0]),
         ] {
-            let axes = frame(&mut random);
-            all.push((name, Hexagon::seen_from(on_ellipse(&axes, size, center, &mut random), [0.0; 3])));
+            let corners = on_ellipse(&frame(&mut random), size, center, &mut random);
+            all.push((name, Corners { corners, point: [0.0; 3], normal: None }));
         }
     }
     all
@@ -234,7 +208,7 @@ pub fn hexagons(each: usize, numbers: impl Into<Random>) -> Vec<Case<Hexagon>> {
 
 /// Convex hexagons of every size, in coordinates about their own centre, as the corners of a small one in a large scene have their digits.
 #[must_use]
-pub fn hexagons_of_every_size(each: usize, numbers: impl Into<Random>) -> Vec<Case<Hexagon>> {
+pub fn hexagons_of_every_size(each: usize, numbers: impl Into<Random>) -> Vec<Case<Corners<6>>> {
     let mut random: Random = numbers.into();
     let mut all = Vec::new();
     for _ in 0..each {
@@ -249,7 +223,8 @@ pub fn hexagons_of_every_size(each: usize, numbers: impl Into<Random>) -> Vec<Ca
             let axes = frame(&mut random);
             let corners = on_ellipse(&axes, [size * unit, 0.7 * size * unit], [0.0; 3], &mut random);
             let [x, y] = [(); 2].map(|()| random.range(-0.7, 0.7) * unit);
-            all.push((name, Hexagon::seen_from(corners, narrow(combine(&axes, x, y, unit)))));
+            let point = narrow(combine(&axes, x, y, unit));
+            all.push((name, Corners { corners, point, normal: None }));
         }
     }
     all

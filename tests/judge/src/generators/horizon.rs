@@ -2,8 +2,7 @@
 
 use super::flat::on_ellipse;
 use super::{Case, Random, combine, frame, narrow};
-use crate::fixture::Fixture;
-use crate::fixtures::{ProjectedParallelogram, ProjectedPentagon, ProjectedTriangle};
+use crate::fixtures::Corners;
 use libm::{cos, sin};
 
 /// How a flat shape is placed relative to the horizon.
@@ -20,10 +19,8 @@ enum Lie {
 }
 
 /// Flat shapes relative to a horizon, in every regime: corner, two edges and normal.
-#[must_use]
-pub fn over_horizon(each: usize, numbers: impl Into<Random>) -> Vec<Case<[[f32; 3]; 4]>> {
+pub(super) fn over_horizon(each: usize, mut random: Random) -> Vec<Case<[[f32; 3]; 4]>> {
     use Lie::{At, Corner, Cut, Zenith};
-    let mut random: Random = numbers.into();
     let mut all = Vec::new();
     for _ in 0..each {
         // size, length over width, distance from the point of its plane nearest to the viewpoint, and placement
@@ -95,8 +92,6 @@ pub fn over_horizon(each: usize, numbers: impl Into<Random>) -> Vec<Case<[[f32; 
                 Corner => upright(corner, b),
                 Zenith(s, t) => etendue_oracle::unit(at(s, t)),
             };
-            // any length is allowed
-            let normal = normal.map(|x: f64| x * random.magnitude(0.1, 10.0));
             all.push((name, [corner, e1, e2, normal].map(narrow)));
         }
         // exactly aligned with the coordinate planes
@@ -109,36 +104,9 @@ pub fn over_horizon(each: usize, numbers: impl Into<Random>) -> Vec<Case<[[f32; 
     all
 }
 
-/// Triangles relative to a horizon, in every regime.
-#[must_use]
-pub fn projected_triangles(each: usize, numbers: impl Into<Random>) -> Vec<Case<ProjectedTriangle>> {
-    let add = |a: [f32; 3], b: [f32; 3]| core::array::from_fn(|k| a[k] + b[k]);
-    over_horizon(each, numbers)
-        .into_iter()
-        .enumerate()
-        .map(|(i, (name, [v, a, b, n]))| {
-            let whole = !(name.contains("tiny") || name.contains("sliver") || name.contains("low"));
-            let by_vertices = whole && i % 2 == 0;
-            let of = ProjectedTriangle::by_vertices;
-            (name, if by_vertices { of(v, add(v, a), add(v, b), n) } else { ProjectedTriangle::by_edges(v, a, b, n) })
-        })
-        .filter(|(_, t)| t.truth().measure > 0.0)
-        .collect()
-}
-
-/// Parallelograms relative to a horizon, in every regime.
-#[must_use]
-pub fn projected_parallelograms(each: usize, numbers: impl Into<Random>) -> Vec<Case<ProjectedParallelogram>> {
-    over_horizon(each, numbers)
-        .into_iter()
-        .map(|(name, [p, u, v, n])| (name, ProjectedParallelogram::new(p, u, v, n)))
-        .filter(|(_, t)| t.truth().measure > 0.0)
-        .collect()
-}
-
 /// Convex pentagons relative to a horizon.
 #[must_use]
-pub fn projected_pentagons(each: usize, numbers: impl Into<Random>) -> Vec<Case<ProjectedPentagon>> {
+pub fn projected_pentagons(each: usize, numbers: impl Into<Random>) -> Vec<Case<Corners<5>>> {
     let mut random: Random = numbers.into();
     let mut all = Vec::new();
     for _ in 0..each {
@@ -152,8 +120,8 @@ pub fn projected_pentagons(each: usize, numbers: impl Into<Random>) -> Vec<Case<
         ] {
             let axes = frame(&mut random);
             let corners = on_ellipse(&axes, size, center, &mut random);
-            let normal = narrow(combine(&axes, normal[0], normal[1], normal[2]));
-            all.push((name, ProjectedPentagon::seen_from(corners, [0.0; 3], normal)));
+            let normal = Some(narrow(etendue_oracle::unit(combine(&axes, normal[0], normal[1], normal[2]))));
+            all.push((name, Corners { corners, point: [0.0; 3], normal }));
         }
     }
     all
@@ -161,7 +129,7 @@ pub fn projected_pentagons(each: usize, numbers: impl Into<Random>) -> Vec<Case<
 
 /// Convex pentagons of every size relative to a horizon, in coordinates about their own centre.
 #[must_use]
-pub fn projected_pentagons_of_every_size(each: usize, numbers: impl Into<Random>) -> Vec<Case<ProjectedPentagon>> {
+pub fn projected_pentagons_of_every_size(each: usize, numbers: impl Into<Random>) -> Vec<Case<Corners<5>>> {
     let mut random: Random = numbers.into();
     let mut all = Vec::new();
     for _ in 0..each {
@@ -175,9 +143,9 @@ pub fn projected_pentagons_of_every_size(each: usize, numbers: impl Into<Random>
         ] {
             let axes = frame(&mut random);
             let corners = on_ellipse(&axes, [size * unit, 0.7 * size * unit], [0.0; 3], &mut random);
-            let normal = narrow(combine(&axes, normal[0], normal[1], normal[2]));
+            let normal = Some(narrow(etendue_oracle::unit(combine(&axes, normal[0], normal[1], normal[2]))));
             let point = narrow(combine(&axes, -0.2 * unit, -0.3 * unit, -unit));
-            all.push((name, ProjectedPentagon::seen_from(corners, point, normal)));
+            all.push((name, Corners { corners, point, normal }));
         }
     }
     all

@@ -1,18 +1,9 @@
 //! Segments.
 
 use super::{Case, Random, combine, frame, narrow};
-use crate::fixtures::{ProjectedSegment, Segment};
+use crate::fixtures::Segment;
 use std::collections::BTreeMap;
 use std::sync::Mutex;
-
-/// Line segments in every regime, alone and relative to a horizon.
-#[must_use]
-pub fn segments(each: usize, numbers: impl Into<Random>) -> (Vec<Case<Segment>>, Vec<Case<ProjectedSegment>>) {
-    let (plain, over) = segment_parameters(each, numbers);
-    let plain = plain.into_iter().map(|(name, ends)| (name, Segment::new(ends))).collect();
-    let over = over.into_iter().map(|(name, over)| (name, ProjectedSegment::new(over)));
-    (plain, over.filter(|(_, s)| s.seen()).collect())
-}
 
 /// `name, place` as a string, allocated once per pair.
 fn joined(name: &'static str, place: &'static str) -> &'static str {
@@ -21,14 +12,10 @@ fn joined(name: &'static str, place: &'static str) -> &'static str {
     names.entry([name, place]).or_insert_with(|| Box::leak(format!("{name}, {place}").into_boxed_str()))
 }
 
-/// Parameters of [`segments`]: one end and the edge from it, and for the second list the surface's normal. The table has end and edge in a
-/// plane with the viewpoint, and the inner table the tilt of the normal and the first end's height over the horizon.
+/// Line segments in every regime, alone and relative to a horizon. The table has an end and the edge from it in a plane with the viewpoint, and
+/// the inner table the tilt of the normal and the first end's height over the horizon.
 #[must_use]
-#[expect(clippy::type_complexity, reason = "vectors")]
-pub fn segment_parameters(
-    each: usize,
-    numbers: impl Into<Random>,
-) -> (Vec<Case<[[f32; 3]; 2]>>, Vec<Case<[[f32; 3]; 3]>>) {
+pub fn segments(each: usize, numbers: impl Into<Random>) -> [Vec<Case<Segment>>; 2] {
     let mut random: Random = numbers.into();
     let (mut plain, mut projected) = (Vec::new(), Vec::new());
     for _ in 0..each {
@@ -50,7 +37,7 @@ pub fn segment_parameters(
         ] {
             let axes = frame(&mut random);
             let [p, e] = [a, edge].map(|v| narrow(combine(&axes, v[0], v[1], 0.0)));
-            plain.push((name, [p, e]));
+            plain.push((name, Segment { ends: [p, e], normal: None }));
             // relative to the distance, so that small segments cross the horizon too
             let size = libm::hypot(edge[0], edge[1]).min(1.0) / libm::hypot(a[0], a[1]).max(1.0);
             for (place, tilt, lift) in [
@@ -68,13 +55,16 @@ pub fn segment_parameters(
                 let rest = f64::sqrt((1.0 - lift * lift - tilt * tilt).max(0.01));
                 let mix = |k: usize| unit[k] * lift + side[k] * tilt;
                 let normal = combine(&axes, mix(0), mix(1), rest);
-                projected.push((joined(name, place), [p, e, narrow(normal)]));
+                projected.push((joined(name, place), Segment { ends: [p, e], normal: Some(narrow(normal)) }));
             }
         }
     }
-    let level = [0.0, 0.0, 1.0];
-    projected.push(("an end on the horizon", [[1.0, 0.5, 0.0], [0.5, 1.0, 2.0], level]));
-    projected.push(("half the sky", [[-1e4, 0.0, 1.0], [2e4, 0.0, 0.0], level]));
-    projected.push(("a sliver of sky", [[1.0, 0.0, -1.0], [1e3, 0.0, 3.0], level]));
-    (plain, projected)
+    for (name, ends) in [
+        ("an end on the horizon", [[1.0, 0.5, 0.0], [0.5, 1.0, 2.0]]),
+        ("half the sky", [[-1e4, 0.0, 1.0], [2e4, 0.0, 0.0]]),
+        ("a sliver of sky", [[1.0, 0.0, -1.0], [1e3, 0.0, 3.0]]),
+    ] {
+        projected.push((name, Segment { ends, normal: Some([0.0, 0.0, 1.0]) }));
+    }
+    [plain, projected]
 }

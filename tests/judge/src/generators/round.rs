@@ -1,12 +1,12 @@
 //! Spheres and disks.
 
 use super::{Case, Random, combine, frame, narrow};
-use crate::fixtures::{Cap, Disk, ProjectedCap};
 
-/// Spheres in every regime.
-#[must_use]
-pub fn caps(each: usize, numbers: impl Into<Random>) -> Vec<Case<Cap>> {
-    let mut random: Random = numbers.into();
+/// A centre, a radius and a normal.
+type Round = ([f32; 3], f32, [f32; 3]);
+
+/// Centre and radius of spheres in every regime.
+pub(super) fn spheres(each: usize, mut random: Random) -> Vec<Case<([f32; 3], f32)>> {
     let mut all = Vec::new();
     for _ in 0..each {
         for (name, ratio, unit) in [
@@ -25,19 +25,18 @@ pub fn caps(each: usize, numbers: impl Into<Random>) -> Vec<Case<Cap>> {
         ] {
             random.begin();
             let center = narrow(random.direction().map(|x| x * unit));
-            all.push((name, Cap::new(center, (ratio * unit) as f32)));
+            all.push((name, (center, (ratio * unit) as f32)));
         }
         random.begin();
         let size = random.magnitude(1e-9, 1e-2);
-        all.push(("on the axis", Cap::new([0.0, 0.0, 1.0], size as f32)));
+        all.push(("on the axis", ([0.0, 0.0, 1.0], size as f32)));
     }
     all
 }
 
-/// Spheres relative to a horizon, in every regime: the ratio of radius to distance, and the cosine between the normal and the axis.
-#[must_use]
-pub fn projected_caps(each: usize, numbers: impl Into<Random>) -> Vec<Case<ProjectedCap>> {
-    let mut random: Random = numbers.into();
+/// Centre and radius of spheres relative to a horizon, and the normal, in every regime: the ratio of radius to distance, and the cosine
+/// between the normal and the axis.
+pub(super) fn spheres_over_horizon(each: usize, mut random: Random) -> Vec<Case<Round>> {
     let mut all = Vec::new();
     for _ in 0..each {
         for (name, ratio, cos) in [
@@ -62,35 +61,23 @@ pub fn projected_caps(each: usize, numbers: impl Into<Random>) -> Vec<Case<Proje
         ] {
             let a = frame(&mut random);
             let center = narrow(combine(&a, f64::sqrt(1.0 - cos * cos), 0.0, cos));
-            all.push((name, ProjectedCap::new(center, ratio as f32, narrow(a[2]))));
+            all.push((name, (center, ratio as f32, narrow(a[2]))));
         }
         random.begin();
         let normal = narrow(random.direction());
         // exactly along the normal: if rounding alone separated the axis from it, the azimuth would be that of the rounding
-        all.push((
-            "along the normal",
-            ProjectedCap::new([0.0, 0.0, 3.0], random.range(0.1, 3.0) as f32, [0.0, 0.0, 1.0]),
-        ));
+        all.push(("along the normal", ([0.0, 0.0, 3.0], random.range(0.1, 3.0) as f32, [0.0, 0.0, 1.0])));
         let beside = [1e-4, 3e-4, 1.0].map(|x: f32| x * random.range(0.5, 1.0) as f32);
-        all.push(("nearly along the normal", ProjectedCap::new(beside, 0.3, [0.0, 0.0, 1.0])));
-        all.push(("inside", ProjectedCap::new(narrow(random.direction()), 1.5, normal)));
+        all.push(("nearly along the normal", (beside, 0.3, [0.0, 0.0, 1.0])));
+        all.push(("inside", (narrow(random.direction()), 1.5, normal)));
         let about = [0.3, 0.1, 1e-7].map(|x: f32| x * random.range(-1.0, 1.0) as f32);
-        all.push(("horizon of coordinates", ProjectedCap::new(about, 1e-3, [0.0, 0.0, 1.0])));
+        all.push(("horizon of coordinates", (about, 1e-3, [0.0, 0.0, 1.0])));
     }
     all
 }
 
-/// Disks in every regime.
-#[must_use]
-pub fn disks(each: usize, numbers: impl Into<Random>) -> Vec<Case<Disk>> {
-    disk_parameters(each, numbers).into_iter().map(|(name, (c, n, r))| (name, Disk::new(c, n, r))).collect()
-}
-
-/// Centre, normal and radius of [`disks`]: the radius, the height of the viewpoint over the plane, and its offset from the axis.
-#[must_use]
-#[expect(clippy::type_complexity, reason = "vectors and a number")]
-pub fn disk_parameters(each: usize, numbers: impl Into<Random>) -> Vec<Case<([f32; 3], [f32; 3], f32)>> {
-    let mut random: Random = numbers.into();
+/// Centre, radius and normal of disks in every regime: the radius, the height of the viewpoint over the plane, and its offset from the axis.
+pub(super) fn disks(each: usize, mut random: Random) -> Vec<Case<Round>> {
     let mut all = Vec::new();
     for _ in 0..each {
         for (name, radius, height, offset) in [
@@ -117,10 +104,10 @@ pub fn disk_parameters(each: usize, numbers: impl Into<Random>) -> Vec<Case<([f3
         ] {
             let axes = frame(&mut random);
             let center = narrow(combine(&axes, offset, 0.0, height));
-            all.push((name, (center, narrow(axes[2]), radius as f32)));
+            all.push((name, (center, radius as f32, narrow(axes[2]))));
         }
         random.begin();
-        all.push(("exactly on the axis", ([0.0, 0.0, -2.0], [0.0, 0.0, 1.0], random.range(0.1, 4.0) as f32)));
+        all.push(("exactly on the axis", ([0.0, 0.0, -2.0], random.range(0.1, 4.0) as f32, [0.0, 0.0, 1.0])));
     }
     all
 }

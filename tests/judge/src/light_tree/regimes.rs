@@ -1,71 +1,39 @@
 //! Sets of lights, and points among them, at which a bound or a choice may fail.
 
-use super::{Lamp, LampKind, Place};
+use super::{Lamp, Place};
 use crate::area_lights::LightShape;
-use crate::generators::Random;
+use crate::random::Random;
 use core::f64::consts::TAU;
 use etendue_oracle::{V3, along, basis, cross, dot, length, narrow, sub, unit, wide};
 
-/// How lights are placed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs, reason = "the names say it")]
-pub enum Regime {
-    Room,
-    Tiny,
-    Huge,
-    OnePoint,
-    Line,
-    Plane,
-    Lattice,
-    SphereOutwards,
-    Powers,
-    Malformed,
-    Points,
-    Spots,
-    NarrowSpots,
-    TwoSided,
-    OneSided,
-    Spheres,
-    Slivers,
-    Shells,
-    Clusters,
-    SmallAndFar,
-    Spreads,
+macro_rules! regimes {
+    ($($name:ident)+) => {
+        /// How lights are placed.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        #[allow(missing_docs, reason = "the names say it")]
+        pub enum Regime {
+            $($name),+
+        }
+        impl Regime {
+            /// All regimes.
+            pub const ALL: [Self; [$(stringify!($name)),+].len()] = [$(Self::$name),+];
+        }
+    };
+}
+regimes! {
+    Room Tiny Huge OnePoint Line Plane Lattice SphereOutwards Powers Malformed Points Spots NarrowSpots TwoSided OneSided Spheres
+    Slivers Shells Clusters SmallAndFar Spreads
 }
 
 impl Regime {
-    /// All regimes.
-    pub const ALL: [Self; 21] = [
-        Self::Room,
-        Self::Tiny,
-        Self::Huge,
-        Self::OnePoint,
-        Self::Line,
-        Self::Plane,
-        Self::Lattice,
-        Self::SphereOutwards,
-        Self::Powers,
-        Self::Malformed,
-        Self::Points,
-        Self::Spots,
-        Self::NarrowSpots,
-        Self::TwoSided,
-        Self::OneSided,
-        Self::Spheres,
-        Self::Slivers,
-        Self::Shells,
-        Self::Clusters,
-        Self::SmallAndFar,
-        Self::Spreads,
-    ];
-    const SHAPES: [LampKind; 7] = [
-        LampKind::Area(LightShape::Triangle),
-        LampKind::Area(LightShape::Parallelogram),
-        LampKind::Area(LightShape::Disk),
-        LampKind::Area(LightShape::Sphere),
-        LampKind::Point,
-        LampKind::Spot,
-        LampKind::Area(LightShape::Line),
+    const SHAPES: [LightShape; 7] = [
+        LightShape::Triangle,
+        LightShape::Parallelogram,
+        LightShape::Disk,
+        LightShape::Sphere,
+        LightShape::PointLight,
+        LightShape::SpotLight,
+        LightShape::Line,
     ];
 
     /// The unit of lengths.
@@ -77,7 +45,7 @@ impl Regime {
             _ => 1.0,
         }
     }
-    fn kind(self, random: &mut Random) -> LampKind {
+    fn kind(self, random: &mut Random) -> LightShape {
         let among = match self {
             Self::SphereOutwards | Self::Plane | Self::TwoSided | Self::OneSided | Self::Slivers | Self::Spreads => {
                 0..3
@@ -142,7 +110,7 @@ impl Regime {
             };
             let slim = if self == Self::Slivers { random.magnitude(1e-4, 1.0) } else { 1.0 };
             let spread = if self == Self::Spreads { random.magnitude(0.02, 3.1) } else { 0.0 };
-            shape(kind, [center, normal], size, slim, cosine, random).scaled(self.unit() as f32).with(
+            about(kind, [center, normal], size, slim, cosine, random).scaled(self.unit() as f32).with(
                 power as f32,
                 two_sided,
                 spread as f32,
@@ -159,22 +127,23 @@ impl Lamp {
 }
 
 /// A light about a centre.
-fn shape(kind: LampKind, [center, normal]: [V3; 2], size: f64, slim: f64, cosine: f64, random: &mut Random) -> Lamp {
+fn about(shape: LightShape, [center, normal]: [V3; 2], size: f64, slim: f64, cosine: f64, random: &mut Random) -> Lamp {
     let (s, t) = basis(normal);
     let turn = random.range(0.0, TAU);
     let mix = |turn: f64, size: f64| along(s.map(|x| x * libm::cos(turn) * size), t, libm::sin(turn) * size);
     let (e, f) = (mix(turn, size), mix(turn + random.range(0.5, 2.5), size * slim));
     let third = along(along(center, e, -1.0 / 3.0), f, -1.0 / 3.0);
     let corner = along(along(center, e, -0.5), f, -0.5);
-    let (a, b, c) = match kind {
-        LampKind::Area(LightShape::Triangle) => (third, e, f),
-        LampKind::Area(LightShape::Parallelogram) => (corner, e, f),
-        LampKind::Area(LightShape::Line) => (along(center, e, -0.5), e, f),
-        LampKind::Spot => (center, normal, [cosine + (1.0 - cosine) * random.unit_f64(), cosine, 0.0]),
+    let (a, b, c) = match shape {
+        LightShape::Triangle => (third, e, f),
+        LightShape::Parallelogram => (corner, e, f),
+        LightShape::Line => (along(center, e, -0.5), e, f),
+        LightShape::SpotLight => (center, normal, [cosine + (1.0 - cosine) * random.unit_f64(), cosine, 0.0]),
         _ => (center, normal, f),
     };
-    let radius = if kind == LampKind::Point || kind == LampKind::Spot { 0.0 } else { (0.5 * size) as f32 };
-    Lamp { kind, a: narrow(a), b: narrow(b), c: narrow(c), radius, two_sided: false, spread: 0.0, power: 1.0 }
+    let radius =
+        if shape == LightShape::PointLight || shape == LightShape::SpotLight { 0.0 } else { (0.5 * size) as f32 };
+    Lamp { shape, a: narrow(a), b: narrow(b), c: narrow(c), radius, two_sided: false, spread: 0.0, power: 1.0 }
 }
 
 /// A point of a surface that a light, or its plane or its corner, makes difficult, and the index of that light.
@@ -190,7 +159,7 @@ pub fn place(regime: Regime, lamps: &[Lamp], random: &mut Random) -> (Place, usi
     let any = |random: &mut Random| core::array::from_fn(|_| unit_length * random.range(-1.5, 1.5));
     let corner = match random.word() % 3 {
         0 => wide(lamp.a),
-        1 if lamp.kind != LampKind::Spot => along(wide(lamp.a), wide(lamp.b), 1.0),
+        1 if lamp.shape != LightShape::SpotLight => along(wide(lamp.a), wide(lamp.b), 1.0),
         _ => center,
     };
     let p = match random.word() % 11 {
@@ -205,7 +174,7 @@ pub fn place(regime: Regime, lamps: &[Lamp], random: &mut Random) -> (Place, usi
         5 => along(center, direction, unit_length * random.magnitude(1e2, 1e12)),
         6 => direction.map(|x| x * 1e30),
         7 => along(center, normal, size * random.magnitude(0.1, 1e4)),
-        8 if lamp.kind == LampKind::Spot => {
+        8 if lamp.shape == LightShape::SpotLight => {
             // at the edge of the cone
             let cos = f64::from(bound.cos_cone) * (1.0 + random.range(-1.0, 1.0) * random.magnitude(1e-8, 1e-3));
             let way = along(normal.map(|x| x * cos), within, (1.0 - cos * cos).max(0.0).sqrt());

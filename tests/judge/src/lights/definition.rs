@@ -8,7 +8,7 @@ use etendue_oracle::curves::{Ellipse, projected_disk};
 use etendue_oracle::double_double::{Dd, Dd3, dd, determinant};
 use etendue_oracle::flat::Fan;
 use etendue_oracle::{
-    V3, above_horizon, along, basis, cap, cross, dot, exact_sum, lambert, length, projected_cap, sub, unit, wide,
+    V3, above_horizon, along, basis, cap, cross, dot, lambert, length, projected_cap, sub, unit, wide,
 };
 
 /// Cells per dimension of the unit square in which densities are evaluated.
@@ -114,7 +114,6 @@ impl Definition {
     pub fn new(light: &AreaLight) -> Option<Self> {
         let [p, a, b, c, n] = [light.p, light.a, light.b, light.c, light.n].map(wide);
         let (from, radius) = (sub(a, p), f64::from(light.radius));
-        let back = p.map(|x| -x);
         let (body, solid_angle, greatest, area) = match light.shape {
             LightShape::Sphere => {
                 let (one_minus_cos, sigma) = cap(from, radius);
@@ -134,12 +133,7 @@ impl Definition {
                 )
             }
             LightShape::Triangle | LightShape::Parallelogram | LightShape::Rectangle | LightShape::Polygon => {
-                let exact = |edges: &[V3]| exact_sum(a, &[edges, &[back]].concat());
-                let around = match light.shape {
-                    LightShape::Triangle => vec![exact(&[]), exact(&[b]), exact(&[c])],
-                    LightShape::Polygon => light.corners().map(|corner| exact_sum(wide(corner), &[back])).to_vec(),
-                    _ => vec![exact(&[]), exact(&[b]), exact(&[b, c]), exact(&[c])],
-                };
+                let around = light.exact_corners();
                 let fan = |i: usize, from: usize, to: usize| {
                     let edge = |k: usize| core::array::from_fn(|axis| around[k][axis] - around[i][axis]);
                     Fan::new(around[i], edge(from), edge(to))

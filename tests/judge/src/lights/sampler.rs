@@ -1,7 +1,7 @@
 //! What a sampler is: two functions of its own, and what it claims.
 
 use crate::area_lights::{AreaLight, LightShape, Measure};
-use crate::techniques::LightFixture;
+use crate::fixture::Fixture;
 use etendue::{LightSampler, Vec2, Vec3};
 use etendue_oracle::{length, sub, wide};
 
@@ -147,7 +147,7 @@ pub fn technique(shape: LightShape, by: Measure) -> Subject<'static> {
             let light = AreaLight { by, ..*light };
             let away = length(sub(wide(light.a), wide(light.p)));
             let is_inside = light.shape == LightShape::Sphere && away < f64::from(light.radius);
-            Prepared::Ready(Box::new(Own { light: LightFixture::prepare::<f32>(&[light]), is_inside }))
+            Prepared::Ready(Box::new(Own { light: AreaLight::prepare::<f32>(&[light]), is_inside }))
         }),
     }
 }

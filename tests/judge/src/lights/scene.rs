@@ -1,7 +1,7 @@
 //! Where samplers are tried: an ordinary place, from which one thing after another is taken to its extremes.
 
 use crate::area_lights::{AreaLight, LightShape, Measure};
-use crate::generators::Random;
+use crate::random::Random;
 use core::f64::consts::TAU;
 use etendue_oracle::{V3, along, basis, cross, dot, sub, unit};
 use serde::{Deserialize, Serialize};

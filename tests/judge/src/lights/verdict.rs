@@ -6,7 +6,7 @@ use super::observe::{Questions, ask};
 use super::sampler::{Prepared, Subject, measure_name, shape_name};
 use super::scene::{Axis, Place, place, places};
 use crate::area_lights::{AreaLight, LightShape};
-use crate::generators::Random;
+use crate::random::Random;
 use crate::suite::quietly;
 use serde::{Deserialize, Serialize};
 use std::hint::black_box;
@@ -251,17 +251,12 @@ pub fn text(light: &AreaLight) -> String {
     };
     format!("{}: {lamp}\npoint {p:?}, normal {n:?}", shape_name(shape))
 }
-/// The numbers of a light as the header orders them.
+/// The numbers of a light as the header orders them: those of the core, but for the corners of triangles.
 #[must_use]
 pub fn numbers(light: &AreaLight) -> Vec<f32> {
-    let AreaLight { a, b, c, radius, .. } = *light;
+    let AreaLight { shape, a, b, c, .. } = *light;
     let plus = |e: [f32; 3]| -> [f32; 3] { core::array::from_fn(|k| a[k] + e[k]) };
-    match light.shape {
-        LightShape::Sphere => [&a[..], &[radius]].concat(),
-        LightShape::Triangle => [a, plus(b), plus(c)].concat(),
-        LightShape::Disk => [&a[..], &b, &[radius]].concat(),
-        _ => [a, b, c].concat(),
-    }
+    if shape == LightShape::Triangle { [a, plus(b), plus(c)].concat() } else { light.numbers() }
 }
 
 /// Nanoseconds to prepare a light and draw a sample, at an ordinary place.

@@ -1,16 +1,15 @@
 //! Convex polygons as they are seen from the origin: whole, or what a horizon leaves of them.
 
 use crate::fixture::Truth;
-use crate::generators::Random;
-use crate::tolerances::{NEAR_HEMISPHERE_STEPS, Tolerance, ULP};
+use crate::fixture::sample_at;
+use crate::random::Random;
+use crate::tolerances::{self, NEAR_HEMISPHERE_STEPS, Tolerance, ULP};
 use core::f64::consts::PI;
+use etendue::LightSampler;
 use etendue_oracle::double_double::Dd3;
 use etendue_oracle::{
     V3, above_horizon, along, cross, dd, dot, lambert, length, sub, triangle_solid_angle, unit, wide,
 };
-
-/// Corners that a polygon has at most.
-const MOST: usize = 6;
 
 fn rounded(v: Dd3) -> V3 {
     v.map(|x| x.to_f64())
@@ -20,7 +19,7 @@ fn difference(a: Dd3, b: Dd3) -> V3 {
 }
 
 /// A triangle in f64, with its vertices unrounded.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug)]
 struct Triangle {
     v0: V3,
     e1: V3,
@@ -97,50 +96,61 @@ fn beyond(a: V3, b: V3, inner: V3, margin: f64, t: f64) -> V3 {
     unit(along(unit(along(a, edge, t)), n, sign * margin))
 }
 
-/// A convex polygon of up to six corners, or the part of it above a horizon.
-#[derive(Clone, Copy, Debug)]
+/// The map whose errors are judged.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Way {
+    /// Arvo's map of a triangle.
+    Triangle,
+    /// Two triangles, one after the other.
+    Parallelogram,
+    /// Ureña's map of a rectangle.
+    Rectangle,
+    /// A fan of triangles, one after the other.
+    Fan,
+    /// By azimuth about the normal of a surface: it jumps between the triangles of a fan, and between the parts that the horizon leaves. The
+    /// areas before a direction are as uncertain in the inverse as they are in the sample.
+    Azimuth,
+}
+
+/// A convex polygon, or the part of it above a horizon.
+#[derive(Clone, Debug)]
 pub struct Polygon {
+    way: Way,
     /// The corners before the cut.
-    corners: [V3; MOST],
-    count: usize,
+    corners: Vec<V3>,
     /// Triangles in a fan about the first corner that is left.
-    fan: [Triangle; MOST - 2],
-    triangles: usize,
+    fan: Vec<Triangle>,
     /// Their parts in the solid angle, cumulative.
-    shares: [f64; MOST - 2],
+    shares: Vec<f64>,
     /// Unit normal of the polygon's plane.
     plane: V3,
-    /// Unit normal of the receiver: densities are proportional to the cosine to it.
+    /// Normal of the receiver, of nearly unit length: densities are proportional to the product with it.
     horizon: Option<V3>,
     all: Known,
     /// Solid angle, or projected solid angle, in steradians.
     pub measure: f64,
 }
 impl Polygon {
-    /// By solid angle.
+    /// By solid angle, or by projected solid angle where there is a receiver's normal.
     #[must_use]
-    pub fn new(exact: &[Dd3]) -> Self {
-        Self::of(exact, exact, None)
-    }
-    /// By the projected solid angle of a receiver with a normal of any length.
-    #[must_use]
-    pub fn above(exact: &[Dd3], normal: [f32; 3]) -> Self {
+    pub fn new(exact: &[Dd3], way: Way, normal: Option<[f32; 3]>) -> Self {
+        let Some(normal) = normal else { return Self::of(exact, exact, way, None) };
         let n = dd(wide(normal));
         let above = above_horizon(exact, n);
-        let mut this = Self::of(exact, &above, Some(unit(wide(normal))));
-        this.measure = if this.triangles > 0 { lambert(&above, n) } else { 0.0 };
+        let mut this = Self::of(exact, &above, way, Some(wide(normal)));
+        this.measure = if this.fan.is_empty() { 0.0 } else { lambert(&above, n) };
         // turning the normal by ε changes the integral of the cosine by at most Ω ε
         this.all.condition += this.all.solid_angle / this.measure;
         this
     }
-    fn of(exact: &[Dd3], left: &[Dd3], horizon: Option<V3>) -> Self {
-        let (mut fan, mut triangles, mut shares) = ([Triangle::default(); MOST - 2], 0, [0.0; MOST - 2]);
+    fn of(exact: &[Dd3], left: &[Dd3], way: Way, horizon: Option<V3>) -> Self {
+        let (mut fan, mut shares) = (Vec::new(), Vec::new());
         let mut all = Known { solid_angle: 0.0, condition: 1.0, extent: [0.0, 2.0], opposite: 1.0 };
         for i in 2..left.len() {
             let one = Triangle::new([left[0], left[i - 1], left[i]]);
             // skip a triangle that the cut has reduced to a line
             let is_line = length(cross(one.e1, one.e2)) <= 1e-14 * length(one.e1) * length(one.e2);
-            if is_line && horizon.is_some() || triangles == fan.len() {
+            if is_line && horizon.is_some() {
                 continue;
             }
             let known = one.known();
@@ -148,33 +158,28 @@ impl Polygon {
             all.condition = all.condition.max(known.condition);
             all.extent = [all.extent[0].max(known.extent[0]), all.extent[1].min(known.extent[1])];
             all.opposite = all.opposite.max(known.opposite);
-            (fan[triangles], shares[triangles]) = (one, all.solid_angle);
-            triangles += 1;
+            fan.push(one);
+            shares.push(all.solid_angle);
         }
         let edge = |k: usize| difference(exact[k], exact[0]);
         Self {
-            corners: core::array::from_fn(|i| rounded(exact[i % exact.len()])),
-            count: exact.len(),
+            way,
+            corners: exact.iter().copied().map(rounded).collect(),
             fan,
-            triangles,
-            shares: shares.map(|sum| sum / all.solid_angle),
+            shares: shares.into_iter().map(|sum| sum / all.solid_angle).collect(),
             plane: unit(cross(edge(1), edge(2))),
             horizon,
             all,
             measure: all.solid_angle,
         }
     }
-    fn corners(&self) -> &[V3] {
-        &self.corners[..self.count]
-    }
-    /// The tolerance of this shape. A great circle through nearly opposite vertices is ill-conditioned by 1/sin of their angle, an inverse
-    /// by the shape's aspect from the viewpoint.
-    #[must_use]
-    pub fn widened(&self, tolerance: Tolerance) -> Tolerance {
+    /// A great circle through nearly opposite vertices is ill-conditioned by 1/sin of their angle, an inverse by the shape's aspect from the
+    /// viewpoint.
+    fn widened(&self, tolerance: Tolerance) -> Tolerance {
         let Known { extent, opposite, condition, solid_angle } = self.all;
         let aspect = (extent[0] / extent[1].max(1e-300)).max(1.0);
         // over a horizon, the boundary between two triangles is as uncertain as the areas before it
-        let before = if self.horizon.is_some() && self.count > 3 { 2.0 * condition * extent[0] } else { 0.0 };
+        let before = if self.horizon.is_some() && self.corners.len() > 3 { 2.0 * condition * extent[0] } else { 0.0 };
         let near = self.horizon.is_none() && solid_angle > PI;
         Tolerance {
             point: tolerance.point * opposite,
@@ -184,22 +189,78 @@ impl Polygon {
             ..tolerance
         }
     }
-    /// Whether a part of the solid angle is at the boundary between two triangles of the fan.
-    #[must_use]
-    pub fn is_boundary(&self, part: f64) -> bool {
-        self.shares[..self.triangles].iter().any(|share| (part - share).abs() <= 0.01)
+    /// Known limit: where the zenith is on an edge or in a corner, or inside of a shape of as many radians, an inverse in ten may be that of
+    /// another azimuth.
+    fn is_around_zenith(&self) -> bool {
+        let Some(up) = self.horizon else { return false };
+        let (n, up) = (self.corners.len(), unit(up));
+        let side = |i: usize| {
+            let (a, edge) = (self.corners[i], sub(self.corners[(i + 1) % n], self.corners[i]));
+            let inwards = cross(a, edge);
+            dot(inwards, up) / length(inwards) * dot(inwards, sub(self.corners[(i + 2) % n], a)).signum()
+        };
+        (0..n).map(side).fold(f64::INFINITY, f64::min).abs() < 2e-6
+    }
+    /// Whether the map's slopes from the left and from the right agree, so that no corner's azimuth is near.
+    fn straight(map: &dyn LightSampler<f64>, u: [f64; 2]) -> bool {
+        let at = |x: f64| sample_at(map, [u[0] + x, u[1]]);
+        // a slope by three points cannot see a bend at two thirds of its step: the other step sees it
+        [1e-3, 1.3e-3].into_iter().all(|h| {
+            let slope = |side: f64| {
+                let (p, q, r) = (at(0.0), at(side * h), at(2.0 * side * h));
+                core::array::from_fn::<f64, 3, _>(|i| side * (4.0 * q[i] - 3.0 * p[i] - r[i]))
+            };
+            let (left, right) = (slope(-1.0), slope(1.0));
+            length(sub(left, right)) < 1e-4 * length(right)
+        })
     }
     /// The triangles, with the begin and the width of the strip of the square that each of them has: all but the last take half of the rest.
     fn strips(&self) -> impl Iterator<Item = (&Triangle, [f64; 2])> {
         let strip = |i: usize| {
             let begin = 1.0 - 0.5_f64.powi(i as i32);
-            [begin, if i + 1 < self.triangles { 0.5 * (1.0 - begin) } else { 1.0 - begin }]
+            [begin, if i + 1 < self.fan.len() { 0.5 * (1.0 - begin) } else { 1.0 - begin }]
         };
-        self.fan[..self.triangles].iter().enumerate().map(move |(i, flat)| (flat, strip(i)))
+        self.fan.iter().enumerate().map(move |(i, flat)| (flat, strip(i)))
     }
 }
 
 impl Truth for Polygon {
+    fn tolerance(&self) -> Tolerance {
+        match self.way {
+            Way::Triangle => self.widened(tolerances::TRIANGLE),
+            Way::Parallelogram => {
+                let all = self.widened(tolerances::PARALLELOGRAM);
+                // the boundary between the two triangles is as uncertain as their solid angles
+                Tolerance { steps: all.steps + 0.5 * self.all.condition, ..all }
+            }
+            Way::Rectangle => Tolerance { steps: tolerances::RECTANGLE.steps, ..self.widened(tolerances::RECTANGLE) },
+            Way::Fan => {
+                let all = self.widened(tolerances::POLYGON);
+                // the boundaries between the triangles are as uncertain as their solid angles
+                Tolerance { steps: all.steps.max(2.0 * all.pdf * self.all.condition), ..all }
+            }
+            Way::Azimuth => self.widened(tolerances::PROJECTED_POLYGON),
+        }
+    }
+    fn is_seen(&self) -> bool {
+        self.measure > 0.0
+    }
+    fn inverse_steps(&self) -> f64 {
+        if self.way == Way::Azimuth { self.tolerance().steps } else { 2.0 }
+    }
+    fn torn(&self, map: &dyn LightSampler<f64>, u: [f64; 2], step: f64) -> bool {
+        let at = |x: f64| sample_at(map, [x.clamp(0.0, 1.0 - ULP), u[1]]);
+        let jump = || length(sub(at(u[0] + step), at(u[0] - step)));
+        self.way == Way::Azimuth && (self.is_around_zenith() || jump() > 0.05 * self.all.extent[0])
+    }
+    fn smooth(&self, map: &dyn LightSampler<f64>, u: [f64; 2]) -> bool {
+        match self.way {
+            Way::Triangle | Way::Rectangle => true,
+            // not at the boundary between two triangles
+            Way::Parallelogram | Way::Fan => self.shares.iter().all(|share| (u[0] - share).abs() > 0.01),
+            Way::Azimuth => Self::straight(map, u),
+        }
+    }
     fn pdf(&self, w: V3) -> f64 {
         self.horizon.map_or(1.0, |n| dot(w, n).max(0.0)) / self.measure
     }
@@ -225,7 +286,7 @@ impl Truth for Polygon {
         best.1
     }
     fn outside(&self, margin: f64, random: &mut Random) -> Option<V3> {
-        let (v, n) = (self.corners(), self.count);
+        let (v, n) = (&self.corners, self.corners.len());
         let i = random.below(n);
         let (a, b, t) = (v[i], v[(i + 1) % n], random.unit_f64());
         if let Some(up) = self.horizon {
@@ -246,9 +307,9 @@ impl Truth for Polygon {
     /// another sweep, whose beginning is known to the rounding of a few areas, so 2⁻¹⁸ of the whole is excluded.
     fn reachable(&self, w: V3) -> bool {
         let Some(up) = self.horizon else { return true };
-        let corners = self.fan[..self.triangles].iter().flat_map(Triangle::vertices);
+        let corners = self.fan.iter().flat_map(Triangle::vertices);
         let first = self.corners[0];
-        let cuts = self.corners()[2..].iter().filter_map(|&c| {
+        let cuts = self.corners[2..].iter().filter_map(|&c| {
             let (a, b) = (dot(first, up), dot(c, up));
             ((a < 0.0) != (b < 0.0)).then(|| along(first, sub(c, first), a / (a - b)))
         });
@@ -261,11 +322,11 @@ impl Truth for Polygon {
     /// By solid angle, the extent of a shape on the z axis; 1 for others.
     fn granularity(&self) -> f64 {
         let tangent = |v: &V3| if v[2] > 0.0 { v[0].abs().max(v[1].abs()) / v[2] } else { 1.0 };
-        let most = self.corners().iter().map(tangent).fold(0.0, f64::max);
+        let most = self.corners.iter().map(tangent).fold(0.0, f64::max);
         if self.horizon.is_none() && most < 1e-2 { most } else { 1.0 }
     }
     fn reach(&self) -> f64 {
-        self.corners().iter().copied().map(length).fold(0.0, f64::max)
+        self.corners.iter().copied().map(length).fold(0.0, f64::max)
     }
     fn farthest(&self) -> f64 {
         if self.horizon.is_none() { self.reach() } else { 0.0 }

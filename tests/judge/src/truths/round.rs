@@ -1,8 +1,10 @@
 //! Directions about an axis: all of them up to an angle, or those that are above a horizon.
 
 use crate::fixture::Truth;
-use crate::generators::Random;
+use crate::random::Random;
+use crate::tolerances::{self, Tolerance};
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
+use etendue::LightSampler;
 use etendue_oracle::double_double::{dd, dot as dd_dot, length as dd_length};
 use etendue_oracle::{V3, along, basis, cap, cross, dot, length, projected_cap, unit, wide};
 
@@ -14,6 +16,16 @@ enum Density {
     Cosine,
     /// The cosine to a normal, whose angle to the axis has this cosine, accurate relative to its own size.
     AboveHorizon(f64),
+}
+
+/// Where a map of the square has two derivatives.
+pub type Smooth = fn([f64; 2]) -> bool;
+
+/// The concentric map has a kink where |a| = |b|, and all its derivatives grow towards the centre.
+#[must_use]
+pub fn off_the_diagonals(u: [f64; 2]) -> bool {
+    let (a, b) = ((2.0 * u[0] - 1.0).abs(), (2.0 * u[1] - 1.0).abs());
+    (a - b).abs() > 0.01 && a.max(b) > 0.1
 }
 
 /// Directions about an axis.
@@ -30,11 +42,32 @@ pub struct Round {
     margin: f64,
     /// Whether it is the whole of a hemisphere, seen from inside of a sphere.
     is_inside: bool,
+    tolerance: Tolerance,
+    /// Error of the inverse besides the point's own rounding, in units of rounding and in steps of `u`.
+    inverse: f64,
+    is_periodic: bool,
+    smooth: Smooth,
 }
 
 impl Round {
     fn new(axes: [V3; 4], sigma: f64, density: Density, measure: f64) -> Self {
-        Self { axes, sigma, density, measure, margin: 1.0, is_inside: false }
+        Self {
+            axes,
+            sigma,
+            density,
+            measure,
+            margin: 1.0,
+            is_inside: false,
+            tolerance: tolerances::CONE,
+            inverse: 2.0,
+            is_periodic: true,
+            smooth: |_| true,
+        }
+    }
+    /// By another map.
+    #[must_use]
+    pub fn by(self, tolerance: Tolerance, is_periodic: bool, smooth: Smooth) -> Self {
+        Self { tolerance, is_periodic, smooth, ..self }
     }
     /// Uniform about +z, up to an angle with 1 − cosσ = h.
     #[must_use]
@@ -55,7 +88,10 @@ impl Round {
         let (h, sigma) = cap(wide(center), f64::from(radius));
         let axis = unit(wide(center));
         let (s, t) = basis(axis);
-        Self { margin: 1.25, ..Self::new([axis, s, t, axis], sigma, Density::Uniform, TAU * h) }
+        // from inside the sphere, u₀ is half of 1−cosθ
+        let inverse = 3.0;
+        let this = Self::new([axis, s, t, axis], sigma, Density::Uniform, TAU * h);
+        Self { margin: 1.25, inverse, ..this }.by(tolerances::CAP, true, |_| true)
     }
     /// A sphere by projected solid angle.
     #[must_use]
@@ -66,21 +102,23 @@ impl Round {
         let [exact_c, exact_n] = [c, n].map(dd);
         let cos = (dd_dot(exact_c, exact_n) / (dd_length(exact_c) * dd_length(exact_n))).to_f64();
         let measure = projected_cap(c, f64::from(radius), n);
-        let n = unit(n);
         let across = cross(n, unit(c));
         let across = if length(across) > 1e-12 { unit(across) } else { basis(n).1 };
-        let (sigma, cos, axis) = if is_inside { (FRAC_PI_2, 1.0, n) } else { (sigma, cos, unit(c)) };
+        let (sigma, cos, axis) = if is_inside { (FRAC_PI_2, 1.0, unit(n)) } else { (sigma, cos, unit(c)) };
         let axes = [axis, unit(cross(axis, across)), across, n];
-        Self { is_inside, ..Self::new(axes, sigma, Density::AboveHorizon(cos), measure) }
+        let this =
+            Self { is_inside, is_periodic: false, ..Self::new(axes, sigma, Density::AboveHorizon(cos), measure) };
+        let all = tolerances::PROJECTED_CAP;
+        let alike = if cos < 0.0 { this.sin_omega().powi(-2) } else { 1.0 };
+        let tolerance = Tolerance { point: all.point * alike, round_trip: all.round_trip * alike, ..all };
+        Self { tolerance, ..this }
     }
     /// Cosine between the axis and the horizon's normal; 1 without a horizon.
-    #[must_use]
-    pub fn cos_omega(&self) -> f64 {
+    fn cos_omega(&self) -> f64 {
         if let Density::AboveHorizon(cos) = self.density { cos } else { 1.0 }
     }
     /// Sine of that angle.
-    #[must_use]
-    pub fn sin_omega(&self) -> f64 {
+    fn sin_omega(&self) -> f64 {
         let cos = self.cos_omega();
         ((1.0 - cos) * (1.0 + cos)).max(0.0).sqrt()
     }
@@ -106,6 +144,31 @@ impl Round {
 }
 
 impl Truth for Round {
+    fn tolerance(&self) -> Tolerance {
+        self.tolerance
+    }
+    fn inverse_units(&self, _: [f64; 2]) -> f64 {
+        self.inverse
+    }
+    fn inverse_steps(&self) -> f64 {
+        self.inverse
+    }
+    fn is_periodic(&self) -> bool {
+        self.is_periodic
+    }
+    fn smooth(&self, _: &dyn LightSampler<f64>, u: [f64; 2]) -> bool {
+        let Density::AboveHorizon(c) = self.density else { return (self.smooth)(u) };
+        let (s, sin) = (self.sigma.sin(), self.sin_omega());
+        if c >= s {
+            return off_the_diagonals(u);
+        }
+        if c < 0.0 {
+            return (u[0] - 0.5).abs() > 0.01;
+        }
+        // where the slices change from the circle to the ellipse
+        let theta = (((s - c) * (s + c)).sqrt() / sin).asin();
+        (u[0] - (theta - theta.sin() * theta.cos()) / self.measure).abs() > 0.01
+    }
     fn pdf(&self, w: V3) -> f64 {
         if self.density == Density::Uniform { 1.0 / self.measure } else { dot(w, self.axes[3]).max(0.0) / self.measure }
     }
