@@ -19,7 +19,6 @@ impl From<u64> for Random {
 }
 
 impl Random {
-
     /// Starts a stream.
     #[must_use]
     pub fn new(seed: u64) -> Self {
