@@ -23,8 +23,7 @@ use etendue::warp::{
     Octahedral, PatchSurface, UniformHemisphere, UniformSphere,
 };
 use etendue::{
-    LightSample, LightSampler, Mask, Parallelogram, Real, Rectangle, Sphere, Triangle, Vec2, Vec3, Warp, f32x8,
-    u32x8,
+    LightSample, LightSampler, Mask, Parallelogram, Real, Rectangle, Sphere, Triangle, Vec2, Vec3, Warp, f32x8, u32x8,
 };
 use rand_core::{Rng, SeedableRng};
 
@@ -130,6 +129,14 @@ impl Count {
             inverse += lit(1.0) / pdf;
         }
         self.check(far < 1e-3 && near(sum(inverse) / SAMPLES as f32, 0.927_295_2, 1e-2));
+    }
+    fn line(&mut self, table: PiecewiseConstant1d<'_>) {
+        let kept = squares().all(|u| {
+            let x = table.sample(u.x);
+            let back = table.invert(x) - u.x;
+            (0..8).all(|i| back.lane(i).abs() < 1e-4) && table.pdf(x).gt(lit(0.0)).all()
+        });
+        self.check(kept);
     }
     /// Checks the irradiance from radiance 1 on a receiver that faces up.
     fn light(&mut self, truth: f32, sample: impl Fn(Vec2<X>) -> LightSample<X>) {
