@@ -1,6 +1,6 @@
 //! Runs `etendue chart` as a user would, and checks their measurements.
 
-use super::Folder;
+use super::{Folder, until};
 use etendue_laboratory::chart::measure::{Row, Rows};
 use etendue_laboratory::chart::reference::Reference;
 use etendue_laboratory::chart::{self, Options};
@@ -13,7 +13,7 @@ use std::process::{Command, Output, Stdio};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
-use std::{env, fs, thread};
+use std::{env, fs};
 
 impl Folder {
     fn command(&self, arguments: &str) -> Command {
@@ -159,30 +159,20 @@ fn an_interrupted_run_leaves_a_report() {
     let command = "chart quads --size 64x64 --spp 1,2,4,1048576 --replicates 1000 --techniques area --samplers independent -o out";
     let mut child = folder.command(command).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
     let table = folder.0.join("out/measurements.csv");
-    let start = Instant::now();
-    while fs::read_to_string(&table).map_or(0, |t| t.lines().count()) < 3 {
-        assert!(start.elapsed() < Duration::from_secs(60), "nothing is measured");
-        thread::sleep(Duration::from_millis(5));
-    }
+    let has_lines = |count: usize| fs::read_to_string(&table).is_ok_and(|text| text.lines().count() >= count);
+    until("all images but the one with a million samples are measured", || has_lines(4));
     // a million samples per pixel would take minutes: the second signal ends the program at once, and the table remains. In a job of a
     // script, Ctrl-C is ignored, but not SIGTERM
-    for _ in 0..2 {
-        let killed = Command::new("kill").args(["-TERM", &child.id().to_string()]).status().unwrap();
-        assert!(killed.success());
-        thread::sleep(Duration::from_millis(300));
-        if child.try_wait().unwrap().is_some() {
-            break;
-        }
-    }
-    child.wait().unwrap();
+    until("a second signal ends it", || {
+        // two that come before the program has taken note of one are one
+        assert!(Command::new("kill").args(["-TERM", &child.id().to_string()]).status().unwrap().success());
+        child.try_wait().unwrap().is_some()
+    });
     let before = fs::read_to_string(&table).unwrap();
     // now with many quick images
     let command = command.replace(",1048576", "");
     let child = folder.command(&command).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
-    while fs::read_to_string(&table).unwrap().lines().count() < before.lines().count() + 3 {
-        assert!(start.elapsed() < Duration::from_secs(60), "nothing is measured");
-        thread::sleep(Duration::from_millis(5));
-    }
+    until("more images are measured", || has_lines(before.lines().count() + 3));
     assert!(Command::new("kill").args(["-TERM", &child.id().to_string()]).status().unwrap().success());
     let (out, _) = text(&child.wait_with_output().unwrap(), 0);
     assert!(out.contains("stopped early") && out.contains("3 measurements come from an earlier run"), "{out}");

@@ -1,10 +1,10 @@
 //! Nothing is lost: `render` writes nothing over the files of its scene or over what is not an image, and says what it has written.
 
-use super::{Folder, json, scene};
+use super::{Folder, json, scene, until};
+use std::fs;
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
-use std::{fs, thread};
 
 const SMALL: [&str; 4] = ["--size", "8x8", "--spp", "2"];
 
@@ -134,11 +134,24 @@ fn only_regular_files_are_replaced() {
     folder.refuse("quads", &["-o", "b.exr"], &["b.png: cannot write: this file is read-only"]);
 }
 
+/// Waits until a process has run for a fifth of a second, after which it has read its scene and renders.
+#[cfg(target_os = "linux")]
+fn until_it_renders(child: &Child) {
+    let ticks = || {
+        let text = fs::read_to_string(format!("/proc/{}/stat", child.id())).unwrap();
+        // after the name in parentheses, the 12th and 13th number are the hundredths of a second that it and its calls of the system took
+        let times = text.rsplit_once(") ").unwrap().1.split(' ').skip(11).take(2);
+        times.map(|time| time.parse::<u32>().unwrap()).sum::<u32>()
+    };
+    until("it has run for a fifth of a second", || ticks() >= 20);
+}
+
+#[cfg(target_os = "linux")]
 #[test]
 fn a_png_that_fails_does_not_hide_the_exr() {
     let folder = Folder::new();
-    let child = folder.spawn(&["render", "quads", "--size", "256x256", "--spp", "32", "--threads", "1", "-o", "a.exr"]);
-    thread::sleep(Duration::from_millis(300));
+    let child = folder.spawn(&["render", "quads", "--size", "256x256", "--spp", "64", "--threads", "1", "-o", "a.exr"]);
+    until_it_renders(&child);
     assert!(!folder.path("a.exr").exists(), "this test needs a rendering that takes longer");
     fs::create_dir(folder.path("a.png")).unwrap();
     let output = child.wait_with_output().unwrap();
@@ -164,15 +177,12 @@ fn too_many_threads_are_reduced() {
     assert!(error.contains("--threads 100000") && error.contains(&format!("{threads} threads are used")), "{error}");
 }
 
-/// Ends a rendering by a signal after 0.3 seconds, or later if it is not `ready`; returns its message.
-#[cfg(unix)]
+/// Ends a rendering by a signal once it renders and is `ready`; returns its message.
+#[cfg(target_os = "linux")]
 fn ended(folder: &Folder, signal: &str, code: i32, more: &[&str], ready: impl Fn() -> bool) -> String {
     let child = folder.spawn(&[&["render", "quads", "--size", "64x64", "-o", "a.exr"], more].concat());
-    thread::sleep(Duration::from_millis(300));
-    let start = Instant::now();
-    while !ready() && start.elapsed() < Duration::from_secs(60) {
-        thread::sleep(Duration::from_millis(20));
-    }
+    until_it_renders(&child);
+    until("it is ready", ready);
     assert!(Command::new("kill").args([signal, &child.id().to_string()]).status().unwrap().success());
     let output = child.wait_with_output().unwrap();
     let error = String::from_utf8(output.stderr).unwrap();
@@ -182,7 +192,7 @@ fn ended(folder: &Folder, signal: &str, code: i32, more: &[&str], ready: impl Fn
 }
 
 /// The exit code tells the signal, and the message what is on disk.
-#[cfg(unix)]
+#[cfg(target_os = "linux")]
 #[test]
 fn an_interruption_says_what_is_on_disk() {
     let folder = Folder::new();
@@ -211,10 +221,11 @@ fn a_signal_that_is_ignored_stays_so() {
     let folder = Folder::new();
     // as `nohup` begins a program
     let command =
-        format!("trap '' HUP; exec '{}' render quads --size 64x64 --time 1.5 -o a.exr", env!("CARGO_BIN_EXE_etendue"));
+        format!("trap '' HUP; exec '{}' render quads --size 64x64 --spp 1024 -o a.exr", env!("CARGO_BIN_EXE_etendue"));
     let mut shell = Command::new("sh");
     let child = shell.current_dir(&folder.0).args(["-c", &command]).stdout(Stdio::null()).spawn().unwrap();
-    thread::sleep(Duration::from_millis(500));
+    until_it_renders(&child);
+    assert!(!folder.path("a.exr").exists(), "this test needs a rendering that takes longer");
     assert!(Command::new("kill").args(["-HUP", &child.id().to_string()]).status().unwrap().success());
     let output = child.wait_with_output().unwrap();
     assert!(output.status.success(), "{:?}", output.status);

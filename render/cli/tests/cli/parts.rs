@@ -1,11 +1,10 @@
 //! Images whose parts are rendered by processes of their own: `plan`, parts that are killed, repeated, damaged or foreign, and `merge`.
 
-use super::Folder;
-use std::fs;
+use super::{Folder, until};
+use std::fs::{self, DirEntry};
+use std::io;
 use std::path::Path;
 use std::process::{Command, Stdio};
-use std::thread::sleep;
-use std::time::Duration;
 
 /// The stages of a plan, as lists of arguments.
 fn plan(folder: &Folder, arguments: &[&str]) -> Vec<Vec<Vec<String>>> {
@@ -97,7 +96,7 @@ fn parts_that_are_killed_repeated_or_damaged_lose_nothing() {
     let stages = plan(&folder, &[&arguments[..], &["--tasks", "12", "-o", "whole.exr"]].concat());
     let [parts, merge] = [&stages[0], &stages[1]];
 
-    // some are killed soon after they begin, some run twice at once
+    // some are killed as they begin or while they write, some run twice at once
     for (i, command) in parts.iter().enumerate() {
         let spawn = || {
             let mut process = Command::new(env!("CARGO_BIN_EXE_etendue"));
@@ -105,7 +104,11 @@ fn parts_that_are_killed_repeated_or_damaged_lose_nothing() {
         };
         let mut processes: Vec<_> = (0..=i % 2).map(|_| spawn()).collect();
         if i % 3 == 0 {
-            sleep(Duration::from_millis(5 * i as u64));
+            let temporary = format!(".etendue-{}-", processes[0].id());
+            let begins =
+                |file: io::Result<DirEntry>| file.unwrap().file_name().to_string_lossy().starts_with(&temporary);
+            let writes = || fs::read_dir(folder.path(target(command).0)).is_ok_and(|mut files| files.any(begins));
+            until("it writes or has ended", || i == 0 || writes() || processes[0].try_wait().unwrap().is_some());
             let _ = processes[0].kill();
         }
         for process in &mut processes {
