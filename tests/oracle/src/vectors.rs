@@ -1,4 +1,4 @@
-//! Vectors in f64. Incremental builds inline functions of another package only where they are marked so.
+//! Vectors in f64. Incremental builds inline functions of another package only where they are marked so, and `map` of an array never.
 
 /// A vector in f64.
 pub type V3 = [f64; 3];
@@ -35,7 +35,7 @@ pub fn length(a: V3) -> f64 {
     let greatest = a[0].abs().max(a[1].abs()).max(a[2].abs());
     let exponent = (greatest.to_bits() >> 52).clamp(1, 2045);
     let scale = f64::from_bits((2046 - exponent) << 52);
-    let scaled = a.map(|x| x * scale);
+    let scaled = [a[0] * scale, a[1] * scale, a[2] * scale];
     dot(scaled, scaled).sqrt() / scale
 }
 /// Unit vector; the zero vector stays zero.
@@ -43,19 +43,19 @@ pub fn length(a: V3) -> f64 {
 #[inline]
 pub fn unit(a: V3) -> V3 {
     let l = length(a);
-    if l > 0.0 { a.map(|x| x / l) } else { a }
+    if l > 0.0 { [a[0] / l, a[1] / l, a[2] / l] } else { a }
 }
 /// Converts f32 to f64.
 #[must_use]
 #[inline]
 pub fn wide(a: [f32; 3]) -> V3 {
-    a.map(f64::from)
+    [f64::from(a[0]), f64::from(a[1]), f64::from(a[2])]
 }
 /// Rounds to f32.
 #[must_use]
 #[inline]
 pub fn narrow(a: V3) -> [f32; 3] {
-    a.map(|x| x as f32)
+    [a[0] as f32, a[1] as f32, a[2] as f32]
 }
 /// Two unit vectors perpendicular to the unit vector `n`.
 #[must_use]
