@@ -247,7 +247,7 @@ fn flat(random: &mut Random) -> Flat {
 #[test]
 fn flat_lights_have_their_part_of_the_lobe() {
     let mut random = Random::new(4);
-    for _ in 0..cases(100, 400) {
+    for _ in 0..cases(40, 400) {
         let Flat { place, corner, s, t } = flat(&mut random);
         let truth = [false, true].map(|half| {
             let part = part_of_samples(&place, |w| {

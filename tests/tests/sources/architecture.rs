@@ -212,6 +212,7 @@ fn modules_import_one_way() {
 /// Imports that are known to exist are found, so that the other test cannot pass because it reads nothing.
 #[test]
 fn imports_are_found() {
+    let mut packages = BTreeMap::new();
     for (package, level, from, to) in [
         ("core", "core", "light", "reflection"),
         ("core/batch", "core/batch", "table", "functions"),
@@ -232,7 +233,8 @@ fn imports_are_found() {
         ("tests/judge", "tests/judge", "suite", "properties"),
         ("benches/routines", "benches/routines", "rays", "baseline"),
     ] {
-        assert!(levels(package)[level][from].contains(to), "{level}: {from} → {to}");
+        let levels = packages.entry(package).or_insert_with(|| levels(package));
+        assert!(levels[level][from].contains(to), "{level}: {from} → {to}");
     }
     let text = r##"
         //! [`a`](crate::comment)
@@ -387,8 +389,11 @@ fn modules_have_no_other_paths() {
     let all = sources(&[".rs"]);
     assert!(all.len() > 150, "{} sources", all.len());
     for path in all {
+        let text = fs::read_to_string(&path).unwrap();
+        // parsing takes longer than this, and few files have something of the kind
+        let may_have = text.split_whitespace().collect::<String>().contains("path=\"");
         let module = [path.display().to_string()];
-        assert!(!named(&fs::read_to_string(&path).unwrap(), &module).has_path, "{}", path.display());
+        assert!(!may_have || !named(&text, &module).has_path, "{}", path.display());
     }
 }
 

@@ -50,7 +50,7 @@ fn interpolated_pictures() {
             Picture::interpolated(&values, width, &mut buffer).unwrap();
             let picture = Picture::interpolated_from_buffer(&values, width, &buffer).unwrap();
             assert_eq!(picture.size(), [width + 1, height + 1]);
-            for p in POINTS {
+            for p in POINTS.into_iter().step_by(cases(2, 1)) {
                 for &by in light.measures() {
                     let name = format!("{light:?} {by:?} {width} × {height} from {p:?}");
                     let n = normal(p);
@@ -77,7 +77,7 @@ fn interpolated_pictures() {
                         let off = (again[0] - u[0]).abs().max((again[1] - u[1]).abs());
                         assert!(off < 2e-6, "{name}: {again:?}, expected {u:?}");
                     }
-                    let (mean, m) = (sum / count, cases(360, 720));
+                    let (mean, m) = (sum / count, cases(256, 720));
                     let spread = (squared / count / (mean * mean) - 1.0).max(0.0).sqrt();
                     let mut truth = 0.0;
                     for k in 0..m * m {
