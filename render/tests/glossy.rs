@@ -223,13 +223,16 @@ fn rough_surfaces_reflect_the_sums() {
         ("all", vec![panel(-2.5), triangle(), ball(2.5)], None),
     ];
     for (name, lights, blocker) in &scenes {
+        // where nothing hides a part of a light, the sum has no edge and fewer cells do
+        let is_whole = lights.len() == 1 && blocker.is_none() && !name.contains("horizon");
+        let side = if is_whole { 400 } else { 1200 };
         for (alpha, albedo, view) in [
             (0.15, [0.0; 3], [0.2, 2.0, 3.0]),
             (0.4, [0.6, 0.3, 0.1], [0.0, 1.0, 2.0]),
             (0.7, [0.5, 0.5, 0.5], [2.0, 2.0, 1.0]),
         ] {
             let coat = Gloss::coat(alpha, albedo, view);
-            let truth = truth(&coat, lights, blocker.as_ref(), 1200);
+            let truth = truth(&coat, lights, blocker.as_ref(), side);
             let world = scene(view, &coat.text(), lights, blocker.as_ref());
             let claims = [Technique::Analytic, Technique::MisPower].map(|technique| {
                 let [mean, claim] = pixel(&world, technique, cases(1 << 12, 1 << 15));
@@ -291,8 +294,8 @@ fn metals_reflect_spheres_as_by_the_bsdf() {
         for (alpha, view) in [(0.1, [0.2, 2.0, 3.0]), (0.3, [0.0, 1.0, 3.0]), (0.6, [2.0, 0.4, 2.0])] {
             let world = scene(view, &(metal(0.9, alpha) + FLOOR), lights, blocker.as_ref());
             let green = |technique, spp| pixel(&world, technique, spp).map(|rgb| rgb[1]);
-            let [truth, doubt] = green(Technique::Brdf, cases(1 << 19, 1 << 22));
-            let spp = cases(1 << 15, 1 << 18);
+            let [truth, doubt] = green(Technique::Brdf, cases(1 << 18, 1 << 22));
+            let spp = cases(1 << 14, 1 << 18);
             for technique in [Technique::MisLobe, Technique::Analytic] {
                 let [mean, claim] = green(technique, spp);
                 let z = (mean - truth).abs() / claim.hypot(doubt);

@@ -41,7 +41,9 @@ fn choosers<'a>(choosers: &'a Choosers, lights: &Lights) -> Vec<(ChoiceBy, &'a C
 fn the_pdf_of_a_direction_is_that_with_which_it_was_drawn() {
     let mut kinds = [0_u32; 3];
     for (name, _) in etendue_scene::builtin() {
-        let scene = etendue_scene::load(name).unwrap();
+        let mut scene = etendue_scene::load(name).unwrap();
+        // trees of all lights of a city take the time of all others
+        scene.shapes = scene.shapes.iter().take(cases(1000, usize::MAX)).cloned().collect();
         let lights = Lights::new(&scene, None);
         if scene.shapes.is_empty() || lights.is_empty() || lights.only_deltas() {
             continue;

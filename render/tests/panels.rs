@@ -127,7 +127,7 @@ type Intensity = fn(f64, f64) -> f64;
 
 /// π over the sum of the intensity over the hemisphere, with the fall next to its plane.
 fn gain(intensity: Intensity) -> f64 {
-    let (rows, columns) = (3000, 720);
+    let (rows, columns) = (1200, 180);
     let mut flux = 0.0;
     for (i, j) in (0..rows).flat_map(|i| (0..columns).map(move |j| (i, j))) {
         let theta = (f64::from(i) + 0.5) / f64::from(rows) * PI / 2.0;

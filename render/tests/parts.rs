@@ -280,7 +280,7 @@ fn images_of_different_seeds_are_averaged() {
                 "its technique is \"area\", not \"auto\"",
             ),
             (Job::new("quads", Settings { seed: 9, sampler, height: 20, ..SETTINGS }), "its width is 50, not 32"),
-            (Job::new("terrain", Settings { seed: 9, ..SETTINGS }), "its scene is \"terrain\", not \"quads\""),
+            (Job::new("plates", Settings { seed: 9, ..SETTINGS }), "its scene is \"plates\", not \"quads\""),
         ] {
             let mut job = job;
             let alien = job.whole();

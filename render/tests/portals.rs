@@ -80,7 +80,7 @@ fn portals_change_noise_alone() {
             }
             World::new(&scene).unwrap()
         });
-        let spp = cases(256, 4096);
+        let spp = cases(128, 4096);
         let [mean, variance] = sum(&render(&plain, MisPower, 4 * spp));
         assert!(mean > 0.0);
         for technique in [SolidAngle, MisPower, CosineHemisphere, MisBalance] {

@@ -100,7 +100,7 @@ fn measure(scene: &Scene, seed: u64, [side, spp]: [u32; 2]) -> Tally {
     let view = world.view(&base);
     let (technique, foreseen) = (view.technique(), view.foreseen());
     let mut images: Vec<(Film, Option<Claim>)> = Vec::new();
-    for spp in [2, 16, spp] {
+    for spp in [2, spp / 4, spp] {
         for run in 1..=SEEDS {
             let (film, _) = world.render(&settings(spp, run), &|_| ());
             let claim = Claim::new(&film, &foreseen, spp.into());
