@@ -21,11 +21,18 @@ impl Folder {
         fs::create_dir_all(&path).unwrap();
         Self(path)
     }
+    pub(crate) fn root(&self) -> &Path {
+        &self.0
+    }
     pub(crate) fn path(&self, name: &str) -> PathBuf {
         self.0.join(name)
     }
-    pub(crate) fn write(&self, name: &str, bytes: impl AsRef<[u8]>) {
-        fs::write(self.path(name), bytes).unwrap();
+    /// Writes a file, and the folders above it.
+    pub(crate) fn write(&self, name: &str, bytes: impl AsRef<[u8]>) -> PathBuf {
+        let path = self.path(name);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(&path, bytes).unwrap();
+        path
     }
     /// Writes a picture in the RGB channels of an EXR file.
     pub(crate) fn picture(

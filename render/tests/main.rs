@@ -1,12 +1,14 @@
-//! Rays, certificates, images of scenes, and what lights and skies emit: against closed forms, references and each other. One program:
-//! linking the renderer takes longer than most tests.
+//! Rays, certificates, images of scenes, what lights and skies emit, and what scene files mean: against closed forms, references and each
+//! other. One program: linking the renderer takes longer than most tests.
 
 mod analytic;
 mod attack;
 mod certificates;
 mod choice;
+mod damaged;
 mod daylight;
 mod glossy;
+mod gltf;
 mod holes;
 mod identity;
 mod images;
@@ -19,6 +21,7 @@ mod occlusion;
 mod openings;
 mod panels;
 mod parts;
+mod pbrt;
 mod portals;
 mod profiles;
 mod random;

@@ -12,8 +12,6 @@ mod materials;
 mod meshes;
 mod nodes;
 mod source;
-#[cfg(test)]
-mod tests;
 
 use crate::builder::{Builder, Rest};
 use crate::message::shortened;

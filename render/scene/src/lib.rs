@@ -94,8 +94,6 @@ mod nearest;
 mod pbrt;
 mod radiance;
 mod shape_attributes;
-#[cfg(test)]
-mod test_files;
 mod transform;
 mod vertices;
 

@@ -25,8 +25,6 @@ mod shape_state;
 mod shapes;
 mod sources;
 mod spectrum;
-#[cfg(test)]
-mod tests;
 mod textures;
 mod transform_directives;
 

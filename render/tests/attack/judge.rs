@@ -141,7 +141,7 @@ pub(crate) fn read(draft: &Draft) -> Result<Scene, String> {
 
 fn with_pictures(draft: &Draft) -> Result<Scene, String> {
     let folder = Folder::new();
-    draft.pictures().for_each(|picture| folder.write(&picture.name(), picture.bytes()));
+    draft.pictures().for_each(|picture| drop(folder.write(&picture.name(), picture.bytes())));
     etendue_scene::parse(&draft.to_string(), "attack.pbrt", &folder.path("")).map_err(|error| error.to_string())
 }
 

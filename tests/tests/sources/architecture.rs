@@ -261,7 +261,7 @@ const ARROWS: [(&str, &[&str], &[&str]); 22] = [
     ("core/shader", &["etendue"], &["etendue-oracle", "etendue-judge"]),
     ("core/shader/device", &[], &[]),
     ("render", &["etendue"], &["etendue-oracle"]),
-    ("render/scene", &["etendue", "etendue-render"], &["etendue-oracle"]),
+    ("render/scene", &["etendue", "etendue-render"], &[]),
     ("render/laboratory", &["etendue", "etendue-judge", "etendue-oracle", "etendue-render", "etendue-scene"], &[]),
     ("render/cli", &["etendue-laboratory", "etendue-render", "etendue-scene"], &["etendue-oracle"]),
     ("render/tests", &[], &["etendue", "etendue-oracle", "etendue-judge", "etendue-render", "etendue-scene"]),

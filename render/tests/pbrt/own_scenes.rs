@@ -1,7 +1,10 @@
 //! What scene files of others have: textures, objects, spectra, powers, and what stands for something else.
 
-use super::*;
+use crate::kit::Folder;
+use crate::pbrt::text::{LIGHT, TRIANGLE, read, sub, warnings, world};
+use etendue_render::scene::{Details, Disk, Geometry, Material, Roughness, Scene, Screen, Sphere, Varying};
 use etendue_render::texture::Texture;
+use etendue_scene::parse;
 
 /// A scene with a light, so that the only warnings are those of the text.
 fn lit(text: &str) -> Scene {
@@ -60,7 +63,7 @@ fn pictures_are_read_once_and_turned_upright() {
              Material \"diffuse\" \"texture reflectance\" \"p\"\n{TRIANGLE}"
         )
     };
-    let scene = |options: &str| parse(&world(&text(options)), "a.pbrt", &dir.path).unwrap();
+    let scene = |options: &str| parse(&world(&text(options)), "a.pbrt", dir.root()).unwrap();
     let at = |options: &str, uv| scene(options).varying[0].at(uv);
     // the first row is the upper one, where v is near 1
     assert_eq!(at("", [0.5, 0.9]), Material::Diffuse([1.0, 0.0, 0.0]));
@@ -226,7 +229,7 @@ fn attributes_imports_and_media() {
     let dir = Folder::new();
     dir.write("in.pbrt", format!("Translate 1 0 0 Material \"mirror\" {TRIANGLE}").as_bytes());
     dir.write("open.pbrt", b"AttributeBegin");
-    let read = |text: &str| parse(&world(&format!("LightSource \"point\" {text}")), "a.pbrt", &dir.path);
+    let read = |text: &str| parse(&world(&format!("LightSource \"point\" {text}")), "a.pbrt", dir.root());
     let scene = read(&format!("Import \"in.pbrt\" {TRIANGLE}")).unwrap();
     assert_eq!([scene.triangles[0][0][0], scene.triangles[1][0][0]], [1.0, 0.0]);
     assert!(scene.materials[scene.triangle_materials[1] as usize] == Material::Diffuse([0.5; 3]));

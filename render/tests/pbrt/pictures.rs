@@ -1,7 +1,10 @@
 //! Reading of pictures that shapes emit.
 
-use super::*;
+use crate::kit::Folder;
+use crate::pbrt::text::{warnings, world};
 use etendue_render::light_picture::LightPicture;
+use etendue_render::scene::{Geometry, Parallelogram, Scene, Shape};
+use etendue_scene::parse;
 
 /// A folder with a picture of 3 × 2 texels, (column, row, 1) in each.
 fn folder() -> Folder {
@@ -14,7 +17,7 @@ const LIGHT: &str = "AreaLightSource \"diffuse\" \"string filename\" \"p.exr\"";
 const QUAD: &str = "Shape \"bilinearmesh\" \"point3 P\" [0 0 0  4 0 0  0 3 0  4 3 0]";
 
 fn load(folder: &Folder, text: &str) -> Scene {
-    parse(&world(text), "a.pbrt", &folder.path).unwrap_or_else(|e| panic!("{e}\n{text}"))
+    parse(&world(text), "a.pbrt", folder.root()).unwrap_or_else(|e| panic!("{e}\n{text}"))
 }
 
 /// What the picture of a shape shows at coordinates of its surface.
@@ -49,7 +52,7 @@ fn quads_show_pictures_upright() {
     let two = load(&folder, &format!("{LIGHT} {QUAD} {LIGHT} \"rgb L\" [1 0 3] Translate 0 0 1 {QUAD}"));
     let texels = |k: usize| std::sync::Arc::as_ptr(&two.pictures[k].picture.texels);
     assert_eq!((two.pictures[1].factor, texels(0)), ([1.0, 0.0, 3.0], texels(1)));
-    assert!(two.inputs.iter().any(|input| input.path == folder.path.join("p.exr")), "{:?}", two.inputs);
+    assert!(two.inputs.iter().any(|input| input.path == folder.path("p.exr")), "{:?}", two.inputs);
 }
 
 #[test]
@@ -88,7 +91,7 @@ fn faulty_textures_are_named() {
     ] {
         let read = |name: &str| {
             let texture = format!("Texture \"t\" \"{value}\" \"imagemap\" \"string filename\" \"{name}\"");
-            parse(&world(&format!("LightSource \"point\"\n{texture}\n{user}\n{QUAD}")), "a.pbrt", &folder.path)
+            parse(&world(&format!("LightSource \"point\"\n{texture}\n{user}\n{QUAD}")), "a.pbrt", folder.root())
         };
         for (name, what) in [("nan.exr", "[NaN, 1.0, 0.5]"), ("infinite.exr", "[inf, 1.0, 0.5]")] {
             let error = read(name).unwrap_err().to_string();
@@ -129,7 +132,7 @@ fn faulty_pictures_are_named() {
     folder.write("text.png", "text");
     let light = |name: &str, more: &str| {
         let text = format!("AreaLightSource \"diffuse\" \"string filename\" \"{name}\" {more}\n{QUAD}");
-        parse(&world(&text), "a.pbrt", &folder.path)
+        parse(&world(&text), "a.pbrt", folder.root())
     };
     for (name, more, what) in [
         ("nan.exr", "", "nan.exr: texel (1, 0) is [NaN, 1.0, 1.0]: must be finite"),
@@ -165,7 +168,7 @@ fn digests_depend_on_all_files_of_a_scene() {
          Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"picture.pfm\"\n\
          Material \"diffuse\" \"texture reflectance\" \"t\"\nShape \"plymesh\" \"string filename\" \"mesh.ply\"\n",
     );
-    let load = || crate::load(folder.path.join("scene.pbrt")).unwrap();
+    let load = || etendue_scene::load(folder.path("scene.pbrt")).unwrap();
     let found = || load().digest();
     let first = found();
     assert_eq!(found(), first);

@@ -1,9 +1,13 @@
 //! Tests of materials, textures and what emits.
 
-use super::*;
+use crate::gltf::asset::{Asset, QUAD};
+use crate::kit::Folder;
+use base64::Engine;
 use etendue_render::image::encode_png;
 use etendue_render::scene::{Emission, Material, Roughness, Varying};
 use etendue_render::texture::{Mask, Texture, Wrap};
+use etendue_scene::{load, parse_gltf};
+use serde_json::{Value, json};
 
 /// A picture of 2 × 2 pixels as a data URI: red, green, blue, and grey of 51 (a fifth).
 fn picture() -> String {

@@ -1,6 +1,10 @@
 //! Errors and warnings name the line and the wrong value, and no input panics.
 
-use super::*;
+use crate::damaged::damaged;
+use crate::kit::Folder;
+use crate::pbrt::text::{TRIANGLE, error, read, warnings, world};
+use etendue_scene::{SceneError, load, parse};
+use std::path::Path;
 
 /// Texts that follow a valid first line, the line of their fault, and a part of the message.
 const FAULTS: &[(&str, u32, &str)] = &[
@@ -328,7 +332,7 @@ fn includes_are_relative_bounded_and_name_their_own_lines() {
     dir.write("mark.pbrt", "\n \u{feff}Shape");
     dir.write("wide.pbrt", b"\xff\xfeS\0h\0");
     dir.write("bare.pbrt", b"S\0h\0a\0p\0");
-    let read = |text: &str| parse(&world(text), "a.pbrt", &dir.path);
+    let read = |text: &str| parse(&world(text), "a.pbrt", dir.root());
     assert_eq!(read("Include \"sub/both.pbrt\"").unwrap().triangles.len(), 2);
     assert_eq!(read("Include \"sub/main.pbrt\"").unwrap().triangles.len(), 1);
     let message = |text: &str| read(text).unwrap_err().to_string();
@@ -359,7 +363,7 @@ fn includes_are_relative_bounded_and_name_their_own_lines() {
 /// Every beginning of a scene, and many scenes with a few bytes changed, give a scene or an error.
 #[test]
 fn no_text_panics() {
-    let text = include_str!("../../../../scenes/quads.pbrt");
+    let text = include_str!("../../scenes/quads.pbrt");
     let pieces =
         ["\"", "[", "]", "-", "1e308", "nan", "é", "\0", "#", "\\", "Include ", "AttributeBegin ", "\"float x\" "];
     let (mut sound, mut faulty) = (0, 0);

@@ -1,10 +1,14 @@
 //! Lights with intensities of their own: IES files, images of directions, and their error messages.
 
-use super::*;
+use crate::damaged::damaged;
+use crate::kit::Folder;
+use crate::pbrt::text::world;
 use etendue_render::packet::V8;
+use etendue_render::scene::{DeltaLight, Scene};
+use etendue_scene::parse;
 
 fn load_in(folder: &Folder, light: &str) -> Result<Scene, String> {
-    parse(&world(light), "a.pbrt", &folder.path).map_err(|error| error.to_string())
+    parse(&world(light), "a.pbrt", folder.root()).map_err(|error| error.to_string())
 }
 
 /// Intensities of the only light of a scene in directions of the world, in the red channel.
@@ -75,16 +79,20 @@ fn type_c_has_the_nadir_as_axis() {
 fn damaged_files_are_errors() {
     let whole = file(NEW, 1, "0 1 90 180", "0 30 90", "8 0 8 2 1 2 3 4 5 6 7 8")
         .replace("TILT=NONE", "TILT=INCLUDE\n1 2 0 90 1 1");
-    let judge = |text: &str| match ies::parse(text, "a.ies") {
-        Ok(found) => {
-            let flux = found.intensity.flux();
-            assert!((0.0..=12.6).contains(&flux) && found.greatest >= 0.0, "{flux}: {text}");
-            true
+    let folder = Folder::new();
+    let judge = |text: &str| {
+        folder.write("a.ies", text);
+        let read = load_in(&folder, LAMP);
+        if let Err(error) = &read {
+            assert!(error.contains("a.ies:") || error.contains("its greatest intensity is"), "{error}");
         }
-        Err(error) => {
-            assert!(error.starts_with("a.ies:"), "{error}");
-            false
+        // a dark one is left out
+        for light in read.iter().flat_map(|scene| &scene.delta_lights) {
+            let DeltaLight::Directed { intensity, table, .. } = light else { panic!("{text}") };
+            let flux = read.as_ref().unwrap().intensities[*table as usize].flux();
+            assert!((0.0..=12.6).contains(&flux) && intensity[0] >= 0.0, "{flux}: {text}");
         }
+        read.is_ok()
     };
     assert!(judge(&whole));
     // only the line's end is not needed
@@ -97,7 +105,8 @@ fn damaged_files_are_errors() {
     assert!(read > 100, "{read}");
     // once mirrored, these are the same
     let close = file(NEW, 1, "0 90", "0 1e-9 90", "8 0 8 2 1 2");
-    assert!(ies::parse(&close, "a.ies").unwrap_err().contains("a.ies: angles do not ascend"));
+    folder.write("a.ies", close);
+    assert!(load_in(&folder, LAMP).unwrap_err().contains("a.ies: angles do not ascend"));
 }
 
 #[test]

@@ -1,7 +1,10 @@
 //! Reading of skies, spreads, metals and mirrors.
 
-use super::*;
+use crate::kit::Folder;
+use crate::pbrt::text::{LIGHT, TRIANGLE, read, warnings, world};
 use etendue::light::EnvironmentMap;
+use etendue_render::scene::{Material, Roughness, SkyRadiance};
+use etendue_scene::parse;
 
 #[test]
 fn dark_skies_are_none() {
@@ -33,7 +36,7 @@ fn images_of_the_sky() {
 
     let load = |name: &str| {
         let text = world(&format!("LightSource \"infinite\" \"string filename\" \"{name}\" \"float scale\" 2"));
-        parse(&text, "a.pbrt", &folder.path)
+        parse(&text, "a.pbrt", folder.root())
     };
     let texels = |name: &str| match load(name).unwrap_or_else(|e| panic!("{e}")).environment.unwrap().sky {
         SkyRadiance::Image { width, map, texels } => (width, map, texels),

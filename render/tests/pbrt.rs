@@ -1,5 +1,5 @@
 //! Tests of cameras, transforms and the graphics state. `builtin` has the built-in scenes, `faulty` faulty input, `meshes` mesh files, `own_scenes`
-//! what files of others have. What lights and shapes mean is in the table of values of the renderer's tests.
+//! what files of others have, and `text` what their texts share. What lights and shapes mean is in the table of values of the renderer's tests.
 
 mod builtin;
 mod cameras;
@@ -12,57 +12,10 @@ mod own_scenes;
 mod photometry;
 mod pictures;
 mod portals;
+mod text;
 
-use super::{builtin_of_few_lights, ies, ply};
-use crate::test_files::{Folder, damaged};
-use crate::{SceneError, load, parse, transform};
-use etendue_render::scene::{
-    DeltaLight, Details, Disk, Emission, Environment, FilmSettings, Geometry, Lens, Material, Message, Parallelogram,
-    Roughness, Scene, Screen, Shape, SkyRadiance, Sphere, Varying,
-};
-use std::path::Path;
-
-/// A scene of a camera and some shapes.
-fn world(shapes: &str) -> String {
-    format!("LookAt 0 0 5 0 0 0 0 1 0 Camera \"perspective\" WorldBegin\n{shapes}")
-}
-
-fn read(text: &str) -> Scene {
-    parse(text, "a.pbrt", Path::new("no such directory")).unwrap_or_else(|error| panic!("{error}\n{text}"))
-}
-
-/// The error of a text.
-fn error(text: &str) -> String {
-    match parse(text, "a.pbrt", Path::new("no such directory")) {
-        Ok(_) => panic!("read without an error:\n{text}"),
-        Err(error) => error.to_string(),
-    }
-}
-
-fn warnings(scene: &Scene) -> Vec<String> {
-    scene.warnings.iter().map(Message::to_string).collect()
-}
-
-const LIGHT: &str = "AreaLightSource \"diffuse\"\n";
-const TRIANGLE: &str = "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0]\n";
-const PATCH: &str = "Shape \"bilinearmesh\" \"point3 P\" [0 0 0 2 0 0 0 1 0 2 1 0]\n";
-
-fn sub(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-fn cross(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-/// The normal of a flat shape, whose length is twice the area of a triangle or the area of a parallelogram.
-fn normal(geometry: &Geometry) -> [f32; 3] {
-    match *geometry {
-        Geometry::Triangle([a, b, c]) => cross(sub(b, a), sub(c, a)),
-        Geometry::Parallelogram(Parallelogram { u, v, .. }) => cross(u, v),
-        ref other => panic!("no normal is tested of {other:?}"),
-    }
-}
+use crate::pbrt::text::{LIGHT, PATCH, TRIANGLE, read, world};
+use etendue_render::scene::{Emission, FilmSettings, Geometry, Lens, Material, Screen, Sphere};
 
 /// Without `Scale -1 1 1`, pbrt's camera space is left-handed: looking from +z towards the origin, right is −x.
 #[test]

@@ -1,8 +1,10 @@
 //! Reading of portals, and their error messages.
 
-use super::*;
+use crate::pbrt::text::{read, warnings, world};
 use etendue::Vec3;
 use etendue::light::Portal;
+use etendue_scene::parse;
+use std::path::Path;
 
 /// A floor of which the portals in the plane z = 1 show the sky above.
 const FLOOR: &str = "Shape \"trianglemesh\" \"point3 P\" [0 0 0  1 0 0  0 1 0]\n";

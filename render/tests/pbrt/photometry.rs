@@ -1,6 +1,10 @@
 //! Powers, illuminances and scales beside those of the renderer's table of values.
 
-use super::*;
+use crate::kit::Folder;
+use crate::pbrt::text::{LIGHT, TRIANGLE, read, warnings, world};
+use etendue_render::scene::{DeltaLight, Environment, SkyRadiance};
+use etendue_scene::parse;
+use std::path::Path;
 
 /// pbrt-v4 multiplies by the scale after what a light shall have.
 #[test]
@@ -10,7 +14,7 @@ fn scales_multiply_powers_and_illuminances() {
     folder.write("a.ies", "IESNA:LM-63-2019\nTILT=NONE\n1 -1 1 2 1 1 2 0 0 0\n1 1 9\n0 90\n0\n8 2\n");
     // the radiance or intensity of the only light, in the green channel
     let strength = |text: &str| {
-        let scene = parse(&world(text), "a.pbrt", &folder.path).unwrap_or_else(|error| panic!("{error}\n{text}"));
+        let scene = parse(&world(text), "a.pbrt", folder.root()).unwrap_or_else(|error| panic!("{error}\n{text}"));
         f64::from(match (&scene.delta_lights[..], &scene.environment) {
             ([DeltaLight::Directed { intensity, .. }], _) => intensity[1],
             (_, Some(Environment { sky: SkyRadiance::Image { texels, .. }, .. })) => {
@@ -55,7 +59,7 @@ fn extreme_powers() {
     let folder = Folder::new();
     folder.picture("below.exr", [1, 2], |_, y| [y as f32; 3]);
     let below = world("LightSource \"infinite\" \"string filename\" \"below.exr\" \"float illuminance\" 10");
-    let below = warnings(&parse(&below, "a.pbrt", &folder.path).unwrap());
+    let below = warnings(&parse(&below, "a.pbrt", folder.root()).unwrap());
     assert!(below[0].contains("the upper half of the sky is dark"), "{below:?}");
     let plain = read(&world("LightSource \"point\" \"string filename\" \"none.exr\""));
     assert!(plain.stand_ins.is_empty() && warnings(&plain).len() == 1, "{:?}", plain.warnings);

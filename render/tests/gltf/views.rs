@@ -1,10 +1,12 @@
 //! Tests of cameras and lights.
 
-use super::*;
-use crate::load_with_sky;
+use crate::gltf::asset::Asset;
+use crate::kit::Folder;
 use etendue_render::packet::V8;
 use etendue_render::scene::{CameraSettings, Screen};
 use etendue_render::sky::Sky;
+use etendue_scene::load_with_sky;
+use serde_json::{Value, json};
 use std::path::Path;
 
 /// The position of a point in an image, from the top left, by the formula of [`CameraSettings`].
@@ -195,7 +197,7 @@ fn a_sky_is_added() {
     assert_eq!(up, texels[4]);
 
     let failed = |path: &Path| load_with_sky(&plain, path).unwrap_err().to_string();
-    let missing = folder.path.join("none.exr");
+    let missing = folder.path("none.exr");
     assert!(failed(&missing).starts_with(&format!("{}: cannot read", missing.display())), "{}", failed(&missing));
     let text = failed(&plain);
     assert!(text.starts_with(&format!("{}: not a valid", plain.display())), "{text}");

@@ -1,10 +1,12 @@
 //! Cameras of other programs, and parts of their images.
 
-use super::*;
 use etendue::{Vec2, u32x8};
 use etendue_render::area::Place;
 use etendue_render::camera::{Camera, CameraSample, counted_from};
 use etendue_render::packet::X8;
+use etendue_render::scene::{Scene, Screen};
+use etendue_scene::parse;
+use std::path::Path;
 
 fn seen_by(text: &str) -> Scene {
     parse(&format!("{text} WorldBegin LightSource \"point\""), "a.pbrt", Path::new(".")).unwrap()

@@ -1,6 +1,9 @@
 //! Tests of faulty files: each gives an error that names the item, and never a panic.
 
-use super::*;
+use crate::damaged::damaged;
+use crate::gltf::asset::Asset;
+use etendue_scene::parse_gltf;
+use serde_json::{Value, json};
 
 /// An indexed triangle with normals and texture coordinates, in accessors 0 to 3, with a textured material, a camera and a child node.
 fn full() -> Asset {

@@ -1,8 +1,11 @@
 //! Reading of daylight, and its error messages.
 
-use super::*;
+use crate::pbrt::text::{read, warnings, world};
 use etendue::light::{EnvironmentMap, ImageEnvironment};
+use etendue_render::scene::{Environment, SkyRadiance};
 use etendue_render::sky::GeneralSky;
+use etendue_scene::parse;
+use std::path::Path;
 
 fn directive(parameters: &str) -> String {
     world(&format!("LightSource \"infinite\" \"string sky\" \"cie\" {parameters}"))

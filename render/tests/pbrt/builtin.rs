@@ -1,21 +1,19 @@
 //! The built-in scenes. (The images of `sphere-light`, `triangle-light` and `quads` are compared with those of an independent renderer.)
 
-use super::*;
+use crate::pbrt::text::{warnings, world};
+use etendue_oracle::{V3, cross, dot, sub, wide};
+use etendue_render::scene::{FilmSettings, Geometry, Material, Parallelogram, Shape};
+use etendue_scene::{builtin_of_few_lights, load, parse};
 use std::collections::HashMap;
-
-type Point = [f64; 3];
-
-fn wide(p: [f32; 3]) -> Point {
-    p.map(f64::from)
-}
+use std::path::Path;
 
 /// The volume inside of closed triangles whose normals point outwards.
 fn volume(triangles: &[[[f32; 3]; 3]]) -> f64 {
     // around a corner of their own, so that the tetrahedra do not cancel
     let origin = wide(triangles[0][0]);
     let six = triangles.iter().map(|t| {
-        let [a, b, c] = t.map(|p| transform::sub(wide(p), origin));
-        transform::dot(a, transform::cross(b, c))
+        let [a, b, c] = t.map(|p| sub(wide(p), origin));
+        dot(a, cross(b, c))
     });
     six.sum::<f64>() / 6.0
 }
@@ -48,10 +46,10 @@ const SIZES: [(&str, [usize; 5]); 15] = [
 
 #[test]
 fn builtin_scenes_have_the_stated_sizes_and_no_warnings() {
-    let (few, many) = crate::builtin().split_at(builtin_of_few_lights().len());
+    let (few, many) = etendue_scene::builtin().split_at(builtin_of_few_lights().len());
     assert_eq!(few, builtin_of_few_lights());
     let mut found = Vec::new();
-    for (name, about) in crate::builtin() {
+    for (name, about) in etendue_scene::builtin() {
         let scene = load(name).unwrap();
         assert_eq!((warnings(&scene), scene.name.as_str()), (Vec::new(), *name));
         // sky.exr is its map
@@ -125,7 +123,7 @@ fn lights_of_the_city_face_away_from_what_they_are_mounted_on() {
     assert!(scene.triangle_materials[..2] == [0; 2] && walls.len().is_multiple_of(12));
     // boxes in columns of 16 m
     let column = |x: f64| (x / 16.0).floor() as i32;
-    let mut columns: HashMap<i32, Vec<[Point; 2]>> = HashMap::new();
+    let mut columns: HashMap<i32, Vec<[V3; 2]>> = HashMap::new();
     for solid in walls.chunks(12) {
         let extreme = |k: usize, of: fn(f32, f32) -> f32| solid.iter().flatten().map(|p| p[k]).reduce(of).unwrap();
         let [low, high] = [f32::min as fn(f32, f32) -> f32, f32::max].map(|of| wide([0, 1, 2].map(|k| extreme(k, of))));
@@ -133,7 +131,7 @@ fn lights_of_the_city_face_away_from_what_they_are_mounted_on() {
         assert!((volume(solid) - product).abs() < 1e-9 * product, "{low:?} {high:?}");
         (column(low[0])..=column(high[0])).for_each(|k| columns.entry(k).or_default().push([low, high]));
     }
-    let is_inside = |p: Point| {
+    let is_inside = |p: V3| {
         let boxes = columns.get(&column(p[0])).into_iter().flatten();
         boxes.into_iter().any(|[low, high]| (0..3).all(|k| low[k] < p[k] && p[k] < high[k]))
     };
