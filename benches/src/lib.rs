@@ -1,5 +1,7 @@
 //! Benchmarks of the library and of ray traversal. What they measure is in `etendue-routines`, in the folder `routines`.
 
+pub mod report;
+
 /// Peak memory of the process, where the system reports it.
 pub mod memory {
     /// Resets the peak, where the system supports it.

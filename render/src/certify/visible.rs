@@ -1,6 +1,6 @@
 //! Visible parts of a light in single precision: of two packets of points at once, where both have the same blockers.
 //!
-//! A packet of sixteen takes less time than two of eight, with AVX2 and with AVX-512 (`cargo bench -p etendue-benches --bench warps --
+//! A packet of sixteen takes less time than two of eight, with AVX2 and with AVX-512 (`cargo bench -p etendue-benches --bench summary --
 //! visible` prints both), and the successive packets of a tile mostly see the same.
 
 use super::scenery::{Blocking, Scenery};

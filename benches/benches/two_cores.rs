@@ -2,11 +2,10 @@
 //! angle, which traces a shadow ray for each sample; and the seconds until an image by `auto` claims an error of 1 % and of 0.1 %.
 //!
 //! `cargo bench -p etendue-benches --bench two_cores -- quads` selects scenes by name. `-- --json=FILE` writes all times, `-- --baseline=FILE`
-//! compares with those of an earlier run; paths are absolute. `-- --limit=SECONDS` ends each search for an error, `-- --limit=0` leaves
-//! them out.
+//! compares with those of an earlier run; paths are from this package's folder. `-- --limit=SECONDS` ends each search for an error,
+//! `-- --limit=0` leaves them out.
 
-mod compare;
-
+use etendue_benches::report::Report;
 use etendue_laboratory::cost::median;
 use etendue_laboratory::processor_time::processor_seconds;
 use etendue_render::progressive::{self, Goal, Refinement};
@@ -14,7 +13,6 @@ use etendue_render::sampler::default_sampler;
 use etendue_render::{RayCount, Settings, Technique, World};
 use serde_json::{Value, json};
 use std::error::Error;
-use std::path::Path;
 use std::process::ExitCode;
 use std::time::Instant;
 
@@ -45,7 +43,6 @@ struct Measured {
 }
 
 impl Measured {
-    /// In the manner of Criterion: the benchmark, its function and its parameter.
     fn id(&self) -> String {
         format!("two_cores/{}/{}", self.scene, self.threads)
     }
@@ -65,11 +62,10 @@ impl Measured {
             self.scene, self.threads
         );
     }
-    fn json(&self) -> Value {
+    /// What is known beside the seconds.
+    fn more(&self) -> Value {
         let RayCount { camera, shadow, mirror, corner } = self.rays;
         json!({
-            "id": self.id(),
-            "seconds": self.seconds,
             "processor_seconds": self.processor,
             "samples": SIDE * SIDE * SPP,
             "rays": { "camera": camera, "shadow": shadow, "mirror": mirror, "corner": corner },
@@ -124,13 +120,10 @@ fn measure(scene: &'static str, limit: f64) -> Result<[Measured; 2], Box<dyn Err
 }
 
 fn run() -> Result<(), Box<dyn Error>> {
-    // cargo passes --bench too
-    let arguments: Vec<String> = std::env::args().skip(1).filter(|argument| argument != "--bench").collect();
-    let (mut filter, mut json, mut baseline, mut limit) = ("", None, None, LIMIT);
+    let (mut report, arguments) = Report::from_arguments()?;
+    let (mut filter, mut limit) = ("", LIMIT);
     for argument in &arguments {
         match argument.split_once('=') {
-            Some(("--json", path)) => json = Some(Path::new(path)),
-            Some(("--baseline", path)) => baseline = Some(compare::Baseline::read(Path::new(path))?),
             Some(("--limit", seconds)) => {
                 let valid = seconds.parse().ok().filter(|seconds| (0.0..=1e6).contains(seconds));
                 limit = valid.ok_or_else(|| format!("--limit={seconds}: not a number of seconds from 0 to 1e6"))?;
@@ -147,24 +140,13 @@ fn run() -> Result<(), Box<dyn Error>> {
         "| scene | threads | s | processor s | M samples/s | M camera rays/s | M shadow rays/s | M mirror rays/s | s to 1 % | s to 0.1 % |"
     );
     println!("|---|---|---|---|---|---|---|---|---|---|");
-    let mut all = Vec::new();
     for scene in chosen {
         for measured in measure(scene, limit).map_err(|error| format!("{scene}: {error}"))? {
             measured.print();
-            all.push(measured);
+            report.add(&measured.id(), "s", &measured.seconds, measured.more());
         }
     }
-    if let Some(path) = json {
-        let rows: Value = all.iter().map(Measured::json).collect();
-        std::fs::write(path, format!("{rows:#}\n")).map_err(|error| format!("{}: {error}", path.display()))?;
-    }
-    if let Some(baseline) = baseline {
-        println!("\n| | seconds, over those of the baseline | 95 % |\n|---|---|---|");
-        for measured in &all {
-            println!("{}", baseline.row(&measured.id(), &measured.seconds));
-        }
-    }
-    Ok(())
+    Ok(report.finish()?)
 }
 
 fn main() -> ExitCode {
