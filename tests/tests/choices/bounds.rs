@@ -121,6 +121,9 @@ fn cones_hold_all_that_is_lit() {
                 assert!(cos(v, &flat) >= f64::from(flat.cos_cone), "{flat:?} {v:?}");
             }
         }
+        // and no more than rounding makes it
+        let cos = f64::from(spread.tan_half).atan().cos();
+        assert!(f64::from(flat.cos_cone) > cos - 2e-6, "{flat:?} {cos}");
     }
 }
 

@@ -137,6 +137,10 @@ fn cells_outside_have_no_probability() {
         }
     }
     assert!((table.pmf::<f32>(2, 1) - 6.0 / 21.0).abs() < 1e-6);
+    for outside in [-1e-9, 1.0, 1.0 + step(2)] {
+        let points = [Vec2::new(outside, 0.5), Vec2::new(0.5, outside)];
+        assert_eq!(points.map(|p| table.pdf(p)), [0.0; 2], "{outside}");
+    }
     let mut cdf = [0.0; 3];
     let line = PiecewiseConstant1d::build(&[1.0; 3], &mut cdf).unwrap();
     for past in [3, u32::MAX] {

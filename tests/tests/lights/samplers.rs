@@ -154,6 +154,26 @@ fn directions_beside_the_light_miss() {
     }
 }
 
+/// Normals are unit vectors, and surface coordinates are in [0, 1], of samples at both ends of `u` too; of spheres in any unit of length.
+#[test]
+fn samples_know_a_normal_and_a_place() {
+    for kind in 0..AreaLight::KINDS.len() {
+        let mut random = Random::new(700 + kind as u64);
+        let powers: &[i32] = if AreaLight::KINDS[kind].0 == LightShape::Sphere { &[-90, 0, 60] } else { &[0] };
+        for round in 0..400 {
+            let light = AreaLight::any(kind, 20 * round, &mut random);
+            let mut coordinate = || [0.0, 1.0 - f32::EPSILON / 2.0, random.unit()][random.word() as usize % 3];
+            let u = Vec2::new(coordinate(), coordinate());
+            for power in powers {
+                let s = AreaLight::prepare::<f32>(&[light.scaled(2.0_f32.powi(*power))]).sample(u);
+                let is_inside = [s.uv.x, s.uv.y].iter().all(|x| (0.0..=1.0).contains(x));
+                let is_unit = (length(s.normal.at(0)) - 1.0).abs() < 1e-5;
+                assert!(!s.valid() || is_inside && is_unit, "by 2^{power}: {light:?} at {u:?}: {s:?}");
+            }
+        }
+    }
+}
+
 /// A sampler prepared in scalars and repeated draws the bits of one that was prepared in packets.
 #[test]
 fn splat_is_the_same_sampler() {
