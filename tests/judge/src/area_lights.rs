@@ -1,18 +1,19 @@
 //! Every light of the core's list by every technique.
 
+mod tolerated;
+
 use crate::fixture::{Fixture, Truth};
-use crate::packets::{Coordinates, lanes_of, vectors_of};
+use crate::packets::{lanes_of, vectors_of};
 use crate::random::Random;
 use crate::tolerances::ULP;
 use crate::truths::{self, Round, Way};
-use core::f64::consts::{PI, TAU};
 use core::fmt::Debug;
 use etendue::{
-    BilinearPatch, DirectionalLight, Disk, Lanewise, LightSample, LightSampler, Line, Parallelogram, PointLight,
-    Polygon, Real, Rectangle, Sphere, SpotLight, Sun, Triangle, Vec3,
+    BilinearPatch, DirectionalLight, Disk, Lanewise, LightSampler, Line, Parallelogram, PointLight, Polygon, Real,
+    Rectangle, Sphere, SpotLight, Sun, Triangle, Vec3,
 };
 use etendue_oracle::double_double::Dd3;
-use etendue_oracle::{V3, along, cross, dot, exact_sum, length, sub, wide};
+use etendue_oracle::{V3, along, cross, dot, exact_sum, sub, wide};
 
 /// A function of its own for each technique: a compiler takes several times as long for one with all of them.
 #[inline(never)]
@@ -285,116 +286,9 @@ impl AreaLight {
         let (u, v, w) = (wide(self.b), wide(self.c), wide(self.n));
         along(along(along(self.offset(), u, s), v, t), sub(sub(w, u), v), s * t)
     }
-    /// True for a patch that folds back on itself, or nearly: seen along its middle normal, no convex quadrilateral.
-    fn folded(&self) -> bool {
-        let (u, v, w) = (wide(self.b), wide(self.c), wide(self.n));
-        let twist = sub(sub(w, u), v);
-        let normal = |s: f64, t: f64| cross(along(u, twist, t), along(v, twist, s));
-        let middle = normal(0.5, 0.5);
-        let corners = [normal(0.0, 0.0), normal(1.0, 0.0), normal(0.0, 1.0), normal(1.0, 1.0)];
-        !corners.into_iter().all(|corner| dot(corner, middle) > 1e-3 * length(corner) * length(middle))
-    }
     /// Coordinates of a point relative to `a`, rounded as the shape's own are.
     fn offset(&self) -> V3 {
         wide(core::array::from_fn(|k| self.a[k] - self.p[k]))
-    }
-    /// Relative difference allowed between the pdf of a sample and the pdf of its direction; `None` where the direction says nothing.
-    ///
-    /// Lines: to the rounding of the direction, over the sine of its angle to the line. Curved lights by area: a rounded direction moves the
-    /// point by 16 ulp of the distance, and the cosine there by that over the radius and the cosine. Samples that the light itself hides
-    /// have the pdf of their own point.
-    #[must_use]
-    pub fn evaluated_to(&self, s: &LightSample<f32>) -> Option<f64> {
-        if self.by == Measure::Delta {
-            return None;
-        }
-        let curved = matches!(self.shape, LightShape::Sphere | LightShape::Patch);
-        if self.shape != LightShape::Line && !(curved && self.by == Measure::Area) {
-            return Some(0.0);
-        }
-        let cos = dot(s.direction.at(0), s.normal.at(0));
-        if self.shape == LightShape::Line {
-            let allowed = 32.0 * ULP / cos.abs();
-            return (allowed < 0.05).then_some(allowed);
-        }
-        if self.shape == LightShape::Patch && self.folded() {
-            return None;
-        }
-        let (size, reach) = match self.shape {
-            LightShape::Patch => {
-                // its shortest edge: from there to the opposite one, the area per step of u and v changes by its own size
-                let (b, c, n) = (wide(self.b), wide(self.c), wide(self.n));
-                let edges = [b, c, sub(n, b), sub(n, c)].map(length);
-                (edges.into_iter().fold(f64::INFINITY, f64::min), f64::from(s.distance) + length(n))
-            }
-            _ => (f64::from(self.radius), f64::from(s.distance) + length(wide(self.b)) + length(self.offset())),
-        };
-        let allowed = 32.0 * ULP * (1.0 + reach / size) / (cos * cos);
-        (s.emits && allowed < 0.05).then_some(allowed)
-    }
-    /// Whether the surface coordinates of a hit are those of a point at its distance in its direction.
-    #[must_use]
-    pub fn has(&self, hit: &LightSample<f32>) -> bool {
-        let reach: V3 = hit.direction.at(0).map(|x| x * f64::from(hit.distance));
-        let size = [self.b, self.c, self.n].iter().fold(0.0, |sum, v| sum + length(wide(*v)));
-        let point = || self.on_patch([f64::from(hit.uv.x), f64::from(hit.uv.y)]);
-        // a direction is rounded, and moves the point where it meets the patch at a small angle
-        self.shape != LightShape::Patch
-            || length(sub(point(), reach)) < 1e-3 * size + 256.0 * ULP * length(self.offset())
-    }
-    /// Density per steradian by area of a point of the light in the direction `w` at `distance`, and to what part of itself it is known for a
-    /// rounded direction.
-    #[must_use]
-    pub fn density(&self, w: V3, distance: f64) -> Option<(f64, f64)> {
-        // of a patch no density is known, and the corners of a polygon are rounded
-        if self.by != Measure::Area || matches!(self.shape, LightShape::Patch | LightShape::Polygon) {
-            return None;
-        }
-        let (a, b, c, r) = (self.offset(), wide(self.b), wide(self.c), f64::from(self.radius));
-        let from = |center: V3| sub(w.map(|x| x * distance), center);
-        // normal, not of unit length, and the area; what a rounded point does to the normal
-        let (normal, area, turned) = match self.shape {
-            LightShape::Sphere => (from(a), 2.0 * TAU * r * r, distance / r.abs()),
-            LightShape::Triangle => (cross(b, c), 0.5 * length(cross(b, c)), 0.0),
-            LightShape::Parallelogram | LightShape::Rectangle => (cross(b, c), length(cross(b, c)), 0.0),
-            LightShape::Disk => (b, PI * r * r, 0.0),
-            // what is across the direction
-            LightShape::Line => (cross(b, cross(w, b)), length(b), 0.0),
-            LightShape::Polygon
-            | LightShape::Patch
-            | LightShape::Sun
-            | LightShape::PointLight
-            | LightShape::SpotLight
-            | LightShape::DirectionalLight => return None,
-        };
-        // what is subnormal has few digits: so has an edge in units of another that is so much longer
-        let flat = matches!(self.shape, LightShape::Triangle | LightShape::Parallelogram | LightShape::Rectangle);
-        let (shorter, longer) = (length(b).min(length(c)), length(b).max(length(c)));
-        if !(1e-36..1e36).contains(&area) || flat && shorter < 1e-36 * longer {
-            return None;
-        }
-        let cos = dot(w, normal).abs() / length(normal);
-        // a product that cancels is known no better than its factors
-        let sine = length(cross(b, c)) / (length(b) * length(c));
-        let slim = if flat { 8.0 / sine } else { 0.0 };
-        let known = (16.0 + slim + (12.0 + slim + 4.0 * turned) / cos) * ULP;
-        if flat || self.shape.has_normal() {
-            // the direction determines the distance, by its cosine, of which the pdf is a third power
-            let distance = dot(a, normal).abs() / (length(normal) * cos);
-            return Some((distance * distance / (cos * area), 3.0 * known));
-        }
-        Some((distance * distance / (cos * area), known))
-    }
-    /// Flat shapes by projected solid angle, seen from their own plane or a corner but for rounding, have directions of any length up to 1.
-    fn unit_to(&self) -> f64 {
-        let (v, normal) = (self.offset(), cross(wide(self.b), wide(self.c)));
-        let flat = matches!(self.shape, LightShape::Triangle | LightShape::Parallelogram | LightShape::Polygon);
-        let size = length(wide(self.b)) + length(wide(self.c));
-        let edge_on = !(dot(v, normal).abs() > 1e-4 * length(v) * length(normal) && length(v) > 1e-4 * size);
-        // what is subnormal has few digits
-        let touched = self.shape == LightShape::Line && length(v) < 1e-4 * size || length(v) < 1e-37;
-        let coarse = flat && edge_on && self.by == Measure::ProjectedSolidAngle || touched;
-        if coarse { 1.0 } else { 12.0 * ULP }
     }
     /// Corners relative to the shading point, in order, unrounded.
     pub(crate) fn exact_corners(&self) -> Vec<Dd3> {

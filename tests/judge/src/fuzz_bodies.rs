@@ -29,104 +29,33 @@ pub struct Target {
 }
 
 macro_rules! targets {
-    ($($(#[doc = $doc:literal])+ $name:ident: $module:ident, $share:literal;)+) => {
-        $(
-            $(#[doc = $doc])+
+    ($($module:ident: $($name:ident $share:literal)+;)+) => {
+        $($(
+            #[doc = concat!("The body of the target `", stringify!($name), "`, which its module describes.")]
             ///
             /// # Panics
             /// If a property is broken.
             pub fn $name(bytes: &[u8]) {
                 $module::$name(&mut Input::new(bytes));
             }
-        )+
+        )+)+
         /// All targets except those of files, which are the renderer's.
-        pub const TARGETS: &[Target] = &[$(Target { name: stringify!($name), body: $name, share: $share }),+];
+        pub const TARGETS: &[Target] = &[$($(Target { name: stringify!($name), body: $name, share: $share }),+),+];
     };
 }
 targets! {
-    /// Cones of any 1−cosσ.
-    cone: shapes, 700;
-    /// Warps without parameters: disks, hemispheres, the sphere, triangles in the plane, octahedral maps.
-    fixed_warps: shapes, 700;
-    /// The bilinear density.
-    bilinear: shapes, 700;
-    /// Microsurfaces of any roughness, viewed from anywhere.
-    visible_normals: shapes, 400;
-    /// Spheres by solid angle.
-    spherical_cap: shapes, 400;
-    /// Spheres by projected solid angle.
-    projected_cap: shapes, 30;
-    /// Triangles by solid angle.
-    spherical_triangle: shapes, 150;
-    /// Parallelograms by solid angle.
-    spherical_parallelogram: shapes, 100;
-    /// Rectangles by solid angle, including malformed ones.
-    spherical_rectangle: shapes, 150;
-    /// Polygons by solid angle, including malformed ones.
-    spherical_polygon: shapes, 100;
-    /// Disks by solid angle.
-    spherical_disk: shapes, 100;
-    /// Lines by angle.
-    spherical_segment: shapes, 150;
-    /// Lines by projected solid angle.
-    projected_segment: shapes, 100;
-    /// Triangles by projected solid angle.
-    projected_triangle: shapes, 50;
-    /// Parallelograms and pentagons by projected solid angle.
-    projected_polygon: shapes, 50;
-    /// Triangles and rectangles by solid angle, warped towards the cosine.
-    /// Bilinear patches, by area.
-    patch_surface: surfaces, 20;
-    /// Spheres, by every technique.
-    sphere_light: lights, 90;
-    /// Triangles, by every technique.
-    triangle_light: lights, 90;
-    /// Parallelograms, by every technique.
-    parallelogram_light: lights, 90;
-    /// Rectangles, also without right angles, by every technique.
-    rectangle_light: lights, 90;
-    /// Disks, by every technique.
-    disk_light: lights, 90;
-    /// Quadrilaterals, by every technique.
-    polygon_light: lights, 90;
-    /// Bilinear patches, by every technique.
-    patch_light: lights, 90;
-    /// Lines, by every technique.
-    line_light: lights, 90;
-    /// Point lights.
-    point_light: lights, 140;
-    /// Spot lights.
-    spot_light: lights, 140;
-    /// Directional lights.
-    directional_light: lights, 140;
-    /// Suns of any size.
-    sun_light: lights, 140;
-    /// Skies of one radiance.
-    constant_light: lights, 140;
-    /// An environment image, in either mapping.
-    environment: numbers, 300;
-    /// Pictures on lights of any shape.
-    pictures: pictures, 200;
-    /// The sky through up to three portals, seen from anywhere.
-    portals: skies, 30;
-    /// Tables of one and two dimensions.
-    piecewise_constant: numbers, 500;
-    /// Choices among lights of any power and place.
-    light_choice: numbers, 500;
-    /// Trees of up to 200 lights, and points at which one might be lost.
-    light_tree: light_tree, 20;
-    /// Lobes of rough surfaces, and the parts of them that lights cover.
-    reflection: reflections, 200;
-    /// Every sequence, at any index.
-    sequence: sequences, 500;
-    /// Strata and nets of each sequence, from any start.
-    strata: sequences, 100;
-    /// Elementary functions.
-    math: numbers, 600;
-    /// MIS weights and running variances.
-    estimate: numbers, 600;
-    /// Masks and counters.
-    bits: numbers, 600;
+    shapes: cone 700 fixed_warps 700 bilinear 700 visible_normals 400 spherical_cap 400 projected_cap 30 spherical_triangle 150
+        spherical_parallelogram 100 spherical_rectangle 150 spherical_polygon 100 spherical_disk 100 spherical_segment 150
+        projected_segment 100 projected_triangle 50 projected_polygon 50;
+    surfaces: patch_surface 20;
+    lights: sphere_light 90 triangle_light 90 parallelogram_light 90 rectangle_light 90 disk_light 90 polygon_light 90 patch_light 90
+        line_light 90 point_light 140 spot_light 140 directional_light 140 sun_light 140 constant_light 140;
+    numbers: environment 300 piecewise_constant 500 light_choice 500 math 600 estimate 600 bits 600;
+    pictures: pictures 200;
+    skies: portals 30;
+    light_tree: light_tree 20;
+    reflections: reflection 200;
+    sequences: sequence 500 strata 100;
 }
 
 /// The fuzzer's bytes, read as numbers at which methods break. Missing bytes are zeros.

@@ -4,8 +4,8 @@ use etendue::Sphere;
 use etendue_judge::area_lights::{AreaLight, LightShape, Measure};
 use etendue_judge::fixture::Fixture;
 use etendue_judge::fixtures::{
-    AreaTriangle, Bilinear, ConcentricDisk, Cone, CosineHemisphere, GgxVisibleNormals, LowDistortionTriangle, Octahedral,
-    PatchSurface, Segment, UniformHemisphere, UniformSphere,
+    AreaTriangle, Bilinear, ConcentricDisk, Cone, CosineHemisphere, GgxVisibleNormals, LowDistortionTriangle,
+    Octahedral, PatchSurface, Segment, UniformHemisphere, UniformSphere,
 };
 use etendue_judge::generators::{self, Case, Random, lights};
 use etendue_judge::packets::squares_of;

@@ -4,8 +4,8 @@ use super::{Input, scalable};
 use crate::area_lights::{AreaLight, LightShape, Measure};
 use crate::fixture::{Fixture, Subject};
 use crate::fixtures::{
-    AreaTriangle, Bilinear, ConcentricDisk, Cone, Corners, CosineHemisphere, GgxVisibleNormals,
-    LowDistortionTriangle, Octahedral, Segment, UniformHemisphere, UniformSphere,
+    AreaTriangle, Bilinear, ConcentricDisk, Cone, Corners, CosineHemisphere, GgxVisibleNormals, LowDistortionTriangle,
+    Octahedral, Segment, UniformHemisphere, UniformSphere,
 };
 use crate::generators::{self, Case, Random};
 use crate::packets::squares_of;
