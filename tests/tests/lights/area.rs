@@ -1,10 +1,9 @@
 //! Lights: means against closed forms, points on the shape, lanes, scale, arguments of any bits.
 
 use core::f64::consts::PI;
-use etendue::light::shapes::{CosineWarped, SphericalRectangle, SphericalTriangle};
 use etendue::{
     BilinearPatch, ConstantEnvironment, DirectionalLight, Disk, LightSample, LightSampler, Line, Parallelogram,
-    PointLight, Polygon, Rectangle, Sphere, SpotLight, Sun, Triangle, Vec2, Vec3, Warp,
+    PointLight, Polygon, Rectangle, Sphere, SpotLight, Sun, Triangle, Vec2, Vec3,
 };
 use etendue_judge::generators::Random;
 use etendue_judge::packets::Coordinates;
@@ -79,30 +78,6 @@ fn rectangle_has_its_projected_solid_angle() {
             assert!((by_area / truth - 1.0).abs() < 1e-3, "{size} {height}: {by_area} for {truth}");
             let behind = Rectangle { edge_s: light.edge_t, edge_t: light.edge_s, ..light };
             assert_eq!(flux(20, &behind.by_solid_angle(origin()), receiver), 0.0);
-        }
-    }
-}
-
-/// The pdf of a sampler by the cosine warp is that of the warp with the cosines at the corners of its shape: other weights would have no bias,
-/// but more variance.
-#[test]
-fn cosine_warps_have_the_cosines_of_their_corners() {
-    let mut random = Random::new(6);
-    for _ in 0..200 {
-        let [corner, s, t] = [(); 3].map(|()| Vec3::from(random.direction()));
-        let normal = Vec3::from(random.direction());
-        let (edge_s, edge_t) = (s, t - s * s.dot(t));
-        let [a, b, c] = [corner, corner + s, corner + t];
-        let triangle = Triangle::new(a, b, c).by_cosine_warp(origin(), normal);
-        let rectangle = Rectangle::new(corner, edge_s, edge_t).by_cosine_warp(origin(), normal);
-        let of_triangle = CosineWarped::new(SphericalTriangle::new(a, b, c), normal);
-        let of_rectangle = CosineWarped::new(SphericalRectangle::new(corner, edge_s, edge_t), normal);
-        for _ in 0..8 {
-            let u = Vec2::new(random.unit_f64(), random.unit_f64());
-            let (one, other) = (triangle.sample(u), rectangle.sample(u));
-            for (sample, pdf) in [(one, of_triangle.pdf(one.direction)), (other, of_rectangle.pdf(other.direction))] {
-                assert!((sample.pdf / pdf - 1.0).abs() < 1e-6, "{sample:?} has the pdf {pdf}");
-            }
         }
     }
 }
