@@ -2,6 +2,7 @@
 
 use super::place::{Place, all, similar};
 use super::row::{ROUNDING, Row, grey, look, on_floor, reflected, times};
+use etendue_oracle::tier::is_long;
 use etendue_oracle::{V3, along, cross, dot, length, sub, unit};
 use etendue_render::Technique;
 use std::f64::consts::PI;
@@ -164,14 +165,14 @@ const BLACK: &str = "Material \"diffuse\" \"rgb reflectance\" [0 0 0]";
 /// The radiance of either side, as a camera sees it.
 fn seen() -> Vec<Row> {
     let mut rows = Vec::new();
-    for (form, place) in FORMS
-        .iter()
-        .flat_map(|form| all(&Place::new().translate([0.5, 1.0, 2.0])).into_iter().map(move |place| (form, place)))
-    {
-        let area = area(form, &place);
+    let places = all(&Place::new().translate([0.5, 1.0, 2.0]));
+    for (form, (k, place)) in FORMS.iter().flat_map(|form| places.iter().enumerate().map(move |place| (form, place))) {
+        let area = area(form, place);
         let (point, normal) = (form.at)(form.middle[0], form.middle[1]);
         let (point, normal) = (place.point(point), place.normal(normal));
-        for (strength, radiance, two_sided) in STRENGTHS {
+        // elsewhere, only sides and areas are others
+        let strengths = if k == 0 || is_long() { &STRENGTHS[..] } else { &STRENGTHS[2..4] };
+        for &(strength, radiance, two_sided) in strengths {
             for (reverse, side) in [("", 1.0), ("", -1.0), ("ReverseOrientation", 1.0), ("ReverseOrientation", -1.0)] {
                 // those that are reversed differ only by the side
                 if !reverse.is_empty() && strength.contains("scale") {
