@@ -64,7 +64,7 @@ fn all_choices_have_the_same_mean() {
         let world = World::new(&scene).unwrap();
         for technique in [Technique::SolidAngle, Technique::MisPower] {
             let of = |choice: ChoiceBy, seed: u64| {
-                let settings = Settings { technique, choice, seed, spp: cases(24, 64), ..SETTINGS };
+                let settings = Settings { technique, choice, seed, ..SETTINGS };
                 world.check(&settings).ok().map(|()| mean(&world, &settings, cases(8, 64)))
             };
             let [auto, own] = of(ChoiceBy::Auto, 0).unwrap();
