@@ -18,7 +18,7 @@ use etendue::{LightSampler, Real, Vec2};
 use etendue_oracle::tier::cases;
 use etendue_oracle::{Greatest, V3, cross, integrate, length, sub, wide};
 
-/// The sample, the pdf and the inverse of its point, and its distance, for one `u`.
+/// The point of a sample, its inverse, and its distance, for one `u`.
 #[derive(Clone, Copy, Debug)]
 struct Observed {
     point: V3,
