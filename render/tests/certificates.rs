@@ -75,7 +75,7 @@ fn values_that_were_wrong_agree_with_the_truth() {
 
 #[test]
 fn values_agree_with_the_truth() {
-    soundness(cases(SHAFTS / 16, SHAFTS), CHAMFERED);
+    soundness(cases(SHAFTS / 8, SHAFTS), CHAMFERED);
 }
 
 #[test]
