@@ -1,6 +1,6 @@
 //! Light computed from certificates, against the same light sampled.
 
-use crate::kit::{builtin, world};
+use crate::kit::{BLACK, Folder, PLANE, builtin, world};
 use etendue_oracle::tier::cases;
 use etendue_render::compare::differs;
 use etendue_render::film::Film;
@@ -63,6 +63,20 @@ fn traces_few_rays() {
         assert!(count.shadow as f64 <= rays * other.shadow as f64, "{name}: {} shadow rays", count.shadow);
         assert!(part < variance, "{name}: {part} of the variance");
     }
+}
+
+/// The light of a picture is known, too, where nothing hides it.
+#[test]
+fn pictures_need_no_rays() {
+    let folder = Folder::new();
+    folder.picture("p.exr", [4, 4], |x, y| [x as f32, y as f32, 1.0]);
+    let world = folder.world(&format!(
+        "LookAt 1 2 2  0 0 0  0 1 0 Camera \"perspective\" \"float fov\" 30 WorldBegin {PLANE}
+         {BLACK} AreaLightSource \"diffuse\" \"string filename\" \"p.exr\" \"bool twosided\" true
+         Shape \"bilinearmesh\" \"point3 P\" [-1 3 -1  1 3 -1  -1 3 1  1 3 1]"
+    ));
+    let (film, count) = render(&world, &SETTINGS);
+    assert!(count.shadow == 0 && film.mean()[2] > 0.0, "{} shadow rays, mean {:?}", count.shadow, film.mean());
 }
 
 /// From inside a ball or a box, through a lens, nothing is seen of a light outside, and all of one inside.

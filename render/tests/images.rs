@@ -1,7 +1,9 @@
 //! Images in files: their sizes, which are accepted only if the file is long enough, and their windows.
 
+use crate::kit::Folder;
 use etendue_render::area::Place;
 use etendue_render::drive::Content;
+use etendue_render::files::check_replaceable;
 use etendue_render::film::{Film, Pixel};
 use etendue_render::parts::{self, PieceFile};
 use etendue_render::{Identity, Sampler, Sensor, Settings, Technique, image};
@@ -12,6 +14,21 @@ use exr::prelude::{
 };
 use std::io::Cursor;
 use std::path::Path;
+
+/// A file can be written where there is none yet, or a file, in a folder that is there.
+#[test]
+fn files_are_replaced_in_folders_that_exist() {
+    let folder = Folder::new();
+    let path = folder.path("image.exr");
+    check_replaceable(&path).unwrap();
+    assert!(!path.exists());
+    folder.write("image.exr", "");
+    check_replaceable(&path).unwrap();
+    for (path, why) in [(folder.path(""), "this is a folder"), (folder.path("none/image.exr"), "does not exist")] {
+        let error = check_replaceable(&path).unwrap_err().to_string();
+        assert!(error.contains(why), "{error}");
+    }
+}
 
 /// An image of one colour, which compresses best.
 fn plain(side: usize, compression: Compression) -> Vec<u8> {

@@ -5,7 +5,7 @@ use etendue::sequence::{Independent, Sequence};
 use etendue::warp::ConcentricDisk;
 use etendue::{Real, Vec2, Warp, f32x8, u32x8};
 use etendue_oracle::tier::is_long;
-use etendue_render::camera::Camera;
+use etendue_render::camera::{Camera, CameraSample};
 use etendue_render::compare::Comparison;
 use etendue_render::image::Picture;
 use etendue_render::scene::Scene;
@@ -80,6 +80,30 @@ fn rays_meet_in_the_plane_of_focus() {
         // moments of the unit disk: 0, 0, ¼, ¼, 0, with variances of at most ¼, over 16,000 points
         for (m, truth) in moments.into_iter().zip([0.0, 0.0, 0.25, 0.25, 0.0]) {
             assert!((m - truth).abs() < 5.0 * 0.5 / 126.0, "{moments:?}");
+        }
+    }
+}
+
+/// A tile far from the corner of a wide image counts positions from a pixel nearby, from which the rays are the same.
+#[test]
+fn positions_may_be_counted_from_any_pixel() {
+    let size = [10_000, 6000];
+    let lens = "\"float lensradius\" .2 \"float focaldistance\" 3";
+    for (kind, lens) in [("perspective", ""), ("orthographic", ""), ("perspective", lens)] {
+        let scene = read(&format!("LookAt 1 2 3 .5 .2 -1 0 1 0 Camera \"{kind}\" {lens} WorldBegin"));
+        let camera = Camera::new(&scene.camera, size[0], size[1]);
+        for start in [[4096, 4096], [8192, 0], [0, 4096]] {
+            let near = camera.counted_from(start);
+            for pixel in [[0, 0], [1000, 1], [1, 1800]] {
+                let sample = |place: [u32; 2]| {
+                    let [x, y] = place.map(|at| f32x8::splat(at as f32 + 0.5));
+                    CameraSample { film: Vec2::new(x, y), lens: Vec2::lit([0.3, -0.6]) }
+                };
+                let expected = camera.rays(&sample([0, 1].map(|k| start[k] + pixel[k])));
+                let (origin, direction) = near.rays(&sample(pixel));
+                let off = (origin - expected.0).length() + (direction - expected.1).length();
+                assert!(off.lane(0) < 2e-6, "{kind} {lens} {start:?} {pixel:?}: {}", off.lane(0));
+            }
         }
     }
 }

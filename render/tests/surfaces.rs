@@ -4,6 +4,8 @@ use crate::kit::{ALBEDO, BLACK, MATT, exactly, film, narrow, pixel, settings, wo
 use etendue_oracle::{V3, along, cross, dot, unit};
 use etendue_render::compare::Comparison;
 use etendue_render::image::Picture;
+use etendue_render::scene::{Material, Varying};
+use etendue_render::texture::Texture;
 use etendue_render::{Sampler, Settings, Technique, World};
 use std::f64::consts::PI;
 
@@ -157,6 +159,15 @@ fn smooth_normals_are_interpolated() {
         let surface = mesh(&format!("\"normal N\" [{}]", list.join(" ")));
         exactly(&seen(camera, &format!("{}{MATT}{surface}", sun(to))), [truth; 3]);
     }
+}
+
+/// A quarter of a metal, by the parameters of glTF: F₀ is between 0.04 and the base, and all is reflected at grazing incidence.
+#[test]
+fn metallic_materials_have_the_parameters_of_gltf() {
+    let [base, metallic, roughness] = [0.5, 0.25, 0.6].map(Texture::number);
+    let (diffuse, specular) = ([0.375; 3], [0.04 + 0.46 * 0.25; 3]);
+    let expected = Material::Glossy { diffuse, specular, grazing: [1.0; 3], roughness: (0.6 * 0.6_f32).into() };
+    assert_eq!(Varying::Metallic { base, metallic, roughness }.constant(), Some(expected));
 }
 
 /// A smooth mirror does not reflect what is below its flat surface.

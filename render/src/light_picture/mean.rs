@@ -258,6 +258,7 @@ mod tests {
                 (0..3).for_each(|k| truth[k] += weight * f64::from(color[k]));
             }
             let mean = over_sphere(&picture);
+            assert!((mean[2] - 0.25).abs() < 1e-12, "{size:?}: {mean:?} where the last channel is 0.25 everywhere");
             for k in 0..3 {
                 assert!((mean[k] - truth[k]).abs() <= 2e-4 * (truth[k] + 0.05), "{size:?}: {mean:?}, {truth:?}");
             }
