@@ -47,7 +47,7 @@ fn images_tell_their_error() {
         ("defocus", SolidAngle, Sampler::Adaptive, 256, 0, [0.15, 0.3], 40),
     ]
     .into_iter()
-    .take(cases(5, 9))
+    .take(cases(4, 9))
     {
         let settings = Settings { width: 64, height: 64, technique, sampler, spp, sets, ..Settings::DEFAULT };
         let ratios = claimed_over_found(&builtin(name), &settings, seeds);
