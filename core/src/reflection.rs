@@ -56,7 +56,7 @@ lanewise! {
     /// - Formula: in the frame of the surface, with the view in the half plane x > 0, y = 0, the map is (x, y, z) → w′ = (a(x + bz), cy, z).
     ///   It keeps heights, so that the horizon stays the horizon and all of the lobe is above it. A table of 16 × 16 cells, by √α and √cosθ of
     ///   the view, holds a, b and c, the albedo and the mean Fresnel weight, and is interpolated bilinearly.
-    /// - Domain: α from 3e−4 to 1 (others count as the nearest of these), u in [0, 1)².
+    /// - Domain: α from 3e−4 to 1 (others count as the nearest of these, NaN as the least), u in [0, 1)².
     /// - Density: the pdf is acz/(π|w′|⁴) per steradian, which integrates to 1 over the hemisphere; 0 below the horizon.
     /// - Fit: a, b and c have the least ∫(f − g)²/g, where f is GGX with correlated masking, divided by its albedo, and g the pdf. Its root, the
     ///   standard deviation of f/g, is 0.04 to 0.2 where the view has a cosine over 0.8, up to 0.6 at cosines of 0.2, and more at grazing
