@@ -124,6 +124,10 @@ pub trait Truth {
     fn is_seen(&self) -> bool {
         true
     }
+    /// ∫ pdf: the length of a receiver's normal, which is rounded.
+    fn whole(&self) -> f64 {
+        1.0
+    }
     /// The pdf at a point of the shape.
     fn pdf(&self, point: V3) -> f64;
     /// An independent parameterisation of the shape by the unit square: the point, and the measure per unit of the square.

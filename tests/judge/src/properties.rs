@@ -256,7 +256,7 @@ pub fn integral(s: &Subject) -> f64 {
         let single = || f64::from(s.single.pdf(Coordinates::gather(&[point])));
         measure * if is_single { single() } else { s.double.pdf(Coordinates::gather(&[point])) }
     };
-    let sum = integrate(&mut pdf, [0.0; 2], [1.0; 2], truth.quadrature());
+    let sum = integrate(&mut pdf, [0.0; 2], [1.0; 2], truth.quadrature()) / truth.whole();
     let ulp = if is_single { ROUNDING } else { 1e-13 };
     let allowed = truth.tolerance().pdf * truth.condition() * ulp + truth.quadrature() * tolerances::QUADRATURE / 1e-9;
     assert!((sum - 1.0).abs() <= allowed, "∫pdf = {sum}: {s:?}, allowed error {allowed:e}");

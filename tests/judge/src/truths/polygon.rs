@@ -242,6 +242,9 @@ impl Truth for Polygon {
             Way::Azimuth => self.widened(tolerances::PROJECTED_POLYGON),
         }
     }
+    fn whole(&self) -> f64 {
+        self.horizon.map_or(1.0, length)
+    }
     fn is_seen(&self) -> bool {
         self.measure > 0.0
     }

@@ -153,6 +153,9 @@ impl Truth for Round {
     fn inverse_steps(&self) -> f64 {
         self.inverse
     }
+    fn whole(&self) -> f64 {
+        length(self.axes[3])
+    }
     fn is_periodic(&self) -> bool {
         self.is_periodic
     }
