@@ -189,18 +189,6 @@ impl Polygon {
             ..tolerance
         }
     }
-    /// Known limit: where the zenith is on an edge or in a corner, or inside of a shape of as many radians, an inverse in ten may be that of
-    /// another azimuth.
-    fn is_around_zenith(&self) -> bool {
-        let Some(up) = self.horizon else { return false };
-        let (n, up) = (self.corners.len(), unit(up));
-        let side = |i: usize| {
-            let (a, edge) = (self.corners[i], sub(self.corners[(i + 1) % n], self.corners[i]));
-            let inwards = cross(a, edge);
-            dot(inwards, up) / length(inwards) * dot(inwards, sub(self.corners[(i + 2) % n], a)).signum()
-        };
-        (0..n).map(side).fold(f64::INFINITY, f64::min).abs() < 2e-6
-    }
     /// Whether the map's slopes from the left and from the right agree, so that no corner's azimuth is near.
     fn straight(map: &dyn LightSampler<f64>, u: [f64; 2]) -> bool {
         let at = |x: f64| sample_at(map, [u[0] + x, u[1]]);
@@ -254,7 +242,7 @@ impl Truth for Polygon {
     fn torn(&self, map: &dyn LightSampler<f64>, u: [f64; 2], step: f64) -> bool {
         let at = |x: f64| sample_at(map, [x.clamp(0.0, 1.0 - ULP), u[1]]);
         let jump = || length(sub(at(u[0] + step), at(u[0] - step)));
-        self.way == Way::Azimuth && (self.is_around_zenith() || jump() > 0.05 * self.all.extent[0])
+        self.way == Way::Azimuth && jump() > 0.05 * self.all.extent[0]
     }
     fn smooth(&self, map: &dyn LightSampler<f64>, u: [f64; 2]) -> bool {
         match self.way {

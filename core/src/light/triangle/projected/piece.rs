@@ -121,7 +121,9 @@ impl<R: Real> Piece<R> {
         }
         // with the long edge outside, the sectors run the other way round
         let turn = one.negate_where(reversed ^ two);
-        self.middle = normal.cross(turned(unit, 1)) * turn;
+        // of an inner vertex, which may be at the zenith, the azimuth is that of the point of the long edge where the sectors end
+        let end = turned(v, 0).mul_add(after, turned(v, 2) * before);
+        self.middle = normal.cross(Vec3::blend(two, end, turned(unit, 1))) * turn;
         self.area = self.first.area + self.second.area;
     }
 

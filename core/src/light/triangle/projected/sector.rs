@@ -7,6 +7,11 @@ use crate::math::{ratio, rsqrt};
 use crate::real::{Mask, Real, unit_interval};
 use crate::vector::{Vec2, Vec3};
 
+/// Angle beside a sector within which a direction counts as on its border: the rounding of two directions.
+#[inline(always)]
+pub(super) fn border<R: Real>() -> R {
+    R::lit(if R::DOUBLE { 1e-15 } else { 8.0 / 16_777_216.0 })
+}
 /// Up to this tangent of either arc, the area uses the form that keeps its digits at any size; beyond, the difference of arcs.
 const NEAR: f64 = 0.7;
 /// How far the inner arc may rise over the outer one in that form, relative to the cosine k of its plane.
@@ -315,7 +320,10 @@ impl<R: Real> Sector<R> {
     #[inline(always)]
     fn azimuth_about_zenith(&self, normal: Vec3<R>, w: Vec3<R>) -> [R; 2] {
         let pole = self.apex.cross(self.tangent);
-        let inwards = w.dot(pole).negate_where(pole.dot(normal).lt(R::lit(0.0))).greater(R::lit(0.0));
+        let (upright, side) = (pole.dot(normal), w.dot(pole));
+        let inwards = side.negate_where(upright.lt(R::lit(0.0))).greater(R::lit(0.0));
+        // the zenith is on the edge, to rounding: it does not tell the inner side, but the direction is there
+        let inwards = R::blend(upright.abs().lt(border()), side.abs(), inwards);
         let along = (w - self.apex).dot(self.tangent);
         [self.outer * along - self.slope * inwards, self.outer * w.dot(self.apex) - self.height * inwards]
     }

@@ -1,13 +1,10 @@
 //! A polygon that contains the zenith: for every edge the sector between it and the zenith, and along the horizon where that cuts.
 
 use super::piece::{Piece, narrowest};
-use super::sector::{Corner, Sector};
+use super::sector::{Corner, Sector, border};
 use crate::math::{ratio, rsqrt};
 use crate::real::{Mask, Real, unit_interval};
 use crate::vector::{Vec2, Vec3};
-
-/// Angle beside a sector within which a direction counts as on its border: the rounding of two directions.
-const BORDER: f64 = 8.0 / 16_777_216.0;
 
 /// An edge of a polygon, from `a` to `b`.
 pub(in crate::light) struct Side<R> {
@@ -216,7 +213,7 @@ impl<R: Real> Found<R> {
             if some.any() {
                 let miss = sector.miss(normal, w);
                 // a direction on the border belongs to the sector before
-                let here = some & (miss + R::lit(BORDER)).lt(this.miss);
+                let here = some & (miss + border()).lt(this.miss);
                 this.sector = Sector::blend(here, *sector, this.sector);
                 this.before = R::blend(here, this.sum, this.before);
                 this.backwards = R::blend(here, R::lit(if i == 1 { 1.0 } else { 0.0 }), this.backwards);
