@@ -1,7 +1,7 @@
 //! What a choice of lights needs to know of a light.
 
 use crate::light::{
-    BilinearPatch, Disk, Line, Parallelogram, PointLight, Polygon, Rectangle, Ring, Sphere, SpotLight, Spread, Triangle,
+    BilinearPatch, Disk, Line, Parallelogram, PointLight, Polygon, Rectangle, Sphere, SpotLight, Spread, Triangle,
 };
 use crate::real::Real;
 use crate::vector::Vec3;
@@ -122,11 +122,6 @@ bounds! {
         let flux = PI * PI * f64::from(radius) * f64::from(radius) * f64::from(radiance);
         let normal = narrow(wide(self.normal).unit_and_length().0);
         LightBound { normal, ..LightBound::about(self.center, radius, flux) }
-    };
-    /// What it can contribute with this radiance: that of the disk without the hole, with the part of its area.
-    Ring(self, radiance) => {
-        let part = (self.inner.greater(0.0) / self.radius.greater(f32::MIN_POSITIVE)).lesser(1.0);
-        crate::light::Disk::new(self.center, self.normal, self.radius).bound(radiance * (1.0 - part * part))
     };
     /// What it can contribute with this radiance. One that is not positive gives the power 0.
     Triangle(self, radiance) => {

@@ -10,7 +10,7 @@ use crate::truths::{self, Round, Way};
 use core::fmt::Debug;
 use etendue::{
     BilinearPatch, DirectionalLight, Disk, Lanewise, LightSampler, Line, Parallelogram, PointLight, Polygon, Real,
-    Rectangle, Ring, Sphere, SpotLight, Sun, Triangle, Vec3,
+    Rectangle, Sphere, SpotLight, Sun, Triangle, Vec3,
 };
 use etendue_oracle::double_double::Dd3;
 use etendue_oracle::{V3, along, cross, dot, exact_sum, sub, wide};
@@ -34,8 +34,6 @@ pub enum LightShape {
     Rectangle,
     /// About `a`, with normal `b`, of the radius.
     Disk,
-    /// As a disk, with a hole of half the radius.
-    Ring,
     /// `a`, `a` + `b`, `a` + `b` + `c`, `a` + `c`.
     Polygon,
     /// `a`, and from there `b`, `c` and, to the opposite corner, `n`.
@@ -55,7 +53,7 @@ impl LightShape {
     /// Whether `b` is a unit normal.
     #[must_use]
     pub fn has_normal(self) -> bool {
-        matches!(self, Self::Disk | Self::Ring)
+        self == Self::Disk
     }
 }
 /// How.
@@ -220,7 +218,6 @@ placed! {
     Parallelogram: |v, _| Self::new(v[1], v[2], v[3]);
     Rectangle: |v, _| Self::new(v[1], v[2], v[3]);
     Disk: |v, radius| Self::new(v[1], v[2], radius);
-    Ring: |v, radius| Self::new(v[1], v[2], R::lit(0.5) * radius, radius);
     Polygon<4>: |v, _| Self::new([v[5], v[6], v[7], v[8]]);
     BilinearPatch: |v, _| Self::new(v[1], v[2], v[3], v[4]);
     Line: |v, _| Self::new(v[1], v[2]);

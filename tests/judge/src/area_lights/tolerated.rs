@@ -77,7 +77,6 @@ impl AreaLight {
             LightShape::Triangle => (cross(b, c), 0.5 * length(cross(b, c)), 0.0),
             LightShape::Parallelogram | LightShape::Rectangle => (cross(b, c), length(cross(b, c)), 0.0),
             LightShape::Disk => (b, PI * r * r, 0.0),
-            LightShape::Ring => (b, 0.75 * PI * r * r, 0.0),
             // what is across the direction
             LightShape::Line => (cross(b, cross(w, b)), length(b), 0.0),
             LightShape::Polygon
