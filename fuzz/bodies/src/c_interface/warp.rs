@@ -93,10 +93,15 @@ pub(super) fn check(input: &mut Input<'_>, index: usize) {
             let (u_i, x_i) = ([u[0][i], u[1][i]], [x[0][i], x[1][i], x[2][i]]);
             let mut one = [0.0; 3];
             match call {
-                0 => assert_eq!(
-                    etendue_warp_sample(number, own.cast(), u_i.as_ptr(), one.as_mut_ptr()),
-                    EtendueStatus::Ok
-                ),
+                0 => {
+                    let status = etendue_warp_sample(number, own.cast(), u_i.as_ptr(), one.as_mut_ptr());
+                    // a single call refuses numbers that a batch maps to anything
+                    let is_inside = u_i.iter().all(|u| (0.0..1.0).contains(u));
+                    assert_eq!(status, if is_inside { EtendueStatus::Ok } else { EtendueStatus::Value });
+                    if !is_inside {
+                        continue;
+                    }
+                }
                 1 => assert_eq!(
                     etendue_warp_invert(number, own.cast(), x_i.as_ptr(), one.as_mut_ptr()),
                     EtendueStatus::Ok
