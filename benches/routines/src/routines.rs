@@ -5,7 +5,7 @@ use etendue::light::shapes::{
     ProjectedCap, ProjectedPolygon, ProjectedSegment, ProjectedTriangle, SphericalCap, SphericalDisk,
     SphericalParallelogram, SphericalRectangle, SphericalSegment, SphericalTriangle,
 };
-use etendue::light::{EnvironmentMap, ImageEnvironment, Picture, Region, Spread};
+use etendue::light::{EnvironmentMap, ImageEnvironment, Picture, Region};
 use etendue::reflection::Reflection;
 use etendue::sequence::{Independent, JointSobol, OwenSobol, Sequence, Stratified, ZOrder, ZOrderIndex};
 use etendue::warp::{
@@ -189,8 +189,6 @@ struct Room<R> {
     radius: R,
     /// What a rough floor reflects.
     glossy: Reflection<R>,
-    /// How flat lights emit within a right angle.
-    spread: Spread<R>,
 }
 /// A light of the room, and what it is called.
 trait InRoom<R> {
@@ -229,6 +227,16 @@ in_room! {
 fn named<R, L: InRoom<R>>(_: &L, by: &str) -> String {
     format!("{} {}", L::NAME, by.replace('_', " "))
 }
+/// A light by a technique, but for spreads, whose samplers are those by solid angle.
+macro_rules! one_light {
+    ($list:ident, $room:ident, $light:ident, $by:ident(p, spread)) => {};
+    ($list:ident, $room:ident, $light:ident, $by:ident $place:tt) => {
+        $list.light(&named(&$light, stringify!($by)), move |p| {
+            let _ = p;
+            etendue::prepared!($light, $by $place, p: p, n: $room.up, reflection: &$room.glossy,)
+        });
+    };
+}
 macro_rules! all_lights {
     ({ $list:ident, $room:ident } $(
         $(#[$light_doc:meta])* $light:ident $([$corners:literal])? = $light_c:ident, $columns_c:ident { $($fields:tt)* } by $default:literal {
@@ -238,10 +246,7 @@ macro_rules! all_lights {
         }
     )+) => {$(
         let light = $light::of(&$room);
-        $($list.light(&named(&light, stringify!($by)), move |p| {
-            let _ = p;
-            etendue::prepared!(light, $by $place, p: p, n: $room.up, reflection: &$room.glossy, spread: &$room.spread)
-        });)+
+        $(one_light!($list, $room, light, $by $place);)+
     )+};
 }
 
@@ -368,7 +373,7 @@ pub fn without_tables<R: Real + 'static>() -> Vec<Routine> {
     list.warp("patch surface", PatchSurface { corner: a, edge_s: e1, edge_t: e2, diagonal: twisted });
 
     let glossy = Reflection::new(R::lit(0.3), up, vector([0.6, 0.8, 0.0]));
-    let room = Room { a, e1, e2, corner, du, dv, up, twisted, radius, glossy, spread: Spread::new(1.57) };
+    let room = Room { a, e1, e2, corner, du, dv, up, twisted, radius, glossy };
     etendue::techniques!(all_lights! { { list, room } });
 
     visible_parts(&mut list);
