@@ -19,13 +19,7 @@ use std::process::ExitCode;
 use std::time::Instant;
 
 fn main() -> ExitCode {
-    match run() {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(message) => {
-            eprintln!("error: {message}");
-            ExitCode::from(2)
-        }
-    }
+    etendue_benches::exit_code(run())
 }
 
 /// Reads a file of numbers, `row` per row, all finite; in rows of 8, infinity is allowed too.

@@ -2,6 +2,20 @@
 
 pub mod report;
 
+use std::fmt::Display;
+use std::process::ExitCode;
+
+/// The exit code of a program with this outcome: 2 after an error, which it prints.
+pub fn exit_code(outcome: Result<(), impl Display>) -> ExitCode {
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::from(2)
+        }
+    }
+}
+
 /// Peak memory of the process, where the system reports it.
 pub mod memory {
     /// Resets the peak, where the system supports it.

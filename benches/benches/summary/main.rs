@@ -88,13 +88,7 @@ fn run() -> Result<(), String> {
 }
 
 fn main() -> ExitCode {
-    match run() {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("error: {error}");
-            ExitCode::from(2)
-        }
-    }
+    etendue_benches::exit_code(run())
 }
 
 /// Prints the fraction of hits too. It is the same for all ways, except that obvhs lets some rays through at edges.

@@ -6,18 +6,9 @@ use crate::light_tree::{Grove, Lamp, Regime, place};
 use etendue::reflection::Reflection;
 use etendue::select::Gloss;
 
-const KINDS: [LightShape; 6] = [
-    LightShape::Triangle,
-    LightShape::Parallelogram,
-    LightShape::Disk,
-    LightShape::Sphere,
-    LightShape::PointLight,
-    LightShape::SpotLight,
-];
-
 /// A light of any numbers.
 fn lamp(input: &mut Input<'_>, before: &mut Vec<[f32; 3]>) -> Lamp {
-    let shape = KINDS[input.below(KINDS.len() as u8) as usize];
+    let shape = Regime::SHAPES[input.below(Regime::SHAPES.len() as u8) as usize];
     let a = input.vector(before);
     before.push(a);
     let (mut b, mut c) = (input.vector(before), input.vector(before));

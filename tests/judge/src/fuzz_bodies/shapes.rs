@@ -85,7 +85,7 @@ enum Holds {
     All,
     /// All that say nothing of directions' accuracy: a step of `u` turns the direction a lot.
     Density,
-    /// Those that hold for any numbers.
+    /// Only the properties that every sampler keeps, whatever its numbers are.
     Bits,
 }
 /// What holds of a shape by solid angle. Known limits: near a hemisphere, one distance in 1e4 is off by more than the tolerance; beside a corner

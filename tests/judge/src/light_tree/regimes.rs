@@ -26,7 +26,8 @@ regimes! {
 }
 
 impl Regime {
-    const SHAPES: [LightShape; 7] = [
+    /// What a light of a tree may be.
+    pub(crate) const SHAPES: [LightShape; 7] = [
         LightShape::Triangle,
         LightShape::Parallelogram,
         LightShape::Disk,
