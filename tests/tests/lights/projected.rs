@@ -4,7 +4,7 @@
 use core::f64::consts::PI;
 use etendue::light::shapes::{ProjectedCap, ProjectedSegment, ProjectedTriangle};
 use etendue::{LightSample, LightSampler, Mask, Parallelogram, Real, Sphere, Triangle, Vec2, Vec3, Warp, f32x8};
-use etendue_judge::area_lights::{LightShape, Measure};
+use etendue_judge::area_lights::{AreaLight, LightShape, Measure};
 use etendue_judge::fixture::Fixture;
 use etendue_judge::generators::{self, Random};
 use etendue_judge::tolerances::{PROJECTED_POLYGON, ULP};
@@ -232,6 +232,27 @@ fn inverse_beside_an_upright_edge() {
     let w = vector([-0.504_813, 0.341_584_47, 0.792_769_7]);
     let off = (seen.sample(seen.invert(w)) - w).length();
     assert!(off < 1e-4, "{off:e}");
+}
+
+/// Where the zenith is on an edge or in a corner, but for rounding, an inverse finds the azimuth of its direction: one in ten was that of
+/// another one.
+#[test]
+fn inverses_where_the_zenith_is_on_an_edge() {
+    let mut random = Random::new(24);
+    for shape in [LightShape::Triangle, LightShape::Parallelogram] {
+        let all = generators::lights(shape, Measure::ProjectedSolidAngle, 200, 25);
+        let (mut count, mut worst) = (0, 0.0_f64);
+        for (_, light) in all.iter().filter(|(name, _)| ["zenith on an edge", "zenith on a corner"].contains(name)) {
+            let (single, double) = (AreaLight::prepare::<f32>(&[*light]), AreaLight::prepare::<f64>(&[*light]));
+            for _ in 0..4 {
+                let w = double.sample(Vec2::new(random.unit_f64(), random.unit_f64())).direction;
+                let w = Vec3::new(w.x as f32, w.y as f32, w.z as f32);
+                count += 1;
+                worst = worst.max((single.sample(single.invert(w)).direction - w).length().into());
+            }
+        }
+        assert!(count == 1600 && worst < 1e-4, "{shape:?}: {worst:e} in {count} directions");
+    }
 }
 
 /// Spheres whose centre is below the horizon and that reach above it by a few units of their radius: errors relative to the documented
