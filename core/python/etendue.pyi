@@ -34,7 +34,6 @@ __all__ = [
     "Sampler",
     "Samples",
     "Sequence",
-    "Spread",
     "Stratified",
     "UniformHemisphere",
     "UniformSphere",
@@ -113,7 +112,6 @@ class Sphere:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
-        spread: ArrayLike | None = None,
         by: Literal["area", "solid_angle", "projected_solid_angle", "reflection"] = "solid_angle",
         fields: _Fields | None = None,
         out: Samples | None = None,
@@ -128,7 +126,6 @@ class Sphere:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
-        spread: ArrayLike | None = None,
         by: Literal["area", "solid_angle", "projected_solid_angle", "reflection"] = "solid_angle",
         fields: _Fields | None = None,
         out: Samples | None = None,
@@ -143,7 +140,6 @@ class Sphere:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
-        spread: ArrayLike | None = None,
         by: Literal["area", "solid_angle", "projected_solid_angle", "reflection"] = "solid_angle",
         out: _F32 | None = None,
     ) -> _F32: ...
@@ -157,7 +153,6 @@ class Sphere:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
-        spread: ArrayLike | None = None,
         by: Literal["area", "solid_angle", "projected_solid_angle", "reflection"] = "solid_angle",
         out: _F32 | None = None,
     ) -> _F32: ...
@@ -180,7 +175,6 @@ class Triangle:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
-        spread: ArrayLike | None = None,
         by: Literal["area", "solid_angle", "projected_solid_angle", "reflection"] = "solid_angle",
         fields: _Fields | None = None,
         out: Samples | None = None,
@@ -196,7 +190,6 @@ class Triangle:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
-        spread: ArrayLike | None = None,
         by: Literal["area", "solid_angle", "projected_solid_angle", "reflection"] = "solid_angle",
         fields: _Fields | None = None,
         out: Samples | None = None,
@@ -212,7 +205,6 @@ class Triangle:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
-        spread: ArrayLike | None = None,
         by: Literal["area", "solid_angle", "projected_solid_angle", "reflection"] = "solid_angle",
         out: _F32 | None = None,
     ) -> _F32: ...
@@ -227,7 +219,6 @@ class Triangle:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
-        spread: ArrayLike | None = None,
         by: Literal["area", "solid_angle", "projected_solid_angle", "reflection"] = "solid_angle",
         out: _F32 | None = None,
     ) -> _F32: ...
@@ -239,7 +230,6 @@ class Parallelogram:
     def by_solid_angle(self, p: ArrayLike) -> Sampler: ...
     def by_projected_solid_angle(self, p: ArrayLike, n: ArrayLike) -> Sampler: ...
     def by_reflection(self, p: ArrayLike, reflection: Reflection) -> Sampler: ...
-    def by_spread(self, p: ArrayLike, spread: Spread) -> Sampler: ...
     @staticmethod
     def sample_each(
         corner: ArrayLike,
@@ -251,8 +241,7 @@ class Parallelogram:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
-        spread: ArrayLike | None = None,
-        by: Literal["area", "solid_angle", "projected_solid_angle", "reflection", "spread"] = "solid_angle",
+        by: Literal["area", "solid_angle", "projected_solid_angle", "reflection"] = "solid_angle",
         fields: _Fields | None = None,
         out: Samples | None = None,
     ) -> Samples: ...
@@ -267,8 +256,7 @@ class Parallelogram:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
-        spread: ArrayLike | None = None,
-        by: Literal["area", "solid_angle", "projected_solid_angle", "reflection", "spread"] = "solid_angle",
+        by: Literal["area", "solid_angle", "projected_solid_angle", "reflection"] = "solid_angle",
         fields: _Fields | None = None,
         out: Samples | None = None,
     ) -> Samples: ...
@@ -283,8 +271,7 @@ class Parallelogram:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
-        spread: ArrayLike | None = None,
-        by: Literal["area", "solid_angle", "projected_solid_angle", "reflection", "spread"] = "solid_angle",
+        by: Literal["area", "solid_angle", "projected_solid_angle", "reflection"] = "solid_angle",
         out: _F32 | None = None,
     ) -> _F32: ...
     @staticmethod
@@ -298,8 +285,7 @@ class Parallelogram:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
-        spread: ArrayLike | None = None,
-        by: Literal["area", "solid_angle", "projected_solid_angle", "reflection", "spread"] = "solid_angle",
+        by: Literal["area", "solid_angle", "projected_solid_angle", "reflection"] = "solid_angle",
         out: _F32 | None = None,
     ) -> _F32: ...
 
@@ -310,7 +296,6 @@ class Rectangle:
     def by_solid_angle(self, p: ArrayLike) -> Sampler: ...
     def by_projected_solid_angle(self, p: ArrayLike, n: ArrayLike) -> Sampler: ...
     def by_reflection(self, p: ArrayLike, reflection: Reflection) -> Sampler: ...
-    def by_spread(self, p: ArrayLike, spread: Spread) -> Sampler: ...
     @staticmethod
     def sample_each(
         corner: ArrayLike,
@@ -322,8 +307,7 @@ class Rectangle:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
-        spread: ArrayLike | None = None,
-        by: Literal["area", "solid_angle", "projected_solid_angle", "reflection", "spread"] = "solid_angle",
+        by: Literal["area", "solid_angle", "projected_solid_angle", "reflection"] = "solid_angle",
         fields: _Fields | None = None,
         out: Samples | None = None,
     ) -> Samples: ...
@@ -338,8 +322,7 @@ class Rectangle:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
-        spread: ArrayLike | None = None,
-        by: Literal["area", "solid_angle", "projected_solid_angle", "reflection", "spread"] = "solid_angle",
+        by: Literal["area", "solid_angle", "projected_solid_angle", "reflection"] = "solid_angle",
         fields: _Fields | None = None,
         out: Samples | None = None,
     ) -> Samples: ...
@@ -354,8 +337,7 @@ class Rectangle:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
-        spread: ArrayLike | None = None,
-        by: Literal["area", "solid_angle", "projected_solid_angle", "reflection", "spread"] = "solid_angle",
+        by: Literal["area", "solid_angle", "projected_solid_angle", "reflection"] = "solid_angle",
         out: _F32 | None = None,
     ) -> _F32: ...
     @staticmethod
@@ -369,8 +351,7 @@ class Rectangle:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
-        spread: ArrayLike | None = None,
-        by: Literal["area", "solid_angle", "projected_solid_angle", "reflection", "spread"] = "solid_angle",
+        by: Literal["area", "solid_angle", "projected_solid_angle", "reflection"] = "solid_angle",
         out: _F32 | None = None,
     ) -> _F32: ...
 
@@ -379,7 +360,6 @@ class Disk:
     def __new__(cls, center: ArrayLike, normal: ArrayLike, radius: ArrayLike) -> Disk: ...
     def by_area(self, p: ArrayLike) -> Sampler: ...
     def by_solid_angle(self, p: ArrayLike) -> Sampler: ...
-    def by_spread(self, p: ArrayLike, spread: Spread) -> Sampler: ...
     @staticmethod
     def sample_each(
         center: ArrayLike,
@@ -391,8 +371,7 @@ class Disk:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
-        spread: ArrayLike | None = None,
-        by: Literal["area", "solid_angle", "spread"] = "solid_angle",
+        by: Literal["area", "solid_angle"] = "solid_angle",
         fields: _Fields | None = None,
         out: Samples | None = None,
     ) -> Samples: ...
@@ -407,8 +386,7 @@ class Disk:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
-        spread: ArrayLike | None = None,
-        by: Literal["area", "solid_angle", "spread"] = "solid_angle",
+        by: Literal["area", "solid_angle"] = "solid_angle",
         fields: _Fields | None = None,
         out: Samples | None = None,
     ) -> Samples: ...
@@ -423,8 +401,7 @@ class Disk:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
-        spread: ArrayLike | None = None,
-        by: Literal["area", "solid_angle", "spread"] = "solid_angle",
+        by: Literal["area", "solid_angle"] = "solid_angle",
         out: _F32 | None = None,
     ) -> _F32: ...
     @staticmethod
@@ -438,8 +415,7 @@ class Disk:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
-        spread: ArrayLike | None = None,
-        by: Literal["area", "solid_angle", "spread"] = "solid_angle",
+        by: Literal["area", "solid_angle"] = "solid_angle",
         out: _F32 | None = None,
     ) -> _F32: ...
 
@@ -459,7 +435,6 @@ class Polygon:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
-        spread: ArrayLike | None = None,
         by: Literal["area", "solid_angle", "projected_solid_angle", "reflection"] = "solid_angle",
         fields: _Fields | None = None,
         out: Samples | None = None,
@@ -473,7 +448,6 @@ class Polygon:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
-        spread: ArrayLike | None = None,
         by: Literal["area", "solid_angle", "projected_solid_angle", "reflection"] = "solid_angle",
         fields: _Fields | None = None,
         out: Samples | None = None,
@@ -487,7 +461,6 @@ class Polygon:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
-        spread: ArrayLike | None = None,
         by: Literal["area", "solid_angle", "projected_solid_angle", "reflection"] = "solid_angle",
         out: _F32 | None = None,
     ) -> _F32: ...
@@ -500,7 +473,6 @@ class Polygon:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
-        spread: ArrayLike | None = None,
         by: Literal["area", "solid_angle", "projected_solid_angle", "reflection"] = "solid_angle",
         out: _F32 | None = None,
     ) -> _F32: ...
@@ -521,7 +493,6 @@ class BilinearPatch:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
-        spread: ArrayLike | None = None,
         by: Literal["area"] = "area",
         fields: _Fields | None = None,
         out: Samples | None = None,
@@ -538,7 +509,6 @@ class BilinearPatch:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
-        spread: ArrayLike | None = None,
         by: Literal["area"] = "area",
         fields: _Fields | None = None,
         out: Samples | None = None,
@@ -555,7 +525,6 @@ class BilinearPatch:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
-        spread: ArrayLike | None = None,
         by: Literal["area"] = "area",
         out: _F32 | None = None,
     ) -> _F32: ...
@@ -571,7 +540,6 @@ class BilinearPatch:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
-        spread: ArrayLike | None = None,
         by: Literal["area"] = "area",
         out: _F32 | None = None,
     ) -> _F32: ...
@@ -592,7 +560,6 @@ class Line:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
-        spread: ArrayLike | None = None,
         by: Literal["length", "angle", "projected_solid_angle"] = "angle",
         fields: _Fields | None = None,
         out: Samples | None = None,
@@ -607,7 +574,6 @@ class Line:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
-        spread: ArrayLike | None = None,
         by: Literal["length", "angle", "projected_solid_angle"] = "angle",
         fields: _Fields | None = None,
         out: Samples | None = None,
@@ -622,7 +588,6 @@ class Line:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
-        spread: ArrayLike | None = None,
         by: Literal["length", "angle", "projected_solid_angle"] = "angle",
         out: _F32 | None = None,
     ) -> _F32: ...
@@ -636,7 +601,6 @@ class Line:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
-        spread: ArrayLike | None = None,
         by: Literal["length", "angle", "projected_solid_angle"] = "angle",
         out: _F32 | None = None,
     ) -> _F32: ...
@@ -655,7 +619,6 @@ class Sun:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
-        spread: ArrayLike | None = None,
         by: Literal["solid_angle"] = "solid_angle",
         fields: _Fields | None = None,
         out: Samples | None = None,
@@ -670,7 +633,6 @@ class Sun:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
-        spread: ArrayLike | None = None,
         by: Literal["solid_angle"] = "solid_angle",
         fields: _Fields | None = None,
         out: Samples | None = None,
@@ -685,7 +647,6 @@ class Sun:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
-        spread: ArrayLike | None = None,
         by: Literal["solid_angle"] = "solid_angle",
         out: _F32 | None = None,
     ) -> _F32: ...
@@ -699,7 +660,6 @@ class Sun:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
-        spread: ArrayLike | None = None,
         by: Literal["solid_angle"] = "solid_angle",
         out: _F32 | None = None,
     ) -> _F32: ...
@@ -717,7 +677,6 @@ class PointLight:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
-        spread: ArrayLike | None = None,
         by: Literal["delta"] = "delta",
         fields: _Fields | None = None,
         out: Samples | None = None,
@@ -731,7 +690,6 @@ class PointLight:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
-        spread: ArrayLike | None = None,
         by: Literal["delta"] = "delta",
         fields: _Fields | None = None,
         out: Samples | None = None,
@@ -745,7 +703,6 @@ class PointLight:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
-        spread: ArrayLike | None = None,
         by: Literal["delta"] = "delta",
         out: _F32 | None = None,
     ) -> _F32: ...
@@ -758,7 +715,6 @@ class PointLight:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
-        spread: ArrayLike | None = None,
         by: Literal["delta"] = "delta",
         out: _F32 | None = None,
     ) -> _F32: ...
@@ -779,7 +735,6 @@ class SpotLight:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
-        spread: ArrayLike | None = None,
         by: Literal["delta"] = "delta",
         fields: _Fields | None = None,
         out: Samples | None = None,
@@ -796,7 +751,6 @@ class SpotLight:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
-        spread: ArrayLike | None = None,
         by: Literal["delta"] = "delta",
         fields: _Fields | None = None,
         out: Samples | None = None,
@@ -813,7 +767,6 @@ class SpotLight:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
-        spread: ArrayLike | None = None,
         by: Literal["delta"] = "delta",
         out: _F32 | None = None,
     ) -> _F32: ...
@@ -829,7 +782,6 @@ class SpotLight:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
-        spread: ArrayLike | None = None,
         by: Literal["delta"] = "delta",
         out: _F32 | None = None,
     ) -> _F32: ...
@@ -847,7 +799,6 @@ class DirectionalLight:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
-        spread: ArrayLike | None = None,
         by: Literal["delta"] = "delta",
         fields: _Fields | None = None,
         out: Samples | None = None,
@@ -861,7 +812,6 @@ class DirectionalLight:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
-        spread: ArrayLike | None = None,
         by: Literal["delta"] = "delta",
         fields: _Fields | None = None,
         out: Samples | None = None,
@@ -875,7 +825,6 @@ class DirectionalLight:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
-        spread: ArrayLike | None = None,
         by: Literal["delta"] = "delta",
         out: _F32 | None = None,
     ) -> _F32: ...
@@ -888,7 +837,6 @@ class DirectionalLight:
         n: ArrayLike | None = None,
         alpha: ArrayLike | None = None,
         view: ArrayLike | None = None,
-        spread: ArrayLike | None = None,
         by: Literal["delta"] = "delta",
         out: _F32 | None = None,
     ) -> _F32: ...
@@ -1063,8 +1011,3 @@ class PortalEnvironment:
     def invert_each(self, *, p: ArrayLike, w: ArrayLike, out: _F32 | None = None) -> _F32: ...
     def sees(self, p: ArrayLike, w: ArrayLike) -> NDArray[np.bool_]: ...
 
-@final
-class Spread:
-    def __new__(cls, angle: float) -> Spread: ...
-    def attenuation(self, w: ArrayLike, n: ArrayLike) -> _F32: ...
-    def visible_part(self, light: Parallelogram | Rectangle, p: ArrayLike) -> Parallelogram: ...

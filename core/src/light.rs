@@ -37,8 +37,7 @@
 //! | a [`Sphere`] with a [`Picture`] | [`by_visible_area`](PicturedLight::by_visible_area) | | |
 //! | [`PointLight`], [`SpotLight`], [`DirectionalLight`] | `by_delta`: one direction, `delta` holds | | |
 //!
-//! Some lights emit only within an angle of their normal, a [`Spread`]. Their method `by_spread` samples the part that a point sees:
-//! [`Parallelogram`], [`Rectangle`] and [`Disk`] have it. Where the intensity differs by direction otherwise, multiply the weight by it.
+//! Where the intensity of a light differs by direction, multiply the weight by it.
 //!
 //! Cells are empty where no map is here that keeps the contract at every size: for the solid angle of bilinear patches, and the projected
 //! solid angle of disks. A sun and a constant environment have no area.
@@ -113,7 +112,6 @@ mod shape;
 #[doc(hidden)]
 pub mod shapes;
 mod sphere;
-mod spread;
 mod surface;
 mod techniques;
 mod triangle;
@@ -161,7 +159,6 @@ pub use sampler::{ByArea, ByProjectedSolidAngle, ByReflection, BySolidAngle, Lig
 pub use sphere::Sphere;
 #[doc(hidden)]
 pub use sphere::{SphereByArea, SphereByProjectedSolidAngle, SphereByReflection, SphereBySolidAngle};
-pub use spread::Spread;
 pub use triangle::Triangle;
 #[doc(hidden)]
 pub use triangle::{TriangleByArea, TriangleByProjectedSolidAngle, TriangleByReflection, TriangleBySolidAngle};

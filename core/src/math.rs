@@ -73,15 +73,17 @@ pub fn difference_of_products<R: Real>(a: R, b: R, c: R, d: R) -> R {
 }
 
 /// a/b, or 0 where b is not positive.
+#[doc(hidden)]
 #[inline(always)]
-pub(crate) fn ratio<R: Real>(a: R, b: R) -> R {
+pub fn ratio<R: Real>(a: R, b: R) -> R {
     let some = b.gt(R::lit(0.0));
     (a / R::blend(some, b, R::lit(1.0))).keep(some)
 }
 
 /// a/b within ±1e37, or 0 where |b| ≤ 1e−37.
+#[doc(hidden)]
 #[inline(always)]
-pub(crate) fn quotient<R: Real>(a: R, b: R) -> R {
+pub fn quotient<R: Real>(a: R, b: R) -> R {
     quotient_if_any(a, b).0
 }
 

@@ -92,6 +92,7 @@ pub mod sensor;
 pub mod settings;
 pub mod sky;
 pub mod split;
+pub mod spread;
 pub mod sums;
 pub mod surfaces;
 pub mod technique;

@@ -26,7 +26,6 @@ pub(crate) mod point;
 mod record;
 mod sky;
 pub(crate) mod spot;
-mod spread;
 pub(crate) mod sun;
 
 use crate::allocation::FEW;
@@ -193,7 +192,7 @@ impl Lights {
         let sample = drawn.unwrap_or_else(|| unreachable!("there is a light"));
         if let Some(normal) = normal_of_light {
             let lanes = chosen.has(SPREAD) & !chosen.has(PROFILED);
-            let factor = spread::attenuation(normal, sample.direction, &chosen.spread, lanes);
+            let factor = chosen.spread.attenuation_in(lanes, sample.direction, normal);
             chosen.radiance = chosen.radiance * factor;
             if self.kinds & PROFILES != 0 {
                 self.distribute(chosen, sample.direction, normal.normalize());

@@ -9,7 +9,6 @@ use crate::light_picture::LightPicture;
 use crate::light_profile::LightProfile;
 use crate::packet::{M8, V8, X8, each_group, equal, first_lane};
 use crate::scene::{Corners, Details, Material, Scene, Shape, Varying};
-use etendue::light::Spread;
 use etendue::{Mask, Real, Vec3, u32x8};
 use interpolation::{along_u, barycentric, interpolated, lane_of, moved, set_lane, smooth_normal};
 use std::collections::HashMap;
@@ -253,7 +252,7 @@ impl Surfaces {
         if let Some(profile) = emission.profile {
             radiance = radiance * self.profiles[profile as usize].factor(-rays.direction, outward);
         } else if let Some(spread) = emission.spread {
-            radiance = radiance * Spread::splat(spread).attenuation(rays.direction, outward);
+            radiance = radiance * spread.splat().attenuation(rays.direction, outward);
         }
         Some((radiance, lit))
     }

@@ -32,6 +32,7 @@ mod sampler;
 mod samples;
 mod sensor;
 mod sky;
+mod spread;
 mod surfaces;
 mod values;
 mod variance;

@@ -11,4 +11,3 @@ mod polygon;
 mod portals;
 mod projected;
 mod samplers;
-mod spread;

@@ -13,7 +13,7 @@ use etendue::light::shapes::{
 };
 use etendue::light::{
     BilinearPatch, ConstantEnvironment, DirectionalLight, Disk, EnvironmentMap, ImageEnvironment, Line, PointLight,
-    Polygon, SpotLight, Spread, Sun,
+    Polygon, SpotLight, Sun,
 };
 use etendue::reflection::Reflection;
 use etendue::select::{LightBound, LightChoice, LightTree, Node8, SpatialLights, UniformLights};
@@ -286,10 +286,10 @@ macro_rules! all_lights {
     )+) => {$(
         let light = $light::known();
         $($count.light(irradiance(&light), |u| {
-            // a matt surface, and a light that emits everywhere
-            let (reflection, spread) = (Reflection::new(lit(1.0), UP.into(), UP.into()), Spread::<X>::new(f64::from(PI)));
-            let _ = (&reflection, &spread);
-            etendue::prepared!(light, $by $place, p: ORIGIN.into(), n: UP.into(), reflection: &reflection, spread: &spread).sample(u)
+            // a matt surface
+            let reflection = Reflection::new(lit(1.0), UP.into(), UP.into());
+            let _ = &reflection;
+            etendue::prepared!(light, $by $place, p: ORIGIN.into(), n: UP.into(), reflection: &reflection).sample(u)
         });)+
     )+};
 }

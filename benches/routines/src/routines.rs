@@ -227,13 +227,12 @@ in_room! {
 fn named<R, L: InRoom<R>>(_: &L, by: &str) -> String {
     format!("{} {}", L::NAME, by.replace('_', " "))
 }
-/// A light by a technique, but for spreads, whose samplers are those by solid angle.
+/// A light by a technique.
 macro_rules! one_light {
-    ($list:ident, $room:ident, $light:ident, $by:ident(p, spread)) => {};
     ($list:ident, $room:ident, $light:ident, $by:ident $place:tt) => {
         $list.light(&named(&$light, stringify!($by)), move |p| {
             let _ = p;
-            etendue::prepared!($light, $by $place, p: p, n: $room.up, reflection: &$room.glossy,)
+            etendue::prepared!($light, $by $place, p: p, n: $room.up, reflection: &$room.glossy)
         });
     };
 }

@@ -101,7 +101,7 @@ use etendue::{Vec2, Vec3};
 use memory::TreeMemory;
 
 impl Batch {
-    /// Prepares a light for the point `p`, and for what else the technique takes: nothing, a unit normal, a [`Reflection`] or a spread.
+    /// Prepares a light for the point `p`, and for what else the technique takes: nothing, a unit normal, or a [`Reflection`].
     #[must_use]
     pub fn prepare<T: Technique>(&self, light: &T::Light<f32>, p: Vec3<f32>, with: T::With<f32>) -> T::Prepared {
         let mut out = MaybeUninit::<T::Prepared>::uninit();

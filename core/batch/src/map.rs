@@ -2,7 +2,7 @@
 
 use crate::memory::PortalMemory;
 use crate::sealed::Sealed;
-use etendue::light::{PortalEnvironment, PortalMap, Spread};
+use etendue::light::{PortalEnvironment, PortalMap};
 use etendue::reflection::Reflection;
 use etendue::{Lanewise, Mask, Real, Vec2, Vec3};
 
@@ -11,7 +11,7 @@ pub const MOST_NUMBERS: usize = 6;
 /// The most numbers that a map returns.
 pub const MOST_RESULTS: usize = 4;
 /// How many maps there are.
-pub(crate) const MAPS: usize = 4;
+pub(crate) const MAPS: usize = 3;
 
 /// A function of a few numbers, with what it depends on in numbers or in memory.
 pub trait BatchMap: Copy + Sealed {
@@ -36,33 +36,13 @@ fn one<R: Real>(x: R) -> ([R; MOST_RESULTS], R::Mask) {
     ([x, zero, zero, zero], R::Mask::splat(true))
 }
 
-impl Sealed for Spread<f32> {}
-/// [`Spread::attenuation`] of a direction and a normal.
-impl BatchMap for Spread<f32> {
-    const INDEX: usize = 0;
-    const NUMBERS: usize = 6;
-    const RESULTS: usize = 1;
-    type View<'a> = Self;
-    #[inline(always)]
-    fn with<T>(&self, f: impl FnOnce(&Self) -> T) -> T {
-        f(self)
-    }
-    #[inline(always)]
-    fn map<R: Real<Scalar = f32>>(
-        spread: &Self,
-        [x, y, z, nx, ny, nz]: [R; MOST_NUMBERS],
-    ) -> ([R; MOST_RESULTS], R::Mask) {
-        one(Lanewise::splat::<R>(*spread).attenuation(Vec3::new(x, y, z), Vec3::new(nx, ny, nz)))
-    }
-}
-
 /// [`Reflection::sphere`] of a centre and a radius.
 #[derive(Clone, Copy, Debug)]
 #[repr(transparent)]
 pub struct ReflectedSphere(pub Reflection<f32>);
 impl Sealed for ReflectedSphere {}
 impl BatchMap for ReflectedSphere {
-    const INDEX: usize = 1;
+    const INDEX: usize = 0;
     const NUMBERS: usize = 4;
     const RESULTS: usize = 1;
     type View<'a> = Reflection<f32>;
@@ -95,7 +75,7 @@ impl PortalDirection {
 }
 impl Sealed for PortalDirection {}
 impl BatchMap for PortalDirection {
-    const INDEX: usize = 2;
+    const INDEX: usize = 1;
     const NUMBERS: usize = 2;
     const RESULTS: usize = 4;
     type View<'a> = PortalMap;
@@ -116,7 +96,7 @@ impl BatchMap for PortalDirection {
 pub struct SeenThroughPortals<'m>(pub PortalMemory<'m>);
 impl Sealed for SeenThroughPortals<'_> {}
 impl BatchMap for SeenThroughPortals<'_> {
-    const INDEX: usize = 3;
+    const INDEX: usize = 2;
     const NUMBERS: usize = 6;
     const RESULTS: usize = 0;
     type View<'a> = PortalEnvironment<'a>;

@@ -9,7 +9,6 @@ use crate::packet::{IS_LONG, Lanes, Packet};
 use crate::sequence::SEQUENCES;
 use crate::technique::{self, TECHNIQUES};
 use crate::warp::WARPS;
-use etendue::light::Spread;
 use etendue::reflection::Reflection;
 use etendue::sequence::{Independent, JointSobol, OwenSobol, Stratified};
 use etendue::warp::*;
@@ -45,15 +44,12 @@ const fn is_built(light: &str) -> bool {
     }
 }
 /// The functions of a technique, if its light is built. A light whose sampler another technique has is prepared by that one, with the same
-/// numbers, unless it is prepared for something else.
+/// numbers.
 macro_rules! entry {
     ($light:ident, $technique:ty $(, $size:literal)?) => {
         if is_built(stringify!($light)) { Some(const { &TechniqueFunctions::of::<$technique, R>() }) } else { None }
     };
     ($light:ident, $technique:ident, $sampler:ident, $place:tt, $size:literal) => {
-        entry!($light, technique::$technique)
-    };
-    ($light:ident, $technique:ident, $sampler:ident, (p, spread)) => {
         entry!($light, technique::$technique)
     };
     ($light:ident, $technique:ident, $sampler:ident, $place:tt) => {
@@ -101,7 +97,6 @@ impl Table {
             techniques: techniques::<R>(),
             warps: warps::<R>(),
             maps: [
-                kernel::map::<Spread<f32>, R>,
                 kernel::map::<ReflectedSphere, R>,
                 kernel::map::<PortalDirection, R>,
                 kernel::map::<SeenThroughPortals<'static>, R>,

@@ -3,7 +3,7 @@
 use crate::memory::{ImageMemory, PictureMemory, PortalMemory};
 use crate::sealed::Sealed;
 use core::marker::PhantomData;
-use etendue::light::{self, Area, Flat, PicturedSampler, Projected, SolidAngle, Spread, VisibleSphere};
+use etendue::light::{self, Area, Flat, PicturedSampler, Projected, SolidAngle, VisibleSphere};
 use etendue::reflection::Reflection;
 use etendue::{Lanewise, LightSampler, Real, Vec3};
 
@@ -23,7 +23,7 @@ pub trait Technique: Sized + Sealed {
     const INDEX: usize;
     /// The light over numbers, packets of numbers, or columns.
     type Light<X: Copy>: Copy;
-    /// What it is prepared for beside the point: nothing, the unit normal of the surface there, a [`Reflection`] or a [`Spread`].
+    /// What it is prepared for beside the point: nothing, the unit normal of the surface there, or a [`Reflection`].
     type With<X: Copy>: Copy;
     /// The prepared light.
     type Prepared: Prepared;
@@ -49,9 +49,6 @@ macro_rules! with {
     };
     ((p, reflection), $x:ident) => {
         Reflection<$x>
-    };
-    ((p, spread), $x:ident) => {
-        Spread<$x>
     };
     ($place:tt, $x:ident) => {
         ()
@@ -111,7 +108,7 @@ macro_rules! implement {
                     f: impl FnOnce(&light::$sampler<R $(, $n)?>) -> T,
                 ) -> T {
                     let _ = (p, &with);
-                    f(&etendue::prepared!(light, $by $place, p: p, n: with, reflection: &with, spread: &with))
+                    f(&etendue::prepared!(light, $by $place, p: p, n: with, reflection: &with))
                 }
             }
             implement!(@ $technique, $sampler $([$n])? $(, $size)?);
@@ -212,7 +209,7 @@ macro_rules! pictured {
             ) -> T {
                 let _ = with;
                 let on = light.picture.view().expect("the memory is that of a picture").on(light.light);
-                f(&etendue::prepared!(on, $by $place, p: p, n: with,))
+                f(&etendue::prepared!(on, $by $place, p: p, n: with))
             }
         }
         impl<'m> InMemory for $technique<'m> {

@@ -2,7 +2,7 @@
 
 mod every;
 
-use etendue::light::{EnvironmentMap, ImageEnvironment, PortalTable, Spread};
+use etendue::light::{EnvironmentMap, ImageEnvironment, PortalTable};
 use etendue::real::SAME_BITS;
 use etendue::reflection::Reflection;
 use etendue::select::{LightBound, LightChoice, LightTree, Node8};
@@ -238,7 +238,6 @@ fn assert_map<M: BatchMap>(name: &str, map: &M) {
 fn maps_have_the_bits_of_the_core() {
     let floor = Reflection::new(0.2, Vec3::new(0.0, 1.0, 0.0), Vec3::new(-0.6, 0.8, 0.0));
     assert_map("reflected sphere", &ReflectedSphere(floor));
-    assert_map("spread", &Spread::<f32>::new(1.2));
     let (edge_s, edge_t) = ([0.0, 2.0, 0.5], [0.0, 0.0, 2.0]);
     let portals = [[2.0, -1.0, -1.0], [2.0, 1.5, 0.0]].map(|corner| PortalShape { corner, edge_s, edge_t });
     let mut buffer = [0; PortalTable::buffer(2, 2)];

@@ -98,9 +98,6 @@ typedef enum {
   // In proportion to the lobe of a rough surface at the point p: pdf pi times that of the reflection, over the projected solid
   // angle after its map, per steradian; 0 where nothing of the light is above the horizon.
   ETENDUE_TECHNIQUE_PARALLELOGRAM_BY_REFLECTION,
-  // Uniform over the solid angle of the part that the point p sees of a light with this spread; pdf per steradian. Surface
-  // coordinates are those of the whole light.
-  ETENDUE_TECHNIQUE_PARALLELOGRAM_BY_SPREAD,
   // Uniform over the surface of area A, as a parallelogram: pdf distance^2/(|cos(theta')| A) per steradian, theta' at the light.
   ETENDUE_TECHNIQUE_RECTANGLE_BY_AREA,
   // Uniform over the solid angle Omega at the point p: pdf 1/Omega per steradian.
@@ -111,16 +108,10 @@ typedef enum {
   // In proportion to the lobe of a rough surface at the point p, as a parallelogram: pdf pi times that of the reflection, over the
   // projected solid angle after its map, per steradian; 0 where nothing of the light is above the horizon.
   ETENDUE_TECHNIQUE_RECTANGLE_BY_REFLECTION,
-  // Uniform over the solid angle of the part that the point p sees of a light with this spread; pdf per steradian. Surface
-  // coordinates are those of the whole light.
-  ETENDUE_TECHNIQUE_RECTANGLE_BY_SPREAD,
   // Uniform over the surface of area A: pdf distance^2/(|cos(theta')| A) per steradian, theta' at the light.
   ETENDUE_TECHNIQUE_DISK_BY_AREA,
   // Uniform over the solid angle Omega at the point p: pdf 1/Omega per steradian.
   ETENDUE_TECHNIQUE_DISK_BY_SOLID_ANGLE,
-  // Uniform over the solid angle of what the point p sees of a light with this spread, if that is a disk within the light; else,
-  // of the whole light. The pdf is per steradian; surface coordinates are those of the whole light.
-  ETENDUE_TECHNIQUE_DISK_BY_SPREAD,
   // Uniform over the surface of area A: pdf distance^2/(|cos(theta')| A) per steradian, theta' at the light.
   ETENDUE_TECHNIQUE_POLYGON_BY_AREA,
   // Uniform over the solid angle Omega at the point p: pdf 1/Omega per steradian.
@@ -341,16 +332,6 @@ typedef struct {
   const uint32_t *samples;
 } EtendueCounters;
 
-// How a flat light emits within a cone about its normal, as through a honeycomb before it: the spread of Cycles. A host multiplies the
-// radiance of the light by the attenuation, which leaves its power as it is. A point sees only a disk of the plane of the light, which
-// the techniques by spread sample.
-typedef struct {
-  // The tangent of half the angle.
-  float tan_half;
-  // 1/(tan_half - half the angle).
-  float gain;
-} EtendueSpread;
-
 // One sample of a light as seen from a shading point, or the point of a light that a ray hits.
 //
 // The estimator of reflected radiance is f L cos(theta) weight, once a shadow ray along `direction` has reached `distance`.
@@ -463,14 +444,6 @@ typedef struct {
   // From there to the opposite corner.
   float diagonal[3];
 } EtenduePatchSurface;
-
-// Columns of spreads.
-typedef struct {
-  // The tangent of half the angle.
-  const float *tan_half;
-  // 1/(tan_half - half the angle).
-  const float *gain;
-} EtendueSpreadColumns;
 
 // Columns of lights: the fields are those of the light.
 typedef struct {
@@ -622,22 +595,22 @@ typedef struct {
 
 // What the technique of this name prepares. What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
-  float data[34];
+  float data[33];
 } EtendueParallelogramByArea;
 
 // What the technique of this name prepares. What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
-  float data[130];
+  float data[129];
 } EtendueParallelogramBySolidAngle;
 
 // What the technique of this name prepares. What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
-  float data[295];
+  float data[294];
 } EtendueParallelogramByProjectedSolidAngle;
 
 // What the technique of this name prepares. What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
-  float data[308];
+  float data[307];
 } EtendueParallelogramByReflection;
 
 // Columns of lights: the fields are those of the light.
@@ -649,7 +622,7 @@ typedef struct {
 
 // What the technique of this name prepares. What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
-  float data[86];
+  float data[85];
 } EtendueRectangleBySolidAngle;
 
 // Columns of lights: the fields are those of the light.
@@ -1010,35 +983,10 @@ EtendueStatus etendue_stratified_pairs(uint64_t seed,
                                        size_t n,
                                        float *const *u);
 
-// Prepares a spread with this full angle in radians, which is taken to be from 1e-3 to pi. Returns ETENDUE_STATUS_VALUE if it is NaN.
-EtendueStatus etendue_spread_prepare(double angle,
-                                     EtendueSpread *out);
-
-// The factor of the radiance in or against the unit direction `w` of a light with the unit normal `n`, on either side:
-// (tansigma - tantheta)/(tansigma - sigma) at the angle theta < sigma to the normal, with sigma half of the spread; 0 beyond, and if a pointer is NULL.
-float etendue_spread_attenuation(const EtendueSpread *spread,
-                                 const float *w,
-                                 const float *n);
-
-// The factor of the radiance for each unit direction and unit normal of a light: three columns each.
-EtendueStatus etendue_spread_attenuation_batch(const EtendueSpread *spread,
-                                               size_t n,
-                                               const float *const *w,
-                                               const float *const *normals,
-                                               float *out);
-
-// The part of a parallelogram with this spread that a point sees: the smallest parallelogram with edges along its own about what of its plane
-// is within the angle. It is without area where the point sees nothing, and the light itself where it sees all.
-EtendueStatus etendue_parallelogram_visible_part(const EtendueParallelogram *light,
-                                                 const float *p,
-                                                 const EtendueSpread *spread,
-                                                 EtendueParallelogram *out);
-
 // Prepares a light for a shading point.
 //
 // `light` is the struct of the light of the technique. `with` is what it is prepared for beside the point: the unit normal there (three numbers)
-// by projected solid angle, an EtendueReflection by reflection, an EtendueSpread by spread; else it may be NULL. `sampler` is
-// the struct of the technique. Returns ETENDUE_STATUS_VALUE for a technique that is none, or that this library was built without.
+// by projected solid angle, or an EtendueReflection by reflection; else it may be NULL. `sampler` is the struct of the technique. Returns ETENDUE_STATUS_VALUE for a technique that is none, or that this library was built without.
 EtendueStatus etendue_prepare(uint32_t technique,
                               const void *light,
                               const float *p,
@@ -1114,7 +1062,7 @@ EtendueStatus etendue_hit_batch(uint32_t technique,
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns. `lights` is the struct of columns of the
 // technique's light. `with` is what etendue_prepare takes, in columns: an array of three pointers to coordinates of unit normals, an
-// EtendueReflectionColumns, an EtendueSpreadColumns, or NULL.
+// EtendueReflectionColumns, or NULL.
 EtendueStatus etendue_sample_each(uint32_t technique,
                                   const void *lights,
                                   size_t n,

@@ -10,7 +10,7 @@
 //   to every class with such members or an operator[] that three floats initialise: T{x, y, z}. The same holds for Vec2.
 // - Lights: Sphere, Triangle, Parallelogram, Rectangle, Disk, BilinearPatch, Polygon, Line, Sun, PointLight, SpotLight,
 //   DirectionalLight. Their methods by_... prepare them for a shading point. ImageEnvironment is the same at every point.
-// - Picture::on puts a picture on a light. PortalEnvironment and Spread.
+// - Picture::on puts a picture on a light. PortalEnvironment.
 // - Batches: columns of one length, from anything with data() and size(). Every length is checked: a column of another length gives
 //   ETENDUE_STATUS_COUNT. Empty columns stand for results that are not wanted.
 // - Warps, sequences and LightTree. Reflection is a warp for which flat lights are prepared by_reflection; ReflectionColumns are many of them.
@@ -311,18 +311,6 @@ class ReflectionColumns {
     const EtendueReflectionColumns& c() const { return c_; }
 };
 
-// Spreads in columns.
-class SpreadColumns {
-    Span<const float> tan_half_, gain_;
-    EtendueSpreadColumns c_;
-
-  public:
-    SpreadColumns(Span<const float> tan_half, Span<const float> gain)
-        : tan_half_(tan_half), gain_(gain), c_{tan_half.data(), gain.data()} {}
-    bool fits(size_t n) const { return detail::fits(tan_half_, n) && detail::fits(gain_, n); }
-    const EtendueSpreadColumns& c() const { return c_; }
-};
-
 // ---- lights ----
 
 // What is done with a sampler c_.
@@ -436,9 +424,6 @@ class SpreadColumns {
 #define ETENDUE_REFLECTED(NAME, SAMPLER, LIGHT, PREFIX)                                                                                         \
     ETENDUE_TECHNIQUE(NAME, SAMPLER, LIGHT, PREFIX, ETENDUE_COMMA const EtendueReflection& reflection, ETENDUE_COMMA &reflection,               \
                       ETENDUE_COMMA const ReflectionColumns& reflections, || !reflections.fits(n), ETENDUE_COMMA &reflections.c())
-#define ETENDUE_SPREAD(NAME, SAMPLER, LIGHT, PREFIX)                                                                                   \
-    ETENDUE_TECHNIQUE(NAME, SAMPLER, LIGHT, PREFIX, ETENDUE_COMMA const EtendueSpread& spread, ETENDUE_COMMA &spread,                  \
-                      ETENDUE_COMMA const SpreadColumns& spreads, || !spreads.fits(n), ETENDUE_COMMA &spreads.c())
 
 // from the list of techniques: WRITE=1 cargo test -p etendue-tests bindings
 ETENDUE_ANYWHERE(SphereByArea, SphereByArea, Sphere, etendue_sphere_by_area)
@@ -453,15 +438,12 @@ ETENDUE_ANYWHERE(ParallelogramByArea, ParallelogramByArea, Parallelogram, etendu
 ETENDUE_ANYWHERE(ParallelogramBySolidAngle, ParallelogramBySolidAngle, Parallelogram, etendue_parallelogram_by_solid_angle)
 ETENDUE_ON_SURFACE(ParallelogramByProjectedSolidAngle, ParallelogramByProjectedSolidAngle, Parallelogram, etendue_parallelogram_by_projected_solid_angle)
 ETENDUE_REFLECTED(ParallelogramByReflection, ParallelogramByReflection, Parallelogram, etendue_parallelogram_by_reflection)
-ETENDUE_SPREAD(ParallelogramBySpread, ParallelogramBySolidAngle, Parallelogram, etendue_parallelogram_by_spread)
 ETENDUE_ANYWHERE(RectangleByArea, ParallelogramByArea, Rectangle, etendue_rectangle_by_area)
 ETENDUE_ANYWHERE(RectangleBySolidAngle, RectangleBySolidAngle, Rectangle, etendue_rectangle_by_solid_angle)
 ETENDUE_ON_SURFACE(RectangleByProjectedSolidAngle, ParallelogramByProjectedSolidAngle, Rectangle, etendue_rectangle_by_projected_solid_angle)
 ETENDUE_REFLECTED(RectangleByReflection, ParallelogramByReflection, Rectangle, etendue_rectangle_by_reflection)
-ETENDUE_SPREAD(RectangleBySpread, RectangleBySolidAngle, Rectangle, etendue_rectangle_by_spread)
 ETENDUE_ANYWHERE(DiskByArea, DiskByArea, Disk, etendue_disk_by_area)
 ETENDUE_ANYWHERE(DiskBySolidAngle, DiskBySolidAngle, Disk, etendue_disk_by_solid_angle)
-ETENDUE_SPREAD(DiskBySpread, DiskBySolidAngle, Disk, etendue_disk_by_spread)
 ETENDUE_ANYWHERE(PolygonByArea, PolygonByArea, Polygon, etendue_polygon_by_area)
 ETENDUE_ANYWHERE(PolygonBySolidAngle, PolygonBySolidAngle, Polygon, etendue_polygon_by_solid_angle)
 ETENDUE_ON_SURFACE(PolygonByProjectedSolidAngle, PolygonByProjectedSolidAngle, Polygon, etendue_polygon_by_projected_solid_angle)
@@ -512,7 +494,6 @@ struct Parallelogram : EtendueParallelogram {
     ParallelogramBySolidAngle by_solid_angle(Vec3 at) const { return {*this, at}; }
     ParallelogramByProjectedSolidAngle by_projected_solid_angle(Vec3 at, Vec3 n) const { return {*this, at, n}; }
     ParallelogramByReflection by_reflection(Vec3 at, const EtendueReflection& reflection) const { return {*this, at, reflection}; }
-    ParallelogramBySpread by_spread(Vec3 at, const EtendueSpread& spread) const { return {*this, at, spread}; }
 };
 // EtendueRectangle with its constructors and techniques.
 struct Rectangle : EtendueRectangle {
@@ -521,14 +502,12 @@ struct Rectangle : EtendueRectangle {
     RectangleBySolidAngle by_solid_angle(Vec3 at) const { return {*this, at}; }
     RectangleByProjectedSolidAngle by_projected_solid_angle(Vec3 at, Vec3 n) const { return {*this, at, n}; }
     RectangleByReflection by_reflection(Vec3 at, const EtendueReflection& reflection) const { return {*this, at, reflection}; }
-    RectangleBySpread by_spread(Vec3 at, const EtendueSpread& spread) const { return {*this, at, spread}; }
 };
 // EtendueDisk with its constructors and techniques.
 struct Disk : EtendueDisk {
     Disk(Vec3 center_, Vec3 normal_, float radius_) : EtendueDisk{{center_.x, center_.y, center_.z}, {normal_.x, normal_.y, normal_.z}, radius_} {}
     DiskByArea by_area(Vec3 at) const { return {*this, at}; }
     DiskBySolidAngle by_solid_angle(Vec3 at) const { return {*this, at}; }
-    DiskBySpread by_spread(Vec3 at, const EtendueSpread& spread) const { return {*this, at, spread}; }
 };
 // EtenduePolygon with its constructors and techniques.
 struct Polygon : EtenduePolygon {
@@ -745,28 +724,6 @@ struct PortalEnvironment : EtenduePortalEnvironment {
         const size_t n = out.size();
         if (!fits(p, n) || !fits(w, n)) return ETENDUE_STATUS_COUNT;
         return etendue_portal_environment_sees_batch(this, n, Pointers<const float, 3>(p).p, Pointers<const float, 3>(w).p, out.data());
-    }
-};
-
-// ---- spread ----
-
-// How a flat light emits within an angle of its normal.
-struct Spread : EtendueSpread {
-    // The full angle in radians.
-    explicit Spread(double angle) : EtendueSpread{} { etendue_spread_prepare(angle, this); }
-    // The factor of the radiance in the unit direction w of a light with the unit normal n.
-    float attenuation(Vec3 w, Vec3 n) const { return etendue_spread_attenuation(this, detail::Row<3>(w).v, detail::Row<3>(n).v); }
-    Status attenuation(In<3> w, In<3> normals, Span<float> out) const {
-        using namespace detail;
-        const size_t n = out.size();
-        if (!fits(w, n) || !fits(normals, n)) return ETENDUE_STATUS_COUNT;
-        return etendue_spread_attenuation_batch(this, n, Pointers<const float, 3>(w).p, Pointers<const float, 3>(normals).p, out.data());
-    }
-    // The part of a parallelogram that a point sees.
-    EtendueParallelogram visible_part(const EtendueParallelogram& light, Vec3 p) const {
-        EtendueParallelogram part = {};
-        etendue_parallelogram_visible_part(&light, detail::Row<3>(p).v, this, &part);
-        return part;
     }
 };
 
@@ -1063,7 +1020,6 @@ inline Vec2 InvertBilinearSample(Vec2 p, const float (&w)[4]) { return Bilinear(
 #undef ETENDUE_ANYWHERE
 #undef ETENDUE_ON_SURFACE
 #undef ETENDUE_REFLECTED
-#undef ETENDUE_SPREAD
 #undef ETENDUE_WARP_METHODS
 #undef ETENDUE_FIXED_WARP
 #undef ETENDUE_WARP

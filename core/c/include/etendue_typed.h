@@ -6,7 +6,7 @@
 //     etendue_triangle_by_solid_angle_sample(&sampler, u, &s);
 //
 // Each is etendue_prepare, etendue_sample, and so on, with the number of the technique in its name. Where a technique takes more than the point, it is
-// the argument after the point: a unit normal `n`, an EtendueReflection or an EtendueSpread, or columns of them. etendue.h includes this header.
+// the argument after the point: a unit normal `n` or an EtendueReflection, or columns of them. etendue.h includes this header.
 #ifndef ETENDUE_TYPED_H
 #define ETENDUE_TYPED_H
 
@@ -82,9 +82,6 @@
 #define ETENDUE_REFLECTED_(NAME, ID, LIGHT, SAMPLER)                                                                                     \
     ETENDUE_LIGHT_(NAME, ID, LIGHT, SAMPLER, const EtendueReflection *reflection ETENDUE_COMMA_, reflection,                             \
                    const EtendueReflectionColumns *reflections ETENDUE_COMMA_, reflections)
-#define ETENDUE_SPREAD_(NAME, ID, LIGHT, SAMPLER)                                                                                        \
-    ETENDUE_LIGHT_(NAME, ID, LIGHT, SAMPLER, const EtendueSpread *spread ETENDUE_COMMA_, spread,                                         \
-                   const EtendueSpreadColumns *spreads ETENDUE_COMMA_, spreads)
 
 // A warp with the struct of its parameters. SELF is that with a comma, and PARAMETERS its name.
 #define ETENDUE_WARP_OF_(NAME, ID, SELF, PARAMETERS)                                                                                     \
@@ -120,15 +117,12 @@ ETENDUE_ANYWHERE_(parallelogram_by_area, PARALLELOGRAM_BY_AREA, Parallelogram, P
 ETENDUE_ANYWHERE_(parallelogram_by_solid_angle, PARALLELOGRAM_BY_SOLID_ANGLE, Parallelogram, ParallelogramBySolidAngle)
 ETENDUE_ON_SURFACE_(parallelogram_by_projected_solid_angle, PARALLELOGRAM_BY_PROJECTED_SOLID_ANGLE, Parallelogram, ParallelogramByProjectedSolidAngle)
 ETENDUE_REFLECTED_(parallelogram_by_reflection, PARALLELOGRAM_BY_REFLECTION, Parallelogram, ParallelogramByReflection)
-ETENDUE_SPREAD_(parallelogram_by_spread, PARALLELOGRAM_BY_SPREAD, Parallelogram, ParallelogramBySolidAngle)
 ETENDUE_ANYWHERE_(rectangle_by_area, RECTANGLE_BY_AREA, Rectangle, ParallelogramByArea)
 ETENDUE_ANYWHERE_(rectangle_by_solid_angle, RECTANGLE_BY_SOLID_ANGLE, Rectangle, RectangleBySolidAngle)
 ETENDUE_ON_SURFACE_(rectangle_by_projected_solid_angle, RECTANGLE_BY_PROJECTED_SOLID_ANGLE, Rectangle, ParallelogramByProjectedSolidAngle)
 ETENDUE_REFLECTED_(rectangle_by_reflection, RECTANGLE_BY_REFLECTION, Rectangle, ParallelogramByReflection)
-ETENDUE_SPREAD_(rectangle_by_spread, RECTANGLE_BY_SPREAD, Rectangle, RectangleBySolidAngle)
 ETENDUE_ANYWHERE_(disk_by_area, DISK_BY_AREA, Disk, DiskByArea)
 ETENDUE_ANYWHERE_(disk_by_solid_angle, DISK_BY_SOLID_ANGLE, Disk, DiskBySolidAngle)
-ETENDUE_SPREAD_(disk_by_spread, DISK_BY_SPREAD, Disk, DiskBySolidAngle)
 ETENDUE_ANYWHERE_(polygon_by_area, POLYGON_BY_AREA, Polygon, PolygonByArea)
 ETENDUE_ANYWHERE_(polygon_by_solid_angle, POLYGON_BY_SOLID_ANGLE, Polygon, PolygonBySolidAngle)
 ETENDUE_ON_SURFACE_(polygon_by_projected_solid_angle, POLYGON_BY_PROJECTED_SOLID_ANGLE, Polygon, PolygonByProjectedSolidAngle)
@@ -170,7 +164,6 @@ ETENDUE_WARP_(patch_surface, PATCH_SURFACE, PatchSurface)
 #undef ETENDUE_ANYWHERE_
 #undef ETENDUE_ON_SURFACE_
 #undef ETENDUE_REFLECTED_
-#undef ETENDUE_SPREAD_
 #undef ETENDUE_WARP_OF_
 #undef ETENDUE_WARP_
 #undef ETENDUE_FIXED_WARP_

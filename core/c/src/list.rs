@@ -8,7 +8,6 @@ use crate::picture::{
 };
 use crate::portal::EtenduePortalsByRadiance;
 use crate::reflection::EtendueReflectionColumns;
-use crate::spread::EtendueSpreadColumns;
 use core::mem::size_of;
 use etendue_batch::{TECHNIQUES, Technique, technique};
 
@@ -28,9 +27,6 @@ macro_rules! with {
     };
     ((p, reflection)) => {
         count_of::<EtendueReflectionColumns>()
-    };
-    ((p, spread)) => {
-        count_of::<EtendueSpreadColumns>()
     };
     ($place:tt) => {
         0

@@ -59,8 +59,7 @@ fn is_given(technique: u32, with: *const c_void) -> bool {
 /// Prepares a light for a shading point.
 ///
 /// `light` is the struct of the light of the technique. `with` is what it is prepared for beside the point: the unit normal there (three numbers)
-/// by projected solid angle, an EtendueReflection by reflection, an EtendueSpread by spread; else it may be NULL. `sampler` is
-/// the struct of the technique. Returns ETENDUE_STATUS_VALUE for a technique that is none, or that this library was built without.
+/// by projected solid angle, or an EtendueReflection by reflection; else it may be NULL. `sampler` is the struct of the technique. Returns ETENDUE_STATUS_VALUE for a technique that is none, or that this library was built without.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn etendue_prepare(
     technique: u32,
@@ -329,7 +328,7 @@ unsafe fn with_views(
 }
 /// Prepares a light of its own for each shading point, and draws a direction for each u: all in columns. `lights` is the struct of columns of the
 /// technique's light. `with` is what etendue_prepare takes, in columns: an array of three pointers to coordinates of unit normals, an
-/// EtendueReflectionColumns, an EtendueSpreadColumns, or NULL.
+/// EtendueReflectionColumns, or NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn etendue_sample_each(
     technique: u32,

@@ -1,4 +1,4 @@
-//! The functions for lights with images, and for spreads, return what the core does, bit by bit.
+//! The functions for lights with images return what the core does, bit by bit.
 
 use etendue::light::*;
 use etendue::reflection::Reflection;
@@ -256,26 +256,4 @@ fn portals() {
         assert_eq!((bits(&w), angle.to_bits()), (bits(&three(direction)), solid_angle.to_bits()));
     }
     drop(sums);
-}
-
-#[test]
-fn spread() {
-    let spread = Spread::<f32>::new(1.2);
-    let mut same = EtendueSpread { tan_half: 0.0, gain: 0.0 };
-    let panel = EtendueRectangle { corner: [-9.0, 1.0, -9.0], edge_s: [18.0, 0.0, 0.0], edge_t: [0.0, 0.0, 18.0] };
-    let core = Rectangle::<f32>::new([-9.0, 1.0, -9.0].into(), [18.0, 0.0, 0.0].into(), [0.0, 0.0, 18.0].into());
-    // SAFETY: the pointer is to a spread
-    assert_eq!(unsafe { etendue_spread_prepare(1.2, &mut same) }, EtendueStatus::Ok);
-    assert_eq!(bits(&[same.tan_half, same.gain]), bits(&[spread.tan_half, spread.gain]));
-    let with = std::ptr::from_ref(&same).cast();
-    let sampler = prepared!(EtendueRectangleBySolidAngle: panel, RectangleBySpread, with);
-    assert_same!("spread", core.by_spread(Vec3::from(P), &spread), sampler, RectangleBySpread);
-    // SAFETY: all pointers here are to what the header says
-    unsafe {
-        for i in 0..COUNT {
-            let (w, n) = (direction(i), direction(i + COUNT));
-            let factor = etendue_spread_attenuation(&same, three(w).as_ptr(), three(n).as_ptr());
-            assert_eq!(factor.to_bits(), spread.attenuation(w, n).to_bits());
-        }
-    }
 }

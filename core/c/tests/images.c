@@ -1,4 +1,4 @@
-// Tests of the lights with images and of spreads in etendue.h, in C99: images
+// Tests of the lights with images in etendue.h, in C99: images
 //
 // Closed forms, inverses, sums of probabilities, degenerate input, null pointers, and that batches are their elements one by one and write
 // nothing else. core/c/tests/bits.rs compares the functions with the core.
@@ -336,49 +336,6 @@ static void test_portals(void) {
     free(r.memory), free(d.memory);
 }
 
-static void test_spread(void) {
-    current = "spread";
-    EtendueSpread spread;
-    const float axis[3] = {0, -1, 0}, grazing[3] = {0.8f, 0.6f, 0}, origin[3] = {0, 0, 0};
-    CHECK(etendue_spread_prepare(1, NULL) == REFUSED && etendue_spread_prepare(NAN, &spread) == WRONG);
-    CHECK(etendue_spread_prepare(PI / 2, &spread) == OK && fabsf(spread.tan_half - 1) < 1e-6f);
-    // tan(pi/4)/(tan(pi/4) - pi/4) on the axis, 0 beyond
-    CHECK(fabs(etendue_spread_attenuation(&spread, axis, axis) / (1 / (1 - PI / 4)) - 1) < 1e-6 && etendue_spread_attenuation(&spread, grazing, axis) == 0);
-    CHECK(etendue_spread_attenuation(NULL, axis, axis) == 0);
-    Results r = results(N);
-    CHECK(etendue_spread_attenuation_batch(&spread, N, w_in, n_in, r.column[0]) == OK && only_written(&r, 0, 1));
-    for (size_t i = 0; i < N; i++) {
-        const float w[3] = {w_numbers[0][i], w_numbers[1][i], w_numbers[2][i]}, m[3] = {n_numbers[0][i], n_numbers[1][i], n_numbers[2][i]};
-        CHECK(same(etendue_spread_attenuation(&spread, w, m), at(r.column[0], i)));
-    }
-    CHECK(etendue_spread_attenuation_batch(&spread, N, NULL, n_in, r.column[0]) == REFUSED);
-    free(r.memory);
-    // of 18 x 18 at height 1, the point sees 2 x 2
-    const EtendueRectangle panel = {{-9, 1, -9}, {18, 0, 0}, {0, 0, 18}};
-    EtendueParallelogram same_panel, part;
-    EtendueRectangleBySolidAngle rectangle;
-    EtendueParallelogramBySolidAngle parallelogram;
-    EtendueDiskBySolidAngle by_disk;
-    CHECK(etendue_rectangle_coordinates(&panel, &same_panel) == OK);
-    CHECK(etendue_parallelogram_visible_part(&same_panel, origin, &spread, &part) == OK && fabsf(part.corner[0] + 1) < 1e-3f && fabsf(part.edge_t[2] - 2) < 1e-3f);
-    CHECK(etendue_rectangle_by_spread_prepare(&panel, origin, &spread, &rectangle) == OK);
-    CHECK(etendue_parallelogram_by_spread_prepare(&same_panel, origin, &spread, &parallelogram) == OK);
-    const EtendueDisk disk = {{0, 1, 0}, {0, -1, 0}, 9};
-    CHECK(etendue_disk_by_spread_prepare(&disk, origin, &spread, &by_disk) == OK);
-    for (int i = 0; i < N; i++) {
-        const float u[2] = {u_numbers[0][i], u_numbers[1][i]};
-        EtendueLightSample a, b, c;
-        CHECK(etendue_rectangle_by_solid_angle_sample(&rectangle, u, &a) == OK && etendue_parallelogram_by_solid_angle_sample(&parallelogram, u, &b) == OK);
-        // the square of 2 x 2 has 2 pi/3, the disk of radius 1 has 2 pi (1 - cos 45 degrees); the part is larger by what rounding may hide,
-        // 2^-19 of 58 units at each side here
-        CHECK(a.pdf * 2 * PI / 3 < 1 + 1e-6 && a.pdf * 2 * PI / 3 > 1 - 3e-4 && fabsf(a.direction[0]) <= 1.0002f * a.direction[1]);
-        CHECK(fabsf(b.pdf / a.pdf - 1) < 1e-5f);
-        CHECK(etendue_disk_by_solid_angle_sample(&by_disk, u, &c) == OK && fabs(c.pdf * 2 * PI * (1 - sqrt(0.5)) - 1) < 1e-4);
-        CHECK(fabsf(a.uv[0] - 0.5f) < 0.056f);
-    }
-    CHECK(etendue_rectangle_by_spread_prepare(&panel, origin, NULL, &rectangle) == REFUSED && etendue_disk_by_spread_prepare(NULL, origin, &spread, &by_disk) == REFUSED);
-}
-
 int main(void) {
     for (size_t i = 0; i < N; i++) {
         float w[3], m[3];
@@ -396,7 +353,6 @@ int main(void) {
     test_closed_forms();
     test_techniques();
     test_portals();
-    test_spread();
     printf("%ld checks, %d failed\n", checks, failures);
     return failures > 0;
 }

@@ -41,7 +41,7 @@ typedef struct {
     const char *name;
     const float *light;
     size_t light_numbers, sampler_numbers;
-    // what it needs beside the point: 1 the normal `n`, 2 a reflection, of which `n` is the normal, 3 a spread
+    // what it needs beside the point: 1 the normal `n`, 2 a reflection, of which `n` is the normal
     int on_surface;
     EtendueStatus (*prepare)(const float *light, const float *p, const float *n, float *sampler);
     EtendueStatus (*sample)(const float *sampler, const float *u, EtendueLightSample *out);
@@ -80,24 +80,6 @@ static const EtendueReflectionColumns *reflections(size_t n, const float *const 
     for (size_t i = 0; i < MOST; i++) alphas[i] = alpha;
     const int prepared = normals && etendue_reflection_prepare_batch(n, alphas, normals, normals, &reflection_columns) == ETENDUE_STATUS_OK;
     return prepared ? &reflection_columns : NULL;
-}
-
-// The spread of all lights, as functions of normals take it.
-static EtendueSpread spread_memory;
-static const EtendueSpread *spread(const float *n) {
-    return n && etendue_spread_prepare(3, &spread_memory) == ETENDUE_STATUS_OK ? &spread_memory : NULL;
-}
-static float tangents[MOST], gains[MOST];
-static const EtendueSpreadColumns spread_columns = {tangents, gains};
-static const EtendueSpreadColumns *spreads(const float *const *normals) {
-    for (int k = 0; normals && k < 3; k++)
-        if (!normals[k]) return NULL;
-    if (!normals || !spread(&alpha)) return NULL;
-    for (size_t i = 0; i < MOST; i++) {
-        tangents[i] = spread_memory.tan_half;
-        gains[i] = spread_memory.gain;
-    }
-    return &spread_columns;
 }
 
 // The functions of a technique with all structs as arrays of numbers or pointers. N and NORMALS are the arguments for normals, if any.
@@ -166,9 +148,8 @@ static const EtendueSpreadColumns *spreads(const float *const *normals) {
 #define FUNCTIONS_0(NAME, LIGHT, PREFIX) FUNCTIONS(NAME, LIGHT, PREFIX, , )
 #define FUNCTIONS_1(NAME, LIGHT, PREFIX) FUNCTIONS(NAME, LIGHT, PREFIX, n COMMA, normals COMMA)
 #define FUNCTIONS_2(NAME, LIGHT, PREFIX) FUNCTIONS(NAME, LIGHT, PREFIX, reflection(n) COMMA, reflections(n COMMA normals) COMMA)
-#define FUNCTIONS_3(NAME, LIGHT, PREFIX) FUNCTIONS(NAME, LIGHT, PREFIX, spread(n) COMMA, spreads(normals) COMMA)
 
-// name, light, functions, what it needs beside the point: 1 a normal, 2 a reflection, 3 a spread
+// name, light, functions, what it needs beside the point: 1 a normal, 2 a reflection
 // from the list of techniques: WRITE=1 cargo test -p etendue-tests bindings
 #define TECHNIQUES(T) \
     T(SphereByArea, Sphere, sphere_by_area, 0) \
@@ -183,15 +164,12 @@ static const EtendueSpreadColumns *spreads(const float *const *normals) {
     T(ParallelogramBySolidAngle, Parallelogram, parallelogram_by_solid_angle, 0) \
     T(ParallelogramByProjectedSolidAngle, Parallelogram, parallelogram_by_projected_solid_angle, 1) \
     T(ParallelogramByReflection, Parallelogram, parallelogram_by_reflection, 2) \
-    T(ParallelogramBySolidAngle, Parallelogram, parallelogram_by_spread, 3) \
     T(ParallelogramByArea, Rectangle, rectangle_by_area, 0) \
     T(RectangleBySolidAngle, Rectangle, rectangle_by_solid_angle, 0) \
     T(ParallelogramByProjectedSolidAngle, Rectangle, rectangle_by_projected_solid_angle, 1) \
     T(ParallelogramByReflection, Rectangle, rectangle_by_reflection, 2) \
-    T(RectangleBySolidAngle, Rectangle, rectangle_by_spread, 3) \
     T(DiskByArea, Disk, disk_by_area, 0) \
     T(DiskBySolidAngle, Disk, disk_by_solid_angle, 0) \
-    T(DiskBySolidAngle, Disk, disk_by_spread, 3) \
     T(PolygonByArea, Polygon, polygon_by_area, 0) \
     T(PolygonBySolidAngle, Polygon, polygon_by_solid_angle, 0) \
     T(PolygonByProjectedSolidAngle, Polygon, polygon_by_projected_solid_angle, 1) \

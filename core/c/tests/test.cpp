@@ -292,13 +292,6 @@ static void test_skies() {
     std::array<uint8_t, 2> sees;
     CHECK(sky.sees({px, py, pz}, {zero, one, zero}, sees) == ETENDUE_STATUS_OK && sees[0] == 1 && sees[1] == 0);
     CHECK(sky.sees({px, py, pz}, {zero, one, zero}, Span<uint8_t>(sees.data(), 1)) == ETENDUE_STATUS_COUNT);
-
-    const Spread spread(1.5707963267948966);
-    std::array<float, 2> factor;
-    CHECK(spread.attenuation({0, 1, 0}, {0, -1, 0}) > 4.6f && spread.attenuation({0.8f, 0.6f, 0}, {0, -1, 0}) == 0);
-    CHECK(spread.attenuation({zero, one, zero}, {zero, one, zero}, factor) == ETENDUE_STATUS_OK && factor[1] == spread.attenuation(n, n));
-    const Parallelogram panel({-9, 1, -9}, {18, 0, 0}, {0, 0, 18});
-    CHECK(std::fabs(spread.visible_part(panel, {0, 0, 0}).corner[0] + 1) < 1e-3f);
 }
 
 static void test_pbrt() {

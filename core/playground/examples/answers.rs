@@ -107,7 +107,6 @@ fn technique(by: &str, sampler: &impl LightSampler<f32>, view: &View) -> Value {
 /// What is done for the techniques that the page shows: those that take a point and at most a normal.
 macro_rules! shown {
     ((p, reflection), $done:expr) => {};
-    ((p, spread), $done:expr) => {};
     ($place:tt, $done:expr) => {
         $done;
     };

@@ -49,7 +49,7 @@ fn shown<const N: usize>(number: &mut u32, techniques: [Value; N]) -> Vec<Value>
         technique
     });
     let takes = |technique: &Value| technique["place"].as_str().unwrap_or_default().to_owned();
-    let is_shown = |place: String| !place.contains("reflection") && !place.contains("spread");
+    let is_shown = |place: String| !place.contains("reflection");
     numbered.filter(|technique| is_shown(takes(technique))).collect()
 }
 

@@ -9,13 +9,12 @@ use etendue_batch::{Batch, Technique};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 
-/// What techniques take beside the point, where they are given: unit normals, roughnesses and directions to the viewer, and angles of spreads.
+/// What techniques take beside the point, where they are given: unit normals, roughnesses and directions to the viewer.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct Given<'a, 'py> {
     pub(crate) n: Option<&'a Object<'py>>,
     pub(crate) alpha: Option<&'a Object<'py>>,
     pub(crate) view: Option<&'a Object<'py>>,
-    pub(crate) spread: Option<&'a Object<'py>>,
 }
 
 /// What one technique takes beside the point.

@@ -15,7 +15,6 @@ mod results;
 mod samplers;
 mod samples;
 mod sequences;
-mod spread;
 mod tree;
 mod warps;
 
@@ -53,7 +52,6 @@ fn extension(module: &Bound<'_, PyModule>) -> PyResult<()> {
     environment::add(module)?;
     pictures::add(module)?;
     portals::add(module)?;
-    spread::add(module)?;
     warps::add(module)?;
     reflections::add(module)?;
     sequences::add(module)?;

@@ -132,9 +132,8 @@ macro_rules! light {
         /// beside their last axis: the constructor's arguments (..., 3) or (...), shading points p (..., 3), numbers u in [0, 1)²
         /// (..., 2), and the unit normals n (..., 3) at the shading points, for techniques that need them. `by` names the
         /// technique: "area" for `by_area`, and so on. By "reflection", which spheres and flat lights have, the arguments of a
-        /// `Reflection` are needed, too: roughnesses alpha (...) and unit vectors view (..., 3) towards the viewer; by "spread", full angles
-        /// spread (...) in radians. `fields` and `out` are those of `Sampler.sample`.
-        () [staticmethod] ($($argument),+) (n, alpha, view, spread) (by: &str = $default)
+        /// `Reflection` are needed, too: roughnesses alpha (...) and unit vectors view (..., 3) towards the viewer. `fields` and `out` are those of `Sampler.sample`.
+        () [staticmethod] ($($argument),+) (n, alpha, view) (by: &str = $default)
         |rows| Self::each(by, rows, &[$((stringify!($argument), kind!($kind), $argument)),+]) }
     };
 }

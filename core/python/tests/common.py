@@ -25,7 +25,7 @@ DISTANT = (et.Sun, et.DirectionalLight)
 VIEW = np.array([0.0, 1.0, 0.0])
 # what each row needs beside its point
 SURFACES = {"projected_solid_angle": {"n": N}}
-SURFACES |= {"reflection": {"n": N, "alpha": 0.5, "view": VIEW}, "spread": {"spread": 2.9}}
+SURFACES |= {"reflection": {"n": N, "alpha": 0.5, "view": VIEW}}
 TECHNIQUES = [(light, name[3:]) for light in LIGHTS for name in dir(light) if name.startswith("by_")]
 # a rounded direction determines the pdf and the numbers of these only as well as it determines the point
 ROUGH = {(et.Sphere, "area"), (et.BilinearPatch, "area")}
@@ -50,8 +50,6 @@ def prepare(light, by, p=P, n=N, fields=None):
     place = {"projected_solid_angle": (p, n)}.get(by, (p,))
     if by == "reflection":
         place = (p, et.Reflection(0.5, n, VIEW))
-    if by == "spread":
-        place = (p, et.Spread(2.9))
     method = getattr(light(*(LIGHTS[light] if fields is None else fields)), "by_" + by)
     return method() if light in DISTANT else method(*place)
 

@@ -1,4 +1,4 @@
-"""Lights with images, portals and spread: closed forms, arguments, and the bits of the core."""
+"""Lights with images and portals: closed forms, arguments, and the bits of the core."""
 
 import pathlib
 import re
@@ -186,27 +186,6 @@ def test_portals():
     assert sky.by_radiance([0, 9, 0]).sample([0.3, 0.6]).pdf == 0 and not sky.sees([0, 9, 0], everywhere).any()
 
 
-# spread
-
-
-def test_spread():
-    spread = et.Spread(np.pi / 2)
-    assert spread.attenuation([0, 1, 0], [0, -1, 0]) == pytest.approx(1 / (1 - np.pi / 4))
-    assert spread.attenuation([0.8, 0.6, 0], [0, -1, 0]) == 0
-    # the power does not depend on the spread
-    w = et.CosineHemisphere().sample(et.OwenSobol(1).pairs(1 << 14))
-    assert spread.attenuation(w, [0, 0, 1]).mean() == pytest.approx(1, rel=1e-3)
-    panel = et.Rectangle([-9, 1, -9], [18, 0, 0], [0, 0, 18])
-    sampler = panel.by_spread([0, 0, 0], spread)
-    assert sampler.solid_angle == pytest.approx(2 * np.pi / 3, rel=3e-4)
-    part = spread.visible_part(panel, [0, 0, 0])
-    assert part.by_solid_angle([0, 0, 0]).solid_angle == pytest.approx(sampler.solid_angle, rel=1e-5)
-    s = sampler.sample(U)
-    assert np.abs(s.uv - 0.5).max() < 0.0557
-    disk = et.Disk([0, 1, 0], [0, -1, 0], 9).by_spread([0, 0, 0], spread)
-    assert disk.solid_angle == pytest.approx(2 * np.pi * (1 - 0.5**0.5), rel=1e-4)
-
-
 # wrong arguments
 
 
@@ -227,9 +206,6 @@ def test_spread():
         (lambda: et.Portal([0, 0, 0], [1, 0, 0], [2, 0, 0]), ValueError, "must not be parallel"),
         (lambda: et.PortalEnvironment([], []), ValueError, "1 to 8"),
         (lambda: et.PortalEnvironment([et.Portal([0, 0, 0], [1, 0, 0], [0, 1, 0])], [np.ones((1, 4097))]), ValueError, "at most 4096"),
-        (lambda: et.Spread(np.nan), ValueError, "NaN"),
-        (lambda: LIGHTS["disk"][0].by_spread(P, 1.0), TypeError, "Spread"),
-        (lambda: et.Spread(1).visible_part(LIGHTS["disk"][0], P), TypeError, "not Disk"),
     ],
 )
 def test_wrong_arguments(call, kind, message):
@@ -259,14 +235,12 @@ def test_the_bits_are_those_of_the_core():
     weights = WEIGHTS.astype(np.float32)
     picture, smooth = et.Picture(weights), et.Picture.interpolated(weights)
     portals = [et.Portal(corner, [0, 0.25, 1], [1, 0, 0]) for corner in ([-0.5, 1, -0.5], [0.25, 1.5, 0])]
-    w = et.UniformSphere().sample(U)
     found = [
         samples(picture.on(PANEL).by_area(P)),
         samples(picture.on(PANEL).by_solid_angle(P)),
         samples(smooth.on(PANEL).by_projected_solid_angle(P, N)),
         samples(smooth.on(BALL).by_visible_area(P)),
         samples(et.PortalEnvironment(portals, [weights, weights]).by_radiance(P)),
-        fnv(et.Spread(1.2).attenuation(w, [0, 0, 1]).view(np.uint32)),
     ]
     assert found == [int(word.replace("_", ""), 16) for word in HASHES]
 

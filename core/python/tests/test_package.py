@@ -11,7 +11,7 @@ from common import CORNERS, N, P, TECHNIQUES, VIEW, WARPS
 
 def test_every_technique_is_here():
     stub = (pathlib.Path(__file__).parent.parent / "etendue.pyi").read_text()
-    # lights with images, and spread, have tests of their own
+    # lights with images have tests of their own
     listed = stub[stub.index("# from the list of techniques") : stub.index("# end of what is from the list")]
     assert len(TECHNIQUES) == listed.count("    def by_") > 20
     assert {type(warp).__name__ for warp, *_ in WARPS} == set(re.findall(r"class (\w+)\(Warp\)", stub))

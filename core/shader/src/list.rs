@@ -36,8 +36,6 @@ pub enum With {
     Normal,
     /// What the surface reflects.
     Reflection,
-    /// The spread of the light.
-    Spread,
 }
 
 /// A light by a technique.
@@ -104,9 +102,6 @@ macro_rules! takes {
     (with (p, reflection)) => {
         With::Reflection
     };
-    (with (p, spread)) => {
-        With::Spread
-    };
     (with $place:tt) => {
         With::Nothing
     };
@@ -116,9 +111,6 @@ macro_rules! takes {
     (type (p, reflection) $r:ident) => {
         Reflection<$r>
     };
-    (type (p, spread) $r:ident) => {
-        Spread<$r>
-    };
     (type $place:tt $r:ident) => {
         ()
     };
@@ -127,9 +119,6 @@ macro_rules! takes {
     };
     (of (p, reflection) $r:ident, $next:ident) => {
         Reflection::<$r>::default().map(|_| $next())
-    };
-    (of (p, spread) $r:ident, $next:ident) => {
-        Spread::<$r>::default().map(|_| $next())
     };
     (of $place:tt $r:ident, $next:ident) => {{
         let _ = $next;
@@ -197,7 +186,7 @@ macro_rules! techniques {
                     }
                     fn prepare<R: Real>(light: &Self::Light<R>, p: Vec3<R>, with: Self::With<R>) -> Self::Sampler<R> {
                         let _ = (p, &with);
-                        etendue::prepared!(light, $by $place, p: p, n: with, reflection: &with, spread: &with)
+                        etendue::prepared!(light, $by $place, p: p, n: with, reflection: &with)
                     }
                     fn map<R: Real>(sampler: Self::Sampler<R>, f: &mut dyn FnMut(R) -> R) -> Self::Sampler<R> {
                         sampler.map(f)

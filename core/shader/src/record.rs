@@ -134,20 +134,6 @@ pub(crate) fn reflection_struct() -> Struct {
     of.0.expect("the list has reflections")
 }
 
-/// The struct of spreads.
-fn spread_struct() -> Struct {
-    let field = |name: &str, doc: &str| Field { name: name.into(), leaf: Leaf::Real, doc: doc.into() };
-    Struct {
-        name: "spread".into(),
-        doc: "How a flat light emits within an angle of its normal; the radiance is multiplied by spread_attenuation."
-            .into(),
-        fields: vec![
-            field("tan_half", "The tangent of half the angle within which the light emits."),
-            field("gain", "1/(tan_half - half the angle)."),
-        ],
-    }
-}
-
 /// Adds the struct of what was prepared, with the fields that the functions use or with all, and these functions. Returns the struct, if it has any
 /// fields, and the nodes of their values.
 fn add_functions(
@@ -243,7 +229,6 @@ pub fn add_technique<T: Technique>(module: &mut Module, wanted: &Wanted) {
     let name = format!("{light_name}_{}", entry.by);
     let structure = match entry.with {
         With::Reflection => Some(("reflection", " and what a surface reflects", reflection_struct())),
-        With::Spread => Some(("spread", " with a spread", spread_struct())),
         With::Nothing | With::Normal => None,
     };
     let ((light, sampler), preparation) = record(|| {

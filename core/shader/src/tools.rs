@@ -5,7 +5,6 @@ use crate::inputs::{Inputs, add_function, pair};
 use crate::module::{Leaf, Module, Type};
 use crate::number::{Number, Truth, Word};
 use etendue::estimate::Heuristic;
-use etendue::light::Spread;
 use etendue::sequence::{Independent, OwenSobol};
 use etendue::{LightSample, Mask, Real, Uint, Vec2, Vec3};
 
@@ -21,7 +20,6 @@ pub fn tools() -> &'static [&'static str] {
         "power_weights",
         "power_light_weight",
         "power_bsdf_weight",
-        "spread_attenuation",
     ]
 }
 
@@ -108,15 +106,6 @@ fn body(name: &str, inputs: &mut Inputs) -> (&'static str, Leaf, Vec<Id>) {
                 "The weight, over its density, of a direction that the surface drew with the density bsdf_pdf, where it hits a light with these fields: by the power heuristic, one sample each. 0 where the light is missed.",
                 Leaf::Real,
                 vec![weight.id()],
-            )
-        }
-        "spread_attenuation" => {
-            let spread = Spread { tan_half: inputs.real("tan_half"), gain: inputs.real("gain") };
-            let factor = spread.attenuation(inputs.vec3("w"), inputs.vec3("n"));
-            (
-                "The factor of the radiance in or against the unit direction w of a flat light with the unit normal n that emits within an angle of it, on either side: (tan_half - tan theta) gain, with theta the angle to the normal, tan_half the tangent of half the spread, and gain 1/(tan_half - half the spread); 0 beyond. Within 4e-7 of the factor on the axis.",
-                Leaf::Real,
-                vec![factor.id()],
             )
         }
         _ => panic!("there is no function {name}"),

@@ -138,9 +138,7 @@ fn point_of<R: Real>(
     (DirectionSample { direction, distance }, uv): (DirectionSample<R>, Option<Vec2<R>>),
 ) -> (Vec3<R>, SurfaceHit<R>) {
     let at = surface.at_distance(direction, distance);
-    let Some(Vec2 { x, y }) = uv else { return (direction, at) };
-    let [x, y] = R::where_any(surface.is_of_part(), [x, y], || [at.uv.x, at.uv.y]);
-    (direction, SurfaceHit { uv: Vec2::new(x, y), ..at })
+    (direction, SurfaceHit { uv: uv.unwrap_or(at.uv), ..at })
 }
 
 /// A pdf, or 0 where it is not finite, since a normal may be of any length.

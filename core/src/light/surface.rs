@@ -1,6 +1,6 @@
 //! The surfaces of lights relative to the shading point, which is the origin of all coordinates here.
 
-use crate::real::{Mask, Real};
+use crate::real::Real;
 use crate::vector::{Vec2, Vec3};
 
 /// Angle in radians by which a direction may leave a shape through rounding: 12 ulp of a component near 1.
@@ -38,11 +38,6 @@ pub trait Surface<R: Real>: Copy {
     #[inline(always)]
     fn at_distance(&self, w: Vec3<R>, distance: R) -> SurfaceHit<R> {
         SurfaceHit { distance, ..self.at(w) }
-    }
-    /// True where the shape that is sampled is a part of the surface, and so has surface coordinates of its own.
-    #[inline(always)]
-    fn is_of_part(&self) -> R::Mask {
-        R::Mask::splat(false)
     }
 }
 

@@ -8,8 +8,8 @@
 ///
 /// A technique is `Name, name_in_c -> Sampler [corners] = SamplerInC[numbers]: method(arguments) measure;`. Its number is its place in the
 /// list. A prepared sampler consists of so many numbers; one that another technique has already has no struct here, and the light converts
-/// into that technique's. The arguments are `p`, the point, and at most one of `n`, the unit normal there, `reflection` and `spread`. The
-/// measure is the sampler's method that returns what it is uniform over, if it has one.
+/// into that technique's. The arguments are `p`, the point, and at most one of `n`, the unit normal there, and `reflection`. The measure is
+/// the sampler's method that returns what it is uniform over, if it has one.
 ///
 /// Hosts without Rust read the documentation of each row, where the fields have other names: it does not name them.
 #[doc(hidden)]
@@ -69,18 +69,15 @@ macro_rules! techniques {
                 edge_t as edge_t: edge,
             } by "solid_angle" {
                 /// Uniform over the surface of area A: pdf distance²/(|cosθ'| A) per steradian, θ' at the light.
-                ParallelogramByArea, parallelogram_by_area -> ParallelogramByArea = EtendueParallelogramByArea[34]: by_area(p) area;
+                ParallelogramByArea, parallelogram_by_area -> ParallelogramByArea = EtendueParallelogramByArea[33]: by_area(p) area;
                 /// Uniform over the solid angle Ω at the point p: pdf 1/Ω per steradian.
-                ParallelogramBySolidAngle, parallelogram_by_solid_angle -> ParallelogramBySolidAngle = EtendueParallelogramBySolidAngle[130]: by_solid_angle(p) solid_angle;
+                ParallelogramBySolidAngle, parallelogram_by_solid_angle -> ParallelogramBySolidAngle = EtendueParallelogramBySolidAngle[129]: by_solid_angle(p) solid_angle;
                 /// Uniform over the projected solid angle Ω⊥ above the horizon of the unit normal n at the point p: pdf cosθ/Ω⊥ per
                 /// steradian, 0 where nothing of the light is above the horizon.
-                ParallelogramByProjectedSolidAngle, parallelogram_by_projected_solid_angle -> ParallelogramByProjectedSolidAngle = EtendueParallelogramByProjectedSolidAngle[295]: by_projected_solid_angle(p, n) projected_solid_angle;
+                ParallelogramByProjectedSolidAngle, parallelogram_by_projected_solid_angle -> ParallelogramByProjectedSolidAngle = EtendueParallelogramByProjectedSolidAngle[294]: by_projected_solid_angle(p, n) projected_solid_angle;
                 /// In proportion to the lobe of a rough surface at the point p: pdf π times that of the reflection, over the projected solid
                 /// angle after its map, per steradian; 0 where nothing of the light is above the horizon.
-                ParallelogramByReflection, parallelogram_by_reflection -> ParallelogramByReflection = EtendueParallelogramByReflection[308]: by_reflection(p, reflection) projected_solid_angle;
-                /// Uniform over the solid angle of the part that the point p sees of a light with this spread; pdf per steradian. Surface
-                /// coordinates are those of the whole light.
-                ParallelogramBySpread, parallelogram_by_spread -> ParallelogramBySolidAngle: by_spread(p, spread) solid_angle;
+                ParallelogramByReflection, parallelogram_by_reflection -> ParallelogramByReflection = EtendueParallelogramByReflection[307]: by_reflection(p, reflection) projected_solid_angle;
             }
             /// A rectangle, of a corner and two perpendicular edges from there, that emits from the side of the first edge × the second one.
             /// Its strata follow the edges. Without area, and from a point in its plane, the pdf is 0. uv: (s, t), the parts of the edges,
@@ -96,16 +93,13 @@ macro_rules! techniques {
                 /// Uniform over the surface of area A, as a parallelogram: pdf distance²/(|cosθ'| A) per steradian, θ' at the light.
                 RectangleByArea, rectangle_by_area -> ParallelogramByArea: by_area(p) area;
                 /// Uniform over the solid angle Ω at the point p: pdf 1/Ω per steradian.
-                RectangleBySolidAngle, rectangle_by_solid_angle -> RectangleBySolidAngle = EtendueRectangleBySolidAngle[86]: by_solid_angle(p) solid_angle;
+                RectangleBySolidAngle, rectangle_by_solid_angle -> RectangleBySolidAngle = EtendueRectangleBySolidAngle[85]: by_solid_angle(p) solid_angle;
                 /// Uniform over the projected solid angle Ω⊥ above the horizon of the unit normal n at the point p, as a parallelogram: pdf
                 /// cosθ/Ω⊥ per steradian, 0 where nothing of the light is above the horizon.
                 RectangleByProjectedSolidAngle, rectangle_by_projected_solid_angle -> ParallelogramByProjectedSolidAngle: by_projected_solid_angle(p, n) projected_solid_angle;
                 /// In proportion to the lobe of a rough surface at the point p, as a parallelogram: pdf π times that of the reflection, over the
                 /// projected solid angle after its map, per steradian; 0 where nothing of the light is above the horizon.
                 RectangleByReflection, rectangle_by_reflection -> ParallelogramByReflection: by_reflection(p, reflection) projected_solid_angle;
-                /// Uniform over the solid angle of the part that the point p sees of a light with this spread; pdf per steradian. Surface
-                /// coordinates are those of the whole light.
-                RectangleBySpread, rectangle_by_spread -> RectangleBySolidAngle: by_spread(p, spread) solid_angle;
             }
             /// A disk that emits from the side of its normal. A radius ≤ 0, and a point in its plane, give pdf 0. uv: (1 + q)/2 for the
             /// position q on the unit disk.
@@ -121,9 +115,6 @@ macro_rules! techniques {
                 DiskByArea, disk_by_area -> DiskByArea = EtendueDiskByArea[14]: by_area(p) area;
                 /// Uniform over the solid angle Ω at the point p: pdf 1/Ω per steradian.
                 DiskBySolidAngle, disk_by_solid_angle -> DiskBySolidAngle = EtendueDiskBySolidAngle[39]: by_solid_angle(p) solid_angle;
-                /// Uniform over the solid angle of what the point p sees of a light with this spread, if that is a disk within the light; else,
-                /// of the whole light. The pdf is per steradian; surface coordinates are those of the whole light.
-                DiskBySpread, disk_by_spread -> DiskBySolidAngle: by_spread(p, spread) solid_angle;
             }
             /// A flat convex polygon of 3 to 8 corners that emits from the side on which they run counterclockwise. Without area, and from a
             /// point in its plane, the pdf is 0. uv: the parts of the edges from the first corner to the second and to the last, clamped to
@@ -234,16 +225,13 @@ macro_rules! prepared {
     ($light:expr, $by:ident(), $($values:tt)*) => {
         $light.$by()
     };
-    ($light:expr, $by:ident(p), p: $p:expr, $($values:tt)*) => {
+    ($light:expr, $by:ident(p), p: $p:expr $(, $($values:tt)*)?) => {
         $light.$by($p)
     };
-    ($light:expr, $by:ident(p, n), p: $p:expr, n: $n:expr, $($values:tt)*) => {
+    ($light:expr, $by:ident(p, n), p: $p:expr, n: $n:expr $(, $($values:tt)*)?) => {
         $light.$by($p, $n)
     };
-    ($light:expr, $by:ident(p, reflection), p: $p:expr, n: $n:expr, reflection: $reflection:expr, $($values:tt)*) => {
+    ($light:expr, $by:ident(p, reflection), p: $p:expr, n: $n:expr, reflection: $reflection:expr) => {
         $light.$by($p, $reflection)
-    };
-    ($light:expr, $by:ident(p, spread), p: $p:expr, n: $n:expr, reflection: $reflection:expr, spread: $spread:expr) => {
-        $light.$by($p, $spread)
     };
 }

@@ -1,7 +1,7 @@
 //! What a choice of lights needs to know of a light.
 
 use crate::light::{
-    BilinearPatch, Disk, Line, Parallelogram, PointLight, Polygon, Rectangle, Sphere, SpotLight, Spread, Triangle,
+    BilinearPatch, Disk, Line, Parallelogram, PointLight, Polygon, Rectangle, Sphere, SpotLight, Triangle,
 };
 use crate::real::Real;
 use crate::vector::Vec3;
@@ -57,14 +57,6 @@ fn power(flux: f64) -> f32 {
 }
 
 impl LightBound {
-    /// Returns the bound of the same light where it has this spread, which does not change its power.
-    #[must_use]
-    pub fn within(self, spread: &Spread<f32>) -> Self {
-        let tangent = f64::from(spread.tan_half);
-        // less what the tangent of a direction is rounded by
-        let cos = (1.0 - 1e-6) / tangent.mul_add(tangent, 1.0).sqrt();
-        Self { cos_cone: (cos as f32).next_down().greater(0.0), ..self }
-    }
     /// Bounds a light that emits in all directions from a sphere, which may be a point.
     fn about(center: Vec3<f32>, radius: f32, flux: f64) -> Self {
         Self { center: center.to_array(), radius, power: power(flux), ..Self::default() }

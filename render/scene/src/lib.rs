@@ -29,7 +29,7 @@
 //! | pictures in EXR files | their display windows: black where they have no data, and without the data outside |
 //! | `goniometric` | itself, with the texel of a direction; also IES files of type C, which pbrt does not read, without factors of `TILT` |
 //! | `portal` | itself, in world space; a ray that escapes beside it is black, as in pbrt |
-//! | `"float spread"` of area lights, which pbrt does not have | the full angle of [`Spread`](etendue::light::Spread) in degrees, as in Cycles |
+//! | `"float spread"` of area lights, which pbrt does not have | the full angle of [`Spread`](etendue_render::spread::Spread) in degrees, as in Cycles |
 //! | `"string profile"` of spot and area lights, which pbrt does not have | intensities by direction, as below |
 //! | media, motion | ignored; stills at the start |
 //! | `cropwindow`, `pixelbounds` | that part of the image, in its place in the EXR file |

@@ -8,8 +8,9 @@ use super::form::{Approach, Extent, Form, Outline, Solid, wide};
 use super::points::{Points, on_plane};
 use crate::occlusion::Convex;
 use crate::packet::{M8, V8, X8};
+use crate::spread::Spread;
 use crate::technique::Measure;
-use etendue::light::{self, Spread};
+use etendue::light;
 use etendue::{Frame, LightSample, LightSampler, Real, Vec2, Vec3};
 use std::f64::consts::PI;
 

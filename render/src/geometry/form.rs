@@ -3,8 +3,9 @@
 use super::points::Points;
 use crate::occlusion::Convex;
 use crate::packet::{M8, V8, X8};
+use crate::spread::Spread;
 use crate::technique::Measure;
-use etendue::light::{Picture, Spread};
+use etendue::light::Picture;
 use etendue::{LightSample, Mask, Real, Vec2, Vec3};
 
 /// The form of a shape: where it is, how rays meet it, how it is sampled as a light, and what stands for it in closed forms.

@@ -6,8 +6,9 @@ use super::form::{Chart, Extent, Form, Outline, projected, wide};
 use super::points::{Points, on_plane};
 use crate::occlusion::Convex;
 use crate::packet::{V8, X8};
+use crate::spread::Spread;
 use crate::technique::Measure;
-use etendue::light::{self, Picture, Spread};
+use etendue::light::{self, Picture};
 use etendue::{LightSample, LightSampler, Vec2, Vec3};
 
 /// The parallelogram `p + s u + t v` for s, t in \[0,1\]; the normal is u × v.
@@ -83,7 +84,7 @@ impl Form for Parallelogram {
     fn pdf(&self, spread: Option<Spread<f32>>, p: V8, w: V8) -> X8 {
         let mut light = self.splat();
         if let Some(spread) = spread {
-            light = light.visible_part(p, &Spread::splat(spread));
+            light = spread.splat().visible_part(&light, p);
         }
         light.by_solid_angle(p).pdf_of_hit(w)
     }

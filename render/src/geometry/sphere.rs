@@ -4,8 +4,9 @@ use super::form::{Approach, Chart, Extent, Form, NEAR, Outline, Solid, wide};
 use super::points::{D8, Points, each, facing, lifted, unit, zero};
 use crate::occlusion::Convex;
 use crate::packet::{M8, V8, X8, each_bit, max, select, widen};
+use crate::spread::Spread;
 use crate::technique::Measure;
-use etendue::light::{self, Picture, Spread};
+use etendue::light::{self, Picture};
 use etendue::{Frame, LightSample, LightSampler, Mask, Real, Vec2, Vec3, f64x8};
 use std::f64::consts::PI;
 

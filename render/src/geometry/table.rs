@@ -7,8 +7,9 @@ use super::points::Points;
 use super::sphere::Sphere;
 use super::triangle::Triangle;
 use crate::packet::{M8, V8, X8};
+use crate::spread::Spread;
 use crate::technique::Measure;
-use etendue::light::{Picture, Spread};
+use etendue::light::Picture;
 use etendue::{LightSample, Vec2, Vec3};
 
 /// What is made of each line of the table. `$` stands for itself in the macro that this one defines.

@@ -6,8 +6,9 @@ use super::form::{Chart, Extent, Form, Outline, projected, wide};
 use super::points::{Points, on_plane};
 use crate::occlusion::Convex;
 use crate::packet::{V8, X8};
+use crate::spread::Spread;
 use crate::technique::Measure;
-use etendue::light::{self, Picture, Spread};
+use etendue::light::{self, Picture};
 use etendue::{LightSample, LightSampler, Vec2, Vec3};
 
 /// The corners of a triangle; the normal is (v1 − v0) × (v2 − v0).

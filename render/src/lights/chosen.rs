@@ -5,7 +5,7 @@ use crate::bvh::SHAPE;
 use crate::geometry::{self, Kind, Parallelogram, Sphere};
 use crate::lobe::Lobe;
 use crate::packet::{M8, V8, X8, each_bit, equal, select};
-use etendue::light::Spread;
+use crate::spread::Spread;
 use etendue::{LightSample, LightSampler, Mask, Real, Vec2, u32x8};
 
 /// A direction to a light in each lane: the part of a [`LightSample`] that direct lighting needs.
@@ -116,7 +116,7 @@ impl Chosen {
         // a picture is on the whole of its light
         let has_spread = self.is(Kind::Parallelogram as u32) & self.has(SPREAD) & !self.has(PICTURED);
         let light = Parallelogram::light(self.vectors());
-        let part = etendue::Parallelogram::blend(has_spread, light.visible_part(p, &self.spread), light);
+        let part = etendue::Parallelogram::blend(has_spread, self.spread.visible_part(&light, p), light);
         (self.place, self.first, self.second) = (part.corner, part.edge_s, part.edge_t);
         normal
     }

@@ -4,7 +4,7 @@
 use super::chosen::Chosen;
 use super::directed::{self, DirectedLight};
 use super::record::{Candidate, KINDS, LightRecord, PICTURED, PROFILED, SPREAD, TWO_SIDED, sum, wide};
-use super::{point, spot, spread, sun};
+use super::{point, spot, sun};
 use crate::geometry::{self, Extent};
 use crate::packet::{V8, X8};
 use crate::scene::{DeltaLight, Scene, Shape};
@@ -98,7 +98,7 @@ impl Candidate {
             // the rounding of the centre moves the sphere by less than this
             radius: (radius * (1.0 + 1e-6)) as f32,
             normal: narrow(if length > 0.0 { normal * (1.0 / length) } else { normal }),
-            cos_cone: if record.kind & SPREAD == 0 { cos_cone } else { spread::cos_cone(&record.spread) },
+            cos_cone: if record.kind & SPREAD == 0 { cos_cone } else { record.spread.cos_cone() },
             two_sided: two_sided && length > 0.0,
             power: match far {
                 Some(_) => 0.0,

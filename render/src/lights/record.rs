@@ -2,8 +2,8 @@
 
 use crate::bvh::NOTHING;
 use crate::geometry::Extent;
+use crate::spread::Spread;
 use etendue::Vec3;
-use etendue::light::Spread;
 
 /// The bits of the kind in a record; flags follow.
 pub(super) const KINDS: u32 = 15;

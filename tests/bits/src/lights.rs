@@ -1,11 +1,8 @@
-//! Every light by every technique: samples, pdfs, inverses and hits; environment images and spreads.
+//! Every light by every technique: samples, pdfs, inverses and hits; environment images and portals.
 
 use crate::figures::{Figures, Lanes, List, Routine};
-use etendue::light::{EnvironmentMap, ImageEnvironment, Portal, PortalEnvironment, PortalTable, Spread, Texel};
-use etendue::{
-    ConstantEnvironment, DirectionalLight, Disk, LightSample, LightSampler, Parallelogram, PointLight, Real, Rectangle,
-    SpotLight, Sun,
-};
+use etendue::light::{EnvironmentMap, ImageEnvironment, Portal, PortalEnvironment, PortalTable, Texel};
+use etendue::{ConstantEnvironment, DirectionalLight, LightSample, LightSampler, PointLight, Real, SpotLight, Sun};
 use etendue_judge::area_lights::AreaLight;
 use etendue_judge::fixture::Fixture;
 use etendue_judge::generators::{self, Random};
@@ -184,37 +181,6 @@ impl Routine for Portals {
     }
 }
 
-/// Flat lights that emit within an angle of their normal.
-struct Narrow;
-
-impl Routine for Narrow {
-    fn run<R: Real>(&self, figures: &mut Figures) {
-        let mut random = Random::new(902);
-        figures.packets::<R>(20 * Figures::MOST, |_, lanes| {
-            let places: Vec<_> = (0..R::LANES)
-                .map(|_| {
-                    let extreme = random.word().is_multiple_of(4);
-                    let p = if extreme { generators::nasty(&mut random) } else { unit(&mut random) };
-                    (p, [unit(&mut random), unit(&mut random), unit(&mut random)], square(&mut random))
-                })
-                .collect();
-            let each: Vec<_> =
-                places.iter().map(|place| Spread::<f64>::new(0.02 + 3.0 * f64::from(place.2[0]))).collect();
-            let spread = Spread { tan_half: lanes_of::<R>(|i| each[i].tan_half), gain: lanes_of(|i| each[i].gain) };
-            let vector = |k: usize| vectors_of::<R>(|i| places[i].1[k]);
-            let (p, a, b, c) = (vectors_of(|i| places[i].0), vector(0), vector(1), vector(2));
-            let us: Vec<_> = places.iter().map(|place| place.2).collect();
-            let ws: Vec<_> = places.iter().map(|place| place.1[2]).collect();
-            sampler(lanes, &Parallelogram::new(a, b, c).by_spread(p, &spread), &us, &ws);
-            sampler(lanes, &Rectangle::new(a, b, b.cross(c)).by_spread(p, &spread), &us, &ws);
-            sampler(lanes, &Disk::new(a, b, R::lit(0.75)).by_spread(p, &spread), &us, &ws);
-            lanes.real(spread.attenuation(b, c));
-            let part = Parallelogram::new(a, b, c).visible_part(p, &spread);
-            [part.corner, part.edge_s, part.edge_t].into_iter().for_each(|v| lanes.vector(v));
-        });
-    }
-}
-
 pub(crate) fn add(list: &mut List<'_>) {
     for (kind, (shape, by)) in AreaLight::KINDS.iter().enumerate() {
         list.add(format!("light/{shape:?}/{by:?}"), &Area::new(kind));
@@ -225,6 +191,5 @@ pub(crate) fn add(list: &mut List<'_>) {
     }
     list.add("light/Image/EqualArea", &Sky(EnvironmentMap::EqualArea, 16, 16));
     list.add("light/Image/Equirectangular", &Sky(EnvironmentMap::Equirectangular, 24, 13));
-    list.add("light/Spread", &Narrow);
     list.add("light/Portals", &Portals);
 }

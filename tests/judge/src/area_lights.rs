@@ -127,14 +127,10 @@ macro_rules! row {
     ((p, reflection), ($shape:expr, $by:expr)) => {
         None
     };
-    ((p, spread), ($shape:expr, $by:expr)) => {
-        None
-    };
     ($place:tt, ($shape:expr, $by:expr)) => {
         Some(($shape, $by))
     };
     ((p, reflection), $done:expr) => {};
-    ((p, spread), $done:expr) => {};
     ($place:tt, $done:expr) => {
         $done
     };
@@ -147,19 +143,19 @@ macro_rules! techniques {
             )+
         }
     )+) => {
-        /// All rows of the core's list, in its order, but for lobes and spreads, which have fixtures of their own.
+        /// All rows of the core's list, in its order, but for lobes, which have fixtures of their own.
         const ROWS: &[Option<(LightShape, Measure)>] = &[$($(row!($place, (shape!($light), measure!($by))),)+)+];
         /// The light of a shape, by a technique.
         fn prepare<R: Real>(shape: LightShape, by: Measure, (v, radius): &([Vec3<R>; 9], R)) -> Box<dyn LightSampler<R>> {
             $($(row!($place, if (shape, by) == (shape!($light), measure!($by)) {
-                return boxed(|| etendue::prepared!($light::placed(v, *radius), $by $place, p: v[0], n: v[4],));
+                return boxed(|| etendue::prepared!($light::placed(v, *radius), $by $place, p: v[0], n: v[4]));
             });)+)+
             panic!("the core's list has no {shape:?} by {by:?}");
         }
         /// The same, prepared in scalars and then in every lane.
         fn splat<R: Real>(shape: LightShape, by: Measure, (v, radius): &([Vec3<R::Scalar>; 9], R::Scalar)) -> Box<dyn LightSampler<R>> {
             $($(row!($place, if (shape, by) == (shape!($light), measure!($by)) {
-                return boxed(|| etendue::prepared!($light::placed(v, *radius), $by $place, p: v[0], n: v[4],).splat::<R>());
+                return boxed(|| etendue::prepared!($light::placed(v, *radius), $by $place, p: v[0], n: v[4]).splat::<R>());
             });)+)+
             panic!("the core's list has no {shape:?} by {by:?}");
         }

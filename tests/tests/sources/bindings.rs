@@ -32,7 +32,6 @@ impl Row {
         match self.place {
             [_, "n"] => (1, "ON_SURFACE"),
             [_, "reflection"] => (2, "REFLECTED"),
-            [_, "spread"] => (3, "SPREAD"),
             _ => (0, "ANYWHERE"),
         }
     }
@@ -115,8 +114,7 @@ fn cpp_light(light: &Light, out: &mut String) -> std::fmt::Result {
             }
             [_] => ("", ""),
             [_, "n"] => (", Vec3 n", ", n"),
-            [_, "reflection"] => (", const EtendueReflection& reflection", ", reflection"),
-            _ => (", const EtendueSpread& spread", ", spread"),
+            _ => (", const EtendueReflection& reflection", ", reflection"),
         };
         writeln!(out, "    {class} {by}(Vec3 at{}) const {{ return {{*this, at{}}}; }}", argument.0, argument.1)?;
     }
@@ -186,7 +184,6 @@ fn python_light(light: &Light, out: &mut String) -> std::fmt::Result {
     for Row { by, place, .. } in light.techniques {
         let kind = |name| match name {
             "reflection" => "Reflection",
-            "spread" => "Spread",
             _ => "ArrayLike",
         };
         let place: String = place.iter().map(|&name| format!(", {name}: {}", kind(name))).collect();
@@ -202,7 +199,7 @@ fn python_light(light: &Light, out: &mut String) -> std::fmt::Result {
             out,
             "        *,\n        p: ArrayLike,\n        {at}: ArrayLike,\n        n: ArrayLike | None = None,"
         )?;
-        for name in ["alpha", "view", "spread"] {
+        for name in ["alpha", "view"] {
             writeln!(out, "        {name}: ArrayLike | None = None,")?;
         }
         writeln!(out, "        by: Literal[{}] = \"{}\",", by.join(", "), light.default)?;

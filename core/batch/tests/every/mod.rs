@@ -71,9 +71,6 @@ macro_rules! visit_techniques {
     (with (p, reflection)) => {
         glossy()
     };
-    (with (p, spread)) => {
-        Spread::new(2.0)
-    };
     (with $place:tt) => {
         ()
     };

@@ -109,7 +109,7 @@ impl<'a> Lights<'a> {
 impl TechniqueVisitor for Lights<'_> {
     fn visit<T: Technique>(&mut self) {
         let entry = T::ENTRY;
-        // by reflection and by spread, the light is that of the technique before
+        // by reflection, the light is that of the technique before
         let is_own = matches!(entry.with, With::Nothing | With::Normal);
         self.kind += usize::from(is_own);
         let kind = self.kind - 1;
@@ -129,10 +129,6 @@ impl TechniqueVisitor for Lights<'_> {
         let mut inputs = arguments(kind, own_numbers);
         let mut random = Random::new(4100 + kind as u64);
         for input in &mut inputs {
-            if entry.with == With::Spread {
-                // from a narrow cone to nearly all directions
-                input.splice(own_numbers..own_numbers, [random.magnitude(0.02, 50.0).abs() as f32, 1.0]);
-            }
             if entry.with == With::Reflection {
                 let [normal, view] = [(); 2].map(|()| vec3(&random.direction().map(|x| x as f32)));
                 let size = random.unit();

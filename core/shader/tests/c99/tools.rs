@@ -3,7 +3,6 @@
 use crate::driver::{HOSTILE, slots};
 use crate::program::Driver;
 use etendue::estimate::Heuristic;
-use etendue::light::Spread;
 use etendue::sequence::{Independent, OwenSobol, Sequence};
 use etendue::{LightSample, Vec2, Vec3};
 use etendue_judge::generators::Random;
@@ -15,7 +14,6 @@ fn tool(name: &str, x: &[f32]) -> Vec<f32> {
     let word = |k: usize| x[k].to_bits();
     let truth = |k: usize| x[k] > 0.5;
     let pair = |u: Vec2<f32>| vec![u.x, u.y];
-    let three = |k: usize| Vec3::new(x[k], x[k + 1], x[k + 2]);
     let sample =
         |pdf: f32, emits: bool, delta: bool| LightSample { pdf, emits, delta, ..LightSample::miss(Vec3::default()) };
     match name {
@@ -33,7 +31,6 @@ fn tool(name: &str, x: &[f32]) -> Vec<f32> {
         "power_weights" => Heuristic::POWER.weights([x[0], x[1]]).to_vec(),
         "power_light_weight" => vec![Heuristic::POWER.light_weight(&sample(x[0], truth(1), truth(2)), x[3])],
         "power_bsdf_weight" => vec![Heuristic::POWER.bsdf_weight(x[0], &sample(x[1], truth(2), false))],
-        "spread_attenuation" => vec![Spread { tan_half: x[0], gain: x[1] }.attenuation(three(2), three(5))],
         _ => panic!("the test does not know {name}"),
     }
 }

@@ -13,20 +13,13 @@ lanewise! {
         first: Vec3<R>,
         second: Vec3<R>,
         plane: AffinePlane<R>,
-        /// 1 where a part of the surface is sampled, else 0.
-        part: R,
     }
 }
 
 impl<R: Real> PlacedParallelogram<R> {
     #[inline(always)]
     pub(in crate::light) fn new(origin: Vec3<R>, first: Vec3<R>, second: Vec3<R>) -> Self {
-        Self { origin, first, second, plane: AffinePlane::new(origin, first, second), part: R::lit(0.0) }
-    }
-    /// The same surface, of which a part is sampled.
-    #[inline(always)]
-    pub(in crate::light) fn of_part(self) -> Self {
-        Self { part: R::lit(1.0), ..self }
+        Self { origin, first, second, plane: AffinePlane::new(origin, first, second) }
     }
 }
 
@@ -34,10 +27,6 @@ impl<R: Real> Surface<R> for PlacedParallelogram<R> {
     #[inline(always)]
     fn at(&self, w: Vec3<R>) -> SurfaceHit<R> {
         self.plane.at(w)
-    }
-    #[inline(always)]
-    fn is_of_part(&self) -> R::Mask {
-        self.part.gt(R::lit(0.0))
     }
 }
 

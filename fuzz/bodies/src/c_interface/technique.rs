@@ -25,17 +25,14 @@ enum Needs {
     Nothing,
     Normal,
     Reflection,
-    Spread,
 }
 
-/// The roughness of all surfaces, which are seen along their normals, and the spread of all lights, in radians.
+/// The roughness of all surfaces, which are seen along their normals.
 const ALPHA: f32 = 0.3;
-const SPREAD: f64 = 1.2;
 
 /// What a light is prepared for where the surface has this normal, in memory that lives as long as what is returned; none without a normal.
 struct With {
     reflection: EtendueReflection,
-    spread: EtendueSpread,
     normal: Column,
     needs: Needs,
 }
@@ -43,23 +40,20 @@ struct With {
 impl With {
     unsafe fn new(needs: Needs, normal: Column) -> Option<Self> {
         let mut reflection = EtendueReflection { data: [0.0; 14], albedo: 0.0, schlick: 0.0 };
-        let mut spread = EtendueSpread { tan_half: 0.0, gain: 0.0 };
         if normal.is_null() {
             return None;
         }
         // SAFETY: the caller's
         unsafe {
             assert_eq!(etendue_reflection_prepare(ALPHA, normal, normal, &mut reflection), EtendueStatus::Ok);
-            assert_eq!(etendue_spread_prepare(SPREAD, &mut spread), EtendueStatus::Ok);
         }
-        Some(Self { reflection, spread, normal, needs })
+        Some(Self { reflection, normal, needs })
     }
     fn pointer(&self) -> *const c_void {
         match self.needs {
             Needs::Nothing => null(),
             Needs::Normal => self.normal.cast(),
             Needs::Reflection => from_ref(&self.reflection).cast(),
-            Needs::Spread => from_ref(&self.spread).cast(),
         }
     }
 }
@@ -89,14 +83,6 @@ impl Withs {
                     etendue_reflection_prepare_batch(n, alphas.as_ptr(), normals.as_ptr(), normals.as_ptr(), &out)
                 };
             }
-            Needs::Spread => {
-                let mut spread = EtendueSpread { tan_half: 0.0, gain: 0.0 };
-                // SAFETY: the pointer is to a spread
-                unsafe { etendue_spread_prepare(SPREAD, &mut spread) };
-                columns.truncate(2);
-                numbers[..n].fill(spread.tan_half);
-                numbers[n.max(1)..][..n].fill(spread.gain);
-            }
         }
         if missing && !columns.is_empty() {
             columns[0] = null_mut();
@@ -114,9 +100,6 @@ macro_rules! needs {
     };
     ((p, reflection)) => {
         Needs::Reflection
-    };
-    ((p, spread)) => {
-        Needs::Spread
     };
     ($place:tt) => {
         Needs::Nothing

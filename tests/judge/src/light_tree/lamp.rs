@@ -3,8 +3,6 @@
 use crate::area_lights::{AreaLight, LightShape, Measure};
 use crate::fixture::Fixture;
 use crate::packets::squares_of;
-#[cfg(feature = "checks")]
-use etendue::light::Spread;
 use etendue::select::LightBound;
 use etendue::{LightSample, Vec3};
 use etendue_oracle::{V3, along, cross, length, narrow, sub, unit, wide};
@@ -75,8 +73,8 @@ impl Lamp {
     pub fn contribution(&self, p: [f32; 3], n: [f32; 3], u: [f32; 2]) -> Option<LightSample<f32>> {
         let shines = |sample: &LightSample<f32>| {
             let cos = Vec3::from(n).dot(sample.direction);
-            let spread = Spread::<f32>::new(self.spread.into());
-            let lit = self.spread <= 0.0 || spread.attenuation(sample.direction, sample.normal) > 0.0;
+            let cos_light = f64::from(sample.direction.dot(sample.normal)).abs();
+            let lit = self.spread <= 0.0 || cos_light > libm::cos(0.5 * f64::from(self.spread));
             sample.pdf > 0.0 && cos > 0.0 && lit && (sample.emits || self.two_sided && !sample.delta)
         };
         let light = AreaLight {
