@@ -15,8 +15,8 @@ mod render;
 mod view;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+use etendue_laboratory::chart;
 use etendue_laboratory::options::say;
-use etendue_laboratory::{atlas, chart};
 use std::any::TypeId;
 use std::error::Error;
 use std::io;
@@ -58,10 +58,6 @@ enum Command {
     ///
     /// Example: `etendue chart studio --quick` finds the best technique for a scene in less than three minutes.
     Chart(chart::Options),
-    /// Map where each technique of the library loses accuracy, compared with textbook formulas
-    ///
-    /// Example: `etendue atlas --shape triangle --quick` maps triangles in some seconds.
-    Atlas(atlas::Options),
     /// List the built-in scenes, techniques, choices of a light, samplers and sensors
     ///
     /// Example: `etendue list | grep lens` finds a scene that is seen through a lens.
@@ -114,7 +110,6 @@ fn run(command: Command) -> Result<(), Box<dyn Error>> {
         Command::Merge(options) => merge::run(&options)?,
         Command::Compare(options) => compare::run(&options)?,
         Command::Chart(options) => chart::run(&options, &command_line())?,
-        Command::Atlas(options) => atlas::run(&options)?,
         Command::List => list::run()?,
     }
     Ok(())

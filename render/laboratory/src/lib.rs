@@ -1,13 +1,11 @@
-//! Measures the renderer and the library: the error of every technique against its time, and where the library loses accuracy.
+//! Measures the renderer: the error of every technique against its time.
 //!
 //! - [`chart`]: error against time on scenes, as a report with charts.
-//! - [`atlas`]: greatest errors of every shape over size, elevation, distance and aspect ratio, beside textbook formulas.
 //! - [`cost`]: time per sample, for these and for the benchmarks.
 //! - [`interrupt`]: what ends the program from outside.
 //! - [`options`]: what command lines share.
 //! - [`processor_time`]: the time that the processors spend for this program.
 
-pub mod atlas;
 pub mod chart;
 pub mod cost;
 mod hash;

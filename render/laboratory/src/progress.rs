@@ -32,7 +32,7 @@ pub fn waiting<T>(what: String, work: impl FnOnce() -> T) -> T {
 }
 
 /// A progress bar, which draws nothing unless stderr is a terminal.
-pub(crate) fn bar(total: u64, what: &str) -> Result<ProgressBar, Box<dyn Error>> {
+pub fn bar(total: u64, what: &str) -> Result<ProgressBar, Box<dyn Error>> {
     let style = ProgressStyle::with_template("{msg} {wide_bar} {percent:>3} %  {elapsed}, {eta} left")?;
     Ok(ProgressBar::new(total).with_style(style).with_message(what.to_owned()))
 }

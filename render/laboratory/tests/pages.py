@@ -1,6 +1,6 @@
-"""Drives the pages of `etendue chart` and `etendue atlas` in a headless Chromium: wide, narrow, by keyboard and in print.
+"""Drives the pages of `etendue chart` and `etendue-atlas` in a headless Chromium: wide, narrow, by keyboard and in print.
 
-pages.py ETENDUE [FOLDER]: the program that writes the pages, and a folder that keeps pictures of them. Half a minute, most of it for the
+pages.py PROGRAMS [FOLDER]: the folder of the programs that write the pages, and a folder that keeps pictures of them. Half a minute, most of it for the
 measurements that the pages show."""
 
 import json
@@ -12,9 +12,9 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "core/playground/tests"))
 from browser import Browser, find
 
-CHART = "chart quads --quick --size 24x18 --spp 1,16 --replicates 2 -o"
+CHART = "etendue chart quads --quick --size 24x18 --spp 1,16 --replicates 2 -o"
 # the shape with the longest names, too
-ATLAS = "atlas --quick --shape triangle,projected-parallelogram -o"
+ATLAS = "etendue-atlas --quick --shape triangle,projected-parallelogram -o"
 # of A4 between margins of a centimetre, in CSS pixels
 PRINTED = 718
 CONTROLS = "button, select, input, textarea, summary, a[href], [tabindex]:not([tabindex='-1'])"
@@ -109,13 +109,14 @@ def printed(browser, page):
 def main():
     chromium = find()
     if not chromium:
-        print("pages.py: there is no Chromium here: the pages of `etendue chart` and `etendue atlas` are not tested")
+        print("pages.py: there is no Chromium here: the pages of `etendue chart` and `etendue-atlas` are not tested")
         return
-    program = Path(sys.argv[1]).resolve()
+    programs = Path(sys.argv[1]).resolve()
     with tempfile.TemporaryDirectory() as scratch:
         folder = Path(scratch)
         for command in [f"{CHART} {folder / 'chart'}", f"{ATLAS} {folder / 'atlas'}"]:
-            subprocess.run([program, *command.split()], check=True, capture_output=True)
+            program, *arguments = command.split()
+            subprocess.run([programs / program, *arguments], check=True, capture_output=True)
         browser = Browser(chromium)
         for page in [folder / "chart/report.html", folder / "atlas/atlas.html"]:
             for width in [1400, 400]:

@@ -224,10 +224,10 @@ fn imports_are_found() {
         ("render", "render::bvh", "stream", "single_ray"),
         ("render", "render::bvh", "bvh", "stream"),
         ("render", "render::drive", "tile", "estimator"),
-        ("render/laboratory", "render/laboratory", "atlas", "chart"),
+        ("render/laboratory", "render/laboratory", "chart", "options"),
         ("render/laboratory", "render/laboratory::chart", "report", "outcome"),
         ("render/laboratory", "render/laboratory::chart", "plot", "stats"),
-        ("render/laboratory", "render/laboratory::atlas", "survey", "truth"),
+        ("tests/atlas", "tests/atlas", "survey", "truth"),
         ("render/cli", "render/cli", "render", "output"),
         ("tests/oracle", "tests/oracle", "curves", "quadrature"),
         ("tests/judge", "tests/judge", "suite", "properties"),
@@ -252,7 +252,7 @@ fn imports_are_found() {
 }
 
 /// Which packages of the workspace each one may use, and which more its tests, benchmarks and examples may.
-const ARROWS: [(&str, &[&str], &[&str]); 22] = [
+const ARROWS: [(&str, &[&str], &[&str]); 23] = [
     ("core", &[], &[]),
     ("core/batch", &["etendue"], &[]),
     ("core/c", &["etendue", "etendue-batch"], &[]),
@@ -262,9 +262,10 @@ const ARROWS: [(&str, &[&str], &[&str]); 22] = [
     ("core/shader/device", &[], &[]),
     ("render", &["etendue"], &["etendue-oracle"]),
     ("render/scene", &["etendue", "etendue-render"], &[]),
-    ("render/laboratory", &["etendue", "etendue-judge", "etendue-oracle", "etendue-render", "etendue-scene"], &[]),
+    ("render/laboratory", &["etendue-render", "etendue-scene"], &[]),
     ("render/cli", &["etendue-laboratory", "etendue-render", "etendue-scene"], &["etendue-oracle"]),
     ("render/tests", &[], &["etendue", "etendue-oracle", "etendue-judge", "etendue-render", "etendue-scene"]),
+    ("tests/atlas", &["etendue", "etendue-judge", "etendue-laboratory", "etendue-oracle", "etendue-render"], &[]),
     ("tests/bits", &["etendue", "etendue-judge"], &[]),
     ("tests/fit", &[], &[]),
     ("tests/oracle", &[], &[]),

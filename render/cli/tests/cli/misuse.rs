@@ -32,10 +32,9 @@ fn bad_values_are_named_with_their_option() {
         ("chart", "--replicates", "-1", "from 1 to 10000"),
         ("chart", "--time-limit", "-1", "from 0 to"),
         ("chart", "--reference-error", "-1", "at least 0"),
-        ("atlas", "--threads", "-1", "0 for one thread per core"),
+        ("render", "--threads", "-1", "0 for one thread per core"),
     ] {
-        let words: &[&str] = if command == "atlas" { &[command] } else { &[command, "quads"] };
-        let error = folder.fail(&[words, &[option, value]].concat());
+        let error = folder.fail(&[command, "quads", option, value]);
         let first = error.lines().next().unwrap();
         assert!(first.contains(option) && first.contains(value), "{option} {value}: {error}");
         assert!(error.contains(valid) && !error.contains("'-- "), "{option} {value}: {error}");
@@ -199,10 +198,8 @@ fn files_that_are_no_images_or_folders_are_named() {
     folder.write("file.exr", "");
     let error = folder.fail(&["compare", "file.exr", "file.exr"]);
     assert!(error.contains("file.exr: not a valid EXR image: it is cut off"), "{error}");
-    for command in [&["chart", "quads"][..], &["atlas", "--quick", "--shape", "sphere"]] {
-        let error = folder.fail(&[command, &["-o", "file.exr"]].concat());
-        assert!(error.contains("file.exr: cannot make this folder: a file has this name"), "{error}");
-    }
+    let error = folder.fail(&["chart", "quads", "-o", "file.exr"]);
+    assert!(error.contains("file.exr: cannot make this folder: a file has this name"), "{error}");
     let error = folder.fail(&["plan", "quads", "-o", "a.exr", "--parts", "file.exr"]);
     assert!(error.contains("--parts file.exr: this is a file, not a folder"), "{error}");
     let film = scene("").replace("Film \"rgb\"", "Film \"rgb\" \"string filename\" \"nowhere/a.png\"");

@@ -1,7 +1,7 @@
 //! Exact results for a light seen from the origin: what the judge knows of it, and the core's own map in double precision, whose directions,
 //! densities and inverses the properties compare with definitions.
 
-use super::pose::ShapeKind;
+use crate::pose::ShapeKind;
 use etendue::LightSampler;
 use etendue_judge::area_lights::{AreaLight, LightShape, Measure};
 use etendue_judge::fixture::{Fixture, sample_at};

@@ -1,8 +1,8 @@
 //! The maps of a sweep: colours by error, contours between decades, axes.
 
-use super::pose::Sweep;
-use super::survey::{ErrorMap, Figures};
-use crate::chart::plot::escape;
+use crate::pose::Sweep;
+use crate::survey::{ErrorMap, Figures};
+use etendue_laboratory::chart::plot::escape;
 use std::fmt::Write as _;
 
 /// The quantity that a map shows.

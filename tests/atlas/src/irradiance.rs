@@ -1,8 +1,8 @@
 //! Bias and variance of the irradiance that a technique estimates.
 
-use super::methods::Method;
-use super::pose::ShapeKind;
-use super::truth::Truth;
+use crate::methods::Method;
+use crate::pose::ShapeKind;
+use crate::truth::Truth;
 use etendue::Vec3;
 use etendue_judge::area_lights::{AreaLight, LightShape};
 use etendue_judge::lights::sampler::Sample;

@@ -1,9 +1,9 @@
 //! Writes the table and the page.
 
-use super::maps::{ERRORS, RATIOS, blend, sheet};
-use super::pose::{ShapeKind, Sweep};
-use super::survey::{ErrorMap, LIMIT};
-use crate::chart::plot::escape;
+use crate::maps::{ERRORS, RATIOS, blend, sheet};
+use crate::pose::{ShapeKind, Sweep};
+use crate::survey::{ErrorMap, LIMIT};
+use etendue_laboratory::chart::plot::escape;
 use etendue_oracle::Greatest;
 use etendue_render::files;
 use std::error::Error;

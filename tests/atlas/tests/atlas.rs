@@ -1,13 +1,16 @@
 //! The atlas: bounds on the errors that it finds in every technique.
 
 use core::f64::consts::PI;
+use etendue_atlas::methods;
+use etendue_atlas::pose::{ShapeKind, Sweep, sweeps};
+use etendue_atlas::survey::{Detail, Figures, LIMIT, survey};
+use etendue_atlas::truth::Truth;
 use etendue_judge::area_lights::AreaLight;
-use etendue_laboratory::atlas::methods;
-use etendue_laboratory::atlas::pose::{ShapeKind, Sweep, sweeps};
-use etendue_laboratory::atlas::survey::{Detail, Figures, LIMIT, survey};
-use etendue_laboratory::atlas::truth::Truth;
 use etendue_oracle::tier::cases;
 use etendue_oracle::{dot, length, wide};
+use std::fs;
+use std::path::Path;
+use std::process::Command;
 
 fn close(a: f64, b: f64, tolerance: f64, what: &str) {
     assert!((a / b - 1.0).abs() <= tolerance, "{what}: {a:e}, expected {b:e}, off by {:.1e}", a / b - 1.0);
@@ -19,7 +22,7 @@ fn cells_within_the_contract() {
     let detail = Detail { turns: 1, samples: cases(4, 16), strata: 4, quick: true };
     let charts = survey(ShapeKind::all(), detail, || ());
     let is_ours = |(name, ours): &(String, bool)| *ours && !name.ends_with("Area");
-    for summary in etendue_laboratory::atlas::page::summary(&charts) {
+    for summary in etendue_atlas::page::summary(&charts) {
         let (kind, name) = (summary.kind, &summary.method.0);
         let part = summary.cells[0] as f64 / summary.cells[2] as f64;
         println!("{:24} {name:36} {part:.3}", kind.name());
@@ -124,4 +127,45 @@ fn degenerate() {
     close(measure(ShapeKind::Sphere, 2.0).unwrap(), 4.0 * PI, 1e-15, "inside");
     close(measure(ShapeKind::ProjectedSphere, 2.0).unwrap(), PI, 1e-15, "inside, projected");
     assert_eq!(methods::methods(ShapeKind::Sphere).len(), 4);
+}
+
+/// Runs the program in a folder: its exit code, what it says and its message.
+fn run(folder: &Path, arguments: &[&str]) -> (Option<i32>, String, String) {
+    let program =
+        Command::new(env!("CARGO_BIN_EXE_etendue-atlas")).current_dir(folder).args(arguments).output().unwrap();
+    let [said, error] = [program.stdout, program.stderr].map(|text| String::from_utf8(text).unwrap());
+    (program.status.code(), said, error)
+}
+#[test]
+fn the_program_maps_one_shape_and_names_mistakes() {
+    let folder = std::env::temp_dir().join(format!("etendue-atlas-{}", std::process::id()));
+    fs::create_dir_all(&folder).unwrap();
+    let (code, said, error) = run(&folder, &["--quick", "--shape", "sphere", "-o", "maps"]);
+    assert!(code == Some(0) && error.is_empty(), "{error}");
+    assert!(said.contains("sphere by SolidAngle") && said.ends_with("atlas.html\n"), "{said}");
+    let mut names: Vec<_> = fs::read_dir(folder.join("maps")).unwrap().map(|e| e.unwrap().file_name()).collect();
+    names.sort();
+    assert_eq!(names, ["atlas.csv", "atlas.html", "sphere-size-elevation.svg", "sphere-size-horizon.svg"]);
+    let page = fs::read_to_string(folder.join("maps/atlas.html")).unwrap();
+    assert!(page.contains("cone, series below 1.5°") && page.contains("<svg"));
+    assert!(["{{", ">NaN", "\"NaN"].iter().all(|gap| !page.contains(gap)), "a placeholder or value is missing");
+    let mut table = csv::Reader::from_path(folder.join("maps/atlas.csv")).unwrap();
+    let rows: Vec<csv::StringRecord> = table.records().map(Result::unwrap).collect();
+    // every cell of four techniques; ours is within the contract in all cells
+    assert!(rows.len().is_multiple_of(4) && rows.len() > 600, "{}", rows.len());
+    let ours = |r: &&csv::StringRecord| &r[2] == "sphere by SolidAngle";
+    let last = table.headers().unwrap().len() - 1;
+    assert!(rows.iter().filter(ours).all(|r| &r[last] == "true"));
+    assert!(rows.iter().filter(|r| !ours(r)).any(|r| &r[last] == "false"));
+
+    let (code, _, error) = run(&folder, &["--shape", "torus", "-o", "other"]);
+    assert!(code == Some(2) && error.contains("torus") && error.contains("projected-sphere"), "{error}");
+    let (code, _, error) = run(&folder, &["--threads", "-1"]);
+    assert!(code == Some(2) && error.contains("-1"), "{error}");
+    fs::write(folder.join("taken"), "a file").unwrap();
+    let (code, _, error) = run(&folder, &["--quick", "--shape", "sphere", "-o", "taken"]);
+    assert!(code == Some(2) && error.contains("taken: cannot make this folder"), "{error}");
+    assert_eq!(fs::read_to_string(folder.join("taken")).unwrap(), "a file");
+    assert!(!folder.join("other").exists());
+    fs::remove_dir_all(&folder).unwrap();
 }

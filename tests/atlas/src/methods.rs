@@ -1,6 +1,6 @@
 //! The techniques for each kind of shape: those of the library, and textbook formulas.
 
-use super::pose::ShapeKind;
+use crate::pose::ShapeKind;
 use etendue_judge::area_lights::{AreaLight, Measure};
 use etendue_judge::lights::sampler::{Prepared, Sampler, Subject, technique};
 use etendue_judge::textbook;

@@ -1,11 +1,11 @@
 //! Measures the errors and the cost of every technique over the sweeps.
 
-use super::irradiance::{NOTHING, biases, variance};
-use super::methods::{self, Method};
-use super::pose::{self, ShapeKind, Sweep};
-use super::truth::Truth;
-use crate::cost::{self, Rounds};
+use crate::irradiance::{NOTHING, biases, variance};
+use crate::methods::{self, Method};
+use crate::pose::{self, ShapeKind, Sweep};
+use crate::truth::Truth;
 use etendue_judge::lights::sampler::{Sample, Sampler};
+use etendue_laboratory::cost::{self, Rounds};
 use etendue_oracle::{Greatest, V3, cross, length, sub, unit, wide};
 use rayon::prelude::*;
 use std::hint::black_box;

@@ -12,9 +12,9 @@ pub mod pose;
 pub mod survey;
 pub mod truth;
 
-use crate::options::{out, threads};
-use crate::progress::bar;
-use clap::Args;
+use clap::Parser;
+use etendue_laboratory::options::{out, pool, threads};
+use etendue_laboratory::progress::bar;
 use etendue_render::files::make_folder;
 use pose::ShapeKind;
 use std::error::Error;
@@ -22,8 +22,11 @@ use std::io::Write;
 use std::path::PathBuf;
 use survey::{Detail, cells, survey};
 
-/// Options of `etendue atlas`.
-#[derive(Args, Clone, Debug)]
+/// Maps where each technique of the library loses accuracy, compared with textbook formulas
+///
+/// Example: `etendue-atlas --shape triangle --quick` maps triangles in some seconds.
+#[derive(Clone, Debug, Parser)]
+#[command(version)]
 pub struct Options {
     /// Folder for atlas.html, atlas.csv and one SVG of maps per sweep
     #[arg(short, long, default_value = "atlas")]
@@ -53,7 +56,7 @@ pub fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     let folder = &options.output;
     // fail before the measurements, not after them
     make_folder(folder)?;
-    let pool = crate::options::pool(options.threads)?;
+    let pool = pool(options.threads)?;
     let detail = Detail::new(options.quick);
     let bar = bar(cells(&kinds, detail) as u64, "measuring")?;
     let charts = pool.install(|| survey(&kinds, detail, || bar.inc(1)));
