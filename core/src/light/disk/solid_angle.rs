@@ -2,8 +2,8 @@
 
 use crate::lanewise::lanewise;
 use crate::light::direction::DirectionSample;
-use crate::light::shape::spherical;
-use crate::math::{quotient, ratio, rsqrt};
+use crate::light::shape::SphericalShape;
+use crate::math::{ratio, rsqrt};
 use crate::real::{Real, unit_interval};
 use crate::vector::double_word::compensated_dot;
 use crate::vector::{Frame, Vec2, Vec3};
@@ -227,22 +227,6 @@ impl<R: Real> SphericalDisk<R> {
         before + self.panel(low, s)
     }
 
-    /// Solid angle in steradians, in [0, 2π].
-    #[inline(always)]
-    pub fn solid_angle(&self) -> R {
-        self.solid_angle
-    }
-    /// The pdf per steradian of every direction that hits the disk, 1/Ω; 0 where Ω is 0.
-    #[inline(always)]
-    pub fn uniform_pdf(&self) -> R {
-        quotient(R::lit(1.0), self.solid_angle)
-    }
-    /// True where the point is on the side to which the normal points.
-    #[inline(always)]
-    pub fn in_front(&self) -> R::Mask {
-        self.side.lt(R::lit(0.0))
-    }
-
     /// D and 1−D² at the boundary point with the given cosine and sine of χ.
     #[inline(always)]
     fn rim(&self, cos: R, sin: R) -> (R, R) {
@@ -250,18 +234,26 @@ impl<R: Real> SphericalDisk<R> {
         let (x, y) = (self.sin_minor * sin, self.sin_major * cos);
         (a.mul_add(a, b * b).sqrt(), x.mul_add(x, y * y))
     }
-    /// Maps `u` to a direction and the distance to the disk along it.
+}
+
+impl<R: Real> SphericalShape<R> for SphericalDisk<R> {
     #[inline(always)]
-    pub fn sample_direction(&self, u: Vec2<R>) -> DirectionSample<R> {
+    fn sample_point(&self, u: Vec2<R>) -> (DirectionSample<R>, Option<Vec2<R>>) {
         let direction = self.sample(u);
         let cos = direction.dot(self.normal);
         let distance = ratio(self.height, cos).lesser(self.reach).greater(self.height) * self.unit;
         let distance = distance.lesser(R::lit(f64::from(f32::MAX)));
-        DirectionSample { direction, distance: distance.keep(self.solid_angle.gt(R::lit(0.0))) }
+        (DirectionSample { direction, distance: distance.keep(self.solid_angle.gt(R::lit(0.0))) }, None)
+    }
+    #[inline(always)]
+    fn solid_angle(&self) -> R {
+        self.solid_angle
+    }
+    #[inline(always)]
+    fn in_front(&self) -> R::Mask {
+        self.side.lt(R::lit(0.0))
     }
 }
-
-spherical!(SphericalDisk; s => Self::in_front(s));
 
 impl<R: Real> Warp<R> for SphericalDisk<R> {
     type Point = Vec3<R>;

@@ -2,10 +2,9 @@
 
 use crate::lanewise::lanewise_by_map;
 use crate::light::direction::{DirectionSample, to_unit};
-use crate::light::shape::spherical;
+use crate::light::shape::SphericalShape;
 use crate::light::triangle::solid_angle::Planes;
 use crate::light::triangle::solid_angle::SphericalTriangle;
-use crate::math::quotient;
 use crate::real::{Mask, Real, unit_interval};
 use crate::vector::double_word::{compensated_height, cross_dw, sum_dw};
 use crate::vector::{Vec2, Vec3};
@@ -53,22 +52,6 @@ impl<R: Real> SphericalParallelogram<R> {
             second: SphericalTriangle::prepare([b, p, c], second, || second.n12, scale),
         }
     }
-    /// Solid angle in steradians, in [0, 2π].
-    #[inline(always)]
-    pub fn solid_angle(&self) -> R {
-        self.first.solid_angle() + self.second.solid_angle()
-    }
-    /// The pdf per steradian of every direction that hits the parallelogram, 1/Ω; 0 where Ω is 0.
-    #[inline(always)]
-    pub fn uniform_pdf(&self) -> R {
-        quotient(R::lit(1.0), self.solid_angle())
-    }
-    /// True where the point is on the side to which the normal u×v points.
-    #[inline(always)]
-    pub fn in_front(&self) -> R::Mask {
-        // both triangles run p+u → p → p+u+v, the other way round
-        !self.first.in_front()
-    }
     /// The triangle for `u`, the `u` within it, 1−u₀ there, since the difference would have few digits near the end of the second, and
     /// whether it is the first.
     #[inline(always)]
@@ -83,23 +66,27 @@ impl<R: Real> SphericalParallelogram<R> {
         let rest = (R::blend(first, a - swept, left) * inverse).clamped(zero, one);
         (SphericalTriangle::blend(first, self.first, self.second), Vec2::new(x, u.y), rest, first)
     }
-    /// Maps `u` to a direction and the distance to the parallelogram along it.
+}
+
+impl<R: Real> SphericalShape<R> for SphericalParallelogram<R> {
     #[inline(always)]
-    pub fn sample_direction(&self, u: Vec2<R>) -> DirectionSample<R> {
-        self.sample_with_coordinates(u).0
-    }
-    /// The same with the parts of `u` and `v` that lead to the point.
-    #[inline(always)]
-    pub(in crate::light) fn sample_with_coordinates(&self, u: Vec2<R>) -> (DirectionSample<R>, Vec2<R>) {
+    fn sample_point(&self, u: Vec2<R>) -> (DirectionSample<R>, Option<Vec2<R>>) {
         let (triangle, u, rest, first) = self.branch(u);
         let (sample, [b0, _, b2]) = triangle.sample_point_from(u, rest);
         // the corners are p+u, p, p+u+v or p+u+v, p, p+v
         let both = (b0 + b2).lesser(R::lit(1.0));
-        (sample, Vec2::new(R::blend(first, both, b0), R::blend(first, b2, both)))
+        (sample, Some(Vec2::new(R::blend(first, both, b0), R::blend(first, b2, both))))
+    }
+    #[inline(always)]
+    fn solid_angle(&self) -> R {
+        self.first.solid_angle() + self.second.solid_angle()
+    }
+    #[inline(always)]
+    fn in_front(&self) -> R::Mask {
+        // both triangles run p+u → p → p+u+v, the other way round
+        !self.first.in_front()
     }
 }
-
-spherical!(SphericalParallelogram; s => Self::in_front(s), sample_with_coordinates);
 
 impl<R: Real> Warp<R> for SphericalParallelogram<R> {
     type Point = Vec3<R>;

@@ -3,14 +3,14 @@
 use super::corners::PlacedCorners;
 use crate::lanewise::lanewise_by_map;
 use crate::light::direction::{DirectionSample, to_unit};
-use crate::light::shape::projected;
+use crate::light::shape::ProjectedShape;
 use crate::light::triangle::projected::piece::narrowest;
 use crate::light::triangle::projected::sector::Sector;
 use crate::light::triangle::projected::zenith::{Found, Side, drop_narrow, sectors, surrounds};
 use crate::light::triangle::projected::{
     Given, LEAST_HEIGHT, ProjectedTriangle, ahead, area, edge, lack, with_rest, within,
 };
-use crate::math::{quotient, ratio};
+use crate::math::ratio;
 use crate::real::{Mask, Real, unit_interval};
 use crate::vector::double_word::{cross_dw, cross_sums, dot_dw, sum_dw, unit_normal};
 use crate::vector::{Vec2, Vec3};
@@ -245,27 +245,6 @@ impl<R: Real, const N: usize, const ROOM: usize> ProjectedPolygon<R, N, ROOM> {
         self.projected = R::blend(central, sum, self.projected);
         self.central = one.keep(central);
     }
-    /// Projected solid angle Ω⊥ in [0, π]: irradiance per unit of radiance.
-    #[inline(always)]
-    pub fn projected_solid_angle(&self) -> R {
-        self.projected
-    }
-    /// The pdf per steradian of a direction that is known to hit the polygon and has the cosine `cos` to the normal: cosθ/Ω⊥.
-    #[inline(always)]
-    pub fn pdf_at_cosine(&self, cos: R) -> R {
-        cos.greater(R::lit(0.0)) * quotient(R::lit(1.0), self.projected)
-    }
-    /// True where the point is on the side from which the corners run counterclockwise.
-    #[inline(always)]
-    pub fn in_front(&self) -> R::Mask {
-        self.volume.lt(R::lit(0.0))
-    }
-    /// Maps `u` to a direction and the distance to the polygon along it.
-    #[inline(always)]
-    pub fn sample_direction(&self, u: Vec2<R>) -> DirectionSample<R> {
-        let (direction, distance) = self.draw(u, true);
-        DirectionSample { direction, distance }
-    }
     #[inline]
     fn draw(&self, u: Vec2<R>, far: bool) -> (Vec3<R>, R) {
         let zero = R::lit(0.0);
@@ -298,9 +277,20 @@ impl<R: Real, const N: usize, const ROOM: usize> ProjectedPolygon<R, N, ROOM> {
         }
         (w, distance)
     }
-    /// True where a direction hits the polygon, to within the rounding of the direction. The horizon is not tested.
+}
+
+impl<R: Real, const N: usize, const ROOM: usize> ProjectedShape<R> for ProjectedPolygon<R, N, ROOM> {
     #[inline(always)]
-    pub fn contains(&self, w: Vec3<R>) -> R::Mask {
+    fn sample_direction(&self, u: Vec2<R>) -> DirectionSample<R> {
+        let (direction, distance) = self.draw(u, true);
+        DirectionSample { direction, distance }
+    }
+    #[inline(always)]
+    fn projected_solid_angle(&self) -> R {
+        self.projected
+    }
+    #[inline(always)]
+    fn contains(&self, w: Vec3<R>) -> R::Mask {
         // only the outer sides: those between triangles meet in sharper corners than the polygon has, and allow more beside each
         let mut least = w.dot(self.fan[0].pole0).lesser(w.dot(self.fan[Self::TRIANGLES - 1].pole2));
         for triangle in &self.fan[..Self::TRIANGLES] {
@@ -308,9 +298,11 @@ impl<R: Real, const N: usize, const ROOM: usize> ProjectedPolygon<R, N, ROOM> {
         }
         within(least) & ahead(w, self.plane, self.in_front())
     }
+    #[inline(always)]
+    fn in_front(&self) -> R::Mask {
+        self.volume.lt(R::lit(0.0))
+    }
 }
-
-projected!(ProjectedPolygon, N, ROOM; s => Self::in_front(s));
 
 impl<R: Real, const N: usize, const ROOM: usize> Warp<R> for ProjectedPolygon<R, N, ROOM> {
     type Point = Vec3<R>;

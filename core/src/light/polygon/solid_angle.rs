@@ -3,9 +3,8 @@
 use super::corners::PlacedCorners;
 use crate::lanewise::lanewise_by_map;
 use crate::light::direction::DirectionSample;
-use crate::light::shape::spherical;
+use crate::light::shape::SphericalShape;
 use crate::light::triangle::solid_angle::{Planes, SphericalTriangle};
-use crate::math::quotient;
 use crate::real::{Mask, Real, unit_interval};
 use crate::vector::double_word::{cross_sums, height_dw};
 use crate::vector::{Vec2, Vec3};
@@ -73,26 +72,6 @@ impl<R: Real, const N: usize> SphericalPolygon<R, N> {
         let planes = Planes { n01, n02, n12, normal, volume, edge: edges[to][0] };
         SphericalTriangle::prepare([a, p, b], planes, || n12, *scale)
     }
-    /// Solid angle in steradians, in [0, 2π].
-    #[inline(always)]
-    pub fn solid_angle(&self) -> R {
-        self.solid_angle
-    }
-    /// The pdf per steradian of every direction that hits the polygon, 1/Ω; 0 where Ω is 0.
-    #[inline(always)]
-    pub fn uniform_pdf(&self) -> R {
-        quotient(R::lit(1.0), self.solid_angle)
-    }
-    /// True where the point is on the side from which the corners run counterclockwise.
-    #[inline(always)]
-    pub fn in_front(&self) -> R::Mask {
-        // each triangle runs the other way round; skip those without area
-        let mut front = R::Mask::splat(false);
-        for triangle in &self.fan[..Self::TRIANGLES] {
-            front = front | (!triangle.in_front() & triangle.solid_angle().gt(R::lit(0.0)));
-        }
-        front
-    }
     /// The triangle for `u`, the `u` within it, and 1−u₀ there, each computed from the nearer end of the fan.
     #[inline(always)]
     fn branch(&self, u: Vec2<R>) -> (SphericalTriangle<R>, Vec2<R>, R) {
@@ -119,15 +98,28 @@ impl<R: Real, const N: usize> SphericalPolygon<R, N> {
         let x = unit_interval(R::blend(late, one - to, from));
         (chosen, Vec2::new(x, u.y), R::blend(late, to, one - from).clamped(zero, one))
     }
-    /// Maps `u` to a direction and the distance to the polygon along it.
-    #[inline(always)]
-    pub fn sample_direction(&self, u: Vec2<R>) -> DirectionSample<R> {
-        let (triangle, u, rest) = self.branch(u);
-        triangle.sample_point_from(u, rest).0
-    }
 }
 
-spherical!(SphericalPolygon, N; s => Self::in_front(s));
+impl<R: Real, const N: usize> SphericalShape<R> for SphericalPolygon<R, N> {
+    #[inline(always)]
+    fn sample_point(&self, u: Vec2<R>) -> (DirectionSample<R>, Option<Vec2<R>>) {
+        let (triangle, u, rest) = self.branch(u);
+        (triangle.sample_point_from(u, rest).0, None)
+    }
+    #[inline(always)]
+    fn solid_angle(&self) -> R {
+        self.solid_angle
+    }
+    #[inline(always)]
+    fn in_front(&self) -> R::Mask {
+        // each triangle runs the other way round; skip those without area
+        let mut front = R::Mask::splat(false);
+        for triangle in &self.fan[..Self::TRIANGLES] {
+            front = front | (!triangle.in_front() & triangle.solid_angle().gt(R::lit(0.0)));
+        }
+        front
+    }
+}
 
 impl<R: Real, const N: usize> Warp<R> for SphericalPolygon<R, N> {
     type Point = Vec3<R>;

@@ -4,7 +4,7 @@ mod prepare;
 
 use crate::lanewise::lanewise;
 use crate::light::direction::DirectionSample;
-use crate::light::shape::spherical;
+use crate::light::shape::SphericalShape;
 use crate::math::{ratio, rsqrt};
 use crate::real::{Mask, Real, unit_interval};
 use crate::vector::{Vec2, Vec3};
@@ -127,22 +127,6 @@ fn window<R: Real>(near: Vec2<R>, far: Vec2<R>, size: Vec2<R>, z: R) -> R {
 }
 
 impl<R: Real> SphericalRectangle<R> {
-    /// Solid angle in steradians, in [0, 2π].
-    #[inline(always)]
-    pub fn solid_angle(&self) -> R {
-        self.solid_angle
-    }
-    /// The pdf per steradian of every direction that hits the rectangle, 1/Ω; 0 where Ω is 0.
-    #[inline(always)]
-    pub fn uniform_pdf(&self) -> R {
-        ratio(R::lit(1.0), self.solid_angle)
-    }
-    /// True where the point is on the side to which the normal u×v points.
-    #[inline(always)]
-    pub fn in_front(&self) -> R::Mask {
-        self.side.lt(R::lit(0.0))
-    }
-
     /// X and x² + z² for u₀.
     #[inline(always)]
     fn strip_end(&self, u: R) -> (R, R) {
@@ -216,14 +200,11 @@ impl<R: Real> SphericalRectangle<R> {
     fn point(&self, Vec2 { x, y }: Vec2<R>) -> Vec3<R> {
         self.side_x.mul_add(x, self.side_y.mul_add(y, self.base))
     }
-    /// Maps `u` to a direction and the distance to the rectangle along it.
+}
+
+impl<R: Real> SphericalShape<R> for SphericalRectangle<R> {
     #[inline(always)]
-    pub fn sample_direction(&self, u: Vec2<R>) -> DirectionSample<R> {
-        self.sample_with_coordinates(u).0
-    }
-    /// The same with the parts of both edges that lead to the point.
-    #[inline(always)]
-    pub(in crate::light) fn sample_with_coordinates(&self, u: Vec2<R>) -> (DirectionSample<R>, Vec2<R>) {
+    fn sample_point(&self, u: Vec2<R>) -> (DirectionSample<R>, Option<Vec2<R>>) {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let place = self.place(u);
         let point = self.point(place);
@@ -239,11 +220,21 @@ impl<R: Real> SphericalRectangle<R> {
         let (far, size, anchor, flip) = (self.far, self.size, self.anchor, self.flip);
         let coordinates =
             Vec2::new(part(place.x, far.x, size.x, anchor.x, flip.x), part(place.y, far.y, size.y, anchor.y, flip.y));
-        (sample, coordinates)
+        (sample, Some(coordinates))
+    }
+    #[inline(always)]
+    fn solid_angle(&self) -> R {
+        self.solid_angle
+    }
+    #[inline(always)]
+    fn uniform_pdf(&self) -> R {
+        ratio(R::lit(1.0), self.solid_angle)
+    }
+    #[inline(always)]
+    fn in_front(&self) -> R::Mask {
+        self.side.lt(R::lit(0.0))
     }
 }
-
-spherical!(SphericalRectangle; s => Self::in_front(s), sample_with_coordinates);
 
 impl<R: Real> Warp<R> for SphericalRectangle<R> {
     type Point = Vec3<R>;

@@ -5,7 +5,7 @@ mod segment;
 
 use crate::lanewise::lanewise;
 use crate::light::direction::{DirectionSample, above_horizon};
-use crate::light::shape::projected;
+use crate::light::shape::ProjectedShape;
 use crate::math::{ratio, rsqrt};
 use crate::real::{Mask, Real, unit_interval};
 use crate::vector::double_word::dot_dw;
@@ -237,31 +237,10 @@ impl<R: Real> ProjectedCap<R> {
         }
     }
 
-    /// Projected solid angle Ω⊥ in [0, π]: irradiance per unit of radiance.
-    #[inline(always)]
-    pub fn projected_solid_angle(&self) -> R {
-        self.projected
-    }
-
     /// True where the point lies strictly inside the sphere and so sees its inner side.
     #[inline(always)]
     pub fn inside(&self) -> R::Mask {
         self.power.lt(R::lit(0.0))
-    }
-
-    /// The pdf per steradian of a direction that is known to hit the sphere and has the cosine `cos` to the normal: cosθ/Ω⊥.
-    #[inline(always)]
-    pub fn pdf_at_cosine(&self, cos: R) -> R {
-        // a subnormal Ω⊥ has no finite reciprocal
-        let some = self.projected.gt(R::lit(1e-37));
-        (cos.greater(R::lit(0.0)) / R::blend(some, self.projected, R::lit(1.0))).keep(some)
-    }
-
-    /// True where a direction hits the sphere, to within the rounding of the direction. The horizon is not tested.
-    #[inline(always)]
-    pub fn contains(&self, w: Vec3<R>) -> R::Mask {
-        let moved = (w - self.axis).length_squared() * R::lit(0.5);
-        self.cone.contains_turned(moved) | self.inside()
     }
 
     #[inline(always)]
@@ -357,10 +336,11 @@ impl<R: Real> ProjectedCap<R> {
         let (ellipse, far) = self.over_the_ellipse(-c, high * v, high * high * inward);
         (Vec3::blend(on_circle, circle, ellipse), R::blend(on_circle, near, far))
     }
+}
 
-    /// Maps `u` to a direction and the distance to the sphere along it.
+impl<R: Real> ProjectedShape<R> for ProjectedCap<R> {
     #[inline(always)]
-    pub fn sample_direction(&self, u: Vec2<R>) -> DirectionSample<R> {
+    fn sample_direction(&self, u: Vec2<R>) -> DirectionSample<R> {
         let zero = R::lit(0.0);
         let (w, beyond) = self.local(u);
         // from outside: with δ = cos∠(w, axis) − cosσ, R² − d² sin² = d² δ (2cosσ + δ)
@@ -374,9 +354,26 @@ impl<R: Real> ProjectedCap<R> {
         let distance = (R::blend(self.inside(), far, near) * self.unit).lesser(most);
         DirectionSample { direction: above_horizon(self.frame.to_world(w), self.frame.n), distance }
     }
+    #[inline(always)]
+    fn projected_solid_angle(&self) -> R {
+        self.projected
+    }
+    #[inline(always)]
+    fn pdf_at_cosine(&self, cos: R) -> R {
+        // a subnormal Ω⊥ has no finite reciprocal
+        let some = self.projected.gt(R::lit(1e-37));
+        (cos.greater(R::lit(0.0)) / R::blend(some, self.projected, R::lit(1.0))).keep(some)
+    }
+    #[inline(always)]
+    fn contains(&self, w: Vec3<R>) -> R::Mask {
+        let moved = (w - self.axis).length_squared() * R::lit(0.5);
+        self.cone.contains_turned(moved) | self.inside()
+    }
+    #[inline(always)]
+    fn in_front(&self) -> R::Mask {
+        !self.inside()
+    }
 }
-
-projected!(ProjectedCap; s => !s.inside());
 
 impl<R: Real> Warp<R> for ProjectedCap<R> {
     type Point = Vec3<R>;

@@ -2,7 +2,7 @@
 
 use crate::lanewise::lanewise;
 use crate::light::direction::DirectionSample;
-use crate::light::shape::spherical;
+use crate::light::shape::SphericalShape;
 use crate::real::Real;
 use crate::vector::{Frame, Vec2, Vec3};
 use crate::warp::{Cone, Warp};
@@ -56,12 +56,6 @@ impl<R: Real> SphericalCap<R> {
         }
     }
 
-    /// Solid angle in steradians; 4π from inside.
-    #[inline]
-    pub fn solid_angle(&self) -> R {
-        self.cone.solid_angle()
-    }
-
     /// The circle in which the sphere is seen, on the unit sphere around the point: the frame of its axis, its distance from the point, and
     /// its radius. From inside, and without a sphere, it has no radius.
     #[inline(always)]
@@ -77,23 +71,18 @@ impl<R: Real> SphericalCap<R> {
         [n * height, s * radius, t * radius]
     }
 
-    /// The pdf per steradian of every direction that hits the sphere, 1/Ω.
-    #[inline]
-    pub fn uniform_pdf(&self) -> R {
-        self.cone.uniform_pdf()
-    }
-
     /// True where the point lies strictly inside the sphere and so sees its inner side.
     #[inline]
     pub fn inside(&self) -> R::Mask {
         self.power.lt(R::lit(0.0))
     }
+}
 
-    /// Maps `u` to a direction and the distance to the sphere along it, without cancellation at grazing or near contact.
-    ///
-    /// With k = 1−cosθ, from outside, R²−d²sin²θ = d²(h−k)(2−h−k), and the near root is (d²−R²)/(d cosθ + √·).
+impl<R: Real> SphericalShape<R> for SphericalCap<R> {
     #[inline]
-    pub fn sample_direction(&self, u: Vec2<R>) -> DirectionSample<R> {
+    // without cancellation at grazing or near contact: with k = 1−cosθ, from outside, R²−d²sin²θ = d²(h−k)(2−h−k), and the near root is
+    // (d²−R²)/(d cosθ + √·)
+    fn sample_point(&self, u: Vec2<R>) -> (DirectionSample<R>, Option<Vec2<R>>) {
         let (zero, one, two) = (R::lit(0.0), R::lit(1.0), R::lit(2.0));
         let h = self.cone.one_minus_cos;
         let k = u.x * h;
@@ -104,14 +93,22 @@ impl<R: Real> SphericalCap<R> {
         let sum = square.greater(zero).sqrt() + along.abs();
         let quotient = self.power.abs() / R::blend(sum.gt(zero), sum, one);
         let far = !outside & along.ge(zero);
-        DirectionSample {
-            direction: self.sample(u),
-            distance: (R::blend(far, sum, quotient) * self.unit).lesser(R::lit(f64::from(f32::MAX))),
-        }
+        let distance = (R::blend(far, sum, quotient) * self.unit).lesser(R::lit(f64::from(f32::MAX)));
+        (DirectionSample { direction: self.sample(u), distance }, None)
+    }
+    #[inline]
+    fn solid_angle(&self) -> R {
+        self.cone.solid_angle()
+    }
+    #[inline]
+    fn uniform_pdf(&self) -> R {
+        self.cone.uniform_pdf()
+    }
+    #[inline(always)]
+    fn in_front(&self) -> R::Mask {
+        !self.inside()
     }
 }
-
-spherical!(SphericalCap; s => !s.inside());
 
 impl<R: Real> Warp<R> for SphericalCap<R> {
     type Point = Vec3<R>;

@@ -7,9 +7,9 @@ pub(in crate::light) mod zenith;
 
 use crate::lanewise::lanewise;
 use crate::light::direction::{DirectionSample, to_unit};
-use crate::light::shape::projected;
+use crate::light::shape::ProjectedShape;
 use crate::light::triangle::solid_angle::TRIANGLE_SLACK;
-use crate::math::{quotient, ratio, rsqrt};
+use crate::math::{ratio, rsqrt};
 use crate::real::{Mask, Real, unit_interval};
 use crate::vector::double_word::{cross_dw, dot_dw, height_dw, sum_dw, unit_normal};
 use crate::vector::{Vec2, Vec3};
@@ -264,22 +264,6 @@ impl<R: Real> ProjectedTriangle<R> {
         self.projected = (self.first.area + self.second.area).keep(volume.abs().gt(zero));
     }
 
-    /// Projected solid angle Ω⊥ in [0, π]: irradiance per unit of radiance.
-    #[inline(always)]
-    pub fn projected_solid_angle(&self) -> R {
-        self.projected
-    }
-    /// The pdf per steradian of a direction that is known to hit the triangle and has the cosine `cos` to the normal: cosθ/Ω⊥.
-    #[inline(always)]
-    pub fn pdf_at_cosine(&self, cos: R) -> R {
-        cos.greater(R::lit(0.0)) * quotient(R::lit(1.0), self.projected)
-    }
-    /// True where the point is on the side to which the normal (v1−v0)×(v2−v0) points.
-    #[inline(always)]
-    pub fn in_front(&self) -> R::Mask {
-        self.volume.lt(R::lit(0.0))
-    }
-
     /// The sector that has the area `swept` before it and `left` after it, and the share of the sector before the azimuth,
     /// counted from its apex.
     #[inline(always)]
@@ -303,18 +287,6 @@ impl<R: Real> ProjectedTriangle<R> {
         // a point of the triangle is within 4 units; a distance that does not fit f32 becomes the largest finite number
         let distance = (self.volume.abs() / R::blend(some, along, one)).lesser(R::lit(4.0)) * self.unit;
         distance.lesser(R::lit(f64::from(f32::MAX))).keep(some)
-    }
-    /// Maps `u` to a direction and the distance to the triangle along it.
-    #[inline(always)]
-    pub fn sample_direction(&self, u: Vec2<R>) -> DirectionSample<R> {
-        let direction = self.sample(u);
-        DirectionSample { direction, distance: self.distance(direction) }
-    }
-    /// True where a direction hits the triangle, to within the rounding of the direction. The horizon is not tested.
-    #[inline(always)]
-    pub fn contains(&self, w: Vec3<R>) -> R::Mask {
-        let least = w.dot(self.pole0).lesser(w.dot(self.pole1)).lesser(w.dot(self.pole2));
-        within(least) & ahead(w, self.plane, self.in_front())
     }
     /// Turns the poles inwards as for a triangle seen from the front (`front`) or from the back.
     #[inline(always)]
@@ -369,7 +341,26 @@ pub(in crate::light) fn edge<R: Real>(whole: R) -> R {
     whole * (step + step)
 }
 
-projected!(ProjectedTriangle; s => Self::in_front(s));
+impl<R: Real> ProjectedShape<R> for ProjectedTriangle<R> {
+    #[inline(always)]
+    fn sample_direction(&self, u: Vec2<R>) -> DirectionSample<R> {
+        let direction = self.sample(u);
+        DirectionSample { direction, distance: self.distance(direction) }
+    }
+    #[inline(always)]
+    fn projected_solid_angle(&self) -> R {
+        self.projected
+    }
+    #[inline(always)]
+    fn contains(&self, w: Vec3<R>) -> R::Mask {
+        let least = w.dot(self.pole0).lesser(w.dot(self.pole1)).lesser(w.dot(self.pole2));
+        within(least) & ahead(w, self.plane, self.in_front())
+    }
+    #[inline(always)]
+    fn in_front(&self) -> R::Mask {
+        self.volume.lt(R::lit(0.0))
+    }
+}
 
 impl<R: Real> Warp<R> for ProjectedTriangle<R> {
     type Point = Vec3<R>;

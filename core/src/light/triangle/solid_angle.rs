@@ -5,8 +5,8 @@ mod prepare;
 
 use crate::lanewise::lanewise;
 use crate::light::direction::{DirectionSample, to_unit};
-use crate::light::shape::spherical;
-use crate::math::{quotient, rsqrt};
+use crate::light::shape::SphericalShape;
+use crate::math::rsqrt;
 use crate::real::{Mask, Real, unit_interval};
 use crate::vector::double_word::{compensated_height, cross_dw, height_over, sum_dw};
 use crate::vector::{Vec2, Vec3};
@@ -141,35 +141,6 @@ impl<R: Real> SphericalTriangle<R> {
         Self::prepare([v0, v1, v2], Planes { n01, n02, n12, normal, volume, edge }, exact, scale)
     }
 
-    /// Solid angle in steradians, in [0, 2π].
-    #[inline(always)]
-    pub fn solid_angle(&self) -> R {
-        self.solid_angle
-    }
-
-    /// The pdf per steradian of every direction that hits the triangle, 1/Ω; 0 where Ω is 0.
-    #[inline(always)]
-    pub fn uniform_pdf(&self) -> R {
-        quotient(R::lit(1.0), self.solid_angle)
-    }
-
-    /// True where the point is on the side to which the normal (v1−v0)×(v2−v0) points.
-    #[inline(always)]
-    pub fn in_front(&self) -> R::Mask {
-        self.volume.lt(R::lit(0.0))
-    }
-
-    /// Maps `u` to a direction and the distance to the triangle along it.
-    #[inline(always)]
-    pub fn sample_direction(&self, u: Vec2<R>) -> DirectionSample<R> {
-        self.sample_point_from(u, R::lit(1.0) - u.x).0
-    }
-    /// The same with the barycentric coordinates of `v1` and `v2`.
-    #[inline(always)]
-    pub(in crate::light) fn sample_with_coordinates(&self, u: Vec2<R>) -> (DirectionSample<R>, Vec2<R>) {
-        let (sample, [_, b1, b2]) = self.sample_point_from(u, R::lit(1.0) - u.x);
-        (sample, Vec2::new(b1, b2))
-    }
     /// Direction, distance and barycentric coordinates, where 1−u₀ is known more accurately than the difference gives it.
     #[inline(always)]
     pub(in crate::light) fn sample_point_from(&self, u: Vec2<R>, rest: R) -> (DirectionSample<R>, [R; 3]) {
@@ -351,7 +322,21 @@ impl<R: Real> SphericalTriangle<R> {
     }
 }
 
-spherical!(SphericalTriangle; s => Self::in_front(s), sample_with_coordinates);
+impl<R: Real> SphericalShape<R> for SphericalTriangle<R> {
+    #[inline(always)]
+    fn sample_point(&self, u: Vec2<R>) -> (DirectionSample<R>, Option<Vec2<R>>) {
+        let (sample, [_, b1, b2]) = self.sample_point_from(u, R::lit(1.0) - u.x);
+        (sample, Some(Vec2::new(b1, b2)))
+    }
+    #[inline(always)]
+    fn solid_angle(&self) -> R {
+        self.solid_angle
+    }
+    #[inline(always)]
+    fn in_front(&self) -> R::Mask {
+        self.volume.lt(R::lit(0.0))
+    }
+}
 
 impl<R: Real> Warp<R> for SphericalTriangle<R> {
     type Point = Vec3<R>;
