@@ -6,7 +6,7 @@ use super::flat::{Flat, corner, exactly};
 use super::outline::Outline;
 use super::seen::{Seen, Target};
 use super::shapes::{Convex, Polyhedron};
-use etendue::light::shapes::ProjectedCap;
+use etendue::light::shapes::{ProjectedCap, ProjectedShape};
 use etendue::reflection::Reflection;
 use etendue::{Mask, Real, Vec3};
 

@@ -3,7 +3,7 @@
 use super::{Quantity, direction, length, limit, outputs, pair, relative};
 use crate::search::{Range, Statement, Theorem};
 use crate::traced::Traced;
-use etendue::light::shapes::SphericalTriangle;
+use etendue::light::shapes::{SphericalShape, SphericalTriangle};
 use etendue::warp::Warp;
 use etendue::{Real, Vec3};
 use etendue_oracle::double_double::Dd;
