@@ -150,7 +150,7 @@ fn until_it_renders(child: &Child) {
 #[test]
 fn a_png_that_fails_does_not_hide_the_exr() {
     let folder = Folder::new();
-    let child = folder.spawn(&["render", "quads", "--size", "256x256", "--spp", "64", "--threads", "1", "-o", "a.exr"]);
+    let child = folder.spawn(&["render", "quads", "--size", "128x128", "--spp", "64", "--threads", "1", "-o", "a.exr"]);
     until_it_renders(&child);
     assert!(!folder.path("a.exr").exists(), "this test needs a rendering that takes longer");
     fs::create_dir(folder.path("a.png")).unwrap();
@@ -221,7 +221,7 @@ fn a_signal_that_is_ignored_stays_so() {
     let folder = Folder::new();
     // as `nohup` begins a program
     let command =
-        format!("trap '' HUP; exec '{}' render quads --size 64x64 --spp 1024 -o a.exr", env!("CARGO_BIN_EXE_etendue"));
+        format!("trap '' HUP; exec '{}' render quads --size 64x64 --spp 256 -o a.exr", env!("CARGO_BIN_EXE_etendue"));
     let mut shell = Command::new("sh");
     let child = shell.current_dir(&folder.0).args(["-c", &command]).stdout(Stdio::null()).spawn().unwrap();
     until_it_renders(&child);
