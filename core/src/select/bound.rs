@@ -30,7 +30,7 @@ pub struct LightBound {
     pub radius: f32,
     /// Unit normal of a flat light, or axis of a spot light; 0 for a light that emits in all directions, such as a sphere or a point.
     pub normal: [f32; 3],
-    /// Cosine of the angle to `normal` from which on a spot light, or a flat light with a [`Spread`], is dark, less a rounding; 0 for other
+    /// Cosine of the angle to `normal` from which on a spot light, or a flat light that emits within a cone, is dark, less a rounding; 0 for other
     /// lights. A light that emits beyond a hemisphere has the normal 0.
     pub cos_cone: f32,
     /// Whether a flat light emits from both sides.

@@ -70,10 +70,10 @@ fn all<S: Fixture>(warp: &str, cases: Vec<Case<S>>, random: usize) {
     assert!(broken.is_empty(), "broken properties:\n{}", broken.join("\n"));
 }
 
-/// A test for each warp: its name, its cases, and how many random points of the square.
 use LightShape::{Disk, Parallelogram, Rectangle, Triangle};
 use Measure::{ProjectedSolidAngle, SolidAngle};
 
+/// A test for each warp: its name, its cases, and how many random points of the square.
 macro_rules! warps {
     ($($name:ident: $cases:expr, $random:literal;)+) => {
         $(#[test]
