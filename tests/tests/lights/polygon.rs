@@ -136,6 +136,25 @@ fn small_polygons_keep_their_shape() {
     println!("relative errors of polygon and parallelogram, Ω and Ω⊥: {greatest:?}");
 }
 
+/// A polygon has the normal of the parallelogram of its corners, whether or not the square of its size is a number.
+#[test]
+fn polygons_of_any_size_have_their_normal() {
+    let o = Vec3::<f32>::default();
+    let [c, e, f] = [[0.3, 0.2, 1.0], [1.0, 0.2, -0.1], [-0.3, 0.8, 0.2]].map(Vec3::<f32>::lit);
+    for exponent in (-120..=120).step_by(10) {
+        let [c, e, f] = [c, e, f].map(|v| v * 2.0_f32.powi(exponent));
+        let (polygon, same) = (Polygon::new([c, c + e, c + e + f, c + f]), Parallelogram::new(c, e, f));
+        for u in [[0.1, 0.3], [0.97, 0.02]].map(Vec2::from) {
+            let (found, truth) = (polygon.by_solid_angle(o).sample(u), same.by_solid_angle(o).sample(u));
+            assert!(
+                found.pdf > 0.0 && (found.normal - truth.normal).length() < 1e-6,
+                "2^{exponent}: {found:?}, {truth:?}"
+            );
+            assert!((polygon.by_area(o).area() / same.by_area(o).area() - 1.0).abs() < 1e-6 || exponent.abs() > 60);
+        }
+    }
+}
+
 /// From next to any corner, that corner is where it is.
 #[test]
 fn polygons_have_all_their_corners_in_place() {

@@ -51,8 +51,9 @@ impl<R: Real, const N: usize> PlacedPolygon<R, N> {
         let scale = edges.iter().fold(zero, |most, e| most.greater(e.max_abs())).pow2_scale();
         let (mut sizes, mut total, mut whole) = ([zero; N], zero, Vec3::default());
         for i in 1..N - 1 {
-            whole += edges[i].cross(edges[i + 1]);
-            sizes[i] = (edges[i] * scale).cross(edges[i + 1] * scale).length();
+            let twice = (edges[i] * scale).cross(edges[i + 1] * scale);
+            whole += twice;
+            sizes[i] = twice.length();
             total += sizes[i];
         }
         let origin = first - origin;
@@ -64,7 +65,7 @@ impl<R: Real, const N: usize> PlacedPolygon<R, N> {
         plane.normal = normal;
         plane.height = compensated_dot(origin.keep(finite) * (R::lit(1.0) / plane.unit), normal);
         let (origin, edges) = (origin.keep(finite), edges.map(|e| e.keep(finite)));
-        Self { origin, edges, plane, sizes, total, normal, area: length * R::lit(0.5) }
+        Self { origin, edges, plane, sizes, total, normal, area: length * R::lit(0.5) / scale / scale }
     }
 }
 
