@@ -74,12 +74,16 @@ impl<R: Real> PlacedPatch<R> {
     /// (s, t) of the nearest point in the direction `ray` and its distance, in [0, 1]² where the ray hits; and whether it does.
     ///
     /// The line of constant s that meets the ray makes the plane through both contain the shading point: a quadratic equation in s
-    /// (Pharr, Jakob and Humphreys, PBR 4th ed., 6.6.1).
+    /// (Pharr, Jakob and Humphreys, PBR 4th ed., 6.6.1). Or the same for t, if those lines are longer: the rounding of the equation is that
+    /// of the longest, and the place on a short one would be lost in it.
     #[inline(always)]
     fn meet(&self, ray: Vec3<R>) -> (Vec2<R>, R, R::Mask) {
         let (zero, one, half) = (R::lit(0.0), R::lit(1.0), R::lit(0.5));
         let PatchSurface { corner: p, edge_s: u, edge_t: v, diagonal: w } = self.small;
         let twist = (w - u) - v;
+        let shorter = |a: Vec3<R>, b: Vec3<R>| a.length_squared().lesser(b.length_squared());
+        let across = shorter(v, w - u).lt(shorter(u, w - v));
+        let (u, v) = (Vec3::blend(across, v, u), Vec3::blend(across, u, v));
         let (a, b, c) = (ray.dot(u.cross(twist)), ray.dot(p.cross(twist) + u.cross(v)), ray.dot(p.cross(v)));
         let root = (b * b - R::lit(4.0) * a * c).greater(zero).sqrt();
         let sum = b + root.copysign(b);
@@ -108,6 +112,7 @@ impl<R: Real> PlacedPatch<R> {
         let second = candidate(quotient_if_any(-half * sum, a));
         let take = second.2 & (!first.2 | second.1.lt(first.1));
         let st = Vec2::blend(take, second.0, first.0);
+        let st = Vec2::blend(across, Vec2::new(st.y, st.x), st);
         (st, R::blend(take, second.1, first.1) / self.scale, first.2 | second.2)
     }
 }

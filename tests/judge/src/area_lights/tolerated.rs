@@ -20,8 +20,8 @@ impl AreaLight {
     /// Relative difference allowed between the pdf of a sample and the pdf of its direction; `None` where the direction says nothing.
     ///
     /// Lines: to the rounding of the direction, over the sine of its angle to the line. Curved lights by area: a rounded direction moves the
-    /// point by 16 ulp of the distance, and the cosine there by that over the radius and the cosine. Samples that the light itself hides
-    /// have the pdf of their own point.
+    /// point by 16 ulp of the distance, and the cosine there by that over the radius and the cosine; a patch has the radius at which its
+    /// normal turns with the point. Samples that the light itself hides have the pdf of their own point.
     #[must_use]
     pub fn evaluated_to(&self, s: &LightSample<f32>) -> Option<f64> {
         if self.by == Measure::Delta {
@@ -41,10 +41,13 @@ impl AreaLight {
         }
         let (size, reach) = match self.shape {
             LightShape::Patch => {
-                // its shortest edge: from there to the opposite one, the area per step of u and v changes by its own size
+                // |∂s×∂t| and the normal change by a step over the point's own step times the twist
                 let (b, c, n) = (wide(self.b), wide(self.c), wide(self.n));
-                let edges = [b, c, sub(n, b), sub(n, c)].map(length);
-                (edges.into_iter().fold(f64::INFINITY, f64::min), f64::from(s.distance) + length(n))
+                let (twist, [x, y, _]) = (sub(sub(n, b), c), s.uv.at(0));
+                let (along_s, along_t) = (along(b, twist, y), along(c, twist, x));
+                let area = length(cross(along_s, along_t));
+                let bend = 2.0 * length(twist) * length(along_s) * length(along_t);
+                (area * area / bend.max(1e-300), f64::from(s.distance) + length(n))
             }
             _ => (f64::from(self.radius), f64::from(s.distance) + length(wide(self.b)) + length(self.offset())),
         };
