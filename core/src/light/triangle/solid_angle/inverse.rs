@@ -41,6 +41,8 @@ impl<R: Real> SphericalTriangle<R> {
     pub(in crate::light) fn locate(&self, w: Vec3<R>) -> (Vec2<R>, R) {
         let (zero, one, two) = (R::lit(0.0), R::lit(1.0), R::lit(2.0));
         let (x, y) = (w.dot(self.along), w.dot(self.across).greater(zero));
+        // beyond the edge to v2, where a great circle returns to the far edge's from the other side
+        let after = (x * self.y2).lt(y * self.x2);
         let squared = x.mul_add(x, y * y);
         let inverse = rsqrt(squared).keep(squared.gt(R::lit(1e-36)));
         let (x, y) = (x * inverse, y * inverse);
@@ -50,6 +52,7 @@ impl<R: Real> SphericalTriangle<R> {
         // tan(swept/2) from two sides and the angle between them
         let both = self.sin_side * sin;
         let swept = two * (both * y).atan2(self.g2.mul_add(plus, both * x));
+        let swept = R::blend(after, self.solid_angle, swept);
         // 1 − cos of the angle from v1; ahead it comes from the tangents, since along v1 w has a rounding error that would
         // swamp a small triangle
         let (away, ahead) = (w - self.apex, w.dot(self.apex));
