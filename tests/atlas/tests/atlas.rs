@@ -58,6 +58,18 @@ fn cells_within_the_contract() {
     }
     assert!(inside > 3000 && caps > 1000, "{inside} {caps}");
 }
+/// Also where a light is nearly a hemisphere, and where the horizon leaves slivers of it, the u of a direction leads back to it.
+#[test]
+fn inverses_lead_back() {
+    use ShapeKind::{Polygon, ProjectedParallelogram, ProjectedPolygon, ProjectedTriangle};
+    for kind in [Polygon, ProjectedTriangle, ProjectedParallelogram, ProjectedPolygon] {
+        let charts = survey(&[kind], Detail::new(true), || ());
+        let cells = charts.iter().filter(|c| c.method.1 && !c.method.0.ends_with("Area")).flat_map(|c| &c.cells);
+        let greatest = cells.map(|cell| cell.round_trip).fold(0.0, f64::max);
+        println!("{:24} {greatest:.1e}", kind.name());
+        assert!(greatest < 0.03, "{}: {greatest}", kind.name());
+    }
+}
 /// Projected spheres keep the contract in every cell, except for the inverse where the axis is within 4e−7 of the horizon, and are unbiased
 /// if they rise above it by more than 1e−6, as the documentation states.
 fn cap_within_domain(sweep: &Sweep, [x, y]: [f64; 2], cell: &Figures) {

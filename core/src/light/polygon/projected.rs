@@ -8,7 +8,7 @@ use crate::light::triangle::projected::piece::narrowest;
 use crate::light::triangle::projected::sector::Sector;
 use crate::light::triangle::projected::zenith::{Found, Side, drop_narrow, sectors, surrounds};
 use crate::light::triangle::projected::{
-    Given, LEAST_HEIGHT, ProjectedTriangle, ahead, area, edge, lack, with_rest, within,
+    Given, LEAST_HEIGHT, ProjectedTriangle, after, ahead, area, edge, lack, with_rest, within,
 };
 use crate::math::ratio;
 use crate::real::{Mask, Real, unit_interval};
@@ -245,10 +245,11 @@ impl<R: Real, const N: usize, const ROOM: usize> ProjectedPolygon<R, N, ROOM> {
         self.projected = R::blend(central, sum, self.projected);
         self.central = one.keep(central);
     }
-    #[inline]
-    fn draw(&self, u: Vec2<R>, far: bool) -> (Vec3<R>, R) {
+    /// The sector for u₀, the share of it before the azimuth, counted from its apex, and the number of its triangle.
+    #[inline(always)]
+    fn sector_at(&self, x: R) -> (Sector<R>, R, R) {
         let zero = R::lit(0.0);
-        let (swept, left) = (u.x * self.projected, (R::lit(1.0) - u.x) * self.projected);
+        let (swept, left) = (x * self.projected, (R::lit(1.0) - x) * self.projected);
         // areas of all later triangles
         let mut behind = [zero; N];
         for i in (1..Self::TRIANGLES).rev() {
@@ -267,8 +268,13 @@ impl<R: Real, const N: usize, const ROOM: usize> ProjectedPolygon<R, N, ROOM> {
             }
             sum += triangle.projected;
         }
+        (sector, share, chosen)
+    }
+    #[inline]
+    fn draw(&self, u: Vec2<R>, far: bool) -> (Vec3<R>, R) {
+        let (sector, share, chosen) = self.sector_at(u.x);
+        let mut distance = R::lit(0.0);
         let w = sector.direction(self.fan[0].normal, sector.sweep(share), u.y);
-        let mut distance = zero;
         if far {
             for (i, triangle) in self.fan[..Self::TRIANGLES].iter().enumerate() {
                 let here = chosen.ge(R::lit(i as f64 - 0.5)) & chosen.lt(R::lit(i as f64 + 0.5));
@@ -322,10 +328,10 @@ impl<R: Real, const N: usize, const ROOM: usize> Warp<R> for ProjectedPolygon<R,
         let mut found = self.fan[0].locate(w, edge);
         let mut sum = self.fan[0].projected;
         for triangle in &self.fan[1..Self::TRIANGLES] {
-            let some = triangle.projected.gt(zero);
             // on the far side of the edge with which this triangle begins
-            let later = some & (w.dot(triangle.pole0).ge(zero) | sum.le(zero));
+            let later = after([sum, triangle.projected], w.dot(triangle.pole0).ge(zero), edge);
             let other = triangle.locate(w, edge);
+            let some = triangle.projected.gt(zero);
             let before = found.x.lesser(R::blend(some, sum - edge, found.x));
             found.x = R::blend(later, sum + other.x.greater(edge), before.greater(zero));
             found.y = R::blend(later, other.y, found.y);
@@ -335,10 +341,12 @@ impl<R: Real, const N: usize, const ROOM: usize> Warp<R> for ProjectedPolygon<R,
         if central.any() {
             let mut there = Found::nothing();
             for triangle in &self.fan[..Self::TRIANGLES] {
-                there = triangle.look(there, w);
+                there = triangle.look(there, w, edge);
             }
             found = Vec2::blend(central, there.place(self.fan[0].normal, w), found);
         }
-        Vec2 { x: unit_interval(ratio(found.x, self.projected)), y: found.y }
+        let x = unit_interval(ratio(found.x, self.projected));
+        let (sector, share, _) = self.sector_at(x);
+        Vec2 { x, y: sector.at_share(self.fan[0].normal, share, w, self.projected, found.y) }
     }
 }

@@ -278,6 +278,11 @@ impl<R: Real> ProjectedTriangle<R> {
         }
         (sector, share)
     }
+    /// The sector for u₀, and the share of it before the azimuth, counted from its apex.
+    #[inline(always)]
+    fn sector_at(&self, x: R) -> (Sector<R>, R) {
+        self.choose(x * self.projected, (R::lit(1.0) - x) * self.projected)
+    }
     /// The distance to the plane along a direction; 0 where there is none.
     #[inline(always)]
     pub(in crate::light) fn distance(&self, w: Vec3<R>) -> R {
@@ -300,25 +305,26 @@ impl<R: Real> ProjectedTriangle<R> {
     #[inline(always)]
     pub(in crate::light) fn locate(&self, w: Vec3<R>, edge: R) -> Vec2<R> {
         let zero = R::lit(0.0);
-        let mut found = self.first.locate(self.normal, w);
+        let mut found = self.first.locate(self.normal, w, edge);
         let some = self.second.area.gt(zero);
         if some.any() {
-            let later = some & (w.dot(self.diagonal).gt(zero) | self.first.area.le(zero));
-            let other = self.second.locate(self.normal, w);
+            let beyond = w.dot(self.diagonal).gt(zero);
+            let later = after([self.first.area, self.second.area], beyond, edge);
+            let other = self.second.locate(self.normal, w, edge);
             let before = found.x.lesser(R::blend(some, self.first.area - edge, self.first.area)).greater(zero);
             found.x = R::blend(later, self.first.area + other.x.greater(edge), before);
             found.y = R::blend(later, other.y, found.y);
         }
         let central = self.central.gt(zero);
         if central.any() {
-            found = Vec2::blend(central, self.look(Found::nothing(), w).place(self.normal, w), found);
+            found = Vec2::blend(central, self.look(Found::nothing(), w, edge).place(self.normal, w), found);
         }
         found
     }
     /// Looks for the azimuth of a direction in the sectors about the zenith.
     #[inline(always)]
-    pub(in crate::light) fn look(&self, found: Found<R>, w: Vec3<R>) -> Found<R> {
-        found.look(&self.first, self.normal, w).look(&self.second, self.normal, w)
+    pub(in crate::light) fn look(&self, found: Found<R>, w: Vec3<R>, edge: R) -> Found<R> {
+        found.look(&self.first, self.normal, w, edge).look(&self.second, self.normal, w, edge)
     }
 }
 
@@ -332,6 +338,13 @@ pub(in crate::light) fn within<R: Real>(least: R) -> R::Mask {
 #[inline(always)]
 pub(in crate::light) fn ahead<R: Real>(w: Vec3<R>, plane: Vec3<R>, front: R::Mask) -> R::Mask {
     w.dot(plane).negate_where(front).ge(-(plane.length() * R::lit(TRIANGLE_SLACK)))
+}
+
+/// Whether a direction counts to the second of two areas, on the far side of the border between them (`beyond`): into one that is no larger
+/// than `edge`, only rounding places a direction.
+#[inline(always)]
+pub(in crate::light) fn after<R: Real>([before, area]: [R; 2], beyond: R::Mask, edge: R) -> R::Mask {
+    (beyond | before.le(edge)) & area.gt(before.lesser(edge))
 }
 
 /// Two steps of u₀, in units of area: between two parts the map may jump, and u₀Ω⊥ is known only to this accuracy.
@@ -366,7 +379,7 @@ impl<R: Real> Warp<R> for ProjectedTriangle<R> {
     type Point = Vec3<R>;
     #[inline(always)]
     fn sample(&self, u: Vec2<R>) -> Vec3<R> {
-        let (sector, share) = self.choose(u.x * self.projected, (R::lit(1.0) - u.x) * self.projected);
+        let (sector, share) = self.sector_at(u.x);
         sector.direction(self.normal, sector.sweep(share), u.y)
     }
     /// The pdf per steradian; 0 for a direction that misses the triangle or lies below the horizon.
@@ -377,6 +390,8 @@ impl<R: Real> Warp<R> for ProjectedTriangle<R> {
     #[inline(always)]
     fn invert(&self, w: Vec3<R>) -> Vec2<R> {
         let found = self.locate(w, edge(self.projected));
-        Vec2 { x: unit_interval(ratio(found.x, self.projected)), y: found.y }
+        let x = unit_interval(ratio(found.x, self.projected));
+        let (sector, share) = self.sector_at(x);
+        Vec2 { x, y: sector.at_share(self.normal, share, w, self.projected, found.y) }
     }
 }

@@ -1,6 +1,7 @@
 //! A triangle wholly above the horizon and not about the zenith: two sectors.
 #![expect(unreachable_pub, reason = "the structs of lanewise! are declared pub")]
 
+use super::after;
 use super::sector::{Corner, Sector};
 use crate::lanewise::lanewise;
 use crate::math::{ratio, rsqrt};
@@ -27,6 +28,8 @@ lanewise! {
         third: Sector<R>,
         /// horizontal normal of the azimuth plane of the middle vertex: positive beyond it
         middle: Vec3<R>,
+        /// 1 if the sectors run counterclockwise, else −1
+        turn: R,
         /// sum of the sectors
         pub(in crate::light) area: R,
     }
@@ -124,6 +127,7 @@ impl<R: Real> Piece<R> {
         // of an inner vertex, which may be at the zenith, the azimuth is that of the point of the long edge where the sectors end
         let end = turned(v, 0).mul_add(after, turned(v, 2) * before);
         self.middle = normal.cross(Vec3::blend(two, end, turned(unit, 1))) * turn;
+        self.turn = turn;
         self.area = self.first.area + self.second.area;
     }
 
@@ -171,11 +175,14 @@ impl<R: Real> Piece<R> {
 
     /// The area before a direction, and u₁.
     #[inline(always)]
-    pub(in crate::light) fn locate(&self, normal: Vec3<R>, w: Vec3<R>) -> Vec2<R> {
+    pub(in crate::light) fn locate(&self, normal: Vec3<R>, w: Vec3<R>, edge: R) -> Vec2<R> {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
-        let beyond = self.middle.dot(w).ge(zero);
-        let some = |s: &Sector<R>| s.area.gt(zero);
-        let later = (beyond | !some(&self.first)) & some(&self.second);
+        let side = self.middle.dot(w);
+        // opposite the middle vertex, which rounding may place on either side, there is only the wider sector
+        let ahead = self.middle.cross(normal) * self.turn;
+        let opposite = ahead.dot(w).lt(-side.abs());
+        let beyond = (opposite & ahead.dot(self.first.apex).ge(zero)) | (!opposite & side.ge(zero));
+        let later = after([self.first.area, self.second.area], beyond, edge);
         let sector = Sector::blend(later, self.second, self.first);
         let found = sector.locate(normal, w);
         let share = R::blend(later, one - found.x, found.x);

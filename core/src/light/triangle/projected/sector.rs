@@ -17,6 +17,9 @@ const NEAR: f64 = 0.7;
 /// How far the inner arc may rise over the outer one in that form, relative to the cosine k of its plane.
 const STEEP: f64 = 4.0;
 const INV_TWO_PI: f64 = 0.5 / core::f64::consts::PI;
+/// Part of the whole area below which a sector is so narrow that within the rounding of u₀ its arcs may move by more than 1e−5 of their
+/// distance.
+const NARROW: f64 = 1.0 / 128.0;
 
 lanewise! {
     /// The region between an outer (lower) arc and an inner one, from the vertex in which they meet up to an azimuth.
@@ -335,6 +338,15 @@ impl<R: Real> Sector<R> {
         (-theta).greater(theta - self.wide).greater(R::lit(0.0))
     }
 
+    /// u₁ of a direction where `share` of the area is before its azimuth, which a rounded u₀ gives: `y`, unless this sector is narrow among
+    /// the `whole`.
+    #[inline(always)]
+    pub(in crate::light) fn at_share(&self, normal: Vec3<R>, share: R, w: Vec3<R>, whole: R, y: R) -> R {
+        let narrow = self.area.lt(whole * R::lit(NARROW));
+        let [y] = R::where_any(narrow, [y], || [self.outwards(normal, self.sweep(share), w)]);
+        y
+    }
+
     /// The share of the area before the azimuth of a direction, and u₁.
     #[inline(never)]
     pub(in crate::light) fn locate(&self, normal: Vec3<R>, w: Vec3<R>) -> Vec2<R> {
@@ -371,6 +383,15 @@ impl<R: Real> Sector<R> {
             area = R::blend(small, area, other);
             (s, c) = (R::blend(small, s, sin), R::blend(small, c, cos));
         }
+        Vec2 {
+            x: unit_interval(ratio(area * self.outer * R::lit(0.5), self.area)),
+            y: self.outwards(normal, [s, c], w),
+        }
+    }
+    /// u₁ of a direction at the azimuth of θ on the outer arc.
+    #[inline(always)]
+    pub(in crate::light) fn outwards(&self, normal: Vec3<R>, [s, c]: [R; 2], w: Vec3<R>) -> R {
+        let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let z = self.height(s, c);
         let rise = self.rise(s, z);
         let whole = self.inner.mul_add(self.inner, rise);
@@ -382,14 +403,11 @@ impl<R: Real> Sector<R> {
         let between = (w - arc).dot(out.cross(arc));
         let sum = r0.mul_add(w.dot(normal).greater(zero), z * r);
         let nu = ratio(between, out2) * ratio(sum, r0);
-        Vec2 {
-            x: unit_interval(ratio(area * self.outer * R::lit(0.5), self.area)),
-            // from the nearer of the two arcs
-            y: unit_interval(R::blend(
-                nu.lt(R::lit(0.5)),
-                one - nu * whole / rise,
-                (ratio(in2, out2) * whole - self.inner * self.inner) / rise,
-            )),
-        }
+        // from the nearer of the two arcs
+        unit_interval(R::blend(
+            nu.lt(R::lit(0.5)),
+            one - nu * whole / rise,
+            (ratio(in2, out2) * whole - self.inner * self.inner) / rise,
+        ))
     }
 }

@@ -204,12 +204,12 @@ impl<R: Real> Found<R> {
         let zero = R::lit(0.0);
         Self { sector: Sector::default(), before: zero, sum: zero, backwards: zero, miss: R::lit(8.0) }
     }
-    /// Looks in the sectors of a piece.
+    /// Looks in the sectors of a piece, but for those that are no larger than `edge`: into one of them, only rounding places a direction.
     #[inline(always)]
-    pub(in crate::light) fn look(self, piece: &Piece<R>, normal: Vec3<R>, w: Vec3<R>) -> Self {
+    pub(in crate::light) fn look(self, piece: &Piece<R>, normal: Vec3<R>, w: Vec3<R>, edge: R) -> Self {
         let mut this = self;
         for (i, sector) in piece.sectors().into_iter().enumerate() {
-            let some = sector.area.gt(R::lit(0.0));
+            let some = sector.area.gt(edge);
             if some.any() {
                 let miss = sector.miss(normal, w);
                 // a direction on the border belongs to the sector before
