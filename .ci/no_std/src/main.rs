@@ -7,10 +7,6 @@ use core::arch::{asm, global_asm};
 use core::f32::consts::PI;
 use etendue::discrete::{PiecewiseConstant1d, PiecewiseConstant2d};
 use etendue::estimate::{Heuristic, Welford};
-use etendue::light::shapes::{
-    ProjectedCap, ProjectedPolygon, ProjectedSegment, ProjectedTriangle, SphericalCap, SphericalDisk,
-    SphericalParallelogram, SphericalPolygon, SphericalRectangle, SphericalSegment, SphericalTriangle,
-};
 use etendue::light::{
     BilinearPatch, ConstantEnvironment, DirectionalLight, Disk, EnvironmentMap, ImageEnvironment, Line, PointLight,
     Polygon, SpotLight, Sun,
@@ -119,17 +115,6 @@ impl Count {
         }
         self.check(far < 1e-3 && near(sum(inverse) / SAMPLES as f32, measure, 2e-2));
     }
-    /// The same for directions in a plane, which fill an arc of 2 atan(1/2) radians.
-    fn arc(&mut self, sample: impl Fn(X) -> (Vec3<X>, X), invert: impl Fn(Vec3<X>) -> X) {
-        let (mut far, mut inverse) = (0.0_f32, lit(0.0));
-        for u in squares() {
-            let (w, pdf) = sample(u.x);
-            let off = invert(w) - u.x;
-            far = (0..8).map(|i| off.lane(i).abs()).fold(far, f32::max);
-            inverse += lit(1.0) / pdf;
-        }
-        self.check(far < 1e-3 && near(sum(inverse) / SAMPLES as f32, 0.927_295_2, 1e-2));
-    }
     fn line(&mut self, table: PiecewiseConstant1d<'_>) {
         let kept = squares().all(|u| {
             let x = table.sample(u.x);
@@ -174,29 +159,6 @@ fn warps(count: &mut Count) {
     count.warp(Bilinear { corners: [1.0, 2.0, 3.0, 4.0].map(lit) }, 1.0);
     // the hemisphere, minus the normals that face away from the view
     count.warp(GgxVisibleNormals::new(lit(1.0), lit(1.0), [0.0, 0.6, 0.8].into()), 2.0 * (PI - 0.643_501_1));
-}
-
-fn seen(count: &mut Count) {
-    let [a, b, c] = [[-0.5, 1.0, -0.5], [0.5, 1.0, -0.5], [-0.5, 1.0, 0.5]].map(Vec3::<X>::from);
-    let d = Vec3::from([0.5, 1.0, 0.5]);
-    // a square of side 1 at distance 1: 4 asin(1/5)
-    let square = 4.0 * 0.201_357_92;
-    count.warp(SphericalCap::new([0.0, 2.0, 0.0].into(), lit(1.0)), 2.0 * PI * 0.133_974_6);
-    count.warp(SphericalTriangle::new(a, b, c), 0.5 * square);
-    count.warp(SphericalParallelogram::new(a, b - a, c - a), square);
-    count.warp(SphericalRectangle::new(a, b - a, c - a), square);
-    count.warp(SphericalPolygon::new([a, b, d, c]), square);
-    count.warp(ProjectedCap::new([0.0, 2.0, 0.0].into(), lit(1.0), UP.into()), 2.0 * PI * 0.133_974_6);
-    count.warp(ProjectedTriangle::new(a, b, c, UP.into()), 0.5 * square);
-    count.warp(ProjectedPolygon::new([a, b, d, c], UP.into()), square);
-    // a disk of radius 1 at distance 1: 2π(1 − 1/√2)
-    let down = [0.0, -1.0, 0.0].into();
-    count.warp(SphericalDisk::new([0.0, 1.0, 0.0].into(), down, lit(1.0)), 2.0 * PI * 0.292_893_2);
-    let (end, edge) = ([-1.0, 2.0, 0.0].into(), [2.0, 0.0, 0.0].into());
-    let segment = SphericalSegment::new(end, edge);
-    count.arc(|u| (segment.sample(u), segment.pdf(segment.sample(u))), |w| segment.invert(w));
-    let segment = ProjectedSegment::new(end, edge, UP.into());
-    count.arc(|u| (segment.sample(u), segment.pdf(segment.sample(u))), |w| segment.invert(w));
 }
 
 fn surfaces(count: &mut Count) {
@@ -334,7 +296,6 @@ fn estimators(count: &mut Count) {
 extern "C" fn main() -> ! {
     let mut count = Count(0);
     warps(&mut count);
-    seen(&mut count);
     surfaces(&mut count);
     tables(&mut count);
     lights(&mut count);

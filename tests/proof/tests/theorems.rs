@@ -57,7 +57,7 @@ fn a_wrong_digit_is_refused() {
         ("Cone", 0.5 / PI),
         ("Cone", 2.0),
         ("SphericalCap", 0.5 / PI),
-        ("SphericalTriangle", 0.25 / PI),
+        ("Triangle::by_solid_angle", 0.25 / PI),
     ];
     for (name, value) in all.into_iter().step_by(cases(6, 1)) {
         for off in [1e-6, -1e-6] {

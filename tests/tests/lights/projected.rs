@@ -2,7 +2,7 @@
 //! closed form.
 
 use core::f64::consts::PI;
-use etendue::light::shapes::{ProjectedCap, ProjectedSegment, ProjectedShape, ProjectedTriangle};
+use etendue::light::shapes::{ProjectedCap, ProjectedSegment, ProjectedShape};
 use etendue::{LightSample, LightSampler, Mask, Parallelogram, Real, Sphere, Triangle, Vec2, Vec3, Warp, f32x8};
 use etendue_judge::area_lights::{AreaLight, LightShape, Measure};
 use etendue_judge::fixture::Fixture;
@@ -206,32 +206,8 @@ fn invisible_shapes_have_pdf_0() {
             ] {
                 assert!(sample.pdf == 0.0 && sample.distance.is_finite() && sample.direction.max_abs() <= 1.001);
             }
-            let seen = ProjectedTriangle::with_edges(
-                splat(p),
-                splat(p) + splat(u),
-                splat(p) + splat(v),
-                splat(u),
-                splat(v),
-                splat(up),
-            );
-            assert!(seen.projected_solid_angle() == 0.0 && seen.pdf(seen.sample(at)) == 0.0);
         }
     }
-}
-
-/// Near an edge that rises almost vertically above the horizon, a rounding of the azimuth moves the direction a long way: from the rounded
-/// azimuth alone, this direction, found by fuzzing, came back 3.7e−4 away. What remains are five units of u₀ in a sweep that is 1.1e−4 of
-/// the whole.
-#[test]
-fn inverse_beside_an_upright_edge() {
-    let vector = |v: [f32; 3]| Vec3::new(v[0], v[1], v[2]);
-    let v0 = vector([-1.0866929, 0.21072814, 0.14530581]);
-    let (e1, e2) = (vector([0.5384565, 0.15991381, 0.8273404]), vector([-0.33004466, 0.755619, -0.5657831]));
-    let normal = vector([0.09743712, -0.066804275, 0.15172845]);
-    let seen = ProjectedTriangle::with_edges(v0, v0 + e1, v0 + e2, e1, e2, normal);
-    let w = vector([-0.504_813, 0.341_584_47, 0.792_769_7]);
-    let off = (seen.sample(seen.invert(w)) - w).length();
-    assert!(off < 1e-4, "{off:e}");
 }
 
 /// Where the zenith is on an edge or in a corner, but for rounding, an inverse finds the azimuth of its direction: one in ten was that of

@@ -62,15 +62,8 @@ impl<R, const N: usize, const ROOM: usize> ProjectedPolygon<R, N, ROOM> {
 lanewise_by_map!(ProjectedPolygon, N, ROOM);
 
 impl<R: Real> ProjectedParallelogram<R> {
-    /// Prepares for a parallelogram with the corner `p` relative to the point and the edges `u` and `v` (in one unit of
-    /// length), on a surface with the normal `normal` (of any length). The edges give its shape, however small and far it is.
-    #[inline(always)]
-    pub fn parallelogram(p: Vec3<R>, u: Vec3<R>, v: Vec3<R>, normal: Vec3<R>) -> Self {
-        let mut this = Self::default();
-        this.prepare_parallelogram(p, [u, v], normal);
-        this
-    }
-    /// As `parallelogram`, in place; it must be empty before.
+    /// Prepares for a parallelogram with the corner `p` relative to the point and the edges `u` and `v` (in one unit of length), on a surface
+    /// with the normal `normal` (of any length). The edges give its shape, however small and far it is. It must be empty before.
     #[inline(always)]
     pub(in crate::light) fn prepare_parallelogram(&mut self, p: Vec3<R>, [u, v]: [Vec3<R>; 2], normal: Vec3<R>) {
         let none = Vec3::default();
@@ -92,22 +85,7 @@ impl<R: Real> ProjectedParallelogram<R> {
 }
 
 impl<R: Real, const N: usize> ProjectedPolygon<R, N> {
-    /// Prepares for corners relative to the point (in any unit of length), on a surface with the normal `normal` (of any
-    /// length).
-    #[inline(always)]
-    pub fn new(corners: [Vec3<R>; N], normal: Vec3<R>) -> Self {
-        Self::seen_from(corners, Vec3::default(), normal)
-    }
-    /// Prepares for corners and the point `p` (in any common coordinates), on a surface with the normal `normal` (of any length).
-    ///
-    /// Take this for a small and far polygon: corners relative to the point are rounded, and would lose its shape.
-    #[inline(always)]
-    pub fn seen_from(corners: [Vec3<R>; N], p: Vec3<R>, normal: Vec3<R>) -> Self {
-        let mut this = Self::default();
-        this.prepare_corners(&PlacedCorners::new(corners, p), normal);
-        this
-    }
-    /// As `new`, in place; it must be empty before.
+    /// Prepares for corners on a surface with the normal `normal` (of any length). It must be empty before.
     #[inline(always)]
     pub(in crate::light) fn prepare_corners(&mut self, placed: &PlacedCorners<R, N>, normal: Vec3<R>) {
         let PlacedCorners { corners, edges, spokes, scale } = placed;

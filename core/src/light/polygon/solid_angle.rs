@@ -36,11 +36,6 @@ impl<R: Real, const N: usize> SphericalPolygon<R, N> {
         assert!(N >= 3 && N <= 8, "a polygon has 3 to 8 corners");
         N - 2
     };
-    /// Prepares for corners relative to the point, in any unit of length.
-    #[inline(always)]
-    pub fn new(corners: [Vec3<R>; N]) -> Self {
-        Self::seen_from(corners, Vec3::default())
-    }
     /// Prepares for corners and the point `p`, in any common coordinates.
     ///
     /// Take this for a small and far polygon: corners relative to the point are rounded, and would lose its shape.

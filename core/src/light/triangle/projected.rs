@@ -107,41 +107,9 @@ pub(in crate::light) fn area<R: Real>(normal: Vec3<R>, [v, rest]: [Vec3<R>; 2], 
 }
 
 impl<R: Real> ProjectedTriangle<R> {
-    /// Prepares for the vertices `v0`, `v1`, `v2` relative to the point (in any unit of length), on a surface with the normal
-    /// `normal` (of any length).
-    #[inline]
-    pub fn new(v0: Vec3<R>, v1: Vec3<R>, v2: Vec3<R>, normal: Vec3<R>) -> Self {
-        let mut this = Self::default();
-        this.prepare_vertices([v0, v1, v2], normal);
-        this
-    }
-
-    /// As `new`, in place: a prepared packet is kilobytes, and each copy of it counts. It must be empty before.
-    #[inline(always)]
-    fn prepare_vertices(&mut self, [v0, v1, v2]: [Vec3<R>; 3], normal: Vec3<R>) {
-        let ([v0, v1, v2], scale) = to_unit([v0, v1, v2]);
-        let edges = [difference(v1, v0), difference(v2, v1), difference(v0, v2)];
-        let product = |v: Vec3<R>, [e, d]: [Vec3<R>; 2]| with_rest(cross_dw(v, e), v, d);
-        let products = [product(v0, edges[0]), product(v1, edges[1]), product(v2, edges[2])];
-        let ([e1, d1], [e2, d2]) = (edges[0], edges[2]);
-        let [plane, rest] = cross_dw(e2, e1);
-        let plane = [plane, rest + (d2.cross(e1) + e2.cross(d1))];
-        let corners = Given { vertices: [v0, v1, v2], rests: [None; 3], edges: edges.map(|e| e[0]), products, plane };
-        self.prepare(&corners, normal, scale);
-    }
-
-    /// As `new`, with the edges `e1` = v1−v0 and `e2` = v2−v0.
-    ///
-    /// Take this for a small and far triangle if you know the edges more accurately than the difference of the vertices: they
-    /// then give the shape.
-    #[inline]
-    pub fn with_edges(v0: Vec3<R>, v1: Vec3<R>, v2: Vec3<R>, e1: Vec3<R>, e2: Vec3<R>, normal: Vec3<R>) -> Self {
-        let mut this = Self::default();
-        this.prepare_edges([v0, v1, v2], [e1, e2], normal);
-        this
-    }
-
-    /// As `with_edges`, in place.
+    /// Prepares for the vertices relative to the point and the edges from the first one to the others (in any unit of length), on a surface
+    /// with this normal (of any length). The edges give the shape of a small and far triangle. In place: a prepared packet is kilobytes, and
+    /// each copy of it counts. It must be empty before.
     #[inline]
     pub(in crate::light) fn prepare_edges(
         &mut self,

@@ -8,7 +8,7 @@ use crate::light::direction::{DirectionSample, to_unit};
 use crate::light::shape::SphericalShape;
 use crate::math::rsqrt;
 use crate::real::{Mask, Real, unit_interval};
-use crate::vector::double_word::{compensated_height, cross_dw, height_over, sum_dw};
+use crate::vector::double_word::{cross_dw, height_over, sum_dw};
 use crate::vector::{Vec2, Vec3};
 use crate::warp::Warp;
 
@@ -107,24 +107,8 @@ pub(in crate::light) struct Planes<R> {
 }
 
 impl<R: Real> SphericalTriangle<R> {
-    /// Prepares for the vertices `v0`, `v1`, `v2` relative to the point, in any unit of length.
-    #[inline(always)]
-    pub fn new(v0: Vec3<R>, v1: Vec3<R>, v2: Vec3<R>) -> Self {
-        let ([v0, v1, v2], scale) = to_unit([v0, v1, v2]);
-        let none = Vec3::default();
-        let ([e1, d1], [e2, d2]) = (sum_dw([v1, none], [-v0, none]), sum_dw([v2, none], [-v0, none]));
-        let [normal, rest] = cross_dw(e1, e2);
-        let rest = rest + (d1.cross(e2) + e1.cross(d2));
-        let volume = compensated_height(v0, [normal, rest]);
-        let (n01, n02, n12) = (v0.cross(v1), v0.cross(v2), v1.cross(v2));
-        let planes = Planes { n01, n02, n12, normal: normal + rest, volume, edge: v2 - v1 };
-        Self::prepare([v0, v1, v2], planes, || n12, scale)
-    }
-
-    /// As `new`, with the edges `e1` = v1−v0 and `e2` = v2−v0.
-    ///
-    /// Take this for a small and far triangle if you know the edges more accurately than the difference of the vertices: they
-    /// then give the shape, and the planes through the point are those of `v0` and the edges.
+    /// Prepares for the vertices relative to the point and the edges `e1` = v1−v0 and `e2` = v2−v0, in any unit of length. The edges give the
+    /// shape of a small and far triangle, and the planes through the point are those of `v0` and the edges.
     #[inline(always)]
     pub fn with_edges(v0: Vec3<R>, v1: Vec3<R>, v2: Vec3<R>, e1: Vec3<R>, e2: Vec3<R>) -> Self {
         let ([v0, v1, v2, e1, e2], scale) = to_unit([v0, v1, v2, e1, e2]);

@@ -3,9 +3,8 @@
 use super::{Quantity, direction, length, limit, outputs, pair, relative};
 use crate::search::{Range, Statement, Theorem};
 use crate::traced::Traced;
-use etendue::light::shapes::{SphericalShape, SphericalTriangle};
-use etendue::warp::Warp;
-use etendue::{Real, Vec3};
+use etendue::light::TriangleBySolidAngle;
+use etendue::{LightSampler, Real, Vec3};
 use etendue_oracle::double_double::Dd;
 use etendue_oracle::{V3, cross, dot, triangle_solid_angle, unit};
 
@@ -18,12 +17,12 @@ pub(super) struct Triangle {
 }
 impl Triangle {
     fn outputs<R: Real>(&self, x: &[R]) -> Vec<R> {
-        let triangle = Self::prepare(x);
-        direction(triangle.sample(pair(x))).into_iter().chain([triangle.uniform_pdf()]).collect()
+        let sample = Self::prepare(x).sample(pair(x));
+        direction(sample.direction).into_iter().chain([sample.pdf]).collect()
     }
-    fn prepare<R: Real>(x: &[R]) -> SphericalTriangle<R> {
+    fn prepare<R: Real>(x: &[R]) -> TriangleBySolidAngle<R> {
         let v = |i: usize| Vec3::new(x[i], x[i + 1], x[i + 2]);
-        SphericalTriangle::new(v(2), v(5), v(8))
+        etendue::Triangle::new(v(2), v(5), v(8)).by_solid_angle(Vec3::default())
     }
 }
 impl Theorem for Triangle {
@@ -32,7 +31,7 @@ impl Theorem for Triangle {
         let u = if self.quantity == Quantity::Pdf { Range::Steps(0, 0) } else { Range::UNIT };
         let corners = self.corners.iter().flatten().map(|c| Range::Linear(c - self.by, c + self.by));
         Statement {
-            name: "SphericalTriangle",
+            name: "Triangle::by_solid_angle",
             domain: format!(
                 "all 2⁴⁸ pairs u, triangles whose corners are within {} of {:?} in each coordinate (and these lengths times any power of two)",
                 self.by, self.corners
@@ -48,18 +47,18 @@ impl Theorem for Triangle {
     fn bounds(&self, x: &[Traced]) -> Vec<f64> {
         let triangle = Self::prepare(x);
         if self.quantity == Quantity::Pdf {
-            return vec![relative(triangle.uniform_pdf())];
+            return vec![relative(triangle.sample(pair(x)).pdf)];
         }
-        let w = triangle.sample(pair(x));
+        let w = triangle.sample(pair(x)).direction;
         vec![length(&[w.x, w.y, w.z])]
     }
     fn definition(&self, x: &[Traced], values: &[f64]) -> Vec<[f64; 3]> {
         let triangle = Self::prepare(x);
         let [v0, v1, v2] = [2, 5, 8].map(|i| unit([values[i], values[i + 1], values[i + 2]]));
         let total = solid_angle([v0, v1, v2]);
-        let mut pairs = vec![[triangle.uniform_pdf().exact() * total, 1.0, 1.0]];
+        let mut pairs = vec![[triangle.sample(pair(x)).pdf.exact() * total, 1.0, 1.0]];
         if self.quantity == Quantity::Direction {
-            let w = triangle.sample(pair(x));
+            let w = triangle.sample(pair(x)).direction;
             let w = [w.x.exact(), w.y.exact(), w.z.exact()];
             // the arc from v1 through w ends on the edge from v0 to v2 at P
             let p = unit(cross(cross(v1, w), cross(v0, v2)));
