@@ -231,6 +231,50 @@ fn inverses_where_the_zenith_is_on_an_edge() {
     }
 }
 
+/// Lights that are nearly a hemisphere as seen from next to their plane, or of which a horizon leaves slivers that u₀ hardly tells apart:
+/// directions near their edges came back from the other end of the light. Found by the atlas.
+#[test]
+fn inverses_beside_the_edges_of_a_hemisphere() {
+    use LightShape::{Polygon, Triangle};
+    use Measure::{ProjectedSolidAngle, SolidAngle};
+    let last = 1.0 - 1.0 / 16_777_216.0;
+    for (shape, by, flat, normal, u) in [
+        (
+            Triangle,
+            ProjectedSolidAngle,
+            [[3.2020195, -3.3374035, -0.08635261], [-6.2841797, 7.109375, 3.046875], [-4.029785, 3.071045, -5.698242]],
+            [-0.23596892, 0.056069706, -0.97014165],
+            [5.9604645e-8, 0.94166917],
+        ),
+        (
+            Triangle,
+            ProjectedSolidAngle,
+            [[-1241.5294, 3625.417, -3099.5828], [800.0, -3840.0, 9216.0], [2925.0, -7036.625, 79.8]],
+            [0.13721295, -0.124586806, -0.9826753],
+            [last, 5.9604645e-8],
+        ),
+        (
+            Polygon,
+            ProjectedSolidAngle,
+            [[-30.940767, 66.4503, 25.79405], [8.285156, -99.421875, -3.15625], [55.45469, -33.94453, -47.85625]],
+            [-0.92896974, 0.23285082, -0.28774238],
+            [last, 5.9604645e-8],
+        ),
+        (
+            Polygon,
+            SolidAngle,
+            [[144.75937, 615.7153, -455.5314], [-68.90625, -459.375, 882.0], [-220.6875, -772.78125, 30.925]],
+            [0.0; 3],
+            [last, last],
+        ),
+    ] {
+        let sampler = AreaLight::prepare::<f32>(&[AreaLight::seen(shape, by, flat, normal)]);
+        let w = sampler.sample(u.into()).direction;
+        let off = (sampler.sample(sampler.invert(w)).direction - w).length();
+        assert!(off < 1e-4, "{shape:?} {by:?} {flat:?}: {off:e}");
+    }
+}
+
 /// Spheres whose centre is below the horizon and that reach above it by a few units of their radius: errors relative to the documented
 /// ones.
 #[test]
