@@ -53,10 +53,10 @@ macro_rules! techniques {
                 TriangleBySolidAngle, triangle_by_solid_angle -> TriangleBySolidAngle = EtendueTriangleBySolidAngle[81]: by_solid_angle(p) solid_angle;
                 /// Uniform over the projected solid angle Ω⊥ above the horizon of the unit normal n at the point p: pdf cosθ/Ω⊥ per
                 /// steradian, 0 where nothing of the light is above the horizon. It has no variance on an unoccluded diffuse surface.
-                TriangleByProjectedSolidAngle, triangle_by_projected_solid_angle -> TriangleByProjectedSolidAngle = EtendueTriangleByProjectedSolidAngle[162]: by_projected_solid_angle(p, n) projected_solid_angle;
+                TriangleByProjectedSolidAngle, triangle_by_projected_solid_angle -> TriangleByProjectedSolidAngle = EtendueTriangleByProjectedSolidAngle[164]: by_projected_solid_angle(p, n) projected_solid_angle;
                 /// In proportion to the lobe of a rough surface at the point p: pdf π times that of the reflection, over the projected solid
                 /// angle after its map, per steradian; 0 where nothing of the light is above the horizon.
-                TriangleByReflection, triangle_by_reflection -> TriangleByReflection = EtendueTriangleByReflection[175]: by_reflection(p, reflection) projected_solid_angle;
+                TriangleByReflection, triangle_by_reflection -> TriangleByReflection = EtendueTriangleByReflection[177]: by_reflection(p, reflection) projected_solid_angle;
             }
             /// A parallelogram, of a corner and two edges from there, that emits from the side of the first edge × the second one. Without
             /// area, and from a point in its plane, the pdf is 0. uv: (s, t), the parts of the edges, in [0, 1].
@@ -74,10 +74,10 @@ macro_rules! techniques {
                 ParallelogramBySolidAngle, parallelogram_by_solid_angle -> ParallelogramBySolidAngle = EtendueParallelogramBySolidAngle[129]: by_solid_angle(p) solid_angle;
                 /// Uniform over the projected solid angle Ω⊥ above the horizon of the unit normal n at the point p: pdf cosθ/Ω⊥ per
                 /// steradian, 0 where nothing of the light is above the horizon.
-                ParallelogramByProjectedSolidAngle, parallelogram_by_projected_solid_angle -> ParallelogramByProjectedSolidAngle = EtendueParallelogramByProjectedSolidAngle[294]: by_projected_solid_angle(p, n) projected_solid_angle;
+                ParallelogramByProjectedSolidAngle, parallelogram_by_projected_solid_angle -> ParallelogramByProjectedSolidAngle = EtendueParallelogramByProjectedSolidAngle[298]: by_projected_solid_angle(p, n) projected_solid_angle;
                 /// In proportion to the lobe of a rough surface at the point p: pdf π times that of the reflection, over the projected solid
                 /// angle after its map, per steradian; 0 where nothing of the light is above the horizon.
-                ParallelogramByReflection, parallelogram_by_reflection -> ParallelogramByReflection = EtendueParallelogramByReflection[307]: by_reflection(p, reflection) projected_solid_angle;
+                ParallelogramByReflection, parallelogram_by_reflection -> ParallelogramByReflection = EtendueParallelogramByReflection[311]: by_reflection(p, reflection) projected_solid_angle;
             }
             /// A rectangle, of a corner and two perpendicular edges from there, that emits from the side of the first edge × the second one.
             /// Its strata follow the edges. Without area, and from a point in its plane, the pdf is 0. uv: (s, t), the parts of the edges,
@@ -130,10 +130,10 @@ macro_rules! techniques {
                 PolygonBySolidAngle, polygon_by_solid_angle -> PolygonBySolidAngle [8] = EtenduePolygonBySolidAngle[449]: by_solid_angle(p) solid_angle;
                 /// Uniform over the projected solid angle Ω⊥ above the horizon of the unit normal n at the point p: pdf cosθ/Ω⊥ per
                 /// steradian, 0 where nothing of the light is above the horizon.
-                PolygonByProjectedSolidAngle, polygon_by_projected_solid_angle -> PolygonByProjectedSolidAngle [8] = EtenduePolygonByProjectedSolidAngle[1081]: by_projected_solid_angle(p, n) projected_solid_angle;
+                PolygonByProjectedSolidAngle, polygon_by_projected_solid_angle -> PolygonByProjectedSolidAngle [8] = EtenduePolygonByProjectedSolidAngle[1097]: by_projected_solid_angle(p, n) projected_solid_angle;
                 /// In proportion to the lobe of a rough surface at the point p: pdf π times that of the reflection, over the projected solid
                 /// angle after its map, per steradian; 0 where nothing of the light is above the horizon.
-                PolygonByReflection, polygon_by_reflection -> PolygonByReflection [8] = EtenduePolygonByReflection[1094]: by_reflection(p, reflection) projected_solid_angle;
+                PolygonByReflection, polygon_by_reflection -> PolygonByReflection [8] = EtenduePolygonByReflection[1110]: by_reflection(p, reflection) projected_solid_angle;
             }
             /// A bilinear patch, of a corner and the vectors from there to the others, that emits from the side of ∂s × ∂t. Without area the
             /// pdf is 0. uv: (s, t), in [0, 1].
