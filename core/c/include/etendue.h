@@ -585,12 +585,12 @@ typedef struct {
 
 // What the technique of this name prepares. What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
-  float data[162];
+  float data[164];
 } EtendueTriangleByProjectedSolidAngle;
 
 // What the technique of this name prepares. What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
-  float data[175];
+  float data[177];
 } EtendueTriangleByReflection;
 
 // What the technique of this name prepares. What is inside does not concern callers: it may be copied, and used by any thread.
@@ -605,12 +605,12 @@ typedef struct {
 
 // What the technique of this name prepares. What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
-  float data[294];
+  float data[298];
 } EtendueParallelogramByProjectedSolidAngle;
 
 // What the technique of this name prepares. What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
-  float data[307];
+  float data[311];
 } EtendueParallelogramByReflection;
 
 // Columns of lights: the fields are those of the light.
@@ -668,12 +668,12 @@ typedef struct {
 
 // What the technique of this name prepares. What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
-  float data[1081];
+  float data[1097];
 } EtenduePolygonByProjectedSolidAngle;
 
 // What the technique of this name prepares. What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
-  float data[1094];
+  float data[1110];
 } EtenduePolygonByReflection;
 
 // A bilinear patch, of a corner and the vectors from there to the others, that emits from the side of ds x dt. Without area the
