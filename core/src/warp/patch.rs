@@ -146,8 +146,7 @@ impl<R: Real> Warp<R> for PatchSurface<R> {
         let beyond = |x: R, side: Vec3<R>| (x - x.clamped(zero, one)).abs() * side.length();
         let inside =
             beyond(st.x, d.mul_add(st.y, unit.edge_s)).le(slack) & beyond(st.y, d.mul_add(st.x, unit.edge_t)).le(slack);
-        let st = Vec2 { x: st.x.clamped(zero, R::ONE_MINUS_EPSILON), y: st.y.clamped(zero, R::ONE_MINUS_EPSILON) };
-        self.pdf_at(st).keep(inside & finite)
+        self.pdf_at(Vec2 { x: st.x.clamped(zero, one), y: st.y.clamped(zero, one) }).keep(inside & finite)
     }
     #[inline(always)]
     fn invert(&self, point: Vec3<R>) -> Vec2<R> {

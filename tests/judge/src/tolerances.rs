@@ -82,8 +82,8 @@ pub const POLYGON: Tolerance = Tolerance { point: 10.0, steps: 0.0, distance: 9.
 pub const PROJECTED_POLYGON: Tolerance =
     Tolerance { point: 15.0, steps: 8.0, distance: 28.0, pdf: 12.0, round_trip: 24.0 };
 /// A cross product, an arc tangent, a sine and a frame; the point is the direction times up to 2. Fuzzing found at most 9.75 units for the
-/// point, and 5.06 for the pdf.
-pub const SEGMENT: Tolerance = Tolerance { point: 9.8, steps: 0.0, distance: 8.0, pdf: 5.1, round_trip: 8.0 };
+/// point. Of the pdf, the arc tangent errs by 3.5 units, the length of the cross product by 2, and the quotient by 1.
+pub const SEGMENT: Tolerance = Tolerance { point: 9.8, steps: 0.0, distance: 8.0, pdf: 6.5, round_trip: 8.0 };
 /// Like [`SEGMENT`]. The inverted irradiance is a sum of three terms: 4 steps, as for the projected cap.
 pub const PROJECTED_SEGMENT: Tolerance = Tolerance { steps: 4.0, ..SEGMENT };
 /// The half-angles are roots of a dozen roundings; the solid angle is a product with a sum of 20 terms. The inverted integral is such a sum

@@ -101,10 +101,11 @@ fn by_solid_angle(shape: LightShape, name: &str) -> Holds {
     }
 }
 /// What holds of a shape over a horizon. Known limits: near a hemisphere a step of `u` turns the direction by more than the tolerance; for
-/// slivers the pdf and the direction may be off by twice the tolerance; next to shapes of 1e−7 the pdf may not yet be 0 at 16 units outside.
+/// slivers, and where the horizon leaves a corner of a tiny shape, the pdf and the direction may be off by twice the tolerance; next to shapes of 1e−7 the pdf may not yet be 0 at 16 units outside.
 /// Of spheres, only the density is checked.
 fn over_horizon(shape: LightShape, name: &str) -> Holds {
-    let is_limit = ["hemisphere", "huge", "close", "sliver", "1e-7"].iter().any(|part| name.contains(part));
+    let is_limit =
+        ["hemisphere", "huge", "close", "sliver", "1e-7", "corner, tiny"].iter().any(|part| name.contains(part));
     match shape {
         LightShape::Sphere => Holds::Density,
         _ if is_limit => Holds::Bits,
@@ -114,7 +115,9 @@ fn over_horizon(shape: LightShape, name: &str) -> Holds {
 /// The properties of a shape from a regime.
 fn regime<S: Fixture>((name, s): Case<S>, holds: Holds, u: [f32; 2], mut random: Random) {
     let (_said, subject) = (Said(name), Subject::new(&s));
-    if !subject.truth.is_seen() {
+    // a subnormal number has fewer digits, and loses them as its length is multiplied
+    let is_scalable = format!("{s:?}") == format!("{:?}", s.scaled(2_f32.powi(-20)).scaled(2_f32.powi(20)));
+    if !is_scalable || !subject.truth.is_seen() {
         return;
     }
     properties::within_reach(&subject, u);
