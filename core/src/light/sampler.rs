@@ -271,9 +271,7 @@ impl<R: Real, S, W: ProjectedShape<R>> ByReflection<R, S, W> {
     }
 }
 
-impl<R: Real, S: AreaSurface<R>, W: ProjectedShape<R> + Warp<R, Point = Vec3<R>>> LightSampler<R>
-    for ByReflection<R, S, W>
-{
+impl<R: Real, S: AreaSurface<R>, W: ProjectedShape<R>> LightSampler<R> for ByReflection<R, S, W> {
     #[inline(always)]
     fn sample(&self, u: Vec2<R>) -> LightSample<R> {
         let direction = self.reflection.from_cosine(self.shape.sample(u)).unit_and_length().0;

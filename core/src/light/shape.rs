@@ -12,11 +12,6 @@ pub trait SphericalShape<R: Real>: Warp<R, Point = Vec3<R>> + Copy {
     /// map knows them without intersecting the shape: of a triangle, the barycentric coordinates of its second and third vertex; otherwise
     /// the parts of both edges.
     fn sample_point(&self, u: Vec2<R>) -> (DirectionSample<R>, Option<Vec2<R>>);
-    /// The direction and the distance alone.
-    #[inline(always)]
-    fn sample_direction(&self, u: Vec2<R>) -> DirectionSample<R> {
-        self.sample_point(u).0
-    }
     /// Solid angle in steradians, in [0, 4π].
     fn solid_angle(&self) -> R;
     /// The pdf of every direction that hits the shape, per steradian: 1/Ω, and 0 where Ω is 0.

@@ -6,7 +6,6 @@ use super::flat::{Flat, corner, exactly};
 use super::outline::Outline;
 use super::seen::{Seen, Target};
 use super::shapes::{Convex, Polyhedron};
-use etendue::light::shapes::{ProjectedCap, ProjectedShape};
 use etendue::reflection::Reflection;
 use etendue::{Mask, Real, Vec3};
 
@@ -362,5 +361,6 @@ fn unoccluded<R: Real>(cap: &Cap<R>, center: Vec3<R>, radius: R, normal: Vec3<R>
     if above.all() {
         return whole;
     }
-    R::blend(above, whole, ProjectedCap::new(center, radius, normal).projected_solid_angle())
+    let sphere = etendue::Sphere::new(center, radius).by_projected_solid_angle(Vec3::default(), normal);
+    R::blend(above, whole, sphere.projected_solid_angle())
 }

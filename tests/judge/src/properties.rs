@@ -200,28 +200,32 @@ pub fn jacobian(s: &Subject, u: [f64; 2]) -> Option<f64> {
 pub fn accurate(s: &Subject, u: [f32; 2]) -> f64 {
     let (truth, tolerance) = (&s.truth, s.truth.tolerance());
     let u = u.map(f64::from);
-    let at = |u: [f64; 2]| observe(&*s.double, u);
-    let (narrow, wide) = (observe(&*s.single, u), at(u));
-    let at_steps = |n: f64| {
-        let h = n * ULP;
-        [[h, 0.0], [-h, 0.0], [0.0, h], [0.0, -h]]
-            // up to 1 inclusive: rounding may go beyond the last step of the grid
-            .map(|d| at([(u[0] + d[0]).clamp(0.0, 1.0), (u[1] + d[1]).clamp(0.0, 1.0)]))
+    let (narrow, wide) = (observe(&*s.single, u), observe(&*s.double, u));
+    let moved = |n: f64, most: f64| {
+        let within = |x: f64| x.clamp(0.0, most);
+        [[n, 0.0], [-n, 0.0], [0.0, n], [0.0, -n]].map(|d| [within(u[0] + d[0] * ULP), within(u[1] + d[1] * ULP)])
     };
-    let near = at_steps(1.0);
-    // what an error exceeds the change over some steps by: as many times that over one, or if the map jumps between them, that over all
-    let excess = |error: f64, steps: f64, change: &dyn Fn(&Observed) -> f64| {
-        let greatest = |near: &[Observed; 4]| near.iter().map(change).collect::<Greatest>().error();
-        let smooth = error - steps * greatest(&near);
-        if smooth > 0.0 && steps > 0.0 { smooth.min(error - greatest(&at_steps(steps))) } else { smooth }
+    // up to 1 inclusive: rounding may go beyond the last step of the grid
+    let wide_at = |n: f64| moved(n, 1.0).map(|u| observe(&*s.double, u));
+    let near = wide_at(1.0);
+    // what an error exceeds the change over some steps by: as many times that over one, or if either map jumps between them, that over all
+    let excess = |error: f64, steps: f64, change: &dyn Fn(&Observed, &Observed) -> f64| {
+        let greatest =
+            |near: &[Observed; 4], from: &Observed| near.iter().map(|o| change(o, from)).collect::<Greatest>().error();
+        let smooth = error - steps * greatest(&near, &wide);
+        if smooth <= 0.0 || steps <= 0.0 {
+            return smooth;
+        }
+        let narrow_at = moved(steps, 1.0 - ULP).map(|u| observe(&*s.single, u));
+        smooth.min(error - greatest(&wide_at(steps), &wide).max(greatest(&narrow_at, &narrow)))
     };
-    let away = |o: &Observed| truth.distance(o.point, wide.point);
-    let point = excess(away(&narrow), tolerance.steps, &away) / rounding(s, ROUNDING);
+    let away = |o: &Observed, from: &Observed| truth.distance(o.point, from.point);
+    let point = excess(away(&narrow, &wide), tolerance.steps, &away) / rounding(s, ROUNDING);
     assert!(point <= tolerance.point, "point: {s:?} at {u:?}: {point:e} units\n{narrow:?}\n{wide:?}");
     let (d, e) = (narrow.distance, wide.distance);
     // the distance belongs to the sampled direction, and moves by as many steps
-    let farther = |o: &Observed| (o.distance - e).abs();
-    let beyond = excess(farther(&narrow), tolerance.steps.max(4.0), &farther);
+    let farther = |o: &Observed, from: &Observed| (o.distance - from.distance).abs();
+    let beyond = excess(farther(&narrow, &wide), tolerance.steps.max(4.0), &farther);
     let distance = if e > 0.0 { beyond / ((e * truth.slant(wide.point) + truth.reach()) * ROUNDING) } else { 0.0 };
     assert!(distance <= tolerance.distance, "distance: {s:?} at {u:?}: {d}, f64 {e}: {distance:e} units");
     point.max(distance)

@@ -8,7 +8,6 @@ pub(in crate::light) mod zenith;
 use crate::lanewise::lanewise;
 use crate::light::direction::{DirectionSample, to_unit};
 use crate::light::shape::ProjectedShape;
-use crate::light::triangle::solid_angle::TRIANGLE_SLACK;
 use crate::math::{ratio, rsqrt};
 use crate::real::{Mask, Real, unit_interval};
 use crate::vector::double_word::{cross_dw, dot_dw, height_dw, sum_dw, unit_normal};
@@ -21,6 +20,8 @@ use zenith::{Found, Side, drop_narrow, sectors, surrounds};
 
 /// Heights below this, in units of the greatest coordinate, count as on the horizon.
 pub(in crate::light) const LEAST_HEIGHT: f64 = 1e-30;
+/// Angle by which the error of its direction may move a sample out of the triangle: 8 ulp of a component near 1.
+const PROJECTED_SLACK: f64 = 8.0 / 16_777_216.0;
 
 lanewise! {
     /// Directions from a point to a triangle above the horizon of a surface, by projected solid angle (pdf ∝ cosine to the
@@ -300,12 +301,12 @@ impl<R: Real> ProjectedTriangle<R> {
 /// itself.
 #[inline(always)]
 pub(in crate::light) fn within<R: Real>(least: R) -> R::Mask {
-    least.ge(R::lit(-TRIANGLE_SLACK))
+    least.ge(R::lit(-PROJECTED_SLACK))
 }
 /// Tells whether a direction leads towards the plane with that normal, with the same allowance.
 #[inline(always)]
 pub(in crate::light) fn ahead<R: Real>(w: Vec3<R>, plane: Vec3<R>, front: R::Mask) -> R::Mask {
-    w.dot(plane).negate_where(front).ge(-(plane.length() * R::lit(TRIANGLE_SLACK)))
+    w.dot(plane).negate_where(front).ge(-(plane.length() * R::lit(PROJECTED_SLACK)))
 }
 
 /// Whether a direction counts to the second of two areas, on the far side of the border between them (`beyond`): into one that is no larger

@@ -6,23 +6,20 @@ mod prepare;
 use crate::lanewise::lanewise;
 use crate::light::direction::{DirectionSample, to_unit};
 use crate::light::shape::SphericalShape;
+use crate::light::surface::SURFACE_SLACK;
 use crate::math::rsqrt;
 use crate::real::{Mask, Real, unit_interval};
 use crate::vector::double_word::{cross_dw, height_over, sum_dw};
 use crate::vector::{Vec2, Vec3};
 use crate::warp::Warp;
 
-/// Angle by which the error of its direction may move a sample out of the triangle: 12 ulp of a component near 1.
-const BEYOND: f64 = 12.0 / 16_777_216.0;
 /// Bound of what rounding takes from the distance to the third plane that follows from the others, in units of their normals.
 const SURELY: f64 = 32.0 / 16_777_216.0;
-/// What turns radians into turns.
-const INV_TWO_PI: f64 = 0.5 / core::f64::consts::PI;
-/// The tolerance for samples by projected solid angle: 8 ulp.
-pub(in crate::light) const TRIANGLE_SLACK: f64 = 8.0 / 16_777_216.0;
+/// What turns half of an angle in radians into turns.
+const INV_FOUR_PI: f64 = 0.25 / core::f64::consts::PI;
 
 lanewise! {
-    /// Directions from a point to a triangle, uniform in solid angle: for every triangle that is not far.
+    /// Directions from a point to a triangle, uniform in solid angle: for every triangle; far ones are cheaper by area.
     ///
     /// [`Triangle::by_solid_angle`](crate::Triangle::by_solid_angle) says how.
     pub struct SphericalTriangle {
@@ -198,7 +195,7 @@ impl<R: Real> SphericalTriangle<R> {
     /// Tells whether the direction leads towards the triangle's plane.
     #[inline(always)]
     pub(in crate::light) fn ahead(&self, w: Vec3<R>) -> R::Mask {
-        let slack = self.normal.length() * R::lit(BEYOND);
+        let slack = self.normal.length() * R::lit(SURFACE_SLACK);
         w.dot(self.normal).negate_where(self.in_front()).ge(-slack)
     }
     /// Tells whether v2 and the direction lie on opposite sides of the plane through the viewpoint, v0 and v1.
@@ -228,7 +225,7 @@ impl<R: Real> SphericalTriangle<R> {
         // from the nearer end: near the other, α−η and H−η are small differences
         let far = u.gt(R::lit(0.5));
         let part = R::blend(far, rest, u);
-        let (sin, cos) = (part * self.solid_angle * R::lit(0.5 * INV_TWO_PI)).sin_cos_turns();
+        let (sin, cos) = (part * self.solid_angle * R::lit(INV_FOUR_PI)).sin_cos_turns();
         let s = R::blend(far, self.half.x * cos - self.half.y * sin, sin);
         // cos(α−η) and sin(α−η), over sinα
         let from_sin = R::blend(far, self.turned.x, one);

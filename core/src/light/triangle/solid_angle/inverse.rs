@@ -1,6 +1,7 @@
 //! The `u` of a direction in a triangle.
 
-use super::{BEYOND, SphericalTriangle};
+use super::SphericalTriangle;
+use crate::light::surface::SURFACE_SLACK;
 use crate::math::rsqrt;
 use crate::real::{Real, unit_interval};
 use crate::vector::{Vec2, Vec3};
@@ -102,7 +103,9 @@ impl<R: Real> SphericalTriangle<R> {
     pub(in crate::light) fn beside_v2(&self, w: Vec3<R>) -> R::Mask {
         let zero = R::lit(0.0);
         let towards = self.x2.mul_add(w.dot(self.along), self.y2 * w.dot(self.across));
-        w.dot(self.side12).le(self.slack.y * R::lit(BESIDE / BEYOND)) & towards.gt(zero) & self.solid_angle.gt(zero)
+        w.dot(self.side12).le(self.slack.y * R::lit(BESIDE / SURFACE_SLACK))
+            & towards.gt(zero)
+            & self.solid_angle.gt(zero)
     }
     /// u₁ of a direction, given 1 − cos of its angle from v1, on the arc for `u` that leaves `rest` = 1−u₀: a rounded u₀ has an arc of
     /// its own, and the pair must lead back to the direction.

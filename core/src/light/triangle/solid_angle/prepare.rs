@@ -1,7 +1,8 @@
 //! Prepares a triangle for a point, with the names of Arvo and of Peters: V from the point to the vertices, l their lengths, d the cosines
 //! between them, G₀ : T = tan(Ω/2).
 
-use super::{BEYOND, Planes, SphericalTriangle};
+use super::{Planes, SphericalTriangle};
+use crate::light::surface::SURFACE_SLACK;
 use crate::math::rsqrt;
 use crate::real::{Mask, Real};
 use crate::vector::{Vec2, Vec3};
@@ -198,7 +199,8 @@ fn slack<R: Real>(corners: &Corners<R>, side: &Side<R>, opposite: &Opposite<R>, 
     let start = -corners.d01 / R::blend(side.sin.gt(zero), side.sin, one);
     let start = start.greater(one).lesser(R::lit(1e18));
     let far = start.greater(-corners.d02 * rsqrt(opposite.sin02_squared.greater(R::lit(1e-7))));
-    let of = |n: Vec3<R>, a: Vec3<R>, b: Vec3<R>, known: R| (n.length() * known).greater(-a.dot(b)) * R::lit(BEYOND);
+    let of =
+        |n: Vec3<R>, a: Vec3<R>, b: Vec3<R>, known: R| (n.length() * known).greater(-a.dot(b)) * R::lit(SURFACE_SLACK);
     Vec3::new(of(planes.n01, v0, v1, start), of(planes.n12, v1, v2, far), of(planes.n02, v2, v0, start))
 }
 
