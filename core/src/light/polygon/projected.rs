@@ -33,7 +33,7 @@ pub struct ProjectedPolygon<R, const N: usize, const ROOM: usize = N> {
     central: R,
 }
 
-/// A parallelogram as [`ProjectedPolygon::parallelogram`] prepares it.
+/// A parallelogram: a polygon of two triangles.
 pub type ProjectedParallelogram<R> = ProjectedPolygon<R, 4, 2>;
 
 impl<R: Real, const N: usize, const ROOM: usize> Default for ProjectedPolygon<R, N, ROOM> {
