@@ -12,7 +12,7 @@
 #include <time.h>
 #include <unistd.h>
 
-enum { MOST = 1000, SIZES = 5, LIGHT_NUMBERS = 24, SAMPLER_NUMBERS = 1100 };
+enum { MOST = 1000, SIZES = 5, LIGHT_NUMBERS = 24, SAMPLER_NUMBERS = 1200 };
 static size_t sizes[SIZES] = {0, 1, 7, 64, MOST};
 
 // ---- memory ----

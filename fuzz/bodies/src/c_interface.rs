@@ -13,7 +13,7 @@ use warp::WARPS;
 
 /// Numbers of the largest light and of the largest sampler.
 const LIGHT: usize = 24;
-const SAMPLER: usize = 1100;
+const SAMPLER: usize = 1200;
 /// Columns of a sample: eleven of numbers and one of bytes.
 const FIELDS: usize = 12;
 const COUNTS: [usize; 7] = [0, 1, 7, 15, 16, 17, 100];

@@ -208,7 +208,7 @@ pub fn accurate(s: &Subject, u: [f32; 2]) -> f64 {
     // up to 1 inclusive: rounding may go beyond the last step of the grid
     let wide_at = |n: f64| moved(n, 1.0).map(|u| observe(&*s.double, u));
     let near = wide_at(1.0);
-    // what an error exceeds the change over some steps by: as many times that over one, or if either map jumps between them, that over all
+    // what an error exceeds the change over some steps by: as many times that over one, or if the maps jump between them, those over all
     let excess = |error: f64, steps: f64, change: &dyn Fn(&Observed, &Observed) -> f64| {
         let greatest =
             |near: &[Observed; 4], from: &Observed| near.iter().map(|o| change(o, from)).collect::<Greatest>().error();
@@ -217,7 +217,7 @@ pub fn accurate(s: &Subject, u: [f32; 2]) -> f64 {
             return smooth;
         }
         let narrow_at = moved(steps, 1.0 - ULP).map(|u| observe(&*s.single, u));
-        smooth.min(error - greatest(&wide_at(steps), &wide).max(greatest(&narrow_at, &narrow)))
+        smooth.min(error - greatest(&wide_at(steps), &wide) - greatest(&narrow_at, &narrow))
     };
     let away = |o: &Observed, from: &Observed| truth.distance(o.point, from.point);
     let point = excess(away(&narrow, &wide), tolerance.steps, &away) / rounding(s, ROUNDING);

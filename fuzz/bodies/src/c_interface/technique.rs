@@ -140,6 +140,7 @@ fn unit_at(light: &str) -> Option<usize> {
 /// Calls the functions of a technique.
 pub(super) fn check(input: &mut Input<'_>, index: usize) {
     let (t, number) = (&TECHNIQUES[index], index as u32);
+    assert!(t.light <= LIGHT && t.sampler <= SAMPLER, "{} needs more room", t.name);
     let call = input.below(6);
     let n = COUNTS[input.below(COUNTS.len())];
     // the pointer that is null, if any
