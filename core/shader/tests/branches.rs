@@ -166,7 +166,7 @@ fn what_cannot_be_recorded_says_so() {
     assert_eq!(body(&module), "return x;\n");
 }
 
-/// The light whose preparation has most rare paths, and the one whose samples are iterated.
+/// The light whose preparation has most rare paths, and the ones whose samples are iterated, as inverses are in narrow sectors.
 #[test]
 fn lights_have_branches_and_loops() {
     let text = |light: &str| {
@@ -178,6 +178,6 @@ fn lights_have_branches_and_loops() {
         let count = |what: &str| text.matches(what).count();
         let (branches, loops) = (count(" if ("), count(" for ("));
         println!("{light}: {branches} branches, {loops} loops");
-        assert!(branches >= 8 && loops == 1, "{light}: {branches} branches, {loops} loops");
+        assert!(branches >= 8 && (1..=2).contains(&loops), "{light}: {branches} branches, {loops} loops");
     }
 }

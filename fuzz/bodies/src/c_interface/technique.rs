@@ -296,7 +296,7 @@ pub(super) fn check(input: &mut Input<'_>, index: usize) {
                     etendue_invert_batch(number, sampler.cast(), n, w_in.as_ptr(), [e, c].as_ptr()),
                     EtendueStatus::Ok
                 );
-                for i in 0..n {
+                for i in (0..n).filter(|&i| is_inside(i)) {
                     let mut back = [0.0; 2];
                     etendue_sample(number, sampler.cast(), [u[0][i], u[1][i]].as_ptr(), &mut one);
                     etendue_invert(number, sampler.cast(), [w[0][i], w[1][i], w[2][i]].as_ptr(), back.as_mut_ptr());
