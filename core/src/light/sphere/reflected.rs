@@ -83,7 +83,10 @@ impl<R: Real> LightSampler<R> for SphereByReflection<R> {
     #[inline(always)]
     fn sample(&self, u: Vec2<R>) -> LightSample<R> {
         let direction = self.surface.inwards(self.reflection.from_cosine(self.shape.sample(u)).unit_and_length().0);
-        let direction = above_horizon(direction, self.reflection.normal());
+        let normal = self.reflection.normal();
+        // of a sphere whose angular radius underflows, the map has no axes
+        let direction = Vec3::blend(direction.is_within(R::lit(2.0)), direction, normal);
+        let direction = above_horizon(direction, normal);
         drawn(direction, self.pdf(direction), self.surface.at(direction), self.surface.outside()).drawn_from(u)
     }
     #[inline(always)]
