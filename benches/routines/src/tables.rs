@@ -96,7 +96,7 @@ fn warp(
 fn warps() -> Table {
     let rows = vec![
         warp("disk, in the plane", "area", "[`ConcentricDisk`](crate::warp::ConcentricDisk)", ["concentric disk sample", ""], "concentric_disk", ["1.5e−7", "Shirley and Chiu 1997", "keeps strata compact"]),
-        warp("", "solid angle", "[`Disk::by_solid_angle`](crate::Disk::by_solid_angle)", ["light disk by solid angle, prepared", "light disk by solid angle"], "spherical_disk", ["1.8e−7 and 4 steps of u", "derived there", "all disks that are not far"]),
+        warp("", "solid angle", "[`Disk::by_solid_angle`](crate::Disk::by_solid_angle)", ["light disk by solid angle, prepared", "light disk by solid angle"], "spherical_disk", ["1.8e−7 and 4 steps of u", "derived there", "disks; far ones by area"]),
         warp("sphere, directions", "solid angle", "[`UniformSphere`](crate::warp::UniformSphere)", ["uniform sphere sample", ""], "uniform_sphere", ["1.5e−7", "inverse distribution", "constant environments"]),
         warp("hemisphere", "solid angle", "[`UniformHemisphere`](crate::warp::UniformHemisphere)", ["uniform hemisphere sample", ""], "uniform_hemisphere", ["1.5e−7", "inverse distribution", "a baseline"]),
         warp("", "projected", "[`CosineHemisphere`](crate::warp::CosineHemisphere)", ["cosine hemisphere sample", ""], "cosine_hemisphere", ["1.5e−7", "Malley; Shirley and Chiu 1997", "diffuse surfaces, ambient occlusion"]),
@@ -107,7 +107,7 @@ fn warps() -> Table {
         warp("", "centre below the horizon", "[`Sphere::by_projected_solid_angle`](crate::Sphere::by_projected_solid_angle)", ["projected cap, lune sample", ""], "", ["the same", "the same", "the same"]),
         warp("triangle", "area", "[`AreaTriangle`](crate::warp::AreaTriangle)", ["area triangle sample", ""], "area_triangle", ["1.2e−7", "Turk 1990", "far and facing triangles"]),
         warp("", "area", "[`LowDistortionTriangle`](crate::warp::LowDistortionTriangle)", ["low-distortion triangle sample", ""], "low_distortion_triangle", ["6e−8", "Heitz 2019", "strata on triangles"]),
-        warp("", "solid angle", "[`Triangle::by_solid_angle`](crate::Triangle::by_solid_angle)", ["light triangle by solid angle, prepared", "light triangle by solid angle"], "spherical_triangle", ["5.4e−7", "Arvo 1995; Peters 2021", "all triangles that are not far"]),
+        warp("", "solid angle", "[`Triangle::by_solid_angle`](crate::Triangle::by_solid_angle)", ["light triangle by solid angle, prepared", "light triangle by solid angle"], "spherical_triangle", ["5.4e−7", "Arvo 1995; Peters 2021", "triangles; far ones by area"]),
         warp("", "projected", "[`Triangle::by_projected_solid_angle`](crate::Triangle::by_projected_solid_angle)", ["light triangle by projected solid angle, prepared", "light triangle by projected solid angle"], "projected_triangle", ["6e−7 and 8 steps of u", "Peters 2021; derived there", "diffuse surfaces where a ray costs more than this"]),
         warp("parallelogram", "solid angle", "[`Parallelogram::by_solid_angle`](crate::Parallelogram::by_solid_angle)", ["light parallelogram by solid angle, prepared", "light parallelogram by solid angle"], "spherical_parallelogram", ["5.4e−7", "two triangles", "quads"]),
         warp("", "projected", "[`Parallelogram::by_projected_solid_angle`](crate::Parallelogram::by_projected_solid_angle)", ["light parallelogram by projected solid angle, prepared", "light parallelogram by projected solid angle"], "projected_parallelogram", ["as the triangle", "as the triangle", "as the triangle"]),

@@ -206,6 +206,16 @@ fn samplers_are_closed() {
     }
 }
 
+/// A sphere whose angular radius underflows, on the horizon of a normal with a subnormal component: the map had no axes, and directions were NaN.
+#[test]
+fn spheres_without_an_angular_radius_have_directions() {
+    let normal = Vec3::new(0.6952027, 1.085_744_3e-38, -0.7188137_f32);
+    let sphere = Sphere::new(Vec3::new(4.471_487e-39, 2.598_459e20, 4.471_487e-39), 4.471_487e-39);
+    let sampler = sphere.by_reflection(Vec3::new(0.0, 0.0, -1.4039216), &Reflection::new(0.3, normal, normal));
+    let s = sampler.sample(Vec2::new(1e-20, 0.944_271_8));
+    assert!(s.pdf == 0.0 && (s.direction.length() - 1.0).abs() < 1e-6 && s.normal.max_abs().is_finite(), "{s:?}");
+}
+
 /// Whatever the sphere, results are finite; without a radius, or below the horizon, there is no sample.
 #[test]
 fn degenerate_spheres_give_nothing() {
