@@ -111,7 +111,7 @@ fn horizontal_illuminance() {
     for kind in 1..=15 {
         for zenith in [0.0, 25.0, 60.0, 88.0].into_iter().skip(kind % cases(4, 1)).step_by(cases(4, 1)) {
             let sun = at(zenith, 70.0);
-            let (rule_u, rule_v) = (gauss_legendre::<240>(), 240);
+            let (rule_u, rule_v) = (gauss_legendre::<120>(), 240);
             // polar coordinates about the sun
             let side = unit([sun[2], 0.0, -sun[0]]);
             let other = [
@@ -120,18 +120,20 @@ fn horizontal_illuminance() {
                 sun[0] * side[1] - sun[1] * side[0],
             ];
             let mut sum = 0.0;
-            for &(x, weight) in &rule_u {
-                let angle = PI * x;
-                let (s, c) = angle.sin_cos();
-                for j in 0..rule_v {
-                    let (sin, cos) = (TAU * (f64::from(j) + 0.5) / f64::from(rule_v)).sin_cos();
-                    let w: V3 = std::array::from_fn(|k| c * sun[k] + s * (cos * side[k] + sin * other[k]));
-                    sum += truth(kind, w, sun) * w[2].max(0.0) * s * weight * PI * TAU / f64::from(rule_v);
+            for j in 0..rule_v {
+                let (sin, cos) = (TAU * (f64::from(j) + 0.5) / f64::from(rule_v)).sin_cos();
+                let across: V3 = std::array::from_fn(|k| cos * side[k] + sin * other[k]);
+                // a meridian ends at the horizon
+                let end = FRAC_PI_2 + across[2].atan2(sun[2]);
+                for &(x, weight) in &rule_u {
+                    let (s, c) = (end * x).sin_cos();
+                    let w: V3 = std::array::from_fn(|k| c * sun[k] + s * across[k]);
+                    sum += truth(kind, w, sun) * w[2].max(0.0) * s * weight * end * TAU / f64::from(rule_v);
                 }
             }
             let found = GeneralSky::new(kind as u32, sun).unwrap().horizontal();
             worst = worst.max((found / sum - 1.0).abs());
-            assert!((found / sum - 1.0).abs() < 5e-5, "{kind} at {zenith}°: {found}, expected {sum}");
+            assert!((found / sum - 1.0).abs() < 2e-5, "{kind} at {zenith}°: {found}, expected {sum}");
         }
     }
     println!("relative error: {worst:.1e}");

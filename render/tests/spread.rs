@@ -89,11 +89,25 @@ fn super_narrow(v: V3) -> V3 {
     wide(narrow(v))
 }
 
+/// How far a ray from the point passes by the light, in roundings of the coordinates and of the distance.
+fn past(&Scene { corner, s, t, normal, p, .. }: &Scene, w: V3) -> f64 {
+    let distance = dot(sub(corner, p), normal) / dot(w, normal);
+    let on = sub(along(p, w, distance), corner);
+    // how far it is outside of each pair of edges
+    let outside = |edge: V3, other: V3| {
+        let upright = unit(cross(other, normal));
+        let [at, end] = [on, edge].map(|v| dot(v, upright) * dot(edge, upright).signum());
+        (-at).max(at - end)
+    };
+    let reach = corner.into_iter().chain(p).fold(distance, |most, x| most.max(x.abs()));
+    outside(s, t).max(outside(t, s)) * dot(w, normal).abs() / (reach / 16_777_216.0)
+}
+
 /// Whatever point of the light shines on the point is in the visible part, which is no larger than the light.
 #[test]
 fn nothing_that_shines_is_lost() {
     let mut random = Random::new(2);
-    let (mut shining, mut smaller) = (0, 0);
+    let (mut shining, mut smaller, mut worst) = (0, 0, 0.0_f64);
     for i in 0..cases(3000, 300_000) {
         let scene = scene(&mut random, i % 2 == 0);
         let Scene { corner, s, t, p, angle, normal } = scene;
@@ -114,11 +128,12 @@ fn nothing_that_shines_is_lost() {
                 assert!(pdf > 0.0, "{uv:?} is lost: {corner:?} {s:?} {t:?} from {p:?}, {angle}");
             }
             let drawn = of_part.sample(Vec2::new(random.unit(), random.unit()));
-            // where the light is a sliver, rounding may take a direction off its edge
-            let back = drawn.pdf <= 0.0 || of_whole.pdf(drawn.direction) > 0.0 || whole < 1e-5;
-            assert!(back, "{:?} is not of the light", drawn.direction);
+            if drawn.pdf > 0.0 {
+                worst = worst.max(past(&scene, wide(drawn.direction.to_array())));
+            }
         }
     }
-    println!("{shining} directions, {smaller} lights of which less is sampled");
+    println!("{shining} directions, {smaller} lights of which less is sampled, {worst:.2} roundings past the edges");
+    assert!(worst < 2.0, "{worst}");
     assert!(shining > cases(10_000, 1_000_000) && smaller > cases(600, 60_000), "{shining} {smaller}");
 }
