@@ -43,7 +43,7 @@ macro_rules! prepared {
                 // SAFETY: the caller's columns have an element for every lane
                 unsafe { $body }
             }
-            if size_of::<P>() > LARGE {
+            if const { size_of::<P>() > LARGE } {
                 // SAFETY: the caller's
                 unsafe { $apart::<P::Of<'a, R>, R>(sampler, place, input, out) };
             } else {
@@ -61,7 +61,7 @@ macro_rules! prepared {
         ) {
             // SAFETY: the caller's columns have `n` elements
             unsafe {
-                if R::LANES == 1 {
+                if const { R::LANES == 1 } {
                     (0..n).for_each(|$i| $alone);
                 } else {
                     typed::<P>($one).over::<R, _>(|s| {
@@ -168,7 +168,7 @@ pub(crate) unsafe extern "C" fn sample_each<T: Technique, R: Packet>(
     if !cfg!(feature = "each") {
         return;
     }
-    if R::LANES == 1 {
+    if const { R::LANES == 1 } {
         for i in 0..n {
             // SAFETY: the caller's columns have `n` elements
             unsafe {
@@ -196,7 +196,7 @@ pub(crate) unsafe extern "C" fn evaluate_each<T: Technique, R: Packet>(
         return;
     }
     let (wants_u, wants_hit) = (!out.u.iter().all(|column| column.is_null()), out.hit.any());
-    if R::LANES == 1 {
+    if const { R::LANES == 1 } {
         for i in 0..n {
             // SAFETY: the caller's columns have `n` elements
             unsafe {
