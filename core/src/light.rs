@@ -87,6 +87,7 @@
 //! Without compiler flags a packet of 8 is two registers, and a product and sum two instructions;
 //! `CARGO_ENCODED_RUSTFLAGS= cargo bench -p etendue-benches --bench summary -- light` prints what that costs.
 
+pub(crate) mod bound;
 mod cells;
 mod delta;
 mod direction;

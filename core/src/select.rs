@@ -17,12 +17,11 @@
 //! method [`pmf`](LightChoice::pmf) returns the same bits, for multiple importance sampling: a light that another technique hits has a
 //! probability too. Every light that can contribute has a positive pmf.
 
-mod bound;
 mod gloss;
 mod spatial;
 mod tree;
 
-pub use bound::LightBound;
+pub use crate::light::bound::LightBound;
 pub use gloss::Gloss;
 pub use spatial::{LightsAt, SpatialLights};
 pub use tree::{Join, LightTree, Node8, TreeAt};

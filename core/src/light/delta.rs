@@ -1,11 +1,13 @@
 //! Lights that reach a point from one direction only.
 
+use super::bound::{LightBound, narrow, wide};
 use super::direction::DirectionSample;
 use super::sample::{FAR, LightSample, direction_to};
 use super::sampler::LightSampler;
 use crate::lanewise::lanewise;
 use crate::real::{Mask, Real};
 use crate::vector::{Vec2, Vec3};
+use core::f64::consts::PI;
 
 /// distance², where that is finite and not 0.
 #[inline(always)]
@@ -97,6 +99,14 @@ impl<R: Real> PointLight<R> {
     }
 }
 
+impl PointLight<f32> {
+    /// What it can contribute with this intensity. One that is not positive gives the power 0.
+    #[must_use]
+    pub fn bound(&self, intensity: f32) -> LightBound {
+        LightBound::about(self.position, 0.0, 4.0 * PI * f64::from(intensity))
+    }
+}
+
 lanewise! {
     /// A point light that emits into a cone, with full intensity near its axis.
     ///
@@ -141,6 +151,25 @@ impl<R: Real> SpotLight<R> {
         let DirectionSample { direction, distance } = direction_to(self.position - p);
         let pdf = attenuated(inverse_square(distance), self.falloff(-direction));
         SpotLightByDelta { direction, distance, pdf }
+    }
+}
+
+/// The cosine of the narrowest cone that a tree tells from its axis. A narrower light counts as if it filled this cone: as bright as on its
+/// axis, it would take the samples of all points around its cone, which it does not light.
+const NARROWEST: f32 = 253.0 / 254.0;
+
+impl SpotLight<f32> {
+    /// What it can contribute with this intensity on its axis. A cone of less than 5° counts as one of 5°.
+    #[must_use]
+    pub fn bound(&self, intensity: f32) -> LightBound {
+        let [inner, outer] = [self.one_minus_cos_inner, self.one_minus_cos_outer].map(f64::from);
+        // the falloff is half on average, and a cone too narrow for numbers still has a chance
+        let flux = (inner + outer).greater(1e-30) * PI * f64::from(intensity);
+        let cos = (1.0 - self.one_minus_cos_outer).next_down();
+        // beyond a hemisphere, a cone bounds nothing
+        let axis = if cos > 0.0 { wide(self.axis).unit_and_length().0 } else { Vec3::default() };
+        let cos_cone = cos.clamped(0.0, NARROWEST);
+        LightBound { normal: narrow(axis), cos_cone, ..LightBound::about(self.position, 0.0, flux) }
     }
 }
 

@@ -3,11 +3,13 @@
 pub(super) mod area;
 pub(super) mod solid_angle;
 
+use super::bound::{LightBound, narrow, wide};
 use super::sampler::{ByArea, BySolidAngle};
 use crate::lanewise::lanewise;
 use crate::real::Real;
 use crate::vector::Vec3;
 use area::PlacedDisk;
+use core::f64::consts::PI;
 use solid_angle::SphericalDisk;
 
 lanewise! {
@@ -72,6 +74,17 @@ impl<R: Real> Disk<R> {
     pub fn by_solid_angle(&self, p: Vec3<R>) -> DiskBySolidAngle<R> {
         let shape = SphericalDisk::new(self.center - p, self.normal, self.radius);
         BySolidAngle { surface: self.placed(p), shape }
+    }
+}
+
+impl Disk<f32> {
+    /// What it can contribute with this radiance. One that is not positive gives the power 0.
+    #[must_use]
+    pub fn bound(&self, radiance: f32) -> LightBound {
+        let radius = self.radius.greater(0.0);
+        let flux = PI * PI * f64::from(radius) * f64::from(radius) * f64::from(radiance);
+        let normal = narrow(wide(self.normal).unit_and_length().0);
+        LightBound { normal, ..LightBound::about(self.center, radius, flux) }
     }
 }
 

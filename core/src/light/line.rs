@@ -3,6 +3,7 @@
 pub(super) mod angle;
 pub(super) mod projected;
 
+use super::bound::{LightBound, power, wide};
 use super::direction::{DirectionSample, to_unit};
 use super::sample::{LightSample, direction_to, solid_angle_pdf};
 use super::sampler::LightSampler;
@@ -11,6 +12,7 @@ use crate::math::quotient;
 use crate::real::{Mask, Real, unit_interval};
 use crate::vector::{Vec2, Vec3};
 use angle::SphericalSegment;
+use core::f64::consts::PI;
 use projected::ProjectedSegment;
 
 lanewise! {
@@ -89,6 +91,16 @@ impl<R: Real> Line<R> {
     pub fn by_projected_solid_angle(&self, p: Vec3<R>, n: Vec3<R>) -> LineByProjectedSolidAngle<R> {
         let arc = ProjectedSegment::new(self.start - p, self.edge, n);
         LineByProjectedSolidAngle { line: PlacedLine::new(self.start - p, self.edge), arc }
+    }
+}
+
+impl Line<f32> {
+    /// What it can contribute with this product of radiance and width, in the unit of its length.
+    #[must_use]
+    pub fn bound(&self, radiance_times_width: f32) -> LightBound {
+        let edge = wide(self.edge);
+        let bound = LightBound::around(self.start, &[Vec3::default(), edge], edge * 0.5);
+        LightBound { power: power(edge.length() * PI * PI * f64::from(radiance_times_width)), ..bound }
     }
 }
 

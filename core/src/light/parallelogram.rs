@@ -3,6 +3,7 @@
 pub(super) mod area;
 pub(super) mod solid_angle;
 
+use super::bound::{LightBound, wide};
 use super::polygon::projected::ProjectedParallelogram;
 use super::sampler::{ByArea, ByProjectedSolidAngle, ByReflection, BySolidAngle};
 use crate::lanewise::lanewise;
@@ -88,6 +89,15 @@ impl<R: Real> Parallelogram<R> {
         let mut sampler = ByReflection { reflection: *reflection, surface: self.placed(p), shape };
         sampler.shape.prepare_parallelogram(corner, [s, t], Vec3::lit([0.0, 0.0, 1.0]));
         sampler
+    }
+}
+
+impl Parallelogram<f32> {
+    /// What it can contribute with this radiance. One that is not positive gives the power 0.
+    #[must_use]
+    pub fn bound(&self, radiance: f32) -> LightBound {
+        let [s, t] = [self.edge_s, self.edge_t].map(wide);
+        LightBound::flat(self.corner, &[Vec3::default(), s, s + t, t], radiance)
     }
 }
 

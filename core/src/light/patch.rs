@@ -1,5 +1,6 @@
 //! Bilinear patches.
 
+use super::bound::{LightBound, power, wide};
 use super::direction::to_unit;
 use super::sampler::ByArea;
 use super::surface::{AreaSurface, SURFACE_SLACK, Surface, SurfaceHit, SurfacePoint};
@@ -8,6 +9,7 @@ use crate::math::{quotient, quotient_if_any};
 use crate::real::Real;
 use crate::vector::{Vec2, Vec3};
 use crate::warp::{PatchSurface, Warp};
+use core::f64::consts::PI;
 
 lanewise! {
     /// A bilinear patch light corner + s·edge_s + t·edge_t + st(diagonal − edge_s − edge_t), s and t in [0, 1], that emits from the side of
@@ -42,6 +44,18 @@ impl<R: Real> BilinearPatch<R> {
     fn placed(&self, p: Vec3<R>) -> PlacedPatch<R> {
         let Self { corner, edge_s, edge_t, diagonal } = *self;
         PlacedPatch::new(PatchSurface { corner: corner - p, edge_s, edge_t, diagonal })
+    }
+}
+
+impl BilinearPatch<f32> {
+    /// What it can contribute with this radiance. It counts as a light that emits in all directions, as its normals differ.
+    #[must_use]
+    pub fn bound(&self, radiance: f32) -> LightBound {
+        let [s, t, diagonal] = [self.edge_s, self.edge_t, self.diagonal].map(wide);
+        let area = self.map(f64::from).by_area(wide(self.corner)).area();
+        let middle = (s + t + diagonal) * 0.25;
+        let bound = LightBound::around(self.corner, &[Vec3::default(), s, t, diagonal], middle);
+        LightBound { power: power(area * PI * f64::from(radiance)), ..bound }
     }
 }
 

@@ -5,6 +5,7 @@ mod corners;
 pub(super) mod projected;
 pub(super) mod solid_angle;
 
+use super::bound::{LightBound, wide};
 use super::sampler::{ByArea, ByProjectedSolidAngle, ByReflection, BySolidAngle};
 use crate::lanewise::lanewise_by_map;
 use crate::real::Real;
@@ -119,6 +120,15 @@ impl<R: Real, const N: usize> Polygon<R, N> {
         let mut sampler = ByReflection { reflection: *reflection, surface, shape };
         sampler.shape.prepare_corners(&corners, Vec3::lit([0.0, 0.0, 1.0]));
         sampler
+    }
+}
+
+impl<const N: usize> Polygon<f32, N> {
+    /// What it can contribute with this radiance. One that is not positive gives the power 0.
+    #[must_use]
+    pub fn bound(&self, radiance: f32) -> LightBound {
+        let first = self.corners[0];
+        LightBound::flat(first, &self.corners.map(|corner| wide(corner) - wide(first)), radiance)
     }
 }
 

@@ -2,6 +2,7 @@
 
 pub(super) mod solid_angle;
 
+use super::bound::LightBound;
 use super::parallelogram::area::PlacedParallelogram;
 use super::parallelogram::{
     Parallelogram, ParallelogramByArea, ParallelogramByProjectedSolidAngle, ParallelogramByReflection,
@@ -87,6 +88,14 @@ impl<R: Real> Rectangle<R> {
     #[inline(always)]
     pub fn by_reflection(&self, p: Vec3<R>, reflection: &Reflection<R>) -> ParallelogramByReflection<R> {
         Parallelogram::from(*self).by_reflection(p, reflection)
+    }
+}
+
+impl Rectangle<f32> {
+    /// What it can contribute with this radiance. One that is not positive gives the power 0.
+    #[must_use]
+    pub fn bound(&self, radiance: f32) -> LightBound {
+        Parallelogram::from(*self).bound(radiance)
     }
 }
 

@@ -5,12 +5,14 @@ pub(super) mod projected;
 mod reflected;
 pub(super) mod solid_angle;
 
+use super::bound::LightBound;
 use super::sampler::{ByArea, ByProjectedSolidAngle, BySolidAngle};
 use crate::lanewise::lanewise;
 use crate::real::Real;
 use crate::reflection::Reflection;
 use crate::vector::Vec3;
 use area::PlacedSphere;
+use core::f64::consts::PI;
 use projected::ProjectedCap;
 pub use reflected::SphereByReflection;
 use solid_angle::SphericalCap;
@@ -119,6 +121,16 @@ impl<R: Real> Sphere<R> {
     #[inline(always)]
     pub fn by_reflection(&self, p: Vec3<R>, reflection: &Reflection<R>) -> SphereByReflection<R> {
         SphereByReflection::new(self.placed(p), reflection)
+    }
+}
+
+impl Sphere<f32> {
+    /// What it can contribute with this radiance. One that is not positive gives the power 0.
+    #[must_use]
+    pub fn bound(&self, radiance: f32) -> LightBound {
+        let radius = self.radius.greater(0.0);
+        let flux = 4.0 * PI * PI * f64::from(radius) * f64::from(radius) * f64::from(radiance);
+        LightBound::about(self.center, radius, flux)
     }
 }
 

@@ -4,6 +4,7 @@ pub(super) mod area;
 pub(super) mod projected;
 pub(super) mod solid_angle;
 
+use super::bound::{LightBound, wide};
 use super::sampler::{ByArea, ByProjectedSolidAngle, ByReflection, BySolidAngle};
 use crate::lanewise::lanewise;
 use crate::real::Real;
@@ -159,6 +160,14 @@ impl<R: Real> Triangle<R> {
         let mut sampler = ByReflection { reflection: *reflection, surface: self.placed(p), shape };
         sampler.shape.prepare_edges([v0, v0 + e1, v0 + e2], [e1, e2], Vec3::lit([0.0, 0.0, 1.0]));
         sampler
+    }
+}
+
+impl Triangle<f32> {
+    /// What it can contribute with this radiance. One that is not positive gives the power 0.
+    #[must_use]
+    pub fn bound(&self, radiance: f32) -> LightBound {
+        LightBound::flat(self.v0, &[Vec3::default(), wide(self.e1), wide(self.e2)], radiance)
     }
 }
 

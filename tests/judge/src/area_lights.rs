@@ -7,13 +7,14 @@ use crate::packets::{lanes_of, vectors_of};
 use crate::random::Random;
 use crate::tolerances::ULP;
 use crate::truths::{self, Round, Way};
+use core::f64::consts::{PI, TAU};
 use core::fmt::Debug;
 use etendue::{
     BilinearPatch, DirectionalLight, Disk, Lanewise, LightSampler, Line, Parallelogram, PointLight, Polygon, Real,
     Rectangle, Sphere, SpotLight, Sun, Triangle, Vec3,
 };
 use etendue_oracle::double_double::Dd3;
-use etendue_oracle::{V3, along, cross, dot, exact_sum, sub, wide};
+use etendue_oracle::{V3, along, cross, dot, exact_sum, length, sub, wide};
 
 /// A function of its own for each technique: a compiler takes several times as long for one with all of them.
 #[inline(never)]
@@ -281,6 +282,28 @@ impl AreaLight {
     pub fn on_patch(&self, [s, t]: [f64; 2]) -> V3 {
         let (u, v, w) = (wide(self.b), wide(self.c), wide(self.n));
         along(along(along(self.offset(), u, s), v, t), sub(sub(w, u), v), s * t)
+    }
+    /// A normal, of any length, of the point in the direction `w` at `distance`, the area, and how far a rounded point turns the normal. None
+    /// where no density by area is known: of a patch, and of a polygon, whose corners are rounded.
+    fn surface(&self, w: V3, distance: f64) -> Option<(V3, f64, f64)> {
+        let (b, c, r) = (wide(self.b), wide(self.c), f64::from(self.radius));
+        Some(match self.shape {
+            LightShape::Sphere => {
+                let normal = sub(w.map(|x| x * distance), self.offset());
+                (normal, 2.0 * TAU * r * r, distance / r.abs())
+            }
+            LightShape::Triangle => (cross(b, c), 0.5 * length(cross(b, c)), 0.0),
+            LightShape::Parallelogram | LightShape::Rectangle => (cross(b, c), length(cross(b, c)), 0.0),
+            LightShape::Disk => (b, PI * r * r, 0.0),
+            // what is across the direction
+            LightShape::Line => (cross(b, cross(w, b)), length(b), 0.0),
+            LightShape::Polygon
+            | LightShape::Patch
+            | LightShape::Sun
+            | LightShape::PointLight
+            | LightShape::SpotLight
+            | LightShape::DirectionalLight => return None,
+        })
     }
     /// Coordinates of a point relative to `a`, rounded as the shape's own are.
     fn offset(&self) -> V3 {

@@ -23,46 +23,53 @@ fn v(x: f32, y: f32, z: f32) -> Vec3<f32> {
     Vec3::new(x, y, z)
 }
 
-/// A light above the origin.
-trait Overhead {
-    fn overhead() -> Self;
+/// Fields of a light above the origin, in turn, by their kinds in the list.
+#[derive(Default)]
+struct Overhead {
+    edges: usize,
+    numbers: u8,
 }
-/// Implements it by a constructor, and passes all techniques to a visitor.
-macro_rules! overhead {
-    ($($light:ident $(<$n:literal>)?: $value:expr;)+) => {$(
-        impl Overhead for $light<f32 $(, $n)?> {
-            fn overhead() -> Self {
-                $value
-            }
-        }
-    )+};
-}
-overhead! {
-    Sphere: Self::new(v(0.0, 1.0, 0.0), 0.4);
-    Triangle: Self::new(v(0.0, 1.0, 0.0), v(1.0, 1.2, 0.0), v(0.0, 1.0, 1.0));
-    Parallelogram: Self::new(v(0.0, 1.0, 0.0), v(1.0, 0.2, 0.0), v(0.0, 0.0, 1.0));
-    Rectangle: Self::new(v(0.0, 1.0, 0.0), v(1.0, 0.0, 0.0), v(0.0, 0.0, 1.0));
-    Disk: Self::new(v(0.0, 1.5, 0.2), v(0.0, -1.0, 0.0), 0.5);
-    BilinearPatch: Self::new(v(0.0, 1.0, 0.0), v(1.0, 0.0, 0.0), v(0.0, 0.0, 1.0), v(0.0, 0.3, 0.0));
-    Polygon<8>: {
+impl Overhead {
+    fn point(&mut self) -> Vec3<f32> {
+        v(0.0, 1.0, 0.0)
+    }
+    fn edge(&mut self) -> Vec3<f32> {
+        self.edges += 1;
+        [v(1.0, 0.0, 0.0), v(0.0, 0.0, 1.0), v(0.9, 0.3, 1.1)][self.edges - 1]
+    }
+    fn vertex(&mut self) -> Vec3<f32> {
+        self.edge() + v(0.0, 0.2, 0.0)
+    }
+    fn direction(&mut self) -> Vec3<f32> {
+        v(0.0, -1.0, 0.0)
+    }
+    fn number(&mut self) -> f32 {
+        self.numbers += 1;
+        0.4 * f32::from(self.numbers)
+    }
+    fn corners<const N: usize>(&mut self) -> [Vec3<f32>; N] {
         let corners = [[0.0, 0.0], [1.0, 0.0], [1.5, 1.0], [1.0, 2.0], [0.0, 2.0]];
-        Self::new(core::array::from_fn(|i| v(corners[i.min(4)][0], 1.0, corners[i.min(4)][1])))
-    };
-    Line: Self::new(v(0.0, 1.5, 0.2), v(1.0, 0.2, 0.0));
-    Sun: Self::new(v(0.0, 1.0, 0.0), 1e-5);
-    PointLight: Self::new(v(0.2, 1.5, 0.1));
-    SpotLight: Self { position: v(0.0, 1.5, 0.2), axis: v(0.0, -1.0, 0.0), one_minus_cos_inner: 0.1, one_minus_cos_outer: 0.5 };
-    DirectionalLight: Self::new(v(0.0, 1.0, 0.0));
+        core::array::from_fn(|i| v(corners[i.min(4)][0], 1.0, corners[i.min(4)][1]))
+    }
 }
+
+/// A light above the origin.
+macro_rules! overhead {
+    ($light:ident { $($(#[$doc:meta])* $field:ident as $argument:ident: $kind:ident,)* }) => {{
+        let mut fields = Overhead::default();
+        $light { $($field: fields.$kind()),* }
+    }};
+}
+/// Passes all techniques to a visitor.
 macro_rules! visit_techniques {
     ({ $visitor:ident } $(
-        $(#[$light_doc:meta])* $light:ident $([$corners:literal])? = $light_c:ident, $columns_c:ident { $($fields:tt)* } by $default:literal {
+        $(#[$light_doc:meta])* $light:ident $([$corners:literal])? = $light_c:ident, $columns_c:ident $fields:tt by $default:literal {
             $($(#[$doc:meta])* $technique:ident, $name:ident -> $sampler:ident $([$n:literal])? $(= $sampler_c:ident[$size:literal])?: $by:ident $place:tt $($measure:ident)?;)+
         }
     )+) => {
         $($(
             let with = visit_techniques!(with $place);
-            $visitor.technique::<technique::$technique>(&stringify!($name).replace('_', " "), Overhead::overhead(), with);
+            $visitor.technique::<technique::$technique>(&stringify!($name).replace('_', " "), overhead!($light $fields), with);
         )+)+
     };
     (with (p, n)) => {
@@ -87,7 +94,8 @@ fn visit_images(visitor: &mut impl Visitor) {
     let mut buffer = [0.0; Picture::buffer(5, 3)];
     Picture::build(&weights, 5, Region::Square, &mut buffer).unwrap();
     let picture = PictureMemory::new(&buffer, [5, 3], Region::Square).unwrap();
-    let panel = OnPicture { picture, light: Overhead::overhead() };
+    let light = Parallelogram::new(v(0.0, 1.0, 0.0), v(1.0, 0.2, 0.0), v(0.0, 0.0, 1.0));
+    let panel = OnPicture { picture, light };
     visitor.technique::<technique::PictureByArea<'_>>("picture by area", panel, ());
     visitor.technique::<technique::PictureBySolidAngle<'_>>("picture by solid angle", panel, ());
     let (projected, up) = ("picture by projected solid angle", v(0.0, 1.0, 0.0));
@@ -96,7 +104,7 @@ fn visit_images(visitor: &mut impl Visitor) {
     Picture::interpolated(&weights, 5, &mut buffer).unwrap();
     let picture = PictureMemory::interpolated(&weights, 5, &buffer).unwrap();
     visitor.technique::<technique::PictureBySolidAngle<'_>>("interpolated picture", OnPicture { picture, ..panel }, ());
-    let sphere = OnPicture { picture, light: Overhead::overhead() };
+    let sphere = OnPicture { picture, light: Sphere::new(v(0.0, 1.0, 0.0), 0.4) };
     visitor.technique::<technique::PictureOnSphereByVisibleArea<'_>>("picture on sphere", sphere, ());
 
     let mut buffer = [0; PortalTable::buffer(5, 3)];

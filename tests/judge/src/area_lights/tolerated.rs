@@ -3,7 +3,6 @@
 use super::{AreaLight, LightShape, Measure};
 use crate::packets::Coordinates;
 use crate::tolerances::ULP;
-use core::f64::consts::{PI, TAU};
 use etendue::LightSample;
 use etendue_oracle::{V3, along, cross, dot, length, sub, wide};
 
@@ -68,27 +67,11 @@ impl AreaLight {
     /// rounded direction.
     #[must_use]
     pub fn density(&self, w: V3, distance: f64) -> Option<(f64, f64)> {
-        // of a patch no density is known, and the corners of a polygon are rounded
-        if self.by != Measure::Area || matches!(self.shape, LightShape::Patch | LightShape::Polygon) {
+        if self.by != Measure::Area {
             return None;
         }
-        let (a, b, c, r) = (self.offset(), wide(self.b), wide(self.c), f64::from(self.radius));
-        let from = |center: V3| sub(w.map(|x| x * distance), center);
-        // normal, not of unit length, and the area; what a rounded point does to the normal
-        let (normal, area, turned) = match self.shape {
-            LightShape::Sphere => (from(a), 2.0 * TAU * r * r, distance / r.abs()),
-            LightShape::Triangle => (cross(b, c), 0.5 * length(cross(b, c)), 0.0),
-            LightShape::Parallelogram | LightShape::Rectangle => (cross(b, c), length(cross(b, c)), 0.0),
-            LightShape::Disk => (b, PI * r * r, 0.0),
-            // what is across the direction
-            LightShape::Line => (cross(b, cross(w, b)), length(b), 0.0),
-            LightShape::Polygon
-            | LightShape::Patch
-            | LightShape::Sun
-            | LightShape::PointLight
-            | LightShape::SpotLight
-            | LightShape::DirectionalLight => return None,
-        };
+        let (a, b, c) = (self.offset(), wide(self.b), wide(self.c));
+        let (normal, area, turned) = self.surface(w, distance)?;
         // what is subnormal has few digits: so has an edge in units of another that is so much longer
         let flat = matches!(self.shape, LightShape::Triangle | LightShape::Parallelogram | LightShape::Rectangle);
         let (shorter, longer) = (length(b).min(length(c)), length(b).max(length(c)));
