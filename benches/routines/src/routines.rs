@@ -9,10 +9,7 @@ use etendue::warp::{
     AreaTriangle, Bilinear, ConcentricDisk, Cone, CosineHemisphere, GgxVisibleNormals, LowDistortionTriangle,
     Octahedral, PatchSurface, UniformHemisphere, UniformSphere, Warp,
 };
-use etendue::{
-    BilinearPatch, DirectionalLight, Disk, LightSample, LightSampler, Line, Parallelogram, PointLight, Polygon, Real,
-    Rectangle, Sphere, SpotLight, Sun, Triangle, Uint, Vec2, Vec3,
-};
+use etendue::{LightSample, LightSampler, Real, Rectangle, Sphere, Uint, Vec2, Vec3};
 use etendue_render::occlusion::{Convex, Occlusion};
 use std::hint::black_box;
 
@@ -155,65 +152,55 @@ fn visible_parts<R: Real + 'static>(list: &mut List<R>) {
     }
 }
 
-/// Where the lights are that are timed.
+/// Fields of a light that is timed, in turn, by their kinds in the core's list.
 #[derive(Clone, Copy)]
 struct Room<R> {
-    /// A vertex, and edges from there.
+    /// A vertex or corner, and edges from there.
     a: Vec3<R>,
     e1: Vec3<R>,
     e2: Vec3<R>,
-    /// A corner, and perpendicular edges from there.
-    corner: Vec3<R>,
-    du: Vec3<R>,
-    dv: Vec3<R>,
+    /// Perpendicular edges from there, and the diagonal of a patch.
+    edges: [Vec3<R>; 3],
     up: Vec3<R>,
-    /// From the vertex to the last corner of a patch.
-    twisted: Vec3<R>,
-    radius: R,
+    numbers: [R; 2],
     /// What a rough floor reflects.
     glossy: Reflection<R>,
 }
-/// A light of the room, and what it is called.
-trait InRoom<R> {
-    const NAME: &'static str;
-    fn of(room: &Room<R>) -> Self;
+impl<R: Real> Room<R> {
+    fn point(&mut self) -> Vec3<R> {
+        self.a
+    }
+    fn vertex(&mut self) -> Vec3<R> {
+        core::mem::swap(&mut self.e1, &mut self.e2);
+        self.e2
+    }
+    fn edge(&mut self) -> Vec3<R> {
+        self.edges.rotate_left(1);
+        self.edges[2]
+    }
+    fn direction(&mut self) -> Vec3<R> {
+        -self.up
+    }
+    fn number(&mut self) -> R {
+        self.numbers.rotate_left(1);
+        self.numbers[1]
+    }
+    fn corners(&mut self) -> [Vec3<R>; 5] {
+        let (Self { a, e1, e2, .. }, half) = (*self, R::lit(0.5));
+        [a, a + e1, a + e1 + e2 * half, a + e1 * half + e2, a + e2]
+    }
 }
 macro_rules! in_room {
-    ($($light:ident $(<$n:literal>)? $name:literal |$r:ident| $value:expr;)+) => {$(
-        impl<R: Real> InRoom<R> for $light<R $(, $n)?> {
-            const NAME: &'static str = $name;
-            fn of($r: &Room<R>) -> Self {
-                $value
-            }
-        }
-    )+};
-}
-in_room! {
-    Sphere "sphere" |r| Self { center: r.a, radius: r.radius };
-    Triangle "triangle" |r| Self { v0: r.a, e1: r.e1, e2: r.e2 };
-    Parallelogram "parallelogram" |r| Self::new(r.a, r.e1, r.e2);
-    Rectangle "rectangle" |r| Self::new(r.corner, r.du, r.dv);
-    Disk "disk" |r| Self { center: r.a, normal: r.up, radius: r.radius };
-    Polygon<5> "pentagon" |r| {
-        let Room { a, e1, e2, .. } = *r;
-        Self { corners: [a, a + e1, a + e1 + e2 * half_of(), a + e1 * half_of() + e2, a + e2] }
-    };
-    BilinearPatch "bilinear patch" |r| Self::new(r.a, r.e1, r.e2, r.twisted);
-    Line "line" |r| Self::new(r.a, r.e1);
-    Sun "sun" |r| Self::new(r.up, r.radius);
-    PointLight "point light" |r| Self::new(r.a);
-    SpotLight "spot light" |r| {
-        Self { position: r.a, axis: -r.up, one_minus_cos_inner: R::lit(0.1), one_minus_cos_outer: R::lit(0.9) }
-    };
-    DirectionalLight "directional light" |r| Self::new(r.up);
-}
-fn named<R, L: InRoom<R>>(_: &L, by: &str) -> String {
-    format!("{} {}", L::NAME, by.replace('_', " "))
+    ($room:ident, $light:ident { $($(#[$doc:meta])* $field:ident as $argument:ident: $kind:ident,)* }) => {{
+        let mut room = $room;
+        etendue::light::$light { $($field: room.$kind()),* }
+    }};
 }
 /// A light by a technique.
 macro_rules! one_light {
-    ($list:ident, $room:ident, $light:ident, $by:ident $place:tt) => {
-        $list.light(&named(&$light, stringify!($by)), move |p| {
+    ($list:ident, $room:ident, $light:ident, $name:ident, $by:ident $place:tt) => {
+        let name = stringify!($name).replace("polygon", "pentagon").replace("patch", "bilinear patch");
+        $list.light(&name.replace('_', " "), move |p| {
             let _ = p;
             etendue::prepared!($light, $by $place, p: p, n: $room.up, reflection: &$room.glossy)
         });
@@ -221,19 +208,15 @@ macro_rules! one_light {
 }
 macro_rules! all_lights {
     ({ $list:ident, $room:ident } $(
-        $(#[$light_doc:meta])* $light:ident $([$corners:literal])? = $light_c:ident, $columns_c:ident { $($fields:tt)* } by $default:literal {
+        $(#[$light_doc:meta])* $light:ident $([$corners:literal])? = $light_c:ident, $columns_c:ident $fields:tt by $default:literal {
             $(
                 $(#[$doc:meta])* $technique:ident, $name:ident -> $sampler:ident $([$n:literal])? $(= $sampler_c:ident[$size:literal])?: $by:ident $place:tt $($measure:ident)?;
             )+
         }
     )+) => {$(
-        let light = $light::of(&$room);
-        $(one_light!($list, $room, light, $by $place);)+
+        let light = in_room!($room, $light $fields);
+        $(one_light!($list, $room, light, $name, $by $place);)+
     )+};
-}
-
-fn half_of<R: Real>() -> R {
-    R::lit(0.5)
 }
 
 /// Tables of 64 × 32 cells, and pictures, which a process builds once.
@@ -301,14 +284,13 @@ pub fn without_tables<R: Real + 'static>() -> Vec<Routine> {
     list.warp("projected cap, cut", ProjectedCap::new(a, R::lit(0.7), vector([0.8, 0.6, 0.0])));
     list.warp("projected cap, lune", ProjectedCap::new(a, R::lit(0.7), vector([0.96, 0.28, 0.0])));
     // loaded values, so that nothing of the preparation is moved out of a loop
-    let radius = black_box(R::lit(0.7));
     let (e1, e2, up) = (b - a, c - a, vector([0.0, 1.0, 0.0]));
-    let [corner, du, dv] = black_box([[-1.0, 2.0, -0.5], [2.0, 0.5, 0.0], [-0.25, 1.0, 1.5]].map(vector));
-    let twisted = e1 + e2 + up * R::lit(0.3);
-    list.warp("patch surface", PatchSurface { corner: a, edge_s: e1, edge_t: e2, diagonal: twisted });
+    let [edge_s, edge_t, diagonal] = black_box([[2.0, 0.5, 0.0], [-0.25, 1.0, 1.5], [1.75, 1.8, 1.5]].map(vector));
+    list.warp("patch surface", PatchSurface { corner: a, edge_s, edge_t, diagonal });
 
     let glossy = Reflection::new(R::lit(0.3), up, vector([0.6, 0.8, 0.0]));
-    let room = Room { a, e1, e2, corner, du, dv, up, twisted, radius, glossy };
+    let (edges, numbers) = ([edge_s, edge_t, diagonal], black_box([0.7, 0.9].map(R::lit)));
+    let room = Room { a, e1, e2, edges, up, numbers, glossy };
     etendue::techniques!(all_lights! { { list, room } });
 
     visible_parts(&mut list);
