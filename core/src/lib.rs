@@ -65,7 +65,7 @@ pub mod warp;
 pub use lanewise::Lanewise;
 pub use light::{
     BilinearPatch, ConstantEnvironment, DirectionalLight, Disk, LightSample, LightSampler, Line, Parallelogram,
-    PointLight, Polygon, Rectangle, Ring, Sphere, SpotLight, Sun, Triangle,
+    PointLight, Polygon, Rectangle, Sphere, SpotLight, Sun, Triangle,
 };
 pub use real::{Mask, Real, Uint};
 pub use vector::{Frame, Vec2, Vec3};

@@ -106,7 +106,6 @@ mod plane;
 mod polygon;
 mod portal;
 mod rectangle;
-mod ring;
 mod rotated;
 mod sample;
 mod sampler;
@@ -155,9 +154,6 @@ pub use portal::{Portal, PortalEnvironment, PortalError, PortalMap, PortalTable,
 pub use rectangle::Rectangle;
 #[doc(hidden)]
 pub use rectangle::RectangleBySolidAngle;
-pub use ring::Ring;
-#[doc(hidden)]
-pub use ring::RingByArea;
 pub use rotated::Rotated;
 pub use sample::{FAR, LightSample, TexelSample};
 pub use sampler::{ByArea, ByProjectedSolidAngle, ByReflection, BySolidAngle, LightSampler};

@@ -116,21 +116,6 @@ macro_rules! techniques {
                 /// Uniform over the solid angle Ω at the point p: pdf 1/Ω per steradian.
                 DiskBySolidAngle, disk_by_solid_angle -> DiskBySolidAngle = EtendueDiskBySolidAngle[39]: by_solid_angle(p) solid_angle;
             }
-            /// A flat ring that emits from the side of its normal. Without area, and from a point in its plane, the pdf is 0. uv: as of the
-            /// disk without the hole.
-            Ring = EtendueRing, EtendueRingColumns {
-                /// Centre, in the coordinates of the scene.
-                center as center: point,
-                /// Unit normal.
-                normal as normal: direction,
-                /// Radius of the hole, in the unit of the coordinates.
-                inner as inner: number,
-                /// Outer radius, in the same unit.
-                radius as radius: number,
-            } by "area" {
-                /// Uniform over the surface of area A: pdf distance²/(|cosθ'| A) per steradian, θ' at the light.
-                RingByArea, ring_by_area -> RingByArea = EtendueRingByArea[15]: by_area(p) area;
-            }
             /// A flat convex polygon of 3 to 8 corners that emits from the side on which they run counterclockwise. Without area, and from a
             /// point in its plane, the pdf is 0. uv: the parts of the edges from the first corner to the second and to the last, clamped to
             /// [0, 1].

@@ -11,7 +11,7 @@ use core::f64::consts::{PI, TAU};
 use core::fmt::Debug;
 use etendue::{
     BilinearPatch, DirectionalLight, Disk, Lanewise, LightSampler, Line, Parallelogram, PointLight, Polygon, Real,
-    Rectangle, Ring, Sphere, SpotLight, Sun, Triangle, Vec3,
+    Rectangle, Sphere, SpotLight, Sun, Triangle, Vec3,
 };
 use etendue_oracle::double_double::Dd3;
 use etendue_oracle::{V3, along, cross, dot, exact_sum, length, sub, wide};
@@ -35,8 +35,6 @@ pub enum LightShape {
     Rectangle,
     /// About `a`, with normal `b`, of the radius.
     Disk,
-    /// As a disk, with a hole of half the radius.
-    Ring,
     /// `a`, `a` + `b`, `a` + `b` + `c`, `a` + `c`.
     Polygon,
     /// `a`, and from there `b`, `c` and, to the opposite corner, `n`.
@@ -56,7 +54,7 @@ impl LightShape {
     /// Whether `b` is a unit normal.
     #[must_use]
     pub fn has_normal(self) -> bool {
-        matches!(self, Self::Disk | Self::Ring)
+        self == Self::Disk
     }
 }
 /// How.
@@ -217,7 +215,6 @@ placed! {
     Parallelogram: |v, _| Self::new(v[1], v[2], v[3]);
     Rectangle: |v, _| Self::new(v[1], v[2], v[3]);
     Disk: |v, radius| Self::new(v[1], v[2], radius);
-    Ring: |v, radius| Self::new(v[1], v[2], R::lit(0.5) * radius, radius);
     Polygon<4>: |v, _| Self::new([v[5], v[6], v[7], v[8]]);
     BilinearPatch: |v, _| Self::new(v[1], v[2], v[3], v[4]);
     Line: |v, _| Self::new(v[1], v[2]);
@@ -298,7 +295,6 @@ impl AreaLight {
             LightShape::Triangle => (cross(b, c), 0.5 * length(cross(b, c)), 0.0),
             LightShape::Parallelogram | LightShape::Rectangle => (cross(b, c), length(cross(b, c)), 0.0),
             LightShape::Disk => (b, PI * r * r, 0.0),
-            LightShape::Ring => (b, 0.75 * PI * r * r, 0.0),
             // what is across the direction
             LightShape::Line => (cross(b, cross(w, b)), length(b), 0.0),
             LightShape::Polygon
