@@ -4,12 +4,11 @@ use super::corners::PlacedCorners;
 use crate::lanewise::lanewise_by_map;
 use crate::light::direction::{DirectionSample, to_unit};
 use crate::light::shape::ProjectedShape;
+use crate::light::triangle::projected::found::{Found, after, edge};
 use crate::light::triangle::projected::piece::narrowest;
 use crate::light::triangle::projected::sector::Sector;
-use crate::light::triangle::projected::zenith::{Found, Side, drop_narrow, sectors, surrounds};
-use crate::light::triangle::projected::{
-    Given, LEAST_HEIGHT, ProjectedTriangle, after, ahead, area, edge, lack, with_rest, within,
-};
+use crate::light::triangle::projected::zenith::{Search, Side, drop_narrow, sectors, surrounds};
+use crate::light::triangle::projected::{Given, LEAST_HEIGHT, ProjectedTriangle, ahead, area, lack, with_rest, within};
 use crate::math::ratio;
 use crate::real::{Mask, Real, unit_interval};
 use crate::vector::double_word::{cross_dw, cross_sums, dot_dw, sum_dw, unit_normal};
@@ -303,28 +302,29 @@ impl<R: Real, const N: usize, const ROOM: usize> Warp<R> for ProjectedPolygon<R,
     fn invert(&self, w: Vec3<R>) -> Vec2<R> {
         let zero = R::lit(0.0);
         let edge = edge(self.projected);
-        let mut found = self.fan[0].locate(w, edge);
+        let normal = self.fan[0].normal;
+        let mut found = self.fan[0].find(w, edge);
         let mut sum = self.fan[0].projected;
+        let mut narrow = self.fan[0].is_narrow(self.projected);
         for triangle in &self.fan[1..Self::TRIANGLES] {
             // on the far side of the edge with which this triangle begins
             let later = after([sum, triangle.projected], w.dot(triangle.pole0).ge(zero), edge);
-            let other = triangle.locate(w, edge);
-            let some = triangle.projected.gt(zero);
-            let before = found.x.lesser(R::blend(some, sum - edge, found.x));
-            found.x = R::blend(later, sum + other.x.greater(edge), before.greater(zero));
-            found.y = R::blend(later, other.y, found.y);
+            found = found.or(triangle.find(w, edge), later, [sum, triangle.projected, edge]);
             sum += triangle.projected;
+            narrow = narrow | triangle.is_narrow(self.projected);
         }
         let central = self.central.gt(zero);
         if central.any() {
-            let mut there = Found::nothing();
-            for triangle in &self.fan[..Self::TRIANGLES] {
-                there = triangle.look(there, w, edge);
-            }
-            found = Vec2::blend(central, there.place(self.fan[0].normal, w), found);
+            let triangles = self.fan[..Self::TRIANGLES].iter();
+            let search = triangles.fold(Search::default(), |search, triangle| triangle.search(search, w, edge));
+            found = Found::blend(central, search.found, found);
         }
+        let found = found.place(normal, w);
         let x = unit_interval(ratio(found.x, self.projected));
-        let (sector, share, _) = self.sector_at(x);
-        Vec2 { x, y: sector.at_share(self.fan[0].normal, share, w, self.projected, found.y) }
+        let [y] = R::where_any(narrow, [found.y], || {
+            let (sector, share, _) = self.sector_at(x);
+            [sector.at_share(normal, share, w, self.projected, found.y)]
+        });
+        Vec2 { x, y }
     }
 }

@@ -1,5 +1,6 @@
 //! Triangles by projected solid angle.
 
+pub(in crate::light) mod found;
 mod horizon;
 pub(in crate::light) mod piece;
 pub(in crate::light) mod sector;
@@ -13,10 +14,11 @@ use crate::real::{Mask, Real, unit_interval};
 use crate::vector::double_word::{cross_dw, dot_dw, height_dw, sum_dw, unit_normal};
 use crate::vector::{Vec2, Vec3};
 use crate::warp::Warp;
+use found::{Found, after, edge};
 use horizon::{Exact, clip};
 use piece::{Corners, Piece, narrowest};
 use sector::Sector;
-use zenith::{Found, Side, drop_narrow, sectors, surrounds};
+use zenith::{Search, Side, drop_narrow, sectors, surrounds};
 
 /// Heights below this, in units of the greatest coordinate, count as on the horizon.
 pub(in crate::light) const LEAST_HEIGHT: f64 = 1e-30;
@@ -270,30 +272,30 @@ impl<R: Real> ProjectedTriangle<R> {
             *pole = *pole * turn;
         }
     }
-    /// The area before a direction of the triangle, and u₁; areas are kept `edge` away from a jump of the map.
+    /// The sector in which a direction of the triangle is; areas are kept `edge` away from a jump of the map.
     #[inline(always)]
-    pub(in crate::light) fn locate(&self, w: Vec3<R>, edge: R) -> Vec2<R> {
-        let zero = R::lit(0.0);
-        let mut found = self.first.locate(self.normal, w, edge);
-        let some = self.second.area.gt(zero);
-        if some.any() {
-            let beyond = w.dot(self.diagonal).gt(zero);
-            let later = after([self.first.area, self.second.area], beyond, edge);
-            let other = self.second.locate(self.normal, w, edge);
-            let before = found.x.lesser(R::blend(some, self.first.area - edge, self.first.area)).greater(zero);
-            found.x = R::blend(later, self.first.area + other.x.greater(edge), before);
-            found.y = R::blend(later, other.y, found.y);
+    pub(in crate::light) fn find(&self, w: Vec3<R>, edge: R) -> Found<R> {
+        let mut found = self.first.find(self.normal, w, edge);
+        let areas = [self.first.area, self.second.area];
+        if self.second.area.gt(R::lit(0.0)).any() {
+            let later = after(areas, w.dot(self.diagonal).gt(R::lit(0.0)), edge);
+            found = found.or(self.second.find(self.normal, w, edge), later, [areas[0], areas[1], edge]);
         }
-        let central = self.central.gt(zero);
+        let central = self.central.gt(R::lit(0.0));
         if central.any() {
-            found = Vec2::blend(central, self.look(Found::nothing(), w, edge).place(self.normal, w), found);
+            found = Found::blend(central, self.search(Search::default(), w, edge).found, found);
         }
         found
     }
     /// Looks for the azimuth of a direction in the sectors about the zenith.
     #[inline(always)]
-    pub(in crate::light) fn look(&self, found: Found<R>, w: Vec3<R>, edge: R) -> Found<R> {
-        found.look(&self.first, self.normal, w, edge).look(&self.second, self.normal, w, edge)
+    pub(in crate::light) fn search(&self, search: Search<R>, w: Vec3<R>, edge: R) -> Search<R> {
+        search.look(&self.first, self.normal, w, edge).look(&self.second, self.normal, w, edge)
+    }
+    /// Whether u₁ depends on how u₀ is rounded: see [`Sector::at_share`].
+    #[inline(always)]
+    pub(in crate::light) fn is_narrow(&self, whole: R) -> R::Mask {
+        self.first.is_narrow(whole) | self.second.is_narrow(whole)
     }
 }
 
@@ -307,20 +309,6 @@ pub(in crate::light) fn within<R: Real>(least: R) -> R::Mask {
 #[inline(always)]
 pub(in crate::light) fn ahead<R: Real>(w: Vec3<R>, plane: Vec3<R>, front: R::Mask) -> R::Mask {
     w.dot(plane).negate_where(front).ge(-(plane.length() * R::lit(PROJECTED_SLACK)))
-}
-
-/// Whether a direction counts to the second of two areas, on the far side of the border between them (`beyond`): into one that is no larger
-/// than `edge`, only rounding places a direction.
-#[inline(always)]
-pub(in crate::light) fn after<R: Real>([before, area]: [R; 2], beyond: R::Mask, edge: R) -> R::Mask {
-    (beyond | before.le(edge)) & area.gt(before.lesser(edge))
-}
-
-/// Two steps of u₀, in units of area: between two parts the map may jump, and u₀Ω⊥ is known only to this accuracy.
-#[inline(always)]
-pub(in crate::light) fn edge<R: Real>(whole: R) -> R {
-    let step = R::lit(1.0) - R::ONE_MINUS_EPSILON;
-    whole * (step + step)
 }
 
 impl<R: Real> ProjectedShape<R> for ProjectedTriangle<R> {
@@ -358,9 +346,12 @@ impl<R: Real> Warp<R> for ProjectedTriangle<R> {
     }
     #[inline(always)]
     fn invert(&self, w: Vec3<R>) -> Vec2<R> {
-        let found = self.locate(w, edge(self.projected));
+        let found = self.find(w, edge(self.projected)).place(self.normal, w);
         let x = unit_interval(ratio(found.x, self.projected));
-        let (sector, share) = self.sector_at(x);
-        Vec2 { x, y: sector.at_share(self.normal, share, w, self.projected, found.y) }
+        let [y] = R::where_any(self.is_narrow(self.projected), [found.y], || {
+            let (sector, share) = self.sector_at(x);
+            [sector.at_share(self.normal, share, w, self.projected, found.y)]
+        });
+        Vec2 { x, y }
     }
 }

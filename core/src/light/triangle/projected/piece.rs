@@ -1,12 +1,12 @@
 //! A triangle wholly above the horizon and not about the zenith: two sectors.
 #![expect(unreachable_pub, reason = "the structs of lanewise! are declared pub")]
 
-use super::after;
+use super::found::{Found, after};
 use super::sector::{Corner, Sector};
 use crate::lanewise::lanewise;
 use crate::math::{ratio, rsqrt};
-use crate::real::{Mask, Real, unit_interval};
-use crate::vector::{Vec2, Vec3};
+use crate::real::{Mask, Real};
+use crate::vector::Vec3;
 
 /// Share of the area below which a sector is dropped: a small part of a step of 2⁻²⁴ in `u`, or of the precision.
 const NARROWEST: f64 = 1.0 / 4_294_967_296.0;
@@ -173,20 +173,21 @@ impl<R: Real> Piece<R> {
         (sector, share)
     }
 
-    /// The area before a direction, and u₁.
+    /// The sector in which a direction is.
     #[inline(always)]
-    pub(in crate::light) fn locate(&self, normal: Vec3<R>, w: Vec3<R>, edge: R) -> Vec2<R> {
-        let (zero, one) = (R::lit(0.0), R::lit(1.0));
+    pub(in crate::light) fn find(&self, normal: Vec3<R>, w: Vec3<R>, edge: R) -> Found<R> {
+        let zero = R::lit(0.0);
         let side = self.middle.dot(w);
         // opposite the middle vertex, which rounding may place on either side, there is only the wider sector
         let ahead = self.middle.cross(normal) * self.turn;
         let opposite = ahead.dot(w).lt(-side.abs());
         let beyond = (opposite & ahead.dot(self.first.apex).ge(zero)) | (!opposite & side.ge(zero));
         let later = after([self.first.area, self.second.area], beyond, edge);
-        let sector = Sector::blend(later, self.second, self.first);
-        let found = sector.locate(normal, w);
-        let share = R::blend(later, one - found.x, found.x);
-        let before = R::blend(later, self.first.area, zero);
-        Vec2 { x: share.mul_add(sector.area, before), y: unit_interval(found.y) }
+        Found::new(Sector::blend(later, self.second, self.first), self.first.area.keep(later), later)
+    }
+    /// Whether u₁ in any of the sectors depends on how u₀ is rounded: see [`Sector::at_share`].
+    #[inline(always)]
+    pub(in crate::light) fn is_narrow(&self, whole: R) -> R::Mask {
+        self.first.is_narrow(whole) | self.second.is_narrow(whole) | self.third.is_narrow(whole)
     }
 }

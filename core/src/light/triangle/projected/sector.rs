@@ -342,9 +342,13 @@ impl<R: Real> Sector<R> {
     /// the `whole`.
     #[inline(always)]
     pub(in crate::light) fn at_share(&self, normal: Vec3<R>, share: R, w: Vec3<R>, whole: R, y: R) -> R {
-        let narrow = self.area.lt(whole * R::lit(NARROW));
-        let [y] = R::where_any(narrow, [y], || [self.outwards(normal, self.sweep(share), w)]);
+        let [y] = R::where_any(self.is_narrow(whole), [y], || [self.outwards(normal, self.sweep(share), w)]);
         y
+    }
+
+    #[inline(always)]
+    pub(in crate::light) fn is_narrow(&self, whole: R) -> R::Mask {
+        self.area.gt(R::lit(0.0)) & self.area.lt(whole * R::lit(NARROW))
     }
 
     /// The share of the area before the azimuth of a direction, and u₁.

@@ -1,10 +1,11 @@
 //! A polygon that contains the zenith: for every edge the sector between it and the zenith, and along the horizon where that cuts.
 
+use super::found::Found;
 use super::piece::{Piece, narrowest};
 use super::sector::{Corner, Sector, border};
 use crate::math::{ratio, rsqrt};
-use crate::real::{Mask, Real, unit_interval};
-use crate::vector::{Vec2, Vec3};
+use crate::real::{Mask, Real};
+use crate::vector::Vec3;
 
 /// An edge of a polygon, from `a` to `b`.
 pub(in crate::light) struct Side<R> {
@@ -186,48 +187,37 @@ pub(in crate::light) fn drop_narrow<R: Real>(pieces: &mut [Piece<R>; 2], whole: 
     }
 }
 
-/// The sector about the zenith that contains the azimuth of a direction, as far as it has been found.
-pub(in crate::light) struct Found<R> {
-    sector: Sector<R>,
-    /// area before the sector
-    before: R,
+/// The sector about the zenith that contains the azimuth of a direction, as far as it has been searched for.
+pub(in crate::light) struct Search<R> {
+    pub(in crate::light) found: Found<R>,
     /// area of all sectors so far
     sum: R,
-    /// 1 if the sector counts from its far end, else 0
-    backwards: R,
     /// angle from the azimuth of the direction to the sector
     miss: R,
 }
-impl<R: Real> Found<R> {
+impl<R: Real> Default for Search<R> {
     #[inline(always)]
-    pub(in crate::light) fn nothing() -> Self {
-        let zero = R::lit(0.0);
-        Self { sector: Sector::default(), before: zero, sum: zero, backwards: zero, miss: R::lit(8.0) }
+    fn default() -> Self {
+        let none = Found::new(Sector::default(), R::lit(0.0), R::Mask::splat(false));
+        Self { found: none, sum: R::lit(0.0), miss: R::lit(8.0) }
     }
+}
+impl<R: Real> Search<R> {
     /// Looks in the sectors of a piece, but for those that are no larger than `edge`: into one of them, only rounding places a direction.
     #[inline(always)]
-    pub(in crate::light) fn look(self, piece: &Piece<R>, normal: Vec3<R>, w: Vec3<R>, edge: R) -> Self {
-        let mut this = self;
+    pub(in crate::light) fn look(mut self, piece: &Piece<R>, normal: Vec3<R>, w: Vec3<R>, edge: R) -> Self {
         for (i, sector) in piece.sectors().into_iter().enumerate() {
             let some = sector.area.gt(edge);
             if some.any() {
                 let miss = sector.miss(normal, w);
                 // a direction on the border belongs to the sector before
-                let here = some & (miss + border()).lt(this.miss);
-                this.sector = Sector::blend(here, *sector, this.sector);
-                this.before = R::blend(here, this.sum, this.before);
-                this.backwards = R::blend(here, R::lit(if i == 1 { 1.0 } else { 0.0 }), this.backwards);
-                this.miss = R::blend(here, miss, this.miss);
+                let here = some & (miss + border()).lt(self.miss);
+                let found = Found::new(*sector, self.sum, R::Mask::splat(i == 1));
+                self.found = Found::blend(here, found, self.found);
+                self.miss = R::blend(here, miss, self.miss);
             }
-            this.sum += sector.area;
+            self.sum += sector.area;
         }
-        this
-    }
-    /// The area before the direction, and u₁.
-    #[inline(always)]
-    pub(in crate::light) fn place(&self, normal: Vec3<R>, w: Vec3<R>) -> Vec2<R> {
-        let found = self.sector.locate(normal, w);
-        let share = R::blend(self.backwards.gt(R::lit(0.0)), R::lit(1.0) - found.x, found.x);
-        Vec2 { x: share.mul_add(self.sector.area, self.before), y: unit_interval(found.y) }
+        self
     }
 }
