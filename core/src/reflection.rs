@@ -198,7 +198,8 @@ impl<R: Real> Warp<R> for Reflection<R> {
     fn pdf(&self, w: Vec3<R>) -> R {
         let Vec3 { x, y, z } = self.to_cosine(w);
         let square = x.mul_add(x, y.mul_add(y, z * z));
-        let above = z.gt(R::lit(0.0)) & square.gt(R::lit(1e-18));
+        // no direction is as long as what overflows
+        let above = z.gt(R::lit(0.0)) & square.gt(R::lit(1e-18)) & square.lt(R::lit(1e36));
         let inverse = R::lit(1.0) / R::blend(above, square, R::lit(1.0));
         (z * (self.a * self.c) * (inverse * inverse) * R::lit(FRAC_1_PI)).keep(above)
     }

@@ -383,7 +383,9 @@ fn degenerate_input_gives_nothing() {
             if view[2] <= 0.0 {
                 assert_eq!(lobe.albedo(), 0.0);
             }
-            for w in [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [-0.6, 0.0, 0.8]].map(Vec3::from) {
+            let directions = [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [-0.6, 0.0, 0.8]];
+            let no_directions = [[0.5, 0.7, f32::MAX], [f32::MAX, 0.5, 0.7], [0.5, 1e-38, 1e30]];
+            for w in directions.into_iter().chain(no_directions).map(Vec3::from) {
                 let pdf = lobe.pdf(w);
                 assert!(pdf.is_finite() && pdf >= 0.0, "{alpha} {view:?} {w:?}: {pdf}");
                 let u = lobe.invert(w);
