@@ -97,6 +97,8 @@ mod environment;
 mod hierarchy;
 mod line;
 mod parallelogram;
+#[doc(hidden)]
+pub mod parts;
 mod patch;
 mod picture;
 mod pictured;
@@ -109,9 +111,7 @@ mod rectangle;
 mod rotated;
 mod sample;
 mod sampler;
-mod shape;
-#[doc(hidden)]
-pub mod shapes;
+mod seen;
 mod sphere;
 mod surface;
 mod techniques;

@@ -1,7 +1,7 @@
 //! Samples, densities and inverses.
 
 use etendue::discrete::PiecewiseConstant2d;
-use etendue::light::shapes::ProjectedCap;
+use etendue::light::parts::ProjectedCap;
 use etendue::light::{EnvironmentMap, ImageEnvironment, Picture, Region};
 use etendue::reflection::Reflection;
 use etendue::sequence::{Independent, JointSobol, OwenSobol, Sequence, Stratified, ZOrder, ZOrderIndex};

@@ -2,7 +2,7 @@
 
 use super::direction::DirectionSample;
 use super::sample::{LightSample, direction_to, solid_angle_pdf};
-use super::shape::{ProjectedShape, SphericalShape};
+use super::seen::{ProjectedShape, SphericalShape};
 use super::surface::{AreaSurface, Surface, SurfaceHit};
 use crate::lanewise::Lanewise;
 use crate::math::quotient;

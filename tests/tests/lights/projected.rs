@@ -2,7 +2,7 @@
 //! closed form.
 
 use core::f64::consts::PI;
-use etendue::light::shapes::{ProjectedCap, ProjectedSegment, ProjectedShape};
+use etendue::light::parts::{ProjectedCap, ProjectedSegment, ProjectedShape};
 use etendue::{LightSample, LightSampler, Mask, Parallelogram, Real, Sphere, Triangle, Vec2, Vec3, Warp, f32x8};
 use etendue_judge::area_lights::{AreaLight, LightShape, Measure};
 use etendue_judge::fixture::Fixture;

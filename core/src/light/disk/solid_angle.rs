@@ -2,7 +2,7 @@
 
 use crate::lanewise::lanewise;
 use crate::light::direction::DirectionSample;
-use crate::light::shape::SphericalShape;
+use crate::light::seen::SphericalShape;
 use crate::math::{ratio, rsqrt};
 use crate::real::{Real, unit_interval};
 use crate::vector::double_word::compensated_dot;

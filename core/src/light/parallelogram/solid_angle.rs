@@ -2,7 +2,7 @@
 
 use crate::lanewise::lanewise_by_map;
 use crate::light::direction::{DirectionSample, to_unit};
-use crate::light::shape::SphericalShape;
+use crate::light::seen::SphericalShape;
 use crate::light::triangle::solid_angle::{Planes, SphericalTriangle};
 use crate::real::{Mask, Real, unit_interval};
 use crate::vector::double_word::{compensated_height, cross_dw, sum_dw};

@@ -3,7 +3,7 @@
 use super::corners::PlacedCorners;
 use crate::lanewise::lanewise_by_map;
 use crate::light::direction::{DirectionSample, to_unit};
-use crate::light::shape::ProjectedShape;
+use crate::light::seen::ProjectedShape;
 use crate::light::triangle::projected::found::{Found, after, edge};
 use crate::light::triangle::projected::piece::narrowest;
 use crate::light::triangle::projected::sector::Sector;

@@ -3,7 +3,7 @@
 use super::corners::PlacedCorners;
 use crate::lanewise::lanewise_by_map;
 use crate::light::direction::DirectionSample;
-use crate::light::shape::SphericalShape;
+use crate::light::seen::SphericalShape;
 use crate::light::triangle::solid_angle::{Planes, SphericalTriangle};
 use crate::real::{Mask, Real, unit_interval};
 use crate::vector::double_word::{cross_sums, height_dw};

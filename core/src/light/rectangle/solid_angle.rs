@@ -4,7 +4,7 @@ mod prepare;
 
 use crate::lanewise::lanewise;
 use crate::light::direction::DirectionSample;
-use crate::light::shape::SphericalShape;
+use crate::light::seen::SphericalShape;
 use crate::math::{ratio, rsqrt};
 use crate::real::{Mask, Real, unit_interval};
 use crate::vector::{Vec2, Vec3};

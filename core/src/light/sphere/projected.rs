@@ -5,7 +5,7 @@ mod segment;
 
 use crate::lanewise::lanewise;
 use crate::light::direction::{DirectionSample, above_horizon};
-use crate::light::shape::ProjectedShape;
+use crate::light::seen::ProjectedShape;
 use crate::math::{ratio, rsqrt};
 use crate::real::{Mask, Real, unit_interval};
 use crate::vector::double_word::dot_dw;

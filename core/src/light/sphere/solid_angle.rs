@@ -2,7 +2,7 @@
 
 use crate::lanewise::lanewise;
 use crate::light::direction::DirectionSample;
-use crate::light::shape::SphericalShape;
+use crate::light::seen::SphericalShape;
 use crate::real::Real;
 use crate::vector::{Frame, Vec2, Vec3};
 use crate::warp::{Cone, Warp};

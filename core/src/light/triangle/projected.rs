@@ -8,7 +8,7 @@ pub(in crate::light) mod zenith;
 
 use crate::lanewise::lanewise;
 use crate::light::direction::{DirectionSample, to_unit};
-use crate::light::shape::ProjectedShape;
+use crate::light::seen::ProjectedShape;
 use crate::math::{ratio, rsqrt};
 use crate::real::{Mask, Real, unit_interval};
 use crate::vector::double_word::{cross_dw, dot_dw, height_dw, sum_dw, unit_normal};

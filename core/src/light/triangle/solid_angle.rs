@@ -5,7 +5,7 @@ mod prepare;
 
 use crate::lanewise::lanewise;
 use crate::light::direction::{DirectionSample, to_unit};
-use crate::light::shape::SphericalShape;
+use crate::light::seen::SphericalShape;
 use crate::light::surface::SURFACE_SLACK;
 use crate::math::rsqrt;
 use crate::real::{Mask, Real, unit_interval};

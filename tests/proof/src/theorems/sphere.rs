@@ -4,7 +4,7 @@ use super::{Quantity, direction, length, limit, outputs, pair, relative};
 use crate::search::{Range, Statement, Theorem};
 use crate::traced::Traced;
 use core::f64::consts::TAU;
-use etendue::light::shapes::{SphericalCap, SphericalShape};
+use etendue::light::parts::{SphericalCap, SphericalShape};
 use etendue::warp::Warp;
 use etendue::{Real, Vec3};
 

@@ -8,6 +8,6 @@ pub use super::patch::PlacedPatch;
 pub use super::polygon::projected::{ProjectedParallelogram, ProjectedPolygon};
 pub use super::polygon::{area::PlacedPolygon, solid_angle::SphericalPolygon};
 pub use super::rectangle::solid_angle::SphericalRectangle;
-pub use super::shape::{ProjectedShape, SphericalShape};
+pub use super::seen::{ProjectedShape, SphericalShape};
 pub use super::sphere::{area::PlacedSphere, projected::ProjectedCap, solid_angle::SphericalCap};
 pub use super::triangle::{area::PlacedTriangle, projected::ProjectedTriangle, solid_angle::SphericalTriangle};
