@@ -172,7 +172,7 @@ fn affine(i: u32, stretch: f64, far: f64) -> Affine {
 fn instances_are_hit_as_copies() {
     let mut hits = 0;
     for round in 0..24_u32 {
-        let (stretch, far) = ([1.0, 3.0, 30.0][round as usize % 3], [0.5, 1.5, 400.0][round as usize / 3 % 3]);
+        let (stretch, far) = ([1.0, 30.0, 1000.0][round as usize % 3], [0.5, 1.5, 400.0][round as usize / 3 % 3]);
         let point = |i: u32, k: u32| {
             let ([x, y], [z, _]) = (random(900 * round + i, 2 * k), random(900 * round + i, 2 * k + 1));
             [x, y, z]
