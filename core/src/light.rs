@@ -160,6 +160,8 @@ pub use sampler::{ByArea, ByProjectedSolidAngle, ByReflection, BySolidAngle, Lig
 pub use sphere::Sphere;
 #[doc(hidden)]
 pub use sphere::{SphereByArea, SphereByProjectedSolidAngle, SphereByReflection, SphereBySolidAngle};
+#[doc(hidden)]
+pub use techniques::Example;
 pub use triangle::Triangle;
 #[doc(hidden)]
 pub use triangle::{TriangleByArea, TriangleByProjectedSolidAngle, TriangleByReflection, TriangleBySolidAngle};

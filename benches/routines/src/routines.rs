@@ -152,70 +152,31 @@ fn visible_parts<R: Real + 'static>(list: &mut List<R>) {
     }
 }
 
-/// Fields of a light that is timed, in turn, by their kinds in the core's list.
-#[derive(Clone, Copy)]
-struct Room<R> {
-    /// A vertex or corner, and edges from there.
-    a: Vec3<R>,
-    e1: Vec3<R>,
-    e2: Vec3<R>,
-    /// Perpendicular edges from there, and the diagonal of a patch.
-    edges: [Vec3<R>; 3],
-    up: Vec3<R>,
-    numbers: [R; 2],
-    /// What a rough floor reflects.
-    glossy: Reflection<R>,
-}
-impl<R: Real> Room<R> {
-    fn point(&mut self) -> Vec3<R> {
-        self.a
-    }
-    fn vertex(&mut self) -> Vec3<R> {
-        core::mem::swap(&mut self.e1, &mut self.e2);
-        self.e2
-    }
-    fn edge(&mut self) -> Vec3<R> {
-        self.edges.rotate_left(1);
-        self.edges[2]
-    }
-    fn direction(&mut self) -> Vec3<R> {
-        -self.up
-    }
-    fn number(&mut self) -> R {
-        self.numbers.rotate_left(1);
-        self.numbers[1]
-    }
-    fn corners(&mut self) -> [Vec3<R>; 5] {
-        let (Self { a, e1, e2, .. }, half) = (*self, R::lit(0.5));
-        [a, a + e1, a + e1 + e2 * half, a + e1 * half + e2, a + e2]
-    }
-}
-macro_rules! in_room {
-    ($room:ident, $light:ident { $($(#[$doc:meta])* $field:ident as $argument:ident: $kind:ident,)* }) => {{
-        let mut room = $room;
-        etendue::light::$light { $($field: room.$kind()),* }
-    }};
+/// The corners of polygons that are timed, of those that a host's have.
+const fn five(_: usize) -> usize {
+    5
 }
 /// A light by a technique.
 macro_rules! one_light {
-    ($list:ident, $room:ident, $light:ident, $name:ident, $by:ident $place:tt) => {
+    ($list:ident, $up:ident, $glossy:ident, $light:ident, $name:ident, $by:ident $place:tt) => {
         let name = stringify!($name).replace("polygon", "pentagon").replace("patch", "bilinear patch");
         $list.light(&name.replace('_', " "), move |p| {
             let _ = p;
-            etendue::prepared!($light, $by $place, p: p, n: $room.up, reflection: &$room.glossy)
+            etendue::prepared!($light, $by $place, p: p, n: $up, reflection: &$glossy)
         });
     };
 }
 macro_rules! all_lights {
-    ({ $list:ident, $room:ident } $(
+    ({ $list:ident, $up:ident, $glossy:ident } $(
         $(#[$light_doc:meta])* $light:ident $([$corners:literal])? = $light_c:ident, $columns_c:ident $fields:tt by $default:literal {
             $(
                 $(#[$doc:meta])* $technique:ident, $name:ident -> $sampler:ident $([$n:literal])? $(= $sampler_c:ident[$size:literal])?: $by:ident $place:tt $($measure:ident)?;
             )+
         }
     )+) => {$(
-        let light = in_room!($room, $light $fields);
-        $(one_light!($list, $room, light, $name, $by $place);)+
+        // loaded, so that nothing of the preparation is moved out of a loop
+        let light: etendue::light::$light<R $(, { five($corners) })?> = black_box(etendue::example!($light $fields));
+        $(one_light!($list, $up, $glossy, light, $name, $by $place);)+
     )+};
 }
 
@@ -280,18 +241,15 @@ pub fn without_tables<R: Real + 'static>() -> Vec<Routine> {
     list.warp("GGX visible normals", GgxVisibleNormals::new(R::lit(0.4), R::lit(0.2), vector([0.6, 0.0, 0.8])));
     list.warp("octahedral", Octahedral);
 
-    let [a, b, c] = [[-1.0, 2.0, -0.5], [1.5, 2.5, 0.0], [0.2, 3.0, 1.0]].map(vector);
+    let a = vector([-1.0, 2.0, -0.5]);
     list.warp("projected cap, cut", ProjectedCap::new(a, R::lit(0.7), vector([0.8, 0.6, 0.0])));
     list.warp("projected cap, lune", ProjectedCap::new(a, R::lit(0.7), vector([0.96, 0.28, 0.0])));
-    // loaded values, so that nothing of the preparation is moved out of a loop
-    let (e1, e2, up) = (b - a, c - a, vector([0.0, 1.0, 0.0]));
     let [edge_s, edge_t, diagonal] = black_box([[2.0, 0.5, 0.0], [-0.25, 1.0, 1.5], [1.75, 1.8, 1.5]].map(vector));
     list.warp("patch surface", PatchSurface { corner: a, edge_s, edge_t, diagonal });
 
+    let up = vector([0.0, 1.0, 0.0]);
     let glossy = Reflection::new(R::lit(0.3), up, vector([0.6, 0.8, 0.0]));
-    let (edges, numbers) = ([edge_s, edge_t, diagonal], black_box([0.7, 0.9].map(R::lit)));
-    let room = Room { a, e1, e2, edges, up, numbers, glossy };
-    etendue::techniques!(all_lights! { { list, room } });
+    etendue::techniques!(all_lights! { { list, up, glossy } });
 
     visible_parts(&mut list);
 

@@ -1,5 +1,8 @@
 //! The one list of techniques.
 
+use crate::real::Real;
+use crate::vector::Vec3;
+
 /// Expands `callback! { before… list }` for the list of all lights, each with its fields and the techniques that sample it.
 ///
 /// A light is `Light [corners] = NameInC, ColumnsInC { field as argument: kind, … } by "default" { technique; … }`. A field is a `point`, an
@@ -234,4 +237,52 @@ macro_rules! prepared {
     ($light:expr, $by:ident(p, reflection), p: $p:expr, n: $n:expr, reflection: $reflection:expr) => {
         $light.$by($p, $reflection)
     };
+}
+
+/// Fields of a light above the origin that shines on it, in turn, by their kinds in the list. What tests, proofs and benchmarks do with every
+/// light begins with `etendue::example!(Light { fields })`.
+#[doc(hidden)]
+#[derive(Debug, Default)]
+pub struct Example {
+    vectors: usize,
+    numbers: u8,
+}
+impl Example {
+    const VERTICES: [[f64; 3]; 2] = [[2.5, 0.5, 0.5], [1.2, 1.0, 1.5]];
+    pub fn point<R: Real>(&mut self) -> Vec3<R> {
+        Vec3::lit([-1.0, 2.0, -0.5])
+    }
+    fn next<R: Real>(&mut self, all: &[[f64; 3]]) -> Vec3<R> {
+        self.vectors += 1;
+        Vec3::lit(all[self.vectors - 1])
+    }
+    pub fn vertex<R: Real>(&mut self) -> Vec3<R> {
+        self.next(&Self::VERTICES)
+    }
+    /// The first two are perpendicular.
+    pub fn edge<R: Real>(&mut self) -> Vec3<R> {
+        self.next(&[[2.0, 0.5, 0.0], [-0.25, 1.0, 1.5], [1.75, 1.8, 1.5]])
+    }
+    pub fn direction<R: Real>(&mut self) -> Vec3<R> {
+        Vec3::lit([0.0, -1.0, 0.0])
+    }
+    pub fn number<R: Real>(&mut self) -> R {
+        self.numbers += 1;
+        R::lit(0.5 + 0.2 * f64::from(self.numbers))
+    }
+    pub fn corners<R: Real, const N: usize>(&mut self) -> [Vec3<R>; N] {
+        let ([e1, e2], a) = (Self::VERTICES.map(Vec3::<R>::lit), self.point::<R>());
+        let half = R::lit(0.5);
+        let corners = [a, a + e1, a + e1 + e2 * half, a + e1 * half + e2, a + e2];
+        core::array::from_fn(|i| corners[i.min(4)])
+    }
+}
+/// See `Example`.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! example {
+    ($light:ident { $($(#[$doc:meta])* $field:ident as $argument:ident: $kind:ident,)* }) => {{
+        let mut fields = $crate::light::Example::default();
+        $crate::light::$light { $($field: fields.$kind()),* }
+    }};
 }

@@ -23,43 +23,6 @@ fn v(x: f32, y: f32, z: f32) -> Vec3<f32> {
     Vec3::new(x, y, z)
 }
 
-/// Fields of a light above the origin, in turn, by their kinds in the list.
-#[derive(Default)]
-struct Overhead {
-    edges: usize,
-    numbers: u8,
-}
-impl Overhead {
-    fn point(&mut self) -> Vec3<f32> {
-        v(0.0, 1.0, 0.0)
-    }
-    fn edge(&mut self) -> Vec3<f32> {
-        self.edges += 1;
-        [v(1.0, 0.0, 0.0), v(0.0, 0.0, 1.0), v(0.9, 0.3, 1.1)][self.edges - 1]
-    }
-    fn vertex(&mut self) -> Vec3<f32> {
-        self.edge() + v(0.0, 0.2, 0.0)
-    }
-    fn direction(&mut self) -> Vec3<f32> {
-        v(0.0, -1.0, 0.0)
-    }
-    fn number(&mut self) -> f32 {
-        self.numbers += 1;
-        0.4 * f32::from(self.numbers)
-    }
-    fn corners<const N: usize>(&mut self) -> [Vec3<f32>; N] {
-        let corners = [[0.0, 0.0], [1.0, 0.0], [1.5, 1.0], [1.0, 2.0], [0.0, 2.0]];
-        core::array::from_fn(|i| v(corners[i.min(4)][0], 1.0, corners[i.min(4)][1]))
-    }
-}
-
-/// A light above the origin.
-macro_rules! overhead {
-    ($light:ident { $($(#[$doc:meta])* $field:ident as $argument:ident: $kind:ident,)* }) => {{
-        let mut fields = Overhead::default();
-        $light { $($field: fields.$kind()),* }
-    }};
-}
 /// Passes all techniques to a visitor.
 macro_rules! visit_techniques {
     ({ $visitor:ident } $(
@@ -69,7 +32,7 @@ macro_rules! visit_techniques {
     )+) => {
         $($(
             let with = visit_techniques!(with $place);
-            $visitor.technique::<technique::$technique>(&stringify!($name).replace('_', " "), overhead!($light $fields), with);
+            $visitor.technique::<technique::$technique>(&stringify!($name).replace('_', " "), etendue::example!($light $fields), with);
         )+)+
     };
     (with (p, n)) => {
