@@ -198,10 +198,11 @@ impl<R: Real> Warp<R> for Reflection<R> {
     fn pdf(&self, w: Vec3<R>) -> R {
         let Vec3 { x, y, z } = self.to_cosine(w);
         let square = x.mul_add(x, y.mul_add(y, z * z));
-        // no direction is as long as what overflows
-        let above = z.gt(R::lit(0.0)) & square.gt(R::lit(1e-18)) & square.lt(R::lit(1e36));
-        let inverse = R::lit(1.0) / R::blend(above, square, R::lit(1.0));
-        (z * (self.a * self.c) * (inverse * inverse) * R::lit(FRAC_1_PI)).keep(above)
+        let some = square.gt(R::lit(1e-18));
+        let inverse = R::lit(1.0) / R::blend(some, square, R::lit(1.0));
+        let pdf = z * (self.a * self.c) * (inverse * inverse) * R::lit(FRAC_1_PI);
+        // below the horizon it is negative, and NaN if the vector is too long to be a direction
+        pdf.keep(some).greater(R::lit(0.0))
     }
     #[inline(always)]
     fn invert(&self, w: Vec3<R>) -> Vec2<R> {
