@@ -4,6 +4,7 @@ use super::{AreaLight, LightShape, Measure};
 use crate::packets::Coordinates;
 use crate::tolerances::ULP;
 use etendue::LightSample;
+use etendue::real::SAME_BITS;
 use etendue_oracle::{V3, along, cross, dot, length, sub, wide};
 
 impl AreaLight {
@@ -82,7 +83,10 @@ impl AreaLight {
         // a product that cancels is known no better than its factors
         let sine = length(cross(b, c)) / (length(b) * length(c));
         let slim = if flat { 8.0 / sine } else { 0.0 };
-        let known = (16.0 + slim + (12.0 + slim + 4.0 * turned) / cos) * ULP;
+        // without a fused operation, what is added to the end of a line is rounded first, which counts from nearby
+        let is_rounded = self.shape == LightShape::Line && !SAME_BITS;
+        let near = if is_rounded { length(b) / distance } else { 0.0 };
+        let known = (16.0 + slim + (12.0 + slim + 4.0 * turned) / cos + 4.0 * near) * ULP;
         if flat || self.shape.has_normal() {
             // the direction determines the distance, by its cosine, of which the pdf is a third power
             let distance = dot(a, normal).abs() / (length(normal) * cos);
