@@ -124,7 +124,7 @@ fn samples_have_the_density() {
             let off = (sums[1] / sums[0] - 1.0).abs();
             worst = worst.max(off);
             assert!(
-                off < 1e-5 + 4e-9 * (ROUNDING / ULP) / sine + 2e-7 / above,
+                off < 1e-5 + (4e-9 / sine + 2e-7 / above) * (ROUNDING / ULP),
                 "{ball:?}: {} in single precision, not {}",
                 sums[1],
                 sums[0]
