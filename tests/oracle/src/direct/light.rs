@@ -362,7 +362,9 @@ impl<'a> Seen<'a> {
                 })
             }
             Outline::Sphere(c, r, axis, tangents) => {
-                if corners.iter().all(|v| dot(*axis, *v) >= tangents + radius || dot(*axis, *v) <= -radius) {
+                // a long wall may begin behind the point and end beyond the light
+                let heights = corners.iter().map(|v| dot(*axis, *v));
+                if heights.clone().all(|x| x <= -radius) || heights.clone().all(|x| x >= tangents + radius) {
                     return false;
                 }
                 let Some(normal) = normal else {
