@@ -21,7 +21,7 @@ impl AreaLight {
     ///
     /// Lines: to the rounding of the direction, over the sine of its angle to the line. Curved lights by area: a rounded direction moves the
     /// point by 16 ulp of the distance, and the cosine there by that over the radius and the cosine; a patch has the radius at which its
-    /// normal turns with the point. Samples that the light itself hides have the pdf of their own point.
+    /// normal turns with the point, and points that are four rounded terms. Samples that the light itself hides have the pdf of their own point.
     #[must_use]
     pub fn evaluated_to(&self, s: &LightSample<f32>) -> Option<f64> {
         if self.by == Measure::Delta {
@@ -51,7 +51,10 @@ impl AreaLight {
             }
             _ => (f64::from(self.radius), f64::from(s.distance) + length(wide(self.b)) + length(self.offset())),
         };
-        let allowed = 32.0 * ULP * (1.0 + reach / size) / (cos * cos);
+        // a point of a patch is a sum of rounded terms, which counts from nearby
+        let terms = [self.offset(), wide(self.b), wide(self.c), wide(self.n)].map(length).iter().sum::<f64>();
+        let near = if self.shape == LightShape::Patch { 4.0 * terms / f64::from(s.distance) } else { 0.0 };
+        let allowed = ULP * (32.0 * (1.0 + reach / size) + near) / (cos * cos);
         (s.emits && allowed < 0.05).then_some(allowed)
     }
     /// Whether the surface coordinates of a hit are those of a point at its distance in its direction.
