@@ -7,7 +7,10 @@ use core::arch::{asm, global_asm};
 use core::f32::consts::PI;
 use etendue::discrete::{PiecewiseConstant1d, PiecewiseConstant2d};
 use etendue::estimate::{Heuristic, Welford};
-use etendue::light::{ConstantEnvironment, EnvironmentMap, ImageEnvironment};
+use etendue::light::{
+    BilinearPatch, ConstantEnvironment, DirectionalLight, Disk, EnvironmentMap, ImageEnvironment, Line, PointLight,
+    Polygon, SpotLight, Sun,
+};
 use etendue::reflection::Reflection;
 use etendue::select::{LightBound, LightChoice, LightTree, Node8, SpatialLights, UniformLights};
 use etendue::sequence::{CounterRng, Independent, JointSobol, OwenSobol, Sequence, Stratified, ZOrder, ZOrderIndex};
@@ -15,7 +18,9 @@ use etendue::warp::{
     AreaTriangle, Bilinear, ConcentricDisk, Cone, CosineHemisphere, GgxVisibleNormals, LowDistortionTriangle,
     Octahedral, PatchSurface, UniformHemisphere, UniformSphere,
 };
-use etendue::{LightSample, LightSampler, Mask, Real, Vec2, Warp, f32x8, u32x8};
+use etendue::{
+    LightSample, LightSampler, Mask, Parallelogram, Real, Rectangle, Sphere, Triangle, Vec2, Vec3, Warp, f32x8, u32x8,
+};
 use rand_core::{Rng, SeedableRng};
 
 // the kernel enters with an aligned stack, but a function expects the alignment before its caller's `call`
@@ -118,21 +123,15 @@ impl Count {
         });
         self.check(kept);
     }
-    /// Checks the irradiance from radiance, intensity or irradiance 1 on a receiver that faces up.
+    /// Checks the irradiance from radiance 1 on a receiver that faces up.
     fn light(&mut self, truth: f32, sample: impl Fn(Vec2<X>) -> LightSample<X>) {
-        self.same_light(&mut Some(truth), sample);
-    }
-    /// Checks that it is what the first technique of the light gives.
-    fn same_light(&mut self, first: &mut Option<f32>, sample: impl Fn(Vec2<X>) -> LightSample<X>) {
         let mut total = lit(0.0);
         for u in squares() {
             let s = sample(u);
             let counts = s.emits & s.pdf.gt(lit(0.0)) & s.direction.y.gt(lit(0.0));
             total += (s.direction.y / s.pdf).keep(counts);
         }
-        let mean = sum(total) / SAMPLES as f32;
-        let truth = *first.get_or_insert(mean);
-        self.check(near(mean, truth, 1e-2));
+        self.check(near(sum(total) / SAMPLES as f32, truth, 1e-2));
     }
     /// Checks that the mean of x·y over a sequence is 1/4.
     fn sequence(&mut self, sequence: impl Sequence) {
@@ -198,17 +197,57 @@ fn tables(count: &mut Count) {
     }
 }
 
+/// A light above the origin, and its irradiance there on a receiver that faces up, from radiance, intensity or irradiance 1.
+trait Known {
+    const IRRADIANCE: f32;
+    fn known() -> Self;
+}
+macro_rules! known {
+    ($($light:ident $(<$n:literal>)?: $irradiance:expr, $value:expr;)+) => {$(
+        impl Known for $light<X $(, $n)?> {
+            const IRRADIANCE: f32 = $irradiance;
+            fn known() -> Self {
+                $value
+            }
+        }
+    )+};
+}
+// Lambert's formula for a square of side 1 at distance 1
+const SQUARE: f32 = 0.752_274_7;
+fn sides() -> [Vec3<X>; 3] {
+    [[-0.5, 1.0, -0.5], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]].map(Vec3::from)
+}
+known! {
+    // E = π R²/d²
+    Sphere: 0.25 * PI, Self { center: [0.0, 2.0, 0.0].into(), radius: lit(1.0) };
+    Triangle: 0.5 * SQUARE, { let [p, u, v] = sides(); Self { v0: p, e1: u, e2: v } };
+    Parallelogram: SQUARE, { let [p, u, v] = sides(); Self::new(p, u, v) };
+    Rectangle: SQUARE, { let [p, u, v] = sides(); Self::new(p, u, v) };
+    // E = π r²/(h² + r²); the normal points down because the disk is one-sided
+    Disk: 0.5 * PI, Self { center: [0.0, 1.0, 0.0].into(), normal: [0.0, -1.0, 0.0].into(), radius: lit(1.0) };
+    Polygon<4>: SQUARE, { let [p, u, v] = sides(); Self { corners: [p, p + u, p + u + v, p + v] } };
+    BilinearPatch: SQUARE, { let [p, u, v] = sides(); Self::new(p, u, v, u + v) };
+    // per unit of width
+    Line: 0.431_823_8, Self { start: [-1.0, 2.0, 0.0].into(), edge: [2.0, 0.0, 0.0].into() };
+    Sun: 0.25 * PI, Self { direction: UP.into(), one_minus_cos: lit(0.133_974_6) };
+    // E = I/d²
+    PointLight: 0.25, Self { position: [0.0, 2.0, 0.0].into() };
+    SpotLight: 0.25, Self { position: [0.0, 2.0, 0.0].into(), axis: [0.0, -1.0, 0.0].into(), one_minus_cos_inner: lit(0.1), one_minus_cos_outer: lit(0.2) };
+    DirectionalLight: 1.0, Self { direction: UP.into() };
+}
+fn irradiance<L: Known>(_: &L) -> f32 {
+    L::IRRADIANCE
+}
 macro_rules! all_lights {
     ({ $count:ident } $(
-        $(#[$light_doc:meta])* $light:ident $([$corners:literal])? = $light_c:ident, $columns_c:ident $fields:tt by $default:literal {
+        $(#[$light_doc:meta])* $light:ident $([$corners:literal])? = $light_c:ident, $columns_c:ident { $($fields:tt)* } by $default:literal {
             $(
                 $(#[$doc:meta])* $technique:ident, $name:ident -> $sampler:ident $([$n:literal])? $(= $sampler_c:ident[$size:literal])?: $by:ident $place:tt $($measure:ident)?;
             )+
         }
     )+) => {$(
-        let light: etendue::light::$light<X $(, $corners)?> = etendue::example!($light $fields);
-        let mut first = None;
-        $($count.same_light(&mut first, |u| {
+        let light = $light::known();
+        $($count.light(irradiance(&light), |u| {
             // a matt surface
             let reflection = Reflection::new(lit(1.0), UP.into(), UP.into());
             let _ = &reflection;

@@ -239,7 +239,7 @@ macro_rules! prepared {
     };
 }
 
-/// Fields of a light above the origin that shines on it, in turn, by their kinds in the list. What tests, proofs and benchmarks do with every
+/// Fields of a light above the origin, in turn, by their kinds in the list; what has no place is below. What tests and benchmarks do with every
 /// light begins with `etendue::example!(Light { fields })`.
 #[doc(hidden)]
 #[derive(Debug, Default)]
