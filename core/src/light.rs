@@ -84,6 +84,8 @@
 //! | directional light | delta | 0.54 | 0.11 | 0.50 | 0.11 | 0.05 | 0.04 | 0.19 |
 //! <!-- end of table -->
 //!
+//! Parallelograms, and inverses by projected solid angle and by reflection, are of 2026-11-28.
+//!
 //! Without compiler flags a packet of 8 is two registers, and a product and sum two instructions;
 //! `CARGO_ENCODED_RUSTFLAGS= cargo bench -p etendue-benches --bench summary -- light` prints what that costs.
 
