@@ -1,8 +1,13 @@
 //! How many samples each pixel takes: a few of a pilot everywhere, and the rest where the variance around a pixel is great.
 //!
-//! The pilot's samples are part of the image. The number of samples of a pixel depends on the variance at its neighbours, not on its
-//! own, so that a pixel that happens to be dark is not left dark. Mean and number of samples are independent, except for the share
-//! that a pixel has in the sum over all pixels.
+//! The pilot's samples are part of the image, and yet its mean is that of the light, exactly:
+//! 1. A pixel has one of nine colours, (column mod 3, row mod 3). Samples of different pixels are independent.
+//! 2. The counts of the pixels of a colour, and their weights of lights, are a function of the pilot of the other eight colours alone: so are
+//!    the means around these pixels, and the scale that makes the counts of this colour its share of all samples, which is fixed.
+//! 3. Given the pilot of the other colours, the count n of a pixel is thus a constant, and its samples are what they were without a pilot.
+//! 4. The mean of the first n samples of a pixel has the light as its expectation, for each constant n.
+//! 5. So it has it for the counts that are found, too. (With one scale for all pixels, a bright speck that its own pixel's pilot met would
+//!    give the samples to the others, and one that it missed to its own: means were up to half too great.)
 
 use super::light_weights::{APART, LightWeights};
 use super::pixel_statistics::{Statistics, fall};
@@ -23,6 +28,17 @@ const NEAR: usize = 2;
 /// helps a pilot of eight samples; with more it makes no difference.)
 const OUTERMOST: usize = 6;
 const WEIGHT_OUTERMOST: f64 = 0.003;
+
+/// Pixels whose rows and columns both differ by multiples of this have the same colour. No other number leaves all near neighbours with other
+/// colours and is smaller.
+const COLOURS: usize = NEAR + 1;
+/// The greatest part of all samples that a pixel may take. What a single pixel has found makes up to 168 neighbours want samples: so a speck
+/// that one pixel has met takes at most 0.42 of them.
+const PART_OF_ALL: f64 = 1.0 / 400.0;
+/// In images of so few pixels that this part is less, the greatest number of samples of a pixel relative to the mean.
+const TIMES_MEAN: f64 = 4.0;
+/// What pixels without any variance want, relative to those that want most: samples that these may not take are not lost.
+const WANTED_LAST: f64 = 1e-6;
 
 /// The weight of the neighbours of a pixel where its variance is estimated by the spread of samples. (With 0, `triangle-light` claimed 0.89
 /// of its error, since the pixels that miss an edge were hardly ever judged.)
@@ -200,14 +216,39 @@ fn count_packets(parts: &[Statistics], width: u32, plan: &SamplePlan) -> (Vec<u3
         weights = Some((lights, of));
         sums
     };
-    let (pilot, total) = (f64::from(plan.pilot), plan.packets * parts.len() as f64);
-    let spent = |scale: f64| wanted.iter().map(|w| (w * scale).max(pilot)).sum::<f64>();
-    let most = wanted.iter().fold(0.0_f64, |m, &w| m.max(w));
-    if most <= 0.0 || !most.is_finite() {
-        // no variance anywhere, or more than numbers can tell: the same number for all pixels
-        return (vec![(plan.packets.round() as u32).max(plan.pilot); parts.len()], weights);
+    (share_out(&wanted, columns, plan), weights)
+}
+
+/// Packets per set for each pixel in proportion to what it `wants`, with the same mean for the pixels of each colour.
+fn share_out(wanted: &[f64], columns: usize, plan: &SamplePlan) -> Vec<u32> {
+    let most = (PART_OF_ALL * plan.packets * wanted.len() as f64).max(TIMES_MEAN * plan.packets);
+    let mut packets = vec![0; wanted.len()];
+    for colour in 0..COLOURS * COLOURS {
+        let is_own = |i: &usize| i % columns % COLOURS + i / columns % COLOURS * COLOURS == colour;
+        let own: Vec<usize> = (0..wanted.len()).filter(is_own).collect();
+        let scaled = scaled(&own.iter().map(|&i| wanted[i]).collect::<Vec<_>>(), most, plan);
+        for (n, i) in own.into_iter().enumerate() {
+            packets[i] = match &scaled {
+                Some(scaled) => rounded(i, scaled[n]),
+                None => (plan.packets.round() as u32).max(plan.pilot),
+            };
+        }
     }
-    let (mut low, mut high) = (0.0, total / most);
+    packets
+}
+
+/// Packets of the pixels of a colour in proportion to what they want, at least those of the pilot and at `most` so many, so that their mean is
+/// that of the plan. `None` where no pixel has variance, or more than numbers can tell.
+fn scaled(wanted: &[f64], most: f64, plan: &SamplePlan) -> Option<Vec<f64>> {
+    let (pilot, total) = (f64::from(plan.pilot), plan.packets * wanted.len() as f64);
+    let greatest = wanted.iter().fold(0.0_f64, |m, &w| m.max(w));
+    if greatest <= 0.0 || !greatest.is_finite() {
+        return None;
+    }
+    let least = WANTED_LAST * greatest;
+    let packets = |wanted: f64, scale: f64| (wanted.max(least) * scale).min(most).max(pilot);
+    let spent = |scale: f64| wanted.iter().map(|&w| packets(w, scale)).sum::<f64>();
+    let (mut low, mut high) = (0.0, total / greatest);
     while spent(high) < total {
         high *= 2.0;
     }
@@ -215,14 +256,15 @@ fn count_packets(parts: &[Statistics], width: u32, plan: &SamplePlan) -> (Vec<u3
         let middle = 0.5 * (low + high);
         if spent(middle) < total { low = middle } else { high = middle }
     }
-    // Sobol points are best in powers of two: rounds down or up at random, independently of the samples
-    let rounded = |i: usize, packets: f64| {
-        let below = greatest_power(packets);
-        let turn = (i as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 11;
-        let up = (turn as f64 / (1_u64 << 53) as f64) < packets / below - 1.0;
-        (if up { 2.0 * below } else { below }) as u32
-    };
-    (wanted.iter().enumerate().map(|(i, w)| rounded(i, (w * low).max(pilot))).collect(), weights)
+    Some(wanted.iter().map(|&w| packets(w, low)).collect())
+}
+
+/// Rounds to a power of two, with which Sobol points are best: down or up at random, independently of the samples.
+fn rounded(pixel: usize, packets: f64) -> u32 {
+    let below = greatest_power(packets);
+    let turn = (pixel as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 11;
+    let up = (turn as f64 / (1_u64 << 53) as f64) < packets / below - 1.0;
+    (if up { 2.0 * below } else { below }) as u32
 }
 
 /// The greatest power of two that is no more than a positive normal number.
@@ -230,7 +272,7 @@ fn greatest_power(x: f64) -> f64 {
     f64::from_bits(x.to_bits() >> 52 << 52)
 }
 
-/// Σ `sums` / Σ `counts` over the neighbours of each pixel, excluding the pixel itself.
+/// Σ `sums` / Σ `counts` over the neighbours of each pixel that have other colours.
 fn mean_around(sums: &[f64], counts: &[f64], columns: usize) -> Vec<f64> {
     let weighted = |values: &[f64]| {
         let (near, far) = (sums_around(values, columns, NEAR), sums_around(values, columns, OUTERMOST));
@@ -239,23 +281,24 @@ fn mean_around(sums: &[f64], counts: &[f64], columns: usize) -> Vec<f64> {
     weighted(sums).zip(weighted(counts)).map(|(sum, count)| if count > 0.0 { sum / count } else { 0.0 }).collect()
 }
 
-/// Sums over the pixels up to `reach` rows and columns away from each pixel, excluding the pixel itself. Its value is never added and
-/// subtracted again, so that not even rounding depends on it.
+/// Sums over the pixels up to `reach` rows and columns away from each pixel that have other colours. The value of a pixel of its colour is
+/// never added and subtracted again, so that not even rounding depends on it.
 fn sums_around(values: &[f64], columns: usize, reach: usize) -> Vec<f64> {
     let near = |i: usize, most: usize| i.saturating_sub(reach)..(i + reach + 1).min(most);
-    let (mut beside, mut across) = (Vec::with_capacity(values.len()), Vec::with_capacity(values.len()));
+    let has_own = |i: usize, j: usize| i.abs_diff(j) % COLOURS == 0;
+    // in each row, the sum of all values, and of those in columns of other colours
+    let (mut all, mut others) = (Vec::with_capacity(values.len()), Vec::with_capacity(values.len()));
     for row in values.chunks(columns) {
         for x in 0..columns {
             let range = near(x, columns);
-            let others = row[range.start..x].iter().sum::<f64>() + row[x + 1..range.end].iter().sum::<f64>();
-            beside.push(others);
-            across.push(others + row[x]);
+            all.push(row[range.clone()].iter().sum::<f64>());
+            others.push(range.filter(|&other| !has_own(x, other)).map(|other| row[other]).sum::<f64>());
         }
     }
     let rows = values.len() / columns;
-    let other_rows = |x: usize, y: usize| near(y, rows).filter(move |&r| r != y).map(move |r| r * columns + x);
+    let of_row = |x: usize, y: usize, row: usize| if has_own(y, row) { &others } else { &all }[row * columns + x];
     (0..values.len())
-        .map(|i| beside[i] + other_rows(i % columns, i / columns).map(|j| across[j]).sum::<f64>())
+        .map(|i| near(i / columns, rows).map(|row| of_row(i % columns, i / columns, row)).sum::<f64>())
         .collect()
 }
 

@@ -11,10 +11,11 @@ const HEIGHT: usize = 15;
 fn integers(step: usize) -> Vec<f64> {
     (0..WIDTH * HEIGHT).map(|i| (i * step % 31) as f64).collect()
 }
-/// Σ over the pixels within `reach` rows and columns, excluding the pixel itself, by definition.
+/// Σ over the pixels within `reach` rows and columns that have another colour, by definition.
 fn around(values: &[f64], i: usize, reach: usize) -> f64 {
     let near = |j: usize| (i % WIDTH).abs_diff(j % WIDTH) <= reach && (i / WIDTH).abs_diff(j / WIDTH) <= reach;
-    (0..values.len()).filter(|&j| j != i && near(j)).map(|j| values[j]).sum()
+    let other = |j: usize| [i % WIDTH % 3, i / WIDTH % 3] != [j % WIDTH % 3, j / WIDTH % 3];
+    (0..values.len()).filter(|&j| other(j) && near(j)).map(|j| values[j]).sum()
 }
 
 #[test]
@@ -148,4 +149,55 @@ fn lights_are_weighted_by_their_spread() {
     // the mean of what is seen makes 15 of 5
     let ratio = average(&columns(39, 64)) / average(&columns(0, 25));
     assert!((ratio / 3.0 - 1.0).abs() < 0.03, "{ratio}");
+}
+
+/// Neither the count of a pixel nor its weights of lights depend on what the pilot found there: whatever it is, they are the same, bit for bit.
+#[test]
+fn no_count_depends_on_the_samples_of_its_pixel() {
+    let random = |i: usize, k: usize| (crate::sampler::hash64((i * 64 + k) as u64) >> 40) as f32 / (1 << 24) as f32;
+    for lights in [0, 3] {
+        let part = |i: usize, scale: f32| Statistics {
+            variance: f64::from(random(i, 0) * scale),
+            lights,
+            spread: std::array::from_fn(|k| if k < lights { random(i, 1 + k) * scale } else { 0.0 }),
+            pairs: std::array::from_fn(|k| if k < lights { (random(i, 9 + k) * 4.0) as u32 } else { 0 }),
+            ..Statistics::default()
+        };
+        let parts: Vec<_> = (0..WIDTH * HEIGHT).map(|i| part(i, 1.0)).collect();
+        let of = |parts: &[Statistics], i: usize| {
+            let (packets, weights) = count_packets(parts, WIDTH as u32, &plan(1, 2, 16.0));
+            (packets[i], weights.map(|(lights, of)| of[i * lights..][..lights].to_vec()), packets)
+        };
+        let mut others_change = false;
+        for i in 0..parts.len() {
+            let before = of(&parts, i);
+            for scale in [0.0, 1e6] {
+                let mut changed = parts.clone();
+                changed[i] = part(i, scale);
+                let after = of(&changed, i);
+                assert_eq!((before.0, &before.1), (after.0, &after.1), "pixel {i}");
+                others_change |= before.2 != after.2;
+            }
+        }
+        assert!(others_change);
+    }
+}
+
+/// What one pixel has found takes at most 0.42 of the samples, and all samples are spent.
+#[test]
+fn one_speck_does_not_take_all_samples() {
+    let (side, mean) = (64, 16.0);
+    for noise in [0.0, 1e-9] {
+        let variance = |i: usize| if i == 20 * side + 31 { 1e12 } else { noise };
+        let parts: Vec<_> =
+            (0..side * side).map(|i| Statistics { variance: variance(i), ..Statistics::default() }).collect();
+        let (packets, _) = count_packets(&parts, side as u32, &plan(1, 2, mean));
+        let all = packets.iter().copied().map(f64::from).sum::<f64>() / (side * side) as f64;
+        assert!((all / mean - 1.0).abs() < 0.1, "{all}");
+        let greatest = f64::from(*packets.iter().max().unwrap());
+        assert!(greatest <= 2.0 * PART_OF_ALL * mean * (side * side) as f64, "{greatest}");
+        let mut sorted = packets;
+        sorted.sort_unstable();
+        assert!(f64::from(sorted[side * side / 2]) >= 0.5 * mean, "{}", sorted[side * side / 2]);
+    }
 }
