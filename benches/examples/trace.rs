@@ -173,7 +173,7 @@ fn run() -> Result<(), String> {
         .chunks_exact(9)
         .map(|t| std::array::from_fn(|v| std::array::from_fn(|k| t[3 * v + k])))
         .collect();
-    let shapes = ShapeSet::new(std::iter::empty()).map_err(|e| e.to_string())?;
+    let shapes = ShapeSet::none();
     let start = Instant::now();
     let mut bvh = Bvh::new(&triangles, shapes).map_err(|e| e.to_string())?;
     let build = start.elapsed().as_secs_f64();

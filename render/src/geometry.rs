@@ -5,6 +5,7 @@
 mod affine;
 mod bounds;
 mod disk;
+mod ends;
 mod flat;
 mod form;
 mod parallelogram;
@@ -16,12 +17,13 @@ mod triangle;
 pub use affine::{Affine, Instance};
 pub use bounds::bounds_of;
 pub use disk::Disk;
-pub(crate) use form::{Approach, Extent, NEAR, Solid};
+pub(crate) use ends::{End, Segment};
+pub(crate) use form::{Approach, Extent, Meeting, NEAR, NEAR_LIMIT, Solid};
 pub use form::{Chart, Outline};
 pub use parallelogram::Parallelogram;
 #[cfg(feature = "analytic")]
 pub(crate) use points::{LEAST, LIFT};
-pub(crate) use points::{Points, on_triangle, on_triangles};
+pub(crate) use points::{Points, on_triangle, on_triangles, on_vast_triangles};
 pub use sphere::Sphere;
 pub(crate) use sphere::across;
 pub use table::Geometry;

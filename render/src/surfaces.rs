@@ -3,8 +3,8 @@
 mod interpolation;
 
 use crate::bsdf::{MaterialRecord, Metal, PLAIN, albedo, record};
-use crate::bvh::{BuildError, Bvh, Hits, Rays, SHAPE, ShapeSet};
-use crate::geometry::{Points, on_triangle, on_triangles};
+use crate::bvh::{BuildError, Bvh, Hits, LitSides, Rays, SHAPE, ShapeSet};
+use crate::geometry::{Points, on_triangle, on_triangles, on_vast_triangles};
 use crate::light_picture::LightPicture;
 use crate::light_profile::LightProfile;
 use crate::packet::{M8, V8, X8, each_group, equal, first_lane};
@@ -13,6 +13,9 @@ use etendue::{Mask, Real, Vec3, u32x8};
 use interpolation::{along_u, barycentric, interpolated, lane_of, moved, set_lane, smooth_normal};
 use std::collections::HashMap;
 use std::sync::Arc;
+
+/// In scenes with greater coordinates, hits of triangles are points of rays, not of triangles.
+const VAST: f32 = (1_u64 << 40) as f32;
 
 /// The hit points of eight rays.
 #[derive(Clone, Copy)]
@@ -92,7 +95,12 @@ impl Surfaces {
         Ok(surfaces)
     }
     fn bvh(triangles: Vec<[[f32; 3]; 3]>, scene: &Scene) -> Result<Bvh, BuildError> {
-        let shapes = ShapeSet::new(scene.shapes.iter().map(|shape| &shape.geometry))?;
+        let lit = |shape: &Shape| match shape.emission {
+            None => LitSides::Neither,
+            Some(emission) if emission.two_sided => LitSides::Both,
+            Some(_) => LitSides::Front,
+        };
+        let shapes = ShapeSet::new(scene.shapes.iter().map(|shape| (&shape.geometry, lit(shape))))?;
         let mut bvh = Bvh::with_instances(triangles, &scene.objects, &scene.instances, shapes)?;
         if !scene.masks.is_empty() {
             let masks: Vec<_> = scene.masks.iter().map(|(_, mask)| mask.clone()).collect();
@@ -168,8 +176,9 @@ impl Surfaces {
     fn mesh(&self, hits: &Hits, lanes: M8, rays: &Rays, surface: &mut Surface) {
         let places = hits.place.as_array();
         let first = places[first_lane(lanes)];
-        let uniform = (equal(hits.place, u32x8::splat(first)) | !lanes).all();
-        let reach = self.bvh.reach();
+        let is_vast = self.bvh.reach() > VAST;
+        let uniform = !is_vast && (equal(hits.place, u32x8::splat(first)) | !lanes).all();
+        let reach = self.bvh.reach_of_points();
         let (points, albedo);
         if uniform {
             let c = self.bvh.corners(first).map(f64::from);
@@ -182,7 +191,8 @@ impl Surfaces {
             let c = X8::transpose(rows.map(|r| X8::from(&r[..8])));
             let last = X8::from(rows.map(|r| r[8]));
             let corners = [V8::new(c[0], c[1], c[2]), V8::new(c[3], c[4], c[5]), V8::new(c[6], c[7], last)];
-            points = on_triangles(corners, [rays.origin, rays.direction], reach);
+            let meet = if is_vast { on_vast_triangles } else { on_triangles };
+            points = meet(corners, [rays.origin, rays.direction], reach);
             albedo = if self.place_materials.is_empty() {
                 V8::from(self.albedo(0))
             } else {
@@ -230,7 +240,7 @@ impl Surfaces {
             if self.reflect[shape.material as usize] {
                 let albedo = self.albedos[shape.material as usize];
                 let Points { point, normal } =
-                    shape.geometry.points([rays.origin, rays.direction], hits.distance, self.bvh.reach());
+                    shape.geometry.points([rays.origin, rays.direction], hits.distance, self.bvh.reach_of_points());
                 surface.point = V8::blend(here, point, surface.point);
                 surface.normal = V8::blend(here, normal, surface.normal);
                 surface.albedo = V8::blend(here, albedo.into(), surface.albedo);

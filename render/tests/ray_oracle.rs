@@ -102,7 +102,7 @@ fn campaign(groups: usize, seed: u32) -> [u64; 2] {
         for (scale, shift) in [(1.0_f32, 0.0), (1e-6, 0.0), (1e6, 0.0), (1.0, 100.0), (1e-3, 1.0)] {
             let place = |v: [f32; 3]| v.map(|x| x * scale + shift);
             let placed: Vec<Triangle> = mesh.iter().map(|t| t.map(place)).collect();
-            let tree = |way| Bvh::new(&placed, ShapeSet::new(std::iter::empty()).unwrap()).unwrap().with_traversal(way);
+            let tree = |way| Bvh::new(&placed, ShapeSet::none()).unwrap().with_traversal(way);
             let oracle = tree(Traversal::Exhaustive);
             let ways = [Traversal::Choose, Traversal::Stream, Traversal::Single];
             let ways = ways.map(|way| (way, tree(way)));
@@ -166,7 +166,7 @@ fn closed_meshes_do_not_leak() {
     for scale in [1e-6_f32, 1.0, 1e6] {
         let mesh: Vec<Triangle> = cube(7).iter().map(|t| t.map(|v| v.map(|x| x * scale))).collect();
         for way in [Traversal::Choose, Traversal::Stream, Traversal::Single] {
-            let bvh = Bvh::new(&mesh, ShapeSet::new(std::iter::empty()).unwrap()).unwrap().with_traversal(way);
+            let bvh = Bvh::new(&mesh, ShapeSet::none()).unwrap().with_traversal(way);
             for index in 0..300 {
                 let center = point(&mut random).map(|x| 0.9 * x * scale);
                 let rays = (0..8 * GROUP).map(|_| {

@@ -3,7 +3,7 @@
 use etendue::sequence::{Independent, Sequence};
 use etendue::{Mask, Real, Vec2, Vec3, f32x8, u32x8};
 use etendue_oracle::{V3, cross, dot, sub};
-use etendue_render::bvh::{Bvh, Hits, NOTHING, Scratch, ShapeSet, Traversal};
+use etendue_render::bvh::{Bvh, Hits, LitSides, NOTHING, Scratch, ShapeSet, Traversal};
 use etendue_render::scene::{Affine, Disk, Geometry, Instance};
 
 /// Distance and least barycentric coordinate (Möller and Trumbore), if the ray hits the plane.
@@ -57,7 +57,7 @@ fn check(triangles: &[[[f32; 3]; 3]], bvh: &Bvh, rays: &[([f32; 3], [f32; 3])], 
 }
 
 fn tree(triangles: &[[[f32; 3]; 3]]) -> Bvh {
-    Bvh::new(triangles, ShapeSet::new(std::iter::empty()).unwrap()).unwrap()
+    Bvh::new(triangles, ShapeSet::none()).unwrap()
 }
 
 #[test]
@@ -111,7 +111,7 @@ fn disks_are_round() {
     };
     let disks: Vec<Disk> = (0..60).map(disk).collect();
     let shapes: Vec<Geometry> = disks.iter().map(|&disk| Geometry::Disk(disk)).collect();
-    let bvh = Bvh::new(&[], ShapeSet::new(shapes.iter()).unwrap()).unwrap();
+    let bvh = Bvh::new(&[], ShapeSet::new(shapes.iter().map(|shape| (shape, LitSides::Neither))).unwrap()).unwrap();
     let (mut hits, mut stack, mut counts) = ([Hits::none(f32x8::splat(f32::INFINITY))], Scratch::default(), [0; 2]);
     for packet in 0..500 {
         let lanes = |f: &dyn Fn(u32) -> [f32; 3]| {
@@ -192,7 +192,7 @@ fn instances_are_hit_as_copies() {
             copies.extend(own.iter().map(|t| t.map(|p| <[f32; 3]>::from(to_world.point(Vec3::from(p))))));
         }
         let build = || {
-            let shapes = ShapeSet::new(std::iter::empty()).unwrap();
+            let shapes = ShapeSet::none();
             Bvh::with_instances(triangles.clone(), &objects, &instances, shapes).unwrap()
         };
         let (flat, all) = (tree(&copies), build());
@@ -337,6 +337,6 @@ fn trees_do_not_depend_on_threads() {
     });
     assert!(built[1] == built[0] && built[2] == built[0], "the tree depends on the number of threads");
     // nor does the tree depend on the ownership of the triangles
-    let own = Bvh::taking(triangles, ShapeSet::new(std::iter::empty()).unwrap()).unwrap();
+    let own = Bvh::taking(triangles, ShapeSet::none()).unwrap();
     assert!(format!("{own:?}") == built[0], "the tree depends on the ownership of the triangles");
 }

@@ -103,7 +103,7 @@ impl Workload {
     pub fn new(name: &str, groups: u32) -> Self {
         let scene = etendue_scene::load(name).expect("a built-in scene");
         let tree = |way| {
-            let none = ShapeSet::new(std::iter::empty()).expect("none are few");
+            let none = ShapeSet::none();
             Bvh::new(&scene.triangles, none).expect("as many triangles as fit").with_traversal(way)
         };
         let (single, bvh) = (tree(Traversal::Single), tree(Traversal::Choose));

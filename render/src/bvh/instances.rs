@@ -15,9 +15,12 @@ use super::triangles::{Moved, Situated, TriangleLeaves};
 use crate::geometry::{Affine, Instance, bounds_of};
 use crate::packet::{M8, X8, select};
 use etendue::{Mask, Real};
-use std::ops::Range;
+use std::ops::{Range, RangeInclusive};
 
 const SQRT_3: f64 = 1.733;
+
+/// The extents of instances whose triangles may be tested in single precision, if those of the object may.
+const EXTENTS: RangeInclusive<f64> = 1.0 / (1_u64 << 16) as f64..=(1_u64 << 40) as f64;
 
 /// A node is visited in about the time of a box.
 const COSTS: Costs = Costs { most: 1, leaf: 4.0, primitive: 0.0 };
@@ -95,6 +98,9 @@ impl Instances {
             // as the longest edge, and more where the map makes slivers; distances are rounded up to powers of two
             let (greatest, det) = (to_world.greatest() * 2.0 * SQRT_3, to_world.determinant().abs());
             let size = (greatest * (greatest.powi(3) / det).clamp(1.0, 1e30)) as f32;
+            let [low, high] = objects[object as usize].triangles.bounds().map(|corner| corner.map(f64::from));
+            let extent = (0..3).fold(0.0, |most: f64, k| most.max(high[k] - low[k])) * greatest;
+            let size = if EXTENTS.contains(&extent) { size } else { f32::INFINITY };
             Placement { object, first, to_world, to_object, size }
         });
         let placements = placements.collect();

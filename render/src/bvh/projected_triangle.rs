@@ -1,5 +1,6 @@
 //! The test of a ray against a triangle, with the triangle seen along the ray.
 
+use crate::geometry::NEAR_LIMIT;
 use crate::packet::{M8, V8, X8, max, min, select};
 use etendue::Real;
 
@@ -68,10 +69,11 @@ impl Projected {
     }
 }
 
-/// Lanes whose distance is decided in double precision: it is near 0, or near the limit if `ANY` hit before that occludes. The latter is a
-/// question of touching surfaces alone, so the band is narrow.
+/// Lanes whose distance is decided in double precision: it is near 0, or near the limit if `ANY` hit before that occludes.
 #[inline(always)]
 pub(super) fn undecided<const ANY: bool>(distance: X8, near: X8, limit: X8) -> M8 {
-    let undecided = distance.abs().lt(near);
-    if ANY { undecided | (distance - limit).abs().lt(near * X8::lit(1.0 / 4096.0)) } else { undecided }
+    // also where it is not a number
+    let undecided = !distance.abs().gt(near);
+    let band = max(limit * X8::lit(NEAR_LIMIT), near * X8::lit(1.0 / 4096.0));
+    if ANY { undecided | (distance - limit).abs().lt(band) } else { undecided }
 }

@@ -60,8 +60,10 @@ impl Rays {
     /// Boxes are widened by `pad`.
     #[inline(always)]
     pub(super) fn entering(&self, origin: V8, direction: V8, pad: X8) -> Self {
-        // components below 1e−18 count as 1e−18, with which a ray never reaches the planes across that axis
-        let invert = |d: X8| X8::lit(1.0) / max(d.abs(), X8::lit(1e-18)).copysign(d);
+        // components below 1e−18 count as 1e−18, with which a ray never reaches the planes across that axis; in scenes beyond 1e19 they are
+        // as great as the range of numbers asks for
+        let least = max(pad * X8::lit(1e-31), X8::lit(1e-18));
+        let invert = |d: X8| X8::lit(1.0) / max(d.abs(), least).copysign(d);
         let inverse = Vec3::new(invert(direction.x), invert(direction.y), invert(direction.z));
         let plane = |o: V8, pad: X8| {
             Vec3::new(-((o.x + pad) * inverse.x), -((o.y + pad) * inverse.y), -((o.z + pad) * inverse.z))

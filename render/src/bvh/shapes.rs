@@ -1,22 +1,51 @@
 //! Intersection with spheres and emitters.
 
 use super::build::Costs;
-use super::node::BuildError;
-use super::rays::{Hits, Rays, SHAPE};
+use super::node::{Bounds, BuildError};
+use super::rays::{Hits, NOTHING, Rays, SHAPE};
 use super::region::{Placed, Region};
 use super::tree::{Primitives, Tree};
-use crate::geometry::{AnySolid, Approach, Geometry, Solid};
-use crate::packet::{M8, X8, equal, pick, select};
-use etendue::{Mask, u32x8};
+use crate::geometry::{AnySolid, Approach, Geometry, Meeting, NEAR_LIMIT, Segment, Solid};
+use crate::packet::{M8, X8, below, each_group, equal, pick, select};
+use etendue::{Mask, Real, u32x8};
 use std::ops::Range;
+use std::sync::Arc;
 
 /// A packet tests one shape after another, each in about the time of a node.
 const COSTS: Costs = Costs { most: 4, leaf: 0.0, primitive: 1.0 };
+
+/// From which sides of a shape light comes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LitSides {
+    /// It is no light.
+    Neither,
+    /// From that of its normal.
+    Front,
+    /// From both.
+    Both,
+}
 
 #[derive(Debug)]
 pub(super) struct Solids {
     solids: Vec<AnySolid>,
     ids: Vec<u32>,
+    /// For each of the ids, its index in leaf order.
+    indices: Vec<u32>,
+    /// In leaf order.
+    lit: Vec<LitSides>,
+    reached: Reached,
+}
+
+/// What segments may end on, by the index in the scene's list: it tells their ends in double precision.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Reached(Arc<[AnySolid]>);
+
+impl Reached {
+    /// The segment with its end on what is at a place, as in hits.
+    pub(super) fn by(&self, place: u32, segment: Segment) -> Segment {
+        let solid = self.0.get((place & !SHAPE) as usize).filter(|_| place & SHAPE != 0);
+        solid.map_or(segment, |solid| solid.reached_by(segment))
+    }
 }
 
 /// All shapes of a scene. Ids are indices into the scene's list; in hits, they have the bit [`SHAPE`] set.
@@ -24,6 +53,8 @@ pub(super) struct Solids {
 pub struct ShapeSet {
     tree: Tree<Solids>,
     reach: f32,
+    /// The least greatest coordinate of a shape.
+    least: f32,
 }
 
 impl Solids {
@@ -31,31 +62,73 @@ impl Solids {
     pub(super) fn ids(&self) -> &[u32] {
         &self.ids
     }
+    /// Lanes in which rays that meet the shape of this index in leaf order, at these distances, meet a side from which light comes.
+    fn is_lit(&self, index: usize, rays: &Approach<'_>, distance: X8) -> M8 {
+        match self.lit[index] {
+            LitSides::Neither => M8::splat(false),
+            LitSides::Front => self.solids[index].fronts([rays.origin, rays.direction], distance),
+            LitSides::Both => M8::splat(true),
+        }
+    }
+    /// Lanes in which the shape of this index in leaf order comes before those at `places`, with which it is level: what shines towards the
+    /// ray comes first, then what is first in the scene's list.
+    #[cold]
+    fn comes_first(&self, index: usize, rays: &Approach<'_>, lanes: M8, places: u32x8) -> M8 {
+        let (own, id) = (self.is_lit(index, rays, rays.limit), u32x8::splat(self.ids[index] | SHAPE));
+        let mut others = M8::splat(false);
+        each_group(places, lanes, |place, here| {
+            let other = self.indices[(place & !SHAPE) as usize] as usize;
+            others = others | here & self.is_lit(other, rays, rays.limit);
+        });
+        lanes & (own & !others | !(own ^ others) & below(id, places))
+    }
 }
 
 impl ShapeSet {
+    /// No shapes.
+    #[must_use]
+    pub fn none() -> Self {
+        Self::new(std::iter::empty()).unwrap_or_else(|_| unreachable!("none are few"))
+    }
     /// Prepares the shapes.
     ///
     /// # Errors
     /// Fails if there are more than 2³¹ − 1 shapes.
-    pub fn new<'a>(shapes: impl Iterator<Item = &'a Geometry>) -> Result<Self, BuildError> {
+    pub fn new<'a>(shapes: impl Iterator<Item = (&'a Geometry, LitSides)>) -> Result<Self, BuildError> {
         let shapes: Vec<_> = shapes.collect();
-        let boxes: Vec<_> = shapes.iter().map(|shape| shape.bounds()).collect();
-        let reach = boxes.iter().flatten().flatten().fold(0.0_f32, |m, x| m.max(x.abs()));
+        let boxes: Vec<_> = shapes.iter().map(|(shape, _)| shape.bounds()).collect();
+        let farthest = |bounds: &Bounds| bounds.iter().flatten().fold(0.0_f32, |m, x| m.max(x.abs()));
+        let reach = boxes.iter().map(farthest).fold(0.0, f32::max);
+        let least = boxes.iter().map(farthest).fold(f32::INFINITY, f32::min);
         let tree = Tree::build(
             boxes,
             COSTS,
             |_| (),
-            |_, ids, _| Solids { solids: ids.iter().map(|&i| shapes[i as usize].solid()).collect(), ids },
+            |_, ids, _| {
+                let mut indices = vec![0; ids.len()];
+                (0..).zip(&ids).for_each(|(index, &id)| indices[id as usize] = index);
+                let of = |&id: &u32| shapes[id as usize];
+                let solids = ids.iter().map(|id| of(id).0.solid()).collect();
+                let reached = Reached(shapes.iter().map(|(shape, _)| shape.solid()).collect());
+                Solids { solids, indices, lit: ids.iter().map(|id| of(id).1).collect(), ids, reached }
+            },
         )?;
-        Ok(Self { tree, reach })
+        Ok(Self { tree, reach, least })
     }
     /// Greatest magnitude of a coordinate.
     pub fn reach(&self) -> f32 {
         self.reach
     }
+    /// The least of the greatest magnitudes of the coordinates of each shape; infinite if there are none.
+    pub(super) fn least(&self) -> f32 {
+        self.least
+    }
     pub(super) fn tree(&self) -> &Tree<Solids> {
         &self.tree
+    }
+    /// What segments may end on.
+    pub(super) fn reached(&self) -> &Reached {
+        &self.tree.primitives().reached
     }
 }
 
@@ -70,19 +143,37 @@ impl Primitives for Solids {
         hits: &mut Hits,
     ) -> M8 {
         let mut hidden = M8::splat(false);
-        for (solid, &id) in self.solids[leaf.clone()].iter().zip(&self.ids[leaf]) {
-            let place = u32x8::splat(id | SHAPE);
+        for index in leaf {
+            let (solid, place) = (&self.solids[index], u32x8::splat(self.ids[index] | SHAPE));
             let Rays { origin, direction, from, .. } = *rays;
-            let rays = Approach { origin, direction, own: equal(from, place), limit: hits.distance };
+            let places = hits.place;
+            let reaching = |lane: usize, segment| self.reached.by(places.as_array()[lane], segment);
+            let own = equal(from, place);
+            let mut rays = Approach { origin, direction, own, limit: hits.distance, reaching: &reaching };
             if ANY {
                 let others = active & !equal(hits.place, place);
                 if others.any() {
-                    hidden = hidden | solid.meet::<true>(&rays).1 & others;
+                    let Meeting { hit, level, .. } = solid.meet::<true>(&rays);
+                    hidden = hidden | hit & others;
+                    let level = level & others & !equal(hits.place, u32x8::splat(NOTHING));
+                    if level.any() {
+                        hidden = hidden | self.comes_first(index, &rays, level, hits.place);
+                    }
                 }
                 continue;
             }
-            let (distance, hit) = solid.meet::<false>(&rays);
-            let hit = hit & active;
+            // with what is about as near, until more is known
+            rays.limit = hits.distance * X8::lit(1.0 + NEAR_LIMIT);
+            let Meeting { distance, hit, .. } = solid.meet::<false>(&rays);
+            let mut hit = hit & active;
+            let level = hit & hits.any() & distance.gt(hits.distance * X8::lit(1.0 - NEAR_LIMIT));
+            hit = hit & (distance.lt(hits.distance) | level);
+            if level.any() {
+                rays.limit = hits.distance;
+                let near = solid.meet::<true>(&rays);
+                let first = self.comes_first(index, &rays, near.level & level, hits.place);
+                hit = hit & !level | level & (near.hit | first);
+            }
             hits.distance = select(hit, distance, hits.distance);
             hits.place = pick(hit, place, hits.place);
         }

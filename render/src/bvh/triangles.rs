@@ -2,17 +2,18 @@
 
 use super::build::Costs;
 use super::cutouts::Cutouts;
-use super::double_precision::{to_triangle, wide};
+use super::double_precision::{hides, to_triangle, wide};
 use super::node::{Bounded, Bounds, BuildError, greater, lesser, prefetch};
 use super::projected_triangle::{project, undecided};
 use super::rays::{Hits, NOTHING, Nearest, Rays, SHAPE};
 use super::region::{Placed, Region};
+use super::shapes::Reached;
 use super::single_ray::{Leaves, SingleRay};
 use super::tree::{Primitives, Tree};
-use crate::geometry::{Affine, NEAR};
+use crate::geometry::{Affine, NEAR, Segment};
 use crate::packet::{M8, V8, X8, each_bit, equal, max, pick, select};
 use etendue::{Mask, Real, Vec3, u32x8};
-use std::ops::Range;
+use std::ops::{Range, RangeInclusive};
 use wide::u16x8;
 
 /// Greatest number of triangles in a leaf.
@@ -55,6 +56,10 @@ pub(super) struct TriangleLeaves {
     ids: Vec<u32>,
     /// For each triangle, the biased exponent of a distance: hits that are nearer to the origin of a ray are computed in double precision.
     near: Vec<u8>,
+    /// Whether some triangles are so large or so small that this is infinite.
+    extreme: bool,
+    /// What segments may end on.
+    pub(super) reached: Reached,
     /// The triangles that have holes, if some do.
     pub(super) cutouts: Option<Box<Cutouts>>,
 }
@@ -134,12 +139,21 @@ impl Situation for Moved<'_> {
     }
 }
 
+/// The longest edges for which products of three lengths are normal numbers in single precision. The distances of all hits of larger and of
+/// smaller triangles are computed in double precision.
+const SINGLE: RangeInclusive<f64> = 1.0 / (1_u64 << 36) as f64..=(1_u64 << 40) as f64;
+/// The exponent of infinity, for triangles of other sizes.
+const ALWAYS: u8 = 255;
+
 /// The biased exponent of the distance up to which single precision does not suffice. Rounding moves hits by a fraction of the longest edge,
 /// and further in slivers.
 fn near_exponent([a, b, c]: &Corners) -> u8 {
     let [a, b, c] = [a, b, c].map(|v| wide((*v).into()));
     let (e1, e2, e3) = (b - a, c - a, c - b);
     let square = e1.length_squared().max(e2.length_squared()).max(e3.length_squared());
+    if !SINGLE.contains(&square.sqrt()) {
+        return ALWAYS;
+    }
     let area = e1.cross(e2).length();
     let sliver = (square / (area * 256.0)).clamp(1.0, 1e30);
     let distance = square.sqrt() * NEAR * sliver;
@@ -184,10 +198,11 @@ impl TriangleLeaves {
                     }
                 }
             }
+            let extreme = near.contains(&ALWAYS);
             let mut coordinates = triangles.into_flattened().into_flattened();
             // room for eight-lane loads beyond the last leaf
             coordinates.extend([0.0; 8]);
-            Self { coordinates, leaves, ids, near, cutouts: None }
+            Self { coordinates, leaves, ids, near, extreme, reached: Reached::default(), cutouts: None }
         })
     }
     #[inline]
@@ -242,30 +257,50 @@ impl TriangleLeaves {
 
 impl TriangleLeaves {
     /// Computes the distances in these lanes in double precision, to `triangles` there. Returns the lanes that hit something
-    /// ahead.
+    /// ahead; with `ANY`, those where it hides the end of a segment that ends at the limit, on the shape that is `reached`.
     #[cold]
     #[inline(never)]
-    fn decide(
+    fn decide<const ANY: bool>(
         &self,
         situation: &impl Situation,
         lanes: u32,
         triangles: [usize; 8],
-        origin: V8,
-        direction: V8,
+        [origin, direction]: [V8; 2],
+        (limit, reached): (X8, u32x8),
         distance: &mut X8,
     ) -> u32 {
         let mut ahead = 0;
         each_bit(lanes, |lane| {
             let c = self.corners(triangles[lane] as u32);
             let corners = [0, 3, 6].map(|k| wide(situation.corner(Vec3::new(c[k], c[k + 1], c[k + 2]))));
-            let exact = to_triangle(corners, wide(origin.lane(lane)), wide(direction.lane(lane)));
-            if let Some(exact) = exact.filter(|&exact| exact > 0.0) {
-                distance.as_mut_array()[lane] = exact as f32;
+            let [origin, direction] = [origin, direction].map(|v| wide(v.lane(lane)));
+            let limit = limit.as_array()[lane];
+            let segment = Segment { origin, direction, length: limit.into() };
+            if let Some(exact) = to_triangle(corners, origin, direction).filter(|&exact| exact > 0.0)
+                && (!ANY || hides(corners, &self.reached.by(reached.as_array()[lane], segment)))
+            {
+                let exact = exact as f32;
+                // before the limit, whatever the rounding
+                distance.as_mut_array()[lane] = if ANY { exact.min(limit * (1.0 - f32::EPSILON)) } else { exact };
                 ahead |= 1 << lane;
             }
         });
         ahead
     }
+}
+
+impl TriangleLeaves {
+    /// Whether some triangles are so large or so small where they are that single precision never suffices.
+    #[inline(always)]
+    fn is_extreme(&self, situation: &impl Situation) -> bool {
+        self.extreme || situation.size() == f32::INFINITY
+    }
+}
+
+/// Lanes in which single precision never suffices.
+#[inline(always)]
+fn is_infinite(near: X8) -> M8 {
+    near.ge(X8::lit(f64::INFINITY))
 }
 
 // Distances are at least `near`, where the ray enters the box of the leaf. No traversal cuts a ray shorter than that, so the hit does not
@@ -298,9 +333,11 @@ impl TriangleLeaves {
             if unclear.any() {
                 let triangles = [leaf.start + index; 8];
                 let size = situation.near(self, size, unclear, triangles);
-                unclear = unclear & undecided::<ANY>(distance, size, hits.distance) & projected.nearly();
+                unclear = unclear & undecided::<ANY>(distance, size, hits.distance) & (projected.nearly() | is_infinite(size));
                 let lanes = unclear.bits();
-                let ahead = self.decide(situation, lanes, triangles, rays.origin, rays.direction, &mut distance);
+                let way = [rays.origin, rays.direction];
+                let end = (hits.distance, hits.place);
+                let ahead = self.decide::<ANY>(situation, lanes, triangles, way, end, &mut distance);
                 met = met & !unclear | M8::from_bits(ahead);
             }
             let distance = max(distance, near);
@@ -340,8 +377,8 @@ impl TriangleLeaves {
         let first = leaf.start as u32 + situation.first();
         let own = 1_u32.checked_shl(ray.from.wrapping_sub(first)).unwrap_or(0);
         let others = ((1 << leaf.len()) - 1) & !own;
-        let (mut inside, nearly) = (projected.inside.bits() & others, projected.nearly().bits() & others);
-        if nearly == 0 {
+        let (mut inside, mut nearly) = (projected.inside.bits() & others, projected.nearly().bits() & others);
+        if nearly == 0 && !self.is_extreme(situation) {
             return false;
         }
         let mut distance = projected.distance(ray.direction());
@@ -350,6 +387,9 @@ impl TriangleLeaves {
         exponents[..8].copy_from_slice(&self.near[leaf.start..leaf.start + 8]);
         let exponents = u32x8::from(u16x8::from_u8x16_low(exponents.into()));
         let size = X8::from_bits(exponents << 23) * X8::splat(situation.size());
+        if self.is_extreme(situation) {
+            nearly |= is_infinite(size).bits() & others;
+        }
         let unclear = undecided::<ANY>(distance, size, limit);
         let behind = unclear & projected.surely_behind(distance, size);
         let (behind, mut unclear) = (behind.bits(), nearly & (unclear & !behind).bits());
@@ -358,7 +398,9 @@ impl TriangleLeaves {
             let triangles = std::array::from_fn(|lane| leaf.start + lane);
             let size = situation.near(self, size, M8::from_bits(unclear), triangles);
             unclear &= undecided::<ANY>(distance, size, limit).bits();
-            let ahead = self.decide(situation, unclear, triangles, ray.origin(), ray.direction(), &mut distance);
+            let way = [ray.origin(), ray.direction()];
+            let end = (limit, u32x8::splat(nearest.place));
+            let ahead = self.decide::<ANY>(situation, unclear, triangles, way, end, &mut distance);
             inside = inside & !unclear | ahead;
         }
         let distance = max(distance, near);

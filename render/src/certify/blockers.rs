@@ -4,7 +4,7 @@ use super::hull::{Hull, V64, edges, magnitude, unit, wide};
 use super::shaft::Shaft;
 use crate::bvh::SHAPE;
 use crate::geometry::{Geometry, Outline};
-use crate::occlusion::{Convex, SPARED};
+use crate::occlusion::Convex;
 use crate::surfaces::Surfaces;
 use etendue::Vec3;
 
@@ -171,11 +171,9 @@ impl Candidate {
                 // A segment that ends in the ball might not meet its surface.
                 let apart = |hull: &Hull| (hull.center - center).length() > hull.extent + radius + shaft.epsilon;
                 if Self::contains(center, radius, &shaft.patch, shaft.epsilon) {
-                    // A segment from inside leaves the ball before its spared part, since the whole part ends outside.
-                    let spared = 2.0 * SPARED * (shaft.light.center - shaft.patch.center).length();
-                    let spared = spared + 2.0 * SPARED * (shaft.patch.extent + shaft.light.extent);
+                    // A segment from inside leaves the ball, and ends outside of it by more than rounding.
                     return (shaft.light.center - center).length()
-                        > shaft.light.extent + radius + spared + shaft.epsilon;
+                        > shaft.light.extent + radius + 2.0 * shaft.ends + shaft.epsilon;
                 }
                 let axis = unit(shaft.light.center - shaft.patch.center);
                 let helper = if axis.x.abs() < 0.6 { V64::new(1.0, 0.0, 0.0) } else { V64::new(0.0, 1.0, 0.0) };
@@ -228,7 +226,7 @@ fn is_on_one_side(corners: &[V64], shaft: &Shaft) -> bool {
     above(&shaft.patch) && above(&shaft.light) || below(&shaft.patch) && below(&shaft.light)
 }
 
-/// Is a slab that contains the polygon between patch and light, and no part of it within the spared part of a segment?
+/// Is a slab that contains the polygon between patch and light, and no part of it level with the end of a segment?
 fn is_between(corners: &[V64], shaft: &Shaft) -> bool {
     let normal = unit((corners[1] - corners[0]).cross(corners[2] - corners[0]));
     let [mut least, mut most] = [f64::INFINITY, f64::NEG_INFINITY];
@@ -241,9 +239,7 @@ fn is_between(corners: &[V64], shaft: &Shaft) -> bool {
         [least - margin, most + margin]
     };
     let (p, y) = (grown(&shaft.patch), grown(&shaft.light));
-    // a segment from above reaches the slab's lower side before it is spared
-    let above =
-        |p: [f64; 2], y: [f64; 2], [least, most]: [f64; 2]| p[0] > most && least - y[1] > 2.0 * SPARED * (p[1] - least);
+    let above = |p: [f64; 2], y: [f64; 2], [least, most]: [f64; 2]| p[0] > most && least - y[1] > 2.0 * shaft.ends;
     let turned = |[least, most]: [f64; 2]| [-most, -least];
     above(p, y, [least, most]) || above(turned(p), turned(y), turned([least, most]))
 }

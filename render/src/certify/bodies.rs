@@ -4,7 +4,7 @@ use super::blockers::crosses;
 use super::hull::{Hull, V64, unit, wide};
 use super::shaft::Shaft;
 use crate::bvh::{Bvh, NOTHING};
-use crate::occlusion::{Edge, Polyhedron, SPARED};
+use crate::occlusion::{Edge, Polyhedron};
 use etendue::Vec3;
 use std::collections::HashMap;
 use std::f64::consts::SQRT_2;
@@ -107,7 +107,7 @@ impl Bodies {
     }
     /// Can the body stand for its triangles in a shaft from the primitive at `place`?
     ///
-    /// From inside it hides every light that is outside, so a segment from inside must leave it before the spared part. All of it must lie
+    /// From inside it hides every light that is outside, so a segment from inside must end outside by more than rounding. All of it must lie
     /// before the light. Shading points on the body itself are inside or outside by rounding alone.
     pub(super) fn serves(&self, body: u32, place: u32, shaft: &Shaft) -> bool {
         if self.of(place) == Some(body) {
@@ -115,10 +115,7 @@ impl Bodies {
         }
         let body = &self.bodies[body as usize];
         let margin = shaft.light.radius + 2.0 * shaft.epsilon;
-        let is_outside = |&(n, offset): &(V64, f64)| {
-            let deepest = offset - shaft.patch.range(n)[0] + shaft.patch.radius;
-            shaft.light.range(n)[0] - margin - offset > 2.0 * SPARED * deepest.max(0.0)
-        };
+        let is_outside = |&(n, offset): &(V64, f64)| shaft.light.range(n)[0] - margin - offset > 2.0 * shaft.ends;
         body.planes.iter().any(is_outside) && !crosses(&body.corners, 0.0, shaft)
     }
     /// Is every segment of the shaft known to meet the body?
@@ -130,7 +127,7 @@ impl Bodies {
         let planes = &self.bodies[body as usize].planes;
         let margin = shaft.patch.radius.max(shaft.light.radius) + 4.0 * shaft.epsilon;
         let meets = |p: V64, y: V64| {
-            let (mut enters, mut leaves) = (0.0_f64, 1.0_f64);
+            let (mut enters, mut leaves, mut beyond) = (0.0_f64, 1.0_f64, f64::INFINITY);
             for &(n, offset) in planes {
                 let (a, b) = (n.dot(p) - offset + margin, n.dot(y) - offset + margin);
                 if !(a <= 0.0 || b <= 0.0) {
@@ -138,11 +135,12 @@ impl Bodies {
                 }
                 if a > 0.0 {
                     enters = enters.max(a / (a - b));
-                } else if b > 0.0 {
-                    leaves = leaves.min(a / (a - b));
+                } else if b > 0.0 && a / (a - b) < leaves {
+                    (leaves, beyond) = (a / (a - b), b);
                 }
             }
-            enters + 1e-9 < leaves && leaves < 1.0 - 2.0 * SPARED
+            // where it leaves, it ends beyond the face by more than rounding
+            enters + 1e-9 < leaves && leaves < 1.0 && beyond > margin + 2.0 * shaft.ends
         };
         shaft.patch.corners().iter().all(|&p| shaft.light.corners().iter().all(|&y| meets(p, y)))
     }

@@ -3,7 +3,7 @@
 use super::bodies::Bodies;
 use super::picture_irradiance::PictureIrradiance;
 use crate::prepared::PreparedScene;
-use crate::scene::{Scene, Shape};
+use crate::scene::{Scene, Shape, coincidences};
 use rayon::prelude::*;
 
 /// What closed forms need of a scene.
@@ -13,6 +13,8 @@ pub(crate) struct Certifiable {
     pub(super) bodies: Bodies,
     /// By which the light of a few shapes with pictures is known, in the order of the lights; empty if none is.
     pub(super) irradiances: Vec<Option<PictureIrradiance>>,
+    /// Whether another light hides part of each light, in the same place: it is only sampled. In the order of the lights; empty if none does.
+    pub(super) hidden: Vec<bool>,
     /// Whether all lights show pictures that have no closed form, or have none themselves.
     only_sampled: bool,
 }
@@ -31,7 +33,15 @@ impl Certifiable {
         }
         let has_none = |shape: &&Shape| shows_picture(shape) || !shape.geometry.outline().is_exact();
         let only_sampled = emitting.iter().all(has_none) && !irradiances.iter().any(Option::is_some);
-        Self { bodies: Bodies::new(&prepared.surfaces.bvh), irradiances, only_sampled }
+        let mut hidden = Vec::new();
+        if prepared.lights.only_few_areas() {
+            let second: Vec<u32> =
+                coincidences(&scene.shapes).iter().filter(|pair| pair.hides).map(|pair| pair.lights[1]).collect();
+            if !second.is_empty() {
+                hidden = prepared.surfaces.light_shapes().map(|index| second.contains(&index)).collect();
+            }
+        }
+        Self { bodies: Bodies::new(&prepared.surfaces.bvh), irradiances, hidden, only_sampled }
     }
     /// Whether closed forms know no light, whatever is in its way.
     pub(crate) const fn only_sampled(&self) -> bool {

@@ -53,7 +53,8 @@ pub(super) enum Closed<'a> {
     /// The light shows a picture. Behind blockers, the part of it that is visible is computed as if the radiance was constant, and samples
     /// correct that.
     Picture(&'a PictureIrradiance),
-    /// The radiance varies by point or direction, or the shape is only within the form, and no closed form has its integral. The light is sampled unless it is dark.
+    /// The radiance varies by point or direction, the shape is only within the form, or another light hides part of it in the same place: no
+    /// closed form has its integral. The light is sampled unless it is dark.
     No,
 }
 
@@ -137,7 +138,9 @@ impl<'a> Certificates<'a> {
             let shape = &surfaces.shapes()[index as usize];
             let emission = shape.emission?;
             let outline = shape.geometry.outline();
+            let is_hidden = certifiable.hidden.get(light).is_some_and(|&hidden| hidden);
             let closed = match certifiable.irradiances.get(light).and_then(Option::as_ref) {
+                _ if is_hidden => Closed::No,
                 Some(irradiance) => Closed::Picture(irradiance),
                 None if emission.is_even() && outline.is_exact() => Closed::Constant,
                 None => Closed::No,

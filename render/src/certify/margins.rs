@@ -103,7 +103,7 @@ fn bodies_stand_for_their_triangles_only_if_the_light_is_outside() {
     let faces = [[0, 1, 3, 2], [4, 5, 7, 6], [0, 1, 5, 4], [2, 3, 7, 6], [0, 2, 6, 4], [1, 3, 7, 5]];
     let triangles: Vec<_> =
         faces.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).map(|t| t.map(corner)).collect();
-    let bodies = Bodies::new(&Bvh::new(&triangles, ShapeSet::new(std::iter::empty()).unwrap()).unwrap());
+    let bodies = Bodies::new(&Bvh::new(&triangles, ShapeSet::none()).unwrap());
     assert_eq!(bodies.len(), 1);
     let below = |gap: f64| {
         let mut shaft = shaft([0.5, 3.0, 0.5], [0.5, -gap, 0.5]);
@@ -154,7 +154,7 @@ fn patches_near_the_plane_of_a_light_are_on_no_side() {
         assert_eq!(found, expected, "{y}");
     }
     let (_, shaft) = set(&loose(1.0), panel);
-    assert!(shaft.end.unwrap().2 < crate::occlusion::SPARED - 0.9 * ROUNDING);
+    assert!(shaft.end.unwrap().2 < 0.28 * crate::occlusion::ENDS - 0.9 * ROUNDING);
 }
 
 #[test]

@@ -133,11 +133,11 @@ impl Patch {
     /// part, and for what is not supported: lights, spheres from inside, triangles without area, and triangles seen edge-on.
     pub fn of(surfaces: &Surfaces, place: u32, viewer: Viewer<'_>) -> Option<Self> {
         if place & SHAPE == 0 {
-            return Self::of_triangle(surfaces.bvh.corners(place), f64::from(surfaces.bvh.reach()), place, viewer);
+            return Self::of_triangle(surfaces.bvh.corners(place), surfaces.bvh.reach_of_points().into(), place, viewer);
         }
         let shape = &surfaces.shapes()[(place & !SHAPE) as usize];
         let Outline::Exact(Convex::Sphere { center, radius }) = shape.geometry.outline() else { return None };
-        Self::of_sphere(center.map(f64::from), f64::from(radius), f64::from(surfaces.bvh.reach()), place, viewer)
+        Self::of_sphere(center.map(f64::from), f64::from(radius), surfaces.bvh.reach_of_points().into(), place, viewer)
     }
     fn of_triangle(c: [f32; 9], reach: f64, place: u32, viewer: Viewer<'_>) -> Option<Self> {
         let corners = [wide([c[0], c[1], c[2]]), wide([c[3], c[4], c[5]]), wide([c[6], c[7], c[8]])];

@@ -3,7 +3,7 @@
 use super::hull::{Hull, V64, magnitude, unit};
 use super::patch::{Patch, TILT};
 use crate::bvh::Region;
-use crate::occlusion::{Convex, SPARED};
+use crate::occlusion::{Convex, ENDS};
 use crate::scene::Shape;
 
 /// Rounding of points on lights and of directions to them, relative to the greatest coordinate.
@@ -62,7 +62,7 @@ pub(super) enum Facing {
     Unknown,
 }
 
-/// All segments from a patch to a light, up to the fraction 1 − 2⁻¹⁷ of their length.
+/// All segments from a patch to a light, but for their ends.
 #[derive(Debug)]
 pub(super) struct Shaft {
     pub(super) patch: Hull,
@@ -70,6 +70,8 @@ pub(super) struct Shaft {
     pub(super) light: Hull,
     /// Bounds rounding in n·x for vectors of at most unit length and any point of the scene.
     pub(super) epsilon: f64,
+    /// More than the height over a surface up to which the end of a segment is [level](ENDS) with it.
+    pub(super) ends: f64,
     /// Half-spaces n·x ≤ c that contain the shaft.
     planes: Vec<(V64, f64)>,
     /// The plane of the patch, by its unit normal and n·x, if it is flat.
@@ -94,6 +96,7 @@ impl Shaft {
         (self.patch, self.light) = (patch.hull, lamp.hull);
         self.light.inflate(rounded);
         self.epsilon = EPSILON * scale;
+        self.ends = ENDS * (near + lamp.hull.radius);
         self.on_plane = patch.ground.map(|ground| (ground.normal, ground.offset));
         self.on_ball = patch.ball;
         self.planes.clear();
@@ -116,7 +119,8 @@ impl Shaft {
                     return Facing::Unknown;
                 }
                 // Heights over the light's plane decrease linearly along a segment.
-                let height = (least - patch_hull.radius) * SPARED - self.epsilon;
+                // Coordinates are at least a part 1/(2√3) of the length of a segment.
+                let height = (least - patch_hull.radius) * (0.28 * ENDS) - self.epsilon;
                 self.end = Some((normal, offset, height));
                 self.push(-normal, -(offset + height), region);
             }
@@ -136,9 +140,9 @@ impl Shaft {
             if most + light.radius < ground.height - slack - rounded - self.epsilon {
                 return Facing::Away;
             }
-            // A segment ends at this height or above, if not spared, and begins at `height`.
+            // A segment ends at this height or above, and begins at `height`.
             let end = (least - light.radius).max(ground.height - slack);
-            let floor = ground.height.min(SPARED * ground.height + (1.0 - SPARED) * end) - self.epsilon;
+            let floor = ground.height.min(end) - self.epsilon;
             self.push(-ground.normal, -(ground.offset + floor), region);
         }
         for axis in [V64::new(1.0, 0.0, 0.0), V64::new(0.0, 1.0, 0.0), V64::new(0.0, 0.0, 1.0)] {
@@ -234,6 +238,7 @@ impl Default for Shaft {
             patch: nothing,
             light: nothing,
             epsilon: 0.0,
+            ends: 0.0,
             planes: Vec::with_capacity(40),
             on_plane: None,
             on_ball: None,

@@ -4,7 +4,6 @@ use crate::bvh::{NOTHING, Scratch};
 use crate::camera::Camera;
 use crate::claim::Specks;
 use crate::geometry::across;
-use crate::occlusion::SPARED;
 use crate::packet::{M8, V8, X8};
 use crate::prepared::PreparedScene;
 use etendue::{Mask, Real, Vec3, u32x8};
@@ -89,7 +88,7 @@ fn look(scene: &PreparedScene, camera: &Camera, size: [u32; 2], speck: &Speck, e
     let to = PLACES.map(|[a, b]| middle + u * (0.7 * a) + v * (0.7 * b) - origin);
     let lanes = |of: fn(&Vec3<f64>) -> f64| X8::from_fn(|lane| of(&to[lane]) as f32);
     let to = V8::new(lanes(|v| v.x), lanes(|v| v.y), lanes(|v| v.z));
-    let limit = if speck.shape == NOTHING { X8::lit(f64::INFINITY) } else { to.length() * X8::lit(1.0 - SPARED) };
+    let limit = if speck.shape == NOTHING { X8::lit(f64::INFINITY) } else { to.length() };
     let rays = scene.surfaces.bvh.rays(V8::lit([origin.x, origin.y, origin.z]), to.normalize());
     let (mut visible, target) = ([M8::splat(true)], [u32x8::splat(speck.shape)]);
     scene.surfaces.bvh.occluded(&[rays], &mut visible, &[limit], &target, &mut Scratch::default());

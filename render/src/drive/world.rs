@@ -31,6 +31,9 @@ impl World {
     /// # Errors
     /// Fails if there are more primitives than a tree can index.
     pub fn new(scene: &Scene) -> Result<Self, BuildError> {
+        if let Some(mut scene) = scene.in_range() {
+            return Self::from_scene(&mut scene);
+        }
         Ok(Self::with(PreparedScene::new(scene)?, scene))
     }
 
@@ -39,6 +42,9 @@ impl World {
     /// # Errors
     /// Fails if there are more primitives than a tree can index.
     pub fn from_scene(scene: &mut Scene) -> Result<Self, BuildError> {
+        if let Some(other) = scene.in_range() {
+            *scene = other;
+        }
         Ok(Self::with(PreparedScene::from_scene(scene)?, scene))
     }
 

@@ -2,7 +2,6 @@
 
 use super::points::keep;
 use crate::bvh::{Bvh, GROUP, NOTHING, Rays, Scratch};
-use crate::occlusion::SPARED;
 use crate::packet::{M8, V8, X8};
 use etendue::{Mask, Real, u32x8};
 use std::ops::AddAssign;
@@ -62,11 +61,10 @@ impl Unoccluded {
             target: [u32x8::splat(NOTHING); GROUP],
         }
     }
-    /// The rays of a packet end at these shapes, at this distance. They stop a little short, so that surfaces touching a light do not
-    /// occlude it.
+    /// The rays of a packet end at these shapes, at this distance.
     #[inline(always)]
     pub(super) fn end_at(&mut self, packet: usize, distance: X8, shapes: u32x8) {
-        self.limit[packet] = distance * X8::lit(1.0 - SPARED);
+        self.limit[packet] = distance;
         self.target[packet] = shapes;
     }
     /// Traces the shadow rays of the first packets, and adds what arrives along those that are not occluded.

@@ -4,7 +4,8 @@
 //! these take them for the squares around them.
 
 use super::flat::Plane;
-use super::form::{Approach, Extent, Form, Outline, Solid, wide};
+use super::ends::Segment;
+use super::form::{Approach, Extent, Form, Meeting, Outline, Solid, wide};
 use super::points::{Points, on_plane};
 use crate::occlusion::Convex;
 use crate::packet::{M8, V8, X8};
@@ -106,8 +107,15 @@ pub(crate) struct Round {
 
 impl Solid for Round {
     #[inline(always)]
-    fn meet<const ANY: bool>(&self, rays: &Approach) -> (X8, M8) {
+    fn meet<const ANY: bool>(&self, rays: &Approach<'_>) -> Meeting {
         let square = X8::splat(self.radius * self.radius);
         self.plane.meet::<ANY>(rays, |from_center| from_center.length_squared().le(square))
+    }
+    #[inline]
+    fn fronts(&self, [_, direction]: [V8; 2], _distance: X8) -> M8 {
+        self.plane.fronts(direction)
+    }
+    fn reached_by(&self, segment: Segment) -> Segment {
+        self.plane.reached_by(segment)
     }
 }

@@ -1,6 +1,7 @@
 //! What flat forms have in common.
 
-use super::form::{Approach, NEAR, Solid};
+use super::ends::Segment;
+use super::form::{Approach, Meeting, NEAR, Solid};
 use crate::packet::{M8, V8, X8, each_bit, select};
 use crate::technique::Measure;
 use etendue::light::{FlatLight, Picture};
@@ -28,24 +29,36 @@ impl Plane {
     }
     /// As of [`Solid::meet`], for the part of the plane whose points, relative to the point of the plane, are `inside`.
     #[inline(always)]
-    pub(super) fn meet<const ANY: bool>(&self, rays: &Approach, inside: impl FnOnce(V8) -> M8) -> (X8, M8) {
-        let (zero, one) = (X8::lit(0.0), X8::lit(1.0));
+    pub(super) fn meet<const ANY: bool>(&self, rays: &Approach<'_>, inside: impl FnOnce(V8) -> M8) -> Meeting {
+        let (zero, one, none) = (X8::lit(0.0), X8::lit(1.0), M8::splat(false));
         let to_point = V8::from(self.point) - rays.origin;
         let normal = V8::from(self.normal);
         let slope = rays.direction.dot(normal);
         let some = slope.abs().gt(zero);
-        let mut distance = to_point.dot(normal) / select(some, slope, one);
+        let distance = to_point.dot(normal) / select(some, slope, one);
         let inside = some & inside(rays.direction.mul_add(distance, -to_point)) & !rays.own;
         let unclear = inside & (distance.abs().lt(X8::splat(self.near)) | rays.near_limit::<ANY>(distance, self.near));
+        let mut meeting = Meeting { distance, hit: none, level: none };
         if unclear.any() {
             let [point, normal] = self.exact;
             each_bit(unclear.bits(), |lane| {
-                let [origin, direction] = rays.lane(lane);
-                let found = normal.dot(point - origin) / normal.dot(direction);
-                distance.as_mut_array()[lane] = if found.is_finite() { found as f32 } else { -1.0 };
+                let segment = rays.segment(lane);
+                let found = normal.dot(point - segment.origin) / normal.dot(segment.direction);
+                let end = segment.end_at_plane(point, normal);
+                rays.note::<ANY>(lane, found.is_finite().then_some(found), end, &mut meeting);
             });
         }
-        (distance, inside & distance.gt(zero) & distance.lt(rays.limit))
+        meeting.hit = inside & meeting.distance.gt(zero) & meeting.distance.lt(rays.limit);
+        meeting
+    }
+    /// As of [`Solid::reached_by`].
+    pub(super) fn reached_by(&self, segment: Segment) -> Segment {
+        segment.to_plane(self.exact[0], self.exact[1])
+    }
+    /// Lanes of rays in these directions that meet the side of the normal.
+    #[inline(always)]
+    pub(super) fn fronts(&self, direction: V8) -> M8 {
+        direction.dot(V8::from(self.normal)).lt(X8::lit(0.0))
     }
 }
 
@@ -66,13 +79,20 @@ impl<const TRIANGLE: bool> Edged<TRIANGLE> {
 
 impl<const TRIANGLE: bool> Solid for Edged<TRIANGLE> {
     #[inline(always)]
-    fn meet<const ANY: bool>(&self, rays: &Approach) -> (X8, M8) {
+    fn meet<const ANY: bool>(&self, rays: &Approach<'_>) -> Meeting {
         let (zero, one) = (X8::lit(0.0), X8::lit(1.0));
         self.plane.meet::<ANY>(rays, |point| {
             let (s, t) = (point.dot(self.dual[0].into()), point.dot(self.dual[1].into()));
             let far_side = if TRIANGLE { (s + t).le(one) } else { s.le(one) & t.le(one) };
             s.ge(zero) & t.ge(zero) & far_side
         })
+    }
+    #[inline]
+    fn fronts(&self, [_, direction]: [V8; 2], _distance: X8) -> M8 {
+        self.plane.fronts(direction)
+    }
+    fn reached_by(&self, segment: Segment) -> Segment {
+        self.plane.reached_by(segment)
     }
 }
 

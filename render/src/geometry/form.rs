@@ -1,8 +1,9 @@
 //! What the renderer asks of the form of a shape. Each form is a file, which answers all of it.
 
+use super::ends::{End, Segment};
 use super::points::Points;
 use crate::occlusion::Convex;
-use crate::packet::{M8, V8, X8};
+use crate::packet::{M8, V8, X8, max};
 use crate::spread::Spread;
 use crate::technique::Measure;
 use etendue::light::Picture;
@@ -145,8 +146,12 @@ pub(crate) struct Extent {
 /// error in single precision is some 2⁻²¹ of the size, and thus at most 2⁻¹⁶ of the other distances.
 pub(crate) const NEAR: f64 = 1.0 / 32.0;
 
+/// Distances beyond this part of the way to the limit are compared with it in double precision, where hits before it occlude. At nearly all
+/// angles, that includes all surfaces that are [level](End::Level) with the end.
+pub(crate) const NEAR_LIMIT: f64 = 1.0 / 64.0;
+
 /// Eight rays, as a shape meets them.
-pub(crate) struct Approach {
+pub(crate) struct Approach<'a> {
     pub(crate) origin: V8,
     /// Unit directions.
     pub(crate) direction: V8,
@@ -154,22 +159,58 @@ pub(crate) struct Approach {
     pub(crate) own: M8,
     /// Distances beyond which nothing counts.
     pub(crate) limit: X8,
+    /// For segments, ends that of a lane [on what it reaches](Solid::reached_by).
+    pub(crate) reaching: &'a dyn Fn(usize, Segment) -> Segment,
+}
+
+/// How rays meet a form.
+pub(crate) struct Meeting {
+    /// Distances along the rays.
+    pub(crate) distance: X8,
+    /// Lanes where these are positive and less than the limit; for segments, lanes in which the form [hides](End::Hidden) the end.
+    pub(crate) hit: M8,
+    /// Of segments, lanes whose ends are [level](End::Level) with the form, and within its outline.
+    pub(crate) level: M8,
 }
 
 /// A form, prepared for rays.
 pub(crate) trait Solid {
-    /// Distances at which the rays hit it, and the lanes where these are positive and less than the limit. With `ANY`, hits near the limit
-    /// are decided in double precision, too.
-    fn meet<const ANY: bool>(&self, rays: &Approach) -> (X8, M8);
+    /// How the rays meet it. With `ANY`, they are segments that end at the limit.
+    fn meet<const ANY: bool>(&self, rays: &Approach<'_>) -> Meeting;
+    /// Lanes in which rays meet the front at these distances.
+    fn fronts(&self, rays: [V8; 2], distance: X8) -> M8;
+    /// A segment that ends on the form but for rounding, with its end there.
+    fn reached_by(&self, segment: Segment) -> Segment;
 }
 
-impl Approach {
-    /// Lanes whose distance is so near to the limit, for a form of which all that is nearer than `near` is computed in double precision, that
-    /// single precision does not tell on which side it is.
+impl Approach<'_> {
+    /// Lanes of segments that meet a form so near to their ends, if all that is nearer than `near` is computed in double precision, that single
+    /// precision does not tell whether it hides these.
     #[inline(always)]
     pub(crate) fn near_limit<const ANY: bool>(&self, distance: X8, near: f32) -> M8 {
-        let unclear = (distance - self.limit).abs().lt(X8::splat(near / 4096.0));
-        if ANY { unclear } else { M8::splat(false) }
+        let band = max(self.limit * X8::lit(NEAR_LIMIT), X8::splat(near / 4096.0));
+        if ANY { (distance - self.limit).abs().lt(band) } else { M8::splat(false) }
+    }
+    /// Notes what is known of a lane in double precision: the distance, and for segments where the end is.
+    #[inline]
+    pub(crate) fn note<const ANY: bool>(&self, lane: usize, found: Option<f64>, end: End, meeting: &mut Meeting) {
+        let Meeting { distance, level, .. } = meeting;
+        let (distance, limit) = (&mut distance.as_mut_array()[lane], self.limit.as_array()[lane]);
+        *distance = match found {
+            Some(found) if !ANY => found as f32,
+            // before the limit, whatever the rounding
+            Some(found) if end == End::Hidden => (found as f32).min(limit * (1.0 - f32::EPSILON)),
+            _ => -1.0,
+        };
+        if ANY && end == End::Level && found.is_some() {
+            *level = *level | M8::from_bits(1 << lane);
+        }
+    }
+    /// A lane as a segment.
+    #[inline]
+    pub(crate) fn segment(&self, lane: usize) -> Segment {
+        let [origin, direction] = self.lane(lane);
+        (self.reaching)(lane, Segment { origin, direction, length: self.limit.as_array()[lane].into() })
     }
     /// Origin and direction of one ray, in double precision.
     #[inline]

@@ -3,7 +3,8 @@
 //! The point where a ray meets a primitive is computed in double precision, moved along the normal, and rounded to single precision. The
 //! rounding moves it by at most ½ ulp of each coordinate, that is by δ = 2⁻²⁴ Σ|nₖ pₖ| along the normal n. So a lift of 2δ leaves the point
 //! between δ and 3δ above its surface, whatever the size of the primitive, of the scene or of a light. To that comes 2⁻⁴⁴ of the greatest
-//! coordinate of the scene, which is more than the error of tests in double precision.
+//! coordinate of the scene (within limits, see [`reach_of_points`](crate::bvh::Bvh::reach_of_points)), which is more than the error of tests in
+//! double precision.
 
 use crate::packet::{V8, narrow_points, widen_points};
 use etendue::{Mask, Real, Vec3, f64x8};
@@ -122,6 +123,14 @@ pub(crate) fn on_triangles([a, b, c]: [V8; 3], [origin, direction]: [V8; 2], rea
     each([origin, direction], |origin, direction| triangles.meet(origin, direction, reach))
 }
 
+/// Where rays meet the planes of triangles, one per lane, which are so large that rounding in proportion to their size would move points by
+/// more than that of rays does.
+#[inline(never)]
+pub(crate) fn on_vast_triangles([a, b, c]: [V8; 3], [origin, direction]: [V8; 2], reach: f32) -> Points {
+    let Prepared { corner, normal, .. } = Prepared::new([widen_points(a), widen_points(b), widen_points(c)]);
+    each([origin, direction], |origin, direction| along([corner, normal], [origin, direction], reach))
+}
+
 /// Where rays meet the same triangle.
 #[inline(always)]
 pub(crate) fn on_triangle(corners: [Vec3<f64>; 3], [origin, direction]: [V8; 2], reach: f32) -> Points {
@@ -132,9 +141,14 @@ pub(crate) fn on_triangle(corners: [Vec3<f64>; 3], [origin, direction]: [V8; 2],
 /// Where rays meet the plane of a flat shape, given by a point and the unit normal.
 pub(super) fn on_plane([point, normal]: [Vec3<f64>; 2], [origin, direction]: [V8; 2], reach: f32) -> Points {
     each([origin, direction], |origin, direction| {
-        let (a, n) = (D8::splat(point), D8::splat(normal));
-        let distance = n.dot(a - origin) / divisor(n.dot(direction));
-        let normal = facing(n, direction);
-        [lifted(direction.mul_add(distance, origin), normal, reach), normal]
+        along([D8::splat(point), D8::splat(normal)], [origin, direction], reach)
     })
+}
+
+/// The points of rays on planes, lifted, and the normals on the sides of the rays.
+#[inline(always)]
+fn along([point, normal]: [D8; 2], [origin, direction]: [D8; 2], reach: f32) -> [D8; 2] {
+    let distance = normal.dot(point - origin) / divisor(normal.dot(direction));
+    let normal = facing(normal, direction);
+    [lifted(direction.mul_add(distance, origin), normal, reach), normal]
 }

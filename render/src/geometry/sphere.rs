@@ -1,6 +1,7 @@
 //! Spheres. As lights, they are the centre, and the radius in x of the second vector.
 
-use super::form::{Approach, Chart, Extent, Form, NEAR, Outline, Solid, wide};
+use super::ends::Segment;
+use super::form::{Approach, Chart, Extent, Form, Meeting, NEAR, Outline, Solid, wide};
 use super::points::{D8, Points, each, facing, lifted, unit, zero};
 use crate::occlusion::Convex;
 use crate::packet::{M8, V8, X8, each_bit, max, select, widen};
@@ -9,6 +10,10 @@ use crate::technique::Measure;
 use etendue::light::{self, Picture};
 use etendue::{Frame, LightSample, LightSampler, Mask, Real, Vec2, Vec3, f64x8};
 use std::f64::consts::PI;
+use std::ops::RangeInclusive;
+
+/// The radii of spheres whose squares are normal numbers in single precision. Others are met in double precision.
+const SINGLE: RangeInclusive<f32> = 1.0 / (1_u64 << 40) as f32..=(1_u64 << 40) as f32;
 
 /// A whole sphere; its normal points outwards.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -138,8 +143,8 @@ impl Form for Sphere {
 
 impl Solid for Sphere {
     #[inline(always)]
-    fn meet<const ANY: bool>(&self, rays: &Approach) -> (X8, M8) {
-        let zero = X8::lit(0.0);
+    fn meet<const ANY: bool>(&self, rays: &Approach<'_>) -> Meeting {
+        let (zero, none) = (X8::lit(0.0), M8::splat(false));
         // uses the foot of the perpendicular instead of |c − o|², which keeps the edges of distant spheres accurate
         let to_center = V8::from(self.center) - rays.origin;
         let along = to_center.dot(rays.direction);
@@ -148,21 +153,50 @@ impl Solid for Sphere {
         let square = r.mul_add(r, -foot.length_squared());
         let half = max(square, zero).sqrt();
         let near = along - half;
-        let mut distance = select(near.gt(zero), near, along + half);
-        let mut met = square.ge(zero) & distance.gt(zero);
+        let distance = select(near.gt(zero), near, along + half);
+        let met = square.ge(zero) & distance.gt(zero);
         let size = self.radius * NEAR as f32;
         let close = |distance: X8| distance.abs().lt(X8::splat(size));
         let near_limit = rays.near_limit::<ANY>(distance, size);
-        let unclear = square.ge(zero) & (rays.own | close(near) | close(along + half) | near_limit);
-        if unclear.any() {
-            each_bit(unclear.bits(), |lane| {
-                let [o, d] = rays.lane(lane);
-                let found = to_sphere(wide(self.center), f64::from(self.radius), o, d, rays.own.lane(lane));
-                distance.as_mut_array()[lane] = found.map_or(-1.0, |distance| distance as f32);
-            });
-            met = met & !unclear | unclear & distance.gt(zero);
+        let mut unclear = square.ge(zero) & (rays.own | close(near) | close(along + half) | near_limit);
+        if !SINGLE.contains(&self.radius) {
+            unclear = M8::splat(true);
         }
-        (distance, met & distance.lt(rays.limit))
+        let mut meeting = Meeting { distance, hit: met, level: none };
+        if unclear.any() {
+            let (center, radius) = (wide(self.center), f64::from(self.radius));
+            each_bit(unclear.bits(), |lane| {
+                let segment = rays.segment(lane);
+                let Segment { origin, direction, length } = segment;
+                let found = to_sphere(center, radius, origin, direction, rays.own.lane(lane));
+                // of the near side, the end is beyond what is inside of the sphere; of the far one, what is outside
+                let inwards = radius - (direction.mul_add(length, origin) - center).length();
+                let is_near = found.is_some_and(|found| found < direction.dot(center - origin));
+                let end = segment.end(if is_near && length > direction.dot(center - origin) {
+                    f64::INFINITY
+                } else if is_near {
+                    inwards
+                } else {
+                    -inwards
+                });
+                rays.note::<ANY>(lane, found, end, &mut meeting);
+            });
+            meeting.hit = met & !unclear | unclear & meeting.distance.gt(zero);
+        }
+        meeting.hit = meeting.hit & meeting.distance.lt(rays.limit);
+        meeting
+    }
+    #[inline]
+    fn fronts(&self, [origin, direction]: [V8; 2], distance: X8) -> M8 {
+        direction.dot(direction.mul_add(distance, origin - V8::from(self.center))).lt(X8::lit(0.0))
+    }
+    fn reached_by(&self, segment: Segment) -> Segment {
+        let (to_center, radius) = (wide(self.center) - segment.origin, f64::from(self.radius));
+        let square = segment.direction.length_squared();
+        let along = to_center.dot(segment.direction) / square;
+        let foot = to_center - segment.direction * along;
+        let half = ((radius * radius - foot.length_squared()).max(0.0) / square).sqrt();
+        segment.to(if segment.length < along { along - half } else { along + half })
     }
 }
 

@@ -1,7 +1,8 @@
 //! The table of all forms of shapes, and what hosts may ask of any of them.
 
 use super::disk::Disk;
-use super::form::{Approach, Chart, Extent, Form, Outline, Solid};
+use super::ends::Segment;
+use super::form::{Approach, Chart, Extent, Form, Meeting, Outline, Solid};
 use super::parallelogram::Parallelogram;
 use super::points::Points;
 use super::sphere::Sphere;
@@ -82,9 +83,19 @@ macro_rules! forms {
 
         impl Solid for AnySolid {
             #[inline(always)]
-            fn meet<const ANY: bool>(&self, rays: &Approach) -> (X8, M8) {
+            fn meet<const ANY: bool>(&self, rays: &Approach<'_>) -> Meeting {
                 match self {
                     $(Self::$name(solid) => solid.meet::<ANY>(rays),)*
+                }
+            }
+            fn reached_by(&self, segment: Segment) -> Segment {
+                match self {
+                    $(Self::$name(solid) => solid.reached_by(segment),)*
+                }
+            }
+            fn fronts(&self, rays: [V8; 2], distance: X8) -> M8 {
+                match self {
+                    $(Self::$name(solid) => solid.fronts(rays, distance),)*
                 }
             }
         }

@@ -9,9 +9,9 @@ use super::shapes::{Convex, Polyhedron};
 use etendue::reflection::Reflection;
 use etendue::{Mask, Real, Vec3};
 
-/// A blocker this near to the light, as a fraction of the way from the point to the light's plane, does not occlude. A shadow ray that is
-/// this much shorter agrees with that.
-pub const SPARED: f64 = 1.0 / 131_072.0;
+/// What is so near to the plane of a flat light does not occlude it, relative to the greatest of the coordinates of the point and of the
+/// light's corners: 8 · 2⁻²⁴, for the rounding of corners. Shadow rays agree with that.
+pub const ENDS: f64 = 1.0 / 2_097_152.0;
 
 /// Computes visible parts, and holds the memory for it.
 #[derive(Clone, Debug)]
@@ -173,7 +173,10 @@ impl<R: Real> Occlusion<R> {
                 self.flat.take(light, point);
                 let flat = &self.flat;
                 let towards = R::lit(-1.0).copysign(-flat.height);
-                self.front = (flat.normal * towards, flat.height * towards * R::lit(1.0 - SPARED) / flat.scale);
+                let far = (0..flat.count).map(|i| corner(light, i).max_abs()).fold(0.0, f64::max);
+                let end = point.max_abs().greater(R::lit(far)) * R::lit(ENDS);
+                let least = (flat.height * towards / flat.scale + end).lesser(R::lit(0.0));
+                self.front = (flat.normal * towards, least);
                 self.light = None;
                 self.base = Some((corner(light, 0) + exactly(flat.middle), flat.scale));
                 self.stack[0].start(

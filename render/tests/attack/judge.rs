@@ -7,7 +7,6 @@ use crate::kit::Folder;
 use etendue_oracle::direct::{self, Block, Body, Source, View};
 use etendue_render::compare::{LIMIT, differs};
 use etendue_render::film::Film;
-use etendue_render::occlusion::SPARED;
 use etendue_render::scene::{Affine, Instance, Scene};
 use etendue_render::{Settings, Technique, World};
 
@@ -43,6 +42,8 @@ pub(crate) const TOLERANCE: f64 = 2e-5;
 /// … and by what it changes if points are off their surface by this fraction of their coordinates, two units in the last place, and if the
 /// ends of ways to lights are spared, so that a surface that cuts a light hides a strip less of it.
 pub(crate) const ROUNDING: f64 = 1.0 / 4_194_304.0;
+/// That end, as a fraction of the way.
+const SPARED: f64 = 1.0 / 131_072.0;
 /// Of fewer samples than this that see a light, or do not, an image cannot tell its own error.
 const FEW: f64 = 10.0;
 

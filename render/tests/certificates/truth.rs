@@ -7,10 +7,11 @@ use etendue_render::bvh::{NOTHING, SHAPE};
 use etendue_render::scene::{Geometry, Parallelogram, Shape, Sphere};
 use std::f64::consts::TAU;
 
-/// The end of a way to a light, as a fraction of it, in which nothing occludes: part of the definition of what a light contributes.
-const SPARED: f64 = 1.0 / 131_072.0;
+/// What is so near to the plane of a light does not occlude it, relative to the greatest coordinate of both ends: part of the definition of
+/// what a light contributes.
+const ENDS: f64 = 1.0 / 2_097_152.0;
 /// How far rounding in single precision moves that end, as a fraction of it: some 2⁻²¹ of the way.
-const MOVED: f64 = 1.0 / 16.0;
+const MOVED: f64 = 1.0;
 
 /// Rounding of the truth as a fraction of the angle around a light: some eight terms of 2⁻⁵³ each; and the greatest fraction of the light
 /// that it may be, a hundredth of the error that is looked for.
@@ -83,6 +84,15 @@ fn emits(light: &Shape, form: &Form) -> bool {
     }
 }
 
+/// What part of the way to the plane of a light is level with its end: 8 roundings of the greatest coordinate of both ends.
+fn ends(form: &Form, p: V3) -> f64 {
+    let Form::Polygon(corners) = form else { return 0.0 };
+    let normal = unit(cross(sub(corners[1], corners[0]), sub(corners[2], corners[0])));
+    let absolute = corners.iter().map(|&corner| along(corner, p, 1.0)).chain([p]);
+    let greatest = absolute.flatten().fold(0.0, |most: f64, x| most.max(x.abs()));
+    (ENDS * greatest / dot(normal, corners[0]).abs()).min(1.0)
+}
+
 /// Is the origin on a triangle, up to the rounding of points?
 fn touches(corners: &[V3], rounding: f64) -> bool {
     let normal = unit(cross(sub(corners[1], corners[0]), sub(corners[2], corners[0])));
@@ -112,7 +122,8 @@ impl World {
         if !emits(shape, &form) {
             return Truth { all: 0.0, left: Some(0.0) };
         }
-        let Some(lit) = visible(&form, &[], normal, SPARED) else { return Truth::default() };
+        let ends = ends(&form, p);
+        let Some(lit) = visible(&form, &[], normal, ends) else { return Truth::default() };
         // below the horizon, rounding is left
         if lit.all <= 1e-14 * lit.around {
             return Truth { all: 0.0, left: Some(0.0) };
@@ -158,7 +169,7 @@ impl World {
                     };
                     match () {
                         () if farthest < radius => continue,
-                        () if nearest > radius * (1.0 + 4.0 * SPARED) => {
+                        () if nearest > radius * (1.0 + 4.0 * ends) => {
                             return Truth { all: lit.all, left: Some(0.0) };
                         }
                         () => return Truth { all: lit.all, left: None },
@@ -170,7 +181,7 @@ impl World {
             }
         }
         let at = |spared: f64| Some(visible(&form, &blockers, normal, spared)?.left.clamp(0.0, lit.all));
-        let [short, long] = [1.0 - MOVED, 1.0 + MOVED].map(|share| at(share * SPARED));
+        let [short, long] = [1.0 - MOVED, 1.0 + MOVED].map(|share| at(share * ends));
         let left = short.zip(long).filter(|(short, long)| (short - long).abs() <= 1e-6 * lit.all);
         Truth { all: lit.all, left: left.map(|(short, long)| 0.5 * (short + long)) }
     }

@@ -2,9 +2,12 @@
 
 use super::scene::{Scene, Solid};
 use super::scenes::{Placement, corners};
-use super::truth::{SPARED, polygon, sphere};
+use super::truth::{polygon, sphere};
 use etendue_judge::generators::Random;
 use etendue_oracle::{V3, along, basis, cross, dot, narrow, sub, unit};
+
+/// The least gap between a polyhedron and the light, relative to the way to the light.
+const TOUCHES: f64 = 1.0 / 131_072.0;
 
 /// How polyhedra are placed.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -157,12 +160,12 @@ pub(crate) fn scene_with_solids(random: &mut Random, kind: SolidKind, round: boo
         let mut corners: Vec<V3> = corners.iter().map(at).collect();
         let reach = |corners: &[V3]| corners.iter().map(|&v| dot(across, v) / limit).fold(0.0, f64::max);
         if kind == SolidKind::TouchLight {
-            // the gap is a little more than what is spared
-            let scale = (1.0 - SPARED * random.magnitude(1.5, 1e3)) / reach(&corners);
+            // the gap is a little more than the rounding of ends
+            let scale = (1.0 - TOUCHES * random.magnitude(1.5, 1e3)) / reach(&corners);
             corners.iter_mut().for_each(|v| *v = v.map(|x| x * scale));
         }
         for _ in 0..30 {
-            if reach(&corners) < 1.0 - 1.3 * SPARED {
+            if reach(&corners) < 1.0 - 1.3 * TOUCHES {
                 break;
             }
             let middle = corners.iter().fold([0.0; 3], |sum, &v| along(sum, v, 1.0 / corners.len() as f64));

@@ -6,8 +6,18 @@ use etendue_oracle::visible::{Shape, Visible, visible};
 use etendue_oracle::{V3, along, cross, dot, length, narrow, sub, unit, wide};
 use etendue_render::occlusion::Convex;
 
-/// The fraction of the way to a flat light within which blockers do not occlude, as documented.
-pub(crate) const SPARED: f64 = 1.0 / 131_072.0;
+/// What is so near to the plane of a flat light does not occlude it, relative to the greatest coordinate of the point and the light, as
+/// documented.
+pub(crate) const ENDS: f64 = 1.0 / 2_097_152.0;
+
+/// The same as a fraction of the way from a point to the plane of a light that is given relative to the point; 0 for a sphere.
+pub(crate) fn spared(light: &Shape, point: V3) -> f64 {
+    let Shape::Polygon(corners) = light else { return 0.0 };
+    let normal = unit(cross(sub(corners[1], corners[0]), sub(corners[2], corners[0])));
+    let absolute = corners.iter().map(|&corner| along(corner, point, 1.0)).chain([point]);
+    let greatest = absolute.flatten().fold(0.0, |most: f64, x| most.max(x.abs()));
+    (ENDS * greatest / dot(normal, corners[0]).abs()).min(1.0)
+}
 
 pub(crate) fn polygon(corners: &[V3]) -> Convex<f32> {
     let corner = |i: usize| Vec3::from(narrow(corners[i.min(corners.len() - 1)]));
@@ -114,7 +124,8 @@ impl Truth for Scene {
         let solids: Vec<_> = self.solids.iter().map(|solid| faces_from_point(solid, point)).collect();
         let all = [&blockers[..], &solids.concat()].concat();
         let at = |share: f64| {
-            let seen = |blockers: &[Shape]| visible(&light, blockers, wide(self.normals[lane]), share * SPARED);
+            let spared = share * spared(&light, wide(point));
+            let seen = |blockers: &[Shape]| visible(&light, blockers, wide(self.normals[lane]), spared);
             let mut found = seen(&all)?;
             // a polyhedron is one occluder
             if !solids.is_empty() {
