@@ -65,10 +65,16 @@ pub struct Claim {
     pub systematic: f64,
     /// In about how many pixels the random error is: (Σv)² / Σv² over their variances v.
     pub pixels: f64,
+    /// How many independent images, of about equal weight, tell these variances: 1, or that of the passes of an image of many.
+    pub images: f64,
 }
 
 /// In fewer pixels, the variances of few sets of samples tell the random error less well.
 const ENOUGH: f64 = 8.0;
+/// The error of an image that is in few pixels is often much greater or less than its root mean square over many images. The claim grows by
+/// this power of the part of [`ENOUGH`] that these pixels are: by 2.3 for one. So 1.5 times the claim is 3.4 standard deviations of that
+/// pixel.
+const FEW: f64 = 0.4;
 
 impl Claim {
     /// The claim of an image with so many samples per pixel, with what was [foreseen](crate::View::foreseen). `None` if a variance is not
@@ -90,6 +96,7 @@ impl Claim {
             specks: if missed > 0.0 { foreseen.specks.count } else { 0.0 },
             systematic: foreseen.systematic / mean,
             pixels,
+            images: 1.0,
         };
         (sum.is_finite() && mean > 0.0).then_some(claim)
     }
@@ -100,7 +107,12 @@ impl Claim {
     }
     /// The part of it that more samples make smaller.
     fn sampled(&self) -> f64 {
-        self.random.max(self.missed)
+        self.random.max(self.missed) * (ENOUGH / self.pixels.max(1.0)).powf(FEW).max(1.0)
+    }
+    /// The claim if the variances are those of so many images of about equal weight, together.
+    #[must_use]
+    pub const fn of_images(self, images: f64) -> Self {
+        Self { images, ..self }
     }
     /// Why the whole error is uncertain: because most of it is in too few pixels to be known from their variances, or because too few samples
     /// meet small lights in view.
@@ -111,7 +123,7 @@ impl Claim {
         } else if 2.0 * self.missed > self.random {
             Some(format!("too few samples meet {:.0} lights in view that are smaller than a pixel", self.specks.ceil()))
         } else {
-            (self.pixels < ENOUGH).then(|| format!("it is in about {:.0} pixels", self.pixels))
+            (self.pixels * self.images.max(1.0) < ENOUGH).then(|| format!("it is in about {:.0} pixels", self.pixels))
         }
     }
     /// Checks that enough samples lower the whole error to `target`.
@@ -181,21 +193,23 @@ mod tests {
             |film: &Film, systematic: f64| Claim::new(film, &Foreseen { systematic, specks: Specks::default() }, 4);
         let claim = new(&some, 0.0).unwrap();
         assert!((claim.random - expected).abs() < 1e-7 && claim.systematic == 0.0, "{claim:?}");
-        assert_eq!(claim.total(), claim.random);
+        let raised = 8.0_f64.powf(FEW);
+        assert_eq!(claim.total(), raised * claim.random);
+        assert!(claim.of_images(7.0).uncertain().is_some() && claim.of_images(9.0).uncertain().is_none());
         assert!((claim.pixels - 1.0).abs() < 1e-12 && claim.uncertain().is_some(), "{claim:?}");
         let even = Film { pixels: vec![some.pixels[0]; 20], ..some };
         let claim = new(&even, 0.0).unwrap();
         assert!((claim.pixels - 20.0).abs() < 1e-9 && claim.uncertain().is_none(), "{claim:?}");
         let claim = new(&some, 0.15).unwrap();
         assert!((claim.systematic - 0.075).abs() < 1e-12, "{claim:?}");
-        assert!((claim.total() - expected.hypot(0.075)).abs() < 1e-7, "{claim:?}");
+        assert!((claim.total() - (raised * expected).hypot(0.075)).abs() < 1e-7, "{claim:?}");
         assert_eq!(new(&film([1.0; 3], [f32::INFINITY; 3]), 0.0), None);
         assert_eq!(new(&film([-2.0; 3], [0.0; 3]), 0.0), None);
     }
 
     #[test]
     fn samples_lower_the_random_part_alone() {
-        let claim = Claim { random: 4.0, systematic: 3.0, pixels: 1.0, ..Claim::default() };
+        let claim = Claim { random: 4.0, systematic: 3.0, pixels: 8.0, ..Claim::default() };
         assert_eq!(claim.total(), 5.0);
         assert!(claim.check(3.001).is_ok());
         assert!(claim.check(3.0).unwrap_err().contains("may cause one of 3.0e0"));

@@ -3,11 +3,11 @@
 //! With the sampler `adaptive`, the pixels share the samples of an image among themselves. For example, 64 samples per pixel of an image of
 //! 1024 × 1024 pixels are 8 packets of 8 for each pixel on average:
 //!
-//! 1. *Second sets* take a twelfth of the samples of the others, so that 8 · 12/13 = 7.38 packets remain (`second_sets`).
+//! 1. *Second sets* take a 48th of the samples of the others, so that 8 · 48/49 = 7.84 packets remain (`second_sets`).
 //! 2. The *pilot* takes 2 packets in every pixel, a quarter of them rounded to a power of two. They are part of the image, and tell its
 //!    variance (`pixel_statistics`).
 //! 3. `pixel_counts` looks at the mean variance *around* each pixel. If it is 0.01 in one half of the image and 1 in the other, the numbers
-//!    of packets are to be as 0.01^0.4 to 1, at least those of the pilot, and 7.38 on average: 2.0 and 12.7. Powers of two at random have
+//!    of packets are to be as 0.01^0.4 to 1, at least those of the pilot, and 7.84 on average: 2.1 and 13.5. Powers of two at random have
 //!    these means: 2 or, rarely, 4 packets in the dark half, 8 or 16 in the other one.
 //! 4. Where few lights shine, the packets of a pixel are *allocated* to them instead of choosing lights at random. For the pilot, weights are
 //!    what each light can contribute at the pixel's corners (`corners`); then, what the pilot tells of its variance around the pixel

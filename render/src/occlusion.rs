@@ -57,4 +57,4 @@ mod visible;
 pub use capacity::BLOCKERS;
 pub use outline::COMPACT;
 pub use shapes::{Convex, Edge, Polyhedron};
-pub use visible::{Occlusion, ENDS};
+pub use visible::{ENDS, Occlusion};

@@ -104,6 +104,7 @@ fn to_planes(identity: &Identity, content: Content) -> Vec<(String, Numbers)> {
                 split(&mut planes, &format!("sum.set{set}.{channel}"), &of);
             }
             split(&mut planes, "variance", &|| pixels.iter().map(|pixel| pixel.variance).collect());
+            planes.push(("part".into(), Numbers::F32(pixels.iter().map(|pixel| pixel.part).collect())));
             planes.push(("packets".into(), Numbers::U32(pixels.iter().map(|pixel| pixel.packets).collect())));
             let count = pixels.first().map_or(0, |pixel| pixel.lights);
             let all = pixels.iter();
@@ -193,7 +194,7 @@ fn from_planes(identity: &Identity, kind: PieceKind, area: Area, planes: Vec<(St
         }
         PieceKind::Pilot(lights) => {
             let lights = lights as usize;
-            let (sums, variance) = (found.sums(sets, count)?, found.f64("variance")?);
+            let (sums, variance, part) = (found.sums(sets, count)?, found.f64("variance")?, found.f32("part")?);
             let packets = found.packets(sets)?;
             let spread = found.lights("spread", lights, count, Found::f32)?;
             let pairs = found.lights("pairs", lights, count, Found::u32)?;
@@ -202,6 +203,7 @@ fn from_planes(identity: &Identity, kind: PieceKind, area: Area, planes: Vec<(St
                 sums: sums[i],
                 packets: packets[i],
                 variance: variance[i],
+                part: part[i],
                 lights,
                 spread: spread[i],
                 pairs: pairs[i],

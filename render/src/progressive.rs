@@ -61,6 +61,8 @@ const FIRST: u32 = 64;
 const GROWTH: u32 = 8;
 /// A pass of fewer samples than this fraction of the largest so far is not worth its time: it has less than 2 % of the weight.
 const WORTH: f64 = 1.0 / 16.0;
+/// The greatest number of passes after which an error is not known that seems to be reached, and stays unknown.
+const PATIENCE: usize = 32;
 /// The part of the remaining time that a pass may be predicted to take.
 const SPARE: f64 = 0.97;
 /// Samples per second and thread that the first pass may count on; it may be slower by a factor of 4.
@@ -218,8 +220,9 @@ impl Refined {
                 }
                 add(&mut mean.film, &mut self.weights, &pixels, area, own);
                 mean.spp += if area == whole { spp.into() } else { 0 };
-                mean.error = Claim::new(&mean.film, &self.foreseen, mean.spp);
                 mean.passes.push(pass);
+                let claim = Claim::new(&mean.film, &self.foreseen, mean.spp);
+                mean.error = claim.map(|claim| claim.of_images(images(&mean.passes, self.plan.power())));
                 Progress { seconds: mean.seconds + seconds, rays: sum(mean.rays, rays), ..mean }
             }
             // the first pass with the sampler of all that follow
@@ -308,13 +311,16 @@ fn decide(
     let last = mean.passes.last()?;
     let mut next = f64::from(largest.saturating_mul(GROWTH).max(full));
     if let Some(target) = goal.error {
-        let excess = mean.error?.excess(target);
-        if excess <= 1.0 {
+        let claim = mean.error?;
+        let excess = claim.excess(target);
+        let is_uncertain = claim.uncertain().is_some();
+        if excess <= 1.0 && (!is_uncertain || mean.passes.len() >= PATIENCE) {
             return None;
         }
-        // the squared random error is c / Σ n^power
-        let missing = weight * (excess - 1.0);
-        let needed = at_least(counts, missing.powf(power.recip()).max(f64::from(last.spp)));
+        // the squared random error is c / Σ n^power; where it is uncertain, passes like the largest tell it
+        let missing = weight * (excess - 1.0).max(0.0);
+        let least = if is_uncertain { largest } else { last.spp };
+        let needed = at_least(counts, missing.powf(power.recip()).max(f64::from(least)));
         next = next.min(needed.map_or(f64::INFINITY, f64::from));
     }
     if let Some(time) = goal.seconds {
@@ -357,6 +363,14 @@ fn add(mean: &mut Film, weights: &mut [f64], pass: &[Pixel], area: Area, own: f6
         }
         a.samples = a.samples.saturating_add(b.samples);
     }
+}
+
+/// To how many passes of equal weight these are equal, where variances are to be told: (Σv)² / Σv² over what each adds to the variance of the
+/// image.
+fn images(passes: &[Pass], power: f64) -> f64 {
+    let of = |pass: &Pass| f64::from(pass.spp).powf(power);
+    let (sum, squares) = passes.iter().map(of).fold((0.0, 0.0), |(sum, squares), v| (sum + v, squares + v * v));
+    sum * sum / squares
 }
 
 fn sum(a: RayCount, b: RayCount) -> RayCount {

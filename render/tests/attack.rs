@@ -24,6 +24,7 @@ use etendue_oracle::tier::cases;
 use etendue_oracle::{along, direct};
 use etendue_render::scene::{Geometry, Parallelogram, Sphere};
 use judge::{Effort, Trial};
+use rayon::prelude::*;
 use regimes::{REGIMES, named};
 use shrink::shrink;
 
@@ -88,6 +89,46 @@ fn images_tell_their_error() {
 #[ignore = "370 scenes: a quarter of an hour on two cores"]
 fn images_of_370_scenes_tell_their_error() {
     claims_hold(10, 32, 64, claims::SHARE);
+}
+
+/// What 24 images of each scene claim with 16, 64 and 256 samples per pixel, all together, and how the table of that reads.
+fn claims_table(scenes: usize) {
+    let numbers = [16, 64, 256];
+    let all: Vec<_> = (0..scenes).map(|i| (&REGIMES[i % REGIMES.len()], (i / REGIMES.len()) as u64)).collect();
+    let rows: Vec<_> = all
+        .par_iter()
+        .map(|(regime, seed)| claims::rows(&judge::read(&regime.draft(*seed)).unwrap(), 32, numbers, 24))
+        .collect();
+    println!("true error over that claimed, of 24 images together; in brackets where most of them call it uncertain");
+    let (mut sure, mut good, mut beyond, mut doubted, mut deserved) = (0.0, 0.0, 0.0, 0.0, 0.0);
+    for ((regime, seed), rows) in all.iter().zip(&rows) {
+        let cells = rows.iter().map(|row| match row.ratio {
+            None => "      -".to_owned(),
+            Some(ratio) if row.uncertain > 0.5 => format!("({ratio:5.2})"),
+            Some(ratio) if row.bounded => format!("<{ratio:5.2} "),
+            Some(ratio) => format!(" {ratio:5.2} "),
+        });
+        println!("{:14} {seed} {}", regime.name, cells.collect::<Vec<_>>().join(" "));
+        for row in rows.iter().filter(|row| !row.bounded) {
+            let Some(ratio) = row.ratio else { continue };
+            let is_good = (0.8..=1.25).contains(&ratio);
+            if row.uncertain > 0.5 {
+                (doubted, deserved) = (doubted + 1.0, deserved + if is_good { 0.0 } else { 1.0 });
+            } else {
+                (sure, good) = (sure + 1.0, good + if is_good { 1.0 } else { 0.0 });
+                beyond += if (0.5..=2.0).contains(&ratio) { 0.0 } else { 1.0 };
+            }
+        }
+    }
+    println!("{sure} rows are sure: {:.1} % within 0.8 to 1.25, {beyond} beyond 2", 100.0 * good / sure);
+    println!("{doubted} rows are uncertain: {:.1} % are not within 0.8 to 1.25", 100.0 * deserved / doubted);
+    assert!(good >= 0.97 * sure && beyond == 0.0);
+}
+
+#[test]
+#[ignore = "100 scenes by 72 images: ten minutes on two cores"]
+fn claims_of_100_scenes_as_a_table() {
+    claims_table(100);
 }
 
 /// The scenes on which the renderer was wrong once, in smaller images than usual.

@@ -333,7 +333,9 @@ impl TriangleLeaves {
             if unclear.any() {
                 let triangles = [leaf.start + index; 8];
                 let size = situation.near(self, size, unclear, triangles);
-                unclear = unclear & undecided::<ANY>(distance, size, hits.distance) & (projected.nearly() | is_infinite(size));
+                unclear = unclear
+                    & undecided::<ANY>(distance, size, hits.distance)
+                    & (projected.nearly() | is_infinite(size));
                 let lanes = unclear.bits();
                 let way = [rays.origin, rays.direction];
                 let end = (hits.distance, hits.place);

@@ -133,7 +133,12 @@ impl Patch {
     /// part, and for what is not supported: lights, spheres from inside, triangles without area, and triangles seen edge-on.
     pub fn of(surfaces: &Surfaces, place: u32, viewer: Viewer<'_>) -> Option<Self> {
         if place & SHAPE == 0 {
-            return Self::of_triangle(surfaces.bvh.corners(place), surfaces.bvh.reach_of_points().into(), place, viewer);
+            return Self::of_triangle(
+                surfaces.bvh.corners(place),
+                surfaces.bvh.reach_of_points().into(),
+                place,
+                viewer,
+            );
         }
         let shape = &surfaces.shapes()[(place & !SHAPE) as usize];
         let Outline::Exact(Convex::Sphere { center, radius }) = shape.geometry.outline() else { return None };

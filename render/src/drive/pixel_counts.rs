@@ -141,22 +141,28 @@ impl PixelCounts {
         renderer: &mut TileRenderer<'_>,
         tile: Area,
         weights: Option<&LightWeights<'_>>,
-        &SamplePlan { sets, pilot, checks, .. }: &SamplePlan,
+        (&SamplePlan { sets, pilot, checks, .. }, expected): (&SamplePlan, f64),
     ) -> Vec<Pixel> {
         renderer.begin(tile);
         let rest = renderer.parts(tile, pilot, 0..sets, weights, |pixel| [pilot, self.packets_at(pixel)]);
         let mut pixels = self.finish(tile, &rest, sets);
         if checks > 0.0 {
-            let by_spread = self.by_spread(tile, &rest, pilot);
+            let mut squares = self.squares(tile, &rest, pilot);
+            let by_spread = self.by_spread(tile, &squares);
             let packets: Vec<u32> = area::pixels(tile).map(|pixel| self.packets_at(pixel)).collect();
             let checks = Checks::new(tile, &by_spread, &packets, checks, renderer.settings.seed);
             // their first samples are allocated by the pilot, too, which makes little difference
             let weights = weights.map(LightWeights::anew);
             let range = |pixel| [0, if checks.contains(pixel) { self.packets_at(pixel) } else { 0 }];
             let second = renderer.parts(tile, pilot, sets..sets + 1, weights.as_ref(), range);
+            // where a set has missed what the other has met, both tell
+            for (square, of) in squares.iter_mut().zip(&second).filter(|(_, of)| of.packets > 0) {
+                *square = 0.5 * (*square + of.square());
+            }
+            let by_spread = self.by_spread(tile, &squares);
             let mean = |(of, n): (&Statistics, &u32)| of.sums[0].map(|sum| sum / f64::from(8 * n));
             let second: Vec<_> = second.iter().zip(&packets).map(mean).collect();
-            checks.judge(&mut pixels, &by_spread, &second);
+            checks.judge(&mut pixels, &by_spread, &second, expected);
         }
         pixels
     }
@@ -173,19 +179,28 @@ impl PixelCounts {
         };
         area::pixels(tile).zip(rest).map(of).collect()
     }
-    /// The variance of one set of each pixel of a tile by the spread of its samples and of those of the pixels beside it, whose edges it may
-    /// have missed, but for a common factor. `rest` are the samples after those of the `pilot`, so many packets.
-    fn by_spread(&self, tile: Area, rest: &[Statistics], pilot: u32) -> Vec<f64> {
+    /// The sum of the variances of all pixels, as the pilot tells them, but for a common factor.
+    pub(super) fn expected(&self) -> f64 {
+        let of = |(square, packets): (&f32, &u32)| f64::from(*square) * fall((*packets).into());
+        (1.0 + BESIDE) * self.squares.iter().zip(&self.packets).map(of).sum::<f64>()
+    }
+    /// What each pixel of a tile tells of its variance, as [`Statistics::square`]. `rest` are the samples after those of the `pilot`, so many
+    /// packets.
+    fn squares(&self, tile: Area, rest: &[Statistics], pilot: u32) -> Vec<f64> {
         let of = |(pixel, rest): ([u32; 2], &Statistics)| {
             let [before, after] = [pilot, rest.packets].map(f64::from);
             (before * f64::from(self.squares[self.index(pixel)]) + after * rest.square()) / (before + after)
         };
-        let squares: Vec<f64> = area::pixels(tile).zip(rest).map(of).collect();
-        let around = mean_around(&squares, &vec![1.0; squares.len()], (tile[2] - tile[0]) as usize);
+        area::pixels(tile).zip(rest).map(of).collect()
+    }
+    /// The variance of one set of each pixel of a tile by the spread of its samples and of those of the pixels beside it, whose edges it may
+    /// have missed, but for a common factor.
+    fn by_spread(&self, tile: Area, squares: &[f64]) -> Vec<f64> {
+        let around = mean_around(squares, &vec![1.0; squares.len()], (tile[2] - tile[0]) as usize);
         let both = |((own, around), pixel): ((f64, f64), [u32; 2])| {
             (own + BESIDE * around) * fall(self.packets_at(pixel).into())
         };
-        squares.into_iter().zip(around).zip(area::pixels(tile)).map(both).collect()
+        squares.iter().copied().zip(around).zip(area::pixels(tile)).map(both).collect()
     }
 }
 

@@ -9,7 +9,7 @@ use etendue::Real;
 use etendue::estimate::Welford;
 
 /// Statistics of a range of the samples of a pixel.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Statistics {
     /// Sum of each set.
     pub sums: [[f64; 3]; 4],
@@ -18,6 +18,8 @@ pub struct Statistics {
     /// Variance of the means of four samples each, summed over the channels; for samples that are allocated to at most `APART` lights, of
     /// what the camera sees directly.
     pub variance: f64,
+    /// The part of the samples that cause the variance: 1 if all differ alike, 1/n if one of n does.
+    pub part: f32,
     /// Number of lights to which the samples were allocated; 0 if they were not, or if there are more than `APART`.
     pub lights: usize,
     /// Σ(xᵢ−xᵢ₊₁)² over pairs of successive samples of each light, per set.
@@ -28,9 +30,19 @@ pub struct Statistics {
     pub taken: [u32; APART],
 }
 
+impl Default for Statistics {
+    fn default() -> Self {
+        let none = [0; APART];
+        let (sums, spread) = ([[0.0; 3]; 4], [0.0; APART]);
+        Self { sums, packets: 0, variance: 0.0, part: 1.0, lights: 0, spread, pairs: none, taken: none }
+    }
+}
+
 impl Statistics {
-    /// The squared difference of two successive samples, or what has the same effect: a set of n samples has a variance that is about
-    /// proportional to this and to n^−1.5.
+    /// The squared difference of two successive samples, or what has the same effect, over the root of the [part](Self::part) that causes it:
+    /// a set of n samples has a variance that is about proportional to this and to n^−1.5. (Where one sample of n has met something, the
+    /// others tell it from nothing, and the variance is that of independent samples; where h of them have, only its outline is left to
+    /// chance, and the variance is less by √h.)
     pub(super) fn square(&self) -> f64 {
         let samples = f64::from(8 * self.packets);
         let of_light = |k: usize| match (self.pairs[k], self.taken[k]) {
@@ -38,7 +50,7 @@ impl Statistics {
             (pairs, taken) => f64::from(self.spread[k]) / f64::from(pairs) * fall(f64::from(taken) / samples),
         };
         // a difference of two samples has 16 times the variance of the mean of four
-        16.0 * self.variance + (0..self.lights).map(of_light).sum::<f64>()
+        (16.0 * self.variance + (0..self.lights).map(of_light).sum::<f64>()) / f64::from(self.part).sqrt()
     }
 }
 
@@ -57,6 +69,8 @@ pub(super) struct StatisticsSum {
     halves: [Welford<f64>; 3],
     /// Sum of squared differences of successive samples of the same light.
     between: f64,
+    /// Sum, greatest and number of all squared differences.
+    squares: [f64; 3],
     /// The sum of reflected light for each light, times its squared share.
     spread: [f64; APART],
     /// Number of pairs in these sums, and of samples, of each light.
@@ -67,6 +81,11 @@ pub(super) struct StatisticsSum {
 impl StatisticsSum {
     pub(super) fn new(lights: usize) -> Self {
         Self { lights, ..Self::default() }
+    }
+    /// Notes a squared difference.
+    fn note(&mut self, square: f64) {
+        let [sum, greatest, count] = &mut self.squares;
+        (*sum, *greatest, *count) = (*sum + square, greatest.max(square), *count + 1.0);
     }
 }
 
@@ -80,9 +99,14 @@ impl Accumulator for StatisticsSum {
         self.adder.push_octet(&channels(radiance));
         // the samples of a packet that is shared among lights differ by their lights: only what does not depend on them is compared
         for half in halves(if allocated.is_some() { seen } else { radiance }) {
+            let mut square = 0.0;
             for (spread, x) in self.halves.iter_mut().zip(half) {
+                let known = spread.count();
+                // in the unit of a difference of two samples, and so that the squares sum up to those from the mean
+                square += 16.0 * (x - spread.mean()).powi(2) * known / (known + 1.0);
                 spread.push(x);
             }
+            self.note(square);
         }
         let Some(allocated) = allocated else { return };
         let (light, share) = (allocated.light.to_array(), allocated.share.to_array());
@@ -97,8 +121,10 @@ impl Accumulator for StatisticsSum {
             }
             let square = square(reflected, k);
             self.between += square;
+            let weighted = square * f64::from(share[k]).powi(2);
+            self.note(weighted);
             if let Some(spread) = self.spread.get_mut(light[k] as usize) {
-                *spread += square * f64::from(share[k]).powi(2);
+                *spread += weighted;
                 self.pairs[light[k] as usize] += 1;
             }
         }
@@ -120,6 +146,8 @@ impl Accumulator for StatisticsSum {
         let sets = all.len().max(1) as u32;
         all.clear();
         part.variance = self.halves.iter().map(|b| b.variance()).sum();
+        let [sum, greatest, count] = self.squares;
+        part.part = if greatest > 0.0 { (sum / (greatest * count)).clamp(1.0 / count, 1.0) as f32 } else { 1.0 };
         if self.lights > APART && part.packets > 0 {
             // a difference of two samples has 16 times the variance of the mean of four
             part.variance += self.between / f64::from(16 * 4 * part.packets * sets);
@@ -234,6 +262,31 @@ mod tests {
         assert_eq!(found.lights, 0);
         let all = squares / (4.0 * 16.0) + 4.0 / 3.0;
         assert!((found.variance / all - 1.0).abs() < 1e-14, "{} {all}", found.variance);
+    }
+
+    /// One sample of 64 that differs causes all of the variance, so that it falls as that of independent samples does.
+    #[test]
+    fn few_samples_cause_the_variance_of_rare_events() {
+        for (hits, part) in [(1, 1.0 / 16.0), (4, 1.0 / 4.0), (16, 1.0)] {
+            let mut sum = StatisticsSum::new(0);
+            sum.begin(0);
+            for n in 0..8 {
+                let sample = |k: usize| {
+                    let half = 2 * n + k / 4;
+                    [if k.is_multiple_of(4) && (half * hits).is_multiple_of(16) { 1.0 } else { 0.0 }; 3]
+                };
+                sum.push_packet(packet(sample), packet(|_| [0.0; 3]), None);
+            }
+            let found = sum.finish();
+            // of 16 means, all the same have no variance
+            if hits == 16 {
+                assert_eq!((found.part, found.square()), (1.0, 0.0));
+            } else {
+                assert!((0.5..=2.0).contains(&(f64::from(found.part) / part)), "{hits}: {}", found.part);
+                let expected = 16.0 * found.variance / f64::from(found.part).sqrt();
+                assert!((found.square() / expected - 1.0).abs() < 1e-12);
+            }
+        }
     }
 
     /// A light with a quarter of the samples has 8 times the variance of one with all of them: (1/4)^−1.5.

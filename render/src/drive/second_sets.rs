@@ -12,17 +12,20 @@ use crate::area::{self, Area};
 use crate::film::Pixel;
 use crate::sampler::hash64;
 
-/// The samples of second sets relative to all others.
-const SHARE: f64 = 1.0 / 12.0;
-/// About so many pixels have a second set in small images.
-const FEWEST: f64 = 1024.0;
+/// The least and the greatest samples of second sets relative to all others.
+const SHARES: [f64; 2] = [1.0 / 48.0, 1.0 / 4.0];
+/// About so many pixels have a second set, between these: their differences tell the error of the image to a sixteenth if they matter alike.
+const ENOUGH: f64 = 256.0;
 /// The least chance of a pixel, and how many pixels of a tile are chosen at the least.
 const LEAST: f64 = 1.0 / 64.0;
 const FEWEST_OF_TILE: f64 = 2.0;
+/// What the variance of a pixel with most of the variance of the image is at the least, relative to what its spread lets expect: half of
+/// what it is where the outline of something bright in the pixel causes it. With a share s of the variance, it is s² times this.
+const FLOOR: f64 = 0.2;
 
 /// The samples of second sets relative to those of an image of this size.
 pub(super) fn share(whole: Area) -> f64 {
-    (FEWEST / area::count(whole) as f64).clamp(SHARE, 1.0)
+    (ENOUGH / area::count(whole) as f64).clamp(SHARES[0], SHARES[1])
 }
 
 /// The pixels of a tile that have a second set.
@@ -77,16 +80,24 @@ impl Checks {
         let [x0, y0, x1, _] = self.area;
         self.chances[((y - y0) * (x1 - x0) + (x - x0)) as usize] > 0.0
     }
-    /// Sets the variances of the pixels of the tile from what `by_spread` lets expect, and from the means of second sets.
-    pub(super) fn judge(&self, pixels: &mut [Pixel], by_spread: &[f64], second: &[[f64; 3]]) {
-        let (mut count, mut expected, mut found) = (0.0, 0.0, [0.0; 3]);
+    /// Sets the variances of the pixels of the tile from what `by_spread` lets expect, and from the means of second sets. Of the whole image,
+    /// the sum `of_all` of the former is known.
+    pub(super) fn judge(&self, pixels: &mut [Pixel], by_spread: &[f64], second: &[[f64; 3]], of_all: f64) {
+        let (mut count, mut expected, mut found, mut floor) = (0.0, 0.0, [0.0; 3], 0.0);
         for (i, chance) in self.chances.iter().enumerate().filter(|(_, chance)| **chance > 0.0) {
             count += chance.recip();
-            expected += by_spread[i] / chance;
+            let own = by_spread[i] / chance;
+            expected += own;
+            floor += if own > 0.0 { FLOOR * own * (own / of_all.max(own)).powi(2) } else { 0.0 };
             for (k, found) in found.iter_mut().enumerate() {
                 // a difference has twice the variance of each
                 *found += (f64::from(pixels[i].mean[k]) - second[i][k]).powi(2) / (2.0 * chance);
             }
+        }
+        // a single difference is often much less than its mean: the spread tells the least variance where few pixels have most of it
+        let all: f64 = found.iter().sum();
+        if all < floor {
+            found = found.map(|found| if all > 0.0 { found * (floor / all) } else { floor / 3.0 });
         }
         for (pixel, by_spread) in pixels.iter_mut().zip(by_spread) {
             // where nothing is expected, the variance is taken to be the same everywhere
@@ -135,6 +146,25 @@ mod tests {
         assert_eq!([even([0, 0, 1, 1], 0.1), even(TILE, 1.0)], [1, 256]);
     }
 
+    /// Where a pixel has most of the variance of the image, and its two sets agree by chance, its spread still tells a variance; with a part
+    /// of the variance of the image, it tells nothing.
+    #[test]
+    fn claims_do_not_collapse() {
+        let by_spread: Vec<f64> = (0..256).map(|i| if i == 70 { 5.0 } else { 1e-6 }).collect();
+        let pixel = Pixel { mean: [1.0, 2.0, 3.0], variance: [0.0; 3], samples: 8 };
+        for (difference, of_all, least) in
+            [(0.0, 5.0, FLOOR * 5.0), (1e-3, 5.0, FLOOR * 5.0), (0.0, 50.0, FLOOR * 0.05)]
+        {
+            let mut pixels = vec![pixel; 256];
+            let second: Vec<_> = pixels.iter().map(|p| p.mean.map(|x| f64::from(x) + difference)).collect();
+            let checks = Checks::new(TILE, &by_spread, &[2; 256], 0.1, 7);
+            checks.judge(&mut pixels, &by_spread, &second, of_all);
+            let found: f64 = pixels.iter().flat_map(|pixel| pixel.variance).map(f64::from).sum();
+            assert!(found >= 0.99 * least && found < 1.1 * least, "{difference}: {found}");
+            assert!(pixels[70].variance[1] > 1e3 * pixels[0].variance[1], "{difference}");
+        }
+    }
+
     /// The sum of the variances is right in the mean, whether the spread knows them or not, and all of them where it does.
     #[test]
     fn variances_are_right_in_the_mean() {
@@ -153,7 +183,12 @@ mod tests {
                 let mut pixels: Vec<Pixel> = (0..256).map(pixel).collect();
                 let second: Vec<[f64; 3]> =
                     (0..256).map(|i| [value(i, 2), 0.0, 2.0 * value(i, 2)].map(f64::from)).collect();
-                Checks::new(TILE, by_spread, &[2; 256], 0.25, seed).judge(&mut pixels, by_spread, &second);
+                Checks::new(TILE, by_spread, &[2; 256], 0.25, seed).judge(
+                    &mut pixels,
+                    by_spread,
+                    &second,
+                    f64::INFINITY,
+                );
                 for (sum, pixel) in sums.iter_mut().zip(&pixels) {
                     assert!(pixel.variance[1] == 0.0 && (pixel.variance[2] - 4.0 * pixel.variance[0]).abs() < 1e-4);
                     *sum += f64::from(pixel.variance[0]) / seeds as f64;

@@ -3,8 +3,8 @@
 //! They are sampled by solid angle also where projected solid angle is asked for, show the mean of a picture, and have no closed forms:
 //! these take them for the squares around them.
 
-use super::flat::Plane;
 use super::ends::Segment;
+use super::flat::Plane;
 use super::form::{Approach, Extent, Form, Meeting, Outline, Solid, wide};
 use super::points::{Points, on_plane};
 use crate::occlusion::Convex;

@@ -80,7 +80,9 @@ mod tests {
     fn ends_are_told_by_their_height_at_any_angle() {
         for slope in [1.0, 0.1, 1e-3] {
             let direction = V64::new(f64::sqrt(1.0 - slope * slope), 0.0, slope);
-            for (roundings, expected) in [(-9.0, End::Before), (-7.0, End::Level), (7.0, End::Level), (9.0, End::Hidden)] {
+            for (roundings, expected) in
+                [(-9.0, End::Before), (-7.0, End::Level), (7.0, End::Level), (9.0, End::Hidden)]
+            {
                 let plane = V64::new(0.0, 0.0, slope - roundings / 16_777_216.0);
                 let segment = Segment { origin: V64::default(), direction, length: 1.0 };
                 assert_eq!(segment.end_at_plane(plane, V64::new(0.0, 0.0, 1.0)), expected, "{slope} {roundings}");

@@ -160,7 +160,8 @@ mod tests {
 
     #[test]
     fn lights_in_the_same_place_are_found() {
-        let (big, ball) = (quad([1.0, 2.0, 3.0], 1.0), |x, radius| Geometry::Sphere(Sphere { center: [x, 0.0, 0.0], radius }));
+        let (big, ball) =
+            (quad([1.0, 2.0, 3.0], 1.0), |x, radius| Geometry::Sphere(Sphere { center: [x, 0.0, 0.0], radius }));
         let within = quad([1.25, 2.25, 3.075], 0.5);
         let shape = |of: &Geometry| lamp(of.clone(), false);
         for (first, second, expected) in [
@@ -178,8 +179,7 @@ mod tests {
         ] {
             let dark = Shape { emission: None, ..shape(&big) };
             let found = coincidences(&[dark, first.clone(), second.clone()]);
-            let expected: Vec<_> =
-                expected.map(|hides| Coincidence { lights: [1, 2], hides }).into_iter().collect();
+            let expected: Vec<_> = expected.map(|hides| Coincidence { lights: [1, 2], hides }).into_iter().collect();
             assert_eq!(found, expected, "{first:?} {second:?}");
         }
     }

@@ -20,6 +20,8 @@ pub(crate) const SHARE: f64 = 0.95;
 const FINER: u32 = 16;
 /// A reference is precise enough if its squared error is at most this part of that of the image.
 const PRECISE: f64 = 0.5;
+/// The same for many images together.
+const PRECISE_OF_ROW: f64 = 0.1;
 /// Images of a scene with each number of samples.
 const SEEDS: u64 = 2;
 
@@ -71,6 +73,11 @@ impl Reference {
     /// Mean of the product of the differences of an image from both. Where they have no error in common, that is the squared error of the
     /// image; `None` if the references are not precise enough.
     fn squared_error(&self, film: &Film) -> Option<f64> {
+        let [product, own] = self.products(film);
+        (own <= PRECISE * product).then_some(product)
+    }
+    /// The same, whether they are precise enough or not, and the squared error of a reference.
+    fn products(&self, film: &Film) -> [f64; 2] {
         let [a, b] = &self.0;
         let (mut product, mut own, mut count) = (0.0, 0.0, 0.0);
         for ((x, a), b) in film.pixels.iter().zip(&a.pixels).zip(&b.pixels) {
@@ -81,8 +88,64 @@ impl Reference {
                 count += 1.0;
             }
         }
-        (own <= PRECISE * product).then_some(product / count)
+        [product, own].map(|sum| sum / count)
     }
+}
+
+/// The images of a scene with so many samples, over many seeds: what they claim, all together.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Row {
+    /// The root of the mean of the squared errors over that of the squares that are claimed; `None` if the image is black, or too little of
+    /// an error for the reference.
+    pub(crate) ratio: Option<f64>,
+    /// The part of the images that call their error uncertain.
+    pub(crate) uncertain: f64,
+    /// Whether what is claimed is mostly a bound of systematic errors.
+    pub(crate) bounded: bool,
+}
+
+/// The rows of a scene, one for each number of samples.
+pub(crate) fn rows<const N: usize>(scene: &Scene, side: u32, numbers: [u32; N], seeds: u64) -> [Row; N] {
+    let world = World::new(scene).unwrap();
+    let settings = |spp: u32, seed: u64| Settings {
+        width: side,
+        height: side,
+        spp,
+        sampler: default_sampler(spp, 0),
+        seed,
+        ..Settings::DEFAULT
+    };
+    let most = settings(numbers.into_iter().max().unwrap_or(1), 0x5eed);
+    let view = world.view(&most);
+    let (technique, foreseen) = (view.technique(), view.foreseen());
+    let references = [other(technique), technique].map(|technique| {
+        LazyCell::new({
+            let world = &world;
+            move || Reference::new(world, &most, technique)
+        })
+    });
+    numbers.map(|spp| {
+        let films: Vec<Film> = (1..=seeds).map(|seed| world.render(&settings(spp, seed), &|_| ()).0).collect();
+        // by the technique itself only where the other is not precise enough
+        let found = references.iter().find_map(|reference| {
+            let products = films.iter().map(|film| reference.products(film));
+            let [product, own] = products.fold([0.0; 2], |sum, x| [sum[0] + x[0], sum[1] + x[1]]);
+            (own <= PRECISE_OF_ROW * product).then_some(product)
+        });
+        let (mut claimed, mut uncertain, mut systematic, mut is_known) = (0.0, 0.0, 0.0, true);
+        for film in &films {
+            let Some(claim) = Claim::new(film, &foreseen, spp.into()) else {
+                is_known = false;
+                break;
+            };
+            let mean = film.mean().iter().sum::<f64>() / 3.0;
+            claimed += (claim.total() * mean).powi(2);
+            systematic += (claim.systematic * mean).powi(2);
+            uncertain += if claim.uncertain().is_some() { 1.0 } else { 0.0 };
+        }
+        let ratio = found.filter(|_| is_known && claimed > 0.0).map(|found| (found / claimed).sqrt());
+        Row { ratio, uncertain: uncertain / seeds as f64, bounded: systematic > 0.2 * claimed }
+    })
 }
 
 /// Renders a scene, and measures the errors of the images.
