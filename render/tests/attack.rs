@@ -2,7 +2,7 @@
 //!
 //! [`regimes`] has the scenes, [`draft`] their parts, `draft_text` their text, [`skin`] what varies over them, [`bridge`] what the oracle
 //! gets of them, [`judge`] the comparison, [`shrink`] the fewest parts that still differ, [`report`] what is printed, [`claims`] whether
-//! images tell their error, and [`defects`] the scenes on which the renderer was wrong once. What the parameters of lights mean is in the
+//! images tell their error, [`rare`] whether their mean is right, and [`defects`] the scenes on which the renderer was wrong once. What the parameters of lights mean is in the
 //! table of values.
 
 mod bridge;
@@ -12,6 +12,7 @@ mod defects;
 mod draft;
 mod draft_text;
 pub(crate) mod judge;
+mod rare;
 pub(crate) mod regimes;
 mod report;
 mod shrink;
@@ -91,6 +92,31 @@ fn images_of_370_scenes_tell_their_error() {
     claims_hold(10, 32, 64, claims::SHARE);
 }
 
+/// The mean of `seeds` images of each scene is right, although most of the light is in what few samples meet.
+fn rare_means_are_right(scenes: u64, numbers: &[u32], seeds: u64) {
+    let all: Vec<_> = (0..scenes).flat_map(|scene| numbers.iter().map(move |&spp| (scene, spp))).collect();
+    let found: Vec<_> = all.par_iter().map(|&(scene, spp)| rare::of_scene(scene, spp, seeds)).collect();
+    let mut worst = 0.0_f64;
+    for ((scene, spp), rare::Mean { ratio, z }) in all.iter().zip(&found) {
+        println!("rare {scene}, {spp} samples per pixel: {ratio:.4} of the light, z {z:+.2}");
+        worst = worst.max(z.abs());
+    }
+    let mean = found.iter().map(|mean| mean.z).sum::<f64>() / (found.len() as f64).sqrt();
+    println!("greatest |z| {worst:.2}, all together z {mean:+.2}");
+    assert!(worst <= 4.5 && mean.abs() <= 4.5);
+}
+
+#[test]
+fn rare_light_has_no_bias() {
+    rare_means_are_right(cases(3, 24), &[16, 64], 60);
+}
+
+#[test]
+#[ignore = "100 scenes by 300 seeds by three numbers of samples: ten minutes on two cores"]
+fn rare_light_has_no_bias_at_length() {
+    rare_means_are_right(100, &[16, 64, 256], 300);
+}
+
 /// What 24 images of each scene claim with 16, 64 and 256 samples per pixel, all together, and how the table of that reads.
 fn claims_table(scenes: usize) {
     let numbers = [16, 64, 256];
@@ -128,7 +154,7 @@ fn claims_table(scenes: usize) {
 #[test]
 #[ignore = "100 scenes by 72 images: ten minutes on two cores"]
 fn claims_of_100_scenes_as_a_table() {
-    claims_table(100);
+    claims_table(std::env::var("SCENES").map_or(100, |n| n.parse().unwrap()));
 }
 
 /// The scenes on which the renderer was wrong once, in smaller images than usual.

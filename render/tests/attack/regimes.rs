@@ -1,7 +1,7 @@
 //! Random scenes by regime: each has one kind of difficulty, and a few have several.
 
 mod bodies;
-mod lights;
+pub(crate) mod lights;
 mod others;
 mod people;
 mod places;
@@ -27,7 +27,7 @@ const fn regime(name: &'static str, about: &'static str, make: fn(&mut Random) -
 }
 
 /// All regimes.
-pub(crate) const REGIMES: [Regime; 38] = [
+pub(crate) const REGIMES: [Regime; 39] = [
     regime("thin", "closed sheets with thicknesses of 1e-5 to 1e-2 of their size", bodies::thin),
     regime("chamfered", "boxes with corners cut off at 1e-7 to 1e-1 of their size", bodies::chamfered),
     regime("open", "bodies that lack triangles", bodies::open),
@@ -64,6 +64,10 @@ pub(crate) const REGIMES: [Regime; 38] = [
     regime("skies", "skies, suns and lamps over floors of 1 to 1e5", people::skies),
     regime("wild-normals", "vertex normals that fit no surface", people::wild),
     Regime { has_specks: true, ..regime("one-of-many", "up to 40 lights of which few matter", people::one_of_many) },
+    Regime {
+        has_specks: true,
+        ..regime("rare", "what few samples meet has most of the light: specks, slivers, keyholes", lights::rare)
+    },
     regime("films", "parts of wide and high films, and orthographic cameras", people::films),
     regime("walls", "walls up to 1e3 times as long as high, with a lamp behind them", bodies::walls),
 ];

@@ -2,11 +2,11 @@
 
 use super::places::furnish;
 use crate::attack::build::{
-    albedo, axes, cube, facing, lamp, level, look, overhead, placed, radiance, stage, triangles,
+    albedo, axes, cube, facing, lamp, level, look, overhead, placed, quad, radiance, stage, triangles,
 };
 use crate::attack::draft::{Draft, Form, Part, V3};
 use crate::random::Random;
-use etendue_oracle::{along, unit};
+use etendue_oracle::{along, length, sub, unit};
 
 /// Something to cast a shadow around the origin, between it and a light.
 fn shade(draft: &mut Draft, towards: V3, random: &mut Random) {
@@ -133,5 +133,58 @@ pub(crate) fn flush(random: &mut Random) -> Draft {
     }
     furnish(&mut draft, random);
     draft.look = look([0.0, 0.2, 0.0], 1.9, random);
+    draft
+}
+
+/// Width of the images in whose pixels what is rare is measured.
+pub(crate) const RARE_SIDE: u32 = 16;
+
+/// A speck or a sliver in view, or the light of a lamp through a keyhole, that has most of the light of the image, besides up to 40 lamps.
+pub(crate) fn rare(random: &mut Random) -> Draft {
+    let mut draft = stage(random);
+    furnish(&mut draft, random);
+    let count = random.power(0.0, 1.6) as usize;
+    let faint = 0.3 / count.max(1) as f32;
+    draft.parts[1].glow.iter_mut().for_each(|glow| glow.radiance *= faint);
+    for _ in 1..count {
+        let center = overhead(random.between(1.5, 4.0), random);
+        let mut part = lamp(center, [0.0; 3], random.between(0.1, 0.5), random);
+        part.glow.iter_mut().for_each(|glow| glow.radiance *= faint);
+        draft.parts.push(part);
+    }
+    let side = f64::from(RARE_SIDE);
+    // the light of the speck, relative to that of the rest of the image
+    let share = random.power(-0.3, 0.7);
+    if random.one_in(3) {
+        // four sheets leave a hole between a bright lamp and the floor
+        let (hole, height) = (0.5 * random.power(-1.5, -0.7), random.between(0.6, 1.2));
+        let [x, z] = [0; 2].map(|_| random.between(-0.5, 0.5));
+        let sheet = |[left, right]: [f64; 2], [near, far]: [f64; 2]| {
+            Part::mesh(quad([left, height, near], [right - left, 0.0, 0.0], [0.0, 0.0, far - near]), 0.5)
+        };
+        let wide = [-0.8, 0.8];
+        draft.parts.push(sheet(wide, [-0.8, z - hole]));
+        draft.parts.push(sheet(wide, [z + hole, 0.8]));
+        draft.parts.push(sheet([-0.8, x - hole], [z - hole, z + hole]));
+        draft.parts.push(sheet([x + hole, 0.8], [z - hole, z + hole]));
+        let from = along([x, height, z], [random.between(-0.3, 0.3), 1.0, random.between(-0.3, 0.3)], 1.0);
+        let mut bright = lamp(from, [x, height, z], random.power(-2.0, -0.5), random);
+        let lit = (side * hole / 1.5).powi(2) / (side * side);
+        bright.glow.iter_mut().for_each(|glow| glow.radiance *= (share * 0.3 / lit.max(1e-3)) as f32);
+        draft.parts.push(bright);
+        return draft;
+    }
+    let center = [random.between(-0.8, 0.8), random.between(0.2, 1.2), random.between(-0.8, 0.8)];
+    let distance = length(sub(center, draft.look.eye));
+    let pixel = 2.0 * libm::tan(0.5 * draft.look.fov.to_radians()) * distance / side;
+    // in pixels
+    let area = random.power(-2.0, -0.3);
+    let form = if random.one_in(2) {
+        Form::Sphere(center, pixel * (area / std::f64::consts::PI).sqrt())
+    } else {
+        let long = random.between(1.0, 3.0).max(area.sqrt());
+        facing(center, draft.look.eye, [pixel * long, pixel * area / long], random)
+    };
+    draft.parts.push(Part::light(form, (share * 0.1 * side * side / area) as f32, false));
     draft
 }
