@@ -154,7 +154,7 @@ fn claims_table(scenes: usize) {
 #[test]
 #[ignore = "100 scenes by 72 images: ten minutes on two cores"]
 fn claims_of_100_scenes_as_a_table() {
-    claims_table(std::env::var("SCENES").map_or(100, |n| n.parse().unwrap()));
+    claims_table(100);
 }
 
 /// The scenes on which the renderer was wrong once, in smaller images than usual.

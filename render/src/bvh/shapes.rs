@@ -149,9 +149,10 @@ impl Primitives for Solids {
             let places = hits.place;
             let reaching = |lane: usize, segment| self.reached.by(places.as_array()[lane], segment);
             let own = equal(from, place);
-            let mut rays = Approach { origin, direction, own, limit: hits.distance, reaching: &reaching };
+            let lanes = if ANY { active & !equal(hits.place, place) } else { active };
+            let mut rays = Approach { origin, direction, lanes, own, limit: hits.distance, reaching: &reaching };
             if ANY {
-                let others = active & !equal(hits.place, place);
+                let others = lanes;
                 if others.any() {
                     let Meeting { hit, level, .. } = solid.meet::<true>(&rays);
                     hidden = hidden | hit & others;

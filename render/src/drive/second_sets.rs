@@ -16,12 +16,13 @@ use crate::sampler::hash64;
 const SHARES: [f64; 2] = [1.0 / 48.0, 1.0 / 4.0];
 /// About so many pixels have a second set, between these: their differences tell the error of the image to a sixteenth if they matter alike.
 const ENOUGH: f64 = 256.0;
-/// The least chance of a pixel, and how many pixels of a tile are chosen at the least.
-const LEAST: f64 = 1.0 / 64.0;
+/// The least chance of a pixel, relative to the share of second sets: what is met in spite of it counts many times. And how many pixels of a
+/// tile are chosen at the least.
+const LEAST: f64 = 1.0 / 4.0;
 const FEWEST_OF_TILE: f64 = 2.0;
 /// What the variance of a pixel with most of the variance of the image is at the least, relative to what its spread lets expect: half of
 /// what it is where the outline of something bright in the pixel causes it. With a share s of the variance, it is s² times this.
-const FLOOR: f64 = 0.2;
+const FLOOR: f64 = 0.1;
 
 /// The samples of second sets relative to those of an image of this size.
 pub(super) fn share(whole: Area) -> f64 {
@@ -42,7 +43,7 @@ impl Checks {
         let pairs = || by_spread.iter().zip(packets);
         // the sum of all variances is known best if chances are proportional to the variance over the root of the cost
         let wanted: Vec<f64> = pairs().map(|(variance, n)| variance / f64::from(*n).sqrt()).collect();
-        let least = LEAST.max(FEWEST_OF_TILE / by_spread.len() as f64).min(1.0);
+        let least = (LEAST * share).max(FEWEST_OF_TILE / by_spread.len() as f64).min(1.0);
         let chance = |wanted: f64, scale: f64| (wanted * scale).clamp(least, 1.0);
         let spent =
             |scale: f64| wanted.iter().zip(packets).map(|(w, n)| chance(*w, scale) * f64::from(*n)).sum::<f64>();
@@ -83,12 +84,12 @@ impl Checks {
     /// Sets the variances of the pixels of the tile from what `by_spread` lets expect, and from the means of second sets. Of the whole image,
     /// the sum `of_all` of the former is known.
     pub(super) fn judge(&self, pixels: &mut [Pixel], by_spread: &[f64], second: &[[f64; 3]], of_all: f64) {
-        let (mut count, mut expected, mut found, mut floor) = (0.0, 0.0, [0.0; 3], 0.0);
+        let (mut count, mut expected, mut found, mut cubes) = (0.0, 0.0, [0.0; 3], 0.0);
         for (i, chance) in self.chances.iter().enumerate().filter(|(_, chance)| **chance > 0.0) {
             count += chance.recip();
             let own = by_spread[i] / chance;
             expected += own;
-            floor += if own > 0.0 { FLOOR * own * (own / of_all.max(own)).powi(2) } else { 0.0 };
+            cubes += own.powi(3);
             for (k, found) in found.iter_mut().enumerate() {
                 // a difference has twice the variance of each
                 *found += (f64::from(pixels[i].mean[k]) - second[i][k]).powi(2) / (2.0 * chance);
@@ -96,6 +97,7 @@ impl Checks {
         }
         // a single difference is often much less than its mean: the spread tells the least variance where few pixels have most of it
         let all: f64 = found.iter().sum();
+        let floor = if expected > 0.0 { FLOOR * cubes / of_all.max(expected).powi(2) } else { 0.0 };
         if all < floor {
             found = found.map(|found| if all > 0.0 { found * (floor / all) } else { floor / 3.0 });
         }

@@ -37,7 +37,9 @@ impl Plane {
         let some = slope.abs().gt(zero);
         let distance = to_point.dot(normal) / select(some, slope, one);
         let inside = some & inside(rays.direction.mul_add(distance, -to_point)) & !rays.own;
-        let unclear = inside & (distance.abs().lt(X8::splat(self.near)) | rays.near_limit::<ANY>(distance, self.near));
+        let unclear = inside
+            & rays.lanes
+            & (distance.abs().lt(X8::splat(self.near)) | rays.near_limit::<ANY>(distance, self.near));
         let mut meeting = Meeting { distance, hit: none, level: none };
         if unclear.any() {
             let [point, normal] = self.exact;

@@ -148,13 +148,15 @@ pub(crate) const NEAR: f64 = 1.0 / 32.0;
 
 /// Distances beyond this part of the way to the limit are compared with it in double precision, where hits before it occlude. At nearly all
 /// angles, that includes all surfaces that are [level](End::Level) with the end.
-pub(crate) const NEAR_LIMIT: f64 = 1.0 / 64.0;
+pub(crate) const NEAR_LIMIT: f64 = 1.0 / 256.0;
 
 /// Eight rays, as a shape meets them.
 pub(crate) struct Approach<'a> {
     pub(crate) origin: V8,
     /// Unit directions.
     pub(crate) direction: V8,
+    /// Lanes that matter.
+    pub(crate) lanes: M8,
     /// Lanes of rays that begin on the shape.
     pub(crate) own: M8,
     /// Distances beyond which nothing counts.

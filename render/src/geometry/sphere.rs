@@ -158,9 +158,9 @@ impl Solid for Sphere {
         let size = self.radius * NEAR as f32;
         let close = |distance: X8| distance.abs().lt(X8::splat(size));
         let near_limit = rays.near_limit::<ANY>(distance, size);
-        let mut unclear = square.ge(zero) & (rays.own | close(near) | close(along + half) | near_limit);
+        let mut unclear = rays.lanes & square.ge(zero) & (rays.own | close(near) | close(along + half) | near_limit);
         if !SINGLE.contains(&self.radius) {
-            unclear = M8::splat(true);
+            unclear = rays.lanes;
         }
         let mut meeting = Meeting { distance, hit: met, level: none };
         if unclear.any() {
