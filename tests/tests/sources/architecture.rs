@@ -252,7 +252,7 @@ fn imports_are_found() {
 }
 
 /// Which packages of the workspace each one may use, and which more its tests, benchmarks and examples may.
-const ARROWS: [(&str, &[&str], &[&str]); 23] = [
+const ARROWS: [(&str, &[&str], &[&str]); 24] = [
     ("core", &[], &[]),
     ("core/batch", &["etendue"], &[]),
     ("core/c", &["etendue", "etendue-batch"], &[]),
@@ -261,6 +261,7 @@ const ARROWS: [(&str, &[&str], &[&str]); 23] = [
     ("core/shader", &["etendue"], &["etendue-oracle", "etendue-judge"]),
     ("core/shader/device", &[], &[]),
     ("render", &["etendue"], &["etendue-oracle"]),
+    ("render/bits", &["etendue-render", "etendue-scene"], &[]),
     ("render/scene", &["etendue", "etendue-render"], &[]),
     ("render/laboratory", &["etendue-render", "etendue-scene"], &[]),
     ("render/cli", &["etendue-laboratory", "etendue-render", "etendue-scene"], &["etendue-oracle"]),
@@ -408,6 +409,7 @@ fn documents_are_short() {
     let own = [
         ("core/POLICIES.md", 400),
         ("core/CHANGELOG.md", 150),
+        ("render/bits/CHANGELOG.md", 150),
         ("tests/judge/FIELD.md", 600),
         ("tests/judge/README.md", 520),
     ];
