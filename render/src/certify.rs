@@ -5,30 +5,19 @@
 //! something is proved, and leaves the rest of the integrand to another estimator.
 
 mod analytic;
-mod blockers;
 mod bodies;
 mod certifiable;
 mod certificates;
 mod certifier;
 mod closed_forms;
 mod diffuse;
-mod hull;
-#[cfg(test)]
-mod margins;
-mod patch;
 mod picture_irradiance;
-mod precision;
 mod residual;
 mod rough;
-mod scenery;
-mod shaft;
 mod trial;
 mod visible;
 
 pub(crate) use analytic::Analytic;
-pub use blockers::Blocker;
 pub use bodies::Bodies;
 pub(crate) use certifiable::Certifiable;
-pub use certifier::{Certificate, Certifier, MOST};
-pub use patch::{Patch, Pyramid, Viewer};
-pub use precision::{ALLOWED, Precision};
+pub use certifier::{Certifier, patch};

@@ -16,7 +16,7 @@ mod triangle;
 pub use affine::{Affine, Instance};
 pub use bounds::bounds_of;
 pub use disk::Disk;
-pub(crate) use form::{Approach, Extent, NEAR, Solid};
+pub(crate) use form::{Approach, Extent, Hittable, NEAR};
 pub use form::{Chart, Outline};
 pub use parallelogram::Parallelogram;
 #[cfg(feature = "analytic")]
@@ -25,4 +25,4 @@ pub(crate) use points::{Points, on_triangle, on_triangles};
 pub use sphere::Sphere;
 pub(crate) use sphere::across;
 pub use table::Geometry;
-pub(crate) use table::{AnySolid, KINDS, Kind, extent, normals, sample};
+pub(crate) use table::{AnyHittable, KINDS, Kind, extent, normals, sample};

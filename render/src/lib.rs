@@ -37,8 +37,8 @@
 //!
 //! Modules import one way, from the last line of this list to the first:
 //!
-//! - [`packet`], [`area`], [`occlusion`], [`geometry`], [`texture`], [`limits`]: packets of eight numbers, rectangles of pixels, what convex
-//!   blockers leave of a light, the forms of shapes, what varies over them, and how large images can be.
+//! - [`packet`], [`area`], [`geometry`], [`texture`], [`limits`]: packets of eight numbers, rectangles of pixels, the
+//!   forms of shapes, what varies over them, and how large images can be.
 //! - [`intensity`], [`light_picture`], [`light_profile`], [`scene`]: what a scene is, and what its lights show.
 //! - [`sums`], [`film`], [`files`], [`image`], [`compare`]: sums of samples, pixels, and images in files.
 //! - [`bvh`], [`technique`], [`lobe`], [`bsdf`], [`surfaces`]: what rays hit, and how it reflects.
@@ -79,7 +79,6 @@ pub mod lobe;
 #[cfg(feature = "exr")]
 pub mod merge;
 mod named;
-pub mod occlusion;
 pub mod packet;
 #[cfg(feature = "exr")]
 pub mod parts;

@@ -3,12 +3,12 @@
 use etendue_oracle::{V3, along, cross, dot, length, sub, unit, wide};
 use etendue_render::bvh::SHAPE;
 use etendue_render::camera::Pinhole;
-use etendue_render::certify::{Blocker, Bodies, Certificate, Certifier, MOST, Patch, Pyramid, Viewer};
-use etendue_render::occlusion::Convex;
+use etendue_render::certify::{Bodies, Certifier, patch};
 use etendue_render::scene::{
     CameraSettings, Emission, Geometry, Material, Parallelogram, Scene, Screen, Shape, Sphere,
 };
 use etendue_render::surfaces::Surfaces;
+use etendue_visible::{MOST, Proof, Solid, Viewer};
 
 /// Reads bytes as numbers; zeros follow the last.
 struct Input<'a> {
@@ -76,8 +76,7 @@ fn meets_sphere(p: V3, y: V3, center: V3, radius: f64) -> [bool; 2] {
     [least < 1.0 - clear && most > 1.0 + clear, least > 1.0 + clear]
 }
 
-fn parallelogram(p: [f32; 3], u: [f32; 3], v: [f32; 3]) -> [V3; 4] {
-    let [p, u, v] = [p, u, v].map(wide);
+fn parallelogram(p: V3, u: V3, v: V3) -> [V3; 4] {
     [p, along(p, u, 1.0), along(along(p, u, 1.0), v, 1.0), along(p, v, 1.0)]
 }
 
@@ -85,25 +84,22 @@ fn meets(p: V3, y: V3, geometry: &Geometry) -> [bool; 2] {
     match *geometry {
         Geometry::Sphere(Sphere { center, radius }) => meets_sphere(p, y, wide(center), f64::from(radius)),
         Geometry::Triangle(corners) => meets_triangle(p, y, corners.map(wide)),
-        Geometry::Parallelogram(Parallelogram { p: corner, u, v }) => meets_polygon(p, y, &parallelogram(corner, u, v)),
+        Geometry::Parallelogram(Parallelogram { p: corner, u, v }) => {
+            meets_polygon(p, y, &parallelogram(wide(corner), wide(u), wide(v)))
+        }
         ref other => unreachable!("no scene has {other:?}"),
     }
 }
 
-/// May a blocker hide y from p? `body` tells the triangles of a body.
-fn is_listed<I: Iterator<Item = [[f32; 3]; 3]>>(p: V3, y: V3, blockers: &[Blocker], body: impl Fn(u32) -> I) -> bool {
-    blockers.iter().any(|blocker| match *blocker {
-        Blocker::Convex { form: Convex::Sphere { center, radius }, .. } => {
-            !meets_sphere(p, y, wide([center.x, center.y, center.z]), f64::from(radius))[1]
+/// May a solid hide y from p? `body` tells the triangles of a polyhedron.
+fn is_listed<I: Iterator<Item = [[f32; 3]; 3]>>(p: V3, y: V3, solids: &[Solid], body: impl Fn(&Solid) -> I) -> bool {
+    solids.iter().any(|solid| match *solid {
+        Solid::Sphere { center, radius } => !meets_sphere(p, y, center.into(), radius)[1],
+        Solid::Parallelogram { corner, edges: [u, v] } => {
+            !meets_polygon(p, y, &parallelogram(corner.into(), u.into(), v.into()))[1]
         }
-        Blocker::Convex { form: Convex::Parallelogram { corner, edges }, .. } => {
-            let [corner, u, v] = [corner, edges[0], edges[1]].map(|v| [v.x, v.y, v.z]);
-            !meets_polygon(p, y, &parallelogram(corner, u, v))[1]
-        }
-        Blocker::Convex { form: Convex::Polygon { corners, count }, .. } => {
-            !meets_polygon(p, y, &corners.map(|v| wide([v.x, v.y, v.z]))[..count])[1]
-        }
-        Blocker::Body(index) => body(index).any(|t| !meets_triangle(p, y, t.map(wide))[1]),
+        Solid::Polygon { corners, count, .. } => !meets_polygon(p, y, &corners.map(V3::from)[..count])[1],
+        Solid::Polyhedron(_) => body(solid).any(|t| !meets_triangle(p, y, t.map(wide))[1]),
     })
 }
 
@@ -177,7 +173,7 @@ pub fn certificates(bytes: &[u8]) {
     }
     let camera =
         CameraSettings { origin, forward, right, up, is_orthographic: false, screen: Screen::Half(0.364), lens: None };
-    let pyramid = Pyramid::new(&Pinhole::new(&camera, 16, 16), [7.0, 7.0, 9.0, 9.0]);
+    let pyramid = Pinhole::new(&camera, 16, 16).pyramid([7.0, 7.0, 9.0, 9.0]);
     let scene = scene(triangles, shapes, camera);
     let Ok(surfaces) = Surfaces::new(&scene) else { return };
     let viewer = [Viewer::Pixels(&pyramid), Viewer::Pixels(&pyramid), Viewer::Front, Viewer::Back][view];
@@ -188,17 +184,18 @@ pub fn certificates(bytes: &[u8]) {
     } else {
         (0..).zip(surfaces.bvh.order()).find(|(_, id)| **id == 0).map_or(0, |(place, _)| place)
     };
-    let Some(patch) = Patch::of(&surfaces, place, viewer) else { return };
+    let Some(patch) = patch(&surfaces, place, viewer) else { return };
     let bodies = if kind < 12 { Bodies::new(&surfaces.bvh) } else { Bodies::default() };
-    let of_body = |body: u32| {
+    let of_body = |body: &Solid| {
         let bodies = &bodies;
+        let body = bodies.solids().iter().position(|other| other == body).unwrap_or_default() as u32;
         let places = (0..).zip(surfaces.bvh.order()).filter(move |(place, _)| bodies.of(*place) == Some(body));
         places.map(|(_, id)| scene.triangles[*id as usize])
     };
     let mut certifier = Certifier::new(&surfaces, &bodies, [0]);
-    let certificate = certifier.certify(&patch, 0);
-    if let Certificate::Blockers(blockers, _) = certificate {
-        assert!((1..=MOST).contains(&blockers.len()));
+    let (proof, _) = certifier.certify(place, &patch, 0);
+    if let Proof::Behind(solids) = proof {
+        assert!((1..=MOST).contains(&solids.len()));
     }
     let corners: Vec<V3> = patch.corners().collect();
     for _ in 0..24 {
@@ -256,16 +253,13 @@ pub fn certificates(bytes: &[u8]) {
         let all =
             others.map(|(_, t)| meets_triangle(p, y, t.map(wide))).chain(shapes.map(|(_, s)| meets(p, y, &s.geometry)));
         let [met, missed] = all.fold([false, true], |all, one| [all[0] | one[0], all[1] & one[1]]);
-        match certificate {
-            Certificate::Lit(_) => assert!(!met, "{p:?} → {y:?} is occluded, but lit"),
-            Certificate::Dark => assert!(!missed, "{p:?} → {y:?} is visible, but dark"),
-            Certificate::Blockers(blockers, _) => {
-                assert!(
-                    !met || is_listed(p, y, blockers, of_body),
-                    "{p:?} → {y:?} is occluded by none of {blockers:?}"
-                );
+        match proof {
+            Proof::Lit => assert!(!met, "{p:?} → {y:?} is occluded, but lit"),
+            Proof::Dark => assert!(!missed, "{p:?} → {y:?} is visible, but dark"),
+            Proof::Behind(solids) => {
+                assert!(!met || is_listed(p, y, solids, of_body), "{p:?} → {y:?} is occluded by none of {solids:?}");
             }
-            Certificate::Unknown => {}
+            Proof::Open => {}
         }
     }
 }

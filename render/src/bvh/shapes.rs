@@ -5,7 +5,7 @@ use super::node::BuildError;
 use super::rays::{Hits, Rays, SHAPE};
 use super::region::{Placed, Region};
 use super::tree::{Primitives, Tree};
-use crate::geometry::{AnySolid, Approach, Geometry, Solid};
+use crate::geometry::{AnyHittable, Approach, Geometry, Hittable};
 use crate::packet::{M8, X8, equal, pick, select};
 use etendue::{Mask, u32x8};
 use std::ops::Range;
@@ -14,19 +14,19 @@ use std::ops::Range;
 const COSTS: Costs = Costs { most: 4, leaf: 0.0, primitive: 1.0 };
 
 #[derive(Debug)]
-pub(super) struct Solids {
-    solids: Vec<AnySolid>,
+pub(super) struct Hittables {
+    hittables: Vec<AnyHittable>,
     ids: Vec<u32>,
 }
 
 /// All shapes of a scene. Ids are indices into the scene's list; in hits, they have the bit [`SHAPE`] set.
 #[derive(Debug)]
 pub struct ShapeSet {
-    tree: Tree<Solids>,
+    tree: Tree<Hittables>,
     reach: f32,
 }
 
-impl Solids {
+impl Hittables {
     /// The index of each shape in the scene's list, in leaf order.
     pub(super) fn ids(&self) -> &[u32] {
         &self.ids
@@ -46,7 +46,7 @@ impl ShapeSet {
             boxes,
             COSTS,
             |_| (),
-            |_, ids, _| Solids { solids: ids.iter().map(|&i| shapes[i as usize].solid()).collect(), ids },
+            |_, ids, _| Hittables { hittables: ids.iter().map(|&i| shapes[i as usize].hittable()).collect(), ids },
         )?;
         Ok(Self { tree, reach })
     }
@@ -54,12 +54,12 @@ impl ShapeSet {
     pub fn reach(&self) -> f32 {
         self.reach
     }
-    pub(super) fn tree(&self) -> &Tree<Solids> {
+    pub(super) fn tree(&self) -> &Tree<Hittables> {
         &self.tree
     }
 }
 
-impl Primitives for Solids {
+impl Primitives for Hittables {
     #[inline]
     fn test_packet<const ANY: bool>(
         &self,
@@ -70,18 +70,18 @@ impl Primitives for Solids {
         hits: &mut Hits,
     ) -> M8 {
         let mut hidden = M8::splat(false);
-        for (solid, &id) in self.solids[leaf.clone()].iter().zip(&self.ids[leaf]) {
+        for (hittable, &id) in self.hittables[leaf.clone()].iter().zip(&self.ids[leaf]) {
             let place = u32x8::splat(id | SHAPE);
             let Rays { origin, direction, from, .. } = *rays;
             let rays = Approach { origin, direction, own: equal(from, place), limit: hits.distance };
             if ANY {
                 let others = active & !equal(hits.place, place);
                 if others.any() {
-                    hidden = hidden | solid.meet::<true>(&rays).1 & others;
+                    hidden = hidden | hittable.meet::<true>(&rays).1 & others;
                 }
                 continue;
             }
-            let (distance, hit) = solid.meet::<false>(&rays);
+            let (distance, hit) = hittable.meet::<false>(&rays);
             let hit = hit & active;
             hits.distance = select(hit, distance, hits.distance);
             hits.place = pick(hit, place, hits.place);
@@ -90,7 +90,7 @@ impl Primitives for Solids {
     }
 }
 
-impl Placed for Solids {
+impl Placed for Hittables {
     #[inline]
     fn meeting(&self, leaf: &Range<usize>, _region: &Region) -> u32 {
         // shapes are few: the caller tests each

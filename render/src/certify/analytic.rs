@@ -3,16 +3,15 @@
 use super::certifiable::Certifiable;
 use super::certificates::{Certificates, Closed, Known};
 use super::closed_forms::ClosedForms;
-use super::precision::ALLOWED;
 use super::residual::{Left, Residual};
 use crate::bvh::GROUP;
 use crate::camera::Camera;
 use crate::estimate::{Estimator, Group, Place, Plain, Points, Reflected, TileEstimator, Tracer};
-use crate::occlusion::Convex;
 use crate::packet::{M8, V8, X8, each_bit};
 use crate::prepared::PreparedScene;
 use crate::settings::Settings;
-use etendue::{Mask, Real};
+use etendue::{Mask, Real, Vec3};
+use etendue_visible::{ALLOWED, Solid};
 use std::f64::consts::FRAC_1_PI;
 
 /// Adds the light that certificates make known, and leaves the rest to another estimator.
@@ -119,13 +118,15 @@ where
         for (light, known) in self.certificates.lights.iter().zip(&self.certificates.known[first..]) {
             if matches!(known, Known::Lit(_) | Known::Behind(..)) {
                 // the irradiance from a picture is as accurate as where a surface faces it
-                let normal = match (light.closed, &light.form) {
-                    (Closed::Picture(_), Convex::Parallelogram { corner, edges: [u, v] }) => {
-                        (V8::splat(*corner + (*u + *v) * 0.5) - surface.point).normalize()
+                let normal = match (&light.closed, &light.form) {
+                    (Closed::Picture(_), Solid::Parallelogram { corner, edges }) => {
+                        let [corner, u, v] =
+                            [*corner, edges[0], edges[1]].map(|v| -> Vec3<f32> { v.map(|x| x as f32) });
+                        (V8::splat(corner + (u + v) * 0.5) - surface.point).normalize()
                     }
                     _ => surface.normal,
                 };
-                let all = self.forms.part(surface.point, normal, None, &light.form, (&[], &[]));
+                let all = self.forms.part(surface.point, normal, None, &light.form, &[]);
                 sum += V8::from(light.radiance) * all.unwrap_or_default();
             }
         }

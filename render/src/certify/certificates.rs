@@ -4,25 +4,21 @@
 //! (Certificates for single pixels save less time than they take.) A surface seen through a lens, in a mirror or by parallel rays is certified
 //! as a whole. (Squares seen in mirrors would gain little: of the variance of `mirror-room`, the places in the pixels alone cause 97 %.)
 
-use super::blockers::Blocker;
-use super::bodies::Bodies;
 use super::certifiable::Certifiable;
-use super::certifier::{Certificate, Certifier};
-use super::patch::{Patch, Pyramid, Viewer};
+use super::certifier::{Certifier, patch};
 use super::picture_irradiance::PictureIrradiance;
-use super::precision::Precision;
-use super::scenery::{Blocking, Scenery};
 use crate::area::TILE;
 use crate::bvh::{NOTHING, SHAPE};
 use crate::camera::{Camera, Pinhole};
 use crate::estimate::Place;
-use crate::occlusion::Convex;
 use crate::packet::{M8, V8, X8, equal, first_lane};
 use crate::prepared::PreparedScene;
 use crate::settings::Settings;
 use crate::surfaces::{Surface, Surfaces};
 use etendue::{Mask, Real, Vec3, u32x8};
+use etendue_visible::{Patch, Precision, Proof, Solid, Viewer};
 use std::collections::HashMap;
+use std::ops::Range;
 
 /// Sides of the squares of pixels that have certificates of their own. Each square lies within one of the side before.
 const SIDES: [u32; 2] = [TILE, 4];
@@ -36,9 +32,8 @@ const MOST_WHOLE: usize = 1 << 16;
 const SAMPLES_PER_CERTIFICATE: f64 = 160.0;
 
 /// A light with an area.
-#[derive(Clone, Copy)]
 pub(super) struct AreaLight<'a> {
-    pub(super) form: Convex<f32>,
+    pub(super) form: Solid,
     /// Radiance; its mean, if it varies.
     pub(super) radiance: [f32; 3],
     /// How its integral is known.
@@ -62,8 +57,8 @@ pub(super) enum Closed<'a> {
 pub(super) enum Known {
     Lit(Precision),
     Dark,
-    /// Only these can occlude it.
-    Behind(Blocking, Precision),
+    /// Only these of the [`solids`](Certificates::solids) can occlude it.
+    Behind(Range<usize>, Precision),
     /// It is sampled, although its blockers are known.
     Crowded,
     /// It is sampled, unless a smaller patch decides.
@@ -90,7 +85,6 @@ struct Entry {
 /// The certificates of all lights for the surfaces that a tile sees.
 pub(super) struct Certificates<'a> {
     surfaces: &'a Surfaces,
-    bodies: &'a Bodies,
     pub(super) lights: Vec<AreaLight<'a>>,
     certifier: Certifier<'a>,
     /// The camera, if it is a pinhole.
@@ -103,7 +97,7 @@ pub(super) struct Certificates<'a> {
     /// What is known of each light at the places that have certificates. The first of them stands for places where none are worth asking for.
     pub(super) known: Vec<Known>,
     /// What may occlude lights.
-    pub(super) scenery: Scenery<'a>,
+    pub(super) solids: Vec<Solid>,
     /// Certificates are asked for on primitives with at least this area, and this more per squared distance from the camera.
     least: [f64; 2],
     /// The position of the camera.
@@ -115,10 +109,8 @@ pub(super) struct Certificates<'a> {
 /// Whether the visible part of a light is worth computing. More blockers take longer than the samples that they save: with 16, `defocus`
 /// takes twice as long as with 8, for 0.99 times the error, and `cornell-box` and `mirror-room` gain nothing. Two spheres that overlap
 /// have no closed form.
-fn is_clipped(light: &Convex<f32>, blockers: &[Blocker]) -> bool {
-    let is_ball = matches!(light, Convex::Sphere { .. });
-    let spheres = |blocker: &Blocker| matches!(blocker, Blocker::Convex { form: Convex::Sphere { .. }, .. });
-    blockers.len() <= CLIPPED && !(is_ball && blockers.iter().any(spheres))
+fn is_clipped(light: &Solid, blockers: &[Solid]) -> bool {
+    blockers.len() <= CLIPPED && !(light.is_sphere() && blockers.iter().any(Solid::is_sphere))
 }
 
 impl<'a> Certificates<'a> {
@@ -129,7 +121,7 @@ impl<'a> Certificates<'a> {
         camera: &Camera,
         settings: &Settings,
     ) -> Self {
-        let (surfaces, bodies) = (&scene.surfaces, &certifiable.bodies);
+        let surfaces = &scene.surfaces;
         let count = surfaces.light_shapes().count();
         let pixels = SAMPLES_PER_CERTIFICATE * count as f64 / f64::from(settings.spp);
         let (eye, pixel) = camera.middle(settings.width, settings.height);
@@ -142,19 +134,18 @@ impl<'a> Certificates<'a> {
                 None if emission.is_even() && outline.is_exact() => Closed::Constant,
                 None => Closed::No,
             };
-            Some(AreaLight { form: outline.convex(), radiance: emission.radiance, closed })
+            Some(AreaLight { form: outline.solid(), radiance: emission.radiance, closed })
         };
         Self {
             surfaces,
-            bodies,
             lights: surfaces.light_shapes().enumerate().filter_map(light).collect(),
-            certifier: Certifier::new(surfaces, bodies, surfaces.light_shapes()),
+            certifier: Certifier::new(surfaces, &certifiable.bodies, surfaces.light_shapes()),
             pinhole: if let Camera::Pinhole(pinhole) = camera { Some(*pinhole) } else { None },
             origin: [0; 2],
             squares: SIDES.map(|side| (0..(TILE / side).pow(2)).map(|_| Vec::new()).collect()),
             whole: HashMap::new(),
             known: Vec::new(),
-            scenery: Scenery::default(),
+            solids: Vec::new(),
             least: pixel.map(|area| pixels * area),
             eye,
             worth: (NOTHING, false),
@@ -172,7 +163,7 @@ impl<'a> Certificates<'a> {
         self.whole.clear();
         self.known.clear();
         self.known.extend(self.lights.iter().map(|_| Known::Never));
-        self.scenery.clear();
+        self.solids.clear();
     }
 
     /// Whether certificates are worth asking for on a primitive: whether it is so near and so large that, seen from the front, the camera
@@ -246,9 +237,9 @@ impl<'a> Certificates<'a> {
         let first = if open {
             let [x, y] = [column, row].map(|k| k * side);
             let [x, y] = [self.origin[0] + x, self.origin[1] + y].map(f64::from);
-            let pyramid = Pyramid::new(pinhole, [x, y, x + f64::from(side), y + f64::from(side)]);
-            let patch = Patch::of(self.surfaces, place, Viewer::Pixels(&pyramid));
-            self.certify(patch.as_ref(), larger)
+            let pyramid = pinhole.pyramid([x, y, x + f64::from(side), y + f64::from(side)]);
+            let patch = patch(self.surfaces, place, Viewer::Pixels(&pyramid));
+            self.certify(place, patch.as_ref(), larger)
         } else {
             larger.unwrap_or(0)
         };
@@ -262,38 +253,42 @@ impl<'a> Certificates<'a> {
             return first;
         }
         let viewer = if front { Viewer::Front } else { Viewer::Back };
-        let patch = Patch::of(self.surfaces, place, viewer);
-        let first = self.certify(patch.as_ref(), None);
+        let patch = patch(self.surfaces, place, viewer);
+        let first = self.certify(place, patch.as_ref(), None);
         self.whole.insert((place, front), first);
         first
     }
 
     /// Appends the certificates of all lights for a patch, and returns the index of the first. What a larger patch has decided, by its
     /// certificates from `larger`, stays.
-    fn certify(&mut self, patch: Option<&Patch>, larger: Option<usize>) -> usize {
-        let Self { bodies, lights, certifier, known, scenery, .. } = self;
+    fn certify(&mut self, place: u32, patch: Option<&Patch>, larger: Option<usize>) -> usize {
+        let Self { lights, certifier, known, solids, .. } = self;
         let first = known.len();
         for light in 0..lights.len() {
             let before = larger.map_or(Known::Nothing, |larger| known[larger + light].clone());
-            let certificate = match patch {
+            let (proof, precision) = match patch {
                 Some(patch) if !matches!(before, Known::Lit(_) | Known::Dark | Known::Never) => {
-                    certifier.certify(patch, light)
+                    certifier.certify(place, patch, light)
                 }
                 _ => {
                     known.push(before);
                     continue;
                 }
             };
-            known.push(match certificate {
+            let is_open = matches!(lights[light].closed, Closed::No);
+            known.push(match proof {
+                Proof::Dark => Known::Dark,
+                Proof::Open => before,
                 // a smaller patch is not darker
-                Certificate::Lit(_) if matches!(lights[light].closed, Closed::No) => Known::Never,
-                Certificate::Blockers(..) if matches!(lights[light].closed, Closed::No) => Known::Crowded,
-                Certificate::Lit(Precision::Neither) | Certificate::Blockers(_, Precision::Neither) => Known::Crowded,
-                Certificate::Dark => Known::Dark,
-                Certificate::Lit(precision) => Known::Lit(precision),
-                Certificate::Unknown => before,
-                Certificate::Blockers(found, _) if !is_clipped(&lights[light].form, found) => Known::Crowded,
-                Certificate::Blockers(found, precision) => Known::Behind(scenery.push(found, bodies), precision),
+                Proof::Lit if is_open => Known::Never,
+                _ if is_open || precision == Precision::Neither => Known::Crowded,
+                Proof::Lit => Known::Lit(precision),
+                Proof::Behind(found) if !is_clipped(&lights[light].form, found) => Known::Crowded,
+                Proof::Behind(found) => {
+                    let first = solids.len();
+                    solids.extend_from_slice(found);
+                    Known::Behind(first..solids.len(), precision)
+                }
             });
         }
         first

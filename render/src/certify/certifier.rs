@@ -1,41 +1,19 @@
-//! What geometry alone tells about the light that reaches part of a surface, without rays.
-//!
-//! A [`Patch`] bounds the shading points of a rectangle of pixels on one primitive. A [`Certifier`] searches the tree for what may meet
-//! the shaft between a patch and a light: the segments from any shading point to any point of the light that is above its horizon. Bounds
-//! are computed in double precision, and are wider than the rounding of shading points, of points on lights and of directions.
-//!
-//! A shaft is an intersection of half-spaces. Any half-space that contains patch and light contains the shaft, so that their choice
-//! affects only how narrow it is.
+//! What is proved of the lights of a scene, as its parts see them: the prover of `etendue-visible`, with this renderer's tree and shapes.
 
-use super::blockers::{Blocker, Candidate};
 use super::bodies::Bodies;
-use super::patch::Patch;
-use super::precision::{Behind, Precision};
-use super::shaft::{Facing, Form, Lamp, Shaft};
 use crate::bvh::{Region, SHAPE};
-use crate::occlusion::Occlusion;
+use crate::geometry::{Geometry, LEAST, LIFT, Outline};
 use crate::surfaces::Surfaces;
-use etendue::f64x8;
+use etendue_visible::{Lift, Light, Occluder, Patch, Precision, Proof, Prover, Solid, Viewer};
 
-/// Greatest number of blockers in a certificate.
-pub const MOST: usize = 16;
-/// Greatest number of primitives that may meet a shaft, before triangles are merged.
-const CANDIDATES: usize = 32;
 /// Greatest number of nodes that a search visits.
 const NODES: usize = 160;
 
-/// What geometry alone tells about a light as seen from a patch.
-#[derive(Clone, Copy, Debug)]
-pub enum Certificate<'a> {
-    /// Nothing lies between any point of the patch and any point of the light above its horizon. A closed form of this precision is accurate.
-    Lit(Precision),
-    /// No point of the light is visible from any point of the patch: something convex covers it, or it lies below the horizon, or its back
-    /// faces the patch.
-    Dark,
-    /// Only these can occlude the light, at most [`MOST`]. A closed form of this precision is accurate.
-    Blockers(&'a [Blocker], Precision),
-    /// There are too many blockers, or nothing is proved.
-    Unknown,
+/// A light, and the index of its shape.
+#[derive(Debug)]
+struct ShapeLight {
+    shape: u32,
+    light: Light,
 }
 
 /// Certifies lights, with reused memory.
@@ -43,142 +21,84 @@ pub enum Certificate<'a> {
 pub struct Certifier<'a> {
     surfaces: &'a Surfaces,
     bodies: &'a Bodies,
-    lamps: Vec<Option<Lamp>>,
+    lights: Vec<Option<ShapeLight>>,
     region: Region,
-    shaft: Shaft,
     stack: Vec<u32>,
-    candidates: Vec<Candidate>,
-    /// Bodies that may meet the shaft, and whether they can stand for their triangles.
-    met: Vec<(u32, bool)>,
-    blockers: Vec<Blocker>,
-    /// For lights without blockers.
-    occlusion: Box<Occlusion<f64x8>>,
+    prover: Prover,
+}
+
+/// The part of a primitive that a viewer sees, regardless of occlusion. `place` is as in the hits of rays. `None` if there is no such part,
+/// and for what is not supported: shapes but spheres, spheres from inside, triangles without area, and triangles seen edge-on.
+pub fn patch(surfaces: &Surfaces, place: u32, viewer: Viewer<'_>) -> Option<Patch> {
+    let lift = Lift { relative: LIFT, least: LEAST * f64::from(surfaces.bvh.reach()) };
+    match outline(surfaces, place) {
+        Outline::Exact(Solid::Sphere { center, radius }) => Patch::sphere(center, radius, viewer, lift),
+        Outline::Exact(Solid::Polygon { corners: [a, b, c, _], .. }) if place & SHAPE == 0 => {
+            Patch::triangle([a, b, c], viewer, lift)
+        }
+        _ => None,
+    }
+}
+
+/// What the primitive at a place is, or is within.
+fn outline(surfaces: &Surfaces, place: u32) -> Outline {
+    if place & SHAPE == 0 {
+        let c = surfaces.bvh.corners(place);
+        return Geometry::Triangle([[c[0], c[1], c[2]], [c[3], c[4], c[5]], [c[6], c[7], c[8]]]).outline();
+    }
+    surfaces.shapes()[(place & !SHAPE) as usize].geometry.outline()
 }
 
 impl<'a> Certifier<'a> {
     /// For lights that are shapes of these indices. [`Surfaces::light_shapes`] lists all of them.
     pub fn new(surfaces: &'a Surfaces, bodies: &'a Bodies, lights: impl IntoIterator<Item = u32>) -> Self {
-        let lamp = |index: u32| Lamp::new(surfaces.shapes().get(index as usize)?, index);
+        let light = |shape: u32| {
+            let of = surfaces.shapes().get(shape as usize)?;
+            let light = Light::new(of.geometry.outline().solid(), of.emission?.two_sided)?;
+            Some(ShapeLight { shape, light })
+        };
+        let reach = surfaces.bvh.reach();
         Self {
             surfaces,
             bodies,
-            lamps: lights.into_iter().map(lamp).collect(),
-            region: Region::new(surfaces.bvh.reach()),
-            shaft: Shaft::default(),
+            lights: lights.into_iter().map(light).collect(),
+            region: Region::new(reach),
             stack: Vec::with_capacity(256),
-            candidates: Vec::with_capacity(CANDIDATES),
-            met: Vec::with_capacity(MOST),
-            blockers: Vec::with_capacity(MOST),
-            occlusion: Box::default(),
+            prover: Prover::new(reach.into()),
         }
     }
-    /// What is known about a light, by its index in the list, as seen from a patch.
-    pub fn certify(&mut self, patch: &Patch, light: usize) -> Certificate<'_> {
-        let Some(Some(lamp)) = self.lamps.get(light) else { return Certificate::Unknown };
-        if patch.place == lamp.shape | SHAPE {
+    /// What is proved of a light, by its index in the list, as seen from a patch of the primitive at `place`, and in which precision its
+    /// closed form is accurate.
+    pub fn certify(&mut self, place: u32, patch: &Patch, light: usize) -> (Proof<'_>, Precision) {
+        let Self { surfaces, bodies, lights, region, stack, prover } = self;
+        let Some(Some(ShapeLight { shape, light })) = lights.get(light) else {
+            return (Proof::Open, Precision::default());
+        };
+        let own = [place, shape | SHAPE];
+        if own[0] == own[1] {
             // a convex light is below the horizon of each of its own points
-            return Certificate::Dark;
+            return (Proof::Dark, Precision::default());
         }
-        let Self { surfaces, bodies, region, shaft, stack, candidates, met, blockers, occlusion, .. } = self;
-        match shaft.set(patch, lamp, surfaces.bvh.reach(), region) {
-            Facing::Towards => {}
-            Facing::Away => return Certificate::Dark,
-            Facing::Unknown => return Certificate::Unknown,
-        }
-        candidates.clear();
-        met.clear();
-        let mut has_gaps = false;
-        let complete = surfaces.bvh.search(region, stack, NODES, |place| {
-            if place == patch.place || place == lamp.shape | SHAPE {
-                return true;
-            }
-            let outline = Candidate::outline(surfaces, place);
-            let candidate = Candidate::of(outline.convex());
-            if candidate.misses(shaft, outline.is_exact()) {
-                return true;
-            }
-            // what has holes, or is not all of its outline, may hide the light, or not
-            if !outline.is_exact() || place & SHAPE == 0 && surfaces.bvh.is_cut_out(place) {
-                has_gaps = true;
-                return true;
-            }
-            if let Some(body) = bodies.of(place) {
-                let known = met.iter().find(|met| met.0 == body).copied();
-                let (_, serves) = known.unwrap_or_else(|| {
-                    met.push((body, bodies.serves(body, patch.place, shaft)));
-                    met[met.len() - 1]
-                });
-                if serves {
+        let own_body = bodies.of(place);
+        let seen = prover.prove(patch, light, |within, found| {
+            region.clear();
+            within.half_spaces().iter().for_each(|&(normal, limit)| region.push(normal.into(), limit));
+            surfaces.bvh.search(region, stack, NODES, |place| {
+                if own.contains(&place) {
                     return true;
                 }
-            }
-            candidates.push(candidate);
-            candidates.len() < CANDIDATES
+                found(match outline(surfaces, place) {
+                    Outline::Within(solid) => Occluder::Within(solid),
+                    Outline::Exact(solid) if place & SHAPE == 0 && surfaces.bvh.is_cut_out(place) => {
+                        Occluder::Within(solid)
+                    }
+                    Outline::Exact(solid) => match bodies.of(place).filter(|&body| own_body != Some(body)) {
+                        Some(body) => Occluder::Face(solid, &bodies.solids()[body as usize]),
+                        None => Occluder::Whole(solid),
+                    },
+                })
+            })
         });
-        let complete = complete && !has_gaps;
-        met.retain(|met| met.1);
-        let mut precision = |behind: &Behind| {
-            let form = surfaces.shapes()[lamp.shape as usize].geometry.outline().convex();
-            Precision::of(patch, lamp, &form, behind, occlusion)
-        };
-        if complete && candidates.is_empty() && met.is_empty() {
-            return Certificate::Lit(precision(&Behind::default()));
-        }
-        let is_ball = matches!(lamp.form, Form::Ball);
-        if is_ball && candidates.iter().any(|candidate| candidate.touches(&shaft.light, shaft.epsilon)) {
-            return Certificate::Unknown;
-        }
-        if met.iter().any(|met| bodies.covers(met.0, shaft)) {
-            return Certificate::Dark;
-        }
-        if !complete {
-            return if any_covers(candidates, shaft) { Certificate::Dark } else { Certificate::Unknown };
-        }
-        merge(candidates);
-        if candidates.iter().any(|candidate| candidate.covers(shaft)) {
-            return Certificate::Dark;
-        }
-        if candidates.len() + met.len() > MOST || !candidates.iter().all(|candidate| candidate.is_outside(shaft)) {
-            return Certificate::Unknown;
-        }
-        blockers.clear();
-        blockers.extend(met.iter().map(|met| Blocker::Body(met.0)));
-        blockers.extend(candidates.iter().map(|candidate| candidate.blocker(shaft)));
-        let behind = behind(candidates, met, bodies, patch);
-        Certificate::Blockers(blockers, precision(&behind))
-    }
-}
-
-/// What matters of these blockers for the precision of a closed form.
-fn behind(candidates: &[Candidate], met: &[(u32, bool)], bodies: &Bodies, patch: &Patch) -> Behind {
-    Behind {
-        blockers: candidates.len() + met.len(),
-        spheres: candidates.iter().filter(|candidate| matches!(candidate, Candidate::Ball(..))).count(),
-        displacement: met.iter().map(|met| bodies.displacement(met.0, &patch.hull)).sum::<f64>()
-            + candidates.iter().map(|candidate| candidate.displacement(&patch.hull)).sum::<f64>(),
-        stretch: met.iter().map(|met| bodies.stretch(met.0, &patch.hull) - 1.0).sum::<f64>()
-            + candidates.iter().map(|candidate| candidate.stretch(&patch.hull) - 1.0).sum::<f64>(),
-        flush: candidates.iter().any(|candidate| candidate.is_flush(&patch.hull)),
-    }
-}
-
-/// Does a candidate cover the light, alone or merged with another? Only those between the centres need to be tried.
-fn any_covers(candidates: &[Candidate], shaft: &Shaft) -> bool {
-    candidates.iter().filter(|candidate| candidate.is_central(shaft)).any(|candidate| {
-        let merged = || candidates.iter().filter_map(|other| candidate.merged(other));
-        candidate.covers(shaft) || merged().any(|merged| merged.covers(shaft))
-    })
-}
-
-/// Merges pairs of triangles.
-fn merge(candidates: &mut Vec<Candidate>) {
-    let mut i = 0;
-    while i < candidates.len() {
-        let found = (i + 1..candidates.len()).find_map(|k| Some((k, candidates[i].merged(&candidates[k])?)));
-        if let Some((k, merged)) = found {
-            candidates[i] = merged;
-            candidates.swap_remove(k);
-        }
-        i += 1;
+        (seen.proof, seen.precision)
     }
 }

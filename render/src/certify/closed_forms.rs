@@ -1,11 +1,10 @@
 //! Closed forms of the visible part of a light, in single and in double precision, for packets of single precision.
 
-use super::scenery::{Blocking, Scenery};
 use super::visible::Visible;
-use crate::occlusion::{Convex, Occlusion, Polyhedron};
 use crate::packet::{V8, X8, widen, widen_points};
 use etendue::f64x8;
 use etendue::reflection::Reflection;
+use etendue_visible::{Occlusion, Solid};
 
 /// Computes closed forms, and holds the memory for it.
 #[derive(Default)]
@@ -16,19 +15,19 @@ pub(super) struct ClosedForms {
 }
 
 impl ClosedForms {
-    /// As of [`Occlusion::visible_past`], or with a lobe of [`Occlusion::reflected`], in single precision.
+    /// As of [`Occlusion::visible`], or with a lobe of [`Occlusion::reflected`], in single precision.
     pub(super) fn part(
         &mut self,
         point: V8,
         normal: V8,
         lobe: Option<&Reflection<X8>>,
-        light: &Convex<f32>,
-        (forms, bodies): (&[Convex<f32>], &[Polyhedron<'_, f32>]),
+        light: &Solid,
+        blockers: &[Solid],
     ) -> Option<X8> {
         let occlusion = &mut self.visible.one;
         match lobe {
-            Some(lobe) => occlusion.reflected(point, normal, lobe, light, forms, bodies),
-            None => occlusion.visible_past(point, normal, light, forms, bodies),
+            Some(lobe) => occlusion.reflected(point, normal, lobe, light, blockers),
+            None => occlusion.visible(point, normal, light, blockers),
         }
     }
     /// The same in double precision.
@@ -37,17 +36,14 @@ impl ClosedForms {
         point: V8,
         normal: V8,
         lobe: Option<&Reflection<X8>>,
-        light: &Convex<f32>,
-        (scenery, blocking): (&Scenery<'_>, &Blocking),
+        light: &Solid,
+        blockers: &[Solid],
     ) -> Option<X8> {
-        let light = light.map(f64::from);
-        let forms = &scenery.exact_forms[blocking.forms.clone()];
-        let bodies = &scenery.exact_bodies[blocking.bodies.clone()];
         let occlusion = self.exact.get_or_insert_default();
         let (point, normal) = (widen_points(point), widen_points(normal));
         let visible = match lobe {
-            Some(lobe) => occlusion.reflected(point, normal, &lobe.map(widen), &light, forms, bodies)?,
-            None => occlusion.visible_past(point, normal, &light, forms, bodies)?,
+            Some(lobe) => occlusion.reflected(point, normal, &lobe.map(widen), light, blockers)?,
+            None => occlusion.visible(point, normal, light, blockers)?,
         };
         Some(X8::from(visible.to_array().map(|part| part as f32)))
     }

@@ -3,14 +3,13 @@
 use super::analytic::Analytic;
 use super::certificates::{Closed, Known};
 use super::picture_irradiance::PictureIrradiance;
-use super::precision::Precision;
-use super::scenery::Blocking;
 use super::visible::Ask;
 use crate::bvh::GROUP;
 use crate::estimate::{Group, Proof, product};
 use crate::packet::{M8, V8, X8, first_lane, select};
 use crate::surfaces::Surface;
 use etendue::{Mask, Real};
+use etendue_visible::Precision;
 use std::f64::consts::FRAC_1_PI;
 
 /// The certificates for a group of packets.
@@ -117,7 +116,7 @@ impl<E> Analytic<'_, E> {
     /// Adds the irradiance from a light to the sums.
     fn add_light(&mut self, light: usize, group: &Group<'_>, found: &Found, sums: &mut [V8; GROUP]) -> bool {
         let seen = self.see(light, group, found);
-        let of = self.certificates.lights[light];
+        let of = &self.certificates.lights[light];
         let mut remains = false;
         for (p, surface) in group.reflecting() {
             let mut remaining = seen.remaining[p];
@@ -131,8 +130,7 @@ impl<E> Analytic<'_, E> {
             } else {
                 let mut part = seen.part[p] + seen.all[p].keep(seen.lit[p]);
                 if seen.lit_exactly[p].any() {
-                    let scenery = (&self.certificates.scenery, &Blocking::NONE);
-                    let all = self.forms.exact_part(surface.point, surface.normal, None, &of.form, scenery);
+                    let all = self.forms.exact_part(surface.point, surface.normal, None, &of.form, &[]);
                     part += all.unwrap_or_default().keep(seen.lit_exactly[p]);
                 }
                 sums[p] += V8::from(of.radiance) * part;
@@ -149,7 +147,7 @@ impl<E> Analytic<'_, E> {
         let mut seen =
             Seen { remaining: found.sampled, lit: none, lit_exactly: none, behind: none, part: zero, all: zero };
         let (certificates, forms) = (&self.certificates, &mut self.forms);
-        let (scenery, of) = (&certificates.scenery, &certificates.lights[light]);
+        let (solids, of) = (&certificates.solids[..], &certificates.lights[light]);
         for (p, surface) in group.reflecting() {
             for (first, lanes) in &found.parts[p][..found.counts[p]] {
                 match &certificates.known[first + light] {
@@ -157,34 +155,34 @@ impl<E> Analytic<'_, E> {
                     Known::Lit(_) => seen.lit[p] = seen.lit[p] | *lanes,
                     Known::Dark => {}
                     Known::Crowded | Known::Nothing | Known::Never => seen.remaining[p] = seen.remaining[p] | *lanes,
-                    Known::Behind(blocking, precision) => {
+                    Known::Behind(behind, precision) => {
                         // the other lanes repeat one of these: what is not seen from here does not matter
                         let lane = first_lane(*lanes);
                         let repeat = |v: V8| V8::blend(*lanes, v, V8::splat(v.lane(lane)));
                         let (point, normal) = (repeat(surface.point), repeat(surface.normal));
-                        let ask = Ask { packet: p, lanes: *lanes, point, normal, blocking: blocking.clone() };
+                        let ask = Ask { packet: p, lanes: *lanes, point, normal, behind: behind.clone() };
                         if *precision == Precision::Double {
-                            let part = forms.exact_part(point, normal, None, &of.form, (scenery, blocking));
+                            let part = forms.exact_part(point, normal, None, &of.form, &solids[behind.clone()]);
                             seen.take(&ask, part);
                         } else {
-                            forms.visible.add(ask, &of.form, scenery, |ask, part| seen.take(ask, part));
+                            forms.visible.add(ask, &of.form, solids, |ask, part| seen.take(ask, part));
                         }
                     }
                 }
             }
         }
-        forms.visible.finish(&of.form, scenery, |ask, part| seen.take(ask, part));
+        forms.visible.finish(&of.form, solids, |ask, part| seen.take(ask, part));
         for (p, surface) in group.reflecting() {
             let lanes = if matches!(of.closed, Closed::Picture(_)) { seen.behind[p] } else { seen.lit[p] };
             if lanes.any() {
                 let Surface { point, normal, .. } = *surface;
-                let ask = Ask { packet: p, lanes, point, normal, blocking: Blocking::NONE };
+                let ask = Ask { packet: p, lanes, point, normal, behind: 0..0 };
                 let all = &mut seen.all;
-                forms.visible.add(ask, &of.form, scenery, |ask, found| all[ask.packet] = found.unwrap_or_default());
+                forms.visible.add(ask, &of.form, solids, |ask, found| all[ask.packet] = found.unwrap_or_default());
             }
         }
         let all = &mut seen.all;
-        forms.visible.finish(&of.form, scenery, |ask, found| all[ask.packet] = found.unwrap_or_default());
+        forms.visible.finish(&of.form, solids, |ask, found| all[ask.packet] = found.unwrap_or_default());
         seen
     }
 }

@@ -5,10 +5,9 @@
 //! which is the exact integral of the picture times its Lagrange polynomial. Where the picture is too near, its halves are taken, and so on:
 //! those of a box are on the longer of its sides.
 
-use crate::geometry::{Geometry, Outline};
+use crate::geometry::{Geometry, Parallelogram};
 use crate::light_picture::LightPicture;
 use crate::limits::MOST_RADIANCE;
-use crate::occlusion::Convex;
 use crate::packet::{M8, V8, X8};
 use crate::texture::Picture;
 use etendue::{Mask, Real, Vec3};
@@ -193,7 +192,8 @@ impl PictureIrradiance {
     /// interpolated.
     #[must_use]
     pub(super) fn new(shown: &LightPicture, geometry: &Geometry) -> Option<Self> {
-        let Outline::Exact(Convex::Parallelogram { corner, edges: [u, v] }) = geometry.outline() else { return None };
+        let Geometry::Parallelogram(Parallelogram { p: corner, u, v }) = *geometry else { return None };
+        let [corner, u, v] = [corner, u, v].map(Vec3::<f32>::from);
         let mirrored = shown.whole(geometry)?;
         let Picture { texels, bilinear, .. } = &shown.picture;
         let size = [texels.width, texels.height];

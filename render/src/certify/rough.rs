@@ -3,14 +3,13 @@
 
 use super::analytic::Analytic;
 use super::certificates::{AreaLight, Closed, Known};
-use super::precision::Precision;
-use super::scenery::Blocking;
 use crate::estimate::{Place, product};
 use crate::lobe::Lobe;
 use crate::packet::{M8, V8, X8, first_lane};
 use crate::surfaces::Surface;
 use etendue::reflection::Reflection;
 use etendue::{Mask, Real};
+use etendue_visible::Precision;
 use std::f64::consts::FRAC_1_PI;
 
 /// Greatest error of a closed form, as a fraction of what the light covers of the lobe, and of [`SLIVER`]. Measured by
@@ -55,12 +54,12 @@ impl<E> Analytic<'_, E> {
 
     /// What the fits in some lanes, whose certificates begin at `first`, reflect of a light, if that is known.
     fn fit(&mut self, surface: &Surface, lobe: &Lobe, lanes: M8, first: usize, light: usize) -> Option<V8> {
-        let (blocking, precision) = match &self.certificates.known[first + light] {
-            Known::Lit(_) => (&Blocking::NONE, Precision::Single),
-            Known::Behind(blocking, precision) => (blocking, *precision),
+        let (behind, precision) = match &self.certificates.known[first + light] {
+            Known::Lit(_) => (0..0, Precision::Single),
+            Known::Behind(behind, precision) => (behind.clone(), *precision),
             _ => return None,
         };
-        let AreaLight { form, radiance, closed } = self.certificates.lights[light];
+        let AreaLight { form, radiance, closed } = &self.certificates.lights[light];
         if !matches!(closed, Closed::Constant) {
             return None;
         }
@@ -70,15 +69,15 @@ impl<E> Analytic<'_, E> {
         let (point, normal) = (of(surface.point), of(surface.normal));
         let one = Reflection::splat(lobe.reflection.map(|x| x.lane(lane)));
         let reflection = Reflection::blend(lanes, lobe.reflection, one);
-        let (forms, scenery) = (&mut self.forms, &self.certificates.scenery);
+        let (forms, blockers) = (&mut self.forms, &self.certificates.solids[behind]);
         let mut part = |lobe: Option<&Reflection<X8>>| match precision {
-            Precision::Double => forms.exact_part(point, normal, lobe, &form, (scenery, blocking)),
-            _ => forms.part(point, normal, lobe, &form, scenery.of(blocking)),
+            Precision::Double => forms.exact_part(point, normal, lobe, form, blockers),
+            _ => forms.part(point, normal, lobe, form, blockers),
         };
         let shine = part(Some(&reflection))?;
         let diffuse = if (lobe.coats & lanes).any() { part(None)? } else { X8::default() };
         let all = (lobe.specular * shine + lobe.diffuse * diffuse) * X8::lit(FRAC_1_PI);
-        Some(product(all, V8::from(radiance)))
+        Some(product(all, V8::from(*radiance)))
     }
 
     /// A bound of the error of what [`add_fits`](Self::add_fits) adds at the surface in the first lane.
@@ -87,10 +86,10 @@ impl<E> Analytic<'_, E> {
         let mut sum = V8::default();
         for light in 0..self.certificates.lights.len() {
             if first > 0 && self.fit(surface, lobe, M8::from_bits(1), first, light).is_some() {
-                let AreaLight { form, radiance, .. } = self.certificates.lights[light];
-                let shine = self.forms.part(surface.point, surface.normal, Some(&lobe.reflection), &form, (&[], &[]));
+                let AreaLight { form, radiance, .. } = &self.certificates.lights[light];
+                let shine = self.forms.part(surface.point, surface.normal, Some(&lobe.reflection), form, &[]);
                 let shine = shine.unwrap_or_default() + X8::lit(SLIVER);
-                sum += product(lobe.specular + lobe.diffuse, V8::from(radiance)) * shine;
+                sum += product(lobe.specular + lobe.diffuse, V8::from(*radiance)) * shine;
             }
         }
         sum * X8::lit(FRAC_1_PI * ALLOWED)

@@ -4,10 +4,10 @@ use crate::bvh::{NOTHING, Scratch};
 use crate::camera::Camera;
 use crate::claim::Specks;
 use crate::geometry::across;
-use crate::occlusion::SPARED;
 use crate::packet::{M8, V8, X8};
 use crate::prepared::PreparedScene;
 use etendue::{Mask, Real, Vec3, u32x8};
+use etendue_visible::SPARED;
 use rayon::prelude::*;
 use std::f64::consts::PI;
 

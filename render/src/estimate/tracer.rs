@@ -2,9 +2,9 @@
 
 use super::points::keep;
 use crate::bvh::{Bvh, GROUP, NOTHING, Rays, Scratch};
-use crate::occlusion::SPARED;
 use crate::packet::{M8, V8, X8};
 use etendue::{Mask, Real, u32x8};
+use etendue_visible::SPARED;
 use std::ops::AddAssign;
 
 /// Numbers of rays traced for an image.

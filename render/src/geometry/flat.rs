@@ -1,6 +1,6 @@
 //! What flat forms have in common.
 
-use super::form::{Approach, NEAR, Solid};
+use super::form::{Approach, Hittable, NEAR};
 use crate::packet::{M8, V8, X8, each_bit, select};
 use crate::technique::Measure;
 use etendue::light::{FlatLight, Picture};
@@ -26,7 +26,7 @@ impl Plane {
         let exact = [Vec3::from(point.map(f64::from)), normal];
         Self { point, normal: narrow(normal), exact, near: (extent * NEAR) as f32 }
     }
-    /// As of [`Solid::meet`], for the part of the plane whose points, relative to the point of the plane, are `inside`.
+    /// As of [`Hittable::meet`], for the part of the plane whose points, relative to the point of the plane, are `inside`.
     #[inline(always)]
     pub(super) fn meet<const ANY: bool>(&self, rays: &Approach, inside: impl FnOnce(V8) -> M8) -> (X8, M8) {
         let (zero, one) = (X8::lit(0.0), X8::lit(1.0));
@@ -64,7 +64,7 @@ impl<const TRIANGLE: bool> Edged<TRIANGLE> {
     }
 }
 
-impl<const TRIANGLE: bool> Solid for Edged<TRIANGLE> {
+impl<const TRIANGLE: bool> Hittable for Edged<TRIANGLE> {
     #[inline(always)]
     fn meet<const ANY: bool>(&self, rays: &Approach) -> (X8, M8) {
         let (zero, one) = (X8::lit(0.0), X8::lit(1.0));

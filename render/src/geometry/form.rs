@@ -1,19 +1,19 @@
 //! What the renderer asks of the form of a shape. Each form is a file, which answers all of it.
 
 use super::points::Points;
-use crate::occlusion::Convex;
 use crate::packet::{M8, V8, X8};
 use crate::spread::Spread;
 use crate::technique::Measure;
 use etendue::light::Picture;
 use etendue::{LightSample, Mask, Real, Vec2, Vec3};
+use etendue_visible::Solid;
 
 /// The form of a shape: where it is, how rays meet it, how it is sampled as a light, and what stands for it in closed forms.
 ///
 /// A light is kept as three vectors, whose meaning each form chooses, so that the lanes of a packet hold lights of any form.
 pub(crate) trait Form: Sized {
     /// The form, prepared for rays.
-    type Solid: Solid;
+    type Hittable: Hittable;
     /// How its points are found in a picture that it shows; `None` if it shows none, and emits the mean of a picture everywhere.
     const CHART: Option<Chart> = None;
     /// Its greatest area as seen from far away, as a part of the area of its surface.
@@ -33,7 +33,7 @@ pub(crate) trait Form: Sized {
     fn halves(&self, direction: Vec3<f64>) -> [Vec3<f64>; 2];
 
     /// Prepares the form for rays.
-    fn solid(&self) -> Self::Solid;
+    fn hittable(&self) -> Self::Hittable;
     /// The outward normals at points of the surface, of any length.
     #[cfg(feature = "analytic")]
     #[inline(always)]
@@ -91,7 +91,7 @@ pub(crate) trait Form: Sized {
         // wider than the rounding of its centre and radius
         let (center, radius) = ((low + high) * 0.5, (high - low).length() * 0.5);
         let radius = (radius + center.max_abs() * 1e-6) * (1.0 + 1e-6);
-        Outline::Within(Convex::Sphere { center: center.map(|x| x as f32), radius: radius as f32 })
+        Outline::Within(Solid::Sphere { center: center.map(|x| f64::from(x as f32)), radius: f64::from(radius as f32) })
     }
 
     /// The unit normal of a flat form; 0 for a curved one.
@@ -102,23 +102,23 @@ pub(crate) trait Form: Sized {
 }
 
 /// What closed forms take a shape for.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Outline {
     /// The shape is this one.
-    Exact(Convex<f32>),
+    Exact(Solid),
     /// The shape is somewhere within this one, so its light is only sampled; but where that is dark or hidden, so is the shape.
-    Within(Convex<f32>),
+    Within(Solid),
 }
 
 impl Outline {
     /// The shape, or what it is within.
-    pub const fn convex(self) -> Convex<f32> {
+    pub fn solid(self) -> Solid {
         match self {
-            Self::Exact(convex) | Self::Within(convex) => convex,
+            Self::Exact(solid) | Self::Within(solid) => solid,
         }
     }
     /// Whether this is all of the shape, and nothing else.
-    pub const fn is_exact(self) -> bool {
+    pub const fn is_exact(&self) -> bool {
         matches!(self, Self::Exact(_))
     }
 }
@@ -157,7 +157,7 @@ pub(crate) struct Approach {
 }
 
 /// A form, prepared for rays.
-pub(crate) trait Solid {
+pub(crate) trait Hittable {
     /// Distances at which the rays hit it, and the lanes where these are positive and less than the limit. With `ANY`, hits near the limit
     /// are decided in double precision, too.
     fn meet<const ANY: bool>(&self, rays: &Approach) -> (X8, M8);

@@ -1,13 +1,13 @@
 //! Spheres. As lights, they are the centre, and the radius in x of the second vector.
 
-use super::form::{Approach, Chart, Extent, Form, NEAR, Outline, Solid, wide};
+use super::form::{Approach, Chart, Extent, Form, Hittable, NEAR, Outline, wide};
 use super::points::{D8, Points, each, facing, lifted, unit, zero};
-use crate::occlusion::Convex;
 use crate::packet::{M8, V8, X8, each_bit, max, select, widen};
 use crate::spread::Spread;
 use crate::technique::Measure;
 use etendue::light::{self, Picture};
 use etendue::{Frame, LightSample, LightSampler, Mask, Real, Vec2, Vec3, f64x8};
+use etendue_visible::Solid;
 use std::f64::consts::PI;
 
 /// A whole sphere; its normal points outwards.
@@ -38,7 +38,7 @@ impl Sphere {
 }
 
 impl Form for Sphere {
-    type Solid = Self;
+    type Hittable = Self;
     const CHART: Option<Chart> = Some(Chart::Sphere);
     const SILHOUETTE: f64 = 0.25;
     const SHARE: f64 = PI;
@@ -58,7 +58,7 @@ impl Form for Sphere {
     fn halves(&self, direction: Vec3<f64>) -> [Vec3<f64>; 2] {
         across(direction, f64::from(self.radius))
     }
-    fn solid(&self) -> Self {
+    fn hittable(&self) -> Self {
         *self
     }
     #[cfg(feature = "analytic")]
@@ -132,11 +132,11 @@ impl Form for Sphere {
         picture.on(self.in_axes(axes, p)).by_visible_area(Vec3::default()).pdf(inwards(axes, w))
     }
     fn outline(&self) -> Outline {
-        Outline::Exact(Convex::Sphere { center: self.center.into(), radius: self.radius })
+        Outline::Exact(Solid::Sphere { center: wide(self.center), radius: self.radius.into() })
     }
 }
 
-impl Solid for Sphere {
+impl Hittable for Sphere {
     #[inline(always)]
     fn meet<const ANY: bool>(&self, rays: &Approach) -> (X8, M8) {
         let zero = X8::lit(0.0);

@@ -1,7 +1,7 @@
 //! The table of all forms of shapes, and what hosts may ask of any of them.
 
 use super::disk::Disk;
-use super::form::{Approach, Chart, Extent, Form, Outline, Solid};
+use super::form::{Approach, Chart, Extent, Form, Hittable, Outline};
 use super::parallelogram::Parallelogram;
 use super::points::Points;
 use super::sphere::Sphere;
@@ -30,8 +30,8 @@ macro_rules! forms {
 
         /// A form, prepared for rays.
         #[derive(Clone, Copy, Debug)]
-        pub(crate) enum AnySolid {
-            $($name(<$form as Form>::Solid),)*
+        pub(crate) enum AnyHittable {
+            $($name(<$form as Form>::Hittable),)*
         }
 
         /// The kinds of all forms, as a set.
@@ -72,19 +72,19 @@ macro_rules! forms {
                     $(Self::$name(form) => (form.halves(direction), <$form>::SHARE),)*
                 }
             }
-            /// As of [`Form::solid`].
-            pub(crate) fn solid(&self) -> AnySolid {
+            /// As of [`Form::hittable`].
+            pub(crate) fn hittable(&self) -> AnyHittable {
                 match self {
-                    $(Self::$name(form) => AnySolid::$name(form.solid()),)*
+                    $(Self::$name(form) => AnyHittable::$name(form.hittable()),)*
                 }
             }
         }
 
-        impl Solid for AnySolid {
+        impl Hittable for AnyHittable {
             #[inline(always)]
             fn meet<const ANY: bool>(&self, rays: &Approach) -> (X8, M8) {
                 match self {
-                    $(Self::$name(solid) => solid.meet::<ANY>(rays),)*
+                    $(Self::$name(hittable) => hittable.meet::<ANY>(rays),)*
                 }
             }
         }

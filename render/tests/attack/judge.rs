@@ -7,9 +7,9 @@ use crate::kit::Folder;
 use etendue_oracle::direct::{self, Block, Body, Source, View};
 use etendue_render::compare::{LIMIT, differs};
 use etendue_render::film::Film;
-use etendue_render::occlusion::SPARED;
 use etendue_render::scene::{Affine, Instance, Scene};
 use etendue_render::{Settings, Technique, World};
+use etendue_visible::SPARED;
 
 /// How precisely a scene is judged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

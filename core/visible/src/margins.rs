@@ -1,12 +1,12 @@
 //! Tests that nothing is claimed within the bound of rounding: the sign of each margin shows, since the bound is made large.
 
-use super::blockers::{Candidate, crosses};
-use super::bodies::Bodies;
-use super::hull::{Hull, V64};
-use super::patch::{Ground, Patch};
-use super::shaft::{Facing, Lamp, Shaft};
-use crate::bvh::{Bvh, NOTHING, Region, ShapeSet};
-use crate::scene::{Emission, Geometry, Parallelogram, Shape, Sphere};
+use crate::between::crosses;
+use crate::hull::{Hull, V64};
+use crate::light::Light;
+use crate::patch::{Ground, Patch};
+use crate::shaft::{Facing, Shaft};
+use crate::solid::Solid;
+use alloc::vec::Vec;
 
 const EPSILON: f64 = 0.01;
 
@@ -29,14 +29,14 @@ fn begins_at(times: f64, claim: impl Fn(f64) -> bool) {
     assert!(claim(1.5 * times * EPSILON), "not claimed beyond the margin");
 }
 
-fn ball() -> Candidate {
-    Candidate::of(Geometry::Sphere(Sphere { center: [0.0; 3], radius: 1.0 }).outline().convex())
+fn ball() -> Solid {
+    Solid::Sphere { center: V64::default(), radius: 1.0 }
 }
 
 /// A triangle around the y axis, with an edge at z = −1.
-fn triangle() -> Candidate {
+fn triangle() -> Solid {
     let corners = [[-1.0, 0.0, -1.0], [1.0, 0.0, -1.0], [0.0, 0.0, 2.0]];
-    Candidate::of(Geometry::Triangle(corners).outline().convex())
+    Solid::triangle(corners.map(V64::from))
 }
 
 #[test]
@@ -71,7 +71,7 @@ fn triangles_cover_what_they_are_between() {
         begins_at(2.0, |gap| triangle().covers(&shaft([0.0, up, 0.0], [0.0, -up * gap, 0.0])));
         // next to an edge: the corner from which it is seen is √2 away
         let beside = |gap: f64| [gap - 1.0, gap - 1.0];
-        begins_at(std::f64::consts::SQRT_2, |gap| {
+        begins_at(core::f64::consts::SQRT_2, |gap| {
             triangle().covers(&shaft([0.0, up, beside(gap)[0]], [0.0, -up, beside(gap)[1]]))
         });
     }
@@ -99,52 +99,49 @@ fn what_may_lie_behind_the_light_crosses_it() {
 
 #[test]
 fn bodies_stand_for_their_triangles_only_if_the_light_is_outside() {
-    let corner = |k: usize| [0, 1, 2].map(|axis| (k >> axis & 1) as f32);
-    let faces = [[0, 1, 3, 2], [4, 5, 7, 6], [0, 1, 5, 4], [2, 3, 7, 6], [0, 2, 6, 4], [1, 3, 7, 5]];
-    let triangles: Vec<_> =
-        faces.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).map(|t| t.map(corner)).collect();
-    let bodies = Bodies::new(&Bvh::new(&triangles, ShapeSet::new(std::iter::empty()).unwrap()).unwrap());
-    assert_eq!(bodies.len(), 1);
+    let Some(Solid::Polyhedron(body)) = Solid::block(V64::default(), V64::new(1.0, 1.0, 1.0)) else {
+        panic!("a cube is a polyhedron")
+    };
     let below = |gap: f64| {
         let mut shaft = shaft([0.5, 3.0, 0.5], [0.5, -gap, 0.5]);
         shaft.end = Some((V64::new(0.0, 1.0, 0.0), -gap, 0.0));
         shaft
     };
-    begins_at(2.0, |gap| bodies.serves(0, NOTHING, &below(gap)));
-    begins_at(4.0, |gap| bodies.covers(0, &shaft([1.0 - gap, 3.0, 0.5], [1.0 - gap, -2.0, 0.5])));
+    begins_at(2.0, |gap| body.serves(&below(gap)));
+    begins_at(4.0, |gap| Solid::Polyhedron(body.clone()).covers(&shaft([1.0 - gap, 3.0, 0.5], [1.0 - gap, -2.0, 0.5])));
 }
 
 /// The bound of rounding in a scene with coordinates of this size, which is more than that of points on lights of size 1.
-const REACH: f32 = 1e12;
-const ROUNDING: f64 = REACH as f64 / (1_u64 << 48) as f64;
+const REACH: f64 = 1e12;
+const ROUNDING: f64 = REACH / (1_u64 << 48) as f64;
 
-fn set(patch: &Patch, geometry: Geometry) -> (Facing, Shaft) {
-    let emission = Some(Emission { radiance: [1.0; 3], ..Emission::default() });
-    let lamp = Lamp::new(&Shape { geometry, material: 0, emission }, 0).unwrap();
+fn set(patch: &Patch, solid: Solid) -> (Facing, Shaft) {
+    let light = Light::new(solid, false).unwrap();
     let mut shaft = Shaft::default();
-    let facing = shaft.set(patch, &lamp, REACH, &mut Region::new(REACH));
+    let facing = shaft.set(patch, &light, REACH);
     (facing, shaft)
 }
 
 /// A point that is on nothing.
 fn loose(y: f64) -> Patch {
-    Patch { place: 0, hull: hull(&[[0.0, y, 0.0]]), ground: None, ball: None }
+    Patch { hull: hull(&[[0.0, y, 0.0]]), ground: None, ball: None }
 }
 
 /// A square at y = 0.
 fn level() -> Patch {
     let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(|[x, z]| [x, 0.0, z]);
     let ground = Ground { normal: V64::new(0.0, 1.0, 0.0), offset: 0.0, height: 0.0 };
-    Patch { place: 0, hull: hull(&corners), ground: Some(ground), ball: None }
+    Patch { hull: hull(&corners), ground: Some(ground), ball: None }
 }
 
-fn sphere(y: f64) -> Geometry {
-    Geometry::Sphere(Sphere { center: [0.0, y as f32, 0.0], radius: 1.0 })
+fn sphere(y: f64) -> Solid {
+    Solid::Sphere { center: V64::new(0.0, y, 0.0), radius: 1.0 }
 }
 
 #[test]
 fn patches_near_the_plane_of_a_light_are_on_no_side() {
-    let panel = Geometry::Parallelogram(Parallelogram { p: [-1.0, 0.0, -1.0], u: [0.0, 0.0, 2.0], v: [2.0, 0.0, 0.0] });
+    let edges = [V64::new(0.0, 0.0, 2.0), V64::new(2.0, 0.0, 0.0)];
+    let panel = Solid::Parallelogram { corner: V64::new(-1.0, 0.0, -1.0), edges };
     for (y, expected) in [(-1.5, 'A'), (-0.9, 'U'), (-0.1, 'U'), (0.1, 'U'), (0.9, 'U'), (1.5, 'T')] {
         let found = match set(&loose(y * ROUNDING), panel.clone()).0 {
             Facing::Away => 'A',
@@ -154,7 +151,7 @@ fn patches_near_the_plane_of_a_light_are_on_no_side() {
         assert_eq!(found, expected, "{y}");
     }
     let (_, shaft) = set(&loose(1.0), panel);
-    assert!(shaft.end.unwrap().2 < crate::occlusion::SPARED - 0.9 * ROUNDING);
+    assert!(shaft.end.unwrap().2 < crate::measure::SPARED - 0.9 * ROUNDING);
 }
 
 #[test]
@@ -165,7 +162,8 @@ fn patches_near_a_ball_are_on_no_side() {
         let facing = set(&level(), sphere(1.0 + gap * ROUNDING)).0;
         assert_eq!(matches!(facing, Facing::Towards), is_apart, "{gap} above");
         // below the horizon, at a distance
-        let aside = Geometry::Sphere(Sphere { center: [10.0, (-1.0 - gap * ROUNDING) as f32, 0.0], radius: 1.0 });
+        let aside =
+            Solid::Sphere { center: V64::new(10.0, f64::from((-1.0 - gap * ROUNDING) as f32), 0.0), radius: 1.0 };
         let facing = set(&level(), aside).0;
         assert_eq!(matches!(facing, Facing::Away), is_apart, "{gap} below");
     }

@@ -1,16 +1,16 @@
 //! In which precision the closed form of a light is accurate enough, as seen from a patch.
 
-use super::hull::{V64, edges, unit};
-use super::patch::Patch;
-use super::shaft::{Form, Lamp};
-use crate::occlusion::{COMPACT, Convex, Occlusion};
-use etendue::{Vec3, f64x8};
-use std::f64::consts::{PI, TAU};
+use crate::hull::{V64, edges, unit};
+use crate::light::Light;
+use crate::measure::{COMPACT, Occlusion};
+use crate::patch::Patch;
+use core::f64::consts::{PI, TAU};
+use etendue::{Real, Vec3, f64x8};
 
 /// Greatest error that a closed form may have, relative to the light without blockers.
 pub const ALLOWED: f64 = 1e-5;
 /// The light of a point that receives less than this fraction of what another point of the patch does counts as this much.
-const FAINT: f64 = 1e-2;
+pub(crate) const FAINT: f64 = 1e-2;
 /// Greatest errors of closed forms in one precision, in steradians where they are not fractions.
 struct Errors {
     /// For a flat light, once or for each blocker: a fraction of the angle around the light, in radians.
@@ -49,22 +49,22 @@ pub enum Precision {
 
 /// What may hide a light.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Behind {
+pub(crate) struct Behind {
     /// Number of blockers.
-    pub(super) blockers: usize,
+    pub(crate) blockers: usize,
     /// Number of spheres among them.
-    pub(super) spheres: usize,
+    pub(crate) spheres: usize,
     /// Sum of the angles in radians by which their outlines may be displaced.
-    pub(super) displacement: f64,
-    /// By how many blockers more they count where edges are seen under nearly 180°: the sum of [`Hull::stretch`](super::hull::Hull::stretch)
+    pub(crate) displacement: f64,
+    /// By how many blockers more they count where edges are seen under nearly 180°: the sum of [`Hull::stretch`](crate::hull::Hull::stretch)
     /// less 1.
-    pub(super) stretch: f64,
+    pub(crate) stretch: f64,
     /// Whether one of them is flush with the patch, so that only double precision tells on which side of it points are.
-    pub(super) flush: bool,
+    pub(crate) flush: bool,
 }
 
 /// A light as a point of a patch sees it, without blockers.
-struct Seen {
+struct Unhidden {
     /// Its projected solid angle in steradians.
     all: f64,
     /// The angle around it, in radians; of a compact light, its perimeter over its distance.
@@ -75,21 +75,21 @@ struct Seen {
     compact: bool,
 }
 
-impl Seen {
-    fn new(p: V64, normal: V64, all: f64, lamp: &Lamp) -> Self {
+impl Unhidden {
+    fn new(p: V64, normal: V64, all: f64, lamp: &Light) -> Self {
         let (hull, corners) = (&lamp.hull, lamp.hull.corners());
         let middle = corners.iter().fold(V64::default(), |sum, &x| sum + x) * (1.0 / corners.len() as f64);
         let distance = (middle - p).length();
         // as the core decides, with a reserve for rounding
         let is_near = |&x: &V64| (x - middle).length_squared() < 0.99 * COMPACT * distance * distance;
-        let is_ball = matches!(lamp.form, Form::Ball);
+        let is_ball = lamp.plane.is_none();
         let compact = !is_ball && corners.iter().all(is_near);
         let around = if is_ball {
             TAU * hull.radius / (distance - hull.extent).max(0.0)
         } else if compact {
             edges(corners).map(|(a, b)| (b - a).length()).sum::<f64>() / distance
         } else {
-            edges(corners).map(|(a, b)| 2.0 * (0.5 * (unit(b - p) - unit(a - p)).length()).min(1.0).asin()).sum()
+            edges(corners).map(|(a, b)| 2.0 * arc_sine((0.5 * (unit(b - p) - unit(a - p)).length()).min(1.0))).sum()
         };
         let cosine = |&x: &V64| (unit(x - p).dot(normal) + hull.radius / (x - p).length()).min(1.0);
         Self { all, around: around.min(TAU), cosine: corners.iter().map(cosine).fold(0.0, f64::max), compact }
@@ -110,16 +110,16 @@ impl Seen {
     }
 }
 
+/// arcsin x for x in [0, 1].
+fn arc_sine(x: f64) -> f64 {
+    Real::atan2(x, Real::sqrt((1.0 - x) * (1.0 + x)))
+}
+
 impl Precision {
-    /// The least precision whose error is at most 1e−5 of the light without blockers, at the corners and the centre of a patch.
-    pub(super) fn of(
-        patch: &Patch,
-        lamp: &Lamp,
-        light: &Convex<f32>,
-        behind: &Behind,
-        occlusion: &mut Occlusion<f64x8>,
-    ) -> Self {
-        let is_ball = matches!(lamp.form, Form::Ball);
+    /// The least precision whose error is at most [`ALLOWED`] of the light without blockers, at the corners and the centre of a patch, and the
+    /// greatest projected solid angle of the light there.
+    pub(crate) fn of(patch: &Patch, lamp: &Light, behind: &Behind, occlusion: &mut Occlusion<f64x8>) -> (Self, f64) {
+        let is_ball = lamp.plane.is_none();
         let normal = |p: V64| match (patch.ground, patch.ball) {
             (Some(ground), _) => ground.normal,
             (None, Some((middle, _))) if (p - middle).length() > 0.0 => unit(p - middle),
@@ -128,31 +128,32 @@ impl Precision {
         // the centre, and seven corners or fewer
         let corners = patch.hull.corners();
         let point = |lane: usize| if lane == 0 { patch.hull.center } else { corners[(lane - 1) % corners.len()] };
-        let points: [V64; 8] = std::array::from_fn(point);
+        let points: [V64; 8] = core::array::from_fn(point);
         let normals = points.map(normal);
-        let light = light.map(f64::from);
         let packet = |of: [V64; 8]| {
             let axis = |k: fn(V64) -> f64| f64x8::new(of.map(k));
             Vec3::new(axis(|v| v.x), axis(|v| v.y), axis(|v| v.z))
         };
-        let visible = occlusion.visible(packet(points), packet(normals), &light, &[]);
+        let visible = occlusion.visible(packet(points), packet(normals), &lamp.solid, &[]);
         let all = visible.map_or([0.0; 8], f64x8::to_array);
-        let seen: [Seen; 8] = std::array::from_fn(|lane| Seen::new(points[lane], normals[lane], all[lane], lamp));
+        let seen: [Unhidden; 8] =
+            core::array::from_fn(|lane| Unhidden::new(points[lane], normals[lane], all[lane], lamp));
         let most = seen.iter().fold(0.0, |most: f64, seen| most.max(seen.all));
         let least = seen.iter().fold(most, |least, seen| least.min(seen.all));
         // where the horizon turns within a patch of a sphere, points between these see less of the light than they do
         let turns = patch.ground.is_none() && least < 0.5 * most;
         let stretch = patch.hull.stretch(edges(lamp.hull.corners()));
         let suffices = |errors: &Errors| {
-            let allowed = |seen: &Seen| ALLOWED * if turns { FAINT * most } else { seen.all.max(FAINT * most) };
+            let allowed = |seen: &Unhidden| ALLOWED * if turns { FAINT * most } else { seen.all.max(FAINT * most) };
             seen.iter().all(|seen| seen.error(errors, is_ball, stretch, behind) <= allowed(seen))
         };
-        if !behind.flush && suffices(&SINGLE) {
+        let precision = if !behind.flush && suffices(&SINGLE) {
             Self::Single
         } else if suffices(&DOUBLE) {
             Self::Double
         } else {
             Self::Neither
-        }
+        };
+        (precision, most)
     }
 }

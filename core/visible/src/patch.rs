@@ -1,18 +1,30 @@
 //! Parts of surfaces, as bounds of the shading points of rays through a rectangle of pixels.
 
-use super::hull::{CORNERS, Hull, V64, magnitude, unit, wide};
-use crate::bvh::SHAPE;
-use crate::camera::Pinhole;
-use crate::geometry::{LEAST, LIFT, Outline};
-use crate::occlusion::Convex;
-use crate::surfaces::Surfaces;
+use crate::hull::{CORNERS, Hull, V64, magnitude, unit};
 
-/// How far shading points can be from the ideal patch, relative to their greatest coordinate: a lift of less than 1.8 · 2⁻²³, and a rounding of
-/// less than 1.8 · 2⁻²⁴.
-const OFF: f64 = 3.0 * LIFT;
+/// How a host computes shading points: it moves them along the normal by [`relative`](Self::relative) of Σ|nₖ pₖ| and by
+/// [`least`](Self::least), and rounds them by no more than half of the first.
+///
+/// So they are at most 3 times the first, of their greatest coordinate, and twice the second from where the ideal surface is, and 0.49 of
+/// both or more above it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lift {
+    /// Relative to the coordinates: 2⁻²³ for points in single precision.
+    pub relative: f64,
+    /// In scene units.
+    pub least: f64,
+}
+
+impl Lift {
+    /// How far points can be from the patch whose greatest coordinate this is: moved by less than 1.8 times the lift, and rounded by 0.9.
+    fn off(self, magnitude: f64) -> f64 {
+        3.0 * self.relative * magnitude + 2.0 * self.least
+    }
+}
+
 /// Greatest difference between the cosine of a direction, computed in single precision, and the exact one: a normal is rounded by less than
 /// 2⁻²⁴, and so is each of three products and sums.
-pub(super) const TILT: f64 = 1.0 / 2_097_152.0;
+pub(crate) const TILT: f64 = 1.0 / 2_097_152.0;
 /// Rounding of corners as seen along a ray, relative to their distance: 2⁻²⁰. The edge functions and their sum then place the hit within
 /// 12 times that, times the greatest aspect ratio of the projected triangle.
 const SEEN: f64 = 12.0 / 1_048_576.0;
@@ -30,17 +42,16 @@ pub struct Pyramid {
 }
 
 impl Pyramid {
-    /// The pyramid of the pixels in \[x0, x1\] × \[y0, y1\] of the image of a camera, from the top left. It is wider by an eighth of a pixel
-    /// on each side, for the rounding of rays.
-    pub fn new(pinhole: &Pinhole, [x0, y0, x1, y1]: [f64; 4]) -> Self {
-        let (origin, corners) = pinhole.rectangle([x0 - 0.125, y0 - 0.125, x1 + 0.125, y1 + 0.125]);
-        let corners = corners.map(V64::from);
+    /// The pyramid between four directions in order around, of any length. For rays that are rounded, they are those of a rectangle that is
+    /// wider by an eighth of a pixel on each side.
+    #[must_use]
+    pub fn new(origin: V64, corners: [V64; 4]) -> Self {
         let middle = corners[0] + corners[1] + corners[2] + corners[3];
-        let normals = std::array::from_fn(|k| {
+        let normals = core::array::from_fn(|k| {
             let normal = unit(corners[k].cross(corners[(k + 1) % 4]));
             if normal.dot(middle) < 0.0 { -normal } else { normal }
         });
-        Self { origin: origin.into(), normals }
+        Self { origin, normals }
     }
 }
 
@@ -57,25 +68,23 @@ pub enum Viewer<'a> {
 
 /// The plane of a flat patch.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Ground {
+pub(crate) struct Ground {
     /// Unit normal on the side of the viewer.
-    pub(super) normal: V64,
+    pub(crate) normal: V64,
     /// n·x of the plane.
-    pub(super) offset: f64,
+    pub(crate) offset: f64,
     /// Shading points are at least this high above the plane.
-    pub(super) height: f64,
+    pub(crate) height: f64,
 }
 
-/// A bound of the shading points on a part of a triangle or sphere.
+/// A bound of the shading points on a part of a flat surface or of a sphere.
 #[derive(Clone, Copy, Debug)]
 pub struct Patch {
-    /// The primitive, as in hits.
-    pub(super) place: u32,
-    pub(super) hull: Hull,
-    /// The plane of a triangle.
-    pub(super) ground: Option<Ground>,
+    pub(crate) hull: Hull,
+    /// The plane of a flat patch.
+    pub(crate) ground: Option<Ground>,
     /// Centre and radius of a sphere.
-    pub(super) ball: Option<(V64, f64)>,
+    pub(crate) ball: Option<(V64, f64)>,
 }
 
 /// A convex polygon that is being clipped.
@@ -129,18 +138,22 @@ impl Clipped {
 }
 
 impl Patch {
-    /// The part of a primitive that a viewer sees, regardless of occlusion. `place` is as in the hits of rays. `None` if there is no such
-    /// part, and for what is not supported: lights, spheres from inside, triangles without area, and triangles seen edge-on.
-    pub fn of(surfaces: &Surfaces, place: u32, viewer: Viewer<'_>) -> Option<Self> {
-        if place & SHAPE == 0 {
-            return Self::of_triangle(surfaces.bvh.corners(place), f64::from(surfaces.bvh.reach()), place, viewer);
-        }
-        let shape = &surfaces.shapes()[(place & !SHAPE) as usize];
-        let Outline::Exact(Convex::Sphere { center, radius }) = shape.geometry.outline() else { return None };
-        Self::of_sphere(center.map(f64::from), f64::from(radius), f64::from(surfaces.bvh.reach()), place, viewer)
+    /// A convex polygon of 3 to 8 corners in order around, on the side of its normal (b − a) × (c − a). Shading points are within `off` of
+    /// it, in scene units, and at least `height` above its plane, which may be negative: then they may be below their own plane, and what
+    /// lies in it may hide lights. `None` if there are too few corners or too many, without area, and for numbers that are not finite.
+    #[must_use]
+    pub fn polygon(corners: &[V64], off: f64, height: f64) -> Option<Self> {
+        let (&[a, b, c, ..], 3..=CORNERS) = (corners, corners.len()) else { return None };
+        let normal = unit((b - a).cross(c - a));
+        let offset = corners.iter().map(|&p| normal.dot(p)).fold(f64::NEG_INFINITY, f64::max);
+        let is_finite = offset.is_finite() && off.is_finite() && height.is_finite();
+        let ground = Ground { normal, offset, height };
+        is_finite.then(|| Self { hull: Hull::new(corners, off), ground: Some(ground), ball: None })
     }
-    fn of_triangle(c: [f32; 9], reach: f64, place: u32, viewer: Viewer<'_>) -> Option<Self> {
-        let corners = [wide([c[0], c[1], c[2]]), wide([c[3], c[4], c[5]]), wide([c[6], c[7], c[8]])];
+    /// The part of a triangle that a viewer sees, regardless of occlusion. `None` if there is no such part, and for triangles without area
+    /// or seen edge-on.
+    #[must_use]
+    pub fn triangle(corners: [V64; 3], viewer: Viewer<'_>, lift: Lift) -> Option<Self> {
         let [a, b, c] = corners;
         let normal = (b - a).cross(c - a);
         let area = normal.length();
@@ -182,12 +195,14 @@ impl Patch {
         }
         let offset = corners.iter().map(|&p| normal.dot(p)).fold(f64::NEG_INFINITY, f64::max);
         // half of the least lift: the rounding of the point takes no more
-        let height = 0.49 * (LIFT * offset.abs() + LEAST * reach);
-        let off = OFF * magnitude(polygon.points()) + 2.0 * LEAST * reach;
+        let height = 0.49 * (lift.relative * offset.abs() + lift.least);
+        let off = lift.off(magnitude(polygon.points()));
         let ground = Ground { normal, offset, height };
-        Some(Self { place, hull: Hull::new(polygon.points(), off), ground: Some(ground), ball: None })
+        Some(Self { hull: Hull::new(polygon.points(), off), ground: Some(ground), ball: None })
     }
-    fn of_sphere(center: V64, radius: f64, reach: f64, place: u32, viewer: Viewer<'_>) -> Option<Self> {
+    /// The part of the outside of a sphere that a viewer sees, regardless of occlusion. `None` if there is no such part, and from inside.
+    #[must_use]
+    pub fn sphere(center: V64, radius: f64, viewer: Viewer<'_>, lift: Lift) -> Option<Self> {
         if !(radius > 0.0 && radius.is_finite()) {
             return None;
         }
@@ -195,7 +210,7 @@ impl Patch {
             let side = |bit: usize| if k >> bit & 1 == 0 { -radius } else { radius };
             center + V64::new(side(0), side(1), side(2))
         };
-        let mut corners: [V64; 8] = std::array::from_fn(corner);
+        let mut corners: [V64; 8] = core::array::from_fn(corner);
         match viewer {
             Viewer::Front => {}
             Viewer::Back => return None,
@@ -210,8 +225,8 @@ impl Patch {
                 let mut bounds = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
                 let mut add = |p: V64| {
                     for (k, x) in [p.x, p.y, p.z].into_iter().enumerate() {
-                        bounds = std::array::from_fn(|side| {
-                            std::array::from_fn(|axis| match (axis == k, side) {
+                        bounds = core::array::from_fn(|side| {
+                            core::array::from_fn(|axis| match (axis == k, side) {
                                 (true, 0) => bounds[0][axis].min(x),
                                 (true, _) => bounds[1][axis].max(x),
                                 _ => bounds[side][axis],
@@ -231,11 +246,11 @@ impl Patch {
                     return None;
                 }
                 corners =
-                    std::array::from_fn(|k| V64::new(bounds[k & 1][0], bounds[k >> 1 & 1][1], bounds[k >> 2 & 1][2]));
+                    core::array::from_fn(|k| V64::new(bounds[k & 1][0], bounds[k >> 1 & 1][1], bounds[k >> 2 & 1][2]));
             }
         }
-        let off = OFF * magnitude(&corners) + 2.0 * LEAST * reach;
-        Some(Self { place, hull: Hull::new(&corners, off), ground: None, ball: Some((center, radius)) })
+        let off = lift.off(magnitude(&corners));
+        Some(Self { hull: Hull::new(&corners, off), ground: None, ball: Some((center, radius)) })
     }
     /// Corners of the patch on its surface, or of a box around it.
     pub fn corners(&self) -> impl Iterator<Item = [f64; 3]> {

@@ -2,10 +2,10 @@
 
 use super::cap::Cap;
 use super::capacity::{BLOCKERS, DEPTH, EDGES, MOST, TERMS, TooMany};
-use super::flat::{Flat, corner, exactly};
+use super::flat::{Flat, corner, exactly, rounded};
 use super::outline::Outline;
-use super::seen::{Seen, Target};
-use super::shapes::{Convex, Polyhedron};
+use super::planes::{Planes, Target};
+use crate::solid::Solid;
 use etendue::reflection::Reflection;
 use etendue::{Mask, Real, Vec3};
 
@@ -18,7 +18,7 @@ pub const SPARED: f64 = 1.0 / 131_072.0;
 pub struct Occlusion<R: Real> {
     /// The flat shape that is being prepared.
     flat: Flat<R>,
-    seen: [Seen<R>; BLOCKERS],
+    planes: [Planes<R>; BLOCKERS],
     /// The light, and its intersections with one blocker, with two, and so on.
     stack: [Outline<R, MOST>; DEPTH + 1],
     /// An outline that is needed for a moment.
@@ -61,7 +61,7 @@ impl<R: Real> Occlusion<R> {
     pub fn new() -> Self {
         Self {
             flat: Flat::default(),
-            seen: [Seen::default(); BLOCKERS],
+            planes: [Planes::default(); BLOCKERS],
             stack: [Outline::default(); DEPTH + 1],
             spare: Outline::default(),
             normal: Vec3::default(),
@@ -75,7 +75,8 @@ impl<R: Real> Occlusion<R> {
 
     /// The projected solid angle Ω⊥ in [0, π] of the part of the light that the blockers leave visible at each point, on a surface with the
     /// unit normal `normal`. Both sides of a flat light count. `None` if there are more than [`BLOCKERS`] blockers, if too many of them
-    /// overlap as seen from a point, or if the part is bounded by two spheres that overlap: then it must be sampled.
+    /// overlap as seen from a point, if the part is bounded by two spheres that overlap, if a polyhedron does not lie before the light as a
+    /// whole, or if the light is one: then it must be sampled.
     ///
     /// In a packet, `None` concerns all lanes: one of them may be the only one with too many. What a packet of 8 can compute, each of its
     /// lanes can alone, with the same bits.
@@ -90,40 +91,20 @@ impl<R: Real> Occlusion<R> {
     /// error is 1e−7 times the square of half of its perimeter over its distance, alone and behind one flat blocker (7e−8 measured), and
     /// as much again for each further one: it stays relative to the light however small that is. Measured by
     /// `cargo test -p etendue-render-tests occlusion::compact -- --nocapture`.
-    #[inline]
-    pub fn visible(
-        &mut self,
-        point: Vec3<R>,
-        normal: Vec3<R>,
-        light: &Convex<R::Scalar>,
-        blockers: &[Convex<R::Scalar>],
-    ) -> Option<R> {
-        self.visible_past(point, normal, light, blockers, &[])
-    }
-
-    /// Like [`visible`](Self::visible), with polyhedra as further blockers. `None` also if a polyhedron does not lie before the light as a
-    /// whole.
     ///
-    /// Greatest error: as of [`visible`](Self::visible) (1e−7 measured), and 3e−6 times the angle around the light where the point is nearer
-    /// to the plane of a face than 1e−2 of the distance (1.3e−6 measured), since the rounding of the normal decides which side it is on. To
-    /// that comes the angle under which corners are seen beside the planes of their faces: a polyhedron no wider than the rounding of its
+    /// Behind polyhedra the error is 3e−6 times the angle around the light where the point is nearer to the plane of a face than 1e−2 of
+    /// the distance (1.3e−6 measured), since the rounding of the normal decides which side it is on, and otherwise as above (1e−7 measured).
+    /// To that comes the angle under which corners are seen beside the planes of their faces: a polyhedron no wider than the rounding of its
     /// coordinates may hide nothing. A point on its surface may be inside or outside.
     #[inline]
-    pub fn visible_past(
-        &mut self,
-        point: Vec3<R>,
-        normal: Vec3<R>,
-        light: &Convex<R::Scalar>,
-        blockers: &[Convex<R::Scalar>],
-        polyhedra: &[Polyhedron<'_, R::Scalar>],
-    ) -> Option<R> {
+    pub fn visible(&mut self, point: Vec3<R>, normal: Vec3<R>, light: &Solid, blockers: &[Solid]) -> Option<R> {
         self.lobe = None;
-        self.part(point, normal, light, blockers, polyhedra)
+        self.part(point, normal, light, blockers)
     }
 
     /// The projected solid angle in [0, π] of the visible part after the map of a reflection at each point, whose normal must be `normal`: a
     /// surface reflects about F · [albedo](Reflection::albedo) · L/π times this of a light with the radiance L. Like
-    /// [`visible_past`](Self::visible_past) otherwise; `None` also if a sphere blocks, or is blocked.
+    /// [`visible`](Self::visible) otherwise; `None` also if a sphere blocks, or is blocked.
     ///
     /// Parts are clipped before the map, and measured after it. Greatest error of a light without blockers in single precision: 3e−5 of the
     /// result plus 0.01 (measured by `cargo test -p etendue-render-tests occlusion::lobes -- --nocapture`); of spheres as [`Reflection::sphere`].
@@ -133,32 +114,25 @@ impl<R: Real> Occlusion<R> {
         point: Vec3<R>,
         normal: Vec3<R>,
         reflection: &Reflection<R>,
-        light: &Convex<R::Scalar>,
-        blockers: &[Convex<R::Scalar>],
-        polyhedra: &[Polyhedron<'_, R::Scalar>],
+        light: &Solid,
+        blockers: &[Solid],
     ) -> Option<R> {
         self.lobe = Some(*reflection);
-        self.part(point, normal, light, blockers, polyhedra)
+        self.part(point, normal, light, blockers)
     }
 
     /// What is visible, by the cosine or the lobe.
     #[inline]
-    fn part(
-        &mut self,
-        point: Vec3<R>,
-        normal: Vec3<R>,
-        light: &Convex<R::Scalar>,
-        blockers: &[Convex<R::Scalar>],
-        polyhedra: &[Polyhedron<'_, R::Scalar>],
-    ) -> Option<R> {
-        if blockers.len() + polyhedra.len() > BLOCKERS {
+    fn part(&mut self, point: Vec3<R>, normal: Vec3<R>, light: &Solid, blockers: &[Solid]) -> Option<R> {
+        if blockers.len() > BLOCKERS {
             return None;
         }
         self.normal = normal;
         self.terms = 0;
         let all = match *light {
-            Convex::Sphere { center, radius } => {
-                let (center, radius) = (Vec3::splat(center) - point, R::splat(radius));
+            Solid::Polyhedron(_) => return None,
+            Solid::Sphere { center, radius } => {
+                let (center, radius) = (rounded(center) - point, R::lit(radius));
                 let cap = Cap::new(center, radius);
                 self.front = (-cap.axis, -cap.tangents);
                 (self.light, self.base) = (Some(cap), None);
@@ -187,39 +161,26 @@ impl<R: Real> Occlusion<R> {
                 measure(self.lobe.as_ref(), &self.stack[0], normal, &mut self.spare)
             }
         };
-        self.beside(all.clamped(R::lit(0.0), R::lit(std::f64::consts::PI)), point, blockers, polyhedra).ok()
+        self.beside(all.clamped(R::lit(0.0), R::lit(core::f64::consts::PI)), point, blockers).ok()
     }
 
     /// What the blockers leave of `all`.
     #[inline]
-    fn beside(
-        &mut self,
-        all: R,
-        point: Vec3<R>,
-        blockers: &[Convex<R::Scalar>],
-        polyhedra: &[Polyhedron<'_, R::Scalar>],
-    ) -> Result<R, TooMany> {
+    fn beside(&mut self, all: R, point: Vec3<R>, blockers: &[Solid]) -> Result<R, TooMany> {
         let mut left = Left { all, visible: all, covered: !all.gt(R::lit(0.0)), kept: 0 };
         self.stack[0].keep(!left.covered);
-        for polyhedron in polyhedra {
-            if left.covered.all() {
-                break;
-            }
-            let (seen, _, target) = self.next(left.kept);
-            seen.polyhedron(polyhedron, point, &target)?;
-            self.hide(&mut left)?;
-        }
         for blocker in blockers {
             if left.covered.all() {
                 break;
             }
             self.flat.take(blocker, point);
-            let (seen, flat, target) = self.next(left.kept);
+            let (planes, flat, target) = self.next(left.kept);
             match *blocker {
-                Convex::Sphere { center, radius } => {
-                    seen.sphere(Vec3::splat(center) - point, R::splat(radius), &target)?;
+                Solid::Polyhedron(ref body) => planes.polyhedron(body, point, &target)?,
+                Solid::Sphere { center, radius } => {
+                    planes.sphere(rounded(center) - point, R::lit(radius), &target)?;
                 }
-                _ => seen.flat(flat, blocker, point, &target)?,
+                _ => planes.flat(flat, blocker, point, &target)?,
             }
             self.hide(&mut left)?;
         }
@@ -228,9 +189,9 @@ impl<R: Real> Occlusion<R> {
 
     /// The place of blocker `k`, the flat shape that was taken last, and the light.
     #[inline(always)]
-    fn next(&mut self, k: usize) -> (&mut Seen<R>, &Flat<R>, Target<'_, R>) {
-        let Self { seen, flat, stack, base, front, .. } = self;
-        (&mut seen[k], flat, Target { outline: &stack[0], base: *base, front: *front })
+    fn next(&mut self, k: usize) -> (&mut Planes<R>, &Flat<R>, Target<'_, R>) {
+        let Self { planes, flat, stack, base, front, .. } = self;
+        (&mut planes[k], flat, Target { outline: &stack[0], base: *base, front: *front })
     }
 
     /// Takes away what the blocker that was prepared last hides, and keeps the blocker if it hides anything.
@@ -238,7 +199,7 @@ impl<R: Real> Occlusion<R> {
     fn hide(&mut self, left: &mut Left<R>) -> Result<(), TooMany> {
         let k = left.kept;
         if let Some((cap, hidden)) = self.intersect(0, k, self.light)? {
-            self.seen[k].lanes = self.stack[1].some();
+            self.planes[k].lanes = self.stack[1].some();
             left.covered = left.covered | hidden.ge(left.all);
             left.visible -= self.less(1, k, cap, hidden)?;
             left.kept += 1;
@@ -250,7 +211,7 @@ impl<R: Real> Occlusion<R> {
     /// there is no such part in any lane. `cap` is the sphere that bounds the intersection, if there is one.
     #[inline]
     fn intersect(&mut self, depth: usize, k: usize, cap: Option<Cap<R>>) -> Result<Option<Part<R>>, TooMany> {
-        let (seen, normal, lobe, spare) = (&self.seen[k], self.normal, self.lobe.as_ref(), &mut self.spare);
+        let (seen, normal, lobe, spare) = (&self.planes[k], self.normal, self.lobe.as_ref(), &mut self.spare);
         let (below, above) = self.stack.split_at_mut(depth + 1);
         let (from, Some(to)) = (&below[depth], above.first_mut()) else { return Err(TooMany) };
         let whole = depth == 0 && self.light.is_some();
@@ -357,7 +318,7 @@ fn unoccluded<R: Real>(cap: &Cap<R>, center: Vec3<R>, radius: R, normal: Vec3<R>
     let cos = cap.axis.dot(normal);
     // a reserve keeps caps that touch the horizon out
     let above = cos.gt(cap.sin * R::lit(1.000_01)) & cap.tangents.gt(R::lit(0.0));
-    let whole = R::lit(std::f64::consts::PI) * cap.sin * cap.sin * cos;
+    let whole = R::lit(core::f64::consts::PI) * cap.sin * cap.sin * cos;
     if above.all() {
         return whole;
     }

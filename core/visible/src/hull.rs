@@ -3,50 +3,45 @@
 use etendue::Vec3;
 
 /// A point or a vector in double precision.
-pub(super) type V64 = Vec3<f64>;
+pub type V64 = Vec3<f64>;
 
 /// Greatest number of corners.
-pub(super) const CORNERS: usize = 8;
-
-/// The exact value of a point in single precision.
-pub(super) fn wide(v: [f32; 3]) -> V64 {
-    v.map(f64::from).into()
-}
+pub(crate) const CORNERS: usize = 8;
 
 /// Greatest magnitude of a coordinate.
-pub(super) fn magnitude(points: &[V64]) -> f64 {
+pub(crate) fn magnitude(points: &[V64]) -> f64 {
     points.iter().fold(0.0, |m: f64, p| m.max(p.x.abs()).max(p.y.abs()).max(p.z.abs()))
 }
 
 /// The unit vector in a direction; not finite if there is none.
-pub(super) fn unit(v: V64) -> V64 {
+pub(crate) fn unit(v: V64) -> V64 {
     v * (1.0 / v.length())
 }
 
 /// All points within `radius` of the convex hull of some points.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Hull {
+pub(crate) struct Hull {
     corners: [V64; CORNERS],
     count: usize,
     /// Inflation.
-    pub(super) radius: f64,
+    pub(crate) radius: f64,
     /// Centre of a ball around the corners.
-    pub(super) center: V64,
+    pub(crate) center: V64,
     /// Radius of that ball and the inflation.
-    pub(super) extent: f64,
+    pub(crate) extent: f64,
 }
 
 /// Points nearer to an edge than this fraction of its length count as this near: double precision is accurate enough even there.
 const TOUCHING: f64 = 1e-6;
 
 /// Each corner of a polygon with the next one.
-pub(super) fn edges(corners: &[V64]) -> impl Iterator<Item = (V64, V64)> {
+pub(crate) fn edges(corners: &[V64]) -> impl Iterator<Item = (V64, V64)> {
     corners.iter().copied().zip(corners.iter().copied().cycle().skip(1))
 }
 
 impl Hull {
     /// The hull of 1 to [`CORNERS`] points.
-    pub(super) fn new(points: &[V64], radius: f64) -> Self {
+    pub(crate) fn new(points: &[V64], radius: f64) -> Self {
         let mut corners = [V64::default(); CORNERS];
         corners[..points.len()].copy_from_slice(points);
         let sum = points.iter().fold(V64::default(), |sum, &p| sum + p);
@@ -56,7 +51,7 @@ impl Hull {
         hull
     }
     /// Adds to the inflation.
-    pub(super) fn inflate(&mut self, by: f64) {
+    pub(crate) fn inflate(&mut self, by: f64) {
         self.radius += by;
         let ball = self.corners().iter().map(|&p| (p - self.center).length()).fold(0.0, f64::max);
         self.extent = ball * (1.0 + 1e-9) + self.radius;
@@ -64,7 +59,7 @@ impl Hull {
     /// By how much more the rounding of the ends of edges counts where a point of the hull sees an edge under nearly 180°: at least 1/sine
     /// of that angle, from 1 to 5 · 10⁵. Under less than 90°, which is what other edges and those without length count as, it is 1:
     /// angle/sine is at most π/2 there.
-    pub(super) fn stretch(&self, edges: impl Iterator<Item = (V64, V64)>) -> f64 {
+    pub(crate) fn stretch(&self, edges: impl Iterator<Item = (V64, V64)>) -> f64 {
         let of_edge = |(a, b): (V64, V64)| {
             let (edge, from) = (b - a, self.center - a);
             let size = edge.length();
@@ -78,11 +73,11 @@ impl Hull {
         };
         edges.map(of_edge).fold(1.0, f64::max)
     }
-    pub(super) fn corners(&self) -> &[V64] {
+    pub(crate) fn corners(&self) -> &[V64] {
         &self.corners[..self.count]
     }
     /// Least and greatest n·x of the corners.
-    pub(super) fn range(&self, n: V64) -> [f64; 2] {
+    pub(crate) fn range(&self, n: V64) -> [f64; 2] {
         let mut range = [f64::INFINITY, f64::NEG_INFINITY];
         for &p in self.corners() {
             let along = n.dot(p);
@@ -93,7 +88,7 @@ impl Hull {
         range
     }
     /// Greatest n·x of the hull for a vector of at most unit length.
-    pub(super) fn support(&self, n: V64) -> f64 {
+    pub(crate) fn support(&self, n: V64) -> f64 {
         self.range(n)[1] + self.radius
     }
 }

@@ -1,6 +1,7 @@
 //! Flat shapes as seen from points, and their numbers without rounding.
 
-use super::shapes::Convex;
+use crate::hull::V64;
+use crate::solid::Solid;
 use etendue::{Real, Vec3};
 
 /// A flat shape as seen from the points, in units of a power of two. Only directions matter, so that each shape can have its own unit.
@@ -33,14 +34,14 @@ impl<R: Real> Default for Flat<R> {
 }
 
 impl<R: Real> Flat<R> {
-    /// Takes a flat shape relative to the points, in place, since it is large. A sphere leaves it as it is.
+    /// Takes a flat shape relative to the points, in place, since it is large. What is not flat leaves it as it is.
     #[inline(always)]
-    pub(super) fn take(&mut self, shape: &Convex<R::Scalar>, point: Vec3<R>) {
+    pub(super) fn take(&mut self, shape: &Solid, point: Vec3<R>) {
         let Self { corners, offsets, edges, .. } = self;
         let count = match *shape {
-            Convex::Sphere { .. } => return,
-            Convex::Polygon { corners: given, count } => {
-                let (given, count) = (given.map(Vec3::splat), count.clamp(3, 4));
+            Solid::Sphere { .. } | Solid::Polyhedron(_) => return,
+            Solid::Polygon { corners: given, count, .. } => {
+                let (given, count) = (given.map(rounded), count.clamp(3, 4));
                 for i in 0..4 {
                     edges[i] = given[if i + 1 < count { i + 1 } else { 0 }] - given[i];
                     corners[i] = given[i] - point;
@@ -48,8 +49,8 @@ impl<R: Real> Flat<R> {
                 }
                 count
             }
-            Convex::Parallelogram { corner, edges: given } => {
-                let (a, [u, v]) = (Vec3::splat(corner) - point, given.map(Vec3::splat));
+            Solid::Parallelogram { corner, edges: given } => {
+                let (a, [u, v]) = (rounded(corner) - point, given.map(rounded));
                 *corners = [a, a + u, a + u + v, a + v];
                 *offsets = [Vec3::default(), u, u + v, v];
                 *edges = [u, v, -u, -v];
@@ -77,16 +78,14 @@ impl<R: Real> Flat<R> {
     }
 }
 
-/// A corner of a flat shape, or the centre of a sphere, without rounding.
-pub(super) fn corner<S: Real>(shape: &Convex<S>, i: usize) -> Vec3<f64> {
-    match *shape {
-        Convex::Polygon { corners, .. } => exactly(corners[i & 3]),
-        Convex::Parallelogram { corner, edges: [u, v] } => {
-            let (a, u, v) = (exactly(corner), exactly(u), exactly(v));
-            [a, a + u, a + u + v, a + v][i & 3]
-        }
-        Convex::Sphere { center, .. } => exactly(center),
-    }
+/// A corner of a flat shape without rounding.
+pub(super) fn corner(shape: &Solid, i: usize) -> V64 {
+    shape.outline().map_or(V64::default(), |(corners, _)| corners[i & 3])
+}
+/// A vector in every lane.
+#[inline(always)]
+pub(super) fn rounded<R: Real>(v: V64) -> Vec3<R> {
+    v.map(R::lit)
 }
 /// A vector of one lane in double precision.
 pub(super) fn exactly<S: Real>(v: Vec3<S>) -> Vec3<f64> {

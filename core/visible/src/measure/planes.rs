@@ -1,11 +1,12 @@
 //! Blockers as they are seen from points: the planes and outlines that bound what they hide.
 
 use super::cap::Cap;
-use super::capacity::{EDGES, FACES, MOST, TooMany};
-use super::flat::{Flat, corner, exactly};
+use super::capacity::{EDGES, MOST, TooMany};
+use super::flat::{Flat, corner, rounded};
 use super::line::Line;
 use super::outline::Outline;
-use super::shapes::{Convex, Edge, Polyhedron};
+use crate::polyhedron::{Edge, FACES, Polyhedron};
+use crate::solid::Solid;
 use etendue::{Mask, Real, Vec3};
 
 /// A light for which blockers are prepared.
@@ -29,7 +30,7 @@ impl<R: Real> Target<'_, R> {
 
 /// A blocker as seen from the points.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Seen<R: Real> {
+pub(super) struct Planes<R: Real> {
     /// The outline of a polygon in front of the light, if that is a sphere.
     pub(super) outline: Outline<R, 5>,
     /// Normals of the planes through the point and the edges of the outline, towards the inside.
@@ -44,7 +45,7 @@ pub(super) struct Seen<R: Real> {
     pub(super) lanes: R::Mask,
 }
 
-impl<R: Real> Default for Seen<R> {
+impl<R: Real> Default for Planes<R> {
     fn default() -> Self {
         Self {
             outline: Outline::default(),
@@ -57,13 +58,13 @@ impl<R: Real> Default for Seen<R> {
     }
 }
 
-impl<R: Real> Seen<R> {
+impl<R: Real> Planes<R> {
     /// Prepares a flat shape, which has just been taken.
     #[inline]
     pub(super) fn flat(
         &mut self,
         flat: &Flat<R>,
-        shape: &Convex<R::Scalar>,
+        shape: &Solid,
         point: Vec3<R>,
         target: &Target<'_, R>,
     ) -> Result<(), TooMany> {
@@ -109,22 +110,22 @@ impl<R: Real> Seen<R> {
     #[inline]
     pub(super) fn polyhedron(
         &mut self,
-        body: &Polyhedron<'_, R::Scalar>,
+        body: &Polyhedron,
         point: Vec3<R>,
         target: &Target<'_, R>,
     ) -> Result<(), TooMany> {
         let mut away = [R::Mask::splat(false); FACES];
-        for (away, [normal, on]) in away.get_mut(..body.faces.len()).ok_or(TooMany)?.iter_mut().zip(body.faces) {
-            *away = (Vec3::splat(*on) - point).dot(Vec3::splat(*normal)).ge(R::lit(0.0));
+        for (away, [normal, on]) in away.get_mut(..body.faces.len()).ok_or(TooMany)?.iter_mut().zip(&body.faces) {
+            *away = (rounded(*on) - point).dot(rounded(*normal)).ge(R::lit(0.0));
         }
-        let center = Vec3::splat(body.center) - point;
+        let center = rounded(body.center) - point;
         let (normal, least) = target.front;
         let scale = center.max_abs().pow2_scale();
         (self.cap, self.count, self.lanes) = (None, 0, R::Mask::splat(true));
         self.outline.start(Vec3::default(), &[], self.lanes);
         let mut before = self.lanes;
-        for Edge { ends, faces: [i, j] } in body.edges {
-            let [from, to] = ends.map(Vec3::splat);
+        for Edge { ends, faces: [i, j] } in &body.edges {
+            let [from, to] = ends.map(rounded);
             let edge = to - from;
             let (from, to) = (from - point, to - point);
             before = before & normal.dot(from).ge(least) & normal.dot(to).ge(least);
@@ -138,7 +139,7 @@ impl<R: Real> Seen<R> {
                 let towards = R::lit(1.0).copysign(plane.dot(center));
                 let plane = (plane * towards).keep(outer);
                 *self.planes.get_mut(self.count).ok_or(TooMany)? = plane;
-                let [from, to] = ends.map(exactly);
+                let [from, to] = *ends;
                 let line = Line { from, edge: to - from, scales: [scale, unit * towards], reach };
                 self.heights[self.count] = target.height(&line, plane, point).keep(outer);
                 self.count += 1;

@@ -8,8 +8,6 @@ pub(super) const DEPTH: usize = 6;
 pub(super) const EDGES: usize = 12;
 /// Greatest number of corners of an intersection.
 pub(super) const MOST: usize = 12;
-/// Greatest number of faces of a polyhedron.
-pub(super) const FACES: usize = 16;
 /// Greatest number of intersections.
 pub(super) const TERMS: u32 = 48;
 

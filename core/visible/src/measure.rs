@@ -5,10 +5,10 @@
 //!
 //! ```
 //! use etendue::{Vec3, f32x8};
-//! use etendue_render::occlusion::{Convex, Occlusion};
-//! let square = |y: f32, half: f32| Convex::Polygon {
-//!     corners: [[-half, -half], [half, -half], [half, half], [-half, half]].map(|[x, z]| Vec3::new(x, y, z)),
-//!     count: 4,
+//! use etendue_visible::{Occlusion, Solid};
+//! let square = |y: f64, half: f64| {
+//!     let corners = [[-half, -half], [half, -half], [half, half], [-half, half]];
+//!     Solid::quadrilateral(corners.map(|[x, z]| Vec3::new(x, y, z)))
 //! };
 //! let (light, blocker) = (square(2.0, 1.0), square(1.0, 0.25));
 //! // eight points below the light; the blocker hides the middle of the light from the first of them
@@ -50,11 +50,9 @@ mod capacity;
 mod flat;
 mod line;
 mod outline;
-mod seen;
-mod shapes;
+mod planes;
 mod visible;
 
 pub use capacity::BLOCKERS;
 pub use outline::COMPACT;
-pub use shapes::{Convex, Edge, Polyhedron};
 pub use visible::{Occlusion, SPARED};
