@@ -262,7 +262,7 @@ const ARROWS: [(&str, &[&str], &[&str]); 25] = [
     ("core/python", &["etendue", "etendue-batch"], &[]),
     ("core/shader", &["etendue"], &["etendue-oracle", "etendue-judge"]),
     ("core/shader/device", &[], &[]),
-    ("core/visible", &["etendue"], &[]),
+    ("core/visible", &["etendue"], &["etendue-oracle"]),
     ("render", &["etendue", "etendue-visible"], &["etendue-oracle"]),
     ("render/bits", &["etendue-render", "etendue-scene"], &[]),
     ("render/scene", &["etendue", "etendue-render"], &[]),
