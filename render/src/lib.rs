@@ -43,8 +43,8 @@
 //! - [`sums`], [`film`], [`files`], [`image`], [`compare`]: sums of samples, pixels, and images in files.
 //! - [`bvh`], [`technique`], [`lobe`], [`bsdf`], [`surfaces`]: what rays hit, and how it reflects.
 //! - [`camera`], [`sensor`], [`sampler`], [`sky`], `light_tree`, [`lights`], [`choose`]: the numbers and directions of a sample.
-//! - `paths`, `estimate`: camera rays to shading points, and the light that these reflect.
-//! - `certify`: what geometry alone tells about that light, and closed forms of it.
+//! - `paths`, `ledger`, `estimate`: camera rays to shading points, what is known of lights there, and the light that these reflect.
+//! - `know`: what geometry alone tells about that light, and closed forms of it.
 //! - [`settings`], [`drive`], [`claim`], [`progressive`]: images of a given number of samples, or of a given error or time, and what they
 //!   claim of it.
 //! - [`identity`], [`split`], [`parts`], [`merge`]: what an image depends on, and images whose parts are rendered apart.
@@ -54,8 +54,6 @@ pub mod area;
 pub mod bsdf;
 pub mod bvh;
 pub mod camera;
-#[cfg(feature = "analytic")]
-pub mod certify;
 pub mod choose;
 pub mod claim;
 #[cfg(feature = "exr")]
@@ -70,6 +68,9 @@ pub mod identity;
 #[cfg(feature = "exr")]
 pub mod image;
 pub mod intensity;
+#[cfg(feature = "analytic")]
+pub mod know;
+mod ledger;
 pub mod light_picture;
 pub mod light_profile;
 mod light_tree;

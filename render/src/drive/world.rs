@@ -1,9 +1,9 @@
 //! A scene ready to be rendered.
 
 use crate::bvh::{BuildError, Hits, NOTHING, Scratch};
-#[cfg(feature = "analytic")]
-use crate::certify::Certifiable;
 use crate::choose::ChoiceBy;
+#[cfg(feature = "analytic")]
+use crate::know::Certifiable;
 use crate::packet::{V8, X8};
 use crate::prepared::PreparedScene;
 use crate::scene::{CameraSettings, Scene};

@@ -11,7 +11,7 @@ use crate::attack::regimes::Regime;
 use crate::random::Random;
 use etendue::{Real, Vec3, f32x8, f64x4};
 use etendue_oracle::{V3, along, dot, narrow, sub, unit, wide};
-use etendue_render::certify::{Bodies, Certifier};
+use etendue_render::know::{Bodies, Certifier};
 use etendue_render::scene::{Geometry, Parallelogram, Scene, Shape, Sphere};
 use etendue_render::surfaces::Surfaces;
 use etendue_visible::{Occlusion, Precision, Proof, Solid};

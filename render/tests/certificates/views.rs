@@ -6,7 +6,7 @@ use etendue::{Mask, Real, f32x8};
 use etendue_oracle::{V3, along, cross, dot, length, sub, unit, wide};
 use etendue_render::bvh::{GROUP, Hits, NOTHING, SHAPE, Scratch};
 use etendue_render::camera::Pinhole;
-use etendue_render::certify::patch;
+use etendue_render::know::patch;
 use etendue_render::packet::M8;
 use etendue_render::scene::{CameraSettings, Geometry, Parallelogram, Scene, Screen, Sphere};
 use etendue_render::surfaces::Surfaces;

@@ -221,6 +221,7 @@ fn imports_are_found() {
         ("core/shader", "core/shader", "plan", "graph"),
         ("core/visible", "core/visible", "prove", "shaft"),
         ("render", "render", "drive", "estimate"),
+        ("render", "render", "estimate", "ledger"),
         ("render", "render", "image", "film"),
         ("render/scene", "render/scene", "gltf", "builder"),
         ("render", "render::bvh", "stream", "single_ray"),

@@ -1,9 +1,10 @@
 //! Direct light of rough surfaces, where geometry tells what can occlude it: the closed form of the fit, to which samples add what the BSDF
 //! reflects beyond it.
 
-use super::analytic::Analytic;
 use super::certificates::{AreaLight, Closed, Known};
-use crate::estimate::{Place, product};
+use super::knowledge::Knowledge;
+use crate::estimate::{Group, Place, product};
+use crate::ledger::Ledger;
 use crate::lobe::Lobe;
 use crate::packet::{M8, V8, X8, first_lane};
 use crate::surfaces::Surface;
@@ -17,18 +18,19 @@ use std::f64::consts::FRAC_1_PI;
 const ALLOWED: f64 = 5e-5;
 const SLIVER: f64 = 0.01;
 
-impl<E> Analytic<'_, E> {
+impl Knowledge<'_> {
     /// Adds what the fits of rough surfaces in a packet reflect of the lights that are known.
     // not inlined, so that it does not burden scenes without rough surfaces
     #[inline(never)]
     pub(super) fn add_fits(
         &mut self,
-        surface: &Surface,
-        place: &Place,
-        lobe: &Lobe,
+        group: &Group<'_>,
         packet: usize,
+        lobe: &Lobe,
+        ledger: &mut Ledger,
         reflected: &mut V8,
     ) {
+        let (surface, place) = (&group.points.surfaces[packet], &group.points.places[packet]);
         let mut left = surface.reflects & place.fitted;
         while left.any() {
             let (first, lanes) = self.certificates.find(surface, place, left);
@@ -38,15 +40,15 @@ impl<E> Analytic<'_, E> {
             }
             for light in 0..self.certificates.lights.len() {
                 let sum = self.fit(surface, lobe, lanes, first, light);
-                let proof = &mut self.left.proofs[light][packet];
+                let proven = &mut ledger.proven[light][packet];
                 match self.certificates.known[first + light] {
-                    Known::Lit(_) => proof.lit = proof.lit | lanes,
-                    Known::Dark => proof.dark = proof.dark | lanes,
+                    Known::Lit(_) => proven.lit = proven.lit | lanes,
+                    Known::Dark => proven.dark = proven.dark | lanes,
                     _ => {}
                 }
                 if let Some(sum) = sum {
                     *reflected += V8::blend(lanes, sum, V8::default());
-                    proof.fitted = proof.fitted | lanes;
+                    proven.fitted = proven.fitted | lanes;
                 }
             }
         }

@@ -1,11 +1,12 @@
 //! Direct light of a group of packets without rays: the closed forms of the lights that certificates know.
 
-use super::analytic::Analytic;
 use super::certificates::{Closed, Known};
+use super::knowledge::Knowledge;
 use super::picture_irradiance::PictureIrradiance;
 use super::visible::Ask;
 use crate::bvh::GROUP;
-use crate::estimate::{Group, Proof, product};
+use crate::estimate::{Group, product};
+use crate::ledger::{Ledger, Proven};
 use crate::packet::{M8, V8, X8, first_lane, select};
 use crate::surfaces::Surface;
 use etendue::{Mask, Real};
@@ -13,7 +14,7 @@ use etendue_visible::Precision;
 use std::f64::consts::FRAC_1_PI;
 
 /// The certificates for a group of packets.
-struct Found {
+struct GroupCertificates {
     /// The lanes of each packet that share certificates, and the index of the first of these.
     parts: [[(usize, M8); 8]; GROUP],
     counts: [usize; GROUP],
@@ -22,7 +23,7 @@ struct Found {
 }
 
 /// What a group of packets sees of a light.
-struct Seen {
+struct GroupSees {
     /// Lanes in which the light must be sampled.
     remaining: [M8; GROUP],
     /// Lanes that see all of it, by a closed form in single or in double precision.
@@ -35,7 +36,7 @@ struct Seen {
     all: [X8; GROUP],
 }
 
-impl Seen {
+impl GroupSees {
     /// Takes the part of the light that some lanes of a packet see, if it is known.
     fn take(&mut self, &Ask { packet, lanes, .. }: &Ask, part: Option<X8>) {
         match part {
@@ -48,42 +49,46 @@ impl Seen {
     }
 }
 
-impl<E> Analytic<'_, E> {
-    /// Adds the reflected light that is known, and notes what is left of each light. Returns whether anything is left.
+impl Knowledge<'_> {
+    /// Adds the reflected light that is known, and notes what is left of each light.
     ///
     /// If blockers hide some of a picture, it is counted as if all of its points were hidden by the same fraction, and samples add the
     /// difference. On rough surfaces, the integral of their fit is counted, and samples of all lights add what the BSDF reflects beyond it.
-    pub(super) fn gather<const GENERAL: bool>(&mut self, group: &Group<'_>, reflected: &mut [V8; GROUP]) -> bool {
+    pub(super) fn gather(&mut self, group: &Group<'_>, ledger: &mut Ledger, reflected: &mut [V8; GROUP]) {
         let lights = self.certificates.lights.len();
-        if GENERAL {
-            self.left.proofs[..lights].fill([Proof::default(); GROUP]);
+        ledger.is_known = true;
+        if !group.scene.surfaces.is_plain {
+            ledger.proven[..lights].fill([Proven::nothing(); GROUP]);
+            let has_fit = |p: usize| group.points.lobes[p].is_some() && group.points.places[p].fitted.any();
+            ledger.has_fits = std::array::from_fn(|p| p < group.count && has_fit(p));
         }
-        let found = self.find(group, reflected);
+        let found = self.find(group, ledger, reflected);
         let mut remains = false;
         let mut sums = [V8::default(); GROUP];
         for light in 0..lights {
             remains |= if found.counts == [0; GROUP] {
-                self.leave(light, group, &found)
+                leave(light, group, &found, ledger)
             } else {
-                self.add_light(light, group, &found, &mut sums)
+                self.add_light(light, group, &found, ledger, &mut sums)
             };
         }
         for (p, surface) in group.reflecting() {
             reflected[p] += product(surface.albedo * X8::lit(FRAC_1_PI), sums[p]);
         }
-        remains
+        ledger.is_closed = !remains;
     }
 
     /// Finds the certificates of the diffuse surfaces of a group, and adds what the fits of rough ones reflect.
-    fn find(&mut self, group: &Group<'_>, reflected: &mut [V8; GROUP]) -> Found {
+    fn find(&mut self, group: &Group<'_>, ledger: &mut Ledger, reflected: &mut [V8; GROUP]) -> GroupCertificates {
         let none = M8::splat(false);
-        let mut found = Found { parts: [[(0, none); 8]; GROUP], counts: [0; GROUP], sampled: [none; GROUP] };
+        let mut found =
+            GroupCertificates { parts: [[(0, none); 8]; GROUP], counts: [0; GROUP], sampled: [none; GROUP] };
         for (p, surface) in group.reflecting() {
             let place = &group.points.places[p];
             let rough = surface.reflects & place.fitted;
             found.sampled[p] = surface.reflects & place.unfitted | rough;
             if let Some(lobe) = group.points.lobes[p].as_ref().filter(|_| rough.any()) {
-                self.add_fits(surface, place, lobe, p, &mut reflected[p]);
+                self.add_fits(group, p, lobe, ledger, &mut reflected[p]);
             }
             let mut left = surface.reflects & !place.unfitted & !rough;
             while left.any() {
@@ -100,21 +105,15 @@ impl<E> Analytic<'_, E> {
         found
     }
 
-    /// Leaves a light to be sampled by a group without certificates.
-    fn leave(&mut self, light: usize, group: &Group<'_>, found: &Found) -> bool {
-        let mut remains = false;
-        for (p, _) in group.reflecting() {
-            self.left.remaining[light][p] = found.sampled[p];
-            if let Some(parts) = &mut self.left.parts {
-                parts[light][p] = X8::lit(0.0);
-            }
-            remains |= found.sampled[p].any();
-        }
-        remains
-    }
-
     /// Adds the irradiance from a light to the sums.
-    fn add_light(&mut self, light: usize, group: &Group<'_>, found: &Found, sums: &mut [V8; GROUP]) -> bool {
+    fn add_light(
+        &mut self,
+        light: usize,
+        group: &Group<'_>,
+        found: &GroupCertificates,
+        ledger: &mut Ledger,
+        sums: &mut [V8; GROUP],
+    ) -> bool {
         let seen = self.see(light, group, found);
         let of = &self.certificates.lights[light];
         let mut remains = false;
@@ -124,8 +123,8 @@ impl<E> Analytic<'_, E> {
                 let (irradiance, more, counted) = seen.picture(p, surface, irradiance);
                 sums[p] += irradiance;
                 remaining = remaining | more;
-                if let Some(parts) = &mut self.left.parts {
-                    parts[light][p] = counted;
+                if let Some(fractions) = &mut ledger.fractions {
+                    fractions[light][p] = counted;
                 }
             } else {
                 let mut part = seen.part[p] + seen.all[p].keep(seen.lit[p]);
@@ -135,17 +134,17 @@ impl<E> Analytic<'_, E> {
                 }
                 sums[p] += V8::from(of.radiance) * part;
             }
-            self.left.remaining[light][p] = remaining;
+            ledger.open[light][p] = remaining;
             remains |= remaining.any();
         }
         remains
     }
 
     /// What a group sees of a light.
-    fn see(&mut self, light: usize, group: &Group<'_>, found: &Found) -> Seen {
+    fn see(&mut self, light: usize, group: &Group<'_>, found: &GroupCertificates) -> GroupSees {
         let (none, zero) = ([M8::splat(false); GROUP], [X8::lit(0.0); GROUP]);
         let mut seen =
-            Seen { remaining: found.sampled, lit: none, lit_exactly: none, behind: none, part: zero, all: zero };
+            GroupSees { remaining: found.sampled, lit: none, lit_exactly: none, behind: none, part: zero, all: zero };
         let (certificates, forms) = (&self.certificates, &mut self.forms);
         let (solids, of) = (&certificates.solids[..], &certificates.lights[light]);
         for (p, surface) in group.reflecting() {
@@ -187,7 +186,20 @@ impl<E> Analytic<'_, E> {
     }
 }
 
-impl Seen {
+/// Leaves a light to be sampled by a group without certificates.
+fn leave(light: usize, group: &Group<'_>, found: &GroupCertificates, ledger: &mut Ledger) -> bool {
+    let mut remains = false;
+    for (p, _) in group.reflecting() {
+        ledger.open[light][p] = found.sampled[p];
+        if let Some(fractions) = &mut ledger.fractions {
+            fractions[light][p] = X8::lit(0.0);
+        }
+        remains |= found.sampled[p].any();
+    }
+    remains
+}
+
+impl GroupSees {
     /// The irradiance of a packet from a picture, the lanes in which it must be sampled, and the part of it that was counted there.
     fn picture(&self, p: usize, surface: &Surface, irradiance: &PictureIrradiance) -> (V8, M8, X8) {
         let zero = X8::lit(0.0);

@@ -1,9 +1,9 @@
 //! Decides at the start of a tile whether certificates are worth their time.
 
-use super::analytic::Analytic;
 use super::certificates::Known;
+use super::knowledge::Knowledge;
 use crate::bvh::GROUP;
-use crate::estimate::{Place, Points};
+use crate::estimate::{Outlook, Place, Points};
 use crate::packet::{M8, each_bit};
 use etendue::Mask;
 use std::cmp::Reverse;
@@ -15,7 +15,7 @@ const TRIALS: usize = 4;
 const TRIED_SQUARES: usize = 3;
 
 /// A primitive that some rays of a tile see.
-struct Seen {
+struct SeenPrimitive {
     place: u32,
     /// Whether the camera sees it directly.
     direct: bool,
@@ -23,13 +23,13 @@ struct Seen {
     lanes: Vec<(usize, usize)>,
 }
 
-impl<E> Analytic<'_, E> {
+impl Knowledge<'_> {
     /// Looks at what the rays of some packets see in the tile, each of them in a pixel of its own, and decides whether certificates are worth
     /// asking for. (The rays are the same for all samples, so that what is known does not depend on which of them a process takes.)
-    pub(super) fn try_out(&mut self, points: &Points, pixels: &[[[u32; 2]; 8]; GROUP]) {
+    pub(super) fn try_out(&mut self, points: &Points, pixels: &[[[u32; 2]; 8]; GROUP]) -> Outlook {
         let Points { surfaces, places, .. } = points;
         let certificates = &mut self.certificates;
-        let mut seen: Vec<Seen> = Vec::new();
+        let mut seen: Vec<SeenPrimitive> = Vec::new();
         let mut all = true;
         for (p, (surface, places)) in surfaces.iter().zip(places).enumerate() {
             all = all && !(surface.reflects & (places.unfitted | places.fitted)).any();
@@ -37,7 +37,7 @@ impl<E> Analytic<'_, E> {
                 let (place, direct) = (places.primitives.as_array()[lane], places.direct.lane(lane));
                 match seen.iter_mut().find(|seen| seen.place == place && seen.direct == direct) {
                     Some(seen) => seen.lanes.push((p, lane)),
-                    None => seen.push(Seen { place, direct, lanes: vec![(p, lane)] }),
+                    None => seen.push(SeenPrimitive { place, direct, lanes: vec![(p, lane)] }),
                 }
             });
         }
@@ -75,7 +75,7 @@ impl<E> Analytic<'_, E> {
         }
         // what is seen in mirrors was not looked at in squares
         let is_tried = seen.len() >= TRIALS || seen.iter().all(|seen| seen.direct);
-        self.is_hopeless = seen.is_empty() || !some && is_tried;
-        self.knows_all = all && seen.len() <= TRIALS;
+        let is_hopeless = seen.is_empty() || !some && is_tried;
+        Outlook { some: !is_hopeless, all: all && seen.len() <= TRIALS }
     }
 }

@@ -11,7 +11,7 @@ use std::f64::consts::PI;
 
 /// The portals of a sky. Parallel ones share a table.
 #[derive(Clone, Debug)]
-pub(super) struct Windows {
+pub(super) struct SkyPortals {
     portals: Vec<Portal>,
     /// The table of each portal.
     of: Vec<usize>,
@@ -28,7 +28,7 @@ const MOST: usize = 1024;
 /// Greatest number of places per texel of a table at which the sky is looked up, along each axis.
 const MOST_PLACES: usize = 16;
 
-impl Windows {
+impl SkyPortals {
     /// Tables of a sky whose texels span this angle, by a function that looks it up. The tables are about as fine as the image, within bounds,
     /// and the sky is looked up at every half texel of it, so that no small sun is missed.
     pub(super) fn new(portals: &[Portal], texel: f64, radiance: impl Fn(V8) -> X8 + Sync) -> Option<Self> {
