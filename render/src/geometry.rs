@@ -16,8 +16,8 @@ mod triangle;
 pub use affine::{Affine, Instance};
 pub use bounds::bounds_of;
 pub use disk::Disk;
+pub use form::Chart;
 pub(crate) use form::{Approach, Extent, Hittable, NEAR};
-pub use form::{Chart, Outline};
 pub use parallelogram::Parallelogram;
 #[cfg(feature = "analytic")]
 pub(crate) use points::{LEAST, LIFT};

@@ -17,8 +17,9 @@ pub(crate) struct Ledger {
     pub(crate) is_closed: bool,
     /// Lanes in which each light must be sampled, whole or in part.
     pub(crate) open: Vec<[M8; GROUP]>,
-    /// The fraction of its visibility that is counted, if lights have such fractions.
-    pub(crate) fractions: Option<Vec<[X8; GROUP]>>,
+    /// The fraction of its visibility that is counted, if lights [have such fractions](Self::has_fractions).
+    pub(crate) fractions: Vec<[X8; GROUP]>,
+    pub(crate) has_fractions: bool,
     /// What is proved of it where rough surfaces have fits.
     pub(crate) proven: Vec<[Proven; GROUP]>,
     /// Whether any surface of a packet has a fit.
@@ -45,14 +46,15 @@ impl Proven {
 }
 
 impl Ledger {
-    /// Nothing is known: all lights are open. It has room for up to [`FEW`] lights if something may be known, and for fractions.
-    pub(crate) fn all_open(has_room: bool, has_fractions: bool) -> Self {
+    /// Nothing is known: all lights are open. It has room for up to [`FEW`] lights if something may be known.
+    pub(crate) fn all_open(has_room: bool) -> Self {
         let lights = if has_room { FEW } else { 0 };
         Self {
             is_known: false,
             is_closed: false,
             open: vec![[M8::splat(false); GROUP]; lights],
-            fractions: has_fractions.then(|| vec![[X8::lit(0.0); GROUP]; lights]),
+            fractions: vec![[X8::lit(0.0); GROUP]; lights],
+            has_fractions: false,
             proven: vec![[Proven::nothing(); GROUP]; lights],
             has_fits: [false; GROUP],
         }
@@ -87,8 +89,8 @@ impl Ledger {
     /// The fractions of these lights that are counted, if there are any.
     #[inline(always)]
     pub(crate) fn counted(&self, packet: usize, lights: u32x8) -> Option<X8> {
-        let fractions = self.fractions.as_ref().filter(|_| self.is_known)?;
-        let lights = lights.as_array();
-        Some(X8::from_fn(|lane| fractions.get(lights[lane] as usize).map_or(0.0, |of| of[packet].lane(lane))))
+        let of = |lane: usize| self.fractions.get(lights.as_array()[lane] as usize);
+        let fraction = |lane: usize| of(lane).map_or(0.0, |of| of[packet].lane(lane));
+        (self.is_known && self.has_fractions).then(|| X8::from_fn(fraction))
     }
 }

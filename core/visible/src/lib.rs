@@ -39,11 +39,10 @@
 //! - That more than the patch is lit: points that are further from it than it says are not covered.
 //!
 //! # What it costs, and when it is not worth asking
-//! A proof takes some microseconds and the visit of the host's tree, and the closed form a few hundred nanoseconds for a point, or some
-//! tens in a packet of eight (see [`measure`]): as long as some tens of shadow rays. So a patch is worth asking about that has a hundred
-//! samples or more. It is not worth it among leaves, hair or height fields of small triangles, where patches are behind too much and stay
-//! [`Open`](Proof::Open); for lights so many that each has few samples; and through lenses and in mirrors, where points are not on a
-//! few patches. Ask about a large patch first and about its quarters only where it is open: what a larger patch decides, holds for its parts.
+//! A proof takes as long as some tens of shadow rays, and the closed form for a point as long as a few (see [`measure`]). So a patch is worth
+//! asking about that has a hundred samples or more. It is not worth it among leaves, hair or small triangles, where patches stay
+//! [`Open`](Proof::Open); for so many lights that each has few samples; and through lenses and in mirrors, where points are not on few
+//! patches. Ask about a large patch first, and about its quarters where it is open: what a patch decides holds for its parts.
 //!
 //! # Precision
 //! [`Seen::irradiance`] computes in double precision. Hosts that compute many points of a patch use [`Occlusion::visible`] themselves, with

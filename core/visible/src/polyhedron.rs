@@ -140,6 +140,11 @@ impl Polyhedron {
     pub fn edges(&self) -> &[Edge] {
         &self.edges
     }
+    /// How far the triangles are from those of a convex polyhedron, in scene units: its outline is displaced by no more.
+    #[must_use]
+    pub const fn deviation(&self) -> f64 {
+        self.deviation
+    }
     /// See [`Hull::stretch`].
     pub(crate) fn stretch(&self, patch: &Hull) -> f64 {
         // the spheres about edges, which are chords of a sphere, end at √2 of its radius
@@ -170,6 +175,3 @@ fn deviation(corners: &[V64], planes: &[(V64, f64)], edges: &[Edge]) -> f64 {
     };
     edges.iter().map(turned).fold(faces, f64::max)
 }
-
-#[cfg(test)]
-mod tests;

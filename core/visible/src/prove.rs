@@ -28,6 +28,20 @@ pub enum Occluder<'a> {
     Within(Solid),
 }
 
+impl Occluder<'_> {
+    /// The shape, or what it is within.
+    #[must_use]
+    pub fn solid(self) -> Solid {
+        let (Self::Whole(solid) | Self::Face(solid, _) | Self::Within(solid)) = self;
+        solid
+    }
+    /// Whether this is all of the shape, and nothing else.
+    #[must_use]
+    pub const fn is_exact(&self) -> bool {
+        !matches!(self, Self::Within(_))
+    }
+}
+
 /// What is proved of a light, as seen from a patch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Proof<'a> {
@@ -127,35 +141,31 @@ impl Prover {
         light: &'a Light,
         search: impl FnOnce(Region<'_>, &mut dyn FnMut(Occluder<'_>) -> bool) -> bool,
     ) -> Seen<'a> {
-        let (is_proved, precision, most) = self.find(patch, light, search);
-        let proof = match is_proved {
-            Found::Lit => Proof::Lit,
-            Found::Dark => Proof::Dark,
-            Found::Behind => Proof::Behind(&self.solids),
-            Found::Open => Proof::Open,
-        };
+        let (proof, precision, most) = self.find(patch, light, search);
+        let proof = if proof == Proof::Behind(&[]) { Proof::Behind(&self.solids) } else { proof };
         Seen { proof, precision, light, most, occlusion: &mut self.one }
     }
 
+    /// What is proved, behind no solids yet; in which precision the closed form is accurate, and the greatest of the light without blockers.
     fn find(
         &mut self,
         patch: &Patch,
         light: &Light,
         search: impl FnOnce(Region<'_>, &mut dyn FnMut(Occluder<'_>) -> bool) -> bool,
-    ) -> (Found, Precision, f64) {
-        let known = |found: Found| (found, Precision::default(), 0.0);
+    ) -> (Proof<'static>, Precision, f64) {
+        let known = |proof: Proof<'static>| (proof, Precision::default(), 0.0);
         let Self { shaft, candidates, met, solids, eight, .. } = self;
         match shaft.set(patch, light, self.reach) {
             Facing::Towards => {}
-            Facing::Away => return known(Found::Dark),
-            Facing::Unknown => return known(Found::Open),
+            Facing::Away => return known(Proof::Dark),
+            Facing::Unknown => return known(Proof::Open),
         }
         candidates.clear();
         met.clear();
         let mut has_gaps = false;
         let complete = search(shaft.region(), &mut |occluder| {
             let (Occluder::Whole(solid) | Occluder::Face(solid, _) | Occluder::Within(solid)) = &occluder;
-            if solid.misses(shaft, !matches!(occluder, Occluder::Within(_))) {
+            if solid.misses(shaft, occluder.is_exact()) {
                 return true;
             }
             let mut serves = |solid: &Solid| {
@@ -187,38 +197,30 @@ impl Prover {
         met.retain(|met| met.1);
         if complete && candidates.is_empty() && met.is_empty() {
             let (precision, most) = Precision::of(patch, light, &Behind::default(), eight);
-            return (Found::Lit, precision, most);
+            return (Proof::Lit, precision, most);
         }
         if light.plane.is_none() && candidates.iter().any(|candidate| candidate.touches(&shaft.light, shaft.epsilon)) {
-            return known(Found::Open);
+            return known(Proof::Open);
         }
         if met.iter().any(|met| met.0.covers(shaft)) {
-            return known(Found::Dark);
+            return known(Proof::Dark);
         }
         if !complete {
-            return known(if any_covers(candidates, shaft) { Found::Dark } else { Found::Open });
+            return known(if any_covers(candidates, shaft) { Proof::Dark } else { Proof::Open });
         }
         merge(candidates);
         if candidates.iter().any(|candidate| candidate.covers(shaft)) {
-            return known(Found::Dark);
+            return known(Proof::Dark);
         }
         if candidates.len() + met.len() > MOST || !candidates.iter().all(|candidate| candidate.is_outside(shaft)) {
-            return known(Found::Open);
+            return known(Proof::Open);
         }
         solids.clear();
         solids.extend(met.drain(..).map(|met| met.0));
         solids.append(candidates);
         let (precision, most) = Precision::of(patch, light, &behind(solids, patch), eight);
-        (Found::Behind, precision, most)
+        (Proof::Behind(&[]), precision, most)
     }
-}
-
-/// What is proved, without what is behind.
-enum Found {
-    Lit,
-    Dark,
-    Behind,
-    Open,
 }
 
 /// What matters of these solids for the precision of a closed form.

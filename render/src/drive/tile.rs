@@ -1,6 +1,5 @@
 //! Renders the samples of a square of pixels.
 
-use super::estimator::{Knower, of_technique};
 use super::light_weights::{LightBlocks, LightWeights};
 use super::pixel_statistics::{Statistics, StatisticsSum};
 use super::radiance::Radiance;
@@ -11,7 +10,7 @@ use crate::area::Area;
 use crate::bvh::GROUP;
 use crate::camera::{Camera, CameraSample, counted_from};
 use crate::choose::Chooser;
-use crate::estimate::{Group, Numbers, Outlook, RayCount, Sampled, product};
+use crate::estimate::{Group, Know, Numbers, Outlook, RayCount, Sampled, product};
 use crate::film::Accumulator;
 use crate::ledger::Ledger;
 use crate::lights::Lights;
@@ -42,7 +41,7 @@ pub(super) struct TileRenderer<'a> {
     pub(super) source: Source,
     pub(super) paths: Paths<'a>,
     /// What is known without samples, and what was written of it for the last group.
-    pub(super) know: Knower<'a>,
+    pub(super) know: Option<Box<dyn Know + 'a>>,
     ledger: Ledger,
     /// What is foreseen of that in the tile.
     pub(super) outlook: Outlook,
@@ -55,7 +54,8 @@ impl<'a> TileRenderer<'a> {
         let scene = &world.scene;
         let sampled = scene.sampled(settings.technique, settings.choice);
         let (lights, chooser) = sampled.unwrap_or_else(|what| panic!("the choice of a light needs {what}"));
-        let (know, ledger, sampled) = of_technique(world, settings, &camera);
+        let know = world.know(settings, &camera);
+        let sampled = Sampled::new(settings.technique, know.is_some() && scene.surfaces.has_rough());
         Self {
             scene,
             lights,
@@ -68,8 +68,8 @@ impl<'a> TileRenderer<'a> {
             exposure,
             source: Source::new(sampler, seed, spp, sets, width),
             paths: Paths::new(scene, settings.depth),
+            ledger: Ledger::all_open(know.is_some()),
             know,
-            ledger,
             outlook: Outlook::default(),
             sampled,
         }

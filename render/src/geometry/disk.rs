@@ -4,14 +4,14 @@
 //! these take them for the squares around them.
 
 use super::flat::Plane;
-use super::form::{Approach, Extent, Form, Hittable, Outline, wide};
+use super::form::{Approach, Extent, Form, Hittable, wide};
 use super::points::{Points, on_plane};
 use crate::packet::{M8, V8, X8};
 use crate::spread::Spread;
 use crate::technique::Measure;
 use etendue::light;
 use etendue::{Frame, LightSample, LightSampler, Real, Vec2, Vec3};
-use etendue_visible::Solid;
+use etendue_visible::{Occluder, Solid};
 use std::f64::consts::PI;
 
 /// A disk that emits from the side of its normal.
@@ -87,13 +87,13 @@ impl Form for Disk {
     fn pdf(&self, _spread: Option<Spread<f32>>, p: V8, w: V8) -> X8 {
         Self::light(self.vectors().map(V8::from)).by_solid_angle(p).pdf_of_hit(w)
     }
-    fn outline(&self) -> Outline {
+    fn outline(&self) -> Occluder<'static> {
         // wider than the rounding of its corners
         let (center, radius) = (self.middle(), f64::from(self.radius));
         let wider = 1.0 + 1e-6 * (1.0 + center.max_abs() / radius);
         let [s, t] = self.halves(center).map(|half| half * wider);
         let narrow = |v: Vec3<f64>| v.map(|x| f64::from(x as f32));
-        Outline::Within(Solid::Parallelogram { corner: narrow(center - s - t), edges: [narrow(s + s), narrow(t + t)] })
+        Occluder::Within(Solid::Parallelogram { corner: narrow(center - s - t), edges: [narrow(s + s), narrow(t + t)] })
     }
 }
 

@@ -6,7 +6,7 @@ use crate::spread::Spread;
 use crate::technique::Measure;
 use etendue::light::Picture;
 use etendue::{LightSample, Mask, Real, Vec2, Vec3};
-use etendue_visible::Solid;
+use etendue_visible::{Occluder, Solid};
 
 /// The form of a shape: where it is, how rays meet it, how it is sampled as a light, and what stands for it in closed forms.
 ///
@@ -86,40 +86,21 @@ pub(crate) trait Form: Sized {
     }
 
     /// What closed forms take it for. By default nothing is known but a ball around the form.
-    fn outline(&self) -> Outline {
+    fn outline(&self) -> Occluder<'static> {
         let [low, high] = self.bounds().map(|corner| Vec3::<f64>::from(corner.map(f64::from)));
         // wider than the rounding of its centre and radius
         let (center, radius) = ((low + high) * 0.5, (high - low).length() * 0.5);
         let radius = (radius + center.max_abs() * 1e-6) * (1.0 + 1e-6);
-        Outline::Within(Solid::Sphere { center: center.map(|x| f64::from(x as f32)), radius: f64::from(radius as f32) })
+        Occluder::Within(Solid::Sphere {
+            center: center.map(|x| f64::from(x as f32)),
+            radius: f64::from(radius as f32),
+        })
     }
 
     /// The unit normal of a flat form; 0 for a curved one.
     #[inline]
     fn normal(&self) -> [f32; 3] {
         self.plane().map_or([0.0; 3], |[_, normal]| [normal.x as f32, normal.y as f32, normal.z as f32])
-    }
-}
-
-/// What closed forms take a shape for.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Outline {
-    /// The shape is this one.
-    Exact(Solid),
-    /// The shape is somewhere within this one, so its light is only sampled; but where that is dark or hidden, so is the shape.
-    Within(Solid),
-}
-
-impl Outline {
-    /// The shape, or what it is within.
-    pub fn solid(self) -> Solid {
-        match self {
-            Self::Exact(solid) | Self::Within(solid) => solid,
-        }
-    }
-    /// Whether this is all of the shape, and nothing else.
-    pub const fn is_exact(&self) -> bool {
-        matches!(self, Self::Exact(_))
     }
 }
 

@@ -2,14 +2,14 @@
 
 use super::bounds::bounds_of;
 use super::flat::{Edged, coordinates, sample_picture};
-use super::form::{Chart, Extent, Form, Outline, projected, wide};
+use super::form::{Chart, Extent, Form, projected, wide};
 use super::points::{Points, on_plane};
 use crate::packet::{V8, X8};
 use crate::spread::Spread;
 use crate::technique::Measure;
 use etendue::light::{self, Picture};
 use etendue::{LightSample, LightSampler, Vec2, Vec3};
-use etendue_visible::Solid;
+use etendue_visible::{Occluder, Solid};
 
 /// The parallelogram `p + s u + t v` for s, t in \[0,1\]; the normal is u × v.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -106,7 +106,7 @@ impl Form for Parallelogram {
         picture.on(self.splat()).by_solid_angle(p).pdf(w)
     }
     /// It keeps its edges, as samplers and rays have them.
-    fn outline(&self) -> Outline {
-        Outline::Exact(Solid::Parallelogram { corner: wide(self.p), edges: [wide(self.u), wide(self.v)] })
+    fn outline(&self) -> Occluder<'static> {
+        Occluder::Whole(Solid::Parallelogram { corner: wide(self.p), edges: [wide(self.u), wide(self.v)] })
     }
 }

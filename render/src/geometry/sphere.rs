@@ -1,13 +1,13 @@
 //! Spheres. As lights, they are the centre, and the radius in x of the second vector.
 
-use super::form::{Approach, Chart, Extent, Form, Hittable, NEAR, Outline, wide};
+use super::form::{Approach, Chart, Extent, Form, Hittable, NEAR, wide};
 use super::points::{D8, Points, each, facing, lifted, unit, zero};
 use crate::packet::{M8, V8, X8, each_bit, max, select, widen};
 use crate::spread::Spread;
 use crate::technique::Measure;
 use etendue::light::{self, Picture};
 use etendue::{Frame, LightSample, LightSampler, Mask, Real, Vec2, Vec3, f64x8};
-use etendue_visible::Solid;
+use etendue_visible::{Occluder, Solid};
 use std::f64::consts::PI;
 
 /// A whole sphere; its normal points outwards.
@@ -131,8 +131,8 @@ impl Form for Sphere {
     fn pdf_of_picture(&self, picture: &Picture<'_>, axes: &[[f32; 3]; 3], p: V8, w: V8) -> X8 {
         picture.on(self.in_axes(axes, p)).by_visible_area(Vec3::default()).pdf(inwards(axes, w))
     }
-    fn outline(&self) -> Outline {
-        Outline::Exact(Solid::Sphere { center: wide(self.center), radius: self.radius.into() })
+    fn outline(&self) -> Occluder<'static> {
+        Occluder::Whole(Solid::Sphere { center: wide(self.center), radius: self.radius.into() })
     }
 }
 

@@ -1,7 +1,7 @@
 //! The table of all forms of shapes, and what hosts may ask of any of them.
 
 use super::disk::Disk;
-use super::form::{Approach, Chart, Extent, Form, Hittable, Outline};
+use super::form::{Approach, Chart, Extent, Form, Hittable};
 use super::parallelogram::Parallelogram;
 use super::points::Points;
 use super::sphere::Sphere;
@@ -11,6 +11,7 @@ use crate::spread::Spread;
 use crate::technique::Measure;
 use etendue::light::Picture;
 use etendue::{LightSample, Vec2, Vec3};
+use etendue_visible::Occluder;
 
 /// What is made of each line of the table. `$` stands for itself in the macro that this one defines.
 macro_rules! forms {
@@ -153,7 +154,7 @@ impl Geometry {
         of!(self, |form| form.bounds())
     }
     /// What closed forms take the shape for.
-    pub fn outline(&self) -> Outline {
+    pub fn outline(&self) -> Occluder<'static> {
         of!(self, |form| form.outline())
     }
     /// The middle of the shape.

@@ -2,14 +2,14 @@
 
 use super::bounds::bounds_of;
 use super::flat::{Edged, coordinates, sample_picture};
-use super::form::{Chart, Extent, Form, Outline, projected, wide};
+use super::form::{Chart, Extent, Form, projected, wide};
 use super::points::{Points, on_plane};
 use crate::packet::{V8, X8};
 use crate::spread::Spread;
 use crate::technique::Measure;
 use etendue::light::{self, Picture};
 use etendue::{LightSample, LightSampler, Vec2, Vec3};
-use etendue_visible::Solid;
+use etendue_visible::{Occluder, Solid};
 
 /// The corners of a triangle; the normal is (v1 − v0) × (v2 − v0).
 pub(super) type Triangle = [[f32; 3]; 3];
@@ -97,7 +97,7 @@ impl Form for Triangle {
     fn pdf_of_picture(&self, picture: &Picture<'_>, _axes: &[[f32; 3]; 3], p: V8, w: V8) -> X8 {
         picture.on(light(self.vectors().map(V8::from))).by_solid_angle(p).pdf(w)
     }
-    fn outline(&self) -> Outline {
-        Outline::Exact(Solid::triangle(self.map(wide)))
+    fn outline(&self) -> Occluder<'static> {
+        Occluder::Whole(Solid::triangle(self.map(wide)))
     }
 }

@@ -38,7 +38,7 @@ impl Certifiable {
         self.only_sampled
     }
     /// Whether the pictures of any lights have closed forms.
-    pub(crate) fn has_irradiances(&self) -> bool {
+    pub(super) fn has_irradiances(&self) -> bool {
         self.irradiances.iter().any(Option::is_some)
     }
 }

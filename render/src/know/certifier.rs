@@ -2,26 +2,20 @@
 
 use super::bodies::Bodies;
 use crate::bvh::{Region, SHAPE};
-use crate::geometry::{Geometry, LEAST, LIFT, Outline};
+use crate::geometry::{Geometry, LEAST, LIFT};
 use crate::surfaces::Surfaces;
 use etendue_visible::{Lift, Light, Occluder, Patch, Precision, Proof, Prover, Solid, Viewer};
 
 /// Greatest number of nodes that a search visits.
 const NODES: usize = 160;
 
-/// A light, and the index of its shape.
-#[derive(Debug)]
-struct ShapeLight {
-    shape: u32,
-    light: Light,
-}
-
 /// Certifies lights, with reused memory.
 #[derive(Debug)]
 pub struct Certifier<'a> {
     surfaces: &'a Surfaces,
     bodies: &'a Bodies,
-    lights: Vec<Option<ShapeLight>>,
+    /// Each with the index of its shape.
+    lights: Vec<Option<(u32, Light)>>,
     region: Region,
     stack: Vec<u32>,
     prover: Prover,
@@ -32,8 +26,8 @@ pub struct Certifier<'a> {
 pub fn patch(surfaces: &Surfaces, place: u32, viewer: Viewer<'_>) -> Option<Patch> {
     let lift = Lift { relative: LIFT, least: LEAST * f64::from(surfaces.bvh.reach()) };
     match outline(surfaces, place) {
-        Outline::Exact(Solid::Sphere { center, radius }) => Patch::sphere(center, radius, viewer, lift),
-        Outline::Exact(Solid::Polygon { corners: [a, b, c, _], .. }) if place & SHAPE == 0 => {
+        Occluder::Whole(Solid::Sphere { center, radius }) => Patch::sphere(center, radius, viewer, lift),
+        Occluder::Whole(Solid::Polygon { corners: [a, b, c, _], .. }) if place & SHAPE == 0 => {
             Patch::triangle([a, b, c], viewer, lift)
         }
         _ => None,
@@ -41,7 +35,7 @@ pub fn patch(surfaces: &Surfaces, place: u32, viewer: Viewer<'_>) -> Option<Patc
 }
 
 /// What the primitive at a place is, or is within.
-fn outline(surfaces: &Surfaces, place: u32) -> Outline {
+fn outline(surfaces: &Surfaces, place: u32) -> Occluder<'static> {
     if place & SHAPE == 0 {
         let c = surfaces.bvh.corners(place);
         return Geometry::Triangle([[c[0], c[1], c[2]], [c[3], c[4], c[5]], [c[6], c[7], c[8]]]).outline();
@@ -54,8 +48,7 @@ impl<'a> Certifier<'a> {
     pub fn new(surfaces: &'a Surfaces, bodies: &'a Bodies, lights: impl IntoIterator<Item = u32>) -> Self {
         let light = |shape: u32| {
             let of = surfaces.shapes().get(shape as usize)?;
-            let light = Light::new(of.geometry.outline().solid(), of.emission?.two_sided)?;
-            Some(ShapeLight { shape, light })
+            Some((shape, Light::new(of.geometry.outline().solid(), of.emission?.two_sided)?))
         };
         let reach = surfaces.bvh.reach();
         Self {
@@ -71,9 +64,7 @@ impl<'a> Certifier<'a> {
     /// closed form is accurate.
     pub fn certify(&mut self, place: u32, patch: &Patch, light: usize) -> (Proof<'_>, Precision) {
         let Self { surfaces, bodies, lights, region, stack, prover } = self;
-        let Some(Some(ShapeLight { shape, light })) = lights.get(light) else {
-            return (Proof::Open, Precision::default());
-        };
+        let Some(Some((shape, light))) = lights.get(light) else { return (Proof::Open, Precision::default()) };
         let own = [place, shape | SHAPE];
         if own[0] == own[1] {
             // a convex light is below the horizon of each of its own points
@@ -88,14 +79,14 @@ impl<'a> Certifier<'a> {
                     return true;
                 }
                 found(match outline(surfaces, place) {
-                    Outline::Within(solid) => Occluder::Within(solid),
-                    Outline::Exact(solid) if place & SHAPE == 0 && surfaces.bvh.is_cut_out(place) => {
+                    Occluder::Whole(solid) if place & SHAPE == 0 && surfaces.bvh.is_cut_out(place) => {
                         Occluder::Within(solid)
                     }
-                    Outline::Exact(solid) => match bodies.of(place).filter(|&body| own_body != Some(body)) {
+                    Occluder::Whole(solid) => match bodies.of(place).filter(|&body| own_body != Some(body)) {
                         Some(body) => Occluder::Face(solid, &bodies.solids()[body as usize]),
                         None => Occluder::Whole(solid),
                     },
+                    other => other,
                 })
             })
         });

@@ -2,9 +2,9 @@
 
 use super::visible::Visible;
 use crate::packet::{V8, X8, widen, widen_points};
-use etendue::f64x8;
 use etendue::reflection::Reflection;
-use etendue_visible::{Occlusion, Solid};
+use etendue::{Real, Vec3, f64x8};
+use etendue_visible::{Occlusion, Precision, Solid};
 
 /// Computes closed forms, and holds the memory for it.
 #[derive(Default)]
@@ -15,36 +15,34 @@ pub(super) struct ClosedForms {
 }
 
 impl ClosedForms {
-    /// As of [`Occlusion::visible`], or with a lobe of [`Occlusion::reflected`], in single precision.
+    /// What points with these normals see of a light past blockers, or reflect by a lobe: [`Occlusion::visible`] or
+    /// [`Occlusion::reflected`] in the precision that the blockers need.
     pub(super) fn part(
         &mut self,
-        point: V8,
-        normal: V8,
+        at: [V8; 2],
         lobe: Option<&Reflection<X8>>,
         light: &Solid,
-        blockers: &[Solid],
+        (blockers, precision): (&[Solid], Precision),
     ) -> Option<X8> {
-        let occlusion = &mut self.visible.one;
-        match lobe {
-            Some(lobe) => occlusion.reflected(point, normal, lobe, light, blockers),
-            None => occlusion.visible(point, normal, light, blockers),
+        if precision != Precision::Double {
+            return part(&mut self.visible.one, at, lobe, light, blockers);
         }
+        let (exact, lobe) = (self.exact.get_or_insert_default(), lobe.map(|lobe| lobe.map(widen)));
+        let part = part(exact, at.map(widen_points), lobe.as_ref(), light, blockers)?;
+        Some(X8::from(part.to_array().map(|part| part as f32)))
     }
-    /// The same in double precision.
-    pub(super) fn exact_part(
-        &mut self,
-        point: V8,
-        normal: V8,
-        lobe: Option<&Reflection<X8>>,
-        light: &Solid,
-        blockers: &[Solid],
-    ) -> Option<X8> {
-        let occlusion = self.exact.get_or_insert_default();
-        let (point, normal) = (widen_points(point), widen_points(normal));
-        let visible = match lobe {
-            Some(lobe) => occlusion.reflected(point, normal, &lobe.map(widen), light, blockers)?,
-            None => occlusion.visible(point, normal, light, blockers)?,
-        };
-        Some(X8::from(visible.to_array().map(|part| part as f32)))
+}
+
+#[inline]
+fn part<R: Real>(
+    occlusion: &mut Occlusion<R>,
+    [point, normal]: [Vec3<R>; 2],
+    lobe: Option<&Reflection<R>>,
+    light: &Solid,
+    blockers: &[Solid],
+) -> Option<R> {
+    match lobe {
+        Some(lobe) => occlusion.reflected(point, normal, lobe, light, blockers),
+        None => occlusion.visible(point, normal, light, blockers),
     }
 }

@@ -56,7 +56,7 @@ impl Knowledge<'_> {
     /// difference. On rough surfaces, the integral of their fit is counted, and samples of all lights add what the BSDF reflects beyond it.
     pub(super) fn gather(&mut self, group: &Group<'_>, ledger: &mut Ledger, reflected: &mut [V8; GROUP]) {
         let lights = self.certificates.lights.len();
-        ledger.is_known = true;
+        (ledger.is_known, ledger.has_fractions) = (true, self.has_fractions);
         if !group.scene.surfaces.is_plain {
             ledger.proven[..lights].fill([Proven::nothing(); GROUP]);
             let has_fit = |p: usize| group.points.lobes[p].is_some() && group.points.places[p].fitted.any();
@@ -123,13 +123,12 @@ impl Knowledge<'_> {
                 let (irradiance, more, counted) = seen.picture(p, surface, irradiance);
                 sums[p] += irradiance;
                 remaining = remaining | more;
-                if let Some(fractions) = &mut ledger.fractions {
-                    fractions[light][p] = counted;
-                }
+                ledger.fractions[light][p] = counted;
             } else {
                 let mut part = seen.part[p] + seen.all[p].keep(seen.lit[p]);
                 if seen.lit_exactly[p].any() {
-                    let all = self.forms.exact_part(surface.point, surface.normal, None, &of.form, &[]);
+                    let all =
+                        self.forms.part([surface.point, surface.normal], None, &of.form, (&[], Precision::Double));
                     part += all.unwrap_or_default().keep(seen.lit_exactly[p]);
                 }
                 sums[p] += V8::from(of.radiance) * part;
@@ -161,7 +160,8 @@ impl Knowledge<'_> {
                         let (point, normal) = (repeat(surface.point), repeat(surface.normal));
                         let ask = Ask { packet: p, lanes: *lanes, point, normal, behind: behind.clone() };
                         if *precision == Precision::Double {
-                            let part = forms.exact_part(point, normal, None, &of.form, &solids[behind.clone()]);
+                            let part =
+                                forms.part([point, normal], None, &of.form, (&solids[behind.clone()], *precision));
                             seen.take(&ask, part);
                         } else {
                             forms.visible.add(ask, &of.form, solids, |ask, part| seen.take(ask, part));
@@ -191,8 +191,8 @@ fn leave(light: usize, group: &Group<'_>, found: &GroupCertificates, ledger: &mu
     let mut remains = false;
     for (p, _) in group.reflecting() {
         ledger.open[light][p] = found.sampled[p];
-        if let Some(fractions) = &mut ledger.fractions {
-            fractions[light][p] = X8::lit(0.0);
+        if ledger.has_fractions {
+            ledger.fractions[light][p] = X8::lit(0.0);
         }
         remains |= found.sampled[p].any();
     }

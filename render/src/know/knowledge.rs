@@ -11,13 +11,15 @@ use crate::packet::{M8, V8, X8, each_bit};
 use crate::prepared::PreparedScene;
 use crate::settings::Settings;
 use etendue::{Mask, Real, Vec3};
-use etendue_visible::{ALLOWED, Solid};
+use etendue_visible::{ALLOWED, Precision, Solid};
 use std::f64::consts::FRAC_1_PI;
 
 /// Writes what is proved into the ledger, and adds the light that follows from it.
 pub(crate) struct Knowledge<'a> {
     pub(super) certificates: Certificates<'a>,
     pub(super) forms: ClosedForms,
+    /// Whether pictures of lights have closed forms, of which fractions can be counted.
+    pub(super) has_fractions: bool,
 }
 
 impl<'a> Knowledge<'a> {
@@ -29,7 +31,7 @@ impl<'a> Knowledge<'a> {
         settings: &Settings,
     ) -> Self {
         let certificates = Certificates::new(scene, certifiable, camera, settings);
-        Self { certificates, forms: ClosedForms::default() }
+        Self { certificates, forms: ClosedForms::default(), has_fractions: certifiable.has_irradiances() }
     }
 }
 
@@ -79,7 +81,7 @@ impl Know for Knowledge<'_> {
                     }
                     _ => surface.normal,
                 };
-                let all = self.forms.part(surface.point, normal, None, &light.form, &[]);
+                let all = self.forms.part([surface.point, normal], None, &light.form, (&[], Precision::Single));
                 sum += V8::from(light.radiance) * all.unwrap_or_default();
             }
         }

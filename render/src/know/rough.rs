@@ -72,10 +72,7 @@ impl Knowledge<'_> {
         let one = Reflection::splat(lobe.reflection.map(|x| x.lane(lane)));
         let reflection = Reflection::blend(lanes, lobe.reflection, one);
         let (forms, blockers) = (&mut self.forms, &self.certificates.solids[behind]);
-        let mut part = |lobe: Option<&Reflection<X8>>| match precision {
-            Precision::Double => forms.exact_part(point, normal, lobe, form, blockers),
-            _ => forms.part(point, normal, lobe, form, blockers),
-        };
+        let mut part = |lobe| forms.part([point, normal], lobe, form, (blockers, precision));
         let shine = part(Some(&reflection))?;
         let diffuse = if (lobe.coats & lanes).any() { part(None)? } else { X8::default() };
         let all = (lobe.specular * shine + lobe.diffuse * diffuse) * X8::lit(FRAC_1_PI);
@@ -89,7 +86,12 @@ impl Knowledge<'_> {
         for light in 0..self.certificates.lights.len() {
             if first > 0 && self.fit(surface, lobe, M8::from_bits(1), first, light).is_some() {
                 let AreaLight { form, radiance, .. } = &self.certificates.lights[light];
-                let shine = self.forms.part(surface.point, surface.normal, Some(&lobe.reflection), form, &[]);
+                let shine = self.forms.part(
+                    [surface.point, surface.normal],
+                    Some(&lobe.reflection),
+                    form,
+                    (&[], Precision::Single),
+                );
                 let shine = shine.unwrap_or_default() + X8::lit(SLIVER);
                 sum += product(lobe.specular + lobe.diffuse, V8::from(*radiance)) * shine;
             }

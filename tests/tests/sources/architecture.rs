@@ -226,7 +226,7 @@ fn imports_are_found() {
         ("render/scene", "render/scene", "gltf", "builder"),
         ("render", "render::bvh", "stream", "single_ray"),
         ("render", "render::bvh", "bvh", "stream"),
-        ("render", "render::drive", "tile", "estimator"),
+        ("render", "render::drive", "tile", "world"),
         ("render/laboratory", "render/laboratory", "chart", "options"),
         ("render/laboratory", "render/laboratory::chart", "report", "outcome"),
         ("render/laboratory", "render/laboratory::chart", "plot", "stats"),

@@ -79,8 +79,13 @@ impl<R: Real> Flat<R> {
 }
 
 /// A corner of a flat shape without rounding.
+#[inline(always)]
 pub(super) fn corner(shape: &Solid, i: usize) -> V64 {
-    shape.outline().map_or(V64::default(), |(corners, _)| corners[i & 3])
+    match *shape {
+        Solid::Polygon { corners, .. } => corners[i & 3],
+        Solid::Parallelogram { corner: a, edges: [u, v] } => [a, a + u, a + u + v, a + v][i & 3],
+        Solid::Sphere { .. } | Solid::Polyhedron(_) => V64::default(),
+    }
 }
 /// A vector in every lane.
 #[inline(always)]
