@@ -178,7 +178,7 @@ impl Bvh {
         self.trace_shapes::<false>(rays, &mut lanes[..active.len()], frustum.as_ref(), hits, scratch);
     }
     /// Clears the lanes of `active` in which something hides the end of a segment, which is at the distance `limit` and on the shape `target`
-    /// (an index without [`SHAPE`]; or [`NOTHING`], if it is on none). What is level with the end within [`ENDS`](crate::occlusion::ENDS)
+    /// (an index without [`SHAPE`]; or [`NOTHING`], if it is on none). What is level with the end within [`ENDS`](etendue_visible::ENDS)
     /// does not hide it, but for lights that shine towards the origin, too, and come before the target in the scene's list.
     #[inline]
     pub fn occluded(&self, rays: &[Rays], active: &mut [M8], limit: &[X8], target: &[u32x8], scratch: &mut Scratch) {

@@ -18,7 +18,6 @@
 //! An image of a given error or time repeats this in passes, each of up to eight times as many samples ([`progressive`](crate::progressive)).
 
 mod corners;
-mod estimator;
 mod light_weights;
 mod pixel_counts;
 mod pixel_statistics;

@@ -18,8 +18,8 @@ pub use affine::{Affine, Instance};
 pub use bounds::bounds_of;
 pub use disk::Disk;
 pub(crate) use ends::{End, Segment};
-pub(crate) use form::{Approach, Extent, Meeting, NEAR, NEAR_LIMIT, Solid};
-pub use form::{Chart, Outline};
+pub use form::Chart;
+pub(crate) use form::{Approach, Extent, Hittable, Meeting, NEAR, NEAR_LIMIT};
 pub use parallelogram::Parallelogram;
 #[cfg(feature = "analytic")]
 pub(crate) use points::{LEAST, LIFT};
@@ -27,4 +27,4 @@ pub(crate) use points::{Points, on_triangle, on_triangles, on_vast_triangles};
 pub use sphere::Sphere;
 pub(crate) use sphere::across;
 pub use table::Geometry;
-pub(crate) use table::{AnySolid, KINDS, Kind, extent, normals, sample};
+pub(crate) use table::{AnyHittable, KINDS, Kind, extent, normals, sample};

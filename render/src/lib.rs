@@ -37,14 +37,14 @@
 //!
 //! Modules import one way, from the last line of this list to the first:
 //!
-//! - [`packet`], [`area`], [`occlusion`], [`geometry`], [`texture`], [`limits`]: packets of eight numbers, rectangles of pixels, what convex
-//!   blockers leave of a light, the forms of shapes, what varies over them, and how large images can be.
+//! - [`packet`], [`area`], [`geometry`], [`texture`], [`limits`]: packets of eight numbers, rectangles of pixels, the
+//!   forms of shapes, what varies over them, and how large images can be.
 //! - [`intensity`], [`light_picture`], [`light_profile`], [`scene`]: what a scene is, and what its lights show.
 //! - [`sums`], [`film`], [`files`], [`image`], [`compare`]: sums of samples, pixels, and images in files.
 //! - [`bvh`], [`technique`], [`lobe`], [`bsdf`], [`surfaces`]: what rays hit, and how it reflects.
 //! - [`camera`], [`sensor`], [`sampler`], [`sky`], `light_tree`, [`lights`], [`choose`]: the numbers and directions of a sample.
-//! - `paths`, `estimate`: camera rays to shading points, and the light that these reflect.
-//! - `certify`: what geometry alone tells about that light, and closed forms of it.
+//! - `paths`, `ledger`, `estimate`: camera rays to shading points, what is known of lights there, and the light that these reflect.
+//! - `know`: what geometry alone tells about that light, and closed forms of it.
 //! - [`settings`], [`drive`], [`claim`], [`progressive`]: images of a given number of samples, or of a given error or time, and what they
 //!   claim of it.
 //! - [`identity`], [`split`], [`parts`], [`merge`]: what an image depends on, and images whose parts are rendered apart.
@@ -54,8 +54,6 @@ pub mod area;
 pub mod bsdf;
 pub mod bvh;
 pub mod camera;
-#[cfg(feature = "analytic")]
-pub mod certify;
 pub mod choose;
 pub mod claim;
 #[cfg(feature = "exr")]
@@ -70,6 +68,9 @@ pub mod identity;
 #[cfg(feature = "exr")]
 pub mod image;
 pub mod intensity;
+#[cfg(feature = "analytic")]
+pub mod know;
+mod ledger;
 pub mod light_picture;
 pub mod light_profile;
 mod light_tree;
@@ -79,7 +80,6 @@ pub mod lobe;
 #[cfg(feature = "exr")]
 pub mod merge;
 mod named;
-pub mod occlusion;
 pub mod packet;
 #[cfg(feature = "exr")]
 pub mod parts;

@@ -5,7 +5,7 @@
 //! distributed in all of its dimensions together.
 //!
 //! The samples of a well-distributed set are not independent, so their spread does not measure the error. A pixel therefore
-//! consists of a few independent *replicates* of the set, and its variance is that of the mean of their means. The sampler
+//! consists of a few independent *sets*, and its variance is that of the mean of their means. The sampler
 //! `adaptive` needs one set in a pixel: it renders some pixels twice, and the differences estimate the variance everywhere.
 
 use crate::named::named;
@@ -52,8 +52,8 @@ pub struct Packet {
     pub y: u32x8,
     /// Indices of the samples in their pixels.
     pub sample: u32x8,
-    /// Indices of the replicates in their pixels: ⌊sample/span⌋, or 0 if each sample is a replicate; see [`Source::span`].
-    pub replicate: u32x8,
+    /// Indices of the sets in their pixels: ⌊sample/span⌋, or 0 if each sample is a set; see [`Source::span`].
+    pub set: u32x8,
     /// Lanes that hold a sample.
     pub active: M8,
 }
@@ -66,8 +66,8 @@ impl Packet {
     }
 }
 
-/// Replicates of a pixel of `spp` samples: the fewest that give a variance, or 4 if each then has at least 8 samples.
-const fn replicates(spp: u32) -> u32 {
+/// Sets of a pixel of `spp` samples: the fewest that give a variance, or 4 if each then has at least 8 samples.
+const fn fewest_sets(spp: u32) -> u32 {
     if spp.is_multiple_of(4) && spp >= 32 {
         4
     } else if spp.is_multiple_of(2) {
@@ -119,13 +119,13 @@ impl Sampler {
         match self {
             _ if asked != 0 => asked,
             Self::Adaptive => 1,
-            _ => replicates(spp),
+            _ => fewest_sets(spp),
         }
     }
 }
 
 #[derive(Debug)]
-enum Set {
+enum AnySequence {
     Independent(Independent),
     Stratified(Stratified),
     Sobol(OwenSobol),
@@ -136,10 +136,10 @@ enum Set {
 /// Random numbers for the samples of an image.
 #[derive(Debug)]
 pub struct Source {
-    set: Set,
-    /// Samples in a replicate; 0 if each sample is a replicate.
+    sequence: AnySequence,
+    /// Samples in a set; 0 if each sample is a set.
     span: u32,
-    /// Distance of the first indices of two successive replicates, less `span`.
+    /// Distance of the first indices of two successive sets, less `span`.
     gap: u32x8,
     width: u32x8,
 }
@@ -160,25 +160,25 @@ impl Source {
     #[must_use]
     pub fn new(sampler: Sampler, seed: u64, spp: u32, sets: u32, width: u32) -> Self {
         let span = match sampler {
-            // its replicates have no fixed length, so samples are counted within each
+            // its sets have no fixed length, so samples are counted within each
             Sampler::Adaptive => 0,
             _ => spp / sampler.sets(spp, sets),
         };
-        // each replicate starts a new set
-        let (set, stride) = match sampler {
-            Sampler::Independent => (Set::Independent(Independent::new(seed)), span),
-            Sampler::Stratified => (Set::Stratified(Stratified::new(seed, span)), span),
-            Sampler::Sobol | Sampler::Adaptive => (Set::Sobol(OwenSobol::new(seed)), span),
-            Sampler::Sobol4d => (Set::Sobol4d(JointSobol::new(seed)), span),
+        // each set starts anew
+        let (sequence, stride) = match sampler {
+            Sampler::Independent => (AnySequence::Independent(Independent::new(seed)), span),
+            Sampler::Stratified => (AnySequence::Stratified(Stratified::new(seed, span)), span),
+            Sampler::Sobol | Sampler::Adaptive => (AnySequence::Sobol(OwenSobol::new(seed)), span),
+            Sampler::Sobol4d => (AnySequence::Sobol4d(JointSobol::new(seed)), span),
             Sampler::ZOrder => {
                 let set = ZOrder::new(seed, span);
-                (Set::ZOrder(set), set.samples())
+                (AnySequence::ZOrder(set), set.samples())
             }
         };
         let span = if sampler == Sampler::Independent { 0 } else { span };
-        Self { set, span, gap: u32x8::splat(stride.saturating_sub(span)), width: u32x8::splat(width) }
+        Self { sequence, span, gap: u32x8::splat(stride.saturating_sub(span)), width: u32x8::splat(width) }
     }
-    /// Samples in a replicate; 0 if each sample is a replicate.
+    /// Samples in a set; 0 if each sample is a set.
     #[must_use]
     pub const fn span(&self) -> u32 {
         self.span
@@ -186,24 +186,24 @@ impl Source {
     /// The pairs [`FILM`] and [`LIGHT`].
     #[inline(always)]
     pub fn film_and_light(&self, packet: &Packet) -> [Vec2<X8>; 2] {
-        match &self.set {
-            Set::Independent(set) => set.two_pairs(packet.y * self.width + packet.x, packet.sample, 0),
+        match &self.sequence {
+            AnySequence::Independent(set) => set.two_pairs(packet.y * self.width + packet.x, packet.sample, 0),
             _ => [self.pair(packet, FILM), self.pair(packet, LIGHT)],
         }
     }
     /// Whether samples can be counted per light, so that each light gets a well-distributed set of its own.
     #[must_use]
     pub const fn allocates(&self) -> bool {
-        matches!(self.set, Set::Sobol(_))
+        matches!(self.sequence, AnySequence::Sobol(_))
     }
     /// The pair [`FILM`], and the pair [`LIGHT`] of samples that are counted per light: `sample` is the index among those of the
     /// lane's `light`.
     #[inline]
     pub fn film_and_light_of(&self, packet: &Packet, light: u32x8, sample: u32x8) -> [Vec2<X8>; 2] {
         let pixel = packet.y * self.width + packet.x;
-        let key = pixel * u32x8::splat(4) + packet.replicate + light * u32x8::splat(0x9e37_79b9);
-        match &self.set {
-            Set::Sobol(set) => [self.pair(packet, FILM), set.pair(key, sample, LIGHT)],
+        let key = pixel * u32x8::splat(4) + packet.set + light * u32x8::splat(0x9e37_79b9);
+        match &self.sequence {
+            AnySequence::Sobol(set) => [self.pair(packet, FILM), set.pair(key, sample, LIGHT)],
             _ => self.film_and_light(packet),
         }
     }
@@ -211,24 +211,24 @@ impl Source {
     #[inline]
     pub fn pair(&self, packet: &Packet, dimension: u32) -> Vec2<X8> {
         let pixel = packet.y * self.width + packet.x;
-        // the Sobol sequence does not end, so the replicate is part of the key
+        // the Sobol sequence does not end, so the set is part of the key
         let sobol = || {
-            let first = packet.replicate * u32x8::splat(self.span);
-            (pixel * u32x8::splat(4) + packet.replicate, packet.sample - first)
+            let first = packet.set * u32x8::splat(self.span);
+            (pixel * u32x8::splat(4) + packet.set, packet.sample - first)
         };
-        let sample = || packet.sample + packet.replicate * self.gap;
-        match &self.set {
-            Set::Independent(set) => set.pair(pixel, packet.sample, dimension),
-            Set::Stratified(set) => set.pair(pixel, packet.sample, dimension),
-            Set::Sobol(set) => {
+        let sample = || packet.sample + packet.set * self.gap;
+        match &self.sequence {
+            AnySequence::Independent(set) => set.pair(pixel, packet.sample, dimension),
+            AnySequence::Stratified(set) => set.pair(pixel, packet.sample, dimension),
+            AnySequence::Sobol(set) => {
                 let (key, index) = sobol();
                 set.pair(key, index, dimension)
             }
-            Set::Sobol4d(set) => {
+            AnySequence::Sobol4d(set) => {
                 let (key, index) = sobol();
                 set.pair(key, index, joint(dimension))
             }
-            Set::ZOrder(set) => set.pair(ZOrderIndex::new(packet.x, packet.y), sample(), dimension),
+            AnySequence::ZOrder(set) => set.pair(ZOrderIndex::new(packet.x, packet.y), sample(), dimension),
         }
     }
 }

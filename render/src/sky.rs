@@ -2,7 +2,7 @@
 
 mod daylight;
 mod moments;
-mod windows;
+mod portals;
 
 use crate::packet::{M8, V8, X8, select};
 use crate::scene;
@@ -11,7 +11,7 @@ pub use daylight::GeneralSky;
 use etendue::light::{FAR, ImageEnvironment, SunBySolidAngle, Texel};
 use etendue::{ConstantEnvironment, LightSample, LightSampler, Mask, Real, Sun, Uint, Vec2, Vec3, Warp, u32x8};
 use moments::Moments;
-use windows::Windows;
+use portals::SkyPortals;
 
 /// An environment and the table by which it is sampled.
 #[derive(Clone, Debug)]
@@ -21,7 +21,7 @@ pub struct Sky {
     kind: SkyKind,
     /// The moments of the sky without its sun, summed over channels, in the coordinates of the light.
     moments: Moments,
-    windows: Option<Windows>,
+    portals: Option<SkyPortals>,
     sun: Option<SunBefore>,
 }
 
@@ -61,7 +61,7 @@ impl SunBefore {
 #[derive(Clone, Copy)]
 pub struct SunBeside<'a> {
     sun: &'a SunBefore,
-    windows: &'a Windows,
+    portals: &'a SkyPortals,
 }
 
 impl SunBeside<'_> {
@@ -69,7 +69,7 @@ impl SunBeside<'_> {
     #[inline]
     pub fn sample(&self, p: V8, u: Vec2<X8>) -> (LightSample<X8>, V8) {
         let sample = self.sun.sampler().sample(u);
-        let visible = self.windows.all(|all| all.sees(p, sample.direction));
+        let visible = self.portals.all(|all| all.sees(p, sample.direction));
         let sample = LightSample { distance: X8::lit(FAR), pdf: sample.pdf.keep(visible), emits: visible, ..sample };
         (sample, self.sun.disk.radiance.into())
     }
@@ -82,7 +82,7 @@ impl SunBeside<'_> {
         if !is_sun.any() {
             return Default::default();
         }
-        let visible = is_sun & self.windows.all(|all| all.sees(p, direction));
+        let visible = is_sun & self.portals.all(|all| all.sees(p, direction));
         (V8::from(self.sun.disk.radiance).keep(visible), pdf.keep(visible))
     }
 }
@@ -106,10 +106,10 @@ impl Sky {
                 SkyKind::Image { width: *width, map: *map, texels: texels.clone(), table }
             }
         };
-        let mut own = Self { rows: environment.to_light, kind, moments: Moments::default(), windows: None, sun: None };
+        let mut own = Self { rows: environment.to_light, kind, moments: Moments::default(), portals: None, sun: None };
         own.sun = environment.sun.map(|disk| SunBefore::new(disk, own.flux()));
-        own.windows = Windows::new(&environment.portals, own.texel(), |w| own.sum(w));
-        if own.windows.is_none() {
+        own.portals = SkyPortals::new(&environment.portals, own.texel(), |w| own.sum(w));
+        if own.portals.is_none() {
             own.moments = own.moments();
         }
         own
@@ -165,8 +165,8 @@ impl Sky {
     /// if only walls around portals hid any of it. It is 0 only where no portal shows the sky.
     #[inline]
     pub fn irradiance(&self, p: V8, normal: V8) -> X8 {
-        if let Some(windows) = &self.windows {
-            return windows.irradiance(p, normal);
+        if let Some(portals) = &self.portals {
+            return portals.irradiance(p, normal);
         }
         let of_sky = self.moments.irradiance(self.to_light(normal));
         match &self.sun {
@@ -186,7 +186,7 @@ impl Sky {
     }
     /// The sun, if it is sampled besides the sky.
     pub fn sun_beside(&self) -> Option<SunBeside<'_>> {
-        Some(SunBeside { sun: self.sun.as_ref()?, windows: self.windows.as_ref()? })
+        Some(SunBeside { sun: self.sun.as_ref()?, portals: self.portals.as_ref()? })
     }
     #[inline]
     fn to_light(&self, w: V8) -> V8 {
@@ -213,7 +213,7 @@ impl Sky {
     /// Whether a portal shows the sky, if there are any.
     #[inline]
     fn shows(&self, p: V8, direction: V8) -> M8 {
-        self.windows.as_ref().map_or(M8::splat(true), |windows| windows.all(|all| all.sees(p, direction)))
+        self.portals.as_ref().map_or(M8::splat(true), |portals| portals.all(|all| all.sees(p, direction)))
     }
     /// Radiance of sky and sun, as if there were no portals.
     #[inline]
@@ -227,7 +227,7 @@ impl Sky {
     /// The part of it that [`sample`](Self::sample) samples.
     #[inline]
     fn of_sampled(&self, direction: V8) -> V8 {
-        if self.windows.is_some() { self.of_sky(direction) } else { self.of_both(direction) }
+        if self.portals.is_some() { self.of_sky(direction) } else { self.of_both(direction) }
     }
     #[inline]
     fn of_sky(&self, direction: V8) -> V8 {
@@ -243,10 +243,10 @@ impl Sky {
     /// [sun beside](Self::sun_beside).
     #[inline]
     pub fn sample(&self, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> (LightSample<X8>, V8) {
-        let sample = match (&self.windows, &self.sun) {
+        let sample = match (&self.portals, &self.sun) {
             (None, None) => return self.sample_sky(measure, normal, u),
             (None, Some(sun)) => self.sample_both(sun, measure, normal, u),
-            (Some(windows), _) => windows.all(|all| all.by_radiance_above(p, normal).sample(u)),
+            (Some(portals), _) => portals.all(|all| all.by_radiance_above(p, normal).sample(u)),
         };
         (sample, self.of_sampled(sample.direction))
     }
@@ -285,8 +285,8 @@ impl Sky {
     /// Pdf per steradian with which [`sample`](Self::sample) draws a direction from `p`.
     #[inline]
     pub fn pdf(&self, measure: Measure, p: V8, normal: V8, direction: V8) -> X8 {
-        if let Some(windows) = &self.windows {
-            return windows.all(|all| all.by_radiance_above(p, normal).pdf(direction));
+        if let Some(portals) = &self.portals {
+            return portals.all(|all| all.by_radiance_above(p, normal).pdf(direction));
         }
         let of_sky = self.pdf_of_sky(measure, normal, direction);
         match &self.sun {

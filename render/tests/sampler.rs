@@ -13,7 +13,7 @@ type M8 = <X8 as Real>::Mask;
 /// Film, light and lens numbers of every sample of one pixel, in order.
 fn points(sampler: Sampler, spp: u32, pixel: [u32; 2], seed: u64) -> (Vec<[f64; 6]>, u32) {
     let source = Source::new(sampler, seed, spp, 0, 256);
-    let replicate = |i: u32| i.checked_div(source.span()).unwrap_or(0);
+    let set = |i: u32| i.checked_div(source.span()).unwrap_or(0);
     let mut all = Vec::new();
     for start in (0..spp).step_by(8) {
         let sample = |k: u32| (start + k).min(spp - 1);
@@ -22,7 +22,7 @@ fn points(sampler: Sampler, spp: u32, pixel: [u32; 2], seed: u64) -> (Vec<[f64; 
             x: u32x8::splat(pixel[0]),
             y: u32x8::splat(pixel[1]),
             sample: u32x8::from(lanes),
-            replicate: u32x8::from(lanes.map(replicate)),
+            set: u32x8::from(lanes.map(set)),
             active: M8::splat(true),
         };
         let pairs = [FILM, LIGHT, LENS].map(|dimension| source.pair(&packet, dimension));
@@ -65,7 +65,7 @@ fn joint_samplers_are_joint() {
 }
 
 #[test]
-fn every_pair_of_a_replicate_is_even() {
+fn every_pair_of_a_set_is_even() {
     for sampler in [Sampler::Stratified, Sampler::Sobol, Sampler::Sobol4d, Sampler::ZOrder] {
         for spp in [64, 256] {
             let (points, span) = points(sampler, spp, [9, 200], 2);
@@ -84,11 +84,11 @@ fn every_pair_of_a_replicate_is_even() {
     }
 }
 
-/// The means of replicates, pixels and seeds are uncorrelated, except those of pixels with Z-order.
+/// The means of sets, pixels and seeds are uncorrelated, except those of pixels with Z-order.
 #[test]
-fn replicates_are_independent() {
+fn sets_are_independent() {
     for sampler in [Sampler::Stratified, Sampler::Sobol, Sampler::Sobol4d, Sampler::ZOrder] {
-        // 100 and 24 are not powers of two: a replicate ends within a set, and the next one starts a new set
+        // 100 and 24 are not powers of two: a set ends within one of the sequence, and the next one starts anew
         for spp in [32, 256, 100, 24] {
             let means = |pixel: [u32; 2], seed| -> Vec<f64> {
                 let (points, span) = points(sampler, spp, pixel, seed);
@@ -96,15 +96,15 @@ fn replicates_are_independent() {
                 points.chunks(span as usize).map(|set| set.iter().map(f).sum::<f64>() / f64::from(span)).collect()
             };
             let n = cases(400, 2000);
-            let (mut replicates, mut pixels, mut seeds) = (Vec::new(), Vec::new(), Vec::new());
+            let (mut sets, mut pixels, mut seeds) = (Vec::new(), Vec::new(), Vec::new());
             for i in 0..n {
                 let pixel = [i % 256, i / 256];
                 let a = means(pixel, 5);
-                replicates.push((a[0], a[1]));
+                sets.push((a[0], a[1]));
                 pixels.push((a[0], means([pixel[0] ^ 1, pixel[1]], 5)[0]));
                 seeds.push((a[0], means(pixel, 6)[0]));
             }
-            for (what, pairs) in [("replicates", &replicates), ("pixels", &pixels), ("seeds", &seeds)] {
+            for (what, pairs) in [("sets", &sets), ("pixels", &pixels), ("seeds", &seeds)] {
                 if what == "pixels" && sampler == Sampler::ZOrder {
                     continue;
                 }
@@ -126,7 +126,7 @@ fn the_choice_of_a_light_has_numbers_of_its_own() {
         let source = Source::new(sampler, 1, 64, 0, 8);
         let zero = u32x8::splat(0);
         let sample = u32x8::from([0, 1, 2, 3, 4, 5, 6, 7]);
-        let packet = Packet { x: zero, y: zero, sample, replicate: zero, active: M8::splat(true) };
+        let packet = Packet { x: zero, y: zero, sample, set: zero, active: M8::splat(true) };
         let all = [FILM, LIGHT, CHOICE, LENS, 4, 5, 9].map(|dimension| source.pair(&packet, dimension));
         for (i, a) in all.iter().enumerate() {
             assert!(all[..i].iter().all(|b| a != b), "{sampler:?}");
@@ -134,18 +134,18 @@ fn the_choice_of_a_light_has_numbers_of_its_own() {
     }
 }
 
-/// Each pixel and replicate has numbers of its own, of whatever sampler.
+/// Each pixel and set has numbers of its own, of whatever sampler.
 #[test]
-fn each_replicate_has_numbers_of_its_own() {
+fn each_set_has_numbers_of_its_own() {
     for sampler in [Sampler::Independent, Sampler::Stratified, Sampler::Sobol, Sampler::Sobol4d, Sampler::ZOrder] {
         let source = Source::new(sampler, 5, 64, 4, 16);
         let mut seen = HashMap::new();
         for pixel in (0..256).map(|i| [i % 16, i / 16]) {
             for first in (0..64).step_by(8) {
                 let sample = u32x8::from([0, 1, 2, 3, 4, 5, 6, 7]) + u32x8::splat(first);
-                let replicate = u32x8::splat(first.checked_div(source.span()).unwrap_or(0));
+                let set = u32x8::splat(first.checked_div(source.span()).unwrap_or(0));
                 let (x, y) = (u32x8::splat(pixel[0]), u32x8::splat(pixel[1]));
-                let packet = Packet { x, y, sample, replicate, active: M8::splat(true) };
+                let packet = Packet { x, y, sample, set, active: M8::splat(true) };
                 let pair = source.pair(&packet, LIGHT);
                 let numbers: Vec<u32> = (0..8).map(|k| pair.lane(k).x.to_bits()).collect();
                 let other = seen.insert(numbers, (pixel, first));
@@ -155,7 +155,7 @@ fn each_replicate_has_numbers_of_its_own() {
     }
 }
 
-/// Samples that are counted per light: each pixel, replicate and light has numbers of its own on the light, and the pixel's own on the film.
+/// Samples that are counted per light: each pixel, set and light has numbers of its own on the light, and the pixel's own on the film.
 #[test]
 fn each_light_has_numbers_of_its_own() {
     let source = Source::new(Sampler::Sobol, 3, 64, 4, 256);
@@ -163,20 +163,20 @@ fn each_light_has_numbers_of_its_own() {
     let lanes = u32x8::from([0, 1, 2, 3, 4, 5, 6, 7]);
     let mut seen = HashMap::new();
     for pixel in (0..64).map(|i| [i % 8 * 36, i / 8]).chain([[1, 0], [255, 255]]) {
-        for replicate in 0..4 {
+        for set in 0..4 {
             let packet = Packet {
                 x: u32x8::splat(pixel[0]),
                 y: u32x8::splat(pixel[1]),
-                sample: lanes + u32x8::splat(replicate * source.span()),
-                replicate: u32x8::splat(replicate),
+                sample: lanes + u32x8::splat(set * source.span()),
+                set: u32x8::splat(set),
                 active: M8::splat(true),
             };
             for light in 0..5 {
                 let [film, pair] = source.film_and_light_of(&packet, u32x8::splat(light), lanes);
                 assert_eq!(film, source.pair(&packet, FILM));
                 let numbers: Vec<u32> = (0..8).map(|k| pair.lane(k).x.to_bits()).collect();
-                let other = seen.insert(numbers, (pixel, replicate, light));
-                assert_eq!(other, None, "the numbers of {:?}", (pixel, replicate, light));
+                let other = seen.insert(numbers, (pixel, set, light));
+                assert_eq!(other, None, "the numbers of {:?}", (pixel, set, light));
             }
         }
     }

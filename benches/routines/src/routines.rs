@@ -10,7 +10,7 @@ use etendue::warp::{
     Octahedral, PatchSurface, UniformHemisphere, UniformSphere, Warp,
 };
 use etendue::{LightSample, LightSampler, Real, Rectangle, Sphere, Uint, Vec2, Vec3};
-use etendue_render::occlusion::{Convex, Occlusion};
+use etendue_visible::{Occlusion, Solid};
 use std::hint::black_box;
 
 /// Samples per call of [`Routine::run`].
@@ -124,28 +124,23 @@ impl<R: Real + 'static> List<R> {
 
 /// What remains of a light behind blockers, from the viewpoints.
 fn visible_parts<R: Real + 'static>(list: &mut List<R>) {
-    let lit = <R::Scalar as Real>::lit;
-    let square = |x: f64, y: f64, half: f64| Convex::Polygon {
-        corners: [[-half, -half], [half, -half], [half, half], [-half, half]]
-            .map(|[a, b]| Vec3::new(lit(x + a), lit(y), lit(b))),
-        count: 4,
+    let square = |x: f64, y: f64, half: f64| {
+        let corners = [[-half, -half], [half, -half], [half, half], [-half, half]];
+        Solid::quadrilateral(corners.map(|[a, b]| Vec3::new(x + a, y, b)))
     };
-    let ball = |x: f64, y: f64, radius: f64| Convex::Sphere {
-        center: Vec3::new(lit(x), lit(y), lit(0.0)),
-        radius: lit(radius),
-    };
+    let ball = |x: f64, y: f64, radius: f64| Solid::Sphere { center: Vec3::new(x, y, 0.0), radius };
     let (over, beside) = (square(0.25, 1.25, 0.4), [3.0, 5.0, 7.0].map(|x| square(x, 1.25, 0.4)));
     let (panel, lamp) = (square(0.0, 2.0, 1.0), ball(0.0, 2.0, 0.9));
     let up = Vec3::lit([0.0, 1.0, 0.0]);
     for (name, light, blockers) in [
-        ("polygon", panel, vec![]),
-        ("polygon, 1 blocker", panel, vec![over]),
-        ("polygon, 4 blockers, 1 before it", panel, vec![over, beside[0], beside[1], beside[2]]),
-        ("polygon, 1 sphere", panel, vec![ball(0.25, 1.25, 0.4)]),
-        ("sphere", lamp, vec![]),
-        ("sphere, 1 blocker", lamp, vec![over]),
+        ("polygon", &panel, vec![]),
+        ("polygon, 1 blocker", &panel, vec![over.clone()]),
+        ("polygon, 4 blockers, 1 before it", &panel, [std::slice::from_ref(&over), &beside].concat()),
+        ("polygon, 1 sphere", &panel, vec![ball(0.25, 1.25, 0.4)]),
+        ("sphere", &lamp, vec![]),
+        ("sphere, 1 blocker", &lamp, vec![over]),
     ] {
-        let memory = std::cell::RefCell::new(Occlusion::<R>::new());
+        let (light, memory) = (light.clone(), std::cell::RefCell::new(Occlusion::<R>::new()));
         list.prepared(&format!("visible {name}"), move |p, _| {
             memory.borrow_mut().visible(p, black_box(up), &light, &blockers)
         });

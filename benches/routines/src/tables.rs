@@ -226,7 +226,7 @@ fn visible() -> Table {
         row("sphere", "none", "visible sphere"),
         row("", "a polygon before it", "visible sphere, 1 blocker"),
     ];
-    Table { file: "render/src/occlusion.rs", name: "visible", header: &["light", "blockers", "x1", "x8"], rows }
+    Table { file: "core/visible/src/measure.rs", name: "visible", header: &["light", "blockers", "x1", "x8"], rows }
 }
 
 const LIGHTS: &[&str] =

@@ -1,14 +1,7 @@
-//! Small scenes on a lattice, so that their parts touch, coincide and are parallel, whose certificates must agree with single segments.
+//! Small scenes on a lattice, so that their parts touch, coincide and are parallel, whose proofs must agree with single segments.
 
 use etendue_oracle::{V3, along, cross, dot, length, sub, unit, wide};
-use etendue_render::bvh::SHAPE;
-use etendue_render::camera::Pinhole;
-use etendue_render::certify::{Blocker, Bodies, Certificate, Certifier, MOST, Patch, Pyramid, Viewer};
-use etendue_render::occlusion::Convex;
-use etendue_render::scene::{
-    CameraSettings, Emission, Geometry, Material, Parallelogram, Scene, Screen, Shape, Sphere,
-};
-use etendue_render::surfaces::Surfaces;
+use etendue_visible::{Lift, Light, MOST, Occluder, Patch, Proof, Prover, Pyramid, Solid, Viewer};
 
 /// Reads bytes as numbers; zeros follow the last.
 struct Input<'a> {
@@ -37,12 +30,19 @@ impl Input<'_> {
     fn radius(&mut self) -> f32 {
         f32::from(self.byte()) / 64.0 * self.scale
     }
-    fn light(&mut self) -> Geometry {
+    fn light(&mut self) -> Solid {
         match self.below(3) {
-            0 => Geometry::Sphere(Sphere { center: self.point(), radius: self.radius() }),
-            1 => Geometry::Triangle(self.triangle()),
-            _ => Geometry::Parallelogram(Parallelogram { p: self.point(), u: self.vector(), v: self.vector() }),
+            0 => Solid::Sphere { center: wide(self.point()).into(), radius: self.radius().into() },
+            1 => Solid::triangle(self.triangle().map(|corner| wide(corner).into())),
+            _ => Solid::Parallelogram {
+                corner: wide(self.point()).into(),
+                edges: [self.vector(), self.vector()].map(|edge| wide(edge).into()),
+            },
         }
+    }
+    /// No coordinate of a scene is greater: a corner and three edges.
+    fn reach(&self) -> f64 {
+        f64::from((16.0 + self.shift) * self.scale)
     }
 }
 
@@ -76,78 +76,63 @@ fn meets_sphere(p: V3, y: V3, center: V3, radius: f64) -> [bool; 2] {
     [least < 1.0 - clear && most > 1.0 + clear, least > 1.0 + clear]
 }
 
-fn parallelogram(p: [f32; 3], u: [f32; 3], v: [f32; 3]) -> [V3; 4] {
-    let [p, u, v] = [p, u, v].map(wide);
+fn parallelogram(p: V3, u: V3, v: V3) -> [V3; 4] {
     [p, along(p, u, 1.0), along(along(p, u, 1.0), v, 1.0), along(p, v, 1.0)]
 }
 
-fn meets(p: V3, y: V3, geometry: &Geometry) -> [bool; 2] {
-    match *geometry {
-        Geometry::Sphere(Sphere { center, radius }) => meets_sphere(p, y, wide(center), f64::from(radius)),
-        Geometry::Triangle(corners) => meets_triangle(p, y, corners.map(wide)),
-        Geometry::Parallelogram(Parallelogram { p: corner, u, v }) => meets_polygon(p, y, &parallelogram(corner, u, v)),
-        ref other => unreachable!("no scene has {other:?}"),
+fn meets(p: V3, y: V3, solid: &Solid) -> [bool; 2] {
+    match *solid {
+        Solid::Sphere { center, radius } => meets_sphere(p, y, center.into(), radius),
+        Solid::Parallelogram { corner, edges: [u, v] } => {
+            meets_polygon(p, y, &parallelogram(corner.into(), u.into(), v.into()))
+        }
+        Solid::Polygon { corners, count, .. } => meets_polygon(p, y, &corners.map(V3::from)[..count]),
+        Solid::Polyhedron(_) => unreachable!("polyhedra are met as their faces are"),
     }
 }
 
-/// May a blocker hide y from p? `body` tells the triangles of a body.
-fn is_listed<I: Iterator<Item = [[f32; 3]; 3]>>(p: V3, y: V3, blockers: &[Blocker], body: impl Fn(u32) -> I) -> bool {
-    blockers.iter().any(|blocker| match *blocker {
-        Blocker::Convex { form: Convex::Sphere { center, radius }, .. } => {
-            !meets_sphere(p, y, wide([center.x, center.y, center.z]), f64::from(radius))[1]
-        }
-        Blocker::Convex { form: Convex::Parallelogram { corner, edges }, .. } => {
-            let [corner, u, v] = [corner, edges[0], edges[1]].map(|v| [v.x, v.y, v.z]);
-            !meets_polygon(p, y, &parallelogram(corner, u, v))[1]
-        }
-        Blocker::Convex { form: Convex::Polygon { corners, count }, .. } => {
-            !meets_polygon(p, y, &corners.map(|v| wide([v.x, v.y, v.z]))[..count])[1]
-        }
-        Blocker::Body(index) => body(index).any(|t| !meets_triangle(p, y, t.map(wide))[1]),
+/// May a solid hide y from p? `body` tells the triangles of a polyhedron.
+fn is_listed<'a, I: Iterator<Item = &'a Solid>>(p: V3, y: V3, solids: &[Solid], body: impl Fn(&Solid) -> I) -> bool {
+    solids.iter().any(|solid| match solid {
+        Solid::Polyhedron(_) => body(solid).any(|t| !meets(p, y, t)[1]),
+        solid => !meets(p, y, solid)[1],
     })
 }
 
-fn scene(triangles: Vec<[[f32; 3]; 3]>, shapes: Vec<Shape>, camera: CameraSettings) -> Scene {
-    Scene {
-        materials: vec![Material::Diffuse([0.5; 3])],
-        triangle_materials: vec![0; triangles.len()],
-        triangles,
-        shapes: shapes.into(),
-        ..Scene::new(camera, [16; 2])
-    }
+/// What the light of a small scene is, as the bytes say.
+struct Given {
+    light: Solid,
+    two_sided: bool,
 }
 
-/// Any small scene has a certificate for the light of shape 0 as seen from triangle 0 or from the last sphere. No segment from there to
-/// the light contradicts it.
+/// Any small scene has a proof for a light as seen from a triangle or from a sphere. No segment from there to the light contradicts it.
 pub fn certificates(bytes: &[u8]) {
     let mut input = Input { bytes: bytes.iter(), scale: 1.0, shift: 0.0 };
     let kind = input.below(16);
     input.scale = [1.0, 1e-6, 1e6, 1.0, 1e-30, 1e15, 1.0, 0.01][kind % 8];
     input.shift = [0.0, 0.0, 0.0, 100.0, 0.0, 0.0, 0.0, 0.0][kind % 8];
     let two_sided = input.below(2) == 0;
-    let light = Shape {
-        geometry: input.light(),
-        material: 0,
-        emission: Some(Emission { radiance: [1.0; 3], two_sided, ..Emission::default() }),
-    };
+    let given = Given { light: input.light(), two_sided };
     let view = input.below(4);
     let origin = wide(input.point());
     let place = input.below(256);
     let receiver = input.triangle();
-    let mut triangles = vec![receiver];
-    let mut shapes = vec![light.clone()];
+    // solids, each with the box whose face it is
+    let mut solids: Vec<(Solid, Option<usize>)> = Vec::new();
+    let mut boxes: Vec<Solid> = Vec::new();
+    let triangle = |corners: [[f32; 3]; 3]| Solid::triangle(corners.map(|corner| wide(corner).into()));
     for _ in 0..input.below(24) {
         match input.below(8) {
             0 => {
-                let geometry = Geometry::Sphere(Sphere { center: input.point(), radius: input.radius() });
-                shapes.push(Shape { geometry, material: 0, emission: None });
+                let sphere = Solid::Sphere { center: wide(input.point()).into(), radius: input.radius().into() };
+                solids.push((sphere, None));
             }
             // two triangles of a quadrilateral
             1..4 => {
                 let [p, u, v] = [input.point(), input.vector(), input.vector()];
                 let add = |a: [f32; 3], b: [f32; 3]| std::array::from_fn(|k| a[k] + b[k]);
-                triangles.push([p, add(p, u), add(add(p, u), v)]);
-                triangles.push([p, add(add(p, u), v), add(p, v)]);
+                solids.push((triangle([p, add(p, u), add(add(p, u), v)]), None));
+                solids.push((triangle([p, add(add(p, u), v), add(p, v)]), None));
             }
             // a box, or one with a triangle missing
             4 | 5 => {
@@ -156,15 +141,21 @@ pub fn certificates(bytes: &[u8]) {
                     let side = |bit: usize, v: f32| if k >> bit & 1 == 0 { 0.0 } else { v };
                     std::array::from_fn(|axis| p[axis] + side(0, u[axis]) + side(1, v[axis]) + side(2, w[axis]))
                 };
-                for [a, b, c, d] in [[0, 1, 3, 2], [4, 5, 7, 6], [0, 1, 5, 4], [2, 3, 7, 6], [0, 2, 6, 4], [1, 3, 7, 5]]
-                {
-                    triangles.extend([[a, b, c], [c, d, a]].map(|t: [usize; 3]| t.map(corner)));
-                }
+                let faces = [[0, 1, 3, 2], [4, 5, 7, 6], [0, 1, 5, 4], [2, 3, 7, 6], [0, 2, 6, 4], [1, 3, 7, 5]];
+                let triangles = faces.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [c, d, a]]);
+                let mut triangles: Vec<_> = triangles.map(|t: [usize; 3]| t.map(corner)).collect();
                 if input.below(8) == 0 {
                     triangles.pop();
                 }
+                let exact: Vec<_> = triangles.iter().map(|t| t.map(|corner| wide(corner).into())).collect();
+                let body = Solid::polyhedron(&exact).filter(|_| kind < 12);
+                let index = body.map(|body| {
+                    boxes.push(body);
+                    boxes.len() - 1
+                });
+                solids.extend(triangles.into_iter().map(|t| (triangle(t), index)));
             }
-            _ => triangles.push(input.triangle()),
+            _ => solids.push((triangle(input.triangle()), None)),
         }
     }
     let [a, b, c] = receiver.map(wide);
@@ -175,35 +166,46 @@ pub fn certificates(bytes: &[u8]) {
     if length(up) == 0.0 {
         return;
     }
-    let camera =
-        CameraSettings { origin, forward, right, up, is_orthographic: false, screen: Screen::Half(0.364), lens: None };
-    let pyramid = Pyramid::new(&Pinhole::new(&camera, 16, 16), [7.0, 7.0, 9.0, 9.0]);
-    let scene = scene(triangles, shapes, camera);
-    let Ok(surfaces) = Surfaces::new(&scene) else { return };
+    let ray = |[x, y]: [f64; 2]| along(along(forward, right, 0.05 * x), up, 0.05 * y).into();
+    let pyramid = Pyramid::new(origin.into(), [[-1.0, 1.0], [1.0, 1.0], [1.0, -1.0], [-1.0, -1.0]].map(ray));
     let viewer = [Viewer::Pixels(&pyramid), Viewer::Pixels(&pyramid), Viewer::Front, Viewer::Back][view];
-    let last = scene.shapes.len() - 1;
-    let is_ball = matches!(scene.shapes[last].geometry, Geometry::Sphere(_)) && last > 0 && view == 2;
-    let place = if is_ball {
-        last as u32 | SHAPE
-    } else {
-        (0..).zip(surfaces.bvh.order()).find(|(_, id)| **id == 0).map_or(0, |(place, _)| place)
+    let reach = input.reach();
+    let lift = Lift { relative: 1.0 / 8_388_608.0, least: reach / (1_u64 << 44) as f64 };
+    // the patch lies on the receiver, or on the last solid if that is a sphere
+    let ball = match solids.last() {
+        Some((Solid::Sphere { center, radius }, _)) if view == 2 => Some((*center, *radius)),
+        _ => None,
     };
-    let Some(patch) = Patch::of(&surfaces, place, viewer) else { return };
-    let bodies = if kind < 12 { Bodies::new(&surfaces.bvh) } else { Bodies::default() };
-    let of_body = |body: u32| {
-        let bodies = &bodies;
-        let places = (0..).zip(surfaces.bvh.order()).filter(move |(place, _)| bodies.of(*place) == Some(body));
-        places.map(|(_, id)| scene.triangles[*id as usize])
+    let patch = match ball {
+        Some((center, radius)) => {
+            solids.pop();
+            solids.push((triangle(receiver), None));
+            Patch::sphere(center, radius, viewer, lift)
+        }
+        None => Patch::triangle(receiver.map(|corner| wide(corner).into()), viewer, lift),
     };
-    let mut certifier = Certifier::new(&surfaces, &bodies, [0]);
-    let certificate = certifier.certify(&patch, 0);
-    if let Certificate::Blockers(blockers, _) = certificate {
-        assert!((1..=MOST).contains(&blockers.len()));
+    let (Some(patch), Some(light)) = (patch, Light::new(given.light.clone(), two_sided)) else { return };
+    let mut prover = Prover::new(reach);
+    let seen = prover.prove(&patch, &light, |_, found| {
+        solids.iter().all(|(solid, of)| {
+            found(match of {
+                Some(of) => Occluder::Face(solid.clone(), &boxes[*of]),
+                None => Occluder::Whole(solid.clone()),
+            })
+        })
+    });
+    let proof = seen.proof;
+    if let Proof::Behind(solids) = proof {
+        assert!((1..=MOST).contains(&solids.len()));
     }
+    let of_body = |body: &Solid| {
+        let index = boxes.iter().position(|other| other == body);
+        solids.iter().filter(move |(_, of)| of.is_some() && *of == index).map(|(triangle, _)| triangle)
+    };
     let corners: Vec<V3> = patch.corners().collect();
     for _ in 0..24 {
         let mut mix = || [0.0, 1.0, 0.5, 0.25, 0.9, 0.01][input.below(6)];
-        let (p, normal) = match (patch.normal(), &scene.shapes[last].geometry) {
+        let (p, normal) = match (patch.normal(), ball) {
             (Some(normal), _) => {
                 let (s, t) = (mix(), mix());
                 let at = |k: usize| corners[k % corners.len()];
@@ -211,61 +213,49 @@ pub fn certificates(bytes: &[u8]) {
                 let edge = along(at(k), sub(at(k + 1), at(k)), s);
                 (along(along(edge, sub(at(k + 2), edge), t), normal, patch.margin() / 4.0), normal)
             }
-            (None, Geometry::Sphere(Sphere { center, radius })) => {
+            (None, Some((center, radius))) => {
                 let normal = unit(along([mix(), mix(), mix()], [0.5; 3], -1.0));
-                (along(wide(*center), normal, f64::from(*radius) + patch.margin() / 8.0), normal)
+                (along(center.into(), normal, radius + patch.margin() / 8.0), normal)
             }
-            _ => return,
+            (None, None) => return,
         };
         let (s, t) = ([0.0, 1.0, 0.5, 0.3][input.below(4)], [0.0, 1.0, 0.5, 0.3][input.below(4)]);
-        let y = match light.geometry {
-            Geometry::Sphere(Sphere { center, radius }) => {
-                let axis = unit(sub(p, wide(center)));
+        let (y, outward) = match given.light {
+            Solid::Sphere { center, radius } => {
+                let center = V3::from(center);
+                let axis = unit(sub(p, center));
                 let across = unit(cross(axis, wide(input.vector())));
                 if across == [0.0; 3] {
                     continue;
                 }
                 let sin = 0.99 * s;
                 let cos = f64::sqrt(1.0 - sin * sin);
-                let radius = f64::from(radius);
-                along(along(wide(center), axis, radius * cos), across, radius * sin)
+                let y = along(along(center, axis, radius * cos), across, radius * sin);
+                (y, sub(y, center))
             }
-            Geometry::Triangle(corners) => {
-                let [a, b, c] = corners.map(wide);
-                along(along(a, sub(b, a), s * (1.0 - t)), sub(c, a), t)
+            Solid::Parallelogram { corner, edges: [u, v] } => {
+                (along(along(corner.into(), u.into(), s), v.into(), t), cross(u.into(), v.into()))
             }
-            Geometry::Parallelogram(Parallelogram { p, u, v }) => along(along(wide(p), wide(u), s), wide(v), t),
-            ref other => unreachable!("no scene has {other:?}"),
+            Solid::Polygon { corners, .. } => {
+                let [a, b, c, _] = corners.map(V3::from);
+                (along(along(a, sub(b, a), s * (1.0 - t)), sub(c, a), t), cross(sub(b, a), sub(c, a)))
+            }
+            Solid::Polyhedron(_) => return,
         };
         let away = sub(p, y);
-        let outward = match light.geometry {
-            Geometry::Sphere(Sphere { center, .. }) => sub(y, wide(center)),
-            Geometry::Triangle(corners) => {
-                let [a, b, c] = corners.map(wide);
-                cross(sub(b, a), sub(c, a))
-            }
-            Geometry::Parallelogram(Parallelogram { u, v, .. }) => cross(wide(u), wide(v)),
-            ref other => unreachable!("no scene has {other:?}"),
-        };
-        let is_sphere = matches!(light.geometry, Geometry::Sphere(_));
-        if !(dot(normal, away) < 0.0 && (dot(outward, away) > 0.0 || two_sided && !is_sphere)) {
+        let is_sphere = given.light.is_sphere();
+        if !(dot(normal, away) < 0.0 && (dot(outward, away) > 0.0 || given.two_sided && !is_sphere)) {
             continue;
         }
-        let others = (0..).zip(&scene.triangles).filter(|(id, _)| place & SHAPE != 0 || *id != 0_u32);
-        let shapes = (0..).zip(scene.shapes.iter()).skip(1).filter(|(id, _)| id | SHAPE != place);
-        let all =
-            others.map(|(_, t)| meets_triangle(p, y, t.map(wide))).chain(shapes.map(|(_, s)| meets(p, y, &s.geometry)));
+        let all = solids.iter().map(|(solid, _)| meets(p, y, solid));
         let [met, missed] = all.fold([false, true], |all, one| [all[0] | one[0], all[1] & one[1]]);
-        match certificate {
-            Certificate::Lit(_) => assert!(!met, "{p:?} → {y:?} is occluded, but lit"),
-            Certificate::Dark => assert!(!missed, "{p:?} → {y:?} is visible, but dark"),
-            Certificate::Blockers(blockers, _) => {
-                assert!(
-                    !met || is_listed(p, y, blockers, of_body),
-                    "{p:?} → {y:?} is occluded by none of {blockers:?}"
-                );
+        match proof {
+            Proof::Lit => assert!(!met, "{p:?} → {y:?} is occluded, but lit"),
+            Proof::Dark => assert!(!missed, "{p:?} → {y:?} is visible, but dark"),
+            Proof::Behind(solids) => {
+                assert!(!met || is_listed(p, y, solids, of_body), "{p:?} → {y:?} is occluded by none of {solids:?}");
             }
-            Certificate::Unknown => {}
+            Proof::Open => {}
         }
     }
 }

@@ -4,29 +4,31 @@ use etendue::reflection::Reflection;
 use etendue::{Real, Vec3, f32x8};
 use etendue_judge::fuzz_bodies::{Input, scalable};
 use etendue_judge::packets::vectors_of;
-use etendue_render::occlusion::{Convex, Occlusion};
+use etendue_visible::{Occlusion, Solid, V64};
 use std::f32::consts::PI;
 
-fn shape(input: &mut Input<'_>, before: &mut Vec<[f32; 3]>) -> Convex<f32> {
+fn shape(input: &mut Input<'_>, before: &mut Vec<[f32; 3]>) -> Solid {
     let mut vector = |input: &mut Input<'_>| {
         let v = input.vector(before);
         before.push(v);
-        v.into()
+        Vec3::<f32>::from(v)
     };
+    let exact = |v: Vec3<f32>| v.map(f64::from);
     if input.below(3) == 0 {
-        let center = vector(input);
-        return Convex::Sphere { center, radius: input.number() };
+        let center = exact(vector(input));
+        return Solid::Sphere { center, radius: input.number().into() };
     }
     let count = 3 + usize::from(input.below(2));
     if input.below(4) == 0 {
         // flat for certain: a corner and two edges
         let [p, u, v] = [(); 3].map(|()| vector(input));
         if input.below(2) == 0 {
-            return Convex::Parallelogram { corner: p, edges: [u, v] };
+            return Solid::Parallelogram { corner: exact(p), edges: [u, v].map(exact) };
         }
-        return Convex::Polygon { corners: [p, p + u, p + u + v, p + v].map(finite), count };
+        let corners = [p, p + u, p + u + v, p + v].map(|v| exact(finite(v)));
+        return Solid::Polygon { corners, count, deviation: 0.0 };
     }
-    Convex::Polygon { corners: [(); 4].map(|()| vector(input)), count }
+    Solid::Polygon { corners: [(); 4].map(|()| exact(vector(input))), count, deviation: 0.0 }
 }
 
 fn finite(v: Vec3<f32>) -> Vec3<f32> {
@@ -36,8 +38,8 @@ fn finite(v: Vec3<f32>) -> Vec3<f32> {
 /// A light, blockers, and eight points with the normals of their surfaces.
 #[derive(Clone, Debug)]
 struct Scene {
-    light: Convex<f32>,
-    blockers: Vec<Convex<f32>>,
+    light: Solid,
+    blockers: Vec<Solid>,
     points: [[f32; 3]; 8],
     normals: [[f32; 3]; 8],
 }
@@ -64,7 +66,7 @@ impl Scene {
     /// Multiplying all lengths by a power of two changes no bit.
     fn scale(&self, exponent: i32) {
         let factor = 2.0_f32.powi(exponent);
-        let times = |shape: &Convex<f32>| shape.map(|x| x * factor);
+        let times = |shape: &Solid| shape.scaled(factor.into());
         let scaled = Self {
             light: times(&self.light),
             blockers: self.blockers.iter().map(times).collect(),
@@ -93,15 +95,16 @@ pub fn occlusion(bytes: &[u8]) {
     let scene = Scene { light, blockers, points, normals };
     scene.check();
     let mut lengths: Vec<f32> = points.iter().flatten().copied().collect();
+    let mut all: Vec<V64> = Vec::new();
     for shape in scene.blockers.iter().chain([&scene.light]) {
         match shape {
-            Convex::Polygon { corners, .. } => lengths.extend(corners.iter().flat_map(|c| [c.x, c.y, c.z])),
-            Convex::Parallelogram { corner, edges: [u, v] } => {
-                lengths.extend([corner, u, v].iter().flat_map(|c| [c.x, c.y, c.z]));
-            }
-            Convex::Sphere { center, radius } => lengths.extend([center.x, center.y, center.z, *radius]),
+            Solid::Polygon { corners, .. } => all.extend(corners),
+            Solid::Parallelogram { corner, edges: [u, v] } => all.extend([corner, u, v]),
+            Solid::Sphere { center, radius } => all.extend([*center, V64::new(*radius, 0.0, 0.0)]),
+            Solid::Polyhedron(_) => {}
         }
     }
+    lengths.extend(all.into_iter().flat_map(|v| [v.x, v.y, v.z].map(|x| x as f32)));
     // products of up to four lengths neither overflow nor underflow
     if scalable(&lengths, 1e3) {
         scene.scale(12);
@@ -118,7 +121,7 @@ fn reflected(input: &mut Input<'_>, scene: &Scene) {
     let lobe = Reflection::new(f32x8::splat(alpha), n, vectors_of(|_| view));
     let mut occlusion = Occlusion::new();
     let [left, all] = [&scene.blockers[..], &[]]
-        .map(|blockers| occlusion.reflected(p, n, &lobe, &scene.light, blockers, &[]).map(f32x8::to_array));
+        .map(|blockers| occlusion.reflected(p, n, &lobe, &scene.light, blockers).map(f32x8::to_array));
     let all = all.expect("there are no blockers");
     assert!(all.iter().all(|all| (0.0..=PI).contains(all)), "{all:?}");
     if let Some(left) = left {

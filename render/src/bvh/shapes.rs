@@ -5,7 +5,7 @@ use super::node::{Bounds, BuildError};
 use super::rays::{Hits, NOTHING, Rays, SHAPE};
 use super::region::{Placed, Region};
 use super::tree::{Primitives, Tree};
-use crate::geometry::{AnySolid, Approach, Geometry, Meeting, NEAR_LIMIT, Segment, Solid};
+use crate::geometry::{AnyHittable, Approach, Geometry, Hittable, Meeting, NEAR_LIMIT, Segment};
 use crate::packet::{M8, X8, below, each_group, equal, pick, select};
 use etendue::{Mask, Real, u32x8};
 use std::ops::Range;
@@ -26,8 +26,8 @@ pub enum LitSides {
 }
 
 #[derive(Debug)]
-pub(super) struct Solids {
-    solids: Vec<AnySolid>,
+pub(super) struct Hittables {
+    hittables: Vec<AnyHittable>,
     ids: Vec<u32>,
     /// For each of the ids, its index in leaf order.
     indices: Vec<u32>,
@@ -38,7 +38,7 @@ pub(super) struct Solids {
 
 /// What segments may end on, by the index in the scene's list: it tells their ends in double precision.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Reached(Arc<[AnySolid]>);
+pub(super) struct Reached(Arc<[AnyHittable]>);
 
 impl Reached {
     /// The segment with its end on what is at a place, as in hits.
@@ -51,13 +51,13 @@ impl Reached {
 /// All shapes of a scene. Ids are indices into the scene's list; in hits, they have the bit [`SHAPE`] set.
 #[derive(Debug)]
 pub struct ShapeSet {
-    tree: Tree<Solids>,
+    tree: Tree<Hittables>,
     reach: f32,
     /// The least greatest coordinate of a shape.
     least: f32,
 }
 
-impl Solids {
+impl Hittables {
     /// The index of each shape in the scene's list, in leaf order.
     pub(super) fn ids(&self) -> &[u32] {
         &self.ids
@@ -66,7 +66,7 @@ impl Solids {
     fn is_lit(&self, index: usize, rays: &Approach<'_>, distance: X8) -> M8 {
         match self.lit[index] {
             LitSides::Neither => M8::splat(false),
-            LitSides::Front => self.solids[index].fronts([rays.origin, rays.direction], distance),
+            LitSides::Front => self.hittables[index].fronts([rays.origin, rays.direction], distance),
             LitSides::Both => M8::splat(true),
         }
     }
@@ -108,9 +108,9 @@ impl ShapeSet {
                 let mut indices = vec![0; ids.len()];
                 (0..).zip(&ids).for_each(|(index, &id)| indices[id as usize] = index);
                 let of = |&id: &u32| shapes[id as usize];
-                let solids = ids.iter().map(|id| of(id).0.solid()).collect();
-                let reached = Reached(shapes.iter().map(|(shape, _)| shape.solid()).collect());
-                Solids { solids, indices, lit: ids.iter().map(|id| of(id).1).collect(), ids, reached }
+                let hittables = ids.iter().map(|id| of(id).0.hittable()).collect();
+                let reached = Reached(shapes.iter().map(|(shape, _)| shape.hittable()).collect());
+                Hittables { hittables, indices, lit: ids.iter().map(|id| of(id).1).collect(), ids, reached }
             },
         )?;
         Ok(Self { tree, reach, least })
@@ -123,7 +123,7 @@ impl ShapeSet {
     pub(super) fn least(&self) -> f32 {
         self.least
     }
-    pub(super) fn tree(&self) -> &Tree<Solids> {
+    pub(super) fn tree(&self) -> &Tree<Hittables> {
         &self.tree
     }
     /// What segments may end on.
@@ -132,7 +132,7 @@ impl ShapeSet {
     }
 }
 
-impl Primitives for Solids {
+impl Primitives for Hittables {
     #[inline]
     fn test_packet<const ANY: bool>(
         &self,
@@ -144,7 +144,7 @@ impl Primitives for Solids {
     ) -> M8 {
         let mut hidden = M8::splat(false);
         for index in leaf {
-            let (solid, place) = (&self.solids[index], u32x8::splat(self.ids[index] | SHAPE));
+            let (hittable, place) = (&self.hittables[index], u32x8::splat(self.ids[index] | SHAPE));
             let Rays { origin, direction, from, .. } = *rays;
             let places = hits.place;
             let reaching = |lane: usize, segment| self.reached.by(places.as_array()[lane], segment);
@@ -154,7 +154,7 @@ impl Primitives for Solids {
             if ANY {
                 let others = lanes;
                 if others.any() {
-                    let Meeting { hit, level, .. } = solid.meet::<true>(&rays);
+                    let Meeting { hit, level, .. } = hittable.meet::<true>(&rays);
                     hidden = hidden | hit & others;
                     let level = level & others & !equal(hits.place, u32x8::splat(NOTHING));
                     if level.any() {
@@ -165,13 +165,13 @@ impl Primitives for Solids {
             }
             // with what is about as near, until more is known
             rays.limit = hits.distance * X8::lit(1.0 + NEAR_LIMIT);
-            let Meeting { distance, hit, .. } = solid.meet::<false>(&rays);
+            let Meeting { distance, hit, .. } = hittable.meet::<false>(&rays);
             let mut hit = hit & active;
             let level = hit & hits.any() & distance.gt(hits.distance * X8::lit(1.0 - NEAR_LIMIT));
             hit = hit & (distance.lt(hits.distance) | level);
             if level.any() {
                 rays.limit = hits.distance;
-                let near = solid.meet::<true>(&rays);
+                let near = hittable.meet::<true>(&rays);
                 let first = self.comes_first(index, &rays, near.level & level, hits.place);
                 hit = hit & !level | level & (near.hit | first);
             }
@@ -182,7 +182,7 @@ impl Primitives for Solids {
     }
 }
 
-impl Placed for Solids {
+impl Placed for Hittables {
     #[inline]
     fn meeting(&self, leaf: &Range<usize>, _region: &Region) -> u32 {
         // shapes are few: the caller tests each

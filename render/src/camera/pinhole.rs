@@ -4,6 +4,7 @@ use super::linear::Linear;
 use crate::packet::{V8, X8};
 use crate::scene::CameraSettings;
 use etendue::Vec3;
+use etendue_visible::Pyramid;
 
 /// A pinhole camera for an image of a given size.
 #[derive(Clone, Copy, Debug)]
@@ -22,10 +23,13 @@ impl Pinhole {
     pub fn counted_from(&self, pixel: [u32; 2]) -> Self {
         Self { directions: self.directions.counted_from(pixel), ..*self }
     }
-    /// The pinhole, and the directions through the corners of a rectangle [x0, y0, x1, y1] in pixels, in order around.
-    pub fn rectangle(&self, [x0, y0, x1, y1]: [f64; 4]) -> ([f64; 3], [[f64; 3]; 4]) {
+    /// The pyramid of the pixels in \[x0, x1\] × \[y0, y1\] of the image, from the top left, which is wider by an eighth of a pixel on each
+    /// side, for the rounding of rays.
+    pub fn pyramid(&self, [x0, y0, x1, y1]: [f64; 4]) -> Pyramid {
+        let ([x0, y0], [x1, y1]) = ([x0, y0].map(|x| x - 0.125), [x1, y1].map(|x| x + 0.125));
         let corners = [(x0, y0), (x1, y0), (x1, y1), (x0, y1)];
-        (self.origin.map(f64::from), corners.map(|(x, y)| self.directions.at_one(x, y)))
+        let directions = corners.map(|(x, y)| self.directions.at_one(x, y).into());
+        Pyramid::new(self.origin.map(f64::from).into(), directions)
     }
     /// See [`Camera::view_of`](super::Camera::view_of).
     pub(super) fn view_of(&self, p: Vec3<f64>) -> Option<([f64; 2], Vec3<f64>)> {

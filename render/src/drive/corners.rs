@@ -4,9 +4,8 @@ use super::light_weights::LightWeights;
 use super::tile::TileRenderer;
 use crate::area::{Area, TILE};
 use crate::bvh::GROUP;
-use crate::camera::CameraSample;
 use crate::packet::{M8, X8};
-use etendue::{Mask, Real, Vec2};
+use etendue::{Mask, Real};
 
 /// The squared error of a light with contribution c falls about as c² n^−1.5. For a given Σn the sum is least with n ∝ c^0.8.
 const POWER: f32 = 0.8;
@@ -22,7 +21,7 @@ impl TileRenderer<'_> {
     pub(super) fn allocates(&self, size: u32) -> bool {
         let Some(lights) = self.chooser.few() else { return false };
         // each light takes at least one sample, worth it or not: for many lights, these are limited to half of the samples
-        let free = if self.estimator.asks() { FREE_IF_ASKED } else { FREE };
+        let free = if self.outlook.some { FREE_IF_ASKED } else { FREE };
         let fits = size.is_power_of_two() && size.is_multiple_of(8) && (lights <= free || size as usize >= 2 * lights);
         fits && !self.settings.technique.finds_lights() && self.source.allocates()
     }
@@ -31,7 +30,7 @@ impl TileRenderer<'_> {
     /// lens; `None` if lights are chosen at random, or if there are too many for blocks of `size` samples.
     pub(super) fn weights(&mut self, area: Area, size: u32) -> Option<LightWeights<'static>> {
         let lights = self.chooser.few()?;
-        if !self.allocates(size) || self.estimator.knows_all() {
+        if !self.allocates(size) || self.outlook.all {
             return None;
         }
         let [x0, y0, x1, y1] = area;
@@ -48,35 +47,28 @@ impl TileRenderer<'_> {
 
     /// The possible contribution of each light to the corners of the pixels of an area, row by row, where the light must be sampled.
     fn contributions_at_corners(&mut self, [x0, y0, x1, y1]: Area, lights: usize) -> Vec<f32> {
-        let asks = self.estimator.asks();
+        let asks = self.outlook.some;
         let (across, down) = ((x1 - x0 + 1) as usize, (y1 - y0 + 1) as usize);
         let mut corners = vec![0.0; across * down * lights];
-        let mut remaining = vec![M8::splat(true); lights];
+        let mut open = vec![M8::splat(true); lights];
         for start in (0..across * down).step_by(8 * GROUP) {
             let count = (across * down - start).div_ceil(8).min(GROUP);
             let place = |p: usize, lane: usize| (start + 8 * p + lane).min(across * down - 1);
-            for p in 0..count {
+            let [left, top] = [x0 - self.start[0], y0 - self.start[1]];
+            self.rehearse(&[M8::splat(true); GROUP][..count], None, |p| {
                 let at = |of: &dyn Fn(usize) -> u32| X8::from(std::array::from_fn(|lane| of(place(p, lane)) as f32));
-                let (left, top) = (x0 - self.start[0], y0 - self.start[1]);
-                let (x, y) = (at(&|i| left + (i % across) as u32), at(&|i| top + (i / across) as u32));
-                let sample = CameraSample { film: Vec2::new(x, y), lens: Vec2::default() };
-                self.paths.start(p, self.camera.rays(&sample), None);
-            }
-            self.paths.follow(&[M8::splat(true); GROUP][..count]);
-            if asks {
-                self.paths.note_lobes(count);
-            }
+                [at(&|i| left + (i % across) as u32), at(&|i| top + (i / across) as u32)]
+            });
             let pixel = |i: usize| [(x0 + (i % across) as u32).min(x1 - 1), (y0 + (i / across) as u32).min(y1 - 1)];
             for p in 0..count {
                 let points = &self.paths.points;
                 let surface = &points.surfaces[p];
-                if asks {
-                    let pixels = std::array::from_fn(|lane| pixel(place(p, lane)));
-                    self.estimator.remaining(points, p, &pixels, &mut remaining);
+                if let Some(know) = self.know.as_mut().filter(|_| asks) {
+                    know.open_at(points, p, &std::array::from_fn(|lane| pixel(place(p, lane))), &mut open);
                 }
                 let Some(parts) = self.chooser.contributions(surface.point, surface.normal) else { continue };
                 for (k, part) in parts.weights().enumerate() {
-                    let part = part.keep(surface.reflects & remaining[k]).to_array();
+                    let part = part.keep(surface.reflects & open[k]).to_array();
                     for (lane, part) in part.into_iter().enumerate() {
                         corners[place(p, lane) * lights + k] = part;
                     }

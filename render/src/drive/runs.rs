@@ -52,9 +52,9 @@ pub(super) fn next_packet(
         *run = if next == first.end { runs.next() } else { Some(Run { next, is_new: false, ..first }) };
         let [x, y] = first.pixel.map(u32x8::splat);
         let sample = u32x8::splat(first.set * span + first.next) + lanes;
-        return Packet { x, y, sample, replicate: u32x8::splat(first.set), active: M8::splat(true) };
+        return Packet { x, y, sample, set: u32x8::splat(first.set), active: M8::splat(true) };
     }
-    let (mut x, mut y, mut sample, mut replicate) = ([0; 8], [0; 8], [0; 8], [0; 8]);
+    let (mut x, mut y, mut sample, mut set) = ([0; 8], [0; 8], [0; 8], [0; 8]);
     let mut filled = 0;
     while filled < 8
         && let Some(current) = *run
@@ -64,7 +64,7 @@ pub(super) fn next_packet(
         for lane in range.clone() {
             [x[lane], y[lane]] = current.pixel;
             sample[lane] = current.set * span + current.next + lane as u32 - filled;
-            replicate[lane] = current.set;
+            set[lane] = current.set;
         }
         filled += taken;
         let next = current.next + taken;
@@ -74,13 +74,13 @@ pub(super) fn next_packet(
     // the last packet of a tile repeats its last sample
     for lane in filled as usize..8 {
         let last = filled as usize - 1;
-        (x[lane], y[lane], sample[lane], replicate[lane]) = (x[last], y[last], sample[last], replicate[last]);
+        (x[lane], y[lane], sample[lane], set[lane]) = (x[last], y[last], sample[last], set[last]);
     }
     Packet {
         x: u32x8::new(x),
         y: u32x8::new(y),
         sample: u32x8::new(sample),
-        replicate: u32x8::new(replicate),
+        set: u32x8::new(set),
         active: M8::from_bits((1 << filled) - 1),
     }
 }

@@ -1,6 +1,5 @@
 //! Renders the samples of a square of pixels.
 
-use super::estimator::of_technique;
 use super::light_weights::{LightBlocks, LightWeights};
 use super::pixel_statistics::{Statistics, StatisticsSum};
 use super::radiance::Radiance;
@@ -11,8 +10,9 @@ use crate::area::Area;
 use crate::bvh::GROUP;
 use crate::camera::{Camera, CameraSample, counted_from};
 use crate::choose::Chooser;
-use crate::estimate::{Group, Numbers, RayCount, Reflected, TileEstimator, product};
+use crate::estimate::{Group, Know, Numbers, Outlook, RayCount, Sampled, product};
 use crate::film::Accumulator;
+use crate::ledger::Ledger;
 use crate::lights::Lights;
 use crate::packet::{M8, V8, X8};
 use crate::paths::Paths;
@@ -40,7 +40,12 @@ pub(super) struct TileRenderer<'a> {
     lens: bool,
     pub(super) source: Source,
     pub(super) paths: Paths<'a>,
-    pub(super) estimator: Box<dyn TileEstimator + 'a>,
+    /// What is known without samples, and what was written of it for the last group.
+    pub(super) know: Option<Box<dyn Know + 'a>>,
+    ledger: Ledger,
+    /// What is foreseen of that in the tile.
+    pub(super) outlook: Outlook,
+    sampled: Sampled,
 }
 
 impl<'a> TileRenderer<'a> {
@@ -49,6 +54,8 @@ impl<'a> TileRenderer<'a> {
         let scene = &world.scene;
         let sampled = scene.sampled(settings.technique, settings.choice);
         let (lights, chooser) = sampled.unwrap_or_else(|what| panic!("the choice of a light needs {what}"));
+        let know = world.know(settings, &camera);
+        let sampled = Sampled::new(settings.technique, know.is_some() && scene.surfaces.has_rough());
         Self {
             scene,
             lights,
@@ -61,7 +68,10 @@ impl<'a> TileRenderer<'a> {
             exposure,
             source: Source::new(sampler, seed, spp, sets, width),
             paths: Paths::new(scene, settings.depth),
-            estimator: of_technique(world, settings, &camera),
+            ledger: Ledger::all_open(know.is_some()),
+            know,
+            outlook: Outlook::default(),
+            sampled,
         }
     }
 
@@ -108,39 +118,42 @@ impl<'a> TileRenderer<'a> {
             (self.start, self.camera) = (start, camera.counted_from(start));
             self.exposure = exposure.map(|exposure| exposure.counted_from(start));
         }
-        if !self.estimator.begin([x0, y0]) {
-            return;
-        }
+        let Some(know) = &mut self.know else { return };
+        know.begin([x0, y0]);
         let place = |first: u32, end: u32, k: usize| first as f32 + (end - first) as f32 * (2 * k + 1) as f32 / 16.0;
         let [left, top, right, bottom] = [x0 - start[0], y0 - start[1], x1 - start[0], y1 - start[1]];
-        let mut pixels = [[[0; 2]; 8]; GROUP];
-        for (row, pixels) in pixels.iter_mut().enumerate() {
-            let y = place(top, bottom, row);
-            let x: [f32; 8] = std::array::from_fn(|lane| place(left, right, lane));
-            *pixels = x.map(|x| [start[0] + (x as u32).min(right - 1), start[1] + (y as u32).min(bottom - 1)]);
-            let film = Vec2::new(X8::from(x), X8::splat(y));
-            self.paths.start(row, self.camera.rays(&CameraSample { film, lens: Vec2::default() }), None);
+        let x: [f32; 8] = std::array::from_fn(|lane| place(left, right, lane));
+        let y: [f32; GROUP] = std::array::from_fn(|row| place(top, bottom, row));
+        let pixel = |x: f32, y: f32| [start[0] + (x as u32).min(right - 1), start[1] + (y as u32).min(bottom - 1)];
+        self.rehearse(&[M8::splat(true); GROUP], None, |row| [X8::from(x), X8::splat(y[row])]);
+        if let Some(know) = &mut self.know {
+            self.outlook = know.look_ahead(&self.paths.points, &y.map(|y| x.map(|x| pixel(x, y))));
         }
-        self.paths.follow(&[M8::splat(true); GROUP]);
-        self.paths.note_lobes(GROUP);
-        self.estimator.look_ahead(&self.paths.points, &pixels);
         self.paths.tracer.count.corner += 64;
     }
 
-    /// Follows the ray through the middle of a pixel and of the lens.
-    fn look(&mut self, [x, y]: [u32; 2]) -> CameraSample {
-        let middle = |k: usize, at: u32| X8::splat((at - self.start[k]) as f32 + 0.5);
-        let sample = CameraSample { film: Vec2::new(middle(0, x), middle(1, y)), lens: Vec2::default() };
-        self.paths.start(0, self.camera.rays(&sample), Some([x, y]));
-        self.paths.follow(&[M8::from_bits(1)]);
-        self.paths.note_lobes(1);
-        sample
+    /// Follows rays through places of the film and the middle of the lens, packet by packet, before any sample: for what is worth asking, for
+    /// what lights can contribute, and for how far closed forms may be off.
+    pub(super) fn rehearse(&mut self, active: &[M8], pixel: Option<[u32; 2]>, film: impl Fn(usize) -> [X8; 2]) {
+        for p in 0..active.len() {
+            let [x, y] = film(p);
+            let sample = CameraSample { film: Vec2::new(x, y), lens: Vec2::default() };
+            self.paths.start(p, self.camera.rays(&sample), pixel);
+        }
+        self.paths.follow(active);
+        if self.know.is_some() {
+            self.paths.note_lobes(active.len());
+        }
     }
 
     /// A bound of the error of closed forms in the middle of a pixel of a tile, seen through the middle of the lens.
     pub(super) fn error_bound(&mut self, pixel: [u32; 2]) -> [f32; 3] {
-        let sample = self.look(pixel);
-        let error_bound = product(self.paths.points.ends[0].throughput, self.estimator.error_bound(&self.paths.points));
+        let [x, y] = [0, 1].map(|k| X8::splat((pixel[k] - self.start[k]) as f32 + 0.5));
+        self.rehearse(&[M8::from_bits(1)], Some(pixel), |_| [x, y]);
+        let points = &self.paths.points;
+        let known = self.know.as_mut().map_or(V8::default(), |know| know.error_bound(points));
+        let error_bound = product(points.ends[0].throughput, known);
+        let sample = CameraSample { film: Vec2::new(x, y), lens: Vec2::default() };
         self.exposure.map_or(error_bound, |exposure| error_bound * exposure.weight(&sample)).lane(0).into()
     }
 
@@ -221,7 +234,7 @@ impl<'a> TileRenderer<'a> {
         expected: &[u32; GROUP],
     ) -> [Radiance; GROUP] {
         let (samples, numbers) = self.numbers(packets, allocated);
-        let Self { scene, lights, chooser, camera, exposure, paths, estimator, .. } = self;
+        let Self { scene, lights, chooser, camera, exposure, paths, know, ledger, outlook, sampled: rest, .. } = self;
         let count = packets.len();
         // follow the camera rays
         let mut active = [M8::splat(false); GROUP];
@@ -231,18 +244,21 @@ impl<'a> TileRenderer<'a> {
             paths.tracer.count.camera += u64::from(packet.active.bits().count_ones());
         }
         paths.follow(&active[..count]);
-        // estimate what the surfaces there reflect
-        let mut reflected = Reflected::default();
+        // what is known of the lights there, and an estimate of the rest
+        let [mut known, mut sampled] = [[V8::default(); GROUP]; 2];
         if !scene.lights.is_empty() {
             paths.note_lobes(count);
             let group =
                 Group { scene, lights, chooser, points: &paths.points, count, numbers: &numbers, allocated, expected };
-            reflected = estimator.reflected(&group, &mut paths.tracer);
+            ledger.forget();
+            if let Some(know) = know.as_mut().filter(|_| outlook.some) {
+                know.know(&group, ledger, &mut known);
+            }
+            sampled = rest.estimate(&group, ledger, &mut paths.tracer);
         }
         let is_plain = scene.surfaces.is_plain;
         std::array::from_fn(|p| {
             let through = |part: V8| if is_plain { part } else { product(paths.points.ends[p].throughput, part) };
-            let Reflected { known, sampled } = &reflected;
             let mut radiance =
                 Radiance { seen: paths.seen[p], known: through(known[p]), reflected: through(sampled[p]) };
             if let Some(open) = camera.open(&samples[p]) {
@@ -266,7 +282,7 @@ impl<'a> TileRenderer<'a> {
         let mut numbers = Numbers {
             light: [Vec2::default(); GROUP],
             choice: chooser.needs_numbers().then(|| own(CHOICE)),
-            surface: (point && self.estimator.is_combined()).then(|| own(SURFACE)),
+            surface: (point && self.sampled.is_combined()).then(|| own(SURFACE)),
         };
         let mut samples = [CameraSample { film: Vec2::default(), lens: Vec2::default() }; GROUP];
         let start = start.map(u32x8::splat);

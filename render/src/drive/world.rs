@@ -1,9 +1,11 @@
 //! A scene ready to be rendered.
 
 use crate::bvh::{BuildError, Hits, NOTHING, Scratch};
-#[cfg(feature = "analytic")]
-use crate::certify::Certifiable;
+use crate::camera::Camera;
 use crate::choose::ChoiceBy;
+use crate::estimate::Know;
+#[cfg(feature = "analytic")]
+use crate::know::{Certifiable, Knowledge};
 use crate::packet::{V8, X8};
 use crate::prepared::PreparedScene;
 use crate::scene::{CameraSettings, Scene};
@@ -110,6 +112,18 @@ impl World {
     pub(super) fn is_analytic(&self, settings: &Settings) -> bool {
         let is_asked = cfg!(feature = "analytic") && settings.technique == Technique::Analytic;
         is_asked && settings.choice == ChoiceBy::Auto && self.scene.lights.only_few_areas()
+    }
+
+    /// What knows lights without samples, if a technique asks for that.
+    pub(super) fn know(&self, settings: &Settings, camera: &Camera) -> Option<Box<dyn Know + '_>> {
+        let asked = self.is_analytic(settings).then_some(camera);
+        #[cfg(feature = "analytic")]
+        let know = |camera| -> Box<dyn Know + '_> {
+            Box::new(Knowledge::new(&self.scene, &self.certifiable, camera, settings))
+        };
+        #[cfg(not(feature = "analytic"))]
+        let know = |_| unreachable!("nothing is analytic without the feature");
+        asked.map(know)
     }
 
     /// Whether there is a light that closed forms can know.

@@ -1,13 +1,13 @@
 //! Direct light by sampling a light.
 
 use super::group::Group;
-use super::integrand::Integrand;
 use super::mis::Mis;
 use super::points::{keep, product};
 use super::tracer::{Tracer, Unoccluded};
 use super::which_light::Which;
 use crate::bsdf::Evaluated;
 use crate::bvh::GROUP;
+use crate::ledger::Ledger;
 use crate::lights::{Chosen, Drawn};
 use crate::packet::{M8, V8, X8, select};
 use crate::sky::SunBeside;
@@ -24,11 +24,11 @@ pub(super) struct ByLight {
 impl ByLight {
     /// Adds f · L · V · cosθ / pdf, for a light and a direction to it in each lane.
     #[inline(always)]
-    pub(super) fn add<const GENERAL: bool, I: Integrand>(
+    pub(super) fn add<const GENERAL: bool>(
         &self,
         which: &Which<'_>,
         group: &Group<'_>,
-        integrand: &I,
+        ledger: &Ledger,
         tracer: &mut Tracer,
         reflected: &mut [V8; GROUP],
     ) {
@@ -37,7 +37,7 @@ impl ByLight {
         for (p, surface) in group.reflecting() {
             // choose a light, and draw a direction to it
             let place = group.points.places[p].primitives;
-            let (choice, lanes, u) = which.choose::<GENERAL, _>(group, integrand, p);
+            let (choice, lanes, u) = which.choose::<GENERAL>(group, ledger, p);
             let mut light = group.lights.chosen(choice.index);
             let (drawn, alone) = self.draw::<GENERAL>(which, group, p, u, &mut light);
             let Drawn { direction, distance, emits, delta, .. } = drawn;
@@ -47,10 +47,10 @@ impl ByLight {
             let mut lit = lanes & emits & some & cos.gt(zero) & !own;
             // evaluate f cosθ, less what is known of its integral
             let Evaluated { mut color, factor, pdf: surface_pdf } = group.bsdf::<GENERAL>(p).evaluate(direction);
-            let proof = if GENERAL { integrand.proof(p, choice.index) } else { None };
-            if let Some(proof) = proof {
-                color += keep(-integrand.fit(p, direction, cos), proof.fitted);
-                lit = lit & !proof.dark;
+            let proven = if GENERAL { ledger.proven(p, choice.index) } else { None };
+            if let Some(proven) = proven {
+                color += keep(-group.fit(p, direction, cos), proven.fitted);
+                lit = lit & !proven.dark;
             }
             // weigh f L cosθ / pdf
             let pdf = select(lit, drawn.pdf * choice.pmf, one);
@@ -60,12 +60,12 @@ impl ByLight {
                 Some(mis) => factor * mis.of_light([pdf, surface_pdf], delta, alone, rough),
             };
             let found = product(color, light.radiance) * (factor / pdf);
-            if let Some(part) = integrand.part(p, choice.index) {
-                reflected[p] += keep(found * -part, lit);
+            if let Some(counted) = ledger.counted(p, choice.index) {
+                reflected[p] += keep(found * -counted, lit);
             }
-            if let Some(proof) = proof {
-                reflected[p] += keep(found, lit & proof.lit);
-                lit = lit & !proof.lit;
+            if let Some(proven) = proven {
+                reflected[p] += keep(found, lit & proven.lit);
+                lit = lit & !proven.lit;
             }
             // trace a shadow ray, unless a sky or a profile is dark in that direction, or the surface black
             lit = lit & found.max_abs().gt(zero);
@@ -79,15 +79,15 @@ impl ByLight {
 
     /// The same for the sun that is sampled besides all other lights. Not inlined, so that it does not burden scenes without portals.
     #[inline(never)]
-    pub(super) fn add_sun<const GENERAL: bool, I: Integrand>(
+    pub(super) fn add_sun<const GENERAL: bool>(
         &self,
         sun: SunBeside<'_>,
         group: &Group<'_>,
-        integrand: &I,
+        ledger: &Ledger,
         tracer: &mut Tracer,
         reflected: &mut [V8; GROUP],
     ) {
-        self.add::<GENERAL, I>(&Which::Sun(sun), group, integrand, tracer, reflected);
+        self.add::<GENERAL>(&Which::Sun(sun), group, ledger, tracer, reflected);
     }
 
     /// Directions to the chosen lights, and the lanes in which the light is sampled alone although the surface is sampled, too.

@@ -1,7 +1,6 @@
 //! Direct light by sampling the surface: its BSDF, or the hemisphere above it.
 
 use super::group::Group;
-use super::integrand::Integrand;
 use super::mis::Mis;
 use super::points::{keep, product};
 use super::tracer::{Tracer, Unoccluded};
@@ -9,6 +8,7 @@ use super::which_light::pmf;
 use crate::bsdf::Scattered;
 use crate::bvh::{GROUP, Hits, NOTHING, SHAPE};
 use crate::choose::LightPmf;
+use crate::ledger::Ledger;
 use crate::lobe::Lobe;
 use crate::packet::{M8, V8, X8, pick, select};
 use crate::technique::Technique;
@@ -36,11 +36,11 @@ struct Met {
 
 impl BySurface {
     /// Adds f · L · V · cosθ / pdf, for a direction in each lane in which rays may find a light.
-    pub(super) fn add<const GENERAL: bool, I: Integrand>(
+    pub(super) fn add<const GENERAL: bool>(
         &self,
         pairs: &[Vec2<X8>; GROUP],
         group: &Group<'_>,
-        integrand: &I,
+        ledger: &Ledger,
         tracer: &mut Tracer,
         reflected: &mut [V8; GROUP],
     ) {
@@ -66,14 +66,14 @@ impl BySurface {
             if !rays.lanes[p].any() {
                 continue;
             }
-            let met = self.meet::<GENERAL, I>(group, integrand, p, &hits[p], rays.lanes[p], tracer);
+            let met = self.meet::<GENERAL>(group, ledger, p, &hits[p], rays.lanes[p], tracer);
             let (direction, mut color, mut lit) = (tracer.shadow[p].direction, rays.found[p], met.lit);
             // less what is known of the integral
-            let proof = if GENERAL { integrand.proof(p, met.lights) } else { None };
-            if let Some(proof) = proof {
-                let fit = integrand.fit(p, direction, direction.dot(group.points.surfaces[p].normal));
-                color += keep(fit * (-one / pdfs[p]), proof.fitted);
-                lit = lit & !proof.dark;
+            let proven = if GENERAL { ledger.proven(p, met.lights) } else { None };
+            if let Some(proven) = proven {
+                let fit = group.fit(p, direction, direction.dot(group.points.surfaces[p].normal));
+                color += keep(fit * (-one / pdfs[p]), proven.fitted);
+                lit = lit & !proven.dark;
             }
             let weighted = |light_pdf: X8| match &self.mis {
                 None => factors[p],
@@ -83,9 +83,9 @@ impl BySurface {
             if let Some((radiance, pdf)) = met.sun {
                 found += product(color, radiance) * weighted(pdf);
             }
-            if let Some(proof) = proof {
-                reflected[p] += keep(found, lit & proof.lit);
-                lit = lit & !proof.lit;
+            if let Some(proven) = proven {
+                reflected[p] += keep(found, lit & proven.lit);
+                lit = lit & !proven.lit;
             }
             (rays.found[p], rays.lanes[p]) = (found, lit);
             rays.end_at(
@@ -99,10 +99,10 @@ impl BySurface {
 
     /// The light that the rays of a packet find, if nothing else occludes it.
     #[inline(always)]
-    fn meet<const GENERAL: bool, I: Integrand>(
+    fn meet<const GENERAL: bool>(
         &self,
         group: &Group<'_>,
-        integrand: &I,
+        ledger: &Ledger,
         packet: usize,
         hits: &Hits,
         sent: M8,
@@ -112,7 +112,7 @@ impl BySurface {
         let (rays, surface) = (&tracer.shadow[packet], &group.points.surfaces[packet]);
         let (hit, missed) = (sent & hits.any(), sent & !hits.any());
         let is_weighted = self.mis.is_some() && (hit.any() || scene.sky.is_some());
-        let pmf: Option<LightPmf<'_>> = is_weighted.then(|| pmf::<GENERAL, I>(group, integrand, packet));
+        let pmf: Option<LightPmf<'_>> = is_weighted.then(|| pmf::<GENERAL>(group, ledger, packet));
         // spheres that metals reflect are sampled by the lobe alone
         let by_lobes = GENERAL && self.mis.is_some_and(|mis| mis.by_lobes);
         let metals = group.points.lobes[packet].as_ref().filter(|_| by_lobes).map(Lobe::metals);

@@ -1,75 +1,38 @@
 //! What an estimator is given, and what it returns.
 
 use super::points::Points;
-use super::tracer::Tracer;
 use crate::allocation::Allocated;
 use crate::bsdf::Bsdf;
 use crate::bvh::GROUP;
 use crate::choose::Chooser;
+use crate::ledger::Ledger;
 use crate::lights::Lights;
 use crate::packet::{M8, V8, X8};
 use crate::prepared::PreparedScene;
 use crate::surfaces::Surface;
 use etendue::{Mask, Vec2};
 
-/// A way to estimate the light that a group of shading points reflects, or what an [`Integrand`] has left of it.
-pub(crate) trait Estimator<I> {
-    /// Adds an unbiased estimate for each point. `GENERAL` compiles in what surfaces need that are not flat and diffuse.
-    fn add<const GENERAL: bool>(
-        &mut self,
-        group: &Group<'_>,
-        integrand: &I,
-        tracer: &mut Tracer,
-        reflected: &mut Reflected,
-    );
-    /// The estimate for each point. What a scene does not need is not compiled in.
-    fn estimate(&mut self, group: &Group<'_>, integrand: &I, tracer: &mut Tracer) -> Reflected {
-        let mut reflected = Reflected::default();
-        match group.scene.surfaces.is_plain {
-            true => self.add::<false>(group, integrand, tracer, &mut reflected),
-            false => self.add::<true>(group, integrand, tracer, &mut reflected),
-        }
-        reflected
-    }
-}
-
-/// An estimator of all light, as the tiles of an image use it. What only closed forms can answer has a default for all others.
-pub(crate) trait TileEstimator {
-    /// Whether a sample needs a pair of numbers for the surface besides that for the light.
-    fn is_combined(&self) -> bool;
-    /// Radiance that a group of shading points reflects towards the camera rays.
-    fn reflected(&mut self, group: &Group<'_>, tracer: &mut Tracer) -> Reflected;
-    /// Prepares for the samples of a tile, by its first pixel. Returns whether it wants to [look ahead](Self::look_ahead).
-    fn begin(&mut self, _origin: [u32; 2]) -> bool {
-        false
-    }
-    /// Looks at some points of the tile, each of them seen in a pixel of its own.
-    fn look_ahead(&mut self, _points: &Points, _pixels: &[[[u32; 2]; 8]; GROUP]) {}
-    /// Whether lights of this tile may be known without samples.
-    fn asks(&self) -> bool {
-        false
-    }
-    /// Whether all lights were known at all points that were looked at.
-    fn knows_all(&self) -> bool {
-        false
-    }
-    /// Sets the lanes of a packet of shading points, each of them seen in one of these pixels, in which each light must be sampled.
-    fn remaining(&mut self, points: &Points, packet: usize, _pixels: &[[u32; 2]; 8], remaining: &mut [M8]) {
-        remaining.fill(points.surfaces[packet].reflects);
-    }
+/// What can be known of lights before any is sampled.
+pub(crate) trait Know {
+    /// Prepares for the samples of a tile, by its first pixel.
+    fn begin(&mut self, origin: [u32; 2]);
+    /// Looks at some points of the tile, each of them seen in a pixel of its own, and decides what is worth asking for.
+    fn look_ahead(&mut self, points: &Points, pixels: &[[[u32; 2]; 8]; GROUP]) -> Outlook;
+    /// Writes what is known of the lights of a group, and adds the light that follows from it.
+    fn know(&mut self, group: &Group<'_>, ledger: &mut Ledger, reflected: &mut [V8; GROUP]);
+    /// Sets the lanes of a packet of shading points, each of them seen in one of these pixels, in which each light is open.
+    fn open_at(&mut self, points: &Points, packet: usize, pixels: &[[u32; 2]; 8], open: &mut [M8]);
     /// A bound of the error of what is known without samples at the first shading point.
-    fn error_bound(&mut self, _points: &Points) -> V8 {
-        V8::default()
-    }
+    fn error_bound(&mut self, points: &Points) -> V8;
 }
 
-/// The radiance that the points of a group reflect.
-#[derive(Clone, Copy, Default)]
-pub(crate) struct Reflected {
-    /// The part that is computed without samples of lights.
-    pub(crate) known: [V8; GROUP],
-    /// The estimate of the rest.
-    pub(crate) sampled: [V8; GROUP],
+/// What is foreseen of a tile.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Outlook {
+    /// Whether lights of this tile may be known without samples.
+    pub(crate) some: bool,
+    /// Whether all lights were known at all points that were looked at.
+    pub(crate) all: bool,
 }
 
 /// Random numbers of each packet of a group.
@@ -113,6 +76,11 @@ impl Group<'_> {
         } else {
             Bsdf::new(normal, normal, albedo, V8::default(), None)
         }
+    }
+    /// The fits of f cosθ of rough surfaces, for the unit directions `w` with the cosine `cos` to the normal.
+    #[inline]
+    pub(super) fn fit(&self, packet: usize, w: V8, cos: X8) -> V8 {
+        self.points.lobes[packet].as_ref().map_or(V8::default(), |lobe| lobe.evaluate(w, cos))
     }
     /// Lanes of rough metals and of coats.
     #[inline(always)]

@@ -2,11 +2,13 @@
 
 use super::by_light::ByLight;
 use super::by_surface::BySurface;
-use super::group::{Estimator, Group, Reflected, TileEstimator};
-use super::integrand::{Integrand, Plain};
+use super::group::Group;
 use super::mis::Mis;
 use super::tracer::Tracer;
 use super::which_light::Which;
+use crate::bvh::GROUP;
+use crate::ledger::Ledger;
+use crate::packet::V8;
 use crate::technique::Technique;
 use etendue::estimate::Heuristic;
 
@@ -31,39 +33,42 @@ impl Sampled {
             finds_lights: technique.finds_lights(),
         }
     }
-}
-
-impl TileEstimator for Sampled {
-    fn is_combined(&self) -> bool {
+    /// Whether a sample needs a pair of numbers for the surface besides that for the light.
+    pub(crate) const fn is_combined(&self) -> bool {
         self.mis.is_some()
     }
-    fn reflected(&mut self, group: &Group<'_>, tracer: &mut Tracer) -> Reflected {
-        self.estimate(group, &Plain, tracer)
+    /// An unbiased estimate, for each point, of the light that it reflects, less what the ledger has counted. What a scene does not need is
+    /// not compiled in.
+    pub(crate) fn estimate(&self, group: &Group<'_>, ledger: &Ledger, tracer: &mut Tracer) -> [V8; GROUP] {
+        let mut sampled = [V8::default(); GROUP];
+        match group.scene.surfaces.is_plain {
+            true => self.add::<false>(group, ledger, tracer, &mut sampled),
+            false => self.add::<true>(group, ledger, tracer, &mut sampled),
+        }
+        sampled
     }
-}
-
-impl<I: Integrand> Estimator<I> for Sampled {
+    /// `GENERAL` compiles in what surfaces need that are not flat and diffuse.
     fn add<const GENERAL: bool>(
-        &mut self,
+        &self,
         group: &Group<'_>,
-        integrand: &I,
+        ledger: &Ledger,
         tracer: &mut Tracer,
-        Reflected { sampled, .. }: &mut Reflected,
+        sampled: &mut [V8; GROUP],
     ) {
         if let Some(each) = group.chooser.each() {
             for light in 0..each {
-                self.by_light.add::<GENERAL, _>(&Which::One(light), group, integrand, tracer, sampled);
+                self.by_light.add::<GENERAL>(&Which::One(light), group, ledger, tracer, sampled);
             }
-        } else if !integrand.is_empty() {
-            self.by_light.add::<GENERAL, _>(&Which::Chosen, group, integrand, tracer, sampled);
+        } else if !ledger.is_closed {
+            self.by_light.add::<GENERAL>(&Which::Chosen, group, ledger, tracer, sampled);
             if let Some(sun) = group.scene.sky.as_ref().filter(|_| !self.finds_lights).and_then(|sky| sky.sun_beside())
             {
-                self.by_light.add_sun::<GENERAL, _>(sun, group, integrand, tracer, sampled);
+                self.by_light.add_sun::<GENERAL>(sun, group, ledger, tracer, sampled);
             }
         }
         let pairs = if self.finds_lights { Some(&group.numbers.light) } else { group.numbers.surface.as_ref() };
         if let Some(pairs) = pairs {
-            self.by_surface.add::<GENERAL, _>(pairs, group, integrand, tracer, sampled);
+            self.by_surface.add::<GENERAL>(pairs, group, ledger, tracer, sampled);
         }
     }
 }

@@ -1,9 +1,9 @@
 //! Which light each lane of a packet samples.
 
 use super::group::Group;
-use super::integrand::Integrand;
 use crate::bvh::GROUP;
 use crate::choose::{Chooser, LightPmf};
+use crate::ledger::Ledger;
 use crate::lobe::Lobe;
 use crate::packet::{M8, X8, each_group, pick, select};
 use crate::sky::SunBeside;
@@ -24,10 +24,10 @@ pub(super) enum Which<'a> {
 impl Which<'_> {
     /// Chooses a light for each lane of a packet. Returns the lanes that sample it, and the numbers that are left for a point on it.
     #[inline(always)]
-    pub(super) fn choose<const GENERAL: bool, I: Integrand>(
+    pub(super) fn choose<const GENERAL: bool>(
         &self,
         group: &Group<'_>,
-        integrand: &I,
+        ledger: &Ledger,
         packet: usize,
     ) -> (Choice<X8>, M8, Vec2<X8>) {
         let mut u = group.numbers.light[packet];
@@ -37,7 +37,7 @@ impl Which<'_> {
         let (choice, lanes) = match self {
             Self::One(light) => (given(*light), all),
             Self::Sun(_) => (given(group.lights.of_sky()), all),
-            Self::Chosen => chosen::<GENERAL, I>(group, integrand, packet, numbers),
+            Self::Chosen => chosen::<GENERAL>(group, ledger, packet, numbers),
         };
         if group.numbers.choice.is_none() {
             u.x = choice.u;
@@ -47,25 +47,25 @@ impl Which<'_> {
 }
 
 /// What the choice depends on where surfaces are glossy. Where lights are known, it is by what they give to diffuse ones.
-fn gloss<const GENERAL: bool, I: Integrand>(group: &Group<'_>, integrand: &I, packet: usize) -> Option<Gloss<X8>> {
-    let is_asked = GENERAL && integrand.remaining().is_none();
+fn gloss<const GENERAL: bool>(group: &Group<'_>, ledger: &Ledger, packet: usize) -> Option<Gloss<X8>> {
+    let is_asked = GENERAL && ledger.open().is_none();
     group.points.lobes[packet].as_ref().filter(|_| is_asked).map(Lobe::gloss)
 }
 
 /// The light to which a sample is allocated, or one chosen at random, among those that remain; and the lanes that sample it. `numbers` are
 /// random, the second for many lights.
 #[inline(always)]
-fn chosen<const GENERAL: bool, I: Integrand>(
+fn chosen<const GENERAL: bool>(
     group: &Group<'_>,
-    integrand: &I,
+    ledger: &Ledger,
     packet: usize,
     numbers: [X8; 2],
 ) -> (Choice<X8>, M8) {
     let surface = &group.points.surfaces[packet];
     let all = surface.reflects;
-    let (allocated, remaining) = match (group.allocated.get(packet), integrand.remaining()) {
+    let (allocated, remaining) = match (group.allocated.get(packet), ledger.open()) {
         (None, None) => {
-            let gloss = gloss::<GENERAL, I>(group, integrand, packet);
+            let gloss = gloss::<GENERAL>(group, ledger, packet);
             return (group.chooser.choose(surface.point, surface.normal, gloss.as_ref(), numbers), all);
         }
         (Some(allocated), None) => return (allocated.choose(numbers[0]), all),
@@ -111,16 +111,12 @@ fn among(
 
 /// The probabilities with which a packet of surfaces that are sampled themselves chooses lights.
 #[inline(always)]
-pub(super) fn pmf<'a, const GENERAL: bool, I: Integrand>(
-    group: &'a Group<'_>,
-    integrand: &I,
-    packet: usize,
-) -> LightPmf<'a> {
+pub(super) fn pmf<'a, const GENERAL: bool>(group: &'a Group<'_>, ledger: &Ledger, packet: usize) -> LightPmf<'a> {
     let Surface { point, normal, .. } = group.points.surfaces[packet];
     match group.allocated.get(packet) {
         Some(allocated) => LightPmf::Allocated(allocated),
         None => {
-            let gloss = gloss::<GENERAL, I>(group, integrand, packet);
+            let gloss = gloss::<GENERAL>(group, ledger, packet);
             group.chooser.pmf(point, normal, gloss.as_ref())
         }
     }

@@ -5,14 +5,14 @@
 
 use super::ends::Segment;
 use super::flat::Plane;
-use super::form::{Approach, Extent, Form, Meeting, Outline, Solid, wide};
+use super::form::{Approach, Extent, Form, Hittable, Meeting, wide};
 use super::points::{Points, on_plane};
-use crate::occlusion::Convex;
 use crate::packet::{M8, V8, X8};
 use crate::spread::Spread;
 use crate::technique::Measure;
 use etendue::light;
 use etendue::{Frame, LightSample, LightSampler, Real, Vec2, Vec3};
+use etendue_visible::{Occluder, Solid};
 use std::f64::consts::PI;
 
 /// A disk that emits from the side of its normal.
@@ -39,7 +39,7 @@ impl Disk {
 }
 
 impl Form for Disk {
-    type Solid = Round;
+    type Hittable = Round;
     const SHARE: f64 = PI;
 
     fn bounds(&self) -> [[f32; 3]; 2] {
@@ -60,7 +60,7 @@ impl Form for Disk {
         let (frame, radius) = (Frame::new(self.axis()), f64::from(self.radius));
         [frame.s * radius, frame.t * radius]
     }
-    fn solid(&self) -> Round {
+    fn hittable(&self) -> Round {
         Round { plane: Plane::new(self.center, self.axis(), 2.0 * f64::from(self.radius)), radius: self.radius }
     }
     fn points(&self, rays: [V8; 2], _distance: X8, reach: f32) -> Points {
@@ -88,13 +88,13 @@ impl Form for Disk {
     fn pdf(&self, _spread: Option<Spread<f32>>, p: V8, w: V8) -> X8 {
         Self::light(self.vectors().map(V8::from)).by_solid_angle(p).pdf_of_hit(w)
     }
-    fn outline(&self) -> Outline {
+    fn outline(&self) -> Occluder<'static> {
         // wider than the rounding of its corners
         let (center, radius) = (self.middle(), f64::from(self.radius));
         let wider = 1.0 + 1e-6 * (1.0 + center.max_abs() / radius);
         let [s, t] = self.halves(center).map(|half| half * wider);
-        let narrow = |v: Vec3<f64>| v.map(|x| x as f32);
-        Outline::Within(Convex::Parallelogram { corner: narrow(center - s - t), edges: [narrow(s + s), narrow(t + t)] })
+        let narrow = |v: Vec3<f64>| v.map(|x| f64::from(x as f32));
+        Occluder::Within(Solid::Parallelogram { corner: narrow(center - s - t), edges: [narrow(s + s), narrow(t + t)] })
     }
 }
 
@@ -105,7 +105,7 @@ pub(crate) struct Round {
     radius: f32,
 }
 
-impl Solid for Round {
+impl Hittable for Round {
     #[inline(always)]
     fn meet<const ANY: bool>(&self, rays: &Approach<'_>) -> Meeting {
         let square = X8::splat(self.radius * self.radius);

@@ -10,8 +10,8 @@
 //! corners, by √3 εM more: 5.2 εM in all. (Wächter and Binder 2019, "A Fast and Robust Method for Avoiding Self-Intersection", and PBR 4th
 //! ed., 6.8.6, bound points in the same way; at the other end, points are lifted.)
 
-use crate::occlusion::ENDS;
 use etendue::Vec3;
+use etendue_visible::ENDS;
 
 type V64 = Vec3<f64>;
 

@@ -1,7 +1,7 @@
 //! What flat forms have in common.
 
 use super::ends::Segment;
-use super::form::{Approach, Meeting, NEAR, Solid};
+use super::form::{Approach, Hittable, Meeting, NEAR};
 use crate::packet::{M8, V8, X8, each_bit, select};
 use crate::technique::Measure;
 use etendue::light::{FlatLight, Picture};
@@ -27,7 +27,7 @@ impl Plane {
         let exact = [Vec3::from(point.map(f64::from)), normal];
         Self { point, normal: narrow(normal), exact, near: (extent * NEAR) as f32 }
     }
-    /// As of [`Solid::meet`], for the part of the plane whose points, relative to the point of the plane, are `inside`.
+    /// As of [`Hittable::meet`], for the part of the plane whose points, relative to the point of the plane, are `inside`.
     #[inline(always)]
     pub(super) fn meet<const ANY: bool>(&self, rays: &Approach<'_>, inside: impl FnOnce(V8) -> M8) -> Meeting {
         let (zero, one, none) = (X8::lit(0.0), X8::lit(1.0), M8::splat(false));
@@ -53,7 +53,7 @@ impl Plane {
         meeting.hit = inside & meeting.distance.gt(zero) & meeting.distance.lt(rays.limit);
         meeting
     }
-    /// As of [`Solid::reached_by`].
+    /// As of [`Hittable::reached_by`].
     pub(super) fn reached_by(&self, segment: Segment) -> Segment {
         segment.to_plane(self.exact[0], self.exact[1])
     }
@@ -79,7 +79,7 @@ impl<const TRIANGLE: bool> Edged<TRIANGLE> {
     }
 }
 
-impl<const TRIANGLE: bool> Solid for Edged<TRIANGLE> {
+impl<const TRIANGLE: bool> Hittable for Edged<TRIANGLE> {
     #[inline(always)]
     fn meet<const ANY: bool>(&self, rays: &Approach<'_>) -> Meeting {
         let (zero, one) = (X8::lit(0.0), X8::lit(1.0));

@@ -2,19 +2,19 @@
 
 use super::ends::{End, Segment};
 use super::points::Points;
-use crate::occlusion::Convex;
 use crate::packet::{M8, V8, X8, max};
 use crate::spread::Spread;
 use crate::technique::Measure;
 use etendue::light::Picture;
 use etendue::{LightSample, Mask, Real, Vec2, Vec3};
+use etendue_visible::{Occluder, Solid};
 
 /// The form of a shape: where it is, how rays meet it, how it is sampled as a light, and what stands for it in closed forms.
 ///
 /// A light is kept as three vectors, whose meaning each form chooses, so that the lanes of a packet hold lights of any form.
 pub(crate) trait Form: Sized {
     /// The form, prepared for rays.
-    type Solid: Solid;
+    type Hittable: Hittable;
     /// How its points are found in a picture that it shows; `None` if it shows none, and emits the mean of a picture everywhere.
     const CHART: Option<Chart> = None;
     /// Its greatest area as seen from far away, as a part of the area of its surface.
@@ -34,7 +34,7 @@ pub(crate) trait Form: Sized {
     fn halves(&self, direction: Vec3<f64>) -> [Vec3<f64>; 2];
 
     /// Prepares the form for rays.
-    fn solid(&self) -> Self::Solid;
+    fn hittable(&self) -> Self::Hittable;
     /// The outward normals at points of the surface, of any length.
     #[cfg(feature = "analytic")]
     #[inline(always)]
@@ -87,40 +87,21 @@ pub(crate) trait Form: Sized {
     }
 
     /// What closed forms take it for. By default nothing is known but a ball around the form.
-    fn outline(&self) -> Outline {
+    fn outline(&self) -> Occluder<'static> {
         let [low, high] = self.bounds().map(|corner| Vec3::<f64>::from(corner.map(f64::from)));
         // wider than the rounding of its centre and radius
         let (center, radius) = ((low + high) * 0.5, (high - low).length() * 0.5);
         let radius = (radius + center.max_abs() * 1e-6) * (1.0 + 1e-6);
-        Outline::Within(Convex::Sphere { center: center.map(|x| x as f32), radius: radius as f32 })
+        Occluder::Within(Solid::Sphere {
+            center: center.map(|x| f64::from(x as f32)),
+            radius: f64::from(radius as f32),
+        })
     }
 
     /// The unit normal of a flat form; 0 for a curved one.
     #[inline]
     fn normal(&self) -> [f32; 3] {
         self.plane().map_or([0.0; 3], |[_, normal]| [normal.x as f32, normal.y as f32, normal.z as f32])
-    }
-}
-
-/// What closed forms take a shape for.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Outline {
-    /// The shape is this one.
-    Exact(Convex<f32>),
-    /// The shape is somewhere within this one, so its light is only sampled; but where that is dark or hidden, so is the shape.
-    Within(Convex<f32>),
-}
-
-impl Outline {
-    /// The shape, or what it is within.
-    pub const fn convex(self) -> Convex<f32> {
-        match self {
-            Self::Exact(convex) | Self::Within(convex) => convex,
-        }
-    }
-    /// Whether this is all of the shape, and nothing else.
-    pub const fn is_exact(self) -> bool {
-        matches!(self, Self::Exact(_))
     }
 }
 
@@ -161,7 +142,7 @@ pub(crate) struct Approach<'a> {
     pub(crate) own: M8,
     /// Distances beyond which nothing counts.
     pub(crate) limit: X8,
-    /// For segments, ends that of a lane [on what it reaches](Solid::reached_by).
+    /// For segments, ends that of a lane [on what it reaches](Hittable::reached_by).
     pub(crate) reaching: &'a dyn Fn(usize, Segment) -> Segment,
 }
 
@@ -176,7 +157,7 @@ pub(crate) struct Meeting {
 }
 
 /// A form, prepared for rays.
-pub(crate) trait Solid {
+pub(crate) trait Hittable {
     /// How the rays meet it. With `ANY`, they are segments that end at the limit.
     fn meet<const ANY: bool>(&self, rays: &Approach<'_>) -> Meeting;
     /// Lanes in which rays meet the front at these distances.

@@ -2,14 +2,14 @@
 
 use super::bounds::bounds_of;
 use super::flat::{Edged, coordinates, sample_picture};
-use super::form::{Chart, Extent, Form, Outline, projected, wide};
+use super::form::{Chart, Extent, Form, projected, wide};
 use super::points::{Points, on_plane};
-use crate::occlusion::Convex;
 use crate::packet::{V8, X8};
 use crate::spread::Spread;
 use crate::technique::Measure;
 use etendue::light::{self, Picture};
 use etendue::{LightSample, LightSampler, Vec2, Vec3};
+use etendue_visible::{Occluder, Solid};
 
 /// The parallelogram `p + s u + t v` for s, t in \[0,1\]; the normal is u × v.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,7 +36,7 @@ impl Parallelogram {
 }
 
 impl Form for Parallelogram {
-    type Solid = Edged<false>;
+    type Hittable = Edged<false>;
     const CHART: Option<Chart> = Some(Chart::Parallelogram);
     const SHARE: f64 = 4.0;
 
@@ -58,7 +58,7 @@ impl Form for Parallelogram {
     fn halves(&self, _direction: Vec3<f64>) -> [Vec3<f64>; 2] {
         [wide(self.u) * 0.5, wide(self.v) * 0.5]
     }
-    fn solid(&self) -> Self::Solid {
+    fn hittable(&self) -> Self::Hittable {
         Edged::new(self.p, wide(self.u), wide(self.v))
     }
     fn points(&self, rays: [V8; 2], _distance: X8, reach: f32) -> Points {
@@ -106,7 +106,7 @@ impl Form for Parallelogram {
         picture.on(self.splat()).by_solid_angle(p).pdf(w)
     }
     /// It keeps its edges, as samplers and rays have them.
-    fn outline(&self) -> Outline {
-        Outline::Exact(Convex::Parallelogram { corner: self.p.into(), edges: [self.u.into(), self.v.into()] })
+    fn outline(&self) -> Occluder<'static> {
+        Occluder::Whole(Solid::Parallelogram { corner: wide(self.p), edges: [wide(self.u), wide(self.v)] })
     }
 }

@@ -1,14 +1,14 @@
 //! Spheres. As lights, they are the centre, and the radius in x of the second vector.
 
 use super::ends::Segment;
-use super::form::{Approach, Chart, Extent, Form, Meeting, NEAR, Outline, Solid, wide};
+use super::form::{Approach, Chart, Extent, Form, Hittable, Meeting, NEAR, wide};
 use super::points::{D8, Points, each, facing, lifted, unit, zero};
-use crate::occlusion::Convex;
 use crate::packet::{M8, V8, X8, each_bit, max, select, widen};
 use crate::spread::Spread;
 use crate::technique::Measure;
 use etendue::light::{self, Picture};
 use etendue::{Frame, LightSample, LightSampler, Mask, Real, Vec2, Vec3, f64x8};
+use etendue_visible::{Occluder, Solid};
 use std::f64::consts::PI;
 use std::ops::RangeInclusive;
 
@@ -43,7 +43,7 @@ impl Sphere {
 }
 
 impl Form for Sphere {
-    type Solid = Self;
+    type Hittable = Self;
     const CHART: Option<Chart> = Some(Chart::Sphere);
     const SILHOUETTE: f64 = 0.25;
     const SHARE: f64 = PI;
@@ -63,7 +63,7 @@ impl Form for Sphere {
     fn halves(&self, direction: Vec3<f64>) -> [Vec3<f64>; 2] {
         across(direction, f64::from(self.radius))
     }
-    fn solid(&self) -> Self {
+    fn hittable(&self) -> Self {
         *self
     }
     #[cfg(feature = "analytic")]
@@ -136,12 +136,12 @@ impl Form for Sphere {
     fn pdf_of_picture(&self, picture: &Picture<'_>, axes: &[[f32; 3]; 3], p: V8, w: V8) -> X8 {
         picture.on(self.in_axes(axes, p)).by_visible_area(Vec3::default()).pdf(inwards(axes, w))
     }
-    fn outline(&self) -> Outline {
-        Outline::Exact(Convex::Sphere { center: self.center.into(), radius: self.radius })
+    fn outline(&self) -> Occluder<'static> {
+        Occluder::Whole(Solid::Sphere { center: wide(self.center), radius: self.radius.into() })
     }
 }
 
-impl Solid for Sphere {
+impl Hittable for Sphere {
     #[inline(always)]
     fn meet<const ANY: bool>(&self, rays: &Approach<'_>) -> Meeting {
         let (zero, none) = (X8::lit(0.0), M8::splat(false));

@@ -2,7 +2,7 @@
 
 use super::disk::Disk;
 use super::ends::Segment;
-use super::form::{Approach, Chart, Extent, Form, Meeting, Outline, Solid};
+use super::form::{Approach, Chart, Extent, Form, Hittable, Meeting};
 use super::parallelogram::Parallelogram;
 use super::points::Points;
 use super::sphere::Sphere;
@@ -12,6 +12,7 @@ use crate::spread::Spread;
 use crate::technique::Measure;
 use etendue::light::Picture;
 use etendue::{LightSample, Vec2, Vec3};
+use etendue_visible::Occluder;
 
 /// What is made of each line of the table. `$` stands for itself in the macro that this one defines.
 macro_rules! forms {
@@ -31,8 +32,8 @@ macro_rules! forms {
 
         /// A form, prepared for rays.
         #[derive(Clone, Copy, Debug)]
-        pub(crate) enum AnySolid {
-            $($name(<$form as Form>::Solid),)*
+        pub(crate) enum AnyHittable {
+            $($name(<$form as Form>::Hittable),)*
         }
 
         /// The kinds of all forms, as a set.
@@ -73,19 +74,19 @@ macro_rules! forms {
                     $(Self::$name(form) => (form.halves(direction), <$form>::SHARE),)*
                 }
             }
-            /// As of [`Form::solid`].
-            pub(crate) fn solid(&self) -> AnySolid {
+            /// As of [`Form::hittable`].
+            pub(crate) fn hittable(&self) -> AnyHittable {
                 match self {
-                    $(Self::$name(form) => AnySolid::$name(form.solid()),)*
+                    $(Self::$name(form) => AnyHittable::$name(form.hittable()),)*
                 }
             }
         }
 
-        impl Solid for AnySolid {
+        impl Hittable for AnyHittable {
             #[inline(always)]
             fn meet<const ANY: bool>(&self, rays: &Approach<'_>) -> Meeting {
                 match self {
-                    $(Self::$name(solid) => solid.meet::<ANY>(rays),)*
+                    $(Self::$name(hittable) => hittable.meet::<ANY>(rays),)*
                 }
             }
             fn reached_by(&self, segment: Segment) -> Segment {
@@ -164,7 +165,7 @@ impl Geometry {
         of!(self, |form| form.bounds())
     }
     /// What closed forms take the shape for.
-    pub fn outline(&self) -> Outline {
+    pub fn outline(&self) -> Occluder<'static> {
         of!(self, |form| form.outline())
     }
     /// The middle of the shape.

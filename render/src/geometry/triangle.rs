@@ -2,14 +2,14 @@
 
 use super::bounds::bounds_of;
 use super::flat::{Edged, coordinates, sample_picture};
-use super::form::{Chart, Extent, Form, Outline, projected, wide};
+use super::form::{Chart, Extent, Form, projected, wide};
 use super::points::{Points, on_plane};
-use crate::occlusion::Convex;
 use crate::packet::{V8, X8};
 use crate::spread::Spread;
 use crate::technique::Measure;
 use etendue::light::{self, Picture};
 use etendue::{LightSample, LightSampler, Vec2, Vec3};
+use etendue_visible::{Occluder, Solid};
 
 /// The corners of a triangle; the normal is (v1 − v0) × (v2 − v0).
 pub(super) type Triangle = [[f32; 3]; 3];
@@ -26,7 +26,7 @@ fn light([v0, e1, e2]: [V8; 3]) -> light::Triangle<X8> {
 }
 
 impl Form for Triangle {
-    type Solid = Edged<true>;
+    type Hittable = Edged<true>;
     const CHART: Option<Chart> = Some(Chart::Triangle);
     const SHARE: f64 = 2.0;
 
@@ -48,7 +48,7 @@ impl Form for Triangle {
     fn halves(&self, _direction: Vec3<f64>) -> [Vec3<f64>; 2] {
         edges(self).map(|edge| edge * 0.5)
     }
-    fn solid(&self) -> Self::Solid {
+    fn hittable(&self) -> Self::Hittable {
         let [u, v] = edges(self);
         Edged::new(self[0], u, v)
     }
@@ -97,8 +97,7 @@ impl Form for Triangle {
     fn pdf_of_picture(&self, picture: &Picture<'_>, _axes: &[[f32; 3]; 3], p: V8, w: V8) -> X8 {
         picture.on(light(self.vectors().map(V8::from))).by_solid_angle(p).pdf(w)
     }
-    fn outline(&self) -> Outline {
-        let [a, b, c] = *self;
-        Outline::Exact(Convex::Polygon { corners: [a, b, c, c].map(Vec3::from), count: 3 })
+    fn outline(&self) -> Occluder<'static> {
+        Occluder::Whole(Solid::triangle(self.map(wide)))
     }
 }

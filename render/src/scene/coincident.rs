@@ -1,9 +1,8 @@
 //! Lights that are in the same place.
 
 use super::description::Shape;
-use crate::geometry::Outline;
-use crate::occlusion::{Convex, ENDS};
 use etendue::Vec3;
+use etendue_visible::{ENDS, Solid};
 
 type V64 = Vec3<f64>;
 
@@ -68,9 +67,12 @@ impl Lamp {
     fn new(index: u32, shape: &Shape) -> Option<Self> {
         let two_sided = shape.emission?.two_sided;
         let [low, high] = shape.geometry.bounds().map(|corner| corner.map(f64::from));
-        let form = match (shape.geometry.outline(), shape.geometry.plane()) {
-            (Outline::Exact(Convex::Sphere { center, radius }), _) => Form::Ball(center.map(f64::from), radius.into()),
-            (outline, Some([_, normal])) => Form::Flat(corners(&outline.convex()), normal),
+        let form = match (shape.geometry.outline().solid(), shape.geometry.plane()) {
+            (Solid::Sphere { center, radius }, None) => Form::Ball(center, radius),
+            (solid, Some([_, normal])) => {
+                let (corners, count) = solid.outline()?;
+                Form::Flat(corners[..count].to_vec(), normal)
+            }
             _ => return None,
         };
         // boxes meet where they are apart by rounding
@@ -127,18 +129,6 @@ fn overlap(a: &[V64], b: &[V64], normal: V64, bound: f64) -> bool {
         let ([least, most], [other_least, other_most]) = (range(a, axis), range(b, axis));
         least + 2.0 * bound < other_most && other_least + 2.0 * bound < most
     })
-}
-
-fn corners(convex: &Convex<f32>) -> Vec<V64> {
-    let wide = |v: Vec3<f32>| v.map(f64::from);
-    match *convex {
-        Convex::Polygon { corners, count } => corners[..count].iter().map(|&corner| wide(corner)).collect(),
-        Convex::Parallelogram { corner, edges: [u, v] } => {
-            let [a, u, v] = [corner, u, v].map(wide);
-            vec![a, a + u, a + u + v, a + v]
-        }
-        Convex::Sphere { .. } => Vec::new(),
-    }
 }
 
 #[cfg(test)]

@@ -11,10 +11,10 @@ use crate::attack::regimes::Regime;
 use crate::random::Random;
 use etendue::{Real, Vec3, f32x8, f64x4};
 use etendue_oracle::{V3, along, dot, narrow, sub, unit, wide};
-use etendue_render::certify::{Blocker, Bodies, Certificate, Certifier, Precision};
-use etendue_render::occlusion::{Convex, Occlusion, Polyhedron};
+use etendue_render::know::{Bodies, Certifier};
 use etendue_render::scene::{Geometry, Parallelogram, Scene, Shape, Sphere};
 use etendue_render::surfaces::Surfaces;
+use etendue_visible::{Occlusion, Precision, Proof, Solid};
 use std::fmt;
 
 /// Greatest error, relative to the light without blockers, and the share of the brightest point that each point counts as.
@@ -109,38 +109,15 @@ impl fmt::Display for Values {
     }
 }
 
-/// What a certificate lists, as closed forms take it.
-#[derive(Default)]
-struct Listed<'a> {
-    forms: Vec<Convex<f32>>,
-    single: Vec<Polyhedron<'a, f32>>,
-    double: Vec<Polyhedron<'a, f64>>,
-}
-
-impl<'a> Listed<'a> {
-    fn new(blockers: &[Blocker], bodies: &'a Bodies) -> Self {
-        let mut all = Self::default();
-        for blocker in blockers {
-            match *blocker {
-                Blocker::Convex { form, .. } => all.forms.push(form),
-                Blocker::Body(body) => {
-                    all.single.push(bodies.polyhedron(body));
-                    all.double.push(bodies.exact_polyhedron(body));
-                }
-            }
-        }
-        all
-    }
-    /// On the surface of a body, points are inside or outside by the rounding of its corners.
-    fn has_on_surface(&self, p: V3) -> bool {
-        self.single.iter().any(|body| {
-            let exact = |v: Vec3<f32>| wide([v.x, v.y, v.z]);
-            let reach = body.edges.iter().flat_map(|edge| edge.ends).map(exact).chain([p]).flatten();
-            let depth = |[normal, on]: &[Vec3<f32>; 2]| dot(unit(exact(*normal)), sub(exact(*on), p));
-            let least = body.faces.iter().map(depth).fold(f64::INFINITY, f64::min);
-            least.abs() < 3e-7 * reach.fold(0.0, |most: f64, x| most.max(x.abs()))
-        })
-    }
+/// On the surface of a polyhedron, points are inside or outside by the rounding of its corners.
+fn has_on_surface(solids: &[Solid], p: V3) -> bool {
+    solids.iter().any(|solid| {
+        let Solid::Polyhedron(body) = solid else { return false };
+        let reach = body.edges().iter().flat_map(|edge| edge.ends).map(V3::from).chain([p]).flatten();
+        let depth = |&[normal, on]: &[Vec3<f64>; 2]| dot(unit(normal.into()), sub(on.into(), p));
+        let least = body.faces().iter().map(depth).fold(f64::INFINITY, f64::min);
+        least.abs() < 3e-7 * reach.fold(0.0, |most: f64, x| most.max(x.abs()))
+    })
 }
 
 /// Closed forms in both precisions, as the renderer computes them.
@@ -152,7 +129,7 @@ struct Forms {
 
 impl Forms {
     /// What closed forms in single precision and in double precision give at the points.
-    fn visible(&mut self, points: &[(V3, V3)], light: &Convex<f32>, listed: &Listed<'_>) -> [Option<[f64; POINTS]>; 2] {
+    fn visible(&mut self, points: &[(V3, V3)], light: &Solid, listed: &[Solid]) -> [Option<[f64; POINTS]>; 2] {
         let at = |lane: usize, of: fn(&(V3, V3)) -> V3, k: usize| of(&points[lane % points.len()])[k];
         let single = |of: fn(&(V3, V3)) -> V3| {
             let axis = |k: usize| f32x8::from_fn(|lane| at(lane, of, k) as f32);
@@ -163,10 +140,9 @@ impl Forms {
             Vec3::new(axis(0), axis(1), axis(2))
         };
         let (p, n) = (single(|point| point.0), single(|point| point.1));
-        let narrow = self.single.visible_past(p, n, light, &listed.forms, &listed.single);
+        let narrow = self.single.visible(p, n, light, listed);
         let (p, n) = (double(|point| point.0), double(|point| point.1));
-        let forms: Vec<Convex<f64>> = listed.forms.iter().map(|form| form.map(f64::from)).collect();
-        let wide = self.double.visible_past(p, n, &light.map(f64::from), &forms, &listed.double);
+        let wide = self.double.visible(p, n, light, listed);
         // the renderer goes on in single precision
         let narrow = narrow.map(|x| std::array::from_fn(|lane| f64::from(x.as_array()[lane])));
         [narrow, wide.map(|x| x.to_array())]
@@ -189,9 +165,9 @@ impl World {
         }
         let mut certifier = Certifier::new(&self.surfaces, bodies, self.surfaces.light_shapes());
         for (index, light) in self.surfaces.light_shapes().enumerate() {
-            let certificate = certifier.certify(&view.patch, index);
+            let certificate = certifier.certify(view.receiver, &view.patch, index);
             values.shafts += 1;
-            self.compare_values(&certificate, bodies, view, &points, light, forms, values);
+            self.compare_values(certificate, view, &points, light, forms, values);
         }
     }
     /// The greatest light of the corners and the centre of a flat patch.
@@ -202,38 +178,37 @@ impl World {
         let all = corners.into_iter().chain([center]);
         all.map(|p| self.truth(p, normal, view.receiver, light).all).fold(0.0, f64::max)
     }
-    #[expect(clippy::too_many_arguments, reason = "what a certificate is about")]
     fn compare_values(
         &self,
-        certificate: &Certificate<'_>,
-        bodies: &Bodies,
+        certificate: (Proof<'_>, Precision),
         view: &View,
         points: &[(V3, V3)],
         light: u32,
         forms: &mut Forms,
         values: &mut Values,
     ) {
-        let form = self.scene.shapes[light as usize].geometry.outline().convex();
-        let is_ball = |form: &Convex<f32>| matches!(form, Convex::Sphere { .. });
-        let mut listed = Listed::default();
-        let (row, precision) = match certificate {
-            Certificate::Unknown => {
+        let form = self.scene.shapes[light as usize].geometry.outline().solid();
+        let mut listed: &[Solid] = &[];
+        let (proof, precision) = certificate;
+        let is_double = usize::from(precision == Precision::Double);
+        let row = match proof {
+            Proof::Open => {
                 values.unknown += 1;
                 return;
             }
-            Certificate::Dark => (2, Precision::Single),
-            Certificate::Lit(precision) => (usize::from(*precision == Precision::Double), *precision),
-            Certificate::Blockers(blockers, precision) => {
-                listed = Listed::new(blockers, bodies);
-                if blockers.len() > CLIPPED || is_ball(&form) && listed.forms.iter().any(is_ball) {
+            Proof::Dark => 2,
+            Proof::Lit => is_double,
+            Proof::Behind(solids) => {
+                listed = solids;
+                if solids.len() > CLIPPED || form.is_sphere() && listed.iter().any(Solid::is_sphere) {
                     values.crowded += 1;
                     return;
                 }
-                (3 + usize::from(*precision == Precision::Double), *precision)
+                3 + is_double
             }
         };
-        let both = if row == 2 { [Some([0.0; POINTS]); 2] } else { forms.visible(points, &form, &listed) };
-        let chosen = both[usize::from(precision == Precision::Double)];
+        let both = if row == 2 { [Some([0.0; POINTS]); 2] } else { forms.visible(points, &form, listed) };
+        let chosen = both[is_double];
         let Some(chosen) = chosen else {
             values.crowded += 1;
             return;
@@ -241,15 +216,15 @@ impl World {
         let truth = points.iter().map(|&(p, n)| self.truth(p, n, view.receiver, light));
         let truth: Vec<Truth> = truth.collect();
         let most = truth.iter().fold(self.brightest(view, light), |most, truth| most.max(truth.all));
-        let count = (listed.forms.len() + listed.single.len()).max(1) as f64;
-        let spheres = if listed.forms.iter().any(is_ball) { 2 } else { usize::from(is_ball(&form)) };
+        let count = listed.len().max(1) as f64;
+        let spheres = if listed.iter().any(Solid::is_sphere) { 2 } else { usize::from(form.is_sphere()) };
         if precision == Precision::Neither {
             values.imprecise += 1;
         } else {
             values.known[row].shafts += 1;
         }
         for (lane, (truth, &(p, _))) in truth.iter().zip(points).enumerate() {
-            let Some(left) = truth.left.filter(|_| !listed.has_on_surface(p)) else {
+            let Some(left) = truth.left.filter(|_| !has_on_surface(listed, p)) else {
                 values.untold += 1;
                 continue;
             };

@@ -6,10 +6,11 @@ use etendue::{Mask, Real, f32x8};
 use etendue_oracle::{V3, along, cross, dot, length, sub, unit, wide};
 use etendue_render::bvh::{GROUP, Hits, NOTHING, SHAPE, Scratch};
 use etendue_render::camera::Pinhole;
-use etendue_render::certify::{Patch, Pyramid, Viewer};
+use etendue_render::know::patch;
 use etendue_render::packet::M8;
 use etendue_render::scene::{CameraSettings, Geometry, Parallelogram, Scene, Screen, Sphere};
 use etendue_render::surfaces::Surfaces;
+use etendue_visible::{Patch, Viewer};
 
 /// A scene to be tested.
 pub(crate) struct World {
@@ -91,8 +92,8 @@ impl World {
         let [origin, forward, right, up] = pinned.axes;
         let screen = Screen::Half(pinned.half);
         let camera = CameraSettings { origin, forward, right, up, screen, ..self.scene.camera.clone() };
-        let pyramid = Pyramid::new(&Pinhole::new(&camera, pinned.size, pinned.size), pinned.area);
-        let patch = Patch::of(&self.surfaces, pinned.receiver, Viewer::Pixels(&pyramid))?;
+        let pyramid = Pinhole::new(&camera, pinned.size, pinned.size).pyramid(pinned.area);
+        let patch = patch(&self.surfaces, pinned.receiver, Viewer::Pixels(&pyramid))?;
         Some(View { receiver: pinned.receiver, patch, points: pinned.points.to_vec() })
     }
     /// Looks from a place at a target through random pixels.
@@ -115,7 +116,7 @@ impl World {
         let corner = [0; 2].map(|_| (f64::from(size) * random.between(0.4, 0.6)).floor());
         let wideness = random.of(&[1.0, 1.0, 4.0]);
         let area = [corner[0], corner[1], corner[0] + wideness, corner[1] + wideness];
-        let pyramid = Pyramid::new(&pinhole, area);
+        let pyramid = pinhole.pyramid(area);
         // rays anywhere in the rectangle, often at its corners and edges
         let mut hits = [Hits::none(f32x8::splat(f32::INFINITY)); GROUP];
         let mut inside = || random.between(-0.25, 1.25).clamp(0.0, 1.0) * wideness;
@@ -133,7 +134,7 @@ impl World {
         if receiver == NOTHING || receiver & SHAPE != 0 && is_light(receiver & !SHAPE) {
             return None;
         }
-        let patch = Patch::of(&self.surfaces, receiver, Viewer::Pixels(&pyramid))?;
+        let patch = patch(&self.surfaces, receiver, Viewer::Pixels(&pyramid))?;
         let mut points: Vec<(V3, V3)> = Vec::new();
         let viewer = wide(origin.map(|x| x as f32));
         for (hits, rays) in hits.iter().zip(&rays) {

@@ -1,11 +1,12 @@
 //! Flat lights that are compact as [`COMPACT`] says, whole and behind a triangle: errors relative to the square of their size.
 
-use super::scene::Scene;
+use super::scene::{Scene, exact};
 use super::truth::Truth;
 use etendue::{Vec3, f32x8};
 use etendue_judge::generators::Random;
-use etendue_oracle::{Greatest, along, dot, length, narrow, sub, unit, wide};
-use etendue_render::occlusion::{COMPACT, Convex};
+use etendue_oracle::{Greatest, V3, along, dot, length, narrow, sub, unit, wide};
+use etendue_visible::Solid;
+use etendue_visible::measure::COMPACT;
 
 /// What the documentation of `Occlusion::visible` states, in units of (half of the perimeter / distance)².
 const BOUND: f64 = 1e-7;
@@ -16,12 +17,12 @@ fn scene(random: &mut Random, [long, short]: [f64; 2], hidden: bool) -> Scene {
     let edges = [long, short].map(|size| random.direction().map(|x| x * size));
     let point = |random: &mut Random, size: f64| along([0.0; 3], random.direction(), random.range(0.0, size));
     let points = core::array::from_fn(|_| narrow(point(random, 0.3 * long)));
-    let vector = |v| Vec3::<f32>::from(narrow(v));
-    let light = Convex::Parallelogram { corner: vector(direction), edges: edges.map(vector) };
+    let vector = |v| exact(Vec3::from(narrow(v)));
+    let light = Solid::Parallelogram { corner: vector(direction), edges: edges.map(vector) };
     // half of the way to the middle of the light
     let middle = along(along(direction, edges[0], 0.5), edges[1], 0.5).map(|x| 0.5 * x);
     let around = [(); 4].map(|()| vector(along(middle, random.direction(), long * random.range(0.1, 0.6))));
-    let blocker = Convex::Polygon { corners: around, count: 3 };
+    let blocker = Solid::Polygon { corners: around, count: 3, deviation: 0.0 };
     let above = if dot(direction, normal) < 0.0 { normal.map(|x| -x) } else { normal };
     Scene {
         light,
@@ -34,8 +35,9 @@ fn scene(random: &mut Random, [long, short]: [f64; 2], hidden: bool) -> Scene {
 
 /// (Half of the perimeter / distance)² from a point, if the light is compact there.
 fn square(scene: &Scene, lane: usize) -> Option<f64> {
-    let Convex::Parallelogram { corner, edges: [u, v] } = scene.light else { return None };
-    let [corner, u, v, p] = [corner, u, v, scene.points[lane].into()].map(|x| wide(x.into()));
+    let Solid::Parallelogram { corner, edges: [u, v] } = scene.light else { return None };
+    let [corner, u, v] = [corner, u, v].map(V3::from);
+    let p = wide(scene.points[lane]);
     let distance = length(sub(along(along(corner, u, 0.5), v, 0.5), p));
     let reach = length(along(u, v, 1.0)).max(length(sub(u, v))) / 2.0;
     let size = length(u) + length(v);

@@ -6,7 +6,7 @@ use etendue_judge::generators::Random;
 use etendue_judge::packets::Coordinates;
 use etendue_oracle::tier::cases;
 use etendue_oracle::{V3, along, basis, cross, dot, length, narrow, sub, unit, wide};
-use etendue_render::occlusion::{Convex, Occlusion};
+use etendue_visible::{Occlusion, Solid};
 use std::f64::consts::{PI, TAU};
 
 fn vector<R: Real>(v: V3) -> Vec3<R> {
@@ -44,8 +44,8 @@ impl Place {
     fn reflection<R: Real>(&self) -> Reflection<R> {
         Reflection::new(R::lit(self.alpha), vector(self.normal), vector(self.view))
     }
-    fn light(&self) -> Convex<f64> {
-        Convex::Parallelogram { corner: vector(self.corner), edges: self.edges.map(vector) }
+    fn light(&self) -> Solid {
+        Solid::Parallelogram { corner: vector(self.corner), edges: self.edges.map(vector) }
     }
 }
 
@@ -60,10 +60,10 @@ fn whole_lights_have_their_part_of_the_lobe() {
         let (lobe, light, up) = (place.reflection::<f64>(), place.light(), vector(place.normal));
         let [c, u, v] = [place.corner, place.edges[0], place.edges[1]].map(vector::<f64>);
         let wanted = Parallelogram::new(c, u, v).by_reflection(Vec3::default(), &lobe).projected_solid_angle();
-        let exact = wide_occlusion.reflected(Vec3::default(), up, &lobe, &light, &[], &[]).expect("one light");
+        let exact = wide_occlusion.reflected(Vec3::default(), up, &lobe, &light, &[]).expect("one light");
         assert!((exact - wanted).abs() < 1e-7 + 1e-6 * exact, "{place:?}: {exact}, not {wanted}");
-        let (lobe, light, up) = (place.reflection::<f32>(), light.map(|x| x as f32), vector(place.normal));
-        let closed = occlusion.reflected(Vec3::default(), up, &lobe, &light, &[], &[]).expect("one light");
+        let (lobe, up) = (place.reflection::<f32>(), vector(place.normal));
+        let closed = occlusion.reflected(Vec3::default(), up, &lobe, &light, &[]).expect("one light");
         let off = (f64::from(closed) - exact).abs();
         worst = worst.max(off / (exact + 1e-2));
         assert!(off < 3e-5 + 1e-4 * exact, "{place:?}: {closed}, not {exact}");
@@ -101,10 +101,10 @@ fn blockers_hide_their_part_of_the_lobe() {
         }
         truth *= PI / f64::from(steps * steps);
         let light = place.light();
-        let blocker = Convex::Parallelogram { corner: vector(from), edges: [a, b].map(|e| vector(e.map(|x| 2.0 * x))) };
+        let blocker = Solid::Parallelogram { corner: vector(from), edges: [a, b].map(|e| vector(e.map(|x| 2.0 * x))) };
         let up = vector(place.normal);
-        let all = occlusion.reflected(Vec3::default(), up, &lobe, &light, &[], &[]).expect("one light");
-        let left = occlusion.reflected(Vec3::default(), up, &lobe, &light, &[blocker], &[]).expect("one blocker");
+        let all = occlusion.reflected(Vec3::default(), up, &lobe, &light, &[]).expect("one light");
+        let left = occlusion.reflected(Vec3::default(), up, &lobe, &light, &[blocker]).expect("one blocker");
         part += u32::from(left > 0.02 * all && left < 0.98 * all);
         assert!((left - truth).abs() < 2e-2 * all + 1e-6, "{place:?}: {left}, not {truth}, of {all}");
     }
@@ -112,8 +112,8 @@ fn blockers_hide_their_part_of_the_lobe() {
     // a sphere before a light, or as a light behind something, has no closed form
     let place = Place::new(&mut random);
     let lobe = place.reflection::<f64>();
-    let ball = |x: f64| Convex::Sphere { center: vector(place.normal.map(|n| n * x)), radius: 0.1 };
-    let panel = Convex::Parallelogram {
+    let ball = |x: f64| Solid::Sphere { center: vector(place.normal.map(|n| n * x)), radius: 0.1 };
+    let panel = Solid::Parallelogram {
         corner: vector(along(
             along(place.normal.map(|x| 4.0 * x), basis(place.normal).0, -0.5),
             basis(place.normal).1,
@@ -122,6 +122,6 @@ fn blockers_hide_their_part_of_the_lobe() {
         edges: [vector(basis(place.normal).0), vector(basis(place.normal).1)],
     };
     let up = vector(place.normal);
-    assert!(occlusion.reflected(Vec3::default(), up, &lobe, &panel, &[ball(2.0)], &[]).is_none());
+    assert!(occlusion.reflected(Vec3::default(), up, &lobe, &panel, &[ball(2.0)]).is_none());
     assert!(occlusion.visible(Vec3::default(), up, &panel, &[ball(2.0)]).is_some());
 }

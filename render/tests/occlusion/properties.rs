@@ -1,14 +1,14 @@
 //! Properties of visible parts, and special cases.
 
 use super::accuracy::BOUND;
-use super::scene::Scene;
+use super::scene::{Scene, exact};
 use super::scenes::{KINDS, Round, scene};
 use super::solids::{SOLID_KINDS, scene_with_solids};
 use super::truth::{Truth, polygon, sphere};
 use etendue::{Real, f32x8};
 use etendue_judge::generators::{NASTY, Random};
 use etendue_oracle::{Greatest, narrow};
-use etendue_render::occlusion::Convex;
+use etendue_visible::Solid;
 
 /// Scenes of all regimes, with their greatest rounding error in a lane.
 fn scenes(count: u32, seed: u64, mut f: impl FnMut(Scene, &mut Random)) {
@@ -70,13 +70,14 @@ fn any_numbers() {
             let word = random.word();
             if word.is_multiple_of(3) {
                 let radius = if word & 8 == 0 { random.unit() } else { random.any_f32() };
-                return Convex::Sphere { center: vector(random).into(), radius };
+                return Solid::Sphere { center: exact(vector(random).into()), radius: radius.into() };
             }
             if word & 16 == 0 {
-                let edges = [(); 2].map(|()| vector(random).into());
-                return Convex::Parallelogram { corner: vector(random).into(), edges };
+                let edges = [(); 2].map(|()| exact(vector(random).into()));
+                return Solid::Parallelogram { corner: exact(vector(random).into()), edges };
             }
-            Convex::Polygon { corners: [(); 4].map(|()| vector(random).into()), count: 3 + (word >> 10) as usize % 2 }
+            let corners = [(); 4].map(|()| exact(vector(random).into()));
+            Solid::Polygon { corners, count: 3 + (word >> 10) as usize % 2, deviation: 0.0 }
         };
         let light = shape(&mut random);
         let blockers = (0..round % 6).map(|_| shape(&mut random)).collect();
@@ -95,7 +96,7 @@ fn orders() {
     scenes(30, 73, |scene, random| {
         let mut other = scene.clone();
         for shape in core::iter::once(&mut other.light).chain(&mut other.blockers) {
-            if let Convex::Polygon { corners, count } = shape {
+            if let Solid::Polygon { corners, count, .. } = shape {
                 corners[..*count].rotate_left(random.word() as usize % *count);
                 if random.word() & 1 == 0 {
                     corners[..*count].reverse();
@@ -142,36 +143,36 @@ fn special_cases() {
         points: [[0.0; 3]; 8],
         normals: [[0.0, 1.0, 0.0]; 8],
     };
-    let value = |light, blockers: Vec<_>| scene(light, blockers).found::<f32>(0);
+    let value = |light: &Solid, blockers: Vec<_>| scene(light.clone(), blockers).found::<f32>(0);
     let light = square(2.0, 1.0);
-    let all = value(light, vec![]).unwrap();
+    let all = value(&light, vec![]).unwrap();
     // a plane, a point, an edge, a blocker seen edge-on, and those behind the light and below the horizon
     let edge = polygon(&[[-1.0, 1.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]]);
     let edge_on = polygon(&[[-1.0, 1.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.5, 0.0]]);
     for hidden in [square(1.0, 0.0), edge, edge_on, square(2.0, 1.0), square(3.0, 1.0), square(-1.0, 1.0)] {
-        assert_eq!(value(light, vec![hidden]), Some(all), "{hidden:?}");
+        assert_eq!(value(&light, vec![hidden.clone()]), Some(all), "{hidden:?}");
     }
     // a quadrilateral whose corners coincide is a triangle, in any order
     let triangle = [[-0.4, 1.0, -0.3], [0.5, 1.0, -0.2], [0.1, 1.0, 0.6]];
-    let part = value(light, vec![polygon(&triangle)]).unwrap();
+    let part = value(&light, vec![polygon(&triangle)]).unwrap();
     for k in 0..3 {
         let mut twice = triangle.to_vec();
         twice.insert(k, triangle[k]);
-        let found = value(light, vec![polygon(&twice)]).unwrap();
+        let found = value(&light, vec![polygon(&twice)]).unwrap();
         assert!((found - part).abs() < 1e-6 && part < 0.99 * all, "{found} {part} {all}");
-        let found = value(polygon(&twice), vec![]).unwrap();
-        assert!((found - value(polygon(&triangle), vec![]).unwrap()).abs() < 1e-6);
+        let found = value(&polygon(&twice), vec![]).unwrap();
+        assert!((found - value(&polygon(&triangle), vec![]).unwrap()).abs() < 1e-6);
     }
-    assert_eq!(value(light, vec![square(1.0, 0.6)]), Some(0.0));
-    assert_eq!(value(light, vec![square(1.0, 0.5)]), Some(0.0));
-    assert_eq!(value(light, vec![square(1.0, 0.5); 16]), Some(0.0));
-    assert_eq!(value(light, vec![square(1.0, 0.1); 17]), None);
+    assert_eq!(value(&light, vec![square(1.0, 0.6)]), Some(0.0));
+    assert_eq!(value(&light, vec![square(1.0, 0.5)]), Some(0.0));
+    assert_eq!(value(&light, vec![square(1.0, 0.5); 16]), Some(0.0));
+    assert_eq!(value(&light, vec![square(1.0, 0.1); 17]), None);
     // spheres beside each other, and spheres that overlap
     let ball = |x: f64| sphere([x, 1.0, 0.0], 0.1);
-    assert!(value(light, vec![ball(-0.2), ball(0.2)]).is_some());
-    assert_eq!(value(light, vec![ball(-0.05), ball(0.05)]), None);
-    assert_eq!(value(sphere([0.0, 2.0, 0.0], 0.5), vec![ball(0.0)]), None);
+    assert!(value(&light, vec![ball(-0.2), ball(0.2)]).is_some());
+    assert_eq!(value(&light, vec![ball(-0.05), ball(0.05)]), None);
+    assert_eq!(value(&sphere([0.0, 2.0, 0.0], 0.5), vec![ball(0.0)]), None);
     // a sphere cut by the plane of the light
-    assert_eq!(value(light, vec![sphere([0.0, 2.0, 0.0], 0.1)]), None);
-    assert_eq!(value(light, vec![sphere([0.0, 3.0, 0.0], 0.1)]), Some(all));
+    assert_eq!(value(&light, vec![sphere([0.0, 2.0, 0.0], 0.1)]), None);
+    assert_eq!(value(&light, vec![sphere([0.0, 3.0, 0.0], 0.1)]), Some(all));
 }

@@ -3,37 +3,38 @@
 use etendue::{Real, Vec3, f32x4, f32x8, f32x16};
 use etendue_judge::packets::{twice, vectors_of};
 use etendue_oracle::{V3, along, cross, dot, narrow, sub, unit, wide};
-use etendue_render::occlusion::{Convex, Edge, Occlusion, Polyhedron};
+use etendue_visible::{Edge, Occlusion, Polyhedron, Solid, V64};
+use std::sync::Arc;
 
 /// A light, blockers, and eight points with the normals of their surfaces.
 #[derive(Clone, Debug)]
 pub(crate) struct Scene {
     /// The light.
-    pub(crate) light: Convex<f32>,
+    pub(crate) light: Solid,
     /// The blockers.
-    pub(crate) blockers: Vec<Convex<f32>>,
+    pub(crate) blockers: Vec<Solid>,
     /// Polyhedra as further blockers.
-    pub(crate) solids: Vec<Solid>,
+    pub(crate) solids: Vec<Faceted>,
     /// The shading points.
     pub(crate) points: [[f32; 3]; 8],
     /// Unit normals.
     pub(crate) normals: [[f32; 3]; 8],
 }
 
-/// A convex polyhedron, as [`Polyhedron`] refers to it.
+/// A convex polyhedron, in single precision.
 #[derive(Clone, Debug)]
-pub(crate) struct Solid {
+pub(crate) struct Faceted {
     /// A point inside.
     pub(crate) center: Vec3<f32>,
     /// Normals and points of its faces.
     pub(crate) faces: Vec<[Vec3<f32>; 2]>,
-    /// Its edges.
-    pub(crate) edges: Vec<Edge<f32>>,
+    /// Its edges: their ends, and the two faces that meet there.
+    pub(crate) edges: Vec<([Vec3<f32>; 2], [usize; 2])>,
     /// The corners of each face in order around.
     pub(crate) outlines: Vec<Vec<Vec3<f32>>>,
 }
 
-impl Solid {
+impl Faceted {
     /// From its corners, and the corners of each face in order around.
     pub(crate) fn new(corners: &[[f32; 3]], faces: &[Vec<usize>]) -> Self {
         let at = |i: usize| wide(corners[i]);
@@ -53,7 +54,7 @@ impl Solid {
             for (i, other) in faces[..j].iter().enumerate() {
                 for [a, b] in sides(face) {
                     if sides(other).iter().any(|side| *side == [a, b] || *side == [b, a]) {
-                        edges.push(Edge { ends: [corners[a].into(), corners[b].into()], faces: [i, j] });
+                        edges.push(([corners[a].into(), corners[b].into()], [i, j]));
                     }
                 }
             }
@@ -71,44 +72,36 @@ impl Solid {
         Self {
             center: f(self.center),
             faces: self.faces.iter().map(|&[normal, on]| [normal, f(on)]).collect(),
-            edges: self.edges.iter().map(|edge| Edge { ends: edge.ends.map(&f), ..*edge }).collect(),
+            edges: self.edges.iter().map(|&(ends, faces)| (ends.map(&f), faces)).collect(),
             outlines: self.outlines.iter().map(|face| face.iter().map(|&v| f(v)).collect()).collect(),
         }
     }
 }
 
-/// Faces and edges in the precision of `S`.
-type Parts<S> = (Vec3<S>, Vec<[Vec3<S>; 2]>, Vec<Edge<S>>);
+/// The exact value of a point.
+pub(crate) fn exact(v: Vec3<f32>) -> V64 {
+    v.map(f64::from)
+}
 
-fn vector<S: From<f32>>(v: Vec3<f32>) -> Vec3<S> {
-    Vec3 { x: v.x.into(), y: v.y.into(), z: v.z.into() }
-}
-fn parts<S: From<f32>>(solid: &Solid) -> Parts<S> {
-    let edge = |edge: &Edge<f32>| Edge { ends: edge.ends.map(vector), faces: edge.faces };
-    let faces = solid.faces.iter().map(|face| face.map(vector)).collect();
-    (vector(solid.center), faces, solid.edges.iter().map(edge).collect())
-}
-fn converted<S: From<f32>>(shape: &Convex<f32>) -> Convex<S> {
-    shape.map(S::from)
+impl Faceted {
+    fn polyhedron(&self) -> Solid {
+        let faces = self.faces.iter().map(|face| face.map(exact)).collect();
+        let edges = self.edges.iter().map(|&(ends, faces)| Edge { ends: ends.map(exact), faces }).collect();
+        Solid::Polyhedron(Arc::new(Polyhedron::from_parts(exact(self.center), faces, edges)))
+    }
 }
 
 impl Scene {
     /// Ω⊥ of the visible part from the points `first` and after, in any precision and width. Sixteen lanes have the points [`twice`].
-    pub(crate) fn found<R: Real>(&self, first: usize) -> Option<R>
-    where
-        R::Scalar: From<f32>,
-    {
-        let blockers: Vec<_> = self.blockers.iter().map(converted).collect();
-        let parts: Vec<Parts<R::Scalar>> = self.solids.iter().map(parts).collect();
-        let solids: Vec<_> =
-            parts.iter().map(|(center, faces, edges)| Polyhedron { center: *center, faces, edges }).collect();
+    pub(crate) fn found<R: Real>(&self, first: usize) -> Option<R> {
+        let polyhedra = self.solids.iter().map(Faceted::polyhedron);
+        let blockers: Vec<Solid> = polyhedra.chain(self.blockers.iter().cloned()).collect();
         let (points, normals) = (twice(&self.points), twice(&self.normals));
-        Occlusion::new().visible_past(
+        Occlusion::new().visible(
             vectors_of::<R>(|i| points[first + i]),
             vectors_of::<R>(|i| normals[first + i]),
-            &converted(&self.light),
+            &self.light,
             &blockers,
-            &solids,
         )
     }
     /// The results are finite, at least 0, and at most what there is without blockers.
@@ -138,7 +131,7 @@ impl Scene {
     /// Multiplying all lengths by a power of two changes no bit.
     pub(crate) fn scale(&self, exponent: i32) {
         let factor = 2.0_f32.powi(exponent);
-        let times = |shape: &Convex<f32>| shape.map(|x| x * factor);
+        let times = |shape: &Solid| shape.scaled(factor.into());
         let scaled = Self {
             light: times(&self.light),
             blockers: self.blockers.iter().map(times).collect(),

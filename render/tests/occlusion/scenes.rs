@@ -2,10 +2,9 @@
 
 use super::scene::Scene;
 use super::truth::{polygon, sphere};
-use etendue::Vec3;
 use etendue_judge::generators::Random;
 use etendue_oracle::{V3, along, basis, cross, dot, narrow, sub, unit, wide};
-use etendue_render::occlusion::Convex;
+use etendue_visible::{Solid, V64};
 
 /// How shapes are placed.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -108,15 +107,15 @@ impl Placement {
     }
     /// A scene of polygons and spheres.
     pub(crate) fn scene(&self, mut scene: Scene) -> Scene {
-        let point = |v: Vec3<f32>| Vec3::from(self.point(wide(v.into())));
+        let point = |v: V64| V64::from(wide(self.point(v.into())));
         for shape in core::iter::once(&mut scene.light).chain(&mut scene.blockers) {
             match shape {
-                Convex::Polygon { corners, .. } => *corners = corners.map(point),
-                Convex::Parallelogram { .. } => unreachable!("the regimes have polygons and spheres"),
-                Convex::Sphere { center, radius } => {
+                Solid::Polygon { corners, .. } => *corners = corners.map(point),
+                Solid::Sphere { center, radius } => {
                     *center = point(*center);
-                    *radius *= self.unit_length as f32;
+                    *radius = f64::from(*radius as f32 * self.unit_length as f32);
                 }
+                other => unreachable!("the regimes have polygons and spheres: {other:?}"),
             }
         }
         scene.points = scene.points.map(|p| self.point(wide(p)));

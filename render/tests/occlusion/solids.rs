@@ -1,6 +1,6 @@
 //! Scenes with convex polyhedra, by regimes.
 
-use super::scene::{Scene, Solid};
+use super::scene::{Faceted, Scene};
 use super::scenes::{Placement, corners};
 use super::truth::{polygon, sphere};
 use etendue_judge::generators::Random;
@@ -203,7 +203,7 @@ pub(crate) fn scene_with_solids(random: &mut Random, kind: SolidKind, round: boo
     let scene = placement.scene(Scene { light, blockers, solids: Vec::new(), points, normals });
     let solid = |(corners, faces): &Form| {
         let corners: Vec<_> = corners.iter().map(|&v| placement.point(v)).collect();
-        Solid::new(&corners, faces)
+        Faceted::new(&corners, faces)
     };
     Scene { solids: solids.iter().map(solid).collect(), ..scene }
 }

@@ -1,10 +1,10 @@
 //! The truth about scenes.
 
-use super::scene::{Scene, Solid};
+use super::scene::{Faceted, Scene, exact};
 use etendue::Vec3;
 use etendue_oracle::visible::{Shape, Visible, visible};
 use etendue_oracle::{V3, along, cross, dot, length, narrow, sub, unit, wide};
-use etendue_render::occlusion::Convex;
+use etendue_visible::Solid;
 
 /// What is so near to the plane of a flat light does not occlude it, relative to the greatest coordinate of the point and the light, as
 /// documented.
@@ -19,31 +19,34 @@ pub(crate) fn spared(light: &Shape, point: V3) -> f64 {
     (ENDS * greatest / dot(normal, corners[0]).abs()).min(1.0)
 }
 
-pub(crate) fn polygon(corners: &[V3]) -> Convex<f32> {
-    let corner = |i: usize| Vec3::from(narrow(corners[i.min(corners.len() - 1)]));
-    Convex::Polygon { corners: core::array::from_fn(corner), count: corners.len() }
+/// A polygon whose corners are rounded to single precision.
+pub(crate) fn polygon(corners: &[V3]) -> Solid {
+    let corner = |i: usize| exact(Vec3::from(narrow(corners[i.min(corners.len() - 1)])));
+    Solid::Polygon { corners: core::array::from_fn(corner), count: corners.len(), deviation: 0.0 }
 }
 
-pub(crate) fn sphere(center: V3, radius: f64) -> Convex<f32> {
-    Convex::Sphere { center: narrow(center).into(), radius: radius as f32 }
+/// A sphere, rounded to single precision.
+pub(crate) fn sphere(center: V3, radius: f64) -> Solid {
+    Solid::Sphere { center: exact(narrow(center).into()), radius: f64::from(radius as f32) }
 }
 
 /// The shape relative to a point.
-pub(crate) fn from_point(shape: &Convex<f32>, point: [f32; 3]) -> Shape {
+pub(crate) fn from_point(shape: &Solid, point: [f32; 3]) -> Shape {
     match *shape {
-        Convex::Polygon { corners, count } => {
-            Shape::Polygon(corners[..count].iter().map(|&c| sub(wide(c.into()), wide(point))).collect())
+        Solid::Polygon { corners, count, .. } => {
+            Shape::Polygon(corners[..count].iter().map(|&c| sub(c.into(), wide(point))).collect())
         }
-        Convex::Parallelogram { corner, edges: [u, v] } => {
-            let (a, u, v) = (sub(wide(corner.into()), wide(point)), wide(u.into()), wide(v.into()));
+        Solid::Parallelogram { corner, edges: [u, v] } => {
+            let (a, u, v): (V3, V3, V3) = (sub(corner.into(), wide(point)), u.into(), v.into());
             Shape::Polygon(vec![a, along(a, u, 1.0), along(along(a, u, 1.0), v, 1.0), along(a, v, 1.0)])
         }
-        Convex::Sphere { center, radius } => Shape::Sphere(sub(wide(center.into()), wide(point)), f64::from(radius)),
+        Solid::Sphere { center, radius } => Shape::Sphere(sub(center.into(), wide(point)), radius),
+        Solid::Polyhedron(_) => unreachable!("scenes have polyhedra apart"),
     }
 }
 
 /// The faces of a polyhedron relative to a point.
-fn faces_from_point(solid: &Solid, point: [f32; 3]) -> Vec<Shape> {
+fn faces_from_point(solid: &Faceted, point: [f32; 3]) -> Vec<Shape> {
     let corner = |v: &Vec3<f32>| sub(wide((*v).into()), wide(point));
     solid.outlines.iter().map(|outline| Shape::Polygon(outline.iter().map(corner).collect())).collect()
 }
@@ -64,7 +67,7 @@ pub(crate) trait Truth {
 
 impl Truth for Scene {
     fn condition(&self, lane: usize) -> f64 {
-        let sine = |shape: &Convex<f32>| match from_point(shape, self.points[lane]) {
+        let sine = |shape: &Solid| match from_point(shape, self.points[lane]) {
             Shape::Polygon(corners) => (0..corners.len())
                 .map(|i| (corners[i], corners[(i + 1) % corners.len()]))
                 .filter(|(a, b)| dot(*a, *b) < 0.0)
@@ -73,7 +76,7 @@ impl Truth for Scene {
             Shape::Sphere(center, radius) => (1.0 - (radius / length(center)).powi(2)).max(0.0).sqrt(),
         };
         let solids = self.solids.iter().flat_map(|solid| &solid.edges).map(|edge| {
-            let [a, b] = edge.ends.map(|end| sub(wide(end.into()), wide(self.points[lane])));
+            let [a, b] = edge.0.map(|end| sub(wide(end.into()), wide(self.points[lane])));
             if dot(a, b) < 0.0 { length(cross(unit(a), unit(b))) } else { 1.0 }
         });
         self.blockers.iter().map(sine).chain(solids).fold(sine(&self.light), f64::min)
@@ -81,7 +84,7 @@ impl Truth for Scene {
     fn surrounded(&self, lane: usize) -> bool {
         let on_solid = self.solids.iter().any(|solid| {
             let from_point = |v: Vec3<f32>| sub(wide(v.into()), wide(self.points[lane]));
-            let corners = solid.edges.iter().flat_map(|edge| edge.ends).map(from_point);
+            let corners = solid.edges.iter().flat_map(|edge| edge.0).map(from_point);
             let size = corners.map(length).fold(0.0, f64::max);
             let depths = solid.faces.iter().map(|&[normal, on]| dot(wide(normal.into()), from_point(on)));
             depths.fold(f64::INFINITY, f64::min).abs() < 1e-6 * size
@@ -98,7 +101,7 @@ impl Truth for Scene {
     }
     fn unevenness(&self, lane: usize) -> f64 {
         let from_point = |v: Vec3<f32>| sub(wide(v.into()), wide(self.points[lane]));
-        let of = |solid: &Solid| {
+        let of = |solid: &Faceted| {
             let mut most = 0.0_f64;
             for (i, &[normal, on]) in solid.faces.iter().enumerate() {
                 for (j, outline) in solid.outlines.iter().enumerate() {
@@ -113,7 +116,7 @@ impl Truth for Scene {
                 let d = sub(b, a);
                 length(along(a, d, (-dot(a, d) / dot(d, d)).clamp(0.0, 1.0)))
             };
-            most / solid.edges.iter().map(|edge| distance(edge.ends)).fold(f64::INFINITY, f64::min)
+            most / solid.edges.iter().map(|edge| distance(edge.0)).fold(f64::INFINITY, f64::min)
         };
         self.solids.iter().map(of).fold(0.0, f64::max)
     }

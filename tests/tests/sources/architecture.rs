@@ -171,12 +171,13 @@ fn cycle(imports: &Graph) -> Option<Vec<String>> {
 
 /// The packages, and whether the files inside of their folders must import one way, too. In the core and the properties, the file of a
 /// folder has the traits and types that all its modules share, so they import it.
-const PACKAGES: [(&str, bool); 14] = [
+const PACKAGES: [(&str, bool); 15] = [
     ("core", false),
     ("core/batch", true),
     ("core/c", true),
     ("core/playground", true),
     ("core/shader", true),
+    ("core/visible", true),
     ("render", true),
     ("render/scene", true),
     ("render/laboratory", true),
@@ -218,12 +219,14 @@ fn imports_are_found() {
         ("core/batch", "core/batch", "table", "functions"),
         ("core/c", "core/c", "technique", "list"),
         ("core/shader", "core/shader", "plan", "graph"),
+        ("core/visible", "core/visible", "prove", "shaft"),
         ("render", "render", "drive", "estimate"),
+        ("render", "render", "estimate", "ledger"),
         ("render", "render", "image", "film"),
         ("render/scene", "render/scene", "gltf", "builder"),
         ("render", "render::bvh", "stream", "single_ray"),
         ("render", "render::bvh", "bvh", "stream"),
-        ("render", "render::drive", "tile", "estimator"),
+        ("render", "render::drive", "tile", "world"),
         ("render/laboratory", "render/laboratory", "chart", "options"),
         ("render/laboratory", "render/laboratory::chart", "report", "outcome"),
         ("render/laboratory", "render/laboratory::chart", "plot", "stats"),
@@ -252,7 +255,7 @@ fn imports_are_found() {
 }
 
 /// Which packages of the workspace each one may use, and which more its tests, benchmarks and examples may.
-const ARROWS: [(&str, &[&str], &[&str]); 23] = [
+const ARROWS: [(&str, &[&str], &[&str]); 25] = [
     ("core", &[], &[]),
     ("core/batch", &["etendue"], &[]),
     ("core/c", &["etendue", "etendue-batch"], &[]),
@@ -260,11 +263,17 @@ const ARROWS: [(&str, &[&str], &[&str]); 23] = [
     ("core/python", &["etendue", "etendue-batch"], &[]),
     ("core/shader", &["etendue"], &["etendue-oracle", "etendue-judge"]),
     ("core/shader/device", &[], &[]),
-    ("render", &["etendue"], &["etendue-oracle"]),
+    ("core/visible", &["etendue"], &["etendue-oracle"]),
+    ("render", &["etendue", "etendue-visible"], &["etendue-oracle"]),
+    ("render/bits", &["etendue-render", "etendue-scene"], &[]),
     ("render/scene", &["etendue", "etendue-render"], &[]),
     ("render/laboratory", &["etendue-render", "etendue-scene"], &[]),
     ("render/cli", &["etendue-laboratory", "etendue-render", "etendue-scene"], &["etendue-oracle"]),
-    ("render/tests", &[], &["etendue", "etendue-oracle", "etendue-judge", "etendue-render", "etendue-scene"]),
+    (
+        "render/tests",
+        &[],
+        &["etendue", "etendue-oracle", "etendue-judge", "etendue-render", "etendue-scene", "etendue-visible"],
+    ),
     ("tests/atlas", &["etendue", "etendue-judge", "etendue-laboratory", "etendue-oracle", "etendue-render"], &[]),
     ("tests/bits", &["etendue", "etendue-judge"], &[]),
     ("tests/fit", &[], &[]),
@@ -272,11 +281,19 @@ const ARROWS: [(&str, &[&str], &[&str]); 23] = [
     ("tests/proof", &["etendue", "etendue-oracle"], &[]),
     ("tests/judge", &["etendue", "etendue-oracle"], &[]),
     ("tests", &[], &["etendue", "etendue-bits", "etendue-oracle", "etendue-judge"]),
-    ("benches/routines", &["etendue", "etendue-render", "etendue-scene"], &[]),
+    ("benches/routines", &["etendue", "etendue-render", "etendue-scene", "etendue-visible"], &[]),
     ("benches", &[], &["etendue", "etendue-laboratory", "etendue-render", "etendue-routines", "etendue-scene"]),
     (
         "fuzz/bodies",
-        &["etendue", "etendue-c", "etendue-oracle", "etendue-judge", "etendue-render", "etendue-scene"],
+        &[
+            "etendue",
+            "etendue-c",
+            "etendue-oracle",
+            "etendue-judge",
+            "etendue-render",
+            "etendue-scene",
+            "etendue-visible",
+        ],
         &[],
     ),
     ("fuzz", &["etendue-fuzz-bodies", "etendue-judge"], &[]),
@@ -340,7 +357,7 @@ fn packages_depend_one_way() {
 }
 
 /// The packages that go to a registry.
-const PUBLISHED: [&str; 3] = ["core", "core/batch", "core/shader"];
+const PUBLISHED: [&str; 4] = ["core", "core/batch", "core/shader", "core/visible"];
 
 /// Packages that hosts use say all that a registry shows, and the others are not published.
 #[test]
@@ -408,6 +425,8 @@ fn documents_are_short() {
     let own = [
         ("core/POLICIES.md", 400),
         ("core/CHANGELOG.md", 150),
+        ("core/visible/README.md", 520),
+        ("render/bits/CHANGELOG.md", 150),
         ("tests/judge/FIELD.md", 600),
         ("tests/judge/README.md", 520),
     ];
