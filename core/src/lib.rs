@@ -15,7 +15,7 @@
 //! assert!(irradiance.to_array().iter().all(|e| *e > 0.5 && *e < 1.0));
 //! ```
 //!
-//! Start at [`light`] to sample a light, at [`warp`] for maps without a shading point, at [`sequence`] for random numbers, at
+//! Start at `lights` (feature `alloc`) for a set of lights of any kind, at [`light`] to sample one, at [`warp`] for maps without a shading point, at [`sequence`] for random numbers, at
 //! [`estimate`] for weights of combined techniques, and at [`select`] to choose among lights.
 //!
 //! # The contract
@@ -31,7 +31,7 @@
 #![doc = include_str!("index.md")]
 //!
 //! # Features
-//! None is on by default. `alloc` adds `owned`: trees, environments and pictures with their memory on the heap. `glam` converts vectors to and from those of `glam`; `rand` makes `sequence::CounterRng` a generator of `rand_core`.
+//! None is on by default. `alloc` adds `lights`, sets of lights of any kind, and `owned`: trees, environments and pictures with their memory on the heap. `glam` converts vectors to and from those of `glam`; `rand` makes `sequence::CounterRng` a generator of `rand_core`.
 //! `same-bits` makes [all processors](real::SAME_BITS) return the same bits.
 //!
 //! # Speed
@@ -50,6 +50,8 @@ pub mod estimate;
 mod interop;
 mod lanewise;
 pub mod light;
+#[cfg(feature = "alloc")]
+pub mod lights;
 pub mod math;
 #[doc(hidden)]
 pub mod memory;

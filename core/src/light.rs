@@ -28,6 +28,7 @@
 //! | [`Polygon`], 3 to 8 corners | [`by_area`](Polygon::by_area) | [`by_solid_angle`](Polygon::by_solid_angle) | [`by_projected_solid_angle`](Polygon::by_projected_solid_angle) |
 //! | [`BilinearPatch`] | [`by_area`](BilinearPatch::by_area) | | |
 //! | [`Disk`] | [`by_area`](Disk::by_area) | [`by_solid_angle`](Disk::by_solid_angle) | |
+//! | an [`Affine`] sphere or disk: ellipsoids | | [`by_solid_angle`](Affine::by_solid_angle), nearly | |
 //! | [`Line`] | [`by_length`](Line::by_length) | [`by_angle`](Line::by_angle) | [`by_projected_solid_angle`](Line::by_projected_solid_angle) |
 //! | [`Sun`] | | [`by_solid_angle`](Sun::by_solid_angle) | |
 //! | [`ConstantEnvironment`] | | [`by_solid_angle`](ConstantEnvironment::by_solid_angle) | [`by_projected_solid_angle`](ConstantEnvironment::by_projected_solid_angle) |
@@ -89,6 +90,7 @@
 //! Without compiler flags a packet of 8 is two registers, and a product and sum two instructions;
 //! `CARGO_ENCODED_RUSTFLAGS= cargo bench -p etendue-benches --bench summary -- light` prints what that costs.
 
+mod affine;
 pub(crate) mod bound;
 mod cells;
 mod delta;
@@ -119,6 +121,9 @@ mod surface;
 mod techniques;
 mod triangle;
 
+pub use affine::Affine;
+#[doc(hidden)]
+pub use affine::AffineSampler;
 pub use cells::Region;
 pub use delta::{DirectionalLight, PointLight, SpotLight};
 #[doc(hidden)]

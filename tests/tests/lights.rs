@@ -11,3 +11,4 @@ mod polygon;
 mod portals;
 mod projected;
 mod samplers;
+mod sets;

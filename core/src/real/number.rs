@@ -71,14 +71,14 @@ macro_rules! lane_by_lane {
 
 macro_rules! scalar_real {
     ($scalar:ident, $bits:ident, $packet:ident, $exponent:literal, $reflected:literal,
-     $fused:ident, $functions:ident) => {
+     $fused:ident, $product_error:ident, $functions:ident) => {
         impl Real for $scalar {
             type Scalar = $scalar;
             type Mask = bool;
             type Uint = u32;
             const LANES: usize = 1;
             const DOUBLE: bool = size_of::<$scalar>() > 4;
-            const FUSED: bool = Self::DOUBLE || fused::ALWAYS;
+            const FUSED: bool = fused::ALWAYS;
             const ZERO: Self = 0.0;
             const ONE_MINUS_EPSILON: Self = 1.0 - 1.0 / 16_777_216.0;
             #[inline(always)]
@@ -168,7 +168,7 @@ macro_rules! scalar_real {
             }
             #[inline(always)]
             fn two_prod_error(a: Self, b: Self, product: Self) -> Self {
-                if Self::FUSED { Real::mul_add(a, b, -product) } else { fused::product_error([a], [b], [product])[0] }
+                if Self::FUSED { Real::mul_add(a, b, -product) } else { fused::$product_error([a], [b], [product])[0] }
             }
             #[inline(always)]
             fn pow2_scale(self) -> Self {
@@ -191,12 +191,12 @@ macro_rules! scalar_real {
         }
     };
 }
-scalar_real!(f32, u32, f32x4, 0x7f80_0000, 0x7f00_0000, single, polynomials);
-scalar_real!(f64, u64, f64x2, 0x7ff0_0000_0000_0000, 0x7fe0_0000_0000_0000, double, lane_by_lane);
+scalar_real!(f32, u32, f32x4, 0x7f80_0000, 0x7f00_0000, single, product_error, polynomials);
+scalar_real!(f64, u64, f64x2, 0x7ff0_0000_0000_0000, 0x7fe0_0000_0000_0000, double, double_product_error, lane_by_lane);
 
 macro_rules! packet_real {
     ($packet:ident, $scalar:ident, $bits:ident, $mask:ident, $uint:ident, $lanes:literal, $exponent:literal,
-     $reflected:literal, $fused:ident, $from_int:ident, $functions:ident, $to_uint:expr,
+     $reflected:literal, $fused:ident, $product_error:ident, $from_int:ident, $functions:ident, $to_uint:expr,
      $mask_uint:expr, $has_bits:expr) => {
         impl Real for $packet {
             type Scalar = $scalar;
@@ -204,7 +204,7 @@ macro_rules! packet_real {
             type Uint = $uint;
             const LANES: usize = $lanes;
             const DOUBLE: bool = size_of::<$scalar>() > 4;
-            const FUSED: bool = Self::DOUBLE || fused::ALWAYS;
+            const FUSED: bool = fused::ALWAYS;
             const ZERO: Self = $packet::splat(0.0);
             const ONE_MINUS_EPSILON: Self = $packet::splat(1.0 - 1.0 / 16_777_216.0);
             #[inline(always)]
@@ -308,7 +308,7 @@ macro_rules! packet_real {
                     // not the packet's own `mul_add`, which rounds twice where no instruction does both
                     return Real::mul_add(a, b, -product);
                 }
-                $packet::new(fused::product_error(a.to_array(), b.to_array(), product.to_array()))
+                $packet::new(fused::$product_error(a.to_array(), b.to_array(), product.to_array()))
             }
             #[inline(always)]
             fn pow2_scale(self) -> Self {
@@ -342,6 +342,7 @@ packet_real!(
     0x7f80_0000,
     0x7f00_0000,
     single,
+    product_error,
     from_i32x4,
     polynomials,
     |x| x.fast_trunc_int().cast_unsigned(),
@@ -358,6 +359,7 @@ packet_real!(
     0x7f80_0000,
     0x7f00_0000,
     single,
+    product_error,
     from_i32x8,
     polynomials,
     |x| x.fast_trunc_int().cast_unsigned(),
@@ -374,6 +376,7 @@ packet_real!(
     0x7f80_0000,
     0x7f00_0000,
     single,
+    product_error,
     from_i32x16,
     polynomials,
     |x| x.fast_trunc_int().cast_unsigned(),
@@ -390,6 +393,7 @@ packet_real!(
     0x7ff0_0000_0000_0000,
     0x7fe0_0000_0000_0000,
     double,
+    double_product_error,
     from_i32x4,
     lane_by_lane,
     |x| u32x4::new(core::array::from_fn(|i| x.as_array()[i] as i32 as u32)),
@@ -406,6 +410,7 @@ packet_real!(
     0x7ff0_0000_0000_0000,
     0x7fe0_0000_0000_0000,
     double,
+    double_product_error,
     from_i32x8,
     lane_by_lane,
     |x| u32x8::new(core::array::from_fn(|i| x.as_array()[i] as i32 as u32)),

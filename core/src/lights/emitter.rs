@@ -1,0 +1,216 @@
+//! The lights of a set, of any kind.
+
+use super::mixture::Source;
+use crate::light::{
+    Affine, BilinearPatch, ConstantEnvironment, DirectionalLight, Disk, Line, Parallelogram, PointLight, Polygon,
+    Rectangle, Sphere, SpotLight, Sun, Triangle,
+};
+use crate::real::Real;
+use crate::select::LightBound;
+use crate::vector::Vec3;
+use alloc::boxed::Box;
+use alloc::vec::Vec;
+use core::f64::consts::PI;
+
+/// A light of any kind, as `Lights` take it: what the shapes, their images under an [`Affine`] map, suns and a constant sky
+/// convert into. Normals and directions may be of any length. Its radiance is given beside it; of point and spot lights their intensity, of directional lights the irradiance on a
+/// surface that faces them, of lines the radiance times the width.
+///
+/// ```
+/// use etendue::{Triangle, Vec3, lights::Emitter};
+/// let [a, b, c] = [[0.0, 1.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 1.0]].map(Vec3::<f32>::lit);
+/// let lamp: Emitter<f32> = Triangle::new(a, b, c).into();
+/// let leaf = lamp.clone().two_sided();
+/// let ceiling = lamp.facing(Vec3::lit([0.0, -1.0, 0.0])); // whatever the order of its vertices is
+/// ```
+#[derive(Clone, Debug)]
+pub struct Emitter<R: Real<Scalar = R>> {
+    pub(super) shapes: Vec<Shape<R>>,
+    pub(super) two_sided: bool,
+    /// The normal of what emits from the other side than the shape's.
+    pub(super) facing: Option<Vec3<R>>,
+}
+
+impl<R: Real<Scalar = R>> Emitter<R> {
+    fn one(shape: Shape<R>) -> Self {
+        Self { shapes: [shape].into(), two_sided: false, facing: None }
+    }
+    /// A mesh: one light for its owner, whose parts are its triangles, and as many for the choice among lights.
+    pub fn mesh(triangles: impl IntoIterator<Item = Triangle<R>>) -> Self {
+        let shapes = triangles.into_iter().map(Shape::Triangle).collect();
+        Self { shapes, two_sided: false, facing: None }
+    }
+    /// The same light, which emits from both sides; a sphere, inwards too.
+    #[must_use]
+    pub fn two_sided(self) -> Self {
+        Self { two_sided: true, ..self }
+    }
+    /// The same light, which emits from the side to which the vector `normal` points, whatever the order of its vertices is. It changes
+    /// nothing of lights that are not flat.
+    #[must_use]
+    pub fn facing(self, normal: Vec3<R>) -> Self {
+        Self { facing: Some(normal), ..self }
+    }
+}
+
+/// What an emitter consists of.
+#[derive(Clone, Debug)]
+pub(super) enum Shape<R: Real<Scalar = R>> {
+    Sphere(Sphere<R>),
+    Triangle(Triangle<R>),
+    Parallelogram(Parallelogram<R>),
+    Rectangle(Rectangle<R>),
+    Disk(Disk<R>),
+    Polygon(Box<Polygon<R, 8>>),
+    Patch(BilinearPatch<R>),
+    Line(Line<R>),
+    Ellipsoid(Box<Affine<Sphere<R>, R>>),
+    Ellipse(Box<Affine<Disk<R>, R>>),
+    Point(PointLight<R>),
+    Spot(SpotLight<R>),
+    Directional(DirectionalLight<R>),
+    Sun(Sun<R>),
+    Sky,
+}
+
+/// The unit vector in the direction of one of any length, in which no host's number overflows.
+fn unit<R: Real>(v: Vec3<R>) -> Vec3<R> {
+    v.unit_and_length().0
+}
+fn upright<R: Real>(disk: Disk<R>) -> Disk<R> {
+    Disk { normal: unit(disk.normal), ..disk }
+}
+
+macro_rules! shapes {
+    ($($shape:ident = $from:ty => $value:expr;)+) => {$(
+        impl<R: Real<Scalar = R>> From<$from> for Emitter<R> {
+            fn from(light: $from) -> Self {
+                let convert: fn($from) -> Shape<R> = $value;
+                Self::one(convert(light))
+            }
+        }
+    )+};
+}
+shapes! {
+    Sphere = Sphere<R> => Shape::Sphere;
+    Triangle = Triangle<R> => Shape::Triangle;
+    Parallelogram = Parallelogram<R> => Shape::Parallelogram;
+    Rectangle = Rectangle<R> => Shape::Rectangle;
+    Disk = Disk<R> => |light| Shape::Disk(upright(light));
+    Patch = BilinearPatch<R> => Shape::Patch;
+    Line = Line<R> => Shape::Line;
+    Ellipsoid = Affine<Sphere<R>, R> => |light| Shape::Ellipsoid(Box::new(light));
+    Ellipse = Affine<Disk<R>, R> => |light| Shape::Ellipse(Box::new(Affine { shape: upright(light.shape), ..light }));
+    Point = PointLight<R> => Shape::Point;
+    Spot = SpotLight<R> => |light| Shape::Spot(SpotLight { axis: unit(light.axis), ..light });
+    Directional = DirectionalLight<R> => |light| Shape::Directional(DirectionalLight::new(unit(light.direction)));
+    Sun = Sun<R> => |light| Shape::Sun(Sun { direction: unit(light.direction), ..light });
+    Sky = ConstantEnvironment => |_| Shape::Sky;
+}
+impl<R: Real<Scalar = R>, const N: usize> From<Polygon<R, N>> for Emitter<R> {
+    fn from(light: Polygon<R, N>) -> Self {
+        const { assert!(N >= 3 && N <= 8) };
+        let corners = core::array::from_fn(|i| light.corners[i.min(N - 1)]);
+        Self::one(Shape::Polygon(Box::new(Polygon { corners })))
+    }
+}
+
+/// 1 − cosθ of a spot light's cone below which a tree cannot tell which points it lights.
+const NARROWEST: f64 = 1.0 - 253.0 / 254.0;
+
+impl<R: Real<Scalar = R>> Shape<R> {
+    /// The normal of a flat light.
+    pub(super) fn normal(&self) -> Option<Vec3<R>> {
+        Some(match self {
+            Self::Triangle(light) => light.e1.cross(light.e2),
+            Self::Parallelogram(light) => light.edge_s.cross(light.edge_t),
+            Self::Rectangle(light) => light.edge_s.cross(light.edge_t),
+            Self::Disk(light) => light.normal,
+            Self::Polygon(light) => {
+                let first = light.corners[0];
+                light.corners.windows(2).fold(Vec3::ZERO, |sum, pair| sum + (pair[0] - first).cross(pair[1] - first))
+            }
+            Self::Ellipse(light) => {
+                let [x, y, z] = light.axes;
+                let (n, volume) = (light.shape.normal, x.dot(y.cross(z)));
+                (y.cross(z) * n.x + z.cross(x) * n.y + x.cross(y) * n.z) * R::lit(1.0).copysign(volume)
+            }
+            _ => return None,
+        })
+    }
+    /// What it can contribute with the radiance 1, and what it is for a [`Mixture`](super::mixture::Mixture).
+    pub(super) fn bound(&self) -> (LightBound, Source) {
+        let one = R::lit(1.0);
+        let far = |irradiance: f64| LightBound { power: (4.0 * PI * irradiance) as f32, ..LightBound::default() };
+        let narrow = |v: Vec3<R>| v.map(|x| x.lane_f64(0) as f32).to_array();
+        let bound = match self {
+            Self::Sphere(light) => light.bound(one),
+            Self::Triangle(light) => light.bound(one),
+            Self::Parallelogram(light) => light.bound(one),
+            Self::Rectangle(light) => light.bound(one),
+            Self::Disk(light) => light.bound(one),
+            Self::Polygon(light) => light.bound(one),
+            Self::Patch(light) => light.bound(one),
+            Self::Line(light) => light.bound(one),
+            Self::Ellipsoid(light) => image(light, light.shape.center),
+            Self::Ellipse(light) => {
+                let bound = image(light, light.shape.center);
+                LightBound { normal: narrow(self.normal().unwrap_or_default().unit_and_length().0), ..bound }
+            }
+            Self::Point(light) => light.bound(one),
+            Self::Spot(light) => {
+                let bound = light.bound(one);
+                let is_narrow = light.one_minus_cos_outer.lane_f64(0) < NARROWEST;
+                return (bound, if is_narrow { Source::Beam(light.map(|x| x.lane_f64(0)), 1.0) } else { Source::Lamp });
+            }
+            Self::Directional(light) => return (far(1.0), Source::Sun(narrow(light.direction), 1e-6, 0.0)),
+            Self::Sun(light) => {
+                let c = light.one_minus_cos.lane_f64(0).clamped(0.0, 2.0);
+                // π sin²σ of a sun less than half a sphere wide
+                let irradiance = if c < 1.0 { PI * c * (2.0 - c) } else { PI };
+                let reach = ((2.0 * c).sqrt() * (1.0 + 1e-6) + 1e-6) as f32;
+                return (far(irradiance), Source::Sun(narrow(light.direction), reach, 0.0));
+            }
+            Self::Sky => return (far(PI), Source::Sky),
+        };
+        (bound, Source::Lamp)
+    }
+}
+
+/// The bound of an ellipsoid or an ellipse, but for its normal.
+fn image<S: Round<R>, R: Real<Scalar = R>>(light: &Affine<S, R>, center: Vec3<R>) -> LightBound {
+    let wide = |v: Vec3<R>| v.map(|x| x.lane_f64(0));
+    let [x, y, z] = light.axes.map(wide);
+    let radius = light.shape.radius().lane_f64(0).greater(0.0);
+    // Frobenius' norm is at least the greatest stretch
+    let reach = (x.length_squared() + y.length_squared() + z.length_squared()).sqrt() * radius * (1.0 + 1e-6);
+    let area = light.shape.area([x, y, z], radius);
+    let middle = wide(light.image(center));
+    LightBound::about(middle, reach, PI * area)
+}
+
+/// Shapes whose images have no corners.
+trait Round<R> {
+    fn radius(&self) -> R;
+    /// The area of the image under the map to these axes, or an estimate of it.
+    fn area(&self, axes: [Vec3<f64>; 3], radius: f64) -> f64;
+}
+impl<R: Real<Scalar = R>> Round<R> for Sphere<R> {
+    fn radius(&self) -> R {
+        self.radius
+    }
+    /// About the quadratic mean over directions of what the map makes of an element of the sphere, which is at least the mean.
+    fn area(&self, [x, y, z]: [Vec3<f64>; 3], radius: f64) -> f64 {
+        let squares = [y.cross(z), z.cross(x), x.cross(y)].map(Vec3::length_squared);
+        4.0 * PI * radius * radius * (squares.iter().sum::<f64>() / 3.0).sqrt()
+    }
+}
+impl<R: Real<Scalar = R>> Round<R> for Disk<R> {
+    fn radius(&self) -> R {
+        self.radius
+    }
+    fn area(&self, [x, y, z]: [Vec3<f64>; 3], radius: f64) -> f64 {
+        let n = self.normal.map(|x| x.lane_f64(0));
+        PI * radius * radius * (y.cross(z) * n.x + z.cross(x) * n.y + x.cross(y) * n.z).length()
+    }
+}
