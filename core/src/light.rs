@@ -100,6 +100,7 @@ mod distant;
 mod environment;
 mod hierarchy;
 mod line;
+mod on_surface;
 mod parallelogram;
 #[doc(hidden)]
 pub mod parts;

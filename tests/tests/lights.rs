@@ -5,6 +5,7 @@ mod below_the_horizon;
 mod environment;
 mod irradiance;
 mod mistakes_of_hosts;
+mod on_surface;
 mod patches;
 mod pictures;
 mod polygon;

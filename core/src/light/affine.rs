@@ -120,6 +120,14 @@ macro_rules! affine {
                 let (axes, p) = self.placed(p);
                 AffineSampler { axes, sampler: self.shape.by_solid_angle(p) }
             }
+            /// Whether the point `p` is on the light, or in its plane, to within the rounding of its own computation: 16 units of the last
+            /// place of the greatest coordinate, by what the map makes of them.
+            #[inline(always)]
+            pub fn on_surface(&self, p: Vec3<R>) -> R::Mask {
+                let (axes, local) = self.placed(p);
+                let rows = axes.inverse_x.max_abs() + axes.inverse_y.max_abs() + axes.inverse_z.max_abs();
+                self.shape.near(local, (p.max_abs() + self.origin.max_abs()) * (rows / axes.unit))
+            }
         }
     )+};
 }

@@ -5,7 +5,7 @@ use crate::light::{
     Affine, BilinearPatch, ConstantEnvironment, DirectionalLight, Disk, Line, Parallelogram, PointLight, Polygon,
     Rectangle, Sphere, SpotLight, Sun, Triangle,
 };
-use crate::real::Real;
+use crate::real::{Mask, Real};
 use crate::select::LightBound;
 use crate::vector::Vec3;
 use alloc::boxed::Box;
@@ -137,6 +137,22 @@ impl<R: Real<Scalar = R>> Shape<R> {
             }
             _ => return None,
         })
+    }
+    /// Whether a point is on the light, to within the rounding of its own computation.
+    pub(super) fn on_surface(&self, p: Vec3<R>) -> bool {
+        let is_on = match self {
+            Self::Sphere(light) => light.on_surface(p),
+            Self::Triangle(light) => light.on_surface(p),
+            Self::Parallelogram(light) => light.on_surface(p),
+            Self::Rectangle(light) => light.on_surface(p),
+            Self::Disk(light) => light.on_surface(p),
+            Self::Polygon(light) => light.on_surface(p),
+            Self::Ellipsoid(light) => light.on_surface(p),
+            Self::Ellipse(light) => light.on_surface(p),
+            // a patch may light itself
+            _ => return false,
+        };
+        is_on.any()
     }
     /// What it can contribute with the radiance 1, and what it is for a [`Mixture`](super::mixture::Mixture).
     pub(super) fn bound(&self) -> (LightBound, Source) {

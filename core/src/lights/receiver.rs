@@ -36,8 +36,9 @@ pub struct Receiver<R> {
     pub point: Vec3<R>,
     /// From where it gathers light.
     pub side: Side<R>,
-    /// The light that the point lies on, if it does. It is skipped: a flat or convex light does not light itself, but rounding may
-    /// put a point of it in front of it. Of a mesh only the triangle is.
+    /// The light that the point lies on, if it does. It is skipped, and so is a light of whose surface, or plane, the point is within
+    /// the rounding of its own computation: a flat or convex light does not light itself, but rounding may put a point of it in front
+    /// of it. Of a mesh only the triangle is skipped.
     pub on: Option<Which>,
 }
 

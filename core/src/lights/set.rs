@@ -77,7 +77,8 @@ pub struct LightsAt<'a, R: Real<Scalar = R>> {
     lights: &'a Lights<R>,
     receiver: Receiver<R>,
     choice: MixtureAt<'a, R>,
-    last: RefCell<Option<(u32, Prepared<R>)>>,
+    /// Its index, and whether the receiver is on it.
+    last: RefCell<Option<(u32, bool, Prepared<R>)>>,
 }
 
 impl<R: Number> LightsAt<'_, R> {
@@ -183,21 +184,19 @@ fn at<R: Real<Scalar = R>>(lights: &Lights<R>, receiver: Receiver<R>) -> LightsA
 }
 
 impl<R: Real<Scalar = R>> LightsAt<'_, R> {
-    /// What `f` makes of the prepared sampler of a part.
+    /// What `f` makes of the prepared sampler of a part, and whether the receiver is on that.
     #[inline(always)]
-    fn with<T>(&self, index: u32, part: &Part<R>, f: impl FnOnce(&Prepared<R>) -> T) -> T {
+    fn with<T>(&self, index: u32, part: &Part<R>, f: impl FnOnce(&Prepared<R>) -> T) -> (T, bool) {
+        let Receiver { point, side, on } = self.receiver;
         let mut last = self.last.borrow_mut();
-        match &*last {
-            Some((of, prepared)) if *of == index => f(prepared),
-            _ => {
-                let prepared = Prepared::new(&part.shape, self.receiver.point, self.receiver.side);
-                f(&last.insert((index, prepared)).1)
+        let (_, is_on, prepared) = match &mut *last {
+            Some(last) if last.0 == index => last,
+            last => {
+                let is_on = on == Some(part.which) || part.shape.on_surface(point);
+                last.insert((index, is_on, Prepared::new(&part.shape, point, side)))
             }
-        }
-    }
-    #[inline(always)]
-    fn is_skipped(&self, part: &Part<R>) -> bool {
-        self.receiver.on == Some(part.which)
+        };
+        (f(prepared), *is_on)
     }
 }
 
@@ -210,10 +209,10 @@ fn sample<R: Real<Scalar = R>>(at: &LightsAt<'_, R>, [u, v, w]: [R; 3]) -> Light
     let choice = at.choice.choose(unit_interval(u), R::unit(R::Uint::splat(hash)));
     let index = choice.index.lane(0);
     let Some(part) = at.lights.parts.get(index as usize) else { return nothing() };
-    let sample: LightSample<R> = at.with(index, part, |light| light.sampler().sample(Vec2::new(v, w)));
+    let (sample, is_on): (LightSample<R>, bool) = at.with(index, part, |light| light.sampler().sample(Vec2::new(v, w)));
     let delta = sample.delta.any() && !matches!(part.shape, Shape::Line(_));
     let emits = part.two_sided || sample.emits.any() != part.reversed;
-    let some = !at.is_skipped(part) && sample.pdf.gt(zero).any() && choice.pmf.gt(zero).any();
+    let some = !is_on && sample.pdf.gt(zero).any() && choice.pmf.gt(zero).any();
     // of lights without an area, the pdf of a sample is 1 over what the intensity is to be multiplied by
     let (pdf, factor) = if delta { (choice.pmf, one / sample.pdf) } else { (choice.pmf * sample.pdf, one) };
     let mask = |truth: bool| R::Mask::splat(truth);
@@ -246,12 +245,12 @@ fn pdf<R: Real<Scalar = R>>(at: &LightsAt<'_, R>, which: Which, w: Vec3<R>) -> R
         return R::lit(0.0);
     };
     let index = first.saturating_add(which.part);
-    let Some(part) = at.lights.parts.get(index as usize).filter(|part| index < *end && !at.is_skipped(part)) else {
+    let Some(part) = at.lights.parts.get(index as usize).filter(|_| index < *end) else {
         return R::lit(0.0);
     };
     if matches!(part.shape, Shape::Line(_) | Shape::Point(_) | Shape::Spot(_) | Shape::Directional(_)) {
         return R::lit(0.0);
     }
-    let pmf = at.choice.pmf(index);
-    pmf * at.with(index, part, |light| light.sampler().pdf(w))
+    let (pdf, is_on) = at.with(index, part, |light| light.sampler().pdf(w));
+    (at.choice.pmf(index) * pdf).keep(R::Mask::splat(!is_on))
 }
