@@ -9,6 +9,7 @@ mod functions;
 mod fused;
 mod mask;
 mod number;
+mod trigonometry;
 mod uint;
 
 use core::fmt::Debug;

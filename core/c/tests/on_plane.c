@@ -1,13 +1,24 @@
 // Points that are computed on lights are on them, as etendue_on_surface says; about half of them are in front through rounding.
-#define _DEFAULT_SOURCE
-#include "common.h"
+#include "etendue.h"
 
-enum { POINTS = 20000 };
-static uint32_t state = 1;
+#include <math.h>
+#include <stdio.h>
+
+static long checks;
+static int failures;
+#define CHECK(condition)                                                             \
+    do {                                                                             \
+        checks++;                                                                    \
+        if (!(condition) && failures++ < 20) fprintf(stderr, "%s:%d: not so: %s\n", __FILE__, __LINE__, #condition); \
+    } while (0)
+
 static float uniform(void) {
+    static uint32_t state = 1;
     state = state * 1664525u + 1013904223u;
     return (float)(state >> 8) / 16777216.0f;
 }
+
+enum { POINTS = 20000 };
 static void vector(float v[3], float size) {
     for (int k = 0; k < 3; k++) v[k] = size * (2 * uniform() - 1);
 }
@@ -67,7 +78,7 @@ int main(void) {
             CHECK(etendue_on_surface(by_area[kind], &light, off) == 0);
             EtendueLightSample sample;
             const float half[2] = {0.3f, 0.6f};
-            CHECK(etendue_sample_once(by_area[kind], &light, p, NULL, half, &sample) == OK);
+            CHECK(etendue_sample_once(by_area[kind], &light, p, NULL, half, &sample) == ETENDUE_STATUS_OK);
             in_front += sample.weight > 0;
         }
         CHECK(in_front > POINTS / 5);

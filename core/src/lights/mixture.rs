@@ -232,7 +232,11 @@ impl<R: Real> MixtureAt<'_, R> {
         let is_equal = u.lt(part);
         let stretched = R::blend(is_equal, u * R::lit(1.0 / EQUAL), (u - part) * R::lit(1.0 / (1.0 - EQUAL)));
         let u = stretched.lesser(below_one);
-        let mut choice = self.lamps.choose_with(u, second);
+        let mut choice = if is_equal.all() {
+            Choice { index: R::Uint::splat(0), pmf: R::lit(0.0), u }
+        } else {
+            self.lamps.choose_with(u, second)
+        };
         let place = u * R::lit(few.len() as f64);
         let k = place.to_uint();
         let index = R::Uint::from_fn(|lane| few[(k.lane(lane) as usize).min(few.len() - 1)]);
@@ -240,7 +244,9 @@ impl<R: Real> MixtureAt<'_, R> {
         choice.u = R::blend(is_equal, (place - R::from_uint(k)).lesser(below_one), choice.u);
         // where the tree has found none, there is none
         let none = !is_equal & choice.pmf.le(R::lit(0.0));
-        choice.pmf = self.shared(self.lamps.pmf(choice.index)).keep(!none);
+        // the tree's choices have their pmf
+        let [of_tree] = R::where_any(is_equal, [choice.pmf], || [self.lamps.pmf(choice.index)]);
+        choice.pmf = self.shared(of_tree).keep(!none);
         choice
     }
     /// The pmf of a lamp that has this one in the tree.

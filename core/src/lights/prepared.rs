@@ -8,8 +8,8 @@ use crate::light::{
     PointLightByDelta, PolygonBySolidAngle, RectangleBySolidAngle, SphereBySolidAngle, SpotLightByDelta,
     SunBySolidAngle, TriangleBySolidAngle,
 };
-use crate::real::Real;
-use crate::vector::Vec3;
+use crate::real::{Mask, Real};
+use crate::vector::{Vec2, Vec3};
 use alloc::boxed::Box;
 
 /// A sampler of a light at the receiver.
@@ -32,6 +32,30 @@ pub(super) enum Prepared<R: Real<Scalar = R>> {
     Sun(SunBySolidAngle<R>),
     Sky(EnvironmentBySolidAngle),
     SkyAbove(EnvironmentByProjectedSolidAngle<R>),
+}
+
+/// An expression for the sampler of any kind.
+macro_rules! each {
+    ($prepared:expr, $light:ident => $value:expr) => {
+        match $prepared {
+            Self::Sphere($light) => $value,
+            Self::Triangle($light) => $value,
+            Self::Parallelogram($light) => $value,
+            Self::Rectangle($light) => $value,
+            Self::Disk($light) => $value,
+            Self::Polygon($light) => $value,
+            Self::Patch($light) => $value,
+            Self::Line($light) => $value,
+            Self::Ellipsoid($light) => $value,
+            Self::Ellipse($light) => $value,
+            Self::Point($light) => $value,
+            Self::Spot($light) => $value,
+            Self::Directional($light) => $value,
+            Self::Sun($light) => $value,
+            Self::Sky($light) => $value,
+            Self::SkyAbove($light) => $value,
+        }
+    };
 }
 
 impl<R: Real<Scalar = R>> Prepared<R> {
@@ -60,30 +84,34 @@ impl<R: Real<Scalar = R>> Prepared<R> {
             },
         }
     }
-    pub(super) fn sampler(&self) -> &dyn LightSampler<R> {
-        match self {
-            Self::Sphere(light) => light,
-            Self::Triangle(light) => light,
-            Self::Parallelogram(light) => light,
-            Self::Rectangle(light) => light,
-            Self::Disk(light) => light,
-            Self::Polygon(light) => &**light,
-            Self::Patch(light) => light,
-            Self::Line(light) => light,
-            Self::Ellipsoid(light) => light,
-            Self::Ellipse(light) => light,
-            Self::Point(light) => light,
-            Self::Spot(light) => light,
-            Self::Directional(light) => light,
-            Self::Sun(light) => light,
-            Self::Sky(light) => light,
-            Self::SkyAbove(light) => light,
-        }
+    /// Draws a sample, but for its surface coordinates.
+    #[inline(always)]
+    pub(super) fn sample(&self, u: Vec2<R>) -> Drawn<R> {
+        each!(self, light => {
+            let LightSample { direction, distance, pdf, normal, emits, delta, .. } = light.sample(u);
+            Drawn { direction, distance, pdf, normal, emits: emits.any(), delta: delta.any() }
+        })
+    }
+    /// The pdf of a unit direction.
+    #[inline(always)]
+    pub(super) fn pdf(&self, w: Vec3<R>) -> R {
+        each!(self, light => light.pdf(w))
     }
 }
 
+/// What is needed of a [`LightSample`].
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Drawn<R> {
+    pub(super) direction: Vec3<R>,
+    pub(super) distance: R,
+    pub(super) pdf: R,
+    pub(super) normal: Vec3<R>,
+    pub(super) emits: bool,
+    pub(super) delta: bool,
+}
+
 /// The point of a sample, and how far it is at most from the light.
-pub(super) fn point<R: Real<Scalar = R>>(shape: &Shape<R>, p: Vec3<R>, sample: &LightSample<R>) -> (Vec3<R>, R) {
+pub(super) fn point<R: Real<Scalar = R>>(shape: &Shape<R>, p: Vec3<R>, sample: &Drawn<R>) -> (Vec3<R>, R) {
     let unit = R::lit(if R::DOUBLE { 1.0 / 9_007_199_254_740_992.0 } else { 1.0 / 16_777_216.0 });
     let far = R::lit(FAR);
     let along = sample.direction.mul_add(sample.distance, p);

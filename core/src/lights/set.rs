@@ -2,9 +2,8 @@
 
 use super::emitter::{Emitter, Shape};
 use super::mixture::{Mixture, MixtureAt, Source};
-use super::prepared::{self, Prepared};
+use super::prepared::{self, Drawn, Prepared};
 use super::receiver::{LightsSample, Receiver, Side, Which};
-use crate::light::LightSample;
 use crate::real::{Mask, Real, Uint, unit_interval};
 use crate::select::{LightBound, LightsError};
 use crate::vector::{Vec2, Vec3};
@@ -206,15 +205,20 @@ fn sample<R: Real<Scalar = R>>(at: &LightsAt<'_, R>, [u, v, w]: [R; 3]) -> Light
     // among more lights than the first number has digits, a hash of the others decides, which are as good as new for the light
     let [a, b] = [v, w].map(|u| (unit_interval(u) * R::lit(16_777_216.0)).to_uint().lane(0));
     let hash = (a.wrapping_mul(0x9e37_79b9) ^ b.rotate_left(16)).wrapping_mul(0x85eb_ca6b);
-    let choice = at.choice.choose(unit_interval(u), R::unit(R::Uint::splat(hash)));
-    let index = choice.index.lane(0);
+    let (index, pmf) = match at.lights.parts.len() {
+        1 => (0, one),
+        _ => {
+            let choice = at.choice.choose(unit_interval(u), R::unit(R::Uint::splat(hash)));
+            (choice.index.lane(0), choice.pmf)
+        }
+    };
     let Some(part) = at.lights.parts.get(index as usize) else { return nothing() };
-    let (sample, is_on): (LightSample<R>, bool) = at.with(index, part, |light| light.sampler().sample(Vec2::new(v, w)));
-    let delta = sample.delta.any() && !matches!(part.shape, Shape::Line(_));
-    let emits = part.two_sided || sample.emits.any() != part.reversed;
-    let some = !is_on && sample.pdf.gt(zero).any() && choice.pmf.gt(zero).any();
+    let (sample, is_on): (Drawn<R>, bool) = at.with(index, part, |light| light.sample(Vec2::new(v, w)));
+    let delta = sample.delta && !matches!(part.shape, Shape::Line(_));
+    let emits = part.two_sided || sample.emits != part.reversed;
+    let some = !is_on && sample.pdf.gt(zero).any() && pmf.gt(zero).any();
     // of lights without an area, the pdf of a sample is 1 over what the intensity is to be multiplied by
-    let (pdf, factor) = if delta { (choice.pmf, one / sample.pdf) } else { (choice.pmf * sample.pdf, one) };
+    let (pdf, factor) = if delta { (pmf, one / sample.pdf) } else { (pmf * sample.pdf, one) };
     let mask = |truth: bool| R::Mask::splat(truth);
     let (point, bound) = prepared::point(&part.shape, at.receiver.point, &sample);
     let is_behind = part.two_sided && sample.direction.dot(sample.normal).gt(zero).any();
@@ -228,7 +232,7 @@ fn sample<R: Real<Scalar = R>>(at: &LightsAt<'_, R>, [u, v, w]: [R; 3]) -> Light
         normal,
         pdf: pdf.keep(mask(some)),
         factor: R::blend(mask(some && emits), factor, zero),
-        delta: sample.delta.any(),
+        delta: sample.delta,
     }
 }
 
@@ -251,6 +255,7 @@ fn pdf<R: Real<Scalar = R>>(at: &LightsAt<'_, R>, which: Which, w: Vec3<R>) -> R
     if matches!(part.shape, Shape::Line(_) | Shape::Point(_) | Shape::Spot(_) | Shape::Directional(_)) {
         return R::lit(0.0);
     }
-    let (pdf, is_on) = at.with(index, part, |light| light.sampler().pdf(w));
-    (at.choice.pmf(index) * pdf).keep(R::Mask::splat(!is_on))
+    let (pdf, is_on) = at.with(index, part, |light| light.pdf(w));
+    let pmf = if at.lights.parts.len() == 1 { R::lit(1.0) } else { at.choice.pmf(index) };
+    (pmf * pdf).keep(R::Mask::splat(!is_on))
 }

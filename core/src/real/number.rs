@@ -1,7 +1,7 @@
 //! Numbers of single and double precision, and packets of them.
 
 use super::uint::lanes;
-use super::{Mask, MaskF64X4, MaskF64X8, MaskX4, MaskX8, MaskX16, Real, arctangent, fused};
+use super::{Mask, MaskF64X4, MaskF64X8, MaskX4, MaskX8, MaskX16, Real, arctangent, fused, trigonometry};
 use wide::{f32x4, f32x8, f32x16, f64x2, f64x4, f64x8, u32x4, u32x8, u32x16, u64x4, u64x8};
 
 /// True where rounding to an integer is an instruction.
@@ -19,25 +19,13 @@ macro_rules! polynomials {
     };
 }
 
-/// Transcendental functions of double precision: `libm`, lane by lane but for the arctangent of vectors, which closed forms need. This
-/// precision is the reference for the other, not the fast path.
+/// Transcendental functions of double precision: `libm`, lane by lane but for sine, cosine, and the arctangent of vectors, which samples
+/// and closed forms need.
 macro_rules! lane_by_lane {
     () => {
         #[inline(always)]
         fn sin_cos_turns(self) -> (Self, Self) {
-            let quarter = (self * Self::lit(4.0)).round_ties_even();
-            let angle = self * Self::lit(4.0) - quarter;
-            let angle = angle * Self::lit(core::f64::consts::FRAC_PI_2);
-            let value = |i| {
-                let (s, c) = libm::sincos(angle.lane(i));
-                match quarter.lane(i) as i64 & 3 {
-                    0 => (s, c),
-                    1 => (c, -s),
-                    2 => (-s, -c),
-                    _ => (-c, s),
-                }
-            };
-            (Self::from_fn(|i| value(i).0), Self::from_fn(|i| value(i).1))
+            trigonometry::sin_cos_turns(self)
         }
         #[inline(always)]
         fn sin_cos_quarters(self) -> (Self, Self) {
@@ -153,8 +141,12 @@ macro_rules! scalar_real {
             }
             #[inline(always)]
             fn round_ties_even(self) -> Self {
-                let rounded = $packet::splat(self).round_ties_even().to_array()[0];
-                if ROUNDS { rounded } else { Real::copysign(rounded, self) }
+                if ROUNDS {
+                    return $packet::splat(self).round_ties_even().to_array()[0];
+                }
+                // the sum has no digits for a fraction
+                let (x, most) = (Real::abs(self), 1.0 / $scalar::EPSILON);
+                Real::copysign(if x < most { (x + most) - most } else { x }, self)
             }
             #[inline(always)]
             fn mul_add(self, a: Self, b: Self) -> Self {
