@@ -129,6 +129,8 @@ pub use cells::Region;
 pub use delta::{DirectionalLight, PointLight, SpotLight};
 #[doc(hidden)]
 pub use delta::{DirectionalLightByDelta, PointLightByDelta, SpotLightByDelta};
+#[doc(hidden)]
+pub use direction::DirectionSample;
 pub use disk::Disk;
 #[doc(hidden)]
 pub use disk::{DiskByArea, DiskBySolidAngle};
@@ -164,7 +166,11 @@ pub use rectangle::Rectangle;
 pub use rectangle::RectangleBySolidAngle;
 pub use rotated::Rotated;
 pub use sample::{FAR, LightSample, TexelSample};
+#[doc(hidden)]
+pub use sampler::Seen;
 pub use sampler::{ByArea, ByProjectedSolidAngle, ByReflection, BySolidAngle, LightSampler};
+#[doc(hidden)]
+pub use seen::SphericalShape;
 pub use sphere::Sphere;
 #[doc(hidden)]
 pub use sphere::{SphereByArea, SphereByProjectedSolidAngle, SphereByReflection, SphereBySolidAngle};

@@ -185,6 +185,21 @@ impl<S, W> BySolidAngle<S, W> {
     }
 }
 
+/// What a sampler by solid angle knows beside the surface.
+pub trait Seen {
+    /// The shape as it is seen from the point.
+    type Shape;
+    /// That shape alone: what the surface needs is then not prepared.
+    fn seen(self) -> Self::Shape;
+}
+impl<S, W> Seen for BySolidAngle<S, W> {
+    type Shape = W;
+    #[inline(always)]
+    fn seen(self) -> W {
+        self.shape
+    }
+}
+
 impl<R: Real, S: Surface<R>, W: SphericalShape<R>> LightSampler<R> for BySolidAngle<S, W> {
     #[inline(always)]
     fn sample(&self, u: Vec2<R>) -> LightSample<R> {

@@ -53,6 +53,27 @@ impl<R: Real<Scalar = R>> Emitter<R> {
     }
 }
 
+/// The plane of a flat light.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Plane<R> {
+    /// A point of it.
+    pub(super) on: Vec3<R>,
+    /// Its unit normal on the side of the shape's.
+    pub(super) normal: Vec3<R>,
+    /// The greatest coordinate of what spans it.
+    pub(super) reach: R,
+}
+
+impl<R: Real> Plane<R> {
+    /// Whether a point is in it, to within the rounding of its own computation: as [`on_surface`](Triangle::on_surface).
+    #[inline(always)]
+    pub(super) fn holds(&self, p: Vec3<R>) -> R::Mask {
+        let slack = R::lit(if R::DOUBLE { 16.0 / 9_007_199_254_740_992.0 } else { 16.0 / 16_777_216.0 });
+        let is_plane = self.normal.max_abs().gt(R::lit(0.0));
+        (p - self.on).dot(self.normal).abs().le((p.max_abs() + self.reach) * slack) & is_plane
+    }
+}
+
 /// What an emitter consists of.
 #[derive(Clone, Debug)]
 pub(super) enum Shape<R: Real<Scalar = R>> {
@@ -119,40 +140,50 @@ impl<R: Real<Scalar = R>, const N: usize> From<Polygon<R, N>> for Emitter<R> {
 const NARROWEST: f64 = 1.0 - 253.0 / 254.0;
 
 impl<R: Real<Scalar = R>> Shape<R> {
-    /// The normal of a flat light.
-    pub(super) fn normal(&self) -> Option<Vec3<R>> {
+    /// The plane of a flat light, with its unit normal.
+    pub(super) fn plane(&self) -> Option<Plane<R>> {
+        let of = |on: Vec3<R>, s: Vec3<R>, t: Vec3<R>| {
+            // edges of any lengths
+            let normal = unit(unit(s).cross(unit(t)));
+            Plane { on, normal, reach: on.max_abs() + s.max_abs() + t.max_abs() }
+        };
         Some(match self {
-            Self::Triangle(light) => light.e1.cross(light.e2),
-            Self::Parallelogram(light) => light.edge_s.cross(light.edge_t),
-            Self::Rectangle(light) => light.edge_s.cross(light.edge_t),
-            Self::Disk(light) => light.normal,
+            Self::Triangle(light) => of(light.v0, light.e1, light.e2),
+            Self::Parallelogram(light) => of(light.corner, light.edge_s, light.edge_t),
+            Self::Rectangle(light) => of(light.corner, light.edge_s, light.edge_t),
+            Self::Disk(light) => {
+                let Disk { center: on, normal, radius } = *light;
+                Plane { on, normal, reach: on.max_abs() + radius.abs() }
+            }
             Self::Polygon(light) => {
-                let first = light.corners[0];
-                light.corners.windows(2).fold(Vec3::ZERO, |sum, pair| sum + (pair[0] - first).cross(pair[1] - first))
+                let on = light.corners[0];
+                let edges = light.corners.map(|corner| corner - on);
+                let scale = edges.iter().fold(R::lit(0.0), |most, edge| most.greater(edge.max_abs())).pow2_scale();
+                let cross = |pair: &[Vec3<R>]| (pair[0] * scale).cross(pair[1] * scale);
+                let normal = unit(edges.windows(2).fold(Vec3::ZERO, |sum, pair| sum + cross(pair)));
+                let reach = light.corners.iter().fold(R::lit(0.0), |most, corner| most.greater(corner.max_abs()));
+                Plane { on, normal, reach: reach + on.max_abs() }
             }
             Self::Ellipse(light) => {
-                let [x, y, z] = light.axes;
-                let (n, volume) = (light.shape.normal, x.dot(y.cross(z)));
-                (y.cross(z) * n.x + z.cross(x) * n.y + x.cross(y) * n.z) * R::lit(1.0).copysign(volume)
+                let ([x, y, z], n) = (light.axes, light.shape.normal);
+                let scale = x.max_abs().greater(y.max_abs()).greater(z.max_abs()).pow2_scale();
+                let [x, y, z] = [x, y, z].map(|axis| axis * scale);
+                let cofactors = y.cross(z) * n.x + z.cross(x) * n.y + x.cross(y) * n.z;
+                let normal = unit(cofactors * R::lit(1.0).copysign(x.dot(y.cross(z))));
+                let on = light.image(light.shape.center);
+                Plane { on, normal, reach: on.max_abs() + light.origin.max_abs() }
             }
             _ => return None,
         })
     }
-    /// Whether a point is on the light, to within the rounding of its own computation.
+    /// Whether a point is on a curved light, to within the rounding of its own computation, or on an ellipse. A patch may light itself.
     pub(super) fn on_surface(&self, p: Vec3<R>) -> bool {
-        let is_on = match self {
-            Self::Sphere(light) => light.on_surface(p),
-            Self::Triangle(light) => light.on_surface(p),
-            Self::Parallelogram(light) => light.on_surface(p),
-            Self::Rectangle(light) => light.on_surface(p),
-            Self::Disk(light) => light.on_surface(p),
-            Self::Polygon(light) => light.on_surface(p),
-            Self::Ellipsoid(light) => light.on_surface(p),
-            Self::Ellipse(light) => light.on_surface(p),
-            // a patch may light itself
-            _ => return false,
-        };
-        is_on.any()
+        match self {
+            Self::Sphere(light) => light.on_surface(p).any(),
+            Self::Ellipsoid(light) => light.on_surface(p).any(),
+            Self::Ellipse(light) => light.on_surface(p).any(),
+            _ => false,
+        }
     }
     /// What it can contribute with the radiance 1, and what it is for a [`Mixture`](super::mixture::Mixture).
     pub(super) fn bound(&self) -> (LightBound, Source) {
@@ -171,7 +202,7 @@ impl<R: Real<Scalar = R>> Shape<R> {
             Self::Ellipsoid(light) => image(light, light.shape.center),
             Self::Ellipse(light) => {
                 let bound = image(light, light.shape.center);
-                LightBound { normal: narrow(self.normal().unwrap_or_default().unit_and_length().0), ..bound }
+                LightBound { normal: narrow(self.plane().map_or(Vec3::ZERO, |plane| plane.normal)), ..bound }
             }
             Self::Point(light) => light.bound(one),
             Self::Spot(light) => {

@@ -2,26 +2,31 @@
 
 use super::emitter::Shape;
 use super::receiver::Side;
+use crate::light::DirectionSample;
 use crate::light::{
     AffineSampler, ConstantEnvironment, DirectionalLightByDelta, DiskBySolidAngle, EnvironmentByProjectedSolidAngle,
     EnvironmentBySolidAngle, FAR, LightSample, LightSampler, LineByAngle, ParallelogramBySolidAngle, PatchByArea,
-    PointLightByDelta, PolygonBySolidAngle, RectangleBySolidAngle, SphereBySolidAngle, SpotLightByDelta,
-    SunBySolidAngle, TriangleBySolidAngle,
+    PointLightByDelta, PolygonBySolidAngle, RectangleBySolidAngle, Seen, SphereBySolidAngle, SphericalShape,
+    SpotLightByDelta, SunBySolidAngle, TriangleBySolidAngle,
 };
 use crate::real::{Mask, Real};
 use crate::vector::{Vec2, Vec3};
+use crate::warp::Warp;
 use alloc::boxed::Box;
 
-/// A sampler of a light at the receiver.
+/// What is seen of a shape.
+type SeenOf<S> = <S as Seen>::Shape;
+
+/// A sampler of a light at the receiver. Of shapes that are sampled by solid angle it is what is seen of them: a set knows their normals.
 #[derive(Clone, Debug)]
 pub(super) enum Prepared<R: Real<Scalar = R>> {
-    Sphere(SphereBySolidAngle<R>),
-    Triangle(TriangleBySolidAngle<R>),
-    Parallelogram(ParallelogramBySolidAngle<R>),
-    Rectangle(RectangleBySolidAngle<R>),
-    Disk(DiskBySolidAngle<R>),
+    Sphere(SeenOf<SphereBySolidAngle<R>>),
+    Triangle(SeenOf<TriangleBySolidAngle<R>>),
+    Parallelogram(SeenOf<ParallelogramBySolidAngle<R>>),
+    Rectangle(SeenOf<RectangleBySolidAngle<R>>),
+    Disk(SeenOf<DiskBySolidAngle<R>>),
     /// Kilobytes, which are not to be copied with the others.
-    Polygon(Box<PolygonBySolidAngle<R, 8>>),
+    Polygon(Box<SeenOf<PolygonBySolidAngle<R, 8>>>),
     Patch(PatchByArea<R>),
     Line(LineByAngle<R>),
     Ellipsoid(AffineSampler<SphereBySolidAngle<R>, R>),
@@ -34,26 +39,26 @@ pub(super) enum Prepared<R: Real<Scalar = R>> {
     SkyAbove(EnvironmentByProjectedSolidAngle<R>),
 }
 
-/// An expression for the sampler of any kind.
+/// An expression for what is seen of a shape, or for a sampler.
 macro_rules! each {
-    ($prepared:expr, $light:ident => $value:expr) => {
+    ($prepared:expr, $seen:ident => $of_seen:expr, $light:ident => $of_light:expr) => {
         match $prepared {
-            Self::Sphere($light) => $value,
-            Self::Triangle($light) => $value,
-            Self::Parallelogram($light) => $value,
-            Self::Rectangle($light) => $value,
-            Self::Disk($light) => $value,
-            Self::Polygon($light) => $value,
-            Self::Patch($light) => $value,
-            Self::Line($light) => $value,
-            Self::Ellipsoid($light) => $value,
-            Self::Ellipse($light) => $value,
-            Self::Point($light) => $value,
-            Self::Spot($light) => $value,
-            Self::Directional($light) => $value,
-            Self::Sun($light) => $value,
-            Self::Sky($light) => $value,
-            Self::SkyAbove($light) => $value,
+            Self::Sphere($seen) => $of_seen,
+            Self::Triangle($seen) => $of_seen,
+            Self::Parallelogram($seen) => $of_seen,
+            Self::Rectangle($seen) => $of_seen,
+            Self::Disk($seen) => $of_seen,
+            Self::Polygon($seen) => $of_seen,
+            Self::Patch($light) => $of_light,
+            Self::Line($light) => $of_light,
+            Self::Ellipsoid($light) => $of_light,
+            Self::Ellipse($light) => $of_light,
+            Self::Point($light) => $of_light,
+            Self::Spot($light) => $of_light,
+            Self::Directional($light) => $of_light,
+            Self::Sun($light) => $of_light,
+            Self::Sky($light) => $of_light,
+            Self::SkyAbove($light) => $of_light,
         }
     };
 }
@@ -61,12 +66,12 @@ macro_rules! each {
 impl<R: Real<Scalar = R>> Prepared<R> {
     pub(super) fn new(shape: &Shape<R>, p: Vec3<R>, side: Side<R>) -> Self {
         match shape {
-            Shape::Sphere(light) => Self::Sphere(light.by_solid_angle(p)),
-            Shape::Triangle(light) => Self::Triangle(light.by_solid_angle(p)),
-            Shape::Parallelogram(light) => Self::Parallelogram(light.by_solid_angle(p)),
-            Shape::Rectangle(light) => Self::Rectangle(light.by_solid_angle(p)),
-            Shape::Disk(light) => Self::Disk(light.by_solid_angle(p)),
-            Shape::Polygon(light) => Self::Polygon(Box::new(light.by_solid_angle(p))),
+            Shape::Sphere(light) => Self::Sphere(light.by_solid_angle(p).seen()),
+            Shape::Triangle(light) => Self::Triangle(light.by_solid_angle(p).seen()),
+            Shape::Parallelogram(light) => Self::Parallelogram(light.by_solid_angle(p).seen()),
+            Shape::Rectangle(light) => Self::Rectangle(light.by_solid_angle(p).seen()),
+            Shape::Disk(light) => Self::Disk(light.by_solid_angle(p).seen()),
+            Shape::Polygon(light) => Self::Polygon(Box::new(light.by_solid_angle(p).seen())),
             Shape::Patch(light) => Self::Patch(light.by_area(p)),
             Shape::Line(light) => Self::Line(light.by_angle(p)),
             Shape::Ellipsoid(light) => Self::Ellipsoid(light.by_solid_angle(p)),
@@ -84,18 +89,26 @@ impl<R: Real<Scalar = R>> Prepared<R> {
             },
         }
     }
-    /// Draws a sample, but for its surface coordinates.
+    /// Draws a sample. The normal of a shape that is seen is the set's to find.
     #[inline(always)]
     pub(super) fn sample(&self, u: Vec2<R>) -> Drawn<R> {
-        each!(self, light => {
-            let LightSample { direction, distance, pdf, normal, emits, delta, .. } = light.sample(u);
-            Drawn { direction, distance, pdf, normal, emits: emits.any(), delta: delta.any() }
-        })
+        each!(self,
+            seen => {
+                let (DirectionSample { direction, distance }, _) = seen.sample_point(u);
+                let is_number = ((u.x + u.y) * R::lit(0.0)).ge(R::lit(0.0));
+                let pdf = seen.uniform_pdf().keep(is_number);
+                Drawn { direction, distance, pdf, normal: Vec3::ZERO, emits: seen.in_front().any(), delta: false }
+            },
+            light => {
+                let LightSample { direction, distance, pdf, normal, emits, delta, .. } = light.sample(u);
+                Drawn { direction, distance, pdf, normal, emits: emits.any(), delta: delta.any() }
+            }
+        )
     }
     /// The pdf of a unit direction.
     #[inline(always)]
     pub(super) fn pdf(&self, w: Vec3<R>) -> R {
-        each!(self, light => light.pdf(w))
+        each!(self, seen => seen.pdf(w), light => light.pdf(w))
     }
 }
 

@@ -1,6 +1,6 @@
 //! The set, its choice and its samples.
 
-use super::emitter::{Emitter, Shape};
+use super::emitter::{Emitter, Plane, Shape};
 use super::mixture::{Mixture, MixtureAt, Source};
 use super::prepared::{self, Drawn, Prepared};
 use super::receiver::{LightsSample, Receiver, Side, Which};
@@ -15,10 +15,34 @@ use core::f64::consts::PI;
 #[derive(Clone, Debug)]
 struct Part<R: Real<Scalar = R>> {
     shape: Shape<R>,
+    /// Of a flat light.
+    plane: Option<Plane<R>>,
     which: Which,
     two_sided: bool,
     /// Emits from the other side than the shape's.
     reversed: bool,
+}
+
+impl<R: Real<Scalar = R>> Part<R> {
+    /// Whether a point is on it, to within the rounding of its own computation.
+    #[inline(always)]
+    fn holds(&self, p: Vec3<R>) -> bool {
+        match (&self.shape, &self.plane) {
+            (Shape::Ellipse(_), _) | (_, None) => self.shape.on_surface(p),
+            (_, Some(plane)) => plane.holds(p).any(),
+        }
+    }
+    /// The unit normal where a sample is, on the side of the shape's.
+    #[inline(always)]
+    fn normal(&self, p: Vec3<R>, sample: &Drawn<R>) -> Vec3<R> {
+        match (&self.shape, &self.plane) {
+            (_, Some(plane)) => plane.normal,
+            (Shape::Sphere(light), None) => {
+                sample.direction.mul_add(sample.distance, p - light.center).unit_and_length().0
+            }
+            _ => sample.normal,
+        }
+    }
 }
 
 /// A set of lights of any kind.
@@ -75,7 +99,8 @@ impl<R: Number> Lights<R> {
 pub struct LightsAt<'a, R: Real<Scalar = R>> {
     lights: &'a Lights<R>,
     receiver: Receiver<R>,
-    choice: MixtureAt<'a, R>,
+    /// None where there is no more than one light.
+    choice: Option<MixtureAt<'a, R>>,
     /// Its index, and whether the receiver is on it.
     last: RefCell<Option<(u32, bool, Prepared<R>)>>,
 }
@@ -136,7 +161,8 @@ fn build<R: Real<Scalar = R>>(lights: Vec<(Emitter<R>, R)>) -> Result<Lights<R>,
         let Emitter { shapes, two_sided, facing } = emitter;
         for (part, shape) in (0_u32..).zip(shapes) {
             let (mut bound, source) = shape.bound();
-            let against = |to: Vec3<R>| shape.normal().is_some_and(|normal| normal.dot(to).lt(R::lit(0.0)).any());
+            let plane = shape.plane();
+            let against = |to: Vec3<R>| plane.is_some_and(|plane| plane.normal.dot(to).lt(R::lit(0.0)).any());
             let reversed = facing.is_some_and(against);
             if reversed {
                 bound.normal = bound.normal.map(|x| -x);
@@ -146,7 +172,7 @@ fn build<R: Real<Scalar = R>>(lights: Vec<(Emitter<R>, R)>) -> Result<Lights<R>,
             // what is no number is dark
             let power = if power > 0.0 && power < f64::INFINITY { power } else { 0.0 };
             bounds.push((bound, source, power));
-            parts.push(Part { shape, which: Which { light, part }, two_sided, reversed });
+            parts.push(Part { shape, plane, which: Which { light, part }, two_sided, reversed });
         }
     }
     first.push(parts.len() as u32);
@@ -178,7 +204,8 @@ fn at<R: Real<Scalar = R>>(lights: &Lights<R>, receiver: Receiver<R>) -> LightsA
         Side::Surface(normal) => (normal, PI),
         Side::Both | Side::None => (Vec3::ZERO, 4.0 * PI),
     };
-    let choice = lights.choice.at(receiver.point, normal, None, || R::lit(lights.sky * of_sky));
+    let is_choice = lights.parts.len() > 1;
+    let choice = is_choice.then(|| lights.choice.at(receiver.point, normal, None, || R::lit(lights.sky * of_sky)));
     LightsAt { lights, receiver, choice, last: RefCell::new(None) }
 }
 
@@ -191,7 +218,7 @@ impl<R: Real<Scalar = R>> LightsAt<'_, R> {
         let (_, is_on, prepared) = match &mut *last {
             Some(last) if last.0 == index => last,
             last => {
-                let is_on = on == Some(part.which) || part.shape.on_surface(point);
+                let is_on = on == Some(part.which) || part.holds(point);
                 last.insert((index, is_on, Prepared::new(&part.shape, point, side)))
             }
         };
@@ -205,15 +232,16 @@ fn sample<R: Real<Scalar = R>>(at: &LightsAt<'_, R>, [u, v, w]: [R; 3]) -> Light
     // among more lights than the first number has digits, a hash of the others decides, which are as good as new for the light
     let [a, b] = [v, w].map(|u| (unit_interval(u) * R::lit(16_777_216.0)).to_uint().lane(0));
     let hash = (a.wrapping_mul(0x9e37_79b9) ^ b.rotate_left(16)).wrapping_mul(0x85eb_ca6b);
-    let (index, pmf) = match at.lights.parts.len() {
-        1 => (0, one),
-        _ => {
-            let choice = at.choice.choose(unit_interval(u), R::unit(R::Uint::splat(hash)));
+    let (index, pmf) = match &at.choice {
+        None => (0, one),
+        Some(choice) => {
+            let choice = choice.choose(unit_interval(u), R::unit(R::Uint::splat(hash)));
             (choice.index.lane(0), choice.pmf)
         }
     };
     let Some(part) = at.lights.parts.get(index as usize) else { return nothing() };
-    let (sample, is_on): (Drawn<R>, bool) = at.with(index, part, |light| light.sample(Vec2::new(v, w)));
+    let (mut sample, is_on): (Drawn<R>, bool) = at.with(index, part, |light| light.sample(Vec2::new(v, w)));
+    sample.normal = part.normal(at.receiver.point, &sample);
     let delta = sample.delta && !matches!(part.shape, Shape::Line(_));
     let emits = part.two_sided || sample.emits != part.reversed;
     let some = !is_on && sample.pdf.gt(zero).any() && pmf.gt(zero).any();
@@ -256,6 +284,6 @@ fn pdf<R: Real<Scalar = R>>(at: &LightsAt<'_, R>, which: Which, w: Vec3<R>) -> R
         return R::lit(0.0);
     }
     let (pdf, is_on) = at.with(index, part, |light| light.pdf(w));
-    let pmf = if at.lights.parts.len() == 1 { R::lit(1.0) } else { at.choice.pmf(index) };
+    let pmf = at.choice.as_ref().map_or(R::lit(1.0), |choice| choice.pmf(index));
     (pmf * pdf).keep(R::Mask::splat(!is_on))
 }

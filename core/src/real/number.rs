@@ -41,9 +41,6 @@ macro_rules! lane_by_lane {
         }
         #[inline(always)]
         fn atan2(self, other: Self) -> Self {
-            if Self::LANES == 1 {
-                return Self::lit(libm::atan2(self.lane_f64(0), other.lane_f64(0)));
-            }
             arctangent::atan2(self, other)
         }
         #[inline(always)]
