@@ -56,7 +56,8 @@ impl<R: Real<Scalar = R>> Part<R> {
 /// - Exact: [`pdf`](LightsAt::pdf) of the direction of a sample has the bits of its `pdf`, but of patches and lines, of which a rounded
 ///   direction determines it only to rounding.
 /// - Degenerate: without lights, for a receiver that none reaches, and of numbers that are not finite, the pdf is 0.
-/// - Sizes: a set takes about 60 bytes for each part in single precision besides 58 of the tree; [`LightsAt`] lives on the stack.
+/// - Sizes: each light and each triangle of a mesh takes 104 bytes in single precision and 184 in double, besides 58 of the tree;
+///   [`LightsAt`], which lives on the stack, a kilobyte or two.
 #[derive(Clone, Debug)]
 pub struct Lights<R: Real<Scalar = R>> {
     parts: Vec<Part<R>>,
@@ -286,4 +287,16 @@ fn pdf<R: Real<Scalar = R>>(at: &LightsAt<'_, R>, which: Which, w: Vec3<R>) -> R
     let (pdf, is_on) = at.with(index, part, |light| light.pdf(w));
     let pmf = at.choice.as_ref().map_or(R::lit(1.0), |choice| choice.pmf(index));
     (pmf * pdf).keep(R::Mask::splat(!is_on))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{LightsAt, Part};
+
+    /// What the documentation of [`Lights`](super::Lights) says.
+    #[test]
+    fn sizes_are_as_stated() {
+        let sizes = [size_of::<Part<f32>>(), size_of::<Part<f64>>(), size_of::<LightsAt<'_, f32>>()];
+        assert_eq!(sizes, [104, 184, 992]);
+    }
 }

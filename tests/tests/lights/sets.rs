@@ -411,7 +411,7 @@ fn any_input_gives_finite_samples() {
     check::<f64>(&[0.0, 1.0, -1.0, 1e-300, 1e-20, 1e20, 1e300, f64::NAN, f64::INFINITY, 0.3]);
 }
 
-/// Sets may be shared among threads and sent to them; a prepared one belongs to its thread.
+/// Sets may be shared among threads and sent to them; a prepared one belongs to its thread. Prepared lights are of the sizes that are stated.
 #[test]
 fn sets_are_shared() {
     fn shared<T: Send + Sync + Clone>() {}
@@ -425,4 +425,18 @@ fn sets_are_shared() {
     copied::<etendue::light::TriangleBySolidAngle<f32>>();
     copied::<etendue::light::PolygonByProjectedSolidAngle<f64, 8>>();
     copied::<etendue::select::TreeAt<'_, f32>>();
+    use etendue::light as by;
+    let sizes = [
+        size_of::<by::SphereBySolidAngle<f32>>(),
+        size_of::<by::TriangleBySolidAngle<f32>>(),
+        size_of::<by::RectangleBySolidAngle<f32>>(),
+        size_of::<by::ParallelogramBySolidAngle<f32>>(),
+        size_of::<by::DiskBySolidAngle<f32>>(),
+        size_of::<by::PolygonBySolidAngle<f32, 8>>(),
+        size_of::<by::TriangleByProjectedSolidAngle<f32>>(),
+        size_of::<by::ParallelogramByProjectedSolidAngle<f32>>(),
+        size_of::<by::TriangleBySolidAngle<f64>>() / 2,
+    ];
+    // as the documentation of the package says
+    assert_eq!(sizes, [68, 324, 340, 516, 156, 1796, 656, 1192, 324]);
 }
