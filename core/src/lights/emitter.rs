@@ -25,31 +25,39 @@ use core::f64::consts::PI;
 /// ```
 #[derive(Clone, Debug)]
 pub struct Emitter<R: Real<Scalar = R>> {
-    pub(super) shapes: Vec<Shape<R>>,
+    pub(super) pieces: Vec<Piece<R>>,
+}
+
+/// A shape, and from which sides it emits.
+#[derive(Clone, Debug)]
+pub(super) struct Piece<R: Real<Scalar = R>> {
+    pub(super) shape: Shape<R>,
     pub(super) two_sided: bool,
-    /// The normal of what emits from the other side than the shape's.
+    /// The normal of what may emit from the other side than the shape's.
     pub(super) facing: Option<Vec3<R>>,
 }
 
 impl<R: Real<Scalar = R>> Emitter<R> {
     fn one(shape: Shape<R>) -> Self {
-        Self { shapes: [shape].into(), two_sided: false, facing: None }
+        Self { pieces: [Piece { shape, two_sided: false, facing: None }].into() }
     }
-    /// A mesh: one light for its owner, whose parts are its triangles, and as many for the choice among lights.
-    pub fn mesh(triangles: impl IntoIterator<Item = Triangle<R>>) -> Self {
-        let shapes = triangles.into_iter().map(Shape::Triangle).collect();
-        Self { shapes, two_sided: false, facing: None }
+    /// Several lights as one, such as the triangles of a mesh: one light for its owner, of as many parts, and as many for the choice among
+    /// lights.
+    pub fn group<E: Into<Self>>(parts: impl IntoIterator<Item = E>) -> Self {
+        Self { pieces: parts.into_iter().flat_map(|part| part.into().pieces).collect() }
     }
     /// The same light, which emits from both sides; a sphere, inwards too.
     #[must_use]
-    pub fn two_sided(self) -> Self {
-        Self { two_sided: true, ..self }
+    pub fn two_sided(mut self) -> Self {
+        self.pieces.iter_mut().for_each(|piece| piece.two_sided = true);
+        self
     }
     /// The same light, which emits from the side to which the vector `normal` points, whatever the order of its vertices is. It changes
     /// nothing of lights that are not flat.
     #[must_use]
-    pub fn facing(self, normal: Vec3<R>) -> Self {
-        Self { facing: Some(normal), ..self }
+    pub fn facing(mut self, normal: Vec3<R>) -> Self {
+        self.pieces.iter_mut().for_each(|piece| piece.facing = Some(normal));
+        self
     }
 }
 
@@ -102,6 +110,18 @@ fn upright<R: Real>(disk: Disk<R>) -> Disk<R> {
     Disk { normal: unit(disk.normal), ..disk }
 }
 
+/// The image of a sphere if it is one, to within the rounding of the axes: cheaper, and uniform by solid angle.
+fn round<R: Real<Scalar = R>>(light: &Affine<Sphere<R>, R>) -> Option<Sphere<R>> {
+    let lengths = light.axes.map(|axis| axis.unit_and_length().1);
+    let [x, y, z] = light.axes.map(unit);
+    let slack = R::lit(if R::DOUBLE { 4.0 * f64::EPSILON } else { 4.0 * f64::from(f32::EPSILON) });
+    let is_small = |x: R| x.abs().le(slack).any();
+    let is_equal = |other: R| is_small((other - lengths[0]) / lengths[0]);
+    let is_round =
+        [x.dot(y), y.dot(z), z.dot(x)].into_iter().all(is_small) && is_equal(lengths[1]) && is_equal(lengths[2]);
+    is_round.then(|| Sphere::new(light.image(light.shape.center), light.shape.radius * lengths[0]))
+}
+
 macro_rules! shapes {
     ($($shape:ident = $from:ty => $value:expr;)+) => {$(
         impl<R: Real<Scalar = R>> From<$from> for Emitter<R> {
@@ -120,7 +140,7 @@ shapes! {
     Disk = Disk<R> => |light| Shape::Disk(upright(light));
     Patch = BilinearPatch<R> => Shape::Patch;
     Line = Line<R> => Shape::Line;
-    Ellipsoid = Affine<Sphere<R>, R> => |light| Shape::Ellipsoid(Box::new(light));
+    Ellipsoid = Affine<Sphere<R>, R> => |light| round(&light).map_or_else(|| Shape::Ellipsoid(Box::new(light)), Shape::Sphere);
     Ellipse = Affine<Disk<R>, R> => |light| Shape::Ellipse(Box::new(Affine { shape: upright(light.shape), ..light }));
     Point = PointLight<R> => Shape::Point;
     Spot = SpotLight<R> => |light| Shape::Spot(SpotLight { axis: unit(light.axis), ..light });

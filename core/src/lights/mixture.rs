@@ -124,6 +124,10 @@ impl Mixture {
         }
         Ok(Self { lamps: OwnedTree::new(&bounds, join)?, few, beams, suns: OwnedTree::new(&suns, join)?, distant, sky })
     }
+    /// Whether all lights are lamps, so that a choice among kinds needs no preparation.
+    pub(super) fn has_lamps_alone(&self) -> bool {
+        self.sky.is_none() && self.distant.is_empty() && self.beams.is_empty()
+    }
     /// The choice for points `p` of surfaces with unit normals, on the side of the normal; or for points that light reaches from all around,
     /// where the normal is 0. `gloss` is what glossy surfaces reflect, and `sky` returns the irradiance of the sky there.
     #[inline]
@@ -139,8 +143,7 @@ impl Mixture {
             gloss.map_or_else(|| tree.at(p, normal), |gloss| tree.at_glossy(p, normal, gloss))
         });
         let beams = (!self.beams.is_empty()).then(|| self.beams_at(p, normal));
-        let is_far = self.sky.is_some() || !self.distant.is_empty();
-        let kinds = (is_far || beams.is_some()).then(|| {
+        let kinds = (!self.has_lamps_alone()).then(|| {
             let of_sky = self.sky.map_or(R::lit(0.0), |_| sky());
             let of_beams = beams.as_ref().map_or(R::lit(0.0), |(_, irradiance)| *irradiance);
             among_kinds([self.lamps.irradiance(&lamps), self.suns.irradiance(&suns), of_sky, of_beams])

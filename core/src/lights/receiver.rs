@@ -3,12 +3,12 @@
 use crate::real::Real;
 use crate::vector::Vec3;
 
-/// A light of a set, or a triangle of a mesh in it.
+/// A light of a set, or a part of a group in it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Which {
     /// The index of the light, as the set was given.
     pub light: u32,
-    /// The index of the triangle in a mesh; 0 of other lights.
+    /// The index of the part in a group, such as a triangle of a mesh; 0 of other lights.
     pub part: u32,
 }
 
@@ -38,7 +38,7 @@ pub struct Receiver<R> {
     pub side: Side<R>,
     /// The light that the point lies on, if it does. It is skipped, and so is a light of whose surface, or plane, the point is within
     /// the rounding of its own computation: a flat or convex light does not light itself, but rounding may put a point of it in front
-    /// of it. Of a mesh only the triangle is skipped.
+    /// of it. Of a group only the part is skipped.
     pub on: Option<Which>,
 }
 

@@ -1,6 +1,6 @@
 //! The set, its choice and its samples.
 
-use super::emitter::{Emitter, Plane, Shape};
+use super::emitter::{Emitter, Piece, Plane, Shape};
 use super::mixture::{Mixture, MixtureAt, Source};
 use super::prepared::{self, Drawn, Prepared};
 use super::receiver::{LightsSample, Receiver, Side, Which};
@@ -100,7 +100,7 @@ impl<R: Number> Lights<R> {
 pub struct LightsAt<'a, R: Real<Scalar = R>> {
     lights: &'a Lights<R>,
     receiver: Receiver<R>,
-    /// None where there is no more than one light.
+    /// Where that takes more than to look up a tree.
     choice: Option<MixtureAt<'a, R>>,
     /// Its index, and whether the receiver is on it.
     last: RefCell<Option<(u32, bool, Prepared<R>)>>,
@@ -154,13 +154,12 @@ macro_rules! compiled {
 compiled!(f32 f64);
 
 fn build<R: Real<Scalar = R>>(lights: Vec<(Emitter<R>, R)>) -> Result<Lights<R>, LightsError> {
-    let count = lights.iter().map(|(light, _)| light.shapes.len()).sum();
+    let count = lights.iter().map(|(light, _)| light.pieces.len()).sum();
     let (mut parts, mut first) = (Vec::with_capacity(count), Vec::with_capacity(lights.len() + 1));
     let mut bounds: Vec<(LightBound, Source, f64)> = Vec::with_capacity(count);
     for (light, (emitter, radiance)) in (0_u32..).zip(lights) {
         first.push(parts.len() as u32);
-        let Emitter { shapes, two_sided, facing } = emitter;
-        for (part, shape) in (0_u32..).zip(shapes) {
+        for (part, Piece { shape, two_sided, facing }) in (0_u32..).zip(emitter.pieces) {
             let (mut bound, source) = shape.bound();
             let plane = shape.plane();
             let against = |to: Vec3<R>| plane.is_some_and(|plane| plane.normal.dot(to).lt(R::lit(0.0)).any());
@@ -201,16 +200,38 @@ fn build<R: Real<Scalar = R>>(lights: Vec<(Emitter<R>, R)>) -> Result<Lights<R>,
 
 #[inline(always)]
 fn at<R: Real<Scalar = R>>(lights: &Lights<R>, receiver: Receiver<R>) -> LightsAt<'_, R> {
+    let choice = (!lights.choice.has_lamps_alone()).then(|| choice(lights, &receiver));
+    LightsAt { lights, receiver, choice, last: RefCell::new(None) }
+}
+
+#[inline(always)]
+fn choice<'a, R: Real<Scalar = R>>(lights: &'a Lights<R>, receiver: &Receiver<R>) -> MixtureAt<'a, R> {
     let (normal, of_sky) = match receiver.side {
         Side::Surface(normal) => (normal, PI),
         Side::Both | Side::None => (Vec3::ZERO, 4.0 * PI),
     };
-    let is_choice = lights.parts.len() > 1;
-    let choice = is_choice.then(|| lights.choice.at(receiver.point, normal, None, || R::lit(lights.sky * of_sky)));
-    LightsAt { lights, receiver, choice, last: RefCell::new(None) }
+    lights.choice.at(receiver.point, normal, None, || R::lit(lights.sky * of_sky))
 }
 
 impl<R: Real<Scalar = R>> LightsAt<'_, R> {
+    /// The light that two numbers choose, and its pmf.
+    #[inline(always)]
+    fn choose(&self, u: R, second: R) -> (u32, R) {
+        let choice = match &self.choice {
+            Some(choice) => choice.choose(u, second),
+            None if self.lights.parts.len() == 1 => return (0, R::lit(1.0)),
+            None => choice(self.lights, &self.receiver).choose(u, second),
+        };
+        (choice.index.lane(0), choice.pmf)
+    }
+    #[inline(always)]
+    fn pmf(&self, index: u32) -> R {
+        match &self.choice {
+            Some(choice) => choice.pmf(index),
+            None if self.lights.parts.len() == 1 => R::lit(1.0),
+            None => choice(self.lights, &self.receiver).pmf(index),
+        }
+    }
     /// What `f` makes of the prepared sampler of a part, and whether the receiver is on that.
     #[inline(always)]
     fn with<T>(&self, index: u32, part: &Part<R>, f: impl FnOnce(&Prepared<R>) -> T) -> (T, bool) {
@@ -233,13 +254,7 @@ fn sample<R: Real<Scalar = R>>(at: &LightsAt<'_, R>, [u, v, w]: [R; 3]) -> Light
     // among more lights than the first number has digits, a hash of the others decides, which are as good as new for the light
     let [a, b] = [v, w].map(|u| (unit_interval(u) * R::lit(16_777_216.0)).to_uint().lane(0));
     let hash = (a.wrapping_mul(0x9e37_79b9) ^ b.rotate_left(16)).wrapping_mul(0x85eb_ca6b);
-    let (index, pmf) = match &at.choice {
-        None => (0, one),
-        Some(choice) => {
-            let choice = choice.choose(unit_interval(u), R::unit(R::Uint::splat(hash)));
-            (choice.index.lane(0), choice.pmf)
-        }
-    };
+    let (index, pmf) = at.choose(unit_interval(u), R::unit(R::Uint::splat(hash)));
     let Some(part) = at.lights.parts.get(index as usize) else { return nothing() };
     let (mut sample, is_on): (Drawn<R>, bool) = at.with(index, part, |light| light.sample(Vec2::new(v, w)));
     sample.normal = part.normal(at.receiver.point, &sample);
@@ -285,8 +300,7 @@ fn pdf<R: Real<Scalar = R>>(at: &LightsAt<'_, R>, which: Which, w: Vec3<R>) -> R
         return R::lit(0.0);
     }
     let (pdf, is_on) = at.with(index, part, |light| light.pdf(w));
-    let pmf = at.choice.as_ref().map_or(R::lit(1.0), |choice| choice.pmf(index));
-    (pmf * pdf).keep(R::Mask::splat(!is_on))
+    (at.pmf(index) * pdf).keep(R::Mask::splat(!is_on))
 }
 
 #[cfg(test)]

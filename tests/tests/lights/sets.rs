@@ -53,7 +53,7 @@ fn every<R: Real<Scalar = R>>() -> Vec<(Emitter<R>, R)> {
         Line::new(v([-1.0, 1.0, 2.0]), v([1.5, 0.5, 0.0])).into(),
         ellipsoid().into(),
         Emitter::from(Affine::new(disk, axes, v([-2.5, 2.0, -2.0]))).facing(down),
-        Emitter::mesh(triangles).facing(down),
+        Emitter::group(triangles).facing(down),
         PointLight::new(v([0.5, 1.0, 0.5])).into(),
         SpotLight::new(
             v([0.0, 2.0, 1.0]),
@@ -306,7 +306,8 @@ fn points_are_within_their_bounds() {
 /// The distance of a point from a light, or from its plane.
 fn set_of_planes(light: &Emitter<f64>) -> Box<dyn Fn(V<f64>, usize) -> f64> {
     let text = format!("{light:?}");
-    let kind = if light_is_mesh(&text) { "Mesh" } else { text.split(['[', '(']).nth(1).unwrap_or_default() }.to_owned();
+    let shape = text.split("shape: ").nth(1).and_then(|text| text.split('(').next()).unwrap_or_default();
+    let kind = if is_mesh(&text) { "Mesh" } else { shape }.to_owned();
     match kind.as_str() {
         "Sphere" => Box::new(|q, _| ((q - v([0.0, 3.0, 0.0])).length() - f64::from(0.8_f32)).abs()),
         "Ellipsoid" => {
@@ -331,7 +332,7 @@ fn set_of_planes(light: &Emitter<f64>) -> Box<dyn Fn(V<f64>, usize) -> f64> {
     }
 }
 
-fn light_is_mesh(text: &str) -> bool {
+fn is_mesh(text: &str) -> bool {
     text.matches("Triangle(").count() > 1
 }
 
@@ -381,8 +382,8 @@ fn any_input_gives_finite_samples() {
                     Line::new(p, q).into(),
                     Affine::new(Sphere::new(p, r), [p, q, p], q).into(),
                     Affine::new(Disk::new(p, q, r), [q, p, v([0.0, 1.0, 0.0])], q).into(),
-                    Emitter::mesh([]),
-                    Emitter::mesh([Triangle::new(q, p, p)]).facing(p),
+                    Emitter::group([] as [Triangle<R>; 0]),
+                    Emitter::group([Triangle::new(q, p, p)]).facing(p),
                     PointLight::new(p).into(),
                     SpotLight::new(q, p, [r, R::lit(a)]).into(),
                     DirectionalLight::new(p).into(),
@@ -409,6 +410,19 @@ fn any_input_gives_finite_samples() {
     }
     check::<f32>(&[0.0, 1.0, -1.0, 1e-38, 1e-20, 1e20, 3e38, f64::NAN, f64::INFINITY, 0.3]);
     check::<f64>(&[0.0, 1.0, -1.0, 1e-300, 1e-20, 1e20, 1e300, f64::NAN, f64::INFINITY, 0.3]);
+}
+
+/// A sphere under a map that keeps angles is a sphere; one that is stretched by a thousandth is not.
+#[test]
+fn round_ellipsoids_are_spheres() {
+    let axes = |stretch: f64| [[0.0, 1.2, 1.6], [2.0 * stretch, 0.0, 0.0], [0.0, 1.6, -1.2]].map(v::<f32>);
+    let light =
+        |stretch| Emitter::from(Affine::new(Sphere::new(v([0.5, 0.0, 0.0]), 0.25), axes(stretch), v([0.0, 3.0, 0.0])));
+    assert!(format!("{:?}", light(1.0)).contains("Sphere(Sphere { center: Vec3 { x: 0.0, y: 3.6"));
+    assert!(format!("{:?}", light(1.001)).contains("Ellipsoid("));
+    let (round, stretched) = ([(light(1.0), 1.0)], [(light(1.001), 1.0)]);
+    let [a, b] = [&round, &stretched].map(|lights| estimate(lights, up(), v([0.0; 3]), 11));
+    assert!((a[0] / b[0] - 1.0).abs() < 0.004, "{a:?} {b:?}");
 }
 
 /// Sets may be shared among threads and sent to them; a prepared one belongs to its thread. Prepared lights are of the sizes that are stated.
