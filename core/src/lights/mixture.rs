@@ -150,6 +150,51 @@ impl Mixture {
         });
         MixtureAt { lights: self, lamps, suns, beams: beams.map(|(choice, _)| choice), kinds }
     }
+    /// The choice of lamps alone, at points as [`at`](Self::at).
+    #[inline(always)]
+    pub(super) fn lamps_at<R: Real>(&self, p: Vec3<R>, normal: Vec3<R>) -> TreeAt<'_, R> {
+        self.lamps.get().at(p, normal)
+    }
+    /// Chooses a lamp. If there are few, each has the same chance in a part of the choices, so that a much brighter lamp that is hidden does
+    /// not take the samples of the others.
+    #[inline]
+    pub(super) fn choose_lamp<R: Real>(&self, lamps: &TreeAt<'_, R>, u: R, second: R) -> Choice<R> {
+        let few = &self.few;
+        if few.is_empty() {
+            return lamps.choose_with(u, second);
+        }
+        let (part, below_one) = (R::lit(EQUAL), R::ONE_MINUS_EPSILON);
+        let is_equal = u.lt(part);
+        let stretched = R::blend(is_equal, u * R::lit(1.0 / EQUAL), (u - part) * R::lit(1.0 / (1.0 - EQUAL)));
+        let u = stretched.lesser(below_one);
+        let mut choice = if is_equal.all() {
+            Choice { index: R::Uint::splat(0), pmf: R::lit(0.0), u }
+        } else {
+            lamps.choose_with(u, second)
+        };
+        let place = u * R::lit(few.len() as f64);
+        let k = place.to_uint();
+        let index = R::Uint::from_fn(|lane| few[(k.lane(lane) as usize).min(few.len() - 1)]);
+        choice.index = R::blend_uint(is_equal, index, choice.index);
+        choice.u = R::blend(is_equal, (place - R::from_uint(k)).lesser(below_one), choice.u);
+        // where the tree has found none, there is none
+        let none = !is_equal & choice.pmf.le(R::lit(0.0));
+        // the tree's choices have their pmf
+        let [of_tree] = R::where_any(is_equal, [choice.pmf], || [lamps.pmf(choice.index)]);
+        choice.pmf = self.shared(of_tree).keep(!none);
+        choice
+    }
+    /// The pmf of a lamp that has this one in the tree.
+    #[inline]
+    pub(super) fn shared<R: Real>(&self, of_tree: R) -> R {
+        match self.few.len() {
+            0 => of_tree,
+            count => {
+                let (part, rest) = (R::lit(EQUAL / count as f64), R::lit(1.0 - EQUAL));
+                of_tree.mul_add(rest, part).keep(of_tree.gt(R::lit(0.0)))
+            }
+        }
+    }
     /// The choice among beams, and the irradiance from all of them. Not inlined, so that it does not burden scenes without beams.
     #[inline(never)]
     fn beams_at<R: Real>(&self, p: Vec3<R>, normal: Vec3<R>) -> (LightsAt<R>, R) {
@@ -191,7 +236,7 @@ impl<R: Real> MixtureAt<'_, R> {
     /// Chooses by `u`, whose strata are kept, and by the digits of `second`, each in [0, 1).
     #[inline]
     pub fn choose(&self, u: R, second: R) -> Choice<R> {
-        let Some(kinds) = &self.kinds else { return self.lamp(u, second) };
+        let Some(kinds) = &self.kinds else { return self.lights.choose_lamp(&self.lamps, u, second) };
         let first = kinds.choose(u);
         // the sky needs no more choice
         let mut choice = Choice { index: R::Uint::splat(self.lights.sky.unwrap_or(0)), ..first };
@@ -199,7 +244,7 @@ impl<R: Real> MixtureAt<'_, R> {
             let here = equal::<R>(first.index, R::Uint::splat(kind)) & first.pmf.gt(R::lit(0.0));
             if here.any() {
                 let own = match kind {
-                    LAMPS => self.lamp(first.u, second),
+                    LAMPS => self.lights.choose_lamp(&self.lamps, first.u, second),
                     SUNS => self.distant_light(first.u, second),
                     _ => self.beam(first.u),
                 };
@@ -223,50 +268,10 @@ impl<R: Real> MixtureAt<'_, R> {
         let own = self.beams.as_ref().unwrap_or_else(|| unreachable!("there are beams")).choose(u);
         Choice { index: R::Uint::from_fn(|lane| self.lights.beams[own.index.lane(lane) as usize].index), ..own }
     }
-    /// Chooses a lamp. If there are few, each has the same chance in a part of the choices, so that a much brighter lamp that is hidden does
-    /// not take the samples of the others.
-    #[inline]
-    fn lamp(&self, u: R, second: R) -> Choice<R> {
-        let few = &self.lights.few;
-        if few.is_empty() {
-            return self.lamps.choose_with(u, second);
-        }
-        let (part, below_one) = (R::lit(EQUAL), R::ONE_MINUS_EPSILON);
-        let is_equal = u.lt(part);
-        let stretched = R::blend(is_equal, u * R::lit(1.0 / EQUAL), (u - part) * R::lit(1.0 / (1.0 - EQUAL)));
-        let u = stretched.lesser(below_one);
-        let mut choice = if is_equal.all() {
-            Choice { index: R::Uint::splat(0), pmf: R::lit(0.0), u }
-        } else {
-            self.lamps.choose_with(u, second)
-        };
-        let place = u * R::lit(few.len() as f64);
-        let k = place.to_uint();
-        let index = R::Uint::from_fn(|lane| few[(k.lane(lane) as usize).min(few.len() - 1)]);
-        choice.index = R::blend_uint(is_equal, index, choice.index);
-        choice.u = R::blend(is_equal, (place - R::from_uint(k)).lesser(below_one), choice.u);
-        // where the tree has found none, there is none
-        let none = !is_equal & choice.pmf.le(R::lit(0.0));
-        // the tree's choices have their pmf
-        let [of_tree] = R::where_any(is_equal, [choice.pmf], || [self.lamps.pmf(choice.index)]);
-        choice.pmf = self.shared(of_tree).keep(!none);
-        choice
-    }
-    /// The pmf of a lamp that has this one in the tree.
-    #[inline]
-    fn shared(&self, of_tree: R) -> R {
-        match self.lights.few.len() {
-            0 => of_tree,
-            count => {
-                let (part, rest) = (R::lit(EQUAL / count as f64), R::lit(1.0 - EQUAL));
-                of_tree.mul_add(rest, part).keep(of_tree.gt(R::lit(0.0)))
-            }
-        }
-    }
     /// The pmf of a light; 0 for an index past the last one.
     #[inline]
     pub fn pmf(&self, light: u32) -> R {
-        let of_lamp = || self.shared(self.lamps.pmf_of(light));
+        let of_lamp = || self.lights.shared(self.lamps.pmf_of(light));
         let Some(kinds) = &self.kinds else { return of_lamp() };
         if self.lights.sky == Some(light) {
             return kinds.pmf_of(SKIES);

@@ -42,6 +42,17 @@ pub struct Receiver<R> {
     pub on: Option<Which>,
 }
 
+impl<R: Real> Receiver<R> {
+    /// The normal for a choice: 0 where there is none.
+    #[inline(always)]
+    pub(super) fn normal(&self) -> Vec3<R> {
+        match self.side {
+            Side::Surface(normal) => normal,
+            Side::Both | Side::None => Vec3::ZERO,
+        }
+    }
+}
+
 /// A sample of a set of lights.
 ///
 /// The estimator is f · L · cosθ · [`weight`](Self::weight), with the radiance L of the light `which`, or what stands for it, once a shadow

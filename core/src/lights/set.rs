@@ -5,7 +5,7 @@ use super::mixture::{Mixture, MixtureAt, Source};
 use super::prepared::{self, Drawn, Prepared};
 use super::receiver::{LightsSample, Receiver, Side, Which};
 use crate::real::{Mask, Real, Uint, unit_interval};
-use crate::select::{LightBound, LightsError};
+use crate::select::{LightBound, LightChoice, LightsError, TreeAt};
 use crate::vector::{Vec2, Vec3};
 use alloc::vec::Vec;
 use core::cell::RefCell;
@@ -200,17 +200,11 @@ fn build<R: Real<Scalar = R>>(lights: Vec<(Emitter<R>, R)>) -> Result<Lights<R>,
 
 #[inline(always)]
 fn at<R: Real<Scalar = R>>(lights: &Lights<R>, receiver: Receiver<R>) -> LightsAt<'_, R> {
-    let choice = (!lights.choice.has_lamps_alone()).then(|| choice(lights, &receiver));
+    let of_sky = if matches!(receiver.side, Side::Surface(_)) { PI } else { 4.0 * PI };
+    let sky = || R::lit(lights.sky * of_sky);
+    let is_mixed = !lights.choice.has_lamps_alone();
+    let choice = is_mixed.then(|| lights.choice.at(receiver.point, receiver.normal(), None, sky));
     LightsAt { lights, receiver, choice, last: RefCell::new(None) }
-}
-
-#[inline(always)]
-fn choice<'a, R: Real<Scalar = R>>(lights: &'a Lights<R>, receiver: &Receiver<R>) -> MixtureAt<'a, R> {
-    let (normal, of_sky) = match receiver.side {
-        Side::Surface(normal) => (normal, PI),
-        Side::Both | Side::None => (Vec3::ZERO, 4.0 * PI),
-    };
-    lights.choice.at(receiver.point, normal, None, || R::lit(lights.sky * of_sky))
 }
 
 impl<R: Real<Scalar = R>> LightsAt<'_, R> {
@@ -220,7 +214,7 @@ impl<R: Real<Scalar = R>> LightsAt<'_, R> {
         let choice = match &self.choice {
             Some(choice) => choice.choose(u, second),
             None if self.lights.parts.len() == 1 => return (0, R::lit(1.0)),
-            None => choice(self.lights, &self.receiver).choose(u, second),
+            None => self.lights.choice.choose_lamp(&self.lamps(), u, second),
         };
         (choice.index.lane(0), choice.pmf)
     }
@@ -229,8 +223,12 @@ impl<R: Real<Scalar = R>> LightsAt<'_, R> {
         match &self.choice {
             Some(choice) => choice.pmf(index),
             None if self.lights.parts.len() == 1 => R::lit(1.0),
-            None => choice(self.lights, &self.receiver).pmf(index),
+            None => self.lights.choice.shared(self.lamps().pmf_of(index)),
         }
+    }
+    #[inline(always)]
+    fn lamps(&self) -> TreeAt<'_, R> {
+        self.lights.choice.lamps_at(self.receiver.point, self.receiver.normal())
     }
     /// What `f` makes of the prepared sampler of a part, and whether the receiver is on that.
     #[inline(always)]
