@@ -78,7 +78,12 @@ macro_rules! scalars {
                         if pdf >= 0.0 { x } else { 0.0 }
                     });
                     for (_, mean) in [ours] {
-                        assert!((mean / plainest.1 - 1.0).abs() < 0.02, "of the {}, the means are {mean} and {}", $title, plainest.1);
+                        assert!(
+                            (mean / plainest.1 - 1.0).abs() < 0.02,
+                            "of the {}, the means are {mean} and {}",
+                            $title,
+                            plainest.1
+                        );
                     }
                     for (_, mean) in [sample, both] {
                         assert!(mean > 0.0);
