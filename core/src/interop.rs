@@ -1,5 +1,5 @@
 //! What vectors of each number type have besides: products with a scalar before them, and conversions to and from arrays and, with the
-//! feature `glam`, its vectors. Only this file names `glam`.
+//! features `glam` and `mint`, their vectors. Only this file names these.
 //!
 //! A single vector also converts to a packet, whose lanes it fills.
 
@@ -56,19 +56,19 @@ arrays!(f32, f32, f32x4, f32x8, f32x16);
 arrays!(f64, f64, f64x4, f64x8);
 
 /// By their components.
-#[cfg(feature = "glam")]
+#[cfg(any(feature = "glam", feature = "mint"))]
 macro_rules! vectors {
     ($($own:ident of $scalar:ident = $other:ty, $($real:ident),+;)+) => {$(
         $(impl From<$other> for $own<$real> {
             #[inline]
             fn from(v: $other) -> Self {
-                v.to_array().into()
+                <[$scalar; _]>::from(v).into()
             }
         })+
         impl From<$own<$scalar>> for $other {
             #[inline]
             fn from(v: $own<$scalar>) -> Self {
-                Self::from_array(v.into())
+                Self::from(<[$scalar; _]>::from(v))
             }
         }
     )+};
@@ -81,12 +81,45 @@ vectors! {
     Vec2 of f64 = glam::DVec2, f64, f64x4, f64x8;
     Vec3 of f64 = glam::DVec3, f64, f64x4, f64x8;
 }
+#[cfg(feature = "mint")]
+vectors! {
+    Vec2 of f32 = mint::Vector2<f32>, f32, f32x4, f32x8, f32x16;
+    Vec2 of f32 = mint::Point2<f32>, f32, f32x4, f32x8, f32x16;
+    Vec3 of f32 = mint::Vector3<f32>, f32, f32x4, f32x8, f32x16;
+    Vec3 of f32 = mint::Point3<f32>, f32, f32x4, f32x8, f32x16;
+    Vec2 of f64 = mint::Vector2<f64>, f64, f64x4, f64x8;
+    Vec2 of f64 = mint::Point2<f64>, f64, f64x4, f64x8;
+    Vec3 of f64 = mint::Vector3<f64>, f64, f64x4, f64x8;
+    Vec3 of f64 = mint::Point3<f64>, f64, f64x4, f64x8;
+}
+#[cfg(feature = "mint")]
+macro_rules! into_mint {
+    ($($number:ident),+) => {$(
+        impl mint::IntoMint for Vec2<$number> {
+            type MintType = mint::Vector2<$number>;
+        }
+        impl mint::IntoMint for Vec3<$number> {
+            type MintType = mint::Vector3<$number>;
+        }
+    )+};
+}
+#[cfg(feature = "mint")]
+into_mint!(f32, f64);
 
 #[cfg(test)]
-#[cfg(feature = "glam")]
 mod tests {
+    #[cfg(any(feature = "glam", feature = "mint"))]
     use super::*;
 
+    #[cfg(feature = "mint")]
+    #[test]
+    fn vectors_of_mint_convert_both_ways() {
+        let there: mint::Point3<f64> = Vec3::new(1.0, 2.0, 3.0_f64).into();
+        assert_eq!((there, Vec3::from(there)), ([1.0, 2.0, 3.0].into(), Vec3::new(1.0, 2.0, 3.0_f64)));
+        let packet = Vec3::<f32x8>::from(mint::Vector3::from([4.0_f32, 5.0, 6.0]));
+        assert_eq!(mint::Vector3::from(packet.lane(7)), mint::Vector3 { x: 4.0_f32, y: 5.0, z: 6.0 });
+    }
+    #[cfg(feature = "glam")]
     #[test]
     fn vectors_of_glam_convert_both_ways() {
         let there = glam::Vec3A::from(Vec3::new(1.0, 2.0, 3.0_f32));

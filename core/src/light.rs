@@ -28,6 +28,7 @@
 //! | [`Polygon`], 3 to 8 corners | [`by_area`](Polygon::by_area) | [`by_solid_angle`](Polygon::by_solid_angle) | [`by_projected_solid_angle`](Polygon::by_projected_solid_angle) |
 //! | [`BilinearPatch`] | [`by_area`](BilinearPatch::by_area) | | |
 //! | [`Disk`] | [`by_area`](Disk::by_area) | [`by_solid_angle`](Disk::by_solid_angle) | |
+//! | an [`Affine`] sphere or disk: ellipsoids | | [`by_solid_angle`](Affine::by_solid_angle), nearly | |
 //! | [`Line`] | [`by_length`](Line::by_length) | [`by_angle`](Line::by_angle) | [`by_projected_solid_angle`](Line::by_projected_solid_angle) |
 //! | [`Sun`] | | [`by_solid_angle`](Sun::by_solid_angle) | |
 //! | [`ConstantEnvironment`] | | [`by_solid_angle`](ConstantEnvironment::by_solid_angle) | [`by_projected_solid_angle`](ConstantEnvironment::by_projected_solid_angle) |
@@ -89,6 +90,7 @@
 //! Without compiler flags a packet of 8 is two registers, and a product and sum two instructions;
 //! `CARGO_ENCODED_RUSTFLAGS= cargo bench -p etendue-benches --bench summary -- light` prints what that costs.
 
+mod affine;
 pub(crate) mod bound;
 mod cells;
 mod delta;
@@ -98,6 +100,7 @@ mod distant;
 mod environment;
 mod hierarchy;
 mod line;
+mod on_surface;
 mod parallelogram;
 #[doc(hidden)]
 pub mod parts;
@@ -119,10 +122,15 @@ mod surface;
 mod techniques;
 mod triangle;
 
+pub use affine::Affine;
+#[doc(hidden)]
+pub use affine::AffineSampler;
 pub use cells::Region;
 pub use delta::{DirectionalLight, PointLight, SpotLight};
 #[doc(hidden)]
 pub use delta::{DirectionalLightByDelta, PointLightByDelta, SpotLightByDelta};
+#[doc(hidden)]
+pub use direction::DirectionSample;
 pub use disk::Disk;
 #[doc(hidden)]
 pub use disk::{DiskByArea, DiskBySolidAngle};
@@ -158,7 +166,11 @@ pub use rectangle::Rectangle;
 pub use rectangle::RectangleBySolidAngle;
 pub use rotated::Rotated;
 pub use sample::{FAR, LightSample, TexelSample};
+#[doc(hidden)]
+pub use sampler::Seen;
 pub use sampler::{ByArea, ByProjectedSolidAngle, ByReflection, BySolidAngle, LightSampler};
+#[doc(hidden)]
+pub use seen::SphericalShape;
 pub use sphere::Sphere;
 #[doc(hidden)]
 pub use sphere::{SphereByArea, SphereByProjectedSolidAngle, SphereByReflection, SphereBySolidAngle};

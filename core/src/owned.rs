@@ -2,7 +2,8 @@
 
 use crate::discrete::TableError;
 use crate::light::{EnvironmentMap, ImageEnvironment, Picture, Region};
-use crate::select::{Join, LightBound, LightTree, LightsError, Node8};
+use crate::real::Real;
+use crate::select::{Join, LightBound, LightTree, LightsError, Node8, TreeAt};
 use alloc::vec;
 use alloc::vec::Vec;
 
@@ -23,6 +24,8 @@ use alloc::vec::Vec;
 pub struct OwnedTree {
     nodes: Vec<Node8>,
     places: Vec<u32>,
+    /// The greatest finite power of a light.
+    strongest: f32,
 }
 
 impl OwnedTree {
@@ -31,7 +34,7 @@ impl OwnedTree {
     /// # Errors
     /// If there are more than [`LightTree::MOST`] lights.
     pub fn new(lights: &[LightBound], join: &impl Join) -> Result<Self, LightsError> {
-        let mut tree = Self { nodes: Vec::new(), places: Vec::new() };
+        let mut tree = Self { nodes: Vec::new(), places: Vec::new(), strongest: 0.0 };
         tree.rebuild(lights, join).map(|()| tree)
     }
     /// Builds another tree in the same memory, which grows where it has to.
@@ -44,6 +47,7 @@ impl OwnedTree {
         }
         self.nodes.resize(LightTree::nodes_for(lights.len()), Node8::default());
         self.places.resize(lights.len(), 0);
+        self.strongest = strongest(lights);
         LightTree::build_with(lights, &mut self.nodes, &mut self.places, join).map(|_| ())
     }
     /// Adapts the tree to lights that have moved: [`LightTree::refit`].
@@ -51,13 +55,25 @@ impl OwnedTree {
     /// # Errors
     /// If the number of lights is not that of the tree.
     pub fn refit(&mut self, lights: &[LightBound]) -> Result<(), LightsError> {
-        LightTree::refit(lights, &mut self.nodes, &self.places)
+        LightTree::refit(lights, &mut self.nodes, &self.places)?;
+        self.strongest = strongest(lights);
+        Ok(())
     }
     /// Lends the tree.
     #[must_use]
     pub fn get(&self) -> LightTree<'_> {
         LightTree::from_buffers(&self.nodes, &self.places)
     }
+    /// An estimate of the irradiance that all lights cause where a choice among them has been prepared: [`TreeAt::irradiance`].
+    #[inline]
+    pub fn irradiance<R: Real>(&self, at: &TreeAt<'_, R>) -> R {
+        at.irradiance(self.strongest)
+    }
+}
+
+/// The greatest finite power.
+fn strongest(lights: &[LightBound]) -> f32 {
+    lights.iter().map(|light| light.power).filter(|power| power.is_finite()).fold(0.0, f32::max)
 }
 
 /// An [`ImageEnvironment`] with its memory.

@@ -9,6 +9,7 @@ mod functions;
 mod fused;
 mod mask;
 mod number;
+mod trigonometry;
 mod uint;
 
 use core::fmt::Debug;
@@ -82,7 +83,7 @@ pub trait Uint: Copy + Debug + BitAnd<Output = Self> + BitOr<Output = Self> + Bi
 }
 
 /// Whether this build returns the same bits as builds for all other processors: where they multiply and add in one instruction, and with the
-/// feature `same-bits`. In other builds single precision rounds once more in a product and sum; all widths of them have the same bits.
+/// feature `same-bits`. In other builds each product and sum is rounded twice; all widths of them have the same bits.
 pub const SAME_BITS: bool = fused::ALWAYS;
 
 /// The greatest number of lanes of a packet: some routines keep a word for each lane, and do not compile for more.

@@ -7,6 +7,8 @@
 //! | [`SpatialLights`] | power · cosθ cosθ'/d² at the centre, per shading point | one pass over all lights | 2 to 32 lights, near and far, with an area |
 //! | [`LightTree`] | by the expected cosines and distances of sets of lights, per shading point | 0.1 µs a lane for 10³ lights, 0.2 for 10⁵ | more than 32 lights, of all kinds |
 //!
+//! With the feature `alloc`, the module `lights` chooses among lights of all kinds, suns and skies included, and samples them.
+//!
 //! `at_glossy` of [`SpatialLights`] and of [`LightTree`] chooses in view of a [`Gloss`]: of what a rough surface reflects towards the viewer.
 //! Above a metal floor of roughness α = 0.1, seen at 60° from its normal, that divides the variance of a choice among 4,096 lamps by 15
 //! (`cargo test -p etendue-tests gloss -- --nocapture`).

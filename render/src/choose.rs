@@ -9,15 +9,16 @@ mod uniform;
 
 use crate::allocation::{Allocated, FEW};
 use crate::bvh::BuildError;
-use crate::light_tree::OwnedTree;
 use crate::lights::Lights;
 use crate::named::named;
 use crate::packet::{V8, X8};
 use choose_light::ChooseLight;
 use etendue::discrete::PiecewiseConstant2d;
+use etendue::lights::MixtureAt;
+use etendue::owned::OwnedTree;
 use etendue::select::{Choice, Gloss, LightsAt, SpatialLights, TreeAt, UniformLights};
 use etendue::{Real, u32x8};
-use kinds::{Kinds, KindsAt};
+use kinds::Kinds;
 use power::Power;
 use std::sync::OnceLock;
 
@@ -78,7 +79,7 @@ pub enum LightPmf<'a> {
     /// By a tree.
     Tree(TreeAt<'a, X8>),
     /// By the kinds of lights, then by trees.
-    Kinds(KindsAt<'a>),
+    Kinds(MixtureAt<'a, X8>),
     /// By an allocation of the samples.
     Allocated(&'a Allocated<'a>),
 }

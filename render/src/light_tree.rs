@@ -1,8 +1,7 @@
-//! The memory of a light tree, and threads to build it.
+//! Threads to build a light tree on, and what went wrong with one.
 
 use crate::bvh::BuildError;
-use crate::packet::X8;
-use etendue::select::{Join, LightBound, LightTree, Node8, TreeAt};
+use etendue::select::{Join, LightTree};
 
 /// Builds the halves of a tree on the threads of rayon.
 #[derive(Clone, Copy, Debug)]
@@ -14,38 +13,7 @@ impl Join for Threads {
     }
 }
 
-/// A light tree with its memory.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct OwnedTree {
-    nodes: Vec<Node8>,
-    places: Vec<u32>,
-    /// The greatest finite power of a light.
-    strongest: f32,
-}
-
-impl OwnedTree {
-    /// Builds the tree on these threads.
-    ///
-    /// # Errors
-    /// Fails if there are more lights than a tree can index.
-    pub(crate) fn new(lights: &[LightBound], join: &impl Join) -> Result<Self, BuildError> {
-        let count = lights.len();
-        let powers = lights.iter().map(|light| light.power).filter(|power| power.is_finite());
-        let strongest = powers.fold(0.0, f32::max);
-        let nodes = vec![Node8::default(); LightTree::nodes_for(count)];
-        let mut own = Self { nodes, places: vec![0; count], strongest };
-        LightTree::build_with(lights, &mut own.nodes, &mut own.places, join)
-            .map_err(|_| BuildError { count, most: LightTree::MOST })?;
-        Ok(own)
-    }
-    /// The tree.
-    #[inline]
-    pub(crate) fn get(&self) -> LightTree<'_> {
-        LightTree::from_buffers(&self.nodes, &self.places)
-    }
-    /// An estimate of the irradiance that all lights cause where a choice among them has been prepared, see [`TreeAt::irradiance`].
-    #[inline]
-    pub(crate) fn irradiance(&self, at: &TreeAt<'_, X8>) -> X8 {
-        at.irradiance(self.strongest)
-    }
+/// There are more lights than a tree can index.
+pub(crate) fn build_error(count: usize) -> BuildError {
+    BuildError { count, most: LightTree::MOST }
 }

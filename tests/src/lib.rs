@@ -1,6 +1,10 @@
 //! Tests of the core. What they share with the fuzz targets is in `etendue-judge`, in the folder `properties`.
 
-/// The README's example, compiled and run as a doctest.
+/// The READMEs' examples, compiled and run as doctests.
 #[cfg(doctest)]
 #[doc = include_str!("../../README.md")]
 pub struct Readme;
+
+#[cfg(doctest)]
+#[doc = include_str!("../../core/README.md")]
+pub struct ReadmeOfTheCore;

@@ -6,6 +6,8 @@
 
 #[cfg_attr(debug_assertions, allow(dead_code))]
 mod packets;
+mod plain;
+mod scalars;
 mod textbook;
 
 #[cfg(not(any(debug_assertions, feature = "dispatch")))]
@@ -159,6 +161,9 @@ macro_rules! times {
 
 fn main() {
     let build = std::env::args().nth(1).unwrap_or_else(|| "this build".into());
+    if std::env::args().nth(2).as_deref() == Some("scalars") {
+        return scalars::print(&build);
+    }
     let input = &Input::new();
     let (corners, corner, edges) = black_box((CORNERS, CORNER, EDGES));
     let (center, radius) = black_box((CENTER, RADIUS));

@@ -14,7 +14,8 @@
 //
 // Rules for all functions:
 // - Nothing is allocated, nothing is kept between calls, and all functions may be called from any thread.
-// - Finite input gives finite output. Degenerate input (a light without extent, a point in the plane of a flat light) gives pdf 0.
+// - Finite input gives finite output. Degenerate input (a light without extent, a point exactly in the plane of a flat light) gives pdf 0. A point
+//   that was computed on a light may be in front of it through rounding: see etendue_on_surface.
 // - Every processor gives the same bits. A batch gives the bits of its elements one by one.
 // - Batches are structures of arrays: one column per coordinate, of n elements each, without demands on alignment. An output may be
 //   NULL where it is not wanted, and may be the same column as an input.
@@ -982,6 +983,13 @@ EtendueStatus etendue_stratified_pairs(uint64_t seed,
                                        const EtendueCounters *counters,
                                        size_t n,
                                        float *const *u);
+
+// Whether a point is on a light of the list, or in the plane of a flat one, to within the rounding of its own computation: 16 units of the last
+// place of the greatest coordinate. True of every point of the light that was computed, about half of which are in front of it through rounding
+// and would be lit by it: pass over the light then. 0 for lights without a surface, and where the function cannot work.
+int32_t etendue_on_surface(uint32_t technique,
+                           const void *light,
+                           const float *p);
 
 // Prepares a light for a shading point.
 //

@@ -477,6 +477,11 @@ struct Sphere : EtendueSphere {
     SphereBySolidAngle by_solid_angle(Vec3 at) const { return {*this, at}; }
     SphereByProjectedSolidAngle by_projected_solid_angle(Vec3 at, Vec3 n) const { return {*this, at, n}; }
     SphereByReflection by_reflection(Vec3 at, const EtendueReflection& reflection) const { return {*this, at, reflection}; }
+    // Whether a point is on the light, to within its rounding: see etendue_on_surface.
+    bool on_surface(Vec3 at) const {
+        const float p[3] = {at.x, at.y, at.z};
+        return etendue_on_surface(ETENDUE_TECHNIQUE_SPHERE_BY_AREA, this, p) != 0;
+    }
 };
 // EtendueTriangle with its constructors and techniques.
 struct Triangle : EtendueTriangle {
@@ -486,6 +491,11 @@ struct Triangle : EtendueTriangle {
     TriangleBySolidAngle by_solid_angle(Vec3 at) const { return {*this, at}; }
     TriangleByProjectedSolidAngle by_projected_solid_angle(Vec3 at, Vec3 n) const { return {*this, at, n}; }
     TriangleByReflection by_reflection(Vec3 at, const EtendueReflection& reflection) const { return {*this, at, reflection}; }
+    // Whether a point is on the light, to within its rounding: see etendue_on_surface.
+    bool on_surface(Vec3 at) const {
+        const float p[3] = {at.x, at.y, at.z};
+        return etendue_on_surface(ETENDUE_TECHNIQUE_TRIANGLE_BY_AREA, this, p) != 0;
+    }
 };
 // EtendueParallelogram with its constructors and techniques.
 struct Parallelogram : EtendueParallelogram {
@@ -494,6 +504,11 @@ struct Parallelogram : EtendueParallelogram {
     ParallelogramBySolidAngle by_solid_angle(Vec3 at) const { return {*this, at}; }
     ParallelogramByProjectedSolidAngle by_projected_solid_angle(Vec3 at, Vec3 n) const { return {*this, at, n}; }
     ParallelogramByReflection by_reflection(Vec3 at, const EtendueReflection& reflection) const { return {*this, at, reflection}; }
+    // Whether a point is on the light, to within its rounding: see etendue_on_surface.
+    bool on_surface(Vec3 at) const {
+        const float p[3] = {at.x, at.y, at.z};
+        return etendue_on_surface(ETENDUE_TECHNIQUE_PARALLELOGRAM_BY_AREA, this, p) != 0;
+    }
 };
 // EtendueRectangle with its constructors and techniques.
 struct Rectangle : EtendueRectangle {
@@ -502,12 +517,22 @@ struct Rectangle : EtendueRectangle {
     RectangleBySolidAngle by_solid_angle(Vec3 at) const { return {*this, at}; }
     RectangleByProjectedSolidAngle by_projected_solid_angle(Vec3 at, Vec3 n) const { return {*this, at, n}; }
     RectangleByReflection by_reflection(Vec3 at, const EtendueReflection& reflection) const { return {*this, at, reflection}; }
+    // Whether a point is on the light, to within its rounding: see etendue_on_surface.
+    bool on_surface(Vec3 at) const {
+        const float p[3] = {at.x, at.y, at.z};
+        return etendue_on_surface(ETENDUE_TECHNIQUE_RECTANGLE_BY_AREA, this, p) != 0;
+    }
 };
 // EtendueDisk with its constructors and techniques.
 struct Disk : EtendueDisk {
     Disk(Vec3 center_, Vec3 normal_, float radius_) : EtendueDisk{{center_.x, center_.y, center_.z}, {normal_.x, normal_.y, normal_.z}, radius_} {}
     DiskByArea by_area(Vec3 at) const { return {*this, at}; }
     DiskBySolidAngle by_solid_angle(Vec3 at) const { return {*this, at}; }
+    // Whether a point is on the light, to within its rounding: see etendue_on_surface.
+    bool on_surface(Vec3 at) const {
+        const float p[3] = {at.x, at.y, at.z};
+        return etendue_on_surface(ETENDUE_TECHNIQUE_DISK_BY_AREA, this, p) != 0;
+    }
 };
 // EtenduePolygon with its constructors and techniques.
 struct Polygon : EtenduePolygon {
@@ -526,6 +551,11 @@ struct Polygon : EtenduePolygon {
     PolygonBySolidAngle by_solid_angle(Vec3 at) const { return {*this, at}; }
     PolygonByProjectedSolidAngle by_projected_solid_angle(Vec3 at, Vec3 n) const { return {*this, at, n}; }
     PolygonByReflection by_reflection(Vec3 at, const EtendueReflection& reflection) const { return {*this, at, reflection}; }
+    // Whether a point is on the light, to within its rounding: see etendue_on_surface.
+    bool on_surface(Vec3 at) const {
+        const float p[3] = {at.x, at.y, at.z};
+        return etendue_on_surface(ETENDUE_TECHNIQUE_POLYGON_BY_AREA, this, p) != 0;
+    }
 };
 // EtendueBilinearPatch with its constructors and techniques.
 struct BilinearPatch : EtendueBilinearPatch {

@@ -124,6 +124,12 @@ macro_rules! light {
                 let technique = concat!(stringify!($light), " ", stringify!($by));
                 Ok(Sampler::new(Box::new(sampler), technique, measure))
             })+
+            /// Whether the point p is on the light, or in the plane of a flat one, to within the rounding of its own computation: 16 units of the
+            /// last place of the greatest coordinate. True of every point of the light that was computed, about half of which are in
+            /// front of it through rounding and would be lit by it: pass over the light then. False for lights without a surface.
+            fn on_surface(&self, p: &Object<'_>) -> PyResult<bool> {
+                Ok(Self::build(&self.numbers).on_surface(point(p)?))
+            }
             fn __repr__(&self) -> String {
                 format!("<etendue.{} {:?}>", stringify!($light), self.numbers)
             }

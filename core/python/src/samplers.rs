@@ -91,8 +91,8 @@ impl<P: etendue_batch::Prepared + Send + Sync> Prepared for P {
 ///
 /// What is easily done wrong: directions and normals that are not of length 1 raise ValueError. With the opposite normal, a light by
 /// projected solid angle is below the surface, and has pdf 0. A light seen from behind has a pdf, but `emits` is False and the weight 0;
-/// one of two sides has the weight 1/pdf. From a point on a flat light the pdf is 0; from one on a curved light rounding decides whether
-/// it is inside. A direction computed anew from the point of a sample has other last bits, and may miss beside an edge: keep the
+/// one of two sides has the weight 1/pdf. From a point that was computed on a light, rounding decides on
+/// which side it is, and a light must not light itself: pass over the light where `light.on_surface(p)`. A direction computed anew from the point of a sample has other last bits, and may miss beside an edge: keep the
 /// `direction` and the `pdf` of the sample.
 #[pyclass(module = "etendue", frozen)]
 pub(crate) struct Sampler {

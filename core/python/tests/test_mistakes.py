@@ -32,6 +32,38 @@ def test_degenerate_lights_have_no_samples():
     assert et.Sphere([0, 1, 0], 0).by_solid_angle(P).sample([0.3, 0.6]).pdf == 0
 
 
+def computed(rng, light):
+    """A light, a point that is computed on it in single precision, and the normal there."""
+    a, s, t = np.float32(rng.uniform(-30, 30, 3)), *np.float32(rng.uniform(-1, 1, (2, 3)))
+    n = np.cross(s, t)
+    n /= np.linalg.norm(n)
+    u, v = np.float32(rng.random(2))
+    if light is et.Triangle:
+        if u + v > 1:
+            u, v = 1 - u, 1 - v
+        return et.Triangle(a, a + s, a + t), a * (1 - u - v) + (a + s) * u + (a + t) * v, n
+    if light in (et.Rectangle, et.Disk):
+        t = np.cross(n, s)
+    p = a + u * s + v * t
+    if light is et.Disk:
+        return et.Disk(a, n, np.linalg.norm(s) * 2), p, n
+    if light is et.Polygon:
+        return et.Polygon([a, a + s, a + s + t, a + t]), p, n
+    return light(a, s, t), p, n
+
+
+@pytest.mark.parametrize("light", [et.Triangle, et.Parallelogram, et.Rectangle, et.Disk, et.Polygon])
+def test_on_plane(light):
+    rng = np.random.default_rng(3)
+    in_front = 0
+    for _ in range(20_000):
+        lamp, p, n = computed(rng, light)
+        assert lamp.on_surface(p), (lamp, p)
+        assert not lamp.on_surface(p + np.float32(0.01) * n), (lamp, p)
+        in_front += lamp.by_area(p).sample([0.3, 0.6]).weight > 0
+    assert in_front > 4_000
+
+
 U = [[0.3, 0.6]]
 SAMPLER = et.Triangle(*TRIANGLE).by_solid_angle(P)
 EACH = {"p": P, "u": U}

@@ -36,8 +36,8 @@ pub struct LightBound {
     pub power: f32,
 }
 
-pub(super) fn wide(v: Vec3<f32>) -> Vec3<f64> {
-    v.map(f64::from)
+pub(super) fn wide<R: Real>(v: Vec3<R>) -> Vec3<f64> {
+    v.map(|x| x.lane_f64(0))
 }
 
 pub(super) fn narrow(v: Vec3<f64>) -> [f32; 3] {
@@ -49,25 +49,31 @@ pub(super) fn power(flux: f64) -> f32 {
     if flux > 0.0 { flux.clamped(f64::from(f32::MIN_POSITIVE), f64::from(f32::MAX)) as f32 } else { 0.0 }
 }
 
+/// The least number of single precision that is not less.
+fn outwards(x: f64) -> f32 {
+    let rounded = x as f32;
+    if f64::from(rounded) < x { rounded.next_up() } else { rounded }
+}
+
 impl LightBound {
     /// Bounds a light that emits in all directions from a sphere, which may be a point.
-    pub(super) fn about(center: Vec3<f32>, radius: f32, flux: f64) -> Self {
-        Self { center: center.to_array(), radius, power: power(flux), ..Self::default() }
+    pub(crate) fn about(middle: Vec3<f64>, radius: f64, flux: f64) -> Self {
+        let center = narrow(middle);
+        // single precision may not have the place
+        let moved = (middle - wide(Vec3::<f32>::from(center))).length().greater(0.0);
+        Self { center, radius: outwards(radius + moved), power: power(flux), ..Self::default() }
     }
     /// Bounds a light by the sphere around these points of it, centred at `middle`. All are relative to the point `first`.
-    pub(super) fn around(first: Vec3<f32>, points: &[Vec3<f64>], middle: Vec3<f64>) -> Self {
-        let center = narrow(wide(first) + middle);
+    pub(super) fn around(first: Vec3<f64>, points: &[Vec3<f64>], middle: Vec3<f64>) -> Self {
+        let center = narrow(first + middle);
         // as it is rounded, which for a small and far light is not at its middle
-        let moved = wide(center.into()) - wide(first);
+        let moved = wide(Vec3::<f32>::from(center)) - first;
         let radius = points.iter().fold(0.0, |most: f64, point| most.greater((*point - moved).length()));
         // more than its own rounding
-        let outwards = radius * (1.0 + 1e-14);
-        let radius = outwards as f32;
-        let radius = if f64::from(radius) < outwards { radius.next_up() } else { radius };
-        Self { center, radius, ..Self::default() }
+        Self { center, radius: outwards(radius * (1.0 + 1e-14)), ..Self::default() }
     }
     /// Bounds a flat convex light by its corners, which are relative to the first one, so that this is 0.
-    pub(super) fn flat(first: Vec3<f32>, corners: &[Vec3<f64>], radiance: f32) -> Self {
+    pub(super) fn flat(first: Vec3<f64>, corners: &[Vec3<f64>], radiance: f64) -> Self {
         let (mut sum, mut area, mut middle) = (Vec3::default(), 0.0, Vec3::default());
         for pair in corners.windows(2) {
             let cross = pair[0].cross(pair[1]);
@@ -78,6 +84,6 @@ impl LightBound {
         }
         let middle = if area > 0.0 { middle / area } else { Vec3::default() };
         let normal = narrow(sum.unit_and_length().0);
-        Self { normal, power: power(0.5 * area * PI * f64::from(radiance)), ..Self::around(first, corners, middle) }
+        Self { normal, power: power(0.5 * area * PI * radiance), ..Self::around(first, corners, middle) }
     }
 }

@@ -99,11 +99,11 @@ impl<R: Real> PointLight<R> {
     }
 }
 
-impl PointLight<f32> {
+impl<R: Real<Scalar = R>> PointLight<R> {
     /// What it can contribute with this intensity. One that is not positive gives the power 0.
     #[must_use]
-    pub fn bound(&self, intensity: f32) -> LightBound {
-        LightBound::about(self.position, 0.0, 4.0 * PI * f64::from(intensity))
+    pub fn bound(&self, intensity: R) -> LightBound {
+        LightBound::about(wide(self.position), 0.0, 4.0 * PI * intensity.lane_f64(0))
     }
 }
 
@@ -158,18 +158,18 @@ impl<R: Real> SpotLight<R> {
 /// axis, it would take the samples of all points around its cone, which it does not light.
 const NARROWEST: f32 = 253.0 / 254.0;
 
-impl SpotLight<f32> {
+impl<R: Real<Scalar = R>> SpotLight<R> {
     /// What it can contribute with this intensity on its axis. A cone of less than 5° counts as one of 5°.
     #[must_use]
-    pub fn bound(&self, intensity: f32) -> LightBound {
-        let [inner, outer] = [self.one_minus_cos_inner, self.one_minus_cos_outer].map(f64::from);
+    pub fn bound(&self, intensity: R) -> LightBound {
+        let [inner, outer] = [self.one_minus_cos_inner, self.one_minus_cos_outer].map(|x| x.lane_f64(0));
         // the falloff is half on average, and a cone too narrow for numbers still has a chance
-        let flux = (inner + outer).greater(1e-30) * PI * f64::from(intensity);
-        let cos = (1.0 - self.one_minus_cos_outer).next_down();
+        let flux = (inner + outer).greater(1e-30) * PI * intensity.lane_f64(0);
+        let cos = ((1.0 - outer) as f32).next_down();
         // beyond a hemisphere, a cone bounds nothing
         let axis = if cos > 0.0 { wide(self.axis).unit_and_length().0 } else { Vec3::default() };
         let cos_cone = cos.clamped(0.0, NARROWEST);
-        LightBound { normal: narrow(axis), cos_cone, ..LightBound::about(self.position, 0.0, flux) }
+        LightBound { normal: narrow(axis), cos_cone, ..LightBound::about(wide(self.position), 0.0, flux) }
     }
 }
 

@@ -77,14 +77,14 @@ impl<R: Real> Disk<R> {
     }
 }
 
-impl Disk<f32> {
+impl<R: Real<Scalar = R>> Disk<R> {
     /// What it can contribute with this radiance. One that is not positive gives the power 0.
     #[must_use]
-    pub fn bound(&self, radiance: f32) -> LightBound {
-        let radius = self.radius.greater(0.0);
-        let flux = PI * PI * f64::from(radius) * f64::from(radius) * f64::from(radiance);
+    pub fn bound(&self, radiance: R) -> LightBound {
+        let radius = self.radius.lane_f64(0).greater(0.0);
+        let flux = PI * PI * radius * radius * radiance.lane_f64(0);
         let normal = narrow(wide(self.normal).unit_and_length().0);
-        LightBound { normal, ..LightBound::about(self.center, radius, flux) }
+        LightBound { normal, ..LightBound::about(wide(self.center), radius, flux) }
     }
 }
 

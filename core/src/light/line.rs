@@ -94,13 +94,13 @@ impl<R: Real> Line<R> {
     }
 }
 
-impl Line<f32> {
+impl<R: Real<Scalar = R>> Line<R> {
     /// What it can contribute with this product of radiance and width, in the unit of its length.
     #[must_use]
-    pub fn bound(&self, radiance_times_width: f32) -> LightBound {
+    pub fn bound(&self, radiance_times_width: R) -> LightBound {
         let edge = wide(self.edge);
-        let bound = LightBound::around(self.start, &[Vec3::default(), edge], edge * 0.5);
-        LightBound { power: power(edge.length() * PI * PI * f64::from(radiance_times_width)), ..bound }
+        let bound = LightBound::around(wide(self.start), &[Vec3::default(), edge], edge * 0.5);
+        LightBound { power: power(edge.length() * PI * PI * radiance_times_width.lane_f64(0)), ..bound }
     }
 }
 

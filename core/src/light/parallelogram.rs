@@ -92,12 +92,12 @@ impl<R: Real> Parallelogram<R> {
     }
 }
 
-impl Parallelogram<f32> {
+impl<R: Real<Scalar = R>> Parallelogram<R> {
     /// What it can contribute with this radiance. One that is not positive gives the power 0.
     #[must_use]
-    pub fn bound(&self, radiance: f32) -> LightBound {
+    pub fn bound(&self, radiance: R) -> LightBound {
         let [s, t] = [self.edge_s, self.edge_t].map(wide);
-        LightBound::flat(self.corner, &[Vec3::default(), s, s + t, t], radiance)
+        LightBound::flat(wide(self.corner), &[Vec3::default(), s, s + t, t], radiance.lane_f64(0))
     }
 }
 

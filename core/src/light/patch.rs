@@ -47,15 +47,15 @@ impl<R: Real> BilinearPatch<R> {
     }
 }
 
-impl BilinearPatch<f32> {
+impl<R: Real<Scalar = R>> BilinearPatch<R> {
     /// What it can contribute with this radiance. It counts as a light that emits in all directions, as its normals differ.
     #[must_use]
-    pub fn bound(&self, radiance: f32) -> LightBound {
+    pub fn bound(&self, radiance: R) -> LightBound {
         let [s, t, diagonal] = [self.edge_s, self.edge_t, self.diagonal].map(wide);
-        let area = self.map(f64::from).by_area(wide(self.corner)).area();
+        let area = self.map(|x| x.lane_f64(0)).by_area(wide(self.corner)).area();
         let middle = (s + t + diagonal) * 0.25;
-        let bound = LightBound::around(self.corner, &[Vec3::default(), s, t, diagonal], middle);
-        LightBound { power: power(area * PI * f64::from(radiance)), ..bound }
+        let bound = LightBound::around(wide(self.corner), &[Vec3::default(), s, t, diagonal], middle);
+        LightBound { power: power(area * PI * radiance.lane_f64(0)), ..bound }
     }
 }
 

@@ -123,12 +123,12 @@ impl<R: Real, const N: usize> Polygon<R, N> {
     }
 }
 
-impl<const N: usize> Polygon<f32, N> {
+impl<R: Real<Scalar = R>, const N: usize> Polygon<R, N> {
     /// What it can contribute with this radiance. One that is not positive gives the power 0.
     #[must_use]
-    pub fn bound(&self, radiance: f32) -> LightBound {
-        let first = self.corners[0];
-        LightBound::flat(first, &self.corners.map(|corner| wide(corner) - wide(first)), radiance)
+    pub fn bound(&self, radiance: R) -> LightBound {
+        let first = wide(self.corners[0]);
+        LightBound::flat(first, &self.corners.map(|corner| wide(corner) - first), radiance.lane_f64(0))
     }
 }
 

@@ -91,10 +91,10 @@ impl<R: Real> Rectangle<R> {
     }
 }
 
-impl Rectangle<f32> {
+impl<R: Real<Scalar = R>> Rectangle<R> {
     /// What it can contribute with this radiance. One that is not positive gives the power 0.
     #[must_use]
-    pub fn bound(&self, radiance: f32) -> LightBound {
+    pub fn bound(&self, radiance: R) -> LightBound {
         Parallelogram::from(*self).bound(radiance)
     }
 }

@@ -22,7 +22,7 @@ use core::f64::consts::PI;
 /// *by area* and lines: a rounded direction determines their pdf only as well as it determines the point, so a sample
 /// reports the pdf of the point that was drawn.
 ///
-/// Degenerate input (a light without extent, a shading point in the plane of a flat light) gives pdf 0, never NaN, infinity or a panic. So does
+/// Degenerate input (a light without extent, a shading point exactly in the plane of a flat light) gives pdf 0, never NaN, infinity or a panic. So does
 /// NaN in a light, in the shading point or in its normal, except in the direction of a directional light, on which its pdf does not depend.
 ///
 /// # What a host gets wrong at first
@@ -32,8 +32,11 @@ use core::f64::consts::PI;
 ///   or there are none: a surface of two sides takes the normal on the viewer's side.
 /// - The normal of a light, whose direction its corners' order or its edges' cross product gives, is on the side that emits. From behind,
 ///   `pdf` is positive, but `emits` is false and `weight()` is 0; [`LightSample::two_sided`] is for lights that emit from both sides.
-/// - From a point on a flat light the pdf is 0. From a point on a curved one, rounding decides whether it is inside or outside: all results
-///   are finite, but the whole sphere or half of it may be sampled. A host that leaves a surface moves the point off first.
+/// - A light must not light itself. From a point of its own plane a flat light has pdf 0, but a point that was *computed* on the light is,
+///   through rounding, in front of it, behind it or in the plane; from before it, a sample may be 10⁻³⁰ away. On a curved light, rounding
+///   decides whether the point is inside. All results are finite, and right for the point as it is. So a host passes over the light
+///   that the point is on: where it knows which that is, or where `light.on_surface(p)`, which is true of all computed points.
+///   The sets of the module `lights` do it for the host.
 /// - Directions must have length 1, and should be those that were sampled. A direction that is computed anew from the point of a sample has
 ///   other last bits: its pdf is that of a direction some 10⁻⁷ away, and is 0 where that one misses the light beside an edge. For the
 ///   weights of a sample, use its own `direction` and `pdf`.
@@ -179,6 +182,21 @@ impl<S, W> BySolidAngle<S, W> {
         W: SphericalShape<R>,
     {
         self.shape.solid_angle()
+    }
+}
+
+/// What a sampler by solid angle knows beside the surface.
+pub trait Seen {
+    /// The shape as it is seen from the point.
+    type Shape;
+    /// That shape alone: what the surface needs is then not prepared.
+    fn seen(self) -> Self::Shape;
+}
+impl<S, W> Seen for BySolidAngle<S, W> {
+    type Shape = W;
+    #[inline(always)]
+    fn seen(self) -> W {
+        self.shape
     }
 }
 

@@ -5,7 +5,7 @@ pub(super) mod projected;
 mod reflected;
 pub(super) mod solid_angle;
 
-use super::bound::LightBound;
+use super::bound::{LightBound, wide};
 use super::sampler::{ByArea, ByProjectedSolidAngle, BySolidAngle};
 use crate::lanewise::lanewise;
 use crate::real::Real;
@@ -124,13 +124,13 @@ impl<R: Real> Sphere<R> {
     }
 }
 
-impl Sphere<f32> {
+impl<R: Real<Scalar = R>> Sphere<R> {
     /// What it can contribute with this radiance. One that is not positive gives the power 0.
     #[must_use]
-    pub fn bound(&self, radiance: f32) -> LightBound {
-        let radius = self.radius.greater(0.0);
-        let flux = 4.0 * PI * PI * f64::from(radius) * f64::from(radius) * f64::from(radiance);
-        LightBound::about(self.center, radius, flux)
+    pub fn bound(&self, radiance: R) -> LightBound {
+        let radius = self.radius.lane_f64(0).greater(0.0);
+        let flux = 4.0 * PI * PI * radius * radius * radiance.lane_f64(0);
+        LightBound::about(wide(self.center), radius, flux)
     }
 }
 

@@ -163,11 +163,11 @@ impl<R: Real> Triangle<R> {
     }
 }
 
-impl Triangle<f32> {
+impl<R: Real<Scalar = R>> Triangle<R> {
     /// What it can contribute with this radiance. One that is not positive gives the power 0.
     #[must_use]
-    pub fn bound(&self, radiance: f32) -> LightBound {
-        LightBound::flat(self.v0, &[Vec3::default(), wide(self.e1), wide(self.e2)], radiance)
+    pub fn bound(&self, radiance: R) -> LightBound {
+        LightBound::flat(wide(self.v0), &[Vec3::default(), wide(self.e1), wide(self.e2)], radiance.lane_f64(0))
     }
 }
 

@@ -1,7 +1,7 @@
 //! Numbers of single and double precision, and packets of them.
 
 use super::uint::lanes;
-use super::{Mask, MaskF64X4, MaskF64X8, MaskX4, MaskX8, MaskX16, Real, arctangent, fused};
+use super::{Mask, MaskF64X4, MaskF64X8, MaskX4, MaskX8, MaskX16, Real, arctangent, fused, trigonometry};
 use wide::{f32x4, f32x8, f32x16, f64x2, f64x4, f64x8, u32x4, u32x8, u32x16, u64x4, u64x8};
 
 /// True where rounding to an integer is an instruction.
@@ -19,25 +19,13 @@ macro_rules! polynomials {
     };
 }
 
-/// Transcendental functions of double precision: `libm`, lane by lane but for the arctangent of vectors, which closed forms need. This
-/// precision is the reference for the other, not the fast path.
+/// Transcendental functions of double precision: `libm`, lane by lane but for sine, cosine, and the arctangent of vectors, which samples
+/// and closed forms need.
 macro_rules! lane_by_lane {
     () => {
         #[inline(always)]
         fn sin_cos_turns(self) -> (Self, Self) {
-            let quarter = (self * Self::lit(4.0)).round_ties_even();
-            let angle = self * Self::lit(4.0) - quarter;
-            let angle = angle * Self::lit(core::f64::consts::FRAC_PI_2);
-            let value = |i| {
-                let (s, c) = libm::sincos(angle.lane(i));
-                match quarter.lane(i) as i64 & 3 {
-                    0 => (s, c),
-                    1 => (c, -s),
-                    2 => (-s, -c),
-                    _ => (-c, s),
-                }
-            };
-            (Self::from_fn(|i| value(i).0), Self::from_fn(|i| value(i).1))
+            trigonometry::sin_cos_turns(self)
         }
         #[inline(always)]
         fn sin_cos_quarters(self) -> (Self, Self) {
@@ -53,9 +41,6 @@ macro_rules! lane_by_lane {
         }
         #[inline(always)]
         fn atan2(self, other: Self) -> Self {
-            if Self::LANES == 1 {
-                return Self::lit(libm::atan2(self.lane_f64(0), other.lane_f64(0)));
-            }
             arctangent::atan2(self, other)
         }
         #[inline(always)]
@@ -71,14 +56,14 @@ macro_rules! lane_by_lane {
 
 macro_rules! scalar_real {
     ($scalar:ident, $bits:ident, $packet:ident, $exponent:literal, $reflected:literal,
-     $fused:ident, $functions:ident) => {
+     $fused:ident, $product_error:ident, $functions:ident) => {
         impl Real for $scalar {
             type Scalar = $scalar;
             type Mask = bool;
             type Uint = u32;
             const LANES: usize = 1;
             const DOUBLE: bool = size_of::<$scalar>() > 4;
-            const FUSED: bool = Self::DOUBLE || fused::ALWAYS;
+            const FUSED: bool = fused::ALWAYS;
             const ZERO: Self = 0.0;
             const ONE_MINUS_EPSILON: Self = 1.0 - 1.0 / 16_777_216.0;
             #[inline(always)]
@@ -153,8 +138,12 @@ macro_rules! scalar_real {
             }
             #[inline(always)]
             fn round_ties_even(self) -> Self {
-                let rounded = $packet::splat(self).round_ties_even().to_array()[0];
-                if ROUNDS { rounded } else { Real::copysign(rounded, self) }
+                if ROUNDS {
+                    return $packet::splat(self).round_ties_even().to_array()[0];
+                }
+                // the sum has no digits for a fraction
+                let (x, most) = (Real::abs(self), 1.0 / $scalar::EPSILON);
+                Real::copysign(if x < most { (x + most) - most } else { x }, self)
             }
             #[inline(always)]
             fn mul_add(self, a: Self, b: Self) -> Self {
@@ -168,7 +157,7 @@ macro_rules! scalar_real {
             }
             #[inline(always)]
             fn two_prod_error(a: Self, b: Self, product: Self) -> Self {
-                if Self::FUSED { Real::mul_add(a, b, -product) } else { fused::product_error([a], [b], [product])[0] }
+                if Self::FUSED { Real::mul_add(a, b, -product) } else { fused::$product_error([a], [b], [product])[0] }
             }
             #[inline(always)]
             fn pow2_scale(self) -> Self {
@@ -191,12 +180,12 @@ macro_rules! scalar_real {
         }
     };
 }
-scalar_real!(f32, u32, f32x4, 0x7f80_0000, 0x7f00_0000, single, polynomials);
-scalar_real!(f64, u64, f64x2, 0x7ff0_0000_0000_0000, 0x7fe0_0000_0000_0000, double, lane_by_lane);
+scalar_real!(f32, u32, f32x4, 0x7f80_0000, 0x7f00_0000, single, product_error, polynomials);
+scalar_real!(f64, u64, f64x2, 0x7ff0_0000_0000_0000, 0x7fe0_0000_0000_0000, double, double_product_error, lane_by_lane);
 
 macro_rules! packet_real {
     ($packet:ident, $scalar:ident, $bits:ident, $mask:ident, $uint:ident, $lanes:literal, $exponent:literal,
-     $reflected:literal, $fused:ident, $from_int:ident, $functions:ident, $to_uint:expr,
+     $reflected:literal, $fused:ident, $product_error:ident, $from_int:ident, $functions:ident, $to_uint:expr,
      $mask_uint:expr, $has_bits:expr) => {
         impl Real for $packet {
             type Scalar = $scalar;
@@ -204,7 +193,7 @@ macro_rules! packet_real {
             type Uint = $uint;
             const LANES: usize = $lanes;
             const DOUBLE: bool = size_of::<$scalar>() > 4;
-            const FUSED: bool = Self::DOUBLE || fused::ALWAYS;
+            const FUSED: bool = fused::ALWAYS;
             const ZERO: Self = $packet::splat(0.0);
             const ONE_MINUS_EPSILON: Self = $packet::splat(1.0 - 1.0 / 16_777_216.0);
             #[inline(always)]
@@ -308,7 +297,7 @@ macro_rules! packet_real {
                     // not the packet's own `mul_add`, which rounds twice where no instruction does both
                     return Real::mul_add(a, b, -product);
                 }
-                $packet::new(fused::product_error(a.to_array(), b.to_array(), product.to_array()))
+                $packet::new(fused::$product_error(a.to_array(), b.to_array(), product.to_array()))
             }
             #[inline(always)]
             fn pow2_scale(self) -> Self {
@@ -342,6 +331,7 @@ packet_real!(
     0x7f80_0000,
     0x7f00_0000,
     single,
+    product_error,
     from_i32x4,
     polynomials,
     |x| x.fast_trunc_int().cast_unsigned(),
@@ -358,6 +348,7 @@ packet_real!(
     0x7f80_0000,
     0x7f00_0000,
     single,
+    product_error,
     from_i32x8,
     polynomials,
     |x| x.fast_trunc_int().cast_unsigned(),
@@ -374,6 +365,7 @@ packet_real!(
     0x7f80_0000,
     0x7f00_0000,
     single,
+    product_error,
     from_i32x16,
     polynomials,
     |x| x.fast_trunc_int().cast_unsigned(),
@@ -390,6 +382,7 @@ packet_real!(
     0x7ff0_0000_0000_0000,
     0x7fe0_0000_0000_0000,
     double,
+    double_product_error,
     from_i32x4,
     lane_by_lane,
     |x| u32x4::new(core::array::from_fn(|i| x.as_array()[i] as i32 as u32)),
@@ -406,6 +399,7 @@ packet_real!(
     0x7ff0_0000_0000_0000,
     0x7fe0_0000_0000_0000,
     double,
+    double_product_error,
     from_i32x8,
     lane_by_lane,
     |x| u32x8::new(core::array::from_fn(|i| x.as_array()[i] as i32 as u32)),

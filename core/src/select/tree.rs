@@ -180,7 +180,7 @@ impl<'a> LightTree<'a> {
         self.places.is_empty()
     }
 
-    /// The choice for points `p` of surfaces with unit normals `n`, on the side of `n`.
+    /// The choice for points `p` of surfaces with unit normals `n`, on the side of `n`. Where `n` is 0, as in fog, all cosines at the point are 1.
     #[inline]
     #[must_use]
     pub fn at<R: Real>(&self, p: Vec3<R>, n: Vec3<R>) -> TreeAt<'a, R> {
@@ -232,6 +232,17 @@ impl<'a, R: Real> TreeAt<'a, R> {
             None => self.descend(bits, None),
             Some(gloss) => self.descend(bits, Some(gloss)),
         }
+    }
+    /// Chooses by the 24 bits of `u`, and by those of `second` for the digits below, hashed with the first ones, so that it may be any
+    /// number where there is no second one. Where there is no light, the index is 0.
+    #[inline]
+    #[must_use]
+    pub fn choose_with(&self, u: R, second: R) -> Choice<R> {
+        let [high, low] = [u, second].map(|u| (u * R::lit(16_777_216.0)).to_uint());
+        let low = (low ^ high.wrapping_mul(R::Uint::splat(0x9e37_79b9))).wrapping_mul(R::Uint::splat(0x85eb_ca6b));
+        let choice = self.choose_by([high.shl(8) | low.shr(24), low]);
+        let some = choice.pmf.gt(R::lit(0.0));
+        Choice { index: R::blend_uint(some, choice.index, R::Uint::splat(0)), ..choice }
     }
     #[inline(always)]
     fn descend(&self, bits: [R::Uint; 2], gloss: Option<&Gloss<R>>) -> Choice<R> {

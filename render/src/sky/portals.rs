@@ -1,8 +1,8 @@
 //! The portals of a sky, with their tables.
 
-use crate::light_tree::OwnedTree;
 use crate::packet::{V8, X8};
 use etendue::light::{Portal, PortalEnvironment, PortalMap, PortalTable};
+use etendue::owned::OwnedTree;
 use etendue::real::Real;
 use etendue::select::LightBound;
 use etendue::{Vec2, Vec3};

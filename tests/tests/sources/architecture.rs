@@ -423,6 +423,7 @@ fn documents_are_short() {
     let [readme, sum]: [usize; 2] = [words(&more[0]), all.iter().map(|path| words(path)).sum()];
     // what hosts are promised, and what judges other renderers, have words of their own
     let own = [
+        ("core/README.md", 420),
         ("core/POLICIES.md", 400),
         ("core/CHANGELOG.md", 150),
         ("core/visible/README.md", 520),
@@ -433,5 +434,5 @@ fn documents_are_short() {
     let own = own.map(|(file, most)| (file, words(&root().join(file)), most));
     let others = sum - own.iter().map(|(_, words, _)| words).sum::<usize>();
     println!("README.md has {readme} words, {own:?}, all others {others}");
-    assert!((300..=1000).contains(&readme) && own.iter().all(|(_, words, most)| words <= most) && others <= 9000);
+    assert!((300..=1000).contains(&readme) && own.iter().all(|(_, words, most)| words <= most) && others <= 8950);
 }

@@ -118,6 +118,14 @@ fn cpp_light(light: &Light, out: &mut String) -> std::fmt::Result {
         };
         writeln!(out, "    {class} {by}(Vec3 at{}) const {{ return {{*this, at{}}}; }}", argument.0, argument.1)?;
     }
+    // of a patch, and of lights without a surface, it is never true
+    if light.techniques[0].by == "by_area" && light.techniques.len() > 1 {
+        let number = light.techniques[0].name.to_uppercase();
+        out.push_str("    // Whether a point is on the light, to within its rounding: see etendue_on_surface.\n");
+        writeln!(out, "    bool on_surface(Vec3 at) const {{")?;
+        writeln!(out, "        const float p[3] = {{at.x, at.y, at.z}};")?;
+        writeln!(out, "        return etendue_on_surface(ETENDUE_TECHNIQUE_{number}, this, p) != 0;\n    }}")?;
+    }
     out.push_str("};\n");
     Ok(())
 }
@@ -189,6 +197,7 @@ fn python_light(light: &Light, out: &mut String) -> std::fmt::Result {
         let place: String = place.iter().map(|&name| format!(", {name}: {}", kind(name))).collect();
         writeln!(out, "    def {by}(self{place}) -> Sampler: ...")?;
     }
+    writeln!(out, "    def on_surface(self, p: ArrayLike) -> bool: ...")?;
     let by: Vec<_> = light.techniques.iter().map(|technique| format!("\"{}\"", &technique.by[3..])).collect();
     let functions =
         [("sample", "u", "Samples"), ("hit", "w", "Samples"), ("pdf", "w", "_F32"), ("invert", "w", "_F32")];

@@ -91,7 +91,7 @@ impl<C: Real> Children<C> {
     pub(super) fn weigh(&self, plain: bool, at: &Place<C>, gloss: Option<&Gloss<C>>) -> (C, C::Mask) {
         let lit = C::lit;
         let zero = lit(0.0);
-        let Place { p, n, slope, squares } = *at;
+        let Place { p, n, slope, squares, around } = *at;
         let v = self.center - p;
         let three = |word: C::Uint| Vec3::new(byte(word, 0), byte(word, 1), byte(word, 2));
         let Self { bounds, normals, deviations, turns, power, .. } = *self;
@@ -111,6 +111,7 @@ impl<C: Real> Children<C> {
         // all cosines are multiplied by the distance, so that the square roots do not wait for each other
         let above = v.dot(n);
         let estimate = above + fused(above, above, varied.dot(squares) * (scale * lit(SMOOTH))).sqrt();
+        let estimate = fused(around + around, distance, estimate);
         let bias = lit(-128.0 / 127.0);
         let normal = three(normals).mul_add(lit(1.0 / 127.0), Vec3::new(bias, bias, bias));
         let ahead = -v.dot(normal);
@@ -118,7 +119,8 @@ impl<C: Real> Children<C> {
         let mixed = xy * (v.x * v.y) + xz * (v.x * v.z) + yz * (v.y * v.z);
         let turned = three(turns[0]).dot(square) * lit(SMOOTH / 255.0) + mixed * lit(2.0 * SMOOTH / 254.0);
         let turned = fused(variance, lit(SMOOTH / 3.0), turned.greater(zero));
-        let bound = fused(lit(MARGIN), distance, fused(three(bounds).dot(slope), unit, above)).lesser(distance);
+        let bound =
+            fused(lit(MARGIN) + around, distance, fused(three(bounds).dot(slope), unit, above)).lesser(distance);
         let spread = fused(byte(normals, 3), lit(1.0 / 127.5), lit(MARGIN));
         let mut front = fused(spread, distance, fused(byte::<C>(bounds, 3) + byte(bounds, 3), unit, ahead));
         let facing = if plain {
@@ -145,16 +147,18 @@ impl<C: Real> Children<C> {
 }
 
 lanewise! {
-    /// A point of a surface.
+    /// A point of a surface, or one that light reaches from all around.
     pub(super) struct Place {
         p: Vec3<R>,
         n: Vec3<R>,
         /// |n| and n², component by component.
         slope: Vec3<R>,
         squares: Vec3<R>,
+        /// 1 where there is no normal, so that all cosines are 1; else 0.
+        around: R,
     }
 }
-only!(Place { p: Vec3, n: Vec3, slope: Vec3, squares: Vec3 });
+only!(Place { p: Vec3, n: Vec3, slope: Vec3, squares: Vec3, around: R });
 
 impl<R: Real> Place<R> {
     #[inline(always)]
@@ -164,6 +168,7 @@ impl<R: Real> Place<R> {
             n,
             slope: Vec3::new(n.x.abs(), n.y.abs(), n.z.abs()),
             squares: Vec3::new(n.x * n.x, n.y * n.y, n.z * n.z),
+            around: R::lit(1.0).keep(n.max_abs().le(R::lit(0.0))),
         }
     }
 }

@@ -1,0 +1,500 @@
+//! Sets of lights of all kinds.
+
+use etendue::light::Affine;
+use etendue::lights::{Emitter, Lights, LightsSample, Mixture, Number, Receiver, Side, Source, Which};
+use etendue::select::LightBound;
+use etendue::sequence::{Independent, Sequence};
+use etendue::{
+    BilinearPatch, ConstantEnvironment, DirectionalLight, Disk, LightSampler, Line, Parallelogram, PointLight, Polygon,
+    Real, Rectangle, Sphere, SpotLight, Sun, Triangle, Vec2, Vec3, Warp, warp::UniformSphere,
+};
+use etendue_oracle::tier::cases;
+
+type V<R> = Vec3<R>;
+
+fn v<R: Real>(v: [f64; 3]) -> V<R> {
+    Vec3::lit(v)
+}
+
+fn numbers<R: Real<Scalar = R, Uint = u32>>(seed: u32, i: u32) -> [R; 3] {
+    let pair = |dimension| -> Vec2<R> { Independent::new(seed.into()).pair(0, i, dimension) };
+    let (a, b) = (pair(0), pair(1));
+    [a.x, a.y, b.x]
+}
+
+fn ellipsoid<R: Real>() -> Affine<Sphere<R>, R> {
+    let axes = [[1.0, 0.2, 0.0], [0.0, 0.4, 0.1], [-0.3, 0.0, 0.6]].map(v);
+    Affine::new(Sphere::new(v([0.1, 0.2, 0.0]), R::lit(0.9)), axes, v([1.5, 2.5, -0.5]))
+}
+
+/// One light of each kind with its radiance, all of which reach the origin from above y = 0.
+fn every<R: Real<Scalar = R>>() -> Vec<(Emitter<R>, R)> {
+    let down = v([0.0, -1.0, 0.0]);
+    let corners = [[-2.0, 2.0, 1.0], [-1.0, 2.0, 1.0], [-0.5, 2.0, 1.7], [-1.0, 2.0, 2.5], [-2.0, 2.0, 2.0]].map(v);
+    let disk = Disk::new(v([0.0, 0.0, 0.0]), v([0.0, 0.0, 1.0]), R::lit(0.7));
+    let axes = [[1.0, 0.0, 0.2], [0.0, 0.3, 0.5], [0.0, 0.8, 0.0]].map(v);
+    let triangles = (0..5).map(|i| {
+        let x = f64::from(i) - 2.0;
+        Triangle::new(v([x, 3.0, -2.0]), v([x + 0.8, 3.0, -2.0]), v([x, 2.0, -3.0]))
+    });
+    let lights: Vec<Emitter<R>> = vec![
+        Sphere::new(v([0.0, 3.0, 0.0]), R::lit(0.8)).into(),
+        Emitter::from(Triangle::new(v([1.0, 1.0, 1.0]), v([2.0, 1.5, 1.0]), v([1.0, 1.0, 2.0]))).facing(down),
+        Emitter::from(Parallelogram::new(v([-3.0, 1.0, -1.0]), v([1.0, 0.5, 0.0]), v([0.2, 0.0, 1.0]))).facing(down),
+        Emitter::from(Rectangle::new(v([-1.0, 4.0, -1.0]), v([2.0, 0.0, 0.0]), v([0.0, 0.0, 1.5]))).two_sided(),
+        Emitter::from(Disk::new(v([2.0, 2.0, -2.0]), v([0.0, -1.0, 0.0]), R::lit(0.6))).facing(down),
+        Emitter::from(Polygon::new(corners)).facing(down),
+        Emitter::from(BilinearPatch::new(
+            v([3.0, 1.0, 0.0]),
+            v([1.0, 0.0, 0.0]),
+            v([0.0, 0.3, 1.0]),
+            v([1.0, 0.6, 1.0]),
+        ))
+        .two_sided(),
+        Line::new(v([-1.0, 1.0, 2.0]), v([1.5, 0.5, 0.0])).into(),
+        ellipsoid().into(),
+        Emitter::from(Affine::new(disk, axes, v([-2.5, 2.0, -2.0]))).facing(down),
+        Emitter::group(triangles).facing(down),
+        PointLight::new(v([0.5, 1.0, 0.5])).into(),
+        SpotLight::new(
+            v([0.0, 2.0, 1.0]),
+            v([0.0, -0.894_427_190_999_915_9, -0.447_213_595_499_957_9]),
+            [R::lit(0.1), R::lit(0.4)],
+        )
+        .into(),
+        SpotLight::new(v([0.0, 2.0, 0.0]), down, [R::lit(1e-6), R::lit(1e-5)]).into(),
+        DirectionalLight::new(v([0.6, 0.8, 0.0])).into(),
+        Sun::new(v([0.0, 0.8, 0.6]), R::lit(0.02)).into(),
+        ConstantEnvironment.into(),
+    ];
+    lights.into_iter().zip(0..).map(|(light, i)| (light, R::lit(1.0 + 0.3 * f64::from(i)))).collect()
+}
+
+fn up<R: Real>() -> Side<R> {
+    Side::Surface(v([0.0, 1.0, 0.0]))
+}
+
+/// The mean of L cosθ · weight over samples, and its standard error; without a normal, of L · weight.
+fn estimate<R: Number + Real<Uint = u32>>(
+    lights: &[(Emitter<R>, R)],
+    side: Side<R>,
+    point: V<R>,
+    seed: u32,
+) -> [f64; 2] {
+    let set = Lights::new(lights.iter().cloned()).unwrap();
+    let at = set.at(Receiver { point, side, on: None });
+    let (mut sum, mut squares, count) = (0.0, 0.0, cases(30_000, 1_000_000));
+    for i in 0..count {
+        let s = at.sample(numbers(seed, i));
+        let cos = match side {
+            Side::Surface(n) => s.direction.dot(n).lane_f64(0).max(0.0),
+            _ => 1.0,
+        };
+        let x = lights[s.which.light as usize].1.lane_f64(0) * cos * s.weight().lane_f64(0);
+        assert!(x.is_finite());
+        sum += x;
+        squares += x * x;
+    }
+    let (mean, n) = (sum / f64::from(count), f64::from(count));
+    [mean, ((squares / n - mean * mean).max(0.0) / n).sqrt()]
+}
+
+fn agree([a, error]: [f64; 2], [b, other]: [f64; 2], what: &str) {
+    let deviation = (error * error + other * other).sqrt();
+    assert!((a - b).abs() <= 5.0 * deviation + 1e-5 * b.abs(), "{what}: {a} ± {error}, {b} ± {other}");
+}
+
+/// The set of all lights has the sum of what each has alone, above a surface, and all around.
+#[test]
+fn a_set_has_the_sum_of_its_lights() {
+    fn check<R: Number + Real<Uint = u32>>(side: Side<R>) {
+        let all = every::<R>();
+        let mut sum = [0.0; 2];
+        for (light, seed) in all.iter().zip(100..) {
+            let [mean, error] = estimate(std::slice::from_ref(light), side, v([0.0; 3]), seed);
+            assert!(mean > 0.0, "{light:?}");
+            sum = [sum[0] + mean, (sum[1] * sum[1] + error * error).sqrt()];
+        }
+        agree(estimate(&all, side, v([0.0; 3]), 1), sum, &format!("{side:?}"));
+    }
+    for side in [up(), Side::Both, Side::None] {
+        check::<f32>(side);
+    }
+    check::<f64>(up());
+}
+
+/// What is known in closed form: a sphere overhead, a square by Lambert, a point, a sun, a sky, a directional light.
+#[test]
+fn single_lights_agree_with_closed_forms() {
+    let square = Emitter::from(Rectangle::new(v([-1.0, 1.0, -1.0]), v([2.0, 0.0, 0.0]), v([0.0, 0.0, 2.0])));
+    // the form factor of a unit square to the foot of its corner at the distance 1, four times
+    let corner = 2.0 * (1.0 / 2.0_f64.sqrt()) * (1.0 / 2.0_f64.sqrt()).atan() / 2.0;
+    let pi = std::f64::consts::PI;
+    let known: [(Emitter<f64>, f64); 6] = [
+        (Sphere::new(v([0.0, 2.0, 0.0]), 1.0).into(), pi * 0.25),
+        (square.facing(v([0.0, -1.0, 0.0])), 4.0 * corner),
+        (PointLight::new(v([1.0, 1.0, 1.0])).into(), 1.0 / (3.0 * 3.0_f64.sqrt())),
+        (Sun::new(v([0.6, 0.8, 0.0]), 0.1).into(), pi * 0.1 * 1.9 * 0.8),
+        (ConstantEnvironment.into(), pi),
+        (DirectionalLight::new(v([0.6, 0.8, 0.0])).into(), 0.8),
+    ];
+    for (light, truth) in known {
+        agree(estimate(&[(light.clone(), 1.0)], up(), v([0.0; 3]), 7), [truth, 1e-7], &format!("{light:?}"));
+    }
+}
+
+/// Irradiance of an ellipsoid by directions all around that hit it.
+#[test]
+fn ellipsoids_are_sampled_as_they_are_seen() {
+    let lamp = ellipsoid::<f64>();
+    let [x, y, z] = lamp.axes;
+    let volume = x.dot(y.cross(z));
+    let local = |d: V<f64>| V::new(d.dot(y.cross(z)), d.dot(z.cross(x)), d.dot(x.cross(y))) * (1.0 / volume);
+    let (p, mut sum, mut squares) = (local(-lamp.origin) - lamp.shape.center, 0.0, 0.0);
+    let count = cases(400_000_u32, 4_000_000);
+    for i in 0..count {
+        let w: V<f64> = UniformSphere.sample(Independent::new(9).pair(0, i, 0));
+        let d = local(w);
+        // the least distance of the line from the centre
+        let along = -p.dot(d) / d.length_squared();
+        let hit = along > 0.0 && (p + d * along).length() < lamp.shape.radius;
+        let x = if hit { w.y.max(0.0) * 4.0 * std::f64::consts::PI } else { 0.0 };
+        sum += x;
+        squares += x * x;
+    }
+    let (n, mean) = (f64::from(count), sum / f64::from(count));
+    let truth = [mean, ((squares / n - mean * mean).max(0.0) / n).sqrt()];
+    agree(estimate(&[(lamp.into(), 1.0)], up(), v([0.0; 3]), 3), truth, "an ellipsoid");
+}
+
+fn bits<R: Real>(x: R) -> u64 {
+    x.lane_f64(0).to_bits()
+}
+
+/// The pdf of the direction of a sample is its pdf, bit for bit; but of patches and lines.
+#[test]
+fn pdfs_of_directions_are_those_of_samples() {
+    fn check<R: Number + Real<Uint = u32>>() {
+        let all = every::<R>();
+        let set = Lights::new(all.iter().cloned()).unwrap();
+        for (side, point) in [(up(), [0.1, 0.0, 0.2]), (Side::None, [0.3, 0.5, 0.0]), (Side::Both, [0.0; 3])] {
+            let receiver = Receiver { point: v(point), side, on: None };
+            let at = set.at(receiver);
+            let mut seen = vec![0; all.len()];
+            for i in 0..20_000 {
+                let s = at.sample(numbers(5, i));
+                seen[s.which.light as usize] += 1;
+                let pdf =
+                    if i % 2 == 0 { at.pdf(s.which, s.direction) } else { set.at(receiver).pdf(s.which, s.direction) };
+                match s.which.light {
+                    // from the side, a direction may meet the patch twice
+                    6 if s.direction.dot(s.normal).lane_f64(0) > -0.1 => {}
+                    6 => assert!((pdf / s.pdf - R::lit(1.0)).abs().lane_f64(0) < 1e-4, "{pdf:?} {s:?}"),
+                    7 | 11..=14 => assert!(s.delta && bits(pdf) == 0),
+                    // a direction beside the edge of an ellipsoid may miss it: both are 0 then
+                    _ => assert_eq!(bits(pdf), bits(s.pdf), "{s:?}"),
+                }
+            }
+            // the narrow beam does not reach beside its axis
+            assert!(seen.iter().zip(0..).all(|(seen, light)| *seen > 0 || light == 13), "{seen:?}");
+        }
+    }
+    check::<f32>();
+    check::<f64>();
+}
+
+/// Over all lights, the probabilities of lights without an area and the integrals of the pdfs of the others are 1.
+#[test]
+fn pdfs_integrate_to_1() {
+    let mut all = every::<f64>();
+    all.retain(|(light, _)| !format!("{light:?}").contains("Line("));
+    let set = Lights::new(all.iter().cloned()).unwrap();
+    let at = set.at(Receiver { point: v([0.0; 3]), side: up(), on: None });
+    let parts = all
+        .iter()
+        .zip(0..)
+        .flat_map(|(_, light)| (0..if light == 9 { 5 } else { 1 }).map(move |part| Which { light, part }));
+    let parts: Vec<Which> = parts.collect();
+    let (mut sum, mut squares, count) = (0.0, 0.0, cases(40_000_u32, 400_000));
+    for i in 0..count {
+        let w: V<f64> = UniformSphere.sample(Independent::new(2).pair(0, i, 0));
+        let x: f64 = parts.iter().map(|which| at.pdf(*which, w)).sum::<f64>() * 4.0 * std::f64::consts::PI;
+        sum += x;
+        squares += x * x;
+    }
+    let (n, mean) = (f64::from(count), sum / f64::from(count));
+    let draws = 200_000;
+    let deltas = (0..draws).filter(|&i| at.sample(numbers(8, i)).delta).count() as f64 / f64::from(draws);
+    let error = ((squares / n - mean * mean) / n + deltas / f64::from(draws)).sqrt();
+    agree([mean + deltas, error], [1.0, 0.0], "the integral");
+    assert!(deltas > 0.02 && error < 0.02, "{deltas} {error}");
+}
+
+/// The light that the receiver is on is skipped, of a mesh the triangle alone; and there is no light beyond the last.
+#[test]
+fn the_own_light_is_skipped() {
+    let all = every::<f32>();
+    let set = Lights::new(all.iter().cloned()).unwrap();
+    for on in [Which::from(0), Which::from(16), Which { light: 10, part: 3 }] {
+        let at = set.at(Receiver { point: v([0.0; 3]), side: up(), on: Some(on) });
+        let mut others = 0;
+        for i in 0..20_000 {
+            let s = at.sample(numbers(6, i));
+            assert_eq!(s.which == on, s.which == on && s.pdf == 0.0 && s.weight() == 0.0);
+            others += u32::from(s.which.light == on.light && s.which != on && s.weight() > 0.0);
+            assert_eq!(at.pdf(on, s.direction), 0.0);
+        }
+        assert_eq!(others > 0, on.light == 10, "{others}");
+        for beyond in
+            [Which::from(17), Which::from(u32::MAX), Which { light: 10, part: 5 }, Which { light: 0, part: u32::MAX }]
+        {
+            assert_eq!(at.pdf(beyond, v([0.0, 1.0, 0.0])), 0.0);
+        }
+    }
+}
+
+/// A triangle emits from the side of its vertices' order, from the side that it is told, or from both.
+#[test]
+fn lights_emit_from_the_sides_that_they_are_told() {
+    let lamp = || Emitter::<f32>::from(Triangle::new(v([-1.0, 1.0, -1.0]), v([1.0, 1.0, -1.0]), v([0.0, 1.0, 1.0])));
+    // counterclockwise as seen from below
+    let sides = [
+        (lamp(), [1, 0]),
+        (lamp().facing(v([0.1, -1.0, 0.0])), [1, 0]),
+        (lamp().facing(v([0.1, 1.0, 0.0])), [0, 1]),
+        (lamp().two_sided(), [1, 1]),
+        (lamp().two_sided().facing(v([0.0, 1.0, 0.0])), [1, 1]),
+    ];
+    for (light, expected) in sides {
+        let set = Lights::new([(light.clone(), 1.0)]).unwrap();
+        let lit = [0.0, 2.0].map(|height| {
+            let at = set.at(Receiver { point: v([0.0, height, 0.0]), side: Side::None, on: None });
+            let s = at.sample([0.5; 3]);
+            assert!(s.weight() == 0.0 || s.direction.dot(s.normal) < 0.0, "{s:?}");
+            i32::from(s.weight() > 0.0)
+        });
+        assert_eq!(lit, expected, "{light:?}");
+    }
+}
+
+/// The point of a sample is as near to the light as it says, by the shape in double precision; and the reach of a shadow ray is near.
+#[test]
+fn points_are_within_their_bounds() {
+    let mut greatest = [0.0_f64; 17];
+    for shift in [0.0, 1.0, 300.0] {
+        let moved = |a: [f64; 3]| [a[0] + shift, a[1] + shift * 0.5, a[2] - shift];
+        let (wide, narrow) = (every::<f64>(), every::<f32>());
+        for k in [0_usize, 1, 2, 3, 4, 8, 9, 10] {
+            let set = Lights::new([narrow[k].clone()]).unwrap();
+            let p = v::<f32>(moved([0.0; 3]));
+            let at = set.at(Receiver { point: p, side: Side::None, on: None });
+            let exact = set_of_planes(&wide[k].0);
+            for i in 0..cases(2_000, 50_000) {
+                let s = at.sample(numbers(4, i));
+                if s.pdf == 0.0 {
+                    continue;
+                }
+                let off = exact(s.point.map(f64::from), s.which.part as usize);
+                greatest[k] = greatest[k].max(off / f64::from(s.bound));
+                assert!(off <= f64::from(s.bound), "{k}: {off} {s:?}");
+                assert!(s.bound < 1e-4 && s.reach() <= s.distance, "{s:?}");
+            }
+        }
+    }
+    assert!(greatest.iter().any(|x| *x > 0.02), "the bounds are far too wide: {greatest:?}");
+}
+
+/// The distance of a point from a light, or from its plane.
+fn set_of_planes(light: &Emitter<f64>) -> Box<dyn Fn(V<f64>, usize) -> f64> {
+    let text = format!("{light:?}");
+    let shape = text.split("shape: ").nth(1).and_then(|text| text.split('(').next()).unwrap_or_default();
+    let kind = if is_mesh(&text) { "Mesh" } else { shape }.to_owned();
+    match kind.as_str() {
+        "Sphere" => Box::new(|q, _| ((q - v([0.0, 3.0, 0.0])).length() - f64::from(0.8_f32)).abs()),
+        "Ellipsoid" => {
+            let lamp = ellipsoid::<f32>();
+            let wide = |a: V<f32>| a.map(f64::from);
+            let ([x, y, z], origin) = (lamp.axes.map(wide), wide(lamp.origin));
+            let (center, radius, volume) = (wide(lamp.shape.center), f64::from(lamp.shape.radius), x.dot(y.cross(z)));
+            Box::new(move |q, _| {
+                let d = q - origin;
+                let local = V::new(d.dot(y.cross(z)), d.dot(z.cross(x)), d.dot(x.cross(y))) * (1.0 / volume) - center;
+                // the least stretch is more than 0.3
+                (local.length() - radius).abs() * 0.3
+            })
+        }
+        _ => {
+            let planes = planes(&kind);
+            Box::new(move |q, part| {
+                let (on, n) = planes[part.min(planes.len() - 1)];
+                (q - on).dot(n.unit_and_length().0).abs()
+            })
+        }
+    }
+}
+
+fn is_mesh(text: &str) -> bool {
+    text.matches("Triangle(").count() > 1
+}
+
+/// A point and the normal of each flat part, of the numbers of single precision.
+fn planes(kind: &str) -> Vec<(V<f64>, V<f64>)> {
+    let f = |a: [f64; 3]| v::<f32>(a).map(f64::from);
+    match kind {
+        "Mesh" => vec![(f([0.0, 3.0, -2.0]), f([0.0, 1.0, -1.0]))],
+        "Triangle" => vec![(f([1.0, 1.0, 1.0]), f([1.0, 0.5, 0.0]).cross(f([0.0, 0.0, 1.0])))],
+        "Parallelogram" => vec![(f([-3.0, 1.0, -1.0]), f([1.0, 0.5, 0.0]).cross(f([0.2, 0.0, 1.0])))],
+        "Rectangle" => vec![(f([-1.0, 4.0, -1.0]), f([0.0, 1.0, 0.0]))],
+        "Disk" => vec![(f([2.0, 2.0, -2.0]), f([0.0, 1.0, 0.0]))],
+        _ => {
+            let [x, y] = [[1.0, 0.0, 0.2], [0.0, 0.3, 0.5]].map(f);
+            vec![(f([-2.5, 2.0, -2.0]), x.cross(y))]
+        }
+    }
+}
+
+/// No input panics or returns what is not finite.
+#[test]
+fn any_input_gives_finite_samples() {
+    fn check<R: Number + Real<Uint = u32>>(extremes: &[f64]) {
+        let finite = |s: &LightsSample<R>| {
+            let all = [s.direction, s.normal, s.point].into_iter().flat_map(V::to_array).chain([
+                s.distance,
+                s.pdf,
+                s.factor,
+                s.weight(),
+                s.reach(),
+                s.bound,
+            ]);
+            all.into_iter().all(|x| x.lane_f64(0).is_finite())
+        };
+        for (case, &a) in extremes.iter().enumerate() {
+            for &b in extremes {
+                let (p, q) = (v::<R>([a, b, 1.0]), v::<R>([b, 0.0, a]));
+                let r = R::lit(b);
+                let lights: Vec<Emitter<R>> = vec![
+                    Sphere::new(p, r).into(),
+                    Triangle::new(p, q, v([0.0; 3])).into(),
+                    Parallelogram::new(p, q, p).into(),
+                    Rectangle::new(q, p, q).into(),
+                    Disk::new(p, q, r).into(),
+                    Polygon::new([p, q, v([1.0; 3])]).into(),
+                    BilinearPatch::new(p, q, p, q).into(),
+                    Line::new(p, q).into(),
+                    Affine::new(Sphere::new(p, r), [p, q, p], q).into(),
+                    Affine::new(Disk::new(p, q, r), [q, p, v([0.0, 1.0, 0.0])], q).into(),
+                    Emitter::group([] as [Triangle<R>; 0]),
+                    Emitter::group([Triangle::new(q, p, p)]).facing(p),
+                    PointLight::new(p).into(),
+                    SpotLight::new(q, p, [r, R::lit(a)]).into(),
+                    DirectionalLight::new(p).into(),
+                    Sun::new(p, r).into(),
+                    ConstantEnvironment.into(),
+                ];
+                let radiances = [1.0, a, b, 1e-30].into_iter().cycle().map(R::lit);
+                let set = Lights::new(lights.into_iter().zip(radiances)).unwrap();
+                for side in [Side::Surface(p), Side::Both, Side::None, up()] {
+                    let at = set.at(Receiver { point: q, side, on: None });
+                    for i in 0..40 {
+                        let s = at.sample(numbers(case as u32, i));
+                        assert!(s.pdf.lane_f64(0) == 0.0 || finite(&s), "{a} {b} {s:?}");
+                        assert!(at.pdf(i % 17, s.direction).lane_f64(0).is_finite());
+                    }
+                    at.sample([R::lit(a), R::lit(b), R::lit(f64::NAN)]);
+                }
+            }
+        }
+        let none = Lights::<R>::new::<Emitter<R>>([]).unwrap();
+        assert!(none.is_empty());
+        let s = none.at(Receiver { point: v([0.0; 3]), side: up(), on: None }).sample([R::lit(0.5); 3]);
+        assert_eq!(bits(s.weight()), 0);
+    }
+    check::<f32>(&[0.0, 1.0, -1.0, 1e-38, 1e-20, 1e20, 3e38, f64::NAN, f64::INFINITY, 0.3]);
+    check::<f64>(&[0.0, 1.0, -1.0, 1e-300, 1e-20, 1e20, 1e300, f64::NAN, f64::INFINITY, 0.3]);
+}
+
+/// In fog, where there is no normal, a thousand lamps are chosen nearly by the light that arrives from each: the relative variance of the choice
+/// alone, Σc²/pmf over (Σc)², less 1, for solid angles c.
+#[test]
+fn lamps_in_fog_are_chosen_by_what_arrives() {
+    let place = |i: u32| -> V<f32> {
+        let [x, y, z] = numbers::<f32>(12, i);
+        v::<f32>([-1.0; 3]) * 20.0 + V::new(x, y, z) * 40.0
+    };
+    let sphere = |i: u32| Sphere::new(place(i), 0.05 + 0.3 * numbers::<f32>(13, i)[0]);
+    let triangle = |i: u32| {
+        let [e, f] = [14, 15].map(|seed| {
+            let [x, y, z] = numbers::<f32>(seed, i);
+            V::new(x - 0.5, y - 0.5, z - 0.5)
+        });
+        Triangle { v0: place(i), e1: e, e2: f }
+    };
+    let variance = |bounds: Vec<LightBound>, seen: &dyn Fn(usize, V<f32>) -> f64| {
+        let count = bounds.len();
+        let mixture = Mixture::new(bounds, (0..count).map(|_| Source::Lamp), &()).unwrap();
+        let of = |point: u32| {
+            let p = place(10_000 + point) * 0.9;
+            let at = mixture.at(p, V::ZERO, None, || 0.0);
+            let parts = (0..count).map(|i| (seen(i, p), f64::from(at.pmf(i as u32))));
+            let [sum, squares] = parts.fold([0.0; 2], |[sum, squares], (c, pmf)| {
+                assert!(c == 0.0 || pmf > 0.0);
+                [sum + c, squares + if c > 0.0 { c * c / pmf } else { 0.0 }]
+            });
+            squares / (sum * sum) - 1.0
+        };
+        (0..50).map(of).sum::<f64>() / 50.0
+    };
+    let spheres = variance((0..1000).map(|i| sphere(i).bound(1.0)).collect(), &|i, p| {
+        let at = sphere(i as u32).by_solid_angle(p);
+        f64::from(at.solid_angle())
+    });
+    let triangles = variance((0..1000).map(|i| triangle(i).bound(1.0)).collect(), &|i, p| {
+        let at = triangle(i as u32).by_solid_angle(p);
+        if at.sample(Vec2::lit([0.5, 0.5])).valid() { f64::from(at.solid_angle()) } else { 0.0 }
+    });
+    println!("relative variance of the choice in fog: {spheres:.3} for 1,000 spheres, {triangles:.3} for triangles");
+    assert!(spheres < 0.25 && triangles < 0.42, "{spheres} {triangles}");
+}
+
+/// A sphere under a map that keeps angles is a sphere; one that is stretched by a thousandth is not.
+#[test]
+fn round_ellipsoids_are_spheres() {
+    let axes = |stretch: f64| [[0.0, 1.2, 1.6], [2.0 * stretch, 0.0, 0.0], [0.0, 1.6, -1.2]].map(v::<f32>);
+    let light =
+        |stretch| Emitter::from(Affine::new(Sphere::new(v([0.5, 0.0, 0.0]), 0.25), axes(stretch), v([0.0, 3.0, 0.0])));
+    assert!(format!("{:?}", light(1.0)).contains("Sphere(Sphere { center: Vec3 { x: 0.0, y: 3.6"));
+    assert!(format!("{:?}", light(1.001)).contains("Ellipsoid("));
+    let (round, stretched) = ([(light(1.0), 1.0)], [(light(1.001), 1.0)]);
+    let [a, b] = [&round, &stretched].map(|lights| estimate(lights, up(), v([0.0; 3]), 11));
+    assert!((a[0] / b[0] - 1.0).abs() < 0.004, "{a:?} {b:?}");
+}
+
+/// Sets may be shared among threads and sent to them; a prepared one belongs to its thread. Prepared lights are of the sizes that are stated.
+#[test]
+fn sets_are_shared() {
+    fn shared<T: Send + Sync + Clone>() {}
+    fn sent<T: Send + Clone>() {}
+    fn copied<T: Send + Sync + Copy>() {}
+    shared::<Lights<f32>>();
+    shared::<Emitter<f64>>();
+    sent::<etendue::lights::LightsAt<'_, f32>>();
+    copied::<Receiver<f32>>();
+    copied::<LightsSample<f64>>();
+    copied::<etendue::light::TriangleBySolidAngle<f32>>();
+    copied::<etendue::light::PolygonByProjectedSolidAngle<f64, 8>>();
+    copied::<etendue::select::TreeAt<'_, f32>>();
+    use etendue::light as by;
+    let sizes = [
+        size_of::<by::SphereBySolidAngle<f32>>(),
+        size_of::<by::TriangleBySolidAngle<f32>>(),
+        size_of::<by::RectangleBySolidAngle<f32>>(),
+        size_of::<by::ParallelogramBySolidAngle<f32>>(),
+        size_of::<by::DiskBySolidAngle<f32>>(),
+        size_of::<by::PolygonBySolidAngle<f32, 8>>(),
+        size_of::<by::TriangleByProjectedSolidAngle<f32>>(),
+        size_of::<by::ParallelogramByProjectedSolidAngle<f32>>(),
+        size_of::<by::TriangleBySolidAngle<f64>>() / 2,
+    ];
+    // as the documentation of the package says
+    assert_eq!(sizes, [68, 324, 340, 516, 156, 1796, 656, 1192, 324]);
+}
