@@ -58,6 +58,7 @@ pub mod camera;
 pub mod certify;
 pub mod choose;
 pub mod claim;
+pub mod coat;
 #[cfg(feature = "exr")]
 pub mod compare;
 pub mod drive;

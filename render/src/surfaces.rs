@@ -92,7 +92,9 @@ impl Surfaces {
         Ok(surfaces)
     }
     fn bvh(triangles: Vec<[[f32; 3]; 3]>, scene: &Scene) -> Result<Bvh, BuildError> {
-        let shapes = ShapeSet::new(scene.shapes.iter().map(|shape| &shape.geometry))?;
+        let is_seen = |(_, shape): &(u32, &Shape)| !shape.emission.is_some_and(|emission| emission.is_unseen);
+        let seen = (0..).zip(scene.shapes.iter()).filter(is_seen);
+        let shapes = ShapeSet::new(seen.map(|(index, shape)| (index, &shape.geometry)))?;
         let mut bvh = Bvh::with_instances(triangles, &scene.objects, &scene.instances, shapes)?;
         if !scene.masks.is_empty() {
             let masks: Vec<_> = scene.masks.iter().map(|(_, mask)| mask.clone()).collect();

@@ -242,7 +242,6 @@ fn what_is_ignored_is_reported_once() {
         [
             "a.gltf: animations are ignored (reported once)",
             "a.gltf: mesh 1, primitive 0: Points are ignored: only triangles are supported (reported once)",
-            "a.gltf: mesh 5, primitive 0: its morph targets are ignored (reported once)",
             "a.gltf: mesh 5, primitive 0: its COLOR_0 is ignored (reported once)",
             "a.gltf: node 6: its skin is ignored (reported once)",
             "a.gltf: mesh 6, primitive 0: it has no POSITION and is ignored (reported once)",
@@ -254,6 +253,30 @@ fn what_is_ignored_is_reported_once() {
     asset.shown(json!({"attributes": {"POSITION": positions}}));
     let text = "a.gltf: mesh 0, primitive 0: 4 corners make no whole number of triangles: the last are ignored";
     assert_eq!(asset.warnings(), [format!("{text} (reported once)")]);
+}
+
+/// Morph targets move vertices and normals by the weights of the mesh, or of the node, which is the shape at rest.
+#[test]
+fn morph_targets_have_the_weights_of_the_file() {
+    let mut asset = Asset::new();
+    let positions = asset.floats(&TRIANGLE);
+    let moves = [asset.floats(&[[0.0, 0.0, 1.0]; 3]), asset.floats(&[[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0; 3]])];
+    let targets = json!([{"POSITION": moves[0]}, {"POSITION": moves[1]}]);
+    let node = asset.shown(json!({"attributes": {"POSITION": positions}, "targets": targets}));
+    let corners = |asset: &Asset| asset.read().triangles[0];
+    assert_eq!(corners(&asset), TRIANGLE, "without weights, nothing moves");
+    asset.json["meshes"][0]["weights"] = json!([0.5, 0.25]);
+    assert_eq!(corners(&asset), [[0.0, 0.0, 0.5], [1.5, 0.0, 0.5], [0.0, 1.0, 0.5]]);
+    asset.json["nodes"][node]["weights"] = json!([0, 1]);
+    assert_eq!(corners(&asset), [[0.0, 0.0, 0.0], [3.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
+    // two nodes of one mesh with weights of their own are no copies of each other
+    asset.add("nodes", json!({"mesh": 0, "weights": [1, 0]}));
+    let scene = asset.read();
+    assert_eq!(scene.triangles[1], [[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [0.0, 1.0, 1.0]]);
+    assert!(!asset.warnings().iter().any(|text| text.contains("morph")));
+    let short = asset.floats(&[[0.0_f32; 3]; 2]);
+    asset.json["meshes"][0]["primitives"][0]["targets"][1]["POSITION"] = json!(short);
+    assert!(asset.error().contains("3 elements of POSITION, but 2 of a morph target"), "{}", asset.error());
 }
 
 #[test]

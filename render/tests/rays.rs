@@ -111,7 +111,7 @@ fn disks_are_round() {
     };
     let disks: Vec<Disk> = (0..60).map(disk).collect();
     let shapes: Vec<Geometry> = disks.iter().map(|&disk| Geometry::Disk(disk)).collect();
-    let bvh = Bvh::new(&[], ShapeSet::new(shapes.iter()).unwrap()).unwrap();
+    let bvh = Bvh::new(&[], ShapeSet::new((0..).zip(shapes.iter())).unwrap()).unwrap();
     let (mut hits, mut stack, mut counts) = ([Hits::none(f32x8::splat(f32::INFINITY))], Scratch::default(), [0; 2]);
     for packet in 0..500 {
         let lanes = |f: &dyn Fn(u32) -> [f32; 3]| {

@@ -2,9 +2,11 @@
 //! and glTF's specifications, in double precision, and shares no code with the renderer.
 
 mod cameras;
+mod coats_by_quadrature;
 mod deltas;
 mod emitters;
 mod gltf;
+mod meanings;
 mod place;
 mod row;
 mod skies;
@@ -32,6 +34,7 @@ fn write_files(folder: &Folder) {
     // 90 cd at the nadir, 0 from 60 degrees on; and the same everywhere below
     folder.ies("cone.ies", "0 60", "0", "90 0");
     folder.ies("below.ies", "0 90", "0", "9 9");
+    write_kinds(folder);
     let quad = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n\
                 element face 1\nproperty list uchar int vertex_indices\nend_header\n\
                 -1 -1 0\n1 -1 0\n1 1 0\n-1 1 0\n4 0 1 2 3\n";
@@ -43,11 +46,56 @@ fn write_files(folder: &Folder) {
     Image::new(ImageAttributes::new(display), layer).write().to_file(folder.path("window.exr")).unwrap();
 }
 
+/// IES files that say the same, 100 cd downwards, in other ways, with all horizontal angles alike.
+const IES_KINDS: [&str; 9] = ["lf", "cr", "crlf", "mark", "lower", "spaces", "include", "header", "commas"];
+/// PLY files of the same square, with rows that share lines.
+const PLY_KINDS: [&str; 4] = ["rows", "one-line", "blank-lines", "words"];
+
+/// Files that other programs write.
+fn write_kinds(folder: &Folder) {
+    let table = "1 -1 1 2 1 1 2 0 0 0\n1 1 9\n0 90\n0\n100 0\n";
+    let late = "1 -1 1 2 1 1 2 0 0 0\n1 .5 9\n0 90\n0\n100 0\n";
+    let of = |tilt: &str, table: &str| format!("IESNA:LM-63-1995\n[TEST] 1\n{tilt}\n{table}");
+    let texts = [
+        of("TILT=NONE", table),
+        of("TILT=NONE", table).replace('\n', "\r"),
+        of("TILT=NONE", table).replace('\n', "\r\n"),
+        format!("\u{feff}TILT=NONE\n{table}"),
+        of("tilt=none", table),
+        of(" TILT = None ", table),
+        of("TILT=Include\n1\n2\n0 90\n1 .5", table),
+        // of 2002, the third factor is no longer one
+        format!("iesna:lm-63-2002\nTILT=NONE\n{late}"),
+        of("TILT=NONE", &table.replace(' ', ",")),
+    ];
+    for (name, text) in IES_KINDS.iter().zip(texts) {
+        folder.write(&format!("{name}.ies"), text);
+    }
+    let head = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n\
+                element face 2\nproperty list uchar int vertex_indices\nend_header\n";
+    let bodies = [
+        "-1 -1 0  1 -1 0\n1 1 0  -1 1 0\n3 0 1 2  3 0 2 3\n",
+        "-1 -1 0 1 -1 0 1 1 0 -1 1 0 3 0 1 2 3 0 2 3",
+        "\n-1 -1 0\n\n1 -1 0\n1 1 0\n-1 1 0\n\n3 0 1 2\n3 0 2 3\n",
+        "-1\n-1\n0\n1 -1 0\n1\n1 0\n-1 1 0\n3\n0 1 2\n3 0 2 3\n",
+    ];
+    for (name, body) in PLY_KINDS.iter().zip(bodies) {
+        folder.write(&format!("{name}.ply"), format!("{head}{body}"));
+    }
+    let pixel = [128, 64, 32, 129];
+    let hdr = [&b"#?RGBE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n"[..], &pixel, &pixel].concat();
+    folder.write("rgbe.hdr", hdr);
+    for (file, channel) in [("grey.exr", "Y"), ("height.exr", "height")] {
+        let pixels = SpecificChannels::build().with_channel(channel).with_pixel_fn(|_| (0.3_f32,));
+        Image::from_channels((2, 2), pixels).write().to_file(folder.path(file)).unwrap();
+    }
+}
+
 #[test]
 fn values_of_parameters() {
     let folder = Folder::new();
     write_files(&folder);
-    let tables = [deltas::rows(), skies::rows(), emitters::rows(), gltf::rows(), cameras::rows()];
+    let tables = [deltas::rows(), skies::rows(), emitters::rows(), gltf::rows(), cameras::rows(), meanings::rows()];
     let rows: Vec<Row> = tables.into_iter().flatten().collect();
     let seen: Vec<Result<String, String>> = rows.par_iter().map(|row| row.check(&folder.path(""))).collect();
     // with `--nocapture`, the table

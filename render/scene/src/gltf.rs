@@ -15,6 +15,7 @@ mod source;
 
 use crate::builder::{Builder, Rest};
 use crate::message::shortened;
+use crate::{Asked, Contents};
 use etendue_render::scene::{Message, Scene};
 use materials::Materials;
 use source::Source;
@@ -50,19 +51,29 @@ fn check_extensions(source: &Source<'_>) -> Result<(), Message> {
     Ok(())
 }
 
+/// The scenes of a file and the cameras of the one that is asked for.
+pub(super) fn contents(bytes: &[u8], file: &str, asked: &Asked) -> Result<Contents, Message> {
+    let source = Source::new(bytes, file, None)?;
+    let placed = nodes::walk(&source, asked.scene.as_deref())?;
+    let cameras = placed.iter().filter_map(|placed| Some((source.root.nodes[placed.index].camera?, placed.index)));
+    let cameras = cameras.map(|(camera, node)| cameras::name(&source, camera, node)).collect();
+    let scenes = source.root.scenes.iter().map(|scene| scene.name.clone().unwrap_or_default()).collect();
+    Ok(Contents { scenes, cameras })
+}
+
 /// Reads a scene. Messages call it `file`; it may name files in `folder`, if there is one.
-pub(super) fn read(bytes: &[u8], file: &str, folder: Option<&Path>) -> Result<Scene, Message> {
+pub(super) fn read(bytes: &[u8], file: &str, folder: Option<&Path>, asked: &Asked) -> Result<Scene, Message> {
     let source = Source::new(bytes, file, folder)?;
     let root = &source.root;
     check_extensions(&source)?;
     let mut out = Builder::default();
     let mut materials = Materials::default();
     let (mut delta_lights, mut intensities) = (Vec::new(), Vec::new());
-    let mut camera = None;
+    let mut seen = Vec::new();
     if !root.animations.is_empty() {
         out.notes.stand_in("animations", || source.message("animations are ignored"));
     }
-    let placed = nodes::walk(&source)?;
+    let placed = nodes::walk(&source, asked.scene.as_deref())?;
     let mut uses: HashMap<usize, usize> = HashMap::new();
     let mut copies = HashMap::new();
     for placed in &placed {
@@ -82,7 +93,10 @@ pub(super) fn read(bytes: &[u8], file: &str, folder: Option<&Path>) -> Result<Sc
         for copy in copies.get(&index).into_iter().flatten() {
             let Some(mesh) = node.mesh else { continue };
             let transform = transform.after(copy);
-            let is_shared = uses[&mesh.value()] > 1 && !meshes::glows(&source, &mut materials, &mut out, mesh, index)?;
+            // weights of a node make the mesh its own
+            let is_shared = node.weights.is_none()
+                && uses[&mesh.value()] > 1
+                && !meshes::glows(&source, &mut materials, &mut out, mesh, index)?;
             // no instance is flat
             if !is_shared || transform.determinant() == 0.0 {
                 meshes::add(&source, &mut materials, &mut out, mesh, index, &transform)?;
@@ -96,13 +110,11 @@ pub(super) fn read(bytes: &[u8], file: &str, folder: Option<&Path>) -> Result<Sc
             let added = out.instance(object, &transform);
             added.map_err(|why| source.message(format!("node {index}: {why}")))?;
         }
-        if let Some(described) = node.camera
-            && camera.is_none()
-        {
-            camera = Some(cameras::read(&source, described, index, &transform)?);
+        if let Some(described) = node.camera {
+            seen.push((described, index, transform));
         }
         if let Some(light) = node.extensions.as_ref().and_then(|all| all.khr_lights_punctual.as_ref()) {
-            match lights::read(&source, light.light, index, &transform, &mut intensities)? {
+            match lights::read(&source, light.light, index, &transform, &mut intensities, &mut out.notes)? {
                 Some(light) => delta_lights.push(light),
                 None => {
                     out.notes.warn_once("dark", || source.message(format!("node {index}: its light emits nothing")))
@@ -119,6 +131,7 @@ pub(super) fn read(bytes: &[u8], file: &str, folder: Option<&Path>) -> Result<Sc
     if left_out > 0 {
         out.notes.warn(source.message(format!("{left_out} triangle(s) without area are left out")));
     }
+    let camera = cameras::choose(&source, &seen, asked.camera.as_deref(), &mut out.notes)?;
     let (camera, film) = camera.unwrap_or_else(|| {
         let framing = cameras::framing(&out);
         out.notes.warn(source.message("no camera: framing the whole scene"));

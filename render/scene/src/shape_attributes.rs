@@ -30,6 +30,11 @@ impl ShapeAttributes {
         self.flip != (self.ctm.determinant() < 0.0)
     }
 
+    /// Whether the shape lights the scene, and no ray meets it.
+    pub(super) fn is_unseen(&self) -> bool {
+        self.emission.is_some_and(|emission| emission.is_unseen)
+    }
+
     /// Transforms points to world space; fails if one is not finite in f32.
     pub(super) fn place(&self, points: impl Iterator<Item = [f64; 3]>) -> Result<Vec<[f64; 3]>, String> {
         let place = |(i, p): (usize, [f64; 3])| {

@@ -91,11 +91,12 @@ impl Transform {
         Some(Transform { linear, shift })
     }
 
-    /// The map of the 16 numbers of `Transform`, by columns; `None` if it is not affine.
+    /// The map of the 16 numbers of `Transform`, by columns; `None` if it is not affine. The last number divides all others.
     pub(super) fn from_columns(m: &[f64; 16]) -> Option<Self> {
-        let row = |i: usize| [m[i], m[4 + i], m[8 + i]];
-        let affine = [m[3], m[7], m[11], m[15]] == [0.0, 0.0, 0.0, 1.0];
-        affine.then(|| Transform { linear: [row(0), row(1), row(2)], shift: [m[12], m[13], m[14]] })
+        let weight = m[15];
+        let affine = [m[3], m[7], m[11]] == [0.0; 3] && weight != 0.0 && weight.is_finite();
+        let row = |i: usize| [m[i], m[4 + i], m[8 + i]].map(|x| x / weight);
+        affine.then(|| Transform { linear: [row(0), row(1), row(2)], shift: [m[12], m[13], m[14]].map(|x| x / weight) })
     }
 
     /// The composition that applies `other` first, then `self`.

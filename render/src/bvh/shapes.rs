@@ -34,19 +34,22 @@ impl Solids {
 }
 
 impl ShapeSet {
-    /// Prepares the shapes.
+    /// Prepares shapes, each with its index in the scene's list.
     ///
     /// # Errors
     /// Fails if there are more than 2³¹ − 1 shapes.
-    pub fn new<'a>(shapes: impl Iterator<Item = &'a Geometry>) -> Result<Self, BuildError> {
-        let shapes: Vec<_> = shapes.collect();
+    pub fn new<'a>(shapes: impl Iterator<Item = (u32, &'a Geometry)>) -> Result<Self, BuildError> {
+        let (indices, shapes): (Vec<u32>, Vec<&Geometry>) = shapes.unzip();
         let boxes: Vec<_> = shapes.iter().map(|shape| shape.bounds()).collect();
         let reach = boxes.iter().flatten().flatten().fold(0.0_f32, |m, x| m.max(x.abs()));
         let tree = Tree::build(
             boxes,
             COSTS,
             |_| (),
-            |_, ids, _| Solids { solids: ids.iter().map(|&i| shapes[i as usize].solid()).collect(), ids },
+            |_, ids, _| Solids {
+                solids: ids.iter().map(|&i| shapes[i as usize].solid()).collect(),
+                ids: ids.iter().map(|&i| indices[i as usize]).collect(),
+            },
         )?;
         Ok(Self { tree, reach })
     }

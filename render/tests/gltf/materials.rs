@@ -282,7 +282,7 @@ fn indices_of_refraction_and_speculars() {
             json!({"metallicFactor": metallic, "roughnessFactor": 0.5, "baseColorFactor": [0.5, 0.5, 0.5, 1]});
         material(&Asset::of_material(json!({"pbrMetallicRoughness": surface, "extensions": extensions})))
     };
-    let Material::Glossy { diffuse, specular, grazing, roughness } =
+    let Material::Glossy { diffuse, specular, grazing, roughness, .. } =
         of(json!({"KHR_materials_ior": {"ior": 2.0}}), 0.0)
     else {
         panic!()

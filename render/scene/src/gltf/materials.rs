@@ -221,6 +221,8 @@ impl Reader<'_, '_> {
             grazing,
             roughness: [along, alpha],
             turn,
+            // the extension takes the light that none of the channels reflects
+            greatest: specular.is_some(),
         })
     }
 

@@ -7,7 +7,8 @@ use crate::shape_attributes::ShapeAttributes;
 use crate::transform::Transform;
 use crate::vertices::{Vertex, Vertices};
 use etendue_render::scene::Message;
-use gltf_json::mesh::{Mode, Primitive, Semantic};
+use gltf_json::accessor::Accessor;
+use gltf_json::mesh::{Mode, MorphTarget, Primitive, Semantic};
 use gltf_json::validation::Checked;
 use gltf_json::{Index, mesh};
 
@@ -43,9 +44,10 @@ pub(super) fn add(
     transform: &Transform,
 ) -> Result<(), Message> {
     let (index, mesh) = source.item(&source.root.meshes, mesh, "mesh", &format!("node {node}"))?;
+    let weights = source.root.nodes[node].weights.as_ref().or(mesh.weights.as_ref()).map_or(&[][..], Vec::as_slice);
     for (number, primitive) in mesh.primitives.iter().enumerate() {
         let item = format!("mesh {index}, primitive {number}");
-        Adder { source, out, item, node }.primitive(materials, primitive, transform)?;
+        Adder { source, out, item, node, weights }.primitive(materials, primitive, transform)?;
     }
     Ok(())
 }
@@ -70,6 +72,8 @@ struct Adder<'r, 's> {
     out: &'r mut Builder,
     item: String,
     node: usize,
+    /// Weights of the morph targets.
+    weights: &'r [f32],
 }
 
 /// The places of the corners of a triangle among the indices.
@@ -109,15 +113,13 @@ impl Adder<'_, '_> {
             self.stand_in("positions", "it has no POSITION and is ignored");
             return Ok(());
         };
-        if primitive.targets.as_ref().is_some_and(|targets| !targets.is_empty()) {
-            self.stand_in("targets", "its morph targets are ignored");
-        }
         if attribute(Semantic::Colors(0)).is_some() {
             self.stand_in("colors", "its COLOR_0 is ignored");
         }
         let surface = materials.surface(self.source, self.out, primitive.material, &self.item)?;
 
-        let positions = self.source.vectors::<3>(positions, &self.item)?;
+        let mut positions = self.source.vectors::<3>(positions, &self.item)?;
+        self.morph(primitive, |target| target.positions, &mut positions)?;
         let attributes = ShapeAttributes {
             ctm: *transform,
             flip: transform.determinant() < 0.0,
@@ -133,8 +135,9 @@ impl Adder<'_, '_> {
         let count = points.len();
         let mut normals = Vec::new();
         if let Some(accessor) = attribute(Semantic::Normals) {
-            let given = self.source.vectors::<3>(accessor, &self.item)?;
+            let mut given = self.source.vectors::<3>(accessor, &self.item)?;
             self.same_number("NORMAL", given.len(), count)?;
+            self.morph(primitive, |target| target.normals, &mut given)?;
             normals.extend(attributes.place_normals(given.iter().map(wide)));
         }
         let uvs = self.coordinates(primitive, surface.set, count)?;
@@ -163,6 +166,24 @@ impl Adder<'_, '_> {
             }
         };
         (0..triangles).for_each(&mut add);
+        Ok(())
+    }
+
+    /// Adds the morph targets of an attribute by their weights: those of the node, or else of the mesh, or else 0.
+    fn morph(
+        &mut self,
+        primitive: &Primitive,
+        of: impl Fn(&MorphTarget) -> Option<Index<Accessor>>,
+        values: &mut [[f32; 3]],
+    ) -> Result<(), Message> {
+        for (target, &weight) in primitive.targets.iter().flatten().zip(self.weights) {
+            let Some(accessor) = of(target).filter(|_| weight != 0.0) else { continue };
+            let moves = self.source.vectors::<3>(accessor, &self.item)?;
+            self.same_number("a morph target", moves.len(), values.len())?;
+            for (value, by) in values.iter_mut().zip(moves) {
+                (0..3).for_each(|k| value[k] += weight * by[k]);
+            }
+        }
         Ok(())
     }
 

@@ -95,7 +95,7 @@ pub(super) fn read(
         Some(distribution) => (Some(distribution.cone), Some(Arc::new(distribution))),
         None => (spread, None),
     };
-    let emission = Emission { radiance, two_sided, picture: None, spread, profile: None };
+    let emission = Emission { radiance, two_sided, spread, ..Emission::default() };
     Ok(Area { emission: (!dark).then_some(emission), picture, profile, power })
 }
 

@@ -198,14 +198,20 @@ impl Header {
     }
 }
 
+/// What a line says of `TILT`, in capitals, if it does.
+fn tilt(line: &str) -> Option<String> {
+    let (keyword, value) = line.split_once('=')?;
+    keyword.trim().eq_ignore_ascii_case("TILT").then(|| value.trim().to_ascii_uppercase())
+}
+
 /// Reads the text of a file that messages call `name`.
 pub(super) fn parse(text: &str, name: &str) -> Result<Photometry, String> {
-    let lines = || (1..).zip(text.lines());
-    let Some((line, tilt)) = lines().find_map(|(line, text)| Some((line, text.trim().strip_prefix("TILT=")?.trim())))
-    else {
+    // lines end with CR, LF or both, and keywords are written in any case
+    let text = text.trim_start_matches('\u{feff}').replace("\r\n", "\n").replace('\r', "\n");
+    let Some((line, tilt)) = (1..).zip(text.lines()).find_map(|(line, text)| Some((line, tilt(text)?))) else {
         return Err(format!("{name}: no line begins with TILT=, after which an IES file has its numbers"));
     };
-    let mut numbers = Numbers { name, words: words(text, line), next: 0 };
+    let mut numbers = Numbers { name, words: words(&text, line), next: 0 };
     let mut warnings = Vec::new();
     if tilt != "NONE" {
         warnings.push(format!("{name}:{line}: the factors of TILT are ignored"));
@@ -213,8 +219,8 @@ pub(super) fn parse(text: &str, name: &str) -> Result<Photometry, String> {
     if tilt == "INCLUDE" {
         skip_tilt(&mut numbers)?;
     }
-    let is_late =
-        ["LM-63-2002", "LM-63-2019"].iter().any(|year| lines().next().is_some_and(|(_, text)| text.contains(year)));
+    let first = text.lines().next().unwrap_or_default().to_ascii_uppercase();
+    let is_late = ["LM-63-2002", "LM-63-2019"].iter().any(|year| first.contains(year));
     let header = Header::read(&mut numbers, is_late)?;
     let (polar, columns) = header.table(&mut numbers)?;
     if numbers.left() > 0 {

@@ -76,18 +76,8 @@ pub(super) fn read(
         }
         "mirror" => Material::Mirror(reads.constant("Kr", 0.9, params, out)?),
         "conductor" | "metal" => reads.conductor(["eta", "k", "reflectance"], "", params, out)?,
-        "coatedconductor" => {
-            stand_in(out, params, "its conductor without the coat");
-            params.ignore(&["interface.roughness", "interface.uroughness", "interface.vroughness", "interface.eta"]);
-            reads.coat_is_ignored(params);
-            reads.conductor(["conductor.eta", "conductor.k", "reflectance"], "conductor.", params, out)?
-        }
-        "coateddiffuse" => {
-            reads.coat_is_ignored(params);
-            let base = reads.color(&["reflectance"], 0.5, params, out)?;
-            let eta = reads.eta(&["eta"], params, out)?;
-            reads.coated(base, Coat::of(eta), 0.0, params, out)?
-        }
+        "coatedconductor" => reads.coated_conductor(params, out)?,
+        "coateddiffuse" => reads.coated_diffuse(&["reflectance"], params, out)?,
         "plastic" | "uber" | "substrate" | "translucent" => {
             if params.given("opacity") | (kind == "translucent") {
                 stand_in(out, params, "opaque");
@@ -104,14 +94,17 @@ pub(super) fn read(
         }
         "diffusetransmission" => {
             stand_in(out, params, "what it reflects: light that passes through it is lost");
-            params.ignore(&["transmittance", "scale"]);
-            reads.diffuse(&["reflectance"], 0.25, params, out)?
+            params.ignore(&["transmittance"]);
+            let scale = params.float("scale")?.unwrap_or(1.0);
+            if !(0.0..=f64::from(f32::MAX)).contains(&scale) {
+                return Err(params.error(format!("\"scale\": must be finite and at least 0, not {}", shown(scale))));
+            }
+            let albedo = reads.color(&["reflectance"], 0.25, params, out)?.times(Texture::number(scale as f32));
+            albedo.constant().map_or_else(|| out.vary(Varying::Diffuse(albedo.clone())), Material::Diffuse)
         }
         "subsurface" | "kdsubsurface" => {
             stand_in(out, params, "a coat over a diffuse surface");
-            let base = reads.color(&["reflectance", "Kd"], 0.5, params, out)?;
-            let eta = reads.eta(&["eta"], params, out)?;
-            let made = reads.coated(base, Coat::of(eta), 0.0, params, out)?;
+            let made = reads.coated_diffuse(&["reflectance", "Kd"], params, out)?;
             params.ignore_all();
             made
         }
@@ -157,13 +150,6 @@ struct Coat {
     grazing: Texture,
 }
 
-impl Coat {
-    /// That of a dielectric.
-    fn of(eta: f64) -> Self {
-        Self { specular: Texture::number(reflectance_of(eta) as f32), grazing: Texture::number(1.0) }
-    }
-}
-
 /// Reads parameters of materials.
 struct Reads<'a> {
     context: &'a Context<'a>,
@@ -206,7 +192,7 @@ impl Reads<'_> {
         let Context { textures, files, .. } = self.context;
         for name in names {
             if params.is_texture(name) {
-                let texture = textures.number(name, params)?;
+                let texture = textures.number(name, params, &mut out.notes)?;
                 out.notes.stand_in(name, || params.error(format!("{name:?} becomes its mean")));
                 return Ok(texture.map_or(1.5, |texture| texture.mean()[0].into()));
             }
@@ -219,9 +205,53 @@ impl Reads<'_> {
         }
         Ok(1.5)
     }
-    /// Parameters of pbrt's coats without an effect on direct light.
-    fn coat_is_ignored(&self, params: &mut Params) {
-        params.ignore(&["thickness", "albedo", "g", "maxdepth", "nsamples", "interface.thickness"]);
+    /// Parameters of the random walk in pbrt's coats. Coats here are thin and without a medium, and all orders of reflection count.
+    fn walk(&self, params: &mut Params, out: &mut Builder) -> Result<(), Message> {
+        let Context { textures, files, .. } = self.context;
+        params.ignore(&["thickness", "g", "maxdepth", "nsamples", "interface.thickness"]);
+        if let Some(albedo) = textures.color("albedo", params, files, &mut out.notes)?
+            && albedo.constant() != Some([0.0; 3])
+        {
+            out.notes.stand_in("albedo", || params.error("\"albedo\" is ignored: coats scatter no light"));
+        }
+        Ok(())
+    }
+    /// An index of refraction of a coat, at least 1.
+    fn coat_eta(&self, names: &[&str], params: &mut Params, out: &mut Builder) -> Result<f32, Message> {
+        let eta = self.eta(names, params, out)?;
+        if eta < 1.0 {
+            out.notes.warn(params.error(format!("the index of refraction {} of its coat counts as 1", shown(eta))));
+        }
+        Ok(eta.max(1.0) as f32)
+    }
+    /// A coat over a diffuse base, with the light that goes back and forth between them.
+    fn coated_diffuse(&self, names: &[&str], params: &mut Params, out: &mut Builder) -> Result<Material, Message> {
+        self.walk(params, out)?;
+        let diffuse = self.color(names, 0.5, params, out)?;
+        let eta = self.coat_eta(&["eta"], params, out)?;
+        let roughness = self.coat_roughness("", 0.0, params, out)?;
+        Ok(out.vary(Varying::Layered { diffuse, eta, roughness }))
+    }
+    /// A coat over a metal: exact where both are smooth. Otherwise it is a metal of the reflectance of both at normal incidence, and of the
+    /// roughness that the metal has through the coat.
+    fn coated_conductor(&self, params: &mut Params, out: &mut Builder) -> Result<Material, Message> {
+        self.walk(params, out)?;
+        let coat = self.coat_eta(&["interface.eta"], params, out)?;
+        let above = self.roughness("interface.", 0.0, params, out)?;
+        let names = ["conductor.eta", "conductor.k", "reflectance"];
+        let metal = self.conductor(names, "conductor.", params, out)?;
+        let is_smooth = above.iter().all(|alpha| alpha.constant() == Some([0.0; 3]));
+        Ok(match metal {
+            Material::Conductor { eta, k, .. } if metal.is_mirror() && is_smooth => {
+                Material::CoatedMirror { eta, k, coat }
+            }
+            _ => {
+                let what = "becomes a metal that is as rough as it is through its coat";
+                out.notes.stand_in("coatedconductor", || params.error(what));
+                let above = above.map(|alpha| alpha.mean()[0]);
+                through_coat(metal, coat, (above[0] * above[1]).sqrt())
+            }
+        })
     }
     /// The roughness α along u and across, from up to three parameters whose names begin with `prefix`.
     fn roughness(
@@ -234,7 +264,7 @@ impl Reads<'_> {
         let names = ["roughness", "uroughness", "vroughness"].map(|name| format!("{prefix}{name}"));
         let varies = names.iter().any(|name| params.is_texture(name));
         if varies {
-            let mut number = |name: &str| self.context.textures.number(name, params);
+            let mut number = |name: &str| self.context.textures.number(name, params, &mut out.notes);
             let both = number(&names[0])?.unwrap_or(Texture::number(default));
             let each = [number(&names[1])?.unwrap_or(both.clone()), number(&names[2])?.unwrap_or(both)];
             let remap = params.flag("remaproughness")?.unwrap_or(true);
@@ -262,13 +292,24 @@ impl Reads<'_> {
         params: &mut Params,
         out: &mut Builder,
     ) -> Result<Material, Message> {
-        let roughness = self.roughness("", roughness, params, out)?;
+        let roughness = self.coat_roughness("", roughness, params, out)?;
+        Ok(out.vary(Varying::Glossy { diffuse, specular, grazing, roughness, turn: 0.0, greatest: false }))
+    }
+    /// The roughness of a coat: a smooth one is not quite smooth.
+    fn coat_roughness(
+        &self,
+        prefix: &str,
+        default: f32,
+        params: &mut Params,
+        out: &mut Builder,
+    ) -> Result<[Texture; 2], Message> {
+        let roughness = self.roughness(prefix, default, params, out)?;
         if roughness.iter().any(|alpha| alpha.constant().is_some_and(|[x, ..]| x < Roughness::LEAST)) {
             out.notes.stand_in("smooth coat", || {
                 params.error(format!("its smooth coat becomes one of roughness α = {}", Roughness::LEAST))
             });
         }
-        Ok(out.vary(Varying::Glossy { diffuse, specular, grazing, roughness, turn: 0.0 }))
+        Ok(roughness)
     }
     /// pbrt-v3's coats, by the reflectances of both layers.
     fn older_coat(&self, kind: &str, params: &mut Params, out: &mut Builder) -> Result<Material, Message> {
@@ -284,8 +325,9 @@ impl Reads<'_> {
     }
     fn disney(&self, params: &mut Params, out: &mut Builder) -> Result<Material, Message> {
         let base = self.color(&["color"], 0.5, params, out)?;
-        let number = |name: &str, default: f32, params: &mut Params| {
-            Ok::<_, Message>(self.context.textures.number(name, params)?.unwrap_or(Texture::number(default)))
+        let mut number = |name: &str, default: f32, params: &mut Params| {
+            let found = self.context.textures.number(name, params, &mut out.notes)?;
+            Ok::<_, Message>(found.unwrap_or(Texture::number(default)))
         };
         let (metallic, roughness) = (number("metallic", 0.0, params)?, number("roughness", 0.5, params)?);
         params.ignore_all();
@@ -308,7 +350,7 @@ impl Reads<'_> {
         let names = names.unwrap_or_else(|| older.into_iter().flatten().collect());
         // a float in pbrt-v4, a spectrum in v3
         let amount = if params.is_texture("amount") {
-            textures.number("amount", params)?
+            textures.number("amount", params, &mut out.notes)?
         } else {
             textures.color("amount", params, files, &mut out.notes)?
         };
@@ -330,7 +372,7 @@ impl Reads<'_> {
         let Context { textures, files, .. } = self.context;
         let given = textures.color_or_texture(reflectance, params, files, &mut out.notes)?;
         let indices = [Textures::index(eta, params, files)?, Textures::index(k, params, files)?];
-        let roughness = self.roughness(prefix, if prefix.is_empty() { 0.0 } else { 0.01 }, params, out)?;
+        let roughness = self.roughness(prefix, 0.0, params, out)?;
         let (eta, k) = match (given, indices) {
             (Some(_), [Some(_), _] | [_, Some(_)]) => {
                 return Err(params.error("\"reflectance\" cannot be combined with \"eta\" and \"k\""));
@@ -372,7 +414,31 @@ impl Reads<'_> {
     /// A rough metal with this reflectance at normal incidence.
     fn metal(&self, specular: Texture, roughness: [Texture; 2], out: &mut Builder) -> Material {
         let [diffuse, grazing] = [0.0, 1.0].map(Texture::number);
-        out.vary(Varying::Glossy { diffuse, specular, grazing, roughness, turn: 0.0 })
+        out.vary(Varying::Glossy { diffuse, specular, grazing, roughness, turn: 0.0, greatest: false })
+    }
+}
+
+/// What a metal looks like through a coat, approximately: directions in the coat are nearer to the normal, so that its slopes count η times
+/// outside, and those of the coat bend light twice by η − 1.
+fn through_coat(metal: Material, coat: f32, above: f32) -> Material {
+    let Material::Conductor { eta, k, roughness } = metal else { return metal };
+    let bent = above * above * (coat - 1.0) * (coat - 1.0) * 0.5;
+    let outside = |alpha: f32| (coat * coat).mul_add(alpha * alpha, bent).sqrt().clamp(0.0, 1.0);
+    let (low, high) = (((coat - 1.0) / (coat + 1.0)).powi(2), |x: f32, k: f32| {
+        let (x, k) = (x / coat, k / coat);
+        ((x - 1.0).powi(2) + k * k) / ((x + 1.0).powi(2) + k * k)
+    });
+    let both = |i: usize| {
+        let metal = high(eta[i], k[i]);
+        low + (1.0 - low) * (1.0 - low) * metal / (1.0 - low * metal)
+    };
+    let [along, across] = [roughness.along, roughness.across].map(outside);
+    Material::Glossy {
+        diffuse: [0.0; 3],
+        specular: [both(0), both(1), both(2)],
+        grazing: [1.0; 3],
+        roughness: Roughness { along: along.max(Roughness::LEAST), across: across.max(Roughness::LEAST), turn: 0.0 },
+        greatest: false,
     }
 }
 

@@ -3,6 +3,7 @@
 use super::material_parameters::Finish;
 use crate::builder::Builder;
 use crate::message::{Place, shortened};
+use crate::nearest::did_you_mean;
 use etendue_render::scene::{Material, Message};
 use std::collections::HashMap;
 
@@ -57,7 +58,12 @@ impl NamedMaterials {
             match self.get(name) {
                 Some(Finish::Of(material)) => out.keep(*promise, material),
                 Some(_) => return Err(place.message(format!("{shown:?} is no surface: define it before its shapes"))),
-                None => return Err(place.message(format!("no MakeNamedMaterial defines {shown:?}"))),
+                None => {
+                    let near = did_you_mean(name, self.defined.keys().map(String::as_str));
+                    let why = "a diffuse surface of albedo 0.5 stands for it";
+                    out.notes.misspelt(place.message(format!("no MakeNamedMaterial defines {shown:?}: {why}{near}")));
+                    out.keep(*promise, Material::Diffuse([0.5; 3]));
+                }
             }
         }
         Ok(())

@@ -170,6 +170,8 @@ impl Reader<'_> {
                 }
                 self.in_world = true;
                 self.state.ctm = Transform::IDENTITY;
+                // as in pbrt, it makes all transforms active again
+                self.state.is_end = false;
                 self.systems.insert("world".into(), Transform::IDENTITY);
             }
             "AttributeBegin" | "TransformBegin" => self.blocks.begin(word, place, &self.state)?,
@@ -315,6 +317,7 @@ impl Reader<'_> {
                 self.state.material = self.material(kind, &mut params, dir)?;
             }
             "MakeNamedMaterial" => {
+                self.with_defaults("material", &mut params);
                 let Some(of) = params.text("type")? else {
                     return Err(params.error("\"string type\" is missing"));
                 };

@@ -42,7 +42,7 @@ impl ShapeState {
                 out.notes.stand_in(name, || params.error(format!("{name:?} is ignored: surfaces are smooth")));
             }
         }
-        let opacity = textures.number("alpha", params)?;
+        let opacity = textures.number("alpha", params, &mut out.notes)?;
         params.given("shadowalpha");
         let is_absent = |opacity: &Texture| opacity.constant().is_some_and(|[x, ..]| x <= 0.0);
         if opacity.as_ref().is_some_and(is_absent) && self.area.emission.is_none() {
@@ -67,10 +67,18 @@ impl ShapeState {
             out.notes.stand_in(what, || params.error(format!("a sphere has no {what:?}: it emits in all directions")));
             (emission.spread, profile) = (None, None);
         }
-        let mask = opacity.map(|opacity| Mask { opacity, least: None });
-        if mask.is_some() && emission.is_some() {
-            out.notes.stand_in("light with holes", || params.error("\"alpha\": a light is seen, and opaque"));
+        // as in pbrt, a lamp of opacity 0 lights the scene, and no ray meets it
+        if let Some((emission, opacity)) = emission.as_mut().zip(opacity.as_ref()) {
+            let mean = opacity.mean()[0].clamp(0.0, 1.0);
+            emission.is_unseen = mean == 0.0;
+            if mean > 0.0 {
+                emission.radiance =
+                    emission.radiance.map(|x| (x * mean).max(if x > 0.0 { f32::MIN_POSITIVE } else { 0.0 }));
+                let what = "\"alpha\": a light with holes becomes opaque, and dimmer by its mean opacity";
+                out.notes.stand_in("light with holes", || params.error(what));
+            }
         }
+        let mask = opacity.map(|opacity| Mask { opacity, least: None });
         Ok(Some(ShapeAttributes {
             ctm: self.ctm,
             flip: self.reverse != (det < 0.0),
