@@ -7,6 +7,7 @@ mod certificates;
 mod choice;
 mod damaged;
 mod daylight;
+mod formats;
 mod glossy;
 mod gltf;
 mod holes;

@@ -11,9 +11,11 @@ mod lights;
 mod materials;
 mod meshes;
 mod nodes;
+mod properties;
 mod source;
 
 use crate::builder::{Builder, Rest};
+use crate::list::{Entry, GLTF, State};
 use crate::message::shortened;
 use crate::{Asked, Contents};
 use etendue_render::scene::{Message, Scene};
@@ -21,18 +23,6 @@ use materials::Materials;
 use source::Source;
 use std::collections::HashMap;
 use std::path::Path;
-
-/// Extensions that are supported, or change nothing when they are required.
-const SUPPORTED: [&str; 8] = [
-    nodes::INSTANCING,
-    "KHR_lights_punctual",
-    "KHR_materials_emissive_strength",
-    "KHR_materials_ior",
-    "KHR_materials_specular",
-    "KHR_materials_unlit",
-    "KHR_mesh_quantization",
-    "KHR_texture_transform",
-];
 
 /// Whether bytes or the name of a file are those of glTF.
 pub(super) fn is_gltf(path: &Path, bytes: &[u8]) -> bool {
@@ -44,8 +34,15 @@ pub(super) fn is_gltf(path: &Path, bytes: &[u8]) -> bool {
 fn check_extensions(source: &Source<'_>) -> Result<(), Message> {
     for name in &source.root.extensions_required {
         // what is ignored where it is optional is ignored with the same warning here
-        if !SUPPORTED.contains(&&**name) && !materials::is_ignored(name) && name != materials::ANISOTROPY {
-            return Err(source.message(format!("requires the extension {:?}, which is not supported", shortened(name))));
+        match GLTF.entry(name, "") {
+            Some(Entry { state: State::Refused, note, .. }) if note.contains("compressed") => {
+                return Err(source.message(format!("requires the extension {name:?}, which is not supported: {note}")));
+            }
+            Some(Entry { state: State::Refused, .. }) | None => {
+                let shown = shortened(name);
+                return Err(source.message(format!("requires the extension {shown:?}, which is not supported")));
+            }
+            Some(_) => {}
         }
     }
     Ok(())
@@ -70,9 +67,7 @@ pub(super) fn read(bytes: &[u8], file: &str, folder: Option<&Path>, asked: &Aske
     let mut materials = Materials::default();
     let (mut delta_lights, mut intensities) = (Vec::new(), Vec::new());
     let mut seen = Vec::new();
-    if !root.animations.is_empty() {
-        out.notes.stand_in("animations", || source.message("animations are ignored"));
-    }
+    properties::check(&source, source.json, &mut out.notes);
     let placed = nodes::walk(&source, asked.scene.as_deref())?;
     let mut uses: HashMap<usize, usize> = HashMap::new();
     let mut copies = HashMap::new();
@@ -87,9 +82,6 @@ pub(super) fn read(bytes: &[u8], file: &str, folder: Option<&Path>, asked: &Aske
     let mut objects: HashMap<usize, u32> = HashMap::new();
     for nodes::Placed { index, transform } in placed {
         let node = &root.nodes[index];
-        if node.skin.is_some() {
-            out.notes.stand_in("skins", || source.message(format!("node {index}: its skin is ignored")));
-        }
         for copy in copies.get(&index).into_iter().flatten() {
             let Some(mesh) = node.mesh else { continue };
             let transform = transform.after(copy);
@@ -122,10 +114,13 @@ pub(super) fn read(bytes: &[u8], file: &str, folder: Option<&Path>, asked: &Aske
             }
         }
     }
-    for name in root.extensions_used.iter().filter(|name| !SUPPORTED.contains(&&***name)) {
-        out.notes.stand_in(&format!("extension {name}"), || {
-            source.message(format!("the extension {:?} is ignored", shortened(name)))
-        });
+    for name in &root.extensions_used {
+        let is_known = |entry: &Entry| matches!(entry.state, State::Exact | State::Inert | State::Approximated);
+        if !GLTF.entry(name, "").is_some_and(is_known) {
+            out.notes.stand_in(&format!("extension {name}"), || {
+                source.message(format!("the extension {:?} is ignored", shortened(name)))
+            });
+        }
     }
     let left_out = out.left_out();
     if left_out > 0 {

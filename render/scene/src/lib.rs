@@ -3,38 +3,9 @@
 //!
 //! Coordinates are transformed in f64 and rounded once to f32. Errors name the file, and the line or item. What changes
 //! the image little, or only its noise, is a warning. Unsupported features are replaced, with one warning for each kind, which
-//! [`Scene::stand_ins`] has, too, as those of parameters that may be misspelt:
+//! [`Scene::stand_ins`] has, too, as those of parameters that may be misspelt.
 //!
-//! | in pbrt files | becomes |
-//! |---|---|
-//! | `diffuse`, `mirror`, `conductor`; v3's `matte`, `metal` | itself; spectra as RGB by CIE 1931 |
-//! | `coateddiffuse`; v3's `plastic`, `uber`, `substrate` | a GGX coat over a diffuse surface; a smooth coat has α = 0.01 |
-//! | `coatedconductor` | its conductor |
-//! | `dielectric`, `thindielectric`, `diffusetransmission`; v3's `glass`, `translucent` | what it reflects |
-//! | `subsurface`; v3's `kdsubsurface` | a coat over a diffuse surface |
-//! | `hair`, `measured`; v3's `fourier` | diffuse of albedo 0.5; v3's `disney` its base colour, metallic and roughness |
-//! | `mix` | the one of its materials with the greater share |
-//! | `interface`, `alpha` 0 | no surface |
-//! | `alpha` | holes: a ray is stopped with this chance; lights are opaque |
-//! | anisotropic roughness | itself, by the direction of growing u; of lights its geometric mean; tangents `S` are ignored |
-//! | `displacement`, `normalmap` | ignored |
-//! | textures `constant`, `scale`, `mix`, `checkerboard`, `imagemap` | themselves, by u and v; others 0.5; those of lights and spheres their means |
-//! | `trianglemesh`, `plymesh`, `sphere`, `disk`, parallelograms of `bilinearmesh` | themselves, with interpolated normals |
-//! | other patches, `cylinder`, partial, stretched or textured spheres and disks | triangles |
-//! | `loopsubdiv` | its control mesh |
-//! | `curve` and older quadrics, `projection` | left out |
-//! | `ObjectInstance` | itself, or a copy in small scenes; lights in objects emit nothing, as in pbrt |
-//! | `power` of a `diffuse` light | that of all of a shape, also of a mesh; `scale` multiplies it |
-//! | `diffuse` with a picture | itself: texels are interpolated as in pbrt-v4, by u and v, or the angles of a whole sphere |
-//! | pictures in EXR files | their display windows: black where they have no data, and without the data outside |
-//! | `goniometric` | itself, with the texel of a direction; also IES files of type C, which pbrt does not read, without factors of `TILT` |
-//! | `portal` | itself, in world space; a ray that escapes beside it is black, as in pbrt |
-//! | `"float spread"` of area lights, which pbrt does not have | the full angle of [`Spread`](etendue_render::spread::Spread) in degrees, as in Cycles |
-//! | `"string profile"` of spot and area lights, which pbrt does not have | intensities by direction, as below |
-//! | media, motion | ignored; stills at the start |
-//! | `cropwindow`, `pixelbounds` | that part of the image, in its place in the EXR file |
-//! | `perspective`, `orthographic` | themselves; with a lens, an orthographic camera is perspective, with the screen in its plane of focus, as in pbrt |
-//! | `realistic`, `spherical` | a perspective camera of 50 degrees |
+//! [`list`] says of everything that the formats can say what becomes of it; the pages `render/formats/pbrt.md` and `gltf.md` are made of it.
 //!
 //! Beyond pbrt, a sky may have up to eight portals, in one list of corners or in several lights of the same sky. They may be parallelograms,
 //! and what two of them show counts once. `LightSource "infinite" "string sky" "cie"` is daylight by CIE's standard general sky
@@ -64,19 +35,9 @@
 //! | views from below the smooth normal | it is turned until its cosine to the viewer is 0.01 | what is below it reflects |
 //! | quadrics that a transform mirrors | emit on the side of the transformed normal | sampled there, but seen from the other side |
 //! | `L` beside `filename` | both multiply, as in pbrt-v3 | an error |
-//! | `iso`, `sensor`, exposure time | ignored: pixels are radiance | a factor, a response |
+//! | `iso`, `shutteropen`, `shutterclose` | a factor of the PNG; the EXR file has radiance | a factor |
+//! | `sensor` | ignored: pixels are radiance | a response |
 //! | texels that are NaN or infinite | an error; negative ones are 0, with a warning | an error in lights alone |
-//!
-//! | in glTF files | becomes |
-//! |---|---|
-//! | metallic-roughness, index of refraction, specular | glTF's GGX over diffuse; a tinted F hides the diffuse part per channel |
-//! | spots | the falloff that `KHR_lights_punctual` suggests, also where its cosines differ by less than 0.001 |
-//! | emissive textures | themselves, on each triangle |
-//! | masks, blending | holes, as for `alpha` |
-//! | transmission | opaque |
-//! | meshes of several nodes, `EXT_mesh_gpu_instancing` | instances, or copies in small scenes and of lights |
-//! | normal and occlusion maps, vertex colours, skins, morphs, animations | ignored |
-//! | points and lines | left out |
 
 // what both formats share is more than either needs
 #![cfg_attr(not(all(feature = "gltf", feature = "pbrt")), allow(dead_code, unused_variables))]
@@ -88,6 +49,7 @@ mod files;
 mod gltf;
 pub mod image;
 mod lamps;
+pub mod list;
 mod message;
 mod nearest;
 #[cfg(feature = "pbrt")]

@@ -271,7 +271,6 @@ fn warnings_name_line_and_parameter() {
         "a.pbrt:1: Option \"disablepixeljitter\" ignored",
         "a.pbrt:2: ColorSpace \"aces2065-1\" ignored",
         "a.pbrt:3: Accelerator \"bvh\": ignored",
-        "a.pbrt:4: Film \"rgb\": \"iso\": ignored",
         "a.pbrt:5: Sampler \"halton\": only its number of samples is used; the nearest here is --sampler sobol",
         "a.pbrt:5: Sampler \"halton\": \"seed\": ignored",
         "a.pbrt:6: PixelFilter \"gaussian\": ignored",

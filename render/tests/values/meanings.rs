@@ -9,7 +9,7 @@ use etendue_render::Technique;
 const SOME: &[Technique] = &[Technique::Auto, Technique::SolidAngle, Technique::MisPower];
 
 pub(super) fn rows() -> Vec<Row> {
-    let tables = [coats(), coated_mirrors(), spectra(), motion(), attributes(), unseen(), files()];
+    let tables = [coats(), coated_mirrors(), spectra(), motion(), attributes(), mixtures(), unseen(), files()];
     tables.into_iter().flatten().collect()
 }
 
@@ -238,6 +238,45 @@ fn attributes() -> Vec<Row> {
         ("an object that nobody defines", under_sky("ObjectInstance \"nobody\""), 0.5),
     ]
     .map(|(name, text, right)| Row::new(name, text, grey(right)).by(SOME))
+    .into()
+}
+
+/// Mixtures reflect the shares of their materials, and lights have the material of the greater share.
+fn mixtures() -> Vec<Row> {
+    let grey_of = |name: &str, albedo: f64| {
+        format!(
+            "MakeNamedMaterial \"{name}\" \"string type\" \"diffuse\" \"rgb reflectance\" [{albedo} {albedo} {albedo}]\n"
+        )
+    };
+    let known = format!(
+        "{}{}{}MakeNamedMaterial \"none\" \"string type\" \"interface\"\n",
+        grey_of("a", 0.8),
+        grey_of("b", 0.2),
+        grey_of("c", 0.5)
+    );
+    let mix = |one: &str, other: &str, amount: &str| {
+        format!("Material \"mix\" \"string materials\" [\"{one}\" \"{other}\"] {amount}")
+    };
+    let half = "Texture \"t\" \"float\" \"checkerboard\" \"float uscale\" 3 \"float vscale\" 3 \"float tex1\" 0.25 \"float tex2\" .25";
+    let inner =
+        "MakeNamedMaterial \"m\" \"string type\" \"mix\" \"string materials\" [\"a\" \"b\"] \"float amount\" .5";
+    let floor = "Shape \"bilinearmesh\" \"point3 P\" [-900 -900 0  900 -900 0  -900 900 0  900 900 0]";
+    [
+        ("of a quarter", mix("a", "b", "\"float amount\" .25"), 0.65),
+        ("without an amount", mix("a", "b", ""), 0.5),
+        ("of nothing of the second", mix("a", "b", "\"float amount\" 0"), 0.8),
+        ("of all of the second", mix("a", "b", "\"float amount\" 1"), 0.2),
+        ("by a texture", format!("{half}\n{}", mix("a", "b", "\"texture amount\" \"t\"")), 0.65),
+        ("of a mixture", format!("{inner}\n{}", mix("m", "c", "\"float amount\" .2")), 0.5),
+        ("with a mixture", format!("{inner}\n{}", mix("a", "m", "\"float amount\" .4")), 0.68),
+        ("with what is no surface", mix("none", "a", "\"float amount\" .25"), 0.2),
+        ("with no surface below", mix("a", "none", "\"float amount\" .25"), 0.6),
+    ]
+    .map(|(name, material, right)| {
+        // beside the edge between both triangles of the floor, each of which would have its chance there
+        let text = format!("{}{SUN}\n{known}{material}\n{floor}", look([0.1, 0.2, 5.0], [0.7, 0.1, 0.0]));
+        Row::new(format!("a mixture {name}"), text, grey(right)).samples(1 << 16).within(1e-3).by(SOME)
+    })
     .into()
 }
 

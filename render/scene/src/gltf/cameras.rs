@@ -21,7 +21,7 @@ const FOV: f64 = 40.0;
 
 /// An image of this size.
 fn film([width, height]: [u32; 2]) -> FilmSettings {
-    FilmSettings { width, height, diagonal: 35.0, filename: None, place: None }
+    FilmSettings { width, height, diagonal: 35.0, filename: None, place: None, exposure: 1.0 }
 }
 
 /// Reads the camera of a node, which looks along its −z axis with its y axis up. Scales of the node do not change the image, but reflections

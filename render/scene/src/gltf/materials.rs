@@ -44,26 +44,8 @@ pub(super) struct Materials {
     images: HashMap<(usize, bool), Arc<Texels>>,
 }
 
-/// What else a material may have, and what its absence changes.
-const IGNORED: [(&str, &str); 9] = [
-    ("KHR_materials_transmission", "is ignored: the surface is opaque"),
-    ("KHR_materials_diffuse_transmission", "is ignored: the surface is opaque"),
-    ("KHR_materials_volume", "is ignored"),
-    ("KHR_materials_volume_scatter", "is ignored"),
-    ("KHR_materials_clearcoat", "is ignored"),
-    ("KHR_materials_sheen", "is ignored"),
-    ("KHR_materials_iridescence", "is ignored"),
-    ("KHR_materials_dispersion", "is ignored"),
-    ("KHR_materials_variants", "is ignored"),
-];
-
 /// The extension of anisotropic materials.
 pub(super) const ANISOTROPY: &str = "KHR_materials_anisotropy";
-
-/// Whether an extension is one of those that a material may have and that are ignored.
-pub(super) fn is_ignored(name: &str) -> bool {
-    IGNORED.iter().any(|(ignored, _)| *ignored == name)
-}
 
 /// Reads one material.
 struct Reader<'r, 's> {
@@ -120,7 +102,9 @@ impl Reader<'_, '_> {
     }
 
     fn read(&mut self, material: &material::Material) -> Result<Surface, Message> {
-        self.warn_of_ignored(material);
+        if matches!(material.alpha_mode, Checked::Invalid) {
+            self.stand_in("alpha", "its alphaMode is unknown: the surface is opaque");
+        }
         let extensions = material.extensions.as_ref();
         if extensions.is_some_and(|all| all.unlit.is_some()) {
             self.stand_in("unlit", "KHR_materials_unlit: a diffuse surface of its base colour stands for it");
@@ -200,9 +184,6 @@ impl Reader<'_, '_> {
         if let Some(specular) = specular {
             let [factor] = self.shares("specularFactor", [specular.specular_factor.0]);
             let color = specular.specular_color_factor.0.map(|x| if x > 0.0 { x.min(f32::MAX) } else { 0.0 });
-            if specular.specular_texture.is_some() || specular.specular_color_texture.is_some() {
-                self.stand_in("specular texture", "the textures of its KHR_materials_specular are ignored");
-            }
             if factor == 0.0 && metallic.constant() == Some([0.0; 3]) {
                 return Ok(Varying::Diffuse(base));
             }
@@ -236,9 +217,6 @@ impl Reader<'_, '_> {
         };
         let (strength, turn) = (number("anisotropyStrength")?, number("anisotropyRotation")?);
         let [strength] = self.shares("anisotropyStrength", [strength]);
-        if of.get("anisotropyTexture").is_some() {
-            self.stand_in("anisotropy texture", &format!("the texture of its {ANISOTROPY} is ignored"));
-        }
         Ok((strength > 0.0).then_some((strength, turn)))
     }
 
@@ -269,27 +247,6 @@ impl Reader<'_, '_> {
         };
         let emission = Emission { radiance, two_sided: material.double_sided, ..Emission::default() };
         Ok(Some(Glow { emission, texture }))
-    }
-
-    fn warn_of_ignored(&mut self, material: &material::Material) {
-        match material.alpha_mode {
-            Checked::Valid(_) => {}
-            Checked::Invalid => self.stand_in("alpha", "its alphaMode is unknown: the surface is opaque"),
-        }
-        if material.normal_texture.is_some() {
-            self.stand_in("normal", "its normalTexture is ignored");
-        }
-        if material.occlusion_texture.is_some() {
-            self.stand_in("occlusion", "its occlusionTexture is ignored");
-        }
-        for name in material.extensions.iter().flat_map(|all| all.others.keys()) {
-            if name == ANISOTROPY {
-                continue;
-            }
-            let known = IGNORED.iter().find(|(ignored, _)| ignored == name);
-            let what = known.map_or("is not supported and ignored", |(_, what)| what);
-            self.stand_in(&format!("extension {name}"), &format!("{} {what}", shortened(name)));
-        }
     }
 
     /// A colour times a texture. The first texture tells the set of texture coordinates for all.

@@ -113,8 +113,14 @@ impl Adder<'_, '_> {
             self.stand_in("positions", "it has no POSITION and is ignored");
             return Ok(());
         };
-        if attribute(Semantic::Colors(0)).is_some() {
-            self.stand_in("colors", "its COLOR_0 is ignored");
+        let others = primitive.extensions.iter().flat_map(|all| all.others.keys());
+        if let Some(name) = others.into_iter().find(|name| name.contains("draco")) {
+            let is_empty = |index: Index<Accessor>| {
+                self.source.root.accessors.get(index.value()).is_some_and(|of| of.buffer_view.is_none())
+            };
+            if is_empty(positions) {
+                return Err(self.error(&format!("its geometry is compressed by {name}, which is not supported")));
+            }
         }
         let surface = materials.surface(self.source, self.out, primitive.material, &self.item)?;
 

@@ -48,8 +48,6 @@ pub(super) fn read(
     if kind != "diffuse" && kind != "area" {
         return Err(params.error("not supported, only \"diffuse\""));
     }
-    params.given("nsamples");
-    params.given("samples");
     let texels = match params.text("filename")? {
         Some(name) => Some(shown_texels(&name, params, files, known, notes)?),
         None => None,

@@ -20,7 +20,65 @@ pub(super) enum Finish {
     Invisible,
     /// A named material that is not defined yet, by its index among those names.
     Awaited(usize),
+    /// Two of them, by the index of the mixture.
+    Mix(usize),
 }
+
+/// A mixture of two materials.
+#[derive(Clone, Debug)]
+pub(super) struct Mixture {
+    of: [Finish; 2],
+    /// The share of the second one.
+    amount: Texture,
+}
+
+/// The materials of a mixture with their shares, and the chance that a ray that meets them meets each, if it has passed those before.
+pub(super) fn parts(finish: Finish, mixtures: &[Mixture]) -> Vec<(Finish, Texture)> {
+    let mut leaves = Vec::new();
+    let mut rest = vec![(finish, Texture::number(1.0))];
+    // mixtures precede those that contain them, so that this ends; a bound for those that double each time
+    while let Some((finish, share)) = rest.pop() {
+        match finish {
+            Finish::Mix(index) if leaves.len() + rest.len() < MOST_PARTS => {
+                let Mixture { of: [first, second], amount } = &mixtures[index];
+                rest.push((*second, share.clone().times(amount.clone())));
+                rest.push((*first, share.times(amount.clone().inverse())));
+            }
+            finish => leaves.push((finish, share)),
+        }
+    }
+    // what rays pass takes its share from those that they meet
+    let is_whole = leaves.iter().all(|(finish, _)| *finish != Finish::Invisible);
+    // of two, shares may vary
+    if let [(first, _), (_, last)] = &mut leaves[..] {
+        if *first != Finish::Invisible {
+            *last = Texture::number(1.0);
+        }
+        return leaves;
+    }
+    let mut left = 1.0_f32;
+    for (finish, share) in &mut leaves {
+        let own = share.mean()[0];
+        *share = Texture::number(if left > 1e-6 { (own / left).clamp(0.0, 1.0) } else { 1.0 });
+        left -= if *finish == Finish::Invisible { 0.0 } else { own };
+    }
+    // what rounding leaves over is the last one's
+    leaves.last_mut().into_iter().filter(|_| is_whole).for_each(|(_, share)| *share = Texture::number(1.0));
+    leaves
+}
+
+/// The material of a mixture that has the greatest share: that of lights.
+pub(super) fn greatest(finish: Finish, mixtures: &[Mixture]) -> Finish {
+    let mut finish = finish;
+    while let Finish::Mix(index) = finish {
+        let Mixture { of, amount } = &mixtures[index];
+        finish = of[usize::from(amount.mean()[0] > 0.5)];
+    }
+    finish
+}
+
+/// Most materials of a mixture of mixtures.
+const MOST_PARTS: usize = 16;
 
 /// What a material's parameters refer to.
 pub(super) struct Context<'a> {
@@ -61,16 +119,15 @@ pub(super) fn read(
     kind: &str,
     params: &mut Params,
     context: &Context<'_>,
+    mixtures: &mut Vec<Mixture>,
     out: &mut Builder,
 ) -> Result<Finish, Message> {
-    note_relief(params, out);
     let reads = Reads { context };
     let stand_in = |out: &mut Builder, params: &Params, what: &str| {
         out.notes.stand_in(kind, || params.error(format!("becomes {what}")));
     };
     Ok(Finish::Of(match kind {
         "diffuse" | "matte" => {
-            params.given("sigma");
             let name = if kind == "matte" { "Kd" } else { "reflectance" };
             reads.diffuse(&[name], 0.5, params, out)?
         }
@@ -79,7 +136,7 @@ pub(super) fn read(
         "coatedconductor" => reads.coated_conductor(params, out)?,
         "coateddiffuse" => reads.coated_diffuse(&["reflectance"], params, out)?,
         "plastic" | "uber" | "substrate" | "translucent" => {
-            if params.given("opacity") | (kind == "translucent") {
+            if kind == "translucent" {
                 stand_in(out, params, "opaque");
             }
             reads.older_coat(kind, params, out)?
@@ -94,7 +151,6 @@ pub(super) fn read(
         }
         "diffusetransmission" => {
             stand_in(out, params, "what it reflects: light that passes through it is lost");
-            params.ignore(&["transmittance"]);
             let scale = params.float("scale")?.unwrap_or(1.0);
             if !(0.0..=f64::from(f32::MAX)).contains(&scale) {
                 return Err(params.error(format!("\"scale\": must be finite and at least 0, not {}", shown(scale))));
@@ -114,8 +170,7 @@ pub(super) fn read(
             Material::Diffuse([0.5; 3])
         }
         "mix" => {
-            stand_in(out, params, "the one of its materials that has the greater share");
-            return reads.greater_share(params, out);
+            return reads.mixed(params, mixtures, out);
         }
         "interface" | "none" | "" => {
             params.ignore_all();
@@ -127,15 +182,6 @@ pub(super) fn read(
             return Err(params.error(format!("material type {kind:?} is not supported, only {kinds}{near}")));
         }
     }))
-}
-
-/// Notes parameters that would change normals.
-fn note_relief(params: &mut Params, out: &mut Builder) {
-    for name in ["displacement", "normalmap", "bumpmap"] {
-        if params.given(name) {
-            out.notes.stand_in(name, || params.error(format!("{name:?} is ignored: surfaces are smooth")));
-        }
-    }
 }
 
 /// Reflectance at normal incidence on a smooth dielectric.
@@ -205,17 +251,6 @@ impl Reads<'_> {
         }
         Ok(1.5)
     }
-    /// Parameters of the random walk in pbrt's coats. Coats here are thin and without a medium, and all orders of reflection count.
-    fn walk(&self, params: &mut Params, out: &mut Builder) -> Result<(), Message> {
-        let Context { textures, files, .. } = self.context;
-        params.ignore(&["thickness", "g", "maxdepth", "nsamples", "interface.thickness"]);
-        if let Some(albedo) = textures.color("albedo", params, files, &mut out.notes)?
-            && albedo.constant() != Some([0.0; 3])
-        {
-            out.notes.stand_in("albedo", || params.error("\"albedo\" is ignored: coats scatter no light"));
-        }
-        Ok(())
-    }
     /// An index of refraction of a coat, at least 1.
     fn coat_eta(&self, names: &[&str], params: &mut Params, out: &mut Builder) -> Result<f32, Message> {
         let eta = self.eta(names, params, out)?;
@@ -226,7 +261,6 @@ impl Reads<'_> {
     }
     /// A coat over a diffuse base, with the light that goes back and forth between them.
     fn coated_diffuse(&self, names: &[&str], params: &mut Params, out: &mut Builder) -> Result<Material, Message> {
-        self.walk(params, out)?;
         let diffuse = self.color(names, 0.5, params, out)?;
         let eta = self.coat_eta(&["eta"], params, out)?;
         let roughness = self.coat_roughness("", 0.0, params, out)?;
@@ -235,9 +269,12 @@ impl Reads<'_> {
     /// A coat over a metal: exact where both are smooth. Otherwise it is a metal of the reflectance of both at normal incidence, and of the
     /// roughness that the metal has through the coat.
     fn coated_conductor(&self, params: &mut Params, out: &mut Builder) -> Result<Material, Message> {
-        self.walk(params, out)?;
         let coat = self.coat_eta(&["interface.eta"], params, out)?;
-        let above = self.roughness("interface.", 0.0, params, out)?;
+        // both roughnesses have the same flag
+        let above = self.roughness("interface.", 0.0, &mut params.clone(), out)?;
+        for name in ["interface.roughness", "interface.uroughness", "interface.vroughness"] {
+            params.given(name);
+        }
         let names = ["conductor.eta", "conductor.k", "reflectance"];
         let metal = self.conductor(names, "conductor.", params, out)?;
         let is_smooth = above.iter().all(|alpha| alpha.constant() == Some([0.0; 3]));
@@ -313,7 +350,6 @@ impl Reads<'_> {
     }
     /// pbrt-v3's coats, by the reflectances of both layers.
     fn older_coat(&self, kind: &str, params: &mut Params, out: &mut Builder) -> Result<Material, Message> {
-        params.ignore(&["reflect", "transmit", "Kr", "Kt", "index", "eta"]);
         let default = if kind == "substrate" { 0.5 } else { 0.25 };
         let (base, coat) = (self.color(&["Kd"], default, params, out)?, self.color(&["Ks"], default, params, out)?);
         // Ks is a factor of a dielectric's reflectance, or for a substrate that at normal incidence
@@ -334,7 +370,6 @@ impl Reads<'_> {
         Ok(out.vary(Varying::Metallic { base, metallic, roughness }))
     }
     fn dielectric(&self, params: &mut Params, out: &mut Builder) -> Result<Material, Message> {
-        params.ignore(&["Kr", "Kt"]);
         let eta = self.eta(&["eta", "index"], params, out)?;
         let roughness = self.roughness("", 0.0, params, out)?;
         Ok(match constant(&roughness) {
@@ -342,8 +377,8 @@ impl Reads<'_> {
             None => self.metal(Texture::number(reflectance_of(eta) as f32), roughness, out),
         })
     }
-    /// The one of the materials of a mix that has the greater share.
-    fn greater_share(&self, params: &mut Params, out: &mut Builder) -> Result<Finish, Message> {
+    /// A mixture of two materials.
+    fn mixed(&self, params: &mut Params, mixtures: &mut Vec<Mixture>, out: &mut Builder) -> Result<Finish, Message> {
         let Context { textures, named, files } = self.context;
         let names = params.texts("materials")?;
         let older = [params.text("namedmaterial1")?, params.text("namedmaterial2")?];
@@ -352,15 +387,30 @@ impl Reads<'_> {
         let amount = if params.is_texture("amount") {
             textures.number("amount", params, &mut out.notes)?
         } else {
-            textures.color("amount", params, files, &mut out.notes)?
+            textures.color("amount", params, files, &mut out.notes)?.map(|amount| amount.channel(1))
         };
-        let share = amount.map_or(0.5, |amount| amount.mean()[1]);
+        let amount = amount.unwrap_or(Texture::number(0.5));
         let [first, second] = &names[..] else {
             return Err(params.error(format!("needs two \"materials\", not {}", names.len())));
         };
-        let name = if share > 0.5 { second } else { first };
-        let unknown = || params.error(format!("no MakeNamedMaterial {:?} precedes this", shortened(name)));
-        named(name).ok_or_else(unknown)
+        let mut of = [Finish::Of(Material::Diffuse([0.5; 3])); 2];
+        for (finish, name) in of.iter_mut().zip([first, second]) {
+            match named(name) {
+                Some(known) => *finish = known,
+                None => out.notes.misspelt(params.error(format!(
+                    "no MakeNamedMaterial {:?} precedes this: a diffuse surface of albedo 0.5 stands for it",
+                    shortened(name)
+                ))),
+            }
+        }
+        Ok(match amount.constant() {
+            Some([x, ..]) if x <= 0.0 => of[0],
+            Some([x, ..]) if x >= 1.0 => of[1],
+            _ => {
+                mixtures.push(Mixture { of, amount });
+                Finish::Mix(mixtures.len() - 1)
+            }
+        })
     }
     fn conductor(
         &self,

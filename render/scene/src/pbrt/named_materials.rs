@@ -43,7 +43,8 @@ impl NamedMaterials {
     pub(super) fn of_shape(&mut self, finish: Finish, out: &mut Builder) -> Option<Material> {
         match finish {
             Finish::Of(material) => Some(material),
-            Finish::Invisible => None,
+            // a mixture comes as its parts
+            Finish::Invisible | Finish::Mix(_) => None,
             Finish::Awaited(index) => match self.get(&self.awaited[index].name) {
                 Some(finish) => self.of_shape(finish, out),
                 None => Some(*self.awaited[index].promise.get_or_insert_with(|| out.promise())),

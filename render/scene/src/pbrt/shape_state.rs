@@ -18,6 +18,8 @@ pub(super) struct ShapeState {
     /// Whether `ReverseOrientation` holds.
     pub(super) reverse: bool,
     pub(super) material: Finish,
+    /// Of a part of a mixture, the chance that a ray that gets to it meets it.
+    pub(super) share: Option<Texture>,
     pub(super) area: Area,
     /// Whether an object is being read.
     pub(super) is_object: bool,
@@ -37,13 +39,7 @@ impl ShapeState {
         if det == 0.0 || !det.is_finite() {
             return Err(params.error("its transform is singular"));
         }
-        for name in ["displacement", "emissionfilename", "displacement.edgelength"] {
-            if params.given(name) {
-                out.notes.stand_in(name, || params.error(format!("{name:?} is ignored: surfaces are smooth")));
-            }
-        }
         let opacity = textures.number("alpha", params, &mut out.notes)?;
-        params.given("shadowalpha");
         let is_absent = |opacity: &Texture| opacity.constant().is_some_and(|[x, ..]| x <= 0.0);
         if opacity.as_ref().is_some_and(is_absent) && self.area.emission.is_none() {
             params.ignore_all();
@@ -78,6 +74,12 @@ impl ShapeState {
                 out.notes.stand_in("light with holes", || params.error(what));
             }
         }
+        // a part of a mixture is made of triangles, as the others are, even if it has no holes
+        let opacity = match (opacity, self.share) {
+            (opacity, None) => opacity,
+            (None, share) => share,
+            (Some(opacity), Some(share)) => Some(opacity.times(share)),
+        };
         let mask = opacity.map(|opacity| Mask { opacity, least: None });
         Ok(Some(ShapeAttributes {
             ctm: self.ctm,

@@ -117,7 +117,6 @@ impl Textures {
             Some(other) => return Err(params.error(format!("\"wrap\": unknown mode {:?}", shortened(other)))),
         };
         let bilinear = params.text("filter")?.as_deref() != Some("point");
-        let _ = (params.float("maxanisotropy")?, params.flag("trilinear")?);
         let scale = params.float("scale")?.unwrap_or(1.0);
         let scale = finite("scale", scale, params)?;
         let invert = params.flag("invert")?.unwrap_or(false);
@@ -251,7 +250,6 @@ fn finite(name: &str, x: f64, params: &Params) -> Result<f32, Message> {
 /// The mapping of a texture: "uv", or as if it were that.
 fn mapping(params: &mut Params, notes: &mut Notes) -> Result<Mapping, Message> {
     if let Some(kind) = params.text("mapping")?.filter(|kind| kind != "uv") {
-        params.ignore(&["v1", "v2"]);
         let what = format!("mapping {:?} becomes that of u and v", shortened(&kind));
         notes.stand_in(&what, || params.error(&what));
     }
