@@ -71,6 +71,14 @@ fn write_kinds(folder: &Folder) {
     for (name, text) in IES_KINDS.iter().zip(texts) {
         folder.write(&format!("{name}.ies"), text);
     }
+    let angles = "-90 -30 0 60 90";
+    let (by_v, by_h) = ([10.0, 40.0, 100.0, 30.0, 5.0], [2.0, 5.0, 9.0, 7.0, 1.0]);
+    let column = |h: f64| by_v.map(|v| (v * h / 9.0).to_string()).join(" ");
+    let values = by_h.map(column).join("\n");
+    for (name, kind) in [("type-a.ies", 3), ("type-b.ies", 2)] {
+        folder.write(name, format!("TILT=NONE\n1 -1 1 5 5 {kind} 2 0 0 0\n1 1 9\n{angles}\n{angles}\n{values}\n"));
+    }
+    folder.write("half-b.ies", "TILT=NONE\n1 -1 1 2 2 2 2 0 0 0\n1 1 9\n0 90\n0 90\n90 0 0 0\n");
     let head = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n\
                 element face 2\nproperty list uchar int vertex_indices\nend_header\n";
     let bodies = [

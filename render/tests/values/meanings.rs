@@ -9,7 +9,8 @@ use etendue_render::Technique;
 const SOME: &[Technique] = &[Technique::Auto, Technique::SolidAngle, Technique::MisPower];
 
 pub(super) fn rows() -> Vec<Row> {
-    let tables = [coats(), coated_mirrors(), spectra(), motion(), attributes(), mixtures(), unseen(), files()];
+    let tables =
+        [coats(), coated_mirrors(), spectra(), motion(), attributes(), mixtures(), unseen(), files(), floodlights()];
     tables.into_iter().flatten().collect()
 }
 
@@ -375,5 +376,48 @@ fn files() -> Vec<Row> {
                 .within(1e-3),
         );
     }
+    rows
+}
+
+/// Photometric types A and B: the floor below a lamp whose beam is downwards and whose right side is +x, by its angles.
+fn floodlights() -> Vec<Row> {
+    let mut rows = Vec::new();
+    // 8 values at each of the angles -90, -30, 0, 60, 90, in both lists
+    let angles = [-90.0, -30.0, 0.0, 60.0, 90.0];
+    let value = |v: usize, h: usize| [10.0, 40.0, 100.0, 30.0, 5.0][v] * [2.0, 5.0, 9.0, 7.0, 1.0][h] / 9.0;
+    let between = |angle: f64| {
+        let i = (0..4).rev().find(|i| angles[*i] <= angle).unwrap_or(0);
+        (i, (angle - angles[i]) / (angles[i + 1] - angles[i]))
+    };
+    for (kind, is_b) in [("a", false), ("b", true)] {
+        for [x, y] in [[0.0, 0.0], [0.5, 0.0], [0.0, 0.7], [-1.2, 0.4], [2.5, -3.0]] {
+            let (x, y): (f64, f64) = (x, y);
+            let square = x * x + y * y + 4.0;
+            let [right, up, beam] = [x, y, 2.0].map(|c| c / square.sqrt());
+            let (v, h) = match is_b {
+                true => (up.atan2(beam), right.asin()),
+                false => (up.asin(), right.atan2(beam)),
+            };
+            let ((i, s), (j, t)) = (between(v.to_degrees()), between(h.to_degrees()));
+            let at = |i: usize| value(i, j) * (1.0 - t) + value(i, j + 1) * t;
+            let intensity = at(i) * (1.0 - s) + at(i + 1) * s;
+            let light = format!(
+                "AttributeBegin Translate {} {} 2 Rotate 90 1 0 0 LightSource \"goniometric\" \"string filename\" \"type-{kind}.ies\" AttributeEnd",
+                -x, -y
+            );
+            let name = format!("IES file of type {kind} at {x}, {y}");
+            rows.push(Row::new(name, on_floor(&light), reflected(grey(intensity * beam / square))).within(1e-4));
+        }
+    }
+    // half a table is symmetric
+    let symmetric = "AttributeBegin Translate .7 .3 2 Rotate 90 1 0 0 LightSource \"goniometric\" \"string filename\" \"half-b.ies\" AttributeEnd";
+    let square: f64 = 0.49 + 0.09 + 4.0;
+    let [right, up, beam] = [0.7, 0.3, 2.0].map(|c: f64| c / square.sqrt());
+    let (v, h) = (up.atan2(beam).to_degrees(), right.asin().to_degrees());
+    let intensity = 90.0 * (1.0 - v / 90.0) * (1.0 - h / 90.0);
+    rows.push(
+        Row::new("IES file of type b, symmetric", on_floor(symmetric), reflected(grey(intensity * beam / square)))
+            .within(1e-4),
+    );
     rows
 }
