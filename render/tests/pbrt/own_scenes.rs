@@ -284,8 +284,16 @@ fn materials_become_what_direct_light_shows() {
     // through the coat, slopes of the metal count 1.5 times
     let rough = coat(&format!("Material \"coatedconductor\" {gold} \"float conductor.roughness\" .04"));
     assert_eq!(rough.2, 0.3.into());
-    let (eta, k, roughness) = conductor("Material \"dielectric\" \"spectrum eta\" \"glass-BK7\" \"float roughness\" 0");
-    assert_eq!((eta, k, roughness), ([1.5168; 3], [0.0; 3], 0.0.into()));
+    let (eta, k, roughness) =
+        conductor("Material \"dielectric\" \"spectrum eta\" \"glass-BK7\" \"float roughness\" .25");
+    assert_eq!((eta, k, roughness), ([1.5168; 3], [0.0; 3], 0.5.into()));
+    // a smooth one is a mirror with holes, as many as let through what it does not reflect
+    let pane = lit(&format!("Material \"dielectric\" \"float roughness\" 0 {TRIANGLE}"));
+    let [(_, mask)] = &pane.masks[..] else { panic!() };
+    assert_eq!(pane.materials[pane.triangle_materials[0] as usize], Material::Mirror([1.0; 3]));
+    assert!((mask.opacity.mean()[0] - 0.04).abs() < 1e-6 && mask.least.is_none());
+    // and a lamp of it shines
+    assert_eq!(lit(&format!("Material \"dielectric\" {LIGHT} {TRIANGLE}")).shapes.len(), 1);
     assert!(coat("Material \"metal\" \"rgb reflectance\" [1 1 1]\nMaterial \"substrate\"").2.along > 0.3);
     for (text, expected) in [
         ("Material \"matte\" \"rgb Kd\" [.2 .2 .2]", Material::Diffuse([0.2; 3])),

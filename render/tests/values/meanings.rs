@@ -9,8 +9,18 @@ use etendue_render::Technique;
 const SOME: &[Technique] = &[Technique::Auto, Technique::SolidAngle, Technique::MisPower];
 
 pub(super) fn rows() -> Vec<Row> {
-    let tables =
-        [coats(), coated_mirrors(), spectra(), motion(), attributes(), mixtures(), unseen(), files(), floodlights()];
+    let tables = [
+        coats(),
+        coated_mirrors(),
+        spectra(),
+        motion(),
+        attributes(),
+        mixtures(),
+        panes(),
+        unseen(),
+        files(),
+        floodlights(),
+    ];
     tables.into_iter().flatten().collect()
 }
 
@@ -277,6 +287,44 @@ fn mixtures() -> Vec<Row> {
         // beside the edge between both triangles of the floor, each of which would have its chance there
         let text = format!("{}{SUN}\n{known}{material}\n{floor}", look([0.1, 0.2, 5.0], [0.7, 0.1, 0.0]));
         Row::new(format!("a mixture {name}"), text, grey(right)).samples(1 << 16).within(1e-3).by(SOME)
+    })
+    .into()
+}
+
+/// Smooth glass lets straight through what it does not reflect: a lamp above a pane and the camera above both, all at normal incidence.
+fn panes() -> Vec<Row> {
+    let floor = "Material \"diffuse\" \"rgb reflectance\" [.5 .5 .5]\n\
+        Shape \"bilinearmesh\" \"point3 P\" [-900 -900 0  900 -900 0  -900 900 0  900 900 0]";
+    let pane = |material: &str, height: f64| {
+        format!(
+            "Material {material}\nShape \"bilinearmesh\" \"point3 P\" [-800 -800 {height}  800 -800 {height}  -800 800 {height}  800 800 {height}]\n"
+        )
+    };
+    let text = |panes: &str| format!("{}{SUN}\n{floor}\n{panes}", look([0.7, 0.1, 5.0], [0.7, 0.1, 0.0]));
+    let once = |eta: f64| ((eta - 1.0) / (eta + 1.0)).powi(2);
+    let thin = |eta: f64| 1.0 - 2.0 * once(eta) / (1.0 + once(eta));
+    let (glass, other) = ("\"thindielectric\"", "\"thindielectric\" \"float eta\" 2");
+    let solid = |eta: f64| format!("\"dielectric\" \"float eta\" {eta}");
+    // the camera and the sun each pass all of them; the camera's rays also go back and forth between two
+    let between = |one: f64, other: f64| 1.0 / (1.0 - (1.0 - one) * (1.0 - other)).sqrt();
+    [
+        ("a thin pane", text(&pane(glass, 2.0)), thin(1.5)),
+        ("a thin pane of index 2", text(&pane(other, 2.0)), thin(2.0)),
+        (
+            "two thin panes",
+            text(&format!("{}{}", pane(glass, 2.0), pane(other, 1.0))),
+            thin(1.5) * thin(2.0) * between(thin(1.5), thin(2.0)),
+        ),
+        ("one side of a solid", text(&pane(&solid(1.5), 2.0)), 1.0 - once(1.5)),
+        (
+            "both sides of a solid",
+            text(&format!("{}{}", pane(&solid(1.7), 2.0), pane(&solid(1.7), 1.0))),
+            (1.0 - once(1.7)).powi(2) * between(1.0 - once(1.7), 1.0 - once(1.7)),
+        ),
+    ]
+    .map(|(name, text, through)| {
+        let right = grey(0.5 * through * through);
+        Row::new(format!("a floor below {name}"), text, right).samples(1 << 16).within(1e-3).by(SOME)
     })
     .into()
 }

@@ -67,12 +67,13 @@ pub(super) fn parts(finish: Finish, mixtures: &[Mixture]) -> Vec<(Finish, Textur
     leaves
 }
 
-/// The material of a mixture that has the greatest share: that of lights.
+/// The material of a mixture that has the greatest share, unless rays pass it: that of lights.
 pub(super) fn greatest(finish: Finish, mixtures: &[Mixture]) -> Finish {
     let mut finish = finish;
     while let Finish::Mix(index) = finish {
-        let Mixture { of, amount } = &mixtures[index];
-        finish = of[usize::from(amount.mean()[0] > 0.5)];
+        let Mixture { of: [first, second], amount } = &mixtures[index];
+        // a lamp of glass is one
+        finish = if amount.mean()[0] > 0.5 && *second != Finish::Invisible { *second } else { *first };
     }
     finish
 }
@@ -146,8 +147,16 @@ pub(super) fn read(
             reads.disney(params, out)?
         }
         "dielectric" | "thindielectric" | "glass" => {
+            let read = reads.dielectric(params, out)?;
+            if let Material::Conductor { eta: [eta, ..], .. } = read
+                && read.is_mirror()
+            {
+                let what = "a pane without refraction, which reflects at all angles what it does at normal incidence";
+                stand_in(out, params, what);
+                return Ok(pane(eta, kind == "thindielectric", mixtures));
+            }
             stand_in(out, params, "what it reflects: light that passes through it is lost");
-            reads.dielectric(params, out)?
+            read
         }
         "diffusetransmission" => {
             stand_in(out, params, "what it reflects: light that passes through it is lost");
@@ -466,6 +475,16 @@ impl Reads<'_> {
         let [diffuse, grazing] = [0.0, 1.0].map(Texture::number);
         out.vary(Varying::Glossy { diffuse, specular, grazing, roughness, turn: 0.0, greatest: false })
     }
+}
+
+/// A smooth surface that rays pass straight, but for those that it reflects: both sides of a thin pane, or one of a solid.
+fn pane(eta: f32, is_thin: bool, mixtures: &mut Vec<Mixture>) -> Finish {
+    let once = reflectance_of(eta.into());
+    // what goes back and forth in a thin pane is a geometric series
+    let reflected = if is_thin { 2.0 * once / (1.0 + once) } else { once };
+    let amount = Texture::number((1.0 - reflected) as f32);
+    mixtures.push(Mixture { of: [Finish::Of(Material::Mirror([1.0; 3])), Finish::Invisible], amount });
+    Finish::Mix(mixtures.len() - 1)
 }
 
 /// What a metal looks like through a coat, approximately: directions in the coat are nearer to the normal, so that its slopes count η times

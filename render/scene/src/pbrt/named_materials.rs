@@ -1,6 +1,6 @@
 //! The materials that a scene names. A name may precede its definition, as in pbrt.
 
-use super::material_parameters::Finish;
+use super::material_parameters::{Finish, Mixture, greatest};
 use crate::builder::Builder;
 use crate::message::{Place, shortened};
 use crate::nearest::did_you_mean;
@@ -52,12 +52,16 @@ impl NamedMaterials {
         }
     }
     /// Gives shapes the materials that were defined after them.
-    pub(super) fn keep_promises(&self, out: &mut Builder) -> Result<(), Message> {
+    pub(super) fn keep_promises(&self, mixtures: &[Mixture], out: &mut Builder) -> Result<(), Message> {
         for Awaited { name, place, promise } in &self.awaited {
             let Some(promise) = promise else { continue };
             let shown = shortened(name);
             match self.get(name) {
-                Some(Finish::Of(material)) => out.keep(*promise, material),
+                Some(finish @ (Finish::Of(_) | Finish::Mix(_))) => {
+                    if let Finish::Of(material) = greatest(finish, mixtures) {
+                        out.keep(*promise, material);
+                    }
+                }
                 Some(_) => return Err(place.message(format!("{shown:?} is no surface: define it before its shapes"))),
                 None => {
                     let near = did_you_mean(name, self.defined.keys().map(String::as_str));

@@ -117,7 +117,7 @@ pub(super) fn read(text: &str, file: &str, dir: &Path, origin: Origin<'_>) -> Re
     let lines = u32::try_from(text.lines().count()).unwrap_or(u32::MAX);
     let end = Place { file: file.clone(), line: lines.max(1) };
     reader.blocks.check_closed()?;
-    reader.named.keep_promises(&mut reader.out)?;
+    reader.named.keep_promises(&reader.mixtures, &mut reader.out)?;
     let Some(mut camera) = reader.camera else {
         return Err(end.message("the scene has no Camera"));
     };
