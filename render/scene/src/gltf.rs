@@ -12,6 +12,7 @@ mod materials;
 mod meshes;
 mod nodes;
 mod properties;
+mod skins;
 mod source;
 
 use crate::builder::{Builder, Rest};
@@ -20,6 +21,7 @@ use crate::message::shortened;
 use crate::{Asked, Contents};
 use etendue_render::scene::{Message, Scene};
 use materials::Materials;
+use skins::Pose;
 use source::Source;
 use std::collections::HashMap;
 use std::path::Path;
@@ -80,18 +82,27 @@ pub(super) fn read(bytes: &[u8], file: &str, folder: Option<&Path>, asked: &Aske
     }
     // meshes that are placed several times, and that emit nothing
     let mut objects: HashMap<usize, u32> = HashMap::new();
-    for nodes::Placed { index, transform } in placed {
+    for &nodes::Placed { index, transform } in &placed {
         let node = &root.nodes[index];
+        let pose = match node.skin {
+            Some(skin) => Pose::new(&source, skin, index, &placed)?,
+            None => None,
+        };
+        if node.skin.is_some() && pose.is_none() {
+            let what = format!("node {index}: its skin is ignored: a joint is not in the scene, or singular");
+            out.notes.stand_in("skins", || source.message(what));
+        }
         for copy in copies.get(&index).into_iter().flatten() {
             let Some(mesh) = node.mesh else { continue };
             let transform = transform.after(copy);
             // weights of a node make the mesh its own
             let is_shared = node.weights.is_none()
+                && pose.is_none()
                 && uses[&mesh.value()] > 1
                 && !meshes::glows(&source, &mut materials, &mut out, mesh, index)?;
             // no instance is flat
             if !is_shared || transform.determinant() == 0.0 {
-                meshes::add(&source, &mut materials, &mut out, mesh, index, &transform)?;
+                meshes::add(&source, &mut materials, &mut out, mesh, index, &transform, pose.as_ref())?;
                 continue;
             }
             let object = match objects.get(&mesh.value()) {

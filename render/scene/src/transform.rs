@@ -127,6 +127,15 @@ impl Transform {
         if greatest(&image) > least * most { unit(image) } else { None }
     }
 
+    /// Takes normals to those of the transformed surface, of length 1, on the side that this has; those that are not finite become 0.
+    pub(super) fn normals(&self) -> impl Fn([f64; 3]) -> [f64; 3] + use<> {
+        // the inverse transpose, but for its length: the rows are cross products of the others
+        let [a, b, c] = self.linear;
+        let sign = if self.determinant() < 0.0 { -1.0 } else { 1.0 };
+        let rows = [cross(b, c), cross(c, a), cross(a, b)].map(|row| scaled(row, sign));
+        move |n| unit(rows.map(|row| dot(row, n))).unwrap_or([0.0; 3])
+    }
+
     /// The determinant of the linear part: negative if the map swaps handedness.
     pub(super) fn determinant(&self) -> f64 {
         dot(self.linear[0], cross(self.linear[1], self.linear[2]))

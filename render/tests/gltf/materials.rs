@@ -308,6 +308,31 @@ fn indices_of_refraction_and_speculars() {
     assert_eq!(asset.error(), "a.glb: material 0: ior: must be 0, or finite and at least 1, not 0.5");
 }
 
+/// Specular-glossiness: α is (1 − glossiness)², and the diffuse part has what no channel of the specular part reflects.
+#[test]
+fn glossiness() {
+    let of = |extension: Value| {
+        let mut asset = textured(json!({"extensions": {"KHR_materials_pbrSpecularGlossiness": extension}}));
+        asset.json["extensionsRequired"] = json!(["KHR_materials_pbrSpecularGlossiness"]);
+        asset
+    };
+    let plain =
+        of(json!({"diffuseFactor": [0.1, 0.2, 0.3, 1], "specularFactor": [0.5, 0.6, 0.7], "glossinessFactor": 0.5}));
+    let (diffuse, specular) = ([0.1, 0.2, 0.3], [0.5, 0.6, 0.7]);
+    let wanted = Material::Glossy { diffuse, specular, grazing: [1.0; 3], roughness: 0.25.into(), greatest: true };
+    assert_eq!(material(&plain), wanted);
+    assert_eq!(plain.warnings(), [""; 0]);
+    let Varying::Glossy { diffuse, specular, .. } =
+        varying(&of(json!({"diffuseTexture": {"index": 0}, "specularFactor": [0, 0, 0]})))
+    else {
+        panic!()
+    };
+    assert_eq!((diffuse.at([0.25, 0.25]), specular.constant()), ([1.0, 0.0, 0.0], Some([0.0; 3])));
+    let text = of(json!({"specularFactor": ["red"]})).error();
+    assert!(text.ends_with("material 0: KHR_materials_pbrSpecularGlossiness: its factors must be numbers"), "{text}");
+    assert!(of(json!({"diffuseTexture": {"index": "x"}})).error().contains("diffuseTexture is no texture"));
+}
+
 /// Properties that the list of the format lacks are warnings, and what may be misspelt is what `--strict` refuses.
 #[test]
 fn unknown_properties_are_named() {

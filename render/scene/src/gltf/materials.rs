@@ -13,6 +13,7 @@ use gltf_json::material::AlphaMode;
 use gltf_json::texture::{Info, MagFilter, Sampler, WrappingMode};
 use gltf_json::validation::Checked;
 use gltf_json::{Index, material, texture};
+use serde_json::Value;
 use std::collections::HashMap;
 use std::path::PathBuf;
 use std::rc::Rc;
@@ -43,6 +44,9 @@ pub(super) struct Materials {
     surfaces: HashMap<Option<usize>, Rc<Surface>>,
     images: HashMap<(usize, bool), Arc<Texels>>,
 }
+
+/// The extension of materials by their glossiness.
+const GLOSSINESS: &str = "KHR_materials_pbrSpecularGlossiness";
 
 /// The extension of anisotropic materials.
 pub(super) const ANISOTROPY: &str = "KHR_materials_anisotropy";
@@ -162,6 +166,9 @@ impl Reader<'_, '_> {
         }
         let [metallic] = self.shares("metallicFactor", [surface.metallic_factor.0]);
         let [roughness] = self.shares("roughnessFactor", [surface.roughness_factor.0]);
+        if let Some(of) = extensions.and_then(|all| all.others.get(GLOSSINESS)) {
+            return self.glossiness(of);
+        }
         let map = surface.metallic_roughness_texture.as_ref();
         let map = self.textured([1.0; 3], map, Encoding::Linear)?;
         let metallic = if metallic == 0.0 {
@@ -205,6 +212,45 @@ impl Reader<'_, '_> {
             // the extension takes the light that none of the channels reflects
             greatest: specular.is_some(),
         })
+    }
+
+    /// A material by its diffuse and specular colours and its glossiness, 1 − √α.
+    fn glossiness(&mut self, of: &Value) -> Result<Varying, Message> {
+        let colour = |name: &str| -> Option<[f32; 3]> {
+            let Some(list) = of.get(name) else { return Some([1.0; 3]) };
+            let number = |k: usize| list.get(k)?.as_f64().map(|x| x as f32);
+            Some([number(0)?, number(1)?, number(2)?])
+        };
+        let gloss = of.get("glossinessFactor").map_or(Some(1.0), Value::as_f64);
+        let numbers = colour("diffuseFactor").zip(colour("specularFactor")).zip(gloss);
+        let Some(((diffuse, specular), gloss)) = numbers else {
+            return Err(self.error(&format!("{GLOSSINESS}: its factors must be numbers")));
+        };
+        let diffuse = self.shares("diffuseFactor", diffuse);
+        let specular = self.shares("specularFactor", specular);
+        let [gloss] = self.shares("glossinessFactor", [gloss as f32]);
+        let texture = |name: &str| match of.get(name).map(|info| serde_json::from_value::<Info>(info.clone())) {
+            Some(Ok(info)) => Ok(Some(info)),
+            Some(Err(_)) => Err(format!("{GLOSSINESS}: {name} is no texture")),
+            None => Ok(None),
+        };
+        let [diffuse_map, map] = [texture("diffuseTexture"), texture("specularGlossinessTexture")];
+        let diffuse_map = diffuse_map.map_err(|what| self.error(&what))?;
+        let map = map.map_err(|what| self.error(&what))?;
+        let diffuse = self.textured(diffuse, diffuse_map.as_ref(), Encoding::Srgb)?;
+        let mut gloss = Texture::number(gloss);
+        if let Some(map) = &map
+            && let (Texture::Picture(picture), set) = self.picture(map, Encoding::Srgb)?
+            && picture.texels.alpha.is_some()
+        {
+            self.set.get_or_insert(set);
+            gloss = gloss.times(Texture::Opacity(picture));
+        }
+        let specular = self.textured(specular, map.as_ref(), Encoding::Srgb)?;
+        let rough = gloss.inverse();
+        let alpha = rough.clone().times(rough);
+        let roughness = [alpha.clone(), alpha];
+        Ok(Varying::Glossy { diffuse, specular, grazing: Texture::number(1.0), roughness, turn: 0.0, greatest: true })
     }
 
     /// Strength and rotation in radians of an anisotropic material.

@@ -1,6 +1,7 @@
 //! Adds the triangles of meshes.
 
 use super::materials::Materials;
+use super::skins::Pose;
 use super::source::Source;
 use crate::builder::Builder;
 use crate::shape_attributes::ShapeAttributes;
@@ -42,12 +43,13 @@ pub(super) fn add(
     mesh: Index<mesh::Mesh>,
     node: usize,
     transform: &Transform,
+    pose: Option<&Pose>,
 ) -> Result<(), Message> {
     let (index, mesh) = source.item(&source.root.meshes, mesh, "mesh", &format!("node {node}"))?;
     let weights = source.root.nodes[node].weights.as_ref().or(mesh.weights.as_ref()).map_or(&[][..], Vec::as_slice);
     for (number, primitive) in mesh.primitives.iter().enumerate() {
         let item = format!("mesh {index}, primitive {number}");
-        Adder { source, out, item, node, weights }.primitive(materials, primitive, transform)?;
+        Adder { source, out, item, node, weights, pose }.primitive(materials, primitive, transform)?;
     }
     Ok(())
 }
@@ -61,7 +63,7 @@ pub(super) fn object(
     node: usize,
 ) -> Result<u32, Message> {
     let before = out.begin_object();
-    let added = add(source, materials, out, mesh, node, &Transform::IDENTITY);
+    let added = add(source, materials, out, mesh, node, &Transform::IDENTITY, None);
     let object = out.end_object(before);
     added.map(|()| object)
 }
@@ -74,6 +76,8 @@ struct Adder<'r, 's> {
     node: usize,
     /// Weights of the morph targets.
     weights: &'r [f32],
+    /// Where a skin moves the vertices.
+    pose: Option<&'r Pose>,
 }
 
 /// The places of the corners of a triangle among the indices.
@@ -126,9 +130,16 @@ impl Adder<'_, '_> {
 
         let mut positions = self.source.vectors::<3>(positions, &self.item)?;
         self.morph(primitive, |target| target.positions, &mut positions)?;
+        // a skin moves the vertices itself, wherever the node is
+        let moves = match self.pose {
+            Some(pose) => Some(pose.of_vertices(self.source, primitive, positions.len(), &self.item)?),
+            None => None,
+        };
+        let transform = moves.as_ref().map_or(*transform, |_| Transform::IDENTITY);
+        let own = moves.as_ref().and_then(|moves| moves.first()).unwrap_or(&transform);
         let attributes = ShapeAttributes {
-            ctm: *transform,
-            flip: transform.determinant() < 0.0,
+            ctm: transform,
+            flip: own.determinant() < 0.0,
             material: surface.material,
             emission: None,
             picture: None,
@@ -136,7 +147,8 @@ impl Adder<'_, '_> {
             power: None,
         };
         let wide = |v: &[f32; 3]| v.map(f64::from);
-        let points = attributes.place(positions.iter().map(wide)).map_err(|what| self.error(&what))?;
+        let moved = |(k, p): (usize, &[f32; 3])| moves.as_ref().map_or(wide(p), |moves| moves[k].point(wide(p)));
+        let points = attributes.place(positions.iter().enumerate().map(moved)).map_err(|what| self.error(&what))?;
         drop(positions);
         let count = points.len();
         let mut normals = Vec::new();
@@ -144,7 +156,13 @@ impl Adder<'_, '_> {
             let mut given = self.source.vectors::<3>(accessor, &self.item)?;
             self.same_number("NORMAL", given.len(), count)?;
             self.morph(primitive, |target| target.normals, &mut given)?;
-            normals.extend(attributes.place_normals(given.iter().map(wide)));
+            match &moves {
+                None => normals.extend(attributes.place_normals(given.iter().map(wide))),
+                Some(moves) => {
+                    let turned = |(moved, normal): (&Transform, &[f32; 3])| moved.normals()(wide(normal));
+                    normals.extend(moves.iter().zip(&given).map(turned));
+                }
+            }
         }
         let uvs = self.coordinates(primitive, surface.set, count)?;
         let uvs = uvs.iter().flatten().map(|uv| uv.map(f64::from)).collect();
