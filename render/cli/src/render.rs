@@ -85,6 +85,16 @@ fn hint(film: &Film, brightness: f64, has_sky: bool) -> Option<String> {
     Some(format!("the PNG is nearly black: --exposure {stops} brightens it{sky}"))
 }
 
+/// What may help where the sky lights a room through its windows.
+fn windows(world: &World) -> Option<String> {
+    let share = world.openness().filter(|share| (1e-3..0.15).contains(share))?;
+    let share = percent(share);
+    Some(format!(
+        "what the camera sees is open to the sky in {share} of all directions: a \"point3 portal\" of four corners in each window, facing inwards, \
+         sends all samples there"
+    ))
+}
+
 /// Parses `--error`: a fraction or a percentage.
 pub(crate) fn fraction(text: &str) -> Result<f64, String> {
     let number = |text: &str| text.trim().parse::<f64>().ok();
@@ -133,6 +143,7 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     let mut output = Output::new(options.output.as_deref(), &scene, image.stem())?;
     output.brightness = scene.film.exposure * options.exposure.exp2();
     let has_sky = scene.environment.is_some();
+    let has_portals = scene.environment.as_ref().is_none_or(|sky| !sky.portals.is_empty());
     let beside = options.beside.map(|technique| Beside::new(technique, &output, &scene.inputs)).transpose()?;
     let identity = Identity::new(&scene, settings, image.sensor);
     let exposure = identity.exposure;
@@ -180,7 +191,11 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
         let right = of(&settings, median(&done.seconds), done.rays.shadow, done.error);
         writeln!(out(), "{wrote}: the same scene in about the same time\n  left   {left}\n  right  {right}")?;
     }
-    if let Some(hint) = hint(&done.film, output.brightness, has_sky) {
+    // glTF has no portals
+    let name = image.scene.to_string_lossy().to_ascii_lowercase();
+    let has_none = has_portals || name.ends_with(".gltf") || name.ends_with(".glb");
+    let windows = || if has_none { None } else { windows(&world) };
+    if let Some(hint) = hint(&done.film, output.brightness, has_sky).or_else(windows) {
         say(format_args!("hint: {hint}"));
     }
     if !options.json {

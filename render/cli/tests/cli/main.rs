@@ -139,6 +139,37 @@ fn pictures_for_viewing_are_exposed() {
     assert!(hint.contains("the image is black"), "{hint}");
 }
 
+/// A sky that lights a room through a window is worth a portal, and one line says so; with it, or in the open, there is none.
+#[test]
+fn windows_are_worth_a_portal() {
+    let folder = Folder::new();
+    // a room of a floor, a ceiling and four walls, of which the one ahead has a gap
+    let wall = |points: &str| format!("Shape \"bilinearmesh\" \"point3 P\" [{points}]\n");
+    let room = [
+        "-2 0 -2  2 0 -2  -2 0 2  2 0 2",
+        "-2 3 -2  2 3 -2  -2 3 2  2 3 2",
+        "-2 0 -2  -2 3 -2  -2 0 2  -2 3 2",
+        "2 0 -2  2 3 -2  2 0 2  2 3 2",
+        "-2 0 2  2 0 2  -2 3 2  2 3 2",
+        "-2 0 -2  -.5 0 -2  -2 3 -2  -.5 3 -2",
+        ".5 0 -2  2 0 -2  .5 3 -2  2 3 -2",
+    ];
+    let said = |portal: &str, walls: &[&str]| {
+        let walls: String = walls.iter().map(|points| wall(points)).collect();
+        let text = format!(
+            "LookAt 0 1.5 1.5 0 .5 0 0 1 0 Camera \"perspective\" Film \"rgb\" \"integer xresolution\" 8 \"integer yresolution\" 8\n\
+             WorldBegin LightSource \"infinite\" {portal}\n{walls}"
+        );
+        fs::write(folder.path("a.pbrt"), text).unwrap();
+        let output = folder.run(&["render", "a.pbrt", "--spp", "64", "-o", "a.exr"]);
+        String::from_utf8(output.stderr).unwrap()
+    };
+    let hint = said("", &room);
+    assert!(hint.starts_with("hint: what the camera sees is open to the sky in ") && hint.contains("portal"), "{hint}");
+    assert_eq!(said("\"point3 portal\" [-.5 0 -2  .5 0 -2  .5 3 -2  -.5 3 -2]", &room), "");
+    assert_eq!(said("", &room[..1]), "");
+}
+
 /// The scenes and cameras of a file are listed with their numbers.
 #[test]
 fn files_are_listed() {
