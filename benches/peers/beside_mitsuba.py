@@ -305,10 +305,12 @@ class Scene:
                 bsdf = dict(type='diffuse', reflectance=dict(type='rgb', value=colour('reflectance')))
             else:
                 coated = kind == 'coateddiffuse'
-                # 0.04 is what an index of 1.5 reflects
                 red, green, blue = colour('reflectance')
-                bsdf = dict(type='glossy', alpha=values['roughness'][0], coated=coated, specular=0.04 if coated else red,
+                bsdf = dict(type='glossy', alpha=values['roughness'][0], coated=False, specular=red,
                             red=red, green=green, blue=blue)
+                if coated:
+                    bsdf = dict(type='roughplastic', distribution='ggx', alpha=values['roughness'][0], int_ior=1.5, ext_ior=1.0,
+                                nonlinear=True, diffuse_reflectance=dict(type='rgb', value=[red, green, blue]))
             made = dict(bsdf=dict(type='twosided', bsdf=bsdf))
             if shape['radiance']:
                 made['emitter'] = dict(type='area', radiance=dict(type='rgb', value=shape['radiance']))

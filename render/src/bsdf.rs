@@ -1,5 +1,6 @@
 //! BSDFs in packets: diffuse surfaces, perfect mirrors, rough metals, and rough coats over diffuse surfaces.
 
+use crate::coat::{Coat, POLE, TERMS, range};
 use crate::lobe::{Lobe, cosine_of_schlick, schlick_of_diffuse};
 use crate::packet::{M8, V8, X8, equal, max, min, select};
 use crate::scene::{Material, Roughness};
@@ -10,43 +11,73 @@ use etendue::{Frame, Mask, Real, Vec2, Warp, u32x8};
 
 const INV_PI: f64 = std::f64::consts::FRAC_1_PI;
 
-/// The eight numbers of a material, so that one transposition gathers eight lanes: roughness α along, η (3), k (3), roughness α across. A
+/// The numbers of a material, so that one transposition gathers eight lanes: roughness α along, η (3), k (3), roughness α across. A
 /// mirror has its reflectance in place of η, and k = 0; a coat its reflectances at normal and at grazing incidence. The three low bits of the
-/// last number are the kind, and those of the first are 0, so that a roughness that is the same in all directions stays so.
-pub type MaterialRecord = [f32; 8];
+/// last number are the kind, and those of the first are 0, so that a roughness that is the same in all directions stays so. The second half
+/// is the polynomial of what a layered coat lets through; of a coated mirror, its first number is the η of the coat.
+pub type MaterialRecord = [[f32; 8]; 2];
 
 // kind 0 is diffuse
 const MIRROR: u32 = 1;
 const SMOOTH_METAL: u32 = 2;
 const ROUGH_METAL: u32 = 3;
 const COAT: u32 = 4;
+/// A coat that dims by the greatest channel of its reflectance.
+const DIMMING_COAT: u32 = 5;
+const LAYERED: u32 = 6;
+const COATED_MIRROR: u32 = 7;
 const KIND: u32 = 7;
 
 /// The record of a diffuse surface, with an arbitrary valid roughness.
-pub const PLAIN: MaterialRecord = [1.0, 1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 1.0];
+pub const PLAIN: MaterialRecord = [[1.0, 1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 1.0], [0.0; 8]];
 
 /// The record of a material; of a varying one it is that of a diffuse surface, since its own depends on the place.
 pub fn record(material: &Material) -> MaterialRecord {
     let of = |kind, Roughness { along, across, .. }, [a, b, c]: [f32; 3], [x, y, z]: [f32; 3]| {
         let [along, across] = [along, across].map(|alpha| alpha.to_bits() & !KIND);
-        [f32::from_bits(along), a, b, c, x, y, z, f32::from_bits(across | kind)]
+        [[f32::from_bits(along), a, b, c, x, y, z, f32::from_bits(across | kind)], [0.0; 8]]
     };
     let smooth = Roughness::from(1.0);
     match *material {
         Material::Diffuse(_) | Material::Varying(_) => PLAIN,
-        Material::Glossy { specular, grazing, roughness, .. } => of(COAT, roughness, specular, grazing),
+        Material::Glossy { specular, grazing, roughness, greatest, .. } => {
+            of(if greatest { DIMMING_COAT } else { COAT }, roughness, specular, grazing)
+        }
+        Material::Layered { eta, roughness, .. } => {
+            let [numbers, _] = of(LAYERED, roughness, [eta; 3], [0.0; 3]);
+            [numbers, layer(eta, roughness).through.map(|x| x as f32)]
+        }
+        Material::CoatedMirror { eta, k, coat } => {
+            let [eta, k] = [eta, k].map(|of| of.map(|x| x / coat));
+            let [numbers, _] = of(COATED_MIRROR, smooth, eta, k);
+            [numbers, [coat, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]]
+        }
         Material::Mirror(reflectance) => of(MIRROR, smooth, reflectance, [0.0; 3]),
         Material::Conductor { eta, k, .. } if material.is_mirror() => of(SMOOTH_METAL, smooth, eta, k),
         Material::Conductor { eta, k, roughness } => of(ROUGH_METAL, roughness, eta, k),
     }
 }
 
-/// The albedo of a material's diffuse part; white for metals and mirrors that are not black.
+/// The coat of a layered material. One of the least roughness is smooth.
+fn layer(eta: f32, roughness: Roughness) -> Coat {
+    let alpha = roughness.mean().along;
+    Coat::new(if alpha > Roughness::LEAST { alpha.into() } else { 0.0 }, eta.into())
+}
+
+/// The albedo of a material's diffuse part, with what the coat of a layered one sends back to it; white for metals and mirrors that are not
+/// black.
 pub fn albedo(material: &Material) -> [f32; 3] {
     match *material {
+        Material::Layered { diffuse, eta, roughness } => {
+            let inside = layer(eta, roughness).inside;
+            // black below glass that sends all back is black
+            diffuse.map(|x| (f64::from(x) / (1.0 - f64::from(x) * inside).max(1e-6)) as f32)
+        }
         Material::Diffuse(albedo) | Material::Glossy { diffuse: albedo, .. } => albedo,
         _ if material.is_black() => [0.0; 3],
-        Material::Mirror(_) | Material::Conductor { .. } | Material::Varying(_) => [1.0; 3],
+        Material::Mirror(_) | Material::CoatedMirror { .. } | Material::Conductor { .. } | Material::Varying(_) => {
+            [1.0; 3]
+        }
     }
 }
 
@@ -60,15 +91,19 @@ pub struct Metal {
     eta: V8,
     k: V8,
     kind: u32x8,
+    /// The second halves of the records, if there is a layered coat or a coated mirror.
+    through: Option<[X8; TERMS]>,
 }
 
 impl Metal {
     /// Gathers one record per lane.
     #[inline]
     pub fn new(rows: [&MaterialRecord; 8]) -> Self {
-        let r = X8::transpose(rows.map(|r| X8::from(&r[..])));
+        let r = X8::transpose(rows.map(|r| X8::from(&r[0][..])));
         let (last, kind) = (r[7].to_bits(), u32x8::splat(KIND));
+        let is_layered = rows.iter().any(|row| row[1][0] != 0.0);
         Self {
+            through: is_layered.then(|| X8::transpose(rows.map(|r| X8::from(&r[1][..])))),
             alpha: [r[0], X8::from_bits(last & !kind)],
             grain: None,
             eta: V8::new(r[1], r[2], r[3]),
@@ -91,22 +126,65 @@ impl Metal {
             eta: V8::blend(mask, yes.eta, no.eta),
             k: V8::blend(mask, yes.k, no.k),
             kind: crate::packet::pick(mask, yes.kind, no.kind),
+            through: match (&yes.through, &no.through) {
+                (None, None) => None,
+                (yes, no) => {
+                    let [yes, no] = [yes, no].map(|of| of.unwrap_or_default());
+                    Some(std::array::from_fn(|k| select(mask, yes[k], no[k])))
+                }
+            },
         }
+    }
+    /// Lanes of a kind.
+    #[inline(always)]
+    fn is(&self, kind: u32) -> M8 {
+        equal(self.kind, u32x8::splat(kind))
     }
     /// Lanes of perfect mirrors.
     #[inline]
     pub fn mirrors(&self) -> M8 {
-        equal(self.kind, u32x8::splat(MIRROR)) | equal(self.kind, u32x8::splat(SMOOTH_METAL))
+        self.is(MIRROR) | self.is(SMOOTH_METAL) | self.is(COATED_MIRROR)
     }
     /// Lanes of rough metals and of coats.
     #[inline]
     pub fn rough(&self) -> M8 {
-        equal(self.kind, u32x8::splat(ROUGH_METAL)) | self.coats()
+        self.is(ROUGH_METAL) | self.coats()
     }
     /// Lanes of coats.
     #[inline]
     fn coats(&self) -> M8 {
-        equal(self.kind, u32x8::splat(COAT))
+        self.is(COAT) | self.is(DIMMING_COAT) | self.is(LAYERED)
+    }
+    /// T/η of layered coats at a cosine.
+    #[inline(never)]
+    fn through(&self, terms: &[X8; TERMS], cos: X8) -> X8 {
+        let [middle, half] = range();
+        let cos = max(cos, X8::lit(0.0));
+        let x = (cos / (cos + X8::lit(POLE)) - X8::lit(middle)) * X8::lit(1.0 / half);
+        max(terms.iter().rev().fold(X8::lit(0.0), |sum, term| sum.mul_add(x, *term)), X8::lit(0.0))
+    }
+    /// The reflectance of coats at the cosine of the view to the normal of the microsurface, per channel.
+    #[inline]
+    fn of_coat(&self, cos: X8) -> V8 {
+        let schlick = self.schlick(cos);
+        if self.through.is_none() { schlick } else { V8::blend(self.is(LAYERED), self.fresnel(cos), schlick) }
+    }
+    /// What coats let through to the diffuse surface below and back, where they reflect this, for the cosine of the light to the normal.
+    /// Where coats are layered, the albedo has what the view gets through.
+    #[inline]
+    fn under(&self, reflectance: V8, cos: X8) -> V8 {
+        let one = X8::lit(1.0);
+        let dimming = self.is(DIMMING_COAT);
+        let mut through = V8::from([1.0; 3]) - reflectance;
+        if dimming.any() {
+            let least = one - max(max(reflectance.x, reflectance.y), reflectance.z);
+            through = V8::blend(dimming, V8::new(least, least, least), through);
+        }
+        if let Some(terms) = &self.through {
+            let layer = self.through(terms, cos);
+            through = V8::blend(self.is(LAYERED), V8::new(layer, layer, layer), through);
+        }
+        through
     }
     /// The fit of the surfaces that are rough, and equally so in all directions, for their normals, the albedos below coats, and unit vectors
     /// towards the viewer.
@@ -122,11 +200,18 @@ impl Metal {
         let mut fresnel = self.fresnel(cosine_of_schlick(weight));
         let mut diffuse = V8::default();
         if coats.any() {
-            fresnel = V8::blend(coats, self.between(|f0, f90| (f90 - f0).mul_add(weight, f0)), fresnel);
+            let layered = self.is(LAYERED);
+            fresnel = V8::blend(coats & !layered, self.between(|f0, f90| (f90 - f0).mul_add(weight, f0)), fresnel);
             let away = schlick_of_diffuse(view.dot(normal));
-            let through = |f0: X8, f90: X8| (one - f90).mul_add(away, (one - f0) * (one - away)).keep(coats);
-            let V8 { x, y, z } = self.between(through);
-            diffuse = V8::new(albedo.x * x, albedo.y * y, albedo.z * z);
+            let reflected = self.between(|f0, f90| (f90 - f0).mul_add(away, f0));
+            // light by the cosine comes at 2/3 in the mean; the view's part is not yet in the albedo
+            let mut through = self.under(reflected, X8::lit(2.0 / 3.0));
+            if let Some(terms) = &self.through {
+                let layer = self.through(terms, view.dot(normal));
+                through = through * select(layered, layer, one);
+            }
+            diffuse = V8::new(albedo.x * through.x, albedo.y * through.y, albedo.z * through.z);
+            diffuse = V8::blend(coats, diffuse, V8::default());
         }
         let specular = (fresnel * reflection.albedo()).map(|part| part.keep(lanes));
         Some(Lobe { lanes, reflection, specular, diffuse, coats })
@@ -134,7 +219,21 @@ impl Metal {
     /// Reflectance of a perfect mirror at this cosine of the angle of incidence, per channel.
     #[inline]
     pub fn reflectance(&self, cos: X8) -> V8 {
-        V8::blend(equal(self.kind, u32x8::splat(MIRROR)), self.eta, self.fresnel(cos))
+        let metal = V8::blend(self.is(MIRROR), self.eta, self.fresnel(cos));
+        let coated = self.is(COATED_MIRROR);
+        let Some([coat, ..]) = self.through.filter(|_| coated.any()) else { return metal };
+        // what goes back and forth between metal and coat is a geometric series
+        let (zero, one) = (X8::lit(0.0), X8::lit(1.0));
+        let coat = select(coated, coat, one);
+        let cos = min(max(cos, zero), one);
+        let below = max(one - (one - cos * cos) / (coat * coat), zero).sqrt();
+        let above = fresnel(cos, coat, zero);
+        let series = |metal: X8| {
+            let left = one - above;
+            left.mul_add(left * metal / max(one - above * metal, X8::lit(1e-6)), above)
+        };
+        let V8 { x, y, z } = self.fresnel(below);
+        V8::blend(coated, V8::new(series(x), series(y), series(z)), metal)
     }
     /// Schlick's reflectance of a coat, per channel.
     #[inline]
@@ -243,12 +342,15 @@ pub struct Scattered {
 impl<const GENERAL: bool> Bsdf<GENERAL> {
     /// The BSDFs of surfaces with this normal and albedo for camera rays along `direction`; `flat` is the normal of the flat surface.
     #[inline(always)]
-    pub fn new(normal: V8, flat: V8, albedo: V8, direction: V8, metal: Option<Metal>) -> Self {
+    pub fn new(normal: V8, flat: V8, mut albedo: V8, direction: V8, metal: Option<Metal>) -> Self {
         let rough = metal.filter(|metal| GENERAL && metal.rough().any()).map(|metal| {
             let frame = metal.grain.map_or_else(|| Frame::new(normal), |grain| about(normal, grain));
             let view = frame.to_local(-direction);
             let lanes = metal.coats();
-            let coats = lanes.any().then(|| Coats { lanes, share: coat_share(metal.schlick(view.z), albedo) });
+            if let Some(terms) = &metal.through {
+                albedo = albedo * select(metal.is(LAYERED), metal.through(terms, view.z), X8::lit(1.0));
+            }
+            let coats = lanes.any().then(|| Coats { lanes, share: coat_share(metal.of_coat(view.z), albedo) });
             Rough { lanes: metal.rough(), metal, frame, view, coats }
         });
         Self { normal, flat, albedo, rough }
@@ -280,8 +382,8 @@ impl<const GENERAL: bool> Bsdf<GENERAL> {
         let mut color = V8::blend(*lanes, metal.fresnel(cos) * share, value);
         let mut density = select(*lanes, density, pdf);
         if let Some(Coats { lanes, share: chosen }) = coats {
-            let reflectance = metal.schlick(cos);
-            let through = V8::from([1.0; 3]) - reflectance;
+            let reflectance = metal.of_coat(cos);
+            let through = metal.under(reflectance, local.z);
             let under = V8::new(value.x * through.x, value.y * through.y, value.z * through.z);
             color = V8::blend(*lanes, reflectance * share + under, color);
             density = select(*lanes, (density - pdf).mul_add(*chosen, pdf), density);

@@ -194,8 +194,12 @@ impl Bvh {
     fn trace<const ANY: bool>(&self, rays: &[Rays], active: &mut [M8], hits: &mut [Hits], scratch: &mut Scratch) {
         let frustum = self.frustum(rays, active);
         // a single shape does not occlude itself
-        let own = |(&a, hits): (&M8, &Hits)| !(a & !equal(hits.place, u32x8::splat(SHAPE))).any();
-        let none = ANY && self.shapes.tree().count() == 1 && active.iter().zip(&*hits).all(own);
+        let only = match self.shapes.tree().primitives().ids() {
+            [only] => only | SHAPE,
+            _ => NOTHING,
+        };
+        let own = |(&a, hits): (&M8, &Hits)| !(a & !equal(hits.place, u32x8::splat(only))).any();
+        let none = ANY && only != NOTHING && active.iter().zip(&*hits).all(own);
         if !none {
             self.trace_shapes::<ANY>(rays, active, frustum.as_ref(), hits, scratch);
             if ANY && !any(active) {

@@ -94,10 +94,10 @@ impl From<&Film> for Picture {
     }
 }
 
-/// Reads the channels R, G, B and, if present, `variance.R`, `variance.G`, `variance.B` of the data window.
+/// Reads the channels R, G, B, or a single one, as grey, and, if present, `variance.R`, `variance.G`, `variance.B` of the data window.
 ///
 /// # Errors
-/// Fails if the file is missing or damaged, has no R, G, B, or has more than 2²⁸ pixels.
+/// Fails if the file is missing or damaged, has neither R, G, B nor Y nor a single channel, or has more than 2²⁸ pixels.
 pub fn read_exr(path: &Path) -> Result<Picture, FileError> {
     let bytes = crate::files::read_file(path).map_err(|error| failed(path, format!("cannot read: {error}")))?;
     decode_exr(&bytes, path)
@@ -199,8 +199,25 @@ fn decode_windows(bytes: &[u8], path: &Path) -> Result<(Picture, [i64; 2], Integ
         let (r, g, b) = (r?, g?, b?);
         Some((0..width * height).map(|i| [r[i], g[i], b[i]]).collect())
     };
-    let radiance =
-        three("").ok_or_else(|| failed(path, "the channels R, G and B are missing or not of full resolution"))?;
+    // maps of heights and of opacities have a single channel, most often Y
+    let grey = || -> Option<Vec<[f32; 3]>> {
+        let [only] = &layer.channel_data.list[..] else { return None };
+        Some(channel(&only.name.to_string())?.into_iter().map(|y| [y; 3]).collect())
+    };
+    let has = |name: &str| layer.channel_data.list.iter().any(|c| c.name.to_string() == name);
+    let radiance = three("").or_else(grey).or_else(|| {
+        // with opacity beside it
+        let y = channel("Y").filter(|_| !has("RY") && !has("BY"))?;
+        Some(y.into_iter().map(|y| [y; 3]).collect())
+    });
+    let radiance = radiance.ok_or_else(|| {
+        let why = if has("RY") {
+            "luminance and chroma (Y, RY, BY) are not supported"
+        } else {
+            "they are missing or not of full resolution"
+        };
+        failed(path, format!("needs the channels R, G and B, or a single one: {why}"))
+    })?;
     let start = [layer.attributes.layer_position.0, layer.attributes.layer_position.1].map(i64::from);
     let data = Picture { width, height, radiance, variance: three("variance.") };
     Ok((data, start, image.attributes.display_window))

@@ -56,6 +56,7 @@ pub mod bvh;
 pub mod camera;
 pub mod choose;
 pub mod claim;
+pub mod coat;
 #[cfg(feature = "exr")]
 pub mod compare;
 pub mod drive;

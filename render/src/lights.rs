@@ -33,7 +33,7 @@ use crate::bvh::NOTHING;
 use crate::geometry::{self, Geometry};
 use crate::light_picture::LightPicture;
 use crate::light_profile::LightProfile;
-use crate::packet::{V8, X8, each_bit, each_group, select};
+use crate::packet::{V8, X8, each_bit, each_group, pick, select};
 use crate::scene::{Scene, Shape};
 use crate::sky::Sky;
 use crate::technique::Measure;
@@ -42,11 +42,12 @@ use directed::DirectedLight;
 use etendue::select::LightBound;
 use etendue::{Real, Vec2, u32x8};
 use kinds::{
-    ONLY_AREAS, ONLY_DELTAS, PICTURES, PROFILES, SHAPES, SPREADS, UNEVEN, area_lights, delta_lights, sample_delta,
+    ONLY_AREAS, ONLY_DELTAS, PICTURES, PROFILES, SHAPES, SPREADS, UNEVEN, UNSEENS, area_lights, delta_lights,
+    sample_delta,
 };
 use pictures::Tables;
 pub(crate) use record::{Candidate, Far};
-use record::{LightRecord, PROFILED, PackedLight, SPREAD, TWO_SIDED};
+use record::{LightRecord, PROFILED, PackedLight, SPREAD, TWO_SIDED, UNSEEN};
 use std::sync::Arc;
 
 /// The lights of a scene.
@@ -78,9 +79,16 @@ impl Lights {
     pub fn new(scene: &Scene, sky: Option<Arc<Sky>>) -> Self {
         Self::of(scene, &scene.shapes, sky)
     }
-    /// The delta lights of a scene alone.
-    pub fn deltas(scene: &Scene) -> Self {
-        Self::of(scene, &Arc::default(), None)
+    /// The lights of a scene that no ray can hit.
+    pub fn unhit(scene: &Scene) -> Self {
+        let is_unseen = |shape: &Shape| shape.emission.is_some_and(|emission| emission.is_unseen);
+        let mut shapes: Vec<Shape> = Vec::new();
+        if scene.shapes.iter().any(is_unseen) {
+            // the indices of shapes stay what they are
+            let only = |shape: &Shape| Shape { emission: shape.emission.filter(|_| is_unseen(shape)), ..shape.clone() };
+            shapes.extend(scene.shapes.iter().map(only));
+        }
+        Self::of(scene, &shapes.into(), None)
     }
     fn of(scene: &Scene, shapes: &Arc<[Shape]>, sky: Option<Arc<Sky>>) -> Self {
         let (mut others, directed) = delta_lights(scene);
@@ -164,7 +172,8 @@ impl Lights {
         kinds::of_shape(shape, &self.shapes[shape as usize]).map(|light| light.record.pack()).unwrap_or_default()
     }
     /// Samples the chosen lights from points `p` on surfaces with this normal. `emits` allows for two-sided lights. For skies, pictures,
-    /// directed lights and those with a spread, `radiance` of `chosen` becomes that of the sampled direction.
+    /// directed lights and those with a spread, `radiance` of `chosen` becomes that of the sampled direction; lights that no ray can hit lose their
+    /// `shape`, which occludes nothing.
     #[inline(always)]
     pub fn sample(&self, chosen: &mut Chosen, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> Drawn {
         let kinds = self.kinds;
@@ -176,6 +185,11 @@ impl Lights {
             self.by_kind(chosen, measure, p, normal, u).unwrap_or_else(|| unreachable!("there is a light"))
         };
         sample.emits = sample.emits | chosen.has(TWO_SIDED);
+        if kinds & UNSEENS != 0 {
+            let unseen = chosen.has(UNSEEN);
+            sample.delta = sample.delta | unseen;
+            chosen.shape = pick(unseen, u32x8::splat(NOTHING), chosen.shape);
+        }
         sample
     }
     /// Samples a scene with lights that emit unevenly: those in lanes of their own, and what the points see of panels with a spread.

@@ -14,9 +14,9 @@ use std::sync::Arc;
 pub(crate) struct PreparedScene {
     pub(crate) surfaces: Surfaces,
     pub(crate) lights: Lights,
-    /// The delta lights among `lights`.
-    pub(crate) deltas: Lights,
-    /// How lights are chosen, and how delta lights are.
+    /// Those of `lights` that no ray can hit.
+    pub(crate) unhit: Lights,
+    /// How lights are chosen, and how those are.
     choosers: [Choosers; 2],
     pub(crate) sky: Option<Arc<Sky>>,
 }
@@ -33,19 +33,19 @@ impl PreparedScene {
     }
     fn with(scene: &Scene, surfaces: Surfaces) -> Result<Self, BuildError> {
         let sky = scene.environment.as_ref().map(|environment| Arc::new(Sky::new(environment)));
-        let (lights, deltas) = (Lights::new(scene, sky.clone()), Lights::deltas(scene));
+        let (lights, unhit) = (Lights::new(scene, sky.clone()), Lights::unhit(scene));
         let reach = surfaces.bvh.reach();
-        let choosers = [Choosers::new(&lights, reach)?, Choosers::new(&deltas, reach)?];
-        Ok(Self { surfaces, lights, deltas, choosers, sky })
+        let choosers = [Choosers::new(&lights, reach)?, Choosers::new(&unhit, reach)?];
+        Ok(Self { surfaces, lights, unhit, choosers, sky })
     }
-    /// The lights that are sampled, and how they are chosen: a technique that finds lights by chance never hits a delta light, so it samples
+    /// The lights that are sampled, and how they are chosen: a technique that finds lights by chance never hits some, so it samples
     /// those.
     ///
     /// # Errors
     /// Says what the choice would need if it is none for these lights.
     pub(crate) fn sampled(&self, technique: Technique, by: ChoiceBy) -> Result<(&Lights, &Chooser), String> {
         let (lights, choosers) = match technique.finds_lights() {
-            true => (&self.deltas, &self.choosers[1]),
+            true => (&self.unhit, &self.choosers[1]),
             false => (&self.lights, &self.choosers[0]),
         };
         choosers.by(lights, by).map(|chooser| (lights, chooser))

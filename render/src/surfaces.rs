@@ -97,6 +97,7 @@ impl Surfaces {
     fn bvh(triangles: Vec<[[f32; 3]; 3]>, scene: &Scene) -> Result<Bvh, BuildError> {
         let lit = |shape: &Shape| match shape.emission {
             None => LitSides::Neither,
+            Some(emission) if emission.is_unseen => LitSides::Unseen,
             Some(emission) if emission.two_sided => LitSides::Both,
             Some(_) => LitSides::Front,
         };

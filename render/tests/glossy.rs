@@ -108,7 +108,7 @@ impl Gloss {
     fn text(&self) -> String {
         let [r, g, b] = self.albedo;
         format!(
-            "Material \"coateddiffuse\" \"rgb reflectance\" [{r} {g} {b}] \"float uroughness\" {} \"float vroughness\" {} \
+            "Material \"substrate\" \"rgb Kd\" [{r} {g} {b}] \"rgb Ks\" [.04 .04 .04] \"float uroughness\" {} \"float vroughness\" {} \
              \"bool remaproughness\" false\n{FLOOR}",
             self.alpha[0], self.alpha[1]
         )
@@ -181,7 +181,7 @@ fn coats_have_their_formula() {
     let diagonal = unit([1.0, 0.0, -1.0]);
     // of plastic, Ks is a factor of the whole reflectance
     let kinds = [
-        ("\"coateddiffuse\" \"rgb reflectance\" [.8 .5 .2]", [0.04, 1.0]),
+        ("\"substrate\" \"rgb Kd\" [.8 .5 .2] \"rgb Ks\" [.04 .04 .04]", [0.04, 1.0]),
         ("\"plastic\" \"rgb Kd\" [.8 .5 .2] \"rgb Ks\" [.1 .1 .1]", [0.004, 0.1]),
     ];
     for (shape, along, [a, b]) in

@@ -232,21 +232,17 @@ fn what_is_ignored_is_reported_once() {
     }
     for _ in 0..2 {
         asset.shown(json!({"attributes": {"POSITION": 0, "COLOR_0": 0}, "targets": [{"POSITION": 0}], "mode": 4}));
-        let node = asset.shown(json!({"attributes": {"_OTHER": 0}}));
-        asset.json["nodes"][node]["skin"] = json!(0);
+        asset.shown(json!({"attributes": {"_OTHER": 0}}));
     }
     asset.json["animations"] = json!([{"channels": [], "samplers": []}, {"channels": [], "samplers": []}]);
     asset.json["extensionsUsed"] = json!(["KHR_xmp_json_ld", "KHR_lights_punctual"]);
     assert_eq!(
         asset.warnings(),
         [
-            "a.gltf: animations are ignored (reported once)",
+            "a.gltf: animations are ignored: the pose at rest is rendered (reported once)",
+            "a.gltf: mesh 5, primitive 0, attributes: its COLOR_0 is ignored (reported once)",
             "a.gltf: mesh 1, primitive 0: Points are ignored: only triangles are supported (reported once)",
-            "a.gltf: mesh 5, primitive 0: its morph targets are ignored (reported once)",
-            "a.gltf: mesh 5, primitive 0: its COLOR_0 is ignored (reported once)",
-            "a.gltf: node 6: its skin is ignored (reported once)",
             "a.gltf: mesh 6, primitive 0: it has no POSITION and is ignored (reported once)",
-            "a.gltf: the extension \"KHR_xmp_json_ld\" is ignored (reported once)",
         ]
     );
     let mut asset = Asset::new();
@@ -254,6 +250,66 @@ fn what_is_ignored_is_reported_once() {
     asset.shown(json!({"attributes": {"POSITION": positions}}));
     let text = "a.gltf: mesh 0, primitive 0: 4 corners make no whole number of triangles: the last are ignored";
     assert_eq!(asset.warnings(), [format!("{text} (reported once)")]);
+}
+
+/// Morph targets move vertices and normals by the weights of the mesh, or of the node, which is the shape at rest.
+#[test]
+fn morph_targets_have_the_weights_of_the_file() {
+    let mut asset = Asset::new();
+    let positions = asset.floats(&TRIANGLE);
+    let moves = [asset.floats(&[[0.0, 0.0, 1.0]; 3]), asset.floats(&[[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0; 3]])];
+    let targets = json!([{"POSITION": moves[0]}, {"POSITION": moves[1]}]);
+    let node = asset.shown(json!({"attributes": {"POSITION": positions}, "targets": targets}));
+    let corners = |asset: &Asset| asset.read().triangles[0];
+    assert_eq!(corners(&asset), TRIANGLE, "without weights, nothing moves");
+    asset.json["meshes"][0]["weights"] = json!([0.5, 0.25]);
+    assert_eq!(corners(&asset), [[0.0, 0.0, 0.5], [1.5, 0.0, 0.5], [0.0, 1.0, 0.5]]);
+    asset.json["nodes"][node]["weights"] = json!([0, 1]);
+    assert_eq!(corners(&asset), [[0.0, 0.0, 0.0], [3.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
+    // two nodes of one mesh with weights of their own are no copies of each other
+    asset.add("nodes", json!({"mesh": 0, "weights": [1, 0]}));
+    let scene = asset.read();
+    assert_eq!(scene.triangles[1], [[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [0.0, 1.0, 1.0]]);
+    assert!(!asset.warnings().iter().any(|text| text.contains("morph")));
+    let short = asset.floats(&[[0.0_f32; 3]; 2]);
+    asset.json["meshes"][0]["primitives"][0]["targets"][1]["POSITION"] = json!(short);
+    assert!(asset.error().contains("3 elements of POSITION, but 2 of a morph target"), "{}", asset.error());
+}
+
+/// Skins move vertices and turn normals by the weighted sum of their joints, wherever the node of the mesh is.
+#[test]
+fn skins_have_the_pose_of_the_file() {
+    let mut asset = Asset::new();
+    let positions = asset.floats(&TRIANGLE);
+    let normals = asset.floats(&[[0.0, 0.0, 1.0]; 3]);
+    let joints = asset.accessor("VEC4", 5121, 3, &[0, 1, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0]);
+    // the first half and half, the second of the first joint alone, the third of the second, by weights that are no whole
+    let weights = asset.floats(&[[0.5, 0.5, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0], [0.75, 0.0, 0.0, 0.0]]);
+    let attributes = json!({"POSITION": positions, "NORMAL": normals, "JOINTS_0": joints, "WEIGHTS_0": weights});
+    let node = asset.shown(json!({"attributes": attributes}));
+    asset.json["nodes"][node]["translation"] = json!([100, 100, 100]);
+    asset.json["nodes"][node]["skin"] = json!(0);
+    let first = asset.add("nodes", json!({"translation": [0, 0, 2]}));
+    let second = asset.add("nodes", json!({"translation": [0, 4, 0]}));
+    // the second joint was bound when it was at (0, 1, 0)
+    let mut matrices = [[0.0_f32; 16]; 2];
+    for matrix in &mut matrices {
+        [0, 5, 10, 15].iter().for_each(|k| matrix[*k] = 1.0);
+    }
+    matrices[1][13] = -1.0;
+    let bytes: Vec<u8> = matrices.as_flattened().iter().flat_map(|x| x.to_le_bytes()).collect();
+    let bound = asset.accessor("MAT4", FLOAT, 2, &bytes);
+    asset.add("skins", json!({"joints": [first, second], "inverseBindMatrices": bound}));
+    let scene = asset.read();
+    assert_eq!(scene.triangles, [[[0.0, 1.5, 1.0], [1.0, 0.0, 2.0], [0.0, 4.0, 0.0]]]);
+    assert!(asset.warnings().is_empty(), "{:?}", asset.warnings());
+    let mut wrong = asset.clone();
+    wrong.json["skins"][0]["joints"] = json!([first]);
+    assert!(wrong.error().contains("joint 1 of a vertex: there are 1"), "{}", wrong.error());
+    wrong.json["skins"][0]["joints"] = json!([first, second, second]);
+    assert!(wrong.error().contains("fewer inverseBindMatrices than joints"), "{}", wrong.error());
+    asset.json["skins"][0]["joints"] = json!([first, 77]);
+    assert!(asset.read().stand_ins[0].text.contains("its skin is ignored: a joint is not in the scene"));
 }
 
 #[test]

@@ -221,7 +221,7 @@ fn lights_far_away_have_their_share_of_the_irradiance() {
     for (near, irradiance) in [(point, 7.0), (spot, 7.0 * 0.35 / 0.5)].map(|(near, sum)| (near, sum / 19.5_f64.powi(2)))
     {
         scene.delta_lights = vec![near, distant];
-        let lights = Lights::deltas(&scene);
+        let lights = Lights::unhit(&scene);
         let choosers = Choosers::new(&lights, 1.0).unwrap();
         let pmf = choosers.by(&lights, ChoiceBy::Auto).unwrap().pmf(p, V8::lit([0.0, 1.0, 0.0]), None);
         let shares = [0, 1].map(|light| pmf.of(light).lane_f64(3));

@@ -8,6 +8,7 @@ mod choice;
 mod damaged;
 mod daylight;
 mod ends;
+mod formats;
 mod glossy;
 mod gltf;
 mod holes;

@@ -86,7 +86,10 @@ fn shapes_become_what_they_should() {
     assert!(matches!(scene.shapes[2].geometry, Geometry::Parallelogram(_)));
     assert_eq!(scene.shapes[2].emission, Some(Emission { radiance: [1.0; 3], ..Emission::default() }));
     assert_eq!((scene.materials.len(), scene.pixel_samples), (1, 16));
-    assert_eq!(scene.film, FilmSettings { width: 1280, height: 720, diagonal: 35.0, filename: None, place: None });
+    assert_eq!(
+        scene.film,
+        FilmSettings { width: 1280, height: 720, diagonal: 35.0, filename: None, place: None, exposure: 1.0 }
+    );
 }
 
 #[test]
@@ -114,7 +117,14 @@ fn strings_numbers_and_sizes() {
     );
     assert_eq!(
         scene.film,
-        FilmSettings { width: 8, height: 4, diagonal: 50.0, filename: Some("a\\b \"c\".exr".into()), place: None }
+        FilmSettings {
+            width: 8,
+            height: 4,
+            diagonal: 50.0,
+            filename: Some("a\\b \"c\".exr".into()),
+            place: None,
+            exposure: 1.0
+        }
     );
     let half = libm::tan(35_f64.to_radians() / 2.0);
     assert_eq!((scene.pixel_samples, scene.camera.screen), (15, Screen::Half(half)));

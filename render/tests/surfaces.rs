@@ -166,7 +166,9 @@ fn smooth_normals_are_interpolated() {
 fn metallic_materials_have_the_parameters_of_gltf() {
     let [base, metallic, roughness] = [0.5, 0.25, 0.6].map(Texture::number);
     let (diffuse, specular) = ([0.375; 3], [0.04 + 0.46 * 0.25; 3]);
-    let expected = Material::Glossy { diffuse, specular, grazing: [1.0; 3], roughness: (0.6 * 0.6_f32).into() };
+    let roughness_squared = (0.6 * 0.6_f32).into();
+    let expected =
+        Material::Glossy { diffuse, specular, grazing: [1.0; 3], roughness: roughness_squared, greatest: false };
     assert_eq!(Varying::Metallic { base, metallic, roughness }.constant(), Some(expected));
 }
 

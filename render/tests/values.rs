@@ -2,9 +2,11 @@
 //! and glTF's specifications, in double precision, and shares no code with the renderer.
 
 mod cameras;
+mod coats_by_quadrature;
 mod deltas;
 mod emitters;
 mod gltf;
+mod meanings;
 mod place;
 mod row;
 mod skies;
@@ -32,6 +34,7 @@ fn write_files(folder: &Folder) {
     // 90 cd at the nadir, 0 from 60 degrees on; and the same everywhere below
     folder.ies("cone.ies", "0 60", "0", "90 0");
     folder.ies("below.ies", "0 90", "0", "9 9");
+    write_kinds(folder);
     let quad = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n\
                 element face 1\nproperty list uchar int vertex_indices\nend_header\n\
                 -1 -1 0\n1 -1 0\n1 1 0\n-1 1 0\n4 0 1 2 3\n";
@@ -43,12 +46,92 @@ fn write_files(folder: &Folder) {
     Image::new(ImageAttributes::new(display), layer).write().to_file(folder.path("window.exr")).unwrap();
 }
 
+/// IES files that say the same, 100 cd downwards, in other ways, with all horizontal angles alike.
+const IES_KINDS: [&str; 9] = ["lf", "cr", "crlf", "mark", "lower", "spaces", "include", "header", "commas"];
+/// PLY files of the same square, with rows that share lines.
+const PLY_KINDS: [&str; 4] = ["rows", "one-line", "blank-lines", "words"];
+
+/// Files that other programs write.
+fn write_kinds(folder: &Folder) {
+    let table = "1 -1 1 2 1 1 2 0 0 0\n1 1 9\n0 90\n0\n100 0\n";
+    let late = "1 -1 1 2 1 1 2 0 0 0\n1 .5 9\n0 90\n0\n100 0\n";
+    let of = |tilt: &str, table: &str| format!("IESNA:LM-63-1995\n[TEST] 1\n{tilt}\n{table}");
+    let texts = [
+        of("TILT=NONE", table),
+        of("TILT=NONE", table).replace('\n', "\r"),
+        of("TILT=NONE", table).replace('\n', "\r\n"),
+        format!("\u{feff}TILT=NONE\n{table}"),
+        of("tilt=none", table),
+        of(" TILT = None ", table),
+        of("TILT=Include\n1\n2\n0 90\n1 .5", table),
+        // of 2002, the third factor is no longer one
+        format!("iesna:lm-63-2002\nTILT=NONE\n{late}"),
+        of("TILT=NONE", &table.replace(' ', ",")),
+    ];
+    for (name, text) in IES_KINDS.iter().zip(texts) {
+        folder.write(&format!("{name}.ies"), text);
+    }
+    let angles = "-90 -30 0 60 90";
+    let (by_v, by_h) = ([10.0, 40.0, 100.0, 30.0, 5.0], [2.0, 5.0, 9.0, 7.0, 1.0]);
+    let column = |h: f64| by_v.map(|v| (v * h / 9.0).to_string()).join(" ");
+    let values = by_h.map(column).join("\n");
+    for (name, kind) in [("type-a.ies", 3), ("type-b.ies", 2)] {
+        folder.write(name, format!("TILT=NONE\n1 -1 1 5 5 {kind} 2 0 0 0\n1 1 9\n{angles}\n{angles}\n{values}\n"));
+    }
+    folder.write("half-b.ies", "TILT=NONE\n1 -1 1 2 2 2 2 0 0 0\n1 1 9\n0 90\n0 90\n90 0 0 0\n");
+    let head = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n\
+                element face 2\nproperty list uchar int vertex_indices\nend_header\n";
+    let bodies = [
+        "-1 -1 0  1 -1 0\n1 1 0  -1 1 0\n3 0 1 2  3 0 2 3\n",
+        "-1 -1 0 1 -1 0 1 1 0 -1 1 0 3 0 1 2 3 0 2 3",
+        "\n-1 -1 0\n\n1 -1 0\n1 1 0\n-1 1 0\n\n3 0 1 2\n3 0 2 3\n",
+        "-1\n-1\n0\n1 -1 0\n1\n1 0\n-1 1 0\n3\n0 1 2\n3 0 2 3\n",
+    ];
+    for (name, body) in PLY_KINDS.iter().zip(bodies) {
+        folder.write(&format!("{name}.ply"), format!("{head}{body}"));
+    }
+    let pixel = [128, 64, 32, 129];
+    let hdr = [&b"#?RGBE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n"[..], &pixel, &pixel].concat();
+    folder.write("rgbe.hdr", hdr);
+    for (file, channel) in [("grey.exr", "Y"), ("height.exr", "height")] {
+        let pixels = SpecificChannels::build().with_channel(channel).with_pixel_fn(|_| (0.3_f32,));
+        Image::from_channels((2, 2), pixels).write().to_file(folder.path(file)).unwrap();
+    }
+}
+
+/// Prints the table of all rows, and writes their files to the folder that `ETENDUE_TABLE` names:
+/// `ETENDUE_TABLE=rows cargo test -p etendue-render-tests -- the_table --ignored --nocapture`.
+#[test]
+#[ignore = "prints and writes"]
+fn the_table_of_values() {
+    let folder = std::path::PathBuf::from(std::env::var_os("ETENDUE_TABLE").expect("ETENDUE_TABLE names a folder"));
+    std::fs::create_dir_all(&folder).unwrap();
+    let files = Folder::new();
+    write_files(&files);
+    for file in std::fs::read_dir(files.root()).unwrap() {
+        let path = file.unwrap().path();
+        std::fs::copy(&path, folder.join(path.file_name().unwrap())).unwrap();
+    }
+    let rows = all_rows();
+    println!("file | what | right | auto | solid-angle | mis-power | difference");
+    let lines: Vec<Result<String, String>> =
+        rows.par_iter().enumerate().map(|(number, row)| row.line(number, &folder)).collect();
+    for line in &lines {
+        println!("{}", line.as_ref().unwrap_or_else(|error| error));
+    }
+    assert!(lines.iter().all(Result::is_ok) && lines.len() >= 250, "{} rows", lines.len());
+}
+
+fn all_rows() -> Vec<Row> {
+    let tables = [deltas::rows(), skies::rows(), emitters::rows(), gltf::rows(), cameras::rows(), meanings::rows()];
+    tables.into_iter().flatten().collect()
+}
+
 #[test]
 fn values_of_parameters() {
     let folder = Folder::new();
     write_files(&folder);
-    let tables = [deltas::rows(), skies::rows(), emitters::rows(), gltf::rows(), cameras::rows()];
-    let rows: Vec<Row> = tables.into_iter().flatten().collect();
+    let rows = all_rows();
     let seen: Vec<Result<String, String>> = rows.par_iter().map(|row| row.check(&folder.path(""))).collect();
     // with `--nocapture`, the table
     seen.iter().flatten().for_each(|line| println!("{line}"));

@@ -8,6 +8,7 @@ use etendue_render::limits::MOST_SAMPLES;
 use etendue_render::sampler::default_sampler;
 use etendue_render::scene::Scene;
 use etendue_render::{ChoiceBy, Sampler, Sensor, Settings, Technique, World};
+use etendue_scene::Asked;
 use rayon::ThreadPool;
 use std::error::Error;
 use std::ffi::{OsStr, OsString};
@@ -50,6 +51,12 @@ pub(crate) struct ImageOptions {
     /// Light the scene by this image of a sky (EXR, HDR, PFM or PNG), instead of its own sky
     #[arg(long, value_name = "FILE")]
     environment: Option<PathBuf>,
+    /// Look through this camera of a glTF file: its name, or its number from 0 on [default: the first one]
+    #[arg(long, value_name = "NAME")]
+    camera: Option<String>,
+    /// Render this scene of a glTF file: its name, or its number from 0 on [default: that of the file]
+    #[arg(long = "scene", value_name = "NAME")]
+    scene_of_file: Option<String>,
     /// Fail, rather than substitute unsupported features or ignore misspelt parameters
     #[arg(long)]
     strict: bool,
@@ -63,10 +70,10 @@ fn sets(text: &str) -> Result<u32, String> {
 impl ImageOptions {
     /// Reads the scene, prints its warnings, and completes the settings.
     pub(crate) fn load(&self) -> Result<(Scene, Settings), Box<dyn Error>> {
-        let mut scene = waiting(format!("reading {}", self.scene.display()), || match &self.environment {
-            Some(sky) => etendue_scene::load_with_sky(&self.scene, sky),
-            None => etendue_scene::load(&self.scene),
-        })?;
+        let asked =
+            Asked { sky: self.environment.clone(), camera: self.camera.clone(), scene: self.scene_of_file.clone() };
+        let read = || etendue_scene::load_as(&self.scene, &asked);
+        let mut scene = waiting(format!("reading {}", self.scene.display()), read)?;
         if let Some(stand_in) = scene.stand_ins.first().filter(|_| self.strict) {
             return Err(format!("--strict: {stand_in}").into());
         }
@@ -133,6 +140,9 @@ impl ImageOptions {
         add("threads", (self.threads != 0).then(|| self.threads.to_string()));
         if let Some(sky) = &self.environment {
             all.extend(["--environment".into(), sky.into()]);
+        }
+        for (option, value) in [("--camera", &self.camera), ("--scene", &self.scene_of_file)] {
+            all.extend(value.as_ref().map(|value| format!("{option}={value}").into()));
         }
         if self.strict {
             all.push("--strict".into());

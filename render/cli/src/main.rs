@@ -58,10 +58,16 @@ enum Command {
     ///
     /// Example: `etendue chart studio --quick` finds the best technique for a scene in less than three minutes.
     Chart(chart::Options),
-    /// List the built-in scenes, techniques, choices of a light, samplers and sensors
+    /// List the built-in scenes, techniques, choices of a light, samplers and sensors, or the scenes and cameras of a file
     ///
-    /// Example: `etendue list | grep lens` finds a scene that is seen through a lens.
-    List,
+    /// Example: `etendue list | grep lens` finds a scene that is seen through a lens, and `etendue list room.glb` the cameras of a file.
+    List {
+        /// Path of a scene file
+        file: Option<PathBuf>,
+        /// The scene whose cameras are listed: its name, or its number from 0 on
+        #[arg(long, value_name = "NAME", requires = "file")]
+        scene: Option<String>,
+    },
 }
 
 fn main() -> ExitCode {
@@ -110,7 +116,8 @@ fn run(command: Command) -> Result<(), Box<dyn Error>> {
         Command::Merge(options) => merge::run(&options)?,
         Command::Compare(options) => compare::run(&options)?,
         Command::Chart(options) => chart::run(&options, &command_line())?,
-        Command::List => list::run()?,
+        Command::List { file: Some(file), scene } => list::file(&file, scene.as_deref())?,
+        Command::List { .. } => list::run()?,
     }
     Ok(())
 }

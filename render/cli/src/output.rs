@@ -23,6 +23,8 @@ pub(crate) struct Output {
     pub(crate) exr: PathBuf,
     /// The PNG file beside it.
     pub(crate) png: PathBuf,
+    /// What the PNG is multiplied by.
+    pub(crate) brightness: f64,
 }
 
 impl Output {
@@ -65,13 +67,16 @@ impl Output {
                 ));
             }
         }
-        Ok(Self { exr, png })
+        Ok(Self { exr, png, brightness: 1.0 })
     }
 
     /// Files that do not exist yet, called `stem`, or that and a number.
     pub(crate) fn free(stem: &OsStr) -> Self {
-        let with =
-            |end: String| Self { exr: named(stem, &format!("{end}.exr")), png: named(stem, &format!("{end}.png")) };
+        let with = |end: String| Self {
+            exr: named(stem, &format!("{end}.exr")),
+            png: named(stem, &format!("{end}.png")),
+            brightness: 1.0,
+        };
         let names = (2..).map(|n| with(format!("-{n}")));
         let mut all = std::iter::once(with(String::new())).chain(names);
         let found = all.find(|files| !files.exr.exists() && !files.png.exists());
@@ -94,10 +99,11 @@ impl Output {
     /// Fails if a file cannot be written; the message says what has been written.
     pub(crate) fn write(&self, film: &Film, identity: &Identity) -> Result<(), String> {
         parts::write_image(&self.exr, identity, film.pixels.clone()).map_err(|error| error.to_string())?;
-        let written = if identity.exposure == 1.0 {
+        let factor = self.brightness / identity.exposure;
+        let written = if factor == 1.0 {
             image::write_png(&self.png, film)
         } else {
-            image::write_png(&self.png, &film.scaled(1.0 / identity.exposure))
+            image::write_png(&self.png, &film.scaled(factor))
         };
         written.map_err(|error| format!("{error}; {} was written, but its PNG was not", self.exr.display()))
     }

@@ -9,7 +9,7 @@ use crate::plan::{line, words};
 use crate::progress::bar;
 use clap::Args;
 use etendue_laboratory::cost::median;
-use etendue_laboratory::options::{named, out, pool, whole};
+use etendue_laboratory::options::{named, out, pool, say, whole};
 use etendue_render::claim::{Claim, why_unknown};
 use etendue_render::film::Film;
 use etendue_render::progressive::{self, Goal, Pass, Progress, Refinement};
@@ -42,6 +42,9 @@ pub(crate) struct Options {
     /// Render the scene by this technique too, in the same time, and write a PNG whose left half is that image
     #[arg(long, value_name = "TECHNIQUE", value_parser = named::<Technique>(&Technique::NAMES), hide_possible_values = true, conflicts_with_all = ["parts", "repeat", "json"])]
     beside: Option<Technique>,
+    /// Make the PNG brighter by this many stops, each a factor of 2; the EXR file has radiance [default: the film's iso and shutter]
+    #[arg(long, value_name = "STOPS", default_value_t = 0.0, value_parser = stops, hide_default_value = true)]
+    exposure: f64,
     /// Print the result as one JSON object
     #[arg(long)]
     json: bool,
@@ -51,6 +54,45 @@ pub(crate) struct Options {
 pub(crate) fn seconds(text: &str) -> Result<f64, String> {
     let valid = text.parse::<f64>().ok().filter(|s| s.is_finite() && *s > 0.0);
     valid.ok_or_else(|| "must be a number of seconds greater than 0, such as 10 or 0.5".to_owned())
+}
+
+/// Parses `--exposure`.
+fn stops(text: &str) -> Result<f64, String> {
+    let valid = text.parse::<f64>().ok().filter(|stops| stops.abs() <= 100.0);
+    valid.ok_or_else(|| "must be a number of stops from -100 to 100, such as -3 or 0.5".to_owned())
+}
+
+/// What may help where an image is black, or its PNG nearly black or white; `brightness` is what the PNG is multiplied by.
+fn hint(film: &Film, brightness: f64, has_sky: bool) -> Option<String> {
+    let mut all: Vec<f32> = film.pixels.iter().map(|pixel| pixel.mean.iter().sum::<f32>() / 3.0).collect();
+    if all.iter().all(|x| *x == 0.0) {
+        let sky = if has_sky { "" } else { "; --environment FILE adds a sky" };
+        return Some(format!("the image is black: the camera sees nothing that is lit or emits{sky}"));
+    }
+    all.sort_by(f32::total_cmp);
+    // of pixels that are not black
+    let lit = &all[all.partition_point(|x| *x <= 0.0)..];
+    let middle = f64::from(lit[lit.len() / 2]) * brightness;
+    let stops = (0.5 / middle).log2().round();
+    // the PNG is white at 4, and nearly black below a hundredth
+    if middle >= 4.0 {
+        return Some(format!("the PNG is nearly white: --exposure {stops} darkens it"));
+    }
+    if middle >= 0.01 {
+        return None;
+    }
+    let sky = if has_sky { "" } else { ", and --environment FILE adds a sky" };
+    Some(format!("the PNG is nearly black: --exposure {stops} brightens it{sky}"))
+}
+
+/// What may help where the sky lights a room through its windows.
+fn windows(world: &World) -> Option<String> {
+    let share = world.openness().filter(|share| (1e-3..0.15).contains(share))?;
+    let share = percent(share);
+    Some(format!(
+        "what the camera sees is open to the sky in {share} of all directions: a \"point3 portal\" of four corners in each window, facing inwards, \
+         sends all samples there"
+    ))
 }
 
 /// Parses `--error`: a fraction or a percentage.
@@ -98,7 +140,10 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     if let Some(content) = options.part.content(&settings)? {
         return part::run(image, &content, options.output.as_deref(), scene, settings, options.json, &interrupt);
     }
-    let output = Output::new(options.output.as_deref(), &scene, image.stem())?;
+    let mut output = Output::new(options.output.as_deref(), &scene, image.stem())?;
+    output.brightness = scene.film.exposure * options.exposure.exp2();
+    let has_sky = scene.environment.is_some();
+    let has_portals = scene.environment.as_ref().is_none_or(|sky| !sky.portals.is_empty());
     let beside = options.beside.map(|technique| Beside::new(technique, &output, &scene.inputs)).transpose()?;
     let identity = Identity::new(&scene, settings, image.sensor);
     let exposure = identity.exposure;
@@ -145,6 +190,13 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
             of(&Settings { technique: beside.technique, ..settings }, other.seconds, other.rays.shadow, other.error);
         let right = of(&settings, median(&done.seconds), done.rays.shadow, done.error);
         writeln!(out(), "{wrote}: the same scene in about the same time\n  left   {left}\n  right  {right}")?;
+    }
+    // glTF has no portals
+    let name = image.scene.to_string_lossy().to_ascii_lowercase();
+    let has_none = has_portals || name.ends_with(".gltf") || name.ends_with(".glb");
+    let windows = || if has_none { None } else { windows(&world) };
+    if let Some(hint) = hint(&done.film, output.brightness, has_sky).or_else(windows) {
+        say(format_args!("hint: {hint}"));
     }
     if !options.json {
         next_steps(options, &done, chosen)?;

@@ -334,7 +334,9 @@ impl Builder {
     /// Adds a shape that emits as the attributes tell. `mapping` takes its coordinates to texture coordinates.
     pub(super) fn add(&mut self, surface: &ShapeAttributes, geometry: Geometry, mapping: impl FnOnce() -> Mapping) {
         let emission = self.lamps.emission(surface, &geometry, mapping);
-        self.push(surface.material, emission, geometry);
+        if emission.is_some() || !surface.is_unseen() {
+            self.push(surface.material, emission, geometry);
+        }
     }
 
     /// Adds a triangle that emits, unless it has no area or is dark; returns whether it did. Normals tell which side emits.
@@ -398,7 +400,7 @@ impl Builder {
     ) {
         if surface.emission.is_some() {
             let vertex = |k: usize| Vertex { point: point(k), normal: normal(k), uv: uv(k) };
-            if self.lamp(surface, [vertex(0), vertex(1), vertex(2)]) {
+            if self.lamp(surface, [vertex(0), vertex(1), vertex(2)]) || surface.is_unseen() {
                 return;
             }
         }
@@ -444,7 +446,11 @@ fn words(material: Material) -> [u32; 13] {
         Material::Diffuse(albedo) => of(0, [albedo, black, black], none),
         Material::Mirror(reflectance) => of(1, [reflectance, black, black], none),
         Material::Conductor { eta, k, roughness } => of(2, [eta, k, black], roughness),
-        Material::Glossy { diffuse, specular, grazing, roughness } => of(3, [diffuse, specular, grazing], roughness),
+        Material::Glossy { diffuse, specular, grazing, roughness, greatest } => {
+            of(if greatest { 5 } else { 3 }, [diffuse, specular, grazing], roughness)
+        }
+        Material::Layered { diffuse, eta, roughness } => of(6, [diffuse, [eta; 3], black], roughness),
+        Material::CoatedMirror { eta, k, coat } => of(7, [eta, k, [coat; 3]], none),
         Material::Varying(index) => [4, index, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0],
     }
 }

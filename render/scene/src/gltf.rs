@@ -11,27 +11,20 @@ mod lights;
 mod materials;
 mod meshes;
 mod nodes;
+mod properties;
+mod skins;
 mod source;
 
 use crate::builder::{Builder, Rest};
+use crate::list::{Entry, GLTF, State};
 use crate::message::shortened;
+use crate::{Asked, Contents};
 use etendue_render::scene::{Message, Scene};
 use materials::Materials;
+use skins::Pose;
 use source::Source;
 use std::collections::HashMap;
 use std::path::Path;
-
-/// Extensions that are supported, or change nothing when they are required.
-const SUPPORTED: [&str; 8] = [
-    nodes::INSTANCING,
-    "KHR_lights_punctual",
-    "KHR_materials_emissive_strength",
-    "KHR_materials_ior",
-    "KHR_materials_specular",
-    "KHR_materials_unlit",
-    "KHR_mesh_quantization",
-    "KHR_texture_transform",
-];
 
 /// Whether bytes or the name of a file are those of glTF.
 pub(super) fn is_gltf(path: &Path, bytes: &[u8]) -> bool {
@@ -43,26 +36,41 @@ pub(super) fn is_gltf(path: &Path, bytes: &[u8]) -> bool {
 fn check_extensions(source: &Source<'_>) -> Result<(), Message> {
     for name in &source.root.extensions_required {
         // what is ignored where it is optional is ignored with the same warning here
-        if !SUPPORTED.contains(&&**name) && !materials::is_ignored(name) && name != materials::ANISOTROPY {
-            return Err(source.message(format!("requires the extension {:?}, which is not supported", shortened(name))));
+        match GLTF.entry(name, "") {
+            Some(Entry { state: State::Refused, note, .. }) if note.contains("compressed") => {
+                return Err(source.message(format!("requires the extension {name:?}, which is not supported: {note}")));
+            }
+            Some(Entry { state: State::Refused, .. }) | None => {
+                let shown = shortened(name);
+                return Err(source.message(format!("requires the extension {shown:?}, which is not supported")));
+            }
+            Some(_) => {}
         }
     }
     Ok(())
 }
 
+/// The scenes of a file and the cameras of the one that is asked for.
+pub(super) fn contents(bytes: &[u8], file: &str, asked: &Asked) -> Result<Contents, Message> {
+    let source = Source::new(bytes, file, None)?;
+    let placed = nodes::walk(&source, asked.scene.as_deref())?;
+    let cameras = placed.iter().filter_map(|placed| Some((source.root.nodes[placed.index].camera?, placed.index)));
+    let cameras = cameras.map(|(camera, node)| cameras::name(&source, camera, node)).collect();
+    let scenes = source.root.scenes.iter().map(|scene| scene.name.clone().unwrap_or_default()).collect();
+    Ok(Contents { scenes, cameras })
+}
+
 /// Reads a scene. Messages call it `file`; it may name files in `folder`, if there is one.
-pub(super) fn read(bytes: &[u8], file: &str, folder: Option<&Path>) -> Result<Scene, Message> {
+pub(super) fn read(bytes: &[u8], file: &str, folder: Option<&Path>, asked: &Asked) -> Result<Scene, Message> {
     let source = Source::new(bytes, file, folder)?;
     let root = &source.root;
     check_extensions(&source)?;
     let mut out = Builder::default();
     let mut materials = Materials::default();
     let (mut delta_lights, mut intensities) = (Vec::new(), Vec::new());
-    let mut camera = None;
-    if !root.animations.is_empty() {
-        out.notes.stand_in("animations", || source.message("animations are ignored"));
-    }
-    let placed = nodes::walk(&source)?;
+    let mut seen = Vec::new();
+    properties::check(&source, source.json, &mut out.notes);
+    let placed = nodes::walk(&source, asked.scene.as_deref())?;
     let mut uses: HashMap<usize, usize> = HashMap::new();
     let mut copies = HashMap::new();
     for placed in &placed {
@@ -74,18 +82,27 @@ pub(super) fn read(bytes: &[u8], file: &str, folder: Option<&Path>) -> Result<Sc
     }
     // meshes that are placed several times, and that emit nothing
     let mut objects: HashMap<usize, u32> = HashMap::new();
-    for nodes::Placed { index, transform } in placed {
+    for &nodes::Placed { index, transform } in &placed {
         let node = &root.nodes[index];
-        if node.skin.is_some() {
-            out.notes.stand_in("skins", || source.message(format!("node {index}: its skin is ignored")));
+        let pose = match node.skin {
+            Some(skin) => Pose::new(&source, skin, index, &placed)?,
+            None => None,
+        };
+        if node.skin.is_some() && pose.is_none() {
+            let what = format!("node {index}: its skin is ignored: a joint is not in the scene, or singular");
+            out.notes.stand_in("skins", || source.message(what));
         }
         for copy in copies.get(&index).into_iter().flatten() {
             let Some(mesh) = node.mesh else { continue };
             let transform = transform.after(copy);
-            let is_shared = uses[&mesh.value()] > 1 && !meshes::glows(&source, &mut materials, &mut out, mesh, index)?;
+            // weights of a node make the mesh its own
+            let is_shared = node.weights.is_none()
+                && pose.is_none()
+                && uses[&mesh.value()] > 1
+                && !meshes::glows(&source, &mut materials, &mut out, mesh, index)?;
             // no instance is flat
             if !is_shared || transform.determinant() == 0.0 {
-                meshes::add(&source, &mut materials, &mut out, mesh, index, &transform)?;
+                meshes::add(&source, &mut materials, &mut out, mesh, index, &transform, pose.as_ref())?;
                 continue;
             }
             let object = match objects.get(&mesh.value()) {
@@ -96,13 +113,11 @@ pub(super) fn read(bytes: &[u8], file: &str, folder: Option<&Path>) -> Result<Sc
             let added = out.instance(object, &transform);
             added.map_err(|why| source.message(format!("node {index}: {why}")))?;
         }
-        if let Some(described) = node.camera
-            && camera.is_none()
-        {
-            camera = Some(cameras::read(&source, described, index, &transform)?);
+        if let Some(described) = node.camera {
+            seen.push((described, index, transform));
         }
         if let Some(light) = node.extensions.as_ref().and_then(|all| all.khr_lights_punctual.as_ref()) {
-            match lights::read(&source, light.light, index, &transform, &mut intensities)? {
+            match lights::read(&source, light.light, index, &transform, &mut intensities, &mut out.notes)? {
                 Some(light) => delta_lights.push(light),
                 None => {
                     out.notes.warn_once("dark", || source.message(format!("node {index}: its light emits nothing")))
@@ -110,15 +125,19 @@ pub(super) fn read(bytes: &[u8], file: &str, folder: Option<&Path>) -> Result<Sc
             }
         }
     }
-    for name in root.extensions_used.iter().filter(|name| !SUPPORTED.contains(&&***name)) {
-        out.notes.stand_in(&format!("extension {name}"), || {
-            source.message(format!("the extension {:?} is ignored", shortened(name)))
-        });
+    for name in &root.extensions_used {
+        let is_known = |entry: &Entry| matches!(entry.state, State::Exact | State::Inert | State::Approximated);
+        if !GLTF.entry(name, "").is_some_and(is_known) {
+            out.notes.stand_in(&format!("extension {name}"), || {
+                source.message(format!("the extension {:?} is ignored", shortened(name)))
+            });
+        }
     }
     let left_out = out.left_out();
     if left_out > 0 {
         out.notes.warn(source.message(format!("{left_out} triangle(s) without area are left out")));
     }
+    let camera = cameras::choose(&source, &seen, asked.camera.as_deref(), &mut out.notes)?;
     let (camera, film) = camera.unwrap_or_else(|| {
         let framing = cameras::framing(&out);
         out.notes.warn(source.message("no camera: framing the whole scene"));

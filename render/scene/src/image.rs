@@ -42,14 +42,57 @@ pub fn decode(path: &Path, bytes: &[u8]) -> Result<Picture, FileError> {
     if let Some(image) = pfm::decode(path, bytes) {
         return image.map(|(width, height, radiance)| Picture { width, height, radiance, variance: None });
     }
-    let not_one = |error: &dyn fmt::Display| failed(path, format!("not a valid EXR, HDR, PFM or PNG image: {error}"));
-    let decoder = HdrDecoder::new(Cursor::new(bytes)).map_err(|error| not_one(&error))?;
+    let not_one = |error: &dyn fmt::Display| failed(path, format!("not a valid Radiance HDR image: {error}"));
+    if !bytes.starts_with(b"#?") {
+        return Err(failed(path, format!("not a picture: {}", kind_of(bytes))));
+    }
+    // ImageMagick and others begin with #?RGBE, and the strict reader takes only #?RADIANCE
+    let decoder = HdrDecoder::new_nonstrict(Cursor::new(bytes)).map_err(|error| not_one(&error))?;
     let [width, height] = [decoder.metadata().width, decoder.metadata().height];
     // a run of equal pixels takes few bytes
     check_size(path, [width.into(), height.into()], 1, bytes.len())?;
     let image = DynamicImage::from_decoder(decoder).map_err(|error| not_one(&error))?;
     let radiance = image.into_rgb32f().pixels().map(|p| p.0).collect();
     Ok(Picture { width: width as usize, height: height as usize, radiance, variance: None })
+}
+
+/// What a file is that is no picture that can be read here, as its first bytes tell.
+pub(super) fn kind_of(bytes: &[u8]) -> String {
+    let is = |magic: &[u8]| bytes.starts_with(magic);
+    let text = String::from_utf8_lossy(&bytes[..bytes.len().min(40)]);
+    if is(b"version https://git-lfs") || is(b"/annex/") || is(b"../") && text.contains("annex") {
+        return "the file is a pointer of git: the picture itself was not fetched".to_owned();
+    }
+    let known: [(&[u8], &str); 8] = [
+        (&[0xab, b'K', b'T', b'X', b' ', b'2', b'0'], "a KTX2 file (compressed textures are not supported)"),
+        (&[0xab, b'K', b'T', b'X'], "a KTX file (compressed textures are not supported)"),
+        (b"DDS ", "a DDS file (compressed textures are not supported)"),
+        (b"sB", "a Basis file (compressed textures are not supported)"),
+        (b"BM", "a BMP file, which is not supported"),
+        (b"GIF8", "a GIF file, which is not supported"),
+        (b"<", "text, such as a page of the web"),
+        (b"{", "JSON text"),
+    ];
+    if let Some((_, what)) = known.iter().find(|(magic, _)| is(magic)) {
+        return format!("it is {what}");
+    }
+    if is(b"RIFF") && bytes.get(8..12) == Some(b"WEBP") {
+        return "it is a WebP file, which is not supported".to_owned();
+    }
+    match bytes {
+        [] => "the file is empty".to_owned(),
+        _ => format!(
+            "it begins with {:?}: EXR, HDR, PFM, PNG and, as textures, JPEG and TGA are supported",
+            shortened(&text)
+        ),
+    }
+}
+
+/// The name of the format of a picture, as its first bytes tell.
+pub(super) fn format_of(bytes: &[u8]) -> Option<&'static str> {
+    let known: [(&[u8], &str); 4] =
+        [(PNG, "PNG"), (&[0xff, 0xd8, 0xff], "JPEG"), (&[0x76, 0x2f, 0x31, 0x01], "EXR"), (b"#?R", "Radiance HDR")];
+    known.into_iter().find(|(magic, _)| bytes.starts_with(magic)).map(|(_, name)| name)
 }
 
 /// Reads a PNG file of any depth and colour type; transparency is ignored.

@@ -12,7 +12,7 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 
 /// Most cells between texels that the means over all shapes of a scene may take, so that a small file cannot ask for any number.
-const MOST_CELLS: u64 = 1 << 28;
+const MOST_CELLS: u64 = 1 << 26;
 
 /// The pictures of the shapes of a scene.
 #[derive(Debug)]
@@ -37,14 +37,14 @@ impl Lamps {
         geometry: &Geometry,
         mapping: impl FnOnce() -> Mapping,
     ) -> Option<Emission> {
-        let Emission { radiance, two_sided, spread, .. } = surface.emission?;
+        let emission = surface.emission?;
         let profile = self.profile(surface, geometry);
         let Some(picture) = &surface.picture else {
-            return Some(Emission { radiance, two_sided, picture: None, spread, profile });
+            return Some(Emission { picture: None, profile, ..emission });
         };
         let picture = Picture { mapping: mapping().then(&picture.mapping), ..picture.clone() };
         let axes = if geometry.chart() == Some(Chart::Sphere) { surface.ctm.axes()? } else { WORLD };
-        let shown = LightPicture { picture, factor: radiance, axes };
+        let shown = LightPicture { picture, factor: emission.radiance, axes };
         let mean = shown.mean_over(geometry, &mut self.cells);
         // what emits at all has a chance, however dim it is
         let mean = mean.map(|x| if x > 0.0 { (x as f32).clamp(f32::MIN_POSITIVE, MOST_RADIANCE) } else { 0.0 });
@@ -53,7 +53,7 @@ impl Lamps {
         }
         let index = self.pictures.len() as u32;
         self.pictures.push(shown);
-        Some(Emission { radiance: mean, two_sided, picture: Some(index), spread, profile })
+        Some(Emission { radiance: mean, picture: Some(index), profile, ..emission })
     }
 
     /// Gives the parts of one shape this power in all, in watts, and keeps what they emit in proportion. Fails if one becomes too bright.

@@ -3,38 +3,9 @@
 //!
 //! Coordinates are transformed in f64 and rounded once to f32. Errors name the file, and the line or item. What changes
 //! the image little, or only its noise, is a warning. Unsupported features are replaced, with one warning for each kind, which
-//! [`Scene::stand_ins`] has, too, as those of parameters that may be misspelt:
+//! [`Scene::stand_ins`] has, too, as those of parameters that may be misspelt.
 //!
-//! | in pbrt files | becomes |
-//! |---|---|
-//! | `diffuse`, `mirror`, `conductor`; v3's `matte`, `metal` | itself; spectra as RGB by CIE 1931 |
-//! | `coateddiffuse`; v3's `plastic`, `uber`, `substrate` | a GGX coat over a diffuse surface; a smooth coat has α = 0.01 |
-//! | `coatedconductor` | its conductor |
-//! | `dielectric`, `thindielectric`, `diffusetransmission`; v3's `glass`, `translucent` | what it reflects |
-//! | `subsurface`; v3's `kdsubsurface` | a coat over a diffuse surface |
-//! | `hair`, `measured`; v3's `fourier` | diffuse of albedo 0.5; v3's `disney` its base colour, metallic and roughness |
-//! | `mix` | the one of its materials with the greater share |
-//! | `interface`, `alpha` 0 | no surface |
-//! | `alpha` | holes: a ray is stopped with this chance; lights are opaque |
-//! | anisotropic roughness | itself, by the direction of growing u; of lights its geometric mean; tangents `S` are ignored |
-//! | `displacement`, `normalmap` | ignored |
-//! | textures `constant`, `scale`, `mix`, `checkerboard`, `imagemap` | themselves, by u and v; others 0.5; those of lights and spheres their means |
-//! | `trianglemesh`, `plymesh`, `sphere`, `disk`, parallelograms of `bilinearmesh` | themselves, with interpolated normals |
-//! | other patches, `cylinder`, partial, stretched or textured spheres and disks | triangles |
-//! | `loopsubdiv` | its control mesh |
-//! | `curve` and older quadrics, `projection` | left out |
-//! | `ObjectInstance` | itself, or a copy in small scenes; lights in objects emit nothing, as in pbrt |
-//! | `power` of a `diffuse` light | that of all of a shape, also of a mesh; `scale` multiplies it |
-//! | `diffuse` with a picture | itself: texels are interpolated as in pbrt-v4, by u and v, or the angles of a whole sphere |
-//! | pictures in EXR files | their display windows: black where they have no data, and without the data outside |
-//! | `goniometric` | itself, with the texel of a direction; also IES files of type C, which pbrt does not read, without factors of `TILT` |
-//! | `portal` | itself, in world space; a ray that escapes beside it is black, as in pbrt |
-//! | `"float spread"` of area lights, which pbrt does not have | the full angle of [`Spread`](etendue_render::spread::Spread) in degrees, as in Cycles |
-//! | `"string profile"` of spot and area lights, which pbrt does not have | intensities by direction, as below |
-//! | media, motion | ignored; stills at the start |
-//! | `cropwindow`, `pixelbounds` | that part of the image, in its place in the EXR file |
-//! | `perspective`, `orthographic` | themselves; with a lens, an orthographic camera is perspective, with the screen in its plane of focus, as in pbrt |
-//! | `realistic`, `spherical` | a perspective camera of 50 degrees |
+//! [`list`] says of everything that the formats can say what becomes of it; the pages `render/formats/pbrt.md` and `gltf.md` are made of it.
 //!
 //! Beyond pbrt, a sky may have up to eight portals, in one list of corners or in several lights of the same sky. They may be parallelograms,
 //! and what two of them show counts once. `LightSource "infinite" "string sky" "cie"` is daylight by CIE's standard general sky
@@ -64,19 +35,9 @@
 //! | views from below the smooth normal | it is turned until its cosine to the viewer is 0.01 | what is below it reflects |
 //! | quadrics that a transform mirrors | emit on the side of the transformed normal | sampled there, but seen from the other side |
 //! | `L` beside `filename` | both multiply, as in pbrt-v3 | an error |
-//! | `iso`, `sensor`, exposure time | ignored: pixels are radiance | a factor, a response |
+//! | `iso`, `shutteropen`, `shutterclose` | a factor of the PNG; the EXR file has radiance | a factor |
+//! | `sensor` | ignored: pixels are radiance | a response |
 //! | texels that are NaN or infinite | an error; negative ones are 0, with a warning | an error in lights alone |
-//!
-//! | in glTF files | becomes |
-//! |---|---|
-//! | metallic-roughness, index of refraction, specular | glTF's GGX over diffuse; a tinted F hides the diffuse part per channel |
-//! | spots | the falloff that `KHR_lights_punctual` suggests, also where its cosines differ by less than 0.001 |
-//! | emissive textures | themselves, on each triangle |
-//! | masks, blending | holes, as for `alpha` |
-//! | transmission | opaque |
-//! | meshes of several nodes, `EXT_mesh_gpu_instancing` | instances, or copies in small scenes and of lights |
-//! | normal and occlusion maps, vertex colours, skins, morphs, animations | ignored |
-//! | points and lines | left out |
 
 // what both formats share is more than either needs
 #![cfg_attr(not(all(feature = "gltf", feature = "pbrt")), allow(dead_code, unused_variables))]
@@ -88,6 +49,7 @@ mod files;
 mod gltf;
 pub mod image;
 mod lamps;
+pub mod list;
 mod message;
 mod nearest;
 #[cfg(feature = "pbrt")]
@@ -102,7 +64,7 @@ use etendue_render::scene::{Environment, Message, Scene};
 use files::{note, read_unpacked};
 #[cfg(feature = "pbrt")]
 pub use pbrt::{builtin, builtin_of_few_lights};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::{fmt, io};
 
 /// Why a scene could not be read.
@@ -150,19 +112,88 @@ impl From<Message> for SceneError {
     }
 }
 
-/// Reads the built-in scene of this name, or else the file at this path: glTF if its name ends in `.gltf` or `.glb`, or else pbrt's format.
-pub fn load(name_or_path: impl AsRef<Path>) -> Result<Scene, SceneError> {
-    load_any(name_or_path.as_ref()).map(|(scene, _)| scene)
+/// What is asked of a scene file.
+#[derive(Clone, Debug, Default)]
+pub struct Asked {
+    /// An image as the light from infinitely far away, instead of what the scene has.
+    ///
+    /// A square image maps to directions by pbrt-v4's equal-area map, any other by longitude and latitude. In a glTF file +y is up, and the
+    /// middle of the image is at +x, as Khronos's sample viewer has it; elsewhere the image is where `LightSource "infinite"` without a
+    /// transform puts it, with +z up.
+    pub sky: Option<PathBuf>,
+    /// The camera of this name or number, from 0 on, of a glTF file with several; the first one if it is not given.
+    pub camera: Option<String>,
+    /// The scene of this name or number, from 0 on, of a glTF file with several; its default if it is not given.
+    pub scene: Option<String>,
 }
 
-/// Like [`load`], with the image at the path `sky` as the light from infinitely far away, instead of what the scene has.
-///
-/// A square image maps to directions by pbrt-v4's equal-area map, any other by longitude and latitude. In a glTF file +y is up, and the
-/// middle of the image is at +x, as Khronos's sample viewer has it; elsewhere the image is where `LightSource "infinite"` without a
-/// transform puts it, with +z up.
-pub fn load_with_sky(name_or_path: impl AsRef<Path>, sky: impl AsRef<Path>) -> Result<Scene, SceneError> {
-    let (mut scene, is_gltf) = load_any(name_or_path.as_ref())?;
-    let path = sky.as_ref();
+/// What a scene file offers a choice of.
+#[derive(Clone, Debug, Default)]
+pub struct Contents {
+    /// The names of its scenes, empty where they have none. Files of pbrt have no scenes.
+    pub scenes: Vec<String>,
+    /// The names of the cameras of the scene that was asked for, empty where they have none.
+    pub cameras: Vec<String>,
+}
+
+/// Reads the built-in scene of this name, or else the file at this path: glTF if its name ends in `.gltf` or `.glb`, or else pbrt's format.
+pub fn load(name_or_path: impl AsRef<Path>) -> Result<Scene, SceneError> {
+    load_as(name_or_path, &Asked::default())
+}
+
+/// Like [`load`], with what is asked for.
+pub fn load_as(name_or_path: impl AsRef<Path>, asked: &Asked) -> Result<Scene, SceneError> {
+    let path = name_or_path.as_ref();
+    let shown = path.display().to_string();
+    #[cfg(feature = "pbrt")]
+    let builtin = pbrt::read_builtin(path);
+    #[cfg(not(feature = "pbrt"))]
+    let builtin: Option<Result<Scene, Message>> = None;
+    let (mut scene, is_gltf) = match builtin {
+        Some(scene) => (only_camera(&shown, asked).and(scene)?, false),
+        None => {
+            let bytes = read_unpacked(path).map_err(|error| SceneError::Io { path: shown.clone(), error })?;
+            let (mut scene, is_gltf) = decode(path, &bytes, &shown, asked)?;
+            note(&mut scene.inputs, path, &bytes);
+            (scene, is_gltf)
+        }
+    };
+    if let Some(sky) = &asked.sky {
+        light_by(&mut scene, is_gltf, sky)?;
+    }
+    Ok(scene)
+}
+
+/// What a file offers a choice of.
+pub fn contents(path: impl AsRef<Path>, asked: &Asked) -> Result<Contents, SceneError> {
+    let path = path.as_ref();
+    #[cfg(feature = "gltf")]
+    {
+        let shown = path.display().to_string();
+        let bytes = read_unpacked(path).map_err(|error| SceneError::Io { path: shown.clone(), error })?;
+        if gltf::is_gltf(path, &bytes) {
+            return Ok(gltf::contents(&bytes, &shown, asked)?);
+        }
+    }
+    load_as(path, asked)?;
+    Ok(Contents { scenes: Vec::new(), cameras: vec![String::new()] })
+}
+
+/// Fails if another camera or scene is asked for than the only one of a file.
+fn only_camera(shown: &str, asked: &Asked) -> Result<(), Message> {
+    let wrong = |what: &str| {
+        let text = format!("files of pbrt have one {what}: {what} cannot be chosen");
+        Err(Message { file: shown.to_owned(), line: 0, text })
+    };
+    match (&asked.camera, &asked.scene) {
+        (None, None) => Ok(()),
+        (Some(_), _) => wrong("camera"),
+        (None, Some(_)) => wrong("scene"),
+    }
+}
+
+/// Lights a scene by the image at a path.
+fn light_by(scene: &mut Scene, is_gltf: bool, path: &Path) -> Result<(), Message> {
     let shown = path.display().to_string();
     let message = |text: String| Message { file: shown.clone(), line: 0, text };
     let bytes = read_file(path).map_err(|error| message(format!("cannot read: {error}")))?;
@@ -180,28 +211,20 @@ pub fn load_with_sky(name_or_path: impl AsRef<Path>, sky: impl AsRef<Path>) -> R
     };
     scene.environment = sky.map(|sky| Environment { to_light, sky, portals: Vec::new(), sun: None });
     note(&mut scene.inputs, path, &bytes);
-    Ok(scene)
-}
-
-/// Reads a scene, and tells whether it is a glTF file.
-fn load_any(path: &Path) -> Result<(Scene, bool), SceneError> {
-    #[cfg(feature = "pbrt")]
-    if let Some(scene) = pbrt::read_builtin(path) {
-        return Ok((scene?, false));
-    }
-    let shown = path.display().to_string();
-    let bytes = read_unpacked(path).map_err(|error| SceneError::Io { path: shown.clone(), error })?;
-    let (mut scene, is_gltf) = decode(path, &bytes, &shown)?;
-    note(&mut scene.inputs, path, &bytes);
-    Ok((scene, is_gltf))
+    Ok(())
 }
 
 /// The scene of a file's bytes, and whether it is a glTF file. Messages call it `shown`.
-fn decode(path: &Path, bytes: &[u8], shown: &str) -> Result<(Scene, bool), Message> {
+fn decode(path: &Path, bytes: &[u8], shown: &str, asked: &Asked) -> Result<(Scene, bool), Message> {
     #[cfg(feature = "gltf")]
     if gltf::is_gltf(path, bytes) {
-        return Ok((gltf::read(bytes, shown, path.parent())?, true));
+        return Ok((gltf::read(bytes, shown, path.parent(), asked)?, true));
     }
+    if let Some(format) = image::format_of(bytes) {
+        let text = format!("this is a picture ({format}), and no scene: --environment FILE lights a scene by it");
+        return Err(Message { file: shown.to_owned(), line: 0, text });
+    }
+    only_camera(shown, asked)?;
     #[cfg(feature = "pbrt")]
     return Ok((pbrt::read(path, bytes, shown)?, false));
     #[cfg(not(feature = "pbrt"))]
@@ -225,5 +248,5 @@ pub fn parse(text: &str, file: &str, dir: &Path) -> Result<Scene, SceneError> {
 /// Any bytes give a scene or an error, with bounded recursion.
 #[cfg(feature = "gltf")]
 pub fn parse_gltf(bytes: &[u8], file: &str) -> Result<Scene, SceneError> {
-    Ok(gltf::read(bytes, file, None)?)
+    Ok(gltf::read(bytes, file, None, &Asked::default())?)
 }

@@ -1,7 +1,7 @@
 //! What a scene file says of all of a shape, and how that moves it to world space.
 
 use crate::distribution::Distribution;
-use crate::transform::{Transform, cross, dot, scaled, unit};
+use crate::transform::Transform;
 use etendue_render::scene::Emission;
 use etendue_render::texture::Picture;
 use std::sync::Arc;
@@ -30,6 +30,11 @@ impl ShapeAttributes {
         self.flip != (self.ctm.determinant() < 0.0)
     }
 
+    /// Whether the shape lights the scene, and no ray meets it.
+    pub(super) fn is_unseen(&self) -> bool {
+        self.emission.is_some_and(|emission| emission.is_unseen)
+    }
+
     /// Transforms points to world space; fails if one is not finite in f32.
     pub(super) fn place(&self, points: impl Iterator<Item = [f64; 3]>) -> Result<Vec<[f64; 3]>, String> {
         let place = |(i, p): (usize, [f64; 3])| {
@@ -47,10 +52,6 @@ impl ShapeAttributes {
 
     /// Transforms normals to world space, where they are on the side that the transformed surface has; those that are not finite become 0.
     pub(super) fn place_normals(&self, normals: impl Iterator<Item = [f64; 3]>) -> impl Iterator<Item = [f64; 3]> {
-        // the inverse transpose, but for its length: the rows are cross products of the others
-        let [a, b, c] = self.ctm.linear;
-        let sign = if self.ctm.determinant() < 0.0 { -1.0 } else { 1.0 };
-        let rows = [cross(b, c), cross(c, a), cross(a, b)].map(|row| scaled(row, sign));
-        normals.map(move |n| unit(rows.map(|row| dot(row, n))).unwrap_or([0.0; 3]))
+        normals.map(self.ctm.normals())
     }
 }

@@ -91,11 +91,12 @@ impl Transform {
         Some(Transform { linear, shift })
     }
 
-    /// The map of the 16 numbers of `Transform`, by columns; `None` if it is not affine.
+    /// The map of the 16 numbers of `Transform`, by columns; `None` if it is not affine. The last number divides all others.
     pub(super) fn from_columns(m: &[f64; 16]) -> Option<Self> {
-        let row = |i: usize| [m[i], m[4 + i], m[8 + i]];
-        let affine = [m[3], m[7], m[11], m[15]] == [0.0, 0.0, 0.0, 1.0];
-        affine.then(|| Transform { linear: [row(0), row(1), row(2)], shift: [m[12], m[13], m[14]] })
+        let weight = m[15];
+        let affine = [m[3], m[7], m[11]] == [0.0; 3] && weight != 0.0 && weight.is_finite();
+        let row = |i: usize| [m[i], m[4 + i], m[8 + i]].map(|x| x / weight);
+        affine.then(|| Transform { linear: [row(0), row(1), row(2)], shift: [m[12], m[13], m[14]].map(|x| x / weight) })
     }
 
     /// The composition that applies `other` first, then `self`.
@@ -124,6 +125,15 @@ impl Transform {
         let image = self.vector(v);
         let most = greatest(self.linear.as_flattened()) * greatest(&v);
         if greatest(&image) > least * most { unit(image) } else { None }
+    }
+
+    /// Takes normals to those of the transformed surface, of length 1, on the side that this has; those that are not finite become 0.
+    pub(super) fn normals(&self) -> impl Fn([f64; 3]) -> [f64; 3] + use<> {
+        // the inverse transpose, but for its length: the rows are cross products of the others
+        let [a, b, c] = self.linear;
+        let sign = if self.determinant() < 0.0 { -1.0 } else { 1.0 };
+        let rows = [cross(b, c), cross(c, a), cross(a, b)].map(|row| scaled(row, sign));
+        move |n| unit(rows.map(|row| dot(row, n))).unwrap_or([0.0; 3])
     }
 
     /// The determinant of the linear part: negative if the map swaps handedness.

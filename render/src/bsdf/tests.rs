@@ -94,7 +94,8 @@ fn coats_integrate() {
         (0.3, 0.9, 1.0, 0.0),
     ] {
         let (specular, grazing) = ([f0; 3], [f90; 3]);
-        let coat = Material::Glossy { diffuse: [albedo; 3], specular, grazing, roughness: alpha.into() };
+        let coat =
+            Material::Glossy { diffuse: [albedo; 3], specular, grazing, roughness: alpha.into(), greatest: false };
         let metal = Metal::new([&record(&coat); 8]);
         for (sin, tilt) in [(0.0_f32, 0.0_f32), (0.6, 0.0), (0.6, 0.5), (0.95, 0.3)] {
             let normal = V8::new(X8::lit(0.0), X8::lit(0.0), X8::lit(1.0));

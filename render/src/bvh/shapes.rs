@@ -23,13 +23,15 @@ pub enum LitSides {
     Front,
     /// From both.
     Both,
+    /// It shines, but no ray meets it.
+    Unseen,
 }
 
 #[derive(Debug)]
 pub(super) struct Hittables {
     hittables: Vec<AnyHittable>,
     ids: Vec<u32>,
-    /// For each of the ids, its index in leaf order.
+    /// For each shape of the list, its index in leaf order, or [`NOTHING`] for one that no ray meets.
     indices: Vec<u32>,
     /// In leaf order.
     lit: Vec<LitSides>,
@@ -65,7 +67,7 @@ impl Hittables {
     /// Lanes in which rays that meet the shape of this index in leaf order, at these distances, meet a side from which light comes.
     fn is_lit(&self, index: usize, rays: &Approach<'_>, distance: X8) -> M8 {
         match self.lit[index] {
-            LitSides::Neither => M8::splat(false),
+            LitSides::Neither | LitSides::Unseen => M8::splat(false),
             LitSides::Front => self.hittables[index].fronts([rays.origin, rays.direction], distance),
             LitSides::Both => M8::splat(true),
         }
@@ -75,12 +77,16 @@ impl Hittables {
     #[cold]
     fn comes_first(&self, index: usize, rays: &Approach<'_>, lanes: M8, places: u32x8) -> M8 {
         let (own, id) = (self.is_lit(index, rays, rays.limit), u32x8::splat(self.ids[index] | SHAPE));
-        let mut others = M8::splat(false);
+        let (mut others, mut seen) = (M8::splat(false), M8::splat(false));
         each_group(places, lanes, |place, here| {
-            let other = self.indices[(place & !SHAPE) as usize] as usize;
-            others = others | here & self.is_lit(other, rays, rays.limit);
+            let other = self.indices[(place & !SHAPE) as usize];
+            if other != NOTHING {
+                seen = seen | here;
+                others = others | here & self.is_lit(other as usize, rays, rays.limit);
+            }
         });
-        lanes & (own & !others | !(own ^ others) & below(id, places))
+        // nothing is before a light that is no surface
+        seen & (own & !others | !(own ^ others) & below(id, places))
     }
 }
 
@@ -90,12 +96,14 @@ impl ShapeSet {
     pub fn none() -> Self {
         Self::new(std::iter::empty()).unwrap_or_else(|_| unreachable!("none are few"))
     }
-    /// Prepares the shapes.
+    /// Prepares all shapes of a scene, in their order.
     ///
     /// # Errors
     /// Fails if there are more than 2³¹ − 1 shapes.
     pub fn new<'a>(shapes: impl Iterator<Item = (&'a Geometry, LitSides)>) -> Result<Self, BuildError> {
-        let shapes: Vec<_> = shapes.collect();
+        let all: Vec<_> = shapes.collect();
+        let (own, shapes): (Vec<u32>, Vec<_>) =
+            (0..).zip(&all).filter(|(_, (_, lit))| *lit != LitSides::Unseen).unzip();
         let boxes: Vec<_> = shapes.iter().map(|(shape, _)| shape.bounds()).collect();
         let farthest = |bounds: &Bounds| bounds.iter().flatten().fold(0.0_f32, |m, x| m.max(x.abs()));
         let reach = boxes.iter().map(farthest).fold(0.0, f32::max);
@@ -104,13 +112,13 @@ impl ShapeSet {
             boxes,
             COSTS,
             |_| (),
-            |_, ids, _| {
-                let mut indices = vec![0; ids.len()];
+            |_, order, _| {
+                let ids: Vec<u32> = order.iter().map(|&i| own[i as usize]).collect();
+                let mut indices = vec![NOTHING; all.len()];
                 (0..).zip(&ids).for_each(|(index, &id)| indices[id as usize] = index);
-                let of = |&id: &u32| shapes[id as usize];
-                let hittables = ids.iter().map(|id| of(id).0.hittable()).collect();
-                let reached = Reached(shapes.iter().map(|(shape, _)| shape.hittable()).collect());
-                Hittables { hittables, indices, lit: ids.iter().map(|id| of(id).1).collect(), ids, reached }
+                let hittables = ids.iter().map(|&id| all[id as usize].0.hittable()).collect();
+                let reached = Reached(all.iter().map(|(shape, _)| shape.hittable()).collect());
+                Hittables { hittables, indices, lit: ids.iter().map(|&id| all[id as usize].1).collect(), ids, reached }
             },
         )?;
         Ok(Self { tree, reach, least })

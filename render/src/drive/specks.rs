@@ -34,7 +34,9 @@ struct Speck {
 /// mirrors show is not looked for.
 pub(super) fn specks(scene: &PreparedScene, camera: &Camera, size: [u32; 2], exposure: f64) -> Specks {
     let look = |speck: Option<Speck>| look(scene, camera, size, &speck?, exposure);
-    let shapes: Vec<u32> = scene.surfaces.light_shapes().collect();
+    let emission = |index: u32| scene.surfaces.shapes()[index as usize].emission;
+    let is_seen = |index: &u32| !emission(*index).is_some_and(|emission| emission.is_unseen);
+    let shapes: Vec<u32> = scene.surfaces.light_shapes().filter(is_seen).collect();
     let apart = shapes.len().div_ceil(MOST).max(1);
     let looked_at: Vec<u32> = shapes.iter().copied().step_by(apart).collect();
     // in order, whatever the threads

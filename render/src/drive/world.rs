@@ -93,6 +93,34 @@ impl World {
         (hits[0].place.lane(0) != NOTHING).then(|| f64::from(hits[0].distance.lane(0)))
     }
 
+    /// The part of all directions in which rays escape, from a little before what the camera sees on its axis, by 4,096 directions; `None` if it
+    /// sees nothing there. Inside of a room, it is the part that its windows have.
+    pub fn openness(&self) -> Option<f64> {
+        const PACKETS: usize = 512;
+        let bvh = &self.scene.surfaces.bvh;
+        let ahead = 0.9 * self.depth()?;
+        let place = [0, 1, 2].map(|k| (self.camera.origin[k] + ahead * self.camera.forward[k]) as f32);
+        let (active, mut scratch) = ([X8::splat(0.0).le(X8::splat(1.0))], Scratch::default());
+        let mut escaped = 0;
+        for packet in 0..PACKETS {
+            // a spiral over the sphere
+            let direction = |lane: usize| {
+                let k = (packet * 8 + lane) as f64 + 0.5;
+                let z = 1.0 - 2.0 * k / (8 * PACKETS) as f64;
+                let (sin, cos) = libm::sincos(k * 2.399_963_229_728_653);
+                let r = (1.0 - z * z).max(0.0).sqrt();
+                [r * cos, r * sin, z].map(|x| x as f32)
+            };
+            let all: [[f32; 3]; 8] = std::array::from_fn(direction);
+            let axis = |k: usize| X8::from(all.map(|v| v[k]));
+            let mut hits = [Hits::none(X8::splat(f32::INFINITY))];
+            let rays = [bvh.rays(V8::from(place), V8::new(axis(0), axis(1), axis(2)))];
+            bvh.closest(&rays, &active, &mut hits, &mut scratch);
+            escaped += (0..8).filter(|lane| hits[0].place.lane(*lane) == NOTHING).count();
+        }
+        Some(escaped as f64 / (8 * PACKETS) as f64)
+    }
+
     /// Checks that the scene can be rendered as these settings say.
     ///
     /// # Errors

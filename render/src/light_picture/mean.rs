@@ -1,5 +1,6 @@
 //! Means of interpolated pictures over shapes.
 
+use super::repeats::Rows;
 use crate::texture::{Picture, Wrap};
 use std::f64::consts::PI;
 use std::ops::RangeInclusive;
@@ -71,7 +72,18 @@ fn add(picture: &Picture, [column, row]: [i64; 2], weights: [f64; 4], sum: &mut 
     }
 }
 
-/// The mean over the shape with these corners in coordinates of its surface; `None` if it has more than `most` cells.
+/// The columns of the cells that are wholly within a part of a shape between two rows, from the first up to the last; empty if there are none.
+fn whole_columns(strip: &[Corner], row: i64) -> std::ops::Range<i64> {
+    let edge = |y: f64| {
+        let on = strip.iter().filter(|corner| corner[3] == y).map(|corner| corner[2]);
+        on.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)])
+    };
+    let [upper, lower] = [edge(row as f64), edge((row + 1) as f64)];
+    let (from, to) = (upper[0].max(lower[0]).ceil(), upper[1].min(lower[1]).floor());
+    if from < to { from as i64..to as i64 } else { 0..0 }
+}
+
+/// The mean over the shape with these corners in coordinates of its surface; `None` if more than `most` cells would have to be looked at.
 pub(super) fn over_polygon(picture: &Picture, corners: &[[f64; 2]], most: &mut u64) -> Option<[f64; 3]> {
     let (width, height) = (picture.texels.width, picture.texels.height);
     let shift = if picture.bilinear { 0.5 } else { 0.0 };
@@ -93,8 +105,8 @@ pub(super) fn over_polygon(picture: &Picture, corners: &[[f64; 2]], most: &mut u
         cells(low, high, count, picture.wrap[axis - 2])
     };
     let count = |range: RangeInclusive<i64>| (range.end() - range.start() + 1) as u64;
-    let all = count(range(&whole, 2, width)).saturating_mul(count(range(&whole, 3, height)));
-    *most = most.checked_sub(all)?;
+    let mut sums = Rows::new(picture);
+    *most = most.checked_sub(sums.cost(count(range(&whole, 3, height)), count(range(&whole, 2, width))))?;
     let area: f64 = weights(&whole, [0.0; 2]).iter().sum();
     let (mut sum, mut spare) = ([0.0; 3], Vec::new());
     let (mut left, mut row, mut cell) = (whole, Vec::new(), Vec::new());
@@ -106,13 +118,27 @@ pub(super) fn over_polygon(picture: &Picture, corners: &[[f64; 2]], most: &mut u
             cut(&mut left, &mut row, &mut spare, 3, (y + 1) as f64);
         }
         let columns = if row.is_empty() { continue } else { range(&row, 2, width) };
-        for x in columns.clone() {
+        let inner = whole_columns(&row, y);
+        // of a clamped picture, cells beyond the edges belong to the outermost ones
+        let inner = inner.start.max(columns.start() + 1)..inner.end.min(*columns.end());
+        let mut x = *columns.start();
+        while x <= *columns.end() {
+            if x == inner.start && !inner.is_empty() {
+                cut(&mut row, &mut cell, &mut spare, 2, inner.end as f64);
+                // the area of each in coordinates of the surface
+                let area = weights(&cell, [0.0; 2]).iter().sum::<f64>() / (inner.end - inner.start) as f64;
+                let whole = sums.sum(y, inner.start, inner.end);
+                (0..3).for_each(|k| sum[k] += area * whole[k]);
+                x = inner.end;
+                continue;
+            }
             if x == *columns.end() {
                 std::mem::swap(&mut row, &mut cell);
             } else {
                 cut(&mut row, &mut cell, &mut spare, 2, (x + 1) as f64);
             }
             add(picture, [x, y], weights(&cell, [x as f64, y as f64]), &mut sum);
+            x += 1;
         }
     }
     Some(sum.map(|sum| sum / area))

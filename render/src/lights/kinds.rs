@@ -3,7 +3,7 @@
 
 use super::chosen::Chosen;
 use super::directed::{self, DirectedLight};
-use super::record::{Candidate, KINDS, LightRecord, PICTURED, PROFILED, SPREAD, TWO_SIDED, sum, wide};
+use super::record::{Candidate, KINDS, LightRecord, PICTURED, PROFILED, SPREAD, TWO_SIDED, UNSEEN, sum, wide};
 use super::{point, spot, sun};
 use crate::geometry::{self, Extent};
 use crate::packet::{V8, X8};
@@ -17,10 +17,12 @@ pub(super) const SPREADS: u32 = 1 << 16;
 pub(super) const PICTURES: u32 = 1 << 17;
 /// There is a light with an area and a profile.
 pub(super) const PROFILES: u32 = 1 << 18;
+/// There is a light with an area that no ray can hit.
+pub(super) const UNSEENS: u32 = 1 << 19;
 /// Lights whose radiance or intensity differs by direction, but for the sky.
 pub(super) const UNEVEN: u32 = 1 << directed::KIND | SPREADS | PROFILES;
 pub(super) const ONLY_DELTAS: u32 = 1 << point::KIND | 1 << spot::KIND | 1 << sun::KIND | 1 << directed::KIND;
-pub(super) const ONLY_AREAS: u32 = SHAPES | SPREADS | PICTURES | PROFILES;
+pub(super) const ONLY_AREAS: u32 = SHAPES | SPREADS | PICTURES | PROFILES | UNSEENS;
 
 /// All shapes, as a set.
 pub(super) const SHAPES: u32 = geometry::KINDS;
@@ -54,7 +56,8 @@ pub(super) fn of_shape(index: u32, shape: &Shape) -> Option<Candidate> {
         | flag(emission.two_sided, TWO_SIDED)
         | flag(emission.spread.is_some(), SPREAD)
         | flag(emission.picture.is_some(), PICTURED)
-        | flag(emission.profile.is_some(), PROFILED);
+        | flag(emission.profile.is_some(), PROFILED)
+        | flag(emission.is_unseen, UNSEEN);
     let (radiance, spread) = (emission.radiance, emission.spread.unwrap_or_default());
     let sides = if emission.two_sided { 2.0 } else { 1.0 };
     let power = sum(radiance) * shape.geometry.area() * sides;
@@ -109,7 +112,7 @@ impl Candidate {
     /// The set of its kind and its flags.
     pub(super) fn kinds(&self) -> u32 {
         let kind = self.record.kind;
-        let flags = [(SPREAD, SPREADS), (PICTURED, PICTURES), (PROFILED, PROFILES)];
+        let flags = [(SPREAD, SPREADS), (PICTURED, PICTURES), (PROFILED, PROFILES), (UNSEEN, UNSEENS)];
         let set = flags.iter().filter(|(flag, _)| kind & flag != 0).fold(0, |set, (_, bit)| set | bit);
         1 << (kind & KINDS) | set
     }

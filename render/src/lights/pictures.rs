@@ -14,7 +14,9 @@ use rayon::prelude::*;
 /// The most cells along a side of a shape.
 const MOST_ALONG: usize = 1024;
 /// The most cells of all shapes.
-const MOST: usize = 1 << 24;
+const MOST: usize = 1 << 22;
+/// Cells that show more texels are looked at by blocks of texels.
+const MOST_EXACT: f64 = 32.0;
 /// A triangle with fewer cells along its sides is sampled as a whole: cells on its third side are sampled in vain half of the time.
 const FEWEST_OF_TRIANGLE: usize = 8;
 /// Pictures that vary by less are not worth a table.
@@ -68,11 +70,22 @@ impl Table {
         if chart == Chart::Triangle && w < FEWEST_OF_TRIANGLE {
             return None;
         }
-        let cell = |i: usize| {
-            let [s, t] = [(i % w, w), (i / w, h)].map(|(i, n)| [i, i + 1].map(|i| i as f64 / n as f64));
-            picture.mean_of_cell(chart, s, t)
+        let ranges = |i: usize| [(i % w, w), (i / w, h)].map(|(i, n)| [i, i + 1].map(|i| i as f64 / n as f64));
+        let middle = ranges(w * h / 2 + w / 2);
+        let weights: Option<Vec<f64>> = if picture.texels_of_cell(chart, middle[0], middle[1]) > MOST_EXACT {
+            let coarse = picture.coarse(chart);
+            let weight = |i: usize| {
+                let [s, t] = ranges(i);
+                Some(coarse(s, t)).filter(|x| x.is_finite())
+            };
+            (0..w * h).into_par_iter().map(weight).collect()
+        } else {
+            let cell = |i: usize| {
+                let [s, t] = ranges(i);
+                picture.mean_of_cell(chart, s, t)
+            };
+            (0..w * h).into_par_iter().map(cell).collect()
         };
-        let weights: Option<Vec<f64>> = (0..w * h).into_par_iter().map(cell).collect();
         let weights = weights?;
         let weights = relative(&weights)?;
         let mut buffer = vec![0.0; Picture::buffer(w, h)];

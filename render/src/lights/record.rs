@@ -11,6 +11,7 @@ pub(super) const TWO_SIDED: u32 = 16;
 pub(super) const SPREAD: u32 = 32;
 pub(super) const PICTURED: u32 = 64;
 pub(super) const PROFILED: u32 = 128;
+pub(super) const UNSEEN: u32 = 256;
 
 /// A light. The file of its kind, or of its form, says what the three vectors are.
 #[derive(Clone, Copy, Debug, Default)]
@@ -23,7 +24,7 @@ pub(crate) struct LightRecord {
     pub(super) radiance: [f32; 3],
     /// Its spread, where [`SPREAD`] is set; with a profile, the cone beyond which that is dark.
     pub(super) spread: Spread<f32>,
-    /// Its kind, [`TWO_SIDED`], [`SPREAD`], [`PICTURED`] and [`PROFILED`].
+    /// Its kind, [`TWO_SIDED`], [`SPREAD`], [`PICTURED`], [`PROFILED`] and [`UNSEEN`].
     pub(super) kind: u32,
     /// Index of its shape, or [`NOTHING`].
     pub(super) shape: u32,

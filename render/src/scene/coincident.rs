@@ -65,7 +65,7 @@ pub fn coincidences(shapes: &[Shape]) -> Vec<Coincidence> {
 
 impl Lamp {
     fn new(index: u32, shape: &Shape) -> Option<Self> {
-        let two_sided = shape.emission?.two_sided;
+        let two_sided = shape.emission.filter(|emission| !emission.is_unseen)?.two_sided;
         let [low, high] = shape.geometry.bounds().map(|corner| corner.map(f64::from));
         let form = match (shape.geometry.outline().solid(), shape.geometry.plane()) {
             (Solid::Sphere { center, radius }, None) => Form::Ball(center, radius),

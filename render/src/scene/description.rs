@@ -80,7 +80,7 @@ impl Scene {
         Self {
             name: String::new(),
             camera,
-            film: FilmSettings { width, height, diagonal: 35.0, filename: None, place: None },
+            film: FilmSettings { width, height, diagonal: 35.0, filename: None, place: None, exposure: 1.0 },
             pixel_samples: 16,
             materials: Vec::new(),
             triangles: Vec::new(),
@@ -145,6 +145,8 @@ pub struct FilmSettings {
     pub filename: Option<String>,
     /// Where the image is in the whole one, if it is only a part.
     pub place: Option<Place>,
+    /// What the picture for viewing is multiplied by, as a film of more speed or a longer exposure is brighter: 1 by default. Images of radiance are not.
+    pub exposure: f64,
 }
 
 /// A camera: a pinhole, a thin lens, or parallel rays.

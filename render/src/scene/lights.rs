@@ -74,6 +74,8 @@ pub struct Emission {
     pub spread: Option<Spread<f32>>,
     /// How a flat light distributes what it emits, if not by the spread: an index into [`Scene::profiles`](super::Scene::profiles).
     pub profile: Option<u32>,
+    /// Whether no ray hits the surface: it lights others, and is neither seen nor in the way, as a lamp of opacity 0.
+    pub is_unseen: bool,
 }
 
 impl Emission {

@@ -29,6 +29,28 @@ pub enum Material {
         grazing: [f32; 3],
         /// Roughness of the GGX distribution, at least [`Roughness::LEAST`] in both directions.
         roughness: Roughness,
+        /// Whether the diffuse part is dimmed in all channels by the greatest one of F, and not in each by its own
+        /// (`KHR_materials_specular`).
+        greatest: bool,
+    },
+    /// A diffuse surface below a dielectric interface, with the light that this sends back: [`coat`](crate::coat) has the formula.
+    Layered {
+        /// Albedo of the diffuse surface, linear RGB.
+        diffuse: [f32; 3],
+        /// Index of refraction of the coat, at least 1.
+        eta: f32,
+        /// Roughness of the GGX distribution, at least [`Roughness::LEAST`] in both directions.
+        roughness: Roughness,
+    },
+    /// A smooth metal below a smooth dielectric interface, with the light that goes back and forth between them, a perfect mirror:
+    /// F + (1 − F)² R/(1 − F R), where F is the reflectance of the interface and R that of the metal in the coat, at the refracted direction.
+    CoatedMirror {
+        /// Real part of the index of refraction of the metal, per channel, relative to air.
+        eta: [f32; 3],
+        /// Imaginary part, per channel, relative to air.
+        k: [f32; 3],
+        /// Index of refraction of the coat, at least 1.
+        coat: f32,
     },
     /// The material of this index in [`Scene::varying`](super::Scene::varying), which varies over the surface.
     Varying(u32),
@@ -47,7 +69,7 @@ pub struct Roughness {
 }
 
 impl Roughness {
-    /// The least roughness of [`Material::Glossy`]: a smooth coat is that of this roughness.
+    /// The least roughness of [`Material::Glossy`] and [`Material::Layered`]: a smooth coat is that of this roughness.
     pub const LEAST: f32 = 0.01;
 
     /// Whether it is the same in all directions.
@@ -86,6 +108,17 @@ pub enum Varying {
         roughness: [Texture; 2],
         /// As [`Roughness::turn`], in radians.
         turn: f32,
+        /// As in [`Material::Glossy`].
+        greatest: bool,
+    },
+    /// [`Material::Layered`].
+    Layered {
+        /// Albedo of the diffuse surface.
+        diffuse: Texture,
+        /// Index of refraction of the coat.
+        eta: f32,
+        /// Roughness α along and across.
+        roughness: [Texture; 2],
     },
     /// [`Material::Glossy`] by glTF's parameters.
     Metallic {
@@ -122,6 +155,7 @@ impl Varying {
             Self::Glossy { diffuse, specular, grazing, roughness: [along, across], .. } => {
                 [diffuse, specular, grazing, along, across]
             }
+            Self::Layered { diffuse, roughness: [along, across], .. } => [diffuse, along, across, along, across],
             Self::Metallic { base, metallic, roughness } => [base, metallic, roughness, roughness, roughness],
         };
         textures.iter().all(|texture| texture.constant().is_some()).then(|| self.mean())
@@ -133,11 +167,16 @@ impl Varying {
         let alpha = |x: f32| share(x).max(Roughness::LEAST);
         match self {
             Self::Diffuse(albedo) => Material::Diffuse(color(albedo)),
-            Self::Glossy { diffuse, specular, grazing, roughness, turn } => {
+            Self::Layered { diffuse, eta, roughness } => {
+                let [along, across] = roughness.each_ref().map(|texture| alpha(value(texture)[0]));
+                let roughness = Roughness { along, across, turn: 0.0 };
+                Material::Layered { diffuse: color(diffuse), eta: *eta, roughness }
+            }
+            Self::Glossy { diffuse, specular, grazing, roughness, turn, greatest } => {
                 let [along, across] = roughness.each_ref().map(|texture| alpha(value(texture)[0]));
                 let roughness = Roughness { along, across, turn: *turn };
                 let [diffuse, specular, grazing] = [diffuse, specular, grazing].map(color);
-                Material::Glossy { diffuse, specular, grazing, roughness }
+                Material::Glossy { diffuse, specular, grazing, roughness, greatest: *greatest }
             }
             Self::Metallic { base, metallic, roughness } => {
                 let (base, metallic, roughness) = (color(base), share(value(metallic)[0]), share(value(roughness)[0]));
@@ -146,6 +185,7 @@ impl Varying {
                     specular: base.map(|x| 0.04 + (x - 0.04) * metallic),
                     grazing: [1.0; 3],
                     roughness: alpha(roughness * roughness).into(),
+                    greatest: false,
                 }
             }
         }
@@ -159,24 +199,33 @@ impl Material {
     }
     /// Whether the material is a perfect mirror.
     pub fn is_mirror(&self) -> bool {
-        matches!(self, Self::Mirror(_) | Self::Conductor { roughness: Roughness { along: 0.0, across: 0.0, .. }, .. })
+        matches!(
+            self,
+            Self::Mirror(_)
+                | Self::CoatedMirror { .. }
+                | Self::Conductor { roughness: Roughness { along: 0.0, across: 0.0, .. }, .. }
+        )
     }
     /// The roughness of a rough surface or coat.
     #[must_use]
     pub fn roughness(&self) -> Option<Roughness> {
         match *self {
-            Self::Conductor { roughness, .. } | Self::Glossy { roughness, .. } => Some(roughness),
+            Self::Conductor { roughness, .. } | Self::Glossy { roughness, .. } | Self::Layered { roughness, .. } => {
+                Some(roughness)
+            }
             _ => None,
         }
     }
     /// Whether the material reflects more in some directions than a diffuse one, but is no mirror. Of varying ones [`Varying`] knows.
     pub fn is_glossy(&self) -> bool {
-        matches!(self, Self::Conductor { .. } | Self::Glossy { .. }) && !self.is_mirror()
+        matches!(self, Self::Conductor { .. } | Self::Glossy { .. } | Self::Layered { .. }) && !self.is_mirror()
     }
     /// The material with the mean of its roughness in all directions.
     #[must_use]
     pub fn isotropic(mut self) -> Self {
-        if let Self::Conductor { roughness, .. } | Self::Glossy { roughness, .. } = &mut self {
+        if let Self::Conductor { roughness, .. } | Self::Glossy { roughness, .. } | Self::Layered { roughness, .. } =
+            &mut self
+        {
             *roughness = roughness.mean();
         }
         self

@@ -92,6 +92,7 @@ fn finish(scene: &Scene, index: u32) -> Finish {
             reflectance: specular[CHANNEL].into(),
             alpha: roughness.along.into(),
         },
+        Material::Layered { .. } | Material::CoatedMirror { .. } => unreachable!("no such material is drawn"),
         // its albedo is among the details
         Material::Varying(of) => match &scene.varying[of as usize] {
             Varying::Diffuse(_) => Finish::Diffuse(0.0),
@@ -113,7 +114,7 @@ fn triangle([corner, b, c]: [V3; 3]) -> Form {
 fn meshes(scene: &Scene) -> Vec<Body> {
     let albedos = scene.varying.iter().map(|varying| match varying {
         Varying::Diffuse(albedo) | Varying::Glossy { diffuse: albedo, .. } => Arc::new(pattern(albedo, CHANNEL)),
-        Varying::Metallic { .. } => unreachable!("no such material is drawn"),
+        Varying::Layered { .. } | Varying::Metallic { .. } => unreachable!("no such material is drawn"),
     });
     let albedos: Vec<Arc<Pattern>> = albedos.collect();
     let opacity = |mask: &texture::Mask| Opacity {

@@ -208,11 +208,11 @@ fn what_materials_ignore_is_reported_once() {
     }
     asset.json["extensionsUsed"] = json!(["ABC_new", "KHR_materials_clearcoat", "KHR_materials_transmission"]);
     let wanted = [
-        "its normalTexture is ignored",
-        "its occlusionTexture is ignored",
         "ABC_new is not supported and ignored",
         "KHR_materials_clearcoat is ignored",
         "KHR_materials_transmission is ignored: the surface is opaque",
+        "its normalTexture is ignored",
+        "its occlusionTexture is ignored",
     ];
     let mut wanted = wanted.map(|text| format!("a.gltf: material 0: {text} (reported once)")).to_vec();
     wanted.push("a.gltf: material 2: its alphaMode is unknown: the surface is opaque (reported once)".into());
@@ -282,7 +282,7 @@ fn indices_of_refraction_and_speculars() {
             json!({"metallicFactor": metallic, "roughnessFactor": 0.5, "baseColorFactor": [0.5, 0.5, 0.5, 1]});
         material(&Asset::of_material(json!({"pbrMetallicRoughness": surface, "extensions": extensions})))
     };
-    let Material::Glossy { diffuse, specular, grazing, roughness } =
+    let Material::Glossy { diffuse, specular, grazing, roughness, .. } =
         of(json!({"KHR_materials_ior": {"ior": 2.0}}), 0.0)
     else {
         panic!()
@@ -306,6 +306,56 @@ fn indices_of_refraction_and_speculars() {
     near(grazing, [0.875; 3]);
     let asset = Asset::of_material(json!({"extensions": {"KHR_materials_ior": {"ior": 0.5}}}));
     assert_eq!(asset.error(), "a.glb: material 0: ior: must be 0, or finite and at least 1, not 0.5");
+}
+
+/// Specular-glossiness: α is (1 − glossiness)², and the diffuse part has what no channel of the specular part reflects.
+#[test]
+fn glossiness() {
+    let of = |extension: Value| {
+        let mut asset = textured(json!({"extensions": {"KHR_materials_pbrSpecularGlossiness": extension}}));
+        asset.json["extensionsRequired"] = json!(["KHR_materials_pbrSpecularGlossiness"]);
+        asset
+    };
+    let plain =
+        of(json!({"diffuseFactor": [0.1, 0.2, 0.3, 1], "specularFactor": [0.5, 0.6, 0.7], "glossinessFactor": 0.5}));
+    let (diffuse, specular) = ([0.1, 0.2, 0.3], [0.5, 0.6, 0.7]);
+    let wanted = Material::Glossy { diffuse, specular, grazing: [1.0; 3], roughness: 0.25.into(), greatest: true };
+    assert_eq!(material(&plain), wanted);
+    assert_eq!(plain.warnings(), [""; 0]);
+    let Varying::Glossy { diffuse, specular, .. } =
+        varying(&of(json!({"diffuseTexture": {"index": 0}, "specularFactor": [0, 0, 0]})))
+    else {
+        panic!()
+    };
+    assert_eq!((diffuse.at([0.25, 0.25]), specular.constant()), ([1.0, 0.0, 0.0], Some([0.0; 3])));
+    let text = of(json!({"specularFactor": ["red"]})).error();
+    assert!(text.ends_with("material 0: KHR_materials_pbrSpecularGlossiness: its factors must be numbers"), "{text}");
+    assert!(of(json!({"diffuseTexture": {"index": "x"}})).error().contains("diffuseTexture is no texture"));
+}
+
+/// Properties that the list of the format lacks are warnings, and what may be misspelt is what `--strict` refuses.
+#[test]
+fn unknown_properties_are_named() {
+    let mut asset = Asset::of_material(json!({
+        "pbrMetallicRoughness": {"roughnesFactor": 0.2, "extras": {"anything": 1}},
+        "colour": [1, 0, 0],
+        "extensions": {"KHR_materials_ior": {"oir": 2}},
+    }));
+    asset.json["nodes"][0]["translaton"] = json!([1, 2, 3]);
+    asset.json["meshes"][0]["primitives"][0]["attributes"]["_TEMPERATURE"] = json!(0);
+    asset.json["extensionsUsed"] = json!(["KHR_xmp_json_ld", "EXT_structural_metadata"]);
+    let scene = asset.read();
+    let misspelt = [
+        "material 0, KHR_materials_ior: unknown property \"oir\"; did you mean ior?",
+        "material 0, pbrMetallicRoughness: unknown property \"roughnesFactor\"; did you mean roughnessFactor?",
+        "node 0: unknown property \"translaton\"; did you mean translation?",
+    ];
+    let texts = |list: &[etendue_render::scene::Message]| list.iter().map(|of| of.text.clone()).collect::<Vec<_>>();
+    assert_eq!(texts(&scene.stand_ins), misspelt);
+    let unknown = "material 0: unknown property \"colour\" (reported once)".to_owned();
+    let warnings: Vec<String> = texts(&scene.warnings).into_iter().filter(|text| text.contains("unknown")).collect();
+    assert_eq!(warnings.len(), 4);
+    assert!(warnings.contains(&unknown), "{warnings:?}");
 }
 
 #[test]
@@ -335,7 +385,7 @@ fn anisotropic_roughness() {
     let text = of(json!({"anisotropyStrength": "0.5"})).error();
     assert_eq!(text, "a.glb: material 0: KHR_materials_anisotropy: anisotropyStrength: must be a finite number");
     let mapped = of(json!({"anisotropyStrength": 1, "anisotropyTexture": {"index": 0}})).warnings();
-    assert!(mapped[0].contains("the texture of its KHR_materials_anisotropy is ignored"), "{mapped:?}");
+    assert!(mapped[0].contains("KHR_materials_anisotropy: its anisotropyTexture is ignored"), "{mapped:?}");
 }
 
 #[test]

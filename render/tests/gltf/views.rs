@@ -5,9 +5,14 @@ use crate::kit::Folder;
 use etendue_render::packet::V8;
 use etendue_render::scene::{CameraSettings, Screen};
 use etendue_render::sky::Sky;
-use etendue_scene::load_with_sky;
+use etendue_scene::{Asked, SceneError, load_as};
 use serde_json::{Value, json};
 use std::path::Path;
+
+/// A scene under a sky.
+fn under(scene: &Path, sky: &Path) -> Result<etendue_render::scene::Scene, SceneError> {
+    load_as(scene, &Asked { sky: Some(sky.to_owned()), ..Asked::default() })
+}
 
 /// The position of a point in an image, from the top left, by the formula of [`CameraSettings`].
 fn project(camera: &CameraSettings, size: [u32; 2], point: [f64; 3]) -> [f64; 2] {
@@ -167,6 +172,51 @@ fn lights_that_are_dark_or_wrong() {
     }
 }
 
+/// Cameras and scenes are chosen by their names or numbers; without a choice, several cameras are a warning.
+#[test]
+fn cameras_and_scenes_are_chosen() {
+    let mut asset = Asset::of_triangle();
+    for (name, yfov) in [("wide", 1.5), ("narrow", 0.5)] {
+        let perspective = json!({"yfov": yfov, "znear": 1});
+        let camera = asset.add("cameras", json!({"type": "perspective", "perspective": perspective, "name": name}));
+        asset.add("nodes", json!({"camera": camera, "name": format!("node of {name}"), "translation": [0, 0, yfov]}));
+    }
+    asset.json["scenes"] = json!([{"nodes": [0, 1, 2], "name": "day"}, {"nodes": [0, 2], "name": "night"}]);
+    let folder = Folder::new();
+    let path = folder.write("a.gltf", asset.text());
+    let of = |camera: Option<&str>, scene: Option<&str>| {
+        load_as(&path, &Asked { camera: camera.map(str::to_owned), scene: scene.map(str::to_owned), sky: None })
+    };
+    let seen = |camera: Option<&str>, scene: Option<&str>| {
+        let scene = of(camera, scene).unwrap();
+        (scene.camera.origin[2] as f32, scene.warnings.iter().any(|warning| warning.text.contains("cameras")))
+    };
+    assert_eq!(seen(None, None), (1.5, true));
+    for camera in ["narrow", "node of narrow", "1"] {
+        assert_eq!(seen(Some(camera), None), (0.5, false), "{camera}");
+    }
+    assert_eq!(seen(Some("0"), None), (1.5, false));
+    assert_eq!([seen(None, Some("night")), seen(None, Some("1"))], [(0.5, false); 2]);
+    let wrong = |camera: Option<&str>, scene: Option<&str>| of(camera, scene).unwrap_err().to_string();
+    assert!(
+        wrong(Some("narow"), None).ends_with("has no camera \"narow\": there are 2, from 0 on; did you mean narrow?")
+    );
+    assert!(wrong(Some("2"), None).ends_with("has no camera \"2\": there are 2, from 0 on"));
+    assert!(wrong(None, Some("nigt")).ends_with("has no scene \"nigt\": there are 2, from 0 on; did you mean night?"));
+    let contents = |scene: Option<&str>| {
+        etendue_scene::contents(&path, &Asked { scene: scene.map(str::to_owned), ..Asked::default() }).unwrap()
+    };
+    assert_eq!(
+        (contents(None).scenes, contents(None).cameras),
+        (vec!["day".to_owned(), "night".into()], vec!["wide".to_owned(), "narrow".into()])
+    );
+    assert_eq!(contents(Some("night")).cameras, ["narrow"]);
+    let plain = folder.write("a.pbrt", b"Camera \"perspective\" WorldBegin");
+    let asked = Asked { camera: Some("0".to_owned()), ..Asked::default() };
+    let text = load_as(&plain, &asked).unwrap_err().to_string();
+    assert!(text.ends_with("files of pbrt have one camera: camera cannot be chosen"), "{text}");
+}
+
 /// The right half of the image of a sky is where +z is, with +y up; the warning of a scene without lights goes.
 #[test]
 fn a_sky_is_added() {
@@ -178,7 +228,7 @@ fn a_sky_is_added() {
     let mut image = b"Pf\n4 2\n-1.0\n".to_vec();
     image.extend(texels.iter().flat_map(|x| x.to_le_bytes()));
     let sky = folder.write("sky.pfm", &image);
-    let loaded = load_with_sky(&scene, &sky).unwrap();
+    let loaded = under(&scene, &sky).unwrap();
     assert!(loaded.warnings.iter().all(|warning| !warning.text.contains("emits")), "{:?}", loaded.warnings);
     assert!([&sky, &scene].iter().all(|path| loaded.inputs.iter().any(|input| input.path == **path)));
     let seen = Sky::new(loaded.environment.as_ref().unwrap());
@@ -190,17 +240,17 @@ fn a_sky_is_added() {
 
     // in a pbrt file +z is up
     let plain = folder.write("a.pbrt", b"Camera \"perspective\" WorldBegin LightSource \"infinite\"");
-    let loaded = load_with_sky(&plain, &sky).unwrap();
+    let loaded = under(&plain, &sky).unwrap();
     assert!(loaded.warnings.is_empty());
     let seen = Sky::new(loaded.environment.as_ref().unwrap());
     let up = seen.radiance(V8::default(), [0.1, 0.1, 1.0].into()).x.to_array()[0];
     assert_eq!(up, texels[4]);
 
-    let failed = |path: &Path| load_with_sky(&plain, path).unwrap_err().to_string();
+    let failed = |path: &Path| under(&plain, path).unwrap_err().to_string();
     let missing = folder.path("none.exr");
     assert!(failed(&missing).starts_with(&format!("{}: cannot read", missing.display())), "{}", failed(&missing));
     let text = failed(&plain);
-    assert!(text.starts_with(&format!("{}: not a valid", plain.display())), "{text}");
+    assert!(text.starts_with(&format!("{}: not a picture", plain.display())), "{text}");
     image[12..16].copy_from_slice(&f32::NAN.to_le_bytes());
     let text = failed(&folder.write("nan.pfm", &image));
     assert!(text.contains("texel (0, 1)") && text.contains("NaN"), "{text}");

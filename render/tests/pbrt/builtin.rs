@@ -59,7 +59,7 @@ fn builtin_scenes_have_the_stated_sizes_and_no_warnings() {
             "defocus" => (384, 256, 256),
             _ => (256, 256, 64),
         };
-        let film = FilmSettings { width, height, diagonal: 35.0, filename, place: None };
+        let film = FilmSettings { width, height, diagonal: 35.0, filename, place: None, exposure: 1.0 };
         assert_eq!((&scene.film, scene.pixel_samples), (&film, samples));
         let emitting: Vec<_> = scene.shapes.iter().filter(|shape| shape.emission.is_some()).collect();
         let count = |is: fn(&Material) -> bool| scene.materials.iter().filter(|material| is(material)).count();

@@ -120,7 +120,10 @@ fn errors_name_file_line_and_value() {
         (file(NEW, 1, "0 90", "0", "8 nan"), "a.ies:8: candela value: expected a finite number, found \"nan\""),
         (file(NEW, 1, "0 90", "0", "8 x"), "a.ies:8: candela value: expected a finite number, found \"x\""),
         (file(NEW, 1, "0 181", "0", "8 2"), "a.ies:6: vertical angle: must be from 0 to 180, not 181"),
-        (file(NEW, 2, "-90 0", "0 90", "8 2 1 1"), "a.ies:4: photometric type: must be 1, which is type C, not 2"),
+        (
+            file(NEW, 4, "-90 0", "0 90", "8 2 1 1"),
+            "a.ies:4: photometric type: must be 1, 2 or 3, for C, B or A, not 4",
+        ),
         (file(NEW, 1, "0 90", "0 45", "8 2 1 1"), "a.ies:7: horizontal angles from 0 to 45: must be from 0 to 90"),
         (file(NEW, 1, "0", "0", "8"), "a.ies:6: a single vertical angle: at least two are needed"),
         (file(NEW, 1, "0 90", "0", "8 2").replace("TILT=NONE", "TILT"), "a.ies: no line begins with TILT="),

@@ -3,6 +3,7 @@
 use crate::damaged::damaged;
 use crate::kit::Folder;
 use crate::pbrt::text::{TRIANGLE, error, read, warnings, world};
+use etendue_render::scene::Material;
 use etendue_scene::{SceneError, load, parse};
 use std::path::Path;
 
@@ -40,8 +41,6 @@ const FAULTS: &[(&str, u32, &str)] = &[
     ("AttributeEnd", 2, "AttributeEnd has no matching Begin"),
     ("WorldBegin", 2, "a second WorldBegin"),
     ("Film \"rgb\"", 2, "Film must come before WorldBegin"),
-    ("CoordSysTransform \"x\"", 2, "undefined CoordinateSystem \"x\""),
-    ("NamedMaterial \"x\"\nShape \"sphere\"", 2, "no MakeNamedMaterial defines \"x\""),
     ("Rotate 30 0 0 0", 2, "the axis must not be zero"),
     ("LookAt 0 0 0 0 1 0 0 1 0", 2, "do not define a view"),
     ("Transform [1 0 0 1 0 1 0 0 0 0 1 0 0 0 0 1]", 2, "not affine"),
@@ -57,7 +56,6 @@ const FAULTS: &[(&str, u32, &str)] = &[
         2,
         "\"wrap\": unknown mode \"round\"",
     ),
-    ("Texture \"a\" \"float\" \"scale\" \"texture tex\" \"b\"", 2, "\"tex\": no float Texture \"b\" precedes this"),
     ("Texture \"a\" \"float\" \"checkerboard\" \"float uscale\" 1e39", 2, "\"uscale\": must be finite in f32"),
     ("Texture \"a\" \"float\" \"constant\" \"float value\" 1e39", 2, "\"value\": must be finite in f32, not 1e39"),
     (
@@ -85,7 +83,6 @@ const FAULTS: &[(&str, u32, &str)] = &[
     ),
     ("ObjectBegin \"a\"\nTransformEnd", 3, "TransformEnd: the ObjectBegin of line 2 is not closed"),
     ("ObjectBegin \"a\" ObjectEnd Scale 1 0 1\nObjectInstance \"a\"", 3, "its transform is singular"),
-    ("ObjectInstance \"a\"", 2, "no ObjectBegin \"a\" precedes this"),
     ("ObjectBegin \"a\"\nObjectInstance \"a\"", 3, "objects cannot contain instances"),
     ("ActiveTransform Later", 2, "expected All, StartTime or EndTime, found Later"),
     ("Attribute \"camera\" \"float x\" 1", 2, "only shape, light, material, medium, texture"),
@@ -94,12 +91,9 @@ const FAULTS: &[(&str, u32, &str)] = &[
     ("Shape \"cube\"", 2, "Shape \"cube\": shape not supported"),
     ("Shape \"sphre\"", 2, "disk, cylinder; did you mean sphere?"),
     ("Material \"difuse\"", 2, "kdsubsurface; did you mean diffuse?"),
-    ("Shape \"sphere\" \"texture alpha\" \"a\"", 2, "\"alpha\": no float Texture \"a\" precedes this"),
     ("Material \"cloth\"", 2, "material type \"cloth\" is not supported"),
     ("Material \"dielectric\" \"float eta\" 0", 2, "\"eta\": must be from 1e-3 to 1e3, not 0"),
     ("Material \"mix\" \"string materials\" \"a\"", 2, "needs two \"materials\", not 1"),
-    ("Material \"mix\" \"string materials\" [\"a\" \"b\"]", 2, "no MakeNamedMaterial \"a\" precedes this"),
-    ("Material \"diffuse\" \"texture reflectance\" \"t\"", 2, "no spectrum Texture \"t\" precedes this"),
     ("Material \"diffuse\" \"blackbody reflectance\" 3000", 2, "a light's spectrum is no reflectance"),
     ("Material \"diffuse\" \"spectrum reflectance\" [400 1 300 1]", 2, "wavelengths must ascend: 300 follows 400"),
     ("Material \"diffuse\" \"spectrum reflectance\" \"x.spd\"", 2, "cannot read"),
@@ -277,7 +271,6 @@ fn warnings_name_line_and_parameter() {
         "a.pbrt:1: Option \"disablepixeljitter\" ignored",
         "a.pbrt:2: ColorSpace \"aces2065-1\" ignored",
         "a.pbrt:3: Accelerator \"bvh\": ignored",
-        "a.pbrt:4: Film \"rgb\": \"iso\": ignored",
         "a.pbrt:5: Sampler \"halton\": only its number of samples is used; the nearest here is --sampler sobol",
         "a.pbrt:5: Sampler \"halton\": \"seed\": ignored",
         "a.pbrt:6: PixelFilter \"gaussian\": ignored",
@@ -310,6 +303,58 @@ fn misspelt_parameters_name_the_one_that_may_be_meant() {
     assert_eq!(warnings(&scene), expected);
     let refused: Vec<String> = scene.stand_ins.iter().map(ToString::to_string).collect();
     assert_eq!(refused, [expected[0], expected[1], expected[3]]);
+}
+
+/// Names that nobody defines end no scene, as in pbrt: a default stands for them, and `--strict` refuses them.
+#[test]
+fn undefined_names_are_warned_of() {
+    let named = "MakeNamedMaterial \"brick\" \"string type\" \"diffuse\" \"rgb reflectance\" [.1 .1 .1]";
+    for (text, wanted) in [
+        ("CoordSysTransform \"x\"", "undefined CoordinateSystem \"x\": the transform stays as it is, as in pbrt"),
+        ("CoordSysTransform \"wrold\"", "as in pbrt; did you mean world?"),
+        ("NamedMaterial \"x\"", "no MakeNamedMaterial defines \"x\": a diffuse surface of albedo 0.5 stands for it"),
+        ("NamedMaterial \"brik\"", "stands for it; did you mean brick?"),
+        ("ObjectInstance \"a\"", "no ObjectBegin \"a\" precedes this: nothing is added"),
+        (
+            "Shape \"sphere\" \"texture alpha\" \"a\"",
+            "\"alpha\": no float Texture \"a\" precedes this: its default stands",
+        ),
+        (
+            "Material \"diffuse\" \"texture reflectance\" \"t\"",
+            "\"reflectance\": no spectrum Texture \"t\" precedes this",
+        ),
+        ("Texture \"a\" \"float\" \"scale\" \"texture tex\" \"b\"", "\"tex\": no float Texture \"b\" precedes this"),
+    ] {
+        let scene = read(&world(&format!("{named}\n{text}\n{TRIANGLE}")));
+        let [stand_in] = &scene.stand_ins[..] else { panic!("{text}: {:?}", scene.stand_ins) };
+        assert!(stand_in.line == 3 && stand_in.text.contains(wanted), "{stand_in}, not {wanted}");
+        let material = scene.materials[*scene.triangle_materials.last().unwrap() as usize];
+        assert_eq!(material, Material::Diffuse([0.5; 3]), "{text}");
+    }
+}
+
+/// What is no scene, and what is no picture, is called what it is.
+#[test]
+fn files_of_other_kinds_are_called_what_they_are() {
+    let dir = Folder::new();
+    let png = dir.write("room.png", etendue_render::image::encode_png([1, 1], &[[1, 2, 3]]).unwrap());
+    let text = etendue_scene::load(&png).unwrap_err().to_string();
+    assert!(
+        text.ends_with("room.png: this is a picture (PNG), and no scene: --environment FILE lights a scene by it"),
+        "{text}"
+    );
+    for (bytes, wanted) in [
+        (&b"version https://git-lfs.github.com/spec/v1\noid sha256:0"[..], "the file is a pointer of git"),
+        (b"\xabKTX 20\xbb\r\n", "a KTX2 file"),
+        (b"RIFF\0\0\0\0WEBPVP8 ", "a WebP file"),
+        (b"<html>", "text, such as a page of the web"),
+        (b"", "the file is empty"),
+    ] {
+        dir.write("sky.exr", bytes);
+        let text = world("LightSource \"infinite\" \"string filename\" \"sky.exr\"");
+        let text = parse(&text, "a.pbrt", dir.root()).unwrap_err().to_string();
+        assert!(text.contains("sky.exr: not a picture: ") && text.contains(wanted), "{text}");
+    }
 }
 
 #[test]

@@ -55,7 +55,7 @@ fn images_of_the_sky() {
 
     for (name, what) in [
         ("nan.exr", "texel (1, 0) is [NaN, 2.0, 3.0], times [2.0, 2.0, 2.0]: must be finite"),
-        ("text.exr", "not a valid EXR, HDR, PFM or PNG image"),
+        ("text.exr", "not a picture: it begins with"),
         ("none.exr", "cannot read"),
     ] {
         let message = load(name).unwrap_err().to_string();

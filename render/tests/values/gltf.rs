@@ -84,7 +84,48 @@ fn row(name: String, text: String, right: V3) -> Row {
 }
 
 pub(super) fn rows() -> Vec<Row> {
-    [lights(), emissive(), cameras()].into_iter().flatten().collect()
+    [lights(), emissive(), cameras(), speculars()].into_iter().flatten().collect()
+}
+
+/// The diffuse part gets the light that no channel of a tinted specular part reflects (`KHR_materials_specular`): a floor of roughness 1, seen
+/// along its normal and lit at 45°, by appendix B of glTF 2.0.
+fn speculars() -> Vec<Row> {
+    let half = (std::f64::consts::PI / 8.0).cos();
+    let lambda = 0.5 * (2_f64.sqrt() - 1.0);
+    let (shine, lit) = (std::f64::consts::FRAC_1_PI / (1.0 + lambda) / 4.0, 0.5_f64.sqrt());
+    let mut rows = Vec::new();
+    for (ior, factor, tint, metallic) in [
+        (1.5, 1.0, [1.0, 1.0, 1.0], 0.0),
+        (1.5, 1.0, [10.0, 2.0, 0.0], 0.0),
+        (0.0, 1.0, [0.8, 0.1, 0.1], 0.0),
+        (0.0, 0.5, [0.1, 0.9, 0.2], 0.0),
+        (2.42, 0.7, [0.2, 0.3, 1.0], 0.0),
+        (1.5, 1.0, [5.0, 1.0, 1.0], 0.5),
+    ] {
+        let light = json!({"type": "directional", "color": [1, 1, 1], "intensity": 1});
+        let matrix = aimed(&Place::new(), [0.0; 3], [1.0, -1.0, 0.0]);
+        let node = json!({"matrix": matrix, "extensions": {"KHR_lights_punctual": {"light": 0}}});
+        let nodes = vec![json!({"mesh": 0}), looking([0.0, 0.5, 0.0], [0.0; 3]), node];
+        let mut text: Value = serde_json::from_str(&file(narrow(), json!([light]), nodes, json!({}))).unwrap();
+        let surface = json!({"baseColorFactor": [0.5, 0.5, 0.5, 1], "metallicFactor": metallic, "roughnessFactor": 1});
+        text["materials"][0] = json!({"pbrMetallicRoughness": surface, "extensions": {
+            "KHR_materials_specular": {"specularFactor": factor, "specularColorFactor": tint},
+            "KHR_materials_ior": {"ior": ior},
+        }});
+        let ratio: f64 = (ior - 1.0) / (ior + 1.0);
+        let reflected = tint.map(|x: f64| {
+            let dielectric = (x * ratio * ratio).min(1.0) * factor;
+            let normal = dielectric + (0.5 - dielectric) * metallic;
+            let grazing = factor + (1.0 - factor) * metallic;
+            normal + (grazing - normal) * (1.0 - half).powi(5)
+        });
+        let most = reflected.iter().fold(0.0_f64, |most, x| most.max(*x));
+        let diffuse = (1.0 - most) * 0.5 * (1.0 - metallic) * std::f64::consts::FRAC_1_PI;
+        let right = reflected.map(|f| lit * diffuse + f * shine);
+        let name = format!("KHR_materials_specular {factor} {tint:?}, ior {ior}, metallic {metallic}");
+        rows.push(row(name, text.to_string(), right));
+    }
+    rows
 }
 
 /// Candelas and lux of the same number as watts: pbrt-like renderers have no others. KHR_lights_punctual: a node's light shines along its −z

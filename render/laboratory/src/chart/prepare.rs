@@ -7,6 +7,7 @@ use crate::hash::fnv1a;
 use crate::progress::bar;
 use etendue_render::scene::{Material, Scene};
 use etendue_render::{ChoiceBy, Sampler, Settings, Technique, World};
+use etendue_scene::Asked;
 use std::error::Error;
 use std::ffi::OsStr;
 use std::io::Write;
@@ -32,10 +33,8 @@ pub(super) struct Loaded {
 impl Loaded {
     /// Loads a scene, and its reference if that is a file.
     pub(super) fn new(options: &Options, path: &OsStr) -> Result<Self, Box<dyn Error>> {
-        let scene = match &options.environment {
-            Some(sky) => etendue_scene::load_with_sky(path, sky),
-            None => etendue_scene::load(path),
-        }?;
+        let asked = Asked { sky: options.environment.clone(), ..Asked::default() };
+        let scene = etendue_scene::load_as(path, &asked)?;
         let name = path.to_string_lossy().into_owned();
         let (width, height) = options.size.unwrap_or_else(|| {
             let shrink = |side: u32| if options.quick { (side / 2).max(1) } else { side };

@@ -53,6 +53,17 @@ impl Source<'_> {
         }
     }
 
+    /// Matrices of 4 × 4 numbers, by columns.
+    pub(super) fn matrices(&self, index: Index<Accessor>, user: &str) -> Result<Vec<[f32; 16]>, Message> {
+        let (accessor, layout) = self.layout(index, Type::Mat4, user)?;
+        match layout.component {
+            ComponentType::F32 => {
+                self.elements(accessor, &layout, |bytes| components::<4, 16>(bytes).map(f32::from_le_bytes))
+            }
+            other => Err(self.message(format!("accessor {}, of {user}: matrices of {other:?}", layout.index))),
+        }
+    }
+
     /// Unsigned integers.
     pub(super) fn integers(&self, index: Index<Accessor>, user: &str) -> Result<Vec<u32>, Message> {
         let (accessor, layout) = self.layout(index, Type::Scalar, user)?;
@@ -133,7 +144,7 @@ impl Source<'_> {
                 bytes.chunks(stride).map(&element).collect()
             }
             // zeros, as the specification says
-            None => vec![element(&[0; 16]); count],
+            None => vec![element(&[0; 64]); count],
         };
         let Some(sparse) = &accessor.sparse else { return Ok(elements) };
         let Checked::Valid(kind) = sparse.indices.component_type else {

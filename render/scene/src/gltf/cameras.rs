@@ -2,6 +2,8 @@
 
 use super::source::Source;
 use crate::builder::Builder;
+use crate::message::{Notes, shortened};
+use crate::nearest::did_you_mean;
 use crate::transform::{Transform, add, cross, dot, length, scaled, sub, unit};
 use etendue_render::limits::MOST_SIDE;
 use etendue_render::scene::{CameraSettings, FilmSettings, Message, Screen};
@@ -19,7 +21,7 @@ const FOV: f64 = 40.0;
 
 /// An image of this size.
 fn film([width, height]: [u32; 2]) -> FilmSettings {
-    FilmSettings { width, height, diagonal: 35.0, filename: None, place: None }
+    FilmSettings { width, height, diagonal: 35.0, filename: None, place: None, exposure: 1.0 }
 }
 
 /// Reads the camera of a node, which looks along its −z axis with its y axis up. Scales of the node do not change the image, but reflections
@@ -86,6 +88,46 @@ pub(super) fn read(
         axes().ok_or_else(|| source.message(format!("node {node}: the transform of its camera is singular")))?;
     let (origin, screen) = (transform.shift, Screen::Half(half));
     Ok((CameraSettings { origin, forward, right, up, is_orthographic, screen, lens: None }, film(size)))
+}
+
+/// The name of the camera of a node: its own, or that of the node.
+pub(super) fn name(source: &Source<'_>, camera: Index<Camera>, node: usize) -> String {
+    let own = source.root.cameras.get(camera.value()).and_then(|camera| camera.name.clone());
+    own.or_else(|| source.root.nodes[node].name.clone()).unwrap_or_default()
+}
+
+/// The camera of this name or number, or else the first one; `None` if there is none.
+pub(super) fn choose(
+    source: &Source<'_>,
+    all: &[(Index<Camera>, usize, Transform)],
+    asked: Option<&str>,
+    notes: &mut Notes,
+) -> Result<Option<(CameraSettings, FilmSettings)>, Message> {
+    let is_named = |(camera, node, _): &(Index<Camera>, usize, Transform), wanted: &str| {
+        let own = source.root.cameras.get(camera.value()).and_then(|camera| camera.name.as_deref());
+        own == Some(wanted) || source.root.nodes[*node].name.as_deref() == Some(wanted)
+    };
+    let index = match asked {
+        Some(wanted) => {
+            let by_name = all.iter().position(|camera| is_named(camera, wanted));
+            let index = by_name.or_else(|| wanted.parse().ok()).filter(|&index| index < all.len());
+            let unknown = || {
+                let names: Vec<String> = all.iter().map(|(camera, node, _)| name(source, *camera, *node)).collect();
+                let near = did_you_mean(wanted, names.iter().map(String::as_str));
+                let count = all.len();
+                source.message(format!("has no camera {:?}: there are {count}, from 0 on{near}", shortened(wanted)))
+            };
+            index.ok_or_else(unknown)?
+        }
+        None => 0,
+    };
+    if all.len() > 1 && asked.is_none() {
+        let (count, first) = (all.len(), shortened(&name(source, all[0].0, all[0].1)));
+        notes.warn(source.message(format!(
+            "{count} cameras: the first one, {first:?}, is taken; --camera NAME or a number from 0 on takes another"
+        )));
+    }
+    all.get(index).map(|(camera, node, transform)| read(source, *camera, *node, transform)).transpose()
 }
 
 /// A camera that sees all surfaces, from above and from the side.

@@ -1,6 +1,7 @@
 //! Reads the lights of `KHR_lights_punctual`.
 
 use super::source::Source;
+use crate::message::Notes;
 use crate::radiance::rounded;
 use crate::transform::{Transform, cross, one_minus_cos, unit};
 use etendue_render::intensity::Intensity;
@@ -20,6 +21,7 @@ pub(super) fn read(
     node: usize,
     transform: &Transform,
     intensities: &mut Vec<Arc<Intensity>>,
+    notes: &mut Notes,
 ) -> Result<Option<DeltaLight>, Message> {
     let root = &source.root;
     let lights = root.extensions.as_ref().and_then(|all| all.khr_lights_punctual.as_ref());
@@ -36,6 +38,11 @@ pub(super) fn read(
     })?;
     if power == [0.0; 3] {
         return Ok(None);
+    }
+    if let Some(range) = light.range.filter(|_| kind != Type::Directional) {
+        let message =
+            || failed(format!("its range of {range} is ignored: its light falls off with the square of the distance"));
+        notes.stand_in("range", message);
     }
     let position = transform.shift.map(|x| x as f32);
     if kind != Type::Directional && !position.iter().all(|x| x.is_finite()) {

@@ -13,6 +13,7 @@ use gltf_json::material::AlphaMode;
 use gltf_json::texture::{Info, MagFilter, Sampler, WrappingMode};
 use gltf_json::validation::Checked;
 use gltf_json::{Index, material, texture};
+use serde_json::Value;
 use std::collections::HashMap;
 use std::path::PathBuf;
 use std::rc::Rc;
@@ -44,26 +45,11 @@ pub(super) struct Materials {
     images: HashMap<(usize, bool), Arc<Texels>>,
 }
 
-/// What else a material may have, and what its absence changes.
-const IGNORED: [(&str, &str); 9] = [
-    ("KHR_materials_transmission", "is ignored: the surface is opaque"),
-    ("KHR_materials_diffuse_transmission", "is ignored: the surface is opaque"),
-    ("KHR_materials_volume", "is ignored"),
-    ("KHR_materials_volume_scatter", "is ignored"),
-    ("KHR_materials_clearcoat", "is ignored"),
-    ("KHR_materials_sheen", "is ignored"),
-    ("KHR_materials_iridescence", "is ignored"),
-    ("KHR_materials_dispersion", "is ignored"),
-    ("KHR_materials_variants", "is ignored"),
-];
+/// The extension of materials by their glossiness.
+const GLOSSINESS: &str = "KHR_materials_pbrSpecularGlossiness";
 
 /// The extension of anisotropic materials.
 pub(super) const ANISOTROPY: &str = "KHR_materials_anisotropy";
-
-/// Whether an extension is one of those that a material may have and that are ignored.
-pub(super) fn is_ignored(name: &str) -> bool {
-    IGNORED.iter().any(|(ignored, _)| *ignored == name)
-}
 
 /// Reads one material.
 struct Reader<'r, 's> {
@@ -120,7 +106,9 @@ impl Reader<'_, '_> {
     }
 
     fn read(&mut self, material: &material::Material) -> Result<Surface, Message> {
-        self.warn_of_ignored(material);
+        if matches!(material.alpha_mode, Checked::Invalid) {
+            self.stand_in("alpha", "its alphaMode is unknown: the surface is opaque");
+        }
         let extensions = material.extensions.as_ref();
         if extensions.is_some_and(|all| all.unlit.is_some()) {
             self.stand_in("unlit", "KHR_materials_unlit: a diffuse surface of its base colour stands for it");
@@ -178,6 +166,9 @@ impl Reader<'_, '_> {
         }
         let [metallic] = self.shares("metallicFactor", [surface.metallic_factor.0]);
         let [roughness] = self.shares("roughnessFactor", [surface.roughness_factor.0]);
+        if let Some(of) = extensions.and_then(|all| all.others.get(GLOSSINESS)) {
+            return self.glossiness(of);
+        }
         let map = surface.metallic_roughness_texture.as_ref();
         let map = self.textured([1.0; 3], map, Encoding::Linear)?;
         let metallic = if metallic == 0.0 {
@@ -200,9 +191,6 @@ impl Reader<'_, '_> {
         if let Some(specular) = specular {
             let [factor] = self.shares("specularFactor", [specular.specular_factor.0]);
             let color = specular.specular_color_factor.0.map(|x| if x > 0.0 { x.min(f32::MAX) } else { 0.0 });
-            if specular.specular_texture.is_some() || specular.specular_color_texture.is_some() {
-                self.stand_in("specular texture", "the textures of its KHR_materials_specular are ignored");
-            }
             if factor == 0.0 && metallic.constant() == Some([0.0; 3]) {
                 return Ok(Varying::Diffuse(base));
             }
@@ -221,7 +209,48 @@ impl Reader<'_, '_> {
             grazing,
             roughness: [along, alpha],
             turn,
+            // the extension takes the light that none of the channels reflects
+            greatest: specular.is_some(),
         })
+    }
+
+    /// A material by its diffuse and specular colours and its glossiness, 1 − √α.
+    fn glossiness(&mut self, of: &Value) -> Result<Varying, Message> {
+        let colour = |name: &str| -> Option<[f32; 3]> {
+            let Some(list) = of.get(name) else { return Some([1.0; 3]) };
+            let number = |k: usize| list.get(k)?.as_f64().map(|x| x as f32);
+            Some([number(0)?, number(1)?, number(2)?])
+        };
+        let gloss = of.get("glossinessFactor").map_or(Some(1.0), Value::as_f64);
+        let numbers = colour("diffuseFactor").zip(colour("specularFactor")).zip(gloss);
+        let Some(((diffuse, specular), gloss)) = numbers else {
+            return Err(self.error(&format!("{GLOSSINESS}: its factors must be numbers")));
+        };
+        let diffuse = self.shares("diffuseFactor", diffuse);
+        let specular = self.shares("specularFactor", specular);
+        let [gloss] = self.shares("glossinessFactor", [gloss as f32]);
+        let texture = |name: &str| match of.get(name).map(|info| serde_json::from_value::<Info>(info.clone())) {
+            Some(Ok(info)) => Ok(Some(info)),
+            Some(Err(_)) => Err(format!("{GLOSSINESS}: {name} is no texture")),
+            None => Ok(None),
+        };
+        let [diffuse_map, map] = [texture("diffuseTexture"), texture("specularGlossinessTexture")];
+        let diffuse_map = diffuse_map.map_err(|what| self.error(&what))?;
+        let map = map.map_err(|what| self.error(&what))?;
+        let diffuse = self.textured(diffuse, diffuse_map.as_ref(), Encoding::Srgb)?;
+        let mut gloss = Texture::number(gloss);
+        if let Some(map) = &map
+            && let (Texture::Picture(picture), set) = self.picture(map, Encoding::Srgb)?
+            && picture.texels.alpha.is_some()
+        {
+            self.set.get_or_insert(set);
+            gloss = gloss.times(Texture::Opacity(picture));
+        }
+        let specular = self.textured(specular, map.as_ref(), Encoding::Srgb)?;
+        let rough = gloss.inverse();
+        let alpha = rough.clone().times(rough);
+        let roughness = [alpha.clone(), alpha];
+        Ok(Varying::Glossy { diffuse, specular, grazing: Texture::number(1.0), roughness, turn: 0.0, greatest: true })
     }
 
     /// Strength and rotation in radians of an anisotropic material.
@@ -234,9 +263,6 @@ impl Reader<'_, '_> {
         };
         let (strength, turn) = (number("anisotropyStrength")?, number("anisotropyRotation")?);
         let [strength] = self.shares("anisotropyStrength", [strength]);
-        if of.get("anisotropyTexture").is_some() {
-            self.stand_in("anisotropy texture", &format!("the texture of its {ANISOTROPY} is ignored"));
-        }
         Ok((strength > 0.0).then_some((strength, turn)))
     }
 
@@ -267,27 +293,6 @@ impl Reader<'_, '_> {
         };
         let emission = Emission { radiance, two_sided: material.double_sided, ..Emission::default() };
         Ok(Some(Glow { emission, texture }))
-    }
-
-    fn warn_of_ignored(&mut self, material: &material::Material) {
-        match material.alpha_mode {
-            Checked::Valid(_) => {}
-            Checked::Invalid => self.stand_in("alpha", "its alphaMode is unknown: the surface is opaque"),
-        }
-        if material.normal_texture.is_some() {
-            self.stand_in("normal", "its normalTexture is ignored");
-        }
-        if material.occlusion_texture.is_some() {
-            self.stand_in("occlusion", "its occlusionTexture is ignored");
-        }
-        for name in material.extensions.iter().flat_map(|all| all.others.keys()) {
-            if name == ANISOTROPY {
-                continue;
-            }
-            let known = IGNORED.iter().find(|(ignored, _)| ignored == name);
-            let what = known.map_or("is not supported and ignored", |(_, what)| what);
-            self.stand_in(&format!("extension {name}"), &format!("{} {what}", shortened(name)));
-        }
     }
 
     /// A colour times a texture. The first texture tells the set of texture coordinates for all.

@@ -1,13 +1,15 @@
 //! Adds the triangles of meshes.
 
 use super::materials::Materials;
+use super::skins::Pose;
 use super::source::Source;
 use crate::builder::Builder;
 use crate::shape_attributes::ShapeAttributes;
 use crate::transform::Transform;
 use crate::vertices::{Vertex, Vertices};
 use etendue_render::scene::Message;
-use gltf_json::mesh::{Mode, Primitive, Semantic};
+use gltf_json::accessor::Accessor;
+use gltf_json::mesh::{Mode, MorphTarget, Primitive, Semantic};
 use gltf_json::validation::Checked;
 use gltf_json::{Index, mesh};
 
@@ -41,11 +43,13 @@ pub(super) fn add(
     mesh: Index<mesh::Mesh>,
     node: usize,
     transform: &Transform,
+    pose: Option<&Pose>,
 ) -> Result<(), Message> {
     let (index, mesh) = source.item(&source.root.meshes, mesh, "mesh", &format!("node {node}"))?;
+    let weights = source.root.nodes[node].weights.as_ref().or(mesh.weights.as_ref()).map_or(&[][..], Vec::as_slice);
     for (number, primitive) in mesh.primitives.iter().enumerate() {
         let item = format!("mesh {index}, primitive {number}");
-        Adder { source, out, item, node }.primitive(materials, primitive, transform)?;
+        Adder { source, out, item, node, weights, pose }.primitive(materials, primitive, transform)?;
     }
     Ok(())
 }
@@ -59,7 +63,7 @@ pub(super) fn object(
     node: usize,
 ) -> Result<u32, Message> {
     let before = out.begin_object();
-    let added = add(source, materials, out, mesh, node, &Transform::IDENTITY);
+    let added = add(source, materials, out, mesh, node, &Transform::IDENTITY, None);
     let object = out.end_object(before);
     added.map(|()| object)
 }
@@ -70,6 +74,10 @@ struct Adder<'r, 's> {
     out: &'r mut Builder,
     item: String,
     node: usize,
+    /// Weights of the morph targets.
+    weights: &'r [f32],
+    /// Where a skin moves the vertices.
+    pose: Option<&'r Pose>,
 }
 
 /// The places of the corners of a triangle among the indices.
@@ -109,18 +117,29 @@ impl Adder<'_, '_> {
             self.stand_in("positions", "it has no POSITION and is ignored");
             return Ok(());
         };
-        if primitive.targets.as_ref().is_some_and(|targets| !targets.is_empty()) {
-            self.stand_in("targets", "its morph targets are ignored");
-        }
-        if attribute(Semantic::Colors(0)).is_some() {
-            self.stand_in("colors", "its COLOR_0 is ignored");
+        let others = primitive.extensions.iter().flat_map(|all| all.others.keys());
+        if let Some(name) = others.into_iter().find(|name| name.contains("draco")) {
+            let is_empty = |index: Index<Accessor>| {
+                self.source.root.accessors.get(index.value()).is_some_and(|of| of.buffer_view.is_none())
+            };
+            if is_empty(positions) {
+                return Err(self.error(&format!("its geometry is compressed by {name}, which is not supported")));
+            }
         }
         let surface = materials.surface(self.source, self.out, primitive.material, &self.item)?;
 
-        let positions = self.source.vectors::<3>(positions, &self.item)?;
+        let mut positions = self.source.vectors::<3>(positions, &self.item)?;
+        self.morph(primitive, |target| target.positions, &mut positions)?;
+        // a skin moves the vertices itself, wherever the node is
+        let moves = match self.pose {
+            Some(pose) => Some(pose.of_vertices(self.source, primitive, positions.len(), &self.item)?),
+            None => None,
+        };
+        let transform = moves.as_ref().map_or(*transform, |_| Transform::IDENTITY);
+        let own = moves.as_ref().and_then(|moves| moves.first()).unwrap_or(&transform);
         let attributes = ShapeAttributes {
-            ctm: *transform,
-            flip: transform.determinant() < 0.0,
+            ctm: transform,
+            flip: own.determinant() < 0.0,
             material: surface.material,
             emission: None,
             picture: None,
@@ -128,14 +147,22 @@ impl Adder<'_, '_> {
             power: None,
         };
         let wide = |v: &[f32; 3]| v.map(f64::from);
-        let points = attributes.place(positions.iter().map(wide)).map_err(|what| self.error(&what))?;
+        let moved = |(k, p): (usize, &[f32; 3])| moves.as_ref().map_or(wide(p), |moves| moves[k].point(wide(p)));
+        let points = attributes.place(positions.iter().enumerate().map(moved)).map_err(|what| self.error(&what))?;
         drop(positions);
         let count = points.len();
         let mut normals = Vec::new();
         if let Some(accessor) = attribute(Semantic::Normals) {
-            let given = self.source.vectors::<3>(accessor, &self.item)?;
+            let mut given = self.source.vectors::<3>(accessor, &self.item)?;
             self.same_number("NORMAL", given.len(), count)?;
-            normals.extend(attributes.place_normals(given.iter().map(wide)));
+            self.morph(primitive, |target| target.normals, &mut given)?;
+            match &moves {
+                None => normals.extend(attributes.place_normals(given.iter().map(wide))),
+                Some(moves) => {
+                    let turned = |(moved, normal): (&Transform, &[f32; 3])| moved.normals()(wide(normal));
+                    normals.extend(moves.iter().zip(&given).map(turned));
+                }
+            }
         }
         let uvs = self.coordinates(primitive, surface.set, count)?;
         let uvs = uvs.iter().flatten().map(|uv| uv.map(f64::from)).collect();
@@ -163,6 +190,24 @@ impl Adder<'_, '_> {
             }
         };
         (0..triangles).for_each(&mut add);
+        Ok(())
+    }
+
+    /// Adds the morph targets of an attribute by their weights: those of the node, or else of the mesh, or else 0.
+    fn morph(
+        &mut self,
+        primitive: &Primitive,
+        of: impl Fn(&MorphTarget) -> Option<Index<Accessor>>,
+        values: &mut [[f32; 3]],
+    ) -> Result<(), Message> {
+        for (target, &weight) in primitive.targets.iter().flatten().zip(self.weights) {
+            let Some(accessor) = of(target).filter(|_| weight != 0.0) else { continue };
+            let moves = self.source.vectors::<3>(accessor, &self.item)?;
+            self.same_number("a morph target", moves.len(), values.len())?;
+            for (value, by) in values.iter_mut().zip(moves) {
+                (0..3).for_each(|k| value[k] += weight * by[k]);
+            }
+        }
         Ok(())
     }
 

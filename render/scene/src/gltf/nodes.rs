@@ -1,10 +1,12 @@
 //! Walks the node tree and composes its transforms.
 
 use super::source::Source;
+use crate::message::shortened;
+use crate::nearest::did_you_mean;
 use crate::transform::Transform;
 use etendue_render::scene::Message;
 use gltf_json::Index;
-use gltf_json::scene::Node;
+use gltf_json::scene::{Node, Scene};
 
 /// Greatest depth of the node tree.
 const DEEPEST: usize = 1024;
@@ -20,13 +22,28 @@ pub(super) struct Placed {
     pub(super) transform: Transform,
 }
 
-/// All nodes of the default scene, or else of the first one, or else all nodes; parents come before their children.
-pub(super) fn walk(source: &Source<'_>) -> Result<Vec<Placed>, Message> {
+/// The scene of this name or number.
+fn named<'s>(source: &'s Source<'_>, name: &str) -> Result<(usize, &'s Scene), Message> {
+    let scenes = &source.root.scenes;
+    let by_name = scenes.iter().position(|scene| scene.name.as_deref() == Some(name));
+    let index = by_name.or_else(|| name.parse().ok()).filter(|&index| index < scenes.len());
+    let names = || scenes.iter().filter_map(|scene| scene.name.as_deref());
+    let unknown = || {
+        let (count, near) = (scenes.len(), did_you_mean(name, names()));
+        source.message(format!("has no scene {:?}: there are {count}, from 0 on{near}", shortened(name)))
+    };
+    index.map(|index| (index, &scenes[index])).ok_or_else(unknown)
+}
+
+/// All nodes of the scene of this name or number, or else of the default scene, or else of the first one, or else all nodes; parents come
+/// before their children.
+pub(super) fn walk(source: &Source<'_>, asked: Option<&str>) -> Result<Vec<Placed>, Message> {
     let root = &source.root;
     let nodes = &root.nodes;
-    let scene = match root.scene {
-        Some(index) => Some(source.item(&root.scenes, index, "scene", "the default scene")?),
-        None => root.scenes.first().map(|scene| (0, scene)),
+    let scene = match (asked, root.scene) {
+        (Some(name), _) => Some(named(source, name)?),
+        (None, Some(index)) => Some(source.item(&root.scenes, index, "scene", "the default scene")?),
+        (None, None) => root.scenes.first().map(|scene| (0, scene)),
     };
     let mut starts = Vec::new();
     if let Some((number, scene)) = scene {

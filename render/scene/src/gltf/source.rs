@@ -25,6 +25,8 @@ const BASE64: GeneralPurpose = GeneralPurpose::new(
 #[derive(Debug)]
 pub(super) struct Source<'a> {
     pub(super) root: Root,
+    /// The text of the file.
+    pub(super) json: &'a [u8],
     file: &'a str,
     /// The folder of the files that it names; `None` if it may not name any.
     folder: Option<&'a Path>,
@@ -53,7 +55,7 @@ impl<'a> Source<'a> {
         let root = container::parse(json)
             .map_err(|(line, text)| message(if bytes.starts_with(container::MAGIC) { 0 } else { line }, text))?;
         let buffers = root.buffers.iter().map(|_| OnceCell::new()).collect();
-        Ok(Self { root, file, folder, binary, buffers, inputs: RefCell::default() })
+        Ok(Self { root, json, file, folder, binary, buffers, inputs: RefCell::default() })
     }
 
     /// The other files that were read so far.
@@ -89,7 +91,14 @@ impl<'a> Source<'a> {
         let bytes: Cow<'a, [u8]> = match (&buffer.uri, self.binary) {
             (Some(uri), _) => Cow::Owned(self.open(uri, &item)?.1),
             (None, Some(binary)) if index == 0 => Cow::Borrowed(binary),
-            (None, _) => return Err(self.message(format!("{item}: has neither a URI nor a binary chunk"))),
+            (None, _) => {
+                let is_compressed = |name: &&String| name.contains("meshopt");
+                let by = self.root.extensions_used.iter().find(is_compressed);
+                let why = by.map_or_else(String::new, |name| {
+                    format!(": its geometry is compressed by {name}, which is not supported")
+                });
+                return Err(self.message(format!("{item}: has neither a URI nor a binary chunk{why}")));
+            }
         };
         let length = buffer.byte_length.0;
         if (bytes.len() as u64) < length {

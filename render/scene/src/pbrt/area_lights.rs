@@ -48,8 +48,6 @@ pub(super) fn read(
     if kind != "diffuse" && kind != "area" {
         return Err(params.error("not supported, only \"diffuse\""));
     }
-    params.given("nsamples");
-    params.given("samples");
     let texels = match params.text("filename")? {
         Some(name) => Some(shown_texels(&name, params, files, known, notes)?),
         None => None,
@@ -95,7 +93,7 @@ pub(super) fn read(
         Some(distribution) => (Some(distribution.cone), Some(Arc::new(distribution))),
         None => (spread, None),
     };
-    let emission = Emission { radiance, two_sided, picture: None, spread, profile: None };
+    let emission = Emission { radiance, two_sided, spread, ..Emission::default() };
     Ok(Area { emission: (!dark).then_some(emission), picture, profile, power })
 }
 

@@ -5,6 +5,7 @@ use super::material_parameters::Finish;
 use super::params::Param;
 use crate::builder::Builder;
 use crate::message::{Place, shortened};
+use crate::nearest::did_you_mean;
 use crate::transform::Transform;
 use etendue_render::scene::{Material, Message};
 use std::collections::HashMap;
@@ -145,8 +146,12 @@ impl Blocks {
         if self.open.is_some() {
             return Err(place.message("ObjectInstance: objects cannot contain instances"));
         }
-        let unknown = || place.message(format!("no ObjectBegin {:?} precedes this", shortened(name)));
-        let object = self.objects.get(name).ok_or_else(unknown)?;
+        let Some(object) = self.objects.get(name) else {
+            let near = did_you_mean(name, self.objects.keys().map(String::as_str));
+            let what = format!("no ObjectBegin {:?} precedes this: nothing is added{near}", shortened(name));
+            out.notes.misspelt(place.message(what));
+            return Ok(());
+        };
         let added = out.instance(*object, ctm);
         added.map_err(|why| place.message(format!("ObjectInstance {:?}: {why}", shortened(name))))
     }

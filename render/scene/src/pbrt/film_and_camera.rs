@@ -8,13 +8,14 @@ use etendue_render::area::{Area, Place};
 use etendue_render::limits::{MOST_SAMPLES, is_size};
 use etendue_render::scene::{CameraSettings, FilmSettings, Lens, Message, Screen};
 
-/// Reads a `Camera`, which looks along +z of camera space, and its transform to world space. `ctm` is the transform from world space.
+/// Reads a `Camera`, which looks along +z of camera space, its transform to world space, and the time of exposure, whose unit
+/// pbrt does not tell. `ctm` is the transform from world space.
 pub(super) fn camera(
     kind: &str,
     params: &mut Params,
     ctm: &Transform,
     notes: &mut Notes,
-) -> Result<(CameraSettings, Transform), Message> {
+) -> Result<(CameraSettings, Transform, f64), Message> {
     match kind {
         "perspective" | "orthographic" => {}
         "realistic" | "spherical" | "environment" => {
@@ -24,7 +25,9 @@ pub(super) fn camera(
         }
         _ => return Err(params.error("not supported, only \"perspective\", \"orthographic\" and stand-ins for others")),
     }
-    params.ignore(&["shutteropen", "shutterclose"]);
+    let [open, close] = [params.float("shutteropen")?.unwrap_or(0.0), params.float("shutterclose")?.unwrap_or(1.0)];
+    // a shutter that does not open is one of pbrt-v3's stills
+    let shutter = if close > open && (close - open).is_finite() { close - open } else { 1.0 };
     let frame = params.float("frameaspectratio")?;
     if let Some(frame) = frame.filter(|frame| !(*frame > 0.0 && frame.is_finite())) {
         return Err(params.error(format!("\"frameaspectratio\": must be greater than 0, not {}", shown(frame))));
@@ -80,7 +83,7 @@ pub(super) fn camera(
     if !numbers.all(|x| x.is_finite()) {
         return Err(singular());
     }
-    Ok((camera, world))
+    Ok((camera, world, shutter))
 }
 
 /// Radius of the lens, and distance of what is in focus.
@@ -133,14 +136,19 @@ pub(super) fn film(kind: &str, params: &mut Params) -> Result<FilmSettings, Mess
         return Err(params.error(format!("\"diagonal\": must be from 1e-2 to 1e6 mm, not {diagonal:e}")));
     }
     let filename = params.text("filename")?;
+    let iso = params.float("iso")?.unwrap_or(100.0);
+    if !(iso > 0.0 && iso.is_finite()) {
+        return Err(params.error(format!("\"iso\": must be greater than 0, not {}", shown(iso))));
+    }
+    let exposure = iso / 100.0;
     let whole = [width as u32, height as u32];
     let Some([x0, y0, x1, y1]) = window(params, whole)?.filter(|area| *area != [0, 0, whole[0], whole[1]]) else {
-        return Ok(FilmSettings { width: whole[0], height: whole[1], diagonal, filename, place: None });
+        return Ok(FilmSettings { width: whole[0], height: whole[1], diagonal, filename, place: None, exposure });
     };
     let [width, height] = [x1 - x0, y1 - y0];
     let part = f64::from(width).hypot(height.into()) / f64::from(whole[0]).hypot(whole[1].into());
     let place = Some(Place { start: [x0, y0], whole });
-    Ok(FilmSettings { width, height, diagonal: diagonal * part, filename, place })
+    Ok(FilmSettings { width, height, diagonal: diagonal * part, filename, place, exposure })
 }
 
 /// The pixels [x0, y0, x1, y1) of an image that are rendered, if the file gives them.

@@ -5,10 +5,13 @@
 //!
 //! The factors of `TILT`, by which some lamps are dimmer when the luminaire is tilted, are ignored: a scene does not know where the ground is.
 //!
-//! Only the photometric type C is read, which luminaires for rooms and streets have, not B of floodlights and A of headlamps. Its vertical
-//! angles are from the nadir, and its horizontal ones from the photometric horizontal, counterclockwise seen from above.
+//! The vertical angles of the photometric type C, which luminaires for rooms and streets have, are from the nadir, and its horizontal ones from the
+//! photometric horizontal, counterclockwise seen from above. Floodlights have type B, and headlamps type A: their beam, at 0° of both angles, is
+//! where the nadir of type C is, and their right side at the photometric horizontal. With the beam a, the right side p and the upper side u, the
+//! angles V and H are those of sin V u + cos V (cos H a + sin H p) in type A, and of sin H p + cos H (cos V a + sin V u) in type B (LM-75).
 
 use super::inputs::Files;
+use crate::distribution::Aim;
 use crate::message::shown;
 use etendue_render::intensity::{Intensity, Profile};
 
@@ -19,6 +22,8 @@ pub(super) struct Photometry {
     pub(super) intensity: Intensity,
     /// The greatest intensity in candela.
     pub(super) greatest: f64,
+    /// How it lies in light space.
+    pub(super) aim: Aim,
     /// What of the file is ignored.
     pub(super) warnings: Vec<String>,
 }
@@ -95,6 +100,47 @@ fn mirrored(columns: Columns, about: f32) -> Columns {
     all
 }
 
+impl Header {
+    /// The same for the types A and B: polar angles are the vertical angles of type A, or the horizontal ones of type B, plus 90 degrees. What begins
+    /// at 0 is symmetric.
+    fn beam(&self, numbers: &mut Numbers<'_>) -> Result<(Vec<f32>, Columns), String> {
+        let vertical = numbers.angles(self.rows, "vertical angle", -90.0, 90.0)?;
+        let horizontal = numbers.angles(self.columns, "horizontal angle", -90.0, 90.0)?;
+        let line = numbers.line();
+        let mut columns = Columns::with_capacity(2 * self.columns);
+        for angle in horizontal {
+            let column: Result<Vec<f64>, String> =
+                (0..self.rows).map(|_| numbers.within("candela value", 0.0, f64::MAX)).collect();
+            columns.push((angle, column?));
+        }
+        if columns[0].0 == 0.0 {
+            columns = mirrored(columns, 0.0);
+        }
+        // by rows as well
+        let rows = vertical
+            .iter()
+            .enumerate()
+            .map(|(row, angle)| (*angle, columns.iter().map(|(_, column)| column[row]).collect::<Vec<f64>>()));
+        let mut rows: Columns = rows.collect();
+        if rows[0].0 == 0.0 {
+            rows = mirrored(rows, 0.0);
+        }
+        let horizontal: Vec<f32> = columns.iter().map(|(angle, _)| *angle).collect();
+        let (polar, table) = if self.kind == Kind::B {
+            (horizontal, rows)
+        } else {
+            let vertical = rows.iter().map(|(angle, _)| *angle).collect();
+            let column = |k: usize| (horizontal[k], rows.iter().map(|(_, row)| row[k]).collect());
+            (vertical, (0..horizontal.len()).map(column).collect())
+        };
+        if polar.len() < 2 {
+            let which = if self.kind == Kind::B { "horizontal" } else { "vertical" };
+            return Err(numbers.error(line, format!("a single {which} angle: at least two are needed")));
+        }
+        Ok((polar.into_iter().map(|angle| angle + 90.0).collect(), table))
+    }
+}
+
 /// Reads the file with this name.
 pub(super) fn read(name: &str, files: &Files<'_>) -> Result<Photometry, String> {
     let bytes = files.read(&files.find(name)).map_err(|error| format!("cannot read {name:?}: {error}"))?;
@@ -120,10 +166,35 @@ fn skip_tilt(numbers: &mut Numbers<'_>) -> Result<(), String> {
     Ok(())
 }
 
+/// The photometric types.
+#[derive(Clone, Copy, PartialEq)]
+enum Kind {
+    A,
+    B,
+    C,
+}
+
+impl Kind {
+    /// The axes of the space of the profile. In light space −y is the nadir or the beam, +x the photometric horizontal or the right side, and −z
+    /// what is then the upper side.
+    fn aim(self) -> Aim {
+        Aim {
+            axes: match self {
+                Self::C => [(0, 1.0), (2, 1.0), (1, -1.0)],
+                // the pole is the lower side, and azimuths go from the beam to the right
+                Self::A => [(1, -1.0), (0, 1.0), (2, 1.0)],
+                // the pole is the left side, and azimuths go from the beam up
+                Self::B => [(1, -1.0), (2, -1.0), (0, -1.0)],
+            },
+        }
+    }
+}
+
 /// What the first lines of numbers tell of the table that follows.
 struct Header {
     rows: usize,
     columns: usize,
+    kind: Kind,
     /// What candela values are multiplied by.
     factor: f64,
 }
@@ -136,11 +207,12 @@ impl Header {
         let multiplier = numbers.within("multiplier", 0.0, f64::MAX)?;
         let rows = numbers.count("number of vertical angles")?;
         let columns = numbers.count("number of horizontal angles")?;
-        let kind = numbers.number("photometric type")?;
-        if kind != 1.0 {
-            let what = format!("photometric type: must be 1, which is type C, not {}", shown(kind));
+        let number = numbers.number("photometric type")?;
+        let kinds = [(1.0, Kind::C), (2.0, Kind::B), (3.0, Kind::A)];
+        let Some((_, kind)) = kinds.into_iter().find(|(known, _)| *known == number) else {
+            let what = format!("photometric type: must be 1, 2 or 3, for C, B or A, not {}", shown(number));
             return Err(numbers.error(numbers.line(), what));
-        }
+        };
         for what in ["units", "width", "length", "height"] {
             numbers.number(what)?;
         }
@@ -161,11 +233,14 @@ impl Header {
             );
             return Err(numbers.error(line, what));
         }
-        Ok(Self { rows, columns, factor })
+        Ok(Self { rows, columns, kind, factor })
     }
 
     /// The vertical angles in degrees, and the columns of all azimuths: those of the file and their mirror images.
     fn table(&self, numbers: &mut Numbers<'_>) -> Result<(Vec<f32>, Columns), String> {
+        if self.kind != Kind::C {
+            return self.beam(numbers);
+        }
         let polar = numbers.angles(self.rows, "vertical angle", 0.0, 180.0)?;
         if self.rows < 2 {
             return Err(numbers.error(numbers.line(), "a single vertical angle: at least two are needed"));
@@ -198,14 +273,20 @@ impl Header {
     }
 }
 
+/// What a line says of `TILT`, in capitals, if it does.
+fn tilt(line: &str) -> Option<String> {
+    let (keyword, value) = line.split_once('=')?;
+    keyword.trim().eq_ignore_ascii_case("TILT").then(|| value.trim().to_ascii_uppercase())
+}
+
 /// Reads the text of a file that messages call `name`.
 pub(super) fn parse(text: &str, name: &str) -> Result<Photometry, String> {
-    let lines = || (1..).zip(text.lines());
-    let Some((line, tilt)) = lines().find_map(|(line, text)| Some((line, text.trim().strip_prefix("TILT=")?.trim())))
-    else {
+    // lines end with CR, LF or both, and keywords are written in any case
+    let text = text.trim_start_matches('\u{feff}').replace("\r\n", "\n").replace('\r', "\n");
+    let Some((line, tilt)) = (1..).zip(text.lines()).find_map(|(line, text)| Some((line, tilt(text)?))) else {
         return Err(format!("{name}: no line begins with TILT=, after which an IES file has its numbers"));
     };
-    let mut numbers = Numbers { name, words: words(text, line), next: 0 };
+    let mut numbers = Numbers { name, words: words(&text, line), next: 0 };
     let mut warnings = Vec::new();
     if tilt != "NONE" {
         warnings.push(format!("{name}:{line}: the factors of TILT are ignored"));
@@ -213,8 +294,8 @@ pub(super) fn parse(text: &str, name: &str) -> Result<Photometry, String> {
     if tilt == "INCLUDE" {
         skip_tilt(&mut numbers)?;
     }
-    let is_late =
-        ["LM-63-2002", "LM-63-2019"].iter().any(|year| lines().next().is_some_and(|(_, text)| text.contains(year)));
+    let first = text.lines().next().unwrap_or_default().to_ascii_uppercase();
+    let is_late = ["LM-63-2002", "LM-63-2019"].iter().any(|year| first.contains(year));
     let header = Header::read(&mut numbers, is_late)?;
     let (polar, columns) = header.table(&mut numbers)?;
     if numbers.left() > 0 {
@@ -227,5 +308,5 @@ pub(super) fn parse(text: &str, name: &str) -> Result<Photometry, String> {
     // angles that differ by too little are the same once they are mirrored
     let profile = Profile::new(polar, azimuth, values).map_err(|error| format!("{name}: {error}"))?;
     let intensity = Intensity::Angles(profile);
-    Ok(Photometry { intensity, greatest: greatest * header.factor, warnings })
+    Ok(Photometry { intensity, greatest: greatest * header.factor, aim: header.kind.aim(), warnings })
 }

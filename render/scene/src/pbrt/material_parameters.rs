@@ -20,7 +20,66 @@ pub(super) enum Finish {
     Invisible,
     /// A named material that is not defined yet, by its index among those names.
     Awaited(usize),
+    /// Two of them, by the index of the mixture.
+    Mix(usize),
 }
+
+/// A mixture of two materials.
+#[derive(Clone, Debug)]
+pub(super) struct Mixture {
+    of: [Finish; 2],
+    /// The share of the second one.
+    amount: Texture,
+}
+
+/// The materials of a mixture with their shares, and the chance that a ray that meets them meets each, if it has passed those before.
+pub(super) fn parts(finish: Finish, mixtures: &[Mixture]) -> Vec<(Finish, Texture)> {
+    let mut leaves = Vec::new();
+    let mut rest = vec![(finish, Texture::number(1.0))];
+    // mixtures precede those that contain them, so that this ends; a bound for those that double each time
+    while let Some((finish, share)) = rest.pop() {
+        match finish {
+            Finish::Mix(index) if leaves.len() + rest.len() < MOST_PARTS => {
+                let Mixture { of: [first, second], amount } = &mixtures[index];
+                rest.push((*second, share.clone().times(amount.clone())));
+                rest.push((*first, share.times(amount.clone().inverse())));
+            }
+            finish => leaves.push((finish, share)),
+        }
+    }
+    // what rays pass takes its share from those that they meet
+    let is_whole = leaves.iter().all(|(finish, _)| *finish != Finish::Invisible);
+    // of two, shares may vary
+    if let [(first, _), (_, last)] = &mut leaves[..] {
+        if *first != Finish::Invisible {
+            *last = Texture::number(1.0);
+        }
+        return leaves;
+    }
+    let mut left = 1.0_f32;
+    for (finish, share) in &mut leaves {
+        let own = share.mean()[0];
+        *share = Texture::number(if left > 1e-6 { (own / left).clamp(0.0, 1.0) } else { 1.0 });
+        left -= if *finish == Finish::Invisible { 0.0 } else { own };
+    }
+    // what rounding leaves over is the last one's
+    leaves.last_mut().into_iter().filter(|_| is_whole).for_each(|(_, share)| *share = Texture::number(1.0));
+    leaves
+}
+
+/// The material of a mixture that has the greatest share, unless rays pass it: that of lights.
+pub(super) fn greatest(finish: Finish, mixtures: &[Mixture]) -> Finish {
+    let mut finish = finish;
+    while let Finish::Mix(index) = finish {
+        let Mixture { of: [first, second], amount } = &mixtures[index];
+        // a lamp of glass is one
+        finish = if amount.mean()[0] > 0.5 && *second != Finish::Invisible { *second } else { *first };
+    }
+    finish
+}
+
+/// Most materials of a mixture of mixtures.
+const MOST_PARTS: usize = 16;
 
 /// What a material's parameters refer to.
 pub(super) struct Context<'a> {
@@ -61,35 +120,24 @@ pub(super) fn read(
     kind: &str,
     params: &mut Params,
     context: &Context<'_>,
+    mixtures: &mut Vec<Mixture>,
     out: &mut Builder,
 ) -> Result<Finish, Message> {
-    note_relief(params, out);
     let reads = Reads { context };
     let stand_in = |out: &mut Builder, params: &Params, what: &str| {
         out.notes.stand_in(kind, || params.error(format!("becomes {what}")));
     };
     Ok(Finish::Of(match kind {
         "diffuse" | "matte" => {
-            params.given("sigma");
             let name = if kind == "matte" { "Kd" } else { "reflectance" };
             reads.diffuse(&[name], 0.5, params, out)?
         }
         "mirror" => Material::Mirror(reads.constant("Kr", 0.9, params, out)?),
         "conductor" | "metal" => reads.conductor(["eta", "k", "reflectance"], "", params, out)?,
-        "coatedconductor" => {
-            stand_in(out, params, "its conductor without the coat");
-            params.ignore(&["interface.roughness", "interface.uroughness", "interface.vroughness", "interface.eta"]);
-            reads.coat_is_ignored(params);
-            reads.conductor(["conductor.eta", "conductor.k", "reflectance"], "conductor.", params, out)?
-        }
-        "coateddiffuse" => {
-            reads.coat_is_ignored(params);
-            let base = reads.color(&["reflectance"], 0.5, params, out)?;
-            let eta = reads.eta(&["eta"], params, out)?;
-            reads.coated(base, Coat::of(eta), 0.0, params, out)?
-        }
+        "coatedconductor" => reads.coated_conductor(params, out)?,
+        "coateddiffuse" => reads.coated_diffuse(&["reflectance"], params, out)?,
         "plastic" | "uber" | "substrate" | "translucent" => {
-            if params.given("opacity") | (kind == "translucent") {
+            if kind == "translucent" {
                 stand_in(out, params, "opaque");
             }
             reads.older_coat(kind, params, out)?
@@ -99,19 +147,29 @@ pub(super) fn read(
             reads.disney(params, out)?
         }
         "dielectric" | "thindielectric" | "glass" => {
+            let read = reads.dielectric(params, out)?;
+            if let Material::Conductor { eta: [eta, ..], .. } = read
+                && read.is_mirror()
+            {
+                let what = "a pane without refraction, which reflects at all angles what it does at normal incidence";
+                stand_in(out, params, what);
+                return Ok(pane(eta, kind == "thindielectric", mixtures));
+            }
             stand_in(out, params, "what it reflects: light that passes through it is lost");
-            reads.dielectric(params, out)?
+            read
         }
         "diffusetransmission" => {
             stand_in(out, params, "what it reflects: light that passes through it is lost");
-            params.ignore(&["transmittance", "scale"]);
-            reads.diffuse(&["reflectance"], 0.25, params, out)?
+            let scale = params.float("scale")?.unwrap_or(1.0);
+            if !(0.0..=f64::from(f32::MAX)).contains(&scale) {
+                return Err(params.error(format!("\"scale\": must be finite and at least 0, not {}", shown(scale))));
+            }
+            let albedo = reads.color(&["reflectance"], 0.25, params, out)?.times(Texture::number(scale as f32));
+            albedo.constant().map_or_else(|| out.vary(Varying::Diffuse(albedo.clone())), Material::Diffuse)
         }
         "subsurface" | "kdsubsurface" => {
             stand_in(out, params, "a coat over a diffuse surface");
-            let base = reads.color(&["reflectance", "Kd"], 0.5, params, out)?;
-            let eta = reads.eta(&["eta"], params, out)?;
-            let made = reads.coated(base, Coat::of(eta), 0.0, params, out)?;
+            let made = reads.coated_diffuse(&["reflectance", "Kd"], params, out)?;
             params.ignore_all();
             made
         }
@@ -121,8 +179,7 @@ pub(super) fn read(
             Material::Diffuse([0.5; 3])
         }
         "mix" => {
-            stand_in(out, params, "the one of its materials that has the greater share");
-            return reads.greater_share(params, out);
+            return reads.mixed(params, mixtures, out);
         }
         "interface" | "none" | "" => {
             params.ignore_all();
@@ -136,15 +193,6 @@ pub(super) fn read(
     }))
 }
 
-/// Notes parameters that would change normals.
-fn note_relief(params: &mut Params, out: &mut Builder) {
-    for name in ["displacement", "normalmap", "bumpmap"] {
-        if params.given(name) {
-            out.notes.stand_in(name, || params.error(format!("{name:?} is ignored: surfaces are smooth")));
-        }
-    }
-}
-
 /// Reflectance at normal incidence on a smooth dielectric.
 fn reflectance_of(eta: f64) -> f64 {
     let ratio = (eta - 1.0) / (eta + 1.0);
@@ -155,13 +203,6 @@ fn reflectance_of(eta: f64) -> f64 {
 struct Coat {
     specular: Texture,
     grazing: Texture,
-}
-
-impl Coat {
-    /// That of a dielectric.
-    fn of(eta: f64) -> Self {
-        Self { specular: Texture::number(reflectance_of(eta) as f32), grazing: Texture::number(1.0) }
-    }
 }
 
 /// Reads parameters of materials.
@@ -206,7 +247,7 @@ impl Reads<'_> {
         let Context { textures, files, .. } = self.context;
         for name in names {
             if params.is_texture(name) {
-                let texture = textures.number(name, params)?;
+                let texture = textures.number(name, params, &mut out.notes)?;
                 out.notes.stand_in(name, || params.error(format!("{name:?} becomes its mean")));
                 return Ok(texture.map_or(1.5, |texture| texture.mean()[0].into()));
             }
@@ -219,9 +260,44 @@ impl Reads<'_> {
         }
         Ok(1.5)
     }
-    /// Parameters of pbrt's coats without an effect on direct light.
-    fn coat_is_ignored(&self, params: &mut Params) {
-        params.ignore(&["thickness", "albedo", "g", "maxdepth", "nsamples", "interface.thickness"]);
+    /// An index of refraction of a coat, at least 1.
+    fn coat_eta(&self, names: &[&str], params: &mut Params, out: &mut Builder) -> Result<f32, Message> {
+        let eta = self.eta(names, params, out)?;
+        if eta < 1.0 {
+            out.notes.warn(params.error(format!("the index of refraction {} of its coat counts as 1", shown(eta))));
+        }
+        Ok(eta.max(1.0) as f32)
+    }
+    /// A coat over a diffuse base, with the light that goes back and forth between them.
+    fn coated_diffuse(&self, names: &[&str], params: &mut Params, out: &mut Builder) -> Result<Material, Message> {
+        let diffuse = self.color(names, 0.5, params, out)?;
+        let eta = self.coat_eta(&["eta"], params, out)?;
+        let roughness = self.coat_roughness("", 0.0, params, out)?;
+        Ok(out.vary(Varying::Layered { diffuse, eta, roughness }))
+    }
+    /// A coat over a metal: exact where both are smooth. Otherwise it is a metal of the reflectance of both at normal incidence, and of the
+    /// roughness that the metal has through the coat.
+    fn coated_conductor(&self, params: &mut Params, out: &mut Builder) -> Result<Material, Message> {
+        let coat = self.coat_eta(&["interface.eta"], params, out)?;
+        // both roughnesses have the same flag
+        let above = self.roughness("interface.", 0.0, &mut params.clone(), out)?;
+        for name in ["interface.roughness", "interface.uroughness", "interface.vroughness"] {
+            params.given(name);
+        }
+        let names = ["conductor.eta", "conductor.k", "reflectance"];
+        let metal = self.conductor(names, "conductor.", params, out)?;
+        let is_smooth = above.iter().all(|alpha| alpha.constant() == Some([0.0; 3]));
+        Ok(match metal {
+            Material::Conductor { eta, k, .. } if metal.is_mirror() && is_smooth => {
+                Material::CoatedMirror { eta, k, coat }
+            }
+            _ => {
+                let what = "becomes a metal that is as rough as it is through its coat";
+                out.notes.stand_in("coatedconductor", || params.error(what));
+                let above = above.map(|alpha| alpha.mean()[0]);
+                through_coat(metal, coat, (above[0] * above[1]).sqrt())
+            }
+        })
     }
     /// The roughness α along u and across, from up to three parameters whose names begin with `prefix`.
     fn roughness(
@@ -234,7 +310,7 @@ impl Reads<'_> {
         let names = ["roughness", "uroughness", "vroughness"].map(|name| format!("{prefix}{name}"));
         let varies = names.iter().any(|name| params.is_texture(name));
         if varies {
-            let mut number = |name: &str| self.context.textures.number(name, params);
+            let mut number = |name: &str| self.context.textures.number(name, params, &mut out.notes);
             let both = number(&names[0])?.unwrap_or(Texture::number(default));
             let each = [number(&names[1])?.unwrap_or(both.clone()), number(&names[2])?.unwrap_or(both)];
             let remap = params.flag("remaproughness")?.unwrap_or(true);
@@ -262,17 +338,27 @@ impl Reads<'_> {
         params: &mut Params,
         out: &mut Builder,
     ) -> Result<Material, Message> {
-        let roughness = self.roughness("", roughness, params, out)?;
+        let roughness = self.coat_roughness("", roughness, params, out)?;
+        Ok(out.vary(Varying::Glossy { diffuse, specular, grazing, roughness, turn: 0.0, greatest: false }))
+    }
+    /// The roughness of a coat: a smooth one is not quite smooth.
+    fn coat_roughness(
+        &self,
+        prefix: &str,
+        default: f32,
+        params: &mut Params,
+        out: &mut Builder,
+    ) -> Result<[Texture; 2], Message> {
+        let roughness = self.roughness(prefix, default, params, out)?;
         if roughness.iter().any(|alpha| alpha.constant().is_some_and(|[x, ..]| x < Roughness::LEAST)) {
             out.notes.stand_in("smooth coat", || {
                 params.error(format!("its smooth coat becomes one of roughness α = {}", Roughness::LEAST))
             });
         }
-        Ok(out.vary(Varying::Glossy { diffuse, specular, grazing, roughness, turn: 0.0 }))
+        Ok(roughness)
     }
     /// pbrt-v3's coats, by the reflectances of both layers.
     fn older_coat(&self, kind: &str, params: &mut Params, out: &mut Builder) -> Result<Material, Message> {
-        params.ignore(&["reflect", "transmit", "Kr", "Kt", "index", "eta"]);
         let default = if kind == "substrate" { 0.5 } else { 0.25 };
         let (base, coat) = (self.color(&["Kd"], default, params, out)?, self.color(&["Ks"], default, params, out)?);
         // Ks is a factor of a dielectric's reflectance, or for a substrate that at normal incidence
@@ -284,15 +370,15 @@ impl Reads<'_> {
     }
     fn disney(&self, params: &mut Params, out: &mut Builder) -> Result<Material, Message> {
         let base = self.color(&["color"], 0.5, params, out)?;
-        let number = |name: &str, default: f32, params: &mut Params| {
-            Ok::<_, Message>(self.context.textures.number(name, params)?.unwrap_or(Texture::number(default)))
+        let mut number = |name: &str, default: f32, params: &mut Params| {
+            let found = self.context.textures.number(name, params, &mut out.notes)?;
+            Ok::<_, Message>(found.unwrap_or(Texture::number(default)))
         };
         let (metallic, roughness) = (number("metallic", 0.0, params)?, number("roughness", 0.5, params)?);
         params.ignore_all();
         Ok(out.vary(Varying::Metallic { base, metallic, roughness }))
     }
     fn dielectric(&self, params: &mut Params, out: &mut Builder) -> Result<Material, Message> {
-        params.ignore(&["Kr", "Kt"]);
         let eta = self.eta(&["eta", "index"], params, out)?;
         let roughness = self.roughness("", 0.0, params, out)?;
         Ok(match constant(&roughness) {
@@ -300,25 +386,40 @@ impl Reads<'_> {
             None => self.metal(Texture::number(reflectance_of(eta) as f32), roughness, out),
         })
     }
-    /// The one of the materials of a mix that has the greater share.
-    fn greater_share(&self, params: &mut Params, out: &mut Builder) -> Result<Finish, Message> {
+    /// A mixture of two materials.
+    fn mixed(&self, params: &mut Params, mixtures: &mut Vec<Mixture>, out: &mut Builder) -> Result<Finish, Message> {
         let Context { textures, named, files } = self.context;
         let names = params.texts("materials")?;
         let older = [params.text("namedmaterial1")?, params.text("namedmaterial2")?];
         let names = names.unwrap_or_else(|| older.into_iter().flatten().collect());
         // a float in pbrt-v4, a spectrum in v3
         let amount = if params.is_texture("amount") {
-            textures.number("amount", params)?
+            textures.number("amount", params, &mut out.notes)?
         } else {
-            textures.color("amount", params, files, &mut out.notes)?
+            textures.color("amount", params, files, &mut out.notes)?.map(|amount| amount.channel(1))
         };
-        let share = amount.map_or(0.5, |amount| amount.mean()[1]);
+        let amount = amount.unwrap_or(Texture::number(0.5));
         let [first, second] = &names[..] else {
             return Err(params.error(format!("needs two \"materials\", not {}", names.len())));
         };
-        let name = if share > 0.5 { second } else { first };
-        let unknown = || params.error(format!("no MakeNamedMaterial {:?} precedes this", shortened(name)));
-        named(name).ok_or_else(unknown)
+        let mut of = [Finish::Of(Material::Diffuse([0.5; 3])); 2];
+        for (finish, name) in of.iter_mut().zip([first, second]) {
+            match named(name) {
+                Some(known) => *finish = known,
+                None => out.notes.misspelt(params.error(format!(
+                    "no MakeNamedMaterial {:?} precedes this: a diffuse surface of albedo 0.5 stands for it",
+                    shortened(name)
+                ))),
+            }
+        }
+        Ok(match amount.constant() {
+            Some([x, ..]) if x <= 0.0 => of[0],
+            Some([x, ..]) if x >= 1.0 => of[1],
+            _ => {
+                mixtures.push(Mixture { of, amount });
+                Finish::Mix(mixtures.len() - 1)
+            }
+        })
     }
     fn conductor(
         &self,
@@ -330,7 +431,7 @@ impl Reads<'_> {
         let Context { textures, files, .. } = self.context;
         let given = textures.color_or_texture(reflectance, params, files, &mut out.notes)?;
         let indices = [Textures::index(eta, params, files)?, Textures::index(k, params, files)?];
-        let roughness = self.roughness(prefix, if prefix.is_empty() { 0.0 } else { 0.01 }, params, out)?;
+        let roughness = self.roughness(prefix, 0.0, params, out)?;
         let (eta, k) = match (given, indices) {
             (Some(_), [Some(_), _] | [_, Some(_)]) => {
                 return Err(params.error("\"reflectance\" cannot be combined with \"eta\" and \"k\""));
@@ -372,7 +473,41 @@ impl Reads<'_> {
     /// A rough metal with this reflectance at normal incidence.
     fn metal(&self, specular: Texture, roughness: [Texture; 2], out: &mut Builder) -> Material {
         let [diffuse, grazing] = [0.0, 1.0].map(Texture::number);
-        out.vary(Varying::Glossy { diffuse, specular, grazing, roughness, turn: 0.0 })
+        out.vary(Varying::Glossy { diffuse, specular, grazing, roughness, turn: 0.0, greatest: false })
+    }
+}
+
+/// A smooth surface that rays pass straight, but for those that it reflects: both sides of a thin pane, or one of a solid.
+fn pane(eta: f32, is_thin: bool, mixtures: &mut Vec<Mixture>) -> Finish {
+    let once = reflectance_of(eta.into());
+    // what goes back and forth in a thin pane is a geometric series
+    let reflected = if is_thin { 2.0 * once / (1.0 + once) } else { once };
+    let amount = Texture::number((1.0 - reflected) as f32);
+    mixtures.push(Mixture { of: [Finish::Of(Material::Mirror([1.0; 3])), Finish::Invisible], amount });
+    Finish::Mix(mixtures.len() - 1)
+}
+
+/// What a metal looks like through a coat, approximately: directions in the coat are nearer to the normal, so that its slopes count η times
+/// outside, and those of the coat bend light twice by η − 1.
+fn through_coat(metal: Material, coat: f32, above: f32) -> Material {
+    let Material::Conductor { eta, k, roughness } = metal else { return metal };
+    let bent = above * above * (coat - 1.0) * (coat - 1.0) * 0.5;
+    let outside = |alpha: f32| (coat * coat).mul_add(alpha * alpha, bent).sqrt().clamp(0.0, 1.0);
+    let (low, high) = (((coat - 1.0) / (coat + 1.0)).powi(2), |x: f32, k: f32| {
+        let (x, k) = (x / coat, k / coat);
+        ((x - 1.0).powi(2) + k * k) / ((x + 1.0).powi(2) + k * k)
+    });
+    let both = |i: usize| {
+        let metal = high(eta[i], k[i]);
+        low + (1.0 - low) * (1.0 - low) * metal / (1.0 - low * metal)
+    };
+    let [along, across] = [roughness.along, roughness.across].map(outside);
+    Material::Glossy {
+        diffuse: [0.0; 3],
+        specular: [both(0), both(1), both(2)],
+        grazing: [1.0; 3],
+        roughness: Roughness { along: along.max(Roughness::LEAST), across: across.max(Roughness::LEAST), turn: 0.0 },
+        greatest: false,
     }
 }
 

@@ -1,8 +1,9 @@
 //! The materials that a scene names. A name may precede its definition, as in pbrt.
 
-use super::material_parameters::Finish;
+use super::material_parameters::{Finish, Mixture, greatest};
 use crate::builder::Builder;
 use crate::message::{Place, shortened};
+use crate::nearest::did_you_mean;
 use etendue_render::scene::{Material, Message};
 use std::collections::HashMap;
 
@@ -42,7 +43,8 @@ impl NamedMaterials {
     pub(super) fn of_shape(&mut self, finish: Finish, out: &mut Builder) -> Option<Material> {
         match finish {
             Finish::Of(material) => Some(material),
-            Finish::Invisible => None,
+            // a mixture comes as its parts
+            Finish::Invisible | Finish::Mix(_) => None,
             Finish::Awaited(index) => match self.get(&self.awaited[index].name) {
                 Some(finish) => self.of_shape(finish, out),
                 None => Some(*self.awaited[index].promise.get_or_insert_with(|| out.promise())),
@@ -50,14 +52,23 @@ impl NamedMaterials {
         }
     }
     /// Gives shapes the materials that were defined after them.
-    pub(super) fn keep_promises(&self, out: &mut Builder) -> Result<(), Message> {
+    pub(super) fn keep_promises(&self, mixtures: &[Mixture], out: &mut Builder) -> Result<(), Message> {
         for Awaited { name, place, promise } in &self.awaited {
             let Some(promise) = promise else { continue };
             let shown = shortened(name);
             match self.get(name) {
-                Some(Finish::Of(material)) => out.keep(*promise, material),
+                Some(finish @ (Finish::Of(_) | Finish::Mix(_))) => {
+                    if let Finish::Of(material) = greatest(finish, mixtures) {
+                        out.keep(*promise, material);
+                    }
+                }
                 Some(_) => return Err(place.message(format!("{shown:?} is no surface: define it before its shapes"))),
-                None => return Err(place.message(format!("no MakeNamedMaterial defines {shown:?}"))),
+                None => {
+                    let near = did_you_mean(name, self.defined.keys().map(String::as_str));
+                    let why = "a diffuse surface of albedo 0.5 stands for it";
+                    out.notes.misspelt(place.message(format!("no MakeNamedMaterial defines {shown:?}: {why}{near}")));
+                    out.keep(*promise, Material::Diffuse([0.5; 3]));
+                }
             }
         }
         Ok(())

@@ -3,6 +3,7 @@
 use super::inputs::Files;
 use super::lexer::{Lexer, Token, number};
 use super::spectrum::{self, Named, Samples};
+use crate::list::{Entry, PBRT, Parameter, State};
 pub(super) use crate::message::shown;
 use crate::message::{Notes, Place, shortened};
 use crate::nearest::nearest;
@@ -53,8 +54,8 @@ pub(super) struct Params {
     list: Vec<Param>,
     /// Warnings of parameters that are given twice.
     repeated: Vec<Message>,
-    /// The names that were looked up.
-    known: Vec<String>,
+    /// What the list of the format says of the directive.
+    listed: Option<&'static Entry>,
 }
 
 /// The canonical name of a parameter type.
@@ -113,7 +114,7 @@ impl Values {
 impl Params {
     /// Reads the parameters that follow the directive `owner`.
     pub(super) fn read(lexer: &mut Lexer<'_>, owner: String, place: Place) -> Result<Self, Message> {
-        let mut params = Params { owner, place, list: Vec::new(), repeated: Vec::new(), known: Vec::new() };
+        let mut params = Params { owner, place, list: Vec::new(), repeated: Vec::new(), listed: None };
         while let Some(Token::Text(_)) = lexer.peek()? {
             let param = Self::read_one(lexer, &params.owner)?;
             if params.list.len() == MOST_PARAMETERS {
@@ -166,6 +167,18 @@ impl Params {
         Ok(Param { kind, name, values, line })
     }
 
+    /// The parameters are those of a directive of this type in the list of the format.
+    pub(super) fn of(mut self, directive: &str, kind: &str) -> Self {
+        self.listed = PBRT.entry(directive, kind);
+        self
+    }
+
+    /// Checks that the list of the format has a parameter that the reader asks for.
+    fn check(&self, name: &str) {
+        let is_listed = self.listed.is_none_or(|entry| entry.parameter(name).is_some());
+        debug_assert!(is_listed, "the list lacks {name:?} of {}", self.owner);
+    }
+
     /// A message at the directive's line.
     pub(super) fn error(&self, text: impl AsRef<str>) -> Message {
         self.place.message(format!("{}: {}", self.owner, text.as_ref()))
@@ -178,8 +191,8 @@ impl Params {
     }
 
     /// Where a parameter is in the list, if it is given.
-    fn find(&mut self, name: &str) -> Option<usize> {
-        self.known.push(name.to_owned());
+    fn find(&self, name: &str) -> Option<usize> {
+        self.check(name);
         self.list.iter().position(|p| p.name == name)
     }
 
@@ -370,14 +383,9 @@ impl Params {
         self.list
     }
 
-    /// Removes parameters, of whatever types.
-    pub(super) fn ignore(&mut self, names: &[&str]) {
-        self.list.retain(|param| !names.contains(&&*param.name));
-    }
-
     /// Removes the parameter, of whatever type; returns whether it was given.
     pub(super) fn given(&mut self, name: &str) -> bool {
-        self.known.push(name.to_owned());
+        self.check(name);
         let before = self.list.len();
         self.list.retain(|p| p.name != name);
         self.list.len() != before
@@ -412,13 +420,22 @@ impl Params {
         self.list.iter().any(|p| p.name == name)
     }
 
-    /// Warns of each parameter that was not looked up, and names the one that may be meant.
+    /// Warns of each parameter that was not looked up: as the list of the format says, or else with the name that may be meant.
     pub(super) fn finish(self, notes: &mut Notes) {
         self.repeated.iter().cloned().for_each(|message| notes.warn(message));
         for param in &self.list {
-            match nearest(&param.name, self.known.iter().map(String::as_str)) {
-                Some(near) => notes.misspelt(self.at(param, format!("ignored; did you mean {near:?}?"))),
-                None => notes.warn(self.at(param, "ignored")),
+            let listed = self.listed.and_then(|entry| Some((entry, entry.parameter(&param.name)?)));
+            match listed {
+                // the directive as a whole has a warning
+                Some((_, Parameter { name: "*", .. } | Parameter { state: State::Inert, .. })) => {}
+                Some((entry, Parameter { name, note, .. })) => {
+                    let why = if note.is_empty() { String::new() } else { format!(": {note}") };
+                    notes.stand_in(&format!("{} {name}", entry.name), || self.at(param, format!("ignored{why}")));
+                }
+                None => match nearest(&param.name, self.listed.into_iter().flat_map(Entry::names)) {
+                    Some(near) => notes.misspelt(self.at(param, format!("ignored; did you mean {near:?}?"))),
+                    None => notes.warn(self.at(param, "ignored")),
+                },
             }
         }
     }

@@ -53,6 +53,9 @@ impl Builder {
             if emission.is_some() {
                 return self.push(surface.material, emission, geometry);
             }
+            if surface.is_unseen() {
+                return;
+            }
             let dark = ShapeAttributes { emission: None, ..surface.clone() };
             return self.patch(&dark, corners);
         }

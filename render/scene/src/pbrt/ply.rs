@@ -129,10 +129,24 @@ impl Element {
 }
 
 /// Reads a file that messages call `name`. An error starts with `name:line:` or `name: byte n:`.
+///
+/// Rows of ASCII files are lines, so that messages can tell which one is wrong. If they are not, numbers are taken as they come, as pbrt
+/// does, if that takes all of them.
 pub(super) fn read(name: &str, bytes: &[u8]) -> Result<Mesh, String> {
-    let (elements, mut body) = header(name, bytes)?;
+    let (elements, body) = header(name, bytes)?;
+    let is_ascii = body.format == Format::Ascii;
+    let unlined = is_ascii.then(|| Body { is_lined: false, ..body.clone() });
+    read_body(&elements, body).map(|(mesh, _)| mesh).or_else(|wrong| {
+        let mesh = unlined.and_then(|body| read_body(&elements, body).ok()).filter(|(_, is_whole)| *is_whole);
+        mesh.map(|(mesh, _)| mesh).ok_or(wrong)
+    })
+}
+
+/// Reads the elements, and tells whether nothing follows them.
+fn read_body(elements: &[Element], mut body: Body<'_>) -> Result<(Mesh, bool), String> {
+    let name = body.name;
     let wrong = |why: String| format!("{name}: header: {why}");
-    check(&elements, body.rest.len()).map_err(wrong)?;
+    check(elements, body.rest.len()).map_err(wrong)?;
     let of = |wanted: &str| elements.iter().find(|element| element.name == wanted);
     let vertices = of("vertex").ok_or_else(|| wrong("no element \"vertex\"".into()))?;
     for axis in ["x", "y", "z"] {
@@ -142,7 +156,7 @@ pub(super) fn read(name: &str, bytes: &[u8]) -> Result<Mesh, String> {
     of("face").ok_or_else(|| wrong("no element \"face\"".into()))?;
 
     let mut mesh = Mesh::default();
-    for element in &elements {
+    for element in elements {
         match element.name.as_str() {
             "vertex" => read_vertices(&mut mesh, element, &mut body)?,
             "face" => read_faces(&mut mesh, element, vertices.count, &mut body)?,
@@ -152,10 +166,11 @@ pub(super) fn read(name: &str, bytes: &[u8]) -> Result<Mesh, String> {
             }
         }
     }
-    if !body.rest.iter().all(u8::is_ascii_whitespace) {
+    let is_whole = body.rest.iter().all(u8::is_ascii_whitespace);
+    if !is_whole {
         mesh.warnings.push(format!("{name}: {} bytes after the last element ignored", body.rest.len()));
     }
-    Ok(mesh)
+    Ok((mesh, is_whole))
 }
 
 fn read_vertices(mesh: &mut Mesh, element: &Element, body: &mut Body<'_>) -> Result<(), String> {
@@ -213,9 +228,12 @@ fn read_faces(mesh: &mut Mesh, element: &Element, vertices: usize, body: &mut Bo
 const INDICES: &str = "element \"face\" needs one list of integers, \"vertex_indices\"";
 
 /// What follows the header.
+#[derive(Clone)]
 struct Body<'a> {
     name: &'a str,
     format: Format,
+    /// Whether each row of an ASCII file is a line.
+    is_lined: bool,
     /// Size of the file in bytes.
     size: usize,
     rest: &'a [u8],
@@ -239,7 +257,7 @@ impl Body<'_> {
         self.numbers.clear();
         self.starts.clear();
         if self.format == Format::Ascii {
-            return self.line_of(element);
+            return if self.is_lined { self.line_of(element) } else { self.words_of(element).ok_or_else(String::new) };
         }
         let (is_big, mut rest) = (self.format == Format::BigEndian, self.rest);
         for property in &element.properties {
@@ -253,6 +271,26 @@ impl Body<'_> {
         }
         self.rest = rest;
         Ok(())
+    }
+    /// Reads a row from the next words, wherever lines end.
+    fn words_of(&mut self, element: &Element) -> Option<()> {
+        let mut rest = self.rest;
+        let mut next = |kind: Kind| {
+            let start = rest.iter().position(|b| !b.is_ascii_whitespace())?;
+            let after = &rest[start..];
+            let end = after.iter().position(u8::is_ascii_whitespace).unwrap_or(after.len());
+            rest = &after[end..];
+            kind.parse(std::str::from_utf8(&after[..end]).ok()?)
+        };
+        for property in &element.properties {
+            self.starts.push(self.numbers.len());
+            let count = property.count.map_or(Some(1.0), &mut next)?;
+            for _ in 0..count as usize {
+                self.numbers.push(next(property.kind)?);
+            }
+        }
+        self.rest = rest;
+        Some(())
     }
     /// Reads a row from a line.
     fn line_of(&mut self, element: &Element) -> Result<(), String> {
@@ -347,7 +385,7 @@ fn header<'a>(name: &'a str, bytes: &'a [u8]) -> Result<(Vec<Element>, Body<'a>)
     let unknown = "the header has no valid line \"format\", such as \"format ascii 1.0\"";
     let format = format.ok_or_else(|| format!("{name}: {unknown}"))?;
     let (numbers, starts) = (Vec::new(), Vec::new());
-    Ok((elements, Body { name, format, size: bytes.len(), rest, line: number, numbers, starts }))
+    Ok((elements, Body { name, format, is_lined: true, size: bytes.len(), rest, line: number, numbers, starts }))
 }
 
 /// Rejects elements without properties, and counts that do not fit into the file.

@@ -22,9 +22,6 @@ pub(super) struct Profile {
 
 /// Axes of the images of directions: pbrt has y up, and images have z.
 const UP: [Axis; 3] = [(0, 1.0), (2, 1.0), (1, 1.0)];
-/// Axes of IES files, whose pole is the nadir.
-const DOWN: [Axis; 3] = [(0, 1.0), (2, 1.0), (1, -1.0)];
-
 /// Reads an IES file, or pbrt's square image of directions, or an older one of longitude and latitude; `None` if it is dark.
 pub(super) fn read(
     name: &str,
@@ -36,10 +33,10 @@ pub(super) fn read(
         let image = picture(params, name, files)?;
         return sphere(&image).map_err(|what| params.error(format!("{name}: {what}")));
     }
-    let ies::Photometry { intensity, greatest, warnings } =
+    let ies::Photometry { intensity, greatest, aim, warnings } =
         ies::read(name, files).map_err(|what| params.error(what))?;
     warnings.into_iter().for_each(|what| notes.warn(params.error(what)));
-    Ok((greatest > 0.0).then_some(Profile { intensity, greatest, aim: Aim { axes: DOWN } }))
+    Ok((greatest > 0.0).then_some(Profile { intensity, greatest, aim }))
 }
 
 /// Reads an image without what no light can have.

@@ -7,7 +7,7 @@ use super::includes::Includes;
 pub(super) use super::includes::Origin;
 use super::inputs::Files;
 use super::lexer::{Lexer, Token};
-use super::material_parameters::{self, Context, Finish};
+use super::material_parameters::{self, Context, Finish, Mixture};
 use super::named_materials::NamedMaterials;
 use super::params::Params;
 use super::portal_sides;
@@ -72,6 +72,8 @@ const ANYWHERE: [&str; 19] = [
 struct Reader<'a> {
     files: Files<'a>,
     camera: Option<CameraSettings>,
+    /// The time of exposure.
+    shutter: f64,
     film: Option<FilmSettings>,
     pixel_samples: Option<u32>,
     sources: Sources,
@@ -80,6 +82,7 @@ struct Reader<'a> {
     blocks: Blocks,
     systems: HashMap<String, Transform>,
     named: NamedMaterials,
+    mixtures: Vec<Mixture>,
     textures: Textures,
     /// The pictures of lights.
     shown: Shown,
@@ -93,6 +96,7 @@ pub(super) fn read(text: &str, file: &str, dir: &Path, origin: Origin<'_>) -> Re
     let mut reader = Reader {
         files: Files { main: dir, folder: dir, is_builtin: matches!(origin, Origin::Builtin), inputs: &inputs },
         camera: None,
+        shutter: 1.0,
         film: None,
         pixel_samples: None,
         sources: Sources::default(),
@@ -101,6 +105,7 @@ pub(super) fn read(text: &str, file: &str, dir: &Path, origin: Origin<'_>) -> Re
         blocks: Blocks::default(),
         systems: HashMap::new(),
         named: NamedMaterials::default(),
+        mixtures: Vec::new(),
         textures: Textures::default(),
         shown: Shown::default(),
         in_world: false,
@@ -112,15 +117,16 @@ pub(super) fn read(text: &str, file: &str, dir: &Path, origin: Origin<'_>) -> Re
     let lines = u32::try_from(text.lines().count()).unwrap_or(u32::MAX);
     let end = Place { file: file.clone(), line: lines.max(1) };
     reader.blocks.check_closed()?;
-    reader.named.keep_promises(&mut reader.out)?;
+    reader.named.keep_promises(&reader.mixtures, &mut reader.out)?;
     let Some(mut camera) = reader.camera else {
         return Err(end.message("the scene has no Camera"));
     };
     if !reader.in_world {
         return Err(end.message("the scene has no WorldBegin"));
     }
-    let whole = FilmSettings { width: 1280, height: 720, diagonal: 35.0, filename: None, place: None };
-    let film = reader.film.unwrap_or(whole);
+    let whole = FilmSettings { width: 1280, height: 720, diagonal: 35.0, filename: None, place: None, exposure: 1.0 };
+    let mut film = reader.film.unwrap_or(whole);
+    film.exposure *= reader.shutter;
     film_and_camera::fit(&mut camera, &film);
     let Sources { delta_lights, intensities, environment, portals } = reader.sources;
     let rest = Rest {
@@ -170,6 +176,8 @@ impl Reader<'_> {
                 }
                 self.in_world = true;
                 self.state.ctm = Transform::IDENTITY;
+                // as in pbrt, it makes all transforms active again
+                self.state.is_end = false;
                 self.systems.insert("world".into(), Transform::IDENTITY);
             }
             "AttributeBegin" | "TransformBegin" => self.blocks.begin(word, place, &self.state)?,
@@ -211,7 +219,7 @@ impl Reader<'_> {
             "Camera" | "Film" | "Sampler" | "PixelFilter" | "Integrator" | "Accelerator" | "AreaLightSource"
             | "LightSource" | "Material" | "MakeNamedMaterial" | "Shape" => {
                 let kind = lexer.text("a type")?;
-                let params = Params::read(lexer, format!("{word} {:?}", shortened(&kind)), place)?;
+                let params = Params::read(lexer, format!("{word} {:?}", shortened(&kind)), place)?.of(word, &kind);
                 self.with_params(word, &kind, params, dir)?;
             }
             _ => {
@@ -278,7 +286,8 @@ impl Reader<'_> {
     fn texture(&mut self, place: Place, lexer: &mut Lexer<'_>, dir: &Path) -> Result<(), Message> {
         let (name, value) = (lexer.text("a name")?, lexer.text("a type of value")?);
         let kind = lexer.text("a type")?;
-        let mut params = Params::read(lexer, format!("Texture {:?}", shortened(&name)), place)?;
+        let params = Params::read(lexer, format!("Texture {:?}", shortened(&name)), place)?;
+        let mut params = params.of("Texture", &kind);
         self.with_defaults("texture", &mut params);
         let Self { textures, out, .. } = self;
         let files = self.files.at(dir);
@@ -315,9 +324,11 @@ impl Reader<'_> {
                 self.state.material = self.material(kind, &mut params, dir)?;
             }
             "MakeNamedMaterial" => {
+                self.with_defaults("material", &mut params);
                 let Some(of) = params.text("type")? else {
                     return Err(params.error("\"string type\" is missing"));
                 };
+                params = params.of("Material", &of);
                 let material = self.material(&of, &mut params, dir)?;
                 self.named.define(kind.into(), material);
             }
@@ -350,7 +361,7 @@ impl Reader<'_> {
     fn material(&mut self, kind: &str, params: &mut Params, dir: &Path) -> Result<Finish, Message> {
         let files = self.files.at(dir);
         let context = Context { textures: &self.textures, named: &|name| self.named.get(name), files };
-        material_parameters::read(kind, params, &context, &mut self.out)
+        material_parameters::read(kind, params, &context, &mut self.mixtures, &mut self.out)
     }
 
     fn warn(&mut self, place: &Place, text: String) {
@@ -373,9 +384,10 @@ impl Reader<'_> {
         if self.camera.is_some() {
             self.out.notes.warn(params.error("a second camera: the last one counts"));
         }
-        let (camera, world) = film_and_camera::camera(kind, params, &self.state.ctm, &mut self.out.notes)?;
+        let (camera, world, shutter) = film_and_camera::camera(kind, params, &self.state.ctm, &mut self.out.notes)?;
         self.systems.insert("camera".into(), world);
         self.camera = Some(camera);
+        self.shutter = shutter;
         Ok(())
     }
 
@@ -386,16 +398,31 @@ impl Reader<'_> {
     }
 
     fn shape(&mut self, kind: &str, params: &mut Params, dir: &Path) -> Result<(), Message> {
-        let Self { out, state, named, textures, blocks, files, .. } = self;
-        let given = ShapeState {
-            ctm: state.ctm,
-            reverse: state.reverse,
-            material: state.material,
-            area: state.area.clone(),
-            is_object: blocks.is_object(),
-        };
-        let Some(surface) = given.attributes(kind, params, textures, named, out)? else { return Ok(()) };
+        let Self { out, state, named, textures, blocks, files, mixtures, .. } = self;
+        // what emits is no mixture, and one that is defined later is none yet
+        let mut parts = vec![(material_parameters::greatest(state.material, mixtures), None)];
+        if state.area.emission.is_none() && matches!(state.material, Finish::Mix(_)) {
+            let mixed = material_parameters::parts(state.material, mixtures);
+            parts = mixed.into_iter().map(|(finish, share)| (finish, Some(share))).collect();
+        }
         let files = files.at(dir);
-        shapes::read(kind, out, &surface, params, &files)
+        // a mixture is several surfaces in one place: a ray passes each but the last with the chance that it is of the others
+        let last = parts.len() - 1;
+        for (index, (material, share)) in parts.into_iter().enumerate() {
+            let mut again = (index < last).then(|| params.clone());
+            let own = again.as_mut().unwrap_or(params);
+            let given = ShapeState {
+                ctm: state.ctm,
+                reverse: state.reverse,
+                material,
+                share,
+                area: state.area.clone(),
+                is_object: blocks.is_object(),
+            };
+            if let Some(surface) = given.attributes(kind, own, textures, named, out)? {
+                shapes::read(kind, out, &surface, own, &files)?;
+            }
+        }
+        Ok(())
     }
 }

@@ -18,6 +18,8 @@ pub(super) struct ShapeState {
     /// Whether `ReverseOrientation` holds.
     pub(super) reverse: bool,
     pub(super) material: Finish,
+    /// Of a part of a mixture, the chance that a ray that gets to it meets it.
+    pub(super) share: Option<Texture>,
     pub(super) area: Area,
     /// Whether an object is being read.
     pub(super) is_object: bool,
@@ -37,13 +39,7 @@ impl ShapeState {
         if det == 0.0 || !det.is_finite() {
             return Err(params.error("its transform is singular"));
         }
-        for name in ["displacement", "emissionfilename", "displacement.edgelength"] {
-            if params.given(name) {
-                out.notes.stand_in(name, || params.error(format!("{name:?} is ignored: surfaces are smooth")));
-            }
-        }
-        let opacity = textures.number("alpha", params)?;
-        params.given("shadowalpha");
+        let opacity = textures.number("alpha", params, &mut out.notes)?;
         let is_absent = |opacity: &Texture| opacity.constant().is_some_and(|[x, ..]| x <= 0.0);
         if opacity.as_ref().is_some_and(is_absent) && self.area.emission.is_none() {
             params.ignore_all();
@@ -67,10 +63,24 @@ impl ShapeState {
             out.notes.stand_in(what, || params.error(format!("a sphere has no {what:?}: it emits in all directions")));
             (emission.spread, profile) = (None, None);
         }
-        let mask = opacity.map(|opacity| Mask { opacity, least: None });
-        if mask.is_some() && emission.is_some() {
-            out.notes.stand_in("light with holes", || params.error("\"alpha\": a light is seen, and opaque"));
+        // as in pbrt, a lamp of opacity 0 lights the scene, and no ray meets it
+        if let Some((emission, opacity)) = emission.as_mut().zip(opacity.as_ref()) {
+            let mean = opacity.mean()[0].clamp(0.0, 1.0);
+            emission.is_unseen = mean == 0.0;
+            if mean > 0.0 {
+                emission.radiance =
+                    emission.radiance.map(|x| (x * mean).max(if x > 0.0 { f32::MIN_POSITIVE } else { 0.0 }));
+                let what = "\"alpha\": a light with holes becomes opaque, and dimmer by its mean opacity";
+                out.notes.stand_in("light with holes", || params.error(what));
+            }
         }
+        // a part of a mixture is made of triangles, as the others are, even if it has no holes
+        let opacity = match (opacity, self.share) {
+            (opacity, None) => opacity,
+            (None, share) => share,
+            (Some(opacity), Some(share)) => Some(opacity.times(share)),
+        };
+        let mask = opacity.map(|opacity| Mask { opacity, least: None });
         Ok(Some(ShapeAttributes {
             ctm: self.ctm,
             flip: self.reverse != (det < 0.0),

@@ -32,7 +32,6 @@ pub(super) fn read(
         "bilinearmesh" => bilinear_mesh(out, surface, params),
         "loopsubdiv" => {
             out.notes.stand_in(kind, || params.error("becomes its control mesh"));
-            params.ignore(&["levels", "nlevels", "scheme"]);
             triangle_mesh(out, surface, params)
         }
         "disk" => disk(out, surface, params),
@@ -64,7 +63,8 @@ pub(super) fn read(
 fn note_left_out(out: &mut Builder, params: &Params) {
     let count = out.left_out();
     if count > 0 {
-        out.notes.warn(params.error(format!("{count} triangle(s) without area are left out")));
+        let what = format!("{count} triangle(s) without area are left out");
+        out.notes.warn_once("without area", || params.error(what));
     }
 }
 
@@ -200,11 +200,7 @@ struct Mesh<const N: usize> {
 }
 
 /// Reads the vertices from "P", "N" and "uv" and groups of `N` indices from "indices"; `N` points need no indices.
-fn indexed<const N: usize>(
-    out: &mut Builder,
-    surface: &ShapeAttributes,
-    params: &mut Params,
-) -> Result<Mesh<N>, Message> {
+fn indexed<const N: usize>(surface: &ShapeAttributes, params: &mut Params) -> Result<Mesh<N>, Message> {
     let Some(numbers) = params.numbers("P", "point3", 3)? else {
         return Err(params.error("\"point3 P\" is missing"));
     };
@@ -220,9 +216,6 @@ fn indexed<const N: usize>(
         if count != 0 && count != points.len() {
             return Err(params.error(format!("{name:?} has {count} values for {} points", points.len())));
         }
-    }
-    if params.given("S") {
-        out.notes.warn_once("S", || params.error("\"S\": ignored: the direction of roughness is that of u"));
     }
     let count = points.len();
     let vertices = Vertices::new(points, placed_normals(surface, normals.into_iter()).collect(), uvs);
@@ -257,7 +250,7 @@ const PATCH_UVS: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]
 
 /// Reads `Shape "trianglemesh"`.
 fn triangle_mesh(out: &mut Builder, surface: &ShapeAttributes, params: &mut Params) -> Result<(), Message> {
-    let mesh = indexed::<3>(out, surface, params)?;
+    let mesh = indexed::<3>(surface, params)?;
     for face in mesh.faces {
         out.face(surface, &mesh.vertices, face, &TRIANGLE_UVS);
     }
@@ -267,7 +260,7 @@ fn triangle_mesh(out: &mut Builder, surface: &ShapeAttributes, params: &mut Para
 
 /// Reads `Shape "bilinearmesh"`.
 fn bilinear_mesh(out: &mut Builder, surface: &ShapeAttributes, params: &mut Params) -> Result<(), Message> {
-    let mesh = indexed::<4>(out, surface, params)?;
+    let mesh = indexed::<4>(surface, params)?;
     for face in mesh.faces {
         out.patch(surface, mesh.vertices.corners(face, &PATCH_UVS));
     }

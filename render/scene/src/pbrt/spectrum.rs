@@ -1,25 +1,23 @@
 //! Spectra as linear RGB.
 //!
-//! The renderer works with three channels of linear sRGB. A spectrum becomes a colour by the colour matching functions of CIE 1931, in the
-//! fits of Wyman, Sloan and Shirley (2013, "Simple Analytic Approximations to the CIE XYZ Color Matching Functions", table 1), whose
-//! error is about a hundredth.
+//! The renderer works with three channels of linear sRGB. A spectrum becomes a colour by the colour matching functions of CIE 1931, between
+//! whose values at every 5 nm there are straight lines, summed at every 1 nm from 360 to 830 nm. This differs from the table at 1 nm by at most
+//! 0.4 % of a channel.
+
+mod cie;
 
 use super::inputs::Files;
 use crate::message::shown;
 use crate::radiance::luminance;
+use cie::{FIRST, ILLUMINANTS, MATCHING, STEP};
 use std::path::Path;
 
-/// CIE 1931's functions at a wavelength in nanometres.
-fn matching(wavelength: f64) -> [f64; 3] {
-    let lobe = |mean: f64, low: f64, high: f64| {
-        let x = (wavelength - mean) * if wavelength < mean { low } else { high };
-        libm::exp(-0.5 * x * x)
-    };
-    [
-        0.362 * lobe(442.0, 0.0624, 0.0374) + 1.056 * lobe(599.8, 0.0264, 0.0323) - 0.065 * lobe(501.1, 0.0490, 0.0382),
-        0.821 * lobe(568.8, 0.0213, 0.0247) + 0.286 * lobe(530.9, 0.0613, 0.0322),
-        1.217 * lobe(437.0, 0.0845, 0.0278) + 0.681 * lobe(459.0, 0.0385, 0.0725),
-    ]
+/// CIE 1931's functions and the illuminant D65 at a wavelength in nanometres.
+fn matching(wavelength: f64) -> [f64; 4] {
+    let at = ((wavelength - FIRST) / STEP).clamp(0.0, (MATCHING.len() - 1) as f64);
+    let before = (at as usize).min(MATCHING.len() - 2);
+    let (t, [a, b]) = (at - before as f64, [MATCHING[before], MATCHING[before + 1]]);
+    std::array::from_fn(|k| a[k] + (b[k] - a[k]) * t)
 }
 
 /// Linear sRGB of CIE XYZ (IEC 61966-2-1).
@@ -47,9 +45,9 @@ fn planck(wavelength: f64, temperature: f64) -> f64 {
     1e14 / (wavelength.powi(5) * libm::expm1(x))
 }
 
-/// The illuminant D65 nearly: a black body of 6504 K.
+/// The illuminant D65.
 fn white(wavelength: f64) -> f64 {
-    planck(wavelength, 6504.0)
+    matching(wavelength)[3]
 }
 
 /// A spectrum by wavelength and value, in ascending order of wavelengths in nanometres, with straight lines between them.
@@ -85,13 +83,13 @@ impl Samples {
         }
         Self::new(&numbers).map_err(|why| format!("{shown}: {why}"))
     }
-    /// The value at a wavelength; beyond the ends it is that of the nearest one.
+    /// The value at a wavelength; beyond the ends it is 0, as in pbrt.
     fn at(&self, wavelength: f64) -> f64 {
         let after = self.0.partition_point(|[at, _]| *at <= wavelength);
         match (after.checked_sub(1).and_then(|before| self.0.get(before)), self.0.get(after)) {
             (Some([a, x]), Some([b, y])) => x + (y - x) * (wavelength - a) / (b - a),
-            (Some([_, x]), None) | (None, Some([_, x])) => *x,
-            (None, None) => 0.0,
+            (Some([at, x]), None) if *at == wavelength => *x,
+            _ => 0.0,
         }
     }
     /// The colour of a surface with this reflectance, or of any other quantity that is averaged over the wavelengths of each channel.
@@ -166,27 +164,11 @@ pub(super) fn named(name: &str) -> Option<Named> {
         };
     }
     let illuminant = name.strip_prefix("stdillum-").or_else(|| name.strip_prefix("illum-"))?;
-    // correlated colour temperatures of the standard illuminants
-    let kelvins = match illuminant {
-        "A" => 2856.0,
-        "D50" => 5003.0,
-        "D65" | "acesD60" => 6504.0,
-        "F1" => 6430.0,
-        "F2" => 4230.0,
-        "F3" => 3450.0,
-        "F4" => 2940.0,
-        "F5" => 6350.0,
-        "F6" => 4150.0,
-        "F7" => 6500.0,
-        "F8" => 5000.0,
-        "F9" => 4150.0,
-        "F10" => 5000.0,
-        "F11" => 4000.0,
-        "F12" => 3000.0,
-        _ => return None,
-    };
-    let white = matches!(illuminant, "D65" | "acesD60");
-    Some(Named::Illuminant(if white { [1.0; 3] } else { blackbody(kelvins) }))
+    if illuminant == "D65" {
+        return Some(Named::Illuminant([1.0; 3]));
+    }
+    let (_, [x, y]) = ILLUMINANTS.iter().find(|(known, _)| *known == illuminant)?;
+    Some(Named::Illuminant(normalized([x / y, 1.0, (1.0 - x - y) / y])))
 }
 
 #[cfg(test)]
@@ -195,13 +177,13 @@ mod tests {
 
     #[test]
     fn black_bodies_have_the_colours_of_their_temperatures() {
-        // chromaticities on the Planckian locus (Wyszecki and Stiles 1982), to what the fit allows
+        // chromaticities on the Planckian locus (Wyszecki and Stiles 1982)
         for (kelvins, x, y) in
             [(2856.0, 0.4476, 0.4074), (4000.0, 0.3805, 0.3768), (6500.0, 0.3135, 0.3237), (10000.0, 0.2807, 0.2884)]
         {
             let xyz = integrated(|at| planck(at, kelvins));
             let sum: f64 = xyz.iter().sum();
-            assert!((xyz[0] / sum - x).abs() < 4e-3 && (xyz[1] / sum - y).abs() < 4e-3, "{kelvins}: {xyz:?}");
+            assert!((xyz[0] / sum - x).abs() < 4e-4 && (xyz[1] / sum - y).abs() < 4e-4, "{kelvins}: {xyz:?}");
             assert!((luminance(blackbody(kelvins)) - 1.0).abs() < 1e-12);
         }
         let [r, g, b] = blackbody(2700.0);
@@ -212,9 +194,11 @@ mod tests {
 
     #[test]
     fn spectra_become_colours() {
-        let constant = Samples::new(&[400.0, 0.25, 700.0, 0.25]).unwrap().reflectance();
+        let line = Samples::new(&[550.0, 1.0]).unwrap();
+        assert_eq!([549.0, 550.0, 551.0].map(|at| line.at(at)), [0.0, 1.0, 0.0]);
+        let constant = Samples::new(&[360.0, 0.25, 830.0, 0.25]).unwrap().reflectance();
         assert!(constant.iter().all(|x| (x - 0.25).abs() < 1e-12), "{constant:?}");
-        let [r, g, b] = Samples::new(&[590.0, 0.0, 610.0, 1.0]).unwrap().reflectance();
+        let [r, g, b] = Samples::new(&[590.0, 0.0, 610.0, 1.0, 830.0, 1.0]).unwrap().reflectance();
         assert!(r > 0.7 && g < 0.2 && b < 0.05, "{r} {g} {b}");
         let light = Samples::new(&[300.0, 7.0, 900.0, 7.0]).unwrap().illuminant();
         assert!((luminance(light) - 1.0).abs() < 1e-12 && light.iter().all(|x| (0.9..1.25).contains(x)), "{light:?}");

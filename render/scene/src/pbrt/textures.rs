@@ -5,6 +5,7 @@ use super::params::{Color, Params, shown};
 use super::spectrum::Named;
 use crate::image::{Encoding, read_texels, sound};
 use crate::message::{Notes, shortened};
+use crate::nearest::did_you_mean;
 use etendue_render::scene::Message;
 use etendue_render::texture::{Mapping, Picture, Texels, Texture, Wrap};
 use std::collections::HashMap;
@@ -57,29 +58,30 @@ impl Textures {
         files: &Files<'_>,
         notes: &mut Notes,
     ) -> Result<Texture, Message> {
-        let mut value = |this: &Self, params: &mut Params, name: &str, default: f32| {
-            let found = if is_color { this.color(name, params, files, notes)? } else { this.number(name, params)? };
+        let value = |this: &Self, params: &mut Params, notes: &mut Notes, name: &str, default: f32| {
+            let found =
+                if is_color { this.color(name, params, files, notes)? } else { this.number(name, params, notes)? };
             Ok::<_, Message>(found.unwrap_or(Texture::number(default)))
         };
         Ok(match kind {
-            "constant" => value(self, params, "value", 1.0)?,
+            "constant" => value(self, params, notes, "value", 1.0)?,
             "scale" => {
                 // older files name two factors
                 let names = if params.has("tex1") || params.has("tex2") { ["tex1", "tex2"] } else { ["tex", "scale"] };
                 let scale = if names[1] == "scale" {
-                    self.number("scale", params)?.unwrap_or(Texture::number(1.0))
+                    self.number("scale", params, notes)?.unwrap_or(Texture::number(1.0))
                 } else {
-                    value(self, params, "tex2", 1.0)?
+                    value(self, params, notes, "tex2", 1.0)?
                 };
-                value(self, params, names[0], 1.0)?.times(scale)
+                value(self, params, notes, names[0], 1.0)?.times(scale)
             }
             "mix" => {
-                let (a, b) = (value(self, params, "tex1", 0.0)?, value(self, params, "tex2", 1.0)?);
-                let amount = self.number("amount", params)?.unwrap_or(Texture::number(0.5));
+                let (a, b) = (value(self, params, notes, "tex1", 0.0)?, value(self, params, notes, "tex2", 1.0)?);
+                let amount = self.number("amount", params, notes)?.unwrap_or(Texture::number(0.5));
                 Texture::mix(a, b, amount)
             }
             "checkerboard" => {
-                let (a, b) = (value(self, params, "tex1", 1.0)?, value(self, params, "tex2", 0.0)?);
+                let (a, b) = (value(self, params, notes, "tex1", 1.0)?, value(self, params, notes, "tex2", 0.0)?);
                 if params.integer("dimension")? == Some(3) {
                     notes.stand_in("checkerboard", || params.error("in space: becomes its mean"));
                     Texture::mix(a, b, Texture::number(0.5))
@@ -115,7 +117,6 @@ impl Textures {
             Some(other) => return Err(params.error(format!("\"wrap\": unknown mode {:?}", shortened(other)))),
         };
         let bilinear = params.text("filter")?.as_deref() != Some("point");
-        let _ = (params.float("maxanisotropy")?, params.flag("trilinear")?);
         let scale = params.float("scale")?.unwrap_or(1.0);
         let scale = finite("scale", scale, params)?;
         let invert = params.flag("invert")?.unwrap_or(false);
@@ -158,10 +159,14 @@ impl Textures {
         let rgb = match params.color(name, files)? {
             None => return Ok(None),
             Some(Color::Texture(texture)) => {
-                let found = self.colors.get(&texture);
-                let unknown =
-                    || params.error(format!("{name:?}: no spectrum Texture {:?} precedes this", shortened(&texture)));
-                let texture = found.cloned().ok_or_else(unknown)?;
+                let Some(texture) = self.colors.get(&texture).cloned() else {
+                    let near = did_you_mean(&texture, self.colors.keys().map(String::as_str));
+                    notes.misspelt(params.error(format!(
+                        "{name:?}: no spectrum Texture {:?} precedes this: its default stands for it{near}",
+                        shortened(&texture)
+                    )));
+                    return Ok(None);
+                };
                 return Ok(Some(match texture.constant() {
                     Some(rgb) => Value::Constant(rgb.map(f64::from)),
                     None => Value::Varying(texture),
@@ -202,15 +207,27 @@ impl Textures {
     }
 
     /// A texture or a constant for a number.
-    pub(super) fn number(&self, name: &str, params: &mut Params) -> Result<Option<Texture>, Message> {
+    pub(super) fn number(
+        &self,
+        name: &str,
+        params: &mut Params,
+        notes: &mut Notes,
+    ) -> Result<Option<Texture>, Message> {
         let Some(texture) = params.texture(name)? else {
             let number = params.float(name)?.map(|x| finite(name, x, params)).transpose()?;
             return Ok(number.map(Texture::number));
         };
-        let unknown = || params.error(format!("{name:?}: no float Texture {:?} precedes this", shortened(&texture)));
         // older files have colours as numbers
         let color = || self.colors.get(&texture).map(|color| color.clone().channel(0));
-        self.numbers.get(&texture).cloned().or_else(color).map(Some).ok_or_else(unknown)
+        let found = self.numbers.get(&texture).cloned().or_else(color);
+        if found.is_none() {
+            let near = did_you_mean(&texture, self.numbers.keys().map(String::as_str));
+            notes.misspelt(params.error(format!(
+                "{name:?}: no float Texture {:?} precedes this: its default stands for it{near}",
+                shortened(&texture)
+            )));
+        }
+        Ok(found)
     }
 
     /// An index of refraction or an absorption coefficient, per channel.
@@ -233,7 +250,6 @@ fn finite(name: &str, x: f64, params: &Params) -> Result<f32, Message> {
 /// The mapping of a texture: "uv", or as if it were that.
 fn mapping(params: &mut Params, notes: &mut Notes) -> Result<Mapping, Message> {
     if let Some(kind) = params.text("mapping")?.filter(|kind| kind != "uv") {
-        params.ignore(&["v1", "v2"]);
         let what = format!("mapping {:?} becomes that of u and v", shortened(&kind));
         notes.stand_in(&what, || params.error(&what));
     }

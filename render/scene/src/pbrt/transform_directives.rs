@@ -3,6 +3,7 @@
 use super::blocks::State;
 use super::lexer::{Lexer, Token};
 use crate::message::{Notes, Place, shortened};
+use crate::nearest::did_you_mean;
 use crate::transform::Transform;
 use etendue_render::scene::Message;
 use std::collections::HashMap;
@@ -17,14 +18,24 @@ pub(super) fn apply(
     notes: &mut Notes,
 ) -> Result<(), Message> {
     match word {
-        "Identity" => state.ctm = Transform::IDENTITY,
+        "Identity" => {
+            if !state.is_end {
+                state.ctm = Transform::IDENTITY;
+            }
+        }
         "CoordinateSystem" => {
             systems.insert(lexer.text("a name")?, state.ctm);
         }
         "CoordSysTransform" => {
             let name = lexer.text("a name")?;
-            let unknown = || place.message(format!("undefined CoordinateSystem {:?}", shortened(&name)));
-            state.ctm = *systems.get(&name).ok_or_else(unknown)?;
+            match systems.get(&name) {
+                Some(system) => state.ctm = *system,
+                None => notes.misspelt(place.message(format!(
+                    "undefined CoordinateSystem {:?}: the transform stays as it is, as in pbrt{}",
+                    shortened(&name),
+                    did_you_mean(&name, systems.keys().map(String::as_str))
+                ))),
+            }
         }
         "ActiveTransform" => match lexer.expect("All, StartTime or EndTime")?.0 {
             Token::Word(which @ ("All" | "StartTime" | "EndTime")) => {
@@ -87,7 +98,7 @@ fn read(word: &str, place: &Place, lexer: &mut Lexer<'_>) -> Result<Transform, M
         "Scale" => Ok(Transform::scale(three(0))),
         "Rotate" => Transform::rotate(m[0], three(1)).ok_or("the axis must not be zero"),
         "LookAt" => Transform::look_at(three(0), three(3), three(6)).ok_or("eye, target and up do not define a view"),
-        _ => Transform::from_columns(&m).ok_or("not affine: every fourth number must be 0, the last one 1"),
+        _ => Transform::from_columns(&m).ok_or("not affine: every fourth number must be 0, but for the last one"),
     };
     made.map_err(|why| place.message(format!("{word} {:?}: {why}", &m[..count])))
 }

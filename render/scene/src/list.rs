@@ -1,0 +1,156 @@
+//! What the formats can say, and what is read of it: tables of data beside the readers, which these are checked against.
+
+use std::fmt::Write;
+use std::sync::LazyLock;
+
+/// What becomes of something that a file says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum State {
+    /// It means here what the format says.
+    Exact,
+    /// As exact: it changes nothing of what is rendered, and the reader need not ask for it.
+    Inert,
+    /// It is replaced by something near to it.
+    Approximated,
+    /// It changes nothing, and a warning says so.
+    Ignored,
+    /// It is an error.
+    Refused,
+}
+
+impl State {
+    const NAMES: [(&'static str, Self); 5] = [
+        ("exact", Self::Exact),
+        ("inert", Self::Inert),
+        ("approximated", Self::Approximated),
+        ("ignored", Self::Ignored),
+        ("refused", Self::Refused),
+    ];
+    /// Its name on the page.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Exact => "exact",
+            Self::Inert => "exact: changes nothing",
+            Self::Approximated => "approximated",
+            Self::Ignored => "ignored, with a warning",
+            Self::Refused => "refused",
+        }
+    }
+}
+
+/// A parameter or property.
+#[derive(Clone, Debug)]
+pub struct Parameter {
+    /// Its type, as in files.
+    pub kind: &'static str,
+    /// Its name; `*` stands for all others.
+    pub name: &'static str,
+    /// What it is where it is not given; empty if that is nothing, or no single value.
+    pub default: &'static str,
+    /// What becomes of it.
+    pub state: State,
+    /// What that means.
+    pub note: &'static str,
+}
+
+/// A directive with its types, or an object.
+#[derive(Clone, Debug)]
+pub struct Entry {
+    /// Its name; of directives without parameters, several names.
+    pub name: &'static str,
+    /// Its types.
+    pub kinds: Vec<&'static str>,
+    /// What becomes of it.
+    pub state: State,
+    /// What that means.
+    pub note: &'static str,
+    /// Its parameters.
+    pub parameters: Vec<Parameter>,
+}
+
+impl Entry {
+    /// The parameter of this name, or the one that stands for all others.
+    #[must_use]
+    pub fn parameter(&self, name: &str) -> Option<&Parameter> {
+        let named = |name: &str| self.parameters.iter().find(|parameter| parameter.name == name);
+        named(name).or_else(|| named("*"))
+    }
+    /// The names of its parameters.
+    pub(super) fn names(&self) -> impl Iterator<Item = &'static str> {
+        self.parameters.iter().map(|parameter| parameter.name).filter(|name| *name != "*")
+    }
+}
+
+/// A table of a format.
+#[derive(Debug)]
+pub struct Table {
+    /// Its entries, in the order of the page.
+    pub entries: Vec<Entry>,
+}
+
+impl Table {
+    /// Reads a table; a line that cannot be read is left out, which a test notices.
+    fn parse(text: &'static str) -> Self {
+        let mut entries: Vec<Entry> = Vec::new();
+        for line in text.lines().filter(|line| !line.starts_with('#') && !line.trim().is_empty()) {
+            let mut parts = line.split(" | ").map(str::trim);
+            let (Some(head), Some(state)) = (parts.next(), parts.next()) else { continue };
+            let Some((_, state)) = State::NAMES.into_iter().find(|(name, _)| *name == state) else { continue };
+            let note = parts.next().unwrap_or_default();
+            if line.starts_with(' ') {
+                let mut words = head.splitn(3, ' ');
+                let (first, second) = (words.next().unwrap_or_default(), words.next());
+                let (kind, name) = second.map_or(("", first), |name| (first, name));
+                let default = words.next().filter(|default| *default != "-").unwrap_or_default();
+                entries.iter_mut().last().into_iter().for_each(|entry| {
+                    entry.parameters.push(Parameter { kind, name, default, state, note });
+                });
+            } else {
+                let (name, kinds) = head.split_once(" \"").unwrap_or((head, ""));
+                let kinds = kinds.trim_end_matches('"').split("\" \"");
+                let kinds = if head.contains('"') { kinds.collect() } else { Vec::new() };
+                entries.push(Entry { name, kinds, state, note, parameters: Vec::new() });
+            }
+        }
+        Self { entries }
+    }
+    /// The entry of a directive and a type, or of an object.
+    #[must_use]
+    pub fn entry(&self, name: &str, kind: &str) -> Option<&Entry> {
+        let is = |entry: &&Entry| entry.name == name && (entry.kinds.is_empty() || entry.kinds.contains(&kind));
+        self.entries.iter().find(is)
+    }
+    /// The table as a page of Markdown.
+    #[must_use]
+    pub fn page(&self, title: &str) -> String {
+        let mut page = format!("# {title}\n");
+        for Entry { name, kinds, state, note, parameters } in &self.entries {
+            let kinds: String = kinds.iter().map(|kind| format!(" `\"{kind}\"`")).collect();
+            let note = if note.is_empty() { String::new() } else { format!(": {note}") };
+            let _ = writeln!(page, "\n**{name}**{kinds} — {}{note}", state.name());
+            if !parameters.is_empty() {
+                page.push_str("\n| parameter | default | state | |\n|---|---|---|---|\n");
+            }
+            for Parameter { kind, name, default, state, note } in parameters {
+                let name =
+                    if *name == "*" { "all others".to_owned() } else { format!("`{kind} {name}`").replace("` ", "`") };
+                let _ = writeln!(page, "| {name} | {default} | {} | {note} |", state.name());
+            }
+        }
+        page
+    }
+    /// The number of its rows: entries and parameters.
+    #[must_use]
+    pub fn rows(&self) -> usize {
+        self.entries.iter().map(|entry| 1 + entry.parameters.len()).sum()
+    }
+}
+
+/// What is read of pbrt-v4's format.
+#[cfg(feature = "pbrt")]
+pub static PBRT: LazyLock<Table> = LazyLock::new(|| Table::parse(include_str!("pbrt/list.txt")));
+
+/// What is read of glTF 2.0.
+#[cfg(feature = "gltf")]
+pub static GLTF: LazyLock<Table> = LazyLock::new(|| Table::parse(include_str!("gltf/list.txt")));
