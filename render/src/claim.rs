@@ -4,6 +4,10 @@
 //! so that no variance tells it: [`View::foreseen`](crate::View::foreseen) bounds it by the scene. The claim is the root of the sum of
 //! both squares, since over random numbers the one has a mean of 0. Where a few samples of great worth decide, variances do not tell
 //! either, as long as no sample has met what is bright: that is foreseen by the scene, too, and said.
+//!
+//! No claim can be made for images of which no sample has met what is bright, unless that is a light in view: for a lit spot behind a keyhole
+//! that all samples miss, or a glint of a rough metal. Where one pixel has most of the error, an image claims its root mean square over
+//! many images and calls it uncertain, since the error of that pixel itself scatters.
 
 use crate::film::Film;
 

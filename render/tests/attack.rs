@@ -117,6 +117,17 @@ fn rare_light_has_no_bias_at_length() {
     rare_means_are_right(100, &[16, 64, 256], 300);
 }
 
+#[test]
+#[ignore = "1,000 seeds by six sizes and numbers of samples: ten minutes on two cores"]
+fn the_mean_of_1000_images_of_a_speck_is_right() {
+    let all: Vec<_> = [16, 64].into_iter().flat_map(|side| [16, 64, 256].map(|spp| (side, spp))).collect();
+    for (side, spp) in all {
+        let rare::Mean { ratio, z } = rare::of_speck(side, spp, 1000);
+        println!("{side} × {side} pixels, {spp} samples per pixel: {ratio:.4} of the light, z {z:+.2}");
+        assert!(z.abs() <= 3.5);
+    }
+}
+
 /// What 24 images of each scene claim with 16, 64 and 256 samples per pixel, all together, and how the table of that reads.
 fn claims_table(scenes: usize) {
     let numbers = [16, 64, 256];

@@ -10,7 +10,7 @@ use etendue_render::intensity::Intensity;
 use etendue_render::light_picture::affine;
 use etendue_render::scene::{
     CameraSettings, Corners, DeltaLight, Details, Emission, Environment, FilmSettings, Input, Material, Message,
-    Roughness, Scene, Shape, Varying,
+    Roughness, Scene, Shape, Varying, coincidences,
 };
 use etendue_render::texture::{Mapping, Mask, Texture};
 use std::collections::{BTreeMap, HashMap};
@@ -42,6 +42,9 @@ pub(super) struct Builder {
     /// Triangles without area that were left out since the last [`Builder::left_out`].
     pub(super) left_out: usize,
     is_object: bool,
+    /// Where in the file shapes come from: the number of shapes before, and a message about that line without its text, or with the name of
+    /// what it is.
+    origins: Vec<(usize, Message)>,
 }
 
 /// What a scene has besides surfaces.
@@ -290,6 +293,7 @@ impl Builder {
         self.finish();
         let (objects, instances) = self.place_objects();
         let Rest { camera, film, pixel_samples, delta_lights, intensities, environment, inputs } = rest;
+        self.warn_of_coincidences();
         let emits = self.shapes.iter().any(|shape| shape.emission.is_some());
         if !emits && delta_lights.is_empty() && environment.is_none() {
             self.notes.warn(warning(&format!("{DARK}: the image will be black; --environment FILE adds a sky")));
@@ -318,6 +322,38 @@ impl Builder {
             stand_ins: self.notes.stand_ins,
             inputs,
         }
+    }
+
+    /// Notes where in the file the shapes that follow come from: the line of a message, or what its text names.
+    pub(super) fn begin(&mut self, origin: Message) {
+        let before = self.shapes.len();
+        self.origins.retain(|(other, _)| *other < before);
+        self.origins.push((before, origin));
+    }
+
+    /// Warns of the first lights that are in the same place.
+    fn warn_of_coincidences(&mut self) {
+        let pairs = coincidences(&self.shapes);
+        let Some(first) = pairs.iter().find(|pair| pair.hides).or(pairs.first()) else { return };
+        let origin = |light: u32| {
+            let after = self.origins.partition_point(|(before, _)| *before <= light as usize);
+            after.checked_sub(1).map(|index| &self.origins[index].1)
+        };
+        let [Some(one), Some(other)] = first.lights.map(origin) else { return };
+        let name = match one.line {
+            0 => one.text.clone(),
+            _ if one.file == other.file => format!("line {}", one.line),
+            line => format!("{}:{line}", one.file),
+        };
+        let own = if other.line == 0 { format!("{}: ", other.text) } else { String::new() };
+        let what = if first.hides {
+            "where both shine to the same side, the one that comes first in the file is seen, and the other is dark"
+        } else {
+            "each is seen from the side to which it shines"
+        };
+        let more = if pairs.len() > 1 { format!(" ({} such pairs)", pairs.len()) } else { String::new() };
+        let text = format!("{own}the light is in the same place as that of {name}{more}: {what}");
+        self.notes.warn(Message { text, ..other.clone() });
     }
 
     /// Adds a shape with one material.

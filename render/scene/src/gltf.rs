@@ -102,6 +102,7 @@ pub(super) fn read(bytes: &[u8], file: &str, folder: Option<&Path>, asked: &Aske
                 && !meshes::glows(&source, &mut materials, &mut out, mesh, index)?;
             // no instance is flat
             if !is_shared || transform.determinant() == 0.0 {
+                out.begin(source.message(format!("node {index}")));
                 meshes::add(&source, &mut materials, &mut out, mesh, index, &transform, pose.as_ref())?;
                 continue;
             }

@@ -419,6 +419,7 @@ impl Reader<'_> {
                 area: state.area.clone(),
                 is_object: blocks.is_object(),
             };
+            out.begin(own.place.message(""));
             if let Some(surface) = given.attributes(kind, own, textures, named, out)? {
                 shapes::read(kind, out, &surface, own, &files)?;
             }
