@@ -89,8 +89,11 @@ impl Ledger {
     /// The fractions of these lights that are counted, if there are any.
     #[inline(always)]
     pub(crate) fn counted(&self, packet: usize, lights: u32x8) -> Option<X8> {
+        (self.is_known && self.has_fractions).then(|| self.counted_of(packet, lights))
+    }
+    #[inline(never)]
+    fn counted_of(&self, packet: usize, lights: u32x8) -> X8 {
         let of = |lane: usize| self.fractions.get(lights.as_array()[lane] as usize);
-        let fraction = |lane: usize| of(lane).map_or(0.0, |of| of[packet].lane(lane));
-        (self.is_known && self.has_fractions).then(|| X8::from_fn(fraction))
+        X8::from_fn(|lane| of(lane).map_or(0.0, |of| of[packet].lane(lane)))
     }
 }

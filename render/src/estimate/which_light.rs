@@ -17,7 +17,7 @@ pub(super) enum Which<'a> {
     One(u32),
     /// The sun besides the sky, which is the last of the lights.
     Sun(SunBeside<'a>),
-    /// The one to which the sample is allocated, or one that is chosen at random, of those that remain.
+    /// The one to which the sample is allocated, or one that is chosen at random, of those that are open.
     Chosen,
 }
 
@@ -52,7 +52,7 @@ fn gloss<const GENERAL: bool>(group: &Group<'_>, ledger: &Ledger, packet: usize)
     group.points.lobes[packet].as_ref().filter(|_| is_asked).map(Lobe::gloss)
 }
 
-/// The light to which a sample is allocated, or one chosen at random, among those that remain; and the lanes that sample it. `numbers` are
+/// The light to which a sample is allocated, or one chosen at random, among those that are open; and the lanes that sample it. `numbers` are
 /// random, the second for many lights.
 #[inline(always)]
 fn chosen<const GENERAL: bool>(
@@ -63,28 +63,37 @@ fn chosen<const GENERAL: bool>(
 ) -> (Choice<X8>, M8) {
     let surface = &group.points.surfaces[packet];
     let all = surface.reflects;
-    let (allocated, remaining) = match (group.allocated.get(packet), ledger.open()) {
+    let allocated = group.allocated.get(packet);
+    match (allocated, ledger.open()) {
+        (_, Some(open)) => among_open(group, packet, numbers[0], open, group.rough::<GENERAL>(packet)),
+        (Some(allocated), None) => (allocated.choose(numbers[0]), all),
         (None, None) => {
             let gloss = gloss::<GENERAL>(group, ledger, packet);
-            return (group.chooser.choose(surface.point, surface.normal, gloss.as_ref(), numbers), all);
+            (group.chooser.choose(surface.point, surface.normal, gloss.as_ref(), numbers), all)
         }
-        (Some(allocated), None) => return (allocated.choose(numbers[0]), all),
-        (None, Some(remaining)) => return among(group.chooser, surface, all, packet, numbers[0], remaining),
-        (Some(allocated), Some(remaining)) => (allocated, remaining),
+    }
+}
+
+/// The same where some lights are not open. Not inlined, so that it does not burden images of which nothing is known.
+#[inline(never)]
+fn among_open(group: &Group<'_>, packet: usize, number: X8, open: &[[M8; GROUP]], rough: M8) -> (Choice<X8>, M8) {
+    let surface = &group.points.surfaces[packet];
+    let all = surface.reflects;
+    let Some(allocated) = group.allocated.get(packet) else {
+        return among(group.chooser, surface, all, packet, number, open);
     };
-    // where another light than those that were expected in the packet remains, too, all lanes choose at random; on rough surfaces, all
+    // where another light than those that were expected in the packet is open, too, all lanes choose at random; on rough surfaces, all
     // lights are expected
     let none = M8::splat(false);
     let unexpected = (0..group.lights.len()).filter(|light| group.expected[packet] >> light & 1 == 0);
-    let stray =
-        !group.rough::<GENERAL>(packet) & unexpected.fold(none, |stray, light| stray | remaining[light][packet]);
-    let choice = allocated.choose(numbers[0]);
+    let stray = !rough & unexpected.fold(none, |stray, light| stray | open[light][packet]);
+    let choice = allocated.choose(number);
     let mut lanes = none;
-    each_group(choice.index, all & !stray, |light, same| lanes = lanes | same & remaining[light as usize][packet]);
+    each_group(choice.index, all & !stray, |light, same| lanes = lanes | same & open[light as usize][packet]);
     if !stray.any() {
         return (choice, lanes);
     }
-    let (other, others) = among(group.chooser, surface, all & stray, packet, numbers[0], remaining);
+    let (other, others) = among(group.chooser, surface, all & stray, packet, number, open);
     let choice = Choice {
         index: pick(stray, other.index, choice.index),
         pmf: select(stray, other.pmf, choice.pmf),
@@ -93,7 +102,7 @@ fn chosen<const GENERAL: bool>(
     (choice, lanes | others)
 }
 
-/// Chooses one of the lights that remain in a packet, for each of these lanes.
+/// Chooses one of the lights that are open in a packet, for each of these lanes.
 #[inline]
 fn among(
     chooser: &Chooser,
@@ -101,11 +110,11 @@ fn among(
     lanes: M8,
     packet: usize,
     number: X8,
-    remaining: &[[M8; GROUP]],
+    open: &[[M8; GROUP]],
 ) -> (Choice<X8>, M8) {
     match chooser.contributions(surface.point, surface.normal) {
-        Some(near) => (near.only(|light| remaining[light][packet]).choose(number), lanes),
-        None => (Choice { index: u32x8::splat(0), pmf: X8::lit(1.0), u: number }, lanes & remaining[0][packet]),
+        Some(near) => (near.only(|light| open[light][packet]).choose(number), lanes),
+        None => (Choice { index: u32x8::splat(0), pmf: X8::lit(1.0), u: number }, lanes & open[0][packet]),
     }
 }
 
