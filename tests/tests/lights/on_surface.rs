@@ -47,11 +47,14 @@ impl Numbers {
     }
 }
 
+/// What computes a point of a surface.
+type Computes<R> = Box<dyn Fn(&mut Numbers) -> V<R>>;
+
 /// What a host knows of a light: points that it computes on it, and whether the library says that a point is on it.
 struct Shape<R: Real<Scalar = R>> {
     light: Emitter<R>,
     /// A point of the surface for numbers, and an upper bound of coordinates that went into it.
-    point: Box<dyn Fn(&mut Numbers) -> V<R>>,
+    point: Computes<R>,
     is_on: Box<dyn Fn(V<R>) -> bool>,
     /// Whether its samplers take the point for one in front.
     is_lit: Box<dyn Fn(V<R>) -> bool>,

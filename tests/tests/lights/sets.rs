@@ -1,12 +1,11 @@
 //! Sets of lights of all kinds.
 
 use etendue::light::Affine;
-use etendue::lights::{Emitter, Lights, LightsSample, Mixture, Number, Receiver, Side, Source, Which};
-use etendue::select::LightBound;
+use etendue::lights::{Emitter, Lights, LightsSample, Number, Receiver, Side, Which};
 use etendue::sequence::{Independent, Sequence};
 use etendue::{
-    BilinearPatch, ConstantEnvironment, DirectionalLight, Disk, LightSampler, Line, Parallelogram, PointLight, Polygon,
-    Real, Rectangle, Sphere, SpotLight, Sun, Triangle, Vec2, Vec3, Warp, warp::UniformSphere,
+    BilinearPatch, ConstantEnvironment, DirectionalLight, Disk, Line, Parallelogram, PointLight, Polygon, Real,
+    Rectangle, Sphere, SpotLight, Sun, Triangle, Vec2, Vec3, Warp, warp::UniformSphere,
 };
 use etendue_oracle::tier::cases;
 
@@ -411,49 +410,6 @@ fn any_input_gives_finite_samples() {
     }
     check::<f32>(&[0.0, 1.0, -1.0, 1e-38, 1e-20, 1e20, 3e38, f64::NAN, f64::INFINITY, 0.3]);
     check::<f64>(&[0.0, 1.0, -1.0, 1e-300, 1e-20, 1e20, 1e300, f64::NAN, f64::INFINITY, 0.3]);
-}
-
-/// In fog, where there is no normal, a thousand lamps are chosen nearly by the light that arrives from each: the relative variance of the choice
-/// alone, Σc²/pmf over (Σc)², less 1, for solid angles c.
-#[test]
-fn lamps_in_fog_are_chosen_by_what_arrives() {
-    let place = |i: u32| -> V<f32> {
-        let [x, y, z] = numbers::<f32>(12, i);
-        v::<f32>([-1.0; 3]) * 20.0 + V::new(x, y, z) * 40.0
-    };
-    let sphere = |i: u32| Sphere::new(place(i), 0.05 + 0.3 * numbers::<f32>(13, i)[0]);
-    let triangle = |i: u32| {
-        let [e, f] = [14, 15].map(|seed| {
-            let [x, y, z] = numbers::<f32>(seed, i);
-            V::new(x - 0.5, y - 0.5, z - 0.5)
-        });
-        Triangle { v0: place(i), e1: e, e2: f }
-    };
-    let variance = |bounds: Vec<LightBound>, seen: &dyn Fn(usize, V<f32>) -> f64| {
-        let count = bounds.len();
-        let mixture = Mixture::new(bounds, (0..count).map(|_| Source::Lamp), &()).unwrap();
-        let of = |point: u32| {
-            let p = place(10_000 + point) * 0.9;
-            let at = mixture.at(p, V::ZERO, None, || 0.0);
-            let parts = (0..count).map(|i| (seen(i, p), f64::from(at.pmf(i as u32))));
-            let [sum, squares] = parts.fold([0.0; 2], |[sum, squares], (c, pmf)| {
-                assert!(c == 0.0 || pmf > 0.0);
-                [sum + c, squares + if c > 0.0 { c * c / pmf } else { 0.0 }]
-            });
-            squares / (sum * sum) - 1.0
-        };
-        (0..50).map(of).sum::<f64>() / 50.0
-    };
-    let spheres = variance((0..1000).map(|i| sphere(i).bound(1.0)).collect(), &|i, p| {
-        let at = sphere(i as u32).by_solid_angle(p);
-        f64::from(at.solid_angle())
-    });
-    let triangles = variance((0..1000).map(|i| triangle(i).bound(1.0)).collect(), &|i, p| {
-        let at = triangle(i as u32).by_solid_angle(p);
-        if at.sample(Vec2::lit([0.5, 0.5])).valid() { f64::from(at.solid_angle()) } else { 0.0 }
-    });
-    println!("relative variance of the choice in fog: {spheres:.3} for 1,000 spheres, {triangles:.3} for triangles");
-    assert!(spheres < 0.25 && triangles < 0.42, "{spheres} {triangles}");
 }
 
 /// A sphere under a map that keeps angles is a sphere; one that is stretched by a thousandth is not.
