@@ -50,6 +50,7 @@ mod gltf;
 pub mod image;
 mod lamps;
 pub mod list;
+mod material_key;
 mod message;
 mod nearest;
 #[cfg(feature = "pbrt")]

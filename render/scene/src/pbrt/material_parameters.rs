@@ -1,6 +1,8 @@
 //! Reads `Material` and `MakeNamedMaterial`.
 
+use super::coated_metals::through_coat;
 use super::inputs::Files;
+use super::mixtures::{Mixture, pane};
 use super::params::{Params, shown};
 use super::spectrum::{self, Named};
 use super::textures::{Textures, Value};
@@ -23,63 +25,6 @@ pub(super) enum Finish {
     /// Two of them, by the index of the mixture.
     Mix(usize),
 }
-
-/// A mixture of two materials.
-#[derive(Clone, Debug)]
-pub(super) struct Mixture {
-    of: [Finish; 2],
-    /// The share of the second one.
-    amount: Texture,
-}
-
-/// The materials of a mixture with their shares, and the chance that a ray that meets them meets each, if it has passed those before.
-pub(super) fn parts(finish: Finish, mixtures: &[Mixture]) -> Vec<(Finish, Texture)> {
-    let mut leaves = Vec::new();
-    let mut rest = vec![(finish, Texture::number(1.0))];
-    // mixtures precede those that contain them, so that this ends; a bound for those that double each time
-    while let Some((finish, share)) = rest.pop() {
-        match finish {
-            Finish::Mix(index) if leaves.len() + rest.len() < MOST_PARTS => {
-                let Mixture { of: [first, second], amount } = &mixtures[index];
-                rest.push((*second, share.clone().times(amount.clone())));
-                rest.push((*first, share.times(amount.clone().inverse())));
-            }
-            finish => leaves.push((finish, share)),
-        }
-    }
-    // what rays pass takes its share from those that they meet
-    let is_whole = leaves.iter().all(|(finish, _)| *finish != Finish::Invisible);
-    // of two, shares may vary
-    if let [(first, _), (_, last)] = &mut leaves[..] {
-        if *first != Finish::Invisible {
-            *last = Texture::number(1.0);
-        }
-        return leaves;
-    }
-    let mut left = 1.0_f32;
-    for (finish, share) in &mut leaves {
-        let own = share.mean()[0];
-        *share = Texture::number(if left > 1e-6 { (own / left).clamp(0.0, 1.0) } else { 1.0 });
-        left -= if *finish == Finish::Invisible { 0.0 } else { own };
-    }
-    // what rounding leaves over is the last one's
-    leaves.last_mut().into_iter().filter(|_| is_whole).for_each(|(_, share)| *share = Texture::number(1.0));
-    leaves
-}
-
-/// The material of a mixture that has the greatest share, unless rays pass it: that of lights.
-pub(super) fn greatest(finish: Finish, mixtures: &[Mixture]) -> Finish {
-    let mut finish = finish;
-    while let Finish::Mix(index) = finish {
-        let Mixture { of: [first, second], amount } = &mixtures[index];
-        // a lamp of glass is one
-        finish = if amount.mean()[0] > 0.5 && *second != Finish::Invisible { *second } else { *first };
-    }
-    finish
-}
-
-/// Most materials of a mixture of mixtures.
-const MOST_PARTS: usize = 16;
 
 /// What a material's parameters refer to.
 pub(super) struct Context<'a> {
@@ -194,7 +139,7 @@ pub(super) fn read(
 }
 
 /// Reflectance at normal incidence on a smooth dielectric.
-fn reflectance_of(eta: f64) -> f64 {
+pub(super) fn reflectance_of(eta: f64) -> f64 {
     let ratio = (eta - 1.0) / (eta + 1.0);
     ratio * ratio
 }
@@ -474,40 +419,6 @@ impl Reads<'_> {
     fn metal(&self, specular: Texture, roughness: [Texture; 2], out: &mut Builder) -> Material {
         let [diffuse, grazing] = [0.0, 1.0].map(Texture::number);
         out.vary(Varying::Glossy { diffuse, specular, grazing, roughness, turn: 0.0, greatest: false })
-    }
-}
-
-/// A smooth surface that rays pass straight, but for those that it reflects: both sides of a thin pane, or one of a solid.
-fn pane(eta: f32, is_thin: bool, mixtures: &mut Vec<Mixture>) -> Finish {
-    let once = reflectance_of(eta.into());
-    // what goes back and forth in a thin pane is a geometric series
-    let reflected = if is_thin { 2.0 * once / (1.0 + once) } else { once };
-    let amount = Texture::number((1.0 - reflected) as f32);
-    mixtures.push(Mixture { of: [Finish::Of(Material::Mirror([1.0; 3])), Finish::Invisible], amount });
-    Finish::Mix(mixtures.len() - 1)
-}
-
-/// What a metal looks like through a coat, approximately: directions in the coat are nearer to the normal, so that its slopes count η times
-/// outside, and those of the coat bend light twice by η − 1.
-fn through_coat(metal: Material, coat: f32, above: f32) -> Material {
-    let Material::Conductor { eta, k, roughness } = metal else { return metal };
-    let bent = above * above * (coat - 1.0) * (coat - 1.0) * 0.5;
-    let outside = |alpha: f32| (coat * coat).mul_add(alpha * alpha, bent).sqrt().clamp(0.0, 1.0);
-    let (low, high) = (((coat - 1.0) / (coat + 1.0)).powi(2), |x: f32, k: f32| {
-        let (x, k) = (x / coat, k / coat);
-        ((x - 1.0).powi(2) + k * k) / ((x + 1.0).powi(2) + k * k)
-    });
-    let both = |i: usize| {
-        let metal = high(eta[i], k[i]);
-        low + (1.0 - low) * (1.0 - low) * metal / (1.0 - low * metal)
-    };
-    let [along, across] = [roughness.along, roughness.across].map(outside);
-    Material::Glossy {
-        diffuse: [0.0; 3],
-        specular: [both(0), both(1), both(2)],
-        grazing: [1.0; 3],
-        roughness: Roughness { along: along.max(Roughness::LEAST), across: across.max(Roughness::LEAST), turn: 0.0 },
-        greatest: false,
     }
 }
 

@@ -7,7 +7,8 @@ use super::includes::Includes;
 pub(super) use super::includes::Origin;
 use super::inputs::Files;
 use super::lexer::{Lexer, Token};
-use super::material_parameters::{self, Context, Finish, Mixture};
+use super::material_parameters::{self, Context, Finish};
+use super::mixtures::{self, Mixture};
 use super::named_materials::NamedMaterials;
 use super::params::Params;
 use super::portal_sides;
@@ -398,11 +399,11 @@ impl Reader<'_> {
     }
 
     fn shape(&mut self, kind: &str, params: &mut Params, dir: &Path) -> Result<(), Message> {
-        let Self { out, state, named, textures, blocks, files, mixtures, .. } = self;
+        let Self { out, state, named, textures, blocks, files, mixtures: known, .. } = self;
         // what emits is no mixture, and one that is defined later is none yet
-        let mut parts = vec![(material_parameters::greatest(state.material, mixtures), None)];
+        let mut parts = vec![(mixtures::greatest(state.material, known), None)];
         if state.area.emission.is_none() && matches!(state.material, Finish::Mix(_)) {
-            let mixed = material_parameters::parts(state.material, mixtures);
+            let mixed = mixtures::parts(state.material, known);
             parts = mixed.into_iter().map(|(finish, share)| (finish, Some(share))).collect();
         }
         let files = files.at(dir);
