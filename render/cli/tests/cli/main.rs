@@ -204,7 +204,11 @@ fn bad_scenes_are_reported_with_file_and_line() {
     // what stands for something else is a warning, and an error only where that is asked for
     folder.write("glass.pbrt", scene("Material \"dielectric\""));
     let strict = ["render", "glass.pbrt", "--strict", "-o", "kept.exr"];
-    fails_untouched(&folder, &strict, &["--strict: glass.pbrt:5: Material \"dielectric\": becomes what it reflects"]);
+    fails_untouched(
+        &folder,
+        &strict,
+        &["--strict: glass.pbrt:5: Material \"dielectric\": becomes a pane without refraction"],
+    );
     for (name, bytes, what) in [
         ("cut.glb", &b"glTF\x02\0\0\0\xff\0\0\0"[..], "etendue: cut.glb: "),
         ("text.gltf", b"{", "etendue: text.gltf:1: not glTF: "),

@@ -2,29 +2,18 @@
 
 use super::coated_metals::through_coat;
 use super::inputs::Files;
+pub(super) use super::mixtures::Finish;
 use super::mixtures::{Mixture, pane};
 use super::params::{Params, shown};
 use super::spectrum::{self, Named};
 use super::textures::{Textures, Value};
 use crate::builder::Builder;
+use crate::list::PBRT;
 use crate::message::shortened;
 use crate::nearest::did_you_mean;
 use crate::radiance::rounded;
 use etendue_render::scene::{Material, Message, Roughness, Varying};
 use etendue_render::texture::Texture;
-
-/// What a surface is made of, as the state of a scene file holds it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Finish {
-    /// A material.
-    Of(Material),
-    /// None: rays pass as if there were no surface.
-    Invisible,
-    /// A named material that is not defined yet, by its index among those names.
-    Awaited(usize),
-    /// Two of them, by the index of the mixture.
-    Mix(usize),
-}
 
 /// What a material's parameters refer to.
 pub(super) struct Context<'a> {
@@ -32,33 +21,6 @@ pub(super) struct Context<'a> {
     pub(super) named: &'a dyn Fn(&str) -> Option<Finish>,
     pub(super) files: Files<'a>,
 }
-
-/// The types of materials, for messages; the last ones are those of pbrt-v3.
-const KINDS: [&str; 23] = [
-    "diffuse",
-    "coateddiffuse",
-    "conductor",
-    "coatedconductor",
-    "dielectric",
-    "thindielectric",
-    "diffusetransmission",
-    "subsurface",
-    "hair",
-    "measured",
-    "mix",
-    "interface",
-    "mirror",
-    "matte",
-    "plastic",
-    "metal",
-    "glass",
-    "uber",
-    "substrate",
-    "translucent",
-    "disney",
-    "fourier",
-    "kdsubsurface",
-];
 
 /// Reads the parameters of a material. What direct light on opaque surfaces cannot show becomes a stand-in.
 pub(super) fn read(
@@ -98,7 +60,7 @@ pub(super) fn read(
             {
                 let what = "a pane without refraction, which reflects at all angles what it does at normal incidence";
                 stand_in(out, params, what);
-                return Ok(pane(eta, kind == "thindielectric", mixtures));
+                return Ok(pane(reflectance_of(eta.into()), kind == "thindielectric", mixtures));
             }
             stand_in(out, params, "what it reflects: light that passes through it is lost");
             read
@@ -115,23 +77,20 @@ pub(super) fn read(
         "subsurface" | "kdsubsurface" => {
             stand_in(out, params, "a coat over a diffuse surface");
             let made = reads.coated_diffuse(&["reflectance", "Kd"], params, out)?;
-            params.ignore_all();
             made
         }
         "hair" | "measured" | "fourier" => {
             stand_in(out, params, "diffuse of albedo 0.5");
-            params.ignore_all();
             Material::Diffuse([0.5; 3])
         }
         "mix" => {
             return reads.mixed(params, mixtures, out);
         }
         "interface" | "none" | "" => {
-            params.ignore_all();
             return Ok(Finish::Invisible);
         }
         _ => {
-            let (kinds, near) = (KINDS.join(", "), did_you_mean(kind, KINDS));
+            let (kinds, near) = (PBRT.kinds("Material").join(", "), did_you_mean(kind, PBRT.kinds("Material")));
             let kind = shortened(kind);
             return Err(params.error(format!("material type {kind:?} is not supported, only {kinds}{near}")));
         }
@@ -139,7 +98,7 @@ pub(super) fn read(
 }
 
 /// Reflectance at normal incidence on a smooth dielectric.
-pub(super) fn reflectance_of(eta: f64) -> f64 {
+fn reflectance_of(eta: f64) -> f64 {
     let ratio = (eta - 1.0) / (eta + 1.0);
     ratio * ratio
 }
@@ -320,7 +279,6 @@ impl Reads<'_> {
             Ok::<_, Message>(found.unwrap_or(Texture::number(default)))
         };
         let (metallic, roughness) = (number("metallic", 0.0, params)?, number("roughness", 0.5, params)?);
-        params.ignore_all();
         Ok(out.vary(Varying::Metallic { base, metallic, roughness }))
     }
     fn dielectric(&self, params: &mut Params, out: &mut Builder) -> Result<Material, Message> {

@@ -1,8 +1,20 @@
 //! Mixtures of materials, and glass, which is one of a mirror and of nothing.
 
-use super::material_parameters::{Finish, reflectance_of};
 use etendue_render::scene::Material;
 use etendue_render::texture::Texture;
+
+/// What a surface is made of, as the state of a scene file holds it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Finish {
+    /// A material.
+    Of(Material),
+    /// None: rays pass as if there were no surface.
+    Invisible,
+    /// A named material that is not defined yet, by its index among those names.
+    Awaited(usize),
+    /// Two of them, by the index of the mixture.
+    Mix(usize),
+}
 
 /// A mixture of two materials.
 #[derive(Clone, Debug)]
@@ -61,9 +73,9 @@ pub(super) fn greatest(finish: Finish, mixtures: &[Mixture]) -> Finish {
 /// Most materials of a mixture of mixtures.
 const MOST_PARTS: usize = 16;
 
-/// A smooth surface that rays pass straight, but for those that it reflects: both sides of a thin pane, or one of a solid.
-pub(super) fn pane(eta: f32, is_thin: bool, mixtures: &mut Vec<Mixture>) -> Finish {
-    let once = reflectance_of(eta.into());
+/// A smooth surface that rays pass straight, but for those that it reflects: both sides of a thin pane, or one of a solid. One
+/// side reflects `once`.
+pub(super) fn pane(once: f64, is_thin: bool, mixtures: &mut Vec<Mixture>) -> Finish {
     // what goes back and forth in a thin pane is a geometric series
     let reflected = if is_thin { 2.0 * once / (1.0 + once) } else { once };
     let amount = Texture::number((1.0 - reflected) as f32);

@@ -18,6 +18,7 @@ use super::sources::Sources;
 use super::textures::Textures;
 use super::transform_directives;
 use crate::builder::{Builder, Rest};
+use crate::list::PBRT;
 use crate::message::{Place, shortened, utf8};
 use crate::nearest::did_you_mean;
 use crate::transform::Transform;
@@ -45,29 +46,6 @@ const WORLD: [&str; 14] = [
     "ObjectBegin",
     "ObjectEnd",
     "ObjectInstance",
-];
-
-/// Directives on either side of it, and itself.
-const ANYWHERE: [&str; 19] = [
-    "WorldBegin",
-    "Identity",
-    "Translate",
-    "Scale",
-    "Rotate",
-    "LookAt",
-    "Transform",
-    "ConcatTransform",
-    "CoordinateSystem",
-    "CoordSysTransform",
-    "ActiveTransform",
-    "TransformTimes",
-    "Include",
-    "Import",
-    "MediumInterface",
-    "MakeNamedMedium",
-    "Attribute",
-    "Texture",
-    "ColorSpace",
 ];
 
 struct Reader<'a> {
@@ -224,7 +202,7 @@ impl Reader<'_> {
                 self.with_params(word, &kind, params, dir)?;
             }
             _ => {
-                let near = did_you_mean(word, OPTIONS.into_iter().chain(WORLD).chain(ANYWHERE));
+                let near = did_you_mean(word, PBRT.entries.iter().flat_map(|entry| entry.name.split(", ")));
                 return Err(place.message(format!("unknown directive {}{near}", shortened(word))));
             }
         }
