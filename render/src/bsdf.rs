@@ -1,5 +1,7 @@
 //! BSDFs in packets: diffuse surfaces, perfect mirrors, rough metals, and rough coats over diffuse surfaces.
 
+mod fresnel;
+
 use crate::coat::{Coat, POLE, TERMS, range};
 use crate::lobe::{Lobe, cosine_of_schlick, schlick_of_diffuse};
 use crate::packet::{M8, V8, X8, equal, max, min, select};
@@ -8,6 +10,7 @@ use crate::technique::Technique;
 use etendue::reflection::Reflection;
 use etendue::warp::{CosineHemisphere, GgxVisibleNormals, UniformHemisphere};
 use etendue::{Frame, Mask, Real, Vec2, Warp, u32x8};
+use fresnel::fresnel;
 
 const INV_PI: f64 = std::f64::consts::FRAC_1_PI;
 
@@ -58,7 +61,7 @@ pub fn record(material: &Material) -> MaterialRecord {
     }
 }
 
-/// The coat of a layered material. One of the least roughness is smooth.
+/// The coat of a layered material; that of the least roughness is smooth.
 fn layer(eta: f32, roughness: Roughness) -> Coat {
     let alpha = roughness.mean().along;
     Coat::new(if alpha > Roughness::LEAST { alpha.into() } else { 0.0 }, eta.into())
@@ -70,7 +73,6 @@ pub fn albedo(material: &Material) -> [f32; 3] {
     match *material {
         Material::Layered { diffuse, eta, roughness } => {
             let inside = layer(eta, roughness).inside;
-            // black below glass that sends all back is black
             diffuse.map(|x| (f64::from(x) / (1.0 - f64::from(x) * inside).max(1e-6)) as f32)
         }
         Material::Diffuse(albedo) | Material::Glossy { diffuse: albedo, .. } => albedo,
@@ -254,35 +256,6 @@ impl Metal {
     pub fn fresnel(&self, cos: X8) -> V8 {
         self.between(|eta, k| fresnel(cos, eta, k))
     }
-}
-
-/// Reflectance of a smooth conductor with index of refraction η + ik for unpolarised light.
-///
-/// Formula: with t₀ = η² − k² − sin²θ, a² + b² = √(t₀² + 4η²k²) and 2a² = a² + b² + t₀, r⊥ and r∥ of PBR 4th ed., 9.3.6, in real
-/// numbers (Born and Wolf, 14.2). Uses the form of 2a² that does not cancel.
-#[inline]
-fn fresnel(cos: X8, eta: X8, k: X8) -> X8 {
-    let (zero, one, two) = (X8::lit(0.0), X8::lit(1.0), X8::lit(2.0));
-    let cos = min(max(cos, zero), one);
-    let square = cos * cos;
-    let sin = one - square;
-    let (eta_squared, k_squared) = (eta * eta, k * k);
-    let t0 = eta_squared - k_squared - sin;
-    let product = X8::lit(4.0) * eta_squared * k_squared;
-    let sum = t0.mul_add(t0, product).sqrt();
-    let opposite = sum - t0;
-    let some = opposite.gt(zero);
-    let twice = select(t0.lt(zero), product / select(some, opposite, one), sum + t0);
-    let t2 = two * cos * (twice * X8::lit(0.5)).sqrt();
-    let t1 = sum + square;
-    let ratio = |low: X8, high: X8| {
-        let some = high.gt(zero);
-        select(some, low / select(some, high, one), one)
-    };
-    let across = ratio(t1 - t2, t1 + t2);
-    let (t3, t4) = (square.mul_add(sum, sin * sin), t2 * sin);
-    let along = across * ratio(t3 - t4, t3 + t4);
-    X8::lit(0.5) * (across + along)
 }
 
 /// The BSDFs of eight surfaces for given outgoing directions. `GENERAL` compiles in the code of all that is not flat and diffuse.

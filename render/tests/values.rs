@@ -2,6 +2,7 @@
 //! and glTF's specifications, in double precision, and shares no code with the renderer.
 
 mod cameras;
+mod coats;
 mod coats_by_quadrature;
 mod deltas;
 mod emitters;
@@ -123,7 +124,15 @@ fn the_table_of_values() {
 }
 
 fn all_rows() -> Vec<Row> {
-    let tables = [deltas::rows(), skies::rows(), emitters::rows(), gltf::rows(), cameras::rows(), meanings::rows()];
+    let tables = [
+        deltas::rows(),
+        skies::rows(),
+        emitters::rows(),
+        gltf::rows(),
+        cameras::rows(),
+        meanings::rows(),
+        coats::rows(),
+    ];
     tables.into_iter().flatten().collect()
 }
 

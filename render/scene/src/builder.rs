@@ -1,6 +1,7 @@
 //! Collects the surfaces of a scene in world space: checks and orients them, and rounds them once to f32.
 
 use crate::lamps::Lamps;
+use crate::material_key::words;
 use crate::message::Notes;
 use crate::shape_attributes::ShapeAttributes;
 use crate::transform::{Transform, add, cross, dot, length, sub};
@@ -9,8 +10,8 @@ use etendue_render::geometry::{Affine, Geometry, Instance, bounds_of};
 use etendue_render::intensity::Intensity;
 use etendue_render::light_picture::affine;
 use etendue_render::scene::{
-    CameraSettings, Corners, DeltaLight, Details, Emission, Environment, FilmSettings, Input, Material, Message,
-    Roughness, Scene, Shape, Varying, coincidences,
+    CameraSettings, Corners, DeltaLight, Details, Emission, Environment, FilmSettings, Input, Material, Message, Scene,
+    Shape, Varying, coincidences,
 };
 use etendue_render::texture::{Mapping, Mask, Texture};
 use std::collections::{BTreeMap, HashMap};
@@ -468,25 +469,5 @@ impl Builder {
         }
         self.triangles.push(corners);
         self.triangle_materials.push(surface.material);
-    }
-}
-
-/// A key for hashing materials: equal ones have equal words.
-fn words(material: Material) -> [u32; 13] {
-    let of = |kind: u32, colors: [[f32; 3]; 3], Roughness { along, across, turn }: Roughness| {
-        let [[a, b, c], [d, e, f], [g, h, i]] = colors.map(|color| color.map(f32::to_bits));
-        [kind, a, b, c, d, e, f, g, h, i, along.to_bits(), across.to_bits(), turn.to_bits()]
-    };
-    let (black, none) = ([0.0; 3], Roughness::from(0.0));
-    match material {
-        Material::Diffuse(albedo) => of(0, [albedo, black, black], none),
-        Material::Mirror(reflectance) => of(1, [reflectance, black, black], none),
-        Material::Conductor { eta, k, roughness } => of(2, [eta, k, black], roughness),
-        Material::Glossy { diffuse, specular, grazing, roughness, greatest } => {
-            of(if greatest { 5 } else { 3 }, [diffuse, specular, grazing], roughness)
-        }
-        Material::Layered { diffuse, eta, roughness } => of(6, [diffuse, [eta; 3], black], roughness),
-        Material::CoatedMirror { eta, k, coat } => of(7, [eta, k, [coat; 3]], none),
-        Material::Varying(index) => [4, index, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0],
     }
 }

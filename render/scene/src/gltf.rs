@@ -15,10 +15,10 @@ mod properties;
 mod skins;
 mod source;
 
+use crate::asked::{Asked, Contents};
 use crate::builder::{Builder, Rest};
 use crate::list::{Entry, GLTF, State};
 use crate::message::shortened;
-use crate::{Asked, Contents};
 use etendue_render::scene::{Message, Scene};
 use materials::Materials;
 use skins::Pose;

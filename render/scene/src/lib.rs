@@ -42,6 +42,7 @@
 // what both formats share is more than either needs
 #![cfg_attr(not(all(feature = "gltf", feature = "pbrt")), allow(dead_code, unused_variables))]
 
+mod asked;
 mod builder;
 mod distribution;
 mod files;
@@ -50,6 +51,7 @@ mod gltf;
 pub mod image;
 mod lamps;
 pub mod list;
+mod material_key;
 mod message;
 mod nearest;
 #[cfg(feature = "pbrt")]
@@ -59,12 +61,13 @@ mod shape_attributes;
 mod transform;
 mod vertices;
 
+pub use asked::{Asked, Contents};
 use etendue_render::files::read_file;
 use etendue_render::scene::{Environment, Message, Scene};
 use files::{note, read_unpacked};
 #[cfg(feature = "pbrt")]
 pub use pbrt::{builtin, builtin_of_few_lights};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::{fmt, io};
 
 /// Why a scene could not be read.
@@ -110,30 +113,6 @@ impl From<Message> for SceneError {
     fn from(message: Message) -> Self {
         SceneError::At(message)
     }
-}
-
-/// What is asked of a scene file.
-#[derive(Clone, Debug, Default)]
-pub struct Asked {
-    /// An image as the light from infinitely far away, instead of what the scene has.
-    ///
-    /// A square image maps to directions by pbrt-v4's equal-area map, any other by longitude and latitude. In a glTF file +y is up, and the
-    /// middle of the image is at +x, as Khronos's sample viewer has it; elsewhere the image is where `LightSource "infinite"` without a
-    /// transform puts it, with +z up.
-    pub sky: Option<PathBuf>,
-    /// The camera of this name or number, from 0 on, of a glTF file with several; the first one if it is not given.
-    pub camera: Option<String>,
-    /// The scene of this name or number, from 0 on, of a glTF file with several; its default if it is not given.
-    pub scene: Option<String>,
-}
-
-/// What a scene file offers a choice of.
-#[derive(Clone, Debug, Default)]
-pub struct Contents {
-    /// The names of its scenes, empty where they have none. Files of pbrt have no scenes.
-    pub scenes: Vec<String>,
-    /// The names of the cameras of the scene that was asked for, empty where they have none.
-    pub cameras: Vec<String>,
 }
 
 /// Reads the built-in scene of this name, or else the file at this path: glTF if its name ends in `.gltf` or `.glb`, or else pbrt's format.

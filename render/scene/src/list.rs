@@ -121,6 +121,11 @@ impl Table {
         let is = |entry: &&Entry| entry.name == name && (entry.kinds.is_empty() || entry.kinds.contains(&kind));
         self.entries.iter().find(is)
     }
+    /// The types of a directive that are not left out.
+    pub(super) fn kinds(&self, name: &str) -> Vec<&'static str> {
+        let named = self.entries.iter().filter(|entry| entry.name == name && entry.state != State::Ignored);
+        named.flat_map(|entry| entry.kinds.iter().copied().filter(|kind| !kind.is_empty())).collect()
+    }
     /// The table as a page of Markdown.
     #[must_use]
     pub fn page(&self, title: &str) -> String {

@@ -3,6 +3,7 @@
 mod area_lights;
 mod blocks;
 mod builtin;
+mod coated_metals;
 mod daylight;
 mod directed;
 mod film_and_camera;
@@ -13,6 +14,7 @@ mod inputs;
 mod lexer;
 mod lights;
 mod material_parameters;
+mod mixtures;
 mod named_materials;
 mod params;
 mod patches;

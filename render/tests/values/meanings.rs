@@ -1,126 +1,15 @@
-//! What files mean where readers are often wrong: coats, spectra and illuminants, motion, attributes, lamps that are not seen, and files of
+//! What files mean where readers are often wrong: spectra and illuminants, motion, attributes, lamps that are not seen, and files of
 //! other programs.
 
-use super::coats_by_quadrature::COATS;
 use super::row::{Row, grey, look, on_floor, reflected, times};
 use etendue_render::Technique;
 
 /// Light, and two techniques of which one finds lights by chance.
-const SOME: &[Technique] = &[Technique::Auto, Technique::SolidAngle, Technique::MisPower];
+pub(super) const SOME: &[Technique] = &[Technique::Auto, Technique::SolidAngle, Technique::MisPower];
 
 pub(super) fn rows() -> Vec<Row> {
-    let tables = [
-        coats(),
-        coated_mirrors(),
-        spectra(),
-        motion(),
-        attributes(),
-        mixtures(),
-        panes(),
-        unseen(),
-        files(),
-        floodlights(),
-    ];
+    let tables = [spectra(), motion(), attributes(), mixtures(), panes(), unseen(), files(), floodlights()];
     tables.into_iter().flatten().collect()
-}
-
-/// A floor of this material, seen at an angle to its normal, under a sun of irradiance 1 at another angle.
-fn under_sun(material: &str, view: f64, light: f64) -> String {
-    let at = |angle: f64, turn: f64| [angle.sin() * turn.cos(), angle.sin() * turn.sin(), angle.cos()];
-    let [x, y, z] = at(light.to_radians(), 130_f64.to_radians());
-    let floor = "Shape \"bilinearmesh\" \"point3 P\" [-900 -900 0  900 -900 0  -900 900 0  900 900 0]";
-    let eye = times(at(view.to_radians(), 0.0), 0.5);
-    format!(
-        "{}LightSource \"distant\" \"point3 from\" [{x} {y} {z}] \"point3 to\" [0 0 0]\n{material}\n{floor}",
-        look(eye, [0.0; 3])
-    )
-}
-
-/// Fresnel's reflectance of a dielectric (Born and Wolf, 1.5.2).
-fn fresnel(cos: f64, eta: f64) -> f64 {
-    let refracted = (1.0 - (1.0 - cos * cos) / (eta * eta)).max(0.0).sqrt();
-    let across = (cos - eta * refracted) / (cos + eta * refracted);
-    let along = (eta * cos - refracted) / (eta * cos + refracted);
-    0.5 * (across * across + along * along)
-}
-
-/// F D G₂ / (4 cosθᵢ) of a GGX interface for directions at these angles, 130° apart (Heitz 2014, equations 85, 86 and 99).
-fn shine(alpha: f64, eta: f64, view: f64, light: f64) -> f64 {
-    let (view, light) = (view.to_radians(), light.to_radians());
-    let turn = 130_f64.to_radians();
-    let cos = view.cos() * light.cos() + view.sin() * light.sin() * turn.cos();
-    // half of the angle between them, and the cosine of the half vector to the normal
-    let half = ((1.0 + cos) / 2.0).sqrt();
-    let up = (view.cos() + light.cos()) / (2.0 * half);
-    let square = up * up;
-    let density = alpha * alpha / (std::f64::consts::PI * (square * (alpha * alpha - 1.0) + 1.0).powi(2));
-    let lambda = |angle: f64| 0.5 * ((1.0 + (alpha * angle.tan()).powi(2)).sqrt() - 1.0);
-    fresnel(half, eta) * density / (1.0 + lambda(view) + lambda(light)) / (4.0 * view.cos())
-}
-
-/// Coats over diffuse surfaces: the base by quadrature, and the highlight by its formula.
-fn coats() -> Vec<Row> {
-    let row = |[alpha, eta, albedo, view, light, under]: [f64; 6]| {
-        let material = format!(
-            "Material \"coateddiffuse\" \"rgb reflectance\" [{albedo} {albedo} {albedo}] \"float roughness\" {alpha}
-             \"bool remaproughness\" false \"float eta\" {eta}"
-        );
-        // a smooth coat has a highlight elsewhere
-        let shine = if alpha > 0.0 { shine(alpha, eta, view, light) } else { 0.0 };
-        let name =
-            format!("coateddiffuse of roughness {alpha}, eta {eta}, albedo {albedo}, seen at {view}, lit at {light}");
-        Row::new(name, under_sun(&material, view, light), grey(under + shine)).within(0.01).by(SOME)
-    };
-    let mut rows: Vec<Row> = COATS.into_iter().map(row).collect();
-    // black below a coat is only the coat; defaults are a smooth coat of 1.5 over 0.5, of no albedo
-    for (alpha, view, light) in [(0.2, 20.0, 30.0), (0.5, 60.0, 70.0), (1.0, 5.0, 80.0)] {
-        let material = format!(
-            "Material \"coateddiffuse\" \"rgb reflectance\" [0 0 0] \"float roughness\" {alpha} \"bool remaproughness\" false"
-        );
-        let name = format!("black coateddiffuse of roughness {alpha}, seen at {view}, lit at {light}");
-        let right = grey(shine(alpha, 1.5, view, light));
-        rows.push(Row::new(name, under_sun(&material, view, light), right).within(1e-4).by(SOME));
-    }
-    let [f, g] = [0.0_f64, 45.0].map(|angle| fresnel(angle.to_radians().cos(), 1.5));
-    let default = (1.0 - f) * (1.0 - g) / 2.25 * 0.5 / (1.0 - 0.5 * 0.596_35) / std::f64::consts::PI;
-    let right = grey(default * 45_f64.to_radians().cos());
-    let text = under_sun("Material \"coateddiffuse\"", 0.1, 45.0);
-    rows.push(Row::new("coateddiffuse without parameters", text, right).within(0.01).by(SOME));
-    rows
-}
-
-/// Reflectance of a conductor of complex index η + ik for unpolarised light at a cosine in a medium of this index.
-fn of_metal(cos: f64, eta: f64, k: f64) -> f64 {
-    let sine = 1.0 - cos * cos;
-    let t0 = eta * eta - k * k - sine;
-    let sum = (t0 * t0 + 4.0 * eta * eta * k * k).sqrt();
-    let a = (0.5 * (sum + t0)).max(0.0).sqrt();
-    let across = (sum + cos * cos - 2.0 * a * cos) / (sum + cos * cos + 2.0 * a * cos);
-    let along = across * (sum * cos * cos + sine * sine - 2.0 * a * cos * sine)
-        / (sum * cos * cos + sine * sine + 2.0 * a * cos * sine);
-    0.5 * (across + along)
-}
-
-/// Smooth coats over smooth metals are mirrors: what they show of a sky of 1 is a geometric series.
-fn coated_mirrors() -> Vec<Row> {
-    let mut rows = Vec::new();
-    for (eta, k, coat) in [(0.2, 3.9, 1.5), (1.5, 7.6, 1.3), (0.9, 2.4, 2.0), (2.0, 0.5, 1.1)] {
-        for angle in [10_f64, 45.0, 75.0] {
-            let material = format!(
-                "LightSource \"infinite\"\nMaterial \"coatedconductor\" \"rgb conductor.eta\" [{eta} {eta} {eta}]
-                 \"rgb conductor.k\" [{k} {k} {k}] \"float interface.eta\" {coat}"
-            );
-            let cos = angle.to_radians().cos();
-            let below = (1.0 - (1.0 - cos * cos) / (coat * coat)).sqrt();
-            let (f, r) = (fresnel(cos, coat), of_metal(below, eta / coat, k / coat));
-            let right = f + (1.0 - f) * (1.0 - f) * r / (1.0 - f * r);
-            let floor = "Shape \"bilinearmesh\" \"point3 P\" [-900 -900 0  900 -900 0  -900 900 0  900 900 0]";
-            let eye = [0.5 * angle.to_radians().sin(), 0.0, 0.5 * cos];
-            let name = format!("coatedconductor of {eta} + {k}i below {coat}, seen at {angle}");
-            rows.push(Row::new(name, format!("{}{material}\n{floor}", look(eye, [0.0; 3])), grey(right)).by(SOME));
-        }
-    }
-    rows
 }
 
 /// A black disk that shines with luminance 1, seen from above.

@@ -421,7 +421,7 @@ fn documents_are_short() {
     let more = ["README.md", "fuzz/README.md"].map(|file| root().join(file));
     let all = [&more[..], &sources(&[".md"])].concat();
     let [readme, sum]: [usize; 2] = [words(&more[0]), all.iter().map(|path| words(path)).sum()];
-    // what hosts are promised, and what judges other renderers, have words of their own
+    // what hosts are promised, what judges other renderers, and pages that are made of tables have words of their own
     let own = [
         ("core/README.md", 420),
         ("core/POLICIES.md", 400),
@@ -430,6 +430,8 @@ fn documents_are_short() {
         ("render/bits/CHANGELOG.md", 150),
         ("tests/judge/FIELD.md", 600),
         ("tests/judge/README.md", 520),
+        ("render/formats/gltf.md", 3000),
+        ("render/formats/pbrt.md", 5000),
     ];
     let own = own.map(|(file, most)| (file, words(&root().join(file)), most));
     let others = sum - own.iter().map(|(_, words, _)| words).sum::<usize>();

@@ -84,7 +84,7 @@ impl Walk<'_, '_> {
             let entry = GLTF.entry(name, "");
             let what = match entry.map(|entry| (entry.state, entry.note)) {
                 Some((State::Exact | State::Inert | State::Approximated, _)) => None,
-                Some((_, note)) if !note.is_empty() => Some(format!("{name} is ignored: {note}")),
+                Some((State::Ignored, note)) if !note.is_empty() => Some(format!("{name} is ignored: {note}")),
                 Some(_) => Some(format!("{name} is ignored")),
                 None => Some(format!("{} is not supported and ignored", shortened(name))),
             };

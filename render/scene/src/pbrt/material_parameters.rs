@@ -1,85 +1,19 @@
 //! Reads `Material` and `MakeNamedMaterial`.
 
+use super::coated_metals::through_coat;
 use super::inputs::Files;
+pub(super) use super::mixtures::Finish;
+use super::mixtures::{Mixture, pane};
 use super::params::{Params, shown};
 use super::spectrum::{self, Named};
 use super::textures::{Textures, Value};
 use crate::builder::Builder;
+use crate::list::PBRT;
 use crate::message::shortened;
 use crate::nearest::did_you_mean;
 use crate::radiance::rounded;
 use etendue_render::scene::{Material, Message, Roughness, Varying};
 use etendue_render::texture::Texture;
-
-/// What a surface is made of, as the state of a scene file holds it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Finish {
-    /// A material.
-    Of(Material),
-    /// None: rays pass as if there were no surface.
-    Invisible,
-    /// A named material that is not defined yet, by its index among those names.
-    Awaited(usize),
-    /// Two of them, by the index of the mixture.
-    Mix(usize),
-}
-
-/// A mixture of two materials.
-#[derive(Clone, Debug)]
-pub(super) struct Mixture {
-    of: [Finish; 2],
-    /// The share of the second one.
-    amount: Texture,
-}
-
-/// The materials of a mixture with their shares, and the chance that a ray that meets them meets each, if it has passed those before.
-pub(super) fn parts(finish: Finish, mixtures: &[Mixture]) -> Vec<(Finish, Texture)> {
-    let mut leaves = Vec::new();
-    let mut rest = vec![(finish, Texture::number(1.0))];
-    // mixtures precede those that contain them, so that this ends; a bound for those that double each time
-    while let Some((finish, share)) = rest.pop() {
-        match finish {
-            Finish::Mix(index) if leaves.len() + rest.len() < MOST_PARTS => {
-                let Mixture { of: [first, second], amount } = &mixtures[index];
-                rest.push((*second, share.clone().times(amount.clone())));
-                rest.push((*first, share.times(amount.clone().inverse())));
-            }
-            finish => leaves.push((finish, share)),
-        }
-    }
-    // what rays pass takes its share from those that they meet
-    let is_whole = leaves.iter().all(|(finish, _)| *finish != Finish::Invisible);
-    // of two, shares may vary
-    if let [(first, _), (_, last)] = &mut leaves[..] {
-        if *first != Finish::Invisible {
-            *last = Texture::number(1.0);
-        }
-        return leaves;
-    }
-    let mut left = 1.0_f32;
-    for (finish, share) in &mut leaves {
-        let own = share.mean()[0];
-        *share = Texture::number(if left > 1e-6 { (own / left).clamp(0.0, 1.0) } else { 1.0 });
-        left -= if *finish == Finish::Invisible { 0.0 } else { own };
-    }
-    // what rounding leaves over is the last one's
-    leaves.last_mut().into_iter().filter(|_| is_whole).for_each(|(_, share)| *share = Texture::number(1.0));
-    leaves
-}
-
-/// The material of a mixture that has the greatest share, unless rays pass it: that of lights.
-pub(super) fn greatest(finish: Finish, mixtures: &[Mixture]) -> Finish {
-    let mut finish = finish;
-    while let Finish::Mix(index) = finish {
-        let Mixture { of: [first, second], amount } = &mixtures[index];
-        // a lamp of glass is one
-        finish = if amount.mean()[0] > 0.5 && *second != Finish::Invisible { *second } else { *first };
-    }
-    finish
-}
-
-/// Most materials of a mixture of mixtures.
-const MOST_PARTS: usize = 16;
 
 /// What a material's parameters refer to.
 pub(super) struct Context<'a> {
@@ -87,33 +21,6 @@ pub(super) struct Context<'a> {
     pub(super) named: &'a dyn Fn(&str) -> Option<Finish>,
     pub(super) files: Files<'a>,
 }
-
-/// The types of materials, for messages; the last ones are those of pbrt-v3.
-const KINDS: [&str; 23] = [
-    "diffuse",
-    "coateddiffuse",
-    "conductor",
-    "coatedconductor",
-    "dielectric",
-    "thindielectric",
-    "diffusetransmission",
-    "subsurface",
-    "hair",
-    "measured",
-    "mix",
-    "interface",
-    "mirror",
-    "matte",
-    "plastic",
-    "metal",
-    "glass",
-    "uber",
-    "substrate",
-    "translucent",
-    "disney",
-    "fourier",
-    "kdsubsurface",
-];
 
 /// Reads the parameters of a material. What direct light on opaque surfaces cannot show becomes a stand-in.
 pub(super) fn read(
@@ -153,7 +60,7 @@ pub(super) fn read(
             {
                 let what = "a pane without refraction, which reflects at all angles what it does at normal incidence";
                 stand_in(out, params, what);
-                return Ok(pane(eta, kind == "thindielectric", mixtures));
+                return Ok(pane(reflectance_of(eta.into()), kind == "thindielectric", mixtures));
             }
             stand_in(out, params, "what it reflects: light that passes through it is lost");
             read
@@ -170,23 +77,20 @@ pub(super) fn read(
         "subsurface" | "kdsubsurface" => {
             stand_in(out, params, "a coat over a diffuse surface");
             let made = reads.coated_diffuse(&["reflectance", "Kd"], params, out)?;
-            params.ignore_all();
             made
         }
         "hair" | "measured" | "fourier" => {
             stand_in(out, params, "diffuse of albedo 0.5");
-            params.ignore_all();
             Material::Diffuse([0.5; 3])
         }
         "mix" => {
             return reads.mixed(params, mixtures, out);
         }
         "interface" | "none" | "" => {
-            params.ignore_all();
             return Ok(Finish::Invisible);
         }
         _ => {
-            let (kinds, near) = (KINDS.join(", "), did_you_mean(kind, KINDS));
+            let (kinds, near) = (PBRT.kinds("Material").join(", "), did_you_mean(kind, PBRT.kinds("Material")));
             let kind = shortened(kind);
             return Err(params.error(format!("material type {kind:?} is not supported, only {kinds}{near}")));
         }
@@ -375,7 +279,6 @@ impl Reads<'_> {
             Ok::<_, Message>(found.unwrap_or(Texture::number(default)))
         };
         let (metallic, roughness) = (number("metallic", 0.0, params)?, number("roughness", 0.5, params)?);
-        params.ignore_all();
         Ok(out.vary(Varying::Metallic { base, metallic, roughness }))
     }
     fn dielectric(&self, params: &mut Params, out: &mut Builder) -> Result<Material, Message> {
@@ -474,40 +377,6 @@ impl Reads<'_> {
     fn metal(&self, specular: Texture, roughness: [Texture; 2], out: &mut Builder) -> Material {
         let [diffuse, grazing] = [0.0, 1.0].map(Texture::number);
         out.vary(Varying::Glossy { diffuse, specular, grazing, roughness, turn: 0.0, greatest: false })
-    }
-}
-
-/// A smooth surface that rays pass straight, but for those that it reflects: both sides of a thin pane, or one of a solid.
-fn pane(eta: f32, is_thin: bool, mixtures: &mut Vec<Mixture>) -> Finish {
-    let once = reflectance_of(eta.into());
-    // what goes back and forth in a thin pane is a geometric series
-    let reflected = if is_thin { 2.0 * once / (1.0 + once) } else { once };
-    let amount = Texture::number((1.0 - reflected) as f32);
-    mixtures.push(Mixture { of: [Finish::Of(Material::Mirror([1.0; 3])), Finish::Invisible], amount });
-    Finish::Mix(mixtures.len() - 1)
-}
-
-/// What a metal looks like through a coat, approximately: directions in the coat are nearer to the normal, so that its slopes count η times
-/// outside, and those of the coat bend light twice by η − 1.
-fn through_coat(metal: Material, coat: f32, above: f32) -> Material {
-    let Material::Conductor { eta, k, roughness } = metal else { return metal };
-    let bent = above * above * (coat - 1.0) * (coat - 1.0) * 0.5;
-    let outside = |alpha: f32| (coat * coat).mul_add(alpha * alpha, bent).sqrt().clamp(0.0, 1.0);
-    let (low, high) = (((coat - 1.0) / (coat + 1.0)).powi(2), |x: f32, k: f32| {
-        let (x, k) = (x / coat, k / coat);
-        ((x - 1.0).powi(2) + k * k) / ((x + 1.0).powi(2) + k * k)
-    });
-    let both = |i: usize| {
-        let metal = high(eta[i], k[i]);
-        low + (1.0 - low) * (1.0 - low) * metal / (1.0 - low * metal)
-    };
-    let [along, across] = [roughness.along, roughness.across].map(outside);
-    Material::Glossy {
-        diffuse: [0.0; 3],
-        specular: [both(0), both(1), both(2)],
-        grazing: [1.0; 3],
-        roughness: Roughness { along: along.max(Roughness::LEAST), across: across.max(Roughness::LEAST), turn: 0.0 },
-        greatest: false,
     }
 }
 

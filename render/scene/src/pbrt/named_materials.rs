@@ -1,6 +1,7 @@
 //! The materials that a scene names. A name may precede its definition, as in pbrt.
 
-use super::material_parameters::{Finish, Mixture, greatest};
+use super::material_parameters::Finish;
+use super::mixtures::{Mixture, greatest};
 use crate::builder::Builder;
 use crate::message::{Place, shortened};
 use crate::nearest::did_you_mean;

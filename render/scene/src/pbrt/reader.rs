@@ -7,7 +7,8 @@ use super::includes::Includes;
 pub(super) use super::includes::Origin;
 use super::inputs::Files;
 use super::lexer::{Lexer, Token};
-use super::material_parameters::{self, Context, Finish, Mixture};
+use super::material_parameters::{self, Context, Finish};
+use super::mixtures::{self, Mixture};
 use super::named_materials::NamedMaterials;
 use super::params::Params;
 use super::portal_sides;
@@ -17,6 +18,7 @@ use super::sources::Sources;
 use super::textures::Textures;
 use super::transform_directives;
 use crate::builder::{Builder, Rest};
+use crate::list::PBRT;
 use crate::message::{Place, shortened, utf8};
 use crate::nearest::did_you_mean;
 use crate::transform::Transform;
@@ -44,29 +46,6 @@ const WORLD: [&str; 14] = [
     "ObjectBegin",
     "ObjectEnd",
     "ObjectInstance",
-];
-
-/// Directives on either side of it, and itself.
-const ANYWHERE: [&str; 19] = [
-    "WorldBegin",
-    "Identity",
-    "Translate",
-    "Scale",
-    "Rotate",
-    "LookAt",
-    "Transform",
-    "ConcatTransform",
-    "CoordinateSystem",
-    "CoordSysTransform",
-    "ActiveTransform",
-    "TransformTimes",
-    "Include",
-    "Import",
-    "MediumInterface",
-    "MakeNamedMedium",
-    "Attribute",
-    "Texture",
-    "ColorSpace",
 ];
 
 struct Reader<'a> {
@@ -223,7 +202,7 @@ impl Reader<'_> {
                 self.with_params(word, &kind, params, dir)?;
             }
             _ => {
-                let near = did_you_mean(word, OPTIONS.into_iter().chain(WORLD).chain(ANYWHERE));
+                let near = did_you_mean(word, PBRT.entries.iter().flat_map(|entry| entry.name.split(", ")));
                 return Err(place.message(format!("unknown directive {}{near}", shortened(word))));
             }
         }
@@ -398,11 +377,11 @@ impl Reader<'_> {
     }
 
     fn shape(&mut self, kind: &str, params: &mut Params, dir: &Path) -> Result<(), Message> {
-        let Self { out, state, named, textures, blocks, files, mixtures, .. } = self;
+        let Self { out, state, named, textures, blocks, files, mixtures: known, .. } = self;
         // what emits is no mixture, and one that is defined later is none yet
-        let mut parts = vec![(material_parameters::greatest(state.material, mixtures), None)];
+        let mut parts = vec![(mixtures::greatest(state.material, known), None)];
         if state.area.emission.is_none() && matches!(state.material, Finish::Mix(_)) {
-            let mixed = material_parameters::parts(state.material, mixtures);
+            let mixed = mixtures::parts(state.material, known);
             parts = mixed.into_iter().map(|(finish, share)| (finish, Some(share))).collect();
         }
         let files = files.at(dir);

@@ -5,6 +5,7 @@ use super::inputs::Files;
 use super::params::{Params, shown};
 use super::ply::{self, Face};
 use crate::builder::{Builder, round};
+use crate::list::PBRT;
 use crate::nearest::did_you_mean;
 use crate::shape_attributes::ShapeAttributes;
 use crate::transform::Transform;
@@ -13,9 +14,6 @@ use etendue_render::geometry::{Disk, Geometry, Sphere};
 use etendue_render::scene::{Emission, Message};
 use etendue_render::texture::Mapping;
 use std::path::Path;
-
-/// The types of shapes, for messages.
-const KINDS: [&str; 7] = ["sphere", "trianglemesh", "bilinearmesh", "plymesh", "loopsubdiv", "disk", "cylinder"];
 
 /// Reads a `Shape`; only a built-in scene may name `builtin:` meshes.
 pub(super) fn read(
@@ -47,11 +45,10 @@ pub(super) fn read(
         }
         "curve" | "cone" | "paraboloid" | "hyperboloid" | "heightfield" | "nurbs" => {
             out.notes.stand_in(kind, || params.error("shapes of this type are left out"));
-            params.ignore_all();
             Ok(())
         }
         _ => {
-            let (kinds, near) = (KINDS.join(", "), did_you_mean(kind, KINDS));
+            let (kinds, near) = (PBRT.kinds("Shape").join(", "), did_you_mean(kind, PBRT.kinds("Shape")));
             Err(params.error(format!("shape not supported, only {kinds}{near}")))
         }
     }?;

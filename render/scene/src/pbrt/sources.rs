@@ -40,7 +40,6 @@ impl Sources {
         }
         if kind == "projection" {
             notes.stand_in(kind, || params.error("lights of this type are left out"));
-            params.ignore_all();
             return Ok(());
         }
         let profile = match if kind == "spot" { params.text("profile")? } else { None } {

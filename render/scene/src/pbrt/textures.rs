@@ -94,7 +94,6 @@ impl Textures {
                 if is_color { texture } else { texture.channel(0) }
             }
             _ => {
-                params.ignore_all();
                 let what = format!("texture {:?} becomes 0.5 everywhere", shortened(kind));
                 notes.stand_in(&what, || params.error(&what));
                 Texture::number(0.5)
