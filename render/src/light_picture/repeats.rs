@@ -28,8 +28,8 @@ fn cell(picture: &Picture, column: i64, row: i64) -> [f64; 3] {
 /// Sums over whole cells of rows. No sum is a difference, so that it is 0 only where all is dark.
 pub(super) struct Rows<'a> {
     picture: &'a Picture,
-    /// The sums of the blocks of each row that was asked for, within one period.
-    blocks: HashMap<i64, Vec<[f64; 3]>>,
+    /// The sums of the blocks of each row within one period; none for a row that was asked for only once, since they take all of the row.
+    blocks: HashMap<i64, Option<Vec<[f64; 3]>>>,
 }
 
 impl<'a> Rows<'a> {
@@ -57,7 +57,14 @@ impl<'a> Rows<'a> {
             return sum;
         };
         let row = period(height, picture.wrap[1]).map_or(row, |period| row.rem_euclid(period));
-        let blocks = self.blocks.entry(row).or_insert_with(|| {
+        let is_long = to - from >= period_of_row;
+        let is_first = !is_long && !self.blocks.contains_key(&row);
+        if is_first {
+            self.blocks.insert(row, None);
+            (from..to).for_each(|column| add(cell(picture, column, row), 1.0));
+            return sum;
+        }
+        let blocks = self.blocks.entry(row).or_default().get_or_insert_with(|| {
             let block = |start: i64| {
                 let cells = (start..(start + BLOCK).min(period_of_row)).map(|column| cell(picture, column, row));
                 cells.fold([0.0; 3], |sum, cell| std::array::from_fn(|k| sum[k] + cell[k]))

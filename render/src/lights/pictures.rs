@@ -16,7 +16,7 @@ const MOST_ALONG: usize = 1024;
 /// The most cells of all shapes.
 const MOST: usize = 1 << 22;
 /// Cells that show more texels are looked at by blocks of texels.
-const MOST_EXACT: f64 = 32.0;
+const MOST_EXACT: f64 = 2.5;
 /// A triangle with fewer cells along its sides is sampled as a whole: cells on its third side are sampled in vain half of the time.
 const FEWEST_OF_TRIANGLE: usize = 8;
 /// Pictures that vary by less are not worth a table.
