@@ -8,7 +8,6 @@ use etendue_visible::{Light, Occluder, Patch, Proof, Prover, Region, Solid};
 use std::time::Instant;
 
 type V = Vec3<f64>;
-
 const TEXELS: usize = 96; // along the sides of a wall
 const SQUARE: usize = 8; // texels along the sides of a square that is asked about first
 const RAYS: usize = 16; // from a texel, along the sides of a light
@@ -189,6 +188,10 @@ impl Lightmap<'_> {
         };
         (0..rays * rays).map(point).sum::<f64>() * step * step
     }
+    fn by_rays(&self, k: usize, rays: usize) -> f64 {
+        let p = self.at((k % TEXELS) as f64 + 0.5, (k / TEXELS) as f64 + 0.5);
+        self.room.lights.iter().map(|light| self.sampled(p, light, rays)).sum()
+    }
     /// Adds the light of `size` × `size` texels from [x, y]. Returns the number of texels from which rays were traced.
     fn bake(&self, prover: &mut Prover, light: &(usize, Light), [x, y, size]: [usize; 3], texels: &mut [f64]) -> usize {
         let Room { solids, tree, .. } = self.room;
@@ -218,7 +221,7 @@ impl Lightmap<'_> {
 fn main() {
     let (room, mut prover) = (Room::new(), Prover::new(6.0));
     let (mut traced, mut all, mut seconds) = (0, 0, [0.0; 2]);
-    let [mut worst, mut finer, mut brightest] = [0.0_f64; 3];
+    let ([mut worst, mut brightest], mut at) = ([0.0_f64; 2], (0, 0, 0.0));
     for map in (0..6).map(|wall| room.map(wall)) {
         let began = Instant::now();
         let mut texels = vec![0.0; TEXELS * TEXELS];
@@ -227,21 +230,18 @@ fn main() {
             traced += map.bake(&mut prover, light, [x, y, SQUARE], &mut texels);
         }
         seconds[0] += began.elapsed().as_secs_f64();
-        let by_rays = |k: usize, rays: usize| -> f64 {
-            let p = map.at((k % TEXELS) as f64 + 0.5, (k / TEXELS) as f64 + 0.5);
-            room.lights.iter().map(|light| map.sampled(p, light, rays)).sum()
-        };
         let began = Instant::now();
-        let brute: Vec<f64> = (0..texels.len()).map(|k| by_rays(k, RAYS)).collect();
+        let brute: Vec<f64> = (0..texels.len()).map(|k| map.by_rays(k, RAYS)).collect();
         seconds[1] += began.elapsed().as_secs_f64();
         all += brute.len() * room.lights.len();
         for (k, (texel, brute)) in texels.iter().zip(&brute).enumerate() {
             brightest = brightest.max(*brute);
             if (texel - brute).abs() > worst {
-                (worst, finer) = ((texel - brute).abs(), (texel - by_rays(k, 64 * RAYS)).abs());
+                (worst, at) = ((texel - brute).abs(), (map.wall, k, *texel));
             }
         }
     }
+    let finer = (at.2 - room.map(at.0).by_rays(at.1, 64 * RAYS)).abs();
     let percent = |part: f64, of: f64| 100.0 * part / of;
     println!("{all} texels and lights; rays from {traced} of them, {:.2} %", percent(traced as f64, all as f64));
     println!("{:.3} s instead of {:.3} s, {:.1} %", seconds[0], seconds[1], percent(seconds[0], seconds[1]));
