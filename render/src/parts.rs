@@ -113,12 +113,14 @@ fn to_planes(identity: &Identity, content: Content) -> Vec<(String, Numbers)> {
             planes.extend(lights("taken", count, &|k| Numbers::U32(all.clone().map(|p| p.taken[k]).collect())));
         }
         Content::Counts(counts) => {
-            let PixelCounts { packets, lights: count, weights, squares, begun, sums, .. } = &counts;
+            let PixelCounts { packets, lights: count, weights, squares, begun, sums, expected, .. } = &counts;
             for (set, (k, channel)) in (0..sets).flat_map(|set| RGB.into_iter().enumerate().map(move |c| (set, c))) {
                 split(&mut planes, &format!("sum.set{set}.{channel}"), &|| sums.iter().map(|s| s[set][k]).collect());
             }
             planes.push(("packets".into(), Numbers::U32(packets.clone())));
             planes.push(("squares".into(), Numbers::F32(squares.clone())));
+            // the same in all pixels
+            split(&mut planes, "expected", &|| vec![*expected; packets.len()]);
             let weight = |k: usize| weights.iter().skip(k).step_by(*count).copied().collect();
             planes.extend(lights("weight", *count, &|k| Numbers::F32(weight(k))));
             planes.extend(lights("taken", *count, &|k| Numbers::U32(begun.iter().map(|taken| taken[k]).collect())));
@@ -221,6 +223,7 @@ fn from_planes(identity: &Identity, kind: PieceKind, area: Area, planes: Vec<(St
                 lights,
                 weights: weights.iter().flat_map(|weights| weights[..lights].iter().copied()).collect(),
                 squares: found.f32("squares")?,
+                expected: found.f64("expected")?.first().copied().unwrap_or(0.0),
                 begun: found.lights("taken", lights, count, Found::u32)?,
                 sums: found.sums(sets, count)?,
             })

@@ -86,6 +86,8 @@ pub struct PixelCounts {
     pub begun: Vec<[u32; APART]>,
     /// Sum of each set of the pilot.
     pub sums: Vec<[[f64; 3]; 4]>,
+    /// The sum of the variances of all pixels of the image, as the pilot tells them, but for a common factor.
+    pub expected: f64,
 }
 
 impl PixelCounts {
@@ -98,12 +100,16 @@ impl PixelCounts {
         assert_eq!(pilot.len(), area::count(area));
         let (packets, weights) = count_packets(pilot, area[2] - area[0], &SamplePlan::new(settings));
         let (lights, of) = weights.unwrap_or_default();
+        let squares: Vec<f32> = pilot.iter().map(|pixel| pixel.square() as f32).collect();
+        let of_pixel = |(square, packets): (&f32, &u32)| f64::from(*square) * fall((*packets).into());
+        let expected = (1.0 + BESIDE) * squares.iter().zip(&packets).map(of_pixel).sum::<f64>();
         Self {
             area,
+            expected,
             packets,
             lights,
             weights: of,
-            squares: pilot.iter().map(|pixel| pixel.square() as f32).collect(),
+            squares,
             begun: pilot.iter().map(|pixel| pixel.taken).collect(),
             sums: pilot.iter().map(|pixel| pixel.sums).collect(),
         }
@@ -119,6 +125,7 @@ impl PixelCounts {
             squares: crop(&self.squares, self.area, area, 1),
             begun: crop(&self.begun, self.area, area, 1),
             sums: crop(&self.sums, self.area, area, 1),
+            expected: self.expected,
         }
     }
     /// The weights of the lights, if samples are shared by weight.
@@ -141,7 +148,7 @@ impl PixelCounts {
         renderer: &mut TileRenderer<'_>,
         tile: Area,
         weights: Option<&LightWeights<'_>>,
-        (&SamplePlan { sets, pilot, checks, .. }, expected): (&SamplePlan, f64),
+        &SamplePlan { sets, pilot, checks, .. }: &SamplePlan,
     ) -> Vec<Pixel> {
         renderer.begin(tile);
         let rest = renderer.parts(tile, pilot, 0..sets, weights, |pixel| [pilot, self.packets_at(pixel)]);
@@ -162,7 +169,7 @@ impl PixelCounts {
             let by_spread = self.by_spread(tile, &squares);
             let mean = |(of, n): (&Statistics, &u32)| of.sums[0].map(|sum| sum / f64::from(8 * n));
             let second: Vec<_> = second.iter().zip(&packets).map(mean).collect();
-            checks.judge(&mut pixels, &by_spread, &second, expected);
+            checks.judge(&mut pixels, &by_spread, &second, self.expected);
         }
         pixels
     }
@@ -178,11 +185,6 @@ impl PixelCounts {
             Pixel::of_sets(self.sums[index].iter().zip(&rest.sums).take(sets as usize).map(both), false)
         };
         area::pixels(tile).zip(rest).map(of).collect()
-    }
-    /// The sum of the variances of all pixels, as the pilot tells them, but for a common factor.
-    pub(super) fn expected(&self) -> f64 {
-        let of = |(square, packets): (&f32, &u32)| f64::from(*square) * fall((*packets).into());
-        (1.0 + BESIDE) * self.squares.iter().zip(&self.packets).map(of).sum::<f64>()
     }
     /// What each pixel of a tile tells of its variance, as [`Statistics::square`]. `rest` are the samples after those of the `pilot`, so many
     /// packets.

@@ -14,11 +14,11 @@ use crate::sampler::hash64;
 
 /// The least and the greatest samples of second sets relative to all others.
 const SHARES: [f64; 2] = [1.0 / 48.0, 1.0 / 4.0];
-/// About so many pixels have a second set, between these: their differences tell the error of the image to a sixteenth if they matter alike.
-const ENOUGH: f64 = 256.0;
+/// About so many pixels have a second set, between these: their differences tell the error of the image to a 23rd if they matter alike.
+const ENOUGH: f64 = 512.0;
 /// The least chance of a pixel, relative to the share of second sets: what is met in spite of it counts many times. And how many pixels of a
 /// tile are chosen at the least.
-const LEAST: f64 = 1.0 / 4.0;
+const LEAST: f64 = 1.0 / 2.0;
 const FEWEST_OF_TILE: f64 = 2.0;
 /// What the variance of a pixel with most of the variance of the image is at the least, relative to what its spread lets expect: half of
 /// what it is where the outline of something bright in the pixel causes it. With a share s of the variance, it is s² times this.

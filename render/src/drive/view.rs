@@ -191,9 +191,9 @@ impl View<'_> {
             }
             Samples::Rest(counts) => {
                 assert!(is_adaptive && area == counts.area);
-                let (weights, plan, expected) = (counts.weights(), self.plan(), counts.expected());
+                let (weights, plan) = (counts.weights(), self.plan());
                 let (pixels, rays) = self.tiles(area, &|renderer, tile| {
-                    let pixels = counts.rest(renderer, tile, weights.as_ref(), (&plan, expected));
+                    let pixels = counts.rest(renderer, tile, weights.as_ref(), &plan);
                     progress(pixels.len() as u64);
                     pixels
                 });

@@ -436,5 +436,5 @@ fn documents_are_short() {
     let own = own.map(|(file, most)| (file, words(&root().join(file)), most));
     let others = sum - own.iter().map(|(_, words, _)| words).sum::<usize>();
     println!("README.md has {readme} words, {own:?}, all others {others}");
-    assert!((300..=1000).contains(&readme) && own.iter().all(|(_, words, most)| words <= most) && others <= 8950);
+    assert!((300..=1000).contains(&readme) && own.iter().all(|(_, words, most)| words <= most) && others <= 9200);
 }
