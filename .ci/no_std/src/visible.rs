@@ -49,9 +49,8 @@ extern "C" fn main() -> ! {
     let Some(patch) = Patch::polygon(&corners, 1e-9, 0.0) else { exit(1) };
     let mut prover = Prover::new(2.0);
     let mut value = |blocks: &[Solid], expected: Proof<'_>| {
-        let mut seen = prover.prove(&patch, &light, |_, found| {
-            blocks.iter().all(|block| found(Occluder::Whole(block.clone())))
-        });
+        let mut seen =
+            prover.prove(&patch, &light, |_, found| blocks.iter().all(|block| found(Occluder::Whole(block.clone()))));
         if seen.proof != expected {
             exit(2);
         }
