@@ -66,7 +66,7 @@ mod tests {
         for _ in 0..400_000 {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
             let exponent = (state >> 58) as i32 - 60;
-            let u = ((state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0) * 2_f64.powi(exponent);
+            let u = libm::ldexp((state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0, exponent);
             let quarter = Real::round_ties_even(u * 4.0);
             let (s, c) = libm::sincos((u * 4.0 - quarter) * core::f64::consts::FRAC_PI_2);
             let (sin, cos) = match quarter as i64 & 3 {

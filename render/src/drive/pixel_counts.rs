@@ -302,7 +302,7 @@ fn mean_around(sums: &[f64], counts: &[f64], columns: usize) -> Vec<f64> {
 /// never added and subtracted again, so that not even rounding depends on it.
 fn sums_around(values: &[f64], columns: usize, reach: usize) -> Vec<f64> {
     let near = |i: usize, most: usize| i.saturating_sub(reach)..(i + reach + 1).min(most);
-    let has_own = |i: usize, j: usize| i.abs_diff(j) % COLOURS == 0;
+    let has_own = |i: usize, j: usize| i.abs_diff(j).is_multiple_of(COLOURS);
     // in each row, the sum of all values, and of those in columns of other colours
     let (mut all, mut others) = (Vec::with_capacity(values.len()), Vec::with_capacity(values.len()));
     for row in values.chunks(columns) {

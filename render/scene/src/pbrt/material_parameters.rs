@@ -76,8 +76,7 @@ pub(super) fn read(
         }
         "subsurface" | "kdsubsurface" => {
             stand_in(out, params, "a coat over a diffuse surface");
-            let made = reads.coated_diffuse(&["reflectance", "Kd"], params, out)?;
-            made
+            reads.coated_diffuse(&["reflectance", "Kd"], params, out)?
         }
         "hair" | "measured" | "fourier" => {
             stand_in(out, params, "diffuse of albedo 0.5");
