@@ -2,7 +2,7 @@
 //!
 //! Truth is a sum over the points of the lamps, in double precision.
 
-use crate::kit::world;
+use crate::kit::{read, world};
 use etendue_oracle::tier::cases;
 use etendue_render::film::Pixel;
 use etendue_render::{Sampler, Settings, Technique, World};
@@ -153,6 +153,23 @@ fn lamps_in_the_same_place_are_seen_from_their_sides() {
             }
         }
     }
+}
+
+/// One warning names the lines of the first lamps in the same place; lamps beside each other have none.
+#[test]
+fn lamps_in_the_same_place_are_told() {
+    let lamp = |x, shines_up| Lamp { shines_up, ..Lamp::new(x, [-1.0, 1.0], 0.2, 1.0) };
+    let of = |lamps: &[Lamp]| {
+        let text: Vec<String> = lamps.iter().map(Lamp::text).collect();
+        read(&(looking_down(1.0, 10.0) + "\n" + &text.join("\n"))).warnings
+    };
+    let (left, right) = (lamp([-1.0, 0.0], false), lamp([0.0, 1.0], false));
+    assert_eq!(of(&[left, right]), []);
+    let found = of(&[left, right, lamp([0.25, 2.0], false), right]);
+    assert_eq!((found.len(), found[0].line), (1, 4), "{found:?}");
+    assert!(found[0].text.contains("as that of line 3 (3 such pairs)") && found[0].text.contains("dark"), "{found:?}");
+    let found = of(&[left, lamp([-1.0, 0.0], true)]);
+    assert!(found.len() == 1 && found[0].text.contains("each is seen from the side"), "{found:?}");
 }
 
 /// A sheet is opaque if a lamp is 16 roundings of its coordinates behind it, and a lamp is bright if it is in the plane of the sheet.
