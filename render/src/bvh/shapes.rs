@@ -164,8 +164,8 @@ impl Primitives for Hittables {
                 if others.any() {
                     let Meeting { hit, level, .. } = hittable.meet::<true>(&rays);
                     hidden = hidden | hit & others;
-                    let level = level & others & !equal(hits.place, u32x8::splat(NOTHING));
                     if level.any() {
+                        let level = level & others & !equal(hits.place, u32x8::splat(NOTHING));
                         hidden = hidden | self.comes_first(index, &rays, level, hits.place);
                     }
                 }
@@ -175,6 +175,9 @@ impl Primitives for Hittables {
             rays.limit = hits.distance * X8::lit(1.0 + NEAR_LIMIT);
             let Meeting { distance, hit, .. } = hittable.meet::<false>(&rays);
             let mut hit = hit & active;
+            if !hit.any() {
+                continue;
+            }
             let level = hit & hits.any() & distance.gt(hits.distance * X8::lit(1.0 - NEAR_LIMIT));
             hit = hit & (distance.lt(hits.distance) | level);
             if level.any() {
