@@ -365,8 +365,8 @@ fn add(mean: &mut Film, weights: &mut [f64], pass: &[Pixel], area: Area, own: f6
     }
 }
 
-/// To how many passes of equal weight these are equal, where variances are to be told: (Σv)² / Σv² over what each adds to the variance of the
-/// image.
+/// The number of passes of equal weight that would tell the variance of the image as precisely as these do: (Σv)² / Σv², where v is what each
+/// pass adds to that variance.
 fn images(passes: &[Pass], power: f64) -> f64 {
     let of = |pass: &Pass| f64::from(pass.spp).powf(power);
     let (sum, squares) = passes.iter().map(of).fold((0.0, 0.0), |(sum, squares), v| (sum + v, squares + v * v));

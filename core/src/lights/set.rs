@@ -15,7 +15,7 @@ use core::f64::consts::PI;
 #[derive(Clone, Debug)]
 struct Part<R: Real<Scalar = R>> {
     shape: Shape<R>,
-    /// Of a flat light.
+    /// The plane of the light, if it is flat.
     plane: Option<Plane<R>>,
     which: Which,
     two_sided: bool,

@@ -252,7 +252,7 @@ fn the_own_light_is_skipped() {
     }
 }
 
-/// A triangle emits from the side of its vertices' order, from the side that it is told, or from both.
+/// A triangle emits from the side that the order of its vertices tells, from the other one if a host asks for that, or from both.
 #[test]
 fn lights_emit_from_the_sides_that_they_are_told() {
     let lamp = || Emitter::<f32>::from(Triangle::new(v([-1.0, 1.0, -1.0]), v([1.0, 1.0, -1.0]), v([0.0, 1.0, 1.0])));

@@ -18,7 +18,7 @@ pub(super) struct ShapeState {
     /// Whether `ReverseOrientation` holds.
     pub(super) reverse: bool,
     pub(super) material: Finish,
-    /// Of a part of a mixture, the chance that a ray that gets to it meets it.
+    /// The chance that a ray is stopped by this part of a mixture, if it has passed those before; `None` if the material is no mixture.
     pub(super) share: Option<Texture>,
     pub(super) area: Area,
     /// Whether an object is being read.
