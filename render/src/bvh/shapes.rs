@@ -65,7 +65,7 @@ impl Hittables {
         &self.ids
     }
     /// Lanes in which rays that meet the shape of this index in leaf order, at these distances, meet a side from which light comes.
-    fn is_lit(&self, index: usize, rays: &Approach<'_>, distance: X8) -> M8 {
+    fn is_lit(&self, index: usize, rays: Approach<'_>, distance: X8) -> M8 {
         match self.lit[index] {
             LitSides::Neither | LitSides::Unseen => M8::splat(false),
             LitSides::Front => self.hittables[index].fronts([rays.origin, rays.direction], distance),
@@ -75,7 +75,8 @@ impl Hittables {
     /// Lanes in which the shape of this index in leaf order comes before those at `places`, with which it is level: what shines towards the
     /// ray comes first, then what is first in the scene's list.
     #[cold]
-    fn comes_first(&self, index: usize, rays: &Approach<'_>, lanes: M8, places: u32x8) -> M8 {
+    #[inline(never)]
+    fn comes_first(&self, index: usize, rays: Approach<'_>, lanes: M8, places: u32x8) -> M8 {
         let (own, id) = (self.is_lit(index, rays, rays.limit), u32x8::splat(self.ids[index] | SHAPE));
         let (mut others, mut seen) = (M8::splat(false), M8::splat(false));
         each_group(places, lanes, |place, here| {
@@ -154,19 +155,18 @@ impl Primitives for Hittables {
         for index in leaf {
             let (hittable, place) = (&self.hittables[index], u32x8::splat(self.ids[index] | SHAPE));
             let Rays { origin, direction, from, .. } = *rays;
-            let places = hits.place;
-            let reaching = |lane: usize, segment| self.reached.by(places.as_array()[lane], segment);
             let own = equal(from, place);
             let lanes = if ANY { active & !equal(hits.place, place) } else { active };
+            let places = &hits.place;
+            let reaching = |lane: usize, segment| self.reached.by(places.as_array()[lane], segment);
             let mut rays = Approach { origin, direction, lanes, own, limit: hits.distance, reaching: &reaching };
             if ANY {
-                let others = lanes;
-                if others.any() {
+                if lanes.any() {
                     let Meeting { hit, level, .. } = hittable.meet::<true>(&rays);
-                    hidden = hidden | hit & others;
+                    hidden = hidden | hit & lanes;
                     if level.any() {
-                        let level = level & others & !equal(hits.place, u32x8::splat(NOTHING));
-                        hidden = hidden | self.comes_first(index, &rays, level, hits.place);
+                        let level = level & lanes & !equal(hits.place, u32x8::splat(NOTHING));
+                        hidden = hidden | self.comes_first(index, rays, level, hits.place);
                     }
                 }
                 continue;
@@ -183,7 +183,7 @@ impl Primitives for Hittables {
             if level.any() {
                 rays.limit = hits.distance;
                 let near = hittable.meet::<true>(&rays);
-                let first = self.comes_first(index, &rays, near.level & level, hits.place);
+                let first = self.comes_first(index, rays, near.level & level, hits.place);
                 hit = hit & !level | level & (near.hit | first);
             }
             hits.distance = select(hit, distance, hits.distance);

@@ -2,7 +2,7 @@
 
 use super::ends::Segment;
 use super::form::{Approach, Hittable, Meeting, NEAR};
-use crate::packet::{M8, V8, X8, each_bit, select};
+use crate::packet::{M8, V8, X8, select};
 use crate::technique::Measure;
 use etendue::light::{FlatLight, Picture};
 use etendue::{LightSample, Mask, Real, Vec2, Vec3};
@@ -42,12 +42,10 @@ impl Plane {
             & (distance.abs().lt(X8::splat(self.near)) | rays.near_limit::<ANY>(distance, self.near));
         let mut meeting = Meeting { distance, hit: none, level: none };
         if unclear.any() {
-            let [point, normal] = self.exact;
-            each_bit(unclear.bits(), |lane| {
-                let segment = rays.segment(lane);
+            meeting = rays.closely::<ANY>(unclear, meeting, |segment, _| {
+                let [point, normal] = self.exact;
                 let found = normal.dot(point - segment.origin) / normal.dot(segment.direction);
-                let end = segment.end_at_plane(point, normal);
-                rays.note::<ANY>(lane, found.is_finite().then_some(found), end, &mut meeting);
+                (found.is_finite().then_some(found), segment.end_at_plane(point, normal))
             });
         }
         meeting.hit = inside & meeting.distance.gt(zero) & meeting.distance.lt(rays.limit);

@@ -2,7 +2,7 @@
 
 use super::ends::{End, Segment};
 use super::points::Points;
-use crate::packet::{M8, V8, X8, max};
+use crate::packet::{M8, V8, X8, each_bit, max};
 use crate::spread::Spread;
 use crate::technique::Measure;
 use etendue::light::Picture;
@@ -132,6 +132,7 @@ pub(crate) const NEAR: f64 = 1.0 / 32.0;
 pub(crate) const NEAR_LIMIT: f64 = 1.0 / 256.0;
 
 /// Eight rays, as a shape meets them.
+#[derive(Clone, Copy)]
 pub(crate) struct Approach<'a> {
     pub(crate) origin: V8,
     /// Unit directions.
@@ -174,31 +175,37 @@ impl Approach<'_> {
         let band = max(self.limit * X8::lit(NEAR_LIMIT), X8::splat(near / 4096.0));
         if ANY { (distance - self.limit).abs().lt(band) } else { M8::splat(false) }
     }
-    /// Notes what is known of a lane in double precision: the distance, and for segments where the end is.
-    #[inline]
-    pub(crate) fn note<const ANY: bool>(&self, lane: usize, found: Option<f64>, end: End, meeting: &mut Meeting) {
-        let Meeting { distance, level, .. } = meeting;
-        let (distance, limit) = (&mut distance.as_mut_array()[lane], self.limit.as_array()[lane]);
-        *distance = match found {
-            Some(found) if !ANY => found as f32,
-            // before the limit, whatever the rounding
-            Some(found) if end == End::Hidden => (found as f32).min(limit * (1.0 - f32::EPSILON)),
-            _ => -1.0,
-        };
-        if ANY && end == End::Level && found.is_some() {
-            *level = *level | M8::from_bits(1 << lane);
-        }
+    /// The meeting with these lanes as double precision finds them: `of` tells of a segment, and whether it begins on the form, at which
+    /// distance it meets the form, and where its end lies.
+    ///
+    /// Rays come by value, so that they are in registers where nothing is unclear.
+    #[cold]
+    #[inline(never)]
+    pub(crate) fn closely<const ANY: bool>(
+        self,
+        lanes: M8,
+        mut meeting: Meeting,
+        of: impl Fn(Segment, bool) -> (Option<f64>, End),
+    ) -> Meeting {
+        each_bit(lanes.bits(), |lane| {
+            let (found, end) = of(self.segment(lane), self.own.lane(lane));
+            let limit = self.limit.as_array()[lane];
+            meeting.distance.as_mut_array()[lane] = match found {
+                Some(found) if !ANY => found as f32,
+                // before the limit, whatever the rounding
+                Some(found) if end == End::Hidden => (found as f32).min(limit * (1.0 - f32::EPSILON)),
+                _ => -1.0,
+            };
+            if ANY && end == End::Level && found.is_some() {
+                meeting.level = meeting.level | M8::from_bits(1 << lane);
+            }
+        });
+        meeting
     }
-    /// A lane as a segment.
-    #[inline]
-    pub(crate) fn segment(&self, lane: usize) -> Segment {
-        let [origin, direction] = self.lane(lane);
+    /// A lane as a segment, in double precision.
+    fn segment(&self, lane: usize) -> Segment {
+        let [origin, direction] = [self.origin, self.direction].map(|v| v.lane(lane).map(f64::from));
         (self.reaching)(lane, Segment { origin, direction, length: self.limit.as_array()[lane].into() })
-    }
-    /// Origin and direction of one ray, in double precision.
-    #[inline]
-    pub(crate) fn lane(&self, lane: usize) -> [Vec3<f64>; 2] {
-        [self.origin, self.direction].map(|v| v.lane(lane).map(f64::from))
     }
 }
 

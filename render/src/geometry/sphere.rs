@@ -3,7 +3,7 @@
 use super::ends::Segment;
 use super::form::{Approach, Chart, Extent, Form, Hittable, Meeting, NEAR, wide};
 use super::points::{D8, Points, each, facing, lifted, unit, zero};
-use crate::packet::{M8, V8, X8, each_bit, max, select, widen};
+use crate::packet::{M8, V8, X8, max, select, widen};
 use crate::spread::Spread;
 use crate::technique::Measure;
 use etendue::light::{self, Picture};
@@ -164,11 +164,10 @@ impl Hittable for Sphere {
         }
         let mut meeting = Meeting { distance, hit: met, level: none };
         if unclear.any() {
-            let (center, radius) = (wide(self.center), f64::from(self.radius));
-            each_bit(unclear.bits(), |lane| {
-                let segment = rays.segment(lane);
+            meeting = rays.closely::<ANY>(unclear, meeting, |segment, begins_here| {
+                let (center, radius) = (wide(self.center), f64::from(self.radius));
                 let Segment { origin, direction, length } = segment;
-                let found = to_sphere(center, radius, origin, direction, rays.own.lane(lane));
+                let found = to_sphere(center, radius, origin, direction, begins_here);
                 // of the near side, the end is beyond what is inside of the sphere; of the far one, what is outside
                 let inwards = radius - (direction.mul_add(length, origin) - center).length();
                 let is_near = found.is_some_and(|found| found < direction.dot(center - origin));
@@ -179,7 +178,7 @@ impl Hittable for Sphere {
                 } else {
                     -inwards
                 });
-                rays.note::<ANY>(lane, found, end, &mut meeting);
+                (found, end)
             });
             meeting.hit = met & !unclear | unclear & meeting.distance.gt(zero);
         }
