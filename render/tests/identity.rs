@@ -1,7 +1,7 @@
 //! What an image depends on.
 
-use etendue_render::area::Place;
-use etendue_render::limits::MOST_SAMPLES;
+use etendue_render::scene::area::Place;
+use etendue_render::scene::limits::MOST_SAMPLES;
 use etendue_render::{Identity, Sampler, Sensor, Settings, World};
 use serde_json::json;
 use std::path::Path;

@@ -1,12 +1,12 @@
 //! Images in files: their sizes, which are accepted only if the file is long enough, and their windows.
 
 use crate::kit::Folder;
-use etendue_render::area::Place;
 use etendue_render::drive::Content;
-use etendue_render::files::check_replaceable;
+use etendue_render::drive::parts::{self, PieceFile};
+use etendue_render::film::files::check_replaceable;
 use etendue_render::film::{Film, Pixel};
-use etendue_render::parts::{self, PieceFile};
-use etendue_render::{Identity, Sampler, Sensor, Settings, Technique, image};
+use etendue_render::scene::area::Place;
+use etendue_render::{Identity, Sampler, Sensor, Settings, Technique, film::image};
 use exr::math::Vec2;
 use exr::meta::attribute::IntegerBounds;
 use exr::prelude::{

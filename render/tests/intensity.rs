@@ -4,8 +4,8 @@ use etendue_judge::generators::Random;
 use etendue_judge::packets::Coordinates;
 use etendue_oracle::V3;
 use etendue_oracle::tier::cases;
-use etendue_render::intensity::{Profile, ProfileError};
 use etendue_render::packet::V8;
+use etendue_render::scene::intensity::{Profile, ProfileError};
 use std::f64::consts::{PI, TAU};
 
 /// A table that owns its numbers.

@@ -5,9 +5,9 @@ use etendue_judge::generators::Random;
 use etendue_judge::packets::Coordinates;
 use etendue_oracle::tier::cases;
 use etendue_oracle::{V3, along, basis, unit};
-use etendue_render::intensity::{Intensity, Profile};
-use etendue_render::light_profile::LuminousOpening;
 use etendue_render::packet::{V8, X8};
+use etendue_render::scene::intensity::{Intensity, Profile};
+use etendue_render::scene::light_profile::LuminousOpening;
 use std::f64::consts::{PI, TAU};
 
 /// A table by steps of 5° from the pole and of 15° around it.

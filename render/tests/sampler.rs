@@ -3,7 +3,7 @@
 use etendue::{Mask, Real, u32x8};
 use etendue_oracle::tier::cases;
 use etendue_render::Sampler;
-use etendue_render::compare::differs;
+use etendue_render::film::compare::differs;
 use etendue_render::packet::X8;
 use etendue_render::sampler::{CHOICE, FILM, LENS, LIGHT, Packet, Source};
 use std::collections::HashMap;

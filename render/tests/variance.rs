@@ -2,9 +2,9 @@
 
 use crate::kit::{builtin, film, sum};
 use etendue_oracle::tier::cases;
-use etendue_render::compare::LIMIT;
+use etendue_render::film::compare::LIMIT;
+use etendue_render::film::sums::Moments;
 use etendue_render::film::{Film, Pixel};
-use etendue_render::sums::Moments;
 use etendue_render::{Claim, Sampler, Settings, Technique, World};
 
 /// What images claim of their error, over that found among seeds: of the whole image, and of its quarters, as far as they have noise.

@@ -4,9 +4,9 @@
 //! `cargo run --release -p etendue-image-bits` compares; `-- SCENE` compares the images of one scene, and `-- --write "WHY"` replaces the
 //! table and adds a line to its changelog, `render/bits/CHANGELOG.md`.
 
+use etendue_render::drive::progressive::{Goal, Refinement};
 use etendue_render::film::Film;
-use etendue_render::progressive::{Goal, Refinement};
-use etendue_render::{Sampler, Settings, Technique, World, progressive};
+use etendue_render::{Sampler, Settings, Technique, World, drive::progressive};
 use std::fs;
 use std::path::{Path, PathBuf};
 

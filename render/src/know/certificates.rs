@@ -7,12 +7,10 @@
 use super::certifiable::Certifiable;
 use super::certifier::{Certifier, patch};
 use super::picture_irradiance::PictureIrradiance;
-use crate::area::TILE;
 use crate::bvh::{NOTHING, SHAPE};
-use crate::camera::{Camera, Pinhole};
-use crate::estimate::Place;
+use crate::camera::{Camera, Pinhole, Place, PreparedScene};
 use crate::packet::{M8, V8, X8, equal, first_lane};
-use crate::prepared::PreparedScene;
+use crate::scene::area::TILE;
 use crate::settings::Settings;
 use crate::surfaces::{Surface, Surfaces};
 use etendue::{Mask, Real, Vec3, u32x8};

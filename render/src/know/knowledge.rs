@@ -3,12 +3,11 @@
 use super::certifiable::Certifiable;
 use super::certificates::{Certificates, Closed, Known};
 use super::closed_forms::ClosedForms;
+use super::ledger::Ledger;
+use super::ledger::{Know, Outlook};
 use crate::bvh::GROUP;
-use crate::camera::Camera;
-use crate::estimate::{Group, Know, Outlook, Place, Points};
-use crate::ledger::Ledger;
+use crate::camera::{Camera, Group, Place, Points, PreparedScene};
 use crate::packet::{M8, V8, X8, each_bit};
-use crate::prepared::PreparedScene;
 use crate::settings::Settings;
 use etendue::{Mask, Real, Vec3};
 use etendue_visible::{ALLOWED, Precision, Solid};

@@ -3,11 +3,11 @@
 
 use super::certificates::{AreaLight, Closed, Known};
 use super::knowledge::Knowledge;
-use crate::estimate::{Group, Place, product};
-use crate::ledger::Ledger;
-use crate::lobe::Lobe;
-use crate::packet::{M8, V8, X8, first_lane};
+use super::ledger::Ledger;
+use crate::camera::{Group, Place};
+use crate::packet::{M8, V8, X8, first_lane, product};
 use crate::surfaces::Surface;
+use crate::surfaces::lobe::Lobe;
 use etendue::reflection::Reflection;
 use etendue::{Mask, Real};
 use etendue_visible::Precision;

@@ -2,8 +2,9 @@
 
 use super::certificates::Known;
 use super::knowledge::Knowledge;
+use super::ledger::Outlook;
 use crate::bvh::GROUP;
-use crate::estimate::{Outlook, Place, Points};
+use crate::camera::{Place, Points};
 use crate::packet::{M8, each_bit};
 use etendue::Mask;
 use std::cmp::Reverse;

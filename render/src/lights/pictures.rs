@@ -3,9 +3,9 @@
 use super::chosen::{Chosen, Drawn};
 use super::record::PICTURED;
 use crate::geometry::{self, Chart, Geometry};
-use crate::light_picture::LightPicture;
 use crate::packet::{M8, V8, X8, each_group};
 use crate::scene::Shape;
+use crate::scene::light_picture::LightPicture;
 use crate::technique::Measure;
 use etendue::light::{Picture, Region};
 use etendue::{LightSample, Mask, Vec2};

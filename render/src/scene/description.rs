@@ -1,16 +1,16 @@
 //! What a scene file describes.
 
+use super::area::Place;
 use super::environment::Environment;
 use super::inputs::Input;
+use super::intensity::Intensity;
+use super::light_picture::LightPicture;
+use super::light_profile::LightProfile;
 use super::lights::{DeltaLight, Emission};
 use super::materials::{Material, Varying};
 use super::message::Message;
-use crate::area::Place;
+use super::texture::Mask;
 use crate::geometry::{Geometry, Instance};
-use crate::intensity::Intensity;
-use crate::light_picture::LightPicture;
-use crate::light_profile::LightProfile;
-use crate::texture::Mask;
 use std::ops::Range;
 use std::sync::Arc;
 use xxhash_rust::xxh3::Xxh3;

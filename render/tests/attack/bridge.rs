@@ -5,10 +5,10 @@ use etendue_oracle::direct::{
     self, Beyond, Body, Cone, Detail, Emission, Finish, Form, Lens, Opacity, Pattern, Picture, Sky, View,
 };
 use etendue_oracle::{V3, along, basis, cross, dot, sub, unit, wide};
+use etendue_render::scene::texture::{self, Colors, Mapping, Texture, Wrap};
 use etendue_render::scene::{
     CameraSettings, Geometry, Instance, Material, Parallelogram, Scene, Shape, Sphere, Varying,
 };
-use etendue_render::texture::{self, Colors, Mapping, Texture, Wrap};
 use std::collections::HashMap;
 use std::sync::Arc;
 

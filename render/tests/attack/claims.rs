@@ -2,8 +2,8 @@
 
 use super::judge::read;
 use super::regimes::Regime;
+use etendue_render::drive::progressive::{Goal, Progress, Refinement, render};
 use etendue_render::film::Film;
-use etendue_render::progressive::{Goal, Progress, Refinement, render};
 use etendue_render::sampler::default_sampler;
 use etendue_render::scene::Scene;
 use etendue_render::{Claim, Settings, Technique, World};

@@ -5,8 +5,8 @@ use super::draft::{Draft, Frame, Look, Map, Part};
 use super::regimes::named;
 use crate::kit::Folder;
 use etendue_oracle::direct::{self, Block, Body, Source, View};
-use etendue_render::compare::{LIMIT, differs};
 use etendue_render::film::Film;
+use etendue_render::film::compare::{LIMIT, differs};
 use etendue_render::scene::{Affine, Instance, Scene};
 use etendue_render::{Settings, Technique, World};
 

@@ -1,9 +1,9 @@
 //! Cameras of other programs, and parts of their images.
 
 use etendue::{Vec2, u32x8};
-use etendue_render::area::Place;
 use etendue_render::camera::{Camera, CameraSample, counted_from};
 use etendue_render::packet::X8;
+use etendue_render::scene::area::Place;
 use etendue_render::scene::{Scene, Screen};
 use etendue_scene::parse;
 use std::path::Path;

@@ -4,8 +4,8 @@ use super::params::{Params, shown};
 use crate::message::Notes;
 use crate::nearest::did_you_mean;
 use crate::transform::{Transform, length, scaled};
-use etendue_render::area::{Area, Place};
-use etendue_render::limits::{MOST_SAMPLES, is_size};
+use etendue_render::scene::area::{Area, Place};
+use etendue_render::scene::limits::{MOST_SAMPLES, is_size};
 use etendue_render::scene::{CameraSettings, FilmSettings, Lens, Message, Screen};
 
 /// Reads a `Camera`, which looks along +z of camera space, its transform to world space, and the time of exposure, whose unit

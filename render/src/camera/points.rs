@@ -1,11 +1,11 @@
 //! Shading points: where paths from the camera end, and what fraction of the light there reaches the camera.
 
-use crate::bsdf::Metal;
 use crate::bvh::GROUP;
-use crate::lobe::Lobe;
 use crate::packet::{M8, V8};
 use crate::surfaces::Surface;
-use etendue::{Mask, Real, u32x8};
+use crate::surfaces::bsdf::Metal;
+use crate::surfaces::lobe::Lobe;
+use etendue::{Mask, u32x8};
 
 /// The shading points of a group of packets.
 #[derive(Clone)]
@@ -110,16 +110,4 @@ impl End {
     pub(crate) fn rough(&self) -> M8 {
         self.metal.map_or(M8::splat(false), |metal| metal.rough())
     }
-}
-
-/// The vectors in these lanes, and 0 elsewhere.
-#[inline]
-pub(crate) fn keep(v: V8, mask: M8) -> V8 {
-    V8::new(v.x.keep(mask), v.y.keep(mask), v.z.keep(mask))
-}
-
-/// The product of each coordinate.
-#[inline]
-pub(crate) fn product(a: V8, b: V8) -> V8 {
-    V8::new(a.x * b.x, a.y * b.y, a.z * b.z)
 }

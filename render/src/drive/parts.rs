@@ -7,16 +7,18 @@
 //! `kind` what the piece holds, and `checksums` are those of sixteen rows each. Numbers of double precision are two integer channels, of the
 //! upper and the lower half of the bits.
 
-use crate::area;
-use crate::area::{Area, Place};
-use crate::drive::{APART, Content, PixelCounts, Statistics};
-use crate::files::{FileError, failed, make_folder, replace};
-use crate::film::Pixel;
-use crate::identity::Identity;
-use crate::image;
-use crate::image::Compression;
-use crate::image::layer::{self, Layer, LayerFile, Numbers};
+use super::identity::Identity;
+use super::light_weights::APART;
+use super::pixel_counts::PixelCounts;
+use super::pixel_statistics::Statistics;
+use super::view::Content;
+use crate::film::files::{FileError, failed, make_folder, replace};
+use crate::film::image::Compression;
+use crate::film::image::layer::{self, Layer, LayerFile, Numbers};
+use crate::film::{Pixel, image};
 use crate::sampler::Sampler;
+use crate::scene::area;
+use crate::scene::area::{Area, Place};
 use crate::settings::Settings;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};

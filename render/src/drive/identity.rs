@@ -1,9 +1,9 @@
 //! What an image depends on: its parts are recognised by it, and images that may be averaged.
 
-use crate::area::Place;
-use crate::limits::{MOST_SAMPLES, is_size};
+use crate::film::sensor::{Exposure, Sensor};
 use crate::scene::Scene;
-use crate::sensor::{Exposure, Sensor};
+use crate::scene::area::Place;
+use crate::scene::limits::{MOST_SAMPLES, is_size};
 use crate::settings::Settings;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
