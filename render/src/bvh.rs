@@ -42,7 +42,7 @@ use crate::scene::texture::Mask as Holes;
 use double_precision::{hides, wide};
 use etendue::{Mask, Real, Vec3, u32x8};
 use frustum::Frustum;
-use instances::{Found, Instances, Object};
+use instances::{InstanceTriangle, Instances, Object};
 pub use node::BuildError;
 use rays::any;
 pub use rays::{GROUP, Hits, NOTHING, Rays, SHAPE};
@@ -273,14 +273,14 @@ impl Bvh {
     }
     /// The triangle of an instance at a place; `None` if it is no part of any.
     #[inline]
-    fn of_instance(&self, place: u32) -> Option<Found<'_>> {
+    fn of_instance(&self, place: u32) -> Option<InstanceTriangle<'_>> {
         let instances = self.instances.as_ref().filter(|_| place as usize >= self.triangles.count())?;
         Some(instances.find(place))
     }
     /// The corners of the mesh triangle at a place.
     #[inline]
     pub fn corners(&self, place: u32) -> [f32; 9] {
-        let Some(Found { object, index, to_world }) = self.of_instance(place) else {
+        let Some(InstanceTriangle { object, index, to_world }) = self.of_instance(place) else {
             return self.triangles.primitives().corners(place);
         };
         let c = object.triangles.primitives().corners(index as u32);

@@ -17,7 +17,7 @@ pub use orthographic::Orthographic;
 pub(crate) use paths::Paths;
 pub use pinhole::Pinhole;
 #[cfg(feature = "analytic")]
-pub(crate) use points::Place;
+pub(crate) use points::PointIdentity;
 pub(crate) use points::Points;
 pub(crate) use prepared::PreparedScene;
 pub use thin_lens::{Slopes, ThinLens};

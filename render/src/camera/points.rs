@@ -12,7 +12,7 @@ use etendue::{Mask, u32x8};
 pub(crate) struct Points {
     /// The surfaces as they are lit.
     pub(crate) surfaces: [Surface; GROUP],
-    pub(crate) places: [Place; GROUP],
+    pub(crate) places: [PointIdentity; GROUP],
     /// What else is known of surfaces that are not flat and diffuse.
     pub(crate) ends: [End; GROUP],
     /// The fits of rough surfaces, where they have been [noted](Self::note_lobes).
@@ -21,7 +21,7 @@ pub(crate) struct Points {
 
 /// The places of a packet of shading points.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Place {
+pub(crate) struct PointIdentity {
     /// As in hits.
     pub(crate) primitives: u32x8,
     /// Lanes that the camera sees directly.
@@ -52,8 +52,13 @@ impl Points {
     /// Before any ray has hit.
     pub(crate) fn new() -> Self {
         let none = M8::splat(false);
-        let place =
-            Place { primitives: u32x8::splat(0), direct: M8::splat(true), pixel: None, fitted: none, unfitted: none };
+        let place = PointIdentity {
+            primitives: u32x8::splat(0),
+            direct: M8::splat(true),
+            pixel: None,
+            fitted: none,
+            unfitted: none,
+        };
         Self {
             surfaces: [Surface::default(); GROUP],
             places: [place; GROUP],

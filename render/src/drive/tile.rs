@@ -15,7 +15,7 @@ use crate::film::sensor::Exposure;
 use crate::know::{Know, Ledger, Outlook};
 use crate::lights::Lights;
 use crate::packet::{M8, V8, X8, product};
-use crate::sampler::{CHOICE, FILM, LENS, Packet, SURFACE, Source};
+use crate::sampler::{CHOICE, FILM, LENS, NumberSource, Packet, SURFACE};
 use crate::scene::area::Area;
 use crate::settings::Settings;
 use etendue::{Mask, Vec2, u32x8};
@@ -36,7 +36,7 @@ pub(super) struct TileRenderer<'a> {
     exposure: Option<Exposure>,
     /// Whether samples need a point of the lens.
     lens: bool,
-    pub(super) source: Source,
+    pub(super) source: NumberSource,
     pub(super) paths: Paths<'a>,
     /// What is known without samples, and what was written of it for the last group.
     pub(super) know: Option<Box<dyn Know + 'a>>,
@@ -64,7 +64,7 @@ impl<'a> TileRenderer<'a> {
             camera,
             lens: camera.has_lens() || exposure.is_some(),
             exposure,
-            source: Source::new(sampler, seed, spp, sets, width),
+            source: NumberSource::new(sampler, seed, spp, sets, width),
             paths: Paths::new(scene, settings.depth),
             ledger: Ledger::all_open(know.is_some()),
             know,

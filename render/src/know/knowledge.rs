@@ -6,7 +6,7 @@ use super::closed_forms::ClosedForms;
 use super::ledger::Ledger;
 use super::ledger::{Know, Outlook};
 use crate::bvh::GROUP;
-use crate::camera::{Camera, Group, Place, Points, PreparedScene};
+use crate::camera::{Camera, Group, PointIdentity, Points, PreparedScene};
 use crate::packet::{M8, V8, X8, each_bit};
 use crate::settings::Settings;
 use etendue::{Mask, Real, Vec3};
@@ -48,7 +48,7 @@ impl Know for Knowledge<'_> {
         let (surface, place) = (&points.surfaces[packet], &points.places[packet]);
         open.fill(surface.reflects & place.unfitted);
         each_bit((surface.reflects & !place.unfitted).bits(), |lane| {
-            let alone = Place { pixel: Some(pixels[lane]), ..*place };
+            let alone = PointIdentity { pixel: Some(pixels[lane]), ..*place };
             let (first, _) = self.certificates.find(surface, &alone, M8::from_bits(1 << lane));
             for (open, known) in open.iter_mut().zip(&self.certificates.known[first..]) {
                 // beyond its fit, a rough surface is sampled

@@ -1,6 +1,6 @@
 //! What a scene file describes.
 
-use super::area::Place;
+use super::area::PlaceInImage;
 use super::environment::Environment;
 use super::inputs::Input;
 use super::intensity::Intensity;
@@ -144,7 +144,7 @@ pub struct FilmSettings {
     /// Name of the image file to write.
     pub filename: Option<String>,
     /// Where the image is in the whole one, if it is only a part.
-    pub place: Option<Place>,
+    pub place: Option<PlaceInImage>,
     /// What the picture for viewing is multiplied by, as a film of more speed or a longer exposure is brighter: 1 by default. Images of radiance are not.
     pub exposure: f64,
 }

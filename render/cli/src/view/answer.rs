@@ -2,7 +2,7 @@
 
 use super::http::{Body, Request, Response};
 use super::page;
-use super::server::Place;
+use super::server::CountGuard;
 use super::state::{Picture, Shared, State, Way};
 use etendue_render::camera::Orbit;
 use etendue_render::film::Film;
@@ -146,7 +146,7 @@ fn image(shared: &Shared, request: &Request) -> Response {
         Ok(way) => way,
         Err(what) => return Response::text(400, &what),
     };
-    let place = Place::new(&shared.sending);
+    let place = CountGuard::new(&shared.sending);
     if place.number > SENT {
         return Response::text(503, "too many images are being sent");
     }

@@ -1,7 +1,7 @@
 //! Runs `etendue chart` as a user would, and checks their measurements.
 
 use super::{Folder, until};
-use etendue_laboratory::chart::measure::{Row, Rows};
+use etendue_laboratory::chart::measure::{Measurement, Rows};
 use etendue_laboratory::chart::reference::Reference;
 use etendue_laboratory::chart::{self, Options};
 use etendue_oracle::tier::cases;
@@ -203,7 +203,7 @@ fn options(output: &Path, scene: &str) -> Options {
     }
 }
 
-fn all(rows: &Rows) -> impl Iterator<Item = &Row> {
+fn all(rows: &Rows) -> impl Iterator<Item = &Measurement> {
     rows.values().flatten()
 }
 
