@@ -6,11 +6,11 @@
 
 use etendue_benches::memory::{peak, start_peak};
 use etendue_render::drive::Content;
+use etendue_render::drive::merge::{Merged, merge};
+use etendue_render::drive::parts::{self, Piece};
 use etendue_render::film::Pixel;
-use etendue_render::merge::{Merged, merge};
-use etendue_render::parts::{self, Piece};
+use etendue_render::film::sensor::Sensor;
 use etendue_render::sampler::Sampler;
-use etendue_render::sensor::Sensor;
 use etendue_render::technique::Technique;
 use etendue_render::{Identity, Settings, World};
 use rayon::prelude::*;

@@ -8,7 +8,7 @@
 use etendue_benches::report::Report;
 use etendue_laboratory::cost::median;
 use etendue_laboratory::processor_time::processor_seconds;
-use etendue_render::progressive::{self, Goal, Refinement};
+use etendue_render::drive::progressive::{self, Goal, Refinement};
 use etendue_render::sampler::default_sampler;
 use etendue_render::{RayCount, Settings, Technique, World};
 use serde_json::{Value, json};

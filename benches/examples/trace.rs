@@ -89,13 +89,13 @@ fn groups(rays: &[Ray]) -> Vec<Group> {
 
 /// The hits of one way of tracing.
 #[derive(Clone, Copy, PartialEq)]
-struct Found {
+struct TracedHits {
     hits: u64,
     distances: f64,
 }
 
-fn closest(bvh: &Bvh, groups: &[Group], stack: &mut Scratch) -> Found {
-    let mut found = Found { hits: 0, distances: 0.0 };
+fn closest(bvh: &Bvh, groups: &[Group], stack: &mut Scratch) -> TracedHits {
+    let mut found = TracedHits { hits: 0, distances: 0.0 };
     for group in groups {
         let rays: [Rays; GROUP] = std::array::from_fn(|p| bvh.rays(group[p].origin, group[p].direction));
         let mut hits = group.map(|p| Hits::none(p.limit));
@@ -110,7 +110,7 @@ fn closest(bvh: &Bvh, groups: &[Group], stack: &mut Scratch) -> Found {
     found
 }
 
-fn occluded(bvh: &Bvh, groups: &[Group], stack: &mut Scratch) -> Found {
+fn occluded(bvh: &Bvh, groups: &[Group], stack: &mut Scratch) -> TracedHits {
     let mut hits = 0;
     for group in groups {
         let rays: [Rays; GROUP] = std::array::from_fn(|p| bvh.rays(group[p].origin, group[p].direction));
@@ -119,11 +119,11 @@ fn occluded(bvh: &Bvh, groups: &[Group], stack: &mut Scratch) -> Found {
         bvh.occluded(&rays, &mut open, &group.map(|p| p.limit), &[u32x8::splat(NOTHING); GROUP], stack);
         hits += before.iter().zip(&open).map(|(b, o)| u64::from((b.bits() & !o.bits()).count_ones())).sum::<u64>();
     }
-    Found { hits, distances: 0.0 }
+    TracedHits { hits, distances: 0.0 }
 }
 
 /// Median, least and greatest speed in million rays per second, and the hits.
-fn measure(repetitions: usize, rays: usize, mut trace: impl FnMut() -> Found) -> ([f64; 3], Found) {
+fn measure(repetitions: usize, rays: usize, mut trace: impl FnMut() -> TracedHits) -> ([f64; 3], TracedHits) {
     let mut found = trace();
     let mut speeds: Vec<_> = (0..repetitions)
         .map(|_| {
@@ -192,7 +192,7 @@ fn run() -> Result<(), String> {
             "[least, greatest]",
             "hits"
         );
-        let mut report = |name: &str, ([median, least, greatest], found): ([f64; 3], Found)| {
+        let mut report = |name: &str, ([median, least, greatest], found): ([f64; 3], TracedHits)| {
             println!(
                 "  {name:22} {median:8.3}  [{least:8.3} {greatest:8.3}]  {:9}  {:.9e}",
                 found.hits, found.distances
@@ -206,13 +206,14 @@ fn run() -> Result<(), String> {
             let rays: Vec<_> = rays.iter().map(|r| baseline::ray(r.origin, r.direction, r.limit)).collect();
             let all = || {
                 let each = rays.iter().filter_map(|&r| baseline.closest(r));
-                each.fold(Found { hits: 0, distances: 0.0 }, |f, t| Found {
+                each.fold(TracedHits { hits: 0, distances: 0.0 }, |f, t| TracedHits {
                     hits: f.hits + 1,
                     distances: f.distances + f64::from(t),
                 })
             };
             report("closest obvhs", measure(repetitions, rays.len(), all));
-            let all = || Found { hits: rays.iter().filter(|&&r| baseline.occluded(r)).count() as u64, distances: 0.0 };
+            let all =
+                || TracedHits { hits: rays.iter().filter(|&&r| baseline.occluded(r)).count() as u64, distances: 0.0 };
             report("any obvhs", measure(repetitions, rays.len(), all));
         }
         let groups = groups(&rays);

@@ -167,7 +167,7 @@ pub use rectangle::RectangleBySolidAngle;
 pub use rotated::Rotated;
 pub use sample::{FAR, LightSample, TexelSample};
 #[doc(hidden)]
-pub use sampler::Seen;
+pub use sampler::SeenShape;
 pub use sampler::{ByArea, ByProjectedSolidAngle, ByReflection, BySolidAngle, LightSampler};
 #[doc(hidden)]
 pub use seen::SphericalShape;

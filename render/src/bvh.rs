@@ -31,39 +31,33 @@ mod region;
 mod shapes;
 mod single_ray;
 mod stream;
+mod tracer;
 mod traversal;
 mod tree;
 mod triangles;
 
 use crate::geometry::{Affine, Instance, NEAR_LIMIT, Segment};
 use crate::packet::{M8, V8, X8, each_bit, equal, pick, select};
-use crate::texture::Mask as Holes;
+use crate::scene::texture::Mask as Holes;
 use double_precision::{hides, wide};
 use etendue::{Mask, Real, Vec3, u32x8};
 use frustum::Frustum;
-use instances::{Found, Instances, Object};
+use instances::{InstanceTriangle, Instances, Object};
 pub use node::BuildError;
-use node::Stack;
 use rays::any;
 pub use rays::{GROUP, Hits, NOTHING, Rays, SHAPE};
 pub use region::Region;
 pub use shapes::{LitSides, ShapeSet};
 use std::ops::Range;
 use std::sync::Arc;
+pub(crate) use tracer::Tracer;
+pub use tracer::{RayCount, Scratch};
 pub use traversal::Traversal;
 use tree::Tree;
 use triangles::{InPlace, Situated};
 
 /// See [`Bvh::reach_of_points`].
 const MOST_REACH: f32 = (1 << 20) as f32;
-
-/// Scratch memory for traversals, to be reused.
-#[derive(Debug, Default)]
-pub struct Scratch {
-    frustum: Stack<frustum::Pending>,
-    stream: stream::Scratch,
-    instances: Vec<instances::Visit>,
-}
 
 /// Everything rays can hit: mesh triangles in a tree, and shapes that are intersected as such.
 #[derive(Debug)]
@@ -279,14 +273,14 @@ impl Bvh {
     }
     /// The triangle of an instance at a place; `None` if it is no part of any.
     #[inline]
-    fn of_instance(&self, place: u32) -> Option<Found<'_>> {
+    fn of_instance(&self, place: u32) -> Option<InstanceTriangle<'_>> {
         let instances = self.instances.as_ref().filter(|_| place as usize >= self.triangles.count())?;
         Some(instances.find(place))
     }
     /// The corners of the mesh triangle at a place.
     #[inline]
     pub fn corners(&self, place: u32) -> [f32; 9] {
-        let Some(Found { object, index, to_world }) = self.of_instance(place) else {
+        let Some(InstanceTriangle { object, index, to_world }) = self.of_instance(place) else {
             return self.triangles.primitives().corners(place);
         };
         let c = object.triangles.primitives().corners(index as u32);

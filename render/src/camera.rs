@@ -1,15 +1,25 @@
 //! The camera of an image: a pinhole, a thin lens, a lens in a barrel, or parallel rays.
 
+mod group;
 mod linear;
 mod orbit;
 mod orthographic;
+mod paths;
 mod pinhole;
+mod points;
+mod prepared;
 mod thin_lens;
 mod vignetting;
 
+pub(crate) use group::{Group, Numbers};
 pub use orbit::Orbit;
 pub use orthographic::Orthographic;
+pub(crate) use paths::Paths;
 pub use pinhole::Pinhole;
+#[cfg(feature = "analytic")]
+pub(crate) use points::PointIdentity;
+pub(crate) use points::Points;
+pub(crate) use prepared::PreparedScene;
 pub use thin_lens::{Slopes, ThinLens};
 pub use vignetting::{Barrel, Pupil};
 

@@ -1,17 +1,19 @@
 //! Which light is sampled at a shading point. Each way to choose one is a file, which implements `ChooseLight`.
 
+pub mod allocation;
 mod choose_light;
 mod kinds;
+mod light_tree;
 mod power;
 mod spatial;
 mod tree;
 mod uniform;
 
-use crate::allocation::{Allocated, FEW};
 use crate::bvh::BuildError;
 use crate::lights::Lights;
 use crate::named::named;
 use crate::packet::{V8, X8};
+use allocation::{Allocated, FEW};
 use choose_light::ChooseLight;
 use etendue::discrete::PiecewiseConstant2d;
 use etendue::lights::MixtureAt;

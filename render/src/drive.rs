@@ -15,16 +15,24 @@
 //! 5. The second set of some pixels is rendered: as many samples once more, which are no part of the image. Its squared differences from the
 //!    first set tell by what factor the variance of all pixels of a tile differs from what the spread of their samples lets expect.
 //!
-//! An image of a given error or time repeats this in passes, each of up to eight times as many samples ([`progressive`](crate::progressive)).
+//! An image of a given error or time repeats this in passes, each of up to eight times as many samples ([`progressive`]).
 
 mod corners;
+#[cfg(feature = "exr")]
+pub mod identity;
 mod light_weights;
+#[cfg(feature = "exr")]
+pub mod merge;
+#[cfg(feature = "exr")]
+pub mod parts;
 mod pixel_counts;
 mod pixel_statistics;
+pub mod progressive;
 mod radiance;
 mod runs;
 mod second_sets;
 mod specks;
+pub mod split;
 mod tile;
 mod view;
 mod world;

@@ -11,6 +11,7 @@ mod form;
 mod parallelogram;
 mod points;
 mod sphere;
+pub mod spread;
 mod table;
 mod triangle;
 

@@ -35,77 +35,45 @@
 //! | `analytic` (default) | closed forms of light wherever geometry tells what can hide it |
 //! | `exr` (default) | images in EXR and PNG files, comparing them, and images whose parts are rendered apart |
 //!
-//! Modules import one way, from the last line of this list to the first:
+//! Folders import one way, from the last line of this list to the first, and so do the files of each:
 //!
-//! - [`packet`], [`area`], [`geometry`], [`texture`], [`limits`]: packets of eight numbers, rectangles of pixels, the
-//!   forms of shapes, what varies over them, and how large images can be.
-//! - [`intensity`], [`light_picture`], [`light_profile`], [`scene`]: what a scene is, and what its lights show.
-//! - [`sums`], [`film`], [`files`], [`image`], [`compare`]: sums of samples, pixels, and images in files.
-//! - [`bvh`], [`technique`], [`lobe`], [`bsdf`], [`surfaces`]: what rays hit, and how it reflects.
-//! - [`camera`], [`sensor`], [`sampler`], [`sky`], `light_tree`, [`lights`], [`choose`]: the numbers and directions of a sample.
-//! - `paths`, `ledger`, `estimate`: camera rays to shading points, what is known of lights there, and the light that these reflect.
-//! - `know`: what geometry alone tells about that light, and closed forms of it.
-//! - [`settings`], [`drive`], [`claim`], [`progressive`]: images of a given number of samples, or of a given error or time, and what they
-//!   claim of it.
-//! - [`identity`], [`split`], [`parts`], [`merge`]: what an image depends on, and images whose parts are rendered apart.
+//! - [`packet`], `named`, [`technique`], [`sampler`], [`settings`]: packets of eight numbers, and what is asked for.
+//! - [`geometry`]: the forms of shapes.
+//! - [`scene`]: what a scene is, what varies over surfaces, and what lights show.
+//! - [`bvh`]: what rays hit.
+//! - [`surfaces`]: how it reflects.
+//! - [`lights`]: the lights and the sky, and directions to them.
+//! - [`choose`]: which light is sampled.
+//! - [`camera`]: rays from the camera, and their paths to shading points.
+//! - [`know`]: what is known of the lights there: the ledger, what geometry alone tells, and closed forms.
+//! - `estimate`: the light that shading points reflect.
+//! - [`film`]: sums of samples, pixels, images in files, and what they claim of their error.
+//! - [`drive`]: images of a given number of samples, or of a given error or time, or of which parts are rendered apart.
 
-pub mod allocation;
-pub mod area;
-pub mod bsdf;
 pub mod bvh;
 pub mod camera;
 pub mod choose;
-pub mod claim;
-pub mod coat;
-#[cfg(feature = "exr")]
-pub mod compare;
 pub mod drive;
 mod estimate;
-pub mod files;
 pub mod film;
 pub mod geometry;
-#[cfg(feature = "exr")]
-pub mod identity;
-#[cfg(feature = "exr")]
-pub mod image;
-pub mod intensity;
-#[cfg(feature = "analytic")]
 pub mod know;
-mod ledger;
-pub mod light_picture;
-pub mod light_profile;
-mod light_tree;
 pub mod lights;
-pub mod limits;
-pub mod lobe;
-#[cfg(feature = "exr")]
-pub mod merge;
 mod named;
 pub mod packet;
-#[cfg(feature = "exr")]
-pub mod parts;
-mod paths;
-mod prepared;
-pub mod progressive;
 pub mod sampler;
 pub mod scene;
-pub mod sensor;
 pub mod settings;
-pub mod sky;
-pub mod split;
-pub mod spread;
-pub mod sums;
 pub mod surfaces;
 pub mod technique;
-pub mod texture;
 
+pub use bvh::RayCount;
 pub use choose::ChoiceBy;
-pub use claim::Claim;
-pub use drive::{View, World};
-pub use estimate::RayCount;
 #[cfg(feature = "exr")]
-pub use identity::Identity;
+pub use drive::identity::Identity;
+pub use drive::{View, World};
+pub use film::claim::Claim;
+pub use film::sensor::Sensor;
 pub use sampler::Sampler;
-pub use sensor::Sensor;
 pub use settings::Settings;
 pub use technique::Technique;

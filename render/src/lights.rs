@@ -24,22 +24,21 @@ mod kinds;
 mod pictures;
 pub(crate) mod point;
 mod record;
-mod sky;
+pub mod sky;
+mod sky_light;
 pub(crate) mod spot;
 pub(crate) mod sun;
 
-use crate::allocation::FEW;
 use crate::bvh::NOTHING;
 use crate::geometry::{self, Geometry};
-use crate::light_picture::LightPicture;
-use crate::light_profile::LightProfile;
 use crate::packet::{V8, X8, each_bit, each_group, pick, select};
+use crate::scene::light_picture::LightPicture;
+use crate::scene::light_profile::LightProfile;
 use crate::scene::{Scene, Shape};
-use crate::sky::Sky;
 use crate::technique::Measure;
 pub use chosen::{Chosen, Drawn};
 use directed::DirectedLight;
-use etendue::select::LightBound;
+use etendue::select::{LightBound, SpatialLights};
 use etendue::{Real, Vec2, u32x8};
 use kinds::{
     ONLY_AREAS, ONLY_DELTAS, PICTURES, PROFILES, SHAPES, SPREADS, UNEVEN, UNSEENS, area_lights, delta_lights,
@@ -48,7 +47,11 @@ use kinds::{
 use pictures::Tables;
 pub(crate) use record::{Candidate, Far};
 use record::{LightRecord, PROFILED, PackedLight, SPREAD, TWO_SIDED, UNSEEN};
+use sky::Sky;
 use std::sync::Arc;
+
+/// The greatest number of lights that are chosen by what each can contribute to a point.
+const FEW: usize = SpatialLights::MOST;
 
 /// The lights of a scene.
 #[derive(Debug, Default)]
@@ -92,7 +95,7 @@ impl Lights {
     }
     fn of(scene: &Scene, shapes: &Arc<[Shape]>, sky: Option<Arc<Sky>>) -> Self {
         let (mut others, directed) = delta_lights(scene);
-        others.extend(sky.as_deref().map(sky::candidate));
+        others.extend(sky.as_deref().map(sky_light::candidate));
         let mut own = Self {
             others,
             sky,
@@ -143,7 +146,7 @@ impl Lights {
     pub fn only_deltas(&self) -> bool {
         self.kinds & !ONLY_DELTAS == 0
     }
-    /// Whether there are 1 to [`FEW`] lights, and all have an area.
+    /// Whether there are 1 to [`SpatialLights::MOST`] lights, and all have an area.
     pub fn only_few_areas(&self) -> bool {
         self.kinds & !ONLY_AREAS == 0 && (1..=FEW).contains(&self.len())
     }
@@ -226,12 +229,12 @@ impl Lights {
     /// Samples every kind of light that the scene has, but for those with directions of their own, each in its lanes.
     fn by_kind(&self, chosen: &mut Chosen, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> Option<Drawn> {
         let mut drawn: Option<Drawn> = None;
-        each_bit(self.kinds & (SHAPES | ONLY_DELTAS | 1 << sky::KIND) & !(1 << directed::KIND), |kind| {
+        each_bit(self.kinds & (SHAPES | ONLY_DELTAS | 1 << sky_light::KIND) & !(1 << directed::KIND), |kind| {
             let kind = kind as u32;
             let here = chosen.is(kind);
             let sample = match kind {
                 kind if SHAPES >> kind & 1 == 0 => match &self.sky {
-                    Some(sky) if kind == sky::KIND => sky::sample(sky, here, chosen, measure, p, normal, u),
+                    Some(sky) if kind == sky_light::KIND => sky_light::sample(sky, here, chosen, measure, p, normal, u),
                     _ => sample_delta(kind, chosen, p, u).into(),
                 },
                 _ if self.kinds & PICTURES != 0 => {

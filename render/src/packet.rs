@@ -46,6 +46,18 @@ pub fn pick(mask: M8, yes: u32x8, no: u32x8) -> u32x8 {
     select(mask, X8::from_bits(yes), X8::from_bits(no)).to_bits()
 }
 
+/// The vectors in these lanes, and 0 elsewhere.
+#[inline]
+pub fn keep(v: V8, mask: M8) -> V8 {
+    V8::new(v.x.keep(mask), v.y.keep(mask), v.z.keep(mask))
+}
+
+/// The product of each coordinate.
+#[inline]
+pub fn product(a: V8, b: V8) -> V8 {
+    V8::new(a.x * b.x, a.y * b.y, a.z * b.z)
+}
+
 /// Calls `f` with the index of each set bit.
 #[inline(always)]
 pub fn each_bit(bits: impl Into<u64>, mut f: impl FnMut(usize)) {

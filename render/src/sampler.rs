@@ -135,7 +135,7 @@ enum AnySequence {
 
 /// Random numbers for the samples of an image.
 #[derive(Debug)]
-pub struct Source {
+pub struct NumberSource {
     sequence: AnySequence,
     /// Samples in a set; 0 if each sample is a set.
     span: u32,
@@ -153,7 +153,7 @@ const fn joint(dimension: u32) -> u32 {
     }
 }
 
-impl Source {
+impl NumberSource {
     /// Prepares `spp` samples per pixel, in `sets` sets, for an image of this width.
     ///
     /// Every count is valid; Sobol points are best if a set is a power of two.

@@ -1,9 +1,9 @@
 //! What an image depends on besides the scene, and what it cost.
 
-use crate::area::{Area, TILE};
 use crate::choose::ChoiceBy;
-use crate::limits::{MOST_SAMPLES, is_size};
 use crate::sampler::Sampler;
+use crate::scene::area::{Area, TILE};
+use crate::scene::limits::{MOST_SAMPLES, is_size};
 use crate::technique::Technique;
 
 /// The area [x0, y0, x1, y1) of each tile of an area that consists of tiles.

@@ -1,14 +1,17 @@
 //! The surfaces of a scene: what rays hit, with its material.
 
+pub mod bsdf;
+pub mod coat;
 mod interpolation;
+pub mod lobe;
 
-use crate::bsdf::{MaterialRecord, Metal, PLAIN, albedo, record};
 use crate::bvh::{BuildError, Bvh, Hits, LitSides, Rays, SHAPE, ShapeSet};
 use crate::geometry::{Points, on_triangle, on_triangles, on_vast_triangles};
-use crate::light_picture::LightPicture;
-use crate::light_profile::LightProfile;
 use crate::packet::{M8, V8, X8, each_group, equal, first_lane};
+use crate::scene::light_picture::LightPicture;
+use crate::scene::light_profile::LightProfile;
 use crate::scene::{Corners, Details, Material, Scene, Shape, Varying};
+use bsdf::{MaterialRecord, Metal, PLAIN, albedo, record};
 use etendue::{Mask, Real, Vec3, u32x8};
 use interpolation::{along_u, barycentric, interpolated, lane_of, moved, set_lane, smooth_normal};
 use std::collections::HashMap;

@@ -2,8 +2,8 @@
 
 use crate::kit::{BLACK, Folder, PLANE, builtin, world};
 use etendue_oracle::tier::cases;
-use etendue_render::compare::differs;
 use etendue_render::film::Film;
+use etendue_render::film::compare::differs;
 use etendue_render::{RayCount, Sampler, Settings, Technique, World};
 
 const SETTINGS: Settings =

@@ -5,7 +5,7 @@ use etendue_judge::generators::{self, Random};
 use etendue_judge::packets::{Coordinates, vectors_of};
 use etendue_oracle::tier::cases;
 use etendue_oracle::{V3, dot, gauss_legendre, length, unit};
-use etendue_render::sky::GeneralSky;
+use etendue_render::lights::sky::GeneralSky;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// Parameters a to e of the types 1 to 15, as ISO 15469:2004 lists them.

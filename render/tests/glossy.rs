@@ -3,7 +3,7 @@
 use crate::kit::{ALBEDO, BLACK, narrow, pixel, world};
 use etendue_oracle::tier::cases;
 use etendue_oracle::{V3, along, basis, cross, dot, integrate, length, sub, unit};
-use etendue_render::compare::differs;
+use etendue_render::film::compare::differs;
 use etendue_render::{Technique, World};
 use std::f64::consts::{PI, TAU};
 use std::fmt::Write;

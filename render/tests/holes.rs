@@ -1,7 +1,7 @@
 //! Instances against their copies, rough surfaces beside diffuse ones, and boxes with holes; `attack` has veils and what is behind them.
 
 use crate::kit::{film, narrow, read, settings, sum, world};
-use etendue_render::compare::LIMIT;
+use etendue_render::film::compare::LIMIT;
 use etendue_render::scene::{Instance, Scene};
 use etendue_render::{Technique, World};
 use std::f64::consts::TAU;

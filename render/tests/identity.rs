@@ -1,7 +1,7 @@
 //! What an image depends on.
 
-use etendue_render::area::Place;
-use etendue_render::limits::MOST_SAMPLES;
+use etendue_render::scene::area::PlaceInImage;
+use etendue_render::scene::limits::MOST_SAMPLES;
 use etendue_render::{Identity, Sampler, Sensor, Settings, World};
 use serde_json::json;
 use std::path::Path;
@@ -35,7 +35,7 @@ fn places_are_kept() {
     let scene = etendue_scene::parse(&format!("{film} {view}"), "a.pbrt", Path::new("")).unwrap();
     let settings = Settings { width: scene.film.width, height: scene.film.height, ..SETTINGS };
     let identity = Identity::new(&scene, settings, Sensor::Radiance);
-    assert_eq!(identity.place, Some(Place { start: [10, 5], whole: [64, 32] }));
+    assert_eq!(identity.place, Some(PlaceInImage { start: [10, 5], whole: [64, 32] }));
     let mut json = json!(identity);
     assert_eq!(Identity::from_json(&json).unwrap(), identity);
     for (x, across) in [(10, 19), (55, 64), (u32::MAX, 64), (10, u32::MAX)] {

@@ -1,12 +1,12 @@
 //! Images in files: their sizes, which are accepted only if the file is long enough, and their windows.
 
 use crate::kit::Folder;
-use etendue_render::area::Place;
 use etendue_render::drive::Content;
-use etendue_render::files::check_replaceable;
+use etendue_render::drive::parts::{self, PieceFile};
+use etendue_render::film::files::check_replaceable;
 use etendue_render::film::{Film, Pixel};
-use etendue_render::parts::{self, PieceFile};
-use etendue_render::{Identity, Sampler, Sensor, Settings, Technique, image};
+use etendue_render::scene::area::PlaceInImage;
+use etendue_render::{Identity, Sampler, Sensor, Settings, Technique, film::image};
 use exr::math::Vec2;
 use exr::meta::attribute::IntegerBounds;
 use exr::prelude::{
@@ -100,8 +100,8 @@ fn parts_have_places() {
     let identity = Identity::new(&etendue_scene::load("quads").unwrap(), settings, Sensor::Radiance);
     let file = std::env::temp_dir().join(format!("etendue-place-{}.exr", std::process::id()));
     for (place, start, whole) in [
-        (Some(Place { start: [10, 5], whole: [64, 32] }), [10, 5], [64, 32]),
-        (Some(Place { start: [54, 28], whole: [64, 32] }), [54, 28], [64, 32]),
+        (Some(PlaceInImage { start: [10, 5], whole: [64, 32] }), [10, 5], [64, 32]),
+        (Some(PlaceInImage { start: [54, 28], whole: [64, 32] }), [54, 28], [64, 32]),
         (None, [0, 0], [10, 4]),
     ] {
         let identity = Identity { place, ..identity.clone() };

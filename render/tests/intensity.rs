@@ -4,19 +4,19 @@ use etendue_judge::generators::Random;
 use etendue_judge::packets::Coordinates;
 use etendue_oracle::V3;
 use etendue_oracle::tier::cases;
-use etendue_render::intensity::{Profile, ProfileError};
 use etendue_render::packet::V8;
+use etendue_render::scene::intensity::{Profile, ProfileError};
 use std::f64::consts::{PI, TAU};
 
 /// A table that owns its numbers.
 #[derive(Debug)]
-struct Table {
+struct IntensityTable {
     polar: Vec<f32>,
     azimuth: Vec<f32>,
     values: Vec<f32>,
 }
 
-impl Table {
+impl IntensityTable {
     fn profile(&self) -> Profile {
         Profile::new(self.polar.clone(), self.azimuth.clone(), self.values.clone()).unwrap()
     }
@@ -101,7 +101,7 @@ fn directions(random: &mut Random, count: usize) -> Vec<V3> {
 fn intensity_is_that_of_the_table() {
     let mut random = Random::new(3);
     for kind in 0..cases(60, 600) {
-        let table = Table::random(&mut random, kind);
+        let table = IntensityTable::random(&mut random, kind);
         let profile = table.profile();
         for packet in directions(&mut random, 203).chunks(8) {
             let found = profile.intensity(Coordinates::gather(packet)).to_array();
@@ -109,7 +109,7 @@ fn intensity_is_that_of_the_table() {
             let again = profile.intensity(Coordinates::gather(&turned)).to_array();
             for (lane, &w) in packet.iter().enumerate() {
                 assert_eq!(found[lane].to_bits(), again[(lane + 5) % 8].to_bits());
-                let [polar, azimuth] = Table::angles(w);
+                let [polar, azimuth] = IntensityTable::angles(w);
                 // the value, and those within the rounding of the angles: at its edges, a table is not continuous
                 let slack = 1e-6_f64.to_degrees();
                 let across = slack / polar.to_radians().sin().max(slack.to_radians());
@@ -140,7 +140,7 @@ fn powers_are_integrals() {
     }
     let mut random = Random::new(5);
     for kind in 0..cases(12, 60) {
-        let table = Table::random(&mut random, kind);
+        let table = IntensityTable::random(&mut random, kind);
         let (power, truth) = (table.profile().power(), table.integral());
         assert!((power / truth - 1.0).abs() < 1e-5, "{power} for {truth}: {table:?}");
     }
@@ -151,7 +151,7 @@ fn powers_are_integrals() {
 fn cones_contain_the_light() {
     let mut random = Random::new(9);
     for kind in 0..cases(60, 600) {
-        let table = Table::random(&mut random, kind);
+        let table = IntensityTable::random(&mut random, kind);
         let profile = table.profile();
         for packet in directions(&mut random, 203).chunks(8) {
             let w: V8 = Coordinates::gather(packet);

@@ -1,8 +1,8 @@
 //! What several tests need: temporary folders, scenes of which a pixel is a point, and the means of pixels and images.
 
 use etendue_oracle::V3;
-use etendue_render::compare::LIMIT;
 use etendue_render::film::Film;
+use etendue_render::film::compare::LIMIT;
 use etendue_render::scene::Scene;
 use etendue_render::{Sampler, Settings, Technique, World};
 use std::f64::consts::PI;

@@ -7,9 +7,9 @@ use etendue_oracle::tier::cases;
 use etendue_render::choose::{ChoiceBy, Chooser, Choosers};
 use etendue_render::geometry::{Geometry, Parallelogram, Sphere};
 use etendue_render::lights::Lights;
+use etendue_render::lights::sky::Sky;
 use etendue_render::packet::{V8, X8};
 use etendue_render::scene::{self, DeltaLight, Scene};
-use etendue_render::sky::Sky;
 use etendue_render::technique::Measure;
 use std::sync::Arc;
 

@@ -5,19 +5,19 @@ use etendue_judge::generators::Random;
 use etendue_judge::packets::Coordinates;
 use etendue_oracle::tier::cases;
 use etendue_oracle::{V3, along, basis, unit};
-use etendue_render::intensity::{Intensity, Profile};
-use etendue_render::light_profile::LuminousOpening;
 use etendue_render::packet::{V8, X8};
+use etendue_render::scene::intensity::{Intensity, Profile};
+use etendue_render::scene::light_profile::LuminousOpening;
 use std::f64::consts::{PI, TAU};
 
 /// A table by steps of 5° from the pole and of 15° around it.
-struct Table {
+struct OpeningTable {
     polar: Vec<f32>,
     azimuth: Vec<f32>,
     values: Vec<f32>,
 }
 
-impl Table {
+impl OpeningTable {
     fn new(value: impl Fn(f64, f64) -> f64) -> Self {
         let steps = |count: u16, step: u16| -> Vec<f32> { (0..count).map(|i| f32::from(i * step)).collect() };
         let (polar, azimuth) = (steps(37, 5), steps(25, 15));
@@ -41,12 +41,12 @@ impl Table {
 }
 
 /// A lamp that shines all around, a narrow beam, one that is dark on half its sides, and one that shines upwards alone.
-fn tables() -> [Table; 4] {
+fn tables() -> [OpeningTable; 4] {
     [
-        Table::new(|polar, azimuth| 2.0 + polar.to_radians().cos() + azimuth.to_radians().sin()),
-        Table::new(|polar, _| f64::max(10.0 - polar, 0.0)),
-        Table::new(|polar, azimuth| if azimuth > 100.0 { 0.0 } else { polar * (180.0 - polar) }),
-        Table::new(|polar, azimuth| if polar > 90.0 { 1.0 + azimuth / 360.0 } else { 0.0 }),
+        OpeningTable::new(|polar, azimuth| 2.0 + polar.to_radians().cos() + azimuth.to_radians().sin()),
+        OpeningTable::new(|polar, _| f64::max(10.0 - polar, 0.0)),
+        OpeningTable::new(|polar, azimuth| if azimuth > 100.0 { 0.0 } else { polar * (180.0 - polar) }),
+        OpeningTable::new(|polar, azimuth| if polar > 90.0 { 1.0 + azimuth / 360.0 } else { 0.0 }),
     ]
 }
 

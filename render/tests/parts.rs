@@ -3,13 +3,13 @@
 use crate::kit::Folder;
 use crate::random::Random;
 use etendue_oracle::tier::cases;
-use etendue_render::area::{Area, count};
+use etendue_render::drive::merge::{MergeOutcome, Merged, merge};
+use etendue_render::drive::parts::{self, Piece, PieceFile, PieceKind};
 use etendue_render::drive::{Content, Samples};
-use etendue_render::files::FileError;
+use etendue_render::film::files::FileError;
 use etendue_render::film::{Film, Pixel};
-use etendue_render::merge::{MergeOutcome, Merged, merge};
-use etendue_render::parts::{self, Piece, PieceFile, PieceKind};
-use etendue_render::{Identity, Sampler, Sensor, Settings, Technique, World, image};
+use etendue_render::scene::area::{Area, count};
+use etendue_render::{Identity, Sampler, Sensor, Settings, Technique, World, film::image};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 

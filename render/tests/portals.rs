@@ -2,8 +2,8 @@
 
 use crate::kit::{film, settings, sum, world};
 use etendue_oracle::tier::cases;
-use etendue_render::compare::LIMIT;
 use etendue_render::film::Film;
+use etendue_render::film::compare::LIMIT;
 use etendue_render::scene::{DeltaLight, Scene};
 use etendue_render::{Settings, Technique, World};
 use etendue_scene::parse;

@@ -58,13 +58,13 @@ fn group(kind: usize, mesh: &[Triangle], random: &mut Random) -> Vec<Ray> {
 
 /// The hits of a group, and which rays are unoccluded up to half of the hit distance, up to it, and slightly beyond.
 #[derive(Debug, PartialEq)]
-struct Found {
+struct GroupHits {
     /// Bits of the distance, and the place.
     hits: Vec<[u32; 2]>,
     free: Vec<u32>,
 }
 
-fn trace(bvh: &Bvh, rays: &[Ray], active: &[M8], stack: &mut Scratch) -> Found {
+fn trace(bvh: &Bvh, rays: &[Ray], active: &[M8], stack: &mut Scratch) -> GroupHits {
     let axis = |p: usize, f: &dyn Fn(usize) -> f32| f32x8::from_fn(|i| f(8 * p + i));
     let vector = |p: usize, f: &dyn Fn(usize) -> [f32; 3]| {
         Vec3::new(axis(p, &|i| f(i)[0]), axis(p, &|i| f(i)[1]), axis(p, &|i| f(i)[2]))
@@ -90,7 +90,7 @@ fn trace(bvh: &Bvh, rays: &[Ray], active: &[M8], stack: &mut Scratch) -> Found {
     let mut until = hits.map(|h| Hits::none(h.distance));
     bvh.closest(&packets, active, &mut until, stack);
     assert!(until.iter().zip(active).all(|(u, &a)| !(u.any() & a).any()), "a hit at the limit counts");
-    Found { hits: each, free }
+    GroupHits { hits: each, free }
 }
 
 /// Traces groups of all kinds on all meshes, scaled and shifted. Returns the numbers of compared rays and of hits.

@@ -8,8 +8,8 @@
 
 use crate::kit::{builtin, film};
 use etendue_oracle::tier::{cases, is_long};
-use etendue_render::compare::{Comparison, Prediction, differs};
-use etendue_render::image::{self, Picture};
+use etendue_render::film::compare::{Comparison, Prediction, differs};
+use etendue_render::film::image::{self, Picture};
 use etendue_render::{Sampler, Settings, Technique};
 use std::path::Path;
 

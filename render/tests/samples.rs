@@ -2,8 +2,8 @@
 
 use crate::kit::{builtin, film};
 use etendue_oracle::tier::cases;
-use etendue_render::compare::Comparison;
-use etendue_render::image::{self, Picture};
+use etendue_render::film::compare::Comparison;
+use etendue_render::film::image::{self, Picture};
 use etendue_render::{Sampler, Settings, Technique};
 use std::path::Path;
 

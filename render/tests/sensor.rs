@@ -3,8 +3,8 @@
 use crate::kit::{film, read};
 use etendue_oracle::facing_disk;
 use etendue_oracle::tier::cases;
-use etendue_render::compare::{Comparison, LIMIT, differs};
-use etendue_render::image::Picture;
+use etendue_render::film::compare::{Comparison, LIMIT, differs};
+use etendue_render::film::image::Picture;
 use etendue_render::{Sampler, Sensor, Settings, Technique, World, scene};
 use std::f64::consts::PI;
 

@@ -7,7 +7,7 @@ use etendue_judge::generators::Random;
 use etendue_judge::packets::Coordinates;
 use etendue_oracle::tier::cases;
 use etendue_oracle::{V3, along, basis, cross, dot, length, narrow, sub, unit, wide};
-use etendue_render::spread::Spread;
+use etendue_render::geometry::spread::Spread;
 
 fn vector<R: Real>(v: V3) -> Vec3<R> {
     Coordinates::gather(&[v])

@@ -2,10 +2,10 @@
 
 use crate::kit::{ALBEDO, BLACK, MATT, exactly, film, narrow, pixel, settings, world};
 use etendue_oracle::{V3, along, cross, dot, unit};
-use etendue_render::compare::Comparison;
-use etendue_render::image::Picture;
+use etendue_render::film::compare::Comparison;
+use etendue_render::film::image::Picture;
+use etendue_render::scene::texture::Texture;
 use etendue_render::scene::{Material, Varying};
-use etendue_render::texture::Texture;
 use etendue_render::{Sampler, Settings, Technique, World};
 use std::f64::consts::PI;
 

@@ -2,9 +2,9 @@
 
 use crate::kit::{builtin, film, sum};
 use etendue_oracle::tier::cases;
-use etendue_render::compare::LIMIT;
+use etendue_render::film::compare::LIMIT;
+use etendue_render::film::sums::Moments;
 use etendue_render::film::{Film, Pixel};
-use etendue_render::sums::Moments;
 use etendue_render::{Claim, Sampler, Settings, Technique, World};
 
 /// What images claim of their error, over that found among seeds: of the whole image, and of its quarters, as far as they have noise.
@@ -65,7 +65,7 @@ fn images_tell_their_error() {
 }
 
 /// A scene, and how it is sampled: samplers with numbers of samples and sets, samples of the precise image, images, and the greatest error.
-type Row = (&'static str, Technique, &'static [(Sampler, u32, u32)], u32, u64, f64);
+type VarianceCase = (&'static str, Technique, &'static [(Sampler, u32, u32)], u32, u64, f64);
 
 /// The mean over seeds is that of an image with randomly chosen lights, also where corners do not see what the pixel sees, through a lens, and for
 /// metals, where the BSDF's samples are weighted by the pmf of the allocation. (If the number of samples depended on the pixel itself, dark
@@ -73,7 +73,7 @@ type Row = (&'static str, Technique, &'static [(Sampler, u32, u32)], u32, u64, f
 #[test]
 fn allocated_samples_have_no_bias() {
     use Sampler::{Adaptive, Sobol};
-    let rows: [Row; 4] = [
+    let rows: [VarianceCase; 4] = [
         ("sphere-light", Technique::SolidAngle, &[(Adaptive, 16, 1)], cases(1 << 11, 1 << 14), cases(30, 120), 4e-5),
         (
             "quads",

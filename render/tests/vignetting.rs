@@ -2,9 +2,9 @@
 
 use crate::kit::read;
 use etendue_render::camera::{Barrel, Camera, Pupil, ThinLens};
-use etendue_render::compare::{Comparison, LIMIT};
 use etendue_render::film::Film;
-use etendue_render::image::Picture;
+use etendue_render::film::compare::{Comparison, LIMIT};
+use etendue_render::film::image::Picture;
 use etendue_render::{Sampler, Settings, Technique, World, scene};
 use std::f64::consts::PI;
 

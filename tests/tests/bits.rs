@@ -1,7 +1,7 @@
 //! Equal input gives the same bits on every processor: all hashes are those of `tests/bits/bits.txt`. `.ci/bits` compares them on other
 //! processors.
 
-use etendue_bits::{REPLACE, Row, TABLE, differences, rows, text};
+use etendue_bits::{REPLACE, RoutineHashes, TABLE, differences, rows, text};
 
 /// Only builds that promise it: `etendue::real::SAME_BITS`.
 #[cfg_attr(
@@ -20,7 +20,11 @@ fn every_routine_returns_the_bits_of_the_table() {
 
 #[test]
 fn every_difference_is_named() {
-    let row = |name: &str, single, double| Row { name: name.to_owned(), hashes: [single, double], faults: Vec::new() };
+    let row = |name: &str, single, double| RoutineHashes {
+        name: name.to_owned(),
+        hashes: [single, double],
+        faults: Vec::new(),
+    };
     let rows = [row("a", 1, 2), row("b", 3, 4)];
     let table = text(&rows);
     assert_eq!(table, "a 0000000000000001 0000000000000002\nb 0000000000000003 0000000000000004\n");
@@ -32,6 +36,7 @@ fn every_difference_is_named() {
         "b 0000000000000003 0000000000000004: no such routine",
     ];
     assert_eq!(differences(&changed, &table), expected);
-    let faulty = [Row { faults: vec!["f32x8 differs from f32".to_owned()], ..row("a", 1, 2) }, row("b", 3, 4)];
+    let faulty =
+        [RoutineHashes { faults: vec!["f32x8 differs from f32".to_owned()], ..row("a", 1, 2) }, row("b", 3, 4)];
     assert_eq!(differences(&faulty, &table), ["a: f32x8 differs from f32"]);
 }

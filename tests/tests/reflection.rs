@@ -18,13 +18,13 @@ fn vector<R: Real>(v: V3) -> Vec3<R> {
 
 /// A surface at the origin.
 #[derive(Clone, Copy, Debug)]
-struct Place {
+struct ReflectingSurface {
     alpha: f64,
     normal: V3,
     view: V3,
 }
 
-impl Place {
+impl ReflectingSurface {
     fn new(random: &mut Random) -> Self {
         let normal = random.direction();
         let (s, t) = basis(normal);
@@ -58,7 +58,7 @@ fn samples_have_the_density() {
     let mut random = Random::new(1);
     let mut worst = 0.0_f64;
     for _ in 0..cases(300, 10_000) {
-        let place = Place::new(&mut random);
+        let place = ReflectingSurface::new(&mut random);
         let (single, double) = (place.reflection::<f32>(), place.reflection::<f64>());
         for _ in 0..20 {
             let u = [random.unit(), random.unit()];
@@ -108,7 +108,7 @@ fn fit_is_that_of_ggx() {
         (1.0, 0.9, 0.05),
     ] {
         let view = [(1.0_f64 - cos * cos).sqrt(), 0.0, cos];
-        let place = Place { alpha, normal: [0.0, 0.0, 1.0], view };
+        let place = ReflectingSurface { alpha, normal: [0.0, 0.0, 1.0], view };
         let fit = place.reflection::<f64>();
         let (mut sum, mut squares, mut schlick) = (0.0, 0.0, 0.0);
         let side = 400;
@@ -131,7 +131,7 @@ fn fit_is_that_of_ggx() {
 }
 
 /// π times the density, integrated over the directions within an angle of an axis.
-fn over_cap(place: &Place, axis: V3, sine: f64, steps: usize) -> f64 {
+fn over_cap(place: &ReflectingSurface, axis: V3, sine: f64, steps: usize) -> f64 {
     let lobe = place.reflection::<f64>();
     let (s, t) = basis(axis);
     let versine = sine * sine / (1.0 + (1.0 - sine * sine).max(0.0).sqrt());
@@ -149,7 +149,7 @@ fn over_cap(place: &Place, axis: V3, sine: f64, steps: usize) -> f64 {
 }
 
 /// π times the part of evenly spread samples of the lobe that lie inside: for large parts, whose edge may be sharp. Off by at most 4e−3.
-fn part_of_samples(place: &Place, inside: impl Fn(V3) -> bool) -> f64 {
+fn part_of_samples(place: &ReflectingSurface, inside: impl Fn(V3) -> bool) -> f64 {
     let lobe = place.reflection::<f64>();
     let steps = 500;
     let place = |k: usize| (k as f64 + 0.5) / steps as f64;
@@ -163,7 +163,7 @@ fn spheres_have_their_part_of_the_lobe() {
     let mut random = Random::new(3);
     let (mut whole, mut cut, mut worst) = (0, 0, [0.0_f64; 2]);
     for _ in 0..cases(200, 2_000) {
-        let place = Place { alpha: random.magnitude(0.03, 1.0), ..Place::new(&mut random) };
+        let place = ReflectingSurface { alpha: random.magnitude(0.03, 1.0), ..ReflectingSurface::new(&mut random) };
         // near the lobe, or anywhere
         let axis = if random.below(2) == 0 {
             let near = place.reflection::<f64>().sample(Vec2::new(random.unit_f64(), random.unit_f64()));
@@ -201,7 +201,7 @@ fn spheres_have_their_part_of_the_lobe() {
         "greatest error in single precision {:.1e} and {:.1e} of what spheres cover, whole and cut",
         worst[0], worst[1]
     );
-    let place = Place { alpha: 0.3, ..Place::new(&mut random) };
+    let place = ReflectingSurface { alpha: 0.3, ..ReflectingSurface::new(&mut random) };
     let lobe = place.reflection::<f32>();
     assert_eq!(lobe.sphere(vector([0.1, 0.0, 0.0]), 1.0), PI as f32);
     for radius in [0.0, -1.0] {
@@ -210,7 +210,7 @@ fn spheres_have_their_part_of_the_lobe() {
 }
 
 /// π times the density over a parallelogram, or the half of it that is a triangle.
-fn over_flat(place: &Place, corner: V3, s: V3, t: V3, half: bool, steps: usize) -> f64 {
+fn over_flat(place: &ReflectingSurface, corner: V3, s: V3, t: V3, half: bool, steps: usize) -> f64 {
     let lobe = place.reflection::<f64>();
     let normal = cross(s, t);
     let mut sum = 0.0;
@@ -225,7 +225,7 @@ fn over_flat(place: &Place, corner: V3, s: V3, t: V3, half: bool, steps: usize) 
 }
 
 struct Flat {
-    place: Place,
+    place: ReflectingSurface,
     corner: V3,
     s: V3,
     t: V3,
@@ -233,7 +233,7 @@ struct Flat {
 
 /// A surface, and a flat light around a direction that it reflects.
 fn flat(random: &mut Random) -> Flat {
-    let place = Place { alpha: random.magnitude(0.03, 1.0), ..Place::new(random) };
+    let place = ReflectingSurface { alpha: random.magnitude(0.03, 1.0), ..ReflectingSurface::new(random) };
     let w = place.reflection::<f64>().sample(Vec2::new(random.unit_f64(), random.unit_f64())).at(0);
     let distance = random.magnitude(0.5, 20.0);
     let mut edge = || random.direction().map(|x| x * random.magnitude(0.02, 2.0));
@@ -337,7 +337,7 @@ fn samplers_have_the_solid_angle() {
     for _ in 0..cases(200, 2_000) {
         let Flat { place, corner, s, t } = flat(&mut random);
         // a sharp or grazing lobe has few samples in most of a large light
-        let place = Place { alpha: place.alpha.max(0.5), ..place };
+        let place = ReflectingSurface { alpha: place.alpha.max(0.5), ..place };
         let reflection = place.reflection::<f64>();
         let [c, u, v] = [corner, s, t].map(vector::<f64>);
         // what the horizon hides is not sampled; seen edge-on, a light has samples in a sliver

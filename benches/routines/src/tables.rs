@@ -19,7 +19,7 @@ enum Cell {
 use Cell::{Error, Text, Time};
 
 /// A table between `<!-- table: NAME -->` and `<!-- end of table -->`.
-struct Table {
+struct MarkdownTable {
     file: &'static str,
     name: &'static str,
     header: &'static [&'static str],
@@ -93,7 +93,7 @@ fn warp(
 }
 
 #[rustfmt::skip]
-fn warps() -> Table {
+fn warps() -> MarkdownTable {
     let rows = vec![
         warp("disk, in the plane", "area", "[`ConcentricDisk`](crate::warp::ConcentricDisk)", ["concentric disk sample", ""], "concentric_disk", ["1.5e−7", "Shirley and Chiu 1997", "keeps strata compact"]),
         warp("", "solid angle", "[`Disk::by_solid_angle`](crate::Disk::by_solid_angle)", ["light disk by solid angle, prepared", "light disk by solid angle"], "spherical_disk", ["1.8e−7 and 4 steps of u", "derived there", "disks; far ones by area"]),
@@ -123,7 +123,7 @@ fn warps() -> Table {
         warp("", "a table", "[`PiecewiseConstant2d`](crate::discrete::PiecewiseConstant2d)", ["table 64x32 sample", ""], "", ["1 step of u in the cell", "PBR A.4", "images"]),
     ];
     let header = &["shape", "uniform by", "routine", "x1", "x8", "new, x8", "measured", "greatest error", "source", "for"];
-    Table { file: "core/src/index.md", name: "warps", header, rows }
+    MarkdownTable { file: "core/src/index.md", name: "warps", header, rows }
 }
 
 /// Names of lights by technique: for the reader, and the routine's with what comes after it.
@@ -176,7 +176,7 @@ fn lights() -> Vec<Vec<Cell>> {
 
 /// Sequences: name, variance, gains and the time of a pair at each width.
 #[rustfmt::skip]
-fn sequences() -> Table {
+fn sequences() -> MarkdownTable {
     let row = |[link, variance, few, many, when]: [&'static str; 5], name: &'static str| {
         vec![Text(link), Text(variance), Text(few), Text(many), Time(name, 0), Time(name, 1), Time(name, 2), Text(when)]
     };
@@ -188,12 +188,12 @@ fn sequences() -> Table {
         row(["[`ZOrder`]", "within a pixel as [`OwenSobol`]", "", "", "few samples per pixel, images for human viewers: blue noise"], "sequence z-order pair"),
     ];
     let header = &["sequence", "variance: smooth, edge", "gain at 16", "gain at 64", "f32", "f32x4", "f32x8", "when"];
-    Table { file: "core/src/sequence.rs", name: "sequences", header, rows }
+    MarkdownTable { file: "core/src/sequence.rs", name: "sequences", header, rows }
 }
 
 /// The README's: which technique for my light.
 #[rustfmt::skip]
-fn choice() -> Table {
+fn choice() -> MarkdownTable {
     let row = |[light, technique, why]: [&'static str; 3], prepared: &'static str, new: &'static str, error: &'static str| {
         vec![Text(light), Text(technique), Text(why), Time(prepared, 2), Time(new, 2), Error(error, 0)]
     };
@@ -210,11 +210,11 @@ fn choice() -> Table {
         row(["`BilinearPatch`", "`by_area`", "twisted quads"], "light bilinear patch by area, prepared", "light bilinear patch by area", "patch_surface"),
     ];
     let header = &["light", "technique", "when", "prepared", "with preparation", "error"];
-    Table { file: "README.md", name: "choice", header, rows }
+    MarkdownTable { file: "README.md", name: "choice", header, rows }
 }
 
 /// Visible parts: the light, its blockers, and the time of a point at each width.
-fn visible() -> Table {
+fn visible() -> MarkdownTable {
     let row = |light: &'static str, blockers: &'static str, name: &'static str| {
         vec![Text(light), Text(blockers), Time(name, 0), Time(name, 2)]
     };
@@ -226,14 +226,19 @@ fn visible() -> Table {
         row("sphere", "none", "visible sphere"),
         row("", "a polygon before it", "visible sphere, 1 blocker"),
     ];
-    Table { file: "core/visible/src/measure.rs", name: "visible", header: &["light", "blockers", "x1", "x8"], rows }
+    MarkdownTable {
+        file: "core/visible/src/measure.rs",
+        name: "visible",
+        header: &["light", "blockers", "x1", "x8"],
+        rows,
+    }
 }
 
 const LIGHTS: &[&str] =
     &["light", "by", "x1", "x8", "prepared, x1", "prepared, x8", "pdf, x8", "invert, x8", "all fields, x8"];
 
-fn tables() -> Vec<Table> {
-    let lights = Table { file: "core/src/light.rs", name: "lights", header: LIGHTS, rows: lights() };
+fn tables() -> Vec<MarkdownTable> {
+    let lights = MarkdownTable { file: "core/src/light.rs", name: "lights", header: LIGHTS, rows: lights() };
     vec![warps(), lights, sequences(), visible(), choice()]
 }
 
@@ -255,7 +260,7 @@ fn date() -> String {
     format!("{}-{month:02}-{day:02}", era * 400 + year + u64::from(month < 3))
 }
 
-impl Table {
+impl MarkdownTable {
     fn markers(&self) -> [String; 2] {
         [format!("<!-- table: {} -->", self.name), "<!-- end of table -->".to_owned()]
     }

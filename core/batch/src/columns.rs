@@ -1,6 +1,6 @@
 //! What a batch reads and writes beside directions.
 
-use crate::packet::{Packet, Place};
+use crate::packet::{Packet, PacketSpan};
 use etendue::{LightSample, Vec2, Vec3};
 
 /// One sample of a light, or the point of a light that a direction hits, in single numbers.
@@ -159,7 +159,7 @@ impl SampleColumns {
     }
     /// Writes the samples of a packet.
     #[inline(always)]
-    pub(crate) unsafe fn store_packet<R: Packet>(&self, place: Place, s: &LightSample<R>) {
+    pub(crate) unsafe fn store_packet<R: Packet>(&self, place: PacketSpan, s: &LightSample<R>) {
         // SAFETY: the caller's
         unsafe {
             place.store3(self.direction, s.direction);

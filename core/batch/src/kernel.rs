@@ -5,7 +5,7 @@ use crate::columns::{ChoiceColumns, Counters, EvaluationColumns, OneSample, Samp
 use crate::map::{BatchMap, MOST_NUMBERS, MOST_RESULTS};
 use crate::memory::TreeMemory;
 use crate::one::{one_hit, one_invert, one_pdf, one_sample, prepare, typed};
-use crate::packet::{Packet, Place, packets};
+use crate::packet::{Packet, PacketSpan, packets};
 use crate::technique::{Prepared, Technique};
 use crate::warp::BatchWarp;
 use core::ffi::c_void;
@@ -29,14 +29,14 @@ macro_rules! prepared {
         #[inline(always)]
         unsafe fn $step<'a, P: Prepared, R: Packet>(
             sampler: &P::Of<'a, R>,
-            place: Place,
+            place: PacketSpan,
             input: $of_input,
             out: $of_out,
         ) {
             #[inline(never)]
             unsafe fn $apart<S: LightSampler<R>, R: Packet>(
                 $sampler: &S,
-                $place: Place,
+                $place: PacketSpan,
                 $input: $of_input,
                 $out: $of_out,
             ) {
@@ -131,7 +131,7 @@ impl Views {
     #[inline(always)]
     unsafe fn packet<T: Technique, R: Packet>(
         &self,
-        place: Place,
+        place: PacketSpan,
         f: impl FnOnce(&<T::Prepared as Prepared>::Of<'_, R>),
     ) {
         // SAFETY: the caller's columns have an element for every lane
@@ -251,7 +251,7 @@ pub(crate) unsafe extern "C" fn warp_sample<W: BatchWarp, R: Packet>(
 }
 
 #[inline(always)]
-unsafe fn load_point<W: BatchWarp, R: Packet>(place: Place, points: &[*const f32; 3]) -> [R; 3] {
+unsafe fn load_point<W: BatchWarp, R: Packet>(place: PacketSpan, points: &[*const f32; 3]) -> [R; 3] {
     // SAFETY: the caller's columns are as many as the point has coordinates
     core::array::from_fn(|k| if k < W::COORDINATES { unsafe { place.load(points[k]) } } else { R::lit(0.0) })
 }

@@ -6,7 +6,7 @@ use crate::functions::{
 };
 use crate::map::BatchMap;
 use crate::sequence::BatchSequence;
-use crate::table::{self, Table};
+use crate::table::{self, FunctionTable};
 use crate::technique::{Prepared, Technique};
 
 /// The instructions that a [`Batch`] uses.
@@ -28,9 +28,9 @@ pub enum Level {
 #[derive(Clone, Copy)]
 pub struct Batch {
     level: Level,
-    table: &'static Table,
+    table: &'static FunctionTable,
     /// Where the functions of one element are.
-    one: &'static Table,
+    one: &'static FunctionTable,
 }
 
 impl core::fmt::Debug for Batch {
@@ -54,8 +54,8 @@ cpufeatures::new!(v4_instructions, "avx512f", "avx512bw", "avx512cd", "avx512dq"
 // the build script compiles these tables from this crate
 unsafe extern "C" {
     // SAFETY: the tables do not change
-    safe static etendue_batch_v3: Table;
-    safe static etendue_batch_v4: Table;
+    safe static etendue_batch_v3: FunctionTable;
+    safe static etendue_batch_v4: FunctionTable;
 }
 
 impl Batch {

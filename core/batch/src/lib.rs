@@ -89,7 +89,7 @@ pub use level::{Batch, Level};
 pub use map::{BatchMap, MOST_NUMBERS, MOST_RESULTS, PortalDirection, ReflectedSphere, SeenThroughPortals};
 pub use packet::Packet;
 pub use sequence::BatchSequence;
-pub use table::Table;
+pub use table::FunctionTable;
 pub use technique::{Prepared, TECHNIQUES, Technique};
 pub use warp::{BatchWarp, WARPS};
 

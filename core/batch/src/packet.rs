@@ -39,12 +39,12 @@ pub(crate) type Lanes = etendue::f32x4;
 
 /// The elements of a batch that one packet holds: `count` of them from `at` on.
 #[derive(Clone, Copy)]
-pub(crate) struct Place {
+pub(crate) struct PacketSpan {
     pub(crate) at: usize,
     pub(crate) count: usize,
 }
 
-impl Place {
+impl PacketSpan {
     /// The element of a lane. Lanes past the end repeat the first one, so that they are as harmless as that.
     #[inline(always)]
     pub(crate) fn element(self, lane: usize) -> usize {
@@ -134,11 +134,11 @@ impl Place {
 
 /// Calls `f` for each packet of a batch of `n`.
 #[inline(always)]
-pub(crate) fn packets(n: usize, lanes: usize, mut f: impl FnMut(Place)) {
+pub(crate) fn packets(n: usize, lanes: usize, mut f: impl FnMut(PacketSpan)) {
     let mut at = 0;
     while at < n {
         let count = (n - at).min(lanes);
-        f(Place { at, count });
+        f(PacketSpan { at, count });
         at += count;
     }
 }

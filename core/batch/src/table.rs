@@ -15,7 +15,7 @@ use etendue::warp::*;
 
 /// The functions of one level of instructions, over packets of one width.
 #[repr(C)]
-pub struct Table {
+pub struct FunctionTable {
     /// By the numbers of techniques; none of those of lights that are not built.
     pub(crate) techniques: [Option<&'static TechniqueFunctions>; TECHNIQUES],
     pub(crate) warps: [WarpFunctions; WARPS],
@@ -90,7 +90,7 @@ macro_rules! warps {
 }
 etendue::warps!(warps! {});
 
-impl Table {
+impl FunctionTable {
     /// The functions over packets `R`, with the instructions of this compilation. Each is at the number of its type.
     const fn of<R: Packet>() -> Self {
         Self {
@@ -116,4 +116,5 @@ impl Table {
 /// The functions of this compilation.
 #[cfg_attr(feature = "level-v3", unsafe(export_name = "etendue_batch_v3"))]
 #[cfg_attr(feature = "level-v4", unsafe(export_name = "etendue_batch_v4"))]
-pub(crate) static TABLE: Table = if IS_LONG { Table::of::<f32>() } else { Table::of::<Lanes>() };
+pub(crate) static TABLE: FunctionTable =
+    if IS_LONG { FunctionTable::of::<f32>() } else { FunctionTable::of::<Lanes>() };

@@ -19,7 +19,7 @@ use std::sync::Arc;
 
 /// The table of a picture, which samplers share.
 #[derive(Clone)]
-struct Table {
+struct PictureTable {
     table: Arc<Vec<f32>>,
     /// The radiance between which it is interpolated, if it is.
     values: Option<Arc<Vec<f32>>>,
@@ -27,7 +27,7 @@ struct Table {
     region: Region,
 }
 
-impl Table {
+impl PictureTable {
     fn picture(&self) -> PictureMemory<'_> {
         let picture = match &self.values {
             Some(values) => PictureMemory::interpolated(values, self.size[0], &self.table),
@@ -46,7 +46,7 @@ impl Table {
 /// `Picture.interpolated` makes one that is interpolated between the centres of its texels.
 #[pyclass(module = "etendue", frozen)]
 pub(crate) struct Picture {
-    table: Table,
+    table: PictureTable,
 }
 
 #[pymethods]
@@ -64,7 +64,7 @@ impl Picture {
         let table = table(py, light::Picture::buffer(width, height), |table| {
             light::Picture::build(&weights, width, region, table).map(|_| ())
         })?;
-        Ok(Self { table: Table { table: Arc::new(table), values: None, size: [width, height], region } })
+        Ok(Self { table: PictureTable { table: Arc::new(table), values: None, size: [width, height], region } })
     }
     /// A picture that is interpolated bilinearly between the `values` (height, width) at the centres of its texels, and continued by its
     /// outermost ones: the pdf is in proportion to the interpolated radiance. For lights that cover the whole unit square.
@@ -75,7 +75,7 @@ impl Picture {
             light::Picture::interpolated(&values, width, table).map(|_| ())
         })?;
         let (table, values, size) = (Arc::new(table), Some(Arc::new(values)), [width, height]);
-        Ok(Self { table: Table { table, values, size, region: Region::Square } })
+        Ok(Self { table: PictureTable { table, values, size, region: Region::Square } })
     }
     /// The picture on a Rectangle, Parallelogram, Triangle, Disk or Sphere, which must cover the region for which it was built.
     fn on(&self, light: &Object<'_>) -> PyResult<Pictured> {
@@ -148,13 +148,13 @@ const NAMES: [(&str, By); 4] = [
 /// A light with a picture: `Picture.on` makes it.
 #[pyclass(module = "etendue", frozen)]
 pub(crate) struct Pictured {
-    table: Table,
+    table: PictureTable,
     shape: Shape,
 }
 
 /// A light with a picture, prepared for a shading point.
 struct Placed {
-    table: Table,
+    table: PictureTable,
     shape: Shape,
     by: By,
     p: Vec3<f32>,

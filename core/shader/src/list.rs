@@ -163,8 +163,8 @@ macro_rules! techniques {
         /// Calls the visitor for each light by each technique, in the order of the list.
         pub fn every_technique(visitor: &mut impl TechniqueVisitor) {
             $($({
-                struct Row;
-                impl Technique for Row {
+                struct ListedTechnique;
+                impl Technique for ListedTechnique {
                     type Light<R: Real> = $light<R $(, $n)?>;
                     type With<R: Real> = takes!(type $place R);
                     type Sampler<R: Real> = $sampler<R $(, $n)?>;
@@ -195,7 +195,7 @@ macro_rules! techniques {
                         measure!(sampler $(, $measure)?)
                     }
                 }
-                visitor.visit::<Row>();
+                visitor.visit::<ListedTechnique>();
             })+)+
         }
     };
@@ -293,8 +293,8 @@ macro_rules! warps {
         /// Calls the visitor for each warp, in the order of the list.
         pub fn every_warp(visitor: &mut impl WarpVisitor) {
             $({
-                struct Row;
-                impl WarpTechnique for Row {
+                struct ListedWarp;
+                impl WarpTechnique for ListedWarp {
                     const ENTRY: WarpEntry = WarpEntry {
                         name: stringify!($module),
                         doc: &[$($doc),*],
@@ -313,7 +313,7 @@ macro_rules! warps {
                         Warp::invert(warp, Point::from_coordinates(point))
                     }
                 }
-                visitor.visit::<Row>();
+                visitor.visit::<ListedWarp>();
             })+
         }
     };

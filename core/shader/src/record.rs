@@ -80,12 +80,12 @@ impl Recorded {
 }
 
 /// A field by its index, and the coordinate if that is a vector.
-type Place = (usize, Option<usize>);
+type FieldPlace = (usize, Option<usize>);
 
 /// The fields for the numbers that are used, the nodes of their values, and where each number is.
-fn fields(slots: &[Slot], used: &BTreeSet<Id>) -> (Vec<Field>, Vec<Id>, BTreeMap<Id, Place>) {
+fn fields(slots: &[Slot], used: &BTreeSet<Id>) -> (Vec<Field>, Vec<Id>, BTreeMap<Id, FieldPlace>) {
     let (mut fields, mut outputs, mut places) = (Vec::new(), Vec::new(), BTreeMap::new());
-    let mut add = |name: String, parts: &[Id], places: &mut BTreeMap<Id, Place>| {
+    let mut add = |name: String, parts: &[Id], places: &mut BTreeMap<Id, FieldPlace>| {
         for (axis, &id) in parts.iter().enumerate() {
             places.entry(id).or_insert((fields.len(), (parts.len() > 1).then_some(axis)));
         }

@@ -99,12 +99,12 @@ fn invert<T: Technique>(sampler: &T::Sampler<f32>, w: &Vec3<f32>) -> Vec2<f32> {
 }
 
 /// A function, its operations, and its instructions in Rust and in C.
-type Row = (String, usize, usize, usize);
+type SizeRow = (String, usize, usize, usize);
 
 struct Sizes {
     own: Disassembly,
     base: u64,
-    rows: Vec<Row>,
+    rows: Vec<SizeRow>,
 }
 
 impl TechniqueVisitor for Sizes {
@@ -161,7 +161,7 @@ fn sizes() {
         let (operations_ratio, c_ratio) = (ratio(*operations, *rust), ratio(*c, *rust));
         println!("| `{name}` | {operations} | {rust} | {c} | {operations_ratio:.2} | {c_ratio:.2} |");
     }
-    let larger = |count: fn(&Row) -> usize| sizes.rows.iter().filter(|row| ratio(count(row), row.2) > 1.3).count();
+    let larger = |count: fn(&SizeRow) -> usize| sizes.rows.iter().filter(|row| ratio(count(row), row.2) > 1.3).count();
     println!(
         "{} functions; more than 1.3 times the instructions of Rust: {} by operations, {} by instructions of C",
         sizes.rows.len(),

@@ -13,7 +13,7 @@ use crate::warp::{Octahedral, Warp};
 pub use map::{PortalError, PortalMap};
 use side::Side;
 pub use table::PortalTable;
-use table::{Columns, Found, Place, STEPS, Search, Span};
+use table::{Columns, FoundCell, STEPS, Search, Span, SpanPlace};
 
 /// See [`PortalEnvironment::MOST`].
 const MOST_PORTALS: usize = 8;
@@ -237,7 +237,7 @@ pub struct PortalsByRadiance<'a, R: Real> {
 #[derive(Clone, Copy, Debug, Default)]
 struct Drawn {
     portal: usize,
-    found: [Found; 2],
+    found: [FoundCell; 2],
     place: [f64; 2],
 }
 
@@ -258,7 +258,7 @@ impl<'a, R: Real> PortalsByRadiance<'a, R> {
             if let (Some(column), Some(span)) = (&columns[lane], spans[lane]) {
                 let found = column.found();
                 let sums = self.tables[drawn[lane].portal].rows(found.cell, span);
-                rows[lane] = Some(Place::only(&span).search(sums, 1.0, u.y.lane_f64(lane)));
+                rows[lane] = Some(SpanPlace::only(&span).search(sums, 1.0, u.y.lane_f64(lane)));
                 (drawn[lane].found[0], drawn[lane].place[0]) = (found, found.place(u.x.lane_f64(lane)));
             }
         }
@@ -290,7 +290,7 @@ impl<'a, R: Real> PortalsByRadiance<'a, R> {
     }
     /// Column and row of a position in a portal that is seen in a lane.
     #[inline(always)]
-    fn find(&self, lane: usize, portal: usize, at: [f64; 2]) -> [Found; 2] {
+    fn find(&self, lane: usize, portal: usize, at: [f64; 2]) -> [FoundCell; 2] {
         let mut place = self.first(lane);
         for k in 0..portal {
             let weight = self.windows[k].weight.lane_f64(lane);
@@ -301,12 +301,12 @@ impl<'a, R: Real> PortalsByRadiance<'a, R> {
         let (table, [columns, rows]) = (&self.tables[portal], self.spans(lane, portal));
         let weight = self.windows[portal].weight.lane_f64(lane);
         let column = place.find(&table.columns(columns, rows), weight, columns.cell(at[0]));
-        let row = Place::only(&rows).find(&table.rows(column.cell, rows), 1.0, rows.cell(at[1]));
+        let row = SpanPlace::only(&rows).find(&table.rows(column.cell, rows), 1.0, rows.cell(at[1]));
         [column, row]
     }
     #[inline(always)]
-    fn first(&self, lane: usize) -> Place {
-        Place { cells: [self.cells[lane], 0], weights: [self.weights[lane], 0.0] }
+    fn first(&self, lane: usize) -> SpanPlace {
+        SpanPlace { cells: [self.cells[lane], 0], weights: [self.weights[lane], 0.0] }
     }
     #[inline(always)]
     fn spans(&self, lane: usize, portal: usize) -> [Span; 2] {

@@ -186,13 +186,13 @@ impl<S, W> BySolidAngle<S, W> {
 }
 
 /// What a sampler by solid angle knows beside the surface.
-pub trait Seen {
+pub trait SeenShape {
     /// The shape as it is seen from the point.
     type Shape;
     /// That shape alone: what the surface needs is then not prepared.
     fn seen(self) -> Self::Shape;
 }
-impl<S, W> Seen for BySolidAngle<S, W> {
+impl<S, W> SeenShape for BySolidAngle<S, W> {
     type Shape = W;
     #[inline(always)]
     fn seen(self) -> W {

@@ -6,7 +6,7 @@ use crate::light::DirectionSample;
 use crate::light::{
     AffineSampler, ConstantEnvironment, DirectionalLightByDelta, DiskBySolidAngle, EnvironmentByProjectedSolidAngle,
     EnvironmentBySolidAngle, FAR, LightSample, LightSampler, LineByAngle, ParallelogramBySolidAngle, PatchByArea,
-    PointLightByDelta, PolygonBySolidAngle, RectangleBySolidAngle, Seen, SphereBySolidAngle, SphericalShape,
+    PointLightByDelta, PolygonBySolidAngle, RectangleBySolidAngle, SeenShape, SphereBySolidAngle, SphericalShape,
     SpotLightByDelta, SunBySolidAngle, TriangleBySolidAngle,
 };
 use crate::real::{Mask, Real};
@@ -15,7 +15,7 @@ use crate::warp::Warp;
 use alloc::boxed::Box;
 
 /// What is seen of a shape.
-type SeenOf<S> = <S as Seen>::Shape;
+type SeenOf<S> = <S as SeenShape>::Shape;
 
 /// A sampler of a light at the receiver. Of shapes that are sampled by solid angle it is what is seen of them: a set knows their normals.
 #[derive(Clone, Debug)]

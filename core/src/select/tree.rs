@@ -13,7 +13,7 @@ pub use build::Join;
 use build::{Build, nodes_for};
 use eight::Chosen;
 pub use node::Node8;
-use node::{LIGHT, NONE, Place, Shares, WHOLE};
+use node::{LIGHT, NONE, Shares, TreePoint, WHOLE};
 use part::{Part, Units};
 pub use words::{TreeWords, TreeWordsAt};
 
@@ -211,12 +211,12 @@ impl<'a, R: Real> TreeAt<'a, R> {
         self.gloss.map(|gloss| gloss.map(|x| x.lane_f64(lane) as f32))
     }
     #[inline(always)]
-    fn place(&self, lane: usize) -> Place<f32> {
+    fn place(&self, lane: usize) -> TreePoint<f32> {
         let [p, n] = [self.p, self.n].map(|v| {
             let [x, y, z] = [v.x, v.y, v.z].map(|x| x.lane_f64(lane) as f32);
             Vec3::new(x, y, z)
         });
-        Place::new(p, n)
+        TreePoint::new(p, n)
     }
 
     /// Chooses by 64 random bits a lane.
@@ -292,9 +292,9 @@ impl<'a, R: Real> TreeAt<'a, R> {
     }
     /// The places of eight lanes from `first` on, and what their surfaces reflect.
     #[inline(always)]
-    fn eight(&self, gloss: Option<&Gloss<R>>, first: usize) -> (Place<[f32; 8]>, Option<Gloss<[f32; 8]>>) {
+    fn eight(&self, gloss: Option<&Gloss<R>>, first: usize) -> (TreePoint<[f32; 8]>, Option<Gloss<[f32; 8]>>) {
         let of = |x: R| eight::of(x, first);
-        let place = Place::new(self.p.map(of), self.n.map(of)).map(|x| x.to_array());
+        let place = TreePoint::new(self.p.map(of), self.n.map(of)).map(|x| x.to_array());
         (place, gloss.map(|gloss| gloss.map(|x| of(x).to_array())))
     }
 
@@ -384,7 +384,7 @@ pub enum TreeChild {
 impl LightTree<'_> {
     /// The pmf of a light, by the same products.
     #[inline]
-    fn pmf(&self, at: &Place<f32>, gloss: Option<&Gloss<f32>>, light: u32) -> f32 {
+    fn pmf(&self, at: &TreePoint<f32>, gloss: Option<&Gloss<f32>>, light: u32) -> f32 {
         let Some(&place) = self.places.get(light as usize) else { return 0.0 };
         let mut path = [0; DEEPEST];
         let levels = eight::climb(self.nodes, place, &mut path, |_| ());

@@ -3,7 +3,7 @@
 use etendue::{Real, Vec3, f32x8};
 use etendue_judge::fuzz_bodies::Input;
 use etendue_judge::packets::vectors_of;
-use etendue_render::sky::GeneralSky;
+use etendue_render::lights::sky::GeneralSky;
 
 /// Skies of any type and sun, in any direction.
 pub fn daylight(bytes: &[u8]) {

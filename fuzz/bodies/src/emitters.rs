@@ -3,10 +3,10 @@
 use etendue::{Parallelogram, SpotLight, Vec3, f32x8};
 use etendue_judge::fuzz_bodies::Input;
 use etendue_judge::packets::vectors_of;
-use etendue_render::intensity::{Intensity, Profile, ProfileError};
-use etendue_render::light_profile::LuminousOpening;
+use etendue_render::geometry::spread::Spread;
 use etendue_render::packet::V8;
-use etendue_render::spread::Spread;
+use etendue_render::scene::intensity::{Intensity, Profile, ProfileError};
+use etendue_render::scene::light_profile::LuminousOpening;
 
 /// One of two kinds of light, of any numbers.
 pub fn emitters(bytes: &[u8]) {

@@ -1,11 +1,11 @@
 //! Images and their parts: any bytes, and files that are whole but say anything.
 
 use etendue_render::Identity;
-use etendue_render::area::count;
-use etendue_render::files::FileError;
-use etendue_render::image::Compression;
-use etendue_render::image::layer::{self, Layer, Numbers};
-use etendue_render::parts::{Piece, PieceFile, encode};
+use etendue_render::drive::parts::{Piece, PieceFile, encode};
+use etendue_render::film::files::FileError;
+use etendue_render::film::image::Compression;
+use etendue_render::film::image::layer::{self, Layer, Numbers};
+use etendue_render::scene::area::count;
 use serde_json::{Value, json};
 use std::io::Cursor;
 use std::path::Path;

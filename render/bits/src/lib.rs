@@ -4,9 +4,9 @@
 //! `cargo run --release -p etendue-image-bits` compares; `-- SCENE` compares the images of one scene, and `-- --write "WHY"` replaces the
 //! table and adds a line to its changelog, `render/bits/CHANGELOG.md`.
 
+use etendue_render::drive::progressive::{Goal, Refinement};
 use etendue_render::film::Film;
-use etendue_render::progressive::{Goal, Refinement};
-use etendue_render::{Sampler, Settings, Technique, World, progressive};
+use etendue_render::{Sampler, Settings, Technique, World, drive::progressive};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -30,7 +30,7 @@ const EMITTERS: [&str; 5] = ["panel", "television", "washers", "window", "window
 
 /// The hashes of the images of a scene by one technique.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Row {
+pub struct ImageHashes {
     /// The scene and the technique, or the scene, the technique and `error`.
     pub name: String,
     /// A hash for each sampler, or for the image until an error is reached.
@@ -45,7 +45,7 @@ pub fn scenes() -> Vec<&'static str> {
 
 /// The hashes of all images of a scene.
 #[must_use]
-pub fn rows(scene: &str) -> Vec<Row> {
+pub fn rows(scene: &str) -> Vec<ImageHashes> {
     let gallery = Path::new(env!("CARGO_MANIFEST_DIR")).join("../gallery/emitters");
     let file =
         if EMITTERS.contains(&scene) { gallery.join(scene).with_extension("pbrt") } else { PathBuf::from(scene) };
@@ -55,7 +55,7 @@ pub fn rows(scene: &str) -> Vec<Row> {
     let mut rows = Vec::new();
     for technique in Technique::ALL {
         let image = |(sampler, spp)| world.render(&Settings { technique, sampler, spp, ..all }, &|_| ()).0;
-        rows.push(Row {
+        rows.push(ImageHashes {
             name: format!("{scene}/{}", technique.name()),
             hashes: SAMPLERS.map(|sampled| hash(&image(sampled))).to_vec(),
         });
@@ -76,7 +76,10 @@ pub fn rows(scene: &str) -> Vec<Row> {
         );
         let ended = ended.map(|_| ()).or_else(|error| if error == enough { Ok(()) } else { Err(error) });
         ended.unwrap_or_else(|error| panic!("{scene} by {}: {error}", technique.name()));
-        rows.push(Row { name: format!("{scene}/{}/error", technique.name()), hashes: film.into_iter().collect() });
+        rows.push(ImageHashes {
+            name: format!("{scene}/{}/error", technique.name()),
+            hashes: film.into_iter().collect(),
+        });
     }
     rows
 }
@@ -94,8 +97,8 @@ pub fn hash(film: &Film) -> u64 {
 
 /// The lines of the table.
 #[must_use]
-pub fn text(rows: &[Row]) -> String {
-    let line = |Row { name, hashes }: &Row| {
+pub fn text(rows: &[ImageHashes]) -> String {
+    let line = |ImageHashes { name, hashes }: &ImageHashes| {
         let hashes: String = hashes.iter().map(|hash| format!(" {hash:016x}")).collect();
         format!("{name}{hashes}\n")
     };
@@ -104,7 +107,7 @@ pub fn text(rows: &[Row]) -> String {
 
 /// What differs from the lines of the table that belong to these scenes: a line for each image.
 #[must_use]
-pub fn differences(rows: &[Row], scenes: &[&str], table: &str) -> Vec<String> {
+pub fn differences(rows: &[ImageHashes], scenes: &[&str], table: &str) -> Vec<String> {
     let name = |line: &str| line.split(' ').next().unwrap_or_default().to_owned();
     let is_asked = |line: &&str| scenes.contains(&line.split('/').next().unwrap_or_default());
     let mut expected: Vec<&str> = table.lines().filter(is_asked).collect();
@@ -134,7 +137,7 @@ pub fn differences(rows: &[Row], scenes: &[&str], table: &str) -> Vec<String> {
 ///
 /// # Errors
 /// Fails without a reason, and if a file cannot be written.
-pub fn write(rows: &[Row], why: &str) -> Result<(), String> {
+pub fn write(rows: &[ImageHashes], why: &str) -> Result<(), String> {
     let why = why.trim();
     if why.is_empty() || why.contains('\n') {
         return Err("--write needs a line for the changelog that says why images change".into());

@@ -1,6 +1,6 @@
 //! Compares the bits of images with those of the committed table; see `etendue_image_bits`.
 
-use etendue_image_bits::{Row, TABLE, differences, rows, scenes, write};
+use etendue_image_bits::{ImageHashes, TABLE, differences, rows, scenes, write};
 use std::process::ExitCode;
 use std::time::Instant;
 
@@ -15,7 +15,7 @@ fn main() -> ExitCode {
         }
     };
     let began = Instant::now();
-    let all: Vec<Row> = asked.iter().flat_map(|scene| rows(scene)).collect();
+    let all: Vec<ImageHashes> = asked.iter().flat_map(|scene| rows(scene)).collect();
     if let [_, why] = &arguments[..] {
         let written = write(&all, why);
         println!("{}", written.as_ref().err().map_or("the table is written", String::as_str));

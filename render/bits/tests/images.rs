@@ -1,12 +1,12 @@
 //! The images of all scenes have the bits of `render/bits/images.txt`, and every difference is named.
 
-use etendue_image_bits::{REPLACE, Row, TABLE, differences, rows, scenes, text, write};
+use etendue_image_bits::{ImageHashes, REPLACE, TABLE, differences, rows, scenes, text, write};
 
 /// Where a product and a sum are rounded twice, or a processor has no vectors of 8, images are others.
 #[cfg_attr(not(target_feature = "fma"), ignore = "products and sums of this build are rounded twice")]
 #[test]
 fn every_image_has_the_bits_of_the_table() {
-    let all: Vec<Row> = scenes().iter().flat_map(|scene| rows(scene)).collect();
+    let all: Vec<ImageHashes> = scenes().iter().flat_map(|scene| rows(scene)).collect();
     let differences = differences(&all, &scenes(), TABLE);
     assert!(
         differences.is_empty(),
@@ -17,7 +17,7 @@ fn every_image_has_the_bits_of_the_table() {
 
 #[test]
 fn every_difference_is_named() {
-    let row = |name: &str, hashes: &[u64]| Row { name: name.to_owned(), hashes: hashes.to_vec() };
+    let row = |name: &str, hashes: &[u64]| ImageHashes { name: name.to_owned(), hashes: hashes.to_vec() };
     let rows = [row("a/area", &[1, 2, 3]), row("a/auto/error", &[4])];
     let table = text(&rows) + "b/area 0000000000000001\n";
     assert!(table.starts_with("a/area 0000000000000001 0000000000000002 0000000000000003\n"));

@@ -1,10 +1,10 @@
 //! `etendue render --beside`: the same scene by another technique in the same time, and both images in one picture.
 
 use crate::output::{Output, grouped, percent};
-use etendue_render::claim::Claim;
 use etendue_render::film::Film;
+use etendue_render::film::claim::Claim;
 use etendue_render::scene::Input;
-use etendue_render::{Technique, files, image};
+use etendue_render::{Technique, film::files, film::image};
 use std::fmt;
 use std::path::PathBuf;
 

@@ -2,8 +2,8 @@
 
 use clap::Args;
 use etendue_laboratory::options::{out, say};
-use etendue_render::compare::Comparison;
-use etendue_render::image;
+use etendue_render::film::compare::Comparison;
+use etendue_render::film::image;
 use std::error::Error;
 use std::io::Write;
 use std::path::PathBuf;

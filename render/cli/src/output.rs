@@ -1,10 +1,10 @@
 //! The files that `render` writes: their names, the checks before rendering, and their contents.
 
 use crate::interrupt::Interrupt;
-use etendue_render::claim::Claim;
 use etendue_render::film::Film;
+use etendue_render::film::claim::Claim;
 use etendue_render::scene::{Input, Scene};
-use etendue_render::{Identity, files, image, parts};
+use etendue_render::{Identity, drive::parts, film::files, film::image};
 use std::ffi::OsStr;
 use std::io;
 use std::path::{Path, PathBuf};

@@ -26,7 +26,7 @@ use crate::progress::bar;
 use crate::render::{fraction, seconds};
 use clap::Args;
 use etendue_laboratory::options::{out, pool, say, whole};
-use etendue_render::progressive::{Goal, Refinement};
+use etendue_render::drive::progressive::{Goal, Refinement};
 use etendue_render::sampler::default_sampler;
 use server::Server;
 use state::{Shared, Way};

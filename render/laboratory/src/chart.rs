@@ -18,9 +18,9 @@ use crate::interrupt::interrupt;
 use crate::options::{out, say};
 use crate::progress::{bar, duration};
 use budget::{Extent, Trial};
-use etendue_render::files;
-use etendue_render::{Sampler, identity};
-use measure::{ChartedScene, Key, Plan, Row, inapplicable};
+use etendue_render::film::files;
+use etendue_render::{Sampler, drive::identity};
+use measure::{ChartedScene, Key, Measurement, Plan, inapplicable};
 pub use options::Options;
 pub use outcome::Outcome;
 use prepare::Loaded;
@@ -31,7 +31,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 use summary::{Summary, Way};
-use table::Table;
+use table::MeasurementFile;
 
 /// Sets `stop` at this time.
 fn alarm(stop: &Arc<AtomicBool>, time: Option<Instant>) {
@@ -161,7 +161,7 @@ fn render(
     notes: &mut Vec<String>,
 ) -> Result<measure::Rows, Box<dyn Error>> {
     let file = options.output.join("measurements.csv");
-    let (mut table, mut rows, others) = Table::open(&file, plan)?;
+    let (mut table, mut rows, others) = MeasurementFile::open(&file, plan)?;
     if others > 0 {
         notes.push(format!("{}: {others} measurements with other settings are kept but not shown", file.display()));
     }
@@ -170,7 +170,7 @@ fn render(
         notes.push(format!("{found} measurements come from an earlier run"));
     }
     let bar = bar(plan.work(&rows), "measuring")?;
-    let keep = &mut |scene: &ChartedScene, key: &Key, row: &Row| table.append(scene, key, row);
+    let keep = &mut |scene: &ChartedScene, key: &Key, row: &Measurement| table.append(scene, key, row);
     pool.install(|| plan.run(&mut rows, keep, stop, &|done| bar.inc(done)).map_err(|e| e.to_string()))?;
     bar.finish_and_clear();
     let all = plan.keys.len() * plan.replicates as usize;

@@ -1,7 +1,7 @@
 //! What the command lines of the renderer and of its laboratory share.
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use etendue_render::limits::{MOST_PIXELS, MOST_SIDE, is_size};
+use etendue_render::scene::limits::{MOST_PIXELS, MOST_SIDE, is_size};
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 use std::fmt::Display;
 use std::io::{self, StdoutLock, Write};

@@ -1,7 +1,7 @@
 //! The report of `etendue chart` is read at a glance: a line per scene, the best sampler of each technique, bars in order, notes last.
 
 use etendue_laboratory::chart::charts::{self, Against, Measure};
-use etendue_laboratory::chart::measure::{ChartedScene, Key, Plan, Row, Rows};
+use etendue_laboratory::chart::measure::{ChartedScene, Key, Measurement, Plan, Rows};
 use etendue_laboratory::chart::reference::{Difference, Reference};
 use etendue_laboratory::chart::summary::{Summary, Way};
 use etendue_laboratory::chart::{Outcome, plot, report};
@@ -49,7 +49,7 @@ fn outcome(names: &[&str]) -> Outcome {
             let squared = error * noise + scenes[key.scene].reference.error;
             let difference = Difference { squared, relative: 9.0 * squared, mean: 0.0 };
             let rays = [256 * u64::from(key.spp), 0, 0, 0];
-            Row { replicate, seed: 0, seconds, cpu: Some(2.0 * seconds), repeats: 1, difference, rays }
+            Measurement { replicate, seed: 0, seconds, cpu: Some(2.0 * seconds), repeats: 1, difference, rays }
         };
         rows.insert(*key, (0..3).map(row).collect());
     }

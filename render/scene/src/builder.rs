@@ -7,13 +7,13 @@ use crate::shape_attributes::ShapeAttributes;
 use crate::transform::{Transform, add, cross, dot, length, sub};
 use crate::vertices::{Vertex, Vertices};
 use etendue_render::geometry::{Affine, Geometry, Instance, bounds_of};
-use etendue_render::intensity::Intensity;
-use etendue_render::light_picture::affine;
+use etendue_render::scene::intensity::Intensity;
+use etendue_render::scene::light_picture::affine;
+use etendue_render::scene::texture::{Mapping, Mask, Texture};
 use etendue_render::scene::{
     CameraSettings, Corners, DeltaLight, Details, Emission, Environment, FilmSettings, Input, Material, Message, Scene,
     Shape, Varying, coincidences,
 };
-use etendue_render::texture::{Mapping, Mask, Texture};
 use std::collections::{BTreeMap, HashMap};
 use std::ops::Range;
 use std::path::Path;

@@ -1,9 +1,9 @@
 //! How luminaires lie, and how flat ones distribute what they emit.
 
 use crate::transform::{Transform, cross, dot, scaled, sub, unit};
-use etendue_render::intensity::Intensity;
-use etendue_render::light_profile::LuminousOpening;
-use etendue_render::spread::Spread;
+use etendue_render::geometry::spread::Spread;
+use etendue_render::scene::intensity::Intensity;
+use etendue_render::scene::light_profile::LuminousOpening;
 use std::sync::Arc;
 
 /// A signed axis of light space: x, y or z, and its sign.

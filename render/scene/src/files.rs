@@ -1,6 +1,6 @@
 //! Files that may be compressed, and what was read of them.
 
-use etendue_render::files::read_file;
+use etendue_render::film::files::read_file;
 use etendue_render::scene::Input;
 use std::io::{self, Read};
 use std::path::Path;

@@ -6,9 +6,9 @@ mod texels;
 pub use texels::Encoding;
 
 use crate::message::shortened;
-use etendue_render::files::{FileError, failed, read_file};
-use etendue_render::image::{Picture, check_size, decode_displayed};
-use etendue_render::texture::{Colors, Texels, srgb_to_linear};
+use etendue_render::film::files::{FileError, failed, read_file};
+use etendue_render::film::image::{Picture, check_size, decode_displayed};
+use etendue_render::scene::texture::{Colors, Texels, srgb_to_linear};
 use image_files::DynamicImage;
 use image_files::codecs::hdr::HdrDecoder;
 use std::fmt;

@@ -3,11 +3,11 @@
 use crate::radiance::luminance;
 use crate::shape_attributes::ShapeAttributes;
 use etendue_render::geometry::{Chart, Geometry};
-use etendue_render::light_picture::{LightPicture, WORLD};
-use etendue_render::light_profile::LightProfile;
-use etendue_render::limits::MOST_RADIANCE;
+use etendue_render::scene::light_picture::{LightPicture, WORLD};
+use etendue_render::scene::light_profile::LightProfile;
+use etendue_render::scene::limits::MOST_RADIANCE;
+use etendue_render::scene::texture::{Mapping, Picture};
 use etendue_render::scene::{Emission, Shape};
-use etendue_render::texture::{Mapping, Picture};
 use std::f64::consts::PI;
 use std::sync::Arc;
 

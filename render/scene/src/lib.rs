@@ -9,7 +9,7 @@
 //!
 //! Beyond pbrt, a sky may have up to eight portals, in one list of corners or in several lights of the same sky. They may be parallelograms,
 //! and what two of them show counts once. `LightSource "infinite" "string sky" "cie"` is daylight by CIE's standard general sky
-//! ([`GeneralSky`](etendue_render::sky::GeneralSky)). In the light's space +x is east, +y north and +z up; nothing shines from below the horizon.
+//! ([`GeneralSky`](etendue_render::lights::sky::GeneralSky)). In the light's space +x is east, +y north and +z up; nothing shines from below the horizon.
 //!
 //! | parameter of a `cie` sky | what it is | default |
 //! |---|---|---|
@@ -21,7 +21,7 @@
 //!
 //! A profile is an IES file or an image, as those of `goniometric` lights. It lies so that its nadir is along the axis of a spot light, or the
 //! normal of a flat light, and the photometric horizontal in the plane of that and of the light's +x. The intensity of a spot light is `I` times candela values, or texels, times the falloff. Of flat
-//! lights `L` and `power` stay what they are, and the profile distributes it: see [`LuminousOpening`](etendue_render::light_profile::LuminousOpening).
+//! lights `L` and `power` stay what they are, and the profile distributes it: see [`LuminousOpening`](etendue_render::scene::light_profile::LuminousOpening).
 //!
 //! These differ from pbrt-v4 by choice:
 //!
@@ -62,7 +62,7 @@ mod transform;
 mod vertices;
 
 pub use asked::{Asked, Contents};
-use etendue_render::files::read_file;
+use etendue_render::film::files::read_file;
 use etendue_render::scene::{Environment, Message, Scene};
 use files::{note, read_unpacked};
 #[cfg(feature = "pbrt")]

@@ -2,9 +2,9 @@
 
 use crate::message::shortened;
 use etendue::light::EnvironmentMap;
-use etendue_render::image::Picture;
-use etendue_render::limits::MOST_RADIANCE;
+use etendue_render::film::image::Picture;
 use etendue_render::scene::SkyRadiance;
+use etendue_render::scene::limits::MOST_RADIANCE;
 
 /// Luminance of linear sRGB, as Y of CIE XYZ.
 pub(super) fn luminance([r, g, b]: [f64; 3]) -> f64 {

@@ -3,7 +3,7 @@
 use crate::distribution::Distribution;
 use crate::transform::Transform;
 use etendue_render::scene::Emission;
-use etendue_render::texture::Picture;
+use etendue_render::scene::texture::Picture;
 use std::sync::Arc;
 
 /// What applies to all of a shape.

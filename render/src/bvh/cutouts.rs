@@ -2,7 +2,7 @@
 
 use super::rays::NOTHING;
 use crate::packet::{V8, each_bit};
-use crate::texture::Mask;
+use crate::scene::texture::Mask;
 use std::sync::Arc;
 
 /// The mask of a triangle.
@@ -98,7 +98,7 @@ fn number(place: u32, origin: [f32; 3], direction: [f32; 3]) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::texture::{Mapping, Texture};
+    use crate::scene::texture::{Mapping, Texture};
 
     #[test]
     fn numbers_are_uniform_and_differ_between_places_and_rays() {

@@ -65,7 +65,7 @@ pub(super) struct Visit {
 }
 
 /// A triangle of an instance.
-pub(super) struct Found<'a> {
+pub(super) struct InstanceTriangle<'a> {
     pub(super) object: &'a Object,
     /// The index of the triangle in the order of the object's leaves.
     pub(super) index: usize,
@@ -120,10 +120,10 @@ impl Instances {
         self.over.bytes() + size_of_val(&self.placements[..]) + objects.sum::<usize>()
     }
     /// The triangle at a place of an instance.
-    pub(super) fn find(&self, place: u32) -> Found<'_> {
+    pub(super) fn find(&self, place: u32) -> InstanceTriangle<'_> {
         let placement = &self.placements[self.placements.partition_point(|other| other.first <= place) - 1];
         let index = (place - placement.first) as usize;
-        Found { object: &self.objects[placement.object as usize], index, to_world: &placement.to_world }
+        InstanceTriangle { object: &self.objects[placement.object as usize], index, to_world: &placement.to_world }
     }
     /// Finds the nearest hits of packets, if nearer than those in `hits`. With `ANY`, clears the lanes of `active` that hit something
     /// instead. If the traversal is exhaustive, every leaf of every instance is tested.

@@ -2,11 +2,11 @@
 //! core's [`Mixture`].
 
 use super::choose_light::{ChooseLight, bounds};
+use super::light_tree::{Threads, build_error};
 use crate::bvh::BuildError;
-use crate::light_tree::{Threads, build_error};
+use crate::lights::sky::Sky;
 use crate::lights::{Candidate, Far};
 use crate::packet::{V8, X8};
-use crate::sky::Sky;
 use etendue::Real;
 use etendue::lights::{Mixture, MixtureAt, Source};
 use etendue::select::{Choice, Gloss};

@@ -1,8 +1,8 @@
 //! Any number of lights are chosen by a light tree.
 
 use super::choose_light::{ChooseLight, bounds};
+use super::light_tree::{Threads, build_error};
 use crate::bvh::BuildError;
-use crate::light_tree::{Threads, build_error};
 use crate::lights::Candidate;
 use crate::packet::{V8, X8};
 use etendue::owned::OwnedTree;

@@ -2,9 +2,9 @@
 
 use super::light_weights::LightWeights;
 use super::tile::TileRenderer;
-use crate::area::{Area, TILE};
 use crate::bvh::GROUP;
 use crate::packet::{M8, X8};
+use crate::scene::area::{Area, TILE};
 use etendue::{Mask, Real};
 
 /// The squared error of a light with contribution c falls about as c² n^−1.5. For a given Σn the sum is least with n ∝ c^0.8.

@@ -3,8 +3,8 @@
 //! The number of samples of a light depends on its possible contribution to the pixel's corners, or on the samples of neighbouring
 //! pixels, never on the pixel's own samples: that keeps the estimate unbiased.
 
-use crate::allocation::{Allocation, FEW};
-use crate::area::Area;
+use crate::choose::allocation::{Allocation, FEW};
+use crate::scene::area::Area;
 use std::borrow::Cow;
 
 /// Greatest number of lights whose variances the adaptive sampler measures separately.

@@ -13,10 +13,10 @@ use super::light_weights::{APART, LightWeights};
 use super::pixel_statistics::{Statistics, fall};
 use super::second_sets::{self, Checks};
 use super::tile::TileRenderer;
-use crate::area::{self, Area, crop};
 use crate::film::Pixel;
+use crate::film::sums::Moments;
+use crate::scene::area::{self, Area, crop};
 use crate::settings::Settings;
-use crate::sums::Moments;
 use libm::pow;
 
 /// The squared error falls about as N^−1.5 if a pixel's integrand is smooth except for edges. Then Σ cᵢ nᵢ^−1.5 for a given Σ nᵢ is

@@ -1,10 +1,10 @@
 //! What the samples of a pixel tell of its variance.
 
 use super::light_weights::APART;
-use crate::allocation::Allocated;
+use crate::choose::allocation::Allocated;
+use crate::film::sums::{Adder, Sum};
 use crate::film::{Accumulator, channels};
 use crate::packet::V8;
-use crate::sums::{Adder, Sum};
 use etendue::Real;
 use etendue::estimate::Welford;
 
@@ -175,7 +175,7 @@ fn halves(radiance: V8) -> [[f64; 3]; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::allocation::Allocation;
+    use crate::choose::allocation::Allocation;
     use crate::packet::X8;
 
     fn packet(of: impl Fn(usize) -> [f32; 3]) -> V8 {

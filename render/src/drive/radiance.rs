@@ -1,7 +1,6 @@
 //! Radiance along camera rays, by where it comes from.
 
-use crate::estimate::keep;
-use crate::packet::{M8, V8, X8};
+use crate::packet::{M8, V8, X8, keep};
 
 /// Radiance along camera rays.
 #[derive(Clone, Copy, Default)]

@@ -1,8 +1,8 @@
 //! The samples of a tile, in packets of eight.
 
-use crate::area::{Area, TILE};
 use crate::packet::M8;
 use crate::sampler::Packet;
+use crate::scene::area::{Area, TILE};
 use etendue::{Mask, u32x8};
 use std::ops::Range;
 

@@ -8,9 +8,9 @@
 //! Sampling Techniques, chapters 6 and 9A). So the sum of the variances is right in the mean, but for a bias that falls with the number of
 //! pixels that are chosen in a tile.
 
-use crate::area::{self, Area};
 use crate::film::Pixel;
 use crate::sampler::hash64;
+use crate::scene::area::{self, Area};
 
 /// The least and the greatest samples of second sets relative to all others.
 const SHARES: [f64; 2] = [1.0 / 48.0, 1.0 / 4.0];

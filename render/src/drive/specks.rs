@@ -1,11 +1,10 @@
 //! Lights in view that are smaller than a pixel, which few samples meet.
 
 use crate::bvh::{NOTHING, Scratch};
-use crate::camera::Camera;
-use crate::claim::Specks;
+use crate::camera::{Camera, PreparedScene};
+use crate::film::claim::Specks;
 use crate::geometry::across;
 use crate::packet::{M8, V8, X8};
-use crate::prepared::PreparedScene;
 use etendue::{Mask, Real, Vec3, u32x8};
 use rayon::prelude::*;
 use std::f64::consts::PI;

@@ -5,20 +5,18 @@ use super::pixel_statistics::{Statistics, StatisticsSum};
 use super::radiance::Radiance;
 use super::runs::{Run, TilePiece, next_packet, z_order};
 use super::world::World;
-use crate::allocation::Allocated;
-use crate::area::Area;
-use crate::bvh::GROUP;
-use crate::camera::{Camera, CameraSample, counted_from};
+use crate::bvh::{GROUP, RayCount};
+use crate::camera::{Camera, CameraSample, Group, Numbers, Paths, PreparedScene, counted_from};
 use crate::choose::Chooser;
-use crate::estimate::{Group, Know, Numbers, Outlook, RayCount, Sampled, product};
+use crate::choose::allocation::Allocated;
+use crate::estimate::Sampled;
 use crate::film::Accumulator;
-use crate::ledger::Ledger;
+use crate::film::sensor::Exposure;
+use crate::know::{Know, Ledger, Outlook};
 use crate::lights::Lights;
-use crate::packet::{M8, V8, X8};
-use crate::paths::Paths;
-use crate::prepared::PreparedScene;
-use crate::sampler::{CHOICE, FILM, LENS, Packet, SURFACE, Source};
-use crate::sensor::Exposure;
+use crate::packet::{M8, V8, X8, product};
+use crate::sampler::{CHOICE, FILM, LENS, NumberSource, Packet, SURFACE};
+use crate::scene::area::Area;
 use crate::settings::Settings;
 use etendue::{Mask, Vec2, u32x8};
 use std::ops::Range;
@@ -38,7 +36,7 @@ pub(super) struct TileRenderer<'a> {
     exposure: Option<Exposure>,
     /// Whether samples need a point of the lens.
     lens: bool,
-    pub(super) source: Source,
+    pub(super) source: NumberSource,
     pub(super) paths: Paths<'a>,
     /// What is known without samples, and what was written of it for the last group.
     pub(super) know: Option<Box<dyn Know + 'a>>,
@@ -66,7 +64,7 @@ impl<'a> TileRenderer<'a> {
             camera,
             lens: camera.has_lens() || exposure.is_some(),
             exposure,
-            source: Source::new(sampler, seed, spp, sets, width),
+            source: NumberSource::new(sampler, seed, spp, sets, width),
             paths: Paths::new(scene, settings.depth),
             ledger: Ledger::all_open(know.is_some()),
             know,

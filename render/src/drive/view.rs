@@ -6,14 +6,14 @@ use super::specks::specks;
 use super::tile::TileRenderer;
 use super::world::World;
 
-use crate::area::{self, Area};
+use crate::bvh::RayCount;
 use crate::camera::Camera;
-use crate::claim::Foreseen;
-use crate::estimate::RayCount;
+use crate::film::claim::Foreseen;
+use crate::film::sums::{Moments, Sample, Sum};
 use crate::film::{Film, Pixel, PixelSum};
 use crate::sampler::Sampler;
+use crate::scene::area::{self, Area};
 use crate::settings::{Settings, tiles};
-use crate::sums::{Moments, Sample, Sum};
 use crate::technique::Technique;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicBool, Ordering};

@@ -1,15 +1,14 @@
 //! A scene ready to be rendered.
 
 use crate::bvh::{BuildError, Hits, NOTHING, Scratch};
-use crate::camera::Camera;
+use crate::camera::{Camera, PreparedScene};
 use crate::choose::ChoiceBy;
-use crate::estimate::Know;
+use crate::film::sensor::{Exposure, Sensor};
+use crate::know::Know;
 #[cfg(feature = "analytic")]
 use crate::know::{Certifiable, Knowledge};
 use crate::packet::{V8, X8};
-use crate::prepared::PreparedScene;
 use crate::scene::{CameraSettings, Scene};
-use crate::sensor::{Exposure, Sensor};
 use crate::settings::Settings;
 use crate::technique::Technique;
 use etendue::{Real, Uint};

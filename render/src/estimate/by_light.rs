@@ -1,16 +1,15 @@
 //! Direct light by sampling a light.
 
-use super::group::Group;
 use super::mis::Mis;
-use super::points::{keep, product};
-use super::tracer::{Tracer, Unoccluded};
+use super::unoccluded::Unoccluded;
 use super::which_light::Which;
-use crate::bsdf::Evaluated;
-use crate::bvh::GROUP;
-use crate::ledger::Ledger;
+use crate::bvh::{GROUP, Tracer};
+use crate::camera::Group;
+use crate::know::Ledger;
+use crate::lights::sky::SunBeside;
 use crate::lights::{Chosen, Drawn};
-use crate::packet::{M8, V8, X8, select};
-use crate::sky::SunBeside;
+use crate::packet::{M8, V8, X8, keep, product, select};
+use crate::surfaces::bsdf::Evaluated;
 use crate::technique::Measure;
 use etendue::{Mask, Real, Vec2};
 

@@ -1,16 +1,15 @@
 //! Direct light by sampling the surface: its BSDF, or the hemisphere above it.
 
-use super::group::Group;
 use super::mis::Mis;
-use super::points::{keep, product};
-use super::tracer::{Tracer, Unoccluded};
+use super::unoccluded::Unoccluded;
 use super::which_light::pmf;
-use crate::bsdf::Scattered;
-use crate::bvh::{GROUP, Hits, NOTHING, SHAPE};
+use crate::bvh::{GROUP, Hits, NOTHING, SHAPE, Tracer};
+use crate::camera::Group;
 use crate::choose::LightPmf;
-use crate::ledger::Ledger;
-use crate::lobe::Lobe;
-use crate::packet::{M8, V8, X8, pick, select};
+use crate::know::Ledger;
+use crate::packet::{M8, V8, X8, keep, pick, product, select};
+use crate::surfaces::bsdf::Scattered;
+use crate::surfaces::lobe::Lobe;
 use crate::technique::Technique;
 use etendue::{Mask, Real, Vec2, u32x8};
 

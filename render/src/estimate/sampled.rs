@@ -2,12 +2,11 @@
 
 use super::by_light::ByLight;
 use super::by_surface::BySurface;
-use super::group::Group;
 use super::mis::Mis;
-use super::tracer::Tracer;
 use super::which_light::Which;
-use crate::bvh::GROUP;
-use crate::ledger::Ledger;
+use crate::bvh::{GROUP, Tracer};
+use crate::camera::Group;
+use crate::know::Ledger;
 use crate::packet::V8;
 use crate::technique::Technique;
 use etendue::estimate::Heuristic;

@@ -1,13 +1,13 @@
 //! Which light each lane of a packet samples.
 
-use super::group::Group;
 use crate::bvh::GROUP;
+use crate::camera::Group;
 use crate::choose::{Chooser, LightPmf};
-use crate::ledger::Ledger;
-use crate::lobe::Lobe;
+use crate::know::Ledger;
+use crate::lights::sky::SunBeside;
 use crate::packet::{M8, X8, each_group, pick, select};
-use crate::sky::SunBeside;
 use crate::surfaces::Surface;
+use crate::surfaces::lobe::Lobe;
 use etendue::select::{Choice, Gloss, LightChoice};
 use etendue::{Mask, Real, Vec2, u32x8};
 

@@ -2,8 +2,8 @@
 
 use super::ends::{End, Segment};
 use super::points::Points;
+use super::spread::Spread;
 use crate::packet::{M8, V8, X8, each_bit, max};
-use crate::spread::Spread;
 use crate::technique::Measure;
 use etendue::light::Picture;
 use etendue::{LightSample, Mask, Real, Vec2, Vec3};

@@ -3,8 +3,8 @@
 use super::ends::Segment;
 use super::form::{Approach, Chart, Extent, Form, Hittable, Meeting, NEAR, wide};
 use super::points::{D8, Points, each, facing, lifted, unit, zero};
+use super::spread::Spread;
 use crate::packet::{M8, V8, X8, max, select, widen};
-use crate::spread::Spread;
 use crate::technique::Measure;
 use etendue::light::{self, Picture};
 use etendue::{Frame, LightSample, LightSampler, Mask, Real, Vec2, Vec3, f64x8};

@@ -2,7 +2,7 @@
 
 use super::bodies::Bodies;
 use super::picture_irradiance::PictureIrradiance;
-use crate::prepared::PreparedScene;
+use crate::camera::PreparedScene;
 use crate::scene::{Scene, Shape, coincidences};
 use rayon::prelude::*;
 

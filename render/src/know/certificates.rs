@@ -7,12 +7,10 @@
 use super::certifiable::Certifiable;
 use super::certifier::{Certifier, patch};
 use super::picture_irradiance::PictureIrradiance;
-use crate::area::TILE;
 use crate::bvh::{NOTHING, SHAPE};
-use crate::camera::{Camera, Pinhole};
-use crate::estimate::Place;
+use crate::camera::{Camera, Pinhole, PointIdentity, PreparedScene};
 use crate::packet::{M8, V8, X8, equal, first_lane};
-use crate::prepared::PreparedScene;
+use crate::scene::area::TILE;
 use crate::settings::Settings;
 use crate::surfaces::{Surface, Surfaces};
 use etendue::{Mask, Real, Vec3, u32x8};
@@ -198,7 +196,7 @@ impl<'a> Certificates<'a> {
 
     /// Index of the certificates for the surface of the first of these lanes, and the lanes that have them. Where nothing is worth asking
     /// for, it is 0.
-    pub(super) fn find(&mut self, surface: &Surface, places: &Place, lanes: M8) -> (usize, M8) {
+    pub(super) fn find(&mut self, surface: &Surface, places: &PointIdentity, lanes: M8) -> (usize, M8) {
         let lane = first_lane(lanes);
         let place = places.primitives.as_array()[lane];
         let here = lanes & equal(places.primitives, u32x8::splat(place));

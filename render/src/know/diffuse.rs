@@ -2,12 +2,12 @@
 
 use super::certificates::{Closed, Known};
 use super::knowledge::Knowledge;
+use super::ledger::{Ledger, Proven};
 use super::picture_irradiance::PictureIrradiance;
 use super::visible::Ask;
 use crate::bvh::GROUP;
-use crate::estimate::{Group, product};
-use crate::ledger::{Ledger, Proven};
-use crate::packet::{M8, V8, X8, first_lane, select};
+use crate::camera::Group;
+use crate::packet::{M8, V8, X8, first_lane, product, select};
 use crate::surfaces::Surface;
 use etendue::{Mask, Real};
 use etendue_visible::Precision;

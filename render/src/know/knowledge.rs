@@ -3,12 +3,10 @@
 use super::certifiable::Certifiable;
 use super::certificates::{Certificates, Closed, Known};
 use super::closed_forms::ClosedForms;
+use super::ledger::{Know, Ledger, Outlook};
 use crate::bvh::GROUP;
-use crate::camera::Camera;
-use crate::estimate::{Group, Know, Outlook, Place, Points};
-use crate::ledger::Ledger;
+use crate::camera::{Camera, Group, PointIdentity, Points, PreparedScene};
 use crate::packet::{M8, V8, X8, each_bit};
-use crate::prepared::PreparedScene;
 use crate::settings::Settings;
 use etendue::{Mask, Real, Vec3};
 use etendue_visible::{ALLOWED, Precision, Solid};
@@ -49,7 +47,7 @@ impl Know for Knowledge<'_> {
         let (surface, place) = (&points.surfaces[packet], &points.places[packet]);
         open.fill(surface.reflects & place.unfitted);
         each_bit((surface.reflects & !place.unfitted).bits(), |lane| {
-            let alone = Place { pixel: Some(pixels[lane]), ..*place };
+            let alone = PointIdentity { pixel: Some(pixels[lane]), ..*place };
             let (first, _) = self.certificates.find(surface, &alone, M8::from_bits(1 << lane));
             for (open, known) in open.iter_mut().zip(&self.certificates.known[first..]) {
                 // beyond its fit, a rough surface is sampled

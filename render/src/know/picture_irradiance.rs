@@ -6,10 +6,10 @@
 //! those of a box are on the longer of its sides.
 
 use crate::geometry::{Geometry, Parallelogram};
-use crate::light_picture::LightPicture;
-use crate::limits::MOST_RADIANCE;
 use crate::packet::{M8, V8, X8};
-use crate::texture::Picture;
+use crate::scene::light_picture::LightPicture;
+use crate::scene::limits::MOST_RADIANCE;
+use crate::scene::texture::Picture;
 use etendue::{Mask, Real, Vec3};
 use std::f64::consts::PI;
 use std::sync::LazyLock;
@@ -302,7 +302,7 @@ impl PictureIrradiance {
 mod tests {
     use super::*;
     use crate::geometry::Parallelogram;
-    use crate::texture::{Colors, Mapping, Texels, Wrap};
+    use crate::scene::texture::{Colors, Mapping, Texels, Wrap};
     use std::sync::Arc;
 
     /// The kernel's error, relative to that of a receiver that faces the point of the light, is greatest for thin lights, in line with them.
@@ -343,7 +343,7 @@ mod tests {
         let colors = Colors::Float((0..width * height).map(color).collect());
         let texels = Arc::new(Texels { width, height, colors, alpha: None });
         let picture = Picture { texels, mapping, wrap: [Wrap::Clamp; 2], bilinear };
-        LightPicture { picture, factor: [1.0, 0.5, 0.25], axes: crate::light_picture::WORLD }
+        LightPicture { picture, factor: [1.0, 0.5, 0.25], axes: crate::scene::light_picture::WORLD }
     }
 
     /// By a rule of Gauss with 3 × 3 points in cells of at most half a texel, in double precision: it knows only the picture's look-up.

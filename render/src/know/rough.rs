@@ -3,11 +3,11 @@
 
 use super::certificates::{AreaLight, Closed, Known};
 use super::knowledge::Knowledge;
-use crate::estimate::{Group, Place, product};
-use crate::ledger::Ledger;
-use crate::lobe::Lobe;
-use crate::packet::{M8, V8, X8, first_lane};
+use super::ledger::Ledger;
+use crate::camera::{Group, PointIdentity};
+use crate::packet::{M8, V8, X8, first_lane, product};
 use crate::surfaces::Surface;
+use crate::surfaces::lobe::Lobe;
 use etendue::reflection::Reflection;
 use etendue::{Mask, Real};
 use etendue_visible::Precision;
@@ -80,7 +80,7 @@ impl Knowledge<'_> {
     }
 
     /// A bound of the error of what [`add_fits`](Self::add_fits) adds at the surface in the first lane.
-    pub(super) fn error_bound_of_fit(&mut self, surface: &Surface, place: &Place, lobe: &Lobe) -> V8 {
+    pub(super) fn error_bound_of_fit(&mut self, surface: &Surface, place: &PointIdentity, lobe: &Lobe) -> V8 {
         let (first, _) = self.certificates.find(surface, place, M8::from_bits(1));
         let mut sum = V8::default();
         for light in 0..self.certificates.lights.len() {

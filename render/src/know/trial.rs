@@ -2,8 +2,9 @@
 
 use super::certificates::Known;
 use super::knowledge::Knowledge;
+use super::ledger::Outlook;
 use crate::bvh::GROUP;
-use crate::estimate::{Outlook, Place, Points};
+use crate::camera::{PointIdentity, Points};
 use crate::packet::{M8, each_bit};
 use etendue::Mask;
 use std::cmp::Reverse;
@@ -49,7 +50,7 @@ impl Knowledge<'_> {
         let mut some = false;
         for seen in seen.iter().take(TRIALS) {
             let (p, lane) = seen.lanes[0];
-            let whole = Place { pixel: None, ..places[p] };
+            let whole = PointIdentity { pixel: None, ..places[p] };
             let (first, _) = certificates.find(&surfaces[p], &whole, M8::from_bits(1 << lane));
             let mut open: Vec<bool> = certificates.known[first..first + count].iter().map(Known::is_open).collect();
             some = some || open.contains(&false);

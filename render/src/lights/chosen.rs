@@ -2,10 +2,10 @@
 
 use super::record::{KINDS, PICTURED, PROFILED, SPREAD, TWO_SIDED};
 use crate::bvh::SHAPE;
+use crate::geometry::spread::Spread;
 use crate::geometry::{self, Kind, Parallelogram, Sphere};
-use crate::lobe::Lobe;
 use crate::packet::{M8, V8, X8, each_bit, equal, select};
-use crate::spread::Spread;
+use crate::surfaces::lobe::Lobe;
 use etendue::{LightSample, LightSampler, Mask, Real, Vec2, u32x8};
 
 /// A direction to a light in each lane: the part of a [`LightSample`] that direct lighting needs.

@@ -4,9 +4,9 @@
 use super::chosen::Chosen;
 use super::record::{Candidate, LightRecord};
 use super::spot::cosine_below;
-use crate::intensity::Intensity;
 use crate::packet::{M8, V8, X8, each_group, select};
 use crate::scene::Cone;
+use crate::scene::intensity::Intensity;
 use etendue::{LightSample, LightSampler, PointLight, Real, SpotLight, Vec2, Vec3};
 use std::f64::consts::PI;
 use std::sync::Arc;

@@ -3,9 +3,9 @@
 use super::chosen::{Chosen, Drawn};
 use super::record::PICTURED;
 use crate::geometry::{self, Chart, Geometry};
-use crate::light_picture::LightPicture;
 use crate::packet::{M8, V8, X8, each_group};
 use crate::scene::Shape;
+use crate::scene::light_picture::LightPicture;
 use crate::technique::Measure;
 use etendue::light::{Picture, Region};
 use etendue::{LightSample, Mask, Vec2};
@@ -24,7 +24,7 @@ const LEAST_CONTRAST: f64 = 1.1;
 
 /// A picture on a shape as a table of the radiance of its cells.
 #[derive(Clone, Debug)]
-struct Table {
+struct RadianceTable {
     buffer: Vec<f32>,
     /// Cells along both coordinates; of an interpolated picture, texels.
     size: [usize; 2],
@@ -37,7 +37,7 @@ struct Table {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Tables {
     of_shapes: Vec<u32>,
-    tables: Vec<Table>,
+    tables: Vec<RadianceTable>,
 }
 
 /// Index of a shape without a table.
@@ -59,7 +59,7 @@ fn size(picture: &LightPicture, chart: Chart, share: usize) -> [usize; 2] {
     }
 }
 
-impl Table {
+impl RadianceTable {
     /// None where the shape is as good without.
     fn new(picture: &LightPicture, geometry: &Geometry, share: usize) -> Option<Self> {
         if let Some(values) = interpolated(picture, geometry).filter(|values| values.len() <= share) {
@@ -137,7 +137,7 @@ impl Tables {
         let (mut of_shapes, mut tables) = (vec![NO_TABLE; shapes.len()], Vec::new());
         for (index, shape) in shapes.iter().enumerate() {
             let Some(picture) = shows(shape) else { continue };
-            if let Some(table) = Table::new(&pictures[picture as usize], &shape.geometry, MOST / count) {
+            if let Some(table) = RadianceTable::new(&pictures[picture as usize], &shape.geometry, MOST / count) {
                 of_shapes[index] = tables.len() as u32;
                 tables.push(table);
             }
@@ -154,7 +154,7 @@ impl Tables {
 
 /// The table of a shape.
 #[derive(Clone, Copy)]
-pub(super) struct TableOf<'a>(&'a Table);
+pub(super) struct TableOf<'a>(&'a RadianceTable);
 
 impl TableOf<'_> {
     /// Samples the shape in proportion to its radiance, from points `p` on surfaces with this normal.

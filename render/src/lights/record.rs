@@ -2,7 +2,7 @@
 
 use crate::bvh::NOTHING;
 use crate::geometry::Extent;
-use crate::spread::Spread;
+use crate::geometry::spread::Spread;
 use etendue::Vec3;
 
 /// The bits of the kind in a record; flags follow.

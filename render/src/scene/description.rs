@@ -1,16 +1,16 @@
 //! What a scene file describes.
 
+use super::area::PlaceInImage;
 use super::environment::Environment;
 use super::inputs::Input;
+use super::intensity::Intensity;
+use super::light_picture::LightPicture;
+use super::light_profile::LightProfile;
 use super::lights::{DeltaLight, Emission};
 use super::materials::{Material, Varying};
 use super::message::Message;
-use crate::area::Place;
+use super::texture::Mask;
 use crate::geometry::{Geometry, Instance};
-use crate::intensity::Intensity;
-use crate::light_picture::LightPicture;
-use crate::light_profile::LightProfile;
-use crate::texture::Mask;
 use std::ops::Range;
 use std::sync::Arc;
 use xxhash_rust::xxh3::Xxh3;
@@ -144,7 +144,7 @@ pub struct FilmSettings {
     /// Name of the image file to write.
     pub filename: Option<String>,
     /// Where the image is in the whole one, if it is only a part.
-    pub place: Option<Place>,
+    pub place: Option<PlaceInImage>,
     /// What the picture for viewing is multiplied by, as a film of more speed or a longer exposure is brighter: 1 by default. Images of radiance are not.
     pub exposure: f64,
 }

@@ -1,6 +1,6 @@
 //! Lights of no extent, and what surfaces emit.
 
-use crate::spread::Spread;
+use crate::geometry::spread::Spread;
 
 /// A light that is seen from every point in a single direction, and that no ray can hit.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,6 +1,6 @@
 //! How surfaces reflect.
 
-use crate::texture::Texture;
+use super::texture::Texture;
 
 /// How a surface reflects, the same on both sides.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,7 +33,7 @@ pub enum Material {
         /// (`KHR_materials_specular`).
         greatest: bool,
     },
-    /// A diffuse surface below a dielectric interface, with the light that this sends back: [`coat`](crate::coat) has the formula.
+    /// A diffuse surface below a dielectric interface, with the light that this sends back: [`coat`](crate::surfaces::coat) has the formula.
     Layered {
         /// Albedo of the diffuse surface, linear RGB.
         diffuse: [f32; 3],

@@ -1,14 +1,14 @@
 //! A scene as the oracle takes it: the numbers that the renderer keeps, in f64, and what only a draft tells.
 
-use super::draft::{self, Draft, Frame, Kind, Source};
+use super::draft::{self, Draft, Frame, Kind, SourceDraft};
 use etendue_oracle::direct::{
     self, Beyond, Body, Cone, Detail, Emission, Finish, Form, Lens, Opacity, Pattern, Picture, Sky, View,
 };
 use etendue_oracle::{V3, along, basis, cross, dot, sub, unit, wide};
+use etendue_render::scene::texture::{self, Colors, Mapping, Texture, Wrap};
 use etendue_render::scene::{
     CameraSettings, Geometry, Instance, Material, Parallelogram, Scene, Shape, Sphere, Varying,
 };
-use etendue_render::texture::{self, Colors, Mapping, Texture, Wrap};
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -191,19 +191,19 @@ pub(crate) fn straighten(draft: &Draft, bodies: &mut [Body]) {
 }
 
 /// The lights without a surface.
-pub(crate) fn sources(sources: &[Source]) -> Vec<direct::Source> {
+pub(crate) fn sources(sources: &[SourceDraft]) -> Vec<direct::SurfacelessLight> {
     let round = |v: V3| v.map(|x| f64::from(x as f32));
-    let of = |source: &Source| {
+    let of = |source: &SourceDraft| {
         let intensity = f64::from(source.strength);
         match source.kind {
-            Kind::Point(from) => direct::Source::Point { position: round(from), intensity, cone: None },
+            Kind::Point(from) => direct::SurfacelessLight::Point { position: round(from), intensity, cone: None },
             Kind::Spot([from, to], [angle, delta]) => {
                 let axis = unit(sub(round(to), round(from)));
                 let cone = Some(Cone { axis, angles: [angle - delta, angle].map(f64::to_radians) });
-                direct::Source::Point { position: round(from), intensity, cone }
+                direct::SurfacelessLight::Point { position: round(from), intensity, cone }
             }
             Kind::Distant([from, to]) => {
-                direct::Source::Distant { towards: unit(sub(round(from), round(to))), irradiance: intensity }
+                direct::SurfacelessLight::Distant { towards: unit(sub(round(from), round(to))), irradiance: intensity }
             }
             Kind::Sky => {
                 let columns = |map: &draft::Map| [0, 1, 2].map(|axis| map.map(|row| row[axis]));
@@ -214,7 +214,7 @@ pub(crate) fn sources(sources: &[Source]) -> Vec<direct::Source> {
                 };
                 let rows = texels.chunks(columns).rev().flatten();
                 let texels = rows.map(|x| intensity * f64::from(*x)).collect();
-                direct::Source::Sky(Sky::new(axes.map(unit), columns, texels))
+                direct::SurfacelessLight::Sky(Sky::new(axes.map(unit), columns, texels))
             }
         }
     };

@@ -2,8 +2,8 @@
 
 use super::judge::read;
 use super::regimes::Regime;
+use etendue_render::drive::progressive::{Goal, Progress, Refinement, render};
 use etendue_render::film::Film;
-use etendue_render::progressive::{Goal, Progress, Refinement, render};
 use etendue_render::sampler::default_sampler;
 use etendue_render::scene::Scene;
 use etendue_render::{Claim, Settings, Technique, World};
@@ -94,7 +94,7 @@ impl Reference {
 
 /// The images of a scene with so many samples, over many seeds: what they claim, all together.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Row {
+pub(crate) struct ClaimRow {
     /// The root of the mean of the squared errors over that of the squares that are claimed; `None` if the image is black, or too little of
     /// an error for the reference.
     pub(crate) ratio: Option<f64>,
@@ -105,7 +105,7 @@ pub(crate) struct Row {
 }
 
 /// The rows of a scene, one for each number of samples.
-pub(crate) fn rows<const N: usize>(scene: &Scene, side: u32, numbers: [u32; N], seeds: u64) -> [Row; N] {
+pub(crate) fn rows<const N: usize>(scene: &Scene, side: u32, numbers: [u32; N], seeds: u64) -> [ClaimRow; N] {
     let world = World::new(scene).unwrap();
     let settings = |spp: u32, seed: u64| Settings {
         width: side,
@@ -144,7 +144,7 @@ pub(crate) fn rows<const N: usize>(scene: &Scene, side: u32, numbers: [u32; N], 
             uncertain += if claim.uncertain().is_some() { 1.0 } else { 0.0 };
         }
         let ratio = found.filter(|_| is_known && claimed > 0.0).map(|found| (found / claimed).sqrt());
-        Row { ratio, uncertain: uncertain / seeds as f64, bounded: systematic > 0.2 * claimed }
+        ClaimRow { ratio, uncertain: uncertain / seeds as f64, bounded: systematic > 0.2 * claimed }
     })
 }
 

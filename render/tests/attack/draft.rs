@@ -54,7 +54,7 @@ pub(crate) struct Glow {
 
 /// A light without a surface.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Source {
+pub(crate) struct SourceDraft {
     /// Kind and position.
     pub(crate) kind: Kind,
     /// Intensity, irradiance or radiance in every channel, or what the picture of a sky is multiplied by.
@@ -134,7 +134,7 @@ pub(crate) struct Draft {
     /// What is in it.
     pub(crate) parts: Vec<Part>,
     /// Its lights without a surface.
-    pub(crate) sources: Vec<Source>,
+    pub(crate) sources: Vec<SourceDraft>,
     /// Whether copies share their triangles, as they do in scenes that are read only if they have very many of them.
     pub(crate) is_shared: bool,
 }

@@ -1,6 +1,6 @@
 //! Drafts as the text of a scene file.
 
-use super::draft::{Draft, Finish, Form, Frame, Glow, Kind, Look, Map, Part, Source, V3};
+use super::draft::{Draft, Finish, Form, Frame, Glow, Kind, Look, Map, Part, SourceDraft, V3};
 use super::skin::Number;
 use std::fmt::{self, Display, Formatter};
 
@@ -130,7 +130,7 @@ impl Part {
     }
 }
 
-impl Display for Source {
+impl Display for SourceDraft {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         writeln!(f, "AttributeBegin")?;
         if let Some(map) = &self.map {

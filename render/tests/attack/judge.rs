@@ -4,9 +4,9 @@ use super::bridge::{CHANNEL, bodies, framed, sources, straighten, view};
 use super::draft::{Draft, Frame, Look, Map, Part};
 use super::regimes::named;
 use crate::kit::Folder;
-use etendue_oracle::direct::{self, Block, Body, Source, View};
-use etendue_render::compare::{LIMIT, differs};
+use etendue_oracle::direct::{self, Block, Body, SurfacelessLight, View};
 use etendue_render::film::Film;
+use etendue_render::film::compare::{LIMIT, differs};
 use etendue_render::scene::{Affine, Instance, Scene};
 use etendue_render::{Settings, Technique, World};
 
@@ -55,7 +55,7 @@ pub(crate) struct Trial {
     /// Width and height of its images in pixels.
     size: [u32; 2],
     /// What the oracle renders, unless that takes too long.
-    exact: Option<(Vec<Body>, Vec<Source>, View)>,
+    exact: Option<(Vec<Body>, Vec<SurfacelessLight>, View)>,
     /// The scenes of its lights alone, if they are to be summed.
     alone: Vec<Scene>,
 }
@@ -71,7 +71,7 @@ pub(crate) enum Against {
 
 /// One technique against the oracle, or against a sum.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Row {
+pub(crate) struct JudgedTechnique {
     /// What it is compared with.
     pub(crate) against: Against,
     /// How lights were sampled.
@@ -90,10 +90,10 @@ pub(crate) struct Verdict {
     /// What the oracle has computed.
     pub(crate) truth: Vec<Block>,
     /// One row per technique.
-    pub(crate) rows: Vec<Row>,
+    pub(crate) rows: Vec<JudgedTechnique>,
 }
 
-impl Row {
+impl JudgedTechnique {
     /// Whether a block differs.
     fn differs(&self, i: usize) -> bool {
         differs(self.z[i])
@@ -205,7 +205,7 @@ pub(crate) fn judge(trial: &Trial, techniques: &[Technique], effort: &Effort) ->
             images.push(([technique, chosen], blocks(&view.image(&|_| ()).0, block)));
         }
     }
-    let against = |slack: &[f64]| -> Vec<Row> {
+    let against = |slack: &[f64]| -> Vec<JudgedTechnique> {
         images.iter().map(|(by, image)| compare(*by, image, &truth, slack, effort)).collect()
     };
     let mut rows = if truth.is_empty() { Vec::new() } else { against(&slack) };
@@ -275,7 +275,7 @@ fn compare(
     truth: &[Block],
     slack: &[f64],
     effort: &Effort,
-) -> Row {
+) -> JudgedTechnique {
     let (mut z, mut relative) = (Vec::new(), Vec::new());
     let samples = f64::from(effort.block).powi(2) * f64::from(effort.spp);
     let total: f64 = truth.iter().map(|block| block.unoccluded).sum();
@@ -291,11 +291,16 @@ fn compare(
         z.push(scores[0]);
         relative.push(scores[1]);
     }
-    Row { against: Against::Oracle, technique, chosen, z, relative }
+    JudgedTechnique { against: Against::Oracle, technique, chosen, z, relative }
 }
 
 /// Compares an image with the sum of others; what comes of points off their surfaces is known if the oracle has been asked.
-fn compare_sum([technique, chosen]: [Technique; 2], image: &[[f64; 2]], sum: &[[f64; 2]], slack: &[f64]) -> Row {
+fn compare_sum(
+    [technique, chosen]: [Technique; 2],
+    image: &[[f64; 2]],
+    sum: &[[f64; 2]],
+    slack: &[f64],
+) -> JudgedTechnique {
     let total: f64 = sum.iter().map(|[mean, _]| mean).sum();
     let (mut z, mut relative) = (Vec::new(), Vec::new());
     let slack = slack.iter().copied().chain(std::iter::repeat(0.0));
@@ -305,7 +310,7 @@ fn compare_sum([technique, chosen]: [Technique; 2], image: &[[f64; 2]], sum: &[[
         z.push(scores[0]);
         relative.push(scores[1]);
     }
-    Row { against: Against::Sum, technique, chosen, z, relative }
+    JudgedTechnique { against: Against::Sum, technique, chosen, z, relative }
 }
 
 /// Further judgements of what differs. A sliver of light that some technique samples, or the oracle, may be missed even by thousands of
@@ -319,7 +324,7 @@ pub(crate) fn confirmed(trial: &Trial, techniques: &[Technique], effort: &Effort
     let mut first = judge(trial, techniques, effort)?;
     let mut effort = *effort;
     for round in 0..AGAIN {
-        let is_plain = |row: &Row| row.failing().next().is_none() || row.failing().count() >= PLAIN;
+        let is_plain = |row: &JudgedTechnique| row.failing().next().is_none() || row.failing().count() >= PLAIN;
         if round > 0 && first.rows.iter().all(is_plain) {
             break;
         }
@@ -331,7 +336,7 @@ pub(crate) fn confirmed(trial: &Trial, techniques: &[Technique], effort: &Effort
         effort = effort.again();
         let other = judge(trial, &suspects, &effort)?;
         for row in &mut first.rows {
-            let same = |other: &&Row| (other.technique, other.against) == (row.technique, row.against);
+            let same = |other: &&JudgedTechnique| (other.technique, other.against) == (row.technique, row.against);
             let Some(other) = other.rows.iter().find(same) else { continue };
             let refuted: Vec<usize> =
                 row.failing().filter(|&i| !other.differs(i) || other.z[i].signum() != row.z[i].signum()).collect();

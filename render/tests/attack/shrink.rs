@@ -1,6 +1,6 @@
 //! Finds the fewest parts and triangles of a scene that still fail.
 
-use super::draft::{Draft, Form, Source};
+use super::draft::{Draft, Form, SourceDraft};
 use super::skin::Skin;
 
 /// Greatest number of scenes that are tried.
@@ -41,7 +41,7 @@ impl<F: Fn(&Draft) -> bool> Search<F> {
 
     /// Leaves out what varies over lights.
     fn simplify_sources(&mut self) {
-        let bare: [fn(&mut Source); 3] =
+        let bare: [fn(&mut SourceDraft); 3] =
             [|source| source.map = None, |source| source.picture = None, |source| source.strength = 1.0];
         for index in 0..self.best.sources.len() {
             for bare in bare {

@@ -27,13 +27,13 @@ const POINTS: usize = 4;
 
 /// Greatest errors by what a certificate says.
 #[derive(Clone, Copy, Debug, Default)]
-struct Row {
+struct WorstErrors {
     shafts: u64,
     compared: u64,
     worst: f64,
 }
 
-impl Row {
+impl WorstErrors {
     fn add(&mut self, other: &Self) {
         self.shafts += other.shafts;
         self.compared += other.compared;
@@ -46,7 +46,7 @@ impl Row {
 pub(crate) struct Values {
     pub(crate) shafts: u64,
     /// Lit in single and in double precision, dark, and blockers in single and in double precision.
-    known: [Row; 5],
+    known: [WorstErrors; 5],
     /// Closed forms that are not accurate enough, crowded or overlapping blockers, and what is unknown.
     imprecise: u64,
     crowded: u64,

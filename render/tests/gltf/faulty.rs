@@ -15,7 +15,7 @@ fn full() -> Asset {
     let indices = asset.indices(&[0, 1, 2]);
     asset.json["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = json!(normals);
     asset.json["meshes"][0]["primitives"][0]["indices"] = json!(indices);
-    let png = etendue_render::image::encode_png([1, 1], &[[255; 3]]).unwrap();
+    let png = etendue_render::film::image::encode_png([1, 1], &[[255; 3]]).unwrap();
     let view = asset.view(&png);
     asset.add("images", json!({"bufferView": view}));
     asset.add("samplers", json!({}));

@@ -3,9 +3,9 @@
 use crate::gltf::asset::{Asset, QUAD};
 use crate::kit::Folder;
 use base64::Engine;
-use etendue_render::image::encode_png;
+use etendue_render::film::image::encode_png;
+use etendue_render::scene::texture::{Mask, Texture, Wrap};
 use etendue_render::scene::{Emission, Material, Roughness, Varying};
-use etendue_render::texture::{Mask, Texture, Wrap};
 use etendue_scene::{load, parse_gltf};
 use serde_json::{Value, json};
 

@@ -2,9 +2,9 @@
 
 use crate::gltf::asset::Asset;
 use crate::kit::Folder;
+use etendue_render::lights::sky::Sky;
 use etendue_render::packet::V8;
 use etendue_render::scene::{CameraSettings, Screen};
-use etendue_render::sky::Sky;
 use etendue_scene::{Asked, SceneError, load_as};
 use serde_json::{Value, json};
 use std::path::Path;

@@ -15,7 +15,7 @@ fn vector<R: Real>(v: V3) -> Vec3<R> {
 
 /// A rough surface at the origin, and a flat light around a direction that it reflects.
 #[derive(Clone, Copy, Debug)]
-struct Place {
+struct GlossySurface {
     alpha: f64,
     normal: V3,
     view: V3,
@@ -23,7 +23,7 @@ struct Place {
     edges: [V3; 2],
 }
 
-impl Place {
+impl GlossySurface {
     fn new(random: &mut Random) -> Self {
         let normal = random.direction();
         let (s, t) = basis(normal);
@@ -56,7 +56,7 @@ fn whole_lights_have_their_part_of_the_lobe() {
     let (mut occlusion, mut wide_occlusion) = (Occlusion::<f32>::new(), Occlusion::<f64>::new());
     let mut worst = 0.0_f64;
     for _ in 0..cases(1000, 10_000) {
-        let place = Place::new(&mut random);
+        let place = GlossySurface::new(&mut random);
         let (lobe, light, up) = (place.reflection::<f64>(), place.light(), vector(place.normal));
         let [c, u, v] = [place.corner, place.edges[0], place.edges[1]].map(vector::<f64>);
         let wanted = Parallelogram::new(c, u, v).by_reflection(Vec3::default(), &lobe).projected_solid_angle();
@@ -78,7 +78,7 @@ fn blockers_hide_their_part_of_the_lobe() {
     let mut occlusion = Occlusion::<f64>::new();
     let (mut part, steps) = (0, 300);
     for _ in 0..cases(100, 1_000) {
-        let place = Place::new(&mut random);
+        let place = GlossySurface::new(&mut random);
         let (corner, [s, t]) = (place.corner, place.edges);
         // a square that covers some of the way to the light
         let middle = along(along(corner, s, random.unit_f64()), t, random.unit_f64()).map(|x| 0.5 * x);
@@ -110,7 +110,7 @@ fn blockers_hide_their_part_of_the_lobe() {
     }
     assert!(part > 20, "{part} are partly hidden");
     // a sphere before a light, or as a light behind something, has no closed form
-    let place = Place::new(&mut random);
+    let place = GlossySurface::new(&mut random);
     let lobe = place.reflection::<f64>();
     let ball = |x: f64| Solid::Sphere { center: vector(place.normal.map(|n| n * x)), radius: 0.1 };
     let panel = Solid::Parallelogram {

@@ -68,7 +68,7 @@ fn builtin_scenes_have_the_stated_sizes_and_no_warnings() {
         let lights = emitting.len() + scene.delta_lights.len();
         match many.iter().any(|(other, _)| other == name) {
             true => assert!(about.contains(&grouped(lights)), "{name}: {about}"),
-            false => assert!(lights <= etendue_render::allocation::FEW, "{name}: {lights}"),
+            false => assert!(lights <= etendue_render::choose::allocation::FEW, "{name}: {lights}"),
         }
         // lights reflect nothing, and each emits
         assert!(emitting.iter().all(|shape| scene.materials[shape.material as usize].is_black()), "{name}");

@@ -1,9 +1,9 @@
 //! Cameras of other programs, and parts of their images.
 
 use etendue::{Vec2, u32x8};
-use etendue_render::area::Place;
 use etendue_render::camera::{Camera, CameraSample, counted_from};
 use etendue_render::packet::X8;
+use etendue_render::scene::area::PlaceInImage;
 use etendue_render::scene::{Scene, Screen};
 use etendue_scene::parse;
 use std::path::Path;
@@ -118,7 +118,7 @@ fn parts_of_images() {
             let [a, b] = [through(&part, x, y), through(&whole, f64::from(x0) + x, f64::from(y0) + y)];
             assert!(a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-12), "{film}: {a:?}, not {b:?}");
         }
-        assert_eq!(part.film.place, Some(Place { start: [x0, y0], whole: [200, 100] }));
+        assert_eq!(part.film.place, Some(PlaceInImage { start: [x0, y0], whole: [200, 100] }));
         // a lens stays perpendicular to the axis of the whole
         let lens = of(film, "\"float lensradius\" .1").unwrap();
         assert_eq!((lens.camera.screen, &lens.film), (part.camera.screen, &part.film));

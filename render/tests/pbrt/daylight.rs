@@ -2,8 +2,8 @@
 
 use crate::pbrt::text::{read, warnings, world};
 use etendue::light::{EnvironmentMap, ImageEnvironment};
+use etendue_render::lights::sky::GeneralSky;
 use etendue_render::scene::{Environment, SkyRadiance};
-use etendue_render::sky::GeneralSky;
 use etendue_scene::parse;
 use std::path::Path;
 

@@ -337,7 +337,7 @@ fn undefined_names_are_warned_of() {
 #[test]
 fn files_of_other_kinds_are_called_what_they_are() {
     let dir = Folder::new();
-    let png = dir.write("room.png", etendue_render::image::encode_png([1, 1], &[[1, 2, 3]]).unwrap());
+    let png = dir.write("room.png", etendue_render::film::image::encode_png([1, 1], &[[1, 2, 3]]).unwrap());
     let text = etendue_scene::load(&png).unwrap_err().to_string();
     assert!(
         text.ends_with("room.png: this is a picture (PNG), and no scene: --environment FILE lights a scene by it"),

@@ -2,8 +2,8 @@
 
 use crate::kit::Folder;
 use crate::pbrt::text::{LIGHT, TRIANGLE, read, sub, warnings, world};
+use etendue_render::scene::texture::Texture;
 use etendue_render::scene::{Details, Disk, Geometry, Material, Roughness, Scene, Screen, Sphere, Varying};
-use etendue_render::texture::Texture;
 use etendue_scene::parse;
 
 /// A scene with a light, so that the only warnings are those of the text.

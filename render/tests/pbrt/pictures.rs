@@ -2,7 +2,7 @@
 
 use crate::kit::Folder;
 use crate::pbrt::text::{warnings, world};
-use etendue_render::light_picture::LightPicture;
+use etendue_render::scene::light_picture::LightPicture;
 use etendue_render::scene::{Geometry, Parallelogram, Scene, Shape};
 use etendue_scene::parse;
 

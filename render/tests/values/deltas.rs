@@ -1,6 +1,6 @@
 //! Lights without area: of a point, a direction or a cone, and those whose intensity differs by direction.
 
-use super::place::{Place, all, similar};
+use super::place::{NamedTransform, all, similar};
 use super::row::{Row, grey, on_floor, reflected, times};
 use etendue_oracle::{V3, along, dot, length, sub, unit};
 use std::f64::consts::PI;
@@ -30,13 +30,13 @@ fn strengths(color: &str, photometric: &str, per_unit: f64) -> Vec<(String, V3)>
 pub(super) fn rows() -> Vec<Row> {
     let kinds = [points(), distant(), spots(), goniometric(), lamps(), together(), beside_colours()];
     // as light from one direction has no noise, every technique has the values of one place exactly
-    let exactly = |row: Row| if row.name.contains(Place::new().name.as_str()) { row.exactly() } else { row };
+    let exactly = |row: Row| if row.name.contains(NamedTransform::new().name.as_str()) { row.exactly() } else { row };
     kinds.into_iter().flatten().map(exactly).collect()
 }
 
 fn points() -> Vec<Row> {
     let mut rows = Vec::new();
-    for place in all(&Place::new().translate([0.2, 0.3, 4.0])) {
+    for place in all(&NamedTransform::new().translate([0.2, 0.3, 4.0])) {
         for (text, strength) in strengths("I", "power", 4.0 * PI) {
             let light = place.holds(&format!("LightSource \"point\" {text} \"point3 from\" [.5 -.4 .3]"));
             let right = reflected(times(strength, from_point(place.point([0.5, -0.4, 0.3]))));
@@ -52,7 +52,7 @@ fn points() -> Vec<Row> {
 
 fn distant() -> Vec<Row> {
     let mut rows = Vec::new();
-    for place in all(&Place::new().translate([3.0, 2.0, -1.0])) {
+    for place in all(&NamedTransform::new().translate([3.0, 2.0, -1.0])) {
         // from a direction of the world, whatever the transform
         for towards in [[0.0, 0.0, 1.0], [0.6, -0.3, 0.5], [0.3, 0.3, -0.5]] {
             let local = place.inverse_vector(towards);
@@ -88,7 +88,7 @@ fn spots() -> Vec<Row> {
     let [inner, outer] = angles.map(|degrees| degrees.to_radians().cos());
     let per_unit = 2.0 * PI * ((1.0 - inner) + (inner - outer) / 2.0);
     let from = [0.2, -0.3, 0.4];
-    for place in similar(&Place::new().translate([0.1, 0.2, 4.0])) {
+    for place in similar(&NamedTransform::new().translate([0.1, 0.2, 4.0])) {
         // the axis meets the floor within the inner cone of the origin, between both, and outside
         for target in [[0.3, 0.2, 0.0], [1.3, 0.3, 0.0], [3.0, 0.1, 0.0]] {
             let position = place.point(from);
@@ -132,7 +132,7 @@ const QUARTERS: [V3; 4] = [[1.0, 1.0, 1.0], [2.0, 2.0, 2.0], [3.0, 3.0, 3.0], [4
 
 fn goniometric() -> Vec<Row> {
     let mut rows = Vec::new();
-    for place in similar(&Place::new().translate([0.4, 0.6, 3.0])) {
+    for place in similar(&NamedTransform::new().translate([0.4, 0.6, 3.0])) {
         let position = place.point([0.0; 3]);
         // the image's y axis is the light's z axis, and the other way round
         let [x, _, z] = place.inverse_vector(sub([0.0; 3], position));
@@ -153,7 +153,7 @@ fn lamps() -> Vec<Row> {
     let mut rows = Vec::new();
     // the lamp turns about the direction from which the floor is seen, 2 above and 1 beside the origin
     let angle = 0.5_f64.atan().to_degrees();
-    let base = || Place::new().translate([1.0, 0.0, 2.0]).rotate(90.0, [1.0, 0.0, 0.0]);
+    let base = || NamedTransform::new().translate([1.0, 0.0, 2.0]).rotate(90.0, [1.0, 0.0, 0.0]);
     for turn in [0.0, -angle, 50.0] {
         let place = base().rotate(turn, [0.0, 0.0, 1.0]);
         let down = unit(place.inverse_vector([-1.0, 0.0, -2.0]));

@@ -1,6 +1,6 @@
 //! Diffuse area lights on shapes of every kind, seen from both sides and by what they light.
 
-use super::place::{Place, all, similar};
+use super::place::{NamedTransform, all, similar};
 use super::row::{ROUNDING, Row, grey, look, on_floor, reflected, times};
 use etendue_oracle::tier::is_long;
 use etendue_oracle::{V3, along, cross, dot, length, sub, unit};
@@ -119,7 +119,7 @@ const FORMS: [Form; 11] = [
 ];
 
 /// Sums over midpoints of a grid: for each, the point and normal in the world, and the area.
-fn sum(form: &Form, place: &Place, of: impl Fn(V3, V3, f64) -> f64) -> f64 {
+fn sum(form: &Form, place: &NamedTransform, of: impl Fn(V3, V3, f64) -> f64) -> f64 {
     let (n, step) = (96, 1e-5);
     let mut total = 0.0;
     for (i, j) in (0..n).flat_map(|j| (0..n).map(move |i| (i, j))) {
@@ -132,7 +132,7 @@ fn sum(form: &Form, place: &Place, of: impl Fn(V3, V3, f64) -> f64) -> f64 {
     total
 }
 
-fn area(form: &Form, place: &Place) -> f64 {
+fn area(form: &Form, place: &NamedTransform) -> f64 {
     sum(form, place, |_, _, area| area)
 }
 
@@ -165,7 +165,7 @@ const BLACK: &str = "Material \"diffuse\" \"rgb reflectance\" [0 0 0]";
 /// The radiance of either side, as a camera sees it.
 fn seen() -> Vec<Row> {
     let mut rows = Vec::new();
-    let places = all(&Place::new().translate([0.5, 1.0, 2.0]));
+    let places = all(&NamedTransform::new().translate([0.5, 1.0, 2.0]));
     for (form, (k, place)) in FORMS.iter().flat_map(|form| places.iter().enumerate().map(move |place| (form, place))) {
         let area = area(form, place);
         let (point, normal) = (form.at)(form.middle[0], form.middle[1]);
@@ -209,7 +209,7 @@ fn disks() -> Vec<Row> {
 }
 
 /// Irradiance of the floor at the origin by the front of a shape of radiance 1 above it that is convex, as seen from the front.
-fn irradiance(form: &Form, place: &Place) -> f64 {
+fn irradiance(form: &Form, place: &NamedTransform) -> f64 {
     sum(form, place, |p, n, area| {
         let (w, squared) = (unit(p), dot(p, p));
         w[2].max(0.0) * (-dot(n, w)).max(0.0) * area / squared
@@ -219,7 +219,7 @@ fn irradiance(form: &Form, place: &Place) -> f64 {
 /// What a shape lights; those that are open show their backs, which are dark.
 fn lit() -> Vec<Row> {
     let mut rows = Vec::new();
-    let base = Place::new().translate([0.4, 0.6, 7.0]).rotate(160.0, [1.0, 0.2, 0.1]);
+    let base = NamedTransform::new().translate([0.4, 0.6, 7.0]).rotate(160.0, [1.0, 0.2, 0.1]);
     for (form, place) in FORMS.iter().flat_map(|form| all(&base).into_iter().map(move |place| (form, place))) {
         // what is beyond the rim of an open shape may hide its front
         if ["part of a sphere", "part of a cylinder"].contains(&form.name) {
@@ -247,10 +247,9 @@ fn pictures() -> Vec<Row> {
         format!("Shape \"trianglemesh\" {QUAD} \"point2 uv\" [0 0 1 0 1 1 0 1]"),
         "Shape \"bilinearmesh\" \"point3 P\" [-1 -1 0 1 -1 0 -1 1 0 1 1 0]".to_owned(),
     ];
-    for (mesh, place) in meshes
-        .iter()
-        .flat_map(|mesh| all(&Place::new().translate([0.5, 1.0, 2.0])).into_iter().map(move |place| (mesh, place)))
-    {
+    for (mesh, place) in meshes.iter().flat_map(|mesh| {
+        all(&NamedTransform::new().translate([0.5, 1.0, 2.0])).into_iter().map(move |place| (mesh, place))
+    }) {
         let area = area(&FORMS[0], &place);
         let strengths: [(&str, f64); 4] = [
             ("", 1.0),
@@ -272,7 +271,9 @@ fn pictures() -> Vec<Row> {
     }
     // on what triangles stand for, u goes around and v along the axis, and the power is by the mean over the area
     let curved = FORMS.iter().filter(|form| form.name.ends_with("cylinder"));
-    for (form, place) in curved.flat_map(|form| similar(&Place::new()).into_iter().map(move |place| (form, place))) {
+    for (form, place) in
+        curved.flat_map(|form| similar(&NamedTransform::new()).into_iter().map(move |place| (form, place)))
+    {
         let factor = 100.0 / (PI * area(form, &place) * 2.5);
         for (u, v) in [(0.25, 0.25), (0.75, 0.25), (0.25, 0.75), (0.75, 0.75)] {
             // a little beside an edge of triangles

@@ -1,6 +1,6 @@
 //! Lights, emissive surfaces and cameras of glTF files.
 
-use super::place::{Place, similar};
+use super::place::{NamedTransform, similar};
 use super::row::{Row, Text, grey, reflected, times};
 use etendue_oracle::{V3, along, basis, dot, length, sub, unit};
 use serde_json::{Value, json};
@@ -55,7 +55,7 @@ fn narrow() -> Value {
 }
 
 /// A matrix of columns.
-fn matrix(place: &Place, shift: V3) -> Vec<f64> {
+fn matrix(place: &NamedTransform, shift: V3) -> Vec<f64> {
     let axis = |v: V3| place.vector(v);
     let columns = [axis([1.0, 0.0, 0.0]), axis([0.0, 1.0, 0.0]), axis([0.0, 0.0, 1.0])];
     let mut all: Vec<f64> = columns.iter().flat_map(|c| [c[0], c[1], c[2], 0.0]).collect();
@@ -64,7 +64,7 @@ fn matrix(place: &Place, shift: V3) -> Vec<f64> {
 }
 
 /// A node whose −z axis is along `towards`.
-fn aimed(place: &Place, at: V3, towards: V3) -> Vec<f64> {
+fn aimed(place: &NamedTransform, at: V3, towards: V3) -> Vec<f64> {
     // in the space of the node, by columns right, up, back
     let back = unit(place.inverse_vector(times(towards, -1.0)));
     let (right, up) = basis(back);
@@ -76,7 +76,7 @@ fn aimed(place: &Place, at: V3, towards: V3) -> Vec<f64> {
 
 /// The node of a camera that looks from `eye` at `target`.
 fn looking(eye: V3, target: V3) -> Value {
-    json!({"camera": 0, "matrix": aimed(&Place::new(), eye, unit(sub(target, eye)))})
+    json!({"camera": 0, "matrix": aimed(&NamedTransform::new(), eye, unit(sub(target, eye)))})
 }
 
 fn row(name: String, text: String, right: V3) -> Row {
@@ -103,7 +103,7 @@ fn speculars() -> Vec<Row> {
         (1.5, 1.0, [5.0, 1.0, 1.0], 0.5),
     ] {
         let light = json!({"type": "directional", "color": [1, 1, 1], "intensity": 1});
-        let matrix = aimed(&Place::new(), [0.0; 3], [1.0, -1.0, 0.0]);
+        let matrix = aimed(&NamedTransform::new(), [0.0; 3], [1.0, -1.0, 0.0]);
         let node = json!({"matrix": matrix, "extensions": {"KHR_lights_punctual": {"light": 0}}});
         let nodes = vec![json!({"mesh": 0}), looking([0.0, 0.5, 0.0], [0.0; 3]), node];
         let mut text: Value = serde_json::from_str(&file(narrow(), json!([light]), nodes, json!({}))).unwrap();
@@ -138,7 +138,7 @@ fn lights() -> Vec<Row> {
         file(narrow(), json!([light]), nodes, json!({}))
     };
     let lit = |p: V3| p[1] / length(p).powi(3);
-    for place in similar(&Place::new()) {
+    for place in similar(&NamedTransform::new()) {
         for (color, intensity) in [([1.0, 1.0, 1.0], 100.0), ([1.0, 0.5, 0.25], 3.0)] {
             let strength = times(color, intensity);
             let described = |kind: &str| json!({"type": kind, "color": color, "intensity": intensity});
@@ -171,7 +171,7 @@ fn lights() -> Vec<Row> {
     }
     // without specular reflection, a surface is diffuse from everywhere
     let grazing = unit([1.0, 0.05, 0.0]);
-    let node = json!({"matrix": aimed(&Place::new(), [0.0; 3], [1.0, -0.05, 0.0]), "extensions": {"KHR_lights_punctual": {"light": 0}}});
+    let node = json!({"matrix": aimed(&NamedTransform::new(), [0.0; 3], [1.0, -0.05, 0.0]), "extensions": {"KHR_lights_punctual": {"light": 0}}});
     let nodes = vec![json!({"mesh": 0}), looking(grazing, [0.0; 3]), node];
     let text = file(narrow(), json!([{"type": "directional"}]), nodes, json!({}));
     rows.push(row("glTF without specular reflection".into(), text, reflected(grey(grazing[1]))));
@@ -186,7 +186,7 @@ fn lights() -> Vec<Row> {
     }
     let mut ranged = row(
         "glTF point of a range".into(),
-        on_floor(json!({"type": "point", "range": 1.5}), matrix(&Place::new(), [0.0, 2.0, 0.0])),
+        on_floor(json!({"type": "point", "range": 1.5}), matrix(&NamedTransform::new(), [0.0, 2.0, 0.0])),
         grey(0.0),
     );
     ranged = ranged.differs(reflected(grey(0.25)), "a range is a hint, and no light ends there");
@@ -198,7 +198,7 @@ fn lights() -> Vec<Row> {
 /// mirrors turns no front into a back.
 fn emissive() -> Vec<Row> {
     let mut rows = Vec::new();
-    for place in similar(&Place::new()) {
+    for place in similar(&NamedTransform::new()) {
         for (material, radiance, double) in [
             (json!({"emissiveFactor": [1, 0.5, 0.25]}), [1.0, 0.5, 0.25], false),
             (json!({"emissiveFactor": [1, 0.5, 0.25], "doubleSided": true}), [1.0, 0.5, 0.25], true),

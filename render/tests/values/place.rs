@@ -4,7 +4,7 @@ use etendue_oracle::{V3, along, cross, dot, unit};
 
 /// A transform, as a pbrt file writes it and in double precision.
 #[derive(Clone, Debug)]
-pub(super) struct Place {
+pub(super) struct NamedTransform {
     pub(super) name: String,
     pub(super) text: String,
     /// Where the axes go.
@@ -12,7 +12,7 @@ pub(super) struct Place {
     shift: V3,
 }
 
-impl Place {
+impl NamedTransform {
     pub(super) fn new() -> Self {
         let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
         Self { name: "as it is".into(), text: String::new(), axes, shift: [0.0; 3] }
@@ -77,16 +77,16 @@ impl Place {
 }
 
 /// Similarities after `base`.
-pub(super) fn similar(base: &Place) -> Vec<Place> {
+pub(super) fn similar(base: &NamedTransform) -> Vec<NamedTransform> {
     let at = || base.clone();
     vec![
-        Place { name: "as it is".into(), ..at() },
+        NamedTransform { name: "as it is".into(), ..at() },
         at().translate([0.3, -0.2, 0.1]),
         at().scale([2.0; 3]),
         at().scale([-1.0, 1.0, 1.0]),
         at().scale([1.0, 1.0, -1.0]),
         at().rotate(40.0, [1.0, 2.0, 3.0]),
-        Place {
+        NamedTransform {
             name: "moved, turned, mirrored".into(),
             ..at().translate([-0.1, 0.2, 0.3]).rotate(-15.0, [1.0, 0.0, 1.0]).scale([-1.5, 1.5, 1.5])
         },
@@ -94,13 +94,13 @@ pub(super) fn similar(base: &Place) -> Vec<Place> {
 }
 
 /// Transforms of every kind after `base`.
-pub(super) fn all(base: &Place) -> Vec<Place> {
+pub(super) fn all(base: &NamedTransform) -> Vec<NamedTransform> {
     let at = || base.clone();
     let mut all = similar(base);
     all.extend([
         at().scale([1.0, 2.0, 0.5]),
         at().scale([-1.0, 2.0, 0.5]),
-        Place {
+        NamedTransform {
             name: "sheared".into(),
             ..at().rotate(30.0, [0.0, 1.0, 0.5]).scale([0.5, 1.5, 1.0]).rotate(20.0, [1.0, 0.0, 0.0])
         },

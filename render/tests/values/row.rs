@@ -1,7 +1,7 @@
 //! A row of the table: a scene whose only pixel has one right value.
 
 use etendue_oracle::V3;
-use etendue_render::compare::LIMIT;
+use etendue_render::film::compare::LIMIT;
 use etendue_render::{Sampler, Settings, Technique, World};
 use std::path::Path;
 

@@ -1,6 +1,6 @@
 //! Light from infinitely far away.
 
-use super::place::{Place, similar};
+use super::place::{NamedTransform, similar};
 use super::row::{Row, grey, look, on_floor, reflected, times};
 use etendue_oracle::{V3, cross, dot, sub, unit};
 use etendue_render::Technique;
@@ -15,7 +15,7 @@ pub(super) fn rows() -> Vec<Row> {
 
 fn constant() -> Vec<Row> {
     let mut rows = Vec::new();
-    for place in similar(&Place::new().translate([3.0, 2.0, 1.0])) {
+    for place in similar(&NamedTransform::new().translate([3.0, 2.0, 1.0])) {
         for (text, radiance) in [
             ("", grey(1.0)),
             ("\"rgb L\" [1 2 4]", [1.0, 2.0, 4.0]),
@@ -61,7 +61,7 @@ fn images() -> Vec<Row> {
     // the illuminance of a surface that faces the sky's +z: each quarter has a quarter of π
     let illuminance = 2.5 * PI;
     for file in ["quarters.exr", "longitudes.exr"] {
-        for place in similar(&Place::new().rotate(25.0, [0.3, -1.0, 0.2])) {
+        for place in similar(&NamedTransform::new().rotate(25.0, [0.3, -1.0, 0.2])) {
             for (text, factor) in [
                 ("", 1.0),
                 ("\"float scale\" 3", 3.0),

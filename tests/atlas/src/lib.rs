@@ -15,7 +15,7 @@ pub mod truth;
 use clap::Parser;
 use etendue_laboratory::options::{out, pool, threads};
 use etendue_laboratory::progress::bar;
-use etendue_render::files::make_folder;
+use etendue_render::film::files::make_folder;
 use pose::ShapeKind;
 use std::error::Error;
 use std::io::Write;

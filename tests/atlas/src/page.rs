@@ -5,7 +5,7 @@ use crate::pose::{ShapeKind, Sweep};
 use crate::survey::{ErrorMap, LIMIT};
 use etendue_laboratory::chart::plot::escape;
 use etendue_oracle::Greatest;
-use etendue_render::files;
+use etendue_render::film::files;
 use std::error::Error;
 use std::fmt::Write as _;
 use std::path::Path;

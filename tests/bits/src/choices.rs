@@ -6,7 +6,7 @@ use etendue::reflection::Reflection;
 use etendue::select::{Choice, Gloss, LightBound, LightChoice, LightTree, Node8, SpatialLights, UniformLights};
 use etendue::{Mask, Real, Uint, Warp};
 use etendue_judge::generators::{self, Random};
-use etendue_judge::light_tree::{Lamp, Place, Regime, place};
+use etendue_judge::light_tree::{Lamp, PointAndNormal, Regime, place};
 use etendue_judge::packets::{lanes_of, squares_of, vectors_of};
 
 fn choice<R: Real>(lanes: &mut Lanes<'_>, choice: &Choice<R>) {
@@ -22,7 +22,7 @@ fn chosen<R: Real>(lanes: &mut Lanes<'_>, all: &impl LightChoice<R>, us: &[f32],
 /// Lights of a regime, as many numbers and indices as there are slots, and points that the lights make difficult.
 struct Set {
     bounds: Vec<LightBound>,
-    slots: Vec<(f32, u32, Place, [u32; 2])>,
+    slots: Vec<(f32, u32, PointAndNormal, [u32; 2])>,
 }
 
 fn sets(count: usize, slots: usize) -> Vec<Set> {

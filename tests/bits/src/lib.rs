@@ -34,7 +34,7 @@ fn each(mut take: impl FnMut(Entry)) {
 
 /// The hashes of one routine.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Row {
+pub struct RoutineHashes {
     /// The routine.
     pub name: String,
     /// The hash of single precision, and that of double precision.
@@ -45,7 +45,7 @@ pub struct Row {
 
 /// The hashes of all routines, on this processor.
 #[must_use]
-pub fn rows() -> Vec<Row> {
+pub fn rows() -> Vec<RoutineHashes> {
     let mut rows = Vec::new();
     each(|Entry { name, widths }| {
         // the first width of a precision is that of the table
@@ -61,22 +61,22 @@ pub fn rows() -> Vec<Row> {
                 faults.push(format!("{width} returns NaN {} times", figures.nans()));
             }
         }
-        rows.push(Row { name, hashes: [hash("f32"), hash("f64")], faults });
+        rows.push(RoutineHashes { name, hashes: [hash("f32"), hash("f64")], faults });
     });
     rows
 }
 
 /// The lines of the table.
 #[must_use]
-pub fn text(rows: &[Row]) -> String {
+pub fn text(rows: &[RoutineHashes]) -> String {
     rows.iter()
-        .map(|Row { name, hashes: [single, double], .. }| format!("{name} {single:016x} {double:016x}\n"))
+        .map(|RoutineHashes { name, hashes: [single, double], .. }| format!("{name} {single:016x} {double:016x}\n"))
         .collect()
 }
 
 /// What differs from the table, a line for each routine.
 #[must_use]
-pub fn differences(rows: &[Row], table: &str) -> Vec<String> {
+pub fn differences(rows: &[RoutineHashes], table: &str) -> Vec<String> {
     let mut expected: Vec<&str> = table.lines().collect();
     let mut all = Vec::new();
     for row in rows {

@@ -14,7 +14,7 @@ pub const ABI: u32 = 1;
 /// `etendue_judge_sampler`.
 #[derive(Clone, Copy)]
 #[repr(C)]
-struct Table {
+struct SamplerTable {
     abi: u32,
     size: u32,
     name: *const c_char,
@@ -33,7 +33,7 @@ struct Table {
 /// The callbacks of a sampler, none of which is missing that has to be there.
 #[derive(Clone)]
 struct Callbacks {
-    table: Table,
+    table: SamplerTable,
     prepare: unsafe extern "C" fn(*const f32, *const f32, *const f32) -> *mut c_void,
     sample: unsafe extern "C" fn(*mut c_void, *const f32, *mut f32, *mut f32) -> c_int,
     pdf: unsafe extern "C" fn(*mut c_void, *const f32) -> f32,
@@ -94,7 +94,8 @@ pub fn load(path: &Path) -> Result<Vec<Subject<'static>>, String> {
     let library = unsafe { Library::new(full) }.map_err(|e| said(&format!("is no library: {e}")))?;
     let library = Rc::new(library);
     // SAFETY: the header gives the function its type
-    let listed = unsafe { library.get::<unsafe extern "C" fn(*mut u32) -> *const Table>(b"etendue_judge_samplers\0") };
+    let listed =
+        unsafe { library.get::<unsafe extern "C" fn(*mut u32) -> *const SamplerTable>(b"etendue_judge_samplers\0") };
     let listed =
         *listed.map_err(|_| said("does not export etendue_judge_samplers (extern \"C\", default visibility)"))?;
     let mut count = 0;
@@ -107,7 +108,7 @@ pub fn load(path: &Path) -> Result<Vec<Subject<'static>>, String> {
     for i in 0..count as usize {
         // SAFETY: the array has `count` entries, of the size that the first one tells
         let table = unsafe { &*first.add(i) };
-        let mine = size_of::<Table>() as u32;
+        let mine = size_of::<SamplerTable>() as u32;
         if (table.abi, table.size) != (ABI, mine) {
             let (abi, size) = (table.abi, table.size);
             return Err(said(&format!(
@@ -119,7 +120,7 @@ pub fn load(path: &Path) -> Result<Vec<Subject<'static>>, String> {
     Ok(all)
 }
 
-fn subject(table: Table, library: &Rc<Library>) -> Result<Subject<'static>, String> {
+fn subject(table: SamplerTable, library: &Rc<Library>) -> Result<Subject<'static>, String> {
     let text = |text: *const c_char, what: &str| -> Result<String, String> {
         if text.is_null() {
             return Ok(String::new());

@@ -15,7 +15,7 @@ const LEVELS: usize = 64;
 const WHOLE: u32 = 1 << 16;
 
 /// A point of a surface and its unit normal.
-pub type Place = ([f32; 3], [f32; 3]);
+pub type PointAndNormal = ([f32; 3], [f32; 3]);
 
 /// A tree with its memory.
 #[derive(Clone, Debug)]
@@ -89,12 +89,12 @@ impl Grove {
     }
     /// The choice at a place.
     #[must_use]
-    pub fn at(&self, (p, n): Place) -> TreeAt<'_, f32> {
+    pub fn at(&self, (p, n): PointAndNormal) -> TreeAt<'_, f32> {
         self.tree().at(p.into(), n.into())
     }
     /// The pmf of a light at a place.
     #[must_use]
-    pub fn pmf(&self, place: Place, light: u32) -> f32 {
+    pub fn pmf(&self, place: PointAndNormal, light: u32) -> f32 {
         self.at(place).pmf(light)
     }
 
@@ -115,7 +115,7 @@ impl Grove {
     /// # Panics
     /// If that is not so.
     #[must_use]
-    pub fn exact(&self, place: Place) -> (Vec<Reached>, f64) {
+    pub fn exact(&self, place: PointAndNormal) -> (Vec<Reached>, f64) {
         let at = self.at(place);
         let (mut sum, mut none): ([Digits; 2], f64) = ([vec![0; LEVELS + 2], vec![0; LEVELS + 2]], 0.0);
         let (mut reached, mut todo) = (Vec::new(), vec![(0, vec![1_u64])]);
@@ -172,7 +172,7 @@ impl Grove {
     ///
     /// # Panics
     /// If that is not so.
-    pub fn choices(&self, places: &[Place; 8], words: &[[u32; 2]; 8], us: &[f32; 8]) {
+    pub fn choices(&self, places: &[PointAndNormal; 8], words: &[[u32; 2]; 8], us: &[f32; 8]) {
         let tree = self.tree();
         let [p, n] = [vectors_of::<f32x8>(|i| places[i].0), vectors_of(|i| places[i].1)];
         let eight = tree.at(p, n);
@@ -208,7 +208,7 @@ impl Grove {
             }
         }
     }
-    fn one_choice(&self, place: Place, choice: Choice<f32>) {
+    fn one_choice(&self, place: PointAndNormal, choice: Choice<f32>) {
         let Choice { index, pmf, u } = choice;
         let evaluated = self.pmf(place, index);
         assert_eq!(evaluated.to_bits(), pmf.to_bits(), "two pmfs: {choice:?} {evaluated:e} at {place:?}");
@@ -221,7 +221,7 @@ impl Grove {
     ///
     /// # Panics
     /// If that is not so.
-    pub fn glossy(&self, place: Place, gloss: &Gloss<f32>, u: f32) {
+    pub fn glossy(&self, place: PointAndNormal, gloss: &Gloss<f32>, u: f32) {
         let (matt, glossy) = (self.at(place), self.tree().at_glossy(place.0.into(), place.1.into(), gloss));
         let count = self.bounds.len() as u32;
         for light in (0..count).step_by(1 + self.bounds.len() / 100) {
@@ -239,7 +239,7 @@ impl Grove {
     ///
     /// # Panics
     /// If it has a sample, but no pmf.
-    pub fn law(&self, (p, n): Place, light: usize, lamp: &Lamp, u: [f32; 2]) -> bool {
+    pub fn law(&self, (p, n): PointAndNormal, light: usize, lamp: &Lamp, u: [f32; 2]) -> bool {
         let power = self.bounds[light].power;
         if !(power > 0.0 && power < f32::INFINITY) {
             return false;
@@ -274,7 +274,7 @@ impl Grove {
     ///
     /// # Panics
     /// If they do.
-    pub fn scale(&self, places: &[Place], words: &[[u32; 2]], exponent: i32) {
+    pub fn scale(&self, places: &[PointAndNormal], words: &[[u32; 2]], exponent: i32) {
         let factor = 2.0_f32.powi(exponent);
         let bound =
             |l: &LightBound| LightBound { center: l.center.map(|x| x * factor), radius: l.radius * factor, ..*l };

@@ -10,7 +10,7 @@ use crate::lights::definition::Definition;
 use crate::lights::figures::Trial;
 use crate::lights::observe::{Answers, Questions};
 use crate::lights::sampler::{Sample, measure_name, measure_of, shape_name, shape_of};
-use crate::lights::scene::{Place, places};
+use crate::lights::scene::{JudgedPlace, places};
 use crate::lights::verdict::{self, Case, Judgement};
 use std::fs;
 use std::path::Path;
@@ -120,8 +120,8 @@ impl Asked {
     }
     /// All places, what the light looks like from them, and what is asked there.
     #[must_use]
-    pub fn places(&self) -> Vec<(Place, Definition, Questions)> {
-        let of = |place: Place| {
+    pub fn places(&self) -> Vec<(JudgedPlace, Definition, Questions)> {
+        let of = |place: JudgedPlace| {
             let seen = Definition::new(&place.light)?;
             let questions = Questions::new(&seen, self.by, self.quick, self.seed);
             Some((place, seen, questions))

@@ -14,12 +14,12 @@ mod random;
 mod scene;
 mod source;
 
-pub use pattern::{Beyond, Pattern, Picture, Place};
+pub use pattern::{Beyond, Pattern, Picture, PositionMap};
 pub use scene::{Body, Detail, Emission, Finish, Form, Lens, Opacity, View};
-pub use source::{Cone, Sky, Source};
+pub use source::{Cone, Sky, SurfacelessLight};
 
 use crate::vectors::{V3, along, dot, sub, unit};
-use light::{Receiver, Seen, transmittance};
+use light::{Receiver, SeenLight, transmittance};
 use metal::{brdf, fresnel};
 use random::Random;
 use scene::{Hit, Prepared, hits};
@@ -68,7 +68,7 @@ pub struct Block {
 
 /// Renders the blocks of `side` × `side` pixels of an image, row by row from the top left; the last ones of a row or column may be smaller.
 #[must_use]
-pub fn render(bodies: &[Body], sources: &[Source], view: &View, side: usize, effort: &Effort) -> Vec<Block> {
+pub fn render(bodies: &[Body], sources: &[SurfacelessLight], view: &View, side: usize, effort: &Effort) -> Vec<Block> {
     let bodies: Vec<Prepared> = bodies.iter().map(|body| Prepared::new(body.clone())).collect();
     let lights = (0..bodies.len()).filter(|&i| bodies[i].body.emission.is_some()).collect();
     let tracer = Tracer { bodies, lights, sources, effort };
@@ -113,7 +113,7 @@ pub fn render(bodies: &[Body], sources: &[Source], view: &View, side: usize, eff
 struct Tracer<'a> {
     bodies: Vec<Prepared>,
     lights: Vec<usize>,
-    sources: &'a [Source],
+    sources: &'a [SurfacelessLight],
     effort: &'a Effort,
 }
 
@@ -201,7 +201,7 @@ impl Tracer<'_> {
             }
         }
         for &light in &self.lights {
-            let Some(seen) = Seen::new(&self.bodies, at, light, [self.effort.spared, self.effort.lift]) else {
+            let Some(seen) = SeenLight::new(&self.bodies, at, light, [self.effort.spared, self.effort.lift]) else {
                 continue;
             };
             let radiance = self.bodies[light].body.emission.map_or(0.0, |emission| emission.radiance);
@@ -276,7 +276,7 @@ mod tests {
                 }
             }
             let receiver = Receiver { point: at, normal, flat: normal, own };
-            let Some(seen) = Seen::new(&bodies, receiver, 0, [SPARED, 0.0]) else { continue };
+            let Some(seen) = SeenLight::new(&bodies, receiver, 0, [SPARED, 0.0]) else { continue };
             let exact = seen.visible(10_000, &mut random);
             let mean = seen.sampled(10_000, &mut random);
             // a light at the horizon is small, and its points few

@@ -19,7 +19,7 @@ pub struct Lemma {
 }
 
 /// What was found for a lemma.
-pub struct Found {
+pub struct LemmaErrors {
     /// How many arguments were tried.
     pub tried: u64,
     /// For sine, cosine, the component along and the one across: the greatest error and the greatest error over the argument, each with its argument.
@@ -70,7 +70,7 @@ impl Lemma {
     /// Tries all numbers of single precision in the domain; if not `whole`, all from 2⁻⁸ up, and below every 1,021st. Negative arguments give
     /// the same results but for signs, which a test checks.
     #[must_use]
-    pub fn check(&self, whole: bool) -> Found {
+    pub fn check(&self, whole: bool) -> LemmaErrors {
         const CHUNK: u32 = 1 << 16;
         let dense = if whole { 0 } else { (1.0_f32 / 256.0).to_bits() };
         let last = self.most.to_bits();
@@ -119,6 +119,6 @@ impl Lemma {
             .iter()
             .zip(self.limits)
             .all(|(found, limit)| found[0].0 <= limit.absolute && found[1].0 <= limit.slope);
-        Found { tried, greatest, holds }
+        LemmaErrors { tried, greatest, holds }
     }
 }

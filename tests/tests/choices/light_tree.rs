@@ -3,7 +3,7 @@
 use etendue::select::{Choice, Join, LightBound, LightChoice, LightTree, Node8, TreeWords};
 use etendue::{Real, Uint, Vec3, f32x8, u32x8};
 use etendue_judge::generators::{EDGES, Random};
-use etendue_judge::light_tree::{Grove, Lamp, Place, Reached, Regime, place};
+use etendue_judge::light_tree::{Grove, Lamp, PointAndNormal, Reached, Regime, place};
 use etendue_judge::stats;
 use etendue_judge::tolerances::SIGNIFICANCE;
 use etendue_oracle::tier::cases;
@@ -24,7 +24,7 @@ fn square(random: &mut Random) -> [f32; 2] {
 }
 
 /// The law for some of the lights, and several times for one of them; returns how often a light contributed.
-fn law(grove: &Grove, lamps: &[Lamp], (place, aim): (Place, usize), random: &mut Random) -> u64 {
+fn law(grove: &Grove, lamps: &[Lamp], (place, aim): (PointAndNormal, usize), random: &mut Random) -> u64 {
     let mut found = 0;
     for k in 0..12 {
         let light = if k < 3 { aim } else { random.word() as usize % lamps.len() };
@@ -274,8 +274,9 @@ fn lengths_have_no_unit() {
             let lamps = regime.lamps(count, &mut random);
             let grove = Grove::of(&lamps);
             // far points are as far as single precision allows
-            let near = |place: &Place| place.0.iter().all(|x| x.abs() < 1e15);
-            let places: Vec<Place> = (0..60).map(|_| place(regime, &lamps, &mut random).0).filter(near).collect();
+            let near = |place: &PointAndNormal| place.0.iter().all(|x| x.abs() < 1e15);
+            let places: Vec<PointAndNormal> =
+                (0..60).map(|_| place(regime, &lamps, &mut random).0).filter(near).collect();
             let words: Vec<_> = places.iter().map(|_| words_of(&mut random)).collect();
             for exponent in [-60, -21, -1, 1, 20, 60] {
                 grove.scale(&places, &words, exponent);
@@ -296,7 +297,7 @@ impl Join for Threads {
     }
 }
 
-fn same_shares(one: &Grove, other: &Grove, place: Place) {
+fn same_shares(one: &Grove, other: &Grove, place: PointAndNormal) {
     let (one_at, other_at) = (one.at(place), other.at(place));
     for node in 0..=one.nodes.len() as u32 {
         assert_eq!(one_at.shares(0, node), other_at.shares(0, node), "node {node}");

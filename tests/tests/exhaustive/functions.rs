@@ -1,6 +1,6 @@
 //! Functions of one argument, over all 2³² floats.
 
-use crate::sweep::{Extent, Figure, Found, SPARSE, on_all_processors};
+use crate::sweep::{Extent, Figure, SPARSE, SweepErrors, on_all_processors};
 use core::f64::consts::{FRAC_PI_2, PI};
 use etendue::math::{one_minus_cos, rsqrt};
 use etendue::real::SAME_BITS;
@@ -63,9 +63,9 @@ fn check<const N: usize, const T: usize, const M: usize>(
     figures: [Figure; M],
     call: impl Fn(f32x8) -> [f32x8; N] + Sync,
     truth: Truth<impl Fn(f64) -> [f64; T] + Sync, impl Fn(f32) -> bool + Sync>,
-    judge: impl Fn(f32, [f32; N], [f64; T], u64, &mut Found<M>) + Sync,
+    judge: impl Fn(f32, [f32; N], [f64; T], u64, &mut SweepErrors<M>) + Sync,
 ) {
-    let packet = |bits: [u32; 8], truths: &[[f64; T]], found: &mut Found<M>| {
+    let packet = |bits: [u32; 8], truths: &[[f64; T]], found: &mut SweepErrors<M>| {
         let y = call(f32x8::new(bits.map(f32::from_bits))).map(f32x8::to_array);
         for k in 0..8 {
             let y = core::array::from_fn(|i| y[i][k]);

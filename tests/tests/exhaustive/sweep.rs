@@ -26,7 +26,7 @@ pub(crate) struct Figure {
 
 /// What was found at the inputs so far.
 #[derive(Clone, Debug)]
-pub(crate) struct Found<const M: usize> {
+pub(crate) struct SweepErrors<const M: usize> {
     errors: [Greatest<u64>; M],
     counted: [u64; M],
     /// How many inputs are outside of the domain.
@@ -35,7 +35,7 @@ pub(crate) struct Found<const M: usize> {
     first_broken: Option<(u64, &'static str)>,
 }
 
-impl<const M: usize> Found<M> {
+impl<const M: usize> SweepErrors<M> {
     pub(crate) fn new() -> Self {
         Self { errors: [Greatest::NONE; M], counted: [0; M], outside: 0, broken: 0, first_broken: None }
     }
@@ -124,12 +124,12 @@ impl<const M: usize> Found<M> {
 pub(crate) fn on_all_processors<const M: usize>(
     name: &str,
     chunks: u64,
-    each: impl Fn(u64, &mut Found<M>) + Sync,
-) -> Found<M> {
+    each: impl Fn(u64, &mut SweepErrors<M>) + Sync,
+) -> SweepErrors<M> {
     let (next, start) = (AtomicU64::new(0), Instant::now());
     let quarter = chunks.div_ceil(4).max(256);
     let work = || {
-        let mut found = Found::new();
+        let mut found = SweepErrors::new();
         loop {
             let chunk = next.fetch_add(1, Ordering::Relaxed);
             if chunk >= chunks {
@@ -144,7 +144,7 @@ pub(crate) fn on_all_processors<const M: usize>(
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let found = std::thread::scope(|scope| {
         let all: Vec<_> = (0..threads).map(|_| scope.spawn(work)).collect();
-        all.into_iter().map(|thread| thread.join().expect("no panic")).fold(Found::new(), |mut sum, part| {
+        all.into_iter().map(|thread| thread.join().expect("no panic")).fold(SweepErrors::new(), |mut sum, part| {
             sum.merge(&part);
             sum
         })

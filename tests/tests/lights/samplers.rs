@@ -352,7 +352,7 @@ fn what_is_no_number_gives_no_light() {
 /// Nor does it where samples are drawn by a lobe.
 #[test]
 fn what_is_no_number_leaves_no_samples_of_lobes() {
-    struct Place {
+    struct SphereInLobe {
         vectors: [Vec3<f32>; 4],
         radius: f32,
         reflection: Reflection<f32>,
@@ -361,9 +361,9 @@ fn what_is_no_number_leaves_no_samples_of_lobes() {
     let place = |x: [f32; 16]| {
         let v = |k: usize| Vec3::new(x[k], x[k + 1], x[k + 2]);
         let reflection = Reflection::new(0.5, Vec3::new(0.0, x[12], 0.0), Vec3::new(0.0, 0.8, 0.6));
-        Place { vectors: [v(0), v(3), v(6), v(9)], radius: x[13], reflection, u: Vec2::new(x[14], x[15]) }
+        SphereInLobe { vectors: [v(0), v(3), v(6), v(9)], radius: x[13], reflection, u: Vec2::new(x[14], x[15]) }
     };
-    type Sample = fn(&Place) -> LightSample<f32>;
+    type Sample = fn(&SphereInLobe) -> LightSample<f32>;
     let samples: [(&str, Sample); 5] = [
         ("sphere", |s| Sphere::new(s.vectors[1], s.radius).by_reflection(s.vectors[0], &s.reflection).sample(s.u)),
         ("triangle", |s| {

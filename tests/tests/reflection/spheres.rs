@@ -1,6 +1,6 @@
 //! Spheres sampled by reflection, against quadratures in double precision that know only where a sphere is and the density of the lobe.
 
-use super::{Place, closed, vector};
+use super::{ReflectingSurface, closed, vector};
 use core::f64::consts::TAU;
 use etendue::light::SphereByReflection;
 use etendue::reflection::Reflection;
@@ -14,14 +14,14 @@ use etendue_oracle::{V3, along, basis, cross, dot, length, narrow, sub, wide};
 /// A surface, and a sphere of an angular radius about what it reflects, anywhere, or on the horizon.
 #[derive(Clone, Copy, Debug)]
 struct Ball {
-    place: Place,
+    place: ReflectingSurface,
     center: V3,
     radius: f64,
 }
 
 impl Ball {
     fn new(random: &mut Random, sine: f64, least_alpha: f64) -> Self {
-        let place = Place { alpha: random.magnitude(least_alpha, 1.0), ..Place::new(random) };
+        let place = ReflectingSurface { alpha: random.magnitude(least_alpha, 1.0), ..ReflectingSurface::new(random) };
         let axis = match random.below(3) {
             0 => place.reflection::<f64>().sample(Vec2::new(random.unit_f64(), random.unit_f64())).at(0),
             1 => random.direction(),

@@ -9,11 +9,11 @@ struct Light {
     name: &'static str,
     fields: &'static [[&'static str; 3]],
     default: &'static str,
-    techniques: &'static [Row],
+    techniques: &'static [BoundTechnique],
 }
 
 /// A technique: its name in C, its sampler, whether no other technique has that, its method, and the arguments of that.
-struct Row {
+struct BoundTechnique {
     name: &'static str,
     sampler: &'static str,
     is_own: bool,
@@ -21,7 +21,7 @@ struct Row {
     place: &'static [&'static str],
 }
 
-impl Row {
+impl BoundTechnique {
     /// Its name in words that begin with capitals.
     fn class(&self) -> String {
         let capital = |word: &str| word[..1].to_uppercase() + &word[1..];
@@ -51,7 +51,7 @@ macro_rules! lights {
             name: stringify!($light),
             fields: &[$([stringify!($field), stringify!($argument), stringify!($kind)]),+],
             default: $default,
-            techniques: &[$(Row {
+            techniques: &[$(BoundTechnique {
                 name: stringify!($name),
                 sampler: stringify!($sampler),
                 is_own: !concat!($(stringify!($sampler_c))?).is_empty(),
@@ -135,7 +135,7 @@ fn cpp() -> String {
     for light in LIGHTS {
         for technique in light.techniques {
             let (_, kind) = technique.kind();
-            let Row { sampler, name, .. } = technique;
+            let BoundTechnique { sampler, name, .. } = technique;
             writeln!(out, "ETENDUE_{kind}({}, {sampler}, {}, etendue_{name})", technique.class(), light.name).unwrap();
         }
     }
@@ -153,7 +153,7 @@ fn c_typed() -> String {
     let mut out = String::new();
     for light in LIGHTS {
         for technique in light.techniques {
-            let ((_, kind), Row { sampler, name, .. }) = (technique.kind(), technique);
+            let ((_, kind), BoundTechnique { sampler, name, .. }) = (technique.kind(), technique);
             writeln!(out, "ETENDUE_{kind}_({name}, {}, {}, {sampler})", name.to_uppercase(), light.name).unwrap();
         }
     }
@@ -189,7 +189,7 @@ fn python_light(light: &Light, out: &mut String) -> std::fmt::Result {
     let arguments: Vec<_> = fields.iter().map(|[_, argument, _]| format!("{argument}: ArrayLike")).collect();
     writeln!(out, "@final\nclass {name}:")?;
     writeln!(out, "    def __new__(cls, {}) -> {name}: ...", arguments.join(", "))?;
-    for Row { by, place, .. } in light.techniques {
+    for BoundTechnique { by, place, .. } in light.techniques {
         let kind = |name| match name {
             "reflection" => "Reflection",
             _ => "ArrayLike",

@@ -5,7 +5,7 @@ use wgpu::util::DeviceExt;
 
 /// A program in one of the languages that a device takes.
 #[derive(Clone, Copy)]
-pub(crate) enum Source<'a> {
+pub(crate) enum GpuSource<'a> {
     Wgsl(&'a str),
     SpirV(&'a [u32]),
 }
@@ -43,7 +43,7 @@ impl Gpu {
     /// Runs the entry point `run` once for each of `count` inputs, and returns what it has written: so many numbers.
     pub(crate) fn run(
         &self,
-        source: Source,
+        source: GpuSource,
         count: usize,
         inputs: &[u8],
         memory: &[u8],
@@ -51,11 +51,11 @@ impl Gpu {
     ) -> Result<Vec<f32>, Box<dyn Error>> {
         let scope = self.device.push_error_scope(wgpu::ErrorFilter::Validation);
         let module = match source {
-            Source::Wgsl(text) => {
+            GpuSource::Wgsl(text) => {
                 let source = wgpu::ShaderSource::Wgsl(text.into());
                 self.device.create_shader_module(wgpu::ShaderModuleDescriptor { label: None, source })
             }
-            Source::SpirV(words) => {
+            GpuSource::SpirV(words) => {
                 let spirv = Some(words.into());
                 let entry_points =
                     vec![wgpu::PassthroughShaderEntryPoint { name: "run".into(), workgroup_size: (64, 1, 1) }].into();

@@ -16,7 +16,7 @@ mod case;
 mod gpu;
 
 use case::{Case, Difference};
-use gpu::{Gpu, Source};
+use gpu::{Gpu, GpuSource};
 use std::collections::BTreeMap;
 use std::error::Error;
 use std::fs;
@@ -71,9 +71,9 @@ fn run(folder: &Path, part: &str) -> Result<bool, Box<dyn Error>> {
             continue;
         }
         for (language, source) in [
-            ("WGSL", Source::Wgsl(&case.wgsl)),
-            ("SPIR-V", Source::SpirV(&case.spirv)),
-            ("exact", Source::SpirV(&case.exact)),
+            ("WGSL", GpuSource::Wgsl(&case.wgsl)),
+            ("SPIR-V", GpuSource::SpirV(&case.spirv)),
+            ("exact", GpuSource::SpirV(&case.exact)),
         ] {
             print!("{:50} {:10} {language:6} ", case.name, case.operations);
             match gpu.run(source, case.count, &case.inputs, &case.memory, case.right.len()) {

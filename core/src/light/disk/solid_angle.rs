@@ -308,7 +308,7 @@ impl<R: Real> Warp<R> for SphericalDisk<R> {
 }
 
 /// A direction, and the rim point at the same azimuth.
-struct Place<R> {
+struct DirectionAndRim<R> {
     /// components of the direction along the minor and the major axis
     x: R,
     y: R,
@@ -326,7 +326,7 @@ struct Place<R> {
 }
 impl<R: Real> SphericalDisk<R> {
     #[inline(always)]
-    fn locate(&self, w: Vec3<R>) -> Place<R> {
+    fn locate(&self, w: Vec3<R>) -> DirectionAndRim<R> {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let Vec3 { x, y, z } = self.frame.to_local(w);
         // a disk may be thinner than the resolution of a direction: move back to it across, not towards the centre
@@ -343,6 +343,6 @@ impl<R: Real> SphericalDisk<R> {
         let inverse = one / t.mul_add(t, one);
         let (cos, sin) = ((one - t) * (one + t) * inverse, (t + t) * inverse);
         let (rim_cos, rim_squared) = self.rim(cos, sin);
-        Place { x, y, one_minus_cos, t, cos, sin, rim_cos, rim_squared }
+        DirectionAndRim { x, y, one_minus_cos, t, cos, sin, rim_cos, rim_squared }
     }
 }

@@ -4,7 +4,7 @@ use super::corners::PlacedCorners;
 use crate::lanewise::lanewise_by_map;
 use crate::light::direction::{DirectionSample, to_unit};
 use crate::light::seen::ProjectedShape;
-use crate::light::triangle::projected::found::{Found, after, edge};
+use crate::light::triangle::projected::found::{FoundSector, after, edge};
 use crate::light::triangle::projected::piece::narrowest;
 use crate::light::triangle::projected::sector::Sector;
 use crate::light::triangle::projected::zenith::{Search, Side, drop_narrow, sectors, surrounds};
@@ -317,7 +317,7 @@ impl<R: Real, const N: usize, const ROOM: usize> Warp<R> for ProjectedPolygon<R,
         if central.any() {
             let triangles = self.fan[..Self::TRIANGLES].iter();
             let search = triangles.fold(Search::default(), |search, triangle| triangle.search(search, w, edge));
-            found = Found::blend(central, search.found, found);
+            found = FoundSector::blend(central, search.found, found);
         }
         let found = found.place(normal, w);
         let x = unit_interval(ratio(found.x, self.projected));

@@ -175,7 +175,7 @@ impl<S: Sums> Distribution<S> {
 
 /// Where the cells of a span are among the steps of `u`.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Place {
+pub(super) struct SpanPlace {
     /// Number of cells, of all spans, and of those before this one.
     pub(super) cells: [u32; 2],
     /// Weight of all spans, and of those before this one.
@@ -184,7 +184,7 @@ pub(super) struct Place {
 
 /// A cell that has been drawn or found.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Found {
+pub(super) struct FoundCell {
     pub(super) cell: u32,
     /// The first of its steps of `u`, and their number: at least 1.
     steps: [f64; 2],
@@ -192,7 +192,7 @@ pub(super) struct Found {
     ends: [f64; 2],
 }
 
-impl Found {
+impl FoundCell {
     /// The position in the span to which `u` goes.
     #[inline(always)]
     pub(super) fn place(&self, u: f64) -> f64 {
@@ -224,7 +224,7 @@ impl Found {
     }
 }
 
-impl Place {
+impl SpanPlace {
     /// A span alone.
     #[inline(always)]
     pub(super) fn only(span: &Span) -> Self {
@@ -254,10 +254,10 @@ impl Place {
     }
     /// What is known of a cell of a distribution with this weight.
     #[inline(always)]
-    pub(super) fn find<S: Sums>(&self, own: &Distribution<S>, weight: f64, cell: u32) -> Found {
+    pub(super) fn find<S: Sums>(&self, own: &Distribution<S>, weight: f64, cell: u32) -> FoundCell {
         let first = self.step_of(own, weight, cell);
         let count = (self.step_of(own, weight, cell + 1) - first).max(0.0);
-        Found { cell, steps: [first, count], ends: [own.span.edge(cell), own.span.edge(cell + 1)] }
+        FoundCell { cell, steps: [first, count], ends: [own.span.edge(cell), own.span.edge(cell + 1)] }
     }
     /// Begins to search for the cell to which `u` goes.
     #[inline(always)]
@@ -273,7 +273,7 @@ impl Place {
 /// A search for the cell to which a step of `u` goes: without divisions by where a cell begins, solved for the weight before it, which is
 /// exact but for rounding.
 pub(super) struct Search<S> {
-    place: Place,
+    place: SpanPlace,
     own: Distribution<S>,
     weight: f64,
     /// The step, and the greatest weight before the cell: that of all cells before it, and one of them for each.
@@ -311,7 +311,7 @@ impl<S: Sums> Search<S> {
     }
     /// What has been found.
     #[inline(always)]
-    pub(super) fn found(&self) -> Found {
+    pub(super) fn found(&self) -> FoundCell {
         let span = self.own.span;
         let mut found = self.find(self.cell);
         // rounding may have crossed an edge
@@ -324,7 +324,7 @@ impl<S: Sums> Search<S> {
         found
     }
     #[inline(always)]
-    fn find(&self, cell: u32) -> Found {
+    fn find(&self, cell: u32) -> FoundCell {
         self.place.find(&self.own, self.weight, cell)
     }
 }

@@ -14,7 +14,7 @@ use crate::real::{Mask, Real, unit_interval};
 use crate::vector::double_word::{cross_dw, dot_dw, height_dw, sum_dw, unit_normal};
 use crate::vector::{Vec2, Vec3};
 use crate::warp::Warp;
-use found::{Found, after, edge};
+use found::{FoundSector, after, edge};
 use horizon::{Exact, clip};
 use piece::{Corners, Piece, narrowest};
 use sector::Sector;
@@ -274,7 +274,7 @@ impl<R: Real> ProjectedTriangle<R> {
     }
     /// The sector in which a direction of the triangle is; areas are kept `edge` away from a jump of the map.
     #[inline(always)]
-    pub(in crate::light) fn find(&self, w: Vec3<R>, edge: R) -> Found<R> {
+    pub(in crate::light) fn find(&self, w: Vec3<R>, edge: R) -> FoundSector<R> {
         let mut found = self.first.find(self.normal, w, edge);
         let areas = [self.first.area, self.second.area];
         if self.second.area.gt(R::lit(0.0)).any() {
@@ -283,7 +283,7 @@ impl<R: Real> ProjectedTriangle<R> {
         }
         let central = self.central.gt(R::lit(0.0));
         if central.any() {
-            found = Found::blend(central, self.search(Search::default(), w, edge).found, found);
+            found = FoundSector::blend(central, self.search(Search::default(), w, edge).found, found);
         }
         found
     }

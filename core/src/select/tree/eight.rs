@@ -1,6 +1,6 @@
 //! Eight lanes on their way down a tree at once. What follows from the weights of the children is computed for all lanes together.
 
-use super::node::{self, DARK, LEAST, LIGHT, Node8, Place, WHOLE};
+use super::node::{self, DARK, LEAST, LIGHT, Node8, TreePoint, WHOLE};
 use super::{DEEPEST, NO_LIGHT};
 use crate::real::{GREATEST, Mask, Real, Uint};
 use crate::select::Gloss;
@@ -29,7 +29,7 @@ struct Units {
 }
 
 /// A child of a node in each lane: its slot, the start of its share, and the share.
-struct Found {
+struct FoundChild {
     slot: u32x8,
     start: u32x8,
     share: u32x8,
@@ -63,20 +63,20 @@ impl Units {
     }
     /// The child that a number of 16 bits belongs to. Where no child can contribute, the share is 0.
     #[inline(always)]
-    fn find(&self, target: u32x8) -> Found {
+    fn find(&self, target: u32x8) -> FoundChild {
         // what rounding left belongs to the last as well
         let target = target.min(self.all.wrapping_sub(u32x8::splat(1)));
         self.halve(|_, middle| !target.lt(middle))
     }
     /// The child of a slot.
     #[inline(always)]
-    fn of_slot(&self, slot: u32x8) -> Found {
+    fn of_slot(&self, slot: u32x8) -> FoundChild {
         self.halve(|bit, _| u32x8::splat(0).lt(slot & u32x8::splat(bit)))
     }
     /// Halves the eight children three times. `is_late(bit, end)` returns whether the child is beyond the first half, which ends at `end`; `bit`
     /// is the bit of the slot that tells the halves apart.
     #[inline(always)]
-    fn halve(&self, is_late: impl Fn(u32, u32x8) -> u32x8) -> Found {
+    fn halve(&self, is_late: impl Fn(u32, u32x8) -> u32x8) -> FoundChild {
         let Self { units, pairs, half, all } = *self;
         let choose = |is_late: u32x8, early: u32x8, late: u32x8| early ^ ((early ^ late) & is_late);
         let (mut slot, mut start) = (u32x8::splat(0), u32x8::splat(0));
@@ -94,7 +94,7 @@ impl Units {
         // the last that can contribute
         let is_last = !start.wrapping_add(unit).lt(all);
         let share = choose(is_last, unit, u32x8::splat(WHOLE).wrapping_sub(start));
-        Found { slot, start, share: share & u32x8::splat(0).lt(unit) }
+        FoundChild { slot, start, share: share & u32x8::splat(0).lt(unit) }
     }
 }
 
@@ -112,7 +112,7 @@ pub(super) fn choose(
     nodes: &[Node8],
     lanes: usize,
     bits: [u32x8; 2],
-    (place, gloss): (&Place<[f32; 8]>, Option<&Gloss<[f32; 8]>>),
+    (place, gloss): (&TreePoint<[f32; 8]>, Option<&Gloss<[f32; 8]>>),
 ) -> Chosen {
     let [mut word, mut more] = bits;
     let mut pmf = f32x8::splat(1.0);
@@ -127,7 +127,7 @@ pub(super) fn choose(
             };
         }
         let lanes = MaskOf::from_bits(going);
-        let Found { slot, start, share } = Units::of(rows, lanes).find(word.shr(16));
+        let FoundChild { slot, start, share } = Units::of(rows, lanes).find(word.shr(16));
         let moves = lanes & f32x8::has_bits(share);
         let (next, sixteen) = node::sixteen(more);
         let stretched = stretched(word.wrapping_sub(start.shl(16)), sixteen, share);
@@ -167,7 +167,7 @@ pub(super) fn pmf(
     places: &[u32],
     lanes: usize,
     lights: [u32; 8],
-    (place, gloss): (&Place<[f32; 8]>, Option<&Gloss<[f32; 8]>>),
+    (place, gloss): (&TreePoint<[f32; 8]>, Option<&Gloss<[f32; 8]>>),
 ) -> [f32; 8] {
     let mut paths = [[0; DEEPEST]; 8];
     let (mut levels, mut touched) = ([0_usize; 8], 0);

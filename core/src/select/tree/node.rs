@@ -88,10 +88,10 @@ impl<C: Real> Children<C> {
     /// Their weights at a point of a surface, and whether they can contribute: else the weight is any number. `plain` says that none is a
     /// spot light or emits from both sides. On glossy surfaces, the weights are by what these reflect.
     #[inline(always)]
-    pub(super) fn weigh(&self, plain: bool, at: &Place<C>, gloss: Option<&Gloss<C>>) -> (C, C::Mask) {
+    pub(super) fn weigh(&self, plain: bool, at: &TreePoint<C>, gloss: Option<&Gloss<C>>) -> (C, C::Mask) {
         let lit = C::lit;
         let zero = lit(0.0);
-        let Place { p, n, slope, squares, around } = *at;
+        let TreePoint { p, n, slope, squares, around } = *at;
         let v = self.center - p;
         let three = |word: C::Uint| Vec3::new(byte(word, 0), byte(word, 1), byte(word, 2));
         let Self { bounds, normals, deviations, turns, power, .. } = *self;
@@ -148,7 +148,7 @@ impl<C: Real> Children<C> {
 
 lanewise! {
     /// A point of a surface, or one that light reaches from all around.
-    pub(super) struct Place {
+    pub(super) struct TreePoint {
         p: Vec3<R>,
         n: Vec3<R>,
         /// |n| and n², component by component.
@@ -158,9 +158,9 @@ lanewise! {
         around: R,
     }
 }
-only!(Place { p: Vec3, n: Vec3, slope: Vec3, squares: Vec3, around: R });
+only!(TreePoint { p: Vec3, n: Vec3, slope: Vec3, squares: Vec3, around: R });
 
-impl<R: Real> Place<R> {
+impl<R: Real> TreePoint<R> {
     #[inline(always)]
     pub(super) fn new(p: Vec3<R>, n: Vec3<R>) -> Self {
         Self {
@@ -310,7 +310,7 @@ impl Node8 {
 
     /// The children's weights at the point of one of eight lanes, in negative where they cannot contribute.
     #[inline(always)]
-    pub(super) fn weigh_at(&self, lane: usize, at: &Place<[f32; 8]>, gloss: Option<&Gloss<[f32; 8]>>) -> f32x8 {
+    pub(super) fn weigh_at(&self, lane: usize, at: &TreePoint<[f32; 8]>, gloss: Option<&Gloss<[f32; 8]>>) -> f32x8 {
         let gloss = gloss.map(|gloss| gloss.only(lane));
         let (weight, bright) = self.children().weigh(self.plain != 0, &at.only(lane), gloss.as_ref());
         Real::blend(bright, weight, f32x8::splat(DARK))
@@ -325,19 +325,19 @@ impl Node8 {
     }
     /// The children's weights at a point of a surface, and which can contribute.
     #[inline(always)]
-    fn weighed(&self, at: &Place<f32>, gloss: Option<&Gloss<f32>>) -> (f32x8, <f32x8 as Real>::Mask) {
+    fn weighed(&self, at: &TreePoint<f32>, gloss: Option<&Gloss<f32>>) -> (f32x8, <f32x8 as Real>::Mask) {
         let gloss = gloss.map(|gloss| Gloss::splat(*gloss));
-        self.children().weigh(self.plain != 0, &Place::splat(*at), gloss.as_ref())
+        self.children().weigh(self.plain != 0, &TreePoint::splat(*at), gloss.as_ref())
     }
     /// The sum of the children's weights at a point of a surface: 0 only where none can contribute, and finite.
-    pub(super) fn sum(&self, at: &Place<f32>, gloss: Option<&Gloss<f32>>) -> f32 {
+    pub(super) fn sum(&self, at: &TreePoint<f32>, gloss: Option<&Gloss<f32>>) -> f32 {
         let (weight, bright) = self.weighed(at, gloss);
         let sum: f32 = weight.greater(f32x8::splat(f32::MIN_POSITIVE)).keep(bright).to_array().iter().sum();
         sum.lesser(f32::MAX)
     }
     /// The children's shares at a point of a surface.
     #[inline(always)]
-    pub(super) fn shares(&self, at: &Place<f32>, gloss: Option<&Gloss<f32>>) -> Shares {
+    pub(super) fn shares(&self, at: &TreePoint<f32>, gloss: Option<&Gloss<f32>>) -> Shares {
         let (weight, bright) = self.weighed(at, gloss);
         let bright = bright.bits();
         let sum = |w: [f32; 8]| ((w[0] + w[1]) + (w[2] + w[3])) + ((w[4] + w[5]) + (w[6] + w[7]));

@@ -1,6 +1,6 @@
 //! The choice of a tree from words in memory.
 
-use super::node::{self, CHILD, Children, LEAST, LIGHT, LINK, Node8, Place, WHOLE};
+use super::node::{self, CHILD, Children, LEAST, LIGHT, LINK, Node8, TreePoint, WHOLE};
 use super::{DEEPEST, NO_LIGHT};
 use crate::memory::Memory;
 use crate::real::{GREATEST, Mask, Real, State, Uint};
@@ -48,7 +48,7 @@ impl<M, U: Uint> TreeWords<M, U> {
         M: Memory<R>,
     {
         let scale = self.memory.number(self.nodes.wrapping_add(U::splat(LINK)));
-        TreeWordsAt { tree: *self, place: Place::new(node::scaled(p, scale), n) }
+        TreeWordsAt { tree: *self, place: TreePoint::new(node::scaled(p, scale), n) }
     }
 }
 
@@ -56,7 +56,7 @@ impl<M, U: Uint> TreeWords<M, U> {
 #[derive(Clone, Copy, Debug)]
 pub struct TreeWordsAt<R: Real, M> {
     tree: TreeWords<M, R::Uint>,
-    place: Place<R>,
+    place: TreePoint<R>,
 }
 
 impl<R: Real, M: Memory<R>> TreeWordsAt<R, M> {

@@ -2,11 +2,11 @@
 
 use super::http::{Body, Request, Response};
 use super::page;
-use super::server::Place;
+use super::server::CountGuard;
 use super::state::{Picture, Shared, State, Way};
-use etendue_render::area::Area;
 use etendue_render::camera::Orbit;
 use etendue_render::film::Film;
+use etendue_render::scene::area::Area;
 use etendue_render::{Sampler, Settings, Technique};
 use serde_json::{Value, json};
 use std::io::{self, Write};
@@ -146,7 +146,7 @@ fn image(shared: &Shared, request: &Request) -> Response {
         Ok(way) => way,
         Err(what) => return Response::text(400, &what),
     };
-    let place = Place::new(&shared.sending);
+    let place = CountGuard::new(&shared.sending);
     if place.number > SENT {
         return Response::text(503, "too many images are being sent");
     }

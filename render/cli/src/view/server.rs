@@ -71,7 +71,7 @@ impl Server {
                     thread::sleep(Duration::from_millis(100));
                     continue;
                 };
-                let place = Place::new(&clients);
+                let place = CountGuard::new(&clients);
                 if place.number > CLIENTS {
                     // it fits into the buffer of any socket, and whoever knocks next waits no longer than that
                     let _ = http::refuse(&stream, Response::text(503, "too many connections"), TURNED_AWAY);
@@ -99,20 +99,20 @@ impl Server {
 }
 
 /// One of the things that are counted as long as they are there.
-pub(crate) struct Place {
+pub(crate) struct CountGuard {
     count: Arc<AtomicUsize>,
     /// How many there are with this one.
     pub(crate) number: usize,
 }
 
-impl Place {
+impl CountGuard {
     pub(crate) fn new(count: &Arc<AtomicUsize>) -> Self {
         let number = count.fetch_add(1, Ordering::Relaxed) + 1;
         Self { count: Arc::clone(count), number }
     }
 }
 
-impl Drop for Place {
+impl Drop for CountGuard {
     fn drop(&mut self) {
         self.count.fetch_sub(1, Ordering::Relaxed);
     }

@@ -1,10 +1,10 @@
 //! What the rendering thread and those of the clients share: what the page wishes, and what there is to show.
 
 use super::watch::Watch;
-use etendue_render::area::Area;
 use etendue_render::camera::Orbit;
-use etendue_render::claim::Claim;
 use etendue_render::film::Film;
+use etendue_render::film::claim::Claim;
+use etendue_render::scene::area::Area;
 use etendue_render::{Sampler, Technique};
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};

@@ -1,12 +1,12 @@
 //! Runs `etendue chart` as a user would, and checks their measurements.
 
 use super::{Folder, until};
-use etendue_laboratory::chart::measure::{Row, Rows};
+use etendue_laboratory::chart::measure::{Measurement, Rows};
 use etendue_laboratory::chart::reference::Reference;
 use etendue_laboratory::chart::{self, Options};
 use etendue_oracle::tier::cases;
-use etendue_render::compare::{Comparison, differs};
-use etendue_render::image::Picture;
+use etendue_render::film::compare::{Comparison, differs};
+use etendue_render::film::image::Picture;
 use etendue_render::{ChoiceBy, Sampler, Settings, Technique, World};
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
@@ -203,7 +203,7 @@ fn options(output: &Path, scene: &str) -> Options {
     }
 }
 
-fn all(rows: &Rows) -> impl Iterator<Item = &Row> {
+fn all(rows: &Rows) -> impl Iterator<Item = &Measurement> {
     rows.values().flatten()
 }
 

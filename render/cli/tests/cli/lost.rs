@@ -161,7 +161,7 @@ fn a_png_that_fails_does_not_hide_the_exr() {
         error.contains("a.png: cannot write: ") && error.contains("a.exr was written, but its PNG was not"),
         "{error}"
     );
-    etendue_render::image::read_exr(&folder.path("a.exr")).unwrap();
+    etendue_render::film::image::read_exr(&folder.path("a.exr")).unwrap();
     assert_eq!(folder.names(), ["a.exr", "a.png"]);
 }
 
@@ -210,7 +210,7 @@ fn an_interruption_says_what_is_on_disk() {
     let error = ended(&folder, "-TERM", 143, &["--time", "120"], first);
     let said = error.starts_with("interrupted: a.exr holds an image of ") && error.contains("estimated error ");
     assert!(said, "{error}");
-    let image = etendue_render::image::read_exr(&folder.path("a.exr")).unwrap();
+    let image = etendue_render::film::image::read_exr(&folder.path("a.exr")).unwrap();
     assert!(image.variance.unwrap().iter().flatten().all(|v| v.is_finite()));
     assert_eq!(folder.names(), ["a.exr", "a.png"]);
 }

@@ -137,7 +137,7 @@ fn render_writes_an_image_and_a_picture() {
     let text = folder.succeed(&["render", "sphere-light", "--size", "17x5", "--spp", "4"]);
     assert_eq!(folder.names(), ["sphere-light.exr", "sphere-light.png"]);
     assert!(text.contains("wrote sphere-light.exr and sphere-light.png"), "{text}");
-    let image = etendue_render::image::read_exr(&folder.path("sphere-light.exr")).unwrap();
+    let image = etendue_render::film::image::read_exr(&folder.path("sphere-light.exr")).unwrap();
     assert_eq!((image.width, image.height), (17, 5));
     assert!(image.variance.unwrap().iter().flatten().all(|x| x.is_finite()));
     let picture = fs::read(folder.path("sphere-light.png")).unwrap();

@@ -3,8 +3,8 @@
 use super::{Folder, json, keys};
 use etendue_laboratory::chart::reference::Reference;
 use etendue_oracle::tier::cases;
-use etendue_render::compare::Comparison;
-use etendue_render::image;
+use etendue_render::film::compare::Comparison;
+use etendue_render::film::image;
 use serde_json::Value;
 
 /// The error that a rendering claims, the error measured against a reference, and the report.

@@ -268,7 +268,7 @@ fn goals_end_the_rendering_and_not_the_page() {
     // the files have it soon
     let (radiance, _) = viewer.image("area", "adaptive");
     let is_written = |_: &Value| {
-        let image = etendue_render::image::read_exr(&folder.path("a.exr"));
+        let image = etendue_render::film::image::read_exr(&folder.path("a.exr"));
         image.is_ok_and(|image| image.radiance.as_flattened() == radiance)
     };
     viewer.until("the image is written", is_written);

@@ -24,7 +24,7 @@ pub struct ChartedScene {
     pub size: [u32; 2],
     /// The reference image.
     pub reference: Reference,
-    /// Hash of everything a measurement depends on, besides the values of a [`Row`].
+    /// Hash of everything a measurement depends on, besides the values of a [`Measurement`].
     pub settings: u64,
 }
 
@@ -70,7 +70,7 @@ impl Hash for Key {
 
 /// One measurement, which is a line of the table.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Row {
+pub struct Measurement {
     /// Index of the replicate.
     pub replicate: u32,
     /// Seed of the image.
@@ -87,7 +87,7 @@ pub struct Row {
     pub rays: [u64; 4],
 }
 
-impl Row {
+impl Measurement {
     /// Time, and errors minus those of the reference.
     #[must_use]
     pub fn cost(&self, reference: &Reference) -> Cost {
@@ -97,7 +97,7 @@ impl Row {
 }
 
 /// All measurements by key, in order of replicates.
-pub type Rows = HashMap<Key, Vec<Row>>;
+pub type Rows = HashMap<Key, Vec<Measurement>>;
 
 /// Images are rendered repeatedly until this many seconds have passed, at most [`REPEATS`] times.
 const SECONDS: f64 = 0.02;
@@ -117,7 +117,7 @@ pub(crate) fn inapplicable(sampler: Sampler, spp: u32) -> Option<String> {
 }
 
 /// Keeps a row of a scene.
-pub type Keep<'a> = dyn FnMut(&ChartedScene, &Key, &Row) -> Result<(), Box<dyn Error>> + Send + 'a;
+pub type Keep<'a> = dyn FnMut(&ChartedScene, &Key, &Measurement) -> Result<(), Box<dyn Error>> + Send + 'a;
 
 /// The planned measurements.
 #[derive(Debug)]
@@ -183,7 +183,7 @@ impl Plan {
         }
         Ok(())
     }
-    fn render(&self, key: &Key, replicate: u32, progress: &(dyn Fn(u64) + Sync)) -> Row {
+    fn render(&self, key: &Key, replicate: u32, progress: &(dyn Fn(u64) + Sync)) -> Measurement {
         let subject = &self.scenes[key.scene];
         let seed = self.seed(key, replicate);
         let settings = key.settings(subject.size, seed);
@@ -204,7 +204,7 @@ impl Plan {
             }
         };
         let cpu = processor_seconds().zip(cpu_before).map(|(after, before)| (after - before) / seconds.len() as f64);
-        Row {
+        Measurement {
             replicate,
             seed,
             seconds: median(&seconds),

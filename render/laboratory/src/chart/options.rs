@@ -2,7 +2,7 @@
 
 use crate::options::{named, size, threads, whole};
 use clap::Args;
-use etendue_render::limits::MOST_SAMPLES;
+use etendue_render::scene::limits::MOST_SAMPLES;
 use etendue_render::{ChoiceBy, Sampler, Technique};
 use std::ffi::OsString;
 use std::path::PathBuf;

@@ -1,6 +1,6 @@
 //! Reference images and their own error.
 
-use etendue_render::image::{self, Picture};
+use etendue_render::film::image::{self, Picture};
 use etendue_render::{Sampler, Settings, Technique, World};
 use serde::{Deserialize, Serialize};
 use std::path::Path;

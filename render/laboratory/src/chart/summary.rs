@@ -1,6 +1,6 @@
 //! Summarises measurements for the charts.
 
-use super::measure::{Key, Plan, Row, Rows, method};
+use super::measure::{Key, Measurement, Plan, Rows, method};
 use super::plot::short;
 use super::reference::KNOWN_TO;
 use super::stats::{self, Cost, Estimate};
@@ -63,7 +63,7 @@ pub struct Point {
 }
 
 impl Point {
-    fn new(spp: u32, rows: &[Row], plan: &Plan, key: &Key) -> Self {
+    fn new(spp: u32, rows: &[Measurement], plan: &Plan, key: &Key) -> Self {
         let reference = &plan.scenes[key.scene].reference;
         let costs: Vec<Cost> = rows.iter().map(|r| r.cost(reference)).collect();
         // the errors of the reference were taken off, and are known to some per cent

@@ -1,6 +1,6 @@
 //! The CSV file of measurements, from which a later run goes on.
 
-use super::measure::{ChartedScene, Key, Plan, Row, Rows};
+use super::measure::{ChartedScene, Key, Measurement, Plan, Rows};
 use etendue_render::{ChoiceBy, Sampler, Technique};
 use serde::{Deserialize, Serialize};
 use std::collections::HashSet;
@@ -24,7 +24,7 @@ struct Subject {
 /// What is for readers only: pixels across and down, the reference's error, and errors without it.
 type Derived = (u32, u32, f64, f64, f64);
 
-/// The names of the columns of a [`Subject`], a [`Row`] and what is [`Derived`].
+/// The names of the columns of a [`Subject`], a [`Measurement`] and what is [`Derived`].
 const HEADER: [&str; 23] = [
     "settings",
     "scene",
@@ -65,11 +65,11 @@ impl Subject {
 
 /// The CSV file that receives each measurement as soon as it is made.
 #[derive(Debug)]
-pub struct Table {
+pub struct MeasurementFile {
     writer: csv::Writer<File>,
 }
 
-impl Table {
+impl MeasurementFile {
     /// Opens or creates the file. Returns the measurements that belong to the plan, and the number of others.
     ///
     /// # Errors
@@ -99,7 +99,7 @@ impl Table {
         Ok((Self { writer }, rows, others))
     }
 
-    pub(super) fn append(&mut self, scene: &ChartedScene, key: &Key, row: &Row) -> Result<(), Box<dyn Error>> {
+    pub(super) fn append(&mut self, scene: &ChartedScene, key: &Key, row: &Measurement) -> Result<(), Box<dyn Error>> {
         let (cost, [width, height]) = (row.cost(&scene.reference), scene.size);
         let derived: Derived = (width, height, scene.reference.error, cost.mse, cost.relative);
         self.writer.serialize((Subject::new(scene, key), row, derived))?;
@@ -122,7 +122,7 @@ fn read(text: &str, plan: &Plan) -> Result<(Rows, usize), String> {
             return Err(format!("line {number} has {} values instead of {}", record.len(), HEADER.len()));
         }
         let invalid = |column: usize| format!("line {number}: {:?} is not a valid {}", &record[column], HEADER[column]);
-        let (subject, row, _): (Subject, Row, Derived) = record.deserialize(None).map_err(|error| {
+        let (subject, row, _): (Subject, Measurement, Derived) = record.deserialize(None).map_err(|error| {
             let field = match error.kind() {
                 csv::ErrorKind::Deserialize { err, .. } => err.field(),
                 _ => None,

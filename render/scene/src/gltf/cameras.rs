@@ -5,7 +5,7 @@ use crate::builder::Builder;
 use crate::message::{Notes, shortened};
 use crate::nearest::did_you_mean;
 use crate::transform::{Transform, add, cross, dot, length, scaled, sub, unit};
-use etendue_render::limits::MOST_SIDE;
+use etendue_render::scene::limits::MOST_SIDE;
 use etendue_render::scene::{CameraSettings, FilmSettings, Message, Screen};
 use gltf_json::Index;
 use gltf_json::camera::{Camera, Type};

@@ -4,7 +4,7 @@ use super::source::Source;
 use crate::message::Notes;
 use crate::radiance::rounded;
 use crate::transform::{Transform, cross, one_minus_cos, unit};
-use etendue_render::intensity::Intensity;
+use etendue_render::scene::intensity::Intensity;
 use etendue_render::scene::{DeltaLight, Message};
 use gltf_json::Index;
 use gltf_json::extensions::scene::khr_lights_punctual::{Light, Type};

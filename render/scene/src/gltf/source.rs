@@ -5,7 +5,7 @@ use crate::files::note;
 use crate::message::shortened;
 use base64::Engine;
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
-use etendue_render::files::read_file;
+use etendue_render::film::files::read_file;
 use etendue_render::scene::{Input, Message};
 use gltf_json::{Index, Root, buffer};
 use percent_encoding::percent_decode_str;

@@ -1,7 +1,7 @@
 //! Portable float maps: text that tells the size, then numbers in single precision, row by row from the bottom.
 
-use etendue_render::files::{FileError, failed};
-use etendue_render::image::check_size;
+use etendue_render::film::files::{FileError, failed};
+use etendue_render::film::image::check_size;
 use std::path::Path;
 
 /// An image: its width, its height, and its pixels, row by row from the top.

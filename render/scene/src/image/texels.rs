@@ -1,8 +1,8 @@
 //! Images as textures: their bytes as they are in the file, which are a quarter of what floating-point numbers take.
 
-use etendue_render::files::{FileError, failed};
-use etendue_render::image::check_size;
-use etendue_render::texture::{Colors, Texels};
+use etendue_render::film::files::{FileError, failed};
+use etendue_render::film::image::check_size;
+use etendue_render::scene::texture::{Colors, Texels};
 use image_files::{DynamicImage, ImageDecoder, ImageReader};
 use std::io::Cursor;
 use std::path::Path;

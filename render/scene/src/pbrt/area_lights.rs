@@ -8,13 +8,13 @@ use crate::distribution::Distribution;
 use crate::message::Notes;
 use crate::radiance::{brightness, luminance, radiances, rounded};
 use etendue::Real;
-use etendue_render::image::Picture;
-use etendue_render::light_profile::LuminousOpening;
-use etendue_render::limits::MOST_RADIANCE;
+use etendue_render::film::image::Picture;
+use etendue_render::geometry::spread::Spread;
 use etendue_render::packet::X8;
+use etendue_render::scene::light_profile::LuminousOpening;
+use etendue_render::scene::limits::MOST_RADIANCE;
+use etendue_render::scene::texture::{self, Colors, Mapping, Texels, Wrap};
 use etendue_render::scene::{Emission, Message};
-use etendue_render::spread::Spread;
-use etendue_render::texture::{self, Colors, Mapping, Texels, Wrap};
 use std::collections::HashMap;
 use std::sync::Arc;
 

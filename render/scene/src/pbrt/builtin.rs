@@ -52,7 +52,7 @@ pub fn builtin() -> &'static [(&'static str, &'static str)] {
     &DESCRIBED
 }
 
-/// The built-in scenes of at most [`FEW`](etendue_render::allocation::FEW) lights. What renders every scene many times keeps to these, so that it does
+/// The built-in scenes of at most [`FEW`](etendue_render::choose::allocation::FEW) lights. What renders every scene many times keeps to these, so that it does
 /// not take many times longer.
 pub fn builtin_of_few_lights() -> &'static [(&'static str, &'static str)] {
     DESCRIBED.split_at(DESCRIBED.len() - MANY_LIGHTS).0

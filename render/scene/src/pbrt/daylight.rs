@@ -7,9 +7,9 @@ use super::params::{Params, shown};
 use crate::radiance::{luminance, rounded};
 use etendue::light::{EnvironmentMap, ImageEnvironment, Texel};
 use etendue::{Real, Vec2, f32x8, u32x8};
-use etendue_render::limits::MOST_RADIANCE;
+use etendue_render::lights::sky::GeneralSky;
+use etendue_render::scene::limits::MOST_RADIANCE;
 use etendue_render::scene::{Message, SkyRadiance, SunDisk};
-use etendue_render::sky::GeneralSky;
 use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};
 

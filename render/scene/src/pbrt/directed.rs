@@ -8,7 +8,7 @@ use crate::message::Notes;
 use crate::radiance::{brightness, luminance, rounded};
 use crate::transform::Transform;
 use etendue::SpotLight;
-use etendue_render::intensity::Intensity;
+use etendue_render::scene::intensity::Intensity;
 use etendue_render::scene::{Cone, DeltaLight, Message};
 
 /// Reads a `LightSource "goniometric"`; `None` if it emits nothing. `table` is the index that its intensity will have.

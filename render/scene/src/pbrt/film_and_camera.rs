@@ -4,8 +4,8 @@ use super::params::{Params, shown};
 use crate::message::Notes;
 use crate::nearest::did_you_mean;
 use crate::transform::{Transform, length, scaled};
-use etendue_render::area::{Area, Place};
-use etendue_render::limits::{MOST_SAMPLES, is_size};
+use etendue_render::scene::area::{Area, PlaceInImage};
+use etendue_render::scene::limits::{MOST_SAMPLES, is_size};
 use etendue_render::scene::{CameraSettings, FilmSettings, Lens, Message, Screen};
 
 /// Reads a `Camera`, which looks along +z of camera space, its transform to world space, and the time of exposure, whose unit
@@ -110,7 +110,7 @@ pub(super) fn fit(camera: &mut CameraSettings, film: &FilmSettings) {
     {
         camera.screen = Screen::Half(right.min(upper));
     }
-    if let Some(Place { start: [x, y], .. }) = film.place {
+    if let Some(PlaceInImage { start: [x, y], .. }) = film.place {
         let [left, right, lower, upper] = camera.edges(width, height);
         let across = |x: u32| left + (right - left) * (f64::from(x) / f64::from(width));
         let down = |y: u32| upper + (lower - upper) * (f64::from(y) / f64::from(height));
@@ -147,7 +147,7 @@ pub(super) fn film(kind: &str, params: &mut Params) -> Result<FilmSettings, Mess
     };
     let [width, height] = [x1 - x0, y1 - y0];
     let part = f64::from(width).hypot(height.into()) / f64::from(whole[0]).hypot(whole[1].into());
-    let place = Some(Place { start: [x0, y0], whole });
+    let place = Some(PlaceInImage { start: [x0, y0], whole });
     Ok(FilmSettings { width, height, diagonal: diagonal * part, filename, place, exposure })
 }
 

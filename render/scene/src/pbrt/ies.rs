@@ -13,7 +13,7 @@
 use super::inputs::Files;
 use crate::distribution::Aim;
 use crate::message::shown;
-use etendue_render::intensity::{Intensity, Profile};
+use etendue_render::scene::intensity::{Intensity, Profile};
 
 /// The intensity of a luminaire.
 #[derive(Debug)]

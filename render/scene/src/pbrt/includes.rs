@@ -2,7 +2,7 @@
 
 use super::inputs::Files;
 use crate::message::Place;
-use etendue_render::files::is_same;
+use etendue_render::film::files::is_same;
 use etendue_render::scene::Message;
 use std::path::{Path, PathBuf};
 

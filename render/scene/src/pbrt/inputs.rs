@@ -3,8 +3,8 @@
 use super::builtin::BUILTIN_IMAGES;
 use crate::files::{note, read_unpacked};
 use crate::image;
-use etendue_render::files::{FileError, failed, read_file};
-use etendue_render::image::Picture;
+use etendue_render::film::files::{FileError, failed, read_file};
+use etendue_render::film::image::Picture;
 use etendue_render::scene::Input;
 use std::cell::RefCell;
 use std::io;

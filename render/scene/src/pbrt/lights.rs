@@ -8,7 +8,7 @@ use crate::message::{Notes, shortened};
 use crate::radiance::{brightness, luminance, rounded, sky_of};
 use crate::transform::{Transform, one_minus_cos, sub};
 use etendue::light::{EnvironmentMap, Portal};
-use etendue_render::limits::MOST_RADIANCE;
+use etendue_render::scene::limits::MOST_RADIANCE;
 use etendue_render::scene::{DeltaLight, Environment, Message, SkyRadiance};
 use std::f64::consts::PI;
 

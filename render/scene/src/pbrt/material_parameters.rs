@@ -12,8 +12,8 @@ use crate::list::PBRT;
 use crate::message::shortened;
 use crate::nearest::did_you_mean;
 use crate::radiance::rounded;
+use etendue_render::scene::texture::Texture;
 use etendue_render::scene::{Material, Message, Roughness, Varying};
-use etendue_render::texture::Texture;
 
 /// What a material's parameters refer to.
 pub(super) struct Context<'a> {

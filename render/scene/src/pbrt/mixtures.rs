@@ -1,7 +1,7 @@
 //! Mixtures of materials, and glass, which is one of a mirror and of nothing.
 
 use etendue_render::scene::Material;
-use etendue_render::texture::Texture;
+use etendue_render::scene::texture::Texture;
 
 /// What a surface is made of, as the state of a scene file holds it.
 #[derive(Clone, Copy, Debug, PartialEq)]

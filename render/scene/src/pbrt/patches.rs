@@ -5,7 +5,7 @@ use crate::shape_attributes::ShapeAttributes;
 use crate::transform::{add, cross, dot, length, scaled, sub, unit};
 use crate::vertices::Vertex;
 use etendue_render::geometry::{Geometry, Parallelogram};
-use etendue_render::light_picture::affine;
+use etendue_render::scene::light_picture::affine;
 
 /// How far a bilinear patch may deviate from a parallelogram, and a quad of a mesh file from its plane, relative to its size:
 /// coordinates of six digits pass, a visible bend does not.

@@ -7,9 +7,9 @@ use crate::distribution::{Aim, Axis};
 use crate::message::Notes;
 use crate::radiance::MOST_TEXELS;
 use etendue::light::EnvironmentMap;
-use etendue_render::image::Picture;
-use etendue_render::intensity::Intensity;
+use etendue_render::film::image::Picture;
 use etendue_render::scene::Message;
+use etendue_render::scene::intensity::Intensity;
 
 /// An intensity by direction.
 #[derive(Debug)]

@@ -9,7 +9,7 @@ use crate::builder::Builder;
 use crate::shape_attributes::ShapeAttributes;
 use crate::transform::Transform;
 use etendue_render::scene::Message;
-use etendue_render::texture::{Mask, Texture};
+use etendue_render::scene::texture::{Mask, Texture};
 
 /// The part of the graphics state that applies to a shape.
 pub(super) struct ShapeState {

@@ -11,8 +11,8 @@ use crate::shape_attributes::ShapeAttributes;
 use crate::transform::Transform;
 use crate::vertices::{Vertex, Vertices};
 use etendue_render::geometry::{Disk, Geometry, Sphere};
+use etendue_render::scene::texture::Mapping;
 use etendue_render::scene::{Emission, Message};
-use etendue_render::texture::Mapping;
 use std::path::Path;
 
 /// Reads a `Shape`; only a built-in scene may name `builtin:` meshes.

@@ -7,8 +7,8 @@ use super::{directed, portal_sides, profiles};
 use crate::message::Notes;
 use crate::transform::Transform;
 use etendue::light::{Portal, PortalEnvironment};
-use etendue_render::intensity::Intensity;
-use etendue_render::limits::MOST_RADIANCE;
+use etendue_render::scene::intensity::Intensity;
+use etendue_render::scene::limits::MOST_RADIANCE;
 use etendue_render::scene::{DeltaLight, Environment, Message, SkyRadiance};
 use std::sync::Arc;
 

@@ -7,7 +7,7 @@ use crate::image::{Encoding, read_texels, sound};
 use crate::message::{Notes, shortened};
 use crate::nearest::did_you_mean;
 use etendue_render::scene::Message;
-use etendue_render::texture::{Mapping, Picture, Texels, Texture, Wrap};
+use etendue_render::scene::texture::{Mapping, Picture, Texels, Texture, Wrap};
 use std::collections::HashMap;
 use std::path::PathBuf;
 use std::sync::Arc;

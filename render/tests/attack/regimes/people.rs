@@ -4,13 +4,13 @@ use super::places::furnish;
 use crate::attack::build::{
     albedo, axes, cube, facing, floor, lamp, level, look, map, overhead, placed, radiance, stage, triangles,
 };
-use crate::attack::draft::{Draft, Form, Frame, Kind, Part, Source, V3};
+use crate::attack::draft::{Draft, Form, Frame, Kind, Part, SourceDraft, V3};
 use crate::attack::skin::{Bend, Picture, Wild};
 use crate::random::Random;
 use etendue_oracle::along;
 
-fn source(kind: Kind, strength: f64) -> Source {
-    Source { kind, strength: strength as f32, map: None, picture: None }
+fn source(kind: Kind, strength: f64) -> SourceDraft {
+    SourceDraft { kind, strength: strength as f32, map: None, picture: None }
 }
 
 /// A picture with texels of about 1, and often one that is much brighter.
@@ -24,7 +24,7 @@ fn picture([width, height]: [usize; 2], random: &mut Random) -> Picture {
 }
 
 /// A sky whose +z is upwards, often with a picture.
-fn sky(random: &mut Random) -> Source {
+fn sky(random: &mut Random) -> SourceDraft {
     let mut sky = source(Kind::Sky, random.power(-1.5, 1.0));
     let axes = axes(random.below(2), random);
     // the pole of axes without a turn is +y
@@ -36,13 +36,13 @@ fn sky(random: &mut Random) -> Source {
     sky
 }
 
-fn sun(strength: f64, random: &mut Random) -> Source {
+fn sun(strength: f64, random: &mut Random) -> SourceDraft {
     let from = overhead(random.power(-1.0, 3.0), random);
     source(Kind::Distant([from, [0.0; 3]]), strength)
 }
 
 /// A point or a spot light with about this irradiance at the origin.
-fn bulb(irradiance: f64, from: V3, random: &mut Random) -> Source {
+fn bulb(irradiance: f64, from: V3, random: &mut Random) -> SourceDraft {
     let kind = if random.one_in(2) {
         Kind::Point(from)
     } else {

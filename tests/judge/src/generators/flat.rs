@@ -5,7 +5,7 @@ use crate::fixtures::Corners;
 use libm::{cos, exp2, log2, sin};
 
 /// Computes a corner and two edges in the given frame.
-type Place<'a> = dyn FnMut(&mut Random, [[f64; 3]; 3]) -> [[f64; 3]; 3] + 'a;
+type PlaceFlat<'a> = dyn FnMut(&mut Random, [[f64; 3]; 3]) -> [[f64; 3]; 3] + 'a;
 
 /// A corner and two edges.
 pub(super) type Flat = [[f32; 3]; 3];
@@ -14,7 +14,7 @@ pub(super) type Flat = [[f32; 3]; 3];
 pub(super) fn flats(each: usize, mut random: Random) -> Vec<Case<Flat>> {
     let mut all = Vec::new();
     for _ in 0..each {
-        let mut push = |name, f: &mut Place<'_>| {
+        let mut push = |name, f: &mut PlaceFlat<'_>| {
             let axes = frame(&mut random);
             all.push((name, f(&mut random, axes).map(narrow)));
         };

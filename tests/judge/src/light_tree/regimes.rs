@@ -1,6 +1,6 @@
 //! Sets of lights, and points among them, at which a bound or a choice may fail.
 
-use super::{Lamp, Place};
+use super::{Lamp, PointAndNormal};
 use crate::area_lights::LightShape;
 use crate::random::Random;
 use core::f64::consts::TAU;
@@ -148,7 +148,7 @@ fn about(shape: LightShape, [center, normal]: [V3; 2], size: f64, slim: f64, cos
 }
 
 /// A point of a surface that a light, or its plane or its corner, makes difficult, and the index of that light.
-pub fn place(regime: Regime, lamps: &[Lamp], random: &mut Random) -> (Place, usize) {
+pub fn place(regime: Regime, lamps: &[Lamp], random: &mut Random) -> (PointAndNormal, usize) {
     let unit_length = regime.unit();
     let light = random.below(lamps.len());
     let lamp = lamps[light];

@@ -99,7 +99,7 @@ impl Axis {
 
 /// A place at which a sampler is judged.
 #[derive(Clone, Copy, Debug)]
-pub struct Place {
+pub struct JudgedPlace {
     /// What is not ordinary there.
     pub axis: Axis,
     /// Its value.
@@ -110,13 +110,13 @@ pub struct Place {
 
 /// All places for a shape, in random positions that the seed decides.
 #[must_use]
-pub fn places(shape: LightShape, by: Measure, quick: bool, seed: u64) -> Vec<Place> {
+pub fn places(shape: LightShape, by: Measure, quick: bool, seed: u64) -> Vec<JudgedPlace> {
     let mut random = Random::new(seed ^ 0x60);
     let mut all = Vec::new();
     for &axis in Axis::all(shape) {
         for value in axis.values(shape, quick) {
             let light = place(shape, by, &[(axis, value)], &mut random);
-            all.push(Place { axis, value, light });
+            all.push(JudgedPlace { axis, value, light });
         }
     }
     all

@@ -4,7 +4,7 @@ use super::definition::Definition;
 use super::figures::{Figure, Measured, Trial};
 use super::observe::{Questions, ask};
 use super::sampler::{Prepared, Subject, measure_name, shape_name};
-use super::scene::{Axis, Place, place, places};
+use super::scene::{Axis, JudgedPlace, place, places};
 use crate::area_lights::{AreaLight, LightShape};
 use crate::random::Random;
 use crate::suite::quietly;
@@ -119,7 +119,7 @@ pub fn judge(subject: &Subject<'_>, effort: Effort, mut before: impl FnMut(&str)
     let start = Instant::now();
     let mut cases = Vec::new();
     let mut lights = Vec::new();
-    for Place { axis, value, light } in places(subject.shape, subject.by, effort.quick, effort.seed) {
+    for JudgedPlace { axis, value, light } in places(subject.shape, subject.by, effort.quick, effort.seed) {
         before(&text(&light));
         cases.push(Case { axis, value, figures: figures(subject, &light, effort) });
         lights.push(light);

@@ -22,7 +22,7 @@ pub(super) struct Receiver {
 }
 
 /// A light seen from a point.
-pub(super) struct Seen<'a> {
+pub(super) struct SeenLight<'a> {
     bodies: &'a [Prepared],
     at: Receiver,
     light: usize,
@@ -65,7 +65,7 @@ pub(super) struct Point {
     pub(super) weight: f64,
 }
 
-impl<'a> Seen<'a> {
+impl<'a> SeenLight<'a> {
     /// A light, if it emits towards the point, and is above its horizon.
     pub(super) fn new(bodies: &'a [Prepared], at: Receiver, light: usize, [spared, lift]: [f64; 2]) -> Option<Self> {
         let Prepared { body, normal, .. } = &bodies[light];

@@ -14,7 +14,7 @@ pub enum Beyond {
 }
 
 /// Factors of u, v and 1 of both coordinates of a position.
-pub type Place = [[f64; 3]; 2];
+pub type PositionMap = [[f64; 3]; 2];
 
 /// A picture.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,7 +24,7 @@ pub struct Picture {
     /// Texels, row by row.
     pub texels: Vec<f64>,
     /// From (u, v) to the picture: (0, 0) is the outer corner of the first texel, (1, 1) that of the last.
-    pub place: Place,
+    pub place: PositionMap,
     /// What is beyond the edges, across and down.
     pub beyond: [Beyond; 2],
     /// Whether values are linear between the middles of texels, or else constant over each.
@@ -39,7 +39,7 @@ pub enum Pattern {
     /// A picture.
     Picture(Picture),
     /// One pattern in squares where ⌊s⌋ + ⌊t⌋ is even, the other one elsewhere.
-    Board(Box<[Pattern; 2]>, Place),
+    Board(Box<[Pattern; 2]>, PositionMap),
     /// The product of two patterns.
     Product(Box<[Pattern; 2]>),
     /// 1 less a pattern, but at least 0.
@@ -49,7 +49,7 @@ pub enum Pattern {
 }
 
 /// A position, moved by this fraction of the terms of its sum.
-fn position(place: &Place, [u, v]: [f64; 2], lift: f64) -> [f64; 2] {
+fn position(place: &PositionMap, [u, v]: [f64; 2], lift: f64) -> [f64; 2] {
     place.map(|[a, b, c]| a * u + b * v + c + lift * ((a * u).abs() + (b * v).abs() + c.abs()))
 }
 

@@ -6,7 +6,7 @@ use core::f64::consts::{FRAC_PI_4, PI, TAU};
 
 /// A light without a surface.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Source {
+pub enum SurfacelessLight {
     /// A point that shines in all directions, or within a cone.
     Point {
         /// Position.
@@ -143,7 +143,7 @@ impl Sky {
     }
 }
 
-impl Source {
+impl SurfacelessLight {
     /// The radiance that a ray sees which hits nothing, along a unit vector.
     pub(super) fn radiance(&self, d: V3) -> f64 {
         if let Self::Sky(sky) = self { sky.texels[sky.texel(d)] } else { 0.0 }

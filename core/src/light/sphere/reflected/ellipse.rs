@@ -152,7 +152,7 @@ struct Chord<R> {
 }
 
 /// A direction as sin²θ and cos²θ, its cell and place there, its chord, the part of the range of latitudes, and the cosine of the latitude.
-struct Place<R> {
+struct DirectionInCell<R> {
     part: R,
     rest: R,
     cell: Cell<R>,
@@ -282,7 +282,7 @@ impl<R: Real> ReflectedCap<R> {
     }
     /// A unit vector that is known to hit the sphere.
     #[inline(always)]
-    fn locate(&self, w: Vec3<R>) -> Place<R> {
+    fn locate(&self, w: Vec3<R>) -> DirectionInCell<R> {
         let (zero, one, least) = (R::lit(0.0), R::lit(1.0), R::lit(1e-7));
         let Vec2 { x, y } = self.along;
         let (across, along) = (x.mul_add(w.y, -(y * w.x)), x.mul_add(w.x, y * w.y));
@@ -297,12 +297,12 @@ impl<R: Real> ReflectedCap<R> {
         let from = difference_of_products(chord.cos, along, chord.sin, flat);
         let up = from.atan2(chord.cos.mul_add(flat, chord.sin * along));
         let y = ratio(up, chord.range).clamped(zero, one);
-        Place { part, rest, cell, x: (theta - cell.index).clamped(zero, one), chord, y, cos: flat }
+        DirectionInCell { part, rest, cell, x: (theta - cell.index).clamped(zero, one), chord, y, cos: flat }
     }
     /// The pdf per steradian of a unit vector that is known to hit the sphere above the horizon.
     #[inline(always)]
     pub(crate) fn pdf(&self, w: Vec3<R>) -> R {
-        let Place { part, rest, cell, x, chord, y, cos } = self.locate(w);
+        let DirectionInCell { part, rest, cell, x, chord, y, cos } = self.locate(w);
         let over_theta = ratio(cell.at(x).0, self.total);
         let over_angle = quotient(over_theta * R::lit(CELLS as f64 / (PI * TAU)), self.angle * (part * rest).sqrt());
         let [a, b, c] = chord.squares;
@@ -312,7 +312,7 @@ impl<R: Real> ReflectedCap<R> {
     }
     #[inline(always)]
     pub(crate) fn invert(&self, w: Vec3<R>) -> Vec2<R> {
-        let Place { cell, x, chord, y, .. } = self.locate(w);
+        let DirectionInCell { cell, x, chord, y, .. } = self.locate(w);
         let [a, b, c] = chord.squares;
         let value = chord_density(chord.squares, y);
         let (lower, upper, twice) = (a + b, b + c, y + y);

@@ -8,7 +8,7 @@ use crate::vector::{Vec2, Vec3};
 
 lanewise! {
     /// The sector in which a direction is, and the areas that its u₀ is between.
-    pub struct Found {
+    pub struct FoundSector {
         sector: Sector<R>,
         /// area before the sector
         before: R,
@@ -20,7 +20,7 @@ lanewise! {
     }
 }
 
-impl<R: Real> Found<R> {
+impl<R: Real> FoundSector<R> {
     /// A sector that begins after an area.
     #[inline(always)]
     pub(in crate::light) fn new(sector: Sector<R>, before: R, backwards: R::Mask) -> Self {

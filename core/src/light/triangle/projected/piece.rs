@@ -1,7 +1,7 @@
 //! A triangle wholly above the horizon and not about the zenith: two sectors.
 #![expect(unreachable_pub, reason = "the structs of lanewise! are declared pub")]
 
-use super::found::{Found, after};
+use super::found::{FoundSector, after};
 use super::sector::{Corner, Sector};
 use crate::lanewise::lanewise;
 use crate::math::{ratio, rsqrt};
@@ -175,7 +175,7 @@ impl<R: Real> Piece<R> {
 
     /// The sector in which a direction is.
     #[inline(always)]
-    pub(in crate::light) fn find(&self, normal: Vec3<R>, w: Vec3<R>, edge: R) -> Found<R> {
+    pub(in crate::light) fn find(&self, normal: Vec3<R>, w: Vec3<R>, edge: R) -> FoundSector<R> {
         let zero = R::lit(0.0);
         let side = self.middle.dot(w);
         // opposite the middle vertex, which rounding may place on either side, there is only the wider sector
@@ -183,7 +183,7 @@ impl<R: Real> Piece<R> {
         let opposite = ahead.dot(w).lt(-side.abs());
         let beyond = (opposite & ahead.dot(self.first.apex).ge(zero)) | (!opposite & side.ge(zero));
         let later = after([self.first.area, self.second.area], beyond, edge);
-        Found::new(Sector::blend(later, self.second, self.first), self.first.area.keep(later), later)
+        FoundSector::new(Sector::blend(later, self.second, self.first), self.first.area.keep(later), later)
     }
     /// Whether u₁ in any of the sectors depends on how u₀ is rounded: see [`Sector::at_share`].
     #[inline(always)]

@@ -1,6 +1,6 @@
 //! A polygon that contains the zenith: for every edge the sector between it and the zenith, and along the horizon where that cuts.
 
-use super::found::Found;
+use super::found::FoundSector;
 use super::piece::{Piece, narrowest};
 use super::sector::{Corner, Sector, border};
 use crate::math::{ratio, rsqrt};
@@ -189,7 +189,7 @@ pub(in crate::light) fn drop_narrow<R: Real>(pieces: &mut [Piece<R>; 2], whole: 
 
 /// The sector about the zenith that contains the azimuth of a direction, as far as it has been searched for.
 pub(in crate::light) struct Search<R> {
-    pub(in crate::light) found: Found<R>,
+    pub(in crate::light) found: FoundSector<R>,
     /// area of all sectors so far
     sum: R,
     /// angle from the azimuth of the direction to the sector
@@ -198,7 +198,7 @@ pub(in crate::light) struct Search<R> {
 impl<R: Real> Default for Search<R> {
     #[inline(always)]
     fn default() -> Self {
-        let none = Found::new(Sector::default(), R::lit(0.0), R::Mask::splat(false));
+        let none = FoundSector::new(Sector::default(), R::lit(0.0), R::Mask::splat(false));
         Self { found: none, sum: R::lit(0.0), miss: R::lit(8.0) }
     }
 }
@@ -212,8 +212,8 @@ impl<R: Real> Search<R> {
                 let miss = sector.miss(normal, w);
                 // a direction on the border belongs to the sector before
                 let here = some & (miss + border()).lt(self.miss);
-                let found = Found::new(*sector, self.sum, R::Mask::splat(i == 1));
-                self.found = Found::blend(here, found, self.found);
+                let found = FoundSector::new(*sector, self.sum, R::Mask::splat(i == 1));
+                self.found = FoundSector::blend(here, found, self.found);
                 self.miss = R::blend(here, miss, self.miss);
             }
             self.sum += sector.area;

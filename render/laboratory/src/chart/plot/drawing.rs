@@ -47,7 +47,7 @@ pub fn dash(n: usize) -> &'static str {
 }
 
 /// A place in a drawing, from its upper left corner to the right and down.
-pub(super) type Place = [f64; 2];
+pub(super) type DrawingPoint = [f64; 2];
 
 /// Colour, width and dashes of a line.
 #[derive(Clone, Copy, Debug)]
@@ -65,14 +65,14 @@ pub(super) enum Anchor {
     End,
 }
 
-fn points(places: &[Place]) -> String {
+fn points(places: &[DrawingPoint]) -> String {
     let list: Vec<String> = places.iter().map(|[x, y]| format!("{x:.1},{y:.1}")).collect();
     list.join(" ")
 }
 
 impl Layer {
     /// Joins places by lines.
-    pub(super) fn line(&mut self, places: &[Place], Stroke(color, width, dash): Stroke<'_>) {
+    pub(super) fn line(&mut self, places: &[DrawingPoint], Stroke(color, width, dash): Stroke<'_>) {
         let dash = if dash == "none" { String::new() } else { format!(" stroke-dasharray=\"{dash}\"") };
         let points = points(places);
         let _ = writeln!(
@@ -81,11 +81,11 @@ impl Layer {
         );
     }
     /// A polygon.
-    pub(super) fn polygon(&mut self, places: &[Place], fill: &str, edge: &str) {
+    pub(super) fn polygon(&mut self, places: &[DrawingPoint], fill: &str, edge: &str) {
         let _ = writeln!(self.0, "<polygon points=\"{}\" fill=\"{fill}\" stroke=\"{edge}\"/>", points(places));
     }
     /// A line of text, whose base line is at y.
-    pub(super) fn text(&mut self, [x, y]: Place, anchor: Anchor, size: f64, color: &str, text: &str) {
+    pub(super) fn text(&mut self, [x, y]: DrawingPoint, anchor: Anchor, size: f64, color: &str, text: &str) {
         let anchor = ["start", "middle", "end"][anchor as usize];
         let text = escape(text);
         let _ = writeln!(

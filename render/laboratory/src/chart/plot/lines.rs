@@ -2,7 +2,7 @@
 
 use super::axis::{Axis, Bar, Scale};
 use super::drawing::{
-    Anchor, Drawing, GRID, GUIDE, HEIGHT, INK, Layer, PALE, Part, Place, ROW, Stroke, TEXT, WIDTH, color, dash,
+    Anchor, Drawing, DrawingPoint, GRID, GUIDE, HEIGHT, INK, Layer, PALE, Part, ROW, Stroke, TEXT, WIDTH, color, dash,
 };
 use super::text::short;
 
@@ -55,7 +55,7 @@ pub struct Chart {
 const MARKERS: usize = 7;
 
 /// Corners of the n-th marker around a place.
-fn marker(n: usize, [x, y]: Place) -> Vec<Place> {
+fn marker(n: usize, [x, y]: DrawingPoint) -> Vec<DrawingPoint> {
     // number of corners, turn of the first one in parts of a circle, and size
     let (count, turn, size): (usize, f64, f64) = match n % MARKERS {
         0 => (24, 0.0, 1.0),

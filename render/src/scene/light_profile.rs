@@ -1,6 +1,6 @@
 //! Flat lights whose intensity differs by direction.
 
-use crate::intensity::{Intensity, integral};
+use super::intensity::{Intensity, integral};
 use crate::packet::{V8, X8};
 use etendue::{Real, Vec3};
 use std::f64::consts::PI;
@@ -26,8 +26,8 @@ const LEAST_COS: f64 = 0.087_155_742_747_658_17;
 ///
 /// ```
 /// use etendue::{Vec3, f32x8};
-/// use etendue_render::intensity::{Intensity, Profile};
-/// use etendue_render::light_profile::LuminousOpening;
+/// use etendue_render::scene::intensity::{Intensity, Profile};
+/// use etendue_render::scene::light_profile::LuminousOpening;
 /// // a downlight: 100 on the axis, dark from 60° on
 /// let lamp = Intensity::Angles(Profile::new(vec![0.0, 60.0], vec![0.0], vec![100.0, 0.0])?);
 /// let opening = LuminousOpening::new([0.0, 0.0, 1.0], false, &lamp).unwrap();
@@ -35,7 +35,7 @@ const LEAST_COS: f64 = 0.087_155_742_747_658_17;
 /// let radiance = f32x8::splat(lamp.flux() as f32 / std::f32::consts::PI);
 /// let on_axis = lamp.at(Vec3::lit([0.0, 0.0, 1.0]));
 /// assert!(((radiance * opening.factor(f32x8::splat(1.0), on_axis)).to_array()[0] - 100.0).abs() < 0.01);
-/// # Ok::<(), etendue_render::intensity::ProfileError>(())
+/// # Ok::<(), etendue_render::scene::intensity::ProfileError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LuminousOpening {

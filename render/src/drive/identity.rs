@@ -1,9 +1,9 @@
 //! What an image depends on: its parts are recognised by it, and images that may be averaged.
 
-use crate::area::Place;
-use crate::limits::{MOST_SAMPLES, is_size};
+use crate::film::sensor::{Exposure, Sensor};
 use crate::scene::Scene;
-use crate::sensor::{Exposure, Sensor};
+use crate::scene::area::PlaceInImage;
+use crate::scene::limits::{MOST_SAMPLES, is_size};
 use crate::settings::Settings;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
@@ -24,7 +24,7 @@ pub struct Identity {
     /// What is measured.
     pub sensor: Sensor,
     /// Where the image is in the whole one, if it is only a part.
-    pub place: Option<Place>,
+    pub place: Option<PlaceInImage>,
     /// The value of unit radiance at the middle of the image, in the unit of the sensor: the PNG is exposed by it.
     #[serde(with = "exact")]
     pub exposure: f64,
@@ -97,8 +97,8 @@ impl Identity {
         std::iter::once(self.settings.seed).chain(self.averaged.iter().copied())
     }
     /// Where the image is in the whole one, also if it is that.
-    pub fn window(&self) -> Place {
-        self.place.unwrap_or(Place { start: [0; 2], whole: [self.settings.width, self.settings.height] })
+    pub fn window(&self) -> PlaceInImage {
+        self.place.unwrap_or(PlaceInImage { start: [0; 2], whole: [self.settings.width, self.settings.height] })
     }
 
     /// Reads an identity from a JSON object.
@@ -110,7 +110,7 @@ impl Identity {
         // averages have any number of samples
         let Settings { width, height, spp, .. } = identity.settings;
         Settings { spp: spp.min(MOST_SAMPLES), ..identity.settings }.check()?;
-        let Place { start: [x, y], whole: [across, down] } = identity.window();
+        let PlaceInImage { start: [x, y], whole: [across, down] } = identity.window();
         let fits = |start: u32, side: u32, whole: u32| start.checked_add(side).is_some_and(|end| end <= whole);
         if !is_size(across.into(), down.into()) || !fits(x, width, across) || !fits(y, height, down) {
             return Err(format!("no image of {across} × {down} pixels has {width} × {height} at {x}, {y}"));

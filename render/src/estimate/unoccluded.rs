@@ -1,44 +1,8 @@
-//! The rays of a group, and the memory to trace them.
+//! Shadow rays of a group, and what they bring.
 
-use super::points::keep;
-use crate::bvh::{Bvh, GROUP, NOTHING, Rays, Scratch};
-use crate::packet::{M8, V8, X8};
+use crate::bvh::{Bvh, GROUP, NOTHING, Tracer};
+use crate::packet::{M8, V8, X8, keep};
 use etendue::{Mask, Real, u32x8};
-use std::ops::AddAssign;
-
-/// Numbers of rays traced for an image.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct RayCount {
-    /// Rays from the camera.
-    pub camera: u64,
-    /// Rays reflected by mirrors.
-    pub mirror: u64,
-    /// Rays towards a light, or over the hemisphere to find one.
-    pub shadow: u64,
-    /// Rays through the corners of pixels, which find the lights that matter there.
-    pub corner: u64,
-}
-
-impl AddAssign for RayCount {
-    fn add_assign(&mut self, other: Self) {
-        self.camera += other.camera;
-        self.mirror += other.mirror;
-        self.shadow += other.shadow;
-        self.corner += other.corner;
-    }
-}
-
-/// The rays of a group of packets, and the memory to trace them.
-#[derive(Default)]
-pub(crate) struct Tracer {
-    /// Camera rays, then those that mirrors reflect.
-    pub(crate) camera: Box<[Rays; GROUP]>,
-    /// Rays from the shading points.
-    pub(crate) shadow: Box<[Rays; GROUP]>,
-    pub(crate) scratch: Scratch,
-    /// Rays traced so far.
-    pub(crate) count: RayCount,
-}
 
 /// What shadow rays of a group bring, if nothing occludes them.
 pub(super) struct Unoccluded {

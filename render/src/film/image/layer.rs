@@ -3,8 +3,8 @@
 //! Each file has a checksum for every sixteen rows, which are read and compressed together.
 
 use super::size::check_size;
-use crate::area::Area;
-use crate::files::{FileError, failed};
+use crate::film::files::{FileError, failed};
+use crate::scene::area::Area;
 use exr::block::UncompressedBlock;
 use exr::block::lines::LineIndex;
 use exr::math::Vec2;
@@ -145,7 +145,7 @@ impl LayerFile<BufReader<File>> {
     /// Fails if the file cannot be read, or is not one that [`encode`] made.
     pub fn open(path: &Path) -> Result<Self, FileError> {
         let cannot = |error| failed(path, format!("cannot read: {error}"));
-        let file = crate::files::open_file(path).map_err(cannot)?;
+        let file = crate::film::files::open_file(path).map_err(cannot)?;
         let length = file.metadata().map_err(cannot)?.len();
         Self::new(path, BufReader::new(file), length)
     }

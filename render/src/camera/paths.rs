@@ -3,12 +3,12 @@
 //! Mirrors occlude shadow rays. (Rays between mirrors keep their lanes: compacted into fewer packets they took as long in the mirror room,
 //! 1.00 ± 0.03, and 1.04 times as long among three thousand balls.)
 
-use crate::bsdf::Metal;
-use crate::bvh::{GROUP, Hits};
-use crate::estimate::{Points, Tracer, keep, product};
-use crate::packet::{M8, V8, X8, pick};
-use crate::prepared::PreparedScene;
+use super::points::Points;
+use super::prepared::PreparedScene;
+use crate::bvh::{GROUP, Hits, Tracer};
+use crate::packet::{M8, V8, X8, keep, pick, product};
 use crate::surfaces::Surface;
+use crate::surfaces::bsdf::Metal;
 use etendue::{Mask, Real};
 
 /// The paths of a group of packets from the camera to the shading points.

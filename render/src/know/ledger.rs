@@ -1,9 +1,33 @@
 //! What is known of the lights of a group of shading points before any is sampled: plain data, which `know` writes and estimators read.
 
-use crate::allocation::FEW;
 use crate::bvh::GROUP;
-use crate::packet::{M8, X8};
+use crate::camera::{Group, Points};
+use crate::choose::allocation::FEW;
+use crate::packet::{M8, V8, X8};
 use etendue::{Mask, Real, u32x8};
+
+/// What can be known of lights before any is sampled.
+pub(crate) trait Know {
+    /// Prepares for the samples of a tile, by its first pixel.
+    fn begin(&mut self, origin: [u32; 2]);
+    /// Looks at some points of the tile, each of them seen in a pixel of its own, and decides what is worth asking for.
+    fn look_ahead(&mut self, points: &Points, pixels: &[[[u32; 2]; 8]; GROUP]) -> Outlook;
+    /// Writes what is known of the lights of a group, and adds the light that follows from it.
+    fn know(&mut self, group: &Group<'_>, ledger: &mut Ledger, reflected: &mut [V8; GROUP]);
+    /// Sets the lanes of a packet of shading points, each of them seen in one of these pixels, in which each light is open.
+    fn open_at(&mut self, points: &Points, packet: usize, pixels: &[[u32; 2]; 8], open: &mut [M8]);
+    /// A bound of the error of what is known without samples at the first shading point.
+    fn error_bound(&mut self, points: &Points) -> V8;
+}
+
+/// What is foreseen of a tile.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Outlook {
+    /// Whether lights of this tile may be known without samples.
+    pub(crate) some: bool,
+    /// Whether all lights were known at all points that were looked at.
+    pub(crate) all: bool,
+}
 
 /// What is known of each light at the points of a group, for each packet and lane.
 ///

@@ -2,8 +2,8 @@
 
 mod fresnel;
 
-use crate::coat::{Coat, POLE, TERMS, range};
-use crate::lobe::{Lobe, cosine_of_schlick, schlick_of_diffuse};
+use super::coat::{Coat, POLE, TERMS, range};
+use super::lobe::{Lobe, cosine_of_schlick, schlick_of_diffuse};
 use crate::packet::{M8, V8, X8, equal, max, min, select};
 use crate::scene::{Material, Roughness};
 use crate::technique::Technique;

@@ -5,13 +5,14 @@
 //! never on the samples. The number of samples of a pass, and the decision to stop, depend on the time, or on the error of the whole
 //! image so far; to that a pixel contributes no more than its share in the sum over all pixels.
 
-use crate::area::{self, Area};
-use crate::claim::{Claim, Foreseen, why_unknown};
-use crate::drive::{Content, Samples, World};
-use crate::estimate::RayCount;
+use super::view::{Content, Samples};
+use super::world::World;
+use crate::bvh::RayCount;
+use crate::film::claim::{Claim, Foreseen, why_unknown};
 use crate::film::{Film, Pixel};
-use crate::limits::MOST_SAMPLES;
 use crate::sampler::{Sampler, default_sampler, hash64, reports_variance};
+use crate::scene::area::{self, Area};
+use crate::scene::limits::MOST_SAMPLES;
 use crate::settings::Settings;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;

@@ -1,39 +1,15 @@
-//! What an estimator is given, and what it returns.
+//! Groups of shading points, of which lights are known and at which they are sampled.
 
 use super::points::Points;
-use crate::allocation::Allocated;
-use crate::bsdf::Bsdf;
+use super::prepared::PreparedScene;
 use crate::bvh::GROUP;
 use crate::choose::Chooser;
-use crate::ledger::Ledger;
+use crate::choose::allocation::Allocated;
 use crate::lights::Lights;
 use crate::packet::{M8, V8, X8};
-use crate::prepared::PreparedScene;
 use crate::surfaces::Surface;
+use crate::surfaces::bsdf::Bsdf;
 use etendue::{Mask, Vec2};
-
-/// What can be known of lights before any is sampled.
-pub(crate) trait Know {
-    /// Prepares for the samples of a tile, by its first pixel.
-    fn begin(&mut self, origin: [u32; 2]);
-    /// Looks at some points of the tile, each of them seen in a pixel of its own, and decides what is worth asking for.
-    fn look_ahead(&mut self, points: &Points, pixels: &[[[u32; 2]; 8]; GROUP]) -> Outlook;
-    /// Writes what is known of the lights of a group, and adds the light that follows from it.
-    fn know(&mut self, group: &Group<'_>, ledger: &mut Ledger, reflected: &mut [V8; GROUP]);
-    /// Sets the lanes of a packet of shading points, each of them seen in one of these pixels, in which each light is open.
-    fn open_at(&mut self, points: &Points, packet: usize, pixels: &[[u32; 2]; 8], open: &mut [M8]);
-    /// A bound of the error of what is known without samples at the first shading point.
-    fn error_bound(&mut self, points: &Points) -> V8;
-}
-
-/// What is foreseen of a tile.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Outlook {
-    /// Whether lights of this tile may be known without samples.
-    pub(crate) some: bool,
-    /// Whether all lights were known at all points that were looked at.
-    pub(crate) all: bool,
-}
 
 /// Random numbers of each packet of a group.
 pub(crate) struct Numbers {
@@ -68,7 +44,7 @@ impl Group<'_> {
     }
     /// The BSDFs of a packet.
     #[inline(always)]
-    pub(super) fn bsdf<const GENERAL: bool>(&self, packet: usize) -> Bsdf<GENERAL> {
+    pub(crate) fn bsdf<const GENERAL: bool>(&self, packet: usize) -> Bsdf<GENERAL> {
         let Surface { normal, albedo, .. } = self.points.surfaces[packet];
         if GENERAL {
             let end = &self.points.ends[packet];
@@ -79,12 +55,12 @@ impl Group<'_> {
     }
     /// The fits of f cosθ of rough surfaces, for the unit directions `w` with the cosine `cos` to the normal.
     #[inline]
-    pub(super) fn fit(&self, packet: usize, w: V8, cos: X8) -> V8 {
+    pub(crate) fn fit(&self, packet: usize, w: V8, cos: X8) -> V8 {
         self.points.lobes[packet].as_ref().map_or(V8::default(), |lobe| lobe.evaluate(w, cos))
     }
     /// Lanes of rough metals and of coats.
     #[inline(always)]
-    pub(super) fn rough<const GENERAL: bool>(&self, packet: usize) -> M8 {
+    pub(crate) fn rough<const GENERAL: bool>(&self, packet: usize) -> M8 {
         if GENERAL { self.points.ends[packet].rough() } else { M8::splat(false) }
     }
 }

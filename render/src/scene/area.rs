@@ -9,7 +9,7 @@ pub const TILE: u32 = 16;
 /// Where an image is in a larger one, of which it is a part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "exr", derive(serde::Serialize, serde::Deserialize))]
-pub struct Place {
+pub struct PlaceInImage {
     /// The column and row of its first pixel.
     pub start: [u32; 2],
     /// Columns and rows of the whole image.

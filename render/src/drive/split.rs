@@ -1,6 +1,6 @@
 //! Splits an image into areas of tiles of about equal size.
 
-use crate::area::Area;
+use crate::scene::area::Area;
 use crate::settings::Settings;
 
 /// Splits an image into at most `count` areas of whole tiles, as square as possible.
@@ -46,7 +46,7 @@ mod tests {
                 let areas = areas(&settings, count);
                 assert!(!areas.is_empty() && areas.len() <= count as usize, "{width}x{height}: {count}");
                 assert!(areas.iter().all(|area| settings.is_of_tiles(*area)), "{width}x{height}: {count}");
-                let mut pixels = vec![0_u8; crate::area::count(settings.whole())];
+                let mut pixels = vec![0_u8; crate::scene::area::count(settings.whole())];
                 for area in areas {
                     for (x, y) in (area[1]..area[3]).flat_map(|y| (area[0]..area[2]).map(move |x| (x, y))) {
                         pixels[(y * width + x) as usize] += 1;

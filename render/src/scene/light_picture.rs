@@ -3,10 +3,10 @@
 mod mean;
 mod repeats;
 
+use super::limits::MOST_RADIANCE;
+use super::texture::{Mapping, Picture, Wrap};
 use crate::geometry::{Chart, Geometry};
-use crate::limits::MOST_RADIANCE;
 use crate::packet::{M8, V8, X8, each_bit};
-use crate::texture::{Mapping, Picture, Wrap};
 use etendue::{Mask, Real, Vec2};
 use repeats::Pyramid;
 use std::f32::consts::{FRAC_1_PI, PI};

@@ -1,7 +1,7 @@
 //! How large an image in a file can be.
 
-use crate::files::{FileError, failed};
-use crate::limits::MOST_PIXELS;
+use crate::film::files::{FileError, failed};
+use crate::scene::limits::MOST_PIXELS;
 use std::path::Path;
 
 /// Greatest plausible ratio of decoded to encoded bytes: deflate, the densest compression in use, reaches 1,032.

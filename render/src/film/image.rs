@@ -6,8 +6,8 @@ mod size;
 pub use exr::prelude::Compression;
 pub use size::check_size;
 
-use crate::files::{FileError, failed, replace};
-use crate::film::{Film, Pixel};
+use super::files::{FileError, failed, replace};
+use super::pixels::{Film, Pixel};
 use exr::block::chunk::CompressedBlock;
 use exr::meta::attribute::IntegerBounds;
 use exr::prelude::{ReadChannels, ReadLayers};
@@ -99,7 +99,7 @@ impl From<&Film> for Picture {
 /// # Errors
 /// Fails if the file is missing or damaged, has neither R, G, B nor Y nor a single channel, or has more than 2²⁸ pixels.
 pub fn read_exr(path: &Path) -> Result<Picture, FileError> {
-    let bytes = crate::files::read_file(path).map_err(|error| failed(path, format!("cannot read: {error}")))?;
+    let bytes = crate::film::files::read_file(path).map_err(|error| failed(path, format!("cannot read: {error}")))?;
     decode_exr(&bytes, path)
 }
 

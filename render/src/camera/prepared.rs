@@ -3,8 +3,8 @@
 use crate::bvh::BuildError;
 use crate::choose::{ChoiceBy, Chooser, Choosers};
 use crate::lights::Lights;
+use crate::lights::sky::Sky;
 use crate::scene::Scene;
-use crate::sky::Sky;
 use crate::surfaces::Surfaces;
 use crate::technique::Technique;
 use std::sync::Arc;

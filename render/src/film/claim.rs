@@ -9,7 +9,7 @@
 //! that all samples miss, or a glint of a rough metal. Where one pixel has most of the error, an image claims its root mean square over
 //! many images and calls it uncertain, since the error of that pixel itself scatters.
 
-use crate::film::Film;
+use super::pixels::Film;
 
 /// What few samples meet, although the camera sees it: lights smaller than a pixel. A sample that meets one is worth its radiance, so the
 /// variance that they cause is known in advance, also while no sample has met one.

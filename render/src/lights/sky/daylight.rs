@@ -38,7 +38,7 @@ const TYPES: [[usize; 2]; 15] = [
 ///
 /// ```
 /// use etendue::Vec3;
-/// use etendue_render::sky::GeneralSky;
+/// use etendue_render::lights::sky::GeneralSky;
 /// let sky = GeneralSky::new(12, [0.6, 0.0, 0.8]).unwrap();
 /// assert!((sky.luminance(Vec3::new(0.0_f32, 0.0, 1.0)) - 1.0).abs() < 1e-6);
 /// assert!(sky.luminance(Vec3::new(0.6_f32, 0.0, 0.8)) > 3.0); // about the sun

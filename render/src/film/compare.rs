@@ -1,7 +1,7 @@
 //! The difference of two images, and whether their variance accounts for it.
 
-use crate::area;
-use crate::image::Picture;
+use super::image::Picture;
+use crate::scene::area;
 use serde_json::{Value, json};
 
 /// The difference image − reference.

@@ -1,7 +1,7 @@
 //! Means of interpolated pictures over shapes.
 
 use super::repeats::Rows;
-use crate::texture::{Picture, Wrap};
+use crate::scene::texture::{Picture, Wrap};
 use std::f64::consts::PI;
 use std::ops::RangeInclusive;
 
@@ -187,7 +187,7 @@ pub(super) fn over_sphere(picture: &Picture) -> [f64; 3] {
 mod tests {
     use super::*;
     use crate::sampler::hash64;
-    use crate::texture::{Colors, Mapping, Texels};
+    use crate::scene::texture::{Colors, Mapping, Texels};
     use std::sync::Arc;
 
     /// Numbers in [0, 1) by index.

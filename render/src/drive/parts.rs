@@ -7,16 +7,18 @@
 //! `kind` what the piece holds, and `checksums` are those of sixteen rows each. Numbers of double precision are two integer channels, of the
 //! upper and the lower half of the bits.
 
-use crate::area;
-use crate::area::{Area, Place};
-use crate::drive::{APART, Content, PixelCounts, Statistics};
-use crate::files::{FileError, failed, make_folder, replace};
-use crate::film::Pixel;
-use crate::identity::Identity;
-use crate::image;
-use crate::image::Compression;
-use crate::image::layer::{self, Layer, LayerFile, Numbers};
+use super::identity::Identity;
+use super::light_weights::APART;
+use super::pixel_counts::PixelCounts;
+use super::pixel_statistics::Statistics;
+use super::view::Content;
+use crate::film::files::{FileError, failed, make_folder, replace};
+use crate::film::image::Compression;
+use crate::film::image::layer::{self, Layer, LayerFile, Numbers};
+use crate::film::{Pixel, image};
 use crate::sampler::Sampler;
+use crate::scene::area;
+use crate::scene::area::{Area, PlaceInImage};
 use crate::settings::Settings;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
@@ -130,9 +132,9 @@ fn to_planes(identity: &Identity, content: Content) -> Vec<(String, Numbers)> {
 }
 
 /// The planes of a layer, to be taken by name.
-struct Found(HashMap<String, Numbers>);
+struct LayerPlanes(HashMap<String, Numbers>);
 
-impl Found {
+impl LayerPlanes {
     fn f32(&mut self, name: &str) -> Option<Vec<f32>> {
         if let Numbers::F32(values) = self.0.remove(name)? { Some(values) } else { None }
     }
@@ -185,7 +187,7 @@ impl Found {
 fn from_planes(identity: &Identity, kind: PieceKind, area: Area, planes: Vec<(String, Numbers)>) -> Option<Content> {
     let count = area::count(area);
     let sets = identity.sets() as usize;
-    let mut found = Found(planes.into_iter().collect());
+    let mut found = LayerPlanes(planes.into_iter().collect());
     Some(match kind {
         PieceKind::Pixels => {
             let [r, g, b] = RGB.map(|channel| found.f32(channel));
@@ -198,9 +200,9 @@ fn from_planes(identity: &Identity, kind: PieceKind, area: Area, planes: Vec<(St
             let lights = lights as usize;
             let (sums, variance, part) = (found.sums(sets, count)?, found.f64("variance")?, found.f32("part")?);
             let packets = found.packets(sets)?;
-            let spread = found.lights("spread", lights, count, Found::f32)?;
-            let pairs = found.lights("pairs", lights, count, Found::u32)?;
-            let taken = found.lights("taken", lights, count, Found::u32)?;
+            let spread = found.lights("spread", lights, count, LayerPlanes::f32)?;
+            let pairs = found.lights("pairs", lights, count, LayerPlanes::u32)?;
+            let taken = found.lights("taken", lights, count, LayerPlanes::u32)?;
             let pixel = |i: usize| Statistics {
                 sums: sums[i],
                 packets: packets[i],
@@ -215,7 +217,7 @@ fn from_planes(identity: &Identity, kind: PieceKind, area: Area, planes: Vec<(St
         }
         PieceKind::Counts(lights) => {
             let lights = lights as usize;
-            let weights = found.lights("weight", lights, count, Found::f32)?;
+            let weights = found.lights("weight", lights, count, LayerPlanes::f32)?;
             let packets = found.packets(sets)?;
             Content::Counts(PixelCounts {
                 area,
@@ -224,7 +226,7 @@ fn from_planes(identity: &Identity, kind: PieceKind, area: Area, planes: Vec<(St
                 weights: weights.iter().flat_map(|weights| weights[..lights].iter().copied()).collect(),
                 squares: found.f32("squares")?,
                 expected: found.f64("expected")?.first().copied().unwrap_or(0.0),
-                begun: found.lights("taken", lights, count, Found::u32)?,
+                begun: found.lights("taken", lights, count, LayerPlanes::u32)?,
                 sums: found.sums(sets, count)?,
             })
         }
@@ -236,7 +238,7 @@ fn from_planes(identity: &Identity, kind: PieceKind, area: Area, planes: Vec<(St
 /// # Errors
 /// Fails if the piece does not have the numbers that its area needs.
 pub fn encode(identity: &Identity, piece: Piece, compression: Compression) -> Result<Vec<u8>, String> {
-    let Place { start: [x, y], whole } = identity.window();
+    let PlaceInImage { start: [x, y], whole } = identity.window();
     let text = json!({ "identity": identity, "kind": piece.kind() });
     let [x0, y0, x1, y1] = piece.area;
     let layer = Layer { area: [x + x0, y + y0, x + x1, y + y1], planes: to_planes(identity, piece.content) };

@@ -51,12 +51,12 @@ const GAUSS: [[f64; 2]; 4] = [
 ///
 /// ```
 /// use etendue::{Vec3, f32x8};
-/// use etendue_render::intensity::Profile;
+/// use etendue_render::scene::intensity::Profile;
 /// // a downlight: 100 on the axis, dark from 60° on
 /// let lamp = Profile::new(vec![0.0, 60.0], vec![0.0], vec![100.0, 0.0])?;
 /// let half = lamp.intensity(Vec3::lit([0.5, 0.0, 0.75_f64.sqrt()])).to_array();
 /// assert!((half[0] - 50.0).abs() < 1e-3 && lamp.cos_cone() == 0.5);
-/// # Ok::<(), etendue_render::intensity::ProfileError>(())
+/// # Ok::<(), etendue_render::scene::intensity::ProfileError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Profile {

@@ -1,18 +1,18 @@
 //! Shading points: where paths from the camera end, and what fraction of the light there reaches the camera.
 
-use crate::bsdf::Metal;
 use crate::bvh::GROUP;
-use crate::lobe::Lobe;
 use crate::packet::{M8, V8};
 use crate::surfaces::Surface;
-use etendue::{Mask, Real, u32x8};
+use crate::surfaces::bsdf::Metal;
+use crate::surfaces::lobe::Lobe;
+use etendue::{Mask, u32x8};
 
 /// The shading points of a group of packets.
 #[derive(Clone)]
 pub(crate) struct Points {
     /// The surfaces as they are lit.
     pub(crate) surfaces: [Surface; GROUP],
-    pub(crate) places: [Place; GROUP],
+    pub(crate) places: [PointIdentity; GROUP],
     /// What else is known of surfaces that are not flat and diffuse.
     pub(crate) ends: [End; GROUP],
     /// The fits of rough surfaces, where they have been [noted](Self::note_lobes).
@@ -21,7 +21,7 @@ pub(crate) struct Points {
 
 /// The places of a packet of shading points.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Place {
+pub(crate) struct PointIdentity {
     /// As in hits.
     pub(crate) primitives: u32x8,
     /// Lanes that the camera sees directly.
@@ -52,8 +52,13 @@ impl Points {
     /// Before any ray has hit.
     pub(crate) fn new() -> Self {
         let none = M8::splat(false);
-        let place =
-            Place { primitives: u32x8::splat(0), direct: M8::splat(true), pixel: None, fitted: none, unfitted: none };
+        let place = PointIdentity {
+            primitives: u32x8::splat(0),
+            direct: M8::splat(true),
+            pixel: None,
+            fitted: none,
+            unfitted: none,
+        };
         Self {
             surfaces: [Surface::default(); GROUP],
             places: [place; GROUP],
@@ -110,16 +115,4 @@ impl End {
     pub(crate) fn rough(&self) -> M8 {
         self.metal.map_or(M8::splat(false), |metal| metal.rough())
     }
-}
-
-/// The vectors in these lanes, and 0 elsewhere.
-#[inline]
-pub(crate) fn keep(v: V8, mask: M8) -> V8 {
-    V8::new(v.x.keep(mask), v.y.keep(mask), v.z.keep(mask))
-}
-
-/// The product of each coordinate.
-#[inline]
-pub(crate) fn product(a: V8, b: V8) -> V8 {
-    V8::new(a.x * b.x, a.y * b.y, a.z * b.z)
 }

@@ -1,6 +1,6 @@
 //! Sums over pictures that are repeated often, in time that is linear in their texels.
 
-use crate::texture::{Picture, Wrap};
+use crate::scene::texture::{Picture, Wrap};
 use std::collections::HashMap;
 
 /// Cells in a block of a row.

@@ -1,11 +1,13 @@
 //! Puts the tiles of an image together, exactly and in any order, and averages images of different seeds.
 
-use crate::area::{Area, count, paste};
-use crate::drive::{Content, PixelCounts, Statistics};
-use crate::files::FileError;
+use super::identity::Identity;
+use super::parts::{Piece, PieceFile, PieceHeader, PieceKind};
+use super::pixel_counts::PixelCounts;
+use super::pixel_statistics::Statistics;
+use super::view::Content;
+use crate::film::files::FileError;
 use crate::film::{Film, Pixel};
-use crate::identity::Identity;
-use crate::parts::{Piece, PieceFile, PieceHeader, PieceKind};
+use crate::scene::area::{Area, count, paste};
 use crate::settings::Settings;
 use rayon::prelude::*;
 use std::collections::BTreeMap;

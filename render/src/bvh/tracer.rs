@@ -1,0 +1,48 @@
+//! The rays of a group, and the memory to trace them.
+
+use super::node::Stack;
+use super::rays::{GROUP, Rays};
+use super::{frustum, instances, stream};
+use std::ops::AddAssign;
+
+/// Scratch memory for traversals, to be reused.
+#[derive(Debug, Default)]
+pub struct Scratch {
+    pub(super) frustum: Stack<frustum::Pending>,
+    pub(super) stream: stream::Scratch,
+    pub(super) instances: Vec<instances::Visit>,
+}
+
+/// Numbers of rays traced for an image.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct RayCount {
+    /// Rays from the camera.
+    pub camera: u64,
+    /// Rays reflected by mirrors.
+    pub mirror: u64,
+    /// Rays towards a light, or over the hemisphere to find one.
+    pub shadow: u64,
+    /// Rays through the corners of pixels, which find the lights that matter there.
+    pub corner: u64,
+}
+
+impl AddAssign for RayCount {
+    fn add_assign(&mut self, other: Self) {
+        self.camera += other.camera;
+        self.mirror += other.mirror;
+        self.shadow += other.shadow;
+        self.corner += other.corner;
+    }
+}
+
+/// The rays of a group of packets, and the memory to trace them.
+#[derive(Default)]
+pub(crate) struct Tracer {
+    /// Camera rays, then those that mirrors reflect.
+    pub(crate) camera: Box<[Rays; GROUP]>,
+    /// Rays from the shading points.
+    pub(crate) shadow: Box<[Rays; GROUP]>,
+    pub(crate) scratch: Scratch,
+    /// Rays traced so far.
+    pub(crate) count: RayCount,
+}
