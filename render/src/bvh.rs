@@ -59,6 +59,11 @@ use triangles::{InPlace, Situated};
 /// See [`Bvh::reach_of_points`].
 const MOST_REACH: f32 = (1 << 20) as f32;
 
+/// Where shapes are farther apart than this part of the [reach](Bvh::reach) of a scene, segments that end on one are looked for up to this part
+/// of their length: the rest is nearer to that shape, and they spare the leaf that it is in.
+const GAP: f32 = 1.0 / 16_384.0;
+const BEFORE_SHAPES: f64 = 1.0 - 1.0 / 131_072.0;
+
 /// Everything rays can hit: mesh triangles in a tree, and shapes that are intersected as such.
 #[derive(Debug)]
 pub struct Bvh {
@@ -195,7 +200,17 @@ impl Bvh {
         let own = |(&a, hits): (&M8, &Hits)| !(a & !equal(hits.place, u32x8::splat(only))).any();
         let none = ANY && only != NOTHING && active.iter().zip(&*hits).all(own);
         if !none {
-            self.trace_shapes::<ANY>(rays, active, frustum.as_ref(), hits, scratch);
+            if ANY && self.shapes.gap() > GAP * self.reach {
+                let mut near = [Hits::none(X8::lit(0.0)); GROUP];
+                for (near, &hits) in near.iter_mut().zip(&*hits) {
+                    let none = equal(hits.place, u32x8::splat(NOTHING));
+                    let distance = select(none, hits.distance, hits.distance * X8::lit(BEFORE_SHAPES));
+                    *near = Hits { distance, ..hits };
+                }
+                self.trace_shapes::<ANY>(rays, active, frustum.as_ref(), &mut near[..rays.len()], scratch);
+            } else {
+                self.trace_shapes::<ANY>(rays, active, frustum.as_ref(), hits, scratch);
+            }
             if ANY && !any(active) {
                 return;
             }

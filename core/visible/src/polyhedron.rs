@@ -25,6 +25,7 @@ pub struct Polyhedron {
     pub(crate) faces: Vec<[V64; 2]>,
     /// At most 12 of them may lie on the outlines from the points of a packet.
     pub(crate) edges: Vec<Edge>,
+    /// Each once.
     pub(crate) corners: Vec<V64>,
     /// Unit normal and n·x of the plane of each face; the polyhedron has n·x below it.
     pub(crate) planes: Vec<(V64, f64)>,
@@ -72,9 +73,11 @@ impl Polyhedron {
         center: V64,
         faces: Vec<[V64; 2]>,
         edges: Vec<Edge>,
-        corners: Vec<V64>,
+        mut corners: Vec<V64>,
         planes: Vec<(V64, f64)>,
     ) -> Self {
+        corners.sort_unstable_by_key(|&corner| bits(corner));
+        corners.dedup();
         let deviation = deviation(&corners, &planes, &edges);
         let extent = corners.iter().map(|&p| (p - center).length()).fold(0.0, f64::max);
         Self { center, faces, edges, corners, planes, extent, deviation }

@@ -14,6 +14,9 @@ use std::sync::Arc;
 /// A packet tests one shape after another, each in about the time of a node.
 const COSTS: Costs = Costs { most: 4, leaf: 0.0, primitive: 1.0 };
 
+/// Of more shapes, it is not asked how far apart they are.
+const MOST_APART: usize = 1024;
+
 /// From which sides of a shape light comes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LitSides {
@@ -57,6 +60,7 @@ pub struct ShapeSet {
     reach: f32,
     /// The least greatest coordinate of a shape.
     least: f32,
+    gap: f32,
 }
 
 impl Hittables {
@@ -109,6 +113,7 @@ impl ShapeSet {
         let farthest = |bounds: &Bounds| bounds.iter().flatten().fold(0.0_f32, |m, x| m.max(x.abs()));
         let reach = boxes.iter().map(farthest).fold(0.0, f32::max);
         let least = boxes.iter().map(farthest).fold(f32::INFINITY, f32::min);
+        let gap = gap_between(&boxes);
         let tree = Tree::build(
             boxes,
             COSTS,
@@ -122,7 +127,7 @@ impl ShapeSet {
                 Hittables { hittables, indices, lit: ids.iter().map(|&id| all[id as usize].1).collect(), ids, reached }
             },
         )?;
-        Ok(Self { tree, reach, least })
+        Ok(Self { tree, reach, least, gap })
     }
     /// Greatest magnitude of a coordinate.
     pub fn reach(&self) -> f32 {
@@ -132,6 +137,10 @@ impl ShapeSet {
     pub(super) fn least(&self) -> f32 {
         self.least
     }
+    /// No two shapes are nearer to each other along all axes; infinite if there is one.
+    pub(super) fn gap(&self) -> f32 {
+        self.gap
+    }
     pub(super) fn tree(&self) -> &Tree<Hittables> {
         &self.tree
     }
@@ -139,6 +148,18 @@ impl ShapeSet {
     pub(super) fn reached(&self) -> &Reached {
         &self.tree.primitives().reached
     }
+}
+
+/// The least distance between two boxes, along the axis on which they are farthest apart; 0 if there are too many to tell.
+fn gap_between(boxes: &[Bounds]) -> f32 {
+    if boxes.len() > MOST_APART {
+        return 0.0;
+    }
+    let between = |[a, b]: &Bounds, [c, d]: &Bounds| {
+        (0..3).map(|k| (c[k] - b[k]).max(a[k] - d[k])).fold(f32::NEG_INFINITY, f32::max)
+    };
+    let pairs = boxes.iter().enumerate().flat_map(|(i, a)| boxes[..i].iter().map(move |b| between(a, b)));
+    pairs.fold(f32::INFINITY, f32::min)
 }
 
 impl Primitives for Hittables {

@@ -124,14 +124,15 @@ impl<R: Real> Planes<R> {
         (self.cap, self.count, self.lanes) = (None, 0, R::Mask::splat(true));
         self.outline.start(Vec3::default(), &[], self.lanes);
         let mut before = self.lanes;
+        for &corner in &body.corners {
+            before = before & normal.dot(rounded(corner) - point).ge(least);
+        }
         for Edge { ends, faces: [i, j] } in &body.edges {
-            let [from, to] = ends.map(rounded);
-            let edge = to - from;
-            let (from, to) = (from - point, to - point);
-            before = before & normal.dot(from).ge(least) & normal.dot(to).ge(least);
             let (Some(&i), Some(&j)) = (away.get(*i), away.get(*j)) else { return Err(TooMany) };
             let outer = i ^ j;
             if outer.any() {
+                let [from, to] = ends.map(rounded);
+                let (edge, from) = (to - from, from - point);
                 // not by both ends, whose rounding can exceed the length of the edge
                 let unit = edge.max_abs().pow2_scale();
                 let plane = (from * scale).cross(edge * unit);
