@@ -23,10 +23,10 @@ use defects::Case;
 use draft::{Draft, Form};
 use etendue_oracle::tier::cases;
 use etendue_oracle::{along, direct};
-use etendue_render::scene::{Geometry, Parallelogram, Sphere};
+use etendue_render::scene::{Geometry, Parallelogram, Scene, Sphere};
 use judge::{Effort, Trial};
 use rayon::prelude::*;
-use regimes::{REGIMES, named};
+use regimes::{REGIMES, Regime, named};
 use shrink::shrink;
 
 fn attack(count: u64) {
@@ -129,23 +129,18 @@ fn the_mean_of_1000_images_of_a_speck_is_right() {
 }
 
 /// What 24 images of each scene claim with 16, 64 and 256 samples per pixel, all together, and how the table of that reads.
-fn claims_table(scenes: usize) {
-    let numbers = [16, 64, 256];
-    let all: Vec<_> = (0..scenes).map(|i| (&REGIMES[i % REGIMES.len()], (i / REGIMES.len()) as u64)).collect();
-    let rows: Vec<_> = all
-        .par_iter()
-        .map(|(regime, seed)| claims::rows(&judge::read(&regime.draft(*seed)).unwrap(), 32, numbers, 24))
-        .collect();
+fn claims_table(all: &[(String, Scene)], side: u32) {
+    let rows: Vec<_> = all.par_iter().map(|(_, scene)| claims::rows(scene, side, [16, 64, 256], 24)).collect();
     println!("true error over that claimed, of 24 images together; in brackets where most of them call it uncertain");
     let (mut sure, mut good, mut beyond, mut doubted, mut deserved) = (0.0, 0.0, 0.0, 0.0, 0.0);
-    for ((regime, seed), rows) in all.iter().zip(&rows) {
+    for ((name, _), rows) in all.iter().zip(&rows) {
         let cells = rows.iter().map(|row| match row.ratio {
             None => "      -".to_owned(),
             Some(ratio) if row.uncertain > 0.5 => format!("({ratio:5.2})"),
             Some(ratio) if row.bounded => format!("<{ratio:5.2} "),
             Some(ratio) => format!(" {ratio:5.2} "),
         });
-        println!("{:14} {seed} {}", regime.name, cells.collect::<Vec<_>>().join(" "));
+        println!("{name:16} {}", cells.collect::<Vec<_>>().join(" "));
         for row in rows.iter().filter(|row| !row.bounded) {
             let Some(ratio) = row.ratio else { continue };
             let is_good = (0.8..=1.25).contains(&ratio);
@@ -165,7 +160,18 @@ fn claims_table(scenes: usize) {
 #[test]
 #[ignore = "100 scenes by 72 images: ten minutes on two cores"]
 fn claims_of_100_scenes_as_a_table() {
-    claims_table(100);
+    let all = (0..100).map(|i| (&REGIMES[i % REGIMES.len()], (i / REGIMES.len()) as u64));
+    let read =
+        |(regime, seed): (&Regime, u64)| (format!("{} {seed}", regime.name), judge::read(&regime.draft(seed)).unwrap());
+    claims_table(&all.map(read).collect::<Vec<_>>(), 32);
+}
+
+#[test]
+#[ignore = "72 images of each built-in scene that is small: five minutes on two cores"]
+fn claims_of_built_in_scenes_as_a_table() {
+    let names = ["studio", "sphere-light", "quads", "cornell-box", "mirror-room", "plates", "sky", "defocus"];
+    let all = names.map(|name| (name.to_owned(), etendue_scene::load(name).unwrap()));
+    claims_table(&all, 48);
 }
 
 /// The scenes on which the renderer was wrong once, in smaller images than usual.
