@@ -29,9 +29,9 @@ mod sky_light;
 pub(crate) mod spot;
 pub(crate) mod sun;
 
-use crate::bvh::NOTHING;
+use crate::bvh::{PrimitiveId, PrimitiveIds};
 use crate::geometry::{self, Geometry};
-use crate::packet::{V8, X8, each_bit, each_group, pick, select};
+use crate::packet::{V8, X8, each_bit, select};
 use crate::scene::light_picture::LightPicture;
 use crate::scene::light_profile::LightProfile;
 use crate::scene::{Scene, Shape};
@@ -53,6 +53,9 @@ use std::sync::Arc;
 /// The greatest number of lights that are chosen by what each can contribute to a point.
 const FEW: usize = SpatialLights::MOST;
 
+/// Instead of the index of a light: it is none.
+pub const NO_LIGHT: u32 = u32::MAX;
+
 /// The lights of a scene.
 #[derive(Debug, Default)]
 pub struct Lights {
@@ -60,7 +63,7 @@ pub struct Lights {
     packed: Vec<PackedLight>,
     /// Of more than [`FEW`] lights, the ones that are shapes, which come first: their indices. They are packed when they are chosen, since
     /// a copy of each is as large as the shape.
-    unpacked: Vec<u32>,
+    unpacked: Vec<usize>,
     shapes: Arc<[Shape]>,
     pictures: Arc<[LightPicture]>,
     profiles: Arc<[LightProfile]>,
@@ -73,7 +76,7 @@ pub struct Lights {
     kinds: u32,
     directed: Vec<DirectedLight>,
     sky: Option<Arc<Sky>>,
-    /// Index of the light of each shape; [`NOTHING`] for shapes that are not lights.
+    /// Index of the light of each shape; [`NO_LIGHT`] for shapes that are none.
     shape_lights: Vec<u32>,
 }
 
@@ -99,7 +102,7 @@ impl Lights {
         let mut own = Self {
             others,
             sky,
-            shape_lights: vec![NOTHING; shapes.len()],
+            shape_lights: vec![NO_LIGHT; shapes.len()],
             directed,
             shapes: Arc::clone(shapes),
             pictures: Arc::clone(&scene.pictures),
@@ -109,13 +112,13 @@ impl Lights {
         let all = own.candidates();
         own.kinds = all.iter().fold(0, |kinds, light| kinds | light.kinds());
         for (index, Candidate { record, .. }) in (0..).zip(&all) {
-            if let Some(light) = own.shape_lights.get_mut(record.shape as usize) {
+            if let Some(light) = record.primitive.shape().and_then(|shape| own.shape_lights.get_mut(shape)) {
                 *light = index;
             }
         }
-        let is_unpacked = |record: &&LightRecord| all.len() > FEW && record.shape != NOTHING;
+        let is_unpacked = |record: &&LightRecord| all.len() > FEW && record.primitive != PrimitiveId::NONE;
         let records = || all.iter().map(|light| &light.record);
-        own.unpacked = records().take_while(is_unpacked).map(|record| record.shape).collect();
+        own.unpacked = records().take_while(is_unpacked).filter_map(|record| record.primitive.shape()).collect();
         own.packed = records().skip(own.unpacked.len()).map(LightRecord::pack).collect();
         if own.kinds & PICTURES != 0 {
             own.tables = Tables::new(shapes, &scene.pictures);
@@ -172,11 +175,11 @@ impl Lights {
     fn pack(&self, light: u32) -> PackedLight {
         let light = light as usize;
         let Some(&shape) = self.unpacked.get(light) else { return self.packed[light - self.unpacked.len()] };
-        kinds::of_shape(shape, &self.shapes[shape as usize]).map(|light| light.record.pack()).unwrap_or_default()
+        kinds::of_shape(shape as u32, &self.shapes[shape]).map(|light| light.record.pack()).unwrap_or_default()
     }
     /// Samples the chosen lights from points `p` on surfaces with this normal. `emits` allows for two-sided lights. For skies, pictures,
     /// directed lights and those with a spread, `radiance` of `chosen` becomes that of the sampled direction; lights that no ray can hit lose their
-    /// `shape`, which occludes nothing.
+    /// primitives, which occludes nothing.
     #[inline(always)]
     pub fn sample(&self, chosen: &mut Chosen, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> Drawn {
         let kinds = self.kinds;
@@ -191,7 +194,7 @@ impl Lights {
         if kinds & UNSEENS != 0 {
             let unseen = chosen.has(UNSEEN);
             sample.delta = sample.delta | unseen;
-            chosen.shape = pick(unseen, u32x8::splat(NOTHING), chosen.shape);
+            chosen.primitives = PrimitiveIds::pick(unseen, PrimitiveIds::none(), chosen.primitives);
         }
         sample
     }
@@ -219,8 +222,9 @@ impl Lights {
     }
     /// Multiplies the radiance of lights with profiles by what these have in the sampled directions.
     fn distribute(&self, chosen: &mut Chosen, direction: V8, normal: V8) {
-        each_group(chosen.shape, chosen.has(PROFILED), |index, lanes| {
-            if let Some(profile) = self.shapes[index as usize].emission.and_then(|emission| emission.profile) {
+        chosen.primitives.each(chosen.has(PROFILED), |primitive, lanes| {
+            let shape = primitive.shape().map(|shape| &self.shapes[shape]);
+            if let Some(profile) = shape.and_then(|shape| shape.emission).and_then(|emission| emission.profile) {
                 let factor = self.profiles[profile as usize].factor(-direction, normal);
                 chosen.radiance = chosen.radiance * select(lanes, factor, X8::splat(1.0));
             }

@@ -60,7 +60,7 @@ fn the_pdf_of_a_direction_is_that_with_which_it_was_drawn() {
             let pmf = chooser.pmf(p, normal, None);
             let sampled = choice.pmf.gt(X8::lit(0.0)) & drawn.pdf.gt(X8::lit(0.0)) & !drawn.delta;
             for lane in (0..8).filter(|&lane| sampled.lane(lane)) {
-                let index = chosen.shape.lane(lane) as usize;
+                let index = chosen.primitives.lane(lane).shape().unwrap();
                 let geometry = &scene.shapes[index].geometry;
                 let pmf = pmf.of(lights.of_shape(index));
                 let pdf = (lights.shape_pdf(index, geometry, p, drawn.direction) * pmf).lane(lane);
@@ -290,7 +290,7 @@ fn directed_and_spread_lights_are_never_lost() {
             let bright = (chosen.radiance.x + chosen.radiance.y + chosen.radiance.z).gt(X8::lit(0.0));
             let lit = drawn.emits & bright & drawn.pdf.gt(X8::lit(0.0)) & drawn.direction.dot(normal).gt(X8::lit(0.0));
             let pmf = pmf.of(light);
-            let index = chosen.shape.lane(0) as usize;
+            let index = chosen.primitives.lane(0).shape().unwrap();
             let pdf = |shape: &scene::Shape| lights.shape_pdf(index, &shape.geometry, p, drawn.direction) * pmf;
             let pdf = scene.shapes.get(index).map(pdf);
             for lane in (0..8).filter(|&lane| lit.lane(lane)) {

@@ -35,13 +35,13 @@ impl ByLight {
         let mut rays = Unoccluded::new();
         for (p, surface) in group.reflecting() {
             // choose a light, and draw a direction to it
-            let place = group.points.places[p].primitives;
+            let primitives = group.points.places[p].primitives;
             let (choice, lanes, u) = which.choose::<GENERAL>(group, ledger, p);
             let mut light = group.lights.chosen(choice.index);
             let (drawn, alone) = self.draw::<GENERAL>(which, group, p, u, &mut light);
             let Drawn { direction, distance, emits, delta, .. } = drawn;
             let cos = direction.dot(surface.normal);
-            let own = light.is_own(place, surface.point, surface.normal);
+            let own = light.is_own(primitives, surface.point, surface.normal);
             let some = drawn.pdf.gt(zero) & choice.pmf.gt(zero);
             let mut lit = lanes & emits & some & cos.gt(zero) & !own;
             // evaluate f cosθ, less what is known of its integral
@@ -69,8 +69,8 @@ impl ByLight {
             // trace a shadow ray, unless a sky or a profile is dark in that direction, or the surface black
             lit = lit & found.max_abs().gt(zero);
             (rays.found[p], rays.lanes[p]) = (found, lit);
-            rays.end_at(p, distance, light.shape);
-            tracer.shadow[p] = bvh.rays(surface.point, direction).leaving(place);
+            rays.end_at(p, distance, light.primitives);
+            tracer.shadow[p] = bvh.rays(surface.point, direction).leaving(primitives);
             tracer.count.shadow += u64::from(lit.bits().count_ones());
         }
         rays.add(group.count, bvh, tracer, reflected);

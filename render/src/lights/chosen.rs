@@ -1,7 +1,7 @@
 //! One light in each lane, and what is sampled of it.
 
 use super::record::{KINDS, PICTURED, PROFILED, SPREAD, TWO_SIDED};
-use crate::bvh::SHAPE;
+use crate::bvh::PrimitiveIds;
 use crate::geometry::spread::Spread;
 use crate::geometry::{self, Kind, Parallelogram, Sphere};
 use crate::packet::{M8, V8, X8, each_bit, equal, select};
@@ -56,8 +56,8 @@ pub struct Chosen {
     pub radiance: V8,
     pub(super) spread: Spread<X8>,
     pub(super) kind: u32x8,
-    /// Index of its shape; [`NOTHING`](crate::bvh::NOTHING) for a light without one.
-    pub shape: u32x8,
+    /// Its shape, if it has one.
+    pub primitives: PrimitiveIds,
 }
 
 impl Chosen {
@@ -71,7 +71,7 @@ impl Chosen {
             radiance: V8::new(b[1], b[2], b[3]),
             spread: Spread { tan_half: b[6], gain: b[7] },
             kind: b[4].to_bits(),
-            shape: b[5].to_bits(),
+            primitives: PrimitiveIds::from_floats(b[5]),
         }
     }
     /// The three vectors of their records.
@@ -79,11 +79,11 @@ impl Chosen {
     pub(super) fn vectors(&self) -> [V8; 3] {
         [self.place, self.first, self.second]
     }
-    /// Where points with these normals on these primitives, as in hits, are on the light itself. All lights are convex, so they do not see it,
+    /// Where points with these normals on these primitives are on the light itself. All lights are convex, so they do not see it,
     /// except from inside of a sphere: what a sample of it finds there is due to rounding.
     #[inline(always)]
-    pub fn is_own(&self, primitives: u32x8, p: V8, normal: V8) -> M8 {
-        equal(self.shape ^ u32x8::splat(SHAPE), primitives) & !self.surrounds(p, normal)
+    pub fn is_own(&self, primitives: PrimitiveIds, p: V8, normal: V8) -> M8 {
+        self.primitives.equal(primitives) & !self.surrounds(p, normal)
     }
     /// Lanes of spheres that points on them, with these normals, see: from inside.
     #[inline(always)]

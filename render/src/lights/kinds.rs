@@ -5,6 +5,7 @@ use super::chosen::Chosen;
 use super::directed::{self, DirectedLight};
 use super::record::{Candidate, KINDS, LightRecord, PICTURED, PROFILED, SPREAD, TWO_SIDED, UNSEEN, sum, wide};
 use super::{point, spot, sun};
+use crate::bvh::PrimitiveId;
 use crate::geometry::{self, Extent};
 use crate::packet::{V8, X8};
 use crate::scene::{DeltaLight, Scene, Shape};
@@ -61,7 +62,10 @@ pub(super) fn of_shape(index: u32, shape: &Shape) -> Option<Candidate> {
     let (radiance, spread) = (emission.radiance, emission.spread.unwrap_or_default());
     let sides = if emission.two_sided { 2.0 } else { 1.0 };
     let power = sum(radiance) * shape.geometry.area() * sides;
-    Some(Candidate::near(LightRecord { place, first, second, radiance, spread, kind, shape: index }, power))
+    Some(Candidate::near(
+        LightRecord { place, first, second, radiance, spread, kind, primitive: PrimitiveId::of_shape(index) },
+        power,
+    ))
 }
 
 /// The shapes that emit, in the order of the scene.

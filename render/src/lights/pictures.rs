@@ -3,7 +3,7 @@
 use super::chosen::{Chosen, Drawn};
 use super::record::PICTURED;
 use crate::geometry::{self, Chart, Geometry};
-use crate::packet::{M8, V8, X8, each_group};
+use crate::packet::{M8, V8, X8};
 use crate::scene::Shape;
 use crate::scene::light_picture::LightPicture;
 use crate::technique::Measure;
@@ -192,11 +192,12 @@ impl Tables {
         let pictured = here & chosen.has(PICTURED);
         let by_shape = || -> LightSample<X8> { geometry::sample(kind, chosen.vectors(), measure, p, normal, u) };
         let mut sample = None;
-        each_group(chosen.shape, pictured, |index, lanes| {
-            let shape = &shapes[index as usize];
+        chosen.primitives.each(pictured, |primitive, lanes| {
+            let Some(index) = primitive.shape() else { return };
+            let shape = &shapes[index];
             let Some(picture) = shape.emission.and_then(|emission| emission.picture) else { return };
             let picture = &pictures[picture as usize];
-            if let Some(table) = self.of(index as usize) {
+            if let Some(table) = self.of(index) {
                 let drawn = table.sample((&shape.geometry, &picture.axes), measure, [p, normal], u);
                 // in a packet of one light, no other map is needed
                 let others = sample.unwrap_or_else(|| if lanes.all() { drawn } else { by_shape() });
@@ -204,9 +205,9 @@ impl Tables {
             }
         });
         let sample = sample.unwrap_or_else(by_shape);
-        let indices = chosen.shape;
-        each_group(indices, pictured, |index, lanes| {
-            let shape = &shapes[index as usize];
+        let primitives = chosen.primitives;
+        primitives.each(pictured, |primitive, lanes| {
+            let Some(shape) = primitive.shape().map(|index| &shapes[index]) else { return };
             let shown = shape.emission.and_then(|emission| emission.picture).zip(shape.geometry.chart());
             if let Some((picture, chart)) = shown {
                 let picture = &pictures[picture as usize];

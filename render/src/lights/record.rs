@@ -1,6 +1,6 @@
 //! A light as it is kept in memory, and what a choice of lights knows of it.
 
-use crate::bvh::NOTHING;
+use crate::bvh::PrimitiveId;
 use crate::geometry::Extent;
 use crate::geometry::spread::Spread;
 use etendue::Vec3;
@@ -26,8 +26,8 @@ pub(crate) struct LightRecord {
     pub(super) spread: Spread<f32>,
     /// Its kind, [`TWO_SIDED`], [`SPREAD`], [`PICTURED`], [`PROFILED`] and [`UNSEEN`].
     pub(super) kind: u32,
-    /// Index of its shape, or [`NOTHING`].
-    pub(super) shape: u32,
+    /// Its shape, if it has one.
+    pub(super) primitive: PrimitiveId,
 }
 
 /// A [`LightRecord`] in two halves of eight numbers: two transpositions gather eight lights. [`Chosen::new`](super::Chosen::new) unpacks it.
@@ -36,7 +36,7 @@ pub(super) type PackedLight = [[f32; 8]; 2];
 impl LightRecord {
     /// A light that is no shape.
     pub(super) fn bare(kind: u32, place: [f32; 3], radiance: [f32; 3]) -> Self {
-        Self { kind, place, radiance, shape: NOTHING, ..Self::default() }
+        Self { kind, place, radiance, primitive: PrimitiveId::NONE, ..Self::default() }
     }
     /// Its three vectors.
     pub(super) const fn vectors(&self) -> [[f32; 3]; 3] {
@@ -48,7 +48,7 @@ impl LightRecord {
     }
     pub(super) fn pack(&self) -> PackedLight {
         let Self { place: [a, b, c], first: [d, e, f], second: [g, h, i], radiance: [red, green, blue], .. } = *self;
-        let [kind, shape] = [self.kind, self.shape].map(f32::from_bits);
+        let (kind, shape) = (f32::from_bits(self.kind), self.primitive.to_float());
         [[a, b, c, d, e, f, g, h], [i, red, green, blue, kind, shape, self.spread.tan_half, self.spread.gain]]
     }
 }

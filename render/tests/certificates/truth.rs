@@ -3,7 +3,7 @@
 use super::views::World;
 use etendue_oracle::visible::{Shape as Form, visible};
 use etendue_oracle::{V3, along, cross, dot, sub, unit, wide};
-use etendue_render::bvh::{NOTHING, SHAPE};
+use etendue_render::bvh::PrimitiveId;
 use etendue_render::scene::{Geometry, Parallelogram, Shape, Sphere};
 use std::f64::consts::TAU;
 
@@ -116,7 +116,7 @@ impl World {
         }
     }
     /// What reaches a point with a normal on the primitive `receiver`, from a light.
-    pub(crate) fn truth(&self, p: V3, normal: V3, receiver: u32, light: u32) -> Truth {
+    pub(crate) fn truth(&self, p: V3, normal: V3, receiver: PrimitiveId, light: u32) -> Truth {
         let shape = &self.scene.shapes[light as usize];
         let form = relative(&shape.geometry, p);
         if !emits(shape, &form) {
@@ -135,8 +135,8 @@ impl World {
         let cone = Cone::around(&form);
         let mut blockers = Vec::new();
         let rounding = 3e-7 * p.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
-        let own = if receiver & SHAPE == 0 { self.surfaces.bvh.order()[receiver as usize] } else { NOTHING };
-        for (_, triangle) in (0..).zip(&self.scene.triangles).filter(|(id, _)| *id != own) {
+        let own = receiver.triangle().map(|place| self.surfaces.bvh.order()[place as usize]);
+        for (_, triangle) in (0..).zip(&self.scene.triangles).filter(|(id, _)| Some(*id) != own) {
             if touches(&triangle.map(|v| sub(wide(v), p)), rounding) {
                 return Truth { all: lit.all, left: None };
             }
@@ -146,7 +146,7 @@ impl World {
             }
         }
         let shapes = (0_u32..).zip(self.scene.shapes.iter());
-        for (_, shape) in shapes.filter(|(id, _)| id | SHAPE != receiver && *id != light) {
+        for (_, shape) in shapes.filter(|(id, _)| PrimitiveId::of_shape(*id) != receiver && *id != light) {
             let other = relative(&shape.geometry, p);
             if let Form::Sphere(center, radius) = other {
                 let distance = size(center);

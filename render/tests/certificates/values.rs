@@ -245,7 +245,7 @@ impl World {
             if ratio > values.worst || ratio.is_nan() {
                 values.worst = ratio;
                 values.place = format!(
-                    "{}: {value:e} instead of {left:e} of {:e} at {:?}: {certificate:?}, light {light}, receiver {}, both {:?}, {:?}",
+                    "{}: {value:e} instead of {left:e} of {:e} at {:?}: {certificate:?}, light {light}, receiver {:?}, both {:?}, {:?}",
                     self.name,
                     truth.all,
                     points[lane],
