@@ -36,7 +36,7 @@ use crate::scene::light_picture::LightPicture;
 use crate::scene::light_profile::LightProfile;
 use crate::scene::{Scene, Shape};
 use crate::technique::Measure;
-pub use chosen::{Chosen, Drawn};
+pub use chosen::{Chosen, Drawn, LightDirection};
 use directed::DirectedLight;
 use etendue::select::{LightBound, SpatialLights};
 use etendue::{Real, Vec2, u32x8};
@@ -177,79 +177,81 @@ impl Lights {
         let Some(&shape) = self.unpacked.get(light) else { return self.packed[light - self.unpacked.len()] };
         kinds::of_shape(shape as u32, &self.shapes[shape]).map(|light| light.record.pack()).unwrap_or_default()
     }
-    /// Samples the chosen lights from points `p` on surfaces with this normal. `emits` allows for two-sided lights. For skies, pictures,
-    /// directed lights and those with a spread, `radiance` of `chosen` becomes that of the sampled direction; lights that no ray can hit lose their
-    /// primitives, which occludes nothing.
+    /// Samples the chosen lights from points `p` on surfaces with this normal. `emits` allows for two-sided lights.
     #[inline(always)]
-    pub fn sample(&self, chosen: &mut Chosen, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> Drawn {
+    pub fn sample(&self, chosen: &Chosen, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> Drawn {
         let kinds = self.kinds;
-        let mut sample = if kinds & !SHAPES == 0 && kinds.is_power_of_two() {
-            geometry::sample(kinds.trailing_zeros(), chosen.vectors(), measure, p, normal, u)
+        let (mut to, radiance) = if kinds & !SHAPES == 0 && kinds.is_power_of_two() {
+            let to = geometry::sample(kinds.trailing_zeros(), chosen.vectors(), measure, p, normal, u);
+            (to, chosen.radiance)
         } else if kinds & UNEVEN != 0 {
             self.uneven(chosen, measure, p, normal, u)
         } else {
-            self.by_kind(chosen, measure, p, normal, u).unwrap_or_else(|| unreachable!("there is a light"))
+            self.by_kind(chosen, measure, p, normal, u)
         };
-        sample.emits = sample.emits | chosen.has(TWO_SIDED);
+        to.emits = to.emits | chosen.has(TWO_SIDED);
+        let mut primitives = chosen.primitives;
         if kinds & UNSEENS != 0 {
             let unseen = chosen.has(UNSEEN);
-            sample.delta = sample.delta | unseen;
-            chosen.primitives = PrimitiveIds::pick(unseen, PrimitiveIds::none(), chosen.primitives);
+            to.delta = to.delta | unseen;
+            primitives = PrimitiveIds::pick(unseen, PrimitiveIds::none(), primitives);
         }
-        sample
+        Drawn { to, radiance, primitives }
     }
     /// Samples a scene with lights that emit unevenly: those in lanes of their own, and what the points see of panels with a spread.
     #[inline(never)]
-    fn uneven(&self, chosen: &mut Chosen, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> Drawn {
-        // normals before the lights are narrowed
-        let normal_of_light = (self.kinds & SPREADS != 0).then(|| chosen.narrow(self.kinds & SHAPES, p));
-        let mut drawn = self.by_kind(chosen, measure, p, normal, u);
-        if self.kinds >> directed::KIND & 1 == 1 {
-            let here = chosen.is(directed::KIND);
-            let sample = directed::sample(&self.directed, chosen, p, here);
-            drawn = Some(Drawn::blend(here, sample.into(), drawn));
-        }
-        let sample = drawn.unwrap_or_else(|| unreachable!("there is a light"));
-        if let Some(normal) = normal_of_light {
+    fn uneven(&self, chosen: &Chosen, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> (LightDirection, V8) {
+        let narrowed = (self.kinds & SPREADS != 0).then(|| chosen.narrowed(self.kinds & SHAPES, p));
+        let part = narrowed.as_ref().map_or(chosen, |(_, part)| part);
+        let (to, mut radiance) = self.by_kind(part, measure, p, normal, u);
+        if let Some((normal, _)) = narrowed {
             let lanes = chosen.has(SPREAD) & !chosen.has(PROFILED);
-            let factor = chosen.spread.attenuation_in(lanes, sample.direction, normal);
-            chosen.radiance = chosen.radiance * factor;
+            radiance = radiance * chosen.spread.attenuation_in(lanes, to.direction, normal);
             if self.kinds & PROFILES != 0 {
-                self.distribute(chosen, sample.direction, normal.normalize());
+                self.distribute(chosen, to.direction, normal.normalize(), &mut radiance);
             }
         }
-        sample
+        (to, radiance)
     }
     /// Multiplies the radiance of lights with profiles by what these have in the sampled directions.
-    fn distribute(&self, chosen: &mut Chosen, direction: V8, normal: V8) {
+    fn distribute(&self, chosen: &Chosen, direction: V8, normal: V8, radiance: &mut V8) {
         chosen.primitives.each(chosen.has(PROFILED), |primitive, lanes| {
             let shape = primitive.shape().map(|shape| &self.shapes[shape]);
             if let Some(profile) = shape.and_then(|shape| shape.emission).and_then(|emission| emission.profile) {
                 let factor = self.profiles[profile as usize].factor(-direction, normal);
-                chosen.radiance = chosen.radiance * select(lanes, factor, X8::splat(1.0));
+                *radiance = *radiance * select(lanes, factor, X8::splat(1.0));
             }
         });
     }
-    /// Samples every kind of light that the scene has, but for those with directions of their own, each in its lanes.
-    fn by_kind(&self, chosen: &mut Chosen, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> Option<Drawn> {
-        let mut drawn: Option<Drawn> = None;
-        each_bit(self.kinds & (SHAPES | ONLY_DELTAS | 1 << sky_light::KIND) & !(1 << directed::KIND), |kind| {
+    /// Samples every kind of light that the scene has, each in its lanes.
+    fn by_kind(&self, chosen: &Chosen, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> (LightDirection, V8) {
+        let (mut drawn, mut radiance): (Option<LightDirection>, V8) = (None, chosen.radiance);
+        each_bit(self.kinds & (SHAPES | ONLY_DELTAS | 1 << sky_light::KIND), |kind| {
             let kind = kind as u32;
             let here = chosen.is(kind);
             let sample = match kind {
                 kind if SHAPES >> kind & 1 == 0 => match &self.sky {
-                    Some(sky) if kind == sky_light::KIND => sky_light::sample(sky, here, chosen, measure, p, normal, u),
+                    Some(sky) if kind == sky_light::KIND => {
+                        let (sample, from_sky) = sky.sample(measure, p, normal, u);
+                        radiance = V8::blend(here, from_sky, radiance);
+                        sample.into()
+                    }
+                    _ if kind == directed::KIND => {
+                        let (sample, factor) = directed::sample(&self.directed, chosen, p, here);
+                        radiance = V8::blend(here, radiance * factor, radiance);
+                        sample.into()
+                    }
                     _ => sample_delta(kind, chosen, p, u).into(),
                 },
                 _ if self.kinds & PICTURES != 0 => {
                     let shown = (&self.shapes[..], &self.pictures[..]);
-                    self.tables.sample(shown, kind, here, chosen, measure, p, normal, u)
+                    self.tables.sample(shown, (kind, here), chosen, (measure, u), [p, normal], &mut radiance)
                 }
                 _ => geometry::sample(kind, chosen.vectors(), measure, p, normal, u),
             };
-            drawn = Some(Drawn::blend(here, sample, drawn));
+            drawn = Some(LightDirection::blend(here, sample, drawn));
         });
-        drawn
+        (drawn.unwrap_or_else(|| unreachable!("there is a light")), radiance)
     }
     /// The light of a shape that is one.
     #[inline]

@@ -272,8 +272,8 @@ impl Point {
     fn to_light(&self, lights: &Lights, chooser: &Chooser, u: etendue::Vec2<X8>) -> Packet {
         let zero = X8::lit(0.0);
         let choice = chooser.choose(self.place, self.normal, None, [u.x, zero]);
-        let (mut chosen, u) = (lights.chosen(choice.index), etendue::Vec2::new(choice.u, u.y));
-        let sample = lights.sample(&mut chosen, Measure::SolidAngle, self.place, self.normal, u);
+        let (chosen, u) = (lights.chosen(choice.index), etendue::Vec2::new(choice.u, u.y));
+        let sample = lights.sample(&chosen, Measure::SolidAngle, self.place, self.normal, u).to;
         let active = self.met & sample.emits & sample.pdf.gt(zero) & sample.direction.dot(self.normal).gt(zero);
         let limit = sample.distance * X8::lit(1.0 - 1.0 / 131_072.0);
         Packet { origin: self.place, direction: sample.direction, active, limit }

@@ -57,10 +57,10 @@ impl DirectedLight {
     }
 }
 
-/// Samples directed lights from the points `p` in the lanes that have some, and multiplies their intensities by what they are there. Not inlined,
+/// Samples directed lights from the points `p` in the lanes that have some, and what their intensities there are, relative to the greatest. Not inlined,
 /// since it would burden scenes without such lights.
 #[inline(never)]
-pub(super) fn sample(lights: &[DirectedLight], chosen: &mut Chosen, p: V8, here: M8) -> LightSample<X8> {
+pub(super) fn sample(lights: &[DirectedLight], chosen: &Chosen, p: V8, here: M8) -> (LightSample<X8>, X8) {
     let index = chosen.second.x.to_bits();
     let mut found = X8::default();
     let sample = PointLight::new(chosen.place).by_delta(p).sample(Vec2::default());
@@ -74,7 +74,6 @@ pub(super) fn sample(lights: &[DirectedLight], chosen: &mut Chosen, p: V8, here:
         }
         found = select(same, own, found);
     });
-    chosen.radiance = V8::blend(here, chosen.radiance * found, chosen.radiance);
     let some = found.gt(X8::lit(0.0));
-    LightSample { pdf: sample.pdf.keep(some), emits: sample.emits & some, ..sample }
+    (LightSample { pdf: sample.pdf.keep(some), emits: sample.emits & some, ..sample }, found)
 }
