@@ -46,7 +46,7 @@ use kinds::{
 };
 use pictures::Tables;
 pub(crate) use record::{Candidate, Far};
-use record::{LightRecord, PROFILED, PackedLight, SPREAD, TWO_SIDED, UNSEEN};
+use record::{DIRECTED, LightRecord, PROFILED, PackedLight, SKY, SPREAD, TWO_SIDED, UNSEEN};
 use sky::Sky;
 use std::sync::Arc;
 
@@ -226,17 +226,17 @@ impl Lights {
     /// Samples every kind of light that the scene has, each in its lanes.
     fn by_kind(&self, chosen: &Chosen, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> (LightDirection, V8) {
         let (mut drawn, mut radiance): (Option<LightDirection>, V8) = (None, chosen.radiance);
-        each_bit(self.kinds & (SHAPES | ONLY_DELTAS | 1 << sky_light::KIND), |kind| {
+        each_bit(self.kinds & (SHAPES | ONLY_DELTAS | 1 << SKY), |kind| {
             let kind = kind as u32;
             let here = chosen.is(kind);
             let sample = match kind {
                 kind if SHAPES >> kind & 1 == 0 => match &self.sky {
-                    Some(sky) if kind == sky_light::KIND => {
+                    Some(sky) if kind == SKY => {
                         let (sample, from_sky) = sky.sample(measure, p, normal, u);
                         radiance = V8::blend(here, from_sky, radiance);
                         sample.into()
                     }
-                    _ if kind == directed::KIND => {
+                    _ if kind == DIRECTED => {
                         let (sample, factor) = directed::sample(&self.directed, chosen, p, here);
                         radiance = V8::blend(here, radiance * factor, radiance);
                         sample.into()

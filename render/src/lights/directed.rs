@@ -2,7 +2,7 @@
 //! and in the last place the cosine of that cone.
 
 use super::chosen::Chosen;
-use super::record::{Candidate, LightRecord};
+use super::record::{Candidate, DIRECTED, LightRecord};
 use super::spot::cosine_below;
 use crate::packet::{M8, V8, X8, each_group, select};
 use crate::scene::Cone;
@@ -10,8 +10,6 @@ use crate::scene::intensity::Intensity;
 use etendue::{LightSample, LightSampler, PointLight, Real, SpotLight, Vec2, Vec3};
 use std::f64::consts::PI;
 use std::sync::Arc;
-
-pub(super) const KIND: u32 = 12;
 
 /// What a light emits, and how it is turned.
 #[derive(Clone, Debug)]
@@ -53,7 +51,7 @@ impl DirectedLight {
         let second = [f32::from_bits(index), 0.0, cos];
         let flux = cone.map_or_else(|| self.intensity.flux(), |cone| cone.flux);
         let power = (0..3).map(|k| f64::from(radiance[k]) * flux).sum::<f64>() / PI;
-        Candidate::near(LightRecord { first, second, ..LightRecord::bare(KIND, position, radiance) }, power)
+        Candidate::near(LightRecord { first, second, ..LightRecord::bare(DIRECTED, position, radiance) }, power)
     }
 }
 

@@ -2,8 +2,11 @@
 //! [`geometry`].
 
 use super::chosen::Chosen;
-use super::directed::{self, DirectedLight};
-use super::record::{Candidate, KINDS, LightRecord, PICTURED, PROFILED, SPREAD, TWO_SIDED, UNSEEN, sum, wide};
+use super::directed::DirectedLight;
+use super::record::{
+    Candidate, DIRECTED, KINDS, LightRecord, PICTURED, POINT, PROFILED, SPOT, SPREAD, SUN, TWO_SIDED, UNSEEN, in_set,
+    sum, wide,
+};
 use super::{point, spot, sun};
 use crate::bvh::PrimitiveId;
 use crate::geometry::{self, Extent};
@@ -13,27 +16,27 @@ use etendue::select::LightBound;
 use etendue::{LightSample, Vec2, Vec3};
 
 /// In a set of kinds, there is a light with a spread.
-pub(super) const SPREADS: u32 = 1 << 16;
+pub(super) const SPREADS: u32 = in_set(SPREAD);
 /// There is a light that shows a picture.
-pub(super) const PICTURES: u32 = 1 << 17;
+pub(super) const PICTURES: u32 = in_set(PICTURED);
 /// There is a light with an area and a profile.
-pub(super) const PROFILES: u32 = 1 << 18;
+pub(super) const PROFILES: u32 = in_set(PROFILED);
 /// There is a light with an area that no ray can hit.
-pub(super) const UNSEENS: u32 = 1 << 19;
+pub(super) const UNSEENS: u32 = in_set(UNSEEN);
 /// Lights whose radiance or intensity differs by direction, but for the sky.
-pub(super) const UNEVEN: u32 = 1 << directed::KIND | SPREADS | PROFILES;
-pub(super) const ONLY_DELTAS: u32 = 1 << point::KIND | 1 << spot::KIND | 1 << sun::KIND | 1 << directed::KIND;
+pub(super) const UNEVEN: u32 = 1 << DIRECTED | SPREADS | PROFILES;
+pub(super) const ONLY_DELTAS: u32 = 1 << POINT | 1 << SPOT | 1 << SUN | 1 << DIRECTED;
 pub(super) const ONLY_AREAS: u32 = SHAPES | SPREADS | PICTURES | PROFILES | UNSEENS;
 
 /// All shapes, as a set.
 pub(super) const SHAPES: u32 = geometry::KINDS;
-const _: () = assert!(SHAPES >> point::KIND == 0, "shapes are the first kinds");
+const _: () = assert!(SHAPES >> POINT == 0, "shapes are the first kinds");
 
 /// The extent of a light, and the cosine to its normal or axis from which on it is dark.
 fn extent(record: &LightRecord, kind: u32) -> (Extent, f32) {
     let of_shape = geometry::extent(kind, record.vectors().map(wide)).map(|extent| (extent, 0.0));
     of_shape.unwrap_or_else(|| match kind {
-        spot::KIND | directed::KIND => spot::extent(record),
+        SPOT | DIRECTED => spot::extent(record),
         _ => (record.point(), 0.0),
     })
 }
@@ -42,8 +45,8 @@ fn extent(record: &LightRecord, kind: u32) -> (Extent, f32) {
 #[inline]
 pub(super) fn sample_delta(kind: u32, chosen: &Chosen, p: V8, u: Vec2<X8>) -> LightSample<X8> {
     match kind {
-        point::KIND => point::sample(chosen, p, u),
-        spot::KIND => spot::sample(chosen, p, u),
+        POINT => point::sample(chosen, p, u),
+        SPOT => spot::sample(chosen, p, u),
         _ => sun::sample(chosen, u),
     }
 }
@@ -116,8 +119,6 @@ impl Candidate {
     /// The set of its kind and its flags.
     pub(super) fn kinds(&self) -> u32 {
         let kind = self.record.kind;
-        let flags = [(SPREAD, SPREADS), (PICTURED, PICTURES), (PROFILED, PROFILES), (UNSEEN, UNSEENS)];
-        let set = flags.iter().filter(|(flag, _)| kind & flag != 0).fold(0, |set, (_, bit)| set | bit);
-        1 << (kind & KINDS) | set
+        1 << (kind & KINDS) | in_set(kind & (SPREAD | PICTURED | PROFILED | UNSEEN))
     }
 }

@@ -5,13 +5,23 @@ use crate::geometry::Extent;
 use crate::geometry::spread::Spread;
 use etendue::Vec3;
 
-/// The bits of the kind in a record; flags follow.
+/// The bits of the kind in a record. Those of shapes are their [`Kind`](crate::geometry::Kind); the others follow. Flags are beyond.
 pub(super) const KINDS: u32 = 15;
+pub(super) const POINT: u32 = 8;
+pub(super) const SPOT: u32 = 9;
+pub(super) const SUN: u32 = 10;
+pub(super) const SKY: u32 = 11;
+pub(super) const DIRECTED: u32 = 12;
 pub(super) const TWO_SIDED: u32 = 16;
 pub(super) const SPREAD: u32 = 32;
 pub(super) const PICTURED: u32 = 64;
 pub(super) const PROFILED: u32 = 128;
 pub(super) const UNSEEN: u32 = 256;
+
+/// A flag as it is in sets of kinds, whose first bits are one for each kind.
+pub(super) const fn in_set(flag: u32) -> u32 {
+    flag << 11
+}
 
 /// A light. The file of its kind, or of its form, says what the three vectors are.
 #[derive(Clone, Copy, Debug, Default)]

@@ -1,14 +1,12 @@
 //! Distant lights: a record has the direction to the light.
 
 use super::chosen::Chosen;
-use super::record::{Candidate, Far, LightRecord, sum};
+use super::record::{Candidate, Far, LightRecord, SUN, sum};
 use crate::packet::X8;
 use etendue::{DirectionalLight, LightSample, LightSampler, Vec2};
 
-pub(super) const KIND: u32 = 10;
-
 pub(crate) fn candidate(direction: [f32; 3], irradiance: [f32; 3]) -> Candidate {
-    let record = LightRecord::bare(KIND, direction, irradiance);
+    let record = LightRecord::bare(SUN, direction, irradiance);
     // of a point at the distance 1 that causes this irradiance
     Candidate { record, power: 4.0 * sum(irradiance), far: Some(Far::Sun) }
 }
