@@ -45,8 +45,8 @@ use kinds::{
     sample_delta,
 };
 use pictures::Tables;
-pub(crate) use record::{Candidate, Far};
-use record::{DIRECTED, LightRecord, PROFILED, PackedLight, SKY, SPREAD, TWO_SIDED, UNSEEN};
+use record::{DIRECTED, PROFILED, PackedLight, SKY, SPREAD, TWO_SIDED, UNSEEN};
+pub(crate) use record::{Far, LightRecord};
 use sky::Sky;
 use std::sync::Arc;
 
@@ -70,7 +70,7 @@ pub struct Lights {
     /// By which shapes with pictures are sampled.
     tables: Tables,
     /// The lights that are no shapes.
-    others: Vec<Candidate>,
+    others: Vec<LightRecord>,
     /// Bit k is set if there is a light of kind k, [`SPREADS`] if one has a spread, [`PICTURES`] if one shows a picture, and [`PROFILES`] if
     /// one with an area has a profile.
     kinds: u32,
@@ -98,7 +98,7 @@ impl Lights {
     }
     fn of(scene: &Scene, shapes: &Arc<[Shape]>, sky: Option<Arc<Sky>>) -> Self {
         let (mut others, directed) = delta_lights(scene);
-        others.extend(sky.as_deref().map(sky_light::candidate));
+        others.extend(sky.as_deref().map(sky_light::record));
         let mut own = Self {
             others,
             sky,
@@ -109,24 +109,23 @@ impl Lights {
             profiles: Arc::clone(&scene.profiles),
             ..Self::default()
         };
-        let all = own.candidates();
+        let all = own.records();
         own.kinds = all.iter().fold(0, |kinds, light| kinds | light.kinds());
-        for (index, Candidate { record, .. }) in (0..).zip(&all) {
+        for (index, record) in (0..).zip(&all) {
             if let Some(light) = record.primitive.shape().and_then(|shape| own.shape_lights.get_mut(shape)) {
                 *light = index;
             }
         }
         let is_unpacked = |record: &&LightRecord| all.len() > FEW && record.primitive != PrimitiveId::NONE;
-        let records = || all.iter().map(|light| &light.record);
-        own.unpacked = records().take_while(is_unpacked).filter_map(|record| record.primitive.shape()).collect();
-        own.packed = records().skip(own.unpacked.len()).map(LightRecord::pack).collect();
+        own.unpacked = all.iter().take_while(is_unpacked).filter_map(|record| record.primitive.shape()).collect();
+        own.packed = all.iter().skip(own.unpacked.len()).map(LightRecord::pack).collect();
         if own.kinds & PICTURES != 0 {
             own.tables = Tables::new(shapes, &scene.pictures);
         }
         own
     }
     /// The lights with their powers, in their order: those that are shapes come first, the sky last.
-    pub(crate) fn candidates(&self) -> Vec<Candidate> {
+    pub(crate) fn records(&self) -> Vec<LightRecord> {
         area_lights(&self.shapes).chain(self.others.iter().copied()).collect()
     }
     /// The sky, if it is one of the lights.
@@ -175,7 +174,7 @@ impl Lights {
     fn pack(&self, light: u32) -> PackedLight {
         let light = light as usize;
         let Some(&shape) = self.unpacked.get(light) else { return self.packed[light - self.unpacked.len()] };
-        kinds::of_shape(shape as u32, &self.shapes[shape]).map(|light| light.record.pack()).unwrap_or_default()
+        kinds::of_shape(shape as u32, &self.shapes[shape]).map(|light| light.pack()).unwrap_or_default()
     }
     /// Samples the chosen lights from points `p` on surfaces with this normal. `emits` allows for two-sided lights.
     #[inline(always)]

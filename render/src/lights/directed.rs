@@ -2,7 +2,7 @@
 //! and in the last place the cosine of that cone.
 
 use super::chosen::Chosen;
-use super::record::{Candidate, DIRECTED, LightRecord};
+use super::record::{DIRECTED, LightRecord};
 use super::spot::cosine_below;
 use crate::packet::{M8, V8, X8, each_group, select};
 use crate::scene::Cone;
@@ -33,13 +33,7 @@ impl DirectedLight {
         Self { rows, intensity: Arc::clone(intensity), cone }
     }
     /// The light with this greatest intensity; it is the one of this index among those of a scene.
-    pub(super) fn candidate(
-        &self,
-        position: [f32; 3],
-        radiance: [f32; 3],
-        cone: Option<Cone>,
-        index: u32,
-    ) -> Candidate {
+    pub(super) fn record(&self, position: [f32; 3], radiance: [f32; 3], cone: Option<Cone>, index: u32) -> LightRecord {
         // the narrower of two cones
         let own = (self.rows[2], self.intensity.cos_cone());
         let (first, cos) = match cone {
@@ -51,7 +45,7 @@ impl DirectedLight {
         let second = [f32::from_bits(index), 0.0, cos];
         let flux = cone.map_or_else(|| self.intensity.flux(), |cone| cone.flux);
         let power = (0..3).map(|k| f64::from(radiance[k]) * flux).sum::<f64>() / PI;
-        Candidate::near(LightRecord { first, second, ..LightRecord::bare(DIRECTED, position, radiance) }, power)
+        LightRecord { first, second, ..LightRecord::bare(DIRECTED, position, radiance, power) }
     }
 }
 

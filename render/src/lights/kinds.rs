@@ -4,8 +4,7 @@
 use super::chosen::Chosen;
 use super::directed::DirectedLight;
 use super::record::{
-    Candidate, DIRECTED, KINDS, LightRecord, PICTURED, POINT, PROFILED, SPOT, SPREAD, SUN, TWO_SIDED, UNSEEN, in_set,
-    sum, wide,
+    DIRECTED, KINDS, LightRecord, PICTURED, POINT, PROFILED, SPOT, SPREAD, SUN, TWO_SIDED, UNSEEN, in_set, sum, wide,
 };
 use super::{point, spot, sun};
 use crate::bvh::PrimitiveId;
@@ -52,7 +51,7 @@ pub(super) fn sample_delta(kind: u32, chosen: &Chosen, p: V8, u: Vec2<X8>) -> Li
 }
 
 /// A shape that emits.
-pub(super) fn of_shape(index: u32, shape: &Shape) -> Option<Candidate> {
+pub(super) fn of_shape(index: u32, shape: &Shape) -> Option<LightRecord> {
     let emission = shape.emission?;
     let [place, first, second] = shape.geometry.vectors();
     let flag = |is: bool, flag: u32| if is { flag } else { 0 };
@@ -65,52 +64,49 @@ pub(super) fn of_shape(index: u32, shape: &Shape) -> Option<Candidate> {
     let (radiance, spread) = (emission.radiance, emission.spread.unwrap_or_default());
     let sides = if emission.two_sided { 2.0 } else { 1.0 };
     let power = sum(radiance) * shape.geometry.area() * sides;
-    Some(Candidate::near(
-        LightRecord { place, first, second, radiance, spread, kind, primitive: PrimitiveId::of_shape(index) },
-        power,
-    ))
+    let primitive = PrimitiveId::of_shape(index);
+    Some(LightRecord { place, first, second, radiance, spread, kind, primitive, power })
 }
 
 /// The shapes that emit, in the order of the scene.
-pub(super) fn area_lights(shapes: &[Shape]) -> impl Iterator<Item = Candidate> {
+pub(super) fn area_lights(shapes: &[Shape]) -> impl Iterator<Item = LightRecord> {
     (0..).zip(shapes).filter_map(|(index, shape)| of_shape(index, shape))
 }
 
 /// The lights without an area, in the order of the scene, and those of them that are directed.
-pub(super) fn delta_lights(scene: &Scene) -> (Vec<Candidate>, Vec<DirectedLight>) {
+pub(super) fn delta_lights(scene: &Scene) -> (Vec<LightRecord>, Vec<DirectedLight>) {
     let mut all_directed = Vec::new();
     let light = |light: &DeltaLight| match *light {
-        DeltaLight::Point { position, intensity } => point::candidate(position, intensity),
+        DeltaLight::Point { position, intensity } => point::record(position, intensity),
         DeltaLight::Spot { position, axis, one_minus_cos_inner, one_minus_cos_outer, intensity } => {
-            spot::candidate(position, axis, [one_minus_cos_inner, one_minus_cos_outer], intensity)
+            spot::record(position, axis, [one_minus_cos_inner, one_minus_cos_outer], intensity)
         }
-        DeltaLight::Distant { direction, irradiance } => sun::candidate(direction, irradiance),
+        DeltaLight::Distant { direction, irradiance } => sun::record(direction, irradiance),
         DeltaLight::Directed { position, to_light, intensity, table, cone } => {
             let directed = DirectedLight::new(position, to_light, &scene.intensities[table as usize], cone);
-            let candidate = directed.candidate(position, intensity, cone, all_directed.len() as u32);
+            let record = directed.record(position, intensity, cone, all_directed.len() as u32);
             all_directed.push(directed);
-            candidate
+            record
         }
     };
     (scene.delta_lights.iter().map(light).collect(), all_directed)
 }
 
-impl Candidate {
+impl LightRecord {
     /// The bound of what a light contributes, for a power in any unit. A light infinitely far away has no power in it.
     pub(crate) fn bound(&self, power: f64) -> LightBound {
-        let Self { record, far, .. } = self;
-        let (Extent { center, radius, normal }, cos_cone) = extent(record, record.kind & KINDS);
+        let (Extent { center, radius, normal }, cos_cone) = extent(self, self.kind & KINDS);
         let length = normal.length();
         let narrow = |v: Vec3<f64>| [v.x, v.y, v.z].map(|x| x as f32);
-        let two_sided = record.kind & TWO_SIDED != 0;
+        let two_sided = self.kind & TWO_SIDED != 0;
         LightBound {
             center: narrow(center),
             // the rounding of the centre moves the sphere by less than this
             radius: (radius * (1.0 + 1e-6)) as f32,
             normal: narrow(if length > 0.0 { normal * (1.0 / length) } else { normal }),
-            cos_cone: if record.kind & SPREAD == 0 { cos_cone } else { record.spread.cos_cone() },
+            cos_cone: if self.kind & SPREAD == 0 { cos_cone } else { self.spread.cos_cone() },
             two_sided: two_sided && length > 0.0,
-            power: match far {
+            power: match self.far() {
                 Some(_) => 0.0,
                 None => (power as f32 * if two_sided { 0.5 } else { 1.0 }).max(f32::MIN_POSITIVE),
             },
@@ -118,7 +114,7 @@ impl Candidate {
     }
     /// The set of its kind and its flags.
     pub(super) fn kinds(&self) -> u32 {
-        let kind = self.record.kind;
+        let kind = self.kind;
         1 << (kind & KINDS) | in_set(kind & (SPREAD | PICTURED | PROFILED | UNSEEN))
     }
 }

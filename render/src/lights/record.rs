@@ -38,6 +38,9 @@ pub(crate) struct LightRecord {
     pub(super) kind: u32,
     /// Its shape, if it has one.
     pub(super) primitive: PrimitiveId,
+    /// Its power in units of π; of a distant light, that of a point at the distance 1 that causes its irradiance, and of a sky, ∫L dω over
+    /// all directions.
+    pub(crate) power: f64,
 }
 
 /// A [`LightRecord`] in two halves of eight numbers: two transpositions gather eight lights. [`Chosen::new`](super::Chosen::new) unpacks it.
@@ -45,8 +48,20 @@ pub(super) type PackedLight = [[f32; 8]; 2];
 
 impl LightRecord {
     /// A light that is no shape.
-    pub(super) fn bare(kind: u32, place: [f32; 3], radiance: [f32; 3]) -> Self {
-        Self { kind, place, radiance, primitive: PrimitiveId::NONE, ..Self::default() }
+    pub(super) fn bare(kind: u32, place: [f32; 3], radiance: [f32; 3], power: f64) -> Self {
+        Self { kind, place, radiance, power, primitive: PrimitiveId::NONE, ..Self::default() }
+    }
+    /// What it is, unless it is somewhere.
+    pub(crate) const fn far(&self) -> Option<Far> {
+        match self.kind & KINDS {
+            SUN => Some(Far::Sun),
+            SKY => Some(Far::Sky),
+            _ => None,
+        }
+    }
+    /// The direction to a sun.
+    pub(crate) const fn direction(&self) -> [f32; 3] {
+        self.place
     }
     /// Its three vectors.
     pub(super) const fn vectors(&self) -> [[f32; 3]; 3] {
@@ -68,28 +83,6 @@ impl LightRecord {
 pub(crate) enum Far {
     Sun,
     Sky,
-}
-
-/// A light as a choice of lights knows it.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Candidate {
-    pub(super) record: LightRecord,
-    /// Its power in units of π; of a distant light, that of a point at the distance 1 that causes its irradiance, and of a sky, ∫L dω over
-    /// all directions.
-    pub(crate) power: f64,
-    /// What it is, unless it is somewhere.
-    pub(crate) far: Option<Far>,
-}
-
-impl Candidate {
-    /// A light that is somewhere.
-    pub(super) fn near(record: LightRecord, power: f64) -> Self {
-        Self { record, power, far: None }
-    }
-    /// The direction to a sun.
-    pub(crate) fn direction(&self) -> [f32; 3] {
-        self.record.place
-    }
 }
 
 pub(super) fn wide(v: [f32; 3]) -> Vec3<f64> {
