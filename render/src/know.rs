@@ -25,8 +25,6 @@ mod picture_irradiance;
 mod rough;
 #[cfg(feature = "analytic")]
 mod trial;
-#[cfg(feature = "analytic")]
-mod visible;
 
 #[cfg(feature = "analytic")]
 pub use bodies::Bodies;

@@ -1,4 +1,4 @@
-//! Closed convex parts of meshes, such as boxes: each is one blocker instead of many triangles.
+//! Closed convex parts of meshes, such as boxes: each is one occluder instead of many triangles.
 
 use crate::bvh::{Bvh, PrimitiveId};
 use etendue::Vec3;

@@ -20,7 +20,7 @@ use std::ops::Range;
 
 /// Sides of the squares of pixels that have certificates of their own. Each square lies within one of the side before.
 const SIDES: [u32; 2] = [TILE, 4];
-/// Greatest number of blockers for which the visible part of a light is computed.
+/// Greatest number of occluders for which the visible part of a light is computed.
 const CLIPPED: usize = 8;
 /// At most so many surfaces are remembered that are certified as a whole.
 const MOST_WHOLE: usize = 1 << 16;
@@ -43,7 +43,7 @@ pub(super) struct AreaLight<'a> {
 pub(super) enum Closed<'a> {
     /// The radiance is constant.
     Constant,
-    /// The light shows a picture. Behind blockers, the part of it that is visible is computed as if the radiance was constant, and samples
+    /// The light shows a picture. Behind occluders, the part of it that is visible is computed as if the radiance was constant, and samples
     /// correct that.
     Picture(&'a PictureIrradiance),
     /// The radiance varies by point or direction, the shape is only within the form, or another light hides part of it in the same primitive: no
@@ -58,7 +58,7 @@ pub(super) enum Known {
     Dark,
     /// Only these of the [`solids`](Certificates::solids) can occlude it.
     Behind(Range<usize>, Precision),
-    /// It is sampled, although its blockers are known.
+    /// It is sampled, although its occluders are known.
     Crowded,
     /// It is sampled, unless a smaller patch decides.
     Nothing,
@@ -105,11 +105,11 @@ pub(super) struct Certificates<'a> {
     worth: (PrimitiveId, bool),
 }
 
-/// Whether the visible part of a light is worth computing. More blockers take longer than the samples that they save: with 16, `defocus`
+/// Whether the visible part of a light is worth computing. More occluders take longer than the samples that they save: with 16, `defocus`
 /// takes twice as long as with 8, for 0.99 times the error, and `cornell-box` and `mirror-room` gain nothing. Two spheres that overlap
 /// have no closed form.
-fn is_clipped(light: &Solid, blockers: &[Solid]) -> bool {
-    blockers.len() <= CLIPPED && !(light.is_sphere() && blockers.iter().any(Solid::is_sphere))
+fn is_clipped(light: &Solid, occluders: &[Solid]) -> bool {
+    occluders.len() <= CLIPPED && !(light.is_sphere() && occluders.iter().any(Solid::is_sphere))
 }
 
 impl<'a> Certificates<'a> {

@@ -4,7 +4,6 @@ use super::certificates::{Closed, Known};
 use super::knowledge::Knowledge;
 use super::ledger::{Ledger, Proven};
 use super::picture_irradiance::PictureIrradiance;
-use super::visible::Ask;
 use crate::bvh::GROUP;
 use crate::camera::Group;
 use crate::packet::{M8, V8, X8, first_lane, product, select};
@@ -29,16 +28,16 @@ struct GroupSees {
     /// Lanes that see all of it, by a closed form in single or in double precision.
     lit: [M8; GROUP],
     lit_exactly: [M8; GROUP],
-    /// Lanes that see the light past blockers, and what they see of it.
+    /// Lanes that see the light past occluders, and what they see of it.
     behind: [M8; GROUP],
     part: [X8; GROUP],
-    /// What they would see without blockers, where that is of use.
+    /// What they would see without occluders, where that is of use.
     all: [X8; GROUP],
 }
 
 impl GroupSees {
     /// Takes the part of the light that some lanes of a packet see, if it is known.
-    fn take(&mut self, &Ask { packet, lanes, .. }: &Ask, part: Option<X8>) {
+    fn take(&mut self, packet: usize, lanes: M8, part: Option<X8>) {
         match part {
             Some(part) => {
                 self.part[packet] += part.keep(lanes);
@@ -52,7 +51,7 @@ impl GroupSees {
 impl Knowledge<'_> {
     /// Adds the reflected light that is known, and notes what is left of each light.
     ///
-    /// If blockers hide some of a picture, it is counted as if all of its points were hidden by the same fraction, and samples add the
+    /// If occluders hide some of a picture, it is counted as if all of its points were hidden by the same fraction, and samples add the
     /// difference. On rough surfaces, the integral of their fit is counted, and samples of all lights add what the BSDF reflects beyond it.
     pub(super) fn gather(&mut self, group: &Group<'_>, ledger: &mut Ledger, reflected: &mut [V8; GROUP]) {
         let lights = self.certificates.lights.len();
@@ -158,30 +157,19 @@ impl Knowledge<'_> {
                         let lane = first_lane(*lanes);
                         let repeat = |v: V8| V8::blend(*lanes, v, V8::splat(v.lane(lane)));
                         let (point, normal) = (repeat(surface.point), repeat(surface.normal));
-                        let ask = Ask { packet: p, lanes: *lanes, point, normal, behind: behind.clone() };
-                        if *precision == Precision::Double {
-                            let part =
-                                forms.part([point, normal], None, &of.form, (&solids[behind.clone()], *precision));
-                            seen.take(&ask, part);
-                        } else {
-                            forms.visible.add(ask, &of.form, solids, |ask, part| seen.take(ask, part));
-                        }
+                        let part = forms.part([point, normal], None, &of.form, (&solids[behind.clone()], *precision));
+                        seen.take(p, *lanes, part);
                     }
                 }
             }
         }
-        forms.visible.finish(&of.form, solids, |ask, part| seen.take(ask, part));
         for (p, surface) in group.reflecting() {
             let lanes = if matches!(of.closed, Closed::Picture(_)) { seen.behind[p] } else { seen.lit[p] };
             if lanes.any() {
-                let Surface { point, normal, .. } = *surface;
-                let ask = Ask { packet: p, lanes, point, normal, behind: 0..0 };
-                let all = &mut seen.all;
-                forms.visible.add(ask, &of.form, solids, |ask, found| all[ask.packet] = found.unwrap_or_default());
+                let at = [surface.point, surface.normal];
+                seen.all[p] = forms.part(at, None, &of.form, (&[], Precision::Single)).unwrap_or_default();
             }
         }
-        let all = &mut seen.all;
-        forms.visible.finish(&of.form, solids, |ask, found| all[ask.packet] = found.unwrap_or_default());
         seen
     }
 }
@@ -206,7 +194,7 @@ impl GroupSees {
         let behind = self.behind[p];
         // single precision always suffices, since nothing cancels
         let lit = self.lit[p] | self.lit_exactly[p];
-        // behind blockers, what is visible of a light of constant radiance is the best guess
+        // behind occluders, what is visible of a light of constant radiance is the best guess
         let (mut share, mut is_part) = (select(lit, X8::lit(1.0), zero), M8::splat(false));
         if behind.any() {
             let (part, all) = (self.part[p], self.all[p]);

@@ -133,7 +133,7 @@ impl World {
             return Truth { all: lit.all, left: None };
         }
         let cone = Cone::around(&form);
-        let mut blockers = Vec::new();
+        let mut occluders = Vec::new();
         let rounding = 3e-7 * p.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
         let own = receiver.triangle().map(|place| self.surfaces.bvh.order()[place as usize]);
         for (_, triangle) in (0..).zip(&self.scene.triangles).filter(|(id, _)| Some(*id) != own) {
@@ -142,7 +142,7 @@ impl World {
             }
             let triangle = relative(&Geometry::Triangle(*triangle), p);
             if !Cone::around(&triangle).is_apart_from(&cone) {
-                blockers.push(triangle);
+                occluders.push(triangle);
             }
         }
         let shapes = (0_u32..).zip(self.scene.shapes.iter());
@@ -177,10 +177,10 @@ impl World {
                 }
             }
             if !Cone::around(&other).is_apart_from(&cone) {
-                blockers.push(other);
+                occluders.push(other);
             }
         }
-        let at = |spared: f64| Some(visible(&form, &blockers, normal, spared)?.left.clamp(0.0, lit.all));
+        let at = |spared: f64| Some(visible(&form, &occluders, normal, spared)?.left.clamp(0.0, lit.all));
         let [short, long] = [1.0 - MOVED, 1.0 + MOVED].map(|share| at(share * ends));
         let left = short.zip(long).filter(|(short, long)| (short - long).abs() <= 1e-6 * lit.all);
         Truth { all: lit.all, left: left.map(|(short, long)| 0.5 * (short + long)) }

@@ -183,13 +183,13 @@ impl World {
         let [a, b, d] = self.scene.triangles[random.below(floors)].map(wide);
         let normal = unit(cross(sub(b, a), sub(d, a)));
         let triangles = &self.scene.triangles;
-        let blockers = &triangles[if floors < triangles.len() { floors } else { 0 }..];
-        let choice = random.below(blockers.len() + spheres.len());
-        let x = if let Some(triangle) = blockers.get(choice).map(|t| t.map(wide)) {
+        let occluders = &triangles[if floors < triangles.len() { floors } else { 0 }..];
+        let choice = random.below(occluders.len() + spheres.len());
+        let x = if let Some(triangle) = occluders.get(choice).map(|t| t.map(wide)) {
             let k = random.below(3);
             along(triangle[k], sub(triangle[(k + 1) % 3], triangle[k]), random.unit())
         } else {
-            let Geometry::Sphere(Sphere { center, radius }) = spheres[choice - blockers.len()].geometry else {
+            let Geometry::Sphere(Sphere { center, radius }) = spheres[choice - occluders.len()].geometry else {
                 return None;
             };
             let out = unit(cross(sub(wide(center), y), random.point()));

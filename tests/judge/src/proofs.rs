@@ -1,4 +1,4 @@
-//! Judges proofs of visibility against an oracle: what they say of a light behind blockers, for all points of a patch of a floor, and the
+//! Judges proofs of visibility against an oracle: what they say of a light behind occluders, for all points of a patch of a floor, and the
 //! irradiance of these points with its error.
 
 use crate::lights::figures::{Figure, Measured};
@@ -16,7 +16,7 @@ const UP: V3 = [0.0, 1.0, 0.0];
 /// The greatest coordinate of a room.
 const REACH: f64 = 8.0;
 
-/// A light or a blocker. Coordinates are numbers of single precision.
+/// A light or an occluder. Coordinates are numbers of single precision.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Body {
     /// A sphere, or a convex polygon.
@@ -33,7 +33,7 @@ pub struct Room {
     /// The light, which shines to both sides.
     pub light: Body,
     /// What may hide it.
-    pub blockers: Vec<Body>,
+    pub occluders: Vec<Body>,
 }
 
 /// What is said of a light for all points of a patch.
@@ -73,13 +73,13 @@ impl Room {
             Body::Shape(Shape::Polygon(all.into_iter().map(single).collect()))
         };
         let middle = single([turn[0], at[1], turn[2]]);
-        let mut blockers = Vec::new();
+        let mut occluders = Vec::new();
         let kinds = [(); 4].map(|()| vector(0.0, 1.0));
         for [kind, width, height] in &kinds[..(kinds[0][2] * 4.0) as usize] {
             let [low, u, v] = [vector(-1.0, 1.0), vector(-3.0, 3.0), vector(-3.0, 3.0)];
             let low = single([low[0], 1.5 + 0.3 * low[1], low[2]]);
             let level = |v: V3| [v[0], 0.05 * v[1], v[2]];
-            blockers.push(match (kind * 4.0) as u32 {
+            occluders.push(match (kind * 4.0) as u32 {
                 0 => Body::Shape(Shape::Sphere(low, f64::from((0.05 + 0.65 * width) as f32))),
                 1 => flat(low, [u, v].map(|v| v.map(|x| x / 3.0)), true),
                 2 => flat(along(low, along(u, v, 1.0), -0.5), [u, v].map(level), true),
@@ -93,7 +93,7 @@ impl Room {
                 0 => Body::Shape(Shape::Sphere(middle, r)),
                 kind => flat(middle, edges, kind == 1),
             },
-            blockers,
+            occluders,
         }
     }
 }
@@ -152,8 +152,8 @@ pub fn judge(name: &str, prover: &Prover<'_>, rooms: usize, seed: u64) -> Judgem
             let mut worst = Measured::right(Figure::Bias, 1.0);
             for (&p, value) in points.iter().zip(irradiance) {
                 let light = room.light.shapes(p).swap_remove(0);
-                let blockers: Vec<Shape> = room.blockers.iter().flat_map(|body| body.shapes(p)).collect();
-                let Some(truth) = visible(&light, &blockers, UP, ends(&light, p)) else { continue };
+                let occluders: Vec<Shape> = room.occluders.iter().flat_map(|body| body.shapes(p)).collect();
+                let Some(truth) = visible(&light, &occluders, UP, ends(&light, p)) else { continue };
                 let is_wrong = claim == Claim::Lit && truth.occluders > 0 || claim == Claim::Dark && truth.left > 1e-12;
                 let off = value.map_or(0.0, |[value, error]| (value - truth.left).abs() / (error + 1e-15));
                 let off = if is_wrong { f64::INFINITY } else { off };
@@ -180,7 +180,7 @@ pub fn own(room: &Room, points: &[V3]) -> Option<Answer> {
     let patch = Patch::polygon(&room.patch.map(Vec3::from), 1e-7, 0.0)?;
     let light = Light::new(room.light.solid()?, true)?;
     let mut prover = etendue_visible::Prover::new(REACH);
-    let mut all = room.blockers.iter().map(Body::solid);
+    let mut all = room.occluders.iter().map(Body::solid);
     let mut seen =
         prover.prove(&patch, &light, |_, found| all.all(|solid| solid.is_some_and(|s| found(Occluder::Whole(s)))));
     let claim = match seen.proof {
