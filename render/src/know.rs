@@ -25,6 +25,8 @@ mod picture_irradiance;
 mod rough;
 #[cfg(feature = "analytic")]
 mod trial;
+#[cfg(feature = "analytic")]
+mod visible;
 
 #[cfg(feature = "analytic")]
 pub use bodies::Bodies;

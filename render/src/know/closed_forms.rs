@@ -1,5 +1,6 @@
 //! Closed forms of the visible part of a light, in single and in double precision, for packets of single precision.
 
+use super::visible::Visible;
 use crate::packet::{V8, X8, widen, widen_points};
 use etendue::reflection::Reflection;
 use etendue::{Real, Vec3, f64x8};
@@ -8,7 +9,7 @@ use etendue_visible::{Occlusion, Precision, Solid};
 /// Computes closed forms, and holds the memory for it.
 #[derive(Default)]
 pub(super) struct ClosedForms {
-    single: Box<Occlusion<X8>>,
+    pub(super) visible: Visible,
     /// Made when it is first needed.
     exact: Option<Box<Occlusion<f64x8>>>,
 }
@@ -24,7 +25,7 @@ impl ClosedForms {
         (occluders, precision): (&[Solid], Precision),
     ) -> Option<X8> {
         if precision != Precision::Double {
-            return part(&mut self.single, at, lobe, light, occluders);
+            return part(&mut self.visible.one, at, lobe, light, occluders);
         }
         let (exact, lobe) = (self.exact.get_or_insert_default(), lobe.map(|lobe| lobe.map(widen)));
         let part = part(exact, at.map(widen_points), lobe.as_ref(), light, occluders)?;

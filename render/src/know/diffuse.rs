@@ -4,6 +4,7 @@ use super::certificates::{Closed, Known};
 use super::knowledge::Knowledge;
 use super::ledger::{Ledger, Proven};
 use super::picture_irradiance::PictureIrradiance;
+use super::visible::Ask;
 use crate::bvh::GROUP;
 use crate::camera::Group;
 use crate::packet::{M8, V8, X8, first_lane, product, select};
@@ -37,7 +38,7 @@ struct GroupSees {
 
 impl GroupSees {
     /// Takes the part of the light that some lanes of a packet see, if it is known.
-    fn take(&mut self, packet: usize, lanes: M8, part: Option<X8>) {
+    fn take(&mut self, &Ask { packet, lanes, .. }: &Ask, part: Option<X8>) {
         match part {
             Some(part) => {
                 self.part[packet] += part.keep(lanes);
@@ -157,19 +158,30 @@ impl Knowledge<'_> {
                         let lane = first_lane(*lanes);
                         let repeat = |v: V8| V8::blend(*lanes, v, V8::splat(v.lane(lane)));
                         let (point, normal) = (repeat(surface.point), repeat(surface.normal));
-                        let part = forms.part([point, normal], None, &of.form, (&solids[behind.clone()], *precision));
-                        seen.take(p, *lanes, part);
+                        let ask = Ask { packet: p, lanes: *lanes, point, normal, behind: behind.clone() };
+                        if *precision == Precision::Double {
+                            let part =
+                                forms.part([point, normal], None, &of.form, (&solids[behind.clone()], *precision));
+                            seen.take(&ask, part);
+                        } else {
+                            forms.visible.add(ask, &of.form, solids, |ask, part| seen.take(ask, part));
+                        }
                     }
                 }
             }
         }
+        forms.visible.finish(&of.form, solids, |ask, part| seen.take(ask, part));
         for (p, surface) in group.reflecting() {
             let lanes = if matches!(of.closed, Closed::Picture(_)) { seen.behind[p] } else { seen.lit[p] };
             if lanes.any() {
-                let at = [surface.point, surface.normal];
-                seen.all[p] = forms.part(at, None, &of.form, (&[], Precision::Single)).unwrap_or_default();
+                let Surface { point, normal, .. } = *surface;
+                let ask = Ask { packet: p, lanes, point, normal, behind: 0..0 };
+                let all = &mut seen.all;
+                forms.visible.add(ask, &of.form, solids, |ask, found| all[ask.packet] = found.unwrap_or_default());
             }
         }
+        let all = &mut seen.all;
+        forms.visible.finish(&of.form, solids, |ask, found| all[ask.packet] = found.unwrap_or_default());
         seen
     }
 }
