@@ -9,8 +9,8 @@
 //! the repetitions, the number of hits and, for closest hits, the sum of their distances. "single" traces ray by ray; "stream" traces 64
 //! rays together; "groups" is what the renderer does: 64 rays as one frustum if that is narrow, else as a stream.
 
-use etendue::{Mask, u32x8};
-use etendue_render::bvh::{Bvh, GROUP, Hits, NOTHING, Rays, Scratch, ShapeSet, Traversal};
+use etendue::Mask;
+use etendue_render::bvh::{Bvh, GROUP, Hits, PrimitiveIds, Rays, Scratch, ShapeSet, Traversal};
 use etendue_render::packet::{M8, V8, X8};
 use etendue_routines::baseline::{self, Baseline};
 use etendue_routines::rays::Workload;
@@ -116,7 +116,7 @@ fn occluded(bvh: &Bvh, groups: &[Group], stack: &mut Scratch) -> TracedHits {
         let rays: [Rays; GROUP] = std::array::from_fn(|p| bvh.rays(group[p].origin, group[p].direction));
         let before = group.map(|p| p.active);
         let mut open = before;
-        bvh.occluded(&rays, &mut open, &group.map(|p| p.limit), &[u32x8::splat(NOTHING); GROUP], stack);
+        bvh.occluded(&rays, &mut open, &group.map(|p| p.limit), &[PrimitiveIds::none(); GROUP], stack);
         hits += before.iter().zip(&open).map(|(b, o)| u64::from((b.bits() & !o.bits()).count_ones())).sum::<u64>();
     }
     TracedHits { hits, distances: 0.0 }

@@ -7,10 +7,10 @@
 //! hits therefore depends neither on the other rays of its group nor on the traversal, bit for bit.
 //!
 //! Files import one way, from the last of this list to the first: `double_precision`, `traversal`,
-//! `rays`, `node`, `build`, `parallel_build`, `tree`, then the traversals `frustum`, `single_ray`, `stream`,
+//! `primitive`, `rays`, `node`, `build`, `parallel_build`, `tree`, then the traversals `frustum`, `single_ray`, `stream`,
 //! `region`, then the primitives `cutouts`, `projected_triangle`, `shapes`, `triangles`, and `instances` of them.
 //! Each traversal is one body for closest and any hit (`ANY`). For any hit, the distances in [`Hits`] are those of the ends of segments, and
-//! their places are the shapes there, which do not occlude.
+//! the primitives are the shapes there, which do not occlude.
 //!
 //! A traversal stays for what it brings end to end. Speed with it relative to without (medians of user time, alternating runs of
 //! `etendue render SCENE --spp 16 --size 256x256 --threads 1 --repeat 5 --sampler independent` on a shared machine): the frustum brings
@@ -25,6 +25,7 @@ mod frustum;
 mod instances;
 mod node;
 mod parallel_build;
+mod primitive;
 mod projected_triangle;
 mod rays;
 mod region;
@@ -37,15 +38,16 @@ mod tree;
 mod triangles;
 
 use crate::geometry::{Affine, Instance, NEAR_LIMIT, Segment};
-use crate::packet::{M8, V8, X8, each_bit, equal, pick, select};
+use crate::packet::{M8, V8, X8, each_bit, select};
 use crate::scene::texture::Mask as Holes;
 use double_precision::{hides, wide};
-use etendue::{Mask, Real, Vec3, u32x8};
+use etendue::{Mask, Real, Vec3};
 use frustum::Frustum;
 use instances::{InstanceTriangle, Instances, Object};
 pub use node::BuildError;
+pub use primitive::{PrimitiveId, PrimitiveIds};
 use rays::any;
-pub use rays::{GROUP, Hits, NOTHING, Rays, SHAPE};
+pub use rays::{GROUP, Hits, Rays};
 pub use region::Region;
 pub use shapes::{LitSides, ShapeSet};
 use std::ops::Range;
@@ -177,13 +179,20 @@ impl Bvh {
         self.trace_shapes::<false>(rays, &mut lanes[..active.len()], frustum.as_ref(), hits, scratch);
     }
     /// Clears the lanes of `active` in which something hides the end of a segment, which is at the distance `limit` and on the shape `target`
-    /// (an index without [`SHAPE`]; or [`NOTHING`], if it is on none). What is level with the end within [`ENDS`](etendue_visible::ENDS)
+    /// (or on none). What is level with the end within [`ENDS`](etendue_visible::ENDS)
     /// does not hide it, but for lights that shine towards the origin, too, and come before the target in the scene's list.
     #[inline]
-    pub fn occluded(&self, rays: &[Rays], active: &mut [M8], limit: &[X8], target: &[u32x8], scratch: &mut Scratch) {
+    pub fn occluded(
+        &self,
+        rays: &[Rays],
+        active: &mut [M8],
+        limit: &[X8],
+        target: &[PrimitiveIds],
+        scratch: &mut Scratch,
+    ) {
         let mut hits = [Hits::none(X8::lit(0.0)); GROUP];
         for ((hits, &limit), &target) in hits.iter_mut().zip(limit).zip(target) {
-            (hits.distance, hits.place) = (limit, target | u32x8::splat(SHAPE));
+            (hits.distance, hits.primitives) = (limit, target);
         }
         self.trace::<true>(rays, active, &mut hits[..limit.len()], scratch);
     }
@@ -194,17 +203,16 @@ impl Bvh {
         let frustum = self.frustum(rays, active);
         // a single shape does not occlude itself
         let only = match self.shapes.tree().primitives().ids() {
-            [only] => only | SHAPE,
-            _ => NOTHING,
+            [only] => PrimitiveId::of_shape(*only),
+            _ => PrimitiveId::NONE,
         };
-        let own = |(&a, hits): (&M8, &Hits)| !(a & !equal(hits.place, u32x8::splat(only))).any();
-        let none = ANY && only != NOTHING && active.iter().zip(&*hits).all(own);
+        let own = |(&a, hits): (&M8, &Hits)| !(a & !hits.primitives.are(only)).any();
+        let none = ANY && only != PrimitiveId::NONE && active.iter().zip(&*hits).all(own);
         if !none {
             if ANY && self.shapes.gap() > GAP * self.reach {
                 let mut near = [Hits::none(X8::lit(0.0)); GROUP];
                 for (near, &hits) in near.iter_mut().zip(&*hits) {
-                    let none = equal(hits.place, u32x8::splat(NOTHING));
-                    let distance = select(none, hits.distance, hits.distance * X8::lit(BEFORE_SHAPES));
+                    let distance = select(hits.any(), hits.distance * X8::lit(BEFORE_SHAPES), hits.distance);
                     *near = Hits { distance, ..hits };
                 }
                 self.trace_shapes::<ANY>(rays, active, frustum.as_ref(), &mut near[..rays.len()], scratch);
@@ -252,14 +260,14 @@ impl Bvh {
         each_bit(near.bits(), |lane| {
             let [origin, direction] = [rays.origin, rays.direction].map(|v| wide(v.lane(lane)));
             let segment = Segment { origin, direction, length: shapes.distance.as_array()[lane].into() };
-            let segment = self.shapes.reached().by(shapes.place.as_array()[lane], segment);
-            let c = self.corners(hits.place.as_array()[lane]);
+            let segment = self.shapes.reached().by(shapes.primitives.lane(lane), segment);
+            let c = self.corners(hits.primitives.lane(lane));
             if !hides([0, 3, 6].map(|k| wide(Vec3::new(c[k], c[k + 1], c[k + 2]))), &segment) {
                 first = first | M8::from_bits(1 << lane);
             }
         });
         hits.distance = select(first, shapes.distance, hits.distance);
-        hits.place = pick(first, shapes.place, hits.place);
+        hits.primitives = PrimitiveIds::pick(first, shapes.primitives, hits.primitives);
     }
     /// Like [`Self::trace`], for shapes only: packet by packet if there is no frustum, as shapes are few.
     #[inline]
@@ -286,36 +294,36 @@ impl Bvh {
     fn frustum(&self, rays: &[Rays], active: &[M8]) -> Option<Frustum> {
         if self.traversal == Traversal::Choose { Frustum::new(rays, active) } else { None }
     }
-    /// The triangle of an instance at a place; `None` if it is no part of any.
+    /// A triangle of an instance; `None` if it is no part of any.
     #[inline]
-    fn of_instance(&self, place: u32) -> Option<InstanceTriangle<'_>> {
+    fn of_instance(&self, PrimitiveId(place): PrimitiveId) -> Option<InstanceTriangle<'_>> {
         let instances = self.instances.as_ref().filter(|_| place as usize >= self.triangles.count())?;
         Some(instances.find(place))
     }
-    /// The corners of the mesh triangle at a place.
+    /// The corners of a mesh triangle.
     #[inline]
-    pub fn corners(&self, place: u32) -> [f32; 9] {
-        let Some(InstanceTriangle { object, index, to_world }) = self.of_instance(place) else {
-            return self.triangles.primitives().corners(place);
+    pub fn corners(&self, triangle: PrimitiveId) -> [f32; 9] {
+        let Some(InstanceTriangle { object, index, to_world }) = self.of_instance(triangle) else {
+            return self.triangles.primitives().corners(triangle.0);
         };
         let c = object.triangles.primitives().corners(index as u32);
         let [a, b, c] = [0, 3, 6].map(|k| to_world.point(Vec3::new(c[k], c[k + 1], c[k + 2])));
         [a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z]
     }
-    /// The index in [`order`](Self::order) of the mesh triangle at a place.
+    /// The index in [`order`](Self::order) of a mesh triangle.
     #[inline]
-    pub fn slot(&self, place: u32) -> usize {
-        self.of_instance(place).map_or(place as usize, |found| found.object.before + found.index)
+    pub fn slot(&self, triangle: PrimitiveId) -> usize {
+        self.of_instance(triangle).map_or(triangle.0 as usize, |found| found.object.before + found.index)
     }
-    /// The map to world space of the mesh triangle at a place; `None` for one that is no part of an instance.
-    pub fn to_world(&self, place: u32) -> Option<&Affine> {
-        self.of_instance(place).map(|found| found.to_world)
+    /// The map to world space of a mesh triangle; `None` for one that is no part of an instance.
+    pub fn to_world(&self, triangle: PrimitiveId) -> Option<&Affine> {
+        self.of_instance(triangle).map(|found| found.to_world)
     }
-    /// Whether the mesh triangle at a place has holes.
-    pub fn is_cut_out(&self, place: u32) -> bool {
-        let (triangles, index) = match self.of_instance(place) {
+    /// Whether a mesh triangle has holes.
+    pub fn is_cut_out(&self, triangle: PrimitiveId) -> bool {
+        let (triangles, index) = match self.of_instance(triangle) {
             Some(found) => (found.object.triangles.primitives(), found.index),
-            None => (self.triangles.primitives(), place as usize),
+            None => (self.triangles.primitives(), triangle.0 as usize),
         };
         triangles.cutouts.as_ref().is_some_and(|cutouts| cutouts.has(index))
     }
@@ -323,19 +331,21 @@ impl Bvh {
     pub fn count(&self) -> usize {
         self.triangles.count()
     }
-    /// Calls `visit` with the place of each primitive that may meet the region, as in [`Hits`], until it returns false or `budget` nodes
+    /// Calls `visit` with each primitive that may meet the region, until it returns false or `budget` nodes
     /// have been visited. Returns whether the search was completed.
     pub fn search(
         &self,
         region: &Region,
         stack: &mut Vec<u32>,
         mut budget: usize,
-        mut visit: impl FnMut(u32) -> bool,
+        mut visit: impl FnMut(PrimitiveId) -> bool,
     ) -> bool {
         let shapes = self.shapes.tree();
         let ids = shapes.primitives().ids();
-        region::search(&shapes.view(), region, stack, &mut budget, |at| visit(ids[at] | SHAPE))
-            && region::search(&self.triangles.view(), region, stack, &mut budget, |at| visit(at as u32))
+        region::search(&shapes.view(), region, stack, &mut budget, |at| visit(PrimitiveId::of_shape(ids[at])))
+            && region::search(&self.triangles.view(), region, stack, &mut budget, |at| {
+                visit(PrimitiveId::of_triangle(at as u32))
+            })
             && self.instances.as_ref().is_none_or(|all| all.search(region, stack, &mut budget, visit))
     }
     /// Greatest magnitude of a coordinate of the scene.

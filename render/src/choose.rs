@@ -111,7 +111,7 @@ fn choose_by<C: ChooseLight>(way: &C, p: V8, normal: V8, gloss: Option<&Gloss<X8
 impl Chooser {
     /// The way to choose that [`ChoiceBy::Auto`] stands for.
     fn auto(lights: &Lights) -> Result<Way, BuildError> {
-        let all = lights.candidates();
+        let all = lights.records();
         if lights.only_few_areas() && all.len() > 1 {
             return Ok(Way::Spatial(spatial::new(&all).unwrap_or_else(|what| unreachable!("few lights, but {what}"))));
         }
@@ -119,8 +119,8 @@ impl Chooser {
     }
     /// Another way to choose, in a scene whose greatest coordinate is `reach`; or why it is none for these lights.
     fn way(lights: &Lights, by: ChoiceBy, reach: f32) -> Result<Way, String> {
-        let all = lights.candidates();
-        let somewhere = |way: Way| match all.iter().any(|light| light.far.is_some()) {
+        let all = lights.records();
+        let somewhere = |way: Way| match all.iter().any(|light| light.far().is_some()) {
             true => Err("lights that are somewhere, and the scene has a sun or a sky".to_owned()),
             false => Ok(way),
         };

@@ -29,14 +29,14 @@ mod sky_light;
 pub(crate) mod spot;
 pub(crate) mod sun;
 
-use crate::bvh::NOTHING;
+use crate::bvh::{PrimitiveId, PrimitiveIds};
 use crate::geometry::{self, Geometry};
-use crate::packet::{V8, X8, each_bit, each_group, pick, select};
+use crate::packet::{V8, X8, each_bit, select};
 use crate::scene::light_picture::LightPicture;
 use crate::scene::light_profile::LightProfile;
 use crate::scene::{Scene, Shape};
 use crate::technique::Measure;
-pub use chosen::{Chosen, Drawn};
+pub use chosen::{Chosen, Drawn, LightDirection};
 use directed::DirectedLight;
 use etendue::select::{LightBound, SpatialLights};
 use etendue::{Real, Vec2, u32x8};
@@ -45,13 +45,16 @@ use kinds::{
     sample_delta,
 };
 use pictures::Tables;
-pub(crate) use record::{Candidate, Far};
-use record::{LightRecord, PROFILED, PackedLight, SPREAD, TWO_SIDED, UNSEEN};
+use record::{DIRECTED, PROFILED, PackedLight, SKY, SPREAD, TWO_SIDED, UNSEEN};
+pub(crate) use record::{Far, LightRecord};
 use sky::Sky;
 use std::sync::Arc;
 
 /// The greatest number of lights that are chosen by what each can contribute to a point.
 const FEW: usize = SpatialLights::MOST;
+
+/// Instead of the index of a light: it is none.
+pub const NO_LIGHT: u32 = u32::MAX;
 
 /// The lights of a scene.
 #[derive(Debug, Default)]
@@ -60,20 +63,20 @@ pub struct Lights {
     packed: Vec<PackedLight>,
     /// Of more than [`FEW`] lights, the ones that are shapes, which come first: their indices. They are packed when they are chosen, since
     /// a copy of each is as large as the shape.
-    unpacked: Vec<u32>,
+    unpacked: Vec<usize>,
     shapes: Arc<[Shape]>,
     pictures: Arc<[LightPicture]>,
     profiles: Arc<[LightProfile]>,
     /// By which shapes with pictures are sampled.
     tables: Tables,
     /// The lights that are no shapes.
-    others: Vec<Candidate>,
+    others: Vec<LightRecord>,
     /// Bit k is set if there is a light of kind k, [`SPREADS`] if one has a spread, [`PICTURES`] if one shows a picture, and [`PROFILES`] if
     /// one with an area has a profile.
     kinds: u32,
     directed: Vec<DirectedLight>,
     sky: Option<Arc<Sky>>,
-    /// Index of the light of each shape; [`NOTHING`] for shapes that are not lights.
+    /// Index of the light of each shape; [`NO_LIGHT`] for shapes that are none.
     shape_lights: Vec<u32>,
 }
 
@@ -95,35 +98,34 @@ impl Lights {
     }
     fn of(scene: &Scene, shapes: &Arc<[Shape]>, sky: Option<Arc<Sky>>) -> Self {
         let (mut others, directed) = delta_lights(scene);
-        others.extend(sky.as_deref().map(sky_light::candidate));
+        others.extend(sky.as_deref().map(sky_light::record));
         let mut own = Self {
             others,
             sky,
-            shape_lights: vec![NOTHING; shapes.len()],
+            shape_lights: vec![NO_LIGHT; shapes.len()],
             directed,
             shapes: Arc::clone(shapes),
             pictures: Arc::clone(&scene.pictures),
             profiles: Arc::clone(&scene.profiles),
             ..Self::default()
         };
-        let all = own.candidates();
+        let all = own.records();
         own.kinds = all.iter().fold(0, |kinds, light| kinds | light.kinds());
-        for (index, Candidate { record, .. }) in (0..).zip(&all) {
-            if let Some(light) = own.shape_lights.get_mut(record.shape as usize) {
+        for (index, record) in (0..).zip(&all) {
+            if let Some(light) = record.primitive.shape().and_then(|shape| own.shape_lights.get_mut(shape)) {
                 *light = index;
             }
         }
-        let is_unpacked = |record: &&LightRecord| all.len() > FEW && record.shape != NOTHING;
-        let records = || all.iter().map(|light| &light.record);
-        own.unpacked = records().take_while(is_unpacked).map(|record| record.shape).collect();
-        own.packed = records().skip(own.unpacked.len()).map(LightRecord::pack).collect();
+        let is_unpacked = |record: &&LightRecord| all.len() > FEW && record.primitive != PrimitiveId::NONE;
+        own.unpacked = all.iter().take_while(is_unpacked).filter_map(|record| record.primitive.shape()).collect();
+        own.packed = all.iter().skip(own.unpacked.len()).map(LightRecord::pack).collect();
         if own.kinds & PICTURES != 0 {
             own.tables = Tables::new(shapes, &scene.pictures);
         }
         own
     }
     /// The lights with their powers, in their order: those that are shapes come first, the sky last.
-    pub(crate) fn candidates(&self) -> Vec<Candidate> {
+    pub(crate) fn records(&self) -> Vec<LightRecord> {
         area_lights(&self.shapes).chain(self.others.iter().copied()).collect()
     }
     /// The sky, if it is one of the lights.
@@ -172,80 +174,83 @@ impl Lights {
     fn pack(&self, light: u32) -> PackedLight {
         let light = light as usize;
         let Some(&shape) = self.unpacked.get(light) else { return self.packed[light - self.unpacked.len()] };
-        kinds::of_shape(shape, &self.shapes[shape as usize]).map(|light| light.record.pack()).unwrap_or_default()
+        kinds::of_shape(shape as u32, &self.shapes[shape]).map(|light| light.pack()).unwrap_or_default()
     }
-    /// Samples the chosen lights from points `p` on surfaces with this normal. `emits` allows for two-sided lights. For skies, pictures,
-    /// directed lights and those with a spread, `radiance` of `chosen` becomes that of the sampled direction; lights that no ray can hit lose their
-    /// `shape`, which occludes nothing.
+    /// Samples the chosen lights from points `p` on surfaces with this normal. `emits` allows for two-sided lights.
     #[inline(always)]
-    pub fn sample(&self, chosen: &mut Chosen, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> Drawn {
+    pub fn sample(&self, chosen: &Chosen, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> Drawn {
         let kinds = self.kinds;
-        let mut sample = if kinds & !SHAPES == 0 && kinds.is_power_of_two() {
-            geometry::sample(kinds.trailing_zeros(), chosen.vectors(), measure, p, normal, u)
+        let (mut to, radiance) = if kinds & !SHAPES == 0 && kinds.is_power_of_two() {
+            let to = geometry::sample(kinds.trailing_zeros(), chosen.vectors(), measure, p, normal, u);
+            (to, chosen.radiance)
         } else if kinds & UNEVEN != 0 {
             self.uneven(chosen, measure, p, normal, u)
         } else {
-            self.by_kind(chosen, measure, p, normal, u).unwrap_or_else(|| unreachable!("there is a light"))
+            self.by_kind(chosen, measure, p, normal, u)
         };
-        sample.emits = sample.emits | chosen.has(TWO_SIDED);
+        to.emits = to.emits | chosen.has(TWO_SIDED);
+        let mut primitives = chosen.primitives;
         if kinds & UNSEENS != 0 {
             let unseen = chosen.has(UNSEEN);
-            sample.delta = sample.delta | unseen;
-            chosen.shape = pick(unseen, u32x8::splat(NOTHING), chosen.shape);
+            to.delta = to.delta | unseen;
+            primitives = PrimitiveIds::pick(unseen, PrimitiveIds::none(), primitives);
         }
-        sample
+        Drawn { to, radiance, primitives }
     }
     /// Samples a scene with lights that emit unevenly: those in lanes of their own, and what the points see of panels with a spread.
     #[inline(never)]
-    fn uneven(&self, chosen: &mut Chosen, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> Drawn {
-        // normals before the lights are narrowed
-        let normal_of_light = (self.kinds & SPREADS != 0).then(|| chosen.narrow(self.kinds & SHAPES, p));
-        let mut drawn = self.by_kind(chosen, measure, p, normal, u);
-        if self.kinds >> directed::KIND & 1 == 1 {
-            let here = chosen.is(directed::KIND);
-            let sample = directed::sample(&self.directed, chosen, p, here);
-            drawn = Some(Drawn::blend(here, sample.into(), drawn));
-        }
-        let sample = drawn.unwrap_or_else(|| unreachable!("there is a light"));
-        if let Some(normal) = normal_of_light {
+    fn uneven(&self, chosen: &Chosen, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> (LightDirection, V8) {
+        let narrowed = (self.kinds & SPREADS != 0).then(|| chosen.narrowed(self.kinds & SHAPES, p));
+        let part = narrowed.as_ref().map_or(chosen, |(_, part)| part);
+        let (to, mut radiance) = self.by_kind(part, measure, p, normal, u);
+        if let Some((normal, _)) = narrowed {
             let lanes = chosen.has(SPREAD) & !chosen.has(PROFILED);
-            let factor = chosen.spread.attenuation_in(lanes, sample.direction, normal);
-            chosen.radiance = chosen.radiance * factor;
+            radiance = radiance * chosen.spread.attenuation_in(lanes, to.direction, normal);
             if self.kinds & PROFILES != 0 {
-                self.distribute(chosen, sample.direction, normal.normalize());
+                self.distribute(chosen, to.direction, normal.normalize(), &mut radiance);
             }
         }
-        sample
+        (to, radiance)
     }
     /// Multiplies the radiance of lights with profiles by what these have in the sampled directions.
-    fn distribute(&self, chosen: &mut Chosen, direction: V8, normal: V8) {
-        each_group(chosen.shape, chosen.has(PROFILED), |index, lanes| {
-            if let Some(profile) = self.shapes[index as usize].emission.and_then(|emission| emission.profile) {
+    fn distribute(&self, chosen: &Chosen, direction: V8, normal: V8, radiance: &mut V8) {
+        chosen.primitives.each(chosen.has(PROFILED), |primitive, lanes| {
+            let shape = primitive.shape().map(|shape| &self.shapes[shape]);
+            if let Some(profile) = shape.and_then(|shape| shape.emission).and_then(|emission| emission.profile) {
                 let factor = self.profiles[profile as usize].factor(-direction, normal);
-                chosen.radiance = chosen.radiance * select(lanes, factor, X8::splat(1.0));
+                *radiance = *radiance * select(lanes, factor, X8::splat(1.0));
             }
         });
     }
-    /// Samples every kind of light that the scene has, but for those with directions of their own, each in its lanes.
-    fn by_kind(&self, chosen: &mut Chosen, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> Option<Drawn> {
-        let mut drawn: Option<Drawn> = None;
-        each_bit(self.kinds & (SHAPES | ONLY_DELTAS | 1 << sky_light::KIND) & !(1 << directed::KIND), |kind| {
+    /// Samples every kind of light that the scene has, each in its lanes.
+    fn by_kind(&self, chosen: &Chosen, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> (LightDirection, V8) {
+        let (mut drawn, mut radiance): (Option<LightDirection>, V8) = (None, chosen.radiance);
+        each_bit(self.kinds & (SHAPES | ONLY_DELTAS | 1 << SKY), |kind| {
             let kind = kind as u32;
             let here = chosen.is(kind);
             let sample = match kind {
                 kind if SHAPES >> kind & 1 == 0 => match &self.sky {
-                    Some(sky) if kind == sky_light::KIND => sky_light::sample(sky, here, chosen, measure, p, normal, u),
+                    Some(sky) if kind == SKY => {
+                        let (sample, from_sky) = sky.sample(measure, p, normal, u);
+                        radiance = V8::blend(here, from_sky, radiance);
+                        sample.into()
+                    }
+                    _ if kind == DIRECTED => {
+                        let (sample, factor) = directed::sample(&self.directed, chosen, p, here);
+                        radiance = V8::blend(here, radiance * factor, radiance);
+                        sample.into()
+                    }
                     _ => sample_delta(kind, chosen, p, u).into(),
                 },
                 _ if self.kinds & PICTURES != 0 => {
                     let shown = (&self.shapes[..], &self.pictures[..]);
-                    self.tables.sample(shown, kind, here, chosen, measure, p, normal, u)
+                    self.tables.sample(shown, (kind, here), chosen, (measure, u), [p, normal], &mut radiance)
                 }
                 _ => geometry::sample(kind, chosen.vectors(), measure, p, normal, u),
             };
-            drawn = Some(Drawn::blend(here, sample, drawn));
+            drawn = Some(LightDirection::blend(here, sample, drawn));
         });
-        drawn
+        (drawn.unwrap_or_else(|| unreachable!("there is a light")), radiance)
     }
     /// The light of a shape that is one.
     #[inline]

@@ -52,7 +52,7 @@ pub struct Packet {
     pub y: u32x8,
     /// Indices of the samples in their pixels.
     pub sample: u32x8,
-    /// Indices of the sets in their pixels: ⌊sample/span⌋, or 0 if each sample is a set; see [`Source::span`].
+    /// Indices of the sets in their pixels: ⌊sample/set_size⌋, or 0 if each sample is a set; see [`NumberSource::set_size`].
     pub set: u32x8,
     /// Lanes that hold a sample.
     pub active: M8,
@@ -138,8 +138,8 @@ enum AnySequence {
 pub struct NumberSource {
     sequence: AnySequence,
     /// Samples in a set; 0 if each sample is a set.
-    span: u32,
-    /// Distance of the first indices of two successive sets, less `span`.
+    set_size: u32,
+    /// Distance of the first indices of two successive sets, less `set_size`.
     gap: u32x8,
     width: u32x8,
 }
@@ -159,29 +159,29 @@ impl NumberSource {
     /// Every count is valid; Sobol points are best if a set is a power of two.
     #[must_use]
     pub fn new(sampler: Sampler, seed: u64, spp: u32, sets: u32, width: u32) -> Self {
-        let span = match sampler {
+        let set_size = match sampler {
             // its sets have no fixed length, so samples are counted within each
             Sampler::Adaptive => 0,
             _ => spp / sampler.sets(spp, sets),
         };
         // each set starts anew
         let (sequence, stride) = match sampler {
-            Sampler::Independent => (AnySequence::Independent(Independent::new(seed)), span),
-            Sampler::Stratified => (AnySequence::Stratified(Stratified::new(seed, span)), span),
-            Sampler::Sobol | Sampler::Adaptive => (AnySequence::Sobol(OwenSobol::new(seed)), span),
-            Sampler::Sobol4d => (AnySequence::Sobol4d(JointSobol::new(seed)), span),
+            Sampler::Independent => (AnySequence::Independent(Independent::new(seed)), set_size),
+            Sampler::Stratified => (AnySequence::Stratified(Stratified::new(seed, set_size)), set_size),
+            Sampler::Sobol | Sampler::Adaptive => (AnySequence::Sobol(OwenSobol::new(seed)), set_size),
+            Sampler::Sobol4d => (AnySequence::Sobol4d(JointSobol::new(seed)), set_size),
             Sampler::ZOrder => {
-                let set = ZOrder::new(seed, span);
+                let set = ZOrder::new(seed, set_size);
                 (AnySequence::ZOrder(set), set.samples())
             }
         };
-        let span = if sampler == Sampler::Independent { 0 } else { span };
-        Self { sequence, span, gap: u32x8::splat(stride.saturating_sub(span)), width: u32x8::splat(width) }
+        let set_size = if sampler == Sampler::Independent { 0 } else { set_size };
+        Self { sequence, set_size, gap: u32x8::splat(stride.saturating_sub(set_size)), width: u32x8::splat(width) }
     }
     /// Samples in a set; 0 if each sample is a set.
     #[must_use]
-    pub const fn span(&self) -> u32 {
-        self.span
+    pub const fn set_size(&self) -> u32 {
+        self.set_size
     }
     /// The pairs [`FILM`] and [`LIGHT`].
     #[inline(always)]
@@ -213,7 +213,7 @@ impl NumberSource {
         let pixel = packet.y * self.width + packet.x;
         // the Sobol sequence does not end, so the set is part of the key
         let sobol = || {
-            let first = packet.set * u32x8::splat(self.span);
+            let first = packet.set * u32x8::splat(self.set_size);
             (pixel * u32x8::splat(4) + packet.set, packet.sample - first)
         };
         let sample = || packet.sample + packet.set * self.gap;

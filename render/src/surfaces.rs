@@ -5,14 +5,14 @@ pub mod coat;
 mod interpolation;
 pub mod lobe;
 
-use crate::bvh::{BuildError, Bvh, Hits, LitSides, Rays, SHAPE, ShapeSet};
+use crate::bvh::{BuildError, Bvh, Hits, LitSides, PrimitiveId, Rays, ShapeSet};
 use crate::geometry::{Points, on_triangle, on_triangles, on_vast_triangles};
-use crate::packet::{M8, V8, X8, each_group, equal, first_lane};
+use crate::packet::{M8, V8, X8, first_lane};
 use crate::scene::light_picture::LightPicture;
 use crate::scene::light_profile::LightProfile;
 use crate::scene::{Corners, Details, Material, Scene, Shape, Varying};
 use bsdf::{MaterialRecord, Metal, PLAIN, albedo, record};
-use etendue::{Mask, Real, Vec3, u32x8};
+use etendue::{Mask, Real, Vec3};
 use interpolation::{along_u, barycentric, interpolated, lane_of, moved, set_lane, smooth_normal};
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -57,8 +57,8 @@ pub struct Surfaces {
     albedos: Vec<[f32; 3]>,
     records: Vec<MaterialRecord>,
     /// Material of each triangle in the order of the leaves; empty if all have the same.
-    place_materials: Vec<u32>,
-    /// Material of all triangles if `place_materials` is empty.
+    mesh_materials: Vec<u32>,
+    /// Material of all triangles if `mesh_materials` is empty.
     one_material: u32,
     /// Whether all surfaces are flat, or spheres, and diffuse, each with one albedo.
     pub is_plain: bool,
@@ -119,7 +119,7 @@ impl Surfaces {
     }
     fn with(scene: &Scene, bvh: Bvh) -> Self {
         let one = scene.triangle_materials.windows(2).all(|w| w[0] == w[1]);
-        let place_materials = if one {
+        let mesh_materials = if one {
             Vec::new()
         } else {
             bvh.order().iter().map(|&id| scene.triangle_materials[id as usize]).collect()
@@ -144,7 +144,7 @@ impl Surfaces {
             records: means.iter().map(|material| record(&material.isotropic())).collect(),
             reflect: means.iter().map(|material| !material.is_black()).collect(),
             detail: detailed.then(|| Detail { corners: Arc::clone(&scene.details), materials: means, varying }),
-            place_materials,
+            mesh_materials,
             one_material: scene.triangle_materials.first().copied().unwrap_or(0),
         }
     }
@@ -178,10 +178,9 @@ impl Surfaces {
 
     #[inline(always)]
     fn mesh(&self, hits: &Hits, lanes: M8, rays: &Rays, surface: &mut Surface) {
-        let places = hits.place.as_array();
-        let first = places[first_lane(lanes)];
+        let first = hits.primitives.lane(first_lane(lanes));
         let is_vast = self.bvh.reach() > VAST;
-        let uniform = !is_vast && (equal(hits.place, u32x8::splat(first)) | !lanes).all();
+        let uniform = !is_vast && (hits.primitives.are(first) | !lanes).all();
         let reach = self.bvh.reach_of_points();
         let (points, albedo);
         if uniform {
@@ -191,17 +190,21 @@ impl Surfaces {
             albedo = V8::from(self.albedo(first));
         } else {
             let rows: [[f32; 9]; 8] =
-                std::array::from_fn(|i| if lanes.lane(i) { self.bvh.corners(places[i]) } else { [0.0; 9] });
+                std::array::from_fn(
+                    |i| if lanes.lane(i) { self.bvh.corners(hits.primitives.lane(i)) } else { [0.0; 9] },
+                );
             let c = X8::transpose(rows.map(|r| X8::from(&r[..8])));
             let last = X8::from(rows.map(|r| r[8]));
             let corners = [V8::new(c[0], c[1], c[2]), V8::new(c[3], c[4], c[5]), V8::new(c[6], c[7], last)];
             let meet = if is_vast { on_vast_triangles } else { on_triangles };
             points = meet(corners, [rays.origin, rays.direction], reach);
-            albedo = if self.place_materials.is_empty() {
-                V8::from(self.albedo(0))
+            albedo = if self.mesh_materials.is_empty() {
+                V8::from(self.albedo(first))
             } else {
                 let each: [[f32; 3]; 8] =
-                    std::array::from_fn(|i| if lanes.lane(i) { self.albedo(places[i]) } else { [0.0; 3] });
+                    std::array::from_fn(
+                        |i| if lanes.lane(i) { self.albedo(hits.primitives.lane(i)) } else { [0.0; 3] },
+                    );
                 let channel = |k: usize| X8::from(each.map(|a| a[k]));
                 V8::new(channel(0), channel(1), channel(2))
             };
@@ -214,21 +217,21 @@ impl Surfaces {
     }
 
     #[inline]
-    fn albedo(&self, place: u32) -> [f32; 3] {
-        self.albedos[self.mesh_material(place) as usize]
+    fn albedo(&self, triangle: PrimitiveId) -> [f32; 3] {
+        self.albedos[self.mesh_material(triangle) as usize]
     }
 
-    /// Material of a triangle, by its place.
+    /// Material of a mesh triangle.
     #[inline]
-    fn mesh_material(&self, place: u32) -> u32 {
-        if self.place_materials.is_empty() { self.one_material } else { self.place_materials[self.bvh.slot(place)] }
+    fn mesh_material(&self, triangle: PrimitiveId) -> u32 {
+        if self.mesh_materials.is_empty() { self.one_material } else { self.mesh_materials[self.bvh.slot(triangle)] }
     }
 
     /// Calls `f` for each shape that some lanes have hit, with its index, the lanes, the shape and its outward normals at the hits.
     #[inline]
     pub fn each_shape(&self, hits: &Hits, lanes: M8, rays: &Rays, mut f: impl FnMut(usize, M8, &Shape, V8)) {
-        each_group(hits.place, lanes, |place, here| {
-            let index = (place & !SHAPE) as usize;
+        hits.primitives.each(lanes, |primitive, here| {
+            let Some(index) = primitive.shape() else { return };
             let shape = &self.shapes[index];
             let outward = shape.geometry.outward_at([rays.origin, rays.direction], hits.distance);
             f(index, here, shape, outward);
@@ -293,18 +296,18 @@ impl Surfaces {
 
     #[inline(never)]
     fn detailed(&self, detail: &Detail, hits: &Hits, lanes: M8, direction: V8, surface: &mut Surface) -> (Metal, M8) {
-        let (places, order) = (hits.place.as_array(), self.bvh.order());
+        let order = self.bvh.order();
         let (mut records, mut smooth, mut grain) = ([PLAIN; 8], 0, None);
         for (lane, own) in records.iter_mut().enumerate().filter(|(lane, _)| lanes.lane(*lane)) {
-            let place = places[lane];
-            if place & SHAPE != 0 {
-                *own = self.records[self.shapes[(place & !SHAPE) as usize].material as usize];
+            let primitive = hits.primitives.lane(lane);
+            if let Some(shape) = primitive.shape() {
+                *own = self.records[self.shapes[shape].material as usize];
                 continue;
             }
-            let material = self.mesh_material(place) as usize;
-            let corners = detail.corners.of(order[self.bvh.slot(place)]);
+            let material = self.mesh_material(primitive) as usize;
+            let corners = detail.corners.of(order[self.bvh.slot(primitive)]);
             let varying = detail.varying[material].as_ref();
-            let weights = corners.map(|_| barycentric(self.bvh.corners(place), lane_of(surface.point, lane)));
+            let weights = corners.map(|_| barycentric(self.bvh.corners(primitive), lane_of(surface.point, lane)));
             let varied = varying.map(|varying| match (corners, weights) {
                 (Some(corners), Some(weights)) => varying.at(interpolated(&corners.uvs, weights)),
                 _ => varying.at([0.0; 2]),
@@ -314,7 +317,7 @@ impl Surfaces {
             if let Some(roughness) = here.roughness().filter(|roughness| !roughness.is_isotropic())
                 && let Some(corners) = corners
             {
-                let along = along_u(self.bvh.corners(place), &corners.uvs, roughness.turn);
+                let along = along_u(self.bvh.corners(primitive), &corners.uvs, roughness.turn);
                 set_lane(grain.get_or_insert_default(), lane, along);
             }
             if let Some(varied) = varied {
@@ -322,7 +325,7 @@ impl Surfaces {
             }
             if let Some((&Corners { normals, .. }, weights)) = corners.zip(weights)
                 && normals[0] != [0.0; 3]
-                && let normals = self.bvh.to_world(place).map_or(normals, |to_world| moved(normals, to_world))
+                && let normals = self.bvh.to_world(primitive).map_or(normals, |to_world| moved(normals, to_world))
                 && let Some(n) =
                     smooth_normal(&normals, weights, lane_of(surface.normal, lane), lane_of(direction, lane))
             {
@@ -337,16 +340,14 @@ impl Surfaces {
     /// Materials at the hit points of these lanes; of a material that varies, it is the mean.
     #[inline]
     pub fn metal(&self, hits: &Hits, lanes: M8) -> Metal {
-        let places = hits.place.as_array();
         let rows: [&MaterialRecord; 8] = std::array::from_fn(|i| {
             if !lanes.lane(i) {
                 return &PLAIN;
             }
-            let place = places[i];
-            let material = if place & SHAPE == 0 {
-                self.mesh_material(place)
-            } else {
-                self.shapes[(place & !SHAPE) as usize].material
+            let primitive = hits.primitives.lane(i);
+            let material = match primitive.shape() {
+                Some(shape) => self.shapes[shape].material,
+                None => self.mesh_material(primitive),
             };
             &self.records[material as usize]
         });

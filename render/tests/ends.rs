@@ -138,14 +138,14 @@ fn lamps_in_the_same_place_are_seen_from_their_sides() {
     ] {
         for (eye, expected) in [(0.0, from_below), (5.0, from_above)] {
             // with a black sheet in the same place, in triangles
-            for blocker in [
+            for occluder in [
                 "",
                 "Material \"diffuse\" \"rgb reflectance\" [0 0 0] Shape \"trianglemesh\" \"point3 P\" \
                                  [-1 -1 1.8 1 -1 2.2 1 1 2.2 -1 1 1.8] \"integer indices\" [0 1 2 0 2 3] ",
             ] {
                 let head = format!(
                     "LookAt 0 0 {eye} 0 0 2 0 1 0 Camera \"perspective\" \"float fov\" 15 Film \"rgb\" \"integer xresolution\" 8 \
-                     \"integer yresolution\" 8 PixelFilter \"box\" WorldBegin {blocker}"
+                     \"integer yresolution\" 8 PixelFilter \"box\" WorldBegin {occluder}"
                 );
                 let world = world(&(head + &lamps.map(|lamp| lamp.text()).concat()));
                 let found = mean(&world, Technique::SolidAngle, 16);

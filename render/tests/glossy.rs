@@ -140,9 +140,9 @@ impl Gloss {
 
 const FLOOR: &str = "Shape \"bilinearmesh\" \"point3 P\" [-9 0 9  9 0 9  -9 0 -9  9 0 -9]\n";
 
-/// The origin of a surface seen in this direction, with lights and perhaps a blocker.
-fn scene(view: V3, surface: &str, lights: &[Light], blocker: Option<&Light>) -> World {
-    let lights = lights.iter().map(|light| light.text(true)).chain(blocker.map(|blocker| blocker.text(false)));
+/// The origin of a surface seen in this direction, with lights and perhaps an occluder.
+fn scene(view: V3, surface: &str, lights: &[Light], occluder: Option<&Light>) -> World {
+    let lights = lights.iter().map(|light| light.text(true)).chain(occluder.map(|occluder| occluder.text(false)));
     let [x, y, z] = view;
     world(&narrow(&format!("{x} {y} {z}"), &(surface.to_owned() + &lights.collect::<String>())))
 }
@@ -154,14 +154,14 @@ fn metal(reflectance: f64, alpha: f64) -> String {
     )
 }
 
-/// The reflected light by sums over the lights, which hide each other, behind a blocker, if there is one.
-fn truth(coat: &Gloss, lights: &[Light], blocker: Option<&Light>, side: usize) -> V3 {
+/// The reflected light by sums over the lights, which hide each other, behind an occluder, if there is one.
+fn truth(coat: &Gloss, lights: &[Light], occluder: Option<&Light>, side: usize) -> V3 {
     let mut sum = [0.0; 3];
     for light in lights {
         for (w, solid_angle) in light.directions(side) {
             let reach = light.meets(w).unwrap_or(f64::INFINITY);
             let before = |other: &Light| other.meets(w).is_some_and(|distance| distance < 0.999 * reach);
-            let hidden = lights.iter().chain(blocker).any(before);
+            let hidden = lights.iter().chain(occluder).any(before);
             if !hidden {
                 sum = along(sum, coat.reflected(w), solid_angle);
             }
@@ -222,9 +222,9 @@ fn rough_surfaces_reflect_the_sums() {
         ("a panel behind a screen", vec![panel(-0.7)], Some(screen())),
         ("all", vec![panel(-2.5), triangle(), ball(2.5)], None),
     ];
-    for (name, lights, blocker) in &scenes {
+    for (name, lights, occluder) in &scenes {
         // where nothing hides a part of a light, the sum has no edge and fewer cells do
-        let is_whole = lights.len() == 1 && blocker.is_none() && !name.contains("horizon");
+        let is_whole = lights.len() == 1 && occluder.is_none() && !name.contains("horizon");
         let side = if is_whole { 400 } else { 1200 };
         for (alpha, albedo, view) in [
             (0.15, [0.0; 3], [0.2, 2.0, 3.0]),
@@ -232,12 +232,12 @@ fn rough_surfaces_reflect_the_sums() {
             (0.7, [0.5, 0.5, 0.5], [2.0, 2.0, 1.0]),
         ] {
             let coat = Gloss::coat(alpha, albedo, view);
-            let truth = truth(&coat, lights, blocker.as_ref(), side);
-            let world = scene(view, &coat.text(), lights, blocker.as_ref());
+            let truth = truth(&coat, lights, occluder.as_ref(), side);
+            let world = scene(view, &coat.text(), lights, occluder.as_ref());
             let claims = [Technique::Analytic, Technique::MisPower].map(|technique| {
                 let [mean, claim] = pixel(&world, technique, cases(1 << 12, 1 << 15));
                 // the last is the error of the sums, which is that of a cell along the edge of a shadow
-                let edges = if blocker.is_some() || lights.len() > 1 { 1e-4 } else { 2e-5 };
+                let edges = if occluder.is_some() || lights.len() > 1 { 1e-4 } else { 2e-5 };
                 let is_near = (0..3).all(|k| (mean[k] - truth[k]).abs() < 5.0 * (claim[k] + edges * truth[k]));
                 assert!(is_near, "{name}, α {alpha}, {technique:?}: {mean:?}, not {truth:?} ± {claim:?}");
                 (0..3).map(|k| claim[k] / truth[k]).sum::<f64>()
@@ -290,9 +290,9 @@ fn metals_reflect_spheres_as_by_the_bsdf() {
         ("a ball behind a screen", vec![ball(1.5, 0.6)], Some(screen())),
         ("balls and a panel", vec![ball(1.5, 0.4), ball(0.3, 0.5), panel()], None),
     ];
-    for (name, lights, blocker) in &scenes {
+    for (name, lights, occluder) in &scenes {
         for (alpha, view) in [(0.1, [0.2, 2.0, 3.0]), (0.3, [0.0, 1.0, 3.0]), (0.6, [2.0, 0.4, 2.0])] {
-            let world = scene(view, &(metal(0.9, alpha) + FLOOR), lights, blocker.as_ref());
+            let world = scene(view, &(metal(0.9, alpha) + FLOOR), lights, occluder.as_ref());
             let green = |technique, spp| pixel(&world, technique, spp).map(|rgb| rgb[1]);
             let [truth, doubt] = green(Technique::Brdf, cases(1 << 18, 1 << 22));
             let spp = cases(1 << 14, 1 << 18);
@@ -301,7 +301,7 @@ fn metals_reflect_spheres_as_by_the_bsdf() {
                 let z = (mean - truth).abs() / claim.hypot(doubt);
                 assert!(!differs(z), "{name}, α {alpha}, {technique:?}: {mean} ± {claim}, not {truth} ± {doubt}");
             }
-            if lights.len() == 1 && blocker.is_none() {
+            if lights.len() == 1 && occluder.is_none() {
                 let [by_lobe, both] = [Technique::MisLobe, Technique::MisPower].map(|by| green(by, spp)[1]);
                 println!("{name}, α {alpha}: {:.1} times less variance than mis-power", (both / by_lobe).powi(2));
                 assert!(by_lobe < 0.8 * both, "{name}, α {alpha}: ± {by_lobe}, mis-power ± {both}");

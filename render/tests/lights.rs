@@ -6,8 +6,8 @@ use etendue::{Mask, Real, Uint, Vec2, Vec3, u32x8};
 use etendue_oracle::tier::cases;
 use etendue_render::choose::{ChoiceBy, Chooser, Choosers};
 use etendue_render::geometry::{Geometry, Parallelogram, Sphere};
-use etendue_render::lights::Lights;
 use etendue_render::lights::sky::Sky;
+use etendue_render::lights::{Drawn, Lights};
 use etendue_render::packet::{V8, X8};
 use etendue_render::scene::{self, DeltaLight, Scene};
 use etendue_render::technique::Measure;
@@ -55,12 +55,13 @@ fn the_pdf_of_a_direction_is_that_with_which_it_was_drawn() {
             let (by, chooser) = choosers[number as usize % choosers.len()];
             let (p, normal, [u, second, x, y]) = packet(&scene, number);
             let choice = chooser.choose(p, normal, None, [u, second]);
-            let mut chosen = lights.chosen(choice.index);
-            let drawn = lights.sample(&mut chosen, Measure::SolidAngle, p, normal, Vec2::new(x, y));
+            let chosen = lights.chosen(choice.index);
+            let Drawn { to: drawn, primitives, .. } =
+                lights.sample(&chosen, Measure::SolidAngle, p, normal, Vec2::new(x, y));
             let pmf = chooser.pmf(p, normal, None);
             let sampled = choice.pmf.gt(X8::lit(0.0)) & drawn.pdf.gt(X8::lit(0.0)) & !drawn.delta;
             for lane in (0..8).filter(|&lane| sampled.lane(lane)) {
-                let index = chosen.shape.lane(lane) as usize;
+                let index = primitives.lane(lane).shape().unwrap();
                 let geometry = &scene.shapes[index].geometry;
                 let pmf = pmf.of(lights.of_shape(index));
                 let pdf = (lights.shape_pdf(index, geometry, p, drawn.direction) * pmf).lane(lane);
@@ -103,8 +104,8 @@ fn the_pdf_of_the_sky_is_that_with_which_it_was_drawn() {
             let (p, normal) = (V8::new(away(pair(0).x), away(pair(0).y), away(pair(1).x)), V8::lit([0.0, 0.6, 0.8]));
             let (Vec2 { x: u, y: second }, Vec2 { x, y }) = (pair(2), pair(3));
             let choice = chooser.choose(p, normal, None, [u, second]);
-            let mut chosen = lights.chosen(choice.index);
-            let drawn = lights.sample(&mut chosen, Measure::SolidAngle, p, normal, Vec2::new(x, y));
+            let chosen = lights.chosen(choice.index);
+            let drawn = lights.sample(&chosen, Measure::SolidAngle, p, normal, Vec2::new(x, y)).to;
             let pmf = chooser.pmf(p, normal, None).of(lights.of_sky());
             let pdf = lights.sky_pdf(p, normal, drawn.direction) * pmf;
             for lane in (0..8).filter(|&lane| choice.index.lane(lane) + 1 == lights.len() as u32) {
@@ -285,12 +286,13 @@ fn directed_and_spread_lights_are_never_lost() {
         let normal = V8::new(centered(pairs[1].y), centered(pairs[2].x), centered(pairs[2].y)).normalize();
         let pmf = chooser.pmf(p, normal, None);
         for light in (0..all).filter(|light| (light + number).is_multiple_of(3)) {
-            let mut chosen = lights.chosen(u32x8::splat(light));
-            let drawn = lights.sample(&mut chosen, Measure::SolidAngle, p, normal, pairs[3]);
-            let bright = (chosen.radiance.x + chosen.radiance.y + chosen.radiance.z).gt(X8::lit(0.0));
+            let chosen = lights.chosen(u32x8::splat(light));
+            let Drawn { to: drawn, radiance, primitives } =
+                lights.sample(&chosen, Measure::SolidAngle, p, normal, pairs[3]);
+            let bright = (radiance.x + radiance.y + radiance.z).gt(X8::lit(0.0));
             let lit = drawn.emits & bright & drawn.pdf.gt(X8::lit(0.0)) & drawn.direction.dot(normal).gt(X8::lit(0.0));
             let pmf = pmf.of(light);
-            let index = chosen.shape.lane(0) as usize;
+            let index = primitives.lane(0).shape().unwrap();
             let pdf = |shape: &scene::Shape| lights.shape_pdf(index, &shape.geometry, p, drawn.direction) * pmf;
             let pdf = scene.shapes.get(index).map(pdf);
             for lane in (0..8).filter(|&lane| lit.lane(lane)) {

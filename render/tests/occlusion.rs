@@ -1,4 +1,4 @@
-//! The visible part of lights past convex blockers, against an oracle that subtracts the blockers one after another.
+//! The visible part of lights past convex occluders, against an oracle that subtracts the occluders one after another.
 
 mod accuracy;
 mod compact;

@@ -221,7 +221,7 @@ fn shown([u, v]: [f64; 2]) -> V3 {
 }
 
 /// Pictures on panels that are near, far, at a grazing angle and partly below the horizon, in triangles with coordinates of their own, behind
-/// blockers that hide more of the picture's light than of its area, or less, among other lights, and on spheres.
+/// occluders that hide more of the picture's light than of its area, or less, among other lights, and on spheres.
 #[test]
 fn pictures_shine_as_they_look() {
     let folder = Folder::new();
@@ -243,13 +243,13 @@ fn pictures_shine_as_they_look() {
         ("grazing", grazing.lamp(&two_sided), sum(grazing, 1200, true)),
         ("triangles", mapped.lamp(picture), irradiance(mapped.cells(900), UP, false, |_, st| shown(uv(st)))),
     ];
-    // the camera's ray passes behind the blocker
+    // the camera's ray passes behind the occluder
     let hidden = Panel::new([-1.5, 7.5, -1.8], [[3.0, 0.0, 0.0], [0.0, 0.0, 2.0]]);
     for (name, [from, to]) in [("left hidden", [-4.0, 0.03]), ("right hidden", [0.03, 4.0])] {
-        let blocker = Panel::new([from, 1.0, -3.0], [[to - from, 0.0, 0.0], [0.0, 0.0, 3.2]]);
+        let occluder = Panel::new([from, 1.0, -3.0], [[to - from, 0.0, 0.0], [0.0, 0.0, 3.2]]);
         let visible = hidden.cells(900).filter(|([x, y, _], ..)| !(from..to).contains(&(x / y)));
         let truth = irradiance(visible, UP, true, |_, st| shown(st));
-        rows.push((name, format!("{}{}", blocker.text(), hidden.lamp(&two_sided)), truth));
+        rows.push((name, format!("{}{}", occluder.text(), hidden.lamp(&two_sided)), truth));
     }
     let plain = Panel { corner: [-1.0, 3.0, 1.0], ..near };
     let (raised, other) =

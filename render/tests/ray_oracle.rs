@@ -8,8 +8,8 @@
 
 use crate::meshes::{Triangle, add, cube, meshes, point};
 use crate::random::Random;
-use etendue::{Mask, Real, Vec3, f32x8, u32x8};
-use etendue_render::bvh::{Bvh, GROUP, Hits, NOTHING, Scratch, ShapeSet, Traversal};
+use etendue::{Mask, Real, Vec3, f32x8};
+use etendue_render::bvh::{Bvh, GROUP, Hits, PrimitiveId, PrimitiveIds, Scratch, ShapeSet, Traversal};
 use etendue_render::packet::M8;
 
 type Ray = ([f32; 3], [f32; 3]);
@@ -59,8 +59,8 @@ fn group(kind: usize, mesh: &[Triangle], random: &mut Random) -> Vec<Ray> {
 /// The hits of a group, and which rays are unoccluded up to half of the hit distance, up to it, and slightly beyond.
 #[derive(Debug, PartialEq)]
 struct GroupHits {
-    /// Bits of the distance, and the place.
-    hits: Vec<[u32; 2]>,
+    /// Bits of the distance, and the primitive.
+    hits: Vec<(u32, PrimitiveId)>,
     free: Vec<u32>,
 }
 
@@ -75,14 +75,14 @@ fn trace(bvh: &Bvh, rays: &[Ray], active: &[M8], stack: &mut Scratch) -> GroupHi
     let bits = |x: f32x8, i: usize| x.to_array()[i].to_bits();
     let each = (0..8 * GROUP).map(|i| {
         let (h, i) = (&hits[i / 8], i % 8);
-        [bits(h.distance, i), h.place.to_array()[i]]
+        (bits(h.distance, i), h.primitives.lane(i))
     });
     let each: Vec<_> = each.collect();
     // limits before, at and behind the hits
     let limits = [0.5, 1.0, 1.000_001].map(|c| hits.map(|h| h.distance * f32x8::splat(c)));
     let free = limits.iter().flat_map(|limit| {
         let mut open: Vec<_> = active.to_vec();
-        bvh.occluded(&packets, &mut open, limit, &[u32x8::splat(NOTHING); GROUP], stack);
+        bvh.occluded(&packets, &mut open, limit, &[PrimitiveIds::none(); GROUP], stack);
         open.into_iter().map(|m| m.bits()).collect::<Vec<_>>()
     });
     let free = free.collect();
@@ -124,12 +124,13 @@ fn campaign(groups: usize, seed: u32) -> [u64; 2] {
                 for (way, bvh) in &ways {
                     let found = trace(bvh, &rays, &active, &mut stack);
                     for (i, (f, e)) in found.hits.iter().zip(&expected.hits).enumerate() {
-                        let [f32::INFINITY, _] = [f32::from_bits(e[0]), 0.0] else {
+                        let f32::INFINITY = f32::from_bits(e.0) else {
                             assert_eq!(f, e, "{way:?}, {name} × {scale} + {shift}, kind {kind}: ray {i} {:?}", rays[i]);
                             continue;
                         };
                         assert_eq!(
-                            f[1], NOTHING,
+                            f.1,
+                            PrimitiveId::NONE,
                             "{way:?}, {name} × {scale} + {shift}, kind {kind}: ray {i} {:?}",
                             rays[i]
                         );
@@ -137,7 +138,7 @@ fn campaign(groups: usize, seed: u32) -> [u64; 2] {
                     assert_eq!(found, expected, "{way:?}, {name} × {scale} + {shift}, kind {kind}");
                 }
                 counts[0] += 8 * GROUP as u64;
-                counts[1] += expected.hits.iter().filter(|h| h[1] != NOTHING).count() as u64;
+                counts[1] += expected.hits.iter().filter(|h| h.1 != PrimitiveId::NONE).count() as u64;
             }
         }
     }
@@ -178,7 +179,7 @@ fn closed_meshes_do_not_leak() {
                     (center, d.map(|x| (x / length) as f32))
                 });
                 let found = trace(&bvh, &rays.collect::<Vec<_>>(), &[M8::splat(true); GROUP], &mut stack);
-                assert!(found.hits.iter().all(|h| h[1] != NOTHING), "a leak at scale {scale}, {way:?}");
+                assert!(found.hits.iter().all(|h| h.1 != PrimitiveId::NONE), "a leak at scale {scale}, {way:?}");
             }
         }
     }

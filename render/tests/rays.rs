@@ -1,9 +1,9 @@
 //! Compares packets with a test of each triangle in double precision, and builds trees over difficult meshes.
 
 use etendue::sequence::{Independent, Sequence};
-use etendue::{Mask, Real, Vec2, Vec3, f32x8, u32x8};
+use etendue::{Mask, Real, Vec2, Vec3, f32x8};
 use etendue_oracle::{V3, cross, dot, sub};
-use etendue_render::bvh::{Bvh, Hits, LitSides, NOTHING, Scratch, ShapeSet, Traversal};
+use etendue_render::bvh::{Bvh, Hits, LitSides, PrimitiveId, PrimitiveIds, Scratch, ShapeSet, Traversal};
 use etendue_render::scene::{Affine, Disk, Geometry, Instance};
 
 /// Distance and least barycentric coordinate (Möller and Trumbore), if the ray hits the plane.
@@ -35,7 +35,7 @@ fn check(triangles: &[[[f32; 3]; 3]], bvh: &Bvh, rays: &[([f32; 3], [f32; 3])], 
     let mut hits = [Hits::none(far); 8];
     bvh.closest(&packets, &all, &mut hits, &mut stack);
     let mut open = all;
-    bvh.occluded(&packets, &mut open, &[far; 8], &[u32x8::splat(NOTHING); 8], &mut stack);
+    bvh.occluded(&packets, &mut open, &[far; 8], &[PrimitiveIds::none(); 8], &mut stack);
     let mut count = 0;
     for (i, (o, d)) in rays.iter().enumerate() {
         let (o, d) = (o.map(f64::from), d.map(f64::from));
@@ -225,7 +225,7 @@ fn instances_are_hit_as_copies() {
             let own = found(&all, &rays);
             for (i, ((distance, place), (wanted, copy))) in own.iter().zip(&expected).enumerate() {
                 assert_eq!(distance, wanted, "ray {i} of group {group} of round {round}");
-                let corners = |bvh: &Bvh, place: u32| (place != NOTHING).then(|| bvh.corners(place));
+                let corners = |bvh: &Bvh, place: PrimitiveId| (place != PrimitiveId::NONE).then(|| bvh.corners(place));
                 assert_eq!(corners(&all, *place), corners(&flat, *copy), "ray {i} of group {group} of round {round}");
             }
             for (which, bvh) in others.iter().enumerate() {
@@ -239,15 +239,15 @@ fn instances_are_hit_as_copies() {
 /// Origin and direction.
 type Ray = ([f32; 3], [f32; 3]);
 
-/// Distance and place of the nearest hit of each ray.
-fn found(bvh: &Bvh, rays: &[Ray]) -> Vec<(f32, u32)> {
+/// Distance and primitive of the nearest hit of each ray.
+fn found(bvh: &Bvh, rays: &[Ray]) -> Vec<(f32, PrimitiveId)> {
     let axis =
         |p: usize, a: usize, of: fn(&Ray) -> [f32; 3]| f32x8::from(std::array::from_fn(|i| of(&rays[8 * p + i])[a]));
     let lanes = |p: usize, of: fn(&Ray) -> [f32; 3]| Vec3::new(axis(p, 0, of), axis(p, 1, of), axis(p, 2, of));
     let packets: Vec<_> = (0..8).map(|p| bvh.rays(lanes(p, |ray| ray.0), lanes(p, |ray| ray.1))).collect();
     let mut hits = [Hits::none(f32x8::splat(f32::INFINITY)); 8];
     bvh.closest(&packets, &[<f32x8 as Real>::Mask::splat(true); 8], &mut hits, &mut Scratch::default());
-    (0..64).map(|i| (hits[i / 8].distance.lane(i % 8), hits[i / 8].place.to_array()[i % 8])).collect()
+    (0..64).map(|i| (hits[i / 8].distance.lane(i % 8), hits[i / 8].primitives.lane(i % 8))).collect()
 }
 
 #[test]
@@ -260,7 +260,7 @@ fn identical_triangles_build() {
     let mut hits = [Hits::none(f32x8::splat(f32::INFINITY))];
     let ray = bvh.rays([0.0, 0.0, 2.0].into(), [0.0, 0.0, -1.0].into());
     bvh.closest(&[ray], &[<f32x8 as Real>::Mask::splat(true)], &mut hits, &mut Scratch::default());
-    assert_eq!(bvh.order()[hits[0].place.to_array()[0] as usize], 0);
+    assert_eq!(bvh.order()[hits[0].primitives.lane(0).triangle().unwrap() as usize], 0);
 }
 
 /// Trees whose surface areas overflow are built all the same.
@@ -276,7 +276,11 @@ fn huge_triangles_build() {
             let bvh = tree(&triangles);
             let mut found: Vec<u32> = bvh.order().to_vec();
             for (place, id) in (0..).zip(&found) {
-                assert_eq!(bvh.corners(place), triangles[*id as usize].concat()[..], "{scale}, {count}");
+                assert_eq!(
+                    bvh.corners(PrimitiveId::of_triangle(place)),
+                    triangles[*id as usize].concat()[..],
+                    "{scale}, {count}"
+                );
             }
             found.sort_unstable();
             assert!((0..count).eq(found), "{scale}, {count}");
@@ -308,7 +312,11 @@ fn trees_of_many_parts_are_whole() {
     let bvh = tree(&triangles);
     let mut order = bvh.order().to_vec();
     for (place, &id) in (0..).zip(&order) {
-        assert_eq!(&bvh.corners(place), triangles[id as usize].as_flattened(), "place {place}");
+        assert_eq!(
+            &bvh.corners(PrimitiveId::of_triangle(place)),
+            triangles[id as usize].as_flattened(),
+            "place {place}"
+        );
     }
     order.sort_unstable();
     assert!(order.into_iter().eq(0..triangles.len() as u32), "a triangle is missing or duplicated");
@@ -323,7 +331,7 @@ fn trees_of_many_parts_are_whole() {
         .collect();
     let ways = [Traversal::Exhaustive, Traversal::Choose, Traversal::Stream, Traversal::Single];
     let all = ways.map(|way| found(&tree(&triangles).with_traversal(way), &rays));
-    let met = all[0].iter().filter(|(_, place)| *place != NOTHING).count();
+    let met = all[0].iter().filter(|(_, place)| *place != PrimitiveId::NONE).count();
     assert!(met > 32, "{met} of 64 rays hit");
     assert!(all.iter().all(|hits| *hits == all[0]), "traversals differ");
 }

@@ -13,7 +13,7 @@ type M8 = <X8 as Real>::Mask;
 /// Film, light and lens numbers of every sample of one pixel, in order.
 fn points(sampler: Sampler, spp: u32, pixel: [u32; 2], seed: u64) -> (Vec<[f64; 6]>, u32) {
     let source = NumberSource::new(sampler, seed, spp, 0, 256);
-    let set = |i: u32| i.checked_div(source.span()).unwrap_or(0);
+    let set = |i: u32| i.checked_div(source.set_size()).unwrap_or(0);
     let mut all = Vec::new();
     for start in (0..spp).step_by(8) {
         let sample = |k: u32| (start + k).min(spp - 1);
@@ -35,7 +35,7 @@ fn points(sampler: Sampler, spp: u32, pixel: [u32; 2], seed: u64) -> (Vec<[f64; 
             }));
         }
     }
-    (all, source.span())
+    (all, source.set_size())
 }
 
 /// Whether each of `side`ᵈ cells holds the same number of points, by their first d coordinates.
@@ -143,7 +143,7 @@ fn each_set_has_numbers_of_its_own() {
         for pixel in (0..256).map(|i| [i % 16, i / 16]) {
             for first in (0..64).step_by(8) {
                 let sample = u32x8::from([0, 1, 2, 3, 4, 5, 6, 7]) + u32x8::splat(first);
-                let set = u32x8::splat(first.checked_div(source.span()).unwrap_or(0));
+                let set = u32x8::splat(first.checked_div(source.set_size()).unwrap_or(0));
                 let (x, y) = (u32x8::splat(pixel[0]), u32x8::splat(pixel[1]));
                 let packet = Packet { x, y, sample, set, active: M8::splat(true) };
                 let pair = source.pair(&packet, LIGHT);
@@ -167,7 +167,7 @@ fn each_light_has_numbers_of_its_own() {
             let packet = Packet {
                 x: u32x8::splat(pixel[0]),
                 y: u32x8::splat(pixel[1]),
-                sample: lanes + u32x8::splat(set * source.span()),
+                sample: lanes + u32x8::splat(set * source.set_size()),
                 set: u32x8::splat(set),
                 active: M8::splat(true),
             };

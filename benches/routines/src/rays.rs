@@ -4,7 +4,7 @@ use crate::baseline::{self, Baseline, BaselineRay};
 use etendue::sequence::{Independent, Sequence};
 use etendue::warp::{CosineHemisphere, Warp};
 use etendue::{Frame, Mask, Real, u32x8};
-use etendue_render::bvh::{Bvh, GROUP, Hits, NOTHING, Rays, Scratch, ShapeSet, Traversal};
+use etendue_render::bvh::{Bvh, GROUP, Hits, PrimitiveIds, Rays, Scratch, ShapeSet, Traversal};
 use etendue_render::camera::Pinhole;
 use etendue_render::packet::{M8, V8, X8};
 use etendue_render::{
@@ -207,7 +207,7 @@ impl Workload {
             let rays: [Rays; GROUP] = std::array::from_fn(|p| bvh.rays(group[p].origin, group[p].direction));
             let before = group.map(|p| p.active);
             let mut active = before;
-            bvh.occluded(&rays, &mut active, &group.map(|p| p.limit), &[u32x8::splat(NOTHING); GROUP], stack);
+            bvh.occluded(&rays, &mut active, &group.map(|p| p.limit), &[PrimitiveIds::none(); GROUP], stack);
             before.iter().zip(active).map(|(&b, a)| count(b & !a)).sum::<u64>()
         };
         groups.iter().map(hidden).sum()
@@ -258,7 +258,7 @@ impl Point {
         let met = hits.any();
         let mut normal = V8::default();
         for lane in (0..8).filter(|&i| met.lane(i)) {
-            let c = bvh.corners(hits.place.as_array()[lane]);
+            let c = bvh.corners(hits.primitives.lane(lane));
             let corner = |k: usize| V8::from([c[k], c[k + 1], c[k + 2]]);
             let n = (corner(3) - corner(0)).cross(corner(6) - corner(0)).normalize();
             normal = V8::blend(M8::from_bits(1 << lane), n, normal);
@@ -272,8 +272,8 @@ impl Point {
     fn to_light(&self, lights: &Lights, chooser: &Chooser, u: etendue::Vec2<X8>) -> Packet {
         let zero = X8::lit(0.0);
         let choice = chooser.choose(self.place, self.normal, None, [u.x, zero]);
-        let (mut chosen, u) = (lights.chosen(choice.index), etendue::Vec2::new(choice.u, u.y));
-        let sample = lights.sample(&mut chosen, Measure::SolidAngle, self.place, self.normal, u);
+        let (chosen, u) = (lights.chosen(choice.index), etendue::Vec2::new(choice.u, u.y));
+        let sample = lights.sample(&chosen, Measure::SolidAngle, self.place, self.normal, u).to;
         let active = self.met & sample.emits & sample.pdf.gt(zero) & sample.direction.dot(self.normal).gt(zero);
         let limit = sample.distance * X8::lit(1.0 - 1.0 / 131_072.0);
         Packet { origin: self.place, direction: sample.direction, active, limit }

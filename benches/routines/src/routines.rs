@@ -122,7 +122,7 @@ impl<R: Real + 'static> List<R> {
     }
 }
 
-/// What remains of a light behind blockers, from the viewpoints.
+/// What remains of a light behind occluders, from the viewpoints.
 fn visible_parts<R: Real + 'static>(list: &mut List<R>) {
     let square = |x: f64, y: f64, half: f64| {
         let corners = [[-half, -half], [half, -half], [half, half], [-half, half]];
@@ -132,17 +132,17 @@ fn visible_parts<R: Real + 'static>(list: &mut List<R>) {
     let (over, beside) = (square(0.25, 1.25, 0.4), [3.0, 5.0, 7.0].map(|x| square(x, 1.25, 0.4)));
     let (panel, lamp) = (square(0.0, 2.0, 1.0), ball(0.0, 2.0, 0.9));
     let up = Vec3::lit([0.0, 1.0, 0.0]);
-    for (name, light, blockers) in [
+    for (name, light, occluders) in [
         ("polygon", &panel, vec![]),
-        ("polygon, 1 blocker", &panel, vec![over.clone()]),
-        ("polygon, 4 blockers, 1 before it", &panel, [std::slice::from_ref(&over), &beside].concat()),
+        ("polygon, 1 occluder", &panel, vec![over.clone()]),
+        ("polygon, 4 occluders, 1 before it", &panel, [std::slice::from_ref(&over), &beside].concat()),
         ("polygon, 1 sphere", &panel, vec![ball(0.25, 1.25, 0.4)]),
         ("sphere", &lamp, vec![]),
-        ("sphere, 1 blocker", &lamp, vec![over]),
+        ("sphere, 1 occluder", &lamp, vec![over]),
     ] {
         let (light, memory) = (light.clone(), std::cell::RefCell::new(Occlusion::<R>::new()));
         list.prepared(&format!("visible {name}"), move |p, _| {
-            memory.borrow_mut().visible(p, black_box(up), &light, &blockers)
+            memory.borrow_mut().visible(p, black_box(up), &light, &occluders)
         });
     }
 }

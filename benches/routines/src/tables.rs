@@ -213,23 +213,23 @@ fn choice() -> MarkdownTable {
     MarkdownTable { file: "README.md", name: "choice", header, rows }
 }
 
-/// Visible parts: the light, its blockers, and the time of a point at each width.
+/// Visible parts: the light, its occluders, and the time of a point at each width.
 fn visible() -> MarkdownTable {
-    let row = |light: &'static str, blockers: &'static str, name: &'static str| {
-        vec![Text(light), Text(blockers), Time(name, 0), Time(name, 2)]
+    let row = |light: &'static str, occluders: &'static str, name: &'static str| {
+        vec![Text(light), Text(occluders), Time(name, 0), Time(name, 2)]
     };
     let rows = vec![
         row("polygon", "none", "visible polygon"),
-        row("", "a polygon before it", "visible polygon, 1 blocker"),
-        row("", "4 polygons, 1 before it", "visible polygon, 4 blockers, 1 before it"),
+        row("", "a polygon before it", "visible polygon, 1 occluder"),
+        row("", "4 polygons, 1 before it", "visible polygon, 4 occluders, 1 before it"),
         row("", "a sphere before it", "visible polygon, 1 sphere"),
         row("sphere", "none", "visible sphere"),
-        row("", "a polygon before it", "visible sphere, 1 blocker"),
+        row("", "a polygon before it", "visible sphere, 1 occluder"),
     ];
     MarkdownTable {
         file: "core/visible/src/measure.rs",
         name: "visible",
-        header: &["light", "blockers", "x1", "x8"],
+        header: &["light", "occluders", "x1", "x8"],
         rows,
     }
 }

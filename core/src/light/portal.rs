@@ -108,7 +108,7 @@ fn spans<R: Real>(table: &PortalTable<'_>, sides: &[Side<R>; 2], lane: usize) ->
 /// ```
 /// use etendue::light::{Portal, PortalEnvironment, PortalMap, PortalTable};
 /// use etendue::{LightSampler, Vec2};
-/// // a window of 1 by 2 in the plane x = 3, under a sky of the same radiance everywhere
+/// // a portal of 1 by 2 in the plane x = 3, under a sky of the same radiance everywhere
 /// let (corner, s, t) = ([3.0, -0.5, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 2.0]);
 /// let map = PortalMap::new(s, t).unwrap();
 /// let place = |i: usize| Vec2::new((i % 16) as f64 + 0.5, (i / 16) as f64 + 0.5) * (1.0 / 16.0);
@@ -119,7 +119,7 @@ fn spans<R: Real>(table: &PortalTable<'_>, sides: &[Side<R>; 2], lane: usize) ->
 /// let sky = PortalEnvironment::new(&portals, &tables).unwrap();
 /// let sampler = sky.by_radiance([0.0; 3].into());
 /// let w = sampler.sample(Vec2::new(0.3_f32, 0.6)).direction;
-/// let [y, z] = [w.y, w.z].map(|x| x / w.x * 3.0); // where it passes the plane of the window
+/// let [y, z] = [w.y, w.z].map(|x| x / w.x * 3.0); // where it passes the plane of the portal
 /// assert!((-0.5..0.5).contains(&y) && (0.0..2.0).contains(&z) && sampler.pdf(w) > 0.0);
 /// assert_eq!(sampler.pdf([1.0, 0.0, 0.9].into()), 0.0); // above it
 /// ```
@@ -177,11 +177,11 @@ impl<'a> PortalEnvironment<'a> {
     /// Prepares for a point. The weight of each portal is multiplied by what it is worth; at 0, it is not seen.
     #[inline(always)]
     fn prepared<R: Real>(&self, p: Vec3<R>, worth: impl Fn(&Portal) -> R) -> PortalsByRadiance<'a, R> {
-        let mut windows = [Window::default(); MOST_PORTALS];
+        let mut seen = [SeenPortal::default(); MOST_PORTALS];
         const { assert!(R::LANES <= MOST_LANES) };
         let mut cells = [0; MOST_LANES];
         let mut weights = [0.0; MOST_LANES];
-        for ((portal, table), window) in self.portals.iter().zip(self.tables).zip(&mut windows) {
+        for ((portal, table), own) in self.portals.iter().zip(self.tables).zip(&mut seen) {
             let ((sides, visible), worth) = (portal.sides(p), worth(portal));
             let scale = table.unit / self.unit;
             let (mut seen, bits) = ([0.0; MOST_LANES], (visible & worth.gt(R::lit(0.0))).bits());
@@ -195,9 +195,9 @@ impl<'a> PortalEnvironment<'a> {
             for (lane, sum) in weights[..R::LANES].iter_mut().enumerate() {
                 *sum += weight.lane_f64(lane);
             }
-            *window = Window { sides, weight };
+            *own = SeenPortal { sides, weight };
         }
-        PortalsByRadiance { portals: self.portals, tables: self.tables, windows, cells, weights }
+        PortalsByRadiance { portals: self.portals, tables: self.tables, seen, cells, weights }
     }
 }
 
@@ -214,7 +214,7 @@ fn passes<R: Real>([across, up]: [&Side<R>; 2], [x, y, z]: [R; 3], slack: R) -> 
 
 /// A portal as a point sees it.
 #[derive(Clone, Copy, Debug, Default)]
-struct Window<R> {
+struct SeenPortal<R> {
     sides: [Side<R>; 2],
     /// Weight of what is seen; 0 where the portal is not seen.
     weight: R,
@@ -227,7 +227,7 @@ struct Window<R> {
 pub struct PortalsByRadiance<'a, R: Real> {
     portals: &'a [Portal],
     tables: &'a [PortalTable<'a>],
-    windows: [Window<R>; MOST_PORTALS],
+    seen: [SeenPortal<R>; MOST_PORTALS],
     /// Number of columns that are seen in a lane, and their weight, over all portals.
     cells: [u32; MOST_LANES],
     weights: [f64; MOST_LANES],
@@ -276,7 +276,7 @@ impl<'a, R: Real> PortalsByRadiance<'a, R> {
     fn search(&self, lane: usize, u: f64) -> Option<(usize, Span, Search<Columns<'a>>)> {
         let mut place = self.first(lane);
         for (portal, table) in self.tables.iter().enumerate() {
-            let weight = self.windows[portal].weight.lane_f64(lane);
+            let weight = self.seen[portal].weight.lane_f64(lane);
             if weight > 0.0 {
                 let [columns, rows] = self.spans(lane, portal);
                 let next = place.after(&columns, weight);
@@ -293,13 +293,13 @@ impl<'a, R: Real> PortalsByRadiance<'a, R> {
     fn find(&self, lane: usize, portal: usize, at: [f64; 2]) -> [FoundCell; 2] {
         let mut place = self.first(lane);
         for k in 0..portal {
-            let weight = self.windows[k].weight.lane_f64(lane);
+            let weight = self.seen[k].weight.lane_f64(lane);
             if weight > 0.0 {
                 place = place.after(&self.spans(lane, k)[0], weight);
             }
         }
         let (table, [columns, rows]) = (&self.tables[portal], self.spans(lane, portal));
-        let weight = self.windows[portal].weight.lane_f64(lane);
+        let weight = self.seen[portal].weight.lane_f64(lane);
         let column = place.find(&table.columns(columns, rows), weight, columns.cell(at[0]));
         let row = SpanPlace::only(&rows).find(&table.rows(column.cell, rows), 1.0, rows.cell(at[1]));
         [column, row]
@@ -310,7 +310,7 @@ impl<'a, R: Real> PortalsByRadiance<'a, R> {
     }
     #[inline(always)]
     fn spans(&self, lane: usize, portal: usize) -> [Span; 2] {
-        spans(&self.tables[portal], &self.windows[portal].sides, lane)
+        spans(&self.tables[portal], &self.seen[portal].sides, lane)
     }
     /// The density of a direction. Where it is within the cell that has been drawn in a lane, that of the cell need not be found again.
     #[inline(always)]
@@ -337,13 +337,13 @@ impl<'a, R: Real> PortalsByRadiance<'a, R> {
         }
         sum.lesser(R::lit(GREATEST))
     }
-    /// Where a direction passes a portal, the density there per unit of its window, and whether it passes at all.
+    /// Where a direction passes a portal, the density there per unit of its area as seen, and whether it passes at all.
     #[inline(always)]
     fn positions(&self, k: usize, w: Vec3<R>) -> ([R; 2], R, R::Mask) {
-        let (map, Window { sides: [across, up], weight }) = (&self.portals[k].map, &self.windows[k]);
+        let (map, SeenPortal { sides: [across, up], weight }) = (&self.portals[k].map, &self.seen[k]);
         let [x, y, z] = map.local(w);
         let passes = weight.gt(R::lit(0.0)) & passes([across, up], [x, y, z], map.slack());
-        // the area of the window, in radians², per steradian
+        // the area of the portal, in radians², per steradian
         let (a, b) = (x.mul_add(x, z * z), y.mul_add(y, z * z));
         let area = (z / a) / b / (across.size * up.size * R::lit(map.sin));
         ([across.position(x, z), up.position(y, z)], area, passes)
@@ -356,7 +356,7 @@ impl<R: Real> LightSampler<R> for PortalsByRadiance<'_, R> {
         let u = u.map(unit_interval);
         let drawn = self.draw(u);
         let mut direction = Vec3::lit([0.0; 3]);
-        for (k, (portal, Window { sides, .. })) in self.portals.iter().zip(&self.windows).enumerate() {
+        for (k, (portal, SeenPortal { sides, .. })) in self.portals.iter().zip(&self.seen).enumerate() {
             let bits = drawn[..R::LANES].iter().enumerate().filter(|(_, drawn)| drawn.portal == k);
             let here = R::Mask::from_bits(bits.fold(0, |bits, (lane, _)| bits | 1 << lane));
             if here.any() {

@@ -46,7 +46,7 @@
 //!
 //! # Precision
 //! [`Seen::irradiance`] computes in double precision. Hosts that compute many points of a patch use [`Occlusion::visible`] themselves, with
-//! packets of single precision where [`Seen::precision`] says so; its error is then below [`ALLOWED`] of the light without blockers.
+//! packets of single precision where [`Seen::precision`] says so; its error is then below [`ALLOWED`] of the light without occluders.
 #![no_std]
 #![forbid(unsafe_code)]
 

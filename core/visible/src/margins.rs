@@ -78,7 +78,7 @@ fn triangles_cover_what_they_are_between() {
 }
 
 #[test]
-fn blockers_that_may_touch_a_ball_do() {
+fn occluders_that_may_touch_a_ball_do() {
     let at = |gap: f64| hull(&[[0.0, gap, 0.0]]);
     begins_at(1.0, |gap| !ball().touches(&at(1.0 + gap), EPSILON));
     // the distance to a triangle has no sign

@@ -1,7 +1,7 @@
-//! How much of a light is visible past a few convex blockers: the projected solid angle of the visible part, without random numbers.
+//! How much of a light is visible past a few convex occluders: the projected solid angle of the visible part, without random numbers.
 //!
 //! A diffuse surface with albedo ρ reflects ρ/π · L · Ω⊥, where Ω⊥ is the projected solid angle of the visible part of a light with the
-//! radiance L. [`Occlusion::visible`] computes it for one light, some blockers, and as many shading points as there are lanes.
+//! radiance L. [`Occlusion::visible`] computes it for one light, some occluders, and as many shading points as there are lanes.
 //!
 //! ```
 //! use etendue::{Vec3, f32x8};
@@ -10,13 +10,13 @@
 //!     let corners = [[-half, -half], [half, -half], [half, half], [-half, half]];
 //!     Solid::quadrilateral(corners.map(|[x, z]| Vec3::new(x, y, z)))
 //! };
-//! let (light, blocker) = (square(2.0, 1.0), square(1.0, 0.25));
-//! // eight points below the light; the blocker hides the middle of the light from the first of them
+//! let (light, occluder) = (square(2.0, 1.0), square(1.0, 0.25));
+//! // eight points below the light; the occluder hides the middle of the light from the first of them
 //! let point = Vec3::new(f32x8::from([0.0, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 3.5]), f32x8::ZERO, f32x8::ZERO);
 //! let normal = Vec3::lit([0.0, 1.0, 0.0]);
 //! let mut occlusion = Occlusion::new();
 //! let all = occlusion.visible(point, normal, &light, &[]).unwrap();
-//! let part = occlusion.visible(point, normal, &light, &[blocker]).unwrap();
+//! let part = occlusion.visible(point, normal, &light, &[occluder]).unwrap();
 //! assert!(part.as_array()[0] < 0.8 * all.as_array()[0] && part.as_array()[7] == all.as_array()[7]);
 //! ```
 //!
@@ -27,15 +27,15 @@
 //! - Domain: any points and shapes with finite coordinates. A point lies outside of spheres, and in front of what it sees.
 //! - What lies behind the light, or between the point and the light but within 2⁻¹⁷ of the way from the light, does not occlude. A sphere
 //!   ends at the circle in which its tangents from the point touch it.
-//! - Degenerate input: blockers without area hide nothing. A light that is seen edge-on, lies below the horizon or has no area has Ω⊥ = 0.
+//! - Degenerate input: occluders without area hide nothing. A light that is seen edge-on, lies below the horizon or has no area has Ω⊥ = 0.
 //! - Greatest error: see [`Occlusion::visible`].
 //!
-//! Nanoseconds per point, one at a time and in packets of 8. A blocker beside the light takes a quarter of the time of one before it.
+//! Nanoseconds per point, one at a time and in packets of 8. An occluder beside the light takes a quarter of the time of one before it.
 //!
 //! <!-- table: visible -->
 //! AMD EPYC, x86-64-v3, 2026-11-25.
 //!
-//! | light | blockers | x1 | x8 |
+//! | light | occluders | x1 | x8 |
 //! |---|---|---|---|
 //! | polygon | none | 114.4 | 14.6 |
 //! |  | a polygon before it | 442.9 | 74.7 |
@@ -53,6 +53,6 @@ mod outline;
 mod planes;
 mod visible;
 
-pub use capacity::BLOCKERS;
+pub use capacity::OCCLUDERS;
 pub use outline::COMPACT;
 pub use visible::{ENDS, Occlusion};

@@ -1,4 +1,4 @@
-//! Closed convex polyhedra, such as boxes: each is one blocker instead of many triangles.
+//! Closed convex polyhedra, such as boxes: each is one occluder instead of many triangles.
 
 use crate::hull::{Hull, V64, unit};
 use alloc::collections::BTreeMap;

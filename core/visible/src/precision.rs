@@ -7,25 +7,25 @@ use crate::patch::Patch;
 use core::f64::consts::{PI, TAU};
 use etendue::{Real, Vec3, f64x8};
 
-/// Greatest error that a closed form may have, relative to the light without blockers.
+/// Greatest error that a closed form may have, relative to the light without occluders.
 pub const ALLOWED: f64 = 1e-5;
 /// The light of a point that receives less than this fraction of what another point of the patch does counts as this much.
 pub(crate) const FAINT: f64 = 1e-2;
 /// Greatest errors of closed forms in one precision, in steradians where they are not fractions.
 struct Errors {
-    /// For a flat light, once or for each blocker: a fraction of the angle around the light, in radians.
+    /// For a flat light, once or for each occluder: a fraction of the angle around the light, in radians.
     flat: f64,
-    /// The same for a sphere behind flat blockers.
+    /// The same for a sphere behind flat occluders.
     ball: f64,
-    /// For a compact flat light, once and for each blocker: a fraction of the square of half of its perimeter over its distance.
+    /// For a compact flat light, once and for each occluder: a fraction of the square of half of its perimeter over its distance.
     compact: f64,
-    /// What each blocker adds to that: a fraction of its perimeter over its distance, times the cosine of its highest direction with the
+    /// What each occluder adds to that: a fraction of its perimeter over its distance, times the cosine of its highest direction with the
     /// normal.
     outline: f64,
     /// For each sphere that blocks: what is outside of it moves to its rim, so that terms of the size of the sphere cancel, however small the
     /// light is.
     sphere: f64,
-    /// For a sphere without blockers: a fraction of its solid angle.
+    /// For a sphere without occluders: a fraction of its solid angle.
     whole: f64,
 }
 /// More than the greatest errors that `cargo test -p etendue-render-tests certificates::values -- --nocapture` prints, and for compact lights
@@ -40,7 +40,7 @@ pub enum Precision {
     /// In single precision.
     #[default]
     Single,
-    /// In double precision: the light is small, or nearly below the horizon, or a blocker is flush with the patch, or an edge is seen under
+    /// In double precision: the light is small, or nearly below the horizon, or an occluder is flush with the patch, or an edge is seen under
     /// nearly 180°.
     Double,
     /// Not in closed form: the light is sampled.
@@ -50,20 +50,20 @@ pub enum Precision {
 /// What may hide a light.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Behind {
-    /// Number of blockers.
-    pub(crate) blockers: usize,
+    /// Number of occluders.
+    pub(crate) occluders: usize,
     /// Number of spheres among them.
     pub(crate) spheres: usize,
     /// Sum of the angles in radians by which their outlines may be displaced.
     pub(crate) displacement: f64,
-    /// By how many blockers more they count where edges are seen under nearly 180°: the sum of [`Hull::stretch`](crate::hull::Hull::stretch)
+    /// By how many occluders more they count where edges are seen under nearly 180°: the sum of [`Hull::stretch`](crate::hull::Hull::stretch)
     /// less 1.
     pub(crate) stretch: f64,
     /// Whether one of them is flush with the patch, so that only double precision tells on which side of it points are.
     pub(crate) flush: bool,
 }
 
-/// A light as a point of a patch sees it, without blockers.
+/// A light as a point of a patch sees it, without occluders.
 struct Unhidden {
     /// Its projected solid angle in steradians.
     all: f64,
@@ -96,8 +96,8 @@ impl Unhidden {
     }
     /// The error of a closed form.
     fn error(&self, errors: &Errors, is_ball: bool, stretch: f64, behind: &Behind) -> f64 {
-        let (around, count) = (self.around, behind.blockers as f64);
-        let rounding = if is_ball && behind.blockers == 0 {
+        let (around, count) = (self.around, behind.occluders as f64);
+        let rounding = if is_ball && behind.occluders == 0 {
             // a whole sphere has no cancellation, but the rounding of the normal counts where it is seen at a small angle
             errors.whole * around * around / (4.0 * PI)
         } else if self.compact {
@@ -116,7 +116,7 @@ fn arc_sine(x: f64) -> f64 {
 }
 
 impl Precision {
-    /// The least precision whose error is at most [`ALLOWED`] of the light without blockers, at the corners and the centre of a patch, and the
+    /// The least precision whose error is at most [`ALLOWED`] of the light without occluders, at the corners and the centre of a patch, and the
     /// greatest projected solid angle of the light there.
     pub(crate) fn of(patch: &Patch, lamp: &Light, behind: &Behind, occlusion: &mut Occlusion<f64x8>) -> (Self, f64) {
         let is_ball = lamp.plane.is_none();

@@ -64,7 +64,7 @@ pub struct Seen<'a> {
     /// In which precision the closed form of a light is accurate that is lit, or behind something.
     pub precision: Precision,
     light: &'a Light,
-    /// The greatest projected solid angle of the light without blockers, at the corners and the centre of the patch.
+    /// The greatest projected solid angle of the light without occluders, at the corners and the centre of the patch.
     most: f64,
     occlusion: &'a mut Occlusion<f64>,
 }
@@ -110,7 +110,7 @@ pub struct Prover {
     /// Polyhedra that may meet the shaft, and whether they can stand for their faces.
     met: Vec<(Solid, bool)>,
     solids: Vec<Solid>,
-    /// For lights without blockers.
+    /// For lights without occluders.
     eight: Box<Occlusion<f64x8>>,
     one: Box<Occlusion<f64>>,
 }
@@ -146,7 +146,7 @@ impl Prover {
         Seen { proof, precision, light, most, occlusion: &mut self.one }
     }
 
-    /// What is proved, behind no solids yet; in which precision the closed form is accurate, and the greatest of the light without blockers.
+    /// What is proved, behind no solids yet; in which precision the closed form is accurate, and the greatest of the light without occluders.
     fn find(
         &mut self,
         patch: &Patch,
@@ -231,7 +231,7 @@ fn behind(solids: &[Solid], patch: &Patch) -> Behind {
         solids[..first].iter().map(of).sum::<f64>() + solids[first..].iter().map(of).sum::<f64>()
     };
     Behind {
-        blockers: solids.len(),
+        occluders: solids.len(),
         spheres: solids.iter().filter(|solid| solid.is_sphere()).count(),
         displacement: sum(&|solid| solid.displacement(&patch.hull)),
         stretch: sum(&|solid| solid.stretch(&patch.hull) - 1.0),

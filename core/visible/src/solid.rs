@@ -4,7 +4,7 @@ use crate::hull::{Hull, V64, edges, magnitude, unit};
 use crate::polyhedron::{Edge, Polyhedron};
 use alloc::sync::Arc;
 
-/// A patch that is nowhere higher over the plane of a blocker, as a fraction of the distance of its farthest point, is flush with it. The
+/// A patch that is nowhere higher over the plane of an occluder, as a fraction of the distance of its farthest point, is flush with it. The
 /// rounding of heights is some 1e−6 of that distance.
 const FLUSH: f64 = 1e-2;
 

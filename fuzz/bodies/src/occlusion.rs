@@ -1,4 +1,4 @@
-//! What convex blockers leave of a light.
+//! What convex occluders leave of a light.
 
 use etendue::reflection::Reflection;
 use etendue::{Real, Vec3, f32x8};
@@ -35,26 +35,26 @@ fn finite(v: Vec3<f32>) -> Vec3<f32> {
     if v.max_abs() <= f32::MAX { v } else { Vec3::default() }
 }
 
-/// A light, blockers, and eight points with the normals of their surfaces.
+/// A light, occluders, and eight points with the normals of their surfaces.
 #[derive(Clone, Debug)]
 struct Scene {
     light: Solid,
-    blockers: Vec<Solid>,
+    occluders: Vec<Solid>,
     points: [[f32; 3]; 8],
     normals: [[f32; 3]; 8],
 }
 
 impl Scene {
-    /// What is visible, and what is there without blockers. The lane `i` has the point `i + first`.
+    /// What is visible, and what is there without occluders. The lane `i` has the point `i + first`.
     fn found<R: Real<Scalar = f32>>(&self, first: usize) -> [Option<R>; 2] {
         let p = vectors_of::<R>(|i| self.points[(first + i) % 8]);
         let n = vectors_of::<R>(|i| self.normals[(first + i) % 8]);
-        [&self.blockers[..], &[]].map(|blockers| Occlusion::new().visible(p, n, &self.light, blockers))
+        [&self.occluders[..], &[]].map(|occluders| Occlusion::new().visible(p, n, &self.light, occluders))
     }
-    /// Results are between 0 and what there is without blockers, and the bits of a packet are those of its lanes alone.
+    /// Results are between 0 and what there is without occluders, and the bits of a packet are those of its lanes alone.
     fn check(&self) {
         let [left, all] = self.found::<f32x8>(0);
-        let all = all.expect("there are no blockers").to_array();
+        let all = all.expect("there are no occluders").to_array();
         assert!(all.iter().all(|all| all.is_finite() && (0.0..=PI).contains(all)), "{all:?}: {self:?}");
         let Some(left) = left.map(f32x8::to_array) else { return };
         for (lane, all) in all.into_iter().enumerate() {
@@ -69,7 +69,7 @@ impl Scene {
         let times = |shape: &Solid| shape.scaled(factor.into());
         let scaled = Self {
             light: times(&self.light),
-            blockers: self.blockers.iter().map(times).collect(),
+            occluders: self.occluders.iter().map(times).collect(),
             points: self.points.map(|p| p.map(|x| x * factor)),
             normals: self.normals,
         };
@@ -78,7 +78,7 @@ impl Scene {
     }
 }
 
-/// Lights behind blockers, also as a rough surface reflects them.
+/// Lights behind occluders, also as a rough surface reflects them.
 pub fn occlusion(bytes: &[u8]) {
     let input = &mut Input::new(bytes);
     // the points first, so that shapes can have them as corners
@@ -91,12 +91,12 @@ pub fn occlusion(bytes: &[u8]) {
     let normals = std::array::from_fn(|_| input.direction());
     let light = shape(input, &mut before);
     let count = input.below(18) % (1 + input.below(17));
-    let blockers = (0..count).map(|_| shape(input, &mut before)).collect();
-    let scene = Scene { light, blockers, points, normals };
+    let occluders = (0..count).map(|_| shape(input, &mut before)).collect();
+    let scene = Scene { light, occluders, points, normals };
     scene.check();
     let mut lengths: Vec<f32> = points.iter().flatten().copied().collect();
     let mut all: Vec<V64> = Vec::new();
-    for shape in scene.blockers.iter().chain([&scene.light]) {
+    for shape in scene.occluders.iter().chain([&scene.light]) {
         match shape {
             Solid::Polygon { corners, .. } => all.extend(corners),
             Solid::Parallelogram { corner, edges: [u, v] } => all.extend([corner, u, v]),
@@ -120,9 +120,9 @@ fn reflected(input: &mut Input<'_>, scene: &Scene) {
     let [p, n] = [&scene.points, &scene.normals].map(|v| vectors_of::<f32x8>(|i| v[i]));
     let lobe = Reflection::new(f32x8::splat(alpha), n, vectors_of(|_| view));
     let mut occlusion = Occlusion::new();
-    let [left, all] = [&scene.blockers[..], &[]]
-        .map(|blockers| occlusion.reflected(p, n, &lobe, &scene.light, blockers).map(f32x8::to_array));
-    let all = all.expect("there are no blockers");
+    let [left, all] = [&scene.occluders[..], &[]]
+        .map(|occluders| occlusion.reflected(p, n, &lobe, &scene.light, occluders).map(f32x8::to_array));
+    let all = all.expect("there are no occluders");
     assert!(all.iter().all(|all| (0.0..=PI).contains(all)), "{all:?}");
     if let Some(left) = left {
         assert!(left.iter().zip(all).all(|(left, all)| (0.0..=all).contains(left)), "{left:?} of {all:?}");

@@ -1,9 +1,12 @@
 //! Triangles with holes: opacity that varies over them.
 
-use super::rays::NOTHING;
+use super::primitive::PrimitiveId;
 use crate::packet::{V8, each_bit};
 use crate::scene::texture::Mask;
 use std::sync::Arc;
+
+/// Instead of an index: the triangle has no mask.
+const OPAQUE: u32 = u32::MAX;
 
 /// The mask of a triangle.
 #[derive(Clone, Copy, Debug)]
@@ -17,7 +20,7 @@ struct Cut {
 #[derive(Debug)]
 pub(super) struct Cutouts {
     masks: Arc<[Mask]>,
-    /// For each triangle an index into `cuts`, or [`NOTHING`] for an opaque one.
+    /// For each triangle an index into `cuts`, or [`OPAQUE`].
     of: Vec<u32>,
     cuts: Vec<Cut>,
 }
@@ -30,7 +33,7 @@ impl Cutouts {
     ) -> Option<Self> {
         let mut cuts = Vec::new();
         let of = triangles.map(|cut| {
-            cut.map_or(NOTHING, |(mask, uvs)| {
+            cut.map_or(OPAQUE, |(mask, uvs)| {
                 cuts.push(Cut { mask, uvs });
                 (cuts.len() - 1) as u32
             })
@@ -43,12 +46,12 @@ impl Cutouts {
     }
     /// Whether a triangle has a mask.
     pub(super) fn has(&self, triangle: usize) -> bool {
-        self.of[triangle] != NOTHING
+        self.of[triangle] != OPAQUE
     }
-    /// The lanes of `hit` in which a ray meets what is opaque. `lane` tells of each the triangle, its place in hits, and the weights of
+    /// The lanes of `hit` in which a ray meets what is opaque. `lane` tells of each its index, the triangle, and the weights of
     /// its corners at the hit, whose sum is not 1.
     ///
-    /// Where a triangle is partly opaque, a random number decides, which depends on the ray and the place alone (PBR 4th ed., 4.5.1): a
+    /// Where a triangle is partly opaque, a random number decides, which depends on the ray and the triangle alone (PBR 4th ed., 4.5.1): a
     /// ray that is traced twice meets the same.
     #[inline(never)]
     pub(super) fn opaque(
@@ -56,12 +59,12 @@ impl Cutouts {
         hit: u32,
         origin: V8,
         direction: V8,
-        lane: impl Fn(usize) -> (usize, u32, [f32; 3]),
+        lane: impl Fn(usize) -> (usize, PrimitiveId, [f32; 3]),
     ) -> u32 {
         let mut opaque = hit;
         each_bit(hit, |k| {
-            let (triangle, place, weights) = lane(k);
-            let Some(cut) = self.cuts.get(self.of[triangle] as usize) else { return };
+            let (index, triangle, weights) = lane(k);
+            let Some(cut) = self.cuts.get(self.of[index] as usize) else { return };
             let mask = &self.masks[cut.mask as usize];
             let sum = weights[0] + weights[1] + weights[2];
             // the weights of slivers may be nothing but rounding error
@@ -73,7 +76,7 @@ impl Cutouts {
             let opacity = mask.opacity.at([at(0), at(1)])[0];
             let stops = match mask.least {
                 Some(least) => opacity >= least,
-                None => number(place, origin.lane(k).into(), direction.lane(k).into()) < opacity,
+                None => number(triangle, origin.lane(k).into(), direction.lane(k).into()) < opacity,
             };
             if !stops {
                 opaque &= !(1 << k);
@@ -83,15 +86,15 @@ impl Cutouts {
     }
 }
 
-/// A number in [0, 1) that depends on a ray and a place.
-fn number(place: u32, origin: [f32; 3], direction: [f32; 3]) -> f32 {
+/// A number in [0, 1) that depends on a ray and a triangle.
+fn number(triangle: PrimitiveId, origin: [f32; 3], direction: [f32; 3]) -> f32 {
     // the finalizer of MurmurHash3 (Appleby 2011) after each word
     let mixed = |h: u64, word: u32| {
         let h = (h ^ u64::from(word)).wrapping_mul(0xff51_afd7_ed55_8ccd);
         (h ^ h >> 33).wrapping_mul(0xc4ce_b9fe_1a85_ec53) ^ h >> 29
     };
     let words = origin.into_iter().chain(direction).map(f32::to_bits);
-    let h = words.chain([place]).fold(0x9e37_79b9_7f4a_7c15, mixed);
+    let h = words.chain([triangle.0]).fold(0x9e37_79b9_7f4a_7c15, mixed);
     (h >> 40) as f32 / 16_777_216.0
 }
 
@@ -101,14 +104,14 @@ mod tests {
     use crate::scene::texture::{Mapping, Texture};
 
     #[test]
-    fn numbers_are_uniform_and_differ_between_places_and_rays() {
+    fn numbers_are_uniform_and_differ_between_triangles_and_rays() {
         let count = 20_000;
         let mut bins = [0; 16];
         let (mut products, mut last) = (0.0, 0.5);
         for i in 0..count {
             // successive floats, as neighbouring samples have them
             let x = f32::from_bits(0x3f80_0000 + i / 4);
-            let u = number(i % 4, [1.0, 2.0, 3.0], [x, 0.5, 0.25]);
+            let u = number(PrimitiveId::of_triangle(i % 4), [1.0, 2.0, 3.0], [x, 0.5, 0.25]);
             bins[(u * 16.0) as usize] += 1;
             products += f64::from((u - 0.5) * (last - 0.5));
             last = u;
@@ -133,7 +136,9 @@ mod tests {
         // at the first corner, the second, and on either side of their middle; a sliver has no weights
         let weights = [[2.0, 0.0, 0.0], [0.0, 3.0, 0.0], [2.1, 1.9, 0.0], [-1.9, -2.1, 0.0], [0.0; 3]];
         let stopped = |triangle: usize| {
-            cutouts.opaque(0b11111, V8::default(), V8::default(), |k| (triangle, triangle as u32, weights[k]))
+            cutouts.opaque(0b11111, V8::default(), V8::default(), |k| {
+                (triangle, PrimitiveId::of_triangle(triangle as u32), weights[k])
+            })
         };
         assert_eq!([0, 1, 2, 3, 4].map(stopped), [0b10101, 0, 0b11111, 0b11111, 0b11111]);
         assert_eq!([3, 4].map(|triangle| cutouts.has(triangle)), [true, false]);

@@ -6,6 +6,7 @@
 
 use super::build::Costs;
 use super::node::{BuildError, WIDTH, push_in_order, slabs};
+use super::primitive::PrimitiveId;
 use super::rays::{Hits, Rays};
 use super::region::{Placed, Region, search};
 use super::stream::{Scratch, stream};
@@ -198,13 +199,13 @@ impl Instances {
         let moved = Situated { triangles: triangles.primitives(), situation: Moved { first, to_world, size } };
         (rays.entering(origin, direction, pad), moved)
     }
-    /// As of [`search`](super::region::search), with the places of triangles of instances.
+    /// As of [`search`](super::region::search), with the triangles of instances.
     pub(super) fn search(
         &self,
         region: &Region,
         stack: &mut Vec<u32>,
         budget: &mut usize,
-        mut visit: impl FnMut(u32) -> bool,
+        mut visit: impl FnMut(PrimitiveId) -> bool,
     ) -> bool {
         let mut met = Vec::new();
         let complete = search(&self.over.over(&All), region, stack, budget, |at| {
@@ -216,7 +217,7 @@ impl Instances {
                 let Placement { object, first, ref to_world, .. } = self.placements[at];
                 let triangles = &self.objects[object as usize].triangles;
                 let region = region.in_space(to_world, triangles.reach());
-                search(&triangles.view(), &region, stack, budget, |index| visit(first + index as u32))
+                search(&triangles.view(), &region, stack, budget, |index| visit(PrimitiveId(first + index as u32)))
             })
     }
 }

@@ -1,14 +1,11 @@
 //! Rays in packets of eight, and their hits.
 
-use crate::packet::{M8, V8, X8, below, equal, max};
-use etendue::{Frame, Mask, Real, Vec3, u32x8};
+use super::primitive::{PrimitiveId, PrimitiveIds};
+use crate::packet::{M8, V8, X8, max};
+use etendue::{Frame, Mask, Real, Vec3};
 
-/// Bit of an id that marks a shape (sphere, emitter) instead of a mesh triangle.
-pub const SHAPE: u32 = 1 << 31;
 /// Greatest number of packets in a group.
 pub const GROUP: usize = 8;
-/// The id of a miss.
-pub const NOTHING: u32 = u32::MAX;
 
 /// Eight rays, prepared for traversal.
 #[derive(Clone, Copy, Debug)]
@@ -26,8 +23,8 @@ pub struct Rays {
     pub(super) common_sign: Option<[bool; 3]>,
     /// Greatest distance by which boxes are widened.
     pub(super) pad: f32,
-    /// The primitives on which the rays begin, as in hits, or [`NOTHING`].
-    pub(super) from: u32x8,
+    /// The primitives on which the rays begin.
+    pub(super) from: PrimitiveIds,
 }
 
 impl Default for Rays {
@@ -41,7 +38,7 @@ impl Default for Rays {
             offset: [zero; 2],
             common_sign: None,
             pad: 0.0,
-            from: u32x8::splat(NOTHING),
+            from: PrimitiveIds::none(),
         }
     }
 }
@@ -79,11 +76,11 @@ impl Rays {
             ..*self
         }
     }
-    /// The same rays, which begin on these primitives, as in hits. A flat primitive never occludes its own points, and a sphere only those
+    /// The same rays, which begin on these primitives. A flat primitive never occludes its own points, and a sphere only those
     /// on its inside.
     #[inline(always)]
     #[must_use]
-    pub fn leaving(self, from: u32x8) -> Self {
+    pub fn leaving(self, from: PrimitiveIds) -> Self {
         Self { from, ..self }
     }
 }
@@ -93,42 +90,42 @@ impl Rays {
 pub struct Hits {
     /// Distances; the rays' limits for misses.
     pub distance: X8,
-    /// Index of a triangle in leaf order, index of a shape with the bit [`SHAPE`] set, or [`NOTHING`].
-    pub place: u32x8,
+    /// What the rays hit.
+    pub primitives: PrimitiveIds,
 }
 
 impl Hits {
     /// Misses, with hits to be searched nearer than `limit`.
     #[inline]
     pub fn none(limit: X8) -> Self {
-        Self { distance: limit, place: u32x8::splat(NOTHING) }
+        Self { distance: limit, primitives: PrimitiveIds::none() }
     }
     /// Lanes that hit something.
     #[inline]
     pub fn any(&self) -> M8 {
-        !equal(self.place, u32x8::splat(NOTHING))
+        self.primitives.some()
     }
     #[inline]
     pub(super) fn nearest(&self, lane: usize) -> Nearest {
-        Nearest { distance: self.distance.as_array()[lane], place: self.place.as_array()[lane] }
+        Nearest { distance: self.distance.as_array()[lane], primitive: self.primitives.lane(lane) }
     }
     #[inline]
     pub(super) fn put(&mut self, lane: usize, nearest: &Nearest) {
         self.distance.as_mut_array()[lane] = nearest.distance;
-        self.place.as_mut_array()[lane] = nearest.place;
+        self.primitives.set(lane, nearest.primitive);
     }
     /// Lanes that hit a shape.
     #[inline]
     pub fn shapes(&self) -> M8 {
-        self.any() & !below(self.place, u32x8::splat(SHAPE))
+        self.primitives.shapes()
     }
 }
 
 /// The nearest hit of one ray.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Nearest {
     pub(super) distance: f32,
-    pub(super) place: u32,
+    pub(super) primitive: PrimitiveId,
 }
 
 /// The signs of direction that all rays of a group share, if they do.

@@ -2,12 +2,13 @@
 
 use super::build::Costs;
 use super::node::{Bounds, BuildError};
-use super::rays::{Hits, NOTHING, Rays, SHAPE};
+use super::primitive::{PrimitiveId, PrimitiveIds};
+use super::rays::{Hits, Rays};
 use super::region::{Placed, Region};
 use super::tree::{Primitives, Tree};
 use crate::geometry::{AnyHittable, Approach, Geometry, Hittable, Meeting, NEAR_LIMIT, Segment};
-use crate::packet::{M8, X8, below, each_group, equal, pick, select};
-use etendue::{Mask, Real, u32x8};
+use crate::packet::{M8, X8, select};
+use etendue::{Mask, Real};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -34,8 +35,8 @@ pub enum LitSides {
 pub(super) struct Hittables {
     hittables: Vec<AnyHittable>,
     ids: Vec<u32>,
-    /// For each shape of the list, its index in leaf order, or [`NOTHING`] for one that no ray meets.
-    indices: Vec<u32>,
+    /// For each shape of the list, its index in leaf order; `None` for one that no ray meets.
+    indices: Vec<Option<u32>>,
     /// In leaf order.
     lit: Vec<LitSides>,
     reached: Reached,
@@ -46,14 +47,14 @@ pub(super) struct Hittables {
 pub(super) struct Reached(Arc<[AnyHittable]>);
 
 impl Reached {
-    /// The segment with its end on what is at a place, as in hits.
-    pub(super) fn by(&self, place: u32, segment: Segment) -> Segment {
-        let solid = self.0.get((place & !SHAPE) as usize).filter(|_| place & SHAPE != 0);
+    /// The segment with its end on a primitive.
+    pub(super) fn by(&self, primitive: PrimitiveId, segment: Segment) -> Segment {
+        let solid = primitive.shape().and_then(|shape| self.0.get(shape));
         solid.map_or(segment, |solid| solid.reached_by(segment))
     }
 }
 
-/// All shapes of a scene. Ids are indices into the scene's list; in hits, they have the bit [`SHAPE`] set.
+/// All shapes of a scene. Ids are indices into the scene's list.
 #[derive(Debug)]
 pub struct ShapeSet {
     tree: Tree<Hittables>,
@@ -76,22 +77,22 @@ impl Hittables {
             LitSides::Both => M8::splat(true),
         }
     }
-    /// Lanes in which the shape of this index in leaf order comes before those at `places`, with which it is level: what shines towards the
+    /// Lanes in which the shape of this index in leaf order comes before these, with which it is level: what shines towards the
     /// ray comes first, then what is first in the scene's list.
     #[cold]
     #[inline(never)]
-    fn comes_first(&self, index: usize, rays: Approach<'_>, lanes: M8, places: u32x8) -> M8 {
-        let (own, id) = (self.is_lit(index, rays, rays.limit), u32x8::splat(self.ids[index] | SHAPE));
+    fn comes_first(&self, index: usize, rays: Approach<'_>, lanes: M8, level: PrimitiveIds) -> M8 {
+        let (own, id) =
+            (self.is_lit(index, rays, rays.limit), PrimitiveIds::splat(PrimitiveId::of_shape(self.ids[index])));
         let (mut others, mut seen) = (M8::splat(false), M8::splat(false));
-        each_group(places, lanes, |place, here| {
-            let other = self.indices[(place & !SHAPE) as usize];
-            if other != NOTHING {
+        level.each(lanes, |primitive, here| {
+            if let Some(other) = primitive.shape().and_then(|shape| self.indices[shape]) {
                 seen = seen | here;
                 others = others | here & self.is_lit(other as usize, rays, rays.limit);
             }
         });
         // nothing is before a light that is no surface
-        seen & (own & !others | !(own ^ others) & below(id, places))
+        seen & (own & !others | !(own ^ others) & id.before(level))
     }
 }
 
@@ -120,8 +121,8 @@ impl ShapeSet {
             |_| (),
             |_, order, _| {
                 let ids: Vec<u32> = order.iter().map(|&i| own[i as usize]).collect();
-                let mut indices = vec![NOTHING; all.len()];
-                (0..).zip(&ids).for_each(|(index, &id)| indices[id as usize] = index);
+                let mut indices = vec![None; all.len()];
+                (0..).zip(&ids).for_each(|(index, &id)| indices[id as usize] = Some(index));
                 let hittables = ids.iter().map(|&id| all[id as usize].0.hittable()).collect();
                 let reached = Reached(all.iter().map(|(shape, _)| shape.hittable()).collect());
                 Hittables { hittables, indices, lit: ids.iter().map(|&id| all[id as usize].1).collect(), ids, reached }
@@ -174,20 +175,20 @@ impl Primitives for Hittables {
     ) -> M8 {
         let mut hidden = M8::splat(false);
         for index in leaf {
-            let (hittable, place) = (&self.hittables[index], u32x8::splat(self.ids[index] | SHAPE));
+            let (hittable, id) = (&self.hittables[index], PrimitiveIds::splat(PrimitiveId::of_shape(self.ids[index])));
             let Rays { origin, direction, from, .. } = *rays;
-            let own = equal(from, place);
-            let lanes = if ANY { active & !equal(hits.place, place) } else { active };
-            let places = &hits.place;
-            let reaching = |lane: usize, segment| self.reached.by(places.as_array()[lane], segment);
+            let own = from.equal(id);
+            let lanes = if ANY { active & !hits.primitives.equal(id) } else { active };
+            let ends = &hits.primitives;
+            let reaching = |lane: usize, segment| self.reached.by(ends.lane(lane), segment);
             let mut rays = Approach { origin, direction, lanes, own, limit: hits.distance, reaching: &reaching };
             if ANY {
                 if lanes.any() {
                     let Meeting { hit, level, .. } = hittable.meet::<true>(&rays);
                     hidden = hidden | hit & lanes;
                     if level.any() {
-                        let level = level & lanes & !equal(hits.place, u32x8::splat(NOTHING));
-                        hidden = hidden | self.comes_first(index, rays, level, hits.place);
+                        let level = level & lanes & hits.any();
+                        hidden = hidden | self.comes_first(index, rays, level, hits.primitives);
                     }
                 }
                 continue;
@@ -204,11 +205,11 @@ impl Primitives for Hittables {
             if level.any() {
                 rays.limit = hits.distance;
                 let near = hittable.meet::<true>(&rays);
-                let first = self.comes_first(index, rays, near.level & level, hits.place);
+                let first = self.comes_first(index, rays, near.level & level, hits.primitives);
                 hit = hit & !level | level & (near.hit | first);
             }
             hits.distance = select(hit, distance, hits.distance);
-            hits.place = pick(hit, place, hits.place);
+            hits.primitives = PrimitiveIds::pick(hit, id, hits.primitives);
         }
         hidden
     }

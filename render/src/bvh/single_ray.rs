@@ -1,6 +1,7 @@
 //! Single-ray traversal: tests all children of a node at once, and all triangles of a leaf at once.
 
 use super::node::{Node, Stack, prefetch, push_in_order};
+use super::primitive::PrimitiveId;
 use super::rays::{Hits, Nearest, Rays, by_octant};
 use super::tree::View;
 use crate::packet::{M8, V8, X8, each_bit, max, min};
@@ -17,8 +18,8 @@ pub(super) struct SingleRay {
     offset: [[f32; 3]; 2],
     /// Bit k is set if the ray runs towards − along axis k.
     octant: usize,
-    /// The primitive on which the ray begins, or [`NOTHING`](super::rays::NOTHING).
-    pub(super) from: u32,
+    /// The primitive on which the ray begins, or none.
+    pub(super) from: PrimitiveId,
 }
 
 /// The same numbers in every lane.
@@ -39,7 +40,7 @@ impl SingleRay {
             inverse,
             offset: [of(&rays.offset[0]), of(&rays.offset[1])],
             octant: (0..3).fold(0, |octant, k| octant | usize::from(inverse[k] < 0.0) << k),
-            from: rays.from.as_array()[lane & 7],
+            from: rays.from.lane(lane & 7),
         }
     }
     #[inline(always)]

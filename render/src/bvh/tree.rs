@@ -11,7 +11,7 @@ use std::ops::Range;
 /// Primitives in leaf order.
 pub(super) trait Primitives {
     /// Updates `hits` by nearer hits in a leaf, whose box the rays enter at `near`. With `ANY`, returns the lanes that have one
-    /// instead, and does not test the shape at `hits.place`; without, returns no lanes.
+    /// instead, and does not test the shape at `hits.primitives`; without, returns no lanes.
     fn test_packet<const ANY: bool>(
         &self,
         leaf: Range<usize>,

@@ -4,14 +4,15 @@ use super::build::Costs;
 use super::cutouts::Cutouts;
 use super::double_precision::{hides, to_triangle, wide};
 use super::node::{Bounded, Bounds, BuildError, greater, lesser, prefetch};
+use super::primitive::{PrimitiveId, PrimitiveIds};
 use super::projected_triangle::{project, undecided};
-use super::rays::{Hits, NOTHING, Nearest, Rays, SHAPE};
+use super::rays::{Hits, Nearest, Rays};
 use super::region::{Placed, Region};
 use super::shapes::Reached;
 use super::single_ray::{Leaves, SingleRay};
 use super::tree::{Primitives, Tree};
 use crate::geometry::{Affine, NEAR, Segment};
-use crate::packet::{M8, V8, X8, each_bit, equal, max, pick, select};
+use crate::packet::{M8, V8, X8, each_bit, max, select};
 use etendue::{Mask, Real, Vec3, u32x8};
 use std::ops::{Range, RangeInclusive};
 use wide::u16x8;
@@ -66,7 +67,7 @@ pub(super) struct TriangleLeaves {
 
 /// Where triangles are.
 pub(super) trait Situation {
-    /// What is added to the index of a triangle to give its place in hits.
+    /// What is added to the index of a triangle to give its number as a primitive.
     fn first(&self) -> u32;
     /// Where a corner of a triangle is.
     fn corner<R: Real<Scalar = f32>>(&self, corner: Vec3<R>) -> Vec3<R>;
@@ -108,7 +109,7 @@ impl Situation for InPlace {
 /// An instance of triangles. Its corners are moved and rounded, and tested as if they were stored so.
 #[derive(Debug)]
 pub(super) struct Moved<'a> {
-    /// What is added to the index of a triangle to give its place in hits.
+    /// What is added to the index of a triangle to give its number as a primitive.
     pub(super) first: u32,
     pub(super) to_world: &'a Affine,
     /// A bound of the factor by which the distances grow up to which single precision does not suffice.
@@ -206,10 +207,10 @@ impl TriangleLeaves {
         })
     }
     #[inline]
-    pub(super) fn corners(&self, place: u32) -> [f32; 9] {
-        let leaf = self.leaves[place as usize];
+    pub(super) fn corners(&self, index: u32) -> [f32; 9] {
+        let leaf = self.leaves[index as usize];
         let (before, all) = (usize::from(leaf >> 4), usize::from(leaf & 15));
-        let start = 9 * (place as usize - before) + before;
+        let start = 9 * (index as usize - before) + before;
         std::array::from_fn(|k| self.coordinates[start + k * all])
     }
     #[inline]
@@ -217,21 +218,21 @@ impl TriangleLeaves {
         &self.ids
     }
     /// The lower rank wins a tie: the caller's index for triangles, a greater rank for shapes, and the least for misses, so that a
-    /// hit exactly at the limit does not count. The places of an instance begin at `first`, and follow each other; an instance of lower
-    /// places wins.
-    fn rank(&self, first: u32, place: u32) -> u64 {
-        match self.ids.get(place.wrapping_sub(first) as usize) {
+    /// hit exactly at the limit does not count. The numbers of an instance begin at `first`, and follow each other; an instance of lower
+    /// numbers wins.
+    fn rank(&self, first: u32, primitive: PrimitiveId) -> u64 {
+        match self.ids.get(primitive.0.wrapping_sub(first) as usize) {
             Some(&id) => u64::from(first) + u64::from(id) + 1,
-            None if place == NOTHING => 0,
-            None if place & SHAPE != 0 => u64::MAX,
-            None => u64::from(place) + 1,
+            None if primitive == PrimitiveId::NONE => 0,
+            None if primitive.shape().is_some() => u64::MAX,
+            None => u64::from(primitive.0) + 1,
         }
     }
-    /// Lanes of `tie` where the triangle at `place` has a lower rank than the hit in `hits`.
+    /// Lanes of `tie` where a triangle has a lower rank than the hit in `hits`.
     #[cold]
-    fn goes_first(&self, tie: M8, first: u32, place: u32, hits: &Hits) -> M8 {
-        let rank = |place: u32| self.rank(first, place);
-        let first = (0..8).filter(|&i| tie.lane(i) && rank(place) < rank(hits.place.as_array()[i]));
+    fn goes_first(&self, tie: M8, first: u32, triangle: PrimitiveId, hits: &Hits) -> M8 {
+        let rank = |primitive| self.rank(first, primitive);
+        let first = (0..8).filter(|&i| tie.lane(i) && rank(triangle) < rank(hits.primitives.lane(i)));
         M8::from_bits(first.fold(0, |bits, i| bits | 1 << i))
     }
     /// Corners of one triangle of a leaf, broadcast to all lanes.
@@ -266,7 +267,7 @@ impl TriangleLeaves {
         lanes: u32,
         triangles: [usize; 8],
         [origin, direction]: [V8; 2],
-        (limit, reached): (X8, u32x8),
+        (limit, reached): (X8, PrimitiveIds),
         distance: &mut X8,
     ) -> u32 {
         let mut ahead = 0;
@@ -277,7 +278,7 @@ impl TriangleLeaves {
             let limit = limit.as_array()[lane];
             let segment = Segment { origin, direction, length: limit.into() };
             if let Some(exact) = to_triangle(corners, origin, direction).filter(|&exact| exact > 0.0)
-                && (!ANY || hides(corners, &self.reached.by(reached.as_array()[lane], segment)))
+                && (!ANY || hides(corners, &self.reached.by(reached.lane(lane), segment)))
             {
                 let exact = exact as f32;
                 // before the limit, whatever the rounding
@@ -321,12 +322,12 @@ impl TriangleLeaves {
         let data = &self.coordinates[9 * leaf.start..9 * leaf.end];
         let columns: [&[f32]; 9] = std::array::from_fn(|k| &data[k * count..(k + 1) * count]);
         for index in 0..count {
-            let place = (leaf.start + index) as u32 + situation.first();
+            let triangle = PrimitiveId((leaf.start + index) as u32 + situation.first());
             let corners = Self::one(&columns, index).map(|corner| situation.corner(corner));
             let projected = project(corners, rays.origin, rays.frame);
             // without a branch on whether any ray hits: it would often be mispredicted, which costs more than the division
             let mut distance = projected.distance(rays.direction);
-            let others = active & !equal(rays.from, u32x8::splat(place));
+            let others = active & !rays.from.are(triangle);
             let mut met = projected.inside & others;
             let size = X8::splat(from_exponent(self.near[leaf.start + index]) * situation.size());
             let mut unclear = others & undecided::<ANY>(distance, size, hits.distance);
@@ -338,7 +339,7 @@ impl TriangleLeaves {
                     & (projected.nearly() | is_infinite(size));
                 let lanes = unclear.bits();
                 let way = [rays.origin, rays.direction];
-                let end = (hits.distance, hits.place);
+                let end = (hits.distance, hits.primitives);
                 let ahead = self.decide::<ANY>(situation, lanes, triangles, way, end, &mut distance);
                 met = met & !unclear | M8::from_bits(ahead);
             }
@@ -346,7 +347,7 @@ impl TriangleLeaves {
             let mut ahead = met & distance.gt(X8::lit(0.0));
             if let Some(cutouts) = &self.cutouts {
                 let weights = projected.weights;
-                let lane = |k: usize| (leaf.start + index, place, weights.map(|w| w.lane(k)));
+                let lane = |k: usize| (leaf.start + index, triangle, weights.map(|w| w.lane(k)));
                 let hit = (ahead & distance.le(hits.distance)).bits();
                 ahead = M8::from_bits(cutouts.opaque(hit, rays.origin, rays.direction, lane));
             }
@@ -357,10 +358,10 @@ impl TriangleLeaves {
             }
             let tie = ahead & distance.le(hits.distance) & !nearer;
             if tie.any() {
-                nearer = nearer | self.goes_first(tie, situation.first(), place, hits);
+                nearer = nearer | self.goes_first(tie, situation.first(), triangle, hits);
             }
             hits.distance = select(nearer, distance, hits.distance);
-            hits.place = pick(nearer, u32x8::splat(place), hits.place);
+            hits.primitives = PrimitiveIds::pick(nearer, PrimitiveIds::splat(triangle), hits.primitives);
         }
         hidden
     }
@@ -377,7 +378,7 @@ impl TriangleLeaves {
         let corners = self.all(&leaf).map(|corner| situation.corner(corner));
         let projected = project(corners, ray.origin(), ray.frame());
         let first = leaf.start as u32 + situation.first();
-        let own = 1_u32.checked_shl(ray.from.wrapping_sub(first)).unwrap_or(0);
+        let own = 1_u32.checked_shl(ray.from.0.wrapping_sub(first)).unwrap_or(0);
         let others = ((1 << leaf.len()) - 1) & !own;
         let (mut inside, mut nearly) = (projected.inside.bits() & others, projected.nearly().bits() & others);
         if nearly == 0 && !self.is_extreme(situation) {
@@ -401,7 +402,7 @@ impl TriangleLeaves {
             let size = situation.near(self, size, M8::from_bits(unclear), triangles);
             unclear &= undecided::<ANY>(distance, size, limit).bits();
             let way = [ray.origin(), ray.direction()];
-            let end = (limit, u32x8::splat(nearest.place));
+            let end = (limit, PrimitiveIds::splat(nearest.primitive));
             let ahead = self.decide::<ANY>(situation, unclear, triangles, way, end, &mut distance);
             inside = inside & !unclear | ahead;
         }
@@ -409,7 +410,7 @@ impl TriangleLeaves {
         let ahead = distance.gt(X8::lit(0.0));
         if let Some(cutouts) = &self.cutouts {
             let weights = projected.weights;
-            let lane = |k: usize| (leaf.start + k, first + k as u32, weights.map(|w| w.lane(k)));
+            let lane = |k: usize| (leaf.start + k, PrimitiveId(first + k as u32), weights.map(|w| w.lane(k)));
             let hit = inside & (ahead & distance.le(limit)).bits();
             inside = cutouts.opaque(hit, ray.origin(), ray.direction(), lane);
         }
@@ -419,10 +420,11 @@ impl TriangleLeaves {
         each_bit(inside & (ahead & distance.le(limit)).bits(), |lane| {
             let lane = lane & 7;
             let distance = distance.as_array()[lane];
-            let place = first + lane as u32;
-            let rank = |place: u32| self.rank(situation.first(), place);
-            if distance < nearest.distance || distance == nearest.distance && rank(place) < rank(nearest.place) {
-                *nearest = Nearest { distance, place };
+            let primitive = PrimitiveId(first + lane as u32);
+            let rank = |primitive| self.rank(situation.first(), primitive);
+            if distance < nearest.distance || distance == nearest.distance && rank(primitive) < rank(nearest.primitive)
+            {
+                *nearest = Nearest { distance, primitive };
             }
         });
         false

@@ -5,8 +5,8 @@
 
 use super::points::Points;
 use super::prepared::PreparedScene;
-use crate::bvh::{GROUP, Hits, Tracer};
-use crate::packet::{M8, V8, X8, keep, pick, product};
+use crate::bvh::{GROUP, Hits, PrimitiveIds, Tracer};
+use crate::packet::{M8, V8, X8, keep, product};
 use crate::surfaces::Surface;
 use crate::surfaces::bsdf::Metal;
 use etendue::{Mask, Real};
@@ -57,7 +57,7 @@ impl<'a> Paths<'a> {
         world.bvh.closest(&tracer.camera[..count], active, &mut hits[..count], &mut tracer.scratch);
         for (p, (hits, active)) in hits[..count].iter().zip(active).enumerate() {
             points.surfaces[p] = world.hit(hits, &tracer.camera[p]);
-            points.places[p].primitives = hits.place;
+            points.places[p].primitives = hits.primitives;
             seen[p] = emission(scene, tracer, p, &points.surfaces[p], *active & !hits.any());
         }
     }
@@ -92,14 +92,14 @@ impl<'a> Paths<'a> {
                 points.settle(p, ends, &surface, flat, (metal, smooth));
                 let (end, place) = (&mut points.ends[p], &mut points.places[p]);
                 end.direction = V8::blend(ends, incoming, end.direction);
-                place.primitives = pick(ends, hits[p].place, place.primitives);
+                place.primitives = PrimitiveIds::pick(ends, hits[p].primitives, place.primitives);
                 place.direct = if depth == 0 { ends } else { place.direct & !ends };
                 if mirrors.any() && depth < self.depth {
                     let direction = mirrored(&surface, &metal, mirrors, incoming, &mut end.throughput);
                     // the mirror image of a smooth normal may be below the flat surface
                     going[p] = mirrors & (direction.dot(flat).gt(X8::lit(0.0)) | !smooth);
                     on |= going[p].any();
-                    tracer.camera[p] = world.bvh.rays(surface.point, direction).leaving(hits[p].place);
+                    tracer.camera[p] = world.bvh.rays(surface.point, direction).leaving(hits[p].primitives);
                     tracer.count.mirror += u64::from(going[p].bits().count_ones());
                 }
             }

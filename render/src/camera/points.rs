@@ -1,11 +1,11 @@
 //! Shading points: where paths from the camera end, and what fraction of the light there reaches the camera.
 
-use crate::bvh::GROUP;
+use crate::bvh::{GROUP, PrimitiveIds};
 use crate::packet::{M8, V8};
 use crate::surfaces::Surface;
 use crate::surfaces::bsdf::Metal;
 use crate::surfaces::lobe::Lobe;
-use etendue::{Mask, u32x8};
+use etendue::Mask;
 
 /// The shading points of a group of packets.
 #[derive(Clone)]
@@ -22,8 +22,8 @@ pub(crate) struct Points {
 /// The places of a packet of shading points.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PointIdentity {
-    /// As in hits.
-    pub(crate) primitives: u32x8,
+    /// What their surfaces are parts of.
+    pub(crate) primitives: PrimitiveIds,
     /// Lanes that the camera sees directly.
     pub(crate) direct: M8,
     /// The pixel of a packet that belongs to a single one.
@@ -53,7 +53,7 @@ impl Points {
     pub(crate) fn new() -> Self {
         let none = M8::splat(false);
         let place = PointIdentity {
-            primitives: u32x8::splat(0),
+            primitives: PrimitiveIds::none(),
             direct: M8::splat(true),
             pixel: None,
             fitted: none,

@@ -1,6 +1,6 @@
 //! What a way to choose a light is.
 
-use crate::lights::Candidate;
+use crate::lights::LightRecord;
 use crate::packet::{V8, X8};
 use etendue::select::{Choice, Gloss, LightBound};
 use rayon::prelude::*;
@@ -21,7 +21,7 @@ pub(super) trait ChooseLight {
 }
 
 /// Bounds of lights. Their powers are relative to the greatest, so that all are finite; lights infinitely far away have none.
-pub(super) fn bounds(all: &[Candidate]) -> Vec<LightBound> {
+pub(super) fn bounds(all: &[LightRecord]) -> Vec<LightBound> {
     let greatest = all.iter().fold(f64::MIN_POSITIVE, |most, light| most.max(light.power));
     all.par_iter().map(|light| light.bound(light.power / greatest)).collect()
 }

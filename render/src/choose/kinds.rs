@@ -5,7 +5,7 @@ use super::choose_light::{ChooseLight, bounds};
 use super::light_tree::{Threads, build_error};
 use crate::bvh::BuildError;
 use crate::lights::sky::Sky;
-use crate::lights::{Candidate, Far};
+use crate::lights::{Far, LightRecord};
 use crate::packet::{V8, X8};
 use etendue::Real;
 use etendue::lights::{Mixture, MixtureAt, Source};
@@ -26,9 +26,9 @@ impl Kinds {
     ///
     /// # Errors
     /// Fails if there are more lights than a tree can index.
-    pub(super) fn new(all: &[Candidate], sky: Option<&Arc<Sky>>) -> Result<Self, BuildError> {
+    pub(super) fn new(all: &[LightRecord], sky: Option<&Arc<Sky>>) -> Result<Self, BuildError> {
         let greatest = all.iter().fold(f64::MIN_POSITIVE, |most, light| most.max(light.power));
-        let source = |light: &Candidate| match (light.far, light.beam()) {
+        let source = |light: &LightRecord| match (light.far(), light.beam()) {
             // a light of less than this power would not be in the tree
             (Some(Far::Sun), _) => {
                 let power = (light.power / greatest).max(f64::from(f32::MIN_POSITIVE)) as f32;
@@ -71,15 +71,15 @@ mod tests {
     use etendue::{Uint, Vec2, u32x8};
     use etendue_oracle::tier::cases;
 
-    fn of_power(mut light: Candidate, power: f64) -> Candidate {
+    fn of_power(mut light: LightRecord, power: f64) -> LightRecord {
         light.power = power;
         light
     }
-    fn lamp(place: [f32; 3], power: f64) -> Candidate {
-        of_power(point::candidate(place, [1.0; 3]), power)
+    fn lamp(place: [f32; 3], power: f64) -> LightRecord {
+        of_power(point::record(place, [1.0; 3]), power)
     }
-    fn sun(direction: [f32; 3], power: f64) -> Candidate {
-        of_power(sun::candidate(direction, [1.0; 3]), power)
+    fn sun(direction: [f32; 3], power: f64) -> LightRecord {
+        of_power(sun::record(direction, [1.0; 3]), power)
     }
 
     /// With and without distant lights: the pmf sums to 1, a choice has the pmf of its light, and lights are chosen as often as their
@@ -89,7 +89,7 @@ mod tests {
         for (count, far) in [(2_usize, 1_usize), (2, 2), (7, 0), (7, 3), (4000, 0), (4000, 2)] {
             let powers: Vec<f64> = (0..count).map(|i| [1.0, 1e-3, 1e-9, 0.0, 50.0][i * 7 % 5]).collect();
             let place = |i: usize| [(i * 37 % 101) as f32, (i * 61 % 113) as f32, 3.0 + (i % 7) as f32];
-            let all: Vec<Candidate> = (0..count)
+            let all: Vec<LightRecord> = (0..count)
                 .map(|i| match i < count - far {
                     true => lamp(place(i), powers[i]),
                     false => sun([0.6, 0.0, 0.8], powers[i]),
@@ -126,7 +126,7 @@ mod tests {
     fn lamps_and_suns_share_by_what_they_can_contribute() {
         for [of_lamp, of_sun] in [[1.0, 1.0], [1e-9, 1.0], [1.0, 1e-9], [1e9, 1e-12]] {
             // irradiances of lamp/4 and sun/4
-            let all: Vec<Candidate> = vec![lamp([0.0, 0.0, 1.0], of_lamp), sun([0.0, 0.0, 1.0], of_sun)];
+            let all: Vec<LightRecord> = vec![lamp([0.0, 0.0, 1.0], of_lamp), sun([0.0, 0.0, 1.0], of_sun)];
             let lights = Kinds::new(&all, None).unwrap();
             let pmf = |normal: [f64; 3]| {
                 let at = lights.at(V8::default(), V8::lit(normal), None);
@@ -138,7 +138,7 @@ mod tests {
             assert_eq!(pmf([0.0, 0.0, -1.0]), [0.0; 2]);
         }
         // a sun below the horizon takes nothing from a lamp above it
-        let all: Vec<Candidate> = vec![lamp([0.0, 0.0, 1.0], 1e-9), sun([0.0, 0.0, -1.0], 1.0)];
+        let all: Vec<LightRecord> = vec![lamp([0.0, 0.0, 1.0], 1e-9), sun([0.0, 0.0, -1.0], 1.0)];
         let lights = Kinds::new(&all, None).unwrap();
         let at = lights.at(V8::default(), V8::lit([0.0, 0.0, 1.0]), None);
         assert_eq!([0, 1].map(|light| at.pmf(light).as_array()[0]), [1.0, 0.0]);
@@ -147,7 +147,7 @@ mod tests {
     /// A dim lamp keeps its equal part of the samples, however bright a second lamp is, since that one may be hidden.
     #[test]
     fn dim_lamps_beside_a_bright_one_are_not_lost() {
-        let all: Vec<Candidate> = vec![lamp([0.0, 0.0, 1.0], 1e12), lamp([30.0, 0.0, 1.0], 1.0)];
+        let all: Vec<LightRecord> = vec![lamp([0.0, 0.0, 1.0], 1e12), lamp([30.0, 0.0, 1.0], 1.0)];
         let lights = Kinds::new(&all, None).unwrap();
         let at = lights.at(V8::default(), V8::lit([0.0, 0.0, 1.0]), None);
         let [bright, dim] = [0, 1].map(|light| f64::from(at.pmf(light).as_array()[0]));
@@ -160,9 +160,9 @@ mod tests {
     fn beams_are_chosen_where_they_are_seen() {
         let versine = 1.5e-8_f32;
         for count in [1, 3000] {
-            let mut all: Vec<Candidate> = (0..count).map(|i| lamp([1.0 + i as f32, 0.0, 2.0], 1.0)).collect();
+            let mut all: Vec<LightRecord> = (0..count).map(|i| lamp([1.0 + i as f32, 0.0, 2.0], 1.0)).collect();
             let intensity = [1.0 / versine; 3];
-            all.insert(1, spot::candidate([0.0, 0.0, 2.0], [0.0, 0.0, -1.0], [versine; 2], intensity));
+            all.insert(1, spot::record([0.0, 0.0, 2.0], [0.0, 0.0, -1.0], [versine; 2], intensity));
             let lights = Kinds::new(&all, None).unwrap();
             let (x, mut pmfs) = (X8::new(std::array::from_fn(|lane| if lane == 0 { 0.0 } else { 0.1 })), [0.0; 2]);
             let at = lights.at(V8::new(x, X8::default(), X8::default()), V8::lit([0.0, 0.0, 1.0]), None);
@@ -183,7 +183,7 @@ mod tests {
     /// A point that no light can reach gets no light, and an index that is valid all the same.
     #[test]
     fn below_all_lights_there_is_none() {
-        let all: Vec<Candidate> = (0..3).map(|i| lamp([i as f32, 0.0, 1.0], 1.0)).collect();
+        let all: Vec<LightRecord> = (0..3).map(|i| lamp([i as f32, 0.0, 1.0], 1.0)).collect();
         let lights = Kinds::new(&all, None).unwrap();
         let choice = lights.at(V8::default(), V8::lit([0.0, 0.0, -1.0]), None).choose(X8::lit(0.3), X8::lit(0.6));
         assert_eq!((choice.pmf, choice.index), (X8::lit(0.0), u32x8::splat(0)));

@@ -1,7 +1,7 @@
 //! Lights are chosen by their power. The power of a sun or a sky is the flux through a disk whose radius is the greatest coordinate of the scene.
 
 use super::choose_light::ChooseLight;
-use crate::lights::{Candidate, Far};
+use crate::lights::{Far, LightRecord};
 use crate::packet::{V8, X8};
 use etendue::discrete::{Cell2d, PiecewiseConstant2d};
 use etendue::select::{Choice, Gloss};
@@ -17,9 +17,9 @@ pub(super) struct Power {
 
 impl Power {
     /// Prepares the choice in a scene whose greatest coordinate is `reach`.
-    pub(super) fn new(all: &[Candidate], reach: f32) -> Result<Self, String> {
+    pub(super) fn new(all: &[LightRecord], reach: f32) -> Result<Self, String> {
         let squared = f64::from(reach).powi(2);
-        let power = |light: &Candidate| match light.far {
+        let power = |light: &LightRecord| match light.far() {
             // the power of a sun is that of a point at the distance 1, 4 times its irradiance, and that of a sky its flux over π
             Some(Far::Sun) => light.power * 0.25 * squared,
             Some(Far::Sky) => light.power * PI * squared,

@@ -1,12 +1,12 @@
 //! Few lights are chosen by what each can contribute to the point.
 
 use super::choose_light::{ChooseLight, bounds};
-use crate::lights::Candidate;
+use crate::lights::LightRecord;
 use crate::packet::{V8, X8};
 use etendue::select::{Choice, Gloss, LightChoice, LightsAt, SpatialLights};
 
 /// Prepares the choice.
-pub(super) fn new(all: &[Candidate]) -> Result<SpatialLights, String> {
+pub(super) fn new(all: &[LightRecord]) -> Result<SpatialLights, String> {
     SpatialLights::new(&bounds(all))
         .map_err(|_| format!("at most {} lights, and the scene has {}", SpatialLights::MOST, all.len()))
 }

@@ -3,7 +3,7 @@
 use super::choose_light::{ChooseLight, bounds};
 use super::light_tree::{Threads, build_error};
 use crate::bvh::BuildError;
-use crate::lights::Candidate;
+use crate::lights::LightRecord;
 use crate::packet::{V8, X8};
 use etendue::owned::OwnedTree;
 use etendue::select::{Choice, Gloss, LightChoice, TreeAt};
@@ -12,7 +12,7 @@ use etendue::select::{Choice, Gloss, LightChoice, TreeAt};
 ///
 /// # Errors
 /// Fails if there are more lights than a tree can index.
-pub(super) fn new(all: &[Candidate]) -> Result<OwnedTree, BuildError> {
+pub(super) fn new(all: &[LightRecord]) -> Result<OwnedTree, BuildError> {
     OwnedTree::new(&bounds(all), &Threads).map_err(|_| build_error(all.len()))
 }
 

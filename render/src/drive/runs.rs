@@ -40,7 +40,7 @@ pub(super) struct TilePiece {
 pub(super) fn next_packet(
     run: &mut Option<Run>,
     runs: &mut impl Iterator<Item = Run>,
-    span: u32,
+    set_size: u32,
     packet: usize,
     pieces: &mut Vec<TilePiece>,
 ) -> Packet {
@@ -51,7 +51,7 @@ pub(super) fn next_packet(
         pieces.push(TilePiece { packet, lanes: 0..8, run: first });
         *run = if next == first.end { runs.next() } else { Some(Run { next, is_new: false, ..first }) };
         let [x, y] = first.pixel.map(u32x8::splat);
-        let sample = u32x8::splat(first.set * span + first.next) + lanes;
+        let sample = u32x8::splat(first.set * set_size + first.next) + lanes;
         return Packet { x, y, sample, set: u32x8::splat(first.set), active: M8::splat(true) };
     }
     let (mut x, mut y, mut sample, mut set) = ([0; 8], [0; 8], [0; 8], [0; 8]);
@@ -63,7 +63,7 @@ pub(super) fn next_packet(
         let range = filled as usize..(filled + taken) as usize;
         for lane in range.clone() {
             [x[lane], y[lane]] = current.pixel;
-            sample[lane] = current.set * span + current.next + lane as u32 - filled;
+            sample[lane] = current.set * set_size + current.next + lane as u32 - filled;
             set[lane] = current.set;
         }
         filled += taken;

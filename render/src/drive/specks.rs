@@ -1,11 +1,11 @@
 //! Lights in view that are smaller than a pixel, which few samples meet.
 
-use crate::bvh::{NOTHING, Scratch};
+use crate::bvh::{PrimitiveId, PrimitiveIds, Scratch};
 use crate::camera::{Camera, PreparedScene};
 use crate::film::claim::Specks;
 use crate::geometry::across;
 use crate::packet::{M8, V8, X8};
-use etendue::{Mask, Real, Vec3, u32x8};
+use etendue::{Mask, Real, Vec3};
 use rayon::prelude::*;
 use std::f64::consts::PI;
 
@@ -25,8 +25,8 @@ struct Speck {
     area: f64,
     /// Σ of the squared radiances of the channels.
     squared: f64,
-    /// Index of its shape, or [`NOTHING`].
-    shape: u32,
+    /// Its shape, if it has one.
+    primitive: PrimitiveId,
 }
 
 /// The specks that the camera sees directly in an image of this size, of a scene whose radiance the sensor multiplies by `exposure`. What
@@ -55,7 +55,7 @@ fn of_sun(scene: &PreparedScene, camera: &Camera, size: [u32; 2]) -> Option<Spec
     let direction = Vec3::<f64>::from(direction.map(f64::from));
     let middle = camera.middle(size[0], size[1]).0 + direction;
     let halves = across(direction, radius);
-    Some(Speck { middle, halves, area: PI, squared: squared(radiance), shape: NOTHING })
+    Some(Speck { middle, halves, area: PI, squared: squared(radiance), primitive: PrimitiveId::NONE })
 }
 
 /// The light of a shape; `None` if it does not emit towards the camera.
@@ -69,7 +69,7 @@ fn of_shape(scene: &PreparedScene, camera: &Camera, index: u32) -> Option<Speck>
     let faces = to.dot(Vec3::from(shape.geometry.normal().map(f64::from))) < 0.0;
     let emits = emission.two_sided || shape.geometry.plane().is_none() || faces;
     let squared = squared(emission.radiance);
-    (emits && squared > 0.0).then_some(Speck { middle, halves, area, squared, shape: index })
+    (emits && squared > 0.0).then_some(Speck { middle, halves, area, squared, primitive: PrimitiveId::of_shape(index) })
 }
 
 /// How a speck is in the image; `None` if it is not in view, or not smaller than a pixel.
@@ -89,9 +89,9 @@ fn look(scene: &PreparedScene, camera: &Camera, size: [u32; 2], speck: &Speck, e
     let to = PLACES.map(|[a, b]| middle + u * (0.7 * a) + v * (0.7 * b) - origin);
     let lanes = |of: fn(&Vec3<f64>) -> f64| X8::from_fn(|lane| of(&to[lane]) as f32);
     let to = V8::new(lanes(|v| v.x), lanes(|v| v.y), lanes(|v| v.z));
-    let limit = if speck.shape == NOTHING { X8::lit(f64::INFINITY) } else { to.length() };
+    let limit = if speck.primitive == PrimitiveId::NONE { X8::lit(f64::INFINITY) } else { to.length() };
     let rays = scene.surfaces.bvh.rays(V8::lit([origin.x, origin.y, origin.z]), to.normalize());
-    let (mut visible, target) = ([M8::splat(true)], [u32x8::splat(speck.shape)]);
+    let (mut visible, target) = ([M8::splat(true)], [PrimitiveIds::splat(speck.primitive)]);
     scene.surfaces.bvh.occluded(&[rays], &mut visible, &[limit], &target, &mut Scratch::default());
     let part = f64::from(visible[0].bits().count_ones()) / 8.0;
     (part > 0.0).then(|| Specks::new(area * part, speck.squared * exposure * exposure))

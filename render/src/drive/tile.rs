@@ -81,11 +81,11 @@ impl<'a> TileRenderer<'a> {
     /// Renders all samples of the pixels of a tile [x0, y0, x1, y1), row by row.
     pub(super) fn all<A: Accumulator>(&mut self, area: Area, sum: A) -> Vec<A::Output> {
         let Settings { spp, .. } = *self.settings;
-        let span = if self.source.span() == 0 { spp } else { self.source.span() };
-        let whole = span.is_multiple_of(8);
+        let set_size = if self.source.set_size() == 0 { spp } else { self.source.set_size() };
+        let whole = set_size.is_multiple_of(8);
         self.begin(area);
-        let weights = if whole { self.weights(area, span) } else { None };
-        self.samples(area, [span; 2], spp / span, weights.as_ref(), sum, |_, _| [0, span])
+        let weights = if whole { self.weights(area, set_size) } else { None };
+        self.samples(area, [set_size; 2], spp / set_size, weights.as_ref(), sum, |_, _| [0, set_size])
     }
 
     /// Renders packets `from` to `to` of each of the `sets` of pixels of a tile, row by row; `range` returns them for a pixel. Samples are
@@ -156,12 +156,12 @@ impl<'a> TileRenderer<'a> {
     }
 
     /// Renders a range of the samples of each set of the pixels of an area, row by row. Samples are allocated to the lights by `weights`,
-    /// if given, in blocks of which the first has `block` samples. If the sets of `span` samples consist of whole packets, no packet has
+    /// if given, in blocks of which the first has `block` samples. If the sets of `set_size` samples consist of whole packets, no packet has
     /// samples of two.
     fn samples<A: Accumulator>(
         &mut self,
         area: Area,
-        [span, block]: [u32; 2],
+        [set_size, block]: [u32; 2],
         sets: u32,
         weights: Option<&LightWeights<'_>>,
         mut sum: A,
@@ -192,7 +192,7 @@ impl<'a> TileRenderer<'a> {
             while packets.len() < GROUP
                 && let Some(first) = run
             {
-                let packet = next_packet(&mut run, &mut runs, span, packets.len(), &mut pieces);
+                let packet = next_packet(&mut run, &mut runs, set_size, packets.len(), &mut pieces);
                 if let Some(weights) = weights {
                     expected[packets.len()] = weights.expected(first.pixel);
                     places.push(blocks.find(weights, first.pixel, first.next));

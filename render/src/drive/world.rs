@@ -1,6 +1,6 @@
 //! A scene ready to be rendered.
 
-use crate::bvh::{BuildError, Hits, NOTHING, Scratch};
+use crate::bvh::{BuildError, Hits, Scratch};
 use crate::camera::{Camera, PreparedScene};
 use crate::choose::ChoiceBy;
 use crate::film::sensor::{Exposure, Sensor};
@@ -11,7 +11,7 @@ use crate::packet::{V8, X8};
 use crate::scene::{CameraSettings, Scene};
 use crate::settings::Settings;
 use crate::technique::Technique;
-use etendue::{Real, Uint};
+use etendue::{Mask, Real};
 
 /// A scene ready to be rendered.
 #[derive(Debug)]
@@ -89,7 +89,7 @@ impl World {
         let mut hits = [Hits::none(X8::splat(f32::INFINITY))];
         let active = [X8::splat(0.0).le(X8::splat(1.0))];
         bvh.closest(&[bvh.rays(origin, forward)], &active, &mut hits, &mut Scratch::default());
-        (hits[0].place.lane(0) != NOTHING).then(|| f64::from(hits[0].distance.lane(0)))
+        hits[0].any().lane(0).then(|| f64::from(hits[0].distance.lane(0)))
     }
 
     /// The part of all directions in which rays escape, from a little before what the camera sees on its axis, by 4,096 directions; `None` if it
@@ -115,7 +115,7 @@ impl World {
             let mut hits = [Hits::none(X8::splat(f32::INFINITY))];
             let rays = [bvh.rays(V8::from(place), V8::new(axis(0), axis(1), axis(2)))];
             bvh.closest(&rays, &active, &mut hits, &mut scratch);
-            escaped += (0..8).filter(|lane| hits[0].place.lane(*lane) == NOTHING).count();
+            escaped += hits[0].any().bits().count_zeros() as usize - 24;
         }
         Some(escaped as f64 / (8 * PACKETS) as f64)
     }

@@ -3,11 +3,11 @@
 use super::mis::Mis;
 use super::unoccluded::Unoccluded;
 use super::which_light::Which;
-use crate::bvh::{GROUP, Tracer};
+use crate::bvh::{GROUP, PrimitiveIds, Tracer};
 use crate::camera::Group;
 use crate::know::Ledger;
 use crate::lights::sky::SunBeside;
-use crate::lights::{Chosen, Drawn};
+use crate::lights::{Chosen, Drawn, LightDirection};
 use crate::packet::{M8, V8, X8, keep, product, select};
 use crate::surfaces::bsdf::Evaluated;
 use crate::technique::Measure;
@@ -35,14 +35,15 @@ impl ByLight {
         let mut rays = Unoccluded::new();
         for (p, surface) in group.reflecting() {
             // choose a light, and draw a direction to it
-            let place = group.points.places[p].primitives;
+            let primitives = group.points.places[p].primitives;
             let (choice, lanes, u) = which.choose::<GENERAL>(group, ledger, p);
-            let mut light = group.lights.chosen(choice.index);
-            let (drawn, alone) = self.draw::<GENERAL>(which, group, p, u, &mut light);
-            let Drawn { direction, distance, emits, delta, .. } = drawn;
+            let light = group.lights.chosen(choice.index);
+            let (drawn, alone) = self.draw::<GENERAL>(which, group, p, u, &light);
+            let Drawn { to: LightDirection { direction, distance, pdf, emits, delta }, radiance, primitives: target } =
+                drawn;
             let cos = direction.dot(surface.normal);
-            let own = light.is_own(place, surface.point, surface.normal);
-            let some = drawn.pdf.gt(zero) & choice.pmf.gt(zero);
+            let own = light.is_own(primitives, surface.point, surface.normal);
+            let some = pdf.gt(zero) & choice.pmf.gt(zero);
             let mut lit = lanes & emits & some & cos.gt(zero) & !own;
             // evaluate f cosθ, less what is known of its integral
             let Evaluated { mut color, factor, pdf: surface_pdf } = group.bsdf::<GENERAL>(p).evaluate(direction);
@@ -52,13 +53,13 @@ impl ByLight {
                 lit = lit & !proven.dark;
             }
             // weigh f L cosθ / pdf
-            let pdf = select(lit, drawn.pdf * choice.pmf, one);
+            let pdf = select(lit, pdf * choice.pmf, one);
             let rough = group.rough::<GENERAL>(p);
             let factor = match &self.mis {
                 None => factor,
                 Some(mis) => factor * mis.of_light([pdf, surface_pdf], delta, alone, rough),
             };
-            let found = product(color, light.radiance) * (factor / pdf);
+            let found = product(color, radiance) * (factor / pdf);
             if let Some(counted) = ledger.counted(p, choice.index) {
                 reflected[p] += keep(found * -counted, lit);
             }
@@ -69,8 +70,8 @@ impl ByLight {
             // trace a shadow ray, unless a sky or a profile is dark in that direction, or the surface black
             lit = lit & found.max_abs().gt(zero);
             (rays.found[p], rays.lanes[p]) = (found, lit);
-            rays.end_at(p, distance, light.shape);
-            tracer.shadow[p] = bvh.rays(surface.point, direction).leaving(place);
+            rays.end_at(p, distance, target);
+            tracer.shadow[p] = bvh.rays(surface.point, direction).leaving(primitives);
             tracer.count.shadow += u64::from(lit.bits().count_ones());
         }
         rays.add(group.count, bvh, tracer, reflected);
@@ -97,18 +98,17 @@ impl ByLight {
         group: &Group<'_>,
         packet: usize,
         u: Vec2<X8>,
-        light: &mut Chosen,
+        light: &Chosen,
     ) -> (Drawn, M8) {
         let surface = &group.points.surfaces[packet];
-        let mut drawn: Drawn = if let Which::Sun(sun) = which {
+        let Drawn { mut to, radiance, primitives } = if let Which::Sun(sun) = which {
             let (sample, radiance) = sun.sample(surface.point, u);
-            light.radiance = radiance;
-            sample.into()
+            Drawn { to: sample.into(), radiance, primitives: PrimitiveIds::none() }
         } else {
             group.lights.sample(light, self.measure, surface.point, surface.normal, u)
         };
         let lobe = group.points.lobes[packet].as_ref().filter(|_| GENERAL && self.mis.is_some_and(|mis| mis.by_lobes));
-        let alone = lobe.map(|lobe| light.sample_lobe(&mut drawn, lobe, surface.point, u));
-        (drawn, alone.unwrap_or(M8::splat(false)))
+        let alone = lobe.map(|lobe| light.sample_lobe(&mut to, lobe, surface.point, u));
+        (Drawn { to, radiance, primitives }, alone.unwrap_or(M8::splat(false)))
     }
 }

@@ -3,10 +3,11 @@
 use super::mis::Mis;
 use super::unoccluded::Unoccluded;
 use super::which_light::pmf;
-use crate::bvh::{GROUP, Hits, NOTHING, SHAPE, Tracer};
+use crate::bvh::{GROUP, Hits, PrimitiveIds, Tracer};
 use crate::camera::Group;
 use crate::choose::LightPmf;
 use crate::know::Ledger;
+use crate::lights::NO_LIGHT;
 use crate::packet::{M8, V8, X8, keep, pick, product, select};
 use crate::surfaces::bsdf::Scattered;
 use crate::surfaces::lobe::Lobe;
@@ -25,7 +26,7 @@ struct Met {
     /// Lanes that find light.
     lit: M8,
     radiance: V8,
-    /// The lights, or [`NOTHING`].
+    /// The lights, or [`NO_LIGHT`].
     lights: u32x8,
     /// The pdf with which they are sampled in these directions, if that is asked for.
     pdf: X8,
@@ -90,7 +91,7 @@ impl BySurface {
             rays.end_at(
                 p,
                 hits[p].distance,
-                pick(lit & hits[p].any(), hits[p].place ^ u32x8::splat(SHAPE), u32x8::splat(NOTHING)),
+                PrimitiveIds::pick(lit & hits[p].any(), hits[p].primitives, PrimitiveIds::none()),
             );
         }
         rays.add(group.count, bvh, tracer, reflected);
@@ -118,7 +119,7 @@ impl BySurface {
         let mut met = Met {
             lit: M8::splat(false),
             radiance: V8::default(),
-            lights: u32x8::splat(NOTHING),
+            lights: u32x8::splat(NO_LIGHT),
             pdf: X8::lit(0.0),
             sun: None,
         };

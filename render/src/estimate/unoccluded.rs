@@ -1,8 +1,8 @@
 //! Shadow rays of a group, and what they bring.
 
-use crate::bvh::{Bvh, GROUP, NOTHING, Tracer};
+use crate::bvh::{Bvh, GROUP, PrimitiveIds, Tracer};
 use crate::packet::{M8, V8, X8, keep};
-use etendue::{Mask, Real, u32x8};
+use etendue::{Mask, Real};
 
 /// What shadow rays of a group bring, if nothing occludes them.
 pub(super) struct Unoccluded {
@@ -12,7 +12,7 @@ pub(super) struct Unoccluded {
     /// Where the rays end, …
     limit: [X8; GROUP],
     /// … and the shapes there, which do not occlude themselves.
-    target: [u32x8; GROUP],
+    target: [PrimitiveIds; GROUP],
 }
 
 impl Unoccluded {
@@ -22,12 +22,12 @@ impl Unoccluded {
             found: [V8::default(); GROUP],
             lanes: [M8::splat(false); GROUP],
             limit: [X8::lit(f64::INFINITY); GROUP],
-            target: [u32x8::splat(NOTHING); GROUP],
+            target: [PrimitiveIds::none(); GROUP],
         }
     }
     /// The rays of a packet end at these shapes, at this distance.
     #[inline(always)]
-    pub(super) fn end_at(&mut self, packet: usize, distance: X8, shapes: u32x8) {
+    pub(super) fn end_at(&mut self, packet: usize, distance: X8, shapes: PrimitiveIds) {
         self.limit[packet] = distance;
         self.target[packet] = shapes;
     }

@@ -1,6 +1,6 @@
-//! Closed convex parts of meshes, such as boxes: each is one blocker instead of many triangles.
+//! Closed convex parts of meshes, such as boxes: each is one occluder instead of many triangles.
 
-use crate::bvh::{Bvh, NOTHING};
+use crate::bvh::{Bvh, PrimitiveId};
 use etendue::Vec3;
 use etendue_visible::{Solid, V64};
 use std::collections::HashMap;
@@ -16,8 +16,8 @@ const TRIANGLES: usize = 28;
 pub struct Bodies {
     /// Polyhedra.
     bodies: Vec<Solid>,
-    /// The body of each triangle in tree order, or [`NOTHING`]; empty without bodies.
-    of_places: Vec<u32>,
+    /// The body of each triangle in tree order; empty without bodies.
+    of_places: Vec<Option<u32>>,
 }
 
 impl Bodies {
@@ -54,15 +54,15 @@ impl Bodies {
         let mut parts: Vec<_> = parts.into_values().filter(|part| (4..=TRIANGLES).contains(&part.len())).collect();
         parts.sort_unstable();
         for part in parts {
-            if part.iter().any(|&place| bvh.is_cut_out(place)) {
+            if part.iter().any(|&place| bvh.is_cut_out(PrimitiveId::of_triangle(place))) {
                 continue;
             }
             let triangles: Vec<[V64; 3]> =
                 part.iter().map(|&place| corners(bvh, place).map(|corner| corner.map(f64::from))).collect();
             if let Some(body) = Solid::polyhedron(&triangles) {
-                found.of_places.resize(count, NOTHING);
+                found.of_places.resize(count, None);
                 for place in part {
-                    found.of_places[place as usize] = found.bodies.len() as u32;
+                    found.of_places[place as usize] = Some(found.bodies.len() as u32);
                 }
                 found.bodies.push(body);
             }
@@ -70,8 +70,8 @@ impl Bodies {
         found
     }
     /// Index of the body to which a primitive belongs.
-    pub fn of(&self, place: u32) -> Option<u32> {
-        self.of_places.get(place as usize).copied().filter(|&body| body != NOTHING)
+    pub fn of(&self, primitive: PrimitiveId) -> Option<u32> {
+        *self.of_places.get(primitive.triangle()? as usize)?
     }
     /// The bodies.
     pub fn solids(&self) -> &[Solid] {
@@ -80,14 +80,14 @@ impl Bodies {
 }
 
 fn corners(bvh: &Bvh, place: u32) -> [Vec3<f32>; 3] {
-    let c = bvh.corners(place);
+    let c = bvh.corners(PrimitiveId::of_triangle(place));
     [Vec3::new(c[0], c[1], c[2]), Vec3::new(c[3], c[4], c[5]), Vec3::new(c[6], c[7], c[8])]
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bvh::{SHAPE, ShapeSet};
+    use crate::bvh::ShapeSet;
 
     /// A box, by its triangles.
     fn block(low: [f32; 3], high: [f32; 3]) -> Vec<[[f32; 3]; 3]> {
@@ -105,9 +105,12 @@ mod tests {
         let bvh = Bvh::new(&triangles, ShapeSet::new(std::iter::empty()).unwrap()).unwrap();
         let found = Bodies::new(&bvh);
         assert_eq!(found.solids().len(), 2);
-        let of = |id: u32| found.of(bvh.order().iter().position(|&other| other == id).unwrap() as u32);
+        let of = |id: u32| {
+            let place = bvh.order().iter().position(|&other| other == id).unwrap();
+            found.of(PrimitiveId::of_triangle(place as u32))
+        };
         assert!((0..12).all(|id| of(id) == of(0)) && (12..24).all(|id| of(id) == of(12)));
         assert!(of(0).is_some() && of(12).is_some() && of(0) != of(12) && of(24).is_none());
-        assert_eq!(found.of(SHAPE), None);
+        assert_eq!(found.of(PrimitiveId::of_shape(0)), None);
     }
 }

@@ -7,20 +7,20 @@
 use super::certifiable::Certifiable;
 use super::certifier::{Certifier, patch};
 use super::picture_irradiance::PictureIrradiance;
-use crate::bvh::{NOTHING, SHAPE};
+use crate::bvh::PrimitiveId;
 use crate::camera::{Camera, Pinhole, PointIdentity, PreparedScene};
-use crate::packet::{M8, V8, X8, equal, first_lane};
+use crate::packet::{M8, V8, X8, first_lane};
 use crate::scene::area::TILE;
 use crate::settings::Settings;
 use crate::surfaces::{Surface, Surfaces};
-use etendue::{Mask, Real, Vec3, u32x8};
+use etendue::{Mask, Real, Vec3};
 use etendue_visible::{Patch, Precision, Proof, Solid, Viewer};
 use std::collections::HashMap;
 use std::ops::Range;
 
 /// Sides of the squares of pixels that have certificates of their own. Each square lies within one of the side before.
 const SIDES: [u32; 2] = [TILE, 4];
-/// Greatest number of blockers for which the visible part of a light is computed.
+/// Greatest number of occluders for which the visible part of a light is computed.
 const CLIPPED: usize = 8;
 /// At most so many surfaces are remembered that are certified as a whole.
 const MOST_WHOLE: usize = 1 << 16;
@@ -43,10 +43,10 @@ pub(super) struct AreaLight<'a> {
 pub(super) enum Closed<'a> {
     /// The radiance is constant.
     Constant,
-    /// The light shows a picture. Behind blockers, the part of it that is visible is computed as if the radiance was constant, and samples
+    /// The light shows a picture. Behind occluders, the part of it that is visible is computed as if the radiance was constant, and samples
     /// correct that.
     Picture(&'a PictureIrradiance),
-    /// The radiance varies by point or direction, the shape is only within the form, or another light hides part of it in the same place: no
+    /// The radiance varies by point or direction, the shape is only within the form, or another light hides part of it in the same primitive: no
     /// closed form has its integral. The light is sampled unless it is dark.
     No,
 }
@@ -58,7 +58,7 @@ pub(super) enum Known {
     Dark,
     /// Only these of the [`solids`](Certificates::solids) can occlude it.
     Behind(Range<usize>, Precision),
-    /// It is sampled, although its blockers are known.
+    /// It is sampled, although its occluders are known.
     Crowded,
     /// It is sampled, unless a smaller patch decides.
     Nothing,
@@ -76,7 +76,7 @@ impl Known {
 /// The certificates of all lights for the part of a surface that a square of pixels sees.
 #[derive(Debug)]
 struct Entry {
-    place: u32,
+    primitive: PrimitiveId,
     /// Index of the certificate of the first light; the others follow.
     first: usize,
 }
@@ -92,7 +92,7 @@ pub(super) struct Certificates<'a> {
     origin: [u32; 2],
     /// The certificates in each square of each level, row by row, and those of whole surfaces seen from their front or back.
     squares: [Vec<Vec<Entry>>; SIDES.len()],
-    whole: HashMap<(u32, bool), usize>,
+    whole: HashMap<(PrimitiveId, bool), usize>,
     /// What is known of each light at the places that have certificates. The first of them stands for places where none are worth asking for.
     pub(super) known: Vec<Known>,
     /// What may occlude lights.
@@ -102,14 +102,14 @@ pub(super) struct Certificates<'a> {
     /// The position of the camera.
     eye: Vec3<f64>,
     /// What was found for the primitive that was looked at last.
-    worth: (u32, bool),
+    worth: (PrimitiveId, bool),
 }
 
-/// Whether the visible part of a light is worth computing. More blockers take longer than the samples that they save: with 16, `defocus`
+/// Whether the visible part of a light is worth computing. More occluders take longer than the samples that they save: with 16, `defocus`
 /// takes twice as long as with 8, for 0.99 times the error, and `cornell-box` and `mirror-room` gain nothing. Two spheres that overlap
 /// have no closed form.
-fn is_clipped(light: &Solid, blockers: &[Solid]) -> bool {
-    blockers.len() <= CLIPPED && !(light.is_sphere() && blockers.iter().any(Solid::is_sphere))
+fn is_clipped(light: &Solid, occluders: &[Solid]) -> bool {
+    occluders.len() <= CLIPPED && !(light.is_sphere() && occluders.iter().any(Solid::is_sphere))
 }
 
 impl<'a> Certificates<'a> {
@@ -149,7 +149,7 @@ impl<'a> Certificates<'a> {
             solids: Vec::new(),
             least: pixel.map(|area| pixels * area),
             eye,
-            worth: (NOTHING, false),
+            worth: (PrimitiveId::NONE, false),
         }
     }
 
@@ -169,20 +169,20 @@ impl<'a> Certificates<'a> {
 
     /// Whether certificates are worth asking for on a primitive: whether it is so near and so large that, seen from the front, the camera
     /// would take enough samples of it.
-    pub(super) fn is_worth(&mut self, place: u32) -> bool {
-        if self.worth.0 != place {
+    pub(super) fn is_worth(&mut self, primitive: PrimitiveId) -> bool {
+        if self.worth.0 != primitive {
             let wide = |p: [f32; 3]| Vec3::from(p.map(f64::from));
-            let (area, center) = if place & SHAPE == 0 {
-                let c = self.surfaces.bvh.corners(place);
-                let [a, b, c] = [0, 3, 6].map(|k| wide([c[k], c[k + 1], c[k + 2]]));
-                (0.5 * (b - a).cross(c - a).length(), (a + b + c) * (1.0 / 3.0))
-            } else {
-                let geometry = &self.surfaces.shapes()[(place & !SHAPE) as usize].geometry;
+            let (area, center) = if let Some(shape) = primitive.shape() {
+                let geometry = &self.surfaces.shapes()[shape].geometry;
                 let [low, high] = geometry.bounds();
                 (geometry.silhouette(), (wide(low) + wide(high)) * 0.5)
+            } else {
+                let c = self.surfaces.bvh.corners(primitive);
+                let [a, b, c] = [0, 3, 6].map(|k| wide([c[k], c[k + 1], c[k + 2]]));
+                (0.5 * (b - a).cross(c - a).length(), (a + b + c) * (1.0 / 3.0))
             };
             let [least, more] = self.least;
-            self.worth = (place, area >= least + more * (center - self.eye).length_squared());
+            self.worth = (primitive, area >= least + more * (center - self.eye).length_squared());
         }
         self.worth.1
     }
@@ -198,37 +198,37 @@ impl<'a> Certificates<'a> {
     /// for, it is 0.
     pub(super) fn find(&mut self, surface: &Surface, places: &PointIdentity, lanes: M8) -> (usize, M8) {
         let lane = first_lane(lanes);
-        let place = places.primitives.as_array()[lane];
-        let here = lanes & equal(places.primitives, u32x8::splat(place));
-        if !self.is_worth(place) {
+        let primitive = places.primitives.lane(lane);
+        let here = lanes & places.primitives.are(primitive);
+        if !self.is_worth(primitive) {
             return (0, here);
         }
         if let Some(pinhole) = self.pinhole.filter(|_| places.direct.lane(lane)) {
             let (pixel, level) = places.pixel.map_or((self.origin, 0), |pixel| (pixel, SIDES.len() - 1));
-            return (self.seen(&pinhole, place, pixel, level), here & places.direct);
+            return (self.seen(&pinhole, primitive, pixel, level), here & places.direct);
         }
         let here = if self.pinhole.is_some() { here & !places.direct } else { here };
-        let outwards = if place & SHAPE != 0 {
-            self.surfaces.shapes()[(place & !SHAPE) as usize].geometry.outwards(surface.point)
+        let outwards = if let Some(shape) = primitive.shape() {
+            self.surfaces.shapes()[shape].geometry.outwards(surface.point)
         } else {
-            let c = self.surfaces.bvh.corners(place);
+            let c = self.surfaces.bvh.corners(primitive);
             let corner = |k: usize| Vec3::<f32>::new(c[k], c[k + 1], c[k + 2]);
             V8::splat((corner(3) - corner(0)).cross(corner(6) - corner(0)))
         };
         let in_front = surface.normal.dot(outwards).gt(X8::lit(0.0));
         let front = in_front.lane(lane);
-        (self.all(place, front), here & if front { in_front } else { !in_front })
+        (self.all(primitive, front), here & if front { in_front } else { !in_front })
     }
 
     /// Index of the certificates for what the square of a level that contains the pixel sees of a primitive.
-    pub(super) fn seen(&mut self, pinhole: &Pinhole, place: u32, pixel: [u32; 2], level: usize) -> usize {
+    pub(super) fn seen(&mut self, pinhole: &Pinhole, primitive: PrimitiveId, pixel: [u32; 2], level: usize) -> usize {
         let side = SIDES[level];
         let [column, row] = [0, 1].map(|k| (pixel[k] - self.origin[k]) / side);
         let square = self.square(pixel, level) as usize;
-        if let Some(entry) = self.squares[level][square].iter().find(|entry| entry.place == place) {
+        if let Some(entry) = self.squares[level][square].iter().find(|entry| entry.primitive == primitive) {
             return entry.first;
         }
-        let larger = (level > 0).then(|| self.seen(pinhole, place, pixel, level - 1));
+        let larger = (level > 0).then(|| self.seen(pinhole, primitive, pixel, level - 1));
         let count = self.lights.len();
         let decided = |known: &Known| matches!(known, Known::Lit(_) | Known::Dark | Known::Never);
         let open = match larger {
@@ -239,37 +239,37 @@ impl<'a> Certificates<'a> {
             let [x, y] = [column, row].map(|k| k * side);
             let [x, y] = [self.origin[0] + x, self.origin[1] + y].map(f64::from);
             let pyramid = pinhole.pyramid([x, y, x + f64::from(side), y + f64::from(side)]);
-            let patch = patch(self.surfaces, place, Viewer::Pixels(&pyramid));
-            self.certify(place, patch.as_ref(), larger)
+            let patch = patch(self.surfaces, primitive, Viewer::Pixels(&pyramid));
+            self.certify(primitive, patch.as_ref(), larger)
         } else {
             larger.unwrap_or(0)
         };
-        self.squares[level][square].push(Entry { place, first });
+        self.squares[level][square].push(Entry { primitive, first });
         first
     }
 
     /// Index of the certificates for one side of a whole primitive.
-    fn all(&mut self, place: u32, front: bool) -> usize {
-        if let Some(&first) = self.whole.get(&(place, front)) {
+    fn all(&mut self, primitive: PrimitiveId, front: bool) -> usize {
+        if let Some(&first) = self.whole.get(&(primitive, front)) {
             return first;
         }
         let viewer = if front { Viewer::Front } else { Viewer::Back };
-        let patch = patch(self.surfaces, place, viewer);
-        let first = self.certify(place, patch.as_ref(), None);
-        self.whole.insert((place, front), first);
+        let patch = patch(self.surfaces, primitive, viewer);
+        let first = self.certify(primitive, patch.as_ref(), None);
+        self.whole.insert((primitive, front), first);
         first
     }
 
     /// Appends the certificates of all lights for a patch, and returns the index of the first. What a larger patch has decided, by its
     /// certificates from `larger`, stays.
-    fn certify(&mut self, place: u32, patch: Option<&Patch>, larger: Option<usize>) -> usize {
+    fn certify(&mut self, primitive: PrimitiveId, patch: Option<&Patch>, larger: Option<usize>) -> usize {
         let Self { lights, certifier, known, solids, .. } = self;
         let first = known.len();
         for light in 0..lights.len() {
             let before = larger.map_or(Known::Nothing, |larger| known[larger + light].clone());
             let (proof, precision) = match patch {
                 Some(patch) if !matches!(before, Known::Lit(_) | Known::Dark | Known::Never) => {
-                    certifier.certify(place, patch, light)
+                    certifier.certify(primitive, patch, light)
                 }
                 _ => {
                     known.push(before);

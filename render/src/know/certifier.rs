@@ -1,7 +1,7 @@
 //! What is proved of the lights of a scene, as its parts see them: the prover of `etendue-visible`, with this renderer's tree and shapes.
 
 use super::bodies::Bodies;
-use crate::bvh::{Region, SHAPE};
+use crate::bvh::{PrimitiveId, Region};
 use crate::geometry::{Geometry, LEAST, LIFT};
 use crate::surfaces::Surfaces;
 use etendue_visible::{Lift, Light, Occluder, Patch, Precision, Proof, Prover, Solid, Viewer};
@@ -21,26 +21,26 @@ pub struct Certifier<'a> {
     prover: Prover,
 }
 
-/// The part of a primitive that a viewer sees, regardless of occlusion. `place` is as in the hits of rays. `None` if there is no such part,
+/// The part of a primitive that a viewer sees, regardless of occlusion. `None` if there is no such part,
 /// and for what is not supported: shapes but spheres, spheres from inside, triangles without area, and triangles seen edge-on.
-pub fn patch(surfaces: &Surfaces, place: u32, viewer: Viewer<'_>) -> Option<Patch> {
+pub fn patch(surfaces: &Surfaces, primitive: PrimitiveId, viewer: Viewer<'_>) -> Option<Patch> {
     let lift = Lift { relative: LIFT, least: LEAST * f64::from(surfaces.bvh.reach_of_points()) };
-    match outline(surfaces, place) {
+    match outline(surfaces, primitive) {
         Occluder::Whole(Solid::Sphere { center, radius }) => Patch::sphere(center, radius, viewer, lift),
-        Occluder::Whole(Solid::Polygon { corners: [a, b, c, _], .. }) if place & SHAPE == 0 => {
+        Occluder::Whole(Solid::Polygon { corners: [a, b, c, _], .. }) if primitive.triangle().is_some() => {
             Patch::triangle([a, b, c], viewer, lift)
         }
         _ => None,
     }
 }
 
-/// What the primitive at a place is, or is within.
-fn outline(surfaces: &Surfaces, place: u32) -> Occluder<'static> {
-    if place & SHAPE == 0 {
-        let c = surfaces.bvh.corners(place);
-        return Geometry::Triangle([[c[0], c[1], c[2]], [c[3], c[4], c[5]], [c[6], c[7], c[8]]]).outline();
+/// What a primitive is, or is within.
+fn outline(surfaces: &Surfaces, primitive: PrimitiveId) -> Occluder<'static> {
+    if let Some(shape) = primitive.shape() {
+        return surfaces.shapes()[shape].geometry.outline();
     }
-    surfaces.shapes()[(place & !SHAPE) as usize].geometry.outline()
+    let c = surfaces.bvh.corners(primitive);
+    Geometry::Triangle([[c[0], c[1], c[2]], [c[3], c[4], c[5]], [c[6], c[7], c[8]]]).outline()
 }
 
 impl<'a> Certifier<'a> {
@@ -60,29 +60,29 @@ impl<'a> Certifier<'a> {
             prover: Prover::new(reach.into()),
         }
     }
-    /// What is proved of a light, by its index in the list, as seen from a patch of the primitive at `place`, and in which precision its
+    /// What is proved of a light, by its index in the list, as seen from a patch of a primitive, and in which precision its
     /// closed form is accurate.
-    pub fn certify(&mut self, place: u32, patch: &Patch, light: usize) -> (Proof<'_>, Precision) {
+    pub fn certify(&mut self, primitive: PrimitiveId, patch: &Patch, light: usize) -> (Proof<'_>, Precision) {
         let Self { surfaces, bodies, lights, region, stack, prover } = self;
         let Some(Some((shape, light))) = lights.get(light) else { return (Proof::Open, Precision::default()) };
-        let own = [place, shape | SHAPE];
+        let own = [primitive, PrimitiveId::of_shape(*shape)];
         if own[0] == own[1] {
             // a convex light is below the horizon of each of its own points
             return (Proof::Dark, Precision::default());
         }
-        let own_body = bodies.of(place);
+        let own_body = bodies.of(primitive);
         let seen = prover.prove(patch, light, |within, found| {
             region.clear();
             within.half_spaces().iter().for_each(|&(normal, limit)| region.push(normal.into(), limit));
-            surfaces.bvh.search(region, stack, NODES, |place| {
-                if own.contains(&place) {
+            surfaces.bvh.search(region, stack, NODES, |primitive| {
+                if own.contains(&primitive) {
                     return true;
                 }
-                found(match outline(surfaces, place) {
-                    Occluder::Whole(solid) if place & SHAPE == 0 && surfaces.bvh.is_cut_out(place) => {
+                found(match outline(surfaces, primitive) {
+                    Occluder::Whole(solid) if primitive.triangle().is_some() && surfaces.bvh.is_cut_out(primitive) => {
                         Occluder::Within(solid)
                     }
-                    Occluder::Whole(solid) => match bodies.of(place).filter(|&body| own_body != Some(body)) {
+                    Occluder::Whole(solid) => match bodies.of(primitive).filter(|&body| own_body != Some(body)) {
                         Some(body) => Occluder::Face(solid, &bodies.solids()[body as usize]),
                         None => Occluder::Whole(solid),
                     },

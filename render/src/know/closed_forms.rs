@@ -15,20 +15,20 @@ pub(super) struct ClosedForms {
 }
 
 impl ClosedForms {
-    /// What points with these normals see of a light past blockers, or reflect by a lobe: [`Occlusion::visible`] or
-    /// [`Occlusion::reflected`] in the precision that the blockers need.
+    /// What points with these normals see of a light past occluders, or reflect by a lobe: [`Occlusion::visible`] or
+    /// [`Occlusion::reflected`] in the precision that the occluders need.
     pub(super) fn part(
         &mut self,
         at: [V8; 2],
         lobe: Option<&Reflection<X8>>,
         light: &Solid,
-        (blockers, precision): (&[Solid], Precision),
+        (occluders, precision): (&[Solid], Precision),
     ) -> Option<X8> {
         if precision != Precision::Double {
-            return part(&mut self.visible.one, at, lobe, light, blockers);
+            return part(&mut self.visible.one, at, lobe, light, occluders);
         }
         let (exact, lobe) = (self.exact.get_or_insert_default(), lobe.map(|lobe| lobe.map(widen)));
-        let part = part(exact, at.map(widen_points), lobe.as_ref(), light, blockers)?;
+        let part = part(exact, at.map(widen_points), lobe.as_ref(), light, occluders)?;
         Some(X8::from(part.to_array().map(|part| part as f32)))
     }
 }
@@ -39,10 +39,10 @@ fn part<R: Real>(
     [point, normal]: [Vec3<R>; 2],
     lobe: Option<&Reflection<R>>,
     light: &Solid,
-    blockers: &[Solid],
+    occluders: &[Solid],
 ) -> Option<R> {
     match lobe {
-        Some(lobe) => occlusion.reflected(point, normal, lobe, light, blockers),
-        None => occlusion.visible(point, normal, light, blockers),
+        Some(lobe) => occlusion.reflected(point, normal, lobe, light, occluders),
+        None => occlusion.visible(point, normal, light, occluders),
     }
 }

@@ -29,10 +29,10 @@ struct GroupSees {
     /// Lanes that see all of it, by a closed form in single or in double precision.
     lit: [M8; GROUP],
     lit_exactly: [M8; GROUP],
-    /// Lanes that see the light past blockers, and what they see of it.
+    /// Lanes that see the light past occluders, and what they see of it.
     behind: [M8; GROUP],
     part: [X8; GROUP],
-    /// What they would see without blockers, where that is of use.
+    /// What they would see without occluders, where that is of use.
     all: [X8; GROUP],
 }
 
@@ -52,7 +52,7 @@ impl GroupSees {
 impl Knowledge<'_> {
     /// Adds the reflected light that is known, and notes what is left of each light.
     ///
-    /// If blockers hide some of a picture, it is counted as if all of its points were hidden by the same fraction, and samples add the
+    /// If occluders hide some of a picture, it is counted as if all of its points were hidden by the same fraction, and samples add the
     /// difference. On rough surfaces, the integral of their fit is counted, and samples of all lights add what the BSDF reflects beyond it.
     pub(super) fn gather(&mut self, group: &Group<'_>, ledger: &mut Ledger, reflected: &mut [V8; GROUP]) {
         let lights = self.certificates.lights.len();
@@ -206,7 +206,7 @@ impl GroupSees {
         let behind = self.behind[p];
         // single precision always suffices, since nothing cancels
         let lit = self.lit[p] | self.lit_exactly[p];
-        // behind blockers, what is visible of a light of constant radiance is the best guess
+        // behind occluders, what is visible of a light of constant radiance is the best guess
         let (mut share, mut is_part) = (select(lit, X8::lit(1.0), zero), M8::splat(false));
         if behind.any() {
             let (part, all) = (self.part[p], self.all[p]);

@@ -71,8 +71,8 @@ impl Knowledge<'_> {
         let (point, normal) = (of(surface.point), of(surface.normal));
         let one = Reflection::splat(lobe.reflection.map(|x| x.lane(lane)));
         let reflection = Reflection::blend(lanes, lobe.reflection, one);
-        let (forms, blockers) = (&mut self.forms, &self.certificates.solids[behind]);
-        let mut part = |lobe| forms.part([point, normal], lobe, form, (blockers, precision));
+        let (forms, occluders) = (&mut self.forms, &self.certificates.solids[behind]);
+        let mut part = |lobe| forms.part([point, normal], lobe, form, (occluders, precision));
         let shine = part(Some(&reflection))?;
         let diffuse = if (lobe.coats & lanes).any() { part(None)? } else { X8::default() };
         let all = (lobe.specular * shine + lobe.diffuse * diffuse) * X8::lit(FRAC_1_PI);

@@ -3,7 +3,7 @@
 use super::certificates::Known;
 use super::knowledge::Knowledge;
 use super::ledger::Outlook;
-use crate::bvh::GROUP;
+use crate::bvh::{GROUP, PrimitiveId};
 use crate::camera::{PointIdentity, Points};
 use crate::packet::{M8, each_bit};
 use etendue::Mask;
@@ -17,7 +17,7 @@ const TRIED_SQUARES: usize = 3;
 
 /// A primitive that some rays of a tile see.
 struct SeenPrimitive {
-    place: u32,
+    primitive: PrimitiveId,
     /// Whether the camera sees it directly.
     direct: bool,
     /// The packets and lanes of the rays.
@@ -35,17 +35,17 @@ impl Knowledge<'_> {
         for (p, (surface, places)) in surfaces.iter().zip(places).enumerate() {
             all = all && !(surface.reflects & (places.unfitted | places.fitted)).any();
             each_bit((surface.reflects & !places.unfitted).bits(), |lane| {
-                let (place, direct) = (places.primitives.as_array()[lane], places.direct.lane(lane));
-                match seen.iter_mut().find(|seen| seen.place == place && seen.direct == direct) {
+                let (primitive, direct) = (places.primitives.lane(lane), places.direct.lane(lane));
+                match seen.iter_mut().find(|seen| seen.primitive == primitive && seen.direct == direct) {
                     Some(seen) => seen.lanes.push((p, lane)),
-                    None => seen.push(SeenPrimitive { place, direct, lanes: vec![(p, lane)] }),
+                    None => seen.push(SeenPrimitive { primitive, direct, lanes: vec![(p, lane)] }),
                 }
             });
         }
         let distinct = seen.len();
-        seen.retain(|seen| certificates.is_worth(seen.place));
+        seen.retain(|seen| certificates.is_worth(seen.primitive));
         all = all && seen.len() == distinct;
-        seen.sort_by_key(|seen| (Reverse(seen.lanes.len()), seen.place));
+        seen.sort_by_key(|seen| (Reverse(seen.lanes.len()), seen.primitive));
         let count = certificates.lights.len();
         let mut some = false;
         for seen in seen.iter().take(TRIALS) {
@@ -61,7 +61,7 @@ impl Knowledge<'_> {
                     let square = certificates.square(pixel, 1);
                     if squares.len() < TRIED_SQUARES && !squares.contains(&square) {
                         squares.push(square);
-                        let found = certificates.seen(&pinhole, seen.place, pixel, 1);
+                        let found = certificates.seen(&pinhole, seen.primitive, pixel, 1);
                         open.iter_mut()
                             .zip(&certificates.known[found..])
                             .for_each(|(open, known)| *open &= known.is_open());

@@ -1,4 +1,4 @@
-//! Visible parts of a light in single precision: of two packets of points at once, where both have the same blockers.
+//! Visible parts of a light in single precision: of two packets of points at once, where both have the same occluders.
 //!
 //! A packet of sixteen takes less time than two of eight, with AVX2 and with AVX-512 (`cargo bench -p etendue-benches --bench summary --
 //! visible` prints both), and the successive packets of a tile mostly see the same.
@@ -48,9 +48,9 @@ impl Visible {
             self.waiting = Some(ask);
             return;
         }
-        let blockers = &solids[first.behind.clone()];
+        let occluders = &solids[first.behind.clone()];
         let (point, normal) = (joined(first.point, ask.point), joined(first.normal, ask.normal));
-        if let Some(both) = self.two.get_or_insert_default().visible(point, normal, light, blockers) {
+        if let Some(both) = self.two.get_or_insert_default().visible(point, normal, light, occluders) {
             let both = both.to_array();
             let half = |from: usize| X8::new(std::array::from_fn(|lane| both[from + lane]));
             done(&first, Some(half(0)));

@@ -1,16 +1,27 @@
 //! One light in each lane, and what is sampled of it.
 
 use super::record::{KINDS, PICTURED, PROFILED, SPREAD, TWO_SIDED};
-use crate::bvh::SHAPE;
+use crate::bvh::PrimitiveIds;
 use crate::geometry::spread::Spread;
 use crate::geometry::{self, Kind, Parallelogram, Sphere};
 use crate::packet::{M8, V8, X8, each_bit, equal, select};
 use crate::surfaces::lobe::Lobe;
 use etendue::{LightSample, LightSampler, Mask, Real, Vec2, u32x8};
 
-/// A direction to a light in each lane: the part of a [`LightSample`] that direct lighting needs.
+/// A direction to a light in each lane, and what comes from there.
 #[derive(Clone, Copy)]
 pub struct Drawn {
+    /// The direction.
+    pub to: LightDirection,
+    /// Radiance from there; of a delta light, its intensity over the squared distance, or its irradiance.
+    pub radiance: V8,
+    /// The shapes there; none for lights that no ray can hit.
+    pub primitives: PrimitiveIds,
+}
+
+/// A direction to a light in each lane: the part of a [`LightSample`] that direct lighting needs.
+#[derive(Clone, Copy)]
+pub struct LightDirection {
     /// Unit direction to the light.
     pub direction: V8,
     /// Distance to the light along it.
@@ -23,7 +34,7 @@ pub struct Drawn {
     pub delta: M8,
 }
 
-impl Drawn {
+impl LightDirection {
     /// The sample in these lanes, and the other, if there is one, elsewhere.
     #[inline(always)]
     pub(super) fn blend(here: M8, sample: Self, other: Option<Self>) -> Self {
@@ -38,7 +49,7 @@ impl Drawn {
     }
 }
 
-impl From<LightSample<X8>> for Drawn {
+impl From<LightSample<X8>> for LightDirection {
     #[inline(always)]
     fn from(s: LightSample<X8>) -> Self {
         let LightSample { direction, distance, pdf, emits, delta, .. } = s;
@@ -47,17 +58,18 @@ impl From<LightSample<X8>> for Drawn {
 }
 
 /// One light in each lane.
+#[derive(Clone, Copy)]
 pub struct Chosen {
     /// As in the light's record, whose kind says what these are.
     pub(super) place: V8,
     pub(super) first: V8,
     pub(super) second: V8,
-    /// Radiance; intensity or irradiance for a delta light. That of a picture is the mean until the light is sampled.
-    pub radiance: V8,
+    /// Radiance; intensity or irradiance for a delta light. Of a picture, it is the mean.
+    pub(super) radiance: V8,
     pub(super) spread: Spread<X8>,
     pub(super) kind: u32x8,
-    /// Index of its shape; [`NOTHING`](crate::bvh::NOTHING) for a light without one.
-    pub shape: u32x8,
+    /// Its shape, if it has one.
+    pub(super) primitives: PrimitiveIds,
 }
 
 impl Chosen {
@@ -71,7 +83,7 @@ impl Chosen {
             radiance: V8::new(b[1], b[2], b[3]),
             spread: Spread { tan_half: b[6], gain: b[7] },
             kind: b[4].to_bits(),
-            shape: b[5].to_bits(),
+            primitives: PrimitiveIds::from_floats(b[5]),
         }
     }
     /// The three vectors of their records.
@@ -79,11 +91,11 @@ impl Chosen {
     pub(super) fn vectors(&self) -> [V8; 3] {
         [self.place, self.first, self.second]
     }
-    /// Where points with these normals on these primitives, as in hits, are on the light itself. All lights are convex, so they do not see it,
+    /// Where points with these normals on these primitives are on the light itself. All lights are convex, so they do not see it,
     /// except from inside of a sphere: what a sample of it finds there is due to rounding.
     #[inline(always)]
-    pub fn is_own(&self, primitives: u32x8, p: V8, normal: V8) -> M8 {
-        equal(self.shape ^ u32x8::splat(SHAPE), primitives) & !self.surrounds(p, normal)
+    pub fn is_own(&self, primitives: PrimitiveIds, p: V8, normal: V8) -> M8 {
+        self.primitives.equal(primitives) & !self.surrounds(p, normal)
     }
     /// Lanes of spheres that points on them, with these normals, see: from inside.
     #[inline(always)]
@@ -94,20 +106,20 @@ impl Chosen {
     /// need not be sampled for such a light.
     // not inlined, so that it does not burden scenes without rough metals
     #[inline(never)]
-    pub fn sample_lobe(&self, sample: &mut Drawn, lobe: &Lobe, p: V8, u: Vec2<X8>) -> M8 {
+    pub fn sample_lobe(&self, sample: &mut LightDirection, lobe: &Lobe, p: V8, u: Vec2<X8>) -> M8 {
         let reflected = self.is(Kind::Sphere as u32) & !self.has(SPREAD | PICTURED | PROFILED) & lobe.metals();
         if reflected.any() {
             let light = Sphere::light(self.vectors());
-            let mut drawn = Drawn::from(light.by_reflection(p, &lobe.reflection).sample(u));
+            let mut drawn = LightDirection::from(light.by_reflection(p, &lobe.reflection).sample(u));
             drawn.emits = drawn.emits | self.has(TWO_SIDED);
-            *sample = Drawn::blend(reflected, drawn, Some(*sample));
+            *sample = LightDirection::blend(reflected, drawn, Some(*sample));
         }
         reflected
     }
-    /// The normals of the lights that are shapes of these kinds, of any length; 0 for curved ones. Leaves of the parallelograms with a spread
-    /// what the points see.
+    /// The normals of the lights that are shapes of these kinds, of any length; 0 for curved ones, and the lights, of
+    /// which parallelograms with a spread are what the points see of them.
     #[inline(never)]
-    pub(super) fn narrow(&mut self, kinds: u32, p: V8) -> V8 {
+    pub(super) fn narrowed(&self, kinds: u32, p: V8) -> (V8, Self) {
         let mut normal = V8::default();
         each_bit(kinds, |kind| {
             let of_kind = geometry::normals(kind as u32, self.vectors());
@@ -117,8 +129,7 @@ impl Chosen {
         let has_spread = self.is(Kind::Parallelogram as u32) & self.has(SPREAD) & !self.has(PICTURED);
         let light = Parallelogram::light(self.vectors());
         let part = etendue::Parallelogram::blend(has_spread, self.spread.visible_part(&light, p), light);
-        (self.place, self.first, self.second) = (part.corner, part.edge_s, part.edge_t);
-        normal
+        (normal, Self { place: part.corner, first: part.edge_s, second: part.edge_t, ..*self })
     }
     /// Lanes of this kind of light.
     #[inline]

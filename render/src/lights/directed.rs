@@ -2,7 +2,7 @@
 //! and in the last place the cosine of that cone.
 
 use super::chosen::Chosen;
-use super::record::{Candidate, LightRecord};
+use super::record::{DIRECTED, LightRecord};
 use super::spot::cosine_below;
 use crate::packet::{M8, V8, X8, each_group, select};
 use crate::scene::Cone;
@@ -10,8 +10,6 @@ use crate::scene::intensity::Intensity;
 use etendue::{LightSample, LightSampler, PointLight, Real, SpotLight, Vec2, Vec3};
 use std::f64::consts::PI;
 use std::sync::Arc;
-
-pub(super) const KIND: u32 = 12;
 
 /// What a light emits, and how it is turned.
 #[derive(Clone, Debug)]
@@ -35,13 +33,7 @@ impl DirectedLight {
         Self { rows, intensity: Arc::clone(intensity), cone }
     }
     /// The light with this greatest intensity; it is the one of this index among those of a scene.
-    pub(super) fn candidate(
-        &self,
-        position: [f32; 3],
-        radiance: [f32; 3],
-        cone: Option<Cone>,
-        index: u32,
-    ) -> Candidate {
+    pub(super) fn record(&self, position: [f32; 3], radiance: [f32; 3], cone: Option<Cone>, index: u32) -> LightRecord {
         // the narrower of two cones
         let own = (self.rows[2], self.intensity.cos_cone());
         let (first, cos) = match cone {
@@ -53,14 +45,14 @@ impl DirectedLight {
         let second = [f32::from_bits(index), 0.0, cos];
         let flux = cone.map_or_else(|| self.intensity.flux(), |cone| cone.flux);
         let power = (0..3).map(|k| f64::from(radiance[k]) * flux).sum::<f64>() / PI;
-        Candidate::near(LightRecord { first, second, ..LightRecord::bare(KIND, position, radiance) }, power)
+        LightRecord { first, second, ..LightRecord::bare(DIRECTED, position, radiance, power) }
     }
 }
 
-/// Samples directed lights from the points `p` in the lanes that have some, and multiplies their intensities by what they are there. Not inlined,
+/// Samples directed lights from the points `p` in the lanes that have some, and what their intensities there are, relative to the greatest. Not inlined,
 /// since it would burden scenes without such lights.
 #[inline(never)]
-pub(super) fn sample(lights: &[DirectedLight], chosen: &mut Chosen, p: V8, here: M8) -> LightSample<X8> {
+pub(super) fn sample(lights: &[DirectedLight], chosen: &Chosen, p: V8, here: M8) -> (LightSample<X8>, X8) {
     let index = chosen.second.x.to_bits();
     let mut found = X8::default();
     let sample = PointLight::new(chosen.place).by_delta(p).sample(Vec2::default());
@@ -74,7 +66,6 @@ pub(super) fn sample(lights: &[DirectedLight], chosen: &mut Chosen, p: V8, here:
         }
         found = select(same, own, found);
     });
-    chosen.radiance = V8::blend(here, chosen.radiance * found, chosen.radiance);
     let some = found.gt(X8::lit(0.0));
-    LightSample { pdf: sample.pdf.keep(some), emits: sample.emits & some, ..sample }
+    (LightSample { pdf: sample.pdf.keep(some), emits: sample.emits & some, ..sample }, found)
 }

@@ -1,9 +1,9 @@
 //! Shapes with pictures, sampled by their radiance.
 
-use super::chosen::{Chosen, Drawn};
+use super::chosen::{Chosen, LightDirection};
 use super::record::PICTURED;
 use crate::geometry::{self, Chart, Geometry};
-use crate::packet::{M8, V8, X8, each_group};
+use crate::packet::{M8, V8, X8};
 use crate::scene::Shape;
 use crate::scene::light_picture::LightPicture;
 use crate::technique::Measure;
@@ -177,26 +177,24 @@ impl Tables {
     /// Samples shapes of one kind, some of which show pictures, and puts the radiance of the sampled points into the lanes `here`.
     // not inlined, so that it does not burden scenes without pictures
     #[inline(never)]
-    #[allow(clippy::too_many_arguments, reason = "those of a sample, and which lanes show which pictures")]
     pub(super) fn sample(
         &self,
         (shapes, pictures): (&[Shape], &[LightPicture]),
-        kind: u32,
-        here: M8,
-        chosen: &mut Chosen,
-        measure: Measure,
-        p: V8,
-        normal: V8,
-        u: Vec2<X8>,
-    ) -> Drawn {
+        (kind, here): (u32, M8),
+        chosen: &Chosen,
+        (measure, u): (Measure, Vec2<X8>),
+        [p, normal]: [V8; 2],
+        radiance: &mut V8,
+    ) -> LightDirection {
         let pictured = here & chosen.has(PICTURED);
         let by_shape = || -> LightSample<X8> { geometry::sample(kind, chosen.vectors(), measure, p, normal, u) };
         let mut sample = None;
-        each_group(chosen.shape, pictured, |index, lanes| {
-            let shape = &shapes[index as usize];
+        chosen.primitives.each(pictured, |primitive, lanes| {
+            let Some(index) = primitive.shape() else { return };
+            let shape = &shapes[index];
             let Some(picture) = shape.emission.and_then(|emission| emission.picture) else { return };
             let picture = &pictures[picture as usize];
-            if let Some(table) = self.of(index as usize) {
+            if let Some(table) = self.of(index) {
                 let drawn = table.sample((&shape.geometry, &picture.axes), measure, [p, normal], u);
                 // in a packet of one light, no other map is needed
                 let others = sample.unwrap_or_else(|| if lanes.all() { drawn } else { by_shape() });
@@ -204,13 +202,12 @@ impl Tables {
             }
         });
         let sample = sample.unwrap_or_else(by_shape);
-        let indices = chosen.shape;
-        each_group(indices, pictured, |index, lanes| {
-            let shape = &shapes[index as usize];
+        chosen.primitives.each(pictured, |primitive, lanes| {
+            let Some(shape) = primitive.shape().map(|index| &shapes[index]) else { return };
             let shown = shape.emission.and_then(|emission| emission.picture).zip(shape.geometry.chart());
             if let Some((picture, chart)) = shown {
                 let picture = &pictures[picture as usize];
-                picture.show(chart, lanes, sample.uv, sample.normal, &mut chosen.radiance);
+                picture.show(chart, lanes, sample.uv, sample.normal, radiance);
             }
         });
         sample.into()

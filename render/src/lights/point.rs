@@ -1,14 +1,12 @@
 //! Point lights: a record has the position.
 
 use super::chosen::Chosen;
-use super::record::{Candidate, LightRecord, sum};
+use super::record::{LightRecord, POINT, sum};
 use crate::packet::{V8, X8};
 use etendue::{LightSample, LightSampler, PointLight, Vec2};
 
-pub(super) const KIND: u32 = 8;
-
-pub(crate) fn candidate(position: [f32; 3], intensity: [f32; 3]) -> Candidate {
-    Candidate::near(LightRecord::bare(KIND, position, intensity), 4.0 * sum(intensity))
+pub(crate) fn record(position: [f32; 3], intensity: [f32; 3]) -> LightRecord {
+    LightRecord::bare(POINT, position, intensity, 4.0 * sum(intensity))
 }
 
 /// Samples point lights in all lanes.

@@ -1,17 +1,27 @@
 //! A light as it is kept in memory, and what a choice of lights knows of it.
 
-use crate::bvh::NOTHING;
+use crate::bvh::PrimitiveId;
 use crate::geometry::Extent;
 use crate::geometry::spread::Spread;
 use etendue::Vec3;
 
-/// The bits of the kind in a record; flags follow.
+/// The bits of the kind in a record. Those of shapes are their [`Kind`](crate::geometry::Kind); the others follow. Flags are beyond.
 pub(super) const KINDS: u32 = 15;
+pub(super) const POINT: u32 = 8;
+pub(super) const SPOT: u32 = 9;
+pub(super) const SUN: u32 = 10;
+pub(super) const SKY: u32 = 11;
+pub(super) const DIRECTED: u32 = 12;
 pub(super) const TWO_SIDED: u32 = 16;
 pub(super) const SPREAD: u32 = 32;
 pub(super) const PICTURED: u32 = 64;
 pub(super) const PROFILED: u32 = 128;
 pub(super) const UNSEEN: u32 = 256;
+
+/// A flag as it is in sets of kinds, whose first bits are one for each kind.
+pub(super) const fn in_set(flag: u32) -> u32 {
+    flag << 11
+}
 
 /// A light. The file of its kind, or of its form, says what the three vectors are.
 #[derive(Clone, Copy, Debug, Default)]
@@ -26,8 +36,11 @@ pub(crate) struct LightRecord {
     pub(super) spread: Spread<f32>,
     /// Its kind, [`TWO_SIDED`], [`SPREAD`], [`PICTURED`], [`PROFILED`] and [`UNSEEN`].
     pub(super) kind: u32,
-    /// Index of its shape, or [`NOTHING`].
-    pub(super) shape: u32,
+    /// Its shape, if it has one.
+    pub(super) primitive: PrimitiveId,
+    /// Its power in units of π; of a distant light, that of a point at the distance 1 that causes its irradiance, and of a sky, ∫L dω over
+    /// all directions.
+    pub(crate) power: f64,
 }
 
 /// A [`LightRecord`] in two halves of eight numbers: two transpositions gather eight lights. [`Chosen::new`](super::Chosen::new) unpacks it.
@@ -35,8 +48,20 @@ pub(super) type PackedLight = [[f32; 8]; 2];
 
 impl LightRecord {
     /// A light that is no shape.
-    pub(super) fn bare(kind: u32, place: [f32; 3], radiance: [f32; 3]) -> Self {
-        Self { kind, place, radiance, shape: NOTHING, ..Self::default() }
+    pub(super) fn bare(kind: u32, place: [f32; 3], radiance: [f32; 3], power: f64) -> Self {
+        Self { kind, place, radiance, power, primitive: PrimitiveId::NONE, ..Self::default() }
+    }
+    /// What it is, unless it is somewhere.
+    pub(crate) const fn far(&self) -> Option<Far> {
+        match self.kind & KINDS {
+            SUN => Some(Far::Sun),
+            SKY => Some(Far::Sky),
+            _ => None,
+        }
+    }
+    /// The direction to a sun.
+    pub(crate) const fn direction(&self) -> [f32; 3] {
+        self.place
     }
     /// Its three vectors.
     pub(super) const fn vectors(&self) -> [[f32; 3]; 3] {
@@ -48,7 +73,7 @@ impl LightRecord {
     }
     pub(super) fn pack(&self) -> PackedLight {
         let Self { place: [a, b, c], first: [d, e, f], second: [g, h, i], radiance: [red, green, blue], .. } = *self;
-        let [kind, shape] = [self.kind, self.shape].map(f32::from_bits);
+        let (kind, shape) = (f32::from_bits(self.kind), self.primitive.to_float());
         [[a, b, c, d, e, f, g, h], [i, red, green, blue, kind, shape, self.spread.tan_half, self.spread.gain]]
     }
 }
@@ -58,28 +83,6 @@ impl LightRecord {
 pub(crate) enum Far {
     Sun,
     Sky,
-}
-
-/// A light as a choice of lights knows it.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Candidate {
-    pub(super) record: LightRecord,
-    /// Its power in units of π; of a distant light, that of a point at the distance 1 that causes its irradiance, and of a sky, ∫L dω over
-    /// all directions.
-    pub(crate) power: f64,
-    /// What it is, unless it is somewhere.
-    pub(crate) far: Option<Far>,
-}
-
-impl Candidate {
-    /// A light that is somewhere.
-    pub(super) fn near(record: LightRecord, power: f64) -> Self {
-        Self { record, power, far: None }
-    }
-    /// The direction to a sun.
-    pub(crate) fn direction(&self) -> [f32; 3] {
-        self.record.place
-    }
 }
 
 pub(super) fn wide(v: [f32; 3]) -> Vec3<f64> {

@@ -1,16 +1,13 @@
 //! Distant lights: a record has the direction to the light.
 
 use super::chosen::Chosen;
-use super::record::{Candidate, Far, LightRecord, sum};
+use super::record::{LightRecord, SUN, sum};
 use crate::packet::X8;
 use etendue::{DirectionalLight, LightSample, LightSampler, Vec2};
 
-pub(super) const KIND: u32 = 10;
-
-pub(crate) fn candidate(direction: [f32; 3], irradiance: [f32; 3]) -> Candidate {
-    let record = LightRecord::bare(KIND, direction, irradiance);
+pub(crate) fn record(direction: [f32; 3], irradiance: [f32; 3]) -> LightRecord {
     // of a point at the distance 1 that causes this irradiance
-    Candidate { record, power: 4.0 * sum(irradiance), far: Some(Far::Sun) }
+    LightRecord::bare(SUN, direction, irradiance, 4.0 * sum(irradiance))
 }
 
 /// Samples distant lights in all lanes.

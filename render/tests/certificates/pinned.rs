@@ -1,6 +1,7 @@
 //! Views for which a closed form in single precision is wrong: in a scene, what some pixels see of a primitive, and points there.
 
 use etendue_oracle::V3;
+use etendue_render::bvh::PrimitiveId;
 
 /// A view of a scene of the folder.
 pub(crate) struct Pinned {
@@ -11,8 +12,8 @@ pub(crate) struct Pinned {
     /// Width and height of the image in pixels, and the pixels \[x0, y0, x1, y1).
     pub(crate) size: u32,
     pub(crate) area: [f64; 4],
-    /// The primitive, as in hits.
-    pub(crate) receiver: u32,
+    /// The primitive.
+    pub(crate) receiver: PrimitiveId,
     /// Points of it with their normals.
     pub(crate) points: &'static [(V3, V3)],
 }
@@ -31,7 +32,7 @@ pub(crate) const PINNED: [Pinned; 4] = [
         half: 0.00872686779075879,
         size: 4096,
         area: [2348.0, 1810.0, 2349.0, 1811.0],
-        receiver: 14,
+        receiver: PrimitiveId::of_triangle(14),
         points: &[
             ([-19085.728515625, 3.993961605885943e-9, 23149.701171875], [-0.0, 1.0, -0.0]),
             ([-19085.68359375, 3.993961605885943e-9, 23149.6953125], [-0.0, 1.0, -0.0]),
@@ -50,7 +51,7 @@ pub(crate) const PINNED: [Pinned; 4] = [
         half: 0.00872686779075879,
         size: 512,
         area: [269.0, 286.0, 270.0, 287.0],
-        receiver: 19,
+        receiver: PrimitiveId::of_triangle(19),
         points: &[
             ([-7.043375015258789, 1.8100179341451472e-11, 13.75957202911377], [-0.0, 1.0, -0.0]),
             ([-7.047782897949219, 1.8100179341451472e-11, 13.760821342468262], [-0.0, 1.0, -0.0]),
@@ -69,7 +70,7 @@ pub(crate) const PINNED: [Pinned; 4] = [
         half: 0.5773502691896257,
         size: 8,
         area: [3.0, 3.0, 7.0, 7.0],
-        receiver: 8,
+        receiver: PrimitiveId::of_triangle(8),
         points: &[
             ([-10.980070114135742, 3.230671155943221e-12, -5.42867374420166], [-0.0, 1.0, -0.0]),
             ([-10.991589546203613, 3.230671155943221e-12, -5.382888317108154], [-0.0, 1.0, -0.0]),
@@ -88,7 +89,7 @@ pub(crate) const PINNED: [Pinned; 4] = [
         half: 8.726646260193173e-6,
         size: 512,
         area: [299.0, 270.0, 300.0, 271.0],
-        receiver: 2147483649,
+        receiver: PrimitiveId::of_shape(1),
         points: &[
             (
                 [-0.059621162712574005, 0.444040447473526, 0.9618890285491943],

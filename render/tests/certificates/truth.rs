@@ -3,7 +3,7 @@
 use super::views::World;
 use etendue_oracle::visible::{Shape as Form, visible};
 use etendue_oracle::{V3, along, cross, dot, sub, unit, wide};
-use etendue_render::bvh::{NOTHING, SHAPE};
+use etendue_render::bvh::PrimitiveId;
 use etendue_render::scene::{Geometry, Parallelogram, Shape, Sphere};
 use std::f64::consts::TAU;
 
@@ -116,7 +116,7 @@ impl World {
         }
     }
     /// What reaches a point with a normal on the primitive `receiver`, from a light.
-    pub(crate) fn truth(&self, p: V3, normal: V3, receiver: u32, light: u32) -> Truth {
+    pub(crate) fn truth(&self, p: V3, normal: V3, receiver: PrimitiveId, light: u32) -> Truth {
         let shape = &self.scene.shapes[light as usize];
         let form = relative(&shape.geometry, p);
         if !emits(shape, &form) {
@@ -133,20 +133,20 @@ impl World {
             return Truth { all: lit.all, left: None };
         }
         let cone = Cone::around(&form);
-        let mut blockers = Vec::new();
+        let mut occluders = Vec::new();
         let rounding = 3e-7 * p.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
-        let own = if receiver & SHAPE == 0 { self.surfaces.bvh.order()[receiver as usize] } else { NOTHING };
-        for (_, triangle) in (0..).zip(&self.scene.triangles).filter(|(id, _)| *id != own) {
+        let own = receiver.triangle().map(|place| self.surfaces.bvh.order()[place as usize]);
+        for (_, triangle) in (0..).zip(&self.scene.triangles).filter(|(id, _)| Some(*id) != own) {
             if touches(&triangle.map(|v| sub(wide(v), p)), rounding) {
                 return Truth { all: lit.all, left: None };
             }
             let triangle = relative(&Geometry::Triangle(*triangle), p);
             if !Cone::around(&triangle).is_apart_from(&cone) {
-                blockers.push(triangle);
+                occluders.push(triangle);
             }
         }
         let shapes = (0_u32..).zip(self.scene.shapes.iter());
-        for (_, shape) in shapes.filter(|(id, _)| id | SHAPE != receiver && *id != light) {
+        for (_, shape) in shapes.filter(|(id, _)| PrimitiveId::of_shape(*id) != receiver && *id != light) {
             let other = relative(&shape.geometry, p);
             if let Form::Sphere(center, radius) = other {
                 let distance = size(center);
@@ -177,10 +177,10 @@ impl World {
                 }
             }
             if !Cone::around(&other).is_apart_from(&cone) {
-                blockers.push(other);
+                occluders.push(other);
             }
         }
-        let at = |spared: f64| Some(visible(&form, &blockers, normal, spared)?.left.clamp(0.0, lit.all));
+        let at = |spared: f64| Some(visible(&form, &occluders, normal, spared)?.left.clamp(0.0, lit.all));
         let [short, long] = [1.0 - MOVED, 1.0 + MOVED].map(|share| at(share * ends));
         let left = short.zip(long).filter(|(short, long)| (short - long).abs() <= 1e-6 * lit.all);
         Truth { all: lit.all, left: left.map(|(short, long)| 0.5 * (short + long)) }

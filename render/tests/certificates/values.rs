@@ -17,10 +17,10 @@ use etendue_render::surfaces::Surfaces;
 use etendue_visible::{Occlusion, Precision, Proof, Solid};
 use std::fmt;
 
-/// Greatest error, relative to the light without blockers, and the share of the brightest point that each point counts as.
+/// Greatest error, relative to the light without occluders, and the share of the brightest point that each point counts as.
 const ALLOWED: f64 = 1e-5;
 const FAINT: f64 = 1e-2;
-/// Greatest number of blockers that the renderer computes with.
+/// Greatest number of occluders that the renderer computes with.
 const CLIPPED: usize = 8;
 /// Points of a patch that are compared.
 const POINTS: usize = 4;
@@ -45,9 +45,9 @@ impl WorstErrors {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Values {
     pub(crate) shafts: u64,
-    /// Lit in single and in double precision, dark, and blockers in single and in double precision.
+    /// Lit in single and in double precision, dark, and occluders in single and in double precision.
     known: [WorstErrors; 5],
-    /// Closed forms that are not accurate enough, crowded or overlapping blockers, and what is unknown.
+    /// Closed forms that are not accurate enough, crowded or overlapping occluders, and what is unknown.
     imprecise: u64,
     crowded: u64,
     unknown: u64,
@@ -57,13 +57,13 @@ pub(crate) struct Values {
     /// Greatest error, relative to the allowed one, and where it is.
     pub(crate) worst: f64,
     pub(crate) place: String,
-    /// Greatest error relative to the angle around the light and the number of blockers, for polygons, before a sphere, and behind spheres, in
+    /// Greatest error relative to the angle around the light and the number of occluders, for polygons, before a sphere, and behind spheres, in
     /// single and double precision: whatever the certificate says.
     most: [[f64; 2]; 3],
     pub(crate) fit: Fit,
 }
 
-const NAMES: [&str; 5] = ["lit", "lit in double", "dark", "blockers", "blockers in double"];
+const NAMES: [&str; 5] = ["lit", "lit in double", "dark", "occluders", "occluders in double"];
 
 impl Values {
     /// Includes the figures of another part of the same regime.
@@ -245,7 +245,7 @@ impl World {
             if ratio > values.worst || ratio.is_nan() {
                 values.worst = ratio;
                 values.place = format!(
-                    "{}: {value:e} instead of {left:e} of {:e} at {:?}: {certificate:?}, light {light}, receiver {}, both {:?}, {:?}",
+                    "{}: {value:e} instead of {left:e} of {:e} at {:?}: {certificate:?}, light {light}, receiver {:?}, both {:?}, {:?}",
                     self.name,
                     truth.all,
                     points[lane],

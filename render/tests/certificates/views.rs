@@ -4,7 +4,7 @@ use super::pinned::Pinned;
 use crate::random::Random;
 use etendue::{Mask, Real, f32x8};
 use etendue_oracle::{V3, along, cross, dot, length, sub, unit, wide};
-use etendue_render::bvh::{GROUP, Hits, NOTHING, SHAPE, Scratch};
+use etendue_render::bvh::{GROUP, Hits, PrimitiveId, Scratch};
 use etendue_render::camera::Pinhole;
 use etendue_render::know::patch;
 use etendue_render::packet::M8;
@@ -21,7 +21,7 @@ pub(crate) struct World {
 
 /// What some pixels show of a primitive, and shading points there, each with the normal on the side of the viewer.
 pub(crate) struct View {
-    pub(crate) receiver: u32,
+    pub(crate) receiver: PrimitiveId,
     pub(crate) patch: Patch,
     pub(crate) points: Vec<(V3, V3)>,
 }
@@ -76,13 +76,15 @@ impl Fit {
 
 impl World {
     /// The normal on the side of a viewer.
-    fn normal(&self, place: u32, p: V3, viewer: V3) -> V3 {
-        if place & SHAPE != 0 {
-            let Geometry::Sphere(Sphere { center, .. }) = self.scene.shapes[(place & !SHAPE) as usize].geometry else {
+    fn normal(&self, receiver: PrimitiveId, p: V3, viewer: V3) -> V3 {
+        let Some(place) = receiver.triangle() else {
+            let Some(&Geometry::Sphere(Sphere { center, .. })) =
+                receiver.shape().map(|id| &self.scene.shapes[id].geometry)
+            else {
                 unreachable!("flat shapes are no receivers")
             };
             return unit(sub(p, wide(center)));
-        }
+        };
         let [a, b, c] = self.scene.triangles[self.surfaces.bvh.order()[place as usize] as usize].map(wide);
         let normal = unit(cross(sub(b, a), sub(c, a)));
         if dot(normal, sub(viewer, a)) < 0.0 { normal.map(|x| -x) } else { normal }
@@ -127,11 +129,11 @@ impl World {
             self.surfaces.bvh.rays(origin, direction)
         });
         self.surfaces.bvh.closest(&rays, &[M8::splat(true); GROUP], &mut hits, &mut Scratch::default());
-        let places = |i: usize| hits[i / 8].place.to_array()[i % 8];
-        let receiver = places(random.below(8 * GROUP));
+        let primitives = |i: usize| hits[i / 8].primitives.lane(i % 8);
+        let receiver = primitives(random.below(8 * GROUP));
         // lights of drafts reflect nothing
-        let is_light = |index: u32| self.scene.shapes[index as usize].emission.is_some();
-        if receiver == NOTHING || receiver & SHAPE != 0 && is_light(receiver & !SHAPE) {
+        let is_light = |index: usize| self.scene.shapes[index].emission.is_some();
+        if receiver == PrimitiveId::NONE || receiver.shape().is_some_and(is_light) {
             return None;
         }
         let patch = patch(&self.surfaces, receiver, Viewer::Pixels(&pyramid))?;
@@ -139,7 +141,7 @@ impl World {
         let viewer = wide(origin.map(|x| x as f32));
         for (hits, rays) in hits.iter().zip(&rays) {
             let surface = self.surfaces.hit(hits, rays);
-            for lane in (0..8).filter(|&i| hits.place.to_array()[i] == receiver) {
+            for lane in (0..8).filter(|&i| hits.primitives.lane(i) == receiver) {
                 let p = surface.point.lane(lane);
                 let p = wide([p.x, p.y, p.z]);
                 points.push((p, self.normal(receiver, p, viewer)));
@@ -152,7 +154,7 @@ impl World {
         }
         let corners: Vec<V3> = patch.corners().collect();
         for k in 0..6 {
-            if receiver & SHAPE == 0 {
+            if receiver.triangle().is_some() {
                 let mix = if k < 3 { 0.0 } else { random.unit() };
                 let (a, b) = (corners[random.below(corners.len())], corners[random.below(corners.len())]);
                 let normal = patch.normal().unwrap();
@@ -181,13 +183,13 @@ impl World {
         let [a, b, d] = self.scene.triangles[random.below(floors)].map(wide);
         let normal = unit(cross(sub(b, a), sub(d, a)));
         let triangles = &self.scene.triangles;
-        let blockers = &triangles[if floors < triangles.len() { floors } else { 0 }..];
-        let choice = random.below(blockers.len() + spheres.len());
-        let x = if let Some(triangle) = blockers.get(choice).map(|t| t.map(wide)) {
+        let occluders = &triangles[if floors < triangles.len() { floors } else { 0 }..];
+        let choice = random.below(occluders.len() + spheres.len());
+        let x = if let Some(triangle) = occluders.get(choice).map(|t| t.map(wide)) {
             let k = random.below(3);
             along(triangle[k], sub(triangle[(k + 1) % 3], triangle[k]), random.unit())
         } else {
-            let Geometry::Sphere(Sphere { center, radius }) = spheres[choice - blockers.len()].geometry else {
+            let Geometry::Sphere(Sphere { center, radius }) = spheres[choice - occluders.len()].geometry else {
                 return None;
             };
             let out = unit(cross(sub(wide(center), y), random.point()));

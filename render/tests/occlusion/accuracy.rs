@@ -87,7 +87,7 @@ fn accuracy(packets: u32) {
     println!("{HEAD}");
     let mut all = Greatest::NONE;
     let mut points = 0;
-    for round in [Round::None, Round::Light, Round::Blockers] {
+    for round in [Round::None, Round::Light, Round::Occluders] {
         for (k, &kind) in KINDS.iter().enumerate() {
             let name = format!("{kind:?}, {round:?}");
             let e = regime(&name, |random| scene(random, kind, round), packets, 1000 * round as u64 + k as u64);

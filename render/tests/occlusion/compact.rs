@@ -22,11 +22,11 @@ fn scene(random: &mut Random, [long, short]: [f64; 2], hidden: bool) -> Scene {
     // half of the way to the middle of the light
     let middle = along(along(direction, edges[0], 0.5), edges[1], 0.5).map(|x| 0.5 * x);
     let around = [(); 4].map(|()| vector(along(middle, random.direction(), long * random.range(0.1, 0.6))));
-    let blocker = Solid::Polygon { corners: around, count: 3, deviation: 0.0 };
+    let occluder = Solid::Polygon { corners: around, count: 3, deviation: 0.0 };
     let above = if dot(direction, normal) < 0.0 { normal.map(|x| -x) } else { normal };
     Scene {
         light,
-        blockers: if hidden { vec![blocker] } else { Vec::new() },
+        occluders: if hidden { vec![occluder] } else { Vec::new() },
         solids: Vec::new(),
         points,
         normals: [narrow(unit(above)); 8],

@@ -11,7 +11,7 @@ fn rounded(v: [f32; 3]) -> V64 {
     v.map(f64::from).into()
 }
 
-/// The projected solid angle of a light without blockers.
+/// The projected solid angle of a light without occluders.
 fn visible(p: [f64; 3], n: [f64; 3], light: &Solid) -> f64 {
     let vector = |v: [f64; 3]| Vec3::<f64x4>::from(v);
     let found = Occlusion::<f64x4>::default().visible(vector(p), vector(n), light, &[]);

@@ -49,7 +49,7 @@ impl GlossySurface {
     }
 }
 
-/// Without blockers, the part of the lobe that a light covers is that of the sampler, and nearly so in single precision.
+/// Without occluders, the part of the lobe that a light covers is that of the sampler, and nearly so in single precision.
 #[test]
 fn whole_lights_have_their_part_of_the_lobe() {
     let mut random = Random::new(4);
@@ -71,9 +71,9 @@ fn whole_lights_have_their_part_of_the_lobe() {
     println!("greatest error of Occlusion::reflected in single precision {worst:.1e}, of what lights cover and 0.01");
 }
 
-/// Behind a blocker, what is left of a light is the quadrature over the points that a ray reaches.
+/// Behind an occluder, what is left of a light is the quadrature over the points that a ray reaches.
 #[test]
-fn blockers_hide_their_part_of_the_lobe() {
+fn occluders_hide_their_part_of_the_lobe() {
     let mut random = Random::new(5);
     let mut occlusion = Occlusion::<f64>::new();
     let (mut part, steps) = (0, 300);
@@ -101,10 +101,10 @@ fn blockers_hide_their_part_of_the_lobe() {
         }
         truth *= PI / f64::from(steps * steps);
         let light = place.light();
-        let blocker = Solid::Parallelogram { corner: vector(from), edges: [a, b].map(|e| vector(e.map(|x| 2.0 * x))) };
+        let occluder = Solid::Parallelogram { corner: vector(from), edges: [a, b].map(|e| vector(e.map(|x| 2.0 * x))) };
         let up = vector(place.normal);
         let all = occlusion.reflected(Vec3::default(), up, &lobe, &light, &[]).expect("one light");
-        let left = occlusion.reflected(Vec3::default(), up, &lobe, &light, &[blocker]).expect("one blocker");
+        let left = occlusion.reflected(Vec3::default(), up, &lobe, &light, &[occluder]).expect("one occluder");
         part += u32::from(left > 0.02 * all && left < 0.98 * all);
         assert!((left - truth).abs() < 2e-2 * all + 1e-6, "{place:?}: {left}, not {truth}, of {all}");
     }

@@ -14,7 +14,7 @@ use etendue_visible::Solid;
 fn scenes(count: u32, seed: u64, mut f: impl FnMut(Scene, &mut Random)) {
     let mut random = Random::new(seed);
     for _ in 0..count {
-        for round in [Round::None, Round::Light, Round::Blockers] {
+        for round in [Round::None, Round::Light, Round::Occluders] {
             for kind in KINDS {
                 let scene = scene(&mut random, kind, round);
                 f(scene, &mut random);
@@ -80,22 +80,22 @@ fn any_numbers() {
             Solid::Polygon { corners, count: 3 + (word >> 10) as usize % 2, deviation: 0.0 }
         };
         let light = shape(&mut random);
-        let blockers = (0..round % 6).map(|_| shape(&mut random)).collect();
+        let occluders = (0..round % 6).map(|_| shape(&mut random)).collect();
         let points = [(); 8].map(|()| vector(&mut random));
         let normals = [(); 8].map(|()| narrow(random.direction()));
-        let scene = Scene { light, blockers, solids: Vec::new(), points, normals };
+        let scene = Scene { light, occluders, solids: Vec::new(), points, normals };
         scene.total();
         scene.lanes();
     }
 }
 
-/// The order of corners and of blockers, and the direction around, only change the rounding; a further blocker never adds light.
+/// The order of corners and of occluders, and the direction around, only change the rounding; a further occluder never adds light.
 #[test]
 fn orders() {
     let (mut order, mut more) = (Greatest::NONE, Greatest::NONE);
     scenes(30, 73, |scene, random| {
         let mut other = scene.clone();
-        for shape in core::iter::once(&mut other.light).chain(&mut other.blockers) {
+        for shape in core::iter::once(&mut other.light).chain(&mut other.occluders) {
             if let Solid::Polygon { corners, count, .. } = shape {
                 corners[..*count].rotate_left(random.word() as usize % *count);
                 if random.word() & 1 == 0 {
@@ -103,11 +103,11 @@ fn orders() {
                 }
             }
         }
-        for i in (1..other.blockers.len()).rev() {
-            other.blockers.swap(i, random.word() as usize % (i + 1));
+        for i in (1..other.occluders.len()).rev() {
+            other.occluders.swap(i, random.word() as usize % (i + 1));
         }
         let mut fewer = scene.clone();
-        fewer.blockers.pop();
+        fewer.occluders.pop();
         let (Some(found), others, fewer) = (scene.found::<f32x8>(0), other.found::<f32x8>(0), fewer.found::<f32x8>(0))
         else {
             return;
@@ -128,7 +128,7 @@ fn orders() {
             }
         }
     });
-    println!("another order: {:.1e} of the angle; light added by a blocker: {:.1e}", order.error(), more.error());
+    println!("another order: {:.1e} of the angle; light added by an occluder: {:.1e}", order.error(), more.error());
     assert!(order.error() < 2.0 * BOUND && more.error() < 2.0 * BOUND, "{order:?} {more:?}");
 }
 
@@ -136,17 +136,17 @@ fn orders() {
 #[test]
 fn special_cases() {
     let square = |y: f64, half: f64| polygon(&[[-half, y, -half], [half, y, -half], [half, y, half], [-half, y, half]]);
-    let scene = |light, blockers| Scene {
+    let scene = |light, occluders| Scene {
         light,
-        blockers,
+        occluders,
         solids: Vec::new(),
         points: [[0.0; 3]; 8],
         normals: [[0.0, 1.0, 0.0]; 8],
     };
-    let value = |light: &Solid, blockers: Vec<_>| scene(light.clone(), blockers).found::<f32>(0);
+    let value = |light: &Solid, occluders: Vec<_>| scene(light.clone(), occluders).found::<f32>(0);
     let light = square(2.0, 1.0);
     let all = value(&light, vec![]).unwrap();
-    // a plane, a point, an edge, a blocker seen edge-on, and those behind the light and below the horizon
+    // a plane, a point, an edge, an occluder seen edge-on, and those behind the light and below the horizon
     let edge = polygon(&[[-1.0, 1.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]]);
     let edge_on = polygon(&[[-1.0, 1.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.5, 0.0]]);
     for hidden in [square(1.0, 0.0), edge, edge_on, square(2.0, 1.0), square(3.0, 1.0), square(-1.0, 1.0)] {

@@ -1,4 +1,4 @@
-//! Lights behind blockers, and the properties of their visible parts that hold for any numbers.
+//! Lights behind occluders, and the properties of their visible parts that hold for any numbers.
 
 use etendue::{Real, Vec3, f32x4, f32x8, f32x16};
 use etendue_judge::packets::{twice, vectors_of};
@@ -6,14 +6,14 @@ use etendue_oracle::{V3, along, cross, dot, narrow, sub, unit, wide};
 use etendue_visible::{Edge, Occlusion, Polyhedron, Solid, V64};
 use std::sync::Arc;
 
-/// A light, blockers, and eight points with the normals of their surfaces.
+/// A light, occluders, and eight points with the normals of their surfaces.
 #[derive(Clone, Debug)]
 pub(crate) struct Scene {
     /// The light.
     pub(crate) light: Solid,
-    /// The blockers.
-    pub(crate) blockers: Vec<Solid>,
-    /// Polyhedra as further blockers.
+    /// The occluders.
+    pub(crate) occluders: Vec<Solid>,
+    /// Polyhedra as further occluders.
     pub(crate) solids: Vec<Faceted>,
     /// The shading points.
     pub(crate) points: [[f32; 3]; 8],
@@ -95,19 +95,19 @@ impl Scene {
     /// Ω⊥ of the visible part from the points `first` and after, in any precision and width. Sixteen lanes have the points [`twice`].
     pub(crate) fn found<R: Real>(&self, first: usize) -> Option<R> {
         let polyhedra = self.solids.iter().map(Faceted::polyhedron);
-        let blockers: Vec<Solid> = polyhedra.chain(self.blockers.iter().cloned()).collect();
+        let occluders: Vec<Solid> = polyhedra.chain(self.occluders.iter().cloned()).collect();
         let (points, normals) = (twice(&self.points), twice(&self.normals));
         Occlusion::new().visible(
             vectors_of::<R>(|i| points[first + i]),
             vectors_of::<R>(|i| normals[first + i]),
             &self.light,
-            &blockers,
+            &occluders,
         )
     }
-    /// The results are finite, at least 0, and at most what there is without blockers.
+    /// The results are finite, at least 0, and at most what there is without occluders.
     pub(crate) fn total(&self) {
-        let bare = Self { blockers: Vec::new(), solids: Vec::new(), ..self.clone() };
-        let all = bare.found::<f32x8>(0).expect("there are no blockers");
+        let bare = Self { occluders: Vec::new(), solids: Vec::new(), ..self.clone() };
+        let all = bare.found::<f32x8>(0).expect("there are no occluders");
         let left = self.found::<f32x8>(0).unwrap_or_default();
         for (all, left) in all.as_array().iter().zip(left.as_array()) {
             assert!(all.is_finite() && (0.0..=core::f32::consts::PI).contains(all), "{all}: {self:?}");
@@ -134,7 +134,7 @@ impl Scene {
         let times = |shape: &Solid| shape.scaled(factor.into());
         let scaled = Self {
             light: times(&self.light),
-            blockers: self.blockers.iter().map(times).collect(),
+            occluders: self.occluders.iter().map(times).collect(),
             solids: self.solids.iter().map(|solid| solid.map(|v| v * factor)).collect(),
             points: self.points.map(|p| p.map(|x| x * factor)),
             normals: self.normals,

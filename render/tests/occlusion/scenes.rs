@@ -63,7 +63,7 @@ pub(crate) const KINDS: [Difficulty; 22] = [
 pub(crate) enum Round {
     None,
     Light,
-    Blockers,
+    Occluders,
 }
 
 /// Four or three corners about `middle` in the plane of `s` and `t`.
@@ -108,7 +108,7 @@ impl Placement {
     /// A scene of polygons and spheres.
     pub(crate) fn scene(&self, mut scene: Scene) -> Scene {
         let point = |v: V64| V64::from(wide(self.point(v.into())));
-        for shape in core::iter::once(&mut scene.light).chain(&mut scene.blockers) {
+        for shape in core::iter::once(&mut scene.light).chain(&mut scene.occluders) {
             match shape {
                 Solid::Polygon { corners, .. } => *corners = corners.map(point),
                 Solid::Sphere { center, radius } => {
@@ -176,8 +176,8 @@ fn unplaced(random: &mut Random, kind: Difficulty, round: Round) -> Scene {
         _ => along(toward, random.direction(), random.range(0.0, 1.5)),
     };
     let normal = unit(normal);
-    let mut blockers = Vec::new();
-    if round == Round::Blockers {
+    let mut occluders = Vec::new();
+    if round == Round::Occluders {
         let count = 1 + random.word() as usize % 3;
         for i in 0..count {
             let (at, f) = (place(random), way(random));
@@ -185,13 +185,13 @@ fn unplaced(random: &mut Random, kind: Difficulty, round: Round) -> Scene {
             let radius = f * (size * random.magnitude(0.05, 0.8)).min(0.8 * (1.0 - f) / f).min(0.9);
             if i > 0 && random.unit() < 0.5 {
                 let plane = basis(random.direction());
-                blockers.push(polygon(&corners(random, at.map(|x| x * f), [plane.0, plane.1], [radius; 2])));
+                occluders.push(polygon(&corners(random, at.map(|x| x * f), [plane.0, plane.1], [radius; 2])));
             } else {
                 let center = match kind {
                     Difficulty::Axis => toward,
                     _ => at,
                 };
-                blockers.push(sphere(center.map(|x| x * f), radius));
+                occluders.push(sphere(center.map(|x| x * f), radius));
             }
         }
     } else {
@@ -256,7 +256,7 @@ fn unplaced(random: &mut Random, kind: Difficulty, round: Round) -> Scene {
                 }
                 Difficulty::Quads if own_corners.len() == 4 => {
                     let half = [own_corners[0], own_corners[1], own_corners[2]];
-                    blockers.push(polygon(&half));
+                    occluders.push(polygon(&half));
                     own_corners.remove(1);
                 }
                 Difficulty::Fan if i == 0 => {
@@ -266,7 +266,7 @@ fn unplaced(random: &mut Random, kind: Difficulty, round: Round) -> Scene {
                             let turn = core::f64::consts::TAU * (k % n) as f64 / n as f64;
                             along(along(middle, plane[0], own * turn.cos()), plane[1], own * turn.sin())
                         };
-                        blockers.push(polygon(&[middle, rim(k), rim(k + 1)]));
+                        occluders.push(polygon(&[middle, rim(k), rim(k + 1)]));
                     }
                     continue;
                 }
@@ -284,10 +284,10 @@ fn unplaced(random: &mut Random, kind: Difficulty, round: Round) -> Scene {
                                 |p: f64, q: f64| along(along(face, axes[u], p * extent[u]), axes[v], q * extent[v]);
                             let quad = [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)];
                             if random.unit() < 0.3 {
-                                blockers.push(polygon(&quad[..3]));
-                                blockers.push(polygon(&[quad[2], quad[3], quad[0]]));
+                                occluders.push(polygon(&quad[..3]));
+                                occluders.push(polygon(&[quad[2], quad[3], quad[0]]));
                             } else {
-                                blockers.push(polygon(&quad));
+                                occluders.push(polygon(&quad));
                             }
                         }
                     }
@@ -303,7 +303,7 @@ fn unplaced(random: &mut Random, kind: Difficulty, round: Round) -> Scene {
                     }
                     // the same cone, from the origin at least
                     let nearer = if random.unit() < 0.5 { 1.0 } else { random.range(0.3, 0.9) };
-                    blockers.push(polygon(&again.iter().map(|c| c.map(|x| x * nearer)).collect::<Vec<_>>()));
+                    occluders.push(polygon(&again.iter().map(|c| c.map(|x| x * nearer)).collect::<Vec<_>>()));
                 }
                 Difficulty::LightPlane => {
                     let far = random.range(0.5, 1.5);
@@ -333,10 +333,10 @@ fn unplaced(random: &mut Random, kind: Difficulty, round: Round) -> Scene {
                 }
                 _ => {}
             }
-            blockers.push(polygon(&own_corners));
+            occluders.push(polygon(&own_corners));
         }
     }
-    blockers.truncate(16);
+    occluders.truncate(16);
     let points = core::array::from_fn(|i| {
         let off = random.direction();
         // on the surface, so that what stands on it touches the horizon
@@ -347,5 +347,5 @@ fn unplaced(random: &mut Random, kind: Difficulty, round: Round) -> Scene {
         let off = if kind == Difficulty::TouchSurface || i < 2 { 0.0 } else { 0.1 };
         narrow(unit(along(normal, random.direction(), off)))
     });
-    Scene { light, blockers, solids: Vec::new(), points, normals }
+    Scene { light, occluders, solids: Vec::new(), points, normals }
 }

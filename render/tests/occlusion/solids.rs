@@ -173,7 +173,7 @@ pub(crate) fn scene_with_solids(random: &mut Random, kind: SolidKind, round: boo
         }
         solids.push((corners, faces));
     }
-    let mut blockers = Vec::new();
+    let mut occluders = Vec::new();
     if kind == SolidKind::AmongPolygons {
         for _ in 0..1 + random.word() % 3 {
             let aside = along(s.map(|x| x * random.range(-0.8, 0.8)), t, random.range(-0.8, 0.8));
@@ -181,7 +181,7 @@ pub(crate) fn scene_with_solids(random: &mut Random, kind: SolidKind, round: boo
             let plane = basis(unit(along(toward, random.direction(), 0.7)));
             let own = f * size * random.magnitude(0.1, 1.0);
             let middle = along(toward, aside, size).map(|x| x * f);
-            blockers.push(polygon(&corners(random, middle, [plane.0, plane.1], [own; 2])));
+            occluders.push(polygon(&corners(random, middle, [plane.0, plane.1], [own; 2])));
         }
     }
     let spread = match kind {
@@ -200,7 +200,7 @@ pub(crate) fn scene_with_solids(random: &mut Random, kind: SolidKind, round: boo
         narrow(unit(along(normal, random.direction(), off)))
     });
     let placement = Placement::new(random);
-    let scene = placement.scene(Scene { light, blockers, solids: Vec::new(), points, normals });
+    let scene = placement.scene(Scene { light, occluders, solids: Vec::new(), points, normals });
     let solid = |(corners, faces): &Form| {
         let corners: Vec<_> = corners.iter().map(|&v| placement.point(v)).collect();
         Faceted::new(&corners, faces)

@@ -55,7 +55,7 @@ fn faces_from_point(solid: &Faceted, point: [f32; 3]) -> Vec<Shape> {
 pub(crate) trait Truth {
     /// What the least sine of an edge seen under more than a right angle divides, and the least cosine of a sphere's half-angle.
     fn condition(&self, lane: usize) -> f64;
-    /// Whether the point lies within a flat blocker, nearer to its plane than single precision tells, which then hides one half of the
+    /// Whether the point lies within a flat occluder, nearer to its plane than single precision tells, which then hides one half of the
     /// directions or the other. The same holds for points on the surface of a polyhedron.
     fn surrounded(&self, lane: usize) -> bool;
     /// The greatest distance of a corner of a polyhedron from the plane of its face, or beyond that of another, which is rounding, over
@@ -79,7 +79,7 @@ impl Truth for Scene {
             let [a, b] = edge.0.map(|end| sub(wide(end.into()), wide(self.points[lane])));
             if dot(a, b) < 0.0 { length(cross(unit(a), unit(b))) } else { 1.0 }
         });
-        self.blockers.iter().map(sine).chain(solids).fold(sine(&self.light), f64::min)
+        self.occluders.iter().map(sine).chain(solids).fold(sine(&self.light), f64::min)
     }
     fn surrounded(&self, lane: usize) -> bool {
         let on_solid = self.solids.iter().any(|solid| {
@@ -90,8 +90,8 @@ impl Truth for Scene {
             depths.fold(f64::INFINITY, f64::min).abs() < 1e-6 * size
         });
         on_solid
-            || self.blockers.iter().any(|blocker| {
-                let Shape::Polygon(c) = from_point(blocker, self.points[lane]) else { return false };
+            || self.occluders.iter().any(|occluder| {
+                let Shape::Polygon(c) = from_point(occluder, self.points[lane]) else { return false };
                 let last = c[c.len() - 1];
                 let across = unit(cross(sub(c[1], c[0]), sub(last, c[0])));
                 let size = c.iter().map(|c| length(*c)).fold(0.0, f64::max);
@@ -123,17 +123,17 @@ impl Truth for Scene {
     fn truth(&self, lane: usize) -> Option<[Visible; 2]> {
         let point = self.points[lane];
         let light = from_point(&self.light, point);
-        let blockers: Vec<_> = self.blockers.iter().map(|b| from_point(b, point)).collect();
+        let occluders: Vec<_> = self.occluders.iter().map(|b| from_point(b, point)).collect();
         let solids: Vec<_> = self.solids.iter().map(|solid| faces_from_point(solid, point)).collect();
-        let all = [&blockers[..], &solids.concat()].concat();
+        let all = [&occluders[..], &solids.concat()].concat();
         let at = |share: f64| {
             let spared = share * spared(&light, wide(point));
-            let seen = |blockers: &[Shape]| visible(&light, blockers, wide(self.normals[lane]), spared);
+            let seen = |occluders: &[Shape]| visible(&light, occluders, wide(self.normals[lane]), spared);
             let mut found = seen(&all)?;
             // a polyhedron is one occluder
             if !solids.is_empty() {
                 let whole = |solid: &Vec<Shape>| seen(solid).map_or(0, |alone| alone.occluders.min(1));
-                found.occluders = seen(&blockers)?.occluders + solids.iter().map(whole).sum::<usize>();
+                found.occluders = seen(&occluders)?.occluders + solids.iter().map(whole).sum::<usize>();
             }
             Some(found)
         };

@@ -40,6 +40,8 @@ pub mod numbers;
 pub mod packets;
 #[cfg(feature = "checks")]
 pub mod page;
+#[cfg(feature = "checks")]
+pub mod proofs;
 pub mod properties;
 mod random;
 #[cfg(feature = "checks")]

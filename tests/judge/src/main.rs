@@ -4,7 +4,7 @@ use clap::{Args, Parser, Subcommand};
 use etendue_judge::child::{self, Task};
 use etendue_judge::lights::sampler::own;
 use etendue_judge::lights::verdict::{Effort, Judgement, judge};
-use etendue_judge::{numbers, page, textbook};
+use etendue_judge::{numbers, page, proofs, textbook};
 use std::io::Write as _;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -33,7 +33,7 @@ enum Command {
         #[command(flatten)]
         how: How,
     },
-    /// Judges this project's techniques
+    /// Judges this project's techniques, and its proofs of visibility
     Own {
         /// Judges textbooks' samplers too
         #[arg(long)]
@@ -137,7 +137,9 @@ fn run(options: &Options) -> Result<bool, String> {
         Command::Own { judgements, how, .. } if *judgements > 0 => Ok(false_alarms(*judgements, how)),
         Command::Own { textbooks, how, .. } => {
             let subjects = own().into_iter().chain(if *textbooks { textbook::samplers() } else { Vec::new() });
-            let all: Vec<_> = subjects.map(|subject| judge(&subject, how.effort(), |_| ())).collect();
+            let mut all: Vec<_> = subjects.map(|subject| judge(&subject, how.effort(), |_| ())).collect();
+            let rooms = if how.tried.quick { 1000 } else { 4000 };
+            all.push(proofs::judge("etendue-visible", &proofs::own, rooms, how.tried.seed));
             how.tell(&all)
         }
         Command::Ask { folder, shape, measure, name, tried } => {

@@ -279,7 +279,7 @@ const ARROWS: [(&str, &[&str], &[&str]); 25] = [
     ("tests/fit", &[], &[]),
     ("tests/oracle", &[], &[]),
     ("tests/proof", &["etendue", "etendue-oracle"], &[]),
-    ("tests/judge", &["etendue", "etendue-oracle"], &[]),
+    ("tests/judge", &["etendue", "etendue-oracle", "etendue-visible"], &[]),
     ("tests", &[], &["etendue", "etendue-bits", "etendue-oracle", "etendue-judge"]),
     ("benches/routines", &["etendue", "etendue-render", "etendue-scene", "etendue-visible"], &[]),
     ("benches", &[], &["etendue", "etendue-laboratory", "etendue-render", "etendue-routines", "etendue-scene"]),

@@ -1,4 +1,4 @@
-//! Edges of blockers, and how high a light is over the planes through them and a point.
+//! Edges of occluders, and how high a light is over the planes through them and a point.
 
 use super::capacity::MOST;
 use super::flat::two_words;
@@ -6,7 +6,7 @@ use super::outline::Outline;
 use etendue::vector::{height_dw, sum_dw};
 use etendue::{Mask, Real, Vec3};
 
-/// The line of an edge of a blocker. The plane through it and the point has the normal (p₀ − x) × e, where p₀ is on the line and e along it.
+/// The line of an edge of an occluder. The plane through it and the point has the normal (p₀ − x) × e, where p₀ is on the line and e along it.
 pub(super) struct Line<R> {
     pub(super) from: Vec3<f64>,
     pub(super) edge: Vec3<f64>,

@@ -1,4 +1,4 @@
-//! Blockers as they are seen from points: the planes and outlines that bound what they hide.
+//! Occluders as they are seen from points: the planes and outlines that bound what they hide.
 
 use super::cap::Cap;
 use super::capacity::{EDGES, MOST, TooMany};
@@ -9,7 +9,7 @@ use crate::polyhedron::{Edge, FACES, Polyhedron};
 use crate::solid::Solid;
 use etendue::{Mask, Real, Vec3};
 
-/// A light for which blockers are prepared.
+/// A light for which occluders are prepared.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Target<'a, R: Real> {
     /// The outline of a flat light above the horizon.
@@ -28,7 +28,7 @@ impl<R: Real> Target<'_, R> {
     }
 }
 
-/// A blocker as seen from the points.
+/// An occluder as seen from the points.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Planes<R: Real> {
     /// The outline of a polygon in front of the light, if that is a sphere.
@@ -93,7 +93,7 @@ impl<R: Real> Planes<R> {
         }
         let crosses = self.lanes & behind;
         if crosses.any() {
-            // through the point and the line in which the planes of the blocker and before the light meet: the edge itself can be shorter
+            // through the point and the line in which the planes of the occluder and before the light meet: the edge itself can be shorter
             // than its rounding
             self.planes[self.count] = (front * height.abs() + across * (-least * sign)).keep(crosses);
             self.heights[self.count] = self.planes[self.count].dot(target.outline.base());

@@ -1,7 +1,7 @@
-//! What blockers leave of a light, by intersections of all of them.
+//! What occluders leave of a light, by intersections of all of them.
 
 use super::cap::Cap;
-use super::capacity::{BLOCKERS, DEPTH, EDGES, MOST, TERMS, TooMany};
+use super::capacity::{DEPTH, EDGES, MOST, OCCLUDERS, TERMS, TooMany};
 use super::flat::{Flat, corner, exactly, rounded};
 use super::outline::Outline;
 use super::planes::{Planes, Target};
@@ -18,8 +18,8 @@ pub const ENDS: f64 = 1.0 / 2_097_152.0;
 pub struct Occlusion<R: Real> {
     /// The flat shape that is being prepared.
     flat: Flat<R>,
-    planes: [Planes<R>; BLOCKERS],
-    /// The light, and its intersections with one blocker, with two, and so on.
+    planes: [Planes<R>; OCCLUDERS],
+    /// The light, and its intersections with one occluder, with two, and so on.
     stack: [Outline<R, MOST>; DEPTH + 1],
     /// An outline that is needed for a moment.
     spare: Outline<R, MOST>,
@@ -44,14 +44,14 @@ impl<R: Real> Default for Occlusion<R> {
 /// A part of the light: the sphere that bounds it, if one does, and its Ω⊥.
 type Part<R> = (Option<Cap<R>>, R);
 
-/// What the blockers so far leave of a light.
+/// What the occluders so far leave of a light.
 struct Left<R: Real> {
     /// Ω⊥ of the light, and of what is left of it.
     all: R,
     visible: R,
-    /// Lanes in which one blocker hides the whole light.
+    /// Lanes in which one occluder hides the whole light.
     covered: R::Mask,
-    /// Number of blockers that hide part of it.
+    /// Number of occluders that hide part of it.
     kept: usize,
 }
 
@@ -61,7 +61,7 @@ impl<R: Real> Occlusion<R> {
     pub fn new() -> Self {
         Self {
             flat: Flat::default(),
-            planes: [Planes::default(); BLOCKERS],
+            planes: [Planes::default(); OCCLUDERS],
             stack: [Outline::default(); DEPTH + 1],
             spare: Outline::default(),
             normal: Vec3::default(),
@@ -73,22 +73,22 @@ impl<R: Real> Occlusion<R> {
         }
     }
 
-    /// The projected solid angle Ω⊥ in [0, π] of the part of the light that the blockers leave visible at each point, on a surface with the
-    /// unit normal `normal`. Both sides of a flat light count. `None` if there are more than [`BLOCKERS`] blockers, if too many of them
+    /// The projected solid angle Ω⊥ in [0, π] of the part of the light that the occluders leave visible at each point, on a surface with the
+    /// unit normal `normal`. Both sides of a flat light count. `None` if there are more than [`OCCLUDERS`] occluders, if too many of them
     /// overlap as seen from a point, if the part is bounded by two spheres that overlap, if a polyhedron does not lie before the light as a
     /// whole, or if the light is one: then it must be sampled.
     ///
     /// In a packet, `None` concerns all lanes: one of them may be the only one with too many. What a packet of 8 can compute, each of its
     /// lanes can alone, with the same bits.
     ///
-    /// Greatest error: 1e−6 times the angle around the light, in radians, for each of the blockers that occlude it (6e−7 measured, and 2e−7
-    /// among polygons; in double precision 1e−7). The error is absolute: where the blockers leave little, it may be as large as what is
+    /// Greatest error: 1e−6 times the angle around the light, in radians, for each of the occluders that occlude it (6e−7 measured, and 2e−7
+    /// among polygons; in double precision 1e−7). The error is absolute: where the occluders leave little, it may be as large as what is
     /// left. It grows by the reciprocals of the sine of an edge that is seen under more than a right angle, and of the cosine of the
-    /// half-angle of a sphere. A point that lies over a flat blocker, nearer to its plane than 1e−6 of its extent, may be on either side.
+    /// half-angle of a sphere. A point that lies over a flat occluder, nearer to its plane than 1e−6 of its extent, may be on either side.
     /// Measured by `cargo test -p etendue-render-tests occlusion -- --nocapture --include-ignored`.
     ///
     /// A flat light whose corners are all nearer to their mean than half of its distance is computed from small differences: there the
-    /// error is 1e−7 times the square of half of its perimeter over its distance, alone and behind one flat blocker (7e−8 measured), and
+    /// error is 1e−7 times the square of half of its perimeter over its distance, alone and behind one flat occluder (7e−8 measured), and
     /// as much again for each further one: it stays relative to the light however small that is. Measured by
     /// `cargo test -p etendue-render-tests occlusion::compact -- --nocapture`.
     ///
@@ -97,16 +97,16 @@ impl<R: Real> Occlusion<R> {
     /// To that comes the angle under which corners are seen beside the planes of their faces: a polyhedron no wider than the rounding of its
     /// coordinates may hide nothing. A point on its surface may be inside or outside.
     #[inline]
-    pub fn visible(&mut self, point: Vec3<R>, normal: Vec3<R>, light: &Solid, blockers: &[Solid]) -> Option<R> {
+    pub fn visible(&mut self, point: Vec3<R>, normal: Vec3<R>, light: &Solid, occluders: &[Solid]) -> Option<R> {
         self.lobe = None;
-        self.part(point, normal, light, blockers)
+        self.part(point, normal, light, occluders)
     }
 
     /// The projected solid angle in [0, π] of the visible part after the map of a reflection at each point, whose normal must be `normal`: a
     /// surface reflects about F · [albedo](Reflection::albedo) · L/π times this of a light with the radiance L. Like
     /// [`visible`](Self::visible) otherwise; `None` also if a sphere blocks, or is blocked.
     ///
-    /// Parts are clipped before the map, and measured after it. Greatest error of a light without blockers in single precision: 3e−5 of the
+    /// Parts are clipped before the map, and measured after it. Greatest error of a light without occluders in single precision: 3e−5 of the
     /// result plus 0.01 (measured by `cargo test -p etendue-render-tests occlusion::lobes -- --nocapture`); of spheres as [`Reflection::sphere`].
     #[inline]
     pub fn reflected(
@@ -115,16 +115,16 @@ impl<R: Real> Occlusion<R> {
         normal: Vec3<R>,
         reflection: &Reflection<R>,
         light: &Solid,
-        blockers: &[Solid],
+        occluders: &[Solid],
     ) -> Option<R> {
         self.lobe = Some(*reflection);
-        self.part(point, normal, light, blockers)
+        self.part(point, normal, light, occluders)
     }
 
     /// What is visible, by the cosine or the lobe.
     #[inline]
-    fn part(&mut self, point: Vec3<R>, normal: Vec3<R>, light: &Solid, blockers: &[Solid]) -> Option<R> {
-        if blockers.len() > BLOCKERS {
+    fn part(&mut self, point: Vec3<R>, normal: Vec3<R>, light: &Solid, occluders: &[Solid]) -> Option<R> {
+        if occluders.len() > OCCLUDERS {
             return None;
         }
         self.normal = normal;
@@ -164,40 +164,40 @@ impl<R: Real> Occlusion<R> {
                 measure(self.lobe.as_ref(), &self.stack[0], normal, &mut self.spare)
             }
         };
-        self.beside(all.clamped(R::lit(0.0), R::lit(core::f64::consts::PI)), point, blockers).ok()
+        self.beside(all.clamped(R::lit(0.0), R::lit(core::f64::consts::PI)), point, occluders).ok()
     }
 
-    /// What the blockers leave of `all`.
+    /// What the occluders leave of `all`.
     #[inline]
-    fn beside(&mut self, all: R, point: Vec3<R>, blockers: &[Solid]) -> Result<R, TooMany> {
+    fn beside(&mut self, all: R, point: Vec3<R>, occluders: &[Solid]) -> Result<R, TooMany> {
         let mut left = Left { all, visible: all, covered: !all.gt(R::lit(0.0)), kept: 0 };
         self.stack[0].keep(!left.covered);
-        for blocker in blockers {
+        for occluder in occluders {
             if left.covered.all() {
                 break;
             }
-            self.flat.take(blocker, point);
+            self.flat.take(occluder, point);
             let (planes, flat, target) = self.next(left.kept);
-            match *blocker {
+            match *occluder {
                 Solid::Polyhedron(ref body) => planes.polyhedron(body, point, &target)?,
                 Solid::Sphere { center, radius } => {
                     planes.sphere(rounded(center) - point, R::lit(radius), &target)?;
                 }
-                _ => planes.flat(flat, blocker, point, &target)?,
+                _ => planes.flat(flat, occluder, point, &target)?,
             }
             self.hide(&mut left)?;
         }
         Ok(left.visible.clamped(R::lit(0.0), all).keep(!left.covered))
     }
 
-    /// The place of blocker `k`, the flat shape that was taken last, and the light.
+    /// The place of occluder `k`, the flat shape that was taken last, and the light.
     #[inline(always)]
     fn next(&mut self, k: usize) -> (&mut Planes<R>, &Flat<R>, Target<'_, R>) {
         let Self { planes, flat, stack, base, front, .. } = self;
         (&mut planes[k], flat, Target { outline: &stack[0], base: *base, front: *front })
     }
 
-    /// Takes away what the blocker that was prepared last hides, and keeps the blocker if it hides anything.
+    /// Takes away what the occluder that was prepared last hides, and keeps the occluder if it hides anything.
     #[inline]
     fn hide(&mut self, left: &mut Left<R>) -> Result<(), TooMany> {
         let k = left.kept;
@@ -210,7 +210,7 @@ impl<R: Real> Occlusion<R> {
         Ok(())
     }
 
-    /// Puts what blocker `k` hides of intersection `depth` on the stack. Returns the sphere that bounds it and its Ω⊥, or `None` if
+    /// Puts what occluder `k` hides of intersection `depth` on the stack. Returns the sphere that bounds it and its Ω⊥, or `None` if
     /// there is no such part in any lane. `cap` is the sphere that bounds the intersection, if there is one.
     #[inline]
     fn intersect(&mut self, depth: usize, k: usize, cap: Option<Cap<R>>) -> Result<Option<Part<R>>, TooMany> {
@@ -254,7 +254,7 @@ impl<R: Real> Occlusion<R> {
             } else {
                 from
             };
-            // most blockers are beside the light, and most planes do not cut it
+            // most occluders are beside the light, and most planes do not cut it
             let mut cut = [R::Mask::splat(false); EDGES];
             for (cut, (&plane, &height)) in cut.iter_mut().zip(planes()) {
                 let (any, all) = from.inside(plane, height);
@@ -286,7 +286,7 @@ impl<R: Real> Occlusion<R> {
         Ok(Some((cap, part)))
     }
 
-    /// Ω⊥ of the part of intersection `depth`, which has `all`, that the blockers before `end` leave.
+    /// Ω⊥ of the part of intersection `depth`, which has `all`, that the occluders before `end` leave.
     fn less(&mut self, depth: usize, end: usize, cap: Option<Cap<R>>, all: R) -> Result<R, TooMany> {
         let mut left = all;
         for k in 0..end {
@@ -315,7 +315,7 @@ fn measure<R: Real>(
     }
 }
 
-/// Ω⊥ of a sphere without blockers.
+/// Ω⊥ of a sphere without occluders.
 #[inline]
 fn unoccluded<R: Real>(cap: &Cap<R>, center: Vec3<R>, radius: R, normal: Vec3<R>) -> R {
     let cos = cap.axis.dot(normal);
