@@ -60,6 +60,7 @@ pub struct Surfaces {
     /// Whether all surfaces are flat, or spheres, and diffuse, each with one albedo.
     pub is_plain: bool,
     rough: bool,
+    estimates: bool,
     /// Whether materials reflect anything.
     reflect: Vec<bool>,
     /// What varies over surfaces, if anything does.
@@ -132,6 +133,7 @@ impl Surfaces {
         let detailed = varying.iter().any(Option::is_some) || !scene.details.of_triangles.is_empty();
         Self {
             rough: means.iter().any(Material::is_glossy),
+            estimates: means.iter().any(|of| matches!(of, Material::CoatedConductor { .. }) && of.is_glossy()),
             is_plain: !detailed && means.iter().all(|m| matches!(m, Material::Diffuse(_))),
             shapes: Arc::clone(&scene.shapes),
             pictures: Arc::clone(&scene.pictures),
@@ -156,6 +158,10 @@ impl Surfaces {
     /// Whether any material is glossy.
     pub fn has_rough(&self) -> bool {
         self.rough
+    }
+    /// Whether what any material reflects is estimated.
+    pub fn has_estimates(&self) -> bool {
+        self.estimates
     }
     /// Geometry and material where eight rays hit the scene.
     // a call would copy the result

@@ -16,6 +16,7 @@ mod identity;
 mod images;
 mod intensity;
 mod kit;
+mod layers;
 mod lens;
 mod lights;
 mod meshes;

@@ -105,6 +105,14 @@ impl Builder {
         })
     }
 
+    /// A material, or the mean of one that varies.
+    pub(super) fn mean(&self, material: Material) -> Material {
+        match material {
+            Material::Varying(index) => self.varying[index as usize].mean(),
+            other => other,
+        }
+    }
+
     /// The index of a material with holes.
     pub(super) fn masked(&mut self, material: Material, mask: Mask) -> u32 {
         let whole = self.material(material);

@@ -3,7 +3,6 @@
 mod area_lights;
 mod blocks;
 mod builtin;
-mod coated_metals;
 mod daylight;
 mod directed;
 mod film_and_camera;

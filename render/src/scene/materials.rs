@@ -42,15 +42,20 @@ pub enum Material {
         /// Roughness of the GGX distribution, at least [`Roughness::LEAST`] in both directions.
         roughness: Roughness,
     },
-    /// A smooth metal below a smooth dielectric interface, with the light that goes back and forth between them, a perfect mirror:
+    /// A metal below a dielectric interface, with the light that goes back and forth between them. If both are smooth, it is a perfect mirror:
     /// F + (1 − F)² R/(1 − F R), where F is the reflectance of the interface and R that of the metal in the coat, at the refracted direction.
-    CoatedMirror {
+    /// Otherwise each sample estimates it by a random walk between both.
+    CoatedConductor {
         /// Real part of the index of refraction of the metal, per channel, relative to air.
         eta: [f32; 3],
         /// Imaginary part, per channel, relative to air.
         k: [f32; 3],
+        /// Roughness of the GGX distribution of the metal.
+        roughness: Roughness,
         /// Index of refraction of the coat, at least 1.
         coat: f32,
+        /// Roughness of the GGX distribution of the interface; below 0.01 what it reflects is that of 0.01, unless the metal is smooth, too.
+        interface: Roughness,
     },
     /// The material of this index in [`Scene::varying`](super::Scene::varying), which varies over the surface.
     Varying(u32),
@@ -76,6 +81,11 @@ impl Roughness {
     #[must_use]
     pub const fn is_isotropic(self) -> bool {
         self.along == self.across
+    }
+    /// Whether it is 0 in all directions.
+    #[must_use]
+    pub const fn is_smooth(self) -> bool {
+        self.along == 0.0 && self.across == 0.0
     }
     /// The geometric mean in all directions.
     #[must_use]
@@ -199,12 +209,12 @@ impl Material {
     }
     /// Whether the material is a perfect mirror.
     pub fn is_mirror(&self) -> bool {
-        matches!(
-            self,
-            Self::Mirror(_)
-                | Self::CoatedMirror { .. }
-                | Self::Conductor { roughness: Roughness { along: 0.0, across: 0.0, .. }, .. }
-        )
+        match self {
+            Self::Mirror(_) => true,
+            Self::Conductor { roughness, .. } => roughness.is_smooth(),
+            Self::CoatedConductor { roughness, interface, .. } => roughness.is_smooth() && interface.is_smooth(),
+            _ => false,
+        }
     }
     /// The roughness of a rough surface or coat.
     #[must_use]
@@ -213,20 +223,27 @@ impl Material {
             Self::Conductor { roughness, .. } | Self::Glossy { roughness, .. } | Self::Layered { roughness, .. } => {
                 Some(roughness)
             }
+            // the one that shows
+            Self::CoatedConductor { roughness, interface, .. } if roughness.is_isotropic() => Some(interface),
+            Self::CoatedConductor { roughness, .. } => Some(roughness),
             _ => None,
         }
     }
     /// Whether the material reflects more in some directions than a diffuse one, but is no mirror. Of varying ones [`Varying`] knows.
     pub fn is_glossy(&self) -> bool {
-        matches!(self, Self::Conductor { .. } | Self::Glossy { .. } | Self::Layered { .. }) && !self.is_mirror()
+        self.roughness().is_some() && !self.is_mirror()
     }
     /// The material with the mean of its roughness in all directions.
     #[must_use]
     pub fn isotropic(mut self) -> Self {
-        if let Self::Conductor { roughness, .. } | Self::Glossy { roughness, .. } | Self::Layered { roughness, .. } =
-            &mut self
-        {
-            *roughness = roughness.mean();
+        match &mut self {
+            Self::Conductor { roughness, .. } | Self::Glossy { roughness, .. } | Self::Layered { roughness, .. } => {
+                *roughness = roughness.mean();
+            }
+            Self::CoatedConductor { roughness, interface, .. } => {
+                [*roughness, *interface] = [roughness.mean(), interface.mean()];
+            }
+            _ => {}
         }
         self
     }

@@ -1,6 +1,5 @@
 //! Reads `Material` and `MakeNamedMaterial`.
 
-use super::coated_metals::through_coat;
 use super::inputs::Files;
 pub(super) use super::mixtures::Finish;
 use super::mixtures::{Mixture, pane};
@@ -113,6 +112,12 @@ struct Reads<'a> {
     context: &'a Context<'a>,
 }
 
+/// The k of a metal of this reflectance at normal incidence and η = 1: r = k²/(k² + 4).
+fn index_of_reflectance(r: f64) -> f64 {
+    let r = r.min(MOST_REFLECTANCE);
+    2.0 * (r / (1.0 - r)).sqrt()
+}
+
 /// The greatest reflectance that is converted to an index of refraction: pbrt's limit.
 const MOST_REFLECTANCE: f64 = 0.9999;
 
@@ -178,8 +183,7 @@ impl Reads<'_> {
         let roughness = self.coat_roughness("", 0.0, params, out)?;
         Ok(out.vary(Varying::Layered { diffuse, eta, roughness }))
     }
-    /// A coat over a metal: exact where both are smooth. Otherwise it is a metal of the reflectance of both at normal incidence, and of the
-    /// roughness that the metal has through the coat.
+    /// A coat over a metal. What varies becomes its mean.
     fn coated_conductor(&self, params: &mut Params, out: &mut Builder) -> Result<Material, Message> {
         let coat = self.coat_eta(&["interface.eta"], params, out)?;
         // both roughnesses have the same flag
@@ -189,18 +193,25 @@ impl Reads<'_> {
         }
         let names = ["conductor.eta", "conductor.k", "reflectance"];
         let metal = self.conductor(names, "conductor.", params, out)?;
-        let is_smooth = above.iter().all(|alpha| alpha.constant() == Some([0.0; 3]));
-        Ok(match metal {
-            Material::Conductor { eta, k, .. } if metal.is_mirror() && is_smooth => {
-                Material::CoatedMirror { eta, k, coat }
+        let mut varies = above.iter().any(|alpha| alpha.constant().is_none());
+        let interface = of_means(&above);
+        let (eta, k, roughness) = match metal {
+            Material::Conductor { eta, k, roughness } => (eta, k, roughness),
+            other => {
+                varies = true;
+                let mean = out.mean(other);
+                let specular = if let Material::Glossy { specular, .. } = mean { specular } else { [0.5; 3] };
+                let k = specular.map(|r| index_of_reflectance(f64::from(r)) as f32);
+                ([1.0; 3], k, mean.roughness().unwrap_or(0.0.into()))
             }
-            _ => {
-                let what = "becomes a metal that is as rough as it is through its coat";
-                out.notes.stand_in("coatedconductor", || params.error(what));
-                let above = above.map(|alpha| alpha.mean()[0]);
-                through_coat(metal, coat, (above[0] * above[1]).sqrt())
-            }
-        })
+        };
+        if varies {
+            out.notes.stand_in("coatedconductor", || params.error("its textures become their means"));
+        }
+        if interface.is_smooth() && !roughness.is_smooth() {
+            self.warn_of_smooth_coat(params, out);
+        }
+        Ok(Material::CoatedConductor { eta, k, roughness, coat, interface })
     }
     /// The roughness α along u and across, from up to three parameters whose names begin with `prefix`.
     fn roughness(
@@ -254,11 +265,14 @@ impl Reads<'_> {
     ) -> Result<[Texture; 2], Message> {
         let roughness = self.roughness(prefix, default, params, out)?;
         if roughness.iter().any(|alpha| alpha.constant().is_some_and(|[x, ..]| x < Roughness::LEAST)) {
-            out.notes.stand_in("smooth coat", || {
-                params.error(format!("its smooth coat becomes one of roughness α = {}", Roughness::LEAST))
-            });
+            self.warn_of_smooth_coat(params, out);
         }
         Ok(roughness)
+    }
+    fn warn_of_smooth_coat(&self, params: &Params, out: &mut Builder) {
+        out.notes.stand_in("smooth coat", || {
+            params.error(format!("its smooth coat becomes one of roughness α = {}", Roughness::LEAST))
+        });
     }
     /// pbrt-v3's coats, by the reflectances of both layers.
     fn older_coat(&self, kind: &str, params: &mut Params, out: &mut Builder) -> Result<Material, Message> {
@@ -344,12 +358,11 @@ impl Reads<'_> {
             (Some(Value::Constant(r)), _) if constant(&roughness).is_none() => {
                 return Ok(self.metal(Texture::Constant(r.map(|x| x as f32)), roughness, out));
             }
-            // the k with this reflectance at normal incidence and eta = 1: r = k²/(k² + 4)
             (Some(Value::Constant(r)), _) => {
                 if let Some(x) = r.iter().find(|&&x| x > 1.0) {
                     return Err(params.error(format!("\"reflectance\": must be at most 1, not {}", shown(*x))));
                 }
-                ([1.0; 3], r.map(|r| r.min(MOST_REFLECTANCE)).map(|r| 2.0 * (r / (1.0 - r)).sqrt()))
+                ([1.0; 3], r.map(index_of_reflectance))
             }
             // one of them alone goes with copper's other one, as in pbrt
             (None, [eta, k]) => {
@@ -381,9 +394,15 @@ impl Reads<'_> {
 
 /// A metal's roughness that does not vary: smooth in both directions or in none.
 fn constant([along, across]: &[Texture; 2]) -> Option<Roughness> {
-    let [along, across] = [along.constant()?[0], across.constant()?[0]].map(|x| x.clamp(0.0, 1.0));
+    along.constant().and(across.constant())?;
+    Some(of_means(&[along.clone(), across.clone()]))
+}
+
+/// The mean of a metal's roughness.
+fn of_means(roughness: &[Texture; 2]) -> Roughness {
+    let [along, across] = roughness.each_ref().map(|alpha| alpha.mean()[0].clamp(0.0, 1.0));
     let least = if along == across { 0.0 } else { LEAST_OF_METAL };
-    Some(Roughness { along: along.max(least), across: across.max(least), turn: 0.0 })
+    Roughness { along: along.max(least), across: across.max(least), turn: 0.0 }
 }
 
 /// The least roughness in one direction of a metal that is rougher in the other, as in pbrt.
