@@ -3,6 +3,7 @@
 
 mod asset;
 mod faulty;
+mod listed;
 mod materials;
 mod views;
 
