@@ -49,6 +49,15 @@ def render(options, path, output):
     return done.returncode, time.monotonic() - start, said, done.stderr.splitlines()
 
 
+def reason(error):
+    """Whose reasons these are to refuse a file."""
+    for text, why in (('cannot read', 'a file is absent'), ('pointer', 'a file is a pointer'), ('glTF of version', 'glTF 1.0'),
+                      ('binary glTF file of version', 'glTF 1.0'), ('requires the extension', 'a required extension')):
+        if text in error:
+            return why
+    return 'another reason'
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument('etendue', help='the program')
@@ -67,13 +76,17 @@ def main():
             for line in warnings:
                 kinds[re.sub(r'[0-9.]+|".*?"', '_', line.split(': ', 2)[-1])[:60]] += 1
             counts['files'] += 1
-            counts['refused'] += code == 2
+            last = (hints or [line for line in lines if not line.startswith('warning:')] or [''])[-1]
+            # what follows the name of the file
+            last = re.sub(r'/\S*/', '', last)
+            if code == 2:
+                counts['refused'] += 1
+                counts[f'refused: {reason(last)}'] += 1
             counts['others'] += code not in (0, 2)
             counts['over 5 s'] += seconds > 5
             counts['with warnings'] += bool(warnings)
             counts['black'] += code == 0 and mean == 0.0
             counts['black without a hint'] += code == 0 and mean == 0.0 and not hints
-            last = (hints or [line for line in lines if not line.startswith('warning:')] or [''])[-1]
             print(f'| {path} | {code} | {seconds:.1f} | {len(warnings)} | {mean:.4g} | {last[:120]} |', flush=True)
     print()
     for what, count in counts.items():

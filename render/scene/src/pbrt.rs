@@ -26,6 +26,7 @@ mod shape_state;
 mod shapes;
 mod sources;
 mod spectrum;
+mod subdivision;
 mod textures;
 mod transform_directives;
 
