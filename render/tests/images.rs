@@ -5,6 +5,7 @@ use etendue_render::area::Place;
 use etendue_render::drive::Content;
 use etendue_render::files::check_replaceable;
 use etendue_render::film::{Film, Pixel};
+use etendue_render::image::Picture;
 use etendue_render::parts::{self, PieceFile};
 use etendue_render::{Identity, Sampler, Sensor, Settings, Technique, image};
 use exr::math::Vec2;
@@ -171,4 +172,40 @@ fn an_image_of_nothing_is_an_error() {
     let bytes = include_bytes!("../../fuzz/seeds/image/zero-rows");
     let error = etendue_scene::image::decode(Path::new("flat.hdr"), bytes).unwrap_err().to_string();
     assert_eq!(error, "flat.hdr: the image is empty: 4 × 0 pixels");
+}
+
+fn pfm(header: &str, numbers: &[f32], little: bool) -> Result<Picture, String> {
+    let bytes = numbers.iter().flat_map(|x| if little { x.to_le_bytes() } else { x.to_be_bytes() });
+    let bytes: Vec<u8> = header.bytes().chain(bytes).collect();
+    etendue_scene::image::decode(Path::new("a.pfm"), &bytes).map_err(|error| error.to_string())
+}
+
+#[test]
+fn rows_of_pfm_files_begin_at_the_bottom_in_either_order_of_bytes() {
+    let numbers: Vec<f32> = (0..12_u8).map(f32::from).collect();
+    for (header, little, factor) in [("PF\n2 2\n-1.0\n", true, 1.0), ("PF 2 2 2\n", false, 2.0)] {
+        let picture = pfm(header, &numbers, little).unwrap();
+        let wanted = [[6.0, 7.0, 8.0], [9.0, 10.0, 11.0], [0.0, 1.0, 2.0], [3.0, 4.0, 5.0]];
+        assert_eq!((picture.width, picture.height), (2, 2));
+        assert_eq!(picture.radiance, wanted.map(|rgb: [f32; 3]| rgb.map(|x| factor * x)));
+    }
+    assert_eq!(pfm("Pf\n1 2\n-1\n", &[3.0, 4.0], true).unwrap().radiance, [[4.0; 3], [3.0; 3]]);
+    assert!(pfm("P6 1 1 255\n", &[], true).unwrap_err().contains("not a picture"));
+}
+
+#[test]
+fn damaged_pfm_files_are_refused() {
+    for (header, what) in [
+        ("PF\n-2 2\n-1\n", "width is \"-2\""),
+        ("PF\n2 x\n-1\n", "height is \"x\""),
+        ("PF\n2 2\n0\n", "scale is \"0\""),
+        ("PF\n2 2\nnan\n", "scale is \"nan\""),
+        ("PF\n0 2\n1\n", "empty"),
+        ("PF\n2 2\n1\n", "of 0 bytes instead of 48"),
+        ("PF\n60000 60000\n1\n", "pixels"),
+        ("PF\n", "width is \"\""),
+    ] {
+        let message = pfm(header, &[], true).unwrap_err();
+        assert!(message.contains(what), "{header:?}: {message}");
+    }
 }

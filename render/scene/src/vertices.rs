@@ -47,15 +47,3 @@ impl Vertices {
         })
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn coordinates_that_are_not_finite_become_0() {
-        let uvs = vec![[f64::NAN, 1.0], [0.5, f64::INFINITY], [0.25, 0.75]];
-        let vertices = Vertices::new(vec![[0.0; 3]; 3], Vec::new(), uvs);
-        assert_eq!([0, 1, 2].map(|k| vertices.uv(k, [9.0; 2])), [[0.0; 2], [0.0; 2], [0.25, 0.75]]);
-    }
-}

@@ -29,31 +29,30 @@ pub(super) fn read(
     mixtures: &mut Vec<Mixture>,
     out: &mut Builder,
 ) -> Result<Finish, Message> {
-    let reads = Reads { context };
     let stand_in = |out: &mut Builder, params: &Params, what: &str| {
         out.notes.stand_in(kind, || params.error(format!("becomes {what}")));
     };
     Ok(Finish::Of(match kind {
         "diffuse" | "matte" => {
             let name = if kind == "matte" { "Kd" } else { "reflectance" };
-            reads.diffuse(&[name], 0.5, params, out)?
+            context.diffuse(&[name], 0.5, params, out)?
         }
-        "mirror" => Material::Mirror(reads.constant("Kr", 0.9, params, out)?),
-        "conductor" | "metal" => reads.conductor(["eta", "k", "reflectance"], "", params, out)?,
-        "coatedconductor" => reads.coated_conductor(params, out)?,
-        "coateddiffuse" => reads.coated_diffuse(&["reflectance"], params, out)?,
+        "mirror" => Material::Mirror(context.constant("Kr", 0.9, params, out)?),
+        "conductor" | "metal" => context.conductor(["eta", "k", "reflectance"], "", params, out)?,
+        "coatedconductor" => context.coated_conductor(params, out)?,
+        "coateddiffuse" => context.coated_diffuse(&["reflectance"], params, out)?,
         "plastic" | "uber" | "substrate" | "translucent" => {
             if kind == "translucent" {
                 stand_in(out, params, "opaque");
             }
-            reads.older_coat(kind, params, out)?
+            context.older_coat(kind, params, out)?
         }
         "disney" => {
             stand_in(out, params, "its base colour, metallic and roughness");
-            reads.disney(params, out)?
+            context.disney(params, out)?
         }
         "dielectric" | "thindielectric" | "glass" => {
-            let read = reads.dielectric(params, out)?;
+            let read = context.dielectric(params, out)?;
             if let Material::Conductor { eta: [eta, ..], .. } = read
                 && read.is_mirror()
             {
@@ -70,23 +69,19 @@ pub(super) fn read(
             if !(0.0..=f64::from(f32::MAX)).contains(&scale) {
                 return Err(params.error(format!("\"scale\": must be finite and at least 0, not {}", shown(scale))));
             }
-            let albedo = reads.color(&["reflectance"], 0.25, params, out)?.times(Texture::number(scale as f32));
+            let albedo = context.color(&["reflectance"], 0.25, params, out)?.times(Texture::number(scale as f32));
             albedo.constant().map_or_else(|| out.vary(Varying::Diffuse(albedo.clone())), Material::Diffuse)
         }
         "subsurface" | "kdsubsurface" => {
             stand_in(out, params, "a coat over a diffuse surface");
-            reads.coated_diffuse(&["reflectance", "Kd"], params, out)?
+            context.coated_diffuse(&["reflectance", "Kd"], params, out)?
         }
         "hair" | "measured" | "fourier" => {
             stand_in(out, params, "diffuse of albedo 0.5");
             Material::Diffuse([0.5; 3])
         }
-        "mix" => {
-            return reads.mixed(params, mixtures, out);
-        }
-        "interface" | "none" | "" => {
-            return Ok(Finish::Invisible);
-        }
+        "mix" => return context.mixed(params, mixtures, out),
+        "interface" | "none" | "" => return Ok(Finish::Invisible),
         _ => {
             let (kinds, near) = (PBRT.kinds("Material").join(", "), did_you_mean(kind, PBRT.kinds("Material")));
             let kind = shortened(kind);
@@ -107,11 +102,6 @@ struct Coat {
     grazing: Texture,
 }
 
-/// Reads parameters of materials.
-struct Reads<'a> {
-    context: &'a Context<'a>,
-}
-
 /// The k of a metal of this reflectance at normal incidence and η = 1: r = k²/(k² + 4).
 fn index_of_reflectance(r: f64) -> f64 {
     let r = r.min(MOST_REFLECTANCE);
@@ -121,10 +111,10 @@ fn index_of_reflectance(r: f64) -> f64 {
 /// The greatest reflectance that is converted to an index of refraction: pbrt's limit.
 const MOST_REFLECTANCE: f64 = 0.9999;
 
-impl Reads<'_> {
+impl Context<'_> {
     /// The colour of the first of these names that is given.
     fn color(&self, names: &[&str], default: f32, params: &mut Params, out: &mut Builder) -> Result<Texture, Message> {
-        let Context { textures, files, .. } = self.context;
+        let Context { textures, files, .. } = self;
         let mut found = None;
         for name in names {
             found = found.or(textures.color(name, params, files, &mut out.notes)?);
@@ -152,7 +142,7 @@ impl Reads<'_> {
     }
     /// An index of refraction, the same for all wavelengths.
     fn eta(&self, names: &[&str], params: &mut Params, out: &mut Builder) -> Result<f64, Message> {
-        let Context { textures, files, .. } = self.context;
+        let Context { textures, files, .. } = self;
         for name in names {
             if params.is_texture(name) {
                 let texture = textures.number(name, params, &mut out.notes)?;
@@ -180,7 +170,7 @@ impl Reads<'_> {
     fn coated_diffuse(&self, names: &[&str], params: &mut Params, out: &mut Builder) -> Result<Material, Message> {
         let diffuse = self.color(names, 0.5, params, out)?;
         let eta = self.coat_eta(&["eta"], params, out)?;
-        let roughness = self.coat_roughness("", 0.0, params, out)?;
+        let roughness = self.coat_roughness(0.0, params, out)?;
         Ok(out.vary(Varying::Layered { diffuse, eta, roughness }))
     }
     /// A coat over a metal. What varies becomes its mean.
@@ -224,7 +214,7 @@ impl Reads<'_> {
         let names = ["roughness", "uroughness", "vroughness"].map(|name| format!("{prefix}{name}"));
         let varies = names.iter().any(|name| params.is_texture(name));
         if varies {
-            let mut number = |name: &str| self.context.textures.number(name, params, &mut out.notes);
+            let mut number = |name: &str| self.textures.number(name, params, &mut out.notes);
             let both = number(&names[0])?.unwrap_or(Texture::number(default));
             let each = [number(&names[1])?.unwrap_or(both.clone()), number(&names[2])?.unwrap_or(both)];
             let remap = params.flag("remaproughness")?.unwrap_or(true);
@@ -252,18 +242,12 @@ impl Reads<'_> {
         params: &mut Params,
         out: &mut Builder,
     ) -> Result<Material, Message> {
-        let roughness = self.coat_roughness("", roughness, params, out)?;
+        let roughness = self.coat_roughness(roughness, params, out)?;
         Ok(out.vary(Varying::Glossy { diffuse, specular, grazing, roughness, turn: 0.0, greatest: false }))
     }
     /// The roughness of a coat: a smooth one is not quite smooth.
-    fn coat_roughness(
-        &self,
-        prefix: &str,
-        default: f32,
-        params: &mut Params,
-        out: &mut Builder,
-    ) -> Result<[Texture; 2], Message> {
-        let roughness = self.roughness(prefix, default, params, out)?;
+    fn coat_roughness(&self, default: f32, params: &mut Params, out: &mut Builder) -> Result<[Texture; 2], Message> {
+        let roughness = self.roughness("", default, params, out)?;
         if roughness.iter().any(|alpha| alpha.constant().is_some_and(|[x, ..]| x < Roughness::LEAST)) {
             self.warn_of_smooth_coat(params, out);
         }
@@ -288,7 +272,7 @@ impl Reads<'_> {
     fn disney(&self, params: &mut Params, out: &mut Builder) -> Result<Material, Message> {
         let base = self.color(&["color"], 0.5, params, out)?;
         let mut number = |name: &str, default: f32, params: &mut Params| {
-            let found = self.context.textures.number(name, params, &mut out.notes)?;
+            let found = self.textures.number(name, params, &mut out.notes)?;
             Ok::<_, Message>(found.unwrap_or(Texture::number(default)))
         };
         let (metallic, roughness) = (number("metallic", 0.0, params)?, number("roughness", 0.5, params)?);
@@ -304,7 +288,7 @@ impl Reads<'_> {
     }
     /// A mixture of two materials.
     fn mixed(&self, params: &mut Params, mixtures: &mut Vec<Mixture>, out: &mut Builder) -> Result<Finish, Message> {
-        let Context { textures, named, files } = self.context;
+        let Context { textures, named, files } = self;
         let names = params.texts("materials")?;
         let older = [params.text("namedmaterial1")?, params.text("namedmaterial2")?];
         let names = names.unwrap_or_else(|| older.into_iter().flatten().collect());
@@ -344,7 +328,7 @@ impl Reads<'_> {
         params: &mut Params,
         out: &mut Builder,
     ) -> Result<Material, Message> {
-        let Context { textures, files, .. } = self.context;
+        let Context { textures, files, .. } = self;
         let given = textures.color_or_texture(reflectance, params, files, &mut out.notes)?;
         let indices = [Textures::index(eta, params, files)?, Textures::index(k, params, files)?];
         let roughness = self.roughness(prefix, 0.0, params, out)?;
