@@ -2,6 +2,7 @@
 //! other. One program: linking the renderer takes longer than most tests.
 
 mod analytic;
+mod approximations;
 mod attack;
 mod certificates;
 mod choice;

@@ -61,7 +61,8 @@ pub fn record(material: &Material) -> MaterialRecord {
 
 /// The coat of a layered material; that of the least roughness is smooth.
 fn layer(eta: f32, roughness: Roughness) -> Coat {
-    let alpha = roughness.mean().along;
+    // of both directions, what a surface spreads is that of the mean of their squares, nearly
+    let alpha = (0.5 * (roughness.along * roughness.along + roughness.across * roughness.across)).sqrt();
     Coat::new(if alpha > Roughness::LEAST { alpha.into() } else { 0.0 }, eta.into())
 }
 
