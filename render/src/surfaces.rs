@@ -305,11 +305,15 @@ impl Surfaces {
                 continue;
             }
             let material = self.mesh_material(place) as usize;
-            let corners = detail.corners.of(order[self.bvh.slot(place)]);
+            let triangle = order[self.bvh.slot(place)];
+            let corners = detail.corners.of(triangle);
             let varying = detail.varying[material].as_ref();
             let weights = corners.map(|_| barycentric(self.bvh.corners(place), lane_of(surface.point, lane)));
             let varied = varying.map(|varying| match (corners, weights) {
-                (Some(corners), Some(weights)) => varying.at(interpolated(&corners.uvs, weights)),
+                (Some(corners), Some(weights)) => {
+                    let tint = interpolated(&detail.corners.colors_of(triangle), weights);
+                    varying.tinted(interpolated(&corners.uvs, weights), tint)
+                }
                 _ => varying.at([0.0; 2]),
             });
             let here = varied.unwrap_or(detail.materials[material]);

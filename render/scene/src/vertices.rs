@@ -16,6 +16,8 @@ pub(super) struct Vertices {
     pub(super) points: Vec<[f64; 3]>,
     normals: Vec<[f64; 3]>,
     uvs: Vec<[f64; 2]>,
+    /// Colours by which materials are multiplied.
+    pub(super) colors: Vec<[f32; 3]>,
 }
 
 impl Vertices {
@@ -23,7 +25,7 @@ impl Vertices {
     pub(super) fn new(points: Vec<[f64; 3]>, normals: Vec<[f64; 3]>, mut uvs: Vec<[f64; 2]>) -> Self {
         let faulty = uvs.iter_mut().filter(|uv| !uv.iter().all(|x| x.is_finite()));
         faulty.for_each(|uv| *uv = [0.0; 2]);
-        Self { points, normals, uvs }
+        Self { points, normals, uvs, colors: Vec::new() }
     }
 
     /// The normal of a vertex; 0 if the mesh has none.

@@ -145,12 +145,17 @@ impl Varying {
     /// The material at texture coordinates.
     #[must_use]
     pub fn at(&self, uv: [f32; 2]) -> Material {
-        self.with(|texture| texture.at(uv))
+        self.tinted(uv, [1.0; 3])
+    }
+    /// The material at texture coordinates, with a colour by which its albedo, or the base colour of a metal, is multiplied.
+    #[must_use]
+    pub fn tinted(&self, uv: [f32; 2], tint: [f32; 3]) -> Material {
+        self.with(|texture| texture.at(uv), tint)
     }
     /// The material of the textures' means.
     #[must_use]
     pub fn mean(&self) -> Material {
-        self.with(Texture::mean)
+        self.with(Texture::mean, [1.0; 3])
     }
     /// Whether it is glossy anywhere.
     #[must_use]
@@ -170,26 +175,30 @@ impl Varying {
         };
         textures.iter().all(|texture| texture.constant().is_some()).then(|| self.mean())
     }
-    fn with(&self, value: impl Fn(&Texture) -> [f32; 3]) -> Material {
+    fn with(&self, value: impl Fn(&Texture) -> [f32; 3], tint: [f32; 3]) -> Material {
         // textures may hold any numbers
         let share = |x: f32| x.clamp(0.0, 1.0);
         let color = |texture: &Texture| value(texture).map(share);
+        let tinted = |texture: &Texture| {
+            let color = color(texture);
+            std::array::from_fn::<f32, 3, _>(|k| color[k] * tint[k])
+        };
         let alpha = |x: f32| share(x).max(Roughness::LEAST);
         match self {
-            Self::Diffuse(albedo) => Material::Diffuse(color(albedo)),
+            Self::Diffuse(albedo) => Material::Diffuse(tinted(albedo)),
             Self::Layered { diffuse, eta, roughness } => {
                 let [along, across] = roughness.each_ref().map(|texture| alpha(value(texture)[0]));
                 let roughness = Roughness { along, across, turn: 0.0 };
-                Material::Layered { diffuse: color(diffuse), eta: *eta, roughness }
+                Material::Layered { diffuse: tinted(diffuse), eta: *eta, roughness }
             }
             Self::Glossy { diffuse, specular, grazing, roughness, turn, greatest } => {
                 let [along, across] = roughness.each_ref().map(|texture| alpha(value(texture)[0]));
                 let roughness = Roughness { along, across, turn: *turn };
-                let [diffuse, specular, grazing] = [diffuse, specular, grazing].map(color);
+                let [diffuse, specular, grazing] = [tinted(diffuse), color(specular), color(grazing)];
                 Material::Glossy { diffuse, specular, grazing, roughness, greatest: *greatest }
             }
             Self::Metallic { base, metallic, roughness } => {
-                let (base, metallic, roughness) = (color(base), share(value(metallic)[0]), share(value(roughness)[0]));
+                let (base, metallic, roughness) = (tinted(base), share(value(metallic)[0]), share(value(roughness)[0]));
                 Material::Glossy {
                     diffuse: base.map(|x| x * (1.0 - metallic)),
                     specular: base.map(|x| 0.04 + (x - 0.04) * metallic),
