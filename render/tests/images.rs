@@ -7,12 +7,15 @@ use etendue_render::files::check_replaceable;
 use etendue_render::film::{Film, Pixel};
 use etendue_render::image::Picture;
 use etendue_render::parts::{self, PieceFile};
+use etendue_render::texture::Colors;
 use etendue_render::{Identity, Sampler, Sensor, Settings, Technique, image};
+use etendue_scene::image::{Encoding as TexelEncoding, read_texels};
 use exr::math::Vec2;
 use exr::meta::attribute::IntegerBounds;
 use exr::prelude::{
     Compression, Encoding, Image, ImageAttributes, Layer, LayerAttributes, MetaData, SpecificChannels, WritableImage,
 };
+use image_files::{DynamicImage, ImageFormat};
 use std::io::Cursor;
 use std::path::Path;
 
@@ -208,4 +211,30 @@ fn damaged_pfm_files_are_refused() {
         let message = pfm(header, &[], true).unwrap_err();
         assert!(message.contains(what), "{header:?}: {message}");
     }
+}
+
+#[test]
+fn textures_are_read_from_jpeg_and_tga_files() {
+    let bytes_of = |image: &DynamicImage, format: ImageFormat| {
+        let mut bytes = Cursor::new(Vec::new());
+        image.write_to(&mut bytes, format).unwrap();
+        bytes.into_inner()
+    };
+    let read = |name: &str, bytes: &[u8], encoding| read_texels(Path::new(name), bytes, encoding).unwrap().0;
+    // of one colour, which JPEG keeps nearly
+    let image = DynamicImage::ImageRgb8(image_files::RgbImage::from_pixel(20, 12, image_files::Rgb([200, 100, 50])));
+    let texels = read("a.jpg", &bytes_of(&image, ImageFormat::Jpeg), TexelEncoding::Srgb);
+    let Colors::Srgb(colors) = &texels.colors else { panic!("{texels:?}") };
+    assert_eq!((texels.width, texels.height, colors.len(), &texels.alpha), (20, 12, 240, &None));
+    assert!(colors.iter().all(|c| (0..3).all(|k| c[k].abs_diff([200, 100, 50][k]) <= 3)), "{:?}", colors[0]);
+    let mut image = image_files::RgbaImage::from_pixel(3, 2, image_files::Rgba([200, 100, 50, 7]));
+    image.put_pixel(2, 1, image_files::Rgba([0, 51, 255, 9]));
+    let bytes = bytes_of(&DynamicImage::ImageRgba8(image), ImageFormat::Tga);
+    let texels = read("a.TGA", &bytes, TexelEncoding::Linear);
+    let last = Colors::Linear([vec![[200, 100, 50]; 5], vec![[0, 51, 255]]].concat());
+    assert!(texels.colors == last && texels.alpha == Some(vec![7, 7, 7, 7, 7, 9]), "{texels:?}");
+    let Colors::Float(colors) = read("a.tga", &bytes, TexelEncoding::Gamma(2.0)).colors else { panic!() };
+    assert!(colors[5][0] == 0.0 && (colors[5][1] - 0.04).abs() < 1e-6 && colors[5][2] == 1.0, "{:?}", colors[5]);
+    // TGA has no signature: only its name tells
+    assert!(read_texels(Path::new("a"), &bytes, TexelEncoding::Srgb).is_err());
 }

@@ -6,14 +6,6 @@
 //! [`Scene::stand_ins`] has, too, as those of parameters that may be misspelt.
 //!
 //! [`list`] says of everything that the formats can say what becomes of it; the pages `render/formats/pbrt.md` and `gltf.md` are made of it.
-//!
-//! Beyond pbrt, a sky may have up to eight portals, in one list of corners or in several lights of the same sky. They may be parallelograms,
-//! and what two of them show counts once. `LightSource "infinite" "string sky" "cie"` is daylight by CIE's standard general sky
-//! ([`GeneralSky`](etendue_render::sky::GeneralSky)). In the light's space +x is east, +y north and +z up; nothing shines from below the horizon.
-//!
-//! A profile is an IES file or an image, as those of `goniometric` lights. It lies so that its nadir is along the axis of a spot light, or the
-//! normal of a flat light, and the photometric horizontal in the plane of that and of the light's +x. The intensity of a spot light is `I` times candela values, or texels, times the falloff. Of flat
-//! lights `L` and `power` stay what they are, and the profile distributes it: see [`LuminousOpening`](etendue_render::light_profile::LuminousOpening).
 
 // what both formats share is more than either needs
 #![cfg_attr(not(all(feature = "gltf", feature = "pbrt")), allow(dead_code, unused_variables))]
