@@ -1,5 +1,5 @@
-"""Renders all scene files below some folders, small and with few samples, and prints what becomes of each: a table of the exit code, the seconds to
-read and prepare it, the numbers of warnings, the mean of the image, and the first error or the hint; then how many were refused, took over 5 s, or
+"""Renders all scene files below some folders, small and with few samples, and prints what becomes of each: a table of the exit code, the seconds of
+processor time, the numbers of warnings, the mean of the image, and the first error or the hint; then how many were refused, took over 5 s, or
 are black without a hint. The files are those that people have published: fetch them yourself, and do not commit them.
 
     python3 benches/peers/corpus.py target/release/etendue FOLDER...
@@ -12,10 +12,10 @@ import collections
 import json
 import os
 import re
+import resource
 import subprocess
 import sys
 import tempfile
-import time
 
 ENDS = ('.pbrt', '.gltf', '.glb')
 
@@ -35,18 +35,24 @@ def scenes(folders):
                 yield path
 
 
+def spent():
+    """Processor time of the programs that have ended, which others on the machine do not lengthen."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
 def render(options, path, output):
-    """Exit code, seconds, the object that was printed, and the lines of messages."""
+    """Exit code, seconds of processor time, the object that was printed, and the lines of messages."""
     command = [options.etendue, 'render', path, '--size', '64x48', '--spp', '4', '--threads', '1', '--json', '-o', output]
     if options.environment:
         command += ['--environment', options.environment]
-    start = time.monotonic()
+    start = spent()
     try:
         done = subprocess.run(command, capture_output=True, text=True, timeout=options.timeout)
     except subprocess.TimeoutExpired:
-        return None, time.monotonic() - start, {}, [f'took over {options.timeout} s']
+        return None, spent() - start, {}, [f'took over {options.timeout} s']
     said = json.loads(done.stdout) if done.returncode == 0 else {}
-    return done.returncode, time.monotonic() - start, said, done.stderr.splitlines()
+    return done.returncode, spent() - start, said, done.stderr.splitlines()
 
 
 def reason(error):
