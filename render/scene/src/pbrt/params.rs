@@ -59,28 +59,13 @@ pub(super) struct Params {
 }
 
 /// The names of parameter types.
-const KINDS: [&str; 14] = [
-    "integer",
-    "float",
-    "point2",
-    "vector2",
-    "point3",
-    "vector3",
-    "normal",
-    "rgb",
-    "spectrum",
-    "blackbody",
-    "xyz",
-    "bool",
-    "string",
-    "texture",
-];
+const KINDS: &str = "integer float point2 vector2 point3 vector3 normal rgb spectrum blackbody xyz bool string texture";
 
 /// The canonical name of a parameter type.
 fn canonical(kind: &str) -> Option<&'static str> {
     let older = [("point", "point3"), ("vector", "vector3"), ("normal3", "normal"), ("color", "rgb")];
     let kind = older.into_iter().find(|(name, _)| *name == kind).map_or(kind, |(_, name)| name);
-    KINDS.into_iter().find(|name| *name == kind)
+    KINDS.split(' ').find(|name| *name == kind)
 }
 
 impl Values {

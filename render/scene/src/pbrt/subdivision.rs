@@ -3,6 +3,29 @@
 use crate::transform::{add, cross, scaled, sub};
 use std::collections::HashMap;
 use std::f64::consts::{PI, TAU};
+use std::hash::{BuildHasherDefault, Hasher};
+
+/// Numbers by edges, whose ends are both in one word.
+type Edges = HashMap<u64, usize, BuildHasherDefault<Mixed>>;
+
+const fn edge(a: usize, b: usize) -> u64 {
+    (a as u64) << 32 | b as u64
+}
+
+/// A quick hash of one word: there are millions of edges.
+#[derive(Default)]
+struct Mixed(u64);
+
+impl Hasher for Mixed {
+    fn write(&mut self, _: &[u8]) {}
+    fn write_u64(&mut self, word: u64) {
+        let h = (word ^ word >> 29).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        self.0 = h ^ h >> 32;
+    }
+    fn finish(&self) -> u64 {
+        self.0
+    }
+}
 
 /// A mesh of triangles.
 pub(super) struct Control {
@@ -18,30 +41,31 @@ struct Ring {
 
 impl Control {
     /// For each directed edge the third corner of its face; fails if two faces have the same one.
-    fn edges(&self) -> Result<HashMap<[usize; 2], usize>, String> {
-        let mut edges = HashMap::with_capacity(3 * self.faces.len());
+    fn edges(&self) -> Result<Edges, String> {
+        let mut edges = Edges::with_capacity_and_hasher(3 * self.faces.len(), BuildHasherDefault::default());
         for [a, b, c] in &self.faces {
-            for (edge, other) in [([*a, *b], *c), ([*b, *c], *a), ([*c, *a], *b)] {
-                if edge[0] == edge[1] || edges.insert(edge, other).is_some() {
-                    return Err(format!("the edge from vertex {} to {} is not that of one face", edge[0], edge[1]));
+            for [from, to, other] in [[*a, *b, *c], [*b, *c, *a], [*c, *a, *b]] {
+                if from == to || edges.insert(edge(from, to), other).is_some() {
+                    return Err(format!("the edge from vertex {from} to {to} is not that of one face"));
                 }
             }
         }
         Ok(edges)
     }
-    fn rings(&self, edges: &HashMap<[usize; 2], usize>) -> Result<Vec<Ring>, String> {
+    fn rings(&self, edges: &Edges) -> Result<Vec<Ring>, String> {
         let mut starts: Vec<Option<usize>> = vec![None; self.points.len()];
         let mut counts = vec![0; self.points.len()];
-        for [v, a] in edges.keys() {
-            counts[*v] += 1;
+        for key in edges.keys() {
+            let [v, a] = [(key >> 32) as usize, *key as u32 as usize];
+            counts[v] += 1;
             // the least one, so that the order of a table does not matter; a boundary before all others
-            let key = |a: &usize| (edges.contains_key(&[*a, *v]), *a);
-            starts[*v] = starts[*v].into_iter().chain([*a]).min_by_key(key);
+            let key = |a: &usize| (edges.contains_key(&edge(*a, v)), *a);
+            starts[v] = starts[v].into_iter().chain([a]).min_by_key(key);
         }
         let ring = |(v, start): (usize, Option<usize>)| {
             let Some(start) = start else { return Ok(Ring { around: Vec::new(), is_boundary: false }) };
             let mut around = vec![start];
-            let next = |a: usize| edges.get(&[v, a]).copied();
+            let next = |a: usize| edges.get(&edge(v, a)).copied();
             let mut last = start;
             while let Some(other) = next(last).filter(|other| *other != start) {
                 around.push(other);
@@ -72,11 +96,11 @@ impl Control {
         let rings = self.rings(&edges)?;
         let mut points: Vec<_> =
             rings.iter().enumerate().map(|(v, ring)| self.moved(v, ring, towards, 0.125)).collect();
-        let mut middles: HashMap<[usize; 2], usize> = HashMap::new();
+        let mut middles = Edges::default();
         let mut middle = |a: usize, b: usize| {
-            *middles.entry([a.min(b), a.max(b)]).or_insert_with(|| {
+            *middles.entry(edge(a.min(b), a.max(b))).or_insert_with(|| {
                 let ends = add(self.points[a], self.points[b]);
-                points.push(match (edges.get(&[a, b]), edges.get(&[b, a])) {
+                points.push(match (edges.get(&edge(a, b)), edges.get(&edge(b, a))) {
                     (Some(c), Some(d)) => {
                         add(scaled(ends, 0.375), scaled(add(self.points[*c], self.points[*d]), 0.125))
                     }
