@@ -1,5 +1,5 @@
-"""Renders all scene files below some folders, small and with few samples, and prints what becomes of each: a table of the exit code, the seconds to
-read and prepare it, the numbers of warnings, the mean of the image, and the first error or the hint; then how many were refused, took over 5 s, or
+"""Renders all scene files below some folders, small and with few samples, and prints what becomes of each: a table of the exit code, the seconds of
+processor time, the numbers of warnings, the mean of the image, and the first error or the hint; then how many were refused, took over 5 s, or
 are black without a hint. The files are those that people have published: fetch them yourself, and do not commit them.
 
     python3 benches/peers/corpus.py target/release/etendue FOLDER...
@@ -12,10 +12,10 @@ import collections
 import json
 import os
 import re
+import resource
 import subprocess
 import sys
 import tempfile
-import time
 
 ENDS = ('.pbrt', '.gltf', '.glb')
 
@@ -35,18 +35,33 @@ def scenes(folders):
                 yield path
 
 
+def spent():
+    """Processor time of the programs that have ended, which others on the machine do not lengthen."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
 def render(options, path, output):
-    """Exit code, seconds, the object that was printed, and the lines of messages."""
+    """Exit code, seconds of processor time, the object that was printed, and the lines of messages."""
     command = [options.etendue, 'render', path, '--size', '64x48', '--spp', '4', '--threads', '1', '--json', '-o', output]
     if options.environment:
         command += ['--environment', options.environment]
-    start = time.monotonic()
+    start = spent()
     try:
         done = subprocess.run(command, capture_output=True, text=True, timeout=options.timeout)
     except subprocess.TimeoutExpired:
-        return None, time.monotonic() - start, {}, [f'took over {options.timeout} s']
+        return None, spent() - start, {}, [f'took over {options.timeout} s']
     said = json.loads(done.stdout) if done.returncode == 0 else {}
-    return done.returncode, time.monotonic() - start, said, done.stderr.splitlines()
+    return done.returncode, spent() - start, said, done.stderr.splitlines()
+
+
+def reason(error):
+    """Whose reasons these are to refuse a file."""
+    for text, why in (('cannot read', 'a file is absent'), ('pointer', 'a file is a pointer'), ('glTF of version', 'glTF 1.0'),
+                      ('binary glTF file of version', 'glTF 1.0'), ('requires the extension', 'a required extension')):
+        if text in error:
+            return why
+    return 'another reason'
 
 
 def main():
@@ -67,13 +82,17 @@ def main():
             for line in warnings:
                 kinds[re.sub(r'[0-9.]+|".*?"', '_', line.split(': ', 2)[-1])[:60]] += 1
             counts['files'] += 1
-            counts['refused'] += code == 2
+            last = (hints or [line for line in lines if not line.startswith('warning:')] or [''])[-1]
+            # what follows the name of the file
+            last = re.sub(r'/\S*/', '', last)
+            if code == 2:
+                counts['refused'] += 1
+                counts[f'refused: {reason(last)}'] += 1
             counts['others'] += code not in (0, 2)
             counts['over 5 s'] += seconds > 5
             counts['with warnings'] += bool(warnings)
             counts['black'] += code == 0 and mean == 0.0
             counts['black without a hint'] += code == 0 and mean == 0.0 and not hints
-            last = (hints or [line for line in lines if not line.startswith('warning:')] or [''])[-1]
             print(f'| {path} | {code} | {seconds:.1f} | {len(warnings)} | {mean:.4g} | {last[:120]} |', flush=True)
     print()
     for what, count in counts.items():

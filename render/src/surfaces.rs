@@ -63,6 +63,7 @@ pub struct Surfaces {
     /// Whether all surfaces are flat, or spheres, and diffuse, each with one albedo.
     pub is_plain: bool,
     rough: bool,
+    estimates: bool,
     /// Whether materials reflect anything.
     reflect: Vec<bool>,
     /// What varies over surfaces, if anything does.
@@ -135,6 +136,7 @@ impl Surfaces {
         let detailed = varying.iter().any(Option::is_some) || !scene.details.of_triangles.is_empty();
         Self {
             rough: means.iter().any(Material::is_glossy),
+            estimates: means.iter().any(|of| matches!(of, Material::CoatedConductor { .. }) && of.is_glossy()),
             is_plain: !detailed && means.iter().all(|m| matches!(m, Material::Diffuse(_))),
             shapes: Arc::clone(&scene.shapes),
             pictures: Arc::clone(&scene.pictures),
@@ -159,6 +161,10 @@ impl Surfaces {
     /// Whether any material is glossy.
     pub fn has_rough(&self) -> bool {
         self.rough
+    }
+    /// Whether what any material reflects is estimated.
+    pub fn has_estimates(&self) -> bool {
+        self.estimates
     }
     /// Geometry and material where eight rays hit the scene.
     // a call would copy the result
@@ -305,11 +311,15 @@ impl Surfaces {
                 continue;
             }
             let material = self.mesh_material(primitive) as usize;
-            let corners = detail.corners.of(order[self.bvh.slot(primitive)]);
+            let triangle = order[self.bvh.slot(primitive)];
+            let corners = detail.corners.of(triangle);
             let varying = detail.varying[material].as_ref();
             let weights = corners.map(|_| barycentric(self.bvh.corners(primitive), lane_of(surface.point, lane)));
             let varied = varying.map(|varying| match (corners, weights) {
-                (Some(corners), Some(weights)) => varying.at(interpolated(&corners.uvs, weights)),
+                (Some(corners), Some(weights)) => {
+                    let tint = interpolated(&detail.corners.colors_of(triangle), weights);
+                    varying.tinted(interpolated(&corners.uvs, weights), tint)
+                }
                 _ => varying.at([0.0; 2]),
             });
             let here = varied.unwrap_or(detail.materials[material]);

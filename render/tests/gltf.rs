@@ -3,6 +3,7 @@
 
 mod asset;
 mod faulty;
+mod listed;
 mod materials;
 mod views;
 
@@ -240,7 +241,6 @@ fn what_is_ignored_is_reported_once() {
         asset.warnings(),
         [
             "a.gltf: animations are ignored: the pose at rest is rendered (reported once)",
-            "a.gltf: mesh 5, primitive 0, attributes: its COLOR_0 is ignored (reported once)",
             "a.gltf: mesh 1, primitive 0: Points are ignored: only triangles are supported (reported once)",
             "a.gltf: mesh 6, primitive 0: it has no POSITION and is ignored (reported once)",
         ]

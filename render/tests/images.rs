@@ -5,13 +5,17 @@ use etendue_render::drive::Content;
 use etendue_render::drive::parts::{self, PieceFile};
 use etendue_render::film::files::check_replaceable;
 use etendue_render::film::{Film, Pixel};
+use etendue_render::film::image::Picture;
 use etendue_render::scene::area::PlaceInImage;
+use etendue_render::scene::texture::Colors;
 use etendue_render::{Identity, Sampler, Sensor, Settings, Technique, film::image};
+use etendue_scene::image::{Encoding as TexelEncoding, read_texels};
 use exr::math::Vec2;
 use exr::meta::attribute::IntegerBounds;
 use exr::prelude::{
     Compression, Encoding, Image, ImageAttributes, Layer, LayerAttributes, MetaData, SpecificChannels, WritableImage,
 };
+use image_files::{DynamicImage, ImageFormat};
 use std::io::Cursor;
 use std::path::Path;
 
@@ -171,4 +175,66 @@ fn an_image_of_nothing_is_an_error() {
     let bytes = include_bytes!("../../fuzz/seeds/image/zero-rows");
     let error = etendue_scene::image::decode(Path::new("flat.hdr"), bytes).unwrap_err().to_string();
     assert_eq!(error, "flat.hdr: the image is empty: 4 × 0 pixels");
+}
+
+fn pfm(header: &str, numbers: &[f32], little: bool) -> Result<Picture, String> {
+    let bytes = numbers.iter().flat_map(|x| if little { x.to_le_bytes() } else { x.to_be_bytes() });
+    let bytes: Vec<u8> = header.bytes().chain(bytes).collect();
+    etendue_scene::image::decode(Path::new("a.pfm"), &bytes).map_err(|error| error.to_string())
+}
+
+#[test]
+fn rows_of_pfm_files_begin_at_the_bottom_in_either_order_of_bytes() {
+    let numbers: Vec<f32> = (0..12_u8).map(f32::from).collect();
+    for (header, little, factor) in [("PF\n2 2\n-1.0\n", true, 1.0), ("PF 2 2 2\n", false, 2.0)] {
+        let picture = pfm(header, &numbers, little).unwrap();
+        let wanted = [[6.0, 7.0, 8.0], [9.0, 10.0, 11.0], [0.0, 1.0, 2.0], [3.0, 4.0, 5.0]];
+        assert_eq!((picture.width, picture.height), (2, 2));
+        assert_eq!(picture.radiance, wanted.map(|rgb: [f32; 3]| rgb.map(|x| factor * x)));
+    }
+    assert_eq!(pfm("Pf\n1 2\n-1\n", &[3.0, 4.0], true).unwrap().radiance, [[4.0; 3], [3.0; 3]]);
+    assert!(pfm("P6 1 1 255\n", &[], true).unwrap_err().contains("not a picture"));
+}
+
+#[test]
+fn damaged_pfm_files_are_refused() {
+    for (header, what) in [
+        ("PF\n-2 2\n-1\n", "width is \"-2\""),
+        ("PF\n2 x\n-1\n", "height is \"x\""),
+        ("PF\n2 2\n0\n", "scale is \"0\""),
+        ("PF\n2 2\nnan\n", "scale is \"nan\""),
+        ("PF\n0 2\n1\n", "empty"),
+        ("PF\n2 2\n1\n", "of 0 bytes instead of 48"),
+        ("PF\n60000 60000\n1\n", "pixels"),
+        ("PF\n", "width is \"\""),
+    ] {
+        let message = pfm(header, &[], true).unwrap_err();
+        assert!(message.contains(what), "{header:?}: {message}");
+    }
+}
+
+#[test]
+fn textures_are_read_from_jpeg_and_tga_files() {
+    let bytes_of = |image: &DynamicImage, format: ImageFormat| {
+        let mut bytes = Cursor::new(Vec::new());
+        image.write_to(&mut bytes, format).unwrap();
+        bytes.into_inner()
+    };
+    let read = |name: &str, bytes: &[u8], encoding| read_texels(Path::new(name), bytes, encoding).unwrap().0;
+    // of one colour, which JPEG keeps nearly
+    let image = DynamicImage::ImageRgb8(image_files::RgbImage::from_pixel(20, 12, image_files::Rgb([200, 100, 50])));
+    let texels = read("a.jpg", &bytes_of(&image, ImageFormat::Jpeg), TexelEncoding::Srgb);
+    let Colors::Srgb(colors) = &texels.colors else { panic!("{texels:?}") };
+    assert_eq!((texels.width, texels.height, colors.len(), &texels.alpha), (20, 12, 240, &None));
+    assert!(colors.iter().all(|c| (0..3).all(|k| c[k].abs_diff([200, 100, 50][k]) <= 3)), "{:?}", colors[0]);
+    let mut image = image_files::RgbaImage::from_pixel(3, 2, image_files::Rgba([200, 100, 50, 7]));
+    image.put_pixel(2, 1, image_files::Rgba([0, 51, 255, 9]));
+    let bytes = bytes_of(&DynamicImage::ImageRgba8(image), ImageFormat::Tga);
+    let texels = read("a.TGA", &bytes, TexelEncoding::Linear);
+    let last = Colors::Linear([vec![[200, 100, 50]; 5], vec![[0, 51, 255]]].concat());
+    assert!(texels.colors == last && texels.alpha == Some(vec![7, 7, 7, 7, 7, 9]), "{texels:?}");
+    let Colors::Float(colors) = read("a.tga", &bytes, TexelEncoding::Gamma(2.0)).colors else { panic!() };
+    assert!(colors[5][0] == 0.0 && (colors[5][1] - 0.04).abs() < 1e-6 && colors[5][2] == 1.0, "{:?}", colors[5]);
+    // TGA has no signature: only its name tells
+    assert!(read_texels(Path::new("a"), &bytes, TexelEncoding::Srgb).is_err());
 }

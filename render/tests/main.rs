@@ -2,6 +2,7 @@
 //! other. One program: linking the renderer takes longer than most tests.
 
 mod analytic;
+mod approximations;
 mod attack;
 mod certificates;
 mod choice;
@@ -16,6 +17,7 @@ mod identity;
 mod images;
 mod intensity;
 mod kit;
+mod layers;
 mod lens;
 mod lights;
 mod meshes;

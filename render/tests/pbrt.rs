@@ -12,6 +12,7 @@ mod own_scenes;
 mod photometry;
 mod pictures;
 mod portals;
+mod subdivision;
 mod text;
 
 use crate::pbrt::text::{LIGHT, PATCH, TRIANGLE, read, world};

@@ -62,8 +62,9 @@ fn stops(text: &str) -> Result<f64, String> {
     valid.ok_or_else(|| "must be a number of stops from -100 to 100, such as -3 or 0.5".to_owned())
 }
 
-/// What may help where an image is black, or its PNG nearly black or white; `brightness` is what the PNG is multiplied by.
-fn hint(film: &Film, brightness: f64, has_sky: bool) -> Option<String> {
+/// What may help where an image is black, or its PNG nearly black or white; `brightness` is what the PNG is multiplied by, and `only_pictures`
+/// whether nothing but the textures of surfaces emits.
+fn hint(film: &Film, brightness: f64, has_sky: bool, only_pictures: bool) -> Option<String> {
     let mut all: Vec<f32> = film.pixels.iter().map(|pixel| pixel.mean.iter().sum::<f32>() / 3.0).collect();
     if all.iter().all(|x| *x == 0.0) {
         let sky = if has_sky { "" } else { "; --environment FILE adds a sky" };
@@ -77,6 +78,10 @@ fn hint(film: &Film, brightness: f64, has_sky: bool) -> Option<String> {
     // the PNG is white at 4, and nearly black below a hundredth
     if middle >= 4.0 {
         return Some(format!("the PNG is nearly white: --exposure {stops} darkens it"));
+    }
+    // screens and signs are rarely meant to light a scene
+    if only_pictures && middle < 0.1 {
+        return Some("only textures of surfaces emit light: --environment FILE adds a sky".to_owned());
     }
     if middle >= 0.01 {
         return None;
@@ -93,6 +98,22 @@ fn windows(world: &World) -> Option<String> {
         "what the camera sees is open to the sky in {share} of all directions: a \"point3 portal\" of four corners in each window, facing inwards, \
          sends all samples there"
     ))
+}
+
+/// What may help where a number of samples makes a sampler no better than independent numbers: one that nobody chose, or sets of one sample.
+fn wasted(settings: &Settings, is_chosen: bool) -> Option<String> {
+    let Settings { spp, sampler, sets, .. } = *settings;
+    if spp > 1 && sampler == Sampler::Independent && !is_chosen {
+        let next = spp.next_multiple_of(2);
+        return Some(format!(
+            "{spp} samples per pixel are independent, since they are odd: --spp {next} has less noise"
+        ));
+    }
+    let sets = sampler.sets(spp, sets);
+    (sampler.has_sets() && spp > 1 && sets == spp).then(|| {
+        let more = 4 * sets;
+        format!("sets of one sample are independent, whatever the sampler: --spp {more} makes sets of 4, with less noise for their number")
+    })
 }
 
 /// Parses `--error`: a fraction or a percentage.
@@ -143,6 +164,10 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     let mut output = Output::new(options.output.as_deref(), &scene, image.stem())?;
     output.brightness = scene.film.exposure * options.exposure.exp2();
     let has_sky = scene.environment.is_some();
+    let only_pictures = !has_sky
+        && scene.delta_lights.is_empty()
+        && scene.shapes.iter().filter_map(|shape| shape.emission).all(|emission| emission.picture.is_some());
+    let has_goal = plan.is_some();
     let has_portals = scene.environment.as_ref().is_none_or(|sky| !sky.portals.is_empty());
     let beside = options.beside.map(|technique| Beside::new(technique, &output, &scene.inputs)).transpose()?;
     let identity = Identity::new(&scene, settings, image.sensor);
@@ -195,7 +220,8 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     let name = image.scene.to_string_lossy().to_ascii_lowercase();
     let has_none = has_portals || name.ends_with(".gltf") || name.ends_with(".glb");
     let windows = || if has_none { None } else { windows(&world) };
-    if let Some(hint) = hint(&done.film, output.brightness, has_sky).or_else(windows) {
+    let wasted = || if has_goal { None } else { wasted(&settings, image.sampler.is_some()) };
+    if let Some(hint) = hint(&done.film, output.brightness, has_sky, only_pictures).or_else(windows).or_else(wasted) {
         say(format_args!("hint: {hint}"));
     }
     if !options.json {

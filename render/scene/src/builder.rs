@@ -99,10 +99,21 @@ impl Builder {
 
     /// A material that varies, or a constant one if its textures do not vary.
     pub(super) fn vary(&mut self, varying: Varying) -> Material {
-        varying.constant().unwrap_or_else(|| {
-            self.varying.push(varying);
-            Material::Varying((self.varying.len() - 1) as u32)
-        })
+        varying.constant().unwrap_or_else(|| self.varied(varying))
+    }
+
+    /// A material that varies, even if its textures do not.
+    pub(super) fn varied(&mut self, varying: Varying) -> Material {
+        self.varying.push(varying);
+        Material::Varying((self.varying.len() - 1) as u32)
+    }
+
+    /// A material, or the mean of one that varies.
+    pub(super) fn mean(&self, material: Material) -> Material {
+        match material {
+            Material::Varying(index) => self.varying[index as usize].mean(),
+            other => other,
+        }
     }
 
     /// The index of a material with holes.
@@ -119,8 +130,7 @@ impl Builder {
 
     /// A material that stands for one that is not known yet.
     pub(super) fn promise(&mut self) -> Material {
-        self.varying.push(Varying::Diffuse(Texture::number(0.5)));
-        Material::Varying((self.varying.len() - 1) as u32)
+        self.varied(Varying::Diffuse(Texture::number(0.5)))
     }
 
     /// Puts a material where a promise stands for it.
@@ -253,6 +263,10 @@ impl Builder {
             let of = parts.details.of_triangles.iter();
             self.details.of_triangles.extend(of.map(|&k| if k == Details::NONE { k } else { k + before }));
         }
+        if !parts.details.colors.is_empty() {
+            self.details.colors.resize(before as usize, [[1.0; 3]; 3]);
+            self.details.colors.extend(parts.details.colors);
+        }
         self.details.corners.extend(parts.details.corners);
         self.triangles.extend(parts.triangles);
         self.triangle_materials.extend(parts.triangle_materials);
@@ -275,8 +289,14 @@ impl Builder {
                 normal: normals.next().unwrap_or([0.0; 3]),
                 uv: corners.map_or([0.0; 2], |corners| corners.uvs[k].map(f64::from)),
             };
-            let vertices = [0, 1, 2].map(vertex);
-            self.triangle(&surface, vertices);
+            let (vertices, colors) = ([0, 1, 2].map(vertex), parts.details.colors_of(i));
+            self.add_triangle(
+                &surface,
+                |k| vertices[k].point,
+                |k| vertices[k].normal,
+                |k| vertices[k].uv,
+                |k| colors[k],
+            );
         }
         // edges that a transform flattens are no fault of the file
         self.left_out();
@@ -410,7 +430,7 @@ impl Builder {
 
     /// Adds a triangle, unless it has no area. Normals tell which side of a light emits.
     pub(super) fn triangle(&mut self, surface: &ShapeAttributes, corners: [Vertex; 3]) {
-        self.add_triangle(surface, |k| corners[k].point, |k| corners[k].normal, |k| corners[k].uv);
+        self.add_triangle(surface, |k| corners[k].point, |k| corners[k].normal, |k| corners[k].uv, |_| [1.0; 3]);
     }
 
     /// Adds a triangle of a mesh, like [`Builder::triangle`], with these texture coordinates if the mesh has none.
@@ -423,10 +443,11 @@ impl Builder {
         without: &[[f64; 2]; 3],
     ) {
         let uv = |k: usize| mesh.uv(face[k], without[k]);
-        self.add_triangle(surface, |k| mesh.points[face[k]], |k| mesh.normal(face[k]), uv);
+        let color = |k: usize| mesh.colors.get(face[k]).copied().unwrap_or([1.0; 3]);
+        self.add_triangle(surface, |k| mesh.points[face[k]], |k| mesh.normal(face[k]), uv, color);
     }
 
-    /// Adds a triangle whose corners 0, 1 and 2 have these points, normals and texture coordinates.
+    /// Adds a triangle whose corners 0, 1 and 2 have these points, normals, texture coordinates and colours.
     #[inline(always)]
     fn add_triangle(
         &mut self,
@@ -434,6 +455,7 @@ impl Builder {
         point: impl Fn(usize) -> [f64; 3],
         normal: impl Fn(usize) -> [f64; 3],
         uv: impl Fn(usize) -> [f64; 2],
+        color: impl Fn(usize) -> [f32; 3],
     ) {
         if surface.emission.is_some() {
             let vertex = |k: usize| Vertex { point: point(k), normal: normal(k), uv: uv(k) };
@@ -460,6 +482,11 @@ impl Builder {
             let single = |[u, v]: [f64; 2]| [u as f32, v as f32];
             self.details.of_triangles.resize(self.triangles.len(), Details::NONE);
             self.details.of_triangles.push(self.details.corners.len() as u32);
+            let colors = [color(0), color(j), color(k)];
+            if colors != [[1.0; 3]; 3] {
+                self.details.colors.resize(self.details.corners.len(), [[1.0; 3]; 3]);
+                self.details.colors.push(colors);
+            }
             self.details.corners.push(Corners {
                 normals: if is_smooth { smooth } else { [[0.0; 3]; 3] },
                 uvs: [single(uv(0)), single(uv(j)), single(uv(k))],

@@ -1,7 +1,7 @@
 //! Reads glTF 2.0 scene files: JSON text that names other files, or one binary file.
 //!
-//! What the renderer does not have is ignored, with one warning of each kind: textures of normals and occlusion, vertex colours,
-//! skins, morph targets, animations, points and lines. An extension that the file requires and that is not supported is an error.
+//! What the renderer does not have is ignored, with one warning of each kind. An extension that the file requires and that is not supported
+//! is an error.
 //! Photometric units count as radiometric ones of the same number, as in most renderers.
 
 mod accessors;
@@ -36,15 +36,12 @@ pub(super) fn is_gltf(path: &Path, bytes: &[u8]) -> bool {
 fn check_extensions(source: &Source<'_>) -> Result<(), Message> {
     for name in &source.root.extensions_required {
         // what is ignored where it is optional is ignored with the same warning here
-        match GLTF.entry(name, "") {
-            Some(Entry { state: State::Refused, note, .. }) if note.contains("compressed") => {
-                return Err(source.message(format!("requires the extension {name:?}, which is not supported: {note}")));
-            }
-            Some(Entry { state: State::Refused, .. }) | None => {
-                let shown = shortened(name);
-                return Err(source.message(format!("requires the extension {shown:?}, which is not supported")));
-            }
-            Some(_) => {}
+        let entry = GLTF.entry(name, "");
+        if entry.is_none_or(|entry| entry.state == State::Refused) {
+            let compressed = entry.filter(|entry| entry.note.contains("compressed"));
+            let why = compressed.map_or_else(String::new, |entry| format!(": {}", entry.note));
+            let shown = shortened(name);
+            return Err(source.message(format!("requires the extension {shown:?}, which is not supported{why}")));
         }
     }
     Ok(())

@@ -6,38 +6,6 @@
 //! [`Scene::stand_ins`] has, too, as those of parameters that may be misspelt.
 //!
 //! [`list`] says of everything that the formats can say what becomes of it; the pages `render/formats/pbrt.md` and `gltf.md` are made of it.
-//!
-//! Beyond pbrt, a sky may have up to eight portals, in one list of corners or in several lights of the same sky. They may be parallelograms,
-//! and what two of them show counts once. `LightSource "infinite" "string sky" "cie"` is daylight by CIE's standard general sky
-//! ([`GeneralSky`](etendue_render::lights::sky::GeneralSky)). In the light's space +x is east, +y north and +z up; nothing shines from below the horizon.
-//!
-//! | parameter of a `cie` sky | what it is | default |
-//! |---|---|---|
-//! | `integer type` | type of the sky, 1 to 15 | 12: clear |
-//! | `float elevation`, `azimuth` | the sun in degrees: above the horizon, and from north over east | azimuth 180 |
-//! | `rgb L`, `float scale` | radiance of the zenith | 1 |
-//! | `float illuminance` | illuminance of the horizontal plane by the sky, instead; `scale` multiplies it | |
-//! | `float sun` | illuminance of a surface that faces the sun, by its disk of 0.53° | 0: no disk |
-//!
-//! A profile is an IES file or an image, as those of `goniometric` lights. It lies so that its nadir is along the axis of a spot light, or the
-//! normal of a flat light, and the photometric horizontal in the plane of that and of the light's +x. The intensity of a spot light is `I` times candela values, or texels, times the falloff. Of flat
-//! lights `L` and `power` stay what they are, and the profile distributes it: see [`LuminousOpening`](etendue_render::scene::light_profile::LuminousOpening).
-//!
-//! These differ from pbrt-v4 by choice:
-//!
-//! | what | here | pbrt-v4 |
-//! |---|---|---|
-//! | `power` of a mesh | of all of the shape, so that its triangles do not show | of each triangle or patch |
-//! | `power` with a picture | by the mean of what the shape shows | by the mean of all texels |
-//! | `rgb L` or `rgb I` beside `power` or `illuminance` | its colour counts; `scale` multiplies, as in pbrt | it multiplies, too |
-//! | `illuminance` of a picture | integrated over each texel | by the cosine in the middle of each texel |
-//! | vertex normals | normalised before they are interpolated | as they are in the file |
-//! | views from below the smooth normal | it is turned until its cosine to the viewer is 0.01 | what is below it reflects |
-//! | quadrics that a transform mirrors | emit on the side of the transformed normal | sampled there, but seen from the other side |
-//! | `L` beside `filename` | both multiply, as in pbrt-v3 | an error |
-//! | `iso`, `shutteropen`, `shutterclose` | a factor of the PNG; the EXR file has radiance | a factor |
-//! | `sensor` | ignored: pixels are radiance | a response |
-//! | texels that are NaN or infinite | an error; negative ones are 0, with a warning | an error in lights alone |
 
 // what both formats share is more than either needs
 #![cfg_attr(not(all(feature = "gltf", feature = "pbrt")), allow(dead_code, unused_variables))]

@@ -19,23 +19,18 @@ pub enum State {
 }
 
 impl State {
-    const NAMES: [(&'static str, Self); 5] = [
-        ("exact", Self::Exact),
-        ("inert", Self::Inert),
-        ("approximated", Self::Approximated),
-        ("ignored", Self::Ignored),
-        ("refused", Self::Refused),
+    /// Names in the tables and on the pages.
+    const NAMES: [(&'static str, &'static str, Self); 5] = [
+        ("exact", "exact", Self::Exact),
+        ("inert", "exact: changes nothing", Self::Inert),
+        ("approximated", "approximated", Self::Approximated),
+        ("ignored", "ignored, with a warning", Self::Ignored),
+        ("refused", "refused", Self::Refused),
     ];
     /// Its name on the page.
     #[must_use]
     pub const fn name(self) -> &'static str {
-        match self {
-            Self::Exact => "exact",
-            Self::Inert => "exact: changes nothing",
-            Self::Approximated => "approximated",
-            Self::Ignored => "ignored, with a warning",
-            Self::Refused => "refused",
-        }
+        Self::NAMES[self as usize].1
     }
 }
 
@@ -96,7 +91,7 @@ impl Table {
         for line in text.lines().filter(|line| !line.starts_with('#') && !line.trim().is_empty()) {
             let mut parts = line.split(" | ").map(str::trim);
             let (Some(head), Some(state)) = (parts.next(), parts.next()) else { continue };
-            let Some((_, state)) = State::NAMES.into_iter().find(|(name, _)| *name == state) else { continue };
+            let Some((.., state)) = State::NAMES.into_iter().find(|(name, ..)| *name == state) else { continue };
             let note = parts.next().unwrap_or_default();
             if line.starts_with(' ') {
                 let mut words = head.splitn(3, ' ');

@@ -17,7 +17,9 @@ pub(super) fn words(material: Material) -> [u32; 13] {
             of(if greatest { 5 } else { 3 }, [diffuse, specular, grazing], roughness)
         }
         Material::Layered { diffuse, eta, roughness } => of(6, [diffuse, [eta; 3], black], roughness),
-        Material::CoatedMirror { eta, k, coat } => of(7, [eta, k, [coat; 3]], none),
+        Material::CoatedConductor { eta, k, roughness, coat, interface: Roughness { along, across, .. } } => {
+            of(7, [eta, k, [coat, along, across]], roughness)
+        }
         Material::Varying(index) => [4, index, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0],
     }
 }

@@ -3,7 +3,6 @@
 mod area_lights;
 mod blocks;
 mod builtin;
-mod coated_metals;
 mod daylight;
 mod directed;
 mod film_and_camera;
@@ -27,6 +26,7 @@ mod shape_state;
 mod shapes;
 mod sources;
 mod spectrum;
+mod subdivision;
 mod textures;
 mod transform_directives;
 

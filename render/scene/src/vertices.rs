@@ -16,6 +16,8 @@ pub(super) struct Vertices {
     pub(super) points: Vec<[f64; 3]>,
     normals: Vec<[f64; 3]>,
     uvs: Vec<[f64; 2]>,
+    /// Colours by which materials are multiplied.
+    pub(super) colors: Vec<[f32; 3]>,
 }
 
 impl Vertices {
@@ -23,7 +25,7 @@ impl Vertices {
     pub(super) fn new(points: Vec<[f64; 3]>, normals: Vec<[f64; 3]>, mut uvs: Vec<[f64; 2]>) -> Self {
         let faulty = uvs.iter_mut().filter(|uv| !uv.iter().all(|x| x.is_finite()));
         faulty.for_each(|uv| *uv = [0.0; 2]);
-        Self { points, normals, uvs }
+        Self { points, normals, uvs, colors: Vec::new() }
     }
 
     /// The normal of a vertex; 0 if the mesh has none.
@@ -45,17 +47,5 @@ impl Vertices {
             normal: self.normal(face[k]),
             uv: self.uv(face[k], without[k]),
         })
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn coordinates_that_are_not_finite_become_0() {
-        let uvs = vec![[f64::NAN, 1.0], [0.5, f64::INFINITY], [0.25, 0.75]];
-        let vertices = Vertices::new(vec![[0.0; 3]; 3], Vec::new(), uvs);
-        assert_eq!([0, 1, 2].map(|k| vertices.uv(k, [9.0; 2])), [[0.0; 2], [0.0; 2], [0.25, 0.75]]);
     }
 }

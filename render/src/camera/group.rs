@@ -48,9 +48,9 @@ impl Group<'_> {
         let Surface { normal, albedo, .. } = self.points.surfaces[packet];
         if GENERAL {
             let end = &self.points.ends[packet];
-            Bsdf::new(normal, end.flat, albedo, end.direction, end.metal)
+            Bsdf::new([normal, end.flat], albedo, end.direction, end.metal, self.numbers.light[packet])
         } else {
-            Bsdf::new(normal, normal, albedo, V8::default(), None)
+            Bsdf::new([normal; 2], albedo, V8::default(), None, Vec2::default())
         }
     }
     /// The fits of f cosθ of rough surfaces, for the unit directions `w` with the cosine `cos` to the normal.

@@ -270,8 +270,9 @@ impl<'a> TileRenderer<'a> {
     #[inline(always)]
     fn numbers(&self, packets: &[Packet], allocated: &[Allocated<'_>]) -> ([CameraSample; GROUP], Numbers) {
         let Self { lights, chooser, source, start, settings, .. } = self;
-        // delta lights alone need no point on the light
+        // delta lights alone need no point on the light, but coated metals need its numbers
         let point = settings.technique.finds_lights() || !lights.only_deltas();
+        let any = point || self.scene.surfaces.has_estimates();
         let own = |dimension: u32| {
             let mut pairs = [Vec2::default(); GROUP];
             pairs.iter_mut().zip(packets).for_each(|(pair, packet)| *pair = source.pair(packet, dimension));
@@ -285,7 +286,7 @@ impl<'a> TileRenderer<'a> {
         let mut samples = [CameraSample { film: Vec2::default(), lens: Vec2::default() }; GROUP];
         let start = start.map(u32x8::splat);
         for (p, packet) in packets.iter().enumerate() {
-            let film = if point {
+            let film = if any {
                 let [film, light] = match allocated.get(p) {
                     Some(allocated) => source.film_and_light_of(packet, allocated.light, allocated.sample),
                     None => source.film_and_light(packet),

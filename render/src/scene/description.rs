@@ -110,6 +110,9 @@ pub struct Details {
     pub of_triangles: Vec<u32>,
     /// Normals and texture coordinates.
     pub corners: Vec<Corners>,
+    /// Colours at the corners, linear RGB from 0 to 1, by which the albedo of varying materials is multiplied; in the order of `corners`, and
+    /// white where there are fewer.
+    pub colors: Vec<[[f32; 3]; 3]>,
 }
 
 impl Details {
@@ -120,6 +123,12 @@ impl Details {
     #[inline]
     pub fn of(&self, triangle: u32) -> Option<&Corners> {
         self.corners.get(*self.of_triangles.get(triangle as usize)? as usize)
+    }
+    /// The colours at the corners of a triangle.
+    #[inline]
+    pub fn colors_of(&self, triangle: u32) -> [[f32; 3]; 3] {
+        let index = self.of_triangles.get(triangle as usize);
+        index.and_then(|index| self.colors.get(*index as usize)).copied().unwrap_or([[1.0; 3]; 3])
     }
 }
 

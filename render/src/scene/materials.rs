@@ -42,15 +42,20 @@ pub enum Material {
         /// Roughness of the GGX distribution, at least [`Roughness::LEAST`] in both directions.
         roughness: Roughness,
     },
-    /// A smooth metal below a smooth dielectric interface, with the light that goes back and forth between them, a perfect mirror:
+    /// A metal below a dielectric interface, with the light that goes back and forth between them. If both are smooth, it is a perfect mirror:
     /// F + (1 − F)² R/(1 − F R), where F is the reflectance of the interface and R that of the metal in the coat, at the refracted direction.
-    CoatedMirror {
+    /// Otherwise each sample estimates it by a random walk between both.
+    CoatedConductor {
         /// Real part of the index of refraction of the metal, per channel, relative to air.
         eta: [f32; 3],
         /// Imaginary part, per channel, relative to air.
         k: [f32; 3],
+        /// Roughness of the GGX distribution of the metal.
+        roughness: Roughness,
         /// Index of refraction of the coat, at least 1.
         coat: f32,
+        /// Roughness of the GGX distribution of the interface; below 0.01 what it reflects is that of 0.01, unless the metal is smooth, too.
+        interface: Roughness,
     },
     /// The material of this index in [`Scene::varying`](super::Scene::varying), which varies over the surface.
     Varying(u32),
@@ -76,6 +81,11 @@ impl Roughness {
     #[must_use]
     pub const fn is_isotropic(self) -> bool {
         self.along == self.across
+    }
+    /// Whether it is 0 in all directions.
+    #[must_use]
+    pub const fn is_smooth(self) -> bool {
+        self.along == 0.0 && self.across == 0.0
     }
     /// The geometric mean in all directions.
     #[must_use]
@@ -135,12 +145,17 @@ impl Varying {
     /// The material at texture coordinates.
     #[must_use]
     pub fn at(&self, uv: [f32; 2]) -> Material {
-        self.with(|texture| texture.at(uv))
+        self.tinted(uv, [1.0; 3])
+    }
+    /// The material at texture coordinates, with a colour by which its albedo, or the base colour of a metal, is multiplied.
+    #[must_use]
+    pub fn tinted(&self, uv: [f32; 2], tint: [f32; 3]) -> Material {
+        self.with(|texture| texture.at(uv), tint)
     }
     /// The material of the textures' means.
     #[must_use]
     pub fn mean(&self) -> Material {
-        self.with(Texture::mean)
+        self.with(Texture::mean, [1.0; 3])
     }
     /// Whether it is glossy anywhere.
     #[must_use]
@@ -160,26 +175,30 @@ impl Varying {
         };
         textures.iter().all(|texture| texture.constant().is_some()).then(|| self.mean())
     }
-    fn with(&self, value: impl Fn(&Texture) -> [f32; 3]) -> Material {
+    fn with(&self, value: impl Fn(&Texture) -> [f32; 3], tint: [f32; 3]) -> Material {
         // textures may hold any numbers
         let share = |x: f32| x.clamp(0.0, 1.0);
         let color = |texture: &Texture| value(texture).map(share);
+        let tinted = |texture: &Texture| {
+            let color = color(texture);
+            std::array::from_fn::<f32, 3, _>(|k| color[k] * tint[k])
+        };
         let alpha = |x: f32| share(x).max(Roughness::LEAST);
         match self {
-            Self::Diffuse(albedo) => Material::Diffuse(color(albedo)),
+            Self::Diffuse(albedo) => Material::Diffuse(tinted(albedo)),
             Self::Layered { diffuse, eta, roughness } => {
                 let [along, across] = roughness.each_ref().map(|texture| alpha(value(texture)[0]));
                 let roughness = Roughness { along, across, turn: 0.0 };
-                Material::Layered { diffuse: color(diffuse), eta: *eta, roughness }
+                Material::Layered { diffuse: tinted(diffuse), eta: *eta, roughness }
             }
             Self::Glossy { diffuse, specular, grazing, roughness, turn, greatest } => {
                 let [along, across] = roughness.each_ref().map(|texture| alpha(value(texture)[0]));
                 let roughness = Roughness { along, across, turn: *turn };
-                let [diffuse, specular, grazing] = [diffuse, specular, grazing].map(color);
+                let [diffuse, specular, grazing] = [tinted(diffuse), color(specular), color(grazing)];
                 Material::Glossy { diffuse, specular, grazing, roughness, greatest: *greatest }
             }
             Self::Metallic { base, metallic, roughness } => {
-                let (base, metallic, roughness) = (color(base), share(value(metallic)[0]), share(value(roughness)[0]));
+                let (base, metallic, roughness) = (tinted(base), share(value(metallic)[0]), share(value(roughness)[0]));
                 Material::Glossy {
                     diffuse: base.map(|x| x * (1.0 - metallic)),
                     specular: base.map(|x| 0.04 + (x - 0.04) * metallic),
@@ -199,12 +218,12 @@ impl Material {
     }
     /// Whether the material is a perfect mirror.
     pub fn is_mirror(&self) -> bool {
-        matches!(
-            self,
-            Self::Mirror(_)
-                | Self::CoatedMirror { .. }
-                | Self::Conductor { roughness: Roughness { along: 0.0, across: 0.0, .. }, .. }
-        )
+        match self {
+            Self::Mirror(_) => true,
+            Self::Conductor { roughness, .. } => roughness.is_smooth(),
+            Self::CoatedConductor { roughness, interface, .. } => roughness.is_smooth() && interface.is_smooth(),
+            _ => false,
+        }
     }
     /// The roughness of a rough surface or coat.
     #[must_use]
@@ -213,20 +232,27 @@ impl Material {
             Self::Conductor { roughness, .. } | Self::Glossy { roughness, .. } | Self::Layered { roughness, .. } => {
                 Some(roughness)
             }
+            // the one that shows
+            Self::CoatedConductor { roughness, interface, .. } if roughness.is_isotropic() => Some(interface),
+            Self::CoatedConductor { roughness, .. } => Some(roughness),
             _ => None,
         }
     }
     /// Whether the material reflects more in some directions than a diffuse one, but is no mirror. Of varying ones [`Varying`] knows.
     pub fn is_glossy(&self) -> bool {
-        matches!(self, Self::Conductor { .. } | Self::Glossy { .. } | Self::Layered { .. }) && !self.is_mirror()
+        self.roughness().is_some() && !self.is_mirror()
     }
     /// The material with the mean of its roughness in all directions.
     #[must_use]
     pub fn isotropic(mut self) -> Self {
-        if let Self::Conductor { roughness, .. } | Self::Glossy { roughness, .. } | Self::Layered { roughness, .. } =
-            &mut self
-        {
-            *roughness = roughness.mean();
+        match &mut self {
+            Self::Conductor { roughness, .. } | Self::Glossy { roughness, .. } | Self::Layered { roughness, .. } => {
+                *roughness = roughness.mean();
+            }
+            Self::CoatedConductor { roughness, interface, .. } => {
+                [*roughness, *interface] = [roughness.mean(), interface.mean()];
+            }
+            _ => {}
         }
         self
     }

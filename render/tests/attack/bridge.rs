@@ -92,7 +92,7 @@ fn finish(scene: &Scene, index: u32) -> Finish {
             reflectance: specular[CHANNEL].into(),
             alpha: roughness.along.into(),
         },
-        Material::Layered { .. } | Material::CoatedMirror { .. } => unreachable!("no such material is drawn"),
+        Material::Layered { .. } | Material::CoatedConductor { .. } => unreachable!("no such material is drawn"),
         // its albedo is among the details
         Material::Varying(of) => match &scene.varying[of as usize] {
             Varying::Diffuse(_) => Finish::Diffuse(0.0),

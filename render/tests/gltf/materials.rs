@@ -1,12 +1,13 @@
 //! Tests of materials, textures and what emits.
 
-use crate::gltf::asset::{Asset, QUAD};
-use crate::kit::Folder;
+use crate::gltf::asset::{Asset, QUAD, TRIANGLE};
+use crate::kit::{Folder, pixel};
 use base64::Engine;
 use etendue_render::film::image::encode_png;
 use etendue_render::scene::texture::{Mask, Texture, Wrap};
 use etendue_render::scene::{Emission, Material, Roughness, Varying};
-use etendue_scene::{load, parse_gltf};
+use etendue_render::{Technique, World};
+use etendue_scene::{Asked, load, load_as, parse_gltf};
 use serde_json::{Value, json};
 
 /// A picture of 2 × 2 pixels as a data URI: red, green, blue, and grey of 51 (a fifth).
@@ -396,4 +397,60 @@ fn textures_of_unsupported_extensions() {
     asset.json["textures"][0].as_object_mut().unwrap().remove("source");
     let text = "texture 0: has no image: its only image is that of KHR_texture_basisu, which is not supported";
     assert_eq!(asset.error(), format!("a.glb: {text}"));
+}
+
+/// Colours of vertices, in any type that the format has, multiply the base colour between them, also of copies and beside meshes without any.
+#[test]
+fn vertices_have_colors() {
+    let colors = [[1.0_f32, 0.5, 0.0], [0.0, 1.0, 0.5], [0.5, 0.0, 1.0]];
+    let bytes = colors.map(|[r, g, b]| [r, g, b, 0.25].map(|x| (x * 255.0).round() as u8));
+    for kind in ["floats", "bytes", "white"] {
+        let mut asset = Asset::new();
+        let positions = asset.floats(&TRIANGLE);
+        let color = match kind {
+            "floats" => asset.floats(&colors),
+            "bytes" => asset.accessor("VEC4", 5121, 3, bytes.as_flattened()),
+            _ => asset.floats(&[[1.0_f32; 3]; 3]),
+        };
+        if kind == "bytes" {
+            asset.json["accessors"][color]["normalized"] = json!(true);
+        }
+        let base = json!({"baseColorFactor": [0.5, 0.25, 1, 1]});
+        asset.add("materials", json!({"pbrMetallicRoughness": base, "extensions": {"KHR_materials_unlit": {}}}));
+        // one without colours, but with normals of its own, precedes it
+        let normals = asset.floats(&[[0.6_f32, 0.0, 0.8], [0.0, 0.6, 0.8], [0.0, 0.0, 1.0]]);
+        let plain = asset.shown(json!({"attributes": {"POSITION": positions, "NORMAL": normals}, "material": 0}));
+        asset.json["nodes"][plain]["translation"] = json!([-3, 0, 0]);
+        let of = json!({"attributes": {"POSITION": positions, "COLOR_0": color}, "material": 0});
+        asset.shown(of);
+        asset.add("nodes", json!({"mesh": 1, "translation": [5, 0, 0]}));
+        let (x, y) = (0.5, 0.3);
+        asset.add(
+            "cameras",
+            json!({"type": "perspective", "perspective": {"yfov": 1e-5, "aspectRatio": 1, "znear": 0.1}}),
+        );
+        for (shift, name) in [(0.0, "first"), (5.0, "copy")] {
+            asset.add("nodes", json!({"camera": 0, "translation": [x + shift, y, 4], "name": name}));
+        }
+        asset.add("nodes", json!({"extensions": {"KHR_lights_punctual": {"light": 0}}}));
+        let light = json!({"type": "directional", "intensity": std::f64::consts::PI});
+        asset.json["extensions"] = json!({"KHR_lights_punctual": {"lights": [light]}});
+        let right: [f64; 3] = std::array::from_fn(|k| {
+            let of = |corner: usize| if kind == "white" { 1.0 } else { f64::from(colors[corner][k]) };
+            [0.5, 0.25, 1.0][k] * ((1.0 - x - y) * of(0) + x * of(1) + y * of(2))
+        });
+        let folder = Folder::new();
+        let path = folder.write("a.gltf", asset.text());
+        for camera in ["first", "copy"] {
+            let asked = Asked { camera: Some(camera.to_owned()), ..Asked::default() };
+            let scene = load_as(&path, &asked).unwrap();
+            assert!(!scene.warnings.iter().any(|warning| warning.text.contains("COLOR")), "{:?}", scene.warnings);
+            let [seen, _] = pixel(&World::new(&scene).unwrap(), Technique::Auto, 16);
+            assert!((0..3).all(|k| (seen[k] - right[k]).abs() < 3e-3), "{kind}, {camera}: {seen:?}, right {right:?}");
+        }
+    }
+    let mut asset = Asset::of_triangle();
+    let short = asset.floats(&[[1.0_f32; 3]; 2]);
+    asset.json["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = json!(short);
+    assert!(asset.error().contains("3 elements of POSITION, but 2 of COLOR_0"), "{}", asset.error());
 }

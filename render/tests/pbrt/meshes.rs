@@ -211,3 +211,15 @@ fn bent_lights_emit_on_the_side_of_their_order() {
         [1.0, -1.0, 1.0, -1.0]
     );
 }
+
+#[test]
+fn coordinates_that_are_not_finite_become_0() {
+    let board = "Texture \"t\" \"spectrum\" \"checkerboard\" Material \"diffuse\" \"texture reflectance\" \"t\"\n";
+    let folder = Folder::new();
+    let head = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nproperty float u\n\
+                property float v\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n";
+    folder.write("a.ply", format!("{head}0 0 0 inf 1\n1 0 0 .5 -inf\n0 1 0 .25 .75\n3 0 1 2\n"));
+    let text = world(&format!("{board}Shape \"plymesh\" \"string filename\" \"a.ply\""));
+    let scene = parse(&text, "a.pbrt", folder.root()).unwrap();
+    assert_eq!(scene.details.corners[0].uvs, [[0.0; 2], [0.0; 2], [0.25, 0.75]]);
+}

@@ -64,3 +64,25 @@ fn extreme_powers() {
     let plain = read(&world("LightSource \"point\" \"string filename\" \"none.exr\""));
     assert!(plain.stand_ins.is_empty() && warnings(&plain).len() == 1, "{:?}", plain.warnings);
 }
+
+/// Chromaticities on the Planckian locus (Wyszecki and Stiles 1982), of luminance 1, from linear sRGB (IEC 61966-2-1).
+#[test]
+fn black_bodies_have_the_colours_of_their_temperatures() {
+    for (kelvins, x, y) in
+        [(2856.0, 0.4476, 0.4074), (4000.0, 0.3805, 0.3768), (6500.0, 0.3135, 0.3237), (10000.0, 0.2807, 0.2884)]
+    {
+        let scene = read(&format!(
+            "Camera \"perspective\" WorldBegin LightSource \"point\" \"blackbody I\" {kelvins}\n{TRIANGLE}"
+        ));
+        let DeltaLight::Point { intensity, .. } = scene.delta_lights[0] else { panic!() };
+        let [r, g, b] = intensity.map(f64::from);
+        let xyz = [
+            0.4124 * r + 0.3576 * g + 0.1805 * b,
+            0.2126 * r + 0.7152 * g + 0.0722 * b,
+            0.0193 * r + 0.1192 * g + 0.9505 * b,
+        ];
+        let sum: f64 = xyz.iter().sum();
+        assert!((xyz[0] / sum - x).abs() < 5e-4 && (xyz[1] / sum - y).abs() < 5e-4, "{kelvins}: {xyz:?}");
+        assert!((xyz[1] - 1.0).abs() < 1e-3, "{kelvins}: {xyz:?}");
+    }
+}

@@ -41,6 +41,43 @@ fn pictures_for_viewing_are_exposed() {
     assert!(hint.contains("the image is black"), "{hint}");
 }
 
+/// Where only textures emit, a sky may be missing, and where a number of samples makes a sampler useless, another one is named.
+#[test]
+fn screens_and_odd_numbers_have_hints() {
+    let folder = Folder::new();
+    let said = |light: &str, more: &[&str]| {
+        let text = format!(
+            "LookAt 0 3 0.1 0 0 0 0 0 1 Camera \"perspective\" Film \"rgb\" \"integer xresolution\" 8 \"integer yresolution\" 8\n\
+             WorldBegin {light}\nShape \"bilinearmesh\" \"point3 P\" [-4 5 -4  4 5 -4  -4 5 4  4 5 4]\n\
+             AttributeEnd Shape \"bilinearmesh\" \"point3 P\" [-9 0 9  9 0 9  -9 0 -9  9 0 -9]"
+        );
+        fs::write(folder.path("a.pbrt"), text).unwrap();
+        let output = folder.run(&[&["render", "a.pbrt", "-o", "a.exr"], more].concat());
+        let said = String::from_utf8(output.stderr).unwrap();
+        said.lines().filter(|line| line.starts_with("hint:")).map(str::to_owned).collect::<Vec<_>>()
+    };
+    fs::write(
+        folder.path("a.pfm"),
+        [
+            &b"PF\n2 1\n-1\n"[..],
+            &[0.5_f32, 0.25].map(|x| [x; 3]).as_flattened().iter().flat_map(|x| x.to_le_bytes()).collect::<Vec<_>>(),
+        ]
+        .concat(),
+    )
+    .unwrap();
+    let screen = "AttributeBegin AreaLightSource \"diffuse\" \"string filename\" \"a.pfm\" \"float scale\" 0.1";
+    let [hint] = &said(screen, &["--spp", "4"])[..] else { panic!() };
+    assert_eq!(hint, "hint: only textures of surfaces emit light: --environment FILE adds a sky");
+    assert!(said(&screen.replace("0.1", "9"), &["--spp", "4"]).is_empty(), "a bright screen lights the scene");
+    let lamp = "AttributeBegin AreaLightSource \"diffuse\" \"rgb L\" [1 1 1]";
+    assert!(said(lamp, &["--spp", "4"]).is_empty());
+    let [hint] = &said(lamp, &["--spp", "15"])[..] else { panic!() };
+    assert!(hint.contains("--spp 16 has less noise"), "{hint}");
+    assert!(said(lamp, &["--spp", "15", "--sampler", "independent"]).is_empty(), "who asks for it has it");
+    let [hint] = &said(lamp, &["--spp", "4", "--sets", "4", "--sampler", "sobol"])[..] else { panic!() };
+    assert!(hint.contains("sets of one sample") && hint.contains("--spp 16"), "{hint}");
+}
+
 /// A sky that lights a room through a window is worth a portal, and one line says so; with it, or in the open, there is none.
 #[test]
 fn windows_are_worth_a_portal() {

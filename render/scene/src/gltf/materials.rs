@@ -41,7 +41,8 @@ pub(super) struct Glow {
 /// The materials and images that were read so far.
 #[derive(Debug, Default)]
 pub(super) struct Materials {
-    surfaces: HashMap<Option<usize>, Rc<Surface>>,
+    /// By index, and whether vertices have colours.
+    surfaces: HashMap<(Option<usize>, bool), Rc<Surface>>,
     images: HashMap<(usize, bool), Arc<Texels>>,
 }
 
@@ -66,11 +67,11 @@ impl Materials {
         &mut self,
         source: &Source<'_>,
         out: &mut Builder,
-        index: Option<Index<material::Material>>,
+        (index, is_tinted): (Option<Index<material::Material>>, bool),
         user: &str,
     ) -> Result<Rc<Surface>, Message> {
         let key = index.map(|index| index.value());
-        if let Some(surface) = self.surfaces.get(&key) {
+        if let Some(surface) = self.surfaces.get(&(key, is_tinted)) {
             return Ok(surface.clone());
         }
         let default = material::Material::default();
@@ -80,8 +81,8 @@ impl Materials {
         };
         let item = key.map_or("the default material".into(), |key| format!("material {key}"));
         let mut reader = Reader { source, out, images: &mut self.images, item, set: None };
-        let surface = Rc::new(reader.read(material)?);
-        self.surfaces.insert(key, surface.clone());
+        let surface = Rc::new(reader.read(material, is_tinted)?);
+        self.surfaces.insert((key, is_tinted), surface.clone());
         Ok(surface)
     }
 }
@@ -105,7 +106,7 @@ impl Reader<'_, '_> {
         values.map(|x| x.clamp(0.0, 1.0))
     }
 
-    fn read(&mut self, material: &material::Material) -> Result<Surface, Message> {
+    fn read(&mut self, material: &material::Material, is_tinted: bool) -> Result<Surface, Message> {
         if matches!(material.alpha_mode, Checked::Invalid) {
             self.stand_in("alpha", "its alphaMode is unknown: the surface is opaque");
         }
@@ -114,7 +115,7 @@ impl Reader<'_, '_> {
             self.stand_in("unlit", "KHR_materials_unlit: a diffuse surface of its base colour stands for it");
         }
         let varying = self.metallic(material)?;
-        let read = self.out.vary(varying);
+        let read = if is_tinted { self.out.varied(varying) } else { self.out.vary(varying) };
         let mask = self.mask(material)?;
         let set = self.set;
         let glow = self.glow(material)?;

@@ -8,7 +8,7 @@ use crate::shape_attributes::ShapeAttributes;
 use crate::transform::Transform;
 use crate::vertices::{Vertex, Vertices};
 use etendue_render::scene::Message;
-use gltf_json::accessor::Accessor;
+use gltf_json::accessor::{Accessor, Type};
 use gltf_json::mesh::{Mode, MorphTarget, Primitive, Semantic};
 use gltf_json::validation::Checked;
 use gltf_json::{Index, mesh};
@@ -28,7 +28,7 @@ pub(super) fn glows(
     let (index, mesh) = source.item(&source.root.meshes, mesh, "mesh", &format!("node {node}"))?;
     for (number, primitive) in mesh.primitives.iter().enumerate() {
         let item = format!("mesh {index}, primitive {number}");
-        if materials.surface(source, out, primitive.material, &item)?.glow.is_some() {
+        if materials.surface(source, out, (primitive.material, false), &item)?.glow.is_some() {
             return Ok(true);
         }
     }
@@ -126,7 +126,9 @@ impl Adder<'_, '_> {
                 return Err(self.error(&format!("its geometry is compressed by {name}, which is not supported")));
             }
         }
-        let surface = materials.surface(self.source, self.out, primitive.material, &self.item)?;
+        let colors = self.colors(primitive)?;
+        let finish = (primitive.material, !colors.is_empty());
+        let surface = materials.surface(self.source, self.out, finish, &self.item)?;
 
         let mut positions = self.source.vectors::<3>(positions, &self.item)?;
         self.morph(primitive, |target| target.positions, &mut positions)?;
@@ -166,7 +168,11 @@ impl Adder<'_, '_> {
         }
         let uvs = self.coordinates(primitive, surface.set, count)?;
         let uvs = uvs.iter().flatten().map(|uv| uv.map(f64::from)).collect();
-        let vertices = Vertices::new(points, normals, uvs);
+        if !colors.is_empty() {
+            self.same_number("COLOR_0", colors.len(), count)?;
+        }
+        let mut vertices = Vertices::new(points, normals, uvs);
+        vertices.colors = colors;
         let glow = surface.glow.as_ref();
         let (picture, set) = glow.and_then(|glow| glow.texture.clone()).unzip();
         let glowing_uvs = self.coordinates(primitive, set, count)?;
@@ -261,6 +267,22 @@ impl Adder<'_, '_> {
             *uv = [0.0; 2];
         }
         Ok(Some(uvs))
+    }
+
+    /// The colours of the vertices without their opacity, none if they have none.
+    fn colors(&self, primitive: &Primitive) -> Result<Vec<[f32; 3]>, Message> {
+        let Some(&accessor) = primitive.attributes.get(&Checked::Valid(Semantic::Colors(0))) else {
+            return Ok(Vec::new());
+        };
+        let kind = self.source.root.accessors.get(accessor.value()).map(|accessor| accessor.type_);
+        let mut colors = match kind {
+            Some(Checked::Valid(Type::Vec4)) => {
+                self.source.vectors::<4>(accessor, &self.item)?.iter().map(|[r, g, b, _]| [*r, *g, *b]).collect()
+            }
+            _ => self.source.vectors::<3>(accessor, &self.item)?,
+        };
+        colors.as_flattened_mut().iter_mut().for_each(|x| *x = if *x > 0.0 { x.min(1.0) } else { 0.0 });
+        Ok(colors)
     }
 
     fn same_number(&self, name: &str, found: usize, count: usize) -> Result<(), Message> {

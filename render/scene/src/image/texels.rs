@@ -119,39 +119,3 @@ fn other_texels(path: &Path, bytes: &[u8]) -> Result<Texels, FileError> {
         image => from_rows(width, height, 3, image.into_rgb8().as_raw()),
     })
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use image_files::ImageFormat;
-
-    fn read(name: &str, bytes: &[u8], encoding: Encoding) -> Texels {
-        from_bytes(Path::new(name), bytes, encoding).expect("a known format").unwrap_or_else(|error| panic!("{error}"))
-    }
-    fn bytes_of(image: &DynamicImage, format: ImageFormat) -> Vec<u8> {
-        let mut bytes = Cursor::new(Vec::new());
-        image.write_to(&mut bytes, format).unwrap();
-        bytes.into_inner()
-    }
-
-    #[test]
-    fn textures_are_read_from_jpeg_and_tga_files() {
-        // of one colour, which JPEG keeps nearly
-        let image =
-            DynamicImage::ImageRgb8(image_files::RgbImage::from_pixel(20, 12, image_files::Rgb([200, 100, 50])));
-        let texels = read("a.jpg", &bytes_of(&image, ImageFormat::Jpeg), Encoding::Srgb);
-        let Colors::Srgb(colors) = &texels.colors else { panic!("{:?}", texels) };
-        assert_eq!((texels.width, texels.height, colors.len(), &texels.alpha), (20, 12, 240, &None));
-        assert!(colors.iter().all(|c| (0..3).all(|k| c[k].abs_diff([200, 100, 50][k]) <= 3)), "{:?}", colors[0]);
-        let mut image = image_files::RgbaImage::from_pixel(3, 2, image_files::Rgba([200, 100, 50, 7]));
-        image.put_pixel(2, 1, image_files::Rgba([0, 51, 255, 9]));
-        let bytes = bytes_of(&DynamicImage::ImageRgba8(image), ImageFormat::Tga);
-        let texels = read("a.TGA", &bytes, Encoding::Linear);
-        let last = Colors::Linear([vec![[200, 100, 50]; 5], vec![[0, 51, 255]]].concat());
-        assert!(texels.colors == last && texels.alpha == Some(vec![7, 7, 7, 7, 7, 9]), "{texels:?}");
-        let Colors::Float(colors) = read("a.tga", &bytes, Encoding::Gamma(2.0)).colors else { panic!() };
-        assert!(colors[5][0] == 0.0 && (colors[5][1] - 0.04).abs() < 1e-6 && colors[5][2] == 1.0, "{:?}", colors[5]);
-        // TGA has no signature: only its name tells
-        assert!(from_bytes(Path::new("a"), &bytes, Encoding::Srgb).is_none());
-    }
-}

@@ -101,27 +101,26 @@ fn mirrored(columns: Columns, about: f32) -> Columns {
 }
 
 impl Header {
+    /// The candela values, column by column.
+    fn columns(&self, angles: &[f32], numbers: &mut Numbers<'_>) -> Result<Columns, String> {
+        let mut column = || -> Result<Vec<f64>, String> {
+            (0..self.rows).map(|_| numbers.within("candela value", 0.0, f64::MAX)).collect()
+        };
+        angles.iter().map(|angle| Ok((*angle, column()?))).collect()
+    }
     /// The same for the types A and B: polar angles are the vertical angles of type A, or the horizontal ones of type B, plus 90 degrees. What begins
     /// at 0 is symmetric.
     fn beam(&self, numbers: &mut Numbers<'_>) -> Result<(Vec<f32>, Columns), String> {
         let vertical = numbers.angles(self.rows, "vertical angle", -90.0, 90.0)?;
         let horizontal = numbers.angles(self.columns, "horizontal angle", -90.0, 90.0)?;
         let line = numbers.line();
-        let mut columns = Columns::with_capacity(2 * self.columns);
-        for angle in horizontal {
-            let column: Result<Vec<f64>, String> =
-                (0..self.rows).map(|_| numbers.within("candela value", 0.0, f64::MAX)).collect();
-            columns.push((angle, column?));
-        }
+        let mut columns = self.columns(&horizontal, numbers)?;
         if columns[0].0 == 0.0 {
             columns = mirrored(columns, 0.0);
         }
         // by rows as well
-        let rows = vertical
-            .iter()
-            .enumerate()
-            .map(|(row, angle)| (*angle, columns.iter().map(|(_, column)| column[row]).collect::<Vec<f64>>()));
-        let mut rows: Columns = rows.collect();
+        let row = |k: usize| columns.iter().map(|(_, column)| column[k]).collect();
+        let mut rows: Columns = vertical.iter().enumerate().map(|(k, angle)| (*angle, row(k))).collect();
         if rows[0].0 == 0.0 {
             rows = mirrored(rows, 0.0);
         }
@@ -247,12 +246,7 @@ impl Header {
         }
         let azimuth = numbers.angles(self.columns, "horizontal angle", 0.0, 360.0)?;
         let line = numbers.line();
-        let mut columns = Columns::with_capacity(self.columns);
-        for &angle in &azimuth {
-            let column: Result<Vec<f64>, String> =
-                (0..self.rows).map(|_| numbers.within("candela value", 0.0, f64::MAX)).collect();
-            columns.push((angle, column?));
-        }
+        let mut columns = self.columns(&azimuth, numbers)?;
         let ends = [azimuth[0], azimuth[self.columns - 1]];
         let columns = match ends {
             _ if self.columns == 1 => vec![(0.0, columns.swap_remove(0).1)],

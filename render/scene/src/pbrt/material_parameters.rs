@@ -1,6 +1,5 @@
 //! Reads `Material` and `MakeNamedMaterial`.
 
-use super::coated_metals::through_coat;
 use super::inputs::Files;
 pub(super) use super::mixtures::Finish;
 use super::mixtures::{Mixture, pane};
@@ -30,31 +29,30 @@ pub(super) fn read(
     mixtures: &mut Vec<Mixture>,
     out: &mut Builder,
 ) -> Result<Finish, Message> {
-    let reads = Reads { context };
     let stand_in = |out: &mut Builder, params: &Params, what: &str| {
         out.notes.stand_in(kind, || params.error(format!("becomes {what}")));
     };
     Ok(Finish::Of(match kind {
         "diffuse" | "matte" => {
             let name = if kind == "matte" { "Kd" } else { "reflectance" };
-            reads.diffuse(&[name], 0.5, params, out)?
+            context.diffuse(&[name], 0.5, params, out)?
         }
-        "mirror" => Material::Mirror(reads.constant("Kr", 0.9, params, out)?),
-        "conductor" | "metal" => reads.conductor(["eta", "k", "reflectance"], "", params, out)?,
-        "coatedconductor" => reads.coated_conductor(params, out)?,
-        "coateddiffuse" => reads.coated_diffuse(&["reflectance"], params, out)?,
+        "mirror" => Material::Mirror(context.constant("Kr", 0.9, params, out)?),
+        "conductor" | "metal" => context.conductor(["eta", "k", "reflectance"], "", params, out)?,
+        "coatedconductor" => context.coated_conductor(params, out)?,
+        "coateddiffuse" => context.coated_diffuse(&["reflectance"], params, out)?,
         "plastic" | "uber" | "substrate" | "translucent" => {
             if kind == "translucent" {
                 stand_in(out, params, "opaque");
             }
-            reads.older_coat(kind, params, out)?
+            context.older_coat(kind, params, out)?
         }
         "disney" => {
             stand_in(out, params, "its base colour, metallic and roughness");
-            reads.disney(params, out)?
+            context.disney(params, out)?
         }
         "dielectric" | "thindielectric" | "glass" => {
-            let read = reads.dielectric(params, out)?;
+            let read = context.dielectric(params, out)?;
             if let Material::Conductor { eta: [eta, ..], .. } = read
                 && read.is_mirror()
             {
@@ -71,23 +69,19 @@ pub(super) fn read(
             if !(0.0..=f64::from(f32::MAX)).contains(&scale) {
                 return Err(params.error(format!("\"scale\": must be finite and at least 0, not {}", shown(scale))));
             }
-            let albedo = reads.color(&["reflectance"], 0.25, params, out)?.times(Texture::number(scale as f32));
+            let albedo = context.color(&["reflectance"], 0.25, params, out)?.times(Texture::number(scale as f32));
             albedo.constant().map_or_else(|| out.vary(Varying::Diffuse(albedo.clone())), Material::Diffuse)
         }
         "subsurface" | "kdsubsurface" => {
             stand_in(out, params, "a coat over a diffuse surface");
-            reads.coated_diffuse(&["reflectance", "Kd"], params, out)?
+            context.coated_diffuse(&["reflectance", "Kd"], params, out)?
         }
         "hair" | "measured" | "fourier" => {
             stand_in(out, params, "diffuse of albedo 0.5");
             Material::Diffuse([0.5; 3])
         }
-        "mix" => {
-            return reads.mixed(params, mixtures, out);
-        }
-        "interface" | "none" | "" => {
-            return Ok(Finish::Invisible);
-        }
+        "mix" => return context.mixed(params, mixtures, out),
+        "interface" | "none" | "" => return Ok(Finish::Invisible),
         _ => {
             let (kinds, near) = (PBRT.kinds("Material").join(", "), did_you_mean(kind, PBRT.kinds("Material")));
             let kind = shortened(kind);
@@ -108,18 +102,19 @@ struct Coat {
     grazing: Texture,
 }
 
-/// Reads parameters of materials.
-struct Reads<'a> {
-    context: &'a Context<'a>,
+/// The k of a metal of this reflectance at normal incidence and η = 1: r = k²/(k² + 4).
+fn index_of_reflectance(r: f64) -> f64 {
+    let r = r.min(MOST_REFLECTANCE);
+    2.0 * (r / (1.0 - r)).sqrt()
 }
 
 /// The greatest reflectance that is converted to an index of refraction: pbrt's limit.
 const MOST_REFLECTANCE: f64 = 0.9999;
 
-impl Reads<'_> {
+impl Context<'_> {
     /// The colour of the first of these names that is given.
     fn color(&self, names: &[&str], default: f32, params: &mut Params, out: &mut Builder) -> Result<Texture, Message> {
-        let Context { textures, files, .. } = self.context;
+        let Context { textures, files, .. } = self;
         let mut found = None;
         for name in names {
             found = found.or(textures.color(name, params, files, &mut out.notes)?);
@@ -147,7 +142,7 @@ impl Reads<'_> {
     }
     /// An index of refraction, the same for all wavelengths.
     fn eta(&self, names: &[&str], params: &mut Params, out: &mut Builder) -> Result<f64, Message> {
-        let Context { textures, files, .. } = self.context;
+        let Context { textures, files, .. } = self;
         for name in names {
             if params.is_texture(name) {
                 let texture = textures.number(name, params, &mut out.notes)?;
@@ -175,11 +170,10 @@ impl Reads<'_> {
     fn coated_diffuse(&self, names: &[&str], params: &mut Params, out: &mut Builder) -> Result<Material, Message> {
         let diffuse = self.color(names, 0.5, params, out)?;
         let eta = self.coat_eta(&["eta"], params, out)?;
-        let roughness = self.coat_roughness("", 0.0, params, out)?;
+        let roughness = self.coat_roughness(0.0, params, out)?;
         Ok(out.vary(Varying::Layered { diffuse, eta, roughness }))
     }
-    /// A coat over a metal: exact where both are smooth. Otherwise it is a metal of the reflectance of both at normal incidence, and of the
-    /// roughness that the metal has through the coat.
+    /// A coat over a metal. What varies becomes its mean.
     fn coated_conductor(&self, params: &mut Params, out: &mut Builder) -> Result<Material, Message> {
         let coat = self.coat_eta(&["interface.eta"], params, out)?;
         // both roughnesses have the same flag
@@ -189,18 +183,25 @@ impl Reads<'_> {
         }
         let names = ["conductor.eta", "conductor.k", "reflectance"];
         let metal = self.conductor(names, "conductor.", params, out)?;
-        let is_smooth = above.iter().all(|alpha| alpha.constant() == Some([0.0; 3]));
-        Ok(match metal {
-            Material::Conductor { eta, k, .. } if metal.is_mirror() && is_smooth => {
-                Material::CoatedMirror { eta, k, coat }
+        let mut varies = above.iter().any(|alpha| alpha.constant().is_none());
+        let interface = of_means(&above);
+        let (eta, k, roughness) = match metal {
+            Material::Conductor { eta, k, roughness } => (eta, k, roughness),
+            other => {
+                varies = true;
+                let mean = out.mean(other);
+                let specular = if let Material::Glossy { specular, .. } = mean { specular } else { [0.5; 3] };
+                let k = specular.map(|r| index_of_reflectance(f64::from(r)) as f32);
+                ([1.0; 3], k, mean.roughness().unwrap_or(0.0.into()))
             }
-            _ => {
-                let what = "becomes a metal that is as rough as it is through its coat";
-                out.notes.stand_in("coatedconductor", || params.error(what));
-                let above = above.map(|alpha| alpha.mean()[0]);
-                through_coat(metal, coat, (above[0] * above[1]).sqrt())
-            }
-        })
+        };
+        if varies {
+            out.notes.stand_in("coatedconductor", || params.error("its textures become their means"));
+        }
+        if interface.is_smooth() && !roughness.is_smooth() {
+            self.warn_of_smooth_coat(params, out);
+        }
+        Ok(Material::CoatedConductor { eta, k, roughness, coat, interface })
     }
     /// The roughness α along u and across, from up to three parameters whose names begin with `prefix`.
     fn roughness(
@@ -213,7 +214,7 @@ impl Reads<'_> {
         let names = ["roughness", "uroughness", "vroughness"].map(|name| format!("{prefix}{name}"));
         let varies = names.iter().any(|name| params.is_texture(name));
         if varies {
-            let mut number = |name: &str| self.context.textures.number(name, params, &mut out.notes);
+            let mut number = |name: &str| self.textures.number(name, params, &mut out.notes);
             let both = number(&names[0])?.unwrap_or(Texture::number(default));
             let each = [number(&names[1])?.unwrap_or(both.clone()), number(&names[2])?.unwrap_or(both)];
             let remap = params.flag("remaproughness")?.unwrap_or(true);
@@ -241,24 +242,21 @@ impl Reads<'_> {
         params: &mut Params,
         out: &mut Builder,
     ) -> Result<Material, Message> {
-        let roughness = self.coat_roughness("", roughness, params, out)?;
+        let roughness = self.coat_roughness(roughness, params, out)?;
         Ok(out.vary(Varying::Glossy { diffuse, specular, grazing, roughness, turn: 0.0, greatest: false }))
     }
     /// The roughness of a coat: a smooth one is not quite smooth.
-    fn coat_roughness(
-        &self,
-        prefix: &str,
-        default: f32,
-        params: &mut Params,
-        out: &mut Builder,
-    ) -> Result<[Texture; 2], Message> {
-        let roughness = self.roughness(prefix, default, params, out)?;
+    fn coat_roughness(&self, default: f32, params: &mut Params, out: &mut Builder) -> Result<[Texture; 2], Message> {
+        let roughness = self.roughness("", default, params, out)?;
         if roughness.iter().any(|alpha| alpha.constant().is_some_and(|[x, ..]| x < Roughness::LEAST)) {
-            out.notes.stand_in("smooth coat", || {
-                params.error(format!("its smooth coat becomes one of roughness α = {}", Roughness::LEAST))
-            });
+            self.warn_of_smooth_coat(params, out);
         }
         Ok(roughness)
+    }
+    fn warn_of_smooth_coat(&self, params: &Params, out: &mut Builder) {
+        out.notes.stand_in("smooth coat", || {
+            params.error(format!("its smooth coat becomes one of roughness α = {}", Roughness::LEAST))
+        });
     }
     /// pbrt-v3's coats, by the reflectances of both layers.
     fn older_coat(&self, kind: &str, params: &mut Params, out: &mut Builder) -> Result<Material, Message> {
@@ -274,7 +272,7 @@ impl Reads<'_> {
     fn disney(&self, params: &mut Params, out: &mut Builder) -> Result<Material, Message> {
         let base = self.color(&["color"], 0.5, params, out)?;
         let mut number = |name: &str, default: f32, params: &mut Params| {
-            let found = self.context.textures.number(name, params, &mut out.notes)?;
+            let found = self.textures.number(name, params, &mut out.notes)?;
             Ok::<_, Message>(found.unwrap_or(Texture::number(default)))
         };
         let (metallic, roughness) = (number("metallic", 0.0, params)?, number("roughness", 0.5, params)?);
@@ -290,7 +288,7 @@ impl Reads<'_> {
     }
     /// A mixture of two materials.
     fn mixed(&self, params: &mut Params, mixtures: &mut Vec<Mixture>, out: &mut Builder) -> Result<Finish, Message> {
-        let Context { textures, named, files } = self.context;
+        let Context { textures, named, files } = self;
         let names = params.texts("materials")?;
         let older = [params.text("namedmaterial1")?, params.text("namedmaterial2")?];
         let names = names.unwrap_or_else(|| older.into_iter().flatten().collect());
@@ -330,7 +328,7 @@ impl Reads<'_> {
         params: &mut Params,
         out: &mut Builder,
     ) -> Result<Material, Message> {
-        let Context { textures, files, .. } = self.context;
+        let Context { textures, files, .. } = self;
         let given = textures.color_or_texture(reflectance, params, files, &mut out.notes)?;
         let indices = [Textures::index(eta, params, files)?, Textures::index(k, params, files)?];
         let roughness = self.roughness(prefix, 0.0, params, out)?;
@@ -344,12 +342,11 @@ impl Reads<'_> {
             (Some(Value::Constant(r)), _) if constant(&roughness).is_none() => {
                 return Ok(self.metal(Texture::Constant(r.map(|x| x as f32)), roughness, out));
             }
-            // the k with this reflectance at normal incidence and eta = 1: r = k²/(k² + 4)
             (Some(Value::Constant(r)), _) => {
                 if let Some(x) = r.iter().find(|&&x| x > 1.0) {
                     return Err(params.error(format!("\"reflectance\": must be at most 1, not {}", shown(*x))));
                 }
-                ([1.0; 3], r.map(|r| r.min(MOST_REFLECTANCE)).map(|r| 2.0 * (r / (1.0 - r)).sqrt()))
+                ([1.0; 3], r.map(index_of_reflectance))
             }
             // one of them alone goes with copper's other one, as in pbrt
             (None, [eta, k]) => {
@@ -381,9 +378,15 @@ impl Reads<'_> {
 
 /// A metal's roughness that does not vary: smooth in both directions or in none.
 fn constant([along, across]: &[Texture; 2]) -> Option<Roughness> {
-    let [along, across] = [along.constant()?[0], across.constant()?[0]].map(|x| x.clamp(0.0, 1.0));
+    along.constant().and(across.constant())?;
+    Some(of_means(&[along.clone(), across.clone()]))
+}
+
+/// The mean of a metal's roughness.
+fn of_means(roughness: &[Texture; 2]) -> Roughness {
+    let [along, across] = roughness.each_ref().map(|alpha| alpha.mean()[0].clamp(0.0, 1.0));
     let least = if along == across { 0.0 } else { LEAST_OF_METAL };
-    Some(Roughness { along: along.max(least), across: across.max(least), turn: 0.0 })
+    Roughness { along: along.max(least), across: across.max(least), turn: 0.0 }
 }
 
 /// The least roughness in one direction of a metal that is rougher in the other, as in pbrt.

@@ -58,25 +58,14 @@ pub(super) struct Params {
     listed: Option<&'static Entry>,
 }
 
+/// The names of parameter types.
+const KINDS: &str = "integer float point2 vector2 point3 vector3 normal rgb spectrum blackbody xyz bool string texture";
+
 /// The canonical name of a parameter type.
 fn canonical(kind: &str) -> Option<&'static str> {
-    Some(match kind {
-        "integer" => "integer",
-        "float" => "float",
-        "point2" => "point2",
-        "vector2" => "vector2",
-        "point3" | "point" => "point3",
-        "vector3" | "vector" => "vector3",
-        "normal" | "normal3" => "normal",
-        "rgb" | "color" => "rgb",
-        "spectrum" => "spectrum",
-        "blackbody" => "blackbody",
-        "xyz" => "xyz",
-        "bool" => "bool",
-        "string" => "string",
-        "texture" => "texture",
-        _ => return None,
-    })
+    let older = [("point", "point3"), ("vector", "vector3"), ("normal3", "normal"), ("color", "rgb")];
+    let kind = older.into_iter().find(|(name, _)| *name == kind).map_or(kind, |(_, name)| name);
+    KINDS.split(' ').find(|name| *name == kind)
 }
 
 impl Values {
@@ -86,6 +75,14 @@ impl Values {
             "string" | "texture" | "spectrum" => Values::Texts(Vec::new()),
             _ => Values::Numbers(Vec::new()),
         }
+    }
+
+    fn texts(&self) -> &[String] {
+        if let Self::Texts(texts) = self { texts } else { &[] }
+    }
+
+    fn numbers(&self) -> &[f64] {
+        if let Self::Numbers(numbers) = self { numbers } else { &[] }
     }
 
     fn push(&mut self, kind: &str, token: Token<'_>) -> Result<(), String> {
@@ -205,75 +202,49 @@ impl Params {
         Ok(Some(param))
     }
 
-    fn single<T>(&self, param: &Param, mut values: Vec<T>) -> Result<Option<T>, Message> {
-        match values.pop() {
-            Some(value) if values.is_empty() => Ok(Some(value)),
-            Some(_) => Err(self.at(param, format!("expected one value, found {}", values.len() + 1))),
-            None => Err(self.at(param, "expected one value, found none")),
-        }
-    }
-
     /// Numbers of type `kind`, whose count must be a multiple of `group`.
     pub(super) fn numbers(&mut self, name: &str, kind: &str, group: usize) -> Result<Option<Vec<f64>>, Message> {
-        let Some(mut param) = self.take(name, kind)? else { return Ok(None) };
-        let numbers = match &mut param.values {
-            Values::Numbers(numbers) => std::mem::take(numbers),
-            _ => Vec::new(),
-        };
+        let Some(param) = self.take(name, kind)? else { return Ok(None) };
+        let numbers = param.values.numbers().to_vec();
         if !numbers.len().is_multiple_of(group) {
             return Err(self.at(&param, format!("expected a multiple of {group} numbers, found {}", numbers.len())));
         }
         Ok(Some(numbers))
     }
 
-    fn one_number(&mut self, name: &str, kind: &str) -> Result<Option<f64>, Message> {
-        match self.take(name, kind)? {
-            Some(param) => match &param.values {
-                Values::Numbers(numbers) => self.single(&param, numbers.clone()),
-                _ => Ok(None),
-            },
-            None => Ok(None),
+    /// The only value of a parameter of type `kind`.
+    fn one<T: Clone>(&mut self, name: &str, kind: &str, of: fn(&Values) -> &[T]) -> Result<Option<T>, Message> {
+        let Some(param) = self.take(name, kind)? else { return Ok(None) };
+        match of(&param.values) {
+            [value] => Ok(Some(value.clone())),
+            [] => Err(self.at(&param, "expected one value, found none")),
+            values => Err(self.at(&param, format!("expected one value, found {}", values.len()))),
         }
     }
 
     /// One `float`.
     pub(super) fn float(&mut self, name: &str) -> Result<Option<f64>, Message> {
-        self.one_number(name, "float")
+        self.one(name, "float", Values::numbers)
     }
 
     /// One `integer`.
     pub(super) fn integer(&mut self, name: &str) -> Result<Option<i64>, Message> {
-        Ok(self.one_number(name, "integer")?.map(|value| value as i64))
+        Ok(self.one(name, "integer", Values::numbers)?.map(|value| value as i64))
     }
 
     /// One `bool`.
     pub(super) fn flag(&mut self, name: &str) -> Result<Option<bool>, Message> {
-        match self.take(name, "bool")? {
-            Some(param) => match &param.values {
-                Values::Flags(flags) => self.single(&param, flags.clone()),
-                _ => Ok(None),
-            },
-            None => Ok(None),
-        }
+        self.one(name, "bool", |values| if let Values::Flags(flags) = values { flags } else { &[] })
     }
 
     /// One `string`.
     pub(super) fn text(&mut self, name: &str) -> Result<Option<String>, Message> {
-        match self.take(name, "string")? {
-            Some(param) => match &param.values {
-                Values::Texts(texts) => self.single(&param, texts.clone()),
-                _ => Ok(None),
-            },
-            None => Ok(None),
-        }
+        self.one(name, "string", Values::texts)
     }
 
     /// Several `string`s.
     pub(super) fn texts(&mut self, name: &str) -> Result<Option<Vec<String>>, Message> {
-        Ok(match self.take(name, "string")?.map(|param| param.values) {
-            Some(Values::Texts(texts)) => Some(texts),
-            _ => None,
-        })
+        Ok(self.take(name, "string")?.map(|param| param.values.texts().to_vec()))
     }
 
     /// Removes a parameter if it is of one of these types.
@@ -299,12 +270,7 @@ impl Params {
         if !self.is_texture(name) {
             return Ok(None);
         }
-        let Some(param) = self.take_any(name, &["texture"])? else { return Ok(None) };
-        match &param.values {
-            Values::Texts(texts) if texts.len() == 1 => Ok(Some(texts[0].clone())),
-            Values::Texts(texts) => Err(self.at(&param, format!("expected one texture, found {}", texts.len()))),
-            _ => Err(self.at(&param, "expected a texture")),
-        }
+        self.one(name, "texture", Values::texts)
     }
 
     /// A colour or spectrum, or the name of a texture.

@@ -31,74 +31,46 @@ enum Format {
     BigEndian,
 }
 
-/// The type of a number.
-#[derive(Clone, Copy, PartialEq)]
-enum Kind {
-    I8,
-    U8,
-    I16,
-    U16,
-    I32,
-    U32,
-    F32,
-    F64,
+/// The types of numbers by their names.
+macro_rules! kinds {
+    ($($kind:ident $type:ident $name:literal $other:literal),*) => {
+        /// The type of a number.
+        #[derive(Clone, Copy, PartialEq)]
+        enum Kind {
+            $($kind),*
+        }
+        impl Kind {
+            fn named(word: &str) -> Option<Self> {
+                match word {
+                    $($name | $other => Some(Self::$kind),)*
+                    _ => None,
+                }
+            }
+            /// Takes a number from the beginning of bytes, if they have it.
+            fn take(self, bytes: &mut &[u8], is_big: bool) -> Option<f64> {
+                match self {
+                    $(Self::$kind => {
+                        let (first, rest) = bytes.split_first_chunk()?;
+                        *bytes = rest;
+                        Some(if is_big { $type::from_be_bytes(*first) } else { $type::from_le_bytes(*first) }.into())
+                    })*
+                }
+            }
+            /// The number that a word means, if it is one of this type.
+            fn parse(self, word: &str) -> Option<f64> {
+                let number = match self {
+                    $(Self::$kind => f64::from(word.parse::<$type>().ok()?),)*
+                };
+                (!number.is_nan()).then_some(number)
+            }
+        }
+    };
 }
 
-impl Kind {
-    fn named(word: &str) -> Option<Self> {
-        Some(match word {
-            "char" | "int8" => Self::I8,
-            "uchar" | "uint8" => Self::U8,
-            "short" | "int16" => Self::I16,
-            "ushort" | "uint16" => Self::U16,
-            "int" | "int32" => Self::I32,
-            "uint" | "uint32" => Self::U32,
-            "float" | "float32" => Self::F32,
-            "double" | "float64" => Self::F64,
-            _ => return None,
-        })
-    }
-    fn is_integer(self) -> bool {
-        !matches!(self, Self::F32 | Self::F64)
-    }
-    /// Takes a number from the beginning of bytes, if they have it.
-    fn take(self, bytes: &mut &[u8], is_big: bool) -> Option<f64> {
-        macro_rules! take {
-            ($type:ty) => {{
-                let (first, rest) = bytes.split_first_chunk()?;
-                *bytes = rest;
-                let number = if is_big { <$type>::from_be_bytes(*first) } else { <$type>::from_le_bytes(*first) };
-                f64::from(number)
-            }};
-        }
-        Some(match self {
-            Self::I8 => take!(i8),
-            Self::U8 => take!(u8),
-            Self::I16 => take!(i16),
-            Self::U16 => take!(u16),
-            Self::I32 => take!(i32),
-            Self::U32 => take!(u32),
-            Self::F32 => take!(f32),
-            Self::F64 => take!(f64),
-        })
-    }
-    /// The number that a word means, if it is one of this type.
-    fn parse(self, word: &str) -> Option<f64> {
-        fn number<T: std::str::FromStr + Into<f64>>(word: &str) -> Option<f64> {
-            word.parse::<T>().ok().map(Into::into).filter(|x: &f64| !x.is_nan())
-        }
-        match self {
-            Self::I8 => number::<i8>(word),
-            Self::U8 => number::<u8>(word),
-            Self::I16 => number::<i16>(word),
-            Self::U16 => number::<u16>(word),
-            Self::I32 => number::<i32>(word),
-            Self::U32 => number::<u32>(word),
-            Self::F32 => number::<f32>(word),
-            Self::F64 => number::<f64>(word),
-        }
-    }
-}
+kinds!(
+    I8 i8 "char" "int8", U8 u8 "uchar" "uint8", I16 i16 "short" "int16", U16 u16 "ushort" "uint16", I32 i32 "int" "int32",
+    U32 u32 "uint" "uint32", F32 f32 "float" "float32", F64 f64 "double" "float64"
+);
 
 /// A number of each row of an element, or a list of numbers after their count.
 struct Property {
@@ -193,7 +165,7 @@ fn read_faces(mesh: &mut Mesh, element: &Element, vertices: usize, body: &mut Bo
     let (Some(Property { name, count: Some(_), kind }), None) = (lists.next(), lists.next()) else {
         return Err(format!("{}: header: {INDICES}", body.name));
     };
-    if !kind.is_integer() {
+    if matches!(kind, Kind::F32 | Kind::F64) {
         return Err(format!("{}: header: {INDICES}", body.name));
     }
     let list = element.place(&[name]).unwrap_or_default();
@@ -260,35 +232,34 @@ impl Body<'_> {
             return if self.is_lined { self.line_of(element) } else { self.words_of(element).ok_or_else(String::new) };
         }
         let (is_big, mut rest) = (self.format == Format::BigEndian, self.rest);
+        let (name, size) = (self.name, self.size);
+        let ended = || format!("{name}: byte {size}: the file ends within element {:?}", element.name);
+        self.take(element, |kind| kind.take(&mut rest, is_big).ok_or_else(ended))?;
+        self.rest = rest;
+        Ok(())
+    }
+    /// Takes the numbers of a row one after the other.
+    fn take<E>(&mut self, element: &Element, mut next: impl FnMut(Kind) -> Result<f64, E>) -> Result<(), E> {
         for property in &element.properties {
             self.starts.push(self.numbers.len());
-            let ended =
-                || format!("{}: byte {}: the file ends within element {:?}", self.name, self.size, element.name);
-            let count = property.count.map_or(Some(1.0), |kind| kind.take(&mut rest, is_big)).ok_or_else(ended)?;
+            let count = property.count.map_or(Ok(1.0), &mut next)?;
             for _ in 0..count as usize {
-                self.numbers.push(property.kind.take(&mut rest, is_big).ok_or_else(ended)?);
+                self.numbers.push(next(property.kind)?);
             }
         }
-        self.rest = rest;
         Ok(())
     }
     /// Reads a row from the next words, wherever lines end.
     fn words_of(&mut self, element: &Element) -> Option<()> {
         let mut rest = self.rest;
-        let mut next = |kind: Kind| {
+        let mut word = |kind: Kind| {
             let start = rest.iter().position(|b| !b.is_ascii_whitespace())?;
             let after = &rest[start..];
             let end = after.iter().position(u8::is_ascii_whitespace).unwrap_or(after.len());
             rest = &after[end..];
             kind.parse(std::str::from_utf8(&after[..end]).ok()?)
         };
-        for property in &element.properties {
-            self.starts.push(self.numbers.len());
-            let count = property.count.map_or(Some(1.0), &mut next)?;
-            for _ in 0..count as usize {
-                self.numbers.push(next(property.kind)?);
-            }
-        }
+        self.take(element, |kind| word(kind).ok_or(())).ok()?;
         self.rest = rest;
         Some(())
     }
@@ -303,17 +274,10 @@ impl Body<'_> {
         let text = String::from_utf8_lossy(line);
         let wrong = |why: &str| format!("{place} element {:?}: {:?}: {why}", element.name, shortened(text.trim()));
         let mut words = text.split_ascii_whitespace();
-        let mut next = |kind: Kind| {
+        self.take(element, |kind| {
             let word = words.next().ok_or_else(|| wrong("fewer numbers than declared"))?;
             kind.parse(word).ok_or_else(|| wrong("not a number of the declared type"))
-        };
-        for property in &element.properties {
-            self.starts.push(self.numbers.len());
-            let count = property.count.map_or(Ok(1.0), &mut next)?;
-            for _ in 0..count as usize {
-                self.numbers.push(next(property.kind)?);
-            }
-        }
+        })?;
         if words.next().is_some() { Err(wrong("more numbers than declared")) } else { Ok(()) }
     }
 }
@@ -371,7 +335,8 @@ fn header<'a>(name: &'a str, bytes: &'a [u8]) -> Result<(Vec<Element>, Body<'a>)
                 if element.place(&[of]).is_some() {
                     return wrong("declared twice");
                 }
-                let count = (words.len() == 5).then(|| Kind::named(words[2]).filter(|kind| kind.is_integer()));
+                let count = (words.len() == 5)
+                    .then(|| Kind::named(words[2]).filter(|kind| !matches!(kind, Kind::F32 | Kind::F64)));
                 let (Some(kind), None | Some(Some(_))) = (Kind::named(words[words.len() - 2]), count) else {
                     return wrong("not a type of numbers");
                 };

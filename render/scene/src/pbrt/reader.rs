@@ -283,19 +283,18 @@ impl Reader<'_> {
             "PixelFilter" => {
                 let mut half = |name| Ok(params.float(name)?.is_none_or(|radius| radius == 0.5));
                 if !(half("xradius")? & half("yradius")? & (kind == "box")) {
-                    let text = params.error("ignored: the filter is always a box of one pixel").text;
-                    self.warn(&params.place, text);
+                    self.out.notes.warn(params.error("ignored: the filter is always a box of one pixel"));
                 }
             }
             "Integrator" => {
                 let direct = params.integer("maxdepth")? == Some(1);
                 if !(direct && ["path", "volpath", "simplepath"].contains(&kind)) {
-                    let text = params.error("only direct light is rendered, as with \"path\" and maxdepth 1").text;
-                    self.warn(&params.place, text);
+                    let text = "only direct light is rendered, as with \"path\" and maxdepth 1";
+                    self.out.notes.warn(params.error(text));
                 }
             }
             "Accelerator" => {
-                self.warn(&params.place, params.error("ignored").text);
+                self.out.notes.warn(params.error("ignored"));
                 return Ok(());
             }
             "Material" => {

@@ -4,6 +4,7 @@ use super::generated;
 use super::inputs::Files;
 use super::params::{Params, shown};
 use super::ply::{self, Face};
+use super::subdivision::Control;
 use crate::builder::{Builder, round};
 use crate::list::PBRT;
 use crate::nearest::did_you_mean;
@@ -28,10 +29,7 @@ pub(super) fn read(
         "sphere" => sphere(out, surface, params),
         "trianglemesh" => triangle_mesh(out, surface, params),
         "bilinearmesh" => bilinear_mesh(out, surface, params),
-        "loopsubdiv" => {
-            out.notes.stand_in(kind, || params.error("becomes its control mesh"));
-            triangle_mesh(out, surface, params)
-        }
+        "loopsubdiv" => subdivided(out, surface, params),
         "disk" => disk(out, surface, params),
         "cylinder" => cylinder(out, surface, params),
         "plymesh" => {
@@ -196,13 +194,33 @@ struct Mesh<const N: usize> {
     faces: Vec<[usize; N]>,
 }
 
-/// Reads the vertices from "P", "N" and "uv" and groups of `N` indices from "indices"; `N` points need no indices.
-fn indexed<const N: usize>(surface: &ShapeAttributes, params: &mut Params) -> Result<Mesh<N>, Message> {
+/// Points, and faces by their indices.
+type Faces<const N: usize> = (Vec<[f64; 3]>, Vec<[usize; N]>);
+
+/// Reads points from "P" and groups of `N` indices from "indices"; `N` points need no indices.
+fn points_and_faces<const N: usize>(params: &mut Params) -> Result<Faces<N>, Message> {
     let Some(numbers) = params.numbers("P", "point3", 3)? else {
         return Err(params.error("\"point3 P\" is missing"));
     };
-    let points = numbers.chunks_exact(3).map(|p| [p[0], p[1], p[2]]);
-    let points = surface.place(points).map_err(|why| params.error(why))?;
+    let points: Vec<_> = numbers.chunks_exact(3).map(|p| [p[0], p[1], p[2]]).collect();
+    let count = points.len();
+    let Some(indices) = params.numbers("indices", "integer", N)? else {
+        if count != N {
+            return Err(params.error(format!("\"indices\" is missing: it is optional only for {N} points")));
+        }
+        return Ok((points, vec![std::array::from_fn(|i| i)]));
+    };
+    if let Some(i) = indices.iter().find(|&&i| i < 0.0 || i as usize >= count) {
+        return Err(params.error(format!("index {i} is out of range: there are {count} points")));
+    }
+    let groups = indices.chunks_exact(N).map(|group| std::array::from_fn(|i| group[i] as usize));
+    Ok((points, groups.collect()))
+}
+
+/// Reads a mesh, with the normals and texture coordinates of its vertices from "N" and "uv".
+fn indexed<const N: usize>(surface: &ShapeAttributes, params: &mut Params) -> Result<Mesh<N>, Message> {
+    let (points, faces) = points_and_faces(params)?;
+    let points = surface.place(points.into_iter()).map_err(|why| params.error(why))?;
     let normals = params.numbers("N", "normal", 3)?.unwrap_or_default();
     let normals: Vec<_> = normals.chunks_exact(3).map(|n| [n[0], n[1], n[2]]).collect();
     // older files have other names and types
@@ -214,19 +232,8 @@ fn indexed<const N: usize>(surface: &ShapeAttributes, params: &mut Params) -> Re
             return Err(params.error(format!("{name:?} has {count} values for {} points", points.len())));
         }
     }
-    let count = points.len();
     let vertices = Vertices::new(points, placed_normals(surface, normals.into_iter()).collect(), uvs);
-    let Some(indices) = params.numbers("indices", "integer", N)? else {
-        if count != N {
-            return Err(params.error(format!("\"indices\" is missing: it is optional only for {N} points")));
-        }
-        return Ok(Mesh { vertices, faces: vec![std::array::from_fn(|i| i)] });
-    };
-    if let Some(i) = indices.iter().find(|&&i| i < 0.0 || i as usize >= count) {
-        return Err(params.error(format!("index {i} is out of range: there are {count} points")));
-    }
-    let groups = indices.chunks_exact(N).map(|group| std::array::from_fn(|i| group[i] as usize));
-    Ok(Mesh { vertices, faces: groups.collect() })
+    Ok(Mesh { vertices, faces })
 }
 
 /// Normals in world space, on the side that the file means.
@@ -254,6 +261,34 @@ fn triangle_mesh(out: &mut Builder, surface: &ShapeAttributes, params: &mut Para
     note_left_out(out, params);
     Ok(())
 }
+
+/// Reads `Shape "loopsubdiv"`: triangles whose corners and normals are those of the limit surface.
+fn subdivided(out: &mut Builder, surface: &ShapeAttributes, params: &mut Params) -> Result<(), Message> {
+    let (points, faces) = points_and_faces(params)?;
+    let levels = [params.integer("levels")?, params.integer("nlevels")?];
+    let levels = levels.into_iter().flatten().next().unwrap_or(3);
+    let count = u32::try_from(levels).ok().and_then(|levels| 4_usize.checked_pow(levels)?.checked_mul(faces.len()));
+    if count.is_none_or(|count| count > MOST_DIVIDED) {
+        let count = faces.len();
+        return Err(
+            params.error(format!("\"levels\": {levels} of {count} triangles: more than {MOST_DIVIDED} of them"))
+        );
+    }
+    let wrong = |why: String| params.error(why);
+    let mut mesh = Control { points, faces };
+    for _ in 0..levels {
+        mesh = mesh.divided().map_err(wrong)?;
+    }
+    let normals = placed_normals(surface, mesh.limit().map_err(wrong)?.into_iter()).collect();
+    let points = surface.place(mesh.points.into_iter()).map_err(wrong)?;
+    let vertices = Vertices::new(points, normals, Vec::new());
+    mesh.faces.into_iter().for_each(|face| out.face(surface, &vertices, face, &TRIANGLE_UVS));
+    note_left_out(out, params);
+    Ok(())
+}
+
+/// Most triangles of a subdivided mesh.
+const MOST_DIVIDED: usize = 1 << 24;
 
 /// Reads `Shape "bilinearmesh"`.
 fn bilinear_mesh(out: &mut Builder, surface: &ShapeAttributes, params: &mut Params) -> Result<(), Message> {

@@ -1,6 +1,8 @@
 //! BSDFs against formulas in complex numbers, and against their own integrals.
 
+use super::fresnel::fresnel;
 use super::*;
+use crate::scene::{Material, Roughness};
 
 fn complex(cos: f64, eta: f64, k: f64) -> f64 {
     // r⊥ = (cosθ − m cosθₜ)/(cosθ + m cosθₜ), r∥ = (m cosθ − cosθₜ)/(m cosθ + cosθₜ), m cosθₜ = √(m² − sin²θ)
@@ -51,7 +53,7 @@ fn rough_metal_integrates() {
             let cos = (1.0 - sin * sin).sqrt();
             let normal = V8::new(X8::lit(0.0), X8::lit(0.0), X8::lit(1.0));
             let toward = V8::from([-sin, 0.0, -cos]);
-            let bsdf = Bsdf::<true>::new(normal, normal, V8::default(), toward, Some(metal));
+            let bsdf = Bsdf::<true>::new([normal; 2], V8::default(), toward, Some(metal), Vec2::default());
             let n = 1024_u16;
             let (mut sampled, mut weight, mut grid, mut density) = (0.0, 0.0, 0.0, 0.0);
             for i in 0..n {
@@ -101,7 +103,7 @@ fn coats_integrate() {
             let normal = V8::new(X8::lit(0.0), X8::lit(0.0), X8::lit(1.0));
             let flat = V8::from([0.0, -tilt, (1.0 - tilt * tilt).sqrt()]);
             let toward = V8::from([-sin, 0.0, -(1.0 - sin * sin).sqrt()]);
-            let bsdf = Bsdf::<true>::new(normal, flat, V8::from([albedo; 3]), toward, Some(metal));
+            let bsdf = Bsdf::<true>::new([normal, flat], V8::from([albedo; 3]), toward, Some(metal), Vec2::default());
             let n = 1024_u16;
             let (mut sampled, mut above, mut grid, mut density) = (0.0, 0.0, 0.0, 0.0);
             for (i, j) in (0..n).flat_map(|i| (0..n).step_by(8).map(move |j| (i, j))) {
@@ -128,6 +130,52 @@ fn coats_integrate() {
             assert!((sampled - grid).abs() < 5e-3, "{which}: {sampled} sampled, {grid} on a grid");
             assert!((above - density).abs() < 5e-3, "{which}: {above} above, {density} integrated");
             assert!(sampled > 0.05 && sampled < 1.005, "{which}: {sampled}");
+        }
+    }
+}
+
+/// Sampling a coated metal finds directions with the pdf that evaluation has: it integrates to the fraction of samples above the horizon,
+/// and both give the same light, by which a metal that absorbs nothing reflects no more than it receives.
+#[test]
+fn coated_metals_integrate() {
+    for (above, below, coat) in [(0.1_f32, 0.3_f32, 1.5_f32), (0.3, 0.0, 1.5), (0.2, 0.4, 2.0), (1.0, 1.0, 1.1)] {
+        let metal = Material::CoatedConductor {
+            eta: [0.0; 3],
+            k: [30.0; 3],
+            roughness: below.into(),
+            coat,
+            interface: above.into(),
+        };
+        let metal = Metal::new([&record(&metal); 8]);
+        for sin in [0.1_f32, 0.6, 0.95] {
+            let normal = V8::new(X8::lit(0.0), X8::lit(0.0), X8::lit(1.0));
+            let toward = V8::from([-sin, 0.0, -(1.0 - sin * sin).sqrt()]);
+            let n = 512_u16;
+            let (mut sampled, mut above_horizon, mut grid, mut density) = (0.0, 0.0, 0.0, 0.0);
+            for (i, j) in (0..n).flat_map(|i| (0..n).step_by(8).map(move |j| (i, j))) {
+                let u = Vec2::new(
+                    X8::splat((f32::from(i) + 0.5) / f32::from(n)),
+                    X8::from_fn(|lane| (f32::from(j) + lane as f32 + 0.5) / f32::from(n)),
+                );
+                let bsdf = Bsdf::<true>::new([normal; 2], V8::from([1.0; 3]), toward, Some(metal), u);
+                let Scattered { color, pdf, .. } = bsdf.sample(Technique::Brdf, u);
+                let uniform: V8 = UniformHemisphere.sample(u);
+                let at = bsdf.evaluate(uniform);
+                for lane in 0..8 {
+                    if pdf.lane(lane) > 0.0 {
+                        sampled += f64::from(color.x.lane(lane));
+                        above_horizon += 1.0;
+                    }
+                    grid += f64::from(at.color.x.lane(lane)) * std::f64::consts::TAU;
+                    density += f64::from(at.pdf.lane(lane)) * std::f64::consts::TAU;
+                }
+            }
+            let count = f64::from(n) * f64::from(n);
+            let [sampled, above_horizon, grid, density] = [sampled, above_horizon, grid, density].map(|x| x / count);
+            let which = format!("coat {coat} of roughness {above} over {below}, sin {sin}");
+            assert!((sampled - grid).abs() < 0.02, "{which}: {sampled} sampled, {grid} on a grid");
+            assert!((above_horizon - density).abs() < 5e-3, "{which}: {above_horizon} above, {density} integrated");
+            assert!(sampled > 0.15 && sampled < 1.01, "{which}: {sampled}");
         }
     }
 }
