@@ -1,7 +1,7 @@
 //! Numbers of single and double precision, and packets of them.
 
 use super::uint::lanes;
-use super::{Mask, MaskF64X4, MaskF64X8, MaskX4, MaskX8, MaskX16, Real, arctangent, fused, trigonometry};
+use super::{Mask, MaskF64X4, MaskF64X8, MaskX4, MaskX8, MaskX16, Real, arctangent, functions, fused, trigonometry};
 use wide::{f32x4, f32x8, f32x16, f64x2, f64x4, f64x8, u32x4, u32x8, u32x16, u64x4, u64x8};
 
 /// True where rounding to an integer is an instruction.
@@ -23,10 +23,6 @@ macro_rules! polynomials {
 /// and closed forms need.
 macro_rules! lane_by_lane {
     () => {
-        #[inline(always)]
-        fn sin_cos_turns(self) -> (Self, Self) {
-            trigonometry::sin_cos_turns(self)
-        }
         #[inline(always)]
         fn sin_cos_quarters(self) -> (Self, Self) {
             (self * Self::lit(0.25)).sin_cos_turns()
@@ -54,9 +50,20 @@ macro_rules! lane_by_lane {
     };
 }
 
+/// The same, of packets.
+macro_rules! lanes_of_packet {
+    () => {
+        #[inline(always)]
+        fn sin_cos_turns(self) -> (Self, Self) {
+            trigonometry::sin_cos_turns(self)
+        }
+        lane_by_lane!();
+    };
+}
+
 macro_rules! scalar_real {
     ($scalar:ident, $bits:ident, $packet:ident, $exponent:literal, $reflected:literal,
-     $fused:ident, $product_error:ident, $functions:ident) => {
+     $fused:ident, $product_error:ident, $functions:ident, $turns:path, $quarters:path) => {
         impl Real for $scalar {
             type Scalar = $scalar;
             type Mask = bool;
@@ -176,12 +183,51 @@ macro_rules! scalar_real {
             fn to_uint(self) -> u32 {
                 self as i32 as u32
             }
+            #[inline(always)]
+            fn sin_cos_turns(self) -> (Self, Self) {
+                let u4 = self * 4.0;
+                // in numbers without digits for a fraction, the last bits are the quadrant
+                let whole = 1.5 / $scalar::EPSILON;
+                if !(Real::abs(u4) < 0.25 / $scalar::EPSILON) {
+                    return $turns(self);
+                }
+                let sum = u4 + whole;
+                let (s, c) = $quarters(u4 + (whole - sum));
+                let (quadrant, [s, c]) = (sum.to_bits(), [s, c].map($scalar::to_bits));
+                let swapped = (s ^ c) & (quadrant & 1).wrapping_neg();
+                let sign = |bit: $bits| (bit & 2) << ($bits::BITS - 2);
+                let sin = s ^ swapped ^ sign(quadrant);
+                let cos = c ^ swapped ^ sign(quadrant + 1);
+                ($scalar::from_bits(sin), $scalar::from_bits(cos))
+            }
             $functions!();
         }
     };
 }
-scalar_real!(f32, u32, f32x4, 0x7f80_0000, 0x7f00_0000, single, product_error, polynomials);
-scalar_real!(f64, u64, f64x2, 0x7ff0_0000_0000_0000, 0x7fe0_0000_0000_0000, double, double_product_error, lane_by_lane);
+scalar_real!(
+    f32,
+    u32,
+    f32x4,
+    0x7f80_0000,
+    0x7f00_0000,
+    single,
+    product_error,
+    polynomials,
+    functions::sin_cos_turns_f32,
+    functions::sin_cos_quarters_f32
+);
+scalar_real!(
+    f64,
+    u64,
+    f64x2,
+    0x7ff0_0000_0000_0000,
+    0x7fe0_0000_0000_0000,
+    double,
+    double_product_error,
+    lane_by_lane,
+    trigonometry::sin_cos_turns,
+    trigonometry::sin_cos_quarters
+);
 
 macro_rules! packet_real {
     ($packet:ident, $scalar:ident, $bits:ident, $mask:ident, $uint:ident, $lanes:literal, $exponent:literal,
@@ -384,7 +430,7 @@ packet_real!(
     double,
     double_product_error,
     from_i32x4,
-    lane_by_lane,
+    lanes_of_packet,
     |x| u32x4::new(core::array::from_fn(|i| x.as_array()[i] as i32 as u32)),
     |mask| u32x4::new(core::array::from_fn(|i| if mask.lane(i) { u32::MAX } else { 0 })),
     |value| MaskF64X4::from_bits(value.simd_ne(u32x4::splat(0)).to_bitmask())
@@ -401,7 +447,7 @@ packet_real!(
     double,
     double_product_error,
     from_i32x8,
-    lane_by_lane,
+    lanes_of_packet,
     |x| u32x8::new(core::array::from_fn(|i| x.as_array()[i] as i32 as u32)),
     |mask| u32x8::new(core::array::from_fn(|i| if mask.lane(i) { u32::MAX } else { 0 })),
     |value| MaskF64X8::from_bits(value.simd_ne(u32x8::splat(0)).to_bitmask())
