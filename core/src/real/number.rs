@@ -7,9 +7,28 @@ use wide::{f32x4, f32x8, f32x16, f64x2, f64x4, f64x8, u32x4, u32x8, u32x16, u64x
 /// True where rounding to an integer is an instruction.
 const ROUNDS: bool = cfg!(any(target_feature = "sse4.1", target_feature = "simd128", target_arch = "aarch64"));
 
-/// What single precision needs beside the polynomials that [`Real`] provides.
+/// What single precision needs beside the polynomials that [`Real`] provides. Where products and sums are rounded twice, double precision costs
+/// less than the rests of products.
 macro_rules! polynomials {
     () => {
+        #[inline(always)]
+        fn difference_of_products(a: Self, b: Self, c: Self, d: Self) -> Self {
+            if Self::FUSED {
+                return functions::difference_of_products(a, b, c, d);
+            }
+            Self::from_fn(|i| (a.lane_f64(i) * b.lane_f64(i) - c.lane_f64(i) * d.lane_f64(i)) as f32)
+        }
+        #[inline(always)]
+        fn dot_in_two(a: [Self; 3], b: [Self; 3]) -> [Self; 2] {
+            if Self::FUSED {
+                return functions::dot_in_two(a, b);
+            }
+            let ([ax, ay, az], [bx, by, bz]) = (a, b);
+            let product = |a: Self, b: Self, i: usize| a.lane_f64(i) * b.lane_f64(i);
+            let sum = |i: usize| product(ax, bx, i) + product(ay, by, i) + product(az, bz, i);
+            let rounded = Self::from_fn(|i| sum(i) as f32);
+            [rounded, Self::from_fn(|i| (sum(i) - rounded.lane_f64(i)) as f32)]
+        }
         #[inline(always)]
         fn inverse_cbrt_estimate(self) -> Self {
             // a third of the exponent and nearly a third of the mantissa
