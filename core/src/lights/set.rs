@@ -4,6 +4,7 @@ use super::emitter::{Emitter, Piece, Plane, Shape};
 use super::mixture::{Mixture, MixtureAt, Source};
 use super::prepared::{self, Drawn, Prepared};
 use super::receiver::{LightsSample, Receiver, Side, Which};
+use crate::light::EnvironmentBySolidAngle;
 use crate::real::{Mask, Real, Uint, unit_interval};
 use crate::select::{LightBound, LightChoice, LightsError, TreeAt};
 use crate::vector::{Vec2, Vec3};
@@ -102,8 +103,17 @@ pub struct LightsAt<'a, R: Real<Scalar = R>> {
     receiver: Receiver<R>,
     /// Where that takes more than to look up a tree.
     choice: Option<MixtureAt<'a, R>>,
-    /// Its index, and whether the receiver is on it.
-    last: RefCell<Option<(u32, bool, Prepared<R>)>>,
+    last: RefCell<Last<R>>,
+}
+
+/// The light that was sampled last.
+#[derive(Clone, Debug)]
+struct Last<R: Real<Scalar = R>> {
+    /// Its index; at first that of none.
+    index: u32,
+    /// Whether the receiver is on it.
+    is_on: bool,
+    prepared: Prepared<R>,
 }
 
 impl<R: Number> LightsAt<'_, R> {
@@ -202,9 +212,17 @@ fn build<R: Real<Scalar = R>>(lights: Vec<(Emitter<R>, R)>) -> Result<Lights<R>,
 fn at<R: Real<Scalar = R>>(lights: &Lights<R>, receiver: Receiver<R>) -> LightsAt<'_, R> {
     let of_sky = if matches!(receiver.side, Side::Surface(_)) { PI } else { 4.0 * PI };
     let sky = || R::lit(lights.sky * of_sky);
-    let is_mixed = !lights.choice.has_lamps_alone();
-    let choice = is_mixed.then(|| lights.choice.at(receiver.point, receiver.normal(), None, sky));
-    LightsAt { lights, receiver, choice, last: RefCell::new(None) }
+    // each in its place, so that kilobytes are not moved
+    macro_rules! none {
+        () => {
+            RefCell::new(Last { index: u32::MAX, is_on: false, prepared: Prepared::Sky(EnvironmentBySolidAngle) })
+        };
+    }
+    if lights.choice.has_lamps_alone() {
+        return LightsAt { lights, receiver, choice: None, last: none!() };
+    }
+    let choice = Some(lights.choice.at(receiver.point, receiver.normal(), None, sky));
+    LightsAt { lights, receiver, choice, last: none!() }
 }
 
 impl<R: Real<Scalar = R>> LightsAt<'_, R> {
@@ -235,13 +253,12 @@ impl<R: Real<Scalar = R>> LightsAt<'_, R> {
     fn with<T>(&self, index: u32, part: &Part<R>, f: impl FnOnce(&Prepared<R>) -> T) -> (T, bool) {
         let Receiver { point, side, on } = self.receiver;
         let mut last = self.last.borrow_mut();
-        let (_, is_on, prepared) = match &mut *last {
-            Some(last) if last.0 == index => last,
-            last => {
-                let is_on = on == Some(part.which) || part.holds(point);
-                last.insert((index, is_on, Prepared::new(&part.shape, point, side)))
-            }
-        };
+        let Last { index: of, is_on, prepared } = &mut *last;
+        if *of != index {
+            *of = index;
+            *is_on = on == Some(part.which) || part.holds(point);
+            prepared.prepare(&part.shape, point, side);
+        }
         (f(prepared), *is_on)
     }
 }

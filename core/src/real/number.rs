@@ -207,7 +207,7 @@ macro_rules! scalar_real {
                 let u4 = self * 4.0;
                 // in numbers without digits for a fraction, the last bits are the quadrant
                 let whole = 1.5 / $scalar::EPSILON;
-                if !(Real::abs(u4) < 0.25 / $scalar::EPSILON) {
+                if Real::abs(u4) >= 0.25 / $scalar::EPSILON || u4.is_nan() {
                     return $turns(self);
                 }
                 let sum = u4 + whole;

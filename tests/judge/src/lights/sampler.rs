@@ -32,6 +32,15 @@ pub trait Sampler {
     }
 }
 
+/// What a sampler declares that it does not have, so that it is judged by what is left.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Lacks {
+    /// It has no map from the square: numbers are only what its generator starts from, as where it draws by rejection.
+    pub map: bool,
+    /// It evaluates no density of a direction. That of a sample is judged all the same.
+    pub pdf: bool,
+}
+
 /// What preparing a light for a point gives.
 pub enum Prepared<'a> {
     /// The sampler does not claim to be right there.
@@ -50,6 +59,8 @@ pub struct Subject<'a> {
     pub shape: LightShape,
     /// What it claims to be uniform by.
     pub by: Measure,
+    /// What it declares that it does not have.
+    pub lacks: Lacks,
     /// In words, where it claims to be right; empty if everywhere.
     pub domain: String,
     /// Prepares a light for its point.
@@ -142,6 +153,7 @@ pub fn technique(shape: LightShape, by: Measure) -> Subject<'static> {
         name: format!("etendue {} by {by:?}", shape_name(shape)),
         shape,
         by: if known { by } else { Measure::Other },
+        lacks: Lacks::default(),
         domain: String::new(),
         prepare: Box::new(move |light| {
             let light = AreaLight { by, ..*light };
