@@ -1,10 +1,11 @@
 //! The set, its choice and its samples.
 
+use super::emission::{self, Emission, Face};
 use super::emitter::{Emitter, Piece, Plane, Shape};
 use super::mixture::{Mixture, MixtureAt, Source};
 use super::prepared::{self, Drawn, Prepared};
 use super::receiver::{LightsSample, Receiver, Side, Which};
-use crate::light::EnvironmentBySolidAngle;
+use crate::light::{EnvironmentBySolidAngle, Sphere};
 use crate::real::{Mask, Real, Uint, unit_interval};
 use crate::select::{LightBound, LightChoice, LightsError, TreeAt};
 use crate::vector::{Vec2, Vec3};
@@ -84,6 +85,17 @@ impl<R: Number> Lights<R> {
     pub fn at(&self, receiver: Receiver<R>) -> LightsAt<'_, R> {
         R::at(self, receiver)
     }
+    /// A ray that leaves the light `which`, by four numbers in [0, 1), for methods that trace from the lights. `scene` is a sphere around
+    /// all that is lit, through which lights infinitely far away send theirs. Without such a light, and of numbers that are not finite,
+    /// the pdf is 0.
+    ///
+    /// - Formula: uniform over the surface, and in proportion to the cosine above it, so that all rays of a light carry the same power; of
+    ///   two sides either has half of the rays. A spot light sends rays uniformly into its outer cone, point lights and lines to all sides.
+    /// - Choose a light by its power, which is the mean of the [`weight`](Emission::weight) times its radiance.
+    #[must_use]
+    pub fn emit(&self, which: impl Into<Which>, u: [R; 4], scene: Sphere<R>) -> Emission<R> {
+        R::emit(self, which.into(), u, scene)
+    }
     /// Number of lights.
     #[must_use]
     pub fn len(&self) -> usize {
@@ -142,6 +154,7 @@ pub trait Compiled: Real<Scalar = Self> {
     fn at(lights: &Lights<Self>, receiver: Receiver<Self>) -> LightsAt<'_, Self>;
     fn sample(at: &LightsAt<'_, Self>, u: [Self; 3]) -> LightsSample<Self>;
     fn pdf(at: &LightsAt<'_, Self>, which: Which, w: Vec3<Self>) -> Self;
+    fn emit(lights: &Lights<Self>, which: Which, u: [Self; 4], scene: Sphere<Self>) -> Emission<Self>;
 }
 macro_rules! compiled {
     ($($number:ident)+) => {$(
@@ -157,6 +170,9 @@ macro_rules! compiled {
             }
             fn pdf(at: &LightsAt<'_, Self>, which: Which, w: Vec3<Self>) -> Self {
                 pdf(at, which, w)
+            }
+            fn emit(lights: &Lights<Self>, which: Which, u: [Self; 4], scene: Sphere<Self>) -> Emission<Self> {
+                emit(lights, which, u, scene)
             }
         }
     )+};
@@ -302,15 +318,31 @@ fn nothing<R: Real>() -> LightsSample<R> {
     LightsSample { which, direction, distance: zero, point, bound: zero, normal, pdf: zero, factor: zero, delta: false }
 }
 
+/// A part of a light and its index, if there is one.
+#[inline(always)]
+fn part_of<R: Real<Scalar = R>>(lights: &Lights<R>, which: Which) -> Option<(u32, &Part<R>)> {
+    let [first, end] = lights.first.get(which.light as usize..)?.first_chunk()?;
+    let index = first.saturating_add(which.part);
+    lights.parts.get(index as usize).filter(|_| index < *end).map(|part| (index, part))
+}
+
+#[inline(always)]
+fn emit<R: Real<Scalar = R>>(lights: &Lights<R>, which: Which, u: [R; 4], scene: Sphere<R>) -> Emission<R> {
+    let Some((_, part)) = part_of(lights, which) else {
+        let ([origin, direction, normal], zero) = ([Vec3::ZERO; 3], R::lit(0.0));
+        return Emission { origin, direction, normal, pdf: zero, weight: zero };
+    };
+    let face = match (part.two_sided, part.reversed) {
+        (true, _) => Face::Both,
+        (_, true) => Face::Back,
+        _ => Face::Front,
+    };
+    emission::emit(&part.shape, face, u, scene)
+}
+
 #[inline(always)]
 fn pdf<R: Real<Scalar = R>>(at: &LightsAt<'_, R>, which: Which, w: Vec3<R>) -> R {
-    let Some([first, end]) = at.lights.first.get(which.light as usize..).and_then(|first| first.first_chunk()) else {
-        return R::lit(0.0);
-    };
-    let index = first.saturating_add(which.part);
-    let Some(part) = at.lights.parts.get(index as usize).filter(|_| index < *end) else {
-        return R::lit(0.0);
-    };
+    let Some((index, part)) = part_of(at.lights, which) else { return R::lit(0.0) };
     if matches!(part.shape, Shape::Line(_) | Shape::Point(_) | Shape::Spot(_) | Shape::Directional(_)) {
         return R::lit(0.0);
     }
