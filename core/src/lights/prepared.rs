@@ -170,7 +170,7 @@ pub(super) fn point<R: Real<Scalar = R>>(shape: &Shape<R>, p: Vec3<R>, sample: &
         Shape::Directional(_) | Shape::Sun(_) | Shape::Sky => (sample.direction * far, R::lit(0.0)),
     };
     // coordinates may overflow
-    (point.map(|x| x.clamped(-far, far)), bound.lesser(far))
+    (point.map(|x| x.clamped(-far, far)), bound.clamped(R::lit(0.0), far))
 }
 
 /// The sum of the greatest coordinates of the axes.

@@ -59,7 +59,7 @@ impl<R: Real<Scalar = R>> Part<R> {
 ///   direction determines it only to rounding.
 /// - Degenerate: without lights, for a receiver that none reaches, and of numbers that are not finite, the pdf is 0.
 /// - Sizes: each light and each triangle of a mesh takes 104 bytes in single precision and 184 in double, besides 58 of the tree;
-///   [`LightsAt`], which lives on the stack, a kilobyte or two.
+///   [`LightsAt`], which lives on the stack, 2 kB in single precision and 4 kB in double.
 #[derive(Clone, Debug)]
 pub struct Lights<R: Real<Scalar = R>> {
     parts: Vec<Part<R>>,
@@ -288,7 +288,9 @@ fn sample<R: Real<Scalar = R>>(at: &LightsAt<'_, R>, [u, v, w]: [R; 3]) -> Light
     let (index, pmf) = at.choose(unit_interval(u), R::unit(R::Uint::splat(hash)));
     let Some(part) = at.lights.parts.get(index as usize) else { return nothing() };
     let (mut sample, is_on): (Drawn<R>, bool) = at.with(index, part, |light| light.sample(Vec2::new(v, w)));
-    sample.normal = part.normal(at.receiver.point, &sample);
+    let normal = part.normal(at.receiver.point, &sample);
+    // of numbers that overflow there is none
+    sample.normal = normal.keep(normal.is_within(R::lit(2.0)));
     let delta = sample.delta && !matches!(part.shape, Shape::Line(_));
     let emits = part.two_sided || sample.emits != part.reversed;
     let some = !is_on && sample.pdf.gt(zero).any() && pmf.gt(zero).any();
@@ -358,6 +360,6 @@ mod tests {
     #[test]
     fn sizes_are_as_stated() {
         let sizes = [size_of::<Part<f32>>(), size_of::<Part<f64>>(), size_of::<LightsAt<'_, f32>>()];
-        assert_eq!(sizes, [104, 184, 992]);
+        assert_eq!(sizes, [104, 184, 2144]);
     }
 }

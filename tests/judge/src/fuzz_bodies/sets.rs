@@ -40,8 +40,8 @@ fn emitter<R: Real<Scalar = R>>(input: &mut Input<'_>) -> (Emitter<R>, bool) {
         1 => light.facing(b),
         _ => light,
     };
-    // corners at random are no polygon, and a rounded direction of a line, or of a patch, does not determine the point
-    (light, !matches!(kind, 5..=7))
+    // vectors at random are no rectangle, and no flat polygon; a rounded direction of a patch, or of a line, does not determine the point
+    (light, !matches!(kind, 3 | 5..=7))
 }
 
 fn check<R: Number>(input: &mut Input<'_>) {
