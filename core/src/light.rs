@@ -174,6 +174,8 @@ pub use seen::SphericalShape;
 pub use sphere::Sphere;
 #[doc(hidden)]
 pub use sphere::{SphereByArea, SphereByProjectedSolidAngle, SphereByReflection, SphereBySolidAngle};
+#[cfg(feature = "alloc")]
+pub(crate) use surface::{AreaSurface, SurfacePoint};
 #[doc(hidden)]
 pub use techniques::Example;
 pub use triangle::Triangle;

@@ -23,12 +23,14 @@
 //! [`Lights`] are of `f32` or `f64`, and compiled with this library: a debug build of a host with `opt-level = 3` for its dependencies calls
 //! optimised code.
 
+mod emission;
 mod emitter;
 mod mixture;
 mod prepared;
 mod receiver;
 mod set;
 
+pub use emission::Emission;
 pub use emitter::Emitter;
 pub use mixture::{Mixture, MixtureAt, Source};
 pub use receiver::{LightsSample, Receiver, Side, Which};

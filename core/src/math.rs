@@ -63,13 +63,7 @@ pub fn one_minus_cos<R: Real>(sin_squared: R) -> R {
 #[doc(hidden)]
 #[inline(always)]
 pub fn difference_of_products<R: Real>(a: R, b: R, c: R, d: R) -> R {
-    let cd = c * d;
-    let error = R::two_prod_error(c, d, cd);
-    if R::FUSED {
-        return a.mul_add(b, -cd) - error;
-    }
-    let ab = a * b;
-    (ab - cd) + (R::two_prod_error(a, b, ab) - error)
+    R::difference_of_products(a, b, c, d)
 }
 
 /// a/b, or 0 where b is not positive.

@@ -188,6 +188,18 @@ pub trait Real:
     fn two_prod_error(a: Self, b: Self, product: Self) -> Self {
         a.mul_add(b, -product)
     }
+    /// a·b − c·d to within 1.5 ulp of the exact result (Kahan; Jeannerod, Louvet and Muller 2013).
+    #[doc(hidden)]
+    #[inline(always)]
+    fn difference_of_products(a: Self, b: Self, c: Self, d: Self) -> Self {
+        functions::difference_of_products(a, b, c, d)
+    }
+    /// a·b of vectors, as an unevaluated sum in twice the working precision.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn dot_in_two(a: [Self; 3], b: [Self; 3]) -> [Self; 2] {
+        functions::dot_in_two(a, b)
+    }
     /// `self + other` and its rounding error, exactly, barring overflow (Knuth's TwoSum).
     #[inline(always)]
     fn two_sum(self, other: Self) -> (Self, Self) {

@@ -4,7 +4,7 @@
 use crate::kit::world;
 use crate::random::Random;
 use etendue_oracle::{V3, along, cross, dot, unit};
-use etendue_render::compare::LIMIT;
+use etendue_render::film::compare::LIMIT;
 use etendue_render::{Sampler, Settings, Technique};
 use etendue_scene::list::PBRT;
 use rayon::prelude::*;

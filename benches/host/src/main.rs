@@ -6,7 +6,6 @@
 
 #[cfg_attr(debug_assertions, allow(dead_code))]
 mod packets;
-mod plain;
 mod scalars;
 mod textbook;
 
@@ -17,7 +16,7 @@ use etendue::{Rectangle, Sphere, Triangle, Vec2, Vec3, f32x8};
 use etendue_batch::{Batch, technique};
 use std::hint::black_box;
 use std::time::Instant;
-use textbook::Vector;
+use textbook::single::{self, Vector};
 
 /// Samples of a run.
 const N: usize = 4096;
@@ -173,21 +172,21 @@ fn main() {
             input,
             TriangleBySolidAngle,
             Triangle::new(a, b, c),
-            move |p, u| textbook::triangle(&corners, p, u),
+            move |p, u| single::triangle(&corners, p, u),
             move |p, u| packets::triangle(corners.map(eight), p, u)
         ),
         times!(
             input,
             RectangleBySolidAngle,
             Rectangle::new(corner.into(), edges[0].into(), edges[1].into()),
-            move |p, u| textbook::rectangle(corner, edges, p, u),
+            move |p, u| single::rectangle(corner, edges, p, u),
             move |p, u| packets::rectangle(eight(corner), edges.map(eight), p, u)
         ),
         times!(
             input,
             SphereBySolidAngle,
             Sphere::new(center.into(), radius),
-            move |p, u| textbook::sphere(center, radius, p, u),
+            move |p, u| single::sphere(center, radius, p, u),
             move |p, u| packets::sphere(eight(center), f32x8::splat(radius), p, u)
         ),
     ];

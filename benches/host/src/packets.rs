@@ -44,53 +44,44 @@ pub fn triangle<R: Real>(corners: [Vec3<R>; 3], p: Vec3<R>, u: Vec2<R>) -> (Vec3
 
 /// Directions from points `p` to a rectangle, and their pdfs per steradian.
 pub fn rectangle<R: Real>(corner: Vec3<R>, edges: [Vec3<R>; 2], p: Vec3<R>, u: Vec2<R>) -> (Vec3<R>, R) {
-    let one = lit::<R>(1.0);
+    let (zero, one) = (lit::<R>(0.0), lit::<R>(1.0));
     let (width, height) = (edges[0].dot(edges[0]).sqrt(), edges[1].dot(edges[1]).sqrt());
     let (x, y) = (edges[0] * (one / width), edges[1] * (one / height));
     let z = cross(x, y);
     let from = corner - p;
     let z0 = from.dot(z);
-    let (z, z0) = (Vec3::blend(z0.gt(lit(0.0)), -z, z), -z0.abs());
+    let (z, z0) = (Vec3::blend(z0.gt(zero), -z, z), -z0.abs());
     let (x0, y0) = (from.dot(x), from.dot(y));
     let (x1, y1) = (x0 + width, y0 + height);
-    let (v00, v01) = (Vec3::new(x0, y0, z0), Vec3::new(x0, y1, z0));
-    let (v10, v11) = (Vec3::new(x1, y0, z0), Vec3::new(x1, y1, z0));
-    let n = [unit(cross(v00, v10)), unit(cross(v10, v11)), unit(cross(v11, v01)), unit(cross(v01, v00))];
-    let (g0, g1, g2, g3) = (angle(-n[0], n[1]), angle(-n[1], n[2]), angle(-n[2], n[3]), angle(-n[3], n[0]));
-    let (b0, b1, k) = (n[0].z, n[2].z, lit::<R>(TAU) - g2 - g3);
-    let area = g0 + g1 - k;
+    let zz = z0 * z0;
+    let [n0, n1, n2, n3] = [-y0, x1, y1, -x0].map(|e| e / (e * e + zz).sqrt());
+    let k = lit::<R>(TAU) - (-(n2 * n3)).acos() - (-(n3 * n0)).acos();
+    let area = (-(n0 * n1)).acos() + (-(n1 * n2)).acos() - k;
     let (sin, cos) = sin_cos(u.x * area + k);
-    let f = (cos * b0 - b1) / sin;
-    let c = (one.copysign(f) / (f * f + b0 * b0).sqrt()).clamped(lit(-0.999_999_9), lit(0.999_999_9));
+    let f = (cos * n0 - n2) / sin;
+    let c = one.copysign(f) / (f * f + n0 * n0).sqrt();
     let at_x = (-(c * z0) / other(c)).clamped(x0, x1);
-    let d = (at_x * at_x + z0 * z0).sqrt();
-    let (h0, h1) = (y0 / (d * d + y0 * y0).sqrt(), y1 / (d * d + y1 * y1).sqrt());
+    let d2 = at_x * at_x + zz;
+    let (h0, h1) = (y0 / (d2 + y0 * y0).sqrt(), y1 / (d2 + y1 * y1).sqrt());
     let h = h0 + u.y * (h1 - h0);
-    let at_y = R::blend((h * h).lt(lit(1.0 - 1e-6)), h * d / other(h), y1);
+    let at_y = h * (d2 / (one - h * h)).sqrt();
     (unit(x * at_x + y * at_y + z * z0), one / area)
 }
 
 /// Directions from points `p` outside of a sphere to it, and their pdfs per steradian.
 pub fn sphere<R: Real>(center: Vec3<R>, radius: R, p: Vec3<R>, u: Vec2<R>) -> (Vec3<R>, R) {
-    let (zero, one) = (lit::<R>(0.0), lit::<R>(1.0));
+    let one = lit::<R>(1.0);
     let to_center = center - p;
-    let sin2_max = radius * radius / to_center.dot(to_center);
-    let one_minus_cos_max = one - (one - sin2_max).greater(zero).sqrt();
+    let squared = to_center.dot(to_center);
+    let one_minus_cos_max = one - (one - radius * radius / squared).greater(lit(0.0)).sqrt();
     let cos = one - one_minus_cos_max * u.x;
-    let sin2 = one - cos * cos;
-    let small = sin2_max.lt(lit(0.000_685_23));
-    let sin2 = R::blend(small, sin2_max * u.x, sin2);
-    let cos = R::blend(small, (one - sin2).sqrt(), cos);
-    let one_minus_cos_max = R::blend(small, sin2_max * lit(0.5), one_minus_cos_max);
-    let cos_alpha = sin2 / sin2_max.sqrt() + cos * (one - sin2 / sin2_max).greater(zero).sqrt();
-    let sin_alpha = other(cos_alpha);
-    let w = unit(to_center);
+    let sin = other(cos);
+    let w = to_center * (one / squared.sqrt());
     let sign = one.copysign(w.z);
     let a = -one / (sign + w.z);
     let b = w.x * w.y * a;
     let s = Vec3::new(one + sign * w.x * w.x * a, sign * b, -(sign * w.x));
     let t = Vec3::new(b, sign + w.y * w.y * a, -w.y);
     let (sin_phi, cos_phi) = u.y.sin_cos_turns();
-    let outwards = s * (sin_alpha * cos_phi) + t * (sin_alpha * sin_phi) + w * cos_alpha;
-    (unit(to_center - outwards * radius), one / (lit::<R>(TAU) * one_minus_cos_max))
+    (s * (sin * cos_phi) + t * (sin * sin_phi) + w * cos, one / (lit::<R>(TAU) * one_minus_cos_max))
 }

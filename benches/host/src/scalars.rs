@@ -1,7 +1,7 @@
 //! Single numbers of either precision beside the plainest formulas: a sample with its preparation, by a light's own technique and by a set of lights,
 //! and the pdf of a direction after a sample at the same point.
 
-use crate::plain;
+use crate::textbook;
 use etendue::lights::{Lights, LightsAt, Receiver, Side};
 use etendue::{LightSampler, Rectangle, Sphere, Triangle, Vec2, Vec3};
 use std::hint::black_box;
@@ -27,7 +27,7 @@ pub struct Times(pub [f64; 4]);
 macro_rules! scalars {
     ($name:ident, $number:ident, $plain:ident) => {
         pub fn $name() -> Vec<(&'static str, Times)> {
-            use plain::$plain::{Vector, rectangle, sphere, triangle};
+            use textbook::$plain::{Vector, rectangle, sphere, triangle};
             let mut state = 1_u32;
             let mut next = || {
                 state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);

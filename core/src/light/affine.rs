@@ -166,6 +166,8 @@ impl<R: Real, S: LightSampler<R>> LightSampler<R> for AffineSampler<S, R> {
     fn sample(&self, u: Vec2<R>) -> LightSample<R> {
         let local = self.sampler.sample(u);
         let (w, stretch) = self.axes.image(local.direction).unit_and_length();
+        // a point whose coordinates overflow has no direction
+        let w = w.keep(w.is_within(R::lit(2.0)));
         let pdf = self.pdf(w).keep(local.pdf.gt(R::lit(0.0)));
         self.moved(w, local, stretch, pdf)
     }

@@ -28,9 +28,13 @@ pub(in crate::light) fn above_horizon<R: Real>(w: Vec3<R>, normal: Vec3<R>) -> V
 /// Scales the vectors by a power of two so that no coordinate exceeds 2, and returns that scale; all become 0 where a sum has
 /// overflowed.
 #[inline(always)]
-pub(in crate::light) fn to_unit<R: Real, const N: usize>(vectors: [Vec3<R>; N]) -> ([Vec3<R>; N], R) {
+pub(in crate::light) fn to_unit<R: Real, const N: usize>(mut vectors: [Vec3<R>; N]) -> ([Vec3<R>; N], R) {
     let reach = vectors.iter().fold(R::lit(0.0), |most, v| most.greater(v.max_abs()));
     let finite = reach.lt(R::lit(f64::INFINITY));
     let scale = reach.pow2_scale();
-    (vectors.map(|v| v.keep(finite) * scale), scale)
+    // of an array's own map, compilers keep a copy in memory
+    for v in &mut vectors {
+        *v = v.keep(finite) * scale;
+    }
+    (vectors, scale)
 }

@@ -86,6 +86,12 @@ pub struct ByArea<S> {
 }
 
 impl<S> ByArea<S> {
+    /// The surface relative to the point.
+    #[cfg(feature = "alloc")]
+    #[inline(always)]
+    pub(crate) fn surface(&self) -> &S {
+        &self.surface
+    }
     /// Surface area, in the square of the unit of the coordinates.
     #[inline(always)]
     pub fn area<R: Real>(&self) -> R

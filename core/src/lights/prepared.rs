@@ -12,21 +12,19 @@ use crate::light::{
 use crate::real::{Mask, Real};
 use crate::vector::{Vec2, Vec3};
 use crate::warp::Warp;
-use alloc::boxed::Box;
 
 /// What is seen of a shape.
 type SeenOf<S> = <S as SeenShape>::Shape;
 
 /// A sampler of a light at the receiver. Of shapes that are sampled by solid angle it is what is seen of them: a set knows their normals.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(super) enum Prepared<R: Real<Scalar = R>> {
     Sphere(SeenOf<SphereBySolidAngle<R>>),
     Triangle(SeenOf<TriangleBySolidAngle<R>>),
     Parallelogram(SeenOf<ParallelogramBySolidAngle<R>>),
     Rectangle(SeenOf<RectangleBySolidAngle<R>>),
     Disk(SeenOf<DiskBySolidAngle<R>>),
-    /// Kilobytes, which are not to be copied with the others.
-    Polygon(Box<SeenOf<PolygonBySolidAngle<R, 8>>>),
+    Polygon(SeenOf<PolygonBySolidAngle<R, 8>>),
     Patch(PatchByArea<R>),
     Line(LineByAngle<R>),
     Ellipsoid(AffineSampler<SphereBySolidAngle<R>, R>),
@@ -64,28 +62,30 @@ macro_rules! each {
 }
 
 impl<R: Real<Scalar = R>> Prepared<R> {
-    pub(super) fn new(shape: &Shape<R>, p: Vec3<R>, side: Side<R>) -> Self {
+    /// Prepares a shape in the place of what was here, so that kilobytes are not moved.
+    pub(super) fn prepare(&mut self, shape: &Shape<R>, p: Vec3<R>, side: Side<R>) {
         match shape {
-            Shape::Sphere(light) => Self::Sphere(light.by_solid_angle(p).seen()),
-            Shape::Triangle(light) => Self::Triangle(light.by_solid_angle(p).seen()),
-            Shape::Parallelogram(light) => Self::Parallelogram(light.by_solid_angle(p).seen()),
-            Shape::Rectangle(light) => Self::Rectangle(light.by_solid_angle(p).seen()),
-            Shape::Disk(light) => Self::Disk(light.by_solid_angle(p).seen()),
-            Shape::Polygon(light) => Self::Polygon(Box::new(light.by_solid_angle(p).seen())),
-            Shape::Patch(light) => Self::Patch(light.by_area(p)),
-            Shape::Line(light) => Self::Line(light.by_angle(p)),
-            Shape::Ellipsoid(light) => Self::Ellipsoid(light.by_solid_angle(p)),
-            Shape::Ellipse(light) => Self::Ellipse(light.by_solid_angle(p)),
-            Shape::Point(light) => Self::Point(light.by_delta(p)),
-            Shape::Spot(light) => Self::Spot(light.by_delta(p)),
-            Shape::Directional(light) => Self::Directional(light.by_delta()),
-            Shape::Sun(light) => Self::Sun(light.by_solid_angle()),
+            Shape::Sphere(light) => *self = Self::Sphere(light.by_solid_angle(p).seen()),
+            Shape::Triangle(light) => *self = Self::Triangle(light.by_solid_angle(p).seen()),
+            Shape::Parallelogram(light) => *self = Self::Parallelogram(light.by_solid_angle(p).seen()),
+            Shape::Rectangle(light) => *self = Self::Rectangle(light.by_solid_angle(p).seen()),
+            Shape::Disk(light) => *self = Self::Disk(light.by_solid_angle(p).seen()),
+            Shape::Polygon(light) => *self = Self::Polygon(light.by_solid_angle(p).seen()),
+            Shape::Patch(light) => *self = Self::Patch(light.by_area(p)),
+            Shape::Line(light) => *self = Self::Line(light.by_angle(p)),
+            Shape::Ellipsoid(light) => *self = Self::Ellipsoid(light.by_solid_angle(p)),
+            Shape::Ellipse(light) => *self = Self::Ellipse(light.by_solid_angle(p)),
+            Shape::Point(light) => *self = Self::Point(light.by_delta(p)),
+            Shape::Spot(light) => *self = Self::Spot(light.by_delta(p)),
+            Shape::Directional(light) => *self = Self::Directional(light.by_delta()),
+            Shape::Sun(light) => *self = Self::Sun(light.by_solid_angle()),
             Shape::Sky => match side {
                 Side::Surface(normal) => {
                     // of any length, so that no number overflows
-                    Self::SkyAbove(ConstantEnvironment.by_projected_solid_angle(normal.unit_and_length().0))
+                    let normal = normal.unit_and_length().0;
+                    *self = Self::SkyAbove(ConstantEnvironment.by_projected_solid_angle(normal));
                 }
-                Side::Both | Side::None => Self::Sky(EnvironmentBySolidAngle),
+                Side::Both | Side::None => *self = Self::Sky(EnvironmentBySolidAngle),
             },
         }
     }
@@ -170,7 +170,7 @@ pub(super) fn point<R: Real<Scalar = R>>(shape: &Shape<R>, p: Vec3<R>, sample: &
         Shape::Directional(_) | Shape::Sun(_) | Shape::Sky => (sample.direction * far, R::lit(0.0)),
     };
     // coordinates may overflow
-    (point.map(|x| x.clamped(-far, far)), bound.lesser(far))
+    (point.map(|x| x.clamped(-far, far)), bound.clamped(R::lit(0.0), far))
 }
 
 /// The sum of the greatest coordinates of the axes.

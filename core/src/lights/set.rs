@@ -1,9 +1,11 @@
 //! The set, its choice and its samples.
 
+use super::emission::{self, Emission, Face};
 use super::emitter::{Emitter, Piece, Plane, Shape};
 use super::mixture::{Mixture, MixtureAt, Source};
 use super::prepared::{self, Drawn, Prepared};
 use super::receiver::{LightsSample, Receiver, Side, Which};
+use crate::light::{EnvironmentBySolidAngle, Sphere};
 use crate::real::{Mask, Real, Uint, unit_interval};
 use crate::select::{LightBound, LightChoice, LightsError, TreeAt};
 use crate::vector::{Vec2, Vec3};
@@ -57,7 +59,7 @@ impl<R: Real<Scalar = R>> Part<R> {
 ///   direction determines it only to rounding.
 /// - Degenerate: without lights, for a receiver that none reaches, and of numbers that are not finite, the pdf is 0.
 /// - Sizes: each light and each triangle of a mesh takes 104 bytes in single precision and 184 in double, besides 58 of the tree;
-///   [`LightsAt`], which lives on the stack, a kilobyte or two.
+///   [`LightsAt`], which lives on the stack, 2 kB in single precision and 4 kB in double.
 #[derive(Clone, Debug)]
 pub struct Lights<R: Real<Scalar = R>> {
     parts: Vec<Part<R>>,
@@ -83,6 +85,17 @@ impl<R: Number> Lights<R> {
     pub fn at(&self, receiver: Receiver<R>) -> LightsAt<'_, R> {
         R::at(self, receiver)
     }
+    /// A ray that leaves the light `which`, by four numbers in [0, 1), for methods that trace from the lights. `scene` is a sphere around
+    /// all that is lit, through which lights infinitely far away send theirs. Without such a light, and of numbers that are not finite,
+    /// the pdf is 0.
+    ///
+    /// - Formula: uniform over the surface, and in proportion to the cosine above it, so that all rays of a light carry the same power; of
+    ///   two sides either has half of the rays. A spot light sends rays uniformly into its outer cone, point lights and lines to all sides.
+    /// - Choose a light by its power, which is the mean of the [`weight`](Emission::weight) times its radiance.
+    #[must_use]
+    pub fn emit(&self, which: impl Into<Which>, u: [R; 4], scene: Sphere<R>) -> Emission<R> {
+        R::emit(self, which.into(), u, scene)
+    }
     /// Number of lights.
     #[must_use]
     pub fn len(&self) -> usize {
@@ -102,8 +115,17 @@ pub struct LightsAt<'a, R: Real<Scalar = R>> {
     receiver: Receiver<R>,
     /// Where that takes more than to look up a tree.
     choice: Option<MixtureAt<'a, R>>,
-    /// Its index, and whether the receiver is on it.
-    last: RefCell<Option<(u32, bool, Prepared<R>)>>,
+    last: RefCell<Last<R>>,
+}
+
+/// The light that was sampled last.
+#[derive(Clone, Debug)]
+struct Last<R: Real<Scalar = R>> {
+    /// Its index; at first that of none.
+    index: u32,
+    /// Whether the receiver is on it.
+    is_on: bool,
+    prepared: Prepared<R>,
 }
 
 impl<R: Number> LightsAt<'_, R> {
@@ -132,6 +154,7 @@ pub trait Compiled: Real<Scalar = Self> {
     fn at(lights: &Lights<Self>, receiver: Receiver<Self>) -> LightsAt<'_, Self>;
     fn sample(at: &LightsAt<'_, Self>, u: [Self; 3]) -> LightsSample<Self>;
     fn pdf(at: &LightsAt<'_, Self>, which: Which, w: Vec3<Self>) -> Self;
+    fn emit(lights: &Lights<Self>, which: Which, u: [Self; 4], scene: Sphere<Self>) -> Emission<Self>;
 }
 macro_rules! compiled {
     ($($number:ident)+) => {$(
@@ -147,6 +170,9 @@ macro_rules! compiled {
             }
             fn pdf(at: &LightsAt<'_, Self>, which: Which, w: Vec3<Self>) -> Self {
                 pdf(at, which, w)
+            }
+            fn emit(lights: &Lights<Self>, which: Which, u: [Self; 4], scene: Sphere<Self>) -> Emission<Self> {
+                emit(lights, which, u, scene)
             }
         }
     )+};
@@ -202,9 +228,17 @@ fn build<R: Real<Scalar = R>>(lights: Vec<(Emitter<R>, R)>) -> Result<Lights<R>,
 fn at<R: Real<Scalar = R>>(lights: &Lights<R>, receiver: Receiver<R>) -> LightsAt<'_, R> {
     let of_sky = if matches!(receiver.side, Side::Surface(_)) { PI } else { 4.0 * PI };
     let sky = || R::lit(lights.sky * of_sky);
-    let is_mixed = !lights.choice.has_lamps_alone();
-    let choice = is_mixed.then(|| lights.choice.at(receiver.point, receiver.normal(), None, sky));
-    LightsAt { lights, receiver, choice, last: RefCell::new(None) }
+    // each in its place, so that kilobytes are not moved
+    macro_rules! none {
+        () => {
+            RefCell::new(Last { index: u32::MAX, is_on: false, prepared: Prepared::Sky(EnvironmentBySolidAngle) })
+        };
+    }
+    if lights.choice.has_lamps_alone() {
+        return LightsAt { lights, receiver, choice: None, last: none!() };
+    }
+    let choice = Some(lights.choice.at(receiver.point, receiver.normal(), None, sky));
+    LightsAt { lights, receiver, choice, last: none!() }
 }
 
 impl<R: Real<Scalar = R>> LightsAt<'_, R> {
@@ -235,13 +269,12 @@ impl<R: Real<Scalar = R>> LightsAt<'_, R> {
     fn with<T>(&self, index: u32, part: &Part<R>, f: impl FnOnce(&Prepared<R>) -> T) -> (T, bool) {
         let Receiver { point, side, on } = self.receiver;
         let mut last = self.last.borrow_mut();
-        let (_, is_on, prepared) = match &mut *last {
-            Some(last) if last.0 == index => last,
-            last => {
-                let is_on = on == Some(part.which) || part.holds(point);
-                last.insert((index, is_on, Prepared::new(&part.shape, point, side)))
-            }
-        };
+        let Last { index: of, is_on, prepared } = &mut *last;
+        if *of != index {
+            *of = index;
+            *is_on = on == Some(part.which) || part.holds(point);
+            prepared.prepare(&part.shape, point, side);
+        }
         (f(prepared), *is_on)
     }
 }
@@ -255,7 +288,9 @@ fn sample<R: Real<Scalar = R>>(at: &LightsAt<'_, R>, [u, v, w]: [R; 3]) -> Light
     let (index, pmf) = at.choose(unit_interval(u), R::unit(R::Uint::splat(hash)));
     let Some(part) = at.lights.parts.get(index as usize) else { return nothing() };
     let (mut sample, is_on): (Drawn<R>, bool) = at.with(index, part, |light| light.sample(Vec2::new(v, w)));
-    sample.normal = part.normal(at.receiver.point, &sample);
+    let normal = part.normal(at.receiver.point, &sample);
+    // of numbers that overflow there is none
+    sample.normal = normal.keep(normal.is_within(R::lit(2.0)));
     let delta = sample.delta && !matches!(part.shape, Shape::Line(_));
     let emits = part.two_sided || sample.emits != part.reversed;
     let some = !is_on && sample.pdf.gt(zero).any() && pmf.gt(zero).any();
@@ -285,15 +320,31 @@ fn nothing<R: Real>() -> LightsSample<R> {
     LightsSample { which, direction, distance: zero, point, bound: zero, normal, pdf: zero, factor: zero, delta: false }
 }
 
+/// A part of a light and its index, if there is one.
+#[inline(always)]
+fn part_of<R: Real<Scalar = R>>(lights: &Lights<R>, which: Which) -> Option<(u32, &Part<R>)> {
+    let [first, end] = lights.first.get(which.light as usize..)?.first_chunk()?;
+    let index = first.saturating_add(which.part);
+    lights.parts.get(index as usize).filter(|_| index < *end).map(|part| (index, part))
+}
+
+#[inline(always)]
+fn emit<R: Real<Scalar = R>>(lights: &Lights<R>, which: Which, u: [R; 4], scene: Sphere<R>) -> Emission<R> {
+    let Some((_, part)) = part_of(lights, which) else {
+        let ([origin, direction, normal], zero) = ([Vec3::ZERO; 3], R::lit(0.0));
+        return Emission { origin, direction, normal, pdf: zero, weight: zero };
+    };
+    let face = match (part.two_sided, part.reversed) {
+        (true, _) => Face::Both,
+        (_, true) => Face::Back,
+        _ => Face::Front,
+    };
+    emission::emit(&part.shape, face, u, scene)
+}
+
 #[inline(always)]
 fn pdf<R: Real<Scalar = R>>(at: &LightsAt<'_, R>, which: Which, w: Vec3<R>) -> R {
-    let Some([first, end]) = at.lights.first.get(which.light as usize..).and_then(|first| first.first_chunk()) else {
-        return R::lit(0.0);
-    };
-    let index = first.saturating_add(which.part);
-    let Some(part) = at.lights.parts.get(index as usize).filter(|_| index < *end) else {
-        return R::lit(0.0);
-    };
+    let Some((index, part)) = part_of(at.lights, which) else { return R::lit(0.0) };
     if matches!(part.shape, Shape::Line(_) | Shape::Point(_) | Shape::Spot(_) | Shape::Directional(_)) {
         return R::lit(0.0);
     }
@@ -309,6 +360,6 @@ mod tests {
     #[test]
     fn sizes_are_as_stated() {
         let sizes = [size_of::<Part<f32>>(), size_of::<Part<f64>>(), size_of::<LightsAt<'_, f32>>()];
-        assert_eq!(sizes, [104, 184, 992]);
+        assert_eq!(sizes, [104, 184, 2144]);
     }
 }

@@ -20,12 +20,15 @@ const SERIES: [f64; 11] = [
 const REST: [f64; 4] =
     [2.269_877_745_296_168_7e-17, 3.061_616_997_868_383e-17, 1.390_331_103_123_099_8e-17, 6.123_233_995_736_766e-17];
 
-/// The angle of the vector (x, y) in [−π, π] for any x and y, with the bits of `libm::atan2`: the same operations in the same order, after
-/// Sun's fdlibm (`e_atan2.c` and `s_atan.c`). atan q = atan c + atan((q − c)/(1 + c q)), where c is 1/2, 1, 3/2 or infinity if q is at least 7/16.
+/// The angle of the vector (x, y) in [−π, π] for any x and y, with the bits of `libm::atan2` up to |y/x| = 10¹⁸: the same operations in the same
+/// order, after Sun's fdlibm (`e_atan2.c` and `s_atan.c`). Beyond it is π/2, and 0 at the origin. It calls no other function, so that compilers see
+/// whether a caller needs it. atan q = atan c + atan((q − c)/(1 + c q)), where c is 1/2, 1, 3/2 or infinity if q is at least 7/16.
 #[inline]
 pub(super) fn atan2<R: Real<Scalar = f64>>(y: R, x: R) -> R {
     let (one, pi) = (R::lit(1.0), R::lit(core::f64::consts::PI));
-    let q = (y / x).abs();
+    // of infinities, too
+    let is_diagonal = y.abs().le(x.abs()) & y.abs().ge(x.abs());
+    let q = R::blend(is_diagonal, one.keep(x.abs().gt(R::lit(0.0))), (y / x).abs());
     let (mut offset, mut rest, mut left) = (R::lit(0.0), R::lit(0.0), q);
     if q.ge(R::lit(0.4375)).any() {
         let mut divisor = one;
@@ -49,11 +52,5 @@ pub(super) fn atan2<R: Real<Scalar = f64>>(y: R, x: R) -> R {
     let even = w * (b + w * (d + w * (f + w * (h + w * j))));
     let angle = offset - (left * (odd + even) - rest - left);
     let angle = R::blend(x.lt(R::lit(0.0)), pi - (angle - R::lit(1.224_646_799_147_353_2e-16)), angle);
-    // beyond, `libm` does not divide; neither where the quotient is no number
-    let ordinary = q.lt(R::lit(1e18));
-    let angle = angle.copysign(y);
-    if ordinary.all() {
-        return angle;
-    }
-    R::from_fn(|i| if ordinary.lane(i) { angle.lane(i) } else { libm::atan2(y.lane(i), x.lane(i)) })
+    R::blend(q.ge(R::lit(1e18)), R::lit(core::f64::consts::FRAC_PI_2), angle).copysign(y)
 }

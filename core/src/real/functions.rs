@@ -1,5 +1,5 @@
-//! Elementary functions of single precision, by polynomials of our own: one body for scalars and packets. [`crate::math`] lists their
-//! errors.
+//! Elementary functions of single precision, by polynomials of our own, and small differences: one body for scalars and packets.
+//! [`crate::math`] lists their errors.
 
 use super::Real;
 
@@ -101,4 +101,29 @@ pub(crate) fn cbrt_f32<R: Real>(x: R) -> R {
     let left = (-(root * root)).mul_add(root, x);
     let root = (left * R::lit(1.0 / 3.0)).mul_add(y * y, root);
     root.keep(x.ge(R::lit(f64::from(f32::MIN_POSITIVE))))
+}
+
+/// a·b − c·d by products and their rests.
+#[inline(always)]
+pub(super) fn difference_of_products<R: Real>(a: R, b: R, c: R, d: R) -> R {
+    let cd = c * d;
+    let error = R::two_prod_error(c, d, cd);
+    if R::FUSED {
+        return a.mul_add(b, -cd) - error;
+    }
+    let ab = a * b;
+    (ab - cd) + (R::two_prod_error(a, b, ab) - error)
+}
+
+/// a·b of vectors by products and sums with their rests (Ogita, Rump and Oishi 2005, "Accurate Sum and Dot Product", algorithm 5.3).
+#[inline(always)]
+pub(super) fn dot_in_two<R: Real>(a: [R; 3], b: [R; 3]) -> [R; 2] {
+    let product = |a: R, b: R| {
+        let p = a * b;
+        (p, R::two_prod_error(a, b, p))
+    };
+    let ((x, ex), (y, ey), (z, ez)) = (product(a[0], b[0]), product(a[1], b[1]), product(a[2], b[2]));
+    let (s, e1) = x.two_sum(y);
+    let (s, e2) = s.two_sum(z);
+    [s, (e1 + e2) + (ex + (ey + ez))]
 }

@@ -1,15 +1,34 @@
 //! Numbers of single and double precision, and packets of them.
 
 use super::uint::lanes;
-use super::{Mask, MaskF64X4, MaskF64X8, MaskX4, MaskX8, MaskX16, Real, arctangent, fused, trigonometry};
+use super::{Mask, MaskF64X4, MaskF64X8, MaskX4, MaskX8, MaskX16, Real, arctangent, functions, fused, trigonometry};
 use wide::{f32x4, f32x8, f32x16, f64x2, f64x4, f64x8, u32x4, u32x8, u32x16, u64x4, u64x8};
 
 /// True where rounding to an integer is an instruction.
 const ROUNDS: bool = cfg!(any(target_feature = "sse4.1", target_feature = "simd128", target_arch = "aarch64"));
 
-/// What single precision needs beside the polynomials that [`Real`] provides.
+/// What single precision needs beside the polynomials that [`Real`] provides. Where products and sums are rounded twice, double precision costs
+/// less than the rests of products.
 macro_rules! polynomials {
     () => {
+        #[inline(always)]
+        fn difference_of_products(a: Self, b: Self, c: Self, d: Self) -> Self {
+            if Self::FUSED {
+                return functions::difference_of_products(a, b, c, d);
+            }
+            Self::from_fn(|i| (a.lane_f64(i) * b.lane_f64(i) - c.lane_f64(i) * d.lane_f64(i)) as f32)
+        }
+        #[inline(always)]
+        fn dot_in_two(a: [Self; 3], b: [Self; 3]) -> [Self; 2] {
+            if Self::FUSED {
+                return functions::dot_in_two(a, b);
+            }
+            let ([ax, ay, az], [bx, by, bz]) = (a, b);
+            let product = |a: Self, b: Self, i: usize| a.lane_f64(i) * b.lane_f64(i);
+            let sum = |i: usize| product(ax, bx, i) + product(ay, by, i) + product(az, bz, i);
+            let rounded = Self::from_fn(|i| sum(i) as f32);
+            [rounded, Self::from_fn(|i| (sum(i) - rounded.lane_f64(i)) as f32)]
+        }
         #[inline(always)]
         fn inverse_cbrt_estimate(self) -> Self {
             // a third of the exponent and nearly a third of the mantissa
@@ -23,10 +42,6 @@ macro_rules! polynomials {
 /// and closed forms need.
 macro_rules! lane_by_lane {
     () => {
-        #[inline(always)]
-        fn sin_cos_turns(self) -> (Self, Self) {
-            trigonometry::sin_cos_turns(self)
-        }
         #[inline(always)]
         fn sin_cos_quarters(self) -> (Self, Self) {
             (self * Self::lit(0.25)).sin_cos_turns()
@@ -54,9 +69,20 @@ macro_rules! lane_by_lane {
     };
 }
 
+/// The same, of packets.
+macro_rules! lanes_of_packet {
+    () => {
+        #[inline(always)]
+        fn sin_cos_turns(self) -> (Self, Self) {
+            trigonometry::sin_cos_turns(self)
+        }
+        lane_by_lane!();
+    };
+}
+
 macro_rules! scalar_real {
     ($scalar:ident, $bits:ident, $packet:ident, $exponent:literal, $reflected:literal,
-     $fused:ident, $product_error:ident, $functions:ident) => {
+     $fused:ident, $product_error:ident, $functions:ident, $turns:path, $quarters:path) => {
         impl Real for $scalar {
             type Scalar = $scalar;
             type Mask = bool;
@@ -176,12 +202,51 @@ macro_rules! scalar_real {
             fn to_uint(self) -> u32 {
                 self as i32 as u32
             }
+            #[inline(always)]
+            fn sin_cos_turns(self) -> (Self, Self) {
+                let u4 = self * 4.0;
+                // in numbers without digits for a fraction, the last bits are the quadrant
+                let whole = 1.5 / $scalar::EPSILON;
+                if Real::abs(u4) >= 0.25 / $scalar::EPSILON || u4.is_nan() {
+                    return $turns(self);
+                }
+                let sum = u4 + whole;
+                let (s, c) = $quarters(u4 + (whole - sum));
+                let (quadrant, [s, c]) = (sum.to_bits(), [s, c].map($scalar::to_bits));
+                let swapped = (s ^ c) & (quadrant & 1).wrapping_neg();
+                let sign = |bit: $bits| (bit & 2) << ($bits::BITS - 2);
+                let sin = s ^ swapped ^ sign(quadrant);
+                let cos = c ^ swapped ^ sign(quadrant + 1);
+                ($scalar::from_bits(sin), $scalar::from_bits(cos))
+            }
             $functions!();
         }
     };
 }
-scalar_real!(f32, u32, f32x4, 0x7f80_0000, 0x7f00_0000, single, product_error, polynomials);
-scalar_real!(f64, u64, f64x2, 0x7ff0_0000_0000_0000, 0x7fe0_0000_0000_0000, double, double_product_error, lane_by_lane);
+scalar_real!(
+    f32,
+    u32,
+    f32x4,
+    0x7f80_0000,
+    0x7f00_0000,
+    single,
+    product_error,
+    polynomials,
+    functions::sin_cos_turns_f32,
+    functions::sin_cos_quarters_f32
+);
+scalar_real!(
+    f64,
+    u64,
+    f64x2,
+    0x7ff0_0000_0000_0000,
+    0x7fe0_0000_0000_0000,
+    double,
+    double_product_error,
+    lane_by_lane,
+    trigonometry::sin_cos_turns,
+    trigonometry::sin_cos_quarters
+);
 
 macro_rules! packet_real {
     ($packet:ident, $scalar:ident, $bits:ident, $mask:ident, $uint:ident, $lanes:literal, $exponent:literal,
@@ -384,7 +449,7 @@ packet_real!(
     double,
     double_product_error,
     from_i32x4,
-    lane_by_lane,
+    lanes_of_packet,
     |x| u32x4::new(core::array::from_fn(|i| x.as_array()[i] as i32 as u32)),
     |mask| u32x4::new(core::array::from_fn(|i| if mask.lane(i) { u32::MAX } else { 0 })),
     |value| MaskF64X4::from_bits(value.simd_ne(u32x4::splat(0)).to_bitmask())
@@ -401,7 +466,7 @@ packet_real!(
     double,
     double_product_error,
     from_i32x8,
-    lane_by_lane,
+    lanes_of_packet,
     |x| u32x8::new(core::array::from_fn(|i| x.as_array()[i] as i32 as u32)),
     |mask| u32x8::new(core::array::from_fn(|i| if mask.lane(i) { u32::MAX } else { 0 })),
     |value| MaskF64X8::from_bits(value.simd_ne(u32x8::splat(0)).to_bitmask())

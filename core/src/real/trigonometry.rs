@@ -38,12 +38,18 @@ fn sin_cos_eighth<R: Real<Scalar = f64>>(x: R) -> (R, R) {
     (sin, cos)
 }
 
+/// Sine and cosine of `r` quarter turns, |r| ≤ ½.
+#[inline(always)]
+pub(super) fn sin_cos_quarters<R: Real<Scalar = f64>>(r: R) -> (R, R) {
+    sin_cos_eighth(r * R::lit(core::f64::consts::FRAC_PI_2))
+}
+
 /// Sine and cosine of u turns. Quadrant q = round(4u) and remainder 4u − q are exact.
 #[inline(always)]
 pub(super) fn sin_cos_turns<R: Real<Scalar = f64>>(u: R) -> (R, R) {
     let u4 = u * R::lit(4.0);
     let q = u4.round_ties_even();
-    let (s, c) = sin_cos_eighth((u4 - q) * R::lit(core::f64::consts::FRAC_PI_2));
+    let (s, c) = sin_cos_quarters(u4 - q);
     // q modulo 4, in {−2, −1, 0, 1, 2}
     let q = q - R::lit(4.0) * (q * R::lit(0.25)).round_ties_even();
     let odd = (q.abs() - R::lit(1.0)).abs().lt(R::lit(0.5));

@@ -16,14 +16,7 @@ pub(crate) fn compensated_dot<R: Real>(a: Vec3<R>, b: Vec3<R>) -> R {
 /// a·b, as an unevaluated sum.
 #[inline(always)]
 pub(crate) fn dot_dw<R: Real>(a: Vec3<R>, b: Vec3<R>) -> [R; 2] {
-    let product = |a: R, b: R| {
-        let p = a * b;
-        (p, R::two_prod_error(a, b, p))
-    };
-    let ((x, ex), (y, ey), (z, ez)) = (product(a.x, b.x), product(a.y, b.y), product(a.z, b.z));
-    let (s, e1) = x.two_sum(y);
-    let (s, e2) = s.two_sum(z);
-    [s, (e1 + e2) + (ex + (ey + ez))]
+    R::dot_in_two(a.to_array(), b.to_array())
 }
 
 /// The sum of two such numbers, rounded once.

@@ -15,7 +15,7 @@ extern "C" {
 #endif
 
 /* Changes with every change of this header. */
-#define ETENDUE_JUDGE_ABI 1
+#define ETENDUE_JUDGE_ABI 2
 
 /* What `sample` returns. */
 #define ETENDUE_JUDGE_NONE 0   /* no sample for this u: it counts as a draw, and the estimate is 0 */
@@ -55,7 +55,8 @@ typedef struct etendue_judge_sampler {
     /* Draws a sample for u in [0, 1)^2: the unit vector from p towards the light, and the pdf per solid angle at p, whatever the sampler's
      * own measure is. Returns one of the three values above. */
     int (*sample)(void *state, const float u[2], float direction[3], float *pdf);
-    /* The pdf per solid angle at p with which `sample` draws a unit direction; 0 in directions in which no light is seen. */
+    /* The pdf per solid angle at p with which `sample` draws a unit direction; 0 in directions in which no light is seen. Null if the
+     * sampler evaluates none: it is judged by what is left, among that the pdfs of its samples. */
     float (*pdf)(void *state, const float direction[3]);
     /* Optional: the u for which `sample` draws a direction; returns 0 if there is none. */
     int (*invert)(void *state, const float direction[3], float u[2]);
@@ -63,6 +64,9 @@ typedef struct etendue_judge_sampler {
     int (*hit)(void *state, const float direction[3], float *distance);
     /* Optional: frees the state. */
     void (*release)(void *state);
+    /* 1 if the sampler has no map from the square, as where it draws by rejection: u is only what its generator starts from. It must then
+     * be the same for the same u. It has no inverse, and its parts of the square are not compared. */
+    int is_generator;
 } etendue_judge_sampler;
 
 /* What a library exports: its samplers, and their number. */

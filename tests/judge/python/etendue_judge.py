@@ -6,6 +6,9 @@
     print(verdict)
     assert verdict.right
 
+A sampler that evaluates no densities has `pdf=None`, and one that draws by rejection, so that `u` is only what its generator starts from,
+`generator=True`: both are judged by what is left.
+
 `sample(light, p, n, u)` gets the numbers of one light as the C header orders them, the point, the normal, and an array (M, 2); it returns
 directions (M, 3) and pdfs (M,), which are 0 where nothing is drawn. `pdf(light, p, n, w)` gets directions (D, 3) and returns (D,).
 The program `etendue-judge` has to be on the path, or in the environment's ETENDUE_JUDGE.
@@ -59,10 +62,11 @@ def _array(value, shape, what):
     return array
 
 
-def judge(sample, pdf, shape, measure="other", name="sampler", quick=False, seed=1):
+def judge(sample, pdf, shape, measure="other", name="sampler", quick=False, seed=1, generator=False):
     """Judges a sampler, and returns a `Verdict`. What a callback raises is a finding; a wrong shape or type raises here."""
     with tempfile.TemporaryDirectory() as folder:
-        options = ["--quick"] if quick else []
+        given = {"--quick": quick, "--generator": generator, "--no-pdf": pdf is None}
+        options = [option for option, is_given in given.items() if is_given]
         _program("ask", folder, "--shape", shape, "--measure", measure, "--name", name, "--seed", str(seed), *options)
         here = pathlib.Path(folder)
         lights, points, normals, us, directions = (
@@ -75,8 +79,8 @@ def judge(sample, pdf, shape, measure="other", name="sampler", quick=False, seed
         for i, place in enumerate(zip(lights, points, normals)):
             try:
                 drawn, density = sample(*place, us[i])
-                at = pdf(*place, directions[i])
-                own = pdf(*place, np.asarray(drawn, dtype=np.float32)[:single])
+                at = pdf(*place, directions[i]) if pdf else pdfs[i]
+                own = pdf(*place, np.asarray(drawn, dtype=np.float32)[:single]) if pdf else evaluated[i]
             except Exception as error:  # noqa: BLE001: whatever a callback raises is what is wrong with it
                 said = f"it raises {type(error).__name__}: {error}"
                 numbers = [a.tolist() for a in place]

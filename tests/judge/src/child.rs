@@ -132,7 +132,12 @@ fn run(task: &Task, limit: Duration) -> Result<End, String> {
         return Ok(End::Answered(answer));
     }
     let errors = fs::read_to_string(task.errors()).unwrap_or_default();
-    Ok(if status.code() == Some(2) { End::Failed(errors.trim().to_owned()) } else { End::Crashed(said(status)) })
+    if status.code() == Some(2) {
+        return Ok(End::Failed(errors.trim().to_owned()));
+    }
+    // what it said last is mostly why
+    let last = errors.lines().rev().map(str::trim).find(|line| !line.is_empty());
+    Ok(End::Crashed(last.map_or(said(status), |line| format!("{}, after the line \"{line}\"", said(status)))))
 }
 
 /// Judges all samplers of a library, or those whose name contains `only`.

@@ -1,7 +1,7 @@
 //! Samplers from shared libraries, by `include/etendue_judge.h`.
 
 use crate::area_lights::{AreaLight, Measure};
-use crate::lights::sampler::{Prepared, Sample, Sampler, Subject, measure_of, shape_of};
+use crate::lights::sampler::{Lacks, Prepared, Sample, Sampler, Subject, measure_of, shape_of};
 use crate::lights::verdict::numbers;
 use libloading::Library;
 use std::ffi::{CStr, c_char, c_int, c_void};
@@ -9,7 +9,7 @@ use std::path::Path;
 use std::rc::Rc;
 
 /// `ETENDUE_JUDGE_ABI`.
-pub const ABI: u32 = 1;
+pub const ABI: u32 = 2;
 
 /// `etendue_judge_sampler`.
 #[derive(Clone, Copy)]
@@ -28,6 +28,7 @@ struct SamplerTable {
     invert: Option<unsafe extern "C" fn(*mut c_void, *const f32, *mut f32) -> c_int>,
     hit: Option<unsafe extern "C" fn(*mut c_void, *const f32, *mut f32) -> c_int>,
     release: Option<unsafe extern "C" fn(*mut c_void)>,
+    is_generator: c_int,
 }
 
 /// The callbacks of a sampler, none of which is missing that has to be there.
@@ -36,7 +37,6 @@ struct Callbacks {
     table: SamplerTable,
     prepare: unsafe extern "C" fn(*const f32, *const f32, *const f32) -> *mut c_void,
     sample: unsafe extern "C" fn(*mut c_void, *const f32, *mut f32, *mut f32) -> c_int,
-    pdf: unsafe extern "C" fn(*mut c_void, *const f32) -> f32,
     // unloaded after the last use
     _library: Rc<Library>,
 }
@@ -63,7 +63,7 @@ impl Sampler for Foreign {
     }
     fn pdf(&self, direction: [f32; 3]) -> f32 {
         // SAFETY: as above
-        unsafe { (self.callbacks.pdf)(self.state, direction.as_ptr()) }
+        self.callbacks.table.pdf.map_or(0.0, |pdf| unsafe { pdf(self.state, direction.as_ptr()) })
     }
     fn invert(&self, direction: [f32; 3]) -> Option<[f32; 2]> {
         let mut u = [0.0; 2];
@@ -146,7 +146,6 @@ fn subject(table: SamplerTable, library: &Rc<Library>) -> Result<Subject<'static
         table,
         prepare: table.prepare.ok_or_else(|| missing("prepare"))?,
         sample: table.sample.ok_or_else(|| missing("sample"))?,
-        pdf: table.pdf.ok_or_else(|| missing("pdf"))?,
         _library: Rc::clone(library),
     };
     let prepare = move |light: &AreaLight| {
@@ -165,5 +164,6 @@ fn subject(table: SamplerTable, library: &Rc<Library>) -> Result<Subject<'static
         }
         Prepared::Ready(Box::new(Foreign { callbacks: callbacks.clone(), state }))
     };
-    Ok(Subject { name, shape, by, domain, prepare: Box::new(prepare) })
+    let lacks = Lacks { map: table.is_generator != 0, pdf: table.pdf.is_none() };
+    Ok(Subject { name, shape, by, lacks, domain, prepare: Box::new(prepare) })
 }

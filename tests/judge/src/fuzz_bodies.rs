@@ -10,6 +10,7 @@ mod numbers;
 mod pictures;
 mod reflections;
 mod sequences;
+mod sets;
 mod shapes;
 mod skies;
 mod surfaces;
@@ -55,6 +56,7 @@ targets! {
     skies: portals 30;
     light_tree: light_tree 20;
     reflections: reflection 200;
+    sets: set_of_lights 60;
     sequences: sequence 500 strata 100;
 }
 

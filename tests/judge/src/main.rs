@@ -2,7 +2,7 @@
 
 use clap::{Args, Parser, Subcommand};
 use etendue_judge::child::{self, Task};
-use etendue_judge::lights::sampler::own;
+use etendue_judge::lights::sampler::{Lacks, own};
 use etendue_judge::lights::verdict::{Effort, Judgement, judge};
 use etendue_judge::{numbers, page, proofs, textbook};
 use std::io::Write as _;
@@ -57,6 +57,12 @@ enum Command {
         /// A name for tables
         #[arg(long, default_value = "sampler")]
         name: String,
+        /// The sampler has no map: numbers are what its generator starts from
+        #[arg(long)]
+        generator: bool,
+        /// The sampler evaluates no densities, but of its samples
+        #[arg(long)]
+        no_pdf: bool,
         #[command(flatten)]
         tried: Tried,
     },
@@ -142,8 +148,9 @@ fn run(options: &Options) -> Result<bool, String> {
             all.push(proofs::judge("etendue-visible", &proofs::own, rooms, how.tried.seed));
             how.tell(&all)
         }
-        Command::Ask { folder, shape, measure, name, tried } => {
-            let asked = numbers::Asked::new(name, shape, measure, tried.quick, tried.seed)?;
+        Command::Ask { folder, shape, measure, name, generator, no_pdf, tried } => {
+            let mut asked = numbers::Asked::new(name, shape, measure, tried.quick, tried.seed)?;
+            asked.lacks = Lacks { map: *generator, pdf: *no_pdf };
             numbers::ask(folder, &asked).map(|()| true)
         }
         Command::Numbers { folders, how } => {

@@ -2,14 +2,14 @@
 //!
 //! [`ask`] writes, for S places, float32 each: `light.npy` (S, numbers of the light as in the C header), `point.npy` (S, 3), `normal.npy`
 //! (S, 3), `u.npy` (S, M, 2) and `direction.npy` (S, D, 3). The answers are `sample.npy` (S, M, 4), which has directions and their pdf, or
-//! zeros where nothing is drawn, and `pdf.npy` (S, D); float32 or float64. Besides, `evaluated.npy` (S, E ≤ M) may have the pdf of the first
+//! zeros where nothing is drawn, and, unless it was asked with `--no-pdf`, `pdf.npy` (S, D); float32 or float64. Besides, `evaluated.npy` (S, E ≤ M) may have the pdf of the first
 //! E samples' directions, and `hidden.npy` (S, M) numbers that are not 0 where the light itself hides the sample.
 
 use crate::area_lights::{LightShape, Measure};
 use crate::lights::definition::Definition;
 use crate::lights::figures::Trial;
 use crate::lights::observe::{Answers, Questions};
-use crate::lights::sampler::{Sample, measure_name, measure_of, shape_name, shape_of};
+use crate::lights::sampler::{Lacks, Sample, measure_name, measure_of, shape_name, shape_of};
 use crate::lights::scene::{JudgedPlace, places};
 use crate::lights::verdict::{self, Case, Judgement};
 use std::fs;
@@ -101,6 +101,8 @@ impl Array {
 /// What is asked.
 #[derive(Clone, Debug)]
 pub struct Asked {
+    /// What the sampler declares that it does not have.
+    pub lacks: Lacks,
     name: String,
     shape: LightShape,
     by: Measure,
@@ -116,7 +118,8 @@ impl Asked {
     /// # Errors
     /// Fails if there is no such shape or measure.
     pub fn new(name: &str, shape: &str, measure: &str, quick: bool, seed: u64) -> Result<Self, String> {
-        Ok(Self { name: name.into(), shape: shape_of(shape)?, by: measure_of(measure)?, quick, seed })
+        let (shape, by) = (shape_of(shape)?, measure_of(measure)?);
+        Ok(Self { lacks: Lacks::default(), name: name.into(), shape, by, quick, seed })
     }
     /// All places, what the light looks like from them, and what is asked there.
     #[must_use]
@@ -131,19 +134,24 @@ impl Asked {
     fn text(&self) -> String {
         let Self { name, quick, seed, .. } = self;
         let (shape, measure) = (shape_name(self.shape), measure_name(self.by));
-        serde_json::json!({ "abi": 1, "name": name, "shape": shape, "measure": measure, "quick": quick, "seed": seed })
-            .to_string()
+        let Lacks { map, pdf } = self.lacks;
+        serde_json::json!({
+            "abi": 2, "name": name, "shape": shape, "measure": measure, "quick": quick, "seed": seed, "generator": map, "no pdf": pdf
+        })
+        .to_string()
     }
     fn read(path: &Path) -> Result<Self, String> {
         let said = |e: &dyn core::fmt::Display| format!("{}: {e}", path.display());
         let text = fs::read_to_string(path).map_err(|e| said(&e))?;
         let all: serde_json::Value = serde_json::from_str(&text).map_err(|e| said(&e))?;
-        if all["abi"] != 1 {
+        if all["abi"] != 2 {
             return Err(said(&"other versions asked this: ask again"));
         }
         let text = |key: &str| all[key].as_str().unwrap_or_default().to_owned();
         let seed = all["seed"].as_u64().ok_or_else(|| said(&"has no seed"))?;
-        Self::new(&text("name"), &text("shape"), &text("measure"), all["quick"] == true, seed).map_err(|e| said(&e))
+        let asked = Self::new(&text("name"), &text("shape"), &text("measure"), all["quick"] == true, seed);
+        let lacks = Lacks { map: all["generator"] == true, pdf: all["no pdf"] == true };
+        asked.map(|asked| Self { lacks, ..asked }).map_err(|e| said(&e))
     }
 }
 
@@ -188,10 +196,10 @@ pub fn judge(folder: &Path) -> Result<Judgement, String> {
         array.expect(&path, shape).map(|()| array.numbers)
     };
     let samples = read("sample.npy", &[all.len(), m, 4])?;
-    let pdfs = read("pdf.npy", &[all.len(), d])?;
     let has = |name: &str| folder.join(name).exists();
+    let pdfs = if asked.lacks.pdf { None } else { Some(read("pdf.npy", &[all.len(), d])?) };
     let hidden = if has("hidden.npy") { read("hidden.npy", &[all.len(), m])? } else { vec![0.0; all.len() * m] };
-    let evaluated = if has("evaluated.npy") {
+    let evaluated = if has("evaluated.npy") && !asked.lacks.pdf {
         let path = folder.join("evaluated.npy");
         let array = Array::read(&path)?;
         let e = array.shape.get(1).copied().unwrap_or(0).min(m);
@@ -208,14 +216,15 @@ pub fn judge(folder: &Path) -> Result<Judgement, String> {
             (pdf != 0.0).then_some(Sample { direction: [x, y, z], pdf, is_hidden: hidden[i * m + k] != 0.0 })
         };
         let (n, outside) = (questions.directions.len(), questions.outside.len().min(OUTSIDE));
+        let of_place = pdfs.as_ref().map_or(&[][..], |pdfs| &pdfs[i * d..(i + 1) * d]);
         let answers = Answers {
             samples: (0..m).map(sample).collect(),
             evaluated: evaluated.1[i * evaluated.0..(i + 1) * evaluated.0].to_vec(),
-            pdfs: pdfs[i * d..i * d + n].to_vec(),
-            outside: pdfs[i * d + n..i * d + n + outside].to_vec(),
+            pdfs: of_place[..n.min(of_place.len())].to_vec(),
+            outside: of_place.get(n..n + outside).unwrap_or_default().to_vec(),
             ..Answers::default()
         };
-        let figures = Trial { seen, by: asked.by, questions, answers: &answers }.figures();
+        let figures = Trial { seen, by: asked.by, lacks: asked.lacks, questions, answers: &answers }.figures();
         cases.push(Case { axis: place.axis, value: place.value, figures });
     }
     let input = |figure, at: usize| {

@@ -5,7 +5,7 @@ mod maps;
 mod vectors;
 
 use crate::area_lights::{AreaLight, LightShape, Measure};
-use crate::lights::sampler::{Prepared, Sampler, Subject, technique};
+use crate::lights::sampler::{Lacks, Prepared, Sampler, Subject, technique};
 use integrals::{disk, lambert, projected_cap};
 use maps::{Cone, Excess, Fan, Reweighted, Urena};
 use vectors::{V, add, sub};
@@ -40,6 +40,7 @@ fn reweighted(light: &AreaLight, by: Measure, density: f32) -> Prepared<'static>
 pub fn samplers() -> Vec<Subject<'static>> {
     use LightShape::{Disk, Parallelogram, Polygon, Rectangle, Sphere, Triangle};
     let named = |name: &str, shape, by, prepare: Box<dyn Fn(&AreaLight) -> Prepared<'static>>| Subject {
+        lacks: Lacks::default(),
         name: format!("textbook {name}"),
         shape,
         by,

@@ -1,7 +1,7 @@
 //! The program: libraries and files of numbers, right and wrong, and those that are none.
 
 use etendue_judge::lights::observe::ask;
-use etendue_judge::lights::sampler::{Prepared, own};
+use etendue_judge::lights::sampler::{Lacks, Prepared, own};
 use etendue_judge::numbers::{Array, Asked};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -58,12 +58,59 @@ fn a_library_is_judged() {
     says(&["run", &library("LOUD"), "--quick"], 0, "cone: right (");
 }
 
+/// What a sampler declares that it does not have is not judged, and the rest is.
+#[test]
+fn samplers_without_a_map_or_a_pdf_are_judged_by_what_is_left() {
+    let folder = Folder::new("lacks");
+    let library = |fault: &str| folder.library(fault).display().to_string();
+    says(&["run", &library("REJECTION"), "--quick"], 0, "cone: right (");
+    // undeclared, it would be a map
+    says(&["run", &library("MAP"), "--quick"], 1, "parts of the square map to areas");
+    says(&["run", &library("NO_PDF"), "--quick"], 0, "cone: right (");
+    let path = folder.0.join("asked").display().to_string();
+    let asked = folder.0.join("asked");
+    judge(&[
+        "ask",
+        &path,
+        "--shape",
+        "triangle",
+        "--measure",
+        "solid angle",
+        "--name",
+        "a shader",
+        "--no-pdf",
+        "--quick",
+    ]);
+    let [samples, _] = answer(&asked, "a shader", Lacks { map: false, pdf: true });
+    samples.write(&asked.join("sample.npy")).unwrap();
+    says(&["numbers", &path], 0, "a shader: right (");
+    let half = samples.numbers.chunks(4).flat_map(|s| [s[0], s[1], s[2], 0.5 * s[3]]).collect();
+    Array { numbers: half, ..samples }.write(&asked.join("sample.npy")).unwrap();
+    says(&["numbers", &path], 1, "irradiance is biased");
+}
+
+#[test]
+fn grave_findings_come_first_and_none_has_the_error_0() {
+    let folder = Folder::new("order");
+    let library = |fault: &str| folder.library(fault).display().to_string();
+    let text = says(&["run", &library("MANY"), "--quick"], 1, "the pdf of samples is wrong");
+    let said = ["irradiance is biased", "directions miss the light", "the pdf of samples is wrong"];
+    let places = said.map(|said| text.find(said));
+    assert!(places.iter().all(Option::is_some) && places.is_sorted(), "{places:?}: {text}");
+    for fault in ["MANY", "MAP", "ABORT", "PDF"] {
+        let text = says(&["run", &library(fault), "--quick"], 1, "**wrong**");
+        assert!(!text.contains("0.0e0"), "{text}");
+    }
+}
+
 #[test]
 fn what_ends_the_process_is_a_finding() {
     let folder = Folder::new("ends");
     let library = |fault: &str| folder.library(fault).display().to_string();
     says(&["run", &library("CRASH")], 1, "segmentation fault");
     says(&["run", &library("ABORT")], 1, "abort");
+    let said = "signal 6 (abort), after the line \"sphere.c: the radius is no number\"";
+    says(&["run", &library("SAYS_WHY")], 1, said);
     says(&["run", &library("HANG"), "--limit", "1"], 1, "does not end within 1 s");
 }
 
@@ -73,7 +120,7 @@ fn what_cannot_be_judged_is_said() {
     let library = |fault: &str| folder.library(fault).display().to_string();
     says(&["run", &library("OLD")], 2, "has ABI 0");
     says(&["run", &library("SHAPE")], 2, "shape 'torus' is none of sphere, triangle");
-    says(&["run", &library("MISSING")], 2, "cone: pdf is null");
+    says(&["run", &library("MISSING")], 2, "cone: prepare is null");
     says(&["run", &library("RIGHT"), "--only", "torus"], 2, "no sampler's name contains 'torus'");
     says(&["run", "/nowhere/libnone.so"], 2, "no such file");
     let text = folder.0.join("text.so");
@@ -88,8 +135,9 @@ fn what_cannot_be_judged_is_said() {
 }
 
 /// Answers what a folder asks by a technique of the core.
-fn answer(folder: &Path, name: &str) -> [Array; 2] {
-    let asked = Asked::new(name, "triangle", "solid angle", true, 1).unwrap();
+fn answer(folder: &Path, name: &str, lacks: Lacks) -> [Array; 2] {
+    let mut asked = Asked::new(name, "triangle", "solid angle", true, 1).unwrap();
+    asked.lacks = lacks;
     etendue_judge::numbers::ask(folder, &asked).unwrap();
     let subject = own().into_iter().find(|s| s.name == "etendue triangle by SolidAngle").unwrap();
     let (mut samples, mut pdfs) = (Vec::new(), Vec::new());
@@ -98,7 +146,7 @@ fn answer(folder: &Path, name: &str) -> [Array; 2] {
     let d = direction.shape[1];
     for (i, (place, _, questions)) in all.iter().enumerate() {
         let Prepared::Ready(sampler) = (subject.prepare)(&place.light) else { panic!("the core prepares all") };
-        for s in ask(&*sampler, questions).samples {
+        for s in ask(&*sampler, questions, lacks).samples {
             let s = s.map_or([0.0; 4], |s| [s.direction[0], s.direction[1], s.direction[2], s.pdf]);
             samples.extend(s);
         }
@@ -113,7 +161,7 @@ fn answer(folder: &Path, name: &str) -> [Array; 2] {
 fn files_of_numbers_are_judged() {
     let folder = Folder::new("numbers");
     let path = folder.0.display().to_string();
-    let [samples, pdfs] = answer(&folder.0, "a shader");
+    let [samples, pdfs] = answer(&folder.0, "a shader", Lacks::default());
     says(&["numbers", &path], 2, "sample.npy");
     let write = |samples: &Array, pdfs: &Array| {
         samples.write(&folder.0.join("sample.npy")).unwrap();

@@ -14,10 +14,15 @@
 #define SHAPE 8
 #define LOUD 9
 #define MISSING 10
+#define SAYS_WHY 11
+#define NO_PDF 12
+#define REJECTION 13
+#define MAP 14
+#define MANY 15
 #ifndef FAULT
 #define FAULT RIGHT
 #endif
-#if FAULT == LOUD
+#if FAULT == LOUD || FAULT == SAYS_WHY
 #include <stdio.h>
 #endif
 
@@ -54,6 +59,21 @@ static float density(const cone *c) {
 }
 static int sample(void *state, const float u[2], float direction[3], float *pdf) {
     const cone *c = state;
+#if FAULT == REJECTION || FAULT == MAP
+    /* a generator that starts from u, until a point of the square is in the disk */
+    uint32_t seed = (uint32_t)(u[0] * 16777216.f) * 2654435761u ^ (uint32_t)(u[1] * 16777216.f);
+    double x, y;
+    do {
+        double v[2];
+        for (int i = 0; i < 2; i++) {
+            seed ^= seed >> 16, seed *= 0x7feb352du, seed ^= seed >> 15, seed *= 0x846ca68bu, seed ^= seed >> 16, seed += 0x9e3779b9u;
+            v[i] = seed / 4294967296.0 * 2 - 1;
+        }
+        x = v[0], y = v[1];
+    } while (x * x + y * y > 1 || x * x + y * y == 0);
+    float drawn[2] = {(float)(x * x + y * y), (float)(atan2(y, x) / 6.283185307179586 + 0.5)};
+    u = drawn;
+#endif
     double k = u[0] * c->versine, across = sqrt(k * (2 - k)), a = 6.283185307179586 * u[1];
 #if FAULT == HANG
     for (volatile int forever = 1; forever;);
@@ -61,12 +81,20 @@ static int sample(void *state, const float u[2], float direction[3], float *pdf)
     *(volatile int *)8 = 1;
 #elif FAULT == ABORT
     abort();
+#elif FAULT == SAYS_WHY
+    fprintf(stderr, "a line of text that nobody asked for\nsphere.c: the radius is no number\n\n");
+    abort();
 #elif FAULT == LOUD
     printf("a line of text that nobody asked for\n");
     fprintf(stderr, "a line of text that nobody asked for\n");
 #endif
     for (int i = 0; i < 3; i++) direction[i] = (1 - k) * c->axis[i] + across * (cos(a) * c->s[i] + sin(a) * c->t[i]);
     *pdf = density(c);
+#if FAULT == MANY
+    double off = direction[0] + 0.1, length = sqrt(off * off + direction[1] * direction[1] + direction[2] * direction[2]);
+    direction[0] = off / length, direction[1] /= length, direction[2] /= length;
+    *pdf *= 2;
+#endif
     return ETENDUE_JUDGE_SAMPLE;
 }
 static float pdf(void *state, const float w[3]) {
@@ -95,7 +123,9 @@ const etendue_judge_sampler *etendue_judge_samplers(uint32_t *count) {
         .release = free,
     }};
     if (FAULT == HALF) all[0].domain = "the light is larger than 1/300 of its distance", all[0].in_domain = in_domain;
-    if (FAULT == MISSING) all[0].pdf = 0;
+    if (FAULT == MISSING) all[0].prepare = 0;
+    if (FAULT == NO_PDF) all[0].pdf = 0;
+    if (FAULT == REJECTION) all[0].is_generator = 1;
     *count = 1;
     return all;
 }

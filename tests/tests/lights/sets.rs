@@ -166,6 +166,53 @@ fn ellipsoids_are_sampled_as_they_are_seen() {
     agree(estimate(&[(lamp.into(), 1.0)], up(), v([0.0; 3]), 3), truth, "an ellipsoid");
 }
 
+/// Rays that leave a light carry its irradiance: through a disk before it they bring the power that sampling from the points of the disk finds.
+#[test]
+fn emitted_rays_carry_the_irradiance_of_their_light() {
+    fn check<R: Number + Real<Uint = u32>>() {
+        let (n, scene) = (cases(40_000, 1_000_000) as u32, Sphere::new(v([0.0; 3]), R::lit(3.0)));
+        for (i, (light, radiance)) in every::<R>().into_iter().enumerate() {
+            // the narrow spot light meets a dot
+            let radius = R::lit(if i == 13 { 1e-4 } else { 2.0 });
+            let lights = Lights::new([(light, radiance)]).unwrap();
+            let leaves =
+                |part: u32| lights.emit(Which { light: 0, part }, [R::lit(0.3); 4], scene).pdf.lane_f64(0) > 0.0;
+            let parts = (0..).take_while(|&part| leaves(part));
+            let parts = parts.count() as u32;
+            let (mut rays, mut samples) = ([0.0; 2], [0.0; 2]);
+            let add = |sums: &mut [f64; 2], x: R| {
+                let x = x.lane_f64(0);
+                *sums = [sums[0] + x, sums[1] + x * x];
+            };
+            for k in 0..n {
+                let [a, b, c] = numbers::<R>(i as u32, k);
+                let [d, e, f] = numbers::<R>(i as u32 + 100, k);
+                let which = Which { light: 0, part: k % parts };
+                let ray = lights.emit(which, [a, b, d, e], scene);
+                // down through the disk
+                let at = ray.direction.mul_add(-ray.origin.y / ray.direction.y, ray.origin);
+                let hits = ray.direction.y.lt(R::lit(0.0)) & ray.origin.y.gt(R::lit(0.0)) & at.length().lt(radius);
+                add(&mut rays, ray.weight.keep(hits) * R::lit(f64::from(parts)));
+                let disk = etendue::warp::ConcentricDisk.sample(Vec2::new(c, f));
+                let at = lights.at(Receiver {
+                    point: Vec3::new(disk.x * radius, R::lit(0.0), disk.y * radius),
+                    side: up(),
+                    on: None,
+                });
+                let s = at.sample([a, b, d]);
+                let cos = s.direction.y.greater(R::lit(0.0));
+                add(&mut samples, s.weight() * cos * radius * radius * R::lit(core::f64::consts::PI));
+            }
+            let n = f64::from(n);
+            let mean =
+                |[sum, squares]: [f64; 2]| [sum / n, ((squares / n - (sum / n) * (sum / n)).max(0.0) / n).sqrt()];
+            agree(mean(rays), mean(samples), &format!("light {i}"));
+            assert!(rays[0] > 0.0, "light {i}");
+        }
+    }
+    check::<f32>();
+    check::<f64>();
+}
 fn bits<R: Real>(x: R) -> u64 {
     x.lane_f64(0).to_bits()
 }

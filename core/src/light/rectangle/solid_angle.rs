@@ -9,10 +9,11 @@ use crate::math::{ratio, rsqrt};
 use crate::real::{Mask, Real, unit_interval};
 use crate::vector::{Vec2, Vec3};
 use crate::warp::Warp;
+use core::f64::consts::{PI, TAU};
 
 /// Angle by which the rounding of its direction may move a sample out of the rectangle: 8 ulp of a component near 1.
 const RECTANGLE_SLACK: f64 = 8.0 / 16_777_216.0;
-const INV_FOUR_PI: f64 = 0.25 / core::f64::consts::PI;
+const INV_FOUR_PI: f64 = 0.25 / PI;
 
 lanewise! {
     /// Directions from a point to a rectangle, uniform in solid angle: take it where strata shall follow the edges, and the
@@ -86,12 +87,27 @@ lanewise! {
 /// Height over the plane in units of the far end, and share of the area, below which a change of the strips counts as steep.
 const STEEP: f64 = 1.0 / 16.0;
 
+/// Distances of the corners of a window, the first index that of x.
+type Corners<R> = [[R; 2]; 2];
+
+/// Those of [near.x, far.x]×[near.y, far.y] at the height z.
+#[inline(always)]
+fn corners<R: Real>(near: Vec2<R>, far: Vec2<R>, z: R) -> Corners<R> {
+    let zz = z * z;
+    let row = |x: R| {
+        let d = x.mul_add(x, zz);
+        [near.y.mul_add(near.y, d).sqrt(), far.y.mul_add(far.y, d).sqrt()]
+    };
+    [row(near.x), row(far.x)]
+}
+
 /// Solid angle of [near.x, far.x]×[near.y, far.y] at the height z, with |near| ≤ far and `size` = far − near.
 ///
 /// A window in one quadrant is two triangles: tan(Ω/2) = zΔxΔy/(…), where all terms are positive. Elsewhere it is the two
-/// strips on either side of the foot: tan w = az(b₁r₀−b₀r₁)/(a²b₀b₁ + z²r₀r₁).
+/// strips on either side of the foot: tan w = az(b₁r₀−b₀r₁)/(a²b₀b₁ + z²r₀r₁). Both angles are less than π; that of the product of
+/// both vectors, as complex numbers, is their sum.
 #[inline(always)]
-fn window<R: Real>(near: Vec2<R>, far: Vec2<R>, size: Vec2<R>, z: R) -> R {
+fn window<R: Real>([[r00, r01], [r10, r11]]: Corners<R>, near: Vec2<R>, far: Vec2<R>, size: Vec2<R>, z: R) -> R {
     let (zero, one) = (R::lit(0.0), R::lit(1.0));
     let (across_x, across_y) = (near.x.lt(zero), near.y.lt(zero));
     let straddles = across_x | across_y;
@@ -100,20 +116,21 @@ fn window<R: Real>(near: Vec2<R>, far: Vec2<R>, size: Vec2<R>, z: R) -> R {
     let (a0, b0) = (R::blend(swap, near.y, near.x), R::blend(swap, near.x, near.y));
     let (a1, b1) = (R::blend(swap, far.y, far.x), R::blend(swap, far.x, far.y));
     let db = R::blend(swap, size.x, size.y);
+    let (r01, r10) = (R::blend(swap, r10, r01), R::blend(swap, r01, r10));
     let zz = z * z;
-    let (d0, d1) = (a0.mul_add(a0, zz), a1.mul_add(a1, zz));
-    let length = |d: R, b: R| b.mul_add(b, d).sqrt();
-    let (r00, r01, r10, r11) = (length(d0, b0), length(d0, b1), length(d1, b0), length(d1, b1));
+    let (aa0, aa1) = (a0 * a0, a1 * a1);
+    let (d0, d1) = (aa0 + zz, aa1 + zz);
     let bb = b0 * b1;
     let one_sided = b0.ge(zero);
-    let strip = |a: R, d: R, r0: R, r1: R| {
+    let both = db * (b1 + b0);
+    let strip = |a: R, aa: R, d: R, r0: R, r1: R| {
         // b₁r₀ − b₀r₁
         let sum = b1.mul_add(r0, b0.abs() * r1);
-        let cross = R::blend(one_sided, ratio(db * (b1 + b0) * d, sum), sum);
-        (a.abs() * z * cross, (a * a).mul_add(bb, zz * (r0 * r1)))
+        let cross = R::blend(one_sided, ratio(both * d, sum), sum);
+        (a.abs() * z * cross, aa.mul_add(bb, zz * (r0 * r1)))
     };
-    let (s1, c1) = strip(a1, d1, r10, r11);
-    let (s0, c0) = strip(a0, d0, r00, r01);
+    let (s1, c1) = strip(a1, aa1, d1, r10, r11);
+    let (s0, c0) = strip(a0, aa0, d0, r00, r01);
     let volume = z * size.x * size.y;
     let aa = a0 * a1;
     // inner products of corners
@@ -121,9 +138,11 @@ fn window<R: Real>(near: Vec2<R>, far: Vec2<R>, size: Vec2<R>, z: R) -> R {
     let diagonal = aa + bb + zz;
     let t1 = (r00 * r10).mul_add(r11, (aa + b0b0).mul_add(r11, diagonal.mul_add(r10, (d1 + bb) * r00)));
     let t0 = (r00 * r01).mul_add(r11, (aa + b1b1).mul_add(r00, diagonal.mul_add(r01, (d0 + bb) * r11)));
-    let first = R::blend(straddles, s1, volume).atan2(R::blend(straddles, c1, t1));
-    let second = R::blend(straddles, s0, volume).atan2(R::blend(straddles, c0, t0));
-    (first + second) * R::blend(straddles, one, R::lit(2.0))
+    let (s1, c1) = (R::blend(straddles, s1, volume), R::blend(straddles, c1, t1));
+    let (s0, c0) = (R::blend(straddles, s0, volume), R::blend(straddles, c0, t0));
+    let angle = s1.mul_add(c0, c1 * s0).atan2(c1.mul_add(c0, -(s1 * s0)));
+    let angle = R::blend(angle.lt(zero), angle + R::lit(TAU), angle);
+    angle * R::blend(straddles, one, R::lit(2.0))
 }
 
 impl<R: Real> SphericalRectangle<R> {
@@ -132,8 +151,8 @@ impl<R: Real> SphericalRectangle<R> {
     fn strip_end(&self, u: R) -> (R, R) {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let Self { far: Vec2 { x: x1, .. }, near: Vec2 { x: x0, .. }, height: z, .. } = *self;
-        let turned = |u: R| R::blend(self.flip.x.gt(zero), u, one - u);
-        let (left, swept) = (turned(u), turned(one - u));
+        // u or 1 − u
+        let (left, swept) = (((one - self.flip.x) - u).abs(), (self.flip.x - u).abs());
         // from k = cosw − cosw₁, counted from the nearer end on either side of the foot
         let near = left.gt(self.half);
         let part = R::blend(near, swept, left);
@@ -154,9 +173,8 @@ impl<R: Real> SphericalRectangle<R> {
         let anchored = self.anchor.x.gt(zero);
         let numerator = R::blend(anchored, -from_far, foot);
         let denominator = root * R::blend(anchored, x1.mul_add(root, foot), one);
-        let some = denominator.gt(zero);
-        let x = numerator / R::blend(some, denominator, one);
-        let x = x.clamped(R::blend(anchored, -self.size.x, x0), R::blend(anchored, zero, x1));
+        // of 0/0, too
+        let x = (numerator / denominator).clamped(R::blend(anchored, -self.size.x, x0), R::blend(anchored, zero, x1));
         let from_foot = x + x1.keep(anchored);
         (x, from_foot.mul_add(from_foot, z * z))
     }
@@ -167,13 +185,12 @@ impl<R: Real> SphericalRectangle<R> {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let Self { far: Vec2 { y: y1, .. }, near: Vec2 { y: y0, .. }, .. } = *self;
         let (x, d) = self.strip_end(u.x);
-        let turned = |u: R| R::blend(self.flip.y.gt(zero), u, one - u);
-        let (v, rest) = (turned(u.y), turned(one - u.y));
+        let (v, rest) = (((one - self.flip.y) - u.y).abs(), (self.flip.y - u.y).abs());
         // y: from h₁ − h
         let (r0, r1) = (y0.mul_add(y0, d).sqrt(), y1.mul_add(y1, d).sqrt());
         let sum = y1.mul_add(r0, y0.abs() * r1);
         let product = r0 * r1 * sum;
-        let inverse = (one / R::blend(product.gt(zero), product, one)).keep(product.gt(zero));
+        let inverse = one / product;
         let inverse_r = inverse * sum;
         let inverse_r1 = r0 * inverse_r;
         let h1 = y1 * inverse_r1;
@@ -190,9 +207,7 @@ impl<R: Real> SphericalRectangle<R> {
         let anchored = self.anchor.y.gt(zero);
         let numerator = d * R::blend(anchored, -(r1 * rise), h);
         let denominator = root * R::blend(anchored, h1.mul_add(root, h * d * inverse_r1), one);
-        let some = denominator.gt(zero);
-        let y = numerator / R::blend(some, denominator, one);
-        let y = y.clamped(R::blend(anchored, -self.size.y, y0), R::blend(anchored, zero, y1));
+        let y = (numerator / denominator).clamped(R::blend(anchored, -self.size.y, y0), R::blend(anchored, zero, y1));
         Vec2::new(x, y)
     }
     /// The point of the rectangle at X and Y.
@@ -288,7 +303,8 @@ impl<R: Real> Warp<R> for SphericalRectangle<R> {
         // the strip from x to the nearer end: before the foot, mirrored
         let before = x.lt(zero);
         let ends = [R::blend(before, -x, x), R::blend(before, -x0, x1), R::blend(before, x - x0, dx)];
-        let strip = window(Vec2::new(ends[0], y0), Vec2::new(ends[1], y1), Vec2::new(ends[2], self.size.y), z);
+        let (near, far) = (Vec2::new(ends[0], y0), Vec2::new(ends[1], y1));
+        let strip = window(corners(near, far, z), near, far, Vec2::new(ends[2], self.size.y), z);
         let share = ratio(strip, self.solid_angle);
         let from_far = self.flip.x.gt(zero) ^ before;
         let u = unit_interval(R::blend(from_far, share, one - share));

@@ -3,6 +3,7 @@
 use crate::lanewise::lanewise;
 use crate::light::direction::DirectionSample;
 use crate::light::seen::SphericalShape;
+use crate::math::rsqrt;
 use crate::real::Real;
 use crate::vector::{Frame, Vec2, Vec3};
 use crate::warp::{Cone, Warp};
@@ -26,30 +27,30 @@ impl<R: Real> SphericalCap<R> {
     #[inline]
     pub fn new(center: Vec3<R>, radius: R) -> Self {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
-        // a difference has overflowed: nothing is visible
-        let finite = center.max_abs().lt(R::lit(f64::INFINITY));
-        let (center, radius) = (center.keep(finite), radius.keep(finite));
         let scale = center.max_abs().greater(radius.abs()).pow2_scale();
         let (c, r) = (center * scale, radius * scale);
-        let squared = c.length_squared();
-        // a small difference near the sphere, where it needs twice the working precision
-        let (plain, near) = (squared - r * r, squared.lt(R::lit(2.0) * (r * r)));
-        let [power] = R::where_any(near, [plain], || [c.length_squared_minus_square(r)]);
-        let some = squared.gt(zero);
-        let inverse = one / R::blend(some, squared, one);
-        let outside = power.ge(zero) & some;
-        let sin_squared = (r * r * inverse).lesser(one);
+        let (squared, square) = (c.length_squared(), r * r);
+        // a small difference near the sphere, where it needs twice the working precision; and what is no vector, as where a difference has
+        // overflowed: of that nothing is visible
+        let unusual = !(squared.gt(square + square) & squared.lt(R::lit(16.0)));
+        let plain = [squared - square, c.x, c.y, c.z];
+        let [power, x, y, z] = R::where_any(unusual, plain, || {
+            // scaled by itself: the centre may be arbitrarily near a point inside a large sphere
+            let axis = center * center.max_abs().pow2_scale();
+            let somewhere = axis.length_squared().gt(zero) & axis.is_within(R::lit(4.0));
+            let axis = axis.keep(somewhere);
+            [c.length_squared_minus_square(r), axis.x, axis.y, R::blend(somewhere, axis.z, one)]
+        });
+        let inverse = one / squared;
+        let sin_squared = (square * inverse).lesser(one);
         let cos = (power.greater(zero) * inverse).sqrt();
-        let h = R::blend(outside, sin_squared / (one + cos), R::lit(2.0));
+        let h = R::blend(power.ge(zero), sin_squared / (one + cos), R::lit(2.0));
         let distance = squared.sqrt();
-        // scaled by itself: the centre may be arbitrarily near a point inside a large sphere
-        let axis = (center * center.max_abs().pow2_scale()).normalize();
-        let somewhere = axis.max_abs().gt(zero);
-        let axis = Vec3::new(axis.x, axis.y, R::blend(somewhere, axis.z, one));
+        let axis = Vec3::new(x, y, z);
         Self {
-            frame: Frame::new(axis),
+            frame: Frame::new(axis * rsqrt(axis.length_squared())),
             // nothing where the centre is no number
-            cone: Cone { one_minus_cos: h.keep(r.gt(zero) & squared.ge(zero)) },
+            cone: Cone { one_minus_cos: h.keep(r.gt(zero) & power.lt(R::lit(16.0))) },
             distance,
             power,
             unit: one / scale,

@@ -4,9 +4,9 @@ use super::fresnel::fresnel;
 use super::records::{
     COAT, COATED_METAL, DIMMING_COAT, KIND, LAYERED, MIRROR, MaterialRecord, ROUGH_METAL, SMOOTH_METAL,
 };
-use crate::coat::{POLE, TERMS, range};
-use crate::lobe::{Lobe, cosine_of_schlick, schlick_of_diffuse};
 use crate::packet::{M8, V8, X8, equal, max, min, select};
+use crate::surfaces::coat::{POLE, TERMS, range};
+use crate::surfaces::lobe::{Lobe, cosine_of_schlick, schlick_of_diffuse};
 use etendue::reflection::Reflection;
 use etendue::{Mask, Real, u32x8};
 

@@ -1,7 +1,7 @@
 //! Materials as numbers.
 
-use crate::coat::Coat;
 use crate::scene::{Material, Roughness};
+use crate::surfaces::coat::Coat;
 
 /// The numbers of a material, so that one transposition gathers eight lanes: roughness α along, η (3), k (3), roughness α across. A
 /// mirror has its reflectance in place of η, and k = 0; a coat its reflectances at normal and at grazing incidence. The three low bits of the

@@ -3,7 +3,7 @@
 use super::definition::{Chart, Definition, SIDE, middles};
 use super::grid;
 use super::observe::{Answers, Inverse, Questions, SETS, SLOPES, STEP, direction};
-use super::sampler::Sample;
+use super::sampler::{Lacks, Sample};
 use crate::area_lights::Measure;
 use crate::stats;
 use etendue_oracle::{V3, cross, dot, length, sub, wide};
@@ -45,6 +45,30 @@ pub enum Figure {
     Answer,
 }
 impl Figure {
+    /// How grave a finding is, the gravest first: what is no answer, what makes an image wrong, what makes it wrong together with other
+    /// techniques, and what only some uses notice.
+    #[must_use]
+    pub fn rank(self) -> usize {
+        use Figure::*;
+        let all = [
+            Answer,
+            Nonsense,
+            Dark,
+            Bias,
+            Outside,
+            Density,
+            MisBias,
+            TwoPdfs,
+            Integral,
+            Frequencies,
+            Placement,
+            Stray,
+            Hit,
+            Inverse,
+            Jacobian,
+        ];
+        all.iter().position(|f| *f == self).unwrap_or(all.len())
+    }
     /// What a finding says, before where it is.
     #[must_use]
     pub fn said(self, value: f64) -> String {
@@ -136,6 +160,8 @@ pub struct Trial<'a> {
     pub seen: &'a Definition,
     /// What the sampler claims to be uniform by.
     pub by: Measure,
+    /// What it declares that it does not have.
+    pub lacks: Lacks,
     /// What was asked.
     pub questions: &'a Questions,
     /// What was answered.
@@ -169,8 +195,12 @@ impl Trial<'_> {
         all.extend(self.hits());
         all.extend(self.inverses());
         if self.seen.size[1] > RESOLVED + 1e3 * self.seen.rounding {
-            self.distribution(&mut all);
-            self.estimates(&mut all);
+            let densities = self.densities();
+            // without a pdf and a measure, nothing is known of the distribution
+            if !densities.is_empty() {
+                self.distribution(&densities, &mut all);
+                self.estimates(&densities, &mut all);
+            }
         }
         all
     }
@@ -283,11 +313,18 @@ impl Trial<'_> {
         (!self.answers.inverses.is_empty()).then_some(worst)
     }
 
+    /// The pdf of each direction: what was answered, or, of a sampler that evaluates none, what its measure says.
+    fn densities(&self) -> Vec<f64> {
+        if !self.lacks.pdf {
+            return self.answers.pdfs.iter().map(|pdf| f64::from(*pdf)).collect();
+        }
+        let of = |w: &[f32; 3]| self.seen.density(self.by, direction(*w));
+        self.questions.directions.iter().map(of).collect::<Option<_>>().unwrap_or_default()
+    }
     /// Density of the samples in the chart's square, by the pdf.
-    fn claimed(&self) -> Vec<f64> {
-        let directions = self.questions.directions.iter().zip(&self.answers.pdfs).take(SIDE * SIDE);
-        let of =
-            |(w, pdf): (&[f32; 3], &f32)| f64::from(*pdf) * self.seen.steradians(self.questions.chart, direction(*w));
+    fn claimed(&self, densities: &[f64]) -> Vec<f64> {
+        let directions = self.questions.directions.iter().zip(densities).take(SIDE * SIDE);
+        let of = |(w, pdf): (&[f32; 3], &f64)| pdf * self.seen.steradians(self.questions.chart, direction(*w));
         directions.map(of).collect()
     }
     /// Where the chart's square goes over from one map to another one.
@@ -298,8 +335,8 @@ impl Trial<'_> {
         self.answers.samples[i].filter(|s| !s.is_hidden)
     }
     /// ∫ pdf, frequencies and places of the samples, and the map's derivative.
-    fn distribution(&self, all: &mut Vec<Measured>) {
-        let claimed = self.claimed();
+    fn distribution(&self, densities: &[f64], all: &mut Vec<Measured>) {
+        let claimed = self.claimed(densities);
         let (integral, error) = grid::mean(&claimed, self.seam());
         // the grid resolves neither the edge that a horizon cuts nor peaks that are not known
         if self.by == Measure::ProjectedSolidAngle && claimed.iter().any(|q| *q < 0.1)
@@ -313,7 +350,9 @@ impl Trial<'_> {
         let (part, spread) = mean(&parts);
         let limit = ERROR.max(error).max(DEVIATIONS * spread);
         let value = (integral - part).abs();
-        all.push(Measured { figure: Figure::Integral, value, limit, at: format!("∫ pdf = {integral:.6}") });
+        if !self.lacks.pdf {
+            all.push(Measured { figure: Figure::Integral, value, limit, at: format!("∫ pdf = {integral:.6}") });
+        }
         // a density that the grid does not resolve has no expectations
         if error > 0.01 || part == 0.0 || integral == 0.0 {
             return;
@@ -350,7 +389,8 @@ impl Trial<'_> {
             worst.take_mean((seen - truth).abs(), limit, String::new);
         }
         all.push(worst);
-        if (1e-3..2.0).contains(&self.seen.size[0]) && self.seen.size[1] > 0.05 * self.seen.size[0] {
+        let is_resolved = (1e-3..2.0).contains(&self.seen.size[0]) && self.seen.size[1] > 0.05 * self.seen.size[0];
+        if is_resolved && !self.lacks.map {
             all.extend(self.slopes());
         }
     }
@@ -372,17 +412,23 @@ impl Trial<'_> {
     }
 
     /// Irradiance, and solid angle where the receiver's normal does not matter, by the sampler alone and with another one.
-    fn estimates(&self, all: &mut Vec<Measured>) {
+    fn estimates(&self, densities: &[f64], all: &mut Vec<Measured>) {
         let normal = self.seen.normal();
         let mut worst = [Figure::Bias, Figure::MisBias].map(|figure| Measured::right(figure, ERROR));
         let cosine = |w: V3| dot(w, normal).max(0.0);
-        self.estimate(&cosine, self.seen.irradiance(normal), "irradiance", &mut worst);
+        self.estimate(densities, &cosine, (self.seen.irradiance(normal), "irradiance"), &mut worst);
         if matches!(self.by, Measure::SolidAngle | Measure::Area) {
-            self.estimate(&|_| 1.0, self.seen.solid_angle, "solid angle", &mut worst);
+            self.estimate(densities, &|_| 1.0, (self.seen.solid_angle, "solid angle"), &mut worst);
         }
         all.extend(worst);
     }
-    fn estimate(&self, f: &dyn Fn(V3) -> f64, truth: f64, what: &str, worst: &mut [Measured; 2]) {
+    fn estimate(
+        &self,
+        densities: &[f64],
+        f: &dyn Fn(V3) -> f64,
+        (truth, what): (f64, &str),
+        worst: &mut [Measured; 2],
+    ) {
         if truth <= 1e-9 * self.seen.solid_angle {
             return;
         }
@@ -395,8 +441,8 @@ impl Trial<'_> {
         let [alone, with_partner] = worst;
         let said = |of: f64| format!("{what} {of:e}, by definition {truth:e}");
         let first = self.questions.partner();
-        let directions = self.questions.directions[first..].iter().zip(&self.answers.pdfs[first..]);
-        let directions: Vec<_> = directions.map(|(w, pdf)| (f(direction(*w)), f64::from(*pdf))).collect();
+        let directions = self.questions.directions[first..].iter().zip(&densities[first..]);
+        let directions: Vec<_> = directions.map(|(w, pdf)| (f(direction(*w)), *pdf)).collect();
         // rare estimates that are many times the mean tell nothing in few samples, nor what hardly a direction of the grid meets
         let greatest = directions.iter().map(|(f, pdf)| if *f > 0.0 { f / pdf } else { 0.0 }).fold(0.0, f64::max);
         let lit = directions.iter().filter(|d| d.0 > 0.0).count();

@@ -1,7 +1,7 @@
 //! What a sampler is asked at a place, and what it answers.
 
 use super::definition::{Chart, Definition, SIDE, middles};
-use super::sampler::{Sample, Sampler};
+use super::sampler::{Lacks, Sample, Sampler};
 use crate::area_lights::Measure;
 use crate::generators::{EDGES, Random, square};
 use etendue_oracle::{V3, along, length, narrow, sub, unit, wide};
@@ -131,7 +131,7 @@ pub struct Answers {
     pub samples: Vec<Option<Sample>>,
     /// The pdf evaluated for the first samples; empty if it was not.
     pub evaluated: Vec<f32>,
-    /// The pdf of each direction.
+    /// The pdf of each direction; empty if the sampler evaluates none.
     pub pdfs: Vec<f32>,
     /// The pdf of each direction outside.
     pub outside: Vec<f32>,
@@ -141,22 +141,21 @@ pub struct Answers {
     pub hits: Vec<(usize, f32)>,
 }
 
-/// Asks a sampler.
+/// Asks a sampler what it does not lack.
 #[must_use]
-pub fn ask(sampler: &dyn Sampler, questions: &Questions) -> Answers {
+pub fn ask(sampler: &dyn Sampler, questions: &Questions, lacks: Lacks) -> Answers {
     let samples: Vec<_> = questions.us.iter().map(|&u| sampler.sample(u)).collect();
     let single = &samples[..questions.single()];
-    let evaluated = single.iter().map(|s| s.map_or(0.0, |s| sampler.pdf(s.direction))).collect();
-    let pdf = |w: &[f32; 3]| sampler.pdf(*w);
-    let mut answers = Answers {
-        evaluated,
-        pdfs: questions.directions.iter().map(pdf).collect(),
-        outside: questions.outside.iter().map(pdf).collect(),
-        ..Answers::default()
-    };
+    let mut answers = Answers::default();
+    if !lacks.pdf {
+        let pdf = |w: &[f32; 3]| sampler.pdf(*w);
+        answers.evaluated = single.iter().map(|s| s.map_or(0.0, |s| sampler.pdf(s.direction))).collect();
+        answers.pdfs = questions.directions.iter().map(pdf).collect();
+        answers.outside = questions.outside.iter().map(pdf).collect();
+    }
     let drawn = samples.iter().enumerate().filter_map(|(i, s)| s.filter(|s| !s.is_hidden).map(|s| (i, s)));
     for (i, s) in drawn.step_by(7).take(64) {
-        if let Some(u) = sampler.invert(s.direction) {
+        if let Some(u) = sampler.invert(s.direction).filter(|_| !lacks.map) {
             answers.inverses.push(Inverse::new(sampler, i, u));
         }
         if let Some(distance) = sampler.hit(s.direction) {

@@ -2,7 +2,8 @@
 
 use crate::area_lights::{AreaLight, LightShape, Measure};
 use crate::fixture::Fixture;
-use etendue::{LightSampler, Vec2, Vec3};
+use etendue::lights::{Emitter, Lights, LightsAt, Receiver, Side};
+use etendue::{Disk, LightSampler, Parallelogram, Rectangle, Sphere, Triangle, Vec2, Vec3};
 use etendue_oracle::{length, sub, wide};
 
 /// One sample.
@@ -32,6 +33,15 @@ pub trait Sampler {
     }
 }
 
+/// What a sampler declares that it does not have, so that it is judged by what is left.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Lacks {
+    /// It has no map from the square: numbers are only what its generator starts from, as where it draws by rejection.
+    pub map: bool,
+    /// It evaluates no density of a direction. That of a sample is judged all the same.
+    pub pdf: bool,
+}
+
 /// What preparing a light for a point gives.
 pub enum Prepared<'a> {
     /// The sampler does not claim to be right there.
@@ -50,6 +60,8 @@ pub struct Subject<'a> {
     pub shape: LightShape,
     /// What it claims to be uniform by.
     pub by: Measure,
+    /// What it declares that it does not have.
+    pub lacks: Lacks,
     /// In words, where it claims to be right; empty if everywhere.
     pub domain: String,
     /// Prepares a light for its point.
@@ -142,6 +154,7 @@ pub fn technique(shape: LightShape, by: Measure) -> Subject<'static> {
         name: format!("etendue {} by {by:?}", shape_name(shape)),
         shape,
         by: if known { by } else { Measure::Other },
+        lacks: Lacks::default(),
         domain: String::new(),
         prepare: Box::new(move |light| {
             let light = AreaLight { by, ..*light };
@@ -152,9 +165,64 @@ pub fn technique(shape: LightShape, by: Measure) -> Subject<'static> {
     }
 }
 
-/// The core's own techniques of these shapes, from its one list.
+/// The core's own techniques of these shapes, from its one list, and its sets of one light.
 #[must_use]
 pub fn own() -> Vec<Subject<'static>> {
     let kinds = AreaLight::KINDS.iter().filter(|kind| SHAPES.iter().any(|s| s.0 == kind.0));
-    kinds.map(|&(shape, by)| technique(shape, by)).collect()
+    kinds.map(|&(shape, by)| technique(shape, by)).chain(SHAPES.iter().map(|s| set(s.0))).collect()
+}
+
+/// A set of one light, and where it is seen from.
+struct OfSet {
+    lights: Lights<f32>,
+    point: Vec3<f32>,
+    is_inside: bool,
+}
+impl OfSet {
+    fn at(&self) -> LightsAt<'_, f32> {
+        self.lights.at(Receiver { point: self.point, side: Side::None, on: None })
+    }
+}
+impl Sampler for OfSet {
+    fn sample(&self, u: [f32; 2]) -> Option<Sample> {
+        let s = self.at().sample([0.5, u[0], u[1]]);
+        let direction = [s.direction.x, s.direction.y, s.direction.z];
+        (s.pdf != 0.0).then_some(Sample { direction, pdf: s.pdf, is_hidden: s.factor == 0.0 && !self.is_inside })
+    }
+    fn pdf(&self, direction: [f32; 3]) -> f32 {
+        self.at().pdf(0, vector(direction))
+    }
+}
+
+/// A set of one light of a shape.
+#[must_use]
+pub fn set(shape: LightShape) -> Subject<'static> {
+    Subject {
+        name: format!("etendue set of one {}", shape_name(shape)),
+        shape,
+        by: Measure::SolidAngle,
+        lacks: Lacks::default(),
+        domain: "the point is not on the light, to within its rounding".into(),
+        prepare: Box::new(move |light| {
+            let AreaLight { a, b, c, radius, p, .. } = *light;
+            let [a, b, c, point] = [a, b, c, p].map(vector);
+            let (emitter, is_on): (Emitter<f32>, bool) = match shape {
+                LightShape::Sphere => (Sphere::new(a, radius).into(), Sphere::new(a, radius).on_surface(point)),
+                LightShape::Triangle => {
+                    let light = Triangle::new(a, a + b, a + c);
+                    (light.into(), light.on_surface(point))
+                }
+                LightShape::Rectangle => (Rectangle::new(a, b, c).into(), Rectangle::new(a, b, c).on_surface(point)),
+                LightShape::Disk => (Disk::new(a, b, radius).into(), Disk::new(a, b, radius).on_surface(point)),
+                _ => (Parallelogram::new(a, b, c).into(), Parallelogram::new(a, b, c).on_surface(point)),
+            };
+            let away = length(sub(wide(light.a), wide(light.p)));
+            let is_inside = shape == LightShape::Sphere && away < f64::from(radius);
+            match Lights::new([(emitter, 1.0)]) {
+                Ok(_) if is_on => Prepared::OutsideOfDomain,
+                Ok(lights) => Prepared::Ready(Box::new(OfSet { lights, point, is_inside })),
+                Err(_) => Prepared::Nothing,
+            }
+        }),
+    }
 }

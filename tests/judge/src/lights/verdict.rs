@@ -82,17 +82,22 @@ impl Judgement {
     pub fn is_right(&self) -> bool {
         self.findings.is_empty()
     }
-    /// Greatest relative error of a pdf or of irradiance over all places; 1 for nonsense.
+    /// Greatest relative error of a pdf or of irradiance over all places, and of whatever else is wrong; 1 for what has no size, such as
+    /// nonsense.
     #[must_use]
     pub fn worst(&self) -> f64 {
         let all = self.cases.iter().flat_map(|c| &c.figures);
         all.map(|m| match m.figure {
             Figure::Density | Figure::TwoPdfs => m.value,
-            Figure::Bias | Figure::MisBias if m.is_finding() => m.value,
-            Figure::Nonsense | Figure::Dark | Figure::Answer if m.is_finding() => 1.0,
+            Figure::Nonsense | Figure::Dark | Figure::Answer | Figure::Frequencies | Figure::Stray
+                if m.is_finding() =>
+            {
+                1.0
+            }
+            _ if m.is_finding() => m.value,
             _ => 0.0,
         })
-        .fold(0.0, f64::max)
+        .fold(0.0, |worst, value| if value.is_nan() { 1.0 } else { f64::max(worst, value) })
     }
     /// Numbers of places at which it is right, and at which it claims to be.
     #[must_use]
@@ -153,15 +158,18 @@ pub fn figures(subject: &Subject<'_>, light: &AreaLight, effort: Effort) -> Vec<
         Prepared::OutsideOfDomain => None,
         Prepared::Nothing => Some(super::observe::Answers {
             samples: vec![None; questions.us.len()],
-            pdfs: vec![0.0; questions.directions.len()],
+            pdfs: if subject.lacks.pdf { Vec::new() } else { vec![0.0; questions.directions.len()] },
             ..Default::default()
         }),
-        Prepared::Ready(sampler) => Some(ask(&*sampler, &questions)),
+        Prepared::Ready(sampler) => Some(ask(&*sampler, &questions, subject.lacks)),
     });
     match answers {
         Err(message) => vec![Measured::unanswered(&message)],
         Ok(None) => Vec::new(),
-        Ok(Some(answers)) => Trial { seen: &seen, by: subject.by, questions: &questions, answers: &answers }.figures(),
+        Ok(Some(answers)) => {
+            let Subject { by, lacks, .. } = *subject;
+            Trial { seen: &seen, by, lacks, questions: &questions, answers: &answers }.figures()
+        }
     }
 }
 
@@ -178,7 +186,7 @@ const FOLLOWS: [(Figure, Figure); 9] = [
     (Figure::Stray, Figure::Outside),
 ];
 
-/// One finding for each figure that does not follow from another one.
+/// One finding for each figure that does not follow from another one, the gravest first.
 pub fn findings(cases: &[Case], mut input: impl FnMut(Figure, usize) -> String) -> Vec<Finding> {
     let mut found: Vec<Figure> = Vec::new();
     for m in cases.iter().flat_map(|c| &c.figures).filter(|m| m.is_finding()) {
@@ -207,6 +215,7 @@ pub fn findings(cases: &[Case], mut input: impl FnMut(Figure, usize) -> String) 
         let said = format!("{} {}", figure.said(greatest), places.join(", "));
         all.push(Finding { figure, value: greatest, said, input: input(figure, first) });
     }
+    all.sort_by_key(|finding| finding.figure.rank());
     all
 }
 

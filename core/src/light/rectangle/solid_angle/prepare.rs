@@ -1,21 +1,20 @@
 //! Prepares a rectangle for a point: its ends and the strips of Ureña et al., with the names of
 //! [`Rectangle::by_solid_angle`](crate::Rectangle::by_solid_angle).
 
-use super::{RECTANGLE_SLACK, SphericalRectangle, Strip, window};
+use super::{RECTANGLE_SLACK, SphericalRectangle, Strip, corners, window};
 use crate::math::{ratio, rsqrt};
 use crate::real::{Mask, Real};
 use crate::vector::double_word::{cross_dw, dot_dw, height_over, rounded_sum, sum_dw};
 use crate::vector::{Vec2, Vec3};
 
-/// Returns the unit normal of the plane through `p` along `u` and `v`, and the height p·normal. From a far corner that height is a small
+/// Returns the normal of the plane through `p` along both edges, and the height p·normal. From a far corner that height is a small
 /// difference, so it is formed in twice the working precision.
 #[inline(always)]
-fn normal_and_height<R: Real>(p: Vec3<R>, u: Vec3<R>, v: Vec3<R>) -> (Vec3<R>, R) {
-    let (u, v) = (u * u.max_abs().pow2_scale(), v * v.max_abs().pow2_scale());
-    let cross = u.cross(v);
-    let (normal, length) = cross.unit_and_length();
-    let some = length.gt(R::lit(0.0));
-    (normal, (height_over(p, [u, v], cross) / R::blend(some, length, R::lit(1.0))).keep(some))
+fn normal_and_height<R: Real>(p: Vec3<R>, [u, v]: [&Extent<R>; 2]) -> (Vec3<R>, R) {
+    let cross = u.unit.cross(v.unit);
+    // the edges are perpendicular
+    let inverse = u.inverse * v.inverse;
+    (cross * inverse, height_over(p, [u.unit, v.unit], cross) * inverse)
 }
 
 /// Reverses the vector where the mask is true.
@@ -34,6 +33,9 @@ struct Extent<R: Real> {
     near: R,
     far: R,
     size: R,
+    /// The edge times a power of two, and 1 over the length of that.
+    unit: Vec3<R>,
+    inverse: R,
 }
 
 impl<R: Real> Extent<R> {
@@ -41,16 +43,16 @@ impl<R: Real> Extent<R> {
     #[inline(always)]
     fn new(p: Vec3<R>, edge: Vec3<R>) -> Self {
         let zero = R::lit(0.0);
-        let (axis, size) = edge.unit_and_length();
         let unit = edge * edge.max_abs().pow2_scale();
         let squared = unit.length_squared();
         let inverse = rsqrt(squared).keep(squared.gt(zero));
         let (from, reach) = (dot_dw(p, unit), dot_dw(edge, unit));
         let (low, high) = ((from[0] + from[1]) * inverse, rounded_sum(from, reach) * inverse);
+        let size = (reach[0] + reach[1]) * inverse;
         // rounding may lose a tiny size in both ends; the near end is the one of smaller magnitude
         let flip = (low + high).lt(zero);
         let near = R::blend(flip, -high, low).greater(R::lit(-0.5) * size);
-        Self { flip, side: turned(axis, flip), near, far: near + size, size }
+        Self { flip, side: turned(unit * inverse, flip), near, far: near + size, size, unit, inverse }
     }
     /// Whether coordinates are measured from the far edge.
     #[inline(always)]
@@ -70,9 +72,8 @@ impl<R: Real> Extent<R> {
 
 /// Returns the origin of X and Y, which is computed from the far corner or from the foot, whichever is nearer to it.
 #[inline(always)]
-fn base<R: Real>([x, y]: [&Extent<R>; 2], corners: [Vec3<R>; 4], foot: Vec3<R>, z: R) -> Vec3<R> {
-    let far_corner =
-        Vec3::blend(x.flip, Vec3::blend(y.flip, corners[0], corners[3]), Vec3::blend(y.flip, corners[1], corners[2]));
+fn base<R: Real>([x, y]: [&Extent<R>; 2], [p, u, v]: [Vec3<R>; 3], foot: Vec3<R>, z: R) -> Vec3<R> {
+    let far_corner = p + u.keep(!x.flip) + v.keep(!y.flip);
     let (there_x, there_y) = (x.far.keep(x.anchored()), y.far.keep(y.anchored()));
     let (gone_x, gone_y) = (x.far - there_x, y.far - there_y);
     let from_corner = far_corner - x.side * gone_x - y.side * gone_y;
@@ -82,27 +83,26 @@ fn base<R: Real>([x, y]: [&Extent<R>; 2], corners: [Vec3<R>; 4], foot: Vec3<R>, 
 }
 
 impl<R: Real> Strip<R> {
+    /// The strip to x, given the distances of its corners there, and the distances m₀ and m₁ of those at x = 0.
     #[inline(always)]
-    fn new(x: R, y: &Extent<R>, z: R) -> Self {
+    fn new(x: R, y: &Extent<R>, z: R, [r0, r1]: [R; 2], inverse_mm: R) -> Self {
         let (one, &Extent { near: y0, far: y1, size: dy, .. }) = (R::lit(1.0), y);
-        let (zz, yy) = (z * z, y0 * y1);
-        let (mm0, mm1) = (y0.mul_add(y0, zz), y1.mul_add(y1, zz));
-        let im = ratio(one, (mm0 * mm1).sqrt());
+        let (zz, yy, xx) = (z * z, y0 * y1, x * x);
         let across = y0.lt(R::lit(0.0));
-        let xx = x * x;
-        let d = xx + zz;
-        let (r0, r1) = (y0.mul_add(y0, d).sqrt(), y1.mul_add(y1, d).sqrt());
-        let rr = r0 * r1;
-        let id = ratio(one, d);
+        let (d, rr) = (xx + zz, r0 * r1);
+        // what is degenerate has no pdf, and its samples are clamped
+        let id = one / d;
         let sum = y1.mul_add(r0, y0.abs() * r1);
-        let cross = R::blend(across, sum * id, ratio(dy * (y1 + y0), sum));
+        let cross = R::blend(across, sum * id, dy * (y1 + y0) / sum);
         // rr ∓ |y₀y₁|, the smaller one over d
-        let (plus, minus) = (rr + yy.abs(), ratio(y0.mul_add(y0, y1.mul_add(y1, d)), rr + yy.abs()));
+        let plus = rr + yy.abs();
+        let minus = y0.mul_add(y0, y1.mul_add(y1, d)) / plus + one;
+        let along = zz * inverse_mm;
         Self {
-            sin: x * z * cross * im,
-            cos: xx.mul_add(yy, zz * rr) * id * im,
-            above_p: ratio(zz * dy * dy * im, R::blend(across, d * (minus + one), plus + d)),
-            above_s: zz * im * R::blend(across, (plus + d) * id, minus + one),
+            sin: x * z * cross * inverse_mm,
+            cos: xx.mul_add(yy, zz * rr) * id * inverse_mm,
+            above_p: along * dy * dy / R::blend(across, d * minus, plus + d),
+            above_s: along * R::blend(across, (plus + d) * id, minus),
         }
     }
 }
@@ -135,7 +135,7 @@ fn scaled<R: Real>([p, u, v]: [Vec3<R>; 3]) -> ([Vec3<R>; 3], R, R::Mask) {
     let sum = p.max_abs() + u.max_abs() + v.max_abs();
     let finite = (sum + sum).lt(R::lit(f64::INFINITY));
     let scale = reach.pow2_scale();
-    ([p, u, v].map(|v| v.keep(finite) * scale), scale, finite)
+    ([p.keep(finite) * scale, u.keep(finite) * scale, v.keep(finite) * scale], scale, finite)
 }
 
 impl<R: Real> SphericalRectangle<R> {
@@ -145,22 +145,26 @@ impl<R: Real> SphericalRectangle<R> {
     pub fn new(p: Vec3<R>, u: Vec3<R>, v: Vec3<R>) -> Self {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let ([p, u, v], scale, finite) = scaled([p, u, v]);
-        let corners = [p, p + u, p + u + v, p + v];
-        let (z_axis, signed) = normal_and_height(p, u, v);
+        let vertices = [p, p + u, p + u + v, p + v];
+        let (x, y) = (Extent::new(p, u), Extent::new(p, v));
+        let (z_axis, signed) = normal_and_height(p, [&x, &y]);
         let (z, side) = (signed.abs(), one.copysign(signed));
-        let [x, y] = [u, v].map(|edge| Extent::new(p, edge));
-        let strip = Strip::new(x.far, &y, z);
-        let straddles = x.near.lt(zero);
-        let near_strip = if straddles.any() { Strip::new(-x.near, &y, z) } else { Strip::default() };
         let (near, far, size) = (Vec2::new(x.near, y.near), Vec2::new(x.far, y.far), Vec2::new(x.size, y.size));
+        let distances = corners(near, far, z);
+        let mm = |y: R| y.mul_add(y, z * z);
+        let inverse_mm = rsqrt(mm(y.near) * mm(y.far));
+        let strip = Strip::new(x.far, &y, z, distances[1], inverse_mm);
+        let straddles = x.near.lt(zero);
+        let near_strip =
+            if straddles.any() { Strip::new(-x.near, &y, z, distances[0], inverse_mm) } else { Strip::default() };
         // Ω, and whether the rectangle can be sampled
-        let solid_angle = window(near, far, size, z);
+        let solid_angle = window(distances, near, far, size, z);
         let some = solid_angle.gt(R::lit(1e-36)) & solid_angle.lt(R::lit(7.0)) & strip.sin.gt(zero);
         let some = finite & some & z.gt(R::lit(1e-18));
-        let [along_u, along_v] = planes([p, u, v], corners, side.lt(zero));
+        let [along_u, along_v] = planes([p, u, v], vertices, side.lt(zero));
         let ([near_x, far_x], [near_y, far_y]) = (x.sorted(along_u), y.sorted(along_v));
         Self {
-            base: base([&x, &y], corners, z_axis * signed, z),
+            base: base([&x, &y], [p, u, v], z_axis * signed, z),
             side_x: x.side,
             side_y: y.side,
             near_x: near_x.normal,
@@ -169,7 +173,7 @@ impl<R: Real> SphericalRectangle<R> {
             far_y: far_y.normal,
             slack: Vec2::new(near_x.slack, near_y.slack),
             slack_far: Vec2::new(far_x.slack, far_y.slack),
-            normal: z_axis * side,
+            normal: z_axis.normalize() * side,
             near,
             far,
             size,
@@ -177,7 +181,7 @@ impl<R: Real> SphericalRectangle<R> {
             anchor: Vec2::new(one.keep(x.anchored()), one.keep(y.anchored())),
             flip: Vec2::new(one.keep(x.flip), one.keep(y.flip)),
             strip,
-            inv_sin_w1: ratio(one, strip.sin),
+            inv_sin_w1: one / strip.sin,
             near_strip,
             half: R::blend(straddles, R::lit(0.5), R::lit(2.0)),
             solid_angle: solid_angle.keep(some),

@@ -24,14 +24,14 @@ struct Corners<R> {
 impl<R: Real> Corners<R> {
     #[inline(always)]
     fn new([v0, v1, v2]: [Vec3<R>; 3]) -> Self {
-        let squared = [v0, v1, v2].map(Vec3::length_squared);
-        let inverse = squared.map(|s| rsqrt(s).keep(s.gt(R::lit(1e-36))));
-        let [i0, i1, i2] = inverse;
+        let (s0, s1, s2) = (v0.length_squared(), v1.length_squared(), v2.length_squared());
+        let inverse = |s: R| rsqrt(s).keep(s.gt(R::lit(1e-36)));
+        let (i0, i1, i2) = (inverse(s0), inverse(s1), inverse(s2));
         let apex = v1 * i1;
         Self {
             v: [v0, v1, v2],
-            length: [squared[0] * i0, squared[1] * i1, squared[2] * i2],
-            inverse,
+            length: [s0 * i0, s1 * i1, s2 * i2],
+            inverse: [i0, i1, i2],
             d01: v0.dot(v1) * i0 * i1,
             d02: v0.dot(v2) * i0 * i2,
             d12: apex.dot(v2) * i2,
@@ -41,8 +41,8 @@ impl<R: Real> Corners<R> {
     /// True unless the point is a vertex.
     #[inline(always)]
     fn apart(&self) -> R::Mask {
-        let [i0, i1, i2] = self.inverse.map(|i| i.gt(R::lit(0.0)));
-        i0 & i1 & i2
+        let ([i0, i1, i2], zero) = (self.inverse, R::lit(0.0));
+        i0.gt(zero) & i1.gt(zero) & i2.gt(zero)
     }
 }
 
