@@ -100,7 +100,8 @@ fn windows(world: &World) -> Option<String> {
     ))
 }
 
-/// What may help where a number of samples makes a sampler no better than independent numbers: one that nobody chose, or sets of one sample.
+/// What may help where a number of samples makes a sampler no better than independent numbers: one that nobody chose, or sets of one sample
+/// where the sampler or the sets were chosen.
 fn wasted(settings: &Settings, is_chosen: bool) -> Option<String> {
     let Settings { spp, sampler, sets, .. } = *settings;
     if spp > 1 && sampler == Sampler::Independent && !is_chosen {
@@ -109,8 +110,9 @@ fn wasted(settings: &Settings, is_chosen: bool) -> Option<String> {
             "{spp} samples per pixel are independent, since they are odd: --spp {next} has less noise"
         ));
     }
+    let is_chosen = is_chosen || sets > 0;
     let sets = sampler.sets(spp, sets);
-    (sampler.has_sets() && spp > 1 && sets == spp).then(|| {
+    (is_chosen && sampler.has_sets() && spp > 1 && sets == spp).then(|| {
         let more = 4 * sets;
         format!("sets of one sample are independent, whatever the sampler: --spp {more} makes sets of 4, with less noise for their number")
     })
