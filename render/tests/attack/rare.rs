@@ -43,7 +43,9 @@ pub(crate) fn of_scene(scene: u64, spp: u32, seeds: u64) -> Mean {
     let truth: Vec<f64> = (0..TRUE).map(|seed| image(Sampler::Sobol, FINER * spp, 1 << 40 | seed)).collect();
     let ([found, a], [truth, b]) = (mean(&found), mean(&truth));
     // what rounding in single precision does to the sum of an image is no bias
-    Mean { ratio: found / truth, z: (found - truth) / (a + b + (1e-6 * truth).powi(2)).sqrt() }
+    let z = (found - truth) / (a + b + (1e-6 * truth).powi(2)).sqrt();
+    // a scene that is black to all images tells nothing
+    if found == 0.0 && truth == 0.0 { Mean { ratio: 1.0, z: 0.0 } } else { Mean { ratio: found / truth, z } }
 }
 
 /// A square lamp of a 160,000th of the film before a wall that a dim lamp lights; or without it.
