@@ -128,9 +128,10 @@ fn the_mean_of_1000_images_of_a_speck_is_right() {
     }
 }
 
-/// What 24 images of each scene claim with 16, 64 and 256 samples per pixel, all together, and how the table of that reads.
-fn claims_table(all: &[(String, Scene)], side: u32) {
-    let rows: Vec<_> = all.par_iter().map(|(_, scene)| claims::rows(scene, side, [16, 64, 256], 24)).collect();
+/// What 24 images of each scene claim with these numbers of samples per pixel, all together, and how the table of that reads. At least this
+/// share of the rows that are sure must be within 0.8 to 1.25.
+fn claims_table<const N: usize>(all: &[(String, Scene)], side: u32, numbers: [u32; N], least_share: f64) {
+    let rows: Vec<_> = all.par_iter().map(|(_, scene)| claims::rows(scene, side, numbers, 24)).collect();
     println!("true error over that claimed, of 24 images together; in brackets where most of them call it uncertain");
     let (mut sure, mut good, mut beyond, mut doubted, mut deserved) = (0.0, 0.0, 0.0, 0.0, 0.0);
     for ((name, _), rows) in all.iter().zip(&rows) {
@@ -154,7 +155,7 @@ fn claims_table(all: &[(String, Scene)], side: u32) {
     }
     println!("{sure} rows are sure: {:.1} % within 0.8 to 1.25, {beyond} beyond 2", 100.0 * good / sure);
     println!("{doubted} rows are uncertain: {:.1} % are not within 0.8 to 1.25", 100.0 * deserved / doubted);
-    assert!(good >= 0.97 * sure && beyond == 0.0);
+    assert!(good >= least_share * sure && beyond == 0.0);
 }
 
 #[test]
@@ -163,15 +164,16 @@ fn claims_of_100_scenes_as_a_table() {
     let all = (0..100).map(|i| (&REGIMES[i % REGIMES.len()], (i / REGIMES.len()) as u64));
     let read =
         |(regime, seed): (&Regime, u64)| (format!("{} {seed}", regime.name), judge::read(&regime.draft(seed)).unwrap());
-    claims_table(&all.map(read).collect::<Vec<_>>(), 32);
+    claims_table(&all.map(read).collect::<Vec<_>>(), 32, [16, 64, 256], 0.97);
 }
 
 #[test]
-#[ignore = "72 images of each built-in scene that is small: five minutes on two cores"]
+#[ignore = "48 images of each built-in scene that is small: ten minutes on two cores"]
 fn claims_of_built_in_scenes_as_a_table() {
     let names = ["studio", "sphere-light", "quads", "cornell-box", "mirror-room", "plates", "sky", "defocus"];
     let all = names.map(|name| (name.to_owned(), etendue_scene::load(name).unwrap()));
-    claims_table(&all, 48);
+    // with 16 samples, `plates` claims about twice its error: few second sets meet its glints
+    claims_table(&all, 128, [64, 256], 1.0);
 }
 
 /// The scenes on which the renderer was wrong once, in smaller images than usual.
