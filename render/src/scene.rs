@@ -21,5 +21,5 @@ pub use description::{CameraSettings, Corners, Details, FilmSettings, Lens, Scen
 pub use environment::{Environment, SkyRadiance, SunDisk};
 pub use inputs::Input;
 pub use lights::{Cone, DeltaLight, Emission};
-pub use materials::{Material, Roughness, Varying};
+pub use materials::{Material, NormalMap, Roughness, Varying};
 pub use message::Message;

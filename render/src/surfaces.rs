@@ -10,10 +10,12 @@ use crate::geometry::{Points, on_triangle, on_triangles, on_vast_triangles};
 use crate::packet::{M8, V8, X8, first_lane};
 use crate::scene::light_picture::LightPicture;
 use crate::scene::light_profile::LightProfile;
-use crate::scene::{Corners, Details, Material, Scene, Shape, Varying};
+use crate::scene::{Corners, Details, Material, NormalMap, Scene, Shape, Varying};
 use bsdf::{MaterialRecord, Metal, PLAIN, albedo, record};
 use etendue::{Mask, Real, Vec3};
-use interpolation::{along_u, barycentric, interpolated, lane_of, moved, set_lane, smooth_normal};
+use interpolation::{
+    along_u, barycentric, between, facing, interpolated, is_behind, lane_of, moved, outward, set_lane, turned,
+};
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -333,11 +335,11 @@ impl Surfaces {
             if let Some(varied) = varied {
                 set_lane(&mut surface.albedo, lane, albedo(&varied));
             }
-            if let Some((&Corners { normals, .. }, weights)) = corners.zip(weights)
-                && normals[0] != [0.0; 3]
-                && let normals = self.bvh.to_world(primitive).map_or(normals, |to_world| moved(normals, to_world))
-                && let Some(n) =
-                    smooth_normal(&normals, weights, lane_of(surface.normal, lane), lane_of(direction, lane))
+            if let Some((corners, weights)) = corners.zip(weights)
+                && let map = varying.and_then(Varying::normals)
+                && (corners.normals[0] != [0.0; 3] || map.is_some())
+                && let Some(n) = self.normal(primitive, corners, weights, map, lane_of(surface.normal, lane))
+                && let Some(n) = facing(n, lane_of(direction, lane))
             {
                 set_lane(&mut surface.normal, lane, n);
                 smooth |= 1 << lane;
@@ -345,6 +347,26 @@ impl Surfaces {
         }
         let metal = Metal::new(records.each_ref());
         (grain.map_or(metal, |grain| metal.along(grain)), M8::from_bits(smooth))
+    }
+
+    /// The unit normal at a point of a triangle that is smooth or has a map, on the side of the flat one.
+    fn normal(
+        &self,
+        primitive: PrimitiveId,
+        corners: &Corners,
+        weights: [f32; 3],
+        map: Option<&NormalMap>,
+        flat: [f32; 3],
+    ) -> Option<[f64; 3]> {
+        let (to_world, at) = (self.bvh.to_world(primitive), || self.bvh.corners(primitive));
+        let front = if corners.normals[0] == [0.0; 3] {
+            outward(at(), to_world.is_some_and(|to_world| to_world.determinant() < 0.0))
+        } else {
+            between(&to_world.map_or(corners.normals, |to_world| moved(corners.normals, to_world)), weights)
+        }?;
+        let uv = || interpolated(&corners.uvs, weights);
+        let n = map.and_then(|map| turned(front, map, at(), &corners.uvs, uv())).unwrap_or(front);
+        Some(if is_behind(front, flat) { n.map(|x| -x) } else { n })
     }
 
     /// Materials at the hit points of these lanes; of a material that varies, it is the mean.

@@ -9,6 +9,7 @@ mod emitters;
 mod gltf;
 mod meanings;
 mod place;
+mod relief;
 mod row;
 mod skies;
 
@@ -35,6 +36,7 @@ fn write_files(folder: &Folder) {
     // 90 cd at the nadir, 0 from 60 degrees on; and the same everywhere below
     folder.ies("cone.ies", "0 60", "0", "90 0");
     folder.ies("below.ies", "0 90", "0", "9 9");
+    folder.write("relief.png", relief::png());
     write_kinds(folder);
     let quad = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n\
                 element face 1\nproperty list uchar int vertex_indices\nend_header\n\
@@ -129,6 +131,7 @@ fn all_rows() -> Vec<Row> {
         skies::rows(),
         emitters::rows(),
         gltf::rows(),
+        relief::rows(),
         cameras::rows(),
         meanings::rows(),
         coats::rows(),

@@ -11,8 +11,8 @@ use etendue_render::scene::intensity::Intensity;
 use etendue_render::scene::light_picture::affine;
 use etendue_render::scene::texture::{Mapping, Mask, Texture};
 use etendue_render::scene::{
-    CameraSettings, Corners, DeltaLight, Details, Emission, Environment, FilmSettings, Input, Material, Message, Scene,
-    Shape, Varying, coincidences,
+    CameraSettings, Corners, DeltaLight, Details, Emission, Environment, FilmSettings, Input, Material, Message,
+    NormalMap, Scene, Shape, Varying, coincidences,
 };
 use std::collections::{BTreeMap, HashMap};
 use std::ops::Range;
@@ -106,6 +106,15 @@ impl Builder {
     pub(super) fn varied(&mut self, varying: Varying) -> Material {
         self.varying.push(varying);
         Material::Varying((self.varying.len() - 1) as u32)
+    }
+
+    /// A material whose normals vary.
+    pub(super) fn relief(&mut self, material: Material, normals: NormalMap) -> Material {
+        let under = match material {
+            Material::Varying(index) => self.varying[index as usize].clone(),
+            other => Varying::Constant(other),
+        };
+        self.varied(Varying::Relief(Arc::new((under, normals))))
     }
 
     /// A material, or the mean of one that varies.

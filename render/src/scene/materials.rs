@@ -1,6 +1,7 @@
 //! How surfaces reflect.
 
 use super::texture::Texture;
+use std::sync::Arc;
 
 /// How a surface reflects, the same on both sides.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -139,6 +140,31 @@ pub enum Varying {
         /// The square root of α.
         roughness: Texture,
     },
+    /// A material that does not vary.
+    Constant(Material),
+    /// A material whose normals vary.
+    Relief(Arc<(Varying, NormalMap)>),
+}
+
+/// Normals that vary over a surface, in the frame of the direction in which u grows, one at right angles to it, and the outward normal.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NormalMap {
+    /// Channels from 0 to 1 stand for the components of a normal, from −1 to 1.
+    pub texture: Texture,
+    /// What the first two components are multiplied by.
+    pub scale: f32,
+    /// Whether the second axis is turned to where v falls, as in glTF; else the frame is right-handed, as in pbrt.
+    pub follows_v: bool,
+}
+
+impl NormalMap {
+    /// The components of the normal at texture coordinates, of any length.
+    #[must_use]
+    pub fn at(&self, uv: [f32; 2]) -> [f64; 3] {
+        let [x, y, z] = self.texture.at(uv).map(|x| 2.0 * f64::from(x) - 1.0);
+        let scale = f64::from(self.scale);
+        [scale * x, scale * y, z]
+    }
 }
 
 impl Varying {
@@ -159,8 +185,18 @@ impl Varying {
     }
     /// Whether it is glossy anywhere.
     #[must_use]
-    pub const fn is_glossy(&self) -> bool {
-        !matches!(self, Self::Diffuse(_))
+    pub fn is_glossy(&self) -> bool {
+        match self {
+            Self::Diffuse(_) => false,
+            Self::Constant(material) => material.is_glossy(),
+            Self::Relief(of) => of.0.is_glossy(),
+            _ => true,
+        }
+    }
+    /// Its normals, if they vary.
+    #[must_use]
+    pub fn normals(&self) -> Option<&NormalMap> {
+        if let Self::Relief(of) = self { Some(&of.1) } else { None }
     }
     /// The material itself, if no texture varies.
     #[must_use]
@@ -172,6 +208,8 @@ impl Varying {
             }
             Self::Layered { diffuse, roughness: [along, across], .. } => [diffuse, along, across, along, across],
             Self::Metallic { base, metallic, roughness } => [base, metallic, roughness, roughness, roughness],
+            Self::Constant(material) => return Some(*material),
+            Self::Relief(_) => return None,
         };
         textures.iter().all(|texture| texture.constant().is_some()).then(|| self.mean())
     }
@@ -185,6 +223,8 @@ impl Varying {
         };
         let alpha = |x: f32| share(x).max(Roughness::LEAST);
         match self {
+            Self::Constant(material) => *material,
+            Self::Relief(of) => of.0.with(value, tint),
             Self::Diffuse(albedo) => Material::Diffuse(tinted(albedo)),
             Self::Layered { diffuse, eta, roughness } => {
                 let [along, across] = roughness.each_ref().map(|texture| alpha(value(texture)[0]));

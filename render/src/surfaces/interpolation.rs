@@ -2,7 +2,9 @@
 
 use crate::geometry::Affine;
 use crate::packet::V8;
+use crate::scene::NormalMap;
 use etendue::{Real, Vec3};
+use std::f32::consts::FRAC_PI_2;
 
 pub(super) fn lane_of(v: V8, lane: usize) -> [f32; 3] {
     [v.x.lane(lane), v.y.lane(lane), v.z.lane(lane)]
@@ -71,23 +73,55 @@ pub(super) fn moved(normals: [[f32; 3]; 3], to_world: &Affine) -> [[f32; 3]; 3] 
 /// The least cosine between a smooth normal and the direction to the viewer.
 const LEAST_COS: f64 = 0.01;
 
-/// The normal of a smooth surface on the side of the flat normal, turned until its cosine to the viewer is at least [`LEAST_COS`]; `None` if
-/// the normals at the corners cancel.
-pub(super) fn smooth_normal(
-    normals: &[[f32; 3]; 3],
-    weights: [f32; 3],
-    flat: [f32; 3],
-    direction: [f32; 3],
-) -> Option<[f32; 3]> {
-    let unit = |n: [f64; 3]| {
-        let length = dot(n, n).sqrt();
-        (length > 1e-6).then(|| n.map(|x| x / length))
-    };
-    let mut n = unit(interpolated(normals, weights).map(f64::from))?;
-    let (flat, direction) = (flat.map(f64::from), direction.map(f64::from));
-    if dot(n, flat) < 0.0 {
-        n = n.map(|x| -x);
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+fn unit(n: [f64; 3]) -> Option<[f64; 3]> {
+    let length = dot(n, n).sqrt();
+    (length > 1e-6).then(|| n.map(|x| x / length))
+}
+
+/// The normal `n` of a triangle at a point, turned as a normal map tells there; `None` where texture coordinates give no direction.
+pub(super) fn turned(
+    n: [f64; 3],
+    map: &NormalMap,
+    corners: [f32; 9],
+    uvs: &[[f32; 2]; 3],
+    uv: [f32; 2],
+) -> Option<[f64; 3]> {
+    let [along_u, falling_v] = [0.0, FRAC_PI_2].map(|turn| along_u(corners, uvs, turn).map(f64::from));
+    let slant = dot(along_u, n);
+    let along = unit(std::array::from_fn(|k| along_u[k] - slant * n[k]))?;
+    let mut across = cross(n, along);
+    if map.follows_v && dot(across, falling_v) < 0.0 {
+        across = across.map(|x| -x);
     }
+    let [x, y, z] = map.at(uv);
+    unit(std::array::from_fn(|k| x * along[k] + y * across[k] + z * n[k]))
+}
+
+/// The unit normal between these at the corners of a triangle, if they do not cancel.
+pub(super) fn between(normals: &[[f32; 3]; 3], weights: [f32; 3]) -> Option<[f64; 3]> {
+    unit(interpolated(normals, weights).map(f64::from))
+}
+
+/// The outward unit normal of a flat triangle, which is on the other side of a mirrored one.
+pub(super) fn outward(corners: [f32; 9], is_mirrored: bool) -> Option<[f64; 3]> {
+    let edge = |i: usize| std::array::from_fn(|k| f64::from(corners[3 * i + k]) - f64::from(corners[k]));
+    let (a, b) = if is_mirrored { (edge(2), edge(1)) } else { (edge(1), edge(2)) };
+    let n = cross(a, b);
+    let greatest = n.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+    unit(n.map(|x| x / greatest))
+}
+
+/// Whether a normal is on the other side of the surface than the flat one.
+pub(super) fn is_behind(n: [f64; 3], flat: [f32; 3]) -> bool {
+    dot(n, flat.map(f64::from)) < 0.0
+}
+
+/// A unit normal, turned until its cosine to the viewer is at least [`LEAST_COS`].
+pub(super) fn facing(mut n: [f64; 3], direction: [f32; 3]) -> Option<[f32; 3]> {
+    let direction = direction.map(f64::from);
     let cos = -dot(n, direction);
     if cos < LEAST_COS {
         n = unit(std::array::from_fn(|k| n[k] - (LEAST_COS - cos) * direction[k]))?;

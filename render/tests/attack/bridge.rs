@@ -114,7 +114,7 @@ fn triangle([corner, b, c]: [V3; 3]) -> Form {
 fn meshes(scene: &Scene) -> Vec<Body> {
     let albedos = scene.varying.iter().map(|varying| match varying {
         Varying::Diffuse(albedo) | Varying::Glossy { diffuse: albedo, .. } => Arc::new(pattern(albedo, CHANNEL)),
-        Varying::Layered { .. } | Varying::Metallic { .. } => unreachable!("no such material is drawn"),
+        _ => unreachable!("no such material is drawn"),
     });
     let albedos: Vec<Arc<Pattern>> = albedos.collect();
     let opacity = |mask: &texture::Mask| Opacity {

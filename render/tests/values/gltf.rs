@@ -3,20 +3,22 @@
 use super::place::{NamedTransform, similar};
 use super::row::{Row, Text, grey, reflected, times};
 use etendue_oracle::{V3, along, basis, dot, length, sub, unit};
+use base64::Engine;
 use serde_json::{Value, json};
 
+/// The corners of the floor.
+pub(super) const FLOOR: [[f32; 3]; 4] = [[500.0, 0.0, -500.0], [-500.0, 0.0, -500.0], [-500.0, 0.0, 500.0], [500.0, 0.0, 500.0]];
+
 /// A file with these cameras, lights and nodes; mesh 0 is a floor in the plane y = 0, mesh 1 a square of half side 1 that faces +z.
-fn file(camera: Value, lights: Value, nodes: Vec<Value>, emissive: Value) -> String {
-    let corners = |of: &dyn Fn(f32, f32) -> [f32; 3]| [of(-1.0, -1.0), of(1.0, -1.0), of(1.0, 1.0), of(-1.0, 1.0)];
-    let floor = corners(&|x, z| [-500.0 * x, 0.0, 500.0 * z]);
-    let square = corners(&|x, y| [x, y, 0.0]);
-    let points = [floor, square].concat();
+pub(super) fn file(camera: Value, lights: Value, nodes: Vec<Value>, emissive: Value) -> String {
+    let square = [[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]];
+    let points = [FLOOR, square].concat();
     let mut bytes: Vec<u8> = points.iter().flatten().flat_map(|x| x.to_le_bytes()).collect();
     bytes.extend([0_u32, 1, 2, 0, 2, 3].iter().flat_map(|i| i.to_le_bytes()));
     let view = |at: usize, length: usize| json!({"buffer": 0, "byteOffset": at, "byteLength": length});
     let accessor = |view: usize, kind: u32, count: usize, name: &str| json!({"bufferView": view, "componentType": kind, "count": count, "type": name});
     let mesh = |positions: usize, material: usize| json!({"primitives": [{"attributes": {"POSITION": positions}, "indices": 2, "material": material}]});
-    let uri = format!("data:application/octet-stream;base64,{}", base64(&bytes));
+    let uri = format!("data:application/octet-stream;base64,{}", base64::engine::general_purpose::STANDARD.encode(&bytes));
     let matt = json!({"baseColorFactor": [0.5, 0.5, 0.5, 1], "metallicFactor": 0, "roughnessFactor": 1});
     json!({
         "asset": {"version": "2.0"},
@@ -38,19 +40,9 @@ fn file(camera: Value, lights: Value, nodes: Vec<Value>, emissive: Value) -> Str
     .to_string()
 }
 
-fn base64(bytes: &[u8]) -> String {
-    const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    // whole groups of three
-    let group = |b: &[u8]| {
-        let bits = u32::from(b[0]) << 16 | u32::from(b[1]) << 8 | u32::from(b[2]);
-        [18, 12, 6, 0].map(|shift| char::from(DIGITS[(bits >> shift) as usize & 63]))
-    };
-    bytes.chunks_exact(3).flat_map(group).collect()
-}
-
 const NARROW: f64 = 1e-6;
 
-fn narrow() -> Value {
+pub(super) fn narrow() -> Value {
     json!({"type": "perspective", "perspective": {"yfov": NARROW, "aspectRatio": 1, "znear": 0.001}})
 }
 
@@ -75,7 +67,7 @@ fn aimed(place: &NamedTransform, at: V3, towards: V3) -> Vec<f64> {
 }
 
 /// The node of a camera that looks from `eye` at `target`.
-fn looking(eye: V3, target: V3) -> Value {
+pub(super) fn looking(eye: V3, target: V3) -> Value {
     json!({"camera": 0, "matrix": aimed(&NamedTransform::new(), eye, unit(sub(target, eye)))})
 }
 

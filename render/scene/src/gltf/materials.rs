@@ -7,7 +7,7 @@ use crate::message::shortened;
 use crate::radiance::{brightness, rounded};
 use etendue_render::scene::limits::MOST_RADIANCE;
 use etendue_render::scene::texture::{Mapping, Mask, Picture, Texels, Texture, Wrap};
-use etendue_render::scene::{Emission, Message, Varying};
+use etendue_render::scene::{Emission, Message, NormalMap, Varying};
 use gltf_json::extensions::texture::TextureTransform;
 use gltf_json::material::AlphaMode;
 use gltf_json::texture::{Info, MagFilter, Sampler, WrappingMode};
@@ -116,6 +116,10 @@ impl Reader<'_, '_> {
         }
         let varying = self.metallic(material)?;
         let read = if is_tinted { self.out.varied(varying) } else { self.out.vary(varying) };
+        let read = match self.normals(material)? {
+            Some(normals) => self.out.relief(read, normals),
+            None => read,
+        };
         let mask = self.mask(material)?;
         let set = self.set;
         let glow = self.glow(material)?;
@@ -127,6 +131,20 @@ impl Reader<'_, '_> {
             _ => self.out.material(read),
         };
         Ok(Surface { material, set, glow })
+    }
+
+    /// The normal map of a material, if it has one.
+    fn normals(&mut self, material: &material::Material) -> Result<Option<NormalMap>, Message> {
+        let Some(of) = &material.normal_texture else { return Ok(None) };
+        // its extensions are those of other textures
+        let others = of.extensions.as_ref().map(|all| serde_json::from_value(Value::Object(all.others.clone())));
+        let extensions = others.transpose().map_err(|error| self.error(&format!("its normalTexture: {error}")))?;
+        let info = Info { index: of.index, tex_coord: of.tex_coord, extensions, extras: Default::default() };
+        if !of.scale.is_finite() {
+            return Err(self.error("the scale of its normalTexture is not finite"));
+        }
+        let texture = self.textured([1.0; 3], Some(&info), Encoding::Linear)?;
+        Ok(Some(NormalMap { texture, scale: of.scale, follows_v: true }))
     }
 
     /// The holes of a material, if it has any.

@@ -21,6 +21,9 @@ pub(super) struct Context<'a> {
     pub(super) files: Files<'a>,
 }
 
+/// The materials that may have a normal map.
+const MAPPED: [&str; 5] = ["diffuse", "coateddiffuse", "coatedconductor", "conductor", "diffusetransmission"];
+
 /// Reads the parameters of a material. What direct light on opaque surfaces cannot show becomes a stand-in.
 pub(super) fn read(
     kind: &str,
@@ -32,7 +35,12 @@ pub(super) fn read(
     let stand_in = |out: &mut Builder, params: &Params, what: &str| {
         out.notes.stand_in(kind, || params.error(format!("becomes {what}")));
     };
-    Ok(Finish::Of(match kind {
+    let normals = if MAPPED.contains(&kind) {
+        context.textures.normals(params, &context.files, &mut out.notes)?
+    } else {
+        None
+    };
+    let read = match kind {
         "diffuse" | "matte" => {
             let name = if kind == "matte" { "Kd" } else { "reflectance" };
             context.diffuse(&[name], 0.5, params, out)?
@@ -87,6 +95,10 @@ pub(super) fn read(
             let kind = shortened(kind);
             return Err(params.error(format!("material type {kind:?} is not supported, only {kinds}{near}")));
         }
+    };
+    Ok(Finish::Of(match normals {
+        Some(normals) => out.relief(read, normals),
+        None => read,
     }))
 }
 

@@ -6,8 +6,9 @@ use super::spectrum::Named;
 use crate::image::{Encoding, read_texels, sound};
 use crate::message::{Notes, shortened};
 use crate::nearest::did_you_mean;
-use etendue_render::scene::Message;
+use etendue_render::scene::{Message, NormalMap};
 use etendue_render::scene::texture::{Mapping, Picture, Texels, Texture, Wrap};
+use std::cell::RefCell;
 use std::collections::HashMap;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -17,8 +18,11 @@ use std::sync::Arc;
 pub(super) struct Textures {
     colors: HashMap<String, Texture>,
     numbers: HashMap<String, Texture>,
-    images: HashMap<(PathBuf, String), Arc<Texels>>,
+    images: RefCell<HashMap<(PathBuf, String), Arc<Texels>>>,
 }
+
+/// pbrt's (0, 0) is the lower left corner of an image.
+const UPWARDS: Mapping = Mapping([[1.0, 0.0, 0.0], [0.0, -1.0, 1.0]]);
 
 /// A colour.
 pub(super) enum Value {
@@ -101,7 +105,7 @@ impl Textures {
         })
     }
 
-    fn image(&mut self, params: &mut Params, files: &Files<'_>, notes: &mut Notes) -> Result<Texture, Message> {
+    fn image(&self, params: &mut Params, files: &Files<'_>, notes: &mut Notes) -> Result<Texture, Message> {
         let Some(name) = params.text("filename")? else {
             return Err(params.error("\"string filename\" is missing"));
         };
@@ -119,32 +123,54 @@ impl Textures {
         let scale = params.float("scale")?.unwrap_or(1.0);
         let scale = finite("scale", scale, params)?;
         let invert = params.flag("invert")?.unwrap_or(false);
-        // pbrt's (0, 0) is the lower left corner
-        let mapping = mapping(params, notes)?.then(&Mapping([[1.0, 0.0, 0.0], [0.0, -1.0, 1.0]]));
-        let path = files.find(&name);
-        let key = (path.clone(), text.clone());
-        let texels = match self.images.get(&key) {
-            Some(texels) => Arc::clone(texels),
-            None => {
-                let encoding = match text.split_whitespace().collect::<Vec<_>>()[..] {
-                    ["sRGB" | "srgb"] => Encoding::Srgb,
-                    ["linear"] => Encoding::Linear,
-                    ["gamma", gamma] if gamma.parse().is_ok_and(|gamma: f32| gamma > 0.0 && gamma < 100.0) => {
-                        Encoding::Gamma(gamma.parse().unwrap_or(1.0))
-                    }
-                    _ => return Err(params.error(format!("\"encoding\": unknown encoding {:?}", shortened(&text)))),
-                };
-                let failed = |why: String| params.error(format!("{}: {why}", path.display()));
-                let bytes = files.read(&path).map_err(|error| failed(format!("cannot read: {error}")))?;
-                let texels = read_texels(&path, &bytes, encoding).map_err(|error| params.error(error.to_string()))?;
-                let texels = Arc::new(sound(texels, &name, |what| notes.warn(params.error(what))));
-                self.images.insert(key, Arc::clone(&texels));
-                texels
-            }
-        };
+        let mapping = mapping(params, notes)?.then(&UPWARDS);
+        let texels = self.texels(&name, &text, params, files, notes)?;
         let picture = Texture::Picture(Picture { texels, mapping, wrap: [wrap; 2], bilinear });
         let scaled = picture.times(Texture::number(scale));
         Ok(if invert { scaled.inverse() } else { scaled })
+    }
+
+    /// The texels of an image in an encoding, which is read once.
+    fn texels(
+        &self,
+        name: &str,
+        encoding: &str,
+        params: &Params,
+        files: &Files<'_>,
+        notes: &mut Notes,
+    ) -> Result<Arc<Texels>, Message> {
+        let path = files.find(name);
+        let key = (path.clone(), encoding.to_owned());
+        if let Some(texels) = self.images.borrow().get(&key) {
+            return Ok(Arc::clone(texels));
+        }
+        let encoding = match encoding.split_whitespace().collect::<Vec<_>>()[..] {
+            ["sRGB" | "srgb"] => Encoding::Srgb,
+            ["linear"] => Encoding::Linear,
+            ["gamma", gamma] if gamma.parse().is_ok_and(|gamma: f32| gamma > 0.0 && gamma < 100.0) => {
+                Encoding::Gamma(gamma.parse().unwrap_or(1.0))
+            }
+            _ => return Err(params.error(format!("\"encoding\": unknown encoding {:?}", shortened(encoding)))),
+        };
+        let failed = |why: String| params.error(format!("{}: {why}", path.display()));
+        let bytes = files.read(&path).map_err(|error| failed(format!("cannot read: {error}")))?;
+        let texels = read_texels(&path, &bytes, encoding).map_err(|error| params.error(error.to_string()))?;
+        let texels = Arc::new(sound(texels, name, |what| notes.warn(params.error(what))));
+        self.images.borrow_mut().insert(key, Arc::clone(&texels));
+        Ok(texels)
+    }
+
+    /// The normals of a material, if it names an image of them.
+    pub(super) fn normals(
+        &self,
+        params: &mut Params,
+        files: &Files<'_>,
+        notes: &mut Notes,
+    ) -> Result<Option<NormalMap>, Message> {
+        let Some(name) = params.text("normalmap")? else { return Ok(None) };
+        let texels = self.texels(&name, "linear", params, files, notes)?;
+        let texture = Texture::Picture(Picture { texels, mapping: UPWARDS, wrap: [Wrap::Repeat; 2], bilinear: true });
+        Ok(Some(NormalMap { texture, scale: 1.0, follows_v: false }))
     }
 
     /// A colour in double precision, or a texture that varies.
