@@ -440,7 +440,14 @@ fn print(
     }
     if let Some(target) = options.error.filter(|target| image.error.is_none_or(|claim| claim.total() > *target)) {
         let never = image.error.is_some_and(|claim| claim.check(target).is_err());
-        let what = if never { "no time suffices" } else { "the time did not suffice" };
+        let what = match options.time {
+            _ if never => "no time suffices".to_owned(),
+            Some(_) => "the time did not suffice".to_owned(),
+            None => {
+                let all: u64 = image.passes.iter().map(|pass| u64::from(pass.spp)).sum();
+                format!("{all} samples per pixel did not suffice")
+            },
+        };
         writeln!(out, "{what} for an error of {}", percent(target))?;
     }
     writeln!(out, "wrote {}", output.both())

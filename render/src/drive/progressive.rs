@@ -64,6 +64,8 @@ const GROWTH: u32 = 8;
 const WORTH: f64 = 1.0 / 16.0;
 /// The greatest number of passes after which an error is not known that seems to be reached, and stays unknown.
 const PATIENCE: usize = 32;
+/// The number of samples per pixel after which an error that is still uncertain is given up, if no time ends the rendering.
+pub const MOST_UNCERTAIN: u32 = 1 << 17;
 /// The part of the remaining time that a pass may be predicted to take.
 const SPARE: f64 = 0.97;
 /// Samples per second and thread that the first pass may count on; it may be slower by a factor of 4.
@@ -317,6 +319,12 @@ fn decide(
         let is_uncertain = claim.uncertain().is_some();
         if excess <= 1.0 && (!is_uncertain || mean.passes.len() >= PATIENCE) {
             return None;
+        }
+        if is_uncertain && goal.seconds.is_none() {
+            if mean.spp >= MOST_UNCERTAIN.into() {
+                return None;
+            }
+            next = next.min(MOST_UNCERTAIN.into());
         }
         // the squared random error is c / Σ n^power; where it is uncertain, passes like the largest tell it
         let missing = weight * (excess - 1.0).max(0.0);

@@ -149,4 +149,14 @@ fn the_next_pass_fits_the_goal() {
     assert_eq!(next(None, Some(f64::sqrt(2e-4))), Some(256));
     assert_eq!(next(None, Some(0.0224)), None);
     assert_eq!(next(Some(9.0), Some(0.01)), Some(256));
+    // where few pixels decide it, it goes on although it seems to be reached, but not for ever
+    let error = Some(Claim { random: 0.01, pixels: 2.0, ..Claim::default() });
+    let after = |spp: u32, seconds| {
+        let mean = Progress { error, spp: spp.into(), passes: vec![Pass { spp, ..pass }], ..mean.clone() };
+        decide(&mean, Goal { seconds, error: Some(0.02) }, weight, 1.5, &counts, 2, 1.0)
+    };
+    assert_eq!(after(64, None), Some(64));
+    assert_eq!(after(MOST_UNCERTAIN / 2, None), Some(MOST_UNCERTAIN / 2));
+    assert_eq!(after(MOST_UNCERTAIN, None), None);
+    assert!(after(MOST_UNCERTAIN, Some(1e9)).is_some());
 }
