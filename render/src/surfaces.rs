@@ -68,6 +68,8 @@ pub struct Surfaces {
     estimates: bool,
     /// Whether materials reflect anything.
     reflect: Vec<bool>,
+    /// Whether rays from the camera pass the backs of materials; empty if they pass none.
+    single_sided: Vec<bool>,
     /// What varies over surfaces, if anything does.
     detail: Option<Detail>,
 }
@@ -135,11 +137,15 @@ impl Surfaces {
         // what does not look at the place takes the mean
         let material = |(material, of): (&Material, &Option<Varying>)| of.as_ref().map_or(*material, Varying::mean);
         let means: Vec<Material> = scene.materials.iter().zip(&varying).map(material).collect();
+        let mut single_sided = vec![false; if scene.single_sided.is_empty() { 0 } else { means.len() }];
+        scene.single_sided.iter().for_each(|of| single_sided[*of as usize] = true);
         let detailed = varying.iter().any(Option::is_some) || !scene.details.of_triangles.is_empty();
         Self {
             rough: means.iter().any(Material::is_glossy),
             estimates: means.iter().any(|of| matches!(of, Material::CoatedConductor { .. }) && of.is_glossy()),
-            is_plain: !detailed && means.iter().all(|m| matches!(m, Material::Diffuse(_))),
+            is_plain: !detailed
+                && scene.single_sided.is_empty()
+                && means.iter().all(|m| matches!(m, Material::Diffuse(_))),
             shapes: Arc::clone(&scene.shapes),
             pictures: Arc::clone(&scene.pictures),
             profiles: Arc::clone(&scene.profiles),
@@ -147,6 +153,7 @@ impl Surfaces {
             albedos: means.iter().map(albedo).collect(),
             records: means.iter().map(|material| record(&material.isotropic())).collect(),
             reflect: means.iter().map(|material| !material.is_black()).collect(),
+            single_sided,
             detail: detailed.then(|| Detail { corners: Arc::clone(&scene.details), materials: means, varying }),
             mesh_materials,
             one_material: scene.triangle_materials.first().copied().unwrap_or(0),
@@ -264,6 +271,34 @@ impl Surfaces {
         });
     }
 
+    /// The lanes of these in which rays hit the back of what is seen from the front alone.
+    #[inline]
+    pub fn unseen_backs(&self, hits: &Hits, lanes: M8, rays: &Rays) -> M8 {
+        if self.single_sided.is_empty() { M8::splat(false) } else { self.backs(hits, lanes, rays) }
+    }
+    #[inline(never)]
+    fn backs(&self, hits: &Hits, lanes: M8, rays: &Rays) -> M8 {
+        let mut backs = M8::splat(false);
+        self.each_shape(hits, lanes & hits.shapes(), rays, |_, here, shape, outward| {
+            if self.single_sided[shape.material as usize] {
+                backs = backs | here & outward.dot(rays.direction).gt(X8::lit(0.0));
+            }
+        });
+        let meshes = lanes & hits.any() & !hits.shapes();
+        let is_back = |lane: usize| {
+            let primitive = hits.primitives.lane(lane);
+            self.single_sided[self.mesh_material(primitive) as usize]
+                && self.outward(primitive).is_some_and(|n| is_behind(n, lane_of(-rays.direction, lane)))
+        };
+        let bits = (0..8).filter(|lane| meshes.lane(*lane) && is_back(*lane)).fold(0, |bits, lane| bits | 1 << lane);
+        backs | M8::from_bits(bits)
+    }
+    /// The unit normal of a flat triangle on the side from which its corners are counter-clockwise, in its object.
+    fn outward(&self, primitive: PrimitiveId) -> Option<[f64; 3]> {
+        let is_mirrored = self.bvh.to_world(primitive).is_some_and(|to_world| to_world.determinant() < 0.0);
+        outward(self.bvh.corners(primitive), is_mirrored)
+    }
+
     /// Radiance that a shape emits against the rays that have hit it in these lanes, and the lanes where it does.
     #[inline]
     pub fn emitted(&self, hits: &Hits, lanes: M8, shape: &Shape, outward: V8, rays: &Rays) -> Option<(V8, M8)> {
@@ -358,12 +393,13 @@ impl Surfaces {
         map: Option<&NormalMap>,
         flat: [f32; 3],
     ) -> Option<[f64; 3]> {
-        let (to_world, at) = (self.bvh.to_world(primitive), || self.bvh.corners(primitive));
         let front = if corners.normals[0] == [0.0; 3] {
-            outward(at(), to_world.is_some_and(|to_world| to_world.determinant() < 0.0))
+            self.outward(primitive)
         } else {
+            let to_world = self.bvh.to_world(primitive);
             between(&to_world.map_or(corners.normals, |to_world| moved(corners.normals, to_world)), weights)
         }?;
+        let at = || self.bvh.corners(primitive);
         let uv = || interpolated(&corners.uvs, weights);
         let n = map.and_then(|map| turned(front, map, at(), &corners.uvs, uv())).unwrap_or(front);
         Some(if is_behind(front, flat) { n.map(|x| -x) } else { n })

@@ -14,7 +14,7 @@ use etendue_render::scene::{
     CameraSettings, Corners, DeltaLight, Details, Emission, Environment, FilmSettings, Input, Material, Message,
     NormalMap, Scene, Shape, Varying, coincidences,
 };
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
@@ -33,9 +33,12 @@ pub(super) struct Builder {
     pub(super) shapes: Vec<Shape>,
     pub(super) lamps: Lamps,
     pub(super) notes: Notes,
-    material_index: HashMap<[u32; 13], u32>,
+    /// By [`words`], and whether they are seen from both sides.
+    material_index: HashMap<([u32; 13], bool), u32>,
     /// Materials with holes: for each the index of the one without, and the mask.
     masks: BTreeMap<u32, (u32, Mask)>,
+    /// Materials that are seen from the front alone.
+    single_sided: BTreeSet<u32>,
     objects: Vec<Object>,
     instances: Vec<(u32, Transform)>,
     /// Number of triangles of all instances.
@@ -91,9 +94,18 @@ pub(super) fn round([x, y, z]: [f64; 3]) -> [f32; 3] {
 impl Builder {
     /// The index of the material, which is added if it is new.
     pub(super) fn material(&mut self, material: Material) -> u32 {
-        *self.material_index.entry(words(material)).or_insert_with(|| {
+        self.material_of_sides(material, true)
+    }
+
+    /// The index of a material that is seen from both sides, or from the front alone.
+    pub(super) fn material_of_sides(&mut self, material: Material, two_sided: bool) -> u32 {
+        *self.material_index.entry((words(material), two_sided)).or_insert_with(|| {
             self.materials.push(material);
-            (self.materials.len() - 1) as u32
+            let index = (self.materials.len() - 1) as u32;
+            if !two_sided {
+                self.single_sided.insert(index);
+            }
+            index
         })
     }
 
@@ -125,13 +137,15 @@ impl Builder {
         }
     }
 
-    /// The index of a material with holes.
-    pub(super) fn masked(&mut self, material: Material, mask: Mask) -> u32 {
-        let whole = self.material(material);
+    /// The index of a material with holes, by that of the one without.
+    pub(super) fn masked(&mut self, whole: u32, mask: Mask) -> u32 {
         let known = self.masks.iter().rev().find(|(_, (other, known))| *other == whole && *known == mask);
         known.map(|(index, _)| *index).unwrap_or_else(|| {
             let index = self.materials.len() as u32;
-            self.materials.push(material);
+            self.materials.push(self.materials[whole as usize]);
+            if self.single_sided.contains(&whole) {
+                self.single_sided.insert(index);
+            }
             self.masks.insert(index, (whole, mask));
             index
         })
@@ -179,6 +193,7 @@ impl Builder {
         std::mem::swap(&mut self.materials, &mut from.materials);
         std::mem::swap(&mut self.material_index, &mut from.material_index);
         std::mem::swap(&mut self.masks, &mut from.masks);
+        std::mem::swap(&mut self.single_sided, &mut from.single_sided);
         std::mem::swap(&mut self.varying, &mut from.varying);
         std::mem::swap(&mut self.notes, &mut from.notes);
     }
@@ -341,6 +356,7 @@ impl Builder {
             instances,
             masks: self.masks.into_iter().map(|(material, (_, mask))| (material, mask)).collect(),
             varying: self.varying,
+            single_sided: self.single_sided.into_iter().collect(),
             details: self.details.into(),
             shapes: self.shapes.into(),
             pictures: self.lamps.pictures.into(),

@@ -62,7 +62,7 @@ impl<'a> Paths<'a> {
         }
     }
 
-    /// Follows rays, also from mirror to mirror.
+    /// Follows rays, also from mirror to mirror, and through what is not seen from the back.
     #[inline(always)]
     fn reflect(&mut self, active: &[M8]) {
         let Self { scene, tracer, points, seen, .. } = self;
@@ -84,7 +84,8 @@ impl<'a> Paths<'a> {
                 let emitted = emission(scene, tracer, p, &surface, here & !hits[p].any());
                 seen[p] += keep(product(points.ends[p].throughput, emitted), here);
                 let (incoming, flat) = (tracer.camera[p].direction, surface.normal);
-                let reflects = surface.reflects & here;
+                let passed = world.unseen_backs(&hits[p], here, &tracer.camera[p]);
+                let reflects = surface.reflects & here & !passed;
                 let (metal, smooth) = world.materials(&hits[p], reflects, incoming, &mut surface);
                 let mirrors = metal.mirrors() & reflects;
                 // the path ends at all but mirrors
@@ -94,12 +95,19 @@ impl<'a> Paths<'a> {
                 end.direction = V8::blend(ends, incoming, end.direction);
                 place.primitives = PrimitiveIds::pick(ends, hits[p].primitives, place.primitives);
                 place.direct = if depth == 0 { ends } else { place.direct & !ends };
-                if mirrors.any() && depth < self.depth {
+                if (mirrors | passed).any() && depth < self.depth {
                     let direction = mirrored(&surface, &metal, mirrors, incoming, &mut end.throughput);
                     // the mirror image of a smooth normal may be below the flat surface
                     going[p] = mirrors & (direction.dot(flat).gt(X8::lit(0.0)) | !smooth);
+                    let (mut from, mut to) = (surface.point, direction);
+                    if passed.any() {
+                        let rays = &tracer.camera[p];
+                        from = V8::blend(passed, incoming.mul_add(hits[p].distance, rays.origin), from);
+                        to = V8::blend(passed, incoming, to);
+                        going[p] = going[p] | passed;
+                    }
                     on |= going[p].any();
-                    tracer.camera[p] = world.bvh.rays(surface.point, direction).leaving(hits[p].primitives);
+                    tracer.camera[p] = world.bvh.rays(from, to).leaving(hits[p].primitives);
                     tracer.count.mirror += u64::from(going[p].bits().count_ones());
                 }
             }

@@ -40,6 +40,8 @@ pub struct Scene {
     pub varying: Vec<Varying>,
     /// The materials that have holes, in ascending order, and their masks.
     pub masks: Vec<(u32, Mask)>,
+    /// The materials whose backs rays from the camera pass, in ascending order.
+    pub single_sided: Vec<u32>,
     /// Normals and texture coordinates of triangles that have them.
     pub details: Arc<Details>,
     /// All shapes that emit, and those that do not but are no triangles. What renders the scene shares them.
@@ -89,6 +91,7 @@ impl Scene {
             triangle_materials: Vec::new(),
             varying: Vec::new(),
             masks: Vec::new(),
+            single_sided: Vec::new(),
             details: Arc::default(),
             shapes: Arc::default(),
             pictures: Arc::default(),

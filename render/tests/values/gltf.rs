@@ -76,7 +76,7 @@ fn row(name: String, text: String, right: V3) -> Row {
 }
 
 pub(super) fn rows() -> Vec<Row> {
-    [lights(), emissive(), cameras(), speculars()].into_iter().flatten().collect()
+    [lights(), emissive(), sides(), cameras(), speculars()].into_iter().flatten().collect()
 }
 
 /// The diffuse part gets the light that no channel of a tinted specular part reflects (`KHR_materials_specular`): a floor of roughness 1, seen
@@ -210,6 +210,28 @@ fn emissive() -> Vec<Row> {
                 rows.push(row(name, file(narrow(), json!([]), nodes, material.clone()), right));
             }
         }
+    }
+    rows
+}
+
+/// The camera sees the floor through the back of a single-sided square, which still hides the light that falls on the floor.
+fn sides() -> Vec<Row> {
+    let mut rows = Vec::new();
+    for (double, faces_up, light_x) in
+        [false, true].iter().flat_map(|d| [(*d, true, 3.0), (*d, true, 0.0), (*d, false, 3.0), (*d, false, 0.0)])
+    {
+        let node = json!({"translation": [light_x, 4, 0], "extensions": {"KHR_lights_punctual": {"light": 0}}});
+        // the square is half way from the eye to the floor, or from the light
+        let turn = if faces_up { -0.5_f64.sqrt() } else { 0.5_f64.sqrt() };
+        let square = json!({"mesh": 1, "translation": [0, 1, 0], "scale": [0.3, 0.3, 0.3], "rotation": [turn, 0, 0, 0.5_f64.sqrt()]});
+        let nodes = vec![json!({"mesh": 0}), looking([0.0, 2.0, 0.0], [0.0; 3]), node, square];
+        let dark = json!({"pbrMetallicRoughness": {"baseColorFactor": [0, 0, 0, 1], "metallicFactor": 0}, "doubleSided": double,
+            "extensions": {"KHR_materials_specular": {"specularFactor": 0}}});
+        let light = json!({"type": "point", "intensity": 10});
+        let is_seen = double || faces_up;
+        let right = if is_seen || light_x == 0.0 { 0.0 } else { 5.0 / std::f64::consts::PI * 4.0 / 125.0 };
+        let name = format!("doubleSided {double}, the front up {faces_up}, light at {light_x}");
+        rows.push(row(name, file(narrow(), json!([light]), nodes, dark), grey(right)));
     }
     rows
 }

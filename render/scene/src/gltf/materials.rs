@@ -126,9 +126,10 @@ impl Reader<'_, '_> {
         if mask.is_some() && glow.is_some() {
             self.stand_in("light with holes", "a surface with holes that emits becomes opaque");
         }
+        let whole = self.out.material_of_sides(read, material.double_sided);
         let material = match mask {
-            Some(mask) if glow.is_none() => self.out.masked(read, mask),
-            _ => self.out.material(read),
+            Some(mask) if glow.is_none() => self.out.masked(whole, mask),
+            _ => whole,
         };
         Ok(Surface { material, set, glow })
     }

@@ -85,7 +85,10 @@ impl ShapeState {
             ctm: self.ctm,
             flip: self.reverse != (det < 0.0),
             material: match mask {
-                Some(mask) if emission.is_none() => out.masked(material, mask),
+                Some(mask) if emission.is_none() => {
+                    let whole = out.material(material);
+                    out.masked(whole, mask)
+                },
                 _ => out.material(material),
             },
             emission,
