@@ -77,8 +77,8 @@ const fn fewest_sets(spp: u32) -> u32 {
     }
 }
 
-/// Fewest samples of a pixel in each set of [`Sampler::Adaptive`]: a packet of 8 for the pilot, and one more.
-const FEWEST: u32 = 16;
+/// Fewest samples of a pixel in each set of [`Sampler::Adaptive`]: a packet of 8 for the pilot.
+const FEWEST: u32 = 8;
 
 /// Mixes bits: the output function of SplitMix64 (Steele, Lea and Flood 2014).
 pub(crate) const fn hash64(mut bits: u64) -> u64 {
@@ -234,7 +234,7 @@ impl NumberSource {
 }
 
 /// The most accurate sampler that can also estimate the variance of `spp` samples in `sets` sets (see
-/// [`Settings::sets`](crate::Settings::sets)): [`Sampler::Adaptive`] from 16 samples in each set on, else [`Sampler::Sobol`] for an even number
+/// [`Settings::sets`](crate::Settings::sets)): [`Sampler::Adaptive`] from 8 samples in each set on, else [`Sampler::Sobol`] for an even number
 /// of samples, else [`Sampler::Independent`]. If one set is asked for, nobody asks for a variance.
 #[must_use]
 pub fn default_sampler(spp: u32, sets: u32) -> Sampler {
@@ -261,10 +261,10 @@ mod tests {
         for spp in 2..200 {
             assert!(reports_variance(default_sampler(spp, 0), spp, 0), "{spp}");
         }
-        let chosen = [1, 2, 3, 14, 15, 16, 33, 64].map(|spp| default_sampler(spp, 0));
+        let chosen = [1, 2, 3, 6, 7, 8, 33, 64].map(|spp| default_sampler(spp, 0));
         use Sampler::{Adaptive, Independent, Sobol};
         assert_eq!(chosen, [Independent, Sobol, Independent, Sobol, Independent, Adaptive, Adaptive, Adaptive]);
-        assert_eq!([8, 16].map(|spp| default_sampler(spp, 1)), [Sobol, Adaptive]);
-        assert_eq!(default_sampler(32, 4), Sobol);
+        assert_eq!([6, 8].map(|spp| default_sampler(spp, 1)), [Sobol, Adaptive]);
+        assert_eq!(default_sampler(16, 4), Sobol);
     }
 }

@@ -143,7 +143,7 @@ fn any_number_of_samples_and_any_size() {
         let precise = of(cases(512, 4096), Technique::SolidAngle, Sampler::Stratified, 1);
         for spp in [1, 2, 3, 7, 8, 12, 15, 16, 20, 24].into_iter().step_by(cases(5, 1)) {
             for technique in TECHNIQUES {
-                // adaptive needs at least 16 samples, and varies them between pixels
+                // adaptive needs at least 8 samples, and varies them between pixels
                 for sampler in SAMPLERS.into_iter().filter(|s| *s != Sampler::Adaptive) {
                     let mut image = of(spp, technique, sampler, 2);
                     let known = match sampler {

@@ -30,7 +30,7 @@ pub(crate) struct ImageOptions {
     /// Follow a camera ray through at most this many perfect mirrors
     #[arg(long, value_name = "N", default_value_t = Settings::DEPTH, value_parser = whole::<u32>(0..=1024))]
     depth: u32,
-    /// Generate the random numbers by this sampler [default: adaptive from 16 samples on, else sobol, or independent for odd numbers]
+    /// Generate the random numbers by this sampler [default: adaptive from 8 samples on, else sobol, or independent for odd numbers]
     #[arg(long, value_parser = named::<Sampler>(&Sampler::NAMES))]
     pub(crate) sampler: Option<Sampler>,
     /// Measure this quantity; irradiance and power need a camera with a lens

@@ -118,13 +118,20 @@ fn wasted(settings: &Settings, is_chosen: bool) -> Option<String> {
     })
 }
 
+/// The greatest fraction that `--error` takes without a percent sign: more is likely meant as a percentage.
+const MOST_BARE: f64 = 0.2;
+
 /// Parses `--error`: a fraction or a percentage.
 pub(crate) fn fraction(text: &str) -> Result<f64, String> {
     let number = |text: &str| text.trim().parse::<f64>().ok();
     let value = text.strip_suffix('%').map_or_else(|| number(text), |percent| number(percent).map(|x| x / 100.0));
     // f32 holds the mean of a pixel to 6e-8 of itself
     let valid = value.filter(|x| (1e-6..=1.0).contains(x));
-    valid.ok_or_else(|| "must be from 1e-6 to 1, or a percentage, such as 0.01 or 1%".to_owned())
+    let value = valid.ok_or_else(|| "must be from 1e-6 to 1, or a percentage, such as 0.01 or 1%".to_owned())?;
+    if value > MOST_BARE && !text.ends_with('%') {
+        return Err(format!("is {} % of the mean: write {text}% or {}%", 100.0 * value, 100.0 * value));
+    }
+    Ok(value)
 }
 
 /// A finished image and what it took.

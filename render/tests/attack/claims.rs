@@ -41,6 +41,8 @@ pub(crate) struct Tally {
     pub(crate) runs: Vec<Run>,
     /// How many others are black, or have no error that the references show.
     pub(crate) without: usize,
+    /// How many more call their error uncertain.
+    pub(crate) uncertain: usize,
 }
 
 /// Renders scenes of a regime with these seeds, several times with `spp` and with fewer samples, and until an error or a time, and measures
@@ -193,7 +195,15 @@ fn measure(scene: &Scene, seed: u64, [side, spp]: [u32; 2]) -> Tally {
             continue;
         };
         let mean = film.mean().iter().sum::<f64>() / 3.0;
+        if claim.uncertain().is_some() {
+            tally.uncertain += 1;
+            continue;
+        }
         let ratio = square.sqrt() / mean / claim.total();
+        if !ratio.is_finite() {
+            tally.without += 1;
+            continue;
+        }
         let bounded = claim.systematic.max(claim.missed) > 0.5 * claim.random;
         tally.runs.push(Run { ratio, bounded });
     }
@@ -215,7 +225,7 @@ impl Tally {
     /// All images of both.
     pub(crate) fn and(mut self, other: Self) -> Self {
         self.runs.extend(other.runs);
-        Self { without: self.without + other.without, ..self }
+        Self { without: self.without + other.without, uncertain: self.uncertain + other.uncertain, ..self }
     }
     /// The ratio that this part of the images does not exceed.
     pub(crate) fn quantile(&self, part: f64) -> f64 {
@@ -231,12 +241,13 @@ impl Display for Tally {
         let [least, median, greatest] = [0.0, 0.5, 1.0].map(|part| self.quantile(part));
         write!(
             f,
-            "{:5} images, true/claimed {least:5.2} {median:5.2} {greatest:5.2}, {:5.1} % within {} to {}; {} left out",
+            "{:5} images, true/claimed {least:5.2} {median:5.2} {greatest:5.2}, {:5.1} % within {} to {}; {} left out, {} uncertain",
             self.runs.len(),
             100.0 * honest(&self.runs),
             HONEST.start(),
             HONEST.end(),
-            self.without
+            self.without,
+            self.uncertain
         )
     }
 }

@@ -2,12 +2,13 @@
 
 use super::place::{NamedTransform, similar};
 use super::row::{Row, Text, grey, reflected, times};
-use etendue_oracle::{V3, along, basis, dot, length, sub, unit};
 use base64::Engine;
+use etendue_oracle::{V3, along, basis, dot, length, sub, unit};
 use serde_json::{Value, json};
 
 /// The corners of the floor.
-pub(super) const FLOOR: [[f32; 3]; 4] = [[500.0, 0.0, -500.0], [-500.0, 0.0, -500.0], [-500.0, 0.0, 500.0], [500.0, 0.0, 500.0]];
+pub(super) const FLOOR: [[f32; 3]; 4] =
+    [[500.0, 0.0, -500.0], [-500.0, 0.0, -500.0], [-500.0, 0.0, 500.0], [500.0, 0.0, 500.0]];
 
 /// A file with these cameras, lights and nodes; mesh 0 is a floor in the plane y = 0, mesh 1 a square of half side 1 that faces +z.
 pub(super) fn file(camera: Value, lights: Value, nodes: Vec<Value>, emissive: Value) -> String {
@@ -18,7 +19,8 @@ pub(super) fn file(camera: Value, lights: Value, nodes: Vec<Value>, emissive: Va
     let view = |at: usize, length: usize| json!({"buffer": 0, "byteOffset": at, "byteLength": length});
     let accessor = |view: usize, kind: u32, count: usize, name: &str| json!({"bufferView": view, "componentType": kind, "count": count, "type": name});
     let mesh = |positions: usize, material: usize| json!({"primitives": [{"attributes": {"POSITION": positions}, "indices": 2, "material": material}]});
-    let uri = format!("data:application/octet-stream;base64,{}", base64::engine::general_purpose::STANDARD.encode(&bytes));
+    let uri =
+        format!("data:application/octet-stream;base64,{}", base64::engine::general_purpose::STANDARD.encode(&bytes));
     let matt = json!({"baseColorFactor": [0.5, 0.5, 0.5, 1], "metallicFactor": 0, "roughnessFactor": 1});
     json!({
         "asset": {"version": "2.0"},

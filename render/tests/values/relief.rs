@@ -49,8 +49,11 @@ fn of_pbrt() -> Vec<Row> {
     for (name, frame) in FRAMES {
         for (side, reverse) in [(1.0, ""), (-1.0, "ReverseOrientation ")] {
             let corners = [[-900.0, -900.0], [900.0, -900.0], [900.0, 900.0], [-900.0, 900.0]];
-            let numbers: Vec<_> =
-                corners.iter().flat_map(|p| frame.map(|[a, b]| a * p[0] + b * p[1] + 0.3)).map(|x| x.to_string()).collect();
+            let numbers: Vec<_> = corners
+                .iter()
+                .flat_map(|p| frame.map(|[a, b]| a * p[0] + b * p[1] + 0.3))
+                .map(|x| x.to_string())
+                .collect();
             let text = format!(
                 "{}LightSource \"point\" \"rgb I\" [10 10 10] \"point3 from\" [1.2 -.7 2]\nMaterial \"diffuse\" \"string normalmap\" \
                  \"relief.png\"\n{reverse}Shape \"trianglemesh\" \"point3 P\" [-900 -900 0 900 -900 0 900 900 0 -900 900 0] \

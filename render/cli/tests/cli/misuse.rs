@@ -21,6 +21,7 @@ fn bad_values_are_named_with_their_option() {
         ("render", "--repeat", "-1", "from 1 to 1000000"),
         ("render", "--time", "-1", "greater than 0"),
         ("render", "--error", "-1%", "from 1e-6 to 1"),
+        ("render", "--error", "1", "is 100 % of the mean: write 1% or 100%"),
         ("render", "--tile", "-16,0,16,16", "four numbers"),
         ("render", "--sampler", "-sobol", "[possible values: "),
         ("render", "--technique", "luck", "[possible values: "),

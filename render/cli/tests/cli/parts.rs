@@ -171,14 +171,14 @@ fn options_that_make_no_part_are_refused() {
             &["render", "quads", "--spp", "64", "--tile", "0,0,16,16"][..],
             "the sampler adaptive takes its samples in two rounds",
         ),
-        (&["render", "quads", "--spp", "14", "--tile", "0,0,8,16"], "multiples of 16, or the size of the image"),
-        (&["render", "quads", "--spp", "14", "--tile", "0,0,16,160000"], "multiples of 16, or the size of the image"),
-        (&["render", "quads", "--spp", "14", "--tile", "16,0,16,16"], "the first two less than the others"),
-        (&["render", "quads", "--spp", "14", "--tile", "0,0,16"], "four numbers"),
-        (&["render", "quads", "--spp", "14", "--pilot"], "only for --sampler adaptive"),
+        (&["render", "quads", "--spp", "6", "--tile", "0,0,8,16"], "multiples of 16, or the size of the image"),
+        (&["render", "quads", "--spp", "6", "--tile", "0,0,16,160000"], "multiples of 16, or the size of the image"),
+        (&["render", "quads", "--spp", "6", "--tile", "16,0,16,16"], "the first two less than the others"),
+        (&["render", "quads", "--spp", "6", "--tile", "0,0,16"], "four numbers"),
+        (&["render", "quads", "--spp", "6", "--pilot"], "only for --sampler adaptive"),
         (&["render", "quads", "--spp", "64", "--after", "no.exr"], "no.exr: cannot read"),
         (&["render", "quads", "--time", "1", "--tile", "0,0,16,16"], "cannot be used with"),
-        (&["render", "quads", "--spp", "14", "--tile", "0,0,16,16", "-o", "part.png"], "must end in .exr"),
+        (&["render", "quads", "--spp", "6", "--tile", "0,0,16,16", "-o", "part.png"], "must end in .exr"),
         (&["plan", "quads", "--spp", "16", "--tasks", "0", "-o", "a.exr"], "from 1 to 1000000"),
         (&["plan", "quads", "--spp", "16", "-o", "a.png"], "must end in .exr"),
         (&["plan", "quads", "--spp", "16", "-o", "nowhere/a.exr"], "the folder nowhere does not exist"),
@@ -192,7 +192,7 @@ fn options_that_make_no_part_are_refused() {
     // without a name, the image has that of `render`
     assert!(
         folder
-            .succeed(&["plan", "quads", "--spp", "14", "--tasks", "1"])
+            .succeed(&["plan", "quads", "--spp", "6", "--tasks", "1"])
             .ends_with(" merge -o quads.exr quads.parts\n")
     );
     // a part is not the pilot
@@ -202,7 +202,7 @@ fn options_that_make_no_part_are_refused() {
     assert!(error.contains("pilot.exr: not the whole pilot, which `etendue merge` makes of its parts"), "{error}");
     let error = folder.fail(&["merge", "-o", "a.exr", "pilot.exr"]);
     assert!(error.contains("the pilot lacks 1 part(s):\n--pilot --tile 16,0,32,16"), "{error}");
-    folder.succeed(&["render", "quads", "--size", "32x16", "--spp", "14", "--tile", "0,0,16,16", "-o", "tile.exr"]);
+    folder.succeed(&["render", "quads", "--size", "32x16", "--spp", "6", "--tile", "0,0,16,16", "-o", "tile.exr"]);
     assert!(folder.fail(&[&render[..], &["--after", "tile.exr", "-o", "a.exr"]].concat()).contains("of another image"));
     assert!(folder.fail(&["merge", "-o", "pilot.exr", "pilot.exr"]).contains("this file is an input"));
 }

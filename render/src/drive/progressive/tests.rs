@@ -89,7 +89,7 @@ fn a_preview_is_followed_by_passes_of_the_usual_sampler() {
     let mut refined = Refined::new(&world, &plan).unwrap();
     assert_eq!(refined.lasting(1e9, settings.whole()), 2);
     assert_eq!(refined.pass(&world, 2, settings.whole(), &NEVER, &|_| ()).unwrap().passes[0].sampler, Sampler::Sobol);
-    assert_eq!([1e-9, 1e9].map(|seconds| refined.lasting(seconds, settings.whole())), [16, 16]);
+    assert_eq!([1e-9, 1e9].map(|seconds| refined.lasting(seconds, settings.whole())), [8, 16]);
     let known = refined.pass(&world, 16, settings.whole(), &NEVER, &|_| ()).unwrap().clone();
     assert_eq!((known.spp, known.passes.len(), known.passes[0].sampler), (16, 1, Sampler::Adaptive));
     let alone = Settings { seed: seed(3, 1), ..settings };
@@ -109,9 +109,9 @@ fn samplers_have_counts_with_a_variance() {
     let of = |sampler, sets| plan(sampler, sets, Some(0.1));
     assert_eq!(of(Sampler::Sobol, 0).unwrap()[..3], [2, 4, 8]);
     assert_eq!(of(Sampler::Sobol, 4).unwrap()[..2], [4, 8]);
-    assert_eq!(of(Sampler::Adaptive, 0).unwrap()[..2], [16, 32]);
-    assert_eq!(of(Sampler::Adaptive, 2).unwrap()[..2], [32, 64]);
-    assert_eq!(of(Sampler::Adaptive, 4).unwrap()[0], 64);
+    assert_eq!(of(Sampler::Adaptive, 0).unwrap()[..2], [8, 16]);
+    assert_eq!(of(Sampler::Adaptive, 2).unwrap()[..2], [16, 32]);
+    assert_eq!(of(Sampler::Adaptive, 4).unwrap()[0], 32);
     assert!(of(Sampler::Sobol, 1).unwrap_err().contains("--sets"));
     assert_eq!(plan(Sampler::Sobol, 1, None).unwrap()[..2], [1, 2]);
 }
