@@ -142,12 +142,9 @@ fn main() {
     let (center, radius) = black_box((CENTER, RADIUS));
     let [a, b, c] = corners.map(Vec3::from);
     let lights = [
-        times!(
-            input,
-            Triangle::new(a, b, c),
-            move |p, u| single::triangle(&corners, p, u),
-            move |p, u| packets::triangle(corners.map(eight), p, u)
-        ),
+        times!(input, Triangle::new(a, b, c), move |p, u| single::triangle(&corners, p, u), move |p, u| {
+            packets::triangle(corners.map(eight), p, u)
+        }),
         times!(
             input,
             Rectangle::new(corner.into(), edges[0].into(), edges[1].into()),
