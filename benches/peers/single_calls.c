@@ -7,7 +7,7 @@
 #include <string.h>
 #include <time.h>
 
-enum { INPUTS = 1024, ROWS = 13 };
+enum { INPUTS = 1024, ROWS = 10 };
 typedef struct {
     /* numbers of a light, a point of a surface, its normal, a direction to the light, random numbers */
     float light[9], p[3], n[3], w[3], u[2];
@@ -35,8 +35,7 @@ APART float bilinear(const Input *i) {
     textbook_bilinear(weights, u);
     return u[0] + u[1];
 }
-const Column TEXTBOOK = {triangle, NULL, triangle_pdf, triangle_pdf, NULL, NULL, sphere, sphere_pdf, sphere_pdf, rectangle, NULL, bilinear,
-    NULL};
+const Column TEXTBOOK = {triangle, NULL, triangle_pdf, NULL, sphere, sphere_pdf, rectangle, NULL, bilinear, NULL};
 #endif
 
 #ifdef OF_LIBRARY
@@ -52,30 +51,31 @@ static void a_triangle(const Input *i, EtendueTriangle *light) {
 }
 static EtendueSphere a_sphere(const Input *i) { return (EtendueSphere){{i->light[0], i->light[1], i->light[2]}, 0.5f}; }
 static EtendueRectangle a_rectangle(const Input *i) { return (EtendueRectangle){{i->light[0], i->light[1], i->light[2]}, {1, 0, 0}, {0, 0.5f, 0.5f}}; }
-#define ONCE(name, light, ...) \
+#define SAMPLE(name, type, light, ...) \
     APART float name(const Input *i) { \
         EtendueLightSample s; \
+        Etendue##type prepared; \
         light; \
-        etendue_##name##_sample_once(&l, i->p, __VA_ARGS__ i->u, &s); \
+        etendue_##name##_prepare(&l, i->p, __VA_ARGS__ &prepared); \
+        etendue_##name##_sample(&prepared, i->u, &s); \
         return sum(s); \
     }
-#define PDF(name, what, light, ...) \
-    APART float name##_##what(const Input *i) { \
+#define PDF(name, type, light, ...) \
+    APART float name##_pdf(const Input *i) { \
+        Etendue##type prepared; \
         light; \
-        return etendue_##name##_##what##_once(&l, i->p, __VA_ARGS__ i->w); \
+        etendue_##name##_prepare(&l, i->p, __VA_ARGS__ &prepared); \
+        return etendue_##name##_pdf(&prepared, i->w); \
     }
 #define NORMAL i->n,
-ONCE(triangle_by_solid_angle, EtendueTriangle l; a_triangle(i, &l), )
-ONCE(triangle_by_projected_solid_angle, EtendueTriangle l; a_triangle(i, &l), NORMAL)
-ONCE(sphere_by_solid_angle, EtendueSphere l = a_sphere(i), )
-ONCE(rectangle_by_solid_angle, EtendueRectangle l = a_rectangle(i), )
-PDF(triangle_by_solid_angle, pdf, EtendueTriangle l; a_triangle(i, &l), )
-PDF(triangle_by_solid_angle, pdf_of_hit, EtendueTriangle l; a_triangle(i, &l), )
-PDF(triangle_by_projected_solid_angle, pdf, EtendueTriangle l; a_triangle(i, &l), NORMAL)
-PDF(triangle_by_projected_solid_angle, pdf_of_hit, EtendueTriangle l; a_triangle(i, &l), NORMAL)
-PDF(sphere_by_solid_angle, pdf, EtendueSphere l = a_sphere(i), )
-PDF(sphere_by_solid_angle, pdf_of_hit, EtendueSphere l = a_sphere(i), )
-PDF(rectangle_by_solid_angle, pdf, EtendueRectangle l = a_rectangle(i), )
+SAMPLE(triangle_by_solid_angle, TriangleBySolidAngle, EtendueTriangle l; a_triangle(i, &l), )
+SAMPLE(triangle_by_projected_solid_angle, TriangleByProjectedSolidAngle, EtendueTriangle l; a_triangle(i, &l), NORMAL)
+SAMPLE(sphere_by_solid_angle, SphereBySolidAngle, EtendueSphere l = a_sphere(i), )
+SAMPLE(rectangle_by_solid_angle, RectangleBySolidAngle, EtendueRectangle l = a_rectangle(i), )
+PDF(triangle_by_solid_angle, TriangleBySolidAngle, EtendueTriangle l; a_triangle(i, &l), )
+PDF(triangle_by_projected_solid_angle, TriangleByProjectedSolidAngle, EtendueTriangle l; a_triangle(i, &l), NORMAL)
+PDF(sphere_by_solid_angle, SphereBySolidAngle, EtendueSphere l = a_sphere(i), )
+PDF(rectangle_by_solid_angle, RectangleBySolidAngle, EtendueRectangle l = a_rectangle(i), )
 APART float bilinear(const Input *i) {
     EtendueBilinear warp = {{i->w[0] + 1, i->w[1] + 1, i->w[2] + 1, 1}};
     float point[2];
@@ -94,8 +94,8 @@ __attribute__((constructor)) static void prepare(void) {
     etendue_triangle_by_solid_angle_prepare(&light, p, &kept);
 }
 const Column LIBRARY = {triangle_by_solid_angle, triangle_by_projected_solid_angle, triangle_by_solid_angle_pdf,
-    triangle_by_solid_angle_pdf_of_hit, triangle_by_projected_solid_angle_pdf, triangle_by_projected_solid_angle_pdf_of_hit, sphere_by_solid_angle,
-    sphere_by_solid_angle_pdf, sphere_by_solid_angle_pdf_of_hit, rectangle_by_solid_angle, rectangle_by_solid_angle_pdf, bilinear, prepared};
+    triangle_by_projected_solid_angle_pdf, sphere_by_solid_angle, sphere_by_solid_angle_pdf, rectangle_by_solid_angle,
+    rectangle_by_solid_angle_pdf, bilinear, prepared};
 #endif
 
 #ifdef OF_HEADER
@@ -131,15 +131,14 @@ __attribute__((constructor)) static void prepare(void) {
     EtendueShaderVec3 p = {0, 0, 0};
     kept = etendue_shader_triangle_by_solid_angle_prepare(light, p);
 }
-const Column HEADER = {triangle_by_solid_angle, triangle_by_projected_solid_angle, triangle_by_solid_angle_pdf, NULL,
-    triangle_by_projected_solid_angle_pdf, NULL, sphere_by_solid_angle, sphere_by_solid_angle_pdf, NULL, rectangle_by_solid_angle,
+const Column HEADER = {triangle_by_solid_angle, triangle_by_projected_solid_angle, triangle_by_solid_angle_pdf,
+    triangle_by_projected_solid_angle_pdf, sphere_by_solid_angle, sphere_by_solid_angle_pdf, rectangle_by_solid_angle,
     rectangle_by_solid_angle_pdf, bilinear, prepared};
 #endif
 
 #ifdef OF_PROGRAM
 static const char *const NAMES[ROWS] = {"triangle: sample", "triangle, projected: sample", "triangle: pdf",
-    "triangle: pdf of a hit", "triangle, projected: pdf", "triangle, projected: pdf of a hit", "sphere: sample", "sphere: pdf",
-    "sphere: pdf of a hit", "rectangle: sample", "rectangle: pdf", "bilinear warp: sample", "triangle, prepared: sample"};
+    "triangle, projected: pdf", "sphere: sample", "sphere: pdf", "rectangle: sample", "rectangle: pdf", "bilinear warp: sample", "triangle, prepared: sample"};
 static Input inputs[INPUTS];
 static unsigned state = 1;
 static float next(void) {

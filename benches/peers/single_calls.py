@@ -6,7 +6,7 @@
 The columns are the textbook's formulas (textbook.h, from PBR, compiled as pbrt is, for this processor), the C library (core/c, whose
 functions choose their instructions when they run), and the header that core/shader writes, for this processor without contraction, which
 its bits need. A row "sample" or "pdf" prepares the light, too; "prepared" is a sample of one that is kept. The textbook's pdf never asks
-whether the direction hits the light, as "pdf of a hit" does not. Rows without a textbook's formula have a dash. Needs cargo, a C compiler
+whether the direction hits the light. Rows without a textbook's formula have a dash. Needs cargo, a C compiler
 and what core/c/install needs. Pin it to a core (taskset -c 1), and compare within one run.
 """
 import argparse

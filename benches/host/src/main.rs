@@ -1,19 +1,11 @@
 //! A small host: directions to a triangle, a rectangle and a sphere, uniform in solid angle, each from a point of its own. Prints nanoseconds
-//! per sample with its preparation, ours beside a textbook's, as rows of a table. `benches/host/run` builds it for four kinds of hosts.
-//!
-//! A debug build, and one with the feature `dispatch`, call the batches, which are compiled in their library; others call the core. In a debug
-//! build packets stand beside the textbook's single numbers, which are faster there than its packets.
+//! per sample with its preparation, ours beside a textbook's, as rows of a table. `benches/host/run` builds it for each kind of host.
 
-#[cfg_attr(debug_assertions, allow(dead_code))]
 mod packets;
 mod scalars;
 mod textbook;
 
-#[cfg(not(any(debug_assertions, feature = "dispatch")))]
-use etendue::LightSampler;
-use etendue::{Rectangle, Sphere, Triangle, Vec2, Vec3, f32x8};
-#[cfg(any(debug_assertions, feature = "dispatch"))]
-use etendue_batch::{Batch, technique};
+use etendue::{LightSampler, Rectangle, Sphere, Triangle, Vec2, Vec3, f32x8};
 use std::hint::black_box;
 use std::time::Instant;
 use textbook::single::{self, Vector};
@@ -97,7 +89,7 @@ fn times(
     textbook_of_eight: impl Fn(Vec3<f32x8>, Vec2<f32x8>) -> f32x8,
 ) -> Times {
     let of_numbers = input.one_by_one(textbook);
-    let of_packets = if cfg!(debug_assertions) { of_numbers } else { input.eight_at_once(textbook_of_eight) };
+    let of_packets = input.eight_at_once(textbook_of_eight);
     let (one, eight) = (input.one_by_one(one), input.eight_at_once(eight));
     for (_, mean) in [one, eight, of_packets] {
         assert!((mean / of_numbers.1 - 1.0).abs() < 0.02, "the means are {mean} and {}", of_numbers.1);
@@ -109,37 +101,19 @@ fn eight(v: Vector) -> Vec3<f32x8> {
     Vec3::from(v).map(f32x8::splat)
 }
 
-/// Times of a light, by the technique of the batches or by the core.
+/// Times of a light.
 macro_rules! times {
-    ($input:expr, $technique:ident, $light:expr, $textbook:expr, $textbook_of_eight:expr) => {{
+    ($input:expr, $light:expr, $textbook:expr, $textbook_of_eight:expr) => {{
         let light = black_box($light);
         let of_eight = light.map(f32x8::splat);
-        #[cfg(any(debug_assertions, feature = "dispatch"))]
-        let (one, eight) = {
-            type Light = technique::$technique;
-            let batch = Batch::new();
-            (
-                move |p: Vector, [x, y]: [f32; 2]| {
-                    let s = batch.sample_once::<Light>(&light, p.into(), (), Vec2::new(x, y));
-                    s.direction.y * s.weight
-                },
-                move |p, u| {
-                    let s = batch.sample_packet::<Light, f32x8>(of_eight, p, (), u);
-                    s.direction.y * s.weight
-                },
-            )
+        let one = move |p: Vector, [x, y]: [f32; 2]| {
+            let s = light.by_solid_angle(p.into()).sample(Vec2::new(x, y));
+            s.direction.y * s.weight()
         };
-        #[cfg(not(any(debug_assertions, feature = "dispatch")))]
-        let (one, eight) = (
-            move |p: Vector, [x, y]: [f32; 2]| {
-                let s = light.by_solid_angle(p.into()).sample(Vec2::new(x, y));
-                s.direction.y * s.weight()
-            },
-            move |p, u| {
-                let s = of_eight.by_solid_angle(p).sample(u);
-                s.direction.y * s.weight()
-            },
-        );
+        let eight = move |p, u| {
+            let s = of_eight.by_solid_angle(p).sample(u);
+            s.direction.y * s.weight()
+        };
         let textbook = $textbook;
         let textbook_of_eight = $textbook_of_eight;
         times(
@@ -168,23 +142,17 @@ fn main() {
     let (center, radius) = black_box((CENTER, RADIUS));
     let [a, b, c] = corners.map(Vec3::from);
     let lights = [
+        times!(input, Triangle::new(a, b, c), move |p, u| single::triangle(&corners, p, u), move |p, u| {
+            packets::triangle(corners.map(eight), p, u)
+        }),
         times!(
             input,
-            TriangleBySolidAngle,
-            Triangle::new(a, b, c),
-            move |p, u| single::triangle(&corners, p, u),
-            move |p, u| packets::triangle(corners.map(eight), p, u)
-        ),
-        times!(
-            input,
-            RectangleBySolidAngle,
             Rectangle::new(corner.into(), edges[0].into(), edges[1].into()),
             move |p, u| single::rectangle(corner, edges, p, u),
             move |p, u| packets::rectangle(eight(corner), edges.map(eight), p, u)
         ),
         times!(
             input,
-            SphereBySolidAngle,
             Sphere::new(center.into(), radius),
             move |p, u| single::sphere(center, radius, p, u),
             move |p, u| packets::sphere(eight(center), f32x8::splat(radius), p, u)

@@ -59,12 +59,6 @@ impl SamplerFunctions {
 pub struct TechniqueFunctions {
     /// See [`Batch::prepare`](crate::Batch::prepare): a light, the point, what else it is prepared for, and room for the prepared light.
     pub prepare: unsafe extern "C" fn(*const c_void, *const f32, *const c_void, *mut c_void),
-    /// See [`Batch::sample_once`](crate::Batch::sample_once).
-    pub sample_once: unsafe extern "C" fn(*const c_void, *const f32, *const c_void, *const f32, *mut OneSample),
-    /// See [`Batch::pdf_once`](crate::Batch::pdf_once).
-    pub pdf_once: unsafe extern "C" fn(*const c_void, *const f32, *const c_void, *const f32) -> f32,
-    /// See [`Batch::pdf_of_hit_once`](crate::Batch::pdf_of_hit_once).
-    pub pdf_of_hit_once: unsafe extern "C" fn(*const c_void, *const f32, *const c_void, *const f32) -> f32,
     /// See [`Batch::sample_each`](crate::Batch::sample_each).
     pub sample_each: unsafe extern "C" fn(&Views, usize, Vec2<Column>, &SampleColumns),
     /// See [`Batch::evaluate_each`](crate::Batch::evaluate_each).
@@ -76,9 +70,6 @@ impl TechniqueFunctions {
     pub(crate) const fn of<T: Technique, R: Packet>() -> Self {
         Self {
             prepare: one::prepare::<T>,
-            sample_once: one::sample_once::<T>,
-            pdf_once: one::pdf_once::<T>,
-            pdf_of_hit_once: one::pdf_of_hit_once::<T>,
             sample_each: kernel::sample_each::<T, R>,
             evaluate_each: kernel::evaluate_each::<T, R>,
             sampler: SamplerFunctions::of::<T::Prepared, R>(),

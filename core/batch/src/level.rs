@@ -107,7 +107,7 @@ impl Batch {
     pub fn technique_to_prepare(&self, number: usize) -> Option<&'static TechniqueFunctions> {
         *self.one.techniques.get(number)?
     }
-    /// The same, of which those of one element and of one call are those of single numbers; none without the feature `one`.
+    /// The same, of which those of one element are those of single numbers; none without the feature `one`.
     #[inline]
     #[must_use]
     pub fn technique_of_one(&self, number: usize) -> Option<&'static TechniqueFunctions> {
@@ -122,10 +122,6 @@ impl Batch {
     #[track_caller]
     pub(crate) fn each<T: Technique>(&self) -> &'static TechniqueFunctions {
         self.technique_of_each(T::INDEX).expect("the light is not built: see the features of etendue-batch")
-    }
-    #[track_caller]
-    pub(crate) fn once<T: Technique>(&self) -> &'static TechniqueFunctions {
-        self.technique_of_one(T::INDEX).expect("the light is not built: see the features of etendue-batch")
     }
     #[track_caller]
     pub(crate) fn sampler<P: Prepared>(&self) -> &'static SamplerFunctions {

@@ -23,10 +23,9 @@
 //! ```
 //!
 //! # Debug builds
-//! A debug build of a host compiles the generic routines of the core without optimisation, where they take many
-//! times as long. [`Batch::sample_once`] for numbers and [`Batch::sample_packet`] for packets are compiled in this library, so that a host that
-//! calls them or batches is as fast as its other code and builds again in seconds, if its `Cargo.toml` has these lines (`benches/host/run` prints
-//! its times):
+//! A debug build of a host compiles the generic routines of the core without optimisation, where they take many times as long. `Lights` of the
+//! core and these batches are compiled in their libraries, so that a host that calls them is as fast as its other code, if its `Cargo.toml` has
+//! these lines (`benches/host/run` prints its times):
 //!
 //! ```toml
 //! [profile.dev.package."*"]
@@ -44,27 +43,13 @@
 //! loop over packets of the core with the instructions of that build. A call repeats the prepared light in all lanes first, so a batch of 1
 //! takes as long as a whole packet and more: for one element there are [`Batch::sample_one`] and others, in single numbers.
 //!
-//! Nanoseconds per call from C, of the textbook's formulas (PBR's, for this processor), of the C library, which calls this crate, and of the
-//! C header of `etendue-shader`, for this processor (AMD EPYC); `benches/peers/single_calls.py` prints them. The textbook's pdf, like that
-//! of a hit, does not ask whether the direction hits the light.
-//!
-//! | with preparation | textbook | library | header |
-//! |---|---|---|---|
-//! | triangle by solid angle | 131 | 116 | 143 |
-//! | triangle by projected solid angle | | 485 | 459 |
-//! | its pdf by solid angle, and projected | | 67, 350 | 105, 338 |
-//! | its pdf, of a hit | 25, – | 55, 345 | |
-//! | sphere by solid angle, its pdf | 53, – | 67, 27 | 50, 14 |
-//! | its pdf, of a hit | 3.4 | 20 | |
-//! | rectangle by solid angle, its pdf | 129, – | 167, 116 | 255, 183 |
-//! | bilinear warp | 7.2 | 15 | 9.0 |
-//! | triangle that is prepared | | 39 | 38 |
+//! `benches/peers/single_calls.py` prints nanoseconds per call from C: of the textbook's formulas, of the C library, which calls this crate, and
+//! of the C header of `etendue-shader`.
 #![cfg_attr(not(test), no_std)]
 
 mod columns;
 mod functions;
 mod kernel;
-mod lanes;
 mod level;
 mod map;
 pub mod memory;
@@ -84,7 +69,6 @@ pub use functions::{
     WarpFunctions,
 };
 pub use kernel::Views;
-pub use lanes::PacketSample;
 pub use level::{Batch, Level};
 pub use map::{BatchMap, MOST_NUMBERS, MOST_RESULTS, PortalDirection, ReflectedSphere, SeenThroughPortals};
 pub use packet::Packet;
@@ -146,43 +130,6 @@ impl Batch {
         // SAFETY: the function reads three numbers, and writes its result
         unsafe { (self.one::<P>().one_hit)(erased(sampler), row(&w), &mut out) };
         out
-    }
-    /// Prepares a light as [`prepare`](Self::prepare) does, and draws one direction. What the sample does not need is not prepared.
-    #[inline]
-    #[must_use]
-    pub fn sample_once<T: Technique>(
-        &self,
-        light: &T::Light<f32>,
-        p: Vec3<f32>,
-        with: T::With<f32>,
-        u: Vec2<f32>,
-    ) -> OneSample {
-        let mut out = OneSample::default();
-        // SAFETY: the function reads what it is prepared for, and writes its result
-        unsafe { (self.once::<T>().sample_once)(erased(light), row(&p), erased(&with), row(&u), &mut out) };
-        out
-    }
-    /// Prepares a light as [`prepare`](Self::prepare) does, and returns the pdf of one unit direction. What the pdf does not need is not
-    /// prepared.
-    #[inline]
-    #[must_use]
-    pub fn pdf_once<T: Technique>(&self, light: &T::Light<f32>, p: Vec3<f32>, with: T::With<f32>, w: Vec3<f32>) -> f32 {
-        // SAFETY: the function reads what it is prepared for
-        unsafe { (self.once::<T>().pdf_once)(erased(light), row(&p), erased(&with), row(&w)) }
-    }
-    /// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it. Where `w` misses, the result
-    /// is finite, and of no meaning.
-    #[inline]
-    #[must_use]
-    pub fn pdf_of_hit_once<T: Technique>(
-        &self,
-        light: &T::Light<f32>,
-        p: Vec3<f32>,
-        with: T::With<f32>,
-        w: Vec3<f32>,
-    ) -> f32 {
-        // SAFETY: the function reads what it is prepared for
-        unsafe { (self.once::<T>().pdf_of_hit_once)(erased(light), row(&p), erased(&with), row(&w)) }
     }
     /// Samples one prepared light, at the numbers `u` in [0, 1)².
     pub fn sample<P: Prepared>(&self, sampler: &P, u: Vec2<&[f32]>, out: Samples<'_>) {

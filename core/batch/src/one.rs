@@ -90,59 +90,6 @@ pub(crate) unsafe extern "C" fn prepare<T: Technique>(
         }
     }
 }
-/// Calls `f` with one light, prepared for a point: what `f` needs is prepared, since all of it is in one function.
-#[inline(always)]
-unsafe fn once<T: Technique, X>(
-    light: *const c_void,
-    p: *const f32,
-    with: *const c_void,
-    f: impl FnOnce(&<T::Prepared as Prepared>::Of<'_, f32>) -> X,
-) -> X {
-    // SAFETY: the caller's
-    unsafe {
-        if IS_LONG {
-            let mut sampler = MaybeUninit::<T::Prepared>::uninit();
-            prepare::<T>(light, p, with, sampler.as_mut_ptr().cast());
-            return sampler.assume_init_ref().over::<f32, X>(f);
-        }
-        let (light, with) = (figures(light.cast::<T::Light<f32>>()), figures(with.cast::<T::With<f32>>()));
-        T::prepared::<f32, X>(light, figures(p.cast()), with, f)
-    }
-}
-/// One sample of a light that is prepared for it alone.
-pub(crate) unsafe extern "C" fn sample_once<T: Technique>(
-    light: *const c_void,
-    p: *const f32,
-    with: *const c_void,
-    u: *const f32,
-    out: *mut OneSample,
-) {
-    if !IS_ABSENT {
-        // SAFETY: the caller's
-        unsafe { once::<T, _>(light, p, with, |s| out.write(OneSample::new(&s.sample(figures(u.cast()))))) };
-    }
-}
-/// The pdf of one direction, of a light that is prepared for it alone.
-pub(crate) unsafe extern "C" fn pdf_once<T: Technique>(
-    light: *const c_void,
-    p: *const f32,
-    with: *const c_void,
-    w: *const f32,
-) -> f32 {
-    // SAFETY: the caller's
-    if IS_ABSENT { 0.0 } else { unsafe { once::<T, _>(light, p, with, |s| s.pdf(figures(w.cast()))) } }
-}
-/// The same of a direction that hits the light.
-pub(crate) unsafe extern "C" fn pdf_of_hit_once<T: Technique>(
-    light: *const c_void,
-    p: *const f32,
-    with: *const c_void,
-    w: *const f32,
-) -> f32 {
-    // SAFETY: the caller's
-    if IS_ABSENT { 0.0 } else { unsafe { once::<T, _>(light, p, with, |s| s.pdf_of_hit(figures(w.cast()))) } }
-}
-
 /// One point of a warp.
 pub(crate) unsafe extern "C" fn one_warp_sample<W: BatchWarp>(warp: *const c_void, u: *const f32, out: *mut f32) {
     if !IS_V4 {

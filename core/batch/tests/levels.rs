@@ -7,7 +7,7 @@ use etendue::real::SAME_BITS;
 use etendue::reflection::Reflection;
 use etendue::select::{LightBound, LightChoice, LightTree, Node8};
 use etendue::sequence::Independent;
-use etendue::{LightSample, LightSampler, Mask, Vec2, Vec3, f32x4, f32x8, f32x16};
+use etendue::{LightSample, LightSampler, Vec2, Vec3};
 use etendue_batch::memory::{ImageMemory, PortalMemory, PortalShape, PortalSums, TreeMemory};
 use etendue_batch::technique::ImageByRadiance;
 use etendue_batch::*;
@@ -82,14 +82,6 @@ fn of_one(s: &OneSample) -> [u32; 12] {
     let [w, n] = [s.direction, s.normal];
     let truth = f32::from(s.emits);
     [w.x, w.y, w.z, s.distance, s.pdf, s.weight, n.x, n.y, n.z, s.uv.x, s.uv.y, truth].map(bits)
-}
-/// The same of a lane.
-fn of_lane<R: Packet>(s: &PacketSample<R>, lane: usize) -> [u32; 12] {
-    let truth = f32::from(u8::from(s.emits.lane(lane)));
-    let [w, n] = [s.direction, s.normal].map(|v| v.map(|x| x.lane(lane)));
-    let [distance, pdf, weight] = [s.distance, s.pdf, s.weight].map(|x| x.lane(lane));
-    let uv = s.uv.map(|x| x.lane(lane));
-    [w.x, w.y, w.z, distance, pdf, weight, n.x, n.y, n.z, uv.x, uv.y, truth].map(bits)
 }
 fn bits(x: f32) -> u32 {
     if x.is_nan() { f32::NAN.to_bits() } else { x.to_bits() }
@@ -173,33 +165,6 @@ fn assert_sampler<'a, P: Prepared>(
         assert_eq!(of_one(&batch.hit_one(sampler, at(w, i))), written.figures(i), "hit of one: {}", say(i));
     }
     (u, directions)
-}
-
-/// Lights, points, what else they are prepared for, random numbers, and directions.
-type All<'a, T> = (
-    <T as Technique>::Light<&'a [f32]>,
-    Vec3<&'a [f32]>,
-    <T as Technique>::With<&'a [f32]>,
-    Vec2<&'a [f32]>,
-    Vec3<&'a [f32]>,
-);
-
-/// Compares packets with batches of the same elements: what was drawn and hit, and the pdfs.
-fn assert_packets<T: Technique, R: Packet>(batch: Batch, all: All<'_, T>, [drawn, met]: [&Written; 2], pdfs: &[f32]) {
-    let (lights, p, withs, u, w) = all;
-    for first in (0..pdfs.len()).step_by(R::LANES).filter(|first| first + R::LANES <= pdfs.len()) {
-        let load = |column: &[f32]| R::from_fn(|lane| column[first + lane]);
-        let (light, with) = (T::map_light(lights, load), T::map_with(withs, load));
-        let sample = batch.sample_packet::<T, R>(light, p.map(load), with, u.map(load));
-        let hit = batch.hit_packet::<T, R>(light, p.map(load), with, w.map(load));
-        let pdf = batch.pdf_packet::<T, R>(light, p.map(load), with, w.map(load));
-        for lane in 0..R::LANES {
-            let say = format!("lane {lane} of {}, {batch:?}", R::LANES);
-            assert_eq!(of_lane(&sample, lane), drawn.figures(first + lane), "sample of a packet: {say}");
-            assert_eq!(of_lane(&hit, lane), met.figures(first + lane), "hit of a packet: {say}");
-            assert_eq!(bits(pdf.lane(lane)), bits(pdfs[first + lane]), "pdf of a packet: {say}");
-        }
-    }
 }
 
 #[test]
@@ -301,8 +266,6 @@ impl Visitor for Equal {
                 let (light, p, with) = at_element(i);
                 let expected = T::prepared::<f32, _>(light, p, with, |alone| figures(&alone.sample(one(i))));
                 assert_eq!(drawn.figures(i), expected, "sample each: {}", say(i));
-                let once = batch.sample_once::<T>(&light, p, with, one(i));
-                assert_eq!(of_one(&once), expected, "sample once: {}", say(i));
             }
             let (mut pdf, mut x, mut y) = (vec![-7.0; n], vec![-7.0; n], vec![-7.0; n]);
             let mut written = Written::new(n);
@@ -317,19 +280,9 @@ impl Visitor for Equal {
                     (alone.pdf(w), alone.invert(w), figures(&alone.hit(w)))
                 });
                 assert_eq!([pdf[i], only[i]].map(bits), [expected; 2].map(bits), "pdf each: {}", say(i));
-                let once = batch.pdf_once::<T>(&light, p, with, w);
-                assert_eq!(bits(once), bits(expected), "pdf once: {}", say(i));
-                let of_hit = batch.pdf_of_hit_once::<T>(&light, p, with, w);
-                let same = of_hit.is_finite() && (expected == 0.0 || bits(of_hit) == bits(expected));
-                assert!(same, "pdf of a hit: {of_hit:e} and {expected:e}: {}", say(i));
                 assert_eq!([x[i], y[i]].map(bits), [u.x, u.y].map(bits), "invert each: {}", say(i));
                 assert_eq!(written.figures(i), met, "hit each: {}", say(i));
             }
-            let all = (lights, p, withs, u, w);
-            assert_packets::<T, f32>(batch, all, [&drawn, &written], &pdf);
-            assert_packets::<T, f32x4>(batch, all, [&drawn, &written], &pdf);
-            assert_packets::<T, f32x8>(batch, all, [&drawn, &written], &pdf);
-            assert_packets::<T, f32x16>(batch, all, [&drawn, &written], &pdf);
             self.compared += n;
         });
     }

@@ -1018,31 +1018,6 @@ EtendueStatus etendue_hit(uint32_t technique,
                           const float *w,
                           EtendueLightSample *out);
 
-// Prepares a light for a shading point, as etendue_prepare does, and draws one direction, as etendue_sample does. What the sample does not need is
-// not prepared.
-EtendueStatus etendue_sample_once(uint32_t technique,
-                                  const void *light,
-                                  const float *p,
-                                  const void *with,
-                                  const float *u,
-                                  EtendueLightSample *out);
-
-// Prepares a light for a shading point, as etendue_prepare does, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses
-// the light, and where the function cannot work. What the pdf does not need is not prepared.
-float etendue_pdf_once(uint32_t technique,
-                       const void *light,
-                       const float *p,
-                       const void *with,
-                       const float *w);
-
-// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not intersected again.
-// Where `w` misses the light, the result is finite, and of no meaning.
-float etendue_pdf_of_hit_once(uint32_t technique,
-                              const void *light,
-                              const float *p,
-                              const void *with,
-                              const float *w);
-
 // Draws a direction from a prepared light for each u: two columns. The numbers are not asked whether they are in [0, 1): where one is NaN, the pdf
 // is 0 unless the technique does not use it; where one is outside, the sample has no meaning, and may have numbers that are not finite.
 EtendueStatus etendue_sample_batch(uint32_t technique,

@@ -50,16 +50,6 @@
         return etendue_prepare(ETENDUE_TECHNIQUE_##ID, light, p, WITH, sampler);                                                         \
     }                                                                                                                                    \
     ETENDUE_SAMPLER_(NAME, ID, SAMPLER)                                                                                                  \
-    static inline EtendueStatus etendue_##NAME##_sample_once(const Etendue##LIGHT *light, const float *p, ONE const float *u,            \
-                                                             EtendueLightSample *out) {                                                  \
-        return etendue_sample_once(ETENDUE_TECHNIQUE_##ID, light, p, WITH, u, out);                                                      \
-    }                                                                                                                                    \
-    static inline float etendue_##NAME##_pdf_once(const Etendue##LIGHT *light, const float *p, ONE const float *w) {                     \
-        return etendue_pdf_once(ETENDUE_TECHNIQUE_##ID, light, p, WITH, w);                                                              \
-    }                                                                                                                                    \
-    static inline float etendue_##NAME##_pdf_of_hit_once(const Etendue##LIGHT *light, const float *p, ONE const float *w) {              \
-        return etendue_pdf_of_hit_once(ETENDUE_TECHNIQUE_##ID, light, p, WITH, w);                                                       \
-    }                                                                                                                                    \
     static inline EtendueStatus etendue_##NAME##_sample_each(const Etendue##LIGHT##Columns *lights, size_t n, const float *const *p,     \
                                                              MANY const float *const *u, const EtendueSampleColumns *out) {              \
         return etendue_sample_each(ETENDUE_TECHNIQUE_##ID, lights, n, p, WITHS, u, out);                                                 \

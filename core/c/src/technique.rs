@@ -145,67 +145,6 @@ pub unsafe extern "C" fn etendue_hit(
     // SAFETY: the pointers are not null, and point to what the header says
     unsafe { one(technique, sampler, sampler, |functions| (functions.sampler.one_hit)(sampler, w, out.cast())) }
 }
-/// Prepares a light for a shading point, as etendue_prepare does, and draws one direction, as etendue_sample does. What the sample does not need is
-/// not prepared.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn etendue_sample_once(
-    technique: u32,
-    light: *const c_void,
-    p: *const f32,
-    with: *const c_void,
-    u: *const f32,
-    out: *mut EtendueLightSample,
-) -> EtendueStatus {
-    refuse_null!(light, p, u, out);
-    refuse_outside!(u, 2);
-    // SAFETY: the pointers are not null, and point to what the header says
-    unsafe { one(technique, light, with, |functions| (functions.sample_once)(light, p, with, u, out.cast())) }
-}
-/// The pdf functions of a light that is prepared for one call.
-unsafe fn pdf_once(
-    technique: u32,
-    light: *const c_void,
-    p: *const f32,
-    with: *const c_void,
-    w: *const f32,
-    which: impl FnOnce(
-        &TechniqueFunctions,
-    ) -> unsafe extern "C" fn(*const c_void, *const f32, *const c_void, *const f32) -> f32,
-) -> f32 {
-    let mut pdf = 0.0;
-    if !light.is_null() && !p.is_null() && !w.is_null() {
-        // SAFETY: the pointers are not null, and point to what the header says
-        unsafe { one(technique, light, with, |functions| pdf = which(functions)(light, p, with, w)) };
-    }
-    pdf
-}
-/// Prepares a light for a shading point, as etendue_prepare does, and returns the pdf with which a unit direction `w` is drawn; 0 where it misses
-/// the light, and where the function cannot work. What the pdf does not need is not prepared.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn etendue_pdf_once(
-    technique: u32,
-    light: *const c_void,
-    p: *const f32,
-    with: *const c_void,
-    w: *const f32,
-) -> f32 {
-    // SAFETY: the caller's
-    unsafe { pdf_once(technique, light, p, with, w, |functions| functions.pdf_once) }
-}
-/// The same for a unit direction `w` that is known to hit the light, as where a ray of the host has hit it: the light is not intersected again.
-/// Where `w` misses the light, the result is finite, and of no meaning.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn etendue_pdf_of_hit_once(
-    technique: u32,
-    light: *const c_void,
-    p: *const f32,
-    with: *const c_void,
-    w: *const f32,
-) -> f32 {
-    // SAFETY: the caller's
-    unsafe { pdf_once(technique, light, p, with, w, |functions| functions.pdf_of_hit_once) }
-}
-
 /// Calls `f` with the functions of a prepared light and with columns of what they read; it returns `None` where a column that it needs is null.
 unsafe fn batch<const N: usize>(
     technique: u32,

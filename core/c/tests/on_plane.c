@@ -76,9 +76,11 @@ int main(void) {
             }
             CHECK(etendue_on_surface(by_area[kind], &light, p) == 1);
             CHECK(etendue_on_surface(by_area[kind], &light, off) == 0);
+            EtenduePolygonByArea sampler; // the largest of these
             EtendueLightSample sample;
             const float half[2] = {0.3f, 0.6f};
-            CHECK(etendue_sample_once(by_area[kind], &light, p, NULL, half, &sample) == ETENDUE_STATUS_OK);
+            CHECK(etendue_prepare(by_area[kind], &light, p, NULL, &sampler) == ETENDUE_STATUS_OK);
+            CHECK(etendue_sample(by_area[kind], &sampler, half, &sample) == ETENDUE_STATUS_OK);
             in_front += sample.weight > 0;
         }
         CHECK(in_front > POINTS / 5);

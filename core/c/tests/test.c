@@ -48,7 +48,6 @@ typedef struct {
     float (*pdf)(const float *sampler, const float *w);
     EtendueStatus (*invert)(const float *sampler, const float *w, float *u);
     EtendueStatus (*hit)(const float *sampler, const float *w, EtendueLightSample *out);
-    EtendueStatus (*once)(const float *light, const float *p, const float *n, const float *u, EtendueLightSample *out);
     EtendueStatus (*sample_batch)(const float *sampler, size_t n, const float *const *u, const EtendueSampleColumns *out);
     EtendueStatus (*pdf_batch)(const float *sampler, size_t n, const float *const *w, float *out);
     EtendueStatus (*invert_batch)(const float *sampler, size_t n, const float *const *w, float *const *u);
@@ -61,8 +60,6 @@ typedef struct {
                               const float *const *w, float *out);
     EtendueStatus (*invert_each)(const float *const *lights, size_t n, const float *const *p, const float *const *normals,
                                  const float *const *w, float *const *u);
-    float (*pdf_once)(const float *light, const float *p, const float *n, const float *w);
-    float (*pdf_of_hit_once)(const float *light, const float *p, const float *n, const float *w);
 } Technique;
 
 // Reflections of floors with the normals `n`, which a viewer sees along them, as functions of normals take them.
@@ -100,49 +97,37 @@ static const EtendueReflectionColumns *reflections(size_t n, const float *const 
     static EtendueStatus PREFIX##_5(const float *sampler, const float *w, EtendueLightSample *out) {                                \
         return etendue_##PREFIX##_hit((const Etendue##NAME *)sampler, w, out);                                                      \
     }                                                                                                                               \
-    static EtendueStatus PREFIX##_6(const float *light, const float *p, const float *n, const float *u, EtendueLightSample *out) {  \
-        (void)n;                                                                                                                    \
-        return etendue_##PREFIX##_sample_once((const Etendue##LIGHT *)light, p, N u, out);                                          \
-    }                                                                                                                               \
-    static EtendueStatus PREFIX##_7(const float *sampler, size_t n, const float *const *u, const EtendueSampleColumns *out) {       \
+    static EtendueStatus PREFIX##_6(const float *sampler, size_t n, const float *const *u, const EtendueSampleColumns *out) {       \
         return etendue_##PREFIX##_sample_batch((const Etendue##NAME *)sampler, n, u, out);                                          \
     }                                                                                                                               \
-    static EtendueStatus PREFIX##_8(const float *sampler, size_t n, const float *const *w, float *out) {                            \
+    static EtendueStatus PREFIX##_7(const float *sampler, size_t n, const float *const *w, float *out) {                            \
         return etendue_##PREFIX##_pdf_batch((const Etendue##NAME *)sampler, n, w, out);                                             \
     }                                                                                                                               \
-    static EtendueStatus PREFIX##_9(const float *sampler, size_t n, const float *const *w, float *const *u) {                       \
+    static EtendueStatus PREFIX##_8(const float *sampler, size_t n, const float *const *w, float *const *u) {                       \
         return etendue_##PREFIX##_invert_batch((const Etendue##NAME *)sampler, n, w, u);                                            \
     }                                                                                                                               \
-    static EtendueStatus PREFIX##_10(const float *sampler, size_t n, const float *const *w, const EtendueSampleColumns *out) {      \
+    static EtendueStatus PREFIX##_9(const float *sampler, size_t n, const float *const *w, const EtendueSampleColumns *out) {      \
         return etendue_##PREFIX##_hit_batch((const Etendue##NAME *)sampler, n, w, out);                                             \
     }                                                                                                                               \
-    static EtendueStatus PREFIX##_11(const float *const *lights, size_t n, const float *const *p, const float *const *normals,      \
+    static EtendueStatus PREFIX##_10(const float *const *lights, size_t n, const float *const *p, const float *const *normals,      \
                                      const float *const *u, const EtendueSampleColumns *out) {                                      \
         (void)normals;                                                                                                              \
         return etendue_##PREFIX##_sample_each((const Etendue##LIGHT##Columns *)(const void *)lights, n, p, NORMALS u, out);         \
     }                                                                                                                               \
-    static EtendueStatus PREFIX##_12(const float *const *lights, size_t n, const float *const *p, const float *const *normals,      \
+    static EtendueStatus PREFIX##_11(const float *const *lights, size_t n, const float *const *p, const float *const *normals,      \
                                      const float *const *w, const EtendueSampleColumns *out) {                                      \
         (void)normals;                                                                                                              \
         return etendue_##PREFIX##_hit_each((const Etendue##LIGHT##Columns *)(const void *)lights, n, p, NORMALS w, out);            \
     }                                                                                                                               \
-    static EtendueStatus PREFIX##_13(const float *const *lights, size_t n, const float *const *p, const float *const *normals,      \
+    static EtendueStatus PREFIX##_12(const float *const *lights, size_t n, const float *const *p, const float *const *normals,      \
                                      const float *const *w, float *out) {                                                           \
         (void)normals;                                                                                                              \
         return etendue_##PREFIX##_pdf_each((const Etendue##LIGHT##Columns *)(const void *)lights, n, p, NORMALS w, out);            \
     }                                                                                                                               \
-    static EtendueStatus PREFIX##_14(const float *const *lights, size_t n, const float *const *p, const float *const *normals,      \
+    static EtendueStatus PREFIX##_13(const float *const *lights, size_t n, const float *const *p, const float *const *normals,      \
                                      const float *const *w, float *const *out) {                                                    \
         (void)normals;                                                                                                              \
         return etendue_##PREFIX##_invert_each((const Etendue##LIGHT##Columns *)(const void *)lights, n, p, NORMALS w, out);         \
-    }                                                                                                                               \
-    static float PREFIX##_15(const float *light, const float *p, const float *n, const float *w) {                                  \
-        (void)n;                                                                                                                    \
-        return etendue_##PREFIX##_pdf_once((const Etendue##LIGHT *)light, p, N w);                                                  \
-    }                                                                                                                               \
-    static float PREFIX##_16(const float *light, const float *p, const float *n, const float *w) {                                  \
-        (void)n;                                                                                                                    \
-        return etendue_##PREFIX##_pdf_of_hit_once((const Etendue##LIGHT *)light, p, N w);                                           \
     }
 #define COMMA ,
 #define FUNCTIONS_0(NAME, LIGHT, PREFIX) FUNCTIONS(NAME, LIGHT, PREFIX, , )
@@ -202,8 +187,8 @@ static const float DirectionalLight[] = {0.36f, 0.8f, 0.48f};
 TECHNIQUES(WRITE_FUNCTIONS)
 #define ROW(NAME, LIGHT, PREFIX, ON_SURFACE)                                                                         \
     {#PREFIX, LIGHT, sizeof(Etendue##LIGHT) / 4, sizeof(Etendue##NAME) / 4, ON_SURFACE, PREFIX##_1, PREFIX##_2,      \
-     PREFIX##_3, PREFIX##_4, PREFIX##_5, PREFIX##_6, PREFIX##_7, PREFIX##_8, PREFIX##_9, PREFIX##_10, PREFIX##_11, PREFIX##_12,      \
-     PREFIX##_13, PREFIX##_14, PREFIX##_15, PREFIX##_16},
+     PREFIX##_3, PREFIX##_4, PREFIX##_5, PREFIX##_6, PREFIX##_7, PREFIX##_8, PREFIX##_9, PREFIX##_10, PREFIX##_11,      \
+     PREFIX##_12, PREFIX##_13},
 static const Technique techniques[] = {TECHNIQUES(ROW)};
 
 static int is_delta(const Technique *t) {
@@ -222,18 +207,14 @@ static void test_values(const Technique *t, const float *sampler) {
     float worst = 0;
     for (int i = 0; i < 200; i++) {
         const float u[2] = {u_numbers[0][i], u_numbers[1][i]};
-        EtendueLightSample s, once, hit, again;
+        EtendueLightSample s, hit, again;
         float back[2];
         CHECK(t->sample(sampler, u, &s) == OK && is_finite(&s) && s.pdf > 0);
-        CHECK(t->once(t->light, origin, up, u, &once) == OK);
-        CHECK(memcmp(&s, &once, offsetof(EtendueLightSample, emits) + 1) == 0);
         CHECK(s.emits ? fabsf(s.weight * s.pdf - 1) < 1e-6f : s.weight == 0);
         const float length = s.direction[0] * s.direction[0] + s.direction[1] * s.direction[1] + s.direction[2] * s.direction[2];
         CHECK(fabsf(length - 1) < 1e-6f);
         const float pdf = t->pdf(sampler, s.direction);
         if (is_closed(t)) CHECK(same(pdf, s.pdf));
-        CHECK(same(t->pdf_once(t->light, origin, up, s.direction), pdf));
-        CHECK(!(pdf > 0) || same(t->pdf_of_hit_once(t->light, origin, up, s.direction), pdf));
         // rays do not hit lines, and delta lights have no density
         CHECK(t->hit(sampler, s.direction, &hit) == OK && is_finite(&hit) && same(hit.pdf, t->light == Line ? 0 : pdf));
         if (is_delta(t)) CHECK(pdf == 0 && s.weight > 0);
@@ -251,7 +232,7 @@ static void test_values(const Technique *t, const float *sampler) {
     const float down[3] = {0, -1, 0}, nothing[LIGHT_NUMBERS] = {0}, u[2] = {0.3f, 0.6f};
     float degenerate[SAMPLER_NUMBERS];
     EtendueLightSample s;
-    CHECK(t->pdf(sampler, down) == 0 && t->pdf_once(t->light, origin, up, down) == 0);
+    CHECK(t->pdf(sampler, down) == 0);
     CHECK(t->hit(sampler, down, &s) == OK && is_finite(&s) && s.pdf == 0 && s.weight == 0);
     CHECK(t->prepare(nothing, origin, up, degenerate) == OK);
     // a delta light has none anyway
@@ -383,14 +364,8 @@ static void test_nulls(const Technique *t, const float *sampler) {
     CHECK(is_untouched((unsigned char *)prepared, sizeof prepared));
     CHECK(t->sample(NULL, u, &s) == REFUSED && t->sample(sampler, NULL, &s) == REFUSED && t->sample(sampler, u, NULL) == REFUSED);
     CHECK(t->hit(NULL, w, &s) == REFUSED && t->hit(sampler, NULL, &s) == REFUSED && t->hit(sampler, w, NULL) == REFUSED);
-    CHECK(t->once(NULL, origin, up, u, &s) == REFUSED && t->once(t->light, NULL, up, u, &s) == REFUSED);
-    CHECK(t->once(t->light, origin, up, NULL, &s) == REFUSED && t->once(t->light, origin, up, u, NULL) == REFUSED);
-    CHECK(!t->on_surface || t->once(t->light, origin, NULL, u, &s) == REFUSED);
     CHECK(memcmp(&s, &before, sizeof s) == 0);
     CHECK(t->pdf(NULL, w) == 0 && t->pdf(sampler, NULL) == 0);
-    CHECK(t->pdf_once(NULL, origin, up, w) == 0 && t->pdf_once(t->light, NULL, up, w) == 0 && t->pdf_once(t->light, origin, up, NULL) == 0);
-    CHECK(!t->on_surface || t->pdf_once(t->light, origin, NULL, w) == 0);
-    CHECK(t->pdf_of_hit_once(NULL, origin, up, w) == 0 && t->pdf_of_hit_once(t->light, origin, up, NULL) == 0);
     CHECK(t->invert(NULL, w, out) == REFUSED && t->invert(sampler, NULL, out) == REFUSED && t->invert(sampler, w, NULL) == REFUSED);
 
     const float *const u_in[2] = {u_numbers[0], u_numbers[1]}, *const w_in[3] = {w_numbers[0], w_numbers[1], w_numbers[2]};
@@ -960,8 +935,7 @@ static void test_unknown(void) {
         s = before;
         CHECK(etendue_prepare(t, light, w, w, sampler) == ETENDUE_STATUS_VALUE && etendue_sample(t, light, w, &s) == ETENDUE_STATUS_VALUE);
         CHECK(etendue_hit(t, light, w, &s) == ETENDUE_STATUS_VALUE && etendue_invert(t, light, w, sampler) == ETENDUE_STATUS_VALUE);
-        CHECK(etendue_sample_once(t, light, w, w, w, &s) == ETENDUE_STATUS_VALUE && memcmp(&s, &before, sizeof s) == 0);
-        CHECK(etendue_pdf(t, light, w) == 0 && etendue_pdf_once(t, light, w, w, w) == 0 && etendue_pdf_of_hit_once(t, light, w, w, w) == 0);
+        CHECK(etendue_pdf(t, light, w) == 0 && memcmp(&s, &before, sizeof s) == 0);
         CHECK(etendue_sample_batch(t, light, 17, columns, &out) == ETENDUE_STATUS_VALUE);
         CHECK(etendue_hit_batch(t, light, 17, columns, &out) == ETENDUE_STATUS_VALUE);
         CHECK(etendue_pdf_batch(t, light, 17, columns, r.column[0]) == ETENDUE_STATUS_VALUE);
@@ -1000,7 +974,6 @@ static void test_outside(void) {
                 const float u[2] = {numbers[0][i], numbers[1][i]};
                 s = before;
                 CHECK(t->sample(sampler, u, &s) == ETENDUE_STATUS_VALUE && memcmp(&s, &before, sizeof s) == 0);
-                CHECK(t->once(t->light, origin, up, u, &s) == ETENDUE_STATUS_VALUE && memcmp(&s, &before, sizeof s) == 0);
             }
             const float edge[2] = {which ? 0.3f : -0.0f, which ? 1 - FLT_EPSILON / 2 : 0.3f};
             CHECK(t->sample(sampler, edge, &s) == OK);

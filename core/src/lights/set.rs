@@ -286,14 +286,15 @@ fn sample<R: Real<Scalar = R>>(at: &LightsAt<'_, R>, [u, v, w]: [R; 3]) -> Light
     let [a, b] = [v, w].map(|u| (unit_interval(u) * R::lit(16_777_216.0)).to_uint().lane(0));
     let hash = (a.wrapping_mul(0x9e37_79b9) ^ b.rotate_left(16)).wrapping_mul(0x85eb_ca6b);
     let (index, pmf) = at.choose(unit_interval(u), R::unit(R::Uint::splat(hash)));
-    let Some(part) = at.lights.parts.get(index as usize) else { return nothing() };
+    // what cannot contribute is not prepared
+    let Some(part) = at.lights.parts.get(index as usize).filter(|_| pmf.gt(zero).any()) else { return nothing() };
     let (mut sample, is_on): (Drawn<R>, bool) = at.with(index, part, |light| light.sample(Vec2::new(v, w)));
     let normal = part.normal(at.receiver.point, &sample);
     // of numbers that overflow there is none
     sample.normal = normal.keep(normal.is_within(R::lit(2.0)));
     let delta = sample.delta && !matches!(part.shape, Shape::Line(_));
     let emits = part.two_sided || sample.emits != part.reversed;
-    let some = !is_on && sample.pdf.gt(zero).any() && pmf.gt(zero).any();
+    let some = !is_on && sample.pdf.gt(zero).any();
     // of lights without an area, the pdf of a sample is 1 over what the intensity is to be multiplied by
     let (pdf, factor) = if delta { (pmf, one / sample.pdf) } else { (pmf * sample.pdf, one) };
     let mask = |truth: bool| R::Mask::splat(truth);

@@ -6,7 +6,7 @@ use crate::memory::Memory;
 use crate::real::{Mask, Real, Uint, unit_interval};
 use crate::select::Gloss;
 use crate::vector::Vec3;
-use wide::{f32x8, u32x8};
+use wide::{f32x4, f32x8};
 
 /// Shares of a node are in units of 2⁻¹⁶.
 pub(super) const WHOLE: u32 = 1 << 16;
@@ -283,18 +283,20 @@ impl Node8 {
         Part::union(&core::array::from_fn::<_, 8, _>(|slot| self.part(slot)))
     }
 
-    /// All children.
+    /// The first children: all of them in eight lanes.
     #[inline(always)]
-    fn children(&self) -> Children<f32x8> {
-        let [x, y, z] = self.center.map(f32x8::from);
+    fn children<C: Real<Scalar = f32>>(&self) -> Children<C> {
+        let number = |x: &[f32; 8]| C::from_fn(|slot| x[slot]);
+        let word = |x: &[u32; 8]| C::Uint::from_fn(|slot| x[slot]);
+        let [x, y, z] = &self.center;
         Children {
-            center: Vec3::new(x, y, z),
-            reach: f32x8::from(self.reach),
-            power: f32x8::from(self.power),
-            bounds: u32x8::from(self.bounds),
-            normals: u32x8::from(self.normal),
-            deviations: u32x8::from(self.deviation),
-            turns: self.turns.map(u32x8::from),
+            center: Vec3::new(number(x), number(y), number(z)),
+            reach: number(&self.reach),
+            power: number(&self.power),
+            bounds: word(&self.bounds),
+            normals: word(&self.normal),
+            deviations: word(&self.deviation),
+            turns: [word(&self.turns[0]), word(&self.turns[1])],
         }
     }
     /// The node as words, in the order in which they are in memory: what other devices read.
@@ -312,7 +314,7 @@ impl Node8 {
     #[inline(always)]
     pub(super) fn weigh_at(&self, lane: usize, at: &TreePoint<[f32; 8]>, gloss: Option<&Gloss<[f32; 8]>>) -> f32x8 {
         let gloss = gloss.map(|gloss| gloss.only(lane));
-        let (weight, bright) = self.children().weigh(self.plain != 0, &at.only(lane), gloss.as_ref());
+        let (weight, bright) = self.children::<f32x8>().weigh(self.plain != 0, &at.only(lane), gloss.as_ref());
         Real::blend(bright, weight, f32x8::splat(DARK))
     }
     /// Reads a word of each line of memory, so that all lines are on their way.
@@ -323,37 +325,44 @@ impl Node8 {
             ^ (self.power[0].to_bits() ^ self.normal[0])
             ^ (self.turns[0][0] ^ self.child[0])
     }
-    /// The children's weights at a point of a surface, and which can contribute.
-    #[inline(always)]
-    fn weighed(&self, at: &TreePoint<f32>, gloss: Option<&Gloss<f32>>) -> (f32x8, <f32x8 as Real>::Mask) {
-        let gloss = gloss.map(|gloss| Gloss::splat(*gloss));
-        self.children().weigh(self.plain != 0, &TreePoint::splat(*at), gloss.as_ref())
-    }
     /// The sum of the children's weights at a point of a surface: 0 only where none can contribute, and finite.
     pub(super) fn sum(&self, at: &TreePoint<f32>, gloss: Option<&Gloss<f32>>) -> f32 {
-        let (weight, bright) = self.weighed(at, gloss);
+        let (weight, bright) = self.weighed::<f32x8>(at, gloss);
         let sum: f32 = weight.greater(f32x8::splat(f32::MIN_POSITIVE)).keep(bright).to_array().iter().sum();
         sum.lesser(f32::MAX)
+    }
+    /// The first children's weights at a point of a surface, and which can contribute.
+    #[inline(always)]
+    fn weighed<C: Real<Scalar = f32>>(&self, at: &TreePoint<f32>, gloss: Option<&Gloss<f32>>) -> (C, C::Mask) {
+        let gloss = gloss.map(|gloss| Gloss::splat(*gloss));
+        self.children().weigh(self.plain != 0, &TreePoint::splat(*at), gloss.as_ref())
     }
     /// The children's shares at a point of a surface.
     #[inline(always)]
     pub(super) fn shares(&self, at: &TreePoint<f32>, gloss: Option<&Gloss<f32>>) -> Shares {
-        let (weight, bright) = self.weighed(at, gloss);
-        let bright = bright.bits();
-        let sum = |w: [f32; 8]| ((w[0] + w[1]) + (w[2] + w[3])) + ((w[4] + w[5]) + (w[6] + w[7]));
-        let lanes = <f32x8 as Real>::Mask::from_bits(bright);
+        // of few lights, the same in fewer lanes
+        if self.child[4] == NONE { self.shares_of::<f32x4>(at, gloss) } else { self.shares_of::<f32x8>(at, gloss) }
+    }
+    #[inline(always)]
+    fn shares_of<C: Real<Scalar = f32>>(&self, at: &TreePoint<f32>, gloss: Option<&Gloss<f32>>) -> Shares {
+        let (weight, lanes) = self.weighed::<C>(at, gloss);
+        let bright = lanes.bits();
+        let sum = |w: C| {
+            let w: [f32; 8] = core::array::from_fn(|slot| if slot < C::LANES { w.lane(slot) } else { 0.0 });
+            ((w[0] + w[1]) + (w[2] + w[3])) + ((w[4] + w[5]) + (w[6] + w[7]))
+        };
         let mut weight = weight.keep(lanes);
-        let mut total = sum(weight.to_array());
+        let mut total = sum(weight);
         if !(LEAST..f32::INFINITY).contains(&total) {
-            weight = f32x8::lit(1.0).keep(lanes);
-            total = sum(weight.to_array()).greater(1.0);
+            weight = C::lit(1.0).keep(lanes);
+            total = sum(weight).greater(1.0);
         }
-        let scaled = weight * f32x8::splat((WHOLE - 8) as f32 / total);
+        let scaled = weight * C::lit(f64::from((WHOLE - 8) as f32 / total));
         // what rounding left goes to the last
-        let last = <f32x8 as Real>::Mask::from_bits(1 << (bright | 1).ilog2());
-        let units = f32x8::blend_uint(last, u32x8::splat(WHOLE), scaled.to_uint().wrapping_add(u32x8::splat(1)));
-        let units = (units & mask_bits(lanes)).to_array();
-        Shares { units }
+        let last = C::Mask::from_bits(1 << (bright | 1).ilog2());
+        let (one, whole, none) = (C::Uint::splat(1), C::Uint::splat(WHOLE), C::Uint::splat(0));
+        let units = C::blend_uint(lanes, C::blend_uint(last, whole, scaled.to_uint().wrapping_add(one)), none);
+        Shares { units: core::array::from_fn(|slot| if slot < C::LANES { units.lane(slot) } else { 0 }) }
     }
 }
 
@@ -427,10 +436,4 @@ pub(super) fn stretched<U: Uint>(within: U, sixteen: U, share: U) -> U {
 #[inline(always)]
 fn fused<R: Real>(a: R, b: R, c: R) -> R {
     a.mul_add(b, c)
-}
-
-/// All ones where the mask is true.
-#[inline(always)]
-fn mask_bits(lanes: <f32x8 as Real>::Mask) -> u32x8 {
-    f32x8::blend_uint(lanes, u32x8::splat(u32::MAX), u32x8::splat(0))
 }

@@ -234,15 +234,6 @@ pub(super) fn check(input: &mut Input<'_>, index: usize) {
                     }
                     check(&memory, i, &one);
                     total(is_finite, fields(&one));
-                    if call == 0 {
-                        let mut once = EtendueLightSample::default();
-                        let u = [u[0][i], u[1][i]];
-                        etendue_sample_once(number, light.as_ptr().cast(), p.as_ptr(), with, u.as_ptr(), &mut once);
-                        assert!(
-                            fields(&one).into_iter().zip(fields(&once)).all(|(a, b)| same(a, b))
-                                && one.emits == once.emits
-                        );
-                    }
                 }
             }
             2 => {
@@ -361,7 +352,7 @@ pub(super) fn check(input: &mut Input<'_>, index: usize) {
                     prepare(light.as_ptr(), p.as_ptr(), own, sampler.as_mut_ptr());
                     let mut few = [0.0; 2];
                     match function {
-                        0 => etendue_sample_once(number, light.as_ptr().cast(), p.as_ptr(), own, u.as_ptr(), &mut one),
+                        0 => etendue_sample(number, sampler.as_ptr().cast(), u.as_ptr(), &mut one),
                         1 => etendue_hit(number, sampler.as_ptr().cast(), w.as_ptr(), &mut one),
                         2 => etendue_invert(number, sampler.as_ptr().cast(), w.as_ptr(), few.as_mut_ptr()),
                         _ => {

@@ -155,8 +155,11 @@ impl<R: Real> SphericalRectangle<R> {
         let inverse_mm = rsqrt(mm(y.near) * mm(y.far));
         let strip = Strip::new(x.far, &y, z, distances[1], inverse_mm);
         let straddles = x.near.lt(zero);
-        let near_strip =
-            if straddles.any() { Strip::new(-x.near, &y, z, distances[0], inverse_mm) } else { Strip::default() };
+        let mut near_strip = Strip::default();
+        if straddles.any() {
+            // a lane does not depend on its neighbours, whatever its random numbers are
+            near_strip = Strip::blend(straddles, Strip::new(-x.near, &y, z, distances[0], inverse_mm), near_strip);
+        }
         // Ω, and whether the rectangle can be sampled
         let solid_angle = window(distances, near, far, size, z);
         let some = solid_angle.gt(R::lit(1e-36)) & solid_angle.lt(R::lit(7.0)) & strip.sin.gt(zero);
