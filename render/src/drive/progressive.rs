@@ -57,7 +57,7 @@ pub struct Progress {
 }
 
 /// Samples per pixel of the first pass.
-const FIRST: u32 = 64;
+const FIRST: u32 = 16;
 /// A pass has at most this many times the samples of the largest so far, so that its time and error can be predicted.
 const GROWTH: u32 = 8;
 /// A pass of fewer samples than this fraction of the largest so far is not worth its time: it has less than 2 % of the weight.
@@ -101,11 +101,16 @@ impl Refinement {
     pub fn check(&self) -> Result<(), String> {
         self.counts().map(|_| ())
     }
-    /// The numbers of samples that a pass may have, in increasing order: powers of two.
+    /// The numbers of samples that a pass may have, in increasing order: powers of two, and of [`Sampler::Adaptive`], whose pixels differ in
+    /// their numbers anyway, eighths between them.
     fn counts(&self) -> Result<Vec<u32>, String> {
         let sets = self.settings.sets;
-        let all = (0..=MOST_SAMPLES.ilog2()).map(|bits| 1 << bits);
-        let is_valid = |&n: &u32| self.sampler_of(n).check(n, sets).is_ok();
+        let between = |power: u32| (8..16).map(move |eighths| power / 8 * eighths);
+        let powers = (0..=MOST_SAMPLES.ilog2()).map(|bits| 1 << bits);
+        let all = powers.flat_map(|power| std::iter::once(power).chain(between(power).skip(1))).filter(|n| *n > 0);
+        let all = all.filter(|n| *n <= MOST_SAMPLES);
+        let is_fit = |n: u32| n.is_power_of_two() || self.sampler_of(n) == Sampler::Adaptive;
+        let is_valid = |&n: &u32| is_fit(n) && self.sampler_of(n).check(n, sets).is_ok();
         let has_variance = |&n: &u32| reports_variance(self.sampler_of(n), n, sets);
         let valid: Vec<u32> = all.filter(is_valid).collect();
         let judging: Vec<u32> = valid.iter().copied().filter(has_variance).collect();

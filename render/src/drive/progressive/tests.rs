@@ -75,7 +75,8 @@ fn a_part_takes_passes_of_its_own() {
         let least = refined.full;
         let lasting = |seconds| refined.lasting(seconds, settings.whole());
         assert_eq!([1e-3, 1.0, 4.0, 1e9].map(lasting), [least, 16, 64, 128]);
-        assert_eq!(refined.lasting(1.0, [0, 0, 16, 16]), 64);
+        let fifth = if sampler == Sampler::Adaptive { 80 } else { 64 };
+        assert_eq!(refined.lasting(1.0, [0, 0, 16, 16]), fifth);
     }
 }
 
@@ -109,8 +110,8 @@ fn samplers_have_counts_with_a_variance() {
     let of = |sampler, sets| plan(sampler, sets, Some(0.1));
     assert_eq!(of(Sampler::Sobol, 0).unwrap()[..3], [2, 4, 8]);
     assert_eq!(of(Sampler::Sobol, 4).unwrap()[..2], [4, 8]);
-    assert_eq!(of(Sampler::Adaptive, 0).unwrap()[..2], [8, 16]);
-    assert_eq!(of(Sampler::Adaptive, 2).unwrap()[..2], [16, 32]);
+    assert_eq!(of(Sampler::Adaptive, 0).unwrap()[..10], [8, 9, 10, 11, 12, 13, 14, 15, 16, 18]);
+    assert_eq!(of(Sampler::Adaptive, 2).unwrap()[..3], [16, 18, 20]);
     assert_eq!(of(Sampler::Adaptive, 4).unwrap()[0], 32);
     assert!(of(Sampler::Sobol, 1).unwrap_err().contains("--sets"));
     assert_eq!(plan(Sampler::Sobol, 1, None).unwrap()[..2], [1, 2]);
