@@ -25,8 +25,6 @@ mod picture_irradiance;
 mod rough;
 #[cfg(feature = "analytic")]
 mod trial;
-#[cfg(feature = "analytic")]
-mod visible;
 
 #[cfg(feature = "analytic")]
 pub use bodies::Bodies;
@@ -37,3 +35,5 @@ pub use certifier::{Certifier, patch};
 #[cfg(feature = "analytic")]
 pub(crate) use knowledge::Knowledge;
 pub(crate) use ledger::{Know, Ledger, Outlook};
+#[cfg(feature = "analytic")]
+pub use picture_irradiance::PictureIrradiance;

@@ -4,6 +4,7 @@
 mod analytic;
 mod approximations;
 mod attack;
+mod bodies;
 mod certificates;
 mod choice;
 mod damaged;
@@ -26,6 +27,7 @@ mod openings;
 mod panels;
 mod parts;
 mod pbrt;
+mod picture_irradiance;
 mod portals;
 mod profiles;
 mod random;

@@ -18,57 +18,19 @@ impl Solid {
             || shaft.on_plane.as_ref().is_some_and(above)
             || shaft.on_ball.as_ref().is_some_and(apart)
     }
-    /// Whether all points of a hull are inside of the ball, by more than rounding.
-    fn contains(center: V64, radius: f64, hull: &Hull, epsilon: f64) -> bool {
-        let farthest = hull.corners().iter().map(|&p| (p - center).length()).fold(0.0, f64::max);
-        farthest + hull.radius < radius * (1.0 - 1e-9) - epsilon
-    }
-    /// Is the shape known not to meet any segment of the shaft? `is_whole` unless only something within it is meant.
-    pub(crate) fn misses(&self, shaft: &Shaft, is_whole: bool) -> bool {
+    /// Is the shape known not to meet any segment of the shaft?
+    pub(crate) fn misses(&self, shaft: &Shaft) -> bool {
         match self {
-            Self::Sphere { center, radius } => {
-                // no segment that begins and ends inside meets the surface
-                let inside = |hull: &Hull| Self::contains(*center, *radius, hull, shaft.epsilon);
-                shaft.misses(&[*center], *radius) || is_whole && inside(&shaft.patch) && inside(&shaft.light)
-            }
+            Self::Sphere { center, radius } => shaft.misses(&[*center], *radius),
             Self::Polyhedron(body) => shaft.misses(&body.corners, 0.0),
-            _ => {
-                let Some((corners, count)) = self.outline() else { return false };
-                let corners = &corners[..count];
-                shaft.misses(corners, 0.0) || is_on_one_side(corners, shaft)
-            }
+            _ => self.outline().is_some_and(|(corners, count)| shaft.misses(&corners[..count], 0.0)),
         }
-    }
-    /// Is it between the centres of patch and light?
-    pub(crate) fn is_central(&self, shaft: &Shaft) -> bool {
-        let Some((corners, count)) = self.outline() else { return true };
-        let (p, y) = (shaft.patch.center, shaft.light.center);
-        let volume = |i: usize| (corners[i] - p).cross(corners[(i + 1) % count] - p).dot(y - p);
-        let is_right = (0..count).all(|i| volume(i) >= 0.0);
-        (is_right || (0..count).all(|i| volume(i) <= 0.0)) && is_between(&corners[..count], shaft)
     }
     /// Is every segment of the shaft known to meet it?
     pub(crate) fn covers(&self, shaft: &Shaft) -> bool {
         match self {
             Self::Polyhedron(body) => body.covers(shaft),
-            Self::Sphere { center, radius } => {
-                let (center, radius) = (*center, *radius);
-                // A segment that ends in the ball might not meet its surface.
-                let apart = |hull: &Hull| (hull.center - center).length() > hull.extent + radius + shaft.epsilon;
-                if Self::contains(center, radius, &shaft.patch, shaft.epsilon) {
-                    // A segment from inside leaves the ball, and ends outside of it by more than rounding.
-                    return (shaft.light.center - center).length()
-                        > shaft.light.extent + radius + 2.0 * shaft.ends + shaft.epsilon;
-                }
-                let axis = unit(shaft.light.center - shaft.patch.center);
-                let helper = if axis.x.abs() < 0.6 { V64::new(1.0, 0.0, 0.0) } else { V64::new(0.0, 1.0, 0.0) };
-                let s = unit(axis.cross(helper)) * (radius * (1.0 - 1e-9));
-                let t = axis.cross(s);
-                let half = (s + t) * core::f64::consts::FRAC_1_SQRT_2;
-                let other = (t + -s) * core::f64::consts::FRAC_1_SQRT_2;
-                let octagon = [s, half, t, other, -s, -half, -t, -other].map(|v| center + v);
-                apart(&shaft.patch) && apart(&shaft.light) && is_between(&octagon, shaft) && is_inside(&octagon, shaft)
-            }
+            Self::Sphere { .. } => false,
             // A line that passes inside of the outer edges of two triangles meets one of them, and a segment from one side of the slab to
             // the other meets whatever its line meets inside the slab. The triangles need not have the same plane.
             _ => self.outline().is_some_and(|(corners, count)| {
@@ -113,19 +75,6 @@ impl Polyhedron {
         };
         shaft.patch.corners().iter().all(|&p| shaft.light.corners().iter().all(|&y| meets(p, y)))
     }
-}
-
-/// Are patch and light on the same side of the plane of a polygon?
-fn is_on_one_side(corners: &[V64], shaft: &Shaft) -> bool {
-    let normal = unit((corners[1] - corners[0]).cross(corners[2] - corners[0]));
-    let [mut least, mut most] = [f64::INFINITY, f64::NEG_INFINITY];
-    for &p in corners {
-        (least, most) = (least.min(normal.dot(p)), most.max(normal.dot(p)));
-    }
-    let margin = 2.0 * shaft.epsilon;
-    let above = |hull: &Hull| hull.range(normal)[0] - hull.radius > most + margin;
-    let below = |hull: &Hull| hull.range(normal)[1] + hull.radius < least - margin;
-    above(&shaft.patch) && above(&shaft.light) || below(&shaft.patch) && below(&shaft.light)
 }
 
 /// Is a slab that contains the polygon between patch and light, and no part of it level with the end of a segment?

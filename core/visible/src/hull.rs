@@ -18,6 +18,15 @@ pub(crate) fn unit(v: V64) -> V64 {
     v * (1.0 / v.length())
 }
 
+/// A corner of a box by its index, whose bits choose the high side of each axis.
+pub(crate) fn corner_of_box([low, high]: [V64; 2], k: usize) -> V64 {
+    let of = |bit: usize, low: f64, high: f64| if k >> bit & 1 == 0 { low } else { high };
+    V64::new(of(0, low.x, high.x), of(1, low.y, high.y), of(2, low.z, high.z))
+}
+/// The corners of each face of a box, in order around.
+pub(crate) const FACES_OF_BOX: [[usize; 4]; 6] =
+    [[0, 1, 3, 2], [4, 5, 7, 6], [0, 1, 5, 4], [2, 3, 7, 6], [0, 2, 6, 4], [1, 3, 7, 5]];
+
 /// All points within `radius` of the convex hull of some points.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Hull {

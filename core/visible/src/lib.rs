@@ -32,10 +32,11 @@
 //!
 //! # What is never proved
 //! - Anything of a light that is no polygon, parallelogram or sphere; of one whose radiance varies, the proof holds, the irradiance does not.
-//! - That a light is covered by several solids together, unless they are two triangles of a quadrilateral or the faces of one polyhedron.
-//!   Then the proof is [`Behind`](Proof::Behind), and the irradiance 0 up to its error.
+//! - That a light is covered by a sphere, or by several solids together, unless they are two triangles of a quadrilateral or the faces of one
+//!   polyhedron. Then the proof is [`Behind`](Proof::Behind), and the irradiance 0 up to its error.
 //! - [`Lit`](Proof::Lit) and [`Behind`](Proof::Behind) where something that the host calls [`Within`](Occluder::Within) may be in the way,
-//!   or more than [`MOST`] solids; and anything of a patch that straddles the plane of a light, or touches a sphere light.
+//!   or more than [`MOST`] solids; and anything of a patch that straddles the plane of a light, touches a sphere light, or is
+//!   inside a sphere.
 //! - That more than the patch is lit: points that are further from it than it says are not covered.
 //!
 //! # What it costs, and when it is not worth asking

@@ -1,6 +1,6 @@
 //! Parts of surfaces, as bounds of the shading points of rays through a rectangle of pixels.
 
-use crate::hull::{CORNERS, Hull, V64, magnitude, unit};
+use crate::hull::{CORNERS, FACES_OF_BOX, Hull, V64, corner_of_box, magnitude, unit};
 
 /// How a host computes shading points: it moves them along the normal by [`relative`](Self::relative) of Σ|nₖ pₖ| and by
 /// [`least`](Self::least), and rounds them by no more than half of the first.
@@ -206,11 +206,8 @@ impl Patch {
         if !(radius > 0.0 && radius.is_finite()) {
             return None;
         }
-        let corner = |k: usize| {
-            let side = |bit: usize| if k >> bit & 1 == 0 { -radius } else { radius };
-            center + V64::new(side(0), side(1), side(2))
-        };
-        let mut corners: [V64; 8] = core::array::from_fn(corner);
+        let wide = V64::new(radius, radius, radius);
+        let mut corners: [V64; 8] = core::array::from_fn(|k| corner_of_box([center - wide, center + wide], k));
         match viewer {
             Viewer::Front => {}
             Viewer::Back => return None,
@@ -222,19 +219,13 @@ impl Patch {
                     return None;
                 }
                 // the corners of the clipped box are on its faces, apart from the pinhole
-                let mut bounds = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
+                let all = V64::new(f64::INFINITY, f64::INFINITY, f64::INFINITY);
+                let [mut low, mut high] = [all, -all];
                 let mut add = |p: V64| {
-                    for (k, x) in [p.x, p.y, p.z].into_iter().enumerate() {
-                        bounds = core::array::from_fn(|side| {
-                            core::array::from_fn(|axis| match (axis == k, side) {
-                                (true, 0) => bounds[0][axis].min(x),
-                                (true, _) => bounds[1][axis].max(x),
-                                _ => bounds[side][axis],
-                            })
-                        });
-                    }
+                    low = V64::new(low.x.min(p.x), low.y.min(p.y), low.z.min(p.z));
+                    high = V64::new(high.x.max(p.x), high.y.max(p.y), high.z.max(p.z));
                 };
-                for face in [[0, 1, 3, 2], [4, 5, 7, 6], [0, 1, 5, 4], [2, 3, 7, 6], [0, 2, 6, 4], [1, 3, 7, 5]] {
+                for face in FACES_OF_BOX {
                     let polygon = Clipped::new(&face.map(|k| corners[k])).within(pyramid, 16.0 * error)?;
                     polygon.points().iter().for_each(|&p| add(p));
                 }
@@ -242,11 +233,10 @@ impl Patch {
                 if magnitude(&[relative]) <= radius * (1.0 + 1e-9) + 32.0 * error {
                     corners.iter().for_each(|&p| add(p));
                 }
-                if bounds[0][0] > bounds[1][0] {
+                if low.x > high.x {
                     return None;
                 }
-                corners =
-                    core::array::from_fn(|k| V64::new(bounds[k & 1][0], bounds[k >> 1 & 1][1], bounds[k >> 2 & 1][2]));
+                corners = core::array::from_fn(|k| corner_of_box([low, high], k));
             }
         }
         let off = lift.off(magnitude(&corners));

@@ -13,10 +13,9 @@ pub const ALLOWED: f64 = 1e-5;
 pub(crate) const FAINT: f64 = 1e-2;
 /// Greatest errors of closed forms in one precision, in steradians where they are not fractions.
 struct Errors {
-    /// For a flat light, once or for each occluder: a fraction of the angle around the light, in radians.
+    /// For a flat light, and for a sphere behind flat occluders, once or for each occluder: a fraction of the angle around the light, in
+    /// radians.
     flat: f64,
-    /// The same for a sphere behind flat occluders.
-    ball: f64,
     /// For a compact flat light, once and for each occluder: a fraction of the square of half of its perimeter over its distance.
     compact: f64,
     /// What each occluder adds to that: a fraction of its perimeter over its distance, times the cosine of its highest direction with the
@@ -30,9 +29,9 @@ struct Errors {
 }
 /// More than the greatest errors that `cargo test -p etendue-render-tests certificates::values -- --nocapture` prints, and for compact lights
 /// `cargo test -p etendue-render-tests occlusion::compact -- --nocapture`.
-const SINGLE: Errors = Errors { flat: 1.2e-7, ball: 1.2e-7, compact: 1e-7, outline: 2e-9, sphere: 4e-7, whole: 1e-7 };
+const SINGLE: Errors = Errors { flat: 1.2e-7, compact: 1e-7, outline: 2e-9, sphere: 4e-7, whole: 1e-7 };
 /// Twice the greatest errors or more.
-const DOUBLE: Errors = Errors { flat: 1e-15, ball: 1e-15, compact: 1e-15, outline: 1e-15, sphere: 1e-15, whole: 1e-15 };
+const DOUBLE: Errors = Errors { flat: 1e-15, compact: 1e-15, outline: 1e-15, sphere: 1e-15, whole: 1e-15 };
 
 /// How a light that is known is computed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -104,7 +103,7 @@ impl Unhidden {
             let outlines = errors.outline * around * self.cosine * (count + behind.stretch);
             errors.compact * around * around / 4.0 * (1.0 + count) + outlines
         } else {
-            (if is_ball { errors.ball } else { errors.flat }) * around * (count.max(1.0) * stretch + behind.stretch)
+            errors.flat * around * (count.max(1.0) * stretch + behind.stretch)
         };
         rounding + behind.displacement * around * self.cosine + errors.sphere * behind.spheres as f64
     }

@@ -47,8 +47,8 @@ impl Occluder<'_> {
 pub enum Proof<'a> {
     /// Nothing lies between any point of the patch and any point of the light above its horizon.
     Lit,
-    /// No point of the light is visible from any point of the patch: something convex covers it, or it lies below the horizon, or its back
-    /// faces the patch.
+    /// No point of the light is visible from any point of the patch: a flat shape or a polyhedron covers it, or it lies below the horizon, or
+    /// its back faces the patch.
     Dark,
     /// Only these can hide the light, at least 1 and at most [`MOST`]; polyhedra first.
     Behind(&'a [Solid]),
@@ -119,15 +119,8 @@ impl Prover {
     /// For a scene whose coordinates have magnitudes up to `reach`, in scene units.
     #[must_use]
     pub fn new(reach: f64) -> Self {
-        Self {
-            reach,
-            shaft: Shaft::default(),
-            candidates: Vec::with_capacity(CANDIDATES),
-            met: Vec::with_capacity(MOST),
-            solids: Vec::with_capacity(MOST),
-            eight: Box::default(),
-            one: Box::default(),
-        }
+        let (candidates, met, solids) = (Vec::new(), Vec::new(), Vec::new());
+        Self { reach, shaft: Shaft::default(), candidates, met, solids, eight: Box::default(), one: Box::default() }
     }
 
     /// What is known about a light as seen from a patch.
@@ -165,7 +158,7 @@ impl Prover {
         let mut has_gaps = false;
         let complete = search(shaft.region(), &mut |occluder| {
             let (Occluder::Whole(solid) | Occluder::Face(solid, _) | Occluder::Within(solid)) = &occluder;
-            if solid.misses(shaft, occluder.is_exact()) {
+            if solid.misses(shaft) {
                 return true;
             }
             let mut serves = |solid: &Solid| {
@@ -205,14 +198,12 @@ impl Prover {
         if met.iter().any(|met| met.0.covers(shaft)) {
             return known(Proof::Dark);
         }
-        if !complete {
-            return known(if any_covers(candidates, shaft) { Proof::Dark } else { Proof::Open });
-        }
         merge(candidates);
         if candidates.iter().any(|candidate| candidate.covers(shaft)) {
             return known(Proof::Dark);
         }
-        if candidates.len() + met.len() > MOST || !candidates.iter().all(|candidate| candidate.is_outside(shaft)) {
+        let are_few = complete && candidates.len() + met.len() <= MOST;
+        if !are_few || !candidates.iter().all(|candidate| candidate.is_outside(shaft)) {
             return known(Proof::Open);
         }
         solids.clear();
@@ -237,14 +228,6 @@ fn behind(solids: &[Solid], patch: &Patch) -> Behind {
         stretch: sum(&|solid| solid.stretch(&patch.hull) - 1.0),
         flush: solids.iter().any(|solid| solid.is_flush(&patch.hull)),
     }
-}
-
-/// Does a candidate cover the light, alone or merged with another? Only those between the centres need to be tried.
-fn any_covers(candidates: &[Solid], shaft: &Shaft) -> bool {
-    candidates.iter().filter(|candidate| candidate.is_central(shaft)).any(|candidate| {
-        let merged = || candidates.iter().filter_map(|other| candidate.merged(other));
-        candidate.covers(shaft) || merged().any(|merged| merged.covers(shaft))
-    })
 }
 
 /// Merges pairs of triangles.

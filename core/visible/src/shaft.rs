@@ -48,7 +48,7 @@ pub(crate) enum Facing {
 }
 
 /// All segments from a patch to a light, but for their ends.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(crate) struct Shaft {
     pub(crate) patch: Hull,
     /// Includes the rounding of points on it.
@@ -215,21 +215,5 @@ impl Shaft {
     /// Is a hull of points, inflated by `radius`, known not to meet the shaft?
     pub(crate) fn misses(&self, points: &[V64], radius: f64) -> bool {
         self.planes.iter().any(|&(n, limit)| points.iter().all(|&p| n.dot(p) - radius > limit))
-    }
-}
-
-impl Default for Shaft {
-    fn default() -> Self {
-        let nothing = Hull::default();
-        Self {
-            patch: nothing,
-            light: nothing,
-            epsilon: 0.0,
-            ends: 0.0,
-            planes: Vec::with_capacity(40),
-            on_plane: None,
-            on_ball: None,
-            end: None,
-        }
     }
 }

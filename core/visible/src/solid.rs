@@ -1,6 +1,6 @@
 //! Convex shapes: lights, and what may hide them.
 
-use crate::hull::{Hull, V64, edges, magnitude, unit};
+use crate::hull::{FACES_OF_BOX, Hull, V64, corner_of_box, edges, magnitude, unit};
 use crate::polyhedron::{Edge, Polyhedron};
 use alloc::sync::Arc;
 
@@ -61,13 +61,9 @@ impl Solid {
     /// A rectangular box between two corners whose sides are parallel to the axes; `None` if it has no volume.
     #[must_use]
     pub fn block(low: V64, high: V64) -> Option<Self> {
-        let corner = |k: usize| {
-            let of = |bit: usize, low: f64, high: f64| if k >> bit & 1 == 0 { low } else { high };
-            V64::new(of(0, low.x, high.x), of(1, low.y, high.y), of(2, low.z, high.z))
-        };
-        let faces = [[0, 1, 3, 2], [4, 5, 7, 6], [0, 1, 5, 4], [2, 3, 7, 6], [0, 2, 6, 4], [1, 3, 7, 5]];
+        let corner = |k: usize| corner_of_box([low, high], k);
         let mut triangles = [[V64::default(); 3]; 12];
-        for (pair, [a, b, c, d]) in triangles.chunks_exact_mut(2).zip(faces) {
+        for (pair, [a, b, c, d]) in triangles.chunks_exact_mut(2).zip(FACES_OF_BOX) {
             pair.copy_from_slice(&[[a, b, c].map(corner), [a, c, d].map(corner)]);
         }
         Self::polyhedron(&triangles)

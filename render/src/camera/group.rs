@@ -44,11 +44,11 @@ impl Group<'_> {
     }
     /// The BSDFs of a packet.
     #[inline(always)]
-    pub(crate) fn bsdf<const GENERAL: bool>(&self, packet: usize) -> Bsdf<GENERAL> {
+    pub(crate) fn bsdf<const GENERAL: bool>(&self, packet: usize) -> Bsdf<'_, GENERAL> {
         let Surface { normal, albedo, .. } = self.points.surfaces[packet];
         if GENERAL {
             let end = &self.points.ends[packet];
-            Bsdf::new([normal, end.flat], albedo, end.direction, end.metal, self.numbers.light[packet])
+            Bsdf::new([normal, end.flat], albedo, end.direction, end.metal.as_ref(), self.numbers.light[packet])
         } else {
             Bsdf::new([normal; 2], albedo, V8::default(), None, Vec2::default())
         }

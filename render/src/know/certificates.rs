@@ -58,10 +58,8 @@ pub(super) enum Known {
     Dark,
     /// Only these of the [`solids`](Certificates::solids) can occlude it.
     Behind(Range<usize>, Precision),
-    /// It is sampled, although its occluders are known.
-    Crowded,
     /// It is sampled, unless a smaller patch decides.
-    Nothing,
+    Open,
     /// It is sampled: smaller patches are not worth asking for.
     Never,
 }
@@ -69,7 +67,7 @@ pub(super) enum Known {
 impl Known {
     /// Whether the light must be sampled.
     pub(super) const fn is_open(&self) -> bool {
-        matches!(self, Self::Crowded | Self::Nothing | Self::Never)
+        matches!(self, Self::Open | Self::Never)
     }
 }
 
@@ -266,7 +264,7 @@ impl<'a> Certificates<'a> {
         let Self { lights, certifier, known, solids, .. } = self;
         let first = known.len();
         for light in 0..lights.len() {
-            let before = larger.map_or(Known::Nothing, |larger| known[larger + light].clone());
+            let before = larger.map_or(Known::Open, |larger| known[larger + light].clone());
             let (proof, precision) = match patch {
                 Some(patch) if !matches!(before, Known::Lit(_) | Known::Dark | Known::Never) => {
                     certifier.certify(primitive, patch, light)
@@ -282,9 +280,9 @@ impl<'a> Certificates<'a> {
                 Proof::Open => before,
                 // a smaller patch is not darker
                 Proof::Lit if is_open => Known::Never,
-                _ if is_open || precision == Precision::Neither => Known::Crowded,
+                _ if is_open || precision == Precision::Neither => Known::Open,
                 Proof::Lit => Known::Lit(precision),
-                Proof::Behind(found) if !is_clipped(&lights[light].form, found) => Known::Crowded,
+                Proof::Behind(found) if !is_clipped(&lights[light].form, found) => Known::Open,
                 Proof::Behind(found) => {
                     let first = solids.len();
                     solids.extend_from_slice(found);

@@ -1,10 +1,10 @@
 //! Direct light of a group of packets without rays: the closed forms of the lights that certificates know.
 
 use super::certificates::{Closed, Known};
+use super::closed_forms::Ask;
 use super::knowledge::Knowledge;
 use super::ledger::{Ledger, Proven};
 use super::picture_irradiance::PictureIrradiance;
-use super::visible::Ask;
 use crate::bvh::GROUP;
 use crate::camera::Group;
 use crate::packet::{M8, V8, X8, first_lane, product, select};
@@ -26,9 +26,8 @@ struct GroupCertificates {
 struct GroupSees {
     /// Lanes in which the light must be sampled.
     remaining: [M8; GROUP],
-    /// Lanes that see all of it, by a closed form in single or in double precision.
-    lit: [M8; GROUP],
-    lit_exactly: [M8; GROUP],
+    /// Lanes that see all of it, by a closed form in single and in double precision.
+    lit: [[M8; 2]; GROUP],
     /// Lanes that see the light past occluders, and what they see of it.
     behind: [M8; GROUP],
     part: [X8; GROUP],
@@ -125,13 +124,7 @@ impl Knowledge<'_> {
                 remaining = remaining | more;
                 ledger.fractions[light][p] = counted;
             } else {
-                let mut part = seen.part[p] + seen.all[p].keep(seen.lit[p]);
-                if seen.lit_exactly[p].any() {
-                    let all =
-                        self.forms.part([surface.point, surface.normal], None, &of.form, (&[], Precision::Double));
-                    part += all.unwrap_or_default().keep(seen.lit_exactly[p]);
-                }
-                sums[p] += V8::from(of.radiance) * part;
+                sums[p] += V8::from(of.radiance) * (seen.part[p] + seen.all[p]);
             }
             ledger.open[light][p] = remaining;
             remains |= remaining.any();
@@ -141,47 +134,46 @@ impl Knowledge<'_> {
 
     /// What a group sees of a light.
     fn see(&mut self, light: usize, group: &Group<'_>, found: &GroupCertificates) -> GroupSees {
-        let (none, zero) = ([M8::splat(false); GROUP], [X8::lit(0.0); GROUP]);
-        let mut seen =
-            GroupSees { remaining: found.sampled, lit: none, lit_exactly: none, behind: none, part: zero, all: zero };
+        let (none, zero) = (M8::splat(false), [X8::lit(0.0); GROUP]);
+        let (lit, behind) = ([[none; 2]; GROUP], [none; GROUP]);
+        let mut seen = GroupSees { remaining: found.sampled, lit, behind, part: zero, all: zero };
         let (certificates, forms) = (&self.certificates, &mut self.forms);
         let (solids, of) = (&certificates.solids[..], &certificates.lights[light]);
         for (p, surface) in group.reflecting() {
-            for (first, lanes) in &found.parts[p][..found.counts[p]] {
+            for &(first, lanes) in &found.parts[p][..found.counts[p]] {
                 match &certificates.known[first + light] {
-                    Known::Lit(Precision::Double) => seen.lit_exactly[p] = seen.lit_exactly[p] | *lanes,
-                    Known::Lit(_) => seen.lit[p] = seen.lit[p] | *lanes,
+                    Known::Lit(precision) => {
+                        let lit = &mut seen.lit[p][usize::from(*precision == Precision::Double)];
+                        *lit = *lit | lanes;
+                    }
                     Known::Dark => {}
-                    Known::Crowded | Known::Nothing | Known::Never => seen.remaining[p] = seen.remaining[p] | *lanes,
+                    Known::Open | Known::Never => seen.remaining[p] = seen.remaining[p] | lanes,
                     Known::Behind(behind, precision) => {
                         // the other lanes repeat one of these: what is not seen from here does not matter
-                        let lane = first_lane(*lanes);
-                        let repeat = |v: V8| V8::blend(*lanes, v, V8::splat(v.lane(lane)));
-                        let (point, normal) = (repeat(surface.point), repeat(surface.normal));
-                        let ask = Ask { packet: p, lanes: *lanes, point, normal, behind: behind.clone() };
-                        if *precision == Precision::Double {
-                            let part =
-                                forms.part([point, normal], None, &of.form, (&solids[behind.clone()], *precision));
-                            seen.take(&ask, part);
-                        } else {
-                            forms.visible.add(ask, &of.form, solids, |ask, part| seen.take(ask, part));
-                        }
+                        let lane = first_lane(lanes);
+                        let at =
+                            [surface.point, surface.normal].map(|v: V8| V8::blend(lanes, v, V8::splat(v.lane(lane))));
+                        let ask = Ask { packet: p, lanes, at, behind: behind.clone(), precision: *precision };
+                        forms.add(ask, &of.form, solids, |ask, part| seen.take(ask, part));
                     }
                 }
             }
         }
-        forms.visible.finish(&of.form, solids, |ask, part| seen.take(ask, part));
+        forms.finish(&of.form, solids, |ask, part| seen.take(ask, part));
+        let mut whole = seen.all;
+        let mut take = |ask: &Ask, all: Option<X8>| whole[ask.packet] += all.unwrap_or_default().keep(ask.lanes);
         for (p, surface) in group.reflecting() {
-            let lanes = if matches!(of.closed, Closed::Picture(_)) { seen.behind[p] } else { seen.lit[p] };
-            if lanes.any() {
-                let Surface { point, normal, .. } = *surface;
-                let ask = Ask { packet: p, lanes, point, normal, behind: 0..0 };
-                let all = &mut seen.all;
-                forms.visible.add(ask, &of.form, solids, |ask, found| all[ask.packet] = found.unwrap_or_default());
+            // how much of a picture is hidden is told by a constant light in its place
+            let asked = if matches!(of.closed, Closed::Picture(_)) { [seen.behind[p], none] } else { seen.lit[p] };
+            for (lanes, precision) in asked.into_iter().zip([Precision::Single, Precision::Double]) {
+                if lanes.any() {
+                    let ask = Ask { packet: p, lanes, at: [surface.point, surface.normal], behind: 0..0, precision };
+                    forms.add(ask, &of.form, solids, &mut take);
+                }
             }
         }
-        let all = &mut seen.all;
-        forms.visible.finish(&of.form, solids, |ask, found| all[ask.packet] = found.unwrap_or_default());
+        forms.finish(&of.form, solids, take);
+        seen.all = whole;
         seen
     }
 }
@@ -205,7 +197,7 @@ impl GroupSees {
         let zero = X8::lit(0.0);
         let behind = self.behind[p];
         // single precision always suffices, since nothing cancels
-        let lit = self.lit[p] | self.lit_exactly[p];
+        let lit = self.lit[p][0] | self.lit[p][1];
         // behind occluders, what is visible of a light of constant radiance is the best guess
         let (mut share, mut is_part) = (select(lit, X8::lit(1.0), zero), M8::splat(false));
         if behind.any() {

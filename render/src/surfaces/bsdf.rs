@@ -23,19 +23,20 @@ const INV_PI: f64 = std::f64::consts::FRAC_1_PI;
 /// Where the normal is that of a smooth surface, light from below the flat surface counts for nothing, nor does light from below the
 /// smooth one: so no light leaks through (PBR 4th ed., 9.1.1 and 10.1.1).
 #[derive(Clone, Copy)]
-pub struct Bsdf<const GENERAL: bool> {
+pub struct Bsdf<'a, const GENERAL: bool> {
     normal: V8,
     /// Normal of the flat surface.
     flat: V8,
     albedo: V8,
-    rough: Option<Rough>,
+    rough: Option<Rough<'a>>,
 }
 
 /// Rough metals and coats in some of the lanes.
 #[derive(Clone, Copy)]
-struct Rough {
+struct Rough<'a> {
     lanes: M8,
-    metal: Metal,
+    /// Not a copy: it is large.
+    metal: &'a Metal,
     frame: Frame<X8>,
     /// Outgoing directions in the frame.
     view: V8,
@@ -73,7 +74,7 @@ pub struct Scattered {
     pub pdf: X8,
 }
 
-impl<const GENERAL: bool> Bsdf<GENERAL> {
+impl<'a, const GENERAL: bool> Bsdf<'a, GENERAL> {
     /// The BSDFs of surfaces with these normals, that of a smooth surface and that of the flat one, and albedo for camera rays along
     /// `direction`. What is estimated, by `numbers` of the sample, is right in the mean: coated metals.
     #[inline(always)]
@@ -81,10 +82,11 @@ impl<const GENERAL: bool> Bsdf<GENERAL> {
         [normal, flat]: [V8; 2],
         mut albedo: V8,
         direction: V8,
-        metal: Option<Metal>,
+        metal: Option<&'a Metal>,
         numbers: Vec2<X8>,
     ) -> Self {
-        let rough = metal.filter(|metal| GENERAL && metal.rough().any()).map(|metal| {
+        // not by a closure, whose result would be copied
+        let rough = if let Some(metal) = metal.filter(|metal| GENERAL && metal.rough().any()) {
             let frame = metal.grain.map_or_else(|| Frame::new(normal), |grain| about(normal, grain));
             let view = frame.to_local(-direction);
             let lanes = metal.coats();
@@ -92,9 +94,11 @@ impl<const GENERAL: bool> Bsdf<GENERAL> {
                 albedo = albedo * select(metal.is(LAYERED), metal.through(terms, view.z), X8::lit(1.0));
             }
             let coats = lanes.any().then(|| Coats { lanes, share: coat_share(metal.of_coat(view.z), albedo) });
-            let coated = metal.walks().any().then(|| Coated::new(&metal, view, numbers));
-            Rough { lanes: metal.rough(), metal, frame, view, coats, coated }
-        });
+            let coated = metal.walks().any().then(|| Coated::new(metal, view, numbers));
+            Some(Rough { lanes: metal.rough(), metal, frame, view, coats, coated })
+        } else {
+            None
+        };
         Self { normal, flat, albedo, rough }
     }
     /// Evaluates the BSDF for the unit vector `w`; 0 below the horizon, where diffuse lanes of a scene without metals have a negative

@@ -8,7 +8,7 @@ use etendue::{Real, Vec3};
 ///
 /// The edges are those of the shape, not differences of rounded corners: the plane through a point and an edge is then as accurate as the
 /// direction to it, however short the edge is.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Flat<R> {
     pub(super) corners: [Vec3<R>; 4],
     /// The corners from a point in the middle.
@@ -23,14 +23,6 @@ pub(super) struct Flat<R> {
     /// Unit normal of the plane, and n·x on it.
     pub(super) normal: Vec3<R>,
     pub(super) height: R,
-}
-
-impl<R: Real> Default for Flat<R> {
-    fn default() -> Self {
-        let (none, zero) = ([Vec3::default(); 4], R::lit(0.0));
-        let [middle, normal] = [Vec3::default(); 2];
-        Self { corners: none, offsets: none, middle, edges: none, count: 0, scale: zero, normal, height: zero }
-    }
 }
 
 impl<R: Real> Flat<R> {

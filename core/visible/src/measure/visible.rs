@@ -14,7 +14,7 @@ use etendue::{Mask, Real, Vec3};
 pub const ENDS: f64 = 1.0 / 2_097_152.0;
 
 /// Computes visible parts, and holds the memory for it.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Occlusion<R: Real> {
     /// The flat shape that is being prepared.
     flat: Flat<R>,
@@ -35,12 +35,6 @@ pub struct Occlusion<R: Real> {
     terms: u32,
 }
 
-impl<R: Real> Default for Occlusion<R> {
-    fn default() -> Self {
-        Self::new()
-    }
-}
-
 /// A part of the light: the sphere that bounds it, if one does, and its Ω⊥.
 type Part<R> = (Option<Cap<R>>, R);
 
@@ -59,18 +53,7 @@ impl<R: Real> Occlusion<R> {
     /// Empty memory.
     #[must_use]
     pub fn new() -> Self {
-        Self {
-            flat: Flat::default(),
-            planes: [Planes::default(); OCCLUDERS],
-            stack: [Outline::default(); DEPTH + 1],
-            spare: Outline::default(),
-            normal: Vec3::default(),
-            lobe: None,
-            light: None,
-            base: None,
-            front: (Vec3::default(), R::lit(0.0)),
-            terms: 0,
-        }
+        Self::default()
     }
 
     /// The projected solid angle Ω⊥ in [0, π] of the part of the light that the occluders leave visible at each point, on a surface with the

@@ -53,7 +53,7 @@ fn rough_metal_integrates() {
             let cos = (1.0 - sin * sin).sqrt();
             let normal = V8::new(X8::lit(0.0), X8::lit(0.0), X8::lit(1.0));
             let toward = V8::from([-sin, 0.0, -cos]);
-            let bsdf = Bsdf::<true>::new([normal; 2], V8::default(), toward, Some(metal), Vec2::default());
+            let bsdf = Bsdf::<true>::new([normal; 2], V8::default(), toward, Some(&metal), Vec2::default());
             let n = 1024_u16;
             let (mut sampled, mut weight, mut grid, mut density) = (0.0, 0.0, 0.0, 0.0);
             for i in 0..n {
@@ -103,7 +103,7 @@ fn coats_integrate() {
             let normal = V8::new(X8::lit(0.0), X8::lit(0.0), X8::lit(1.0));
             let flat = V8::from([0.0, -tilt, (1.0 - tilt * tilt).sqrt()]);
             let toward = V8::from([-sin, 0.0, -(1.0 - sin * sin).sqrt()]);
-            let bsdf = Bsdf::<true>::new([normal, flat], V8::from([albedo; 3]), toward, Some(metal), Vec2::default());
+            let bsdf = Bsdf::<true>::new([normal, flat], V8::from([albedo; 3]), toward, Some(&metal), Vec2::default());
             let n = 1024_u16;
             let (mut sampled, mut above, mut grid, mut density) = (0.0, 0.0, 0.0, 0.0);
             for (i, j) in (0..n).flat_map(|i| (0..n).step_by(8).map(move |j| (i, j))) {
@@ -157,7 +157,7 @@ fn coated_metals_integrate() {
                     X8::splat((f32::from(i) + 0.5) / f32::from(n)),
                     X8::from_fn(|lane| (f32::from(j) + lane as f32 + 0.5) / f32::from(n)),
                 );
-                let bsdf = Bsdf::<true>::new([normal; 2], V8::from([1.0; 3]), toward, Some(metal), u);
+                let bsdf = Bsdf::<true>::new([normal; 2], V8::from([1.0; 3]), toward, Some(&metal), u);
                 let Scattered { color, pdf, .. } = bsdf.sample(Technique::Brdf, u);
                 let uniform: V8 = UniformHemisphere.sample(u);
                 let at = bsdf.evaluate(uniform);
