@@ -5,8 +5,9 @@ below 0.3 %. Python reads the scenes for Mitsuba by `pbrt_scenes.py`, which shar
     python3 benches/peers/corpus_beside_mitsuba.py target/release/etendue FOLDER... [--only killeroo]
 
 prints, for each scene below the folders that has area or punctual lights, the mean of both images, the ratio of the means with its standard error,
-that without the pixels that show lamps, and the share of pixels more than 4 standard errors and 1 % of the mean apart (by chance alone, 0.04 %). Materials that both cannot share are replaced in
-both by what the last column says. The rest is listed with the reason. The files are those that people have published: fetch them yourself.
+first where no lamp is seen, and the share of pixels that are more than 4 standard errors and 1 % of the mean apart (by chance, 0.04 %). What both
+cannot share is replaced in both, as the last column says, or the scene is listed with the reason below the table. The files are those that people
+have published, such as github.com/w3ntao/pbrt-minus-scenes: fetch them yourself, and do not commit them.
 """
 import argparse
 import os
@@ -22,6 +23,7 @@ arguments.add_argument('--side', type=int, default=96, help='pixels of the longe
 arguments.add_argument('--spp', type=int, default=64, help='samples per pixel of each of 16 images of ours')
 arguments.add_argument('--peer', type=int, default=256, help='samples per pixel of each of 16 images of Mitsuba')
 arguments.add_argument('--technique', default='auto')
+arguments.add_argument('--uncoated', action='store_true', help='take the coats off diffuse surfaces, which Mitsuba shadows otherwise')
 arguments.add_argument('--keep', help='write both images of each scene to this folder')
 OPTIONS = arguments.parse_args()
 PARTS = 16
@@ -243,7 +245,7 @@ def seen(scene, images, mirrored):
 
 
 def compare(path, folder):
-    reader = Reader(path)
+    reader = Reader(path, not OPTIONS.uncoated)
     scene, mirrored, kinds, size = converted(reader)
     copied = os.path.join(folder, 'scene')
     path = reader.copy(copied) if any(source.edits for source in reader.sources) else path
@@ -271,7 +273,8 @@ def compare(path, folder):
 
 def main():
     left = []
-    print('| file | lights | mean | of Mitsuba | ratio where no lamp is seen | of all | pixels apart | replaced in both |\n|---|---|---|---|---|---|---|---|')
+    print('| file | lights | mean | of Mitsuba | ratio where no lamp is seen | of all | pixels apart | replaced in both |')
+    print('|---|---|---|---|---|---|---|---|')
     for path in scenes(OPTIONS.folders):
         if OPTIONS.only not in path or not path.endswith('.pbrt'):
             continue

@@ -139,9 +139,10 @@ def read_ply(path):
 
 class Reader:
     """The camera of a scene as a matrix from its space, whose x points to the right of the image and z ahead, `fov`, the `size` of the film;
-    `shapes`, each with `matrix`, `flip`, `material` and `radiance`; and `lights`."""
+    `shapes`, each with `matrix`, `flip`, `material` and `radiance`; and `lights`. Without `coats`, what is below them is bare."""
 
-    def __init__(self, path):
+    def __init__(self, path, coats=True):
+        self.coats = coats
         self.folder, self.sources = os.path.dirname(path), []
         self.shapes, self.lights, self.notes = [], [], set()
         self.named, self.textures, self.objects, self.systems = {}, {}, {}, {}
@@ -288,6 +289,9 @@ class Reader:
                 if values[name][0] == 'texture':
                     values[name] = ('float', [0.1])
                     notes.append('texture of a roughness → 0.1')
+            if kind == 'coateddiffuse' and not self.coats:
+                kind, values = 'diffuse', {name: values[name] for name in {'reflectance'} & set(values)}
+                notes.append('no coat')
         elif kind == 'conductor' and self.roughness(values)[0] > 0:
             if 'reflectance' not in values and any(values.get(name, [None])[0] != 'rgb' for name in ('eta', 'k')):
                 text = str(values.get('eta', 'Cu'))
