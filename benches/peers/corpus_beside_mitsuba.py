@@ -136,7 +136,7 @@ def round_shape(shape):
     linear = shape['matrix'][:3, :3]
     scale = np.sqrt(np.linalg.det(linear @ linear.T) ** (1 / 3))
     if not np.allclose(linear @ linear.T, scale ** 2 * np.eye(3), rtol=1e-4, atol=1e-5 * scale ** 2):
-        raise ValueError(f'an ellipsoid or an ellipse is not read')
+        raise ValueError('an ellipsoid or an ellipse is not read')
     at = shape['matrix'] @ [0, 0, shape['height'], 1]
     if shape['kind'] == 'sphere':
         return dict(type='sphere', center=list(shape['matrix'][:3, 3]), radius=float(shape['radius'] * scale), flip_normals=shape['flip'])
