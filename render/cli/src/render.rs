@@ -453,7 +453,7 @@ fn print(
             None => {
                 let all: u64 = image.passes.iter().map(|pass| u64::from(pass.spp)).sum();
                 format!("{all} samples per pixel did not suffice")
-            },
+            }
         };
         writeln!(out, "{what} for an error of {}", percent(target))?;
     }

@@ -191,9 +191,7 @@ fn options_that_make_no_part_are_refused() {
     }
     // without a name, the image has that of `render`
     assert!(
-        folder
-            .succeed(&["plan", "quads", "--spp", "6", "--tasks", "1"])
-            .ends_with(" merge -o quads.exr quads.parts\n")
+        folder.succeed(&["plan", "quads", "--spp", "6", "--tasks", "1"]).ends_with(" merge -o quads.exr quads.parts\n")
     );
     // a part is not the pilot
     let render = ["render", "quads", "--size", "32x16", "--spp", "64"];

@@ -35,11 +35,8 @@ pub(super) fn read(
     let stand_in = |out: &mut Builder, params: &Params, what: &str| {
         out.notes.stand_in(kind, || params.error(format!("becomes {what}")));
     };
-    let normals = if MAPPED.contains(&kind) {
-        context.textures.normals(params, &context.files, &mut out.notes)?
-    } else {
-        None
-    };
+    let normals =
+        if MAPPED.contains(&kind) { context.textures.normals(params, &context.files, &mut out.notes)? } else { None };
     let read = match kind {
         "diffuse" | "matte" => {
             let name = if kind == "matte" { "Kd" } else { "reflectance" };

@@ -88,7 +88,7 @@ impl ShapeState {
                 Some(mask) if emission.is_none() => {
                     let whole = out.material(material);
                     out.masked(whole, mask)
-                },
+                }
                 _ => out.material(material),
             },
             emission,
