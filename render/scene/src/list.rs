@@ -1,6 +1,5 @@
 //! What the formats can say, and what is read of it: tables of data beside the readers, which these are checked against.
 
-use std::fmt::Write;
 use std::sync::LazyLock;
 
 /// What becomes of something that a file says.
@@ -120,30 +119,6 @@ impl Table {
     pub(super) fn kinds(&self, name: &str) -> Vec<&'static str> {
         let named = self.entries.iter().filter(|entry| entry.name == name && entry.state != State::Ignored);
         named.flat_map(|entry| entry.kinds.iter().copied().filter(|kind| !kind.is_empty())).collect()
-    }
-    /// The table as a page of Markdown.
-    #[must_use]
-    pub fn page(&self, title: &str) -> String {
-        let mut page = format!("# {title}\n");
-        for Entry { name, kinds, state, note, parameters } in &self.entries {
-            let kinds: String = kinds.iter().map(|kind| format!(" `\"{kind}\"`")).collect();
-            let note = if note.is_empty() { String::new() } else { format!(": {note}") };
-            let _ = writeln!(page, "\n**{name}**{kinds} — {}{note}", state.name());
-            if !parameters.is_empty() {
-                page.push_str("\n| parameter | default | state | |\n|---|---|---|---|\n");
-            }
-            for Parameter { kind, name, default, state, note } in parameters {
-                let name =
-                    if *name == "*" { "all others".to_owned() } else { format!("`{kind} {name}`").replace("` ", "`") };
-                let _ = writeln!(page, "| {name} | {default} | {} | {note} |", state.name());
-            }
-        }
-        page
-    }
-    /// The number of its rows: entries and parameters.
-    #[must_use]
-    pub fn rows(&self) -> usize {
-        self.entries.iter().map(|entry| 1 + entry.parameters.len()).sum()
     }
 }
 

@@ -8,6 +8,7 @@ use crate::radiance::{brightness, rounded};
 use etendue_render::scene::limits::MOST_RADIANCE;
 use etendue_render::scene::texture::{Mapping, Mask, Picture, Texels, Texture, Wrap};
 use etendue_render::scene::{Emission, Message, NormalMap, Varying};
+use gltf_json::extensions::material::PbrSpecularGlossiness;
 use gltf_json::extensions::texture::TextureTransform;
 use gltf_json::material::AlphaMode;
 use gltf_json::texture::{Info, MagFilter, Sampler, WrappingMode};
@@ -45,9 +46,6 @@ pub(super) struct Materials {
     surfaces: HashMap<(Option<usize>, bool), Rc<Surface>>,
     images: HashMap<(usize, bool), Arc<Texels>>,
 }
-
-/// The extension of materials by their glossiness.
-const GLOSSINESS: &str = "KHR_materials_pbrSpecularGlossiness";
 
 /// The extension of anisotropic materials.
 pub(super) const ANISOTROPY: &str = "KHR_materials_anisotropy";
@@ -186,7 +184,7 @@ impl Reader<'_, '_> {
         }
         let [metallic] = self.shares("metallicFactor", [surface.metallic_factor.0]);
         let [roughness] = self.shares("roughnessFactor", [surface.roughness_factor.0]);
-        if let Some(of) = extensions.and_then(|all| all.others.get(GLOSSINESS)) {
+        if let Some(of) = extensions.and_then(|all| all.pbr_specular_glossiness.as_ref()) {
             return self.glossiness(of);
         }
         let map = surface.metallic_roughness_texture.as_ref();
@@ -235,38 +233,22 @@ impl Reader<'_, '_> {
     }
 
     /// A material by its diffuse and specular colours and its glossiness, 1 − √α.
-    fn glossiness(&mut self, of: &Value) -> Result<Varying, Message> {
-        let colour = |name: &str| -> Option<[f32; 3]> {
-            let Some(list) = of.get(name) else { return Some([1.0; 3]) };
-            let number = |k: usize| list.get(k)?.as_f64().map(|x| x as f32);
-            Some([number(0)?, number(1)?, number(2)?])
-        };
-        let gloss = of.get("glossinessFactor").map_or(Some(1.0), Value::as_f64);
-        let numbers = colour("diffuseFactor").zip(colour("specularFactor")).zip(gloss);
-        let Some(((diffuse, specular), gloss)) = numbers else {
-            return Err(self.error(&format!("{GLOSSINESS}: its factors must be numbers")));
-        };
-        let diffuse = self.shares("diffuseFactor", diffuse);
-        let specular = self.shares("specularFactor", specular);
-        let [gloss] = self.shares("glossinessFactor", [gloss as f32]);
-        let texture = |name: &str| match of.get(name).map(|info| serde_json::from_value::<Info>(info.clone())) {
-            Some(Ok(info)) => Ok(Some(info)),
-            Some(Err(_)) => Err(format!("{GLOSSINESS}: {name} is no texture")),
-            None => Ok(None),
-        };
-        let [diffuse_map, map] = [texture("diffuseTexture"), texture("specularGlossinessTexture")];
-        let diffuse_map = diffuse_map.map_err(|what| self.error(&what))?;
-        let map = map.map_err(|what| self.error(&what))?;
-        let diffuse = self.textured(diffuse, diffuse_map.as_ref(), Encoding::Srgb)?;
+    fn glossiness(&mut self, of: &PbrSpecularGlossiness) -> Result<Varying, Message> {
+        let [r, g, b, _] = of.diffuse_factor.0;
+        let diffuse = self.shares("diffuseFactor", [r, g, b]);
+        let specular = self.shares("specularFactor", of.specular_factor.0);
+        let [gloss] = self.shares("glossinessFactor", [of.glossiness_factor.0]);
+        let map = of.specular_glossiness_texture.as_ref();
+        let diffuse = self.textured(diffuse, of.diffuse_texture.as_ref(), Encoding::Srgb)?;
         let mut gloss = Texture::number(gloss);
-        if let Some(map) = &map
+        if let Some(map) = map
             && let (Texture::Picture(picture), set) = self.picture(map, Encoding::Srgb)?
             && picture.texels.alpha.is_some()
         {
             self.set.get_or_insert(set);
             gloss = gloss.times(Texture::Opacity(picture));
         }
-        let specular = self.textured(specular, map.as_ref(), Encoding::Srgb)?;
+        let specular = self.textured(specular, map, Encoding::Srgb)?;
         let rough = gloss.inverse();
         let alpha = rough.clone().times(rough);
         let roughness = [alpha.clone(), alpha];

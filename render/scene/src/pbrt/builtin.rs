@@ -3,46 +3,36 @@
 use crate::nearest::did_you_mean;
 use std::path::Path;
 
-/// Name and description of each scene.
-const DESCRIBED: [(&str, &str); 15] = [
-    ("studio", "seven coloured blocks under three lamps and a panel: the first picture of the README"),
-    ("sphere-light", "two boxes under a sphere light outside the view"),
-    ("triangle-light", "a box in front of a large, visible triangle light"),
-    ("quads", "three boxes under five quadrilateral lights of very different sizes and powers"),
-    ("terrain", "a million triangles, a height field and 25 bumpy spheres, under one square light"),
-    ("cornell-box", "the Cornell box from its published data"),
-    ("mirror-room", "a room between two mirrors, with a mirror and a gold sphere"),
-    ("plates", "four metal plates, smooth to rough, under four sphere lights, small to large"),
-    ("delta-lights", "boxes and a ball under a point, a spot and a distant light"),
-    ("sky", "a diffuse, a mirror and a rough metal ball under an image of a sky"),
-    ("defocus", "a row of spheres seen through a lens focused on the third"),
-    ("chandelier", "a chandelier of 1,000 lights, bulbs and plates of glass, in a room"),
-    ("city", "a city at night with 109,655 lights: windows, street lamps and cars"),
-    ("wet-city", "the city after rain: its streets reflect 109,655 lights"),
-    ("knot", "a knot of neon tube, a mesh of 1,000,000 triangles that emit, above a floor"),
-];
+macro_rules! scenes {
+    ($count:literal: $($name:literal $about:literal)*) => {
+        /// Name and description of each scene.
+        const DESCRIBED: [(&str, &str); $count] = [$(($name, $about)),*];
+        /// Name and text of each scene.
+        const BUILTIN: [(&str, &str); $count] =
+            [$(($name, include_str!(concat!("../../../scenes/", $name, ".pbrt")))),*];
+    };
+}
+
+scenes! { 15:
+    "studio" "seven coloured blocks under three lamps and a panel: the first picture of the README"
+    "sphere-light" "two boxes under a sphere light outside the view"
+    "triangle-light" "a box in front of a large, visible triangle light"
+    "quads" "three boxes under five quadrilateral lights of very different sizes and powers"
+    "terrain" "a million triangles, a height field and 25 bumpy spheres, under one square light"
+    "cornell-box" "the Cornell box from its published data"
+    "mirror-room" "a room between two mirrors, with a mirror and a gold sphere"
+    "plates" "four metal plates, smooth to rough, under four sphere lights, small to large"
+    "delta-lights" "boxes and a ball under a point, a spot and a distant light"
+    "sky" "a diffuse, a mirror and a rough metal ball under an image of a sky"
+    "defocus" "a row of spheres seen through a lens focused on the third"
+    "chandelier" "a chandelier of 1,000 lights, bulbs and plates of glass, in a room"
+    "city" "a city at night with 109,655 lights: windows, street lamps and cars"
+    "wet-city" "the city after rain: its streets reflect 109,655 lights"
+    "knot" "a knot of neon tube, a mesh of 1,000,000 triangles that emit, above a floor"
+}
 
 /// How many of them, the last ones, have many lights.
 const MANY_LIGHTS: usize = 4;
-
-/// Name and text of each scene.
-const BUILTIN: [(&str, &str); 15] = [
-    (DESCRIBED[0].0, include_str!("../../../scenes/studio.pbrt")),
-    (DESCRIBED[1].0, include_str!("../../../scenes/sphere-light.pbrt")),
-    (DESCRIBED[2].0, include_str!("../../../scenes/triangle-light.pbrt")),
-    (DESCRIBED[3].0, include_str!("../../../scenes/quads.pbrt")),
-    (DESCRIBED[4].0, include_str!("../../../scenes/terrain.pbrt")),
-    (DESCRIBED[5].0, include_str!("../../../scenes/cornell-box.pbrt")),
-    (DESCRIBED[6].0, include_str!("../../../scenes/mirror-room.pbrt")),
-    (DESCRIBED[7].0, include_str!("../../../scenes/plates.pbrt")),
-    (DESCRIBED[8].0, include_str!("../../../scenes/delta-lights.pbrt")),
-    (DESCRIBED[9].0, include_str!("../../../scenes/sky.pbrt")),
-    (DESCRIBED[10].0, include_str!("../../../scenes/defocus.pbrt")),
-    (DESCRIBED[11].0, include_str!("../../../scenes/chandelier.pbrt")),
-    (DESCRIBED[12].0, include_str!("../../../scenes/city.pbrt")),
-    (DESCRIBED[13].0, include_str!("../../../scenes/wet-city.pbrt")),
-    (DESCRIBED[14].0, include_str!("../../../scenes/knot.pbrt")),
-];
 
 /// Images that these scenes refer to.
 pub(super) const BUILTIN_IMAGES: [(&str, &[u8]); 1] = [("sky.exr", include_bytes!("../../../scenes/sky.exr"))];

@@ -5,6 +5,7 @@
 //! portals, in one list or, with the same sky, in several directives, and they may be parallelograms. What two portals show counts once.
 
 use super::params::{Params, shown};
+use crate::transform::{add, cross, length, sub};
 use etendue::light::{Portal, PortalEnvironment};
 use etendue_render::scene::Message;
 
@@ -31,18 +32,15 @@ pub(super) fn read(params: &mut Params) -> Result<Vec<Portal>, Message> {
 
 /// The portal with these corners.
 fn portal([p0, p1, p2, p3]: [[f64; 3]; 4]) -> Result<Portal, String> {
-    let sub = |a: [f64; 3], b: [f64; 3]| std::array::from_fn::<_, 3, _>(|k| a[k] - b[k]);
-    let length = |v: [f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
     let (s, t) = (sub(p3, p0), sub(p1, p0));
     let edge = length(s).max(length(t));
-    let off = length(sub(sub(p2, p0), std::array::from_fn(|k| s[k] + t[k])));
+    let off = length(sub(sub(p2, p0), add(s, t)));
     let named =
         format!("{:?} {:?} {:?} {:?}", p0.map(shown), p1.map(shown), p2.map(shown), p3.map(shown)).replace('"', "");
     if off.is_nan() || edge.is_infinite() || off > TOLERANCE * edge {
         return Err(format!("the corners {named} are not those of a parallelogram in a plane, one after the other"));
     }
-    let cross = [s[1] * t[2] - s[2] * t[1], s[2] * t[0] - s[0] * t[2], s[0] * t[1] - s[1] * t[0]];
-    let is_wide = length(cross) > TOLERANCE * length(s) * length(t);
+    let is_wide = length(cross(s, t)) > TOLERANCE * length(s) * length(t);
     let narrow = |v: [f64; 3]| v.map(|x| x as f32);
     let portal = Portal::new(narrow(p0), narrow(s), narrow(t)).ok().filter(|_| is_wide);
     portal.ok_or_else(|| format!("the corners {named} enclose no area"))
