@@ -114,10 +114,7 @@ impl Reader<'_, '_> {
         }
         let varying = self.metallic(material)?;
         let read = if is_tinted { self.out.varied(varying) } else { self.out.vary(varying) };
-        let read = match self.normals(material)? {
-            Some(normals) => self.out.relief(read, normals),
-            None => read,
-        };
+        let read = self.normals(material)?.map_or(read, |normals| self.out.relief(read, normals));
         let mask = self.mask(material)?;
         let set = self.set;
         let glow = self.glow(material)?;

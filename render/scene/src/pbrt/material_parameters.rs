@@ -93,10 +93,7 @@ pub(super) fn read(
             return Err(params.error(format!("material type {kind:?} is not supported, only {kinds}{near}")));
         }
     };
-    Ok(Finish::Of(match normals {
-        Some(normals) => out.relief(read, normals),
-        None => read,
-    }))
+    Ok(Finish::Of(normals.map_or(read, |normals| out.relief(read, normals))))
 }
 
 /// Reflectance at normal incidence on a smooth dielectric.
