@@ -1,11 +1,11 @@
 //! Greatest errors.
 
-use super::scene::Scene;
 use super::scenes::{KINDS, Round, scene};
 use super::solids::{SOLID_KINDS, scene_with_solids};
 use super::truth::Truth;
 use etendue::{Real, f32x8};
 use etendue_judge::generators::Random;
+use etendue_judge::occlusion::Scene;
 use etendue_oracle::Greatest;
 use etendue_oracle::tier::cases;
 
