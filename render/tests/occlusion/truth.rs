@@ -54,16 +54,14 @@ fn from_point(shape: &Solid, point: [f32; 3]) -> Vec<Shape> {
     }
 }
 
-/// The heights over a face of a polyhedron of all its corners and of a point, face by face, by normals in single precision; and the greatest
-/// distance of a corner from the point.
-fn heights(body: &Polyhedron, point: V3) -> (Vec<Vec<f64>>, f64) {
-    let corners: Vec<V3> = body.edges().iter().flat_map(|edge| edge.ends).map(V3::from).collect();
-    let over = |[normal, on]: &[V64; 2]| {
-        let normal = wide(narrow(unit((*normal).into())));
-        corners.iter().chain([&point]).map(|&v| dot(normal, sub(v, (*on).into()))).collect()
-    };
-    let size = corners.iter().map(|&v| length(sub(v, point))).fold(0.0, f64::max);
-    (body.faces().iter().map(over).collect(), size)
+/// The least and the greatest distance of the edges of a polyhedron from a point.
+fn distances(body: &Polyhedron, point: V3) -> [f64; 2] {
+    body.edges().iter().fold([f64::INFINITY, 0.0], |[least, most], edge| {
+        let [a, b] = edge.ends.map(|end| sub(end.into(), point));
+        let d = sub(b, a);
+        let nearest = along(a, d, (-dot(a, d) / dot(d, d)).clamp(0.0, 1.0));
+        [least.min(length(nearest)), most.max(length(a)).max(length(b))]
+    })
 }
 
 /// The truth about a scene.
@@ -73,8 +71,7 @@ pub(crate) trait Truth {
     /// Whether the point lies within a flat occluder, nearer to its plane than single precision tells, which then hides one half of the
     /// directions or the other. The same holds for points on the surface of a polyhedron.
     fn surrounded(&self, lane: usize) -> bool;
-    /// The greatest distance of a corner of a polyhedron from the plane of its face, or beyond that of another, which is rounding, over
-    /// the least distance of an edge.
+    /// The deviation that a polyhedron states, which is rounding of its corners, over the least distance of an edge.
     fn unevenness(&self, lane: usize) -> f64;
     /// The truth for a lane, with a limit in front of the light that is a fifth nearer and farther.
     fn truth(&self, lane: usize) -> Option<[Visible; 2]>;
@@ -96,9 +93,10 @@ impl Truth for Scene {
     fn surrounded(&self, lane: usize) -> bool {
         self.occluders.iter().any(|occluder| {
             if let Solid::Polyhedron(body) = occluder {
-                let (heights, size) = heights(body, wide(self.points[lane]));
-                let depths = heights.iter().map(|over| -over[over.len() - 1]);
-                return depths.fold(f64::INFINITY, f64::min).abs() < 1e-6 * size;
+                let point = wide(self.points[lane]);
+                let depth = |&[normal, on]: &[V64; 2]| dot(unit(normal.into()), sub(on.into(), point));
+                let least = body.faces().iter().map(depth).fold(f64::INFINITY, f64::min);
+                return least.abs() < 1e-6 * distances(body, point)[1];
             }
             let [Shape::Polygon(c)] = &from_point(occluder, self.points[lane])[..] else { return false };
             let last = c[c.len() - 1];
@@ -109,21 +107,9 @@ impl Truth for Scene {
         })
     }
     fn unevenness(&self, lane: usize) -> f64 {
-        let point = wide(self.points[lane]);
-        let of = |solid: &Solid| {
-            let Solid::Polyhedron(body) = solid else { return 0.0 };
-            // a corner that is below a face by no more than rounding is one of its own
-            let most = heights(body, point)
-                .0
-                .iter()
-                .flat_map(|over| &over[..over.len() - 1])
-                .fold(0.0_f64, |most, x| most.max(if *x > -4.0 * body.deviation() { x.abs() } else { 0.0 }));
-            let distance = |ends: [V64; 2]| {
-                let [a, b] = ends.map(|end| sub(end.into(), point));
-                let d = sub(b, a);
-                length(along(a, d, (-dot(a, d) / dot(d, d)).clamp(0.0, 1.0)))
-            };
-            most / body.edges().iter().map(|edge| distance(edge.ends)).fold(f64::INFINITY, f64::min)
+        let of = |solid: &Solid| match solid {
+            Solid::Polyhedron(body) => body.deviation() / distances(body, wide(self.points[lane]))[0],
+            _ => 0.0,
         };
         self.occluders.iter().map(of).fold(0.0, f64::max)
     }
